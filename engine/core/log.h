@@ -1,0 +1,15 @@
+// Log lines for people: operator (info, warning, error) and developer (debug). Never per frame.
+#pragma once
+
+#include <string_view>
+
+namespace palace {
+
+void LogDebug(std::string_view text);
+void LogInfo(std::string_view text);
+void LogWarning(std::string_view text);
+void LogError(std::string_view text);
+/// Sends every line to stderr without time stamps, as command-line tools do.
+void InitLogging(bool verbose);
+
+}  // namespace palace

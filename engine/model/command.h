@@ -1,0 +1,66 @@
+// Commands: the other door into the engine. Commands set, never toggle.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <variant>
+
+namespace palace {
+
+/// Who asks. Scripts may select and approve only on a simulated vehicle (DESIGN.md 8).
+enum class CommandOrigin : std::uint8_t { kOperator, kScript, kReplay };
+
+/// Sets one limit by its config name, e.g. "slad.max_slope_deg". SEARCH, PROPOSED: applies at the
+/// next map. ARMED and later: previews on a second evaluation.
+struct SetSetting {
+  std::string name;
+  double value = 0;
+};
+/// Applies all previewed settings; drops an approval that is not flying yet.
+struct ApplySettings {};
+/// Discards all previewed settings.
+struct DiscardSettings {};
+/// Arms exactly one site; freezes its evidence.
+struct SelectSite {
+  std::uint64_t site_id = 0;
+};
+struct DisarmSite {};
+/// Approves the armed site. Bound to the site id and the snapshot the operator was looking at.
+struct ApproveSite {
+  std::uint64_t site_id = 0;
+  std::uint64_t snapshot_sequence = 0;
+};
+struct RefuseSite {
+  std::uint64_t site_id = 0;
+};
+/// Stops a descent where it is. The approval is dead afterwards.
+struct HoldHere {};
+/// Aborts from any state: climb away.
+struct WaveOff {};
+struct AcknowledgeAlarm {
+  std::string alarm;
+};
+/// Acknowledges that the wave-off is complete; back to SEARCH.
+struct AcknowledgeWaveOff {};
+struct AddBookmark {
+  std::string note;
+};
+
+using CommandAction =
+    std::variant<SetSetting, ApplySettings, DiscardSettings, SelectSite, DisarmSite, ApproveSite,
+                 RefuseSite, HoldHere, WaveOff, AcknowledgeAlarm, AcknowledgeWaveOff, AddBookmark>;
+
+struct EngineCommand {
+  CommandOrigin origin = CommandOrigin::kOperator;
+  CommandAction action;
+};
+
+/// Control of time, for sources that can: the simulator, a log, a folder of images.
+struct PlaybackControl {
+  enum class Kind : std::uint8_t { kPlay, kPause, kStepForward, kStepBack, kSeek, kSpeed };
+  Kind kind = Kind::kPlay;
+  double value =
+      0;  ///< kSeek: seconds from the start; kSpeed: times real time, 0 as fast as possible
+};
+
+}  // namespace palace

@@ -1,0 +1,44 @@
+// Hazard maps: everything the safe landing area determination says about each cell.
+#pragma once
+
+#include <cstdint>
+
+#include "engine/model/elevation_map.h"
+
+namespace palace {
+
+/// Why a cell is not safe; bits, so that several may hold.
+enum HazardReason : std::uint8_t {
+  kHazardNone = 0,
+  kHazardSlope = 1,
+  kHazardRoughness = 2,
+  kHazardStep = 4,
+  kHazardUnknown = 8,       ///< unknown, filled or border (modern mode)
+  kHazardProbability = 16,  ///< safe probability below the limit
+};
+
+/// How many cells fell to what; each cell counted once, under its first reason in this order.
+struct RejectedCells {
+  int slope = 0;
+  int roughness = 0;  ///< roughness or step
+  int unknown = 0;
+  int footprint = 0;  ///< safe itself, but too near a hazard for the lander
+};
+
+/// Layers share the elevation map's geometry. NaN where unknown.
+struct HazardMaps {
+  GridGeometry geometry;
+  GridF slope_rad;  ///< angle of the fitted plane's normal to the up vector
+  GridF slope_sigma_rad;
+  GridF roughness_m;  ///< |height - plane| (thesis) or its robust maximum over the footprint
+  GridF roughness_sigma_m;
+  GridF step_m;            ///< largest height difference inside the footprint; NaN in thesis mode
+  GridF cost;              ///< 0 best .. 1 forbidden
+  GridF safe_distance_m;   ///< to the nearest cell that is not safe; 0 on such a cell
+  GridF safe_probability;  ///< NaN in thesis mode
+  Grid<std::uint8_t> reasons;  ///< HazardReason bits
+  RejectedCells rejected;
+  int safe_cells = 0;
+};
+
+}  // namespace palace

@@ -1,0 +1,52 @@
+// Landing site: a place SLAD proposes, with the figures that justify it.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <Eigen/Dense>
+
+#include "engine/core/time.h"
+#include "engine/model/grid.h"
+
+namespace palace {
+
+/// A figure with three standard deviations, as every band on screen is.
+struct Figure {
+  double value = 0;
+  double three_sigma = 0;
+};
+
+struct LandingSite {
+  std::uint64_t id = 0;  ///< stays with the place for the whole mission
+  char letter = 'A';     ///< shown to people; stays with the id
+  Timestamp map_time;
+  Cell cell;                                             ///< in the map it was chosen on
+  Eigen::Vector3d p_WS = Eigen::Vector3d::Zero();        ///< site centre on the ground, NED metres
+  Eigen::Vector3d normal_W = -Eigen::Vector3d::UnitZ();  ///< ground normal, pointing up
+  Eigen::Vector2d pixel = Eigen::Vector2d::Zero();  ///< in the rectified left image of map_time
+  Figure slope_rad;
+  Figure roughness_m;
+  Figure step_m;
+  Figure height_m;             ///< height in W, up-positive; three_sigma is the height noise
+  double safe_distance_m = 0;  ///< to the nearest hazard
+  double clear_radius_m = 0;   ///< required: lander radius + navigation error
+  double clearance_m = 0;      ///< safe_distance - clear_radius
+  double cost = 0;
+  double safe_probability = 1;
+  int unknown_cells = 0;  ///< inside the clear radius
+  int frames_fused = 0;
+  bool confirmed = false;      ///< 3 sigma of height below the roughness limit
+  bool corridor_clear = true;  ///< rotor-wide along the glide slope
+  double distance_m = 0;       ///< horizontal, from the vehicle at map_time
+  std::string reason;          ///< one reason for its rank, in words
+};
+
+/// Outcome of one site selection.
+struct SiteSelection {
+  std::vector<LandingSite> sites;  ///< best first
+  std::string none_reason;         ///< set when empty: "71 % slope, 22 % unknown, 7 % footprint"
+};
+
+}  // namespace palace

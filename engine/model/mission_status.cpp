@@ -1,0 +1,42 @@
+#include "engine/model/mission_status.h"
+
+#include "engine/core/check.h"
+
+namespace palace {
+namespace {
+
+struct Names {
+  const char* name;
+  const char* word;
+};
+
+Names NamesOf(MissionState state) {
+  switch (state) {
+    case MissionState::kNoLive:
+      return {"NO_LIVE", "No live data"};
+    case MissionState::kSearch:
+      return {"SEARCH", "Search"};
+    case MissionState::kProposed:
+      return {"PROPOSED", "Proposed"};
+    case MissionState::kArmed:
+      return {"ARMED", "Armed"};
+    case MissionState::kApproved:
+      return {"APPROVED", "Approved"};
+    case MissionState::kDescending:
+      return {"DESCENDING", "Descending"};
+    case MissionState::kHold:
+      return {"HOLD", "Hold"};
+    case MissionState::kAborting:
+      return {"ABORTING", "Aborting"};
+    case MissionState::kLanded:
+      return {"LANDED", "Landed"};
+  }
+  PALACE_CHECK(false);
+}
+
+}  // namespace
+
+const char* MissionStateName(MissionState state) { return NamesOf(state).name; }
+const char* MissionStateWord(MissionState state) { return NamesOf(state).word; }
+
+}  // namespace palace

@@ -1,0 +1,99 @@
+// Mission state as the engine publishes it: states, guards, alarms, events.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/core/time.h"
+#include "engine/model/landing_site.h"
+#include "engine/model/vehicle_message.h"
+
+namespace palace {
+
+enum class MissionState : std::uint8_t {
+  kNoLive,
+  kSearch,
+  kProposed,
+  kArmed,
+  kApproved,
+  kDescending,
+  kHold,
+  kAborting,
+  kLanded,
+};
+/// Upper-case name as logs and scripts use it: "PROPOSED".
+const char* MissionStateName(MissionState state);
+/// Sentence-case word as the screen shows it: "Proposed".
+const char* MissionStateWord(MissionState state);
+
+/// One check of the commit guards G1-G14 (reference: safety state machine).
+struct GuardResult {
+  std::string id;    ///< "G3"
+  std::string name;  ///< "Both cameras fresh"
+  bool pass = false;
+  std::string reason;  ///< when it fails: what, since when, limit ("Left camera stale, 1.8 s")
+};
+
+enum class AlarmLevel : std::uint8_t { kAdvisory, kCaution, kWarning };
+struct Alarm {
+  std::string id;  ///< stable name, e.g. "gps_error"
+  AlarmLevel level = AlarmLevel::kAdvisory;
+  std::string text;  ///< what, number, limit, then what to do
+  Timestamp since;
+  int count = 1;
+  bool acknowledged = false;
+  bool active = true;  ///< false: cleared but not acknowledged
+};
+
+enum class EventKind : std::uint8_t {
+  kState,
+  kSite,
+  kDecision,
+  kSetting,
+  kAlarm,
+  kBookmark,
+  kVehicle
+};
+struct Event {
+  Timestamp time;
+  EventKind kind = EventKind::kState;
+  std::string text;
+};
+
+/// One re-check of the approved site during descent.
+struct SiteRecheck {
+  Timestamp time;
+  double height_above_site_m = 0;
+  double safe_distance_m = 0;
+  bool holds = true;
+  std::string reason;
+};
+
+struct MissionStatus {
+  MissionState state = MissionState::kNoLive;
+  Timestamp since;
+  std::string why;                   ///< cause of the last transition, in words
+  std::optional<LandingSite> armed;  ///< frozen evidence, from ARMED to LANDED
+  Timestamp armed_at;
+  std::optional<Timestamp> arm_expires;
+  std::vector<GuardResult> guards;  ///< for the armed site
+  bool can_approve = false;
+  std::string cannot_approve_reason;  ///< first guard that fails
+  std::optional<Approval> approval;
+  enum class ApprovalPhase : std::uint8_t { kNone, kSent, kAccepted, kRefused };
+  ApprovalPhase approval_phase = ApprovalPhase::kNone;
+  std::string approval_answer;   ///< the vehicle's reason when refused
+  double approval_answer_s = 0;  ///< time the vehicle took to answer
+  std::vector<SiteRecheck> rechecks;
+  std::vector<Alarm> alarms;       ///< worst first
+  double height_above_site_m = 0;  ///< skid above the site; NaN when no site
+  double distance_to_site_m = 0;   ///< horizontal; NaN when no site
+  double time_to_touchdown_s = 0;  ///< NaN when unknown
+  /// LANDED: miss of the skid centre to the site, by the estimate.
+  std::optional<double> touchdown_miss_m;
+  std::optional<double> touchdown_miss_true_m;  ///< in simulation
+};
+
+}  // namespace palace

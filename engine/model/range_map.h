@@ -1,0 +1,31 @@
+// Range map: what stereo knows about each pixel of the rectified left image.
+#pragma once
+
+#include "engine/core/time.h"
+#include "engine/model/image.h"
+#include "engine/model/rig.h"
+
+namespace palace {
+
+/// All images have the size of the rectified left image. NaN where unknown.
+struct RangeMap {
+  Timestamp time;
+  PinholeCamera camera;       ///< rectified left camera the pixels belong to
+  ImageF disparity_px;        ///< left x minus right x, sub-pixel
+  ImageF disparity_sigma_px;  ///< one standard deviation
+  ImageF depth_m;             ///< along the optical axis: f b / disparity
+  ImageF depth_sigma_m;       ///< depth^2 sigma_d / (f b)
+};
+
+/// Health of one stereo pass.
+struct StereoQuality {
+  double coverage = 0;        ///< share of pixels with a depth, 0..1
+  double row_error_px = 0;    ///< median |row difference| of matches; NaN when not measured
+  double exposure_ratio = 1;  ///< mean brightness right / left
+  double median_sigma_px = 0;
+  double median_depth_m = 0;     ///< NaN when nothing matched
+  bool suspect_swapped = false;  ///< left and right look exchanged
+  bool suspect_frozen = false;   ///< picture identical to the one before
+};
+
+}  // namespace palace

@@ -1,0 +1,140 @@
+// EngineSnapshot: the one door out of the engine. If it is on the screen, it came from here.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/core/diagnostics.h"
+#include "engine/model/elevation_map.h"
+#include "engine/model/frame_bundle.h"
+#include "engine/model/hazard_maps.h"
+#include "engine/model/landing_site.h"
+#include "engine/model/mission_status.h"
+#include "engine/model/navigation_status.h"
+#include "engine/model/range_map.h"
+#include "engine/model/settings.h"
+
+namespace palace {
+
+enum class SourceKind : std::uint8_t { kNone, kLive, kSimulation, kReplay, kImages };
+
+/// Where the frames come from, and where in time we are.
+struct SourceStatus {
+  SourceKind kind = SourceKind::kNone;
+  std::string name;  ///< scenario, log file, folder or LCM URL
+  bool paused = false;
+  bool ended = false;
+  double speed = 1;  ///< wanted; 0 as fast as possible
+  double speed_reached = 1;
+  Timestamp start;
+  double position_s = 0;             ///< since start
+  std::optional<double> duration_s;  ///< known for logs and folders
+  bool can_seek = false;
+  std::uint64_t frame_index = 0;
+  std::uint64_t frame_count = 0;  ///< 0 unknown
+};
+
+/// Arrival of one channel, measured against the active clock.
+struct ChannelHealth {
+  enum class State : std::uint8_t { kNever, kFresh, kLate, kStale };
+  std::string name;  ///< "Camera left"
+  State state = State::kNever;
+  double age_s = 0;  ///< NaN when never
+  double rate_hz = 0;
+  double expected_hz = 0;
+  std::uint64_t count = 0;
+  std::uint64_t lost = 0;
+  std::string note;  ///< e.g. "± 2.6 m"
+};
+
+/// One evaluation of SLAD under one settings set.
+struct TerrainDecision {
+  Timestamp map_time;
+  std::shared_ptr<const ElevationMap> elevation;
+  std::shared_ptr<const HazardMaps> hazards;
+  SiteSelection selection;  ///< letters assigned
+  SladSettings settings;
+  std::uint64_t settings_hash = 0;
+  std::uint64_t map_hash = 0;
+  /// Verdict per pixel of the left image at quarter size: 0 unknown, 1 safe, 2 over a limit.
+  std::shared_ptr<const ImageU8> verdict;
+};
+
+/// One sample of the descent history, one a frame.
+struct HistorySample {
+  Timestamp time;
+  MissionState state = MissionState::kNoLive;
+  Eigen::Vector3d estimate_p_WB{NAN, NAN, NAN};  ///< the estimate in force
+  Eigen::Vector3d estimate_v_WB{NAN, NAN, NAN};
+  Eigen::Vector3d estimate_sigma_m{NAN, NAN, NAN};
+  Eigen::Vector3d gps_p_WB{NAN, NAN, NAN};
+  Eigen::Vector3d truth_p_WB{NAN, NAN, NAN};
+  double height_above_site_m = NAN;  ///< skid above site by the estimate in force
+  double from_site_m = NAN;          ///< horizontal distance of skid centre to site, estimate
+  double from_site_gps_m = NAN;
+  double from_site_truth_m = NAN;
+  double plan_height_m = NAN;
+  double descent_rate_mps = NAN;
+  double laser_m = NAN;
+  double coherence = NAN;
+  double residual_sigma = NAN;
+  double glide_deviation_m = NAN;
+  char best_site = 0;
+  double best_safe_distance_m = NAN;
+};
+
+struct StageTiming {
+  std::string stage;
+  double milliseconds = 0;
+};
+
+struct EngineSnapshot {
+  std::uint64_t sequence = 0;  ///< strictly increasing
+  Timestamp time;              ///< of the bundle it came from
+  SourceStatus source;
+  bool can_transmit = false;  ///< a VehicleLink exists
+  bool recording = false;
+  std::string recording_path;
+  double recording_minutes_left = 0;
+  std::vector<ChannelHealth> channels;
+
+  std::shared_ptr<const StereoRig> rig;
+  std::shared_ptr<const StereoFrame> frame;  ///< raw pictures
+  std::shared_ptr<const ImageU8> left_rectified;
+  std::shared_ptr<const ImageU8> right_rectified;
+  std::shared_ptr<const RangeMap> range;
+  StereoQuality stereo_quality;
+
+  std::shared_ptr<const TerrainDecision> applied;  ///< null before the first map
+  std::shared_ptr<const TerrainDecision> preview;  ///< set while previewed settings differ
+  std::shared_ptr<const TerrainDecision>
+      recorded;  ///< replay: what the flight decided, when limits moved
+
+  MissionStatus mission;
+  TrackerStatus tracker;
+  NavigationStatus navigation;
+  std::optional<VehiclePose> pose;
+  RigidTransform X_WC;  ///< left camera at exposure, on the estimate in force
+  std::optional<VehicleStatus> vehicle;
+  std::optional<LaserRange> laser;
+  std::optional<Truth> truth;
+
+  Settings settings;          ///< in force
+  Settings preview_settings;  ///< equal to settings when nothing is previewed
+  std::uint64_t settings_hash = 0;
+  std::uint64_t preview_hash = 0;
+
+  std::shared_ptr<const std::vector<Event>> events;
+  std::shared_ptr<const std::vector<HistorySample>> history;
+  std::vector<StageTiming> timings;
+  Diagnostics diagnostics;
+  std::uint64_t decision_hash =
+      0;  ///< of maps, sites, state and estimates: equal flights, equal hashes
+};
+
+}  // namespace palace

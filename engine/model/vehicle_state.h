@@ -1,0 +1,84 @@
+// What the vehicle tells the station: sensors, state, and answers to commands.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include <Eigen/Dense>
+
+#include "engine/core/frames.h"
+#include "engine/core/time.h"
+
+namespace palace {
+
+struct ImuSample {
+  Timestamp time;
+  Eigen::Vector3d specific_force_B =
+      Eigen::Vector3d::Zero();  ///< m/s^2, without gravity: hover reads -g on z
+  Eigen::Vector3d angular_rate_B = Eigen::Vector3d::Zero();  ///< rad/s
+};
+
+struct GpsFix {
+  Timestamp time;  ///< of validity, not of arrival
+  Eigen::Vector3d p_WB = Eigen::Vector3d::Zero();
+  Eigen::Vector3d v_WB = Eigen::Vector3d::Zero();
+  double sigma_horizontal_m = 0;
+  double sigma_vertical_m = 0;
+};
+
+/// Laser range finder, from the left camera's focal point along its optical axis.
+struct LaserRange {
+  Timestamp time;
+  double range_m = 0;  ///< NaN when no return
+};
+
+/// The autopilot's own navigation solution (GPS, IMU, AHRS).
+struct VehiclePose {
+  Timestamp time;
+  RigidTransform X_WB;
+  Eigen::Vector3d v_WB = Eigen::Vector3d::Zero();
+  Eigen::Vector3d angular_rate_B = Eigen::Vector3d::Zero();
+};
+
+enum class VehicleMode : std::uint8_t {
+  kUnknown,
+  kHover,
+  kAlign,
+  kDescend,
+  kSettle,
+  kSink,
+  kLanded,
+  kHold,
+  kAbort,
+};
+
+struct VehicleStatus {
+  Timestamp time;
+  std::uint64_t boot_id = 0;
+  VehicleMode mode = VehicleMode::kUnknown;
+  bool on_ground = false;
+  bool flies_on_vision = false;   ///< control uses the station's POSITION_ESTIMATE
+  std::uint64_t approval_id = 0;  ///< approval being executed, 0 none
+  double wind_speed_mps = 0;
+  double wind_from_rad = 0;
+  double battery_or_fuel = 1;  ///< share left, 0..1
+  bool simulated = false;      ///< the session is labelled simulated
+};
+
+enum class AckResult : std::uint8_t { kAccepted, kRefused };
+struct CommandAck {
+  Timestamp time;
+  std::uint64_t command_id = 0;
+  AckResult result = AckResult::kAccepted;
+  std::string reason;
+};
+
+/// True state, from a simulator only; never an input of any decision.
+struct Truth {
+  Timestamp time;
+  RigidTransform X_WB;
+  Eigen::Vector3d v_WB = Eigen::Vector3d::Zero();
+};
+
+}  // namespace palace
