@@ -75,6 +75,6 @@ class Grid {
 };
 
 using GridF = Grid<float>;
-inline constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
+inline constexpr float kUnknownValue = std::numeric_limits<float>::quiet_NaN();
 
 }  // namespace palace
