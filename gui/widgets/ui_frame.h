@@ -1,0 +1,81 @@
+// UiFrame: what every panel is handed for one frame, beside the snapshot and its own state.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <imgui.h>
+
+#include "gui/app/intent.h"
+
+namespace palace {
+
+/// Screen rectangle in pixels, y down.
+struct Rect {
+  float x = 0, y = 0, w = 0, h = 0;
+  float right() const { return x + w; }
+  float bottom() const { return y + h; }
+  ImVec2 min() const { return {x, y}; }
+  ImVec2 max() const { return {x + w, y + h}; }
+  ImVec2 centre() const { return {x + w / 2, y + h / 2}; }
+  bool Contains(ImVec2 p) const { return p.x >= x && p.y >= y && p.x < x + w && p.y < y + h; }
+};
+
+/// What was drawn, by name: scripts and tests act and assert through it.
+struct Item {
+  std::string name;  ///< "approve", "site/A", "limit/slad.max_slope_deg", "tab/Tune"
+  Rect rect;
+  bool enabled = true;
+  std::string text;  ///< visible words and value
+};
+class ItemRecord {
+ public:
+  void Clear() { items_.clear(); }
+  void Add(std::string_view name, const Rect& rect, bool enabled, std::string_view text) {
+    items_.push_back({std::string(name), rect, enabled, std::string(text)});
+  }
+  /// Null when nothing of that name was drawn this frame.
+  const Item* Find(std::string_view name) const {
+    for (const Item& item : items_) {
+      if (item.name == name) {
+        return &item;
+      }
+    }
+    return nullptr;
+  }
+  const std::vector<Item>& items() const { return items_; }
+
+ private:
+  std::vector<Item> items_;
+};
+
+/// Pictures uploaded by the render room; null ids are drawn as "unknown" hatch.
+struct PanelTextures {
+  ImTextureID left_camera = nullptr;  ///< rectified left, grey
+  ImTextureID right_camera = nullptr;
+  ImTextureID scene_3d = nullptr;  ///< 3-D view, rendered at scene_3d_rect's size
+  /// Maps of the decision shown (preview while previewing): elevation, slope, roughness, cost, safe
+  /// distance.
+  ImTextureID maps[5] = {};
+  ImTextureID recorded_safe_distance = nullptr;  ///< replay
+  ImTextureID difference = nullptr;              ///< recorded against re-decided
+  ImTextureID anchor_patch = nullptr;
+  ImTextureID current_patch = nullptr;
+  ImTextureID difference_patch = nullptr;
+};
+
+struct Style;  // palette, fonts and scale: gui/widgets/style.h
+
+/// Handed to each draw function. Panels read const data, write their own state, append intents.
+struct UiFrame {
+  const Style& style;
+  const PanelTextures& textures;
+  ItemRecord& items;
+  Intents& intents;
+  double ui_time_s = 0;  ///< monotonic UI clock (simulated time when headless)
+  bool blocked_by_popup = false;
+  Rect wave_off_rect;  ///< popups, toasts and tooltips keep out of it
+};
+
+}  // namespace palace
