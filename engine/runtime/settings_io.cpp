@@ -1,0 +1,224 @@
+#include "engine/runtime/settings_io.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <optional>
+#include <sstream>
+
+#include <toml++/toml.h>
+
+#include "engine/core/units.h"
+
+namespace palace {
+namespace {
+
+constexpr std::uintmax_t kMaxFileBytes = 1 << 20;
+
+std::string At(const std::string& name, const toml::node& node) {
+  return name + ":" + std::to_string(node.source().begin.line) + ": ";
+}
+
+std::string Shortest(double value) {
+  char text[40];
+  const auto end = std::to_chars(text, text + sizeof text, value).ptr;
+  return {text, end};
+}
+
+std::string Join(const std::vector<std::string>& words) {
+  std::string joined;
+  for (const std::string& word : words) {
+    joined += (joined.empty() ? "" : ", ") + word;
+  }
+  return joined;
+}
+
+/// The number a word stands for, e.g. "thesis".
+std::optional<double> ValueOfWord(const SettingInfo& info, std::string_view word) {
+  const auto it = std::find(info.words.begin(), info.words.end(), word);
+  if (it == info.words.end()) {
+    return std::nullopt;
+  }
+  return static_cast<double>(it - info.words.begin());
+}
+
+Result<double> NumberOf(const SettingInfo& info, const toml::node& node) {
+  if (const auto word = node.value_exact<std::string>()) {
+    if (const auto value = ValueOfWord(info, *word)) {
+      return *value;
+    }
+    return InvalidError(info.name + " = \"" + *word + "\" is not " +
+                        (info.words.empty() ? "a number" : "one of: " + Join(info.words)));
+  }
+  if (!info.words.empty()) {
+    return InvalidError(info.name + " must be one of: " + Join(info.words));
+  }
+  if (const auto number = node.value<double>(); number && node.is_number()) {
+    return *number;
+  }
+  return InvalidError(info.name + " must be a number");
+}
+
+Status SetUpVector(Settings& settings, const toml::node& node) {
+  const toml::array* array = node.as_array();
+  Eigen::Vector3d up = Eigen::Vector3d::Zero();
+  if (array == nullptr || array->size() != 3) {
+    return InvalidError("slad.up_vector_ned must be three numbers, e.g. [0, 0, -1]");
+  }
+  for (int i = 0; i < 3; ++i) {
+    up[i] = array->get(static_cast<std::size_t>(i))->value<double>().value_or(NAN);
+  }
+  if (!up.allFinite() || up.norm() < 1e-9 || up.z() >= 0) {
+    return InvalidError("slad.up_vector_ned must be finite and point up (third number below 0)");
+  }
+  up.normalize();
+  const double tilt = std::atan2(std::hypot(up.x(), up.y()), -up.z());
+  const double azimuth = std::atan2(up.y(), up.x());
+  const Status done = SetSettingValue(settings, "slad.up_tilt_deg", Deg(tilt));
+  return done ? SetSettingValue(settings, "slad.up_azimuth_deg",
+                                azimuth < 0 ? Deg(azimuth) + 360 : Deg(azimuth))
+              : done;
+}
+
+/// Rules between two values, checked once all keys are read.
+Status CheckBounds(const Settings& settings, const std::string& name) {
+  const SladSettings& s = settings.slad;
+  if (s.bounds == BoundsMode::kGiven && (s.x_min_m >= s.x_max_m || s.y_min_m >= s.y_max_m)) {
+    return InvalidError(
+        name + ": slad.x_min_m = " + Shortest(s.x_min_m) + ", x_max_m = " + Shortest(s.x_max_m) +
+        ", y_min_m = " + Shortest(s.y_min_m) + ", y_max_m = " + Shortest(s.y_max_m) +
+        ": each minimum must lie below its maximum");
+  }
+  return Ok();
+}
+
+Status ApplyKey(Settings& settings, const std::string& key, const toml::node& node) {
+  if (key == "slad.up_vector_ned") {
+    return SetUpVector(settings, node);
+  }
+  const SettingInfo* info = FindSetting(key);
+  if (info == nullptr) {
+    return InvalidError("unknown key '" + key + "'");
+  }
+  const Result<double> value = NumberOf(*info, node);
+  return value ? SetSettingValue(settings, key, *value) : Status(value.error());
+}
+
+}  // namespace
+
+Result<Settings> ParseSettings(std::string_view text, const std::string& name,
+                               const Settings& base) {
+  toml::table root;
+  try {
+    root = toml::parse(text, std::string_view(name));
+  } catch (const toml::parse_error& error) {
+    return InvalidError(name + ":" + std::to_string(error.source().begin.line) + ": " +
+                        std::string(error.description()));
+  }
+  Settings settings = base;
+  for (const auto& [section, content] : root) {
+    const toml::table* table = content.as_table();
+    if (table == nullptr) {
+      return InvalidError(At(name, content) + "'" + std::string(section.str()) +
+                          "' stands outside a section; sections are [slad] [stereo] [tracking] "
+                          "[mission]");
+    }
+    for (const auto& [key, node] : *table) {
+      const std::string full = std::string(section.str()) + "." + std::string(key.str());
+      const Status applied = ApplyKey(settings, full, node);
+      if (!applied) {
+        return InvalidError(At(name, node) + applied.error().message);
+      }
+    }
+  }
+  const Status bounds = CheckBounds(settings, name);
+  return bounds ? Result<Settings>(settings) : Result<Settings>(bounds.error());
+}
+
+Result<Settings> LoadSettingsFile(const std::filesystem::path& path, const Settings& base) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) {
+    return UnavailableError("settings file " + path.string() +
+                            " does not exist or is not a file; give the path of a .toml file");
+  }
+  if (std::filesystem::file_size(path, error) > kMaxFileBytes) {
+    return InvalidError("settings file " + path.string() + " is larger than 1 MiB");
+  }
+  std::ifstream file(path);
+  std::ostringstream text;
+  text << file.rdbuf();
+  if (!file) {
+    return UnavailableError("settings file " + path.string() + " cannot be read");
+  }
+  return ParseSettings(text.str(), path.string(), base);
+}
+
+Result<Settings> ApplySettingText(const Settings& base, std::string_view assignment) {
+  const std::size_t equals = assignment.find('=');
+  if (equals == std::string_view::npos) {
+    return UsageError("setting '" + std::string(assignment) + "' must read name=value");
+  }
+  const std::string name(assignment.substr(0, equals));
+  const std::string text(assignment.substr(equals + 1));
+  const SettingInfo* info = FindSetting(name);
+  if (info == nullptr) {
+    return UsageError("unknown setting '" + name + "'");
+  }
+  std::optional<double> value = ValueOfWord(*info, text);
+  if (!value) {
+    double number = 0;
+    const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (problem != std::errc() || end != text.data() + text.size()) {
+      return UsageError(name + " = '" + text + "' is not " +
+                        (info->words.empty() ? "a number" : "one of: " + Join(info->words)));
+    }
+    value = number;
+  }
+  Settings settings = base;
+  const Status done = SetSettingValue(settings, name, *value);
+  if (!done) {
+    return UsageError(done.error().message);
+  }
+  return settings;
+}
+
+std::string SettingsToToml(const Settings& settings) {
+  std::string text = "# PALACE settings. Angles in degrees, lengths in metres.\n";
+  // The table is ordered for screens; TOML wants each section once.
+  for (const std::string section : {"slad", "stereo", "tracking", "mission"}) {
+    text += "\n[" + section + "]\n";
+    for (const SettingInfo& info : SettingTable()) {
+      if (info.name.rfind(section + ".", 0) != 0) {
+        continue;
+      }
+      const double value = GetSetting(settings, info.name);
+      text += info.name.substr(section.size() + 1) + " = ";
+      text += info.words.empty() ? Shortest(value)
+                                 : '"' + info.words[static_cast<std::size_t>(value)] + '"';
+      text += info.words.empty() ? "  # " + Shortest(info.min) + " to " + Shortest(info.max) + "\n"
+                                 : "  # " + Join(info.words) + "\n";
+    }
+  }
+  return text;
+}
+
+Status SaveSettingsFile(const std::filesystem::path& path, const Settings& settings) {
+  const std::filesystem::path temporary = path.string() + ".new";
+  std::ofstream file(temporary, std::ios::trunc);
+  file << SettingsToToml(settings);
+  file.close();
+  std::error_code error;
+  if (file) {
+    std::filesystem::rename(temporary, path, error);
+  }
+  if (!file || error) {
+    std::filesystem::remove(temporary, error);
+    return UnavailableError("cannot write settings file " + path.string() +
+                            "; choose a folder you may write to");
+  }
+  return Ok();
+}
+
+}  // namespace palace

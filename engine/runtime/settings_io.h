@@ -1,0 +1,32 @@
+// Settings files: TOML a person edits, every value checked against the table of settings.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "engine/core/result.h"
+#include "engine/model/settings.h"
+
+namespace palace {
+
+/// Reads `[slad] max_slope_deg = 10` and its like over `base`. Unknown sections and keys, wrong
+/// types and values out of range are errors that name file, line, key, value and limit.
+/// `[slad] up_vector_ned = [n, e, d]` is accepted in place of up_tilt_deg and up_azimuth_deg.
+Result<Settings> LoadSettingsFile(const std::filesystem::path& path, const Settings& base);
+
+/// The same from text; `name` stands for the file in messages.
+Result<Settings> ParseSettings(std::string_view text, const std::string& name,
+                               const Settings& base);
+
+/// Applies one "slad.max_slope_deg=8" or "slad.mode=thesis", as --set gives it.
+Result<Settings> ApplySettingText(const Settings& base, std::string_view assignment);
+
+/// A settings file with every value, its unit and range as comments. LoadSettingsFile reads it back
+/// to equal settings.
+std::string SettingsToToml(const Settings& settings);
+
+/// Writes through a temporary file in the same folder, so that no half-written preset remains.
+Status SaveSettingsFile(const std::filesystem::path& path, const Settings& settings);
+
+}  // namespace palace
