@@ -33,6 +33,9 @@ struct LaserRange {
   double range_m = 0;  ///< NaN when no return
 };
 
+/// The touchdown point: centre of the skids in B, metres. Constant of the airframe.
+inline Eigen::Vector3d SkidCentreBody() { return {0.0, 0.0, 0.9}; }
+
 /// The autopilot's own navigation solution (GPS, IMU, AHRS).
 struct VehiclePose {
   Timestamp time;

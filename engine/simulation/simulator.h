@@ -1,0 +1,83 @@
+// Simulator: the simulated helicopter over a simulated scene, as a source and a vehicle link.
+//
+// Lockstep: simulated time moves only inside Next(), by exactly one camera period. Messages given
+// to Send() take effect at the start of the following Next(), in the order they came. One seed and
+// one sequence of messages give one flight to the bit; pacing, pause and speed change nothing.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "engine/model/rig.h"
+#include "engine/model/scene.h"
+#include "engine/runtime/source.h"
+#include "engine/runtime/vehicle_link.h"
+#include "engine/simulation/scene_camera.h"
+#include "engine/simulation/scene_library.h"
+#include "engine/simulation/wind.h"
+
+namespace palace {
+
+/// Called on the thread that first calls Next(), so that a GL context belongs to that thread.
+using SceneCameraFactory = std::function<Result<std::unique_ptr<SceneCamera>>(const Scene&)>;
+
+/// Checks the signature of an approval: empty text accepts, otherwise the reason of the refusal.
+/// Expiry, boot id, counter and finite numbers are always checked besides.
+using ApprovalCheck =
+    std::function<std::string(const Approval&, Timestamp now, std::uint64_t boot_id)>;
+
+struct SimulatorOptions {
+  Scene scene;
+  StereoRig rig = DefaultRig();
+  std::uint64_t seed = 1;
+  double hover_height_m = 15.24;  ///< of B above the bare ground at the start
+  double heading_rad = 0;
+  double start_north_m = 0;
+  double start_east_m = 0;
+  WindOptions wind;
+  double image_noise_grey = 2;       ///< standard deviation of the camera noise, grey levels
+  double brightness_gain_right = 1;  ///< exposure of the right camera relative to the left
+  double duration_limit_s = 600;
+  double speed = 0;    ///< times real time; 0 as fast as possible
+  bool render = true;  ///< false: bundles carry no pictures and no factory is needed
+  ApprovalCheck verify;
+};
+
+/// How the vehicle met the ground, by the truth.
+struct Touchdown {
+  Timestamp time;
+  Eigen::Vector3d p_W_skid = Eigen::Vector3d::Zero();
+  double vertical_speed_mps = 0;  ///< positive down
+  double horizontal_speed_mps = 0;
+  double tilt_rad = 0;
+  bool on_object = false;
+};
+
+class Simulator final : public Source, public VehicleLink {
+ public:
+  Simulator(SimulatorOptions options, SceneCameraFactory camera_factory);
+  ~Simulator() override;
+  Simulator(const Simulator&) = delete;
+  Simulator& operator=(const Simulator&) = delete;
+
+  /// kEnd at the duration limit or when stopped; the camera's error when it cannot draw.
+  Result<std::shared_ptr<const FrameBundle>> Next(std::stop_token stop) override;
+  bool IsLockstep() const override { return true; }
+  SourceStatus Status() const override;
+  void Control(const PlaybackControl& control) override;
+  void Send(const VehicleMessage& message) override;
+
+  /// Stamp of the moment simulated time starts at; the first bundle is one camera period later.
+  static constexpr Timestamp kEpoch{1'000'000'000'000};
+  std::uint64_t boot_id() const;
+  /// Set once the skids have met the ground. Call from the thread that calls Next().
+  const Touchdown* touchdown() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace palace
