@@ -1,0 +1,49 @@
+// ImGuiBackend: the ImGui context and its drawing, over a window or offscreen.
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include "engine/core/result.h"
+#include "gui/platform/fonts.h"
+
+namespace palace {
+
+class Window;
+class Offscreen;
+
+/// One at a time, on the thread whose GL context is current. ImGui's keyboard navigation and ini
+/// file stay off.
+class ImGuiBackend {
+ public:
+  /// Input, clipboard, cursor and display size come from GLFW.
+  static Result<std::unique_ptr<ImGuiBackend>> ForWindow(Window& window, double ui_scale);
+  /// The caller feeds ImGui::GetIO() (mouse, keys, DeltaTime) before BeginFrame.
+  static Result<std::unique_ptr<ImGuiBackend>> ForOffscreen(Offscreen& offscreen, double ui_scale);
+  ~ImGuiBackend();
+  ImGuiBackend(const ImGuiBackend&) = delete;
+  ImGuiBackend& operator=(const ImGuiBackend&) = delete;
+
+  /// Starts an ImGui frame. `delta_s` > 0 replaces the measured time step (headless, tests).
+  void BeginFrame(double delta_s = 0);
+  /// Ends the frame and draws it into the window or the offscreen framebuffer, after clearing it
+  /// with the window colour #090C10.
+  void EndFrame();
+  /// Rebuilds the font atlas at another scale; between frames only. The fonts move: take them anew.
+  void SetUiScale(double ui_scale);
+  double ui_scale() const { return ui_scale_; }
+  const Fonts& fonts() const { return fonts_; }
+
+ private:
+  ImGuiBackend(Window* window, Offscreen* offscreen) : window_(window), offscreen_(offscreen) {}
+  Status Start(double ui_scale);
+
+  Window* window_ = nullptr;
+  Offscreen* offscreen_ = nullptr;
+  bool platform_started_ = false;
+  bool renderer_started_ = false;
+  double ui_scale_ = 1;
+  Fonts fonts_;
+};
+
+}  // namespace palace

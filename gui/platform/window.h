@@ -1,0 +1,79 @@
+// Window: the GLFW window with its OpenGL 3.3 core context, and the input that came in.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "engine/core/result.h"
+#include "gui/render/picture.h"
+
+struct GLFWwindow;
+
+namespace palace {
+
+enum class KeyAction { kPress, kRepeat, kRelease };
+/// `key` and `mods` are GLFW's numbers. `name` is the character the key prints on this keyboard
+/// ("z" on a QWERTY Z and on an AZERTY Z alike), empty for keys that print none.
+struct KeyEvent {
+  int key = 0;
+  int mods = 0;
+  KeyAction action = KeyAction::kPress;
+  std::string name;
+};
+struct MouseButtonEvent {
+  int button = 0;
+  bool pressed = false;
+  double x_px = 0;  ///< framebuffer pixels
+  double y_px = 0;
+};
+
+/// Everything since the last call: a press and release inside one frame is not lost.
+struct WindowInput {
+  std::vector<KeyEvent> keys;
+  std::vector<MouseButtonEvent> buttons;
+  std::vector<std::string> dropped_files;
+  double scroll = 0;
+  double mouse_x_px = 0;  ///< framebuffer pixels
+  double mouse_y_px = 0;
+  bool focused = true;
+  bool close_requested = false;
+};
+
+/// Main thread only. The context is current on it from Open to the destructor.
+class Window {
+ public:
+  /// Size in screen pixels. kUnavailable when there is no display, saying how to run without one.
+  static Result<std::unique_ptr<Window>> Open(const std::string& title, int width_px, int height_px,
+                                              bool hidden = false);
+  ~Window();
+  Window(const Window&) = delete;
+  Window& operator=(const Window&) = delete;
+
+  /// Handles what came in and hands it over. Waits at most `wait_s` when nothing is there.
+  WindowInput PollInput(double wait_s = 0);
+  /// Shows what was drawn; waits for the display's refresh unless hidden.
+  void SwapBuffers();
+  /// Binds the window's own framebuffer and sets the viewport.
+  void BeginFrame();
+  ImageRgba ReadPixels() const;  ///< row 0 on top; call before SwapBuffers
+
+  int width_px() const;  ///< of the framebuffer
+  int height_px() const;
+  double content_scale() const;  ///< 1 at 96 dpi
+  double dots_per_inch() const;  ///< of the monitor; 96 when it does not say
+  bool minimised() const;
+  void SetTitle(const std::string& title);
+  void SetSize(int width_px, int height_px);
+  GLFWwindow* handle() const { return window_; }
+
+ private:
+  struct Latch;
+  Window(GLFWwindow* window, std::unique_ptr<Latch> latch);
+  static void InstallCallbacks(GLFWwindow* window);
+
+  GLFWwindow* window_ = nullptr;
+  std::unique_ptr<Latch> latch_;
+};
+
+}  // namespace palace

@@ -1,0 +1,45 @@
+// Framebuffer: a multisampled render target that resolves into a texture, with read-back.
+#pragma once
+
+#include "engine/core/result.h"
+#include "gui/render/gl_handle.h"
+#include "gui/render/picture.h"
+
+namespace palace {
+
+enum class PixelKind { kGrey, kRgba };
+
+/// Row 0 of memory is GL's bottom row. Renderers that project with y downwards therefore store the
+/// top row of the picture first; the flip happens in their projection, nowhere else.
+class Framebuffer {
+ public:
+  /// (Re)creates the target when size, kind or samples changed; else does nothing. samples 1: no
+  /// multisampling. A count above the driver's limit is lowered to it.
+  Status Resize(int width, int height, PixelKind kind, int samples);
+  /// Binds for drawing and sets the viewport to the whole target.
+  void Bind() const;
+  /// Multisampled content into the texture. Call after drawing, before texture() or a read.
+  void Resolve() const;
+  /// Rows in memory order. kGrey and kRgba targets respectively.
+  ImageU8 ReadGrey() const;
+  ImageRgba ReadRgba() const;
+
+  GLuint texture() const { return texture_.name(); }
+  GLuint name() const { return resolved_.name(); }
+  int width() const { return width_; }
+  int height() const { return height_; }
+
+ private:
+  GlFramebuffer resolved_;
+  GlTexture texture_;
+  GlRenderbuffer resolved_depth_;  ///< without multisampling only
+  GlFramebuffer multisampled_;
+  GlRenderbuffer colour_samples_;
+  GlRenderbuffer depth_samples_;
+  int width_ = 0;
+  int height_ = 0;
+  int samples_ = 0;
+  PixelKind kind_ = PixelKind::kGrey;
+};
+
+}  // namespace palace
