@@ -1,0 +1,96 @@
+// Navigator: where the vehicle is. Two parallel filters, and the rule which of them is in force.
+//
+// The GPS filter always runs on GPS and IMU and never sees vision. The vision filter starts at
+// StartVision, velocity and accelerometer bias seeded from the GPS filter, position from its first
+// fix, and takes over only when it has settled and AllowVision(true) was given
+// (reference: simulation.md 4; Rogers & al. on loosely coupled filters). Everything goes by time
+// stamp: late measurements are put where they belong and the inertial data replayed.
+//
+// Without any GPS (folders of pictures) the autopilot's VehiclePose is the estimate in force.
+// Any one thread. Deterministic.
+#pragma once
+
+#include <deque>
+#include <optional>
+
+#include <Eigen/Dense>
+
+#include "engine/core/frames.h"
+#include "engine/core/time.h"
+#include "engine/model/frame_bundle.h"
+#include "engine/model/landing_site.h"
+#include "engine/model/navigation_status.h"
+#include "engine/model/rig.h"
+#include "engine/model/settings.h"
+#include "engine/navigation/attitude_history.h"
+#include "engine/navigation/handover.h"
+#include "engine/navigation/position_filter.h"
+#include "engine/tracking/site_tracker.h"
+
+namespace palace {
+
+class Navigator {
+ public:
+  Navigator();
+  void Reset();
+  /// IMU, poses and GPS of the bundle; call once per bundle, before anything else of that bundle.
+  void AddSensors(const FrameBundle& bundle);
+  /// X_WB at the exposure: position on the estimate in force, attitude from the AHRS, with vision's
+  /// attitude correction once vision is in force. Identity before anything arrived.
+  RigidTransform PredictBodyPose(Timestamp exposure) const;
+  /// Starts the parallel filter at its first fix. A filter that runs already is dropped.
+  void StartVision(const LandingSite& site, Timestamp time);
+  /// Back to GPS, velocity cross-faded.
+  void StopVision();
+  /// One tracked picture: position from the landmarks by resection, or, in template mode, from the
+  /// site's pixel and the laser (equations 3.1-3.12), then the vision filter.
+  void AddVision(const TrackResult& track, const PinholeCamera& camera, const StereoRig& rig,
+                 const FrameBundle& bundle, const TrackingSettings& settings);
+  /// Approval accepted: vision may take over when it is ready. False withdraws the permission but
+  /// does not switch back.
+  void AllowVision(bool allowed);
+  /// As of the last AddSensors or AddVision.
+  const NavigationStatus& status() const { return status_; }
+  /// Vision after the hand-over, GPS before, propagated to `now`. kNone: only a pose, or nothing.
+  PositionEstimate EstimateInForce(Timestamp now) const;
+
+ private:
+  struct ImuRecord {
+    Timestamp time;
+    Eigen::Vector3d specific_force_B = Eigen::Vector3d::Zero();
+    Eigen::Matrix3d R_WB = Eigen::Matrix3d::Identity();
+  };
+  /// A velocity cross-fade from what was in force before.
+  struct Fade {
+    Timestamp start;
+    bool from_vision = false;
+    Eigen::Vector3d dv_WB = Eigen::Vector3d::Zero();  ///< old minus new at the switch
+  };
+
+  void AddImu(const ImuSample& sample);
+  void AddGps(const GpsFix& fix);
+  void StartFilter(PositionFilter& filter, const FilterSeed& seed) const;
+  void AddVisionFix(Timestamp time, const PositionMeasurement& fix, double accel_noise);
+  FilterSeed VisionSeed(const PositionMeasurement& fix) const;
+  void UpdateHandover(Timestamp time);
+  void UpdateStatus(Timestamp now);
+  std::optional<PositionEstimate> PoseEstimate(Timestamp now) const;
+  PositionEstimate FilterEstimate(const PositionFilter& filter, EstimateSource source,
+                                  Timestamp now) const;
+  PositionEstimate UnfadedEstimate(Timestamp now) const;
+
+  AttitudeHistory poses_;
+  std::deque<ImuRecord> imu_;
+  PositionFilter gps_;
+  PositionFilter vision_;
+  Handover handover_;
+  std::optional<LandingSite> site_;
+  bool vision_started_ = false;
+  bool have_pose_stream_ = false;
+  std::optional<Fade> fade_;
+  Eigen::Vector3d attitude_correction_W_ = Eigen::Vector3d::Zero();  ///< rotation vector
+  Timestamp now_;
+  NavigationStatus status_;
+};
+
+}  // namespace palace

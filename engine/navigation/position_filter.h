@@ -1,0 +1,75 @@
+// PositionFilter: position and velocity in W from inertial data and gated, possibly late, position
+// fixes.
+//
+// State x = [p_WB, v_WB, b_B]: metres, m/s, accelerometer bias in body axes. Attitude is not
+// estimated: it comes from the AHRS. Predicted at every IMU sample,
+//   a_W = R_WB (f_B - b_B) + g_W,   p += v dt + a dt^2/2,   v += a dt,
+// updated in Joseph form with a floor on P. A fix is refused when its normalised innovation squared
+// exceeds the 0.997 quantile of chi-square: 13.93 for three, 19.80 for six degrees of freedom.
+// After reference simulation.md 4.1; Bar-Shalom, Li & Kirubarajan 2001, 5.4 (consistency).
+#pragma once
+
+#include <optional>
+
+#include <Eigen/Dense>
+
+#include "engine/core/time.h"
+#include "engine/navigation/delayed_measurements.h"
+#include "engine/navigation/inertial_kalman.h"
+
+namespace palace {
+
+/// Where a filter starts.
+struct FilterSeed {
+  Timestamp time;
+  Eigen::Vector3d p_WB = Eigen::Vector3d::Zero();
+  Eigen::Vector3d v_WB = Eigen::Vector3d::Zero();
+  Eigen::Vector3d bias_B = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d p_covariance_m2 = Eigen::Matrix3d::Identity();
+  double sigma_v_mps = 0.3;
+  double sigma_bias_mps2 = 0.1;
+};
+
+/// Position and velocity at one time, with covariance.
+struct FilterEstimate {
+  Timestamp time;
+  Eigen::Vector3d p_WB = Eigen::Vector3d::Zero();
+  Eigen::Vector3d v_WB = Eigen::Vector3d::Zero();
+  Eigen::Vector3d bias_B = Eigen::Vector3d::Zero();
+  Eigen::Vector3d sigma_p_m = Eigen::Vector3d::Zero();
+  Eigen::Vector3d sigma_v_mps = Eigen::Vector3d::Zero();
+};
+
+enum class FixOutcome { kAccepted, kRejected, kTooOld };
+
+class PositionFilter {
+ public:
+  void Reset();
+  void Start(const FilterSeed& seed, const ProcessNoise& noise);
+  bool running() const { return running_; }
+  /// Samples in order of time; one at or before the newest known is ignored.
+  void AddImu(Timestamp time, const Eigen::Vector3d& specific_force_B, const Eigen::Matrix3d& R_WB);
+  /// The fix is put at its own time stamp, up to 1.5 s back. Without IMU the state coasts.
+  FixOutcome AddFix(const PositionMeasurement& fix);
+  void SetProcessNoise(const ProcessNoise& noise);
+
+  /// Best knowledge at `time`; beyond the newest IMU sample the last acceleration is held 0.1 s,
+  /// then the velocity. Requires running().
+  FilterEstimate EstimateAt(Timestamp time) const;
+  int rejected_in_row() const { return rejected_in_row_; }
+  /// sqrt(innovation' S^-1 innovation / dof) of the last fix.
+  double residual_sigma() const { return residual_sigma_; }
+  /// innovation' S^-1 innovation of the last fix, scaled to three degrees of freedom.
+  double nis() const { return 3 * residual_sigma_ * residual_sigma_; }
+  /// Stamp of the newest accepted fix; the start before any.
+  Timestamp last_accepted() const { return last_accepted_; }
+
+ private:
+  bool running_ = false;
+  DelayedMeasurements history_;
+  int rejected_in_row_ = 0;
+  double residual_sigma_ = 0;
+  Timestamp last_accepted_;
+};
+
+}  // namespace palace
