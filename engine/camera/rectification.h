@@ -1,0 +1,55 @@
+// Rectification: pictures of both cameras resampled so that rows are epipolar lines.
+#pragma once
+
+#include <memory>
+
+#include <Eigen/Dense>
+
+#include "engine/core/result.h"
+#include "engine/model/frame_bundle.h"
+#include "engine/model/rig.h"
+
+namespace palace {
+
+/// Both pictures belong to the same pinhole; pixels that the raw picture does not hold are 0.
+struct RectifiedPair {
+  std::shared_ptr<const ImageU8> left;
+  std::shared_ptr<const ImageU8> right;
+};
+
+/// Resampling maps of one rig, computed once.
+///
+/// Rectified rigs without distortion pass through unchanged. Pinhole rigs with plumb-bob distortion
+/// are undistorted to one common pinhole; RIG.toml has no rotation between the cameras, so their
+/// axes are taken as parallel. Rigs with CAHVOR models are aligned as in AlignPair.
+class StereoRectifier {
+ public:
+  /// Refuses rigs whose sizes, focal lengths or baseline are not positive, and CAHVOR pairs that
+  /// cannot be aligned.
+  static Result<StereoRectifier> Make(const StereoRig& rig);
+
+  /// Refuses pictures whose sizes differ from the rig's, naming both sizes. Thread-safe.
+  Result<RectifiedPair> Rectify(const StereoFrame& frame) const;
+  /// The pinhole of both rectified pictures.
+  const PinholeCamera& camera() const;
+  /// Distance of the projection centres, metres.
+  double baseline_m() const;
+  /// Rectified axes in the left camera's own axes (for CAHVOR: x = H', z = A). Identity for
+  /// rectified rigs.
+  const Eigen::Matrix3d& R_C_Rect() const;
+
+ private:
+  struct Maps;
+  StereoRectifier() = default;
+
+  PinholeCamera camera_;
+  double baseline_m_ = 0;
+  Eigen::Matrix3d R_C_Rect_ = Eigen::Matrix3d::Identity();
+  int left_width_ = 0;
+  int left_height_ = 0;
+  int right_width_ = 0;
+  int right_height_ = 0;
+  std::shared_ptr<const Maps> maps_;  ///< null: pass-through
+};
+
+}  // namespace palace

@@ -1,0 +1,72 @@
+// A folder of stereo pairs as a source of frames: RIG.toml names the files and the pose.
+#pragma once
+
+#include <condition_variable>
+#include <filesystem>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include "engine/camera/rig_file.h"
+#include "engine/runtime/source.h"
+
+namespace palace {
+
+/// Reads both pictures as 8-bit grey. Errors name the file; sizes that differ from each other are
+/// refused. The frame's time is zero.
+Result<StereoFrame> ReadStereoPair(const std::filesystem::path& left,
+                                   const std::filesystem::path& right);
+
+/// Files that match a pattern whose last part may hold * and ?, sorted by name.
+std::vector<std::filesystem::path> ExpandPattern(const std::filesystem::path& folder,
+                                                 const std::string& pattern);
+
+/// Pair k is exposed at 1'000'000 s + k / rate_hz in data time. Every bundle carries the pose of
+/// [pose] (none without that table), the status of a hovering real vehicle, and no laser sample.
+/// Lockstep; paced to `speed` times rate_hz, 0 as fast as possible. With `loop` the last pair is
+/// repeated for ever, with new sequence numbers and advancing time.
+class ImageFolderSource final : public Source {
+ public:
+  /// Refuses rigs without [images], patterns without files, and unequal numbers of files. The first
+  /// pair is read, so that a wrong size is found at once.
+  static Result<std::unique_ptr<ImageFolderSource>> Open(const std::filesystem::path& rig_toml,
+                                                         bool loop);
+
+  Result<std::shared_ptr<const FrameBundle>> Next(std::stop_token stop) override;
+  bool IsLockstep() const override { return true; }
+  SourceStatus Status() const override;
+  void Control(const PlaybackControl& control) override;
+
+ private:
+  ImageFolderSource(RigFile file, std::vector<std::filesystem::path> left,
+                    std::vector<std::filesystem::path> right, std::string name, bool loop);
+  std::optional<std::int64_t> WaitForTurn(std::stop_token stop);
+  Result<std::shared_ptr<const StereoFrame>> LoadPair(std::int64_t index);
+  Timestamp TimeOf(std::int64_t index) const;
+
+  const RigFile file_;
+  const std::shared_ptr<const StereoRig> rig_;
+  const std::vector<std::filesystem::path> left_;
+  const std::vector<std::filesystem::path> right_;
+  const std::string name_;
+  const bool loop_;
+  std::shared_ptr<const StereoFrame> cached_;  ///< last pair read; used by Next only
+  std::int64_t cached_index_ = -1;
+  std::uint64_t sequence_ = 0;
+
+  mutable std::mutex mutex_;
+  std::condition_variable_any changed_;
+  std::int64_t next_index_ = 0;  ///< of the next bundle; grows past the last pair with loop
+  std::int64_t shown_index_ = -1;
+  int steps_ = 0;  ///< single bundles owed while paused
+  bool paused_ = false;
+  bool ended_ = false;
+  double speed_ = 1;
+  double speed_reached_ = 1;
+  double due_s_ = 0;  ///< monotonic time of the next bundle; 0 at once
+};
+
+}  // namespace palace

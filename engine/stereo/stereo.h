@@ -1,0 +1,56 @@
+// Stereo: from a rectified pair to a range map with a standard deviation for every pixel.
+#pragma once
+
+#include <memory>
+
+#include "engine/core/frames.h"
+#include "engine/core/result.h"
+#include "engine/model/range_map.h"
+#include "engine/model/settings.h"
+
+namespace palace {
+
+/// Whole-pixel disparities searched: min_px .. min_px + count - 1. count is a multiple of 16.
+struct DisparityWindow {
+  int min_px = 0;
+  int count = 64;
+  friend bool operator==(const DisparityWindow&, const DisparityWindow&) = default;
+};
+
+/// The window that holds level ground at `ground_height_m` (metres above the origin of W,
+/// up-positive) and objects up to `tallest_m` on it, seen by the left camera at X_WC:
+/// d = fx b / Z with Z where the rays of the picture's border meet the ground. Rays at or above the
+/// horizon put the far end at disparity 0. At least settings.num_disparities wide, at most 256;
+/// where more would be needed the far end is given up, the ground nearest to the camera is kept.
+DisparityWindow PredictWindow(const PinholeCamera& camera, double baseline_m,
+                              const RigidTransform& X_WC, double ground_height_m, double tallest_m,
+                              const StereoSettings& settings);
+
+struct StereoResult {
+  RangeMap range;
+  StereoQuality quality;
+};
+
+/// Matches rectified pairs. Whole pixels by semi-global matching (Hirschmueller 2008, OpenCV's
+/// three-way SGBM), the fraction by correlation refinement (subpixel.h). Same input, same bits, for
+/// any number of OpenCV threads; only suspect_frozen depends on the pair before.
+class StereoMatcher {
+ public:
+  StereoMatcher();
+  ~StereoMatcher();
+  StereoMatcher(StereoMatcher&&) noexcept;
+  StereoMatcher& operator=(StereoMatcher&&) noexcept;
+
+  /// Pixels without texture, without a unique match, hidden from one camera, outside the window or
+  /// with a sigma over settings.max_sigma_px are NaN in all layers. Refuses pictures whose sizes
+  /// differ from the camera's, a baseline that is not positive, and impossible windows.
+  Result<StereoResult> Match(const ImageU8& left, const ImageU8& right, const PinholeCamera& camera,
+                             double baseline_m, const DisparityWindow& window,
+                             const StereoSettings& settings, Timestamp time);
+
+ private:
+  struct Memory;  // buffers kept between pairs, and the last pair
+  std::unique_ptr<Memory> memory_;
+};
+
+}  // namespace palace
