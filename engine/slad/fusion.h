@@ -1,0 +1,44 @@
+// Terrain fusion: elevation of many frames in one map that moves with the view.
+//
+// Each cell keeps a mean m, its variance P and a count. A frame's cell mean z with variance R is
+// first corrected by a plane (offset, north tilt, east tilt) fitted robustly to z - m, because the
+// noise of attitude and position moves a frame as a whole, then fused as
+//
+//   1/P' = lambda/P + 1/R,   m' = P' (lambda m / P + z / R),   lambda = 1 - 1/frames_fused
+//
+// A cell that disagrees by more than the gate is not averaged: its variance grows, and the second
+// disagreement in a row replaces it. Unseen cells keep their height while their variance grows.
+// Thesis mode fuses nothing: Add is ElevationFromRange.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "engine/core/frames.h"
+#include "engine/model/elevation_map.h"
+#include "engine/model/range_map.h"
+#include "engine/model/settings.h"
+
+namespace palace {
+
+class TerrainFusion {
+ public:
+  /// Forgets all frames.
+  void Reset();
+  /// Fuses one range map taken from X_WC (left camera in W) and returns the new map. A change of
+  /// mode, cell size, grid size or bounds starts afresh.
+  std::shared_ptr<const ElevationMap> Add(const RangeMap& range, const RigidTransform& X_WC,
+                                          const SladSettings& settings);
+
+ private:
+  void MoveTo(const GridGeometry& geometry);
+  void Register(ElevationMap& frame);
+  void Fuse(const ElevationMap& frame, int frames_fused);
+
+  ElevationMap map_;                ///< measured cells only; holes are filled in what Add returns
+  Grid<std::int8_t> disagreement_;  ///< sign of the last frame that failed the gate, 0 none
+  SladSettings layout_;             ///< settings the grid was laid out with
+  int frames_ = 0;
+};
+
+}  // namespace palace

@@ -1,0 +1,25 @@
+// Hazard evaluation: elevation map in, every hazard layer out (thesis 4.3.2, 4.3.3).
+//
+// Thesis mode: slope = acos(n . u) (erratum E21), roughness = |height - plane| (E22) of the 3x3
+// LMedS plane, product cost (4.6-4.10). Filled and border cells count as data.
+//
+// Modern mode keeps two notions apart. A CELL is a hazard (`reasons`) for what is wrong at that
+// cell: the ground plane around it is too steep, the cell stands off that plane, it makes a step,
+// or is unknown. The layers slope, roughness, step, cost and safe_probability speak of the lander's
+// FOOTPRINT centred on the cell. Heights count only beyond their noise: a deviation r with sigma s
+// has the value sqrt(max(0, r^2 - 9 s^2)). Probabilities are Gaussian tails,
+//   P(safe) = Phi((slope_max - slope)/s_slope) * min(Phi of roughness, Phi of step).
+// safe_distance is exact Euclidean to the nearest hazard; outside the map counts as unknown.
+#pragma once
+
+#include "engine/model/elevation_map.h"
+#include "engine/model/hazard_maps.h"
+#include "engine/model/settings.h"
+
+namespace palace {
+
+/// Works on any size of map, also empty or all unknown: then nothing is safe.
+/// rejected and safe_cells together count every cell once; safe_cells could bear the lander.
+HazardMaps EvaluateHazards(const ElevationMap& map, const SladSettings& settings);
+
+}  // namespace palace

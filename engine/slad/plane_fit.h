@@ -1,0 +1,40 @@
+// Plane fits: the thesis's 3x3 LMedS then least squares, and modern mode's footprint plane.
+//
+// LMedS (Rousseeuw 1984) minimises the median squared residual over all planes through three of
+// the nine points: 84 triples, 76 of them not collinear. Each fits its own three points, so the
+// median of nine (the 5th smallest) is the 2nd smallest of the other six. The residual of point m
+// off the plane of (i,j,k) is D(i,j,k,m) / A(i,j,k) with |D| symmetric in its four points: 126
+// values serve all 504 residuals. Inliers within 2.5 robust sigmas are refitted by least squares.
+#pragma once
+
+#include "engine/model/elevation_map.h"
+#include "engine/model/grid.h"
+
+namespace palace {
+
+/// Planes per cell: height_m at the cell's centre and its gradient, metres per metre towards north
+/// and east. NaN where fewer than three points that span a plane are known.
+struct PlaneMaps {
+  GridF height_m;
+  GridF north_gradient;
+  GridF east_gradient;
+};
+
+/// Exact LMedS and least squares over the 3x3 samples `stride` cells apart around each cell.
+/// Unknown neighbours, and those outside the map, are left out; the median is then over those that
+/// remain.
+PlaneMaps FitThesisPlanes(const GridF& height_m, double cell_m, int stride);
+
+/// Robust weighted least-squares plane of the ground over the footprint around each cell.
+struct FootprintPlanes {
+  PlaneMaps plane;
+  GridF gradient_sigma;    ///< of the slope tangent along the steepest direction
+  GridF cell_variance_m2;  ///< mean height variance of the cells in the window
+};
+
+/// Window: the square with the area of the footprint circle, at least 3x3 cells. Weights are
+/// inverse variances; three passes of summed-area moments, between which cells that stand off their
+/// own plane are rejected, upwards sooner than downwards because obstacles stand on ground.
+FootprintPlanes FitFootprintPlanes(const ElevationMap& map, double footprint_diameter_m);
+
+}  // namespace palace

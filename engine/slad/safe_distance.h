@@ -1,0 +1,17 @@
+// Exact Euclidean distance to the nearest cell that is not safe.
+//
+// Two passes of one-dimensional distance transforms (Felzenszwalb & Huttenlocher 2012, Distance
+// Transforms of Sampled Functions): linear in the number of cells, exact in squared cells.
+#pragma once
+
+#include <cstdint>
+
+#include "engine/model/grid.h"
+
+namespace palace {
+
+/// `safe` is 1 on safe cells. Distances run between cell centres, in metres, 0 on cells that are
+/// not safe. The ring of cells just outside the map counts as not safe.
+GridF SafeDistance(const Grid<std::uint8_t>& safe, double cell_m);
+
+}  // namespace palace

@@ -1,0 +1,63 @@
+// Site selection: the best places to land on one map, spaced apart, each with its figures.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "engine/core/frames.h"
+#include "engine/model/elevation_map.h"
+#include "engine/model/hazard_maps.h"
+#include "engine/model/landing_site.h"
+#include "engine/model/range_map.h"
+#include "engine/model/settings.h"
+
+namespace palace {
+
+/// What selection must know beside the maps.
+struct SiteContext {
+  Eigen::Vector3d p_WB = Eigen::Vector3d::Zero();  ///< vehicle, NED metres
+  RigidTransform X_WC;                             ///< left camera when the map was made
+  PinholeCamera camera;                            ///< rectified left camera; width 0: no picture
+  Timestamp time;
+  double glide_slope_rad = 0.78539816339;  ///< down from the horizon, for the corridor
+};
+
+/// Best first. A site is a cell whose safe distance reaches the clear radius (lander radius +
+/// navigation error) and whose footprint keeps every limit. kFarthest ranks by safe distance, then
+/// cost, then nearness to the middle of the picture; kCost by the smoothed cost. Sites whose
+/// approach corridor is blocked come last. Sites lie at least site_spacing_m apart. Letters and ids
+/// are for SiteRegistry to give. Pixels come from forward projection (erratum E17); NaN behind the
+/// camera.
+SiteSelection SelectSites(const ElevationMap& map, const HazardMaps& hazards,
+                          const SladSettings& settings, const SiteContext& context);
+
+/// The same place on a newer map, id and letter kept, clearance negative when it no longer holds.
+/// Nothing when the place is outside the map.
+std::optional<LandingSite> RecheckSite(const ElevationMap& map, const HazardMaps& hazards,
+                                       const SladSettings& settings, const LandingSite& site,
+                                       const SiteContext& context);
+
+/// Gives each site an id and a letter that stay with the place while it is proposed. A place is the
+/// same within 1 m of where it was last. Of the twelve letters A-L the one unused longest is given
+/// next; ids are never reused.
+class SiteRegistry {
+ public:
+  void Assign(SiteSelection& selection);
+  void Reset();
+
+ private:
+  struct Place {
+    std::uint64_t id = 0;
+    char letter = 0;
+    Eigen::Vector3d p_WS = Eigen::Vector3d::Zero();
+    std::uint64_t last_used = 0;
+  };
+  Place& NewPlace();
+
+  std::vector<Place> places_;  ///< at most one a letter
+  std::uint64_t next_id_ = 1;
+  std::uint64_t turn_ = 0;
+};
+
+}  // namespace palace

@@ -1,0 +1,24 @@
+// Safe landing area determination (thesis 4.3): the calls in order.
+//
+//   TerrainFusion::Add        range map, X_WC      -> elevation map
+//   EvaluateHazards           elevation map        -> hazard, cost and safe-distance maps
+//   SelectSites               maps, vehicle        -> ranked sites
+//   SiteRegistry::Assign      sites                -> ids and letters
+//   VerdictImage              range map, hazards   -> overlay for the left picture
+//   HashOfMaps                maps                 -> what an approval binds
+#pragma once
+
+#include <cstdint>
+
+#include "engine/slad/elevation_map_builder.h"
+#include "engine/slad/fusion.h"
+#include "engine/slad/hazard_maps.h"
+#include "engine/slad/site_selection.h"
+#include "engine/slad/verdict_image.h"
+
+namespace palace {
+
+/// Names the map an approval was given on: geometry, heights and verdicts.
+std::uint64_t HashOfMaps(const ElevationMap& map, const HazardMaps& hazards);
+
+}  // namespace palace

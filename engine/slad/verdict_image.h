@@ -1,0 +1,17 @@
+// Verdict per pixel of the left picture: what the hazard maps say about the ground seen there.
+#pragma once
+
+#include "engine/core/frames.h"
+#include "engine/model/hazard_maps.h"
+#include "engine/model/image.h"
+#include "engine/model/range_map.h"
+
+namespace palace {
+
+/// 0 unknown, 1 safe, 2 over a limit. Size of the left picture divided by `divisor`, rounded down.
+/// Each pixel's point (its depth, or that of the nearest measured pixel within two blocks) is
+/// looked up in the map.
+ImageU8 VerdictImage(const RangeMap& range, const RigidTransform& X_WC, const HazardMaps& hazards,
+                     int divisor = 4);
+
+}  // namespace palace
