@@ -36,6 +36,8 @@ struct FrameBundle {
   std::vector<Truth> truth;
   /// Replay only: what was posted before this bundle when it was recorded.
   std::vector<EngineCommand> recorded_commands;
+  /// First bundle after a jump in time (a seek, a step back): filters and maps start afresh.
+  bool discontinuity = false;
 };
 
 }  // namespace palace

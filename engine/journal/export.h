@@ -1,0 +1,26 @@
+// Export: a log as CSV tables in SI units.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "engine/core/result.h"
+#include "engine/wire/channels.h"
+
+namespace palace {
+
+struct ExportedTable {
+  std::filesystem::path file;
+  std::uint64_t rows = 0;
+};
+
+/// Writes estimates.csv truth.csv decisions.csv sites.csv settings.csv events.csv status.csv into
+/// `folder` (made when missing). Headers carry the unit; doubles have 17 digits; unknown is an
+/// empty field. Errors name the file.
+Result<std::vector<ExportedTable>> ExportCsv(const std::filesystem::path& log,
+                                             const std::filesystem::path& folder,
+                                             const ChannelNames& channels = {});
+
+}  // namespace palace

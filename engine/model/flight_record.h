@@ -1,0 +1,41 @@
+// FlightRecord: what a recorded flight decided at the time, for the Review timeline.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "engine/core/time.h"
+#include "engine/model/mission_status.h"
+#include "engine/model/settings.h"
+
+namespace palace {
+
+/// One STATION_STATUS: one a bundle.
+struct FlightRecordSample {
+  Timestamp time;
+  std::uint64_t sequence = 0;
+  MissionState state = MissionState::kNoLive;
+  std::uint64_t settings_hash = 0;
+  std::uint64_t decision_hash = 0;
+  char best_site = 0;                 ///< letter, 0 none
+  double best_safe_distance_m = NAN;  ///< NaN without a site
+  double height_above_site_m = NAN;   ///< skid above the site; NaN without a site
+  double distance_to_site_m = NAN;    ///< horizontal; NaN without a site
+  double height_m = NAN;              ///< body above the origin of W, up-positive
+  int alarms = 0;                     ///< active
+  bool vision_in_force = false;
+};
+
+struct FlightRecord {
+  std::string path;
+  std::vector<FlightRecordSample> samples;  ///< in order of time; empty for foreign logs
+  std::vector<Event> events;
+  Settings settings_at_start;
+  bool has_settings = false;  ///< false: settings_at_start holds the defaults
+  double start_s = 0;         ///< of the first bundle, seconds of data time
+  double duration_s = 0;
+};
+
+}  // namespace palace
