@@ -1,0 +1,267 @@
+// A full, plausible EngineSnapshot for panel tests, in any mission state. Nothing in it is NaN that
+// a flight would know; all values are fixed, so golden texts stay.
+#pragma once
+
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "engine/model/snapshot.h"
+#include "tests/support/fake_terrain.h"
+
+namespace palace::fake {
+
+inline constexpr std::int64_t kNow_us = 1'700'000'000'000'000;
+
+inline PinholeCamera Camera() { return {640, 480, 1222, 1222, 319.5, 239.5}; }
+
+inline LandingSite Site(std::uint64_t id, char letter, double north_m, double east_m,
+                        double safe_distance_m, const char* reason) {
+  LandingSite site;
+  site.id = id;
+  site.letter = letter;
+  site.map_time = {kNow_us - 100'000};
+  site.p_WS = {north_m, east_m, -Height(north_m, east_m)};
+  site.cell = *Geometry().CellFromPoint(north_m, east_m);
+  site.slope_rad = {Rad(2.1 - 0.2 * static_cast<double>(id)), Rad(0.3)};
+  site.roughness_m = {0.055 - 0.005 * static_cast<double>(id), 0.018};
+  site.step_m = {0.074, 0.018};
+  site.height_m = {Height(north_m, east_m), 0.018};
+  site.safe_distance_m = safe_distance_m;
+  site.clear_radius_m = 2.3;
+  site.clearance_m = safe_distance_m - 2.3;
+  site.cost = 0.68;
+  site.safe_probability = 0.998;
+  site.frames_fused = 10;
+  site.confirmed = letter != 'D';
+  site.distance_m = std::hypot(north_m, east_m);
+  site.reason = reason;
+  return site;
+}
+
+inline std::shared_ptr<const TerrainDecision> Decision(const RigidTransform& X_WC,
+                                                       const SladSettings& settings,
+                                                       std::uint64_t hash) {
+  auto decision = std::make_shared<TerrainDecision>();
+  decision->map_time = {kNow_us - 100'000};
+  decision->elevation = Elevation(decision->map_time);
+  decision->hazards =
+      Hazards(*decision->elevation, Rad(settings.max_slope_deg), settings.max_deviation_m);
+  decision->settings = settings;
+  decision->settings_hash = hash;
+  decision->map_hash = 0x51aa00 + hash;
+  decision->verdict = Verdict(*decision->hazards, Camera(), X_WC);
+  decision->selection.sites = {
+      Site(1, 'A', 3.0, 5.1, 4.8, "Widest clear radius"),
+      Site(2, 'B', 3.8, -5.7, 4.2, "0.6 m less clear than A; half in shadow"),
+      Site(3, 'C', 2.2, 1.5, 3.0, "1.8 m less clear than A; kerb 3.0 m north"),
+      Site(4, 'D', -0.2, 7.0, 2.8, "1.9 m less clear than A; height noise 8.4 cm")};
+  return decision;
+}
+
+inline std::vector<ChannelHealth> Channels() {
+  using State = ChannelHealth::State;
+  const auto one = [](const char* name, double age_s, double rate_hz) {
+    return ChannelHealth{name, State::kFresh, age_s, rate_hz, rate_hz, 2520, 0, ""};
+  };
+  std::vector<ChannelHealth> channels = {one("Camera left", 0.024, 10),
+                                         one("Camera right", 0.026, 10),
+                                         one("Vehicle pose", 0.011, 50),
+                                         one("IMU", 0.004, 200),
+                                         one("GPS", 0.1, 5),
+                                         one("Laser range", 0.038, 20),
+                                         one("Vehicle status", 0.4, 1),
+                                         one("Position estimate", 0.026, 10)};
+  channels[4].state = State::kLate;
+  channels[4].note = "± 2.6 m";
+  return channels;
+}
+
+inline std::vector<GuardResult> Guards() {
+  const char* names[] = {"Site armed",          "Both cameras fresh", "Map fresh",
+                         "Pose fresh",          "Site confirmed",     "Settings unchanged",
+                         "Vehicle in hover",    "Link in both ways",  "Estimate healthy",
+                         "No warning standing", "Wind inside limit"};
+  std::vector<GuardResult> guards;
+  for (int i = 0; i < 11; ++i) {
+    guards.push_back({"G" + std::to_string(i + 1), names[i], true, ""});
+  }
+  return guards;
+}
+
+inline std::vector<HistorySample> History(bool descending) {
+  std::vector<HistorySample> history;
+  for (int i = -400; i <= 0; ++i) {
+    HistorySample h;
+    const double t = 0.1 * i;
+    h.time = {kNow_us + i * 100'000};
+    h.state = descending ? MissionState::kDescending : MissionState::kArmed;
+    const double fall = descending ? std::max(0.0, t + 28) * 0.6 : 0.0;
+    const double wave = SmoothNoise(i * 0.2, 3);
+    h.height_above_site_m = 38.2 - fall + 0.05 * wave;
+    h.plan_height_m = 38.2 - fall;
+    h.laser_m = h.height_above_site_m + 0.04 * wave;
+    h.from_site_m = 0.08 + 0.1 * wave;
+    h.from_site_gps_m = 1.3 + SmoothNoise(i * 0.1, 9);
+    h.from_site_truth_m = 0.1;
+    h.descent_rate_mps = fall > 0 ? 0.58 + 0.05 * wave : 0.02 * wave;
+    h.coherence = 0.9 + 0.06 * wave - (i > -160 && i < -130 ? 0.2 : 0.0);
+    h.residual_sigma = 3.0 * (SmoothNoise(i * 0.5, 5) - 0.5);
+    h.glide_deviation_m = 0.4 * (wave - 0.5);
+    h.estimate_p_WB = {0.0, 0.0, -h.height_above_site_m};
+    h.estimate_v_WB = {0, 0, h.descent_rate_mps};
+    h.estimate_sigma_m = {0.03, 0.03, 0.05};
+    h.gps_p_WB = {1.1, 1.3, -h.height_above_site_m - 1.5};
+    h.truth_p_WB = h.estimate_p_WB;
+    h.best_site = 'A';
+    h.best_safe_distance_m = 4.8;
+    history.push_back(h);
+  }
+  return history;
+}
+
+inline std::vector<Event> Events() {
+  return {{{kNow_us - 42'000'000}, EventKind::kState, "Search"},
+          {{kNow_us - 21'000'000}, EventKind::kSite, "Site A found, 4.8 m clear"},
+          {{kNow_us - 20'000'000}, EventKind::kState, "Proposed"},
+          {{kNow_us - 3'200'000}, EventKind::kDecision, "Operator armed site A"},
+          {{kNow_us - 900'000}, EventKind::kAlarm, "GPS horizontal error 2.6 m, limit 2.0 m"}};
+}
+
+inline void FillMission(EngineSnapshot& snap, MissionState state) {
+  MissionStatus& m = snap.mission;
+  const bool armed = state >= MissionState::kArmed;
+  const bool descending = state == MissionState::kDescending || state == MissionState::kHold ||
+                          state == MissionState::kAborting || state == MissionState::kLanded;
+  m.state = state;
+  m.since = {kNow_us - 3'200'000};
+  m.guards = Guards();
+  if (armed) {
+    m.armed = snap.applied->selection.sites.front();
+    m.armed_at = {kNow_us - 3'200'000};
+    m.arm_expires = Timestamp{kNow_us + 26'000'000};
+    m.can_approve = state == MissionState::kArmed;
+  } else {
+    m.cannot_approve_reason = "Select a site first";
+  }
+  if (state >= MissionState::kApproved) {
+    Approval approval;
+    approval.id = 7;
+    approval.site_id = 1;
+    approval.approved_at = {kNow_us - 55'000'000};
+    approval.expires_at = {kNow_us - 25'000'000};
+    m.approval = approval;
+    m.approval_phase = MissionStatus::ApprovalPhase::kAccepted;
+    m.approval_answer_s = 0.3;
+  }
+  m.height_above_site_m = descending ? 21.4 : 38.2;
+  m.distance_to_site_m = descending ? 0.12 : 5.9;
+  m.time_to_touchdown_s = descending ? 41 : 72;
+  if (descending) {
+    m.rechecks = {{{kNow_us - 28'000'000}, 38, 4.8, true, ""},
+                  {{kNow_us - 19'000'000}, 33, 4.6, true, ""},
+                  {{kNow_us - 9'000'000}, 28, 4.3, true, ""},
+                  {{kNow_us - 800'000}, 24, 4.1, true, ""}};
+    m.alarms = {{"recheck",
+                 AlarmLevel::kAdvisory,
+                 "Site A confirmed again at 24 m. Clear radius 4.1 m.",
+                 {kNow_us - 800'000}}};
+  } else {
+    m.alarms = {{"gps_error",
+                 AlarmLevel::kCaution,
+                 "GPS horizontal error 2.6 m, limit 2.0 m. Landing on vision, not GPS.",
+                 {kNow_us - 900'000}},
+                {"shadow", AlarmLevel::kAdvisory, "Site B lies half in shadow.", {kNow_us}},
+                {"wind", AlarmLevel::kAdvisory, "Wind from 240\u00b0.", {kNow_us}}};
+  }
+}
+
+inline void FillTracker(TrackerStatus& t) {
+  t.time = {kNow_us};
+  t.locked = true;
+  t.mode = "Plane";
+  t.coherence = 0.94;
+  t.site_pixel = {482, 143};
+  t.site_in_picture = true;
+  t.window_centre = t.site_pixel;
+  t.window_side_px = 140;
+  t.features = {{{158, 160}, true}, {{128, 320}, true}, {{266, 340}, true}, {{565, 260}, false}};
+  t.inliers = 3;
+  t.keyframes = 2;
+  t.anchor_height_m = 38;
+  const auto patch = [](std::uint8_t grey) {
+    return std::make_shared<const ImageU8>(64, 64, grey);
+  };
+  t.anchor_patch = patch(150);
+  t.current_patch = patch(148);
+  t.difference_patch = patch(128);
+}
+
+inline EngineSnapshot Snapshot(MissionState state = MissionState::kArmed,
+                               SourceKind kind = SourceKind::kLive) {
+  const bool descending = state >= MissionState::kDescending;
+  EngineSnapshot snap;
+  snap.sequence = 2520;
+  snap.time = {kNow_us};
+  snap.source = {
+      kind,         "udpm://239.255.76.67:7667", false, false, 1, 1, {kNow_us - 252'000'000}, 252,
+      std::nullopt, kind == SourceKind::kReplay, 2520,  0};
+  if (kind == SourceKind::kReplay) {
+    snap.source.name = "2026-05-04_1432.log";
+    snap.source.duration_s = 338;
+    snap.source.frame_count = 3380;
+  }
+  snap.can_transmit = kind != SourceKind::kReplay;
+  snap.recording = kind != SourceKind::kReplay;
+  snap.recording_path = "logs/flight.log";
+  snap.recording_minutes_left = 212;
+  snap.channels = Channels();
+  StereoRig rig;
+  rig.left.pinhole = rig.right.pinhole = Camera();
+  rig.tilt_rad = Rad(-90);
+  snap.rig = std::make_shared<const StereoRig>(rig);
+  VehiclePose pose;
+  pose.time = {kNow_us - 11'000};
+  pose.X_WB.p = {0, 0, descending ? -22.0 : -38.5};
+  pose.X_WB.R = RotationFromEuler({0, 0, 0});
+  pose.v_WB = {0.1, 0, descending ? 0.6 : 0};
+  snap.pose = pose;
+  snap.X_WC = pose.X_WB * rig.X_BC();
+  const ImageU8 picture = Picture(Camera(), snap.X_WC);
+  snap.left_rectified = std::make_shared<const ImageU8>(picture);
+  snap.right_rectified = snap.left_rectified;
+  snap.frame =
+      std::make_shared<const StereoFrame>(StereoFrame{{kNow_us - 24'000}, picture, picture});
+  snap.stereo_quality = {0.93, 0.22, 1.0, 0.12, 38.2, false, false};
+  snap.settings_hash = snap.preview_hash = 0x4f2a9c;
+  snap.applied = Decision(snap.X_WC, snap.settings.slad, snap.settings_hash);
+  FillMission(snap, state);
+  FillTracker(snap.tracker);
+  snap.navigation.gps.running = snap.navigation.vision.running = true;
+  PositionEstimate& estimate = snap.navigation.vision.estimate;
+  estimate = {{kNow_us - 26'000}, EstimateSource::kVision, true, 7, pose.X_WB.p, pose.v_WB,
+              {0.03, 0.03, 0.05}, {0.01, 0.01, 0.007}};
+  snap.navigation.vision.residual_sigma = 0.4;
+  snap.navigation.gps.estimate = estimate;
+  snap.navigation.gps.estimate.source = EstimateSource::kGps;
+  snap.navigation.gps.estimate.sigma_p_m = {0.87, 0.87, 1.4};
+  snap.navigation.handover = NavigationStatus::Handover::kVision;
+  VehicleStatus vehicle;
+  vehicle.time = {kNow_us - 400'000};
+  vehicle.boot_id = 7;
+  vehicle.mode = descending ? VehicleMode::kDescend : VehicleMode::kHover;
+  vehicle.flies_on_vision = descending;
+  vehicle.wind_speed_mps = 2.1;
+  vehicle.wind_from_rad = Rad(240);
+  vehicle.battery_or_fuel = 0.74;
+  vehicle.simulated = kind == SourceKind::kSimulation;
+  snap.vehicle = vehicle;
+  snap.laser = LaserRange{{kNow_us - 38'000}, descending ? 21.7 : 38.2};
+  snap.events = std::make_shared<const std::vector<Event>>(Events());
+  snap.history = std::make_shared<const std::vector<HistorySample>>(History(descending));
+  snap.timings = {{"rectify", 1.2}, {"disparity", 28.0}, {"slad", 4.1}, {"tracking", 1.9}};
+  snap.decision_hash = 0xfeed;
+  return snap;
+}
+
+}  // namespace palace::fake
