@@ -1,0 +1,117 @@
+#include "engine/runtime/channel_monitor.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace palace {
+namespace {
+
+constexpr double kPeriodSmoothing = 0.1;
+constexpr double kFreshPeriods = 2;
+constexpr double kLatePeriods = 5;
+constexpr double kLeastStaleAge_s = 1;
+constexpr double kLostAfterPeriods = 1.5;
+
+}  // namespace
+
+ChannelMonitor::ChannelMonitor() { Reset(); }
+
+void ChannelMonitor::Reset() {
+  watches_.assign(kCount, {});
+  const auto expect = [&](Channel channel, const char* name, double hz) {
+    watches_[channel].name = name;
+    watches_[channel].expected_hz = hz;
+  };
+  expect(kLeft, "Camera left", 10);
+  expect(kRight, "Camera right", 10);
+  expect(kPose, "Vehicle pose", 50);
+  expect(kImu, "IMU", 100);
+  expect(kGps, "GPS", 5);
+  expect(kLaser, "Laser range", 20);
+  expect(kStatus, "Vehicle status", 10);
+  expect(kEstimate, "Position estimate", 10);
+  gps_sigma_m_ = 0;
+}
+
+void ChannelMonitor::Saw(Channel channel, Timestamp stamp) {
+  Watch& watch = watches_[channel];
+  if (watch.count > 0) {
+    const double period_s = SecondsBetween(watch.last, stamp);
+    if (period_s <= 0) {
+      return;
+    }
+    watch.mean_period_s +=
+        (watch.mean_period_s == 0 ? 1 : kPeriodSmoothing) * (period_s - watch.mean_period_s);
+    const double periods = period_s * watch.expected_hz;
+    if (periods > kLostAfterPeriods) {
+      watch.lost += static_cast<std::uint64_t>(std::lround(periods)) - 1;
+    }
+  }
+  watch.last = stamp;
+  ++watch.count;
+}
+
+void ChannelMonitor::Add(const FrameBundle& bundle) {
+  if (bundle.rig) {
+    watches_[kLeft].expected_hz = watches_[kRight].expected_hz = bundle.rig->rate_hz;
+    watches_[kEstimate].expected_hz = bundle.rig->rate_hz;
+  }
+  if (bundle.stereo) {
+    if (!bundle.stereo->left.empty()) {
+      Saw(kLeft, bundle.stereo->time);
+    }
+    if (!bundle.stereo->right.empty()) {
+      Saw(kRight, bundle.stereo->time);
+    }
+  }
+  for (const VehiclePose& pose : bundle.poses) {
+    Saw(kPose, pose.time);
+  }
+  for (const ImuSample& sample : bundle.imu) {
+    Saw(kImu, sample.time);
+  }
+  for (const GpsFix& fix : bundle.gps) {
+    Saw(kGps, fix.time);
+    gps_sigma_m_ = fix.sigma_horizontal_m;
+  }
+  for (const LaserRange& range : bundle.laser) {
+    Saw(kLaser, range.time);
+  }
+  if (bundle.status) {
+    Saw(kStatus, bundle.status->time);
+  }
+}
+
+void ChannelMonitor::AddEstimate(Timestamp estimate_time) { Saw(kEstimate, estimate_time); }
+
+std::vector<ChannelHealth> ChannelMonitor::Health(Timestamp now) const {
+  std::vector<ChannelHealth> all;
+  for (const Watch& watch : watches_) {
+    ChannelHealth health;
+    health.name = watch.name;
+    health.expected_hz = watch.expected_hz;
+    health.count = watch.count;
+    health.lost = watch.lost;
+    health.rate_hz = watch.mean_period_s > 0 ? 1 / watch.mean_period_s : 0;
+    health.age_s = watch.count > 0 ? SecondsBetween(watch.last, now) : NAN;
+    if (watch.count > 0) {
+      const double period_s = 1 / watch.expected_hz;
+      // The bundle itself adds up to one camera period to the age of what it carries.
+      const double age_s = std::max(0.0, health.age_s);
+      health.state =
+          age_s > std::max(kLatePeriods * period_s, kLeastStaleAge_s) ? ChannelHealth::State::kStale
+          : age_s > std::max(kFreshPeriods * period_s, 0.25)          ? ChannelHealth::State::kLate
+                                                             : ChannelHealth::State::kFresh;
+    }
+    if (watch.name == "GPS" && gps_sigma_m_ > 0) {
+      char note[32];
+      std::snprintf(note, sizeof note, "± %.2f m", 3 * gps_sigma_m_);
+      health.note = note;
+    }
+    all.push_back(std::move(health));
+  }
+  return all;
+}
+
+}  // namespace palace

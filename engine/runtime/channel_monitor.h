@@ -1,0 +1,40 @@
+// Watches when each input last arrived, how often it should, and what was lost.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "engine/model/frame_bundle.h"
+#include "engine/model/snapshot.h"
+
+namespace palace {
+
+/// Fresh up to 2 expected periods, late up to 5, stale beyond 5 periods or 1 s, whichever is
+/// larger. Ages are measured between an input's own stamp and the bundle's time, both data time; a
+/// stamp that does not advance ages (a frozen sender looks stale).
+class ChannelMonitor {
+ public:
+  ChannelMonitor();
+  void Reset();
+  void Add(const FrameBundle& bundle);
+  /// The station's own position estimate is watched like an input.
+  void AddEstimate(Timestamp estimate_time);
+  std::vector<ChannelHealth> Health(Timestamp now) const;
+
+ private:
+  enum Channel { kLeft, kRight, kPose, kImu, kGps, kLaser, kStatus, kEstimate, kCount };
+  struct Watch {
+    std::string name;
+    double expected_hz = 0;
+    Timestamp last;
+    double mean_period_s = 0;
+    std::uint64_t count = 0;
+    std::uint64_t lost = 0;
+  };
+  void Saw(Channel channel, Timestamp stamp);
+
+  std::vector<Watch> watches_;
+  double gps_sigma_m_ = 0;
+};
+
+}  // namespace palace

@@ -1,0 +1,144 @@
+#include "engine/runtime/engine.h"
+
+#include <utility>
+
+#include "engine/core/log.h"
+
+namespace palace {
+
+Engine::Engine(EngineParts parts, bool threaded)
+    : source_(std::move(parts.source)),
+      link_(std::move(parts.link)),
+      pipeline_(parts.settings, std::move(parts.mission)),
+      record_wanted_(parts.sink != nullptr),
+      threaded_(threaded) {
+  PALACE_CHECK(source_ != nullptr);
+  if (parts.sink) {
+    recorder_ = std::make_unique<Recorder>(std::move(parts.sink), threaded);
+  }
+  if (link_ && threaded) {
+    abort_ = std::make_unique<AbortSender>(link_);
+  }
+}
+
+Engine::~Engine() { (void)Stop(); }
+
+void Engine::Start() {
+  PALACE_CHECK(threaded_);
+  engine_thread_ = std::jthread([this](std::stop_token stop) { RunEngine(stop); });
+  source_thread_ = std::jthread([this](std::stop_token stop) { RunSource(stop); });
+}
+
+Status Engine::Stop() {
+  if (source_thread_.joinable()) {
+    source_thread_.request_stop();
+    engine_thread_.request_stop();
+    source_thread_.join();
+    engine_thread_.join();
+  }
+  return recorder_ ? recorder_->Close() : Ok();
+}
+
+void Engine::Post(EngineCommand command) {
+  if (abort_ && std::holds_alternative<WaveOff>(command.action)) {
+    abort_->Trigger();
+  }
+  inbox_.Post(std::move(command));
+}
+
+void Engine::Control(const PlaybackControl& control) {
+  source_->Control(control);
+  const SourceStatus status = source_->Status();
+  inbox_.SetIdle(status.paused || status.ended);
+}
+
+bool Engine::Step() {
+  PALACE_CHECK(!threaded_);
+  Result<std::shared_ptr<const FrameBundle>> next = source_->Next({});
+  if (!next) {
+    Fail(next.error());
+    return false;
+  }
+  Handle({*next, inbox_.TakeCommands()});
+  return true;
+}
+
+void Engine::RunSource(std::stop_token stop) {
+  while (!stop.stop_requested()) {
+    Result<std::shared_ptr<const FrameBundle>> next = source_->Next(stop);
+    if (!next) {
+      if (!stop.stop_requested()) {
+        Fail(next.error());
+      }
+      return;
+    }
+    if (source_->IsLockstep()) {
+      inbox_.PutAndWait(std::move(*next), stop);
+    } else {
+      frames_dropped_ += inbox_.PutNewest(std::move(*next));
+    }
+  }
+}
+
+void Engine::RunEngine(std::stop_token stop) {
+  Inbox::Batch batch;
+  while (inbox_.Take(batch, stop)) {
+    Handle(std::exchange(batch, {}));
+    inbox_.Finished();
+  }
+}
+
+void Engine::Handle(Inbox::Batch batch) {
+  const SessionStatus session = Session();
+  if (!batch.bundle && !latest_.Load()) {
+    return;
+  }
+  RecordItem item;
+  item.bundle = batch.bundle;
+  PipelineOutput output = batch.bundle
+                              ? pipeline_.Process(batch.bundle, std::move(batch.commands), session)
+                              : pipeline_.Refresh(std::move(batch.commands), session);
+  if (link_) {
+    for (const VehicleMessage& message : output.messages) {
+      link_->Send(message);
+    }
+  }
+  latest_.Store(output.snapshot);
+  if (recorder_) {
+    item.commands = std::move(output.commands);
+    item.snapshot = output.snapshot;
+    item.sent = std::move(output.messages);
+    recorder_->Record(std::move(item), source_->IsLockstep());
+  }
+}
+
+SessionStatus Engine::Session() const {
+  SessionStatus session;
+  session.source = source_->Status();
+  session.can_transmit = link_ != nullptr;
+  session.recording = recorder_ && recorder_->ok();
+  session.recorder_ok = !record_wanted_ || session.recording;
+  if (recorder_) {
+    session.recording_path = recorder_->path();
+    session.recording_minutes_left = recorder_->MinutesLeft();
+  }
+  return session;
+}
+
+void Engine::Fail(const Error& error) {
+  ended_ = true;
+  inbox_.SetIdle(true);
+  if (error.code == ErrorCode::kEnd) {
+    return;
+  }
+  const std::lock_guard lock(error_mutex_);
+  error_ = error.message;
+  LogError(error.message);
+}
+
+std::string Engine::error() const {
+  const std::lock_guard lock(error_mutex_);
+  return error_;
+}
+
+}  // namespace palace

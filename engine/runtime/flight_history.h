@@ -1,0 +1,25 @@
+// The descent history: one sample a frame, for plots and reports.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "engine/model/snapshot.h"
+
+namespace palace {
+
+/// Keeps the newest samples. Copies on write, so that a published history never changes.
+class FlightHistory {
+ public:
+  void Reset() { samples_.clear(); }
+  void Add(const HistorySample& sample);
+  std::shared_ptr<const std::vector<HistorySample>> Publish() const;
+
+ private:
+  std::vector<HistorySample> samples_;
+};
+
+/// The history sample of a snapshot that is complete but for its history.
+HistorySample SampleOf(const EngineSnapshot& snapshot, const FrameBundle& bundle);
+
+}  // namespace palace

@@ -1,0 +1,397 @@
+#include "engine/runtime/pipeline.h"
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <utility>
+
+#include "engine/core/hash.h"
+#include "engine/core/time.h"
+#include "engine/runtime/decision_hash.h"
+
+namespace palace {
+namespace {
+
+constexpr double kTallestObject_m = 3;
+
+bool IsSettingCommand(const EngineCommand& command) {
+  return std::holds_alternative<SetSetting>(command.action) ||
+         std::holds_alternative<ApplySettings>(command.action) ||
+         std::holds_alternative<DiscardSettings>(command.action);
+}
+
+}  // namespace
+
+/// One pass: the snapshot under construction and what only this pass needs.
+struct Pipeline::Pass {
+  std::shared_ptr<const FrameBundle> bundle;
+  std::vector<EngineCommand> commands;
+  const SessionStatus& session;
+  std::shared_ptr<EngineSnapshot> snapshot = std::make_shared<EngineSnapshot>();
+  RectifiedPair pair;
+  std::shared_ptr<const TerrainDecision> decision_of_record;
+  bool new_map = false;
+  bool settings_moved = false;
+
+  void Note(DiagnosticLevel level, std::string stage, std::string message) {
+    snapshot->diagnostics.push_back({level, std::move(stage), std::move(message)});
+  }
+  /// Runs one stage; a library's exception becomes a stage fault, never a crash. Times it.
+  template <typename Stage>
+  void Run(const char* name, Stage&& stage) {
+    const double start_s = MonotonicSeconds();
+    try {
+      stage();
+    } catch (const std::exception& error) {
+      Note(DiagnosticLevel::kError, name, std::string("stage failed: ") + error.what());
+    }
+    snapshot->timings.push_back({name, (MonotonicSeconds() - start_s) * 1e3});
+  }
+};
+
+Pipeline::Pipeline(const Settings& settings, MissionOptions mission)
+    : settings_(settings), mission_(std::move(mission)) {}
+
+void Pipeline::StartAfterJump() {
+  terrain_.Reset();
+  tracker_.Reset();
+  tracked_site_ = 0;
+  navigator_.Reset();
+  channels_.Reset();
+  history_.Reset();
+  laser_height_m_.reset();
+  stereo_frames_ = 0;
+  last_.reset();
+}
+
+PipelineOutput Pipeline::Process(std::shared_ptr<const FrameBundle> bundle,
+                                 std::vector<EngineCommand> commands,
+                                 const SessionStatus& session) {
+  Pass pass{bundle, std::move(commands), session};
+  replaying_ = session.source.kind == SourceKind::kReplay;
+  if (bundle->discontinuity) {
+    StartAfterJump();
+  }
+  if (last_) {
+    // What this pass does not renew stays as it was.
+    pass.snapshot->applied = last_->applied;
+    pass.snapshot->preview = last_->preview;
+    pass.snapshot->recorded = last_->recorded;
+    pass.snapshot->range = last_->range;
+    pass.snapshot->stereo_quality = last_->stereo_quality;
+    pass.snapshot->tracker = last_->tracker;
+    pass.snapshot->pose = last_->pose;
+    pass.snapshot->vehicle = last_->vehicle;
+    pass.snapshot->laser = last_->laser;
+    pass.snapshot->truth = last_->truth;
+    pass.snapshot->frame = last_->frame;
+    pass.snapshot->left_rectified = last_->left_rectified;
+    pass.snapshot->right_rectified = last_->right_rectified;
+    pass.snapshot->X_WC = last_->X_WC;
+  }
+  pass.snapshot->time = bundle->time;
+  ApplyCommands(pass);
+  PrepareRig(pass);
+  See(pass);
+  pass.Run("stereo", [&] { MeasureRange(pass); });
+  pass.Run("slad", [&] { Judge(pass); });
+  pass.Run("track", [&] { Track(pass); });
+  pass.Run("mission", [&] { Decide(pass); });
+  last_bundle_ = std::move(bundle);
+  return Publish(pass);
+}
+
+PipelineOutput Pipeline::Refresh(std::vector<EngineCommand> commands,
+                                 const SessionStatus& session) {
+  Pass pass{last_bundle_, std::move(commands), session};
+  replaying_ = session.source.kind == SourceKind::kReplay;
+  if (last_) {
+    *pass.snapshot = *last_;
+    pass.snapshot->diagnostics.clear();
+    pass.snapshot->timings.clear();
+  }
+  ApplyCommands(pass);
+  if (pass.settings_moved && terrain_.has_map()) {
+    pass.Run("slad", [&] { Judge(pass); });
+  }
+  pass.snapshot->mission = mission_.status();
+  return Publish(pass);
+}
+
+void Pipeline::ApplySettingCommand(Pass& pass, const EngineCommand& command) {
+  const bool of_record = command.origin == CommandOrigin::kReplay;
+  const bool preview_only = mission_.SettingsFrozen() && (!replaying_ || of_record);
+  Status done = Ok();
+  std::string text;
+  if (const auto* set = std::get_if<SetSetting>(&command.action)) {
+    const SettingInfo* info = FindSetting(set->name);
+    const double before = info ? GetSetting(settings_.applied(), set->name) : 0;
+    done = of_record ? settings_.SetRecorded(set->name, set->value, preview_only)
+                     : settings_.Set(set->name, set->value, preview_only);
+    if (done) {
+      text = info->label + (preview_only ? " previewed " : " ") + FormatSetting(*info, before) +
+             " to " + FormatSetting(*info, set->value);
+    }
+  } else if (std::holds_alternative<ApplySettings>(command.action)) {
+    if (mission_.status().state == MissionState::kDescending) {
+      done = InvalidError("limits cannot be applied during the descent, only previewed");
+    } else if (of_record || settings_.previewing()) {
+      mission_.DropApproval("limits applied");
+      of_record ? settings_.ApplyRecorded() : settings_.Apply();
+      text = "Previewed limits applied";
+    }
+  } else {
+    of_record ? settings_.DiscardRecorded() : settings_.Discard();
+    text = "Preview discarded";
+  }
+  if (!done) {
+    pass.Note(DiagnosticLevel::kWarning, "settings", done.error().message);
+    mission_.AddEvent(pass.snapshot->time, EventKind::kSetting, "Refused: " + done.error().message);
+    return;
+  }
+  if (!replaying_) {
+    settings_.FollowApplied();
+  }
+  pass.settings_moved = true;
+  if (!text.empty()) {
+    mission_.AddEvent(pass.snapshot->time, EventKind::kSetting, std::move(text));
+  }
+}
+
+void Pipeline::ApplyCommands(Pass& pass) {
+  if (replaying_ && pass.bundle && pass.bundle != last_bundle_) {
+    auto& recorded = pass.bundle->recorded_commands;
+    pass.commands.insert(pass.commands.begin(), recorded.begin(), recorded.end());
+  }
+  const Timestamp before = last_ ? last_->time : pass.snapshot->time;
+  for (const EngineCommand& command : pass.commands) {
+    if (IsSettingCommand(command)) {
+      ApplySettingCommand(pass, command);
+      continue;
+    }
+    const Status done = mission_.Apply(command, before);
+    if (!done) {
+      pass.Note(DiagnosticLevel::kWarning, "mission", done.error().message);
+    }
+  }
+}
+
+void Pipeline::PrepareRig(Pass& pass) {
+  const auto& rig = pass.bundle->rig;
+  if (rig && rig != rig_) {
+    const std::uint64_t hash = HashOf(*rig);
+    if (!rig_ || hash != calibration_hash_) {
+      Result<StereoRectifier> made = StereoRectifier::Make(*rig);
+      rig_problem_ = made ? std::string() : made.error().message;
+      rectifier_.reset();
+      if (made) {
+        rectifier_.emplace(std::move(*made));
+      }
+      calibration_hash_ = hash;
+    }
+    rig_ = rig;
+  }
+  pass.snapshot->rig = rig_;
+  if (!rig_problem_.empty()) {
+    pass.Note(DiagnosticLevel::kError, "camera", rig_problem_);
+  }
+}
+
+void Pipeline::See(Pass& pass) {
+  const FrameBundle& bundle = *pass.bundle;
+  EngineSnapshot& snapshot = *pass.snapshot;
+  channels_.Add(bundle);
+  navigator_.AddSensors(bundle);
+  if (bundle.pose_at_exposure) {
+    snapshot.pose = bundle.pose_at_exposure;
+  } else if (!bundle.poses.empty()) {
+    snapshot.pose = bundle.poses.back();
+  }
+  if (bundle.status) {
+    snapshot.vehicle = bundle.status;
+  }
+  if (!bundle.laser.empty()) {
+    snapshot.laser = bundle.laser.back();
+  }
+  if (!bundle.truth.empty()) {
+    snapshot.truth = bundle.truth.back();
+  }
+  if (!bundle.stereo || !rectifier_) {
+    return;
+  }
+  snapshot.frame = bundle.stereo;
+  RigidTransform X_BC = rig_->X_BC();
+  X_BC.R = X_BC.R * rectifier_->R_C_Rect();
+  snapshot.X_WC = navigator_.PredictBodyPose(bundle.stereo->time) * X_BC;
+  if (snapshot.laser && std::isfinite(snapshot.laser->range_m)) {
+    const Eigen::Vector3d spot = snapshot.X_WC.p + snapshot.X_WC.R.col(2) * snapshot.laser->range_m;
+    laser_height_m_ = HeightFromDown(spot.z());
+  }
+  pass.Run("rectify", [&] {
+    Result<RectifiedPair> pair = rectifier_->Rectify(*bundle.stereo);
+    if (!pair) {
+      pass.Note(DiagnosticLevel::kError, "camera", pair.error().message);
+      return;
+    }
+    pass.pair = *pair;
+    snapshot.left_rectified = pair->left;
+    snapshot.right_rectified = pair->right;
+  });
+}
+
+double Pipeline::GroundHeight() const {
+  const auto& armed = mission_.status().armed;
+  if (armed) {
+    return HeightFromDown(armed->p_WS.z());
+  }
+  if (laser_height_m_) {
+    return *laser_height_m_;
+  }
+  return 0;
+}
+
+void Pipeline::MeasureRange(Pass& pass) {
+  if (!pass.pair.left || !pass.pair.right) {
+    return;
+  }
+  const Settings& settings = settings_.recorded();
+  const auto& mission = mission_.status();
+  const bool committed = mission.state == MissionState::kDescending &&
+                         mission.height_above_site_m < settings.slad.commit_height_m;
+  const bool due =
+      stereo_frames_++ % static_cast<std::uint64_t>(settings.stereo.map_every_frames) == 0;
+  if (committed || !due || mission.state == MissionState::kLanded) {
+    return;
+  }
+  DisparityWindow window;
+  if (rig_->num_disparities > 0) {
+    window = {rig_->min_disparity_px, rig_->num_disparities};
+  } else {
+    window = PredictWindow(rectifier_->camera(), rectifier_->baseline_m(), pass.snapshot->X_WC,
+                           GroundHeight(), kTallestObject_m, settings.stereo);
+  }
+  Result<StereoResult> result =
+      matcher_.Match(*pass.pair.left, *pass.pair.right, rectifier_->camera(),
+                     rectifier_->baseline_m(), window, settings.stereo, pass.bundle->stereo->time);
+  if (!result) {
+    pass.Note(DiagnosticLevel::kError, "stereo", result.error().message);
+    return;
+  }
+  pass.snapshot->stereo_quality = result->quality;
+  auto range = std::make_shared<const RangeMap>(std::move(result->range));
+  pass.snapshot->range = range;
+  terrain_.Add({range, pass.snapshot->X_WC, navigator_.PredictBodyPose(range->time).p},
+               settings.slad);
+  pass.new_map = true;
+}
+
+void Pipeline::Judge(Pass& pass) {
+  EngineSnapshot& snapshot = *pass.snapshot;
+  if (!terrain_.has_map() || (!pass.new_map && !pass.settings_moved)) {
+    pass.decision_of_record = snapshot.recorded ? snapshot.recorded : snapshot.applied;
+    return;
+  }
+  // Letters follow the limits of record; a preview or a re-decision uses a copy of them.
+  pass.decision_of_record = terrain_.Evaluate(settings_.recorded(), pass.new_map);
+  snapshot.applied = settings_.redecided() ? terrain_.Evaluate(settings_.applied(), false)
+                                           : pass.decision_of_record;
+  snapshot.recorded = settings_.redecided() ? pass.decision_of_record : nullptr;
+  snapshot.preview =
+      settings_.previewing() ? terrain_.Evaluate(settings_.preview(), false) : nullptr;
+}
+
+void Pipeline::Track(Pass& pass) {
+  EngineSnapshot& snapshot = *pass.snapshot;
+  const auto& armed = mission_.status().armed;
+  const TrackingSettings& tracking = settings_.recorded().tracking;
+  navigator_.AllowVision(mission_.VisionAllowed());
+  if (!mission_.WantsTracking() || !armed) {
+    if (tracked_site_ != 0) {
+      tracker_.Reset();
+      navigator_.StopVision();
+      tracked_site_ = 0;
+    }
+    snapshot.tracker = TrackerStatus{};
+  } else if (pass.pair.left) {
+    const Timestamp exposure = pass.bundle->stereo->time;
+    const RangeMap* range = pass.new_map ? snapshot.range.get() : nullptr;
+    if (tracked_site_ != armed->id) {
+      tracker_.Reset();
+      tracker_.Lock(*pass.pair.left, rectifier_->camera(), snapshot.X_WC, range, *armed, tracking,
+                    exposure);
+      navigator_.StartVision(*armed, exposure);
+      tracked_site_ = armed->id;
+    }
+    const TrackResult result = tracker_.Track(*pass.pair.left, rectifier_->camera(), snapshot.X_WC,
+                                              range, tracking, exposure);
+    snapshot.tracker = result.status;
+    navigator_.AddVision(result, rectifier_->camera(), *rig_, *pass.bundle, tracking);
+    RigidTransform X_BC = rig_->X_BC();
+    X_BC.R = X_BC.R * rectifier_->R_C_Rect();
+    snapshot.X_WC = navigator_.PredictBodyPose(exposure) * X_BC;
+  }
+  snapshot.navigation = navigator_.status();
+}
+
+void Pipeline::Decide(Pass& pass) {
+  EngineSnapshot& snapshot = *pass.snapshot;
+  PositionEstimate estimate = navigator_.EstimateInForce(pass.bundle->time);
+  if (estimate.source != EstimateSource::kNone) {
+    channels_.AddEstimate(estimate.time);
+  }
+  snapshot.channels = channels_.Health(pass.bundle->time);
+  const Eigen::Matrix3d R_WB = snapshot.pose ? snapshot.pose->X_WB.R : Eigen::Matrix3d::Identity();
+  std::optional<LandingSite> rechecked;
+  std::string objection;
+  const auto& armed = mission_.status().armed;
+  if (armed && pass.decision_of_record && pass.new_map) {
+    rechecked = terrain_.Recheck(*pass.decision_of_record, *armed);
+    objection = SiteObjection(rechecked, settings_.recorded().slad);
+  }
+  const bool simulated = snapshot.vehicle && snapshot.vehicle->simulated;
+  const Settings& in_force = settings_.recorded();
+  mission_.Update({pass.bundle->time, pass.session.source.kind, pass.session.can_transmit,
+                   pass.session.recorder_ok, simulated, *pass.bundle, snapshot.channels,
+                   pass.decision_of_record.get(), pass.new_map, snapshot.navigation,
+                   snapshot.tracker, rechecked, objection, in_force, HashOf(in_force),
+                   calibration_hash_, sequence_, estimate.p_WB,
+                   estimate.p_WB + R_WB * SkidCentreBody()});
+  snapshot.mission = mission_.status();
+}
+
+PipelineOutput Pipeline::Publish(Pass& pass) {
+  EngineSnapshot& snapshot = *pass.snapshot;
+  snapshot.sequence = ++sequence_;
+  snapshot.source = pass.session.source;
+  snapshot.can_transmit = pass.session.can_transmit;
+  snapshot.recording = pass.session.recording;
+  snapshot.recording_path = pass.session.recording_path;
+  snapshot.recording_minutes_left = pass.session.recording_minutes_left;
+  snapshot.settings = settings_.applied();
+  snapshot.preview_settings = settings_.preview();
+  snapshot.settings_hash = HashOf(snapshot.settings);
+  snapshot.preview_hash = HashOf(snapshot.preview_settings);
+  snapshot.events = std::make_shared<const std::vector<Event>>(mission_.events());
+  const bool new_time = !last_ || last_->time != snapshot.time;
+  if (new_time && pass.bundle) {
+    history_.Add(SampleOf(snapshot, *pass.bundle));
+  }
+  snapshot.history = history_.Publish();
+  snapshot.decision_hash = DecisionHash(snapshot);
+
+  PipelineOutput output;
+  output.commands = std::move(pass.commands);
+  output.messages = mission_.TakeMessages();
+  if (new_time && pass.bundle) {
+    PositionEstimate estimate = navigator_.EstimateInForce(snapshot.time);
+    if (estimate.source != EstimateSource::kNone) {
+      estimate.approval_id = mission_.status().approval ? mission_.status().approval->id : 0;
+      output.messages.emplace_back(estimate);
+    }
+  }
+  last_ = pass.snapshot;
+  output.snapshot = std::move(pass.snapshot);
+  return output;
+}
+
+}  // namespace palace

@@ -1,0 +1,86 @@
+// Pipeline: one bundle in, one snapshot out. The whole engine as a plain function with memory:
+// no threads, no clocks, no files, so that a log replays to the bit.
+//
+//   rectify -> disparity -> range map -> fuse elevation -> hazard maps -> cost -> safe distance ->
+//   sites -> track -> monocular position -> filter -> mission state
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/camera/rectification.h"
+#include "engine/mission/mission.h"
+#include "engine/model/snapshot.h"
+#include "engine/navigation/navigator.h"
+#include "engine/runtime/channel_monitor.h"
+#include "engine/runtime/flight_history.h"
+#include "engine/runtime/settings_state.h"
+#include "engine/runtime/terrain_stage.h"
+#include "engine/stereo/stereo.h"
+#include "engine/tracking/site_tracker.h"
+
+namespace palace {
+
+/// Facts about the session that only the outside knows.
+struct SessionStatus {
+  SourceStatus source;
+  bool can_transmit = false;
+  bool recording = false;
+  bool recorder_ok = true;  ///< recording as asked, or not asked to record
+  std::string recording_path;
+  double recording_minutes_left = 0;
+};
+
+struct PipelineOutput {
+  std::shared_ptr<const EngineSnapshot> snapshot;
+  std::vector<VehicleMessage> messages;
+  std::vector<EngineCommand> commands;  ///< applied in this pass, accepted or not, in order
+};
+
+class Pipeline {
+ public:
+  Pipeline(const Settings& settings, MissionOptions mission);
+
+  PipelineOutput Process(std::shared_ptr<const FrameBundle> bundle,
+                         std::vector<EngineCommand> commands, const SessionStatus& session);
+  /// Applies commands while time stands still (paused, ended): re-judges the newest map.
+  PipelineOutput Refresh(std::vector<EngineCommand> commands, const SessionStatus& session);
+
+ private:
+  struct Pass;  // what one call works on
+  void StartAfterJump();
+  void ApplyCommands(Pass& pass);
+  void ApplySettingCommand(Pass& pass, const EngineCommand& command);
+  void PrepareRig(Pass& pass);
+  void See(Pass& pass);
+  void MeasureRange(Pass& pass);
+  void Judge(Pass& pass);
+  void Track(Pass& pass);
+  void Decide(Pass& pass);
+  PipelineOutput Publish(Pass& pass);
+  double GroundHeight() const;
+
+  bool replaying_ = false;
+  SettingsState settings_;
+  Mission mission_;
+  std::optional<StereoRectifier> rectifier_;
+  std::shared_ptr<const StereoRig> rig_;
+  std::uint64_t calibration_hash_ = 0;
+  std::string rig_problem_;
+  StereoMatcher matcher_;
+  TerrainStage terrain_;
+  SiteTracker tracker_;
+  std::uint64_t tracked_site_ = 0;
+  Navigator navigator_;
+  ChannelMonitor channels_;
+  FlightHistory history_;
+  std::optional<double> laser_height_m_;  // of the laser's spot in W
+  std::uint64_t stereo_frames_ = 0;
+  std::uint64_t sequence_ = 0;
+  std::shared_ptr<const FrameBundle> last_bundle_;
+  std::shared_ptr<const EngineSnapshot> last_;
+};
+
+}  // namespace palace

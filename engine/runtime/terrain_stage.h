@@ -1,0 +1,51 @@
+// From a range map to decisions: fuse, judge, choose. Evaluates the limits in force, and beside
+// them the previewed or recorded ones when they differ.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "engine/model/snapshot.h"
+#include "engine/slad/fusion.h"
+#include "engine/slad/site_registry.h"
+#include "engine/slad/site_selection.h"
+
+namespace palace {
+
+/// What the maps are made from, for one frame.
+struct TerrainInput {
+  std::shared_ptr<const RangeMap> range;
+  RigidTransform X_WC;
+  Eigen::Vector3d p_WB = Eigen::Vector3d::Zero();
+};
+
+class TerrainStage {
+ public:
+  void Reset();
+  /// Fuses a new range map. Evaluate then judges it.
+  void Add(const TerrainInput& input, const SladSettings& settings);
+  bool has_map() const { return elevation_ != nullptr; }
+  const std::shared_ptr<const ElevationMap>& elevation() const { return elevation_; }
+
+  /// Judges the newest elevation map under the given settings. `keep_letters` false uses a copy of
+  /// the letters, so that a preview never changes them.
+  std::shared_ptr<const TerrainDecision> Evaluate(const Settings& settings, bool keep_letters);
+  /// The same place on a newer decision; empty when it lies outside that map.
+  std::optional<LandingSite> Recheck(const TerrainDecision& decision,
+                                     const LandingSite& site) const;
+
+ private:
+  SiteContext Context() const;
+
+  TerrainFusion fusion_;
+  SiteRegistry registry_;
+  TerrainInput input_;
+  std::shared_ptr<const ElevationMap> elevation_;
+};
+
+/// Why the rechecked site no longer holds, in words; empty when it holds.
+std::string SiteObjection(const std::optional<LandingSite>& site, const SladSettings& settings);
+
+}  // namespace palace

@@ -1,0 +1,143 @@
+#include "gui/app/keys.h"
+
+#include <algorithm>
+#include <functional>
+
+namespace palace {
+namespace {
+
+constexpr double kSmallStep_s = 0.1;
+constexpr double kLargeStep_s = 1;
+constexpr double kScaleStep = 0.25;
+constexpr double kMinSpeed = 0.05;
+constexpr double kMaxSpeed = 20;
+
+struct Context {
+  const EngineSnapshot* snapshot;
+  const UiState& state;
+};
+struct Row {
+  KeyBinding binding;
+  std::function<Intents(const Context&)> intents;
+};
+
+Intents Play(PlaybackControl::Kind kind, double value = 0) {
+  return {PlaybackControl{kind, value}};
+}
+Intents Ui(UiAction action) { return {std::move(action)}; }
+
+/// Arrow keys pause first, then move.
+Intents SeekBy(const Context& c, double seconds) {
+  if (!c.snapshot || !c.snapshot->source.can_seek) {
+    return {};
+  }
+  const double to = std::max(0.0, c.snapshot->source.position_s + seconds);
+  return {PlaybackControl{PlaybackControl::Kind::kPause, 0},
+          PlaybackControl{PlaybackControl::Kind::kSeek, to}};
+}
+
+Intents ScaleSpeed(const Context& c, double factor) {
+  if (!c.snapshot) {
+    return {};
+  }
+  const double speed = c.snapshot->source.speed;
+  return Play(PlaybackControl::Kind::kSpeed,
+              std::clamp((speed > 0 ? speed : 1) * factor, kMinSpeed, kMaxSpeed));
+}
+
+Intents PlayOrPause(const Context& c) {
+  if (!c.snapshot) {
+    return {};
+  }
+  return Play(c.snapshot->source.paused ? PlaybackControl::Kind::kPlay
+                                        : PlaybackControl::Kind::kPause);
+}
+
+std::vector<Row> MakeRows() {
+  using K = PlaybackControl::Kind;
+  const auto always = [](Intents intents) { return [intents](const Context&) { return intents; }; };
+  return {
+      {{"Shift+Escape", "Wave off", false, true}, always({CommandAction(WaveOff{})})},
+      {{"F2", "Show Fly"}, always(Ui(ShowWorkspace{Workspace::kFly}))},
+      {{"F3", "Show Tune"}, always(Ui(ShowWorkspace{Workspace::kTune}))},
+      {{"F4", "Show Review"}, always(Ui(ShowWorkspace{Workspace::kReview}))},
+      {{"F5", "Show Diagnose"}, always(Ui(ShowWorkspace{Workspace::kDiagnose}))},
+      {{"F1", "Show or close this list", false, true},
+       [](const Context& c) { return Ui(ShowKeyHelp{!c.state.key_help}); }},
+      {{"Escape", "Close a popup, cancel a hold", false, true},
+       [](const Context& c) { return c.state.key_help ? Ui(ShowKeyHelp{false}) : Intents{}; }},
+      {{"Space", "Play or pause"}, PlayOrPause},
+      {{"Left", "Step back 0.1 s", true},
+       [](const Context& c) { return SeekBy(c, -kSmallStep_s); }},
+      {{"Right", "Step forward 0.1 s", true},
+       [](const Context& c) { return SeekBy(c, kSmallStep_s); }},
+      {{"Shift+Left", "Step back 1 s", true},
+       [](const Context& c) { return SeekBy(c, -kLargeStep_s); }},
+      {{"Shift+Right", "Step forward 1 s", true},
+       [](const Context& c) { return SeekBy(c, kLargeStep_s); }},
+      {{"Ctrl+Left", "Previous frame", true}, always(Play(K::kStepBack))},
+      {{"Ctrl+Right", "Next frame", true}, always(Play(K::kStepForward))},
+      {{",", "Previous frame", true}, always(Play(K::kStepBack))},
+      {{".", "Next frame", true}, always(Play(K::kStepForward))},
+      {{"Home", "Go to the start"}, always(Play(K::kSeek, 0))},
+      {{"End", "Go to the end"},
+       [](const Context& c) {
+         return c.snapshot && c.snapshot->source.duration_s
+                    ? Play(K::kSeek, *c.snapshot->source.duration_s)
+                    : Intents{};
+       }},
+      {{"[", "Half speed", true}, [](const Context& c) { return ScaleSpeed(c, 0.5); }},
+      {{"]", "Double speed", true}, [](const Context& c) { return ScaleSpeed(c, 2); }},
+      {{"\\", "Normal speed"}, always(Play(K::kSpeed, 1))},
+      {{"B", "Bookmark now"}, always({CommandAction(AddBookmark{})})},
+      {{"Ctrl+Z", "Undo the last limit change", true}, always(Ui(UndoSetting{}))},
+      {{"Ctrl+Shift+Z", "Redo it", true}, always(Ui(RedoSetting{}))},
+      {{"Ctrl+Y", "Redo it", true}, always(Ui(RedoSetting{}))},
+      {{"Ctrl+S", "Save the preset"}, always(Ui(SavePreset{}))},
+      {{"F12", "Take a screenshot"}, always(Ui(TakeScreenshot{}))},
+      {{"Ctrl++", "Larger text", true},
+       [](const Context& c) { return Ui(SetUiScale{c.state.scale + kScaleStep}); }},
+      {{"Ctrl+-", "Smaller text", true},
+       [](const Context& c) { return Ui(SetUiScale{c.state.scale - kScaleStep}); }},
+      {{"Ctrl+0", "Normal text size"}, always(Ui(SetUiScale{1}))},
+      {{"Ctrl+Q", "Quit"}, always(Ui(QuitProgram{}))},
+  };
+}
+
+const std::vector<Row>& Rows() {
+  static const std::vector<Row> rows = MakeRows();
+  return rows;
+}
+
+}  // namespace
+
+const std::vector<KeyBinding>& KeyTable() {
+  static const std::vector<KeyBinding> table = [] {
+    std::vector<KeyBinding> bindings;
+    for (const Row& row : Rows()) {
+      bindings.push_back(row.binding);
+    }
+    // Bound by the panels themselves, because they need the focus there.
+    bindings.push_back({"Tab", "Highlight the next site"});
+    bindings.push_back({"Shift+Tab", "Highlight the previous site"});
+    bindings.push_back({"Enter", "Arm the highlighted site; held: approve the armed one"});
+    return bindings;
+  }();
+  return table;
+}
+
+Intents IntentsOfKey(std::string_view keys, const EngineSnapshot* snapshot, const UiState& state,
+                     bool text_field_active) {
+  const auto row = std::find_if(Rows().begin(), Rows().end(),
+                                [&](const Row& r) { return r.binding.keys == keys; });
+  if (row == Rows().end()) {
+    return {};
+  }
+  const bool is_wave_off = row->binding.keys == "Shift+Escape";
+  if ((text_field_active && !is_wave_off) || (state.key_help && !row->binding.works_in_popup)) {
+    return {};
+  }
+  return row->intents({snapshot, state});
+}
+
+}  // namespace palace
