@@ -1,0 +1,26 @@
+// Button: 32 units high (24 in strips), outlined. Recorded by name so that scripts can click it.
+#pragma once
+
+#include <string_view>
+
+#include "gui/widgets/draw.h"
+
+namespace palace {
+
+struct ButtonLook {
+  ImFont* font = nullptr;     ///< null: body
+  bool enabled = true;        ///< disabled: quiet line, text 3, never fires
+  bool active = false;        ///< a switch that is on: white fill
+  bool focused = false;       ///< keyboard focus ring
+  bool flat = false;          ///< no fill of its own (strips)
+  std::string_view sub{};     ///< second line in caption, "then site B"
+  std::string_view reason{};  ///< why it is disabled, shown as tooltip
+};
+
+/// True in the frame in which the button is released after being pressed on it.
+bool DrawButton(UiFrame& ui, std::string_view name, const Rect& rect, std::string_view label,
+                const ButtonLook& look = {});
+/// Small box with one line beside the pointer; keeps out of the WAVE OFF rectangle.
+void DrawTooltip(UiFrame& ui, std::string_view text);
+
+}  // namespace palace

@@ -1,0 +1,88 @@
+#include "gui/widgets/evidence_row.h"
+
+namespace palace {
+
+namespace {
+
+struct Metrics {
+  float bar, wall, value_right, limit_right;
+};
+
+Metrics MetricsOf(const Style& s, bool narrow) {
+  return narrow ? Metrics{s.Px(64), s.Px(52), s.Px(168), s.Px(88)}
+                : Metrics{s.Px(104), s.Px(86), s.Px(212), s.Px(128)};
+}
+
+void DrawBar(UiFrame& ui, const Rect& track, float wall, const EvidenceRow& row) {
+  const Style& s = ui.style;
+  ImDrawList* dl = Canvas();
+  FillRect(dl, track, s.palette.hover, s.Fine(1));
+  if (!std::isfinite(row.share)) {
+    return;
+  }
+  const float end = std::clamp(static_cast<float>(row.share) * wall, 0.0f, track.w);
+  const Rect bar{track.x, track.y, std::max(end, s.Px(1)), track.h};
+  if (row.share > 1) {
+    FillRect(dl, bar, s.palette.unsafe, s.Fine(1));
+    Hatch(dl, bar, s.palette.window, s.Fine(2), s.Fine(6));
+  } else {
+    FillRect(dl, bar, s.palette.bar, s.Fine(1));
+  }
+  if (std::isfinite(row.share_3s) && row.share_3s > 0) {
+    const float spread = static_cast<float>(row.share_3s) * wall;
+    const float from = track.x + std::clamp(end - spread, 0.0f, track.w);
+    const float to = track.x + std::clamp(end + spread, 0.0f, track.w);
+    const float y = track.centre().y;
+    const float cap = s.Fine(4);
+    dl->AddLine({from, y}, {to, y}, s.palette.white_mark, s.Fine(1.3f));
+    dl->AddLine({from, y - cap}, {from, y + cap}, s.palette.white_mark, s.Fine(1.3f));
+    dl->AddLine({to, y - cap}, {to, y + cap}, s.palette.white_mark, s.Fine(1.3f));
+  }
+}
+
+}  // namespace
+
+int DrawEvidenceRows(UiFrame& ui, const Rect& rect, const std::vector<EvidenceRow>& rows,
+                     bool narrow) {
+  const Style& s = ui.style;
+  const Palette& p = s.palette;
+  const Metrics m = MetricsOf(s, narrow);
+  const float height = EvidenceRowHeight(s, narrow);
+  int clicked = -1;
+  float y = rect.y;
+  for (std::size_t i = 0; i < rows.size(); ++i, y += height) {
+    const EvidenceRow& row = rows[i];
+    const Rect area{rect.x, y, rect.w, height};
+    if (Hovered(ui, area)) {
+      FillRect(Canvas(), area, p.control);
+    }
+    const float middle = y + height / 2;
+    DrawText(ui, s.body, p.text2, rect.x + s.Px(12), middle, row.name);
+    float right = rect.right() - m.value_right;
+    if (!row.spread.empty() && !narrow) {
+      right -= DrawText(ui, s.body, p.text2, right, middle, row.spread, Align::kRight) + s.Px(4);
+      DrawText(ui, s.medium, p.text1, right, middle, row.value, Align::kRight);
+    } else {
+      const bool degree = row.unit == "°" || row.unit.empty() || row.value == "––";
+      const std::string text = row.value == "––" ? row.value
+                               : degree          ? row.value + row.unit
+                                                 : row.value + " " + row.unit;
+      DrawText(ui, s.medium, p.text1, right, middle, text, Align::kRight);
+    }
+    DrawText(ui, s.caption, p.text3, rect.right() - m.limit_right, middle, row.limit,
+             Align::kRight);
+    const float bar_x = rect.right() - s.Px(12) - m.bar;
+    DrawBar(ui, {bar_x, std::round(middle - s.Px(8) / 2), m.bar, s.Px(8)}, m.wall, row);
+    ui.items.Add("evidence/" + row.name, area, true,
+                 row.name + " " + row.value + " " + row.spread + " " + row.limit);
+    clicked = Clicked(ui, area) ? static_cast<int>(i) : clicked;
+  }
+  if (!rows.empty()) {
+    const float wall_x = rect.right() - s.Px(12) - m.bar + m.wall;
+    FillRect(Canvas(), {wall_x - s.Px(1), rect.y + s.Px(2), s.Px(2), y - rect.y - s.Px(4)},
+             p.white_mark);
+  }
+  return clicked;
+}
+
+}  // namespace palace

@@ -1,0 +1,58 @@
+#include "gui/widgets/number_text.h"
+
+#include <cmath>
+#include <cstdio>
+
+namespace palace {
+
+std::string Fixed(double value, int decimals) {
+  if (!std::isfinite(value)) {
+    return "––";
+  }
+  char digits[64];
+  std::snprintf(digits, sizeof digits, "%.*f", decimals, std::abs(value));
+  std::string text = digits;
+  const bool zero = text.find_first_not_of("0.") == std::string::npos;
+  const std::size_t point = text.find('.');
+  const std::size_t whole = point == std::string::npos ? text.size() : point;
+  for (std::size_t at = whole; at > 3; at -= 3) {
+    text.insert(at - 3, " ");
+  }
+  return value < 0 && !zero ? "−" + text : text;
+}
+
+std::string Duration(double seconds) {
+  if (!std::isfinite(seconds)) {
+    return "––";
+  }
+  if (std::abs(seconds) < 10) {
+    return Fixed(seconds, 1) + " s";
+  }
+  return std::abs(seconds) < 600 ? Fixed(seconds, 0) + " s" : Fixed(seconds / 60, 0) + " min";
+}
+
+std::string ClockText(Timestamp time) {
+  return LengthText(std::fmod(static_cast<double>(time.us / 1'000'000), 86400.0));
+}
+
+std::string LengthText(double seconds) {
+  const long total = std::isfinite(seconds) && seconds > 0 ? static_cast<long>(seconds) : 0;
+  char text[48];
+  std::snprintf(text, sizeof text, "%02ld:%02ld:%02ld", total / 3600, total / 60 % 60, total % 60);
+  return text;
+}
+
+std::string AgeText(double age_s) {
+  if (!std::isfinite(age_s)) {
+    return "never";
+  }
+  return age_s < 0.25 ? Fixed(age_s * 1000, 0) + " ms" : Fixed(age_s, 1) + " s";
+}
+
+std::string ShortHash(std::uint64_t hash) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%06llx", static_cast<unsigned long long>(hash & 0xFFFFFFu));
+  return text;
+}
+
+}  // namespace palace

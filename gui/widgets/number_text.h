@@ -1,0 +1,23 @@
+// Numbers as the screen shows them: true minus, groups of three, unknown as two dashes.
+#pragma once
+
+#include <string>
+
+#include "engine/core/time.h"
+
+namespace palace {
+
+/// "−1 234.5"; not finite: "––". A value that rounds to zero carries no sign.
+std::string Fixed(double value, int decimals);
+/// "0.3 s", "12 s", "3 min".
+std::string Duration(double seconds);
+/// "14:32:07" of a data stamp, UTC.
+std::string ClockText(Timestamp time);
+/// "00:04:12".
+std::string LengthText(double seconds);
+/// Ages under a second as "24 ms", above as "1.8 s"; not finite: "never".
+std::string AgeText(double age_s);
+/// First six hex digits of a hash.
+std::string ShortHash(std::uint64_t hash);
+
+}  // namespace palace
