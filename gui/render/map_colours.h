@@ -15,7 +15,7 @@ enum class ColourMap : std::uint8_t { kViridis, kCividis, kMagma, kInferno, kSaf
 using ColourTable = std::array<Rgba8, 256>;
 
 /// 256 entries, low to high. Viridis, magma, inferno: S. van der Walt and N. Smith 2015; cividis:
-/// Nunez, Anderton, Renslow 2018. Interpolated from a few stops each, within 3 of 255 of the
+/// Nunez, Anderton, Renslow 2018. Interpolated from a few stops each, within 6 of 255 of the
 /// published tables. Safe distance: six even stops, dark is far from hazard.
 const ColourTable& TableOf(ColourMap map);
 

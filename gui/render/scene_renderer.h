@@ -9,6 +9,13 @@
 
 namespace palace {
 
+/// How a scene is shown. Tests of geometry ask for plain black ground.
+struct SceneLook {
+  float ground_grey = 0.42F;  ///< albedo
+  float contrast = 1;         ///< of all grain; 0 plain
+  bool shadows = true;
+};
+
 /// Exact projection: x_px = fx X/Z + cx with pixel (0,0) the centre of the top-left pixel. The
 /// ground's texture is computed per pixel from the pixel's own ray, so that left and right pictures
 /// of one place agree to float precision; it carries contrast from 1 mm to 5 m wavelengths, so that
@@ -22,7 +29,8 @@ namespace palace {
 class SceneRenderer final : public SceneCamera {
  public:
   /// Compiles shaders and makes the textures of scene.texture_seed.
-  static Result<std::unique_ptr<SceneRenderer>> Create(const Scene& scene);
+  static Result<std::unique_ptr<SceneRenderer>> Create(const Scene& scene,
+                                                       const SceneLook& look = {});
   ~SceneRenderer() override;
 
   Result<ImageU8> Render(const PinholeCamera& camera, const RigidTransform& X_WC) override;

@@ -1,0 +1,53 @@
+#include "gui/platform/offscreen_scene_camera.h"
+
+#include <utility>
+
+#include "gui/platform/egl_context.h"
+#include "gui/render/scene_renderer.h"
+
+namespace palace {
+namespace {
+
+class OffscreenSceneCamera final : public SceneCamera {
+ public:
+  OffscreenSceneCamera(std::unique_ptr<EglContext> context, Scene scene)
+      : context_(std::move(context)), scene_(std::move(scene)) {}
+
+  ~OffscreenSceneCamera() override {
+    const EglScope scope(*context_);
+    renderer_.reset();
+  }
+
+  Result<ImageU8> Render(const PinholeCamera& camera, const RigidTransform& X_WC) override {
+    const EglScope scope(*context_);
+    if (!scope.status()) {
+      return scope.status().error();
+    }
+    if (renderer_ == nullptr) {
+      Result<std::unique_ptr<SceneRenderer>> created = SceneRenderer::Create(scene_);
+      if (!created) {
+        return created.error();
+      }
+      renderer_ = std::move(created).value();
+    }
+    return renderer_->Render(camera, X_WC);
+  }
+
+ private:
+  std::unique_ptr<EglContext> context_;
+  Scene scene_;
+  std::unique_ptr<SceneRenderer> renderer_;
+};
+
+}  // namespace
+
+Result<std::unique_ptr<SceneCamera>> MakeOffscreenSceneCamera(const Scene& scene) {
+  Result<std::unique_ptr<EglContext>> context = EglContext::Open();
+  if (!context) {
+    return context.error();
+  }
+  return std::unique_ptr<SceneCamera>(
+      std::make_unique<OffscreenSceneCamera>(std::move(context).value(), scene));
+}
+
+}  // namespace palace

@@ -1,0 +1,341 @@
+#include "gui/render/scene_renderer.h"
+
+#include <array>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "gui/render/framebuffer.h"
+#include "gui/render/gl_handle.h"
+#include "gui/render/noise_texture.h"
+#include "gui/render/scene_mesh.h"
+#include "gui/render/shader.h"
+#include "shader_text.h"
+
+namespace palace {
+namespace {
+
+constexpr int kSamples = 4;
+constexpr double kNear_m = 0.05;
+constexpr double kFar_m = 600;
+constexpr float kGroundReach_m = 200;
+constexpr float kAmbient = 0.50F;
+constexpr float kSun = 0.70F;
+constexpr float kSkyGrey = 0.78F;
+constexpr float kGrain = 26;  ///< standard deviation of a tile, grey levels of 255
+constexpr float kZero = 128;  ///< grey level that means "no change"; the shader subtracts it
+
+std::uint8_t Level(float value) {
+  return static_cast<std::uint8_t>(std::clamp(std::lround(kZero + value), 0L, 255L));
+}
+
+GlTexture TileTexture(int size, int channels, const std::vector<std::uint8_t>& pixels) {
+  GlTexture texture = GlTexture::Create();
+  glBindTexture(GL_TEXTURE_2D, texture.name());
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  constexpr GLint kInternal[] = {0, GL_R8, GL_RG8, GL_RGB8};
+  constexpr GLenum kFormat[] = {0, GL_RED, GL_RG, GL_RGB};
+  glTexImage2D(GL_TEXTURE_2D, 0, kInternal[channels], size, size, 0, kFormat[channels],
+               GL_UNSIGNED_BYTE, pixels.data());
+  glGenerateMipmap(GL_TEXTURE_2D);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_REPEAT);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_REPEAT);
+  return texture;
+}
+
+GlTexture GrainTile(int size, const std::vector<float>& weights, RandomStream random) {
+  const ImageF noise = TileableNoise(size, weights, random);
+  std::vector<std::uint8_t> pixels(noise.pixels().size());
+  for (std::size_t i = 0; i < pixels.size(); ++i) {
+    pixels[i] = Level(kGrain * noise.pixels()[i]);
+  }
+  return TileTexture(size, 1, pixels);
+}
+
+GlTexture CoarseTile(std::uint64_t seed) {
+  constexpr int kSize = 2048;
+  RandomStream grain_random(seed, "ground grain"), marks_random(seed, "ground marks");
+  const ImageF grain =
+      TileableNoise(kSize, {0.5F, 0.7F, 0.9F, 1.0F, 1.0F, 1.0F, 1.25F}, grain_random);
+  const ImageF marks = AsphaltMarks(kSize, 40.96 / kSize, marks_random);
+  std::vector<std::uint8_t> pixels(2 * grain.pixels().size());
+  for (std::size_t i = 0; i < grain.pixels().size(); ++i) {
+    pixels[2 * i] = Level(kGrain * grain.pixels()[i]);
+    pixels[2 * i + 1] = Level(127 * marks.pixels()[i]);
+  }
+  return TileTexture(kSize, 2, pixels);
+}
+
+GlTexture BendTile(std::uint64_t seed) {
+  constexpr int kSize = 64;
+  std::vector<std::uint8_t> pixels(3 * kSize * kSize);
+  constexpr std::array<const char*, 3> kNames = {"bend north", "bend east", "slow grey"};
+  for (std::size_t channel = 0; channel < 3; ++channel) {
+    RandomStream random(seed, kNames[channel]);
+    const ImageF noise = TileableNoise(kSize, {1.0F, 0.8F, 0.35F, 0.0F}, random);
+    for (std::size_t i = 0; i < noise.pixels().size(); ++i) {
+      pixels[3 * i + channel] = Level(45 * noise.pixels()[i]);
+    }
+  }
+  return TileTexture(kSize, 3, pixels);
+}
+
+struct Mesh {
+  GlVertexArray array;
+  GlBuffer buffer;
+  GLsizei count = 0;
+
+  void Start(const void* data, std::size_t bytes, std::size_t vertices) {
+    array = GlVertexArray::Create();
+    buffer = GlBuffer::Create();
+    count = static_cast<GLsizei>(vertices);
+    glBindVertexArray(array.name());
+    glBindBuffer(GL_ARRAY_BUFFER, buffer.name());
+    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(bytes), data, GL_STATIC_DRAW);
+  }
+  void Attribute(GLuint location, int floats, std::size_t stride, std::size_t offset) {
+    glEnableVertexAttribArray(location);
+    glVertexAttribPointer(location, floats, GL_FLOAT, GL_FALSE, static_cast<GLsizei>(stride),
+                          reinterpret_cast<const void*>(offset));
+  }
+  void Draw() const {
+    if (count > 0) {
+      glBindVertexArray(array.name());
+      glDrawArrays(GL_TRIANGLES, 0, count);
+    }
+  }
+};
+
+/// Clip space with y downwards: row 0 of GL's memory becomes the top row of the picture. Pixel
+/// (x, y) is GL's window coordinate (x + 0.5, y + 0.5).
+Eigen::Matrix4d ClipFromCamera(const PinholeCamera& camera) {
+  Eigen::Matrix4d clip = Eigen::Matrix4d::Zero();
+  clip(0, 0) = 2 * camera.fx_px / camera.width;
+  clip(0, 2) = (2 * camera.cx_px + 1) / camera.width - 1;
+  clip(1, 1) = 2 * camera.fy_px / camera.height;
+  clip(1, 2) = (2 * camera.cy_px + 1) / camera.height - 1;
+  clip(2, 2) = (kFar_m + kNear_m) / (kFar_m - kNear_m);
+  clip(2, 3) = -2 * kFar_m * kNear_m / (kFar_m - kNear_m);
+  clip(3, 2) = 1;
+  return clip;
+}
+
+}  // namespace
+
+struct SceneRenderer::Parts {
+  Scene scene;
+  SceneLook look;
+  Eigen::Vector3d normal_W;
+  Eigen::Vector3d sun_W;
+  ShaderProgram ground_shader, object_shader, shadow_shader;
+  GlTexture coarse, medium, fine, bend;
+  Mesh objects, shadows, ground;
+  Framebuffer target;
+
+  void MakeMeshes();
+  void BindTiles(const ShaderProgram& shader) const;
+  void DrawObjects(const Eigen::Matrix4f& clip_from_world, const Eigen::Vector3d& p_WC) const;
+  void DrawGround(const PinholeCamera& camera, const RigidTransform& X_WC) const;
+  void MarkShadows(const Eigen::Matrix4f& clip_from_world, const Eigen::Vector3d& p_WC) const;
+  void DarkenShadows() const;
+};
+
+void SceneRenderer::Parts::MakeMeshes() {
+  const std::vector<SceneVertex> solids = SceneTriangles(scene);
+  constexpr std::size_t kStride = sizeof(SceneVertex);
+  objects.Start(solids.data(), solids.size() * kStride, solids.size());
+  objects.Attribute(0, 3, kStride, 0);
+  objects.Attribute(1, 3, kStride, 3 * sizeof(float));
+  objects.Attribute(2, 2, kStride, 6 * sizeof(float));
+  objects.Attribute(3, 1, kStride, 8 * sizeof(float));
+
+  if (look.shadows) {
+    const std::vector<Eigen::Vector3f> cast = ShadowTriangles(scene, solids);
+    shadows.Start(cast.data(), cast.size() * sizeof(Eigen::Vector3f), cast.size());
+    shadows.Attribute(0, 3, sizeof(Eigen::Vector3f), 0);
+  }
+  std::vector<Eigen::Vector3f> plane;
+  constexpr float r = kGroundReach_m;
+  for (const auto& [n, e] : std::array<std::pair<float, float>, 6>{
+           {{-r, -r}, {r, -r}, {r, r}, {-r, -r}, {r, r}, {-r, r}}}) {
+    plane.emplace_back(n, e, -static_cast<float>(scene.GroundHeight(n, e)));
+  }
+  ground.Start(plane.data(), plane.size() * sizeof(Eigen::Vector3f), plane.size());
+  ground.Attribute(0, 3, sizeof(Eigen::Vector3f), 0);
+}
+
+void SceneRenderer::Parts::BindTiles(const ShaderProgram& shader) const {
+  const std::array<std::pair<const char*, GLuint>, 4> tiles = {{{"coarse_tile", coarse.name()},
+                                                                {"medium_tile", medium.name()},
+                                                                {"fine_tile", fine.name()},
+                                                                {"bend_tile", bend.name()}}};
+  for (std::size_t i = 0; i < tiles.size(); ++i) {
+    glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(i));
+    glBindTexture(GL_TEXTURE_2D, tiles[i].second);
+    shader.Set(tiles[i].first, static_cast<int>(i));
+  }
+  glActiveTexture(GL_TEXTURE0);
+  shader.Set("contrast", look.contrast);
+}
+
+void SceneRenderer::Parts::DrawObjects(const Eigen::Matrix4f& clip_from_world,
+                                       const Eigen::Vector3d& p_WC) const {
+  object_shader.Use();
+  BindTiles(object_shader);
+  object_shader.Set("clip_from_world", clip_from_world);
+  object_shader.Set("camera_W", Eigen::Vector3f(p_WC.cast<float>()));
+  object_shader.Set("sun_W", Eigen::Vector3f(sun_W.cast<float>()));
+  object_shader.Set("ambient", kAmbient);
+  object_shader.Set("sun", kSun);
+  objects.Draw();
+}
+
+/// Before the ground is drawn only the solids have depth: what passes here is shadow on bare
+/// ground.
+void SceneRenderer::Parts::MarkShadows(const Eigen::Matrix4f& clip_from_world,
+                                       const Eigen::Vector3d& p_WC) const {
+  glEnable(GL_STENCIL_TEST);
+  glStencilFunc(GL_ALWAYS, 1, 0xFF);
+  glStencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
+  glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+  glDepthMask(GL_FALSE);
+  shadow_shader.Use();
+  Eigen::Matrix4f clip_from_absolute = clip_from_world;
+  clip_from_absolute.col(3) -= clip_from_world.leftCols<3>() * p_WC.cast<float>();
+  shadow_shader.Set("clip_from_world", clip_from_absolute);
+  shadows.Draw();
+  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  glDepthMask(GL_TRUE);
+  glDisable(GL_STENCIL_TEST);
+}
+
+void SceneRenderer::Parts::DrawGround(const PinholeCamera& camera,
+                                      const RigidTransform& X_WC) const {
+  // Camera ray of GL's window coordinate (x, y), which is pixel (x - 0.5, y - 0.5).
+  Eigen::Matrix3d ray_C_from_pixel = Eigen::Matrix3d::Identity();
+  ray_C_from_pixel.row(0) << 1 / camera.fx_px, 0, -(camera.cx_px + 0.5) / camera.fx_px;
+  ray_C_from_pixel.row(1) << 0, 1 / camera.fy_px, -(camera.cy_px + 0.5) / camera.fy_px;
+  Eigen::Matrix4d world_from_camera = Eigen::Matrix4d::Identity();
+  world_from_camera.topLeftCorner<3, 3>() = X_WC.R;
+  world_from_camera.topRightCorner<3, 1>() = X_WC.p;
+  const Eigen::Matrix4d clip = ClipFromCamera(camera) * world_from_camera.inverse();
+  ground_shader.Use();
+  BindTiles(ground_shader);
+  ground_shader.Set("clip_from_world", Eigen::Matrix4f(clip.cast<float>()));
+  ground_shader.Set("ray_W_from_pixel", Eigen::Matrix3f((X_WC.R * ray_C_from_pixel).cast<float>()));
+  ground_shader.Set("camera_north_east", Eigen::Vector2f(X_WC.p.head<2>().cast<float>()));
+  ground_shader.Set("normal_W", Eigen::Vector3f(normal_W.cast<float>()));
+  ground_shader.Set("plane_distance", static_cast<float>(-normal_W.dot(X_WC.p)));
+  ground_shader.Set("ground_grey", look.ground_grey);
+  ground_shader.Set("light",
+                    static_cast<float>(kAmbient + kSun * std::max(0.0, normal_W.dot(sun_W))));
+  ground_shader.Set("markings", scene.runway_markings ? 1.0F : 0.0F);
+  ground.Draw();
+}
+
+void SceneRenderer::Parts::DarkenShadows() const {
+  const float lit = static_cast<float>(kAmbient + kSun * std::max(0.0, normal_W.dot(sun_W)));
+  const float share = kAmbient / lit;
+  glEnable(GL_STENCIL_TEST);
+  glStencilFunc(GL_EQUAL, 1, 0xFF);
+  glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
+  glEnable(GL_BLEND);
+  glBlendColor(share, share, share, share);
+  glBlendFunc(GL_ZERO, GL_CONSTANT_COLOR);
+  glDepthFunc(GL_ALWAYS);
+  glDepthMask(GL_FALSE);
+  shadow_shader.Use();
+  // The plane itself, so large that it covers the picture: clip space needs no more than that.
+  Eigen::Matrix4f cover = Eigen::Matrix4f::Zero();
+  cover(0, 0) = cover(1, 1) = 1 / kGroundReach_m;
+  cover(3, 3) = 1;
+  shadow_shader.Set("clip_from_world", cover);
+  ground.Draw();
+  glDepthMask(GL_TRUE);
+  glDepthFunc(GL_LESS);
+  glDisable(GL_BLEND);
+  glDisable(GL_STENCIL_TEST);
+}
+
+SceneRenderer::SceneRenderer(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
+SceneRenderer::~SceneRenderer() = default;
+
+Result<std::unique_ptr<SceneRenderer>> SceneRenderer::Create(const Scene& scene,
+                                                             const SceneLook& look) {
+  auto parts = std::make_unique<Parts>();
+  parts->scene = scene;
+  parts->look = look;
+  parts->normal_W = GroundNormal(scene);
+  parts->sun_W = SunDirection(scene);
+  struct Wanted {
+    const char* name;
+    ShaderProgram* program;
+    const char* vertex;
+    std::initializer_list<std::string_view> fragment;
+  };
+  constexpr std::string_view kVersion = "#version 330 core\n";
+  const std::initializer_list<std::string_view> ground = {kVersion, shader_text::surface,
+                                                          shader_text::ground_fragment};
+  const std::initializer_list<std::string_view> object = {kVersion, shader_text::surface,
+                                                          shader_text::object_fragment};
+  const std::initializer_list<std::string_view> shadow = {shader_text::shadow_fragment};
+  for (const Wanted& wanted :
+       {Wanted{"ground", &parts->ground_shader, shader_text::ground_vertex, ground},
+        Wanted{"object", &parts->object_shader, shader_text::object_vertex, object},
+        Wanted{"shadow", &parts->shadow_shader, shader_text::ground_vertex, shadow}}) {
+    Result<ShaderProgram> built =
+        ShaderProgram::Build(wanted.name, {wanted.vertex}, wanted.fragment);
+    if (!built) {
+      return built.error();
+    }
+    *wanted.program = std::move(built).value();
+  }
+  const std::uint64_t seed = scene.texture_seed;
+  const std::vector<float> weights = {0.5F, 1.0F, 1.0F, 1.2F};
+  parts->coarse = CoarseTile(seed);
+  parts->medium = GrainTile(1024, weights, RandomStream(seed, "medium grain"));
+  parts->fine = GrainTile(1024, weights, RandomStream(seed, "fine grain"));
+  parts->bend = BendTile(seed);
+  parts->MakeMeshes();
+  return std::unique_ptr<SceneRenderer>(new SceneRenderer(std::move(parts)));
+}
+
+Result<ImageU8> SceneRenderer::Render(const PinholeCamera& camera, const RigidTransform& X_WC) {
+  Parts& parts = *parts_;
+  const Status sized = parts.target.Resize(camera.width, camera.height, PixelKind::kGrey, kSamples);
+  if (!sized) {
+    return sized.error();
+  }
+  // Relative to the camera: only small numbers go to single precision.
+  Eigen::Matrix4d camera_from_world = Eigen::Matrix4d::Identity();
+  camera_from_world.topLeftCorner<3, 3>() = X_WC.R.transpose();
+  const Eigen::Matrix4f clip_from_world =
+      (ClipFromCamera(camera) * camera_from_world).cast<float>();
+
+  parts.target.Bind();
+  glDisable(GL_CULL_FACE);
+  glDisable(GL_BLEND);
+  glDisable(GL_SCISSOR_TEST);
+  glDisable(GL_STENCIL_TEST);
+  glEnable(GL_DEPTH_TEST);
+  glEnable(GL_MULTISAMPLE);
+  glDepthFunc(GL_LESS);
+  glClearColor(kSkyGrey, kSkyGrey, kSkyGrey, 1);
+  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
+  parts.DrawObjects(clip_from_world, X_WC.p);
+  const bool shaded = parts.shadows.count > 0;
+  if (shaded) {
+    parts.MarkShadows(clip_from_world, X_WC.p);
+  }
+  parts.DrawGround(camera, X_WC);
+  if (shaded) {
+    parts.DarkenShadows();
+  }
+  parts.target.Resolve();
+  return parts.target.ReadGrey();
+}
+
+}  // namespace palace
