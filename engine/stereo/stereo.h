@@ -49,7 +49,7 @@ class StereoMatcher {
                              const StereoSettings& settings, Timestamp time);
 
  private:
-  struct Memory;  // buffers kept between pairs, and the last pair
+  struct Memory;  // the last pair
   std::unique_ptr<Memory> memory_;
 };
 

@@ -1,0 +1,115 @@
+#include "engine/stereo/stereo.h"
+
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include "engine/stereo/disparity.h"
+#include "engine/stereo/stereo_quality.h"
+#include "engine/stereo/subpixel.h"
+
+namespace palace {
+namespace {
+
+constexpr int kLeastOverlap_px = 32;  // columns both pictures must share
+constexpr double kSwapTestCoverage = 0.1;
+constexpr float kLeastDisparity_px = 0.1F;  // beyond it depth is not bounded by the picture
+
+std::string SizeText(int width, int height) {
+  return std::to_string(width) + " x " + std::to_string(height);
+}
+
+Status CheckInput(const ImageU8& left, const ImageU8& right, const PinholeCamera& camera,
+                  double baseline_m, const DisparityWindow& window) {
+  for (const ImageU8* image : {&left, &right}) {
+    if (image->width() != camera.width || image->height() != camera.height) {
+      return InvalidError("stereo: picture is " + SizeText(image->width(), image->height()) +
+                          " px, the rectified camera is " + SizeText(camera.width, camera.height) +
+                          " px; rectify the pair first");
+    }
+  }
+  if (!(baseline_m > 0) || !std::isfinite(baseline_m) || !(camera.fx_px > 0)) {
+    return InvalidError("stereo: baseline " + std::to_string(baseline_m) + " m and focal length " +
+                        std::to_string(camera.fx_px) + " px must be positive; check RIG.toml");
+  }
+  if (window.min_px < 0 || window.count < 16 || window.count % 16 != 0) {
+    return InvalidError("stereo: disparity window from " + std::to_string(window.min_px) + " px, " +
+                        std::to_string(window.count) +
+                        " wide; the start must be 0 or more, the width a multiple of 16");
+  }
+  if (camera.width - window.min_px < kLeastOverlap_px) {
+    return InvalidError("stereo: disparities from " + std::to_string(window.min_px) +
+                        " px leave no overlap in a picture " + std::to_string(camera.width) +
+                        " px wide; the ground is too near for stereo");
+  }
+  return Ok();
+}
+
+/// Z = f b / d and sigma_Z = Z^2 sigma_d / (f b).
+RangeMap RangeMapFromDisparity(SubpixelDisparity refined, const PinholeCamera& camera,
+                               double baseline_m, Timestamp time) {
+  constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+  RangeMap range;
+  range.time = time;
+  range.camera = camera;
+  range.disparity_px = std::move(refined.disparity_px);
+  range.disparity_sigma_px = std::move(refined.sigma_px);
+  range.depth_m = ImageF(camera.width, camera.height, kNaN);
+  range.depth_sigma_m = ImageF(camera.width, camera.height, kNaN);
+  const auto fb = static_cast<float>(camera.fx_px * baseline_m);
+  for (std::size_t i = 0; i < range.depth_m.pixels().size(); ++i) {
+    float& disparity = range.disparity_px.pixels()[i];
+    if (disparity > kLeastDisparity_px) {
+      const float depth = fb / disparity;
+      range.depth_m.pixels()[i] = depth;
+      range.depth_sigma_m.pixels()[i] = depth * range.disparity_sigma_px.pixels()[i] / disparity;
+    } else {
+      disparity = kNaN;
+      range.disparity_sigma_px.pixels()[i] = kNaN;
+    }
+  }
+  return range;
+}
+
+}  // namespace
+
+struct StereoMatcher::Memory {
+  ImageU8 left;
+  ImageU8 right;
+};
+
+StereoMatcher::StereoMatcher() : memory_(std::make_unique<Memory>()) {}
+StereoMatcher::~StereoMatcher() = default;
+StereoMatcher::StereoMatcher(StereoMatcher&&) noexcept = default;
+StereoMatcher& StereoMatcher::operator=(StereoMatcher&&) noexcept = default;
+
+Result<StereoResult> StereoMatcher::Match(const ImageU8& left, const ImageU8& right,
+                                          const PinholeCamera& camera, double baseline_m,
+                                          const DisparityWindow& window,
+                                          const StereoSettings& settings, Timestamp time) {
+  if (Status status = CheckInput(left, right, camera, baseline_m, window); !status) {
+    return status.error();
+  }
+  const ImageF coarse = MatchWholePixels(left, right, window, settings);
+  SubpixelOptions options;
+  options.window_px = settings.refine_window_px | 1;
+  options.max_sigma_px = settings.max_sigma_px;
+  StereoResult result;
+  result.range = RangeMapFromDisparity(RefineDisparity(left, right, coarse, options), camera,
+                                       baseline_m, time);
+  StereoQuality& quality = result.quality;
+  SummariseRange(result.range, quality);
+  quality.row_error_px = MedianRowError(left, right, result.range.disparity_px);
+  quality.exposure_ratio = ExposureRatio(left, right);
+  // Camera noise never repeats, so one equal picture is enough to suspect its camera.
+  quality.suspect_frozen = (!memory_->left.empty() && memory_->left.pixels() == left.pixels()) ||
+                           (!memory_->right.empty() && memory_->right.pixels() == right.pixels());
+  quality.suspect_swapped =
+      quality.coverage < kSwapTestCoverage && LooksSwapped(left, right, window, settings);
+  memory_->left = left;
+  memory_->right = right;
+  return result;
+}
+
+}  // namespace palace
