@@ -13,6 +13,9 @@ Engine::Engine(EngineParts parts, bool threaded)
       record_wanted_(parts.sink != nullptr),
       threaded_(threaded) {
   PALACE_CHECK(source_ != nullptr);
+  if (parts.redecide_with) {
+    pipeline_.RedecideWith(*parts.redecide_with);
+  }
   if (parts.sink) {
     recorder_ = std::make_unique<Recorder>(std::move(parts.sink), threaded);
   }
@@ -102,6 +105,7 @@ void Engine::Handle(Inbox::Batch batch) {
     for (const VehicleMessage& message : output.messages) {
       link_->Send(message);
     }
+    link_->Announce(*output.snapshot);
   }
   latest_.Store(output.snapshot);
   if (recorder_) {

@@ -22,6 +22,7 @@ struct EngineParts {
   std::shared_ptr<VehicleLink> link;  ///< null: nothing can transmit (replay, images)
   std::unique_ptr<RecordSink> sink;   ///< null: not recorded
   Settings settings;
+  std::optional<Settings> redecide_with;  ///< replay: judge under these instead of the recorded
   MissionOptions mission;
 };
 

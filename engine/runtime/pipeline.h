@@ -43,6 +43,9 @@ class Pipeline {
  public:
   Pipeline(const Settings& settings, MissionOptions mission);
 
+  /// Replay: judge under these limits; what was recorded is judged beside them.
+  void RedecideWith(const Settings& settings) { settings_.Redecide(settings); }
+
   PipelineOutput Process(std::shared_ptr<const FrameBundle> bundle,
                          std::vector<EngineCommand> commands, const SessionStatus& session);
   /// Applies commands while time stands still (paused, ended): re-judges the newest map.

@@ -31,6 +31,8 @@ class SettingsState {
   void DiscardRecorded() { recorded_preview_ = recorded_; }
   /// Live and simulated flights: what is applied is what will be on record.
   void FollowApplied() { recorded_ = recorded_preview_ = applied_; }
+  /// Replay: the reviewer's limits, in place of the recorded ones.
+  void Redecide(const Settings& settings) { applied_ = preview_ = settings; }
   /// Replay: everything starts from what the log says.
   void StartFrom(const Settings& settings) { *this = SettingsState(settings); }
 

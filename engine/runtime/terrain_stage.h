@@ -9,7 +9,6 @@
 
 #include "engine/model/snapshot.h"
 #include "engine/slad/fusion.h"
-#include "engine/slad/site_registry.h"
 #include "engine/slad/site_selection.h"
 
 namespace palace {

@@ -1,0 +1,95 @@
+#include "engine/runtime/flight_summary.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace palace {
+namespace {
+
+std::string Line(const char* format, double a, double b = 0, double c = 0) {
+  char text[160];
+  std::snprintf(text, sizeof text, format, a, b, c);
+  return text;
+}
+
+}  // namespace
+
+void SeriesStats::Add(double value) {
+  if (!std::isfinite(value)) {
+    return;
+  }
+  ++count;
+  mean += (value - mean) / count;
+  max = std::max(max, value);
+}
+
+void FlightSummarizer::Add(const EngineSnapshot& snapshot) {
+  if (snapshot.sequence == last_sequence_) {
+    return;
+  }
+  last_sequence_ = snapshot.sequence;
+  if (!start_) {
+    start_ = snapshot.time;
+  }
+  summary_.duration_s = SecondsBetween(*start_, snapshot.time);
+  summary_.final_state = snapshot.mission.state;
+  summary_.lander_radius_m = snapshot.settings.slad.lander_radius_m();
+  const bool flying = snapshot.mission.state != MissionState::kLanded;
+  if (snapshot.mission.approval && snapshot.mission.armed) {
+    summary_.site = snapshot.mission.armed;
+    if (scene_) {
+      const Eigen::Vector3d& p = summary_.site->p_WS;
+      summary_.site_obstacle_distance_m = scene_->ObstacleDistance(p.x(), p.y());
+    }
+  }
+  if (snapshot.truth && flying) {
+    const Eigen::Vector3d& truth = snapshot.truth->X_WB.p;
+    const NavigationStatus& nav = snapshot.navigation;
+    const bool vision = nav.handover == NavigationStatus::Handover::kVision;
+    if (nav.gps.running) {
+      summary_.gps_error_m.Add((nav.gps.estimate.p_WB - truth).norm());
+    }
+    if (vision && nav.vision.running) {
+      summary_.estimate_error_m.Add((nav.vision.estimate.p_WB - truth).norm());
+    }
+    const FilterStatus& in_force = vision ? nav.vision : nav.gps;
+    if (in_force.running) {
+      summary_.approach_error_m.Add((in_force.estimate.p_WB - truth).norm());
+    }
+  }
+  if (!flying && snapshot.truth && summary_.site && !summary_.touchdown_miss_m) {
+    const Eigen::Vector3d skid = snapshot.truth->X_WB * SkidCentreBody();
+    summary_.touchdown_miss_m = (skid - summary_.site->p_WS).head<2>().norm();
+  }
+}
+
+std::vector<std::string> SummaryLines(const FlightSummary& s) {
+  std::vector<std::string> lines;
+  lines.push_back(std::string("Final state: ") + MissionStateName(s.final_state));
+  lines.push_back(Line("Flight time: %.1f s", s.duration_s));
+  if (s.site) {
+    lines.push_back(std::string("Site ") + s.site->letter +
+                    Line(": %.2f m north, %.2f m east, safe distance %.2f m", s.site->p_WS.x(),
+                         s.site->p_WS.y(), s.site->safe_distance_m));
+  }
+  if (s.site_obstacle_distance_m) {
+    lines.push_back(Line("Nearest true obstacle to the site: %.2f m (lander radius %.2f m)",
+                         *s.site_obstacle_distance_m, s.lander_radius_m));
+  }
+  if (s.touchdown_miss_m) {
+    lines.push_back(Line("Touchdown: %.3f m from the approved site (true)", *s.touchdown_miss_m));
+  }
+  if (s.estimate_error_m.count > 0) {
+    lines.push_back(Line("Vision estimate against truth: mean %.3f m, max %.3f m over %.0f frames",
+                         s.estimate_error_m.mean, s.estimate_error_m.max,
+                         s.estimate_error_m.count));
+  }
+  if (s.gps_error_m.count > 0) {
+    lines.push_back(Line("GPS estimate against truth: mean %.3f m, max %.3f m over %.0f frames",
+                         s.gps_error_m.mean, s.gps_error_m.max, s.gps_error_m.count));
+  }
+  return lines;
+}
+
+}  // namespace palace

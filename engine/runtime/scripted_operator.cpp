@@ -1,0 +1,38 @@
+#include "engine/runtime/scripted_operator.h"
+
+namespace palace {
+namespace {
+
+constexpr double kLooksFor_s = 2;
+
+}  // namespace
+
+std::vector<EngineCommand> ScriptedOperator::Decide(const EngineSnapshot& snapshot) {
+  const MissionStatus& mission = snapshot.mission;
+  if (mission.state != last_ || !seen_since_) {
+    last_ = mission.state;
+    seen_since_ = snapshot.time;
+  }
+  if (SecondsBetween(*seen_since_, snapshot.time) < kLooksFor_s) {
+    return {};
+  }
+  switch (mission.state) {
+    case MissionState::kProposed:
+      if (snapshot.applied && !snapshot.applied->selection.sites.empty()) {
+        return {{CommandOrigin::kScript, SelectSite{snapshot.applied->selection.sites.front().id}}};
+      }
+      return {};
+    case MissionState::kArmed:
+      if (mission.can_approve && mission.armed) {
+        return {{CommandOrigin::kScript, ApproveSite{mission.armed->id, snapshot.sequence}}};
+      }
+      return {};
+    case MissionState::kLanded:
+      finished_ = true;
+      return {};
+    default:
+      return {};
+  }
+}
+
+}  // namespace palace

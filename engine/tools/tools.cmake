@@ -1,0 +1,10 @@
+# palacectl: the same engine with no window. Its simulated pictures need GL, so it comes with the GUI
+# rooms; engine-only builds (sanitizers) leave it out.
+if(NOT PALACE_ENGINE_ONLY)
+  file(GLOB PALACE_TOOLS CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/engine/tools/*.cpp)
+  add_executable(palacectl ${PALACE_TOOLS})
+  target_link_libraries(palacectl PRIVATE palace_runtime palace_capture palace_journal palace_simulation
+    palace_platform palace_render nlohmann_json::nlohmann_json TIFF::TIFF ${GEOTIFF_LIBRARY} ${OPENGL_LIBRARY})
+  target_include_directories(palacectl SYSTEM PRIVATE ${CLI11_INCLUDE_DIR} ${GEOTIFF_INCLUDE_DIR} ${GEOTIFF_INCLUDE_DIR}/geotiff)
+  install(TARGETS palacectl RUNTIME DESTINATION bin)
+endif()

@@ -1,0 +1,86 @@
+#include "gui/app/dispatch.h"
+
+#include <utility>
+
+#include "engine/runtime/settings_io.h"
+
+namespace palace {
+namespace {
+
+constexpr double kMessageTime_s = 5;
+
+void Post(const CommandAction& action, CommandOrigin origin, const EngineSnapshot* snapshot,
+          bool mouse_held, Engine& engine, UiState& state) {
+  if (const auto* set = std::get_if<SetSetting>(&action); set && snapshot) {
+    if (FindSetting(set->name) != nullptr) {
+      RememberChange(state, *set, snapshot->preview_settings, mouse_held);
+    }
+  }
+  engine.Post({origin, action});
+}
+
+void LoadPresetFile(const std::string& path, CommandOrigin origin, const EngineSnapshot* snapshot,
+                    double ui_time_s, Engine& engine, UiState& state) {
+  const Settings now = snapshot ? snapshot->preview_settings : Settings{};
+  const Result<Settings> loaded = LoadSettingsFile(path, now);
+  if (!loaded) {
+    ShowMessage(state, loaded.error().message, ui_time_s);
+    return;
+  }
+  int changed = 0;
+  for (const SettingInfo& info : SettingTable()) {
+    const double value = GetSetting(*loaded, info.name);
+    if (value != GetSetting(now, info.name)) {
+      Post(SetSetting{info.name, value}, origin, snapshot, false, engine, state);
+      ++changed;
+    }
+  }
+  state.preset_path = path;
+  ShowMessage(state, "Preset loaded, " + std::to_string(changed) + " values changed", ui_time_s);
+}
+
+void SavePresetFile(const std::string& wanted, const EngineSnapshot* snapshot, double ui_time_s,
+                    UiState& state) {
+  if (!snapshot) {
+    return;
+  }
+  const std::string path = !wanted.empty()              ? wanted
+                           : !state.preset_path.empty() ? state.preset_path
+                                                        : "config/preset.toml";
+  const Status saved = SaveSettingsFile(path, snapshot->preview_settings);
+  if (saved) {
+    state.preset_path = path;
+  }
+  ShowMessage(state, saved ? "Preset saved to " + path : saved.error().message, ui_time_s);
+}
+
+}  // namespace
+
+void ShowMessage(UiState& state, std::string text, double ui_time_s) {
+  state.message = std::move(text);
+  state.message_until_s = ui_time_s + kMessageTime_s;
+}
+
+void Dispatch(const Intents& intents, CommandOrigin origin, const EngineSnapshot* snapshot,
+              bool mouse_held, double ui_time_s, Engine& engine, UiState& state) {
+  for (const Intent& intent : intents) {
+    if (const auto* command = std::get_if<CommandAction>(&intent)) {
+      Post(*command, origin, snapshot, mouse_held, engine, state);
+    } else if (const auto* playback = std::get_if<PlaybackControl>(&intent)) {
+      engine.Control(*playback);
+    } else {
+      const UiRequest request = Reduce(state, std::get<UiAction>(intent));
+      for (const SetSetting& set : request.settings) {
+        engine.Post({origin, set});
+      }
+      if (request.load_preset) {
+        LoadPresetFile(*request.load_preset, origin, snapshot, ui_time_s, engine, state);
+      }
+      if (request.save_preset) {
+        SavePresetFile(*request.save_preset, snapshot, ui_time_s, state);
+      }
+    }
+  }
+}
+
+}  // namespace palace

@@ -1,0 +1,119 @@
+#include "gui/app/options.h"
+
+#include <CLI/CLI.hpp>
+
+#include "engine/runtime/settings_io.h"
+#include "engine/simulation/scene_library.h"
+
+namespace palace {
+namespace {
+
+constexpr const char* kVersion = "palace 0.1.0";
+
+Result<Settings> ReadSettings(const AppOptions& options) {
+  Settings settings;
+  if (!options.settings_file.empty()) {
+    Result<Settings> loaded = LoadSettingsFile(options.settings_file, settings);
+    if (!loaded) {
+      return loaded;
+    }
+    settings = *loaded;
+  }
+  for (const std::string& assignment : options.set) {
+    Result<Settings> changed = ApplySettingText(settings, assignment);
+    if (!changed) {
+      return changed;
+    }
+    settings = *changed;
+  }
+  return settings;
+}
+
+void Declare(CLI::App& app, AppOptions& options, std::string& replay, std::string& images,
+             std::string& connect, bool& no_record) {
+  app.set_version_flag("--version", kVersion);
+  auto* source = app.add_option_group(
+      "source", "Where the pictures come from; nothing: the built-in simulated mission");
+  source->add_option("--scenario", options.scenario, "Simulated scene: runway, cones, slope, empty")
+      ->capture_default_str();
+  source->add_option("--replay", replay, "Play a recorded flight (LCM event log)");
+  source->add_option("--images", images, "A folder of stereo pairs, by its RIG.toml");
+  source->add_option("--connect", connect,
+                     "A live vehicle on an LCM bus, e.g. udpm://239.255.76.67:7667?ttl=0");
+  app.add_option("--seed", options.seed, "One seed decides everything in the simulation")
+      ->capture_default_str();
+  app.add_option("--wind", options.wind_mps, "Mean wind of the simulation, m/s")
+      ->check(CLI::Range(0.0, 15.0))
+      ->capture_default_str();
+  app.add_option("--settings", options.settings_file, "Settings file (TOML)");
+  app.add_option("--set", options.set, "One setting, e.g. slad.max_slope_deg=8; may be repeated");
+  app.add_flag("--headless", options.headless,
+               "No window: draw offscreen and fly the mission by script");
+  app.add_option("--script", options.script_file,
+                 "Drive the window by item name (README, \"Scripts\")");
+  app.add_option("--record", options.record_dir, "Folder for flight logs")->capture_default_str();
+  app.add_flag("--no-record", no_record, "Do not record the flight");
+  app.add_option("--width", options.width_px, "Window width, pixels")
+      ->check(CLI::Range(640, 7680))
+      ->capture_default_str();
+  app.add_option("--height", options.height_px, "Window height, pixels")
+      ->check(CLI::Range(480, 4320))
+      ->capture_default_str();
+  app.add_option("--ui-scale", options.ui_scale,
+                 "Size of text and controls, 0.75 to 2.5; 0: from the monitor")
+      ->capture_default_str();
+  app.add_option("--theme", options.theme, "dark, light or contrast")
+      ->check(CLI::IsMember({"dark", "light", "contrast"}))
+      ->capture_default_str();
+  app.add_flag("--verbose", options.verbose, "Also print messages for developers");
+}
+
+}  // namespace
+
+Result<AppOptions> ParseCommandLine(int argc, const char* const* argv) {
+  AppOptions options;
+  std::string replay, images, connect;
+  bool no_record = false;
+  CLI::App app("PALACE ground station: find a safe landing site, approve it, watch the descent",
+               "palace");
+  Declare(app, options, replay, images, connect, no_record);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::CallForHelp&) {
+    options.print = app.help();
+    return options;
+  } catch (const CLI::CallForVersion&) {
+    options.print = std::string(kVersion) + "\n";
+    return options;
+  } catch (const CLI::ParseError& error) {
+    return UsageError(std::string(error.what()) + "; see palace --help");
+  }
+  const int sources =
+      (replay.empty() ? 0 : 1) + (images.empty() ? 0 : 1) + (connect.empty() ? 0 : 1);
+  if (sources > 1) {
+    return UsageError("--replay, --images and --connect exclude each other");
+  }
+  if (options.ui_scale != 0 && (options.ui_scale < 0.75 || options.ui_scale > 2.5)) {
+    return UsageError("--ui-scale must lie between 0.75 and 2.5, or be 0");
+  }
+  const auto choose = [&](const std::string& path, SourceChoice choice) {
+    if (!path.empty()) {
+      options.source = choice;
+      options.source_path = path;
+    }
+  };
+  choose(replay, SourceChoice::kReplay);
+  choose(images, SourceChoice::kImages);
+  choose(connect, SourceChoice::kConnect);
+  // A replay, or pictures from disk, are on disk already.
+  options.record = !no_record && (options.source == SourceChoice::kSimulation ||
+                                  options.source == SourceChoice::kConnect);
+  const Result<Settings> settings = ReadSettings(options);
+  if (!settings) {
+    return settings.error();
+  }
+  options.settings = *settings;
+  return options;
+}
+
+}  // namespace palace

@@ -1,0 +1,42 @@
+// What the command line of palace asks for.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "engine/core/result.h"
+#include "engine/model/settings.h"
+
+namespace palace {
+
+enum class SourceChoice { kSimulation, kReplay, kImages, kConnect };
+
+struct AppOptions {
+  SourceChoice source = SourceChoice::kSimulation;
+  std::string source_path;  ///< log, RIG.toml or LCM URL
+  std::string scenario = "runway";
+  std::uint64_t seed = 1;
+  double wind_mps = 0;
+  std::string settings_file;
+  std::vector<std::string> set;  ///< "slad.max_slope_deg=8"
+  Settings settings;             ///< file and --set applied
+  bool headless = false;
+  std::string script_file;
+  std::filesystem::path record_dir = "logs";
+  bool record = true;
+  int width_px = 1920;
+  int height_px = 1080;
+  double ui_scale = 0;  ///< 0: from the monitor
+  std::string theme = "dark";
+  bool verbose = false;
+  /// Set by --help and --version: print this and leave with exit_code.
+  std::string print;
+  int exit_code = 0;
+};
+
+/// Errors are usage errors (exit 2) unless a file cannot be read.
+Result<AppOptions> ParseCommandLine(int argc, const char* const* argv);
+
+}  // namespace palace

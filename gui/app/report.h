@@ -1,0 +1,24 @@
+// report.html of one flight: figures, settings, events and screenshots on one page.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "engine/core/result.h"
+#include "engine/runtime/flight_summary.h"
+
+namespace palace {
+
+struct ReportInput {
+  std::string title;
+  std::vector<std::string> lines;
+  std::shared_ptr<const EngineSnapshot> last;
+  std::vector<std::string> screenshots;  ///< file names beside the report
+  std::string log_name;                  ///< file name beside the report; empty: not recorded
+};
+
+Status WriteReport(const std::filesystem::path& file, const ReportInput& input);
+
+}  // namespace palace

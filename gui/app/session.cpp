@@ -1,0 +1,150 @@
+#include "gui/app/session.h"
+
+#include <ctime>
+#include <random>
+
+#include "engine/capture/image_folder_source.h"
+#include "engine/core/log.h"
+#include "engine/core/units.h"
+#include "engine/journal/log_writer.h"
+#include "engine/journal/replay_source.h"
+#include "engine/wire/lcm_link.h"
+#include "engine/wire/lcm_source.h"
+#include "gui/platform/offscreen_scene_camera.h"
+
+namespace palace {
+namespace {
+
+/// Vehicle-side check of approvals: the simulated vehicle knows the station's public key.
+ApprovalCheck MakeVerifier(const ApprovalSigner& signer) {
+  auto state = std::make_shared<VerifierState>();
+  const PublicKey key = signer.public_key();
+  return [state, key](const Approval& approval, Timestamp now, std::uint64_t boot_id) {
+    return VerifyApproval(approval, key, *state, now, boot_id);
+  };
+}
+
+Status OpenSimulation(const AppOptions& options, bool paced, Session& session, EngineParts& parts) {
+  Result<Scene> scene = MakeScene(options.scenario, options.seed);
+  if (!scene) {
+    return scene.error();
+  }
+  parts.mission.session_id = options.seed;
+  parts.mission.signer = ApprovalSigner::FromSeed(options.seed);
+  SimulatorOptions simulation;
+  simulation.scene = *scene;
+  simulation.seed = options.seed;
+  simulation.wind.mean_speed_mps = options.wind_mps;
+  simulation.speed = paced ? 1 : 0;
+  simulation.verify = MakeVerifier(parts.mission.signer);
+  session.simulator = std::make_shared<Simulator>(std::move(simulation), MakeOffscreenSceneCamera);
+  session.scene = std::move(*scene);
+  session.source = session.simulator;
+  parts.source = session.simulator;
+  parts.link = session.simulator;
+  return Ok();
+}
+
+Status OpenReplay(const AppOptions& options, bool paced, Session& session, EngineParts& parts) {
+  ReplayOptions replay;
+  replay.speed = paced ? 1 : 0;
+  replay.wait_at_end = paced;
+  Result<std::unique_ptr<ReplaySource>> source = ReplaySource::Open(options.source_path, replay);
+  if (!source) {
+    return source.error();
+  }
+  session.record = (*source)->recorded();
+  const bool moved = !options.settings_file.empty() || !options.set.empty();
+  parts.settings =
+      session.record->has_settings ? session.record->settings_at_start : options.settings;
+  if (moved) {
+    parts.redecide_with = options.settings;
+  }
+  session.source = std::move(*source);
+  parts.source = session.source;
+  return Ok();
+}
+
+Status OpenImages(const AppOptions& options, Session& session, EngineParts& parts) {
+  Result<std::unique_ptr<ImageFolderSource>> source =
+      ImageFolderSource::Open(options.source_path, /*loop=*/true);
+  if (!source) {
+    return source.error();
+  }
+  session.source = std::move(*source);
+  parts.source = session.source;
+  return Ok();
+}
+
+Status OpenBus(const AppOptions& options, Session& session, EngineParts& parts) {
+  Result<std::shared_ptr<Bus>> bus = Bus::Open(options.source_path);
+  if (!bus) {
+    return bus.error();
+  }
+  for (const std::string& warning : (*bus)->warnings()) {
+    LogWarning(warning);
+  }
+  Result<std::unique_ptr<LcmSource>> source = LcmSource::Create(*bus);
+  if (!source) {
+    return source.error();
+  }
+  std::random_device device;
+  parts.mission.session_id = (std::uint64_t{device()} << 32) | device();
+  parts.mission.signer = ApprovalSigner::Random();
+  session.source = std::move(*source);
+  parts.source = session.source;
+  parts.link = std::make_shared<LcmLink>(*bus);
+  return Ok();
+}
+
+Status OpenSource(const AppOptions& options, bool paced, Session& session, EngineParts& parts) {
+  switch (options.source) {
+    case SourceChoice::kSimulation:
+      return OpenSimulation(options, paced, session, parts);
+    case SourceChoice::kReplay:
+      return OpenReplay(options, paced, session, parts);
+    case SourceChoice::kImages:
+      return OpenImages(options, session, parts);
+    case SourceChoice::kConnect:
+      return OpenBus(options, session, parts);
+  }
+  PALACE_CHECK(false);
+}
+
+}  // namespace
+
+std::string TimeStampName() {
+  const std::time_t now = static_cast<std::time_t>(WallTime().us / 1'000'000);
+  std::tm utc{};
+  gmtime_r(&now, &utc);
+  char text[32];
+  std::strftime(text, sizeof text, "%Y-%m-%d_%H-%M-%S", &utc);
+  return text;
+}
+
+Result<Session> OpenSession(const AppOptions& options, bool threaded) {
+  Session session;
+  EngineParts parts;
+  parts.settings = options.settings;
+  const Status source = OpenSource(options, threaded, session, parts);
+  if (!source) {
+    return source.error();
+  }
+  std::string stamp = TimeStampName();
+  for (int n = 2; std::filesystem::exists(options.record_dir / stamp); ++n) {
+    stamp = TimeStampName() + "_" + std::to_string(n);
+  }
+  session.output_dir = options.record_dir / stamp;
+  if (options.record) {
+    Result<std::unique_ptr<FlightRecorder>> recorder =
+        FlightRecorder::Open(options.record_dir, stamp);
+    if (!recorder) {
+      return recorder.error();
+    }
+    parts.sink = std::move(*recorder);
+  }
+  session.engine = std::make_unique<Engine>(std::move(parts), threaded);
+  return session;
+}
+
+}  // namespace palace

@@ -1,0 +1,35 @@
+// Session: one source, its way to the vehicle and its log, made from the command line.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "engine/core/result.h"
+#include "engine/model/flight_record.h"
+#include "engine/model/scene.h"
+#include "engine/runtime/engine.h"
+#include "engine/simulation/simulator.h"
+#include "gui/app/options.h"
+
+namespace palace {
+
+struct Session {
+  std::unique_ptr<Engine> engine;
+  std::filesystem::path
+      output_dir;  ///< log, screenshots and report of this session; may not exist yet
+  std::shared_ptr<Simulator> simulator;        ///< simulation only
+  std::optional<Scene> scene;                  ///< simulation only
+  std::shared_ptr<const FlightRecord> record;  ///< replay only
+  std::shared_ptr<Source> source;
+};
+
+/// Opens source, link and log. Errors name the thing and the remedy; nothing half-written remains.
+/// `threaded` false: the caller steps the engine.
+Result<Session> OpenSession(const AppOptions& options, bool threaded);
+
+/// "2026-11-20_14-32-07", of now: names the folder of a flight.
+std::string TimeStampName();
+
+}  // namespace palace

@@ -1,0 +1,113 @@
+// Scripts are checked before they run, act by item name, and say which line failed.
+#include "gui/app/script.h"
+
+#include <gtest/gtest.h>
+
+namespace palace {
+namespace {
+
+struct BadScript {
+  const char* name;
+  const char* text;
+  const char* message;
+};
+class BadScripts : public testing::TestWithParam<BadScript> {};
+
+TEST_P(BadScripts, AreRefusedNamingTheLine) {
+  const auto lines = ParseScript(GetParam().text, "s.txt");
+  ASSERT_FALSE(lines);
+  EXPECT_EQ(lines.error().code, ErrorCode::kUsage);
+  EXPECT_NE(lines.error().message.find(GetParam().message), std::string::npos)
+      << lines.error().message;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Table, BadScripts,
+    testing::Values(BadScript{"verb", "quit\nfly away\n", "s.txt:2: unknown action 'fly'"},
+                    BadScript{"count", "click\n", "s.txt:1: 'click' takes"},
+                    BadScript{"number", "hold approve long\n", "'long' is not a number"},
+                    BadScript{"setting", "set slad.nothing 3\n", "unknown setting 'slad.nothing'"},
+                    BadScript{"what", "wait weather 3\n", "not 'weather'"}),
+    [](const auto& info) { return std::string(info.param.name); });
+
+TEST(Script, DefaultMissionParses) {
+  const auto lines = ParseScript(DefaultMissionScript(), "default");
+  ASSERT_TRUE(lines) << lines.error().message;
+  EXPECT_GT(lines->size(), 20u);
+}
+
+/// Runs a script over a screen with one enabled and one disabled item.
+class Runner {
+ public:
+  explicit Runner(const char* text) : script_(*ParseScript(text, "s.txt"), "s.txt") {
+    items_.Add("go", {100, 100, 40, 20}, true, "Go now");
+    items_.Add("off", {200, 100, 40, 20}, false, "Not yet");
+    snapshot_.mission.state = MissionState::kSearch;
+  }
+  ScriptInput Tick() {
+    time_s_ += 0.1;
+    return script_.Tick(items_, &snapshot_, time_s_);
+  }
+  void RunOut() {
+    for (int i = 0; i < 2000 && !script_.done(); ++i) {
+      Tick();
+    }
+  }
+  ScriptRunner script_;
+  ItemRecord items_;
+  EngineSnapshot snapshot_;
+  double time_s_ = 0;
+};
+
+TEST(Script, ClickMovesThenPressesThenReleasesAtTheItemsCentre) {
+  Runner run("click go\n");
+  ScriptInput arrive = run.Tick(), press = run.Tick(), release = run.Tick();
+  EXPECT_EQ(arrive.mouse.x, 120);
+  EXPECT_EQ(arrive.mouse.y, 110);
+  EXPECT_FALSE(arrive.mouse_down);
+  EXPECT_TRUE(press.mouse_down);
+  EXPECT_FALSE(release.mouse_down);
+}
+
+TEST(Script, HoldKeepsTheButtonDownForItsTime) {
+  Runner run("hold go 1.2\n");
+  int down = 0;
+  for (int i = 0; i < 40; ++i) {
+    down += run.Tick().mouse_down ? 1 : 0;
+  }
+  EXPECT_GE(down, 12);
+  EXPECT_LE(down, 14);
+}
+
+TEST(Script, WaitEndsWithTheStateOrFailsAfterItsTime) {
+  Runner met("wait state PROPOSED 5\n");
+  met.Tick();
+  met.snapshot_.mission.state = MissionState::kProposed;
+  met.RunOut();
+  EXPECT_EQ(met.script_.error(), "");
+  Runner late("wait state PROPOSED 5\n");
+  late.RunOut();
+  EXPECT_EQ(late.script_.error(),
+            "s.txt:1: 'wait state PROPOSED 5' failed: the state is SEARCH after 5 s");
+}
+
+TEST(Script, DisabledAndMissingItemsFail) {
+  Runner disabled("click off\n");
+  disabled.RunOut();
+  EXPECT_NE(disabled.script_.error().find("it is disabled: Not yet"), std::string::npos);
+  Runner missing("click nowhere\n");
+  missing.RunOut();
+  EXPECT_NE(missing.script_.error().find("nothing of that name"), std::string::npos);
+}
+
+TEST(Script, ExpectReadsTheTextOfAnItem) {
+  Runner right("expect text go Go now\n");
+  right.RunOut();
+  EXPECT_EQ(right.script_.error(), "");
+  Runner wrong("expect text go Stop\n");
+  wrong.RunOut();
+  EXPECT_NE(wrong.script_.error().find("it reads 'Go now'"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace palace

@@ -1,0 +1,184 @@
+// Reads every include of the project and holds it against the table of rooms (ARCHITECTURE.md,
+// "Rooms"). It does not prove that the rooms are well cut, only that the walls stand.
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <set>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace palace {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Include {
+  std::string file;  // relative to the root
+  int line = 0;
+  std::string path;  // as written
+  bool system = false;
+};
+
+std::string RoomOf(const std::string& path) {
+  std::smatch match;
+  return std::regex_search(path, match, std::regex("^((?:engine|gui)/[a-z]+)/")) ? match[1].str()
+                                                                                 : "";
+}
+
+std::vector<Include> ReadIncludes() {
+  const fs::path root = PALACE_SOURCE_DIR;
+  const std::regex pattern(R"(^\s*#include\s*([<"])([^>"]+)[>"])");
+  std::vector<Include> includes;
+  for (const char* top : {"engine", "gui"}) {
+    for (const auto& entry : fs::recursive_directory_iterator(root / top)) {
+      const std::string extension = entry.path().extension();
+      if (extension != ".h" && extension != ".cpp") {
+        continue;
+      }
+      std::ifstream file(entry.path());
+      int number = 0;
+      for (std::string line; std::getline(file, line);) {
+        ++number;
+        std::smatch match;
+        if (std::regex_search(line, match, pattern)) {
+          includes.push_back({fs::relative(entry.path(), root).string(), number, match[2].str(),
+                              match[1].str() == "<"});
+        }
+      }
+    }
+  }
+  return includes;
+}
+
+/// The engine's doors: interfaces that the rooms behind them implement.
+const std::set<std::string> kDoors = {"engine/runtime/source.h", "engine/runtime/vehicle_link.h",
+                                      "engine/runtime/record_sink.h"};
+
+/// Rooms a room may include, beside itself.
+const std::map<std::string, std::set<std::string>>& Allowed() {
+  static const std::set<std::string> base = {"engine/core", "engine/model"};
+  static const auto with = [](std::set<std::string> more) {
+    more.insert(base.begin(), base.end());
+    return more;
+  };
+  static const std::map<std::string, std::set<std::string>> table = {
+      {"engine/core", {}},
+      {"engine/model", {"engine/core"}},
+      {"engine/camera", base},
+      {"engine/calibration", with({"engine/camera"})},
+      {"engine/stereo", with({"engine/camera", "engine/calibration"})},
+      {"engine/slad", with({"engine/camera", "engine/calibration", "engine/stereo"})},
+      {"engine/tracking", with({"engine/camera", "engine/stereo", "engine/slad"})},
+      {"engine/navigation",
+       with({"engine/camera", "engine/stereo", "engine/slad", "engine/tracking"})},
+      {"engine/flight", with({"engine/camera", "engine/navigation", "engine/tracking"})},
+      {"engine/mission",
+       with({"engine/camera", "engine/flight", "engine/navigation", "engine/tracking"})},
+      {"engine/capture", with({"engine/camera"})},
+      {"engine/simulation", with({"engine/camera", "engine/flight"})},
+      {"engine/wire", with({"engine/camera"})},
+      {"engine/journal", with({"engine/camera", "engine/wire"})},
+      {"engine/runtime", with({"engine/camera", "engine/stereo", "engine/slad", "engine/tracking",
+                               "engine/navigation", "engine/flight", "engine/mission"})},
+      {"gui/widgets", base},
+      {"gui/panels", with({"gui/widgets"})},
+      {"gui/render", base},
+      {"gui/platform", with({"gui/render"})},
+  };
+  return table;
+}
+
+class IncludeRules : public testing::Test {
+ protected:
+  static const std::vector<Include>& All() {
+    static const std::vector<Include> includes = ReadIncludes();
+    return includes;
+  }
+};
+
+TEST_F(IncludeRules, RoomsIncludeOnlyTheRoomsTheyMay) {
+  ASSERT_GT(All().size(), 100u);
+  for (const Include& include : All()) {
+    const std::string from = RoomOf(include.file), to = RoomOf(include.path);
+    const auto rule = Allowed().find(from);
+    if (include.system || to.empty() || from == to || rule == Allowed().end()) {
+      continue;
+    }
+    const bool door = kDoors.count(include.path) != 0 && from.rfind("engine/", 0) == 0;
+    const bool intent = include.path == "gui/app/intent.h";
+    const bool scene_camera = include.path == "engine/simulation/scene_camera.h" &&
+                              (from == "gui/render" || from == "gui/platform");
+    EXPECT_TRUE(rule->second.count(to) || door || intent || scene_camera)
+        << include.file << ":" << include.line << " includes " << include.path;
+  }
+}
+
+/// Headers of libraries, by how their include begins, and the rooms that may use them.
+TEST_F(IncludeRules, LibrariesStayInTheirRooms) {
+  struct Rule {
+    const char* begins;
+    bool headers_too;
+    std::set<std::string> rooms;
+  };
+  const std::set<std::string> vision = {
+      "engine/camera",     "engine/calibration", "engine/stereo", "engine/slad",  "engine/tracking",
+      "engine/navigation", "engine/capture",     "gui/render",    "gui/platform", "engine/tools"};
+  const std::vector<Rule> rules = {
+      {"opencv2/", false, vision},
+      {"lcm/", false, {"engine/wire", "engine/journal"}},
+      {"palace/", false, {"engine/wire", "engine/journal"}},
+      {"GL/", true, {"gui/render", "gui/platform"}},
+      {"EGL/", false, {"gui/platform"}},
+      {"GLFW/", false, {"gui/platform", "gui/app"}},
+      {"imgui", true, {"gui/widgets", "gui/panels", "gui/platform", "gui/app"}},
+      {"sodium.h", false, {"engine/mission"}},
+      {"toml++/", false, {"engine/camera", "engine/runtime", "engine/wire", "engine/simulation"}},
+  };
+  for (const Include& include : All()) {
+    for (const Rule& rule : rules) {
+      if (!include.system || include.path.rfind(rule.begins, 0) != 0) {
+        continue;
+      }
+      const bool header = include.file.back() == 'h';
+      EXPECT_TRUE(rule.rooms.count(RoomOf(include.file)) && (rule.headers_too || !header))
+          << include.file << ":" << include.line << " includes <" << include.path << ">";
+    }
+  }
+}
+
+TEST_F(IncludeRules, NoThreadsOrClocksInAlgorithmRooms) {
+  const std::set<std::string> algorithms = {
+      "engine/model",   "engine/camera",   "engine/calibration", "engine/stereo",
+      "engine/slad",    "engine/tracking", "engine/navigation",  "engine/flight",
+      "engine/mission", "gui/panels",      "gui/widgets"};
+  const std::set<std::string> forbidden = {"thread", "mutex", "future", "condition_variable",
+                                           "chrono"};
+  for (const Include& include : All()) {
+    EXPECT_FALSE(algorithms.count(RoomOf(include.file)) && forbidden.count(include.path))
+        << include.file << ":" << include.line << " includes <" << include.path << ">";
+  }
+}
+
+TEST_F(IncludeRules, EveryHeaderIsGuardedAndOpensWithItsPurpose) {
+  for (const char* top : {"engine", "gui"}) {
+    for (const auto& entry : fs::recursive_directory_iterator(fs::path(PALACE_SOURCE_DIR) / top)) {
+      if (entry.path().extension() != ".h") {
+        continue;
+      }
+      std::ifstream file(entry.path());
+      std::string first, text, line;
+      std::getline(file, first);
+      while (std::getline(file, line)) {
+        text += line + "\n";
+      }
+      EXPECT_EQ(first.rfind("// ", 0), 0u) << entry.path() << " must open with a comment";
+      EXPECT_NE(text.find("#pragma once"), std::string::npos) << entry.path();
+    }
+  }
+}
+
+}  // namespace
+}  // namespace palace

@@ -1,0 +1,49 @@
+// Which limits are in force, previewed and on record, in flight and in replay.
+#include "engine/runtime/settings_state.h"
+
+#include <gtest/gtest.h>
+
+namespace palace {
+namespace {
+
+const char* kSlope = "slad.max_slope_deg";
+
+TEST(SettingsState, AMovedLimitAppliesAtOnceWhileSearching) {
+  SettingsState state{Settings{}};
+  ASSERT_TRUE(state.Set(kSlope, 7, false));
+  EXPECT_EQ(state.applied().slad.max_slope_deg, 7);
+  EXPECT_FALSE(state.previewing());
+}
+
+TEST(SettingsState, AMovedLimitPreviewsOnlyWhileArmed) {
+  SettingsState state{Settings{}};
+  ASSERT_TRUE(state.Set(kSlope, 7, true));
+  EXPECT_EQ(state.applied().slad.max_slope_deg, 10);
+  EXPECT_TRUE(state.previewing());
+  state.Discard();
+  EXPECT_FALSE(state.previewing());
+  ASSERT_TRUE(state.Set(kSlope, 6, true));
+  state.Apply();
+  EXPECT_EQ(state.applied().slad.max_slope_deg, 6);
+}
+
+TEST(SettingsState, ARefusedValueChangesNothing) {
+  SettingsState state{Settings{}};
+  EXPECT_FALSE(state.Set(kSlope, 700, false));
+  EXPECT_EQ(state.applied(), Settings{});
+}
+
+TEST(SettingsState, ReplayFollowsTheRecordUntilTheReviewerMovesALimit) {
+  SettingsState state{Settings{}};
+  ASSERT_TRUE(state.SetRecorded(kSlope, 8, false));
+  EXPECT_EQ(state.applied().slad.max_slope_deg, 8);
+  EXPECT_FALSE(state.redecided());
+  ASSERT_TRUE(state.Set(kSlope, 5, false));
+  EXPECT_TRUE(state.redecided());
+  ASSERT_TRUE(state.SetRecorded(kSlope, 9, false));
+  EXPECT_EQ(state.recorded().slad.max_slope_deg, 9);
+  EXPECT_EQ(state.applied().slad.max_slope_deg, 5);
+}
+
+}  // namespace
+}  // namespace palace
