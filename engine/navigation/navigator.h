@@ -3,7 +3,7 @@
 // The GPS filter always runs on GPS and IMU and never sees vision. The vision filter starts at
 // StartVision, velocity and accelerometer bias seeded from the GPS filter, position from its first
 // fix, and takes over only when it has settled and AllowVision(true) was given
-// (reference: simulation.md 4; Rogers & al. on loosely coupled filters). Everything goes by time
+// (reference: simulation.md 4). Everything goes by time
 // stamp: late measurements are put where they belong and the inertial data replayed.
 //
 // Without any GPS (folders of pictures) the autopilot's VehiclePose is the estimate in force.

@@ -1,0 +1,129 @@
+#include "engine/tracking/coherence.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <opencv2/imgproc.hpp>
+
+#include "engine/tracking/view_geometry.h"
+
+namespace palace {
+namespace {
+
+constexpr double kMinVariance = 1.0;  // grey levels squared; flatter patches say nothing
+
+cv::Mat View(const ImageU8& picture) {
+  return {picture.height(), picture.width(), CV_8U,
+          const_cast<std::uint8_t*>(picture.pixels().data())};
+}
+
+/// Square patch whose pixel (i, j) is the source's value at from_patch * (centre + offset).
+ImageU8 SamplePatch(const ImageU8& source, const Eigen::Matrix3d& source_from_current,
+                    const Eigen::Vector2d& centre, int side) {
+  cv::Mat map_x(side, side, CV_32F);
+  cv::Mat map_y(side, side, CV_32F);
+  for (int y = 0; y < side; ++y) {
+    for (int x = 0; x < side; ++x) {
+      const Eigen::Vector2d offset(x - 0.5 * (side - 1), y - 0.5 * (side - 1));
+      const Eigen::Vector2d at = MapPixel(source_from_current, centre + offset);
+      map_x.at<float>(y, x) = static_cast<float>(at.x());
+      map_y.at<float>(y, x) = static_cast<float>(at.y());
+    }
+  }
+  ImageU8 patch(side, side);
+  cv::Mat out = View(patch);
+  cv::remap(View(source), out, map_x, map_y, cv::INTER_LINEAR, cv::BORDER_REPLICATE);
+  return patch;
+}
+
+struct Correlation {
+  double rho = 0;
+  double gain = 1;  // current ~ gain * (anchor - mean_anchor) + mean_current
+  double mean_anchor = 0;
+  double mean_current = 0;
+};
+
+Correlation Correlate(const cv::Mat& anchor, const cv::Mat& current) {
+  double sum_a = 0, sum_c = 0, sum_aa = 0, sum_cc = 0, sum_ac = 0;
+  for (int y = 0; y < anchor.rows; ++y) {
+    const unsigned char* a = anchor.ptr(y);
+    const unsigned char* c = current.ptr(y);
+    for (int x = 0; x < anchor.cols; ++x) {
+      const double av = a[x], cv = c[x];
+      sum_a += av;
+      sum_c += cv;
+      sum_aa += av * av;
+      sum_cc += cv * cv;
+      sum_ac += av * cv;
+    }
+  }
+  const double n = static_cast<double>(anchor.total());
+  const double var_a = sum_aa / n - sum_a * sum_a / (n * n);
+  const double var_c = sum_cc / n - sum_c * sum_c / (n * n);
+  const double cov = sum_ac / n - sum_a * sum_c / (n * n);
+  Correlation result;
+  result.mean_anchor = sum_a / n;
+  result.mean_current = sum_c / n;
+  if (var_a > kMinVariance && var_c > kMinVariance) {
+    result.rho = cov / std::sqrt(var_a * var_c);
+    result.gain = std::sqrt(var_c / var_a);
+  }
+  return result;
+}
+
+}  // namespace
+
+PatchComparison ComparePatches(ImageU8 anchor_patch, ImageU8 current_patch) {
+  PALACE_CHECK(anchor_patch.width() == current_patch.width() &&
+               anchor_patch.height() == current_patch.height());
+  cv::Mat smooth_anchor;
+  cv::Mat smooth_current;
+  cv::GaussianBlur(View(anchor_patch), smooth_anchor, cv::Size(5, 5), 1.1);
+  cv::GaussianBlur(View(current_patch), smooth_current, cv::Size(5, 5), 1.1);
+  const Correlation match = Correlate(smooth_anchor, smooth_current);
+  ImageU8 difference(anchor_patch.width(), anchor_patch.height());
+  for (std::size_t i = 0; i < difference.pixels().size(); ++i) {
+    const double expected =
+        match.gain * (anchor_patch.pixels()[i] - match.mean_anchor) + match.mean_current;
+    const double value = 128 + (current_patch.pixels()[i] - expected) / 2;
+    difference.pixels()[i] = static_cast<std::uint8_t>(std::clamp(std::lround(value), 0L, 255L));
+  }
+  PatchComparison comparison;
+  comparison.coherence = std::clamp(match.rho, 0.0, 1.0);
+  comparison.anchor = std::make_shared<const ImageU8>(std::move(anchor_patch));
+  comparison.current = std::make_shared<const ImageU8>(std::move(current_patch));
+  comparison.difference = std::make_shared<const ImageU8>(std::move(difference));
+  return comparison;
+}
+
+PatchComparison ComparePatches(const ImageU8& anchor, const ImageU8& current,
+                               const Eigen::Matrix3d& anchor_from_current,
+                               const Eigen::Vector2d& centre) {
+  return ComparePatches(SamplePatch(anchor, anchor_from_current, centre, kPatchSide_px),
+                        SamplePatch(current, Eigen::Matrix3d::Identity(), centre, kPatchSide_px));
+}
+
+PatchSearch SearchPatch(const ImageU8& anchor, const ImageU8& current,
+                        const Eigen::Matrix3d& anchor_from_current, const Eigen::Vector2d& centre,
+                        int radius_px) {
+  // At half resolution: a quarter of the places and of the pixels; flow refines the answer.
+  const ImageU8 wanted = SamplePatch(anchor, anchor_from_current, centre, kPatchSide_px);
+  const ImageU8 window =
+      SamplePatch(current, Eigen::Matrix3d::Identity(), centre, kPatchSide_px + 2 * radius_px);
+  cv::Mat small_wanted;
+  cv::Mat small_window;
+  cv::pyrDown(View(wanted), small_wanted);
+  cv::pyrDown(View(window), small_window);
+  cv::Mat score;
+  cv::matchTemplate(small_window, small_wanted, score, cv::TM_CCOEFF_NORMED);
+  double best = 0;
+  cv::Point at;
+  cv::minMaxLoc(score, nullptr, &best, nullptr, &at);
+  PatchSearch search;
+  search.shift_px = Eigen::Vector2d(2.0 * at.x - radius_px, 2.0 * at.y - radius_px);
+  search.coherence = std::isfinite(best) ? std::clamp(best, 0.0, 1.0) : 0.0;
+  return search;
+}
+
+}  // namespace palace

@@ -1,0 +1,322 @@
+#include "engine/tracking/plane_tracker.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "engine/tracking/camera_resection.h"
+#include "engine/tracking/coherence.h"
+#include "engine/tracking/feature_selection.h"
+#include "engine/tracking/keyframe_flow.h"
+#include "engine/tracking/landmark_placement.h"
+
+namespace palace {
+namespace {
+
+constexpr double kRekeyScale = 1.4;
+constexpr double kForcedRekeyScale = 1.9;  // beyond it the keyframe's texture is no longer there
+constexpr int kMinInliers = 6;
+constexpr int kFewInliers = 12;
+constexpr double kMinInlierShare = 0.35;  // of the landmarks that should be visible
+constexpr double kSigma_px = 0.3;
+constexpr int kMaxOutlierFrames = 5;
+constexpr double kMaxHeightCorrection_m = 2.0;
+constexpr double kSearchCoherence = 0.6;
+constexpr int kMaxSearchRadius_px = 128;
+
+/// Ground that counts as around the site: what the picture shows of it, from far and from near.
+double LandmarkRadius(const GroundPlane& plane, const Eigen::Vector3d& p_WC) {
+  return std::max(5.0, 0.5 * (p_WC - plane.p_WS).norm());
+}
+
+/// Room enough for max_count features in the picture.
+double Spacing(const PinholeCamera& camera, int max_count) {
+  const double area = static_cast<double>(camera.width) * camera.height;
+  return std::clamp(0.6 * std::sqrt(area / std::max(max_count, 1)), 8.0, 40.0);
+}
+
+}  // namespace
+
+void PlaneTracker::Lock(const ImageU8& left, const PinholeCamera& camera,
+                        const RigidTransform& X_WC, const RangeMap* range, const LandingSite& site,
+                        const TrackingSettings& settings) {
+  *this = PlaneTracker();
+  plane_ = {site.p_WS, site.normal_W.normalized()};
+  RigidTransform X_WK = X_WC;
+  const std::vector<Eigen::Vector2d> candidates = SelectFeatures(left, {}, {400, 16, 14, 0.01});
+  const auto above_m = MedianHeightAbovePlane(camera, X_WC, plane_, range, candidates,
+                                              LandmarkRadius(plane_, X_WC.p));
+  if (above_m && std::abs(*above_m) <= kMaxHeightCorrection_m) {
+    // The ranges are measured now, the site's place was estimated then: what differs is the drift
+    // of the estimate in between, and the site's place is what W means from here on.
+    X_WK.p -= *above_m * plane_.normal_W;
+  }
+  correction_p_W_ = X_WK.p - X_WC.p;
+  CutKeyframe(left, camera, X_WK, range, settings, {});
+  locked_ = landmarks_.size() >= static_cast<std::size_t>(kMinInliers);
+}
+
+void PlaneTracker::CutKeyframe(const ImageU8& left, const PinholeCamera& camera,
+                               const RigidTransform& X_WC, const RangeMap* range,
+                               const TrackingSettings& settings, std::vector<Landmark> kept) {
+  keyframe_ = left;
+  X_WK_ = X_WC;
+  landmarks_ = std::move(kept);
+  AddLandmarks(camera, range, settings);
+  landmarks_at_key_ = landmarks_.size();
+  ++keyframes_;
+}
+
+void PlaneTracker::AddLandmarks(const PinholeCamera& camera, const RangeMap* range,
+                                const TrackingSettings& settings) {
+  const int wanted = settings.max_features - static_cast<int>(landmarks_.size());
+  if (wanted <= 0) {
+    return;
+  }
+  std::vector<Eigen::Vector2d> taken;
+  for (const Landmark& landmark : landmarks_) {
+    taken.push_back(landmark.key_pixel);
+  }
+  FeatureSelectionOptions options;
+  options.max_count = 3 * wanted;  // many lie off the plane or away from the site
+  options.spacing_px = Spacing(camera, settings.max_features);
+  const double radius_m = LandmarkRadius(plane_, X_WK_.p);
+  const std::vector<Eigen::Vector2d> pixels = SelectFeatures(keyframe_, taken, options);
+  const double common_m =
+      MedianHeightAbovePlane(camera, X_WK_, plane_, range, pixels, radius_m).value_or(0.0);
+  for (const Eigen::Vector2d& pixel : pixels) {
+    if (static_cast<int>(landmarks_.size()) >= settings.max_features) {
+      break;
+    }
+    if (const auto placed =
+            PlaceLandmark(camera, X_WK_, plane_, range, pixel, radius_m, common_m)) {
+      landmarks_.push_back({placed->p_WF, placed->pixel, placed->sigma_w_m, 0});
+    }
+  }
+}
+
+PlaneTracker::Attempt PlaneTracker::Try(const ImageU8& left, const PinholeCamera& camera,
+                                        const RigidTransform& X_WC,
+                                        const Eigen::Vector2d& shift_px) const {
+  Attempt attempt;
+  attempt.X_WC = X_WC;
+  attempt.visible.assign(landmarks_.size(), false);
+  attempt.inlier.assign(landmarks_.size(), false);
+  attempt.pixels.assign(landmarks_.size(), Eigen::Vector2d::Zero());
+  const auto current_from_key = PlaneHomography(camera, X_WK_, X_WC, plane_);
+  if (!current_from_key || plane_.HeightOf(X_WC.p) <= 0.1) {
+    return attempt;
+  }
+  std::vector<Eigen::Vector2d> key_pixels;
+  for (const Landmark& landmark : landmarks_) {
+    key_pixels.push_back(landmark.key_pixel);
+  }
+  KeyframeFlowOptions options;
+  options.shift_px = shift_px;
+  const std::vector<FlowPoint> points =
+      FollowFromKeyframe(keyframe_, left, *current_from_key, key_pixels, options);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    attempt.pixels[i] = points[i].pixel;
+    attempt.visible[i] = points[i].visible;
+    attempt.inlier[i] = points[i].agrees;
+    attempt.visible_count += points[i].visible ? 1 : 0;
+    attempt.inliers += points[i].agrees ? 1 : 0;
+  }
+  if (attempt.inliers >= kMinInliers) {
+    Resect(camera, X_WC, attempt);
+  }
+  return attempt;
+}
+
+void PlaneTracker::Resect(const PinholeCamera& camera, const RigidTransform& X_WC,
+                          Attempt& attempt) const {
+  std::vector<GroundLandmark> seen;
+  std::vector<std::size_t> index;
+  for (std::size_t i = 0; i < landmarks_.size(); ++i) {
+    if (attempt.inlier[i]) {
+      seen.push_back({landmarks_[i].p_WF, attempt.pixels[i], kSigma_px, landmarks_[i].sigma_w_m});
+      index.push_back(i);
+    }
+  }
+  const Result<Resection> resection = ResectCamera(seen, camera, X_WC.R);
+  if (!resection || plane_.HeightOf(resection->X_WC.p) <= 0.1) {
+    return;
+  }
+  for (std::size_t i = 0; i < index.size(); ++i) {
+    attempt.inlier[index[i]] = resection->inlier[i];
+  }
+  attempt.inliers = resection->inliers;
+  attempt.rms_px = resection->rms_px;
+  attempt.ok =
+      attempt.inliers >= kMinInliers && attempt.inliers >= kMinInlierShare * attempt.visible_count;
+  if (attempt.ok) {
+    attempt.X_WC = resection->X_WC;
+  }
+}
+
+PlaneTracker::Attempt PlaneTracker::BestAttempt(const ImageU8& left, const PinholeCamera& camera,
+                                                const RigidTransform& X_WC_predicted,
+                                                const TrackingSettings& settings) const {
+  const RigidTransform corrected{X_WC_predicted.R * correction_R_,
+                                 X_WC_predicted.p + correction_p_W_};
+  Attempt attempt = Try(left, camera, corrected, Eigen::Vector2d::Zero());
+  if (attempt.ok) {
+    return attempt;
+  }
+  // The estimate in force may have stepped onto vision: then the plain prediction is right.
+  const bool differs = (X_WC_predicted.p - corrected.p).norm() > 1e-3;
+  if (differs) {
+    Attempt plain = Try(left, camera, X_WC_predicted, Eigen::Vector2d::Zero());
+    if (plain.ok) {
+      return plain;
+    }
+  }
+  for (const RigidTransform& X_WC : {corrected, X_WC_predicted}) {
+    const auto key_from_current = PlaneHomography(camera, X_WC, X_WK_, plane_);
+    if (!key_from_current) {
+      continue;
+    }
+    const int radius_px =
+        std::min(settings.search_radius_px * (2 + frames_lost_), kMaxSearchRadius_px);
+    Attempt where;
+    where.X_WC = X_WC;
+    const PatchSearch search =
+        SearchPatch(keyframe_, left, *key_from_current, PatchCentre(camera, where), radius_px);
+    if (search.coherence >= kSearchCoherence) {
+      Attempt found = Try(left, camera, X_WC, search.shift_px);
+      if (found.ok) {
+        return found;
+      }
+    }
+    if (!differs) {
+      break;
+    }
+  }
+  return attempt;
+}
+
+Eigen::Vector2d PlaneTracker::PatchCentre(const PinholeCamera& camera,
+                                          const Attempt& attempt) const {
+  const double margin_px =
+      std::min({kPatchSide_px / 2.0, camera.width / 2.0 - 1, camera.height / 2.0 - 1});
+  const auto site = PixelFromWorldPoint(camera, attempt.X_WC, plane_.p_WS);
+  const Eigen::Vector2d middle(0.5 * (camera.width - 1), 0.5 * (camera.height - 1));
+  Eigen::Vector2d centre = middle;
+  if (site && InPicture(camera, *site, 0)) {
+    centre = *site;
+  } else if (attempt.ok) {
+    Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+    for (std::size_t i = 0; i < attempt.pixels.size(); ++i) {
+      sum += attempt.inlier[i] ? attempt.pixels[i] : Eigen::Vector2d::Zero();
+    }
+    centre = sum / attempt.inliers;
+  } else {
+    Eigen::Vector3d mean_W = Eigen::Vector3d::Zero();
+    for (const Landmark& landmark : landmarks_) {
+      mean_W += landmark.p_WF / static_cast<double>(landmarks_.size());
+    }
+    centre = PixelFromWorldPoint(camera, attempt.X_WC, mean_W).value_or(middle);
+  }
+  return {std::clamp(centre.x(), margin_px, camera.width - 1 - margin_px),
+          std::clamp(centre.y(), margin_px, camera.height - 1 - margin_px)};
+}
+
+double PlaneTracker::MeanDistance(const Eigen::Vector3d& p_WC) const {
+  double sum_m = 0;
+  for (const Landmark& landmark : landmarks_) {
+    sum_m += (landmark.p_WF - p_WC).norm();
+  }
+  return sum_m / static_cast<double>(std::max<std::size_t>(landmarks_.size(), 1));
+}
+
+bool PlaneTracker::NeedsKeyframe(const Attempt& attempt, double coherence,
+                                 const TrackingSettings& settings) const {
+  const double scale = MeanDistance(X_WK_.p) / std::max(MeanDistance(attempt.X_WC.p), 1e-3);
+  const double zoom = std::max(scale, 1 / scale);
+  const bool few = attempt.inliers < kFewInliers;
+  if (coherence < settings.min_coherence) {
+    // Only when waiting would lose the ground altogether, and most of what is visible agrees.
+    return (zoom > kForcedRekeyScale || few) && attempt.inliers >= 0.6 * attempt.visible_count;
+  }
+  return zoom > kRekeyScale || few ||
+         2 * static_cast<std::size_t>(attempt.inliers) < landmarks_at_key_;
+}
+
+void PlaneTracker::NoteOutliers(const Attempt& attempt) {
+  for (std::size_t i = 0; i < landmarks_.size(); ++i) {
+    int& frames = landmarks_[i].outlier_frames;
+    frames = attempt.visible[i] && !attempt.inlier[i] ? frames + 1 : 0;
+  }
+}
+
+TrackerStatus PlaneTracker::Describe(const ImageU8& left, const PinholeCamera& camera,
+                                     const Attempt& attempt, const TrackingSettings& settings,
+                                     Timestamp time) const {
+  TrackerStatus status;
+  status.time = time;
+  status.locked = attempt.ok;
+  status.mode = "Plane";
+  status.keyframes = keyframes_;
+  status.anchor_height_m = plane_.HeightOf(X_WK_.p);
+  status.inliers = attempt.ok ? attempt.inliers : 0;
+  const auto site = PixelFromWorldPoint(camera, attempt.X_WC, plane_.p_WS);
+  status.site_pixel = site.value_or(Eigen::Vector2d(-1e4, -1e4));
+  status.site_in_picture = site && InPicture(camera, *site, 0);
+  for (std::size_t i = 0; i < attempt.pixels.size(); ++i) {
+    if (attempt.visible[i]) {
+      status.features.push_back({attempt.pixels[i], attempt.ok && attempt.inlier[i]});
+    }
+  }
+  const Eigen::Vector2d centre = PatchCentre(camera, attempt);
+  status.window_centre = centre;
+  status.window_side_px = kPatchSide_px + 2.0 * settings.search_radius_px;
+  if (const auto key_from_current = PlaneHomography(camera, attempt.X_WC, X_WK_, plane_)) {
+    const PatchComparison patches = ComparePatches(keyframe_, left, *key_from_current, centre);
+    status.coherence = patches.coherence;
+    status.anchor_patch = patches.anchor;
+    status.current_patch = patches.current;
+    status.difference_patch = patches.difference;
+  }
+  return status;
+}
+
+TrackResult PlaneTracker::Track(const ImageU8& left, const PinholeCamera& camera,
+                                const RigidTransform& X_WC_predicted, const RangeMap* range,
+                                const TrackingSettings& settings, Timestamp time) {
+  TrackResult result;
+  result.time = time;
+  if (landmarks_.size() < static_cast<std::size_t>(kMinInliers)) {
+    locked_ = false;
+    result.status.time = time;
+    result.status.mode = "Plane";
+    return result;
+  }
+  const Attempt attempt = BestAttempt(left, camera, X_WC_predicted, settings);
+  result.status = Describe(left, camera, attempt, settings, time);
+  locked_ = attempt.ok;
+  if (!attempt.ok) {
+    ++frames_lost_;
+    return result;
+  }
+  frames_lost_ = 0;
+  correction_p_W_ = attempt.X_WC.p - X_WC_predicted.p;
+  correction_R_ = X_WC_predicted.R.transpose() * attempt.X_WC.R;
+  NoteOutliers(attempt);
+  std::vector<Landmark> inliers;
+  for (std::size_t i = 0; i < landmarks_.size(); ++i) {
+    if (attempt.inlier[i]) {
+      const Landmark& mark = landmarks_[i];
+      result.landmarks.push_back({mark.p_WF, attempt.pixels[i], kSigma_px, mark.sigma_w_m});
+      inliers.push_back({mark.p_WF, attempt.pixels[i], mark.sigma_w_m, 0});
+    }
+  }
+  if (NeedsKeyframe(attempt, result.status.coherence, settings)) {
+    CutKeyframe(left, camera, attempt.X_WC, range, settings, std::move(inliers));
+  } else if (result.status.coherence >= settings.min_coherence) {
+    std::erase_if(landmarks_,
+                  [](const Landmark& mark) { return mark.outlier_frames > kMaxOutlierFrames; });
+  }
+  return result;
+}
+
+}  // namespace palace

@@ -1,0 +1,137 @@
+#include "engine/tracking/template_tracker.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <opencv2/imgproc.hpp>
+
+#include "engine/tracking/coherence.h"
+#include "engine/tracking/view_geometry.h"
+
+namespace palace {
+namespace {
+
+constexpr int kMaxMissed = 10;
+constexpr double kSigma_px = 0.5;
+
+cv::Mat View(const ImageU8& picture) {
+  return {picture.height(), picture.width(), CV_8U,
+          const_cast<std::uint8_t*>(picture.pixels().data())};
+}
+
+/// Square cut around a sub-pixel centre; beyond the picture the edge is repeated.
+ImageU8 Cut(const ImageU8& picture, const Eigen::Vector2d& centre, int side) {
+  ImageU8 cut(side, side);
+  cv::Mat out = View(cut);
+  cv::getRectSubPix(View(picture), cv::Size(side, side),
+                    cv::Point2f(static_cast<float>(centre.x()), static_cast<float>(centre.y())),
+                    out);
+  return cut;
+}
+
+ImageU8 Resized(const ImageU8& picture) {
+  ImageU8 patch(kPatchSide_px, kPatchSide_px);
+  cv::Mat out = View(patch);
+  cv::resize(View(picture), out, out.size(), 0, 0, cv::INTER_LINEAR);
+  return patch;
+}
+
+struct Match {
+  Eigen::Vector2d offset = Eigen::Vector2d::Zero();  ///< of the template in the window, sub-pixel
+  double score = 0;
+};
+
+double Parabola(double before, double at, double after) {
+  const double bend = before - 2 * at + after;
+  return bend < -1e-12 ? std::clamp(0.5 * (before - after) / bend, -0.5, 0.5) : 0.0;
+}
+
+Match FindTemplate(const ImageU8& window, const ImageU8& wanted) {
+  cv::Mat score;
+  cv::matchTemplate(View(window), View(wanted), score, cv::TM_CCOEFF_NORMED);
+  double best = 0;
+  cv::Point at;
+  cv::minMaxLoc(score, nullptr, &best, nullptr, &at);
+  Match match;
+  match.score = std::isfinite(best) ? std::clamp(best, 0.0, 1.0) : 0.0;
+  match.offset = Eigen::Vector2d(at.x, at.y);
+  if (at.x > 0 && at.x + 1 < score.cols) {
+    match.offset.x() += Parabola(score.at<float>(at.y, at.x - 1), score.at<float>(at.y, at.x),
+                                 score.at<float>(at.y, at.x + 1));
+  }
+  if (at.y > 0 && at.y + 1 < score.rows) {
+    match.offset.y() += Parabola(score.at<float>(at.y - 1, at.x), score.at<float>(at.y, at.x),
+                                 score.at<float>(at.y + 1, at.x));
+  }
+  return match;
+}
+
+}  // namespace
+
+void TemplateTracker::Lock(const ImageU8& left, const PinholeCamera& camera,
+                           const RigidTransform& X_WC, const LandingSite& site,
+                           const TrackingSettings& settings) {
+  *this = TemplateTracker();
+  p_WS_ = site.p_WS;
+  const auto pixel = PixelFromWorldPoint(camera, X_WC, p_WS_);
+  if (!pixel || !InPicture(camera, *pixel, settings.template_size_px / 2.0)) {
+    return;
+  }
+  pixel_ = *pixel;
+  predicted_pixel_ = *pixel;
+  template_ = Cut(left, pixel_, settings.template_size_px);
+  anchor_height_m_ = HeightFromDown(X_WC.p.z() - p_WS_.z());
+  locked_ = true;
+}
+
+TrackResult TemplateTracker::Track(const ImageU8& left, const PinholeCamera& camera,
+                                   const RigidTransform& X_WC_predicted,
+                                   const TrackingSettings& settings, Timestamp time) {
+  TrackResult result;
+  result.time = time;
+  result.status.time = time;
+  result.status.mode = "Template";
+  if (!locked_) {
+    return result;
+  }
+  const Eigen::Vector2d predicted =
+      PixelFromWorldPoint(camera, X_WC_predicted, p_WS_).value_or(predicted_pixel_);
+  const Eigen::Vector2d centre = pixel_ + predicted - predicted_pixel_;
+  const int side = template_.width();
+  const int window_side = side + 2 * settings.search_radius_px;
+  const ImageU8 window = Cut(left, centre, window_side);
+  const Match match = FindTemplate(window, template_);
+  const Eigen::Vector2d found =
+      centre + match.offset - Eigen::Vector2d::Constant(settings.search_radius_px);
+  const bool good = match.score >= settings.min_coherence && InPicture(camera, found, 1);
+  // Not seen: coast on the predicted motion.
+  pixel_ = good ? found : centre;
+  predicted_pixel_ = predicted;
+  frames_missed_ = good ? 0 : frames_missed_ + 1;
+  locked_ = frames_missed_ <= kMaxMissed && InPicture(camera, pixel_, 0);
+
+  ImageU8 current = Cut(left, pixel_, side);
+  const PatchComparison patches = ComparePatches(Resized(template_), Resized(current));
+  result.status.locked = locked_ && good;
+  result.status.coherence = match.score;
+  result.status.site_pixel = pixel_;
+  result.status.site_in_picture = InPicture(camera, pixel_, 0);
+  result.status.features = {{pixel_, good}};
+  result.status.window_centre = centre;
+  result.status.window_side_px = window_side;
+  result.status.inliers = good ? 1 : 0;
+  result.status.keyframes = 1;
+  result.status.anchor_patch = patches.anchor;
+  result.status.current_patch = patches.current;
+  result.status.difference_patch = patches.difference;
+  result.status.anchor_height_m = anchor_height_m_;
+  if (good) {
+    result.landmarks.push_back({p_WS_, pixel_, kSigma_px, 0});
+    template_ = std::move(current);
+    anchor_height_m_ = HeightFromDown(X_WC_predicted.p.z() - p_WS_.z());
+  }
+  return result;
+}
+
+}  // namespace palace
