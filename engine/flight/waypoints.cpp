@@ -1,0 +1,37 @@
+#include "engine/flight/waypoints.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/core/frames.h"
+
+namespace palace {
+
+void MovingReference::MoveTowards(const Eigen::Vector3d& waypoint_W, const TravelLimits& limits,
+                                  double dt_s) {
+  const Eigen::Vector3d way = waypoint_W - p_W;
+  const double distance = way.norm();
+  const double step = limits.acceleration_mps2 * dt_s;
+  // Inside one step of travel the square-root law would chatter; the reference just arrives.
+  if (distance <= step * dt_s && v_W.norm() <= 2 * step) {
+    p_W = waypoint_W;
+    v_W.setZero();
+    return;
+  }
+  // Braking at 80 % of the limit leaves the rest for the change of direction.
+  const double speed = std::min({limits.max_speed_mps, distance / dt_s,
+                                 std::sqrt(1.6 * limits.acceleration_mps2 * distance)});
+  const Eigen::Vector3d change = way * (speed / std::max(distance, 1e-12)) - v_W;
+  v_W += change * std::min(1.0, step / std::max(change.norm(), 1e-12));
+  p_W += v_W * dt_s;
+}
+
+double Slew(double from, double to, double step) {
+  return from + std::clamp(to - from, -step, step);
+}
+
+double SlewAngle(double from_rad, double to_rad, double step_rad) {
+  return WrapAngle(from_rad + std::clamp(WrapAngle(to_rad - from_rad), -step_rad, step_rad));
+}
+
+}  // namespace palace

@@ -1,0 +1,297 @@
+#include "engine/simulation/autopilot.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace palace {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kHoldAfter_s = 0.5;
+constexpr double kAbortAfter_s = 2.0;
+constexpr double kOutageClimb_m = 10.0;
+constexpr int kEstimatesBeforeUse = 5;
+constexpr double kHandOverSpeed_mps = 0.5;
+constexpr double kOffsetFade_s = 3.0;
+constexpr double kLeverAverage_s = 2.0;
+constexpr double kYawRate_rad_s = Rad(15);
+constexpr double kPathAcceleration_mps2 = 0.3;
+constexpr double kPathLag_m = 1.0;
+constexpr double kSettleError_m = 0.15;
+constexpr double kSettleSpeed_mps = 0.15;
+constexpr TravelLimits kAlignTravel{2.0, 0.4};
+constexpr TravelLimits kSettleTravel{0.7, 0.3};
+constexpr TravelLimits kStopTravel{4.0, 0.8};
+
+/// The reference stops after braking from its present velocity.
+Vector3d StoppingPoint(const Vector3d& p, const Vector3d& v) {
+  return p + v * (v.norm() / (2 * kStopTravel.acceleration_mps2));
+}
+
+}  // namespace
+
+Autopilot::Autopilot(const AutopilotOptions& options)
+    : options_(options),
+      gate_(options.boot_id, options.signature_check),
+      hold_p_W_(options.hover_p_WB),
+      skid_lever_W_(SkidCentreBody()) {
+  reference_.p_W = options.hover_p_WB;
+  yaw_reference_rad_ = options.hover_yaw_rad;
+  gps_.p_WB = flown_.p_WB = options.hover_p_WB;
+}
+
+std::vector<CommandAck> Autopilot::TakeAcks() {
+  std::vector<CommandAck> taken;
+  taken.swap(acks_);
+  return taken;
+}
+
+void Autopilot::Acknowledge(std::uint64_t id, const std::string& refusal, Timestamp now) {
+  acks_.push_back({now, id, refusal.empty() ? AckResult::kAccepted : AckResult::kRefused, refusal});
+}
+
+void Autopilot::Receive(const VehicleMessage& message, Timestamp now) {
+  if (const auto* approval = std::get_if<Approval>(&message)) {
+    ReceiveApproval(*approval, now);
+  } else if (const auto* estimate = std::get_if<PositionEstimate>(&message)) {
+    ReceiveEstimate(*estimate, now);
+  } else if (const auto* hold = std::get_if<HoldRequest>(&message)) {
+    ReceiveHold(*hold, now);
+  } else if (const auto* abort = std::get_if<AbortRequest>(&message)) {
+    ReceiveAbort(*abort, now);
+  }
+}
+
+void Autopilot::ReceiveApproval(const Approval& approval, Timestamp now) {
+  if (mode_ != VehicleMode::kHover && mode_ != VehicleMode::kHold) {
+    Acknowledge(approval.id, "the vehicle is not in hover", now);
+    return;
+  }
+  const std::string refusal = gate_.Admit(approval, now, gps_.p_WB);
+  Acknowledge(approval.id, refusal, now);
+  if (!refusal.empty()) {
+    return;
+  }
+  approval_ = approval;
+  slope_ = {approval.p_WS, approval.approach_heading_rad, approval.glide_slope_rad, options_.p_BC};
+  path_height_m_ = std::max(slope_.SkidHeight(reference_.p_W), kSettleHeight_m);
+  last_estimate_.reset();
+  last_arrival_.reset();
+  estimates_seen_ = 0;
+  mode_ = VehicleMode::kAlign;
+}
+
+void Autopilot::ReceiveEstimate(const PositionEstimate& estimate, Timestamp now) {
+  const bool usable = approval_ && estimate.source == EstimateSource::kVision && estimate.healthy &&
+                      estimate.approval_id == approval_->id && estimate.p_WB.allFinite() &&
+                      estimate.v_WB.allFinite() && estimate.time <= now &&
+                      (!last_estimate_ || estimate.time > last_estimate_->time);
+  if (!usable || (vision_ && !vision_->Update(estimate))) {
+    return;
+  }
+  last_estimate_ = estimate;
+  last_arrival_ = now;
+  ++estimates_seen_;
+}
+
+void Autopilot::ReceiveHold(const HoldRequest& request, Timestamp now) {
+  if (mode_ == VehicleMode::kLanded || mode_ == VehicleMode::kAbort) {
+    const bool landed = mode_ == VehicleMode::kLanded;
+    Acknowledge(request.command_id, landed ? "on the ground" : "climbing away", now);
+    return;
+  }
+  EnterHold();
+  Acknowledge(request.command_id, {}, now);
+}
+
+void Autopilot::ReceiveAbort(const AbortRequest& request, Timestamp now) {
+  if (mode_ == VehicleMode::kLanded) {
+    Acknowledge(request.command_id, "on the ground, rotor thrust is off", now);
+    return;
+  }
+  EnterAbort(options_.hover_p_WB.z());
+  Acknowledge(request.command_id, {}, now);
+}
+
+double Autopilot::VisionAge(Timestamp now) const {
+  return last_arrival_ ? SecondsBetween(*last_arrival_, now)
+                       : std::numeric_limits<double>::infinity();
+}
+
+void Autopilot::Propagate(Timestamp now, const Vector3d& a_W) {
+  if (vision_) {
+    vision_->Propagate(now, a_W);
+  }
+}
+
+StickCommand Autopilot::Control(Timestamp now, const FlightState& gps, bool on_ground) {
+  gps_ = gps;
+  flown_ = gps;
+  if (flies_on_vision_) {
+    flown_.p_WB = vision_->now().p_WB;
+    flown_.v_WB = vision_->now().v_WB;
+  }
+  skid_lever_W_ +=
+      options_.control_period_s / kLeverAverage_s * (gps.R_WB * SkidCentreBody() - skid_lever_W_);
+  if (on_ground) {
+    mode_ = VehicleMode::kLanded;
+    flies_on_vision_ = false;
+    vision_.reset();
+    return {};
+  }
+  StepMode(now);
+  const FlightSetpoint setpoint{reference_.p_W, reference_.v_W, yaw_reference_rad_};
+  return controller_.Update(setpoint, flown_, options_.control_period_s);
+}
+
+void Autopilot::StepMode(Timestamp now) {
+  const bool fresh = VisionAge(now) <= kHoldAfter_s;
+  if (flies_on_vision_ && VisionAge(now) > kAbortAfter_s) {
+    // Never above the hover height the flight came from, never downwards.
+    const double down = gps_.p_WB.z();
+    EnterAbort(std::min(down, std::max(down - kOutageClimb_m, options_.hover_p_WB.z())));
+  }
+  switch (mode_) {
+    case VehicleMode::kAlign:
+      StepAlign(now);
+      break;
+    case VehicleMode::kDescend:
+      StepDescend(fresh);
+      break;
+    case VehicleMode::kSettle:
+      StepSettle(now, fresh);
+      break;
+    case VehicleMode::kSink:
+      StepSink(fresh);
+      break;
+    case VehicleMode::kAbort:
+      StepAbort();
+      break;
+    default:
+      reference_.MoveTowards(hold_p_W_, kStopTravel, options_.control_period_s);
+      break;
+  }
+}
+
+void Autopilot::StepAlign(Timestamp now) {
+  const double dt = options_.control_period_s;
+  if (now > approval_->expires_at) {
+    EnterHold();
+    return;
+  }
+  const Vector3d start = slope_.BodyAt(path_height_m_);
+  reference_.MoveTowards(start, kAlignTravel, dt);
+  yaw_reference_rad_ = SlewAngle(yaw_reference_rad_, slope_.heading_rad, kYawRate_rad_s * dt);
+  const double yaw = EulerFromRotation(gps_.R_WB).yaw_rad;
+  const bool aligned = (gps_.p_WB - start).norm() < 0.5 && gps_.v_WB.norm() < 0.4 &&
+                       std::abs(WrapAngle(yaw - slope_.heading_rad)) < Rad(3);
+  const bool vision_ready = estimates_seen_ >= kEstimatesBeforeUse &&
+                            VisionAge(now) < kHoldAfter_s &&
+                            (last_estimate_->v_WB - gps_.v_WB).norm() < kHandOverSpeed_mps;
+  if (aligned && vision_ready) {
+    vision_.emplace(now, *last_estimate_, InertialTrack::Point{now, gps_.p_WB, gps_.v_WB});
+    HandOverToVision();
+  }
+}
+
+void Autopilot::HandOverToVision() {
+  const Vector3d shift = vision_->now().p_WB - gps_.p_WB;
+  flown_.p_WB = vision_->now().p_WB;
+  flown_.v_WB = vision_->now().v_WB;
+  flies_on_vision_ = true;
+  reference_.p_W += shift;
+  path_height_m_ = slope_.SkidHeight(reference_.p_W);
+  path_offset_W_ = reference_.p_W - slope_.BodyAt(path_height_m_);
+  path_rate_mps_ = 0;
+  mode_ = VehicleMode::kDescend;
+}
+
+void Autopilot::StepDescend(bool fresh) {
+  const double dt = options_.control_period_s;
+  const double to_go = path_height_m_ - kSettleHeight_m;
+  // The floor ends the path in finite time; braking at the end leaves no step for the height loop.
+  const double braking = std::max(0.1, std::sqrt(2 * kPathAcceleration_mps2 * std::max(to_go, 0.)));
+  const double slow_to_go = std::max(path_height_m_ - options_.slow_height_m, 0.0);
+  const double wanted = std::min({options_.sink_rate_mps, braking,
+                                  std::hypot(options_.slow_sink_rate_mps,
+                                             std::sqrt(2 * kPathAcceleration_mps2 * slow_to_go))});
+  const bool keeps_up = (reference_.p_W - flown_.p_WB).norm() < kPathLag_m;
+  const bool moving = fresh && keeps_up;
+  path_rate_mps_ =
+      Slew(path_rate_mps_, moving ? wanted : 0, (moving ? 1 : 4) * kPathAcceleration_mps2 * dt);
+  path_height_m_ -= path_rate_mps_ * dt;
+  path_offset_W_ *= std::exp(-dt / kOffsetFade_s);
+  reference_.p_W = slope_.BodyAt(path_height_m_) + path_offset_W_;
+  reference_.v_W = -path_rate_mps_ * slope_.BodyPerMetre();
+  if (path_height_m_ <= kSettleHeight_m) {
+    settle_time_s_ = settled_s_ = 0;
+    mode_ = VehicleMode::kSettle;
+  }
+}
+
+void Autopilot::StepSettle(Timestamp, bool fresh) {
+  const double dt = options_.control_period_s;
+  const Vector3d target = slope_.p_WS - kSettleHeight_m * Vector3d::UnitZ() - skid_lever_W_;
+  reference_.MoveTowards(fresh ? target : StoppingPoint(reference_.p_W, reference_.v_W),
+                         kSettleTravel, dt);
+  settle_time_s_ += dt;
+  // In gusts the tight tolerance may never hold; it widens, to less than the navigation error that
+  // every clear radius includes.
+  const double patience = std::clamp((settle_time_s_ - 15) / 15, 0.0, 1.0);
+  const double tolerance = kSettleError_m + 0.3 * patience;
+  const Vector3d error = flown_.p_WB - target;
+  const bool settled = fresh && error.head<2>().norm() < tolerance && std::abs(error.z()) < 0.3 &&
+                       flown_.v_WB.norm() < kSettleSpeed_mps + 0.3 * patience;
+  settled_s_ = settled ? settled_s_ + dt : 0;
+  if (settled_s_ >= 1.0) {
+    path_height_m_ = kSettleHeight_m;
+    path_rate_mps_ = 0;
+    mode_ = VehicleMode::kSink;
+  }
+}
+
+void Autopilot::StepSink(bool fresh) {
+  const double dt = options_.control_period_s;
+  path_rate_mps_ = Slew(path_rate_mps_, fresh ? options_.touch_rate_mps : 0,
+                        (fresh ? 1 : 4) * kPathAcceleration_mps2 * dt);
+  path_height_m_ -= path_rate_mps_ * dt;
+  reference_.p_W = slope_.p_WS - path_height_m_ * Vector3d::UnitZ() - skid_lever_W_;
+  reference_.v_W = {0, 0, path_rate_mps_};
+}
+
+void Autopilot::StepAbort() {
+  const double dt = options_.control_period_s;
+  const Vector3d target(hold_p_W_.x(), hold_p_W_.y(), climb_to_down_m_);
+  const TravelLimits travel{options_.climb_rate_mps, 1.0};
+  reference_.MoveTowards(target, travel, dt);
+  if ((gps_.p_WB - target).norm() < 0.5 && gps_.v_WB.norm() < 0.5) {
+    hold_p_W_ = target;
+    mode_ = VehicleMode::kHover;
+  }
+}
+
+void Autopilot::ReturnToGps() {
+  approval_.reset();
+  flies_on_vision_ = false;
+  vision_.reset();
+  reference_.p_W = gps_.p_WB;
+  reference_.v_W = gps_.v_WB;
+  flown_ = gps_;
+  yaw_reference_rad_ = EulerFromRotation(gps_.R_WB).yaw_rad;
+  hold_p_W_ = StoppingPoint(reference_.p_W, reference_.v_W);
+}
+
+void Autopilot::EnterHold() {
+  ReturnToGps();
+  mode_ = VehicleMode::kHold;
+}
+
+void Autopilot::EnterAbort(double target_down_m) {
+  ReturnToGps();
+  climb_to_down_m_ = std::min(target_down_m, gps_.p_WB.z());
+  mode_ = VehicleMode::kAbort;
+}
+
+}  // namespace palace

@@ -1,0 +1,105 @@
+// Autopilot: the modes of the simulated vehicle, from hover to touchdown.
+//
+//   kHover  holds a point on GPS. An admitted approval starts kAlign.
+//   kAlign  at the present height to the start of the glide slope, turning to the approach heading.
+//           Leaves when within 0.5 m, 3 deg and 0.4 m/s AND healthy vision estimates for this
+//           approval arrive; too late for the expiry means kHold.
+//   kDescend, kSettle, kSink  fly on vision: down the slope, level until the skids are above the
+//           site at 2 m, then 0.35 m/s down until they touch.
+//   kLanded stays. kHold hovers where it is on GPS. kAbort climbs at 1.5 m/s, then kHover.
+//
+// On vision, no healthy estimate with an advancing stamp for 0.5 s stops the motion (inertial
+// hover); for 2 s climbs away 10 m. Hold, abort, expiry and outage end the approval for good.
+// At the hand-over the reference is shifted by vision minus GPS, so the control error is unchanged;
+// the shift then fades with a time constant of 3 s.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "engine/flight/controllers.h"
+#include "engine/flight/glide_slope.h"
+#include "engine/flight/waypoints.h"
+#include "engine/simulation/approval_gate.h"
+#include "engine/simulation/vehicle_navigator.h"
+
+namespace palace {
+
+struct AutopilotOptions {
+  std::uint64_t boot_id = 1;
+  ApprovalGate::Check signature_check;
+  Eigen::Vector3d hover_p_WB = Eigen::Vector3d::Zero();
+  double hover_yaw_rad = 0;
+  Eigen::Vector3d p_BC = Eigen::Vector3d::Zero();  ///< left focal point in B
+  double control_period_s = 0.02;
+  double sink_rate_mps = 1.0;       ///< on the slope
+  double slow_sink_rate_mps = 0.5;  ///< below slow_height_m of skid height
+  double slow_height_m = 4.0;
+  double touch_rate_mps = 0.35;
+  double climb_rate_mps = 1.5;
+};
+
+class Autopilot {
+ public:
+  explicit Autopilot(const AutopilotOptions& options);
+
+  void Receive(const VehicleMessage& message, Timestamp now);
+  /// The inertial step of the vision solution, 100 Hz; a_W with the bias removed.
+  void Propagate(Timestamp now, const Eigen::Vector3d& a_W);
+  /// One control step. `gps` carries attitude and rates, and position and velocity on GPS.
+  StickCommand Control(Timestamp now, const FlightState& gps, bool on_ground);
+
+  VehicleMode mode() const { return mode_; }
+  bool flies_on_vision() const { return flies_on_vision_; }
+  std::uint64_t approval_id() const { return approval_ ? approval_->id : 0; }
+  std::vector<CommandAck> TakeAcks();
+
+ private:
+  void ReceiveApproval(const Approval& approval, Timestamp now);
+  void ReceiveEstimate(const PositionEstimate& estimate, Timestamp now);
+  void ReceiveHold(const HoldRequest& request, Timestamp now);
+  void ReceiveAbort(const AbortRequest& request, Timestamp now);
+  void Acknowledge(std::uint64_t id, const std::string& refusal, Timestamp now);
+  /// Seconds without a usable estimate; infinite before the first.
+  double VisionAge(Timestamp now) const;
+
+  void StepMode(Timestamp now);
+  void StepAlign(Timestamp now);
+  void StepDescend(bool fresh);
+  void StepSettle(Timestamp now, bool fresh);
+  void StepSink(bool fresh);
+  void StepAbort();
+  void HandOverToVision();
+  void ReturnToGps();
+  void EnterHold();
+  void EnterAbort(double target_down_m);
+
+  AutopilotOptions options_;
+  ApprovalGate gate_;
+  FlightController controller_;
+  VehicleMode mode_ = VehicleMode::kHover;
+  std::optional<Approval> approval_;
+  GlideSlope slope_;
+
+  FlightState gps_;  ///< of the last control step
+  FlightState flown_;
+  bool flies_on_vision_ = false;
+  std::optional<VisionNavigator> vision_;
+  std::optional<PositionEstimate> last_estimate_;
+  std::optional<Timestamp> last_arrival_;
+  int estimates_seen_ = 0;
+
+  MovingReference reference_;
+  double yaw_reference_rad_ = 0;
+  Eigen::Vector3d hold_p_W_;
+  double path_height_m_ = 0;  ///< skid height of the reference
+  double path_rate_mps_ = 0;
+  Eigen::Vector3d path_offset_W_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d skid_lever_W_;  ///< R_WB p_B,skid, averaged: the mean tilt in wind
+  double settle_time_s_ = 0;
+  double settled_s_ = 0;
+  double climb_to_down_m_ = 0;
+  std::vector<CommandAck> acks_;
+};
+
+}  // namespace palace

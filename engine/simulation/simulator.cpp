@@ -1,0 +1,213 @@
+#include "engine/simulation/simulator.h"
+
+#include <chrono>
+#include <cmath>
+#include <condition_variable>
+#include <mutex>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "engine/simulation/camera_noise.h"
+#include "engine/simulation/simulated_vehicle.h"
+
+namespace palace {
+namespace {
+
+constexpr double kSpeedSmoothing = 0.1;
+
+Error Ended(const char* why) { return {ErrorCode::kEnd, why}; }
+
+}  // namespace
+
+/// What other threads may touch lies behind the mutex; the rest belongs to the thread of Next().
+struct Simulator::State {
+  State(SimulatorOptions given, SceneCameraFactory factory)
+      : options(std::move(given)),
+        camera_factory(std::move(factory)),
+        rig(std::make_shared<const StereoRig>(options.rig)),
+        left_noise(options.image_noise_grey, 1, options.seed, "camera left"),
+        right_noise(options.image_noise_grey, options.brightness_gain_right, options.seed,
+                    "camera right"),
+        vehicle(options) {
+    status.kind = SourceKind::kSimulation;
+    status.name = options.scene.name;
+    status.speed = options.speed;
+    status.start = kEpoch;
+    status.duration_s = options.duration_limit_s;
+  }
+
+  bool WaitForTurn(std::stop_token stop);
+  Result<std::shared_ptr<const StereoFrame>> Expose();
+  void Publish(bool ended);
+
+  const SimulatorOptions options;
+  const SceneCameraFactory camera_factory;
+  const std::shared_ptr<const StereoRig> rig;
+  CameraNoise left_noise;
+  CameraNoise right_noise;
+  SimulatedVehicle vehicle;
+  std::unique_ptr<SceneCamera> camera;
+  std::uint64_t sequence = 0;
+  std::optional<double> last_turn_s;  ///< monotonic; when the last bundle was due or begun
+
+  mutable std::mutex mutex;
+  std::condition_variable_any changed;
+  std::vector<VehicleMessage> inbox;
+  SourceStatus status;
+  int steps_wanted = 0;  ///< while paused
+};
+
+/// Pacing only. False when stopped.
+bool Simulator::State::WaitForTurn(std::stop_token stop) {
+  std::unique_lock lock(mutex);
+  if (!changed.wait(lock, stop, [&] { return !status.paused || steps_wanted > 0; })) {
+    return false;
+  }
+  if (steps_wanted > 0) {
+    --steps_wanted;
+    last_turn_s.reset();
+    return !stop.stop_requested();
+  }
+  const double begin_s = MonotonicSeconds();
+  if (status.speed > 0 && last_turn_s) {
+    const double due_s = *last_turn_s + 1 / (options.rig.rate_hz * status.speed);
+    const double speed = status.speed;
+    // A change of speed or a pause ends the wait early; this bundle still comes.
+    changed.wait_for(lock, stop, std::chrono::duration<double>(std::max(0.0, due_s - begin_s)),
+                     [&] { return status.paused || status.speed != speed; });
+  }
+  const double now_s = MonotonicSeconds();
+  if (last_turn_s && now_s > *last_turn_s) {
+    const double reached = 1 / (options.rig.rate_hz * (now_s - *last_turn_s));
+    status.speed_reached += kSpeedSmoothing * (reached - status.speed_reached);
+  }
+  last_turn_s = now_s;
+  return !stop.stop_requested();
+}
+
+Result<std::shared_ptr<const StereoFrame>> Simulator::State::Expose() {
+  if (!camera) {
+    if (!camera_factory) {
+      return UsageError("the simulator was asked for pictures without a scene camera");
+    }
+    Result<std::unique_ptr<SceneCamera>> made = camera_factory(options.scene);
+    if (!made) {
+      return made.error();
+    }
+    camera = std::move(made).value();
+  }
+  const RigidTransform X_WC0 = vehicle.X_WB() * rig->X_BC();
+  const RigidTransform X_C0C1{Eigen::Matrix3d::Identity(), {rig->baseline_m, 0, 0}};
+  Result<ImageU8> left = camera->Render(rig->left.pinhole, X_WC0);
+  if (!left) {
+    return left.error();
+  }
+  Result<ImageU8> right = camera->Render(rig->right.pinhole, X_WC0 * X_C0C1);
+  if (!right) {
+    return right.error();
+  }
+  auto frame = std::make_shared<StereoFrame>();
+  frame->time = vehicle.now();
+  frame->left = std::move(left).value();
+  frame->right = std::move(right).value();
+  left_noise.Apply(frame->left);
+  right_noise.Apply(frame->right);
+  return std::shared_ptr<const StereoFrame>(std::move(frame));
+}
+
+void Simulator::State::Publish(bool ended) {
+  const std::lock_guard lock(mutex);
+  status.ended = ended;
+  status.position_s = SecondsBetween(kEpoch, vehicle.now());
+  status.frame_index = sequence;
+}
+
+Simulator::Simulator(SimulatorOptions options, SceneCameraFactory camera_factory)
+    : state_(std::make_unique<State>(std::move(options), std::move(camera_factory))) {}
+
+Simulator::~Simulator() = default;
+
+Result<std::shared_ptr<const FrameBundle>> Simulator::Next(std::stop_token stop) {
+  State& s = *state_;
+  if (!s.WaitForTurn(stop)) {
+    return Ended("stopped");
+  }
+  if (SecondsBetween(kEpoch, s.vehicle.now()) >= s.options.duration_limit_s) {
+    s.Publish(true);
+    return Ended("the simulated flight reached its time limit");
+  }
+  std::vector<VehicleMessage> messages;
+  {
+    const std::lock_guard lock(s.mutex);
+    messages.swap(s.inbox);
+  }
+  for (const VehicleMessage& message : messages) {
+    s.vehicle.Receive(message);
+  }
+  auto bundle = std::make_shared<FrameBundle>();
+  bundle->sequence = ++s.sequence;
+  // From the epoch each time, so that a rate that is no multiple of the grid does not drift.
+  s.vehicle.AdvanceTo(AddSeconds(kEpoch, static_cast<double>(s.sequence) / s.options.rig.rate_hz),
+                      *bundle);
+  bundle->time = s.vehicle.now();
+  bundle->rig = s.rig;
+  bundle->pose_at_exposure = s.vehicle.Pose();
+  bundle->status = s.vehicle.Status();
+  if (s.options.render) {
+    Result<std::shared_ptr<const StereoFrame>> frame = s.Expose();
+    if (!frame) {
+      s.Publish(true);
+      return frame.error();
+    }
+    bundle->stereo = std::move(frame).value();
+  }
+  s.Publish(false);
+  return std::shared_ptr<const FrameBundle>(std::move(bundle));
+}
+
+SourceStatus Simulator::Status() const {
+  const std::lock_guard lock(state_->mutex);
+  return state_->status;
+}
+
+void Simulator::Control(const PlaybackControl& control) {
+  const std::lock_guard lock(state_->mutex);
+  switch (control.kind) {
+    case PlaybackControl::Kind::kPlay:
+      state_->status.paused = false;
+      state_->steps_wanted = 0;
+      break;
+    case PlaybackControl::Kind::kPause:
+      state_->status.paused = true;
+      state_->steps_wanted = 0;
+      break;
+    case PlaybackControl::Kind::kStepForward:
+      state_->status.paused = true;
+      ++state_->steps_wanted;
+      break;
+    case PlaybackControl::Kind::kSpeed:
+      if (std::isfinite(control.value) && control.value >= 0) {
+        state_->status.speed = control.value;
+      }
+      break;
+    case PlaybackControl::Kind::kStepBack:  // a simulation has no past to return to
+    case PlaybackControl::Kind::kSeek:
+      break;
+  }
+  state_->changed.notify_all();
+}
+
+void Simulator::Send(const VehicleMessage& message) {
+  const std::lock_guard lock(state_->mutex);
+  state_->inbox.push_back(message);
+}
+
+std::uint64_t Simulator::boot_id() const { return state_->vehicle.boot_id(); }
+
+const Touchdown* Simulator::touchdown() const {
+  const std::optional<Touchdown>& touchdown = state_->vehicle.touchdown();
+  return touchdown ? &*touchdown : nullptr;
+}
+
+}  // namespace palace
