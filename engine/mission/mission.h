@@ -57,6 +57,7 @@ struct MissionInputs {
   std::uint64_t settings_hash = 0;
   std::uint64_t calibration_hash = 0;
   std::uint64_t snapshot_sequence = 0;  ///< of the snapshot this pass will publish
+  double approach_heading_rad = NAN;    ///< wanted course over ground; NaN: straight to the site
   Eigen::Vector3d p_WB_estimate = Eigen::Vector3d::Constant(NAN);
   Eigen::Vector3d skid_centre_W = Eigen::Vector3d::Constant(NAN);  ///< by the estimate in force
 };
@@ -97,7 +98,9 @@ class Mission {
     MissionSettings limits;
     double commit_height_m = 3;
     Eigen::Vector3d skid_centre_W = Eigen::Vector3d::Constant(NAN);
-    double descent_speed_mps = NAN;
+    double speed_mps = NAN;  ///< by the estimate in force
+    double approach_heading_rad = NAN;
+    GuardInputs guards;  ///< what does not age: health, link, recorder
   };
   /// What an armed site is bound to.
   struct ArmedFacts {
@@ -124,7 +127,7 @@ class Mission {
     Timestamp since;
   };
 
-  // mission.cpp
+  // mission.cpp, mission_steps.cpp
   void Enter(MissionState state, std::string why, Timestamp now);
   void ForgetSite();
   void Kill(std::string_view why);
@@ -147,15 +150,23 @@ class Mission {
   void StepDescending(const MissionInputs& inputs);
   void StepHold(const MissionInputs& inputs);
   void StepAborting(const MissionInputs& inputs);
+  std::string WhyStale(Timestamp now) const;
   std::string WhyDrop(const MissionInputs& inputs) const;
-  std::string WhyHold(const MissionInputs& inputs);
+  std::string WhyHold(const MissionInputs& inputs) const;
   bool SiteLost(Timestamp now) const;
+  bool WinnerStands(Timestamp now) const;
+  bool Executing() const;
+  double HeightAboveSite() const;
+  std::string SiteName() const;
   bool HasLanded(const MissionInputs& inputs) const;
   void Land(const MissionInputs& inputs);
   // mission_status.cpp
   void Publish(const MissionInputs& inputs);
   void PublishGeometry(const MissionInputs& inputs);
   void PublishAlarms(const MissionInputs& inputs);
+  std::vector<AlarmCondition> SensorAlarms(const MissionInputs& inputs) const;
+  std::vector<AlarmCondition> MissionAlarms(const MissionInputs& inputs) const;
+  double LaserMismatch(const MissionInputs& inputs) const;
   GuardInputs MakeGuardInputs(Timestamp now) const;
   // mission_commands.cpp
   Status Refuse(Timestamp now, std::string_view what, std::string why);

@@ -1,0 +1,256 @@
+// Commands: who may ask for what, and when.
+#include <cmath>
+
+#include "engine/core/units.h"
+#include "engine/mission/mission.h"
+
+namespace palace {
+namespace {
+
+constexpr double kSnapshotOld_s = 2;
+
+template <typename T>
+bool Is(const EngineCommand& command) {
+  return std::holds_alternative<T>(command.action);
+}
+
+bool ConcernsVehicle(const EngineCommand& c) {
+  return Is<SelectSite>(c) || Is<DisarmSite>(c) || Is<ApproveSite>(c) || Is<RefuseSite>(c) ||
+         Is<HoldHere>(c) || Is<WaveOff>(c) || Is<AcknowledgeWaveOff>(c);
+}
+
+template <class... Ts>
+struct Overloaded : Ts... {
+  using Ts::operator()...;
+};
+template <class... Ts>
+Overloaded(Ts...) -> Overloaded<Ts...>;
+
+}  // namespace
+
+Status Mission::Refuse(Timestamp now, std::string_view what, std::string why) {
+  AddEvent(now, EventKind::kDecision, std::string(what) + " refused: " + why);
+  return UsageError(std::move(why));
+}
+
+std::string Mission::WhyNoCommand(const EngineCommand& command) const {
+  const bool recorded = command.origin == CommandOrigin::kReplay;
+  if (recorded && facts_.source_kind != SourceKind::kReplay) {
+    return "Recorded commands act in a replay only";
+  }
+  if (!ConcernsVehicle(command)) {
+    return {};
+  }
+  if (!recorded && facts_.source_kind == SourceKind::kReplay) {
+    return "No link in replay";
+  }
+  if (facts_.source_kind == SourceKind::kImages) {
+    return "No vehicle in a picture folder";
+  }
+  const bool commits = Is<SelectSite>(command) || Is<ApproveSite>(command);
+  const bool script_may = options_.allow_script_approvals && facts_.simulated_vehicle;
+  if (commits && command.origin == CommandOrigin::kScript && !script_may) {
+    return "A script may select and approve only on a simulated vehicle";
+  }
+  return {};
+}
+
+Status Mission::Apply(const EngineCommand& command, Timestamp now) {
+  std::string why_not = WhyNoCommand(command);
+  if (!why_not.empty()) {
+    return Refuse(now, "Command", std::move(why_not));
+  }
+  const auto nothing = [](const auto&) { return Ok(); };
+  return std::visit(Overloaded{
+                        nothing,
+                        [&](const SelectSite& a) { return Select(a.site_id, now); },
+                        [&](const DisarmSite&) { return Disarm(now); },
+                        [&](const ApproveSite& a) { return Approve(a, command.origin, now); },
+                        [&](const RefuseSite& a) { return RefuseProposal(a.site_id, now); },
+                        [&](const HoldHere&) -> Status {
+                          if (status_.state != MissionState::kDescending &&
+                              status_.state != MissionState::kApproved) {
+                            return Refuse(now, "Hold", "No descent to hold");
+                          }
+                          Hold("Held by the operator", now);
+                          return Ok();
+                        },
+                        [&](const WaveOff&) -> Status {
+                          Abort("Waved off by the operator", now);
+                          return Ok();
+                        },
+                        [&](const AcknowledgeWaveOff&) -> Status {
+                          if (status_.state != MissionState::kAborting) {
+                            return Refuse(now, "Acknowledge", "No wave-off to acknowledge");
+                          }
+                          wave_off_acknowledged_ = true;
+                          alarms_.Acknowledge("wave_off");
+                          return Ok();
+                        },
+                        [&](const AcknowledgeAlarm& a) -> Status {
+                          if (!alarms_.Acknowledge(a.alarm)) {
+                            return Refuse(now, "Acknowledge", "No alarm '" + a.alarm + "'");
+                          }
+                          AddEvent(now, EventKind::kAlarm, "Acknowledged: " + a.alarm);
+                          return Ok();
+                        },
+                        [&](const AddBookmark& a) -> Status {
+                          AddEvent(now, EventKind::kBookmark, a.note);
+                          return Ok();
+                        },
+                    },
+                    command.action);
+}
+
+const LandingSite* Mission::FindSite(std::uint64_t site_id) const {
+  for (const LandingSite& site : facts_.sites) {
+    if (site.id == site_id) {
+      return &site;
+    }
+  }
+  return nullptr;
+}
+
+Status Mission::Select(std::uint64_t site_id, Timestamp now) {
+  const LandingSite* site = FindSite(site_id);
+  if (status_.state != MissionState::kProposed && status_.state != MissionState::kArmed) {
+    return Refuse(
+        now, "Select",
+        std::string("No site can be selected in state ") + MissionStateWord(status_.state));
+  }
+  if (site == nullptr) {
+    return Refuse(now, "Select", "That site is not on the newest map");
+  }
+  if (!site->p_WS.allFinite() || !std::isfinite(site->clear_radius_m)) {
+    return Refuse(now, "Select", "The place of that site is not known");
+  }
+  if (status_.state == MissionState::kArmed && status_.armed->id == site_id) {
+    return Ok();  // set, not toggle: a second copy changes nothing (I8)
+  }
+  const LandingSite chosen = *site;
+  ForgetSite();
+  refused_sites_.erase(site_id);
+  refusal_.clear();
+  status_.armed = chosen;
+  status_.armed_at = now;
+  status_.arm_expires = AddSeconds(now, facts_.limits.arm_window_s);
+  status_.approval_phase = MissionStatus::ApprovalPhase::kNone;
+  status_.approval_answer.clear();
+  status_.rechecks.clear();
+  armed_.map_hash = facts_.map_hash;
+  armed_.settings_hash = facts_.settings_hash;
+  armed_.terrain_settings_hash = facts_.terrain_settings_hash;
+  armed_.calibration_hash = facts_.calibration_hash;
+  armed_.boot_id = watch_.boot_id();
+  armed_.confirmed = chosen.confirmed;
+  Enter(MissionState::kArmed, "Site " + std::string(1, chosen.letter) + " selected", now);
+  return Ok();
+}
+
+Status Mission::Disarm(Timestamp now) {
+  if (status_.state != MissionState::kArmed && status_.state != MissionState::kApproved) {
+    return Refuse(now, "Disarm", "No site is selected");
+  }
+  Drop(status_.state == MissionState::kArmed ? "Deselected by the operator"
+                                             : "Approval withdrawn by the operator",
+       now);
+  return Ok();
+}
+
+Status Mission::RefuseProposal(std::uint64_t site_id, Timestamp now) {
+  const LandingSite* site = FindSite(site_id);
+  const bool armed = status_.state == MissionState::kArmed && status_.armed->id == site_id;
+  if (status_.state != MissionState::kProposed && status_.state != MissionState::kArmed) {
+    return Refuse(
+        now, "Refuse",
+        status_.state == MissionState::kApproved || status_.state == MissionState::kDescending
+            ? "Already approved, hold or wave off"
+            : "No site is proposed");
+  }
+  if (site == nullptr && !armed) {
+    return Refuse(now, "Refuse", "That site is not on the newest map");
+  }
+  const std::string name =
+      "Site " + std::string(1, armed ? status_.armed->letter : site->letter) + " refused";
+  refused_sites_.insert(site_id);
+  AddEvent(now, EventKind::kDecision, name + " by the operator");
+  if (winner_.id == site_id) {
+    winner_ = {};
+  }
+  if (armed) {
+    Drop(name, now);
+  }
+  return Ok();
+}
+
+Status Mission::Approve(const ApproveSite& action, CommandOrigin origin, Timestamp now) {
+  if (status_.state != MissionState::kArmed) {
+    return Refuse(
+        now, "Approve",
+        status_.state == MissionState::kApproved || status_.state == MissionState::kDescending
+            ? "Already approved"
+            : "Select a site first");
+  }
+  if (action.site_id != status_.armed->id) {
+    return Refuse(now, "Approve", "Selected is " + SiteName() + ", not the site to approve");
+  }
+  const bool recorded = origin == CommandOrigin::kReplay;
+  const auto guards = EvaluateGuards(MakeGuardInputs(now));
+  if (const GuardResult* failed = FirstFailure(guards, recorded)) {
+    return Refuse(now, "Approve", failed->reason);
+  }
+  if (!recorded) {
+    // G6: the picture the operator decided on showed this site armed, and was recent.
+    bool recent = false;
+    for (const auto& [sequence, shown_at] : shown_) {
+      recent = recent || (sequence == action.snapshot_sequence &&
+                          SecondsBetween(shown_at, now) <= kSnapshotOld_s);
+    }
+    if (!recent || action.snapshot_sequence < *armed_.first_sequence) {
+      return Refuse(now, "Approve", "The picture on the screen was not that of this selection");
+    }
+  }
+  status_.approval = MakeApproval(now);
+  status_.approval_phase = MissionStatus::ApprovalPhase::kSent;
+  status_.approval_answer.clear();
+  status_.arm_expires.reset();
+  approved_now_ = now;
+  repeating_ = *status_.approval;
+  sent_at_ = now;
+  AddEvent(now, EventKind::kDecision,
+           "Approval " + std::to_string(counter_) + " of " + SiteName() +
+               (status_.approval->provisional ? ", provisional" : "") + " given");
+  Enter(MissionState::kApproved, "Approved by the operator, sent to the vehicle", now);
+  Send(*status_.approval);
+  return Ok();
+}
+
+Approval Mission::MakeApproval(Timestamp now) {
+  const LandingSite& site = *status_.armed;
+  const std::uint64_t session = options_.session_id ^ (options_.session_id >> 32);
+  Approval a;
+  a.counter = ++counter_;
+  a.id = (session << 32) | counter_;
+  a.session_id = options_.session_id;
+  a.site_id = site.id;
+  a.map_hash = armed_.map_hash;
+  a.settings_hash = armed_.settings_hash;
+  a.calibration_hash = armed_.calibration_hash;
+  a.vehicle_boot_id = armed_.boot_id;
+  a.approved_at = watch_.VehicleTime(now);
+  a.expires_at = AddSeconds(a.approved_at, facts_.limits.approval_expiry_s);
+  a.provisional = !armed_.confirmed;
+  a.p_WS = site.p_WS;
+  const Eigen::Vector3d to_site = site.p_WS - facts_.skid_centre_W;
+  a.approach_heading_rad = std::isfinite(facts_.approach_heading_rad)
+                               ? facts_.approach_heading_rad
+                               : std::atan2(to_site.y(), to_site.x());
+  a.glide_slope_rad = Rad(facts_.limits.glide_slope_deg);
+  a.clear_radius_m = site.clear_radius_m;
+  if (facts_.source_kind != SourceKind::kReplay) {
+    options_.signer.Sign(a);  // a replayed approval stays unsigned: no vehicle may take it (I7)
+  }
+  return a;
+}
+
+}  // namespace palace
