@@ -1,0 +1,168 @@
+#include "engine/camera/rectification.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include <opencv2/calib3d.hpp>
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "engine/camera/cahvor.h"
+
+namespace palace {
+
+/// Where each rectified pixel lies in the raw picture; (-1e4, -1e4) where it has no place.
+struct StereoRectifier::Maps {
+  cv::Mat left_x;
+  cv::Mat left_y;
+  cv::Mat right_x;
+  cv::Mat right_y;
+};
+
+namespace {
+
+std::string SizeText(int width, int height) {
+  return std::to_string(width) + " x " + std::to_string(height);
+}
+
+bool HasDistortion(const RigCamera& camera) {
+  return std::any_of(camera.distortion.begin(), camera.distortion.end(),
+                     [](double k) { return k != 0; });
+}
+
+Status CheckPinhole(const PinholeCamera& camera, const char* side) {
+  const bool good = camera.width > 0 && camera.height > 0 && camera.fx_px > 0 && camera.fy_px > 0 &&
+                    std::isfinite(camera.fx_px + camera.fy_px) &&
+                    std::isfinite(camera.cx_px + camera.cy_px);
+  if (good) {
+    return Ok();
+  }
+  return InvalidError(std::string("rig: the ") + side + " camera (" +
+                      SizeText(camera.width, camera.height) + " px, focal length " +
+                      std::to_string(camera.fx_px) + " x " + std::to_string(camera.fy_px) +
+                      " px) must have a positive size and focal length; check RIG.toml");
+}
+
+void PlumbBobMaps(const RigCamera& raw, const PinholeCamera& rectified, cv::Mat& x, cv::Mat& y) {
+  const PinholeCamera& p = raw.pinhole;
+  const cv::Matx33d K(p.fx_px, 0, p.cx_px, 0, p.fy_px, p.cy_px, 0, 0, 1);
+  const cv::Matx33d K_new(rectified.fx_px, 0, rectified.cx_px, 0, rectified.fy_px, rectified.cy_px,
+                          0, 0, 1);
+  const cv::Vec<double, 5> k(raw.distortion.data());
+  cv::initUndistortRectifyMap(K, k, cv::Matx33d::eye(), K_new, {rectified.width, rectified.height},
+                              CV_32FC1, x, y);
+}
+
+void CahvorMaps(const CahvorModel& raw, const CahvorModel& aligned, cv::Mat& x, cv::Mat& y) {
+  constexpr float kNowhere = -1e4F;
+  x.create(aligned.height, aligned.width, CV_32FC1);
+  y.create(aligned.height, aligned.width, CV_32FC1);
+  for (int row = 0; row < aligned.height; ++row) {
+    for (int col = 0; col < aligned.width; ++col) {
+      const auto ray =
+          RayFromPixelCahvor(aligned, {static_cast<double>(col), static_cast<double>(row)});
+      // The centre of a CAHVOR camera does not move, so any point of the ray will do.
+      const auto pixel = ray ? ProjectCahvor(raw, raw.C + ray->direction) : std::nullopt;
+      x.at<float>(row, col) = pixel ? static_cast<float>(pixel->x()) : kNowhere;
+      y.at<float>(row, col) = pixel ? static_cast<float>(pixel->y()) : kNowhere;
+    }
+  }
+}
+
+std::shared_ptr<const ImageU8> Resample(const ImageU8& raw, const cv::Mat& x, const cv::Mat& y) {
+  auto out = std::make_shared<ImageU8>(x.cols, x.rows);
+  // OpenCV has no read-only view; remap does not write its source.
+  const cv::Mat source(raw.height(), raw.width(), CV_8UC1,
+                       const_cast<std::uint8_t*>(raw.pixels().data()));
+  cv::Mat target(out->height(), out->width(), CV_8UC1, out->pixels().data());
+  // Cubic: linear weights blur by an amount that depends on the fraction, which biases disparity.
+  cv::remap(source, target, x, y, cv::INTER_CUBIC, cv::BORDER_CONSTANT, cv::Scalar(0));
+  return out;
+}
+
+}  // namespace
+
+Result<StereoRectifier> StereoRectifier::Make(const StereoRig& rig) {
+  if (rig.left.cahvor.has_value() != rig.right.cahvor.has_value()) {
+    return InvalidError(
+        "rig: one camera has a model_file and the other has not; give both or none");
+  }
+  StereoRectifier rectifier;
+  if (rig.left.cahvor) {
+    const CahvorModel& left = *rig.left.cahvor;
+    const CahvorModel& right = *rig.right.cahvor;
+    const auto aligned = AlignPair(left, right);
+    if (!aligned) {
+      return InvalidError(
+          "rig: the two camera models cannot be aligned; their views do not overlap");
+    }
+    const CahvPinhole pinhole = PinholeFromCahv(aligned->left);
+    rectifier.camera_ = pinhole.camera;
+    rectifier.baseline_m_ = (right.C - left.C).norm();
+    rectifier.R_C_Rect_ = PinholeFromCahv(left).R_CF * pinhole.R_CF.transpose();
+    rectifier.left_width_ = left.width;
+    rectifier.left_height_ = left.height;
+    rectifier.right_width_ = right.width;
+    rectifier.right_height_ = right.height;
+    auto maps = std::make_shared<Maps>();
+    CahvorMaps(left, aligned->left, maps->left_x, maps->left_y);
+    CahvorMaps(right, aligned->right, maps->right_x, maps->right_y);
+    rectifier.maps_ = std::move(maps);
+    return rectifier;
+  }
+  for (const Status& status :
+       {CheckPinhole(rig.left.pinhole, "left"), CheckPinhole(rig.right.pinhole, "right")}) {
+    if (!status) {
+      return status.error();
+    }
+  }
+  if (!(rig.baseline_m > 0) || !std::isfinite(rig.baseline_m)) {
+    return InvalidError("rig: baseline_m = " + std::to_string(rig.baseline_m) +
+                        " must be positive; check RIG.toml");
+  }
+  rectifier.camera_ = rig.left.pinhole;
+  rectifier.baseline_m_ = rig.baseline_m;
+  rectifier.left_width_ = rig.left.pinhole.width;
+  rectifier.left_height_ = rig.left.pinhole.height;
+  rectifier.right_width_ = rig.right.pinhole.width;
+  rectifier.right_height_ = rig.right.pinhole.height;
+  // A rig that calls itself rectified is only so with one pinhole and no distortion.
+  if (HasDistortion(rig.left) || HasDistortion(rig.right) ||
+      !(rig.left.pinhole == rig.right.pinhole)) {
+    auto maps = std::make_shared<Maps>();
+    PlumbBobMaps(rig.left, rectifier.camera_, maps->left_x, maps->left_y);
+    PlumbBobMaps(rig.right, rectifier.camera_, maps->right_x, maps->right_y);
+    rectifier.maps_ = std::move(maps);
+  }
+  return rectifier;
+}
+
+Result<RectifiedPair> StereoRectifier::Rectify(const StereoFrame& frame) const {
+  const auto check = [](const ImageU8& image, int width, int height, const char* side) -> Status {
+    if (image.width() == width && image.height() == height) {
+      return Ok();
+    }
+    return InvalidError(std::string("rectification: the ") + side + " picture is " +
+                        SizeText(image.width(), image.height()) + " px, the rig's camera is " +
+                        SizeText(width, height) + " px; check RIG.toml");
+  };
+  for (const Status& status : {check(frame.left, left_width_, left_height_, "left"),
+                               check(frame.right, right_width_, right_height_, "right")}) {
+    if (!status) {
+      return status.error();
+    }
+  }
+  if (!maps_) {
+    return RectifiedPair{std::make_shared<const ImageU8>(frame.left),
+                         std::make_shared<const ImageU8>(frame.right)};
+  }
+  return RectifiedPair{Resample(frame.left, maps_->left_x, maps_->left_y),
+                       Resample(frame.right, maps_->right_x, maps_->right_y)};
+}
+
+const PinholeCamera& StereoRectifier::camera() const { return camera_; }
+double StereoRectifier::baseline_m() const { return baseline_m_; }
+const Eigen::Matrix3d& StereoRectifier::R_C_Rect() const { return R_C_Rect_; }
+
+}  // namespace palace

@@ -1,0 +1,27 @@
+#include "engine/camera/text_file.h"
+
+#include <fstream>
+#include <system_error>
+
+namespace palace {
+
+Result<std::string> ReadTextFile(const std::filesystem::path& path, std::size_t limit) {
+  std::error_code code;
+  if (!std::filesystem::is_regular_file(path, code)) {
+    return UnavailableError(path.string() + ": no such file");
+  }
+  std::ifstream stream(path, std::ios::binary);
+  std::string text(limit + 1, '\0');
+  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+  if (stream.bad() || (!stream && !stream.eof())) {
+    return UnavailableError(path.string() + ": cannot be read");
+  }
+  text.resize(static_cast<std::size_t>(stream.gcount()));
+  if (text.size() > limit) {
+    return InvalidError(path.string() + ": larger than " + std::to_string(limit) +
+                        " bytes; is it the right file?");
+  }
+  return text;
+}
+
+}  // namespace palace
