@@ -1,0 +1,126 @@
+#include "gui/widgets/camera_overlay.h"
+
+#include "gui/widgets/cell_hatch.h"
+#include "gui/widgets/contour.h"
+
+namespace palace {
+
+void DrawVerdict(UiFrame& ui, const Rect& image, std::shared_ptr<const ImageU8> verdict,
+                 OverlayCache& cache) {
+  if (!verdict || verdict->empty()) {
+    return;
+  }
+  if (cache.verdict != verdict) {
+    cache.contours = SafeContours(*verdict);
+    cache.verdict = verdict;
+  }
+  const Style& s = ui.style;
+  ImDrawList* dl = Canvas();
+  const ImageU8& v = *verdict;
+  DrawCellHatch(
+      dl, image,
+      {v.width(), v.height(), picture::kUnsafeTint, picture::kUnsafeLine, s.Fine(1.3f), s.Px(9)},
+      [&](int row, int col) { return v.at(col, row) != 1; });
+  const float kx = image.w / static_cast<float>(v.width());
+  const float ky = image.h / static_cast<float>(v.height());
+  std::vector<ImVec2> line;
+  for (const std::vector<ImVec2>& contour : cache.contours) {
+    line.clear();
+    for (const ImVec2& p : contour) {
+      line.push_back({image.x + (p.x + 0.5f) * kx, image.y + (p.y + 0.5f) * ky});
+    }
+    dl->AddPolyline(line.data(), static_cast<int>(line.size()), picture::kSafe, 0, s.Fine(1.5f));
+  }
+}
+
+void DrawSites(UiFrame& ui, const PictureView& view, const SiteOverlay& overlay) {
+  const Style& s = ui.style;
+  ImDrawList* dl = Canvas();
+  dl->PushClipRect(view.rect.min(), view.rect.max(), true);
+  const std::uint64_t selected = overlay.selected ? overlay.selected->id : 0;
+  if (overlay.sites != nullptr) {
+    for (const LandingSite& site : *overlay.sites) {
+      const auto at = view.ScreenFromPoint(site.p_WS);
+      if (site.id != selected && at && view.rect.Contains(*at)) {
+        DrawLetterDisc(ui, *at, site.letter, site.id == overlay.highlighted);
+      }
+    }
+  }
+  if (overlay.ghost) {
+    const auto at = view.ScreenFromPoint(overlay.ghost->p_WS);
+    if (at) {
+      const std::vector<ImVec2> ring =
+          ProjectCircle(view, *overlay.ghost, overlay.ghost->clear_radius_m);
+      DrawRing(s, dl, ring, *at, RingKind::kGhost);
+      const float width = TextWidth(s.caption, overlay.ghost_words) + s.Px(16);
+      const Rect plate{at->x + s.Px(14), at->y + s.Px(14), width, s.Px(24)};
+      FillRect(dl, plate, picture::kPlate, s.Fine(3));
+      DrawText(ui, s.caption, picture::kPlateText, plate.centre().x, plate.centre().y,
+               overlay.ghost_words, Align::kCentre);
+    }
+  }
+  if (overlay.selected) {
+    const auto at = view.ScreenFromPoint(overlay.selected->p_WS);
+    const std::vector<ImVec2> ring =
+        ProjectCircle(view, *overlay.selected, overlay.selected->clear_radius_m);
+    if (at && !ring.empty()) {
+      DrawRing(s, dl, ring, *at, overlay.commanded ? RingKind::kCommanded : RingKind::kProposed);
+      const float radius = static_cast<float>(overlay.selected->clear_radius_m) *
+                           view.PixelsPerMetre(overlay.selected->p_WS);
+      const ImVec2 plate{at->x + radius * 0.72f + s.Px(10), at->y - radius * 0.72f - s.Px(10)};
+      if (view.rect.Contains(plate)) {
+        LetterPlate(ui, plate, overlay.selected->letter, true);
+      }
+    }
+  }
+  dl->PopClipRect();
+}
+
+void DrawTracker(UiFrame& ui, const PictureView& view, const TrackerStatus& tracker) {
+  if (!tracker.locked) {
+    return;
+  }
+  const Style& s = ui.style;
+  ImDrawList* dl = Canvas();
+  dl->PushClipRect(view.rect.min(), view.rect.max(), true);
+  std::size_t shown = 0;
+  for (const TrackedFeature& feature : tracker.features) {
+    if (shown++ == 24) {  // more would hide the picture
+      break;
+    }
+    DrawBrackets(s, dl, view.ScreenFromPixel(feature.pixel),
+                 feature.inlier ? picture::kWhite : Rgb(0x909DAC));
+  }
+  if (tracker.window_side_px > 0 && tracker.site_in_picture) {
+    DrawSearchWindow(s, dl, view.ScreenFromPixel(tracker.window_centre),
+                     static_cast<float>(tracker.window_side_px) * view.ScalePx());
+  }
+  dl->PopClipRect();
+}
+
+void DrawVerdictLegend(UiFrame& ui, const Rect& image) {
+  const Style& s = ui.style;
+  const char* safe = "Safe";
+  const char* over = "Over a limit or unknown";
+  const float safe_w = TextWidth(s.body, safe);
+  const float over_w = TextWidth(s.body, over);
+  const float width = s.Px(8 + 14 + 6) + safe_w + s.Px(14 + 14 + 6) + over_w + s.Px(12);
+  if (width + s.Px(16) > image.w) {
+    return;
+  }
+  ImDrawList* dl = Canvas();
+  const Rect plate = PlateAt(s, dl, image, Corner::kTopLeft, width, s.Px(26));
+  const float y = plate.centre().y;
+  const float half = s.Px(7);
+  float x = plate.x + s.Px(8);
+  StrokeRect(dl, {x, y - half, half * 2, half * 2}, picture::kSafe, s.Fine(2));
+  x += half * 2 + s.Px(6);
+  x += DrawText(ui, s.body, picture::kPlateText, x, y, safe) + s.Px(14);
+  const Rect swatch{x, y - half, half * 2, half * 2};
+  FillRect(dl, swatch, WithAlpha(Rgb(0xF5963C), 0.25f));
+  Hatch(dl, swatch, Rgb(0xF5963C), s.Fine(2), s.Fine(6));
+  x += half * 2 + s.Px(6);
+  DrawText(ui, s.body, picture::kPlateText, x, y, over);
+}
+
+}  // namespace palace

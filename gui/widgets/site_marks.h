@@ -1,0 +1,28 @@
+// Marks of landing sites on pictures and maps: ring to scale, letters, dashed ghosts.
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "gui/widgets/draw.h"
+
+namespace palace {
+
+enum class RingKind { kProposed, kCommanded, kGhost };
+
+/// Ring along projected points (white 2 px on black 4 px) with a cross at its centre. A ghost is
+/// dashed and has no cross.
+void DrawRing(const Style& style, ImDrawList* dl, const std::vector<ImVec2>& ring, ImVec2 centre,
+              RingKind kind);
+/// The same for a map seen from above.
+void DrawRing(const Style& style, ImDrawList* dl, ImVec2 centre, float radius, RingKind kind);
+/// Black disc with white rim and letter: a site that is not the selected one.
+void DrawLetterDisc(UiFrame& ui, ImVec2 centre, char letter, bool highlighted, float radius = 11);
+/// Corner brackets of a tracked feature, 20 x 20 units.
+void DrawBrackets(const Style& style, ImDrawList* dl, ImVec2 centre, ImU32 colour);
+/// 1 px white square on 3 px black: a search window.
+void DrawSearchWindow(const Style& style, ImDrawList* dl, ImVec2 centre, float side);
+/// Scale bar on its plate at the bottom left: a round length of at most a quarter of the picture.
+void DrawScaleBar(UiFrame& ui, const Rect& image, float pixels_per_metre);
+
+}  // namespace palace
