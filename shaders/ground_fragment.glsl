@@ -26,7 +26,7 @@ void main() {
   float t = plane_distance / dot(normal_W, ray);
   vec2 p = camera_north_east + t * ray.xy;
   float footprint = max(0.5 * (length(dFdx(p)) + length(dFdy(p))), 1e-4);
-  Grain grain = GrainAt(p);
+  Grain grain = GrainAt(p, footprint);
   float grey = ground_grey * (1.0 + 0.16 * grain.slow) + 0.20 * grain.marks + grain.detail;
   float worn = clamp(1.0 + 2.5 * (grain.detail + 0.6 * grain.marks), 0.35, 1.0);
   float paint = markings * Paint(p, footprint) * worn;

@@ -23,16 +23,23 @@ struct Grain {
   float slow;    // slow change, -1 .. 1
 };
 
-Grain GrainAt(vec2 p_m) {
+// footprint_m: side of the pixel on the surface. Where it is over 9 mm everywhere, the variant
+// without the fine tile gives the same picture for less.
+Grain GrainAt(vec2 p_m, float footprint_m) {
   vec3 bend = textureLod(bend_tile, p_m / kBendPeriod_m, 0.0).rgb - 128.0 / 255.0;
   vec2 q = p_m + kBend_m * bend.rg;
   vec2 coarse = texture(coarse_tile, p_m / kCoarsePeriod_m, kBias).rg - 128.0 / 255.0;
   float medium =
       texture(medium_tile, mat2(0.8480, 0.5299, -0.5299, 0.8480) * q / kMediumPeriod_m, kBias).r -
       128.0 / 255.0;
+#ifdef WITH_FINE_TILE
   float fine =
       texture(fine_tile, mat2(0.3420, 0.9397, -0.9397, 0.3420) * q / kFinePeriod_m, kBias).r -
       128.0 / 255.0;
+  fine *= 1.0 - smoothstep(0.005, 0.009, footprint_m);
+#else
+  const float fine = 0.0;
+#endif
   Grain grain;
   grain.detail = contrast * (0.95 * coarse.r + 0.85 * medium + 0.95 * fine);
   grain.marks = contrast * 2.0 * coarse.g;

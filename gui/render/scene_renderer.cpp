@@ -23,7 +23,8 @@ constexpr float kGroundReach_m = 200;
 constexpr float kAmbient = 0.50F;
 constexpr float kSun = 0.70F;
 constexpr float kSkyGrey = 0.78F;
-constexpr float kGrain = 26;  ///< standard deviation of a tile, grey levels of 255
+constexpr float kGrain = 26;                  ///< standard deviation of a tile, grey levels of 255
+constexpr double kNoFineFootprint_m = 0.009;  ///< as in shaders/surface.glsl
 constexpr float kZero = 128;  ///< grey level that means "no change"; the shader subtracts it
 
 std::uint8_t Level(float value) {
@@ -59,7 +60,7 @@ GlTexture CoarseTile(std::uint64_t seed) {
   constexpr int kSize = 2048;
   RandomStream grain_random(seed, "ground grain"), marks_random(seed, "ground marks");
   const ImageF grain =
-      TileableNoise(kSize, {0.5F, 0.7F, 0.9F, 1.0F, 1.0F, 1.0F, 1.25F}, grain_random);
+      TileableNoise(kSize, {0.45F, 0.5F, 0.55F, 0.65F, 0.85F, 1.0F, 1.3F}, grain_random);
   const ImageF marks = AsphaltMarks(kSize, 40.96 / kSize, marks_random);
   std::vector<std::uint8_t> pixels(2 * grain.pixels().size());
   for (std::size_t i = 0; i < grain.pixels().size(); ++i) {
@@ -130,7 +131,7 @@ struct SceneRenderer::Parts {
   SceneLook look;
   Eigen::Vector3d normal_W;
   Eigen::Vector3d sun_W;
-  ShaderProgram ground_shader, object_shader, shadow_shader;
+  ShaderProgram ground_shader, near_ground_shader, object_shader, shadow_shader;
   GlTexture coarse, medium, fine, bend;
   Mesh objects, shadows, ground;
   Framebuffer target;
@@ -222,17 +223,19 @@ void SceneRenderer::Parts::DrawGround(const PinholeCamera& camera,
   world_from_camera.topLeftCorner<3, 3>() = X_WC.R;
   world_from_camera.topRightCorner<3, 1>() = X_WC.p;
   const Eigen::Matrix4d clip = ClipFromCamera(camera) * world_from_camera.inverse();
-  ground_shader.Use();
-  BindTiles(ground_shader);
-  ground_shader.Set("clip_from_world", Eigen::Matrix4f(clip.cast<float>()));
-  ground_shader.Set("ray_W_from_pixel", Eigen::Matrix3f((X_WC.R * ray_C_from_pixel).cast<float>()));
-  ground_shader.Set("camera_north_east", Eigen::Vector2f(X_WC.p.head<2>().cast<float>()));
-  ground_shader.Set("normal_W", Eigen::Vector3f(normal_W.cast<float>()));
-  ground_shader.Set("plane_distance", static_cast<float>(-normal_W.dot(X_WC.p)));
-  ground_shader.Set("ground_grey", look.ground_grey);
-  ground_shader.Set("light",
-                    static_cast<float>(kAmbient + kSun * std::max(0.0, normal_W.dot(sun_W))));
-  ground_shader.Set("markings", scene.runway_markings ? 1.0F : 0.0F);
+  const double height_m = X_WC.p.dot(normal_W);
+  const bool near = height_m < kNoFineFootprint_m * std::max(camera.fx_px, camera.fy_px);
+  const ShaderProgram& shader = near ? near_ground_shader : ground_shader;
+  shader.Use();
+  BindTiles(shader);
+  shader.Set("clip_from_world", Eigen::Matrix4f(clip.cast<float>()));
+  shader.Set("ray_W_from_pixel", Eigen::Matrix3f((X_WC.R * ray_C_from_pixel).cast<float>()));
+  shader.Set("camera_north_east", Eigen::Vector2f(X_WC.p.head<2>().cast<float>()));
+  shader.Set("normal_W", Eigen::Vector3f(normal_W.cast<float>()));
+  shader.Set("plane_distance", static_cast<float>(-normal_W.dot(X_WC.p)));
+  shader.Set("ground_grey", look.ground_grey);
+  shader.Set("light", static_cast<float>(kAmbient + kSun * std::max(0.0, normal_W.dot(sun_W))));
+  shader.Set("markings", scene.runway_markings ? 1.0F : 0.0F);
   ground.Draw();
 }
 
@@ -277,13 +280,17 @@ Result<std::unique_ptr<SceneRenderer>> SceneRenderer::Create(const Scene& scene,
     std::initializer_list<std::string_view> fragment;
   };
   constexpr std::string_view kVersion = "#version 330 core\n";
+  constexpr std::string_view kWithFine = "#define WITH_FINE_TILE\n";
   const std::initializer_list<std::string_view> ground = {kVersion, shader_text::surface,
                                                           shader_text::ground_fragment};
-  const std::initializer_list<std::string_view> object = {kVersion, shader_text::surface,
+  const std::initializer_list<std::string_view> near_ground = {
+      kVersion, kWithFine, shader_text::surface, shader_text::ground_fragment};
+  const std::initializer_list<std::string_view> object = {kVersion, kWithFine, shader_text::surface,
                                                           shader_text::object_fragment};
   const std::initializer_list<std::string_view> shadow = {shader_text::shadow_fragment};
   for (const Wanted& wanted :
        {Wanted{"ground", &parts->ground_shader, shader_text::ground_vertex, ground},
+        Wanted{"near ground", &parts->near_ground_shader, shader_text::ground_vertex, near_ground},
         Wanted{"object", &parts->object_shader, shader_text::object_vertex, object},
         Wanted{"shadow", &parts->shadow_shader, shader_text::ground_vertex, shadow}}) {
     Result<ShaderProgram> built =

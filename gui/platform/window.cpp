@@ -1,0 +1,177 @@
+#include "gui/platform/window.h"
+
+#include <algorithm>
+#include <tuple>
+#include <utility>
+
+#include "gui/render/gl.h"
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+namespace palace {
+
+/// What the callbacks saw since the last PollInput.
+struct Window::Latch {
+  WindowInput input;
+  bool hidden = false;
+};
+
+namespace {
+
+std::string GlfwReason() {
+  const char* text = nullptr;
+  glfwGetError(&text);
+  return text != nullptr ? text : "unknown reason";
+}
+
+/// Cursor positions come in window units; panels count framebuffer pixels.
+std::pair<double, double> PixelsFromWindow(GLFWwindow* window, double x, double y) {
+  int window_width = 1, window_height = 1, width = 1, height = 1;
+  glfwGetWindowSize(window, &window_width, &window_height);
+  glfwGetFramebufferSize(window, &width, &height);
+  return {x * width / std::max(window_width, 1), y * height / std::max(window_height, 1)};
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Window>> Window::Open(const std::string& title, int width_px, int height_px,
+                                             bool hidden) {
+  glfwSetErrorCallback(nullptr);
+  if (glfwInit() == GLFW_FALSE) {
+    return UnavailableError("no display: " + GlfwReason() +
+                            "; start from a desktop session, or run with --headless");
+  }
+  glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
+  glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
+  glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+  glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
+  glfwWindowHint(GLFW_VISIBLE, hidden ? GLFW_FALSE : GLFW_TRUE);
+  glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_FALSE);
+  GLFWwindow* handle = glfwCreateWindow(width_px, height_px, title.c_str(), nullptr, nullptr);
+  if (handle == nullptr) {
+    const std::string reason = GlfwReason();
+    glfwTerminate();
+    return UnavailableError("no window with OpenGL 3.3: " + reason +
+                            "; install libgl1-mesa-dri, or run with --headless");
+  }
+  glfwMakeContextCurrent(handle);
+  glfwSwapInterval(hidden ? 0 : 1);
+  auto latch = std::make_unique<Latch>();
+  latch->hidden = hidden;
+  glfwSetWindowUserPointer(handle, latch.get());
+  InstallCallbacks(handle);
+  return std::unique_ptr<Window>(new Window(handle, std::move(latch)));
+}
+
+Window::Window(GLFWwindow* window, std::unique_ptr<Latch> latch)
+    : window_(window), latch_(std::move(latch)) {}
+
+Window::~Window() {
+  glfwDestroyWindow(window_);
+  glfwTerminate();
+}
+
+/// ImGui's backend installs its own callbacks later and calls these first.
+void Window::InstallCallbacks(GLFWwindow* window) {
+  glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int scancode, int action, int mods) {
+    const char* name = glfwGetKeyName(key, scancode);
+    const KeyAction what = action == GLFW_PRESS    ? KeyAction::kPress
+                           : action == GLFW_REPEAT ? KeyAction::kRepeat
+                                                   : KeyAction::kRelease;
+    static_cast<Latch*>(glfwGetWindowUserPointer(w))
+        ->input.keys.push_back({key, mods, what, name != nullptr ? name : ""});
+  });
+  glfwSetMouseButtonCallback(window, [](GLFWwindow* w, int button, int action, int) {
+    double x = 0, y = 0;
+    glfwGetCursorPos(w, &x, &y);
+    const auto [x_px, y_px] = PixelsFromWindow(w, x, y);
+    static_cast<Latch*>(glfwGetWindowUserPointer(w))
+        ->input.buttons.push_back({button, action == GLFW_PRESS, x_px, y_px});
+  });
+  glfwSetScrollCallback(window, [](GLFWwindow* w, double, double dy) {
+    static_cast<Latch*>(glfwGetWindowUserPointer(w))->input.scroll += dy;
+  });
+  glfwSetDropCallback(window, [](GLFWwindow* w, int count, const char** paths) {
+    auto& files = static_cast<Latch*>(glfwGetWindowUserPointer(w))->input.dropped_files;
+    files.insert(files.end(), paths, paths + count);
+  });
+}
+
+WindowInput Window::PollInput(double wait_s) {
+  if (wait_s > 0) {
+    glfwWaitEventsTimeout(wait_s);
+  } else {
+    glfwPollEvents();
+  }
+  WindowInput input = std::exchange(latch_->input, {});
+  double x = 0, y = 0;
+  glfwGetCursorPos(window_, &x, &y);
+  std::tie(input.mouse_x_px, input.mouse_y_px) = PixelsFromWindow(window_, x, y);
+  input.focused = glfwGetWindowAttrib(window_, GLFW_FOCUSED) != 0;
+  input.close_requested = glfwWindowShouldClose(window_) != 0;
+  return input;
+}
+
+void Window::SwapBuffers() { glfwSwapBuffers(window_); }
+
+void Window::BeginFrame() {
+  glBindFramebuffer(GL_FRAMEBUFFER, 0);
+  glViewport(0, 0, width_px(), height_px());
+}
+
+ImageRgba Window::ReadPixels() const {
+  ImageRgba bottom_up(width_px(), height_px());
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, 0);
+  glReadBuffer(GL_BACK);
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  glReadPixels(0, 0, bottom_up.width(), bottom_up.height(), GL_RGBA, GL_UNSIGNED_BYTE,
+               bottom_up.pixels().data());
+  ImageRgba picture(bottom_up.width(), bottom_up.height());
+  for (int y = 0; y < picture.height(); ++y) {
+    const Rgba8* from = bottom_up.row(picture.height() - 1 - y);
+    std::copy(from, from + picture.width(), picture.row(y));
+  }
+  return picture;
+}
+
+int Window::width_px() const {
+  int width = 0;
+  glfwGetFramebufferSize(window_, &width, nullptr);
+  return width;
+}
+
+int Window::height_px() const {
+  int height = 0;
+  glfwGetFramebufferSize(window_, nullptr, &height);
+  return height;
+}
+
+double Window::content_scale() const {
+  float x = 1, y = 1;
+  glfwGetWindowContentScale(window_, &x, &y);
+  return x;
+}
+
+double Window::dots_per_inch() const {
+  GLFWmonitor* monitor = glfwGetPrimaryMonitor();
+  if (monitor == nullptr) {
+    return 96;
+  }
+  int width_mm = 0, height_mm = 0;
+  glfwGetMonitorPhysicalSize(monitor, &width_mm, &height_mm);
+  const GLFWvidmode* mode = glfwGetVideoMode(monitor);
+  if (width_mm <= 0 || mode == nullptr) {
+    return 96;
+  }
+  return mode->width / (width_mm / 25.4);
+}
+
+bool Window::minimised() const { return glfwGetWindowAttrib(window_, GLFW_ICONIFIED) != 0; }
+
+void Window::SetTitle(const std::string& title) { glfwSetWindowTitle(window_, title.c_str()); }
+
+void Window::SetSize(int width_px, int height_px) {
+  glfwSetWindowSize(window_, width_px, height_px);
+}
+
+}  // namespace palace
