@@ -18,7 +18,7 @@ namespace palace {
 /// Names of the channels as ChannelHealth carries them.
 inline constexpr std::string_view kCameraLeftChannel = "Camera left";
 inline constexpr std::string_view kCameraRightChannel = "Camera right";
-inline constexpr std::string_view kPoseChannel = "Pose";
+inline constexpr std::string_view kPoseChannel = "Vehicle pose";
 
 class InputWatch {
  public:

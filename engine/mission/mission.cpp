@@ -128,6 +128,7 @@ void Mission::Abort(std::string why, Timestamp now) {
   }
   abort_seen_ = wave_off_acknowledged_ = false;
   winner_ = {};
+  refused_sites_.clear();
   Enter(MissionState::kAborting, std::move(why), now);
 }
 
@@ -183,6 +184,9 @@ void Mission::RememberFacts(const MissionInputs& in) {
   facts_.now = in.now;
   facts_.source_kind = in.source_kind;
   facts_.simulated_vehicle = in.simulated_vehicle;
+  if (in.settings_hash != facts_.settings_hash) {
+    refused_sites_.clear();  // refused under other limits
+  }
   facts_.settings_hash = in.settings_hash;
   facts_.calibration_hash = in.calibration_hash;
   facts_.limits = in.settings.mission;

@@ -113,7 +113,11 @@ const LandingSite* Mission::FindSite(std::uint64_t site_id) const {
 
 Status Mission::Select(std::uint64_t site_id, Timestamp now) {
   const LandingSite* site = FindSite(site_id);
-  if (status_.state != MissionState::kProposed && status_.state != MissionState::kArmed) {
+  // A refused site ends its proposal; changing one's mind must not need another map to propose it.
+  const bool reconsidered =
+      status_.state == MissionState::kSearch && refused_sites_.count(site_id) != 0;
+  if (status_.state != MissionState::kProposed && status_.state != MissionState::kArmed &&
+      !reconsidered) {
     return Refuse(
         now, "Select",
         std::string("No site can be selected in state ") + MissionStateWord(status_.state));

@@ -1,0 +1,79 @@
+// Alarms: three samples to come and to go; a cause must end before an alarm disappears (I15).
+#include "engine/mission/alarms.h"
+
+#include <gtest/gtest.h>
+
+namespace palace {
+namespace {
+
+void Feed(AlarmBoard& board, std::initializer_list<bool> samples,
+          AlarmLevel level = AlarmLevel::kCaution) {
+  Timestamp now{0};
+  for (const bool present : samples) {
+    now = AddSeconds(now, 0.1);
+    board.Update({{"link", level, present, "Link 1.2 s, limit 1.0 s."}}, now);
+  }
+}
+
+TEST(Alarms, ComesOnWithTheThirdSample) {
+  AlarmBoard board;
+  Feed(board, {true, true, false, true, true});
+  EXPECT_TRUE(board.Shown().empty());
+  Feed(board, {true});
+  ASSERT_EQ(board.Shown().size(), 1U);
+  EXPECT_TRUE(board.Shown()[0].active);
+  EXPECT_EQ(board.raised().size(), 1U);
+}
+
+TEST(Alarms, AcknowledgingOnlySilences) {
+  AlarmBoard board;
+  Feed(board, {true, true, true});
+  EXPECT_TRUE(board.Acknowledge("link"));
+  EXPECT_TRUE(board.IsAcknowledged("link"));
+  Feed(board, {true, true});
+  ASSERT_EQ(board.Shown().size(), 1U);
+  EXPECT_TRUE(board.Shown()[0].acknowledged);
+  Feed(board, {false, false, false});
+  EXPECT_TRUE(board.Shown().empty());
+  EXPECT_FALSE(board.Acknowledge("link"));
+}
+
+TEST(Alarms, ClearedButNotAcknowledgedStays) {
+  AlarmBoard board;
+  Feed(board, {true, true, true, false, false, false, false});
+  ASSERT_EQ(board.Shown().size(), 1U);
+  EXPECT_FALSE(board.Shown()[0].active);
+  EXPECT_TRUE(board.Acknowledge("link"));
+  EXPECT_TRUE(board.Shown().empty());
+}
+
+TEST(Alarms, AdvisoriesGoWithTheirCause) {
+  AlarmBoard board;
+  Feed(board, {true, true, true, false, false, false}, AlarmLevel::kAdvisory);
+  EXPECT_TRUE(board.Shown().empty());
+}
+
+TEST(Alarms, GrowingIntoAWarningAsksAgain) {
+  AlarmBoard board;
+  Feed(board, {true, true, true});
+  board.Acknowledge("link");
+  EXPECT_EQ(board.UnacknowledgedWarning(), "");
+  Feed(board, {true}, AlarmLevel::kWarning);
+  EXPECT_EQ(board.UnacknowledgedWarning(), "Link 1.2 s, limit 1.0 s.");
+}
+
+TEST(Alarms, WorstFirst) {
+  AlarmBoard board;
+  for (int i = 0; i < 3; ++i) {
+    board.Update({{"a", AlarmLevel::kAdvisory, true, ""},
+                  {"c", AlarmLevel::kCaution, true, ""},
+                  {"w", AlarmLevel::kWarning, true, ""}},
+                 {i});
+  }
+  const auto shown = board.Shown();
+  ASSERT_EQ(shown.size(), 3U);
+  EXPECT_EQ(shown[0].id + shown[1].id + shown[2].id, "wca");
+}
+
+}  // namespace
+}  // namespace palace

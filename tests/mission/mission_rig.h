@@ -1,0 +1,236 @@
+// A mission with a small vehicle at the other end: ten steps a second, everything settable.
+#pragma once
+
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "engine/mission/mission.h"
+
+namespace palace {
+
+/// Obeys as DESIGN.md 7 asks of a vehicle: verifies approvals, answers, aligns, descends, sinks.
+struct SmallVehicle {
+  PublicKey public_key;
+  VerifierState verifier;
+  std::uint64_t boot_id = 77;
+  VehicleMode mode = VehicleMode::kHover;
+  std::uint64_t approval_id = 0;
+  double height_m = 20;
+  double mode_for_s = 0;
+  bool answers = true;
+  bool refuses = false;
+  std::vector<CommandAck> acks;
+
+  void Set(VehicleMode next) {
+    mode = next;
+    mode_for_s = 0;
+  }
+  void Take(const VehicleMessage& message, Timestamp now) {
+    if (const auto* approval = std::get_if<Approval>(&message)) {
+      std::string why = refuses ? "Fuel low" : "";
+      if (why.empty() && !IsRepeatOfAccepted(*approval, public_key, verifier)) {
+        why = VerifyApproval(*approval, public_key, verifier, now, boot_id);
+        if (why.empty()) {
+          approval_id = approval->id;
+          Set(VehicleMode::kAlign);
+        }
+      }
+      Answer(approval->id, why, now);
+    } else if (const auto* hold = std::get_if<HoldRequest>(&message)) {
+      if (mode != VehicleMode::kHover && mode != VehicleMode::kAbort &&
+          mode != VehicleMode::kLanded) {
+        Set(VehicleMode::kHold);
+      }
+      approval_id = 0;
+      Answer(hold->command_id, "", now);
+    } else if (const auto* abort = std::get_if<AbortRequest>(&message)) {
+      if (mode != VehicleMode::kAbort) {
+        Set(VehicleMode::kAbort);
+      }
+      approval_id = 0;
+      Answer(abort->command_id, "", now);
+    }
+  }
+  void Fly(double dt_s) {
+    mode_for_s += dt_s;
+    if (mode == VehicleMode::kAlign && mode_for_s > 1) {
+      Set(VehicleMode::kDescend);
+    } else if (mode == VehicleMode::kDescend) {
+      height_m -= 2 * dt_s;
+      if (height_m <= 2) {
+        Set(VehicleMode::kSink);
+      }
+    } else if (mode == VehicleMode::kSink) {
+      height_m = std::max(0.0, height_m - dt_s);
+      if (height_m == 0) {
+        Set(VehicleMode::kLanded);
+      }
+    } else if (mode == VehicleMode::kAbort) {
+      height_m += 2 * dt_s;
+      if (mode_for_s > 3) {
+        Set(VehicleMode::kHover);
+      }
+    }
+  }
+
+ private:
+  void Answer(std::uint64_t id, std::string why, Timestamp now) {
+    if (answers) {
+      acks.push_back(
+          {now, id, why.empty() ? AckResult::kAccepted : AckResult::kRefused, std::move(why)});
+    }
+  }
+};
+
+struct MissionRig {
+  explicit MissionRig(std::uint64_t session = 5)
+      : mission({session, ApprovalSigner::FromSeed(session), true}) {
+    vehicle.public_key = ApprovalSigner::FromSeed(session).public_key();
+    AddSite(101, 'A', {10, 2, 0});
+    AddSite(102, 'B', {-6, 8, 0});
+    navigation.gps.running = navigation.gps.estimate.healthy = true;
+    tracker.coherence = 0.95;
+  }
+
+  void AddSite(std::uint64_t id, char letter, const Eigen::Vector3d& p_WS) {
+    LandingSite site;
+    site.id = id;
+    site.letter = letter;
+    site.p_WS = p_WS;
+    site.safe_distance_m = 4;
+    site.clear_radius_m = 2.3;
+    site.confirmed = true;
+    sites.push_back(site);
+  }
+  LandingSite* Site(std::uint64_t id) {
+    const auto it =
+        std::find_if(sites.begin(), sites.end(), [&](const auto& s) { return s.id == id; });
+    return it == sites.end() ? nullptr : &*it;
+  }
+
+  /// One tenth of a second: what the vehicle got, what it sends, one Update.
+  void Step() {
+    now = AddSeconds(now, 0.1);
+    ++sequence;
+    for (VehicleMessage& message : mission.TakeMessages()) {
+      sent.push_back(message);
+      if (link_up) {
+        vehicle.Take(message, VehicleNow());
+      }
+    }
+    vehicle.Fly(0.1);
+    FrameBundle bundle;
+    bundle.sequence = sequence;
+    bundle.time = now;
+    if (cameras_up) {
+      bundle.stereo =
+          std::make_shared<StereoFrame>(StereoFrame{now, ImageU8(2, 2, 7), ImageU8(2, 2, 7)});
+    }
+    if (pose_up) {
+      VehiclePose pose;
+      pose.time = now;
+      bundle.poses.push_back(pose);
+    }
+    if (link_up) {
+      VehicleStatus status;
+      status.time = VehicleNow();
+      status.boot_id = vehicle.boot_id;
+      status.mode = vehicle.mode;
+      status.on_ground = vehicle.mode == VehicleMode::kLanded;
+      status.approval_id = vehicle.approval_id;
+      bundle.status = status;
+      bundle.acks = std::exchange(vehicle.acks, {});
+    }
+    decision.selection.sites = sites;
+    decision.map_hash = 1000 + (maps_up ? sequence : 0);
+    decision.map_time = now;
+    tracker.locked = mission.WantsTracking() && tracker_locks;
+    MissionInputs in{.now = now,
+                     .source_kind = source,
+                     .can_transmit = can_transmit,
+                     .recorder_ok = recorder_ok,
+                     .simulated_vehicle = simulated,
+                     .bundle = bundle,
+                     .channels = channels,
+                     .applied = &decision,
+                     .new_map = maps_up && cameras_up,
+                     .navigation = navigation,
+                     .tracker = tracker,
+                     .rechecked = {},
+                     .recheck_reason = {},
+                     .settings = settings,
+                     .settings_hash = settings_hash,
+                     .calibration_hash = calibration_hash,
+                     .snapshot_sequence = sequence,
+                     .p_WB_estimate = p_WB(),
+                     .skid_centre_W = p_WB()};
+    if (mission.status().armed) {
+      if (const LandingSite* site = Site(mission.status().armed->id)) {
+        in.rechecked = *site;
+        in.recheck_reason = site_reason;
+      }
+    }
+    mission.Update(in);
+  }
+  void Run(double seconds) {
+    for (int i = 0; i < static_cast<int>(seconds * 10 + 0.5); ++i) {
+      Step();
+    }
+  }
+  /// Steps until the state is reached; false after `limit_s`.
+  bool RunUntil(MissionState state, double limit_s = 60) {
+    for (int i = 0; i < static_cast<int>(limit_s * 10); ++i) {
+      if (mission.status().state == state) {
+        return true;
+      }
+      Step();
+    }
+    return mission.status().state == state;
+  }
+  Status Do(CommandAction action, CommandOrigin origin = CommandOrigin::kOperator) {
+    return mission.Apply({origin, std::move(action)}, now);
+  }
+  /// Arms site A and waits until it may be approved.
+  void Arm(std::uint64_t id = 101) {
+    ASSERT_TRUE(RunUntil(MissionState::kProposed));
+    ASSERT_TRUE(Do(SelectSite{id}).ok());
+    Run(1.5);
+  }
+  Status ApproveNow(CommandOrigin origin = CommandOrigin::kOperator) {
+    const auto& armed = mission.status().armed;
+    return Do(ApproveSite{armed ? armed->id : 101, sequence}, origin);
+  }
+  Timestamp VehicleNow() const { return {now.us + clock_offset_us}; }
+  Eigen::Vector3d p_WB() const { return {9.5, 2, -vehicle.height_m}; }
+  MissionState state() const { return mission.status().state; }
+  template <typename T>
+  int SentCount() const {
+    return static_cast<int>(std::count_if(sent.begin(), sent.end(), [](const auto& message) {
+      return std::holds_alternative<T>(message);
+    }));
+  }
+
+  Mission mission;
+  SmallVehicle vehicle;
+  Timestamp now{1'000'000'000};
+  std::uint64_t sequence = 0;
+  std::int64_t clock_offset_us = 0;
+  SourceKind source = SourceKind::kSimulation;
+  bool can_transmit = true, recorder_ok = true, simulated = true;
+  bool cameras_up = true, pose_up = true, link_up = true, maps_up = true, tracker_locks = true;
+  Settings settings;
+  std::uint64_t settings_hash = 31, calibration_hash = 41;
+  std::vector<LandingSite> sites;
+  std::string site_reason;
+  TerrainDecision decision;
+  NavigationStatus navigation;
+  TrackerStatus tracker;
+  std::vector<ChannelHealth> channels;
+  std::vector<VehicleMessage> sent;
+};
+
+}  // namespace palace
