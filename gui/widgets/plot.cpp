@@ -1,0 +1,275 @@
+#include "gui/widgets/plot.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "gui/widgets/number_text.h"
+
+namespace palace {
+
+namespace {
+
+struct Axes {
+  Rect floor;
+  const PlotView& view;
+
+  float X(float x) const {
+    return floor.x + (x - view.x_min) / (view.x_max - view.x_min) * floor.w;
+  }
+  float Y(float y) const {
+    return floor.bottom() - (y - view.y_min) / (view.y_max - view.y_min) * floor.h;
+  }
+  ImVec2 At(ImVec2 p) const { return {X(p.x), Y(p.y)}; }
+};
+
+int DecimalsFor(const std::vector<float>& ticks) {
+  const float step = ticks.size() > 1 ? ticks[1] - ticks[0] : 1.0f;
+  int decimals = 0;
+  for (float scaled = step; decimals < 3 && std::abs(scaled - std::round(scaled)) > 1e-3f;
+       scaled *= 10) {
+    ++decimals;
+  }
+  return decimals;
+}
+
+void DrawGrid(UiFrame& ui, const Axes& axes) {
+  const Style& s = ui.style;
+  const Palette& p = s.palette;
+  const PlotView& v = axes.view;
+  ImDrawList* dl = Canvas();
+  FillRect(dl, axes.floor, p.plot_floor);
+  const int rows = std::clamp(static_cast<int>(axes.floor.h / s.Px(28)), 2, 6);
+  const std::vector<float> ys = RoundTicks(v.y_min, v.y_max, rows);
+  const int decimals = DecimalsFor(ys);
+  for (const float y : ys) {
+    const float at = std::round(axes.Y(y));
+    FillRect(dl, {axes.floor.x, at, axes.floor.w, s.Px(1)}, p.plot_grid);
+    DrawText(ui, s.caption, p.text2, axes.floor.x - s.Px(8), at,
+             Fixed(static_cast<double>(y), decimals), Align::kRight);
+  }
+  const std::vector<float> xs =
+      v.x_ticks.empty() ? RoundTicks(v.x_min, v.x_max, static_cast<int>(axes.floor.w / s.Px(60)))
+                        : v.x_ticks;
+  for (const float x : xs) {
+    const float at = std::round(axes.X(x));
+    FillRect(dl, {at, axes.floor.y, s.Px(1), axes.floor.h}, p.plot_grid);
+    std::string label = Fixed(static_cast<double>(x), 0);
+    if (v.relative_time) {
+      label = std::abs(x) < 1e-3f ? "now" : (x > 0 ? "+" + label : label);
+    }
+    // The last label would stick out of the panel.
+    if (at + s.Px(16) < axes.floor.right() + s.Px(10)) {
+      DrawText(ui, s.caption, p.text2, at, axes.floor.bottom() + s.Px(12), label, Align::kCentre);
+    }
+  }
+}
+
+void DrawLimitArea(const Style& s, const Axes& axes, const PlotLimit& limit) {
+  const float y = std::clamp(axes.Y(limit.value), axes.floor.y, axes.floor.bottom());
+  const float right = axes.view.now ? axes.X(*axes.view.now) : axes.floor.right();
+  const Rect area = limit.forbidden_above
+                        ? Rect{axes.floor.x, axes.floor.y, right - axes.floor.x, y - axes.floor.y}
+                        : Rect{axes.floor.x, y, right - axes.floor.x, axes.floor.bottom() - y};
+  if (area.h > 0 && area.w > 0) {
+    FillRect(Canvas(), area, WithAlpha(s.palette.unsafe, 0.06f));
+    Hatch(Canvas(), area, WithAlpha(s.palette.unsafe, 0.32f), s.Fine(1), s.Px(9));
+  }
+}
+
+void DrawLimitLine(UiFrame& ui, const Axes& axes, const PlotLimit& limit) {
+  const Style& s = ui.style;
+  const float y = std::round(axes.Y(limit.value));
+  if (y < axes.floor.y || y > axes.floor.bottom()) {
+    return;
+  }
+  DashedLine(Canvas(), {axes.floor.x, y}, {axes.floor.right(), y}, s.palette.unsafe, s.Fine(1.5f),
+             s.Fine(8), s.Fine(4));
+  const bool room_above = y - axes.floor.y > s.Px(20);
+  const float text_y = room_above ? y - s.Px(9) : y + s.Px(10);
+  DrawText(ui, s.caption, s.palette.unsafe, axes.floor.right() - s.Px(6), text_y, limit.text,
+           Align::kRight);
+}
+
+void DrawBand(const Axes& axes, const PlotSeries& series) {
+  ImDrawList* dl = Canvas();
+  const ImU32 fill = WithAlpha(series.colour, 0.22f);
+  const ImVec2 white = ImGui::GetFontTexUvWhitePixel();
+  for (std::size_t i = 1; i < series.points.size() && i < series.band.size(); ++i) {
+    const ImVec2 a = series.points[i - 1];
+    const ImVec2 b = series.points[i];
+    const float wa = series.band[i - 1];
+    const float wb = series.band[i];
+    if (!std::isfinite(a.y + b.y + wa + wb)) {
+      continue;
+    }
+    const ImVec2 quad[4] = {axes.At({a.x, a.y + wa}), axes.At({b.x, b.y + wb}),
+                            axes.At({b.x, b.y - wb}), axes.At({a.x, a.y - wa})};
+    dl->PrimReserve(6, 4);  // no anti-aliased seams between the quads
+    dl->PrimQuadUV(quad[0], quad[1], quad[2], quad[3], white, white, white, white, fill);
+  }
+}
+
+void StrokeRun(const Style& s, const std::vector<ImVec2>& run, const PlotSeries& series) {
+  if (run.size() < 2) {
+    return;
+  }
+  ImDrawList* dl = Canvas();
+  const float width = s.Fine(series.width);
+  if (series.stroke == PlotSeries::Stroke::kDotted) {
+    DashedPolyline(dl, run, series.colour, width, s.Fine(2), s.Fine(3));
+  } else if (series.stroke == PlotSeries::Stroke::kDashed) {
+    DashedPolyline(dl, run, series.colour, width, s.Fine(3), s.Fine(5));
+  } else {
+    dl->AddPolyline(run.data(), static_cast<int>(run.size()), series.colour, 0, width);
+  }
+}
+
+/// Draws the line; where many points share a pixel column only their minimum and maximum remain.
+void DrawLine(const Style& s, const Axes& axes, const PlotSeries& series) {
+  std::vector<ImVec2> run;
+  float column = -1e9f;
+  ImVec2 low, high;
+  bool open = false;
+  const auto flush = [&] {
+    if (open) {
+      run.push_back(low);
+      if (high.y != low.y) {
+        run.push_back(high);
+      }
+      open = false;
+    }
+  };
+  for (const ImVec2& point : series.points) {
+    if (!std::isfinite(point.x + point.y)) {
+      flush();
+      StrokeRun(s, run, series);
+      run.clear();
+      column = -1e9f;
+      continue;
+    }
+    const ImVec2 at = axes.At(point);
+    if (open && std::floor(at.x) == column) {
+      low = at.y > low.y ? at : low;
+      high = at.y < high.y ? at : high;
+      continue;
+    }
+    flush();
+    column = std::floor(at.x);
+    low = high = at;
+    open = true;
+  }
+  flush();
+  StrokeRun(s, run, series);
+  if (series.dot_at_end && !run.empty()) {
+    Canvas()->AddCircleFilled(run.back(), s.Fine(4), series.colour);
+    Canvas()->AddCircle(run.back(), s.Fine(4), s.palette.plot_floor, 0, s.Fine(1));
+  }
+}
+
+void DrawHover(UiFrame& ui, const Axes& axes, const PlotHover& hover) {
+  if (!hover.x || *hover.x < axes.view.x_min || *hover.x > axes.view.x_max) {
+    return;
+  }
+  const Style& s = ui.style;
+  const float x = std::round(axes.X(*hover.x));
+  FillRect(Canvas(), {x, axes.floor.y, s.Px(1), axes.floor.h}, WithAlpha(s.palette.text2, 0.8f));
+  if (axes.view.series.empty()) {
+    return;
+  }
+  const double value = static_cast<double>(SeriesValueAt(axes.view.series.front(), *hover.x));
+  if (!std::isfinite(value)) {
+    return;
+  }
+  const std::string text = Fixed(value, 2) + " " + axes.view.unit;
+  const float width = TextWidth(s.caption, text) + s.Px(12);
+  const float left = x + s.Px(6) + width < axes.floor.right() ? x + s.Px(6) : x - s.Px(6) - width;
+  const Rect box{left, axes.floor.y + s.Px(4), width, s.Px(20)};
+  FillRect(Canvas(), box, s.palette.control, s.Fine(3));
+  StrokeRect(Canvas(), box, s.palette.strong_line, s.Fine(1), s.Fine(3));
+  DrawText(ui, s.caption, s.palette.text1, box.centre().x, box.centre().y, text, Align::kCentre);
+}
+
+}  // namespace
+
+void BeginPlots(PlotHover& hover) {
+  hover.x = hover.next_x;
+  hover.next_x.reset();
+}
+
+std::vector<float> RoundTicks(float low, float high, int count) {
+  std::vector<float> ticks;
+  const float span = high - low;
+  if (!(span > 0) || count < 1) {
+    return ticks;
+  }
+  const float raw = span / static_cast<float>(count);
+  const float power = std::pow(10.0f, std::floor(std::log10(raw)));
+  float step = power * 10;
+  for (const float factor : {1.0f, 2.0f, 5.0f}) {
+    if (raw <= factor * power * 1.001f) {
+      step = factor * power;
+      break;
+    }
+  }
+  for (float i = std::ceil(low / step - 1e-4f); i * step <= high + step * 1e-4f; ++i) {
+    ticks.push_back(i * step);
+  }
+  return ticks;
+}
+
+float SeriesValueAt(const PlotSeries& series, float x) {
+  const auto after = std::upper_bound(series.points.begin(), series.points.end(), x,
+                                      [](float at, const ImVec2& p) { return at < p.x; });
+  if (after == series.points.begin() ||
+      (after == series.points.end() && series.points.back().x < x - 1)) {
+    return NAN;
+  }
+  return std::prev(after)->y;
+}
+
+void DrawPlot(UiFrame& ui, const Rect& panel, const PlotView& view, PlotHover& hover) {
+  const Style& s = ui.style;
+  const Palette& p = s.palette;
+  DrawPanelBackground(ui, panel, view.title);
+  const float title_y = panel.y + s.Px(14);
+  const float title_w = DrawText(ui, s.medium, p.text1, panel.x + s.Px(12), title_y, view.title);
+  DrawText(ui, s.body, p.text3, panel.x + s.Px(18) + title_w, title_y, view.unit);
+  DrawText(ui, s.medium, p.text1, panel.right() - s.Px(14), title_y, view.current, Align::kRight);
+  const Axes axes{{panel.x + s.Px(52), panel.y + s.Px(32), panel.w - s.Px(66), panel.h - s.Px(56)},
+                  view};
+  DrawGrid(ui, axes);
+  ImDrawList* dl = Canvas();
+  dl->PushClipRect(axes.floor.min(), axes.floor.max(), true);
+  for (const PlotLimit& limit : view.limits) {
+    DrawLimitArea(s, axes, limit);
+  }
+  for (const PlotSeries& series : view.series) {
+    DrawBand(axes, series);
+  }
+  if (view.now) {
+    const float x = std::round(axes.X(*view.now));
+    FillRect(dl, {x, axes.floor.y, axes.floor.right() - x, axes.floor.h},
+             WithAlpha(p.panel, 0.45f));
+    FillRect(dl, {x, axes.floor.y, s.Px(1), axes.floor.h}, p.white_mark);
+  }
+  for (auto it = view.series.rbegin(); it != view.series.rend(); ++it) {
+    DrawLine(s, axes, *it);  // the first series lies on top
+  }
+  for (const PlotLimit& limit : view.limits) {
+    DrawLimitLine(ui, axes, limit);
+  }
+  for (const PlotNote& note : view.notes) {
+    const ImVec2 at = axes.At(note.at);
+    DrawText(ui, note.strong ? s.medium : s.caption, note.strong ? p.text1 : p.text2, at.x, at.y,
+             note.text);
+  }
+  DrawHover(ui, axes, hover);
+  dl->PopClipRect();
+  if (Hovered(ui, axes.floor)) {
+    const float share = (ImGui::GetIO().MousePos.x - axes.floor.x) / axes.floor.w;
+    hover.next_x = view.x_min + share * (view.x_max - view.x_min);
+  }
+  ui.items.Add("plot/" + view.name, panel, true, view.title + " " + view.current);
+}
+
+}  // namespace palace

@@ -1,0 +1,57 @@
+// Line plot: series with bands, limit lines with hatch beyond them, a now line, hover over all
+// plots.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gui/widgets/panel_frame.h"
+
+namespace palace {
+
+struct PlotSeries {
+  std::vector<ImVec2> points;  ///< x, y; a NaN breaks the line
+  std::vector<float> band;     ///< half widths, 3 sigma; empty: none
+  ImU32 colour = 0;
+  float width = 1.5f;
+  enum class Stroke { kSolid, kDotted, kDashed } stroke = Stroke::kSolid;
+  bool dot_at_end = false;
+};
+struct PlotLimit {
+  float value = 0;
+  bool forbidden_above = true;
+  std::string text;
+};
+struct PlotNote {
+  ImVec2 at;
+  std::string text;
+  bool strong = false;
+};
+
+struct PlotView {
+  std::string name;  ///< item "plot/" + name
+  std::string title, unit, current;
+  float x_min = 0, x_max = 1, y_min = 0, y_max = 1;
+  std::vector<float> x_ticks;  ///< empty: chosen
+  std::optional<float> now;    ///< beyond it the future is veiled
+  std::vector<PlotSeries> series;
+  std::vector<PlotLimit> limits;
+  std::vector<PlotNote> notes;
+  bool relative_time = true;  ///< x labels "−10", "now", "+10"
+};
+
+/// One cursor for a group of plots.
+struct PlotHover {
+  std::optional<float> x;       ///< set in the last frame by whichever plot the mouse is over
+  std::optional<float> next_x;  ///< being collected
+};
+void BeginPlots(PlotHover& hover);
+
+/// Round tick values, at most `count` + 1 of them, inside [low, high].
+std::vector<float> RoundTicks(float low, float high, int count);
+void DrawPlot(UiFrame& ui, const Rect& panel, const PlotView& view, PlotHover& hover);
+/// Value of the series at x, by the nearest earlier point; NaN outside.
+float SeriesValueAt(const PlotSeries& series, float x);
+
+}  // namespace palace

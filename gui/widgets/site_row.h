@@ -1,0 +1,21 @@
+// Site row: cut-out of the picture, letter, clear distance, status and one reason for its rank.
+#pragma once
+
+#include "gui/widgets/projection.h"
+
+namespace palace {
+
+struct SiteRowLook {
+  bool selected = false;
+  bool highlighted = false;  ///< by keyboard
+  bool narrow = false;       ///< 44 units high, reason only
+  bool enabled = true;       ///< a click arms
+};
+
+/// Draws the row (item "site/<letter>"). True in the frame in which it is clicked. `view` maps the
+/// site into the left camera's texture; empty: the cut-out is unknown.
+bool DrawSiteRow(UiFrame& ui, const Rect& rect, const LandingSite& site,
+                 const std::optional<PictureView>& view, ImTextureID texture,
+                 const SiteRowLook& look);
+
+}  // namespace palace
