@@ -35,7 +35,8 @@ class Bus {
   /// `channel` literally. The handler must not throw; it runs inside Handle. Messages over 64 MiB
   /// and channels that are not printable are dropped and counted. The message's time is its arrival
   /// on the wall clock.
-  Status Subscribe(const std::string& channel, Handler handler);
+  /// More than `queue_capacity` waiting messages push out the oldest.
+  Status Subscribe(const std::string& channel, Handler handler, int queue_capacity = 256);
   /// Handles at most one message. True when one was handled, false after `timeout_ms` without.
   Result<bool> Handle(int timeout_ms);
   std::uint64_t dropped() const;

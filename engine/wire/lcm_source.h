@@ -3,8 +3,10 @@
 
 #include <cstdint>
 #include <deque>
+#include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -42,13 +44,14 @@ class LcmSource final : public Source {
  private:
   struct Arrival {
     std::uint64_t count = 0;
-    double last_s = 0;  ///< monotonic
+    double first_s = 0;  ///< monotonic
+    double last_s = 0;   ///< monotonic
   };
   LcmSource(std::shared_ptr<Bus> bus, ChannelNames channels, LcmSourceOptions options);
   void Take(WireMessage message);
   void Drain();
   std::shared_ptr<const FrameBundle> Deliver(std::shared_ptr<const FrameBundle> bundle);
-  Timestamp ClockNow() const;
+  Timestamp ClockNow(double now_s) const;
 
   std::shared_ptr<Bus> bus_;
   ChannelNames channels_;
@@ -58,6 +61,7 @@ class LcmSource final : public Source {
   std::optional<Timestamp> anchor_;  ///< newest data time ...
   double anchor_s_ = 0;              ///< ... and the monotonic second it arrived
   std::optional<Timestamp> last_time_;
+  double opened_s_ = 0;
   double last_delivery_s_ = 0;
   std::uint64_t sequence_ = 0;
   mutable std::mutex mutex_;  ///< guards what Status and Report read

@@ -1,0 +1,256 @@
+#include "engine/wire/bundle_assembler.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "engine/wire/sensor_messages.h"
+
+namespace palace {
+namespace {
+
+constexpr std::size_t kMostPending = 20000;  ///< samples of one kind while no bundle closes
+constexpr double kNearestPose_s = 0.1;
+constexpr double kRestart_s = 10;  ///< a stamp this far back means the sender started anew
+
+template <typename T>
+void Append(std::vector<T>& samples, T sample) {
+  if (samples.size() >= kMostPending) {
+    samples.erase(samples.begin(), samples.begin() + kMostPending / 2);
+  }
+  samples.push_back(std::move(sample));
+}
+
+/// The pose carried to `time` at constant velocity and turn rate.
+VehiclePose CarryPose(VehiclePose pose, Timestamp time) {
+  const double dt = SecondsBetween(pose.time, time);
+  pose.time = time;
+  pose.X_WB.p += pose.v_WB * dt;
+  const double angle = pose.angular_rate_B.norm() * dt;
+  if (angle != 0) {
+    pose.X_WB.R =
+        pose.X_WB.R * Eigen::AngleAxisd(angle, pose.angular_rate_B.normalized()).toRotationMatrix();
+  }
+  return pose;
+}
+
+std::uint64_t Missing(int announced, std::size_t got) {
+  const auto wanted = static_cast<std::uint64_t>(std::max(announced, 0));
+  return wanted > got ? wanted - got : 0;
+}
+
+}  // namespace
+
+BundleAssembler::BundleAssembler(ChannelNames channels, AssemblerOptions options)
+    : channels_(std::move(channels)), options_(options) {}
+
+BundleAssembler::Bundles BundleAssembler::Push(const WireMessage& message) {
+  ++report_.messages;
+  Bundles done;
+  const ::palace::Status taken = Take(message, done);
+  if (!taken) {
+    ++report_.undecodable;
+    report_.last_error = taken.error().message;
+  }
+  return done;
+}
+
+Status BundleAssembler::Take(const WireMessage& message, Bundles& done) {
+  const std::string& channel = message.channel;
+  if (channel == channels_.camera_left || channel == channels_.camera_right) {
+    return TakePicture(message, channel == channels_.camera_left, done);
+  }
+  if (channel == channels_.camera_rig) {
+    return TakeRig(message, done);
+  }
+  return TakeSample(message);
+}
+
+bool BundleAssembler::IsNews(const std::string& channel, Timestamp time) {
+  ++counts_[channel];
+  if (options_.drop_repeated) {
+    const auto seen = newest_of_.find(channel);
+    if (seen != newest_of_.end() && time <= seen->second &&
+        SecondsBetween(time, seen->second) < kRestart_s) {
+      ++report_.repeated;
+      return false;
+    }
+  }
+  newest_of_[channel] = time;
+  if (!newest_ || time > *newest_ || SecondsBetween(time, *newest_) > kRestart_s) {
+    newest_ = time;
+  }
+  return true;
+}
+
+Status BundleAssembler::TakeSample(const WireMessage& message) {
+  const std::string& channel = message.channel;
+  const auto take = [&](auto decoded, auto keep) -> ::palace::Status {
+    if (!decoded) {
+      return decoded.error();
+    }
+    if (IsNews(channel, decoded->time)) {
+      keep(std::move(*decoded));
+    }
+    return Ok();
+  };
+  if (channel == channels_.vehicle_pose) {
+    return take(PoseFromWire(message), [&](VehiclePose p) { Append(pending_.poses, p); });
+  }
+  if (channel == channels_.imu) {
+    return take(ImuFromWire(message), [&](ImuSample s) { Append(pending_.imu, s); });
+  }
+  if (channel == channels_.gps) {
+    return take(GpsFromWire(message), [&](GpsFix f) { Append(pending_.gps, f); });
+  }
+  if (channel == channels_.laser_range) {
+    return take(LaserFromWire(message), [&](LaserRange r) { Append(pending_.laser, r); });
+  }
+  if (channel == channels_.vehicle_status) {
+    return take(StatusFromWire(message), [&](VehicleStatus s) { pending_.status = s; });
+  }
+  if (channel == channels_.truth) {
+    return take(DecodeTruth(message), [&](Truth t) { Append(pending_.truth, t); });
+  }
+  if (channel == channels_.command_ack) {
+    Result<CommandAck> ack = AckFromWire(message);
+    if (!ack) {
+      return ack.error();
+    }
+    ++counts_[channel];  // two answers may carry one stamp, so a repeated stamp is news here
+    Append(pending_.acks, std::move(*ack));
+    return Ok();
+  }
+  ++report_.other_channels;
+  return Ok();
+}
+
+Status BundleAssembler::TakePicture(const WireMessage& message, bool is_left, Bundles& done) {
+  Result<TimedPicture> picture = PictureFromWire(message);
+  if (!picture) {
+    return picture.error();
+  }
+  if (!IsNews(message.channel, picture->time)) {
+    return Ok();
+  }
+  // A pair still held back was never closed: no rig came.
+  if (left_ && right_) {
+    ++report_.pairs_without_rig;
+    left_.reset();
+    right_.reset();
+  }
+  std::optional<Picture>& mine = is_left ? left_ : right_;
+  std::optional<Picture>& other = is_left ? right_ : left_;
+  report_.pictures_unpaired += mine.has_value() ? 1 : 0;
+  mine = Picture{picture->time, std::move(picture->image)};
+  if (other && std::abs(SecondsBetween(other->time, mine->time)) > options_.pair_window_s) {
+    // Only the newer one can still find a partner.
+    ++report_.pictures_unpaired;
+    (other->time < mine->time ? other : mine).reset();
+  }
+  if (!closed_stream_) {
+    ClosePair(done);
+  }
+  return Ok();
+}
+
+void BundleAssembler::ClosePair(Bundles& done) {
+  if (!rig_ || !left_ || !right_) {
+    return;
+  }
+  auto bundle = std::make_shared<FrameBundle>(std::exchange(pending_, {}));
+  const Timestamp exposed = left_->time;
+  bundle->stereo = std::make_shared<StereoFrame>(
+      StereoFrame{exposed, std::move(left_->image), std::move(right_->image)});
+  left_.reset();
+  right_.reset();
+  bundle->rig = rig_;
+  bundle->sequence = next_sequence_++;
+  bundle->time = newest_.value_or(exposed);
+  const VehiclePose* nearest = last_pose_ ? &*last_pose_ : nullptr;
+  for (const VehiclePose& pose : bundle->poses) {
+    if (nearest == nullptr || std::abs(SecondsBetween(pose.time, exposed)) <
+                                  std::abs(SecondsBetween(nearest->time, exposed))) {
+      nearest = &pose;
+    }
+  }
+  if (nearest != nullptr && std::abs(SecondsBetween(nearest->time, exposed)) <= kNearestPose_s) {
+    bundle->pose_at_exposure = CarryPose(*nearest, exposed);
+  }
+  if (!bundle->poses.empty()) {
+    last_pose_ = bundle->poses.back();
+  }
+  done.push_back(std::move(bundle));
+}
+
+Status BundleAssembler::TakeRig(const WireMessage& message, Bundles& done) {
+  Result<RigMessage> rig = RigFromWire(message);
+  if (!rig) {
+    return rig.error();
+  }
+  if (!IsNews(message.channel, rig->time)) {
+    return Ok();
+  }
+  if (rig->rig && !(rig_ && SameRig(*rig_, *rig->rig))) {
+    rig_ = std::make_shared<const StereoRig>(*rig->rig);
+  }
+  closed_stream_ = rig->bundle_end;
+  if (!rig->bundle_end) {
+    ClosePair(done);
+    return Ok();
+  }
+  auto bundle = std::make_shared<FrameBundle>(std::exchange(pending_, {}));
+  bundle->sequence = rig->sequence;
+  bundle->time = rig->time;
+  bundle->rig = rig->rig ? rig_ : nullptr;
+  bundle->pose_at_exposure = rig->exposure_pose;
+  if (rig->has_pictures && left_ && right_) {
+    bundle->stereo = std::make_shared<StereoFrame>(
+        StereoFrame{left_->time, std::move(left_->image), std::move(right_->image)});
+  } else {
+    report_.pictures_unpaired += (left_ ? 1u : 0u) + (right_ ? 1u : 0u);
+    bundle->pose_at_exposure = rig->has_pictures ? std::nullopt : bundle->pose_at_exposure;
+  }
+  left_.reset();
+  right_.reset();
+  if (rig->rotations.size() == bundle->poses.size()) {
+    for (std::size_t i = 0; i < bundle->poses.size(); ++i) {
+      bundle->poses[i].X_WB.R = rig->rotations[i];
+    }
+  }
+  const std::size_t got[] = {bundle->poses.size(), bundle->imu.size(),  bundle->gps.size(),
+                             bundle->laser.size(), bundle->acks.size(), bundle->truth.size()};
+  for (std::size_t i = 0; i < 6; ++i) {
+    report_.samples_lost += Missing(rig->sample_counts[i], got[i]);
+  }
+  if (last_sequence_ && rig->sequence > *last_sequence_ + 1) {
+    report_.bundles_lost += rig->sequence - *last_sequence_ - 1;
+  }
+  last_sequence_ = rig->sequence;
+  next_sequence_ = rig->sequence + 1;
+  done.push_back(std::move(bundle));
+  return Ok();
+}
+
+std::shared_ptr<const FrameBundle> BundleAssembler::TakePending(Timestamp now) {
+  auto bundle = std::make_shared<FrameBundle>(std::exchange(pending_, {}));
+  if (!bundle->poses.empty()) {
+    last_pose_ = bundle->poses.back();
+  }
+  bundle->rig = rig_;
+  bundle->sequence = next_sequence_++;
+  bundle->time = now;
+  return bundle;
+}
+
+void BundleAssembler::Reset() {
+  pending_ = {};
+  left_.reset();
+  right_.reset();
+  last_pose_.reset();
+  last_sequence_.reset();
+  newest_.reset();
+  newest_of_.clear();
+}
+
+}  // namespace palace

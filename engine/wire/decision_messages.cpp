@@ -1,0 +1,160 @@
+#include <type_traits>
+
+#include "engine/wire/convert.h"
+#include "engine/wire/wire_fields.h"
+#include "engine/wire/wire_pack.h"
+
+namespace palace {
+namespace {
+
+/// Puts an action's fields into the message; one overload an action.
+struct ActionToWire {
+  site_decision_t& m;
+
+  void operator()(const SetSetting& a) const {
+    m.kind = site_decision_t::SET_SETTING;
+    m.name = a.name;
+    m.value = a.value;
+  }
+  void operator()(const ApplySettings&) const { m.kind = site_decision_t::APPLY; }
+  void operator()(const DiscardSettings&) const { m.kind = site_decision_t::DISCARD; }
+  void operator()(const SelectSite& a) const { Site(site_decision_t::SELECT, a.site_id); }
+  void operator()(const DisarmSite&) const { m.kind = site_decision_t::DISARM; }
+  void operator()(const ApproveSite& a) const {
+    Site(site_decision_t::APPROVE, a.site_id);
+    m.snapshot_sequence = WireId(a.snapshot_sequence);
+  }
+  void operator()(const RefuseSite& a) const { Site(site_decision_t::REFUSE, a.site_id); }
+  void operator()(const HoldHere&) const { m.kind = site_decision_t::HOLD; }
+  void operator()(const WaveOff&) const { m.kind = site_decision_t::WAVE_OFF; }
+  void operator()(const AcknowledgeAlarm& a) const {
+    m.kind = site_decision_t::ACKNOWLEDGE_ALARM;
+    m.name = a.alarm;
+  }
+  void operator()(const AcknowledgeWaveOff&) const {
+    m.kind = site_decision_t::ACKNOWLEDGE_WAVE_OFF;
+  }
+  void operator()(const AddBookmark& a) const {
+    m.kind = site_decision_t::BOOKMARK;
+    m.text = a.note;
+  }
+
+ private:
+  void Site(std::int8_t kind, std::uint64_t id) const {
+    m.kind = kind;
+    m.site_id = WireId(id);
+  }
+};
+
+Result<CommandAction> ActionFromWire(const site_decision_t& m) {
+  const std::uint64_t site = IdFromWire(m.site_id);
+  switch (m.kind) {
+    case site_decision_t::SET_SETTING:
+      return CommandAction(SetSetting{m.name, m.value});
+    case site_decision_t::APPLY:
+      return CommandAction(ApplySettings{});
+    case site_decision_t::DISCARD:
+      return CommandAction(DiscardSettings{});
+    case site_decision_t::SELECT:
+      return CommandAction(SelectSite{site});
+    case site_decision_t::DISARM:
+      return CommandAction(DisarmSite{});
+    case site_decision_t::APPROVE:
+      return CommandAction(ApproveSite{site, IdFromWire(m.snapshot_sequence)});
+    case site_decision_t::REFUSE:
+      return CommandAction(RefuseSite{site});
+    case site_decision_t::HOLD:
+      return CommandAction(HoldHere{});
+    case site_decision_t::WAVE_OFF:
+      return CommandAction(WaveOff{});
+    case site_decision_t::ACKNOWLEDGE_ALARM:
+      return CommandAction(AcknowledgeAlarm{m.name});
+    case site_decision_t::ACKNOWLEDGE_WAVE_OFF:
+      return CommandAction(AcknowledgeWaveOff{});
+    case site_decision_t::BOOKMARK:
+      return CommandAction(AddBookmark{m.text});
+    default:
+      return InvalidError("decision kind " + std::to_string(m.kind) + " is not one of 0..11");
+  }
+}
+
+}  // namespace
+
+WireMessage EncodeCommand(const EngineCommand& command, Timestamp now,
+                          const ChannelNames& channels) {
+  site_decision_t m{};
+  m.utime = now.us;
+  m.origin = static_cast<std::int8_t>(command.origin);
+  std::visit(ActionToWire{m}, command.action);
+  return MakeMessage(channels.site_decision, now, m);
+}
+
+Result<EngineCommand> DecodeCommand(const WireMessage& message) {
+  return DecodeAnd<site_decision_t>(message, [](const site_decision_t& m) -> Result<EngineCommand> {
+    if (m.origin < 0 || m.origin > 2) {
+      return InvalidError("decision origin " + std::to_string(m.origin) + " is not one of 0..2");
+    }
+    Result<CommandAction> action = ActionFromWire(m);
+    if (!action) {
+      return action.error();
+    }
+    return EngineCommand{static_cast<CommandOrigin>(m.origin), std::move(*action)};
+  });
+}
+
+WireMessage EncodeEvent(const Event& event, const ChannelNames& channels) {
+  event_t m{};
+  m.utime = event.time.us;
+  m.kind = static_cast<std::int8_t>(event.kind);
+  m.text = event.text;
+  return MakeMessage(channels.event, event.time, m);
+}
+
+Result<Event> DecodeEvent(const WireMessage& message) {
+  return DecodeAnd<event_t>(message, [](const event_t& m) -> Result<Event> {
+    if (m.kind < 0 || m.kind > static_cast<int>(EventKind::kVehicle)) {
+      return InvalidError("event kind " + std::to_string(m.kind) + " is not one of 0..6");
+    }
+    return Event{{m.utime}, static_cast<EventKind>(m.kind), m.text};
+  });
+}
+
+WireMessage EncodeSettings(const Settings& settings, Timestamp now, const ChannelNames& channels) {
+  slad_settings_t m{};
+  m.utime = now.us;
+  m.settings_hash = WireId(HashOf(settings));
+  for (const SettingInfo& info : SettingTable()) {
+    slad_setting_t row{};
+    row.name = info.name;
+    row.value = GetSetting(settings, info.name);
+    m.rows.push_back(row);
+  }
+  m.count = static_cast<std::int32_t>(m.rows.size());
+  return MakeMessage(channels.slad_settings, now, m);
+}
+
+Result<Settings> DecodeSettings(const WireMessage& message) {
+  return DecodeAnd<slad_settings_t>(message, [](const slad_settings_t& m) -> Result<Settings> {
+    Settings settings;
+    // Pairs of limits are checked against each other, so one may have to wait for its partner.
+    std::vector<slad_setting_t> waiting = m.rows;
+    while (!waiting.empty()) {
+      std::vector<slad_setting_t> refused;
+      std::string reason;
+      for (const slad_setting_t& row : waiting) {
+        const Status set = SetSettingValue(settings, row.name, row.value);
+        if (!set) {
+          refused.push_back(row);
+          reason = set.error().message;
+        }
+      }
+      if (refused.size() == waiting.size()) {
+        return InvalidError(reason);
+      }
+      waiting = std::move(refused);
+    }
+    return settings;
+  });
+}
+
+}  // namespace palace

@@ -1,0 +1,105 @@
+#include "engine/wire/sensor_messages.h"
+
+#include "engine/wire/wire_fields.h"
+#include "engine/wire/wire_pack.h"
+
+namespace palace {
+namespace {
+
+Error NotFinite(const char* what) {
+  return InvalidError(std::string(what) + " holds a number that is not finite");
+}
+
+}  // namespace
+
+Result<VehiclePose> PoseFromWire(const WireMessage& message) {
+  return DecodeAnd<pose_t>(message, [](const pose_t& m) -> Result<VehiclePose> {
+    const Eigen::Vector4d q = Unpack(m.orientation);
+    VehiclePose pose{
+        {m.utime}, {Eigen::Matrix3d(), Unpack(m.pos)}, Unpack(m.vel), Unpack(m.rotation_rate)};
+    if (!q.allFinite() || !pose.X_WB.p.allFinite() || !pose.v_WB.allFinite() ||
+        !pose.angular_rate_B.allFinite()) {
+      return NotFinite("pose");
+    }
+    if (std::abs(q.norm() - 1) > 0.01) {
+      return InvalidError("the quaternion of a pose has length " + std::to_string(q.norm()) +
+                          ", not 1");
+    }
+    pose.X_WB.R = Eigen::Quaterniond(q[0], q[1], q[2], q[3]).normalized().toRotationMatrix();
+    return pose;
+  });
+}
+
+Result<ImuSample> ImuFromWire(const WireMessage& message) {
+  return DecodeAnd<imu_t>(message, [](const imu_t& m) -> Result<ImuSample> {
+    const ImuSample sample{{m.utime}, Unpack(m.specific_force), Unpack(m.angular_rate)};
+    if (!sample.specific_force_B.allFinite() || !sample.angular_rate_B.allFinite()) {
+      return NotFinite("inertial sample");
+    }
+    return sample;
+  });
+}
+
+Result<GpsFix> GpsFromWire(const WireMessage& message) {
+  return DecodeAnd<gps_t>(message, [](const gps_t& m) -> Result<GpsFix> {
+    const GpsFix fix{
+        {m.utime}, Unpack(m.pos), Unpack(m.vel), m.sigma_horizontal_m, m.sigma_vertical_m};
+    if (!fix.p_WB.allFinite() || !fix.v_WB.allFinite() || !std::isfinite(fix.sigma_horizontal_m) ||
+        !std::isfinite(fix.sigma_vertical_m)) {
+      return NotFinite("GPS fix");
+    }
+    return fix;
+  });
+}
+
+Result<LaserRange> LaserFromWire(const WireMessage& message) {
+  return DecodeAnd<laser_range_t>(message, [](const laser_range_t& m) -> Result<LaserRange> {
+    if (std::isinf(m.range_m)) {
+      return NotFinite("laser range");
+    }
+    return LaserRange{{m.utime}, m.range_m};
+  });
+}
+
+Result<VehicleStatus> StatusFromWire(const WireMessage& message) {
+  return DecodeAnd<vehicle_status_t>(
+      message, [](const vehicle_status_t& m) -> Result<VehicleStatus> {
+        if (m.mode < vehicle_status_t::UNKNOWN || m.mode > vehicle_status_t::ABORT) {
+          return InvalidError("vehicle mode " + std::to_string(m.mode) + " is not one of 0..8");
+        }
+        if (!std::isfinite(m.wind_speed_mps) || !std::isfinite(m.wind_from_rad) ||
+            !std::isfinite(m.battery_or_fuel)) {
+          return NotFinite("vehicle status");
+        }
+        VehicleStatus status;
+        status.time = {m.utime};
+        status.boot_id = IdFromWire(m.boot_id);
+        status.mode = static_cast<VehicleMode>(m.mode);
+        status.on_ground = m.on_ground != 0;
+        status.flies_on_vision = m.flies_on_vision != 0;
+        status.approval_id = IdFromWire(m.approval_id);
+        status.wind_speed_mps = m.wind_speed_mps;
+        status.wind_from_rad = m.wind_from_rad;
+        status.battery_or_fuel = m.battery_or_fuel;
+        status.simulated = m.simulated != 0;
+        return status;
+      });
+}
+
+Result<CommandAck> AckFromWire(const WireMessage& message) {
+  return DecodeAnd<command_ack_t>(message, [](const command_ack_t& m) -> Result<CommandAck> {
+    if (m.result != 0 && m.result != 1) {
+      return InvalidError("answer " + std::to_string(m.result) + " is neither 0 nor 1");
+    }
+    return CommandAck{
+        {m.utime}, IdFromWire(m.command_id), static_cast<AckResult>(m.result), m.reason};
+  });
+}
+
+Result<Truth> DecodeTruth(const WireMessage& message) {
+  return DecodeAnd<truth_t>(message, [](const truth_t& m) -> Result<Truth> {
+    return Truth{{m.utime}, {UnpackRotation(m.rotation), Unpack(m.pos)}, Unpack(m.vel)};
+  });
+}
+
+}  // namespace palace

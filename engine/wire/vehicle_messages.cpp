@@ -1,0 +1,148 @@
+#include "engine/wire/convert.h"
+#include "engine/wire/wire_fields.h"
+#include "engine/wire/wire_pack.h"
+
+namespace palace {
+namespace {
+
+command_t ApprovalToWire(const Approval& a, Timestamp now) {
+  command_t m{};
+  m.utime = now.us;
+  m.kind = command_t::APPROVE;
+  m.command_id = WireId(a.id);
+  m.session_id = WireId(a.session_id);
+  m.counter = WireId(a.counter);
+  m.site_id = WireId(a.site_id);
+  m.map_hash = WireId(a.map_hash);
+  m.settings_hash = WireId(a.settings_hash);
+  m.calibration_hash = WireId(a.calibration_hash);
+  m.vehicle_boot_id = WireId(a.vehicle_boot_id);
+  m.approved_utime = a.approved_at.us;
+  m.expires_utime = a.expires_at.us;
+  m.provisional = a.provisional;
+  Pack(a.p_WS, m.site_pos);
+  m.approach_heading_rad = a.approach_heading_rad;
+  m.glide_slope_rad = a.glide_slope_rad;
+  m.clear_radius_m = a.clear_radius_m;
+  m.signature = a.signature;
+  m.signature_size = static_cast<std::int32_t>(a.signature.size());
+  return m;
+}
+
+Result<VehicleMessage> ApprovalFromWire(const command_t& m) {
+  Approval a;
+  a.id = IdFromWire(m.command_id);
+  a.session_id = IdFromWire(m.session_id);
+  a.counter = IdFromWire(m.counter);
+  a.site_id = IdFromWire(m.site_id);
+  a.map_hash = IdFromWire(m.map_hash);
+  a.settings_hash = IdFromWire(m.settings_hash);
+  a.calibration_hash = IdFromWire(m.calibration_hash);
+  a.vehicle_boot_id = IdFromWire(m.vehicle_boot_id);
+  a.approved_at = {m.approved_utime};
+  a.expires_at = {m.expires_utime};
+  a.provisional = m.provisional != 0;
+  a.p_WS = Unpack(m.site_pos);
+  a.approach_heading_rad = m.approach_heading_rad;
+  a.glide_slope_rad = m.glide_slope_rad;
+  a.clear_radius_m = m.clear_radius_m;
+  a.signature = m.signature;
+  if (!a.p_WS.allFinite() || !std::isfinite(a.approach_heading_rad) ||
+      !std::isfinite(a.glide_slope_rad) || !std::isfinite(a.clear_radius_m)) {
+    return InvalidError("an approval holds a number that is not finite");
+  }
+  return VehicleMessage(std::move(a));
+}
+
+Result<VehicleMessage> CommandFromWire(const command_t& m) {
+  switch (m.kind) {
+    case command_t::APPROVE:
+      return ApprovalFromWire(m);
+    case command_t::HOLD:
+      return VehicleMessage(HoldRequest{IdFromWire(m.command_id), m.reason});
+    case command_t::ABORT:
+      return VehicleMessage(AbortRequest{IdFromWire(m.command_id), m.reason});
+    default:
+      return InvalidError("command kind " + std::to_string(m.kind) + " is not one of 0..2");
+  }
+}
+
+position_estimate_t EstimateToWire(const PositionEstimate& e) {
+  position_estimate_t m{};
+  m.utime = e.time.us;
+  m.source = static_cast<std::int8_t>(e.source);
+  m.healthy = e.healthy;
+  m.approval_id = WireId(e.approval_id);
+  Pack(e.p_WB, m.pos);
+  Pack(e.v_WB, m.vel);
+  Pack(e.sigma_p_m, m.sigma_pos);
+  Pack(e.sigma_v_mps, m.sigma_vel);
+  return m;
+}
+
+Result<VehicleMessage> EstimateFromWire(const position_estimate_t& m) {
+  if (m.source < 0 || m.source > 2) {
+    return InvalidError("estimate source " + std::to_string(m.source) + " is not one of 0..2");
+  }
+  PositionEstimate e;
+  e.time = {m.utime};
+  e.source = static_cast<EstimateSource>(m.source);
+  e.healthy = m.healthy != 0;
+  e.approval_id = IdFromWire(m.approval_id);
+  e.p_WB = Unpack(m.pos);
+  e.v_WB = Unpack(m.vel);
+  e.sigma_p_m = Unpack(m.sigma_pos);
+  e.sigma_v_mps = Unpack(m.sigma_vel);
+  // An estimate that claims to be fit for flying must be a number; one that does not may say NaN.
+  if (e.healthy && !(e.p_WB.allFinite() && e.v_WB.allFinite() && e.sigma_p_m.allFinite() &&
+                     e.sigma_v_mps.allFinite())) {
+    return InvalidError("a healthy estimate holds a number that is not finite");
+  }
+  return VehicleMessage(e);
+}
+
+}  // namespace
+
+WireMessage EncodeVehicleMessage(const VehicleMessage& message, Timestamp now,
+                                 const ChannelNames& channels) {
+  if (const auto* approval = std::get_if<Approval>(&message)) {
+    return MakeMessage(channels.command, now, ApprovalToWire(*approval, now));
+  }
+  if (const auto* estimate = std::get_if<PositionEstimate>(&message)) {
+    return MakeMessage(channels.position_estimate, now, EstimateToWire(*estimate));
+  }
+  if (const auto* hold = std::get_if<HoldRequest>(&message)) {
+    command_t m{};
+    m.utime = now.us;
+    m.kind = command_t::HOLD;
+    m.command_id = WireId(hold->command_id);
+    m.reason = hold->reason;
+    return MakeMessage(channels.command, now, m);
+  }
+  const auto& request = std::get<AbortRequest>(message);
+  abort_t m{};
+  m.utime = now.us;
+  m.command_id = WireId(request.command_id);
+  m.reason = request.reason;
+  return MakeMessage(channels.abort, now, m);
+}
+
+Result<VehicleMessage> DecodeVehicleMessage(const WireMessage& message,
+                                            const ChannelNames& channels) {
+  if (message.channel == channels.command) {
+    return DecodeAnd<command_t>(message, CommandFromWire);
+  }
+  if (message.channel == channels.position_estimate) {
+    return DecodeAnd<position_estimate_t>(message, EstimateFromWire);
+  }
+  if (message.channel == channels.abort) {
+    return DecodeAnd<abort_t>(message, [](const abort_t& m) -> Result<VehicleMessage> {
+      return VehicleMessage(AbortRequest{IdFromWire(m.command_id), m.reason});
+    });
+  }
+  return InvalidError(message.channel + " carries no message to a vehicle; they are on " +
+                      channels.command + ", " + channels.position_estimate + " and " +
+                      channels.abort);
+}
+
+}  // namespace palace
