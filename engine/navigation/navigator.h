@@ -25,6 +25,7 @@
 #include "engine/navigation/attitude_history.h"
 #include "engine/navigation/handover.h"
 #include "engine/navigation/position_filter.h"
+#include "engine/navigation/vision_fix.h"
 #include "engine/tracking/site_tracker.h"
 
 namespace palace {
@@ -58,26 +59,29 @@ class Navigator {
   struct ImuRecord {
     Timestamp time;
     Eigen::Vector3d specific_force_B = Eigen::Vector3d::Zero();
-    Eigen::Matrix3d R_WB = Eigen::Matrix3d::Identity();
+    Eigen::Vector3d mean_force_B = Eigen::Vector3d::Zero();  ///< over the step to this sample
+    Eigen::Matrix3d R_WB = Eigen::Matrix3d::Identity();      ///< half-way through it
   };
   /// A velocity cross-fade from what was in force before.
   struct Fade {
     Timestamp start;
-    bool from_vision = false;
     Eigen::Vector3d dv_WB = Eigen::Vector3d::Zero();  ///< old minus new at the switch
   };
 
   void AddImu(const ImuSample& sample);
   void AddGps(const GpsFix& fix);
-  void StartFilter(PositionFilter& filter, const FilterSeed& seed) const;
-  void AddVisionFix(Timestamp time, const PositionMeasurement& fix, double accel_noise);
+  /// Starts the filter in the past and replays the IMU since.
+  void StartFilter(PositionFilter& filter, const FilterSeed& seed, const ProcessNoise& noise) const;
+  Result<VisionFix> MakeFix(const TrackResult& track, const PinholeCamera& camera,
+                            const StereoRig& rig, const FrameBundle& bundle) const;
+  void AddVisionFix(const PositionMeasurement& fix, double accel_noise_mps2);
   FilterSeed VisionSeed(const PositionMeasurement& fix) const;
+  double VelocityGap(Timestamp time) const;
   void UpdateHandover(Timestamp time);
-  void UpdateStatus(Timestamp now);
-  std::optional<PositionEstimate> PoseEstimate(Timestamp now) const;
-  PositionEstimate FilterEstimate(const PositionFilter& filter, EstimateSource source,
-                                  Timestamp now) const;
-  PositionEstimate UnfadedEstimate(Timestamp now) const;
+  void UpdateStatus();
+  PositionEstimate PoseEstimate(Timestamp now) const;
+  PositionEstimate GpsEstimate(Timestamp now) const;
+  PositionEstimate VisionEstimate(Timestamp now) const;
 
   AttitudeHistory poses_;
   std::deque<ImuRecord> imu_;
@@ -85,8 +89,8 @@ class Navigator {
   PositionFilter vision_;
   Handover handover_;
   std::optional<LandingSite> site_;
-  bool vision_started_ = false;
   bool have_pose_stream_ = false;
+  std::optional<LaserRange> laser_;  ///< newest with a return
   std::optional<Fade> fade_;
   Eigen::Vector3d attitude_correction_W_ = Eigen::Vector3d::Zero();  ///< rotation vector
   Timestamp now_;

@@ -1,0 +1,341 @@
+#include "engine/navigation/navigator.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/core/units.h"
+
+namespace palace {
+namespace {
+
+constexpr double kImuMemory_s = 2.0;
+constexpr double kImuGap_s = 0.1;
+constexpr double kGpsNoise_mps2 = 0.1;
+constexpr double kBiasWalk_mps3 = 0.005;  // AHRS attitude errors wander through gravity like a bias
+constexpr double kGpsVelocitySigma_mps = 0.1;
+constexpr double kGpsDefaultSigma_m = 2.5;
+constexpr double kGpsSilence_s = 1.5;
+constexpr double kPoseSilence_s = 0.5;
+constexpr int kGpsRestartAfter = 15;
+constexpr int kVisionRestartAfter = 5;
+constexpr double kLaserAge_s = 0.3;
+constexpr double kFade_s = 1.0;
+constexpr double kCorrectionGain = 0.1;
+constexpr double kMaxCorrection_rad = Rad(0.5);
+
+ProcessNoise Noise(double accel_mps2) {
+  return {Eigen::Vector3d::Constant(accel_mps2), kBiasWalk_mps3};
+}
+
+PositionMeasurement GpsMeasurement(const GpsFix& fix) {
+  const double horizontal_m =
+      fix.sigma_horizontal_m > 0 ? fix.sigma_horizontal_m : kGpsDefaultSigma_m;
+  const double vertical_m = fix.sigma_vertical_m > 0 ? fix.sigma_vertical_m : kGpsDefaultSigma_m;
+  PositionMeasurement measurement;
+  measurement.time = fix.time;
+  measurement.p_WB = fix.p_WB;
+  measurement.p_covariance_m2 =
+      Eigen::Vector3d(horizontal_m, horizontal_m, vertical_m).cwiseAbs2().asDiagonal();
+  if (fix.v_WB.allFinite()) {
+    measurement.v_WB = fix.v_WB;
+  }
+  measurement.sigma_v_mps = kGpsVelocitySigma_mps;
+  return measurement;
+}
+
+PositionEstimate FromFilter(const PositionFilter& filter, Timestamp now) {
+  const FilterEstimate state = filter.EstimateAt(now);
+  PositionEstimate estimate;
+  estimate.time = now;
+  estimate.p_WB = state.p_WB;
+  estimate.v_WB = state.v_WB;
+  estimate.sigma_p_m = state.sigma_p_m;
+  estimate.sigma_v_mps = state.sigma_v_mps;
+  return estimate;
+}
+
+Eigen::Matrix3d Turn(const Eigen::Vector3d& rotation) {
+  const double angle = rotation.norm();
+  return angle < 1e-12 ? Eigen::Matrix3d::Identity()
+                       : Eigen::AngleAxisd(angle, rotation / angle).toRotationMatrix();
+}
+
+}  // namespace
+
+Navigator::Navigator() = default;
+
+void Navigator::Reset() { *this = Navigator(); }
+
+void Navigator::AddSensors(const FrameBundle& bundle) {
+  now_ = std::max(now_, bundle.time);
+  have_pose_stream_ = have_pose_stream_ || !bundle.poses.empty();
+  if (bundle.pose_at_exposure) {
+    poses_.Add(*bundle.pose_at_exposure);
+  }
+  for (const VehiclePose& pose : bundle.poses) {
+    poses_.Add(pose);
+  }
+  for (const ImuSample& sample : bundle.imu) {
+    AddImu(sample);
+  }
+  for (const GpsFix& fix : bundle.gps) {
+    AddGps(fix);
+  }
+  for (const LaserRange& laser : bundle.laser) {
+    if (std::isfinite(laser.range_m) && laser.range_m > 0) {
+      laser_ = laser;
+    }
+  }
+  status_.vision_measured = false;
+  UpdateHandover(now_);
+  UpdateStatus();
+}
+
+void Navigator::AddImu(const ImuSample& sample) {
+  if (!sample.specific_force_B.allFinite() || (!imu_.empty() && sample.time <= imu_.back().time)) {
+    return;
+  }
+  ImuRecord record{sample.time, sample.specific_force_B, sample.specific_force_B,
+                   Eigen::Matrix3d::Identity()};
+  Timestamp middle = sample.time;
+  if (!imu_.empty() && SecondsBetween(imu_.back().time, sample.time) <= kImuGap_s) {
+    // Mean force and mid-way attitude: second order over the step.
+    record.mean_force_B = 0.5 * (sample.specific_force_B + imu_.back().specific_force_B);
+    middle.us = imu_.back().time.us + (sample.time.us - imu_.back().time.us) / 2;
+  }
+  const std::optional<VehiclePose> pose = poses_.At(middle);
+  if (!pose) {
+    return;
+  }
+  record.R_WB = pose->X_WB.R;
+  imu_.push_back(record);
+  while (SecondsBetween(imu_.front().time, imu_.back().time) > kImuMemory_s) {
+    imu_.pop_front();
+  }
+  for (PositionFilter* filter : {&gps_, &vision_}) {
+    if (filter->running()) {
+      filter->AddImu(record.time, record.mean_force_B, record.R_WB);
+    }
+  }
+}
+
+void Navigator::AddGps(const GpsFix& fix) {
+  if (!fix.p_WB.allFinite()) {
+    return;
+  }
+  const PositionMeasurement measurement = GpsMeasurement(fix);
+  if (gps_.running()) {
+    gps_.AddFix(measurement);
+    if (gps_.rejected_in_row() < kGpsRestartAfter) {
+      return;
+    }
+  }
+  FilterSeed seed;
+  seed.time = fix.time;
+  seed.p_WB = fix.p_WB;
+  seed.p_covariance_m2 = measurement.p_covariance_m2;
+  const std::optional<VehiclePose> pose = poses_.At(fix.time);
+  seed.v_WB = measurement.v_WB ? *measurement.v_WB
+              : pose           ? pose->v_WB
+                               : Eigen::Vector3d(Eigen::Vector3d::Zero());
+  StartFilter(gps_, seed, Noise(kGpsNoise_mps2));
+}
+
+void Navigator::StartFilter(PositionFilter& filter, const FilterSeed& seed,
+                            const ProcessNoise& noise) const {
+  filter.Start(seed, noise);
+  for (const ImuRecord& record : imu_) {
+    if (record.time > seed.time) {
+      filter.AddImu(record.time, record.mean_force_B, record.R_WB);
+    }
+  }
+}
+
+void Navigator::StartVision(const LandingSite& site, Timestamp time) {
+  StopVision();
+  site_ = site;
+  handover_.Start(time);
+  UpdateStatus();
+}
+
+void Navigator::StopVision() {
+  const bool was_in_force = handover_.state() == Handover::State::kVision;
+  const Eigen::Vector3d old_v_WB = EstimateInForce(now_).v_WB;
+  handover_.Stop();
+  vision_.Reset();
+  site_.reset();
+  attitude_correction_W_.setZero();
+  if (was_in_force) {
+    fade_.reset();
+    fade_ = Fade{now_, old_v_WB - EstimateInForce(now_).v_WB};
+  }
+  UpdateStatus();
+}
+
+void Navigator::AllowVision(bool allowed) { handover_.Allow(allowed); }
+
+Result<VisionFix> Navigator::MakeFix(const TrackResult& track, const PinholeCamera& camera,
+                                     const StereoRig& rig, const FrameBundle& bundle) const {
+  std::optional<VehiclePose> pose = bundle.pose_at_exposure;
+  if (!pose) {
+    pose = poses_.At(track.time);
+  }
+  if (!pose) {
+    return UnavailableError("no attitude for the picture");
+  }
+  if (track.landmarks.size() > 1) {
+    return FixFromLandmarks(track, camera, rig, pose->X_WB.R);
+  }
+  if (!laser_ || std::abs(SecondsBetween(laser_->time, track.time)) > kLaserAge_s) {
+    return UnavailableError("no laser range with the picture");
+  }
+  return FixFromSitePixel(track, camera, rig, pose->X_WB.R, laser_->range_m, *site_);
+}
+
+void Navigator::AddVision(const TrackResult& track, const PinholeCamera& camera,
+                          const StereoRig& rig, const FrameBundle& bundle,
+                          const TrackingSettings& settings) {
+  status_.vision_measured = false;
+  if (site_ && TrackIsTrusted(track, settings)) {
+    if (const Result<VisionFix> fix = MakeFix(track, camera, rig, bundle)) {
+      status_.vision_measured = true;
+      status_.vision_p_WB = fix->measurement.p_WB;
+      AddVisionFix(fix->measurement, settings.accel_noise_mps2);
+      attitude_correction_W_ +=
+          kCorrectionGain * (fix->attitude_correction_W - attitude_correction_W_);
+      const double size = attitude_correction_W_.norm();
+      if (size > kMaxCorrection_rad) {
+        attitude_correction_W_ *= kMaxCorrection_rad / size;
+      }
+    }
+  }
+  UpdateHandover(now_);
+  UpdateStatus();
+}
+
+FilterSeed Navigator::VisionSeed(const PositionMeasurement& fix) const {
+  FilterSeed seed;
+  seed.time = fix.time;
+  seed.p_WB = fix.p_WB;
+  seed.p_covariance_m2 = fix.p_covariance_m2;
+  if (gps_.running()) {
+    const FilterEstimate gps = gps_.EstimateAt(fix.time);
+    seed.v_WB = gps.v_WB;
+    seed.bias_B = gps.bias_B;
+  } else if (const std::optional<VehiclePose> pose = poses_.At(fix.time)) {
+    seed.v_WB = pose->v_WB;
+  }
+  return seed;
+}
+
+void Navigator::AddVisionFix(const PositionMeasurement& fix, double accel_noise_mps2) {
+  if (!vision_.running()) {
+    StartFilter(vision_, VisionSeed(fix), Noise(accel_noise_mps2));
+    handover_.AddFix({fix.time, true, 0, VelocityGap(fix.time)});
+    return;
+  }
+  vision_.SetProcessNoise(Noise(accel_noise_mps2));
+  const FixOutcome outcome = vision_.AddFix(fix);
+  if (outcome == FixOutcome::kTooOld) {
+    return;
+  }
+  handover_.AddFix(
+      {fix.time, outcome == FixOutcome::kAccepted, vision_.nis(), VelocityGap(fix.time)});
+  // Nobody flies on it yet: better a fresh start than a filter that is lost.
+  if (handover_.state() != Handover::State::kVision &&
+      vision_.rejected_in_row() >= kVisionRestartAfter) {
+    vision_.Reset();
+    handover_.Start(fix.time);
+  }
+}
+
+double Navigator::VelocityGap(Timestamp time) const {
+  const Eigen::Vector3d v_WB = vision_.EstimateAt(time).v_WB;
+  if (gps_.running()) {
+    return (v_WB - gps_.EstimateAt(time).v_WB).norm();
+  }
+  const std::optional<VehiclePose> pose = poses_.At(time);
+  return pose && have_pose_stream_ ? (v_WB - pose->v_WB).norm() : 0.0;
+}
+
+void Navigator::UpdateHandover(Timestamp time) {
+  const PositionEstimate before = EstimateInForce(time);
+  if (!handover_.Advance(time)) {
+    return;
+  }
+  fade_.reset();
+  const PositionEstimate after = EstimateInForce(time);
+  fade_ = Fade{time, before.v_WB - after.v_WB};
+  status_.offset_m = (after.p_WB - before.p_WB).norm();
+}
+
+void Navigator::UpdateStatus() {
+  status_.gps.running = gps_.running();
+  status_.gps.estimate = GpsEstimate(now_);
+  status_.gps.residual_sigma = gps_.residual_sigma();
+  status_.gps.rejected_in_row = gps_.rejected_in_row();
+  status_.vision.running = vision_.running();
+  status_.vision.estimate = vision_.running() ? VisionEstimate(now_) : PositionEstimate{};
+  status_.vision.residual_sigma = vision_.residual_sigma();
+  status_.vision.rejected_in_row = vision_.rejected_in_row();
+  status_.handover = handover_.state();
+  status_.handover_reason = handover_.reason();
+}
+
+PositionEstimate Navigator::PoseEstimate(Timestamp now) const {
+  PositionEstimate estimate;
+  estimate.time = now;
+  const std::optional<VehiclePose> pose = poses_.At(now);
+  if (!pose) {
+    return estimate;
+  }
+  estimate.p_WB = pose->X_WB.p;
+  estimate.v_WB = pose->v_WB;
+  estimate.source = have_pose_stream_ ? EstimateSource::kGps : EstimateSource::kNone;
+  estimate.healthy =
+      have_pose_stream_ && SecondsBetween(poses_.newest().time, now) <= kPoseSilence_s;
+  return estimate;
+}
+
+PositionEstimate Navigator::GpsEstimate(Timestamp now) const {
+  if (!gps_.running()) {
+    return PoseEstimate(now);
+  }
+  PositionEstimate estimate = FromFilter(gps_, now);
+  estimate.source = EstimateSource::kGps;
+  estimate.healthy = SecondsBetween(gps_.last_accepted(), now) <= kGpsSilence_s;
+  return estimate;
+}
+
+PositionEstimate Navigator::VisionEstimate(Timestamp now) const {
+  PositionEstimate estimate = FromFilter(vision_, now);
+  estimate.source = EstimateSource::kVision;
+  estimate.healthy = handover_.Healthy(now);
+  return estimate;
+}
+
+PositionEstimate Navigator::EstimateInForce(Timestamp now) const {
+  PositionEstimate estimate =
+      handover_.state() == Handover::State::kVision ? VisionEstimate(now) : GpsEstimate(now);
+  if (fade_) {
+    const double share = std::clamp(SecondsBetween(fade_->start, now) / kFade_s, 0.0, 1.0);
+    estimate.v_WB += (1 - share) * fade_->dv_WB;
+  }
+  return estimate;
+}
+
+RigidTransform Navigator::PredictBodyPose(Timestamp exposure) const {
+  RigidTransform X_WB;
+  if (const std::optional<VehiclePose> pose = poses_.At(exposure)) {
+    X_WB = pose->X_WB;
+    if (handover_.state() == Handover::State::kVision) {
+      X_WB.R = Turn(attitude_correction_W_) * X_WB.R;
+    }
+  }
+  if (gps_.running() || handover_.state() == Handover::State::kVision) {
+    X_WB.p = EstimateInForce(exposure).p_WB;
+  }
+  return X_WB;
+}
+
+}  // namespace palace
