@@ -57,9 +57,10 @@ struct MissionInputs {
   std::uint64_t settings_hash = 0;
   std::uint64_t calibration_hash = 0;
   std::uint64_t snapshot_sequence = 0;  ///< of the snapshot this pass will publish
-  double approach_heading_rad = NAN;    ///< wanted course over ground; NaN: straight to the site
   Eigen::Vector3d p_WB_estimate = Eigen::Vector3d::Constant(NAN);
   Eigen::Vector3d skid_centre_W = Eigen::Vector3d::Constant(NAN);  ///< by the estimate in force
+  /// Wanted course over ground; NaN: straight to the site.
+  double approach_heading_rad = NAN;
 };
 
 class Mission {
