@@ -44,7 +44,8 @@ Eigen::Vector2d FlightController::TiltForHorizontal(const FlightSetpoint& setpoi
       gains_.position_per_s * position_error + setpoint.v_WB.head<2>(), gains_.max_speed_mps);
   const Eigen::Vector2d velocity_error = v_c - state.v_WB.head<2>();
   const Eigen::Vector2d wanted = gains_.velocity_per_s * velocity_error +
-                                 gains_.velocity_integral_per_s2 * velocity_integral_m_;
+                                 gains_.velocity_integral_per_s2 * velocity_integral_m_ +
+                                 setpoint.a_WB.head<2>();
   const Eigen::Vector2d a_W = LimitNorm(wanted, gains_.max_acceleration_mps2);
   if (a_W == wanted) {
     velocity_integral_m_ += velocity_error * dt_s;

@@ -1,7 +1,7 @@
 // The cascade that flies the R-50: position -> velocity -> attitude -> stick, run at 50 Hz.
 //
 //   horizontal  v_c = Kpos e_p + v_ff            |v_c| <= 4 m/s
-//               a_c = Kv e_v + Ki int e_v        |a_c| <= 2.5 m/s^2, integral frozen while limited
+//               a_c = Kv e_v + Ki int e_v + a_ff |a_c| <= 2.5 m/s^2, integral frozen while limited
 //               theta_c = -a_x / g, phi_c = a_y / g in the heading frame, +-15 deg
 //   attitude    lat = Kphi (phi_c - phi) - Kp p,   lon = -(Kth (theta_c - theta) - Kq q)
 //   vertical    vz_c = Kz e_z + vz_ff, +-1.5 m/s,  col = -(Kw e_vz + Kwi int e_vz)
@@ -39,6 +39,7 @@ struct FlightSetpoint {
   Eigen::Vector3d p_WB = Eigen::Vector3d::Zero();
   Eigen::Vector3d v_WB = Eigen::Vector3d::Zero();  ///< feed-forward
   double yaw_rad = 0;
+  Eigen::Vector3d a_WB = Eigen::Vector3d::Zero();  ///< feed-forward, horizontal part used
 };
 
 struct CascadeGains {

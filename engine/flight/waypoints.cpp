@@ -16,13 +16,15 @@ void MovingReference::MoveTowards(const Eigen::Vector3d& waypoint_W, const Trave
   if (distance <= step * dt_s && v_W.norm() <= 2 * step) {
     p_W = waypoint_W;
     v_W.setZero();
+    a_W.setZero();
     return;
   }
   // Braking at 80 % of the limit leaves the rest for the change of direction.
   const double speed = std::min({limits.max_speed_mps, distance / dt_s,
                                  std::sqrt(1.6 * limits.acceleration_mps2 * distance)});
   const Eigen::Vector3d change = way * (speed / std::max(distance, 1e-12)) - v_W;
-  v_W += change * std::min(1.0, step / std::max(change.norm(), 1e-12));
+  a_W = change * (std::min(1.0, step / std::max(change.norm(), 1e-12)) / dt_s);
+  v_W += a_W * dt_s;
   p_W += v_W * dt_s;
 }
 

@@ -15,6 +15,7 @@ struct TravelLimits {
 struct MovingReference {
   Eigen::Vector3d p_W = Eigen::Vector3d::Zero();
   Eigen::Vector3d v_W = Eigen::Vector3d::Zero();
+  Eigen::Vector3d a_W = Eigen::Vector3d::Zero();  ///< of the last step, for feed-forward
 
   /// One step of dt_s towards the waypoint.
   void MoveTowards(const Eigen::Vector3d& waypoint_W, const TravelLimits& limits, double dt_s);

@@ -21,8 +21,10 @@ constexpr double kPathAcceleration_mps2 = 0.3;
 constexpr double kPathLag_m = 1.0;
 constexpr double kSettleError_m = 0.15;
 constexpr double kSettleSpeed_mps = 0.15;
+// Long enough for the station to see the mode, also when there is nothing left to climb.
+constexpr double kShortestAbort_s = 1.0;
 constexpr TravelLimits kAlignTravel{2.0, 0.4};
-constexpr TravelLimits kSettleTravel{0.7, 0.3};
+constexpr TravelLimits kSettleTravel{0.9, 0.5};
 constexpr TravelLimits kStopTravel{4.0, 0.8};
 
 /// The reference stops after braking from its present velocity.
@@ -142,7 +144,7 @@ StickCommand Autopilot::Control(Timestamp now, const FlightState& gps, bool on_g
     return {};
   }
   StepMode(now);
-  const FlightSetpoint setpoint{reference_.p_W, reference_.v_W, yaw_reference_rad_};
+  const FlightSetpoint setpoint{reference_.p_W, reference_.v_W, yaw_reference_rad_, reference_.a_W};
   return controller_.Update(setpoint, flown_, options_.control_period_s);
 }
 
@@ -205,6 +207,7 @@ void Autopilot::HandOverToVision() {
   path_height_m_ = slope_.SkidHeight(reference_.p_W);
   path_offset_W_ = reference_.p_W - slope_.BodyAt(path_height_m_);
   path_rate_mps_ = 0;
+  reference_.v_W.setZero();
   mode_ = VehicleMode::kDescend;
 }
 
@@ -224,7 +227,9 @@ void Autopilot::StepDescend(bool fresh) {
   path_height_m_ -= path_rate_mps_ * dt;
   path_offset_W_ *= std::exp(-dt / kOffsetFade_s);
   reference_.p_W = slope_.BodyAt(path_height_m_) + path_offset_W_;
-  reference_.v_W = -path_rate_mps_ * slope_.BodyPerMetre();
+  const Vector3d v_W = -path_rate_mps_ * slope_.BodyPerMetre();
+  reference_.a_W = (v_W - reference_.v_W) / dt;
+  reference_.v_W = v_W;
   if (path_height_m_ <= kSettleHeight_m) {
     settle_time_s_ = settled_s_ = 0;
     mode_ = VehicleMode::kSettle;
@@ -259,6 +264,7 @@ void Autopilot::StepSink(bool fresh) {
   path_height_m_ -= path_rate_mps_ * dt;
   reference_.p_W = slope_.p_WS - path_height_m_ * Vector3d::UnitZ() - skid_lever_W_;
   reference_.v_W = {0, 0, path_rate_mps_};
+  reference_.a_W.setZero();
 }
 
 void Autopilot::StepAbort() {
@@ -266,7 +272,9 @@ void Autopilot::StepAbort() {
   const Vector3d target(hold_p_W_.x(), hold_p_W_.y(), climb_to_down_m_);
   const TravelLimits travel{options_.climb_rate_mps, 1.0};
   reference_.MoveTowards(target, travel, dt);
-  if ((gps_.p_WB - target).norm() < 0.5 && gps_.v_WB.norm() < 0.5) {
+  abort_time_s_ += dt;
+  if (abort_time_s_ >= kShortestAbort_s && (gps_.p_WB - target).norm() < 0.5 &&
+      gps_.v_WB.norm() < 0.5) {
     hold_p_W_ = target;
     mode_ = VehicleMode::kHover;
   }
@@ -278,6 +286,7 @@ void Autopilot::ReturnToGps() {
   vision_.reset();
   reference_.p_W = gps_.p_WB;
   reference_.v_W = gps_.v_WB;
+  reference_.a_W.setZero();
   flown_ = gps_;
   yaw_reference_rad_ = EulerFromRotation(gps_.R_WB).yaw_rad;
   hold_p_W_ = StoppingPoint(reference_.p_W, reference_.v_W);
@@ -291,6 +300,7 @@ void Autopilot::EnterHold() {
 void Autopilot::EnterAbort(double target_down_m) {
   ReturnToGps();
   climb_to_down_m_ = std::min(target_down_m, gps_.p_WB.z());
+  abort_time_s_ = 0;
   mode_ = VehicleMode::kAbort;
 }
 

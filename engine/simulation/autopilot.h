@@ -99,6 +99,7 @@ class Autopilot {
   double settle_time_s_ = 0;
   double settled_s_ = 0;
   double climb_to_down_m_ = 0;
+  double abort_time_s_ = 0;
   std::vector<CommandAck> acks_;
 };
 

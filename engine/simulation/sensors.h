@@ -57,7 +57,7 @@ class ImuSensor {
 struct AhrsNoise {
   double white_rad = 0.1 * 0.017453292519943295;
   double bias_rad = 0.15 * 0.017453292519943295;  ///< first-order Gauss-Markov
-  double bias_time_s = 60;
+  double bias_time_s = 300;
 };
 
 /// Attitude: the true rotation followed by a small body rotation, white plus slow bias.

@@ -9,8 +9,9 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 constexpr double kHistory_s = 1.0;
-constexpr double kAccelNoise = 0.05;  // m/s^2 per sqrt(Hz), attitude noise included
+constexpr double kAccelNoise = 0.01;  // m/s^2 per sqrt(Hz), attitude noise included
 constexpr double kBiasWalk = 0.004;   // m/s^2 per sqrt(s)
+constexpr double kGpsVelocitySigma_mps = 0.03;
 constexpr double kVisionPositionGain = 0.5;
 // Low, so that the velocity cross-fades to the station's filter over about a second.
 constexpr double kVisionVelocityGain = 0.2;
@@ -84,7 +85,7 @@ void GpsNavigator::Update(const GpsFix& fix) {
     return;
   }
   Fuse(fix.time, 0, fix.p_WB - then->p_WB, fix.sigma_horizontal_m);
-  Fuse(fix.time, 1, fix.v_WB - track_.At(fix.time)->v_WB, 0.05);
+  Fuse(fix.time, 1, fix.v_WB - track_.At(fix.time)->v_WB, kGpsVelocitySigma_mps);
 }
 
 VisionNavigator::VisionNavigator(Timestamp now, const PositionEstimate& first,
