@@ -1,0 +1,164 @@
+#include "engine/slad/fusion.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "engine/slad/elevation_map_builder.h"
+#include "engine/slad/frame_registration.h"
+#include "engine/slad/hole_filling.h"
+#include "engine/slad/terrain_points.h"
+
+namespace palace {
+namespace {
+
+constexpr double kGate2 = 9;                   // three sigmas
+constexpr double kGateFloor_m2 = 0.05 * 0.05;  // matching wobbles this much beyond its sigma
+constexpr double kVarianceFloor_m2 = 1e-5;
+constexpr double kUnseenGrowth_m2 = 4e-6;  // a map unseen: 2 cm after a hundred maps
+constexpr double kForgotten_m2 = 0.25;
+constexpr int kLongestMemory_frames = 50;
+/// The map follows the view once its centre is off by this share of its size.
+constexpr double kSlack = 0.08;
+
+bool SameLayout(const SladSettings& a, const SladSettings& b) {
+  return a.mode == b.mode && a.grid_rows == b.grid_rows && a.grid_cols == b.grid_cols &&
+         a.cell_m == b.cell_m && a.bounds == b.bounds && a.x_min_m == b.x_min_m &&
+         a.x_max_m == b.x_max_m && a.y_min_m == b.y_min_m && a.y_max_m == b.y_max_m;
+}
+
+bool CentreWithinSlack(const GridGeometry& a, const GridGeometry& b) {
+  return std::abs(a.north_min_m - b.north_min_m) <= kSlack * a.rows * a.cell_m &&
+         std::abs(a.east_min_m - b.east_min_m) <= kSlack * a.cols * a.cell_m;
+}
+
+}  // namespace
+
+void TerrainFusion::Reset() {
+  map_ = ElevationMap{};
+  disagreement_ = {};
+  frames_ = 0;
+}
+
+std::shared_ptr<const ElevationMap> TerrainFusion::Add(const RangeMap& range,
+                                                       const RigidTransform& X_WC,
+                                                       const SladSettings& settings) {
+  if (!SameLayout(settings, layout_)) {
+    Reset();
+  }
+  layout_ = settings;
+  if (settings.mode == SladMode::kThesis) {
+    return std::make_shared<const ElevationMap>(ElevationFromRange(range, X_WC, settings));
+  }
+  const TerrainPoints points = PointsFromRange(range, X_WC);
+  if (!points.empty() || frames_ == 0) {
+    const GridGeometry wanted =
+        LayOutGrid(ChooseBounds(points, settings, &range.camera, X_WC), settings);
+    // A picture without a point says nothing about where to look: the map stays.
+    if (frames_ == 0 || !CentreWithinSlack(wanted, map_.geometry)) {
+      MoveTo(wanted);
+    }
+  }
+  ElevationMap frame =
+      AccumulateCells(points, map_.geometry, settings.mode, kCorrelatedPixels, range.time);
+  Register(frame);
+  Fuse(frame, settings.frames_fused);
+  map_.time = range.time;
+  // Frames without a point do not count: the first real one lays out the grid.
+  frames_ += points.empty() ? 0 : 1;
+  auto published = std::make_shared<ElevationMap>(map_);
+  FillHoles(*published, settings.data_size_cells, settings.border_size_cells);
+  return published;
+}
+
+void TerrainFusion::MoveTo(const GridGeometry& geometry) {
+  const int rows = geometry.rows, cols = geometry.cols;
+  ElevationMap moved{map_.time,
+                     geometry,
+                     GridF(rows, cols, kUnknownValue),
+                     GridF(rows, cols, kUnknownValue),
+                     Grid<std::uint16_t>(rows, cols, 0),
+                     Grid<CellState>(rows, cols, CellState::kUnknown)};
+  Grid<std::int8_t> disagreement(rows, cols, 0);
+  if (frames_ > 0) {
+    const GridGeometry& old = map_.geometry;
+    const int row_shift =
+        static_cast<int>(std::lround((old.north_max_m() - geometry.north_max_m()) / old.cell_m));
+    const int col_shift =
+        static_cast<int>(std::lround((geometry.east_min_m - old.east_min_m) / old.cell_m));
+    for (int r = 0; r < rows; ++r) {
+      for (int c = 0; c < cols; ++c) {
+        const Cell from{r + row_shift, c + col_shift};
+        if (!old.Contains(from)) {
+          continue;
+        }
+        moved.height_m.at(r, c) = map_.height_m.at(from);
+        moved.variance_m2.at(r, c) = map_.variance_m2.at(from);
+        moved.frame_count.at(r, c) = map_.frame_count.at(from);
+        moved.state.at(r, c) = map_.state.at(from);
+        disagreement.at(r, c) = disagreement_.at(from);
+      }
+    }
+  }
+  map_ = std::move(moved);
+  disagreement_ = std::move(disagreement);
+}
+
+void TerrainFusion::Register(ElevationMap& frame) {
+  if (frames_ == 0) {
+    return;
+  }
+  const PlaneCorrection correction = RegisterFrame(frame, map_);
+  // The map moves a little towards each frame, so that its own tilt becomes the mean of theirs
+  // and does not stay the first frame's.
+  const double map_gain = 1.0 / (1 + std::min(frames_, kLongestMemory_frames));
+  ApplyCorrection(correction, map_gain, map_);
+  ApplyCorrection(correction, map_gain - 1, frame);
+}
+
+void TerrainFusion::Fuse(const ElevationMap& frame, int frames_fused) {
+  const double remember = 1 - 1.0 / std::max(1, frames_fused);
+  for (std::size_t i = 0; i < frame.state.cells().size(); ++i) {
+    float& mean = map_.height_m.cells()[i];
+    float& variance = map_.variance_m2.cells()[i];
+    std::uint16_t& count = map_.frame_count.cells()[i];
+    CellState& state = map_.state.cells()[i];
+    std::int8_t& disagreement = disagreement_.cells()[i];
+    const double p = static_cast<double>(variance);
+    if (frame.state.cells()[i] != CellState::kMeasured) {
+      variance = static_cast<float>(p + kUnseenGrowth_m2);
+      if (state == CellState::kMeasured && p > kForgotten_m2) {
+        mean = variance = kUnknownValue;
+        count = 0;
+        state = CellState::kUnknown;
+      }
+      continue;
+    }
+    const double z = static_cast<double>(frame.height_m.cells()[i]);
+    const double noise = static_cast<double>(frame.variance_m2.cells()[i]);
+    const double m = static_cast<double>(mean);
+    const double off = z - m;
+    const bool known = state == CellState::kMeasured;
+    const bool agrees = known && off * off <= kGate2 * (p + noise) + kGateFloor_m2;
+    const std::int8_t side = off > 0 ? 1 : -1;
+    if (known && !agrees && disagreement != side) {
+      variance = static_cast<float>(std::min(p + off * off / 4, kForgotten_m2));
+      disagreement = side;
+      continue;
+    }
+    disagreement = 0;
+    if (!agrees) {
+      mean = static_cast<float>(z);
+      variance = static_cast<float>(noise);
+      count = 1;
+      state = CellState::kMeasured;
+      continue;
+    }
+    const double fused = 1 / (remember / p + 1 / noise);
+    mean = static_cast<float>(fused * (remember * m / p + z / noise));
+    variance = static_cast<float>(std::max(fused, kVarianceFloor_m2));
+    count = static_cast<std::uint16_t>(std::min<int>(count + 1, std::max(1, frames_fused)));
+  }
+}
+
+}  // namespace palace

@@ -1,0 +1,149 @@
+#include "engine/slad/site_evaluation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace palace {
+namespace {
+
+/// Visits the cells of the map whose centre lies within `radius_m` of the cell's.
+template <typename Visit>
+void ForDisc(const GridGeometry& g, Cell centre, double radius_m, Visit visit) {
+  const int reach = static_cast<int>(radius_m / g.cell_m);
+  for (int dr = -reach; dr <= reach; ++dr) {
+    for (int dc = -reach; dc <= reach; ++dc) {
+      const Cell cell{centre.row + dr, centre.col + dc};
+      if ((dr * dr + dc * dc) * g.cell_m * g.cell_m <= radius_m * radius_m) {
+        visit(cell);
+      }
+    }
+  }
+}
+
+struct SitePlane {
+  double height_m = std::numeric_limits<double>::quiet_NaN();
+  double north_gradient = 0;
+  double east_gradient = 0;
+  double cell_variance_m2 = std::numeric_limits<double>::quiet_NaN();
+  int frames = 0;
+};
+
+SitePlane FitSitePlane(const ElevationMap& map, const SladSettings& settings, Cell centre) {
+  const GridGeometry& g = map.geometry;
+  const double radius_m = std::max(settings.lander_radius_m(), 1.5 * g.cell_m);
+  Eigen::Vector3d x = Eigen::Vector3d::Zero();
+  SitePlane plane;
+  for (int pass = 0; pass < 2; ++pass) {
+    Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+    Eigen::Vector3d right = Eigen::Vector3d::Zero();
+    double variance_sum = 0, frames = 0;
+    int count = 0;
+    ForDisc(g, centre, radius_m, [&](Cell cell) {
+      if (!g.Contains(cell) || map.state.at(cell) == CellState::kUnknown) {
+        return;
+      }
+      const double variance = static_cast<double>(map.variance_m2.at(cell));
+      const double z = static_cast<double>(map.height_m.at(cell));
+      const Eigen::Vector3d basis(1, (centre.row - cell.row) * g.cell_m,
+                                  (cell.col - centre.col) * g.cell_m);
+      const double limit = settings.max_deviation_m + 3 * std::sqrt(variance);
+      if (pass == 1 && std::abs(z - basis.dot(x)) > limit) {
+        return;
+      }
+      const double w = 1 / (variance + 1e-4);
+      normal += w * basis * basis.transpose();
+      right += w * z * basis;
+      variance_sum += variance;
+      frames += map.frame_count.at(cell);
+      ++count;
+    });
+    const Eigen::LDLT<Eigen::Matrix3d> solver(normal);
+    if (count < 3 || !(solver.rcond() > 1e-12)) {
+      return plane;
+    }
+    x = solver.solve(right);
+    plane = {x[0], x[1], x[2], variance_sum / count, static_cast<int>(std::lround(frames / count))};
+  }
+  return plane;
+}
+
+Eigen::Vector2d PixelFromPoint(const SiteContext& context, const Eigen::Vector3d& p_WS) {
+  const Eigen::Vector3d p_CS = context.X_WC.Inverse() * p_WS;
+  const PinholeCamera& camera = context.camera;
+  if (!(p_CS.z() > 0) || camera.width == 0) {
+    return Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
+  }
+  return {camera.fx_px * p_CS.x() / p_CS.z() + camera.cx_px,
+          camera.fy_px * p_CS.y() / p_CS.z() + camera.cy_px};
+}
+
+double Known(float value) { return static_cast<double>(value); }
+
+}  // namespace
+
+LandingSite EvaluateSite(const ElevationMap& map, const HazardMaps& hazards,
+                         const SladSettings& settings, const SiteContext& context, Cell cell) {
+  const GridGeometry& g = map.geometry;
+  LandingSite site;
+  site.map_time = map.time;
+  site.cell = cell;
+  const SitePlane plane = FitSitePlane(map, settings, cell);
+  site.p_WS = {g.NorthOfRow(cell.row), g.EastOfCol(cell.col), -plane.height_m};
+  site.normal_W = Eigen::Vector3d(-plane.north_gradient, -plane.east_gradient, -1).normalized();
+  site.pixel = PixelFromPoint(context, site.p_WS);
+  site.slope_rad = {Known(hazards.slope_rad.at(cell)), 3 * Known(hazards.slope_sigma_rad.at(cell))};
+  site.roughness_m = {Known(hazards.roughness_m.at(cell)),
+                      3 * Known(hazards.roughness_sigma_m.at(cell))};
+  // A step is a difference of two cells.
+  site.step_m = {Known(hazards.step_m.at(cell)),
+                 3 * std::sqrt(2.0) * Known(hazards.roughness_sigma_m.at(cell))};
+  site.height_m = {plane.height_m, 3 * std::sqrt(plane.cell_variance_m2)};
+  site.safe_distance_m = Known(hazards.safe_distance_m.at(cell));
+  site.clear_radius_m = settings.clear_radius_m();
+  site.clearance_m = site.safe_distance_m - site.clear_radius_m;
+  site.cost = Known(hazards.cost.at(cell));
+  site.safe_probability = Known(hazards.safe_probability.at(cell));
+  ForDisc(g, cell, site.clear_radius_m, [&](Cell near) {
+    const bool measured = g.Contains(near) && map.state.at(near) == CellState::kMeasured;
+    site.unknown_cells += measured ? 0 : 1;
+  });
+  site.frames_fused = plane.frames;
+  site.confirmed = site.height_m.three_sigma < settings.max_deviation_m;
+  site.distance_m = (context.p_WB - site.p_WS).head<2>().norm();
+  site.corridor_clear = CorridorIsClear(map, settings, context, site);
+  return site;
+}
+
+bool CorridorIsClear(const ElevationMap& map, const SladSettings& settings,
+                     const SiteContext& context, const LandingSite& site) {
+  const Eigen::Vector2d to_vehicle = (context.p_WB - site.p_WS).head<2>();
+  const double length_m = to_vehicle.norm();
+  if (!(length_m > settings.lander_radius_m()) || std::isnan(site.height_m.value)) {
+    return true;  // straight above: the descent is vertical
+  }
+  const Eigen::Vector2d along = to_vehicle / length_m;
+  const double tangent = std::tan(std::min(context.glide_slope_rad, 1.55));
+  const GridGeometry& g = map.geometry;
+  for (int r = 0; r < g.rows; ++r) {
+    for (int c = 0; c < g.cols; ++c) {
+      const Eigen::Vector2d offset(g.NorthOfRow(r) - site.p_WS.x(), g.EastOfCol(c) - site.p_WS.y());
+      const double s = offset.dot(along);
+      const double aside = std::abs(offset.x() * along.y() - offset.y() * along.x());
+      if (s <= site.clear_radius_m || s > length_m || aside > settings.rotor_diameter_m / 2 ||
+          map.state.at(r, c) == CellState::kUnknown) {
+        continue;
+      }
+      const double noise_m = 3 * std::sqrt(static_cast<double>(map.variance_m2.at(r, c)));
+      const double rise_m = static_cast<double>(map.height_m.at(r, c)) - site.height_m.value;
+      const double free_m = (s - settings.lander_radius_m()) * tangent + settings.max_deviation_m;
+      if (rise_m - noise_m > free_m) {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
+}  // namespace palace
