@@ -219,7 +219,7 @@ void Mission::RememberFacts(const MissionInputs& in) {
   guards.can_transmit = in.can_transmit;
   guards.recorder_ok = in.recorder_ok;
   guards.arm_window_s = in.settings.mission.arm_window_s;
-  shown_.emplace_back(in.snapshot_sequence, in.now);
+  shown_.emplace_back(in.snapshot_sequence + 1, in.now);
   while (shown_.size() > 1 && SecondsBetween(shown_.front().second, in.now) > kShownMemory_s) {
     shown_.pop_front();
   }

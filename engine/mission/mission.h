@@ -56,7 +56,8 @@ struct MissionInputs {
   const Settings& settings;
   std::uint64_t settings_hash = 0;
   std::uint64_t calibration_hash = 0;
-  std::uint64_t snapshot_sequence = 0;  ///< of the snapshot this pass will publish
+  /// Of the newest snapshot published; this pass publishes the next number.
+  std::uint64_t snapshot_sequence = 0;
   Eigen::Vector3d p_WB_estimate = Eigen::Vector3d::Constant(NAN);
   Eigen::Vector3d skid_centre_W = Eigen::Vector3d::Constant(NAN);  ///< by the estimate in force
   /// Wanted course over ground; NaN: straight to the site.

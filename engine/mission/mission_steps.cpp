@@ -125,7 +125,7 @@ std::string Mission::WhyDrop(const MissionInputs& in) const {
 
 void Mission::StepArmed(const MissionInputs& in) {
   if (!armed_.first_sequence) {
-    armed_.first_sequence = in.snapshot_sequence;
+    armed_.first_sequence = in.snapshot_sequence + 1;
     armed_.shown_since = in.now;
   }
   std::string why = WhyDrop(in);

@@ -165,7 +165,7 @@ struct MissionRig {
                      .settings = settings,
                      .settings_hash = settings_hash,
                      .calibration_hash = calibration_hash,
-                     .snapshot_sequence = sequence,
+                     .snapshot_sequence = sequence - 1,
                      .p_WB_estimate = p_WB(),
                      .skid_centre_W = p_WB()};
     if (mission.status().armed) {
