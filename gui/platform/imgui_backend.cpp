@@ -88,8 +88,11 @@ void ImGuiBackend::BeginFrame(double delta_s) {
   ImGui::NewFrame();
 }
 
-void ImGuiBackend::EndFrame() {
+void ImGuiBackend::EndFrame(bool draw) {
   ImGui::Render();
+  if (!draw) {
+    return;
+  }
   if (window_ != nullptr) {
     window_->BeginFrame();
   } else {

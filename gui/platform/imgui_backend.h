@@ -27,8 +27,8 @@ class ImGuiBackend {
   /// Starts an ImGui frame. `delta_s` > 0 replaces the measured time step (headless, tests).
   void BeginFrame(double delta_s = 0);
   /// Ends the frame and draws it into the window or the offscreen framebuffer, after clearing it
-  /// with the window colour #090C10.
-  void EndFrame();
+  /// with the window colour #090C10. `draw` false ends it without making pixels.
+  void EndFrame(bool draw = true);
   /// Rebuilds the font atlas at another scale; between frames only. The fonts move: take them anew.
   void SetUiScale(double ui_scale);
   double ui_scale() const { return ui_scale_; }

@@ -57,7 +57,7 @@ struct View3dLabel {
 struct View3dLabels {
   std::vector<View3dLabel> height_ticks;
   std::optional<Eigen::Vector2f> vehicle;  ///< centre of the vehicle
-  std::optional<Eigen::Vector2f> site;     ///< upper edge of the site ring
+  std::optional<Eigen::Vector2f> site;     ///< centre of the site
 };
 
 /// Needs one GL 3.3 core context current for every call and for the destructor. The terrain mesh is
