@@ -1,4 +1,7 @@
 #define TOML_EXCEPTIONS 0
+// toml++ 3.3 asserts that a table header starts with a key ("[?]" in a damaged file aborts), but
+// reports the same as an error two lines later. Files are input: never abort on them.
+#define TOML_ASSERT(expr) static_assert(true)
 #include "engine/camera/rig_file.h"
 
 #include <cmath>
