@@ -1,0 +1,189 @@
+#include <algorithm>
+#include <cmath>
+
+#include "gui/panels/frame_bar.h"
+#include "gui/widgets/button.h"
+#include "gui/widgets/icons.h"
+
+namespace palace {
+
+namespace {
+
+struct AlarmLook {
+  Icon icon;
+  ImU32 colour, fill;
+  const char* word;
+  const char* plural;
+};
+
+AlarmLook LookOf(const Palette& p, AlarmLevel level) {
+  switch (level) {
+    case AlarmLevel::kWarning:
+      return {Icon::kWarning, p.warning, p.warning_fill, "WARNING", "warning"};
+    case AlarmLevel::kCaution:
+      return {Icon::kCaution, p.caution, p.caution_fill, "CAUTION", "caution"};
+    case AlarmLevel::kAdvisory:
+      break;
+  }
+  return {Icon::kAdvisory, p.advisory, p.advisory_fill, "ADVISORY", "advisory"};
+}
+
+bool IsShelved(const FrameState& state, const std::string& id) {
+  return std::find(state.shelved.begin(), state.shelved.end(), id) != state.shelved.end();
+}
+
+/// "2 advisories" and the worst shape among them; drawn right-aligned. Returns the left edge.
+float DrawRest(const std::vector<const Alarm*>& rest, std::size_t shelved, float right, float y,
+               UiFrame& ui) {
+  const Style& s = ui.style;
+  std::string words;
+  std::optional<AlarmLook> look;
+  if (rest.empty()) {
+    words = shelved > 0 ? "(" + std::to_string(shelved) + " shelved)" : "";
+  } else {
+    const AlarmLevel worst = rest.front()->level;
+    const auto count = std::count_if(rest.begin(), rest.end(),
+                                     [&](const Alarm* alarm) { return alarm->level == worst; });
+    look = LookOf(s.palette, worst);
+    words = std::to_string(count) + " " +
+            (count == 1 ? look->plural
+                        : (worst == AlarmLevel::kAdvisory ? std::string("advisories")
+                                                          : std::string(look->plural) + "s"));
+    const std::size_t others = rest.size() - static_cast<std::size_t>(count);
+    if (others > 0) {
+      words += ", " + std::to_string(others) + " more";
+    }
+    if (shelved > 0) {
+      words += " (" + std::to_string(shelved) + " shelved)";
+    }
+  }
+  float x = right - s.Px(27);
+  x -= DrawText(ui, s.body, s.palette.text2, x, y, words, Align::kRight);
+  if (look) {
+    x -= s.Px(16);
+    DrawIcon(Canvas(), look->icon, {x, y}, s.Px(14), look->colour);
+    x -= s.Px(6);
+  }
+  return x;
+}
+
+/// Acknowledge and Shelve; returns the left edge.
+float DrawAnswers(const Alarm& alarm, FrameState& state, float right, float y, UiFrame& ui) {
+  const Style& s = ui.style;
+  const bool advisory = alarm.level == AlarmLevel::kAdvisory;
+  if (advisory) {
+    return right;
+  }
+  ButtonLook look;
+  look.flat = true;
+  const Rect shelve{right - s.Px(28 + 72), y - s.Px(12), s.Px(72), s.Px(24)};
+  if (DrawButton(ui, "shelve", shelve, "Shelve", look)) {
+    state.shelved.push_back(alarm.id);
+  }
+  const Rect acknowledge{shelve.x - s.Px(8 + 112), shelve.y, s.Px(112), shelve.h};
+  if (!alarm.acknowledged && DrawButton(ui, "acknowledge", acknowledge, "Acknowledge", look)) {
+    ui.intents.push_back(CommandAction(AcknowledgeAlarm{alarm.id}));
+  }
+  return alarm.acknowledged ? shelve.x : acknowledge.x;
+}
+
+void DrawFirst(const Alarm& alarm, const Rect& rect, float text_right, UiFrame& ui) {
+  const Style& s = ui.style;
+  const Palette& p = s.palette;
+  const AlarmLook look = LookOf(p, alarm.level);
+  const float y = rect.centre().y;
+  const bool blink = alarm.level == AlarmLevel::kWarning && !alarm.acknowledged && alarm.active &&
+                     std::fmod(ui.ui_time_s, 1.0) >= 0.5;
+  if (!alarm.active) {
+    StrokeRect(Canvas(), rect, look.colour, s.Fine(1));
+  } else if (!blink) {
+    FillRect(Canvas(), {rect.x, rect.y, s.Px(4), rect.h}, look.colour);
+  }
+  if (!blink) {
+    DrawIcon(Canvas(), look.icon, {rect.x + s.Px(25), y}, s.Px(14), look.colour);
+  }
+  float x = rect.x + s.Px(40);
+  x += DrawText(ui, s.medium, p.text1, x, y, look.word) + s.Px(10);
+  std::string text = alarm.text;
+  if (alarm.count > 1) {
+    text += " ×" + std::to_string(alarm.count);
+  }
+  DrawText(ui, s.body, p.text1, x, y, FitWords(s.body, text, text_right - x - s.Px(16)));
+}
+
+}  // namespace
+
+void DrawAlarmStripPanel(const EngineSnapshot& snap, const Rect& rect, FrameState& state,
+                         UiFrame& ui) {
+  const Style& s = ui.style;
+  const Palette& p = s.palette;
+  std::vector<const Alarm*> alarms;
+  std::size_t shelved = 0;
+  for (const Alarm& alarm : snap.mission.alarms) {
+    if (IsShelved(state, alarm.id)) {
+      ++shelved;
+    } else {
+      alarms.push_back(&alarm);
+    }
+  }
+  const bool quiet = alarms.empty();
+  const bool filled = !quiet && !alarms.front()->acknowledged && alarms.front()->active;
+  FillRect(Canvas(), rect, filled ? LookOf(p, alarms.front()->level).fill : p.panel);
+  ui.items.Add("panel/Alarm strip", rect, true, "");
+  const float y = rect.centre().y;
+  if (quiet) {
+    DrawRest({}, shelved, rect.right(), y, ui);
+    DrawText(ui, s.body, p.text3, rect.x + s.Px(40), y, "No alarms");
+    ui.items.Add("alarm", rect, true, "No alarms");
+    return;
+  }
+  const std::vector<const Alarm*> rest(alarms.begin() + 1, alarms.end());
+  float right = DrawRest(rest, shelved, rect.right(), y, ui);
+  right = DrawAnswers(*alarms.front(), state, right, y, ui);
+  DrawFirst(*alarms.front(), rect, right, ui);
+  const Rect words{rect.x, rect.y, right - rect.x, rect.h};
+  ui.items.Add("alarm", words, true, alarms.front()->text);
+  if (Clicked(ui, words)) {
+    state.history_open = !state.history_open;
+  }
+}
+
+void DrawFrameOverlay(const EngineSnapshot& snap, const FrameLayout& layout, FrameState& state,
+                      UiFrame& ui) {
+  const Style& s = ui.style;
+  const Palette& p = s.palette;
+  if (snap.source.kind == SourceKind::kReplay) {
+    StrokeRect(Canvas(), layout.window, p.replay, s.Fine(4));
+  }
+  if (!state.history_open || snap.mission.alarms.empty()) {
+    return;
+  }
+  const float row = s.Px(28);
+  const auto count = static_cast<float>(snap.mission.alarms.size());
+  const Rect list{layout.alarm_strip.x, layout.alarm_strip.bottom(), layout.alarm_strip.w,
+                  std::min(row * count + s.Px(16), layout.body.h / 2)};
+  FillRect(Canvas(), list, p.control);
+  StrokeRect(Canvas(), list, p.strong_line, s.Fine(1));
+  ui.items.Add("alarm_history", list, true, "");
+  float y = list.y + s.Px(8) + row / 2;
+  for (const Alarm& alarm : snap.mission.alarms) {
+    if (y + row / 2 > list.bottom()) {
+      break;
+    }
+    const AlarmLook look = LookOf(p, alarm.level);
+    DrawIcon(Canvas(), look.icon, {list.x + s.Px(25), y}, s.Px(12), look.colour);
+    DrawText(ui, s.body, p.text1, list.x + s.Px(40), y,
+             FitWords(s.body, alarm.text, list.w - s.Px(240)));
+    const std::string status = IsShelved(state, alarm.id) ? "Shelved"
+                               : alarm.acknowledged       ? "Acknowledged"
+                                                          : "";
+    DrawText(ui, s.caption, p.text2, list.right() - s.Px(27), y, status, Align::kRight);
+    y += row;
+  }
+  if (ImGui::GetIO().MouseClicked[0] && !list.Contains(ImGui::GetIO().MousePos) &&
+      !layout.alarm_strip.Contains(ImGui::GetIO().MousePos)) {
+    state.history_open = false;
+  }
+}
+
+}  // namespace palace

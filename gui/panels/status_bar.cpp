@@ -1,0 +1,118 @@
+#include <algorithm>
+
+#include "gui/panels/frame_bar.h"
+#include "gui/widgets/number_text.h"
+
+namespace palace {
+
+namespace {
+
+std::string LinkText(const EngineSnapshot& snap, bool narrow) {
+  std::uint64_t lost = 0;
+  double age_s = NAN;
+  for (const ChannelHealth& channel : snap.channels) {
+    lost += channel.lost;
+    if (channel.name == "Vehicle pose") {
+      age_s = channel.age_s;
+    }
+  }
+  if (snap.source.kind == SourceKind::kReplay) {
+    return snap.source.name;
+  }
+  if (!snap.can_transmit) {
+    return "No link";
+  }
+  const char* name = snap.source.kind == SourceKind::kSimulation ? "Simulated link " : "Link ";
+  std::string text = name + AgeText(age_s);
+  if (!narrow && snap.source.kind != SourceKind::kSimulation) {
+    text += ", " + std::to_string(lost) + " lost";
+  }
+  return text;
+}
+
+std::string RecordingText(const EngineSnapshot& snap, bool narrow) {
+  if (!snap.recording) {
+    return snap.source.kind == SourceKind::kReplay ? "" : "Not recording";
+  }
+  const std::string left = Fixed(snap.recording_minutes_left, 0) + " min left";
+  return narrow ? "Recording, " + left
+                : "Recording " + LengthText(snap.source.position_s) + ", " + left;
+}
+
+std::string ChannelsText(const EngineSnapshot& snap) {
+  const auto fresh =
+      std::count_if(snap.channels.begin(), snap.channels.end(),
+                    [](const ChannelHealth& c) { return c.state == ChannelHealth::State::kFresh; });
+  const auto rest = static_cast<std::ptrdiff_t>(snap.channels.size()) - fresh;
+  std::string text = "Channels: " + std::to_string(fresh) + " fresh";
+  return rest > 0 ? text + ", " + std::to_string(rest) + " late or stale" : text;
+}
+
+std::string AlarmText(const EngineSnapshot& snap) {
+  const auto count = [&](AlarmLevel level) {
+    return std::count_if(snap.mission.alarms.begin(), snap.mission.alarms.end(),
+                         [&](const Alarm& a) { return a.level == level && a.active; });
+  };
+  const auto warnings = count(AlarmLevel::kWarning);
+  const auto cautions = count(AlarmLevel::kCaution);
+  if (warnings > 0) {
+    return std::to_string(warnings) + (warnings == 1 ? " warning" : " warnings");
+  }
+  return cautions == 0 ? "" : std::to_string(cautions) + (cautions == 1 ? " caution" : " cautions");
+}
+
+}  // namespace
+
+void DrawStatusBarPanel(const EngineSnapshot& snap, const FrameLayout& layout,
+                        const FrameState& state, UiFrame& ui) {
+  const Style& s = ui.style;
+  const Palette& p = s.palette;
+  const Rect& bar = layout.status_bar;
+  const bool narrow = layout.narrow;
+  FillRect(Canvas(), bar, p.panel);
+  ui.items.Add("panel/Status bar", bar, true, "");
+  const float y = bar.centre().y;
+  const float gap = s.Px(24);
+  float right = bar.right() - s.Px(12);
+  right -= DrawText(ui, s.mono, p.text2, right, y, ClockText(snap.time) + " UTC", Align::kRight);
+  const std::size_t sites = snap.applied ? snap.applied->selection.sites.size() : 0;
+  std::vector<std::string> group = {"In control: you"};
+  if (narrow) {
+    group.push_back(ChannelsText(snap));
+    std::swap(group[0], group[1]);
+  } else {
+    group.push_back(sites == 1 ? "1 site" : std::to_string(sites) + " sites");
+    group.push_back(AlarmText(snap));
+    if (snap.source.kind == SourceKind::kSimulation) {
+      group.push_back(Fixed(snap.source.speed_reached, 1) + "× real time");
+    }
+  }
+  for (auto item = group.rbegin(); item != group.rend(); ++item) {
+    if (!item->empty()) {
+      right -= gap + DrawText(ui, s.caption, p.text2, right - gap, y, *item, Align::kRight);
+    }
+  }
+  const std::string limits = state.preset_name + " · " + ShortHash(snap.settings_hash);
+  std::vector<std::string> left = {LinkText(snap, narrow), RecordingText(snap, narrow),
+                                   narrow ? limits : "Limits " + limits};
+  if (!narrow) {
+    left.push_back("Frame " + Fixed(state.frame_ms, 0) + " ms");
+  }
+  float x = bar.x + s.Px(12);
+  for (const std::string& item : left) {
+    if (!item.empty() && x + TextWidth(s.caption, item) < right - gap) {
+      x += DrawText(ui, s.caption, p.text2, x, y, item) + gap;
+    }
+  }
+}
+
+void DrawFrameBar(const EngineSnapshot& snap, const FrameLayout& layout, FrameState& state,
+                  UiFrame& ui) {
+  FillRect(Canvas(), layout.window, ui.style.palette.window);
+  DrawTopBarPanel(snap, layout, state, ui);
+  DrawAlarmStripPanel(snap, layout.alarm_strip, state, ui);
+  DrawWaveOffPanel(snap, layout.wave_off, state, ui);
+  DrawStatusBarPanel(snap, layout, state, ui);
+}
+
+}  // namespace palace

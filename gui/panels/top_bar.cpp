@@ -1,0 +1,176 @@
+#include <array>
+
+#include "gui/panels/frame_bar.h"
+#include "gui/widgets/icons.h"
+
+namespace palace {
+
+namespace {
+
+void DrawModeBlock(const EngineSnapshot& snap, const Rect& r, bool frozen, UiFrame& ui) {
+  const Style& s = ui.style;
+  const Palette& p = s.palette;
+  ImDrawList* dl = Canvas();
+  const float icon_x = r.x + s.Px(18);
+  const float word_x = r.x + s.Px(40);
+  const float y = r.centre().y;
+  const char* word = "LIVE";
+  if (frozen) {
+    word = "FROZEN";
+    StrokeRect(dl, r, p.white_mark, s.Fine(2));
+    DrawIcon(dl, Icon::kPause, {icon_x, y}, s.Px(20), p.text1);
+    DrawText(ui, s.mode_replay, p.text1, r.x + s.Px(34), y, word);
+  } else if (snap.source.kind == SourceKind::kReplay) {
+    word = "REPLAY";
+    FillRect(dl, r, p.replay);
+    DrawIcon(dl, Icon::kReplay, {icon_x - s.Px(2), y}, s.Px(20), p.on_replay);
+    DrawText(ui, s.mode_replay, p.on_replay, r.x + s.Px(32), y, word);
+  } else if (snap.source.kind == SourceKind::kSimulation) {
+    word = "SIM";
+    Stripes(dl, r, p.white_mark, p.on_white, s.Px(6));
+    const float edge = s.Px(4);
+    FillRect(dl, {r.x + edge, r.y + edge, r.w - 2 * edge, r.h - 2 * edge}, p.panel);
+    DrawIcon(dl, Icon::kSimulation, {icon_x + s.Px(6), y}, s.Px(20), p.text1);
+    DrawText(ui, s.mode, p.text1, r.x + s.Px(46), y, word);
+  } else if (snap.source.kind == SourceKind::kLive) {
+    FillRect(dl, r, p.white_mark);
+    dl->AddCircleFilled({icon_x, y}, s.Fine(6), p.on_white);
+    DrawText(ui, s.mode, p.on_white, word_x, y, word);
+  } else {
+    word = snap.source.kind == SourceKind::kImages ? "IMAGES" : "NO LINK";
+    StrokeRect(dl, r, p.strong_line, s.Fine(2));
+    DrawText(ui, s.mode_replay, p.text1, r.centre().x, y, word, Align::kCentre);
+  }
+  ui.items.Add("mode", r, true, word);
+}
+
+/// Tabs with the underline of the active one. Returns the right edge.
+float DrawTabs(float x, const Rect& bar, Workspace active, UiFrame& ui) {
+  const Style& s = ui.style;
+  const Palette& p = s.palette;
+  constexpr std::array<const char*, 4> kNames = {"Fly", "Tune", "Review", "Diagnose"};
+  for (std::size_t i = 0; i < kNames.size(); ++i) {
+    const bool on = static_cast<std::size_t>(active) == i;
+    const float width = TextWidth(s.section, kNames[i]);
+    const Rect area{x - s.Px(14), bar.y, width + s.Px(28), bar.h};
+    const bool hovered = Hovered(ui, area);
+    if (hovered && !on) {
+      FillRect(Canvas(), area, p.control);
+    }
+    DrawText(ui, s.section, on || hovered ? p.text1 : p.text2, x, bar.centre().y, kNames[i]);
+    if (on) {
+      FillRect(Canvas(), {x - s.Px(8), bar.bottom() - s.Px(4), width + s.Px(16), s.Px(4)},
+               p.white_mark);
+    }
+    ui.items.Add(std::string("tab/") + kNames[i], area, true, kNames[i]);
+    if (Clicked(ui, area)) {
+      ui.intents.push_back(UiAction(ShowWorkspace{static_cast<Workspace>(i)}));
+    }
+    x += width + s.Px(36);
+  }
+  return x - s.Px(36);
+}
+
+constexpr std::array<MissionState, 6> kChain = {MissionState::kSearch,     MissionState::kProposed,
+                                                MissionState::kArmed,      MissionState::kApproved,
+                                                MissionState::kDescending, MissionState::kLanded};
+
+int ChainIndex(MissionState state) {
+  for (std::size_t i = 0; i < kChain.size(); ++i) {
+    if (kChain[i] == state) {
+      return static_cast<int>(i);
+    }
+  }
+  return -1;
+}
+
+void DrawStateBox(const Rect& r, std::string_view word, UiFrame& ui) {
+  const Style& s = ui.style;
+  StrokeRect(Canvas(), r, s.palette.white_mark, s.Fine(1), s.Fine(4));
+  DrawText(ui, s.medium, s.palette.text1, r.centre().x, r.centre().y, word, Align::kCentre);
+}
+
+/// States beside the chain: one box with shape and word.
+void DrawSideState(MissionState state, float x, float y, UiFrame& ui) {
+  const Style& s = ui.style;
+  const Palette& p = s.palette;
+  Icon icon = Icon::kOff;
+  ImU32 colour = p.text2;
+  if (state == MissionState::kHold) {
+    icon = Icon::kCaution;
+    colour = p.caution;
+  } else if (state == MissionState::kAborting) {
+    icon = Icon::kWarning;
+    colour = p.warning;
+  }
+  const char* word = MissionStateWord(state);
+  const Rect r{x, y - s.Px(14), TextWidth(s.medium, word) + s.Px(44), s.Px(28)};
+  StrokeRect(Canvas(), r, colour, s.Fine(1), s.Fine(4));
+  DrawIcon(Canvas(), icon, {r.x + s.Px(18), y}, s.Px(12), colour);
+  DrawText(ui, s.medium, p.text1, r.x + s.Px(32), y, word);
+}
+
+void DrawChain(int now, float x, float y, UiFrame& ui) {
+  const Style& s = ui.style;
+  const Palette& p = s.palette;
+  for (int i = 0; i < static_cast<int>(kChain.size()); ++i) {
+    const char* word = MissionStateWord(kChain[static_cast<std::size_t>(i)]);
+    if (i > 0) {
+      FillRect(Canvas(), {x + s.Px(12), std::round(y), s.Px(16), s.Px(1)}, p.strong_line);
+      x += s.Px(40);
+    }
+    if (i < now) {
+      DrawIcon(Canvas(), Icon::kDone, {x + s.Px(5), y}, s.Px(12), p.text2);
+      x += s.Px(18) + DrawText(ui, s.body, p.text2, x + s.Px(18), y, word);
+    } else if (i == now) {
+      const float width = TextWidth(s.medium, word) + s.Px(26);
+      DrawStateBox({x, y - s.Px(14), width, s.Px(28)}, word, ui);
+      x += width;
+    } else {
+      x += DrawText(ui, s.body, p.text3, x, y, word);
+    }
+  }
+}
+
+}  // namespace
+
+void DrawTopBarPanel(const EngineSnapshot& snap, const FrameLayout& layout, FrameState& state,
+                     UiFrame& ui) {
+  const Style& s = ui.style;
+  const Rect& bar = layout.top_bar;
+  FillRect(Canvas(), {bar.x, bar.y, layout.window.w, bar.h}, s.palette.panel);
+  ui.items.Add("panel/Top bar", bar, true, "");
+  DrawModeBlock(snap, layout.mode_block, state.frozen, ui);
+  const bool narrow = bar.w + layout.wave_off.w < s.Px(1600);
+  float x = layout.mode_block.right() + s.Px(20);
+  const float y = bar.centre().y;
+  if (!narrow) {
+    for (const char letter : std::string_view("PALACE")) {
+      Canvas()->AddText(s.section, s.section->FontSize, {x, y - s.section->FontSize / 2},
+                        s.palette.text1, &letter, &letter + 1);
+      x += TextWidth(s.section, std::string_view(&letter, 1)) + s.Px(3);
+    }
+    x = layout.mode_block.right() + s.Px(156);
+  } else {
+    x += s.Px(20);
+  }
+  const float tabs_end = DrawTabs(x, bar, state.workspace, ui);
+  const int now = ChainIndex(snap.mission.state);
+  ui.items.Add("state", bar, true, MissionStateName(snap.mission.state));
+  if (narrow) {
+    x = tabs_end + s.Px(41);
+    x += DrawText(ui, s.body, s.palette.text2, x, y, "State") + s.Px(12);
+    if (now < 0) {
+      DrawSideState(snap.mission.state, x, y, ui);
+      return;
+    }
+    DrawStateBox({x, y - s.Px(14), s.Px(124), s.Px(28)}, MissionStateWord(snap.mission.state), ui);
+    DrawText(ui, s.body, s.palette.text2, x + s.Px(136), y, std::to_string(now + 1) + " of 6");
+  } else if (now < 0) {
+    DrawSideState(snap.mission.state, tabs_end + s.Px(100), y, ui);
+  } else {
+    DrawChain(now, tabs_end + s.Px(100), y, ui);
+  }
+}
+
+}  // namespace palace

@@ -1,0 +1,59 @@
+#include "gui/panels/frame_bar.h"
+
+namespace palace {
+
+namespace {
+
+constexpr double kAnswerTime_s = 1.0;
+
+std::string SecondLine(const EngineSnapshot& snap, const FrameState& state, double now_s) {
+  if (!snap.can_transmit) {
+    return snap.source.kind == SourceKind::kReplay ? "No link in replay" : "No link";
+  }
+  const bool aborting = snap.mission.state == MissionState::kAborting;
+  if (aborting && snap.vehicle && snap.vehicle->mode == VehicleMode::kAbort) {
+    return "Vehicle confirms";
+  }
+  if (aborting || now_s - state.wave_off_sent_s < kAnswerTime_s) {
+    return now_s - state.wave_off_sent_s < kAnswerTime_s || !aborting ? "Sent" : "No answer yet";
+  }
+  return "One press · Shift+Esc";
+}
+
+}  // namespace
+
+void DrawWaveOffPanel(const EngineSnapshot& snap, const Rect& rect, FrameState& state,
+                      UiFrame& ui) {
+  const Style& s = ui.style;
+  const Palette& p = s.palette;
+  const bool enabled = snap.can_transmit;
+  // A popup never stands in the way of a wave-off, so this does not ask Hovered().
+  const bool inside = rect.Contains(ImGui::GetIO().MousePos);
+  if (enabled && inside && ImGui::GetIO().MouseClicked[0]) {
+    ui.intents.push_back(CommandAction(WaveOff{}));
+    state.wave_off_sent_s = ui.ui_time_s;
+  }
+  const bool latched = enabled && (snap.mission.state == MissionState::kAborting ||
+                                   ui.ui_time_s - state.wave_off_sent_s < kAnswerTime_s);
+  ImU32 fill = p.wave_off;
+  if (latched) {
+    fill = p.white_mark;
+  } else if (enabled && inside) {
+    fill = Mix(p.wave_off, p.white_mark, 0.08f);
+  }
+  ImDrawList* dl = Canvas();
+  FillRect(dl, rect, fill);
+  const Rect stripes{rect.x + s.Px(2), rect.y, s.Px(16), rect.h - s.Px(2)};
+  Stripes(dl, stripes, enabled ? p.white_mark : p.text3, enabled ? p.on_white : p.window, s.Px(6));
+  FillRect(dl, {rect.x, rect.y, s.Px(2), rect.h}, enabled ? p.white_mark : p.line);
+  FillRect(dl, {rect.x, rect.bottom() - s.Px(2), rect.w, s.Px(2)}, enabled ? p.white_mark : p.line);
+  const ImU32 text = latched ? p.on_white : (enabled ? p.text1 : p.text3);
+  const std::string second = SecondLine(snap, state, ui.ui_time_s);
+  const float x = rect.x + s.Px(34);
+  ui.items.Add("panel/WAVE OFF", rect, true, "");
+  DrawText(ui, s.wave_off, text, x, rect.y + s.Px(28), "WAVE OFF");
+  DrawText(ui, s.body, text, x, rect.y + s.Px(56), second);
+  ui.items.Add("wave_off", rect, enabled, "WAVE OFF | " + second);
+}
+
+}  // namespace palace
