@@ -377,28 +377,20 @@ Result<RigFile> LoadRigFile(const std::filesystem::path& path) {
   const toml::table& root = parsed.table();
   RigFile file;
   file.folder = path.parent_path();
-  if (Status status = CheckTables(root, name); !status) {
-    return status.error();
-  }
-  if (Status status = ReadCamera(root, name, "left", file, file.rig.left); !status) {
-    return status.error();
-  }
-  if (Status status = ReadCamera(root, name, "right", file, file.rig.right); !status) {
-    return status.error();
-  }
-  if (Status status = ReadRig(root, name, file.rig); !status) {
-    return status.error();
-  }
-  if (Status status = ReadMount(root, name, file.rig); !status) {
-    return status.error();
-  }
-  if (Status status = ReadPose(root, name, file); !status) {
-    return status.error();
-  }
-  if (Status status = ReadImages(root, name, file); !status) {
-    return status.error();
-  }
-  if (Status status = CheckPair(file.rig, name); !status) {
+  Status status = CheckTables(root, name);
+  const auto then = [&](const auto& step) {
+    if (status) {
+      status = step();
+    }
+  };
+  then([&] { return ReadCamera(root, name, "left", file, file.rig.left); });
+  then([&] { return ReadCamera(root, name, "right", file, file.rig.right); });
+  then([&] { return ReadRig(root, name, file.rig); });
+  then([&] { return ReadMount(root, name, file.rig); });
+  then([&] { return ReadPose(root, name, file); });
+  then([&] { return ReadImages(root, name, file); });
+  then([&] { return CheckPair(file.rig, name); });
+  if (!status) {
     return status.error();
   }
   return file;
