@@ -39,9 +39,14 @@ StickCommand FlightController::Update(const FlightSetpoint& setpoint, const Flig
 Eigen::Vector2d FlightController::TiltForHorizontal(const FlightSetpoint& setpoint,
                                                     const FlightState& state, double yaw_rad,
                                                     double dt_s) {
-  const Eigen::Vector2d position_error = (setpoint.p_WB - state.p_WB).head<2>();
-  const Eigen::Vector2d v_c = LimitNorm(
-      gains_.position_per_s * position_error + setpoint.v_WB.head<2>(), gains_.max_speed_mps);
+  // The feed-forward tilts at once, the airframe follows tilt_lag_s later; feedback that compares
+  // with the reference of that moment would count the lag as an error and charge its integral.
+  const double lag = gains_.tilt_lag_s;
+  const Eigen::Vector2d v_ff = (setpoint.v_WB - lag * setpoint.a_WB).head<2>();
+  const Eigen::Vector2d position_error =
+      (setpoint.p_WB - lag * setpoint.v_WB + lag * lag / 2 * setpoint.a_WB - state.p_WB).head<2>();
+  const Eigen::Vector2d v_c =
+      LimitNorm(gains_.position_per_s * position_error + v_ff, gains_.max_speed_mps);
   const Eigen::Vector2d velocity_error = v_c - state.v_WB.head<2>();
   const Eigen::Vector2d wanted = gains_.velocity_per_s * velocity_error +
                                  gains_.velocity_integral_per_s2 * velocity_integral_m_ +
