@@ -7,7 +7,7 @@
 // cell: the ground plane around it is too steep, the cell stands off that plane, it makes a step,
 // or is unknown. The layers slope, roughness, step, cost and safe_probability speak of the lander's
 // FOOTPRINT centred on the cell. Heights count only beyond their noise: a deviation r with sigma s
-// has the value sqrt(max(0, r^2 - 9 s^2)). Probabilities are Gaussian tails,
+// has the value sqrt(max(0, r^2 - 16 s^2)). Probabilities are Gaussian tails,
 //   P(safe) = Phi((slope_max - slope)/s_slope) * min(Phi of roughness, Phi of step).
 // safe_distance is exact Euclidean to the nearest hazard; outside the map counts as unknown.
 #pragma once

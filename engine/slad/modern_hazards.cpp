@@ -11,8 +11,8 @@
 namespace palace {
 namespace {
 
-/// Squared noise multiple: a deviation counts beyond three sigmas only.
-constexpr float kNoise2 = 9;
+/// Squared noise multiple: thousands of cells are tested, so a deviation counts beyond four sigmas only.
+constexpr float kNoise2 = 16;
 /// Makes the squared deviation of an unknown cell negative whatever its height.
 constexpr float kNever = 1e20F;
 /// Known limit of attitude: the slope of everything is off by this much.
@@ -28,7 +28,7 @@ double Phi(double x) { return 0.5 * std::erfc(-x / std::sqrt(2.0)); }
 /// Working layers, heights relative to a reference so that floats keep their digits.
 struct Layers {
   GridF height;         ///< 0 where not measured
-  GridF noise2;         ///< 9 sigma^2, kNever where not measured
+  GridF noise2;         ///< 16 sigma^2, kNever where not measured
   GridF plane;          ///< 0 where no plane
   GridF east, south;    ///< gradient per cell
   GridF step2;          ///< largest squared step to a neighbour beyond noise, -kNever none

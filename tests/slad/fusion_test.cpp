@@ -1,0 +1,207 @@
+#include "engine/slad/fusion.h"
+
+#include <gtest/gtest.h>
+
+#include "engine/slad/elevation_map_builder.h"
+#include "tests/slad/worlds.h"
+
+namespace palace {
+namespace {
+
+using testing::CameraPose;
+using testing::Flat;
+using testing::SeeWorld;
+using testing::Slope;
+using testing::WithBox;
+
+struct Errors {
+  double rms_m = 0;
+  double predicted_m = 0;
+  int cells = 0;
+};
+
+/// Errors against a world over cells seen, after removing their mean.
+Errors ErrorsOf(const ElevationMap& map, const testing::Height& world) {
+  double sum = 0, square = 0, variance = 0;
+  Errors errors;
+  for (int r = 0; r < map.geometry.rows; ++r) {
+    for (int c = 0; c < map.geometry.cols; ++c) {
+      if (map.state.at(r, c) == CellState::kMeasured) {
+        const double off = double(map.height_m.at(r, c)) -
+                           world(map.geometry.NorthOfRow(r), map.geometry.EastOfCol(c));
+        sum += off;
+        square += off * off;
+        variance += double(map.variance_m2.at(r, c));
+        ++errors.cells;
+      }
+    }
+  }
+  errors.rms_m = std::sqrt(square / errors.cells - std::pow(sum / errors.cells, 2));
+  errors.predicted_m = std::sqrt(variance / errors.cells);
+  return errors;
+}
+
+TEST(TerrainFusion, TenFramesLowerTheNoise) {
+  TerrainFusion fusion;
+  const RigidTransform X_WC = CameraPose(15.24, Rad(45));
+  Errors first, last;
+  for (std::uint64_t frame = 1; frame <= 10; ++frame) {
+    const auto map = fusion.Add(SeeWorld(Flat(), X_WC, 0.15, frame), X_WC, SladSettings{});
+    last = ErrorsOf(*map, Flat());
+    first = frame == 1 ? last : first;
+  }
+  EXPECT_GT(last.cells, 5000);
+  EXPECT_LT(last.rms_m, first.rms_m / 2.5);
+  EXPECT_LT(last.predicted_m, first.predicted_m / 2.5);
+  EXPECT_GT(last.predicted_m, 0.5 * last.rms_m);
+}
+
+TEST(TerrainFusion, FrameTiltsAreRegistered) {
+  TerrainFusion fusion;
+  RandomStream random(3, "attitude");
+  const auto world = WithBox(Flat(), 15, 1, 1.0, 0.75);
+  std::shared_ptr<const ElevationMap> map;
+  double steps_square = 0;
+  double before = 0;
+  for (std::uint64_t frame = 1; frame <= 12; ++frame) {
+    const RigidTransform truth = CameraPose(15.24, Rad(45));
+    const EulerAngles error{Rad(0.3) * random.Normal(), Rad(0.3) * random.Normal(), 0};
+    RigidTransform believed = CameraPose(15.24, Rad(45), 0, error);
+    believed.p.z() += 0.05 * random.Normal();
+    map = fusion.Add(SeeWorld(world, truth, 0.08, frame), believed, SladSettings{});
+    const auto cell = map->geometry.CellFromPoint(18, 3);
+    ASSERT_TRUE(cell);
+    const double height = double(map->height_m.at(*cell));
+    if (frame > 6) {
+      steps_square += std::pow(height - before, 2);
+    }
+    before = height;
+  }
+  // 0.3 deg at 20 m is 0.1 m a frame; registered, the map moves by its mean only.
+  EXPECT_LT(std::sqrt(steps_square / 6), 0.035);
+  const auto table = map->geometry.CellFromPoint(15, 1);
+  const auto beside = map->geometry.CellFromPoint(15, -1.5);
+  ASSERT_TRUE(table && beside);
+  EXPECT_NEAR(double(map->height_m.at(*table) - map->height_m.at(*beside)), 0.75, 0.08);
+}
+
+TEST(TerrainFusion, MapFollowsTheViewByWholeCells) {
+  TerrainFusion fusion;
+  const SladSettings settings;
+  GridGeometry first;
+  const auto world = WithBox(Flat(), 14.0, 0, 0.9, 0.8);
+  for (int frame = 0; frame < 8; ++frame) {
+    const RigidTransform X_WC = CameraPose(15.24, Rad(45), 0.5 * frame);
+    const auto map =
+        fusion.Add(SeeWorld(world, X_WC, 0.05, std::uint64_t(frame) + 1), X_WC, settings);
+    first = frame == 0 ? map->geometry : first;
+    const double shift = (map->geometry.north_min_m - first.north_min_m) / settings.cell_m;
+    EXPECT_NEAR(shift, std::round(shift), 1e-6);
+    const auto box = map->geometry.CellFromPoint(14.0, 0.0);
+    ASSERT_TRUE(box);
+    EXPECT_NEAR(double(map->height_m.at(*box)), 0.8, 0.1) << frame;
+    if (frame == 7) {
+      EXPECT_GT(shift, 5);
+    }
+  }
+}
+
+TEST(TerrainFusion, NewObstacleReplacesTheGroundOnItsSecondSighting) {
+  TerrainFusion fusion;
+  const RigidTransform X_WC = CameraPose(15.24, Rad(60));
+  const auto see = [&](const testing::Height& world, std::uint64_t seed) {
+    return fusion.Add(SeeWorld(world, X_WC, 0.05, seed), X_WC, SladSettings{});
+  };
+  for (std::uint64_t i = 1; i <= 5; ++i) {
+    see(Flat(), i);
+  }
+  const auto box = WithBox(Flat(), 9, 0, 1.2, 1.0);
+  const auto once = see(box, 6);
+  const auto cell = once->geometry.CellFromPoint(9, 0);
+  ASSERT_TRUE(cell);
+  EXPECT_NEAR(double(once->height_m.at(*cell)), 0, 0.1);
+  EXPECT_GT(double(once->variance_m2.at(*cell)), 0.1);
+  const auto twice = see(box, 7);
+  EXPECT_NEAR(double(twice->height_m.at(*cell)), 1.0, 0.1);
+}
+
+TEST(TerrainFusion, EmptyRangeMapGivesAllUnknown) {
+  TerrainFusion fusion;
+  const auto nothing = [](double, double) { return -1e9; };
+  const RigidTransform X_WC = CameraPose(15, Rad(45));
+  const auto map = fusion.Add(SeeWorld(nothing, X_WC, 0.1, 1), X_WC, SladSettings{});
+  for (const CellState state : map->state.cells()) {
+    ASSERT_EQ(state, CellState::kUnknown);
+  }
+}
+
+TEST(ElevationMapBuilder, ThesisGridCoversTheDataWithFixedRows) {
+  SladSettings settings;
+  settings.mode = SladMode::kThesis;
+  const RigidTransform X_WC = CameraPose(15.24, Rad(90));
+  const ElevationMap map =
+      ElevationFromRange(SeeWorld(Slope(Rad(5), 0), X_WC, 0, 1), X_WC, settings);
+  EXPECT_EQ(map.geometry.rows, 100);
+  EXPECT_EQ(map.geometry.cols, 100);
+  // 45 degrees across at 15.24 m: h = 2 R tan(f/2) = 12.6 m, of which 98 % percentiles remain.
+  EXPECT_NEAR(map.geometry.cell_m, 0.126, 0.006);
+  EXPECT_NEAR(double(map.height_m.at(50, 50)), std::tan(Rad(5)) * map.geometry.NorthOfRow(50),
+              0.02);
+}
+
+TEST(ElevationMapBuilder, FieldOfViewAtNadirIsThesis44) {
+  SladSettings settings;
+  settings.mode = SladMode::kThesis;
+  settings.bounds = BoundsMode::kFieldOfView;
+  const RigidTransform X_WC = CameraPose(15.24, Rad(90));
+  const ElevationMap map = ElevationFromRange(SeeWorld(Flat(), X_WC, 0, 1), X_WC, settings);
+  EXPECT_NEAR(map.geometry.cell_m * 100, 2 * 15.24 * std::tan(Rad(22.5)), 0.03);
+}
+
+TEST(ElevationMapBuilder, GivenBoundsAreRelativeToTheMedian) {
+  SladSettings settings;
+  settings.bounds = BoundsMode::kGiven;
+  settings.x_min_m = -3;
+  settings.x_max_m = 4.5;
+  settings.y_min_m = -1.5;
+  settings.y_max_m = 1.5;
+  std::vector<Eigen::Vector3d> points;
+  for (int i = 0; i < 400; ++i) {
+    points.push_back({1000 + 0.05 * i - 10, 2000 + 0.05 * (i * 7 % 400) - 10, -5});
+  }
+  const ElevationMap map = ElevationFromPoints(points, nullptr, settings, {});
+  EXPECT_EQ(map.geometry.rows, 50);
+  EXPECT_EQ(map.geometry.cols, 20);
+  EXPECT_NEAR(map.geometry.north_min_m, 997, 0.25);
+  EXPECT_NEAR(map.geometry.east_max_m(), 2001.5, 0.25);
+}
+
+TEST(ElevationMapBuilder, HolesUpToDataSizeAreFilledAndLargerStayUnknown) {
+  SladSettings settings;
+  settings.cell_m = 1;
+  settings.grid_rows = settings.grid_cols = 20;
+  settings.data_size_cells = 2;
+  settings.border_size_cells = 1;
+  std::vector<Eigen::Vector3d> points;
+  for (int n = 0; n < 12; ++n) {
+    for (int e = 0; e < 12; ++e) {
+      const bool small_hole = n >= 3 && n < 5 && e >= 3 && e < 5;
+      const bool large_hole = n >= 6 && n < 9 && e >= 6 && e < 9;
+      if (!small_hole && !large_hole) {
+        points.push_back({n + 0.5, e + 0.5, -7});
+      }
+    }
+  }
+  const ElevationMap map = ElevationFromPoints(points, nullptr, settings, {});
+  const auto state = [&](double n, double e) {
+    return map.state.at(*map.geometry.CellFromPoint(n, e));
+  };
+  EXPECT_EQ(state(4.5, 4.5), CellState::kFilled);
+  EXPECT_EQ(map.height_m.at(*map.geometry.CellFromPoint(4.5, 4.5)), 7.0F);
+  EXPECT_EQ(state(7.5, 7.5), CellState::kUnknown);
+  EXPECT_EQ(state(12.5, 5.5), CellState::kBorder);
+  EXPECT_EQ(state(13.5, 5.5), CellState::kUnknown);
+}
+
+}  // namespace
+}  // namespace palace

@@ -1,0 +1,238 @@
+#include "engine/slad/site_selection.h"
+
+#include <gtest/gtest.h>
+
+#include "engine/slad/slad.h"
+#include "tests/slad/worlds.h"
+
+namespace palace {
+namespace {
+
+using testing::CameraPose;
+using testing::Flat;
+using testing::MakeMap;
+using testing::SeeWorld;
+using testing::ThesisCamera;
+using testing::WithBox;
+using testing::WithMode;
+
+/// Vehicle south of the map, on a 45 degree slope to its middle.
+SiteContext Context() {
+  SiteContext context;
+  context.p_WB = {-15, 0, -15};
+  context.X_WC = {CameraRotationFromTilt(Rad(-45)), context.p_WB};
+  context.camera = ThesisCamera();
+  return context;
+}
+
+SiteSelection Select(const ElevationMap& map, const SladSettings& settings = {},
+                     const SiteContext& context = Context()) {
+  return SelectSites(map, EvaluateHazards(map, settings), settings, context);
+}
+
+TEST(SiteSelection, FlatFieldIsWonByItsMiddle) {
+  for (const SladMode mode : {SladMode::kThesis, SladMode::kModern}) {
+    const SiteSelection selection = Select(MakeMap(101, 101, 0.15, Flat(2)), WithMode(mode));
+    ASSERT_FALSE(selection.sites.empty());
+    const LandingSite& site = selection.sites.front();
+    EXPECT_EQ(site.cell, (Cell{50, 50}));
+    EXPECT_NEAR(site.safe_distance_m, 51 * 0.15, 1e-5);
+    EXPECT_NEAR(site.clearance_m, 51 * 0.15 - 2.3, 1e-5);
+    EXPECT_NEAR((site.p_WS - Eigen::Vector3d(0, 0, -2)).norm(), 0, 1e-5);
+    EXPECT_NEAR((site.normal_W + Eigen::Vector3d::UnitZ()).norm(), 0, 1e-6);
+    EXPECT_EQ(site.reason, "Widest clear radius");
+    EXPECT_EQ(site.unknown_cells, 0);
+    EXPECT_TRUE(site.confirmed);
+    EXPECT_TRUE(site.corridor_clear);
+    EXPECT_NEAR(site.distance_m, 15, 1e-6);
+  }
+}
+
+TEST(SiteSelection, PixelIsTheForwardProjection) {
+  const SiteContext context = Context();
+  for (const LandingSite& site : Select(MakeMap(101, 101, 0.15, Flat())).sites) {
+    // Back along the pixel's ray to the ground.
+    const PinholeCamera camera = ThesisCamera();
+    const Eigen::Vector3d ray =
+        context.X_WC.R * Eigen::Vector3d((site.pixel.x() - camera.cx_px) / camera.fx_px,
+                                         (site.pixel.y() - camera.cy_px) / camera.fy_px, 1);
+    const Eigen::Vector3d ground = context.X_WC.p + ray * (-context.X_WC.p.z() / ray.z());
+    EXPECT_NEAR((ground - site.p_WS).norm(), 0, 1e-6);
+  }
+}
+
+TEST(SiteSelection, SitesKeepTheirSpacingAndOrder) {
+  const SiteSelection selection = Select(MakeMap(140, 140, 0.15, WithBox(Flat(), 2, 1, 0.6, 0.7)));
+  ASSERT_EQ(selection.sites.size(), 6U);
+  for (std::size_t i = 0; i < selection.sites.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      EXPECT_GE((selection.sites[i].p_WS - selection.sites[j].p_WS).head<2>().norm(), 3.1 - 1e-9);
+    }
+    if (i > 0) {
+      EXPECT_LE(selection.sites[i].safe_distance_m, selection.sites[i - 1].safe_distance_m + 0.07);
+    }
+  }
+}
+
+TEST(SiteSelection, ShiftedWorldShiftsTheSite) {
+  const auto world = WithBox(WithBox(Flat(), 2, 3, 0.9, 0.7), -3, -2, 0.9, 0.7);
+  const ElevationMap map = MakeMap(100, 100, 0.15, world);
+  ElevationMap shifted = map;
+  shifted.geometry.north_min_m += 300;
+  shifted.geometry.east_min_m -= 150;
+  SiteContext context = Context();
+  const LandingSite a = Select(map, {}, context).sites.at(0);
+  context.p_WB += Eigen::Vector3d(300, -150, 0);
+  context.X_WC.p = context.p_WB;
+  const LandingSite b = Select(shifted, {}, context).sites.at(0);
+  EXPECT_EQ(a.cell, b.cell);
+  EXPECT_NEAR((b.p_WS - a.p_WS - Eigen::Vector3d(300, -150, 0)).norm(), 0, 1e-6);
+}
+
+TEST(SiteSelection, MirroredWorldMirrorsTheDistance) {
+  const auto world = WithBox(WithBox(Flat(), 2, 3, 0.9, 0.7), -3, -2, 0.9, 0.7);
+  const auto mirrored = [world](double n, double e) { return world(n, -e); };
+  const LandingSite a = Select(MakeMap(100, 100, 0.15, world)).sites.at(0);
+  const LandingSite b = Select(MakeMap(100, 100, 0.15, mirrored)).sites.at(0);
+  EXPECT_NEAR(a.safe_distance_m, b.safe_distance_m, 1e-6);
+}
+
+TEST(SiteSelection, AddingARockMakesNoPlaceSafer) {
+  RandomStream random(21, "rocks");
+  testing::Height world = Flat();
+  HazardMaps before = EvaluateHazards(MakeMap(80, 80, 0.15, world), SladSettings{});
+  for (int rock = 0; rock < 8; ++rock) {
+    world = WithBox(world, random.Uniform(-5, 5), random.Uniform(-5, 5), 0.45, 0.6);
+    const HazardMaps after = EvaluateHazards(MakeMap(80, 80, 0.15, world), SladSettings{});
+    for (std::size_t i = 0; i < after.safe_distance_m.cells().size(); ++i) {
+      ASSERT_LE(after.safe_distance_m.cells()[i], before.safe_distance_m.cells()[i] + 1e-6F)
+          << "seed 21 rock " << rock;
+    }
+    before = after;
+  }
+}
+
+TEST(SiteSelection, NoPlaceGivesTheSharesOfTheCauses) {
+  const auto nothing = [](double, double) { return std::nan(""); };
+  EXPECT_EQ(Select(MakeMap(0, 0, 0.15, nothing)).none_reason, "empty map");
+  EXPECT_EQ(Select(MakeMap(30, 30, 0.15, nothing)).none_reason, "100 % unknown");
+  EXPECT_EQ(Select(MakeMap(1, 1, 0.15, nothing)).none_reason, "100 % unknown");
+  EXPECT_EQ(Select(MakeMap(60, 60, 0.15, testing::Slope(Rad(15), 0))).none_reason, "100 % slope");
+  EXPECT_EQ(Select(MakeMap(20, 20, 0.15, Flat())).none_reason, "100 % footprint");
+}
+
+TEST(SiteSelection, TallWallTowardsTheVehicleBlocksTheCorridor) {
+  // A wall 8 m high across the approach, 4.5 m south of the middle.
+  const auto wall = [](double n, double) { return std::abs(n + 4.5) < 0.4 ? 8.0 : 0.0; };
+  SiteContext context = Context();
+  const SiteSelection blocked = Select(MakeMap(120, 120, 0.15, wall), {}, context);
+  ASSERT_FALSE(blocked.sites.empty());
+  for (const LandingSite& site : blocked.sites) {
+    if (site.p_WS.x() > -4 && site.p_WS.x() < 2) {
+      EXPECT_FALSE(site.corridor_clear) << site.p_WS.transpose();
+    }
+  }
+  context.p_WB = {15, 0, -15};
+  context.X_WC.p = context.p_WB;
+  for (const LandingSite& site : Select(MakeMap(120, 120, 0.15, wall), {}, context).sites) {
+    EXPECT_TRUE(site.corridor_clear || site.p_WS.x() < -4.5) << site.p_WS.transpose();
+  }
+}
+
+TEST(SiteSelection, NoiseOverTheLimitLeavesTheSiteProvisional) {
+  ElevationMap map = MakeMap(100, 100, 0.15, Flat(), 0.04, 2);
+  const SiteSelection noisy = Select(map);
+  ASSERT_FALSE(noisy.sites.empty());
+  EXPECT_FALSE(noisy.sites.front().confirmed);
+  EXPECT_NEAR(noisy.sites.front().height_m.three_sigma, 0.12, 0.01);
+  const SiteSelection quiet = Select(MakeMap(100, 100, 0.15, Flat(), 0.02, 2));
+  ASSERT_FALSE(quiet.sites.empty());
+  EXPECT_TRUE(quiet.sites.front().confirmed);
+}
+
+TEST(RecheckSite, RockOnTheSiteTakesItsClearance) {
+  const SladSettings settings;
+  const ElevationMap clear = MakeMap(100, 100, 0.15, Flat());
+  const LandingSite site = Select(clear).sites.at(0);
+  const ElevationMap rocky =
+      MakeMap(100, 100, 0.15, WithBox(Flat(), site.p_WS.x() + 1, site.p_WS.y(), 0.45, 0.6));
+  const auto again =
+      RecheckSite(rocky, EvaluateHazards(rocky, settings), settings, site, Context());
+  ASSERT_TRUE(again);
+  EXPECT_LT(again->clearance_m, -1.0);
+  EXPECT_NEAR(again->safe_distance_m, 0.8, 0.2);
+  LandingSite elsewhere = site;
+  elsewhere.p_WS.x() = 500;
+  EXPECT_FALSE(
+      RecheckSite(clear, EvaluateHazards(clear, settings), settings, elsewhere, Context()));
+}
+
+TEST(SiteRegistry, LettersStayWithTheirPlaces) {
+  SiteRegistry registry;
+  const auto sites_at = [](std::vector<double> norths) {
+    SiteSelection selection;
+    for (const double north : norths) {
+      LandingSite site;
+      site.p_WS = {north, 0, 0};
+      selection.sites.push_back(site);
+    }
+    return selection;
+  };
+  SiteSelection first = sites_at({0, 10, 20});
+  registry.Assign(first);
+  EXPECT_EQ(first.sites[0].letter, 'A');
+  EXPECT_EQ(first.sites[2].letter, 'C');
+  SiteSelection second = sites_at({20.6, 30, 0.5});
+  registry.Assign(second);
+  EXPECT_EQ(second.sites[0].letter, 'C');
+  EXPECT_EQ(second.sites[0].id, first.sites[2].id);
+  EXPECT_EQ(second.sites[1].letter, 'D');
+  EXPECT_EQ(second.sites[2].letter, 'A');
+  // Twelve letters: the next new places take those unused longest, with new ids.
+  SiteSelection many = sites_at({100, 110, 120, 130, 140, 150, 160, 170});
+  registry.Assign(many);
+  SiteSelection next = sites_at({200});
+  registry.Assign(next);
+  EXPECT_EQ(next.sites[0].letter, 'B');
+  EXPECT_GT(next.sites[0].id, many.sites[7].id);
+}
+
+TEST(Slad, FieldOfTablesSeenFromFiftyFeet) {
+  // Three tables 0.75 m high; one clear patch. Ten fused frames as at 50 ft, 45 degrees.
+  const auto world =
+      WithBox(WithBox(WithBox(Flat(), 13, 3, 1.2, 0.75), 18, -3, 1.2, 0.75), 12, -4, 1.2, 0.75);
+  TerrainFusion fusion;
+  std::shared_ptr<const ElevationMap> map;
+  SiteContext context;
+  context.p_WB = {0, 0, -15.24};
+  context.X_WC = CameraPose(15.24, Rad(45));
+  context.camera = ThesisCamera();
+  RangeMap range;
+  for (std::uint64_t frame = 1; frame <= 10; ++frame) {
+    range = SeeWorld(world, context.X_WC, 0.1, frame);
+    map = fusion.Add(range, context.X_WC, SladSettings{});
+  }
+  const SladSettings settings;
+  const HazardMaps hazards = EvaluateHazards(*map, settings);
+  const SiteSelection selection = SelectSites(*map, hazards, settings, context);
+  ASSERT_FALSE(selection.sites.empty()) << selection.none_reason;
+  for (const LandingSite& site : selection.sites) {
+    for (const auto& [n, e] : {std::pair{13.0, 3.0}, {18.0, -3.0}, {12.0, -4.0}}) {
+      EXPECT_GT(std::max(std::abs(site.p_WS.x() - n), std::abs(site.p_WS.y() - e)), 0.6 + 1.6);
+    }
+    EXPECT_LT(Deg(site.slope_rad.value), 1.0);
+  }
+  const ImageU8 verdict = VerdictImage(range, context.X_WC, hazards, 4);
+  EXPECT_EQ(verdict.width(), 160);
+  const auto verdict_at = [&](const Eigen::Vector3d& p_W) {
+    const Eigen::Vector3d p = context.X_WC.Inverse() * p_W;
+    return int(verdict.at(int((context.camera.fx_px * p.x() / p.z() + 319.5) / 4),
+                          int((context.camera.fy_px * p.y() / p.z() + 239.5) / 4)));
+  };
+  EXPECT_EQ(verdict_at({13, 3, -0.75}), 2);
+  EXPECT_EQ(verdict_at(selection.sites[0].p_WS), 1);
+  EXPECT_EQ(HashOfMaps(*map, hazards), HashOfMaps(*map, EvaluateHazards(*map, settings)));
+}
+
+}  // namespace
+}  // namespace palace
