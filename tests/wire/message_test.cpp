@@ -1,0 +1,195 @@
+// Commands, settings, proposals and the station's news survive the wire.
+#include <gtest/gtest.h>
+
+#include "engine/wire/channels.h"
+#include "engine/wire/convert.h"
+#include "engine/wire/output_encoder.h"
+#include "tests/wire/wire_samples.h"
+
+namespace palace {
+namespace {
+
+const ChannelNames kChannels;
+
+TEST(Command, EveryKindSurvives) {
+  const std::vector<CommandAction> actions = {SetSetting{"slad.max_slope_deg", 7.25},
+                                              ApplySettings{},
+                                              DiscardSettings{},
+                                              SelectSite{0xFEDCBA9876543210u},
+                                              DisarmSite{},
+                                              ApproveSite{5, ~0ull},
+                                              RefuseSite{6},
+                                              HoldHere{},
+                                              WaveOff{},
+                                              AcknowledgeAlarm{"gps_error"},
+                                              AcknowledgeWaveOff{},
+                                              AddBookmark{"Böe"}};
+  ASSERT_EQ(actions.size(), std::variant_size_v<CommandAction>);
+  for (std::size_t i = 0; i < actions.size(); ++i) {
+    for (const auto origin :
+         {CommandOrigin::kOperator, CommandOrigin::kScript, CommandOrigin::kReplay}) {
+      const WireMessage message = EncodeCommand({origin, actions[i]}, {42}, kChannels);
+      const Result<EngineCommand> back = DecodeCommand(message);
+      ASSERT_TRUE(back.ok()) << back.error().message;
+      EXPECT_EQ(back->origin, origin);
+      EXPECT_EQ(back->action.index(), i);
+      EXPECT_EQ(EncodeCommand(*back, {42}, kChannels).payload, message.payload);
+    }
+  }
+  const auto back = DecodeCommand(EncodeCommand({CommandOrigin::kOperator, actions[5]}, {1}, {}));
+  EXPECT_EQ(std::get<ApproveSite>(back->action).site_id, 5u);
+  EXPECT_EQ(std::get<ApproveSite>(back->action).snapshot_sequence, ~0ull);
+}
+
+TEST(VehicleMessage, ApprovalSurvivesWithEveryBoundField) {
+  RandomStream random(31);
+  Approval a;
+  a.id = random.NextBits();
+  a.session_id = random.NextBits();
+  a.counter = 3;
+  a.site_id = random.NextBits();
+  a.map_hash = random.NextBits();
+  a.settings_hash = random.NextBits();
+  a.calibration_hash = random.NextBits();
+  a.vehicle_boot_id = random.NextBits();
+  a.approved_at = {100};
+  a.expires_at = {30'000'100};
+  a.provisional = true;
+  a.p_WS = RandomVector(random);
+  a.approach_heading_rad = 1.25;
+  a.glide_slope_rad = 0.75;
+  a.clear_radius_m = 2.3;
+  a.signature = {1, 2, 3, 255};
+  const auto back = DecodeVehicleMessage(EncodeVehicleMessage(a, {9}, kChannels), kChannels);
+  ASSERT_TRUE(back.ok());
+  const Approval& b = std::get<Approval>(*back);
+  EXPECT_EQ(b.id, a.id);
+  EXPECT_EQ(b.session_id, a.session_id);
+  EXPECT_EQ(b.counter, a.counter);
+  EXPECT_EQ(b.site_id, a.site_id);
+  EXPECT_EQ(b.map_hash, a.map_hash);
+  EXPECT_EQ(b.settings_hash, a.settings_hash);
+  EXPECT_EQ(b.calibration_hash, a.calibration_hash);
+  EXPECT_EQ(b.vehicle_boot_id, a.vehicle_boot_id);
+  EXPECT_EQ(b.approved_at, a.approved_at);
+  EXPECT_EQ(b.expires_at, a.expires_at);
+  EXPECT_EQ(b.provisional, a.provisional);
+  EXPECT_EQ(b.p_WS, a.p_WS);
+  EXPECT_EQ(b.approach_heading_rad, a.approach_heading_rad);
+  EXPECT_EQ(b.glide_slope_rad, a.glide_slope_rad);
+  EXPECT_EQ(b.clear_radius_m, a.clear_radius_m);
+  EXPECT_EQ(b.signature, a.signature);
+}
+
+TEST(VehicleMessage, HealthyEstimateMustBeFinite) {
+  PositionEstimate e;
+  e.source = EstimateSource::kVision;
+  e.healthy = true;
+  e.p_WB = {1, NAN, 3};
+  EXPECT_FALSE(DecodeVehicleMessage(EncodeVehicleMessage(e, {}, kChannels), kChannels).ok());
+  e.healthy = false;
+  EXPECT_TRUE(DecodeVehicleMessage(EncodeVehicleMessage(e, {}, kChannels), kChannels).ok());
+}
+
+TEST(Settings, SurviveWithEveryValueMoved) {
+  Settings settings;
+  for (const SettingInfo& info : SettingTable()) {
+    const double moved = ClampSetting(info, info.default_value + (info.integer ? 1 : 0.0625));
+    ASSERT_TRUE(SetSettingValue(settings, info.name, moved).ok()) << info.name;
+  }
+  const Result<Settings> back = DecodeSettings(EncodeSettings(settings, {5}, kChannels));
+  ASSERT_TRUE(back.ok()) << back.error().message;
+  EXPECT_EQ(*back, settings);
+}
+
+TEST(Settings, BoundsBeyondTheDefaultsOfTheirPartnersSurvive) {
+  Settings settings;
+  settings.slad.x_max_m = 20;
+  settings.slad.x_min_m = 10;
+  const Result<Settings> back = DecodeSettings(EncodeSettings(settings, {5}, kChannels));
+  ASSERT_TRUE(back.ok()) << back.error().message;
+  EXPECT_EQ(*back, settings);
+}
+
+TEST(Proposal, SurvivesWithEveryFigure) {
+  RandomStream random(32);
+  const auto bundle = RandomBundle(random, 1, nullptr);
+  const EngineSnapshot snapshot = RandomSnapshot(random, *bundle);
+  const WireMessage message = EncodeProposal(*snapshot.applied, bundle->time, kChannels);
+  const Result<SiteProposal> back = DecodeProposal(message);
+  ASSERT_TRUE(back.ok());
+  EXPECT_EQ(back->map_hash, snapshot.applied->map_hash);
+  ASSERT_EQ(back->selection.sites.size(), 2u);
+  TerrainDecision again = *snapshot.applied;
+  again.selection = back->selection;
+  EXPECT_EQ(EncodeProposal(again, bundle->time, kChannels).payload, message.payload);
+  EXPECT_EQ(back->selection.sites[0].reason, "widest clearance");
+}
+
+TEST(StationStatus, SurvivesAsARecordSample) {
+  RandomStream random(33);
+  const auto bundle = RandomBundle(random, 1, nullptr);
+  const EngineSnapshot s = RandomSnapshot(random, *bundle);
+  const auto back = DecodeStationStatus(EncodeStationStatus(s, kChannels));
+  ASSERT_TRUE(back.ok());
+  EXPECT_EQ(back->state, s.mission.state);
+  EXPECT_EQ(back->decision_hash, s.decision_hash);
+  EXPECT_EQ(back->best_site, 'C');
+  EXPECT_EQ(back->best_safe_distance_m, s.applied->selection.sites[0].safe_distance_m);
+  EXPECT_EQ(back->height_above_site_m, s.mission.height_above_site_m);
+  EXPECT_TRUE(std::isnan(back->distance_to_site_m));
+}
+
+TEST(OutputEncoder, SendsOnlyNews) {
+  RandomStream random(34);
+  const auto bundle = RandomBundle(random, 1, nullptr);
+  EngineSnapshot s = RandomSnapshot(random, *bundle);
+  s.events = std::make_shared<const std::vector<Event>>(
+      std::vector<Event>{{s.time, EventKind::kState, "one"}});
+  OutputEncoder encoder;
+  const auto channels = [&] {
+    std::vector<std::string> names;
+    for (const WireMessage& m : encoder.Encode(s)) {
+      names.push_back(m.channel);
+    }
+    return names;
+  };
+  using Names = std::vector<std::string>;
+  EXPECT_EQ(channels(), (Names{"SLAD_SETTINGS", "SITE_PROPOSAL", "TRACKER_STATUS", "EVENT",
+                               "MISSION", "STATION_STATUS"}));
+  EXPECT_EQ(channels(), Names{"STATION_STATUS"});
+  s.settings.slad.max_slope_deg = 9;
+  EXPECT_EQ(channels(), (Names{"SLAD_SETTINGS", "STATION_STATUS"}));
+  s.events = std::make_shared<const std::vector<Event>>(
+      std::vector<Event>{{s.time, EventKind::kState, "one"}, {s.time, EventKind::kState, "two"}});
+  EXPECT_EQ(channels(), (Names{"EVENT", "STATION_STATUS"}));
+}
+
+TEST(Channels, FileIsTheDefaults) {
+  const auto names = LoadChannels(std::string(PALACE_SOURCE_DIR) + "/config/channels.toml");
+  ASSERT_TRUE(names.ok()) << names.error().message;
+  EXPECT_EQ(*names, ChannelNames());
+}
+
+TEST(Channels, MistakesNameFileLineAndKey) {
+  struct Case {
+    const char* text;
+    const char* says;
+  };
+  for (const Case& c :
+       {Case{"[channels]\nimu = \"\"", "c.toml:2: channels.imu has 0 bytes"},
+        Case{"[channels]\nimuu = \"A\"", "c.toml:2: unknown key 'channels.imuu'"},
+        Case{"[channels]\nimu = 3", "c.toml:2: channels.imu must be a text"},
+        Case{"[channels]\nimu = \"GPS\"", "'GPS' is used twice"},
+        Case{"[channels]\nimu = \"A B\"", "c.toml:2: channels.imu holds a blank"},
+        Case{"[channels\n", "c.toml:1"}, Case{"[other]\n", "unknown key 'other'"}}) {
+    const auto names = ParseChannels(c.text, "c.toml");
+    ASSERT_FALSE(names.ok()) << c.text;
+    EXPECT_NE(names.error().message.find(c.says), std::string::npos) << names.error().message;
+  }
+  EXPECT_EQ(ParseChannels("[channels]\nimu = \"MY_IMU\"", "c.toml")->imu, "MY_IMU");
+  EXPECT_EQ(LoadChannels("/nowhere/c.toml").error().code, ErrorCode::kUnavailable);
+}
+
+}  // namespace
+}  // namespace palace
