@@ -41,11 +41,11 @@ struct Batch {
 void RunForwardsAndBackwards(const cv::Mat& warped, const cv::Mat& current,
                              const KeyframeFlowOptions& options, Batch& batch) {
   const cv::Size window(options.window_px, options.window_px);
-  const cv::TermCriteria stop(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 20, 0.01);
+  const cv::TermCriteria stop(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 12, 0.02);
   std::vector<cv::Mat> warped_pyramid;
   std::vector<cv::Mat> current_pyramid;
   cv::buildOpticalFlowPyramid(warped, warped_pyramid, window, options.pyramid_levels);
-  cv::buildOpticalFlowPyramid(current, current_pyramid, window, options.pyramid_levels);
+  cv::buildOpticalFlowPyramid(current, current_pyramid, window, options.pyramid_levels, false);
   std::vector<unsigned char> forwards;
   std::vector<unsigned char> backwards;
   std::vector<float> error;
@@ -53,9 +53,9 @@ void RunForwardsAndBackwards(const cv::Mat& warped, const cv::Mat& current,
                            error, window, options.pyramid_levels, stop,
                            cv::OPTFLOW_USE_INITIAL_FLOW, 1e-4);
   std::vector<cv::Point2f> returned = batch.predicted;
-  // The way back starts at the answer, so one coarse level suffices to expose a false match.
+  // The way back starts at the answer, so the full picture suffices to expose a false match.
   cv::calcOpticalFlowPyrLK(current_pyramid, warped_pyramid, batch.seen, returned, backwards, error,
-                           window, 1, stop, cv::OPTFLOW_USE_INITIAL_FLOW, 1e-4);
+                           window, 0, stop, cv::OPTFLOW_USE_INITIAL_FLOW, 1e-4);
   batch.found.resize(batch.seen.size());
   for (std::size_t i = 0; i < batch.seen.size(); ++i) {
     const cv::Point2f gap = returned[i] - batch.predicted[i];

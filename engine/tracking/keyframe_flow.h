@@ -16,10 +16,10 @@
 namespace palace {
 
 struct KeyframeFlowOptions {
-  int window_px = 21;
-  int pyramid_levels = 3;
-  double max_return_px = 0.5;                          ///< forwards-backwards distance
-  double max_residual_px = 2.5;                        ///< to the common homography
+  int window_px = 17;
+  int pyramid_levels = 2;        ///< above the full picture: reaches about 30 px
+  double max_return_px = 0.5;    ///< forwards-backwards distance
+  double max_residual_px = 2.5;  ///< to the common homography
   Eigen::Vector2d shift_px = Eigen::Vector2d::Zero();  ///< added to every predicted pixel
 };
 

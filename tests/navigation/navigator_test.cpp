@@ -1,0 +1,354 @@
+#include "engine/navigation/navigator.h"
+
+#include <cstdio>
+
+#include <gtest/gtest.h>
+
+#include "engine/tracking/view_geometry.h"
+#include "tests/navigation/flight.h"
+
+namespace palace {
+namespace {
+
+using State = NavigationStatus::Handover;
+const PinholeCamera kCamera{640, 480, 772.548, 772.548, 319.5, 239.5};
+Timestamp At(double t) { return AddSeconds({}, t); }
+
+/// A vehicle that flies Flight and sends what a real one would, ten bundles a second.
+class World {
+ public:
+  explicit World(std::uint64_t seed) : random_(seed) {
+    rig_.position_body_m = {0.6, -0.5, 0.2};
+    for (int i = 0; i < 3000; ++i) {
+      ground_.push_back({random_.Uniform(-30, 30), random_.Uniform(-30, 30), 0});
+    }
+  }
+
+  Flight flight;
+  bool with_gps = true;
+  bool with_imu = true;
+  bool with_pose_stream = true;
+  double picture_delay_s = 0.05;  ///< exposure before the end of the bundle
+  Eigen::Vector3d gps_bias{1.5, -1.0, 0.8};
+
+  /// Bundle number n covers (0.1 (n-1), 0.1 n].
+  FrameBundle Bundle(int n) {
+    FrameBundle bundle;
+    bundle.sequence = static_cast<std::uint64_t>(n);
+    bundle.time = At(0.1 * n);
+    for (int k = 1; k <= 10; ++k) {
+      const double t = 0.1 * (n - 1) + 0.01 * k;
+      if (with_imu) {
+        const Eigen::Vector3d force = flight.SpecificForce(t) + Eigen::Vector3d(0.04, -0.03, 0.05);
+        ImuSample sample;
+        sample.time = At(t);
+        sample.specific_force_B = force + NormalVector(random_, 0.05);
+        bundle.imu.push_back(sample);
+      }
+      if (with_pose_stream) {
+        bundle.poses.push_back(AutopilotPose(t));
+      }
+    }
+    if (with_gps && n % 2 == 0) {
+      const double t = 0.1 * n - 0.08;  // GPS is late
+      GpsFix fix;
+      fix.time = At(t);
+      fix.p_WB = flight.Position(t) + gps_bias + NormalVector(random_, 0.2);
+      fix.v_WB = flight.Velocity(t) + NormalVector(random_, 0.05);
+      fix.sigma_horizontal_m = 1.5;
+      fix.sigma_vertical_m = 2.5;
+      bundle.gps.push_back(fix);
+    }
+    const double exposure = Exposure(n);
+    bundle.pose_at_exposure = AutopilotPose(exposure);
+    const RigidTransform X_WC = Camera(exposure);
+    bundle.laser.push_back({At(exposure), -X_WC.p.z() / X_WC.R(2, 2)});
+    return bundle;
+  }
+
+  double Exposure(int n) const { return 0.1 * n - picture_delay_s; }
+
+  TrackResult Track(int n) {
+    TrackResult track;
+    track.time = At(Exposure(n));
+    track.status.locked = true;
+    track.status.coherence = 0.95;
+    const RigidTransform X_WC = Camera(Exposure(n));
+    for (const Eigen::Vector3d& p_WF : ground_) {
+      AddLandmark(X_WC, p_WF, 0.004 * (p_WF - X_WC.p).norm(), track);
+    }
+    return track;
+  }
+
+  TrackResult TrackSiteOnly(int n) {
+    TrackResult track;
+    track.time = At(Exposure(n));
+    track.status.locked = true;
+    track.status.coherence = 0.95;
+    AddLandmark(Camera(Exposure(n)), Eigen::Vector3d::Zero(), 0, track);
+    return track;
+  }
+
+  const StereoRig& rig() const { return rig_; }
+  RigidTransform Camera(double t) const {
+    return RigidTransform{flight.Attitude(t), flight.Position(t)} * rig_.X_BC();
+  }
+
+ private:
+  VehiclePose AutopilotPose(double t) const {
+    VehiclePose pose = flight.Pose(t);
+    pose.X_WB.p += gps_bias;
+    // The AHRS is a little wrong, slowly.
+    pose.X_WB.R =
+        RotationFromEuler({Rad(0.15), Rad(-0.1 + 0.05 * std::sin(0.2 * t)), 0}) * pose.X_WB.R;
+    return pose;
+  }
+  void AddLandmark(const RigidTransform& X_WC, const Eigen::Vector3d& p_WF, double sigma_w,
+                   TrackResult& track) {
+    const auto pixel = PixelFromWorldPoint(kCamera, X_WC, p_WF);
+    if (pixel && InPicture(kCamera, *pixel, 2) && track.landmarks.size() < 100) {
+      const Eigen::Vector2d noise(0.3 * random_.Normal(), 0.3 * random_.Normal());
+      track.landmarks.push_back({p_WF, *pixel + noise, 0.3, 0.2 * sigma_w});
+      track.status.features.push_back({*pixel + noise, true});
+    }
+  }
+
+  RandomStream random_;
+  StereoRig rig_;
+  std::vector<Eigen::Vector3d> ground_;
+};
+
+TEST(Navigator, HandsOverWithoutAVelocityJumpAndHoldsThePosition) {
+  World world(1);
+  Navigator navigator;
+  Eigen::Vector3d last_v = Eigen::Vector3d::Zero();
+  double last_t = 0, velocity2 = 0, position2 = 0, worst_jump = 0;
+  int count = 0, switched = 0;
+  for (int n = 1; n <= 200; ++n) {
+    const FrameBundle bundle = world.Bundle(n);
+    navigator.AddSensors(bundle);
+    if (n == 40) {
+      navigator.StartVision({}, bundle.time);
+      EXPECT_EQ(navigator.status().handover, State::kSettling);
+      EXPECT_FALSE(navigator.status().handover_reason.empty());
+    }
+    if (n >= 40) {
+      navigator.AddVision(world.Track(n), kCamera, world.rig(), bundle, {});
+      EXPECT_TRUE(navigator.status().vision_measured) << n;
+    }
+    if (n == 80) {
+      EXPECT_EQ(navigator.status().handover, State::kReady) << navigator.status().handover_reason;
+      EXPECT_EQ(navigator.EstimateInForce(bundle.time).source, EstimateSource::kGps);
+      navigator.AllowVision(true);
+    }
+    if (switched == 0 && navigator.status().handover == State::kVision) {
+      switched = n;
+      EXPECT_NEAR(navigator.status().offset_m, world.gps_bias.norm(), 1.0);
+    }
+    const double t = 0.1 * n;
+    const PositionEstimate now = navigator.EstimateInForce(bundle.time);
+    if (n > 80) {
+      const Eigen::Vector3d step =
+          (now.v_WB - last_v) - (world.flight.Velocity(t) - world.flight.Velocity(last_t));
+      worst_jump = std::max(worst_jump, step.norm());
+    }
+    if (n > 110) {
+      EXPECT_TRUE(now.healthy);
+      EXPECT_EQ(now.source, EstimateSource::kVision);
+      velocity2 += (now.v_WB - world.flight.Velocity(t)).squaredNorm() / 3;
+      position2 += (now.p_WB - world.flight.Position(t)).squaredNorm() / 3;
+      ++count;
+    }
+    last_v = now.v_WB;
+    last_t = t;
+  }
+  std::printf(
+      "[ measured ] vision: velocity %.3f m/s rms, position %.3f m rms, worst step of the "
+      "velocity error %.3f m/s\n",
+      std::sqrt(velocity2 / count), std::sqrt(position2 / count), worst_jump);
+  EXPECT_EQ(switched, 81);
+  EXPECT_LT(std::sqrt(velocity2 / count), 0.05);
+  EXPECT_LT(std::sqrt(position2 / count), 0.06);
+  EXPECT_LT(worst_jump, 0.06);
+}
+
+TEST(Navigator, GpsFilterNeverSeesVision) {
+  World with(2), without(2);
+  Navigator a, b;
+  for (int n = 1; n <= 60; ++n) {
+    const FrameBundle bundle = with.Bundle(n);
+    a.AddSensors(bundle);
+    b.AddSensors(bundle);
+    if (n == 10) {
+      a.StartVision({}, bundle.time);
+    }
+    if (n >= 10) {
+      World picture(static_cast<std::uint64_t>(n));
+      a.AddVision(picture.Track(n), kCamera, with.rig(), bundle, {});
+    }
+    EXPECT_EQ(a.status().gps.estimate.p_WB, b.status().gps.estimate.p_WB);
+    EXPECT_EQ(a.status().gps.estimate.v_WB, b.status().gps.estimate.v_WB);
+  }
+}
+
+/// Flies on vision from the start; returns the navigator after bundle 60.
+Navigator OnVision(World& world) {
+  Navigator navigator;
+  navigator.AllowVision(true);
+  for (int n = 1; n <= 60; ++n) {
+    const FrameBundle bundle = world.Bundle(n);
+    navigator.AddSensors(bundle);
+    if (n == 10) {
+      navigator.StartVision({}, bundle.time);
+    }
+    if (n >= 10) {
+      navigator.AddVision(world.Track(n), kCamera, world.rig(), bundle, {});
+    }
+  }
+  return navigator;
+}
+
+TEST(Navigator, LostVisionIsUnhealthyAndGoesOnInertially) {
+  World world(3);
+  Navigator navigator = OnVision(world);
+  ASSERT_EQ(navigator.status().handover, State::kVision);
+  for (int n = 61; n <= 80; ++n) {
+    const FrameBundle bundle = world.Bundle(n);
+    navigator.AddSensors(bundle);
+    TrackResult lost;
+    lost.time = At(world.Exposure(n));
+    navigator.AddVision(lost, kCamera, world.rig(), bundle, {});
+    const PositionEstimate now = navigator.EstimateInForce(bundle.time);
+    EXPECT_EQ(now.source, EstimateSource::kVision);
+    if (n <= 64) {
+      EXPECT_TRUE(now.healthy) << n;
+    }
+    if (n >= 66) {
+      EXPECT_FALSE(now.healthy) << n;
+      EXPECT_NE(navigator.status().handover_reason, "");
+    }
+    EXPECT_LT((now.p_WB - world.flight.Position(0.1 * n)).norm(), 0.5) << n;
+  }
+}
+
+TEST(Navigator, RejectedFixesAreUnhealthy) {
+  World world(4);
+  Navigator navigator = OnVision(world);
+  for (int n = 61; n <= 65; ++n) {
+    const FrameBundle bundle = world.Bundle(n);
+    navigator.AddSensors(bundle);
+    TrackResult wrong = world.Track(n);
+    for (GroundLandmark& landmark : wrong.landmarks) {
+      landmark.p_WF.x() += 3;  // the whole track slid off
+    }
+    navigator.AddVision(wrong, kCamera, world.rig(), bundle, {});
+  }
+  EXPECT_EQ(navigator.status().vision.rejected_in_row, 5);
+  EXPECT_FALSE(navigator.EstimateInForce(At(6.5)).healthy);
+  EXPECT_LT((navigator.EstimateInForce(At(6.5)).p_WB - world.flight.Position(6.5)).norm(), 0.3);
+}
+
+TEST(Navigator, LowCoherenceIsNotMeasured) {
+  World world(5);
+  Navigator navigator = OnVision(world);
+  const FrameBundle bundle = world.Bundle(61);
+  navigator.AddSensors(bundle);
+  TrackResult track = world.Track(61);
+  track.status.coherence = 0.2;
+  track.status.features.resize(3 * track.landmarks.size());
+  navigator.AddVision(track, kCamera, world.rig(), bundle, {});
+  EXPECT_FALSE(navigator.status().vision_measured);
+  // Only the site's patch is hidden: the ground around it still speaks.
+  track.status.features.resize(track.landmarks.size());
+  navigator.AddVision(track, kCamera, world.rig(), bundle, {});
+  EXPECT_TRUE(navigator.status().vision_measured);
+}
+
+TEST(Navigator, PredictsTheBodyAtTheExposure) {
+  World world(6);
+  Navigator navigator = OnVision(world);
+  for (const double t : {5.8, 5.95, 6.0, 6.03}) {
+    const RigidTransform X_WB = navigator.PredictBodyPose(At(t));
+    EXPECT_LT((X_WB.p - world.flight.Position(t)).norm(), 0.1) << t;
+    EXPECT_LT((X_WB.R - world.flight.Attitude(t)).norm(), Rad(0.4)) << t;
+  }
+}
+
+TEST(Navigator, GoesBackToGpsWithoutAVelocityJump) {
+  World world(7);
+  Navigator navigator = OnVision(world);
+  const Eigen::Vector3d before = navigator.EstimateInForce(At(6.0)).v_WB;
+  navigator.StopVision();
+  const PositionEstimate after = navigator.EstimateInForce(At(6.0));
+  EXPECT_EQ(after.source, EstimateSource::kGps);
+  EXPECT_LT((after.v_WB - before).norm(), 1e-9);
+  EXPECT_FALSE(navigator.status().vision.running);
+}
+
+TEST(Navigator, ThesisModeUsesTheLaser) {
+  World world(8);
+  Navigator navigator;
+  navigator.AllowVision(true);
+  for (int n = 1; n <= 80; ++n) {
+    const FrameBundle bundle = world.Bundle(n);
+    navigator.AddSensors(bundle);
+    if (n == 10) {
+      navigator.StartVision({}, bundle.time);
+    }
+    if (n >= 10) {
+      navigator.AddVision(world.TrackSiteOnly(n), kCamera, world.rig(), bundle, {});
+      const double t = world.Exposure(n);
+      ASSERT_TRUE(navigator.status().vision_measured) << n;
+      EXPECT_LT((navigator.status().vision_p_WB - world.flight.Position(t)).norm(),
+                0.008 * 28 + 0.05)
+          << n;
+    }
+  }
+  EXPECT_EQ(navigator.status().handover, State::kVision) << navigator.status().handover_reason;
+}
+
+TEST(Navigator, WithoutGpsThePoseIsInForce) {
+  World world(9);
+  world.with_gps = false;
+  Navigator navigator;
+  for (int n = 1; n <= 5; ++n) {
+    navigator.AddSensors(world.Bundle(n));
+  }
+  const PositionEstimate now = navigator.EstimateInForce(At(0.5));
+  EXPECT_EQ(now.source, EstimateSource::kGps);
+  EXPECT_TRUE(now.healthy);
+  EXPECT_LT((now.p_WB - world.flight.Position(0.5) - world.gps_bias).norm(), 1e-6);
+  EXPECT_FALSE(navigator.EstimateInForce(At(2.0)).healthy);
+}
+
+TEST(Navigator, AFolderOfPicturesHasAPoseButNoEstimate) {
+  World world(10);
+  world.with_gps = world.with_imu = world.with_pose_stream = false;
+  Navigator navigator;
+  EXPECT_EQ(navigator.EstimateInForce({}).source, EstimateSource::kNone);
+  const FrameBundle bundle = world.Bundle(1);
+  navigator.AddSensors(bundle);
+  const RigidTransform X_WB = navigator.PredictBodyPose(At(world.Exposure(1)));
+  EXPECT_EQ(X_WB.p, bundle.pose_at_exposure->X_WB.p);
+  EXPECT_EQ(navigator.EstimateInForce(bundle.time).source, EstimateSource::kNone);
+  EXPECT_FALSE(navigator.EstimateInForce(bundle.time).healthy);
+}
+
+TEST(Navigator, WorksWithoutAnImu) {
+  World world(11);
+  world.with_imu = false;
+  Navigator navigator = OnVision(world);
+  EXPECT_EQ(navigator.status().handover, State::kVision) << navigator.status().handover_reason;
+  EXPECT_LT((navigator.EstimateInForce(At(6.0)).p_WB - world.flight.Position(6.0)).norm(), 0.15);
+}
+
+TEST(Navigator, SameInputSameBits) {
+  World one(12), two(12);
+  const Navigator a = OnVision(one);
+  const Navigator b = OnVision(two);
+  EXPECT_EQ(a.EstimateInForce(At(6.02)).p_WB, b.EstimateInForce(At(6.02)).p_WB);
+  EXPECT_EQ(a.EstimateInForce(At(6.02)).v_WB, b.EstimateInForce(At(6.02)).v_WB);
+}
+
+}  // namespace
+}  // namespace palace
