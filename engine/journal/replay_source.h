@@ -50,12 +50,15 @@ class ReplaySource final : public Source {
   /// What reading has found wrong so far; rows for the status panel.
   const LogReport& log_report() const { return index_.report; }
   const std::vector<BundleMark>& bundles() const { return bundles_; }
+  /// Events that could not be read or decoded on the way.
+  std::uint64_t events_refused() const { return events_refused_; }
 
  private:
   ReplaySource(LogFile file, LogIndex index, const ReplayOptions& options);
   ::palace::Status Prepare(const std::filesystem::path& path);
   void ReadTrack();
-  std::shared_ptr<const FrameBundle> ReadBundle(std::size_t bundle);
+  std::shared_ptr<const FrameBundle> ReadBundle();
+  std::shared_ptr<const FrameBundle> Deliver(std::shared_ptr<const FrameBundle> bundle);
   bool WaitForTurn(std::unique_lock<std::mutex>& lock, std::stop_token stop);
   void JumpTo(std::size_t bundle);
 
@@ -66,6 +69,8 @@ class ReplaySource final : public Source {
   std::shared_ptr<const RecordedTrack> recorded_;
   BundleAssembler assembler_;
   std::size_t next_event_ = 0;  ///< reader's position; Next's thread only
+  bool was_jump_ = false;       ///< Next's thread only
+  std::atomic<std::uint64_t> events_refused_{0};
 
   mutable std::mutex mutex_;
   std::condition_variable_any changed_;
@@ -73,6 +78,7 @@ class ReplaySource final : public Source {
   std::uint64_t generation_ = 0;  ///< counts jumps
   bool jumped_ = false;
   int steps_ = 0;  ///< bundles to deliver although paused
+  bool ended_ = false;
   bool paused_ = false;
   double speed_ = 1;
   double speed_reached_ = 1;

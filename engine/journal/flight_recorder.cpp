@@ -1,0 +1,79 @@
+#include <limits>
+#include <system_error>
+
+#include "engine/journal/log_writer.h"
+#include "engine/wire/convert.h"
+
+namespace palace {
+
+Result<std::unique_ptr<FlightRecorder>> FlightRecorder::Open(const std::filesystem::path& folder,
+                                                             const std::string& stamp,
+                                                             ChannelNames channels) {
+  const std::filesystem::path flight = folder / stamp;
+  std::error_code failed;
+  const bool made = std::filesystem::create_directories(flight, failed);
+  if (failed) {
+    return UnavailableError(flight.string() + ": cannot be made (" + failed.message() +
+                            "); choose a folder that can be written with --record DIR, or fly "
+                            "with --no-record");
+  }
+  Result<LogWriter> writer = LogWriter::Create(flight / "flight.lcm");
+  if (!writer) {
+    if (made) {
+      std::filesystem::remove(flight, failed);
+    }
+    return writer.error();
+  }
+  return std::unique_ptr<FlightRecorder>(
+      new FlightRecorder(std::move(*writer), std::move(channels)));
+}
+
+::palace::Status FlightRecorder::Record(const RecordItem& item) {
+  if (!item.bundle) {
+    return Ok();
+  }
+  const Timestamp now = item.bundle->time;
+  first_ = any_ ? first_ : now;
+  last_ = now;
+  any_ = true;
+  std::vector<WireMessage> messages;
+  for (const EngineCommand& command : item.commands) {
+    messages.push_back(EncodeCommand(command, now, channels_));
+  }
+  for (WireMessage& message : EncodeBundle(*item.bundle, channels_)) {
+    messages.push_back(std::move(message));
+  }
+  for (const VehicleMessage& message : item.sent) {
+    messages.push_back(EncodeVehicleMessage(message, now, channels_));
+  }
+  if (item.snapshot) {
+    for (WireMessage& message : outputs_.Encode(*item.snapshot)) {
+      messages.push_back(std::move(message));
+    }
+  }
+  for (const WireMessage& message : messages) {
+    const ::palace::Status written = writer_.Write(message);
+    if (!written) {
+      return written;
+    }
+  }
+  return writer_.Flush();
+}
+
+::palace::Status FlightRecorder::Close() { return writer_.Close(); }
+
+std::string FlightRecorder::Path() const { return writer_.path().string(); }
+
+double FlightRecorder::MinutesLeft() const {
+  const double recorded_s = any_ ? SecondsBetween(first_, last_) : 0;
+  std::error_code failed;
+  const std::filesystem::space_info space =
+      std::filesystem::space(writer_.path().parent_path(), failed);
+  if (recorded_s < 1 || failed) {
+    return std::numeric_limits<double>::infinity();
+  }
+  const double bytes_per_s = static_cast<double>(writer_.bytes()) / recorded_s;
+  return static_cast<double>(space.available) / bytes_per_s / 60;
+}
+
+}  // namespace palace

@@ -1,0 +1,302 @@
+#include "engine/journal/replay_source.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <utility>
+
+#include "engine/core/time.h"
+#include "engine/wire/convert.h"
+
+namespace palace {
+namespace {
+
+using SteadyClock = std::chrono::steady_clock;
+
+constexpr double kCatchUp_s = 0.25;
+
+SteadyClock::time_point TimePoint(double monotonic_s) {
+  const double wait_s = monotonic_s - MonotonicSeconds();
+  return SteadyClock::now() +
+         std::chrono::duration_cast<SteadyClock::duration>(std::chrono::duration<double>(wait_s));
+}
+
+}  // namespace
+
+ReplaySource::ReplaySource(LogFile file, LogIndex index, const ReplayOptions& options)
+    : file_(std::move(file)),
+      index_(std::move(index)),
+      options_(options),
+      assembler_(options.channels),
+      paused_(options.paused),
+      speed_(options.speed),
+      speed_reached_(options.speed) {}
+
+Result<std::unique_ptr<ReplaySource>> ReplaySource::Open(const std::filesystem::path& path) {
+  return Open(path, ReplayOptions{});
+}
+
+Result<std::unique_ptr<ReplaySource>> ReplaySource::Open(const std::filesystem::path& path,
+                                                         const ReplayOptions& options) {
+  Result<LogFile> file = LogFile::Open(path);
+  if (!file) {
+    return file.error();
+  }
+  Result<LogIndex> index = BuildIndex(*file);
+  if (!index) {
+    return index.error();
+  }
+  std::unique_ptr<ReplaySource> source(
+      new ReplaySource(std::move(*file), std::move(*index), options));
+  const ::palace::Status prepared = source->Prepare(path);
+  if (!prepared) {
+    return prepared.error();
+  }
+  return source;
+}
+
+::palace::Status ReplaySource::Prepare(const std::filesystem::path& path) {
+  bundles_ = FindBundles(file_, index_, options_.channels);
+  if (bundles_.empty()) {
+    return InvalidError(path.string() + ": holds " + std::to_string(index_.entries.size()) +
+                        " readable events but no stereo bundle; it needs " +
+                        options_.channels.camera_rig + " with " + options_.channels.camera_left +
+                        " and " + options_.channels.camera_right +
+                        " (other names: config/channels.toml)");
+  }
+  ReadTrack();
+  // A foreign log may tell its rig once, anywhere: know it before the first pair and after seeks.
+  for (const LogEntry& entry : index_.entries) {
+    if (index_.channels[entry.channel] == options_.channels.camera_rig) {
+      const Result<WireMessage> message = ReadEvent(file_, entry, index_.channels);
+      if (message) {
+        assembler_.Push(*message);
+      }
+      if (assembler_.rig()) {
+        break;
+      }
+    }
+  }
+  assembler_.Reset();
+  return Ok();
+}
+
+void ReplaySource::ReadTrack() {
+  auto record = std::make_shared<FlightRecord>();
+  const ChannelNames& names = options_.channels;
+  record->path = file_.path().string();
+  record->start_s = static_cast<double>(bundles_.front().time.us) * 1e-6;
+  record->duration_s = std::max(0.0, SecondsBetween(bundles_.front().time, bundles_.back().time));
+  for (const LogEntry& entry : index_.entries) {
+    const std::string& channel = index_.channels[entry.channel];
+    const bool settings_wanted = channel == names.slad_settings && !record->has_settings;
+    if (channel != names.station_status && channel != names.event && !settings_wanted) {
+      continue;
+    }
+    const Result<WireMessage> message = ReadEvent(file_, entry, index_.channels);
+    if (!message) {
+      continue;
+    }
+    if (channel == names.station_status) {
+      const Result<FlightRecordSample> sample = DecodeStationStatus(*message);
+      if (sample) {
+        record->samples.push_back(*sample);
+      }
+    } else if (channel == names.event) {
+      const Result<Event> event = DecodeEvent(*message);
+      if (event) {
+        record->events.push_back(*event);
+      }
+    } else {
+      const Result<Settings> settings = DecodeSettings(*message);
+      if (settings) {
+        record->settings_at_start = *settings;
+        record->has_settings = true;
+      }
+    }
+  }
+  recorded_ = std::move(record);
+}
+
+std::shared_ptr<const FrameBundle> ReplaySource::ReadBundle() {
+  std::vector<EngineCommand> commands;
+  while (next_event_ < index_.entries.size()) {
+    const Result<WireMessage> message =
+        ReadEvent(file_, index_.entries[next_event_++], index_.channels);
+    if (!message) {
+      ++events_refused_;
+      continue;
+    }
+    if (message->channel == options_.channels.site_decision) {
+      Result<EngineCommand> command = DecodeCommand(*message);
+      if (command) {
+        commands.push_back(std::move(*command));
+      } else {
+        ++events_refused_;
+      }
+      continue;
+    }
+    const auto done = assembler_.Push(*message);
+    if (!done.empty()) {
+      auto bundle = std::make_shared<FrameBundle>(*done.front());
+      bundle->recorded_commands = std::move(commands);
+      return bundle;
+    }
+  }
+  return nullptr;
+}
+
+bool ReplaySource::WaitForTurn(std::unique_lock<std::mutex>& lock, std::stop_token stop) {
+  while (!stop.stop_requested()) {
+    const bool at_end = next_bundle_ >= bundles_.size() && !jumped_;
+    if (at_end) {
+      ended_ = true;
+      if (!options_.wait_at_end) {
+        return false;
+      }
+      steps_ = 0;
+      changed_.wait(lock, stop, [&] { return jumped_; });
+      continue;
+    }
+    ended_ = false;
+    if (jumped_ || steps_ > 0) {
+      return true;
+    }
+    if (paused_) {
+      changed_.wait(lock, stop, [&] { return jumped_ || steps_ > 0 || !paused_; });
+      continue;
+    }
+    if (speed_ <= 0 || !last_delivery_s_ || !last_time_) {
+      return true;
+    }
+    // Never waits for a stamp from the file: a gap costs longest_gap_s at most.
+    const double gap_s = std::clamp(SecondsBetween(*last_time_, bundles_[next_bundle_].time), 0.0,
+                                    options_.longest_gap_s);
+    const double speed = speed_;
+    const double due_s = *last_delivery_s_ + gap_s / speed;
+    const bool disturbed = changed_.wait_until(lock, stop, TimePoint(due_s), [&] {
+      return jumped_ || steps_ > 0 || paused_ || speed_ != speed;
+    });
+    if (!disturbed && !stop.stop_requested()) {
+      return true;
+    }
+  }
+  return false;
+}
+
+Result<std::shared_ptr<const FrameBundle>> ReplaySource::Next(std::stop_token stop) {
+  std::unique_lock lock(mutex_);
+  while (WaitForTurn(lock, stop)) {
+    const bool jump = std::exchange(jumped_, false);
+    steps_ = std::max(0, steps_ - 1);
+    const std::uint64_t generation = generation_;
+    if (jump) {
+      next_event_ = bundles_[next_bundle_].first;
+      assembler_.Reset();
+      was_jump_ = true;
+    }
+    lock.unlock();
+    std::shared_ptr<const FrameBundle> bundle = ReadBundle();
+    lock.lock();
+    if (generation != generation_) {
+      continue;  // a seek came while reading: that bundle is from the wrong place
+    }
+    next_bundle_ = static_cast<std::size_t>(
+        std::partition_point(bundles_.begin(), bundles_.end(),
+                             [&](const BundleMark& mark) { return mark.end <= next_event_; }) -
+        bundles_.begin());
+    if (!bundle) {
+      next_bundle_ = bundles_.size();
+      continue;
+    }
+    return Deliver(std::move(bundle));
+  }
+  return Error{ErrorCode::kEnd, stop.stop_requested() ? "stopped" : "end of the log"};
+}
+
+std::shared_ptr<const FrameBundle> ReplaySource::Deliver(
+    std::shared_ptr<const FrameBundle> bundle) {
+  const double now_s = MonotonicSeconds();
+  double beat_s = now_s;
+  if (last_delivery_s_ && last_time_ && !was_jump_ && now_s > *last_delivery_s_) {
+    const double step_s = SecondsBetween(*last_time_, bundle->time);
+    speed_reached_ = step_s / (now_s - *last_delivery_s_);
+    // A little late is made up for at the next bundle, so that lateness does not add up.
+    const double due_s = *last_delivery_s_ + step_s / std::max(speed_, 1e-3);
+    beat_s = now_s - due_s > 0 && now_s - due_s < kCatchUp_s ? due_s : now_s;
+  }
+  last_delivery_s_ = beat_s;
+  last_time_ = bundle->time;
+  if (std::exchange(was_jump_, false)) {
+    auto marked = std::make_shared<FrameBundle>(*bundle);
+    marked->discontinuity = true;
+    return marked;
+  }
+  return bundle;
+}
+
+SourceStatus ReplaySource::Status() const {
+  const std::lock_guard lock(mutex_);
+  SourceStatus status;
+  status.kind = SourceKind::kReplay;
+  status.name = file_.path().string();
+  status.paused = paused_;
+  status.ended = ended_;
+  status.speed = speed_;
+  status.speed_reached = speed_reached_;
+  status.start = bundles_.front().time;
+  status.position_s = last_time_ ? SecondsBetween(status.start, *last_time_) : 0;
+  status.duration_s = recorded_->duration_s;
+  status.can_seek = true;
+  status.frame_index = next_bundle_;
+  status.frame_count = bundles_.size();
+  return status;
+}
+
+void ReplaySource::JumpTo(std::size_t bundle) {
+  next_bundle_ = std::min(bundle, bundles_.size() - 1);
+  jumped_ = true;
+  ++generation_;
+}
+
+void ReplaySource::Control(const PlaybackControl& control) {
+  {
+    const std::lock_guard lock(mutex_);
+    using Kind = PlaybackControl::Kind;
+    switch (control.kind) {
+      case Kind::kPlay:
+        paused_ = false;
+        break;
+      case Kind::kPause:
+        paused_ = true;
+        break;
+      case Kind::kStepForward:
+        paused_ = true;
+        ++steps_;
+        break;
+      case Kind::kStepBack:
+        paused_ = true;
+        JumpTo(next_bundle_ >= 2 ? next_bundle_ - 2 : 0);
+        break;
+      case Kind::kSeek:
+        if (std::isfinite(control.value)) {
+          const double limit_s = recorded_->duration_s + 1;
+          const Timestamp wanted =
+              AddSeconds(bundles_.front().time, std::clamp(control.value, 0.0, limit_s));
+          JumpTo(static_cast<std::size_t>(
+              std::partition_point(bundles_.begin(), bundles_.end(),
+                                   [&](const BundleMark& m) { return m.time < wanted; }) -
+              bundles_.begin()));
+        }
+        break;
+      case Kind::kSpeed:
+        if (std::isfinite(control.value) && control.value >= 0) {
+          speed_ = control.value;
+        }
+        break;
+    }
+  }
+  changed_.notify_all();
+}
+
+}  // namespace palace
