@@ -1,0 +1,231 @@
+#include <algorithm>
+#include <cmath>
+
+#include "engine/core/units.h"
+#include "gui/panels/fly_panels.h"
+#include "gui/widgets/button.h"
+#include "gui/widgets/icons.h"
+#include "gui/widgets/number_text.h"
+
+namespace palace {
+
+namespace {
+
+HoldButtonView ButtonOf(const EngineSnapshot& snap, bool focused) {
+  const MissionStatus& m = snap.mission;
+  HoldButtonView view;
+  view.focused = focused;
+  view.subject = m.armed ? m.armed->id : 0;
+  const std::string letter = m.armed ? std::string(1, m.armed->letter) : std::string();
+  view.label = "Hold to approve " + letter;
+  if (m.armed && !m.armed->confirmed) {
+    view.label += ", provisional";
+  }
+  using Phase = MissionStatus::ApprovalPhase;
+  if (snap.source.kind == SourceKind::kReplay) {
+    view.phase = HoldPhase::kReplay;
+  } else if (m.approval_phase == Phase::kSent) {
+    view.phase = HoldPhase::kRequested;
+    view.reason = "Waiting " + Duration(m.approval_answer_s);
+  } else if (m.approval_phase == Phase::kAccepted) {
+    view.phase = HoldPhase::kAccepted;
+    view.label = "Approved " + letter;
+    view.reason = "Vehicle accepted in " + Duration(m.approval_answer_s);
+  } else if (m.approval_phase == Phase::kRefused) {
+    view.phase = HoldPhase::kRefused;
+    view.reason = m.approval_answer;
+  } else if (snap.preview) {
+    view.phase = HoldPhase::kBlocked;
+    view.reason = "Maps are a preview";
+  } else if (!m.can_approve) {
+    view.phase = HoldPhase::kBlocked;
+    view.reason = m.cannot_approve_reason.empty()
+                      ? (m.armed ? std::string("A check fails") : "Select a site first")
+                      : m.cannot_approve_reason;
+  }
+  return view;
+}
+
+/// The site that follows when the armed one is refused.
+char NextLetter(const EngineSnapshot& snap) {
+  if (!snap.mission.armed || !snap.applied) {
+    return 0;
+  }
+  for (const LandingSite& site : snap.applied->selection.sites) {
+    if (site.id != snap.mission.armed->id) {
+      return site.letter;
+    }
+  }
+  return 0;
+}
+
+/// Distance, height, time and heading, in sentences.
+std::string Consequence(const EngineSnapshot& snap, bool narrow) {
+  const MissionStatus& m = snap.mission;
+  std::string text =
+      Fixed(m.distance_to_site_m, 1) + " m away, " + Fixed(m.height_above_site_m, 1) + " m down";
+  if (std::isfinite(m.time_to_touchdown_s)) {
+    text += (narrow ? ", touchdown in about " : ". Touchdown in about ") +
+            Fixed(m.time_to_touchdown_s, 0) + " s";
+  }
+  if (!narrow && snap.pose && m.armed) {
+    const Eigen::Vector3d way = m.armed->p_WS - snap.pose->X_WB.p;
+    double heading = Deg(std::atan2(way.y(), way.x()));
+    heading += heading < -0.5 ? 360 : 0;
+    text += ", heading " + Fixed(heading, 0) + "°. Vision steers; wave-off stays available";
+  }
+  return text + ".";
+}
+
+std::string CheckLine(const MissionStatus& m) {
+  for (const GuardResult& guard : m.guards) {
+    if (!guard.pass) {
+      return guard.reason.empty() ? guard.name : guard.reason;
+    }
+  }
+  return "All " + std::to_string(m.guards.size()) + " checks pass";
+}
+
+void DrawGuardList(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui) {
+  const Style& s = ui.style;
+  const Palette& p = s.palette;
+  const float row = s.Px(22);
+  const auto count = static_cast<float>(snap.mission.guards.size());
+  const Rect list{rect.x, rect.y - row * count - s.Px(24), rect.w, row * count + s.Px(16)};
+  FillRect(Canvas(), list, p.control, s.Fine(4));
+  StrokeRect(Canvas(), list, p.strong_line, s.Fine(1), s.Fine(4));
+  ui.items.Add("panel/Checks", list, true, "");
+  float y = list.y + s.Px(8) + row / 2;
+  for (const GuardResult& guard : snap.mission.guards) {
+    DrawIcon(Canvas(), guard.pass ? Icon::kDone : Icon::kCaution, {list.x + s.Px(20), y}, s.Px(12),
+             guard.pass ? p.text2 : p.caution);
+    const std::string words = guard.pass || guard.reason.empty() ? guard.name : guard.reason;
+    DrawText(ui, s.body, p.text1, list.x + s.Px(36), y, FitWords(s.body, words, list.w - s.Px(90)));
+    DrawText(ui, s.caption, p.text2, list.right() - s.Px(12), y, guard.id, Align::kRight);
+    y += row;
+  }
+}
+
+/// "26 s" until the arm window closes; empty when nothing runs.
+double SecondsLeft(const EngineSnapshot& snap) {
+  return snap.mission.arm_expires ? SecondsBetween(snap.time, *snap.mission.arm_expires) : NAN;
+}
+
+void DrawChecks(const EngineSnapshot& snap, const Rect& rect, float y, bool narrow,
+                ApproveState& state, UiFrame& ui) {
+  const Style& s = ui.style;
+  const Palette& p = s.palette;
+  const MissionStatus& m = snap.mission;
+  if (m.guards.empty()) {
+    return;
+  }
+  const bool pass = std::all_of(m.guards.begin(), m.guards.end(),
+                                [](const GuardResult& guard) { return guard.pass; });
+  DrawIcon(Canvas(), pass ? Icon::kDone : Icon::kCaution, {rect.x + s.Px(18), y}, s.Px(12),
+           pass ? p.text1 : p.caution);
+  const float text_x = rect.x + s.Px(32);
+  const float room = rect.w - s.Px(110);
+  DrawText(ui, s.body, p.text1, text_x, y, FitWords(s.body, CheckLine(m), room));
+  const Rect line{rect.x + s.Px(8), y - s.Px(10), rect.w - s.Px(16), s.Px(20)};
+  const float right = rect.right() - s.Px(12);
+  if (narrow) {
+    const double left = SecondsLeft(snap);
+    if (std::isfinite(left)) {
+      DrawText(ui, s.medium, p.text1, right, y, Fixed(left, 0) + " s left", Align::kRight);
+    }
+  } else {
+    DrawText(ui, s.body, p.text2, right, y, state.show_guards ? "Hide" : "Show", Align::kRight);
+  }
+  ui.items.Add("show_checks", line, true, CheckLine(m));
+  if (Clicked(ui, line)) {
+    state.show_guards = !state.show_guards;
+  }
+}
+
+void DrawExpiry(const EngineSnapshot& snap, const Rect& rect, float y, UiFrame& ui) {
+  const Style& s = ui.style;
+  const Palette& p = s.palette;
+  const double left = SecondsLeft(snap);
+  if (!std::isfinite(left)) {
+    return;
+  }
+  DrawIcon(Canvas(), Icon::kStale, {rect.x + s.Px(18), y}, s.Px(12), p.text2);
+  float x = rect.x + s.Px(32);
+  x += DrawText(ui, s.body, p.text2, x, y, "Selection expires in") + s.Px(6);
+  x += DrawText(ui, s.medium, p.text1, x, y, Fixed(left, 0) + " s") + s.Px(12);
+  const Rect track{x, std::round(y) - s.Px(2), rect.right() - s.Px(12) - x, s.Px(4)};
+  const double share = left / std::max(snap.settings.mission.arm_window_s, 1.0);
+  FillRect(Canvas(), track, p.hover, s.Fine(2));
+  FillRect(Canvas(),
+           {track.x, track.y, track.w * static_cast<float>(std::clamp(share, 0.0, 1.0)), track.h},
+           p.text2, s.Fine(2));
+}
+
+void DrawButtons(const EngineSnapshot& snap, const Rect& rect, bool narrow, bool focused,
+                 ApproveState& state, UiFrame& ui) {
+  const Style& s = ui.style;
+  const float height = s.Px(narrow ? 52 : 68);
+  const float width = s.Px(narrow ? 228 : 268);
+  const float y = rect.bottom() - s.Px(12) - height;
+  const Rect hold{rect.right() - s.Px(12) - width, y, width, height};
+  const float gap = narrow ? s.Px(8) : s.Px(12);
+  const Rect refuse{rect.x + s.Px(12), y, hold.x - gap - rect.x - s.Px(12), height};
+  const char next = NextLetter(snap);
+  const std::string then = next != 0 ? std::string("then site ") + next : std::string();
+  ButtonLook look;
+  look.font = narrow ? s.medium : s.section;
+  look.flat = true;
+  look.enabled = snap.mission.armed.has_value() && snap.can_transmit &&
+                 snap.mission.state == MissionState::kArmed;
+  look.sub = then;
+  look.reason = snap.can_transmit ? "Select a site first" : "No link in replay";
+  if (DrawButton(ui, "refuse", refuse, "Refuse", look)) {
+    ui.intents.push_back(CommandAction(RefuseSite{snap.mission.armed->id}));
+  }
+  const HoldButtonView view = ButtonOf(snap, focused);
+  if (DrawHoldButton(ui, "approve", hold, view, state.hold)) {
+    ui.intents.push_back(CommandAction(ApproveSite{view.subject, snap.sequence}));
+  }
+}
+
+}  // namespace
+
+void DrawApprovePanel(const EngineSnapshot& snap, const Rect& rect, bool narrow, bool focused,
+                      ApproveState& state, UiFrame& ui) {
+  const Style& s = ui.style;
+  const Palette& p = s.palette;
+  const MissionStatus& m = snap.mission;
+  const std::string fact = m.armed ? std::string("Site ") + m.armed->letter + " selected" : "";
+  DrawPanelFrame(ui, rect, "Approve", {{narrow ? std::string() : fact}});
+  const float x = rect.x + s.Px(12);
+  const float width = rect.w - s.Px(24);
+  if (m.armed) {
+    DrawText(ui, narrow ? s.medium : s.section, p.text1, x, rect.y + s.Px(narrow ? 42 : 46),
+             std::string("Commits the helicopter to land on site ") + m.armed->letter + ".");
+    float y = rect.y + s.Px(narrow ? 64 : 73);
+    const std::string words = Consequence(snap, narrow);
+    std::vector<std::string> lines = WrapText(s.body, words, width);
+    lines.resize(std::min<std::size_t>(lines.size(), narrow ? 1 : 2));
+    for (const std::string& line : lines) {
+      DrawText(ui, s.body, p.text2, x, y, line);
+      y += s.Px(19);
+    }
+    DrawChecks(snap, rect, rect.y + s.Px(narrow ? 88 : 132), narrow, state, ui);
+    if (!narrow) {
+      DrawExpiry(snap, rect, rect.y + s.Px(166), ui);
+    }
+  } else {
+    DrawText(ui, narrow ? s.medium : s.section, p.text1, x, rect.y + s.Px(narrow ? 42 : 46),
+             "Nothing is committed yet.");
+    const char* help = snap.applied && !snap.applied->selection.sites.empty()
+                           ? "Click a site, or press Tab and Enter, to select it."
+                           : "Waiting for a site inside all limits.";
+    DrawText(ui, s.body, p.text2, x, rect.y + s.Px(narrow ? 64 : 73), help);
+  }
+  DrawButtons(snap, rect, narrow, focused, state, ui);
+  if (state.show_guards && !m.guards.empty()) {
+    DrawGuardList(snap, rect, ui);
+  }
+}
+
+}  // namespace palace

@@ -1,0 +1,155 @@
+#include <algorithm>
+#include <cmath>
+
+#include "gui/panels/fly_panels.h"
+#include "gui/widgets/icons.h"
+#include "gui/widgets/number_text.h"
+
+namespace palace {
+
+namespace {
+
+constexpr double kLateAge_s = 0.25;
+constexpr double kStaleAge_s = 1.0;
+
+/// Largest rectangle of the picture's shape at the top of the content.
+Rect PictureRect(const Rect& content, double aspect) {
+  const float by_width = std::round(content.w / static_cast<float>(aspect));
+  if (by_width <= content.h + 1) {
+    return {content.x, content.y, content.w, std::min(by_width, content.h)};
+  }
+  const float w = std::round(content.h * static_cast<float>(aspect));
+  return {std::round(content.x + (content.w - w) / 2), content.y, w, content.h};
+}
+
+struct Arrival {
+  std::string age, rate;
+  double age_s = NAN;
+};
+
+Arrival ArrivalOf(const EngineSnapshot& snap, std::string_view channel) {
+  const ChannelHealth* health = FindChannel(snap, channel);
+  if (health == nullptr || health->state == ChannelHealth::State::kNever) {
+    return {"never", "", NAN};
+  }
+  return {AgeText(health->age_s), Fixed(health->rate_hz, 1) + " Hz", health->age_s};
+}
+
+void DrawStale(UiFrame& ui, const Rect& image, double age_s) {
+  if (age_s > kStaleAge_s) {
+    StaleVeil(ui.style, Canvas(), image);
+    TextPlate(ui, image, Corner::kTopRight, Fixed(age_s, 1) + " s old");
+  }
+}
+
+void DrawMissing(UiFrame& ui, const Rect& image) {
+  UnknownFill(ui.style, Canvas(), image);
+  TextPlate(ui, image, Corner::kBottomLeft, "No picture yet");
+}
+
+bool TrackerShown(const EngineSnapshot& snap) {
+  return snap.mission.state == MissionState::kDescending ||
+         snap.mission.state == MissionState::kHold || snap.mission.state == MissionState::kApproved;
+}
+
+SiteOverlay OverlayOf(const EngineSnapshot& snap, std::uint64_t highlighted) {
+  SiteOverlay overlay;
+  const TerrainDecision* shown = ShownDecision(snap);
+  const bool descent = IsDescentView(snap);
+  overlay.sites = shown != nullptr && !descent ? &shown->selection.sites : nullptr;
+  if (const LandingSite* site = SiteInView(snap, 0)) {
+    overlay.selected = *site;
+  }
+  overlay.highlighted = highlighted;
+  overlay.commanded = snap.mission.state >= MissionState::kApproved;
+  if (snap.preview && snap.applied && !snap.applied->selection.sites.empty()) {
+    overlay.ghost = snap.applied->selection.sites.front();
+    overlay.ghost_words = std::string("applied ") + overlay.ghost->letter;
+  }
+  return overlay;
+}
+
+std::string LeftFact(const EngineSnapshot& snap) {
+  if (TrackerShown(snap) && snap.tracker.locked) {
+    return "Tracking " + std::to_string(snap.tracker.inliers) + " of " +
+           std::to_string(snap.tracker.features.size()) + " features";
+  }
+  return snap.laser && std::isfinite(snap.laser->range_m)
+             ? "Laser " + Fixed(snap.laser->range_m, 1) + " m"
+             : std::string();
+}
+
+}  // namespace
+
+void DrawLeftCameraPanel(const EngineSnapshot& snap, const Rect& rect, CameraState& state,
+                         std::uint64_t highlighted, UiFrame& ui) {
+  const Style& s = ui.style;
+  const Arrival arrival = ArrivalOf(snap, "Camera left");
+  const Rect content = DrawPanelFrame(
+      ui, rect, "Left camera",
+      {{arrival.age, 0, true, arrival.age_s > kLateAge_s}, {arrival.rate, 0, true, false}});
+  const auto camera = LeftCamera(snap);
+  const double aspect = camera ? static_cast<double>(camera->width) / camera->height : 4.0 / 3;
+  const Rect image = PictureRect(content, aspect);
+  ui.items.Add("left_camera", image, true, "");
+  if (ui.textures.left_camera == nullptr || !camera) {
+    DrawMissing(ui, image);
+    return;
+  }
+  ImDrawList* dl = Canvas();
+  dl->PushClipRect(image.min(), image.max(), true);
+  dl->AddImage(ui.textures.left_camera, image.min(), image.max());
+  const TerrainDecision* shown = ShownDecision(snap);
+  if (shown != nullptr) {
+    DrawVerdict(ui, image, shown->verdict, state.overlay);
+  }
+  const PictureView view{*camera, snap.X_WC, image};
+  const bool tracking = TrackerShown(snap);
+  if (tracking) {
+    DrawTracker(ui, view, snap.tracker);
+  }
+  DrawSites(ui, view, OverlayOf(snap, highlighted));
+  DrawStale(ui, image, arrival.age_s);
+  DrawVerdictLegend(ui, image);
+  if (snap.preview) {
+    PreviewChip(ui, {image.right() - s.Px(92), image.y + s.Px(8)});
+  }
+  const LandingSite* site = SiteInView(snap, 0);
+  if (site != nullptr) {
+    DrawScaleBar(ui, image, view.PixelsPerMetre(site->p_WS));
+  }
+  TextPlate(ui, image, Corner::kBottomRight, LeftFact(snap));
+  dl->PopClipRect();
+}
+
+void DrawRightCameraPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui) {
+  const Arrival arrival = ArrivalOf(snap, "Camera right");
+  const Rect content = DrawPanelFrame(
+      ui, rect, "Right camera",
+      {{arrival.age, 0, true, arrival.age_s > kLateAge_s}, {arrival.rate, 0, true, false}});
+  const auto camera = LeftCamera(snap);
+  const double aspect = camera ? static_cast<double>(camera->width) / camera->height : 4.0 / 3;
+  const Rect image = PictureRect(content, aspect);
+  ui.items.Add("right_camera", image, true, "");
+  if (ui.textures.right_camera == nullptr) {
+    DrawMissing(ui, image);
+    return;
+  }
+  ImDrawList* dl = Canvas();
+  dl->AddImage(ui.textures.right_camera, image.min(), image.max());
+  DrawStale(ui, image, arrival.age_s);
+  const LandingSite* site = SiteInView(snap, 0);
+  if (image.w < ui.style.Px(300)) {
+    return;  // plates would hide a small picture
+  }
+  if (camera && site != nullptr) {
+    const PictureView view{*camera, snap.X_WC, image};
+    DrawScaleBar(ui, image, view.PixelsPerMetre(site->p_WS));
+  }
+  if (std::isfinite(snap.stereo_quality.row_error_px)) {
+    TextPlate(ui, image, Corner::kBottomRight,
+              "Row error " + Fixed(snap.stereo_quality.row_error_px, 2) + " px");
+  }
+}
+
+}  // namespace palace

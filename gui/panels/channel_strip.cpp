@@ -1,0 +1,52 @@
+#include "gui/panels/fly_panels.h"
+#include "gui/widgets/icons.h"
+#include "gui/widgets/number_text.h"
+
+namespace palace {
+
+void DrawChannelStripPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui) {
+  const Style& s = ui.style;
+  const Palette& p = s.palette;
+  DrawPanelBackground(ui, rect, "Channels");
+  if (snap.channels.empty()) {
+    DrawText(ui, s.body, p.text2, rect.x + s.Px(12), rect.centre().y, "No channel heard yet.");
+    return;
+  }
+  const float pitch = (rect.w - s.Px(24)) / static_cast<float>(snap.channels.size());
+  float x = rect.x + s.Px(10);
+  for (const ChannelHealth& channel : snap.channels) {
+    using State = ChannelHealth::State;
+    const bool fine =
+        channel.state == State::kFresh && channel.note.find("limit") == std::string::npos;
+    Icon icon = Icon::kNormal;
+    ImU32 colour = p.text3;
+    if (channel.state == State::kNever) {
+      icon = Icon::kOff;
+    } else if (channel.state == State::kStale) {
+      icon = Icon::kStale;
+      colour = p.caution;
+    } else if (!fine) {
+      icon = Icon::kCaution;
+      colour = p.caution;
+    }
+    const float first = rect.y + s.Px(23);
+    const float second = rect.y + s.Px(46);
+    DrawIcon(Canvas(), icon, {x + s.Px(8), first}, s.Px(12), colour);
+    const float text_x = x + s.Px(22);
+    ImFont* name_font = fine ? s.body : s.medium;
+    ImFont* fact_font = fine ? s.caption : s.medium;
+    const ImU32 ink = fine ? p.text2 : p.text1;
+    DrawText(ui, name_font, ink, text_x, first,
+             FitWords(name_font, channel.name, pitch - s.Px(26)));
+    std::string facts = "never";
+    if (channel.state != State::kNever) {
+      facts = (channel.note.empty() || fine ? AgeText(channel.age_s) : channel.note) + "   " +
+              Fixed(channel.rate_hz, channel.rate_hz < 100 ? 1 : 0) + " Hz";
+    }
+    DrawText(ui, fact_font, ink, text_x, second, FitWords(fact_font, facts, pitch - s.Px(26)));
+    ui.items.Add("channel/" + channel.name, {x, rect.y, pitch, rect.h}, true, facts);
+    x += pitch;
+  }
+}
+
+}  // namespace palace

@@ -1,0 +1,238 @@
+#include <algorithm>
+#include <cmath>
+
+#include "gui/panels/fly_panels.h"
+#include "gui/widgets/number_text.h"
+
+namespace palace {
+
+namespace {
+
+constexpr float kPast_s = 40;
+constexpr float kFuture_s = 24;
+
+using Member = double HistorySample::*;
+
+PlotSeries SeriesOf(const EngineSnapshot& snap, Member member, ImU32 colour, float width,
+                    PlotSeries::Stroke stroke = PlotSeries::Stroke::kSolid) {
+  PlotSeries series;
+  series.colour = colour;
+  series.width = width;
+  series.stroke = stroke;
+  const auto& history = *snap.history;
+  const auto first = std::lower_bound(
+      history.begin(), history.end(), AddSeconds(snap.time, static_cast<double>(-kPast_s)),
+      [](const HistorySample& sample, Timestamp t) { return sample.time < t; });
+  for (auto it = first; it != history.end(); ++it) {
+    series.points.push_back({static_cast<float>(SecondsBetween(snap.time, it->time)),
+                             static_cast<float>((*it).*member)});
+  }
+  return series;
+}
+
+/// The vision estimate: thick, with a band of constant three sigma of now.
+PlotSeries Estimate(const EngineSnapshot& snap, Member member, const Palette& p, double band) {
+  PlotSeries series = SeriesOf(snap, member, p.safe, 2.2f);
+  series.dot_at_end = true;
+  if (std::isfinite(band) && band > 0) {
+    series.band.assign(series.points.size(), static_cast<float>(band));
+  }
+  return series;
+}
+
+PlotView Base(const char* name, const char* title, const char* unit) {
+  PlotView view;
+  view.name = name;
+  view.title = title;
+  view.unit = unit;
+  view.x_min = -kPast_s;
+  view.x_max = kFuture_s;
+  view.x_ticks = {-40, -30, -20, -10, 0, 10, 20};
+  view.now = 0.0f;
+  return view;
+}
+
+/// Rounded up to where a tick falls, so that the axis is calm.
+float RoundUp(float value, float step) { return std::ceil(value / step) * step; }
+
+float Largest(const std::vector<PlotSeries>& all, float at_least) {
+  for (const PlotSeries& series : all) {
+    for (const ImVec2& point : series.points) {
+      at_least = std::isfinite(point.y) ? std::max(at_least, point.y) : at_least;
+    }
+  }
+  return at_least;
+}
+
+PlotView HeightPlot(const EngineSnapshot& snap, const Palette& p, const HistorySample& now) {
+  PlotView view = Base("height", "Height above site", "m");
+  const double sigma = snap.navigation.vision.estimate.sigma_p_m.z();
+  view.series = {
+      Estimate(snap, &HistorySample::height_above_site_m, p, 3 * sigma),
+      SeriesOf(snap, &HistorySample::laser_m, p.laser, 1.5f),
+      SeriesOf(snap, &HistorySample::plan_height_m, p.text2, 1.5f, PlotSeries::Stroke::kDashed)};
+  if (std::isfinite(now.height_above_site_m) && snap.mission.state == MissionState::kDescending) {
+    PlotSeries plan;
+    plan.colour = p.text2;
+    plan.stroke = PlotSeries::Stroke::kDashed;
+    const double rate = snap.settings.mission.descent_rate_mps;
+    for (float t = 0; t <= kFuture_s; t += 1) {
+      plan.points.push_back(
+          {t, static_cast<float>(
+                  std::max(0.0, now.height_above_site_m - rate * static_cast<double>(t)))});
+    }
+    view.series.push_back(plan);
+  }
+  view.y_max = RoundUp(Largest(view.series, 10), 10) + 2;
+  view.current = Fixed(now.height_above_site_m, 1) + " m";
+  return view;
+}
+
+PlotView DistancePlot(const EngineSnapshot& snap, const Palette& p, const HistorySample& now) {
+  PlotView view = Base("distance", "Distance from site centre", "m");
+  const double band = 3 * snap.navigation.vision.estimate.sigma_p_m.head<2>().norm();
+  view.series = {Estimate(snap, &HistorySample::from_site_m, p, band),
+                 SeriesOf(snap, &HistorySample::from_site_gps_m, p.gps, 1.5f),
+                 SeriesOf(snap, &HistorySample::from_site_truth_m, p.truth, 1.5f,
+                          PlotSeries::Stroke::kDotted)};
+  const auto limit = static_cast<float>(snap.settings.slad.nav_error_m);
+  view.y_max = RoundUp(std::min(Largest(view.series, 2 * limit), 8 * limit), 0.5f);
+  view.limits = {{limit, true, "Limit " + Fixed(static_cast<double>(limit), 1) + " m"}};
+  view.current = Fixed(now.from_site_m, 2) + " ± " + Fixed(band, 2) + " m";
+  return view;
+}
+
+PlotView RatePlot(const EngineSnapshot& snap, const Palette& p, const HistorySample& now) {
+  PlotView view = Base("rate", "Descent rate", "m/s");
+  view.series = {Estimate(snap, &HistorySample::descent_rate_mps, p,
+                          3 * snap.navigation.vision.estimate.sigma_v_mps.z())};
+  const auto limit = static_cast<float>(snap.settings.mission.descent_rate_mps * 1.5);
+  view.y_min = -0.1f;
+  view.y_max = RoundUp(Largest(view.series, limit * 1.2f), 0.25f);
+  view.limits = {{limit, true, "Limit " + Fixed(static_cast<double>(limit), 1) + " m/s"}};
+  view.current = Fixed(now.descent_rate_mps, 2) + " m/s";
+  return view;
+}
+
+PlotView CoherencePlot(const EngineSnapshot& snap, const Palette& p, const HistorySample& now) {
+  PlotView view = Base("coherence", "Tracker coherence", "0 to 1");
+  view.series = {Estimate(snap, &HistorySample::coherence, p, NAN)};
+  view.y_min = 0.4f;
+  view.y_max = 1.0f;
+  const auto limit = static_cast<float>(snap.settings.tracking.min_coherence);
+  view.limits = {{limit, false, "Limit " + Fixed(static_cast<double>(limit), 2) + ": re-anchor"}};
+  view.current = Fixed(now.coherence, 2);
+  return view;
+}
+
+PlotView ResidualPlot(const EngineSnapshot& snap, const Palette& p, const HistorySample& now) {
+  PlotView view = Base("residual", "Vision residual", "σ");
+  view.series = {Estimate(snap, &HistorySample::residual_sigma, p, NAN)};
+  view.y_min = -4;
+  view.y_max = 4;
+  view.limits = {{3, true, "Gate ± 3 σ"}, {-3, false, ""}};
+  view.current = Fixed(now.residual_sigma, 1) + " σ";
+  return view;
+}
+
+PlotView GlidePlot(const EngineSnapshot& snap, const Palette& p, const HistorySample& now) {
+  PlotView view = Base("glide", "Glide slope deviation", "m");
+  view.series = {Estimate(snap, &HistorySample::glide_deviation_m, p,
+                          3 * snap.navigation.vision.estimate.sigma_p_m.z())};
+  view.y_min = -1.6f;
+  view.y_max = 1.6f;
+  view.limits = {{1.2f, true, "Limit ± 1.2 m"}, {-1.2f, false, ""}};
+  const bool known = std::isfinite(now.glide_deviation_m);
+  view.current =
+      (known && now.glide_deviation_m > 0 ? "+" : "") + Fixed(now.glide_deviation_m, 2) + " m";
+  return view;
+}
+
+struct LegendEntry {
+  const char* word;
+  ImU32 colour;
+  PlotSeries::Stroke stroke;
+};
+
+void DrawLegend(const EngineSnapshot& snap, const Rect& rect, float left_end, UiFrame& ui) {
+  const Style& s = ui.style;
+  const Palette& p = s.palette;
+  using Stroke = PlotSeries::Stroke;
+  std::vector<LegendEntry> entries = {{"Limit", p.unsafe, Stroke::kDashed},
+                                      {"Plan", p.text1, Stroke::kDotted},
+                                      {"GPS", p.gps, Stroke::kSolid},
+                                      {"Laser", p.laser, Stroke::kSolid},
+                                      {"Vision estimate, ±3σ", p.safe, Stroke::kSolid}};
+  if (snap.truth || snap.source.kind == SourceKind::kSimulation) {
+    entries.insert(entries.begin() + 2, {"Truth, simulation only", p.truth, Stroke::kDotted});
+  }
+  float x = rect.right() - s.Px(12);
+  const float y = rect.centre().y;
+  for (const LegendEntry& entry : entries) {
+    const float width = TextWidth(s.caption, entry.word);
+    if (x - width - s.Px(30) < left_end) {
+      return;
+    }
+    DrawText(ui, s.caption, p.text2, x, y, entry.word, Align::kRight);
+    x -= width + s.Px(8);
+    const ImVec2 a{x - s.Px(20), std::round(y)};
+    const ImVec2 b{x, std::round(y)};
+    if (entry.stroke == Stroke::kSolid) {
+      Canvas()->AddLine(a, b, entry.colour, s.Fine(2));
+    } else {
+      const bool dotted = entry.stroke == Stroke::kDotted;
+      DashedLine(Canvas(), a, b, entry.colour, s.Fine(2), s.Fine(dotted ? 2.0f : 8.0f),
+                 s.Fine(dotted ? 3.0f : 4.0f));
+    }
+    x -= s.Px(20 + 18);
+  }
+}
+
+}  // namespace
+
+void DrawPlotTabs(const EngineSnapshot& snap, const Rect& rect, PlotTab& tab, UiFrame& ui) {
+  const Style& s = ui.style;
+  const Palette& p = s.palette;
+  DrawPanelBackground(ui, rect, "Plot tabs");
+  constexpr const char* kNames[] = {"Descent", "Maps"};
+  float x = rect.x + s.Px(16);
+  for (int i = 0; i < 2; ++i) {
+    const bool on = (tab == PlotTab::kMaps) == (i == 1);
+    const float width = TextWidth(s.body, kNames[i]);
+    const Rect area{x - s.Px(12), rect.y, width + s.Px(24), rect.h};
+    const bool hovered = Hovered(ui, area);
+    DrawText(ui, on ? s.medium : s.body, on || hovered ? p.text1 : p.text2, x, rect.centre().y,
+             kNames[i]);
+    if (on) {
+      FillRect(Canvas(), {x - s.Px(6), rect.bottom() - s.Px(3), width + s.Px(14), s.Px(3)},
+               p.white_mark);
+    }
+    ui.items.Add(std::string("tab/") + kNames[i], area, true, kNames[i]);
+    if (Clicked(ui, area)) {
+      tab = i == 1 ? PlotTab::kMaps : PlotTab::kDescent;
+    }
+    x += width + s.Px(28);
+  }
+  if (tab != PlotTab::kMaps) {
+    DrawLegend(snap, rect, x, ui);
+  }
+}
+
+void DrawDescentPlotsPanel(const EngineSnapshot& snap, const std::array<Rect, 6>& rects,
+                           PlotHover& hover, UiFrame& ui) {
+  if (!snap.history || snap.history->empty()) {
+    DrawPanelFrame(ui, rects[0], "No flight history yet");
+    return;
+  }
+  const Palette& p = ui.style.palette;
+  const HistorySample& now = snap.history->back();
+  BeginPlots(hover);
+  DrawPlot(ui, rects[0], HeightPlot(snap, p, now), hover);
+  DrawPlot(ui, rects[1], DistancePlot(snap, p, now), hover);
+  DrawPlot(ui, rects[2], RatePlot(snap, p, now), hover);
+  DrawPlot(ui, rects[3], CoherencePlot(snap, p, now), hover);
+  DrawPlot(ui, rects[4], ResidualPlot(snap, p, now), hover);
+  DrawPlot(ui, rects[5], GlidePlot(snap, p, now), hover);
+}
+
+}  // namespace palace

@@ -1,0 +1,147 @@
+#include <algorithm>
+#include <cmath>
+
+#include "gui/panels/fly_panels.h"
+#include "gui/widgets/button.h"
+#include "gui/widgets/icons.h"
+#include "gui/widgets/number_text.h"
+
+namespace palace {
+
+namespace {
+
+// A provisional site must be confirmed by here, else the descent holds.
+constexpr double kConfirmHeight_m = 10;
+
+std::string Headline(const MissionStatus& m) {
+  const std::string site = m.armed ? std::string("site ") + m.armed->letter : std::string("site");
+  switch (m.state) {
+    case MissionState::kApproved:
+      return "Approved: " + site;
+    case MissionState::kHold:
+      return "Holding above " + site;
+    case MissionState::kAborting:
+      return "Wave-off: climbing away";
+    case MissionState::kLanded:
+      return "Landed on " + site;
+    default:
+      return "Landing on " + site;
+  }
+}
+
+std::string Record(const EngineSnapshot& snap) {
+  const MissionStatus& m = snap.mission;
+  if (m.state == MissionState::kHold || m.state == MissionState::kAborting) {
+    return m.why.empty() ? std::string("The approval is over.") : m.why + ".";
+  }
+  if (m.state == MissionState::kLanded) {
+    std::string text;
+    if (m.touchdown_miss_m) {
+      text = "Touched down " + Fixed(*m.touchdown_miss_m, 2) + " m from the site centre";
+    }
+    if (m.touchdown_miss_true_m) {
+      text += ", truly " + Fixed(*m.touchdown_miss_true_m, 2) + " m";
+    }
+    return text.empty() ? text : text + ".";
+  }
+  if (!m.approval) {
+    return "";
+  }
+  std::string text = "Approved " + ClockText(m.approval->approved_at) + " by you.";
+  if (m.approval_phase == MissionStatus::ApprovalPhase::kAccepted) {
+    text += " Vehicle accepted in " + Duration(m.approval_answer_s) + ".";
+  } else if (m.approval_phase == MissionStatus::ApprovalPhase::kSent) {
+    text += " Waiting for the vehicle.";
+  } else if (m.approval_phase == MissionStatus::ApprovalPhase::kRefused) {
+    text += " Vehicle refused: " + m.approval_answer;
+  }
+  return text;
+}
+
+/// Height flown, with ticks where the evidence is asked again.
+void DrawLadder(const EngineSnapshot& snap, const Rect& bar, UiFrame& ui) {
+  const Style& s = ui.style;
+  const Palette& p = s.palette;
+  const MissionStatus& m = snap.mission;
+  double top_m = std::isfinite(m.height_above_site_m) ? m.height_above_site_m : 0;
+  for (const SiteRecheck& recheck : m.rechecks) {
+    top_m = std::max(top_m, recheck.height_above_site_m);
+  }
+  FillRect(Canvas(), bar, p.hover, s.Fine(1));
+  if (!(top_m > 0)) {
+    return;
+  }
+  const auto at = [&](double height_m) {
+    return bar.x + bar.w * static_cast<float>(std::clamp(1 - height_m / top_m, 0.0, 1.0));
+  };
+  if (std::isfinite(m.height_above_site_m)) {
+    FillRect(Canvas(), {bar.x, bar.y, at(m.height_above_site_m) - bar.x, bar.h}, p.bar, s.Fine(1));
+  }
+  float free_from = bar.x;
+  const float end = bar.right() - TextWidth(s.caption, "0") - s.Px(8);
+  for (const double height_m : {top_m, kConfirmHeight_m, snap.settings.slad.commit_height_m, 0.0}) {
+    const float x = std::min(at(height_m), bar.right() - s.Px(2));
+    FillRect(Canvas(), {x, bar.y - s.Px(4), s.Px(2), bar.h + s.Px(8)}, p.text1);
+    const std::string label = height_m > 0 ? Fixed(height_m, 0) + " m" : "0";
+    const float width = TextWidth(s.caption, label);
+    const float from = height_m == 0 ? bar.right() - width : std::max(bar.x, x - width / 2);
+    const bool fits = height_m == 0 || (from >= free_from && from + width <= end);
+    if (fits) {
+      DrawText(ui, s.caption, p.text2, from, bar.bottom() + s.Px(14), label);
+      free_from = from + width + s.Px(8);
+    }
+  }
+}
+
+}  // namespace
+
+void DrawLandingPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui) {
+  const Style& s = ui.style;
+  const Palette& p = s.palette;
+  const MissionStatus& m = snap.mission;
+  const bool tall = rect.h >= s.Px(184);
+  DrawPanelFrame(ui, rect, "Landing");
+  const float x = rect.x + s.Px(12);
+  const float width = rect.w - s.Px(24);
+  const float head_y = rect.y + s.Px(tall ? 49 : 44);
+  const bool counting =
+      std::isfinite(m.time_to_touchdown_s) &&
+      (m.state == MissionState::kDescending || m.state == MissionState::kApproved);
+  float room = width;
+  if (counting) {
+    room -= DrawText(ui, s.readout, p.text1, rect.right() - s.Px(12), head_y,
+                     Fixed(m.time_to_touchdown_s, 0) + " s", Align::kRight) +
+            s.Px(12);
+  }
+  const std::string headline = Headline(m);
+  ImFont* font = TextWidth(s.readout, headline) <= room ? s.readout : s.section;
+  DrawText(ui, font, p.text1, x, head_y, headline);
+  DrawLadder(snap, {x, rect.y + s.Px(tall ? 75 : 62), width, s.Px(8)}, ui);
+  const Rect button{x, rect.bottom() - s.Px(52), width, s.Px(40)};
+  float y = rect.y + s.Px(tall ? 119 : 102);
+  for (const std::string& line : WrapText(s.body, Record(snap), width)) {
+    if (y + s.Px(10) > button.y) {
+      break;
+    }
+    DrawText(ui, s.body, p.text2, x, y, line);
+    y += s.Px(19);
+  }
+  ButtonLook look;
+  look.font = s.section;
+  look.flat = true;
+  if (m.state == MissionState::kAborting) {
+    look.enabled = snap.can_transmit;
+    if (DrawButton(ui, "acknowledge_wave_off", button, "Wave-off complete, search again", look)) {
+      ui.intents.push_back(CommandAction(AcknowledgeWaveOff{}));
+    }
+    return;
+  }
+  const bool flying = m.state == MissionState::kApproved || m.state == MissionState::kDescending;
+  look.enabled = flying && snap.can_transmit;
+  look.reason = snap.can_transmit ? "Nothing to stop" : "No link in replay";
+  if (DrawButton(ui, "hold_here", button, "Hold here", look)) {
+    ui.intents.push_back(CommandAction(HoldHere{}));
+  }
+}
+
+}  // namespace palace

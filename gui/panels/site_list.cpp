@@ -1,0 +1,83 @@
+#include <algorithm>
+
+#include "gui/panels/fly_panels.h"
+#include "gui/widgets/site_row.h"
+
+namespace palace {
+
+namespace {
+
+void DrawEmpty(const EngineSnapshot& snap, const Rect& content, UiFrame& ui) {
+  const Style& s = ui.style;
+  const TerrainDecision* shown = ShownDecision(snap);
+  std::string text = "No map yet. Sites appear with the first stereo pairs.";
+  if (shown != nullptr) {
+    text = "No site inside the limits: " + shown->selection.none_reason +
+           ". Fly on, or look at the maps to see which limit decides.";
+  }
+  float y = content.y + s.Px(20);
+  for (const std::string& line : WrapText(s.body, text, content.w - s.Px(24))) {
+    DrawText(ui, s.body, s.palette.text2, content.x + s.Px(12), y, line);
+    y += s.Px(20);
+  }
+}
+
+}  // namespace
+
+void DrawSiteListPanel(const EngineSnapshot& snap, const FlyLayout& layout, SiteListState& state,
+                       UiFrame& ui) {
+  const Style& s = ui.style;
+  const TerrainDecision* shown = ShownDecision(snap);
+  const std::size_t count = shown != nullptr ? shown->selection.sites.size() : 0;
+  const Rect content =
+      DrawPanelFrame(ui, layout.sites, "Sites",
+                     {{std::to_string(count) + " found"},
+                      {count > 0 && !layout.narrow ? std::string("Tab for next") : std::string()}});
+  if (count == 0) {
+    DrawEmpty(snap, content, ui);
+    return;
+  }
+  const std::vector<LandingSite>& sites = shown->selection.sites;
+  const float row = s.Px(static_cast<float>(layout.site_row_units));
+  const Rect list{content.x, content.y + s.Px(layout.narrow ? 2 : 4), content.w,
+                  row * static_cast<float>(layout.site_rows)};
+  const float beyond = std::max(0.0f, row * static_cast<float>(count) - list.h);
+  if (Hovered(ui, list)) {
+    state.scroll -= ImGui::GetIO().MouseWheel * row;
+  }
+  state.scroll = std::clamp(std::round(state.scroll / row) * row, 0.0f, beyond);
+  const auto camera = LeftCamera(snap);
+  std::optional<PictureView> view;
+  if (camera) {
+    view =
+        PictureView{*camera,
+                    snap.X_WC,
+                    {0, 0, static_cast<float>(camera->width), static_cast<float>(camera->height)}};
+  }
+  const std::uint64_t armed = snap.mission.armed ? snap.mission.armed->id : 0;
+  const bool may_arm =
+      snap.mission.state == MissionState::kProposed || snap.mission.state == MissionState::kArmed;
+  const auto first = static_cast<std::size_t>(state.scroll / row);
+  const std::size_t last = std::min(count, first + static_cast<std::size_t>(layout.site_rows));
+  for (std::size_t i = first; i < last; ++i) {
+    const LandingSite& site = sites[i];
+    SiteRowLook look;
+    look.selected = site.id == armed;
+    look.highlighted = site.id == state.highlighted;
+    look.narrow = layout.site_row_units < 60;
+    look.enabled = may_arm;
+    const Rect rect{list.x, list.y + row * static_cast<float>(i - first), list.w, row};
+    if (DrawSiteRow(ui, rect, site, view, ui.textures.left_camera, look)) {
+      ui.intents.push_back(CommandAction(SelectSite{site.id}));
+      state.highlighted = 0;
+    }
+  }
+  if (beyond > 0) {
+    const float share = list.h / (list.h + beyond);
+    FillRect(Canvas(),
+             {list.right() - s.Px(6), list.y + state.scroll * share, s.Px(4), list.h * share},
+             s.palette.strong_line, s.Fine(2));
+  }
+}
+
+}  // namespace palace

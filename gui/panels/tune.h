@@ -1,0 +1,72 @@
+// Tune: every limit beside what it does to the picture, the maps and the chosen site.
+//
+// SEARCH, PROPOSED: a moved limit applies at the next map. ARMED and later it previews; Apply drops
+// the selection or approval (DESIGN.md 8). The history counts one entry a gesture.
+#pragma once
+
+#include <set>
+#include <string>
+#include <vector>
+
+#include "engine/model/snapshot.h"
+#include "gui/panels/terrain_views.h"
+#include "gui/widgets/slider_row.h"
+
+namespace palace {
+
+/// One gesture on one limit.
+struct TuneChange {
+  Timestamp time;
+  std::string name;
+  double before = 0;
+  double after = 0;
+};
+
+enum class TuneTab { kApply, kCells, kHistory };
+
+struct TuneState {
+  SliderState sliders;
+  LimitDrag map_drag;
+  OverlayCache overlay;
+  char search[48] = {};
+  bool changed_only = false;
+  std::set<std::string> folded = {"Stereo", "Tracker", "Mission"};
+  int first_row = 0;  ///< scrolled past
+  std::vector<TuneChange> history;
+  Settings last_seen;
+  bool has_last_seen = false;
+  double last_change_s = 0;
+  std::optional<Cell> cursor;       ///< cell under the pointer, shared by all maps
+  TuneTab tab = TuneTab::kApply;    ///< narrow windows
+  bool can_undo = true;             ///< the app knows its stacks
+  bool can_redo = true;
+  std::string preset_path;          ///< shown and loaded; empty: the built-in defaults
+};
+
+/// What a limit would do, counted once a frame.
+struct TuneFacts {
+  const TerrainDecision* shown = nullptr;    ///< preview while previewing, else applied
+  const TerrainDecision* applied = nullptr;  ///< may be null
+  bool previewing = false;
+  bool frozen = false;  ///< ARMED and later
+  int changed = 0;      ///< from the defaults
+  int pending = 0;      ///< previewed, not applied
+};
+TuneFacts FactsOf(const EngineSnapshot& snap);
+/// Notes changed limits in state.history, one entry a gesture.
+void FollowChanges(const EngineSnapshot& snap, double ui_time_s, TuneState& state);
+
+void DrawTuneWorkspace(const EngineSnapshot& snap, const Rect& body, TuneState& state, UiFrame& ui);
+
+void DrawLimitsPanel(const EngineSnapshot& snap, const Rect& rect, TuneState& state, UiFrame& ui);
+void DrawTuneCamera(const EngineSnapshot& snap, const Rect& rect, TuneState& state, UiFrame& ui);
+void DrawTuneMap(const EngineSnapshot& snap, const Rect& rect, MapKind kind, bool colour_bar,
+                 TuneState& state, UiFrame& ui);
+void DrawCompareStrip(const EngineSnapshot& snap, const Rect& rect, TuneState& state, UiFrame& ui);
+void DrawCellsPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui);
+void DrawChosenPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui);
+void DrawHistoryPanel(const EngineSnapshot& snap, const Rect& rect, const TuneState& state,
+                      UiFrame& ui);
+void DrawApplyPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui);
+
+}  // namespace palace

@@ -1,0 +1,140 @@
+#include <cmath>
+
+#include "engine/core/units.h"
+#include "gui/panels/fly_panels.h"
+#include "gui/widgets/number_text.h"
+#include "gui/widgets/readout.h"
+
+namespace palace {
+
+namespace {
+
+const char* ModeWords(const EngineSnapshot& snap) {
+  if (!snap.vehicle) {
+    return "No status yet";
+  }
+  switch (snap.vehicle->mode) {
+    case VehicleMode::kHover:
+      return "Hover hold";
+    case VehicleMode::kAlign:
+      return "Aligning";
+    case VehicleMode::kDescend:
+      return snap.vehicle->flies_on_vision ? "Landing on vision" : "Descending on GPS";
+    case VehicleMode::kSettle:
+      return "Settling";
+    case VehicleMode::kSink:
+      return "Sinking";
+    case VehicleMode::kLanded:
+      return "On the ground";
+    case VehicleMode::kHold:
+      return "Holding";
+    case VehicleMode::kAbort:
+      return "Climbing away";
+    case VehicleMode::kUnknown:
+      break;
+  }
+  return "Mode unknown";
+}
+
+double HeadingDeg(const VehiclePose& pose) {
+  const double deg = Deg(EulerFromRotation(pose.X_WB.R).yaw_rad);
+  return deg < -0.5 ? deg + 360 : deg;
+}
+
+struct Ages {
+  Readout::State pose, status;
+  double pose_s, status_s;
+};
+
+Ages AgesOf(const EngineSnapshot& snap) {
+  const auto one = [&](std::string_view name, double period_s, double& age_s) {
+    const ChannelHealth* channel = FindChannel(snap, name);
+    age_s =
+        channel != nullptr && channel->state != ChannelHealth::State::kNever ? channel->age_s : NAN;
+    return AgeState(age_s, channel != nullptr && channel->expected_hz > 0 ? 1 / channel->expected_hz
+                                                                          : period_s);
+  };
+  Ages ages{};
+  ages.pose = one("Vehicle pose", 0.02, ages.pose_s);
+  ages.status = one("Vehicle status", 1.0, ages.status_s);
+  return ages;
+}
+
+double PositionError3s(const EngineSnapshot& snap) {
+  const FilterStatus& vision = snap.navigation.vision;
+  const FilterStatus& filter =
+      vision.running && vision.estimate.healthy ? vision : snap.navigation.gps;
+  return filter.running ? 3 * filter.estimate.sigma_p_m.norm() : NAN;
+}
+
+std::vector<Readout> Readouts(const EngineSnapshot& snap, bool narrow) {
+  const Ages ages = AgesOf(snap);
+  const auto pose = [&](std::string label, double value, int decimals, std::string unit) {
+    return Readout{
+        std::move(label), Fixed(value, decimals), std::move(unit), ages.pose, ages.pose_s, ""};
+  };
+  const auto status = [&](std::string label, double value, int decimals, std::string unit) {
+    return Readout{std::move(label), Fixed(value, decimals), std::move(unit),
+                   ages.status,      ages.status_s,          ""};
+  };
+  const MissionStatus& m = snap.mission;
+  const double wind = snap.vehicle ? snap.vehicle->wind_speed_mps : NAN;
+  const std::string wind_unit =
+      snap.vehicle && !narrow ? "m/s, " + Fixed(Deg(snap.vehicle->wind_from_rad), 0) + "°" : "m/s";
+  const double fuel = snap.vehicle ? snap.vehicle->battery_or_fuel * 100 : NAN;
+  const double speed = snap.pose ? snap.pose->v_WB.head<2>().norm() : NAN;
+  const double down = snap.pose ? snap.pose->v_WB.z() : NAN;
+  if (IsDescentView(snap)) {
+    const double from_m = snap.history && !snap.history->empty() ? snap.history->back().from_site_m
+                                                                 : m.distance_to_site_m;
+    if (narrow) {
+      return {pose("Height", m.height_above_site_m, 1, "m"),
+              pose("To go", m.time_to_touchdown_s, 0, "s"), pose("Descent", down, 2, "m/s"),
+              pose("From centre", from_m, 2, "m")};
+    }
+    return {pose("Height above site", m.height_above_site_m, 1, "m"),
+            pose("Time to go", m.time_to_touchdown_s, 0, "s"),
+            pose("Descent rate", down, 2, "m/s"),
+            pose("From site centre", from_m, 2, "m"),
+            status("Wind", wind, 1, wind_unit),
+            status("Fuel", fuel, 0, "%")};
+  }
+  const double height = snap.laser && std::isfinite(snap.laser->range_m) ? snap.laser->range_m
+                        : snap.pose ? HeightFromDown(snap.pose->X_WB.p.z())
+                                    : NAN;
+  if (narrow) {
+    return {pose("Height", height, 1, "m"), pose("Speed", speed, 1, "m/s"),
+            status("Wind", wind, 1, "m/s"), pose("Error, 3σ", PositionError3s(snap), 2, "m")};
+  }
+  return {pose("Height above ground", height, 1, "m"),
+          pose("Ground speed", speed, 1, "m/s"),
+          pose("Heading", snap.pose ? HeadingDeg(*snap.pose) : NAN, 0, "°"),
+          status("Wind", wind, 1, wind_unit),
+          pose("Position error", PositionError3s(snap), 2, "m, 3σ"),
+          status("Fuel", fuel, 0, "%")};
+}
+
+}  // namespace
+
+void DrawVehiclePanel(const EngineSnapshot& snap, const Rect& rect, bool narrow, UiFrame& ui) {
+  const Style& s = ui.style;
+  DrawPanelFrame(ui, rect, "Vehicle", {{ModeWords(snap)}});
+  // Two columns where three would not hold the longest label.
+  const bool folded = narrow || rect.w < s.Px(380);
+  const std::vector<Readout> readouts = Readouts(snap, folded);
+  const int columns = folded ? 2 : 3;
+  const float pad = s.Px(12);
+  const float width = (rect.w - pad) / static_cast<float>(columns);
+  const float pitch = s.Px(folded ? 52 : 64);
+  for (std::size_t i = 0; i < readouts.size(); ++i) {
+    const auto column = static_cast<float>(i % static_cast<std::size_t>(columns));
+    const auto row = static_cast<float>(i / static_cast<std::size_t>(columns));
+    const Rect cell{rect.x + pad + column * width, rect.y + s.Px(33) + row * pitch, width - s.Px(8),
+                    pitch};
+    DrawReadout(ui, cell, readouts[i]);
+    ui.items.Add("readout/" + readouts[i].label, cell, true,
+                 readouts[i].value + " " + readouts[i].unit);
+  }
+}
+
+}  // namespace palace
