@@ -1,0 +1,237 @@
+// Landings on vision without pictures: touchdown, hand-over, refusals, outages, wave-off.
+#include <cmath>
+#include <cstdio>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "tests/simulation/simulated_station.h"
+
+namespace palace {
+namespace {
+
+struct LandingCase {
+  std::uint64_t seed;
+  double north_m;
+  double east_m;
+  double heading_rad;
+  WindOptions wind;
+  double max_miss_m;
+};
+
+class Landing : public testing::TestWithParam<LandingCase> {};
+
+TEST_P(Landing, TouchesDownOnTheSite) {
+  const LandingCase& c = GetParam();
+  SimulatorOptions options = Options(c.seed);
+  options.wind = c.wind;
+  Flight flight(options);
+  const Vector3d p_WS(c.north_m, c.east_m, 0);
+  flight.simulator.Send(flight.MakeApproval(p_WS, c.heading_rad));
+  flight.estimates_on = true;
+  const bool landed = flight.StepUntil(VehicleMode::kLanded, 120);
+  ASSERT_TRUE(landed) << "seed " << c.seed << " mode "
+                      << static_cast<int>(flight.last->status->mode);
+  for (const VehicleMode mode :
+       {VehicleMode::kAlign, VehicleMode::kDescend, VehicleMode::kSettle, VehicleMode::kSink}) {
+    EXPECT_TRUE(flight.modes.count(mode)) << static_cast<int>(mode);
+  }
+  const Touchdown* touchdown = flight.simulator.touchdown();
+  ASSERT_NE(touchdown, nullptr);
+  const double miss_m = (touchdown->p_W_skid - p_WS).head<2>().norm();
+  EXPECT_LT(miss_m, c.max_miss_m) << "seed " << c.seed;
+  EXPECT_LT(touchdown->vertical_speed_mps, 0.7);
+  EXPECT_LT(touchdown->horizontal_speed_mps, 0.6);
+  EXPECT_LT(touchdown->tilt_rad, Rad(8));
+  EXPECT_FALSE(touchdown->on_object);
+  // It stays down, at rest, and refuses to fly again.
+  flight.simulator.Send(AbortRequest{9, "test"});
+  flight.StepSeconds(2);
+  EXPECT_TRUE(flight.last->status->on_ground);
+  EXPECT_EQ(flight.last->truth.back().v_WB.norm(), 0);
+  EXPECT_EQ(flight.acks.back().result, AckResult::kRefused);
+  std::printf("  seed %d: %.1f s, miss %.3f m, vz %.2f, vh %.2f m/s, tilt %.1f deg\n",
+              static_cast<int>(c.seed), SecondsBetween(Simulator::kEpoch, touchdown->time), miss_m,
+              touchdown->vertical_speed_mps, touchdown->horizontal_speed_mps,
+              Deg(touchdown->tilt_rad));
+}
+
+INSTANTIATE_TEST_SUITE_P(Calm, Landing,
+                         testing::Values(LandingCase{1, 15.7, 0, 0, {}, 0.3},
+                                         LandingCase{2, 12, 5, 0, {}, 0.3},
+                                         LandingCase{3, 20, -6, 0.3, {}, 0.3},
+                                         LandingCase{4, 14, 2, -1.2, {}, 0.3},
+                                         LandingCase{5, 10, -4, 2.5, {}, 0.3}));
+INSTANTIATE_TEST_SUITE_P(LightWind, Landing,
+                         testing::Values(LandingCase{6, 16, 1, 0, {4, 0.2, 5}, 0.8},
+                                         LandingCase{7, 16, 1, 0, {4, 1.5, 5}, 0.8},
+                                         LandingCase{8, 14, -3, 0.5, {4, 3.0, 5}, 0.8}));
+
+TEST(Autopilot, HandOverShiftsTheReferenceInsteadOfTheVehicle) {
+  Flight flight(Options(8));
+  flight.vision_offset_W = {0.4, -0.3, 0.2};
+  flight.simulator.Send(flight.MakeApproval({15.7, 0, 0}));
+  flight.estimates_on = true;
+  ASSERT_TRUE(flight.StepUntil(VehicleMode::kDescend, 60));
+  double worst_tilt = 0;
+  for (int i = 0; i < 20; ++i) {
+    for (const Truth& truth : flight.Step()->truth) {
+      worst_tilt = std::max(worst_tilt, std::acos(std::min(1.0, truth.X_WB.R(2, 2))));
+    }
+  }
+  // A 0.5 m step would ask for 0.35 * 0.9 * 0.5 / g = 0.9 degrees at once, on top of the 2 degrees
+  // that starting down the slope takes.
+  EXPECT_LT(worst_tilt, Rad(3));
+  ASSERT_TRUE(flight.StepUntil(VehicleMode::kLanded, 90));
+  // It lands where vision said, not where GPS said.
+  EXPECT_NEAR(flight.simulator.touchdown()->p_W_skid.x(), 15.7 - 0.4, 0.3);
+  EXPECT_NEAR(flight.simulator.touchdown()->p_W_skid.y(), 0 + 0.3, 0.3);
+}
+
+TEST(Autopilot, SiteStaysInTheLeftPictureDownTheSlope) {
+  Flight flight(Options(18));
+  const Vector3d p_WS(17, 3, 0);
+  flight.simulator.Send(flight.MakeApproval(p_WS, 0.2));
+  flight.estimates_on = true;
+  ASSERT_TRUE(flight.StepUntil(VehicleMode::kDescend, 60));
+  double worst_rad = 0;
+  while (flight.last->status->mode == VehicleMode::kDescend) {
+    const Bundle b = flight.Step();
+    const Vector3d p_CS = (b->truth.back().X_WB * b->rig->X_BC()).Inverse() * p_WS;
+    worst_rad = std::max(worst_rad, std::atan2(p_CS.head<2>().norm(), p_CS.z()));
+  }
+  // The picture reaches 17.3 degrees from its centre in the shorter direction.
+  EXPECT_LT(worst_rad, Rad(10));
+  EXPECT_EQ(flight.last->status->mode, VehicleMode::kSettle);
+}
+
+TEST(Autopilot, NoDescentWithoutVisionAndTheApprovalExpires) {
+  Flight flight(Options(9));
+  flight.simulator.Send(flight.MakeApproval({15.7, 0, 0}));
+  EXPECT_TRUE(flight.StepUntil(VehicleMode::kAlign, 1));
+  flight.StepSeconds(29);
+  EXPECT_EQ(flight.last->status->mode, VehicleMode::kAlign);
+  EXPECT_TRUE(flight.StepUntil(VehicleMode::kHold, 3));
+  EXPECT_EQ(flight.last->status->approval_id, 0u);
+  EXPECT_NEAR(flight.last->truth.back().X_WB.p.z(), -15.24, 0.5);
+}
+
+struct RefusalCase {
+  const char* name;
+  void (*spoil)(Approval&, const FrameBundle&);
+  const char* reason;
+};
+
+TEST(Autopilot, RefusesApprovalsThatAreNotForThisMoment) {
+  const RefusalCase cases[] = {
+      {"expired",
+       [](Approval& a, const FrameBundle& b) { a.expires_at = AddSeconds(b.time, -0.01); },
+       "expired"},
+      {"wrong boot", [](Approval& a, const FrameBundle&) { a.vehicle_boot_id += 2; },
+       "another start"},
+      {"not finite", [](Approval& a, const FrameBundle&) { a.p_WS.y() = NAN; }, "finite"},
+      {"glide slope", [](Approval& a, const FrameBundle&) { a.glide_slope_rad = 0.05; },
+       "glide slope"},
+      {"far away", [](Approval& a, const FrameBundle&) { a.p_WS.x() = 500; }, "100 m"},
+      {"signature", [](Approval& a, const FrameBundle&) { a.signature = {1}; }, "forged"},
+  };
+  for (const RefusalCase& c : cases) {
+    SimulatorOptions options = Options(10);
+    options.verify = [](const Approval& a, Timestamp, std::uint64_t) {
+      return a.signature.empty() ? std::string() : std::string("forged");
+    };
+    Flight flight(options);
+    Approval approval = flight.MakeApproval({15.7, 0, 0});
+    c.spoil(approval, *flight.last);
+    flight.simulator.Send(approval);
+    flight.Step();
+    ASSERT_EQ(flight.acks.size(), 1u) << c.name;
+    EXPECT_EQ(flight.acks[0].result, AckResult::kRefused) << c.name;
+    EXPECT_EQ(flight.acks[0].command_id, approval.id) << c.name;
+    EXPECT_NE(flight.acks[0].reason.find(c.reason), std::string::npos) << flight.acks[0].reason;
+    EXPECT_EQ(flight.last->status->mode, VehicleMode::kHover) << c.name;
+  }
+}
+
+TEST(Autopilot, AnApprovalWorksOnce) {
+  Flight flight(Options(11));
+  const Approval approval = flight.MakeApproval({15.7, 0, 0});
+  flight.simulator.Send(approval);
+  flight.StepSeconds(1);
+  flight.simulator.Send(HoldRequest{500, "operator"});
+  flight.Step();
+  EXPECT_EQ(flight.last->status->mode, VehicleMode::kHold);
+  flight.simulator.Send(approval);
+  flight.Step();
+  ASSERT_EQ(flight.acks.size(), 3u);
+  EXPECT_EQ(flight.acks[0].result, AckResult::kAccepted);
+  EXPECT_EQ(flight.acks[1].command_id, 500u);
+  EXPECT_EQ(flight.acks[2].result, AckResult::kRefused);
+  EXPECT_EQ(flight.last->status->mode, VehicleMode::kHold);
+}
+
+TEST(Autopilot, SilentVisionHoldsThenClimbs) {
+  Flight flight(Options(12));
+  flight.simulator.Send(flight.MakeApproval({15.7, 0, 0}));
+  flight.estimates_on = true;
+  ASSERT_TRUE(flight.StepUntil(VehicleMode::kDescend, 60));
+  flight.StepSeconds(6);
+  flight.estimates_on = false;
+  flight.StepSeconds(1.4);
+  // Held: still its own descent and still on vision, but stopping (the slope is flown at 1.4 m/s).
+  EXPECT_TRUE(flight.last->status->flies_on_vision);
+  flight.StepSeconds(0.4);
+  EXPECT_LT(flight.last->truth.back().v_WB.norm(), 0.7);
+  const double low_m = -flight.last->truth.back().X_WB.p.z();
+  EXPECT_TRUE(flight.StepUntil(VehicleMode::kAbort, 1));
+  EXPECT_FALSE(flight.last->status->flies_on_vision);
+  EXPECT_EQ(flight.last->status->approval_id, 0u);
+  EXPECT_TRUE(flight.StepUntil(VehicleMode::kHover, 30));
+  const double high_m = -flight.last->truth.back().X_WB.p.z();
+  EXPECT_GT(high_m, low_m + 3);
+  EXPECT_LT(high_m, 15.24 + 0.7);
+}
+
+TEST(Autopilot, AFrozenSenderIsStaleToo) {
+  Flight flight(Options(13));
+  flight.simulator.Send(flight.MakeApproval({15.7, 0, 0}));
+  flight.estimates_on = true;
+  ASSERT_TRUE(flight.StepUntil(VehicleMode::kDescend, 60));
+  flight.estimates_on = false;
+  PositionEstimate same;
+  same.time = flight.last->time;
+  same.source = EstimateSource::kVision;
+  same.healthy = true;
+  same.approval_id = flight.approval_id;
+  same.p_WB = flight.last->truth.back().X_WB.p;
+  bool aborted = false;
+  for (int i = 0; i < 30 && !aborted; ++i) {
+    flight.simulator.Send(same);
+    aborted = flight.Step()->status->mode == VehicleMode::kAbort;
+  }
+  EXPECT_TRUE(aborted);
+}
+
+TEST(Autopilot, AbortClimbsBackFromTheDescent) {
+  Flight flight(Options(14));
+  flight.simulator.Send(flight.MakeApproval({15.7, 0, 0}));
+  flight.estimates_on = true;
+  ASSERT_TRUE(flight.StepUntil(VehicleMode::kSink, 90));
+  flight.simulator.Send(AbortRequest{77, "wave-off"});
+  double lowest_m = 1e9, fastest_mps = 0;
+  ASSERT_EQ(flight.Step()->status->mode, VehicleMode::kAbort);
+  for (int i = 0; i < 200 && flight.last->status->mode == VehicleMode::kAbort; ++i) {
+    for (const Truth& truth : flight.Step()->truth) {
+      lowest_m = std::min(lowest_m, -(truth.X_WB * SkidCentreBody()).z());
+      fastest_mps = std::max(fastest_mps, -truth.v_WB.z());
+    }
+  }
+  EXPECT_EQ(flight.last->status->mode, VehicleMode::kHover);
+  EXPECT_GT(lowest_m, 1.0);
+  EXPECT_NEAR(fastest_mps, 1.5, 0.4);
+  EXPECT_NEAR(flight.last->truth.back().X_WB.p.z(), -15.24, 0.7);
+  EXPECT_EQ(flight.acks.back().command_id, 77u);
+}
+
+}  // namespace
+}  // namespace palace
