@@ -77,7 +77,7 @@ inline RecordedFlight RecordFlight(const std::filesystem::path& folder, int bund
     estimate.time = item.bundle->time;
     estimate.source = EstimateSource::kGps;
     estimate.p_WB = RandomVector(random);
-    item.sent.push_back(estimate);
+    item.sent.emplace_back(std::in_place_type<PositionEstimate>, estimate);
     const Status recorded = (*recorder)->Record(item);
     EXPECT_TRUE(recorded.ok());
     flight.items.push_back(std::move(item));

@@ -1,0 +1,113 @@
+#include "engine/journal/log_tools.h"
+
+#include <algorithm>
+#include <functional>
+#include <map>
+
+#include "engine/journal/log_index.h"
+#include "engine/journal/log_writer.h"
+
+namespace palace {
+namespace {
+
+/// Copies the readable events that `keep` wants.
+Result<std::uint64_t> CopyEvents(const LogFile& file, const LogIndex& index,
+                                 const std::filesystem::path& out,
+                                 const std::function<bool(const LogEntry&)>& keep) {
+  Result<LogWriter> writer = LogWriter::Create(out);
+  if (!writer) {
+    return writer.error();
+  }
+  for (const LogEntry& entry : index.entries) {
+    if (!keep(entry)) {
+      continue;
+    }
+    const Result<WireMessage> message = ReadEvent(file, entry, index.channels);
+    const Status written = message ? writer->Write(*message) : Ok();
+    if (!written) {
+      return written.error();
+    }
+  }
+  const Status closed = writer->Close();
+  if (!closed) {
+    return closed.error();
+  }
+  return writer->events();
+}
+
+}  // namespace
+
+Result<LogDescription> DescribeLog(const std::filesystem::path& log, bool verify,
+                                   const ChannelNames& channels) {
+  const Result<LogFile> file = LogFile::Open(log);
+  if (!file) {
+    return file.error();
+  }
+  const Result<LogIndex> index = verify ? VerifyLog(*file) : BuildIndex(*file);
+  if (!index) {
+    return index.error();
+  }
+  struct Span {
+    ChannelSummary row;
+    Timestamp first;
+    Timestamp last;
+  };
+  std::map<std::string, Span> spans;
+  LogDescription description;
+  description.report = index->report;
+  description.first = description.last = index->entries.front().time;
+  for (const LogEntry& entry : index->entries) {
+    Span& span = spans[index->channels[entry.channel]];
+    span.first = span.row.events == 0 ? entry.time : std::min(span.first, entry.time);
+    span.last = span.row.events == 0 ? entry.time : std::max(span.last, entry.time);
+    ++span.row.events;
+    span.row.bytes += entry.length;
+    description.first = std::min(description.first, entry.time);
+    description.last = std::max(description.last, entry.time);
+  }
+  for (auto& [name, span] : spans) {
+    span.row.name = name;
+    const double span_s = SecondsBetween(span.first, span.last);
+    span.row.rate_hz = span_s > 0 ? static_cast<double>(span.row.events - 1) / span_s : 0;
+    description.channels.push_back(span.row);
+  }
+  description.bundles = FindBundles(*file, *index, channels).size();
+  description.duration_s = SecondsBetween(description.first, description.last);
+  return description;
+}
+
+Result<std::uint64_t> RepairLog(const std::filesystem::path& log,
+                                const std::filesystem::path& out) {
+  const Result<LogFile> file = LogFile::Open(log);
+  if (!file) {
+    return file.error();
+  }
+  const Result<LogIndex> index = VerifyLog(*file);
+  if (!index) {
+    return index.error();
+  }
+  return CopyEvents(*file, *index, out, [](const LogEntry&) { return true; });
+}
+
+Result<std::uint64_t> CutLog(const std::filesystem::path& log, const std::filesystem::path& out,
+                             double from_s, double to_s) {
+  if (!(from_s <= to_s)) {
+    return UsageError("the cut runs from " + std::to_string(from_s) + " s to " +
+                      std::to_string(to_s) + " s; give --from-s below --to-s");
+  }
+  const Result<LogFile> file = LogFile::Open(log);
+  if (!file) {
+    return file.error();
+  }
+  const Result<LogIndex> index = BuildIndex(*file);
+  if (!index) {
+    return index.error();
+  }
+  const Timestamp start = index->entries.front().time;
+  return CopyEvents(*file, *index, out, [&](const LogEntry& entry) {
+    const double at_s = SecondsBetween(start, entry.time);
+    return at_s >= from_s && at_s <= to_s;
+  });
+}
+
+}  // namespace palace

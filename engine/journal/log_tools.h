@@ -1,0 +1,43 @@
+// What palacectl log does: describe, cut and repair a log.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "engine/core/result.h"
+#include "engine/journal/log_reader.h"
+#include "engine/wire/channels.h"
+
+namespace palace {
+
+struct ChannelSummary {
+  std::string name;
+  std::uint64_t events = 0;
+  std::uint64_t bytes = 0;
+  double rate_hz = 0;  ///< 0 for a single event
+};
+
+struct LogDescription {
+  LogReport report;
+  std::vector<ChannelSummary> channels;  ///< by name
+  std::uint64_t bundles = 0;
+  Timestamp first;
+  Timestamp last;
+  double duration_s = 0;
+};
+
+/// `verify`: scans every byte and checks sums; else trusts a fitting sidecar.
+Result<LogDescription> DescribeLog(const std::filesystem::path& log, bool verify,
+                                   const ChannelNames& channels = {});
+
+/// Writes every readable event to a new log with a fresh sidecar. Returns how many.
+Result<std::uint64_t> RepairLog(const std::filesystem::path& log, const std::filesystem::path& out);
+
+/// Writes the events from `from_s` to `to_s`, seconds after the first event, to a new log: whole
+/// passes of the engine where times are those of bundles. Returns how many.
+Result<std::uint64_t> CutLog(const std::filesystem::path& log, const std::filesystem::path& out,
+                             double from_s, double to_s);
+
+}  // namespace palace

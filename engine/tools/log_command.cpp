@@ -1,0 +1,159 @@
+#include "engine/tools/log_command.h"
+
+#include <cstdio>
+#include <iostream>
+#include <memory>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "engine/journal/export.h"
+#include "engine/journal/log_tools.h"
+#include "engine/wire/channels.h"
+
+namespace palace {
+namespace {
+
+constexpr int kWhole = 0;
+constexpr int kNothingReadable = 1;
+constexpr int kDamaged = 3;
+
+struct LogOptions {
+  std::string log;
+  std::string out;
+  std::string channels_file;
+  double from_s = 0;
+  double to_s = 1e12;
+};
+
+int Fail(const Error& error) {
+  std::cerr << "palacectl log: " << error.message << "\n";
+  return error.code == ErrorCode::kUsage ? 2 : kNothingReadable;
+}
+
+Result<ChannelNames> Channels(const LogOptions& options) {
+  return options.channels_file.empty() ? Result<ChannelNames>(ChannelNames())
+                                       : LoadChannels(options.channels_file);
+}
+
+void PrintReport(const LogReport& r) {
+  std::printf("%llu events in %llu bytes", static_cast<unsigned long long>(r.events),
+              static_cast<unsigned long long>(r.file_bytes));
+  std::printf(r.has_sidecar ? ", checksums in the sidecar\n"
+                            : ", no sidecar: integrity not verifiable\n");
+  const auto line = [](const char* what, std::uint64_t count) {
+    if (count > 0) {
+      std::printf("  %-42s %llu\n", what, static_cast<unsigned long long>(count));
+    }
+  };
+  line("bytes skipped as damaged", r.skipped_bytes);
+  line("gaps", r.gap_count);
+  line("suspect events (damage follows directly)", r.suspect);
+  line("events that differ from their checksum", r.checksum_errors);
+  line("events recorded but missing", r.missing_events);
+  line("steps back in time", r.time_regressions);
+  line("jumps in event numbers", r.number_jumps);
+  for (const LogGap& gap : r.gaps) {
+    std::printf("  gap at byte %llu, %llu bytes\n", static_cast<unsigned long long>(gap.offset),
+                static_cast<unsigned long long>(gap.bytes));
+  }
+}
+
+int Describe(const LogOptions& options, bool verify) {
+  const Result<ChannelNames> channels = Channels(options);
+  if (!channels) {
+    return Fail(channels.error());
+  }
+  const Result<LogDescription> log = DescribeLog(options.log, verify, *channels);
+  if (!log) {
+    return Fail(log.error());
+  }
+  PrintReport(log->report);
+  if (!verify) {
+    std::printf("%.3f s, %llu bundles\n", log->duration_s,
+                static_cast<unsigned long long>(log->bundles));
+    std::printf("%-24s %10s %14s %9s\n", "channel", "events", "bytes", "Hz");
+    for (const ChannelSummary& row : log->channels) {
+      std::printf("%-24s %10llu %14llu %9.2f\n", row.name.c_str(),
+                  static_cast<unsigned long long>(row.events),
+                  static_cast<unsigned long long>(row.bytes), row.rate_hz);
+    }
+  }
+  std::printf(log->report.damaged() ? "damaged, the rest is readable\n" : "whole\n");
+  return log->report.damaged() ? kDamaged : kWhole;
+}
+
+/// A readable but damaged log keeps its exit code whatever is made of it.
+int HealthOf(const std::string& log) {
+  const Result<LogDescription> description = DescribeLog(log, false);
+  return description && description->report.damaged() ? kDamaged : kWhole;
+}
+
+int Export(const LogOptions& options) {
+  const Result<ChannelNames> channels = Channels(options);
+  if (!channels) {
+    return Fail(channels.error());
+  }
+  const auto tables = ExportCsv(options.log, options.out, *channels);
+  if (!tables) {
+    return Fail(tables.error());
+  }
+  for (const ExportedTable& table : *tables) {
+    std::printf("%s: %llu rows\n", table.file.c_str(),
+                static_cast<unsigned long long>(table.rows));
+  }
+  return HealthOf(options.log);
+}
+
+int Finish(const LogOptions& options, const Result<std::uint64_t>& events) {
+  if (!events) {
+    return Fail(events.error());
+  }
+  std::printf("%s: %llu events\n", options.out.c_str(), static_cast<unsigned long long>(*events));
+  return HealthOf(options.log);
+}
+
+}  // namespace
+
+void AddLogCommand(CLI::App& app, int& exit_code) {
+  CLI::App* log = app.add_subcommand("log", "Look into, check, cut, repair and export a log");
+  log->require_subcommand(1);
+  const auto options = std::make_shared<LogOptions>();
+  const auto verb = [&](const char* name, const char* help) {
+    CLI::App* command = log->add_subcommand(name, help);
+    command->add_option("LOG", options->log, "An LCM event log")->required();
+    return command;
+  };
+  const auto with_out = [&](CLI::App* command, const char* help) {
+    command->add_option("--out", options->out, help)->required();
+  };
+
+  CLI::App* info = verb("info", "What it holds: channels, rates, duration, damage");
+  info->add_option("--channels", options->channels_file, "Channel names (TOML)");
+  info->callback([options, &exit_code] { exit_code = Describe(*options, false); });
+
+  CLI::App* verify = verb("verify", "Check every event, and its checksum where there is a sidecar");
+  verify->callback([options, &exit_code] { exit_code = Describe(*options, true); });
+
+  CLI::App* export_verb = verb("export", "Estimates, truth, decisions, sites, settings as CSV");
+  with_out(export_verb, "Folder for the tables");
+  export_verb->add_option("--channels", options->channels_file, "Channel names (TOML)");
+  export_verb->callback([options, &exit_code] { exit_code = Export(*options); });
+
+  CLI::App* repair = verb("repair", "Write every readable event to a new log");
+  with_out(repair, "The new log");
+  repair->callback([options, &exit_code] {
+    exit_code = Finish(*options, RepairLog(options->log, options->out));
+  });
+
+  CLI::App* cut = verb("cut", "Write a stretch of time to a new log");
+  with_out(cut, "The new log");
+  cut->add_option("--from-s", options->from_s, "Start, seconds after the first event");
+  cut->add_option("--to-s", options->to_s, "End, seconds after the first event");
+  cut->callback([options, &exit_code] {
+    exit_code = Finish(*options,
+                       CutLog(options->log, options->out, options->from_s, options->to_s));
+  });
+}
+
+}  // namespace palace

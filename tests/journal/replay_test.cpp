@@ -1,0 +1,258 @@
+// A recorded flight replays to equal bundles with the commands that came before each.
+#include <chrono>
+#include <thread>
+
+#include "engine/journal/export.h"
+#include "engine/journal/log_tools.h"
+#include "engine/journal/replay_source.h"
+#include "engine/wire/convert.h"
+#include "tests/journal/journal_world.h"
+
+namespace palace {
+namespace {
+
+class ReplayTest : public JournalTest {
+ protected:
+  ReplayTest() : flight_(RecordFlight(folder_, 12, 61)) {}
+  std::unique_ptr<ReplaySource> Open(ReplayOptions options) {
+    auto source = ReplaySource::Open(flight_.log, options);
+    EXPECT_TRUE(source.ok()) << source.error().message;
+    return std::move(*source);
+  }
+  static ReplayOptions Fast() {
+    ReplayOptions options;
+    options.speed = 0;
+    return options;
+  }
+  RecordedFlight flight_;
+};
+
+std::vector<std::vector<std::uint8_t>> Payloads(const FrameBundle& bundle) {
+  std::vector<std::vector<std::uint8_t>> payloads;
+  for (WireMessage& message : EncodeBundle(bundle, {})) {
+    payloads.push_back(std::move(message.payload));
+  }
+  return payloads;
+}
+
+TEST_F(ReplayTest, GivesTheBundlesThatWereRecorded) {
+  const auto source = Open(Fast());
+  EXPECT_TRUE(source->IsLockstep());
+  for (const RecordItem& item : flight_.items) {
+    const auto got = source->Next({});
+    ASSERT_TRUE(got.ok()) << got.error().message;
+    EXPECT_EQ(Payloads(**got), Payloads(*item.bundle));
+    EXPECT_FALSE((*got)->discontinuity);
+    ASSERT_EQ((*got)->recorded_commands.size(), item.commands.size());
+    for (std::size_t i = 0; i < item.commands.size(); ++i) {
+      EXPECT_EQ((*got)->recorded_commands[i].origin, item.commands[i].origin);
+      EXPECT_EQ(EncodeCommand((*got)->recorded_commands[i], {}, {}).payload,
+                EncodeCommand(item.commands[i], {}, {}).payload);
+    }
+  }
+  EXPECT_EQ(source->Next({}).error().code, ErrorCode::kEnd);
+  EXPECT_TRUE(source->Status().ended);
+  EXPECT_EQ(source->events_refused(), 0u);
+}
+
+TEST_F(ReplayTest, TellsWhatTheFlightDecided) {
+  const auto record = Open(Fast())->recorded();
+  ASSERT_EQ(record->samples.size(), flight_.items.size());
+  for (std::size_t i = 0; i < record->samples.size(); ++i) {
+    const EngineSnapshot& snapshot = *flight_.items[i].snapshot;
+    EXPECT_EQ(record->samples[i].state, snapshot.mission.state);
+    EXPECT_EQ(record->samples[i].decision_hash, snapshot.decision_hash);
+    EXPECT_EQ(record->samples[i].best_site, 'C');
+  }
+  EXPECT_EQ(record->events.size(), flight_.items.size());
+  EXPECT_TRUE(record->has_settings);
+  EXPECT_EQ(record->settings_at_start, flight_.items[0].snapshot->settings);
+  EXPECT_NEAR(record->duration_s, 1.1, 1e-9);
+}
+
+TEST_F(ReplayTest, SeeksAndMarksTheJump) {
+  const auto source = Open(Fast());
+  struct Case {
+    double seek_s;
+    std::size_t bundle;
+  };
+  for (const Case& c : {Case{0.5, 5}, Case{0.0, 0}, Case{0.95, 10}, Case{99, 11}, Case{-3, 0}}) {
+    SCOPED_TRACE(c.seek_s);
+    source->Control({PlaybackControl::Kind::kSeek, c.seek_s});
+    const auto got = source->Next({});
+    ASSERT_TRUE(got.ok());
+    EXPECT_TRUE((*got)->discontinuity);
+    EXPECT_EQ(Payloads(**got), Payloads(*flight_.items[c.bundle].bundle));
+    EXPECT_EQ((*got)->recorded_commands.size(), flight_.items[c.bundle].commands.size());
+    if (c.bundle + 1 < flight_.items.size()) {
+      const auto next = source->Next({});
+      EXPECT_FALSE((*next)->discontinuity);
+      EXPECT_EQ((*next)->sequence, c.bundle + 1);
+    }
+  }
+}
+
+TEST_F(ReplayTest, StepsBothWaysWhilePaused) {
+  ReplayOptions options = Fast();
+  options.paused = true;
+  const auto source = Open(options);
+  const auto step = [&](PlaybackControl::Kind kind) {
+    source->Control({kind, 0});
+    return (*source->Next({}))->sequence;
+  };
+  using Kind = PlaybackControl::Kind;
+  EXPECT_EQ(step(Kind::kStepForward), 0u);
+  EXPECT_EQ(step(Kind::kStepForward), 1u);
+  EXPECT_EQ(step(Kind::kStepForward), 2u);
+  EXPECT_EQ(step(Kind::kStepBack), 1u);
+  EXPECT_EQ(step(Kind::kStepBack), 0u);
+  EXPECT_EQ(step(Kind::kStepBack), 0u);
+  EXPECT_EQ(step(Kind::kStepForward), 1u);
+  EXPECT_TRUE(source->Status().paused);
+}
+
+TEST_F(ReplayTest, PausedNextWaitsUntilToldOrStopped) {
+  ReplayOptions options = Fast();
+  options.paused = true;
+  options.wait_at_end = true;
+  const auto source = Open(options);
+  std::stop_source stop;
+  Result<std::shared_ptr<const FrameBundle>> got = InvalidError("nothing yet");
+  std::jthread reader([&] { got = source->Next(stop.get_token()); });
+  stop.request_stop();
+  reader.join();
+  EXPECT_EQ(got.error().code, ErrorCode::kEnd);
+  std::jthread player([&] { source->Control({PlaybackControl::Kind::kPlay, 0}); });
+  for (std::size_t i = 0; i < flight_.items.size(); ++i) {
+    ASSERT_TRUE(source->Next({}).ok());
+  }
+  std::jthread seeker([&] { source->Control({PlaybackControl::Kind::kSeek, 0.3}); });
+  const auto again = source->Next({});  // waits at the end until the seek
+  ASSERT_TRUE(again.ok());
+  EXPECT_EQ((*again)->sequence, 3u);
+}
+
+TEST_F(ReplayTest, KeepsTheRecordedPace) {
+  ReplayOptions options;
+  options.speed = 10;  // 1.1 s of data in 0.11 s
+  const auto source = Open(options);
+  const auto start = std::chrono::steady_clock::now();
+  while (source->Next({}).ok()) {
+  }
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+  EXPECT_GE(took.count(), 0.10);
+}
+
+TEST_F(ReplayTest, SkipsADamagedPictureAndGoesOn) {
+  auto bytes = ReadBytes(flight_.log);
+  const auto index = BuildIndex(*LogFile::Open(flight_.log));
+  std::size_t pictures = 0;
+  for (const LogEntry& entry : index->entries) {
+    if (index->channels[entry.channel] == "CAMERA_RIGHT" && ++pictures == 4) {
+      bytes[entry.offset + 200] ^= 1;
+    }
+  }
+  WriteBytes(flight_.log, bytes);
+  const auto source = Open(Fast());
+  int with = 0;
+  int bundles = 0;
+  for (auto got = source->Next({}); got; got = source->Next({})) {
+    ++bundles;
+    with += (*got)->stereo ? 1 : 0;
+  }
+  EXPECT_EQ(bundles, 12);
+  EXPECT_EQ(with, 11);
+  EXPECT_EQ(source->events_refused(), 1u);
+}
+
+TEST_F(ReplayTest, LogWithoutBundlesSaysWhatItNeeds) {
+  auto writer = LogWriter::Create(folder_ / "imu.lcm");
+  ASSERT_TRUE(writer->Write({"IMU", {5}, {1, 2, 3}}).ok());
+  ASSERT_TRUE(writer->Close().ok());
+  const auto source = ReplaySource::Open(folder_ / "imu.lcm");
+  ASSERT_FALSE(source.ok());
+  EXPECT_NE(source.error().message.find("needs CAMERA_RIG"), std::string::npos)
+      << source.error().message;
+}
+
+TEST_F(JournalTest, UnwritableFolderLeavesNothingBehind) {
+  WriteBytes(folder_ / "file", {1});
+  const auto recorder = FlightRecorder::Open(folder_ / "file", "flight");
+  ASSERT_FALSE(recorder.ok());
+  EXPECT_EQ(recorder.error().code, ErrorCode::kUnavailable);
+  EXPECT_NE(recorder.error().message.find("--record DIR"), std::string::npos);
+  const auto first = FlightRecorder::Open(folder_, "same");
+  ASSERT_TRUE(first.ok());
+  EXPECT_FALSE(FlightRecorder::Open(folder_, "same").ok());
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "same" / "flight.lcm"));
+}
+
+TEST_F(ReplayTest, ExportsTablesWithUnitsAndFullPrecision) {
+  const auto tables = ExportCsv(flight_.log, folder_ / "csv");
+  ASSERT_TRUE(tables.ok()) << tables.error().message;
+  std::map<std::string, std::uint64_t> rows;
+  for (const ExportedTable& table : *tables) {
+    rows[table.file.filename().string()] = table.rows;
+  }
+  std::size_t truths = 0;
+  std::size_t commands = 0;
+  for (const RecordItem& item : flight_.items) {
+    truths += item.bundle->truth.size();
+    commands += item.commands.size();
+  }
+  EXPECT_EQ(rows["truth.csv"], truths);
+  EXPECT_EQ(rows["decisions.csv"], commands);
+  EXPECT_EQ(rows["estimates.csv"], flight_.items.size());
+  EXPECT_EQ(rows["sites.csv"], 2 * flight_.items.size());
+  EXPECT_EQ(rows["status.csv"], flight_.items.size());
+  std::ifstream truth(folder_ / "csv" / "truth.csv");
+  std::string header;
+  std::string row;
+  std::getline(truth, header);
+  std::getline(truth, row);
+  EXPECT_EQ(header.rfind("time_us,north_m,east_m,down_m,", 0), 0u) << header;
+  const std::size_t comma = row.find(',');
+  EXPECT_EQ(std::stod(row.substr(comma + 1)), flight_.items[0].bundle->truth[0].X_WB.p.x());
+}
+
+TEST_F(ReplayTest, CutKeepsWholeBundlesAndReplays) {
+  const auto cut = CutLog(flight_.log, folder_ / "cut.lcm", 0.35, 0.75);
+  ASSERT_TRUE(cut.ok()) << cut.error().message;
+  auto source = ReplaySource::Open(folder_ / "cut.lcm", Fast());
+  ASSERT_TRUE(source.ok()) << source.error().message;
+  ASSERT_EQ((*source)->bundles().size(), 4u);
+  for (std::size_t i = 4; i < 8; ++i) {
+    const auto got = (*source)->Next({});
+    EXPECT_EQ(Payloads(**got), Payloads(*flight_.items[i].bundle));
+  }
+}
+
+TEST_F(ReplayTest, RepairKeepsEveryReadableEvent) {
+  auto bytes = ReadBytes(flight_.log);
+  const std::size_t events = BuildIndex(*LogFile::Open(flight_.log))->entries.size();
+  bytes.resize(bytes.size() - 5);
+  bytes.insert(bytes.begin(), 50, 0x11);
+  WriteBytes(folder_ / "broken.lcm", bytes);
+  const auto written = RepairLog(folder_ / "broken.lcm", folder_ / "whole.lcm");
+  ASSERT_TRUE(written.ok()) << written.error().message;
+  EXPECT_EQ(*written, events - 1);
+  const auto index = VerifyLog(*LogFile::Open(folder_ / "whole.lcm"));
+  EXPECT_EQ(index->entries.size(), events - 1);
+  EXPECT_FALSE(index->report.damaged());
+}
+
+TEST_F(ReplayTest, DescribesALogAndItsHealth) {
+  const auto whole = DescribeLog(flight_.log, true);
+  ASSERT_TRUE(whole.ok());
+  EXPECT_FALSE(whole->report.damaged());
+  EXPECT_EQ(whole->bundles, 12u);
+  EXPECT_NEAR(whole->duration_s, 1.1, 1e-9);
+  bool found = false;
+  for (const ChannelSummary& row : whole->channels) {
+    found = found || (row.name == "CAMERA_LEFT" && row.events == 12);
+  }
+  EXPECT_TRUE(found);
+}
+
+}  // namespace
+}  // namespace palace
