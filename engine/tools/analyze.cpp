@@ -1,0 +1,322 @@
+#include "engine/tools/analyze.h"
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "engine/core/time.h"
+#include "engine/core/units.h"
+#include "engine/runtime/settings_io.h"
+#include "engine/slad/slad.h"
+#include "engine/tools/analyze_inputs.h"
+#include "engine/tools/map_files.h"
+#include "engine/tools/map_pictures.h"
+
+namespace palace {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+struct Options {
+  std::string left, right, rig, settings_file, out, elevation, points;
+  std::vector<std::string> set;
+  std::optional<double> cell_m;
+};
+
+struct Outcome {
+  AnalyzeInput input;
+  Settings settings;
+  HazardMaps hazards;
+  SiteSelection selection;
+};
+
+Status CheckOptions(const Options& options) {
+  const bool pair = !options.left.empty() || !options.right.empty() || !options.rig.empty();
+  const int inputs = int{pair} + int{!options.elevation.empty()} + int{!options.points.empty()};
+  if (inputs != 1) {
+    return UsageError("give one input: --left, --right and --rig, or --elevation, or --points");
+  }
+  if (pair && (options.left.empty() || options.right.empty() || options.rig.empty())) {
+    return UsageError("a pair needs all of --left, --right and --rig");
+  }
+  if (options.cell_m && !(*options.cell_m >= 0.001 && *options.cell_m <= 1000)) {
+    return UsageError("--cell-m must lie between 0.001 and 1000 metres");
+  }
+  return Ok();
+}
+
+Result<Settings> LoadSettings(const Options& options) {
+  Settings settings;
+  if (!options.settings_file.empty()) {
+    auto loaded = LoadSettingsFile(options.settings_file, settings);
+    if (!loaded) {
+      return loaded;
+    }
+    settings = *loaded;
+  }
+  if (options.cell_m) {
+    settings.slad.cell_m = *options.cell_m;
+  }
+  for (const std::string& assignment : options.set) {
+    auto changed = ApplySettingText(settings, assignment);
+    if (!changed) {
+      return UsageError("--set " + assignment + ": " + changed.error().message);
+    }
+    settings = *changed;
+  }
+  return settings;
+}
+
+Result<AnalyzeInput> LoadInput(const Options& options, const Settings& settings) {
+  if (!options.elevation.empty()) {
+    return ElevationOfModel(options.elevation, options.cell_m, settings);
+  }
+  if (!options.points.empty()) {
+    return ElevationOfCloud(options.points, options.cell_m, settings);
+  }
+  return ElevationOfPair(options.left, options.right, options.rig, settings);
+}
+
+/// Per cell: 0 safe, 1 over a limit, NaN unknown. Filled holes count by their filled height.
+GridF HazardLayer(const ElevationMap& map, const HazardMaps& hazards, SladMode mode) {
+  GridF layer(map.geometry.rows, map.geometry.cols, kUnknownValue);
+  for (std::size_t i = 0; i < layer.cells().size(); ++i) {
+    const CellState state = map.state.cells()[i];
+    const bool known = state == CellState::kMeasured || state == CellState::kFilled ||
+                       (state == CellState::kBorder && mode == SladMode::kThesis);
+    if (known && !std::isnan(hazards.slope_rad.cells()[i])) {
+      const unsigned over = hazards.reasons.cells()[i] & ~unsigned{kHazardUnknown};
+      layer.cells()[i] = over != 0 ? 1.0F : 0.0F;
+    }
+  }
+  return layer;
+}
+
+/// JSON has no NaN: unknown is null.
+Json Number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+Json SiteJson(const LandingSite& site) {
+  return {{"row", site.cell.row},
+          {"col", site.cell.col},
+          {"north_m", site.p_WS.x()},
+          {"east_m", site.p_WS.y()},
+          {"height_m", Number(site.height_m.value)},
+          {"pixel_x", Number(site.pixel.x())},
+          {"pixel_y", Number(site.pixel.y())},
+          {"slope_deg", Number(Deg(site.slope_rad.value))},
+          {"roughness_m", Number(site.roughness_m.value)},
+          {"clearance_m", site.clearance_m},
+          {"cost", Number(site.cost)},
+          {"safe_probability", Number(site.safe_probability)},
+          {"confirmed", site.confirmed},
+          {"letter", std::string(1, site.letter)},
+          {"step_m", Number(site.step_m.value)},
+          {"safe_distance_m", site.safe_distance_m},
+          {"clear_radius_m", site.clear_radius_m},
+          {"corridor_clear", site.corridor_clear},
+          {"reason", site.reason}};
+}
+
+Json SettingsJson(const Settings& settings) {
+  Json json = Json::object();
+  for (const SettingInfo& info : SettingTable()) {
+    const double value = GetSetting(settings, info.name);
+    if (!info.words.empty()) {
+      json[info.name] = info.words[static_cast<std::size_t>(value)];
+    } else if (info.integer) {
+      json[info.name] = std::llround(value);
+    } else {
+      json[info.name] = value;
+    }
+  }
+  return json;
+}
+
+Json ReportJson(const Outcome& o) {
+  const auto& sites = o.selection.sites;
+  const GridGeometry& g = o.input.map.geometry;
+  Json json;
+  json["status"] = sites.empty() ? "none" : "found";
+  json["site"] = sites.empty() ? Json(nullptr) : SiteJson(sites.front());
+  json["candidates"] = Json::array();
+  for (const LandingSite& site : sites) {
+    json["candidates"].push_back(SiteJson(site));
+  }
+  if (sites.empty()) {
+    json["none_reason"] = o.selection.none_reason;
+  }
+  json["grid"] = {{"rows", g.rows},
+                  {"cols", g.cols},
+                  {"cell_m", g.cell_m},
+                  {"north_min_m", g.north_min_m},
+                  {"east_min_m", g.east_min_m}};
+  json["rejected"] = {{"slope", o.hazards.rejected.slope},
+                      {"roughness", o.hazards.rejected.roughness},
+                      {"unknown", o.hazards.rejected.unknown},
+                      {"footprint", o.hazards.rejected.footprint}};
+  json["settings"] = SettingsJson(o.settings);
+  json["timing_ms"] = Json::object();
+  for (const StageTime& time : o.input.timings) {
+    json["timing_ms"][time.stage] = time.milliseconds;
+  }
+  json["warnings"] = o.input.warnings;
+  return json;
+}
+
+Status WriteLayers(const Outcome& o, const fs::path& folder) {
+  const double max_distance = o.selection.sites.empty() ? o.settings.slad.clear_radius_m()
+                                                        : o.selection.sites.front().safe_distance_m;
+  struct Row {
+    const char* name;
+    GridF cells;
+    MapPicture picture;
+  };
+  const SladSettings& slad = o.settings.slad;
+  const Row rows[] = {
+      {"elevation", o.input.map.height_m, {"elevation, m", ColourTable::kViridis, 1, {}, {}}},
+      {"slope",
+       o.hazards.slope_rad,
+       {"slope, deg", ColourTable::kMagma, kDegPerRad, 0.0, 2 * slad.max_slope_deg}},
+      {"roughness",
+       o.hazards.roughness_m,
+       {"roughness, m", ColourTable::kInferno, 1, 0.0, 2 * slad.max_deviation_m}},
+      {"cost", o.hazards.cost, {"cost", ColourTable::kCividis, 1, 0.0, 1.0}},
+      {"safe_distance",
+       o.hazards.safe_distance_m,
+       {"safe distance, m", ColourTable::kBlues, 1, 0.0, std::max(max_distance, 0.1)}},
+      {"hazard",
+       HazardLayer(o.input.map, o.hazards, slad.mode),
+       {"hazard: 0 safe, 1 over a limit", ColourTable::kInferno, 1, 0.0, 1.3}}};
+  for (const Row& row : rows) {
+    const std::string name = row.name;
+    const MapLayer layer{o.input.map.geometry, row.cells, o.input.epsg};
+    if (const Status done = WriteGeoTiff(folder / (name + ".tif"), layer); !done) {
+      return done;
+    }
+    if (const Status done = WriteMapPicture(folder / (name + ".png"), row.cells, row.picture);
+        !done) {
+      return done;
+    }
+  }
+  return Ok();
+}
+
+Status WriteAll(const Outcome& o, const fs::path& folder) {
+  if (const Status done = WriteLayers(o, folder); !done) {
+    return done;
+  }
+  if (const Status done =
+          WriteSafeLandingPicture(folder / "safe_landing.png", o.input.map, o.hazards, o.selection);
+      !done) {
+    return done;
+  }
+  if (o.input.left) {
+    if (const Status done =
+            WriteOverlay(folder / "overlay.png", *o.input.left, o.selection, o.input.context);
+        !done) {
+      return done;
+    }
+  }
+  std::ofstream json(folder / "site.json");
+  json << ReportJson(o).dump(2) << '\n';
+  json.close();
+  return json ? Ok() : Status(UnavailableError("cannot write site.json: is the disk full?"));
+}
+
+/// Writes beside the target first and moves the finished files, so that a failure leaves nothing
+/// half written.
+Status Publish(const Outcome& o, const fs::path& out) {
+  std::error_code error;
+  fs::create_directories(out, error);
+  const fs::path partial = out / ".analyze-partial";
+  fs::remove_all(partial, error);
+  if (!fs::create_directory(partial, error)) {
+    return UnavailableError("cannot create " + partial.string() + ": " + error.message() +
+                            "; choose a writable --out");
+  }
+  Status done = WriteAll(o, partial);
+  if (done) {
+    for (const auto& entry : fs::directory_iterator(partial, error)) {
+      fs::rename(entry.path(), out / entry.path().filename(), error);
+      if (error) {
+        done = UnavailableError("cannot write " + (out / entry.path().filename()).string() + ": " +
+                                error.message());
+        break;
+      }
+    }
+  }
+  fs::remove_all(partial, error);
+  return done;
+}
+
+Status Analyze(const Options& options) {
+  if (const Status good = CheckOptions(options); !good) {
+    return good;
+  }
+  const auto settings = LoadSettings(options);
+  if (!settings) {
+    return settings.error();
+  }
+  auto input = LoadInput(options, *settings);
+  if (!input) {
+    return input.error();
+  }
+  Outcome o{std::move(input).value(), *settings, {}, {}};
+  o.settings.slad.cell_m = o.input.map.geometry.cell_m;
+  double start = MonotonicSeconds();
+  o.hazards = EvaluateHazards(o.input.map, o.settings.slad);
+  o.input.timings.push_back({"hazards", (MonotonicSeconds() - start) * 1e3});
+  start = MonotonicSeconds();
+  o.selection = SelectSites(o.input.map, o.hazards, o.settings.slad, o.input.context);
+  SiteRegistry().Assign(o.selection);
+  o.input.timings.push_back({"sites", (MonotonicSeconds() - start) * 1e3});
+  if (const Status done = Publish(o, options.out); !done) {
+    return done;
+  }
+  for (const std::string& warning : o.input.warnings) {
+    std::cerr << "palacectl: warning: " << warning << '\n';
+  }
+  if (o.selection.sites.empty()) {
+    std::cout << "no landing site: " << o.selection.none_reason << '\n';
+  } else {
+    const LandingSite& site = o.selection.sites.front();
+    std::printf("landing site at row %d, column %d, %.2f m north, %.2f m east, clear by %.2f m\n",
+                site.cell.row, site.cell.col, site.p_WS.x(), site.p_WS.y(), site.clearance_m);
+  }
+  return Ok();
+}
+
+}  // namespace
+
+void AddAnalyzeCommand(CLI::App& app, int& exit_code) {
+  CLI::App* verb = app.add_subcommand(
+      "analyze", "one stereo pair, elevation model or point cloud: maps and landing site");
+  auto options = std::make_shared<Options>();
+  verb->add_option("--left", options->left, "left picture");
+  verb->add_option("--right", options->right, "right picture");
+  verb->add_option("--rig", options->rig, "RIG.toml");
+  verb->add_option("--elevation", options->elevation, "GeoTIFF elevation model instead of a pair");
+  verb->add_option("--points", options->points, "xyz or ply cloud instead of a pair");
+  verb->add_option("--cell-m", options->cell_m, "cell size for --elevation and --points, metres");
+  verb->add_option("--settings", options->settings_file, "settings TOML");
+  verb->add_option("--set", options->set, "one setting, e.g. slad.max_slope_deg=8; repeatable")
+      ->take_all();
+  verb->add_option("--out", options->out, "folder for the maps and site.json")->required();
+  verb->callback([options, &exit_code] {
+    const Status done = Analyze(*options);
+    if (!done) {
+      std::cerr << "palacectl analyze: " << done.error().message << '\n';
+      exit_code = done.error().code == ErrorCode::kUsage ? 2 : 1;
+    }
+  });
+}
+
+}  // namespace palace

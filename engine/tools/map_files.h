@@ -1,0 +1,26 @@
+// Map layers as GeoTIFF files: float32, one band, NaN where unknown, north up.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "engine/core/result.h"
+#include "engine/model/grid.h"
+
+namespace palace {
+
+/// One layer with its place. Rows north to south, as grids are.
+struct MapLayer {
+  GridGeometry geometry;
+  GridF cells;
+  std::optional<int> epsg;  ///< projected coordinate system, where the file names one
+};
+
+/// Writes pixel scale and tie point (top-left corner of the north-west cell), NaN as no-data.
+Status WriteGeoTiff(const std::filesystem::path& path, const MapLayer& layer);
+
+/// Reads one-band strips or tiles of 8 to 64 bits; no-data becomes NaN. Refuses files without a
+/// pixel scale, with cells that are not square, and larger than 16384 cells a side.
+Result<MapLayer> ReadGeoTiff(const std::filesystem::path& path);
+
+}  // namespace palace
