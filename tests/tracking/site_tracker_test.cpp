@@ -14,7 +14,7 @@ namespace palace {
 namespace {
 
 const PinholeCamera kCamera{640, 480, 772.548, 772.548, 319.5, 239.5};
-constexpr double kNoise_grey = 2.5;
+constexpr float kNoise_grey = 2.5F;
 
 LandingSite SiteAtOrigin() {
   LandingSite site;
