@@ -1,7 +1,6 @@
 #include "engine/stereo/disparity.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 

@@ -22,6 +22,7 @@ constexpr float kSmoothLimit_px = 1.0F;
 // noise variance, and half of the residual's variance comes from the left picture.
 constexpr float kGradientNoiseShare = 0.45F;
 constexpr float kLeastResidualVariance = 0.2F;  // of rounding to whole grey levels, both pictures
+constexpr float kLeastCorrelation = 0.6F;       // below it noise outweighs the texture
 constexpr int kRowsPerStripe = 48;              // fixed: results do not depend on the threads
 
 /// Calls work(first_row, end_row) for fixed stripes of rows, on OpenCV's threads.
@@ -163,40 +164,43 @@ void WarpRow(const Fields& f, const ImageF& reference, int y, float* warped) {
   }
 }
 
-/// What one window says: the step to take, its residual, and the texture it stands on.
-struct WindowFit {
-  float step_px = 0;
-  float noise_energy = 0;     // residual variance times the whole gradient's energy
-  float gradient_energy = 0;  // without the share that is camera noise
-  bool good = false;
+/// What the windows of one row say; arrays of the picture's width. Where a window is not good, the
+/// step and the energy are 0.
+struct RowFits {
+  explicit RowFits(int width)
+      : step_px(static_cast<std::size_t>(width)),
+        noise_energy(static_cast<std::size_t>(width)),
+        gradient_energy(static_cast<std::size_t>(width)) {}
+  std::vector<float> step_px;
+  std::vector<float> noise_energy;     // residual variance times the whole gradient's energy
+  std::vector<float> gradient_energy;  // without the share that is camera noise
 };
 
-WindowFit FitWindow(const StaticSums& s, const WarpSums& w, std::size_t x, float least_known) {
-  WindowFit fit;
-  const float n = s.n[x];
-  if (n < least_known) {
-    return fit;
+// Written without branches, so that it is vectorised.
+void FitRow(const StaticSums& s, const WarpSums& w, float least_known, int width, RowFits& fits) {
+  float* step_px = fits.step_px.data();
+  float* noise_energy = fits.noise_energy.data();
+  float* gradient_energy = fits.gradient_energy.data();
+  for (int x = 0; x < width; ++x) {
+    const float n = std::max(s.n[x], 4.0F);
+    const float scale = 1.0F / n;
+    const float gg = s.gg[x] - s.g[x] * s.g[x] * scale;
+    const float ll = s.ll[x] - s.l[x] * s.l[x] * scale;
+    const float lg = s.lg[x] - s.l[x] * s.g[x] * scale;
+    const float rr = w.rr[x] - w.r[x] * w.r[x] * scale;
+    const float lr = w.lr[x] - s.l[x] * w.r[x] * scale;
+    const float rg = w.rg[x] - w.r[x] * s.g[x] * scale;
+    const bool good = (s.n[x] >= least_known) & (gg > n * kLeastResidualVariance) & (rr > 0.0F) &
+                      (lr > 0.0F) & (lr * lr > kLeastCorrelation * kLeastCorrelation * ll * rr);
+    const float gain = std::min(std::max(lr / rr, 0.5F), 2.0F);
+    const float eg = lg - gain * rg;
+    const float ee = ll - gain * (2.0F * lr - gain * rr);
+    const float step = -eg / gg;
+    const float residual_variance = std::max((ee + eg * step) / (n - 3.0F), kLeastResidualVariance);
+    step_px[x] = good ? std::min(std::max(step, -1.0F), 1.0F) : 0.0F;
+    noise_energy[x] = residual_variance * gg;
+    gradient_energy[x] = good ? gg - n * kGradientNoiseShare * residual_variance : 0.0F;
   }
-  const float scale = 1.0F / n;
-  const float gg = s.gg[x] - s.g[x] * s.g[x] * scale;
-  const float ll = s.ll[x] - s.l[x] * s.l[x] * scale;
-  const float lg = s.lg[x] - s.l[x] * s.g[x] * scale;
-  const float rr = w.rr[x] - w.r[x] * w.r[x] * scale;
-  const float lr = w.lr[x] - s.l[x] * w.r[x] * scale;
-  const float rg = w.rg[x] - w.r[x] * s.g[x] * scale;
-  if (!(gg > n * kLeastResidualVariance) || !(rr > 0.0F) || !(lr > 0.0F)) {
-    return fit;
-  }
-  const float gain = std::clamp(lr / rr, 0.5F, 2.0F);
-  const float eg = lg - gain * rg;
-  const float ee = ll - gain * (2.0F * lr - gain * rr);
-  fit.step_px = -eg / gg;
-  const float residual_variance =
-      std::max((ee - eg * eg / gg) / (n - 3.0F), kLeastResidualVariance);
-  fit.noise_energy = residual_variance * gg;
-  fit.gradient_energy = gg - n * kGradientNoiseShare * residual_variance;
-  fit.good = true;
-  return fit;
 }
 
 class Refinement {
@@ -220,15 +224,13 @@ class Refinement {
     Warp();
     ForStripes(f_.height, [&](int first, int end) {
       WarpedWindow window(warped_, f_.left, f_.gradient, half_, first);
+      RowFits fits(f_.width);
       for (int y = first; y < end; ++y) {
-        const WarpSums sums = window.Row(y);
-        const StaticSums fixed = static_sums_.Row(y);
+        FitRow(static_sums_.Row(y), window.Row(y), least_known_, f_.width, fits);
+        float* disparity = disparity_.row(y);
+        const float* reference = reference_.row(y);
         for (int x = 0; x < f_.width; ++x) {
-          if (f_.known.at(x, y) == 0.0F) {
-            continue;
-          }
-          const WindowFit fit = FitWindow(fixed, sums, static_cast<std::size_t>(x), least_known_);
-          disparity_.at(x, y) = reference_.at(x, y) + std::clamp(fit.step_px, -1.0F, 1.0F);
+          disparity[x] = reference[x] + fits.step_px[static_cast<std::size_t>(x)];
         }
       }
     });
@@ -240,8 +242,10 @@ class Refinement {
                           ImageF(f_.width, f_.height, kUnknown)};
     ForStripes(f_.height, [&](int first, int end) {
       WarpedWindow window(warped_, f_.left, f_.gradient, half_, first);
+      RowFits fits(f_.width);
       for (int y = first; y < end; ++y) {
-        FinishRow(y, window.Row(y), static_sums_.Row(y), out);
+        FitRow(static_sums_.Row(y), window.Row(y), least_known_, f_.width, fits);
+        FinishRow(y, fits, out);
       }
     });
     return out;
@@ -265,17 +269,14 @@ class Refinement {
     });
   }
 
-  void FinishRow(int y, const WarpSums& sums, const StaticSums& fixed, SubpixelDisparity& out) {
+  void FinishRow(int y, const RowFits& fits, SubpixelDisparity& out) {
     for (int x = 0; x < f_.width; ++x) {
-      if (f_.known.at(x, y) == 0.0F) {
+      const auto place = static_cast<std::size_t>(x);
+      if (f_.known.at(x, y) == 0.0F || !(fits.gradient_energy[place] > 0.0F)) {
         continue;
       }
-      const WindowFit fit = FitWindow(fixed, sums, static_cast<std::size_t>(x), least_known_);
-      if (!fit.good || !(fit.gradient_energy > 0.0F)) {
-        continue;
-      }
-      const float d = reference_.at(x, y) + fit.step_px;
-      const float sigma = std::sqrt(fit.noise_energy) / fit.gradient_energy;
+      const float d = reference_.at(x, y) + fits.step_px[place];
+      const float sigma = std::sqrt(fits.noise_energy[place]) / fits.gradient_energy[place];
       if (sigma <= max_sigma_ && std::abs(d - f_.start.at(x, y)) <= max_shift_) {
         out.disparity_px.at(x, y) = d;
         out.sigma_px.at(x, y) = sigma;

@@ -23,7 +23,7 @@ namespace palace {
 
 struct SubpixelOptions {
   int window_px = 9;          ///< side of the window, odd
-  int iterations = 3;         ///< Gauss-Newton steps
+  int iterations = 2;         ///< Gauss-Newton steps
   double max_shift_px = 1;    ///< refuse results further than this from the start
   double max_sigma_px = 0.5;  ///< refuse results known less well than this
 };
@@ -36,7 +36,7 @@ struct SubpixelDisparity {
 
 /// `coarse`: whole-pixel or better disparity of the left picture, NaN unknown. All images have the
 /// same size, at least 16 columns. Unknown pixels take no part in any window. A window that is less
-/// than 40 % known, has no texture, or correlates negatively gives an unknown result.
+/// than 40 % known, has no texture, or correlates by less than 0.6 gives an unknown result.
 SubpixelDisparity RefineDisparity(const ImageU8& left, const ImageU8& right, const ImageF& coarse,
                                   const SubpixelOptions& options);
 

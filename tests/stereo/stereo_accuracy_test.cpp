@@ -1,13 +1,15 @@
 // Stereo on ray-cast ground with exact depths: the thesis's rig at 50 ft, nadir and 45 degrees.
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <opencv2/core.hpp>
 
+#include "engine/core/hash.h"
 #include "engine/core/units.h"
 #include "engine/stereo/stereo.h"
 #include "tests/support/synthetic_stereo.h"
@@ -149,6 +151,89 @@ INSTANTIATE_TEST_SUITE_P(FiftyFeet, StereoView,
                          testing::Values(ViewRow{"Nadir", -90, 0},
                                          ViewRow{"Slant", -45, kHeight_m}),
                          [](const auto& row) { return std::string(row.param.name); });
+
+// A slope sweeps disparity through every fraction of a pixel: mean error per fraction is the lock.
+TEST(StereoAccuracy, DoesNotLockToWholePixels) {
+  World world;
+  world.slope_north = 0.2;
+  const Pair pair = synthetic::MakePair(world, kHeight_m, Rad(-90));
+  const auto result = Match(pair);
+  ASSERT_TRUE(result.ok()) << result.error().message;
+  const Accuracy accuracy = Measure(pair, result->range);
+  std::printf("Slope: rms %.3f px, lock %.3f px\n", accuracy.rms_px, accuracy.lock_px);
+  EXPECT_LE(accuracy.lock_px, 0.04);
+  EXPECT_LT(accuracy.rms_px, 0.12);
+}
+
+struct LightRow {
+  const char* name;
+  double gain;
+  double offset;
+};
+
+TEST(StereoAccuracy, ToleratesCamerasOfDifferentBrightness) {
+  for (const LightRow& row : {LightRow{"brighter", 1.2, 20}, LightRow{"darker", 0.8, -10}}) {
+    SCOPED_TRACE(row.name);
+    const Pair pair = synthetic::MakePair({}, kHeight_m, Rad(-45), 2, row.gain, row.offset);
+    const auto result = Match(pair);
+    ASSERT_TRUE(result.ok());
+    const Accuracy accuracy = Measure(pair, result->range);
+    std::printf("%s: rms %.3f px, coverage %.3f, exposure ratio %.3f\n", row.name, accuracy.rms_px,
+                accuracy.coverage, result->quality.exposure_ratio);
+    EXPECT_LT(accuracy.rms_px, 0.12);
+    EXPECT_LT(accuracy.outliers, 0.01);
+    EXPECT_GT(accuracy.coverage, 0.9);
+    EXPECT_NEAR(result->quality.exposure_ratio, row.gain + row.offset / 128, 0.05);
+  }
+}
+
+TEST(StereoAccuracy, DepthFollowsDisparityAndSigma) {
+  const Pair pair = synthetic::MakePair({}, kHeight_m, Rad(-90), 2, 1, 0, 320, 240);
+  const auto result = Match(pair);
+  ASSERT_TRUE(result.ok());
+  const RangeMap& range = result->range;
+  const double fb = pair.camera.fx_px * pair.baseline_m;
+  int known = 0;
+  for (std::size_t i = 0; i < range.depth_m.pixels().size(); ++i) {
+    const float d = range.disparity_px.pixels()[i];
+    const float z = range.depth_m.pixels()[i];
+    ASSERT_EQ(std::isnan(d), std::isnan(z));
+    ASSERT_EQ(std::isnan(d), std::isnan(range.depth_sigma_m.pixels()[i]));
+    ASSERT_EQ(std::isnan(d), std::isnan(range.disparity_sigma_px.pixels()[i]));
+    if (!std::isnan(d)) {
+      ++known;
+      ASSERT_NEAR(z, fb / d, 1e-4);
+      ASSERT_NEAR(range.depth_sigma_m.pixels()[i],
+                  z * z * range.disparity_sigma_px.pixels()[i] / fb, 1e-4);
+    }
+  }
+  EXPECT_NEAR(result->quality.coverage, known / (320.0 * 240.0), 1e-12);
+  EXPECT_NEAR(result->quality.median_depth_m, kHeight_m, 0.05);
+}
+
+TEST(StereoAccuracy, SameBitsForAnyNumberOfThreads) {
+  const Pair pair = synthetic::MakePair({{{14, 1, 0.6, 0.4}}}, kHeight_m, Rad(-45));
+  const int threads = cv::getNumThreads();
+  std::vector<StereoResult> results;
+  // One thread last: TBB does not raise a limit again within a process.
+  for (const int count : {3, 2, 1}) {
+    cv::setNumThreads(count);
+    auto result = Match(pair);
+    ASSERT_TRUE(result.ok());
+    results.push_back(std::move(result).value());
+  }
+  cv::setNumThreads(threads);
+  const auto bits = [](const ImageF& image) {
+    ContentHash hash;
+    hash.Add(image.pixels());
+    return hash.value();
+  };
+  for (std::size_t k = 1; k < results.size(); ++k) {
+    EXPECT_EQ(bits(results[0].range.disparity_px), bits(results[k].range.disparity_px));
+    EXPECT_EQ(bits(results[0].range.disparity_sigma_px), bits(results[k].range.disparity_sigma_px));
+    EXPECT_EQ(bits(results[0].range.depth_m), bits(results[k].range.depth_m));
+  }
+}
 
 }  // namespace
 }  // namespace palace
