@@ -26,7 +26,7 @@ struct Grain {
 // footprint_m: side of the pixel on the surface. Where it is over 9 mm everywhere, the variant
 // without the fine tile gives the same picture for less.
 Grain GrainAt(vec2 p_m, float footprint_m) {
-  vec3 bend = textureLod(bend_tile, p_m / kBendPeriod_m, 0.0).rgb - 128.0 / 255.0;
+  vec3 bend = textureLod(bend_tile, p_m / kBendPeriod_m, 0.0).rgb;
   vec2 q = p_m + kBend_m * bend.rg;
   vec2 coarse = texture(coarse_tile, p_m / kCoarsePeriod_m, kBias).rg - 128.0 / 255.0;
   float medium =

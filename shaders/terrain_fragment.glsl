@@ -35,7 +35,7 @@ void main() {
   vec2 offset = vec2(north_east.y - map_corner.y, map_corner.x - north_east.x);
   vec4 cell = texture(cells, offset / map_size_m.yx);
   vec3 grey = vec3(0.10 + 1.0 * brightness);
-  float exposure = 0.42 + 1.25 * brightness;
+  float exposure = min(0.55 + 0.95 * brightness, 1.12);
   vec3 safe = min(cell.rgb * exposure, vec3(1.0));
   vec3 unsafe = mix(grey * 0.75, kUnsafe, 0.30 + 0.55 * Hatch(5.0, 1.3));
   vec3 plain = grey * 0.8;

@@ -75,8 +75,8 @@ void OrbitCamera::Frame(const Eigen::Vector3d& p_WVehicle, const Eigen::Vector3d
 }
 
 void OrbitCamera::Advance(double dt_s) {
-  // Ease-out: 95 % of the way in 0.25 s.
-  const double share = std::isinf(dt_s) ? 1 : 1 - std::exp(-std::max(dt_s, 0.0) / 0.083);
+  // Ease-out: 96 % of the way in 0.25 s.
+  const double share = std::isinf(dt_s) ? 1 : 1 - std::exp(-std::max(dt_s, 0.0) / 0.075);
   azimuth_rad_ = WrapAngle(azimuth_rad_ + share * WrapAngle(wanted_azimuth_rad_ - azimuth_rad_));
   elevation_rad_ += share * (wanted_elevation_rad_ - elevation_rad_);
 }
@@ -114,6 +114,7 @@ double OrbitCamera::DistanceFor(double aspect) const {
     include(ground_W_ + radius_m_ * out);
     include(top_W_ + 2.0 * out - Eigen::Vector3d::UnitZ());
   }
+  include({top_W_.x(), top_W_.y(), ground_W_.z()});
   return distance * zoom_;
 }
 

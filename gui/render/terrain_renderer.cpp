@@ -12,6 +12,8 @@ namespace palace {
 namespace {
 
 constexpr float kTallest_m = 0.75F;  ///< above it: points, no surface
+constexpr float kFlat_m = 0.07F;     ///< under the noise of the map
+constexpr int kBlock = 4;            ///< cells merged where the ground is flat
 
 std::optional<double> MedianHeight(const ElevationMap& map) {
   std::vector<float> known;
@@ -33,6 +35,70 @@ void PositionAttribute(const GlVertexArray& array, const GlBuffer& buffer) {
   glBindBuffer(GL_ARRAY_BUFFER, buffer.name());
   glEnableVertexAttribArray(0);
   glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, 3 * sizeof(float), nullptr);
+}
+
+/// Two triangles over the vertices (row, col) to (row + span, col + span).
+void AddQuad(std::vector<GLuint>& indices, int cols, int row, int col, int span) {
+  const GLuint a = static_cast<GLuint>(row * cols + col);
+  const GLuint b = a + static_cast<GLuint>(span);
+  const GLuint c = a + static_cast<GLuint>(span * cols);
+  for (const GLuint k : {a, c, b, b, c, c + static_cast<GLuint>(span)}) {
+    indices.push_back(k);
+  }
+}
+
+/// True when the block's inner vertices lie within kFlat_m of the patch through its corners.
+bool IsFlat(const GridF& height_m, int row, int col, int span) {
+  const float a = height_m.at(row, col), b = height_m.at(row, col + span);
+  const float c = height_m.at(row + span, col), d = height_m.at(row + span, col + span);
+  for (int i = 0; i <= span; ++i) {
+    for (int j = 0; j <= span; ++j) {
+      const float s = static_cast<float>(i) / static_cast<float>(span);
+      const float t = static_cast<float>(j) / static_cast<float>(span);
+      const float patch = (a * (1 - t) + b * t) * (1 - s) + (c * (1 - t) + d * t) * s;
+      // Also false when one of them is unknown.
+      if (!(std::abs(height_m.at(row + i, col + j) - patch) < kFlat_m)) {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
+/// One cell's quad, left out when a corner is unknown or tall or the step is too high.
+void AddCell(std::vector<GLuint>& indices, const GridF& height_m, int row, int col, float tall_m) {
+  float low = height_m.at(row, col), high = low;
+  bool known = true;
+  for (const float corner : {height_m.at(row, col), height_m.at(row, col + 1),
+                             height_m.at(row + 1, col), height_m.at(row + 1, col + 1)}) {
+    known = known && !std::isnan(corner);
+    low = std::min(low, corner);
+    high = std::max(high, corner);
+  }
+  if (known && high - low <= kTallest_m && high <= tall_m) {
+    AddQuad(indices, height_m.cols(), row, col, 1);
+  }
+}
+
+/// Flat blocks become two triangles: software rendering pays by the triangle.
+std::vector<GLuint> SurfaceIndices(const ElevationMap& elevation, float tall_m) {
+  const GridF& height_m = elevation.height_m;
+  std::vector<GLuint> indices;
+  for (int row = 0; row + 1 < height_m.rows(); row += kBlock) {
+    for (int col = 0; col + 1 < height_m.cols(); col += kBlock) {
+      const bool whole = row + kBlock < height_m.rows() && col + kBlock < height_m.cols();
+      if (whole && height_m.at(row, col) <= tall_m && IsFlat(height_m, row, col, kBlock)) {
+        AddQuad(indices, height_m.cols(), row, col, kBlock);
+        continue;
+      }
+      for (int i = row; i < std::min(row + kBlock, height_m.rows() - 1); ++i) {
+        for (int j = col; j < std::min(col + kBlock, height_m.cols() - 1); ++j) {
+          AddCell(indices, height_m, i, j, tall_m);
+        }
+      }
+    }
+  }
+  return indices;
 }
 
 template <typename T>
@@ -101,25 +167,7 @@ void TerrainRenderer::BuildMesh(const ElevationMap& elevation) {
       }
     }
   }
-  std::vector<GLuint> indices;
-  for (int row = 0; row + 1 < geometry.rows; ++row) {
-    for (int col = 0; col + 1 < geometry.cols; ++col) {
-      const float a = elevation.height_m.at(row, col), b = elevation.height_m.at(row, col + 1);
-      const float c = elevation.height_m.at(row + 1, col);
-      const float d = elevation.height_m.at(row + 1, col + 1);
-      const float low = std::min(std::min(a, b), std::min(c, d));
-      const float high = std::max(std::max(a, b), std::max(c, d));
-      const bool known = !std::isnan(a) && !std::isnan(b) && !std::isnan(c) && !std::isnan(d);
-      if (!known || high - low > kTallest_m || high > tall_m) {
-        continue;
-      }
-      const GLuint i = static_cast<GLuint>(row * geometry.cols + col);
-      const GLuint below = i + static_cast<GLuint>(geometry.cols);
-      for (const GLuint k : {i, below, i + 1, i + 1, below, below + 1}) {
-        indices.push_back(k);
-      }
-    }
-  }
+  const std::vector<GLuint> indices = SurfaceIndices(elevation, tall_m);
   point_first_ = static_cast<GLsizei>(vertices.size());
   point_count_ = static_cast<GLsizei>(points.size());
   index_count_ = static_cast<GLsizei>(indices.size());
@@ -166,7 +214,7 @@ void TerrainRenderer::Drape(std::shared_ptr<const ImageU8> picture, const Pinhol
     return;
   }
   if (picture != draped_) {
-    picture_.Upload(*picture, TextureFilter::kLinear);
+    picture_.Upload(*picture, TextureFilter::kMipmap);
     draped_ = std::move(picture);
   }
   // (u w, v w, -, w) of a point in W; u, v run from 0 to 1 over the picture.

@@ -36,6 +36,9 @@ void Texture::Store(int width, int height, bool grey, const void* pixels, Textur
     height_ = height;
     grey_ = grey;
   }
+  if (filter == TextureFilter::kMipmap) {
+    glGenerateMipmap(GL_TEXTURE_2D);
+  }
   SetFilter(filter);
 }
 
@@ -44,8 +47,9 @@ void Texture::SetFilter(TextureFilter filter) {
     return;
   }
   glBindTexture(GL_TEXTURE_2D, handle_.name());
-  const GLint mode = filter == TextureFilter::kLinear ? GL_LINEAR : GL_NEAREST;
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, mode);
+  const GLint mode = filter == TextureFilter::kNearest ? GL_NEAREST : GL_LINEAR;
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER,
+                  filter == TextureFilter::kMipmap ? GL_LINEAR_MIPMAP_LINEAR : mode);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, mode);
 }
 

@@ -6,7 +6,7 @@
 
 namespace palace {
 
-enum class TextureFilter { kNearest, kLinear };
+enum class TextureFilter { kNearest, kLinear, kMipmap };
 
 /// Row 0 of the picture lies at v = 0, so that ImGui's uv (0,0) is the top-left corner.
 class Texture {

@@ -1,0 +1,112 @@
+// The offscreen screen: ImGui without any window, fonts, screenshots.
+#include <cstdlib>
+#include <filesystem>
+
+#include <gtest/gtest.h>
+#include <imgui.h>
+#include <opencv2/imgcodecs.hpp>
+
+#include "gui/platform/imgui_backend.h"
+#include "gui/platform/offscreen.h"
+#include "gui/platform/screenshot.h"
+#include "gui/platform/window.h"
+
+namespace palace {
+namespace {
+
+std::unique_ptr<Offscreen> OpenScreen() {
+  Result<std::unique_ptr<Offscreen>> screen = Offscreen::Open(320, 200);
+  return screen.ok() ? std::move(screen).value() : nullptr;
+}
+
+TEST(OffscreenTest, ImGuiDrawsWithoutAWindowAndFollowsASize) {
+  const auto screen = OpenScreen();
+  if (screen == nullptr) {
+    GTEST_SKIP() << "no EGL surfaceless context";
+  }
+  auto backend = ImGuiBackend::ForOffscreen(*screen, 1);
+  ASSERT_TRUE(backend.ok()) << backend.error().message;
+  const auto draw = [&] {
+    (*backend)->BeginFrame(1 / 60.0);
+    ImGui::GetForegroundDrawList()->AddRectFilled({10, 20}, {60, 50}, IM_COL32(255, 0, 0, 255));
+    (*backend)->EndFrame();
+    return screen->ReadPixels();
+  };
+  ImageRgba picture = draw();
+  EXPECT_EQ(picture.at(30, 30), (Rgba8{255, 0, 0, 255}));
+  EXPECT_EQ(picture.at(30, 180), RgbaFromHex(0x090C10));  // y runs down, background below
+  ASSERT_TRUE(screen->SetSize(400, 300).ok());
+  (*backend)->SetUiScale(1.5);
+  picture = draw();
+  EXPECT_EQ(picture.width(), 400);
+  EXPECT_EQ(picture.at(30, 30), (Rgba8{255, 0, 0, 255}));
+}
+
+TEST(OffscreenTest, FontsScaleAndHoldTheirGlyphs) {
+  const auto screen = OpenScreen();
+  if (screen == nullptr) {
+    GTEST_SKIP() << "no EGL surfaceless context";
+  }
+  auto backend = ImGuiBackend::ForOffscreen(*screen, 2);
+  ASSERT_TRUE(backend.ok());
+  const Fonts& fonts = (*backend)->fonts();
+  if (fonts.fallback) {
+    GTEST_SKIP() << "fonts-roboto-unhinted or fonts-jetbrains-mono is not installed";
+  }
+  EXPECT_FLOAT_EQ(fonts.caption->FontSize, 30.5F);
+  EXPECT_FLOAT_EQ(fonts.wave_off->FontSize, 56.0F);
+  for (const ImWchar glyph : {0x2212, 0x2264, 0x2265, 0x03C3, 0x00B0, 0x00B1, 0x2013, 0x2026}) {
+    EXPECT_NE(fonts.body->FindGlyphNoFallback(glyph), nullptr) << std::hex << glyph;
+  }
+  // Numbers must not dance: all digits have one width.
+  for (char digit = '1'; digit <= '9'; ++digit) {
+    EXPECT_EQ(fonts.readout->FindGlyph(static_cast<ImWchar>(digit))->AdvanceX,
+              fonts.readout->FindGlyph('0')->AdvanceX);
+  }
+}
+
+TEST(ScreenshotTest, WritesWhatWasGivenAndNamesWhatItCannotWrite) {
+  const std::string path =
+      (std::filesystem::temp_directory_path() / "palace_screenshot_test.png").string();
+  ImageRgba picture(3, 2, RgbaFromHex(0x102030));
+  picture.at(2, 1) = RgbaFromHex(0xFF8001);
+  ASSERT_TRUE(SavePng(picture, path).ok());
+  const cv::Mat read = cv::imread(path);
+  ASSERT_EQ(read.cols, 3);
+  EXPECT_EQ(read.at<cv::Vec3b>(1, 2), cv::Vec3b(0x01, 0x80, 0xFF));
+  std::filesystem::remove(path);
+  const Status refused = SavePng(picture, "/no/such/folder/a.png");
+  ASSERT_FALSE(refused.ok());
+  EXPECT_NE(refused.error().message.find("/no/such/folder/a.png"), std::string::npos);
+}
+
+TEST(WindowTest, WithoutADisplaySaysHowToRunWithoutOne) {
+  if (std::getenv("DISPLAY") != nullptr || std::getenv("WAYLAND_DISPLAY") != nullptr) {
+    GTEST_SKIP() << "this machine has a display";
+  }
+  const auto window = Window::Open("PALACE", 640, 360, true);
+  ASSERT_FALSE(window.ok());
+  EXPECT_NE(window.error().message.find("--headless"), std::string::npos);
+}
+
+TEST(WindowTest, HiddenWindowDrawsAndResizes) {
+  auto opened = Window::Open("PALACE", 320, 200, true);
+  if (!opened.ok()) {
+    GTEST_SKIP() << opened.error().message;
+  }
+  Window& window = **opened;
+  auto backend = ImGuiBackend::ForWindow(window, 1);
+  ASSERT_TRUE(backend.ok()) << backend.error().message;
+  (*backend)->BeginFrame(1 / 60.0);
+  ImGui::GetForegroundDrawList()->AddRectFilled({10, 20}, {60, 50}, IM_COL32(0, 255, 0, 255));
+  (*backend)->EndFrame();
+  const ImageRgba picture = window.ReadPixels();
+  EXPECT_EQ(picture.width(), 320);
+  EXPECT_EQ(picture.at(30, 30).g, 255);
+  EXPECT_EQ(picture.at(30, 180).g, 0x0C);
+  EXPECT_GT(window.dots_per_inch(), 20);
+  EXPECT_FALSE(window.PollInput().close_requested);
+}
+
+}  // namespace
+}  // namespace palace

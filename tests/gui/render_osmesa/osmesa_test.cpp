@@ -1,0 +1,53 @@
+// The render room draws through a driver of another kind: the same library, linked to OSMesa.
+#include <vector>
+
+#include <GL/osmesa.h>
+#include <gtest/gtest.h>
+
+#include "gui/render/scene_renderer.h"
+
+namespace palace {
+namespace {
+
+TEST(OsMesaTest, SceneIsDrawnThroughOffscreenMesa) {
+  const int wishes[] = {OSMESA_FORMAT,
+                        OSMESA_RGBA,
+                        OSMESA_DEPTH_BITS,
+                        24,
+                        OSMESA_PROFILE,
+                        OSMESA_CORE_PROFILE,
+                        OSMESA_CONTEXT_MAJOR_VERSION,
+                        3,
+                        OSMESA_CONTEXT_MINOR_VERSION,
+                        3,
+                        0};
+  OSMesaContext context = OSMesaCreateContextAttribs(wishes, nullptr);
+  if (context == nullptr) {
+    GTEST_SKIP() << "this OSMesa offers no OpenGL 3.3 core";
+  }
+  std::vector<unsigned char> screen(16 * 16 * 4);
+  ASSERT_TRUE(OSMesaMakeCurrent(context, screen.data(), GL_UNSIGNED_BYTE, 16, 16));
+  {
+    Scene scene;
+    scene.runway_markings = false;
+    scene.objects = {{SceneShape::kBox, 0, 0, 0, 2, 2, 0.5, 1.0F}};
+    auto renderer = SceneRenderer::Create(scene, {0.0F, 0.0F, false});
+    ASSERT_TRUE(renderer.ok()) << renderer.error().message;
+    const PinholeCamera camera{160, 120, 170, 170, 79.5, 59.5};
+    const RigidTransform X_WC{CameraRotationFromTilt(-1.5707963267948966), {0, 0, -10}};
+    const Result<ImageU8> picture = (*renderer)->Render(camera, X_WC);
+    ASSERT_TRUE(picture.ok()) << picture.error().message;
+    EXPECT_EQ(picture->at(80, 60), 255);  // the box
+    EXPECT_EQ(picture->at(10, 10), 0);    // plain black ground
+    // 2 m wide, 9.5 m away: 36 pixels.
+    int width = 0;
+    for (int x = 0; x < 160; ++x) {
+      width += picture->at(x, 60) > 127 ? 1 : 0;
+    }
+    EXPECT_NEAR(width, 170 * 2 / 9.5, 1.01);
+  }
+  OSMesaDestroyContext(context);
+}
+
+}  // namespace
+}  // namespace palace
