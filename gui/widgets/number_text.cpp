@@ -16,9 +16,9 @@ std::string Fixed(double value, int decimals) {
   const std::size_t point = text.find('.');
   const std::size_t whole = point == std::string::npos ? text.size() : point;
   for (std::size_t at = whole; at > 3; at -= 3) {
-    text.insert(at - 3, " ");
+    text.insert(at - 3, 1, ' ');
   }
-  return value < 0 && !zero ? "−" + text : text;
+  return value < 0 && !zero ? std::string("−").append(text) : text;
 }
 
 std::string Duration(double seconds) {
