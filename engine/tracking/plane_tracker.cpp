@@ -96,7 +96,7 @@ void PlaneTracker::AddLandmarks(const PinholeCamera& camera, const RangeMap* ran
 }
 
 PlaneTracker::Attempt PlaneTracker::Try(const ImageU8& left, const PinholeCamera& camera,
-                                        const RigidTransform& X_WC,
+                                        const RigidTransform& X_WC, const Eigen::Matrix3d& R_prior,
                                         const Eigen::Vector2d& shift_px) const {
   Attempt attempt;
   attempt.X_WC = X_WC;
@@ -123,12 +123,12 @@ PlaneTracker::Attempt PlaneTracker::Try(const ImageU8& left, const PinholeCamera
     attempt.inliers += points[i].agrees ? 1 : 0;
   }
   if (attempt.inliers >= kMinInliers) {
-    Resect(camera, X_WC, attempt);
+    Resect(camera, R_prior, attempt);
   }
   return attempt;
 }
 
-void PlaneTracker::Resect(const PinholeCamera& camera, const RigidTransform& X_WC,
+void PlaneTracker::Resect(const PinholeCamera& camera, const Eigen::Matrix3d& R_prior,
                           Attempt& attempt) const {
   std::vector<GroundLandmark> seen;
   std::vector<std::size_t> index;
@@ -138,7 +138,7 @@ void PlaneTracker::Resect(const PinholeCamera& camera, const RigidTransform& X_W
       index.push_back(i);
     }
   }
-  const Result<Resection> resection = ResectCamera(seen, camera, X_WC.R);
+  const Result<Resection> resection = ResectCamera(seen, camera, R_prior);
   if (!resection || plane_.HeightOf(resection->X_WC.p) <= 0.1) {
     return;
   }
@@ -159,14 +159,14 @@ PlaneTracker::Attempt PlaneTracker::BestAttempt(const ImageU8& left, const Pinho
                                                 const TrackingSettings& settings) const {
   const RigidTransform corrected{X_WC_predicted.R * correction_R_,
                                  X_WC_predicted.p + correction_p_W_};
-  Attempt attempt = Try(left, camera, corrected, Eigen::Vector2d::Zero());
+  Attempt attempt = Try(left, camera, corrected, X_WC_predicted.R, Eigen::Vector2d::Zero());
   if (attempt.ok) {
     return attempt;
   }
   // The estimate in force may have stepped onto vision: then the plain prediction is right.
   const bool differs = (X_WC_predicted.p - corrected.p).norm() > 1e-3;
   if (differs) {
-    Attempt plain = Try(left, camera, X_WC_predicted, Eigen::Vector2d::Zero());
+    Attempt plain = Try(left, camera, X_WC_predicted, X_WC_predicted.R, Eigen::Vector2d::Zero());
     if (plain.ok) {
       return plain;
     }
@@ -183,7 +183,7 @@ PlaneTracker::Attempt PlaneTracker::BestAttempt(const ImageU8& left, const Pinho
     const PatchSearch search =
         SearchPatch(keyframe_, left, *key_from_current, PatchCentre(camera, where), radius_px);
     if (search.coherence >= kSearchCoherence) {
-      Attempt found = Try(left, camera, X_WC, search.shift_px);
+      Attempt found = Try(left, camera, X_WC, X_WC_predicted.R, search.shift_px);
       if (found.ok) {
         return found;
       }
@@ -285,7 +285,8 @@ TrackResult PlaneTracker::Track(const ImageU8& left, const PinholeCamera& camera
                                 const TrackingSettings& settings, Timestamp time) {
   TrackResult result;
   result.time = time;
-  if (landmarks_.size() < static_cast<std::size_t>(kMinInliers)) {
+  const bool other_size = left.width() != keyframe_.width() || left.height() != keyframe_.height();
+  if (other_size || landmarks_.size() < static_cast<std::size_t>(kMinInliers)) {
     locked_ = false;
     result.status.time = time;
     result.status.mode = "Plane";

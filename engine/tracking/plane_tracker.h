@@ -54,11 +54,12 @@ class PlaneTracker {
     bool ok = false;
   };
 
+  /// R_prior: the attitude as given; X_WC: where to look, with the last correction.
   Attempt Try(const ImageU8& left, const PinholeCamera& camera, const RigidTransform& X_WC,
-              const Eigen::Vector2d& shift_px) const;
+              const Eigen::Matrix3d& R_prior, const Eigen::Vector2d& shift_px) const;
   Attempt BestAttempt(const ImageU8& left, const PinholeCamera& camera,
                       const RigidTransform& X_WC_predicted, const TrackingSettings& settings) const;
-  void Resect(const PinholeCamera& camera, const RigidTransform& X_WC, Attempt& attempt) const;
+  void Resect(const PinholeCamera& camera, const Eigen::Matrix3d& R_prior, Attempt& attempt) const;
   bool NeedsKeyframe(const Attempt& attempt, double coherence,
                      const TrackingSettings& settings) const;
   void CutKeyframe(const ImageU8& left, const PinholeCamera& camera, const RigidTransform& X_WC,

@@ -253,6 +253,19 @@ TEST(TemplateTracker, FollowsTheSiteAsTheThesisDoes) {
   EXPECT_LT(errors.back().pixel_px, 40);  // it drifts: erratum E26
 }
 
+TEST(SiteTracker, APictureOfAnotherSizeIsALossNotACrash) {
+  GroundWorld world(13);
+  const RigidTransform X_WC = Descent{}.CameraAt(0);
+  SiteTracker tracker;
+  tracker.Lock(world.Render(kCamera, X_WC, 1), kCamera, X_WC, nullptr, SiteAtOrigin(), {}, {});
+  ASSERT_TRUE(tracker.locked());
+  const PinholeCamera small{320, 240, 386.274, 386.274, 159.5, 119.5};
+  const TrackResult result =
+      tracker.Track(world.Render(small, X_WC, 1), small, X_WC, nullptr, {}, {});
+  EXPECT_FALSE(result.status.locked);
+  EXPECT_TRUE(result.landmarks.empty());
+}
+
 TEST(SiteTracker, SaysUnlockedBeforeLockAndAfterReset) {
   const ImageU8 picture(640, 480, 90);
   SiteTracker tracker;
