@@ -36,11 +36,7 @@ void DeclareNoDataTag(TIFF* file) {
 TiffFile OpenTiff(const std::filesystem::path& path, const char* mode) {
   TIFFSetWarningHandler(nullptr);
   TIFFSetErrorHandler(nullptr);
-  TiffFile file(XTIFFOpen(path.c_str(), mode));
-  if (file) {
-    DeclareNoDataTag(file.get());
-  }
-  return file;
+  return TiffFile(XTIFFOpen(path.c_str(), mode));
 }
 
 Error Broken(const std::filesystem::path& path, const std::string& what) {
@@ -134,11 +130,16 @@ bool ReadCells(TIFF* file, SampleType type, GridF& cells) {
 }
 
 void ReplaceNoData(TIFF* file, GridF& cells) {
+  // libtiff does not know the tag and hands it out as an anonymous field, with its length.
+  const TIFFField* field = TIFFFindField(file, kNoDataTag, TIFF_ANY);
+  std::uint32_t length = 0;
   const char* text = nullptr;
-  if (TIFFGetField(file, kNoDataTag, &text) == 0 || text == nullptr) {
+  if (field == nullptr || TIFFFieldPassCount(field) == 0 ||
+      TIFFFieldReadCount(field) != TIFF_VARIABLE2 ||
+      TIFFGetField(file, kNoDataTag, &length, &text) == 0 || text == nullptr) {
     return;
   }
-  const float no_data = std::strtof(text, nullptr);
+  const float no_data = std::strtof(std::string(text, length).c_str(), nullptr);
   for (float& cell : cells.cells()) {
     if (cell == no_data) {
       cell = kUnknownValue;
@@ -187,6 +188,7 @@ Status WriteGeoTiff(const std::filesystem::path& path, const MapLayer& layer) {
     return UnavailableError("cannot write " + path.string() + ": is the folder writable?");
   }
   TIFF* tiff = file.get();
+  DeclareNoDataTag(tiff);
   const GridGeometry& g = layer.geometry;
   TIFFSetField(tiff, TIFFTAG_IMAGEWIDTH, static_cast<std::uint32_t>(g.cols));
   TIFFSetField(tiff, TIFFTAG_IMAGELENGTH, static_cast<std::uint32_t>(g.rows));
