@@ -115,26 +115,11 @@ void FillRange(MapKind kind, const SladSettings& now, const SladSettings* applie
   }
 }
 
-/// Lowest and highest known height, for the ends of the elevation bar.
-void FillHeights(const GridF& height_m, MapView& view) {
-  float low = std::numeric_limits<float>::infinity(), high = -low;
-  for (const float h : height_m.cells()) {
-    if (std::isfinite(h)) {
-      low = std::min(low, h);
-      high = std::max(high, h);
-    }
-  }
-  if (low <= high) {
-    view.low = Fixed(static_cast<double>(low), 1) + " m";
-    view.high = Fixed(static_cast<double>(high), 1) + " m";
-  }
-}
-
 Rect FitPicture(const Rect& area, const EngineSnapshot& snap) {
   const auto camera = LeftCamera(snap);
-  const float aspect = camera && camera->height > 0 ? static_cast<float>(camera->width) /
-                                                          static_cast<float>(camera->height)
-                                                    : 4.0f / 3.0f;
+  const float aspect = camera && camera->height > 0
+                           ? static_cast<float>(camera->width) / static_cast<float>(camera->height)
+                           : 4.0f / 3.0f;
   const float w = std::min(area.w, std::floor(area.h * aspect));
   const float h = std::floor(w / aspect);
   return {std::round(area.x + (area.w - w) / 2), area.y, w, h};
@@ -161,15 +146,6 @@ std::string BestLetter(const TerrainDecision* decision) {
   return best != nullptr ? std::string(1, best->letter) : std::string("none");
 }
 
-double ChannelAge(const EngineSnapshot& snap, std::string_view name) {
-  for (const ChannelHealth& channel : snap.channels) {
-    if (channel.name == name) {
-      return channel.age_s;
-    }
-  }
-  return NAN;
-}
-
 MapView MakeMapView(MapKind kind, const TerrainDecision* decision, ImTextureID texture,
                     const SladSettings* applied, std::optional<Cell> cursor) {
   const Layer layer = LayerOf(kind);
@@ -183,13 +159,10 @@ MapView MakeMapView(MapKind kind, const TerrainDecision* decision, ImTextureID t
     return view;
   }
   view.values = ValuesOf(kind, *decision);
-  view.geometry = decision->hazards    ? decision->hazards->geometry
+  view.geometry = decision->hazards     ? decision->hazards->geometry
                   : decision->elevation ? decision->elevation->geometry
                                         : GridGeometry{};
   FillRange(kind, decision->settings, applied, view);
-  if (kind == MapKind::kElevation && view.values != nullptr) {
-    FillHeights(*view.values, view);
-  }
   const LandingSite* best = BestSite(decision);
   if (view.values != nullptr && cursor && view.geometry.Contains(*cursor)) {
     view.value = ValueText(kind, static_cast<double>(view.values->at(*cursor)));

@@ -40,7 +40,5 @@ const LandingSite* BestSite(const TerrainDecision* decision);
 double SafeArea(const TerrainDecision* decision);
 /// "A", "none".
 std::string BestLetter(const TerrainDecision* decision);
-/// Age of a channel by its name; NaN when there is none.
-double ChannelAge(const EngineSnapshot& snap, std::string_view name);
 
 }  // namespace palace

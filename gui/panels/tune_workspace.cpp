@@ -12,9 +12,7 @@ namespace {
 constexpr double kGesture_s = 1;
 constexpr std::size_t kMostChanges = 200;
 
-bool Narrow(const Style& s, const Rect& body) {
-  return body.w < s.Px(1584) || body.h < s.Px(776);
-}
+bool Narrow(const Style& s, const Rect& body) { return body.w < s.Px(1584) || body.h < s.Px(776); }
 
 void DrawMapRow(const EngineSnapshot& snap, const Rect& row, TuneState& state, UiFrame& ui) {
   const float gap = ui.style.Px(8);
@@ -36,8 +34,7 @@ void DrawWideCentre(const EngineSnapshot& snap, const Rect& c, TuneState& state,
   // The four small maps are as wide as their panels; the picture takes what is left.
   const float lower = std::min(map_w + s.Px(70), std::round(both * 0.42f));
   const float upper = both - lower;
-  const float camera_w =
-      std::min(std::round(c.w * 0.59f), std::floor((upper - s.Px(28)) * 4 / 3));
+  const float camera_w = std::min(std::round(c.w * 0.59f), std::floor((upper - s.Px(28)) * 4 / 3));
   DrawTuneCamera(snap, {c.x, c.y, camera_w, upper}, state, ui);
   DrawTuneMap(snap, {c.x + camera_w + gap, c.y, c.w - camera_w - gap, upper},
               MapKind::kSafeDistance, true, state, ui);
@@ -63,8 +60,8 @@ void DrawNarrowTabs(const EngineSnapshot& snap, const Rect& r, TuneState& state,
   const struct {
     const char* label;
     TuneTab tab;
-  } tabs[] = {{"Apply", TuneTab::kApply}, {"Cells", TuneTab::kCells},
-              {"History", TuneTab::kHistory}};
+  } tabs[] = {
+      {"Apply", TuneTab::kApply}, {"Cells", TuneTab::kCells}, {"History", TuneTab::kHistory}};
   float x = r.x;
   for (const auto& tab : tabs) {
     const Rect box{x, r.y, s.Px(84), s.Px(24)};
@@ -137,9 +134,9 @@ void FollowChanges(const EngineSnapshot& snap, double ui_time_s, TuneState& stat
     if (before == after) {
       continue;
     }
-    const bool same_gesture = !state.history.empty() && state.history.back().name == info.name &&
-                              (state.sliders.dragging == info.name ||
-                               ui_time_s - state.last_change_s < kGesture_s);
+    const bool same_gesture =
+        !state.history.empty() && state.history.back().name == info.name &&
+        (state.sliders.dragging == info.name || ui_time_s - state.last_change_s < kGesture_s);
     if (same_gesture) {
       state.history.back().after = after;
       state.history.back().time = snap.time;
@@ -161,16 +158,12 @@ void DrawTuneWorkspace(const EngineSnapshot& snap, const Rect& body, TuneState& 
   if (!ImGui::GetIO().MouseDown[0]) {
     state.sliders.dragging.clear();
   }
-  const std::optional<Cell> cursor_before = state.cursor;
-  state.cursor.reset();
+  state.cursor = state.next_cursor;
+  state.next_cursor.reset();
   const bool narrow = Narrow(s, body);
   const float gap = s.Px(8), left = s.Px(narrow ? 344 : 416), right = s.Px(400);
   DrawLimitsPanel(snap, {body.x, body.y, left, body.h}, state, ui);
   const float x = body.x + left + gap;
-  // Maps show the value under the pointer of the frame before, so that all agree within a frame.
-  std::optional<Cell> next;
-  std::swap(next, state.cursor);
-  state.cursor = cursor_before;
   if (narrow) {
     DrawNarrowCentre(snap, {x, body.y, body.right() - x, body.h}, state, ui);
     return;

@@ -1,0 +1,60 @@
+// Review: a recorded flight, what it decided, and what other limits would have decided.
+//
+// The recorded lanes come from the log's own decisions; the re-decided ones from the replay so far.
+// Without a record (a foreign log, a flight still running) only the replayed lanes are shown.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "engine/model/flight_record.h"
+#include "engine/model/snapshot.h"
+#include "gui/panels/fly_state.h"
+#include "gui/panels/terrain_views.h"
+#include "gui/widgets/slider_row.h"
+#include "gui/widgets/timeline_strip.h"
+
+namespace palace {
+
+/// A stretch of time in which the re-decided best site is another one.
+struct ReviewDifference {
+  double at_s = 0;
+  double to_s = 0;
+  char recorded = 0;  ///< letter, 0 none
+  char now = 0;
+};
+
+enum class ReviewPicture { kRightCamera, kView3d };
+
+struct ReviewState {
+  OverlayCache overlay;
+  SliderState fields;
+  TimelineState timeline;
+  PlotHover plots;
+  View3dState view;
+  ReviewPicture picture = ReviewPicture::kView3d;  ///< narrow windows
+};
+
+/// Seconds since the start of the flight.
+double FlightSeconds(const EngineSnapshot& snap, const FlightRecord* record, Timestamp time);
+/// Where the replay so far and the record disagree on the best site.
+std::vector<ReviewDifference> FindDifferences(const EngineSnapshot& snap,
+                                              const FlightRecord* record);
+/// Lanes, silhouette and differences of the timeline. `all`: six lanes, else State and Differs.
+TimelineView MakeTimeline(const EngineSnapshot& snap, const FlightRecord* record,
+                          const Palette& palette, bool all);
+
+void DrawReviewWorkspace(const EngineSnapshot& snap, const FlightRecord* record, const Rect& body,
+                         ReviewState& state, UiFrame& ui);
+
+void DrawReviewTimeline(const EngineSnapshot& snap, const FlightRecord* record, const Rect& rect,
+                        bool narrow, ReviewState& state, UiFrame& ui);
+void DrawReviewPlots(const EngineSnapshot& snap, const FlightRecord* record, const Rect& rect,
+                     ReviewState& state, UiFrame& ui);
+void DrawRedecidePanel(const EngineSnapshot& snap, const FlightRecord* record, const Rect& rect,
+                       ReviewState& state, UiFrame& ui);
+void DrawDecisionPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui);
+void DrawDifferencesPanel(const EngineSnapshot& snap, const FlightRecord* record, const Rect& rect,
+                          UiFrame& ui);
+
+}  // namespace palace

@@ -1,0 +1,314 @@
+#include "gui/widgets/slider_row.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+
+#include "gui/widgets/icons.h"
+
+namespace palace {
+namespace {
+
+constexpr double kRefusalShown_s = 5;
+
+struct Knots {
+  double value[4];
+  float share[4];
+};
+
+Knots KnotsOf(const SettingInfo& info) {
+  const float low = info.soft_min > info.min ? 0.12f : 0.0f;
+  const float high = info.soft_max < info.max ? 0.80f : 1.0f;
+  return {{info.min, info.soft_min, info.soft_max, info.max}, {0.0f, low, high, 1.0f}};
+}
+
+bool IsChanged(const SliderRow& row) {
+  const double step = std::pow(10.0, -row.info->decimals) / row.info->shown_per_unit;
+  return std::abs(row.value - row.info->default_value) > step * 1e-3;
+}
+
+void Ask(UiFrame& ui, const SettingInfo& info, double value) {
+  ui.intents.push_back(CommandAction(SetSetting{info.name, value}));
+}
+
+/// The value a drag to `share` gives: whole display steps, clamped.
+double DraggedValue(const SettingInfo& info, float share) {
+  const double step = std::pow(10.0, -info.decimals) / info.shown_per_unit;
+  return ClampSetting(info, std::round(TrackValue(info, share) / step) * step);
+}
+
+void DrawTrack(UiFrame& ui, const Rect& track, const SliderRow& row, bool dragged) {
+  const Style& s = ui.style;
+  const Palette& p = s.palette;
+  const SettingInfo& info = *row.info;
+  const bool changed = IsChanged(row);
+  ImDrawList* dl = Canvas();
+  const float x = track.x + TrackShare(info, row.value) * track.w;
+  FillRect(dl, track, p.hover, s.Fine(1));
+  const Knots knots = KnotsOf(info);
+  for (const auto& [from, to] :
+       {std::pair{knots.share[0], knots.share[1]}, std::pair{knots.share[2], knots.share[3]}}) {
+    if (to > from) {
+      Hatch(dl, {track.x + from * track.w, track.y, (to - from) * track.w, track.h}, p.unsafe,
+            s.Fine(1.5f), s.Px(6));
+    }
+  }
+  FillRect(dl, {track.x, track.y, x - track.x, track.h}, changed ? p.white_mark : p.text3,
+           s.Fine(1));
+  if (changed) {
+    const float tick = std::round(track.x + TrackShare(info, info.default_value) * track.w);
+    FillRect(dl, {tick - s.Px(1), track.centre().y - s.Px(8), s.Px(2), s.Px(16)}, p.text2);
+  }
+  const Rect grab{std::round(x - s.Px(5)), std::round(track.centre().y - s.Px(10)), s.Px(10),
+                  s.Px(20)};
+  FillRect(dl, grab, dragged || changed ? p.white_mark : p.text2, s.Fine(2));
+  ui.items.Add("limit/" + info.name, grab, true, info.label + " " + FormatSetting(info, row.value));
+}
+
+void RunDrag(UiFrame& ui, const Rect& track, const SliderRow& row, SliderState& state) {
+  const Style& s = ui.style;
+  const SettingInfo& info = *row.info;
+  const ImGuiIO& io = ImGui::GetIO();
+  const float x = track.x + TrackShare(info, row.value) * track.w;
+  const Rect reach{track.x - s.Px(6), track.centre().y - s.Px(12), track.w + s.Px(12), s.Px(24)};
+  if (state.dragging.empty() && state.typing.empty() && Pressed(ui, reach)) {
+    state.dragging = info.name;
+    state.last_value = row.value;
+    const bool on_grab = std::abs(io.MousePos.x - x) <= s.Px(7);
+    state.grab_offset_px = on_grab ? io.MousePos.x - x : 0;
+  }
+  if (Hovered(ui, reach) || state.dragging == info.name) {
+    ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
+  }
+  if (state.dragging != info.name) {
+    return;
+  }
+  if (!io.MouseDown[0]) {
+    state.dragging.clear();
+    return;
+  }
+  const double value =
+      DraggedValue(info, (io.MousePos.x - state.grab_offset_px - track.x) / track.w);
+  if (value != state.last_value && std::abs(io.MousePos.x - state.grab_offset_px - x) >= 0.5f) {
+    state.last_value = value;
+    Ask(ui, info, value);
+  }
+}
+
+void DrawWords(UiFrame& ui, const Rect& area, const SliderRow& row) {
+  const Style& s = ui.style;
+  const Palette& p = s.palette;
+  const SettingInfo& info = *row.info;
+  float total = 0;
+  std::vector<std::string> words = info.words;
+  for (std::string& word : words) {
+    std::replace(word.begin(), word.end(), '_', ' ');
+    total += TextWidth(s.caption, word);
+  }
+  const float pad = (area.w - total) / static_cast<float>(words.size());
+  float x = area.x;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const Rect box{std::round(x), area.y, std::round(TextWidth(s.caption, words[i]) + pad), area.h};
+    x += box.w;
+    const bool on = static_cast<int>(row.value) == static_cast<int>(i);
+    const bool hovered = Hovered(ui, box);
+    FillRect(Canvas(), box, on ? p.white_mark : (hovered ? p.hover : p.window), s.Fine(3));
+    StrokeRect(Canvas(), box, row.pending && on ? p.strong_line : p.line, s.Fine(1), s.Fine(3));
+    DrawText(ui, s.caption, on ? p.on_white : p.text2, box.centre().x, box.centre().y, words[i],
+             Align::kCentre);
+    ui.items.Add("limit/" + info.name + "/" + info.words[i], box, true, words[i]);
+    if (!on && Clicked(ui, box)) {
+      Ask(ui, info, static_cast<double>(i));
+    }
+  }
+}
+
+/// The text field while it is being typed in. True when typing ended.
+bool RunTyping(UiFrame& ui, const Rect& field, const SliderRow& row, const Settings& settings,
+               SliderState& state) {
+  const Style& s = ui.style;
+  const SettingInfo& info = *row.info;
+  ImGui::SetCursorScreenPos(field.min());
+  ImGui::PushID(info.name.c_str());
+  ImGui::PushFont(s.medium);
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding,
+                      ImVec2(s.Px(6), std::max(0.0f, (field.h - s.medium->FontSize) / 2)));
+  ImGui::PushStyleColor(ImGuiCol_FrameBg, s.palette.window);
+  ImGui::PushStyleColor(ImGuiCol_Text, s.palette.text1);
+  ImGui::SetNextItemWidth(field.w);
+  if (state.focus_wanted) {
+    ImGui::SetKeyboardFocusHere();
+  }
+  const bool entered =
+      ImGui::InputText("##value", state.text, sizeof state.text,
+                       ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
+  const bool left = !state.focus_wanted && !ImGui::IsItemActive();
+  const bool escaped = ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape), false);
+  state.focus_wanted = state.focus_wanted && !ImGui::IsItemActive();
+  ImGui::PopStyleColor(2);
+  ImGui::PopStyleVar();
+  ImGui::PopFont();
+  ImGui::PopID();
+  StrokeRect(Canvas(), field, s.palette.white_mark, s.Fine(1), s.Fine(3));
+  if (!entered && !left) {
+    return false;
+  }
+  state.typing.clear();
+  if (entered && !escaped) {
+    double value = 0;
+    std::string refusal;
+    if (ParseTyped(info, settings, state.text, value, refusal)) {
+      Ask(ui, info, value);
+    } else {
+      state.refused = info.name;
+      state.refusal = refusal;
+      state.refused_until_s = ui.ui_time_s + kRefusalShown_s;
+    }
+  }
+  return true;
+}
+
+bool ShowsRefusal(const UiFrame& ui, const SliderState& state, const SettingInfo& info) {
+  return state.refused == info.name && ui.ui_time_s < state.refused_until_s;
+}
+
+void DrawReset(UiFrame& ui, const Rect& box, const SliderRow& row) {
+  const Style& s = ui.style;
+  const bool hovered = Hovered(ui, box);
+  DrawIcon(Canvas(), Icon::kReset, box.centre(), s.Px(14),
+           hovered ? s.palette.text1 : s.palette.text2);
+  ui.items.Add("reset/" + row.info->name, box, true,
+               "Reset to " + FormatSetting(*row.info, row.info->default_value));
+  if (Clicked(ui, box)) {
+    Ask(ui, *row.info, row.info->default_value);
+  }
+}
+
+}  // namespace
+
+float TrackShare(const SettingInfo& info, double value) {
+  const Knots k = KnotsOf(info);
+  const double v = std::clamp(value, info.min, info.max);
+  for (int i = 0; i < 3; ++i) {
+    if (v <= k.value[i + 1] || i == 2) {
+      const double span = k.value[i + 1] - k.value[i];
+      const double t = span > 0 ? (v - k.value[i]) / span : 0;
+      return k.share[i] + static_cast<float>(t) * (k.share[i + 1] - k.share[i]);
+    }
+  }
+  return 1;
+}
+
+double TrackValue(const SettingInfo& info, float share) {
+  const Knots k = KnotsOf(info);
+  const float at = std::clamp(share, 0.0f, 1.0f);
+  for (int i = 0; i < 3; ++i) {
+    if (at <= k.share[i + 1] && k.share[i + 1] > k.share[i]) {
+      const double t = static_cast<double>((at - k.share[i]) / (k.share[i + 1] - k.share[i]));
+      return k.value[i] + t * (k.value[i + 1] - k.value[i]);
+    }
+  }
+  return info.max;
+}
+
+bool ParseTyped(const SettingInfo& info, const Settings& settings, const std::string& text,
+                double& value, std::string& refusal) {
+  std::string plain = text;
+  std::replace(plain.begin(), plain.end(), ',', '.');
+  if (const auto minus = plain.find("\u2212"); minus != std::string::npos) {
+    plain.replace(minus, std::strlen("\u2212"), "-");
+  }
+  char* end = nullptr;
+  const double shown = std::strtod(plain.c_str(), &end);
+  std::string rest = end != nullptr ? end : "";
+  rest.erase(std::remove(rest.begin(), rest.end(), ' '), rest.end());
+  if (end == plain.c_str() || !std::isfinite(shown) || !(rest.empty() || rest == info.unit)) {
+    refusal = "\"" + text + "\" is not a number";
+    return false;
+  }
+  value = shown / info.shown_per_unit;
+  if (value < info.min || value > info.max) {
+    refusal = value < info.min
+                  ? FormatSetting(info, value) + " refused, min " + FormatSetting(info, info.min)
+                  : FormatSetting(info, value) + " refused, max " + FormatSetting(info, info.max);
+    return false;
+  }
+  Settings trial = settings;
+  const Status set = SetSettingValue(trial, info.name, value);
+  if (!set.ok()) {
+    const std::string& why = set.error().message;
+    const auto must = why.find("must be");
+    refusal = FormatSetting(info, value) + " refused, " +
+              (must != std::string::npos ? why.substr(must) : why);
+    return false;
+  }
+  return true;
+}
+
+void DrawValueField(UiFrame& ui, const Rect& field, const SliderRow& row, const Settings& settings,
+                    SliderState& state) {
+  const Style& s = ui.style;
+  const Palette& p = s.palette;
+  const SettingInfo& info = *row.info;
+  const std::string shown = FormatSetting(info, row.value);
+  ui.items.Add("field/" + info.name, field, true, shown);
+  if (state.typing == info.name && !RunTyping(ui, field, row, settings, state)) {
+    return;
+  }
+  const bool refused = ShowsRefusal(ui, state, info);
+  FillRect(Canvas(), field, p.window, s.Fine(3));
+  StrokeRect(Canvas(), field, refused ? p.caution : (row.pending ? p.strong_line : p.line),
+             s.Fine(1), s.Fine(3));
+  DrawText(ui, s.medium, p.text1, field.right() - s.Px(8), field.centre().y, shown, Align::kRight);
+  if (refused) {
+    ui.items.Add("refused/" + info.name, field, true, state.refusal);
+  }
+  if (Clicked(ui, field) && state.dragging.empty()) {
+    state.typing = info.name;
+    state.focus_wanted = true;
+    state.refused.clear();
+    std::snprintf(state.text, sizeof state.text, "%.*f", info.decimals,
+                  row.value * info.shown_per_unit);
+  }
+}
+
+void DrawSliderRow(UiFrame& ui, const Rect& rect, const SliderRow& row, const Settings& settings,
+                   SliderState& state) {
+  const Style& s = ui.style;
+  const Palette& p = s.palette;
+  const SettingInfo& info = *row.info;
+  const bool changed = IsChanged(row);
+  const float middle = rect.centre().y;
+  if (changed) {
+    FillRect(Canvas(), {rect.x, std::round(middle - s.Px(12)), s.Px(4), s.Px(24)}, p.white_mark);
+  }
+  DrawText(ui, changed ? s.medium : s.body, changed ? p.text1 : p.text2, rect.x + s.Px(16), middle,
+           info.label);
+  const Rect field{rect.right() - s.Px(112), std::round(middle - s.Px(13)), s.Px(80), s.Px(26)};
+  const float track_right = field.x - s.Px(18);
+  const float track_left = std::max(rect.x + s.Px(160), track_right - s.Px(120));
+  const Rect track{track_left, std::round(middle - s.Px(2)), track_right - track_left, s.Px(4)};
+  if (!info.words.empty()) {
+    DrawWords(ui, {track.x, field.y, field.right() - track.x, field.h}, row);
+  } else {
+    if (ShowsRefusal(ui, state, info)) {
+      DrawText(ui, s.caption, p.caution, track.right(), middle,
+               state.refusal.substr(state.refusal.find(", ") == std::string::npos
+                                        ? 0
+                                        : state.refusal.find(", ") + 2),
+               Align::kRight);
+    } else {
+      DrawTrack(ui, track, row, state.dragging == info.name);
+      RunDrag(ui, track, row, state);
+    }
+    DrawValueField(ui, field, row, settings, state);
+  }
+  if (changed) {
+    DrawReset(ui, {rect.right() - s.Px(26), std::round(middle - s.Px(10)), s.Px(20), s.Px(20)},
+              row);
+  }
+}
+
+}  // namespace palace

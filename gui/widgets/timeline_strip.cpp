@@ -1,0 +1,270 @@
+#include "gui/widgets/timeline_strip.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+namespace palace {
+namespace {
+
+constexpr double kLeastWindow_s = 2;
+
+/// Seconds to pixels of one strip.
+struct Scale {
+  Rect area;
+  double from_s = 0;
+  double to_s = 1;
+
+  float X(double t) const {
+    return area.x + static_cast<float>((t - from_s) / (to_s - from_s)) * area.w;
+  }
+  double T(float x) const {
+    return from_s + static_cast<double>((x - area.x) / area.w) * (to_s - from_s);
+  }
+};
+
+void Seek(UiFrame& ui, const TimelineView& view, double t, TimelineState& state) {
+  const double wanted = std::clamp(t, 0.0, view.duration_s);
+  if (wanted != state.last_seek_s) {
+    state.last_seek_s = wanted;
+    ui.intents.push_back(PlaybackControl{PlaybackControl::Kind::kSeek, wanted});
+  }
+}
+
+void DrawSilhouette(const Style& s, const Scale& scale, const std::vector<ImVec2>& height) {
+  float top = 1;
+  for (const ImVec2& h : height) {
+    top = std::isfinite(h.y) ? std::max(top, h.y) : top;
+  }
+  const Rect& r = scale.area;
+  float last_x = -1;
+  for (const ImVec2& h : height) {
+    const float x = std::floor(scale.X(static_cast<double>(h.x)));
+    if (x == last_x || !std::isfinite(h.y)) {
+      continue;
+    }
+    const float left = last_x < 0 ? x : last_x;
+    const float tall = std::max(0.0f, h.y / top) * (r.h - s.Px(6));
+    FillRect(Canvas(), {left, r.bottom() - tall, std::max(1.0f, x - left), tall}, s.palette.hover);
+    FillRect(Canvas(), {left, r.bottom() - tall, std::max(1.0f, x - left), s.Px(1)},
+             s.palette.text3);
+    last_x = x;
+  }
+}
+
+void RunWindow(UiFrame& ui, const Scale& scale, const TimelineView& view, TimelineState& state) {
+  const Style& s = ui.style;
+  const ImGuiIO& io = ImGui::GetIO();
+  const float left = scale.X(state.from_s), right = scale.X(state.to_s);
+  const Rect left_grip{left - s.Px(6), scale.area.y, s.Px(12), scale.area.h};
+  const Rect right_grip{right - s.Px(6), scale.area.y, s.Px(12), scale.area.h};
+  if (Pressed(ui, left_grip)) {
+    state.grip = -1;
+  } else if (Pressed(ui, right_grip)) {
+    state.grip = 1;
+  } else if (Pressed(ui, scale.area)) {
+    state.grip = 2;
+  }
+  if (!io.MouseDown[0]) {
+    state.grip = 0;
+  }
+  const double t = std::clamp(scale.T(io.MousePos.x), 0.0, view.duration_s);
+  if (state.grip == -1) {
+    state.from_s = std::min(t, state.to_s - kLeastWindow_s);
+    state.zoomed = true;
+  } else if (state.grip == 1) {
+    state.to_s = std::max(t, state.from_s + kLeastWindow_s);
+    state.zoomed = true;
+  } else if (state.grip == 2 && view.can_seek) {
+    Seek(ui, view, t, state);
+  }
+}
+
+void DrawOverview(UiFrame& ui, const Rect& rect, const TimelineView& view, TimelineState& state) {
+  const Style& s = ui.style;
+  const Palette& p = s.palette;
+  ImDrawList* dl = Canvas();
+  const Scale scale{rect, 0, std::max(view.duration_s, 1e-3)};
+  FillRect(dl, rect, p.plot_floor);
+  DrawSilhouette(s, scale, view.height);
+  for (const double at : view.differences_s) {
+    const float x = scale.X(at);
+    dl->AddTriangleFilled({x - s.Fine(5), rect.y}, {x + s.Fine(5), rect.y}, {x, rect.y + s.Fine(7)},
+                          p.unsafe);
+  }
+  const float left = scale.X(state.from_s), right = scale.X(state.to_s);
+  StrokeRect(dl, {left, rect.y, right - left, rect.h}, p.white_mark, s.Fine(1));
+  for (const float x : {left, right}) {
+    FillRect(dl, {x - s.Px(2), rect.centre().y - s.Px(7), s.Px(4), s.Px(14)}, p.white_mark,
+             s.Fine(1));
+  }
+  FillRect(dl, {std::round(scale.X(view.position_s)) - s.Px(1), rect.y, s.Px(2), rect.h},
+           p.white_mark);
+  ui.items.Add("overview", rect, view.can_seek, TimeLabel(view.position_s, true));
+  RunWindow(ui, scale, view, state);
+}
+
+double RulerStep(double span_s, float width_px, float label_px) {
+  const std::array<double, 11> steps = {0.5, 1, 2, 5, 10, 20, 30, 60, 120, 300, 600};
+  for (const double step : steps) {
+    if (static_cast<double>(width_px) * step / span_s > static_cast<double>(label_px)) {
+      return step;
+    }
+  }
+  return std::ceil(span_s / 4 / 600) * 600;
+}
+
+void DrawRuler(UiFrame& ui, const Scale& scale) {
+  const Style& s = ui.style;
+  const double step = RulerStep(scale.to_s - scale.from_s, scale.area.w, s.Px(84));
+  for (double t = std::ceil(scale.from_s / step) * step; t <= scale.to_s + 1e-9; t += step) {
+    const std::string label = TimeLabel(t, step < 1);
+    const float half = TextWidth(s.caption, label) / 2;
+    const float x = scale.X(t);
+    if (x - half >= scale.area.x && x + half <= scale.area.right()) {
+      DrawText(ui, s.caption, s.palette.text2, x, scale.area.centre().y, label, Align::kCentre);
+    }
+  }
+}
+
+void DrawSegment(UiFrame& ui, const Scale& scale, const Rect& lane, const LaneSegment& segment,
+                 float cursor_x) {
+  const Style& s = ui.style;
+  const Palette& p = s.palette;
+  const float left = std::max(scale.X(segment.from_s), scale.area.x);
+  const float right = std::min(scale.X(segment.to_s), scale.area.right());
+  if (right - left < 1) {
+    return;
+  }
+  ImDrawList* dl = Canvas();
+  if (segment.hatched) {
+    const Rect band{left, std::round(lane.centre().y - s.Px(4)), right - left, s.Px(8)};
+    FillRect(dl, band, WithAlpha(p.unsafe, 0.25f));
+    Hatch(dl, band, p.unsafe, s.Fine(1.5f), s.Px(7));
+    return;
+  }
+  const Rect box{left, lane.y + s.Px(1), right - left - s.Px(1), lane.h - s.Px(2)};
+  const ImU32 greys[3] = {p.hover, Mix(p.hover, p.strong_line, 0.35f),
+                          Mix(p.hover, p.strong_line, 0.7f)};
+  if (segment.dashed) {
+    DashedRect(dl, box, p.strong_line, s.Fine(1), s.Fine(3), s.Fine(2));
+  } else {
+    FillRect(dl, box, greys[std::clamp(segment.shade, 0, 2)], s.Fine(2));
+  }
+  const float width = TextWidth(s.medium, segment.text);
+  const float text_x = box.x + s.Px(8);
+  const bool touches_cursor = cursor_x > text_x - s.Px(6) && cursor_x < text_x + width + s.Px(6);
+  if (text_x + width + s.Px(6) <= box.right() && !touches_cursor) {
+    DrawText(ui, s.medium, p.text1, text_x, box.centre().y, segment.text);
+  }
+}
+
+void DrawMarks(UiFrame& ui, const Scale& scale, const Rect& lane,
+               const std::vector<LaneMark>& marks, float cursor_x) {
+  const Style& s = ui.style;
+  float free_from = lane.x;
+  for (std::size_t i = 0; i < marks.size(); ++i) {
+    const LaneMark& mark = marks[i];
+    const float x = scale.X(mark.at_s);
+    if (x < scale.area.x + s.Px(6) || x > scale.area.right() - s.Px(6) || x < free_from) {
+      continue;
+    }
+    DrawIcon(Canvas(), mark.icon, {x, lane.centre().y}, s.Px(12),
+             mark.colour != 0 ? mark.colour : s.palette.text1);
+    free_from = x + s.Px(12);
+    const float text_x = x + s.Px(12);
+    const float end = text_x + TextWidth(s.caption, mark.text);
+    const float next =
+        i + 1 < marks.size() ? scale.X(marks[i + 1].at_s) - s.Px(12) : scale.area.right();
+    const bool touches_cursor = cursor_x > text_x - s.Px(6) && cursor_x < end + s.Px(6);
+    if (!mark.text.empty() && end <= std::min(next, scale.area.right()) && !touches_cursor) {
+      DrawText(ui, s.caption, s.palette.text2, text_x, lane.centre().y, mark.text);
+      free_from = end + s.Px(12);
+    }
+  }
+}
+
+void RunLanes(UiFrame& ui, const Scale& scale, const TimelineView& view, TimelineState& state) {
+  const ImGuiIO& io = ImGui::GetIO();
+  if (view.can_seek && Pressed(ui, scale.area)) {
+    state.scrubbing = true;
+  }
+  if (state.scrubbing && io.MouseDown[0]) {
+    Seek(ui, view, std::clamp(scale.T(io.MousePos.x), scale.from_s, scale.to_s), state);
+  } else {
+    state.scrubbing = false;
+  }
+  if (Hovered(ui, scale.area) && io.MouseWheel != 0) {
+    const double at = scale.T(io.MousePos.x);
+    const double factor = std::pow(0.8, static_cast<double>(io.MouseWheel));
+    state.from_s = std::max(0.0, at - (at - state.from_s) * factor);
+    state.to_s = std::min(view.duration_s, at + (state.to_s - at) * factor);
+    state.to_s = std::max(state.to_s, state.from_s + std::min(kLeastWindow_s, view.duration_s));
+    state.zoomed = true;
+  }
+}
+
+}  // namespace
+
+std::string TimeLabel(double seconds, bool tenths) {
+  const double t = std::isfinite(seconds) ? std::max(0.0, seconds) : 0;
+  // Round first: 59.96 s must not read "00:60.0".
+  const long total = tenths ? std::lround(t * 10) : std::lround(t) * 10;
+  char text[32];
+  if (tenths) {
+    std::snprintf(text, sizeof text, "%02ld:%02ld.%ld", total / 600, total / 10 % 60, total % 10);
+  } else {
+    std::snprintf(text, sizeof text, "%02ld:%02ld", total / 600, total / 10 % 60);
+  }
+  return text;
+}
+
+void DrawTimeline(UiFrame& ui, const Rect& rect, const TimelineView& view, TimelineState& state) {
+  const Style& s = ui.style;
+  const Palette& p = s.palette;
+  if (!state.zoomed || state.to_s > view.duration_s || state.to_s <= state.from_s) {
+    state.from_s = 0;
+    state.to_s = std::max(view.duration_s, 1e-3);
+    state.zoomed = false;
+  }
+  if (!ImGui::GetIO().MouseDown[0]) {
+    state.last_seek_s = -1;
+  }
+  const float names = s.Px(128);
+  const Rect overview{rect.x + names, rect.y, rect.w - names, s.Px(32)};
+  DrawText(ui, s.caption, p.text2, rect.x, overview.centre().y, "Whole flight");
+  DrawOverview(ui, overview, view, state);
+  const float ruler_y = overview.bottom() + s.Px(4);
+  const Scale scale{
+      {overview.x, ruler_y, overview.w, rect.bottom() - ruler_y}, state.from_s, state.to_s};
+  DrawRuler(ui, {{overview.x, ruler_y, overview.w, s.Px(20)}, state.from_s, state.to_s});
+  const float cursor_x = std::round(scale.X(view.position_s));
+  float y = ruler_y + s.Px(20);
+  for (const Lane& lane : view.lanes) {
+    const Rect row{overview.x, y, overview.w, s.Px(24)};
+    if (row.bottom() > rect.bottom() + 1) {
+      break;
+    }
+    DrawText(ui, s.caption, p.text2, rect.x, row.centre().y, lane.name);
+    FillRect(Canvas(), {row.x, row.bottom() - s.Px(1), row.w, s.Px(1)}, p.plot_grid);
+    for (const LaneSegment& segment : lane.segments) {
+      DrawSegment(ui, scale, row, segment, cursor_x);
+    }
+    DrawMarks(ui, scale, row, lane.marks, cursor_x);
+    ui.items.Add("lane/" + lane.name, row, true, lane.name);
+    y = row.bottom();
+  }
+  if (cursor_x >= scale.area.x && cursor_x <= scale.area.right()) {
+    FillRect(Canvas(), {cursor_x - s.Px(1), ruler_y + s.Px(14), s.Px(2), y - ruler_y - s.Px(14)},
+             p.white_mark);
+    Canvas()->AddTriangleFilled({cursor_x - s.Fine(6), ruler_y + s.Fine(10)},
+                                {cursor_x + s.Fine(6), ruler_y + s.Fine(10)},
+                                {cursor_x, ruler_y + s.Fine(18)}, p.white_mark);
+  }
+  ui.items.Add("timeline", {scale.area.x, scale.area.y, scale.area.w, y - scale.area.y},
+               view.can_seek, TimeLabel(view.position_s, true));
+  RunLanes(ui, scale, view, state);
+}
+
+}  // namespace palace

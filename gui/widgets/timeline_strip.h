@@ -1,0 +1,61 @@
+// Timeline strip: ruler, lanes of segments and marks, whole-flight overview with a window, cursor.
+// Time is seconds from the start of the flight. Texts that would touch are dropped, never cut.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gui/widgets/draw.h"
+#include "gui/widgets/icons.h"
+
+namespace palace {
+
+/// A stretch of one value: a state, a site letter.
+struct LaneSegment {
+  double from_s = 0;
+  double to_s = 0;
+  std::string text;
+  int shade = 0;         ///< 0..2: three greys
+  bool hatched = false;  ///< orange: differs
+  bool dashed = false;   ///< "none"
+};
+struct LaneMark {
+  double at_s = 0;
+  Icon icon = Icon::kFlag;
+  ImU32 colour = 0;
+  std::string text;
+};
+struct Lane {
+  std::string name;
+  std::vector<LaneSegment> segments;
+  std::vector<LaneMark> marks;
+};
+
+struct TimelineView {
+  double duration_s = 0;
+  double position_s = 0;
+  std::vector<Lane> lanes;
+  std::vector<ImVec2> height;  ///< seconds, metres: silhouette of the whole flight
+  std::vector<double> differences_s;
+  bool can_seek = true;
+};
+
+/// Zoom of the lanes; empty: the whole flight.
+struct TimelineState {
+  double from_s = 0;
+  double to_s = 0;
+  bool zoomed = false;
+  bool scrubbing = false;
+  int grip = 0;  ///< dragged grip of the overview: -1 left, 1 right, 2 the window, 0 none
+  double last_seek_s = -1;
+};
+
+/// "03:13.4".
+std::string TimeLabel(double seconds, bool tenths);
+
+/// Overview of 32 units and below it ruler and lanes. Items "overview", "timeline" and
+/// "lane/<name>". Click and drag append PlaybackControl kSeek; the wheel zooms about the pointer.
+void DrawTimeline(UiFrame& ui, const Rect& rect, const TimelineView& view, TimelineState& state);
+
+}  // namespace palace
