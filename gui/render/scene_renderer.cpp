@@ -135,6 +135,13 @@ Eigen::Matrix4d ClipFromCamera(const PinholeCamera& camera) {
   return clip;
 }
 
+/// Takes positions in W where `clip_from_world` takes positions relative to the camera.
+Eigen::Matrix4f FromAbsolute(const Eigen::Matrix4f& clip_from_world, const Eigen::Vector3d& p_WC) {
+  Eigen::Matrix4f clip_from_absolute = clip_from_world;
+  clip_from_absolute.col(3) -= clip_from_world.leftCols<3>() * p_WC.cast<float>();
+  return clip_from_absolute;
+}
+
 }  // namespace
 
 struct SceneRenderer::Parts {
@@ -152,7 +159,7 @@ struct SceneRenderer::Parts {
   void DrawObjects(const Eigen::Matrix4f& clip_from_world, const Eigen::Vector3d& p_WC) const;
   void DrawGround(const PinholeCamera& camera, const RigidTransform& X_WC) const;
   void MarkShadows(const Eigen::Matrix4f& clip_from_world, const Eigen::Vector3d& p_WC) const;
-  void DarkenShadows() const;
+  void DarkenShadows(const Eigen::Matrix4f& clip_from_world, const Eigen::Vector3d& p_WC) const;
 };
 
 void SceneRenderer::Parts::MakeMeshes() {
@@ -215,9 +222,7 @@ void SceneRenderer::Parts::MarkShadows(const Eigen::Matrix4f& clip_from_world,
   glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
   glDepthMask(GL_FALSE);
   shadow_shader.Use();
-  Eigen::Matrix4f clip_from_absolute = clip_from_world;
-  clip_from_absolute.col(3) -= clip_from_world.leftCols<3>() * p_WC.cast<float>();
-  shadow_shader.Set("clip_from_world", clip_from_absolute);
+  shadow_shader.Set("clip_from_world", FromAbsolute(clip_from_world, p_WC));
   shadows.Draw();
   glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   glDepthMask(GL_TRUE);
@@ -250,24 +255,21 @@ void SceneRenderer::Parts::DrawGround(const PinholeCamera& camera,
   ground.Draw();
 }
 
-void SceneRenderer::Parts::DarkenShadows() const {
+void SceneRenderer::Parts::DarkenShadows(const Eigen::Matrix4f& clip_from_world,
+                                         const Eigen::Vector3d& p_WC) const {
   const float lit = static_cast<float>(kAmbient + kSun * std::max(0.0, normal_W.dot(sun_W)));
   const float share = kAmbient / lit;
   glEnable(GL_STENCIL_TEST);
   glStencilFunc(GL_EQUAL, 1, 0xFF);
-  glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
+  glStencilOp(GL_KEEP, GL_KEEP, GL_ZERO);  // each sample once, however many triangles
   glEnable(GL_BLEND);
   glBlendColor(share, share, share, share);
   glBlendFunc(GL_ZERO, GL_CONSTANT_COLOR);
   glDepthFunc(GL_ALWAYS);
   glDepthMask(GL_FALSE);
   shadow_shader.Use();
-  // The plane itself, so large that it covers the picture: clip space needs no more than that.
-  Eigen::Matrix4f cover = Eigen::Matrix4f::Zero();
-  cover(0, 0) = cover(1, 1) = 1 / kGroundReach_m;
-  cover(3, 3) = 1;
-  shadow_shader.Set("clip_from_world", cover);
-  ground.Draw();
+  shadow_shader.Set("clip_from_world", FromAbsolute(clip_from_world, p_WC));
+  shadows.Draw();
   glDepthMask(GL_TRUE);
   glDepthFunc(GL_LESS);
   glDisable(GL_BLEND);
@@ -350,7 +352,7 @@ Result<ImageU8> SceneRenderer::Render(const PinholeCamera& camera, const RigidTr
   }
   parts.DrawGround(camera, X_WC);
   if (shaded) {
-    parts.DarkenShadows();
+    parts.DarkenShadows(clip_from_world, X_WC.p);
   }
   parts.target.Resolve();
   return parts.target.ReadGrey();
