@@ -16,7 +16,6 @@ namespace {
 // Inside this file unknown is a far-away number: unlike NaN it keeps comparisons branch-free, and
 // |unknown - known| <= 1 is false as it must be.
 constexpr float kFar = -1e6F;
-constexpr float kFarLimit = -1e5F;
 constexpr float kSmoothLimit_px = 1.0F;
 // Camera noise adds to the gradient's energy. The five-point derivative passes 0.90 of a pixel's
 // noise variance, and half of the residual's variance comes from the left picture.
