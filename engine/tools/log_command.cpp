@@ -99,8 +99,7 @@ int Export(const LogOptions& options) {
     return Fail(tables.error());
   }
   for (const ExportedTable& table : *tables) {
-    std::printf("%s: %llu rows\n", table.file.c_str(),
-                static_cast<unsigned long long>(table.rows));
+    std::printf("%s: %llu rows\n", table.file.c_str(), static_cast<unsigned long long>(table.rows));
   }
   return HealthOf(options.log);
 }
@@ -151,8 +150,8 @@ void AddLogCommand(CLI::App& app, int& exit_code) {
   cut->add_option("--from-s", options->from_s, "Start, seconds after the first event");
   cut->add_option("--to-s", options->to_s, "End, seconds after the first event");
   cut->callback([options, &exit_code] {
-    exit_code = Finish(*options,
-                       CutLog(options->log, options->out, options->from_s, options->to_s));
+    exit_code =
+        Finish(*options, CutLog(options->log, options->out, options->from_s, options->to_s));
   });
 }
 

@@ -204,6 +204,7 @@ Status BundleAssembler::TakeRig(const WireMessage& message, Bundles& done) {
   bundle->time = rig->time;
   bundle->rig = rig->rig ? rig_ : nullptr;
   bundle->pose_at_exposure = rig->exposure_pose;
+  bundle->discontinuity = rig->discontinuity;
   if (rig->has_pictures && left_ && right_) {
     bundle->stereo = std::make_shared<StereoFrame>(
         StereoFrame{left_->time, std::move(left_->image), std::move(right_->image)});

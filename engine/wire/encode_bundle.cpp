@@ -116,6 +116,7 @@ camera_rig_t BundleEnd(const FrameBundle& bundle) {
   m.utime = bundle.time.us;
   m.bundle_end = 1;
   m.sequence = WireId(bundle.sequence);
+  m.discontinuity = bundle.discontinuity;
   m.has_pictures = bundle.stereo != nullptr;
   m.has_status = bundle.status.has_value();
   const std::size_t counts[] = {bundle.poses.size(), bundle.imu.size(),  bundle.gps.size(),

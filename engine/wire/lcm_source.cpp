@@ -25,6 +25,7 @@ void Prepend(std::vector<T>& to, const std::vector<T>& older) {
 /// The newer bundle with the older one's samples before its own.
 std::shared_ptr<const FrameBundle> Join(const FrameBundle& older, const FrameBundle& newer) {
   auto joined = std::make_shared<FrameBundle>(newer);
+  joined->discontinuity = older.discontinuity || newer.discontinuity;
   Prepend(joined->poses, older.poses);
   Prepend(joined->imu, older.imu);
   Prepend(joined->gps, older.gps);
@@ -139,7 +140,7 @@ std::shared_ptr<const FrameBundle> LcmSource::Deliver(std::shared_ptr<const Fram
   delivered->sequence = sequence_++;
   if (last_time_) {
     const double step_s = SecondsBetween(*last_time_, delivered->time);
-    delivered->discontinuity = step_s < -kSlip_s || step_s > kJump_s;
+    delivered->discontinuity |= step_s < -kSlip_s || step_s > kJump_s;
     if (step_s < 0 && !delivered->discontinuity) {
       delivered->time = *last_time_;
     }

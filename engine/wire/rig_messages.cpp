@@ -83,6 +83,7 @@ Result<RigMessage> FromRig(const camera_rig_t& m) {
   message.sequence = IdFromWire(m.sequence);
   message.has_pictures = m.has_pictures != 0;
   message.has_status = m.has_status != 0;
+  message.discontinuity = m.discontinuity != 0;
   std::copy_n(m.sample_counts, 6, message.sample_counts.begin());
   if (m.has_rig != 0) {
     Result<StereoRig> rig = RigBody(m);

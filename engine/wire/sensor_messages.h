@@ -37,6 +37,7 @@ struct RigMessage {
   std::optional<StereoRig> rig;
   bool has_pictures = false;
   bool has_status = false;
+  bool discontinuity = false;
   std::array<int, 6> sample_counts{};  ///< pose, imu, gps, laser, acknowledgement, truth
   std::optional<VehiclePose> exposure_pose;
   std::vector<Eigen::Matrix3d> rotations;  ///< of each pose; may be empty

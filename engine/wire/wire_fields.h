@@ -47,9 +47,9 @@ void VisitFields(Reader& read, rig_camera_t& m) {
 }
 template <typename Reader>
 void VisitFields(Reader& read, camera_rig_t& m) {
-  read(m.utime, m.bundle_end, m.sequence, m.has_rig, m.has_pictures, m.has_status, m.sample_counts,
-       m.has_exposure_pose, m.exposure_utime, m.exposure_pos, m.exposure_vel, m.exposure_rate,
-       m.exposure_rotation, m.rotation_size);
+  read(m.utime, m.bundle_end, m.sequence, m.discontinuity, m.has_rig, m.has_pictures, m.has_status,
+       m.sample_counts, m.has_exposure_pose, m.exposure_utime, m.exposure_pos, m.exposure_vel,
+       m.exposure_rate, m.exposure_rotation, m.rotation_size);
   read.List(m.rotation_size, m.pose_rotations);
   VisitFields(read, m.left);
   VisitFields(read, m.right);

@@ -71,6 +71,7 @@ void ExpectSameSamples(const FrameBundle& a, const FrameBundle& b) {
 void ExpectSameBundle(const FrameBundle& a, const FrameBundle& b) {
   EXPECT_EQ(a.sequence, b.sequence);
   EXPECT_EQ(a.time, b.time);
+  EXPECT_EQ(a.discontinuity, b.discontinuity);
   ASSERT_EQ(a.rig != nullptr, b.rig != nullptr);
   EXPECT_TRUE(a.rig == nullptr || SameRig(*a.rig, *b.rig));
   ASSERT_EQ(a.stereo != nullptr, b.stereo != nullptr);
@@ -121,6 +122,7 @@ std::vector<std::shared_ptr<FrameBundle>> RandomFlight(RandomStream& random, int
       flight.back()->status.reset();
       flight.back()->poses.clear();
     }
+    flight.back()->discontinuity = i % 6 == 5;
     if (i % 7 == 3) {
       flight.back()->rig = nullptr;
     }

@@ -1,0 +1,235 @@
+#include "engine/tools/simulate_command.h"
+
+#include <signal.h>
+
+#include <cmath>
+#include <cstdio>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+#include <utility>
+
+#include <CLI/CLI.hpp>
+
+#include "engine/journal/log_writer.h"
+#include "engine/mission/approval.h"
+#include "engine/wire/bus.h"
+#include "engine/wire/channels.h"
+#include "engine/wire/convert.h"
+#include "engine/wire/lcm_link.h"
+
+namespace palace {
+namespace {
+
+constexpr int kPoll_ms = 20;
+
+struct SimulateOptions {
+  std::string scenario = "runway";
+  std::optional<std::string> url;
+  std::string log;
+  std::string channels_file;
+  std::string station_key;
+  double duration_s = 600;
+  double wind_mps = 0;
+  std::uint64_t seed = 1;
+  bool fast = false;
+  bool realtime = false;
+  bool no_pictures = false;
+};
+
+int Fail(const Error& error) {
+  std::cerr << "palacectl simulate: " << error.message << "\n";
+  return error.code == ErrorCode::kUsage ? 2 : 1;
+}
+
+Result<PublicKey> ParseKey(const std::string& hex) {
+  PublicKey key{};
+  const bool digits = hex.find_first_not_of("0123456789abcdefABCDEF") == std::string::npos;
+  if (hex.size() != 2 * key.size() || !digits) {
+    return UsageError("--station-key takes 64 hexadecimal digits, not " +
+                      std::to_string(hex.size()) + " characters; the station shows its key");
+  }
+  for (std::size_t i = 0; i < key.size(); ++i) {
+    key[i] = static_cast<std::uint8_t>(std::stoi(hex.substr(2 * i, 2), nullptr, 16));
+  }
+  return key;
+}
+
+Result<SimulatorOptions> MakeOptions(const SimulateOptions& options) {
+  Result<Scene> scene = MakeScene(options.scenario, options.seed);
+  if (!scene) {
+    return scene.error();
+  }
+  SimulatorOptions simulation;
+  simulation.scene = std::move(*scene);
+  simulation.seed = options.seed;
+  simulation.wind.mean_mps = options.wind_mps;
+  simulation.duration_limit_s = options.duration_s;
+  simulation.speed = options.fast ? 0 : 1;
+  simulation.render = !options.no_pictures;
+  if (!options.station_key.empty()) {
+    const Result<PublicKey> key = ParseKey(options.station_key);
+    if (!key) {
+      return key.error();
+    }
+    simulation.verify = [key = *key, state = std::make_shared<VerifierState>()](
+                            const Approval& approval, Timestamp now, std::uint64_t boot) {
+      return VerifyApproval(approval, key, *state, now, boot);
+    };
+  }
+  return simulation;
+}
+
+/// Ends the flight on Ctrl-C or a termination request, without a handler that could interrupt
+/// anything: the signals are blocked everywhere and waited for here.
+std::jthread WatchSignals(std::stop_source flight) {
+  sigset_t signals;
+  sigemptyset(&signals);
+  sigaddset(&signals, SIGINT);
+  sigaddset(&signals, SIGTERM);
+  pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+  return std::jthread([signals, flight](std::stop_token done) mutable {
+    const timespec tick{0, 100'000'000};
+    while (!done.stop_requested()) {
+      if (sigtimedwait(&signals, nullptr, &tick) > 0) {
+        flight.request_stop();
+      }
+    }
+  });
+}
+
+/// Flies until the end, a signal or an error.
+Result<std::uint64_t> Fly(Simulator& simulator, VehicleServer* server, LogWriter* log,
+                          const ChannelNames& channels, std::stop_token stop) {
+  std::jthread receiver;
+  if (server != nullptr) {
+    receiver = std::jthread([server](std::stop_token done) {
+      while (!done.stop_requested() && server->Poll(kPoll_ms)) {
+      }
+    });
+  }
+  std::uint64_t bundles = 0;
+  while (true) {
+    const auto bundle = simulator.Next(stop);
+    if (!bundle) {
+      return bundle.error().code == ErrorCode::kEnd ? Result<std::uint64_t>(bundles)
+                                                    : Result<std::uint64_t>(bundle.error());
+    }
+    ++bundles;
+    Status done = server != nullptr ? server->Publish(**bundle) : Ok();
+    if (log != nullptr) {
+      for (const WireMessage& message : EncodeBundle(**bundle, channels)) {
+        done = done ? log->Write(message) : done;
+      }
+      done = done ? log->Flush() : done;
+    }
+    if (!done) {
+      return done.error();
+    }
+  }
+}
+
+void PrintTouchdown(const Simulator& simulator) {
+  const Touchdown* t = simulator.touchdown();
+  if (t == nullptr) {
+    std::printf("did not touch down\n");
+    return;
+  }
+  std::printf(
+      "touched down %.2f m north, %.2f m east; %.2f m/s down, %.2f m/s across, tilt %.1f deg%s\n",
+      t->p_W_skid.x(), t->p_W_skid.y(), t->vertical_speed_mps, t->horizontal_speed_mps,
+      t->tilt_rad * 57.29577951308232, t->on_object ? ", ON AN OBJECT" : "");
+}
+
+int Simulate(const SimulateOptions& options, const SceneCameraFactory& cameras) {
+  Result<SimulatorOptions> simulation = MakeOptions(options);
+  if (!simulation) {
+    return Fail(simulation.error());
+  }
+  const Result<ChannelNames> channels = options.channels_file.empty()
+                                            ? Result<ChannelNames>(ChannelNames())
+                                            : LoadChannels(options.channels_file);
+  if (!channels) {
+    return Fail(channels.error());
+  }
+  Simulator simulator(std::move(*simulation), cameras);
+  std::unique_ptr<VehicleServer> server;
+  // With a log and no URL the flight is only recorded; otherwise it goes to the bus.
+  if (options.url || options.log.empty()) {
+    Result<std::shared_ptr<Bus>> bus = Bus::Open(options.url.value_or(""));
+    if (!bus) {
+      return Fail(bus.error());
+    }
+    for (const std::string& warning : (*bus)->warnings()) {
+      std::cerr << "palacectl simulate: " << warning << "\n";
+    }
+    Result<std::unique_ptr<VehicleServer>> made = VehicleServer::Create(*bus, simulator, *channels);
+    if (!made) {
+      return Fail(made.error());
+    }
+    server = std::move(*made);
+    std::printf("%s on %s, seed %llu%s\n", options.scenario.c_str(), (*bus)->url().c_str(),
+                static_cast<unsigned long long>(options.seed),
+                options.station_key.empty() ? "; signatures are not checked" : "");
+  }
+  std::optional<LogWriter> log;
+  if (!options.log.empty()) {
+    Result<LogWriter> made = LogWriter::Create(options.log);
+    if (!made) {
+      return Fail(made.error());
+    }
+    log.emplace(std::move(*made));
+  }
+  std::stop_source flight;
+  const std::jthread signals = WatchSignals(flight);
+  const Result<std::uint64_t> bundles =
+      Fly(simulator, server.get(), log ? &*log : nullptr, *channels, flight.get_token());
+  const Status closed = log ? log->Close() : Ok();
+  if (!bundles) {
+    return Fail(bundles.error());
+  }
+  if (!closed) {
+    return Fail(closed.error());
+  }
+  std::printf("%llu bundles", static_cast<unsigned long long>(*bundles));
+  if (server) {
+    std::printf(", %llu messages from the station, %llu refused",
+                static_cast<unsigned long long>(server->received()),
+                static_cast<unsigned long long>(server->refused()));
+  }
+  std::printf("\n");
+  PrintTouchdown(simulator);
+  return 0;
+}
+
+}  // namespace
+
+void AddSimulateCommand(CLI::App& app, int& exit_code, SceneCameraFactory cameras) {
+  CLI::App* command =
+      app.add_subcommand("simulate", "Fly the simulated vehicle on an LCM bus or into a log");
+  const auto options = std::make_shared<SimulateOptions>();
+  command->add_option("--scenario", options->scenario, "runway, cones, slope or empty")
+      ->capture_default_str();
+  command->add_option("--url", options->url, "LCM URL; without --log the default bus");
+  command->add_option("--duration-s", options->duration_s, "Longest simulated time")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command->add_option("--seed", options->seed, "One seed, one flight")->capture_default_str();
+  command->add_option("--wind-mps", options->wind_mps, "Mean wind at 20 ft")
+      ->check(CLI::NonNegativeNumber);
+  command->add_option("--log", options->log, "Record to this LCM log (and its .idx)");
+  command->add_option("--channels", options->channels_file, "Channel names (TOML)");
+  command->add_option("--station-key", options->station_key,
+                      "Public key of the station, 64 hex digits; refuses unsigned approvals");
+  CLI::Option* realtime =
+      command->add_flag("--realtime", options->realtime, "Simulated time is real time (default)");
+  command->add_flag("--fast", options->fast, "As fast as possible")->excludes(realtime);
+  command->add_flag("--no-pictures", options->no_pictures, "Sensors only, no cameras");
+  command->callback([options, &exit_code, cameras = std::move(cameras)] {
+    exit_code = Simulate(*options, cameras);
+  });
+}
+
+}  // namespace palace
