@@ -3,6 +3,8 @@
 #include <cmath>
 #include <vector>
 
+#include <Eigen/Dense>
+
 #include "engine/slad/plane_fit.h"
 
 namespace palace {

@@ -1,8 +1,12 @@
 // Exact LMedS over 3x3 samples, then least squares on the inliers (thesis 4.3.2, erratum E24).
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
 #include <utility>
 #include <vector>
+
+#include <Eigen/Dense>
 
 #include "engine/slad/lmeds_tables.h"
 #include "engine/slad/plane_fit.h"

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <utility>
 
 namespace palace::lmeds {
 

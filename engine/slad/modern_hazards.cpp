@@ -3,6 +3,8 @@
 #include <cmath>
 #include <vector>
 
+#include <Eigen/Dense>
+
 #include "engine/core/units.h"
 #include "engine/slad/cost_map.h"
 #include "engine/slad/hazard_layers.h"
@@ -11,7 +13,8 @@
 namespace palace {
 namespace {
 
-/// Squared noise multiple: thousands of cells are tested, so a deviation counts beyond four sigmas only.
+/// Squared noise multiple: thousands of cells are tested, so a deviation counts beyond four sigmas
+/// only.
 constexpr float kNoise2 = 16;
 /// Makes the squared deviation of an unknown cell negative whatever its height.
 constexpr float kNever = 1e20F;
