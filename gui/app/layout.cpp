@@ -51,7 +51,7 @@ FlyUnits MeasureFly(double width, double height) {
   u.channel_h = u.narrow ? 0 : 72;
   const double channel_gap = u.narrow ? 0 : kGap;
   // The picture is the hero: maps grow only with what the picture row does not need.
-  const double wanted_picture = u.narrow ? 340 : 508;
+  const double wanted_picture = u.narrow ? 340 : std::min(508.0, 508 * u.body_h / 956);
   const double room =
       u.body_h - u.channel_h - channel_gap - kGap - wanted_picture - kHeader - kBarBelowMap;
   u.map_side = std::min({480.0, Floor4((u.left_w - 4 * kGap) / 5), std::max(176.0, Floor4(room))});
@@ -63,7 +63,7 @@ FlyUnits MeasureFly(double width, double height) {
 void PlacePictures(const FlyUnits& u, const Grid2& grid, FlyLayout& fly) {
   const double vehicle_h = u.narrow ? 148 : 166;
   const double right_min = u.narrow ? 208 : 240;
-  const double view_min = u.narrow ? 272 : 400;
+  const double view_min = u.narrow ? 272 : 360;
   double left = Floor4((u.picture_h - kHeader) * 4 / 3);
   double right = Floor4((u.picture_h - kGap - vehicle_h - kHeader) * 4 / 3);
   left = std::min(left, u.left_w - 2 * kGap - right_min - view_min);
@@ -75,9 +75,10 @@ void PlacePictures(const FlyUnits& u, const Grid2& grid, FlyLayout& fly) {
   const double y = u.body_y;
   fly.left_camera = grid.Of(u.left_x, y, left, u.picture_h);
   const double right_x = u.left_x + left + kGap;
-  const double right_h = u.picture_h - kGap - vehicle_h;
+  // The vehicle panel takes the height that the right picture does not fill.
+  const double right_h = std::min(u.picture_h - kGap - vehicle_h, kHeader + right * 3 / 4);
   fly.right_camera = grid.Of(right_x, y, right, right_h);
-  fly.vehicle = grid.Of(right_x, y + right_h + kGap, right, vehicle_h);
+  fly.vehicle = grid.Of(right_x, y + right_h + kGap, right, u.picture_h - right_h - kGap);
   const double view_x = right_x + right + kGap;
   fly.view_3d = grid.Of(view_x, y, u.left_x + u.left_w - view_x, u.picture_h);
 }

@@ -33,13 +33,13 @@ bool IsShelved(const FrameState& state, const std::string& id) {
 }
 
 /// "2 advisories" and the worst shape among them; drawn right-aligned. Returns the left edge.
-float DrawRest(const std::vector<const Alarm*>& rest, std::size_t shelved, float right, float y,
-               UiFrame& ui) {
+float DrawRest(const std::vector<const Alarm*>& rest, std::size_t shelved, const char* none,
+               float right, float y, UiFrame& ui) {
   const Style& s = ui.style;
   std::string words;
   std::optional<AlarmLook> look;
   if (rest.empty()) {
-    words = shelved > 0 ? "(" + std::to_string(shelved) + " shelved)" : "";
+    words = shelved > 0 ? "(" + std::to_string(shelved) + " shelved)" : none;
   } else {
     const AlarmLevel worst = rest.front()->level;
     const auto count = std::count_if(rest.begin(), rest.end(),
@@ -132,13 +132,15 @@ void DrawAlarmStripPanel(const EngineSnapshot& snap, const Rect& rect, FrameStat
   ui.items.Add("panel/Alarm strip", rect, true, "");
   const float y = rect.centre().y;
   if (quiet) {
-    DrawRest({}, shelved, rect.right(), y, ui);
+    DrawRest({}, shelved, "", rect.right(), y, ui);
     DrawText(ui, s.body, p.text3, rect.x + s.Px(40), y, "No alarms");
     ui.items.Add("alarm", rect, true, "No alarms");
     return;
   }
   const std::vector<const Alarm*> rest(alarms.begin() + 1, alarms.end());
-  float right = DrawRest(rest, shelved, rect.right(), y, ui);
+  float right =
+      DrawRest(rest, shelved, alarms.front()->level == AlarmLevel::kAdvisory ? "No cautions" : "",
+               rect.right(), y, ui);
   right = DrawAnswers(*alarms.front(), state, right, y, ui);
   DrawFirst(*alarms.front(), rect, right, ui);
   const Rect words{rect.x, rect.y, right - rect.x, rect.h};

@@ -205,9 +205,14 @@ void DrawApprovePanel(const EngineSnapshot& snap, const Rect& rect, bool narrow,
     float y = rect.y + s.Px(narrow ? 64 : 73);
     const std::string words = Consequence(snap, narrow);
     std::vector<std::string> lines = WrapText(s.body, words, width);
-    lines.resize(std::min<std::size_t>(lines.size(), narrow ? 1 : 2));
+    ImFont* font = s.body;
+    if (narrow) {
+      font = TextWidth(s.body, words) <= width + s.Px(4) ? s.body : s.caption;
+      lines = {words};
+    }
+    lines.resize(std::min<std::size_t>(lines.size(), 2));
     for (const std::string& line : lines) {
-      DrawText(ui, s.body, p.text2, x, y, line);
+      DrawText(ui, font, p.text2, x, y, line);
       y += s.Px(19);
     }
     DrawChecks(snap, rect, rect.y + s.Px(narrow ? 88 : 132), narrow, state, ui);

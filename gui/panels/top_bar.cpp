@@ -51,13 +51,14 @@ float DrawTabs(float x, const Rect& bar, Workspace active, UiFrame& ui) {
   constexpr std::array<const char*, 4> kNames = {"Fly", "Tune", "Review", "Diagnose"};
   for (std::size_t i = 0; i < kNames.size(); ++i) {
     const bool on = static_cast<std::size_t>(active) == i;
-    const float width = TextWidth(s.section, kNames[i]);
+    ImFont* font = on ? s.medium : s.body;
+    const float width = TextWidth(font, kNames[i]);
     const Rect area{x - s.Px(14), bar.y, width + s.Px(28), bar.h};
     const bool hovered = Hovered(ui, area);
     if (hovered && !on) {
       FillRect(Canvas(), area, p.control);
     }
-    DrawText(ui, s.section, on || hovered ? p.text1 : p.text2, x, bar.centre().y, kNames[i]);
+    DrawText(ui, font, on || hovered ? p.text1 : p.text2, x, bar.centre().y, kNames[i]);
     if (on) {
       FillRect(Canvas(), {x - s.Px(8), bar.bottom() - s.Px(4), width + s.Px(16), s.Px(4)},
                p.white_mark);
@@ -66,9 +67,9 @@ float DrawTabs(float x, const Rect& bar, Workspace active, UiFrame& ui) {
     if (Clicked(ui, area)) {
       ui.intents.push_back(UiAction(ShowWorkspace{static_cast<Workspace>(i)}));
     }
-    x += width + s.Px(36);
+    x += width + s.Px(38);
   }
-  return x - s.Px(36);
+  return x - s.Px(38);
 }
 
 constexpr std::array<MissionState, 6> kChain = {MissionState::kSearch,     MissionState::kProposed,

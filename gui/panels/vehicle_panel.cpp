@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "engine/core/units.h"
@@ -129,8 +130,10 @@ void DrawVehiclePanel(const EngineSnapshot& snap, const Rect& rect, bool narrow,
   for (std::size_t i = 0; i < readouts.size(); ++i) {
     const auto column = static_cast<float>(i % static_cast<std::size_t>(columns));
     const auto row = static_cast<float>(i / static_cast<std::size_t>(columns));
-    const Rect cell{rect.x + pad + column * width, rect.y + s.Px(33) + row * pitch, width - s.Px(8),
-                    pitch};
+    // The first of three columns holds the long labels.
+    const float shift = folded || column < 1.5f ? column * width : 0.617f * rect.w;
+    const Rect cell{rect.x + s.Px(folded ? 12 : 16) + shift, rect.y + s.Px(33) + row * pitch,
+                    std::min(width, rect.w - shift - s.Px(16)) - s.Px(8), pitch};
     DrawReadout(ui, cell, readouts[i]);
     ui.items.Add("readout/" + readouts[i].label, cell, true,
                  readouts[i].value + " " + readouts[i].unit);

@@ -35,7 +35,9 @@ void DrawView3dPanel(const EngineSnapshot& snap, const Rect& rect, View3dState& 
                      UiFrame& ui) {
   const Style& s = ui.style;
   const Rect scene = DrawPanelFrame(ui, rect, "3-D view",
-                                    {{snap.applied ? "Safe distance over picture" : "No map yet"}});
+                                    {{rect.w < s.Px(300) ? ""
+                                      : snap.applied     ? "Safe distance over picture"
+                                                         : "No map yet"}});
   state.scene = scene;
   ImDrawList* dl = Canvas();
   if (ui.textures.scene_3d != nullptr) {

@@ -102,8 +102,8 @@ void DrawVerdictLegend(UiFrame& ui, const Rect& image) {
   const Style& s = ui.style;
   const char* safe = "Safe";
   const char* over = "Over a limit or unknown";
-  const float safe_w = TextWidth(s.body, safe);
-  const float over_w = TextWidth(s.body, over);
+  const float safe_w = TextWidth(s.caption, safe);
+  const float over_w = TextWidth(s.caption, over);
   const float width = s.Px(8 + 14 + 6) + safe_w + s.Px(14 + 14 + 6) + over_w + s.Px(12);
   if (width + s.Px(16) > image.w) {
     return;
@@ -115,12 +115,12 @@ void DrawVerdictLegend(UiFrame& ui, const Rect& image) {
   float x = plate.x + s.Px(8);
   StrokeRect(dl, {x, y - half, half * 2, half * 2}, picture::kSafe, s.Fine(2));
   x += half * 2 + s.Px(6);
-  x += DrawText(ui, s.body, picture::kPlateText, x, y, safe) + s.Px(14);
+  x += DrawText(ui, s.caption, picture::kPlateText, x, y, safe) + s.Px(14);
   const Rect swatch{x, y - half, half * 2, half * 2};
   FillRect(dl, swatch, WithAlpha(Rgb(0xF5963C), 0.25f));
   Hatch(dl, swatch, Rgb(0xF5963C), s.Fine(2), s.Fine(6));
   x += half * 2 + s.Px(6);
-  DrawText(ui, s.body, picture::kPlateText, x, y, over);
+  DrawText(ui, s.caption, picture::kPlateText, x, y, over);
 }
 
 }  // namespace palace

@@ -146,12 +146,12 @@ Rect PlateAt(const Style& s, ImDrawList* dl, const Rect& within, Corner corner, 
 
 Rect TextPlate(UiFrame& ui, const Rect& within, Corner corner, std::string_view text) {
   const Style& s = ui.style;
-  const float width = TextWidth(s.body, text) + s.Px(18);
-  if (width + s.Px(16) > within.w) {
+  const float width = TextWidth(s.caption, text) + s.Px(18);
+  if (text.empty() || width + s.Px(16) > within.w) {
     return {};
   }
   const Rect r = PlateAt(s, Canvas(), within, corner, width, s.Px(26));
-  DrawText(ui, s.body, picture::kPlateText, r.centre().x, r.centre().y, text, Align::kCentre);
+  DrawText(ui, s.caption, picture::kPlateText, r.centre().x, r.centre().y, text, Align::kCentre);
   return r;
 }
 

@@ -26,7 +26,20 @@ Rect DrawPanelFrame(UiFrame& ui, const Rect& rect, std::string_view title,
   const float title_end =
       rect.x + pad + DrawText(ui, s.medium, s.palette.text1, rect.x + pad, middle, title);
   float right = rect.right() - pad;
-  const std::vector<PanelFact> list(facts);
+  std::vector<PanelFact> list(facts);
+  const auto width_of = [&](const PanelFact& fact) {
+    return fact.text.empty() ? 0.0f
+                             : TextWidth(fact.strong ? s.medium : s.caption, fact.text) +
+                                   (fact.caution ? s.Px(18) : 0.0f) + s.Px(12);
+  };
+  float wanted = 0;
+  for (const PanelFact& fact : list) {
+    wanted += width_of(fact);
+  }
+  while (!list.empty() && right - wanted + s.Px(4) < title_end) {
+    wanted -= width_of(list.back());
+    list.pop_back();
+  }
   for (std::size_t i = list.size(); i-- > 0;) {
     const PanelFact& fact = list[i];
     if (fact.text.empty()) {
@@ -35,9 +48,6 @@ Rect DrawPanelFrame(UiFrame& ui, const Rect& rect, std::string_view title,
     ImFont* font = fact.strong ? s.medium : s.caption;
     const float icon = fact.caution ? s.Px(18) : 0.0f;
     const float width = TextWidth(font, fact.text);
-    if (right - width - icon < title_end + s.Px(8)) {
-      break;
-    }
     DrawText(ui, font, fact.colour != 0 ? fact.colour : s.palette.text2, right, middle, fact.text,
              Align::kRight);
     if (fact.caution) {

@@ -18,7 +18,7 @@ struct PanelFact {
 };
 
 /// Draws the panel and returns the content rectangle below the header (no padding taken off).
-/// Facts that do not fit beside the title are dropped from the left. Recorded as "panel/<title>".
+/// Facts that do not fit beside the title are dropped from the end. Recorded as "panel/<title>".
 Rect DrawPanelFrame(UiFrame& ui, const Rect& rect, std::string_view title,
                     std::initializer_list<PanelFact> facts = {});
 /// Background alone, for panels without a header.

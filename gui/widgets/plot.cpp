@@ -86,8 +86,17 @@ void DrawLimitLine(UiFrame& ui, const Axes& axes, const PlotLimit& limit) {
              s.Fine(8), s.Fine(4));
   const bool room_above = y - axes.floor.y > s.Px(20);
   const float text_y = room_above ? y - s.Px(9) : y + s.Px(10);
-  DrawText(ui, s.caption, s.palette.unsafe, axes.floor.right() - s.Px(6), text_y, limit.text,
-           Align::kRight);
+  // The words stand where nothing is measured yet; short of room they lose their second half.
+  const float room = axes.floor.right() - s.Px(8) -
+                     (axes.view.now ? axes.X(*axes.view.now) + s.Px(4) : axes.floor.x);
+  std::string_view words = limit.text;
+  if (TextWidth(s.caption, words) > room) {
+    words = words.substr(0, words.find(':'));
+  }
+  if (TextWidth(s.caption, words) <= room && axes.floor.h > s.Px(40)) {
+    DrawText(ui, s.caption, s.palette.unsafe, axes.floor.right() - s.Px(6), text_y, words,
+             Align::kRight);
+  }
 }
 
 void DrawBand(const Axes& axes, const PlotSeries& series) {
@@ -132,9 +141,14 @@ void DrawLine(const Style& s, const Axes& axes, const PlotSeries& series) {
   bool open = false;
   const auto flush = [&] {
     if (open) {
-      run.push_back(low);
-      if (high.y != low.y) {
-        run.push_back(high);
+      // Both ends of a column lie at its middle: a line that steps back would grow spikes.
+      const float x = column + 0.5f;
+      if (low.y - high.y < s.Fine(1)) {
+        run.push_back({x, (low.y + high.y) / 2});
+      } else {
+        const bool from_low = run.empty() || run.back().y > (low.y + high.y) / 2;
+        run.push_back({x - 0.25f, from_low ? low.y : high.y});
+        run.push_back({x + 0.25f, from_low ? high.y : low.y});
       }
       open = false;
     }

@@ -112,7 +112,7 @@ void DrawScaleBar(UiFrame& ui, const Rect& image, float pixels_per_metre) {
     return;
   }
   const std::string label = Fixed(length_m, length_m < 1 ? 1 : 0) + " m";
-  const float width = length + s.Px(28) + TextWidth(s.body, label);
+  const float width = length + s.Px(28) + TextWidth(s.caption, label);
   const Rect plate = PlateAt(s, Canvas(), image, Corner::kBottomLeft, width, s.Px(26));
   const float x = plate.x + s.Px(9);
   const float y = plate.centre().y + s.Px(4);
@@ -120,7 +120,7 @@ void DrawScaleBar(UiFrame& ui, const Rect& image, float pixels_per_metre) {
   dl->AddLine({x, y}, {x + length, y}, picture::kWhite, s.Fine(2));
   dl->AddLine({x, y - s.Fine(5)}, {x, y + s.Fine(1)}, picture::kWhite, s.Fine(2));
   dl->AddLine({x + length, y - s.Fine(5)}, {x + length, y + s.Fine(1)}, picture::kWhite, s.Fine(2));
-  DrawText(ui, s.body, picture::kPlateText, plate.right() - s.Px(9), plate.centre().y, label,
+  DrawText(ui, s.caption, picture::kPlateText, plate.right() - s.Px(9), plate.centre().y, label,
            Align::kRight);
 }
 

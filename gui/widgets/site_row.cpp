@@ -93,8 +93,12 @@ bool DrawSiteRow(UiFrame& ui, const Rect& rect, const LandingSite& site,
 
   const float width = right - left_x;
   if (look.narrow) {
+    std::string_view reason = site.reason;
+    if (TextWidth(s.caption, reason) > width) {
+      reason = reason.substr(0, reason.find(';'));  // whole clauses only: half a figure misleads
+    }
     DrawText(ui, s.caption, p.text2, left_x, first_y + s.Px(18),
-             FitWords(s.caption, site.reason, width));
+             FitWords(s.caption, reason, width));
   } else {
     const std::string figures = "Slope " + Fixed(Deg(site.slope_rad.value), 1) + "°   Rough " +
                                 Fixed(site.roughness_m.value * 100, 0) + " cm   " +
