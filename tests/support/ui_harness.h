@@ -16,7 +16,8 @@ namespace palace {
 class UiHarness {
  public:
   UiHarness(float width, float height, float scale = 1) {
-    ImGui::CreateContext();
+    context_ = ImGui::CreateContext();
+    Use();
     ImGuiIO& io = ImGui::GetIO();
     io.IniFilename = nullptr;
     io.DisplaySize = {width, height};
@@ -33,12 +34,13 @@ class UiHarness {
     int h = 0;
     io.Fonts->GetTexDataAsRGBA32(&pixels, &w, &h);
   }
-  ~UiHarness() { ImGui::DestroyContext(); }
+  ~UiHarness() { ImGui::DestroyContext(context_); }
   UiHarness(const UiHarness&) = delete;
   UiHarness& operator=(const UiHarness&) = delete;
 
   /// Runs one frame of 1/60 s (or dt_s).
   void Frame(const std::function<void(UiFrame&)>& draw, float dt_s = 1.0f / 60) {
+    Use();
     ImGuiIO& io = ImGui::GetIO();
     io.DeltaTime = dt_s;
     time_s += static_cast<double>(dt_s);
@@ -50,7 +52,7 @@ class UiHarness {
     EndCanvas();
     ImGui::Render();
   }
-  void MoveTo(ImVec2 p) { ImGui::GetIO().MousePos = p; }
+  void MoveTo(ImVec2 p) { Use(), ImGui::GetIO().MousePos = p; }
   void MoveTo(const std::string& item) {
     if (const Item* found = items.Find(item)) {
       MoveTo(found->rect.centre());
@@ -58,8 +60,8 @@ class UiHarness {
       std::fprintf(stderr, "no item %s\n", item.c_str());
     }
   }
-  void Button(bool down) { ImGui::GetIO().MouseDown[0] = down; }
-  void Key(ImGuiKey key, bool down) { ImGui::GetIO().KeysDown[key] = down; }
+  void Button(bool down) { Use(), ImGui::GetIO().MouseDown[0] = down; }
+  void Key(ImGuiKey key, bool down) { Use(), ImGui::GetIO().KeysDown[key] = down; }
   /// Moves onto the item of the last frame, presses and releases over four frames.
   void Click(const std::string& item, const std::function<void(UiFrame&)>& draw) {
     MoveTo(item);
@@ -101,6 +103,8 @@ class UiHarness {
   Rect wave_off_rect;
 
  private:
+  /// Several harnesses may live at a time; ImGui's context is one global.
+  void Use() { ImGui::SetCurrentContext(context_); }
   static bool Exists(const std::string& path) { return std::ifstream(path).good(); }
   void LoadFonts(float scale) {
     // Widths matter for the overlap tests, so the real faces are used where they are installed.
@@ -126,6 +130,7 @@ class UiHarness {
     style.replay_time = load(roboto + "Medium.ttf", 30.5f);
     style.mono = load(mono, 17);
   }
+  ImGuiContext* context_ = nullptr;
 };
 
 }  // namespace palace

@@ -1,0 +1,223 @@
+#include <gtest/gtest.h>
+
+#include "gui/app/layout.h"
+#include "gui/panels/fly_workspace.h"
+#include "gui/panels/frame_bar.h"
+#include "tests/support/fake_snapshot.h"
+#include "tests/support/ui_harness.h"
+
+namespace palace {
+namespace {
+
+/// The whole Fly window without a screen.
+struct FlyWindow {
+  FlyWindow(float width, float height, EngineSnapshot snapshot, float scale = 1)
+      : ui(width, height, scale), snap(std::move(snapshot)), size{width, height}, scale_(scale) {
+    for (ImTextureID* id : {&ui.textures.left_camera, &ui.textures.right_camera}) {
+      *id = &ui;  // any non-null name: nothing is rendered
+    }
+    draw = [this](UiFrame& frame) {
+      const FlyLayout layout =
+          ComputeFlyLayout(static_cast<double>(size.x), static_cast<double>(size.y),
+                           static_cast<double>(scale_), ShowsDescent(snap));
+      ui.wave_off_rect = layout.frame.wave_off;
+      DrawFrameBar(snap, layout.frame, bar, frame);
+      DrawFlyWorkspace(snap, layout, fly, frame);
+      DrawFrameOverlay(snap, layout.frame, bar, frame);
+    };
+    ui.Frame(draw);
+  }
+  void Run(double seconds) {
+    for (double t = 0; t < seconds - 1e-9; t += 1.0 / 60) {
+      ui.Frame(draw);
+    }
+  }
+  UiHarness ui;
+  EngineSnapshot snap;
+  ImVec2 size;
+  float scale_;
+  FrameState bar;
+  FlyState fly;
+  std::function<void(UiFrame&)> draw;
+};
+
+TEST(FlySites, AClickSelectsExactlyThatSiteOnce) {
+  FlyWindow window(1920, 1080, fake::Snapshot(MissionState::kProposed));
+  window.ui.Click("site/B", window.draw);
+  window.Run(0.5);
+  EXPECT_EQ(window.ui.intents.size(), 1u);
+  EXPECT_EQ(window.ui.CountCommands<SelectSite>(), 1);
+  EXPECT_EQ(window.ui.LastCommand<SelectSite>().site_id, 2u);
+}
+
+TEST(FlySites, TabHighlightsAndEnterArmsTheHighlightedOne) {
+  FlyWindow window(1920, 1080, fake::Snapshot(MissionState::kProposed));
+  for (int i = 0; i < 3; ++i) {
+    window.ui.Key(ImGuiKey_Tab, true);
+    window.Run(0.02);
+    window.ui.Key(ImGuiKey_Tab, false);
+    window.Run(0.02);
+  }
+  EXPECT_EQ(window.fly.sites.highlighted, 3u);
+  EXPECT_TRUE(window.ui.intents.empty());
+  window.ui.Key(ImGuiKey_Enter, true);
+  window.Run(1.5);  // held: arms once, never approves
+  EXPECT_EQ(window.ui.CountCommands<SelectSite>(), 1);
+  EXPECT_EQ(window.ui.LastCommand<SelectSite>().site_id, 3u);
+  EXPECT_EQ(window.ui.CountCommands<ApproveSite>(), 0);
+}
+
+TEST(FlySites, NothingCanBeSelectedWhileSearching) {
+  FlyWindow window(1920, 1080, fake::Snapshot(MissionState::kSearch));
+  window.ui.Click("site/A", window.draw);
+  EXPECT_TRUE(window.ui.intents.empty());
+}
+
+TEST(FlyApprove, AFullHoldApprovesTheArmedSiteOnTheSnapshotSeen) {
+  FlyWindow window(1920, 1080, fake::Snapshot(MissionState::kArmed));
+  window.ui.MoveTo("approve");
+  window.Run(0.05);
+  window.ui.Button(true);
+  window.Run(0.9);
+  EXPECT_TRUE(window.ui.intents.empty());
+  window.Run(0.2);
+  window.ui.Button(false);
+  window.Run(0.2);
+  EXPECT_EQ(window.ui.intents.size(), 1u);
+  EXPECT_EQ(window.ui.LastCommand<ApproveSite>().site_id, 1u);
+  EXPECT_EQ(window.ui.LastCommand<ApproveSite>().snapshot_sequence, window.snap.sequence);
+}
+
+TEST(FlyApprove, NeverFiresWhenBlockedUnarmedPreviewingOrInReplay) {
+  EngineSnapshot blocked = fake::Snapshot(MissionState::kArmed);
+  blocked.mission.can_approve = false;
+  blocked.mission.cannot_approve_reason = "Left camera stale, 1.8 s";
+  EngineSnapshot preview = fake::Snapshot(MissionState::kArmed);
+  preview.preview = preview.applied;
+  for (const EngineSnapshot& snap : {blocked, preview, fake::Snapshot(MissionState::kProposed),
+                                     fake::Snapshot(MissionState::kArmed, SourceKind::kReplay)}) {
+    FlyWindow window(1920, 1080, snap);
+    window.ui.MoveTo("approve");
+    window.Run(0.05);
+    window.ui.Button(true);
+    window.Run(3);
+    EXPECT_EQ(window.ui.CountCommands<ApproveSite>(), 0) << window.ui.items.Find("approve")->text;
+    EXPECT_FALSE(window.ui.items.Find("approve")->enabled);
+  }
+}
+
+TEST(FlyFrame, WaveOffFiresOnPressAlsoUnderAPopupButNotInReplay) {
+  FlyWindow live(1280, 720, fake::Snapshot(MissionState::kDescending));
+  live.ui.popup = true;
+  live.ui.MoveTo("wave_off");
+  live.Run(0.05);
+  live.ui.Button(true);
+  live.ui.Frame(live.draw);
+  EXPECT_EQ(live.ui.CountCommands<WaveOff>(), 1);
+  live.Run(0.5);
+  EXPECT_EQ(live.ui.CountCommands<WaveOff>(), 1);
+
+  FlyWindow replay(1280, 720, fake::Snapshot(MissionState::kDescending, SourceKind::kReplay));
+  replay.ui.Click("wave_off", replay.draw);
+  EXPECT_TRUE(replay.ui.intents.empty());
+  EXPECT_EQ(replay.ui.items.Find("wave_off")->text, "WAVE OFF | No link in replay");
+}
+
+TEST(FlyFrame, AcknowledgeRefuseAndHoldHereAskForWhatTheySay) {
+  FlyWindow armed(1920, 1080, fake::Snapshot(MissionState::kArmed));
+  armed.ui.Click("acknowledge", armed.draw);
+  armed.ui.Click("refuse", armed.draw);
+  EXPECT_EQ(armed.ui.LastCommand<AcknowledgeAlarm>().alarm, "gps_error");
+  EXPECT_EQ(armed.ui.LastCommand<RefuseSite>().site_id, 1u);
+  EXPECT_EQ(armed.ui.intents.size(), 2u);
+  FlyWindow descending(1920, 1080, fake::Snapshot(MissionState::kDescending));
+  descending.ui.Click("hold_here", descending.draw);
+  EXPECT_EQ(descending.ui.CountCommands<HoldHere>(), 1);
+}
+
+TEST(FlyMaps, DraggingTheLimitTickSetsTheLimit) {
+  FlyWindow window(1920, 1080, fake::Snapshot(MissionState::kProposed));
+  window.ui.MoveTo("limit/slad.max_slope_deg");
+  const ImVec2 at = ImGui::GetIO().MousePos;
+  window.Run(0.05);
+  window.ui.Button(true);
+  window.Run(0.05);
+  window.ui.MoveTo(ImVec2{at.x - 26.4f, at.y});  // a tenth of the 264 px bar: 2 degrees of 20
+  window.Run(0.05);
+  window.ui.Button(false);
+  window.Run(0.05);
+  EXPECT_EQ(window.ui.LastCommand<SetSetting>().name, "slad.max_slope_deg");
+  EXPECT_NEAR(window.ui.LastCommand<SetSetting>().value, 8.0, 0.11);
+}
+
+bool Inside(const Rect& inner, const Rect& outer) {
+  return inner.x >= outer.x - 1 && inner.right() <= outer.right() + 1 && inner.y >= outer.y - 3 &&
+         inner.bottom() <= outer.bottom() + 3;
+}
+/// Letters and digits fill the middle of the line box only.
+Rect Ink(const Rect& box) { return {box.x, box.y + box.h * 0.2f, box.w, box.h * 0.6f}; }
+bool Touch(const Rect& a, const Rect& b) {
+  return a.x < b.right() && b.x < a.right() && a.y < b.bottom() && b.y < a.bottom();
+}
+
+struct TextCase {
+  const char* name;
+  float width, height, scale;
+  MissionState state;
+  SourceKind kind;
+};
+class FlyText : public testing::TestWithParam<TextCase> {};
+
+TEST_P(FlyText, StaysInItsPanelAndTouchesNoOther) {
+  const TextCase& c = GetParam();
+  FlyWindow window(c.width, c.height, fake::Snapshot(c.state, c.kind), c.scale);
+  window.Run(0.05);
+  std::vector<Item> texts;
+  std::vector<Item> panels;
+  for (const Item& item : window.ui.items.items()) {
+    if (item.name == "text") {
+      texts.push_back(item);
+    } else if (item.name.rfind("panel/", 0) == 0) {
+      panels.push_back(item);
+    }
+  }
+  ASSERT_GT(texts.size(), 60u);
+  for (std::size_t i = 0; i < texts.size(); ++i) {
+    const Rect& box = texts[i].rect;
+    bool held = false;
+    for (const Item& panel : panels) {
+      held = held || (panel.rect.Contains(box.centre()) && Inside(Ink(box), panel.rect));
+    }
+    EXPECT_TRUE(held) << "\"" << texts[i].text << "\" leaves its panel at " << box.x << "," << box.y
+                      << " w " << box.w;
+    for (std::size_t j = 0; j < i; ++j) {
+      EXPECT_FALSE(Touch(Ink(box), Ink(texts[j].rect)))
+          << "\"" << texts[i].text << "\" touches \"" << texts[j].text << "\" at " << box.x << ","
+          << box.y;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Sizes, FlyText,
+    testing::Values(
+        TextCase{"armed1920", 1920, 1080, 1, MissionState::kArmed, SourceKind::kLive},
+        TextCase{"armed1280", 1280, 720, 1, MissionState::kArmed, SourceKind::kLive},
+        TextCase{"armed1600", 1600, 900, 1, MissionState::kArmed, SourceKind::kSimulation},
+        TextCase{"armed3840", 3840, 2160, 2, MissionState::kArmed, SourceKind::kLive},
+        TextCase{"proposedReplay", 1280, 720, 1, MissionState::kProposed, SourceKind::kReplay},
+        TextCase{"descent1920", 1920, 1080, 1, MissionState::kDescending, SourceKind::kSimulation},
+        TextCase{"descent1280", 1280, 720, 1, MissionState::kDescending, SourceKind::kSimulation},
+        TextCase{"landed1920", 1920, 1080, 1, MissionState::kLanded, SourceKind::kSimulation},
+        TextCase{"aborting1920", 1920, 1080, 1, MissionState::kAborting, SourceKind::kLive}),
+    [](const auto& test) { return std::string(test.param.name); });
+
+TEST(FlyEmpty, ASnapshotWithNothingInItIsDrawnWithoutValues) {
+  FlyWindow window(1920, 1080, EngineSnapshot{});
+  window.Run(0.1);
+  EXPECT_TRUE(window.ui.intents.empty());
+  EXPECT_FALSE(window.ui.items.Find("approve")->enabled);
+}
+
+}  // namespace
+}  // namespace palace
