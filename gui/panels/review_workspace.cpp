@@ -119,14 +119,17 @@ void DrawNarrowArea(const EngineSnapshot& snap, const FlightRecord* record, cons
   const Rect lower{area.x, area.y + row1 + gap, area.w, row2};
   DrawMaps(snap, lower, map_w, ui);
   const float tabs_x = lower.x + 3 * (map_w + gap);
-  const Rect tabs{tabs_x, lower.y, area.right() - tabs_x, s.Px(24)};
+  const Rect tabs{tabs_x, lower.y, area.right() - tabs_x, s.Px(32)};
+  const float tab_y = tabs.y + s.Px(4);
+  DrawPanelBackground(ui, tabs, "Tabs");
   ButtonLook look;
   look.active = state.picture == ReviewPicture::kView3d;
-  if (DrawButton(ui, "review_tab/3-D", {tabs.x, tabs.y, s.Px(64), tabs.h}, "3-D", look)) {
+  if (DrawButton(ui, "review_tab/3-D", {tabs.x + s.Px(4), tab_y, s.Px(64), s.Px(24)}, "3-D",
+                 look)) {
     state.picture = ReviewPicture::kView3d;
   }
   look.active = state.picture == ReviewPicture::kRightCamera;
-  if (DrawButton(ui, "review_tab/Right", {tabs.x + s.Px(72), tabs.y, s.Px(108), tabs.h},
+  if (DrawButton(ui, "review_tab/Right", {tabs.x + s.Px(76), tab_y, s.Px(108), s.Px(24)},
                  "Right camera", look)) {
     state.picture = ReviewPicture::kRightCamera;
   }
@@ -352,9 +355,11 @@ void DrawReviewWorkspace(const EngineSnapshot& snap, const FlightRecord* record,
   const float redecide_h = s.Px(narrow ? 174 : 228);
   DrawRedecidePanel(snap, record, {right_x, body.y, right_w, redecide_h}, state, ui);
   const float decision_y = body.y + redecide_h + gap;
-  const float decision_h = narrow ? upper.bottom() - decision_y : s.Px(264);
+  const float rest = upper.bottom() - decision_y;
+  const bool list = rest >= s.Px(264 + 100);
+  const float decision_h = list ? s.Px(264) : rest;
   DrawDecisionPanel(snap, {right_x, decision_y, right_w, decision_h}, ui);
-  if (!narrow) {
+  if (list) {
     const float y = decision_y + decision_h + gap;
     DrawDifferencesPanel(snap, record, {right_x, y, right_w, upper.bottom() - y}, ui);
   }

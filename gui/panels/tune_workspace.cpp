@@ -62,9 +62,10 @@ void DrawNarrowTabs(const EngineSnapshot& snap, const Rect& r, TuneState& state,
     TuneTab tab;
   } tabs[] = {
       {"Apply", TuneTab::kApply}, {"Cells", TuneTab::kCells}, {"History", TuneTab::kHistory}};
-  float x = r.x;
+  DrawPanelBackground(ui, {r.x, r.y, r.w, s.Px(32)}, "Tabs");
+  float x = r.x + s.Px(4);
   for (const auto& tab : tabs) {
-    const Rect box{x, r.y, s.Px(84), s.Px(24)};
+    const Rect box{x, r.y + s.Px(4), s.Px(84), s.Px(24)};
     ButtonLook look;
     look.active = state.tab == tab.tab;
     if (DrawButton(ui, std::string("tune_tab/") + tab.label, box, tab.label, look)) {
@@ -72,7 +73,7 @@ void DrawNarrowTabs(const EngineSnapshot& snap, const Rect& r, TuneState& state,
     }
     x = box.right() + s.Px(8);
   }
-  const Rect content{r.x, r.y + s.Px(32), r.w, r.h - s.Px(32)};
+  const Rect content{r.x, r.y + s.Px(36), r.w, r.h - s.Px(36)};
   if (state.tab == TuneTab::kApply) {
     DrawApplyPanel(snap, content, ui);
   } else if (state.tab == TuneTab::kCells) {

@@ -6,8 +6,11 @@
 #include <string>
 
 #include "gui/app/layout.h"
+#include "gui/panels/diagnose.h"
 #include "gui/panels/fly_workspace.h"
 #include "gui/panels/frame_bar.h"
+#include "gui/panels/review.h"
+#include "gui/panels/tune.h"
 #include "gui/platform/imgui_backend.h"
 #include "gui/platform/offscreen.h"
 #include "gui/platform/screenshot.h"
@@ -43,7 +46,49 @@ struct Shot {
   double scale;
   MissionState state;
   SourceKind kind;
+  Workspace workspace = Workspace::kFly;
 };
+
+/// Other limits than the flight's: a preview while armed, a re-decision in replay.
+void MoveLimits(EngineSnapshot& snap) {
+  snap.preview_settings.slad.max_slope_deg = 6;
+  snap.preview_settings.slad.max_deviation_m = 0.06;
+  snap.preview_settings.slad.frames_fused = 24;
+  snap.preview_hash = 0x91c07e;
+  auto moved = std::make_shared<TerrainDecision>(
+      *fake::Decision(snap.X_WC, snap.preview_settings.slad, snap.preview_hash));
+  std::swap(moved->selection.sites[0], moved->selection.sites[1]);
+  if (snap.source.kind == SourceKind::kReplay) {
+    snap.recorded = snap.applied;
+    snap.applied = moved;
+    snap.settings = snap.preview_settings;
+  } else {
+    snap.preview = moved;
+  }
+}
+
+FlightRecord Record(const EngineSnapshot& snap) {
+  FlightRecord record;
+  record.start_s = static_cast<double>(snap.source.start.us) * 1e-6;
+  record.duration_s = 338;
+  record.has_settings = true;
+  record.events = *snap.events;
+  for (int i = 0; i < 676; ++i) {
+    const double t = 0.5 * i;
+    FlightRecordSample sample;
+    sample.time = AddSeconds(snap.source.start, t);
+    sample.state = t < 60    ? MissionState::kSearch
+                   : t < 180 ? MissionState::kProposed
+                   : t < 220 ? MissionState::kArmed
+                             : MissionState::kDescending;
+    sample.best_site = t < 20 ? '\0' : (t < 230 ? 'B' : 'A');
+    sample.best_safe_distance_m = t < 20 ? NAN : 4.6;
+    sample.height_above_site_m = t < 220 ? 38 : std::max(0.0, 38 - 0.6 * (t - 220));
+    sample.height_m = sample.height_above_site_m;
+    record.samples.push_back(sample);
+  }
+  return record;
+}
 
 int Take(const Shot& shot, const std::string& folder) {
   auto offscreen = Offscreen::Open(shot.width, shot.height);
@@ -56,7 +101,11 @@ int Take(const Shot& shot, const std::string& folder) {
     std::fprintf(stderr, "no ImGui backend\n");
     return 1;
   }
-  const EngineSnapshot snap = fake::Snapshot(shot.state, shot.kind);
+  EngineSnapshot snap = fake::Snapshot(shot.state, shot.kind);
+  if (shot.workspace != Workspace::kFly) {
+    MoveLimits(snap);
+  }
+  const FlightRecord record = Record(snap);
   Style style;
   FillStyle(style, backend.value()->fonts(), shot.scale);
   TextureSet set;
@@ -70,11 +119,19 @@ int Take(const Shot& shot, const std::string& folder) {
   textures.anchor_patch = TextureId(set.names().anchor_patch);
   textures.current_patch = TextureId(set.names().current_patch);
   textures.difference_patch = TextureId(set.names().difference_patch);
+  textures.recorded_safe_distance = TextureId(set.names().recorded_safe_distance);
+  textures.difference = TextureId(set.names().difference);
   ItemRecord items;
   Intents intents;
   FlyState fly;
+  TuneState tune;
+  tune.history = {{snap.time, "slad.max_slope_deg", 10, 6},
+                  {snap.time, "slad.max_deviation_m", 0.1, 0.06}};
+  ReviewState review;
+  DiagnoseState diagnose;
   FrameState frame;
   frame.preset_name = "r50-field";
+  frame.workspace = shot.workspace;
   frame.frame_ms = 7;
   for (int i = 0; i < 3; ++i) {
     offscreen.value()->BeginFrame();
@@ -85,7 +142,20 @@ int Take(const Shot& shot, const std::string& folder) {
     UiFrame ui{style, textures, items, intents, i / 60.0, false, layout.frame.wave_off};
     BeginCanvas(style);
     DrawFrameBar(snap, layout.frame, frame, ui);
-    DrawFlyWorkspace(snap, layout, fly, ui);
+    switch (shot.workspace) {
+      case Workspace::kFly:
+        DrawFlyWorkspace(snap, layout, fly, ui);
+        break;
+      case Workspace::kTune:
+        DrawTuneWorkspace(snap, layout.frame.body, tune, ui);
+        break;
+      case Workspace::kReview:
+        DrawReviewWorkspace(snap, &record, layout.frame.body, review, ui);
+        break;
+      case Workspace::kDiagnose:
+        DrawDiagnoseWorkspace(snap, layout.frame.body, diagnose, ui);
+        break;
+    }
     DrawFrameOverlay(snap, layout.frame, frame, ui);
     EndCanvas();
     backend.value()->EndFrame();
@@ -100,6 +170,7 @@ int Take(const Shot& shot, const std::string& folder) {
 int main(int argc, char** argv) {
   using palace::MissionState;
   using palace::SourceKind;
+  using palace::Workspace;
   const std::string folder = argc > 1 ? argv[1] : "/tmp";
   const palace::Shot shots[] = {
       {"fly-armed-1920.png", 1920, 1080, 1, MissionState::kArmed, SourceKind::kLive},
@@ -107,7 +178,17 @@ int main(int argc, char** argv) {
       {"fly-descent-1920.png", 1920, 1080, 1, MissionState::kDescending, SourceKind::kSimulation},
       {"fly-descent-1280.png", 1280, 720, 1, MissionState::kDescending, SourceKind::kSimulation},
       {"fly-replay-1600.png", 1600, 900, 1, MissionState::kProposed, SourceKind::kReplay},
-      {"fly-armed-3840.png", 3840, 2160, 2, MissionState::kArmed, SourceKind::kLive}};
+      {"fly-armed-3840.png", 3840, 2160, 2, MissionState::kArmed, SourceKind::kLive},
+      {"tune-1920.png", 1920, 1080, 1, MissionState::kArmed, SourceKind::kSimulation,
+       Workspace::kTune},
+      {"tune-1280.png", 1280, 720, 1, MissionState::kArmed, SourceKind::kSimulation,
+       Workspace::kTune},
+      {"review-1920.png", 1920, 1080, 1, MissionState::kArmed, SourceKind::kReplay,
+       Workspace::kReview},
+      {"review-1280.png", 1280, 720, 1, MissionState::kArmed, SourceKind::kReplay,
+       Workspace::kReview},
+      {"diagnose-1920.png", 1920, 1080, 1, MissionState::kDescending, SourceKind::kLive,
+       Workspace::kDiagnose}};
   int failed = 0;
   for (const palace::Shot& shot : shots) {
     failed += palace::Take(shot, folder);

@@ -1,0 +1,239 @@
+// Review and Diagnose: texts stay in their panels; the timeline seeks; differences are found.
+#include "gui/panels/diagnose.h"
+#include "gui/panels/review.h"
+#include "tests/gui/panels/panel_checks.h"
+#include "tests/support/fake_snapshot.h"
+#include "tests/support/ui_harness.h"
+
+namespace palace {
+namespace {
+
+constexpr double kStart_s = static_cast<double>(fake::kNow_us) * 1e-6 - 252;
+
+/// A flight of 338 s, one sample each half second.
+FlightRecord Record() {
+  FlightRecord record;
+  record.path = "logs/flight.log";
+  record.start_s = kStart_s;
+  record.duration_s = 338;
+  record.has_settings = true;
+  for (int i = 0; i < 676; ++i) {
+    FlightRecordSample sample;
+    const double t = 0.5 * i;
+    sample.time = {static_cast<std::int64_t>((kStart_s + t) * 1e6)};
+    sample.state = t < 60    ? MissionState::kSearch
+                   : t < 180 ? MissionState::kProposed
+                   : t < 220 ? MissionState::kArmed
+                             : MissionState::kDescending;
+    sample.best_site = t < 20 ? 0 : (t < 230 ? 'B' : 'A');
+    sample.best_safe_distance_m = t < 20 ? NAN : 4.6;
+    sample.height_above_site_m = t < 220 ? 38 : std::max(0.0, 38 - 0.6 * (t - 220));
+    sample.height_m = sample.height_above_site_m;
+    record.samples.push_back(sample);
+  }
+  record.events = fake::Events();
+  record.events.push_back({{fake::kNow_us - 60'000'000}, EventKind::kBookmark, "Skid contact"});
+  return record;
+}
+
+EngineSnapshot Replay(bool redecided) {
+  EngineSnapshot snap = fake::Snapshot(MissionState::kArmed, SourceKind::kReplay);
+  if (redecided) {
+    snap.recorded = snap.applied;
+    snap.settings.slad.max_slope_deg = snap.preview_settings.slad.max_slope_deg = 6;
+    auto applied =
+        std::make_shared<TerrainDecision>(*fake::Decision(snap.X_WC, snap.settings.slad, 0x91c07e));
+    std::swap(applied->selection.sites[0], applied->selection.sites[1]);
+    snap.applied = applied;
+  }
+  return snap;
+}
+
+std::vector<PlaybackControl> Playbacks(const Intents& intents) {
+  std::vector<PlaybackControl> found;
+  for (const Intent& intent : intents) {
+    if (const auto* control = std::get_if<PlaybackControl>(&intent)) {
+      found.push_back(*control);
+    }
+  }
+  return found;
+}
+
+TEST(ReviewWorkspace, TextsStayInTheirPanels) {
+  const FlightRecord record = Record();
+  const EngineSnapshot as_recorded = Replay(false), redecided = Replay(true);
+  for (const WindowSize& size : kWindowSizes) {
+    UiHarness ui(size.width, size.height);
+    const Rect body = BodyOf(size.width, size.height);
+    for (const EngineSnapshot* snap : {&as_recorded, &redecided}) {
+      for (const FlightRecord* with : {&record, static_cast<const FlightRecord*>(nullptr)}) {
+        for (const auto picture : {ReviewPicture::kView3d, ReviewPicture::kRightCamera}) {
+          SCOPED_TRACE(std::string(size.name) + (snap->recorded ? " re-decided" : ""));
+          ReviewState state;
+          state.picture = picture;
+          ui.Frame([&](UiFrame& f) { DrawReviewWorkspace(*snap, with, body, state, f); });
+          ExpectTextsInPanels(ui.items);
+          ExpectPanelsApart(ui.items, body);
+        }
+      }
+    }
+  }
+}
+
+TEST(ReviewWorkspace, WithoutASourceItSaysWhatToDo) {
+  UiHarness ui(1920, 1080);
+  const EngineSnapshot snap;
+  ReviewState state;
+  ui.Frame([&](UiFrame& f) { DrawReviewWorkspace(snap, nullptr, BodyOf(1920, 1080), state, f); });
+  const Item* text = ui.items.Find("text");
+  ASSERT_NE(text, nullptr);
+  EXPECT_EQ(text->text.substr(0, 12), "No log open.");
+}
+
+TEST(ReviewWorkspace, ClickOnTheTimelineSeeksThere) {
+  const FlightRecord record = Record();
+  for (const char* strip : {"timeline", "overview"}) {
+    SCOPED_TRACE(strip);
+    UiHarness ui(1920, 1080);
+    const EngineSnapshot snap = Replay(false);
+    ReviewState state;
+    const auto draw = [&](UiFrame& f) {
+      DrawReviewWorkspace(snap, &record, BodyOf(1920, 1080), state, f);
+    };
+    ui.Frame(draw);
+    const Rect r = ui.items.Find(strip)->rect;
+    ui.MoveTo(ImVec2{r.x + r.w / 4, r.centre().y});
+    ui.Frame(draw);
+    ui.Button(true);
+    ui.Frame(draw);
+    auto asked = Playbacks(ui.intents);
+    ASSERT_EQ(asked.size(), 1U);
+    EXPECT_EQ(asked[0].kind, PlaybackControl::Kind::kSeek);
+    EXPECT_NEAR(asked[0].value, 338.0 / 4, 0.5);
+    ui.Frame(draw);  // holding still asks nothing more
+    EXPECT_EQ(Playbacks(ui.intents).size(), 1U);
+    ui.MoveTo(ImVec2{r.x + r.w / 2, r.centre().y});  // scrubbing follows
+    ui.Frame(draw);
+    asked = Playbacks(ui.intents);
+    ASSERT_EQ(asked.size(), 2U);
+    EXPECT_NEAR(asked[1].value, 338.0 / 2, 0.5);
+    ui.Button(false);
+    ui.Frame(draw);
+    EXPECT_EQ(Playbacks(ui.intents).size(), 2U);
+  }
+}
+
+TEST(ReviewWorkspace, TransportButtonsAskForTheirControl) {
+  using Kind = PlaybackControl::Kind;
+  const FlightRecord record = Record();
+  const struct {
+    const char* item;
+    Kind kind;
+    double value;
+  } table[] = {{"play", Kind::kPause, 0},
+               {"step_back", Kind::kStepBack, 0},
+               {"step_forward", Kind::kStepForward, 0},
+               {"to_start", Kind::kSeek, 0},
+               {"to_end", Kind::kSeek, 338},
+               {"speed", Kind::kSpeed, 2}};
+  for (const auto& row : table) {
+    SCOPED_TRACE(row.item);
+    UiHarness ui(1280, 720);
+    const EngineSnapshot snap = Replay(false);
+    ReviewState state;
+    const auto draw = [&](UiFrame& f) {
+      DrawReviewWorkspace(snap, &record, BodyOf(1280, 720), state, f);
+    };
+    ui.Frame(draw);
+    ui.Click(row.item, draw);
+    const auto asked = Playbacks(ui.intents);
+    ASSERT_EQ(asked.size(), 1U);
+    EXPECT_EQ(asked[0].kind, row.kind);
+    EXPECT_EQ(asked[0].value, row.value);
+  }
+}
+
+TEST(ReviewWorkspace, BookmarkCarriesItsTime) {
+  UiHarness ui(1920, 1080);
+  const EngineSnapshot snap = Replay(false);
+  ReviewState state;
+  const auto draw = [&](UiFrame& f) {
+    DrawReviewWorkspace(snap, nullptr, BodyOf(1920, 1080), state, f);
+  };
+  ui.Frame(draw);
+  ui.Click("bookmark", draw);
+  EXPECT_EQ(ui.LastCommand<AddBookmark>().note, "Bookmark at 04:12.0");
+}
+
+TEST(ReviewWorkspace, FindsWhereTheDecisionsDiffer) {
+  const FlightRecord record = Record();
+  const EngineSnapshot snap = Replay(true);  // history says A all the time, from 212 s to 252 s
+  const auto found = FindDifferences(snap, &record);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].recorded, 'B');
+  EXPECT_EQ(found[0].now, 'A');
+  EXPECT_NEAR(found[0].at_s, 212, 0.2);
+  EXPECT_NEAR(found[0].to_s, 230, 0.6);
+  EXPECT_TRUE(FindDifferences(snap, nullptr).empty());
+}
+
+TEST(ReviewWorkspace, ClickOnADifferenceSeeksToIt) {
+  const FlightRecord record = Record();
+  UiHarness ui(1920, 1080);
+  const EngineSnapshot snap = Replay(true);
+  ReviewState state;
+  const auto draw = [&](UiFrame& f) {
+    DrawReviewWorkspace(snap, &record, BodyOf(1920, 1080), state, f);
+  };
+  ui.Frame(draw);
+  ui.Click("difference/0", draw);
+  const auto asked = Playbacks(ui.intents);
+  ASSERT_EQ(asked.size(), 1U);
+  EXPECT_NEAR(asked[0].value, 212, 0.2);
+}
+
+TEST(ReviewWorkspace, LanesHoldTheStatesInOrder) {
+  const FlightRecord record = Record();
+  const TimelineView view = MakeTimeline(Replay(false), &record, MakeDarkPalette(), true);
+  ASSERT_EQ(view.lanes.size(), 6U);
+  const auto& states = view.lanes[0].segments;
+  ASSERT_EQ(states.size(), 4U);
+  EXPECT_EQ(states[0].text + states[1].text + states[2].text + states[3].text,
+            "SearchProposedArmedDescending");
+  EXPECT_NEAR(states[1].from_s, 60, 0.01);
+  EXPECT_NEAR(states[1].to_s, 180, 0.01);
+  EXPECT_EQ(view.lanes[1].segments[0].text, "none");
+  EXPECT_TRUE(view.lanes[1].segments[0].dashed);
+}
+
+TEST(TimelineStrip, LabelsRoundAsClocksDo) {
+  EXPECT_EQ(TimeLabel(59.96, true), "01:00.0");
+  EXPECT_EQ(TimeLabel(193.4, true), "03:13.4");
+  EXPECT_EQ(TimeLabel(59.6, false), "01:00");
+  EXPECT_EQ(TimeLabel(NAN, true), "00:00.0");
+}
+
+TEST(DiagnoseWorkspace, TextsStayInTheirPanels) {
+  for (const WindowSize& size : kWindowSizes) {
+    SCOPED_TRACE(size.name);
+    UiHarness ui(size.width, size.height);
+    EngineSnapshot snap = fake::Snapshot(MissionState::kDescending);
+    snap.diagnostics = {{DiagnosticLevel::kWarning, "stereo",
+                         "41 % of the picture has no depth, limit 30 %. Check the exposure of the "
+                         "right camera."},
+                        {DiagnosticLevel::kInfo, "slad", "Border filled."}};
+    auto events = *snap.events;
+    events.push_back({snap.time, EventKind::kDecision,
+                      "Approve refused: Left camera stale, 1.8 s, and a very long explanation that "
+                      "no panel of this program could ever hold in a single line of its list"});
+    snap.events = std::make_shared<const std::vector<Event>>(events);
+    DiagnoseState state;
+    const Rect body = BodyOf(size.width, size.height);
+    ui.Frame([&](UiFrame& f) { DrawDiagnoseWorkspace(snap, body, state, f); });
+    ExpectTextsInPanels(ui.items);
+    ExpectPanelsApart(ui.items, body);
+  }
+}
+
+}  // namespace
+}  // namespace palace

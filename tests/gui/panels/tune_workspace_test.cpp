@@ -1,0 +1,259 @@
+// Tune: texts stay in their panels; sliders, typing, undo, apply ask for the right thing.
+#include "gui/panels/tune.h"
+#include "tests/gui/panels/panel_checks.h"
+#include "tests/support/fake_snapshot.h"
+#include "tests/support/ui_harness.h"
+
+namespace palace {
+namespace {
+
+/// A snapshot with a preview: slope 6° instead of 10°, another best site.
+EngineSnapshot Previewing(MissionState state) {
+  EngineSnapshot snap = fake::Snapshot(state, SourceKind::kSimulation);
+  snap.preview_settings.slad.max_slope_deg = 6;
+  snap.preview_settings.slad.max_deviation_m = 0.06;
+  snap.preview_settings.slad.frames_fused = 24;
+  snap.preview_hash = 0x91c07e0000000000;
+  auto preview = std::make_shared<TerrainDecision>(
+      *fake::Decision(snap.X_WC, snap.preview_settings.slad, snap.preview_hash));
+  std::swap(preview->selection.sites[0], preview->selection.sites[1]);
+  snap.preview = preview;
+  return snap;
+}
+
+Rect Body() { return BodyOf(1920, 1080); }
+
+template <typename T>
+const T* LastUiAction(const Intents& intents) {
+  const T* found = nullptr;
+  for (const Intent& intent : intents) {
+    if (const auto* action = std::get_if<UiAction>(&intent)) {
+      found = std::get_if<T>(action) != nullptr ? std::get_if<T>(action) : found;
+    }
+  }
+  return found;
+}
+
+TEST(TuneWorkspace, TextsStayInTheirPanels) {
+  const EngineSnapshot applied = fake::Snapshot(MissionState::kProposed);
+  const EngineSnapshot preview = Previewing(MissionState::kArmed);
+  for (const WindowSize& size : kWindowSizes) {
+    UiHarness ui(size.width, size.height);
+    const Rect body = BodyOf(size.width, size.height);
+    for (const EngineSnapshot* snap : {&applied, &preview}) {
+      for (const TuneTab tab : {TuneTab::kApply, TuneTab::kCells, TuneTab::kHistory}) {
+        SCOPED_TRACE(std::string(size.name) + (snap->preview ? " preview" : " applied"));
+        TuneState state;
+        state.tab = tab;
+        state.history = {{snap->time, "slad.max_slope_deg", 10, 6},
+                         {snap->time, "slad.max_deviation_m", 0.1, 0.06}};
+        ui.Frame([&](UiFrame& f) { DrawTuneWorkspace(*snap, body, state, f); });
+        ExpectTextsInPanels(ui.items);
+        ExpectPanelsApart(ui.items, body);
+      }
+    }
+  }
+}
+
+TEST(TuneWorkspace, NothingKnownYetIsDrawnToo) {
+  UiHarness ui(1920, 1080);
+  const EngineSnapshot snap;
+  TuneState state;
+  ui.Frame([&](UiFrame& f) { DrawTuneWorkspace(snap, Body(), state, f); });
+  ExpectTextsInPanels(ui.items);
+}
+
+TEST(TuneWorkspace, DraggingASliderSetsTheLimitAtEveryMove) {
+  UiHarness ui(1920, 1080);
+  EngineSnapshot snap = fake::Snapshot(MissionState::kSearch);
+  TuneState state;
+  const auto draw = [&](UiFrame& f) { DrawTuneWorkspace(snap, Body(), state, f); };
+  ui.Frame(draw);
+  const Item* grab = ui.items.Find("limit/slad.max_slope_deg");
+  ASSERT_NE(grab, nullptr);
+  const ImVec2 from = grab->rect.centre();
+  ui.MoveTo(from);
+  ui.Frame(draw);
+  ui.Button(true);
+  ui.Frame(draw);
+  EXPECT_EQ(ui.CountCommands<SetSetting>(), 0);  // a press alone moves nothing
+  double last = snap.settings.slad.max_slope_deg;
+  for (int step = 1; step <= 3; ++step) {
+    ui.MoveTo(ImVec2{from.x - 8.0f * static_cast<float>(step), from.y});
+    ui.Frame(draw);
+    ASSERT_EQ(ui.CountCommands<SetSetting>(), step);
+    const SetSetting set = ui.LastCommand<SetSetting>();
+    EXPECT_EQ(set.name, "slad.max_slope_deg");
+    EXPECT_LT(set.value, last);
+    last = set.value;
+    snap.preview_settings.slad.max_slope_deg = set.value;  // the engine follows
+    snap.settings = snap.preview_settings;
+  }
+  ui.MoveTo(ImVec2{from.x - 4000, from.y});  // far over the end: stops at the limit
+  ui.Frame(draw);
+  EXPECT_EQ(ui.LastCommand<SetSetting>().value, FindSetting("slad.max_slope_deg")->min);
+  snap.preview_settings.slad.max_slope_deg = 0.5;
+  ui.Button(false);
+  ui.Frame(draw);
+  ui.Frame(draw);
+  ASSERT_EQ(state.history.size(), 1U);  // one gesture, one entry
+  EXPECT_EQ(state.history[0].before, 10);
+  EXPECT_EQ(state.history[0].after, 0.5);
+}
+
+/// Types into the field of a setting and presses Enter.
+void Type(UiHarness& ui, const std::string& setting, const char* text,
+          const std::function<void(UiFrame&)>& draw) {
+  ui.Frame(draw);
+  ui.Click("field/" + setting, draw);
+  ui.Frame(draw);
+  ui.Frame(draw);
+  for (const char* c = text; *c != '\0'; ++c) {
+    ImGui::GetIO().AddInputCharacter(static_cast<unsigned char>(*c));
+  }
+  ui.Frame(draw);
+  ui.Key(ImGuiKey_Enter, true);
+  ui.Frame(draw);
+  ui.Key(ImGuiKey_Enter, false);
+  ui.Frame(draw);
+}
+
+TEST(TuneWorkspace, TypedValuesAreSetOrRefusedWithTheReason) {
+  UiHarness ui(1920, 1080);
+  const EngineSnapshot snap = fake::Snapshot(MissionState::kSearch);
+  TuneState state;
+  const auto draw = [&](UiFrame& f) { DrawTuneWorkspace(snap, Body(), state, f); };
+  Type(ui, "slad.max_deviation_m", "6.5", draw);
+  ASSERT_EQ(ui.CountCommands<SetSetting>(), 1);
+  EXPECT_EQ(ui.LastCommand<SetSetting>().name, "slad.max_deviation_m");
+  EXPECT_NEAR(ui.LastCommand<SetSetting>().value, 0.065, 1e-12);
+  Type(ui, "slad.max_slope_deg", "60", draw);
+  EXPECT_EQ(ui.CountCommands<SetSetting>(), 1);
+  const Item* refused = ui.items.Find("refused/slad.max_slope_deg");
+  ASSERT_NE(refused, nullptr);
+  EXPECT_EQ(refused->text, "60.0° refused, max 45.0°");
+}
+
+struct Typed {
+  const char* setting;
+  const char* text;
+  bool accepted;
+  double value;
+  const char* refusal;
+};
+
+TEST(SliderRow, ParsesWhatPeopleType) {
+  const Typed table[] = {
+      {"slad.max_slope_deg", "8", true, 8, ""},
+      {"slad.max_slope_deg", "8,5°", true, 8.5, ""},
+      {"slad.max_deviation_m", "8 cm", true, 0.08, ""},
+      {"slad.max_deviation_m", "0.2", false, 0, "0.2 cm refused, min 0.5 cm"},
+      {"slad.max_slope_deg", "abc", false, 0, "\"abc\" is not a number"},
+      {"slad.max_slope_deg", "8 m", false, 0, "\"8 m\" is not a number"},
+      {"slad.max_slope_deg", "nan", false, 0, "\"nan\" is not a number"},
+      {"slad.max_slope_deg", "", false, 0, "\"\" is not a number"},
+      {"slad.grid_rows", "10.5", false, 0, "10 refused, must be a whole number"},
+      {"stereo.block_size_px", "6", false, 0, "6 px refused, must be odd"},
+      {"stereo.num_disparities", "40", false, 0, "40 px refused, must be a multiple of 16"},
+  };
+  for (const Typed& row : table) {
+    SCOPED_TRACE(std::string(row.setting) + " " + row.text);
+    double value = 0;
+    std::string refusal;
+    EXPECT_EQ(ParseTyped(*FindSetting(row.setting), Settings{}, row.text, value, refusal),
+              row.accepted);
+    EXPECT_EQ(refusal, row.refusal);
+    if (row.accepted) {
+      EXPECT_NEAR(value, row.value, 1e-12);
+    }
+  }
+}
+
+TEST(SliderRow, TrackReachesBothHardLimitsAndInvertsItself) {
+  for (const SettingInfo& info : SettingTable()) {
+    SCOPED_TRACE(info.name);
+    EXPECT_NEAR(TrackValue(info, 0), info.min, 1e-9);
+    EXPECT_NEAR(TrackValue(info, 1), info.max, 1e-9);
+    for (int i = 0; i <= 20; ++i) {
+      const double value = info.min + (info.max - info.min) * i / 20;
+      EXPECT_NEAR(TrackValue(info, TrackShare(info, value)), value, 1e-4 * (info.max - info.min));
+    }
+  }
+}
+
+TEST(TuneWorkspace, ResetAppearsOnlyWhenChangedAndSetsTheDefault) {
+  UiHarness ui(1920, 1080);
+  EngineSnapshot snap = fake::Snapshot(MissionState::kSearch);
+  TuneState state;
+  const auto draw = [&](UiFrame& f) { DrawTuneWorkspace(snap, Body(), state, f); };
+  ui.Frame(draw);
+  EXPECT_EQ(ui.items.Find("reset/slad.max_slope_deg"), nullptr);
+  snap.settings.slad.max_slope_deg = snap.preview_settings.slad.max_slope_deg = 7;
+  ui.Frame(draw);
+  ui.Click("reset/slad.max_slope_deg", draw);
+  EXPECT_EQ(ui.LastCommand<SetSetting>().value, 10);
+}
+
+TEST(TuneWorkspace, ApplyIsOfferedOnlyForAPreviewThatMayApply) {
+  const struct {
+    MissionState state;
+    bool apply, discard;
+  } table[] = {{MissionState::kSearch, false, false},    {MissionState::kProposed, false, false},
+               {MissionState::kArmed, true, true},       {MissionState::kApproved, true, true},
+               {MissionState::kDescending, false, true}, {MissionState::kHold, true, true}};
+  for (const auto& row : table) {
+    SCOPED_TRACE(MissionStateName(row.state));
+    UiHarness ui(1920, 1080);
+    EngineSnapshot snap = Previewing(row.state);
+    TuneState state;
+    const auto draw = [&](UiFrame& f) { DrawTuneWorkspace(snap, Body(), state, f); };
+    ui.Frame(draw);
+    ui.Click("apply", draw);
+    EXPECT_EQ(ui.CountCommands<ApplySettings>(), row.apply ? 1 : 0);
+    ui.Click("discard", draw);
+    EXPECT_EQ(ui.CountCommands<DiscardSettings>(), row.discard ? 1 : 0);
+  }
+}
+
+TEST(TuneWorkspace, SearchAndGroupsChooseTheRows) {
+  UiHarness ui(1920, 1080);
+  EngineSnapshot snap = fake::Snapshot(MissionState::kSearch);
+  TuneState state;
+  const auto draw = [&](UiFrame& f) { DrawTuneWorkspace(snap, Body(), state, f); };
+  ui.Frame(draw);
+  EXPECT_NE(ui.items.Find("field/slad.max_slope_deg"), nullptr);
+  EXPECT_EQ(ui.items.Find("field/tracking.min_coherence"), nullptr);  // folded
+  ui.Click("group/Hazard limits", draw);
+  ui.Frame(draw);
+  EXPECT_EQ(ui.items.Find("field/slad.max_slope_deg"), nullptr);
+  std::snprintf(state.search, sizeof state.search, "COHERENCE");
+  ui.Frame(draw);
+  EXPECT_NE(ui.items.Find("field/tracking.min_coherence"), nullptr);  // search opens groups
+  EXPECT_EQ(ui.items.Find("field/slad.cell_m"), nullptr);
+  state.search[0] = '\0';
+  snap.preview_settings.slad.cell_m = 0.3;
+  ui.Click("limits/changed", draw);
+  ui.Frame(draw);
+  EXPECT_NE(ui.items.Find("field/slad.cell_m"), nullptr);
+  EXPECT_EQ(ui.items.Find("field/slad.max_rock_size_m"), nullptr);
+}
+
+TEST(TuneWorkspace, PresetAndUndoButtonsAsk) {
+  UiHarness ui(1920, 1080);
+  const EngineSnapshot snap = fake::Snapshot(MissionState::kSearch);
+  TuneState state;
+  state.preset_path = "config/r50-field.toml";
+  state.history = {{snap.time, "slad.max_slope_deg", 10, 6}};
+  const auto draw = [&](UiFrame& f) { DrawTuneWorkspace(snap, Body(), state, f); };
+  ui.Frame(draw);
+  ui.Click("undo", draw);
+  EXPECT_NE(LastUiAction<UndoSetting>(ui.intents), nullptr);
+  ui.Click("load_preset", draw);
+  ASSERT_NE(LastUiAction<LoadPreset>(ui.intents), nullptr);
+  EXPECT_EQ(LastUiAction<LoadPreset>(ui.intents)->path, "config/r50-field.toml");
+  ui.Click("save_preset", draw);
+  EXPECT_NE(LastUiAction<SavePreset>(ui.intents), nullptr);
+}
+
+}  // namespace
+}  // namespace palace
