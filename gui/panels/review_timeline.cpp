@@ -74,11 +74,17 @@ const std::vector<Event>& EventsOf(const EngineSnapshot& snap, const FlightRecor
   return snap.events ? *snap.events : none;
 }
 
-/// "GPS horizontal error 2.6 m": a mark has room for the start of the sentence only.
+/// "GPS horizontal error 2.6 m": a mark has room for the first clause only, whole words.
 std::string MarkWords(const std::string& text) {
-  const auto stop = text.find_first_of(",.:");
-  return stop == std::string::npos || stop > 32 ? text.substr(0, text.find(' ', 20))
-                                                : text.substr(0, stop);
+  constexpr std::size_t kMost = 32;
+  std::size_t stop = text.size();
+  for (const char* end : {", ", ". ", ": "}) {
+    stop = std::min(stop, text.find(end));
+  }
+  if (stop <= kMost) {
+    return text.substr(0, stop);
+  }
+  return text.substr(0, text.rfind(' ', kMost));
 }
 
 Lane AlarmLane(const EngineSnapshot& snap, const FlightRecord* record, const Palette& p) {
@@ -118,6 +124,18 @@ void Playback(UiFrame& ui, PlaybackControl::Kind kind, double value = 0) {
   ui.intents.push_back(PlaybackControl{kind, value});
 }
 
+/// The next of 2, 4, 10, 20, 40, 100 ...: its half is a round tick too.
+float RoundTop(float top) {
+  for (float decade = 1; decade < 1e6f; decade *= 10) {
+    for (const float factor : {2.0f, 4.0f, 10.0f}) {
+      if (top <= factor * decade) {
+        return factor * decade;
+      }
+    }
+  }
+  return top;
+}
+
 double NextSpeed(double speed) {
   const double steps[] = {0.25, 0.5, 1, 2, 5, 20};
   for (const double step : steps) {
@@ -153,20 +171,20 @@ float DrawTransport(UiFrame& ui, const Rect& row, const EngineSnapshot& snap, do
     x = box.right() + s.Px(8);
     return box;
   };
-  if (IconButton(ui, "to_start", next(36), Icon::kFrameBack, false, seek)) {
+  if (IconButton(ui, "to_start", next(36), Icon::kStepBack, false, seek)) {
     Playback(ui, Kind::kSeek, 0);
   }
-  if (IconButton(ui, "step_back", next(36), Icon::kStepBack, false, seek)) {
+  if (IconButton(ui, "step_back", next(36), Icon::kFrameBack, false, seek)) {
     Playback(ui, Kind::kStepBack);
   }
   const bool playing = !snap.source.paused && !snap.source.ended;
   if (IconButton(ui, "play", next(36), playing ? Icon::kPause : Icon::kPlay, playing, true)) {
     Playback(ui, playing ? Kind::kPause : Kind::kPlay);
   }
-  if (IconButton(ui, "step_forward", next(36), Icon::kStepForward, false, true)) {
+  if (IconButton(ui, "step_forward", next(36), Icon::kFrameForward, false, true)) {
     Playback(ui, Kind::kStepForward);
   }
-  if (IconButton(ui, "to_end", next(36), Icon::kFrameForward, false, seek)) {
+  if (IconButton(ui, "to_end", next(36), Icon::kStepForward, false, seek)) {
     Playback(ui, Kind::kSeek, duration_s);
   }
   x += s.Px(4);
@@ -332,7 +350,7 @@ void DrawReviewPlots(const EngineSnapshot& snap, const FlightRecord* record, con
   }
   const auto grow = [](float& limit, const PlotSeries& series) {
     for (const ImVec2& point : series.points) {
-      limit = std::isfinite(point.y) ? std::max(limit, point.y * 1.1f) : limit;
+      limit = std::isfinite(point.y) ? std::max(limit, point.y * 1.03f) : limit;
     }
   };
   grow(top, recorded_height);
@@ -346,10 +364,10 @@ void DrawReviewPlots(const EngineSnapshot& snap, const FlightRecord* record, con
     view->relative_time = false;
     view->now = std::min(end, static_cast<float>(snap.source.position_s));
   }
-  height.y_max = top;
+  height.y_max = RoundTop(top);
   height.current = Fixed(snap.mission.height_above_site_m, 1) + " m";
   height.series = {now_height, recorded_height};
-  clear.y_max = top_clear;
+  clear.y_max = RoundTop(top_clear);
   const LandingSite* best = BestSite(snap.applied.get());
   clear.current = best != nullptr ? Fixed(best->safe_distance_m, 1) + " m" : "––";
   clear.series = {now_clear, recorded_clear};

@@ -267,6 +267,8 @@ void DrawDecisionPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui
               {"Safe area", Fixed(SafeArea(was), 0) + " m²", Fixed(SafeArea(is), 0) + " m²"},
               {"Decision", verdict.recorded, verdict.now}};
   const float pad = s.Px(12);
+  // Room for the seven rows and one line of reason, also in a narrow window.
+  const float pitch = std::min(s.Px(25), std::floor((content.h - s.Px(34)) / 7));
   float y = content.y + s.Px(10);
   for (const auto& row : rows) {
     const bool head = row.name[0] == '\0';
@@ -275,7 +277,7 @@ void DrawDecisionPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui
              Align::kRight);
     DrawText(ui, head ? s.caption : s.medium, head ? p.text2 : p.text1, content.right() - pad, y,
              row.now, Align::kRight);
-    y += s.Px(25);
+    y += pitch;
   }
   for (const std::string& line : WrapText(s.body, verdict.reason, content.w - 2 * pad)) {
     if (y + s.Px(8) > rect.bottom()) {
@@ -352,7 +354,7 @@ void DrawReviewWorkspace(const EngineSnapshot& snap, const FlightRecord* record,
     DrawWide(snap, record, upper, state, ui);
   }
   const float right_x = body.right() - right_w;
-  const float redecide_h = s.Px(narrow ? 174 : 228);
+  const float redecide_h = s.Px(narrow ? 198 : 228);
   DrawRedecidePanel(snap, record, {right_x, body.y, right_w, redecide_h}, state, ui);
   const float decision_y = body.y + redecide_h + gap;
   const float rest = upper.bottom() - decision_y;

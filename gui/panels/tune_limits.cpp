@@ -182,14 +182,14 @@ void DrawFoot(UiFrame& ui, const Rect& foot, const TuneFacts& facts, TuneState& 
     const char* label;
     bool enabled;
     UiAction action;
-  } buttons[] = {{"undo", "Undo", state.can_undo && !state.history.empty(), UndoSetting{}},
-                 {"redo", "Redo", state.can_redo, RedoSetting{}},
-                 {"load_preset", "Load preset", true, LoadPreset{path}},
-                 {"save_preset", "Save preset", true, SavePreset{state.preset_path}}};
+  } buttons[] = {
+      {"undo", "Undo", state.can_undo && !state.history.empty(), UndoSetting{}},
+      {"redo", "Redo", state.can_redo, RedoSetting{}},
+      {"load_preset", w < s.Px(84) ? "Load" : "Load preset", true, LoadPreset{path}},
+      {"save_preset", w < s.Px(84) ? "Save" : "Save preset", true, SavePreset{state.preset_path}}};
   for (int i = 0; i < 4; ++i) {
     ButtonLook look;
     look.enabled = buttons[i].enabled;
-    look.font = w < s.Px(84) ? s.caption : s.body;
     const Rect box{foot.x + s.Px(12) + static_cast<float>(i) * (w + gap), y, w, h};
     if (DrawButton(ui, buttons[i].name, box, buttons[i].label, look)) {
       ui.intents.push_back(buttons[i].action);

@@ -16,6 +16,11 @@ std::string Signed(double value, int decimals) {
   return (value > 0 ? "+" : "") + Fixed(value, decimals);
 }
 
+/// "10" or "6.5": a limit without an idle zero.
+std::string Short(double value) {
+  return Fixed(value, std::abs(value - std::round(value)) < 0.05 ? 0 : 1);
+}
+
 /// One column of the strip: label, "before -> after", what changed.
 struct Comparison {
   const char* label;
@@ -78,8 +83,8 @@ void DrawChip(UiFrame& ui, const Rect& box, bool on, const char* title, const st
   const float y = box.y + box.h * 0.23f;
   DrawText(ui, s.medium, on ? p.text1 : p.text2, x, y, title);
   DrawText(ui, s.caption, on ? p.text1 : p.text2, x, y + step, line);
-  const std::string words = "Slope " + Fixed(limits.max_slope_deg, 1) + "°, rough " +
-                            Fixed(limits.max_deviation_m * 100, 1) + " cm";
+  const std::string words = "Slope " + Short(limits.max_slope_deg) + "°, rough " +
+                            Short(limits.max_deviation_m * 100) + " cm";
   DrawText(ui, s.caption, on ? p.text1 : p.text2, x, y + 2 * step, words);
 }
 
@@ -110,7 +115,6 @@ void DrawTuneMap(const EngineSnapshot& snap, const Rect& rect, MapKind kind, boo
       facts.previewing && facts.applied != nullptr ? &facts.applied->settings : nullptr;
   MapView view =
       MakeMapView(kind, facts.shown, ui.textures.maps[TextureOf(kind)], applied, state.cursor);
-  view.preview = facts.previewing;
   if (kind == MapKind::kElevation) {
     view.low = Fixed(static_cast<double>(state.elevation_low_m), 1) + " m";
     view.high = Fixed(static_cast<double>(state.elevation_high_m), 1) + " m+";
@@ -122,6 +126,8 @@ void DrawTuneMap(const EngineSnapshot& snap, const Rect& rect, MapKind kind, boo
   }
   const float below = colour_bar ? s.Px(42) : s.Px(8);
   const float side = std::floor(std::min(rect.w, rect.h - s.Px(28) - below));
+  // On a small map the chip would hide what it speaks of; the picture beside it carries one.
+  view.preview = facts.previewing && side >= s.Px(160);
   marks.letters = side >= s.Px(150);
   std::optional<Cell> cell;
   if (colour_bar) {

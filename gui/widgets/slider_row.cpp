@@ -286,9 +286,11 @@ void DrawSliderRow(UiFrame& ui, const Rect& rect, const SliderRow& row, const Se
   }
   DrawText(ui, changed ? s.medium : s.body, changed ? p.text1 : p.text2, rect.x + s.Px(16), middle,
            info.label);
-  const Rect field{rect.right() - s.Px(112), std::round(middle - s.Px(13)), s.Px(80), s.Px(26)};
-  const float track_right = field.x - s.Px(18);
-  const float track_left = std::max(rect.x + s.Px(160), track_right - s.Px(120));
+  const bool narrow = rect.w < s.Px(380);
+  const Rect field{rect.right() - s.Px(narrow ? 106 : 112), std::round(middle - s.Px(13)),
+                   s.Px(narrow ? 76 : 80), s.Px(26)};
+  const float track_right = field.x - s.Px(narrow ? 12 : 18);
+  const float track_left = std::max(rect.x + s.Px(narrow ? 150 : 160), track_right - s.Px(120));
   const Rect track{track_left, std::round(middle - s.Px(2)), track_right - track_left, s.Px(4)};
   if (!info.words.empty()) {
     DrawWords(ui, {track.x, field.y, field.right() - track.x, field.h}, row);
