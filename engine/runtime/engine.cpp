@@ -51,12 +51,27 @@ void Engine::Post(EngineCommand command) {
 
 void Engine::Control(const PlaybackControl& control) {
   source_->Control(control);
+  using Kind = PlaybackControl::Kind;
+  if (control.kind == Kind::kSeek || control.kind == Kind::kStepBack ||
+      control.kind == Kind::kStepForward) {
+    jump_asked_ = true;
+    ended_ = false;
+  }
   const SourceStatus status = source_->Status();
   inbox_.SetIdle(status.paused || status.ended);
 }
 
 bool Engine::Step() {
   PALACE_CHECK(!threaded_);
+  const bool waits = source_->Status().paused && !jump_asked_;
+  if (waits || ended_) {
+    std::vector<EngineCommand> commands = inbox_.TakeCommands();
+    if (!commands.empty()) {
+      Handle({nullptr, std::move(commands)});
+    }
+    return !ended_;
+  }
+  jump_asked_ = false;
   Result<std::shared_ptr<const FrameBundle>> next = source_->Next({});
   if (!next) {
     Fail(next.error());

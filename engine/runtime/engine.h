@@ -44,8 +44,9 @@ class Engine {
   void Post(EngineCommand command);
   void Control(const PlaybackControl& control);
 
-  /// Without threads: takes the next bundle and processes it in the caller's thread. False when the
-  /// source ended; error() then says whether that was a failure.
+  /// Without threads: takes the next bundle and processes it in the caller's thread; while the
+  /// source is paused or ended only commands are handled. False when the source has ended; error()
+  /// then says whether that was a failure.
   bool Step();
 
   /// Set when the source failed (not when it merely ended).
@@ -69,6 +70,7 @@ class Engine {
   Inbox inbox_;
   LatestValue<EngineSnapshot> latest_;
   std::atomic<bool> ended_{false};
+  std::atomic<bool> jump_asked_{false};  ///< a paused source still has one bundle to give
   std::atomic<std::uint64_t> frames_dropped_{0};
   mutable std::mutex error_mutex_;
   std::string error_;

@@ -28,8 +28,8 @@ struct Pipeline::Pass {
   std::vector<EngineCommand> commands;
   const SessionStatus& session;
   std::shared_ptr<EngineSnapshot> snapshot = std::make_shared<EngineSnapshot>();
-  RectifiedPair pair;
-  std::shared_ptr<const TerrainDecision> decision_of_record;
+  RectifiedPair pair{};
+  std::shared_ptr<const TerrainDecision> decision_of_record{};
   bool new_map = false;
   bool settings_moved = false;
 
@@ -345,7 +345,7 @@ void Pipeline::Decide(Pass& pass) {
   std::string objection;
   const auto& armed = mission_.status().armed;
   if (armed && pass.decision_of_record && pass.new_map) {
-    rechecked = terrain_.Recheck(*pass.decision_of_record, *armed);
+    rechecked = terrain_.Recheck(*pass.decision_of_record, *armed, settings_.recorded());
     objection = SiteObjection(rechecked, settings_.recorded().slad);
   }
   const bool simulated = snapshot.vehicle && snapshot.vehicle->simulated;

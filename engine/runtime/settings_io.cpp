@@ -1,3 +1,6 @@
+// As in every file that includes toml++: no exceptions, and a damaged file never aborts.
+#define TOML_EXCEPTIONS 0
+#define TOML_ASSERT(expr) static_assert(true)
 #include "engine/runtime/settings_io.h"
 
 #include <algorithm>
@@ -110,13 +113,12 @@ Status ApplyKey(Settings& settings, const std::string& key, const toml::node& no
 
 Result<Settings> ParseSettings(std::string_view text, const std::string& name,
                                const Settings& base) {
-  toml::table root;
-  try {
-    root = toml::parse(text, std::string_view(name));
-  } catch (const toml::parse_error& error) {
-    return InvalidError(name + ":" + std::to_string(error.source().begin.line) + ": " +
-                        std::string(error.description()));
+  const toml::parse_result parsed = toml::parse(text, std::string_view(name));
+  if (!parsed) {
+    return InvalidError(name + ":" + std::to_string(parsed.error().source().begin.line) + ": " +
+                        std::string(parsed.error().description()));
   }
+  const toml::table& root = parsed.table();
   Settings settings = base;
   for (const auto& [section, content] : root) {
     const toml::table* table = content.as_table();

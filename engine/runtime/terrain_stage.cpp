@@ -34,12 +34,13 @@ void TerrainStage::Add(const TerrainInput& input, const SladSettings& settings) 
                          ElevationFromRange(*input.range, input.X_WC, settings));
 }
 
-SiteContext TerrainStage::Context() const {
+SiteContext TerrainStage::Context(const Settings& settings) const {
   SiteContext context;
   context.p_WB = input_.p_WB;
   context.X_WC = input_.X_WC;
   context.camera = input_.range->camera;
   context.time = input_.range->time;
+  context.glide_slope_rad = Rad(settings.mission.glide_slope_deg);
   return context;
 }
 
@@ -53,7 +54,7 @@ std::shared_ptr<const TerrainDecision> TerrainStage::Evaluate(const Settings& se
   decision->settings = settings.slad;
   decision->settings_hash = HashOf(settings);
   decision->map_hash = HashOfMaps(*elevation_, *hazards);
-  decision->selection = SelectSites(*elevation_, *hazards, settings.slad, Context());
+  decision->selection = SelectSites(*elevation_, *hazards, settings.slad, Context(settings));
   if (keep_letters) {
     registry_.Assign(decision->selection);
   } else {
@@ -67,8 +68,9 @@ std::shared_ptr<const TerrainDecision> TerrainStage::Evaluate(const Settings& se
 }
 
 std::optional<LandingSite> TerrainStage::Recheck(const TerrainDecision& decision,
-                                                 const LandingSite& site) const {
-  return RecheckSite(*decision.elevation, *decision.hazards, decision.settings, site, Context());
+                                                 const LandingSite& site,
+                                                 const Settings& settings) const {
+  return RecheckSite(*decision.elevation, *decision.hazards, decision.settings, site, Context(settings));
 }
 
 std::string SiteObjection(const std::optional<LandingSite>& site, const SladSettings& settings) {

@@ -36,7 +36,7 @@ class TerrainStage {
                                      const LandingSite& site) const;
 
  private:
-  SiteContext Context() const;
+  SiteContext Context(const Settings& settings) const;
 
   TerrainFusion fusion_;
   SiteRegistry registry_;

@@ -19,6 +19,7 @@ namespace palace {
 namespace {
 
 constexpr double kMissionLimit_s = 180;
+constexpr double kGustPerMean = 1.5;  // W20 of the turbulence beside the mean wind
 constexpr double kZ95 = 1.959963984540054;
 
 struct LandingOptions {
@@ -51,7 +52,8 @@ Result<FlightSummary> FlyOne(const LandingOptions& options, const Settings& sett
   SimulatorOptions simulation;
   simulation.scene = *scene;
   simulation.seed = seed;
-  simulation.wind.mean_speed_mps = options.wind_mps;
+  simulation.wind.mean_mps = options.wind_mps;
+  simulation.wind.gust_w20_mps = kGustPerMean * options.wind_mps;
   simulation.verify = [key = parts.mission.signer.public_key(),
                        state = std::make_shared<VerifierState>()](
                           const Approval& approval, Timestamp now, std::uint64_t boot) {

@@ -1,3 +1,6 @@
+// As in every file that includes toml++: no exceptions, and a damaged file never aborts.
+#define TOML_EXCEPTIONS 0
+#define TOML_ASSERT(expr) static_assert(true)
 #include "engine/wire/channels.h"
 
 #include <cstdint>
@@ -114,12 +117,12 @@ std::vector<std::string> ChannelNames::ToVehicle() const {
 }
 
 Result<ChannelNames> ParseChannels(std::string_view text, const std::string& origin) {
-  try {
-    return FromTable(toml::parse(text, origin), origin);
-  } catch (const toml::parse_error& error) {
-    return InvalidError(origin + ":" + std::to_string(error.source().begin.line) + ": " +
-                        std::string(error.description()));
+  const toml::parse_result parsed = toml::parse(text, origin);
+  if (!parsed) {
+    return InvalidError(origin + ":" + std::to_string(parsed.error().source().begin.line) + ": " +
+                        std::string(parsed.error().description()));
   }
+  return FromTable(parsed.table(), origin);
 }
 
 Result<ChannelNames> LoadChannels(const std::filesystem::path& file) {

@@ -19,7 +19,7 @@ void LcmLink::Send(const VehicleMessage& message) {
   Publish(EncodeVehicleMessage(message, {newest_us_}, channels_));
 }
 
-void LcmLink::PublishOutputs(const EngineSnapshot& snapshot) {
+void LcmLink::Announce(const EngineSnapshot& snapshot) {
   newest_us_ = snapshot.time.us;
   for (const WireMessage& message : outputs_.Encode(snapshot)) {
     Publish(message);

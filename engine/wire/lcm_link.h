@@ -22,7 +22,7 @@ class LcmLink final : public VehicleLink {
   void Send(const VehicleMessage& message) override;
   /// The station's own news: MISSION, SLAD_SETTINGS, SITE_PROPOSAL, TRACKER_STATUS, STATION_STATUS,
   /// EVENT. One thread.
-  void PublishOutputs(const EngineSnapshot& snapshot);
+  void Announce(const EngineSnapshot& snapshot) override;
 
   std::uint64_t sent() const { return sent_; }
   std::uint64_t failed() const { return failed_; }

@@ -49,4 +49,21 @@ quit
 )";
 }
 
+std::string_view DefaultViewScript() {
+  return R"(# Look at whatever comes, then leave.
+wait seconds 3
+screenshot 01-fly.png
+click tab/Tune
+wait seconds 0.3
+screenshot 02-tune.png
+click tab/Review
+wait seconds 0.3
+screenshot 03-review.png
+click tab/Diagnose
+wait seconds 0.3
+screenshot 04-diagnose.png
+quit
+)";
+}
+
 }  // namespace palace

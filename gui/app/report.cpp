@@ -7,7 +7,8 @@
 #include <sstream>
 
 #include "engine/core/hash.h"
-#include "engine/core/units.h"
+#include "gui/app/options.h"
+#include "gui/app/session.h"
 
 namespace palace {
 namespace {
@@ -151,6 +152,23 @@ Status WriteReport(const std::filesystem::path& file, const ReportInput& input) 
     return UnavailableError("cannot write " + file.string() + "; choose a folder you may write to");
   }
   return Ok();
+}
+
+Status WriteFlightReport(const AppOptions& options, const Session& session,
+                         const FlightSummary& summary,
+                         const std::vector<std::string>& screenshots) {
+  ReportInput report;
+  report.title =
+      options.source == SourceChoice::kSimulation
+          ? "PALACE flight: scene " + options.scenario + ", seed " + std::to_string(options.seed)
+          : "PALACE: " + options.source_path;
+  report.lines = SummaryLines(summary);
+  report.last = session.engine->Latest();
+  report.screenshots = screenshots;
+  report.log_name = options.record ? "flight.lcm" : "";
+  std::error_code error;
+  std::filesystem::create_directories(session.output_dir, error);
+  return WriteReport(session.output_dir / "report.html", report);
 }
 
 }  // namespace palace

@@ -21,4 +21,10 @@ struct ReportInput {
 
 Status WriteReport(const std::filesystem::path& file, const ReportInput& input);
 
+struct AppOptions;
+struct Session;
+/// report.html in the session's folder.
+Status WriteFlightReport(const AppOptions& options, const Session& session,
+                         const FlightSummary& summary, const std::vector<std::string>& screenshots);
+
 }  // namespace palace

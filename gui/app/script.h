@@ -82,5 +82,8 @@ class ScriptRunner {
 
 /// The mission a scripted operator flies when nobody says otherwise.
 std::string_view DefaultMissionScript();
+/// What a headless run without a script does with a log, pictures or a bus: looks, photographs,
+/// ends.
+std::string_view DefaultViewScript();
 
 }  // namespace palace

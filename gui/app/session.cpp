@@ -15,6 +15,8 @@
 namespace palace {
 namespace {
 
+constexpr double kGustPerMean = 1.5;  // W20 of the turbulence beside the mean wind
+
 /// Vehicle-side check of approvals: the simulated vehicle knows the station's public key.
 ApprovalCheck MakeVerifier(const ApprovalSigner& signer) {
   auto state = std::make_shared<VerifierState>();
@@ -34,7 +36,8 @@ Status OpenSimulation(const AppOptions& options, bool paced, Session& session, E
   SimulatorOptions simulation;
   simulation.scene = *scene;
   simulation.seed = options.seed;
-  simulation.wind.mean_speed_mps = options.wind_mps;
+  simulation.wind.mean_mps = options.wind_mps;
+  simulation.wind.gust_w20_mps = kGustPerMean * options.wind_mps;
   simulation.speed = paced ? 1 : 0;
   simulation.verify = MakeVerifier(parts.mission.signer);
   session.simulator = std::make_shared<Simulator>(std::move(simulation), MakeOffscreenSceneCamera);

@@ -44,7 +44,7 @@ bool DrawButton(UiFrame& ui, std::string_view name, const Rect& rect, std::strin
     DrawTooltip(ui, look.reason);
   }
   ui.items.Add(name, rect, look.enabled, label);
-  return look.enabled && Clicked(ui, rect);
+  return ClickedItem(ui, name, rect) && look.enabled;
 }
 
 void DrawTooltip(UiFrame& ui, std::string_view text) {

@@ -4,6 +4,13 @@
 
 namespace palace {
 
+namespace {
+
+/// Where the canvas remembers which item took the press.
+ImGuiID PressTaker() { return ImGui::GetID("item that took the press"); }
+
+}  // namespace
+
 void BeginCanvas(const Style&) {
   ImGui::SetNextWindowPos({0, 0});
   ImGui::SetNextWindowSize(ImGui::GetIO().DisplaySize);
@@ -17,6 +24,9 @@ void BeginCanvas(const Style&) {
                    ImGuiWindowFlags_NoBackground | ImGuiWindowFlags_NoNav |
                    ImGuiWindowFlags_NoScrollWithMouse);
   ImGui::PopStyleVar(4);
+  if (ImGui::GetIO().MouseClicked[0]) {
+    ImGui::GetStateStorage()->SetInt(PressTaker(), 0);
+  }
 }
 
 void EndCanvas() { ImGui::End(); }
@@ -190,6 +200,15 @@ bool Hovered(const UiFrame& ui, const Rect& rect) {
 bool Clicked(const UiFrame& ui, const Rect& rect) {
   const ImGuiIO& io = ImGui::GetIO();
   return Hovered(ui, rect) && io.MouseReleased[0] && rect.Contains(io.MouseClickedPos[0]);
+}
+
+bool ClickedItem(const UiFrame& ui, std::string_view name, const Rect& rect) {
+  ImGuiStorage& storage = *ImGui::GetStateStorage();
+  const ImGuiID self = ImGui::GetID(name.data(), name.data() + name.size());
+  if (Pressed(ui, rect)) {
+    storage.SetInt(PressTaker(), static_cast<int>(self));
+  }
+  return Clicked(ui, rect) && storage.GetInt(PressTaker()) == static_cast<int>(self);
 }
 
 bool Pressed(const UiFrame& ui, const Rect& rect) {

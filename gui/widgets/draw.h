@@ -74,6 +74,9 @@ void FocusRing(const Style& style, ImDrawList* dl, const Rect& rect);
 bool Hovered(const UiFrame& ui, const Rect& rect);
 /// Released inside after being pressed inside.
 bool Clicked(const UiFrame& ui, const Rect& rect);
+/// The same, and this very item took the press: a control that appeared under a pointer that is
+/// already down (hold to approve becomes "Hold here") does not fire on its release.
+bool ClickedItem(const UiFrame& ui, std::string_view name, const Rect& rect);
 /// Pressed in this frame inside.
 bool Pressed(const UiFrame& ui, const Rect& rect);
 /// Being held down since a press inside (the pointer may have left).

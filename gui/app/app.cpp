@@ -1,0 +1,48 @@
+#include "gui/app/app.h"
+
+#include <cstdio>
+#include <optional>
+
+#include "engine/core/log.h"
+#include "gui/app/headless.h"
+#include "gui/app/script.h"
+#include "gui/app/session.h"
+#include "gui/app/windowed.h"
+
+namespace palace {
+namespace {
+
+int Fail(const Error& error) {
+  std::fprintf(stderr, "palace: %s\n", error.message.c_str());
+  return error.code == ErrorCode::kUsage ? 2 : 1;
+}
+
+}  // namespace
+
+int RunApp(const AppOptions& options) {
+  InitLogging(options.verbose);
+  std::optional<std::vector<ScriptLine>> script;
+  std::string script_name = options.script_file;
+  if (!options.script_file.empty()) {
+    Result<std::vector<ScriptLine>> lines = LoadScript(options.script_file);
+    if (!lines) {
+      return Fail(lines.error());
+    }
+    script = std::move(*lines);
+  } else if (options.headless) {
+    script_name = "the default script";
+    const bool mission = options.source == SourceChoice::kSimulation;
+    Result<std::vector<ScriptLine>> lines =
+        ParseScript(mission ? DefaultMissionScript() : DefaultViewScript(), script_name);
+    PALACE_CHECK(lines.ok(), lines.error().message);
+    script = std::move(*lines);
+  }
+  Result<Session> session = OpenSession(options, /*threaded=*/!options.headless);
+  if (!session) {
+    return Fail(session.error());
+  }
+  return options.headless ? RunHeadless(options, *session, std::move(*script), script_name)
+                          : RunWindowed(options, *session, std::move(script), script_name);
+}
+
+}  // namespace palace

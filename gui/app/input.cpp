@@ -1,0 +1,97 @@
+#include "gui/app/input.h"
+
+#include <algorithm>
+#include <cctype>
+#include <map>
+
+#include <GLFW/glfw3.h>
+#include <imgui.h>
+
+namespace palace {
+namespace {
+
+const std::map<std::string, ImGuiKey>& NamedKeys() {
+  static const std::map<std::string, ImGuiKey> keys = {
+      {"Tab", ImGuiKey_Tab},     {"Enter", ImGuiKey_Enter},         {"Escape", ImGuiKey_Escape},
+      {"Space", ImGuiKey_Space}, {"Left", ImGuiKey_LeftArrow},      {"Right", ImGuiKey_RightArrow},
+      {"Up", ImGuiKey_UpArrow},  {"Down", ImGuiKey_DownArrow},      {"Home", ImGuiKey_Home},
+      {"End", ImGuiKey_End},     {"Backspace", ImGuiKey_Backspace}, {"Delete", ImGuiKey_Delete},
+  };
+  return keys;
+}
+
+/// The key without its modifiers: "Shift+Tab" gives "Tab".
+std::string BaseKey(const std::string& keys) {
+  const std::size_t plus = keys.rfind('+');
+  return plus == std::string::npos || plus + 1 == keys.size() ? keys : keys.substr(plus + 1);
+}
+
+std::string GlfwKeyName(int key) {
+  static const std::map<int, std::string> names = {
+      {GLFW_KEY_ESCAPE, "Escape"},  {GLFW_KEY_SPACE, "Space"}, {GLFW_KEY_ENTER, "Enter"},
+      {GLFW_KEY_KP_ENTER, "Enter"}, {GLFW_KEY_TAB, "Tab"},     {GLFW_KEY_LEFT, "Left"},
+      {GLFW_KEY_RIGHT, "Right"},    {GLFW_KEY_UP, "Up"},       {GLFW_KEY_DOWN, "Down"},
+      {GLFW_KEY_HOME, "Home"},      {GLFW_KEY_END, "End"},     {GLFW_KEY_KP_ADD, "+"},
+      {GLFW_KEY_KP_SUBTRACT, "-"},
+  };
+  if (key >= GLFW_KEY_F1 && key <= GLFW_KEY_F12) {
+    return "F" + std::to_string(key - GLFW_KEY_F1 + 1);
+  }
+  const auto it = names.find(key);
+  return it == names.end() ? std::string() : it->second;
+}
+
+}  // namespace
+
+void MapKeysForOffscreen() {
+  ImGuiIO& io = ImGui::GetIO();
+  for (int key = 0; key < ImGuiKey_COUNT; ++key) {
+    io.KeyMap[key] = key;
+  }
+}
+
+void FeedScriptInput(const ScriptInput& input, std::vector<int>& previous) {
+  ImGuiIO& io = ImGui::GetIO();
+  io.MousePos = input.mouse;
+  io.MouseDown[0] = input.mouse_down;
+  for (const int slot : previous) {
+    io.KeysDown[slot] = false;
+  }
+  previous.clear();
+  io.KeyShift = io.KeyCtrl = io.KeyAlt = false;
+  for (const auto& keys : {input.key, input.hold_key}) {
+    if (!keys) {
+      continue;
+    }
+    io.KeyShift |= keys->find("Shift+") != std::string::npos;
+    io.KeyCtrl |= keys->find("Ctrl+") != std::string::npos;
+    const auto named = NamedKeys().find(BaseKey(*keys));
+    if (named != NamedKeys().end()) {
+      const int slot = io.KeyMap[named->second];
+      io.KeysDown[slot] = true;
+      previous.push_back(slot);
+    }
+  }
+}
+
+std::string KeyName(const KeyEvent& event) {
+  std::string base = GlfwKeyName(event.key);
+  if (base.empty()) {
+    base = event.name;
+    std::transform(base.begin(), base.end(), base.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  }
+  if (base == "=") {
+    base = "+";  // the key that prints + with Shift
+  }
+  if (base.empty()) {
+    return {};
+  }
+  std::string name;
+  name += (event.mods & GLFW_MOD_CONTROL) != 0 ? "Ctrl+" : "";
+  name += (event.mods & GLFW_MOD_ALT) != 0 ? "Alt+" : "";
+  name += (event.mods & GLFW_MOD_SHIFT) != 0 && base != "+" ? "Shift+" : "";
+  return name + base;
+}
+
+}  // namespace palace

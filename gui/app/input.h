@@ -1,0 +1,21 @@
+// Input for ImGui and the key table, from the window or from a script.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "gui/app/script.h"
+#include "gui/platform/window.h"
+
+namespace palace {
+
+/// Where no backend fills it (offscreen): one slot a named key.
+void MapKeysForOffscreen();
+/// Puts the script's mouse and keys into ImGui's input, before the frame. `previous` are the keys
+/// that were down; they are released first.
+void FeedScriptInput(const ScriptInput& input, std::vector<int>& previous);
+/// "Shift+Escape", "Ctrl+Z", "Space": the key table's spelling. Letters follow the keyboard's
+/// layout.
+std::string KeyName(const KeyEvent& event);
+
+}  // namespace palace

@@ -1,0 +1,69 @@
+// View: one frame of the user interface for one snapshot.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "engine/core/result.h"
+#include "engine/model/flight_record.h"
+#include "engine/model/snapshot.h"
+#include "gui/app/ui_state.h"
+#include "gui/panels/diagnose.h"
+#include "gui/panels/fly_workspace.h"
+#include "gui/panels/frame_bar.h"
+#include "gui/panels/review.h"
+#include "gui/panels/tune.h"
+#include "gui/platform/fonts.h"
+#include "gui/render/orbit_camera.h"
+#include "gui/render/texture_set.h"
+#include "gui/render/view3d_renderer.h"
+#include "gui/widgets/style.h"
+
+namespace palace {
+
+/// What a frame is drawn into and when.
+struct ViewFrame {
+  int width_px = 0;
+  int height_px = 0;
+  double ui_time_s = 0;
+  double frame_ms = 0;  ///< of the frame before, shown in the status bar
+};
+
+/// Owns GL objects: create, use and destroy with one GL context current.
+class View {
+ public:
+  static Result<std::unique_ptr<View>> Create(const std::string& theme);
+  /// Uploads what the snapshot shows and renders the 3-D view. Only needed when pixels are made.
+  void Upload(const EngineSnapshot& snapshot, const UiState& state, double dt_s);
+  /// Draws into the current ImGui frame. `snapshot` null: nothing has arrived yet.
+  Intents Draw(const EngineSnapshot* snapshot, const FlightRecord* record, UiState& state,
+               const Fonts& fonts, const ViewFrame& frame);
+  /// What the last frame drew, by name.
+  const ItemRecord& items() const { return items_; }
+  /// The scale that fits a window of this size, at most the wanted one.
+  static double FittingScale(int width_px, int height_px, double wanted);
+
+ private:
+  explicit View(std::unique_ptr<View3dRenderer> view3d) : view3d_(std::move(view3d)) {}
+  void DrawWorkspace(const EngineSnapshot& snapshot, const FlightRecord* record,
+                     const FrameLayout& layout, const ViewFrame& frame, UiState& state,
+                     UiFrame& ui);
+  void DrawWaiting(const FrameLayout& layout, UiFrame& ui);
+  void DrawMessage(const FrameLayout& layout, const UiState& state, UiFrame& ui);
+  void DrawKeyHelp(const FrameLayout& layout, UiFrame& ui);
+
+  Style style_;
+  TextureSet textures_;
+  std::unique_ptr<View3dRenderer> view3d_;
+  OrbitCamera orbit_;
+  View3dLabels labels_;
+  PanelTextures ids_;
+  ItemRecord items_;
+  FrameState frame_state_;
+  FlyState fly_;
+  TuneState tune_;
+  ReviewState review_;
+  DiagnoseState diagnose_;
+};
+
+}  // namespace palace

@@ -1,0 +1,104 @@
+#include "gui/app/view3d_input.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace palace {
+namespace {
+
+constexpr double kSafeDistanceEndPerMinimum = 2.5;
+constexpr std::size_t kTrailStride = 2;
+
+const LandingSite* ShownSite(const EngineSnapshot& snapshot, const TerrainDecision* decision,
+                             std::uint64_t highlighted) {
+  if (snapshot.mission.armed) {
+    return &*snapshot.mission.armed;
+  }
+  if (!decision || decision->selection.sites.empty()) {
+    return nullptr;
+  }
+  const auto& sites = decision->selection.sites;
+  const auto it = std::find_if(sites.begin(), sites.end(),
+                               [&](const LandingSite& s) { return s.id == highlighted; });
+  return it == sites.end() ? &sites.front() : &*it;
+}
+
+void AddTrail(const EngineSnapshot& snapshot, View3dInput& input) {
+  if (!snapshot.history) {
+    return;
+  }
+  const auto& samples = *snapshot.history;
+  for (std::size_t i = 0; i < samples.size(); i += kTrailStride) {
+    if (samples[i].estimate_p_WB.allFinite()) {
+      input.trail.push_back(samples[i].estimate_p_WB.cast<float>());
+    }
+  }
+}
+
+}  // namespace
+
+View3dInput MakeView3dInput(const EngineSnapshot& snapshot, std::uint64_t highlighted,
+                            double ui_scale) {
+  View3dInput input;
+  input.ui_scale = ui_scale;
+  const TerrainDecision* decision =
+      snapshot.preview ? snapshot.preview.get() : snapshot.applied.get();
+  if (decision) {
+    input.elevation = decision->elevation;
+    input.hazards = decision->hazards;
+    input.safe_distance_max_m = kSafeDistanceEndPerMinimum * decision->settings.clear_radius_m();
+  }
+  // The picture and the range map of one moment belong together; between maps the newest serves.
+  if (snapshot.left_rectified && snapshot.range) {
+    input.picture = snapshot.left_rectified;
+    input.picture_camera = snapshot.range->camera;
+    input.picture_X_WC = snapshot.X_WC;
+    input.camera = snapshot.range->camera;
+    input.X_WC = snapshot.X_WC;
+  }
+  if (snapshot.pose) {
+    RigidTransform X_WB = snapshot.pose->X_WB;
+    const NavigationStatus& nav = snapshot.navigation;
+    if (nav.handover == NavigationStatus::Handover::kVision && nav.vision.running) {
+      X_WB.p = nav.vision.estimate.p_WB;
+    }
+    input.X_WB = X_WB;
+  }
+  const LandingSite* shown = ShownSite(snapshot, decision, highlighted);
+  if (shown) {
+    input.site = View3dSite{shown->p_WS, shown->clear_radius_m};
+    input.ground_height_m = HeightFromDown(shown->p_WS.z());
+    input.site_commanded = snapshot.mission.approval.has_value();
+    if (input.X_WB) {
+      input.path = {input.X_WB->p.cast<float>(), shown->p_WS.cast<float>()};
+    }
+  }
+  if (decision && !snapshot.mission.armed) {
+    for (const LandingSite& site : decision->selection.sites) {
+      if (!shown || site.id != shown->id) {
+        input.other_sites.push_back({site.p_WS, site.clear_radius_m});
+      }
+    }
+  }
+  AddTrail(snapshot, input);
+  return input;
+}
+
+void FrameView3d(const View3dInput& input, OrbitCamera& camera) {
+  if (!input.X_WB) {
+    return;
+  }
+  const Eigen::Vector3d vehicle = input.X_WB->p;
+  Eigen::Vector3d ground =
+      input.site ? input.site->p_WS : Eigen::Vector3d(vehicle.x(), vehicle.y(), 0);
+  double radius_m = 5;
+  if (input.elevation) {
+    const GridGeometry& g = input.elevation->geometry;
+    ground.x() = (g.north_min_m + g.north_max_m()) / 2;
+    ground.y() = (g.east_min_m + g.east_max_m()) / 2;
+    radius_m = std::max(3.0, 0.5 * std::max(g.rows, g.cols) * g.cell_m);
+  }
+  camera.Frame(vehicle, ground, radius_m, EulerFromRotation(input.X_WB->R).yaw_rad);
+}
+
+}  // namespace palace
