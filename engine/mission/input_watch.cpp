@@ -31,7 +31,7 @@ void InputWatch::Arrival::See(Timestamp message_stamp, Timestamp now) {
 }
 
 double InputWatch::Arrival::Age(Timestamp now) const {
-  return stamp ? SecondsBetween(seen, now) : kNever;
+  return stamp && now >= seen ? SecondsBetween(seen, now) : kNever;
 }
 
 double InputWatch::ChannelAge::Age(Timestamp now) const {

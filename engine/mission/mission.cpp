@@ -140,10 +140,11 @@ void Mission::Repeat(Timestamp now) {
 }
 
 bool Mission::IsApproval(std::uint64_t id, std::uint64_t own) const {
-  // A log of another session numbers its commands alike but carries another session part.
-  const bool same_number = static_cast<std::uint32_t>(id) == static_cast<std::uint32_t>(own);
+  // A log carries its own session part, and after a seek its numbers run ahead of ours. What stays
+  // is the kind: requests have the top bit of the number set, approvals do not.
+  const bool same_kind = ((id ^ own) & 0x80000000U) == 0;
   return own != 0 && id != 0 &&
-         (id == own || (facts_.source_kind == SourceKind::kReplay && same_number));
+         (id == own || (facts_.source_kind == SourceKind::kReplay && same_kind));
 }
 bool Mission::OwnApproval(std::uint64_t id) const {
   return status_.approval && IsApproval(id, status_.approval->id);
@@ -168,6 +169,7 @@ bool Mission::Executing() const {
 }
 
 void Mission::Update(const MissionInputs& inputs) {
+  FollowJump(inputs);
   watch_.Update(inputs.bundle, inputs.channels, inputs.now);
   RememberFacts(inputs);
   FollowWinner(inputs);
@@ -179,8 +181,43 @@ void Mission::Update(const MissionInputs& inputs) {
   Publish(inputs);
 }
 
+void Mission::RestartReplay(Timestamp now) {
+  ForgetSite();
+  repeating_.reset();
+  refused_sites_.clear();
+  refusal_.clear();
+  alarms_ = {};
+  counter_ = request_counter_ = dead_approval_id_ = hold_id_ = abort_id_ = 0;
+  status_.approval.reset();
+  status_.approval_phase = MissionStatus::ApprovalPhase::kNone;
+  status_.approval_answer.clear();
+  status_.rechecks.clear();
+  status_.touchdown_miss_m.reset();
+  status_.touchdown_miss_true_m.reset();
+  Enter(MissionState::kNoLive, "Jumped in time", now);
+}
+
+void Mission::FollowJump(const MissionInputs& in) {
+  if (!facts_.valid || (!in.bundle.discontinuity && in.now >= facts_.now)) {
+    return;
+  }
+  // Ages across a jump mean nothing: forget every arrival, wait for three new samples (I18).
+  watch_ = {};
+  shown_.clear();
+  winner_ = {};
+  facts_.now = sent_at_ = status_.since = vision_good_at_ = in.now;
+  if (in.source_kind == SourceKind::kReplay || in.source_kind == SourceKind::kImages) {
+    RestartReplay(in.now);
+  } else if (status_.state == MissionState::kArmed || status_.state == MissionState::kApproved) {
+    Drop("Time jumped", in.now);
+  } else if (status_.state == MissionState::kDescending) {
+    Hold("Time jumped", in.now);
+  }
+}
+
 void Mission::RememberFacts(const MissionInputs& in) {
   facts_.valid = true;
+  vehicle_ever_heard_ = vehicle_ever_heard_ || watch_.heard_vehicle();
   facts_.now = in.now;
   facts_.source_kind = in.source_kind;
   facts_.simulated_vehicle = in.simulated_vehicle;
@@ -199,6 +236,7 @@ void Mission::RememberFacts(const MissionInputs& in) {
     facts_.terrain_settings_hash = in.applied->settings_hash;
   } else {
     facts_.sites.clear();
+    facts_.map_hash = 0;
   }
   if (in.new_map && in.applied != nullptr) {
     map_seen_at_ = in.now;
@@ -315,7 +353,7 @@ void Mission::FollowAcks(const MissionInputs& in) {
 void Mission::FollowDeadApproval(const MissionInputs& in) {
   const bool searching = status_.state <= MissionState::kArmed;
   if (searching && in.bundle.status && Executing() &&
-      IsApproval(watch_.vehicle()->approval_id, dead_approval_id_)) {
+      watch_.vehicle()->approval_id == dead_approval_id_) {
     Hold("Vehicle flies a withdrawn approval", in.now);
   }
 }

@@ -138,6 +138,8 @@ class Mission {
   void Abort(std::string why, Timestamp now);
   void Send(VehicleMessage message);
   void Repeat(Timestamp now);
+  void FollowJump(const MissionInputs& inputs);
+  void RestartReplay(Timestamp now);
   void RememberFacts(const MissionInputs& inputs);
   void FollowWinner(const MissionInputs& inputs);
   void FollowSite(const MissionInputs& inputs);
@@ -199,6 +201,7 @@ class Mission {
   Timestamp approved_now_;              ///< station time of the approval
   std::optional<VehicleMessage> repeating_;
   std::uint64_t hold_id_ = 0, abort_id_ = 0;
+  bool vehicle_ever_heard_ = false;
   bool abort_seen_ = false;  ///< the vehicle acknowledged or flies the abort
   bool wave_off_acknowledged_ = false;
   bool vision_allowed_ = false;

@@ -8,6 +8,7 @@ namespace palace {
 namespace {
 
 constexpr double kSnapshotOld_s = 2;
+constexpr std::uint64_t kRefreshes = 60;  ///< at most, between two passes
 
 template <typename T>
 bool Is(const EngineCommand& command) {
@@ -204,10 +205,12 @@ Status Mission::Approve(const ApproveSite& action, CommandOrigin origin, Timesta
     return Refuse(now, "Approve", failed->reason);
   }
   if (!recorded) {
-    // G6: the picture the operator decided on showed this site armed, and was recent.
+    // G6: the picture the operator decided on showed this site armed, and was recent. Snapshots
+    // refreshed between two passes carry numbers the mission has not seen yet.
     bool recent = false;
     for (const auto& [sequence, shown_at] : shown_) {
-      recent = recent || (sequence == action.snapshot_sequence &&
+      recent = recent || (sequence <= action.snapshot_sequence &&
+                          action.snapshot_sequence <= sequence + kRefreshes &&
                           SecondsBetween(shown_at, now) <= kSnapshotOld_s);
     }
     if (!recent || action.snapshot_sequence < *armed_.first_sequence) {

@@ -38,7 +38,8 @@ GuardInputs Mission::MakeGuardInputs(Timestamp now) const {
   in.pose_age_s = watch_.PoseAge(now);
   in.left_camera_age_s = watch_.LeftCameraAge(now);
   in.right_camera_age_s = watch_.RightCameraAge(now);
-  in.map_age_s = facts_.map_hash != 0 ? SecondsBetween(map_seen_at_, now) : NAN;
+  in.map_age_s =
+      facts_.map_hash != 0 && now >= map_seen_at_ ? SecondsBetween(map_seen_at_, now) : NAN;
   in.clock_continuous = watch_.clock_continuous();
   in.foreign_approval = Executing() && !OwnApproval(watch_.vehicle()->approval_id);
   in.unacknowledged_warning = alarms_.UnacknowledgedWarning();

@@ -245,7 +245,7 @@ void Mission::StepHold(const MissionInputs& in) {
 
 void Mission::StepAborting(const MissionInputs& in) {
   const auto& vehicle = watch_.vehicle();
-  bool over = !vehicle.has_value();  // nobody was ever heard: nothing to wait for
+  bool over = !vehicle_ever_heard_;  // nobody there: nothing to wait for
   if (vehicle) {
     const bool flies_it = vehicle->mode == VehicleMode::kAbort;
     abort_seen_ = abort_seen_ || flies_it;

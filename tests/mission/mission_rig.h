@@ -126,6 +126,7 @@ struct MissionRig {
     FrameBundle bundle;
     bundle.sequence = sequence;
     bundle.time = now;
+    bundle.discontinuity = std::exchange(jumped, false);
     if (cameras_up) {
       bundle.stereo =
           std::make_shared<StereoFrame>(StereoFrame{now, ImageU8(2, 2, 7), ImageU8(2, 2, 7)});
@@ -219,6 +220,7 @@ struct MissionRig {
   Timestamp now{1'000'000'000};
   std::uint64_t sequence = 0;
   std::int64_t clock_offset_us = 0;
+  bool jumped = false;  ///< the next bundle follows a jump in time
   SourceKind source = SourceKind::kSimulation;
   bool can_transmit = true, recorder_ok = true, simulated = true;
   bool cameras_up = true, pose_up = true, link_up = true, maps_up = true, tracker_locks = true;

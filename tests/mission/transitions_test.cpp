@@ -235,9 +235,9 @@ TEST(Mission, EvidenceMustHaveBeenOnScreen) {
   rig.Run(0.8);
   EXPECT_FALSE(rig.ApproveNow().ok());  // not for 1.0 s yet
   rig.Run(0.7);
-  EXPECT_FALSE(rig.Do(ApproveSite{101, before}).ok());            // looked before arming
-  EXPECT_FALSE(rig.Do(ApproveSite{101, rig.sequence + 5}).ok());  // never shown
-  EXPECT_FALSE(rig.Do(ApproveSite{102, rig.sequence}).ok());      // not the armed one
+  EXPECT_FALSE(rig.Do(ApproveSite{101, before}).ok());               // looked before arming
+  EXPECT_FALSE(rig.Do(ApproveSite{101, rig.sequence + 1000}).ok());  // never shown
+  EXPECT_FALSE(rig.Do(ApproveSite{102, rig.sequence}).ok());         // not the armed one
   EXPECT_TRUE(rig.Do(ApproveSite{101, rig.sequence}).ok());
   EXPECT_FALSE(rig.Do(ApproveSite{101, rig.sequence}).ok());  // once only (I8)
 }
@@ -341,6 +341,59 @@ TEST(Mission, RefusingASiteProposesTheNext) {
   rig.Run(2);
   EXPECT_EQ(rig.state(), MissionState::kSearch);
   EXPECT_TRUE(rig.Do(SelectSite{101}).ok());  // on second thoughts
+}
+
+TEST(Mission, AJumpInTimeRestartsAReplay) {
+  MissionRig rig;
+  rig.source = SourceKind::kReplay;
+  ASSERT_TRUE(rig.RunUntil(MissionState::kProposed));
+  ASSERT_TRUE(rig.Do(SelectSite{101}, CommandOrigin::kReplay).ok());
+  rig.Run(1.5);
+  ASSERT_TRUE(rig.ApproveNow(CommandOrigin::kReplay).ok());
+  rig.now = {500'000'000};
+  rig.jumped = true;
+  rig.Step();
+  EXPECT_FALSE(rig.mission.status().approval.has_value());
+  EXPECT_FALSE(rig.mission.status().armed.has_value());
+  ASSERT_TRUE(rig.RunUntil(MissionState::kProposed, 3));
+  ASSERT_TRUE(rig.Do(SelectSite{101}, CommandOrigin::kReplay).ok());
+  rig.Run(1.5);
+  EXPECT_TRUE(rig.ApproveNow(CommandOrigin::kReplay).ok());
+}
+
+TEST(Mission, AJumpInTimeStopsALiveFlight) {
+  for (const double jump_s : {-100.0, 100.0}) {
+    SCOPED_TRACE(jump_s);
+    const auto jump = [&](MissionRig& rig) {
+      rig.now = AddSeconds(rig.now, jump_s);
+      rig.jumped = true;
+      rig.Step();
+    };
+    MissionRig armed;
+    armed.Arm();
+    jump(armed);
+    EXPECT_FALSE(armed.mission.status().armed.has_value());
+    EXPECT_FALSE(armed.mission.status().can_approve);
+
+    MissionRig flying;
+    flying.Arm();
+    ASSERT_TRUE(flying.ApproveNow().ok());
+    ASSERT_TRUE(flying.RunUntil(MissionState::kDescending, 5));
+    jump(flying);
+    EXPECT_EQ(flying.state(), MissionState::kHold);
+    EXPECT_FALSE(flying.mission.status().approval.has_value());
+
+    MissionRig aborting;
+    aborting.Step();
+    aborting.link_up = false;
+    ASSERT_TRUE(aborting.Do(WaveOff{}).ok());
+    jump(aborting);
+    const int before = aborting.SentCount<AbortRequest>();
+    ASSERT_TRUE(aborting.Do(AcknowledgeWaveOff{}).ok());
+    aborting.Run(2);
+    EXPECT_EQ(aborting.state(), MissionState::kAborting);
+    EXPECT_GE(aborting.SentCount<AbortRequest>(), before + 3);  // still repeated
+  }
 }
 
 TEST(Mission, SourcesThatCannotBeApprovedOn) {
