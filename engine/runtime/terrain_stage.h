@@ -32,8 +32,8 @@ class TerrainStage {
   /// the letters, so that a preview never changes them.
   std::shared_ptr<const TerrainDecision> Evaluate(const Settings& settings, bool keep_letters);
   /// The same place on a newer decision; empty when it lies outside that map.
-  std::optional<LandingSite> Recheck(const TerrainDecision& decision,
-                                     const LandingSite& site) const;
+  std::optional<LandingSite> Recheck(const TerrainDecision& decision, const LandingSite& site,
+                                     const Settings& settings) const;
 
  private:
   SiteContext Context(const Settings& settings) const;
