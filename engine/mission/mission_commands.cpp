@@ -227,7 +227,8 @@ Status Mission::Approve(const ApproveSite& action, CommandOrigin origin, Timesta
   AddEvent(now, EventKind::kDecision,
            "Approval " + std::to_string(counter_) + " of " + SiteName() +
                (status_.approval->provisional ? ", provisional" : "") + " given");
-  Enter(MissionState::kApproved, "Approved by the operator, sent to the vehicle", now);
+  const char* who = origin == CommandOrigin::kScript ? "a script" : "the operator";
+  Enter(MissionState::kApproved, std::string("Approved by ") + who + ", sent to the vehicle", now);
   Send(*status_.approval);
   return Ok();
 }

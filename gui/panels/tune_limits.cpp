@@ -168,8 +168,9 @@ void DrawFoot(UiFrame& ui, const Rect& foot, const TuneFacts& facts, TuneState& 
   float x = foot.x + s.Px(12);
   x += DrawText(ui, s.body, p.text2, x, line, "Preset") + s.Px(10);
   x += DrawText(ui, s.medium, p.text1, x, line, name) + s.Px(16);
-  const std::string note =
-      facts.changed == 0 ? "as the defaults" : "+ " + std::to_string(facts.changed) + " changes";
+  const std::string note = facts.changed == 0   ? "as the defaults"
+                           : facts.changed == 1 ? "+ 1 change"
+                                                : "+ " + std::to_string(facts.changed) + " changes";
   if (x + TextWidth(s.body, note) < foot.right() - s.Px(12)) {
     DrawText(ui, s.body, p.text2, x, line, note);
   }
