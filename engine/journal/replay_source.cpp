@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "engine/core/time.h"
+#include "engine/journal/track_reader.h"
 #include "engine/wire/convert.h"
 
 namespace palace {
@@ -87,32 +88,14 @@ void ReplaySource::ReadTrack() {
   record->path = file_.path().string();
   record->start_s = static_cast<double>(bundles_.front().time.us) * 1e-6;
   record->duration_s = std::max(0.0, SecondsBetween(bundles_.front().time, bundles_.back().time));
+  TrackReader reader(names, *record);
   for (const LogEntry& entry : index_.entries) {
-    const std::string& channel = index_.channels[entry.channel];
-    const bool settings_wanted = channel == names.slad_settings && !record->has_settings;
-    if (channel != names.station_status && channel != names.event && !settings_wanted) {
+    if (!reader.Wants(index_.channels[entry.channel])) {
       continue;
     }
     const Result<WireMessage> message = ReadEvent(file_, entry, index_.channels);
-    if (!message) {
-      continue;
-    }
-    if (channel == names.station_status) {
-      const Result<FlightRecordSample> sample = DecodeStationStatus(*message);
-      if (sample) {
-        record->samples.push_back(*sample);
-      }
-    } else if (channel == names.event) {
-      const Result<Event> event = DecodeEvent(*message);
-      if (event) {
-        record->events.push_back(*event);
-      }
-    } else {
-      const Result<Settings> settings = DecodeSettings(*message);
-      if (settings) {
-        record->settings_at_start = *settings;
-        record->has_settings = true;
-      }
+    if (message) {
+      reader.Add(*message);
     }
   }
   recorded_ = std::move(record);

@@ -13,6 +13,7 @@ Engine::Engine(EngineParts parts, bool threaded)
       record_wanted_(parts.sink != nullptr),
       threaded_(threaded) {
   PALACE_CHECK(source_ != nullptr);
+  pipeline_.FollowRecord(std::move(parts.record));
   if (parts.redecide_with) {
     pipeline_.RedecideWith(*parts.redecide_with);
   }

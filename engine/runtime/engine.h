@@ -23,6 +23,7 @@ struct EngineParts {
   std::unique_ptr<RecordSink> sink;   ///< null: not recorded
   Settings settings;
   std::optional<Settings> redecide_with;  ///< replay: judge under these instead of the recorded
+  std::shared_ptr<const FlightRecord> record;  ///< replay: what the flight decided
   MissionOptions mission;
 };
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "engine/model/snapshot.h"
@@ -12,6 +13,7 @@ namespace palace {
 class FlightHistory {
  public:
   void Reset() { samples_.clear(); }
+  void Reset(std::vector<HistorySample> samples) { samples_ = std::move(samples); }
   void Add(const HistorySample& sample);
   std::shared_ptr<const std::vector<HistorySample>> Publish() const;
 

@@ -52,13 +52,14 @@ struct Pipeline::Pass {
 Pipeline::Pipeline(const Settings& settings, MissionOptions mission)
     : settings_(settings), mission_(std::move(mission)) {}
 
-void Pipeline::StartAfterJump() {
+void Pipeline::StartAfterJump(Timestamp now) {
   terrain_.Reset();
   tracker_.Reset();
   tracked_site_ = 0;
   navigator_.Reset();
   channels_.Reset();
-  history_.Reset();
+  jumped_ = replaying_;
+  history_.Reset(flight_of_record_.HistoryBefore(now));
   laser_height_m_.reset();
   stereo_frames_ = 0;
   last_.reset();
@@ -70,7 +71,7 @@ PipelineOutput Pipeline::Process(std::shared_ptr<const FrameBundle> bundle,
   Pass pass{bundle, std::move(commands), session};
   replaying_ = session.source.kind == SourceKind::kReplay;
   if (bundle->discontinuity) {
-    StartAfterJump();
+    StartAfterJump(bundle->time);
   }
   if (last_) {
     // What this pass does not renew stays as it was.
@@ -114,7 +115,9 @@ PipelineOutput Pipeline::Refresh(std::vector<EngineCommand> commands,
   if (pass.settings_moved && terrain_.has_map()) {
     pass.Run("slad", [&] { Judge(pass); });
   }
-  pass.snapshot->mission = mission_.status();
+  if (!jumped_) {
+    pass.snapshot->mission = mission_.status();
+  }
   return Publish(pass);
 }
 
@@ -160,7 +163,10 @@ void Pipeline::ApplySettingCommand(Pass& pass, const EngineCommand& command) {
 
 void Pipeline::ApplyCommands(Pass& pass) {
   if (replaying_ && pass.bundle && pass.bundle != last_bundle_) {
-    auto& recorded = pass.bundle->recorded_commands;
+    std::vector<EngineCommand> recorded = pass.bundle->recorded_commands;
+    for (EngineCommand& command : recorded) {
+      command.origin = CommandOrigin::kReplay;
+    }
     pass.commands.insert(pass.commands.begin(), recorded.begin(), recorded.end());
   }
   const Timestamp before = last_ ? last_->time : pass.snapshot->time;
@@ -240,7 +246,7 @@ void Pipeline::See(Pass& pass) {
 }
 
 double Pipeline::GroundHeight() const {
-  const auto& armed = mission_.status().armed;
+  const auto& armed = last_ ? last_->mission.armed : mission_.status().armed;
   if (armed) {
     return HeightFromDown(armed->p_WS.z());
   }
@@ -255,7 +261,7 @@ void Pipeline::MeasureRange(Pass& pass) {
     return;
   }
   const Settings& settings = settings_.recorded();
-  const auto& mission = mission_.status();
+  const MissionStatus& mission = last_ ? last_->mission : mission_.status();
   const bool committed = mission.state == MissionState::kDescending &&
                          mission.height_above_site_m < settings.slad.commit_height_m;
   const bool due =
@@ -300,12 +306,21 @@ void Pipeline::Judge(Pass& pass) {
       settings_.previewing() ? terrain_.Evaluate(settings_.preview(), false) : nullptr;
 }
 
+std::optional<LandingSite> Pipeline::TrackedSite(Timestamp now) const {
+  if (!jumped_) {
+    return mission_.WantsTracking() ? mission_.status().armed : std::nullopt;
+  }
+  const FlightRecordSample* sample = flight_of_record_.At(now);
+  const LandingSite* site = sample ? flight_of_record_.ArmedSite(*sample) : nullptr;
+  return site && sample->state != MissionState::kLanded ? std::optional(*site) : std::nullopt;
+}
+
 void Pipeline::Track(Pass& pass) {
   EngineSnapshot& snapshot = *pass.snapshot;
-  const auto& armed = mission_.status().armed;
+  const std::optional<LandingSite> armed = TrackedSite(pass.bundle->time);
   const TrackingSettings& tracking = settings_.recorded().tracking;
-  navigator_.AllowVision(mission_.VisionAllowed());
-  if (!mission_.WantsTracking() || !armed) {
+  navigator_.AllowVision(jumped_ ? armed.has_value() : mission_.VisionAllowed());
+  if (!armed) {
     if (tracked_site_ != 0) {
       tracker_.Reset();
       navigator_.StopVision();
@@ -357,6 +372,10 @@ void Pipeline::Decide(Pass& pass) {
                    calibration_hash_, sequence_, estimate.p_WB,
                    estimate.p_WB + R_WB * SkidCentreBody()});
   snapshot.mission = mission_.status();
+  const FlightRecordSample* recorded = jumped_ ? flight_of_record_.At(pass.bundle->time) : nullptr;
+  if (recorded) {
+    flight_of_record_.Restore(*recorded, snapshot.mission);
+  }
 }
 
 PipelineOutput Pipeline::Publish(Pass& pass) {

@@ -16,6 +16,7 @@
 #include "engine/navigation/navigator.h"
 #include "engine/runtime/channel_monitor.h"
 #include "engine/runtime/flight_history.h"
+#include "engine/runtime/recorded_flight.h"
 #include "engine/runtime/settings_state.h"
 #include "engine/runtime/terrain_stage.h"
 #include "engine/stereo/stereo.h"
@@ -46,6 +47,11 @@ class Pipeline {
   /// Replay: judge under these limits; what was recorded is judged beside them.
   void RedecideWith(const Settings& settings) { settings_.Redecide(settings); }
 
+  /// Replay: what the flight decided, for pictures reached by a jump.
+  void FollowRecord(std::shared_ptr<const FlightRecord> record) {
+    flight_of_record_.Follow(std::move(record));
+  }
+
   PipelineOutput Process(std::shared_ptr<const FrameBundle> bundle,
                          std::vector<EngineCommand> commands, const SessionStatus& session);
   /// Applies commands while time stands still (paused, ended): re-judges the newest map.
@@ -53,7 +59,7 @@ class Pipeline {
 
  private:
   struct Pass;  // what one call works on
-  void StartAfterJump();
+  void StartAfterJump(Timestamp now);
   void ApplyCommands(Pass& pass);
   void ApplySettingCommand(Pass& pass, const EngineCommand& command);
   void PrepareRig(Pass& pass);
@@ -64,8 +70,12 @@ class Pipeline {
   void Decide(Pass& pass);
   PipelineOutput Publish(Pass& pass);
   double GroundHeight() const;
+  /// The site tracked and flown to; after a jump in a replay the recorded one.
+  std::optional<LandingSite> TrackedSite(Timestamp now) const;
 
   bool replaying_ = false;
+  bool jumped_ = false;  ///< replay: the mission was not seen from its start
+  RecordedFlight flight_of_record_;
   SettingsState settings_;
   Mission mission_;
   std::optional<StereoRectifier> rectifier_;

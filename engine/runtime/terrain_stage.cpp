@@ -70,7 +70,8 @@ std::shared_ptr<const TerrainDecision> TerrainStage::Evaluate(const Settings& se
 std::optional<LandingSite> TerrainStage::Recheck(const TerrainDecision& decision,
                                                  const LandingSite& site,
                                                  const Settings& settings) const {
-  return RecheckSite(*decision.elevation, *decision.hazards, decision.settings, site, Context(settings));
+  return RecheckSite(*decision.elevation, *decision.hazards, decision.settings, site,
+                     Context(settings));
 }
 
 std::string SiteObjection(const std::optional<LandingSite>& site, const SladSettings& settings) {

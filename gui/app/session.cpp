@@ -57,6 +57,7 @@ Status OpenReplay(const AppOptions& options, bool paced, Session& session, Engin
     return source.error();
   }
   session.record = (*source)->recorded();
+  parts.record = session.record;
   const bool moved = !options.settings_file.empty() || !options.set.empty();
   parts.settings =
       session.record->has_settings ? session.record->settings_at_start : options.settings;

@@ -160,6 +160,11 @@ void View::DrawWorkspace(const EngineSnapshot& snapshot, const FlightRecord* rec
           fly_, ui);
       break;
     case Workspace::kTune:
+      tune_.elevation_low_m = fly_.maps.elevation_low_m;
+      tune_.elevation_high_m = fly_.maps.elevation_high_m;
+      tune_.preset_path = state.preset_path;
+      tune_.can_undo = !state.undo.empty();
+      tune_.can_redo = !state.redo.empty();
       DrawTuneWorkspace(snapshot, layout.body, tune_, ui);
       break;
     case Workspace::kReview:
