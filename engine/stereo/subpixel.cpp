@@ -21,7 +21,7 @@ constexpr float kSmoothLimit_px = 1.0F;
 // noise variance, and half of the residual's variance comes from the left picture.
 constexpr float kGradientNoiseShare = 0.45F;
 constexpr float kLeastResidualVariance = 0.2F;  // of rounding to whole grey levels, both pictures
-constexpr float kLeastCorrelation = 0.6F;       // below it noise outweighs the texture
+constexpr float kLeastCorrelation = 0.5F;       // below it noise outweighs the texture
 constexpr int kRowsPerStripe = 48;              // fixed: results do not depend on the threads
 
 /// Calls work(first_row, end_row) for fixed stripes of rows, on OpenCV's threads.

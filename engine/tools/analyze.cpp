@@ -22,6 +22,8 @@
 namespace palace {
 namespace {
 
+constexpr int kVerdictDivisor = 4;
+
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
@@ -162,6 +164,12 @@ Json ReportJson(const Outcome& o) {
                       {"roughness", o.hazards.rejected.roughness},
                       {"unknown", o.hazards.rejected.unknown},
                       {"footprint", o.hazards.rejected.footprint}};
+  if (o.input.range) {
+    json["stereo"] = {{"coverage", o.input.stereo.coverage},
+                      {"median_depth_m", o.input.stereo.median_depth_m},
+                      {"median_sigma_px", o.input.stereo.median_sigma_px},
+                      {"row_error_px", o.input.stereo.row_error_px}};
+  }
   json["settings"] = SettingsJson(o.settings);
   json["timing_ms"] = Json::object();
   for (const StageTime& time : o.input.timings) {
@@ -218,10 +226,12 @@ Status WriteAll(const Outcome& o, const fs::path& folder) {
       !done) {
     return done;
   }
-  if (o.input.left) {
-    if (const Status done =
-            WriteOverlay(folder / "overlay.png", *o.input.left, o.selection, o.input.context);
-        !done) {
+  if (o.input.left && o.input.range) {
+    const ImageU8 verdict =
+        VerdictImage(*o.input.range, o.input.context.X_WC, o.hazards, kVerdictDivisor);
+    const Status done =
+        WriteOverlay(folder / "overlay.png", *o.input.left, o.selection, o.input.context, verdict);
+    if (!done) {
       return done;
     }
   }

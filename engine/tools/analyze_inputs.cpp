@@ -4,10 +4,9 @@
 #include <cmath>
 #include <cstdio>
 
-#include <opencv2/imgcodecs.hpp>
-
 #include "engine/camera/rectification.h"
 #include "engine/camera/rig_file.h"
+#include "engine/capture/picture_file.h"
 #include "engine/core/time.h"
 #include "engine/core/units.h"
 #include "engine/slad/elevation_map_builder.h"
@@ -40,24 +39,6 @@ std::string Text(const char* format, double a, double b = 0, double c = 0) {
   char text[160];
   std::snprintf(text, sizeof text, format, a, b, c);
   return text;
-}
-
-Result<ImageU8> ReadGrey(const std::filesystem::path& path) {
-  cv::Mat image;
-  try {
-    image = cv::imread(path.string(), cv::IMREAD_GRAYSCALE);
-  } catch (const cv::Exception&) {
-    image.release();
-  }
-  if (image.empty()) {
-    return UnavailableError("cannot read " + path.string() +
-                            " as a picture: does the file exist, is it PNG, JPEG or TIFF?");
-  }
-  ImageU8 grey(image.cols, image.rows);
-  for (int y = 0; y < image.rows; ++y) {
-    std::copy(image.ptr(y), image.ptr(y) + image.cols, grey.row(y));
-  }
-  return grey;
 }
 
 /// Enlarges the cell until grid_rows x grid_cols cover the extent.
@@ -170,8 +151,8 @@ Result<AnalyzeInput> ElevationOfPair(const std::filesystem::path& left,
   if (!file) {
     return file.error();
   }
-  auto left_raw = ReadGrey(left);
-  auto right_raw = ReadGrey(right);
+  auto left_raw = ReadGreyPicture(left);
+  auto right_raw = ReadGreyPicture(right);
   if (!left_raw || !right_raw) {
     return left_raw ? right_raw.error() : left_raw.error();
   }
@@ -205,8 +186,8 @@ Result<AnalyzeInput> ElevationOfPair(const std::filesystem::path& left,
                            settings.stereo);
   }
   StereoMatcher matcher;
-  const auto match = matcher.Match(*pair->left, *pair->right, rectifier->camera(),
-                                   rectifier->baseline_m(), window, settings.stereo, {});
+  auto match = matcher.Match(*pair->left, *pair->right, rectifier->camera(),
+                             rectifier->baseline_m(), window, settings.stereo, {});
   if (!match) {
     return InvalidError(left.string() + ", " + right.string() + ": " + match.error().message);
   }
@@ -226,6 +207,8 @@ Result<AnalyzeInput> ElevationOfPair(const std::filesystem::path& left,
   input.map = ElevationFromRange(match->range, X_WC, settings.slad);
   input.timings.push_back(watch.Lap("elevation"));
   input.left = *pair->left;
+  input.stereo = match->quality;
+  input.range = std::move(match->range);
   input.context.p_WB = X_WB.p;
   input.context.X_WC = X_WC;
   input.context.camera = rectifier->camera();

@@ -9,6 +9,7 @@
 #include "engine/core/result.h"
 #include "engine/model/elevation_map.h"
 #include "engine/model/image.h"
+#include "engine/model/range_map.h"
 #include "engine/model/settings.h"
 #include "engine/slad/site_selection.h"
 
@@ -21,8 +22,10 @@ struct StageTime {
 
 struct AnalyzeInput {
   ElevationMap map;
-  SiteContext context;          ///< camera width 0 without a picture
-  std::optional<ImageU8> left;  ///< rectified
+  SiteContext context;            ///< camera width 0 without a picture
+  std::optional<ImageU8> left;    ///< rectified
+  std::optional<RangeMap> range;  ///< of that picture
+  StereoQuality stereo;           ///< of the pair; meaningful with a range map
   std::optional<int> epsg;
   std::vector<StageTime> timings;
   std::vector<std::string> warnings;

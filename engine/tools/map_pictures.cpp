@@ -130,6 +130,36 @@ Status Save(const std::filesystem::path& path, const cv::Mat& picture) {
                                            ": is the folder writable and the disk not full?"));
 }
 
+/// Blue is safe, orange is over a limit, as on the screen (blue, green, red).
+const cv::Vec3d kSafeInk(255, 178, 92), kUnsafeInk(60, 150, 240);
+
+/// Orange tint and hatch where the verdict is over a limit or unknown, blue rim round the safe
+/// area.
+void DrawVerdict(cv::Mat& picture, const ImageU8& verdict) {
+  cv::Mat safe(verdict.height(), verdict.width(), CV_8U);
+  for (int y = 0; y < verdict.height(); ++y) {
+    for (int x = 0; x < verdict.width(); ++x) {
+      safe.at<std::uint8_t>(y, x) = verdict.at(x, y) == 1 ? 255 : 0;
+    }
+  }
+  cv::resize(safe, safe, picture.size(), 0, 0, cv::INTER_NEAREST);
+  constexpr int kHatchPeriod_px = 12, kHatchWidth_px = 2;
+  for (int y = 0; y < picture.rows; ++y) {
+    for (int x = 0; x < picture.cols; ++x) {
+      if (safe.at<std::uint8_t>(y, x) != 0) {
+        continue;
+      }
+      auto& pixel = picture.at<cv::Vec3b>(y, x);
+      const double share = (x + y) % kHatchPeriod_px < kHatchWidth_px ? 0.55 : 0.10;
+      pixel = cv::Vec3b((1 - share) * cv::Vec3d(pixel) + share * kUnsafeInk);
+    }
+  }
+  std::vector<std::vector<cv::Point>> rims;
+  cv::findContours(safe, rims, cv::RETR_LIST, cv::CHAIN_APPROX_SIMPLE);
+  cv::drawContours(picture, rims, -1, cv::Scalar(kSafeInk[0], kSafeInk[1], kSafeInk[2]), 2,
+                   cv::LINE_AA);
+}
+
 void DrawCross(cv::Mat& picture, cv::Point2d at, double arm, const cv::Scalar& colour) {
   const auto line = [&](double dx, double dy) {
     cv::line(picture, at - cv::Point2d(dx, dy), at + cv::Point2d(dx, dy), cv::Scalar(0, 0, 0), 4,
@@ -196,9 +226,7 @@ Status WriteSafeLandingPicture(const std::filesystem::path& path, const Elevatio
       }
       const double grey = 60 + 140 * std::clamp((height - low) / (high - low), 0.0, 1.0);
       const bool near = static_cast<double>(hazards.safe_distance_m.at(r, c)) < clear_m;
-      const cv::Vec3d tint = reasons != 0 ? cv::Vec3d(60, 60, 230)
-                             : near       ? cv::Vec3d(70, 200, 230)
-                                          : cv::Vec3d(90, 190, 60);
+      const cv::Vec3d tint = reasons != 0 ? kUnsafeInk : near ? cv::Vec3d(150, 140, 130) : kSafeInk;
       colours.at<cv::Vec3b>(r, c) = cv::Vec3b(0.5 * tint + 0.5 * cv::Vec3d(grey, grey, grey));
     }
   }
@@ -219,16 +247,18 @@ Status WriteSafeLandingPicture(const std::filesystem::path& path, const Elevatio
 }
 
 Status WriteOverlay(const std::filesystem::path& path, const ImageU8& left,
-                    const SiteSelection& selection, const SiteContext& context) {
+                    const SiteSelection& selection, const SiteContext& context,
+                    const ImageU8& verdict) {
   cv::Mat picture(left.height(), left.width(), CV_8UC3);
   for (int y = 0; y < left.height(); ++y) {
     for (int x = 0; x < left.width(); ++x) {
       picture.at<cv::Vec3b>(y, x) = cv::Vec3b::all(left.at(x, y));
     }
   }
+  DrawVerdict(picture, verdict);
   for (std::size_t i = selection.sites.size(); i-- > 0;) {
     const LandingSite& site = selection.sites[i];
-    const cv::Scalar ink = i == 0 ? cv::Scalar(80, 255, 80) : cv::Scalar(220, 200, 80);
+    const cv::Scalar ink(255, 255, 255);
     const Eigen::Vector3d along = site.normal_W.cross(Eigen::Vector3d::UnitY()).normalized();
     const Eigen::Vector3d aside = site.normal_W.cross(along);
     std::vector<cv::Point> ring;
@@ -243,10 +273,13 @@ Status WriteOverlay(const std::filesystem::path& path, const ImageU8& left,
             static_cast<int>(context.camera.fy_px * p_C.y() / p_C.z() + context.camera.cy_px));
       }
     }
-    cv::polylines(picture, ring, true, ink, 2, cv::LINE_AA);
+    cv::polylines(picture, ring, true, cv::Scalar(0, 0, 0), i == 0 ? 6 : 4, cv::LINE_AA);
+    cv::polylines(picture, ring, true, ink, i == 0 ? 3 : 1, cv::LINE_AA);
     if (site.pixel.allFinite()) {
       const cv::Point2d at(site.pixel.x(), site.pixel.y());
       DrawCross(picture, at, i == 0 ? 16 : 6, ink);
+      cv::putText(picture, std::string(1, site.letter), at + cv::Point2d(10, -10),
+                  cv::FONT_HERSHEY_SIMPLEX, 0.8, cv::Scalar(0, 0, 0), 5, cv::LINE_AA);
       cv::putText(picture, std::string(1, site.letter), at + cv::Point2d(10, -10),
                   cv::FONT_HERSHEY_SIMPLEX, 0.8, ink, 2, cv::LINE_AA);
     }

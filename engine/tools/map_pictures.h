@@ -31,8 +31,10 @@ Status WriteMapPicture(const std::filesystem::path& path, const GridF& cells,
 Status WriteSafeLandingPicture(const std::filesystem::path& path, const ElevationMap& map,
                                const HazardMaps& hazards, const SiteSelection& selection);
 
-/// The left picture with the cross at the best site and the ring of its clear radius on the ground.
+/// The left picture with the cross at the best site, the rings of the clear radii on the ground,
+/// and the verdict (VerdictImage, any size): blue rim round what is safe, orange hatch elsewhere.
 Status WriteOverlay(const std::filesystem::path& path, const ImageU8& left,
-                    const SiteSelection& selection, const SiteContext& context);
+                    const SiteSelection& selection, const SiteContext& context,
+                    const ImageU8& verdict);
 
 }  // namespace palace

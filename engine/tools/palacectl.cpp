@@ -1,5 +1,6 @@
 // palacectl: the engine's verbs for scripts and analysts.
 #include <iostream>
+#include <string>
 
 #include <CLI/CLI.hpp>
 
@@ -24,6 +25,15 @@ int main(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::Success& done) {
     return app.exit(done);
+  } catch (const CLI::RequiredError& error) {
+    const std::string verb = argc > 1 ? argv[1] : "";
+    if (!verb.empty() && verb[0] != '-' && app.get_subcommands().empty()) {
+      std::cerr << "palacectl: there is no command '" << verb
+                << "'; choose one of simulate, analyze, evaluate, log\n";
+    } else {
+      std::cerr << "palacectl: " << error.what() << "; see palacectl --help\n";
+    }
+    return 2;
   } catch (const CLI::ParseError& error) {
     std::cerr << "palacectl: " << error.what() << "; see palacectl --help\n";
     return 2;

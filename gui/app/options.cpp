@@ -90,6 +90,9 @@ Result<AppOptions> ParseCommandLine(int argc, const char* const* argv) {
   }
   const int sources =
       (replay.empty() ? 0 : 1) + (images.empty() ? 0 : 1) + (connect.empty() ? 0 : 1);
+  if (app.count("--connect") > 0 && connect.empty()) {
+    return UsageError("--connect needs the URL of a bus, e.g. udpm://239.255.76.67:7667?ttl=0");
+  }
   if (sources > 1) {
     return UsageError("--replay, --images and --connect exclude each other");
   }

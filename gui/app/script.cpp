@@ -126,7 +126,7 @@ Result<std::vector<ScriptLine>> LoadScript(const std::string& path) {
   std::ostringstream text;
   text << file.rdbuf();
   if (!file) {
-    return UsageError("script " + path + " cannot be read");
+    return UsageError("script " + path + " cannot be read; check the name");
   }
   return ParseScript(text.str(), path);
 }

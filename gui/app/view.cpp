@@ -11,6 +11,8 @@
 namespace palace {
 namespace {
 
+constexpr double kOrbitSettles_s = 0.5;  // the camera glides to a preset in less
+
 ImTextureID Id(GLuint name) {
   return reinterpret_cast<ImTextureID>(static_cast<std::intptr_t>(name));
 }
@@ -46,8 +48,10 @@ std::string PresetName(const UiState& state) {
   return name.empty() ? "defaults" : name;
 }
 
-/// Hands the operator's drags over the 3-D view to its camera.
-void MoveOrbit(View3dState& view, OrbitCamera& orbit) {
+/// Hands the operator's drags over the 3-D view to its camera. True when there were any.
+bool MoveOrbit(View3dState& view, OrbitCamera& orbit) {
+  const bool moved = view.wanted_preset || view.drag_x != 0 || view.drag_y != 0 ||
+                     view.pan_x != 0 || view.pan_y != 0 || view.wheel != 0;
   constexpr View3dPreset kPresets[] = {View3dPreset::kOrbit, View3dPreset::kAbove,
                                        View3dPreset::kBehind};
   if (view.wanted_preset) {
@@ -64,6 +68,7 @@ void MoveOrbit(View3dState& view, OrbitCamera& orbit) {
   }
   view.wanted_preset.reset();
   view.drag_x = view.drag_y = view.pan_x = view.pan_y = view.wheel = 0;
+  return moved;
 }
 
 }  // namespace
@@ -86,6 +91,7 @@ void View::Upload(const EngineSnapshot& snapshot, const UiState& state, double d
   const Item* camera = items_.Find("left_camera");
   const double camera_scale =
       camera && snapshot.left_rectified ? camera->rect.w / snapshot.left_rectified->width() : 1;
+  textures_.ShowRange(fly_.camera.show_depth);
   textures_.Update(snapshot, camera_scale);
   const TextureNames& names = textures_.names();
   ids_.left_camera = Id(names.left_camera);
@@ -98,6 +104,9 @@ void View::Upload(const EngineSnapshot& snapshot, const UiState& state, double d
   ids_.anchor_patch = Id(names.anchor_patch);
   ids_.current_patch = Id(names.current_patch);
   ids_.difference_patch = Id(names.difference_patch);
+  ids_.range_tint = Id(names.range_tint);
+  ids_.range_near_m = names.range_tint_m.low;
+  ids_.range_far_m = names.range_tint_m.high;
   fly_.maps.elevation_low_m = static_cast<float>(textures_.ranges().elevation_m.low);
   fly_.maps.elevation_high_m = static_cast<float>(textures_.ranges().elevation_m.high);
 
@@ -105,7 +114,13 @@ void View::Upload(const EngineSnapshot& snapshot, const UiState& state, double d
   if (scene == nullptr || scene->rect.w < 16 || scene->rect.h < 16) {
     return;
   }
-  MoveOrbit(fly_.view, orbit_);
+  const bool moved = MoveOrbit(fly_.view, orbit_);
+  settle_s_ = moved ? kOrbitSettles_s : settle_s_ - dt_s;
+  const View3dKey key{snapshot.sequence, state.highlighted_site, scene->rect.w, scene->rect.h};
+  if (key == drawn_3d_ && settle_s_ <= 0) {
+    return;
+  }
+  drawn_3d_ = key;
   const View3dInput input = MakeView3dInput(snapshot, state.highlighted_site, style_.scale);
   FrameView3d(input, orbit_);
   orbit_.Advance(dt_s);

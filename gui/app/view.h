@@ -52,11 +52,21 @@ class View {
   void DrawMessage(const FrameLayout& layout, const UiState& state, UiFrame& ui);
   void DrawKeyHelp(const FrameLayout& layout, UiFrame& ui);
 
+  /// What the 3-D view was drawn for; drawn again only when it changes or the camera moves.
+  struct View3dKey {
+    std::uint64_t sequence = 0;
+    std::uint64_t highlighted_site = 0;
+    float width = 0;
+    float height = 0;
+    friend bool operator==(const View3dKey&, const View3dKey&) = default;
+  };
+
   Style style_;
   TextureSet textures_;
   std::unique_ptr<View3dRenderer> view3d_;
   OrbitCamera orbit_;
-  View3dLabels labels_;
+  View3dKey drawn_3d_;
+  double settle_s_ = 0;
   PanelTextures ids_;
   ItemRecord items_;
   FrameState frame_state_;

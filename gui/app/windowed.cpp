@@ -1,5 +1,6 @@
 #include "gui/app/windowed.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -22,6 +23,7 @@ namespace palace {
 namespace {
 
 constexpr double kMinimisedWait_s = 0.1;
+constexpr double kSlowFrame_ms = 20;
 constexpr double kCaptionEm_px = 13;
 constexpr double kLeastCaption_pt = 9.7;
 constexpr double kScaleStep = 0.25;
@@ -82,7 +84,7 @@ class WindowedRun {
 
   Status Run() {
     while (!state_.quit && !(script_ && script_->done())) {
-      const WindowInput input = window_->PollInput(window_->minimised() ? kMinimisedWait_s : 0);
+      const WindowInput input = window_->PollInput(WaitForInput());
       if (input.close_requested) {
         break;
       }
@@ -104,6 +106,15 @@ class WindowedRun {
  private:
   double Scale() const {
     return View::FittingScale(window_->width_px(), window_->height_px(), state_.scale);
+  }
+
+  /// When drawing is slow (software GL) the engine gets every other moment: the frame rate of the
+  /// window yields first. Input ends the wait.
+  double WaitForInput() const {
+    if (window_->minimised()) {
+      return kMinimisedWait_s;
+    }
+    return frame_ms_ > kSlowFrame_ms ? std::min(frame_ms_ * 1e-3, kMinimisedWait_s) : 0;
   }
 
   Status Frame(const WindowInput& window_input) {

@@ -34,9 +34,11 @@ std::string RecordingText(const EngineSnapshot& snap, bool narrow) {
   if (!snap.recording) {
     return snap.source.kind == SourceKind::kReplay ? "" : "Not recording";
   }
-  const std::string left = Fixed(snap.recording_minutes_left, 0) + " min left";
-  return narrow ? "Recording, " + left
-                : "Recording " + LengthText(snap.source.position_s) + ", " + left;
+  // Negative: the recorder does not know its rate yet.
+  const std::string left = snap.recording_minutes_left < 0
+                               ? std::string()
+                               : ", " + Fixed(snap.recording_minutes_left, 0) + " min left";
+  return narrow ? "Recording" + left : "Recording " + LengthText(snap.source.position_s) + left;
 }
 
 std::string ChannelsText(const EngineSnapshot& snap) {

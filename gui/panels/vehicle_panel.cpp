@@ -100,9 +100,10 @@ std::vector<Readout> Readouts(const EngineSnapshot& snap, bool narrow) {
             status("Wind", wind, 1, wind_unit),
             status("Fuel", fuel, 0, "%")};
   }
-  const double height = snap.laser && std::isfinite(snap.laser->range_m) ? snap.laser->range_m
-                        : snap.pose ? HeightFromDown(snap.pose->X_WB.p.z())
-                                    : NAN;
+  const double height = snap.laser && std::isfinite(snap.laser->range_m)
+                            // The laser looks along the camera: only its vertical share is height.
+                            ? snap.laser->range_m * snap.X_WC.R(2, 2)
+                            : snap.pose ? HeightFromDown(snap.pose->X_WB.p.z()) : NAN;
   if (narrow) {
     return {pose("Height", height, 1, "m"), pose("Speed", speed, 1, "m/s"),
             status("Wind", wind, 1, "m/s"), pose("Error, 3σ", PositionError3s(snap), 2, "m")};

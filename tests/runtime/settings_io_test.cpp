@@ -61,7 +61,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadFile{"up_vector_down",
                 "[slad]\nup_vector_ned = [0, 0, 1]\n",
                 {"limits.toml:2:", "up_vector_ned"}}),
-    [](const auto& info) { return std::string(info.param.name); });
+    [](const auto& row) { return std::string(row.param.name); });
 
 TEST(SettingsIo, UpVectorBecomesTiltAndAzimuth) {
   const auto read = ParseSettings("[slad]\nup_vector_ned = [0, -0.1, -1]\n", "x.toml", Settings{});

@@ -28,7 +28,7 @@ INSTANTIATE_TEST_SUITE_P(
                     BadScript{"number", "hold approve long\n", "'long' is not a number"},
                     BadScript{"setting", "set slad.nothing 3\n", "unknown setting 'slad.nothing'"},
                     BadScript{"what", "wait weather 3\n", "not 'weather'"}),
-    [](const auto& info) { return std::string(info.param.name); });
+    [](const auto& row) { return std::string(row.param.name); });
 
 TEST(Script, DefaultMissionParses) {
   const auto lines = ParseScript(DefaultMissionScript(), "default");
