@@ -133,7 +133,8 @@ void DrawAlarmStripPanel(const EngineSnapshot& snap, const Rect& rect, FrameStat
   const float y = rect.centre().y;
   if (quiet) {
     DrawRest({}, shelved, "", rect.right(), y, ui);
-    DrawText(ui, s.body, p.text3, rect.x + s.Px(40), y, "No alarms");
+    DrawIcon(Canvas(), Icon::kNormal, {rect.x + s.Px(25), y}, s.Px(14), p.text3);
+    DrawText(ui, s.medium, p.text1, rect.x + s.Px(40), y, "No alarms");
     ui.items.Add("alarm", rect, true, "No alarms");
     return;
   }

@@ -2,6 +2,8 @@
 #include <cmath>
 
 #include "gui/panels/fly_panels.h"
+#include "gui/panels/terrain_views.h"
+#include "gui/widgets/button.h"
 #include "gui/widgets/icons.h"
 #include "gui/widgets/number_text.h"
 
@@ -69,6 +71,37 @@ SiteOverlay OverlayOf(const EngineSnapshot& snap, std::uint64_t highlighted) {
   return overlay;
 }
 
+/// "Depth" switches the tint by the range map; beside it the colours' ends. The chip appears with
+/// the pointer, so that the picture stays free.
+void DrawDepthChip(UiFrame& ui, const Rect& image, CameraState& state) {
+  const Style& s = ui.style;
+  const Rect chip{image.x + s.Px(8), image.y + s.Px(42), s.Px(64), s.Px(24)};
+  if (!Hovered(ui, image) && !state.show_depth) {
+    ui.items.Add("depth", chip, true, "Depth");
+    return;
+  }
+  ButtonLook look;
+  look.active = state.show_depth;
+  if (DrawButton(ui, "depth", chip, "Depth", look)) {
+    state.show_depth = !state.show_depth;
+  }
+  if (!state.show_depth || ui.textures.range_tint == nullptr) {
+    return;
+  }
+  const std::string near = Fixed(static_cast<double>(ui.textures.range_near_m), 1) + " m";
+  const std::string far = Fixed(static_cast<double>(ui.textures.range_far_m), 1) + " m+";
+  const float near_w = TextWidth(s.caption, near), far_w = TextWidth(s.caption, far);
+  const Rect bar{chip.right() + s.Px(22) + near_w, chip.centre().y - s.Px(4), s.Px(96), s.Px(8)};
+  FillRect(Canvas(),
+           {chip.right() + s.Px(6), chip.y, bar.right() + s.Px(16) + far_w - chip.right() - s.Px(6),
+            chip.h},
+           picture::kPlate, s.Fine(3));
+  DrawRampBar(Canvas(), bar, Ramp::kElevation);
+  DrawText(ui, s.caption, picture::kPlateText, bar.x - s.Px(8), chip.centre().y, near,
+           Align::kRight);
+  DrawText(ui, s.caption, picture::kPlateText, bar.right() + s.Px(8), chip.centre().y, far);
+}
+
 std::string LeftFact(const EngineSnapshot& snap) {
   if (TrackerShown(snap) && snap.tracker.locked) {
     return "Tracking " + std::to_string(snap.tracker.inliers) + " of " +
@@ -82,7 +115,7 @@ std::string LeftFact(const EngineSnapshot& snap) {
 }  // namespace
 
 void DrawLeftCameraPanel(const EngineSnapshot& snap, const Rect& rect, CameraState& state,
-                         std::uint64_t highlighted, UiFrame& ui) {
+                         const MapProbe& probe, std::uint64_t highlighted, UiFrame& ui) {
   const Style& s = ui.style;
   const Arrival arrival = ArrivalOf(snap, "Camera left");
   const Rect content = DrawPanelFrame(
@@ -94,23 +127,27 @@ void DrawLeftCameraPanel(const EngineSnapshot& snap, const Rect& rect, CameraSta
   ui.items.Add("left_camera", image, true, "");
   if (ui.textures.left_camera == nullptr || !camera) {
     DrawMissing(ui, image);
+    DrawDepthChip(ui, image, state);
     return;
   }
   ImDrawList* dl = Canvas();
   dl->PushClipRect(image.min(), image.max(), true);
   dl->AddImage(ui.textures.left_camera, image.min(), image.max());
-  const TerrainDecision* shown = ShownDecision(snap);
-  if (shown != nullptr) {
-    DrawVerdict(ui, image, shown->verdict, state.overlay);
+  if (state.show_depth && ui.textures.range_tint != nullptr) {
+    dl->AddImage(ui.textures.range_tint, image.min(), image.max());
   }
+  const TerrainDecision* shown = ShownDecision(snap);
+  DrawCurrentVerdict(ui, image, snap, shown, state.overlay);
   const PictureView view{*camera, snap.X_WC, image};
   const bool tracking = TrackerShown(snap);
   if (tracking) {
     DrawTracker(ui, view, snap.tracker);
   }
   DrawSites(ui, view, OverlayOf(snap, highlighted));
+  DrawProbeOnPicture(ui, view, shown, probe);
   DrawStale(ui, image, arrival.age_s);
-  DrawVerdictLegend(ui, image);
+  DrawVerdictPlate(ui, image, snap, shown);
+  DrawDepthChip(ui, image, state);
   if (snap.preview) {
     PreviewChip(ui, {image.right() - s.Px(92), image.y + s.Px(8)});
   }
@@ -122,7 +159,8 @@ void DrawLeftCameraPanel(const EngineSnapshot& snap, const Rect& rect, CameraSta
   dl->PopClipRect();
 }
 
-void DrawRightCameraPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui) {
+void DrawRightCameraPanel(const EngineSnapshot& snap, const Rect& rect, const MapProbe& probe,
+                          UiFrame& ui) {
   const Arrival arrival = ArrivalOf(snap, "Camera right");
   const Rect content = DrawPanelFrame(
       ui, rect, "Right camera",
@@ -137,6 +175,11 @@ void DrawRightCameraPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame&
   }
   ImDrawList* dl = Canvas();
   dl->AddImage(ui.textures.right_camera, image.min(), image.max());
+  if (camera) {
+    if (const auto view = RightView(snap, {*camera, snap.X_WC, image}, image)) {
+      DrawProbeOnPicture(ui, *view, ShownDecision(snap), probe);
+    }
+  }
   DrawStale(ui, image, arrival.age_s);
   const LandingSite* site = SiteInView(snap, 0);
   if (image.w < ui.style.Px(300)) {

@@ -1,6 +1,9 @@
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
+#include "engine/core/frames.h"
+#include "engine/core/units.h"
 #include "gui/panels/fly_panels.h"
 #include "gui/widgets/number_text.h"
 
@@ -52,6 +55,9 @@ PlotView Base(const char* name, const char* title, const char* unit) {
   return view;
 }
 
+/// An unknown value stands without its unit.
+std::string Unit(double value, const char* unit) { return std::isfinite(value) ? unit : ""; }
+
 /// Rounded up to where a tick falls, so that the axis is calm.
 float RoundUp(float value, float step) { return std::ceil(value / step) * step; }
 
@@ -64,51 +70,133 @@ float Largest(const std::vector<PlotSeries>& all, float at_least) {
   return at_least;
 }
 
+/// A series whose values are worked out from each sample.
+template <typename Get>
+PlotSeries Derived(const EngineSnapshot& snap, ImU32 colour, PlotSeries::Stroke stroke, Get get) {
+  PlotSeries series = SeriesOf(snap, &HistorySample::laser_m, colour, 1.5f, stroke);
+  const auto& history = *snap.history;
+  const std::size_t first = history.size() - series.points.size();
+  for (std::size_t i = 0; i < series.points.size(); ++i) {
+    series.points[i].y = static_cast<float>(get(first + i));
+  }
+  return series;
+}
+
+using PositionMember = Eigen::Vector3d HistorySample::*;
+
+/// Height of the skids above the site along a track that history keeps as positions of B, level.
+PlotSeries HeightOf(const EngineSnapshot& snap, PositionMember track, ImU32 colour,
+                    PlotSeries::Stroke stroke) {
+  const double site_m = snap.mission.armed ? snap.mission.armed->p_WS.z() : NAN;
+  return Derived(snap, colour, stroke, [&, site_m](std::size_t i) {
+    return site_m - ((*snap.history)[i].*track).z() - SkidCentreBody().z();
+  });
+}
+
+/// Descent rate along a track: its change over the half second around each sample.
+PlotSeries RateOf(const EngineSnapshot& snap, PositionMember track, ImU32 colour,
+                  PlotSeries::Stroke stroke) {
+  const std::vector<HistorySample>& h = *snap.history;
+  return Derived(snap, colour, stroke, [&h, track](std::size_t i) {
+    const HistorySample& before = h[i >= 3 ? i - 3 : 0];
+    const HistorySample& after = h[std::min(i + 2, h.size() - 1)];
+    const double dt_s = SecondsBetween(before.time, after.time);
+    // A jump in time is no rate.
+    return dt_s > 0.1 && dt_s < 2 ? ((after.*track).z() - (before.*track).z()) / dt_s : NAN;
+  });
+}
+
+/// What is still to be flown: down the slope, level over the site, straight down.
+PlotSeries PlanAhead(const EngineSnapshot& snap, const HistorySample& now, const Palette& p) {
+  constexpr double kSettleHeight_m = 2, kLevelSpeed_mps = 0.7, kTouchRate_mps = 0.4;
+  PlotSeries plan;
+  plan.colour = p.text2;
+  plan.stroke = PlotSeries::Stroke::kDashed;
+  const double rate = std::max(0.1, snap.settings.mission.descent_rate_mps);
+  const double slope = Rad(std::clamp(snap.settings.mission.glide_slope_deg, 5.0, 90.0));
+  const bool on_slope = now.height_above_site_m > kSettleHeight_m + 0.1;
+  const double level_m = on_slope ? kSettleHeight_m / std::tan(slope) : now.from_site_m;
+  double left_level_s =
+      now.height_above_site_m > kSettleHeight_m - 0.3 ? level_m / kLevelSpeed_mps : 0.0;
+  double height_m = now.height_above_site_m;
+  constexpr float kStep_s = 0.5f;
+  for (float t = 0; t <= kFuture_s; t += kStep_s) {
+    plan.points.push_back({t, static_cast<float>(height_m)});
+    const auto dt = static_cast<double>(kStep_s);
+    if (height_m > kSettleHeight_m + 1e-6) {
+      height_m = std::max(kSettleHeight_m, height_m - rate * dt);
+    } else if (left_level_s > 0) {
+      left_level_s -= dt;
+    } else {
+      height_m = std::max(0.0, height_m - kTouchRate_mps * dt);
+    }
+  }
+  return plan;
+}
+
 PlotView HeightPlot(const EngineSnapshot& snap, const Palette& p, const HistorySample& now) {
+  using Stroke = PlotSeries::Stroke;
   PlotView view = Base("height", "Height above site", "m");
   const double sigma = snap.navigation.vision.estimate.sigma_p_m.z();
-  view.series = {
-      Estimate(snap, &HistorySample::height_above_site_m, p, 3 * sigma),
-      SeriesOf(snap, &HistorySample::laser_m, p.laser, 1.5f),
-      SeriesOf(snap, &HistorySample::plan_height_m, p.text2, 1.5f, PlotSeries::Stroke::kDashed)};
+  view.series = {Estimate(snap, &HistorySample::height_above_site_m, p, 3 * sigma),
+                 HeightOf(snap, &HistorySample::truth_p_WB, p.truth, Stroke::kDotted),
+                 SeriesOf(snap, &HistorySample::laser_m, p.laser, 1.5f),
+                 HeightOf(snap, &HistorySample::gps_p_WB, p.gps, Stroke::kSolid),
+                 SeriesOf(snap, &HistorySample::plan_height_m, p.text2, 1.5f, Stroke::kDashed)};
   if (std::isfinite(now.height_above_site_m) && snap.mission.state == MissionState::kDescending) {
-    PlotSeries plan;
-    plan.colour = p.text2;
-    plan.stroke = PlotSeries::Stroke::kDashed;
-    const double rate = snap.settings.mission.descent_rate_mps;
-    for (float t = 0; t <= kFuture_s; t += 1) {
-      plan.points.push_back(
-          {t, static_cast<float>(
-                  std::max(0.0, now.height_above_site_m - rate * static_cast<double>(t)))});
-    }
-    view.series.push_back(plan);
+    view.series.push_back(PlanAhead(snap, now, p));
   }
-  view.y_max = RoundUp(Largest(view.series, 10), 10) + 2;
+  const float top = Largest(view.series, 4);
+  view.y_max = RoundUp(top * 1.05f, top > 20 ? 10 : (top > 8 ? 5 : 2));
   view.current = Fixed(now.height_above_site_m, 1) + " m";
   return view;
 }
 
+/// Seconds before now when the vehicle began to sink onto the site; from there its distance from
+/// the centre is limited. Empty while it has not.
+std::optional<float> SinksSince(const EngineSnapshot& snap) {
+  constexpr double kSinking_m = 1.7;  // well below the height at which it moves over the site
+  std::optional<float> since;
+  const std::vector<HistorySample>& history = *snap.history;
+  for (auto it = history.rbegin(); it != history.rend(); ++it) {
+    const bool landing =
+        it->state == MissionState::kDescending || it->state == MissionState::kLanded;
+    if (!landing || !(it->height_above_site_m < kSinking_m)) {
+      break;
+    }
+    since = static_cast<float>(SecondsBetween(snap.time, it->time));
+  }
+  return since;
+}
+
 PlotView DistancePlot(const EngineSnapshot& snap, const Palette& p, const HistorySample& now) {
+  using Stroke = PlotSeries::Stroke;
   PlotView view = Base("distance", "Distance from site centre", "m");
   const double band = 3 * snap.navigation.vision.estimate.sigma_p_m.head<2>().norm();
   view.series = {Estimate(snap, &HistorySample::from_site_m, p, band),
-                 SeriesOf(snap, &HistorySample::from_site_gps_m, p.gps, 1.5f),
-                 SeriesOf(snap, &HistorySample::from_site_truth_m, p.truth, 1.5f,
-                          PlotSeries::Stroke::kDotted)};
+                 SeriesOf(snap, &HistorySample::from_site_truth_m, p.truth, 1.5f, Stroke::kDotted),
+                 SeriesOf(snap, &HistorySample::from_site_gps_m, p.gps, 1.5f)};
   const auto limit = static_cast<float>(snap.settings.slad.nav_error_m);
-  view.y_max = RoundUp(std::min(Largest(view.series, 2 * limit), 8 * limit), 0.5f);
-  view.limits = {{limit, true, "Limit " + Fixed(static_cast<double>(limit), 1) + " m"}};
+  const float top = Largest(view.series, 2 * limit);
+  view.y_max = RoundUp(top * 1.05f, top > 8 ? 5 : (top > 3 ? 1 : 0.5f));
+  const std::string words = Fixed(static_cast<double>(limit), 1) + " m";
+  const std::optional<float> since = SinksSince(snap);
+  view.limits = {{limit, true, since ? "Limit " + words : "Limit over the site: " + words,
+                  since.value_or(0.0f)}};
   view.current = Fixed(now.from_site_m, 2) + " ± " + Fixed(band, 2) + " m";
   return view;
 }
 
 PlotView RatePlot(const EngineSnapshot& snap, const Palette& p, const HistorySample& now) {
+  using Stroke = PlotSeries::Stroke;
   PlotView view = Base("rate", "Descent rate", "m/s");
   view.series = {Estimate(snap, &HistorySample::descent_rate_mps, p,
-                          3 * snap.navigation.vision.estimate.sigma_v_mps.z())};
+                          3 * snap.navigation.vision.estimate.sigma_v_mps.z()),
+                 RateOf(snap, &HistorySample::truth_p_WB, p.truth, Stroke::kDotted),
+                 RateOf(snap, &HistorySample::gps_p_WB, p.gps, Stroke::kSolid)};
   const auto limit = static_cast<float>(snap.settings.mission.descent_rate_mps * 1.5);
-  view.y_min = -0.1f;
-  view.y_max = RoundUp(Largest(view.series, limit * 1.2f), 0.25f);
+  view.y_min = -0.25f;
+  view.y_max = RoundUp(limit * 1.2f, 0.5f);
   view.limits = {{limit, true, "Limit " + Fixed(static_cast<double>(limit), 1) + " m/s"}};
   view.current = Fixed(now.descent_rate_mps, 2) + " m/s";
   return view;
@@ -131,20 +219,18 @@ PlotView ResidualPlot(const EngineSnapshot& snap, const Palette& p, const Histor
   view.y_min = -4;
   view.y_max = 4;
   view.limits = {{3, true, "Gate ± 3 σ"}, {-3, false, ""}};
-  view.current = Fixed(now.residual_sigma, 1) + " σ";
+  view.current = Fixed(now.residual_sigma, 1) + Unit(now.residual_sigma, " σ");
   return view;
 }
 
-PlotView GlidePlot(const EngineSnapshot& snap, const Palette& p, const HistorySample& now) {
-  PlotView view = Base("glide", "Glide slope deviation", "m");
+PlotView PathPlot(const EngineSnapshot& snap, const Palette& p, const HistorySample& now) {
+  PlotView view = Base("path", "Off the planned path", "m");
   view.series = {Estimate(snap, &HistorySample::glide_deviation_m, p,
-                          3 * snap.navigation.vision.estimate.sigma_p_m.z())};
-  view.y_min = -1.6f;
+                          3 * snap.navigation.vision.estimate.sigma_p_m.norm())};
+  const auto limit = static_cast<float>(kMaxOffPath_m);
   view.y_max = 1.6f;
-  view.limits = {{1.2f, true, "Limit ± 1.2 m"}, {-1.2f, false, ""}};
-  const bool known = std::isfinite(now.glide_deviation_m);
-  view.current =
-      (known && now.glide_deviation_m > 0 ? "+" : "") + Fixed(now.glide_deviation_m, 2) + " m";
+  view.limits = {{limit, true, "Limit " + Fixed(kMaxOffPath_m, 1) + " m"}};
+  view.current = Fixed(now.glide_deviation_m, 2) + Unit(now.glide_deviation_m, " m");
   return view;
 }
 
@@ -159,7 +245,7 @@ void DrawLegend(const EngineSnapshot& snap, const Rect& rect, float left_end, Ui
   const Palette& p = s.palette;
   using Stroke = PlotSeries::Stroke;
   std::vector<LegendEntry> entries = {{"Limit", p.unsafe, Stroke::kDashed},
-                                      {"Plan", p.text1, Stroke::kDotted},
+                                      {"Plan", p.text2, Stroke::kDashed},
                                       {"GPS", p.gps, Stroke::kSolid},
                                       {"Laser", p.laser, Stroke::kSolid},
                                       {"Vision estimate, ±3σ", p.safe, Stroke::kSolid}};
@@ -181,8 +267,10 @@ void DrawLegend(const EngineSnapshot& snap, const Rect& rect, float left_end, Ui
       Canvas()->AddLine(a, b, entry.colour, s.Fine(2));
     } else {
       const bool dotted = entry.stroke == Stroke::kDotted;
-      DashedLine(Canvas(), a, b, entry.colour, s.Fine(2), s.Fine(dotted ? 2.0f : 8.0f),
-                 s.Fine(dotted ? 3.0f : 4.0f));
+      const bool plan = entry.colour == p.text2;
+      DashedLine(Canvas(), a, b, entry.colour, s.Fine(2),
+                 s.Fine(dotted ? 2.0f : (plan ? 3.0f : 8.0f)),
+                 s.Fine(dotted ? 3.0f : (plan ? 5.0f : 4.0f)));
     }
     x -= s.Px(20 + 18);
   }
@@ -232,7 +320,7 @@ void DrawDescentPlotsPanel(const EngineSnapshot& snap, const std::array<Rect, 6>
   DrawPlot(ui, rects[2], RatePlot(snap, p, now), hover);
   DrawPlot(ui, rects[3], CoherencePlot(snap, p, now), hover);
   DrawPlot(ui, rects[4], ResidualPlot(snap, p, now), hover);
-  DrawPlot(ui, rects[5], GlidePlot(snap, p, now), hover);
+  DrawPlot(ui, rects[5], PathPlot(snap, p, now), hover);
 }
 
 }  // namespace palace

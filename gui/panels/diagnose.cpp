@@ -76,10 +76,10 @@ void DrawChannels(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui) {
   const Style& s = ui.style;
   const Palette& p = s.palette;
   const Rect content = DrawPanelFrame(ui, rect, "Channels");
-  const bool wide = rect.w > s.Px(520);
-  const char* heads[] = {"Age", "Rate", "Expected", "Count", "Lost", "Note"};
-  const int columns = wide ? 6 : 5;
-  const float left = content.x + s.Px(170);
+  const bool wide = rect.w > s.Px(500);
+  const char* heads[] = {"Age", "Rate", "Expected", "Lost", "Note"};
+  const int columns = wide ? 5 : 3;
+  const float left = content.x + s.Px(156);
   const float step = (content.right() - s.Px(12) - left) / static_cast<float>(columns);
   const auto column = [&](int i) { return left + step * static_cast<float>(i + 1); };
   float y = content.y + s.Px(12);
@@ -101,12 +101,9 @@ void DrawChannels(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui) {
              fresh ? p.text3 : (late ? p.caution : p.text1));
     DrawText(ui, fresh ? s.body : s.medium, fresh ? p.text2 : p.text1, content.x + s.Px(34), y,
              c.name);
-    const std::string cells[] = {AgeText(c.age_s),
-                                 Fixed(c.rate_hz, 1) + " Hz",
+    const std::string cells[] = {AgeText(c.age_s), Fixed(c.rate_hz, 1) + " Hz",
                                  Fixed(c.expected_hz, 0) + " Hz",
-                                 Fixed(static_cast<double>(c.count), 0),
-                                 Fixed(static_cast<double>(c.lost), 0),
-                                 c.note};
+                                 Fixed(static_cast<double>(c.lost), 0), c.note};
     for (int i = 0; i < columns; ++i) {
       DrawText(ui, s.body, p.text1, column(i), y, cells[i], Align::kRight);
     }
@@ -211,19 +208,32 @@ void DrawDiagnoseWorkspace(const EngineSnapshot& snap, const Rect& body, Diagnos
                            UiFrame& ui) {
   const Style& s = ui.style;
   const float gap = s.Px(8);
-  const float left = std::floor((body.w - gap) * 0.44f);
+  // Three columns: what happened, what was decided from what, what the machine did.
+  const float left = std::floor((body.w - 2 * gap) * 0.34f);
+  const float middle = std::floor((body.w - 2 * gap) * 0.36f);
   DrawEvents(snap, {body.x, body.y, left, body.h}, state, ui);
-  const float x = body.x + left + gap, w = body.right() - x;
-  const float channels_h = std::min(
-      s.Px(28 + 36 + 26 * static_cast<float>(std::max<std::size_t>(snap.channels.size(), 1))),
-      std::round(body.h * 0.5f));
-  DrawChannels(snap, {x, body.y, w, channels_h}, ui);
-  const float y = body.y + channels_h + gap, h = body.bottom() - y;
-  const float half = std::floor((w - gap) / 2);
-  DrawTimings(snap, {x, y, half, h}, ui);
-  const float hashes_h = std::min(s.Px(160), std::round(h * 0.55f));
-  DrawHashes(snap, {x + half + gap, y, w - half - gap, hashes_h}, ui);
-  DrawNotes(snap, {x + half + gap, y + hashes_h + gap, w - half - gap, h - hashes_h - gap}, ui);
+  const float x = body.x + left + gap;
+  const auto rows_h = [&](std::size_t rows, float head) {
+    return s.Px(head + 26 * static_cast<float>(std::max<std::size_t>(rows, 1)));
+  };
+  const std::size_t sites = snap.applied ? snap.applied->selection.sites.size() : 0;
+  const float sites_h = std::min(rows_h(sites, 66), std::round(body.h * 0.36f));
+  DrawGuards(snap, {x, body.y, middle, body.h - sites_h - gap}, ui);
+  DrawSiteTable(snap, {x, body.bottom() - sites_h, middle, sites_h}, ui);
+  const float right_x = x + middle + gap, right = body.right() - right_x;
+  const float channels_h = std::min(rows_h(snap.channels.size(), 62), std::round(body.h * 0.38f));
+  const float stages_h =
+      std::min(s.Px(40 + 24 * static_cast<float>(std::max<std::size_t>(snap.timings.size(), 1))),
+               std::round(body.h * 0.24f));
+  const float hashes_h = std::min(s.Px(160), std::round(body.h * 0.22f));
+  float y = body.y;
+  DrawChannels(snap, {right_x, y, right, channels_h}, ui);
+  y += channels_h + gap;
+  DrawTimings(snap, {right_x, y, right, stages_h}, ui);
+  y += stages_h + gap;
+  DrawHashes(snap, {right_x, y, right, hashes_h}, ui);
+  y += hashes_h + gap;
+  DrawNotes(snap, {right_x, y, right, body.bottom() - y}, ui);
 }
 
 }  // namespace palace

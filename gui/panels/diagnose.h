@@ -10,6 +10,10 @@ struct DiagnoseState {
   int event_offset = 0;  ///< newest events scrolled past
 };
 
+/// Each guard of the armed site: passes, or why not.
+void DrawGuards(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui);
+/// Figures of the candidates of the newest map.
+void DrawSiteTable(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui);
 void DrawDiagnoseWorkspace(const EngineSnapshot& snap, const Rect& body, DiagnoseState& state,
                            UiFrame& ui);
 

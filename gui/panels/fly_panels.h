@@ -14,6 +14,8 @@ const TerrainDecision* ShownDecision(const EngineSnapshot& snap);
 const LandingSite* SiteInView(const EngineSnapshot& snap, std::uint64_t highlighted);
 /// The mission is past APPROVED: the descent panels are shown.
 bool IsDescentView(const EngineSnapshot& snap);
+/// Widest distance off the planned path during the descent.
+inline constexpr double kMaxOffPath_m = 1.2;
 const ChannelHealth* FindChannel(const EngineSnapshot& snap, std::string_view name);
 /// Marks that all maps share.
 MapMarks MarksOf(const EngineSnapshot& snap, std::uint64_t highlighted);
@@ -21,8 +23,9 @@ MapMarks MarksOf(const EngineSnapshot& snap, std::uint64_t highlighted);
 MapView SafeDistanceMap(const EngineSnapshot& snap, const UiFrame& ui);
 
 void DrawLeftCameraPanel(const EngineSnapshot& snap, const Rect& rect, CameraState& state,
-                         std::uint64_t highlighted, UiFrame& ui);
-void DrawRightCameraPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui);
+                         const MapProbe& probe, std::uint64_t highlighted, UiFrame& ui);
+void DrawRightCameraPanel(const EngineSnapshot& snap, const Rect& rect, const MapProbe& probe,
+                          UiFrame& ui);
 void DrawVehiclePanel(const EngineSnapshot& snap, const Rect& rect, bool narrow, UiFrame& ui);
 void DrawView3dPanel(const EngineSnapshot& snap, const Rect& rect, View3dState& state, UiFrame& ui);
 /// Five maps: items "map/elevation", "map/slope", "map/roughness", "map/cost", "map/safe_distance".

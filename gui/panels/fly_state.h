@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "gui/panels/map_probe.h"
 #include "gui/widgets/camera_overlay.h"
 #include "gui/widgets/hold_button.h"
 #include "gui/widgets/map_image.h"
@@ -32,10 +33,11 @@ struct View3dState {
 
 struct CameraState {
   OverlayCache overlay;
+  bool show_depth = false;  ///< the app then uploads the tint
 };
 struct MapRowState {
   LimitDrag drag;
-  std::optional<Cell> hovered;    ///< of the last frame
+  MapProbe probe;
   float elevation_low_m = -0.5f;  ///< fixed once per mission, set by the app
   float elevation_high_m = 1.5f;
 };

@@ -79,8 +79,9 @@ void DrawFlyWorkspace(const EngineSnapshot& snap, const FlyLayout& layout, FlySt
                       UiFrame& ui) {
   HandleKeys(snap, state, ui);
   const std::uint64_t highlighted = state.sites.highlighted;
-  DrawLeftCameraPanel(snap, layout.left_camera, state.camera, highlighted, ui);
-  DrawRightCameraPanel(snap, layout.right_camera, ui);
+  BeginProbe(state.maps.probe);
+  DrawLeftCameraPanel(snap, layout.left_camera, state.camera, state.maps.probe, highlighted, ui);
+  DrawRightCameraPanel(snap, layout.right_camera, state.maps.probe, ui);
   DrawVehiclePanel(snap, layout.vehicle, layout.narrow, ui);
   DrawView3dPanel(snap, layout.view_3d, state.view, ui);
   DrawLowerLeft(snap, layout, state, ui);

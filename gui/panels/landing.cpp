@@ -37,7 +37,7 @@ std::string Record(const EngineSnapshot& snap) {
   if (m.state == MissionState::kLanded) {
     std::string text;
     if (m.touchdown_miss_m) {
-      text = "Touched down " + Fixed(*m.touchdown_miss_m, 2) + " m from the site centre";
+      text = Fixed(*m.touchdown_miss_m, 2) + " m from centre";
     }
     if (m.touchdown_miss_true_m) {
       text += ", truly " + Fixed(*m.touchdown_miss_true_m, 2) + " m";
@@ -47,10 +47,12 @@ std::string Record(const EngineSnapshot& snap) {
   if (!m.approval) {
     return "";
   }
-  std::string text = "Approved " + ClockText(m.approval->approved_at) + " by you.";
+  std::string text = "Approved " + ClockText(m.approval->approved_at) + " by you";
   if (m.approval_phase == MissionStatus::ApprovalPhase::kAccepted) {
-    text += " Vehicle accepted in " + Duration(m.approval_answer_s) + ".";
-  } else if (m.approval_phase == MissionStatus::ApprovalPhase::kSent) {
+    return text + ", accepted in " + Duration(m.approval_answer_s) + ".";
+  }
+  text += ".";
+  if (m.approval_phase == MissionStatus::ApprovalPhase::kSent) {
     text += " Waiting for the vehicle.";
   } else if (m.approval_phase == MissionStatus::ApprovalPhase::kRefused) {
     text += " Vehicle refused: " + m.approval_answer;

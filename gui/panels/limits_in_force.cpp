@@ -11,6 +11,11 @@ namespace {
 
 constexpr double kMaxResidual_sigma = 3;
 
+/// The distance from the centre is a limit once the vehicle is to be above the site.
+bool SettlesOrLater(VehicleMode mode) {
+  return mode == VehicleMode::kSettle || mode == VehicleMode::kSink || mode == VehicleMode::kLanded;
+}
+
 EvidenceRow Row(std::string name, double value, double spread, int decimals, double limit,
                 const std::string& unit, bool is_min = false) {
   const std::string gap = unit == "°" || unit.empty() ? "" : " ";
@@ -41,14 +46,26 @@ void DrawLimitsInForcePanel(const EngineSnapshot& snap, const Rect& rect, bool n
   const double position_3s = 3 * estimate.sigma_p_m.head<2>().norm();
   const double rate_3s = 3 * estimate.sigma_v_mps.z();
   std::vector<EvidenceRow> rows;
-  rows.push_back(
-      Row("From centre", now.from_site_m, position_3s, 2, settings.slad.nav_error_m, "m"));
+  const VehicleMode mode = snap.vehicle ? snap.vehicle->mode : VehicleMode::kUnknown;
+  const bool landed = snap.mission.state == MissionState::kLanded;
+  const bool moving_over = mode == VehicleMode::kSettle;
+  if (SettlesOrLater(mode) || landed) {
+    rows.push_back(
+        Row("From centre", now.from_site_m, position_3s, 2, settings.slad.nav_error_m, "m"));
+    if (moving_over) {
+      // Still on the level leg towards the site: the limit holds from where it sinks.
+      rows.back().share = rows.back().share_3s = NAN;
+    }
+  } else {
+    rows.push_back(Row("Off the path", now.glide_deviation_m, position_3s, 2, kMaxOffPath_m, "m"));
+  }
   rows.push_back(Row("Descent rate", now.descent_rate_mps, rate_3s, 2,
                      settings.mission.descent_rate_mps * 1.5, "m/s"));
-  rows.push_back(
-      Row("Coherence", snap.tracker.coherence, NAN, 2, settings.tracking.min_coherence, "", true));
-  rows.push_back(
-      Row("Residual", snap.navigation.vision.residual_sigma, NAN, 1, kMaxResidual_sigma, "σ"));
+  const bool locked = snap.tracker.locked;
+  rows.push_back(Row("Coherence", locked ? snap.tracker.coherence : NAN, NAN, 2,
+                     settings.tracking.min_coherence, "", true));
+  rows.push_back(Row("Residual", locked ? snap.navigation.vision.residual_sigma : NAN, NAN, 1,
+                     kMaxResidual_sigma, "σ"));
   const TerrainDecision* shown = ShownDecision(snap);
   const LandingSite* site = SiteInView(snap, 0);
   for (std::size_t i = 0; shown != nullptr && site != nullptr && i < shown->selection.sites.size();
@@ -76,9 +93,15 @@ void DrawLimitsInForcePanel(const EngineSnapshot& snap, const Rect& rect, bool n
     over += row.share > 1 ? 1 : 0;
     unknown += std::isfinite(row.share) ? 0 : 1;
   }
-  const std::string fact = over > 0      ? std::to_string(over) + " over a limit"
-                           : unknown > 0 ? std::to_string(unknown) + " unknown"
-                                         : std::string("All inside");
+  unknown -= moving_over ? 1 : 0;
+  std::string fact = "All inside";
+  if (over > 0) {
+    fact = std::to_string(over) + " over a limit";
+  } else if (landed) {
+    fact = "On the ground";
+  } else if (unknown > 0) {
+    fact = std::to_string(unknown) + " unknown";
+  }
   const Rect content = DrawPanelFrame(ui, rect, "Limits in force", {{fact, 0, false, over > 0}});
   DrawEvidenceRows(ui, {content.x, content.y + s.Px(4), content.w, content.h}, rows, narrow);
 }

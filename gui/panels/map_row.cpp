@@ -96,8 +96,8 @@ void DrawMapRowPanel(const EngineSnapshot& snap, const std::array<Rect, 5>& rect
   std::array<MapView, 5> views = Views(snap, state, ui);
   MapMarks marks = MarksOf(snap, highlighted);
   marks.letters = letters;
-  marks.probe = state.hovered;
-  std::optional<Cell> at = state.hovered;
+  marks.probe = ProbeCell(state.probe, views[0].geometry);
+  std::optional<Cell> at = marks.probe;
   char letter = 0;
   if (!at && marks.selected) {
     at = views[0].geometry.rows > 0
@@ -105,15 +105,12 @@ void DrawMapRowPanel(const EngineSnapshot& snap, const std::array<Rect, 5>& rect
              : std::nullopt;
     letter = letters ? marks.selected->letter : '\0';
   }
-  std::optional<Cell> hovered;
   for (std::size_t i = 0; i < views.size(); ++i) {
     views[i].letter = letter;
     views[i].value = at ? ValueText(i, ValueAt(views[i].values, *at)) : std::string();
-    if (const auto cell = DrawMapPanel(ui, rects[i], side, views[i], marks, state.drag)) {
-      hovered = cell;
-    }
+    const auto cell = DrawMapPanel(ui, rects[i], side, views[i], marks, state.drag);
+    OfferProbe(ui, views[i], cell, state.probe);
   }
-  state.hovered = hovered;
 }
 
 }  // namespace palace

@@ -31,6 +31,7 @@ struct ReviewState {
   SliderState fields;
   TimelineState timeline;
   PlotHover plots;
+  MapProbe probe;
   View3dState view;
   ReviewPicture picture = ReviewPicture::kView3d;  ///< narrow windows
 };
@@ -51,6 +52,11 @@ void DrawReviewTimeline(const EngineSnapshot& snap, const FlightRecord* record, 
                         bool narrow, ReviewState& state, UiFrame& ui);
 void DrawReviewPlots(const EngineSnapshot& snap, const FlightRecord* record, const Rect& rect,
                      ReviewState& state, UiFrame& ui);
+/// What the flight decided: the record's decision, or the replayed one while no limit moved.
+const TerrainDecision* RecordedDecision(const EngineSnapshot& snap);
+/// Three square maps of side `w` from the left of `row`.
+void DrawReviewMaps(const EngineSnapshot& snap, const Rect& row, float w, MapProbe& probe,
+                    UiFrame& ui);
 void DrawRedecidePanel(const EngineSnapshot& snap, const FlightRecord* record, const Rect& rect,
                        ReviewState& state, UiFrame& ui);
 void DrawDecisionPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui);

@@ -189,7 +189,7 @@ float DrawTransport(UiFrame& ui, const Rect& row, const EngineSnapshot& snap, do
   }
   x += s.Px(4);
   const std::string speed = snap.source.speed > 0
-                                ? Fixed(snap.source.speed, snap.source.speed < 1 ? 2 : 1) + " x"
+                                ? Fixed(snap.source.speed, snap.source.speed < 1 ? 2 : 1) + "×"
                                 : std::string("Fastest");
   if (DrawButton(ui, "speed", next(68), speed, {})) {
     Playback(ui, Kind::kSpeed, NextSpeed(snap.source.speed));
@@ -331,7 +331,8 @@ void DrawReviewPlots(const EngineSnapshot& snap, const FlightRecord* record, con
   PlotSeries recorded_height, recorded_clear, now_height, now_clear;
   recorded_height.colour = p.text2;
   recorded_clear.colour = p.text2;
-  now_height.colour = now_clear.colour = p.safe;
+  now_height.colour = p.safe;
+  now_clear.colour = p.text1;
   now_height.width = now_clear.width = 2.2f;
   if (record != nullptr) {
     for (const FlightRecordSample& sample : record->samples) {
@@ -361,7 +362,7 @@ void DrawReviewPlots(const EngineSnapshot& snap, const FlightRecord* record, con
   for (PlotView* view : {&height, &clear}) {
     view->x_min = 0;
     view->x_max = end;
-    view->relative_time = false;
+    view->time_axis = PlotView::TimeAxis::kClock;
     view->now = std::min(end, static_cast<float>(snap.source.position_s));
   }
   height.y_max = RoundTop(top);
@@ -369,7 +370,13 @@ void DrawReviewPlots(const EngineSnapshot& snap, const FlightRecord* record, con
   height.series = {now_height, recorded_height};
   clear.y_max = RoundTop(top_clear);
   const LandingSite* best = BestSite(snap.applied.get());
+  const LandingSite* was = BestSite(snap.recorded.get());
   clear.current = best != nullptr ? Fixed(best->safe_distance_m, 1) + " m" : "––";
+  if (was != nullptr) {
+    clear.current = Fixed(was->safe_distance_m, 1) + " / " + clear.current;
+    clear.unit = "m, recorded / re-decided";
+    now_clear.stroke = PlotSeries::Stroke::kDashed;
+  }
   clear.series = {now_clear, recorded_clear};
   clear.limits = {{static_cast<float>(snap.settings.slad.clear_radius_m()), false,
                    "min " + Fixed(snap.settings.slad.clear_radius_m(), 1) + " m"}};

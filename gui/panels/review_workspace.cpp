@@ -14,61 +14,6 @@ namespace {
 constexpr const char* kFields[] = {"slad.max_slope_deg", "slad.max_deviation_m", "slad.max_step_m",
                                    "slad.nav_error_m"};
 
-std::string LimitWords(const SladSettings& slad) {
-  return Fixed(slad.max_slope_deg, 1) + "°, " + Fixed(slad.max_deviation_m * 100, 1) + " cm";
-}
-
-const TerrainDecision* RecordedDecision(const EngineSnapshot& snap) {
-  return snap.recorded ? snap.recorded.get() : snap.applied.get();
-}
-
-void DrawReviewMap(UiFrame& ui, const Rect& rect, const char* title, const std::string& fact,
-                   const TerrainDecision* decision, ImTextureID texture) {
-  const Style& s = ui.style;
-  const Rect content = DrawPanelFrame(ui, rect, title, {{fact, 0, false, false}});
-  MapView view = MakeMapView(MapKind::kSafeDistance, decision, texture, nullptr, std::nullopt);
-  view.key = title;
-  MapMarks marks;
-  marks.sites = decision != nullptr ? &decision->selection.sites : nullptr;
-  if (const LandingSite* best = BestSite(decision)) {
-    marks.selected = *best;
-  }
-  const float side = std::min(rect.w, rect.bottom() - s.Px(4) - content.y);
-  DrawMapPicture(ui, {std::round(content.centre().x - side / 2), content.y, side, side}, view,
-                 marks);
-}
-
-void DrawMaps(const EngineSnapshot& snap, const Rect& row, float w, UiFrame& ui) {
-  const Style& s = ui.style;
-  const TerrainDecision* recorded = RecordedDecision(snap);
-  const TerrainDecision* now = snap.applied.get();
-  const bool moved = snap.recorded != nullptr;
-  const float step = w + s.Px(8);
-  DrawReviewMap(ui, {row.x, row.y, w, row.h}, "Recorded",
-                recorded != nullptr ? LimitWords(recorded->settings) : "", recorded,
-                moved ? ui.textures.recorded_safe_distance : ui.textures.maps[4]);
-  DrawReviewMap(ui, {row.x + step, row.y, w, row.h}, "Re-decided",
-                now != nullptr ? LimitWords(now->settings) : "", now, ui.textures.maps[4]);
-  const double change_m2 = SafeArea(now) - SafeArea(recorded);
-  const Rect panel{row.x + 2 * step, row.y, w, row.h};
-  const Rect content =
-      DrawPanelFrame(ui, panel, "Difference",
-                     {{moved && std::isfinite(change_m2)
-                           ? (change_m2 > 0 ? "+" : "") + Fixed(change_m2, 0) + " m² safe"
-                           : std::string("none"),
-                       0, false, false}});
-  const float side = std::min(w, panel.bottom() - s.Px(4) - content.y);
-  const Rect square{std::round(content.centre().x - side / 2), content.y, side, side};
-  if (moved && ui.textures.difference != nullptr) {
-    Canvas()->AddImage(ui.textures.difference, square.min(), square.max());
-  } else {
-    FillRect(Canvas(), square, s.palette.plot_floor);
-    DrawText(ui, s.caption, s.palette.text2, square.centre().x, square.centre().y,
-             w > s.Px(160) ? "Limits as recorded" : "Same limits", Align::kCentre);
-  }
-  ui.items.Add("map/Difference", square, true, "Difference");
-}
-
 void DrawLeft(const EngineSnapshot& snap, const Rect& rect, ReviewState& state, UiFrame& ui) {
   const std::string frame = "Frame " + Fixed(static_cast<double>(snap.source.frame_index), 0);
   const Rect content = DrawPanelFrame(ui, rect, "Left camera", {{frame, 0, false, false}});
@@ -77,15 +22,18 @@ void DrawLeft(const EngineSnapshot& snap, const Rect& rect, ReviewState& state, 
   look.ghost = snap.recorded.get();
   look.ghost_word = "recorded";
   look.plate = snap.recorded ? "Re-decided overlay" : "";
+  look.probe = &state.probe;
   DrawLeftPicture(ui, content, snap, look, state.overlay);
 }
 
-void DrawRightPicture(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui) {
-  const Rect content = DrawPanelFrame(ui, rect, "Right camera");
+void DrawRightPicture(const EngineSnapshot& snap, const Rect& rect, const MapProbe& probe,
+                      UiFrame& ui) {
+  const std::string frame = "Frame " + Fixed(static_cast<double>(snap.source.frame_index), 0);
+  const Rect content = DrawPanelFrame(ui, rect, "Right camera", {{frame, 0, false, false}});
   const double row_error_px = snap.stereo_quality.row_error_px;
-  DrawPlainPicture(
-      ui, content, snap, ui.textures.right_camera,
-      std::isfinite(row_error_px) ? "Row error " + Fixed(row_error_px, 2) + " px" : "");
+  DrawPlainPicture(ui, content, snap, ui.textures.right_camera,
+                   std::isfinite(row_error_px) ? "Row error " + Fixed(row_error_px, 2) + " px" : "",
+                   &probe);
 }
 
 void DrawWide(const EngineSnapshot& snap, const FlightRecord* record, const Rect& area,
@@ -96,12 +44,12 @@ void DrawWide(const EngineSnapshot& snap, const FlightRecord* record, const Rect
   const float camera_w =
       std::min(std::floor((row1 - s.Px(28)) * 4 / 3), std::floor(area.w * 0.36f));
   DrawLeft(snap, {area.x, area.y, camera_w, row1}, state, ui);
-  DrawRightPicture(snap, {area.x + camera_w + gap, area.y, camera_w, row1}, ui);
+  DrawRightPicture(snap, {area.x + camera_w + gap, area.y, camera_w, row1}, state.probe, ui);
   const float view_x = area.x + 2 * (camera_w + gap);
   DrawView3dPanel(snap, {view_x, area.y, area.right() - view_x, row1}, state.view, ui);
   const float map_w = row2 - s.Px(32);
   const Rect lower{area.x, area.y + row1 + gap, area.w, row2};
-  DrawMaps(snap, lower, map_w, ui);
+  DrawReviewMaps(snap, lower, map_w, state.probe, ui);
   const float plots_x = lower.x + 3 * (map_w + gap);
   DrawReviewPlots(snap, record, {plots_x, lower.y, area.right() - plots_x, row2}, state, ui);
 }
@@ -117,7 +65,7 @@ void DrawNarrowArea(const EngineSnapshot& snap, const FlightRecord* record, cons
   DrawReviewPlots(snap, record, {x, area.y, area.right() - x, row1}, state, ui);
   const float map_w = row2 - s.Px(32);
   const Rect lower{area.x, area.y + row1 + gap, area.w, row2};
-  DrawMaps(snap, lower, map_w, ui);
+  DrawReviewMaps(snap, lower, map_w, state.probe, ui);
   const float tabs_x = lower.x + 3 * (map_w + gap);
   const Rect tabs{tabs_x, lower.y, area.right() - tabs_x, s.Px(32)};
   const float tab_y = tabs.y + s.Px(4);
@@ -138,7 +86,7 @@ void DrawNarrowArea(const EngineSnapshot& snap, const FlightRecord* record, cons
   if (state.picture == ReviewPicture::kView3d) {
     DrawView3dPanel(snap, shown, state.view, ui);
   } else {
-    DrawRightPicture(snap, shown, ui);
+    DrawRightPicture(snap, shown, state.probe, ui);
   }
 }
 
@@ -343,6 +291,7 @@ void DrawReviewWorkspace(const EngineSnapshot& snap, const FlightRecord* record,
              "No log open. Start palace with --replay LOG to review a flight.", Align::kCentre);
     return;
   }
+  BeginProbe(state.probe);
   const bool narrow = body.w < s.Px(1584) || body.h < s.Px(776);
   const float gap = s.Px(8);
   const float timeline_h = s.Px(narrow ? 164 : 260), right_w = s.Px(narrow ? 344 : 416);

@@ -115,6 +115,13 @@ void FillRange(MapKind kind, const SladSettings& now, const SladSettings* applie
   }
 }
 
+/// Another place, or the same place under another clear radius.
+bool Differ(const LandingSite& a, const LandingSite& b) {
+  constexpr double kSamePlace_m = 0.3, kSameRadius_m = 0.05;
+  return (a.p_WS - b.p_WS).head<2>().norm() > kSamePlace_m ||
+         std::abs(a.clear_radius_m - b.clear_radius_m) > kSameRadius_m;
+}
+
 Rect FitPicture(const Rect& area, const EngineSnapshot& snap) {
   const auto camera = LeftCamera(snap);
   const float aspect = camera && camera->height > 0
@@ -144,6 +151,32 @@ double SafeArea(const TerrainDecision* decision) {
 std::string BestLetter(const TerrainDecision* decision) {
   const LandingSite* best = BestSite(decision);
   return best != nullptr ? std::string(1, best->letter) : std::string("none");
+}
+
+double MapAge(const EngineSnapshot& snap, const TerrainDecision* decision) {
+  if (decision == nullptr) {
+    return NAN;
+  }
+  return SecondsBetween(decision->map_time, snap.frame ? snap.frame->time : snap.time);
+}
+
+void DrawCurrentVerdict(UiFrame& ui, const Rect& image, const EngineSnapshot& snap,
+                        const TerrainDecision* decision, OverlayCache& cache) {
+  if (decision != nullptr && !(MapAge(snap, decision) > kOldMap_s)) {
+    DrawVerdict(ui, image, decision->verdict, cache);
+  }
+}
+
+void DrawVerdictPlate(UiFrame& ui, const Rect& image, const EngineSnapshot& snap,
+                      const TerrainDecision* decision) {
+  const double age_s = MapAge(snap, decision);
+  if (decision == nullptr) {
+    TextPlate(ui, image, Corner::kTopLeft, "No map yet");
+  } else if (age_s > kOldMap_s) {
+    TextPlate(ui, image, Corner::kTopLeft, "Last map " + Duration(age_s) + " old");
+  } else {
+    DrawVerdictLegend(ui, image);
+  }
 }
 
 MapView MakeMapView(MapKind kind, const TerrainDecision* decision, ImTextureID texture,
@@ -188,14 +221,14 @@ void DrawLeftPicture(UiFrame& ui, const Rect& area, const EngineSnapshot& snap,
   dl->AddImage(ui.textures.left_camera, image.min(), image.max());
   const PictureView view{*camera, snap.X_WC, image};
   if (look.decision != nullptr) {
-    DrawVerdict(ui, image, look.decision->verdict, cache);
+    DrawCurrentVerdict(ui, image, snap, look.decision, cache);
     SiteOverlay overlay;
     overlay.sites = &look.decision->selection.sites;
     if (const LandingSite* best = BestSite(look.decision)) {
       overlay.selected = *best;
     }
     const LandingSite* ghost = BestSite(look.ghost);
-    if (ghost != nullptr && (!overlay.selected || overlay.selected->id != ghost->id)) {
+    if (ghost != nullptr && (!overlay.selected || Differ(*overlay.selected, *ghost))) {
       overlay.ghost = *ghost;
       overlay.ghost_words = std::string(look.ghost_word) + " " + ghost->letter;
     }
@@ -204,8 +237,11 @@ void DrawLeftPicture(UiFrame& ui, const Rect& area, const EngineSnapshot& snap,
       DrawScaleBar(ui, image, view.PixelsPerMetre(overlay.selected->p_WS));
     }
   }
+  if (look.probe != nullptr) {
+    DrawProbeOnPicture(ui, view, look.decision, *look.probe);
+  }
   dl->PopClipRect();
-  DrawVerdictLegend(ui, image);
+  DrawVerdictPlate(ui, image, snap, look.decision);
   if (look.preview) {
     PreviewChip(ui, {image.right() - s.Px(92), image.y + s.Px(8)});
   }
@@ -216,7 +252,7 @@ void DrawLeftPicture(UiFrame& ui, const Rect& area, const EngineSnapshot& snap,
 }
 
 void DrawPlainPicture(UiFrame& ui, const Rect& area, const EngineSnapshot& snap,
-                      ImTextureID texture, const std::string& plate) {
+                      ImTextureID texture, const std::string& plate, const MapProbe* probe) {
   const Rect image = FitPicture(area, snap);
   if (texture == nullptr) {
     UnknownFill(ui.style, Canvas(), image);
@@ -224,6 +260,12 @@ void DrawPlainPicture(UiFrame& ui, const Rect& area, const EngineSnapshot& snap,
     return;
   }
   Canvas()->AddImage(texture, image.min(), image.max());
+  const auto camera = LeftCamera(snap);
+  if (probe != nullptr && camera) {
+    if (const auto view = RightView(snap, {*camera, snap.X_WC, image}, image)) {
+      DrawProbeOnPicture(ui, *view, snap.preview ? snap.preview.get() : snap.applied.get(), *probe);
+    }
+  }
   if (!plate.empty()) {
     TextPlate(ui, image, Corner::kBottomRight, plate);
   }

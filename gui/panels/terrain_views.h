@@ -5,6 +5,7 @@
 #include <string>
 
 #include "engine/model/snapshot.h"
+#include "gui/panels/map_probe.h"
 #include "gui/widgets/camera_overlay.h"
 #include "gui/widgets/map_image.h"
 
@@ -17,6 +18,17 @@ enum class MapKind { kElevation, kSlope, kRoughness, kCost, kSafeDistance };
 MapView MakeMapView(MapKind kind, const TerrainDecision* decision, ImTextureID texture,
                     const SladSettings* applied, std::optional<Cell> cursor);
 
+/// A verdict is drawn on the picture of its own map only, give or take one missed map.
+inline constexpr double kOldMap_s = 0.35;
+/// How much older the decision's map is than the picture shown, s; NaN without either.
+double MapAge(const EngineSnapshot& snap, const TerrainDecision* decision);
+/// The decision's verdict over the picture; nothing when its map is older than the picture.
+void DrawCurrentVerdict(UiFrame& ui, const Rect& image, const EngineSnapshot& snap,
+                        const TerrainDecision* decision, OverlayCache& cache);
+/// What the overlay means; "Last map 4.2 s old" when it is not drawn.
+void DrawVerdictPlate(UiFrame& ui, const Rect& image, const EngineSnapshot& snap,
+                      const TerrainDecision* decision);
+
 /// What is drawn over a left picture.
 struct LeftPicture {
   const TerrainDecision* decision = nullptr;
@@ -24,15 +36,17 @@ struct LeftPicture {
   const char* ghost_word = "applied";
   bool preview = false;
   std::string plate;  ///< fact at the bottom right
+  const MapProbe* probe = nullptr;
 };
 
 /// The left picture at its own aspect inside `area`, with verdict, rings, legend and scale bar.
 /// Hatch where no picture is known.
 void DrawLeftPicture(UiFrame& ui, const Rect& area, const EngineSnapshot& snap,
                      const LeftPicture& look, OverlayCache& cache);
-/// A picture without overlay.
+/// The right picture, without overlay but for the probe.
 void DrawPlainPicture(UiFrame& ui, const Rect& area, const EngineSnapshot& snap,
-                      ImTextureID texture, const std::string& plate);
+                      ImTextureID texture, const std::string& plate,
+                      const MapProbe* probe = nullptr);
 
 /// Best site of a decision, null when it has none.
 const LandingSite* BestSite(const TerrainDecision* decision);

@@ -36,9 +36,8 @@ struct TuneState {
   Settings last_seen;
   bool has_last_seen = false;
   double last_change_s = 0;
-  std::optional<Cell> cursor;       ///< cell under the pointer in the last frame, for all maps
-  std::optional<Cell> next_cursor;  ///< being collected
-  float elevation_low_m = -0.5f;    ///< range of the elevation picture, set by the app
+  MapProbe probe;
+  float elevation_low_m = -0.5f;  ///< range of the elevation picture, set by the app
   float elevation_high_m = 1.5f;
   TuneTab tab = TuneTab::kApply;  ///< narrow windows
   bool can_undo = true;           ///< the app knows its stacks

@@ -101,6 +101,7 @@ void DrawTuneCamera(const EngineSnapshot& snap, const Rect& rect, TuneState& sta
   look.decision = facts.shown;
   look.ghost = facts.previewing ? facts.applied : nullptr;
   look.preview = facts.previewing;
+  look.probe = &state.probe;
   look.plate = snap.laser && std::isfinite(snap.laser->range_m)
                    ? "Laser " + Fixed(snap.laser->range_m, 1) + " m"
                    : "";
@@ -113,13 +114,16 @@ void DrawTuneMap(const EngineSnapshot& snap, const Rect& rect, MapKind kind, boo
   const TuneFacts facts = FactsOf(snap);
   const SladSettings* applied =
       facts.previewing && facts.applied != nullptr ? &facts.applied->settings : nullptr;
-  MapView view =
-      MakeMapView(kind, facts.shown, ui.textures.maps[TextureOf(kind)], applied, state.cursor);
+  const std::optional<Cell> at = facts.shown != nullptr && facts.shown->hazards
+                                     ? ProbeCell(state.probe, facts.shown->hazards->geometry)
+                                     : std::nullopt;
+  MapView view = MakeMapView(kind, facts.shown, ui.textures.maps[TextureOf(kind)], applied, at);
   if (kind == MapKind::kElevation) {
     view.low = Fixed(static_cast<double>(state.elevation_low_m), 1) + " m";
     view.high = Fixed(static_cast<double>(state.elevation_high_m), 1) + " m+";
   }
   MapMarks marks;
+  marks.probe = at;
   marks.sites = facts.shown != nullptr ? &facts.shown->selection.sites : nullptr;
   if (const LandingSite* best = BestSite(facts.shown)) {
     marks.selected = *best;
@@ -139,9 +143,7 @@ void DrawTuneMap(const EngineSnapshot& snap, const Rect& rect, MapKind kind, boo
     cell = DrawMapPicture(ui, {std::round(content.centre().x - side / 2), content.y, side, side},
                           view, marks);
   }
-  if (cell) {
-    state.next_cursor = cell;
-  }
+  OfferProbe(ui, view, cell, state.probe);
 }
 
 void DrawCompareStrip(const EngineSnapshot& snap, const Rect& rect, TuneState& state, UiFrame& ui) {

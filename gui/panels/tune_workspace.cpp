@@ -159,8 +159,7 @@ void DrawTuneWorkspace(const EngineSnapshot& snap, const Rect& body, TuneState& 
   if (!ImGui::GetIO().MouseDown[0]) {
     state.sliders.dragging.clear();
   }
-  state.cursor = state.next_cursor;
-  state.next_cursor.reset();
+  BeginProbe(state.probe);
   const bool narrow = Narrow(s, body);
   const float gap = s.Px(8), left = s.Px(narrow ? 344 : 416), right = s.Px(400);
   DrawLimitsPanel(snap, {body.x, body.y, left, body.h}, state, ui);

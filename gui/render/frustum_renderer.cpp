@@ -14,6 +14,7 @@ constexpr double kFarthest_m = 80;
 constexpr double kGridStep_m = 5;
 constexpr double kGridReach_m = 60;
 constexpr double kAboveGround_m = 0.04;  ///< rings float over the grain of the map
+constexpr double kDiscRadius_m = 0.5;
 constexpr int kRing = 64;
 
 constexpr Rgba8 kWhite = RgbaFromHex(0xF2F5F8);
@@ -33,6 +34,17 @@ void AddRing(LineBatch& batch, const View3dSite& site, double width_px, double r
   const std::vector<Eigen::Vector3d> ring = Circle(centre, site.clear_radius_m);
   batch.Polyline(ring, {kBlack, width_px + rim_px});
   batch.Polyline(ring, {kWhite, width_px});
+}
+
+/// A site that is not the selected one: a black disc with a white rim, as on the maps.
+void AddDisc(LineBatch& batch, const View3dSite& site, double scale) {
+  const Eigen::Vector3d centre = site.p_WS - kAboveGround_m * Eigen::Vector3d::UnitZ();
+  const std::vector<Eigen::Vector3d> rim =
+      Circle(centre, std::min(kDiscRadius_m, 0.3 * site.clear_radius_m));
+  for (std::size_t i = 1; i < rim.size(); ++i) {
+    batch.Triangle(centre, rim[i - 1], rim[i], kBlack);
+  }
+  batch.Polyline(rim, {kWhite, 1.6 * scale});
 }
 
 }  // namespace
@@ -140,7 +152,7 @@ void AddPaths(LineBatch& batch, const View3dInput& input) {
 void AddSites(LineBatch& batch, const View3dInput& input) {
   const double scale = input.ui_scale;
   for (const View3dSite& site : input.other_sites) {
-    AddRing(batch, site, 1.2 * scale, 1.6 * scale);
+    AddDisc(batch, site, scale);
   }
   if (!input.site) {
     return;

@@ -114,7 +114,47 @@ ImageRgba MapPicture(const GridF& values, ValueRange range, ColourMap map) {
   return picture;
 }
 
-ImageRgba DifferencePicture(const HazardMaps& before, const HazardMaps& now) {
+ValueRange DepthRangeFor(const ImageF& depth_m) {
+  constexpr std::size_t kStride = 7;  // a sample of the pixels is enough for colours
+  std::vector<float> known;
+  for (std::size_t i = 0; i < depth_m.pixels().size(); i += kStride) {
+    const float depth = depth_m.pixels()[i];
+    if (std::isfinite(depth)) {
+      known.push_back(depth);
+    }
+  }
+  if (known.empty()) {
+    return {0, 1};
+  }
+  const auto at = [&known](double share) {
+    const auto k = static_cast<std::ptrdiff_t>(share * static_cast<double>(known.size() - 1));
+    std::nth_element(known.begin(), known.begin() + k, known.end());
+    return known[static_cast<std::size_t>(k)];
+  };
+  const float near = std::floor(at(0.02) * 2.0F) / 2.0F;
+  const float far = std::ceil(at(0.98) * 2.0F) / 2.0F;
+  return {near, std::max(far, near + 0.5F)};
+}
+
+ImageRgba RangeTint(const ImageF& depth_m, ValueRange range_m) {
+  constexpr std::uint8_t kTintAlpha = 140;
+  ImageRgba tint(depth_m.width(), depth_m.height());
+  const ColourTable& table = TableOf(ColourMap::kViridis);
+  for (std::size_t i = 0; i < depth_m.pixels().size(); ++i) {
+    const float depth = depth_m.pixels()[i];
+    Rgba8 colour = Look(table, depth, range_m);
+    colour.a = std::isfinite(depth) ? kTintAlpha : std::uint8_t{0};
+    tint.pixels()[i] = colour;
+  }
+  return tint;
+}
+
+ImageRgba DifferencePicture(const HazardMaps& before, const HazardMaps& now, double clear_before_m,
+                            double clear_now_m) {
+  const auto placeable = [](const HazardMaps& maps, Cell cell, double clear_m) {
+    return maps.reasons.at(cell) == kHazardNone &&
+           (clear_m <= 0 || static_cast<double>(maps.safe_distance_m.at(cell)) >= clear_m);
+  };
   const GridGeometry& geometry = now.geometry;
   ImageRgba picture(geometry.cols, geometry.rows);
   for (int row = 0; row < geometry.rows; ++row) {
@@ -122,9 +162,9 @@ ImageRgba DifferencePicture(const HazardMaps& before, const HazardMaps& now) {
       const std::uint8_t reasons = now.reasons.at(row, col);
       const std::optional<Cell> cell =
           before.geometry.CellFromPoint(geometry.NorthOfRow(row), geometry.EastOfCol(col));
-      const bool was_safe = cell && before.reasons.at(*cell) == kHazardNone;
+      const bool was_safe = cell && placeable(before, *cell, clear_before_m);
       const bool was_unknown = !cell || (before.reasons.at(*cell) & kHazardUnknown) != 0;
-      const bool is_safe = reasons == kHazardNone;
+      const bool is_safe = placeable(now, {row, col}, clear_now_m);
       const bool is_unknown = (reasons & kHazardUnknown) != 0;
       picture.at(col, row) = is_safe && was_safe         ? kKeptSafe
                              : is_safe                   ? kGained

@@ -22,6 +22,7 @@ void TextureSet::Reset() {
   shown_.reset();
   compared_now_.reset();
   compared_recorded_.reset();
+  range_uploaded_.reset();
   elevation_range_m_.reset();
   names_ = {};
 }
@@ -62,6 +63,21 @@ void TextureSet::Update(const EngineSnapshot& snapshot, double camera_scale) {
   names_.difference_patch = Show(slots[4], tracker.difference_patch, TextureFilter::kLinear);
   UpdateMaps(snapshot);
   UpdateComparison(snapshot);
+  UpdateRange(snapshot);
+}
+
+void TextureSet::UpdateRange(const EngineSnapshot& snapshot) {
+  if (!range_shown_ || snapshot.range == nullptr || snapshot.range->depth_m.empty()) {
+    names_.range_tint = 0;
+    range_uploaded_.reset();
+    return;
+  }
+  if (snapshot.range != range_uploaded_) {
+    range_uploaded_ = snapshot.range;
+    names_.range_tint_m = DepthRangeFor(snapshot.range->depth_m);
+    range_.Upload(RangeTint(snapshot.range->depth_m, names_.range_tint_m), TextureFilter::kLinear);
+  }
+  names_.range_tint = range_.name();
 }
 
 void TextureSet::UpdateMaps(const EngineSnapshot& snapshot) {
@@ -115,8 +131,10 @@ void TextureSet::UpdateComparison(const EngineSnapshot& snapshot) {
                    TextureFilter::kNearest);
   names_.recorded_safe_distance = recorded_.name();
   if (shown_ != nullptr && shown_->hazards != nullptr) {
-    difference_.Upload(DifferencePicture(*recorded->hazards, *shown_->hazards),
-                       TextureFilter::kNearest);
+    difference_.Upload(
+        DifferencePicture(*recorded->hazards, *shown_->hazards, recorded->settings.clear_radius_m(),
+                          shown_->settings.clear_radius_m()),
+        TextureFilter::kNearest);
     names_.difference = difference_.name();
   }
 }

@@ -22,6 +22,8 @@ struct TextureNames {
   GLuint anchor_patch = 0;
   GLuint current_patch = 0;
   GLuint difference_patch = 0;
+  GLuint range_tint = 0;    ///< viridis, half transparent; only while asked for
+  ValueRange range_tint_m;  ///< depths of its first and last colour
 };
 
 /// Needs one GL context current for every call and for the destructor.
@@ -39,6 +41,8 @@ class TextureSet {
   const TextureNames& names() const { return names_; }
   /// In force for the maps shown; the colour bars use the same.
   const MapRanges& ranges() const { return ranges_; }
+  /// Uploads the range map as a tint with each update, or no longer.
+  void ShowRange(bool shown) { range_shown_ = shown; }
   /// Fixes the elevation range; without it the mission's first map sets it.
   void SetElevationRange(ValueRange range_m) { elevation_range_m_ = range_m; }
   /// Another mission, log or source: forgets the range and all pictures.
@@ -48,6 +52,7 @@ class TextureSet {
   struct Slot;
   void UpdateMaps(const EngineSnapshot& snapshot);
   void UpdateComparison(const EngineSnapshot& snapshot);
+  void UpdateRange(const EngineSnapshot& snapshot);
   GLuint Show(Slot& slot, std::shared_ptr<const ImageU8> picture, TextureFilter filter);
 
   TextureNames names_;
@@ -57,6 +62,9 @@ class TextureSet {
   std::array<Texture, 5> maps_;
   Texture recorded_;
   Texture difference_;
+  Texture range_;
+  bool range_shown_ = false;
+  std::shared_ptr<const RangeMap> range_uploaded_;
   std::shared_ptr<const TerrainDecision> shown_;
   std::shared_ptr<const TerrainDecision> compared_recorded_;
   std::shared_ptr<const TerrainDecision> compared_now_;

@@ -1,5 +1,7 @@
 #include "gui/widgets/camera_overlay.h"
 
+#include <algorithm>
+
 #include "gui/widgets/cell_hatch.h"
 #include "gui/widgets/contour.h"
 
@@ -53,7 +55,19 @@ void DrawSites(UiFrame& ui, const PictureView& view, const SiteOverlay& overlay)
           ProjectCircle(view, *overlay.ghost, overlay.ghost->clear_radius_m);
       DrawRing(s, dl, ring, *at, RingKind::kGhost);
       const float width = TextWidth(s.caption, overlay.ghost_words) + s.Px(16);
-      const Rect plate{at->x + s.Px(14), at->y + s.Px(14), width, s.Px(24)};
+      // In the middle of its ring; below the ring where the selected cross would be hidden.
+      const bool covers =
+          overlay.selected &&
+          (overlay.selected->p_WS - overlay.ghost->p_WS).norm() < overlay.ghost->clear_radius_m;
+      float middle_y = at->y;
+      for (const ImVec2& point : ring) {
+        middle_y = covers ? std::max(middle_y, point.y) : middle_y;
+      }
+      const float half = s.Px(12);
+      middle_y = std::clamp(middle_y, view.rect.y + half, view.rect.bottom() - s.Px(44) - half);
+      const float left = std::clamp(at->x - width / 2, view.rect.x,
+                                    std::max(view.rect.x, view.rect.right() - width));
+      const Rect plate{std::round(left), std::round(middle_y - half), width, s.Px(24)};
       FillRect(dl, plate, picture::kPlate, s.Fine(3));
       DrawText(ui, s.caption, picture::kPlateText, plate.centre().x, plate.centre().y,
                overlay.ghost_words, Align::kCentre);

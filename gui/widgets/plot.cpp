@@ -32,14 +32,52 @@ int DecimalsFor(const std::vector<float>& ticks) {
   return decimals;
 }
 
+/// As many values as the height holds without two labels touching, at least two.
+std::vector<float> ValueTicks(const Style& s, const Axes& axes) {
+  const PlotView& v = axes.view;
+  const int most = std::clamp(static_cast<int>(axes.floor.h / s.Px(18)) + 1, 2, 7);
+  std::vector<float> best;
+  for (int rows = 1; rows <= 6; ++rows) {
+    std::vector<float> ticks = RoundTicks(v.y_min, v.y_max, rows);
+    if (static_cast<int>(ticks.size()) <= most && ticks.size() > best.size()) {
+      best = std::move(ticks);
+    }
+  }
+  return best.size() >= 2 ? best : std::vector<float>{v.y_min, v.y_max};
+}
+
+std::string ClockLabel(float seconds) {
+  const int total = static_cast<int>(std::lround(seconds));
+  const std::string rest = std::to_string(total % 60);
+  return std::to_string(total / 60) + (rest.size() < 2 ? ":0" : ":") + rest;
+}
+
+/// Tick label of the x axis.
+std::string TimeText(const PlotView& view, float x) {
+  if (view.time_axis == PlotView::TimeAxis::kClock) {
+    return ClockLabel(x);
+  }
+  const std::string text = Fixed(static_cast<double>(x), 0);
+  return std::abs(x) < 1e-3f ? "now" : (x > 0 ? "+" + text : text);
+}
+
+std::vector<float> TimeTicks(const Style& s, const Axes& axes) {
+  const PlotView& v = axes.view;
+  if (!v.x_ticks.empty()) {
+    return v.x_ticks;
+  }
+  const int count = std::max(2, static_cast<int>(axes.floor.w / s.Px(60)));
+  return v.time_axis == PlotView::TimeAxis::kClock ? ClockTicks(v.x_min, v.x_max, count)
+                                                   : RoundTicks(v.x_min, v.x_max, count);
+}
+
 void DrawGrid(UiFrame& ui, const Axes& axes) {
   const Style& s = ui.style;
   const Palette& p = s.palette;
   const PlotView& v = axes.view;
   ImDrawList* dl = Canvas();
   FillRect(dl, axes.floor, p.plot_floor);
-  const int rows = std::clamp(static_cast<int>(axes.floor.h / s.Px(28)), 2, 6);
-  const std::vector<float> ys = RoundTicks(v.y_min, v.y_max, rows);
+  const std::vector<float> ys = ValueTicks(s, axes);
   const int decimals = DecimalsFor(ys);
   for (const float y : ys) {
     const float at = std::round(axes.Y(y));
@@ -47,16 +85,10 @@ void DrawGrid(UiFrame& ui, const Axes& axes) {
     DrawText(ui, s.caption, p.text2, axes.floor.x - s.Px(8), at,
              Fixed(static_cast<double>(y), decimals), Align::kRight);
   }
-  const std::vector<float> xs =
-      v.x_ticks.empty() ? RoundTicks(v.x_min, v.x_max, static_cast<int>(axes.floor.w / s.Px(60)))
-                        : v.x_ticks;
-  for (const float x : xs) {
+  for (const float x : TimeTicks(s, axes)) {
     const float at = std::round(axes.X(x));
     FillRect(dl, {at, axes.floor.y, s.Px(1), axes.floor.h}, p.plot_grid);
-    std::string label = Fixed(static_cast<double>(x), 0);
-    if (v.relative_time) {
-      label = std::abs(x) < 1e-3f ? "now" : (x > 0 ? "+" + label : label);
-    }
+    const std::string label = TimeText(v, x);
     // The last label would stick out of the panel.
     if (at + s.Px(16) < axes.floor.right() + s.Px(10)) {
       DrawText(ui, s.caption, p.text2, at, axes.floor.bottom() + s.Px(12), label, Align::kCentre);
@@ -64,12 +96,16 @@ void DrawGrid(UiFrame& ui, const Axes& axes) {
   }
 }
 
+float LeftOf(const Axes& axes, const PlotLimit& limit) {
+  return std::max(axes.floor.x, axes.X(std::max(limit.from_x, axes.view.x_min)));
+}
+
 void DrawLimitArea(const Style& s, const Axes& axes, const PlotLimit& limit) {
   const float y = std::clamp(axes.Y(limit.value), axes.floor.y, axes.floor.bottom());
+  const float left = LeftOf(axes, limit);
   const float right = axes.view.now ? axes.X(*axes.view.now) : axes.floor.right();
-  const Rect area = limit.forbidden_above
-                        ? Rect{axes.floor.x, axes.floor.y, right - axes.floor.x, y - axes.floor.y}
-                        : Rect{axes.floor.x, y, right - axes.floor.x, axes.floor.bottom() - y};
+  const Rect area = limit.forbidden_above ? Rect{left, axes.floor.y, right - left, y - axes.floor.y}
+                                          : Rect{left, y, right - left, axes.floor.bottom() - y};
   if (area.h > 0 && area.w > 0) {
     FillRect(Canvas(), area, WithAlpha(s.palette.unsafe, 0.06f));
     Hatch(Canvas(), area, WithAlpha(s.palette.unsafe, 0.32f), s.Fine(1), s.Px(9));
@@ -82,8 +118,8 @@ void DrawLimitLine(UiFrame& ui, const Axes& axes, const PlotLimit& limit) {
   if (y < axes.floor.y || y > axes.floor.bottom()) {
     return;
   }
-  DashedLine(Canvas(), {axes.floor.x, y}, {axes.floor.right(), y}, s.palette.unsafe, s.Fine(1.5f),
-             s.Fine(8), s.Fine(4));
+  DashedLine(Canvas(), {LeftOf(axes, limit), y}, {axes.floor.right(), y}, s.palette.unsafe,
+             s.Fine(1.5f), s.Fine(8), s.Fine(4));
   const bool room_above = y - axes.floor.y > s.Px(20);
   const float text_y = room_above ? y - s.Px(9) : y + s.Px(10);
   // The words stand where nothing is measured yet; short of room they lose their second half.
@@ -231,6 +267,22 @@ std::vector<float> RoundTicks(float low, float high, int count) {
   return ticks;
 }
 
+std::vector<float> ClockTicks(float low, float high, int count) {
+  const float span = high - low;
+  float step = 3600;
+  for (const float candidate : {1.f, 2.f, 5.f, 10.f, 15.f, 30.f, 60.f, 120.f, 300.f, 600.f}) {
+    if (span <= candidate * static_cast<float>(std::max(1, count))) {
+      step = candidate;
+      break;
+    }
+  }
+  std::vector<float> ticks;
+  for (float i = std::ceil(low / step - 1e-4f); i * step <= high + step * 1e-4f; ++i) {
+    ticks.push_back(i * step);
+  }
+  return ticks;
+}
+
 float SeriesValueAt(const PlotSeries& series, float x) {
   const auto after = std::upper_bound(series.points.begin(), series.points.end(), x,
                                       [](float at, const ImVec2& p) { return at < p.x; });
@@ -267,7 +319,14 @@ void DrawPlot(UiFrame& ui, const Rect& panel, const PlotView& view, PlotHover& h
     FillRect(dl, {x, axes.floor.y, s.Px(1), axes.floor.h}, p.white_mark);
   }
   for (auto it = view.series.rbegin(); it != view.series.rend(); ++it) {
-    DrawLine(s, axes, *it);  // the first series lies on top
+    if (it->stroke != PlotSeries::Stroke::kDotted) {
+      DrawLine(s, axes, *it);  // the first series lies on top
+    }
+  }
+  for (const PlotSeries& series : view.series) {
+    if (series.stroke == PlotSeries::Stroke::kDotted) {
+      DrawLine(s, axes, series);  // dots hide nothing, and would be hidden
+    }
   }
   for (const PlotLimit& limit : view.limits) {
     DrawLimitLine(ui, axes, limit);

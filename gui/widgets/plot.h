@@ -2,6 +2,7 @@
 // plots.
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,6 +23,7 @@ struct PlotLimit {
   float value = 0;
   bool forbidden_above = true;
   std::string text;
+  float from_x = -std::numeric_limits<float>::infinity();  ///< the limit holds from here on
 };
 struct PlotNote {
   ImVec2 at;
@@ -38,7 +40,7 @@ struct PlotView {
   std::vector<PlotSeries> series;
   std::vector<PlotLimit> limits;
   std::vector<PlotNote> notes;
-  bool relative_time = true;  ///< x labels "−10", "now", "+10"
+  enum class TimeAxis { kRelative, kClock } time_axis = TimeAxis::kRelative;  ///< "−10", "1:30"
 };
 
 /// One cursor for a group of plots.
@@ -50,6 +52,8 @@ void BeginPlots(PlotHover& hover);
 
 /// Round tick values, at most `count` + 1 of them, inside [low, high].
 std::vector<float> RoundTicks(float low, float high, int count);
+/// Times in seconds on whole seconds, half minutes or minutes, at most `count` + 1 of them.
+std::vector<float> ClockTicks(float low, float high, int count);
 void DrawPlot(UiFrame& ui, const Rect& panel, const PlotView& view, PlotHover& hover);
 /// Value of the series at x, by the nearest earlier point; NaN outside.
 float SeriesValueAt(const PlotSeries& series, float x);

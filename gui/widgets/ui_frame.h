@@ -63,6 +63,9 @@ struct PanelTextures {
   ImTextureID anchor_patch = nullptr;
   ImTextureID current_patch = nullptr;
   ImTextureID difference_patch = nullptr;
+  ImTextureID range_tint = nullptr;  ///< left camera's depth, to be drawn over its picture
+  float range_near_m = 0;            ///< depth of the first colour of range_tint
+  float range_far_m = 0;             ///< and of the last
 };
 
 struct Style;  // palette, fonts and scale: gui/widgets/style.h

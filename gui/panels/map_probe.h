@@ -1,0 +1,37 @@
+// Map probe: one place on the ground, read on all maps and marked on all pictures.
+//
+// The pointer over a map shows the place under it; a click pins it there, a click on the pin takes
+// it away. Kept as north and east, because the grid under a flying camera moves.
+#pragma once
+
+#include <optional>
+
+#include "engine/model/snapshot.h"
+#include "gui/widgets/map_image.h"
+#include "gui/widgets/projection.h"
+
+namespace palace {
+
+struct MapProbe {
+  std::optional<Eigen::Vector2d> hovered;  ///< north, east; under the pointer in the last frame
+  std::optional<Eigen::Vector2d> next;     ///< being collected
+  std::optional<Eigen::Vector2d> pinned;
+
+  /// The place shown: under the pointer, else the pinned one.
+  const std::optional<Eigen::Vector2d>& Shown() const { return hovered ? hovered : pinned; }
+};
+
+/// Call once a frame before the maps.
+void BeginProbe(MapProbe& probe);
+/// Cell of the place shown; empty without one or where the map does not reach.
+std::optional<Cell> ProbeCell(const MapProbe& probe, const GridGeometry& geometry);
+/// Call with what DrawMapPicture or DrawMapPanel returned: follows the pointer and pins on a click.
+void OfferProbe(UiFrame& ui, const MapView& view, std::optional<Cell> cell, MapProbe& probe);
+/// Cross-hair on a picture, at the height of the map. Nothing where the height is unknown.
+void DrawProbeOnPicture(UiFrame& ui, const PictureView& view, const TerrainDecision* decision,
+                        const MapProbe& probe);
+/// The right camera of a rectified pair whose left one is `left`; empty without a rig.
+std::optional<PictureView> RightView(const EngineSnapshot& snap, const PictureView& left,
+                                     const Rect& image);
+
+}  // namespace palace
