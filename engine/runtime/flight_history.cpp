@@ -114,7 +114,9 @@ HistorySample SampleOf(const EngineSnapshot& snapshot, const FrameBundle& bundle
   }
   sample.descent_rate_mps = sample.estimate_v_WB.z();
   if (!bundle.laser.empty()) {
-    sample.laser_m = bundle.laser.back().range_m;
+    // The beam runs along the optical axis: the height of the skids above its spot.
+    const double skid_below_m = SkidOf(sample.estimate_p_WB, R_WB).z() - snapshot.X_WC.p.z();
+    sample.laser_m = bundle.laser.back().range_m * snapshot.X_WC.R(2, 2) - skid_below_m;
   }
   if (snapshot.tracker.locked) {
     sample.coherence = snapshot.tracker.coherence;

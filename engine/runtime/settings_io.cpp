@@ -38,6 +38,22 @@ std::string Join(const std::vector<std::string>& words) {
   return joined;
 }
 
+/// What may stand in place of an unknown name: the settings of its group, or the groups.
+std::string KnownSettings(const std::string& name) {
+  const std::string group = name.substr(0, name.find('.') + 1);
+  std::vector<std::string> names, groups;
+  for (const SettingInfo& info : SettingTable()) {
+    const std::string of = info.name.substr(0, info.name.find('.') + 1);
+    if (!group.empty() && of == group) {
+      names.push_back(info.name);
+    }
+    if (groups.empty() || groups.back() != of) {
+      groups.push_back(of);
+    }
+  }
+  return names.empty() ? "names begin with one of: " + Join(groups) : "known: " + Join(names);
+}
+
 /// The number a word stands for, e.g. "thesis".
 std::optional<double> ValueOfWord(const SettingInfo& info, std::string_view word) {
   const auto it = std::find(info.words.begin(), info.words.end(), word);
@@ -166,7 +182,7 @@ Result<Settings> ApplySettingText(const Settings& base, std::string_view assignm
   const std::string text(assignment.substr(equals + 1));
   const SettingInfo* info = FindSetting(name);
   if (info == nullptr) {
-    return UsageError("unknown setting '" + name + "'");
+    return UsageError("unknown setting '" + name + "'; " + KnownSettings(name));
   }
   std::optional<double> value = ValueOfWord(*info, text);
   if (!value) {

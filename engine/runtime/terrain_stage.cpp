@@ -1,7 +1,9 @@
 #include "engine/runtime/terrain_stage.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <vector>
 
 #include "engine/core/units.h"
 #include "engine/slad/slad.h"
@@ -10,6 +12,9 @@ namespace palace {
 namespace {
 
 constexpr int kVerdictDivisor = 4;
+constexpr int kDepthStride_px = 16;
+constexpr int kMaxCellFactor = 16;
+constexpr double kWidestView = 2;  // views up to twice the map's width keep the set cell
 
 std::string Sentence(const char* format, double value, double limit) {
   char text[120];
@@ -20,6 +25,7 @@ std::string Sentence(const char* format, double value, double limit) {
 }  // namespace
 
 void TerrainStage::Reset() {
+  cell_factor_ = 1;
   fusion_.Reset();
   registry_.Reset();
   elevation_.reset();
@@ -28,10 +34,49 @@ void TerrainStage::Reset() {
 
 void TerrainStage::Add(const TerrainInput& input, const SladSettings& settings) {
   input_ = input;
+  FitCellToView(*input.range, settings);
+  const SladSettings fitted = FittedToView(settings);
   elevation_ = settings.mode == SladMode::kModern
-                   ? fusion_.Add(*input.range, input.X_WC, settings)
+                   ? fusion_.Add(*input.range, input.X_WC, fitted)
                    : std::make_shared<const ElevationMap>(
-                         ElevationFromRange(*input.range, input.X_WC, settings));
+                         ElevationFromRange(*input.range, input.X_WC, fitted));
+}
+
+void TerrainStage::FitCellToView(const RangeMap& range, const SladSettings& settings) {
+  std::vector<float> depths;
+  for (int y = 0; y < range.depth_m.height(); y += kDepthStride_px) {
+    for (int x = 0; x < range.depth_m.width(); x += kDepthStride_px) {
+      if (std::isfinite(range.depth_m.at(x, y))) {
+        depths.push_back(range.depth_m.at(x, y));
+      }
+    }
+  }
+  if (depths.empty() || settings.mode != SladMode::kModern ||
+      settings.bounds != BoundsMode::kData) {
+    cell_factor_ = 1;
+    return;
+  }
+  std::nth_element(depths.begin(), depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 2),
+                   depths.end());
+  const PinholeCamera& camera = range.camera;
+  const double view_m = static_cast<double>(depths[depths.size() / 2]) *
+                        std::max(camera.width / camera.fx_px, camera.height / camera.fy_px);
+  const double map_m = std::min(settings.grid_rows, settings.grid_cols) * settings.cell_m;
+  while (cell_factor_ < kMaxCellFactor && view_m > kWidestView * map_m * cell_factor_) {
+    cell_factor_ *= 2;
+  }
+  // Back only well inside, so that a view near the border does not toggle the map.
+  while (cell_factor_ > 1 && view_m < 0.8 * kWidestView * map_m * (cell_factor_ / 2)) {
+    cell_factor_ /= 2;
+  }
+}
+
+SladSettings TerrainStage::FittedToView(const SladSettings& settings) const {
+  SladSettings fitted = settings;
+  if (settings.mode == SladMode::kModern && settings.bounds == BoundsMode::kData) {
+    fitted.cell_m *= cell_factor_;
+  }
+  return fitted;
 }
 
 SiteContext TerrainStage::Context(const Settings& settings) const {

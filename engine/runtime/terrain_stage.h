@@ -23,7 +23,8 @@ struct TerrainInput {
 class TerrainStage {
  public:
   void Reset();
-  /// Fuses a new range map. Evaluate then judges it.
+  /// Fuses a new range map. Evaluate then judges it. Under bounds from data, in modern mode, the
+  /// cell doubles while the view is more than twice as wide as the map.
   void Add(const TerrainInput& input, const SladSettings& settings);
   bool has_map() const { return elevation_ != nullptr; }
   const std::shared_ptr<const ElevationMap>& elevation() const { return elevation_; }
@@ -37,10 +38,13 @@ class TerrainStage {
 
  private:
   SiteContext Context(const Settings& settings) const;
+  SladSettings FittedToView(const SladSettings& settings) const;
+  void FitCellToView(const RangeMap& range, const SladSettings& settings);
 
   TerrainFusion fusion_;
   SiteRegistry registry_;
   TerrainInput input_;
+  int cell_factor_ = 1;  // power of two on the set cell, so that the map covers a high view
   std::shared_ptr<const ElevationMap> elevation_;
 };
 

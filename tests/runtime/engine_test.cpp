@@ -1,0 +1,176 @@
+// The engine with threads and without gives the same flight; commands, recorder and the abort path
+// keep their promises. No pictures: what is seen is tested in its own rooms.
+#include "engine/runtime/engine.h"
+
+#include <mutex>
+#include <thread>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "engine/simulation/simulator.h"
+
+namespace palace {
+namespace {
+
+/// Remembers what was recorded; may fail on demand.
+struct Tape {
+  std::mutex mutex;
+  std::vector<std::uint64_t> hashes;
+  std::vector<EngineCommand> commands;
+  bool closed = false;
+};
+class TapeSink final : public RecordSink {
+ public:
+  TapeSink(std::shared_ptr<Tape> tape, int fail_after)
+      : tape_(std::move(tape)), left_(fail_after) {}
+  Status Record(const RecordItem& item) override {
+    if (left_-- == 0) {
+      return UnavailableError("the disk is full");
+    }
+    const std::lock_guard lock(tape_->mutex);
+    tape_->hashes.push_back(item.snapshot->decision_hash);
+    tape_->commands.insert(tape_->commands.end(), item.commands.begin(), item.commands.end());
+    return Ok();
+  }
+  Status Close() override {
+    tape_->closed = true;
+    return Ok();
+  }
+  std::string Path() const override { return "tape"; }
+
+ private:
+  std::shared_ptr<Tape> tape_;
+  int left_;
+};
+
+class CountingLink final : public VehicleLink {
+ public:
+  void Send(const VehicleMessage& message) override {
+    const std::lock_guard lock(mutex_);
+    aborts_ += std::holds_alternative<AbortRequest>(message) ? 1 : 0;
+  }
+  int aborts() const {
+    const std::lock_guard lock(mutex_);
+    return aborts_;
+  }
+
+ private:
+  mutable std::mutex mutex_;
+  int aborts_ = 0;
+};
+
+EngineParts Parts(double duration_s, std::shared_ptr<Tape> tape, int fail_after = -1) {
+  SimulatorOptions options;
+  options.render = false;
+  options.duration_limit_s = duration_s;
+  EngineParts parts;
+  parts.source = std::make_shared<Simulator>(std::move(options), nullptr);
+  parts.sink = tape ? std::make_unique<TapeSink>(tape, fail_after) : nullptr;
+  return parts;
+}
+
+/// Runs a threaded engine until its source ends.
+void RunOut(Engine& engine) {
+  engine.Start();
+  while (!engine.ended()) {
+    std::this_thread::yield();
+  }
+}
+
+TEST(Engine, ThreadsGiveTheSameFlightAsNone) {
+  const auto stepped = std::make_shared<Tape>(), threaded = std::make_shared<Tape>();
+  Engine plain(Parts(8, stepped), false);
+  while (plain.Step()) {
+  }
+  ASSERT_TRUE(plain.Stop());
+  Engine engine(Parts(8, threaded), true);
+  RunOut(engine);
+  ASSERT_TRUE(engine.Stop());
+  EXPECT_GE(stepped->hashes.size(), 79u);
+  EXPECT_EQ(stepped->hashes, threaded->hashes);
+  EXPECT_TRUE(threaded->closed);
+}
+
+TEST(Engine, CommandsFromOtherThreadsAreAppliedOnceAndRecorded) {
+  const auto tape = std::make_shared<Tape>();
+  Engine engine(Parts(20, tape), true);
+  engine.Start();
+  std::vector<std::jthread> operators;
+  for (int thread = 0; thread < 3; ++thread) {
+    operators.emplace_back([&engine, thread] {
+      for (int i = 0; i < 20; ++i) {
+        engine.Post(
+            {CommandOrigin::kOperator, SetSetting{"slad.max_slope_deg", 5.0 + thread + 0.1 * i}});
+        (void)engine.Latest();
+      }
+    });
+  }
+  operators.clear();
+  while (!engine.ended()) {
+    std::this_thread::yield();
+  }
+  const auto last = engine.Latest();
+  ASSERT_TRUE(engine.Stop());
+  // Commands that came after the last frame are applied by a refresh, which is recorded as well.
+  EXPECT_LE(tape->commands.size(), 60u);
+  EXPECT_GE(tape->commands.size(), 1u);
+  ASSERT_NE(last, nullptr);
+  EXPECT_NE(last->settings.slad.max_slope_deg, 10);
+}
+
+TEST(Engine, ARecorderThatFailsIsShownAndReported) {
+  const auto tape = std::make_shared<Tape>();
+  Engine engine(Parts(3, tape, 5), false);
+  while (engine.Step()) {
+  }
+  EXPECT_FALSE(engine.Latest()->recording);
+  const Status stopped = engine.Stop();
+  ASSERT_FALSE(stopped);
+  EXPECT_EQ(stopped.error().message, "the disk is full");
+}
+
+TEST(Engine, WaveOffLeavesByItsOwnPath) {
+  const auto link = std::make_shared<CountingLink>();
+  EngineParts parts = Parts(1, nullptr);
+  parts.link = link;
+  Engine engine(std::move(parts), true);
+  engine.Post({CommandOrigin::kOperator, WaveOff{}});  // the engine itself is not even running
+  while (link->aborts() == 0) {
+    std::this_thread::yield();
+  }
+  EXPECT_EQ(link->aborts(), 1);
+}
+
+TEST(Inbox, NewestFrameWinsAndCommandsAreKept) {
+  Inbox inbox;
+  const auto first = std::make_shared<FrameBundle>(), second = std::make_shared<FrameBundle>();
+  EXPECT_EQ(inbox.PutNewest(first), 0u);
+  inbox.Post({CommandOrigin::kOperator, WaveOff{}});
+  EXPECT_EQ(inbox.PutNewest(second), 1u);
+  Inbox::Batch batch;
+  ASSERT_TRUE(inbox.Take(batch, {}));
+  EXPECT_EQ(batch.bundle, second);
+  EXPECT_EQ(batch.commands.size(), 1u);
+}
+
+TEST(Inbox, CommandsAloneAreTakenWhileNothingComes) {
+  Inbox inbox;
+  inbox.SetIdle(true);
+  inbox.Post({CommandOrigin::kOperator, DiscardSettings{}});
+  Inbox::Batch batch;
+  ASSERT_TRUE(inbox.Take(batch, {}));
+  EXPECT_EQ(batch.bundle, nullptr);
+  EXPECT_EQ(batch.commands.size(), 1u);
+}
+
+TEST(Inbox, StopEndsTheWait) {
+  Inbox inbox;
+  std::stop_source stop;
+  stop.request_stop();
+  Inbox::Batch batch;
+  EXPECT_FALSE(inbox.Take(batch, stop.get_token()));
+}
+
+}  // namespace
+}  // namespace palace
