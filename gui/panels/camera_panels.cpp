@@ -64,8 +64,10 @@ SiteOverlay OverlayOf(const EngineSnapshot& snap, std::uint64_t highlighted) {
   }
   overlay.highlighted = highlighted;
   overlay.commanded = snap.mission.state >= MissionState::kApproved;
-  if (snap.preview && snap.applied && !snap.applied->selection.sites.empty()) {
-    overlay.ghost = snap.applied->selection.sites.front();
+  // The applied winner, where the preview moves it from the ring already drawn.
+  const LandingSite* applied = snap.preview ? BestSite(snap.applied.get()) : nullptr;
+  if (applied != nullptr && (!overlay.selected || SitesDiffer(*overlay.selected, *applied))) {
+    overlay.ghost = *applied;
     overlay.ghost_words = std::string("applied ") + overlay.ghost->letter;
   }
   return overlay;

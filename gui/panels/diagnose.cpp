@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
 
 #include "gui/widgets/icons.h"
 #include "gui/widgets/number_text.h"
@@ -87,12 +88,13 @@ void DrawChannels(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui) {
   for (int i = 0; i < columns; ++i) {
     DrawText(ui, s.caption, p.text2, column(i), y, heads[i], Align::kRight);
   }
-  y += s.Px(24);
+  y += s.Px(22);
+  const float pitch = RowPitch(s, rect.bottom() - s.Px(6) - y + s.Px(13), snap.channels.size());
   if (snap.channels.empty()) {
     DrawText(ui, s.body, p.text2, content.x + s.Px(12), y, "Nothing has arrived yet.");
   }
   for (const ChannelHealth& c : snap.channels) {
-    if (y + s.Px(12) > rect.bottom()) {
+    if (y + s.Px(10) > rect.bottom()) {
       break;
     }
     const bool fresh = c.state == ChannelHealth::State::kFresh;
@@ -107,9 +109,9 @@ void DrawChannels(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui) {
     for (int i = 0; i < columns; ++i) {
       DrawText(ui, s.body, p.text1, column(i), y, cells[i], Align::kRight);
     }
-    ui.items.Add("channel/" + c.name, {content.x, y - s.Px(12), content.w, s.Px(24)}, true,
+    ui.items.Add("channel/" + c.name, {content.x, y - s.Px(10), content.w, s.Px(20)}, true,
                  c.name + " " + cells[0]);
-    y += s.Px(26);
+    y += pitch;
   }
 }
 
@@ -123,9 +125,10 @@ void DrawTimings(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui) {
   }
   const Rect content =
       DrawPanelFrame(ui, rect, "Stages", {{Fixed(total_ms, 1) + " ms a frame", 0, false, false}});
-  float y = content.y + s.Px(12);
+  float y = content.y + s.Px(10);
+  const float pitch = RowPitch(s, rect.bottom() - s.Px(6) - y + s.Px(13), snap.timings.size());
   for (const StageTiming& t : snap.timings) {
-    if (y + s.Px(12) > rect.bottom()) {
+    if (y + s.Px(10) > rect.bottom()) {
       break;
     }
     DrawText(ui, s.body, p.text2, content.x + s.Px(12), y, t.stage);
@@ -136,7 +139,7 @@ void DrawTimings(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui) {
              s.Fine(1));
     DrawText(ui, s.medium, p.text1, content.right() - s.Px(12), y, Fixed(t.milliseconds, 1) + " ms",
              Align::kRight);
-    y += s.Px(24);
+    y += pitch;
   }
 }
 
@@ -191,18 +194,24 @@ void DrawHashes(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui) {
               {"Newest map", snap.applied ? Hex(snap.applied->map_hash) : "––"},
               {"Decision", Hex(snap.decision_hash)},
               {"Snapshot", Fixed(static_cast<double>(snap.sequence), 0)}};
-  float y = content.y + s.Px(12);
+  float y = content.y + s.Px(10);
+  const float pitch = RowPitch(s, rect.bottom() - s.Px(6) - y + s.Px(13), std::size(rows));
   for (const auto& row : rows) {
-    if (y + s.Px(12) > rect.bottom()) {
+    if (y + s.Px(10) > rect.bottom()) {
       break;
     }
     DrawText(ui, s.body, p.text2, content.x + s.Px(12), y, row.name);
     DrawText(ui, s.mono, p.text1, content.right() - s.Px(12), y, row.value, Align::kRight);
-    y += s.Px(24);
+    y += pitch;
   }
 }
 
 }  // namespace
+
+float RowPitch(const Style& s, float height, std::size_t rows) {
+  const float fits = height / static_cast<float>(std::max<std::size_t>(rows, 1));
+  return std::clamp(std::floor(fits), s.Px(19), s.Px(26));
+}
 
 void DrawDiagnoseWorkspace(const EngineSnapshot& snap, const Rect& body, DiagnoseState& state,
                            UiFrame& ui) {
@@ -221,11 +230,14 @@ void DrawDiagnoseWorkspace(const EngineSnapshot& snap, const Rect& body, Diagnos
   DrawGuards(snap, {x, body.y, middle, body.h - sites_h - gap}, ui);
   DrawSiteTable(snap, {x, body.bottom() - sites_h, middle, sites_h}, ui);
   const float right_x = x + middle + gap, right = body.right() - right_x;
-  const float channels_h = std::min(rows_h(snap.channels.size(), 62), std::round(body.h * 0.38f));
+  const auto share = [&](float wanted, float most) {
+    return std::min(s.Px(wanted), std::round(body.h * most));
+  };
+  const float channels_h =
+      share(62 + 26 * static_cast<float>(std::max<std::size_t>(snap.channels.size(), 1)), 0.38f);
   const float stages_h =
-      std::min(s.Px(40 + 24 * static_cast<float>(std::max<std::size_t>(snap.timings.size(), 1))),
-               std::round(body.h * 0.24f));
-  const float hashes_h = std::min(s.Px(160), std::round(body.h * 0.22f));
+      share(40 + 26 * static_cast<float>(std::max<std::size_t>(snap.timings.size(), 1)), 0.23f);
+  const float hashes_h = share(170, 0.23f);
   float y = body.y;
   DrawChannels(snap, {right_x, y, right, channels_h}, ui);
   y += channels_h + gap;

@@ -10,6 +10,8 @@ struct DiagnoseState {
   int event_offset = 0;  ///< newest events scrolled past
 };
 
+/// Pitch at which `rows` rows fill the height, between a tight and a comfortable one.
+float RowPitch(const Style& style, float height, std::size_t rows);
 /// Each guard of the armed site: passes, or why not.
 void DrawGuards(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui);
 /// Figures of the candidates of the newest map.

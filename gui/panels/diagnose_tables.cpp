@@ -28,8 +28,9 @@ void DrawGuards(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui) {
     return;
   }
   const float name_x = content.x + s.Px(74);
+  const float pitch = RowPitch(s, rect.bottom() - s.Px(4) - content.y, guards.size());
   for (const GuardResult& guard : guards) {
-    if (y + s.Px(12) > rect.bottom()) {
+    if (y + s.Px(10) > rect.bottom()) {
       return;
     }
     DrawIcon(Canvas(), guard.pass ? Icon::kDone : Icon::kOff, {content.x + s.Px(20), y}, s.Px(12),
@@ -37,14 +38,14 @@ void DrawGuards(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui) {
     DrawText(ui, s.caption, p.text3, content.x + s.Px(36), y, guard.id);
     const float width = DrawText(ui, guard.pass ? s.body : s.medium, guard.pass ? p.text2 : p.text1,
                                  name_x, y, guard.name);
-    ui.items.Add("guard/" + guard.id, {content.x, y - s.Px(13), content.w, s.Px(26)}, guard.pass,
+    ui.items.Add("guard/" + guard.id, {content.x, y - pitch / 2, content.w, pitch}, guard.pass,
                  guard.name + (guard.pass ? " passes" : " fails: " + guard.reason));
     const std::string words = guard.pass ? std::string("Passes") : guard.reason;
     const float room = content.right() - s.Px(12) - name_x - width - s.Px(16);
     if (TextWidth(s.body, words) <= room) {
       DrawText(ui, s.body, guard.pass ? p.text3 : p.text1, content.right() - s.Px(12), y, words,
                Align::kRight);
-      y += s.Px(26);
+      y += pitch;
       continue;
     }
     // A long reason has lines of its own.
@@ -66,7 +67,7 @@ void DrawSiteTable(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui) {
   const Palette& p = s.palette;
   const Rect content = DrawPanelFrame(
       ui, rect, "Sites of the newest map",
-      {{snap.applied ? Duration(SecondsBetween(snap.applied->map_time, snap.time)) + " old" : "", 0,
+      {{snap.applied ? AgeText(SecondsBetween(snap.applied->map_time, snap.time)) + " old" : "", 0,
         false, false}});
   float y = content.y + s.Px(12);
   if (!snap.applied || snap.applied->selection.sites.empty()) {
@@ -84,7 +85,7 @@ void DrawSiteTable(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui) {
   }
   y += s.Px(25);
   for (const LandingSite& site : snap.applied->selection.sites) {
-    if (y + s.Px(12) > rect.bottom()) {
+    if (y + s.Px(10) > rect.bottom()) {
       return;
     }
     const bool armed = snap.mission.armed && snap.mission.armed->id == site.id;

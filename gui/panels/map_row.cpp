@@ -52,14 +52,15 @@ std::array<MapView, 5> Views(const EngineSnapshot& snap, const MapRowState& stat
                     wanted.max_slope_deg,
                     2 * slad.max_slope_deg};
   views[2].values = &shown->hazards->roughness_m;
-  views[2].low = "0.00 m";
-  views[2].high = Fixed(2.5 * slad.max_deviation_m, 2) + " m+";
-  views[2].limit = {"max " + Fixed(slad.max_deviation_m, 2) + " m",
-                    0.4f,
-                    NAN,
-                    "slad.max_deviation_m",
-                    wanted.max_deviation_m,
-                    2.5 * slad.max_deviation_m};
+  views[2].low = "0 cm";
+  views[2].high = Fixed(250 * slad.max_deviation_m, 0) + " cm+";
+  views[2].limit = {
+      "max " + Fixed(100 * slad.max_deviation_m, slad.max_deviation_m < 0.0995 ? 1 : 0) + " cm",
+      0.4f,
+      NAN,
+      "slad.max_deviation_m",
+      wanted.max_deviation_m,
+      2.5 * slad.max_deviation_m};
   views[3].values = &shown->hazards->cost;
   views[3].low = "0.0";
   views[3].high = "";
@@ -80,6 +81,8 @@ std::string ValueText(std::size_t map, double value) {
   switch (map) {
     case 1:
       return Fixed(Deg(value), 1) + (std::isfinite(value) ? "°" : "");
+    case 2:
+      return Fixed(value * 100, 1) + (std::isfinite(value) ? " cm" : "");
     case 3:
       return Fixed(value, 2);
     case 4:

@@ -10,6 +10,9 @@
 namespace palace {
 namespace {
 
+/// Two best sites of one moment whose clear radii agree so closely are one place.
+constexpr double kSameRadius_m = 0.05;
+
 std::string Letter(char letter) { return letter == 0 ? "none" : std::string(1, letter); }
 
 /// Extends the last segment while the value stays, else starts the next.
@@ -254,7 +257,11 @@ std::vector<ReviewDifference> FindDifferences(const EngineSnapshot& snap,
     }
     const char recorded = record->samples[i].best_site;
     const double t = FlightSeconds(snap, record, now.time);
-    if (recorded == now.best_site) {
+    const bool both = recorded != 0 && now.best_site != 0;
+    // Letters follow sites over time, so a re-decided flight may hand them out in another order.
+    const bool same_place = both && std::abs(record->samples[i].best_safe_distance_m -
+                                             now.best_safe_distance_m) < kSameRadius_m;
+    if (recorded == now.best_site || same_place) {
       open = false;
       continue;
     }

@@ -1,6 +1,7 @@
 // Review: where the panels lie, the right column.
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "engine/core/units.h"
 #include "gui/panels/fly_panels.h"
@@ -110,7 +111,10 @@ Verdict JudgeSite(const EngineSnapshot& snap) {
     return v;
   }
   const std::string letter(1, site->letter);
-  v.recorded = (m.approval ? "Approved " : (m.armed ? "Armed " : "Proposed ")) + letter;
+  v.recorded =
+      (m.approval || m.state >= MissionState::kApproved ? "Approved "
+                                                        : (m.armed ? "Armed " : "Proposed ")) +
+      letter;
   const TerrainDecision* now = snap.applied.get();
   if (now == nullptr || !now->hazards) {
     return v;
@@ -153,26 +157,29 @@ void DrawRedecidePanel(const EngineSnapshot& snap, const FlightRecord* record, c
   DrawText(ui, s.caption, p.text2, content.right() - pad, head, "Re-decided", Align::kRight);
   const float button_h = s.Px(36);
   float y = content.y + s.Px(20);
+  const float room = rect.bottom() - button_h - s.Px(10) - y;
+  const float pitch =
+      std::clamp(std::floor(room / static_cast<float>(std::size(kFields))), s.Px(25), s.Px(32));
   for (const char* name : kFields) {
     const SettingInfo* info = FindSetting(name);
-    if (info == nullptr || y + s.Px(30) > rect.bottom() - button_h - 2 * s.Px(6)) {
+    if (info == nullptr || y + pitch > rect.bottom() - button_h - s.Px(10)) {
       continue;
     }
-    const float middle = y + s.Px(15);
+    const float middle = y + pitch / 2;
     SliderRow row;
     row.info = info;
     row.value = GetSetting(snap.preview_settings, name);
     const double before = GetSetting(recorded, name);
     row.pending = row.value != before;
     if (row.pending) {
-      FillRect(Canvas(), {content.x, y + s.Px(3), s.Px(4), s.Px(24)}, p.white_mark);
+      FillRect(Canvas(), {content.x, y + s.Px(2), s.Px(4), pitch - s.Px(4)}, p.white_mark);
     }
     DrawText(ui, row.pending ? s.medium : s.body, row.pending ? p.text1 : p.text2,
              content.x + s.Px(16), middle, info->label);
     DrawText(ui, s.body, p.text2, recorded_x, middle, FormatSetting(*info, before), Align::kRight);
-    DrawValueField(ui, {field_x, y + s.Px(2), s.Px(88), s.Px(26)}, row, snap.preview_settings,
-                   state.fields);
-    y += s.Px(32);
+    DrawValueField(ui, {field_x, y + s.Px(2), s.Px(88), pitch - s.Px(4)}, row,
+                   snap.preview_settings, state.fields);
+    y += pitch;
   }
   ButtonLook look;
   look.font = s.medium;

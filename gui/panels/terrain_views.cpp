@@ -115,13 +115,6 @@ void FillRange(MapKind kind, const SladSettings& now, const SladSettings* applie
   }
 }
 
-/// Another place, or the same place under another clear radius.
-bool Differ(const LandingSite& a, const LandingSite& b) {
-  constexpr double kSamePlace_m = 0.3, kSameRadius_m = 0.05;
-  return (a.p_WS - b.p_WS).head<2>().norm() > kSamePlace_m ||
-         std::abs(a.clear_radius_m - b.clear_radius_m) > kSameRadius_m;
-}
-
 Rect FitPicture(const Rect& area, const EngineSnapshot& snap) {
   const auto camera = LeftCamera(snap);
   const float aspect = camera && camera->height > 0
@@ -138,6 +131,12 @@ const LandingSite* BestSite(const TerrainDecision* decision) {
   return decision != nullptr && !decision->selection.sites.empty()
              ? &decision->selection.sites.front()
              : nullptr;
+}
+
+bool SitesDiffer(const LandingSite& a, const LandingSite& b) {
+  constexpr double kSamePlace_m = 0.3, kSameRadius_m = 0.05;
+  return (a.p_WS - b.p_WS).head<2>().norm() > kSamePlace_m ||
+         std::abs(a.clear_radius_m - b.clear_radius_m) > kSameRadius_m;
 }
 
 double SafeArea(const TerrainDecision* decision) {
@@ -228,7 +227,7 @@ void DrawLeftPicture(UiFrame& ui, const Rect& area, const EngineSnapshot& snap,
       overlay.selected = *best;
     }
     const LandingSite* ghost = BestSite(look.ghost);
-    if (ghost != nullptr && (!overlay.selected || Differ(*overlay.selected, *ghost))) {
+    if (ghost != nullptr && (!overlay.selected || SitesDiffer(*overlay.selected, *ghost))) {
       overlay.ghost = *ghost;
       overlay.ghost_words = std::string(look.ghost_word) + " " + ghost->letter;
     }

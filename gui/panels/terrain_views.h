@@ -48,6 +48,8 @@ void DrawPlainPicture(UiFrame& ui, const Rect& area, const EngineSnapshot& snap,
                       ImTextureID texture, const std::string& plate,
                       const MapProbe* probe = nullptr);
 
+/// Another place, or the same place under another clear radius: worth two rings.
+bool SitesDiffer(const LandingSite& a, const LandingSite& b);
 /// Best site of a decision, null when it has none.
 const LandingSite* BestSite(const TerrainDecision* decision);
 /// Area of the safe cells, m^2; NaN without a map.

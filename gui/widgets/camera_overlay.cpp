@@ -60,10 +60,17 @@ void DrawSites(UiFrame& ui, const PictureView& view, const SiteOverlay& overlay)
           overlay.selected &&
           (overlay.selected->p_WS - overlay.ghost->p_WS).norm() < overlay.ghost->clear_radius_m;
       float middle_y = at->y;
-      for (const ImVec2& point : ring) {
+      std::vector<ImVec2> both = ring;
+      if (covers) {
+        const std::vector<ImVec2> other =
+            ProjectCircle(view, *overlay.selected, overlay.selected->clear_radius_m);
+        both.insert(both.end(), other.begin(), other.end());
+      }
+      for (const ImVec2& point : both) {
         middle_y = covers ? std::max(middle_y, point.y) : middle_y;
       }
       const float half = s.Px(12);
+      middle_y += covers ? half + s.Px(6) : 0;
       middle_y = std::clamp(middle_y, view.rect.y + half, view.rect.bottom() - s.Px(44) - half);
       const float left = std::clamp(at->x - width / 2, view.rect.x,
                                     std::max(view.rect.x, view.rect.right() - width));

@@ -171,9 +171,8 @@ void LetterPlate(UiFrame& ui, ImVec2 c, char letter, bool selected, float side) 
   const Rect r{std::round(c.x - half), std::round(c.y - half), s.Px(side), s.Px(side)};
   ImDrawList* dl = Canvas();
   FillRect(dl, r, selected ? picture::kWhite : picture::kLetterDark, s.Fine(2));
-  if (!selected) {
-    StrokeRect(dl, r, picture::kPlateText, s.Fine(1), s.Fine(2));
-  }
+  // A rim against whatever lies behind: pictures are dark or light, and so are panels.
+  StrokeRect(dl, r, selected ? picture::kLetterDark : picture::kPlateText, s.Fine(1), s.Fine(2));
   const std::string_view text(&letter, 1);
   DrawText(ui, s.medium, selected ? picture::kLetterDark : picture::kPlateText, r.centre().x,
            r.centre().y, text, Align::kCentre);

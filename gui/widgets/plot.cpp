@@ -161,7 +161,7 @@ void StrokeRun(const Style& s, const std::vector<ImVec2>& run, const PlotSeries&
   ImDrawList* dl = Canvas();
   const float width = s.Fine(series.width);
   if (series.stroke == PlotSeries::Stroke::kDotted) {
-    DashedPolyline(dl, run, series.colour, width, s.Fine(2), s.Fine(3));
+    DashedPolyline(dl, run, series.colour, s.Fine(2), s.Fine(2), s.Fine(3));
   } else if (series.stroke == PlotSeries::Stroke::kDashed) {
     DashedPolyline(dl, run, series.colour, width, s.Fine(3), s.Fine(5));
   } else {

@@ -30,7 +30,11 @@ void DrawReadout(UiFrame& ui, const Rect& cell, const Readout& r) {
   if (TextWidth(s.readout, value) + TextWidth(s.caption, unit) + s.Px(10) > cell.w) {
     unit = FitWords(s.caption, unit, cell.w - TextWidth(s.readout, value) - s.Px(10));
   }
-  DrawValueUnit(ui, s.readout, cell.x, value_y, value, unit);
+  if (unit == "°") {  // stands directly after its digit
+    DrawText(ui, s.readout, p.text1, cell.x, value_y, never ? value : value + "°");
+  } else {
+    DrawValueUnit(ui, s.readout, cell.x, value_y, value, unit);
+  }
   if (r.state == Readout::State::kFresh && r.over_limit.empty()) {
     return;
   }

@@ -115,14 +115,15 @@ double RulerStep(double span_s, float width_px, float label_px) {
   return std::ceil(span_s / 4 / 600) * 600;
 }
 
-void DrawRuler(UiFrame& ui, const Scale& scale) {
+void DrawRuler(UiFrame& ui, const Scale& scale, double cursor_s) {
   const Style& s = ui.style;
   const double step = RulerStep(scale.to_s - scale.from_s, scale.area.w, s.Px(84));
   for (double t = std::ceil(scale.from_s / step) * step; t <= scale.to_s + 1e-9; t += step) {
     const std::string label = TimeLabel(t, step < 1);
     const float half = TextWidth(s.caption, label) / 2;
     const float x = scale.X(t);
-    if (x - half >= scale.area.x && x + half <= scale.area.right()) {
+    const bool touches_cursor = std::abs(x - scale.X(cursor_s)) < half + s.Px(8);
+    if (x - half >= scale.area.x && x + half <= scale.area.right() && !touches_cursor) {
       DrawText(ui, s.caption, s.palette.text2, x, scale.area.centre().y, label, Align::kCentre);
     }
   }
@@ -238,7 +239,8 @@ void DrawTimeline(UiFrame& ui, const Rect& rect, const TimelineView& view, Timel
   const float ruler_y = overview.bottom() + s.Px(4);
   const Scale scale{
       {overview.x, ruler_y, overview.w, rect.bottom() - ruler_y}, state.from_s, state.to_s};
-  DrawRuler(ui, {{overview.x, ruler_y, overview.w, s.Px(20)}, state.from_s, state.to_s});
+  DrawRuler(ui, {{overview.x, ruler_y, overview.w, s.Px(20)}, state.from_s, state.to_s},
+            view.position_s);
   const float cursor_x = std::round(scale.X(view.position_s));
   float y = ruler_y + s.Px(20);
   for (const Lane& lane : view.lanes) {
