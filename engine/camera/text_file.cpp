@@ -8,13 +8,13 @@ namespace palace {
 Result<std::string> ReadTextFile(const std::filesystem::path& path, std::size_t limit) {
   std::error_code code;
   if (!std::filesystem::is_regular_file(path, code)) {
-    return UnavailableError(path.string() + ": no such file");
+    return UnavailableError(path.string() + ": no such file; check the name");
   }
   std::ifstream stream(path, std::ios::binary);
   std::string text(limit + 1, '\0');
   stream.read(text.data(), static_cast<std::streamsize>(text.size()));
   if (stream.bad() || (!stream && !stream.eof())) {
-    return UnavailableError(path.string() + ": cannot be read");
+    return UnavailableError(path.string() + ": cannot be read; check its permissions");
   }
   text.resize(static_cast<std::size_t>(stream.gcount()));
   if (text.size() > limit) {

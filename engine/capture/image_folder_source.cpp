@@ -8,34 +8,12 @@
 #include <system_error>
 #include <utility>
 
-#include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
+#include "engine/capture/picture_file.h"
 
 namespace palace {
 namespace {
 
 constexpr std::int64_t kStart_us = 1'000'000'000'000;
-
-Result<ImageU8> ReadGrey(const std::filesystem::path& path) {
-  std::error_code code;
-  if (!std::filesystem::is_regular_file(path, code)) {
-    return UnavailableError(path.string() + ": no such file");
-  }
-  cv::Mat picture;
-  try {
-    picture = cv::imread(path.string(), cv::IMREAD_GRAYSCALE);
-  } catch (const cv::Exception& exception) {
-    return InvalidError(path.string() + ": " + exception.what());
-  }
-  if (picture.empty() || picture.type() != CV_8UC1) {
-    return InvalidError(path.string() + ": not a picture that can be read (PNG, JPEG, TIFF, PGM)");
-  }
-  ImageU8 image(picture.cols, picture.rows);
-  for (int y = 0; y < picture.rows; ++y) {
-    std::copy_n(picture.ptr<std::uint8_t>(y), picture.cols, image.row(y));
-  }
-  return image;
-}
 
 std::string SizeText(int width, int height) {
   return std::to_string(width) + " x " + std::to_string(height) + " px";
@@ -55,11 +33,11 @@ Status CheckSize(const ImageU8& image, const RigCamera& camera, const std::files
 
 Result<StereoFrame> ReadStereoPair(const std::filesystem::path& left,
                                    const std::filesystem::path& right) {
-  auto left_image = ReadGrey(left);
+  auto left_image = ReadGreyPicture(left);
   if (!left_image) {
     return left_image.error();
   }
-  auto right_image = ReadGrey(right);
+  auto right_image = ReadGreyPicture(right);
   if (!right_image) {
     return right_image.error();
   }
@@ -68,7 +46,8 @@ Result<StereoFrame> ReadStereoPair(const std::filesystem::path& left,
     return InvalidError(right.string() + ": the picture is " +
                         SizeText(right_image->width(), right_image->height()) + ", the left one (" +
                         left.string() + ") is " +
-                        SizeText(left_image->width(), left_image->height()));
+                        SizeText(left_image->width(), left_image->height()) +
+                        "; both cameras of a pair give the same size");
   }
   return StereoFrame{{}, std::move(left_image).value(), std::move(right_image).value()};
 }

@@ -1,6 +1,8 @@
 #include <limits>
 #include <system_error>
+#include <utility>
 
+#include "engine/journal/log_index.h"
 #include "engine/journal/log_writer.h"
 #include "engine/wire/convert.h"
 
@@ -29,6 +31,7 @@ Result<std::unique_ptr<FlightRecorder>> FlightRecorder::Open(const std::filesyst
 }
 
 ::palace::Status FlightRecorder::Record(const RecordItem& item) {
+  waiting_.insert(waiting_.end(), item.commands.begin(), item.commands.end());
   if (!item.bundle) {
     return Ok();
   }
@@ -37,7 +40,7 @@ Result<std::unique_ptr<FlightRecorder>> FlightRecorder::Open(const std::filesyst
   last_ = now;
   any_ = true;
   std::vector<WireMessage> messages;
-  for (const EngineCommand& command : item.commands) {
+  for (const EngineCommand& command : std::exchange(waiting_, {})) {
     messages.push_back(EncodeCommand(command, now, channels_));
   }
   for (WireMessage& message : EncodeBundle(*item.bundle, channels_)) {
@@ -51,6 +54,10 @@ Result<std::unique_ptr<FlightRecorder>> FlightRecorder::Open(const std::filesyst
       messages.push_back(std::move(message));
     }
   }
+  return WriteAll(messages);
+}
+
+::palace::Status FlightRecorder::WriteAll(const std::vector<WireMessage>& messages) {
   for (const WireMessage& message : messages) {
     const ::palace::Status written = writer_.Write(message);
     if (!written) {
@@ -60,7 +67,22 @@ Result<std::unique_ptr<FlightRecorder>> FlightRecorder::Open(const std::filesyst
   return writer_.Flush();
 }
 
-::palace::Status FlightRecorder::Close() { return writer_.Close(); }
+::palace::Status FlightRecorder::Close() {
+  std::vector<WireMessage> messages;
+  for (const EngineCommand& command : std::exchange(waiting_, {})) {
+    messages.push_back(EncodeCommand(command, last_, channels_));
+  }
+  const ::palace::Status written = any_ ? WriteAll(messages) : Ok();
+  const ::palace::Status closed = writer_.Close();
+  if (!any_) {
+    const std::filesystem::path log = writer_.path();
+    std::error_code ignored;
+    std::filesystem::remove(log, ignored);
+    std::filesystem::remove(SidecarPath(log), ignored);
+    std::filesystem::remove(log.parent_path(), ignored);
+  }
+  return written ? closed : written;
+}
 
 std::string FlightRecorder::Path() const { return writer_.path().string(); }
 

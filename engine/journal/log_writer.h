@@ -78,6 +78,7 @@ class LogWriter {
 /// the vehicle, then the outputs (STATION_STATUS last). Everything carries the bundle's time.
 class FlightRecorder final : public RecordSink {
  public:
+  /// A flight without a single bundle leaves no file and no folder behind.
   /// `stamp` names the flight, e.g. "2026-03-01_14-02-11"; the caller knows the time, this does
   /// not.
   static Result<std::unique_ptr<FlightRecorder>> Open(const std::filesystem::path& folder,
@@ -93,6 +94,7 @@ class FlightRecorder final : public RecordSink {
  private:
   FlightRecorder(LogWriter writer, ChannelNames channels)
       : writer_(std::move(writer)), channels_(channels), outputs_(channels) {}
+  ::palace::Status WriteAll(const std::vector<WireMessage>& messages);
 
   LogWriter writer_;
   ChannelNames channels_;
@@ -100,6 +102,8 @@ class FlightRecorder final : public RecordSink {
   Timestamp first_;
   Timestamp last_;
   bool any_ = false;
+  std::vector<EngineCommand> waiting_;  ///< given while time stood still: they go before the next
+                                        ///< bundle, where a replay applies them
 };
 
 }  // namespace palace

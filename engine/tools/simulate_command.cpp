@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -13,6 +14,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "engine/journal/log_index.h"
 #include "engine/journal/log_writer.h"
 #include "engine/mission/approval.h"
 #include "engine/wire/bus.h"
@@ -188,6 +190,11 @@ int Simulate(const SimulateOptions& options, const SceneCameraFactory& cameras) 
       Fly(simulator, server.get(), log ? &*log : nullptr, *channels, flight.get_token());
   const Status closed = log ? log->Close() : Ok();
   if (!bundles) {
+    if (log && log->events() == 0) {  // no empty log stays behind
+      std::error_code ignored;
+      std::filesystem::remove(SidecarPath(options.log), ignored);
+      std::filesystem::remove(options.log, ignored);
+    }
     return Fail(bundles.error());
   }
   if (!closed) {

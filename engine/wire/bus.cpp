@@ -1,5 +1,7 @@
 #include "engine/wire/bus.h"
 
+#include <arpa/inet.h>
+
 #include <cctype>
 #include <cerrno>
 #include <cstdlib>
@@ -30,6 +32,30 @@ std::string Escaped(const std::string& channel) {
     pattern += c;
   }
   return pattern;
+}
+
+/// What is wrong with a URL; liblcm would say it on stderr only.
+std::string UrlProblem(const std::string& url) {
+  const std::size_t scheme_end = url.find("://");
+  const std::string scheme = url.substr(0, scheme_end);
+  if (scheme_end == std::string::npos ||
+      (scheme != "udpm" && scheme != "memq" && scheme != "tcpq" && scheme != "file" &&
+       scheme != "mpudpm")) {
+    return "no such kind of bus; give e.g. udpm://239.255.76.67:7667?ttl=0";
+  }
+  if (!IsMulticast(url)) {
+    return {};
+  }
+  const std::string place = url.substr(scheme_end + 3, url.find('?') - scheme_end - 3);
+  const std::string address = place.substr(0, place.find(':'));
+  in_addr parsed{};
+  if (!place.empty() &&
+      (inet_pton(AF_INET, address.c_str(), &parsed) != 1 || (ntohl(parsed.s_addr) >> 28) != 0xE)) {
+    return "'" + address +
+           "' is no multicast address; give one of 224.0.0.0 to 239.255.255.255, e.g. "
+           "udpm://239.255.76.67:7667?ttl=0";
+  }
+  return {};
 }
 
 std::vector<std::string> CheckReceiveBuffer() {
@@ -104,6 +130,10 @@ Result<std::shared_ptr<Bus>> Bus::Open(const std::string& url) {
   const char* preset = std::getenv("LCM_DEFAULT_URL");
   auto impl = std::make_unique<Impl>();
   impl->url = CompleteLcmUrl(url.empty() && preset != nullptr ? preset : url);
+  const std::string problem = UrlProblem(impl->url);
+  if (!problem.empty()) {
+    return UsageError("LCM URL " + impl->url + ": " + problem);
+  }
   impl->lcm = lcm_create(impl->url.c_str());
   if (impl->lcm == nullptr) {
     std::string advice = "check the URL, e.g. udpm://239.255.76.67:7667";

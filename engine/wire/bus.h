@@ -21,7 +21,7 @@ class Bus {
  public:
   using Handler = std::function<void(WireMessage)>;
 
-  /// kUnavailable when the bus cannot be joined, with the route command that helps.
+  /// kUsage for what is no URL of a bus; kUnavailable when the bus cannot be joined, with the route command that helps.
   static Result<std::shared_ptr<Bus>> Open(const std::string& url);
   ~Bus();
   Bus(const Bus&) = delete;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <map>
 #include <sstream>
@@ -122,10 +123,11 @@ Result<std::vector<ScriptLine>> ParseScript(std::string_view text, const std::st
 }
 
 Result<std::vector<ScriptLine>> LoadScript(const std::string& path) {
+  std::error_code none;
   std::ifstream file(path);
   std::ostringstream text;
   text << file.rdbuf();
-  if (!file) {
+  if (!file || std::filesystem::is_directory(path, none)) {
     return UsageError("script " + path + " cannot be read; check the name");
   }
   return ParseScript(text.str(), path);

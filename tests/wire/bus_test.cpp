@@ -149,11 +149,14 @@ TEST(BusUrl, GetsBufferAndTimeToLive) {
   }
 }
 
-TEST(BusUrl, UnknownProviderIsUnavailableWithAdvice) {
-  const auto bus = Bus::Open("nonsense://");
-  ASSERT_FALSE(bus.ok());
-  EXPECT_EQ(bus.error().code, ErrorCode::kUnavailable);
-  EXPECT_NE(bus.error().message.find("check the URL"), std::string::npos);
+TEST(BusUrl, AUrlThatCannotBeOneIsRefusedWithAnExample) {
+  for (const char* url : {"nonsense://", "nonsense", "udpm://host:7667", "udpm://10.0.0.1:7667",
+                          "udpm://239.255.76.67.1"}) {
+    const auto bus = Bus::Open(url);
+    ASSERT_FALSE(bus.ok()) << url;
+    EXPECT_EQ(bus.error().code, ErrorCode::kUsage) << url;
+    EXPECT_NE(bus.error().message.find("udpm://239.255.76.67:7667"), std::string::npos) << url;
+  }
 }
 
 }  // namespace

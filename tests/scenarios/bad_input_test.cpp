@@ -1,0 +1,333 @@
+// Bad input: one message that names the thing and the remedy, exit 1 or 2, nothing left behind.
+#include <algorithm>
+#include <set>
+#include <sstream>
+
+#include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
+
+#include "tests/scenarios/scenario.h"
+
+namespace palace {
+namespace {
+
+constexpr double kLimit_s = 30;
+
+struct BadInput {
+  const char* name;
+  bool station;  ///< palace, else palacectl
+  std::vector<std::string> arguments;
+  int exit_code;
+  std::vector<std::string> said;  ///< parts of the one message: the thing, the remedy
+  std::vector<std::pair<std::string, std::string>> environment = {};
+};
+
+void PrintTo(const BadInput& row, std::ostream* out) { *out << row.name; }
+
+std::string Rig() {
+  std::string text;
+  for (const char* side : {"left", "right"}) {
+    text += "[" + std::string(side) +
+            "]\nwidth = 64\nheight = 48\nfx_px = 60\nfy_px = 60\ncx_px = 32\ncy_px = 24\n";
+  }
+  return text +
+         "[rig]\nbaseline_m = 0.5\n[mount]\ntilt_deg = -90\n"
+         "[pose]\nroll_deg = 0\npitch_deg = 0\nheading_deg = 0\nheight_m = 10\n"
+         "[images]\nleft = \"l.png\"\nright = \"r.png\"\n";
+}
+
+class BadInputs : public Scenario, public testing::WithParamInterface<BadInput> {
+ protected:
+  BadInputs() {
+    WriteFile("text.lcm", "this is no log\n");
+    WriteFile("empty.lcm", "");
+    WriteFile("file", "in place of a folder");
+    WriteFile("bad.script", "wait seconds 1\nfly away\n");
+    WriteFile("set.script", "set slad.colour 3\n");
+    WriteFile("wait.script", "wait state PROPOSED soon\n");
+    WriteFile("idle.script", "wait seconds 1\nquit\n");
+    WriteFile("colour.toml", "[slad]\ncolour = 3\n");
+    WriteFile("slope.toml", "[slad]\nmax_slope_deg = 300\n");
+    std::filesystem::create_directory(folder_ / "folder");
+    const cv::Mat picture(48, 64, CV_8UC1, cv::Scalar(90));
+    cv::imwrite((folder_ / "l.png").string(), picture);
+    cv::imwrite((folder_ / "r.png").string(), picture);
+    cv::imwrite((folder_ / "large.png").string(), cv::Mat(96, 64, CV_8UC1, cv::Scalar(90)));
+    const std::filesystem::path cut = folder_ / "cut.png";
+    std::filesystem::copy_file(folder_ / "l.png", cut);
+    std::filesystem::resize_file(cut, std::filesystem::file_size(cut) / 2);
+    WriteRig("good", "", "");
+    WriteRig("missing", "fx_px = 60\n", "");
+    WriteRig("negative", "width = 64", "width = -64");
+    WriteRig("nan", "baseline_m = 0.5", "baseline_m = nan");
+    WriteRig("unknown", "[mount]", "[mount]\ncolour = 3");
+    WriteRig("syntax", "[mount]", "[mount");
+    WriteRig("size", "\"l.png\"", "\"large.png\"");
+    WriteRig("both_sizes", "\"l.png\"\nright = \"r.png\"", "\"large.png\"\nright = \"large.png\"");
+    WriteRig("cut", "\"l.png\"", "\"cut.png\"");
+    WriteRig("none", "\"l.png\"", "\"q*.png\"");
+  }
+  void WriteRig(const std::string& name, const std::string& from, const std::string& to) {
+    std::string text = Rig();
+    text.replace(text.find(from), from.size(), to);
+    WriteFile(name + ".toml", text);
+  }
+  std::set<std::string> Files() const {
+    std::set<std::string> files;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder_)) {
+      files.insert(std::filesystem::relative(entry.path(), folder_).string());
+    }
+    return files;
+  }
+};
+
+/// The lines of stderr without what the graphics driver says of itself.
+std::vector<std::string> Messages(const std::string& err) {
+  std::vector<std::string> lines;
+  std::istringstream stream(err);
+  for (std::string line; std::getline(stream, line);) {
+    if (!line.empty() && line.rfind("libEGL", 0) != 0 && line.rfind("MESA", 0) != 0) {
+      lines.push_back(line);
+    }
+  }
+  return lines;
+}
+
+TEST_P(BadInputs, AreRefusedWithOneMessageAndLeaveNothing) {
+  const BadInput& row = GetParam();
+  const std::set<std::string> before = Files();
+  ProcessOptions options = row.station ? Palace(row.arguments) : Palacectl(row.arguments);
+  options.environment = row.environment;
+  const ProcessResult result = RunProcess(options, kLimit_s);
+  EXPECT_FALSE(result.timed_out);
+  EXPECT_EQ(result.signal, 0);
+  EXPECT_EQ(result.exit_code, row.exit_code) << result.err;
+  EXPECT_EQ(result.out, "");
+  const std::vector<std::string> messages = Messages(result.err);
+  ASSERT_EQ(messages.size(), 1u) << result.err;
+  EXPECT_EQ(messages[0].rfind(row.station ? "palace: " : "palacectl", 0), 0u) << messages[0];
+  for (const std::string& part : row.said) {
+    EXPECT_NE(messages[0].find(part), std::string::npos)
+        << "'" << part << "' is not in: " << messages[0];
+  }
+  std::set<std::string> after = Files();
+  after.erase("logs");  // the folder of all flights may be made, a flight in it may not
+  EXPECT_EQ(after, before);
+}
+
+std::string NameOf(const testing::TestParamInfo<BadInput>& info) { return info.param.name; }
+
+/// `palace --headless` with more words.
+std::vector<std::string> H(std::vector<std::string> words) {
+  words.insert(words.begin(), "--headless");
+  return words;
+}
+/// `palacectl analyze` of a pair.
+std::vector<std::string> A(const std::string& left, const std::string& right,
+                           const std::string& rig, std::vector<std::string> more = {}) {
+  std::vector<std::string> words = {"analyze", "--left", left,    "--right", right,
+                                    "--rig",   rig,      "--out", "out"};
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Logs, BadInputs,
+    testing::Values(
+        BadInput{"Missing", true, H({"--replay", "no.lcm"}), 1, {"no.lcm", "check the name"}},
+        BadInput{"Text", true, H({"--replay", "text.lcm"}), 1, {"text.lcm", "choose another"}},
+        BadInput{"Empty", true, H({"--replay", "empty.lcm"}), 1, {"empty.lcm", "choose another"}},
+        BadInput{"Folder", true, H({"--replay", "folder"}), 1, {"folder", "name the log"}},
+        BadInput{"Device", true, H({"--replay", "/dev/zero"}), 1, {"/dev/zero"}},
+        BadInput{"InfoMissing", false, {"log", "info", "no.lcm"}, 1, {"no.lcm", "check the name"}},
+        BadInput{"InfoText", false, {"log", "info", "text.lcm"}, 1, {"text.lcm", "another file"}},
+        BadInput{"VerifyFolder", false, {"log", "verify", "folder"}, 1, {"folder", "name the log"}},
+        BadInput{"ExportEmpty",
+                 false,
+                 {"log", "export", "empty.lcm", "--out", "out"},
+                 1,
+                 {"empty.lcm", "choose another"}}),
+    NameOf);
+
+INSTANTIATE_TEST_SUITE_P(
+    Pictures, BadInputs,
+    testing::Values(
+        BadInput{"NoRig", true, H({"--images", "no.toml"}), 1, {"no.toml", "check the name"}},
+        BadInput{"RigFolder", true, H({"--images", "folder"}), 1, {"folder", "check the name"}},
+        BadInput{"MissingKey",
+                 true,
+                 H({"--images", "missing.toml"}),
+                 1,
+                 {"missing.toml:1", "left.fx_px is missing", "add it to [left]"}},
+        BadInput{"NegativeWidth",
+                 true,
+                 H({"--images", "negative.toml"}),
+                 1,
+                 {"negative.toml:2", "left.width = -64", "1 .. 16384"}},
+        BadInput{"NotANumber",
+                 true,
+                 H({"--images", "nan.toml"}),
+                 1,
+                 {"nan.toml:16", "rig.baseline_m = nan", "metres"}},
+        BadInput{"UnknownKey",
+                 true,
+                 H({"--images", "unknown.toml"}),
+                 1,
+                 {"unknown.toml:18", "mount.colour", "known here"}},
+        BadInput{"Syntax", true, H({"--images", "syntax.toml"}), 1, {"syntax.toml:17", "expected"}},
+        BadInput{"SizesDiffer",
+                 true,
+                 H({"--images", "size.toml"}),
+                 1,
+                 {"r.png", "64 x 48", "64 x 96", "same size"}},
+        BadInput{"SizeOfRig",
+                 true,
+                 H({"--images", "both_sizes.toml"}),
+                 1,
+                 {"large.png", "64 x 96", "64 x 48", "correct width and height"}},
+        BadInput{
+            "CutShort", true, H({"--images", "cut.toml"}), 1, {"cut.png", "cut short", "again"}},
+        BadInput{"NoMatch", true, H({"--images", "none.toml"}), 1, {"none.toml", "q*.png"}}),
+    NameOf);
+
+INSTANTIATE_TEST_SUITE_P(
+    Words, BadInputs,
+    testing::Values(
+        BadInput{"UnknownOption", true, {"--frobnicate"}, 2, {"--frobnicate", "palace --help"}},
+        BadInput{"StrayWord", true, H({"log.lcm"}), 2, {"log.lcm", "palace --help"}},
+        BadInput{"MissingValue", true, H({"--replay"}), 2, {"--replay", "palace --help"}},
+        BadInput{
+            "TwoSources", true, H({"--replay", "a", "--images", "b"}), 2, {"--replay", "exclude"}},
+        BadInput{"EmptyUrl", true, H({"--connect", ""}), 2, {"--connect", "udpm://"}},
+        BadInput{"UrlKind", true, H({"--connect", "radio://x"}), 2, {"radio://x", "udpm://"}},
+        BadInput{"UrlAddress",
+                 true,
+                 H({"--connect", "udpm://host:7667"}),
+                 2,
+                 {"'host'", "multicast address", "239.255.76.67"}},
+        BadInput{"UnknownScenario",
+                 true,
+                 H({"--scenario", "moon"}),
+                 2,
+                 {"moon", "runway, cones, slope, empty"}},
+        BadInput{"UnknownSetting",
+                 true,
+                 H({"--set", "slad.colour=3"}),
+                 2,
+                 {"slad.colour", "slad.max_slope_deg"}},
+        BadInput{"UnknownGroup", true, H({"--set", "x.y=3"}), 2, {"x.y", "slad."}},
+        BadInput{"SettingRange",
+                 true,
+                 H({"--set", "slad.max_slope_deg=300"}),
+                 2,
+                 {"slad.max_slope_deg = 300", "0.5 to 45"}},
+        BadInput{"SettingNoNumber",
+                 true,
+                 H({"--set", "slad.max_slope_deg=steep"}),
+                 2,
+                 {"steep", "number"}},
+        BadInput{"NoSettingsFile", true, H({"--settings", "no.toml"}), 1, {"no.toml", "path"}},
+        BadInput{"SettingsUnknownKey",
+                 true,
+                 H({"--settings", "colour.toml"}),
+                 1,
+                 {"colour.toml:2", "slad.colour"}},
+        BadInput{"SettingsRange",
+                 true,
+                 H({"--settings", "slope.toml"}),
+                 1,
+                 {"slope.toml:2", "max_slope_deg", "45"}},
+        BadInput{"NoScript", true, H({"--script", "no.script"}), 2, {"no.script", "check"}},
+        BadInput{"ScriptFolder", true, H({"--script", "folder"}), 2, {"folder"}},
+        BadInput{"ScriptLine", true, H({"--script", "bad.script"}), 2, {"bad.script:2", "'fly'"}},
+        BadInput{"ScriptSetting",
+                 true,
+                 H({"--script", "set.script"}),
+                 2,
+                 {"set.script:1", "slad.colour"}},
+        BadInput{
+            "ScriptNumber", true, H({"--script", "wait.script"}), 2, {"wait.script:1", "'soon'"}}),
+    NameOf);
+
+INSTANTIATE_TEST_SUITE_P(
+    Places, BadInputs,
+    testing::Values(
+        BadInput{"RecordInProc", true, H({"--record", "/proc/x"}), 1, {"/proc/x", "--record DIR"}},
+        BadInput{"RecordInFile", true, H({"--record", "file"}), 1, {"file", "--record DIR"}},
+        BadInput{"NoOpenGl",
+                 true,
+                 H({"--script", "idle.script"}),
+                 1,
+                 {"no OpenGL", "libgl1-mesa-dri"},
+                 {{"__EGL_VENDOR_LIBRARY_DIRS", "/nonexistent"}}},
+        BadInput{"NoDriver",
+                 true,
+                 H({"--script", "idle.script"}),
+                 1,
+                 {"no OpenGL", "libgl1-mesa-dri"},
+                 {{"LIBGL_DRIVERS_PATH", "/nonexistent"}}},
+        BadInput{"NoDisplay", true, {"--script", "idle.script"}, 1, {"DISPLAY", "--headless"}},
+        BadInput{"SimulateNoOpenGl",
+                 false,
+                 {"simulate", "--log", "x.lcm", "--duration-s", "1", "--fast"},
+                 1,
+                 {"no OpenGL", "libgl1-mesa-dri"},
+                 {{"__EGL_VENDOR_LIBRARY_DIRS", "/nonexistent"}}}),
+    NameOf);
+
+INSTANTIATE_TEST_SUITE_P(
+    Analyze, BadInputs,
+    testing::Values(
+        BadInput{"NoCommand", false, {}, 2, {"subcommand", "--help"}},
+        BadInput{"UnknownCommand", false, {"fly"}, 2, {"'fly'", "simulate, analyze"}},
+        BadInput{"NoOut", false, {"analyze", "--left", "l.png"}, 2, {"--out", "--help"}},
+        BadInput{"NoInput", false, {"analyze", "--out", "out"}, 2, {"--elevation", "--points"}},
+        BadInput{"NoRight",
+                 false,
+                 {"analyze", "--left", "l.png", "--rig", "good.toml", "--out", "out"},
+                 2,
+                 {"--right", "--rig"}},
+        BadInput{"TwoInputs",
+                 false,
+                 A("l.png", "r.png", "good.toml", {"--points", "p.xyz"}),
+                 2,
+                 {"--points", "one input"}},
+        BadInput{"RigAndPictureSwapped", false, A("l.png", "good.toml", "r.png"), 1, {"r.png"}},
+        BadInput{"NoPicture", false, A("no.png", "r.png", "good.toml"), 1, {"no.png", "check"}},
+        BadInput{"PictureCut", false, A("l.png", "cut.png", "good.toml"), 1, {"cut.png", "again"}},
+        BadInput{"PictureSize",
+                 false,
+                 A("l.png", "large.png", "good.toml"),
+                 1,
+                 {"large.png", "64 x 96"}},
+        BadInput{"RigKey", false, A("l.png", "r.png", "missing.toml"), 1, {"missing.toml:1"}},
+        BadInput{"Setting",
+                 false,
+                 A("l.png", "r.png", "good.toml", {"--set", "slad.x=1"}),
+                 2,
+                 {"slad.x", "slad.max_slope_deg"}},
+        BadInput{"OutIsAFile",
+                 false,
+                 {"analyze", "--left", "l.png", "--right", "r.png", "--rig", "good.toml", "--out",
+                  "file"},
+                 1,
+                 {"file", "--out"}},
+        BadInput{"NoElevation",
+                 false,
+                 {"analyze", "--elevation", "no.tif", "--out", "out"},
+                 1,
+                 {"no.tif", "exist"}},
+        BadInput{"ElevationIsText",
+                 false,
+                 {"analyze", "--elevation", "file", "--out", "out"},
+                 1,
+                 {"file", "TIFF"}},
+        BadInput{"PointsAreText",
+                 false,
+                 {"analyze", "--points", "good.toml", "--out", "out"},
+                 1,
+                 {"good.toml"}}),
+    NameOf);
+
+}  // namespace
+}  // namespace palace
