@@ -160,6 +160,73 @@ bool Touch(const Rect& a, const Rect& b) {
   return a.x < b.right() && b.x < a.right() && a.y < b.bottom() && b.y < a.bottom();
 }
 
+bool HasText(const ItemRecord& items, const std::string& start) {
+  for (const Item& item : items.items()) {
+    if (item.name == "text" && item.text.rfind(start, 0) == 0) {
+      return true;
+    }
+  }
+  return false;
+}
+
+TEST(FlyMaps, ProbeFollowsThePointerAndAClickPinsItUntilTheNext) {
+  FlyWindow window(1920, 1080, fake::Snapshot(MissionState::kProposed));
+  const std::string at_site = window.ui.items.Find("map/slope")->text;
+  window.ui.Click("map/slope", window.draw);
+  window.ui.MoveTo(ImVec2(5, 5));
+  window.Run(0.1);
+  ASSERT_TRUE(window.fly.maps.probe.pinned.has_value());
+  const GridGeometry& g = window.snap.applied->hazards->geometry;
+  const auto cell = ProbeCell(window.fly.maps.probe, g);
+  ASSERT_TRUE(cell.has_value());
+  EXPECT_NEAR(cell->row, g.rows / 2, 1);
+  EXPECT_NEAR(cell->col, g.cols / 2, 1);
+  window.ui.Click("map/cost", window.draw);  // the same place on another map
+  window.ui.MoveTo(ImVec2(5, 5));
+  window.Run(0.1);
+  EXPECT_FALSE(window.fly.maps.probe.pinned.has_value());
+  EXPECT_EQ(window.ui.items.Find("map/slope")->text, at_site);
+}
+
+TEST(FlyPictures, AVerdictOlderThanThePictureIsNotExplainedButDated) {
+  EngineSnapshot snap = fake::Snapshot(MissionState::kDescending);
+  FlyWindow fresh(1920, 1080, snap);
+  EXPECT_TRUE(HasText(fresh.ui.items, "Over a limit or unknown"));
+  EXPECT_FALSE(HasText(fresh.ui.items, "Last map"));
+  auto old = std::make_shared<TerrainDecision>(*snap.applied);
+  old->map_time = AddSeconds(snap.frame ? snap.frame->time : snap.time, -4.2);
+  snap.applied = old;
+  FlyWindow late(1920, 1080, snap);
+  EXPECT_TRUE(HasText(late.ui.items, "Last map 4.2 s old"));
+  EXPECT_FALSE(HasText(late.ui.items, "Over a limit or unknown"));
+}
+
+TEST(FlyLimits, DistanceFromCentreIsALimitOnlyOnceAboveTheSite) {
+  EngineSnapshot snap = fake::Snapshot(MissionState::kDescending);
+  const struct {
+    VehicleMode mode;
+    bool path, centre;
+  } rows[] = {{VehicleMode::kDescend, true, false},
+              {VehicleMode::kSettle, false, true},
+              {VehicleMode::kSink, false, true}};
+  for (const auto& row : rows) {
+    snap.vehicle->mode = row.mode;
+    FlyWindow window(1920, 1080, snap);
+    EXPECT_EQ(window.ui.items.Find("evidence/Off the path") != nullptr, row.path);
+    EXPECT_EQ(window.ui.items.Find("evidence/From centre") != nullptr, row.centre);
+  }
+}
+
+TEST(FlyLimits, AfterLandingAnUnlockedTrackerIsUnknownNotOverALimit) {
+  EngineSnapshot snap = fake::Snapshot(MissionState::kLanded);
+  snap.tracker.locked = false;
+  snap.tracker.coherence = 0;
+  FlyWindow window(1920, 1080, snap);
+  EXPECT_NE(window.ui.items.Find("evidence/Coherence")->text.find("––"), std::string::npos);
+  EXPECT_TRUE(HasText(window.ui.items, "On the ground"));
+  EXPECT_FALSE(HasText(window.ui.items, "1 over a limit"));
+}
+
 struct TextCase {
   const char* name;
   float width, height, scale;

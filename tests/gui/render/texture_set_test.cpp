@@ -104,10 +104,34 @@ TEST_F(TextureSetTest, RecordedAgainstReDecided) {
   TextureSet textures;
   EngineSnapshot snapshot;
   snapshot.applied = Decision(1, kHazardSlope);
-  snapshot.recorded = Decision(0, kHazardNone);
+  snapshot.recorded = Decision(99, kHazardNone);
   textures.Update(snapshot);
   EXPECT_EQ(Content(textures.names().difference, 4, 3).at(3, 2), RgbaFromHex(0xF0963C));
-  EXPECT_EQ(Content(textures.names().recorded_safe_distance, 4, 3).at(0, 0), RgbaFromHex(0xDCE9F7));
+  EXPECT_EQ(Content(textures.names().recorded_safe_distance, 4, 3).at(0, 0), RgbaFromHex(0x0A2250));
+}
+
+TEST_F(TextureSetTest, RangeIsTintedOnlyWhileAskedFor) {
+  TextureSet textures;
+  EngineSnapshot snapshot;
+  auto range = std::make_shared<RangeMap>();
+  range->depth_m = ImageF(4, 3);
+  for (int i = 0; i < 12; ++i) {
+    range->depth_m.pixels()[static_cast<std::size_t>(i)] = i == 11 ? NAN : 10.0F;
+  }
+  snapshot.range = range;
+  textures.Update(snapshot);
+  EXPECT_EQ(textures.names().range_tint, 0U);
+  textures.ShowRange(true);
+  textures.Update(snapshot);
+  ASSERT_NE(textures.names().range_tint, 0U);
+  EXPECT_LE(textures.names().range_tint_m.low, 10.0F);
+  EXPECT_GT(textures.names().range_tint_m.high, textures.names().range_tint_m.low);
+  const ImageRgba tint = Content(textures.names().range_tint, 4, 3);
+  EXPECT_GT(tint.at(0, 0).a, 100);
+  EXPECT_EQ(tint.at(3, 2).a, 0) << "unknown depth has no colour";
+  textures.ShowRange(false);
+  textures.Update(snapshot);
+  EXPECT_EQ(textures.names().range_tint, 0U);
 }
 
 TEST_F(TextureSetTest, ElevationRangeIsSetOncePerMission) {
