@@ -32,7 +32,9 @@ Result<std::unique_ptr<FlightRecorder>> FlightRecorder::Open(const std::filesyst
 
 ::palace::Status FlightRecorder::Record(const RecordItem& item) {
   waiting_.insert(waiting_.end(), item.commands.begin(), item.commands.end());
-  if (!item.bundle) {
+  // A flight begins with the first thing heard; a live vehicle's clock is not known before.
+  const bool nothing_heard = item.bundle && !any_ && item.bundle->time == Timestamp{};
+  if (!item.bundle || nothing_heard) {
     return Ok();
   }
   const Timestamp now = item.bundle->time;

@@ -23,7 +23,7 @@ struct StereoFrame {
 /// Immutable once published. Samples are in order of time and lie after the previous bundle's time.
 struct FrameBundle {
   std::uint64_t sequence = 0;
-  Timestamp time;  ///< the active clock when the bundle was complete; ages are measured against it
+  Timestamp time;  ///< active clock when complete, for ages; zero while a live source heard nothing
   std::shared_ptr<const StereoRig> rig;
   std::shared_ptr<const StereoFrame> stereo;    ///< null: a bundle without pictures
   std::optional<VehiclePose> pose_at_exposure;  ///< autopilot pose at stereo->time

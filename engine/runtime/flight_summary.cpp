@@ -29,7 +29,7 @@ void FlightSummarizer::Add(const EngineSnapshot& snapshot) {
     return;
   }
   last_sequence_ = snapshot.sequence;
-  if (!start_) {
+  if (!start_ || *start_ == Timestamp{}) {  // zero: a live source has heard nothing yet
     start_ = snapshot.time;
   }
   summary_.duration_s = SecondsBetween(*start_, snapshot.time);

@@ -50,8 +50,7 @@ LcmSource::LcmSource(std::shared_ptr<Bus> bus, ChannelNames channels, LcmSourceO
       options_(options),
       assembler_(channels_,
                  {.pair_window_s = AssemblerOptions{}.pair_window_s, .drop_repeated = true}),
-      opened_s_(MonotonicSeconds()),
-      last_delivery_s_(opened_s_) {
+      last_delivery_s_(MonotonicSeconds()) {
   status_.kind = SourceKind::kLive;
   status_.name = bus_->url();
 }
@@ -106,7 +105,7 @@ void LcmSource::Drain() {
 }
 
 Timestamp LcmSource::ClockNow(double now_s) const {
-  return anchor_ ? AddSeconds(*anchor_, now_s - anchor_s_) : AddSeconds({}, now_s - opened_s_);
+  return anchor_ ? AddSeconds(*anchor_, now_s - anchor_s_) : Timestamp{};
 }
 
 Result<std::shared_ptr<const FrameBundle>> LcmSource::Next(std::stop_token stop) {
@@ -145,10 +144,13 @@ std::shared_ptr<const FrameBundle> LcmSource::Deliver(std::shared_ptr<const Fram
       delivered->time = *last_time_;
     }
   }
-  last_time_ = delivered->time;
+  const bool begins = !last_time_ || delivered->discontinuity;
+  if (anchor_) {  // the vehicle's clock is not known before its first message
+    last_time_ = delivered->time;
+  }
   last_delivery_s_ = MonotonicSeconds();
   const std::lock_guard lock(mutex_);
-  if (status_.frame_index == 0 || delivered->discontinuity) {
+  if (begins) {
     status_.start = delivered->time;
   }
   status_.position_s = SecondsBetween(status_.start, delivered->time);

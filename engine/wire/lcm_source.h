@@ -19,7 +19,7 @@ namespace palace {
 
 struct LcmSourceOptions {
   /// Without a completed bundle for this long, Next delivers one without pictures, so that ages
-  /// grow and the mission notices silence.
+  /// grow and the mission notices silence. Its time is zero while nothing was ever heard.
   double heartbeat_s = 0.2;
 };
 
@@ -61,7 +61,6 @@ class LcmSource final : public Source {
   std::optional<Timestamp> anchor_;  ///< newest data time ...
   double anchor_s_ = 0;              ///< ... and the monotonic second it arrived
   std::optional<Timestamp> last_time_;
-  double opened_s_ = 0;
   double last_delivery_s_ = 0;
   std::uint64_t sequence_ = 0;
   mutable std::mutex mutex_;  ///< guards what Status and Report read

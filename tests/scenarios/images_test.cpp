@@ -64,7 +64,7 @@ TEST_F(Photographs, ExchangedPicturesAreNoticedAndGiveNoSite) {
 
 TEST_F(Photographs, PalaceShowsThemAndTheirSites) {
   WriteFile("look.script",
-            "wait item site/A 60\n"
+            "wait state PROPOSED 20\n"
             "expect text mode IMAGES\n"
             "screenshot fly.png\n"
             "click tab/Tune\n"

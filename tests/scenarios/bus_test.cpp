@@ -1,0 +1,123 @@
+// A vehicle on an LCM bus: palacectl simulate, or a log in the stock player, into palace --connect.
+#include <signal.h>
+
+#include "tests/scenarios/private_network.h"
+#include "tests/scenarios/scenario.h"
+
+namespace palace {
+namespace {
+
+constexpr const char* kUrl = "udpm://239.255.76.67:7667?ttl=0";
+
+class LiveBus : public Scenario {
+ protected:
+  void SetUp() override {
+    std::string why_not;
+    network_ = PrivateNetwork::Create(why_not);
+    if (!network_) {
+      GTEST_SKIP() << why_not;
+    }
+  }
+  /// The station inside the network, driven by a script.
+  ProcessResult Station(const std::string& record) {
+    return RunProcess(network_->Inside(Palace({"--headless", "--connect", kUrl, "--script",
+                                               "look.script", "--record", record})),
+                      60);
+  }
+  std::unique_ptr<PrivateNetwork> network_;
+};
+
+/// Pictures and poses of a recorded flight.
+struct Heard {
+  int pictures = 0;
+  int poses = 0;
+};
+
+Heard HeardIn(const std::filesystem::path& log) {
+  Heard heard;
+  const auto source = OpenLog(log);
+  for (auto bundle = source->Next({}); bundle; bundle = source->Next({})) {
+    heard.pictures += (*bundle)->stereo ? 1 : 0;
+    heard.poses += static_cast<int>((*bundle)->poses.size());
+  }
+  return heard;
+}
+
+bool Reaches(const FlightRecord& record, MissionState state) {
+  for (const FlightRecordSample& sample : record.samples) {
+    if (sample.state == state) {
+      return true;
+    }
+  }
+  return false;
+}
+
+TEST_F(LiveBus, TheSimulatedVehicleAndItsLogInTheStockPlayerAppearLive) {
+  WriteFile("look.script",
+            "wait state PROPOSED 60\n"
+            "expect text mode LIVE\n"
+            "wait seconds 1\n"
+            "screenshot live.png\n"
+            "quit\n");
+  Process vehicle(network_->Inside(Palacectl(
+      {"simulate", "--scenario", "runway", "--url", kUrl, "--realtime", "--duration-s", "60"})));
+  const ProcessResult station = Station("rec");
+  EXPECT_EQ(station.exit_code, 0) << station.err;
+  vehicle.Signal(SIGINT);
+  const ProcessResult flown = vehicle.Wait(10);
+  EXPECT_EQ(flown.exit_code, 0) << flown.err;
+  EXPECT_EQ(flown.out.find(" 0 messages from the station"), std::string::npos) << flown.out;
+
+  const auto flights = FlightsIn(folder_ / "rec");
+  ASSERT_EQ(flights.size(), 1u) << station.err << vehicle.Out();
+  EXPECT_TRUE(std::filesystem::exists(flights[0] / "live.png"));
+  const std::filesystem::path log = flights[0] / "flight.lcm";
+  const Heard heard = HeardIn(log);
+  EXPECT_GE(heard.pictures, 10);
+  EXPECT_GE(heard.poses, 50);
+  const auto record = OpenLog(log)->recorded();
+  EXPECT_TRUE(Reaches(*record, MissionState::kProposed));
+  EXPECT_LT(record->duration_s, 60) << "the time before the first message is in the log";
+
+  if (FindProgram("lcm-logplayer").empty()) {
+    GTEST_SKIP() << "lcm-logplayer is not installed";
+  }
+  WriteFile("look.script",
+            "wait state SEARCH|PROPOSED 30\n"
+            "expect text mode LIVE\n"
+            "screenshot played.png\n"
+            "quit\n");
+  ProcessOptions player;
+  player.command = {"lcm-logplayer", "--speed=0.5", std::string("--lcm-url=") + kUrl, log};
+  player.prepare = [] {
+    usleep(1'500'000);  // the station listens before the log begins
+    return true;
+  };
+  const auto wait = player.prepare;
+  player = network_->Inside(player);
+  player.prepare = [wait, enter = player.prepare] { return enter() && wait(); };
+  Process playing(player);
+  const ProcessResult replayed = Station("rec2");
+  EXPECT_EQ(replayed.exit_code, 0) << replayed.err << playing.Err();
+  const auto second = FlightsIn(folder_ / "rec2");
+  ASSERT_EQ(second.size(), 1u) << replayed.err;
+  EXPECT_TRUE(std::filesystem::exists(second[0] / "played.png"));
+  const Heard again = HeardIn(second[0] / "flight.lcm");
+  EXPECT_GE(again.pictures, 1);
+  EXPECT_GE(again.poses, 5);
+}
+
+TEST_F(LiveBus, ASilentBusIsWaitedForAndLeavesNoFlight) {
+  WriteFile("look.script",
+            "wait seconds 0.5\n"
+            "expect state NO_LIVE\n"
+            "quit\n");
+  const ProcessResult station = Station("rec");
+  EXPECT_EQ(station.exit_code, 0) << station.err;
+  for (const auto& flight : FlightsIn(folder_ / "rec")) {
+    EXPECT_FALSE(std::filesystem::exists(flight / "flight.lcm"));
+  }
+}
+
+}  // namespace
+}  // namespace palace
