@@ -227,8 +227,18 @@ void DrawDiagnoseWorkspace(const EngineSnapshot& snap, const Rect& body, Diagnos
   };
   const std::size_t sites = snap.applied ? snap.applied->selection.sites.size() : 0;
   const float sites_h = std::min(rows_h(sites, 66), std::round(body.h * 0.36f));
-  DrawGuards(snap, {x, body.y, middle, body.h - sites_h - gap}, ui);
-  DrawSiteTable(snap, {x, body.bottom() - sites_h, middle, sites_h}, ui);
+  // Guards and sites as tall as they need; what is left lists the alarms.
+  constexpr std::size_t kGuards = 14;
+  const float guards_h =
+      std::min(rows_h(std::max(snap.mission.guards.size(), kGuards), 40), body.h - sites_h - gap);
+  const float alarms_y = body.y + guards_h + gap + sites_h + gap;
+  const bool alarms = body.bottom() - alarms_y > s.Px(80);
+  const float sites_y = alarms ? body.y + guards_h + gap : body.bottom() - sites_h;
+  DrawGuards(snap, {x, body.y, middle, sites_y - gap - body.y}, ui);
+  DrawSiteTable(snap, {x, sites_y, middle, sites_h}, ui);
+  if (alarms) {
+    DrawAlarmTable(snap, {x, alarms_y, middle, body.bottom() - alarms_y}, ui);
+  }
   const float right_x = x + middle + gap, right = body.right() - right_x;
   const auto share = [&](float wanted, float most) {
     return std::min(s.Px(wanted), std::round(body.h * most));

@@ -14,6 +14,8 @@ struct DiagnoseState {
 float RowPitch(const Style& style, float height, std::size_t rows);
 /// Each guard of the armed site: passes, or why not.
 void DrawGuards(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui);
+/// All alarms, worst first, with their times.
+void DrawAlarmTable(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui);
 /// Figures of the candidates of the newest map.
 void DrawSiteTable(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui);
 void DrawDiagnoseWorkspace(const EngineSnapshot& snap, const Rect& body, DiagnoseState& state,

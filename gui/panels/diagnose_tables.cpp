@@ -62,6 +62,43 @@ void DrawGuards(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui) {
   }
 }
 
+void DrawAlarmTable(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui) {
+  const Style& s = ui.style;
+  const Palette& p = s.palette;
+  const std::vector<Alarm>& alarms = snap.mission.alarms;
+  const Rect content = DrawPanelFrame(ui, rect, "Alarms");
+  float y = content.y + s.Px(12);
+  if (alarms.empty()) {
+    DrawText(ui, s.body, p.text2, content.x + s.Px(12), y,
+             "No alarm stands or waits for an answer.");
+  }
+  for (const Alarm& alarm : alarms) {
+    if (y + s.Px(10) > rect.bottom()) {
+      return;
+    }
+    const bool warning = alarm.level == AlarmLevel::kWarning;
+    const bool caution = alarm.level == AlarmLevel::kCaution;
+    DrawIcon(Canvas(),
+             warning   ? Icon::kWarning
+             : caution ? Icon::kCaution
+                       : Icon::kAdvisory,
+             {content.x + s.Px(20), y}, s.Px(12),
+             warning   ? p.warning
+             : caution ? p.caution
+                       : p.advisory);
+    const float x = content.x + s.Px(36);
+    const float time_w = DrawText(ui, s.mono, p.text2, x, y, ClockText(alarm.since)) + s.Px(14);
+    const std::string state = !alarm.active        ? "Cleared"
+                              : alarm.acknowledged ? "Acknowledged"
+                                                   : "Stands";
+    const float right = content.right() - s.Px(12);
+    const float state_w = DrawText(ui, s.caption, p.text2, right, y, state, Align::kRight);
+    DrawText(ui, s.body, p.text1, x + time_w, y,
+             FitWords(s.body, alarm.text, right - state_w - s.Px(12) - x - time_w));
+    y += s.Px(26);
+  }
+}
+
 void DrawSiteTable(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui) {
   const Style& s = ui.style;
   const Palette& p = s.palette;

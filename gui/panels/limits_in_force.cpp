@@ -55,6 +55,7 @@ void DrawLimitsInForcePanel(const EngineSnapshot& snap, const Rect& rect, bool n
     if (moving_over) {
       // Still on the level leg towards the site: the limit holds from where it sinks.
       rows.back().share = rows.back().share_3s = NAN;
+      rows.back().limit = "moving over";
     }
   } else {
     rows.push_back(Row("Off the path", now.glide_deviation_m, position_3s, 2, kMaxOffPath_m, "m"));

@@ -23,8 +23,8 @@ void DrawModeBlock(const EngineSnapshot& snap, const Rect& r, bool frozen, UiFra
   } else if (snap.source.kind == SourceKind::kReplay) {
     word = "REPLAY";
     FillRect(dl, r, p.replay);
-    DrawIcon(dl, Icon::kReplay, {icon_x - s.Px(2), y}, s.Px(20), p.on_replay);
-    DrawText(ui, s.mode_replay, p.on_replay, r.x + s.Px(32), y, word);
+    DrawIcon(dl, Icon::kReplay, {icon_x + s.Px(2), y}, s.Px(20), p.on_replay);
+    DrawText(ui, s.mode_replay, p.on_replay, r.x + s.Px(36), y, word);
   } else if (snap.source.kind == SourceKind::kSimulation) {
     word = "SIM";
     Stripes(dl, r, p.white_mark, p.on_white, s.Px(6));

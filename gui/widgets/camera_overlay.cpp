@@ -71,6 +71,12 @@ void DrawSites(UiFrame& ui, const PictureView& view, const SiteOverlay& overlay)
       }
       const float half = s.Px(12);
       middle_y += covers ? half + s.Px(6) : 0;
+      // A letter in the middle of the ring stays readable.
+      for (std::size_t i = 0; overlay.sites != nullptr && i < overlay.sites->size(); ++i) {
+        const LandingSite& site = (*overlay.sites)[i];
+        const bool under = (site.p_WS - overlay.ghost->p_WS).norm() < 0.5;
+        middle_y -= !covers && under && site.id != selected ? s.Px(28) : 0;
+      }
       middle_y = std::clamp(middle_y, view.rect.y + half, view.rect.bottom() - s.Px(44) - half);
       const float left = std::clamp(at->x - width / 2, view.rect.x,
                                     std::max(view.rect.x, view.rect.right() - width));

@@ -117,8 +117,8 @@ void DrawAction(const Pen& p, Icon icon) {
       break;
     case Icon::kReset:
     case Icon::kReplay:
-      p.Arc(0.65f, -250, 20);
-      p.Triangle(-0.75f, -0.85f, -0.15f, -0.55f, -0.68f, -0.15f);
+      p.Arc(0.65f, 0, 285);
+      p.Triangle(0.1f, -1.05f, 0.8f, -0.65f, 0.1f, -0.2f);
       break;
     case Icon::kChevronDown:
       p.Line(-0.5f, -0.25f, 0, 0.3f);

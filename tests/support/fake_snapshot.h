@@ -107,7 +107,7 @@ inline std::vector<HistorySample> History(bool descending) {
     h.descent_rate_mps = fall > 0 ? 0.58 + 0.05 * wave : 0.02 * wave;
     h.coherence = 0.9 + 0.06 * wave - (i > -160 && i < -130 ? 0.2 : 0.0);
     h.residual_sigma = 3.0 * (SmoothNoise(i * 0.5, 5) - 0.5);
-    h.glide_deviation_m = 0.4 * (wave - 0.5);
+    h.glide_deviation_m = 0.1 + 0.2 * std::abs(wave);
     h.estimate_p_WB = {0.0, 0.0, -h.height_above_site_m};
     h.estimate_v_WB = {0, 0, h.descent_rate_mps};
     h.estimate_sigma_m = {0.03, 0.03, 0.05};
