@@ -22,7 +22,8 @@ void DrawLeft(const EngineSnapshot& snap, const Rect& rect, ReviewState& state, 
   look.decision = snap.applied.get();
   look.ghost = snap.recorded.get();
   look.ghost_word = "recorded";
-  look.plate = snap.recorded ? "Re-decided overlay" : "";
+  look.plate =
+      snap.recorded && !(MapAge(snap, look.decision) > kOldMap_s) ? "Re-decided overlay" : "";
   look.probe = &state.probe;
   DrawLeftPicture(ui, content, snap, look, state.overlay);
 }
@@ -155,7 +156,7 @@ void DrawRedecidePanel(const EngineSnapshot& snap, const FlightRecord* record, c
   DrawText(ui, s.caption, p.text2, content.x + pad, head, "Limit");
   DrawText(ui, s.caption, p.text2, recorded_x, head, "Recorded", Align::kRight);
   DrawText(ui, s.caption, p.text2, content.right() - pad, head, "Re-decided", Align::kRight);
-  const float button_h = s.Px(36);
+  const float button_h = s.Px(rect.h < s.Px(210) ? 32 : 36);
   float y = content.y + s.Px(20);
   const float room = rect.bottom() - button_h - s.Px(10) - y;
   const float pitch =
