@@ -5,6 +5,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 
+#include "engine/runtime/engine.h"
 #include "gui/app/layout.h"
 #include "tests/scenarios/scenario.h"
 
@@ -137,6 +138,25 @@ bool Underlined(const cv::Mat& picture, const Rect& tab, const Rect& bar) {
   return pixel[0] > 200 && pixel[1] > 200 && pixel[2] > 200;
 }
 
+/// Passes of the recorded flight that a replay decides otherwise; -1 when it fails altogether.
+int Divergences(const std::filesystem::path& log) {
+  EngineParts parts;
+  auto source = OpenLog(log);
+  const auto record = source->recorded();
+  parts.settings = record->settings_at_start;
+  parts.source = std::move(source);
+  Engine engine(std::move(parts), /*threaded=*/false);
+  int different = 0;
+  std::size_t pass = 0;
+  for (; engine.Step(); ++pass) {
+    different += pass < record->samples.size() &&
+                         engine.Latest()->decision_hash == record->samples[pass].decision_hash
+                     ? 0
+                     : 1;
+  }
+  return engine.error().empty() && pass == record->samples.size() ? different : -1;
+}
+
 TEST_F(RealWindow, FliesUntilTheWaveOff) {
   const FlyLayout fly = ComputeFlyLayout(kWidth, kHeight, 1, false);
   // The tabs begin 156 units right of the mode block; their width follows the text.
@@ -208,6 +228,8 @@ TEST_F(RealWindow, FliesUntilTheWaveOff) {
   EXPECT_EQ(selected, 1);
   EXPECT_EQ(approvals, 1);
   EXPECT_EQ(wave_offs, 1);
+  // It was decided on one thread and recorded on another; read back on a third it is the same.
+  EXPECT_EQ(Divergences(flights[0] / "flight.lcm"), 0);
 }
 
 }  // namespace
