@@ -1,4 +1,5 @@
 // What the mission publishes: guards, geometry and alarms.
+#include <algorithm>
 #include <cmath>
 #include <cstdarg>
 #include <cstdio>
@@ -7,6 +8,24 @@
 
 namespace palace {
 namespace {
+
+// The path's last legs, as the vehicle flies them (DESIGN.md 6, last metres).
+constexpr double kSettleHeight_m = 2;  // level above this, over the site
+constexpr double kLevelSpeed_mps = 0.5;
+constexpr double kSettleTime_s = 4;  // until it hovers still enough to sink
+constexpr double kLastSinkRate_mps = 0.35;
+constexpr double kOverSite_m = 0.3;
+
+/// Glide slope, level leg, settling and the last sink, one after the other.
+double TimeToTouchdown(double height_m, double distance_m, double descent_rate_mps) {
+  const double above_m = std::max(0.0, height_m - kSettleHeight_m);
+  const double sink_s = std::clamp(height_m, 0.0, kSettleHeight_m) / kLastSinkRate_mps;
+  const bool sinking = height_m < kSettleHeight_m - kOverSite_m;
+  // The camera leads the skids by about the settle height: that leg is flown level.
+  const double level_m = sinking ? 0 : above_m > 0 ? 1.7 * kSettleHeight_m : distance_m;
+  const double settle_s = sinking ? 0 : kSettleTime_s;
+  return above_m / descent_rate_mps + level_m / kLevelSpeed_mps + settle_s + sink_s;
+}
 
 constexpr double kMaxGpsError_m = 2.0;
 constexpr double kLateVision_s = 0.3;
@@ -110,7 +129,8 @@ void Mission::PublishGeometry(const MissionInputs& in) {
   status_.time_to_touchdown_s =
       status_.state == MissionState::kLanded
           ? 0
-          : std::max(0.0, status_.height_above_site_m) / facts_.limits.descent_rate_mps;
+          : TimeToTouchdown(status_.height_above_site_m, status_.distance_to_site_m,
+                            facts_.limits.descent_rate_mps);
 }
 
 double Mission::LaserMismatch(const MissionInputs& in) const {
