@@ -19,7 +19,7 @@ click tab/Fly
 wait state PROPOSED 30
 wait seconds 1.5
 # Arm the best site, look at its evidence, approve.
-click site/A
+click site/best
 wait state ARMED 5
 wait item approve 20
 wait seconds 1.2

@@ -71,6 +71,10 @@ void DrawSiteListPanel(const EngineSnapshot& snap, const FlyLayout& layout, Site
       ui.intents.push_back(CommandAction(SelectSite{site.id}));
       state.highlighted = 0;
     }
+    if (i == 0) {
+      // Letters stay with places, so scripts need a name for whatever leads.
+      ui.items.Add("site/best", rect, look.enabled, std::string(1, site.letter));
+    }
   }
   if (beyond > 0) {
     const float share = list.h / (list.h + beyond);
