@@ -83,7 +83,10 @@ class HeadlessRun {
     if (snapshot) {
       summarizer_.Add(*snapshot);
     }
-    const ScriptInput input = script_.Tick(view_->items(), snapshot.get(), time_s_);
+    // A picture shows the window as it was when it was asked for; the script waits for it.
+    const bool pixels = !state_.screenshots_wanted.empty();
+    const ScriptInput input =
+        pixels ? script_.Rest() : script_.Tick(view_->items(), snapshot.get(), time_s_);
     if (input.resize) {
       const Status resized = offscreen_->SetSize(input.resize->first, input.resize->second);
       if (!resized) {
@@ -93,7 +96,6 @@ class HeadlessRun {
     const int width = offscreen_->width_px(), height = offscreen_->height_px();
     backend_->SetUiScale(View::FittingScale(width, height, state_.scale));
     FeedScriptInput(input, keys_down_);
-    const bool pixels = !state_.screenshots_wanted.empty();
     backend_->BeginFrame(kFrame_s);
     const ViewFrame frame{width, height, time_s_, 0};
     if (pixels && snapshot) {

@@ -156,15 +156,19 @@ ScriptInput ScriptRunner::Tick(const ItemRecord& items, const EngineSnapshot* sn
     }
   }
   if (pending_.empty()) {
-    ScriptInput rest;
-    rest.mouse = mouse_;
-    return rest;
+    return Rest();
   }
   current_ = std::move(pending_.front());
   pending_.pop_front();
   current_since_s_ = now_s_;
   mouse_ = current_->input.mouse;
   return current_->input;
+}
+
+ScriptInput ScriptRunner::Rest() const {
+  ScriptInput rest;
+  rest.mouse = mouse_;
+  return rest;
 }
 
 void ScriptRunner::Begin(const ScriptLine& line, const ItemRecord& items,

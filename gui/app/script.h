@@ -45,6 +45,8 @@ class ScriptRunner {
 
   /// To be called before each frame with what the last frame drew.
   ScriptInput Tick(const ItemRecord& items, const EngineSnapshot* snapshot, double ui_time_s);
+  /// What to feed while a picture is being taken: the mouse stays, nothing else happens.
+  ScriptInput Rest() const;
   bool done() const { return done_; }
   /// Set when a line failed: file, line, text and what was found instead.
   const std::string& error() const { return error_; }

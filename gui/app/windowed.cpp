@@ -132,7 +132,9 @@ class WindowedRun {
     }
     ScriptInput input;
     if (script_) {
-      input = script_->Tick(view_->items(), snapshot.get(), ui_time_s);
+      input = state_.screenshots_wanted.empty()
+                  ? script_->Tick(view_->items(), snapshot.get(), ui_time_s)
+                  : script_->Rest();
       if (input.resize) {
         window_->SetSize(input.resize->first, input.resize->second);
       }
