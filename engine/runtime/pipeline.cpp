@@ -1,53 +1,17 @@
 #include "engine/runtime/pipeline.h"
 
-#include <algorithm>
 #include <cmath>
-#include <exception>
 #include <utility>
 
-#include "engine/core/hash.h"
-#include "engine/core/time.h"
 #include "engine/runtime/decision_hash.h"
+#include "engine/runtime/pipeline_pass.h"
 
 namespace palace {
 namespace {
 
 constexpr double kTallestObject_m = 3;
 
-bool IsSettingCommand(const EngineCommand& command) {
-  return std::holds_alternative<SetSetting>(command.action) ||
-         std::holds_alternative<ApplySettings>(command.action) ||
-         std::holds_alternative<DiscardSettings>(command.action);
-}
-
 }  // namespace
-
-/// One pass: the snapshot under construction and what only this pass needs.
-struct Pipeline::Pass {
-  std::shared_ptr<const FrameBundle> bundle;
-  std::vector<EngineCommand> commands;
-  const SessionStatus& session;
-  std::shared_ptr<EngineSnapshot> snapshot = std::make_shared<EngineSnapshot>();
-  RectifiedPair pair{};
-  std::shared_ptr<const TerrainDecision> decision_of_record{};
-  bool new_map = false;
-  bool settings_moved = false;
-
-  void Note(DiagnosticLevel level, std::string stage, std::string message) {
-    snapshot->diagnostics.push_back({level, std::move(stage), std::move(message)});
-  }
-  /// Runs one stage; a library's exception becomes a stage fault, never a crash. Times it.
-  template <typename Stage>
-  void Run(const char* name, Stage&& stage) {
-    const double start_s = MonotonicSeconds();
-    try {
-      stage();
-    } catch (const std::exception& error) {
-      Note(DiagnosticLevel::kError, name, std::string("stage failed: ") + error.what());
-    }
-    snapshot->timings.push_back({name, (MonotonicSeconds() - start_s) * 1e3});
-  }
-};
 
 Pipeline::Pipeline(const Settings& settings, MissionOptions mission)
     : settings_(settings), mission_(std::move(mission)) {}
@@ -119,67 +83,6 @@ PipelineOutput Pipeline::Refresh(std::vector<EngineCommand> commands,
     pass.snapshot->mission = mission_.status();
   }
   return Publish(pass);
-}
-
-void Pipeline::ApplySettingCommand(Pass& pass, const EngineCommand& command) {
-  const bool of_record = command.origin == CommandOrigin::kReplay;
-  const bool preview_only = mission_.SettingsFrozen() && (!replaying_ || of_record);
-  Status done = Ok();
-  std::string text;
-  if (const auto* set = std::get_if<SetSetting>(&command.action)) {
-    const SettingInfo* info = FindSetting(set->name);
-    const double before = info ? GetSetting(settings_.applied(), set->name) : 0;
-    done = of_record ? settings_.SetRecorded(set->name, set->value, preview_only)
-                     : settings_.Set(set->name, set->value, preview_only);
-    if (done) {
-      text = info->label + (preview_only ? " previewed " : " ") + FormatSetting(*info, before) +
-             " to " + FormatSetting(*info, set->value);
-    }
-  } else if (std::holds_alternative<ApplySettings>(command.action)) {
-    if (mission_.status().state == MissionState::kDescending) {
-      done = InvalidError("limits cannot be applied during the descent, only previewed");
-    } else if (of_record || settings_.previewing()) {
-      mission_.DropApproval("limits applied");
-      of_record ? settings_.ApplyRecorded() : settings_.Apply();
-      text = "Previewed limits applied";
-    }
-  } else {
-    of_record ? settings_.DiscardRecorded() : settings_.Discard();
-    text = "Preview discarded";
-  }
-  if (!done) {
-    pass.Note(DiagnosticLevel::kWarning, "settings", done.error().message);
-    mission_.AddEvent(pass.snapshot->time, EventKind::kSetting, "Refused: " + done.error().message);
-    return;
-  }
-  if (!replaying_) {
-    settings_.FollowApplied();
-  }
-  pass.settings_moved = true;
-  if (!text.empty()) {
-    mission_.AddEvent(pass.snapshot->time, EventKind::kSetting, std::move(text));
-  }
-}
-
-void Pipeline::ApplyCommands(Pass& pass) {
-  if (replaying_ && pass.bundle && pass.bundle != last_bundle_) {
-    std::vector<EngineCommand> recorded = pass.bundle->recorded_commands;
-    for (EngineCommand& command : recorded) {
-      command.origin = CommandOrigin::kReplay;
-    }
-    pass.commands.insert(pass.commands.begin(), recorded.begin(), recorded.end());
-  }
-  const Timestamp before = last_ ? last_->time : pass.snapshot->time;
-  for (const EngineCommand& command : pass.commands) {
-    if (IsSettingCommand(command)) {
-      ApplySettingCommand(pass, command);
-      continue;
-    }
-    const Status done = mission_.Apply(command, before);
-    if (!done) {
-      pass.Note(DiagnosticLevel::kWarning, "mission", done.error().message);
-    }
-  }
 }
 
 void Pipeline::PrepareRig(Pass& pass) {

@@ -1,0 +1,42 @@
+// What one call of the pipeline works on. For the pipeline's own files only.
+#pragma once
+
+#include <exception>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "engine/core/time.h"
+#include "engine/runtime/pipeline.h"
+
+namespace palace {
+
+/// One pass: the snapshot under construction and what only this pass needs.
+struct Pipeline::Pass {
+  std::shared_ptr<const FrameBundle> bundle;
+  std::vector<EngineCommand> commands;
+  const SessionStatus& session;
+  std::shared_ptr<EngineSnapshot> snapshot = std::make_shared<EngineSnapshot>();
+  RectifiedPair pair{};
+  std::shared_ptr<const TerrainDecision> decision_of_record{};
+  bool new_map = false;
+  bool settings_moved = false;
+
+  void Note(DiagnosticLevel level, std::string stage, std::string message) {
+    snapshot->diagnostics.push_back({level, std::move(stage), std::move(message)});
+  }
+  /// Runs one stage; a library's exception becomes a stage fault, never a crash. Times it.
+  template <typename Stage>
+  void Run(const char* name, Stage&& stage) {
+    const double start_s = MonotonicSeconds();
+    try {
+      stage();
+    } catch (const std::exception& error) {
+      Note(DiagnosticLevel::kError, name, std::string("stage failed: ") + error.what());
+    }
+    snapshot->timings.push_back({name, (MonotonicSeconds() - start_s) * 1e3});
+  }
+};
+
+}  // namespace palace
