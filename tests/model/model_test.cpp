@@ -1,0 +1,91 @@
+// Grids, settings table and scene truth.
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "engine/core/random.h"
+#include "engine/core/units.h"
+#include "engine/model/grid.h"
+#include "engine/model/scene.h"
+#include "engine/model/settings.h"
+
+namespace palace {
+namespace {
+
+TEST(GridGeometry, RowZeroIsNorthAndCellsHoldTheirCentres) {
+  const GridGeometry g{4, 6, 0.5, 10, 20};
+  EXPECT_DOUBLE_EQ(g.NorthOfRow(0), 11.75);
+  EXPECT_DOUBLE_EQ(g.EastOfCol(0), 20.25);
+  for (int r = 0; r < g.rows; ++r) {
+    for (int c = 0; c < g.cols; ++c) {
+      EXPECT_EQ(g.CellFromPoint(g.NorthOfRow(r), g.EastOfCol(c)), (Cell{r, c}));
+    }
+  }
+  EXPECT_FALSE(g.CellFromPoint(12.01, 20.2));
+  EXPECT_FALSE(g.CellFromPoint(9.99, 20.2));
+  EXPECT_FALSE(g.CellFromPoint(NAN, 20.2));
+}
+
+TEST(Settings, EveryRowIsConsistent) {
+  const Settings defaults;
+  for (const SettingInfo& info : SettingTable()) {
+    EXPECT_LE(info.min, info.default_value) << info.name;
+    EXPECT_GE(info.max, info.default_value) << info.name;
+    EXPECT_LE(info.min, info.soft_min) << info.name;
+    EXPECT_GE(info.max, info.soft_max) << info.name;
+    EXPECT_EQ(GetSetting(defaults, info.name), info.default_value) << info.name;
+    EXPECT_FALSE(info.label.empty() || info.description.empty()) << info.name;
+    Settings copy = defaults;
+    EXPECT_TRUE(SetSettingValue(copy, info.name, ClampSetting(info, info.max))) << info.name;
+    EXPECT_TRUE(SetSettingValue(copy, info.name, ClampSetting(info, info.min))) << info.name;
+    EXPECT_FALSE(SetSettingValue(copy, info.name, info.max + 1)) << info.name;
+    EXPECT_FALSE(SetSettingValue(copy, info.name, NAN)) << info.name;
+  }
+}
+
+TEST(Settings, HashFollowsEveryValue) {
+  const Settings defaults;
+  for (const SettingInfo& info : SettingTable()) {
+    Settings changed = defaults;
+    const double other = info.default_value == ClampSetting(info, info.max)
+                             ? ClampSetting(info, info.min)
+                             : ClampSetting(info, info.max);
+    ASSERT_TRUE(SetSettingValue(changed, info.name, other)) << info.name;
+    EXPECT_NE(HashOf(changed), HashOf(defaults)) << info.name;
+  }
+}
+
+TEST(Settings, ShownWithTheirUnit) {
+  EXPECT_EQ(FormatSetting(*FindSetting("slad.max_slope_deg"), 10), "10.0°");
+  EXPECT_EQ(FormatSetting(*FindSetting("slad.max_deviation_m"), 0.08), "8.0 cm");
+  EXPECT_EQ(FormatSetting(*FindSetting("slad.mode"), 0), "thesis");
+}
+
+TEST(Scene, ObstacleDistanceAgainstSampledEdges) {
+  Scene scene;
+  SceneObject box;
+  box.north_m = 1;
+  box.east_m = 2;
+  box.yaw_rad = Rad(30);
+  box.size_north_m = 2;
+  box.size_east_m = 1;
+  scene.objects.push_back(box);
+  constexpr std::uint64_t kSeed = 3;
+  SCOPED_TRACE("seed 3");
+  RandomStream random(kSeed);
+  for (int i = 0; i < 200; ++i) {
+    const double n = random.Uniform(-6, 8), e = random.Uniform(-6, 8);
+    double nearest = INFINITY;
+    for (double u = -1; u <= 1.0001; u += 0.01) {
+      for (double v = -0.5; v <= 0.5001; v += 0.01) {
+        const double c = std::cos(box.yaw_rad), s = std::sin(box.yaw_rad);
+        nearest = std::min(
+            nearest, std::hypot(box.north_m + c * u - s * v - n, box.east_m + s * u + c * v - e));
+      }
+    }
+    EXPECT_NEAR(scene.ObstacleDistance(n, e), nearest, 0.02);
+  }
+}
+
+}  // namespace
+}  // namespace palace
