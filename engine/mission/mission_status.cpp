@@ -11,6 +11,7 @@ namespace {
 
 // The path's last legs, as the vehicle flies them (DESIGN.md 6, last metres).
 constexpr double kSettleHeight_m = 2;  // level above this, over the site
+constexpr double kAlignTime_s = 7;     // turn to the site and fly to the slope, before descending
 constexpr double kLevelSpeed_mps = 0.5;
 constexpr double kSettleTime_s = 4;  // until it hovers still enough to sink
 constexpr double kLastSinkRate_mps = 0.35;
@@ -127,10 +128,12 @@ void Mission::PublishGeometry(const MissionInputs& in) {
   status_.height_above_site_m = site->p_WS.z() - in.skid_centre_W.z();
   status_.distance_to_site_m = (site->p_WS - in.skid_centre_W).head<2>().norm();
   status_.time_to_touchdown_s =
-      status_.state == MissionState::kLanded
-          ? 0
-          : TimeToTouchdown(status_.height_above_site_m, status_.distance_to_site_m,
-                            facts_.limits.descent_rate_mps);
+      status_.state == MissionState::kLanded ? 0
+      : status_.state == MissionState::kAborting || status_.state == MissionState::kHold
+          ? NAN
+          : (status_.state == MissionState::kDescending ? 0 : kAlignTime_s) +
+                TimeToTouchdown(status_.height_above_site_m, status_.distance_to_site_m,
+                                facts_.limits.descent_rate_mps);
 }
 
 double Mission::LaserMismatch(const MissionInputs& in) const {

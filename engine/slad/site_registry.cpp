@@ -6,8 +6,8 @@
 namespace palace {
 namespace {
 
-constexpr double kSamePlace_m = 1.0;
-constexpr std::size_t kLetters = 12;
+constexpr double kSamePlace_m = 1.5;
+constexpr std::size_t kLetters = 26;
 
 }  // namespace
 

@@ -49,6 +49,22 @@ std::vector<std::size_t> NumberWords(const ScriptLine& line) {
   return {};
 }
 
+/// Every choice of "HOLD|PROPOSED" must be a state.
+std::string UnknownState(const std::string& wanted) {
+  std::string known;
+  for (int i = 0; i <= static_cast<int>(MissionState::kLanded); ++i) {
+    known +=
+        std::string(known.empty() ? "" : ", ") + MissionStateName(static_cast<MissionState>(i));
+  }
+  std::istringstream choices(wanted);
+  for (std::string choice; std::getline(choices, choice, '|');) {
+    if ((", " + known + ",").find(", " + choice + ",") == std::string::npos) {
+      return "unknown state '" + choice + "'; states are " + known;
+    }
+  }
+  return {};
+}
+
 std::string Problem(const ScriptLine& line) {
   const auto verb = Verbs().find(line.verb);
   if (verb == Verbs().end()) {
@@ -70,8 +86,13 @@ std::string Problem(const ScriptLine& line) {
       return "'" + line.words[index] + "' is not a number";
     }
   }
-  if (line.verb == "set" && FindSetting(line.words[0]) == nullptr) {
-    return "unknown setting '" + line.words[0] + "'";
+  if (line.verb == "set") {
+    Settings trial;
+    const Status possible = SetSettingValue(trial, line.words[0], *Number(line.words[1]));
+    return possible ? std::string() : possible.error().message;
+  }
+  if ((line.verb == "wait" || line.verb == "expect") && line.words[0] == "state") {
+    return UnknownState(line.words[1]);
   }
   return {};
 }

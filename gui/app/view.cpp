@@ -205,8 +205,10 @@ void View::DrawMessage(const FrameLayout& layout, const UiState& state, UiFrame&
   const Style& s = style_;
   const float width =
       std::min(TextWidth(s.body, state.message) + s.Px(32), layout.body.w - s.Px(32));
-  const Rect toast{layout.body.right() - width - s.Px(16), layout.body.bottom() - s.Px(60), width,
-                   s.Px(44)};
+  // Beside the right column, where approve and apply are.
+  const float right = layout.body.right() - s.Px(layout.narrow ? 360 : 432);
+  const Rect toast{std::max(layout.body.x, right - width - s.Px(16)),
+                   layout.body.bottom() - s.Px(60), width, s.Px(44)};
   ImDrawList* dl = Canvas();
   FillRect(dl, toast, s.palette.control, s.Fine(4));
   StrokeRect(dl, toast, s.palette.line, 1, s.Fine(4));

@@ -139,10 +139,11 @@ class WindowedRun {
         window_->SetSize(input.resize->first, input.resize->second);
       }
     }
-    backend_->BeginFrame();
-    if (script_) {
-      FeedScriptInput(input, keys_down_);
-    }
+    backend_->BeginFrame(0, [&] {
+      if (script_) {
+        FeedScriptInput(input, keys_down_);
+      }
+    });
     const ViewFrame frame{window_->width_px(), window_->height_px(), ui_time_s, frame_ms_};
     Intents intents =
         view_->Draw(snapshot.get(), session_.record.get(), state_, backend_->fonts(), frame);
@@ -197,8 +198,10 @@ class WindowedRun {
       if (!saved && script_) {
         return saved;
       }
-      ShowMessage(state_, saved ? "Screenshot saved: " + name : saved.error().message,
-                  last_s_ - start_s_);
+      if (!script_) {
+        ShowMessage(state_, saved ? "Screenshot saved: " + name : saved.error().message,
+                    last_s_ - start_s_);
+      }
       screenshots_.push_back(name);
     }
     state_.screenshots_wanted.clear();

@@ -54,7 +54,9 @@ void DrawChecksColumn(const EngineSnapshot& snap, const Rect& column, bool narro
     return;
   }
   for (const LandingSite& site : shown->selection.sites) {
-    if (site.id != snap.mission.armed->id) {
+    // A place that shares ground with the approved one is no alternative.
+    const double apart_m = (site.p_WS - snap.mission.armed->p_WS).head<2>().norm();
+    if (site.id != snap.mission.armed->id && apart_m > site.clear_radius_m) {
       DrawText(ui, s.caption, p.text2, column.x, y, "Alternative kept");
       LetterPlate(ui, {column.x + s.Px(10), y + s.Px(24)}, site.letter, false);
       DrawText(ui, s.medium, p.text1, column.x + s.Px(28), y + s.Px(24),

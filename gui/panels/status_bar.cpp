@@ -30,6 +30,20 @@ std::string LinkText(const EngineSnapshot& snap, bool narrow) {
   return text;
 }
 
+/// Simulated time starts at an epoch of its own; only live and recorded clocks are UTC.
+const char* ClockName(const EngineSnapshot& snap) {
+  switch (snap.source.kind) {
+    case SourceKind::kSimulation:
+      return " sim";
+    case SourceKind::kReplay:
+      return " log";
+    case SourceKind::kImages:
+      return " set";
+    default:
+      return " UTC";
+  }
+}
+
 std::string RecordingText(const EngineSnapshot& snap, bool narrow) {
   if (!snap.recording) {
     return snap.source.kind == SourceKind::kReplay ? "" : "Not recording";
@@ -76,9 +90,10 @@ void DrawStatusBarPanel(const EngineSnapshot& snap, const FrameLayout& layout,
   const float y = bar.centre().y;
   const float gap = s.Px(24);
   float right = bar.right() - s.Px(12);
-  right -= DrawText(ui, s.mono, p.text2, right, y, ClockText(snap.time) + " UTC", Align::kRight);
+  right -= DrawText(ui, s.mono, p.text2, right, y, ClockText(snap.time) + ClockName(snap),
+                    Align::kRight);
   const std::size_t sites = snap.applied ? snap.applied->selection.sites.size() : 0;
-  std::vector<std::string> group = {"In control: you"};
+  std::vector<std::string> group = {snap.can_transmit ? "In control: you" : "Watching"};
   if (narrow) {
     group.push_back(ChannelsText(snap));
     std::swap(group[0], group[1]);

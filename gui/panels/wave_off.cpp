@@ -14,6 +14,10 @@ std::string SecondLine(const EngineSnapshot& snap, const FrameState& state, doub
   if (aborting && snap.vehicle && snap.vehicle->mode == VehicleMode::kAbort) {
     return "Vehicle confirms";
   }
+  if (aborting && snap.vehicle && snap.vehicle->mode == VehicleMode::kHover &&
+      now_s - state.wave_off_sent_s > kAnswerTime_s) {
+    return "Done, vehicle hovers";
+  }
   if (aborting || now_s - state.wave_off_sent_s < kAnswerTime_s) {
     return now_s - state.wave_off_sent_s < kAnswerTime_s || !aborting ? "Sent" : "No answer yet";
   }

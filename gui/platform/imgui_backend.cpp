@@ -72,7 +72,7 @@ void ImGuiBackend::SetUiScale(double ui_scale) {
   ImGui_ImplOpenGL3_CreateFontsTexture();
 }
 
-void ImGuiBackend::BeginFrame(double delta_s) {
+void ImGuiBackend::BeginFrame(double delta_s, const std::function<void()>& feed) {
   ImGuiIO& io = ImGui::GetIO();
   ImGui_ImplOpenGL3_NewFrame();
   if (window_ != nullptr) {
@@ -84,6 +84,9 @@ void ImGuiBackend::BeginFrame(double delta_s) {
   }
   if (delta_s > 0) {
     io.DeltaTime = static_cast<float>(delta_s);
+  }
+  if (feed) {
+    feed();
   }
   ImGui::NewFrame();
 }

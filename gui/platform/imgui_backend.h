@@ -25,7 +25,8 @@ class ImGuiBackend {
   ImGuiBackend& operator=(const ImGuiBackend&) = delete;
 
   /// Starts an ImGui frame. `delta_s` > 0 replaces the measured time step (headless, tests).
-  void BeginFrame(double delta_s = 0);
+  /// `feed` may replace the backend's input before ImGui reads it (scripts).
+  void BeginFrame(double delta_s = 0, const std::function<void()>& feed = {});
   /// Ends the frame and draws it into the window or the offscreen framebuffer, after clearing it
   /// with the window colour #090C10. `draw` false ends it without making pixels.
   void EndFrame(bool draw = true);

@@ -188,13 +188,17 @@ TEST(SiteRegistry, LettersStayWithTheirPlaces) {
   EXPECT_EQ(second.sites[0].id, first.sites[2].id);
   EXPECT_EQ(second.sites[1].letter, 'D');
   EXPECT_EQ(second.sites[2].letter, 'A');
-  // Twelve letters: the next new places take those unused longest, with new ids.
-  SiteSelection many = sites_at({100, 110, 120, 130, 140, 150, 160, 170});
+  // Once the alphabet is spent, new places take the letters unused longest, with new ids.
+  std::vector<double> rest;
+  for (int i = 0; i < 22; ++i) {
+    rest.push_back(100 + 10 * i);
+  }
+  SiteSelection many = sites_at(rest);
   registry.Assign(many);
-  SiteSelection next = sites_at({200});
+  SiteSelection next = sites_at({500});
   registry.Assign(next);
   EXPECT_EQ(next.sites[0].letter, 'B');
-  EXPECT_GT(next.sites[0].id, many.sites[7].id);
+  EXPECT_GT(next.sites[0].id, many.sites[21].id);
 }
 
 TEST(Slad, FieldOfTablesSeenFromFiftyFeet) {
