@@ -243,6 +243,7 @@ int RunWindowed(const AppOptions& options, Session& session,
     if (!written) {
       LogWarning(written.error().message);
     }
+    std::printf("Files: %s\n", session.output_dir.string().c_str());
   }
   for (const Status& status : {done, closed}) {
     if (!status) {

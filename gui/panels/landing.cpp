@@ -13,7 +13,8 @@ namespace {
 // A provisional site must be confirmed by here, else the descent holds.
 constexpr double kConfirmHeight_m = 10;
 
-std::string Headline(const MissionStatus& m) {
+std::string Headline(const EngineSnapshot& snap) {
+  const MissionStatus& m = snap.mission;
   const std::string site = m.armed ? std::string("site ") + m.armed->letter : std::string("site");
   switch (m.state) {
     case MissionState::kApproved:
@@ -21,7 +22,8 @@ std::string Headline(const MissionStatus& m) {
     case MissionState::kHold:
       return "Holding above " + site;
     case MissionState::kAborting:
-      return "Wave-off: climbing away";
+      return snap.vehicle && snap.vehicle->mode == VehicleMode::kHover ? "Waved off, hovering"
+                                                                       : "Wave-off: climbing away";
     case MissionState::kLanded:
       return "Landed on " + site;
     default:
@@ -115,7 +117,7 @@ void DrawLandingPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui)
                      Fixed(m.time_to_touchdown_s, 0) + " s", Align::kRight) +
             s.Px(12);
   }
-  const std::string headline = Headline(m);
+  const std::string headline = Headline(snap);
   ImFont* font = TextWidth(s.readout, headline) <= room ? s.readout : s.section;
   DrawText(ui, font, p.text1, x, head_y, headline);
   DrawLadder(snap, {x, rect.y + s.Px(tall ? 75 : 62), width, s.Px(8)}, ui);
