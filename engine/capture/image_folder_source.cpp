@@ -199,10 +199,6 @@ Result<std::shared_ptr<const FrameBundle>> ImageFolderSource::Next(std::stop_tok
     bundle->pose_at_exposure = pose;
     bundle->poses.push_back(pose);
   }
-  VehicleStatus status;
-  status.time = bundle->time;
-  status.mode = VehicleMode::kHover;
-  bundle->status = status;
   return std::shared_ptr<const FrameBundle>(std::move(bundle));
 }
 

@@ -25,7 +25,7 @@ std::vector<std::filesystem::path> ExpandPattern(const std::filesystem::path& fo
                                                  const std::string& pattern);
 
 /// Pair k is exposed at 1'000'000 s + k / rate_hz in data time. Every bundle carries the pose of
-/// [pose] (none without that table), the status of a hovering real vehicle, and no laser sample.
+/// [pose] (none without that table). No vehicle status and no laser: there is no vehicle.
 /// Lockstep; paced to `speed` times rate_hz, 0 as fast as possible. With `loop` the last pair is
 /// repeated for ever, with new sequence numbers and advancing time.
 class ImageFolderSource final : public Source {
