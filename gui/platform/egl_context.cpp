@@ -56,7 +56,7 @@ EglContext::~EglContext() {
 }
 
 Status EglContext::MakeCurrent() {
-  // The API is a property of the thread, and GLFW or a colleague may have bound another.
+  // The API is a property of the thread, and GLFW or other code may have bound another.
   eglBindAPI(EGL_OPENGL_API);
   if (eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_) == EGL_FALSE) {
     return NoOpenGl("the context cannot be bound on this thread");
