@@ -10,6 +10,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "engine/mission/approval_verifier.h"
 #include "engine/runtime/engine.h"
 #include "engine/runtime/flight_summary.h"
 #include "engine/runtime/scripted_operator.h"
@@ -54,11 +55,7 @@ Result<FlightSummary> FlyOne(const LandingOptions& options, const Settings& sett
   simulation.seed = seed;
   simulation.wind.mean_mps = options.wind_mps;
   simulation.wind.gust_w20_mps = kGustPerMean * options.wind_mps;
-  simulation.verify = [key = parts.mission.signer.public_key(),
-                       state = std::make_shared<VerifierState>()](
-                          const Approval& approval, Timestamp now, std::uint64_t boot) {
-    return VerifyApproval(approval, key, *state, now, boot);
-  };
+  simulation.verify = MakeApprovalVerifier(parts.mission.signer.public_key());
   auto simulator = std::make_shared<Simulator>(std::move(simulation), camera);
   parts.source = simulator;
   parts.link = simulator;

@@ -8,6 +8,7 @@
 #include "engine/core/units.h"
 #include "engine/journal/log_writer.h"
 #include "engine/journal/replay_source.h"
+#include "engine/mission/approval_verifier.h"
 #include "engine/wire/lcm_link.h"
 #include "engine/wire/lcm_source.h"
 #include "gui/platform/offscreen_scene_camera.h"
@@ -16,15 +17,6 @@ namespace palace {
 namespace {
 
 constexpr double kGustPerMean = 1.5;  // W20 of the turbulence beside the mean wind
-
-/// Vehicle-side check of approvals: the simulated vehicle knows the station's public key.
-ApprovalCheck MakeVerifier(const ApprovalSigner& signer) {
-  auto state = std::make_shared<VerifierState>();
-  const PublicKey key = signer.public_key();
-  return [state, key](const Approval& approval, Timestamp now, std::uint64_t boot_id) {
-    return VerifyApproval(approval, key, *state, now, boot_id);
-  };
-}
 
 Status OpenSimulation(const AppOptions& options, bool paced, Session& session, EngineParts& parts) {
   Result<Scene> scene = MakeScene(options.scenario, options.seed);
@@ -39,7 +31,7 @@ Status OpenSimulation(const AppOptions& options, bool paced, Session& session, E
   simulation.wind.mean_mps = options.wind_mps;
   simulation.wind.gust_w20_mps = kGustPerMean * options.wind_mps;
   simulation.speed = paced ? 1 : 0;
-  simulation.verify = MakeVerifier(parts.mission.signer);
+  simulation.verify = MakeApprovalVerifier(parts.mission.signer.public_key());
   session.simulator = std::make_shared<Simulator>(std::move(simulation), MakeOffscreenSceneCamera);
   session.scene = std::move(*scene);
   session.source = session.simulator;
