@@ -5,6 +5,7 @@
 //   C  camera (C0 left, C1 right): right, down, forward; origin at the projection centre
 //   M  map grid: parallel to W, moves by whole cells only
 //   S  landing site: plane of the site, z up out of the ground; origin at the site's centre
+//   T  calibration target: x along its columns, y along its rows, z into the board; first point
 //
 // X_AB maps coordinates in B to coordinates in A: p_AQ = R_AB * p_BQ + p_AB. Adjacent letters
 // cancel.

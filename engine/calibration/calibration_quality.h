@@ -1,0 +1,50 @@
+// How good a calibration is, and which view would make it better.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/calibration/calibration.h"
+#include "engine/model/grid.h"
+
+namespace palace {
+
+/// Cells of a map over the picture: `columns` x `rows` equal rectangles, row 0 at the top.
+struct PictureMap {
+  int columns = 0;
+  int rows = 0;
+  std::vector<double> cells;  ///< row-major; NaN unknown
+  double at(int column, int row) const {
+    return cells[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
+                 static_cast<std::size_t>(column)];
+  }
+};
+
+/// Number of points that fell into each cell. side: 0 left, 1 right.
+PictureMap CoverageMap(const Calibration& calibration, int side, int columns, int rows);
+
+/// One sigma in pixels of where a far, known direction appears, from the parameters' covariance.
+/// A small common rotation of the camera is taken out first: it moves the mounting, not the lens,
+/// and exchanges with hc and vc. The larger axis of the 2 x 2 covariance is given.
+PictureMap UncertaintyMap(const Calibration& calibration, int side, int columns, int rows);
+
+/// One sigma in metres of the depth of a point at depth_m in front of the pixel's cell of the left
+/// camera, from the parameters' covariance alone (no matching error); NaN where the right camera
+/// does not see it.
+PictureMap DepthSigmaMap(const Calibration& calibration, double depth_m, int columns, int rows);
+
+/// Row difference of the same point in both pictures after AlignPair, all points seen by both.
+struct EpipolarCheck {
+  int points = 0;
+  double rms_px = 0;  ///< NaN without points
+  double max_px = 0;
+  double held_out_rms_px = 0;  ///< with cameras that never saw the views; NaN without them
+};
+EpipolarCheck CheckEpipolar(const Calibration& calibration);
+
+/// What a person should do next, in one or two sentences: where in the picture to hold the board,
+/// at which tilt, or that nothing is lacking.
+std::string NextView(const Calibration& calibration);
+
+}  // namespace palace
