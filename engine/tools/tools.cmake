@@ -3,7 +3,7 @@
 if(NOT PALACE_ENGINE_ONLY)
   file(GLOB PALACE_TOOLS CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/engine/tools/*.cpp)
   add_executable(palacectl ${PALACE_TOOLS})
-  target_link_libraries(palacectl PRIVATE palace_runtime palace_capture palace_journal palace_simulation
+  target_link_libraries(palacectl PRIVATE palace_report palace_calibration palace_runtime palace_capture palace_journal palace_simulation
     palace_platform palace_render nlohmann_json::nlohmann_json TIFF::TIFF ${GEOTIFF_LIBRARY} ${OPENGL_LIBRARY})
   target_include_directories(palacectl SYSTEM PRIVATE ${CLI11_INCLUDE_DIR} ${GEOTIFF_INCLUDE_DIR} ${GEOTIFF_INCLUDE_DIR}/geotiff)
   install(TARGETS palacectl RUNTIME DESTINATION bin)

@@ -28,7 +28,7 @@ int Count(const std::string& text, const std::string& part) {
 // Figures from Wilson's formula worked by hand for 10 of 10 and 9 of 10 (z = 1.959964).
 TEST(Statistics, WilsonIntervalKnowsSmallSamples) {
   EXPECT_NEAR(WilsonInterval(10, 10).low, 0.72246, 1e-5);
-  EXPECT_EQ(WilsonInterval(10, 10).high, 1);
+  EXPECT_DOUBLE_EQ(WilsonInterval(10, 10).high, 1);
   EXPECT_NEAR(WilsonInterval(9, 10).low, 0.59585, 1e-5);
   EXPECT_NEAR(WilsonInterval(9, 10).high, 0.98212, 1e-5);
   EXPECT_NEAR(WilsonInterval(0, 1000).high, 0.0038268, 1e-6);
