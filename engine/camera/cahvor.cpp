@@ -1,59 +1,59 @@
 #include "engine/camera/cahvor.h"
 
-#include <algorithm>
+#include <array>
 #include <cmath>
+
+#include "engine/camera/polynomial.h"
 
 namespace palace {
 namespace {
 
 constexpr double kLinearTolerance = 1e-12;
-constexpr int kMaxNewtonSteps = 100;
-constexpr double kNewtonTolerance = 1e-15;
 
-/// True when r (1 + mu(r^2)) grows with r all the way from the axis to tau = r^2, so that the
-/// distortion can be inverted: 1 + R0 + 3 R1 t + 5 R2 t^2 > 0 on [0, tau].
-bool DistortionIsMonotonic(const Eigen::Vector3d& R, double tau) {
-  const auto slope = [&](double t) { return 1 + R[0] + t * (3 * R[1] + 5 * R[2] * t); };
-  double least = std::min(slope(0), slope(tau));
-  if (R[2] != 0) {
-    const double turning = -3 * R[1] / (10 * R[2]);
-    if (turning > 0 && turning < tau) {
-      least = std::min(least, slope(turning));
-    }
-  }
-  return least > 0;
+/// Coefficients of r (1 + R0 + R1 r^2 + R2 r^4), r = tan of the angle from O.
+std::array<double, 3> Radial(const CahvorModel& model) {
+  return {1 + model.R[0], model.R[1], model.R[2]};
 }
 
-/// Root u of k5 u^5 + k3 u^3 + k1 u = 1 near `start`.
-std::optional<double> SolveQuintic(double k1, double k3, double k5, double start) {
-  double u = start;
-  for (int i = 0; i < kMaxNewtonSteps; ++i) {
-    const double square = u * u;
-    const double value = ((k5 * square + k3) * square + k1) * u - 1;
-    const double slope = (5 * k5 * square + 3 * k3) * square + k1;
-    if (!(slope > 1e-12)) {
+std::optional<Eigen::Vector2d> Project(const CahvorModel& model, const Eigen::Vector3d& p_FQ,
+                                       Eigen::Matrix<double, 2, 3>* dpixel_dp) {
+  if (!p_FQ.allFinite()) {
+    return std::nullopt;
+  }
+  Eigen::Vector3d q = p_FQ - model.C;
+  Eigen::Matrix3d dq_dp = Eigen::Matrix3d::Identity();
+  if (!model.R.isZero(0)) {
+    const double zeta = q.dot(model.O);
+    if (!(zeta > 0)) {
       return std::nullopt;
     }
-    const double step = value / slope;
-    u -= step;
-    if (std::abs(step) <= kNewtonTolerance * std::max(1.0, std::abs(u))) {
-      return u;
+    const Eigen::Vector3d lambda = q - zeta * model.O;
+    const double tau = lambda.squaredNorm() / (zeta * zeta);
+    if (!PositiveOn(RadialSlope(Radial(model)), tau)) {
+      return std::nullopt;
     }
+    const double mu = model.R[0] + tau * (model.R[1] + tau * model.R[2]);
+    if (dpixel_dp != nullptr) {
+      const double dmu_dtau = model.R[1] + 2 * tau * model.R[2];
+      const Eigen::Vector3d dtau_dp = 2 / (zeta * zeta) * lambda - 2 * tau / zeta * model.O;
+      dq_dp += mu * (Eigen::Matrix3d::Identity() - model.O * model.O.transpose()) +
+               dmu_dtau * lambda * dtau_dp.transpose();
+    }
+    q += mu * lambda;
   }
-  // Newton's steps may alternate in the last bit; a residual of rounding size is a solution.
-  const double square = u * u;
-  const double residual = ((k5 * square + k3) * square + k1) * u - 1;
-  return std::abs(residual) < 1e-13 ? std::optional<double>(u) : std::nullopt;
-}
-
-Eigen::Vector3d LinearRay(const CahvorModel& model, const Eigen::Vector2d& pixel) {
-  const Eigen::Vector3d down = model.V - pixel.y() * model.A;
-  const Eigen::Vector3d across = model.H - pixel.x() * model.A;
-  Eigen::Vector3d ray = down.cross(across);
-  if (model.V.cross(model.H).dot(model.A) < 0) {
-    ray = -ray;
+  const double depth = q.dot(model.A);
+  if (!(depth > 0)) {
+    return std::nullopt;
   }
-  return ray.normalized();
+  const Eigen::Vector2d pixel(q.dot(model.H) / depth, q.dot(model.V) / depth);
+  if (!pixel.allFinite()) {
+    return std::nullopt;
+  }
+  if (dpixel_dp != nullptr) {
+    dpixel_dp->row(0) = (model.H - pixel.x() * model.A).transpose() / depth * dq_dp;
+    dpixel_dp->row(1) = (model.V - pixel.y() * model.A).transpose() / depth * dq_dp;
+  }
+  return pixel;
 }
 
 }  // namespace
@@ -64,54 +64,49 @@ bool IsLinear(const CahvorModel& model) {
 
 std::optional<Eigen::Vector2d> ProjectCahvor(const CahvorModel& model,
                                              const Eigen::Vector3d& p_FQ) {
-  if (!p_FQ.allFinite()) {
-    return std::nullopt;
-  }
-  Eigen::Vector3d q = p_FQ - model.C;
-  if (!model.R.isZero(0)) {
-    const double zeta = q.dot(model.O);
-    if (!(zeta > 0)) {
-      return std::nullopt;
-    }
-    const Eigen::Vector3d lambda = q - zeta * model.O;
-    const double tau = lambda.squaredNorm() / (zeta * zeta);
-    if (!DistortionIsMonotonic(model.R, tau)) {
-      return std::nullopt;
-    }
-    q += (model.R[0] + tau * (model.R[1] + tau * model.R[2])) * lambda;
-  }
-  const double depth = q.dot(model.A);
-  if (!(depth > 0)) {
-    return std::nullopt;
-  }
-  const Eigen::Vector2d pixel(q.dot(model.H) / depth, q.dot(model.V) / depth);
-  return pixel.allFinite() ? std::optional<Eigen::Vector2d>(pixel) : std::nullopt;
+  return Project(model, p_FQ, nullptr);
 }
 
-std::optional<CahvorRay> RayFromPixelCahvor(const CahvorModel& model,
+std::optional<ProjectionJacobian> JacobianOfCahvor(const CahvorModel& model,
+                                                   const Eigen::Vector3d& p_FQ) {
+  ProjectionJacobian result;
+  const auto pixel = Project(model, p_FQ, &result.dpixel_dp);
+  if (!pixel) {
+    return std::nullopt;
+  }
+  result.pixel = *pixel;
+  return result;
+}
+
+Eigen::Vector3d LinearRayCahv(const CahvorModel& model, const Eigen::Vector2d& pixel) {
+  const Eigen::Vector3d down = model.V - pixel.y() * model.A;
+  const Eigen::Vector3d across = model.H - pixel.x() * model.A;
+  return down.cross(across) / model.V.cross(model.H).dot(model.A);
+}
+
+std::optional<CameraRay> RayFromPixelCahvor(const CahvorModel& model,
                                             const Eigen::Vector2d& pixel) {
-  const Eigen::Vector3d linear = LinearRay(model, pixel);
+  const Eigen::Vector3d linear = LinearRayCahv(model, pixel);
   if (!linear.allFinite()) {
     return std::nullopt;
   }
   if (model.R.isZero(0)) {
-    return CahvorRay{model.C, linear};
+    return CameraRay{model.C, linear.normalized()};
   }
   const double zeta = linear.dot(model.O);
   if (!(zeta > 0)) {
     return std::nullopt;
   }
-  // The picture's ray r' = zeta O + lambda' came from zeta O + u lambda' with u (1 + mu(u^2 tau'))
-  // = 1: the distortion moves lambda only, and by a factor that depends on its length.
+  // The picture's ray zeta O + lambda' came from zeta O + u lambda': the distortion moves lambda
+  // only, and by a factor that depends on its length.
   const Eigen::Vector3d lambda = linear - zeta * model.O;
-  const double tau = lambda.squaredNorm() / (zeta * zeta);
-  const double k3 = model.R[1] * tau;
-  const double k5 = model.R[2] * tau * tau;
-  const auto u = SolveQuintic(1 + model.R[0], k3, k5, 1 - (model.R[0] + k3 + k5));
-  if (!u || !DistortionIsMonotonic(model.R, *u * *u * tau)) {
+  const double distorted = lambda.norm() / zeta;
+  const auto tangent = InvertRadial(Radial(model), distorted);
+  if (!tangent) {
     return std::nullopt;
   }
-  return CahvorRay{model.C, (linear - (1 - *u) * lambda).normalized()};
+  const double u = distorted > 0 ? *tangent / distorted : 1;
+  return CameraRay{model.C, (zeta * model.O + u * lambda).normalized()};
 }
 
 CahvInternals InternalsOf(const CahvorModel& model) {
@@ -151,6 +146,20 @@ CahvorModel CahvFromPinhole(const PinholeCamera& camera, const Eigen::Matrix3d& 
   model.H = camera.fx_px * R_CF.row(0) + camera.cx_px * R_CF.row(2);
   model.V = camera.fy_px * R_CF.row(1) + camera.cy_px * R_CF.row(2);
   model.O = model.A;
+  return model;
+}
+
+CahvorModel ScaleCahvor(CahvorModel model, double scale_x, double scale_y) {
+  model.H *= scale_x;
+  model.V *= scale_y;
+  model.width = static_cast<int>(std::lround(model.width * scale_x));
+  model.height = static_cast<int>(std::lround(model.height * scale_y));
+  return model;
+}
+
+CahvorModel ShiftCahvor(CahvorModel model, double dx_px, double dy_px) {
+  model.H -= dx_px * model.A;
+  model.V -= dy_px * model.A;
   return model;
 }
 

@@ -15,15 +15,10 @@
 
 #include <Eigen/Dense>
 
-#include "engine/model/rig.h"
+#include "engine/camera/camera_ray.h"
+#include "engine/model/camera_models.h"
 
 namespace palace {
-
-/// A ray in F: origin at the projection centre, unit direction away from the camera.
-struct CahvorRay {
-  Eigen::Vector3d origin = Eigen::Vector3d::Zero();
-  Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();
-};
 
 /// Scales and centres hidden in H and V: hc = A.H, hs = |A x H|, and the same for V.
 struct CahvInternals {
@@ -47,8 +42,14 @@ struct CahvPinhole {
 bool IsLinear(const CahvorModel& model);
 /// Pixel of the point p_FQ.
 std::optional<Eigen::Vector2d> ProjectCahvor(const CahvorModel& model, const Eigen::Vector3d& p_FQ);
-/// Ray through the pixel. Newton's method on the quintic of the distortion.
-std::optional<CahvorRay> RayFromPixelCahvor(const CahvorModel& model, const Eigen::Vector2d& pixel);
+/// The same with its derivative by p_FQ.
+std::optional<ProjectionJacobian> JacobianOfCahvor(const CahvorModel& model,
+                                                   const Eigen::Vector3d& p_FQ);
+/// Ray through the pixel. Newton's method on the polynomial of the distortion.
+std::optional<CameraRay> RayFromPixelCahvor(const CahvorModel& model, const Eigen::Vector2d& pixel);
+/// The ray of the linear part with unit advance along A: (V - yA) x (H - xA) / (A . V x H). Not
+/// finite when H, V and A do not span space.
+Eigen::Vector3d LinearRayCahv(const CahvorModel& model, const Eigen::Vector2d& pixel);
 CahvInternals InternalsOf(const CahvorModel& model);
 /// The linear (CAHV) part; O and R are ignored.
 CahvPinhole PinholeFromCahv(const CahvorModel& model);
@@ -56,16 +57,13 @@ CahvPinhole PinholeFromCahv(const CahvorModel& model);
 CahvorModel CahvFromPinhole(const PinholeCamera& camera, const Eigen::Matrix3d& R_CF,
                             const Eigen::Vector3d& p_FC);
 
-/// Two CAHV models with the same A, H, V and their own C: rows are epipolar lines and
-/// disparity = hs b / depth.
-struct AlignedPair {
-  CahvorModel left;
-  CahvorModel right;
-};
-/// Aligns a pair: rows along the baseline, axis = mean of the two A made perpendicular to it,
-/// extents inside both pictures. Pictures keep the left one's size. Nothing when the axes run along
-/// the baseline or a border ray has no answer.
-/// Source: JPL epipolar alignment (the form without projecting the baseline first).
-std::optional<AlignedPair> AlignPair(const CahvorModel& left, const CahvorModel& right);
+/// The model of the picture resampled so that x_new = scale_x x, y_new = scale_y y. Pixel centres
+/// count: halving a picture by averaging 2 x 2 pixels also shifts it by a quarter pixel of the new
+/// size (ShiftCahvor by 0.25). Width and height are scaled and rounded.
+/// Source: JPL cmod_cahv_scale.
+CahvorModel ScaleCahvor(CahvorModel model, double scale_x, double scale_y);
+/// The model of the picture whose pixel (0,0) is the old (dx, dy), e.g. a cut-out. The size stays.
+/// Source: JPL cmod_cahv_shift.
+CahvorModel ShiftCahvor(CahvorModel model, double dx_px, double dy_px);
 
 }  // namespace palace

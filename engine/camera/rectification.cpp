@@ -8,6 +8,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "engine/camera/alignment.h"
 #include "engine/camera/cahvor.h"
 
 namespace palace {
@@ -92,10 +93,9 @@ Result<StereoRectifier> StereoRectifier::Make(const StereoRig& rig) {
   if (rig.left.cahvor) {
     const CahvorModel& left = *rig.left.cahvor;
     const CahvorModel& right = *rig.right.cahvor;
-    const auto aligned = AlignPair(left, right);
+    const auto aligned = AlignPair({left}, {right});
     if (!aligned) {
-      return InvalidError(
-          "rig: the two camera models cannot be aligned; their views do not overlap");
+      return InvalidError("rig: " + aligned.error().message);
     }
     const CahvPinhole pinhole = PinholeFromCahv(aligned->left);
     rectifier.camera_ = pinhole.camera;

@@ -22,6 +22,7 @@ namespace {
 
 constexpr double kLargestSide_px = 16384;
 constexpr double kLargest = 1e6;
+constexpr std::int64_t kLargestDevice = 255;
 constexpr double kBaselineMismatch = 0.01;  // share by which baseline_m may differ from the models
 
 /// A number's limits and what to do when it is outside them.
@@ -88,6 +89,21 @@ class Table {
       return {};
     }
     return *value;
+  }
+
+  /// A text, or a whole number as text: a device may be given as "0" or 0.
+  std::string TextOrIndex(const char* key) {
+    const toml::node* node = Required(key);
+    if (node == nullptr || !node->is_integer()) {
+      return node == nullptr ? std::string() : Text(key);
+    }
+    const auto index = *node->value<std::int64_t>();
+    if (index < 0 || index > kLargestDevice) {
+      Fail(LineOf(*node), Name(key) + " = " + std::to_string(index) + " is outside 0 .. " +
+                              std::to_string(kLargestDevice) +
+                              "; give the number of a device (ls /dev/video*)");
+    }
+    return std::to_string(index);
   }
 
   std::vector<double> Numbers(const char* key, std::size_t least, std::size_t most,
@@ -195,6 +211,7 @@ constexpr Range kAngle{-360, 360, "give degrees"};
 constexpr Range kPitch{-90, 90, "give degrees"};
 constexpr Range kPoseHeight{1e-3, 1e5, "give metres above the ground"};
 constexpr Range kRate{1e-3, 1000, "give pairs per second"};
+constexpr Range kTolerance{0.01, 10000, "give the largest time between the pictures of a pair"};
 
 Status ReadModelFile(Table& table, const RigFile& file, RigCamera& camera) {
   for (const char* key : {"width", "height", "fx_px", "fy_px", "cx_px", "cy_px", "distortion"}) {
@@ -320,15 +337,77 @@ Status ReadImages(const toml::table& root, const std::string& name, RigFile& fil
     images.Allow("rate_hz");
     file.rig.rate_hz = images.NumberOr("rate_hz", kRate, file.rig.rate_hz);
   }
-  if (Status status = images.Finish(); !status) {
+  return images.Finish();
+}
+
+/// The size asked of a device must be the one that the camera models are made for.
+int ReadCaptureSide(Table& table, const char* key, int expected, const char* which) {
+  table.Allow(key);
+  const int side = static_cast<int>(table.NumberOr(key, kSide, expected));
+  if (side != expected) {
+    table.FailKey(key, " = " + std::to_string(side) + " px, " + which + " is " +
+                           std::to_string(expected) + " px; calibrate for the size you capture");
+  }
+  return side;
+}
+
+void ReadCaptureAddresses(Table& table, RigCapture& capture) {
+  for (const char* key : {"side_by_side", "right", "pair_tolerance_ms"}) {
+    table.Allow(key);
+  }
+  capture.left = table.TextOrIndex("left");
+  capture.side_by_side = table.BoolOr("side_by_side", false);
+  if (capture.side_by_side) {
+    for (const char* key : {"right", "pair_tolerance_ms"}) {
+      if (table.Has(key)) {
+        table.FailKey(key, " contradicts side_by_side = true; leave one of them out");
+      }
+    }
+    return;
+  }
+  capture.right = table.TextOrIndex("right");
+  if (capture.right == capture.left) {
+    table.FailKey("right", " = " + capture.right +
+                               " is the left camera too; give two, or side_by_side = true where "
+                               "one device gives both pictures");
+  }
+  if (table.Has("pair_tolerance_ms")) {
+    capture.pair_tolerance_s = table.Number("pair_tolerance_ms", kTolerance) * 1e-3;
+  }
+}
+
+Status ReadCapture(const toml::table& root, const std::string& name, RigFile& file) {
+  Table table(root, name, "capture");
+  if (!table.present()) {
+    return table.Finish();
+  }
+  RigCapture capture;
+  ReadCaptureAddresses(table, capture);
+  const PinholeCamera& left = file.rig.left.pinhole;
+  capture.width = capture.side_by_side
+                      ? ReadCaptureSide(table, "width", 2 * left.width, "twice left.width")
+                      : ReadCaptureSide(table, "width", left.width, "left.width");
+  capture.height = ReadCaptureSide(table, "height", left.height, "left.height");
+  for (const char* key : {"rate_hz", "fourcc", "loop"}) {
+    table.Allow(key);
+  }
+  if (table.Has("rate_hz")) {
+    capture.rate_hz = table.Number("rate_hz", kRate);
+  }
+  if (table.Has("fourcc")) {
+    capture.fourcc = table.Text("fourcc");
+    if (capture.fourcc.size() != 4) {
+      table.FailKey("fourcc", " = " + capture.fourcc +
+                                  " must have four letters, e.g. MJPG or YUYV; v4l2-ctl "
+                                  "--list-formats-ext shows what a device has");
+    }
+  }
+  capture.loop = table.BoolOr("loop", false);
+  if (Status status = table.Finish(); !status) {
     return status;
   }
-  Table capture(root, name, "capture");
-  if (capture.present()) {
-    file.capture_left = capture.Text("left");
-    file.capture_right = capture.Text("right");
-  }
-  return capture.Finish();
+  file.capture = std::move(capture);
+  return Ok();
 }
 
 Status CheckTables(const toml::table& root, const std::string& name) {
@@ -389,6 +468,7 @@ Result<RigFile> LoadRigFile(const std::filesystem::path& path) {
   then([&] { return ReadMount(root, name, file.rig); });
   then([&] { return ReadPose(root, name, file); });
   then([&] { return ReadImages(root, name, file); });
+  then([&] { return ReadCapture(root, name, file); });
   then([&] { return CheckPair(file.rig, name); });
   if (!status) {
     return status.error();

@@ -7,38 +7,18 @@
 #include <vector>
 
 #include "engine/core/frames.h"
+#include "engine/model/camera_models.h"
 
 namespace palace {
-
-/// Undistorted pinhole. x_px = fx X/Z + cx, y_px = fy Y/Z + cy, camera axes right-down-forward.
-struct PinholeCamera {
-  int width = 0;
-  int height = 0;
-  double fx_px = 0;
-  double fy_px = 0;
-  double cx_px = 0;  ///< principal point; (width-1)/2 for a centred one
-  double cy_px = 0;
-  friend bool operator==(const PinholeCamera&, const PinholeCamera&) = default;
-};
-
-/// JPL CAHVOR model (Yakimovsky & Cunningham 1978; Gennery 2006). O = A and R = 0 make it CAHV.
-/// Vectors in the frame of the rig: the left camera's own axes unless a file says otherwise.
-struct CahvorModel {
-  int width = 0;
-  int height = 0;
-  Eigen::Vector3d C = Eigen::Vector3d::Zero();
-  Eigen::Vector3d A = Eigen::Vector3d::UnitZ();
-  Eigen::Vector3d H = Eigen::Vector3d::UnitX();
-  Eigen::Vector3d V = Eigen::Vector3d::UnitY();
-  Eigen::Vector3d O = Eigen::Vector3d::UnitZ();
-  Eigen::Vector3d R = Eigen::Vector3d::Zero();
-};
 
 /// Pinhole intrinsics with OpenCV's plumb-bob distortion (k1 k2 p1 p2 k3), as RIG.toml gives them.
 struct RigCamera {
   PinholeCamera pinhole;
   std::array<double, 5> distortion{};
-  std::optional<CahvorModel> cahvor;  ///< set when RIG.toml names a model_file; then it decides
+  /// Set when RIG.toml names a model_file of the CAHV or CAHVOR family; then it decides.
+  std::optional<CahvorModel> cahvor;
+  /// Set when the model_file is of another family; then it decides. Lengths in metres.
+  std::optional<CameraModel> model;
 };
 
 /// A stereo pair on a vehicle.

@@ -47,6 +47,12 @@ rate_hz = 5
 [capture]
 left = "/dev/video0"
 right = "rtsp://camera/1"
+width = 640
+height = 480
+rate_hz = 25
+pair_tolerance_ms = 12
+fourcc = "MJPG"
+loop = true
 )";
 
 class RigFileTest : public testing::Test {
@@ -85,7 +91,15 @@ TEST_F(RigFileTest, ReadsEveryKey) {
   EXPECT_EQ(file->rig.position_body_m, Eigen::Vector3d(1, 0, 0.2));
   EXPECT_EQ(file->rig.rate_hz, 5);
   EXPECT_EQ(file->left_pattern, "l*.png");
-  EXPECT_EQ(file->capture_right, "rtsp://camera/1");
+  ASSERT_TRUE(file->capture.has_value());
+  EXPECT_EQ(file->capture->left, "/dev/video0");
+  EXPECT_EQ(file->capture->right, "rtsp://camera/1");
+  EXPECT_EQ(file->capture->width, 640);
+  EXPECT_EQ(file->capture->height, 480);
+  EXPECT_EQ(file->capture->rate_hz, 25);
+  EXPECT_EQ(file->capture->pair_tolerance_s, 0.012);
+  EXPECT_EQ(file->capture->fourcc, "MJPG");
+  EXPECT_TRUE(file->capture->loop);
   EXPECT_EQ(file->folder, folder_);
   ASSERT_TRUE(file->pose.has_value());
   EXPECT_EQ(file->pose->X_WB.p, Eigen::Vector3d(0, 0, -15.24));
@@ -127,6 +141,18 @@ TEST_F(RigFileTest, ErrorsNameFileLineKeyAndLimit) {
       {"contradiction", "cy_px = 239.5\n[right]",
        "cy_px = 239.5\ndistortion = [0.1,0,0,0]\n[right]", "contradicts"},
       {"differing", "fx_px = 772.5", "fx_px = 700", "[left] and [right] differ"},
+      {"capture size", "camera/1\"\nwidth = 640", "camera/1\"\nwidth = 320",
+       "capture.width = 320 px, left.width is 640 px; calibrate for"},
+      {"capture rate", "rate_hz = 25", "rate_hz = 2500", "capture.rate_hz = 2500 is outside"},
+      {"tolerance", "pair_tolerance_ms = 12", "pair_tolerance_ms = 0",
+       "capture.pair_tolerance_ms = 0 is outside 0.01"},
+      {"fourcc", "\"MJPG\"", "\"MJPEG\"", "capture.fourcc = MJPEG must have four letters"},
+      {"one camera twice", "\"rtsp://camera/1\"", "\"/dev/video0\"", "is the left camera too"},
+      {"no device", "\"/dev/video0\"", "-1", "capture.left = -1 is outside 0 .. 255"},
+      {"both halves and right", "[capture]", "[capture]\nside_by_side = true",
+       "capture.right contradicts side_by_side"},
+      {"one camera only", "right = \"rtsp://camera/1\"\n", "", "capture.right is missing"},
+      {"unknown in capture", "loop = true", "speed = 1", "unknown key capture.speed"},
       {"syntax", "[rig]", "[rig", "rig.toml:15"},
   };
   for (const WrongRow& row : rows) {
@@ -144,7 +170,21 @@ TEST_F(RigFileTest, OptionalTablesMayBeLeftOut) {
   ASSERT_TRUE(file.ok()) << file.error().message;
   EXPECT_FALSE(file->pose.has_value());
   EXPECT_TRUE(file->left_pattern.empty());
-  EXPECT_TRUE(file->capture_left.empty());
+  EXPECT_FALSE(file->capture.has_value());
+}
+
+TEST_F(RigFileTest, ADeviceMayBeANumberAndMayGiveBothHalves) {
+  const std::string rig = kGood.substr(0, kGood.find("[capture]"));
+  const auto two = Load(rig + "[capture]\nleft = 0\nright = \"2\"\n");
+  ASSERT_TRUE(two.ok()) << two.error().message;
+  EXPECT_EQ(two->capture->left, "0");
+  EXPECT_EQ(two->capture->right, "2");
+  EXPECT_FALSE(two->capture->rate_hz.has_value());
+  const auto one = Load(rig + "[capture]\nleft = 0\nside_by_side = true\nwidth = 1280\n");
+  ASSERT_TRUE(one.ok()) << one.error().message;
+  EXPECT_TRUE(one->capture->side_by_side);
+  EXPECT_TRUE(one->capture->right.empty());
+  EXPECT_EQ(one->capture->width, 1280);
 }
 
 TEST_F(RigFileTest, DistortionMakesARigUnrectified) {

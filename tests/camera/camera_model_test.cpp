@@ -1,0 +1,364 @@
+// Every lens family: vectors of the reference libraries, Jacobians against differences, round
+// trips, and the limits beyond which a model has no answer.
+#include "engine/camera/camera_model.h"
+
+#include <cmath>
+#include <numbers>
+
+#include <gtest/gtest.h>
+#include <opencv2/calib3d.hpp>
+
+#include "engine/camera/polynomial.h"
+#include "tests/camera/reference_vectors.h"
+#include "tests/camera/sample_cameras.h"
+
+namespace palace {
+namespace {
+
+using nlohmann::json;
+using Matrix23 = Eigen::Matrix<double, 2, 3>;
+
+TEST(CameraVectors, JplModelsProjectAndBackProject) {
+  const auto vectors = ReadVectors("camera_models.json");
+  if (!vectors) {
+    GTEST_SKIP() << "no " << SharedData("cahvor_vectors");
+  }
+  int rows = 0;
+  for (const json& entry : vectors->at("models")) {
+    SCOPED_TRACE(entry.at("id").get<std::string>());
+    const CameraModel model = JplModelFrom(entry);
+    for (const json& row : entry.at("project")) {
+      const Eigen::Vector3d p = Vector3From(row.at("P"));
+      const auto pixel = ProjectCamera(model, p);
+      const auto jacobian = JacobianOfCamera(model, p);
+      ASSERT_TRUE(pixel && jacobian) << row;
+      EXPECT_LT((*pixel - Vector2From(row.at("px"))).cwiseAbs().maxCoeff(), 1e-9);
+      EXPECT_EQ(*pixel, jacobian->pixel);
+      Matrix23 expected;
+      expected << Vector3From(row.at("dpx_dP").at(0)).transpose(),
+          Vector3From(row.at("dpx_dP").at(1)).transpose();
+      EXPECT_LT((jacobian->dpixel_dp - expected).cwiseAbs().maxCoeff(),
+                1e-9 * expected.cwiseAbs().maxCoeff())
+          << jacobian->dpixel_dp << "\n"
+          << expected;
+      ++rows;
+    }
+    for (const json& row : entry.at("backproject")) {
+      const auto ray = RayFromPixelCamera(model, Vector2From(row.at("px")));
+      ASSERT_TRUE(ray) << row;
+      EXPECT_LT((ray->direction - Vector3From(row.at("ray"))).norm(), 1e-12);
+      EXPECT_LT((ray->origin - Vector3From(row.at("origin"))).norm(), 1e-12);
+      ++rows;
+    }
+  }
+  EXPECT_GE(rows, 90);
+}
+
+TEST(CameraVectors, TsaiModelsOfWillson) {
+  const auto vectors = ReadVectors("tsai.json");
+  if (!vectors) {
+    GTEST_SKIP() << "no " << SharedData("cahvor_vectors");
+  }
+  int rows = 0;
+  for (const json& entry : vectors->at("models")) {
+    SCOPED_TRACE(entry.at("id").get<std::string>());
+    const CameraModel model{TsaiFrom(entry), 0.001};
+    for (const json& row : entry.at("project")) {
+      const auto pixel = ProjectCamera(model, Vector3From(row.at("P_world")));
+      ASSERT_TRUE(pixel);
+      EXPECT_LT((*pixel - Vector2From(row.at("px_distorted"))).norm(), 1e-9);
+    }
+    for (const json& row : entry.at("backproject_to_z")) {
+      const auto ray = RayFromPixelCamera(model, Vector2From(row.at("px_distorted")));
+      ASSERT_TRUE(ray);
+      const double along = (row.at("zw").get<double>() - ray->origin.z()) / ray->direction.z();
+      const Eigen::Vector3d p = ray->origin + along * ray->direction;
+      EXPECT_LT((p - Vector3From(row.at("P_world"))).norm(), 1e-7) << "millimetres";
+      ++rows;
+    }
+  }
+  EXPECT_GE(rows, 12);
+}
+
+/// Published self-test of mrcal: p, and its pixel to about 1e-8. It scales p to length 1, which
+/// counts where the pupil moves.
+TEST(CameraModel, AgreesWithFiguresPublishedByMrcal) {
+  const Eigen::Vector3d p(-1.1, 0.3, 1.0);
+  OpenCvModel opencv;
+  opencv.pinhole = {0, 0, 1512, 1112, 500, 333};
+  opencv.coefficients = 5;
+  opencv.k = {-0.012, 0.035, -0.001, 0.002, 0.019};
+  const auto pixel = ProjectCamera({opencv}, p);
+  ASSERT_TRUE(pixel);
+  EXPECT_NEAR(pixel->x(), -1292.8121176, 1e-6);
+  EXPECT_NEAR(pixel->y(), 691.9401448, 1e-6);
+  CahvoreModel cahvore;
+  cahvore.base = CahvFromPinhole({0, 0, 4842.918, 4842.771, 1970.528, 1085.302},
+                                 Eigen::Matrix3d::Identity(), Eigen::Vector3d::Zero());
+  const double alpha = -0.001, beta = 0.002;
+  cahvore.base.O = {std::sin(alpha) * std::cos(beta), std::sin(beta),
+                    std::cos(alpha) * std::cos(beta)};
+  cahvore.base.R = {-0.637, -0.002, 0.016};
+  cahvore.E = {1e-2, 2e-2, 3e-2};
+  const auto wide = ProjectCamera({cahvore}, p.normalized());
+  ASSERT_TRUE(wide);
+  EXPECT_NEAR(wide->x(), 489.05797783, 1e-6);
+  EXPECT_NEAR(wide->y(), 1495.37110356, 1e-6);
+}
+
+TEST(CameraModel, OpenCvProjectsTheSame) {
+  constexpr std::uint64_t kSeed = 31;
+  SCOPED_TRACE(kSeed);
+  RandomStream random(kSeed);
+  int compared = 0;
+  for (const int coefficients : {0, 4, 5, 8, 12, 14, -4}) {
+    for (int i = 0; i < 40; ++i) {
+      const OpenCvModel model = RandomOpenCv(random, coefficients);
+      const Eigen::Vector3d p_C(random.Uniform(-3, 3), random.Uniform(-3, 3), random.Uniform(4, 9));
+      const auto pixel = ProjectCamera({model}, model.R_CF.transpose() * (p_C - model.t_CF));
+      if (!pixel) {
+        continue;  // beyond the fold; OpenCV does not look
+      }
+      const cv::Matx33d K(model.pinhole.fx_px, 0, model.pinhole.cx_px, 0, model.pinhole.fy_px,
+                          model.pinhole.cy_px, 0, 0, 1);
+      const std::vector<cv::Point3d> points = {{p_C.x(), p_C.y(), p_C.z()}};
+      const std::vector<double> k(model.k.begin(), model.k.begin() + model.coefficients);
+      std::vector<cv::Point2d> seen;
+      if (coefficients < 0) {
+        cv::fisheye::projectPoints(points, seen, cv::Vec3d(), cv::Vec3d(), K, k);
+      } else {
+        cv::projectPoints(points, cv::Vec3d(), cv::Vec3d(), K, k, seen);
+      }
+      EXPECT_NEAR(pixel->x(), seen[0].x, 1e-8) << coefficients;
+      EXPECT_NEAR(pixel->y(), seen[0].y, 1e-8) << coefficients;
+      ++compared;
+    }
+  }
+  EXPECT_GT(compared, 200);
+}
+
+TEST(CameraModel, RaysInvertProjectionInEveryFamily) {
+  constexpr std::uint64_t kSeed = 32;
+  SCOPED_TRACE(kSeed);
+  RandomStream random(kSeed);
+  int checked = 0;
+  for (int family = 0; family < kFamilies; ++family) {
+    for (int i = 0; i < 200; ++i) {
+      const CameraModel model = RandomCamera(random, family);
+      SCOPED_TRACE(FamilyOf(model));
+      const Eigen::Vector2d pixel(random.Uniform(0, 639), random.Uniform(0, 479));
+      const auto ray = RayFromPixelCamera(model, pixel);
+      if (!ray) {
+        continue;
+      }
+      EXPECT_NEAR(ray->direction.norm(), 1, 1e-14);
+      const double range = random.Uniform(0.5, 80) / model.unit_m;
+      const auto back = ProjectCamera(model, ray->origin + range * ray->direction);
+      ASSERT_TRUE(back);
+      EXPECT_LT((*back - pixel).norm(), 1e-8);
+      const auto far = ProjectDirection(model, ray->direction);
+      ASSERT_TRUE(far);
+      EXPECT_LT((*far - pixel).norm(), 1e-8);
+      ++checked;
+    }
+  }
+  EXPECT_GT(checked, 200 * kFamilies * 9 / 10);
+}
+
+TEST(CameraModel, JacobiansAreTheDifferencesInEveryFamily) {
+  constexpr std::uint64_t kSeed = 33;
+  SCOPED_TRACE(kSeed);
+  RandomStream random(kSeed);
+  int checked = 0;
+  for (int family = 0; family < kFamilies; ++family) {
+    for (int i = 0; i < 50; ++i) {
+      const CameraModel model = RandomCamera(random, family);
+      SCOPED_TRACE(FamilyOf(model));
+      const auto ray =
+          RayFromPixelCamera(model, {random.Uniform(20, 620), random.Uniform(20, 460)});
+      if (!ray) {
+        continue;
+      }
+      const double range = 5 / model.unit_m;
+      const Eigen::Vector3d p = ray->origin + range * ray->direction;
+      const auto jacobian = JacobianOfCamera(model, p);
+      ASSERT_TRUE(jacobian);
+      const double h = 1e-4 * range;
+      for (int axis = 0; axis < 3; ++axis) {
+        const auto at = [&](double steps) {
+          return ProjectCamera(model, p + steps * h * Eigen::Vector3d::Unit(axis)).value();
+        };
+        // Fourth-order central difference.
+        const Eigen::Vector2d slope = (8 * (at(1) - at(-1)) - (at(2) - at(-2))) / (12 * h);
+        EXPECT_LT((jacobian->dpixel_dp.col(axis) - slope).norm(),
+                  1e-7 * jacobian->dpixel_dp.norm());
+      }
+      ++checked;
+    }
+  }
+  EXPECT_GT(checked, 50 * kFamilies * 9 / 10);
+}
+
+TEST(CameraModel, MovedAndScaledCamerasSeeTheSame) {
+  constexpr std::uint64_t kSeed = 34;
+  SCOPED_TRACE(kSeed);
+  RandomStream random(kSeed);
+  for (int family = 0; family < kFamilies; ++family) {
+    const CameraModel model = RandomCamera(random, family);
+    SCOPED_TRACE(FamilyOf(model));
+    const Eigen::Matrix3d R_GF = RandomRotation(random);
+    const Eigen::Vector3d t_GF = RandomVector(random, 3);
+    const CameraModel moved = MovedCamera(model, R_GF, t_GF);
+    const CameraModel metric = InMetres(model);
+    const auto ray = RayFromPixelCamera(model, {300, 200});
+    ASSERT_TRUE(ray);
+    const Eigen::Vector3d p = ray->origin + 7 * ray->direction / model.unit_m;
+    EXPECT_LT((ProjectCamera(moved, R_GF * p + t_GF).value() - Eigen::Vector2d(300, 200)).norm(),
+              1e-8);
+    EXPECT_LT((ProjectCamera(metric, p * model.unit_m).value() - Eigen::Vector2d(300, 200)).norm(),
+              1e-8);
+    EXPECT_EQ(metric.unit_m, 1);
+    EXPECT_LT((CentreOf(moved) - (R_GF * CentreOf(model) + t_GF)).norm(), 1e-9 / model.unit_m);
+  }
+}
+
+CahvoreModel Fisheye() {
+  CahvoreModel model;
+  model.base = CahvFromPinhole({640, 480, 200, 200, 319.5, 239.5}, Eigen::Matrix3d::Identity(),
+                               Eigen::Vector3d::Zero());
+  return model;
+}
+
+struct LimitRow {
+  const char* what;
+  CameraModel model;
+  Eigen::Vector3d inside;
+  Eigen::Vector3d outside;
+};
+
+TEST(CameraModel, NothingBeyondTheLimitsOfEachFamily) {
+  const CahvorModel cahv = Fisheye().base;
+  CahvorModel barrel = cahv;
+  barrel.R = {0, -0.21, 0};  // turns back at tan = sqrt(1 / 0.63) = 1.26
+  CahvorModel scaled = cahv;
+  scaled.R = {-1.5, 0, 0};  // mirrors every ray
+  CahvoreModel narrow = Fisheye();
+  narrow.linearity = 0.9;  // ends at 100 degrees
+  CahvoreModel perspective = Fisheye();
+  perspective.linearity = 1;
+  TsaiModel tsai;
+  tsai.dpx = tsai.dpy = 0.01;
+  tsai.f = 8;
+  tsai.kappa1 = -0.004;  // Rd ends at 9.13, Ru at 6.09 mm: tan 0.761
+  OpenCvModel brown;
+  brown.pinhole = {640, 480, 500, 500, 320, 240};
+  brown.coefficients = 5;
+  brown.k = {-0.3, 0, 0, 0, 0};  // ends at tan = sqrt(1 / 0.9) = 1.054
+  OpenCvModel rational = brown;
+  rational.coefficients = 8;
+  rational.k = {0, 0, 0, 0, 0, -1.0, 0, 0};  // pole at tan = 1
+  OpenCvModel fisheye = brown;
+  fisheye.lens = OpenCvLens::kFisheye;
+  fisheye.coefficients = 4;
+  fisheye.k = {-0.2, 0, 0, 0};  // ends at theta = sqrt(1 / 0.6) = 1.291, tan 3.48
+  const auto at = [](double degrees) {
+    const double angle = degrees * std::numbers::pi / 180;
+    return Eigen::Vector3d(9 * std::sin(angle), 0, 9 * std::cos(angle));
+  };
+  const LimitRow rows[] = {
+      {"CAHV, behind", {cahv}, {1, 1, 1}, {1, 1, -1}},
+      {"CAHV, in the focal plane", {cahv}, {1, 1, 0.01}, {1, 1, 0}},
+      {"CAHV, not finite", {cahv}, {0, 0, 1}, {NAN, 0, 1}},
+      {"CAHV, at the centre", {cahv}, {0, 0, 1}, {0, 0, 0}},
+      {"CAHVOR, fold", {barrel}, {1.25, 0, 1}, {1.27, 0, 1}},
+      {"CAHVOR, behind", {barrel}, {0.1, 0, 1}, {0.1, 0, -1}},
+      {"CAHVOR, mirrored", {barrel}, {0, 0, 1}, {NAN, NAN, NAN}},
+      {"CAHVORE fisheye, on the axis behind", {Fisheye()}, at(170), at(180)},
+      {"CAHVORE general", {narrow}, at(99), at(101)},
+      {"CAHVORE perspective", {perspective}, at(89), at(91)},
+      {"CAHVORE, at the centre", {Fisheye()}, {0, 0, 1}, {0, 0, 0}},
+      {"Tsai, fold", {tsai}, {0.75, 0, 1}, {0.77, 0, 1}},
+      {"Tsai, behind", {tsai}, {0, 0, 1}, {0, 0, -1}},
+      {"OpenCV, fold", {brown}, {1.05, 0, 1}, {1.06, 0, 1}},
+      {"OpenCV, pole", {rational}, {0.99, 0, 1}, {1.01, 0, 1}},
+      {"OpenCV, behind", {brown}, {0, 0, 1}, {0, 0, -1}},
+      {"fisheye, fold", {fisheye}, {3.4, 0, 1}, {3.6, 0, 1}},
+      {"fisheye, on the axis behind", {fisheye}, {0, 0, 1}, {0, 0, -1}},
+  };
+  for (const LimitRow& row : rows) {
+    SCOPED_TRACE(row.what);
+    EXPECT_TRUE(ProjectCamera(row.model, row.inside));
+    EXPECT_FALSE(ProjectCamera(row.model, row.outside));
+    EXPECT_FALSE(JacobianOfCamera(row.model, row.outside));
+  }
+  EXPECT_FALSE(ProjectCamera({scaled}, {0.1, 0, 1}));
+}
+
+TEST(CameraModel, PixelsThatNoRayReachesHaveNoRay) {
+  TsaiModel tsai;
+  tsai.dpx = tsai.dpy = 0.01;
+  tsai.f = 8;
+  tsai.kappa1 = -0.004;
+  EXPECT_TRUE(RayFromPixelCamera({tsai}, {910, 0}));
+  EXPECT_FALSE(RayFromPixelCamera({tsai}, {915, 0}));
+  OpenCvModel brown;
+  brown.pinhole = {640, 480, 500, 500, 320, 240};
+  brown.coefficients = 5;
+  brown.k = {-0.3, 0, 0, 0, 0};  // largest radius 2/3 * 1.054 * 500 = 351 px
+  EXPECT_TRUE(RayFromPixelCamera({brown}, {320 + 351, 240}));
+  EXPECT_FALSE(RayFromPixelCamera({brown}, {320 + 352, 240}));
+  CahvorModel barrel = Fisheye().base;
+  barrel.R = {0, -0.21, 0};  // largest radius 2/3 * 1.26 * 200 = 168 px
+  EXPECT_TRUE(RayFromPixelCamera({barrel}, {319.5 + 167.9, 239.5}));
+  EXPECT_FALSE(RayFromPixelCamera({barrel}, {319.5 + 168.1, 239.5}));
+  CahvoreModel fisheye = Fisheye();  // 180 degrees at 200 pi = 628 px
+  EXPECT_TRUE(RayFromPixelCamera({fisheye}, {319.5 + 628, 239.5}));
+  EXPECT_FALSE(RayFromPixelCamera({fisheye}, {319.5 + 629, 239.5}));
+  EXPECT_FALSE(RayFromPixelCamera({fisheye}, {NAN, 0}));
+}
+
+TEST(Polynomial, PositiveOnFindsNarrowDips) {
+  EXPECT_TRUE(PositiveOn(std::array<double, 3>{1.0001, -2, 1}, 2));   // (s-1)^2 + 1e-4
+  EXPECT_FALSE(PositiveOn(std::array<double, 3>{0.9999, -2, 1}, 2));  // (s-1)^2 - 1e-4
+  EXPECT_TRUE(PositiveOn(std::array<double, 3>{0.9999, -2, 1}, 0.98));
+  EXPECT_FALSE(PositiveOn(std::array<double, 2>{1, NAN}, 1));
+  EXPECT_FALSE(PositiveOn(std::array<double, 2>{1, 1}, std::nan("")));
+  constexpr std::uint64_t kSeed = 35;
+  SCOPED_TRACE(kSeed);
+  RandomStream random(kSeed);
+  for (int i = 0; i < 500; ++i) {
+    std::array<double, 7> c{};
+    for (double& value : c) {
+      value = random.Uniform(-1, 1);
+    }
+    c[0] = 1;
+    double least = 1e9;
+    for (int k = 0; k <= 2000; ++k) {
+      const double s = 2.0 * k / 2000;
+      double value = 0;
+      for (std::size_t n = 7; n-- > 0;) {
+        value = value * s + c[n];
+      }
+      least = std::min(least, value);
+    }
+    if (std::abs(least) > 1e-3) {  // nearer than the sampling can tell
+      EXPECT_EQ(PositiveOn(c, 2.0), least > 0) << least;
+    }
+  }
+}
+
+TEST(Polynomial, InvertRadialStopsAtTheFold) {
+  const std::array<double, 2> barrel = {1, -1.0 / 3};  // r - r^3/3 folds at r = 1, value 2/3
+  for (const double r : {0.0, 1e-12, 0.3, 0.9, 0.9999}) {
+    const auto root = InvertRadial(barrel, RadialValue(barrel, r));
+    ASSERT_TRUE(root) << r;
+    EXPECT_NEAR(*root, r, 1e-11);
+  }
+  EXPECT_FALSE(InvertRadial(barrel, 0.667));
+  EXPECT_FALSE(InvertRadial(barrel, 1e300));
+  EXPECT_FALSE(InvertRadial(barrel, NAN));
+  EXPECT_FALSE(InvertRadial(std::array<double, 2>{-1, 1}, 0.5)) << "falls at the axis";
+}
+
+}  // namespace
+}  // namespace palace
