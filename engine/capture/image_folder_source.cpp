@@ -3,30 +3,19 @@
 #include <fnmatch.h>
 
 #include <algorithm>
-#include <chrono>
-#include <cmath>
 #include <system_error>
 #include <utility>
 
+#include "engine/capture/pair_bundle.h"
 #include "engine/capture/picture_file.h"
+#include "engine/capture/picture_size.h"
 
 namespace palace {
 namespace {
 
-constexpr std::int64_t kStart_us = 1'000'000'000'000;
-
-std::string SizeText(int width, int height) {
-  return std::to_string(width) + " x " + std::to_string(height) + " px";
-}
-
 Status CheckSize(const ImageU8& image, const RigCamera& camera, const std::filesystem::path& path) {
-  if (image.width() == camera.pinhole.width && image.height() == camera.pinhole.height) {
-    return Ok();
-  }
-  return InvalidError(path.string() + ": the picture is " +
-                      SizeText(image.width(), image.height()) + ", RIG.toml says " +
-                      SizeText(camera.pinhole.width, camera.pinhole.height) +
-                      "; correct width and height or the pattern");
+  return CheckPictureSize(image, camera.pinhole, path.string(),
+                          "correct width and height or the pattern");
 }
 
 }  // namespace
@@ -111,10 +100,13 @@ ImageFolderSource::ImageFolderSource(RigFile file, std::vector<std::filesystem::
       left_(std::move(left)),
       right_(std::move(right)),
       name_(std::move(name)),
-      loop_(loop) {}
+      turns_(file_.rig.rate_hz, static_cast<std::int64_t>(left_.size()),
+             loop ? PlaybackTurns::AtEnd::kRunOn : PlaybackTurns::AtEnd::kEnd) {
+  turns_.EndsAt(static_cast<std::int64_t>(left_.size()));
+}
 
 Timestamp ImageFolderSource::TimeOf(std::int64_t index) const {
-  return AddSeconds({kStart_us}, static_cast<double>(index) / file_.rig.rate_hz);
+  return AddSeconds(kRecordedStart, static_cast<double>(index) / file_.rig.rate_hz);
 }
 
 Result<std::shared_ptr<const StereoFrame>> ImageFolderSource::LoadPair(std::int64_t index) {
@@ -144,42 +136,8 @@ Result<std::shared_ptr<const StereoFrame>> ImageFolderSource::LoadPair(std::int6
   return cached_;
 }
 
-std::optional<std::int64_t> ImageFolderSource::WaitForTurn(std::stop_token stop) {
-  const auto count = static_cast<std::int64_t>(left_.size());
-  std::unique_lock lock(mutex_);
-  for (;;) {
-    const auto may_run = [&] { return !paused_ || steps_ > 0; };
-    if (!changed_.wait(lock, stop, may_run)) {
-      return std::nullopt;
-    }
-    if (next_index_ >= count && !loop_) {
-      ended_ = true;
-      return std::nullopt;
-    }
-    const double now = MonotonicSeconds();
-    if (steps_ > 0 || speed_ <= 0 || now >= due_s_) {
-      steps_ = std::max(0, steps_ - 1);
-      const double period = speed_ > 0 ? 1 / (file_.rig.rate_hz * speed_) : 0;
-      // Keep the beat when in time; start a new one after a pause or when the engine is slower.
-      const double late = now - due_s_;
-      due_s_ = (late < period ? due_s_ : now) + period;
-      speed_reached_ = late < period || period == 0 ? speed_ : period / late * speed_;
-      shown_index_ = next_index_++;
-      return shown_index_;
-    }
-    // Woken early by Control: look again at what it changed.
-    const auto wait = std::chrono::duration<double>(std::min(due_s_ - now, 1.0));
-    const double due = due_s_;
-    changed_.wait_for(lock, stop, wait,
-                      [&] { return paused_ || steps_ > 0 || due_s_ != due || speed_ <= 0; });
-    if (stop.stop_requested()) {
-      return std::nullopt;
-    }
-  }
-}
-
 Result<std::shared_ptr<const FrameBundle>> ImageFolderSource::Next(std::stop_token stop) {
-  const auto index = WaitForTurn(stop);
+  const auto index = turns_.Wait(stop);
   if (!index) {
     return Error{ErrorCode::kEnd,
                  stop.stop_requested() ? name_ + ": stopped" : name_ + ": end of the pictures"};
@@ -188,76 +146,19 @@ Result<std::shared_ptr<const FrameBundle>> ImageFolderSource::Next(std::stop_tok
   if (!frame) {
     return frame.error();
   }
-  auto bundle = std::make_shared<FrameBundle>();
+  auto bundle = BundleOf(rig_, file_.pose, *frame);
   bundle->sequence = ++sequence_;
-  bundle->time = TimeOf(*index);
-  bundle->rig = rig_;
-  bundle->stereo = *frame;
-  if (file_.pose) {
-    VehiclePose pose = *file_.pose;
-    pose.time = bundle->time;
-    bundle->pose_at_exposure = pose;
-    bundle->poses.push_back(pose);
-  }
   return std::shared_ptr<const FrameBundle>(std::move(bundle));
 }
 
 SourceStatus ImageFolderSource::Status() const {
-  const std::lock_guard lock(mutex_);
   SourceStatus status;
   status.kind = SourceKind::kImages;
   status.name = name_;
-  status.paused = paused_;
-  status.ended = ended_;
-  status.speed = speed_;
-  status.speed_reached = speed_reached_;
-  status.start = {kStart_us};
-  status.frame_index = static_cast<std::uint64_t>(std::max<std::int64_t>(0, shown_index_));
-  status.position_s = static_cast<double>(status.frame_index) / file_.rig.rate_hz;
-  status.duration_s = static_cast<double>(left_.size()) / file_.rig.rate_hz;
-  status.can_seek = true;
-  status.frame_count = left_.size();
+  turns_.FillStatus(status);
   return status;
 }
 
-void ImageFolderSource::Control(const PlaybackControl& control) {
-  const std::lock_guard lock(mutex_);
-  const auto last = static_cast<std::int64_t>(left_.size()) - 1;
-  switch (control.kind) {
-    case PlaybackControl::Kind::kPlay:
-      paused_ = false;
-      break;
-    case PlaybackControl::Kind::kPause:
-      paused_ = true;
-      steps_ = 0;
-      break;
-    case PlaybackControl::Kind::kStepForward:
-      paused_ = true;
-      ++steps_;
-      break;
-    case PlaybackControl::Kind::kStepBack:
-      paused_ = true;
-      next_index_ = std::max<std::int64_t>(0, shown_index_ - 1);
-      steps_ = 1;
-      break;
-    case PlaybackControl::Kind::kSeek:
-      if (std::isfinite(control.value)) {
-        const double index = std::round(
-            std::clamp(control.value * file_.rig.rate_hz, 0.0, static_cast<double>(last)));
-        next_index_ = static_cast<std::int64_t>(index);
-        ended_ = false;
-        due_s_ = 0;
-        steps_ = paused_ ? 1 : 0;  // a seek while paused shows the picture it went to
-      }
-      break;
-    case PlaybackControl::Kind::kSpeed:
-      if (std::isfinite(control.value) && control.value >= 0) {
-        speed_ = control.value;
-        due_s_ = 0;
-      }
-      break;
-  }
-  changed_.notify_all();
-}
+void ImageFolderSource::Control(const PlaybackControl& control) { turns_.Control(control); }
 
 }  // namespace palace

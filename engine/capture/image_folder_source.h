@@ -1,16 +1,14 @@
 // A folder of stereo pairs as a source of frames: RIG.toml names the files and the pose.
 #pragma once
 
-#include <condition_variable>
 #include <filesystem>
 #include <memory>
-#include <mutex>
-#include <optional>
 #include <stop_token>
 #include <string>
 #include <vector>
 
 #include "engine/camera/rig_file.h"
+#include "engine/capture/playback_turns.h"
 #include "engine/runtime/source.h"
 
 namespace palace {
@@ -43,7 +41,6 @@ class ImageFolderSource final : public Source {
  private:
   ImageFolderSource(RigFile file, std::vector<std::filesystem::path> left,
                     std::vector<std::filesystem::path> right, std::string name, bool loop);
-  std::optional<std::int64_t> WaitForTurn(std::stop_token stop);
   Result<std::shared_ptr<const StereoFrame>> LoadPair(std::int64_t index);
   Timestamp TimeOf(std::int64_t index) const;
 
@@ -52,21 +49,10 @@ class ImageFolderSource final : public Source {
   const std::vector<std::filesystem::path> left_;
   const std::vector<std::filesystem::path> right_;
   const std::string name_;
-  const bool loop_;
   std::shared_ptr<const StereoFrame> cached_;  ///< last pair read; used by Next only
   std::int64_t cached_index_ = -1;
   std::uint64_t sequence_ = 0;
-
-  mutable std::mutex mutex_;
-  std::condition_variable_any changed_;
-  std::int64_t next_index_ = 0;  ///< of the next bundle; grows past the last pair with loop
-  std::int64_t shown_index_ = -1;
-  int steps_ = 0;  ///< single bundles owed while paused
-  bool paused_ = false;
-  bool ended_ = false;
-  double speed_ = 1;
-  double speed_reached_ = 1;
-  double due_s_ = 0;  ///< monotonic time of the next bundle; 0 at once
+  PlaybackTurns turns_;
 };
 
 }  // namespace palace

@@ -86,6 +86,13 @@ std::string WhyNotInTime(const GuardInputs& in) {
 
 }  // namespace
 
+std::string WhyNoVehicle(SourceKind kind) {
+  return kind == SourceKind::kImages    ? "No vehicle in a picture folder"
+         : kind == SourceKind::kCameras ? "No vehicle, cameras only"
+         : kind == SourceKind::kVideo   ? "No vehicle in a video"
+                                        : "";
+}
+
 std::vector<GuardResult> EvaluateGuards(const GuardInputs& in) {
   std::vector<GuardResult> guards;
   const auto add = [&](const char* id, const char* name, std::string why) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "engine/model/mission_status.h"
+#include "engine/model/snapshot.h"
 
 namespace palace {
 
@@ -51,6 +52,9 @@ struct GuardInputs {
   double armed_for_s = NAN;
   double arm_window_s = NAN;
 };
+
+/// Why nothing can be approved on this source; empty unless it has pictures only.
+std::string WhyNoVehicle(SourceKind kind);
 
 /// All fourteen, in order.
 std::vector<GuardResult> EvaluateGuards(const GuardInputs& inputs);

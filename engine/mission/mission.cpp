@@ -49,8 +49,8 @@ void Mission::DropApproval(std::string_view why) {
 }
 
 void Mission::Send(VehicleMessage message) {
-  // Nothing of a replay or a picture folder may reach a vehicle, whoever holds a link (I7).
-  if (facts_.source_kind == SourceKind::kReplay || facts_.source_kind == SourceKind::kImages) {
+  // Nothing of a replay or of mere pictures may reach a vehicle, whoever holds a link (I7).
+  if (facts_.source_kind == SourceKind::kReplay || HasPicturesOnly(facts_.source_kind)) {
     return;
   }
   outbox_.push_back(std::move(message));
@@ -206,7 +206,7 @@ void Mission::FollowJump(const MissionInputs& in) {
   shown_.clear();
   winner_ = {};
   facts_.now = sent_at_ = status_.since = vision_good_at_ = in.now;
-  if (in.source_kind == SourceKind::kReplay || in.source_kind == SourceKind::kImages) {
+  if (in.source_kind == SourceKind::kReplay || HasPicturesOnly(in.source_kind)) {
     RestartReplay(in.now);
   } else if (status_.state == MissionState::kArmed || status_.state == MissionState::kApproved) {
     Drop("Time jumped", in.now);

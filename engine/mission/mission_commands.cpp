@@ -45,8 +45,8 @@ std::string Mission::WhyNoCommand(const EngineCommand& command) const {
   if (!recorded && facts_.source_kind == SourceKind::kReplay) {
     return "No link in replay";
   }
-  if (facts_.source_kind == SourceKind::kImages) {
-    return "No vehicle in a picture folder";
+  if (HasPicturesOnly(facts_.source_kind)) {
+    return WhyNoVehicle(facts_.source_kind);
   }
   const bool commits = Is<SelectSite>(command) || Is<ApproveSite>(command);
   const bool script_may = options_.allow_script_approvals && facts_.simulated_vehicle;

@@ -66,8 +66,8 @@ GuardInputs Mission::MakeGuardInputs(Timestamp now) const {
   in.recorder_loss_acknowledged = alarms_.IsAcknowledged("recorder");
   if (facts_.source_kind == SourceKind::kReplay) {
     in.source_reason = "No link in replay";
-  } else if (facts_.source_kind == SourceKind::kImages) {
-    in.source_reason = "No vehicle in a picture folder";
+  } else if (HasPicturesOnly(facts_.source_kind)) {
+    in.source_reason = WhyNoVehicle(facts_.source_kind);
   } else if (facts_.source_kind == SourceKind::kNone) {
     in.source_reason = "No data";
   } else if (facts_.source_kind == SourceKind::kSimulation && !facts_.simulated_vehicle) {
@@ -102,8 +102,7 @@ void Mission::Publish(const MissionInputs& in) {
   status_.can_approve = status_.state == MissionState::kArmed && failed == nullptr;
   status_.cannot_approve_reason.clear();
   if (!status_.can_approve) {
-    const bool source =
-        in.source_kind == SourceKind::kReplay || in.source_kind == SourceKind::kImages;
+    const bool source = in.source_kind == SourceKind::kReplay || HasPicturesOnly(in.source_kind);
     status_.cannot_approve_reason =
         source
             ? status_.guards[12].reason
@@ -163,7 +162,10 @@ std::vector<AlarmCondition> Mission::SensorAlarms(const MissionInputs& in) const
   const bool on_vision = in.navigation.handover == NavigationStatus::Handover::kVision;
   const double mismatch_m = LaserMismatch(in);
   const bool heard = watch_.heard_vehicle();
-  const char* blocked = Flying(status_.state) ? "Descent holds after 1 s." : "Approve is blocked.";
+  const bool pictures_only = HasPicturesOnly(in.source_kind);
+  const char* blocked = pictures_only           ? "Maps stand still."
+                        : Flying(status_.state) ? "Descent holds after 1 s."
+                                                : "Approve is blocked.";
   return {
       {"camera_left", AlarmLevel::kCaution,
        in.source_kind != SourceKind::kNone && !(left_s <= GuardLimits::camera_s),
@@ -180,6 +182,8 @@ std::vector<AlarmCondition> Mission::SensorAlarms(const MissionInputs& in) const
        "Vehicle clock stepped. The selection is dropped, select again.", true},
       {"reboot", AlarmLevel::kWarning, vehicle && watch_.rebooted(),
        "Vehicle restarted. Every approval is void, select again.", true},
+      {"no_pose", AlarmLevel::kAdvisory, pictures_only && left_s >= 0 && std::isnan(pose_s),
+       "Attitude and height unknown: no map, no sites. Add [pose] to RIG.toml."},
       {"gps_error", AlarmLevel::kCaution, gps_m > kMaxGpsError_m,
        Words("GPS horizontal error %.1f m, limit %.1f m. %s", gps_m, kMaxGpsError_m,
              on_vision ? "Landing on vision, not GPS." : "Vision takes over for the descent.")},

@@ -21,7 +21,32 @@
 
 namespace palace {
 
-enum class SourceKind : std::uint8_t { kNone, kLive, kSimulation, kReplay, kImages };
+enum class SourceKind : std::uint8_t {
+  kNone,
+  kLive,  ///< a vehicle on a bus
+  kSimulation,
+  kReplay,
+  kImages,   ///< a folder of pictures
+  kCameras,  ///< live cameras without a vehicle
+  kVideo     ///< filmed pictures
+};
+
+/// Pictures and nothing else: there is no vehicle, so no site can be selected and nothing is sent.
+inline bool HasPicturesOnly(SourceKind kind) {
+  return kind == SourceKind::kImages || kind == SourceKind::kCameras || kind == SourceKind::kVideo;
+}
+
+/// One camera: what it gave, and what was lost on the way.
+struct CameraCounters {
+  std::string name;          ///< as its channel is called, "Camera left"
+  std::string problem;       ///< why no picture comes and what happens next; empty while they come
+  std::uint64_t frames = 0;  ///< taken from the device
+  std::uint64_t unpaired = 0;        ///< had no partner of the other camera within the tolerance
+  std::uint64_t device_dropped = 0;  ///< missing in the device's own beat, or not decodable
+  std::uint64_t reopens = 0;         ///< times the device came back
+  double rate_hz = NAN;              ///< measured; NaN before two pictures
+  double age_s = NAN;                ///< of the newest picture on a live clock; NaN otherwise
+};
 
 /// Where the frames come from, and where in time we are.
 struct SourceStatus {
@@ -36,7 +61,8 @@ struct SourceStatus {
   std::optional<double> duration_s;  ///< known for logs and folders
   bool can_seek = false;
   std::uint64_t frame_index = 0;
-  std::uint64_t frame_count = 0;  ///< 0 unknown
+  std::uint64_t frame_count = 0;          ///< 0 unknown
+  std::vector<CameraCounters> cameras{};  ///< of kCameras and kVideo
 };
 
 /// Arrival of one channel, measured against the active clock.

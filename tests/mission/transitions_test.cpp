@@ -397,13 +397,22 @@ TEST(Mission, AJumpInTimeStopsALiveFlight) {
 }
 
 TEST(Mission, SourcesThatCannotBeApprovedOn) {
-  MissionRig images;
-  images.source = SourceKind::kImages;
-  ASSERT_TRUE(images.RunUntil(MissionState::kProposed));
-  const Status answer = images.Do(SelectSite{101});
-  ASSERT_FALSE(answer.ok());
-  EXPECT_EQ(answer.error().message, "No vehicle in a picture folder");
-  EXPECT_EQ(images.mission.status().cannot_approve_reason, "No vehicle in a picture folder");
+  const std::pair<SourceKind, const char*> pictures[] = {
+      {SourceKind::kImages, "No vehicle in a picture folder"},
+      {SourceKind::kCameras, "No vehicle, cameras only"},
+      {SourceKind::kVideo, "No vehicle in a video"}};
+  for (const auto& [kind, why] : pictures) {
+    SCOPED_TRACE(why);
+    MissionRig rig;
+    rig.source = kind;
+    ASSERT_TRUE(rig.RunUntil(MissionState::kProposed));
+    const Status answer = rig.Do(SelectSite{101});
+    ASSERT_FALSE(answer.ok());
+    EXPECT_EQ(answer.error().message, why);
+    EXPECT_EQ(rig.mission.status().cannot_approve_reason, why);
+    EXPECT_FALSE(rig.Do(WaveOff{}).ok());
+    EXPECT_TRUE(rig.sent.empty());
+  }
 
   MissionRig live;
   live.source = SourceKind::kLive;

@@ -1,0 +1,122 @@
+#include "engine/capture/playback_turns.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+namespace palace {
+
+PlaybackTurns::PlaybackTurns(double rate_hz, std::int64_t count, AtEnd at_end)
+    : rate_hz_(rate_hz), at_end_(at_end), count_(count), count_found_(false) {
+  PALACE_CHECK(rate_hz > 0 && count >= 0, rate_hz, count);
+}
+
+std::optional<std::int64_t> PlaybackTurns::Wait(std::stop_token stop) {
+  std::unique_lock lock(mutex_);
+  for (;;) {
+    if (!changed_.wait(lock, stop, [&] { return !paused_ || steps_ > 0; })) {
+      return std::nullopt;
+    }
+    if (count_found_ && next_index_ >= count_ && at_end_ != AtEnd::kRunOn) {
+      if (at_end_ == AtEnd::kRestart && count_ > 0) {
+        next_index_ = 0;
+        continue;
+      }
+      ended_ = true;
+      steps_ = 0;
+      if (at_end_ != AtEnd::kWait ||
+          !changed_.wait(lock, stop, [&] { return next_index_ < count_; })) {
+        return std::nullopt;
+      }
+      continue;
+    }
+    ended_ = false;
+    const double now = MonotonicSeconds();
+    if (steps_ > 0 || speed_ <= 0 || now >= due_s_) {
+      steps_ = std::max(0, steps_ - 1);
+      const double period = speed_ > 0 ? 1 / (rate_hz_ * speed_) : 0;
+      // Keep the beat when in time; start a new one after a pause or when the engine is slower.
+      const double late = now - due_s_;
+      due_s_ = (late < period ? due_s_ : now) + period;
+      speed_reached_ = late < period || period == 0 ? speed_ : period / late * speed_;
+      shown_index_ = next_index_++;
+      return shown_index_;
+    }
+    // Woken early by Control: look again at what it changed.
+    const auto wait = std::chrono::duration<double>(std::min(due_s_ - now, 1.0));
+    const double due = due_s_;
+    changed_.wait_for(lock, stop, wait,
+                      [&] { return paused_ || steps_ > 0 || due_s_ != due || speed_ <= 0; });
+    if (stop.stop_requested()) {
+      return std::nullopt;
+    }
+  }
+}
+
+void PlaybackTurns::EndsAt(std::int64_t count) {
+  const std::lock_guard lock(mutex_);
+  count_ = count;
+  count_found_ = true;
+  shown_index_ = std::min(shown_index_, count - 1);
+  if (next_index_ > count) {
+    next_index_ = count;
+  }
+}
+
+void PlaybackTurns::FillStatus(SourceStatus& status) const {
+  const std::lock_guard lock(mutex_);
+  status.paused = paused_;
+  status.ended = ended_;
+  status.speed = speed_;
+  status.speed_reached = speed_reached_;
+  status.start = kRecordedStart;
+  status.frame_index = static_cast<std::uint64_t>(std::max<std::int64_t>(0, shown_index_));
+  status.position_s = static_cast<double>(status.frame_index) / rate_hz_;
+  if (count_ > 0) {
+    status.duration_s = static_cast<double>(count_) / rate_hz_;
+  }
+  status.can_seek = true;
+  status.frame_count = static_cast<std::uint64_t>(count_);
+}
+
+void PlaybackTurns::Control(const PlaybackControl& control) {
+  const std::lock_guard lock(mutex_);
+  switch (control.kind) {
+    case PlaybackControl::Kind::kPlay:
+      paused_ = false;
+      break;
+    case PlaybackControl::Kind::kPause:
+      paused_ = true;
+      steps_ = 0;
+      break;
+    case PlaybackControl::Kind::kStepForward:
+      paused_ = true;
+      ++steps_;
+      break;
+    case PlaybackControl::Kind::kStepBack:
+      paused_ = true;
+      next_index_ = std::max<std::int64_t>(0, shown_index_ - 1);
+      steps_ = 1;
+      break;
+    case PlaybackControl::Kind::kSeek:
+      if (std::isfinite(control.value)) {
+        constexpr double kFarthest = 1e12;
+        const double last = count_ > 0 ? static_cast<double>(count_ - 1) : kFarthest;
+        next_index_ =
+            static_cast<std::int64_t>(std::round(std::clamp(control.value * rate_hz_, 0.0, last)));
+        ended_ = false;
+        due_s_ = 0;
+        steps_ = paused_ ? 1 : 0;  // a seek while paused shows the picture it went to
+      }
+      break;
+    case PlaybackControl::Kind::kSpeed:
+      if (std::isfinite(control.value) && control.value >= 0) {
+        speed_ = control.value;
+        due_s_ = 0;
+      }
+      break;
+  }
+  changed_.notify_all();
+}
+
+}  // namespace palace
