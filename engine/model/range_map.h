@@ -1,6 +1,8 @@
 // Range map: what stereo knows about each pixel of the rectified left image.
 #pragma once
 
+#include <limits>
+
 #include "engine/core/time.h"
 #include "engine/model/image.h"
 #include "engine/model/rig.h"
@@ -15,6 +17,13 @@ struct RangeMap {
   ImageF disparity_sigma_px;  ///< one standard deviation
   ImageF depth_m;             ///< along the optical axis: f b / disparity
   ImageF depth_sigma_m;       ///< depth^2 sigma_d / (f b)
+};
+
+/// Stereo depth over laser depth, from the last pairs. NaN while too few pairs were compared.
+struct RangeAgreement {
+  double ratio = std::numeric_limits<double>::quiet_NaN();  ///< 1 when the rig's scale is right
+  double sigma = std::numeric_limits<double>::quiet_NaN();  ///< of the ratio
+  int pairs = 0;
 };
 
 /// Health of one stereo pass.

@@ -32,10 +32,6 @@ std::optional<Eigen::Vector2d> PixelFromWorldPoint(const PinholeCamera& camera,
   return PixelFromCameraPoint(camera, X_WC.R.transpose() * (p_W - X_WC.p));
 }
 
-Eigen::Vector3d RayFromPixel(const PinholeCamera& camera, const Eigen::Vector2d& pixel) {
-  return {(pixel.x() - camera.cx_px) / camera.fx_px, (pixel.y() - camera.cy_px) / camera.fy_px, 1};
-}
-
 std::optional<double> PlaneDepth(const PinholeCamera& camera, const RigidTransform& X_WC,
                                  const GroundPlane& plane, const Eigen::Vector2d& pixel) {
   const Eigen::Vector3d ray_W = X_WC.R * RayFromPixel(camera, pixel);

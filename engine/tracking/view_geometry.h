@@ -5,6 +5,7 @@
 
 #include <Eigen/Dense>
 
+#include "engine/camera/pinhole.h"
 #include "engine/core/frames.h"
 #include "engine/model/rig.h"
 
@@ -24,8 +25,6 @@ std::optional<Eigen::Vector2d> PixelFromCameraPoint(const PinholeCamera& camera,
 std::optional<Eigen::Vector2d> PixelFromWorldPoint(const PinholeCamera& camera,
                                                    const RigidTransform& X_WC,
                                                    const Eigen::Vector3d& p_W);
-/// Direction in camera axes with Z = 1.
-Eigen::Vector3d RayFromPixel(const PinholeCamera& camera, const Eigen::Vector2d& pixel);
 /// Depth along the optical axis at which the pixel's ray meets the plane. Nothing when the camera
 /// is below the plane or the ray is within 3 degrees of it.
 std::optional<double> PlaneDepth(const PinholeCamera& camera, const RigidTransform& X_WC,

@@ -1,0 +1,76 @@
+#include "engine/stereo/range_check.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include "engine/camera/pinhole.h"
+
+namespace palace {
+namespace {
+
+constexpr int kHalfWindow_px = 4;  // the spot of a 1 cm beam, and the pixel's own uncertainty
+
+double MedianOf(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// Median stereo depth around the pixel; nothing when half of the window is unknown.
+std::optional<double> DepthAround(const RangeMap& range, const Eigen::Vector2d& pixel) {
+  const int x = static_cast<int>(std::lround(pixel.x()));
+  const int y = static_cast<int>(std::lround(pixel.y()));
+  std::vector<double> depths;
+  for (int row = y - kHalfWindow_px; row <= y + kHalfWindow_px; ++row) {
+    for (int col = x - kHalfWindow_px; col <= x + kHalfWindow_px; ++col) {
+      if (row >= 0 && col >= 0 && row < range.depth_m.height() && col < range.depth_m.width() &&
+          std::isfinite(range.depth_m.at(col, row))) {
+        depths.push_back(static_cast<double>(range.depth_m.at(col, row)));
+      }
+    }
+  }
+  constexpr int kSide = 2 * kHalfWindow_px + 1;
+  if (2 * depths.size() < static_cast<std::size_t>(kSide * kSide)) {
+    return std::nullopt;
+  }
+  return MedianOf(std::move(depths));
+}
+
+}  // namespace
+
+void RangeCheck::Add(const RangeMap& range, const Eigen::Vector3d& p_CL) {
+  const auto pixel = ProjectPinhole(range.camera, p_CL);
+  if (!pixel || !InPicture(range.camera, *pixel)) {
+    return;
+  }
+  const std::optional<double> depth_m = DepthAround(range, *pixel);
+  if (!depth_m) {
+    return;
+  }
+  ratios_.push_back(*depth_m / p_CL.z());
+  if (ratios_.size() > kMostPairs) {
+    ratios_.pop_front();
+  }
+}
+
+RangeAgreement RangeCheck::agreement() const {
+  RangeAgreement agreement;
+  agreement.pairs = static_cast<int>(ratios_.size());
+  if (agreement.pairs < kLeastPairs) {
+    return agreement;
+  }
+  agreement.ratio = MedianOf({ratios_.begin(), ratios_.end()});
+  std::vector<double> deviations;
+  for (const double ratio : ratios_) {
+    deviations.push_back(std::abs(ratio - agreement.ratio));
+  }
+  constexpr double kSigmaPerMad = 1.4826;
+  constexpr double kMedianLoss = 1.2533;  // sigma of a median over sigma of a mean, Gaussian
+  agreement.sigma = kMedianLoss * kSigmaPerMad * MedianOf(std::move(deviations)) /
+                    std::sqrt(static_cast<double>(agreement.pairs));
+  return agreement;
+}
+
+}  // namespace palace
