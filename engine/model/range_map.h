@@ -35,6 +35,11 @@ struct StereoQuality {
   double median_depth_m = 0;     ///< NaN when nothing matched
   bool suspect_swapped = false;  ///< left and right look exchanged
   bool suspect_frozen = false;   ///< picture identical to the one before
+  bool suspect_covered = false;  ///< one picture shows nothing while the other does
+  bool suspect_same = false;     ///< left and right are one picture
+  /// Median row difference, right minus left, and its spread (1.48 MAD); NaN when not measured.
+  double row_shift_px = std::numeric_limits<double>::quiet_NaN();
+  double row_spread_px = std::numeric_limits<double>::quiet_NaN();
 };
 
 }  // namespace palace

@@ -53,13 +53,22 @@ struct SladSettings {
   friend bool operator==(const SladSettings&, const SladSettings&) = default;
 };
 
+enum class StereoMethod : int { kSgbm = 0, kCensus = 1 };
+enum class StereoPrefilter : int { kNone = 0, kLaplacian = 1, kBilateral = 2 };
+enum class FilterOrder : int { kRectifyFirst = 0, kFilterFirst = 1 };
+
 struct StereoSettings {
-  int block_size_px = 5;
+  StereoMethod method = StereoMethod::kCensus;
+  int pyramid_levels = 0;  ///< times the pictures are halved for the whole-pixel search
+  StereoPrefilter prefilter = StereoPrefilter::kNone;
+  FilterOrder filter_order = FilterOrder::kRectifyFirst;
+  int block_size_px = 5;     ///< of OpenCV's matcher
   int num_disparities = 64;  ///< width of the window that follows laser and pose
   int refine_window_px = 9;
   double max_sigma_px = 0.5;  ///< points with a larger disparity sigma are unknown
   double uniqueness_percent = 5;
   double max_left_right_px = 1;
+  double max_refined_left_right_px = 0.5;
   int map_every_frames = 1;  ///< a new range map every so many frames
   friend bool operator==(const StereoSettings&, const StereoSettings&) = default;
 };

@@ -4,72 +4,28 @@
 #include <cmath>
 #include <limits>
 
-#include <opencv2/calib3d.hpp>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
+
+#include "engine/stereo/opencv_matchers.h"
+#include "engine/stereo/prefilter.h"
+#include "engine/stereo/semi_global.h"
+#include "engine/stereo/speckles.h"
+#include "engine/stereo/subpixel.h"
 
 namespace palace {
 namespace {
 
-constexpr int kPreFilterCap = 31;
 constexpr int kSpeckleArea_px = 100;
-constexpr int kSpeckleRange_px = 2;
-constexpr double kFixedPoint = 16.0;  // OpenCV's disparities are sixteenths of a pixel
-
-cv::Mat View(const ImageU8& image) {
-  // OpenCV has no read-only view; nothing here writes through it.
-  return cv::Mat(image.height(), image.width(), CV_8UC1,
-                 const_cast<std::uint8_t*>(image.pixels().data()));
-}
-
-/// Mean and standard deviation of every fourth pixel that is neither black nor white.
-struct Brightness {
-  double mean = 0;
-  double deviation = 0;
-};
-
-Brightness Measure(const cv::Mat& image) {
-  std::int64_t count = 0;
-  std::int64_t sum = 0;
-  std::int64_t square = 0;
-  for (int y = 0; y < image.rows; y += 2) {
-    const std::uint8_t* row = image.ptr<std::uint8_t>(y);
-    for (int x = 0; x < image.cols; x += 2) {
-      const int value = row[x];
-      if (value > 0 && value < 255) {
-        ++count;
-        sum += value;
-        square += value * value;
-      }
-    }
-  }
-  if (count == 0) {
-    return {};
-  }
-  const double n = static_cast<double>(count);
-  const double mean = static_cast<double>(sum) / n;
-  return {mean, std::sqrt(std::max(0.0, static_cast<double>(square) / n - mean * mean))};
-}
-
-/// The right picture with the left one's mean and contrast; itself when they hardly differ.
-cv::Mat MatchBrightness(const cv::Mat& left, const cv::Mat& right) {
-  const Brightness a = Measure(left);
-  const Brightness b = Measure(right);
-  if (!(a.deviation > 1) || !(b.deviation > 1)) {
-    return right;
-  }
-  const double gain = std::clamp(a.deviation / b.deviation, 0.5, 2.0);
-  const double offset = a.mean - gain * b.mean;
-  if (std::abs(gain - 1) < 0.03 && std::abs(a.mean - b.mean) < 3) {
-    return right;
-  }
-  cv::Mat matched;
-  right.convertTo(matched, CV_8U, gain, offset);
-  return matched;
-}
+constexpr float kSpeckleStep_px = 2;
+constexpr int kWidestSearch_px = 256;  // a disparity's index is a byte
+constexpr int kLeastWidth_px = 64;     // below it a smaller picture has nothing to match
 
 /// 255 where the 3x3 neighbourhood is all black or all white.
-cv::Mat UniformMask(const cv::Mat& image) {
+cv::Mat UniformMask(const ImageU8& picture) {
+  // OpenCV has no read-only view; nothing here writes through it.
+  const cv::Mat image(picture.height(), picture.width(), CV_8UC1,
+                      const_cast<std::uint8_t*>(picture.pixels().data()));
   const cv::Mat element = cv::getStructuringElement(cv::MORPH_RECT, {3, 3});
   cv::Mat low;
   cv::Mat high;
@@ -78,16 +34,53 @@ cv::Mat UniformMask(const cv::Mat& image) {
   return (high == 0) | (low == 255);
 }
 
-cv::Mat RunSgbm(const cv::Mat& left, const cv::Mat& right, int count,
-                const StereoSettings& settings) {
-  const int block = settings.block_size_px | 1;
-  const cv::Ptr<cv::StereoSGBM> sgbm = cv::StereoSGBM::create(
-      0, count, block, 8 * block * block, 32 * block * block,
-      static_cast<int>(std::lround(settings.max_left_right_px)), kPreFilterCap,
-      static_cast<int>(std::lround(settings.uniqueness_percent)), kSpeckleArea_px, kSpeckleRange_px,
-      cv::StereoSGBM::MODE_SGBM_3WAY);
-  cv::Mat disparity;
-  sgbm->compute(left, right, disparity);
+void RefuseUniform(const ImageU8& left, const ImageU8& right, ImageF& disparity) {
+  const cv::Mat left_uniform = UniformMask(left);
+  const cv::Mat right_uniform = UniformMask(right);
+  for (int y = 0; y < disparity.height(); ++y) {
+    const std::uint8_t* here = left_uniform.ptr<std::uint8_t>(y);
+    const std::uint8_t* there = right_uniform.ptr<std::uint8_t>(y);
+    float* d = disparity.row(y);
+    for (int x = 0; x < disparity.width(); ++x) {
+      if (!std::isnan(d[x])) {
+        const int match = std::clamp(x - static_cast<int>(d[x] + 0.5F), 0, disparity.width() - 1);
+        if (here[x] != 0 || there[match] != 0) {
+          d[x] = std::numeric_limits<float>::quiet_NaN();
+        }
+      }
+    }
+  }
+}
+
+ImageF MatchFullSize(const ImageU8& left, const ImageU8& right, const DisparityWindow& window,
+                     const StereoSettings& settings) {
+  if (settings.method == StereoMethod::kSgbm) {
+    return MatchWithOpenCv(OpenCvMatcher::kSgbm3Way, left, right, window, settings);
+  }
+  SemiGlobalOptions options;
+  options.uniqueness_percent = settings.uniqueness_percent;
+  options.max_left_right_px = settings.max_left_right_px;
+  ImageF disparity = MatchSemiGlobal(left, right, window, options);
+  RemoveSpeckles(disparity, kSpeckleArea_px, kSpeckleStep_px);
+  return disparity;
+}
+
+ImageF MatchAtHalfSize(const ImageU8& left, const ImageU8& right, const DisparityWindow& window,
+                       const StereoSettings& settings) {
+  StereoSettings smaller = settings;
+  smaller.pyramid_levels = std::max(0, settings.pyramid_levels - 1);
+  const DisparityWindow half_window{window.min_px / 2, (window.count / 2 + 16) / 16 * 16};
+  const ImageU8 half_left = HalfSize(left), half_right = HalfSize(right);
+  const ImageF coarse = MatchWholePixels(half_left, half_right, half_window, smaller);
+  SubpixelOptions options;
+  options.window_px = settings.refine_window_px | 1;
+  const ImageF half = RefineDisparity(half_left, half_right, coarse, options).disparity_px;
+  ImageF disparity(left.width(), left.height(), std::numeric_limits<float>::quiet_NaN());
+  for (int y = 0; y < 2 * half.height(); ++y) {
+    for (int x = 0; x < 2 * half.width(); ++x) {
+      disparity.at(x, y) = 2 * half.at(x / 2, y / 2);
+    }
+  }
   return disparity;
 }
 
@@ -95,35 +88,13 @@ cv::Mat RunSgbm(const cv::Mat& left, const cv::Mat& right, int count,
 
 ImageF MatchWholePixels(const ImageU8& left, const ImageU8& right, const DisparityWindow& window,
                         const StereoSettings& settings) {
-  const cv::Mat left_view = View(left);
-  const cv::Mat right_view = View(right);
-  const int width = left.width();
-  const int height = left.height();
-  const int overlap = width - window.min_px;  // columns both pictures share at the least disparity
-  const cv::Mat matched = MatchBrightness(left_view, right_view);
-  cv::Mat left_padded;
-  cv::Mat right_padded;
-  cv::copyMakeBorder(left_view.colRange(window.min_px, width), left_padded, 0, 0, window.count, 0,
-                     cv::BORDER_REPLICATE);
-  cv::copyMakeBorder(matched.colRange(0, overlap), right_padded, 0, 0, window.count, 0,
-                     cv::BORDER_REPLICATE);
-  const cv::Mat sixteenths = RunSgbm(left_padded, right_padded, window.count, settings);
-  const cv::Mat left_uniform = UniformMask(left_view);
-  const cv::Mat right_uniform = UniformMask(right_view);
-
-  ImageF disparity(width, height, std::numeric_limits<float>::quiet_NaN());
-  for (int y = 0; y < height; ++y) {
-    const std::int16_t* found = sixteenths.ptr<std::int16_t>(y) + window.count;
-    const std::uint8_t* uniform = left_uniform.ptr<std::uint8_t>(y) + window.min_px;
-    const std::uint8_t* other = right_uniform.ptr<std::uint8_t>(y);
-    float* out = disparity.row(y) + window.min_px;
-    for (int x = 0; x < overlap; ++x) {
-      const int match = x - (found[x] + 8) / 16;  // column in the right picture
-      if (found[x] >= 0 && match >= 0 && uniform[x] == 0 && other[match] == 0) {
-        out[x] = static_cast<float>(found[x] / kFixedPoint + window.min_px);
-      }
-    }
+  const bool large = left.width() - window.min_px >= 2 * kLeastWidth_px && left.height() >= 2;
+  if (large && (settings.pyramid_levels > 0 || window.count > kWidestSearch_px)) {
+    return MatchAtHalfSize(left, right, window, settings);
   }
+  const DisparityWindow searched{window.min_px, std::min(window.count, kWidestSearch_px)};
+  ImageF disparity = MatchFullSize(left, right, searched, settings);
+  RefuseUniform(left, right, disparity);
   return disparity;
 }
 

@@ -6,6 +6,8 @@
 #include <utility>
 
 #include "engine/stereo/disparity.h"
+#include "engine/stereo/hidden.h"
+#include "engine/stereo/prefilter.h"
 #include "engine/stereo/stereo_quality.h"
 #include "engine/stereo/subpixel.h"
 
@@ -13,6 +15,7 @@ namespace palace {
 namespace {
 
 constexpr int kLeastOverlap_px = 32;  // columns both pictures must share
+constexpr int kWidestWindow_px = 4096;
 constexpr double kSwapTestCoverage = 0.1;
 constexpr float kLeastDisparity_px = 0.1F;  // beyond it depth is not bounded by the picture
 
@@ -33,10 +36,12 @@ Status CheckInput(const ImageU8& left, const ImageU8& right, const PinholeCamera
     return InvalidError("stereo: baseline " + std::to_string(baseline_m) + " m and focal length " +
                         std::to_string(camera.fx_px) + " px must be positive; check RIG.toml");
   }
-  if (window.min_px < 0 || window.count < 16 || window.count % 16 != 0) {
+  if (window.min_px < 0 || window.count < 16 || window.count > kWidestWindow_px ||
+      window.count % 16 != 0) {
     return InvalidError("stereo: disparity window from " + std::to_string(window.min_px) + " px, " +
                         std::to_string(window.count) +
-                        " wide; the start must be 0 or more, the width a multiple of 16");
+                        " wide; the start must be 0 or more, the width a multiple of 16 up to " +
+                        std::to_string(kWidestWindow_px));
   }
   if (camera.width - window.min_px < kLeastOverlap_px) {
     return InvalidError("stereo: disparities from " + std::to_string(window.min_px) +
@@ -72,6 +77,18 @@ RangeMap RangeMapFromDisparity(SubpixelDisparity refined, const PinholeCamera& c
   return range;
 }
 
+ImageF FindWholePixels(const ImageU8& left, const ImageU8& right, const FilteredPair* filtered,
+                       const DisparityWindow& window, const StereoSettings& settings) {
+  if (filtered) {
+    return MatchWholePixels(filtered->left, filtered->right, window, settings);
+  }
+  if (settings.prefilter == StereoPrefilter::kNone) {
+    return MatchWholePixels(left, right, window, settings);
+  }
+  return MatchWholePixels(Prefilter(left, settings.prefilter), Prefilter(right, settings.prefilter),
+                          window, settings);
+}
+
 }  // namespace
 
 struct StereoMatcher::Memory {
@@ -87,21 +104,31 @@ StereoMatcher& StereoMatcher::operator=(StereoMatcher&&) noexcept = default;
 Result<StereoResult> StereoMatcher::Match(const ImageU8& left, const ImageU8& right,
                                           const PinholeCamera& camera, double baseline_m,
                                           const DisparityWindow& window,
-                                          const StereoSettings& settings, Timestamp time) {
+                                          const StereoSettings& settings, Timestamp time,
+                                          const FilteredPair* filtered) {
   if (Status status = CheckInput(left, right, camera, baseline_m, window); !status) {
     return status.error();
   }
-  const ImageF coarse = MatchWholePixels(left, right, window, settings);
+  for (const ImageU8* image :
+       {filtered ? &filtered->left : &left, filtered ? &filtered->right : &right}) {
+    if (image->width() != left.width() || image->height() != left.height()) {
+      return InvalidError("stereo: the filtered picture is " +
+                          SizeText(image->width(), image->height()) + " px, the pair is " +
+                          SizeText(left.width(), left.height()) + " px");
+    }
+  }
   SubpixelOptions options;
   options.window_px = settings.refine_window_px | 1;
   options.max_sigma_px = settings.max_sigma_px;
+  SubpixelDisparity refined = RefineDisparity(
+      left, right, FindWholePixels(left, right, filtered, window, settings), options);
+  RefuseHidden(settings.max_refined_left_right_px, refined.disparity_px, refined.sigma_px);
   StereoResult result;
-  result.range = RangeMapFromDisparity(RefineDisparity(left, right, coarse, options), camera,
-                                       baseline_m, time);
+  result.range = RangeMapFromDisparity(std::move(refined), camera, baseline_m, time);
   StereoQuality& quality = result.quality;
   SummariseRange(result.range, quality);
-  quality.row_error_px = MedianRowError(left, right, result.range.disparity_px);
-  quality.exposure_ratio = ExposureRatio(left, right);
+  MeasureRowError(left, right, result.range.disparity_px, quality);
+  SuspectPictures(left, right, quality);
   // Camera noise never repeats, so one equal picture is enough to suspect its camera.
   quality.suspect_frozen = (!memory_->left.empty() && memory_->left.pixels() == left.pixels()) ||
                            (!memory_->right.empty() && memory_->right.pixels() == right.pixels());

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <vector>
 
@@ -17,6 +18,10 @@ constexpr int kPointsAcross = 24;
 constexpr int kPointsDown = 18;
 constexpr std::size_t kLeastPoints = 20;
 constexpr double kLeastRowContrast = 8;  // mean squared vertical difference, grey levels squared
+constexpr double kSigmaPerMad = 1.4826;  // of normal errors
+constexpr double kCoveredDeviation = 3;  // grey levels: camera noise and nothing else
+constexpr double kSeeingDeviation = 8;
+constexpr std::size_t kMedianSamples = 20000;  // known well enough from so many
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 double Median(std::vector<double>& values) {
@@ -78,6 +83,36 @@ double BestRowShift(const ImageU8& left, const ImageU8& right, int x, int y, dou
          (*(best - 1) - *(best + 1)) / (2 * curvature);
 }
 
+/// Mean and standard deviation of every second pixel of every second row.
+struct Grey {
+  double mean = 0;
+  double deviation = 0;
+};
+
+Grey GreyOf(const ImageU8& image) {
+  std::int64_t count = 0, sum = 0, square = 0;
+  for (int y = 0; y < image.height(); y += 2) {
+    const std::uint8_t* row = image.row(y);
+    for (int x = 0; x < image.width(); x += 2) {
+      ++count;
+      sum += row[x];
+      square += row[x] * row[x];
+    }
+  }
+  if (count == 0) {
+    return {};
+  }
+  const double n = static_cast<double>(count);
+  const double mean = static_cast<double>(sum) / n;
+  return {mean, std::sqrt(std::max(0.0, static_cast<double>(square) / n - mean * mean))};
+}
+
+std::string Fixed2(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.2f", value);
+  return text;
+}
+
 ImageU8 Band(const ImageU8& image, int first, int rows) {
   const auto begin = image.pixels().begin() + static_cast<std::ptrdiff_t>(first) * image.width();
   return ImageU8(
@@ -96,14 +131,16 @@ double KnownShare(const ImageF& values) {
 
 }  // namespace
 
-double MedianRowError(const ImageU8& left, const ImageU8& right, const ImageF& disparity_px) {
+void MeasureRowError(const ImageU8& left, const ImageU8& right, const ImageF& disparity_px,
+                     StereoQuality& quality) {
+  quality.row_error_px = quality.row_shift_px = quality.row_spread_px = kNaN;
   const int margin = kPatchHalf_px + kRowReach_px + 1;
   std::vector<double> shifts;
   for (int j = 0; j < kPointsDown; ++j) {
     const int y = margin + j * (left.height() - 2 * margin) / kPointsDown;
     for (int i = 0; i < kPointsAcross; ++i) {
       const int x = margin + i * (left.width() - 2 * margin) / kPointsAcross;
-      if (!left.Contains(x + margin, y + margin)) {
+      if (!left.Contains(x - margin, y - margin) || !left.Contains(x + margin, y + margin)) {
         continue;
       }
       const double disparity = disparity_px.at(x, y);
@@ -114,23 +151,54 @@ double MedianRowError(const ImageU8& left, const ImageU8& right, const ImageF& d
       }
       const double shift = BestRowShift(left, right, x, y, disparity);
       if (!std::isnan(shift)) {
-        shifts.push_back(std::abs(shift));
+        shifts.push_back(shift);
       }
     }
   }
-  return shifts.size() < kLeastPoints ? kNaN : Median(shifts);
+  if (shifts.size() < kLeastPoints) {
+    return;
+  }
+  std::vector<double> sizes;
+  for (const double shift : shifts) {
+    sizes.push_back(std::abs(shift));
+  }
+  quality.row_error_px = Median(sizes);
+  quality.row_shift_px = Median(shifts);
+  for (double& shift : shifts) {
+    shift = std::abs(shift - quality.row_shift_px);
+  }
+  quality.row_spread_px = kSigmaPerMad * Median(shifts);
 }
 
-double ExposureRatio(const ImageU8& left, const ImageU8& right) {
-  std::int64_t left_sum = 0;
-  std::int64_t right_sum = 0;
-  for (const std::uint8_t value : left.pixels()) {
-    left_sum += value;
+void SuspectPictures(const ImageU8& left, const ImageU8& right, StereoQuality& quality) {
+  const Grey a = GreyOf(left);
+  const Grey b = GreyOf(right);
+  quality.exposure_ratio = a.mean > 0 ? b.mean / a.mean : kNaN;
+  quality.suspect_covered = std::min(a.deviation, b.deviation) < kCoveredDeviation &&
+                            std::max(a.deviation, b.deviation) >= kSeeingDeviation;
+  quality.suspect_same = !left.empty() && a.deviation > 0 && left.pixels() == right.pixels();
+}
+
+std::vector<std::string> StereoWarnings(const StereoQuality& quality) {
+  std::vector<std::string> warnings;
+  if (quality.row_error_px >= kRowErrorAlarm_px) {
+    warnings.push_back("rows of the two cameras differ by " + Fixed2(quality.row_error_px) +
+                       " px (median, spread " + Fixed2(quality.row_spread_px) + " px; limit " +
+                       Fixed2(kRowErrorAlarm_px) + " px); calibrate the rig");
   }
-  for (const std::uint8_t value : right.pixels()) {
-    right_sum += value;
+  if (quality.suspect_swapped) {
+    warnings.push_back("left and right camera look exchanged; check the cables and RIG.toml");
   }
-  return left_sum == 0 ? kNaN : static_cast<double>(right_sum) / static_cast<double>(left_sum);
+  if (quality.suspect_same) {
+    warnings.push_back("left and right are the same picture; check the capture devices");
+  }
+  if (quality.suspect_frozen) {
+    warnings.push_back("a camera repeats its last picture; it may be frozen");
+  }
+  if (quality.suspect_covered) {
+    warnings.push_back("one camera shows nothing while the other does; it may be covered");
+  }
+  return warnings;
 }
 
 bool LooksSwapped(const ImageU8& left, const ImageU8& right, const DisparityWindow& window,
@@ -145,13 +213,14 @@ bool LooksSwapped(const ImageU8& left, const ImageU8& right, const DisparityWind
 }
 
 void SummariseRange(const RangeMap& range, StereoQuality& quality) {
+  const std::vector<float>& depth = range.depth_m.pixels();
   std::vector<double> depths;
   std::vector<double> sigmas;
-  // Every third pixel is plenty for a median.
-  for (std::size_t i = 0; i < range.depth_m.pixels().size(); i += 3) {
-    const float depth = range.depth_m.pixels()[i];
-    if (!std::isnan(depth)) {
-      depths.push_back(depth);
+  // Odd, so that it walks through all columns of an even width.
+  const std::size_t stride = depth.size() / kMedianSamples | 1;
+  for (std::size_t i = 0; i < depth.size(); i += stride) {
+    if (!std::isnan(depth[i])) {
+      depths.push_back(depth[i]);
       sigmas.push_back(range.disparity_sigma_px.pixels()[i]);
     }
   }

@@ -1,6 +1,9 @@
 // Health of a stereo pass, measured from the pictures themselves.
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "engine/model/image.h"
 #include "engine/model/range_map.h"
 #include "engine/model/settings.h"
@@ -8,19 +11,27 @@
 
 namespace palace {
 
-/// Median over textured points of the vertical shift at which the right picture fits best, as an
-/// absolute value in pixels; a calibrated pair has less than 0.3. NaN below 20 points. Each point
-/// compares a 9x9 patch at its own disparity, up to 2 rows up and down, parabola through the least
-/// squared differences.
-double MedianRowError(const ImageU8& left, const ImageU8& right, const ImageF& disparity_px);
+/// Fills row_error_px, row_shift_px and row_spread_px: over textured points, the vertical shift at
+/// which the right picture fits best; median of its absolute value, median and spread (1.48 times
+/// the median distance from the median). A calibrated pair has a row error below 0.3 px. NaN below
+/// 20 points. Each point compares a 9x9 patch at its own disparity, up to 2 rows up and down,
+/// parabola through the least squared differences.
+void MeasureRowError(const ImageU8& left, const ImageU8& right, const ImageF& disparity_px,
+                     StereoQuality& quality);
 
-/// Mean grey of the right picture over mean grey of the left; NaN when the left one is black.
-double ExposureRatio(const ImageU8& left, const ImageU8& right);
+/// Fills exposure_ratio (mean grey of the right picture over that of the left; NaN when the left
+/// one is black), suspect_covered and suspect_same. Same size pictures.
+void SuspectPictures(const ImageU8& left, const ImageU8& right, StereoQuality& quality);
 
 /// True when a band across the picture matches with left and right exchanged, and does not as
 /// given.
 bool LooksSwapped(const ImageU8& left, const ImageU8& right, const DisparityWindow& window,
                   const StereoSettings& settings);
+
+/// What a person should know about the pair, one line each, with value, limit and what to do; empty
+/// when all is well. Rows: warned from kRowErrorAlarm_px on.
+inline constexpr double kRowErrorAlarm_px = 0.5;
+std::vector<std::string> StereoWarnings(const StereoQuality& quality);
 
 /// Coverage, median sigma and median depth (NaN when nothing matched).
 void SummariseRange(const RangeMap& range, StereoQuality& quality);

@@ -8,7 +8,6 @@
 #include <opencv2/core.hpp>
 
 #include "engine/core/check.h"
-#include "engine/stereo/window_sums.h"
 
 namespace palace {
 namespace {
@@ -22,6 +21,8 @@ constexpr float kSmoothLimit_px = 1.0F;
 constexpr float kGradientNoiseShare = 0.45F;
 constexpr float kLeastResidualVariance = 0.2F;  // of rounding to whole grey levels, both pictures
 constexpr float kLeastCorrelation = 0.5F;       // below it noise outweighs the texture
+constexpr float kLeastKnownShare = 0.4F;        // of a window
+constexpr float kLeastSigma_px = 0.02F;         // interpolation and texture beyond the noise
 constexpr int kRowsPerStripe = 48;              // fixed: results do not depend on the threads
 
 /// Calls work(first_row, end_row) for fixed stripes of rows, on OpenCV's threads.
@@ -91,220 +92,199 @@ Fields Prepare(const ImageU8& left, const ImageU8& right, const ImageF& coarse, 
   return f;
 }
 
-/// Adds to (sum, count) what `values` holds within the limit of `centre`, relative to the centre.
-void AddNear(const float* values, const float* centre, int count, float* sum, float* near) {
-  for (int x = 0; x < count; ++x) {
-    const float difference = values[x] - centre[x];
-    const float weight = std::abs(difference) <= kSmoothLimit_px ? 1.0F : 0.0F;
-    sum[x] += weight * difference;
-    near[x] += weight;
-  }
-}
+using Row = std::vector<float>;
 
-/// Mean along rows over the window's pixels within 1 px of the centre.
-void SmoothAlongRows(const ImageF& in, int half, int first, int end, ImageF& out) {
-  const int width = in.width();
-  std::vector<float> padded(static_cast<std::size_t>(width + 2 * half), kFar);
-  std::vector<float> sum(static_cast<std::size_t>(width));
-  std::vector<float> near(static_cast<std::size_t>(width));
-  for (int y = first; y < end; ++y) {
-    std::copy_n(in.row(y), width, padded.begin() + half);
-    std::fill(sum.begin(), sum.end(), 0.0F);
-    std::fill(near.begin(), near.end(), 0.0F);
-    for (int k = 0; k <= 2 * half; ++k) {
-      AddNear(padded.data() + k, in.row(y), width, sum.data(), near.data());
-    }
-    for (int x = 0; x < width; ++x) {
-      out.at(x, y) =
-          in.at(x, y) + sum[static_cast<std::size_t>(x)] / near[static_cast<std::size_t>(x)];
-    }
-  }
-}
+Row RowOf(int width, float value = 0) { return Row(static_cast<std::size_t>(width), value); }
 
-/// The same along columns; `reference` receives the smoothed field, kept near the start.
-void SmoothAlongColumns(const ImageF& in, const Fields& f, int half, float max_shift, int first,
-                        int end, ImageF& reference) {
-  const auto width = static_cast<std::size_t>(f.width);
-  std::vector<float> sum(width);
-  std::vector<float> near(width);
-  for (int y = first; y < end; ++y) {
-    std::fill(sum.begin(), sum.end(), 0.0F);
-    std::fill(near.begin(), near.end(), 0.0F);
-    for (int row = std::max(0, y - half); row <= std::min(f.height - 1, y + half); ++row) {
-      AddNear(in.row(row), in.row(y), f.width, sum.data(), near.data());
+/// Window sums of products of two fields, row after row: running sums down the columns, then along
+/// the row. Outside the picture counts as 0.
+class ProductWindow {
+ public:
+  ProductWindow(const ImageF& a, const ImageF& b, int half, int first_row, const StereoLoops& loops)
+      : a_(a),
+        b_(b),
+        half_(half),
+        loops_(loops),
+        zeros_(RowOf(a.width())),
+        columns_(RowOf(a.width() + 2 * half)),
+        next_row_(first_row) {
+    for (int y = first_row - half; y < first_row + half; ++y) {
+      Slide(y, kNoRow);
     }
-    for (std::size_t x = 0; x < width; ++x) {
-      const float start = f.start.row(y)[x];
-      const float smooth = in.row(y)[x] + sum[x] / near[x];
-      reference.row(y)[x] = std::clamp(smooth, start - max_shift, start + max_shift);
-    }
+    leaving_ = kNoRow;
   }
-}
 
-/// The right picture at x - d(x): Catmull-Rom cubic through four pixels. 0 where unknown.
-void WarpRow(const Fields& f, const ImageF& reference, int y, float* warped) {
-  const float* right = f.right.row(y);
-  const float* d = reference.row(y);
-  const float* known = f.known.row(y);
-  for (int x = 0; x < f.width; ++x) {
-    if (known[x] == 0.0F) {
-      warped[x] = 0.0F;
-      continue;
-    }
-    const float place = static_cast<float>(x) - d[x];
-    const int whole = static_cast<int>(place);
-    const float t = place - static_cast<float>(whole);
-    const float* p = right + whole;
-    const float even = p[0] + p[0];
-    const float slope = p[1] - p[-1];
-    const float square = 2.0F * p[-1] - 5.0F * p[0] + 4.0F * p[1] - p[2];
-    const float cube = 3.0F * (p[0] - p[1]) + p[2] - p[-1];
-    warped[x] = 0.5F * (even + t * (slope + t * (square + t * cube)));
+  /// Sums of the next row.
+  void Next(float* out) {
+    Slide(next_row_ + half_, leaving_);
+    leaving_ = next_row_ - half_;
+    ++next_row_;
+    loops_.sum_along(columns_.data(), half_, a_.width(), out);
   }
-}
 
-/// What the windows of one row say; arrays of the picture's width. Where a window is not good, the
-/// step and the energy are 0.
-struct RowFits {
-  explicit RowFits(int width)
-      : step_px(static_cast<std::size_t>(width)),
-        noise_energy(static_cast<std::size_t>(width)),
-        gradient_energy(static_cast<std::size_t>(width)) {}
-  std::vector<float> step_px;
-  std::vector<float> noise_energy;     // residual variance times the whole gradient's energy
-  std::vector<float> gradient_energy;  // without the share that is camera noise
+ private:
+  static constexpr int kNoRow = -1000;
+
+  const float* RowOrZeros(const ImageF& image, int y) const {
+    return y >= 0 && y < image.height() ? image.row(y) : zeros_.data();
+  }
+  void Slide(int enter, int leave) {
+    loops_.slide(RowOrZeros(a_, enter), RowOrZeros(b_, enter), RowOrZeros(a_, leave),
+                 RowOrZeros(b_, leave), a_.width(), columns_.data() + half_);
+  }
+
+  const ImageF& a_;
+  const ImageF& b_;
+  const int half_;
+  const StereoLoops& loops_;
+  Row zeros_;
+  Row columns_;  // padded by half_ zeros on both sides
+  int next_row_;
+  int leaving_;
 };
 
-// Written without branches, so that it is vectorised.
-void FitRow(const StaticSums& s, const WarpSums& w, float least_known, int width, RowFits& fits) {
-  float* step_px = fits.step_px.data();
-  float* noise_energy = fits.noise_energy.data();
-  float* gradient_energy = fits.gradient_energy.data();
-  for (int x = 0; x < width; ++x) {
-    const float n = std::max(s.n[x], 4.0F);
-    const float scale = 1.0F / n;
-    const float gg = s.gg[x] - s.g[x] * s.g[x] * scale;
-    const float ll = s.ll[x] - s.l[x] * s.l[x] * scale;
-    const float lg = s.lg[x] - s.l[x] * s.g[x] * scale;
-    const float rr = w.rr[x] - w.r[x] * w.r[x] * scale;
-    const float lr = w.lr[x] - s.l[x] * w.r[x] * scale;
-    const float rg = w.rg[x] - w.r[x] * s.g[x] * scale;
-    const bool good = (s.n[x] >= least_known) & (gg > n * kLeastResidualVariance) & (rr > 0.0F) &
-                      (lr > 0.0F) & (lr * lr > kLeastCorrelation * kLeastCorrelation * ll * rr);
-    const float gain = std::min(std::max(lr / rr, 0.5F), 2.0F);
-    const float eg = lg - gain * rg;
-    const float ee = ll - gain * (2.0F * lr - gain * rr);
-    const float step = -eg / gg;
-    const float residual_variance = std::max((ee + eg * step) / (n - 3.0F), kLeastResidualVariance);
-    step_px[x] = good ? std::min(std::max(step, -1.0F), 1.0F) : 0.0F;
-    noise_energy[x] = residual_variance * gg;
-    gradient_energy[x] = good ? gg - n * kGradientNoiseShare * residual_variance : 0.0F;
+/// Window sums that do not change between steps.
+struct StaticSums {
+  ImageF n, l, g, ll, lg, gg;
+};
+
+StaticSums SumStatic(const Fields& f, int half, const StereoLoops& loops) {
+  StaticSums sums;
+  ImageF* const out[] = {&sums.n, &sums.l, &sums.g, &sums.ll, &sums.lg, &sums.gg};
+  for (ImageF* image : out) {
+    *image = ImageF(f.width, f.height);
   }
+  const ImageF* const a[] = {&f.known, &f.left, &f.gradient, &f.left, &f.left, &f.gradient};
+  const ImageF* const b[] = {&f.known, &f.known, &f.known, &f.left, &f.gradient, &f.gradient};
+  ForStripes(f.height, [&](int first, int end) {
+    for (int k = 0; k < 6; ++k) {
+      ProductWindow window(*a[k], *b[k], half, first, loops);
+      for (int y = first; y < end; ++y) {
+        window.Next(out[k]->row(y));
+      }
+    }
+  });
+  return sums;
 }
 
 class Refinement {
  public:
-  Refinement(const Fields& fields, const SubpixelOptions& options)
+  Refinement(const Fields& fields, const SubpixelOptions& options, const StereoLoops& loops)
       : f_(fields),
+        options_(options),
+        loops_(loops),
         half_(options.window_px / 2),
         max_shift_(static_cast<float>(options.max_shift_px)),
-        max_sigma_(static_cast<float>(options.max_sigma_px)),
-        least_known_(0.4F * static_cast<float>(options.window_px * options.window_px)),
+        limits_{kLeastKnownShare * static_cast<float>(options.window_px * options.window_px),
+                kLeastCorrelation, kLeastResidualVariance, kGradientNoiseShare},
         disparity_(fields.start),
         reference_(fields.width, fields.height),
         warped_(fields.width, fields.height),
-        static_sums_(fields.width, fields.height) {
-    ForStripes(f_.height, [&](int first, int end) {
-      SumStatic(f_.known, f_.left, f_.gradient, half_, first, end, static_sums_);
-    });
-  }
+        sums_(SumStatic(fields, half_, loops)) {}
 
   void Step() {
     Warp();
-    ForStripes(f_.height, [&](int first, int end) {
-      WarpedWindow window(warped_, f_.left, f_.gradient, half_, first);
-      RowFits fits(f_.width);
-      for (int y = first; y < end; ++y) {
-        FitRow(static_sums_.Row(y), window.Row(y), least_known_, f_.width, fits);
-        float* disparity = disparity_.row(y);
-        const float* reference = reference_.row(y);
-        for (int x = 0; x < f_.width; ++x) {
-          disparity[x] = reference[x] + fits.step_px[static_cast<std::size_t>(x)];
-        }
+    ForFits([&](int y, const RowFit& fit) {
+      float* disparity = disparity_.row(y);
+      const float* reference = reference_.row(y);
+      for (int x = 0; x < f_.width; ++x) {
+        disparity[x] = reference[x] + fit.step_px[x];
       }
     });
   }
 
   SubpixelDisparity Finish() {
     Warp();
-    SubpixelDisparity out{ImageF(f_.width, f_.height, kUnknown),
-                          ImageF(f_.width, f_.height, kUnknown)};
-    ForStripes(f_.height, [&](int first, int end) {
-      WarpedWindow window(warped_, f_.left, f_.gradient, half_, first);
-      RowFits fits(f_.width);
-      for (int y = first; y < end; ++y) {
-        FitRow(static_sums_.Row(y), window.Row(y), least_known_, f_.width, fits);
-        FinishRow(y, fits, out);
-      }
+    SubpixelDisparity out{ImageF(f_.width, f_.height), ImageF(f_.width, f_.height)};
+    ForFits([&](int y, const RowFit& fit) {
+      loops_.finish(fit, f_.width,
+                    {f_.known.row(y), f_.start.row(y), reference_.row(y), max_shift_,
+                     static_cast<float>(options_.max_sigma_px), kLeastSigma_px,
+                     out.disparity_px.row(y), out.sigma_px.row(y)});
     });
     return out;
   }
 
  private:
-  static constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
-
+  /// The reference: the disparity smoothed along rows, then down columns. And the right picture
+  /// warped by it.
   void Warp() {
-    ImageF& along_rows = warped_;  // free until the warp itself
     ForStripes(f_.height, [&](int first, int end) {
-      SmoothAlongRows(disparity_, half_, first, end, along_rows);
-    });
-    ForStripes(f_.height, [&](int first, int end) {
-      SmoothAlongColumns(along_rows, f_, half_, max_shift_, first, end, reference_);
-    });
-    ForStripes(f_.height, [&](int first, int end) {
+      const int from = std::max(0, first - half_);
+      const int to = std::min(f_.height, end + half_);
+      std::vector<Row> along(static_cast<std::size_t>(to - from), RowOf(f_.width));
+      Row padded = RowOf(f_.width + 2 * half_, kFar);
+      for (int y = from; y < to; ++y) {
+        std::copy_n(disparity_.row(y), f_.width, padded.begin() + half_);
+        loops_.smooth_along(padded.data() + half_, half_, f_.width, kSmoothLimit_px,
+                            along[static_cast<std::size_t>(y - from)].data());
+      }
+      const Row outside = RowOf(f_.width, 2 * kFar);  // near to nothing
+      std::vector<const float*> rows(static_cast<std::size_t>(2 * half_ + 1));
       for (int y = first; y < end; ++y) {
-        WarpRow(f_, reference_, y, warped_.row(y));
+        for (int k = 0; k <= 2 * half_; ++k) {
+          const int row = y - half_ + k;
+          rows[static_cast<std::size_t>(k)] =
+              row >= from && row < to ? along[static_cast<std::size_t>(row - from)].data()
+                                      : outside.data();
+        }
+        loops_.smooth_down(rows.data(), half_, f_.width, kSmoothLimit_px, f_.start.row(y),
+                           max_shift_, reference_.row(y));
+        loops_.warp(f_.right.row(y), reference_.row(y), f_.known.row(y), f_.width, warped_.row(y));
       }
     });
   }
 
-  void FinishRow(int y, const RowFits& fits, SubpixelDisparity& out) {
-    for (int x = 0; x < f_.width; ++x) {
-      const auto place = static_cast<std::size_t>(x);
-      if (f_.known.at(x, y) == 0.0F || !(fits.gradient_energy[place] > 0.0F)) {
-        continue;
+  /// Calls work(y, fit) for every row.
+  template <typename Work>
+  void ForFits(const Work& work) const {
+    ForStripes(f_.height, [&](int first, int end) {
+      ProductWindow r(warped_, f_.known, half_, first, loops_);
+      ProductWindow rr(warped_, warped_, half_, first, loops_);
+      ProductWindow lr(f_.left, warped_, half_, first, loops_);
+      ProductWindow rg(warped_, f_.gradient, half_, first, loops_);
+      Row sums[4] = {RowOf(f_.width), RowOf(f_.width), RowOf(f_.width), RowOf(f_.width)};
+      Row step = RowOf(f_.width), noise = RowOf(f_.width), gradient = RowOf(f_.width);
+      const RowFit fit{step.data(), noise.data(), gradient.data()};
+      for (int y = first; y < end; ++y) {
+        r.Next(sums[0].data());
+        rr.Next(sums[1].data());
+        lr.Next(sums[2].data());
+        rg.Next(sums[3].data());
+        loops_.fit(
+            {sums_.n.row(y), sums_.l.row(y), sums_.g.row(y), sums_.ll.row(y), sums_.lg.row(y),
+             sums_.gg.row(y), sums[0].data(), sums[1].data(), sums[2].data(), sums[3].data()},
+            limits_, f_.width, fit);
+        work(y, fit);
       }
-      const float d = reference_.at(x, y) + fits.step_px[place];
-      const float sigma = std::sqrt(fits.noise_energy[place]) / fits.gradient_energy[place];
-      if (sigma <= max_sigma_ && std::abs(d - f_.start.at(x, y)) <= max_shift_) {
-        out.disparity_px.at(x, y) = d;
-        out.sigma_px.at(x, y) = sigma;
-      }
-    }
+    });
   }
 
   const Fields& f_;
+  const SubpixelOptions options_;
+  const StereoLoops& loops_;
   const int half_;
   const float max_shift_;
-  const float max_sigma_;
-  const float least_known_;
+  const FitLimits limits_;
   ImageF disparity_;
   ImageF reference_;
   ImageF warped_;
-  StaticSumImages static_sums_;
+  const StaticSums sums_;
 };
 
 }  // namespace
 
 SubpixelDisparity RefineDisparity(const ImageU8& left, const ImageU8& right, const ImageF& coarse,
-                                  const SubpixelOptions& options) {
+                                  const SubpixelOptions& options, const StereoLoops& loops) {
   PALACE_CHECK(left.width() == right.width() && left.height() == right.height(), left.width(),
                right.width(), left.height(), right.height());
   PALACE_CHECK(left.width() == coarse.width() && left.height() == coarse.height());
-  PALACE_CHECK(options.window_px >= 3 && options.window_px % 2 == 1, options.window_px);
+  PALACE_CHECK(options.window_px >= 3 && options.window_px <= 2 * kLargestHalf_px + 1 &&
+                   options.window_px % 2 == 1,
+               options.window_px);
   PALACE_CHECK(options.iterations >= 1 && left.width() >= 16, options.iterations, left.width());
   const Fields fields = Prepare(left, right, coarse, static_cast<float>(options.max_shift_px));
-  Refinement refinement(fields, options);
+  Refinement refinement(fields, options, loops);
   for (int i = 1; i < options.iterations; ++i) {
     refinement.Step();
   }

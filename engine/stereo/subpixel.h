@@ -18,6 +18,7 @@
 #pragma once
 
 #include "engine/model/image.h"
+#include "engine/stereo/stereo_loops.h"
 
 namespace palace {
 
@@ -38,6 +39,7 @@ struct SubpixelDisparity {
 /// same size, at least 16 columns. Unknown pixels take no part in any window. A window that is less
 /// than 40 % known, has no texture, or correlates by less than 0.6 gives an unknown result.
 SubpixelDisparity RefineDisparity(const ImageU8& left, const ImageU8& right, const ImageF& coarse,
-                                  const SubpixelOptions& options);
+                                  const SubpixelOptions& options,
+                                  const StereoLoops& loops = FastestLoops());
 
 }  // namespace palace
