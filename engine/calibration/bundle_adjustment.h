@@ -59,6 +59,8 @@ struct PointResidual {
   int index = 0;
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();     ///< observed
   Eigen::Vector2d error_px = Eigen::Vector2d::Zero();  ///< NaN where nothing is predicted
+  /// Observed place of the dot's centre: the pixel less the eccentricity that ProjectDot predicts.
+  Eigen::Vector2d centre = Eigen::Vector2d::Zero();
 };
 
 struct BundleResult {

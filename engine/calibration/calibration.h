@@ -4,6 +4,8 @@
 // and all poses (bundle_adjustment.h): first with a robust loss, then by plain least squares after
 // points beyond `reject_sigma` are taken out. The target's pitch is the only source of scale: a
 // wrong pitch cannot be seen, and scales the baseline with it.
+// Thesis 4.1.3 fits CAHVOR to points that Tsai's model back-projected; here Tsai only starts the
+// fit (erratum E18).
 #pragma once
 
 #include <optional>
@@ -35,7 +37,7 @@ struct CalibrationOptions {
 struct ViewResult {
   std::string name;
   RigidTransform X_C0T;
-  double tilt_rad = 0;    ///< between the board's normal and the line of sight to its middle
+  double tilt_rad = 0;    ///< of the board against the left picture plane
   double distance_m = 0;  ///< of the board's middle
   int left_points = 0;    ///< seen, outliers included
   int right_points = 0;
@@ -57,7 +59,9 @@ struct Calibration {
   double held_out_rms_px = 0;  ///< NaN when no view was held out
   int points = 0;
   int outliers = 0;
-  std::vector<ViewResult> views;
+  std::vector<ViewResult> views;  ///< those that took part, in the order given
+  /// Cameras fitted without the held-out views, and the poses of all views in them.
+  std::optional<RigEstimate> held_out_estimate;
   std::vector<PointResidual> residuals;  ///< outliers left out
   std::vector<PointResidual> rejected;
 
@@ -68,8 +72,9 @@ struct Calibration {
 };
 
 /// Refuses, with the reason and what to do: too few views or tilts, parallel boards, cameras that
-/// see no common board, swapped pictures, parameters that the views do not determine. Views seen by
-/// one camera only help that camera.
+/// see no common board, swapped or wrongly paired pictures, parameters that the views do not
+/// determine. Views seen by one camera only help that camera; sides with fewer than 12 points and
+/// views without any are left out.
 Result<Calibration> Calibrate(const CalibrationTarget& target, const std::vector<TargetView>& views,
                               const CalibrationOptions& options);
 

@@ -1,4 +1,6 @@
 // How good a calibration is, and which view would make it better.
+//
+// Maps lie over the picture: equal rectangles, row 0 at the top, NaN unknown.
 #pragma once
 
 #include <optional>
@@ -10,29 +12,18 @@
 
 namespace palace {
 
-/// Cells of a map over the picture: `columns` x `rows` equal rectangles, row 0 at the top.
-struct PictureMap {
-  int columns = 0;
-  int rows = 0;
-  std::vector<double> cells;  ///< row-major; NaN unknown
-  double at(int column, int row) const {
-    return cells[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
-                 static_cast<std::size_t>(column)];
-  }
-};
-
 /// Number of points that fell into each cell. side: 0 left, 1 right.
-PictureMap CoverageMap(const Calibration& calibration, int side, int columns, int rows);
+GridF CoverageMap(const Calibration& calibration, int side, int rows, int columns);
 
 /// One sigma in pixels of where a far, known direction appears, from the parameters' covariance.
 /// A small common rotation of the camera is taken out first: it moves the mounting, not the lens,
 /// and exchanges with hc and vc. The larger axis of the 2 x 2 covariance is given.
-PictureMap UncertaintyMap(const Calibration& calibration, int side, int columns, int rows);
+GridF UncertaintyMap(const Calibration& calibration, int side, int rows, int columns);
 
 /// One sigma in metres of the depth of a point at depth_m in front of the pixel's cell of the left
 /// camera, from the parameters' covariance alone (no matching error); NaN where the right camera
 /// does not see it.
-PictureMap DepthSigmaMap(const Calibration& calibration, double depth_m, int columns, int rows);
+GridF DepthSigmaMap(const Calibration& calibration, double depth_m, int rows, int columns);
 
 /// Row difference of the same point in both pictures after AlignPair, all points seen by both.
 struct EpipolarCheck {

@@ -1,0 +1,105 @@
+#include "engine/calibration/chessboard_corners.h"
+
+#include <algorithm>
+#include <limits>
+#include <string>
+
+#include <opencv2/calib3d.hpp>
+#include <opencv2/imgproc.hpp>
+
+namespace palace {
+namespace {
+
+constexpr int kMostHalfWindow_px = 11;
+constexpr int kLeastHalfWindow_px = 2;
+// Half window over the distance to the nearest other corner. A window that reaches into the next
+// corner's edges is pulled there; on photographed boards that begins at 0.4.
+constexpr double kWindowPerSquare = 0.3;
+
+/// Distance of the nearest neighbour on the grid, diagonal ones included.
+double NearestCorner(const std::vector<cv::Point2f>& corners, int columns, int rows, int column,
+                     int row) {
+  const auto at = [&](int c, int r) { return corners[static_cast<std::size_t>(r * columns + c)]; };
+  double least = std::numeric_limits<double>::infinity();
+  for (int c = std::max(0, column - 1); c <= std::min(columns - 1, column + 1); ++c) {
+    for (int r = std::max(0, row - 1); r <= std::min(rows - 1, row + 1); ++r) {
+      if (c != column || r != row) {
+        least = std::min(least, cv::norm(at(c, r) - at(column, row)));
+      }
+    }
+  }
+  return least;
+}
+
+/// Each corner in a window of its own size: a slanted board has small squares at its far end.
+void RefineCorners(const cv::Mat& grey, int columns, int rows, std::vector<cv::Point2f>& corners) {
+  const std::vector<cv::Point2f> found = corners;
+  for (int row = 0; row < rows; ++row) {
+    for (int column = 0; column < columns; ++column) {
+      const int half = std::clamp(
+          static_cast<int>(kWindowPerSquare * NearestCorner(found, columns, rows, column, row)),
+          kLeastHalfWindow_px, kMostHalfWindow_px);
+      const auto at = static_cast<std::size_t>(row * columns + column);
+      std::vector<cv::Point2f> one = {found[at]};
+      cv::cornerSubPix(
+          grey, one, {half, half}, {-1, -1},
+          cv::TermCriteria(cv::TermCriteria::EPS | cv::TermCriteria::COUNT, 100, 1e-4));
+      corners[at] = one[0];
+    }
+  }
+}
+
+/// What board is in the picture when it is not the one looked for.
+std::string WhatIsSeen(const cv::Mat& grey) {
+  cv::Mat corners, meta;
+  const cv::Size least(3, 3);
+  if (!cv::findChessboardCornersSB(grey, least, corners,
+                                   cv::CALIB_CB_LARGER | cv::CALIB_CB_NORMALIZE_IMAGE, meta)) {
+    return "no chessboard found";
+  }
+  const int a = std::max(meta.cols, meta.rows), b = std::min(meta.cols, meta.rows);
+  return "found " + std::to_string(a) + " x " + std::to_string(b) + " inner corners";
+}
+
+void MakeRightHanded(std::vector<Eigen::Vector2d>& corners, int columns, int rows) {
+  const auto at = [&](int c, int r) -> Eigen::Vector2d& {
+    return corners[static_cast<std::size_t>(r * columns + c)];
+  };
+  const Eigen::Vector2d x = at(columns - 1, 0) - at(0, 0), y = at(0, rows - 1) - at(0, 0);
+  if (x.x() * y.y() - x.y() * y.x() < 0) {
+    for (int r = 0; r < rows; ++r) {
+      for (int c = 0; c < columns / 2; ++c) {
+        std::swap(at(c, r), at(columns - 1 - c, r));
+      }
+    }
+  }
+}
+
+}  // namespace
+
+Result<std::vector<Eigen::Vector2d>> FindChessboardCorners(const ImageU8& picture, int columns,
+                                                           int rows) {
+  const cv::Mat grey(picture.height(), picture.width(), CV_8U,
+                     const_cast<std::uint8_t*>(picture.pixels().data()));
+  const cv::Size size(columns, rows);
+  std::vector<cv::Point2f> found;
+  try {
+    const bool seen = cv::findChessboardCorners(
+        grey, size, found, cv::CALIB_CB_ADAPTIVE_THRESH | cv::CALIB_CB_NORMALIZE_IMAGE);
+    if (!seen || static_cast<int>(found.size()) != columns * rows) {
+      return InvalidError(WhatIsSeen(grey) + ", the target has " + std::to_string(columns) + " x " +
+                          std::to_string(rows));
+    }
+    RefineCorners(grey, columns, rows, found);
+  } catch (const cv::Exception& error) {
+    return InvalidError("the chessboard search failed: " + std::string(error.err));
+  }
+  std::vector<Eigen::Vector2d> corners;
+  for (const cv::Point2f& corner : found) {
+    corners.emplace_back(corner.x, corner.y);
+  }
+  MakeRightHanded(corners, columns, rows);
+  return corners;
+}
+
+}  // namespace palace
