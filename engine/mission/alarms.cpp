@@ -69,6 +69,12 @@ bool AlarmBoard::Acknowledge(std::string_view id) {
   return false;
 }
 
+bool AlarmBoard::IsActive(std::string_view id) const {
+  return std::any_of(entries_.begin(), entries_.end(), [&](const Entry& entry) {
+    return entry.alarm.active && entry.alarm.id == id;
+  });
+}
+
 bool AlarmBoard::IsAcknowledged(std::string_view id) const {
   return std::any_of(entries_.begin(), entries_.end(), [&](const Entry& entry) {
     return entry.shown && entry.alarm.active && entry.alarm.acknowledged && entry.alarm.id == id;

@@ -31,6 +31,7 @@ class AlarmBoard {
   void Update(const std::vector<AlarmCondition>& conditions, Timestamp now);
   /// False when no alarm of that name is on the board.
   bool Acknowledge(std::string_view id);
+  bool IsActive(std::string_view id) const;
   bool IsAcknowledged(std::string_view id) const;
   /// Text of the worst warning nobody acknowledged, empty when there is none.
   std::string UnacknowledgedWarning() const;

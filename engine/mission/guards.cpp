@@ -22,9 +22,10 @@ std::string WhyOld(const char* what, double age_s, double limit_s) {
   return {};
 }
 
-std::string WhyCamerasOld(const GuardInputs& in) {
+std::string WhyCamerasBad(const GuardInputs& in) {
   std::string why = WhyOld("Left camera", in.left_camera_age_s, GuardLimits::camera_s);
-  return why.empty() ? WhyOld("Right camera", in.right_camera_age_s, GuardLimits::camera_s) : why;
+  why = why.empty() ? WhyOld("Right camera", in.right_camera_age_s, GuardLimits::camera_s) : why;
+  return why.empty() ? in.camera_problem : why;
 }
 
 std::string WhyNotPositioned(const GuardInputs& in) {
@@ -100,7 +101,7 @@ std::vector<GuardResult> EvaluateGuards(const GuardInputs& in) {
   };
   add("G1", "Vehicle link fresh", WhyOld("Vehicle status", in.link_age_s, GuardLimits::link_s));
   add("G2", "Attitude fresh", WhyOld("Vehicle pose", in.pose_age_s, GuardLimits::pose_s));
-  add("G3", "Both cameras fresh", WhyCamerasOld(in));
+  add("G3", "Both cameras fresh and right", WhyCamerasBad(in));
   add("G4", "Newest map fresh", WhyOld("Map", in.map_age_s, GuardLimits::map_s));
   add("G5", "Position and tracker healthy", WhyNotPositioned(in));
   add("G6", "Evidence was on screen", WhyNotShown(in));

@@ -31,6 +31,7 @@ struct GuardInputs {
   double pose_age_s = NAN;
   double left_camera_age_s = NAN;
   double right_camera_age_s = NAN;
+  std::string camera_problem;  ///< what is wrong with the pictures, empty when nothing is
   double map_age_s = NAN;
   bool position_healthy = false;
   bool tracker_locked = false;

@@ -51,6 +51,8 @@ struct MissionInputs {
   bool new_map = false;                      ///< `applied` was made from this bundle
   const NavigationStatus& navigation;
   const TrackerStatus& tracker;
+  StereoQuality stereo{};                ///< of the newest range map
+  RangeAgreement range_agreement{};      ///< stereo against laser
   std::optional<LandingSite> rechecked;  ///< the armed site evaluated on the newest map
   std::string recheck_reason;            ///< why it no longer holds, empty when it holds
   const Settings& settings;

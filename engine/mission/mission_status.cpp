@@ -32,6 +32,9 @@ constexpr double kMaxGpsError_m = 2.0;
 constexpr double kLateVision_s = 0.3;
 constexpr double kAnswerLate_s = 2.0;
 constexpr double kLaserMismatch_m = 1.0;
+constexpr double kRowErrorLimit_px = 0.5;  // a good calibration has 0.2
+constexpr double kExposureLimit = 2;       // one picture twice as bright as the other
+constexpr double kScaleLimit = 0.02;       // 0.3 m of height at 50 ft
 
 __attribute__((format(printf, 1, 2))) std::string Words(const char* format, ...) {
   char text[320];
@@ -46,6 +49,12 @@ bool Flying(MissionState state) {
   return state == MissionState::kApproved || state == MissionState::kDescending;
 }
 
+/// Beyond the limit, and not by chance.
+bool ScaleIsWrong(const RangeAgreement& agreement) {
+  const double off = std::abs(agreement.ratio - 1);
+  return off > kScaleLimit && off > 3 * agreement.sigma;
+}
+
 std::string AgeWords(double age_s) {
   return std::isfinite(age_s) ? Words("stale, %.1f s", age_s) : std::string("never received");
 }
@@ -58,6 +67,10 @@ GuardInputs Mission::MakeGuardInputs(Timestamp now) const {
   in.pose_age_s = watch_.PoseAge(now);
   in.left_camera_age_s = watch_.LeftCameraAge(now);
   in.right_camera_age_s = watch_.RightCameraAge(now);
+  in.camera_problem = alarms_.IsActive("camera_frozen")     ? "A camera repeats its picture"
+                      : alarms_.IsActive("cameras_swapped") ? "Left and right camera look exchanged"
+                      : alarms_.IsActive("row_error") ? "Calibration does not fit the pictures"
+                                                      : "";
   in.map_age_s =
       facts_.map_hash != 0 && now >= map_seen_at_ ? SecondsBetween(map_seen_at_, now) : NAN;
   in.clock_continuous = watch_.clock_continuous();
@@ -175,6 +188,8 @@ std::vector<AlarmCondition> Mission::SensorAlarms(const MissionInputs& in) const
        "Right camera " + AgeWords(right_s) + ", limit 0.5 s. " + blocked},
       {"pose", AlarmLevel::kCaution, vehicle && heard && !(pose_s <= GuardLimits::camera_s),
        "Vehicle pose " + AgeWords(pose_s) + ", limit 0.2 s. " + blocked},
+      {"no_pose", AlarmLevel::kAdvisory, pictures_only && left_s >= 0 && std::isnan(pose_s),
+       "Attitude and height unknown: no map, no sites. Add [pose] to RIG.toml."},
       {"link", link_s > 5 ? AlarmLevel::kWarning : AlarmLevel::kCaution,
        vehicle && heard && !(link_s <= GuardLimits::link_s),
        "Vehicle status " + AgeWords(link_s) + ", limit 1.0 s. The vehicle holds by itself."},
@@ -182,11 +197,29 @@ std::vector<AlarmCondition> Mission::SensorAlarms(const MissionInputs& in) const
        "Vehicle clock stepped. The selection is dropped, select again.", true},
       {"reboot", AlarmLevel::kWarning, vehicle && watch_.rebooted(),
        "Vehicle restarted. Every approval is void, select again.", true},
-      {"no_pose", AlarmLevel::kAdvisory, pictures_only && left_s >= 0 && std::isnan(pose_s),
-       "Attitude and height unknown: no map, no sites. Add [pose] to RIG.toml."},
       {"gps_error", AlarmLevel::kCaution, gps_m > kMaxGpsError_m,
        Words("GPS horizontal error %.1f m, limit %.1f m. %s", gps_m, kMaxGpsError_m,
              on_vision ? "Landing on vision, not GPS." : "Vision takes over for the descent.")},
+      // A folder repeats its last pair for ever, and a paused film its picture.
+      {"camera_frozen", AlarmLevel::kCaution,
+       in.stereo.suspect_frozen && !HasPicturesOnly(in.source_kind),
+       std::string("A camera repeats its picture to the last grey level. ") + blocked},
+      {"cameras_swapped", AlarmLevel::kWarning, in.stereo.suspect_swapped,
+       "Left and right camera look exchanged. Exchange the cables or the entries of RIG.toml."},
+      {"row_error", AlarmLevel::kCaution, in.stereo.row_error_px > kRowErrorLimit_px,
+       Words("Rows of the two pictures are %.2f px apart, limit %.2f px: calibrate.",
+             in.stereo.row_error_px, kRowErrorLimit_px)},
+      {"exposure", AlarmLevel::kAdvisory,
+       in.stereo.exposure_ratio > kExposureLimit || in.stereo.exposure_ratio < 1 / kExposureLimit,
+       Words("Right picture is %.1f times as bright as the left, limit %.1f to %.1f. Check the "
+             "exposure.",
+             in.stereo.exposure_ratio, 1 / kExposureLimit, kExposureLimit)},
+      {"range_scale", AlarmLevel::kCaution, ScaleIsWrong(in.range_agreement),
+       Words(
+           "Stereo reads %.1f %% %s against the laser, limit %.0f %%. Focal length or baseline is "
+           "wrong: calibrate.",
+           100 * std::abs(in.range_agreement.ratio - 1),
+           in.range_agreement.ratio > 1 ? "far" : "near", 100 * kScaleLimit)},
       {"height_mismatch", AlarmLevel::kAdvisory, mismatch_m > kLaserMismatch_m,
        Words("Laser and map disagree by %.1f m, limit %.1f m. Check the cameras.", mismatch_m,
              kLaserMismatch_m)},

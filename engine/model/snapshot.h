@@ -135,6 +135,7 @@ struct EngineSnapshot {
   std::shared_ptr<const ImageU8> right_rectified;
   std::shared_ptr<const RangeMap> range;
   StereoQuality stereo_quality;
+  RangeAgreement range_agreement;
 
   std::shared_ptr<const TerrainDecision> applied;  ///< null before the first map
   std::shared_ptr<const TerrainDecision> preview;  ///< set while previewed settings differ

@@ -10,6 +10,7 @@ namespace palace {
 namespace {
 
 constexpr double kTallestObject_m = 3;
+constexpr double kLaserAge_s = 0.1;  // a laser range older than this is of another place
 
 }  // namespace
 
@@ -25,6 +26,7 @@ void Pipeline::StartAfterJump(Timestamp now) {
   jumped_ = replaying_;
   history_.Reset(flight_of_record_.HistoryBefore(now));
   laser_height_m_.reset();
+  range_check_.Reset();
   stereo_frames_ = 0;
   last_.reset();
 }
@@ -44,6 +46,7 @@ PipelineOutput Pipeline::Process(std::shared_ptr<const FrameBundle> bundle,
     pass.snapshot->recorded = last_->recorded;
     pass.snapshot->range = last_->range;
     pass.snapshot->stereo_quality = last_->stereo_quality;
+    pass.snapshot->range_agreement = last_->range_agreement;
     pass.snapshot->tracker = last_->tracker;
     pass.snapshot->pose = last_->pose;
     pass.snapshot->vehicle = last_->vehicle;
@@ -109,6 +112,11 @@ void Pipeline::PrepareRig(Pass& pass) {
 void Pipeline::See(Pass& pass) {
   const FrameBundle& bundle = *pass.bundle;
   EngineSnapshot& snapshot = *pass.snapshot;
+  for (const CameraCounters& camera : pass.session.source.cameras) {
+    if (!camera.problem.empty()) {
+      pass.Note(DiagnosticLevel::kError, "camera", camera.problem);
+    }
+  }
   channels_.Add(bundle);
   navigator_.AddSensors(bundle);
   if (bundle.pose_at_exposure) {
@@ -132,9 +140,8 @@ void Pipeline::See(Pass& pass) {
   RigidTransform X_BC = rig_->X_BC();
   X_BC.R = X_BC.R * rectifier_->R_C_Rect();
   snapshot.X_WC = navigator_.PredictBodyPose(bundle.stereo->time) * X_BC;
-  if (snapshot.laser && std::isfinite(snapshot.laser->range_m)) {
-    const Eigen::Vector3d spot = snapshot.X_WC.p + snapshot.X_WC.R.col(2) * snapshot.laser->range_m;
-    laser_height_m_ = HeightFromDown(spot.z());
+  if (const auto spot = LaserSpot(snapshot)) {
+    laser_height_m_ = HeightFromDown((snapshot.X_WC * *spot).z());
   }
   pass.Run("rectify", [&] {
     Result<RectifiedPair> pair = rectifier_->Rectify(*bundle.stereo);
@@ -146,6 +153,16 @@ void Pipeline::See(Pass& pass) {
     snapshot.left_rectified = pair->left;
     snapshot.right_rectified = pair->right;
   });
+}
+
+std::optional<Eigen::Vector3d> Pipeline::LaserSpot(const EngineSnapshot& snapshot) const {
+  if (!snapshot.laser || !std::isfinite(snapshot.laser->range_m) || !rectifier_ ||
+      !snapshot.frame ||
+      std::abs(SecondsBetween(snapshot.laser->time, snapshot.frame->time)) > kLaserAge_s) {
+    return std::nullopt;
+  }
+  // The beam runs along the axis of the raw camera, which is not the rectified one.
+  return rectifier_->R_C_Rect().transpose() * Eigen::Vector3d(0, 0, snapshot.laser->range_m);
 }
 
 double Pipeline::GroundHeight() const {
@@ -173,8 +190,11 @@ void Pipeline::MeasureRange(Pass& pass) {
     return;
   }
   DisparityWindow window;
+  const bool placed = pass.snapshot->pose.has_value();
   if (rig_->num_disparities > 0) {
     window = {rig_->min_disparity_px, rig_->num_disparities};
+  } else if (!placed) {
+    window = {0, settings.stereo.num_disparities};
   } else {
     window = PredictWindow(rectifier_->camera(), rectifier_->baseline_m(), pass.snapshot->X_WC,
                            GroundHeight(), kTallestObject_m, settings.stereo);
@@ -189,6 +209,16 @@ void Pipeline::MeasureRange(Pass& pass) {
   pass.snapshot->stereo_quality = result->quality;
   auto range = std::make_shared<const RangeMap>(std::move(result->range));
   pass.snapshot->range = range;
+  if (!placed) {
+    pass.Note(DiagnosticLevel::kWarning, "slad",
+              "attitude and height are unknown, so ranges make no map; give a pose ([pose] in "
+              "RIG.toml, or a vehicle)");
+    return;
+  }
+  if (const auto spot = LaserSpot(*pass.snapshot)) {
+    range_check_.Add(*range, *spot);
+    pass.snapshot->range_agreement = range_check_.agreement();
+  }
   terrain_.Add({range, pass.snapshot->X_WC, navigator_.PredictBodyPose(range->time).p},
                settings.slad);
   pass.new_map = true;
@@ -268,11 +298,26 @@ void Pipeline::Decide(Pass& pass) {
   }
   const bool simulated = snapshot.vehicle && snapshot.vehicle->simulated;
   const Settings& in_force = settings_.recorded();
-  mission_.Update({pass.bundle->time, pass.session.source.kind, pass.session.can_transmit,
-                   pass.session.recorder_ok, simulated, *pass.bundle, snapshot.channels,
-                   pass.decision_of_record.get(), pass.new_map, snapshot.navigation,
-                   snapshot.tracker, rechecked, objection, in_force, HashOf(in_force),
-                   calibration_hash_, sequence_, estimate.p_WB,
+  mission_.Update({pass.bundle->time,
+                   pass.session.source.kind,
+                   pass.session.can_transmit,
+                   pass.session.recorder_ok,
+                   simulated,
+                   *pass.bundle,
+                   snapshot.channels,
+                   pass.decision_of_record.get(),
+                   pass.new_map,
+                   snapshot.navigation,
+                   snapshot.tracker,
+                   snapshot.stereo_quality,
+                   snapshot.range_agreement,
+                   rechecked,
+                   objection,
+                   in_force,
+                   HashOf(in_force),
+                   calibration_hash_,
+                   sequence_,
+                   estimate.p_WB,
                    estimate.p_WB + R_WB * SkidCentreBody()});
   snapshot.mission = mission_.status();
   const FlightRecordSample* recorded = jumped_ ? flight_of_record_.At(pass.bundle->time) : nullptr;

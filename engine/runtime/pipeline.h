@@ -19,6 +19,7 @@
 #include "engine/runtime/recorded_flight.h"
 #include "engine/runtime/settings_state.h"
 #include "engine/runtime/terrain_stage.h"
+#include "engine/stereo/range_check.h"
 #include "engine/stereo/stereo.h"
 #include "engine/tracking/site_tracker.h"
 
@@ -70,6 +71,8 @@ class Pipeline {
   void Decide(Pass& pass);
   PipelineOutput Publish(Pass& pass);
   double GroundHeight() const;
+  /// The laser's spot in the axes of the rectified left camera, when it is as new as the picture.
+  std::optional<Eigen::Vector3d> LaserSpot(const EngineSnapshot& snapshot) const;
   /// The site tracked and flown to; after a jump in a replay the recorded one.
   std::optional<LandingSite> TrackedSite(Timestamp now) const;
 
@@ -83,6 +86,7 @@ class Pipeline {
   std::uint64_t calibration_hash_ = 0;
   std::string rig_problem_;
   StereoMatcher matcher_;
+  RangeCheck range_check_;
   TerrainStage terrain_;
   SiteTracker tracker_;
   std::uint64_t tracked_site_ = 0;

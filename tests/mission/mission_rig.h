@@ -161,6 +161,7 @@ struct MissionRig {
                      .new_map = maps_up && cameras_up,
                      .navigation = navigation,
                      .tracker = tracker,
+                     .stereo = stereo,
                      .rechecked = {},
                      .recheck_reason = {},
                      .settings = settings,
@@ -231,6 +232,7 @@ struct MissionRig {
   TerrainDecision decision;
   NavigationStatus navigation;
   TrackerStatus tracker;
+  StereoQuality stereo;
   std::vector<ChannelHealth> channels;
   std::vector<VehicleMessage> sent;
 };

@@ -200,6 +200,9 @@ INSTANTIATE_TEST_SUITE_P(
         Block{"Link", "G1", [](MissionRig& r) { r.link_up = false; }, 1.2},
         Block{"Pose", "G2", [](MissionRig& r) { r.pose_up = false; }, 0.4},
         Block{"Cameras", "G3", [](MissionRig& r) { r.cameras_up = false; }, 0.7},
+        Block{"FrozenCamera", "G3", [](MissionRig& r) { r.stereo.suspect_frozen = true; }, 0.7},
+        Block{"SwappedCameras", "G3", [](MissionRig& r) { r.stereo.suspect_swapped = true; }, 0.7},
+        Block{"RowsApart", "G3", [](MissionRig& r) { r.stereo.row_error_px = 0.8; }, 0.7},
         Block{"LeftChannel", "G3",
               [](MissionRig& r) {
                 r.channels = {{"Camera left", ChannelHealth::State::kStale, 1.8, 0, 10, 1, 0, ""}};
