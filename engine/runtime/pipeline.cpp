@@ -5,6 +5,7 @@
 
 #include "engine/runtime/decision_hash.h"
 #include "engine/runtime/pipeline_pass.h"
+#include "engine/stereo/prefilter.h"
 
 namespace palace {
 namespace {
@@ -199,14 +200,24 @@ void Pipeline::MeasureRange(Pass& pass) {
     window = PredictWindow(rectifier_->camera(), rectifier_->baseline_m(), pass.snapshot->X_WC,
                            GroundHeight(), kTallestObject_m, settings.stereo);
   }
-  Result<StereoResult> result =
-      matcher_.Match(*pass.pair.left, *pass.pair.right, rectifier_->camera(),
-                     rectifier_->baseline_m(), window, settings.stereo, pass.bundle->stereo->time);
+  const std::optional<RectifiedPair> filtered =
+      FilterThenRectify(*pass.bundle->stereo, *rectifier_, settings.stereo);
+  Result<StereoResult> result = matcher_.Match(
+      *pass.pair.left, *pass.pair.right, rectifier_->camera(), rectifier_->baseline_m(), window,
+      settings.stereo, pass.bundle->stereo->time, filtered ? &*filtered : nullptr);
   if (!result) {
     pass.Note(DiagnosticLevel::kError, "stereo", result.error().message);
     return;
   }
   pass.snapshot->stereo_quality = result->quality;
+  if (result->quality.suspect_covered) {
+    pass.Note(DiagnosticLevel::kWarning, "stereo",
+              "one camera shows nothing while the other does; it may be covered");
+  }
+  if (result->quality.suspect_same) {
+    pass.Note(DiagnosticLevel::kWarning, "stereo",
+              "left and right are the same picture; check the capture devices");
+  }
   auto range = std::make_shared<const RangeMap>(std::move(result->range));
   pass.snapshot->range = range;
   if (!placed) {

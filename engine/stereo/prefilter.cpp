@@ -36,6 +36,19 @@ ImageU8 Prefilter(const ImageU8& picture, StereoPrefilter filter) {
   return filtered;
 }
 
+std::optional<RectifiedPair> FilterThenRectify(const StereoFrame& raw,
+                                               const StereoRectifier& rectifier,
+                                               const StereoSettings& settings) {
+  if (settings.filter_order != FilterOrder::kFilterFirst ||
+      settings.prefilter == StereoPrefilter::kNone) {
+    return std::nullopt;
+  }
+  const Result<RectifiedPair> pair =
+      rectifier.Rectify({raw.time, Prefilter(raw.left, settings.prefilter),
+                         Prefilter(raw.right, settings.prefilter)});
+  return pair ? std::optional(*pair) : std::nullopt;
+}
+
 ImageU8 HalfSize(const ImageU8& picture) {
   PALACE_CHECK(picture.width() >= 2 && picture.height() >= 2, picture.width(), picture.height());
   ImageU8 half(picture.width() / 2, picture.height() / 2);

@@ -1,6 +1,9 @@
 // Prefilters of the thesis (4.2): pictures made ready for matching.
 #pragma once
 
+#include <optional>
+
+#include "engine/camera/rectification.h"
 #include "engine/model/image.h"
 #include "engine/model/settings.h"
 
@@ -16,6 +19,13 @@ namespace palace {
 ///              of brightness
 ///   bilateral  5x5, 30 grey levels, 2 px (Tomasi & Manduchi 1998): removes noise, keeps edges
 ImageU8 Prefilter(const ImageU8& picture, StereoPrefilter filter);
+
+/// Raw pictures filtered first and rectified then, as in the thesis (4.2; E25: filtering before
+/// resampling is not the same as after). Nothing unless the settings ask for it, and nothing when
+/// the pictures do not fit the rig: `Rectify` says so for the pair itself.
+std::optional<RectifiedPair> FilterThenRectify(const StereoFrame& raw,
+                                               const StereoRectifier& rectifier,
+                                               const StereoSettings& settings);
 
 /// The picture at half the size, each pixel the mean of four; a last odd row or column is dropped.
 /// At least 2 x 2. Pixel (x, y) of the result has its centre at (2 x + 0.5, 2 y + 0.5).

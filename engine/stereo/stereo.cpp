@@ -77,10 +77,10 @@ RangeMap RangeMapFromDisparity(SubpixelDisparity refined, const PinholeCamera& c
   return range;
 }
 
-ImageF FindWholePixels(const ImageU8& left, const ImageU8& right, const FilteredPair* filtered,
+ImageF FindWholePixels(const ImageU8& left, const ImageU8& right, const RectifiedPair* filtered,
                        const DisparityWindow& window, const StereoSettings& settings) {
   if (filtered) {
-    return MatchWholePixels(filtered->left, filtered->right, window, settings);
+    return MatchWholePixels(*filtered->left, *filtered->right, window, settings);
   }
   if (settings.prefilter == StereoPrefilter::kNone) {
     return MatchWholePixels(left, right, window, settings);
@@ -105,12 +105,12 @@ Result<StereoResult> StereoMatcher::Match(const ImageU8& left, const ImageU8& ri
                                           const PinholeCamera& camera, double baseline_m,
                                           const DisparityWindow& window,
                                           const StereoSettings& settings, Timestamp time,
-                                          const FilteredPair* filtered) {
+                                          const RectifiedPair* filtered) {
   if (Status status = CheckInput(left, right, camera, baseline_m, window); !status) {
     return status.error();
   }
   for (const ImageU8* image :
-       {filtered ? &filtered->left : &left, filtered ? &filtered->right : &right}) {
+       {filtered ? filtered->left.get() : &left, filtered ? filtered->right.get() : &right}) {
     if (image->width() != left.width() || image->height() != left.height()) {
       return InvalidError("stereo: the filtered picture is " +
                           SizeText(image->width(), image->height()) + " px, the pair is " +

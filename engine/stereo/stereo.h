@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "engine/camera/rectification.h"
 #include "engine/core/frames.h"
 #include "engine/core/result.h"
 #include "engine/model/range_map.h"
@@ -31,12 +32,6 @@ struct StereoResult {
   StereoQuality quality;
 };
 
-/// Pictures for the whole-pixel stage that were filtered before they were rectified.
-struct FilteredPair {
-  const ImageU8& left;
-  const ImageU8& right;
-};
-
 /// Matches rectified pairs. Whole pixels by semi-global matching (semi_global.h; Hirschmueller
 /// 2008), the fraction by correlation refinement (subpixel.h). Same input, same bits, for any
 /// number of OpenCV threads and with or without AVX2; only suspect_frozen depends on the pair
@@ -51,11 +46,12 @@ class StereoMatcher {
   /// Pixels without texture, without a unique match, hidden from one camera, outside the window or
   /// with a sigma over settings.max_sigma_px are NaN in all layers. Refuses pictures whose sizes
   /// differ from the camera's, a baseline that is not positive, and impossible windows.
-  /// `filtered`: see settings.filter_order; without it the prefilter is applied here.
+  /// `filtered`: pictures for the whole-pixel stage, from FilterThenRectify; null: the prefilter of
+  /// the settings is applied here.
   Result<StereoResult> Match(const ImageU8& left, const ImageU8& right, const PinholeCamera& camera,
                              double baseline_m, const DisparityWindow& window,
                              const StereoSettings& settings, Timestamp time,
-                             const FilteredPair* filtered = nullptr);
+                             const RectifiedPair* filtered = nullptr);
 
  private:
   struct Memory;  // the last pair

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <vector>
 
@@ -107,12 +106,6 @@ Grey GreyOf(const ImageU8& image) {
   return {mean, std::sqrt(std::max(0.0, static_cast<double>(square) / n - mean * mean))};
 }
 
-std::string Fixed2(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.2f", value);
-  return text;
-}
-
 ImageU8 Band(const ImageU8& image, int first, int rows) {
   const auto begin = image.pixels().begin() + static_cast<std::ptrdiff_t>(first) * image.width();
   return ImageU8(
@@ -177,28 +170,6 @@ void SuspectPictures(const ImageU8& left, const ImageU8& right, StereoQuality& q
   quality.suspect_covered = std::min(a.deviation, b.deviation) < kCoveredDeviation &&
                             std::max(a.deviation, b.deviation) >= kSeeingDeviation;
   quality.suspect_same = !left.empty() && a.deviation > 0 && left.pixels() == right.pixels();
-}
-
-std::vector<std::string> StereoWarnings(const StereoQuality& quality) {
-  std::vector<std::string> warnings;
-  if (quality.row_error_px >= kRowErrorAlarm_px) {
-    warnings.push_back("rows of the two cameras differ by " + Fixed2(quality.row_error_px) +
-                       " px (median, spread " + Fixed2(quality.row_spread_px) + " px; limit " +
-                       Fixed2(kRowErrorAlarm_px) + " px); calibrate the rig");
-  }
-  if (quality.suspect_swapped) {
-    warnings.push_back("left and right camera look exchanged; check the cables and RIG.toml");
-  }
-  if (quality.suspect_same) {
-    warnings.push_back("left and right are the same picture; check the capture devices");
-  }
-  if (quality.suspect_frozen) {
-    warnings.push_back("a camera repeats its last picture; it may be frozen");
-  }
-  if (quality.suspect_covered) {
-    warnings.push_back("one camera shows nothing while the other does; it may be covered");
-  }
-  return warnings;
 }
 
 bool LooksSwapped(const ImageU8& left, const ImageU8& right, const DisparityWindow& window,

@@ -1,9 +1,6 @@
 // Health of a stereo pass, measured from the pictures themselves.
 #pragma once
 
-#include <string>
-#include <vector>
-
 #include "engine/model/image.h"
 #include "engine/model/range_map.h"
 #include "engine/model/settings.h"
@@ -27,11 +24,6 @@ void SuspectPictures(const ImageU8& left, const ImageU8& right, StereoQuality& q
 /// given.
 bool LooksSwapped(const ImageU8& left, const ImageU8& right, const DisparityWindow& window,
                   const StereoSettings& settings);
-
-/// What a person should know about the pair, one line each, with value, limit and what to do; empty
-/// when all is well. Rows: warned from kRowErrorAlarm_px on.
-inline constexpr double kRowErrorAlarm_px = 0.5;
-std::vector<std::string> StereoWarnings(const StereoQuality& quality);
 
 /// Coverage, median sigma and median depth (NaN when nothing matched).
 void SummariseRange(const RangeMap& range, StereoQuality& quality);

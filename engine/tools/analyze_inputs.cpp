@@ -12,6 +12,7 @@
 #include "engine/slad/elevation_map_builder.h"
 #include "engine/slad/hole_filling.h"
 #include "engine/slad/terrain_points.h"
+#include "engine/stereo/prefilter.h"
 #include "engine/stereo/stereo.h"
 #include "engine/tools/map_files.h"
 #include "engine/tools/point_files.h"
@@ -162,8 +163,8 @@ Result<AnalyzeInput> ElevationOfPair(const std::filesystem::path& left,
     return InvalidError(rig_path.string() + ": " + rectifier.error().message);
   }
   input.timings.push_back(watch.Lap("read"));
-  const auto pair =
-      rectifier->Rectify({{}, std::move(left_raw).value(), std::move(right_raw).value()});
+  const StereoFrame raw{{}, std::move(left_raw).value(), std::move(right_raw).value()};
+  const auto pair = rectifier->Rectify(raw);
   if (!pair) {
     return InvalidError(left.string() + ", " + right.string() + ": " + pair.error().message);
   }
@@ -185,9 +186,11 @@ Result<AnalyzeInput> ElevationOfPair(const std::filesystem::path& left,
     window = PredictWindow(rectifier->camera(), rectifier->baseline_m(), X_WC, 0, kTallestObject_m,
                            settings.stereo);
   }
+  const auto filtered = FilterThenRectify(raw, *rectifier, settings.stereo);
   StereoMatcher matcher;
-  auto match = matcher.Match(*pair->left, *pair->right, rectifier->camera(),
-                             rectifier->baseline_m(), window, settings.stereo, {});
+  auto match =
+      matcher.Match(*pair->left, *pair->right, rectifier->camera(), rectifier->baseline_m(), window,
+                    settings.stereo, {}, filtered ? &*filtered : nullptr);
   if (!match) {
     return InvalidError(left.string() + ", " + right.string() + ": " + match.error().message);
   }
@@ -200,6 +203,9 @@ Result<AnalyzeInput> ElevationOfPair(const std::filesystem::path& left,
   }
   if (match->quality.suspect_swapped) {
     input.warnings.push_back("left and right look exchanged");
+  }
+  if (match->quality.suspect_same) {
+    input.warnings.push_back("left and right are the same picture");
   }
   const GroundBounds bounds = BoundsOfData(PointsFromRange(match->range, X_WC));
   CoverExtent(bounds.north_max_m - bounds.north_min_m, bounds.east_max_m - bounds.east_min_m,
