@@ -23,8 +23,8 @@ struct CameraRequest {
   std::string address;  ///< path of the device or file, or URL
   int width = 0;
   int height = 0;
-  double rate_hz = 0;  ///< 0: as it comes
-  std::string fourcc;  ///< empty: as it comes
+  double rate_hz = 0;    ///< 0: as it comes
+  std::string fourcc{};  ///< empty: as it comes
 };
 
 struct CameraPicture {

@@ -209,7 +209,6 @@ Result<PicturePair> VideoSource::PairAt(std::int64_t index) {
 }
 
 void VideoSource::NoteEnd() {
-  lap_start_s_ += std::exchange(lap_s_, 0);
   const std::lock_guard lock(mutex_);
   for (std::size_t i = 0; i < films_.size(); ++i) {
     const double announced = static_cast<double>(films_[i].device.frame_count);
@@ -231,10 +230,14 @@ Result<std::shared_ptr<const FrameBundle>> VideoSource::Next(std::stop_token sto
           ErrorCode::kEnd,
           cameras_.rig_toml + (stop.stop_requested() ? ": stopped" : ": end of the video")};
     }
+    if (end_ && *index == 0 && position_ >= *end_) {
+      lap_start_s_ += lap_s_;
+    }
     Result<PicturePair> pair = PairAt(*index);
     if (!pair && pair.error().code == ErrorCode::kEnd) {
       NoteEnd();
       turns_->EndsAt(*index);
+      end_ = *index;
       continue;
     }
     if (!pair) {

@@ -62,6 +62,7 @@ class VideoSource final : public Source {
   std::optional<PlaybackTurns> turns_;
   std::optional<PicturePair> pending_;  ///< read, but not yet given
   std::int64_t position_ = 0;           ///< index of the pair that is read next
+  std::optional<std::int64_t> end_;     ///< index after the last pair, once it was met
   double lap_start_s_ = 0;              ///< when this lap began
   double lap_s_ = 0;                    ///< what it lasted so far
   std::uint64_t sequence_ = 0;
