@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include <opencv2/imgproc.hpp>
 
@@ -17,10 +18,12 @@ constexpr double kMostElongation = 6;       // of the axes: 80 degrees of slant
 constexpr double kEllipseTolerance = 0.22;  // area against the ellipse of the same moments
 constexpr double kLeastContrast = 8;        // grey levels between dot and ring
 
-constexpr double kWindowPerAxis = 1.35;   // of the dot's half axes
-constexpr double kWindowMargin_px = 1.5;  // for blur
-constexpr double kRingPerAxis = 0.4;
-constexpr double kRingMargin_px = 2;
+constexpr double kWindowPerAxis = 1.35;  // first look: of the dot's half axes with their margin
+constexpr double kRingPerAxis = 1.75;
+constexpr double kBlurMargin_px = 1.5;
+constexpr double kWindowInGap = 0.4;  // in the grid: of the gap to the neighbour's edge
+constexpr double kRingInGap = 0.62;
+constexpr double kWindowFade = 0.8;  // of the window: from here its weight falls to 0
 constexpr int kRefineSteps = 4;
 constexpr double kConverged_px = 1e-4;
 
@@ -89,29 +92,30 @@ bool IsElliptic(const Dot& dot) {
   return elongation < kMostElongation && std::abs(dot.area_px / of_moments - 1) < kEllipseTolerance;
 }
 
-/// Calls visit(x, y, m) for every pixel with m = the factor by which the dot's ellipse, its half
-/// axes longer by `margin_px`, would have to grow to reach the pixel, up to `most`. False when that
-/// region leaves the picture.
+/// What is weighed and what is background: an ellipse, window and ring in multiples of it.
+struct Window {
+  Eigen::Matrix2d shape;  ///< d^T shape^-1 d = 1 on the ellipse, px^2
+  double window = 0;
+  double ring = 0;
+};
+
+/// Calls visit(x, y, m) for every pixel with m = the factor by which the ellipse round `centre`
+/// would have to grow to reach the pixel, up to `most`. False when that leaves the picture.
 template <typename Visit>
-bool ForEllipse(const ImageU8& picture, const Dot& dot, double margin_px, double most,
-                Visit visit) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(dot.covariance);
-  const Eigen::Vector2d half =
-      2 * solver.eigenvalues().cwiseMax(0.05).cwiseSqrt() + Eigen::Vector2d::Constant(margin_px);
-  const Eigen::Matrix2d axes = solver.eigenvectors();
-  const Eigen::Matrix2d shape = axes * half.cwiseAbs2().asDiagonal() * axes.transpose();
+bool ForEllipse(const ImageU8& picture, const Eigen::Vector2d& centre, const Eigen::Matrix2d& shape,
+                double most, Visit visit) {
   const Eigen::Matrix2d inverse = shape.inverse();
   const double reach_x = most * std::sqrt(shape(0, 0)), reach_y = most * std::sqrt(shape(1, 1));
-  const double left = std::floor(dot.centre.x() - reach_x);
-  const double right = std::ceil(dot.centre.x() + reach_x);
-  const double top = std::floor(dot.centre.y() - reach_y);
-  const double bottom = std::ceil(dot.centre.y() + reach_y);
+  const double left = std::floor(centre.x() - reach_x);
+  const double right = std::ceil(centre.x() + reach_x);
+  const double top = std::floor(centre.y() - reach_y);
+  const double bottom = std::ceil(centre.y() + reach_y);
   if (!(left >= 0 && top >= 0 && right < picture.width() && bottom < picture.height())) {
     return false;
   }
   for (int y = static_cast<int>(top); y <= static_cast<int>(bottom); ++y) {
     for (int x = static_cast<int>(left); x <= static_cast<int>(right); ++x) {
-      const Eigen::Vector2d d(x - dot.centre.x(), y - dot.centre.y());
+      const Eigen::Vector2d d(x - centre.x(), y - centre.y());
       const double m = std::sqrt(d.dot(inverse * d));
       if (m <= most) {
         visit(x, y, m);
@@ -177,31 +181,41 @@ class Background {
   Eigen::Vector3d plane_ = Eigen::Vector3d::Zero();
 };
 
-/// One pass of the weighted centroid.
-bool Reweigh(const ImageU8& picture, Dot& dot) {
+/// Weight 1 - grey / background; the window fades out at its rim, so that pixels entering or
+/// leaving it do not pull.
+struct Weighed {
+  Eigen::Vector2d shift = Eigen::Vector2d::Zero();
+  Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();
+  double area_px = 0;
+};
+
+std::optional<Weighed> Weigh(const ImageU8& picture, const Eigen::Vector2d& centre,
+                             const Window& window) {
   Background background;
-  const double ring = kWindowPerAxis + kRingPerAxis;
-  const bool inside = ForEllipse(picture, dot, kRingMargin_px, ring, [&](int x, int y, double m) {
-    if (m > kWindowPerAxis) {
-      background.Add(x - dot.centre.x(), y - dot.centre.y(), picture.at(x, y));
-    }
-  });
-  if (!inside || !background.Fit()) {
-    return false;
+  const bool inside =
+      ForEllipse(picture, centre, window.shape, window.ring, [&](int x, int y, double m) {
+        if (m > window.window) {
+          background.Add(x - centre.x(), y - centre.y(), picture.at(x, y));
+        }
+      });
+  if (!inside || !background.Fit() || !(background.At(0, 0) > kLeastContrast)) {
+    return std::nullopt;
   }
   double sum = 0, darkest = 1;
   Eigen::Vector2d first = Eigen::Vector2d::Zero();
   Eigen::Matrix2d second = Eigen::Matrix2d::Zero();
   bool bright = true;
-  ForEllipse(picture, dot, kWindowMargin_px, kWindowPerAxis, [&](int x, int y, double) {
-    const Eigen::Vector2d d(x - dot.centre.x(), y - dot.centre.y());
+  ForEllipse(picture, centre, window.shape, window.window, [&](int x, int y, double m) {
+    const Eigen::Vector2d d(x - centre.x(), y - centre.y());
     const double level = background.At(d.x(), d.y());
-    if (!(level > kLeastContrast)) {
-      bright = false;
+    bright = bright && level > kLeastContrast;
+    if (!bright) {
       return;
     }
-    const double weight = 1 - picture.at(x, y) / level;
-    darkest = std::min(darkest, picture.at(x, y) / level);
+    const double share = picture.at(x, y) / level;
+    const double fade = std::min(1.0, (1 - m / window.window) / (1 - kWindowFade));
+    const double weight = fade * (1 - share);
+    darkest = std::min(darkest, share);
     sum += weight;
     first += weight * d;
     second += weight * d * d.transpose();
@@ -209,18 +223,22 @@ bool Reweigh(const ImageU8& picture, Dot& dot) {
   const double contrast = 1 - darkest;
   if (!bright || !(contrast * background.At(0, 0) > kLeastContrast) ||
       !(sum > 0.5 * kLeastArea_px * contrast)) {
-    return false;
+    return std::nullopt;
   }
-  const Eigen::Vector2d shift = first / sum;
-  const Eigen::Matrix2d covariance = second / sum - shift * shift.transpose();
-  const double change = covariance.determinant() / dot.covariance.determinant();
-  if (!(change > 0.2 && change < 5) || !(covariance(0, 0) > 0)) {
-    return false;
-  }
-  dot.centre += shift;
-  dot.covariance = covariance;
-  dot.area_px = sum / contrast;
-  return true;
+  Weighed result;
+  result.shift = first / sum;
+  result.covariance = second / sum - result.shift * result.shift.transpose();
+  result.area_px = sum / contrast;
+  return result;
+}
+
+/// The window of a first look at a dot, from its own moments.
+Window WindowOf(const Dot& dot) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(dot.covariance);
+  const Eigen::Vector2d half = 2 * solver.eigenvalues().cwiseMax(0.05).cwiseSqrt() +
+                               Eigen::Vector2d::Constant(kBlurMargin_px);
+  const Eigen::Matrix2d axes = solver.eigenvectors();
+  return {axes * half.cwiseAbs2().asDiagonal() * axes.transpose(), kWindowPerAxis, kRingPerAxis};
 }
 
 }  // namespace
@@ -258,11 +276,18 @@ std::vector<Dot> FindDots(const ImageU8& picture, int window_px) {
 bool RefineDot(const ImageU8& picture, Dot& dot) {
   Dot refined = dot;
   for (int i = 0; i < kRefineSteps; ++i) {
-    const Eigen::Vector2d before = refined.centre;
-    if (!Reweigh(picture, refined)) {
+    const auto weighed = Weigh(picture, refined.centre, WindowOf(refined));
+    if (!weighed) {
       return false;
     }
-    if ((refined.centre - before).norm() < kConverged_px) {
+    const double change = weighed->covariance.determinant() / dot.covariance.determinant();
+    if (!(change > 0.2 && change < 5) || !(weighed->covariance(0, 0) > 0)) {
+      return false;
+    }
+    refined.centre += weighed->shift;
+    refined.covariance = weighed->covariance;
+    refined.area_px = weighed->area_px;
+    if (weighed->shift.norm() < kConverged_px) {
       break;
     }
   }
@@ -271,6 +296,26 @@ bool RefineDot(const ImageU8& picture, Dot& dot) {
   }
   dot = refined;
   return true;
+}
+
+std::optional<Eigen::Vector2d> RefineInGrid(const ImageU8& picture, const GridDot& dot) {
+  // Radii in pitches; the ellipse of radius 1 pitch is steps * unit circle.
+  const double gap = 1 - dot.neighbour_radius - dot.radius;
+  const Window window{dot.steps * dot.steps.transpose(), dot.radius + kWindowInGap * gap,
+                      dot.radius + kRingInGap * gap};
+  Eigen::Vector2d centre = dot.centre;
+  const double limit_px = dot.radius * std::sqrt(dot.steps.determinant());
+  for (int i = 0; i < kRefineSteps; ++i) {
+    const auto weighed = Weigh(picture, centre, window);
+    if (!weighed || !((centre + weighed->shift - dot.centre).norm() < limit_px)) {
+      return std::nullopt;
+    }
+    centre += weighed->shift;
+    if (weighed->shift.norm() < kConverged_px) {
+      break;
+    }
+  }
+  return centre;
 }
 
 }  // namespace palace

@@ -233,6 +233,59 @@ Result<TargetObservation> DetectChessboard(const ImageU8& picture,
   return NearestTurn(target, seen, Eigen::Vector2d::UnitX());
 }
 
+/// Steps of the grid in the picture round one point: a plane through the points nearby.
+std::optional<Eigen::Matrix2d> StepsAt(const CalibrationTarget& target,
+                                       const std::map<int, Eigen::Vector2d>& seen, int index) {
+  constexpr int kReach = 2;
+  const int column = index % target.columns, row = index / target.columns;
+  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+  Eigen::Matrix<double, 3, 2> right = Eigen::Matrix<double, 3, 2>::Zero();
+  for (int i = -kReach; i <= kReach; ++i) {
+    for (int j = -kReach; j <= kReach; ++j) {
+      const auto found = Inside(target, column + i, row + j)
+                             ? seen.find((row + j) * target.columns + column + i)
+                             : seen.end();
+      if (found != seen.end()) {
+        const Eigen::Vector3d at(1, i, j);
+        normal += at * at.transpose();
+        right += at * found->second.transpose();
+      }
+    }
+  }
+  const Eigen::FullPivLU<Eigen::Matrix3d> solver(normal);
+  if (solver.rank() < 3) {
+    return std::nullopt;
+  }
+  const Eigen::Matrix<double, 3, 2> plane = solver.solve(right);
+  return plane.bottomRows<2>().transpose();
+}
+
+/// Measures every dot again with the window its place on the grid gives; drops those that cannot
+/// be.
+TargetObservation RefineOnGrid(const ImageU8& picture, const CalibrationTarget& target,
+                               const TargetObservation& rough) {
+  std::map<int, Eigen::Vector2d> seen;
+  for (const TargetPoint& point : rough) {
+    seen[point.index] = point.pixel;
+  }
+  const double largest = std::max(target.dot_diameter_m, target.mark_diameter_m);
+  TargetObservation refined;
+  for (const TargetPoint& point : rough) {
+    const auto steps = StepsAt(target, seen, point.index);
+    if (!steps || !(steps->determinant() > 0)) {
+      continue;
+    }
+    const double per_pitch = 0.5 / target.pitch_m;
+    const auto centre = RefineInGrid(
+        picture,
+        {point.pixel, *steps, per_pitch * target.DotDiameter_m(point.index), per_pitch * largest});
+    if (centre) {
+      refined.push_back({point.index, *centre});
+    }
+  }
+  return refined;
+}
+
 Result<TargetObservation> DetectDots(const ImageU8& picture, const CalibrationTarget& target) {
   std::vector<Dot> dots;
   DotLattice lattice;
@@ -269,6 +322,7 @@ Result<TargetObservation> DetectDots(const ImageU8& picture, const CalibrationTa
       seen.push_back({row * target.columns + column, dots[dot].centre});
     }
   }
+  seen = RefineOnGrid(picture, target, seen);
   return target.marks.empty() ? NearestTurn(target, seen, Eigen::Vector2d::UnitX()) : seen;
 }
 
