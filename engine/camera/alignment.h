@@ -20,14 +20,9 @@ enum class FieldOfView {
   kCovering,  ///< every source pixel keeps a place (JPL minfov = 0)
 };
 
-/// Size of the new pictures; 0 takes that of the (left) camera.
-struct PictureSize {
-  int width = 0;
-  int height = 0;
-};
-
 /// The CAHV model with the centre, image plane and row and column directions of `camera`'s linear
 /// part. CAHVORE: rays are taken as if the pupil stood still, which is exact for far points.
+/// `size` is that of the new picture; 0 takes the camera's.
 /// Refuses cameras without a size and picture borders without a ray.
 /// Source: cmod_cahvor_warp_model, cmod_cahvore_warp_model.
 Result<CahvorModel> LinearizeCamera(const CameraModel& camera,
@@ -51,7 +46,7 @@ enum class AlignmentForm {
 struct AlignmentOptions {
   AlignmentForm form = AlignmentForm::kNormals;
   FieldOfView field = FieldOfView::kInside;  ///< not used by kAverage
-  PictureSize size;
+  PictureSize size;                          ///< of the new pictures; 0 takes the left one's
 };
 
 /// Aligns a pair whose models share the frame F and the unit of length. Each camera's own size

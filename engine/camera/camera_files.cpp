@@ -1,177 +1,214 @@
 #include "engine/camera/camera_files.h"
 
+#include <algorithm>
 #include <array>
-#include <charconv>
+#include <cctype>
 #include <cmath>
 #include <cstdio>
-#include <map>
-#include <vector>
 
 #include "engine/camera/cahvor.h"
+#include "engine/camera/camera_file_readers.h"
 #include "engine/camera/text_file.h"
 
 namespace palace {
 namespace {
 
-constexpr std::size_t kSizeLimit = 1 << 20;
-constexpr double kLargestSide_px = 65536;
+constexpr std::size_t kSizeLimit = 16 << 20;
 
-std::string_view Trim(std::string_view text) {
-  const char* blanks = " \t\r\f\v";
-  const auto first = text.find_first_not_of(blanks);
-  if (first == std::string_view::npos) {
-    return {};
-  }
-  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
+bool Contains(std::string_view text, std::string_view part) {
+  return text.find(part) != std::string_view::npos;
 }
 
-/// A `key = values` line.
-struct Entry {
-  int line = 0;
-  std::string_view values;
-};
-
-using Entries = std::map<std::string, Entry, std::less<>>;
-
-std::string At(const std::string& name, int line, std::string_view key) {
-  return name + ":" + std::to_string(line) + ": " + std::string(key);
+/// True when the file is nothing but numbers, one a line or a few, and comments.
+bool IsNumbers(std::string_view text) {
+  const KeyedText numbers = ParseNumberLines(text, "");
+  return numbers.Has("9") && numbers.Number("1").ok() && numbers.Number("5").ok() &&
+         numbers.Number("9").ok();
 }
 
-/// All keyed lines; the first of a key counts. Lines without '=' (covariances) are not ours.
-Entries SplitLines(std::string_view text) {
-  Entries entries;
-  int line = 0;
-  while (!text.empty()) {
-    ++line;
-    const auto end = text.find('\n');
-    std::string_view content = text.substr(0, end);
-    text = end == std::string_view::npos ? std::string_view{} : text.substr(end + 1);
-    content = content.substr(0, content.find('#'));
-    const auto equals = content.find('=');
-    if (equals != std::string_view::npos) {
-      entries.try_emplace(std::string(Trim(content.substr(0, equals))),
-                          Entry{line, Trim(content.substr(equals + 1))});
-    }
-  }
-  return entries;
+std::string Extension(const std::string& name) {
+  std::string extension = std::filesystem::path(name).extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension;
 }
 
-Result<std::vector<double>> ReadNumbers(const Entries& entries, const std::string& name,
-                                        std::string_view key, std::size_t count) {
-  const auto found = entries.find(key);
-  if (found == entries.end()) {
-    return InvalidError(name + ": " + std::string(key) +
-                        " is missing; a JPL camera model needs it");
+Status ApplySize(CameraModel& model, const PictureSize& size, const std::string& name) {
+  if (size.width == 0 && size.height == 0) {
+    return Ok();
   }
-  std::vector<double> numbers;
-  std::string_view rest = found->second.values;
-  while (!rest.empty()) {
-    double number = 0;
-    const char* end = rest.data() + rest.size();
-    const auto [next, error] = std::from_chars(rest.data(), end, number);
-    if (error != std::errc() || !std::isfinite(number)) {
-      return InvalidError(At(name, found->second.line, key) + " = " +
-                          std::string(found->second.values.substr(0, 60)) +
-                          ": not a list of finite numbers");
-    }
-    numbers.push_back(number);
-    rest = Trim(rest.substr(static_cast<std::size_t>(next - rest.data())));
+  const int width = WidthOf(model);
+  const int height = HeightOf(model);
+  if ((width != 0 && width != size.width) || (height != 0 && height != size.height)) {
+    return InvalidError(name + ": the file tells a size of " + std::to_string(width) + " x " +
+                        std::to_string(height) + " px (0: not told), the size asked for is " +
+                        std::to_string(size.width) + " x " + std::to_string(size.height) +
+                        "; leave it out or correct it");
   }
-  if (numbers.size() != count) {
-    return InvalidError(At(name, found->second.line, key) + " has " +
-                        std::to_string(numbers.size()) + " numbers, it must have " +
-                        std::to_string(count));
-  }
-  return numbers;
-}
-
-Status ReadVector(const Entries& entries, const std::string& name, std::string_view key,
-                  Eigen::Vector3d& vector) {
-  const auto numbers = ReadNumbers(entries, name, key, 3);
-  if (!numbers) {
-    return numbers.error();
-  }
-  vector = {(*numbers)[0], (*numbers)[1], (*numbers)[2]};
+  SetSize(model, size.width, size.height);
   return Ok();
 }
 
-Status ReadUnitVector(const Entries& entries, const std::string& name, std::string_view key,
-                      Eigen::Vector3d& vector) {
-  if (Status status = ReadVector(entries, name, key, vector); !status) {
-    return status;
+Result<CameraModel> ParseAs(CameraFormat format, std::string_view text, const std::string& name,
+                            const CameraFileOptions& options) {
+  switch (format) {
+    case CameraFormat::kJplText:
+      return ReadJplText(ParseAssignments(text, name));
+    case CameraFormat::kPdsLabel:
+      return ReadPdsLabel(ParseLabel(text, name));
+    case CameraFormat::kWillson:
+      return ReadWillson(ParseNumberLines(text, name));
+    case CameraFormat::kOpenCvYaml:
+      return ReadOpenCv(ParseYaml(text, name), options);
+    case CameraFormat::kOpenCvXml:
+      return ReadOpenCv(ParseXml(text, name), options);
+    case CameraFormat::kRosYaml:
+      return ReadRos(ParseYaml(text, name));
+    case CameraFormat::kMrcal:
+      return ReadMrcal(ParsePythonDict(text, name));
   }
-  const double length = vector.norm();
-  if (!(length > 0.99 && length < 1.01)) {
-    return InvalidError(At(name, entries.find(key)->second.line, key) + " has length " +
-                        std::to_string(length) + ", a direction must have length 1");
-  }
-  vector /= length;
-  return Ok();
+  return InvalidError(name + ": unknown format");
 }
 
-Status ReadDimensions(const Entries& entries, const std::string& name, CahvorModel& model) {
-  const auto numbers = ReadNumbers(entries, name, "Dimensions", 2);
-  if (!numbers) {
-    return numbers.error();
-  }
-  for (const double side : *numbers) {
-    if (!(side >= 1 && side <= kLargestSide_px) || side != std::floor(side)) {
-      return InvalidError(At(name, entries.find("Dimensions")->second.line, "Dimensions") +
-                          ": sides must be whole numbers from 1 to 65536 px");
-    }
-  }
-  model.width = static_cast<int>((*numbers)[0]);
-  model.height = static_cast<int>((*numbers)[1]);
-  return Ok();
-}
-
-/// True for CAHVOR, false for CAHV.
-Result<bool> ReadKind(const Entries& entries, const std::string& name) {
-  const auto found = entries.find("Model");
-  if (found == entries.end()) {
-    return entries.contains("O") && entries.contains("R");
-  }
-  const std::string_view value = found->second.values;
-  const std::string_view word = value.substr(0, value.find_first_of(" =,\t"));
-  if (word == "CAHV" || word == "CAHVOR") {
-    return word == "CAHVOR";
-  }
-  return InvalidError(At(name, found->second.line, "Model") + " = " +
-                      std::string(word.substr(0, 40)) +
-                      ": only CAHV and CAHVOR can be a rig's camera; convert the model first");
+Error CannotHold(const CameraModel& model, CameraFormat format) {
+  return UsageError(std::string("a file of format ") + CameraFormatName(format) +
+                    " cannot hold a " + FamilyOf(model) + " camera; convert the model first");
 }
 
 }  // namespace
 
-Result<CahvorModel> ParseCahvorText(std::string_view text, const std::string& name) {
+const char* CameraFormatName(CameraFormat format) {
+  static constexpr std::array<const char*, 7> kNames = {
+      "JPL text",   "PDS label",       "Willson .cpcc", "OpenCV YAML",
+      "OpenCV XML", "ROS camera_info", "mrcal"};
+  return kNames[static_cast<std::size_t>(format)];
+}
+
+Result<CameraFormat> CameraFormatOf(std::string_view text, const std::string& name) {
+  const std::string_view start = Trimmed(text.substr(0, 4096));
+  if (start.substr(0, 5) == "<?xml" || Contains(start, "<opencv_storage")) {
+    return CameraFormat::kOpenCvXml;
+  }
+  if (Contains(text, "MODEL_COMPONENT_1") || Contains(text, "GEOMETRIC_CAMERA_MODEL")) {
+    return CameraFormat::kPdsLabel;
+  }
+  if (Contains(text, "lensmodel") && Contains(text, "{")) {
+    return CameraFormat::kMrcal;
+  }
+  const KeyedText assignments = ParseAssignments(text, name);
+  const bool is_jpl = (assignments.Has("Model") && assignments.Has("C")) ||
+                      (assignments.Has("C") && assignments.Has("A") && assignments.Has("H")) ||
+                      assignments.Word("Model").substr(0, 4) == "CAHV";
+  const std::string extension = Extension(name);
+  if (is_jpl) {
+    return CameraFormat::kJplText;
+  }
+  if (start.substr(0, 5) == "%YAML" || Contains(text, "!!opencv-matrix")) {
+    return CameraFormat::kOpenCvYaml;
+  }
+  const KeyedText yaml = ParseYaml(text, name);
+  if (yaml.Has("distortion_model") || yaml.Has("projection_matrix.data") || yaml.Has("P")) {
+    return CameraFormat::kRosYaml;
+  }
+  if (yaml.Has("camera_matrix.data") || yaml.Has("cameraMatrix.data") || yaml.Has("M1.data")) {
+    return CameraFormat::kOpenCvYaml;
+  }
+  if (IsNumbers(text)) {
+    return CameraFormat::kWillson;
+  }
+  // What is too damaged to tell by itself is read as what its name promises, for the better
+  // message.
+  if (extension == ".cahv" || extension == ".cahvor" || extension == ".cahvore" ||
+      extension == ".mod") {
+    return CameraFormat::kJplText;
+  }
+  if (extension == ".cpcc") {
+    return CameraFormat::kWillson;
+  }
+  return InvalidError(name +
+                      ": no camera model that PALACE reads: JPL .cahv/.cahvor/.cahvore, PDS label "
+                      "with GEOMETRIC_CAMERA_MODEL, Willson .cpcc, OpenCV YAML or XML, ROS "
+                      "camera_info, mrcal .cameramodel");
+}
+
+Result<CameraModel> ParseCameraText(std::string_view text, const std::string& name,
+                                    const CameraFileOptions& options) {
   if (text.size() > kSizeLimit) {
-    return InvalidError(name + ": larger than 1 MiB; is it a camera model?");
+    return InvalidError(name + ": larger than 16 MiB; is it a camera model?");
   }
-  const Entries entries = SplitLines(text);
-  const auto is_cahvor = ReadKind(entries, name);
-  if (!is_cahvor) {
-    return is_cahvor.error();
+  const auto format = CameraFormatOf(text, name);
+  if (!format) {
+    return format.error();
   }
-  CahvorModel model;
-  std::vector<Status> steps = {
-      ReadDimensions(entries, name, model), ReadVector(entries, name, "C", model.C),
-      ReadUnitVector(entries, name, "A", model.A), ReadVector(entries, name, "H", model.H),
-      ReadVector(entries, name, "V", model.V)};
-  if (*is_cahvor) {
-    steps.push_back(ReadUnitVector(entries, name, "O", model.O));
-    steps.push_back(ReadVector(entries, name, "R", model.R));
-  } else {
-    model.O = model.A;
+  auto model = ParseAs(*format, text, name, options);
+  if (!model) {
+    return model.error();
   }
-  for (const Status& step : steps) {
-    if (!step) {
-      return step.error();
-    }
-  }
-  if (!(model.A.cross(model.H).norm() > 1e-6) || !(model.A.cross(model.V).norm() > 1e-6)) {
-    return InvalidError(name + ": H or V runs along A; the focal length would be 0");
+  if (Status status = ApplySize(*model, options.size, name); !status) {
+    return status.error();
   }
   return model;
+}
+
+Result<CameraModel> ReadCameraFile(const std::filesystem::path& path,
+                                   const CameraFileOptions& options) {
+  const auto text = ReadTextFile(path, kSizeLimit);
+  if (!text) {
+    return text.error();
+  }
+  return ParseCameraText(*text, path.string(), options);
+}
+
+Result<std::string> CameraToText(const CameraModel& model, CameraFormat format) {
+  switch (format) {
+    case CameraFormat::kJplText:
+      if (const auto* cahvore = std::get_if<CahvoreModel>(&model.lens)) {
+        return JplToText(cahvore->base, cahvore);
+      }
+      if (const auto* cahvor = std::get_if<CahvorModel>(&model.lens)) {
+        return JplToText(*cahvor, nullptr);
+      }
+      break;
+    case CameraFormat::kWillson:
+      if (std::holds_alternative<TsaiModel>(model.lens)) {
+        return WillsonToText(model);
+      }
+      break;
+    case CameraFormat::kOpenCvYaml:
+    case CameraFormat::kOpenCvXml:
+    case CameraFormat::kRosYaml:
+      if (std::holds_alternative<OpenCvModel>(model.lens)) {
+        return format == CameraFormat::kRosYaml      ? RosToYaml(model)
+               : format == CameraFormat::kOpenCvYaml ? OpenCvToYaml(model)
+                                                     : OpenCvToXml(model);
+      }
+      break;
+    case CameraFormat::kPdsLabel:
+    case CameraFormat::kMrcal:
+      return UsageError(std::string("files of format ") + CameraFormatName(format) +
+                        " are read, not written");
+  }
+  return CannotHold(model, format);
+}
+
+Result<CahvorModel> ParseCahvorText(std::string_view text, const std::string& name) {
+  if (text.size() > kSizeLimit) {
+    return InvalidError(name + ": larger than 16 MiB; is it a camera model?");
+  }
+  const auto model = ReadJplText(ParseAssignments(text, name));
+  if (!model) {
+    return model.error();
+  }
+  const auto* cahvor = std::get_if<CahvorModel>(&model->lens);
+  if (cahvor == nullptr) {
+    return InvalidError(name + ": a " + FamilyOf(*model) +
+                        " model where CAHV or CAHVOR is needed; convert it with palacectl camera "
+                        "convert");
+  }
+  if (!HasSize(*model)) {
+    return InvalidError(name + ": Dimensions is missing; add the line Dimensions = columns rows");
+  }
+  return *cahvor;
 }
 
 Result<CahvorModel> ReadCahvorFile(const std::filesystem::path& path) {
@@ -182,24 +219,52 @@ Result<CahvorModel> ReadCahvorFile(const std::filesystem::path& path) {
   return ParseCahvorText(*text, path.string());
 }
 
-std::string CahvorToText(const CahvorModel& model) {
-  const bool linear = IsLinear(model);
-  std::string text =
-      "Dimensions = " + std::to_string(model.width) + " " + std::to_string(model.height) +
-      "\nModel = " + (linear ? "CAHV = perspective, linear" : "CAHVOR = perspective, distortion") +
-      "\n";
-  const auto add = [&](const char* key, const Eigen::Vector3d& v) {
-    std::array<char, 128> line{};
-    std::snprintf(line.data(), line.size(), "%s = %.17g %.17g %.17g\n", key, v.x(), v.y(), v.z());
-    text += line.data();
-  };
-  add("C", model.C);
-  add("A", model.A);
-  add("H", model.H);
-  add("V", model.V);
-  if (!linear) {
-    add("O", model.O);
-    add("R", model.R);
+std::string CahvorToText(const CahvorModel& model) { return JplToText(model, nullptr); }
+
+Result<PictureSize> ReadSize(const KeyedText& text, const std::string& width_key,
+                             const std::string& height_key) {
+  if (!text.Has(width_key) && !text.Has(height_key)) {
+    return PictureSize{};
+  }
+  const auto width = text.Count(width_key, 1, kLargestSide_px);
+  if (!width) {
+    return width.error();
+  }
+  const auto height = text.Count(height_key, 1, kLargestSide_px);
+  if (!height) {
+    return height.error();
+  }
+  return PictureSize{*width, *height};
+}
+
+Result<PictureSize> ReadSides(const KeyedText& text, const std::string& key) {
+  const auto sides = text.Numbers(key, 2, 2);
+  if (!sides) {
+    return sides.error();
+  }
+  for (const double side : *sides) {
+    if (!(side >= 1 && side <= kLargestSide_px) || side != std::floor(side)) {
+      return text.Wrong(key, "sides must be whole numbers from 1 to 65536 px");
+    }
+  }
+  return PictureSize{static_cast<int>((*sides)[0]), static_cast<int>((*sides)[1])};
+}
+
+Eigen::Matrix3d RotationFromVector(const Eigen::Vector3d& turn) {
+  return turn.norm() > 0 ? Eigen::AngleAxisd(turn.norm(), turn.normalized()).toRotationMatrix()
+                         : Eigen::Matrix3d(Eigen::Matrix3d::Identity());
+}
+
+std::string Exact(double value) {
+  std::array<char, 40> text{};
+  std::snprintf(text.data(), text.size(), "%.17g", value);
+  return text.data();
+}
+
+std::string Exact(const double* values, std::size_t count, const char* separator) {
+  std::string text;
+  for (std::size_t i = 0; i < count; ++i) {
+    text += (i == 0 ? "" : separator) + Exact(values[i]);
   }
   return text;
 }

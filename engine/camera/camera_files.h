@@ -1,22 +1,64 @@
-// Camera model files: JPL text models (.cahv, .cahvor).
+// Camera model files of every format that PALACE reads and writes.
+//
+//   format            read  write  what it holds
+//   JPL text          yes   yes    CAHV, CAHVOR, CAHVORE; Dimensions may be missing
+//   PDS3/VICAR label  yes   -      group GEOMETRIC_CAMERA_MODEL, also inside a longer label
+//   Willson .cpcc     yes   yes    Tsai; millimetres
+//   OpenCV YAML, XML  yes   yes    pinhole and fisheye with up to 14 coefficients, R and T if there
+//   ROS camera_info   yes   yes    plumb_bob, rational_polynomial, equidistant; F is the rectified
+//                                  frame of the left camera (P tells the right one's place)
+//   mrcal             yes   -      PINHOLE, OPENCV4/5/8/12, CAHVOR, CAHVORE
+//
+// The content tells the format; the name's extension counts only where content fits two. Everything
+// is read by our own bounded parsers (keyed_text.h). Errors name file, line, key, value and limit.
+// A size that a file does not tell is 0. Lengths stay in the file's unit (CameraModel::unit_m).
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 
+#include "engine/camera/camera_model.h"
 #include "engine/core/result.h"
-#include "engine/model/rig.h"
 
 namespace palace {
 
-/// Parses the text of a JPL model: lines `Dimensions = W H`, `Model = CAHV...`, `C = x y z` and A,
-/// H, V, and for CAHVOR O, R. Comments start with '#'; Hs, Hc, Vs, Vc, Theta and covariance lines
-/// are derived values and not read. A and O are normalised. `name` is the file name for errors,
-/// which also name line and key. Files over 1 MiB are refused.
+enum class CameraFormat {
+  kJplText,
+  kPdsLabel,
+  kWillson,
+  kOpenCvYaml,
+  kOpenCvXml,
+  kRosYaml,
+  kMrcal
+};
+
+/// "JPL text", "PDS label", ...
+const char* CameraFormatName(CameraFormat format);
+
+enum class StereoSide { kLeft, kRight };
+
+struct CameraFileOptions {
+  std::optional<StereoSide> side;  ///< which camera of a file that holds two (OpenCV M1 and M2)
+  PictureSize size;                ///< for files that do not tell; refused if the file contradicts
+};
+
+/// Format of the content. Refuses text of no known format.
+Result<CameraFormat> CameraFormatOf(std::string_view text, const std::string& name);
+/// Parses text of any format. `name` is the file's, for errors and as tie-breaker.
+Result<CameraModel> ParseCameraText(std::string_view text, const std::string& name,
+                                    const CameraFileOptions& options = {});
+/// Reads a file of at most 16 MiB.
+Result<CameraModel> ReadCameraFile(const std::filesystem::path& path,
+                                   const CameraFileOptions& options = {});
+/// The text of a file; numbers with 17 digits, so that reading gives the same camera to the bit.
+/// Refuses formats that cannot hold the model's family, and PDS and mrcal.
+Result<std::string> CameraToText(const CameraModel& model, CameraFormat format);
+
+/// JPL text that must be CAHV or CAHVOR with Dimensions, as rigs and calibration use it.
 Result<CahvorModel> ParseCahvorText(std::string_view text, const std::string& name);
 Result<CahvorModel> ReadCahvorFile(const std::filesystem::path& path);
-/// The same format, 17 digits.
 std::string CahvorToText(const CahvorModel& model);
 
 }  // namespace palace

@@ -143,8 +143,8 @@ CameraModel MovedCamera(CameraModel model, const Eigen::Matrix3d& R_GF,
   return model;
 }
 
-CameraModel InMetres(CameraModel model) {
-  const double factor = model.unit_m;
+CameraModel InUnit(CameraModel model, double unit_m) {
+  const double factor = model.unit_m / unit_m;
   std::visit(Each{[&](CahvorModel& m) { Scale(m, factor); },
                   [&](CahvoreModel& m) {
                     Scale(m.base, factor);
@@ -159,7 +159,7 @@ CameraModel InMetres(CameraModel model) {
                   },
                   [&](OpenCvModel& m) { m.t_CF *= factor; }},
              model.lens);
-  model.unit_m = 1;
+  model.unit_m = unit_m;
   return model;
 }
 

@@ -15,6 +15,12 @@
 
 namespace palace {
 
+/// Columns and rows of a picture; 0 unknown.
+struct PictureSize {
+  int width = 0;
+  int height = 0;
+};
+
 /// Pixel of the point p_FQ, which may lie outside the picture.
 std::optional<Eigen::Vector2d> ProjectCamera(const CameraModel& model, const Eigen::Vector3d& p_FQ);
 /// The same with its derivative by p_FQ: px per unit of length.
@@ -41,8 +47,8 @@ Eigen::Vector3d CentreOf(const CameraModel& model);
 /// The same camera in the frame G of which F is a part: p_G = R_GF p_F + t_GF, unit of length kept.
 CameraModel MovedCamera(CameraModel model, const Eigen::Matrix3d& R_GF,
                         const Eigen::Vector3d& t_GF);
-/// The same camera with metres as its unit of length.
-CameraModel InMetres(CameraModel model);
+/// The same camera with another unit of length, e.g. 1 for metres.
+CameraModel InUnit(CameraModel model, double unit_m);
 
 /// "CAHV", "CAHVOR", "CAHVORE type 3, linearity 0.37", "Tsai", "pinhole", "OpenCV 5", "fisheye".
 std::string FamilyOf(const CameraModel& model);

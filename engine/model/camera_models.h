@@ -41,7 +41,7 @@ struct CahvorModel {
 struct CahvoreModel {
   CahvorModel base;                             ///< size, C, A, H, V, O, R
   Eigen::Vector3d E = Eigen::Vector3d::Zero();  ///< pupil terms, unit of C
-  /// 1 perspective (type 1), 0 fisheye (type 2), any other value within [-1, 1] general (type 3).
+  /// 1 perspective (type 1), 0 fisheye (type 2), any other value general (type 3).
   double linearity = 0;
 };
 

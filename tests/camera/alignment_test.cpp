@@ -100,7 +100,7 @@ struct PairRow {
 /// A random camera looking along z of F with x to the right, moved to the row's pose.
 CameraModel Placed(RandomStream& random, int family, const Eigen::Vector3d& place,
                    const EulerAngles& turn) {
-  const CameraModel camera = InMetres(RandomCamera(random, family));
+  const CameraModel camera = InUnit(RandomCamera(random, family), 1);
   const Eigen::Matrix3d R_FC = RotationFromEuler(turn);
   const Eigen::Matrix3d R_CF = RotationOf(camera);
   const Eigen::Matrix3d R_NewOld = R_FC * R_CF;

@@ -1,109 +1,404 @@
+// Camera files of every format: what they hold, exact round trips, real files, damage.
 #include "engine/camera/camera_files.h"
 
 #include <filesystem>
+#include <fstream>
 #include <string>
 
 #include <gtest/gtest.h>
+#include <opencv2/core.hpp>
 
-#include "engine/core/random.h"
+#include "engine/camera/cahvor.h"
+#include "engine/camera/text_file.h"
+#include "tests/camera/camera_file_texts.h"
+#include "tests/camera/reference_vectors.h"
+#include "tests/camera/sample_cameras.h"
 
 namespace palace {
 namespace {
 
-const char* const kGood =
-    "Dimensions = 640 480\n"
-    "Model = CAHVOR = perspective, distortion\n"
-    "C = 0 -0.528 0\n"
-    "A = 0.6 0 0.8\n"
-    "H = 225.6 770 228   # pixels\n"
-    "V = -372 9 718\n"
-    "O = 0.6 0 0.8\n"
-    "R = 0.0004 -0.21 0.09\n"
-    "Hs = 770\n";
+CameraModel Parsed(const std::string& text, const std::string& name,
+                   const CameraFileOptions& options = {}) {
+  const auto model = ParseCameraText(text, name, options);
+  EXPECT_TRUE(model.ok()) << model.error().message;
+  return model.ok() ? *model : CameraModel{};
+}
 
-TEST(CameraFiles, ReadsWhatItWrites) {
-  const auto model = ParseCahvorText(kGood, "a.cahvor");
-  ASSERT_TRUE(model.ok()) << model.error().message;
-  EXPECT_EQ(model->width, 640);
-  EXPECT_EQ(model->height, 480);
-  EXPECT_EQ(model->H.x(), 225.6);
-  EXPECT_EQ(model->R.y(), -0.21);
-  const auto again = ParseCahvorText(CahvorToText(*model), "b.cahvor");
-  ASSERT_TRUE(again.ok()) << again.error().message;
-  EXPECT_LT((again->A - model->A).norm(), 1e-16);
-  EXPECT_EQ(again->V, model->V);
-  EXPECT_EQ(again->R, model->R);
+std::string Replaced(std::string text, const std::string& from, const std::string& to) {
+  const auto place = text.find(from);
+  EXPECT_NE(place, std::string::npos) << from;
+  return text.replace(place, from.size(), to);
+}
+
+TEST(CameraFiles, ContentTellsTheFormat) {
+  const CameraFormat formats[] = {
+      CameraFormat::kJplText,   CameraFormat::kJplText, CameraFormat::kPdsLabel,
+      CameraFormat::kPdsLabel,  CameraFormat::kWillson, CameraFormat::kOpenCvYaml,
+      CameraFormat::kOpenCvXml, CameraFormat::kRosYaml, CameraFormat::kMrcal};
+  std::size_t i = 0;
+  for (const CameraText& row : GoodCameraTexts()) {
+    SCOPED_TRACE(row.name);
+    const auto format = CameraFormatOf(row.text, "misnamed.txt");
+    ASSERT_TRUE(format.ok()) << format.error().message;
+    EXPECT_EQ(*format, formats[i++]);
+  }
+  const auto unknown = CameraFormatOf("hello\n", "letter.txt");
+  ASSERT_FALSE(unknown.ok());
+  EXPECT_NE(unknown.error().message.find("letter.txt: no camera model"), std::string::npos);
+}
+
+TEST(CameraFiles, JplTextHoldsTheWholeFamily) {
+  const auto cahvor = std::get<CahvorModel>(Parsed(kCahvorText, "a.cahvor").lens);
+  EXPECT_EQ(cahvor.width, 640);
+  EXPECT_EQ(cahvor.height, 480);
+  EXPECT_EQ(cahvor.H.x(), 225.6);
+  EXPECT_EQ(cahvor.R.y(), -0.21);
+  const auto cahvore = std::get<CahvoreModel>(Parsed(kCahvoreText, "a.cahvore").lens);
+  EXPECT_EQ(cahvore.linearity, 0.37);
+  EXPECT_EQ(cahvore.E.z(), 0.001613);
+  const auto linearity = [](const std::string& line) {
+    return std::get<CahvoreModel>(
+               Parsed(Replaced(kCahvoreText, "CAHVORE3,0.37 = general", line), "a").lens)
+        .linearity;
+  };
+  EXPECT_EQ(linearity("CAHVORE1 = perspective, distortion, pupil"), 1);
+  EXPECT_EQ(linearity("CAHVORE2 = fish-eye"), 0);
+  EXPECT_EQ(linearity("CAHVORE3, -0.5 = general"), -0.5);
+  const CameraModel no_size = Parsed(Replaced(kCahvorText, "Dimensions = 640 480\n", ""), "a");
+  EXPECT_FALSE(HasSize(no_size));
+  EXPECT_FALSE(ParseCahvorText(Replaced(kCahvorText, "Dimensions = 640 480\n", ""), "a").ok());
+  const CameraModel sized =
+      Parsed(Replaced(kCahvorText, "Dimensions = 640 480\n", ""), "a", {std::nullopt, {800, 600}});
+  EXPECT_EQ(HeightOf(sized), 600);
+  const std::string old = Replaced(kCahvorText, "Model = CAHVOR = perspective, distortion\n", "");
+  EXPECT_EQ(std::get<CahvorModel>(Parsed(old, "a").lens).R.y(), -0.21);
+}
+
+TEST(CameraFiles, LabelsAreReadWhereverTheirGroupStands) {
+  const CameraModel label = Parsed(kPdsText, "a.lbl");
+  const auto cahvore = std::get<CahvoreModel>(label.lens);
+  EXPECT_EQ(cahvore.linearity, 0.37);
+  EXPECT_EQ(cahvore.base.C.z(), -0.234891);
+  EXPECT_EQ(cahvore.base.H.y(), 474.873);
+  EXPECT_NEAR(cahvore.base.A.norm(), 1, 1e-15);
+  EXPECT_EQ(WidthOf(label), 1024);
+  const CameraModel vicar = Parsed(kVicarText, "a.vic");
+  EXPECT_EQ(FamilyOf(vicar), "CAHV");
+  EXPECT_EQ(WidthOf(vicar), 640);
+  EXPECT_EQ(HeightOf(vicar), 480);
+}
+
+TEST(CameraFiles, OpenCvPairsNeedAChoiceAndTellThePose) {
+  const auto none = ParseCameraText(kOpenCvXmlText, "pair.xml");
+  ASSERT_FALSE(none.ok());
+  EXPECT_NE(none.error().message.find("--camera left or right"), std::string::npos);
+  const CameraModel left = Parsed(kOpenCvXmlText, "pair.xml", {StereoSide::kLeft, {}});
+  const CameraModel right = Parsed(kOpenCvXmlText, "pair.xml", {StereoSide::kRight, {}});
+  EXPECT_EQ(std::get<OpenCvModel>(left.lens).pinhole.fx_px, 534);
+  EXPECT_EQ(std::get<OpenCvModel>(right.lens).pinhole.fx_px, 536);
+  EXPECT_EQ(std::get<OpenCvModel>(right.lens).k[0], -0.28);
+  EXPECT_TRUE(left.pose_is_known && right.pose_is_known);
+  EXPECT_EQ(CentreOf(left), Eigen::Vector3d::Zero());
+  EXPECT_LT((CentreOf(right) - Eigen::Vector3d(3.3, -0.04, -0.001)).norm(), 1e-15);
+  EXPECT_EQ(WidthOf(left), 640);
+  EXPECT_FALSE(Parsed(kOpenCvYamlText, "a.yml").pose_is_known);
+}
+
+TEST(CameraFiles, RosProjectionTellsTheBaseline) {
+  const CameraModel right = Parsed(kRosText, "right.yaml");
+  EXPECT_LT((CentreOf(right) - Eigen::Vector3d(0.12, 0, 0)).norm(), 1e-15);
+  EXPECT_TRUE(right.pose_is_known);
+  const CameraModel left = Parsed(Replaced(kRosText, "-57.6", "0.0"), "left.yaml");
+  EXPECT_FALSE(left.pose_is_known);
+  const std::string fisheye =
+      Replaced(Replaced(kRosText, "plumb_bob", "equidistant"), "[-0.2, 0.05, 0.001, -0.001, 0]",
+               "\n  - 0.01\n  - 0.02\n  - 0\n  - -0.001");
+  EXPECT_EQ(std::get<OpenCvModel>(Parsed(fisheye, "f.yaml").lens).lens, OpenCvLens::kFisheye);
+  EXPECT_EQ(std::get<OpenCvModel>(Parsed(fisheye, "f.yaml").lens).k[3], -0.001);
+}
+
+TEST(CameraFiles, MrcalPosesTakeTheReferenceToTheCamera) {
+  const CameraModel model = Parsed(kMrcalText, "a.cameramodel");
+  const auto& cahvore = std::get<CahvoreModel>(model.lens);
+  EXPECT_EQ(cahvore.linearity, 0.34);
+  EXPECT_EQ(cahvore.E.x(), 1e-3);
+  const Eigen::Vector3d turn(0.1, 1, 0.2);
+  const Eigen::Matrix3d R_CF = Eigen::AngleAxisd(turn.norm(), turn.normalized()).toRotationMatrix();
+  EXPECT_LT((R_CF * CentreOf(model) + Eigen::Vector3d(33, 4.4, -55.3e-3)).norm(), 1e-12);
+  EXPECT_LT((RotationOf(model) - R_CF).norm(), 1e-14);
+  EXPECT_NEAR((R_CF * cahvore.base.O).y(), std::sin(0.02), 1e-15);
+}
+
+CameraFormat FormatFor(const CameraModel& model, int choice) {
+  if (std::holds_alternative<TsaiModel>(model.lens)) {
+    return CameraFormat::kWillson;
+  }
+  if (std::holds_alternative<OpenCvModel>(model.lens)) {
+    return choice == 0 ? CameraFormat::kOpenCvYaml : CameraFormat::kOpenCvXml;
+  }
+  return CameraFormat::kJplText;
+}
+
+TEST(CameraFiles, WrittenCamerasReadBackToTheBit) {
+  constexpr std::uint64_t kSeed = 51;
+  SCOPED_TRACE(kSeed);
+  RandomStream random(kSeed);
+  for (int family = 0; family < kFamilies; ++family) {
+    for (int i = 0; i < 40; ++i) {
+      const CameraModel model = RandomCamera(random, family);
+      SCOPED_TRACE(FamilyOf(model));
+      const auto text = CameraToText(model, FormatFor(model, i % 2));
+      ASSERT_TRUE(text.ok()) << text.error().message;
+      const CameraModel again = Parsed(*text, "b");
+      EXPECT_EQ(WidthOf(again), 640);
+      EXPECT_EQ(HeightOf(again), 480);
+      EXPECT_EQ(FamilyOf(again), FamilyOf(model));
+      EXPECT_EQ(CameraToText(again, FormatFor(model, i % 2)).value(), *text) << "second writing";
+      const auto ray = RayFromPixelCamera(model, {100, 400});
+      const auto ray_again = RayFromPixelCamera(again, {100, 400});
+      ASSERT_EQ(ray.has_value(), ray_again.has_value());
+      if (ray) {
+        EXPECT_LT((ray->direction - ray_again->direction).norm(), 1e-14);
+        EXPECT_LT((ray->origin - ray_again->origin).norm(), 1e-13 / model.unit_m);
+      }
+    }
+  }
+}
+
+TEST(CameraFiles, RosFilesKeepThePoseWithinRounding) {
+  constexpr std::uint64_t kSeed = 52;
+  SCOPED_TRACE(kSeed);
+  RandomStream random(kSeed);
+  for (const int coefficients : {0, 5, 8, -4}) {
+    const CameraModel model{RandomOpenCv(random, coefficients)};
+    const auto text = CameraToText(model, CameraFormat::kRosYaml);
+    ASSERT_TRUE(text.ok());
+    const CameraModel again = Parsed(*text, "b.yaml");
+    const Eigen::Vector3d p =
+        RayFromPixelCamera(model, {333, 222})->direction * 9 + CentreOf(model);
+    EXPECT_LT((ProjectCamera(again, p).value() - Eigen::Vector2d(333, 222)).norm(), 1e-9);
+  }
+}
+
+TEST(CameraFiles, OpenCvReadsWhatWeWrite) {
+  constexpr std::uint64_t kSeed = 53;
+  SCOPED_TRACE(kSeed);
+  RandomStream random(kSeed);
+  const OpenCvModel model = RandomOpenCv(random, 8);
+  for (const CameraFormat format : {CameraFormat::kOpenCvYaml, CameraFormat::kOpenCvXml}) {
+    const cv::FileStorage storage(CameraToText({model}, format).value(),
+                                  cv::FileStorage::READ | cv::FileStorage::MEMORY);
+    cv::Mat K, k, R;
+    int width = 0;
+    storage["camera_matrix"] >> K;
+    storage["distortion_coefficients"] >> k;
+    storage["R"] >> R;
+    storage["image_width"] >> width;
+    EXPECT_EQ(width, 640);
+    ASSERT_EQ(k.total(), 8U);
+    EXPECT_EQ(K.at<double>(0, 2), model.pinhole.cx_px);
+    EXPECT_EQ(k.at<double>(7), model.k[7]);
+    EXPECT_EQ(R.at<double>(2, 1), model.R_CF(2, 1));
+  }
+}
+
+TEST(CameraFiles, FormatsRefuseFamiliesTheyCannotHold) {
+  RandomStream random(54);
+  const CameraModel cahvor{RandomCahvor(random)};
+  for (const CameraFormat format : {CameraFormat::kWillson, CameraFormat::kRosYaml}) {
+    const auto text = CameraToText(cahvor, format);
+    ASSERT_FALSE(text.ok());
+    EXPECT_NE(text.error().message.find("cannot hold a CAHVOR camera"), std::string::npos);
+  }
+  EXPECT_FALSE(CameraToText({RandomTsai(random)}, CameraFormat::kJplText).ok());
+  EXPECT_FALSE(CameraToText(cahvor, CameraFormat::kMrcal).ok());
 }
 
 struct WrongRow {
   const char* what;
+  const std::string& text;
   const char* replace;
   const char* with;
   const char* message;
 };
 
-TEST(CameraFiles, ErrorsNameFileLineAndKey) {
+TEST(CameraFiles, ErrorsNameFileLineKeyAndLimit) {
   const WrongRow rows[] = {
-      {"missing key", "C = 0 -0.528 0\n", "", "C is missing"},
-      {"too few numbers", "H = 225.6 770 228", "H = 225.6 770", "a.cahvor:5: H has 2 numbers"},
-      {"not a number", "V = -372", "V = x372", "a.cahvor:6: V"},
-      {"infinite", "V = -372", "V = inf", "a.cahvor:6: V"},
-      {"no size", "640 480", "0 480", "a.cahvor:1: Dimensions"},
-      {"not a direction", "A = 0.6 0 0.8", "A = 0.6 0 8", "a.cahvor:4: A has length"},
-      {"other model", "CAHVOR =", "CAHVORE =", "a.cahvor:2: Model"},
-      {"no focal length", "H = 225.6 770 228", "H = 6 0 8", "runs along A"},
+      {"missing key", kCahvorText, "C = 0 -0.528 0\n", "", "f.cam: C is missing"},
+      {"too few", kCahvorText, "H = 225.6 770 228", "H = 225.6 770",
+       "f.cam:6: H = 225.6 770: 2 numbers, it must have 3"},
+      {"too many", kCahvorText, "H = 225.6 770 228", "H = 225.6 770 1 2", "more than 3 numbers"},
+      {"no number", kCahvorText, "V = -372", "V = x372", "f.cam:7: V = x372 9 718: not a list"},
+      {"number with a tail", kCahvorText, "V = -372", "V = -372q", "f.cam:7: V"},
+      {"infinite", kCahvorText, "V = -372", "V = inf", "f.cam:7: V"},
+      {"not a number", kCahvorText, "V = -372", "V = nan", "not a list of finite numbers"},
+      {"overflow", kCahvorText, "V = -372", "V = 1e999", "not a list of finite numbers"},
+      {"huge", kCahvorText, "V = -372", "V = 1e30", "within -1e12 .. 1e12"},
+      {"no width", kCahvorText, "640 480", "0 480", "f.cam:3: Dimensions = 0 480: sides must be"},
+      {"half a pixel", kCahvorText, "640 480", "640.5 480", "whole numbers from 1 to 65536"},
+      {"non-unit A", kCahvorText, "A = 0.6 0 0.8", "A = 0.6 0 8",
+       "f.cam:5: A = 0.6 0 8: has length"},
+      {"non-unit O", kCahvorText, "O = 0.6 0 0.8", "O = 0 0 0", "f.cam:8: O = 0 0 0: has length"},
+      {"O backwards", kCahvorText, "O = 0.6 0 0.8", "O = -0.6 0 -0.8", "points away from A"},
+      {"zero hs", kCahvorText, "H = 225.6 770 228", "H = 6 0 8", "hs = |A x H| would be 0"},
+      {"zero vs", kCahvorText, "V = -372 9 718", "V = 0 0 0", "vs = |A x V| would be 0"},
+      {"H along V", kCahvorText, "V = -372 9 718", "V = 225.6 770 228", "runs along H"},
+      {"other model", kCahvorText, "= CAHVOR =", "= PSPH =", "f.cam:2: Model = PSPH"},
+      {"no type", kCahvoreText, "CAHVORE3,0.37", "CAHVORE", "needs its type"},
+      {"type 4", kCahvoreText, "CAHVORE3,0.37", "CAHVORE4", "types 1 perspective"},
+      {"no linearity", kCahvoreText, "CAHVORE3,0.37", "CAHVORE3", "linearity of the Model line is"},
+      {"linearity", kCahvoreText, "CAHVORE3,0.37", "CAHVORE3,99", "within -10 .. 10"},
+      {"no E", kCahvoreText, "E = 0.000942 0.00228 0.001613\n", "", "E is missing"},
+      {"label without the group", kPdsText, "GROUP = GEOMETRIC_CAMERA_MODEL\n", "GROUP = X\n",
+       "MODEL_TYPE is missing"},
+      {"label of no model", kPdsText, "MODEL_TYPE = CAHVORE", "MODEL_TYPE = NONE",
+       "f.cam:13: GEOMETRIC_CAMERA_MODEL.MODEL_TYPE = NONE"},
+      {"label component", kPdsText, "(353.341,474.873,350.82)", "(353.341,474.873)",
+       "MODEL_COMPONENT_3 = (353.341,474.873): 2 numbers"},
+      {"Willson too short", kWillsonText, "0.035000288833\n0\n0\n", "",
+       "number 17 (Rz) is missing"},
+      {"Willson focal", kWillsonText, "69.974574039", "0", "f.cam:10: 10 = 0: f must be positive"},
+      {"Willson p1", kWillsonText, "\n0\n0\n", "\n0.1\n0\n", "p1 must be 0"},
+      {"Willson too long", kWillsonText, "\n0\n0\n", "\n0\n0\n5\n", "ends after 19 numbers"},
+      {"YAML focal", kOpenCvYamlText, "[ 5.3591573396163199e+02", "[ 0.",
+       "f.cam:10: camera_matrix.data = [ 0."},
+      {"YAML skew", kOpenCvYamlText, "e+02, 0., 3.4", "e+02, 1.5, 3.4", "skew of 1.5"},
+      {"YAML not a number", kOpenCvYamlText, "-2.6637260909660682e-01", ".Nan",
+       "distortion_coefficients.data"},
+      {"YAML count", kOpenCvYamlText, "       2.3839153080878486e-01 ]", "0.1, 0.2 ]",
+       "has 6 coefficients, it must have 0, 4, 5, 8, 12 or 14"},
+      {"YAML size", kOpenCvYamlText, "image_width: 640", "image_width: -4",
+       "f.cam:4: image_width = -4: must be a whole number from 1"},
+      {"YAML half a size", kOpenCvYamlText, "image_width: 640\n", "", "image_width is missing"},
+      {"ROS lens", kRosText, "plumb_bob", "omni", "f.cam:8: distortion_model = omni"},
+      {"ROS uncalibrated", kRosText, "[500.0", "[0.0", "is the camera calibrated?"},
+      {"ROS rotation", kRosText, "[1, 0, 0, 0, 1", "[1, 0, 0, 0, 2", "is no rotation"},
+      {"ROS projection", kRosText, "[480.0, 0.0, 320.0", "[0.0, 0.0, 320.0",
+       "projection_matrix.data"},
+      {"mrcal splined", kMrcalText, "LENSMODEL_CAHVORE_linearity=0.34",
+       "LENSMODEL_SPLINED_STEREOGRAPHIC_order=3_Nx=30_Ny=18_fov_x_deg=150",
+       "f.cam:3: lensmodel = \"LENSMODEL_SPLINED_STEREOGRAPHIC"},
+      {"mrcal count", kMrcalText, "1e-3, 0, 0 )", "1e-3, 0 )", "11 numbers, it must have 12"},
+      {"mrcal size", kMrcalText, "[640, 480]", "[640]", "imagersize = [640]: 1 numbers"},
+      {"mrcal pose", kMrcalText, "b'extrinsics': [ 0.1, 1, 0.2, 33, 4.4, -55.3E-3, ],\n", "",
+       "extrinsics is missing"},
   };
   for (const WrongRow& row : rows) {
     SCOPED_TRACE(row.what);
-    std::string text = kGood;
-    const auto place = text.find(row.replace);
-    ASSERT_NE(place, std::string::npos);
-    text.replace(place, std::string(row.replace).size(), row.with);
-    const auto model = ParseCahvorText(text, "a.cahvor");
+    const auto model = ParseCameraText(Replaced(row.text, row.replace, row.with), "f.cam");
     ASSERT_FALSE(model.ok());
+    EXPECT_EQ(model.error().code, ErrorCode::kInvalid);
+    EXPECT_NE(model.error().message.find("f.cam"), std::string::npos);
     EXPECT_NE(model.error().message.find(row.message), std::string::npos) << model.error().message;
   }
+  const auto size = ParseCameraText(kCahvorText, "f.cam", {std::nullopt, {641, 480}});
+  ASSERT_FALSE(size.ok());
+  EXPECT_NE(size.error().message.find("640 x 480"), std::string::npos);
 }
 
-TEST(CameraFiles, AnyBytesGiveAModelOrAnError) {
+TEST(CameraFiles, AnyBytesGiveAUsableModelOrAnError) {
   constexpr std::uint64_t kSeed = 21;
   SCOPED_TRACE(kSeed);
   RandomStream random(kSeed);
-  const std::string good = kGood;
   int refused = 0;
-  for (int i = 0; i < 500; ++i) {
-    std::string text =
-        good.substr(0, static_cast<std::size_t>(random.Index(static_cast<int>(good.size()))));
-    for (int k = 0; k < 3 && !text.empty(); ++k) {
-      text[static_cast<std::size_t>(random.Index(static_cast<int>(text.size())))] =
-          static_cast<char>(random.Index(256));
-    }
-    const auto model = ParseCahvorText(text, "fuzz");
-    refused += model.ok() ? 0 : 1;
-    if (model.ok()) {
-      EXPECT_TRUE(model->H.allFinite() && model->width > 0);
+  int used = 0;
+  for (const CameraText& row : GoodCameraTexts()) {
+    SCOPED_TRACE(row.name);
+    for (int i = 0; i < 400; ++i) {
+      std::string text = row.text;
+      if (i % 4 == 0) {  // cut short
+        text.resize(static_cast<std::size_t>(random.Index(static_cast<int>(text.size()))));
+      }
+      for (int k = random.Index(4); k > 0 && !text.empty(); --k) {
+        const auto place = static_cast<std::size_t>(random.Index(static_cast<int>(text.size())));
+        switch (random.Index(4)) {
+          case 0:
+            text[place] = static_cast<char>(random.Index(256));
+            break;
+          case 1:
+            text[place] = "0123456789-.eE,[(<\n"[random.Index(19)];
+            break;
+          case 2:
+            text.erase(place, static_cast<std::size_t>(random.Index(40)));
+            break;
+          default:
+            text.insert(place, text.substr(place, static_cast<std::size_t>(random.Index(60))));
+        }
+      }
+      const auto model = ParseCameraText(text, row.name, {StereoSide::kRight, {}});
+      if (!model) {
+        EXPECT_NE(model.error().message.find(row.name), std::string::npos) << model.error().message;
+        ++refused;
+        continue;
+      }
+      ++used;
+      EXPECT_TRUE(CentreOf(*model).allFinite());
+      const auto ray = RayFromPixelCamera(*model, {320, 240});
+      if (ray) {
+        EXPECT_TRUE(ray->direction.allFinite());
+        ProjectCamera(*model, ray->origin + ray->direction);
+      }
     }
   }
-  EXPECT_GT(refused, 400);
+  EXPECT_GT(refused, 1000);
+  EXPECT_GT(used, 500);
 }
 
-TEST(CameraFiles, ReadsARealFile) {
-  const auto path =
-      std::filesystem::path(PALACE_SHARED_DATA_DIR) / "mrcal_reference/splined-0.scale0.6.cahvor";
+TEST(CameraFiles, RealFilesParse) {
+  const auto folder = SharedData("mrcal_reference");
+  if (!std::filesystem::exists(folder)) {
+    GTEST_SKIP() << "no " << folder;
+  }
+  for (const char* name :
+       {"mrcal_reference/splined-0.scale0.6.cahvor", "mrcal_reference/splined-1.scale0.6.cahvor",
+        "mrcal_reference/cam0.opencv8.cameramodel", "mrcal_reference/cam1.opencv8.cameramodel",
+        "mrcal_reference/pinhole-narrow-yawed-left.cameramodel",
+        "mrcal_reference/pinhole-narrow-yawed-right.cameramodel",
+        "msl_navcam_label/geometric_camera_model_group.txt",
+        "opencv_stereo_calib/left_intrinsics.yml", "opencv_stereo_calib/intrinsics.yml"}) {
+    SCOPED_TRACE(name);
+    const auto model = ReadCameraFile(SharedData(name), {StereoSide::kRight, {}});
+    ASSERT_TRUE(model.ok()) << model.error().message;
+    const auto text = CameraToText(*model, FormatFor(*model, 0));
+    ASSERT_TRUE(text.ok());
+    const CameraModel again = Parsed(*text, name);
+    EXPECT_EQ(CameraToText(again, FormatFor(*model, 0)).value(), *text);
+    const auto ray = RayFromPixelCamera(*model, {300, 200});
+    ASSERT_TRUE(ray);
+    EXPECT_EQ(RayFromPixelCamera(again, {300, 200})->direction, ray->direction);
+  }
+  const auto list = ReadCameraFile(SharedData("opencv_stereo_calib/stereo_calib.xml"));
+  ASSERT_FALSE(list.ok()) << "a list of pictures";
+  EXPECT_NE(list.error().message.find("camera_matrix is missing"), std::string::npos);
+}
+
+TEST(CameraFiles, TheMslNavcamLabelProjectsAsPublished) {
+  const auto path = SharedData("msl_navcam_label/geometric_camera_model_group.txt");
   if (!std::filesystem::exists(path)) {
     GTEST_SKIP() << "no " << path;
   }
-  const auto model = ReadCahvorFile(path);
+  const auto model = ReadCameraFile(path);
   ASSERT_TRUE(model.ok()) << model.error().message;
-  EXPECT_EQ(model->width, 6016);
-  EXPECT_NEAR(model->H.x(), 1211.374926, 1e-9);
+  const auto pixel = ProjectCamera(*model, {19.494, -4.013, 21.262});
+  ASSERT_TRUE(pixel);
+  EXPECT_NEAR(pixel->x(), 509.344151470, 1e-9);
+  EXPECT_NEAR(pixel->y(), 517.327407788, 1e-9);
+  const auto ray = RayFromPixelCamera(*model, {0, 0});
+  ASSERT_TRUE(ray);
+  EXPECT_LT(
+      (ray->direction - Eigen::Vector3d(0.712194955479, -0.554584377521, 0.430365558102)).norm(),
+      1e-12);
+  EXPECT_NEAR(InternalsOf(std::get<CahvorModel>(model->lens)).hs_px, 1220.324915, 1e-6);
 }
 
-TEST(CameraFiles, MissingFileIsNamed) {
-  const auto model = ReadCahvorFile("/nowhere/left.cahvor");
-  ASSERT_FALSE(model.ok());
-  EXPECT_EQ(model.error().code, ErrorCode::kUnavailable);
-  EXPECT_NE(model.error().message.find("/nowhere/left.cahvor"), std::string::npos);
+TEST(CameraFiles, MissingAndHugeFilesAreNamed) {
+  const auto missing = ReadCameraFile("/nowhere/left.cahvor");
+  ASSERT_FALSE(missing.ok());
+  EXPECT_EQ(missing.error().code, ErrorCode::kUnavailable);
+  EXPECT_NE(missing.error().message.find("/nowhere/left.cahvor"), std::string::npos);
+  const auto huge = ParseCameraText(std::string((16 << 20) + 1, ' '), "big.yml");
+  ASSERT_FALSE(huge.ok());
+  EXPECT_NE(huge.error().message.find("big.yml: larger than 16 MiB"), std::string::npos);
 }
 
 }  // namespace

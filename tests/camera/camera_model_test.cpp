@@ -209,7 +209,7 @@ TEST(CameraModel, MovedAndScaledCamerasSeeTheSame) {
     const Eigen::Matrix3d R_GF = RandomRotation(random);
     const Eigen::Vector3d t_GF = RandomVector(random, 3);
     const CameraModel moved = MovedCamera(model, R_GF, t_GF);
-    const CameraModel metric = InMetres(model);
+    const CameraModel metric = InUnit(model, 1);
     const auto ray = RayFromPixelCamera(model, {300, 200});
     ASSERT_TRUE(ray);
     const Eigen::Vector3d p = ray->origin + 7 * ray->direction / model.unit_m;

@@ -1,0 +1,239 @@
+#include "engine/camera/conversion_targets.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/camera/cahvor.h"
+#include "engine/camera/tsai.h"
+
+namespace palace {
+namespace {
+
+constexpr double kPitch_m = 1e-5;  // a Tsai camera's pixels, where the source tells none
+
+/// Where a fit begins: the linear part of the source.
+struct Base {
+  CahvPinhole pinhole;
+  bool pose_is_known = true;
+};
+
+Base BaseOf(const CameraModel& source) {
+  CahvorModel linear = LinearPartOf(source);
+  // R0 scales the picture's middle: a family without it needs that in its focal length.
+  const auto* cahvor = std::get_if<CahvorModel>(&source.lens);
+  const auto* cahvore = std::get_if<CahvoreModel>(&source.lens);
+  const double R0 = cahvor != nullptr ? cahvor->R[0] : cahvore != nullptr ? cahvore->base.R[0] : 0;
+  Base base{PinholeFromCahv(linear), source.pose_is_known};
+  base.pinhole.camera.fx_px *= 1 + R0;
+  base.pinhole.camera.fy_px *= 1 + R0;
+  return base;
+}
+
+/// Parameters 0..6: rotation vector, focal lengths and centre by the focal length.
+constexpr Eigen::Index kPinholeParameters = 7;
+
+CahvPinhole PinholeAt(const Base& base, const Eigen::VectorXd& x) {
+  CahvPinhole pinhole = base.pinhole;
+  const Eigen::Vector3d turn = x.head<3>();
+  if (turn.norm() > 0) {
+    pinhole.R_CF = Eigen::AngleAxisd(turn.norm(), turn.normalized()) * pinhole.R_CF;
+  }
+  const double f = base.pinhole.camera.fx_px;
+  pinhole.camera.fx_px *= 1 + x[3];
+  pinhole.camera.fy_px *= 1 + x[4];
+  pinhole.camera.cx_px += f * x[5];
+  pinhole.camera.cy_px += f * x[6];
+  return pinhole;
+}
+
+CahvorModel CahvAt(const Base& base, const Eigen::VectorXd& x) {
+  const CahvPinhole pinhole = PinholeAt(base, x);
+  CahvorModel model = CahvFromPinhole(pinhole.camera, pinhole.R_CF, pinhole.p_FC);
+  model.V += pinhole.shear_px * pinhole.R_CF.row(0).transpose();
+  return model;
+}
+
+/// O beside A by two small tangents.
+Eigen::Vector3d AxisAt(const CahvPinhole& pinhole, double right, double down) {
+  return pinhole.R_CF.transpose() * Eigen::Vector3d(right, down, 1).normalized();
+}
+
+ConversionTarget CahvorTarget(const Base& base) {
+  return {[base](const Eigen::VectorXd& x) {
+            CahvorModel model = CahvAt(base, x);
+            model.O = AxisAt(PinholeAt(base, x), x[7], x[8]);
+            model.R = {0, x[9], x[10]};
+            return CameraModel{model, 1, base.pose_is_known};
+          },
+          Eigen::VectorXd::Zero(kPinholeParameters + 4)};
+}
+
+ConversionTarget CahvoreTarget(const Base& base, double linearity) {
+  ConversionTarget target = {[base](const Eigen::VectorXd& x) {
+                               CahvoreModel model;
+                               model.base = CahvAt(base, x);
+                               model.base.O = AxisAt(PinholeAt(base, x), x[7], x[8]);
+                               model.base.R = {0, x[9], x[10]};
+                               model.linearity = x[11];
+                               return CameraModel{model, 1, base.pose_is_known};
+                             },
+                             Eigen::VectorXd::Zero(kPinholeParameters + 5)};
+  target.start[11] = linearity;
+  return target;
+}
+
+ConversionTarget TsaiTarget(const Base& base) {
+  return {[base](const Eigen::VectorXd& x) {
+            const CahvPinhole pinhole = PinholeAt(base, x);
+            const PinholeCamera& camera = pinhole.camera;
+            TsaiModel model;
+            model.width = camera.width;
+            model.height = camera.height;
+            model.sensor_columns = model.frame_columns = camera.width;
+            model.dx = model.dy = model.dpx = model.dpy = kPitch_m;
+            model.f = camera.fy_px * kPitch_m;
+            model.sx = camera.fx_px / camera.fy_px;
+            model.Cx_px = camera.cx_px;
+            model.Cy_px = camera.cy_px;
+            model.kappa1 = x[7] / (model.f * model.f);
+            SetRotationOfTsai(model, pinhole.R_CF);
+            model.T = -(pinhole.R_CF * pinhole.p_FC);
+            return CameraModel{model, 1, base.pose_is_known};
+          },
+          Eigen::VectorXd::Zero(kPinholeParameters + 1)};
+}
+
+CameraModel OpenCvAt(const Base& base, const Eigen::VectorXd& x, OpenCvLens lens,
+                     int coefficients) {
+  const CahvPinhole pinhole = PinholeAt(base, x);
+  OpenCvModel model;
+  model.pinhole = pinhole.camera;
+  model.lens = lens;
+  model.coefficients = coefficients;
+  std::copy(x.data() + kPinholeParameters, x.data() + x.size(), model.k.begin());
+  model.R_CF = pinhole.R_CF;
+  model.t_CF = -(pinhole.R_CF * pinhole.p_FC);
+  return {model, 1, base.pose_is_known};
+}
+
+ConversionTarget OpenCvTarget(const Base& base, OpenCvLens lens, int coefficients) {
+  return {[=](const Eigen::VectorXd& x) { return OpenCvAt(base, x, lens, coefficients); },
+          Eigen::VectorXd::Zero(kPinholeParameters + coefficients)};
+}
+
+int CoefficientsOf(LensFamily family) {
+  switch (family) {
+    case LensFamily::kOpenCv4:
+    case LensFamily::kFisheye:
+      return 4;
+    case LensFamily::kOpenCv5:
+      return 5;
+    case LensFamily::kOpenCv8:
+      return 8;
+    case LensFamily::kOpenCv12:
+      return 12;
+    default:
+      return 0;
+  }
+}
+
+bool IsPolynomialFamily(LensFamily family) {
+  return family == LensFamily::kPinhole || family == LensFamily::kOpenCv4 ||
+         family == LensFamily::kOpenCv5 || family == LensFamily::kOpenCv8 ||
+         family == LensFamily::kOpenCv12;
+}
+
+/// Coefficients that count: those before the last that is not 0.
+int CoefficientsUsed(const OpenCvModel& m) {
+  int used = static_cast<int>(m.k.size());
+  while (used > 0 && m.k[static_cast<std::size_t>(used - 1)] == 0) {
+    --used;
+  }
+  return used;
+}
+
+/// A camera without distortion, if the source is one.
+bool IsUndistorted(const CameraModel& source) {
+  if (const auto* cahvor = std::get_if<CahvorModel>(&source.lens)) {
+    return cahvor->R.isZero(0);
+  }
+  if (const auto* tsai = std::get_if<TsaiModel>(&source.lens)) {
+    return tsai->kappa1 == 0;
+  }
+  if (const auto* opencv = std::get_if<OpenCvModel>(&source.lens)) {
+    return opencv->lens == OpenCvLens::kPolynomial && CoefficientsUsed(*opencv) == 0;
+  }
+  return false;
+}
+
+}  // namespace
+
+bool IsOfFamily(const CameraModel& model, LensFamily family) {
+  if (const auto* cahvor = std::get_if<CahvorModel>(&model.lens)) {
+    return family == LensFamily::kCahvor || (family == LensFamily::kCahv && IsLinear(*cahvor));
+  }
+  if (std::holds_alternative<CahvoreModel>(model.lens)) {
+    return family == LensFamily::kCahvore;
+  }
+  if (std::holds_alternative<TsaiModel>(model.lens)) {
+    return family == LensFamily::kTsai;
+  }
+  const auto& opencv = std::get<OpenCvModel>(model.lens);
+  if (opencv.lens == OpenCvLens::kFisheye) {
+    return family == LensFamily::kFisheye;
+  }
+  return IsPolynomialFamily(family) && CoefficientsOf(family) == opencv.coefficients;
+}
+
+std::optional<CameraModel> ConvertedExactly(const CameraModel& source, LensFamily family) {
+  const auto* cahvor = std::get_if<CahvorModel>(&source.lens);
+  const auto* opencv = std::get_if<OpenCvModel>(&source.lens);
+  if (cahvor != nullptr && family == LensFamily::kCahvore) {
+    return CameraModel{CahvoreModel{*cahvor, Eigen::Vector3d::Zero(), 1}, 1, source.pose_is_known};
+  }
+  if (opencv != nullptr && opencv->lens == OpenCvLens::kPolynomial && IsPolynomialFamily(family) &&
+      CoefficientsUsed(*opencv) <= CoefficientsOf(family)) {
+    OpenCvModel model = *opencv;
+    model.coefficients = CoefficientsOf(family);
+    return CameraModel{model, 1, source.pose_is_known};
+  }
+  if (!IsUndistorted(source)) {
+    return std::nullopt;
+  }
+  const Base base = BaseOf(source);
+  switch (family) {
+    case LensFamily::kCahv:
+    case LensFamily::kCahvor:
+      return CameraModel{LinearPartOf(source), 1, source.pose_is_known};
+    case LensFamily::kCahvore:
+      return CameraModel{CahvoreModel{LinearPartOf(source), Eigen::Vector3d::Zero(), 1}, 1,
+                         source.pose_is_known};
+    case LensFamily::kTsai:
+      return TsaiTarget(base).camera(Eigen::VectorXd::Zero(kPinholeParameters + 1));
+    case LensFamily::kFisheye:
+      return std::nullopt;
+    default:
+      return OpenCvAt(base, Eigen::VectorXd::Zero(kPinholeParameters + CoefficientsOf(family)),
+                      OpenCvLens::kPolynomial, CoefficientsOf(family));
+  }
+}
+
+std::vector<ConversionTarget> ConversionTargets(const CameraModel& source, LensFamily family) {
+  const Base base = BaseOf(source);
+  switch (family) {
+    case LensFamily::kCahv:
+      return {};
+    case LensFamily::kCahvor:
+      return {CahvorTarget(base)};
+    case LensFamily::kCahvore:
+      return {CahvoreTarget(base, 1), CahvoreTarget(base, 0.3), CahvoreTarget(base, -0.5)};
+    case LensFamily::kTsai:
+      return {TsaiTarget(base)};
+    case LensFamily::kFisheye:
+      return {OpenCvTarget(base, OpenCvLens::kFisheye, 4)};
+    default:
+      return {OpenCvTarget(base, OpenCvLens::kPolynomial, CoefficientsOf(family))};
+  }
+}
+
+}  // namespace palace

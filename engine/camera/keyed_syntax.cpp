@@ -1,0 +1,184 @@
+// The syntaxes of keyed_text.h that are lines and labels. Markup: keyed_markup.cpp.
+#include <algorithm>
+#include <cctype>
+#include <vector>
+
+#include "engine/camera/keyed_text.h"
+
+namespace palace {
+namespace {
+
+/// Lines of a text, numbered from 1.
+template <typename Use>
+void ForEachLine(std::string_view text, const Use& use) {
+  for (int line = 1; !text.empty(); ++line) {
+    const auto end = text.find('\n');
+    use(line, text.substr(0, end));
+    text = end == std::string_view::npos ? std::string_view{} : text.substr(end + 1);
+  }
+}
+
+void AddAssignment(KeyedText& keyed, int line, std::string_view content) {
+  const auto equals = content.find('=');
+  if (equals != std::string_view::npos) {
+    keyed.Add(Trimmed(content.substr(0, equals)), line, content.substr(equals + 1));
+  }
+}
+
+/// A place in a label.
+class LabelScanner {
+ public:
+  explicit LabelScanner(std::string_view text) : text_(text) {}
+
+  bool AtEnd() const { return at_ >= text_.size(); }
+  char Peek() const { return AtEnd() ? '\0' : text_[at_]; }
+  int line() const { return line_; }
+  void Skip() {
+    line_ += text_[at_] == '\n' ? 1 : 0;
+    ++at_;
+  }
+  void SkipBlanks() {
+    while (!AtEnd()) {
+      if (std::isspace(static_cast<unsigned char>(Peek())) != 0) {
+        Skip();
+      } else if (text_.substr(at_, 2) == "/*") {
+        SkipPast("*/");
+      } else {
+        break;
+      }
+    }
+  }
+  std::string_view Key() {
+    return While([](char c) {
+      return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == ':' || c == '^';
+    });
+  }
+  /// A quoted text, a bracketed list or a bare word, with the <unit> after it.
+  std::string_view Value() {
+    const std::size_t begin = at_;
+    if (Peek() == '"' || Peek() == '\'') {
+      SkipQuoted();
+    } else if (Peek() == '(' || Peek() == '{') {
+      for (int depth = 0; !AtEnd();) {
+        if (Peek() == '"' || Peek() == '\'') {
+          SkipQuoted();
+          continue;
+        }
+        depth += Peek() == '(' || Peek() == '{' ? 1 : Peek() == ')' || Peek() == '}' ? -1 : 0;
+        Skip();
+        if (depth == 0) {
+          break;
+        }
+      }
+    } else {
+      While([](char c) { return std::isspace(static_cast<unsigned char>(c)) == 0; });
+    }
+    return text_.substr(begin, at_ - begin);
+  }
+
+ private:
+  template <typename Test>
+  std::string_view While(const Test& test) {
+    const std::size_t begin = at_;
+    while (!AtEnd() && test(Peek())) {
+      Skip();
+    }
+    return text_.substr(begin, at_ - begin);
+  }
+  void SkipPast(std::string_view mark) {
+    const auto found = text_.find(mark, at_);
+    const std::size_t end = found == std::string_view::npos ? text_.size() : found + mark.size();
+    while (at_ < end) {
+      Skip();
+    }
+  }
+  void SkipQuoted() {
+    const std::string_view quote = text_.substr(at_, 1);
+    Skip();
+    SkipPast(quote);
+  }
+
+  std::string_view text_;
+  std::size_t at_ = 0;
+  int line_ = 1;
+};
+
+std::string Unquoted(std::string_view text) {
+  std::string plain;
+  for (const char c : text) {
+    if (c != '"' && c != '\'') {
+      plain += static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+    }
+  }
+  return plain;
+}
+
+}  // namespace
+
+KeyedText ParseAssignments(std::string_view text, const std::string& file) {
+  KeyedText keyed(file);
+  ForEachLine(text, [&](int line, std::string_view content) {
+    AddAssignment(keyed, line, content.substr(0, content.find('#')));
+  });
+  return keyed;
+}
+
+KeyedText ParseNumberLines(std::string_view text, const std::string& file) {
+  KeyedText keyed(file);
+  int count = 0;
+  ForEachLine(text, [&](int line, std::string_view content) {
+    const std::string_view trimmed = Trimmed(content);
+    if (trimmed.substr(0, 1) == "#") {
+      AddAssignment(keyed, line, trimmed.substr(1));
+    } else if (!trimmed.empty()) {
+      keyed.Add(std::to_string(++count), line, trimmed.substr(0, trimmed.find_first_of(" \t#")));
+    }
+  });
+  return keyed;
+}
+
+KeyedText ParseLabel(std::string_view text, const std::string& file) {
+  constexpr std::size_t kDeepest = 16;
+  KeyedText keyed(file);
+  LabelScanner scan(text);
+  std::vector<std::string> inside;
+  while (true) {
+    scan.SkipBlanks();
+    if (scan.AtEnd()) {
+      break;
+    }
+    const int line = scan.line();
+    const std::string key(scan.Key());
+    if (key.empty()) {
+      scan.Skip();
+      continue;
+    }
+    scan.SkipBlanks();
+    if (scan.Peek() != '=') {
+      if (key == "END") {
+        break;
+      }
+      if (key == "END_GROUP" || key == "END_OBJECT") {
+        inside.resize(inside.size() - std::min<std::size_t>(inside.size(), 1));
+      }
+      continue;
+    }
+    scan.Skip();
+    scan.SkipBlanks();
+    const std::string_view value = scan.Value();
+    if (key == "GROUP" || key == "OBJECT") {
+      if (inside.size() < kDeepest) {
+        inside.push_back(Unquoted(value));
+      }
+    } else if (key == "PROPERTY" || key == "TASK") {  // VICAR: ends where the next begins
+      inside.assign(1, Unquoted(value));
+    } else if (key == "END_GROUP" || key == "END_OBJECT") {
+      inside.resize(inside.size() - std::min<std::size_t>(inside.size(), 1));
+    } else {
+      keyed.Add(inside.empty() ? key : inside.back() + "." + key, line, value);
+    }
+  }
+  return keyed;
+}
+
+}  // namespace palace
