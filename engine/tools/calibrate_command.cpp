@@ -1,0 +1,294 @@
+#include "engine/tools/calibrate_command.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "engine/calibration/calibration.h"
+#include "engine/calibration/calibration_quality.h"
+#include "engine/calibration/target_detection.h"
+#include "engine/calibration/target_file.h"
+#include "engine/calibration/target_sheet.h"
+#include "engine/camera/camera_files.h"
+#include "engine/capture/image_folder_source.h"
+#include "engine/capture/picture_file.h"
+#include "engine/tools/calibration_report.h"
+#include "engine/tools/experiment.h"
+
+namespace palace {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options {
+  fs::path target;
+  std::vector<std::string> left;
+  std::vector<std::string> right;
+  fs::path out;
+  bool write_target = false;
+  int hold_out_every = 4;
+};
+
+/// Files of one side, in the order of the patterns and of their names within one.
+Result<std::vector<fs::path>> FilesOf(const std::vector<std::string>& patterns,
+                                      const std::string& option) {
+  std::vector<fs::path> files;
+  for (const std::string& pattern : patterns) {
+    const std::vector<fs::path> matching = ExpandPattern("", pattern);
+    if (matching.empty()) {
+      return UnavailableError(option + ": no file matches " + pattern);
+    }
+    files.insert(files.end(), matching.begin(), matching.end());
+  }
+  return files;
+}
+
+/// What the pictures show, and their common size.
+struct Sightings {
+  std::vector<TargetView> views;
+  std::vector<std::string> unseen;
+  int width = 0;
+  int height = 0;
+};
+
+Result<TargetObservation> Look(const fs::path& file, const CalibrationTarget& target,
+                               Sightings& sightings) {
+  const auto picture = ReadGreyPicture(file);
+  if (!picture) {
+    return picture.error();
+  }
+  if (sightings.width == 0) {
+    sightings.width = picture->width();
+    sightings.height = picture->height();
+  }
+  if (picture->width() != sightings.width || picture->height() != sightings.height) {
+    return InvalidError(file.string() + " has " + std::to_string(picture->width()) + " x " +
+                        std::to_string(picture->height()) + " px, the pictures before it " +
+                        std::to_string(sightings.width) + " x " + std::to_string(sightings.height) +
+                        "; one calibration needs one size of picture");
+  }
+  const auto seen = DetectTarget(*picture, target);
+  if (!seen) {
+    sightings.unseen.push_back(file.string() + ": " + seen.error().message);
+    return TargetObservation{};
+  }
+  return seen;
+}
+
+Result<Sightings> LookAtAll(const std::vector<fs::path>& left, const std::vector<fs::path>& right,
+                            const CalibrationTarget& target) {
+  Sightings sightings;
+  for (std::size_t v = 0; v < left.size(); ++v) {
+    TargetView view;
+    view.name = left[v].filename().string();
+    for (const bool is_left : {true, false}) {
+      auto seen = Look(is_left ? left[v] : right[v], target, sightings);
+      if (!seen) {
+        return seen.error();
+      }
+      (is_left ? view.left : view.right) = std::move(*seen);
+    }
+    MatchTurn(target, view.left, view.right);
+    std::fprintf(stderr, "\rcalibrate: pair %zu of %zu", v + 1, left.size());
+    sightings.views.push_back(std::move(view));
+  }
+  std::fputc('\n', stderr);
+  return sightings;
+}
+
+std::string Quoted(const std::string& text) {
+  std::string quoted = "\"";
+  for (const char c : text) {
+    quoted += c == '"' || c == '\\' ? std::string("\\") + c : std::string(1, c);
+  }
+  return quoted + "\"";
+}
+
+std::string RigText(const Calibration& calibration, const Options& options) {
+  char baseline[32];
+  std::snprintf(baseline, sizeof baseline, "%.6f", calibration.baseline_m());
+  std::string text =
+      "# Written by palacectl calibrate. Both models are in the left camera's own axes: x right,\n"
+      "# y down, z forward, origin at its projection centre. report.html says how good they are.\n"
+      "[left]\nmodel_file = \"left.cahvor\"\n\n[right]\nmodel_file = \"right.cahvor\"\n\n[rig]\n"
+      "baseline_m = " +
+      std::string(baseline) +
+      "\n\n[mount]\ntilt_deg = -45  # how the cameras look out of the aircraft: -90 down, 0 ahead; "
+      "set it\n";
+  if (options.left.size() == 1 && options.right.size() == 1) {
+    const auto absolute = [](const std::string& pattern) {
+      std::error_code error;
+      const fs::path path = fs::absolute(pattern, error);
+      return Quoted(error ? pattern : path.string());
+    };
+    text +=
+        "\n[images]  # the calibration's own pictures, to look at the result; set to yours\n"
+        "left = " +
+        absolute(options.left[0]) + "\nright = " + absolute(options.right[0]) + "\n";
+  }
+  return text;
+}
+
+Status MakeFolder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (!fs::is_directory(folder, error)) {
+    return UnavailableError("cannot make the folder " + folder.string() +
+                            "; choose one you may write to");
+  }
+  return Ok();
+}
+
+Status WriteAll(const fs::path& folder,
+                const std::vector<std::pair<std::string, std::string>>& files) {
+  if (const Status made = MakeFolder(folder); !made) {
+    return made;
+  }
+  for (const auto& [name, text] : files) {
+    if (const Status written = WriteTextFile(folder / name, text); !written) {
+      return written;
+    }
+    std::cout << "wrote " << (folder / name).string() << "\n";
+  }
+  return Ok();
+}
+
+Status WriteTarget(const Options& options) {
+  CalibrationTarget target = DefaultTarget();
+  if (!options.target.empty()) {
+    const auto loaded = LoadTargetFile(options.target);
+    if (!loaded) {
+      return loaded.error();
+    }
+    target = *loaded;
+  }
+  const auto sheet = TargetSheetSvg(target);
+  if (!sheet) {
+    return sheet.error();
+  }
+  return WriteAll(options.out, {{"target.svg", *sheet}, {"TARGET.toml", TargetToText(target)}});
+}
+
+/// With too few views the pictures' own reasons say more than the count.
+Error WithReasons(Error error, const Sightings& sightings) {
+  if (!sightings.unseen.empty()) {
+    error.message += "; the target was not found in " + std::to_string(sightings.unseen.size()) +
+                     " pictures, first " + sightings.unseen.front();
+  }
+  return error;
+}
+
+void PrintSummary(const Calibration& calibration, const Sightings& sightings) {
+  for (const std::string& reason : sightings.unseen) {
+    std::cout << "not found in " << reason << "\n";
+  }
+  std::printf("%zu views, %d points, %d outliers; rms left %.4f px, right %.4f px\n",
+              calibration.views.size(), calibration.points, calibration.outliers,
+              calibration.left_rms_px, calibration.right_rms_px);
+  std::printf("focal length left %.3f +- %.3f px, right %.3f +- %.3f px; baseline %.5f +- %.5f m\n",
+              calibration.estimate.lens[0][kHs], std::sqrt(calibration.covariance(kHs, kHs)),
+              calibration.estimate.lens[1][kHs],
+              std::sqrt(calibration.covariance(kRightLens + kHs, kRightLens + kHs)),
+              calibration.baseline_m(), calibration.baseline_sigma_m());
+  for (const Criterion& criterion : Acceptance(calibration)) {
+    std::printf("%s: %s\n", criterion.passed ? "passed" : "FAILED", criterion.text.c_str());
+  }
+  std::printf("%s\n", NextView(calibration).c_str());
+  std::fflush(stdout);
+}
+
+Result<bool> Run(const Options& options) {
+  if (options.write_target) {
+    const Status written = WriteTarget(options);
+    return written ? Result<bool>(true) : written.error();
+  }
+  if (options.target.empty() || options.left.empty() || options.right.empty()) {
+    return UsageError("--target, --left and --right are needed (or --write-target)");
+  }
+  const auto target = LoadTargetFile(options.target);
+  if (!target) {
+    return target.error();
+  }
+  const auto left = FilesOf(options.left, "--left");
+  if (!left) {
+    return left.error();
+  }
+  const auto right = FilesOf(options.right, "--right");
+  if (!right) {
+    return right.error();
+  }
+  if (left->size() != right->size()) {
+    return InvalidError(std::to_string(left->size()) + " left and " +
+                        std::to_string(right->size()) +
+                        " right pictures; every view needs one of each, in the same order");
+  }
+  const auto sightings = LookAtAll(*left, *right, *target);
+  if (!sightings) {
+    return sightings.error();
+  }
+  CalibrationOptions calibration_options;
+  calibration_options.width = sightings->width;
+  calibration_options.height = sightings->height;
+  calibration_options.hold_out_every = options.hold_out_every;
+  const auto calibration = Calibrate(*target, sightings->views, calibration_options);
+  if (!calibration) {
+    return WithReasons(calibration.error(), *sightings);
+  }
+  PrintSummary(*calibration, *sightings);
+  const CalibrationNotes notes{sightings->unseen, options.target.string()};
+  const Status written =
+      WriteAll(options.out, {{"left.cahvor", CahvorToText(calibration->LeftModel())},
+                             {"right.cahvor", CahvorToText(calibration->RightModel())},
+                             {"RIG.toml", RigText(*calibration, options)},
+                             {"calibration.json", CalibrationToJson(*calibration, *target, notes)},
+                             {"report.html", CalibrationToHtml(*calibration, *target, notes)}});
+  if (!written) {
+    return written.error();
+  }
+  const auto criteria = Acceptance(*calibration);
+  return std::all_of(criteria.begin(), criteria.end(),
+                     [](const Criterion& criterion) { return criterion.passed; });
+}
+
+}  // namespace
+
+void AddCalibrateCommand(CLI::App& app, int& exit_code) {
+  CLI::App* verb = app.add_subcommand(
+      "calibrate", "pictures of a dot target or chessboard: two CAHVOR models, RIG.toml, report");
+  auto options = std::make_shared<Options>();
+  verb->add_option("--target", options->target,
+                   "TARGET.toml: what the board looks like, in metres");
+  verb->add_option("--left", options->left,
+                   "left pictures: a quoted pattern ('l*.png') or file names");
+  verb->add_option("--right", options->right, "right pictures, in the same order");
+  verb->add_option("--out", options->out,
+                   "folder for left.cahvor, right.cahvor, RIG.toml, calibration.json, report.html")
+      ->required();
+  verb->add_flag("--write-target", options->write_target,
+                 "write a sheet to print (target.svg) and its TARGET.toml instead; of --target, or "
+                 "an A4 board of dots");
+  verb->add_option("--hold-out-every", options->hold_out_every,
+                   "every n-th of 8 and more views is kept out of a second fit; 0: none")
+      ->check(CLI::Range(0, 1000))
+      ->capture_default_str();
+  verb->callback([options, &exit_code] {
+    const Result<bool> accepted = Run(*options);
+    if (!accepted) {
+      std::cerr << "palacectl calibrate: " << accepted.error().message << '\n';
+      exit_code = accepted.error().code == ErrorCode::kUsage ? 2 : 1;
+    } else if (!*accepted) {
+      std::cerr << "palacectl calibrate: the calibration does not meet every criterion; see "
+                << (options->out / "report.html").string() << '\n';
+      exit_code = 1;
+    }
+  });
+}
+
+}  // namespace palace
