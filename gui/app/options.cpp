@@ -1,5 +1,7 @@
 #include "gui/app/options.h"
 
+#include <utility>
+
 #include <CLI/CLI.hpp>
 
 #include "engine/runtime/settings_io.h"
@@ -29,16 +31,26 @@ Result<Settings> ReadSettings(const AppOptions& options) {
   return settings;
 }
 
-void Declare(CLI::App& app, AppOptions& options, std::string& replay, std::string& images,
-             std::string& connect, bool& no_record) {
+/// One of these, or none.
+struct SourceArguments {
+  std::string replay;
+  std::string images;
+  std::string cameras;
+  std::string connect;
+};
+
+void Declare(CLI::App& app, AppOptions& options, SourceArguments& sources, bool& no_record) {
   app.set_version_flag("--version", kVersion);
   auto* source = app.add_option_group(
       "source", "Where the pictures come from; nothing: the built-in simulated mission");
   source->add_option("--scenario", options.scenario, "Simulated scene: runway, cones, slope, empty")
       ->capture_default_str();
-  source->add_option("--replay", replay, "Play a recorded flight (LCM event log)");
-  source->add_option("--images", images, "A folder of stereo pairs, by its RIG.toml");
-  source->add_option("--connect", connect,
+  source->add_option("--replay", sources.replay, "Play a recorded flight (LCM event log)");
+  source->add_option("--images", sources.images, "A folder of stereo pairs, by its RIG.toml");
+  source->add_option("--cameras", sources.cameras,
+                     "Stereo cameras without a vehicle, by [capture] of their RIG.toml: V4L2 "
+                     "devices, RTSP or HTTP streams, video files");
+  source->add_option("--connect", sources.connect,
                      "A live vehicle on an LCM bus, e.g. udpm://239.255.76.67:7667?ttl=0");
   app.add_option("--seed", options.seed, "One seed decides everything in the simulation")
       ->capture_default_str();
@@ -72,11 +84,11 @@ void Declare(CLI::App& app, AppOptions& options, std::string& replay, std::strin
 
 Result<AppOptions> ParseCommandLine(int argc, const char* const* argv) {
   AppOptions options;
-  std::string replay, images, connect;
+  SourceArguments sources;
   bool no_record = false;
   CLI::App app("PALACE ground station: find a safe landing site, approve it, watch the descent",
                "palace");
-  Declare(app, options, replay, images, connect, no_record);
+  Declare(app, options, sources, no_record);
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {
@@ -88,29 +100,31 @@ Result<AppOptions> ParseCommandLine(int argc, const char* const* argv) {
   } catch (const CLI::ParseError& error) {
     return UsageError(std::string(error.what()) + "; see palace --help");
   }
-  const int sources =
-      (replay.empty() ? 0 : 1) + (images.empty() ? 0 : 1) + (connect.empty() ? 0 : 1);
-  if (app.count("--connect") > 0 && connect.empty()) {
+  const std::pair<const std::string*, SourceChoice> choices[] = {
+      {&sources.replay, SourceChoice::kReplay},
+      {&sources.images, SourceChoice::kImages},
+      {&sources.cameras, SourceChoice::kCameras},
+      {&sources.connect, SourceChoice::kConnect}};
+  int chosen = 0;
+  for (const auto& [path, choice] : choices) {
+    if (!path->empty()) {
+      ++chosen;
+      options.source = choice;
+      options.source_path = *path;
+    }
+  }
+  if (app.count("--connect") > 0 && sources.connect.empty()) {
     return UsageError("--connect needs the URL of a bus, e.g. udpm://239.255.76.67:7667?ttl=0");
   }
-  if (sources > 1) {
-    return UsageError("--replay, --images and --connect exclude each other");
+  if (chosen > 1) {
+    return UsageError("--replay, --images, --cameras and --connect exclude each other");
   }
   if (options.ui_scale != 0 && (options.ui_scale < 0.75 || options.ui_scale > 2.5)) {
     return UsageError("--ui-scale must lie between 0.75 and 2.5, or be 0");
   }
-  const auto choose = [&](const std::string& path, SourceChoice choice) {
-    if (!path.empty()) {
-      options.source = choice;
-      options.source_path = path;
-    }
-  };
-  choose(replay, SourceChoice::kReplay);
-  choose(images, SourceChoice::kImages);
-  choose(connect, SourceChoice::kConnect);
   // A replay, or pictures from disk, are on disk already.
-  options.record = !no_record && (options.source == SourceChoice::kSimulation ||
-                                  options.source == SourceChoice::kConnect);
+  options.record = !no_record && options.source != SourceChoice::kReplay &&
+                   options.source != SourceChoice::kImages;
   const Result<Settings> settings = ReadSettings(options);
   if (!settings) {
     return settings.error();

@@ -11,7 +11,7 @@
 
 namespace palace {
 
-enum class SourceChoice { kSimulation, kReplay, kImages, kConnect };
+enum class SourceChoice { kSimulation, kReplay, kImages, kCameras, kConnect };
 
 struct AppOptions {
   SourceChoice source = SourceChoice::kSimulation;

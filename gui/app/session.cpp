@@ -3,6 +3,7 @@
 #include <ctime>
 #include <random>
 
+#include "engine/capture/cameras.h"
 #include "engine/capture/image_folder_source.h"
 #include "engine/core/log.h"
 #include "engine/core/units.h"
@@ -72,6 +73,17 @@ Status OpenImages(const AppOptions& options, Session& session, EngineParts& part
   return Ok();
 }
 
+Status OpenCameraSource(const AppOptions& options, bool paced, Session& session,
+                        EngineParts& parts) {
+  Result<std::unique_ptr<Source>> source = OpenCameras(options.source_path, /*wait_at_end=*/paced);
+  if (!source) {
+    return source.error();
+  }
+  session.source = std::move(*source);
+  parts.source = session.source;
+  return Ok();
+}
+
 Status OpenBus(const AppOptions& options, Session& session, EngineParts& parts) {
   Result<std::shared_ptr<Bus>> bus = Bus::Open(options.source_path);
   if (!bus) {
@@ -101,6 +113,8 @@ Status OpenSource(const AppOptions& options, bool paced, Session& session, Engin
       return OpenReplay(options, paced, session, parts);
     case SourceChoice::kImages:
       return OpenImages(options, session, parts);
+    case SourceChoice::kCameras:
+      return OpenCameraSource(options, paced, session, parts);
     case SourceChoice::kConnect:
       return OpenBus(options, session, parts);
   }
@@ -131,7 +145,9 @@ Result<Session> OpenSession(const AppOptions& options, bool threaded) {
     stamp = TimeStampName() + "_" + std::to_string(n);
   }
   session.output_dir = options.record_dir / stamp;
-  if (options.record) {
+  // Films are on disk already.
+  session.recorded = options.record && session.source->Status().kind != SourceKind::kVideo;
+  if (session.recorded) {
     Result<std::unique_ptr<FlightRecorder>> recorder =
         FlightRecorder::Open(options.record_dir, stamp);
     if (!recorder) {

@@ -23,6 +23,7 @@ struct Session {
   std::optional<Scene> scene;                  ///< simulation only
   std::shared_ptr<const FlightRecord> record;  ///< replay only
   std::shared_ptr<Source> source;
+  bool recorded = false;  ///< by this session, into output_dir
 };
 
 /// Opens source, link and log. Errors name the thing and the remedy; nothing half-written remains.

@@ -43,6 +43,8 @@ std::string TitleOf(const AppOptions& options) {
       return "REPLAY " + options.source_path + " - PALACE";
     case SourceChoice::kImages:
       return options.source_path + " - PALACE";
+    case SourceChoice::kCameras:
+      return "CAMERAS " + options.source_path + " - PALACE";
     case SourceChoice::kConnect:
       return "LIVE " + options.source_path + " - PALACE";
     case SourceChoice::kSimulation:
@@ -238,7 +240,7 @@ int RunWindowed(const AppOptions& options, Session& session,
     done = run.Run();
   }
   const Status closed = session.engine->Stop();
-  if (done && options.record) {
+  if (done && session.recorded) {
     const Status written = WriteFlightReport(options, session, run.summary(), run.screenshots());
     if (!written) {
       LogWarning(written.error().message);

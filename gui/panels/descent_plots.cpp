@@ -16,9 +16,9 @@ constexpr float kFuture_s = 24;
 
 using Member = double HistorySample::*;
 
-PlotSeries SeriesOf(const EngineSnapshot& snap, Member member, ImU32 colour, float width,
-                    PlotSeries::Stroke stroke = PlotSeries::Stroke::kSolid) {
-  PlotSeries series;
+PlotTrace SeriesOf(const EngineSnapshot& snap, Member member, ImU32 colour, float width,
+                    PlotTrace::Stroke stroke = PlotTrace::Stroke::kSolid) {
+  PlotTrace series;
   series.colour = colour;
   series.width = width;
   series.stroke = stroke;
@@ -34,8 +34,8 @@ PlotSeries SeriesOf(const EngineSnapshot& snap, Member member, ImU32 colour, flo
 }
 
 /// The vision estimate: thick, with a band of constant three sigma of now.
-PlotSeries Estimate(const EngineSnapshot& snap, Member member, const Palette& p, double band) {
-  PlotSeries series = SeriesOf(snap, member, p.safe, 2.2f);
+PlotTrace Estimate(const EngineSnapshot& snap, Member member, const Palette& p, double band) {
+  PlotTrace series = SeriesOf(snap, member, p.safe, 2.2f);
   series.dot_at_end = true;
   if (std::isfinite(band) && band > 0) {
     series.band.assign(series.points.size(), static_cast<float>(band));
@@ -61,8 +61,8 @@ std::string Unit(double value, const char* unit) { return std::isfinite(value) ?
 /// Rounded up to where a tick falls, so that the axis is calm.
 float RoundUp(float value, float step) { return std::ceil(value / step) * step; }
 
-float Largest(const std::vector<PlotSeries>& all, float at_least) {
-  for (const PlotSeries& series : all) {
+float Largest(const std::vector<PlotTrace>& all, float at_least) {
+  for (const PlotTrace& series : all) {
     for (const ImVec2& point : series.points) {
       at_least = std::isfinite(point.y) ? std::max(at_least, point.y) : at_least;
     }
@@ -72,8 +72,8 @@ float Largest(const std::vector<PlotSeries>& all, float at_least) {
 
 /// A series whose values are worked out from each sample.
 template <typename Get>
-PlotSeries Derived(const EngineSnapshot& snap, ImU32 colour, PlotSeries::Stroke stroke, Get get) {
-  PlotSeries series = SeriesOf(snap, &HistorySample::laser_m, colour, 1.5f, stroke);
+PlotTrace Derived(const EngineSnapshot& snap, ImU32 colour, PlotTrace::Stroke stroke, Get get) {
+  PlotTrace series = SeriesOf(snap, &HistorySample::laser_m, colour, 1.5f, stroke);
   const auto& history = *snap.history;
   const std::size_t first = history.size() - series.points.size();
   for (std::size_t i = 0; i < series.points.size(); ++i) {
@@ -85,8 +85,8 @@ PlotSeries Derived(const EngineSnapshot& snap, ImU32 colour, PlotSeries::Stroke 
 using PositionMember = Eigen::Vector3d HistorySample::*;
 
 /// Height of the skids above the site along a track that history keeps as positions of B, level.
-PlotSeries HeightOf(const EngineSnapshot& snap, PositionMember track, ImU32 colour,
-                    PlotSeries::Stroke stroke) {
+PlotTrace HeightOf(const EngineSnapshot& snap, PositionMember track, ImU32 colour,
+                    PlotTrace::Stroke stroke) {
   const double site_m = snap.mission.armed ? snap.mission.armed->p_WS.z() : NAN;
   return Derived(snap, colour, stroke, [&, site_m](std::size_t i) {
     return site_m - ((*snap.history)[i].*track).z() - SkidCentreBody().z();
@@ -94,8 +94,8 @@ PlotSeries HeightOf(const EngineSnapshot& snap, PositionMember track, ImU32 colo
 }
 
 /// Descent rate along a track: its change over the half second around each sample.
-PlotSeries RateOf(const EngineSnapshot& snap, PositionMember track, ImU32 colour,
-                  PlotSeries::Stroke stroke) {
+PlotTrace RateOf(const EngineSnapshot& snap, PositionMember track, ImU32 colour,
+                  PlotTrace::Stroke stroke) {
   const std::vector<HistorySample>& h = *snap.history;
   return Derived(snap, colour, stroke, [&h, track](std::size_t i) {
     const HistorySample& before = h[i >= 3 ? i - 3 : 0];
@@ -107,11 +107,11 @@ PlotSeries RateOf(const EngineSnapshot& snap, PositionMember track, ImU32 colour
 }
 
 /// What is still to be flown: down the slope, level over the site, straight down.
-PlotSeries PlanAhead(const EngineSnapshot& snap, const HistorySample& now, const Palette& p) {
+PlotTrace PlanAhead(const EngineSnapshot& snap, const HistorySample& now, const Palette& p) {
   constexpr double kSettleHeight_m = 2, kLevelSpeed_mps = 0.7, kTouchRate_mps = 0.4;
-  PlotSeries plan;
+  PlotTrace plan;
   plan.colour = p.text2;
-  plan.stroke = PlotSeries::Stroke::kDashed;
+  plan.stroke = PlotTrace::Stroke::kDashed;
   const double rate = std::max(0.1, snap.settings.mission.descent_rate_mps);
   const double slope = Rad(std::clamp(snap.settings.mission.glide_slope_deg, 5.0, 90.0));
   const bool on_slope = now.height_above_site_m > kSettleHeight_m + 0.1;
@@ -135,7 +135,7 @@ PlotSeries PlanAhead(const EngineSnapshot& snap, const HistorySample& now, const
 }
 
 PlotView HeightPlot(const EngineSnapshot& snap, const Palette& p, const HistorySample& now) {
-  using Stroke = PlotSeries::Stroke;
+  using Stroke = PlotTrace::Stroke;
   PlotView view = Base("height", "Height above site", "m");
   const double sigma = snap.navigation.vision.estimate.sigma_p_m.z();
   view.series = {Estimate(snap, &HistorySample::height_above_site_m, p, 3 * sigma),
@@ -170,7 +170,7 @@ std::optional<float> SinksSince(const EngineSnapshot& snap) {
 }
 
 PlotView DistancePlot(const EngineSnapshot& snap, const Palette& p, const HistorySample& now) {
-  using Stroke = PlotSeries::Stroke;
+  using Stroke = PlotTrace::Stroke;
   PlotView view = Base("distance", "Distance from site centre", "m");
   const double band = 3 * snap.navigation.vision.estimate.sigma_p_m.head<2>().norm();
   view.series = {Estimate(snap, &HistorySample::from_site_m, p, band),
@@ -188,7 +188,7 @@ PlotView DistancePlot(const EngineSnapshot& snap, const Palette& p, const Histor
 }
 
 PlotView RatePlot(const EngineSnapshot& snap, const Palette& p, const HistorySample& now) {
-  using Stroke = PlotSeries::Stroke;
+  using Stroke = PlotTrace::Stroke;
   PlotView view = Base("rate", "Descent rate", "m/s");
   view.series = {Estimate(snap, &HistorySample::descent_rate_mps, p,
                           3 * snap.navigation.vision.estimate.sigma_v_mps.z()),
@@ -237,13 +237,13 @@ PlotView PathPlot(const EngineSnapshot& snap, const Palette& p, const HistorySam
 struct LegendEntry {
   const char* word;
   ImU32 colour;
-  PlotSeries::Stroke stroke;
+  PlotTrace::Stroke stroke;
 };
 
 void DrawLegend(const EngineSnapshot& snap, const Rect& rect, float left_end, UiFrame& ui) {
   const Style& s = ui.style;
   const Palette& p = s.palette;
-  using Stroke = PlotSeries::Stroke;
+  using Stroke = PlotTrace::Stroke;
   std::vector<LegendEntry> entries = {{"Limit", p.unsafe, Stroke::kDashed},
                                       {"Plan", p.text2, Stroke::kDashed},
                                       {"GPS", p.gps, Stroke::kSolid},

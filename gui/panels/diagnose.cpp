@@ -218,7 +218,7 @@ void DrawDiagnoseWorkspace(const EngineSnapshot& snap, const Rect& body, Diagnos
   const Style& s = ui.style;
   const float gap = s.Px(8);
   // Three columns: what happened, what was decided from what, what the machine did.
-  const float left = std::floor((body.w - 2 * gap) * 0.34f);
+  const float left = std::floor((body.w - 2 * gap) * 0.32f);
   const float middle = std::floor((body.w - 2 * gap) * 0.36f);
   DrawEvents(snap, {body.x, body.y, left, body.h}, state, ui);
   const float x = body.x + left + gap;
@@ -243,18 +243,28 @@ void DrawDiagnoseWorkspace(const EngineSnapshot& snap, const Rect& body, Diagnos
   const auto share = [&](float wanted, float most) {
     return std::min(s.Px(wanted), std::round(body.h * most));
   };
+  const bool cameras = !snap.source.cameras.empty();
   const float channels_h =
       share(62 + 26 * static_cast<float>(std::max<std::size_t>(snap.channels.size(), 1)), 0.38f);
   const float stages_h =
       share(40 + 26 * static_cast<float>(std::max<std::size_t>(snap.timings.size(), 1)), 0.23f);
-  const float hashes_h = share(170, 0.23f);
+  // In a low window the cameras' counters take the place of the hashes.
+  const bool hashes = !cameras || body.h > s.Px(760);
+  const float hashes_h = share(170, cameras ? 0.18f : 0.23f);
   float y = body.y;
   DrawChannels(snap, {right_x, y, right, channels_h}, ui);
   y += channels_h + gap;
+  if (cameras) {
+    const float cameras_h = share(62 + 26 * static_cast<float>(snap.source.cameras.size()), 0.18f);
+    DrawCameraTable(snap, {right_x, y, right, cameras_h}, ui);
+    y += cameras_h + gap;
+  }
   DrawTimings(snap, {right_x, y, right, stages_h}, ui);
   y += stages_h + gap;
-  DrawHashes(snap, {right_x, y, right, hashes_h}, ui);
-  y += hashes_h + gap;
+  if (hashes) {
+    DrawHashes(snap, {right_x, y, right, hashes_h}, ui);
+    y += hashes_h + gap;
+  }
   DrawNotes(snap, {right_x, y, right, body.bottom() - y}, ui);
 }
 

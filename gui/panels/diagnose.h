@@ -16,6 +16,8 @@ float RowPitch(const Style& style, float height, std::size_t rows);
 void DrawGuards(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui);
 /// All alarms, worst first, with their times.
 void DrawAlarmTable(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui);
+/// What each camera gave, and what was lost on the way.
+void DrawCameraTable(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui);
 /// Figures of the candidates of the newest map.
 void DrawSiteTable(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui);
 void DrawDiagnoseWorkspace(const EngineSnapshot& snap, const Rect& body, DiagnoseState& state,

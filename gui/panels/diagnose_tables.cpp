@@ -99,6 +99,46 @@ void DrawAlarmTable(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui) {
   }
 }
 
+void DrawCameraTable(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui) {
+  const Style& s = ui.style;
+  const Palette& p = s.palette;
+  const Rect content = DrawPanelFrame(ui, rect, "Cameras");
+  const char* heads[] = {"Rate", "Unpaired", "Dropped", "Reopened", "Pictures"};
+  const int columns = rect.w > s.Px(500) ? 5 : 4;
+  const float left = content.x + s.Px(120);
+  const float step = (content.right() - s.Px(12) - left) / static_cast<float>(columns);
+  const auto column = [&](int i) { return left + step * static_cast<float>(i + 1); };
+  float y = content.y + s.Px(12);
+  DrawText(ui, s.caption, p.text2, content.x + s.Px(34), y, "Camera");
+  for (int i = 0; i < columns; ++i) {
+    DrawText(ui, s.caption, p.text2, column(i), y, heads[i], Align::kRight);
+  }
+  y += s.Px(22);
+  const auto count = [](std::uint64_t n) { return Fixed(static_cast<double>(n), 0); };
+  for (const CameraCounters& camera : snap.source.cameras) {
+    if (y + s.Px(10) > rect.bottom()) {
+      return;
+    }
+    const bool fine = camera.problem.empty();
+    DrawIcon(Canvas(), fine ? Icon::kNormal : Icon::kStale, {content.x + s.Px(20), y}, s.Px(12),
+             fine ? p.text3 : p.caution);
+    DrawText(ui, fine ? s.body : s.medium, fine ? p.text2 : p.text1, content.x + s.Px(34), y,
+             camera.name);
+    const std::string cells[] = {Fixed(camera.rate_hz, 1) + " Hz", count(camera.unpaired),
+                                 count(camera.device_dropped), count(camera.reopens),
+                                 count(camera.frames)};
+    for (int i = 0; i < columns; ++i) {
+      DrawText(ui, s.body, p.text1, column(i), y, cells[i], Align::kRight);
+    }
+    ui.items.Add("camera/" + camera.name.substr(camera.name.rfind(' ') + 1),
+                 {content.x, y - s.Px(10), content.w, s.Px(20)}, true,
+                 camera.name + ", unpaired " + cells[1] + ", dropped " + cells[2] + ", reopened " +
+                     cells[3] + ", pictures " + cells[4] +
+                     (fine ? std::string() : ", " + camera.problem));
+    y += s.Px(26);
+  }
+}
+
 void DrawSiteTable(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui) {
   const Style& s = ui.style;
   const Palette& p = s.palette;

@@ -335,7 +335,7 @@ void DrawReviewPlots(const EngineSnapshot& snap, const FlightRecord* record, con
   clear.name = "clear_radius";
   clear.title = "Clear radius of best site";
   clear.unit = "m";
-  PlotSeries recorded_height, recorded_clear, now_height, now_clear;
+  PlotTrace recorded_height, recorded_clear, now_height, now_clear;
   recorded_height.colour = p.text2;
   recorded_clear.colour = p.text2;
   now_height.colour = p.safe;
@@ -356,7 +356,7 @@ void DrawReviewPlots(const EngineSnapshot& snap, const FlightRecord* record, con
       now_clear.points.push_back({t, static_cast<float>(sample.best_safe_distance_m)});
     }
   }
-  const auto grow = [](float& limit, const PlotSeries& series) {
+  const auto grow = [](float& limit, const PlotTrace& series) {
     for (const ImVec2& point : series.points) {
       limit = std::isfinite(point.y) ? std::max(limit, point.y * 1.03f) : limit;
     }
@@ -382,7 +382,7 @@ void DrawReviewPlots(const EngineSnapshot& snap, const FlightRecord* record, con
   if (was != nullptr) {
     clear.current = Fixed(was->safe_distance_m, 1) + " / " + clear.current;
     clear.unit = "m, recorded / re-decided";
-    now_clear.stroke = PlotSeries::Stroke::kDashed;
+    now_clear.stroke = PlotTrace::Stroke::kDashed;
   }
   clear.series = {now_clear, recorded_clear};
   clear.limits = {{static_cast<float>(snap.settings.slad.clear_radius_m()), false,

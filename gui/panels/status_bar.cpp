@@ -7,6 +7,20 @@ namespace palace {
 
 namespace {
 
+/// "Left 30.0 Hz, right no picture for 3.2 s, 4 lost"
+std::string CamerasText(const std::vector<CameraCounters>& cameras) {
+  std::string text;
+  std::uint64_t lost = 0;
+  for (const CameraCounters& camera : cameras) {
+    const std::string side = camera.name.substr(camera.name.rfind(' ') + 1);
+    text += (text.empty() ? "Camera " : ", ") + side + " ";
+    text += !camera.problem.empty() ? "lost " + AgeText(camera.age_s)
+                                    : Fixed(camera.rate_hz, 1) + " Hz";
+    lost += camera.unpaired + camera.device_dropped;
+  }
+  return text + ", " + std::to_string(lost) + " pictures lost";
+}
+
 std::string LinkText(const EngineSnapshot& snap, bool narrow) {
   std::uint64_t lost = 0;
   double age_s = NAN;
@@ -18,6 +32,9 @@ std::string LinkText(const EngineSnapshot& snap, bool narrow) {
   }
   if (snap.source.kind == SourceKind::kReplay) {
     return snap.source.name;
+  }
+  if (!snap.source.cameras.empty()) {
+    return CamerasText(snap.source.cameras);
   }
   if (!snap.can_transmit) {
     return "No link";
@@ -39,6 +56,8 @@ const char* ClockName(const EngineSnapshot& snap) {
       return " log";
     case SourceKind::kImages:
       return " set";
+    case SourceKind::kVideo:
+      return " film";
     default:
       return " UTC";
   }

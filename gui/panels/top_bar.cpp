@@ -37,7 +37,10 @@ void DrawModeBlock(const EngineSnapshot& snap, const Rect& r, bool frozen, UiFra
     dl->AddCircleFilled({icon_x, y}, s.Fine(6), p.on_white);
     DrawText(ui, s.mode, p.on_white, word_x, y, word);
   } else {
-    word = snap.source.kind == SourceKind::kImages ? "IMAGES" : "NO LINK";
+    word = snap.source.kind == SourceKind::kImages    ? "IMAGES"
+           : snap.source.kind == SourceKind::kCameras ? "CAMERAS"
+           : snap.source.kind == SourceKind::kVideo   ? "VIDEO"
+                                                      : "NO LINK";
     StrokeRect(dl, r, p.strong_line, s.Fine(2));
     DrawText(ui, s.mode_replay, p.text1, r.centre().x, y, word, Align::kCentre);
   }

@@ -135,7 +135,7 @@ void DrawLimitLine(UiFrame& ui, const Axes& axes, const PlotLimit& limit) {
   }
 }
 
-void DrawBand(const Axes& axes, const PlotSeries& series) {
+void DrawBand(const Axes& axes, const PlotTrace& series) {
   ImDrawList* dl = Canvas();
   const ImU32 fill = WithAlpha(series.colour, 0.22f);
   const ImVec2 white = ImGui::GetFontTexUvWhitePixel();
@@ -154,15 +154,15 @@ void DrawBand(const Axes& axes, const PlotSeries& series) {
   }
 }
 
-void StrokeRun(const Style& s, const std::vector<ImVec2>& run, const PlotSeries& series) {
+void StrokeRun(const Style& s, const std::vector<ImVec2>& run, const PlotTrace& series) {
   if (run.size() < 2) {
     return;
   }
   ImDrawList* dl = Canvas();
   const float width = s.Fine(series.width);
-  if (series.stroke == PlotSeries::Stroke::kDotted) {
+  if (series.stroke == PlotTrace::Stroke::kDotted) {
     DashedPolyline(dl, run, series.colour, s.Fine(2), s.Fine(2), s.Fine(3));
-  } else if (series.stroke == PlotSeries::Stroke::kDashed) {
+  } else if (series.stroke == PlotTrace::Stroke::kDashed) {
     DashedPolyline(dl, run, series.colour, width, s.Fine(3), s.Fine(5));
   } else {
     dl->AddPolyline(run.data(), static_cast<int>(run.size()), series.colour, 0, width);
@@ -170,7 +170,7 @@ void StrokeRun(const Style& s, const std::vector<ImVec2>& run, const PlotSeries&
 }
 
 /// Draws the line; where many points share a pixel column only their minimum and maximum remain.
-void DrawLine(const Style& s, const Axes& axes, const PlotSeries& series) {
+void DrawLine(const Style& s, const Axes& axes, const PlotTrace& series) {
   std::vector<ImVec2> run;
   float column = -1e9f;
   ImVec2 low, high;
@@ -283,7 +283,7 @@ std::vector<float> ClockTicks(float low, float high, int count) {
   return ticks;
 }
 
-float SeriesValueAt(const PlotSeries& series, float x) {
+float SeriesValueAt(const PlotTrace& series, float x) {
   const auto after = std::upper_bound(series.points.begin(), series.points.end(), x,
                                       [](float at, const ImVec2& p) { return at < p.x; });
   if (after == series.points.begin() ||
@@ -309,7 +309,7 @@ void DrawPlot(UiFrame& ui, const Rect& panel, const PlotView& view, PlotHover& h
   for (const PlotLimit& limit : view.limits) {
     DrawLimitArea(s, axes, limit);
   }
-  for (const PlotSeries& series : view.series) {
+  for (const PlotTrace& series : view.series) {
     DrawBand(axes, series);
   }
   if (view.now) {
@@ -319,12 +319,12 @@ void DrawPlot(UiFrame& ui, const Rect& panel, const PlotView& view, PlotHover& h
     FillRect(dl, {x, axes.floor.y, s.Px(1), axes.floor.h}, p.white_mark);
   }
   for (auto it = view.series.rbegin(); it != view.series.rend(); ++it) {
-    if (it->stroke != PlotSeries::Stroke::kDotted) {
+    if (it->stroke != PlotTrace::Stroke::kDotted) {
       DrawLine(s, axes, *it);  // the first series lies on top
     }
   }
-  for (const PlotSeries& series : view.series) {
-    if (series.stroke == PlotSeries::Stroke::kDotted) {
+  for (const PlotTrace& series : view.series) {
+    if (series.stroke == PlotTrace::Stroke::kDotted) {
       DrawLine(s, axes, series);  // dots hide nothing, and would be hidden
     }
   }

@@ -11,7 +11,7 @@
 
 namespace palace {
 
-struct PlotSeries {
+struct PlotTrace {
   std::vector<ImVec2> points;  ///< x, y; a NaN breaks the line
   std::vector<float> band;     ///< half widths, 3 sigma; empty: none
   ImU32 colour = 0;
@@ -37,7 +37,7 @@ struct PlotView {
   float x_min = 0, x_max = 1, y_min = 0, y_max = 1;
   std::vector<float> x_ticks;  ///< empty: chosen
   std::optional<float> now;    ///< beyond it the future is veiled
-  std::vector<PlotSeries> series;
+  std::vector<PlotTrace> series;
   std::vector<PlotLimit> limits;
   std::vector<PlotNote> notes;
   enum class TimeAxis { kRelative, kClock } time_axis = TimeAxis::kRelative;  ///< "−10", "1:30"
@@ -56,6 +56,6 @@ std::vector<float> RoundTicks(float low, float high, int count);
 std::vector<float> ClockTicks(float low, float high, int count);
 void DrawPlot(UiFrame& ui, const Rect& panel, const PlotView& view, PlotHover& hover);
 /// Value of the series at x, by the nearest earlier point; NaN outside.
-float SeriesValueAt(const PlotSeries& series, float x);
+float SeriesValueAt(const PlotTrace& series, float x);
 
 }  // namespace palace

@@ -5,6 +5,7 @@
 
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
+#include <opencv2/videoio.hpp>
 
 #include "tests/scenarios/scenario.h"
 
@@ -66,6 +67,29 @@ class BadInputs : public Scenario, public testing::WithParamInterface<BadInput> 
     WriteRig("both_sizes", "\"l.png\"\nright = \"r.png\"", "\"large.png\"\nright = \"large.png\"");
     WriteRig("cut", "\"l.png\"", "\"cut.png\"");
     WriteRig("none", "\"l.png\"", "\"q*.png\"");
+    WriteFile("text.avi", "this is no film\n");
+    WriteFile("empty.avi", "");
+    WriteFile("noise.avi", std::string("\1\2\3", 3) + std::string(3000, '\7'));
+    for (const char* name : {"film.avi", "film2.avi"}) {
+      cv::VideoWriter writer((folder_ / name).string(), cv::CAP_FFMPEG,
+                             cv::VideoWriter::fourcc('M', 'J', 'P', 'G'), 10, cv::Size(32, 24));
+      writer.write(cv::Mat(24, 32, CV_8UC3, cv::Scalar::all(90)));
+    }
+    WriteCameras("text", "\"text.avi\"", "\"film.avi\"");
+    WriteCameras("empty", "\"empty.avi\"", "\"film.avi\"");
+    WriteCameras("noise", "\"noise.avi\"", "\"film.avi\"");
+    WriteCameras("folder", "\"folder\"", "\"film.avi\"");
+    WriteCameras("no_film", "\"missing.avi\"", "\"film.avi\"");
+    WriteCameras("film_size", "\"film.avi\"", "\"film2.avi\"");
+    WriteCameras("no_device", "253", "254");
+    WriteCameras("refused", "\"http://127.0.0.1:9/a\"", "\"http://127.0.0.1:9/b\"");
+    WriteCameras("scheme", "\"ftp://127.0.0.1/a\"", "\"film.avi\"");
+    WriteCameras("mixed", "253", "\"film.avi\"");
+    WriteCameras("one", "253", "253");
+  }
+  void WriteCameras(const std::string& name, const std::string& left, const std::string& right) {
+    WriteFile("cameras_" + name + ".toml",
+              Rig() + "[capture]\nleft = " + left + "\nright = " + right + "\n");
   }
   void WriteRig(const std::string& name, const std::string& from, const std::string& to) {
     std::string text = Rig();
@@ -190,6 +214,34 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"NoMatch", true, H({"--images", "none.toml"}), 1, {"none.toml", "q*.png"}}),
     NameOf);
 
+/// `palace --headless --cameras` of one of the rigs.
+std::vector<std::string> C(const std::string& name) {
+  return H({"--cameras", "cameras_" + name + ".toml"});
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Cameras, BadInputs,
+    testing::Values(
+        BadInput{"NoCameraRig", true, C("nowhere"), 1, {"cameras_nowhere.toml", "check the name"}},
+        BadInput{"NoCaptureTable",
+                 true,
+                 H({"--cameras", "good.toml"}),
+                 1,
+                 {"good.toml", "[capture] is missing", "left and right"}},
+        BadInput{"NoFilm", true, C("no_film"), 1, {"missing.avi", "check the name"}},
+        BadInput{"TextAsFilm", true, C("text"), 1, {"text.avi", "text, no video"}},
+        BadInput{"EmptyFilm", true, C("empty"), 1, {"empty.avi", "is empty", "record it again"}},
+        BadInput{"NoiseAsFilm", true, C("noise"), 1, {"noise.avi", "no video", "convert it"}},
+        BadInput{"FolderAsFilm", true, C("folder"), 1, {"folder", "no file"}},
+        BadInput{
+            "SizeOfFilm", true, C("film_size"), 1, {"film.avi", "32 x 24", "64 x 48", "calibrate"}},
+        BadInput{"NoCamera", true, C("no_device"), 1, {"/dev/video253", "v4l2-ctl"}},
+        BadInput{"StreamRefused", true, C("refused"), 1, {"http://127.0.0.1:9/a", "network"}},
+        BadInput{"SchemeOfStream", true, C("scheme"), 1, {"capture.left", "ftp://", "rtsp"}},
+        BadInput{"FilmAndCamera", true, C("mixed"), 1, {"/dev/video253", "film.avi", "clocks"}},
+        BadInput{"OneCameraTwice", true, C("one"), 1, {"capture.right = 253", "side_by_side"}}),
+    NameOf);
+
 INSTANTIATE_TEST_SUITE_P(
     Words, BadInputs,
     testing::Values(
@@ -198,6 +250,11 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"MissingValue", true, H({"--replay"}), 2, {"--replay", "palace --help"}},
         BadInput{
             "TwoSources", true, H({"--replay", "a", "--images", "b"}), 2, {"--replay", "exclude"}},
+        BadInput{"CamerasAndImages",
+                 true,
+                 H({"--cameras", "a", "--images", "b"}),
+                 2,
+                 {"--cameras", "exclude"}},
         BadInput{"EmptyUrl", true, H({"--connect", ""}), 2, {"--connect", "udpm://"}},
         BadInput{"UrlKind", true, H({"--connect", "radio://x"}), 2, {"radio://x", "udpm://"}},
         BadInput{"UrlAddress",

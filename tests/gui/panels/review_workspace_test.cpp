@@ -1,6 +1,7 @@
 // Review and Diagnose: texts stay in their panels; the timeline seeks; differences are found.
 #include "gui/panels/diagnose.h"
 #include "gui/panels/review.h"
+#include "gui/widgets/number_text.h"
 #include "tests/gui/panels/panel_checks.h"
 #include "tests/support/fake_snapshot.h"
 #include "tests/support/ui_harness.h"
@@ -211,6 +212,27 @@ TEST(TimelineStrip, LabelsRoundAsClocksDo) {
   EXPECT_EQ(TimeLabel(193.4, true), "03:13.4");
   EXPECT_EQ(TimeLabel(59.6, false), "01:00");
   EXPECT_EQ(TimeLabel(NAN, true), "00:00.0");
+}
+
+TEST(DiagnoseWorkspace, EachCameraHasItsCounters) {
+  EngineSnapshot snap = fake::Snapshot(MissionState::kProposed, SourceKind::kCameras);
+  snap.source.cameras = {{"Camera left", "", 1234, 7, 3, 1, 29.97, 0.02},
+                         {"Camera right", "/dev/video2: unplugged", 1200, 0, 0, 0, NAN, 3.2}};
+  for (const WindowSize& size : kWindowSizes) {
+    SCOPED_TRACE(size.name);
+    UiHarness ui(size.width, size.height);
+    DiagnoseState state;
+    const Rect body = BodyOf(size.width, size.height);
+    ui.Frame([&](UiFrame& f) { DrawDiagnoseWorkspace(snap, body, state, f); });
+    ExpectTextsInPanels(ui.items);
+    ExpectPanelsApart(ui.items, body);
+    const Item* left = ui.items.Find("camera/left");
+    const Item* right = ui.items.Find("camera/right");
+    ASSERT_TRUE(left != nullptr && right != nullptr);
+    EXPECT_EQ(left->text,
+              "Camera left, unpaired 7, dropped 3, reopened 1, pictures " + Fixed(1234, 0));
+    EXPECT_NE(right->text.find("/dev/video2: unplugged"), std::string::npos) << right->text;
+  }
 }
 
 TEST(DiagnoseWorkspace, TextsStayInTheirPanels) {

@@ -1,0 +1,303 @@
+// palacectl camera as a person uses it: files in, numbers out, exit codes and messages.
+#include <cmath>
+#include <sstream>
+
+#include "engine/camera/alignment.h"
+#include "engine/camera/cahvor.h"
+#include "engine/camera/camera_files.h"
+#include "tests/camera/camera_file_texts.h"
+#include "tests/camera/reference_vectors.h"
+#include "tests/scenarios/scenario.h"
+
+namespace palace {
+namespace {
+
+constexpr double kLimit_s = 30;
+
+class CameraCommand : public Scenario {
+ protected:
+  CameraCommand() {
+    for (const CameraText& file : GoodCameraTexts()) {
+      WriteFile(file.name, file.text);
+    }
+  }
+  ProcessResult Run(std::vector<std::string> arguments) const {
+    arguments.insert(arguments.begin(), "camera");
+    return RunProcess(Palacectl(std::move(arguments)), kLimit_s);
+  }
+  static std::vector<std::string> Lines(const std::string& text) {
+    std::vector<std::string> lines;
+    std::istringstream in(text);
+    for (std::string line; std::getline(in, line);) {
+      lines.push_back(line);
+    }
+    return lines;
+  }
+  std::string Read(const std::string& name) const {
+    std::ifstream file(folder_ / name);
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+  CameraModel Model(const std::string& name) const {
+    const auto model = ReadCameraFile(folder_ / name);
+    EXPECT_TRUE(model.ok()) << model.error().message;
+    return model.ok() ? *model : CameraModel{};
+  }
+};
+
+TEST_F(CameraCommand, ProjectsAndBackProjectsEachOther) {
+  WriteFile("points.csv", "X,Y,Z\n# a comment\n10,-3,12.5\n\n -1 , 0, -1\n1.5e1;2;17\n");
+  const ProcessResult projected =
+      Run({"project", "--model", "a.cahvor", "--points", "points.csv", "--out", "pixels.csv"});
+  ASSERT_EQ(projected.exit_code, 0) << projected.err;
+  EXPECT_EQ(projected.out, "");
+  const auto pixels = Lines(Read("pixels.csv"));
+  ASSERT_EQ(pixels.size(), 3U);
+  EXPECT_EQ(pixels[1], "invalid") << "behind the camera";
+  const CameraModel model = Model("a.cahvor");
+  double x = 0, y = 0;
+  ASSERT_EQ(std::sscanf(pixels[0].c_str(), "%lf,%lf", &x, &y), 2);
+  EXPECT_EQ(Eigen::Vector2d(x, y), ProjectCamera(model, {10, -3, 12.5}).value())
+      << "17 digits tell the double";
+  WriteFile("back.csv", pixels[0] + "\n1e6,0\n");
+  const ProcessResult rays = Run({"backproject", "--model", "a.cahvor", "--pixels", "back.csv"});
+  ASSERT_EQ(rays.exit_code, 0) << rays.err;
+  const auto lines = Lines(rays.out);
+  ASSERT_EQ(lines.size(), 2U);
+  Eigen::Vector3d o, r;
+  ASSERT_EQ(std::sscanf(lines[0].c_str(), "%lf,%lf,%lf,%lf,%lf,%lf", &o.x(), &o.y(), &o.z(), &r.x(),
+                        &r.y(), &r.z()),
+            6);
+  EXPECT_LT((Eigen::Vector3d(10, -3, 12.5) - o).normalized().cross(r).norm(), 1e-12);
+  EXPECT_EQ(lines[1], "invalid") << "beyond the distortion";
+}
+
+TEST_F(CameraCommand, ReferenceVectorsComeOutOfTheProgram) {
+  const auto vectors = ReadVectors("camera_models.json");
+  if (!vectors) {
+    GTEST_SKIP() << "no " << SharedData("cahvor_vectors");
+  }
+  for (const nlohmann::json& entry : vectors->at("models")) {
+    SCOPED_TRACE(entry.at("id").get<std::string>());
+    WriteFile("m.txt", CameraToText(JplModelFrom(entry), CameraFormat::kJplText).value());
+    std::string points;
+    for (const auto& row : entry.at("project")) {
+      points += row.at("P").dump().substr(1);
+      points.back() = '\n';
+    }
+    WriteFile("p.csv", points);
+    const ProcessResult result = Run({"project", "--model", "m.txt", "--points", "p.csv"});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    const auto lines = Lines(result.out);
+    ASSERT_EQ(lines.size(), entry.at("project").size());
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      double x = 0, y = 0;
+      ASSERT_EQ(std::sscanf(lines[i].c_str(), "%lf,%lf", &x, &y), 2) << lines[i];
+      EXPECT_NEAR(x, entry.at("project")[i].at("px")[0].get<double>(), 1e-9);
+      EXPECT_NEAR(y, entry.at("project")[i].at("px")[1].get<double>(), 1e-9);
+    }
+  }
+}
+
+TEST_F(CameraCommand, ConvertsAndTellsTheResidual) {
+  struct Row {
+    std::vector<std::string> arguments;
+    const char* out;
+    const char* family;
+    CameraFormat format;
+    const char* said;
+  };
+  const Row rows[] = {
+      {{"--model", "a.yml", "--to", "opencv8", "--out", "b.xml"},
+       "b.xml",
+       "OpenCV 8",
+       CameraFormat::kOpenCvXml,
+       "residual  rms"},
+      {{"--model", "a.yml", "--to", "ros", "--out", "b.yaml"},
+       "b.yaml",
+       "OpenCV 5",
+       CameraFormat::kRosYaml,
+       "ROS camera_info"},
+      {{"--model", "a.yml", "--out", "b.cahvor"},
+       "b.cahvor",
+       "CAHVOR",
+       CameraFormat::kJplText,
+       "residual  rms"},
+      {{"--model", "a.cpcc", "--size", "576x384", "--to", "cahvor", "--out", "c.cahvor"},
+       "c.cahvor",
+       "CAHVOR",
+       CameraFormat::kJplText,
+       "mm in the source, m in the new file"},
+      {{"--model", "a.xml", "--camera", "right", "--to", "cahv", "--out", "d.cahv"},
+       "d.cahv",
+       "CAHV",
+       CameraFormat::kJplText,
+       "pictures must be resampled"},
+      {{"--model", "a.vic", "--to", "pinhole", "--out", "e.yml"},
+       "e.yml",
+       "pinhole",
+       CameraFormat::kOpenCvYaml,
+       "row shear of"},
+      {{"--model", "a.cameramodel", "--to", "fisheye", "--out", "f.yml"},
+       "f.yml",
+       "fisheye (equidistant)",
+       CameraFormat::kOpenCvYaml,
+       "entrance pupil"},
+  };
+  for (const Row& row : rows) {
+    SCOPED_TRACE(row.out);
+    std::vector<std::string> arguments = row.arguments;
+    arguments.insert(arguments.begin(), "convert");
+    const ProcessResult result = Run(arguments);
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_NE(result.out.find(row.said), std::string::npos) << result.out;
+    EXPECT_EQ(FamilyOf(Model(row.out)), row.family);
+    EXPECT_EQ(CameraFormatOf(Read(row.out), row.out).value(), row.format);
+  }
+  double rms = NAN, max = NAN;
+  const ProcessResult result =
+      Run({"convert", "--model", "a.yml", "--to", "opencv8", "--out", "g.yml"});
+  ASSERT_EQ(std::sscanf(result.out.c_str() + result.out.find("rms "), "rms %lf px, max %lf px",
+                        &rms, &max),
+            2);
+  EXPECT_LT(max, 1e-9) << "exact";
+}
+
+TEST_F(CameraCommand, InfoTellsTheCameraWithUnits) {
+  const ProcessResult cahvor = Run({"info", "--model", "a.cahvor"});
+  ASSERT_EQ(cahvor.exit_code, 0) << cahvor.err;
+  for (const char* part :
+       {"family            CAHVOR", "size              640 x 480 px", "hs 7", "deg (row shear",
+        "horizontal", "deg, edge to edge", "top left", "axis, unit        0.6, 0, 0.8"}) {
+    EXPECT_NE(cahvor.out.find(part), std::string::npos) << part << "\n" << cahvor.out;
+  }
+  const ProcessResult tsai = Run({"info", "--model", "a.cpcc"});
+  ASSERT_EQ(tsai.exit_code, 0) << tsai.err;
+  EXPECT_NE(tsai.out.find("unit of length    mm"), std::string::npos) << tsai.out;
+  EXPECT_NE(tsai.out.find("f                 69.974574 mm"), std::string::npos) << tsai.out;
+  EXPECT_NE(tsai.out.find("not told by the file; give --size"), std::string::npos) << tsai.out;
+}
+
+TEST_F(CameraCommand, AlignWritesThePairAndChecksTheRows) {
+  const auto vectors = ReadVectors("stereo_alignment.json");
+  if (!vectors) {
+    GTEST_SKIP() << "no " << SharedData("cahvor_vectors");
+  }
+  const auto write = [&](const char* id, const char* name, bool linear) {
+    CahvorModel model = CahvorFrom(vectors->at("models").at(id));
+    if (linear) {
+      model.O = model.A;
+      model.R.setZero();
+    }
+    WriteFile(name, CahvorToText(model));
+  };
+  write("cahvor_640_landing_left", "l.cahvor", false);
+  write("cahvor_640_landing_right", "r.cahvor", false);
+  write("cahvor_640_landing_left", "l.cahv", true);
+  write("cahvor_640_landing_right", "r.cahv", true);
+  for (const nlohmann::json& entry : vectors->at("stereo_alignment")) {
+    SCOPED_TRACE(entry.at("id").get<std::string>());
+    const bool linear = !entry.contains("minfov");
+    std::vector<std::string> arguments = {"align",
+                                          "--left",
+                                          linear ? "l.cahv" : "l.cahvor",
+                                          "--right",
+                                          linear ? "r.cahv" : "r.cahvor",
+                                          "--out",
+                                          "aligned"};
+    if (!linear) {
+      arguments.insert(arguments.end(), {"--form", "older", "--field",
+                                         entry.at("minfov") == 0 ? "covering" : "inside"});
+    }
+    const ProcessResult result = Run(arguments);
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    const auto left = std::get<CahvorModel>(Model("aligned/left.cahv").lens);
+    EXPECT_LT((left.H - Vector3From(entry.at("H"))).norm(), 1e-7);
+    EXPECT_LT((left.V - Vector3From(entry.at("V"))).norm(), 1e-7);
+    EXPECT_NE(result.out.find("baseline      1.0561"), std::string::npos) << result.out;
+    double rows = NAN;
+    ASSERT_EQ(
+        std::sscanf(result.out.c_str() + result.out.find("row error"), "row error max %lf", &rows),
+        1);
+    EXPECT_LT(rows, 1e-9);
+  }
+  const ProcessResult intrinsics = Run(
+      {"align", "--left", "a.yml", "--right", "a.yml", "--baseline", "0.5", "--out", "parallel"});
+  ASSERT_EQ(intrinsics.exit_code, 0) << intrinsics.err;
+  EXPECT_NE(intrinsics.out.find("baseline      0.500000000 m"), std::string::npos);
+}
+
+struct BadRow {
+  const char* what;
+  std::vector<std::string> arguments;
+  int exit_code;
+  const char* said;
+};
+
+TEST_F(CameraCommand, MistakesAreNamedWithTheRemedy) {
+  WriteFile("words.csv", "X,Y,Z\n1,2,3\nfoo,2,3\n");
+  WriteFile("two.csv", "1,2\n");
+  WriteFile("nan.csv", "1,2,3\nnan,2,3\n");
+  WriteFile("cut.cahvor", kCahvorText.substr(0, 120));
+  const BadRow rows[] = {
+      {"no verb", {}, 2, "subcommand"},
+      {"no model", {"info"}, 2, "--model"},
+      {"missing file", {"info", "--model", "none.cahv"}, 1, "none.cahv: no such file"},
+      {"a folder", {"info", "--model", "."}, 1, "no such file"},
+      {"damaged", {"info", "--model", "cut.cahvor"}, 1, "cut.cahvor"},
+      {"words",
+       {"project", "--model", "a.cahvor", "--points", "words.csv"},
+       1,
+       "words.csv:3: 'foo,2,3' is not X,Y,Z"},
+      {"two numbers",
+       {"project", "--model", "a.cahvor", "--points", "two.csv"},
+       1,
+       "two.csv:1: '1,2' is not X,Y,Z"},
+      {"nan", {"project", "--model", "a.cahvor", "--points", "nan.csv"}, 1, "nan.csv:2"},
+      {"no points",
+       {"project", "--model", "a.cahvor", "--points", "none.csv"},
+       1,
+       "none.csv: no such file"},
+      {"unwritable",
+       {"project", "--model", "a.cahvor", "--points", "-", "--out", "no/o.csv"},
+       1,
+       "cannot write no/o.csv"},
+      {"size", {"info", "--model", "a.cpcc", "--size", "640"}, 2, "--size 640"},
+      {"another size", {"info", "--model", "a.cahvor", "--size", "64x48"}, 1, "640 x 480"},
+      {"no such family",
+       {"convert", "--model", "a.yml", "--to", "lens", "--out", "b"},
+       2,
+       "--to lens: choose cahv"},
+      {"no size", {"convert", "--model", "a.cpcc", "--to", "cahvor", "--out", "b"}, 1, "--size"},
+      {"pair of two", {"info", "--model", "a.xml"}, 1, "--camera left or right"},
+      {"no baseline",
+       {"align", "--left", "a.yml", "--right", "a.yml", "--out", "o"},
+       1,
+       "--baseline"},
+      {"one pose",
+       {"align", "--left", "a.cahvor", "--right", "a.yml", "--out", "o"},
+       1,
+       "a.yml: tells no pose"},
+      {"one place",
+       {"align", "--left", "a.cahvor", "--right", "a.cahvor", "--out", "o"},
+       1,
+       "needs a baseline"},
+  };
+  for (const BadRow& row : rows) {
+    SCOPED_TRACE(row.what);
+    const ProcessResult result = Run(row.arguments);
+    EXPECT_EQ(result.exit_code, row.exit_code) << result.err;
+    EXPECT_NE(result.err.find(row.said), std::string::npos) << result.err;
+    EXPECT_EQ(result.out, "");
+  }
+}
+
+TEST_F(CameraCommand, HelpNamesTheFormats) {
+  const ProcessResult help = Run({"--help"});
+  EXPECT_EQ(help.exit_code, 0);
+  for (const char* part : {"project", "backproject", "convert", "info", "align", ".cpcc", "ROS"}) {
+    EXPECT_NE(help.out.find(part), std::string::npos) << part;
+  }
+}
+
+}  // namespace
+}  // namespace palace
