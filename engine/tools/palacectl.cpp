@@ -7,6 +7,7 @@
 #include "engine/core/log.h"
 #include "engine/tools/analyze.h"
 #include "engine/tools/calibrate_command.h"
+#include "engine/tools/camera_command.h"
 #include "engine/tools/evaluate_command.h"
 #include "engine/tools/log_command.h"
 #include "engine/tools/simulate_command.h"
@@ -14,13 +15,15 @@
 
 int main(int argc, char** argv) {
   palace::InitLogging(false);
-  CLI::App app("PALACE without a window: simulate, analyze, calibrate, evaluate, log", "palacectl");
+  CLI::App app("PALACE without a window: simulate, analyze, calibrate, camera, evaluate, log",
+               "palacectl");
   app.set_version_flag("--version", "palacectl 0.1.0");
   app.require_subcommand(1);
   int exit_code = 0;
   palace::AddSimulateCommand(app, exit_code, palace::MakeOffscreenSceneCamera);
   palace::AddAnalyzeCommand(app, exit_code);
   palace::AddCalibrateCommand(app, exit_code);
+  palace::AddCameraCommand(app, exit_code);
   palace::AddEvaluateCommand(app, exit_code, palace::MakeOffscreenSceneCamera);
   palace::AddLogCommand(app, exit_code);
   try {
@@ -31,7 +34,7 @@ int main(int argc, char** argv) {
     const std::string verb = argc > 1 ? argv[1] : "";
     if (!verb.empty() && verb[0] != '-' && app.get_subcommands().empty()) {
       std::cerr << "palacectl: there is no command '" << verb
-                << "'; choose one of simulate, analyze, calibrate, evaluate, log\n";
+                << "'; choose one of simulate, analyze, calibrate, camera, evaluate, log\n";
     } else {
       std::cerr << "palacectl: " << error.what() << "; see palacectl --help\n";
     }

@@ -58,17 +58,26 @@ TEST_F(CameraCommand, ProjectsAndBackProjectsEachOther) {
   ASSERT_EQ(std::sscanf(pixels[0].c_str(), "%lf,%lf", &x, &y), 2);
   EXPECT_EQ(Eigen::Vector2d(x, y), ProjectCamera(model, {10, -3, 12.5}).value())
       << "17 digits tell the double";
-  WriteFile("back.csv", pixels[0] + "\n1e6,0\n");
-  const ProcessResult rays = Run({"backproject", "--model", "a.cahvor", "--pixels", "back.csv"});
-  ASSERT_EQ(rays.exit_code, 0) << rays.err;
-  const auto lines = Lines(rays.out);
-  ASSERT_EQ(lines.size(), 2U);
+  const ProcessResult rays = Run({"backproject", "--model", "a.cahvor", "--pixels", "pixels.csv"});
+  EXPECT_EQ(rays.exit_code, 1) << "'invalid' is no pixel";
+  WriteFile("back.csv", pixels[0] + "\n");
+  const ProcessResult ray = Run({"backproject", "--model", "a.cahvor", "--pixels", "back.csv"});
+  ASSERT_EQ(ray.exit_code, 0) << ray.err;
+  const auto lines = Lines(ray.out);
+  ASSERT_EQ(lines.size(), 1U);
   Eigen::Vector3d o, r;
   ASSERT_EQ(std::sscanf(lines[0].c_str(), "%lf,%lf,%lf,%lf,%lf,%lf", &o.x(), &o.y(), &o.z(), &r.x(),
                         &r.y(), &r.z()),
             6);
   EXPECT_LT((Eigen::Vector3d(10, -3, 12.5) - o).normalized().cross(r).norm(), 1e-12);
-  EXPECT_EQ(lines[1], "invalid") << "beyond the distortion";
+  std::string barrel = kCahvorText;
+  barrel.replace(barrel.find("-0.21 0.09"), 10, "-0.21 0");
+  WriteFile("barrel.cahvor", barrel);
+  WriteFile("far.csv", "1e6,0\n320,240\n");
+  const ProcessResult far = Run({"backproject", "--model", "barrel.cahvor", "--pixels", "far.csv"});
+  ASSERT_EQ(far.exit_code, 0) << far.err;
+  EXPECT_EQ(Lines(far.out).front(), "invalid") << "beyond the distortion";
+  EXPECT_EQ(Lines(far.out).size(), 2U);
 }
 
 TEST_F(CameraCommand, ReferenceVectorsComeOutOfTheProgram) {
@@ -213,7 +222,7 @@ TEST_F(CameraCommand, AlignWritesThePairAndChecksTheRows) {
     const auto left = std::get<CahvorModel>(Model("aligned/left.cahv").lens);
     EXPECT_LT((left.H - Vector3From(entry.at("H"))).norm(), 1e-7);
     EXPECT_LT((left.V - Vector3From(entry.at("V"))).norm(), 1e-7);
-    EXPECT_NE(result.out.find("baseline      1.0561"), std::string::npos) << result.out;
+    EXPECT_NE(result.out.find("baseline      1.056085224 m"), std::string::npos) << result.out;
     double rows = NAN;
     ASSERT_EQ(
         std::sscanf(result.out.c_str() + result.out.find("row error"), "row error max %lf", &rows),
