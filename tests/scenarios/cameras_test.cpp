@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <opencv2/videoio.hpp>
 
@@ -113,6 +114,27 @@ TEST_F(Cameras, WithoutAPoseItSaysWhatItCannotDo) {
       Palace({"--headless", "--cameras", "rig.toml", "--script", "look.script", "--record", "rec"}),
       120);
   EXPECT_EQ(result.exit_code, 0) << result.err;
+}
+
+TEST_F(Cameras, PairsForCalibrationAreTaken) {
+  WriteFilms();
+  WriteFile("rig.toml", RigText(false));
+  const std::vector<std::string> words = {"capture", "--rig", "rig.toml",  "--out", "pairs",
+                                          "--count", "3",     "--every-s", "0.5"};
+  const ProcessResult result = RunProcess(Palacectl(words), 60);
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(result.out, "pair 1 of 3\npair 2 of 3\npair 3 of 3\n");
+  // 0.5 s are five pictures: fresh noise, so the second pair is not the first.
+  const auto picture = [&](const char* name) {
+    return cv::imread((folder_ / "pairs" / name).string(), cv::IMREAD_GRAYSCALE);
+  };
+  const cv::Mat first = picture("left_000.png"), second = picture("left_001.png");
+  ASSERT_EQ(first.size(), cv::Size(640, 480));
+  ASSERT_EQ(picture("right_002.png").size(), first.size());
+  EXPECT_GT(cv::norm(first, second, cv::NORM_INF), 0);
+  const ProcessResult again = RunProcess(Palacectl(words), 60);
+  EXPECT_EQ(again.exit_code, 2);
+  EXPECT_NE(again.err.find("choose another --out"), std::string::npos) << again.err;
 }
 
 TEST_F(Cameras, TheDefaultScriptOutlivesTheFilm) {

@@ -1,0 +1,118 @@
+#include "engine/tools/capture_command.h"
+
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <string>
+#include <system_error>
+
+#include <CLI/CLI.hpp>
+#include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
+
+#include "engine/capture/cameras.h"
+
+namespace palace {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct CaptureOptions {
+  fs::path rig;
+  fs::path out;
+  int count = 20;
+  double every_s = 2;
+};
+
+fs::path PictureName(const fs::path& folder, const char* side, int index) {
+  char name[32];
+  std::snprintf(name, sizeof name, "%s_%03d.png", side, index);
+  return folder / name;
+}
+
+Status WritePicture(const fs::path& path, const ImageU8& image) {
+  const cv::Mat view(image.height(), image.width(), CV_8UC1,
+                     const_cast<std::uint8_t*>(image.pixels().data()));
+  try {
+    if (cv::imwrite(path.string(), view)) {
+      return Ok();
+    }
+  } catch (const cv::Exception&) {  // said below
+  }
+  return UnavailableError(path.string() + ": cannot be written; check folder and disk");
+}
+
+Status PrepareFolder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) {
+    return UnavailableError(folder.string() + ": cannot be made: " + error.message() +
+                            "; choose another --out");
+  }
+  if (fs::exists(PictureName(folder, "left", 0), error)) {
+    return UsageError(folder.string() + " holds pairs already; choose another --out");
+  }
+  return Ok();
+}
+
+/// Pairs at least every_s apart in data time.
+Status Run(const CaptureOptions& options) {
+  if (const Status ready = PrepareFolder(options.out); !ready) {
+    return ready;
+  }
+  Result<std::unique_ptr<Source>> source = OpenCameras(options.rig, /*wait_at_end=*/false);
+  if (!source) {
+    return source.error();
+  }
+  (*source)->Control({PlaybackControl::Kind::kSpeed, 0});
+  std::optional<Timestamp> last;
+  for (int taken = 0; taken < options.count;) {
+    const auto bundle = (*source)->Next({});
+    if (!bundle && bundle.error().code == ErrorCode::kEnd) {
+      std::printf("the film ended after %d of %d pairs\n", taken, options.count);
+      return Ok();
+    }
+    if (!bundle) {
+      return bundle.error();
+    }
+    const auto& pair = (*bundle)->stereo;
+    if (!pair || (last && SecondsBetween(*last, pair->time) < options.every_s)) {
+      continue;
+    }
+    for (const auto& [side, image] : {std::pair("left", &pair->left), {"right", &pair->right}}) {
+      if (Status written = WritePicture(PictureName(options.out, side, taken), *image); !written) {
+        return written;
+      }
+    }
+    last = pair->time;
+    std::printf("pair %d of %d\n", ++taken, options.count);
+    std::fflush(stdout);
+  }
+  return Ok();
+}
+
+}  // namespace
+
+void AddCaptureCommand(CLI::App& app, int& exit_code) {
+  CLI::App* verb = app.add_subcommand(
+      "capture", "stereo pairs from the cameras of RIG.toml's [capture] as PNG, to calibrate with");
+  auto options = std::make_shared<CaptureOptions>();
+  verb->add_option("--rig", options->rig, "RIG.toml with a [capture] table")->required();
+  verb->add_option("--out", options->out, "folder for left_000.png, right_000.png ...")->required();
+  verb->add_option("--count", options->count, "pairs to take")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  verb->add_option("--every-s", options->every_s, "seconds between two pairs: move the board")
+      ->check(CLI::Range(0.0, 3600.0))
+      ->capture_default_str();
+  verb->callback([options, &exit_code] {
+    if (const Status done = Run(*options); !done) {
+      std::cerr << "palacectl capture: " << done.error().message << '\n';
+      exit_code = done.error().code == ErrorCode::kUsage ? 2 : 1;
+    }
+  });
+}
+
+}  // namespace palace
