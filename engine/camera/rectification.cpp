@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 
 #include <opencv2/calib3d.hpp>
@@ -55,20 +56,41 @@ void PlumbBobMaps(const RigCamera& raw, const PinholeCamera& rectified, cv::Mat&
                               CV_32FC1, x, y);
 }
 
-void CahvorMaps(const CahvorModel& raw, const CahvorModel& aligned, cv::Mat& x, cv::Mat& y) {
+std::optional<CameraModel> ModelOf(const RigCamera& camera) {
+  return camera.cahvor ? std::optional(CameraModel{*camera.cahvor}) : camera.model;
+}
+
+/// The camera with its centre, and its pupil for good, at the origin: projecting a point then is
+/// projecting a direction.
+CameraModel Centred(const CameraModel& camera) {
+  CameraModel centred = MovedCamera(camera, Eigen::Matrix3d::Identity(), -CentreOf(camera));
+  if (auto* cahvore = std::get_if<CahvoreModel>(&centred.lens)) {
+    cahvore->E.setZero();
+  }
+  return centred;
+}
+
+void ModelMaps(const CameraModel& raw, const CahvorModel& aligned, cv::Mat& x, cv::Mat& y) {
   constexpr float kNowhere = -1e4F;
   x.create(aligned.height, aligned.width, CV_32FC1);
   y.create(aligned.height, aligned.width, CV_32FC1);
-  for (int row = 0; row < aligned.height; ++row) {
-    for (int col = 0; col < aligned.width; ++col) {
-      const auto ray =
-          RayFromPixelCahvor(aligned, {static_cast<double>(col), static_cast<double>(row)});
-      // The centre of a CAHVOR camera does not move, so any point of the ray will do.
-      const auto pixel = ray ? ProjectCahvor(raw, raw.C + ray->direction) : std::nullopt;
-      x.at<float>(row, col) = pixel ? static_cast<float>(pixel->x()) : kNowhere;
-      y.at<float>(row, col) = pixel ? static_cast<float>(pixel->y()) : kNowhere;
+  const CameraModel camera = Centred(raw);
+  // Rays of a linear camera are linear in the pixel.
+  const Eigen::Vector3d origin = LinearRayCahv(aligned, {0, 0});
+  const Eigen::Vector3d along_row = LinearRayCahv(aligned, {1, 0}) - origin;
+  const Eigen::Vector3d along_column = LinearRayCahv(aligned, {0, 1}) - origin;
+  cv::parallel_for_({0, aligned.height}, [&](const cv::Range& rows) {
+    for (int row = rows.start; row < rows.end; ++row) {
+      const Eigen::Vector3d start = origin + row * along_column;
+      float* x_row = x.ptr<float>(row);
+      float* y_row = y.ptr<float>(row);
+      for (int col = 0; col < aligned.width; ++col) {
+        const auto pixel = ProjectCamera(camera, start + col * along_row);
+        x_row[col] = pixel ? static_cast<float>(pixel->x()) : kNowhere;
+        y_row[col] = pixel ? static_cast<float>(pixel->y()) : kNowhere;
+      }
     }
-  }
+  });
 }
 
 std::shared_ptr<const ImageU8> Resample(const ImageU8& raw, const cv::Mat& x, const cv::Mat& y) {
@@ -85,29 +107,29 @@ std::shared_ptr<const ImageU8> Resample(const ImageU8& raw, const cv::Mat& x, co
 }  // namespace
 
 Result<StereoRectifier> StereoRectifier::Make(const StereoRig& rig) {
-  if (rig.left.cahvor.has_value() != rig.right.cahvor.has_value()) {
+  const auto left = ModelOf(rig.left);
+  const auto right = ModelOf(rig.right);
+  if (left.has_value() != right.has_value()) {
     return InvalidError(
         "rig: one camera has a model_file and the other has not; give both or none");
   }
   StereoRectifier rectifier;
-  if (rig.left.cahvor) {
-    const CahvorModel& left = *rig.left.cahvor;
-    const CahvorModel& right = *rig.right.cahvor;
-    const auto aligned = AlignPair({left}, {right});
+  if (left) {
+    const auto aligned = AlignPair(*left, *right);
     if (!aligned) {
       return InvalidError("rig: " + aligned.error().message);
     }
     const CahvPinhole pinhole = PinholeFromCahv(aligned->left);
     rectifier.camera_ = pinhole.camera;
-    rectifier.baseline_m_ = (right.C - left.C).norm();
-    rectifier.R_C_Rect_ = PinholeFromCahv(left).R_CF * pinhole.R_CF.transpose();
-    rectifier.left_width_ = left.width;
-    rectifier.left_height_ = left.height;
-    rectifier.right_width_ = right.width;
-    rectifier.right_height_ = right.height;
+    rectifier.baseline_m_ = (CentreOf(*right) - CentreOf(*left)).norm();
+    rectifier.R_C_Rect_ = RotationOf(*left) * pinhole.R_CF.transpose();
+    rectifier.left_width_ = WidthOf(*left);
+    rectifier.left_height_ = HeightOf(*left);
+    rectifier.right_width_ = WidthOf(*right);
+    rectifier.right_height_ = HeightOf(*right);
     auto maps = std::make_shared<Maps>();
-    CahvorMaps(left, aligned->left, maps->left_x, maps->left_y);
-    CahvorMaps(right, aligned->right, maps->right_x, maps->right_y);
+    ModelMaps(*left, aligned->left, maps->left_x, maps->left_y);
+    ModelMaps(*right, aligned->right, maps->right_x, maps->right_y);
     rectifier.maps_ = std::move(maps);
     return rectifier;
   }

@@ -21,10 +21,13 @@ struct RectifiedPair {
 ///
 /// Rectified rigs without distortion pass through unchanged. Pinhole rigs with plumb-bob distortion
 /// are undistorted to one common pinhole; RIG.toml has no rotation between the cameras, so their
-/// axes are taken as parallel. Rigs with CAHVOR models are aligned as in AlignPair.
+/// axes are taken as parallel. Rigs with camera models of any family are aligned as in AlignPair,
+/// exactly for far points: where a CAHVORE pupil moves by d, points at range r move by f d / r
+/// pixels. The maps are in double until their last rounding to float, 2 to the -12 px in a 4096 px
+/// picture.
 class StereoRectifier {
  public:
-  /// Refuses rigs whose sizes, focal lengths or baseline are not positive, and CAHVOR pairs that
+  /// Refuses rigs whose sizes, focal lengths or baseline are not positive, and model pairs that
   /// cannot be aligned.
   static Result<StereoRectifier> Make(const StereoRig& rig);
 
@@ -34,7 +37,7 @@ class StereoRectifier {
   const PinholeCamera& camera() const;
   /// Distance of the projection centres, metres.
   double baseline_m() const;
-  /// Rectified axes in the left camera's own axes (for CAHVOR: x = H', z = A). Identity for
+  /// Rectified axes in the left camera's own axes (of models: RotationOf). Identity for
   /// rectified rigs.
   const Eigen::Matrix3d& R_C_Rect() const;
 

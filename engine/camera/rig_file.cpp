@@ -14,6 +14,7 @@
 
 #include "engine/camera/cahvor.h"
 #include "engine/camera/camera_files.h"
+#include "engine/camera/camera_pair.h"
 #include "engine/camera/text_file.h"
 #include "engine/core/units.h"
 
@@ -213,31 +214,54 @@ constexpr Range kPoseHeight{1e-3, 1e5, "give metres above the ground"};
 constexpr Range kRate{1e-3, 1000, "give pairs per second"};
 constexpr Range kTolerance{0.01, 10000, "give the largest time between the pictures of a pair"};
 
-Status ReadModelFile(Table& table, const RigFile& file, RigCamera& camera) {
-  for (const char* key : {"width", "height", "fx_px", "fy_px", "cx_px", "cy_px", "distortion"}) {
+/// The cameras that model files tell, until both are placed in one frame.
+struct ModelFiles {
+  std::optional<CameraModel> left;
+  std::optional<CameraModel> right;
+  std::string left_name;
+  std::string right_name;
+};
+
+Status ReadModelFile(Table& table, const RigFile& file, StereoSide side, ModelFiles& models) {
+  for (const char* key : {"fx_px", "fy_px", "cx_px", "cy_px", "distortion"}) {
     if (table.Has(key)) {
       table.FailKey(key, " contradicts model_file; give one of them");
     }
     table.Allow(key);
   }
+  CameraFileOptions options;
+  options.side = side;
+  for (const char* key : {"width", "height"}) {
+    table.Allow(key);
+  }
+  if (table.Has("width") || table.Has("height")) {  // for files that tell no size
+    options.size.width = static_cast<int>(table.Number("width", kSide));
+    options.size.height = static_cast<int>(table.Number("height", kSide));
+  }
   const std::string model_file = table.Text("model_file");
   if (Status status = table.Finish(); !status) {
     return status;
   }
-  auto model = ReadCahvorFile(file.folder / model_file);
+  const std::filesystem::path path = file.folder / model_file;
+  auto model = ReadCameraFile(path, options);
   if (!model) {
     return model.error();
   }
-  camera.cahvor = *model;
-  camera.pinhole = PinholeFromCahv(*model).camera;
+  if (!HasSize(*model)) {
+    table.FailKey("model_file", " = " + model_file +
+                                    ": the file tells no picture size; add width and height here");
+    return table.Finish();
+  }
+  (side == StereoSide::kLeft ? models.left : models.right) = *model;
+  (side == StereoSide::kLeft ? models.left_name : models.right_name) = path.string();
   return Ok();
 }
 
-Status ReadCamera(const toml::table& root, const std::string& name, const char* side,
-                  const RigFile& file, RigCamera& camera) {
-  Table table(root, name, side);
+Status ReadCamera(const toml::table& root, const std::string& name, StereoSide side,
+                  const RigFile& file, RigCamera& camera, ModelFiles& models) {
+  Table table(root, name, side == StereoSide::kLeft ? "left" : "right");
   if (table.Has("model_file")) {
-    return ReadModelFile(table, file, camera);
+    return ReadModelFile(table, file, side, models);
   }
   table.Allow("model_file");
   PinholeCamera& pinhole = camera.pinhole;
@@ -256,27 +280,56 @@ Status ReadCamera(const toml::table& root, const std::string& name, const char* 
 }
 
 bool Distorted(const RigCamera& camera) {
-  return camera.cahvor || camera.distortion != std::array<double, 5>{};
+  return camera.cahvor || camera.model || camera.distortion != std::array<double, 5>{};
 }
 
-void ReadBaseline(Table& table, StereoRig& rig) {
-  if (!rig.left.cahvor || !rig.right.cahvor) {
-    rig.baseline_m = table.Number("baseline_m", kBaseline);
-    return;
+void SetModel(RigCamera& camera, const CameraModel& model) {
+  if (const auto* cahvor = std::get_if<CahvorModel>(&model.lens)) {
+    camera.cahvor = *cahvor;
+  } else {
+    camera.model = model;
   }
-  const double of_models = (rig.right.cahvor->C - rig.left.cahvor->C).norm();
+  camera.pinhole = PinholeFromCahv(LinearPartOf(model)).camera;
+}
+
+/// The baseline, and the cameras of model files placed by it.
+Status ReadBaseline(Table& table, const ModelFiles& models, StereoRig& rig) {
+  if (!models.left || !models.right) {
+    rig.baseline_m = table.Number("baseline_m", kBaseline);
+    return Ok();
+  }
   table.Allow("baseline_m");
-  rig.baseline_m = table.NumberOr("baseline_m", kBaseline, of_models);
+  std::optional<double> told;
+  if (table.Has("baseline_m")) {
+    told = table.Number("baseline_m", kBaseline);
+  }
+  const auto pair =
+      PlacePair(*models.left, *models.right, told, models.left_name, models.right_name);
+  if (!pair) {
+    return pair.error();
+  }
+  SetModel(rig.left, pair->left);
+  SetModel(rig.right, pair->right);
+  const double of_models = (CentreOf(pair->right) - CentreOf(pair->left)).norm();
+  rig.baseline_m = told.value_or(of_models);
   if (!(std::abs(rig.baseline_m - of_models) <= kBaselineMismatch * of_models)) {
     table.FailKey("baseline_m", " = " + NumberText(rig.baseline_m) + " m, the camera models are " +
                                     NumberText(of_models) +
                                     " m apart; leave the key out or correct it");
   }
+  return Ok();
 }
 
-Status ReadRig(const toml::table& root, const std::string& name, StereoRig& rig) {
+Status ReadRig(const toml::table& root, const std::string& name, const ModelFiles& models,
+               StereoRig& rig) {
+  if (models.left.has_value() != models.right.has_value()) {
+    return InvalidError(name +
+                        ": one camera has a model_file and the other has not; give both or none");
+  }
   Table table(root, name, "rig");
-  ReadBaseline(table, rig);
+  if (Status status = ReadBaseline(table, models, rig); !status) {
+    return status;
+  }
   const bool distorted = Distorted(rig.left) || Distorted(rig.right);
   table.Allow("rectified");
   rig.rectified = table.BoolOr("rectified", !distorted);
@@ -424,10 +477,6 @@ Status CheckTables(const toml::table& root, const std::string& name) {
 }
 
 Status CheckPair(const StereoRig& rig, const std::string& name) {
-  if (rig.left.cahvor.has_value() != rig.right.cahvor.has_value()) {
-    return InvalidError(name +
-                        ": one camera has a model_file and the other has not; give both or none");
-  }
   const PinholeCamera& left = rig.left.pinhole;
   const PinholeCamera& right = rig.right.pinhole;
   if (rig.rectified &&
@@ -462,9 +511,10 @@ Result<RigFile> LoadRigFile(const std::filesystem::path& path) {
       status = step();
     }
   };
-  then([&] { return ReadCamera(root, name, "left", file, file.rig.left); });
-  then([&] { return ReadCamera(root, name, "right", file, file.rig.right); });
-  then([&] { return ReadRig(root, name, file.rig); });
+  ModelFiles models;
+  then([&] { return ReadCamera(root, name, StereoSide::kLeft, file, file.rig.left, models); });
+  then([&] { return ReadCamera(root, name, StereoSide::kRight, file, file.rig.right, models); });
+  then([&] { return ReadRig(root, name, models, file.rig); });
   then([&] { return ReadMount(root, name, file.rig); });
   then([&] { return ReadPose(root, name, file); });
   then([&] { return ReadImages(root, name, file); });

@@ -37,8 +37,12 @@ struct RigFile {
 };
 
 /// Tables and keys:
-///   [left], [right]  model_file, or width height fx_px fy_px cx_px cy_px (+ distortion k1..k3)
-///   [rig]            baseline_m (optional with model files: then it is checked against them),
+///   [left], [right]  model_file (any format of camera_files.h; with width height where the file
+///   tells
+///                    no size), or width height fx_px fy_px cx_px cy_px (+ distortion k1..k3)
+///   [rig]            baseline_m (with model files that tell a pose optional and checked against
+///   them;
+///                    files without a pose need it, their axes count as parallel),
 ///                    rectified, min_disparity_px, num_disparities
 ///   [mount]          tilt_deg (-90 nadir .. 0 horizon), position_body_m
 ///   [pose]           roll_deg pitch_deg heading_deg height_m

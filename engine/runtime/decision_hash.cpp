@@ -1,6 +1,7 @@
 #include "engine/runtime/decision_hash.h"
 
 #include "engine/core/hash.h"
+#include "engine/model/camera_numbers.h"
 
 namespace palace {
 namespace {
@@ -32,6 +33,9 @@ void AddCamera(ContentHash& hash, const RigCamera& camera) {
                           &camera.cahvor->V, &camera.cahvor->O, &camera.cahvor->R}) {
       AddVector(hash, *v);
     }
+  }
+  if (camera.model) {
+    hash.Add(NumbersOf(*camera.model));
   }
 }
 

@@ -1,3 +1,4 @@
+#include "engine/model/camera_numbers.h"
 #include "engine/wire/convert.h"
 #include "engine/wire/wire_fields.h"
 #include "engine/wire/wire_pack.h"
@@ -89,6 +90,10 @@ rig_camera_t CameraToWire(const RigCamera& camera) {
     for (const Eigen::Vector3d* v : {&model.C, &model.A, &model.H, &model.V, &model.O, &model.R}) {
       out = std::copy_n(v->data(), 3, out);
     }
+  }
+  if (camera.model) {
+    m.lens = NumbersOf(*camera.model);
+    m.lens_size = static_cast<std::int32_t>(m.lens.size());
   }
   return m;
 }

@@ -1,5 +1,6 @@
 #include <cstring>
 
+#include "engine/model/camera_numbers.h"
 #include "engine/wire/sensor_messages.h"
 #include "engine/wire/wire_fields.h"
 #include "engine/wire/wire_pack.h"
@@ -20,6 +21,9 @@ RigCamera CameraFromWire(const rig_camera_t& m) {
       *vectors[i] = Eigen::Map<const Eigen::Vector3d>(m.cahvor + 3 * i);
     }
     camera.cahvor = model;
+  }
+  if (m.lens_size > 0) {
+    camera.model = CameraFromNumbers(m.lens);
   }
   return camera;
 }
@@ -49,6 +53,10 @@ std::vector<double> Flatten(const StereoRig& rig) {
         row.insert(row.end(), v->data(), v->data() + 3);
       }
     }
+    if (camera->model) {
+      const std::vector<double> lens = NumbersOf(*camera->model);
+      row.insert(row.end(), lens.begin(), lens.end());
+    }
   }
   return row;
 }
@@ -57,6 +65,9 @@ Result<StereoRig> RigBody(const camera_rig_t& m) {
   StereoRig rig;
   rig.left = CameraFromWire(m.left);
   rig.right = CameraFromWire(m.right);
+  if ((m.left.lens_size > 0 && !rig.left.model) || (m.right.lens_size > 0 && !rig.right.model)) {
+    return InvalidError("the rig holds a camera model that is none");
+  }
   rig.baseline_m = m.baseline_m;
   rig.rectified = m.rectified != 0;
   rig.min_disparity_px = m.min_disparity_px;

@@ -43,7 +43,8 @@ void VisitFields(Reader& read, pose_t& m) {
 template <typename Reader>
 void VisitFields(Reader& read, rig_camera_t& m) {
   read(m.width, m.height, m.fx_px, m.fy_px, m.cx_px, m.cy_px, m.distortion, m.has_cahvor,
-       m.cahvor_width, m.cahvor_height, m.cahvor);
+       m.cahvor_width, m.cahvor_height, m.cahvor, m.lens_size);
+  read.List(m.lens_size, m.lens);
 }
 template <typename Reader>
 void VisitFields(Reader& read, camera_rig_t& m) {

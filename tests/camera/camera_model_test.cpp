@@ -9,6 +9,7 @@
 #include <opencv2/calib3d.hpp>
 
 #include "engine/camera/polynomial.h"
+#include "engine/model/camera_numbers.h"
 #include "tests/camera/reference_vectors.h"
 #include "tests/camera/sample_cameras.h"
 
@@ -220,6 +221,35 @@ TEST(CameraModel, MovedAndScaledCamerasSeeTheSame) {
     EXPECT_EQ(metric.unit_m, 1);
     EXPECT_LT((CentreOf(moved) - (R_GF * CentreOf(model) + t_GF)).norm(), 1e-9 / model.unit_m);
   }
+}
+
+TEST(CameraModel, NumbersTellTheModelToTheBit) {
+  constexpr std::uint64_t kSeed = 36;
+  SCOPED_TRACE(kSeed);
+  RandomStream random(kSeed);
+  for (int family = 0; family < kFamilies; ++family) {
+    const CameraModel model = RandomCamera(random, family);
+    SCOPED_TRACE(FamilyOf(model));
+    const std::vector<double> row = NumbersOf(model);
+    const auto again = CameraFromNumbers(row);
+    ASSERT_TRUE(again);
+    EXPECT_EQ(NumbersOf(*again), row);
+    EXPECT_EQ(RayFromPixelCamera(*again, {50, 60})->direction,
+              RayFromPixelCamera(model, {50, 60})->direction);
+    for (std::size_t size = 0; size < row.size(); ++size) {
+      EXPECT_FALSE(CameraFromNumbers({row.begin(), row.begin() + static_cast<long>(size)}));
+    }
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      std::vector<double> damaged = row;
+      damaged[i] = NAN;
+      EXPECT_FALSE(CameraFromNumbers(damaged)) << i;
+    }
+    std::vector<double> longer = row;
+    longer.push_back(0);
+    EXPECT_FALSE(CameraFromNumbers(longer));
+  }
+  EXPECT_FALSE(CameraFromNumbers({7, 1, 1})) << "no such family";
+  EXPECT_FALSE(CameraFromNumbers({0, 1, 1, -3, 480})) << "no such size";
 }
 
 CahvoreModel Fisheye() {

@@ -6,7 +6,10 @@
 #include <gtest/gtest.h>
 
 #include "engine/camera/cahvor.h"
+#include "engine/camera/camera_model.h"
 #include "engine/camera/pinhole.h"
+#include "engine/camera/tsai.h"
+#include "engine/core/frames.h"
 #include "engine/core/random.h"
 
 namespace palace {
@@ -143,6 +146,91 @@ TEST(Rectification, CahvorPairIsAligned) {
       const double truth = Pattern(R_FC * (rectifier->R_C_Rect() * ray_Rect));
       ASSERT_NEAR(pair->left->at(x, y), truth, 2.5) << x << ',' << y;
       ASSERT_NEAR(pair->right->at(x, y), truth, 2.5) << x << ',' << y;
+    }
+  }
+}
+
+/// A raw picture of the pattern at infinity through `camera`.
+ImageU8 Draw(const CameraModel& camera) {
+  ImageU8 image(WidthOf(camera), HeightOf(camera));
+  for (int y = 0; y < image.height(); ++y) {
+    for (int x = 0; x < image.width(); ++x) {
+      const auto ray = RayFromPixelCamera(camera, {static_cast<double>(x), static_cast<double>(y)});
+      if (ray && ray->direction.z() > 0) {
+        image.at(x, y) = static_cast<std::uint8_t>(std::lround(Pattern(ray->direction)));
+      }
+    }
+  }
+  return image;
+}
+
+TEST(Rectification, PairsOfEveryLensFamilyAreAligned) {
+  const Eigen::Matrix3d R_FC = RotationFromEuler({0.01, -0.02, 0.01});
+  const auto base = [&](double x) {
+    return CahvFromPinhole(PinholeFromFov(160, 120, 0.9), R_FC.transpose(), {x, 0.01 * x, 0});
+  };
+  const auto cahvore = [&](double x) {
+    CahvoreModel model;
+    model.base = base(x);
+    model.base.R = {0, 0.01, -0.004};
+    model.E = {0.001, 0, 0};
+    return CameraModel{model};
+  };
+  const auto tsai = [&](double x) {
+    const CahvPinhole pinhole = PinholeFromCahv(base(x));
+    TsaiModel model;
+    model.width = 160;
+    model.height = 120;
+    model.dpx = model.dpy = 1e-5;
+    model.f = pinhole.camera.fx_px * 1e-5;
+    model.Cx_px = pinhole.camera.cx_px;
+    model.Cy_px = pinhole.camera.cy_px;
+    model.kappa1 = 1e4;
+    SetRotationOfTsai(model, pinhole.R_CF);
+    model.T = -(pinhole.R_CF * pinhole.p_FC);
+    return CameraModel{model};
+  };
+  const auto opencv = [&](double x, OpenCvLens lens) {
+    const CahvPinhole pinhole = PinholeFromCahv(base(x));
+    OpenCvModel model;
+    model.pinhole = pinhole.camera;
+    model.lens = lens;
+    model.coefficients = 4;
+    model.k = {-0.1, 0.02, 0.001, 0};
+    model.R_CF = pinhole.R_CF;
+    model.t_CF = -(pinhole.R_CF * pinhole.p_FC);
+    return CameraModel{model};
+  };
+  const std::pair<CameraModel, CameraModel> pairs[] = {
+      {cahvore(0), cahvore(1)},
+      {tsai(0), tsai(1)},
+      {opencv(0, OpenCvLens::kPolynomial), opencv(1, OpenCvLens::kPolynomial)},
+      {opencv(0, OpenCvLens::kFisheye), opencv(1, OpenCvLens::kFisheye)},
+      {cahvore(0), opencv(1, OpenCvLens::kPolynomial)},
+  };
+  for (const auto& [left, right] : pairs) {
+    SCOPED_TRACE(FamilyOf(left) + ", " + FamilyOf(right));
+    StereoRig rig;
+    rig.rectified = false;
+    rig.left.model = left;
+    rig.right.model = right;
+    const auto rectifier = StereoRectifier::Make(rig);
+    ASSERT_TRUE(rectifier.ok()) << rectifier.error().message;
+    EXPECT_NEAR(rectifier->baseline_m(), (CentreOf(right) - CentreOf(left)).norm(), 1e-12);
+    StereoFrame frame;
+    frame.left = Draw(left);
+    frame.right = Draw(right);
+    const auto pair = rectifier->Rectify(frame);
+    ASSERT_TRUE(pair.ok());
+    const Eigen::Matrix3d R_FRect = RotationOf(left).transpose() * rectifier->R_C_Rect();
+    for (int y = 4; y < 116; ++y) {
+      for (int x = 4; x < 156; ++x) {
+        const double truth =
+            Pattern(R_FRect * RayFromPixel(rectifier->camera(),
+                                           {static_cast<double>(x), static_cast<double>(y)}));
+        ASSERT_NEAR(pair->left->at(x, y), truth, 2.5) << x << ',' << y;
+        ASSERT_NEAR(pair->right->at(x, y), truth, 2.5) << x << ',' << y;
+      }
     }
   }
 }

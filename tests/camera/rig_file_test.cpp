@@ -7,8 +7,10 @@
 #include <gtest/gtest.h>
 
 #include "engine/camera/camera_files.h"
+#include "engine/camera/rectification.h"
 #include "engine/core/random.h"
 #include "engine/core/units.h"
+#include "tests/camera/camera_file_texts.h"
 
 namespace palace {
 namespace {
@@ -220,6 +222,68 @@ TEST_F(RigFileTest, ModelFilesDecide) {
   const auto missing = Load("[left]\nmodel_file = \"no.cahvor\"\n" + mount);
   ASSERT_FALSE(missing.ok());
   EXPECT_NE(missing.error().message.find("no.cahvor"), std::string::npos);
+}
+
+TEST_F(RigFileTest, ModelFilesOfEveryFormatMakeARig) {
+  struct Row {
+    const char* left;
+    const char* right;
+    const char* more;  ///< keys beside model_file
+    const char* rig;   ///< keys of [rig]
+    double baseline_m;
+    const char* error;  ///< empty: loads
+  };
+  for (const CameraText& file : GoodCameraTexts()) {
+    Write(file.name, file.text);
+  }
+  std::string left_ros = kRosText;
+  left_ros.replace(left_ros.find("-57.6"), 5, "0.000");
+  Write("left.yaml", left_ros);
+  std::string right_cpcc = kWillsonText;
+  right_cpcc.replace(right_cpcc.find("-100.26886446"), 13, "-600.26886446");
+  Write("right.cpcc", right_cpcc);
+  std::string right_cahvore = kCahvoreText;
+  right_cahvore.replace(right_cahvore.find("-0.043367"), 9, "0.456633");
+  Write("right.cahvore", right_cahvore);
+  std::string no_size = kCahvoreText;
+  no_size.replace(no_size.find("Dimensions = 1024 1024\n"), 23, "");
+  Write("no_size.cahvore", no_size);
+  const Row rows[] = {
+      {"a.cahvore", "right.cahvore", "", "", 0.5, ""},
+      {"left.yaml", "a.yaml", "", "", 0.12, ""},
+      {"a.xml", "a.xml", "", "", 3.300242, ""},
+      {"a.yml", "a.yml", "", "baseline_m = 0.25\n", 0.25, ""},
+      {"a.cpcc", "right.cpcc", "width = 576\nheight = 384\n", "", 0.5, ""},
+      {"no_size.cahvore", "right.cahvore", "width = 1024\nheight = 1024\n", "", 0.5, ""},
+      {"a.yml", "a.yml", "", "", 0, "give the baseline in metres (baseline_m in [rig]"},
+      {"a.cpcc", "right.cpcc", "", "", 0, "add width and height here"},
+      {"no_size.cahvore", "right.cahvore", "", "", 0, "rig.toml:2: left.model_file"},
+      {"a.cahvor", "a.yml", "", "baseline_m = 1\n", 0, "a.yml: tells no pose"},
+      {"a.cahvore", "right.cahvore", "width = 640\nheight = 480\n", "", 0, "1024 x 1024"},
+      {"a.xml", "a.xml", "", "baseline_m = 4\n", 0, "3.30024"},
+      {"a.cahvore", "right.cahvore", "fx_px = 3\n", "", 0, "left.fx_px contradicts model_file"},
+  };
+  for (const Row& row : rows) {
+    SCOPED_TRACE(std::string(row.left) + " " + row.more + row.rig);
+    const auto camera = [&](const char* side, const char* model) {
+      return "[" + std::string(side) + "]\nmodel_file = \"" + model + "\"\n" + row.more;
+    };
+    const auto file = Load(camera("left", row.left) + camera("right", row.right) + "[rig]\n" +
+                           row.rig + "[mount]\ntilt_deg = -45\n");
+    if (*row.error != '\0') {
+      ASSERT_FALSE(file.ok());
+      EXPECT_NE(file.error().message.find(row.error), std::string::npos) << file.error().message;
+      continue;
+    }
+    ASSERT_TRUE(file.ok()) << file.error().message;
+    EXPECT_NEAR(file->rig.baseline_m, row.baseline_m, 1e-6);
+    EXPECT_FALSE(file->rig.rectified);
+    ASSERT_TRUE(file->rig.left.model && file->rig.right.model);
+    EXPECT_EQ(file->rig.left.model->unit_m, 1) << "metres";
+    EXPECT_GT(file->rig.left.pinhole.fx_px, 0);
+    const auto rectifier = StereoRectifier::Make(file->rig);
+    EXPECT_TRUE(rectifier.ok()) << rectifier.error().message;
+  }
 }
 
 TEST_F(RigFileTest, AnyBytesGiveARigOrAnError) {

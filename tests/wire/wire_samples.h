@@ -45,6 +45,14 @@ inline StereoRig RandomRig(RandomStream& random) {
                     RandomVector(random),
                     RandomVector(random)};
   rig.right.cahvor = model;
+  OpenCvModel lens;
+  lens.pinhole = rig.left.pinhole;
+  lens.coefficients = 8;
+  for (double& k : lens.k) {
+    k = random.Normal() * 0.01;
+  }
+  lens.t_CF = RandomVector(random);
+  rig.left.model = CameraModel{lens};
   rig.baseline_m = random.Uniform(0.2, 1.2);
   rig.rectified = false;
   rig.min_disparity_px = 3;
