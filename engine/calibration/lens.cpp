@@ -9,79 +9,109 @@ namespace {
 
 using Row3 = Eigen::RowVector3d;
 
-/// A distorted point p' with its derivatives.
+/// The terms of the distortion of one point.
+struct Terms {
+  Eigen::Vector3d O;
+  Eigen::Vector3d lambda;
+  double axis_length = 0;  ///< of (o1, o2, 1)
+  double zeta = 0;
+  double tau = 0;
+  double mu = 0;
+};
+
+/// Nothing behind the camera, and beyond the radius where the picture of a growing angle turns
+/// back.
+std::optional<Terms> TermsOf(const Lens& lens, const Eigen::Vector3d& p) {
+  Terms t;
+  const Eigen::Vector3d raw(lens[kO1], lens[kO2], 1);
+  t.axis_length = raw.norm();
+  t.O = raw / t.axis_length;
+  t.zeta = p.dot(t.O);
+  if (!(t.zeta > 0)) {
+    return std::nullopt;
+  }
+  t.lambda = p - t.zeta * t.O;
+  t.tau = t.lambda.squaredNorm() / (t.zeta * t.zeta);
+  t.mu = t.tau * (lens[kRho1] + t.tau * lens[kRho2]);
+  for (const double at : {t.tau, -3 * lens[kRho1] / (10 * lens[kRho2])}) {
+    if (at > 0 && at <= t.tau && !(1 + at * (3 * lens[kRho1] + 5 * lens[kRho2] * at) > 0)) {
+      return std::nullopt;
+    }
+  }
+  return t;
+}
+
+/// Derivatives of the distorted point p' = p + mu lambda.
 struct Distorted {
-  Eigen::Vector3d point;
   Eigen::Matrix3d by_point;
   Eigen::Matrix<double, 3, 2> by_axis;  ///< by o1, o2
   Eigen::Matrix<double, 3, 2> by_rho;
 };
 
-/// Derivatives by hand, with lambda.O = 0:
+/// By hand, with lambda.O = 0:
 ///   d zeta = O.dp + p.dO,  d lambda = dp - O (O.dp) - (O p^T + zeta I) dO,
 ///   d tau = (2 / zeta^2) lambda.dp - (2 tau / zeta) O.dp - (2 / zeta) (lambda + tau p).dO.
 /// Checked against central differences by the tests.
-std::optional<Distorted> Distort(const Lens& lens, const Eigen::Vector3d& p) {
-  const Eigen::Vector3d raw(lens[kO1], lens[kO2], 1);
-  const double length = raw.norm();
-  const Eigen::Vector3d O = raw / length;
-  const double zeta = p.dot(O);
-  if (!(zeta > 0)) {
+Distorted DerivativesOf(const Lens& lens, const Eigen::Vector3d& p, const Terms& t) {
+  const Eigen::Matrix3d identity = Eigen::Matrix3d::Identity();
+  const Eigen::Vector3d lambda_by_tau = (lens[kRho1] + 2 * t.tau * lens[kRho2]) * t.lambda;
+  const Row3 tau_by_point =
+      (2 / (t.zeta * t.zeta)) * t.lambda.transpose() - (2 * t.tau / t.zeta) * t.O.transpose();
+  const Row3 tau_by_O = (-2 / t.zeta) * (t.lambda + t.tau * p).transpose();
+  const Eigen::Matrix3d by_O =
+      -t.mu * (t.O * p.transpose() + t.zeta * identity) + lambda_by_tau * tau_by_O;
+  const Eigen::Matrix3d across = identity - t.O * t.O.transpose();
+  Distorted out;
+  out.by_point = identity + t.mu * across + lambda_by_tau * tau_by_point;
+  out.by_axis = by_O * (across.leftCols<2>() / t.axis_length);
+  out.by_rho.col(0) = t.tau * t.lambda;
+  out.by_rho.col(1) = t.tau * t.tau * t.lambda;
+  return out;
+}
+
+/// The linear part: pixel of the distorted point q.
+std::optional<Eigen::Vector2d> LinearPixel(const Lens& lens, const Eigen::Vector3d& q) {
+  if (!(q.z() > 0)) {
     return std::nullopt;
   }
-  const Eigen::Vector3d lambda = p - zeta * O;
-  const double tau = lambda.squaredNorm() / (zeta * zeta);
-  const double mu = tau * (lens[kRho1] + tau * lens[kRho2]);
-  const double mu_by_tau = lens[kRho1] + 2 * tau * lens[kRho2];
-  // Beyond the radius where the picture of a growing angle turns back the model says nothing.
-  for (const double t : {tau, -3 * lens[kRho1] / (10 * lens[kRho2])}) {
-    if (t > 0 && t <= tau && !(1 + t * (3 * lens[kRho1] + 5 * lens[kRho2] * t) > 0)) {
-      return std::nullopt;
-    }
-  }
-  Distorted out;
-  out.point = p + mu * lambda;
-  const Row3 tau_by_point =
-      (2 / (zeta * zeta)) * lambda.transpose() - (2 * tau / zeta) * O.transpose();
-  out.by_point = Eigen::Matrix3d::Identity() +
-                 mu * (Eigen::Matrix3d::Identity() - O * O.transpose()) +
-                 (mu_by_tau * lambda) * tau_by_point;
-  const Row3 tau_by_O = (-2 / zeta) * (lambda + tau * p).transpose();
-  const Eigen::Matrix3d by_O = -mu * (O * p.transpose() + zeta * Eigen::Matrix3d::Identity()) +
-                               (mu_by_tau * lambda) * tau_by_O;
-  const Eigen::Matrix3d O_by_raw = (Eigen::Matrix3d::Identity() - O * O.transpose()) / length;
-  out.by_axis = by_O * O_by_raw.leftCols<2>();
-  out.by_rho.col(0) = tau * lambda;
-  out.by_rho.col(1) = tau * tau * lambda;
-  return out;
+  const Eigen::Vector2d pixel(lens[kHs] * (q.x() / q.z()) + lens[kHc],
+                              lens[kVs] * (q.y() / q.z()) + lens[kVc]);
+  return pixel.allFinite() ? std::optional<Eigen::Vector2d>(pixel) : std::nullopt;
 }
 
 }  // namespace
 
+std::optional<Eigen::Vector2d> PixelThroughLens(const Lens& lens, const Eigen::Vector3d& p_CQ) {
+  const auto terms = TermsOf(lens, p_CQ);
+  return terms ? LinearPixel(lens, p_CQ + terms->mu * terms->lambda) : std::nullopt;
+}
+
 std::optional<LensProjection> ProjectThroughLens(const Lens& lens, const Eigen::Vector3d& p_CQ) {
-  const auto distorted = Distort(lens, p_CQ);
-  if (!distorted || !(distorted->point.z() > 0)) {
+  const auto terms = TermsOf(lens, p_CQ);
+  if (!terms) {
     return std::nullopt;
   }
-  const Eigen::Vector3d& q = distorted->point;
+  const Eigen::Vector3d q = p_CQ + terms->mu * terms->lambda;
+  const auto pixel = LinearPixel(lens, q);
+  if (!pixel) {
+    return std::nullopt;
+  }
+  const Distorted distorted = DerivativesOf(lens, p_CQ, *terms);
   const double x = q.x() / q.z();
   const double y = q.y() / q.z();
   Eigen::Matrix<double, 2, 3> by_distorted;
   by_distorted << lens[kHs], 0, -lens[kHs] * x, 0, lens[kVs], -lens[kVs] * y;
   by_distorted /= q.z();
   LensProjection out;
-  out.pixel = {lens[kHs] * x + lens[kHc], lens[kVs] * y + lens[kVc]};
-  if (!out.pixel.allFinite()) {
-    return std::nullopt;
-  }
-  out.by_point = by_distorted * distorted->by_point;
+  out.pixel = *pixel;
+  out.by_point = by_distorted * distorted.by_point;
   out.by_lens.setZero();
   out.by_lens(0, kHs) = x;
   out.by_lens(0, kHc) = 1;
   out.by_lens(1, kVs) = y;
   out.by_lens(1, kVc) = 1;
-  out.by_lens.middleCols<2>(kO1) = by_distorted * distorted->by_axis;
-  out.by_lens.middleCols<2>(kRho1) = by_distorted * distorted->by_rho;
+  out.by_lens.middleCols<2>(kO1) = by_distorted * distorted.by_axis;
+  out.by_lens.middleCols<2>(kRho1) = by_distorted * distorted.by_rho;
   return out;
 }
 

@@ -29,6 +29,7 @@ struct LensProjection {
 };
 
 /// Nothing behind the camera and where the distortion folds over, as ProjectCahvor.
+std::optional<Eigen::Vector2d> PixelThroughLens(const Lens& lens, const Eigen::Vector3d& p_CQ);
 std::optional<LensProjection> ProjectThroughLens(const Lens& lens, const Eigen::Vector3d& p_CQ);
 
 /// Where the centroid of a dot's picture lies. A circle seen at a slant becomes an oval whose

@@ -105,8 +105,8 @@ Result<OneCamera> FitOneCamera(const CalibrationTarget& target,
       (height - 1) / 2.0, 0, 0, 0, 0;
   const std::vector<std::vector<LensIndex>> stages = {
       {kHs, kVs, kRho1}, {kHs, kHc, kVs, kVc, kRho1}, {kHs, kHc, kVs, kVc, kO1, kO2, kRho1, kRho2}};
+  TryOtherTilts(target, camera);
   for (const auto& free : stages) {
-    TryOtherTilts(target, camera);
     const auto fitted = AdjustBundle(target, camera.seen, camera.estimate, LensOnly(free, prior));
     if (!fitted) {
       return InvalidError("the " + name + " camera alone: " + fitted.error().message);

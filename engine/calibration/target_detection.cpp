@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kMostPixels = 1e8;
 constexpr int kLeastSide_px = 16;
-constexpr std::array<int, 5> kWindowsPerSide = {4, 8, 16, 32, 64};
+constexpr std::array<int, 5> kWindowsPerSide = {16, 8, 32, 4, 64};  // the usual first
 constexpr int kLeastWindow_px = 9;
 constexpr double kClutterRow = 0.5;  // a row outside the target this full belongs to a larger board
 
@@ -260,6 +260,17 @@ std::optional<Eigen::Matrix2d> StepsAt(const CalibrationTarget& target,
   return plane.bottomRows<2>().transpose();
 }
 
+double LargestNeighbour_m(const CalibrationTarget& target, int index) {
+  const int column = index % target.columns, row = index / target.columns;
+  double largest = target.dot_diameter_m;
+  for (const auto& [i, j] : {std::pair(1, 0), {-1, 0}, {0, 1}, {0, -1}}) {
+    if (Inside(target, column + i, row + j)) {
+      largest = std::max(largest, target.DotDiameter_m((row + j) * target.columns + column + i));
+    }
+  }
+  return largest;
+}
+
 /// Measures every dot again with the window its place on the grid gives; drops those that cannot
 /// be.
 TargetObservation RefineOnGrid(const ImageU8& picture, const CalibrationTarget& target,
@@ -268,7 +279,6 @@ TargetObservation RefineOnGrid(const ImageU8& picture, const CalibrationTarget& 
   for (const TargetPoint& point : rough) {
     seen[point.index] = point.pixel;
   }
-  const double largest = std::max(target.dot_diameter_m, target.mark_diameter_m);
   TargetObservation refined;
   for (const TargetPoint& point : rough) {
     const auto steps = StepsAt(target, seen, point.index);
@@ -276,9 +286,9 @@ TargetObservation RefineOnGrid(const ImageU8& picture, const CalibrationTarget& 
       continue;
     }
     const double per_pitch = 0.5 / target.pitch_m;
-    const auto centre = RefineInGrid(
-        picture,
-        {point.pixel, *steps, per_pitch * target.DotDiameter_m(point.index), per_pitch * largest});
+    const auto centre =
+        RefineInGrid(picture, {point.pixel, *steps, per_pitch * target.DotDiameter_m(point.index),
+                               per_pitch * LargestNeighbour_m(target, point.index)});
     if (centre) {
       refined.push_back({point.index, *centre});
     }
@@ -292,7 +302,7 @@ Result<TargetObservation> DetectDots(const ImageU8& picture, const CalibrationTa
   for (const int per_side : kWindowsPerSide) {
     const int window_px = std::max(picture.width(), picture.height()) / per_side;
     if (window_px < kLeastWindow_px) {
-      break;
+      continue;
     }
     std::vector<Dot> found;
     for (Dot dot : FindDots(picture, window_px)) {
@@ -304,6 +314,9 @@ Result<TargetObservation> DetectDots(const ImageU8& picture, const CalibrationTa
     if (grown.size() > lattice.size()) {
       lattice = std::move(grown);
       dots = std::move(found);
+    }
+    if (static_cast<int>(lattice.size()) >= target.point_count()) {
+      break;
     }
   }
   if (lattice.empty()) {

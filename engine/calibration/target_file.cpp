@@ -203,7 +203,7 @@ void ReadMarks(TargetTable& table, CalibrationTarget& target) {
   }
   if (!table.error() && SomeTurnRepeats(target.marks)) {
     table.Fail("marks",
-               " look the same when the board is turned; choose places such as [5, 3], [7, 3], "
+               " look the same when the board is turned; choose places such as [5, 2], [8, 2], "
                "[5, 4]");
   }
 }

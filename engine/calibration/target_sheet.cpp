@@ -124,7 +124,7 @@ CalibrationTarget DefaultTarget() {
   target.pitch_m = 0.024;
   target.dot_diameter_m = 0.012;
   target.mark_diameter_m = 0.0168;
-  target.marks = {{5, 3}, {7, 3}, {5, 4}};
+  target.marks = {{5, 2}, {8, 2}, {5, 4}};  // unequal arms: a mirrored picture does not fit
   return target;
 }
 
