@@ -281,13 +281,16 @@ TEST_F(CameraSourceTest, OneDeviceMayGiveBothHalves) {
     std::fill(both.row(y) + film::kWidth, both.row(y) + both.width(), std::uint8_t{130});
   }
   CameraSourceOptions options = Options();
-  options.open = [&](const CameraRequest& request) -> Result<CameraDevice> {
+  options.open = [this, both](const CameraRequest& request) -> Result<CameraDevice> {
     EXPECT_EQ(request.width, 2 * film::kWidth);
     CameraDevice device;
-    device.read = [&, opened = ports_[request.address].Open(), first = true]() mutable {
-      return std::exchange(first, false)
-                 ? Result<CameraPicture>(CameraPicture{both, kMonotonicStart_s})
-                 : opened->read();
+    device.read = [both, opened = ports_[request.address].Open(),
+                   first = true]() mutable -> Result<CameraPicture> {
+      if (opened && !std::exchange(first, false)) {
+        return opened->read();
+      }
+      return opened ? Result<CameraPicture>(CameraPicture{both, kMonotonicStart_s})
+                    : opened.error();
     };
     return device;
   };
