@@ -7,7 +7,7 @@
 #include <cstdio>
 
 #include "engine/camera/cahvor.h"
-#include "engine/camera/camera_file_readers.h"
+#include "engine/camera/camera_file_formats.h"
 #include "engine/camera/text_file.h"
 
 namespace palace {

@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "engine/camera/cahvor.h"
-#include "engine/camera/camera_file_readers.h"
+#include "engine/camera/camera_file_formats.h"
 
 namespace palace {
 namespace {

@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "engine/camera/cahvor.h"
-#include "engine/camera/camera_file_readers.h"
+#include "engine/camera/camera_file_formats.h"
 
 namespace palace {
 namespace {

@@ -1,21 +1,14 @@
-#define TOML_EXCEPTIONS 0
-// toml++ 3.3 asserts that a table header starts with a key ("[?]" in a damaged file aborts), but
-// reports the same as an error two lines later. Files are input: never abort on them.
-#define TOML_ASSERT(expr) static_assert(true)
 #include "engine/camera/rig_file.h"
 
 #include <cmath>
 #include <set>
-#include <sstream>
-#include <utility>
 #include <vector>
-
-#include <toml++/toml.h>
 
 #include "engine/camera/cahvor.h"
 #include "engine/camera/camera_files.h"
 #include "engine/camera/camera_pair.h"
 #include "engine/camera/text_file.h"
+#include "engine/camera/toml_table.h"
 #include "engine/core/units.h"
 
 namespace palace {
@@ -23,196 +16,25 @@ namespace {
 
 constexpr double kLargestSide_px = 16384;
 constexpr double kLargest = 1e6;
-constexpr std::int64_t kLargestDevice = 255;
 constexpr double kBaselineMismatch = 0.01;  // share by which baseline_m may differ from the models
 
-/// A number's limits and what to do when it is outside them.
-struct Range {
-  double least = 0;
-  double greatest = 0;
-  const char* remedy = "";
-  bool whole = false;
-};
-
-std::string NumberText(double value) {
-  std::ostringstream text;
-  text.precision(10);
-  text << value;
-  return text.str();
-}
-
-/// One table of the file. Keys are asked for by name; the first error is kept; Finish reports keys
-/// that nobody asked for.
-class Table {
- public:
-  Table(const toml::table& root, std::string file, std::string name)
-      : file_(std::move(file)), name_(std::move(name)), line_(1) {
-    if (const toml::node* node = root.get(name_)) {
-      line_ = static_cast<int>(node->source().begin.line);
-      table_ = node->as_table();
-      if (table_ == nullptr) {
-        Fail(line_, "[" + name_ + "] must be a table");
-      }
-    }
-  }
-
-  bool present() const { return table_ != nullptr; }
-  bool Has(const char* key) const { return table_ != nullptr && table_->contains(key); }
-
-  double Number(const char* key, const Range& range) {
-    const toml::node* node = Required(key);
-    return node == nullptr ? 0 : ReadNumber(*node, key, range);
-  }
-  double NumberOr(const char* key, const Range& range, double otherwise) {
-    return Has(key) ? Number(key, range) : otherwise;
-  }
-
-  bool BoolOr(const char* key, bool otherwise) {
-    if (!Has(key)) {
-      return otherwise;
-    }
-    const toml::node* node = Required(key);
-    if (const auto value = node->value_exact<bool>()) {
-      return *value;
-    }
-    Fail(LineOf(*node), Name(key) + " must be true or false");
-    return otherwise;
-  }
-
-  std::string Text(const char* key) {
-    const toml::node* node = Required(key);
-    if (node == nullptr) {
-      return {};
-    }
-    const auto value = node->value_exact<std::string>();
-    if (!value || value->empty()) {
-      Fail(LineOf(*node), Name(key) + " must be a text in quotes, not empty");
-      return {};
-    }
-    return *value;
-  }
-
-  /// A text, or a whole number as text: a device may be given as "0" or 0.
-  std::string TextOrIndex(const char* key) {
-    const toml::node* node = Required(key);
-    if (node == nullptr || !node->is_integer()) {
-      return node == nullptr ? std::string() : Text(key);
-    }
-    const auto index = *node->value<std::int64_t>();
-    if (index < 0 || index > kLargestDevice) {
-      Fail(LineOf(*node), Name(key) + " = " + std::to_string(index) + " is outside 0 .. " +
-                              std::to_string(kLargestDevice) +
-                              "; give the number of a device (ls /dev/video*)");
-    }
-    return std::to_string(index);
-  }
-
-  std::vector<double> Numbers(const char* key, std::size_t least, std::size_t most,
-                              const Range& range) {
-    const toml::node* node = Required(key);
-    if (node == nullptr) {
-      return {};
-    }
-    const toml::array* array = node->as_array();
-    if (array == nullptr || array->size() < least || array->size() > most) {
-      Fail(LineOf(*node), Name(key) + " must be a list of " + std::to_string(least) +
-                              (least == most ? "" : " to " + std::to_string(most)) + " numbers");
-      return {};
-    }
-    std::vector<double> numbers;
-    for (const toml::node& element : *array) {
-      numbers.push_back(ReadNumber(element, key, range));
-    }
-    return numbers;
-  }
-
-  void Fail(int line, const std::string& text) {
-    if (!error_) {
-      error_ = InvalidError(file_ + ":" + std::to_string(line) + ": " + text);
-    }
-  }
-  void FailKey(const char* key, const std::string& text) {
-    const toml::node* node = table_ == nullptr ? nullptr : table_->get(key);
-    Fail(node == nullptr ? line_ : LineOf(*node), Name(key) + text);
-  }
-
-  /// The first error, or the first key that was not asked for.
-  Status Finish() {
-    if (!error_ && table_ != nullptr) {
-      for (const auto& [key, node] : *table_) {
-        if (!asked_.contains(std::string(key.str()))) {
-          Fail(LineOf(node), "unknown key " + Name(key.str()) + "; known here: " + Asked());
-          break;
-        }
-      }
-    }
-    return error_ ? Status(*error_) : Ok();
-  }
-
-  /// Names a key as known without reading it.
-  void Allow(const char* key) { asked_.insert(key); }
-
- private:
-  static int LineOf(const toml::node& node) { return static_cast<int>(node.source().begin.line); }
-  std::string Name(std::string_view key) const { return name_ + "." + std::string(key); }
-
-  std::string Asked() const {
-    std::string text;
-    for (const std::string& key : asked_) {
-      text += (text.empty() ? "" : ", ") + key;
-    }
-    return text;
-  }
-
-  const toml::node* Required(const char* key) {
-    asked_.insert(key);
-    const toml::node* node = table_ == nullptr ? nullptr : table_->get(key);
-    if (node == nullptr) {
-      Fail(line_, table_ == nullptr ? "table [" + name_ + "] is missing; add it with " + Name(key)
-                                    : Name(key) + " is missing; add it to [" + name_ + "]");
-    }
-    return node;
-  }
-
-  double ReadNumber(const toml::node& node, const char* key, const Range& range) {
-    if (!node.is_number()) {
-      Fail(LineOf(node), Name(key) + " must be a number");
-      return 0;
-    }
-    const double value = *node.value<double>();
-    if (!(value >= range.least && value <= range.greatest)) {
-      Fail(LineOf(node), Name(key) + " = " + NumberText(value) + " is outside " +
-                             NumberText(range.least) + " .. " + NumberText(range.greatest) + "; " +
-                             range.remedy);
-    } else if (range.whole && value != std::floor(value)) {
-      Fail(LineOf(node),
-           Name(key) + " = " + NumberText(value) + " must be a whole number; " + range.remedy);
-    }
-    return value;
-  }
-
-  std::string file_;
-  std::string name_;
-  int line_ = 1;
-  const toml::table* table_ = nullptr;
-  std::set<std::string> asked_;
-  std::optional<Error> error_;
-};
-
-constexpr Range kSide{1, kLargestSide_px, "give the size of the pictures in pixels", true};
-constexpr Range kFocal{1e-3, kLargest, "give the focal length in pixels"};
-constexpr Range kCentre{-kLargest, kLargest, "give the principal point in pixels"};
-constexpr Range kDistortion{-100, 100, "give k1 k2 p1 p2 k3 as OpenCV does"};
-constexpr Range kBaseline{1e-3, 1000, "give the distance of the cameras in metres"};
-constexpr Range kTilt{-90, 0, "the tilt is negative downwards: 0 horizon, -90 nadir"};
-constexpr Range kPosition{-100, 100, "give metres forward, right, down of the reference point"};
-constexpr Range kMinDisparity{0, kLargestSide_px, "give the least disparity in whole pixels", true};
-constexpr Range kCount{0, 1024, "give a multiple of 16, or 0 to follow the pose", true};
-constexpr Range kAngle{-360, 360, "give degrees"};
-constexpr Range kPitch{-90, 90, "give degrees"};
-constexpr Range kPoseHeight{1e-3, 1e5, "give metres above the ground"};
-constexpr Range kRate{1e-3, 1000, "give pairs per second"};
-constexpr Range kTolerance{0.01, 10000, "give the largest time between the pictures of a pair"};
+constexpr NumberLimits kSide{1, kLargestSide_px, "give the size of the pictures in pixels", true};
+constexpr NumberLimits kFocal{1e-3, kLargest, "give the focal length in pixels"};
+constexpr NumberLimits kCentre{-kLargest, kLargest, "give the principal point in pixels"};
+constexpr NumberLimits kDistortion{-100, 100, "give k1 k2 p1 p2 k3 as OpenCV does"};
+constexpr NumberLimits kBaseline{1e-3, 1000, "give the distance of the cameras in metres"};
+constexpr NumberLimits kTilt{-90, 0, "the tilt is negative downwards: 0 horizon, -90 nadir"};
+constexpr NumberLimits kPosition{-100, 100,
+                                 "give metres forward, right, down of the reference point"};
+constexpr NumberLimits kMinDisparity{0, kLargestSide_px, "give the least disparity in whole pixels",
+                                     true};
+constexpr NumberLimits kCount{0, 1024, "give a multiple of 16, or 0 to follow the pose", true};
+constexpr NumberLimits kAngle{-360, 360, "give degrees"};
+constexpr NumberLimits kPitch{-90, 90, "give degrees"};
+constexpr NumberLimits kPoseHeight{1e-3, 1e5, "give metres above the ground"};
+constexpr NumberLimits kRate{1e-3, 1000, "give pairs per second"};
+constexpr NumberLimits kTolerance{0.01, 10000,
+                                  "give the largest time between the pictures of a pair"};
 
 /// The cameras that model files tell, until both are placed in one frame.
 struct ModelFiles {
@@ -222,7 +44,7 @@ struct ModelFiles {
   std::string right_name;
 };
 
-Status ReadModelFile(Table& table, const RigFile& file, StereoSide side, ModelFiles& models) {
+Status ReadModelFile(TomlTable& table, const RigFile& file, StereoSide side, ModelFiles& models) {
   for (const char* key : {"fx_px", "fy_px", "cx_px", "cy_px", "distortion"}) {
     if (table.Has(key)) {
       table.FailKey(key, " contradicts model_file; give one of them");
@@ -259,7 +81,7 @@ Status ReadModelFile(Table& table, const RigFile& file, StereoSide side, ModelFi
 
 Status ReadCamera(const toml::table& root, const std::string& name, StereoSide side,
                   const RigFile& file, RigCamera& camera, ModelFiles& models) {
-  Table table(root, name, side == StereoSide::kLeft ? "left" : "right");
+  TomlTable table(root, name, side == StereoSide::kLeft ? "left" : "right");
   if (table.Has("model_file")) {
     return ReadModelFile(table, file, side, models);
   }
@@ -293,7 +115,7 @@ void SetModel(RigCamera& camera, const CameraModel& model) {
 }
 
 /// The baseline, and the cameras of model files placed by it.
-Status ReadBaseline(Table& table, const ModelFiles& models, StereoRig& rig) {
+Status ReadBaseline(TomlTable& table, const ModelFiles& models, StereoRig& rig) {
   if (!models.left || !models.right) {
     rig.baseline_m = table.Number("baseline_m", kBaseline);
     return Ok();
@@ -326,7 +148,7 @@ Status ReadRig(const toml::table& root, const std::string& name, const ModelFile
     return InvalidError(name +
                         ": one camera has a model_file and the other has not; give both or none");
   }
-  Table table(root, name, "rig");
+  TomlTable table(root, name, "rig");
   if (Status status = ReadBaseline(table, models, rig); !status) {
     return status;
   }
@@ -355,7 +177,7 @@ Status ReadRig(const toml::table& root, const std::string& name, const ModelFile
 }
 
 Status ReadMount(const toml::table& root, const std::string& name, StereoRig& rig) {
-  Table table(root, name, "mount");
+  TomlTable table(root, name, "mount");
   rig.tilt_rad = Rad(table.Number("tilt_deg", kTilt));
   table.Allow("position_body_m");
   if (table.Has("position_body_m")) {
@@ -368,7 +190,7 @@ Status ReadMount(const toml::table& root, const std::string& name, StereoRig& ri
 }
 
 Status ReadPose(const toml::table& root, const std::string& name, RigFile& file) {
-  Table table(root, name, "pose");
+  TomlTable table(root, name, "pose");
   if (table.present()) {
     EulerAngles attitude;
     attitude.roll_rad = Rad(table.Number("roll_deg", kAngle));
@@ -383,7 +205,7 @@ Status ReadPose(const toml::table& root, const std::string& name, RigFile& file)
 }
 
 Status ReadImages(const toml::table& root, const std::string& name, RigFile& file) {
-  Table images(root, name, "images");
+  TomlTable images(root, name, "images");
   if (images.present()) {
     file.left_pattern = images.Text("left");
     file.right_pattern = images.Text("right");
@@ -394,7 +216,7 @@ Status ReadImages(const toml::table& root, const std::string& name, RigFile& fil
 }
 
 /// The size asked of a device must be the one that the camera models are made for.
-int ReadCaptureSide(Table& table, const char* key, int expected, const char* which) {
+int ReadCaptureSide(TomlTable& table, const char* key, int expected, const char* which) {
   table.Allow(key);
   const int side = static_cast<int>(table.NumberOr(key, kSide, expected));
   if (side != expected) {
@@ -404,7 +226,7 @@ int ReadCaptureSide(Table& table, const char* key, int expected, const char* whi
   return side;
 }
 
-void ReadCaptureAddresses(Table& table, RigCapture& capture) {
+void ReadCaptureAddresses(TomlTable& table, RigCapture& capture) {
   for (const char* key : {"side_by_side", "right", "pair_tolerance_ms"}) {
     table.Allow(key);
   }
@@ -430,7 +252,7 @@ void ReadCaptureAddresses(Table& table, RigCapture& capture) {
 }
 
 Status ReadCapture(const toml::table& root, const std::string& name, RigFile& file) {
-  Table table(root, name, "capture");
+  TomlTable table(root, name, "capture");
   if (!table.present()) {
     return table.Finish();
   }

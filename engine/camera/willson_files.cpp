@@ -2,7 +2,7 @@
 #include <array>
 #include <vector>
 
-#include "engine/camera/camera_file_readers.h"
+#include "engine/camera/camera_file_formats.h"
 
 namespace palace {
 namespace {

@@ -87,7 +87,7 @@ inline OpenCvModel RandomOpenCv(RandomStream& random, int coefficients) {
   return model;
 }
 
-constexpr int kFamilies = 13;
+constexpr int kFamilies = 14;
 
 /// One of `kFamilies` families.
 inline CameraModel RandomCamera(RandomStream& random, int family) {
@@ -106,10 +106,10 @@ inline CameraModel RandomCamera(RandomStream& random, int family) {
       return {RandomCahvore(random, -0.5)};
     case 6:
       return {RandomTsai(random), 0.001};
-    case 12:
+    case 13:
       return {RandomOpenCv(random, -4)};
     default: {
-      const int coefficients[] = {0, 4, 5, 8, 12};
+      const int coefficients[] = {0, 4, 5, 8, 12, 14};
       return {RandomOpenCv(random, coefficients[family - 7])};
     }
   }

@@ -1,0 +1,98 @@
+// palacectl camera align.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <optional>
+
+#include "engine/camera/alignment.h"
+#include "engine/camera/cahvor.h"
+#include "engine/camera/camera_pair.h"
+#include "engine/tools/camera_verbs.h"
+
+namespace palace {
+namespace {
+
+/// Greatest difference of rows over points in front of both cameras, 2 to 200 baselines away.
+double WorstRowError(const AlignedPair& pair) {
+  const double baseline = (pair.right.C - pair.left.C).norm();
+  double worst = 0;
+  for (int i = 0; i <= 20; ++i) {
+    for (int j = 0; j <= 20; ++j) {
+      const auto ray = RayFromPixelCahvor(
+          pair.left, {i * (pair.left.width - 1) / 20.0, j * (pair.left.height - 1) / 20.0});
+      for (const double range : {2.0, 20.0, 200.0}) {
+        const Eigen::Vector3d p = ray->origin + range * baseline * ray->direction;
+        const auto a = ProjectCahvor(pair.left, p);
+        const auto b = ProjectCahvor(pair.right, p);
+        if (a && b) {
+          worst = std::max(worst, std::abs(a->y() - b->y()));
+        }
+      }
+    }
+  }
+  return worst;
+}
+
+bool IsCahv(const CameraModel& model) {
+  const auto* cahvor = std::get_if<CahvorModel>(&model.lens);
+  return cahvor != nullptr && IsLinear(*cahvor);
+}
+
+}  // namespace
+
+int RunCameraAlign(const CameraOptions& options) {
+  const auto left = ReadCameraModel(options.left, options, StereoSide::kLeft);
+  if (!left) {
+    return FailCamera(left.error());
+  }
+  const auto right = ReadCameraModel(options.right, options, StereoSide::kRight);
+  if (!right) {
+    return FailCamera(right.error());
+  }
+  const auto placed = PlacePair(
+      *left, *right, options.baseline_m > 0 ? std::optional(options.baseline_m) : std::nullopt,
+      options.left, options.right);
+  if (!placed) {
+    return FailCamera(placed.error());
+  }
+  AlignmentOptions alignment;
+  const bool average =
+      options.form == "average" || (options.form == "auto" && IsCahv(*left) && IsCahv(*right));
+  alignment.form = average                   ? AlignmentForm::kAverage
+                   : options.form == "older" ? AlignmentForm::kColumns
+                                             : AlignmentForm::kNormals;
+  alignment.field = options.field == "covering" ? FieldOfView::kCovering : FieldOfView::kInside;
+  const auto pair = AlignPair(placed->left, placed->right, alignment);
+  if (!pair) {
+    return FailCamera(
+        {pair.error().code, options.left + ", " + options.right + ": " + pair.error().message});
+  }
+  std::error_code error;
+  std::filesystem::create_directories(options.out, error);
+  const std::filesystem::path folder = options.out;
+  for (const auto& [name, model] :
+       {std::pair{"left.cahv", &pair->left}, {"right.cahv", &pair->right}}) {
+    if (const Status written = WriteCameraText((folder / name).string(), CahvorToText(*model));
+        !written) {
+      return FailCamera(written.error());
+    }
+  }
+  const CahvInternals internals = InternalsOf(pair->left);
+  const double baseline_m = (pair->right.C - pair->left.C).norm();
+  std::printf("form          %s\n", average ? "mean scale and centre (CAHV)"
+                                    : alignment.form == AlignmentForm::kColumns
+                                        ? "older: mean of the columns"
+                                        : "newer: mean of the axes");
+  std::printf("focal length  hs %.9f px, vs %.9f px\n", internals.hs_px, internals.vs_px);
+  std::printf("image centre  hc %.9f px, vc %.9f px\n", internals.hc_px, internals.vc_px);
+  std::printf("baseline      %.9f m (disparity x depth = %.6f px m)\n", baseline_m,
+              internals.hs_px * baseline_m);
+  std::printf("row error     max %.3g px over 1323 points 2 to 200 baselines away\n",
+              WorstRowError(*pair));
+  std::printf("written       %s, %s\n", (folder / "left.cahv").string().c_str(),
+              (folder / "right.cahv").string().c_str());
+  return 0;
+}
+
+}  // namespace palace

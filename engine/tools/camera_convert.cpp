@@ -1,0 +1,109 @@
+// palacectl camera convert.
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+
+#include "engine/camera/conversion.h"
+#include "engine/tools/camera_verbs.h"
+
+namespace palace {
+namespace {
+
+/// What --to names: a family, and the container of the file.
+struct ConversionGoal {
+  LensFamily family = LensFamily::kCahvor;
+  CameraFormat format = CameraFormat::kJplText;
+};
+
+Result<ConversionGoal> GoalOf(const CameraOptions& options) {
+  std::string name = options.to;
+  std::string extension = std::filesystem::path(options.out).extension().string();
+  if (name.empty()) {
+    name = extension == ".yml" || extension == ".yaml" || extension == ".xml" ? "opencv5"
+           : extension.size() > 1                                             ? extension.substr(1)
+                                                                              : "";
+  }
+  ConversionGoal goal;
+  const bool ros = name.substr(0, 3) == "ros";
+  name = name == "cpcc" ? "tsai" : name == "opencv" || name == "ros" ? "opencv5" : name;
+  name = name == "ros8" ? "opencv8" : name == "ros_fisheye" ? "fisheye" : name;
+  const auto family = LensFamilyFromName(name);
+  if (!family) {
+    return UsageError("--to " + (options.to.empty() ? "(from the name of --out)" : options.to) +
+                      ": choose cahv, cahvor, cahvore, tsai, pinhole, opencv4, opencv5, opencv8, "
+                      "opencv12, fisheye, ros, ros8 or ros_fisheye");
+  }
+  goal.family = *family;
+  if (goal.family == LensFamily::kTsai) {
+    goal.format = CameraFormat::kWillson;
+  } else if (goal.family > LensFamily::kTsai) {
+    goal.format = ros                   ? CameraFormat::kRosYaml
+                  : extension == ".xml" ? CameraFormat::kOpenCvXml
+                                        : CameraFormat::kOpenCvYaml;
+  }
+  return goal;
+}
+
+void PrintResidual(const ConvertedCamera& converted, LensFamily family, const CameraModel& source) {
+  const Residual& r = converted.residual;
+  std::printf("residual  rms %.6g px, max %.6g px at pixel (%.1f, %.1f), over %d pixels\n",
+              r.rms_px, r.max_px, r.worst_pixel.x(), r.worst_pixel.y(), r.pixels);
+  if (family == LensFamily::kCahv && r.max_px > 1e-6) {
+    std::printf(
+        "          a CAHV camera has no distortion: pictures must be resampled, the residual "
+        "is how far pixels move\n");
+  }
+  if (r.without_ray > 0) {
+    std::printf("warning   %d pixels of the grid have no ray in the source model; left out\n",
+                r.without_ray);
+  }
+  if (r.unseen > 0) {
+    std::printf("warning   %d rays are beyond the range of the new model; left out\n", r.unseen);
+  }
+  if (std::abs(converted.lost_shear_px) > 1e-9) {
+    std::printf(
+        "lost      row shear of %.6g px: the new family has perpendicular rows and columns\n",
+        converted.lost_shear_px);
+  }
+  if (converted.lost_pupil_m > 0) {
+    std::printf(
+        "lost      motion of the entrance pupil, up to %.3g m: the residual holds for far "
+        "points\n",
+        converted.lost_pupil_m);
+  }
+  if (source.unit_m != 1 || family == LensFamily::kTsai) {
+    std::printf("lengths   %s in the source, %s in the new file\n", source.unit_m == 1 ? "m" : "mm",
+                family == LensFamily::kTsai ? "mm" : "m");
+  }
+}
+
+}  // namespace
+
+int RunCameraConvert(const CameraOptions& options) {
+  const auto goal = GoalOf(options);
+  if (!goal) {
+    return FailCamera(goal.error());
+  }
+  const auto model = ReadCameraModel(options.model, options);
+  if (!model) {
+    return FailCamera(model.error());
+  }
+  const auto converted = ConvertCamera(*model, goal->family);
+  if (!converted) {
+    return FailCamera({converted.error().code, options.model + ": " + converted.error().message});
+  }
+  const auto text = CameraToText(converted->model, goal->format);
+  if (!text) {
+    return FailCamera(text.error());
+  }
+  if (const Status written = WriteCameraText(options.out, *text); !written) {
+    return FailCamera(written.error());
+  }
+  std::printf("from      %s: %s\nto        %s: %s, %s\n", options.model.c_str(),
+              FamilyOf(*model).c_str(), options.out.c_str(), FamilyOf(converted->model).c_str(),
+              CameraFormatName(goal->format));
+  PrintResidual(*converted, goal->family, *model);
+  return 0;
+}
+
+}  // namespace palace
