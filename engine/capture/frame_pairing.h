@@ -8,14 +8,9 @@
 #include <optional>
 
 #include "engine/core/time.h"
-#include "engine/model/image.h"
+#include "engine/model/frame_bundle.h"
 
 namespace palace {
-
-struct TimedPicture {
-  Timestamp time;
-  ImageU8 grey;
-};
 
 struct PicturePair {
   TimedPicture left;

@@ -13,6 +13,12 @@
 
 namespace palace {
 
+/// One grey picture and when it was exposed.
+struct TimedPicture {
+  Timestamp time;
+  ImageU8 grey;
+};
+
 /// Grey pictures of both cameras, exposed together.
 struct StereoFrame {
   Timestamp time;  ///< of exposure

@@ -93,7 +93,7 @@ std::string LinePlotSvg(const LinePlot& plot) {
   if (xs.empty() || ys.empty()) {
     return DrawNothing(frame, plot.title);
   }
-  for (const PlotLimit& limit : plot.limits) {
+  for (const PlotReference& limit : plot.limits) {
     ys.Add(limit.y);
   }
   PadRange(xs.min, xs.max, plot.log_x);
@@ -114,7 +114,7 @@ std::string LinePlotSvg(const LinePlot& plot) {
     const double low = std::max(x.min, y.min), high = std::min(x.max, y.max);
     svg += Segment(x.Pixel(low), y.Pixel(low), x.Pixel(high), y.Pixel(high), dashed);
   }
-  for (const PlotLimit& limit : plot.limits) {
+  for (const PlotReference& limit : plot.limits) {
     const double at = y.Pixel(limit.y);
     svg += Segment(frame.left, at, frame.left + frame.width, at, dashed);
   }
@@ -129,7 +129,7 @@ std::string LinePlotSvg(const LinePlot& plot) {
            "\" fill=\"" + SeriesColour(i) + "\"/>\n" +
            DrawText(legend + 20, row, "start", plot.series[i].name);
   }
-  for (const PlotLimit& limit : plot.limits) {
+  for (const PlotReference& limit : plot.limits) {
     svg += Segment(legend, row - 4, legend + 14, row - 4, dashed) +
            DrawText(legend + 20, row, "start", limit.label, "d");
     row += 20;

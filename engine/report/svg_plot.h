@@ -24,7 +24,7 @@ struct PlotSeries {
 };
 
 /// A horizontal line at a limit or a true value.
-struct PlotLimit {
+struct PlotReference {
   double y = 0;
   std::string label;
 };
@@ -34,7 +34,7 @@ struct LinePlot {
   std::string x_label;
   std::string y_label;
   std::vector<PlotSeries> series{};
-  std::vector<PlotLimit> limits{};
+  std::vector<PlotReference> limits{};
   bool log_x = false;  ///< values that are not positive leave a gap
   bool log_y = false;
   bool diagonal = false;  ///< y = x drawn dashed, for reliability diagrams

@@ -139,10 +139,10 @@ Status BundleAssembler::TakePicture(const WireMessage& message, bool is_left, Bu
     left_.reset();
     right_.reset();
   }
-  std::optional<Picture>& mine = is_left ? left_ : right_;
-  std::optional<Picture>& other = is_left ? right_ : left_;
+  std::optional<TimedPicture>& mine = is_left ? left_ : right_;
+  std::optional<TimedPicture>& other = is_left ? right_ : left_;
   report_.pictures_unpaired += mine.has_value() ? 1 : 0;
-  mine = Picture{picture->time, std::move(picture->image)};
+  mine = std::move(*picture);
   if (other && std::abs(SecondsBetween(other->time, mine->time)) > options_.pair_window_s) {
     // Only the newer one can still find a partner.
     ++report_.pictures_unpaired;
@@ -161,7 +161,7 @@ void BundleAssembler::ClosePair(Bundles& done) {
   auto bundle = std::make_shared<FrameBundle>(std::exchange(pending_, {}));
   const Timestamp exposed = left_->time;
   bundle->stereo = std::make_shared<StereoFrame>(
-      StereoFrame{exposed, std::move(left_->image), std::move(right_->image)});
+      StereoFrame{exposed, std::move(left_->grey), std::move(right_->grey)});
   left_.reset();
   right_.reset();
   bundle->rig = rig_;
@@ -207,7 +207,7 @@ Status BundleAssembler::TakeRig(const WireMessage& message, Bundles& done) {
   bundle->discontinuity = rig->discontinuity;
   if (rig->has_pictures && left_ && right_) {
     bundle->stereo = std::make_shared<StereoFrame>(
-        StereoFrame{left_->time, std::move(left_->image), std::move(right_->image)});
+        StereoFrame{left_->time, std::move(left_->grey), std::move(right_->grey)});
   } else {
     report_.pictures_unpaired += (left_ ? 1u : 0u) + (right_ ? 1u : 0u);
     bundle->pose_at_exposure = rig->has_pictures ? std::nullopt : bundle->pose_at_exposure;

@@ -58,10 +58,6 @@ class BundleAssembler {
   const std::map<std::string, std::uint64_t>& counts() const { return counts_; }
 
  private:
-  struct Picture {
-    Timestamp time;
-    ImageU8 image;
-  };
   using Bundles = std::vector<std::shared_ptr<const FrameBundle>>;
 
   Status Take(const WireMessage& message, Bundles& done);
@@ -79,8 +75,8 @@ class BundleAssembler {
   std::optional<std::uint64_t> last_sequence_;
   std::uint64_t next_sequence_ = 0;
   FrameBundle pending_;
-  std::optional<Picture> left_;
-  std::optional<Picture> right_;
+  std::optional<TimedPicture> left_;
+  std::optional<TimedPicture> right_;
   std::optional<VehiclePose> last_pose_;
   std::optional<Timestamp> newest_;
   std::map<std::string, Timestamp> newest_of_;

@@ -59,7 +59,7 @@ Result<TimedPicture> FromJpeg(const image_t& m) {
   }
   TimedPicture picture{{m.utime}, ImageU8(m.width, m.height)};
   for (int y = 0; y < m.height; ++y) {
-    std::copy_n(grey.ptr<std::uint8_t>(y), m.width, picture.image.row(y));
+    std::copy_n(grey.ptr<std::uint8_t>(y), m.width, picture.grey.row(y));
   }
   return picture;
 }
@@ -77,7 +77,7 @@ Result<TimedPicture> FromGrey(const image_t& m) {
   }
   TimedPicture picture{{m.utime}, ImageU8(m.width, m.height)};
   for (int y = 0; y < m.height; ++y) {
-    std::copy_n(m.data.data() + stride * static_cast<std::size_t>(y), width, picture.image.row(y));
+    std::copy_n(m.data.data() + stride * static_cast<std::size_t>(y), width, picture.grey.row(y));
   }
   return picture;
 }

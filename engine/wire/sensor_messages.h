@@ -22,10 +22,6 @@ Result<CommandAck> AckFromWire(const WireMessage& message);
 /// Public in convert.h as well.
 Result<Truth> DecodeTruth(const WireMessage& message);
 
-struct TimedPicture {
-  Timestamp time;
-  ImageU8 image;
-};
 /// GRAY with consistent stride and size, or MJPEG; at most 8192 pixels a side.
 Result<TimedPicture> PictureFromWire(const WireMessage& message);
 

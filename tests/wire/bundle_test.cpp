@@ -302,7 +302,7 @@ TEST(Picture, StrideAndPaddingAreHonoured) {
   const WireMessage message = EncodeBundle(bundle, {})[0];
   const Result<TimedPicture> picture = PictureFromWire(message);
   ASSERT_TRUE(picture.ok());
-  EXPECT_EQ(picture->image.pixels(), (std::vector<std::uint8_t>{1, 2, 3, 4, 5, 6}));
+  EXPECT_EQ(picture->grey.pixels(), (std::vector<std::uint8_t>{1, 2, 3, 4, 5, 6}));
   WireMessage lying = message;
   lying.payload[8 + 8 + 3] = 4;  // width 4 in the same bytes
   const Result<TimedPicture> refused = PictureFromWire(lying);
