@@ -87,7 +87,7 @@ CameraFeed::Outcome CameraFeed::Lose(const Error& why, double now_s) {
   const double pause_s = pause_s_;
   retry_at_s_ = now_s + pause_s;
   pause_s_ = std::min(2 * pause_s_, pauses_.longest_s);
-  counters_.problem = why.message;
+  counters_.problem = why.message + "; trying again";
   counters_.rate_hz = NAN;
   return {std::nullopt, pause_s};
 }

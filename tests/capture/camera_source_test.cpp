@@ -229,7 +229,7 @@ TEST_F(CameraSourceTest, AnUnpluggedCameraIsToldAgesAndComesBack) {
 
   right().Unplug();
   Until([&] { return !source_->Status().cameras[1].problem.empty(); });
-  EXPECT_EQ(source_->Status().cameras[1].problem, "the cable is out");
+  EXPECT_EQ(source_->Status().cameras[1].problem, "the cable is out; trying again");
   EXPECT_TRUE(source_->Status().cameras[0].problem.empty());
   for (const double later_s : {0.5, 3.0}) {
     now_s_ = kMonotonicStart_s + later_s;
