@@ -220,7 +220,9 @@ void DrawDiagnoseWorkspace(const EngineSnapshot& snap, const Rect& body, Diagnos
   // Three columns: what happened, what was decided from what, what the machine did.
   const float left = std::floor((body.w - 2 * gap) * 0.32f);
   const float middle = std::floor((body.w - 2 * gap) * 0.36f);
-  DrawEvents(snap, {body.x, body.y, left, body.h}, state, ui);
+  const float health_h = std::min(s.Px(262), std::round(body.h * 0.4f));
+  DrawEvents(snap, {body.x, body.y, left, body.h - health_h - gap}, state, ui);
+  DrawStereoHealth(snap, {body.x, body.bottom() - health_h, left, health_h}, ui);
   const float x = body.x + left + gap;
   const auto rows_h = [&](std::size_t rows, float head) {
     return s.Px(head + 26 * static_cast<float>(std::max<std::size_t>(rows, 1)));

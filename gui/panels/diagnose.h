@@ -18,6 +18,8 @@ void DrawGuards(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui);
 void DrawAlarmTable(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui);
 /// What each camera gave, and what was lost on the way.
 void DrawCameraTable(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui);
+/// What the last pair says about the cameras: coverage, rows, brightness, scale against the laser.
+void DrawStereoHealth(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui);
 /// Figures of the candidates of the newest map.
 void DrawSiteTable(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui);
 void DrawDiagnoseWorkspace(const EngineSnapshot& snap, const Rect& body, DiagnoseState& state,

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "engine/core/hash.h"
 #include "gui/panels/frame_bar.h"
 #include "gui/widgets/number_text.h"
 

@@ -1,6 +1,7 @@
 // Centre of Tune: the picture, the maps, and applied against preview.
 #include <cmath>
 
+#include "engine/core/hash.h"
 #include "engine/core/units.h"
 #include "gui/panels/fly_panels.h"
 #include "gui/panels/tune.h"

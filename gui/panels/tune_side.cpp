@@ -1,6 +1,7 @@
 // Right column of Tune: cells, site chosen, history, apply.
 #include <cmath>
 
+#include "engine/core/hash.h"
 #include "gui/panels/tune.h"
 #include "gui/widgets/button.h"
 #include "gui/widgets/number_text.h"

@@ -49,10 +49,4 @@ std::string AgeText(double age_s) {
   return age_s < 0.25 ? Fixed(age_s * 1000, 0) + " ms" : Fixed(age_s, 1) + " s";
 }
 
-std::string ShortHash(std::uint64_t hash) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%06llx", static_cast<unsigned long long>(hash & 0xFFFFFFu));
-  return text;
-}
-
 }  // namespace palace

@@ -17,7 +17,5 @@ std::string ClockText(Timestamp time);
 std::string LengthText(double seconds);
 /// Ages under a second as "24 ms", above as "1.8 s"; not finite: "never".
 std::string AgeText(double age_s);
-/// First six hex digits of a hash.
-std::string ShortHash(std::uint64_t hash);
 
 }  // namespace palace

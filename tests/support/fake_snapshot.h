@@ -232,7 +232,16 @@ inline EngineSnapshot Snapshot(MissionState state = MissionState::kArmed,
   snap.right_rectified = snap.left_rectified;
   snap.frame =
       std::make_shared<const StereoFrame>(StereoFrame{{kNow_us - 24'000}, picture, picture});
-  snap.stereo_quality = {0.93, 0.22, 1.0, 0.12, 38.2, false, false};
+  snap.stereo_quality.coverage = 0.93;
+  snap.stereo_quality.row_error_px = 0.22;
+  snap.stereo_quality.median_sigma_px = 0.12;
+  snap.stereo_quality.median_depth_m = 38.2;
+  snap.stereo_quality.row_shift_px = -0.08;
+  snap.stereo_quality.row_spread_px = 0.31;
+  snap.range_agreement = {1.004, 0.0011, 40};
+  auto range = std::make_shared<RangeMap>();
+  range->camera = Camera();
+  snap.range = range;
   snap.settings_hash = snap.preview_hash = 0x4f2a9c;
   snap.applied = Decision(snap.X_WC, snap.settings.slad, snap.settings_hash);
   FillMission(snap, state);

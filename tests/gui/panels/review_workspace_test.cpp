@@ -235,6 +235,29 @@ TEST(DiagnoseWorkspace, EachCameraHasItsCounters) {
   }
 }
 
+TEST(DiagnoseWorkspace, StereoHealthNamesWhatIsWrong) {
+  EngineSnapshot snap = fake::Snapshot(MissionState::kProposed);
+  const auto health = [&](const char* row) {
+    UiHarness ui(1920, 1080);
+    DiagnoseState state;
+    ui.Frame([&](UiFrame& f) { DrawDiagnoseWorkspace(snap, BodyOf(1920, 1080), state, f); });
+    const Item* item = ui.items.Find(std::string("health/") + row);
+    return item == nullptr ? std::string("not drawn")
+                           : (item->enabled ? "fine: " : "bad: ") + item->text;
+  };
+  EXPECT_EQ(health("Pictures"), "fine: Pictures two different views");
+  EXPECT_EQ(health("Range against the laser"), "fine: Range against the laser +0.4 % ± 0.3 %");
+  snap.stereo_quality.suspect_swapped = true;
+  EXPECT_EQ(health("Pictures"), "bad: Pictures left and right look exchanged");
+  snap.stereo_quality.row_error_px = 0.83;
+  Alarm alarm;
+  alarm.id = "row_error";
+  snap.mission.alarms.push_back(alarm);
+  EXPECT_EQ(health("Row error"), "bad: Row error 0.83 px");
+  snap.range_agreement = {};
+  EXPECT_EQ(health("Range against the laser"), "fine: Range against the laser ––");
+}
+
 TEST(DiagnoseWorkspace, TextsStayInTheirPanels) {
   for (const WindowSize& size : kWindowSizes) {
     SCOPED_TRACE(size.name);
