@@ -197,9 +197,11 @@ Result<CahvorModel> LinearizeCamera(const CameraModel& camera, FieldOfView field
 
 Result<AlignedPair> AlignPair(const CameraModel& left, const CameraModel& right,
                               const AlignmentOptions& options) {
-  for (const Status& status : {CheckSize(left, "the left "), CheckSize(right, "the right ")}) {
-    if (!status) {
-      return status.error();
+  if (options.form != AlignmentForm::kAverage) {
+    for (const Status& status : {CheckSize(left, "the left "), CheckSize(right, "the right ")}) {
+      if (!status) {
+        return status.error();
+      }
     }
   }
   const Eigen::Vector3d baseline = CentreOf(right) - CentreOf(left);

@@ -5,8 +5,9 @@
 // opposite the image centre (hc, vc); the tangent of that ray along rows or columns decides, the
 // least one inside, the greatest one covering. Rays nearer than 15 degrees to the new image plane
 // count as 15 degrees. Columns 0 and width - 1 (rows likewise) are put on the extents found.
-// Distorted sides may bulge past the three points; JPL accepts that, and so do we. Source:
-// NASA-AMMOS/VICAR, cahvor library, functions as named below; rules only, own code.
+// Distorted sides may bulge past the three points; JPL accepts that, and so do we.
+//
+// Source: NASA-AMMOS/VICAR, cahvor library, functions as named below; rules only, own code.
 #pragma once
 
 #include "engine/camera/camera_model.h"
@@ -50,8 +51,8 @@ struct AlignmentOptions {
 };
 
 /// Aligns a pair whose models share the frame F and the unit of length. Each camera's own size
-/// counts. Refuses cameras without a size or baseline, axes along the baseline, picture borders
-/// without a ray, and views that do not overlap.
+/// counts. Refuses cameras without a size (kAverage needs none) or baseline, axes along the
+/// baseline, picture borders without a ray, and views that do not overlap.
 Result<AlignedPair> AlignPair(const CameraModel& left, const CameraModel& right,
                               const AlignmentOptions& options = {});
 

@@ -191,6 +191,10 @@ std::optional<CameraModel> ConvertedExactly(const CameraModel& source, LensFamil
   if (cahvor != nullptr && family == LensFamily::kCahvore) {
     return CameraModel{CahvoreModel{*cahvor, Eigen::Vector3d::Zero(), 1}, 1, source.pose_is_known};
   }
+  const auto* cahvore = std::get_if<CahvoreModel>(&source.lens);
+  if (cahvore != nullptr && cahvore->linearity == 1 && family == LensFamily::kCahvor) {
+    return CameraModel{cahvore->base, 1, source.pose_is_known};  // far points; the pupil is told
+  }
   if (opencv != nullptr && opencv->lens == OpenCvLens::kPolynomial && IsPolynomialFamily(family) &&
       CoefficientsUsed(*opencv) <= CoefficientsOf(family)) {
     OpenCvModel model = *opencv;

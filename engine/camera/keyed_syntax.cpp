@@ -130,8 +130,15 @@ KeyedText ParseNumberLines(std::string_view text, const std::string& file) {
     const std::string_view trimmed = Trimmed(content);
     if (trimmed.substr(0, 1) == "#") {
       AddAssignment(keyed, line, trimmed.substr(1));
-    } else if (!trimmed.empty()) {
-      keyed.Add(std::to_string(++count), line, trimmed.substr(0, trimmed.find_first_of(" \t#")));
+    }
+    for (std::string_view rest = trimmed; !rest.empty() && rest[0] != '#';) {
+      const std::string_view word = rest.substr(0, rest.find_first_of(" \t#"));
+      // A word that is no number ends the line, but a line must begin with one.
+      if (rest.size() < trimmed.size() && word.find_first_of("0123456789+-.") != 0) {
+        break;
+      }
+      keyed.Add(std::to_string(++count), line, word);
+      rest = Trimmed(rest.substr(word.size()));
     }
   });
   return keyed;

@@ -61,7 +61,8 @@ KeyedText ParseAssignments(std::string_view text, const std::string& file);
 /// PDS3 and VICAR labels: `key = value` wherever it stands, values quoted, bare or in (brackets)
 /// over several lines; keys inside GROUP, OBJECT or PROPERTY are "NAME.KEY". Ends at END.
 KeyedText ParseLabel(std::string_view text, const std::string& file);
-/// Plain numbers, the first of each line; keys are 1, 2, 3... `# key = value` lines count by key.
+/// Plain numbers up to the first word of a line that is none; keys are 1, 2, 3... `# key = value`
+/// lines count by key.
 KeyedText ParseNumberLines(std::string_view text, const std::string& file);
 /// YAML: nested maps as "outer.inner", [lists] over several lines, "- item" lists. Tags are
 /// skipped.

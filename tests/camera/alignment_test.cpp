@@ -214,6 +214,10 @@ TEST(Alignment, ImpossiblePairsAreRefusedWithTheReason) {
   CameraModel no_size = left;
   SetSize(no_size, 0, 0);
   EXPECT_NE(refusal(no_size, left).find("Dimensions"), std::string::npos);
+  EXPECT_TRUE(AlignPair(no_size, Placed(random, 1, {1, 0, 0}, {0, 0, 0}),
+                        {AlignmentForm::kAverage, FieldOfView::kInside, {}})
+                  .ok())
+      << "mean scale and centre need no picture";
   OpenCvModel folded;
   folded.pinhole = {640, 480, 300, 300, 320, 240};
   folded.coefficients = 4;

@@ -88,6 +88,18 @@ TEST(CameraFiles, LabelsAreReadWhereverTheirGroupStands) {
   EXPECT_EQ(HeightOf(vicar), 480);
 }
 
+TEST(CameraFiles, WillsonFilesMayLabelTheirNumbersOrShareLines) {
+  const TsaiModel plain = std::get<TsaiModel>(Parsed(kWillsonText, "a.cpcc").lens);
+  EXPECT_EQ(plain.Rz_rad, 0.035000288833);
+  EXPECT_EQ(plain.T.z(), 1999.7624626);
+  const std::string labelled = Replaced(
+      Replaced(kWillsonText, "576\n576\n0.023\n", "576 [sel] Ncx\n576 0.023\n"), "\n0\n0\n", "\n");
+  const TsaiModel model = std::get<TsaiModel>(Parsed(labelled, "b.cpcc").lens);
+  EXPECT_EQ(model.frame_columns, 576);
+  EXPECT_EQ(model.dx, 0.023);
+  EXPECT_EQ(model.Rz_rad, 0.035000288833);
+}
+
 TEST(CameraFiles, OpenCvPairsNeedAChoiceAndTellThePose) {
   const auto none = ParseCameraText(kOpenCvXmlText, "pair.xml");
   ASSERT_FALSE(none.ok());
