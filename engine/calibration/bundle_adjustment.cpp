@@ -12,7 +12,6 @@ namespace {
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kLeastDamping = 1e-12;
 constexpr double kMostDamping = 1e8;
-constexpr double kCostTolerance = 1e-12;       // relative decrease that counts as arrived
 constexpr double kRobustScale = 1.5;           // of the median residual: Cauchy's loss scale
 constexpr double kLeastRobustScale_px = 0.01;  // perfect data still need a scale
 constexpr double kMedianPerSigma = 1.17741;    // median length of a 2-D normal vector of sigma 1
@@ -327,7 +326,7 @@ int Minimise(const Bundle& bundle, const BundleOptions& options, double sigma_px
         const RigEstimate moved = Apply(estimate, *step);
         const double moved_cost = bundle.Cost(moved, sigma_px, scale_px);
         if (moved_cost <= cost) {
-          converged = cost - moved_cost <= kCostTolerance * cost;
+          converged = cost - moved_cost <= options.cost_tolerance * cost;
           estimate = moved;
           cost = moved_cost;
           damping = std::max(damping * 0.1, kLeastDamping);

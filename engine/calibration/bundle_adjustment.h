@@ -50,6 +50,7 @@ struct BundleOptions {
   bool robust = true;  ///< Cauchy's loss; false: plain least squares
   LensPrior prior;
   int max_iterations = 60;
+  double cost_tolerance = 1e-12;  ///< relative decrease of the cost that counts as arrived
 };
 
 /// One residual, observed minus predicted.

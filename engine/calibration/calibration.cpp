@@ -18,6 +18,7 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kLeastPoints = 12;  // a side with fewer is not used
 constexpr double kMostOutliers = 0.25;    // share of all points
 constexpr int kRejectionRounds = 6;
+constexpr double kRobustTolerance = 1e-6;    // of a fit that only tells outliers apart
 constexpr double kMedianPerSigma = 1.17741;  // median length of a 2-D normal vector of sigma 1
 
 std::string DegreesText(double rad) {
@@ -98,13 +99,16 @@ struct Fit {
 /// Robust first, then plain least squares with outliers taken out until their set is stable.
 Result<Fit> FitWithRejection(const CalibrationTarget& target, const std::vector<TargetView>& views,
                              const RigEstimate& start, BundleOptions options, double reject_sigma) {
+  const double cost_tolerance = options.cost_tolerance;
   options.robust = true;
+  options.cost_tolerance = kRobustTolerance;
   auto fitted = AdjustBundle(target, views, start, options);
   if (!fitted) {
     return fitted.error();
   }
   Fit fit;
   options.robust = false;
+  options.cost_tolerance = cost_tolerance;
   std::size_t before = 0;
   for (int round = 0; round < kRejectionRounds; ++round) {
     fit.rejected = FarOut(Residuals(target, views, fitted->estimate), reject_sigma);

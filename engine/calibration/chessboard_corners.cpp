@@ -51,9 +51,13 @@ void RefineCorners(const cv::Mat& grey, int columns, int rows, std::vector<cv::P
 
 /// What board is in the picture when it is not the one looked for.
 std::string WhatIsSeen(const cv::Mat& grey) {
-  cv::Mat corners, meta;
+  // Only the count is wanted: a small picture does, and the search is slow.
+  constexpr double kSearchSide_px = 400;
+  const double scale = std::min(1.0, kSearchSide_px / std::max(grey.cols, grey.rows));
+  cv::Mat small, corners, meta;
+  cv::resize(grey, small, {}, scale, scale, cv::INTER_AREA);
   const cv::Size least(3, 3);
-  if (!cv::findChessboardCornersSB(grey, least, corners,
+  if (!cv::findChessboardCornersSB(small, least, corners,
                                    cv::CALIB_CB_LARGER | cv::CALIB_CB_NORMALIZE_IMAGE, meta)) {
     return "no chessboard found";
   }

@@ -11,6 +11,7 @@ namespace palace {
 namespace {
 
 constexpr double kMostStartSigma_px = 3;  // one camera alone; more is another target or a bad board
+constexpr double kStartTolerance = 1e-5;  // a start need not be the minimum
 constexpr double kPairAngle_rad = 0.05;   // relative pose of one view against the others'
 constexpr double kPairShift = 0.1;        // of the distance to the board
 
@@ -25,6 +26,7 @@ struct OneCamera {
 BundleOptions LensOnly(const std::vector<LensIndex>& free, const LensPrior& prior) {
   BundleOptions options;
   options.prior = prior;
+  options.cost_tolerance = kStartTolerance;
   for (const LensIndex index : free) {
     options.free[index] = true;
   }

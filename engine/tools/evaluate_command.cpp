@@ -2,7 +2,9 @@
 
 #include <CLI/CLI.hpp>
 
+#include "engine/tools/evaluate_calibration.h"
 #include "engine/tools/evaluate_landing.h"
+#include "engine/tools/evaluate_stereo.h"
 #include "engine/tools/experiment.h"
 
 namespace palace {
@@ -10,7 +12,10 @@ namespace palace {
 void AddEvaluateCommand(CLI::App& app, int& exit_code, SceneCameraFactory camera) {
   CLI::App* evaluate = app.add_subcommand("evaluate", "Experiments with seeds and intervals");
   evaluate->require_subcommand(1);
-  AddExperiments(*evaluate, {LandingExperiment(std::move(camera))}, exit_code);
+  AddExperiments(*evaluate,
+                 {LandingExperiment(std::move(camera)), StereoAccuracyExperiment(),
+                  StereoCostExperiment(), CalibrationExperiment()},
+                 exit_code);
 }
 
 }  // namespace palace

@@ -17,7 +17,6 @@ namespace palace {
 namespace {
 
 using calibration_world::CountInside;
-using calibration_world::ErrorOf;
 using calibration_world::Observe;
 using calibration_world::Options;
 using calibration_world::TruthOf;
@@ -50,7 +49,7 @@ TEST(CalibrationTest, ExactObservationsGiveTheExactRig) {
     options.prior = {1e3, 1e3, 1e3};  // even a weak prior moves an exact answer
     const auto result = Calibrate(session.target, Observe(session.target, truth, 0, seed), options);
     ASSERT_TRUE(result.ok()) << result.error().message;
-    const CameraVector error = ErrorOf(result->estimate, truth);
+    const CameraVector error = RigDifference(result->estimate, truth);
     EXPECT_LT(error.head<kRightRotation>().cwiseAbs().maxCoeff(), 1e-4) << "seed " << seed;
     EXPECT_LT(error.tail<6>().cwiseAbs().maxCoeff(), 1e-6) << "seed " << seed;
     EXPECT_LT(CheckEpipolar(*result).max_px, 1e-4) << "seed " << seed;
@@ -70,7 +69,7 @@ TEST(CalibrationTest, TruthLiesInsideTheStatedSigmas) {
         Calibrate(session.target, Observe(session.target, truth, 0.03, seed), Options());
     ASSERT_TRUE(result.ok()) << seed << ": " << result.error().message;
     EXPECT_NEAR(result->sigma_px, 0.03, 0.002) << "seed " << seed;
-    const CameraVector error = ErrorOf(result->estimate, truth);
+    const CameraVector error = RigDifference(result->estimate, truth);
     inside_3 += CountInside(error, result->covariance, 3);
     inside_1 += CountInside(error, result->covariance, 1);
     square_sum += error.dot(result->covariance.ldlt().solve(error));
@@ -107,7 +106,7 @@ TEST(CalibrationTest, OutliersMoveTheResultByLessThanItsSigma) {
   ASSERT_TRUE(dirty.ok()) << dirty.error().message;
   EXPECT_NEAR(dirty->outliers, moved, 3) << "of " << dirty->points;
   EXPECT_NEAR(dirty->sigma_px, clean->sigma_px, 0.002);
-  const CameraVector shift = ErrorOf(dirty->estimate, clean->estimate);
+  const CameraVector shift = RigDifference(dirty->estimate, clean->estimate);
   for (int i = 0; i < kCameraSize; ++i) {
     EXPECT_LT(std::abs(shift[i]), std::sqrt(dirty->covariance(i, i))) << "parameter " << i;
   }
@@ -129,7 +128,7 @@ TEST(CalibrationTest, MissedDotsAndOneSidedViewsAreTaken) {
   const auto result = Calibrate(session.target, views, Options());
   ASSERT_TRUE(result.ok()) << result.error().message;
   EXPECT_EQ(result->views.size(), views.size() - 1);
-  EXPECT_GE(CountInside(ErrorOf(result->estimate, truth), result->covariance, 3.5), 21);
+  EXPECT_GE(CountInside(RigDifference(result->estimate, truth), result->covariance, 3.5), 21);
 }
 
 TEST(CalibrationTest, ThePitchScalesTheBaselineAndNothingElse) {

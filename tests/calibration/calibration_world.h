@@ -8,18 +8,18 @@
 
 #include "engine/calibration/calibration.h"
 #include "engine/calibration/lens.h"
+#include "engine/calibration/rig_difference.h"
 #include "engine/core/check.h"
 #include "engine/core/random.h"
 #include "engine/simulation/calibration_session.h"
 
 namespace palace::calibration_world {
 
-/// The session's rig in the form that is fitted.
+/// The session's rig and board poses in the form that is fitted.
 inline RigEstimate TruthOf(const CalibrationSession& session) {
-  RigEstimate truth;
-  RigidTransform X_FC0, X_FC1;
-  truth.lens = {LensFromCahvor(session.left, X_FC0), LensFromCahvor(session.right, X_FC1)};
-  truth.X_C0C1 = X_FC0.Inverse() * X_FC1;
+  RigEstimate truth = RigFromModels(session.left, session.right);
+  RigidTransform X_FC0;
+  LensFromCahvor(session.left, X_FC0);
   for (const RigidTransform& X_FT : session.X_FT) {
     truth.X_C0T.push_back(X_FC0.Inverse() * X_FT);
   }
@@ -56,15 +56,6 @@ inline CalibrationOptions Options() {
   options.width = 640;
   options.height = 480;
   return options;
-}
-
-/// Estimate minus truth in the order of the camera parameters.
-inline CameraVector ErrorOf(const RigEstimate& estimate, const RigEstimate& truth) {
-  const Eigen::AngleAxisd turn(truth.X_C0C1.R.transpose() * estimate.X_C0C1.R);
-  CameraVector error;
-  error << estimate.lens[0] - truth.lens[0], estimate.lens[1] - truth.lens[1],
-      turn.angle() * turn.axis(), estimate.X_C0C1.p - truth.X_C0C1.p;
-  return error;
 }
 
 inline int CountInside(const CameraVector& error, const CameraMatrix& covariance, double sigmas) {

@@ -19,7 +19,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using calibration_world::CountInside;
-using calibration_world::ErrorOf;
 using calibration_world::Options;
 using calibration_world::TruthOf;
 
@@ -67,7 +66,7 @@ TEST(RenderedCalibrationTest, TruthIsFoundWithinItsSigmas) {
     ASSERT_TRUE(calibration.ok()) << calibration.error().message;
     const RigEstimate truth = TruthOf(session);
     ExpectWithinLimits(*calibration, truth);
-    inside += CountInside(ErrorOf(calibration->estimate, truth), calibration->covariance, 3);
+    inside += CountInside(RigDifference(calibration->estimate, truth), calibration->covariance, 3);
     parameters += kCameraSize;
   }
   EXPECT_GE(inside, 0.95 * parameters);
@@ -151,7 +150,8 @@ TEST(DotGridTest, TruthIsFoundWithinTheLimitsAndItsSigmas) {
   ASSERT_TRUE(calibration.ok()) << calibration.error().message;
   ExpectWithinLimits(*calibration, truth);
   EXPECT_LT(calibration->held_out_rms_px, 0.03);
-  EXPECT_GE(CountInside(ErrorOf(calibration->estimate, truth), calibration->covariance, 3), 21);
+  EXPECT_GE(CountInside(RigDifference(calibration->estimate, truth), calibration->covariance, 3),
+            21);
 }
 
 TEST(ChessboardTest, PhotographedPairsReachOpenCvsFigures) {

@@ -270,7 +270,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST(DetectTargetTest, PicturesWithoutATargetAreNoTarget) {
   RandomStream random(3, "noise");
-  ImageU8 noise(640, 480);
+  ImageU8 noise(320, 240);
   for (std::uint8_t& pixel : noise.pixels()) {
     pixel = static_cast<std::uint8_t>(random.Index(256));
   }
