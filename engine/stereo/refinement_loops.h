@@ -160,11 +160,31 @@ void SmoothDown(const float* const* rows, int half, int width, float limit, cons
 
 // ---- warp ----
 
+/// Coefficients c of the cubic B-spline through the values: c = s * h, h_k = sqrt(3) z^|k| with
+/// z = sqrt(3) - 2 (Unser, Aldroubi & Eden 1993); |z|^8 is 3e-5.
+void SplineRow(const float* __restrict values, int width, float* __restrict coefficients) {
+  constexpr float kPole = -0.26794919F;
+  float weight[kSplineReach_px + 1];
+  weight[0] = 1.7320508F;
+  for (int k = 1; k <= kSplineReach_px; ++k) {
+    weight[k] = weight[k - 1] * kPole;
+  }
+  for (int x = 0; x < width; ++x) {
+    coefficients[x] = weight[0] * values[x];
+  }
+  for (int k = 1; k <= kSplineReach_px; ++k) {
+    const float share = weight[k];
+    for (int x = 0; x < width; ++x) {
+      coefficients[x] += share * (values[x - k] + values[x + k]);
+    }
+  }
+}
+
 constexpr int kWarpBlock = 64;
 
 // Each block first finds the places, then fetches four pixels for each (the only step that is not
 // SIMD), then interpolates.
-void WarpRow(const float* __restrict right, const float* __restrict disparity,
+void WarpRow(const float* __restrict coefficients, const float* __restrict disparity,
              const float* __restrict known, int width, float* __restrict warped) {
   int whole[kWarpBlock];
   float part[kWarpBlock];
@@ -178,7 +198,7 @@ void WarpRow(const float* __restrict right, const float* __restrict disparity,
       part[i] = place - static_cast<float>(whole[i]);
     }
     for (int i = 0; i < count; ++i) {
-      const float* p = right + whole[i];
+      const float* p = coefficients + whole[i];
       taps[0][i] = p[-1];
       taps[1][i] = p[0];
       taps[2][i] = p[1];
@@ -186,10 +206,10 @@ void WarpRow(const float* __restrict right, const float* __restrict disparity,
     }
     for (int i = 0; i < count; ++i) {
       const float a = taps[0][i], b = taps[1][i], c = taps[2][i], d = taps[3][i], t = part[i];
-      const float slope = c - a;
-      const float square = 2.0F * a - 5.0F * b + 4.0F * c - d;
-      const float cube = 3.0F * (b - c) + d - a;
-      const float value = 0.5F * (b + b + t * (slope + t * (square + t * cube)));
+      const float u = 1.0F - t;
+      const float value = (u * u * u * a + (4.0F - 3.0F * t * t * (1.0F + u)) * b +
+                           (4.0F - 3.0F * u * u * (1.0F + t)) * c + t * t * t * d) *
+                          (1.0F / 6.0F);
       warped[first + i] = known[first + i] != 0.0F ? value : 0.0F;
     }
   }
@@ -204,6 +224,8 @@ void Slide(const float* __restrict enter_a, const float* __restrict enter_b,
     columns[x] = columns[x] + enter_a[x] * enter_b[x] - leave_a[x] * leave_b[x];
   }
 }
+
+constexpr float kLeastEnergyShare = 0.3F;  // texture drowned in noise must not step without bound
 
 // The results are parameters of their own: compilers honour __restrict only there.
 inline void FitInto(const FitSums s, const FitLimits limit, int width, float* __restrict step_px,
@@ -223,11 +245,15 @@ inline void FitInto(const FitSums s, const FitLimits limit, int width, float* __
     const float gain = Smaller(Larger(lr / Larger(rr, 1e-6F), 0.5F), 2.0F);
     const float eg = lg - gain * rg;
     const float ee = ll - gain * (2.0F * lr - gain * rr);
-    const float step = -eg / Larger(gg, 1e-6F);
-    const float variance = Larger((ee + eg * step) / (n - 3.0F), limit.least_variance);
+    const float plain = -eg / Larger(gg, 1e-6F);
+    const float variance = Larger((ee + eg * plain) / (n - 3.0F), limit.least_variance);
+    // Camera noise adds to the gradient's energy but not to e g: without its share the step is not
+    // too short on weak texture.
+    const float energy = gg - n * limit.gradient_noise_share * variance;
+    const float step = -eg / Larger(energy, Larger(kLeastEnergyShare * gg, 1e-6F));
     step_px[x] = good ? Smaller(Larger(step, -1.0F), 1.0F) : 0.0F;
     noise_energy[x] = variance * gg;
-    gradient_energy[x] = good ? gg - n * limit.gradient_noise_share * variance : 0.0F;
+    gradient_energy[x] = good ? energy : 0.0F;
   }
 }
 

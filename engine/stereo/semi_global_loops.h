@@ -114,7 +114,7 @@ struct Chain {
   Byte least;
 };
 
-inline void StartChain(Chain& chain) {
+inline void StartChain(Chain& chain, int wide) {
   chain.now = 0;
   chain.least = 0;
   for (auto& buffer : chain.buffer) {
@@ -122,7 +122,7 @@ inline void StartChain(Chain& chain) {
       cost = kPathGuardCost;
     }
   }
-  for (int k = 0; k < 256; ++k) {
+  for (int k = 0; k < wide; ++k) {
     chain.buffer[0][kPathGuard + k] = 0;
   }
 }
@@ -142,7 +142,7 @@ void AggregateAlong(const Byte* const* cost, int columns, int blocks, int small_
   const int wide = blocks * kDisparityBlock;
   Chain chains[2 * kRowsTogether];
   for (Chain& chain : chains) {
-    StartChain(chain);
+    StartChain(chain, wide);
   }
   for (int x = 0; x < columns; ++x) {
     const long forth = static_cast<long>(x) * wide;

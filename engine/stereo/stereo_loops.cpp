@@ -8,9 +8,9 @@ namespace palace {
 const StereoLoops* LoopsBuiltForAvx2();  // stereo_loops_avx2.cpp; null where it was not built
 
 const StereoLoops& PortableLoops() {
-  static constexpr StereoLoops loops{CensusRow, MatchRow,    AggregateDown, AggregateAlong,
-                                     ChooseRow, SmoothAlong, SmoothDown,    WarpRow,
-                                     Slide,     SumAlong,    FitRow,        FinishRow};
+  static constexpr StereoLoops loops{
+      CensusRow, MatchRow, AggregateDown, AggregateAlong, ChooseRow, SmoothAlong, SmoothDown,
+      SplineRow, WarpRow,  Slide,         SumAlong,       FitRow,    FinishRow};
   return loops;
 }
 

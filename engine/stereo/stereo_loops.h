@@ -10,6 +10,7 @@ namespace palace {
 inline constexpr int kCensusPlanes = 3;     ///< bytes of a census code; each has its own plane
 inline constexpr int kCensusHalf_px = 3;    ///< half side of the census window
 inline constexpr int kDisparityBlock = 32;  ///< disparities are searched in blocks of so many
+inline constexpr int kSplineReach_px = 8;   ///< of the filter that finds spline coefficients
 inline constexpr int kPathGuard = 16;       ///< bytes between the path costs of two pixels
 inline constexpr std::uint8_t kPathGuardCost = 191;  ///< in those bytes: never the cheapest
 inline constexpr int kRowsTogether = 2;              ///< rows that AlongRows takes at once
@@ -83,8 +84,11 @@ struct StereoLoops {
   /// The same over rows[0 .. 2 half], rows[half] being the centre; kept within max_shift of start.
   void (*smooth_down)(const float* const* rows, int half, int width, float limit,
                       const float* start, float max_shift, float* out);
-  /// The right picture at x - d(x): Catmull-Rom cubic through four pixels. 0 where known is 0.
-  void (*warp)(const float* right, const float* disparity, const float* known, int width,
+  /// Coefficients of the cubic B-spline through a row. Values are readable kSplineReach_px further
+  /// on both sides.
+  void (*spline)(const float* values, int width, float* coefficients);
+  /// The right picture at x - d(x), from its spline coefficients. 0 where known is 0.
+  void (*warp)(const float* coefficients, const float* disparity, const float* known, int width,
                float* warped);
   /// columns[x] += a[x] b[x] of the row that enters, -= that of the row that leaves.
   void (*slide)(const float* enter_a, const float* enter_b, const float* leave_a,
@@ -95,7 +99,7 @@ struct StereoLoops {
   void (*finish)(const RowFit& fit, int width, const RowFinish& row);
 };
 
-inline constexpr int kLargestHalf_px = 10;
+inline constexpr int kLargestHalf_px = 10;  ///< of the refinement's window
 
 /// Runs on every x86-64.
 const StereoLoops& PortableLoops();

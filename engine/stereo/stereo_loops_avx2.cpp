@@ -11,9 +11,9 @@ const StereoLoops* LoopsBuiltForAvx2();
 
 const StereoLoops* LoopsBuiltForAvx2() {
 #if defined(__AVX2__)
-  static constexpr StereoLoops loops{CensusRow, MatchRow,    AggregateDown, AggregateAlong,
-                                     ChooseRow, SmoothAlong, SmoothDown,    WarpRow,
-                                     Slide,     SumAlong,    FitRow,        FinishRow};
+  static constexpr StereoLoops loops{
+      CensusRow, MatchRow, AggregateDown, AggregateAlong, ChooseRow, SmoothAlong, SmoothDown,
+      SplineRow, WarpRow,  Slide,         SumAlong,       FitRow,    FinishRow};
   return &loops;
 #else
   return nullptr;

@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/core/random.h"
 #include "engine/core/units.h"
 #include "tests/support/synthetic_stereo.h"
 
