@@ -110,8 +110,10 @@ Result<CameraFormat> CameraFormatOf(std::string_view text, const std::string& na
   if (yaml.Has("distortion_model") || yaml.Has("projection_matrix.data") || yaml.Has("P")) {
     return CameraFormat::kRosYaml;
   }
-  if (yaml.Has("camera_matrix.data") || yaml.Has("cameraMatrix.data") || yaml.Has("M1.data")) {
-    return CameraFormat::kOpenCvYaml;
+  for (const char* key : {"camera_matrix", "cameraMatrix", "M1"}) {
+    if (yaml.Has(key) || yaml.Has(std::string(key) + ".data")) {
+      return CameraFormat::kOpenCvYaml;
+    }
   }
   if (IsNumbers(text)) {
     return CameraFormat::kWillson;
@@ -135,6 +137,9 @@ Result<CameraModel> ParseCameraText(std::string_view text, const std::string& na
                                     const CameraFileOptions& options) {
   if (text.size() > kSizeLimit) {
     return InvalidError(name + ": larger than 16 MiB; is it a camera model?");
+  }
+  if (text.substr(0, 3) == "\xEF\xBB\xBF") {
+    text.remove_prefix(3);  // the byte order mark that some editors write
   }
   const auto format = CameraFormatOf(text, name);
   if (!format) {

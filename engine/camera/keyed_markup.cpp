@@ -68,7 +68,11 @@ class YamlReader {
       }
       const std::size_t indent = content_.find_first_not_of(" \t");
       if (trimmed[0] == '-' && (trimmed.size() == 1 || trimmed[1] == ' ')) {
-        items_ += " " + std::string(Trimmed(trimmed.substr(1)));
+        std::string_view item = trimmed;
+        while (item.substr(0, 2) == "- ") {  // lists of lists are read as one
+          item = Trimmed(item.substr(1));
+        }
+        items_ += " " + std::string(item == "-" ? std::string_view{} : item);
         continue;
       }
       FlushItems();

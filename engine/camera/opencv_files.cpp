@@ -142,8 +142,12 @@ Result<CameraModel> ReadOpenCv(const KeyedText& text, const CameraFileOptions& o
     model.lens = OpenCvLens::kFisheye;
   }
   std::string matrix = single;
-  std::vector<std::string> distortion = {"distortion_coefficients", "distCoeffs",
-                                         "Distortion_Coefficients", "dist_coeffs", "D"};
+  std::vector<std::string> distortion = {"distortion_coefficients",
+                                         "distCoeffs",
+                                         "Distortion_Coefficients",
+                                         "dist_coeffs",
+                                         "dist_coeff",
+                                         "D"};
   const bool is_pair = single.empty() && !of_left.empty() && !of_right.empty();
   const bool is_right = is_pair && options.side == StereoSide::kRight;
   if (is_pair) {

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include <gtest/gtest.h>
+
 namespace palace {
 
 struct CameraText {
@@ -133,6 +135,13 @@ inline std::vector<CameraText> GoodCameraTexts() {
   return {{"a.cahvor", kCahvorText}, {"a.cahvore", kCahvoreText}, {"a.lbl", kPdsText},
           {"a.vic", kVicarText},     {"a.cpcc", kWillsonText},    {"a.yml", kOpenCvYamlText},
           {"a.xml", kOpenCvXmlText}, {"a.yaml", kRosText},        {"a.cameramodel", kMrcalText}};
+}
+
+/// `text` with the first `from` exchanged.
+inline std::string Replaced(std::string text, const std::string& from, const std::string& to) {
+  const auto place = text.find(from);
+  EXPECT_NE(place, std::string::npos) << from;
+  return text.replace(place, from.size(), to);
 }
 
 }  // namespace palace
