@@ -1,5 +1,7 @@
 #include "engine/tools/calibrate_command.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
@@ -43,7 +45,8 @@ Result<std::vector<fs::path>> FilesOf(const std::vector<std::string>& patterns,
   for (const std::string& pattern : patterns) {
     const std::vector<fs::path> matching = ExpandPattern("", pattern);
     if (matching.empty()) {
-      return UnavailableError(option + ": no file matches " + pattern);
+      return UnavailableError(option + ": no file matches " + pattern +
+                              "; check the folder, and put a pattern in quotes");
     }
     files.insert(files.end(), matching.begin(), matching.end());
   }
@@ -84,6 +87,7 @@ Result<TargetObservation> Look(const fs::path& file, const CalibrationTarget& ta
 
 Result<Sightings> LookAtAll(const std::vector<fs::path>& left, const std::vector<fs::path>& right,
                             const CalibrationTarget& target) {
+  const bool shows_progress = isatty(STDERR_FILENO) == 1;
   Sightings sightings;
   for (std::size_t v = 0; v < left.size(); ++v) {
     TargetView view;
@@ -96,10 +100,12 @@ Result<Sightings> LookAtAll(const std::vector<fs::path>& left, const std::vector
       (is_left ? view.left : view.right) = std::move(*seen);
     }
     MatchTurn(target, view.left, view.right);
-    std::fprintf(stderr, "\rcalibrate: pair %zu of %zu", v + 1, left.size());
+    if (shows_progress) {
+      std::fprintf(stderr, "\rcalibrate: pair %zu of %zu%s", v + 1, left.size(),
+                   v + 1 == left.size() ? "\n" : "");
+    }
     sightings.views.push_back(std::move(view));
   }
-  std::fputc('\n', stderr);
   return sightings;
 }
 
@@ -121,7 +127,10 @@ std::string RigText(const Calibration& calibration, const Options& options) {
       "baseline_m = " +
       std::string(baseline) +
       "\n\n[mount]\ntilt_deg = -45  # how the cameras look out of the aircraft: -90 down, 0 ahead; "
-      "set it\n";
+      "set it\n\n"
+      "[pose]  # of the aircraft over the ground when pictures were taken; only used for pictures\n"
+      "roll_deg = 0  # without a vehicle (analyze, --images), so set it to theirs\n"
+      "pitch_deg = 0\nheading_deg = 0\nheight_m = 15.24  # 50 ft\n";
   if (options.left.size() == 1 && options.right.size() == 1) {
     const auto absolute = [](const std::string& pattern) {
       std::error_code error;

@@ -175,7 +175,10 @@ void AddParameters(const Calibration& calibration, HtmlPage& page) {
       "centre; both model files are written in it. rho0 is 0 and theta -90 degrees by definition. "
       "Sigmas come from the residuals (" +
       Fixed(calibration.sigma_px, 4) +
-      " px a coordinate); they hold when residuals are independent and the model is right. Scale "
+      " px a coordinate); they hold when residuals are independent and the model is right. Weak "
+      "priors keep "
+      "what a lens without distortion cannot tell near zero: o1 and o2 within 0.05, rho1 within 1, "
+      "rho2 within 5 (1 sigma). Scale "
       "is not observable: all lengths follow pitch_m of the target.");
   std::vector<std::vector<std::string>> rows;
   for (const Parameter& p : ParametersOf(calibration)) {

@@ -175,7 +175,7 @@ std::string MeasurePlot(const TrialTable& table, const Measure& measure) {
   plot.title = measure.label;
   plot.x_label = "trial";
   plot.y_label = std::string(measure.label) + ", " + measure.unit;
-  plot.series = {{measure.label, table.Numbers("trial"), table.Numbers(measure.column)}};
+  plot.series = {{"trials", table.Numbers("trial"), table.Numbers(measure.column)}};
   plot.series[0].line = false;
   plot.limits = {{measure.limit, "limit"}};
   plot.y_min = 0;
