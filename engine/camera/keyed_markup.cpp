@@ -1,4 +1,5 @@
 // The syntaxes of keyed_text.h that nest: YAML, XML and Python dicts.
+#include <algorithm>
 #include <vector>
 
 #include "engine/camera/keyed_text.h"
@@ -94,7 +95,7 @@ class YamlReader {
   }
   void ReadEntry(std::size_t indent, std::string_view trimmed) {
     const auto colon = trimmed.find(':');
-    if (colon == std::string_view::npos) {
+    if (colon == std::string_view::npos || colon > kLongestKey) {
       return;
     }
     while (!open_.empty() && open_.back().indent >= indent) {
@@ -229,7 +230,7 @@ KeyedText ParseXml(std::string_view text, const std::string& file) {
       }
     } else if (!comment && !tag.empty() && tag[0] != '?' && tag[0] != '!' && tag.back() != '/') {
       if (depth > 0 && path.size() < kDeepest) {
-        path.emplace_back(tag.substr(0, tag.find_first_of(" \t\r\n")));
+        path.emplace_back(tag.substr(0, std::min(tag.find_first_of(" \t\r\n"), kLongestKey)));
       }
       ++depth;
     }

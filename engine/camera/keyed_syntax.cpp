@@ -160,6 +160,9 @@ KeyedText ParseLabel(std::string_view text, const std::string& file) {
       scan.Skip();
       continue;
     }
+    if (key.size() > kLongestKey) {
+      continue;
+    }
     scan.SkipBlanks();
     if (scan.Peek() != '=') {
       if (key == "END") {
@@ -175,10 +178,10 @@ KeyedText ParseLabel(std::string_view text, const std::string& file) {
     const std::string_view value = scan.Value();
     if (key == "GROUP" || key == "OBJECT") {
       if (inside.size() < kDeepest) {
-        inside.push_back(Unquoted(value));
+        inside.push_back(Unquoted(value.substr(0, kLongestKey)));
       }
     } else if (key == "PROPERTY" || key == "TASK") {  // VICAR: ends where the next begins
-      inside.assign(1, Unquoted(value));
+      inside.assign(1, Unquoted(value.substr(0, kLongestKey)));
     } else if (key == "END_GROUP" || key == "END_OBJECT") {
       inside.resize(inside.size() - std::min<std::size_t>(inside.size(), 1));
     } else {

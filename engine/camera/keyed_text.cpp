@@ -33,6 +33,10 @@ std::string_view Trimmed(std::string_view text) {
 }
 
 void KeyedText::Add(std::string_view key, int line, std::string_view text) {
+  constexpr std::size_t kMostKeys = 65536;
+  if (key.size() > 16 * kLongestKey || values_.size() >= kMostKeys) {
+    return;
+  }
   values_.try_emplace(std::string(key), KeyedValue{line, std::string(Trimmed(text))});
 }
 

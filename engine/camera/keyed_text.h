@@ -21,7 +21,10 @@ struct KeyedValue {
   std::string text;
 };
 
-/// Values of a file by key. Of keys that occur twice the first counts.
+constexpr std::size_t kLongestKey = 256;  ///< longer names are no keys, and end up nowhere
+
+/// Values of a file by key. Of keys that occur twice the first counts; after 65,536 keys no more
+/// are taken.
 class KeyedText {
  public:
   explicit KeyedText(std::string file) : file_(std::move(file)) {}

@@ -140,6 +140,41 @@ TEST(CameraFiles, AnyBytesGiveAUsableModelOrAnError) {
   EXPECT_GT(used, 500);
 }
 
+/// Megabytes that a careless parser would multiply: the test ends, or it does not.
+TEST(CameraFiles, SizeAloneCostsNothing) {
+  constexpr std::size_t kSize = 4 << 20;
+  const auto repeated = [&](const std::string& start, const std::string& part) {
+    std::string text = start;
+    while (text.size() < kSize) {
+      text += part;
+    }
+    return text;
+  };
+  std::string distinct;
+  for (int i = 0; distinct.size() < kSize; ++i) {
+    distinct += "k" + std::to_string(i) + " = 1\n";
+  }
+  const std::string rows[] = {
+      distinct,
+      repeated("camera_matrix: [", "1,"),
+      repeated(std::string(kSize, 'k') + ":\n", " a:\n"),
+      repeated("a:\n", "- 1\n"),
+      repeated("<?xml?>", "<a>"),
+      repeated("<?xml?><" + std::string(kSize / 2, 'k') + ">", "<a></a>"),
+      repeated("{'lensmodel': ", "["),
+      repeated("{'lensmodel': 'x', ", "'a': 'b', "),
+      repeated("GROUP = GEOMETRIC_CAMERA_MODEL\n", "OBJECT = A\n"),
+      repeated("MODEL_COMPONENT_1 = ", "("),
+      repeated("", "1\n"),
+      repeated("", "1 "),
+      repeated("C = ", "1 "),
+  };
+  for (const std::string& text : rows) {
+    SCOPED_TRACE(text.substr(0, 40));
+    EXPECT_FALSE(ParseCameraText(text, "large").ok());
+  }
+}
+
 TEST(CameraFiles, MissingAndHugeFilesAreNamed) {
   const auto missing = ReadCameraFile("/nowhere/left.cahvor");
   ASSERT_FALSE(missing.ok());
