@@ -120,6 +120,10 @@ Result<StereoRectifier> StereoRectifier::Make(const StereoRig& rig) {
       return InvalidError("rig: " + aligned.error().message);
     }
     const CahvPinhole pinhole = PinholeFromCahv(aligned->left);
+    if ((CentreOf(*right) - CentreOf(*left)).dot(pinhole.R_CF.row(0)) < 0) {
+      return InvalidError(
+          "rig: the right camera stands to the left of the left one; exchange [left] and [right]");
+    }
     rectifier.camera_ = pinhole.camera;
     rectifier.baseline_m_ = (CentreOf(*right) - CentreOf(*left)).norm();
     rectifier.R_C_Rect_ = RotationOf(*left) * pinhole.R_CF.transpose();

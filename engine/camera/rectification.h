@@ -28,7 +28,7 @@ struct RectifiedPair {
 class StereoRectifier {
  public:
   /// Refuses rigs whose sizes, focal lengths or baseline are not positive, and model pairs that
-  /// cannot be aligned.
+  /// cannot be aligned or whose right camera stands to the left.
   static Result<StereoRectifier> Make(const StereoRig& rig);
 
   /// Refuses pictures whose sizes differ from the rig's, naming both sizes. Thread-safe.

@@ -72,6 +72,13 @@ TEST(Rectification, ImpossibleRigsAreRefused) {
   rig = PlainRig();
   rig.left.cahvor = CahvorModel{};
   EXPECT_FALSE(StereoRectifier::Make(rig).ok());
+  rig.left.cahvor =
+      CahvFromPinhole(PinholeFromFov(160, 120, 0.8), Eigen::Matrix3d::Identity(), {1, 0, 0});
+  rig.right.cahvor =
+      CahvFromPinhole(PinholeFromFov(160, 120, 0.8), Eigen::Matrix3d::Identity(), {0, 0, 0});
+  const auto exchanged = StereoRectifier::Make(rig);
+  ASSERT_FALSE(exchanged.ok());
+  EXPECT_NE(exchanged.error().message.find("exchange [left] and [right]"), std::string::npos);
 }
 
 TEST(Rectification, PlumbBobIsUndone) {
