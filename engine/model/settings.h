@@ -66,7 +66,7 @@ struct StereoSettings {
   int num_disparities = 64;  ///< width of the window that follows laser and pose
   int refine_window_px = 9;
   double max_sigma_px = 0.5;  ///< points with a larger disparity sigma are unknown
-  double uniqueness_percent = 5;
+  double uniqueness_percent = 10;
   double max_left_right_px = 1;
   double max_refined_left_right_px = 0.5;
   int map_every_frames = 1;  ///< a new range map every so many frames

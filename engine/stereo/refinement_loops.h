@@ -225,7 +225,7 @@ void Slide(const float* __restrict enter_a, const float* __restrict enter_b,
   }
 }
 
-constexpr float kLeastEnergyShare = 0.3F;  // texture drowned in noise must not step without bound
+constexpr float kLeastEnergyShare = 0.4F;  // a window whose gradient is mostly noise is refused
 
 // The results are parameters of their own: compilers honour __restrict only there.
 inline void FitInto(const FitSums s, const FitLimits limit, int width, float* __restrict step_px,
@@ -250,10 +250,11 @@ inline void FitInto(const FitSums s, const FitLimits limit, int width, float* __
     // Camera noise adds to the gradient's energy but not to e g: without its share the step is not
     // too short on weak texture.
     const float energy = gg - n * limit.gradient_noise_share * variance;
+    const bool textured = good & (energy > kLeastEnergyShare * gg);
     const float step = -eg / Larger(energy, Larger(kLeastEnergyShare * gg, 1e-6F));
     step_px[x] = good ? Smaller(Larger(step, -1.0F), 1.0F) : 0.0F;
     noise_energy[x] = variance * gg;
-    gradient_energy[x] = good ? energy : 0.0F;
+    gradient_energy[x] = textured ? energy : 0.0F;
   }
 }
 

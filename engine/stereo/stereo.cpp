@@ -5,6 +5,8 @@
 #include <string>
 #include <utility>
 
+#include <opencv2/core.hpp>
+
 #include "engine/stereo/disparity.h"
 #include "engine/stereo/hidden.h"
 #include "engine/stereo/prefilter.h"
@@ -63,17 +65,23 @@ RangeMap RangeMapFromDisparity(SubpixelDisparity refined, const PinholeCamera& c
   range.depth_m = ImageF(camera.width, camera.height, kNaN);
   range.depth_sigma_m = ImageF(camera.width, camera.height, kNaN);
   const auto fb = static_cast<float>(camera.fx_px * baseline_m);
-  for (std::size_t i = 0; i < range.depth_m.pixels().size(); ++i) {
-    float& disparity = range.disparity_px.pixels()[i];
-    if (disparity > kLeastDisparity_px) {
-      const float depth = fb / disparity;
-      range.depth_m.pixels()[i] = depth;
-      range.depth_sigma_m.pixels()[i] = depth * range.disparity_sigma_px.pixels()[i] / disparity;
-    } else {
-      disparity = kNaN;
-      range.disparity_sigma_px.pixels()[i] = kNaN;
+  cv::parallel_for_(cv::Range(0, camera.height), [&](const cv::Range& rows) {
+    for (int y = rows.start; y < rows.end; ++y) {
+      float* disparity = range.disparity_px.row(y);
+      float* sigma = range.disparity_sigma_px.row(y);
+      float* depth = range.depth_m.row(y);
+      float* depth_sigma = range.depth_sigma_m.row(y);
+      for (int x = 0; x < camera.width; ++x) {
+        if (disparity[x] > kLeastDisparity_px) {
+          depth[x] = fb / disparity[x];
+          depth_sigma[x] = depth[x] * sigma[x] / disparity[x];
+        } else {
+          disparity[x] = kNaN;
+          sigma[x] = kNaN;
+        }
+      }
     }
-  }
+  });
   return range;
 }
 

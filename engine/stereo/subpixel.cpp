@@ -43,11 +43,16 @@ void ForStripes(int rows, const Work& work) {
 }
 
 float MeanGrey(const ImageU8& image) {
-  double sum = 0;
-  for (const std::uint8_t value : image.pixels()) {
-    sum += value;
+  std::int64_t sum = 0;
+  for (int y = 0; y < image.height(); ++y) {
+    const std::uint8_t* row = image.row(y);
+    int of_row = 0;
+    for (int x = 0; x < image.width(); ++x) {
+      of_row += row[x];
+    }
+    sum += of_row;
   }
-  return static_cast<float>(sum / static_cast<double>(image.pixels().size()));
+  return static_cast<float>(static_cast<double>(sum) / static_cast<double>(image.pixels().size()));
 }
 
 using Row = std::vector<float>;
