@@ -9,6 +9,8 @@
 namespace palace {
 namespace {
 
+constexpr double kFineForStereo_px = 0.05;
+
 /// What --to names: a family, and the container of the file.
 struct ConversionGoal {
   LensFamily family = LensFamily::kCahvor;
@@ -52,6 +54,12 @@ void PrintResidual(const ConvertedCamera& converted, LensFamily family, const Ca
     std::printf(
         "          a CAHV camera has no distortion: pictures must be resampled, the residual "
         "is how far pixels move\n");
+  }
+  if (family != LensFamily::kCahv && r.rms_px > kFineForStereo_px) {
+    std::printf(
+        "warning   over %.2f px rms the new file is no substitute for the old one in stereo: the "
+        "lens does not fit this family\n",
+        kFineForStereo_px);
   }
   if (r.without_ray > 0) {
     std::printf("warning   %d pixels of the grid have no ray in the source model; left out\n",
