@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/core/random.h"
 #include "engine/navigation/monocular_position.h"
 #include "engine/runtime/pipeline.h"
 #include "tests/support/synthetic_stereo.h"
