@@ -296,47 +296,64 @@ TargetObservation RefineOnGrid(const ImageU8& picture, const CalibrationTarget& 
   return refined;
 }
 
-Result<TargetObservation> DetectDots(const ImageU8& picture, const CalibrationTarget& target) {
+/// A grid among the picture's dots. The largest over several sizes of window.
+struct FoundGrid {
   std::vector<Dot> dots;
   DotLattice lattice;
+};
+
+/// With `keep_rough` also dots that RefineDot cannot measure count, at their pixel centres.
+FoundGrid FindGrid(const ImageU8& picture, const CalibrationTarget& target, bool keep_rough) {
+  FoundGrid best;
   for (const int per_side : kWindowsPerSide) {
     const int window_px = std::max(picture.width(), picture.height()) / per_side;
     if (window_px < kLeastWindow_px) {
       continue;
     }
-    std::vector<Dot> found;
-    for (Dot dot : FindDots(picture, window_px)) {
-      if (RefineDot(picture, dot)) {
-        found.push_back(dot);
-      }
-    }
+    std::vector<Dot> found = FindDots(picture, window_px);
+    std::erase_if(found, [&](Dot& dot) { return !RefineDot(picture, dot) && !keep_rough; });
     DotLattice grown = FindLattice(found);
-    if (grown.size() > lattice.size()) {
-      lattice = std::move(grown);
-      dots = std::move(found);
+    if (grown.size() > best.lattice.size()) {
+      best = {std::move(found), std::move(grown)};
     }
-    if (static_cast<int>(lattice.size()) >= target.point_count()) {
+    if (static_cast<int>(best.lattice.size()) >= target.point_count()) {
       break;
     }
   }
-  if (lattice.empty()) {
+  return best;
+}
+
+Result<TargetObservation> PlaceGrid(const ImageU8& picture, const CalibrationTarget& target,
+                                    const FoundGrid& grid) {
+  if (grid.lattice.empty()) {
     return InvalidError("no grid of dots found, the target has " +
                         SizeText(target.columns, target.rows) + " dark dots on a bright board");
   }
-  const auto placement =
-      target.marks.empty() ? PlaceByExtent(lattice, target) : PlaceByMarks(lattice, dots, target);
+  const auto placement = target.marks.empty() ? PlaceByExtent(grid.lattice, target)
+                                              : PlaceByMarks(grid.lattice, grid.dots, target);
   if (!placement) {
     return placement.error();
   }
   TargetObservation seen;
-  for (const auto& [place, dot] : TurnLattice(lattice, placement->quarters)) {
+  for (const auto& [place, dot] : TurnLattice(grid.lattice, placement->quarters)) {
     const int column = place.first - placement->i0, row = place.second - placement->j0;
     if (Inside(target, column, row)) {
-      seen.push_back({row * target.columns + column, dots[dot].centre});
+      seen.push_back({row * target.columns + column, grid.dots[dot].centre});
     }
   }
   seen = RefineOnGrid(picture, target, seen);
   return target.marks.empty() ? NearestTurn(target, seen, Eigen::Vector2d::UnitX()) : seen;
+}
+
+Result<TargetObservation> DetectDots(const ImageU8& picture, const CalibrationTarget& target) {
+  auto seen = PlaceGrid(picture, target, FindGrid(picture, target, /*keep_rough=*/false));
+  if (seen) {
+    return seen;
+  }
+  // Dots near the board's edge may lack a bright ring on a first look; specks of noise lack it too,
+  // so they are let in only when the grid is not whole without.
+  auto with_rough = PlaceGrid(picture, target, FindGrid(picture, target, /*keep_rough=*/true));
+  return with_rough ? with_rough : seen;
 }
 
 }  // namespace
