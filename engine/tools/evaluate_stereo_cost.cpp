@@ -19,7 +19,7 @@
 namespace palace {
 namespace {
 
-constexpr const char* kOurs = "PALACE, range map with sigma";
+constexpr const char* kOurs = "PALACE with sigma";
 constexpr int kRepeats = 5;
 constexpr double kBudget_ms = 40;  // 640x480, 96 disparities, 2 cores
 constexpr std::array kPeers = {OpenCvMatcher::kSgbm3Way, OpenCvMatcher::kSgbm,
