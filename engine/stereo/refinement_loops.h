@@ -30,24 +30,30 @@ void SumAlongBy(const float* __restrict columns, int width, float* __restrict ou
   }
 }
 
-/// Differences to the centre that are within the limit, and how many.
+/// Differences to the centre that are taken into the mean, and how many.
 struct Near {
   float sum = 0;
-  float count = 0;
+  float count = 1;  // the centre itself
 };
 
-inline void AddNear(float value, float centre, float limit, Near& near) {
-  const float difference = value - centre;
-  const float weight = Size(difference) <= limit ? 1.0F : 0.0F;
-  near.sum += weight * difference;
-  near.count += weight;
+/// Two values at the same distance on both sides. Each counts when it lies within the limit of the
+/// centre; both count when their mean does so by half of it: steep ground, where they differ from
+/// the centre by as much up as down.
+inline void AddPair(float before, float after, float centre, float limit, Near& near) {
+  const float a = before - centre;
+  const float b = after - centre;
+  const bool steep = Size(a + b) <= limit;
+  const float share_a = (Size(a) <= limit) | steep ? 1.0F : 0.0F;
+  const float share_b = (Size(b) <= limit) | steep ? 1.0F : 0.0F;
+  near.sum += share_a * a + share_b * b;
+  near.count += share_a + share_b;
 }
 
-template <int kTaps>
-inline void AddNearTaps(const float* values, float centre, float limit, Near& near) {
-  if constexpr (kTaps > 0) {
-    AddNearTaps<kTaps - 1>(values, centre, limit, near);
-    AddNear(values[kTaps - 1], centre, limit, near);
+template <int kHalf>
+inline void AddPairsAlong(const float* centre, float limit, Near& near) {
+  if constexpr (kHalf > 0) {
+    AddPairsAlong<kHalf - 1>(centre, limit, near);
+    AddPair(centre[-kHalf], centre[kHalf], centre[0], limit, near);
   }
 }
 
@@ -55,16 +61,16 @@ template <int kHalf>
 void SmoothAlongBy(const float* __restrict values, int width, float limit, float* __restrict out) {
   for (int x = 0; x < width; ++x) {
     Near near;
-    AddNearTaps<2 * kHalf + 1>(values + x - kHalf, values[x], limit, near);
+    AddPairsAlong<kHalf>(values + x, limit, near);
     out[x] = values[x] + near.sum / near.count;
   }
 }
 
-template <int kRows>
-inline void AddNearRows(const float* const* rows, int x, float centre, float limit, Near& near) {
-  if constexpr (kRows > 0) {
-    AddNearRows<kRows - 1>(rows, x, centre, limit, near);
-    AddNear(rows[kRows - 1][x], centre, limit, near);
+template <int kHalf>
+inline void AddPairsDown(const float* const* centre_row, int x, float limit, Near& near) {
+  if constexpr (kHalf > 0) {
+    AddPairsDown<kHalf - 1>(centre_row, x, limit, near);
+    AddPair(centre_row[-kHalf][x], centre_row[kHalf][x], centre_row[0][x], limit, near);
   }
 }
 
@@ -76,10 +82,9 @@ void SmoothDownBy(const float* const* rows, int width, float limit, const float*
     row[k] = rows[k];
   }
   for (int x = 0; x < width; ++x) {
-    const float centre = row[kHalf][x];
     Near near;
-    AddNearRows<2 * kHalf + 1>(row, x, centre, limit, near);
-    const float smooth = centre + near.sum / near.count;
+    AddPairsDown<kHalf>(row + kHalf, x, limit, near);
+    const float smooth = row[kHalf][x] + near.sum / near.count;
     out[x] = Smaller(Larger(smooth, start[x] - max_shift), start[x] + max_shift);
   }
 }

@@ -22,10 +22,10 @@
 namespace palace {
 
 struct SemiGlobalOptions {
-  int small_jump_cost = 9;        ///< P1, census bits for a step of one disparity
-  int large_jump_cost = 30;       ///< P2, for any other; P1 <= P2 <= 61
-  double uniqueness_percent = 10; ///< least margin of the best cost over any not beside it
-  double max_left_right_px = 1;   ///< largest disagreement of the two matching directions
+  int small_jump_cost = 9;         ///< P1, census bits for a step of one disparity
+  int large_jump_cost = 30;        ///< P2, for any other; P1 <= P2 <= 61
+  double uniqueness_percent = 10;  ///< least margin of the best cost over any not beside it
+  double max_left_right_px = 1;    ///< largest disagreement of the two matching directions
 };
 
 /// Disparity of the left picture, NaN unknown; the fraction is a parabola through S and only a

@@ -78,8 +78,9 @@ struct StereoLoops {
 
   // --- correlation refinement; half is 1 .. kLargestHalf_px ---
 
-  /// Mean of the values in columns x-half .. x+half that lie within `limit` of the centre. Values
-  /// are readable from -half to width - 1 + half.
+  /// Mean of the values in columns x-half .. x+half that lie within `limit` of the centre, or whose
+  /// mean with the value opposite does so by half (steep ground). Values are readable from -half to
+  /// width - 1 + half.
   void (*smooth_along)(const float* values, int half, int width, float limit, float* out);
   /// The same over rows[0 .. 2 half], rows[half] being the centre; kept within max_shift of start.
   void (*smooth_down)(const float* const* rows, int half, int width, float limit,

@@ -11,10 +11,11 @@
 // Each window pixel is warped by its own disparity, so a window follows slopes and steps instead
 // of flattening them. R is read between its pixels from a cubic B-spline: a cubic through four
 // pixels (Catmull-Rom) shifts fine texture by up to 0.04 px, 1.3 cm of height at 50 ft. The field
-// is smoothed between steps over neighbours within 1 px (0.3 px in
-// the last step) of the centre, which removes what a window sum cannot see: errors finer than the
-// window. The gradient is taken in the left picture only: its noise is then uncorrelated with e, so
-// noise does not pull towards whole pixels (SGBM's own parabola does: 0.2 px).
+// is smoothed between steps over neighbours within 1 px (0.3 px in the last step) of the centre, or
+// in balance with the neighbour opposite (steep ground: half a pixel a row at 10 ft and 45
+// degrees), which removes what a window sum cannot see: errors finer than the window. The gradient
+// is taken in the left picture only: its noise is then uncorrelated with e, so noise does not pull
+// towards whole pixels (SGBM's own parabola does: 0.2 px).
 //
 //   sigma_d^2 = sigma_e^2 G / (G - N)^2 + (0.018 px)^2
 //

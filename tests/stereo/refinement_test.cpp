@@ -133,18 +133,24 @@ class Plain {
   }
 
   double MeanNear(const ImageF& in, int x, int y, int dx, int dy, double limit) const {
+    const double centre = in.at(x, y);
+    const auto at = [&](int k) {
+      const int u = x + k * dx, v = y + k * dy;
+      return in.Contains(u, v) ? static_cast<double>(in.at(u, v)) - centre : kNaN;
+    };
     double sum = 0;
-    int count = 0;
-    for (int k = -half_; k <= half_; ++k) {
-      if (in.Contains(x + k * dx, y + k * dy)) {
-        const double other = in.at(x + k * dx, y + k * dy);
-        if (std::abs(other - static_cast<double>(in.at(x, y))) <= limit) {
-          sum += other;
+    int count = 1;
+    for (int k = 1; k <= half_; ++k) {
+      const double a = at(-k), b = at(k);
+      const bool steep = std::abs(a + b) <= limit;
+      for (const double difference : {a, b}) {
+        if (std::abs(difference) <= limit || steep) {
+          sum += difference;
           ++count;
         }
       }
     }
-    return count > 0 ? sum / count : kNaN;
+    return centre + sum / count;
   }
 
   void Smooth(double limit) {

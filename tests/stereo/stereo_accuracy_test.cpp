@@ -207,6 +207,22 @@ INSTANTIATE_TEST_SUITE_P(
                     ViewRow{GroundTexture::kAsphalt, -90}, ViewRow{GroundTexture::kAsphalt, -45}),
     NameOfRow);
 
+// At 10 ft and 45 degrees disparity changes by half a pixel a row: neither flattened nor noisier.
+TEST(StereoAccuracy, SteepGroundIsMeasuredLikeLevelGround) {
+  StereoWorld world;
+  world.texture = GroundTexture::kGrass;
+  const StereoView view = ViewFrom(world, ThesisCamera(), 10 * kMetresPerFoot, Rad(-45), 3);
+  const auto result = MatchExposed(view, 2);
+  ASSERT_TRUE(result.ok()) << result.error().message;
+  const DisparityAccuracy accuracy = Compare(view, result->range);
+  std::printf("10 ft: rms %.3f px, coverage %.3f, error/sigma %.2f\n", accuracy.rms_px,
+              accuracy.coverage, accuracy.normalised);
+  EXPECT_LT(accuracy.rms_px, 0.06);
+  EXPECT_GT(accuracy.coverage, 0.97);
+  EXPECT_LE(accuracy.normalised, 1.25);
+  EXPECT_GE(accuracy.normalised, 0.8);
+}
+
 // ---- cameras that differ ----
 
 cv::Mat Matrix(ImageF& image) {
