@@ -17,7 +17,7 @@ constexpr float kFuture_s = 24;
 using Member = double HistorySample::*;
 
 PlotTrace SeriesOf(const EngineSnapshot& snap, Member member, ImU32 colour, float width,
-                    PlotTrace::Stroke stroke = PlotTrace::Stroke::kSolid) {
+                   PlotTrace::Stroke stroke = PlotTrace::Stroke::kSolid) {
   PlotTrace series;
   series.colour = colour;
   series.width = width;
@@ -86,7 +86,7 @@ using PositionMember = Eigen::Vector3d HistorySample::*;
 
 /// Height of the skids above the site along a track that history keeps as positions of B, level.
 PlotTrace HeightOf(const EngineSnapshot& snap, PositionMember track, ImU32 colour,
-                    PlotTrace::Stroke stroke) {
+                   PlotTrace::Stroke stroke) {
   const double site_m = snap.mission.armed ? snap.mission.armed->p_WS.z() : NAN;
   return Derived(snap, colour, stroke, [&, site_m](std::size_t i) {
     return site_m - ((*snap.history)[i].*track).z() - SkidCentreBody().z();
@@ -95,7 +95,7 @@ PlotTrace HeightOf(const EngineSnapshot& snap, PositionMember track, ImU32 colou
 
 /// Descent rate along a track: its change over the half second around each sample.
 PlotTrace RateOf(const EngineSnapshot& snap, PositionMember track, ImU32 colour,
-                  PlotTrace::Stroke stroke) {
+                 PlotTrace::Stroke stroke) {
   const std::vector<HistorySample>& h = *snap.history;
   return Derived(snap, colour, stroke, [&h, track](std::size_t i) {
     const HistorySample& before = h[i >= 3 ? i - 3 : 0];
