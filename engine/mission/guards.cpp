@@ -56,9 +56,12 @@ std::string WhySiteLost(const GuardInputs& in) {
   if (in.site_holds) {
     return {};
   }
-  std::string why = "Site ? is not on the newest map";
-  why[5] = in.site_letter;
-  return in.site_reason.empty() ? why : in.site_reason;
+  if (in.site_letter == '?') {
+    return "Select a site first";
+  }
+  return in.site_reason.empty()
+             ? "Site " + std::string(1, in.site_letter) + " is not on the newest map"
+             : in.site_reason;
 }
 
 std::string WhyVehicleChanged(const GuardInputs& in) {

@@ -229,7 +229,7 @@ std::vector<AlarmCondition> Mission::SensorAlarms(const MissionInputs& in) const
        in.applied != nullptr && in.applied->selection.sites.empty() &&
            status_.state <= MissionState::kProposed,
        "No safe site: " + (in.applied != nullptr ? in.applied->selection.none_reason : "") +
-           ". Fly on or widen a limit."},
+           (pictures_only ? ". Widen a limit." : ". Fly on or widen a limit.")},
   };
 }
 

@@ -35,7 +35,7 @@ double PlotScale::Pixel(double value) const {
   return from + share * (to - from);
 }
 
-std::vector<double> RoundTicks(double min, double max, bool log, int about) {
+std::vector<double> RoundTicks(double min, double max, bool log, int about, bool whole) {
   std::vector<double> ticks;
   if (!(max > min) || !std::isfinite(max - min) || (log && !(min > 0))) {
     return ticks;
@@ -56,7 +56,8 @@ std::vector<double> RoundTicks(double min, double max, bool log, int about) {
   const double raw = (max - min) / std::max(about, 1);
   const double power = std::pow(10.0, std::floor(std::log10(raw)));
   const double ratio = raw / power;
-  const double step = power * (ratio < 1.5 ? 1 : ratio < 3.5 ? 2 : ratio < 7.5 ? 5 : 10);
+  const double fine = power * (ratio < 1.5 ? 1 : ratio < 3.5 ? 2 : ratio < 7.5 ? 5 : 10);
+  const double step = whole ? std::max(1.0, fine) : fine;
   for (double k = std::ceil(min / step - 1e-9); k <= max / step + 1e-9; k += 1) {
     ticks.push_back(k == 0 ? 0.0 : k * step);
   }
@@ -105,7 +106,7 @@ std::string DrawFrame(const PlotFrame& frame, const PlotScale& x, const PlotScal
   std::string svg = Open(frame, title);
   const double bottom = frame.top + frame.height;
   const double right = frame.left + frame.width;
-  for (const double tick : RoundTicks(x.min, x.max, x.log, 8)) {
+  for (const double tick : RoundTicks(x.min, x.max, x.log, 8, x.whole)) {
     const std::string at = Number(x.Pixel(tick));
     svg += "<line class=\"g\" x1=\"" + at + "\" x2=\"" + at + "\" y1=\"" + Number(frame.top) +
            "\" y2=\"" + Number(bottom) + "\"/>\n";

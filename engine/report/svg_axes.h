@@ -24,12 +24,13 @@ struct PlotScale {
   double from = 0;  ///< pixel of min
   double to = 1;    ///< pixel of max
   bool log = false;
+  bool whole = false;  ///< ticks at whole numbers only
   /// NaN where the value has no place.
   double Pixel(double value) const;
 };
 
 /// Round values inside [min, max]: 1, 2 or 5 times a power of ten; decades where log.
-std::vector<double> RoundTicks(double min, double max, bool log, int about);
+std::vector<double> RoundTicks(double min, double max, bool log, int about, bool whole = false);
 /// Widens an empty range and adds a small margin.
 void PadRange(double& min, double& max, bool log);
 /// Six significant digits at most, no trailing zeros.

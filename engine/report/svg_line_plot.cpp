@@ -14,7 +14,9 @@ struct Range {
   double min = std::numeric_limits<double>::infinity();
   double max = -std::numeric_limits<double>::infinity();
   bool log = false;
+  bool whole = true;
   void Add(double value) {
+    whole = whole && (!std::isfinite(value) || value == std::floor(value));
     if (std::isfinite(value) && (!log || value > 0)) {
       min = std::min(min, value);
       max = std::max(max, value);
@@ -98,17 +100,24 @@ std::string LinePlotSvg(const LinePlot& plot) {
   }
   PadRange(xs.min, xs.max, plot.log_x);
   PadRange(ys.min, ys.max, plot.log_y);
-  PlotScale x{plot.x_min.value_or(xs.min), plot.x_max.value_or(xs.max), frame.left,
-              frame.left + frame.width, plot.log_x};
+  PlotScale x{plot.x_min.value_or(xs.min),
+              plot.x_max.value_or(xs.max),
+              frame.left,
+              frame.left + frame.width,
+              plot.log_x,
+              xs.whole};
   PlotScale y{plot.y_min.value_or(ys.min), plot.y_max.value_or(ys.max), frame.top + frame.height,
               frame.top, plot.log_y};
   std::string svg = DrawFrame(frame, x, y, plot.title, plot.x_label, plot.y_label);
-  // A given range may cut the data: nothing is drawn outside the frame.
-  const std::string box =
-      "\" width=\"" + Number(frame.width) + "\" height=\"" + Number(frame.height) + "\"";
-  svg += "<svg x=\"" + Number(frame.left) + "\" y=\"" + Number(frame.top) + box + " viewBox=\"" +
-         Number(frame.left) + " " + Number(frame.top) + " " + Number(frame.width) + " " +
-         Number(frame.height) + "\">\n";
+  // A given range may cut the data: nothing is drawn outside the frame, but for half a point's
+  // disc.
+  constexpr double kRim = 4;
+  const std::string place = Number(frame.left - kRim) + "\" y=\"" + Number(frame.top - kRim);
+  const std::string width = Number(frame.width + 2 * kRim);
+  const std::string height = Number(frame.height + 2 * kRim);
+  svg += "<svg x=\"" + place + "\" width=\"" + width + "\" height=\"" + height + "\" viewBox=\"" +
+         Number(frame.left - kRim) + " " + Number(frame.top - kRim) + " " + width + " " + height +
+         "\">\n";
   const std::string dashed = "class=\"f\" stroke-dasharray=\"6 4\"";
   if (plot.diagonal) {
     const double low = std::max(x.min, y.min), high = std::min(x.max, y.max);

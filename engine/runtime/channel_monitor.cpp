@@ -52,10 +52,14 @@ void ChannelMonitor::Saw(Channel channel, Timestamp stamp) {
   ++watch.count;
 }
 
-void ChannelMonitor::Add(const FrameBundle& bundle) {
+void ChannelMonitor::Add(const FrameBundle& bundle, bool has_vehicle) {
+  has_vehicle_ = has_vehicle;
   if (bundle.rig) {
     watches_[kLeft].expected_hz = watches_[kRight].expected_hz = bundle.rig->rate_hz;
     watches_[kEstimate].expected_hz = bundle.rig->rate_hz;
+    if (!has_vehicle) {
+      watches_[kPose].expected_hz = bundle.rig->rate_hz;  // of RIG.toml, once a pair
+    }
   }
   if (bundle.stereo) {
     if (!bundle.stereo->left.empty()) {
@@ -88,6 +92,10 @@ void ChannelMonitor::AddEstimate(Timestamp estimate_time) { Saw(kEstimate, estim
 std::vector<ChannelHealth> ChannelMonitor::Health(Timestamp now) const {
   std::vector<ChannelHealth> all;
   for (const Watch& watch : watches_) {
+    const bool camera = &watch == &watches_[kLeft] || &watch == &watches_[kRight];
+    if (!has_vehicle_ && !camera && watch.count == 0) {
+      continue;  // nobody is there to send it
+    }
     ChannelHealth health;
     health.name = watch.name;
     health.expected_hz = watch.expected_hz;

@@ -16,7 +16,8 @@ class ChannelMonitor {
  public:
   ChannelMonitor();
   void Reset();
-  void Add(const FrameBundle& bundle);
+  /// Without a vehicle (pictures alone) what only a vehicle sends is not expected, nor listed.
+  void Add(const FrameBundle& bundle, bool has_vehicle);
   /// The station's own position estimate is watched like an input.
   void AddEstimate(Timestamp estimate_time);
   std::vector<ChannelHealth> Health(Timestamp now) const;
@@ -35,6 +36,7 @@ class ChannelMonitor {
 
   std::vector<Watch> watches_;
   double gps_sigma_m_ = 0;
+  bool has_vehicle_ = true;
 };
 
 }  // namespace palace

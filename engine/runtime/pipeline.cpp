@@ -118,7 +118,7 @@ void Pipeline::See(Pass& pass) {
       pass.Note(DiagnosticLevel::kError, "camera", camera.problem);
     }
   }
-  channels_.Add(bundle);
+  channels_.Add(bundle, !HasPicturesOnly(pass.session.source.kind));
   navigator_.AddSensors(bundle);
   if (bundle.pose_at_exposure) {
     snapshot.pose = bundle.pose_at_exposure;

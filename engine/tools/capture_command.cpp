@@ -57,6 +57,9 @@ Status PrepareFolder(const fs::path& folder) {
   return Ok();
 }
 
+/// Stamps of a film are whole microseconds: 0.1 s may read as 0.099999.
+constexpr double kStampRounding_s = 1e-4;
+
 /// Pairs at least every_s apart in data time.
 Status Run(const CaptureOptions& options) {
   if (const Status ready = PrepareFolder(options.out); !ready) {
@@ -71,14 +74,15 @@ Status Run(const CaptureOptions& options) {
   for (int taken = 0; taken < options.count;) {
     const auto bundle = (*source)->Next({});
     if (!bundle && bundle.error().code == ErrorCode::kEnd) {
-      std::printf("the film ended after %d of %d pairs\n", taken, options.count);
-      return Ok();
+      return UnavailableError("the film ended after " + std::to_string(taken) + " of " +
+                              std::to_string(options.count) +
+                              " pairs; give a smaller --count or --every-s, or a longer film");
     }
     if (!bundle) {
       return bundle.error();
     }
     const auto& pair = (*bundle)->stereo;
-    if (!pair || (last && SecondsBetween(*last, pair->time) < options.every_s)) {
+    if (!pair || (last && SecondsBetween(*last, pair->time) < options.every_s - kStampRounding_s)) {
       continue;
     }
     for (const auto& [side, image] : {std::pair("left", &pair->left), {"right", &pair->right}}) {

@@ -145,7 +145,21 @@ ExperimentReport Report(const TrialTable& table) {
   plot.limits = {{kWanted_m, "0.5 m wanted"}};
   plot.y_min = 0;
   report.page.List(report.lines).Figure(LinePlotSvg(plot), "One point a mission.");
-  report.page.Heading("Missions").Table(table.columns, table.rows);
+  std::vector<std::vector<std::string>> missions;
+  for (std::size_t i = 0; i < table.rows.size(); ++i) {
+    const auto metres = [&](const char* column) {
+      char text[24];
+      std::snprintf(text, sizeof text, "%.3f", table.Numbers(column)[i]);
+      return std::string(text);
+    };
+    missions.push_back({table.rows[i][1], table.rows[i][state], metres("touchdown_miss_m"),
+                        metres("site_obstacle_distance_m"), metres("vision_error_mean_m"),
+                        metres("vision_error_max_m"), metres("gps_error_mean_m")});
+  }
+  report.page.Heading("Missions")
+      .Table({"Seed", "End", "Miss, m", "Nearest obstacle, m", "Vision error, mean, m",
+              "Vision error, largest, m", "GPS error, mean, m"},
+             missions);
   return report;
 }
 

@@ -253,7 +253,14 @@ ExperimentReport ReportAccuracy(const TrialTable& table) {
   report.page.Table(header, all);
   const TrialTable fifty = table.Where("height_ft", CsvNumber(50));
   const auto at_fifty = Summary(fifty);
-  report.page.Heading("At 50 ft").Table(header, at_fifty);
+  report.page.Heading("At 50 ft");
+  if (at_fifty.empty()) {
+    report.lines.push_back("no trial was at 50 ft; " + std::to_string(kStereoTrials) +
+                           " trials run the whole plan");
+    report.page.Paragraph(report.lines.back());
+  } else {
+    report.page.Table(header, at_fifty);
+  }
   const TrialTable ours = fifty.Where("matcher", kOurs);
   std::vector<std::vector<std::string>> sigmas;
   for (const GroundTexture texture : kTextures) {

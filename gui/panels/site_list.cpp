@@ -11,7 +11,12 @@ void DrawEmpty(const EngineSnapshot& snap, const Rect& content, UiFrame& ui) {
   const Style& s = ui.style;
   const TerrainDecision* shown = ShownDecision(snap);
   std::string text = "No map yet. Sites appear with the first stereo pairs.";
-  if (shown != nullptr) {
+  if (shown == nullptr && snap.range && !snap.pose) {
+    text = "Attitude and height are unknown: ranges make no map. Add [pose] to RIG.toml.";
+  } else if (shown != nullptr && HasPicturesOnly(snap.source.kind)) {
+    text = "No site inside the limits: " + shown->selection.none_reason +
+           ". Look at the maps to see which limit decides.";
+  } else if (shown != nullptr) {
     text = "No site inside the limits: " + shown->selection.none_reason +
            ". Fly on, or look at the maps to see which limit decides.";
   }

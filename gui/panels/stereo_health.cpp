@@ -51,7 +51,7 @@ std::vector<HealthRow> RowsOf(const EngineSnapshot& snap) {
       {"Coverage", Fixed(100 * q.coverage, 0) + " %", ""},
       {"Median depth", Fixed(q.median_depth_m, 2) + " m", ""},
       {"Disparity sigma", Fixed(q.median_sigma_px, 3) + " px", ""},
-      {"Row error", Fixed(q.row_error_px, 2) + " px", "max 0.50", !HasAlarm(snap, "row_error")},
+      {"Row error", Fixed(q.row_error_px, 2) + " px", "max 0.50 px", !HasAlarm(snap, "row_error")},
       {"Row shift, spread", Signed(q.row_shift_px, 2) + " px, " + Fixed(q.row_spread_px, 2) + " px",
        ""},
       {"Right over left brightness", Fixed(q.exposure_ratio, 2), "0.50 to 2.00",

@@ -68,6 +68,7 @@ TEST(Axes, TicksAreRoundAndInside) {
   EXPECT_EQ(RoundTicks(0, 1, false, 5), (std::vector<double>{0, 0.2, 0.4, 0.2 * 3, 0.8, 1}));
   EXPECT_EQ(RoundTicks(-7, 13, false, 4).front(), -5);
   EXPECT_EQ(RoundTicks(1, 100, true, 5), (std::vector<double>{1, 2, 5, 10, 20, 50, 100}));
+  EXPECT_EQ(RoundTicks(0, 2, false, 8, /*whole=*/true), (std::vector<double>{0, 1, 2}));
   EXPECT_TRUE(RoundTicks(0, 10, true, 5).empty());
   EXPECT_TRUE(RoundTicks(1, 1, false, 5).empty());
   EXPECT_TRUE(RoundTicks(0, kNan, false, 5).empty());
