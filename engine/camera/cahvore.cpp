@@ -89,6 +89,9 @@ std::optional<Eigen::Vector3d> Distort(const CahvoreModel& model, const Eigen::V
   const double zeta = q.dot(base.O);
   const Eigen::Vector3d lambda = q - zeta * base.O;
   const double distance = lambda.norm();
+  if (zeta < 0 && distance < kOnAxis_rad * -zeta) {
+    return std::nullopt;  // on the axis behind: its direction across is rounding
+  }
   const auto incidence = SolveIncidence(E, zeta, distance);
   if (!incidence || !(incidence->theta < std::numbers::pi - kOnAxis_rad)) {
     return std::nullopt;

@@ -8,8 +8,9 @@
 //
 // The projection centre of a ray lies at C + (theta/sin(theta) - 1) e(theta) O. Rays may come from
 // beyond 90 degrees where the lens allows it. Nothing comes back for points on the axis behind the
-// camera, L theta at or over 90 degrees, a distortion that no longer rises, and pupils that run
-// away from the axis faster than the ray turns; never a clamped value.
+// camera (within 1e-8 rad, moving pupil or not), L theta at or over 90 degrees, a distortion that
+// no longer rises, and pupils that run away from the axis faster than the ray turns; never a
+// clamped value.
 //
 // Source: Gennery 2006, "Generalized camera calibration including fish-eye lenses".
 #pragma once

@@ -49,25 +49,47 @@ Status ApplySize(CameraModel& model, const PictureSize& size, const std::string&
   return Ok();
 }
 
-Result<CameraModel> ParseAs(CameraFormat format, std::string_view text, const std::string& name,
-                            const CameraFileOptions& options) {
+KeyedText KeyedAs(CameraFormat format, std::string_view text, const std::string& name) {
   switch (format) {
     case CameraFormat::kJplText:
-      return ReadJplText(ParseAssignments(text, name));
+      return ParseAssignments(text, name);
     case CameraFormat::kPdsLabel:
-      return ReadPdsLabel(ParseLabel(text, name));
+      return ParseLabel(text, name);
     case CameraFormat::kWillson:
-      return ReadWillson(ParseNumberLines(text, name));
-    case CameraFormat::kOpenCvYaml:
-      return ReadOpenCv(ParseYaml(text, name), options);
+      return ParseNumberLines(text, name);
     case CameraFormat::kOpenCvXml:
-      return ReadOpenCv(ParseXml(text, name), options);
-    case CameraFormat::kRosYaml:
-      return ReadRos(ParseYaml(text, name));
+      return ParseXml(text, name);
     case CameraFormat::kMrcal:
-      return ReadMrcal(ParsePythonDict(text, name));
+      return ParsePythonDict(text, name);
+    case CameraFormat::kOpenCvYaml:
+    case CameraFormat::kRosYaml:
+      break;
   }
-  return InvalidError(name + ": unknown format");
+  return ParseYaml(text, name);
+}
+
+Result<CameraModel> ParseAs(CameraFormat format, std::string_view text, const std::string& name,
+                            const CameraFileOptions& options) {
+  const KeyedText keyed = KeyedAs(format, text, name);
+  if (Status whole = keyed.Whole(); !whole) {
+    return whole.error();
+  }
+  switch (format) {
+    case CameraFormat::kJplText:
+      return ReadJplText(keyed);
+    case CameraFormat::kPdsLabel:
+      return ReadPdsLabel(keyed);
+    case CameraFormat::kWillson:
+      return ReadWillson(keyed);
+    case CameraFormat::kRosYaml:
+      return ReadRos(keyed);
+    case CameraFormat::kMrcal:
+      return ReadMrcal(keyed);
+    case CameraFormat::kOpenCvYaml:
+    case CameraFormat::kOpenCvXml:
+      break;
+  }
+  return ReadOpenCv(keyed, options);
 }
 
 Error CannotHold(const CameraModel& model, CameraFormat format) {

@@ -11,6 +11,8 @@
 //
 // The content tells the format; the name's extension counts only where content fits two. Everything
 // is read by our own bounded parsers (keyed_text.h). Errors name file, line, key, value and limit.
+// A file cut short is refused or, where only comments and optional lines are lost, reads as the
+// same camera; OpenCV YAML of other writers has no end mark and may lose R and T that stand last.
 // A size that a file does not tell is 0. Lengths stay in the file's unit (CameraModel::unit_m).
 #pragma once
 

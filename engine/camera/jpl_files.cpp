@@ -146,7 +146,7 @@ Result<CameraModel> ReadUnnamed(const KeyedText& text) {
                      : Result<CameraModel>(linearity.error());
   }
   CahvorModel model;
-  const Status status = ReadBase(text, keys, text.Has("O") && text.Has("R"), model);
+  const Status status = ReadBase(text, keys, text.Has("O") || text.Has("R"), model);
   return status ? Result<CameraModel>(CameraModel{model}) : Result<CameraModel>(status.error());
 }
 

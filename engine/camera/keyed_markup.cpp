@@ -74,6 +74,7 @@ class YamlReader {
           item = Trimmed(item.substr(1));
         }
         items_ += " " + std::string(item == "-" ? std::string_view{} : item);
+        items_are_cut_ = is_last_cut_;
         continue;
       }
       FlushItems();
@@ -88,6 +89,7 @@ class YamlReader {
       return false;
     }
     const auto end = rest_.find('\n');
+    is_last_cut_ = end == std::string_view::npos;
     content_ = WithoutComment(rest_.substr(0, end));
     rest_ = end == std::string_view::npos ? std::string_view{} : rest_.substr(end + 1);
     ++line_;
@@ -110,21 +112,26 @@ class YamlReader {
     }
     key_line_ = line_;
     std::string value(WithoutTag(Trimmed(trimmed.substr(colon + 1))));
+    bool is_cut = is_last_cut_;
     if (value.substr(0, 1) == "[") {
-      for (int depth = Balance(value); depth > 0 && NextLine();) {
+      int depth = Balance(value);
+      while (depth > 0 && NextLine()) {
         depth += Balance(content_);
         value += " " + std::string(Trimmed(content_));
       }
+      is_cut = depth > 0;
     }
-    if (!value.empty()) {
-      out_.Add(Path(), key_line_, value);
+    awaits_items_ = value.empty();
+    if (!awaits_items_) {
+      out_.Add(Path(), key_line_, value, is_cut);
     }
   }
   void FlushItems() {
-    if (!items_.empty() && !open_.empty()) {
-      out_.Add(Path(), key_line_, items_);
+    if ((awaits_items_ || !items_.empty()) && !open_.empty()) {
+      out_.Add(Path(), key_line_, items_, items_are_cut_);
     }
     items_.clear();
+    awaits_items_ = items_are_cut_ = false;
   }
   std::string Path() const {
     std::vector<std::string> path;
@@ -139,6 +146,9 @@ class YamlReader {
   KeyedText& out_;
   std::vector<YamlLevel> open_;
   std::string items_;
+  bool awaits_items_ = false;  ///< of a key without a value so far
+  bool items_are_cut_ = false;
+  bool is_last_cut_ = false;  ///< the line read last is the text's last, without a newline
   int line_ = 0;
   int key_line_ = 0;
 };
@@ -207,6 +217,7 @@ KeyedText ParseXml(std::string_view text, const std::string& file) {
   std::vector<std::string> path;  // without the root
   int depth = 0;
   int line = 1;
+  bool has_root = false;
   std::size_t at = 0;
   while (at < text.size()) {
     const auto open = text.find('<', at);
@@ -221,21 +232,34 @@ KeyedText ParseXml(std::string_view text, const std::string& file) {
     }
     const std::string_view tag = text.substr(open + 1, close - open - 1);
     if (!comment && tag.substr(0, 1) == "/") {
-      if (!Trimmed(content).empty() && !path.empty()) {
+      if (!path.empty()) {
         keyed.Add(Joined(path), line, content);
       }
       --depth;
       if (!path.empty() && depth <= static_cast<int>(path.size())) {
         path.pop_back();
       }
-    } else if (!comment && !tag.empty() && tag[0] != '?' && tag[0] != '!' && tag.back() != '/') {
+    } else if (!comment && !tag.empty() && tag[0] != '?' && tag[0] != '!') {
+      has_root = true;
       if (depth > 0 && path.size() < kDeepest) {
-        path.emplace_back(tag.substr(0, std::min(tag.find_first_of(" \t\r\n"), kLongestKey)));
+        path.emplace_back(tag.substr(0, std::min(tag.find_first_of(" \t\r\n/"), kLongestKey)));
       }
       ++depth;
+      if (tag.back() == '/') {
+        if (!path.empty()) {
+          keyed.Add(Joined(path), line, "");
+        }
+        --depth;
+        if (!path.empty() && depth <= static_cast<int>(path.size())) {
+          path.pop_back();
+        }
+      }
     }
     line += CountLines(text.substr(at, close + 1 - at));
     at = close + 1;
+  }
+  if (!has_root || depth > 0) {
+    keyed.LeaveOpen(line, "the end tag of the root element");
   }
   return keyed;
 }
@@ -253,8 +277,11 @@ KeyedText ParsePythonDict(std::string_view text, const std::string& file) {
   skip(begin == std::string_view::npos ? rest.size() : begin + 1);
   while (!rest.empty()) {
     const auto quote = rest.find_first_of("\"'}");
-    if (quote == std::string_view::npos || rest[quote] == '}') {
+    if (quote == std::string_view::npos) {
       break;
+    }
+    if (rest[quote] == '}') {
+      return keyed;
     }
     skip(quote);
     const std::size_t length = QuotedLength(rest);
@@ -271,9 +298,10 @@ KeyedText ParsePythonDict(std::string_view text, const std::string& file) {
     if (value.substr(0, 2) == "b'" || value.substr(0, 2) == "b\"") {
       value.remove_prefix(1);
     }
-    keyed.Add(key, key_line, value);
+    keyed.Add(key, key_line, value, value_length == rest.size());
     skip(value_length);
   }
+  keyed.LeaveOpen(line, "the closing } of the dict");
   return keyed;
 }
 

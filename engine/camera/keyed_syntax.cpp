@@ -8,20 +8,20 @@
 namespace palace {
 namespace {
 
-/// Lines of a text, numbered from 1.
+/// Lines of a text, numbered from 1; `is_cut` for a last one that no newline ends.
 template <typename Use>
 void ForEachLine(std::string_view text, const Use& use) {
   for (int line = 1; !text.empty(); ++line) {
     const auto end = text.find('\n');
-    use(line, text.substr(0, end));
+    use(line, text.substr(0, end), end == std::string_view::npos);
     text = end == std::string_view::npos ? std::string_view{} : text.substr(end + 1);
   }
 }
 
-void AddAssignment(KeyedText& keyed, int line, std::string_view content) {
+void AddAssignment(KeyedText& keyed, int line, std::string_view content, bool is_cut) {
   const auto equals = content.find('=');
   if (equals != std::string_view::npos) {
-    keyed.Add(Trimmed(content.substr(0, equals)), line, content.substr(equals + 1));
+    keyed.Add(Trimmed(content.substr(0, equals)), line, content.substr(equals + 1), is_cut);
   }
 }
 
@@ -53,11 +53,13 @@ class LabelScanner {
       return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == ':' || c == '^';
     });
   }
-  /// A quoted text, a bracketed list or a bare word, with the <unit> after it.
-  std::string_view Value() {
+  /// A quoted text, a bracketed list or a bare word, with the <unit> after it. `is_cut`: the text
+  /// ends before the value does, as far as one can tell.
+  std::string_view Value(bool& is_cut) {
     const std::size_t begin = at_;
+    is_cut = true;
     if (Peek() == '"' || Peek() == '\'') {
-      SkipQuoted();
+      is_cut = !SkipQuoted();
     } else if (Peek() == '(' || Peek() == '{') {
       for (int depth = 0; !AtEnd();) {
         if (Peek() == '"' || Peek() == '\'') {
@@ -67,11 +69,13 @@ class LabelScanner {
         depth += Peek() == '(' || Peek() == '{' ? 1 : Peek() == ')' || Peek() == '}' ? -1 : 0;
         Skip();
         if (depth == 0) {
+          is_cut = false;
           break;
         }
       }
     } else {
       While([](char c) { return std::isspace(static_cast<unsigned char>(c)) == 0; });
+      is_cut = AtEnd();
     }
     return text_.substr(begin, at_ - begin);
   }
@@ -85,17 +89,19 @@ class LabelScanner {
     }
     return text_.substr(begin, at_ - begin);
   }
-  void SkipPast(std::string_view mark) {
+  /// False where the text ends without the mark.
+  bool SkipPast(std::string_view mark) {
     const auto found = text_.find(mark, at_);
     const std::size_t end = found == std::string_view::npos ? text_.size() : found + mark.size();
     while (at_ < end) {
       Skip();
     }
+    return found != std::string_view::npos;
   }
-  void SkipQuoted() {
+  bool SkipQuoted() {
     const std::string_view quote = text_.substr(at_, 1);
     Skip();
-    SkipPast(quote);
+    return SkipPast(quote);
   }
 
   std::string_view text_;
@@ -117,8 +123,10 @@ std::string Unquoted(std::string_view text) {
 
 KeyedText ParseAssignments(std::string_view text, const std::string& file) {
   KeyedText keyed(file);
-  ForEachLine(text, [&](int line, std::string_view content) {
-    AddAssignment(keyed, line, content.substr(0, content.find('#')));
+  ForEachLine(text, [&](int line, std::string_view content, bool is_cut) {
+    const auto comment = content.find('#');
+    AddAssignment(keyed, line, content.substr(0, comment),
+                  is_cut && comment == std::string_view::npos);
   });
   return keyed;
 }
@@ -126,10 +134,10 @@ KeyedText ParseAssignments(std::string_view text, const std::string& file) {
 KeyedText ParseNumberLines(std::string_view text, const std::string& file) {
   KeyedText keyed(file);
   int count = 0;
-  ForEachLine(text, [&](int line, std::string_view content) {
+  ForEachLine(text, [&](int line, std::string_view content, bool is_cut) {
     const std::string_view trimmed = Trimmed(content);
     if (trimmed.substr(0, 1) == "#") {
-      AddAssignment(keyed, line, trimmed.substr(1));
+      AddAssignment(keyed, line, trimmed.substr(1), is_cut);
     }
     for (std::string_view rest = trimmed; !rest.empty() && rest[0] != '#';) {
       const std::string_view word = rest.substr(0, rest.find_first_of(" \t#"));
@@ -137,7 +145,7 @@ KeyedText ParseNumberLines(std::string_view text, const std::string& file) {
       if (rest.size() < trimmed.size() && word.find_first_of("0123456789+-.") != 0) {
         break;
       }
-      keyed.Add(std::to_string(++count), line, word);
+      keyed.Add(std::to_string(++count), line, word, is_cut && word.size() == rest.size());
       rest = Trimmed(rest.substr(word.size()));
     }
   });
@@ -149,9 +157,13 @@ KeyedText ParseLabel(std::string_view text, const std::string& file) {
   KeyedText keyed(file);
   LabelScanner scan(text);
   std::vector<std::string> inside;
+  int group_line = 0;  // 0: of VICAR, whose properties nothing ends
   while (true) {
     scan.SkipBlanks();
     if (scan.AtEnd()) {
+      if (!inside.empty() && group_line > 0) {
+        keyed.LeaveOpen(group_line, "the end of the group " + inside.back());
+      }
       break;
     }
     const int line = scan.line();
@@ -175,17 +187,20 @@ KeyedText ParseLabel(std::string_view text, const std::string& file) {
     }
     scan.Skip();
     scan.SkipBlanks();
-    const std::string_view value = scan.Value();
+    bool is_cut = false;
+    const std::string_view value = scan.Value(is_cut);
     if (key == "GROUP" || key == "OBJECT") {
       if (inside.size() < kDeepest) {
         inside.push_back(Unquoted(value.substr(0, kLongestKey)));
+        group_line = line;
       }
     } else if (key == "PROPERTY" || key == "TASK") {  // VICAR: ends where the next begins
       inside.assign(1, Unquoted(value.substr(0, kLongestKey)));
+      group_line = 0;
     } else if (key == "END_GROUP" || key == "END_OBJECT") {
       inside.resize(inside.size() - std::min<std::size_t>(inside.size(), 1));
     } else {
-      keyed.Add(inside.empty() ? key : inside.back() + "." + key, line, value);
+      keyed.Add(inside.empty() ? key : inside.back() + "." + key, line, value, is_cut);
     }
   }
   return keyed;

@@ -32,12 +32,12 @@ std::string_view Trimmed(std::string_view text) {
              : text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
 }
 
-void KeyedText::Add(std::string_view key, int line, std::string_view text) {
+void KeyedText::Add(std::string_view key, int line, std::string_view text, bool is_cut) {
   constexpr std::size_t kMostKeys = 65536;
   if (key.size() > 16 * kLongestKey || values_.size() >= kMostKeys) {
     return;
   }
-  values_.try_emplace(std::string(key), KeyedValue{line, std::string(Trimmed(text))});
+  values_.try_emplace(std::string(key), KeyedValue{line, std::string(Trimmed(text)), is_cut});
 }
 
 const KeyedValue* KeyedText::Find(std::string_view key) const {
@@ -77,6 +77,20 @@ Error KeyedText::Missing(std::string_view key, const std::string& remedy) const 
   return InvalidError(file_ + ": " + std::string(key) + " is missing; " + remedy);
 }
 
+void KeyedText::LeaveOpen(int line, const std::string& end) {
+  if (open_end_.empty()) {
+    open_line_ = line;
+    open_end_ = end;
+  }
+}
+
+Status KeyedText::Whole() const {
+  return open_end_.empty()
+             ? Ok()
+             : Status(InvalidError(file_ + ":" + std::to_string(open_line_) + ": " + open_end_ +
+                                   " is missing, the file is cut short or damaged; fetch it anew"));
+}
+
 Result<std::vector<double>> KeyedText::Numbers(std::string_view key, std::size_t least,
                                                std::size_t most) const {
   const KeyedValue* value = Find(key);
@@ -84,6 +98,11 @@ Result<std::vector<double>> KeyedText::Numbers(std::string_view key, std::size_t
       std::to_string(least) + (least == most ? "" : " to " + std::to_string(most));
   if (value == nullptr) {
     return Missing(key, "give its " + wanted + (most == 1 ? " number" : " numbers"));
+  }
+  if (value->is_cut) {
+    return Wrong(key,
+                 "the file ends in this value, it may be cut short; fetch it anew, or close the "
+                 "bracket or end the line if the value is whole");
   }
   std::vector<double> numbers;
   std::string_view rest = value->text;

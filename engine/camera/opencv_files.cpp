@@ -21,9 +21,34 @@ std::string DataKey(const KeyedText& text, const std::vector<std::string>& names
   return {};
 }
 
+/// The numbers of a matrix, as many as its rows and cols tell where it has them.
+Result<std::vector<double>> ReadMatrix(const KeyedText& text, const std::string& key,
+                                       std::size_t least, std::size_t most) {
+  constexpr int kMostRows = 1 << 15;
+  auto values = text.Numbers(key, least, most);
+  const std::string name = key.substr(0, key.rfind(".data"));
+  if (!values || (!text.Has(name + ".rows") && !text.Has(name + ".cols"))) {
+    return values;
+  }
+  const auto rows = text.Count(name + ".rows", 0, kMostRows);
+  if (!rows) {
+    return rows.error();
+  }
+  const auto columns = text.Count(name + ".cols", 0, kMostRows);
+  if (!columns) {
+    return columns.error();
+  }
+  if (static_cast<std::size_t>(*rows) * static_cast<std::size_t>(*columns) != values->size()) {
+    return text.Wrong(key, "holds " + std::to_string(values->size()) + " numbers, rows x cols = " +
+                               std::to_string(*rows) + " x " + std::to_string(*columns) +
+                               " promise others; is the file cut short?");
+  }
+  return values;
+}
+
 /// fx, fy, cx, cy of a 3x3 camera matrix.
 Status ReadCameraMatrix(const KeyedText& text, const std::string& key, PinholeCamera& camera) {
-  const auto K = text.Numbers(key, 9, 9);
+  const auto K = ReadMatrix(text, key, 9, 9);
   if (!K) {
     return K.error();
   }
@@ -47,22 +72,27 @@ Status ReadCameraMatrix(const KeyedText& text, const std::string& key, PinholeCa
   return Ok();
 }
 
-Status ReadDistortion(const KeyedText& text, const std::string& key, OpenCvModel& model) {
+/// A missing distortion is unknown, not 0: files cut short lack it too.
+Status ReadDistortion(const KeyedText& text, const std::vector<std::string>& names,
+                      OpenCvModel& model) {
+  const std::string key = DataKey(text, names);
   if (key.empty()) {
-    return Ok();  // none told: a pinhole
+    return text.Missing(names.front(),
+                        "a file cut short lacks it too; write 5 zeros (4 for a fisheye) for a lens "
+                        "without distortion");
   }
-  const auto values = text.Numbers(key, 0, 14);
+  const auto values = ReadMatrix(text, key, 0, 14);
   if (!values) {
     return values.error();
   }
   const std::size_t count = values->size();
   const bool fisheye = model.lens == OpenCvLens::kFisheye;
   const bool known =
-      fisheye ? count == 4
-              : count == 0 || count == 4 || count == 5 || count == 8 || count == 12 || count == 14;
+      fisheye ? count == 4 : count == 4 || count == 5 || count == 8 || count == 12 || count == 14;
   if (!known) {
     return text.Wrong(key, "has " + std::to_string(count) + " coefficients, it must have " +
-                               (fisheye ? "4 for a fisheye" : "0, 4, 5, 8, 12 or 14"));
+                               (fisheye ? "4 for a fisheye" : "4, 5, 8, 12 or 14") +
+                               "; write zeros for a lens without distortion");
   }
   std::copy(values->begin(), values->end(), model.k.begin());
   const bool all_zero =
@@ -73,7 +103,7 @@ Status ReadDistortion(const KeyedText& text, const std::string& key, OpenCvModel
 
 /// A rotation matrix, or an axis times angle of 3 numbers (OpenCV's Rodrigues vector).
 Status ReadRotation(const KeyedText& text, const std::string& key, Eigen::Matrix3d& R) {
-  const auto values = text.Numbers(key, 3, 9);
+  const auto values = ReadMatrix(text, key, 3, 9);
   if (!values) {
     return values.error();
   }
@@ -99,14 +129,18 @@ Status ReadRotation(const KeyedText& text, const std::string& key, Eigen::Matrix
 Status ReadPose(const KeyedText& text, OpenCvModel& model, bool& known) {
   const std::string rotation = DataKey(text, {"R", "rotation_matrix"});
   const std::string translation = DataKey(text, {"T", "t", "translation_vector"});
-  if (rotation.empty() || translation.empty()) {
+  if (rotation.empty() && translation.empty()) {
     known = false;
     return Ok();
+  }
+  if (rotation.empty() || translation.empty()) {
+    return text.Missing(rotation.empty() ? "R" : "T",
+                        "a pose needs R and T; give both or neither (a file cut short lacks one)");
   }
   if (Status status = ReadRotation(text, rotation, model.R_CF); !status) {
     return status;
   }
-  const auto t = text.Numbers(translation, 3, 3);
+  const auto t = ReadMatrix(text, translation, 3, 3);
   if (!t) {
     return t.error();
   }
@@ -137,6 +171,9 @@ Result<CameraModel> ReadOpenCv(const KeyedText& text, const CameraFileOptions& o
   const std::string of_right = DataKey(text, {"M2", "K2", "cameraMatrix2", "camera_matrix_2"});
   OpenCvModel model;
   const std::string fisheye = text.Word("fisheye_model");
+  if (text.Has("fisheye_model") && fisheye.empty()) {
+    return text.Wrong("fisheye_model", "must be 0 or 1");
+  }
   const std::string lens = text.Word("distortion_model");
   if ((!fisheye.empty() && fisheye != "0") || lens == "equidistant" || lens == "fisheye") {
     model.lens = OpenCvLens::kFisheye;
@@ -162,6 +199,13 @@ Result<CameraModel> ReadOpenCv(const KeyedText& text, const CameraFileOptions& o
     matrix = of_left.empty() ? of_right : of_left;
     const std::string number = of_left.empty() ? "2" : "1";
     distortion = {"D" + number, "distCoeffs" + number, "distortion_coefficients_" + number};
+    if (!matrix.empty() && options.side &&
+        (*options.side == StereoSide::kRight) != of_left.empty()) {
+      return text.Missing(of_left.empty() ? "M1" : "M2",
+                          "the file holds " + matrix +
+                              ", the other camera of a pair; take the other file, or fetch this "
+                              "one anew if it is cut short");
+    }
   }
   if (matrix.empty()) {
     return text.Missing("camera_matrix",
@@ -171,7 +215,7 @@ Result<CameraModel> ReadOpenCv(const KeyedText& text, const CameraFileOptions& o
   if (Status status = ReadCameraMatrix(text, matrix, model.pinhole); !status) {
     return status.error();
   }
-  if (Status status = ReadDistortion(text, DataKey(text, distortion), model); !status) {
+  if (Status status = ReadDistortion(text, distortion, model); !status) {
     return status.error();
   }
   const auto size = ReadOpenCvSize(text);
@@ -208,9 +252,11 @@ Result<CameraModel> ReadRos(const KeyedText& text) {
     return text.Wrong("distortion_model",
                       "PALACE reads plumb_bob, rational_polynomial and equidistant");
   }
-  if (Status status =
-          ReadDistortion(text, DataKey(text, {"distortion_coefficients", "D", "d"}), model);
-      !status) {
+  const std::vector<std::string> distortion = {"distortion_coefficients", "D", "d"};
+  const KeyedValue* coefficients = text.Find(DataKey(text, distortion));
+  const bool has_none = text.Has("distortion_model") && (lens.empty() || lens == "none") &&
+                        coefficients != nullptr && coefficients->text == "[]";
+  if (Status status = has_none ? Ok() : ReadDistortion(text, distortion, model); !status) {
     return status.error();
   }
   const auto size = text.Has("image_width") ? ReadSize(text, "image_width", "image_height")
@@ -219,29 +265,29 @@ Result<CameraModel> ReadRos(const KeyedText& text) {
     return size.error();
   }
   // F is the rectified frame of the pair's left camera: x_rect = R p_C, P = K' [I | t_rect].
-  Eigen::Matrix3d R_RectC = Eigen::Matrix3d::Identity();
   const std::string R = DataKey(text, {"rectification_matrix", "R", "r"});
-  if (!R.empty()) {
-    if (Status status = ReadRotation(text, R, R_RectC); !status) {
-      return status.error();
-    }
-  }
-  Eigen::Vector3d t_RectF = Eigen::Vector3d::Zero();
   const std::string P = DataKey(text, {"projection_matrix", "P", "p"});
-  if (!P.empty()) {
-    const auto values = text.Numbers(P, 12, 12);
-    if (!values) {
-      return values.error();
-    }
-    const Eigen::Matrix<double, 3, 4> projection =
-        Eigen::Map<const Eigen::Matrix<double, 3, 4, Eigen::RowMajor>>(values->data());
-    if (!(projection(0, 0) > 0) || !(projection(1, 1) > 0) || projection(2, 2) != 1) {
-      return text.Wrong(P,
-                        "must have the form fx 0 cx Tx, 0 fy cy Ty, 0 0 1 0 with positive fx, "
-                        "fy; is the camera calibrated?");
-    }
-    t_RectF = projection.leftCols<3>().inverse() * projection.col(3);
+  if (R.empty() || P.empty()) {
+    return text.Missing(R.empty() ? "rectification_matrix" : "projection_matrix",
+                        "a camera_info file tells the pose by it; fetch it anew if it is cut "
+                        "short, or write the identity and K with a column of zeros");
   }
+  Eigen::Matrix3d R_RectC = Eigen::Matrix3d::Identity();
+  if (Status status = ReadRotation(text, R, R_RectC); !status) {
+    return status.error();
+  }
+  const auto values = ReadMatrix(text, P, 12, 12);
+  if (!values) {
+    return values.error();
+  }
+  const Eigen::Matrix<double, 3, 4> projection =
+      Eigen::Map<const Eigen::Matrix<double, 3, 4, Eigen::RowMajor>>(values->data());
+  if (!(projection(0, 0) > 0) || !(projection(1, 1) > 0) || projection(2, 2) != 1) {
+    return text.Wrong(P,
+                      "must have the form fx 0 cx Tx, 0 fy cy Ty, 0 0 1 0 with positive fx, fy; is "
+                      "the camera calibrated?");
+  }
+  const Eigen::Vector3d t_RectF = projection.leftCols<3>().inverse() * projection.col(3);
   model.R_CF = R_RectC.transpose();
   model.t_CF = R_RectC.transpose() * t_RectF;
   const bool is_moved = !R_RectC.isIdentity(0) || !t_RectF.isZero(0);

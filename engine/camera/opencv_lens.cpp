@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <tuple>
+#include <type_traits>
 
 #include "engine/camera/polynomial.h"
 
@@ -31,14 +33,31 @@ double Slope(const std::array<double, 4>& c, double s) {
   return c[1] + s * (2 * c[2] + s * 3 * c[3]);
 }
 
-/// True when r N(r^2)/D(r^2) grows from the axis to s = r^2. Its derivative has the sign of
-/// N D + 2 s (N' D - N D').
-bool RadialIsMonotonic(const OpenCvModel& model, double s) {
-  const std::array<double, 4> n = Numerator(model);
-  if (model.coefficients < 8) {
-    return PositiveOn(RadialSlope(n), s);
+/// Product of polynomials.
+template <std::size_t A, std::size_t B>
+std::array<double, A + B - 1> Times(const std::array<double, A>& a,
+                                    const std::array<double, B>& b) {
+  std::array<double, A + B - 1> product{};
+  for (std::size_t i = 0; i < A; ++i) {
+    for (std::size_t j = 0; j < B; ++j) {
+      product[i + j] += a[i] * b[j];
+    }
   }
-  const std::array<double, 4> d = Denominator(model);
+  return product;
+}
+
+/// Adds `factor` t^shift b to the polynomial a.
+template <std::size_t A, std::size_t B>
+void AddTo(std::array<double, A>& a, const std::array<double, B>& b, double factor,
+           std::size_t shift = 0) {
+  static_assert(A >= B);
+  for (std::size_t i = 0; i < B; ++i) {
+    a[i + shift] += factor * b[i];
+  }
+}
+
+/// In s: N D + 2 s (N' D - N D'), which is D^2 times the slope of r N(r^2)/D(r^2).
+std::array<double, 7> RadialGrowth(const std::array<double, 4>& n, const std::array<double, 4>& d) {
   std::array<double, 7> growth{};
   for (std::size_t i = 0; i < 4; ++i) {
     for (std::size_t j = 0; j < 4; ++j) {
@@ -46,7 +65,99 @@ bool RadialIsMonotonic(const OpenCvModel& model, double s) {
       growth[i + j] += order * n[i] * d[j];
     }
   }
+  return growth;
+}
+
+/// True when the radial slope is over `margin` from the axis to s = r^2; a margin over 0 is bounded
+/// roughly, so that false then only means unknown.
+bool RadialSlopeExceeds(const OpenCvModel& model, double s, double margin) {
+  const std::array<double, 4> n = Numerator(model);
+  if (model.coefficients < 8) {
+    std::array<double, 4> slope = RadialSlope(n);
+    slope[0] -= margin;
+    return PositiveOn(slope, s);
+  }
+  const std::array<double, 4> d = Denominator(model);
+  std::array<double, 7> growth = RadialGrowth(n, d);
+  const double most = 1 + s * (std::abs(d[1]) + s * (std::abs(d[2]) + s * std::abs(d[3])));
+  growth[0] -= margin * most * most;  // D is at most that
   return PositiveOn(d, s) && PositiveOn(growth, s);
+}
+
+/// T, the part of the derivative that the tangential and the thin-prism terms make, is at the
+/// point t u of the segment from the axis to u: t T1 + t^3 T3.
+struct SidewaysSlope {
+  Eigen::Matrix2d T1;
+  Eigen::Matrix2d T3;
+};
+
+SidewaysSlope SidewaysSlopeAt(const OpenCvModel& m, const Eigen::Vector2d& u) {
+  const double p1 = m.k[2];
+  const double p2 = m.k[3];
+  SidewaysSlope slope;
+  slope.T1 << 2 * p1 * u.y() + 6 * p2 * u.x(), 2 * p1 * u.x() + 2 * p2 * u.y(),
+      2 * p1 * u.x() + 2 * p2 * u.y(), 6 * p1 * u.y() + 2 * p2 * u.x();
+  slope.T1 += 2 * Eigen::Vector2d(m.k[8], m.k[10]) * u.transpose();
+  slope.T3 = 4 * u.squaredNorm() * Eigen::Vector2d(m.k[9], m.k[11]) * u.transpose();
+  return slope;
+}
+
+/// True when the derivative J keeps orientation on the whole segment from the axis to u.
+///   J = g I + 2 g' u u^T + T,  det J = g h + h tr T - 2 g' u^T T u + det T,  h = g + 2 s g'
+/// With g = N/D, h = G/D^2 and g' = W/D^2 the product D^3 det J is a polynomial of t:
+///   N G + D (G tr T - 2 W u^T T u) + D^3 det T
+bool SegmentKeepsOrientation(const OpenCvModel& model, const Eigen::Vector2d& u) {
+  const double s = u.squaredNorm();
+  const auto in_t = [s](const auto& c) {  // from s to t: the square of t u is t^2 s
+    std::array<double, 2 * std::tuple_size_v<std::decay_t<decltype(c)>> - 1> out{};
+    double power = 1;
+    for (std::size_t i = 0; i < c.size(); ++i, power *= s) {
+      out[2 * i] = c[i] * power;
+    }
+    return out;
+  };
+  const std::array<double, 4> n = Numerator(model);
+  const std::array<double, 4> d =
+      model.coefficients < 8 ? std::array<double, 4>{1, 0, 0, 0} : Denominator(model);
+  const auto slope_of = [](const std::array<double, 4>& c) {
+    return std::array<double, 3>{c[1], 2 * c[2], 3 * c[3]};
+  };
+  std::array<double, 6> w = Times(slope_of(n), d);
+  AddTo(w, Times(n, slope_of(d)), -1);
+  const auto N = in_t(n);
+  const auto D = in_t(d);
+  const auto G = in_t(RadialGrowth(n, d));
+  const auto W = in_t(w);
+  const SidewaysSlope T = SidewaysSlopeAt(model, u);
+  const std::array<double, 4> trace = {0, T.T1.trace(), 0, T.T3.trace()};
+  const std::array<double, 4> quadratic = {0, u.dot(T.T1 * u), 0, u.dot(T.T3 * u)};
+  const double mixed = T.T1(0, 0) * T.T3(1, 1) + T.T3(0, 0) * T.T1(1, 1) - T.T1(0, 1) * T.T3(1, 0) -
+                       T.T3(0, 1) * T.T1(1, 0);
+  const std::array<double, 7> determinant = {0,     0, T.T1.determinant(), 0,
+                                             mixed, 0, T.T3.determinant()};
+  std::array<double, 25> all{};
+  AddTo(all, Times(N, G), 1);
+  AddTo(all, Times(D, Times(G, trace)), 1);
+  AddTo(all, Times(D, Times(W, quadratic)), -2, 2);  // u^T T u at t u
+  AddTo(all, Times(D, Times(D, Times(D, determinant))), 1);
+  return PositiveOn(all, 1);
+}
+
+/// True when nothing folds between the axis and u. Cheap where the sideways terms are small: |T|
+/// is at most 6 |p| r + 2 r |prism|, and J is regular while the radial slope, of which g is the
+/// mean, exceeds that.
+bool IsInRange(const OpenCvModel& model, const Eigen::Vector2d& u) {
+  const double s = u.squaredNorm();
+  const auto& k = model.k;
+  const double prism_x = std::abs(k[8]) + 2 * s * std::abs(k[9]);
+  const double prism_y = std::abs(k[10]) + 2 * s * std::abs(k[11]);
+  const double sideways =
+      2 * std::sqrt(s) *
+      (3 * std::sqrt(k[2] * k[2] + k[3] * k[3]) + std::sqrt(prism_x * prism_x + prism_y * prism_y));
+  if (RadialSlopeExceeds(model, s, sideways)) {
+    return true;
+  }
+  return sideways > 0 && RadialSlopeExceeds(model, s, 0) && SegmentKeepsOrientation(model, u);
 }
 
 /// The homography of a sensor that stands tilted by tau_x, tau_y (OpenCV's matTilt).
@@ -63,7 +174,7 @@ std::optional<Distorted> Distort(const OpenCvModel& model, const Eigen::Vector2d
   const double a = u.x();
   const double b = u.y();
   const double s = u.squaredNorm();
-  if (!RadialIsMonotonic(model, s)) {
+  if (!IsInRange(model, u)) {
     return std::nullopt;
   }
   const auto& k = model.k;
@@ -89,12 +200,12 @@ std::optional<Distorted> Distort(const OpenCvModel& model, const Eigen::Vector2d
     return std::nullopt;
   }
   if (k[12] != 0 || k[13] != 0) {
-    const Eigen::Vector3d tilted = TiltMatrix(k[12], k[13]) * out.point.homogeneous();
+    const Eigen::Matrix3d tilt = TiltMatrix(k[12], k[13]);
+    const Eigen::Vector3d tilted = tilt * out.point.homogeneous();
     if (!(tilted.z() > 0)) {
       return std::nullopt;
     }
     const Eigen::Vector2d seen = tilted.hnormalized();
-    const Eigen::Matrix3d tilt = TiltMatrix(k[12], k[13]);
     const Eigen::Matrix2d tilt_slope =
         (tilt.topLeftCorner<2, 2>() - seen * tilt.block<1, 2>(2, 0)) / tilted.z();
     out.point = seen;

@@ -9,9 +9,10 @@
 //   fisheye     theta = angle from the axis, a' = theta (1 + k1 theta^2 + ... + k4 theta^8) a / r
 //   x_px = fx a' + cx,  y_px = fy b' + cy
 //
-// The model ends where its radial part no longer grows or its 2x2 derivative no longer keeps
-// orientation: two directions would share a pixel. Points and pixels beyond that have no answer, as
-// have points at or behind the focal plane (fisheye: on the axis behind the camera).
+// The model ends where, on the way from the axis, its radial part no longer grows or its 2x2
+// derivative no longer keeps orientation: two directions would share a pixel. Points and pixels
+// beyond that have no answer, even where the derivative recovers farther out, as have points at or
+// behind the focal plane (fisheye: on the axis behind the camera).
 // Source: OpenCV 4.6 calib3d documentation; Brown 1971; Kannala & Brandt 2006.
 #pragma once
 

@@ -25,14 +25,16 @@ std::vector<double> Coefficients(const OpenCvModel& m) {
   return {m.k.begin(), m.k.begin() + (m.coefficients == 0 ? 5 : m.coefficients)};
 }
 
+/// The camera matrix, which no file may lack, stands last: YAML has no end mark, and a file cut
+/// short must not read as a camera without distortion or pose.
 std::vector<Matrix> MatricesOf(const CameraModel& model) {
   const auto& m = std::get<OpenCvModel>(model.lens);
-  std::vector<Matrix> matrices = {{"camera_matrix", 3, CameraMatrix(m.pinhole)},
-                                  {"distortion_coefficients", 1, Coefficients(m)}};
+  std::vector<Matrix> matrices = {{"distortion_coefficients", 1, Coefficients(m)}};
   if (model.pose_is_known) {
     matrices.push_back({"R", 3, RowByRow(m.R_CF)});
     matrices.push_back({"T", 3, {m.t_CF.x(), m.t_CF.y(), m.t_CF.z()}});
   }
+  matrices.push_back({"camera_matrix", 3, CameraMatrix(m.pinhole)});
   return matrices;
 }
 

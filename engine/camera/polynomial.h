@@ -54,10 +54,10 @@ bool BernsteinIsPositive(std::array<double, N> left, int halvings) {
 
 /// True when c[0] + c[1] s + ... + c[N-1] s^(N-1) > 0 for all s of [0, end]. Bernstein coefficients
 /// that are all positive prove it, an end value that is not disproves it, and what neither decides
-/// is halved, 30 times at most (a zero that only touches counts as one). False for NaN.
+/// is halved, 60 times at most (a zero that only touches counts as one). False for NaN.
 template <std::size_t N>
 bool PositiveOn(const std::array<double, N>& c, double end) {
-  return internal::BernsteinIsPositive(internal::BernsteinOn(c, end), 30);
+  return internal::BernsteinIsPositive(internal::BernsteinOn(c, end), 60);
 }
 
 /// r (c[0] + c[1] r^2 + c[2] r^4 + ...): the radial distortion of a lens.

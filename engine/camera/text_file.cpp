@@ -7,6 +7,14 @@ namespace palace {
 
 Result<std::string> ReadTextFile(const std::filesystem::path& path, std::size_t limit) {
   std::error_code code;
+  if (std::filesystem::is_directory(path, code)) {
+    return UnavailableError(path.string() + ": is a folder; name a file in it");
+  }
+  if (path == "-" || std::filesystem::is_character_file(path, code) ||
+      std::filesystem::is_fifo(path, code)) {
+    return UnavailableError(path.string() +
+                            ": is no file on disk; save the text as a file and name that");
+  }
   if (!std::filesystem::is_regular_file(path, code)) {
     return UnavailableError(path.string() + ": no such file; check the name");
   }

@@ -141,8 +141,8 @@ TEST(CameraFiles, RosProjectionTellsTheBaseline) {
   const CameraModel left = Parsed(Replaced(kRosText, "-57.6", "0.0"), "left.yaml");
   EXPECT_FALSE(left.pose_is_known);
   const std::string fisheye =
-      Replaced(Replaced(kRosText, "plumb_bob", "equidistant"), "[-0.2, 0.05, 0.001, -0.001, 0]",
-               "\n  - 0.01\n  - 0.02\n  - 0\n  - -0.001");
+      Replaced(Replaced(Replaced(kRosText, "plumb_bob", "equidistant"), "cols: 5", "cols: 4"),
+               "[-0.2, 0.05, 0.001, -0.001, 0]", "\n  - 0.01\n  - 0.02\n  - 0\n  - -0.001");
   EXPECT_EQ(std::get<OpenCvModel>(Parsed(fisheye, "f.yaml").lens).lens, OpenCvLens::kFisheye);
   EXPECT_EQ(std::get<OpenCvModel>(Parsed(fisheye, "f.yaml").lens).k[3], -0.001);
 }

@@ -8,6 +8,8 @@
 #include <gtest/gtest.h>
 #include <opencv2/calib3d.hpp>
 
+#include "engine/camera/cahvore.h"
+#include "engine/camera/opencv_lens.h"
 #include "engine/camera/polynomial.h"
 #include "engine/model/camera_numbers.h"
 #include "tests/camera/reference_vectors.h"
@@ -164,6 +166,58 @@ TEST(CameraModel, RaysInvertProjectionInEveryFamily) {
     }
   }
   EXPECT_GT(checked, 200 * kFamilies * 9 / 10);
+}
+
+TEST(CameraModel, WhereProjectAnswersNoOtherDirectionSharesThePixel) {
+  constexpr std::uint64_t kSeed = 39;
+  SCOPED_TRACE(kSeed);
+  RandomStream random(kSeed);
+  int checked = 0;
+  for (int i = 0; i < 800; ++i) {
+    const int coefficients[] = {4, 5, 8, 12, 14};
+    OpenCvModel model = RandomOpenCv(random, coefficients[i % 5]);
+    const double strong = i % 2 == 0 ? 0.02 : 0.003;  // most lenses: under 0.002
+    for (const std::size_t sideways : {2, 3, 8, 9, 10, 11}) {
+      const bool has = sideways < static_cast<std::size_t>(model.coefficients);
+      model.k[sideways] = has ? random.Uniform(-strong, strong) : 0;
+    }
+    model.t_CF.setZero();
+    for (int k = 0; k < 20; ++k) {
+      const Eigen::Vector3d p_C(random.Uniform(-2, 2), random.Uniform(-2, 2), 1);
+      const Eigen::Vector3d p = model.R_CF.transpose() * p_C;
+      const auto pixel = ProjectOpenCv(model, p);
+      if (pixel) {
+        const auto ray = RayFromPixelOpenCv(model, *pixel);
+        ASSERT_TRUE(ray) << p_C.transpose();
+        EXPECT_LT((ray->direction - p.normalized()).norm(), 1e-8) << p_C.transpose();
+        ++checked;
+      }
+    }
+  }
+  EXPECT_GT(checked, 8000);
+}
+
+TEST(CameraModel, PointsBeyondAFoldOfTheTangentialTermsHaveNoPixel) {
+  OpenCvModel model;
+  model.pinhole = {640, 480, 500, 500, 320, 240};
+  model.coefficients = 4;
+  model.k = {-0.3, 0.0407, 0.003, 0};  // det J <= 0 for y/z from -1.38 to -1.58, over 0 after it
+  EXPECT_TRUE(ProjectOpenCv(model, {0, -1.37, 1}));
+  EXPECT_FALSE(ProjectOpenCv(model, {0, -1.5, 1}));
+  EXPECT_FALSE(ProjectOpenCv(model, {0, -1.6, 1}));
+  EXPECT_TRUE(ProjectOpenCv(model, {0, 1.6, 1}));
+}
+
+TEST(CameraModel, NothingOnTheAxisBehindAMovingPupil) {
+  constexpr std::uint64_t kSeed = 40;
+  SCOPED_TRACE(kSeed);
+  RandomStream random(kSeed);
+  for (int i = 0; i < 100; ++i) {
+    const CahvoreModel model = RandomCahvore(random, 0.5 * (i % 3) - 0.5);
+    for (const double range : {1e-3, 1.0, 30.0, 1e5}) {
+      EXPECT_FALSE(ProjectCahvore(model, model.base.C - range * model.base.O)) << range;
+    }
+  }
 }
 
 TEST(CameraModel, JacobiansAreTheDifferencesInEveryFamily) {
@@ -351,6 +405,7 @@ TEST(Polynomial, PositiveOnFindsNarrowDips) {
   EXPECT_TRUE(PositiveOn(std::array<double, 3>{1.0001, -2, 1}, 2));   // (s-1)^2 + 1e-4
   EXPECT_FALSE(PositiveOn(std::array<double, 3>{0.9999, -2, 1}, 2));  // (s-1)^2 - 1e-4
   EXPECT_TRUE(PositiveOn(std::array<double, 3>{0.9999, -2, 1}, 0.98));
+  EXPECT_TRUE(PositiveOn(std::array<double, 3>{1, -0.3, 0.1}, 1e14)) << "a dip far from the end";
   EXPECT_FALSE(PositiveOn(std::array<double, 2>{1, NAN}, 1));
   EXPECT_FALSE(PositiveOn(std::array<double, 2>{1, 1}, std::nan("")));
   constexpr std::uint64_t kSeed = 35;
