@@ -68,6 +68,12 @@ int RunCameraAlign(const CameraOptions& options) {
     return FailCamera(
         {pair.error().code, options.left + ", " + options.right + ": " + pair.error().message});
   }
+  const Eigen::Vector3d baseline = pair->right.C - pair->left.C;
+  if (baseline.dot(PinholeFromCahv(pair->left).R_CF.row(0)) < 0) {
+    return FailCamera(InvalidError(options.left + ", " + options.right +
+                                   ": the right camera stands to the left of the left one, every "
+                                   "disparity would be negative; exchange --left and --right"));
+  }
   std::error_code error;
   std::filesystem::create_directories(options.out, error);
   const std::filesystem::path folder = options.out;
@@ -79,11 +85,17 @@ int RunCameraAlign(const CameraOptions& options) {
     }
   }
   const CahvInternals internals = InternalsOf(pair->left);
-  const double baseline_m = (pair->right.C - pair->left.C).norm();
+  const double baseline_m = baseline.norm();
   std::printf("form          %s\n", average ? "mean scale and centre (CAHV)"
                                     : alignment.form == AlignmentForm::kColumns
                                         ? "older: mean of the columns"
                                         : "newer: mean of the axes");
+  if (average) {
+    std::printf(
+        "field         %sthe average of two models keeps none, pixels at the border may "
+        "have no source\n",
+        options.field_is_given ? ("--field " + options.field + " is not used: ").c_str() : "");
+  }
   std::printf("focal length  hs %.9f px, vs %.9f px\n", internals.hs_px, internals.vs_px);
   std::printf("image centre  hc %.9f px, vc %.9f px\n", internals.hc_px, internals.vc_px);
   std::printf("baseline      %.9f m (disparity x depth = %.6f px m)\n", baseline_m,

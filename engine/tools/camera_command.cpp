@@ -46,7 +46,10 @@ int RunPoints(const CameraOptions& options, PointFunction function) {
   std::ifstream file;
   if (options.in != "-") {
     std::error_code none;
-    if (std::filesystem::is_regular_file(options.in, none)) {
+    if (std::filesystem::is_directory(options.in, none)) {
+      return FailCamera(UnavailableError(options.in + ": is a folder; name a file in it"));
+    }
+    if (std::filesystem::exists(options.in, none)) {
       file.open(options.in);
     }
     if (!file.is_open()) {
@@ -96,6 +99,15 @@ Result<CameraModel> ReadCameraModel(const std::string& path, const CameraOptions
   if (!file) {
     return file.error();
   }
+  if (path == "-" || path == "/dev/stdin") {
+    return UsageError(path +
+                      ": a camera model is read from a file; only points and pixels may "
+                      "come from stdin");
+  }
+  if (!options.side.empty() && ReadCameraFile(path, {std::nullopt, file->size}).ok()) {
+    return UsageError("--camera " + options.side + ": " + path +
+                      " holds one camera; leave --camera out");
+  }
   if (side && options.side.empty()) {
     file->side = side;
   }
@@ -138,6 +150,10 @@ void AddCameraCommand(CLI::App& app, int& exit_code) {
   CLI::App* convert = camera->add_subcommand(
       "convert", "Another lens family or file format; prints the residual in pixels");
   convert->add_option("--model", options->model, "Camera model file")->required();
+  convert->footer(
+      "Lenses are fitted to the rays of the old model; the residual tells how well. cahv is not\n"
+      "fitted: it keeps the old image plane and the field of view by JPL's rule, so that every\n"
+      "pixel of the picture resampled to it has a source; the residual tells how far pixels move.");
   convert->add_option("--to", options->to,
                       "cahv, cahvor, cahvore, tsai, pinhole, opencv4, opencv5, opencv8, opencv12, "
                       "fisheye, ros, ros8, ros_fisheye; without it the extension of --out decides");
@@ -155,27 +171,32 @@ void AddCameraCommand(CLI::App& app, int& exit_code) {
   align
       ->add_option("--form", options->form,
                    "newer (mean axis), older (mean columns), average (mean scale and centre), or "
-                   "auto: average for two CAHV files, else newer")
+                   "auto: average for two CAHV files, else newer. average keeps no field of view: "
+                   "pixels at the border may have no source")
       ->check(CLI::IsMember({"auto", "newer", "older", "average"}))
       ->capture_default_str();
   align
       ->add_option(
           "--field", options->field,
           "inside: every pixel has a source (minfov 1); covering: every source pixel keeps "
-          "a place (minfov 0)")
+          "a place (minfov 0); newer and older only")
       ->check(CLI::IsMember({"inside", "covering"}))
       ->capture_default_str();
   align
       ->add_option("--baseline", options->baseline_m,
                    "Metres between the cameras, for files without a pose")
-      ->check(CLI::PositiveNumber);
+      ->check(CLI::Range(0.001, 1000.0));
   align->add_option("--size", options->size,
                     "Size of both pictures, for files that do not tell it");
+  const CLI::Option* field = align->get_option("--field");
   project->callback([=, &exit_code] { exit_code = RunPoints(*options, ProjectPoints); });
   backproject->callback([=, &exit_code] { exit_code = RunPoints(*options, BackProjectPixels); });
   convert->callback([=, &exit_code] { exit_code = RunCameraConvert(*options); });
   info->callback([=, &exit_code] { exit_code = RunInfo(*options); });
-  align->callback([=, &exit_code] { exit_code = RunCameraAlign(*options); });
+  align->callback([=, &exit_code] {
+    options->field_is_given = field->count() > 0;
+    exit_code = RunCameraAlign(*options);
+  });
 }
 
 }  // namespace palace

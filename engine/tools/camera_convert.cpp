@@ -52,6 +52,8 @@ void PrintResidual(const ConvertedCamera& converted, LensFamily family, const Ca
               r.rms_px, r.max_px, r.worst_pixel.x(), r.worst_pixel.y(), r.pixels);
   if (family == LensFamily::kCahv && r.max_px > 1e-6) {
     std::printf(
+        "field     kept by JPL's rule, not fitted: every new pixel has a source in the old "
+        "picture\n"
         "          a CAHV camera has no distortion: pictures must be resampled, the residual "
         "is how far pixels move\n");
   }

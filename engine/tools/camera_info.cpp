@@ -23,6 +23,32 @@ std::string Line(const char* format, ...) {
   return std::string(text.data()) + "\n";
 }
 
+/// A component as a person reads it: no "-0".
+double Plain(double value, int decimals) {
+  return std::abs(value) < 0.5 * std::pow(10, -decimals) ? 0 : value;
+}
+
+/// Three numbers of nine digits.
+std::string Triple(const Eigen::Vector3d& v) {
+  const std::string text = Line("%.9g, %.9g, %.9g", v.x() + 0.0, v.y() + 0.0, v.z() + 0.0);
+  return text.substr(0, text.size() - 1);
+}
+
+/// Share of the picture through whose pixels the model has no ray, on a grid that ends at its
+/// border.
+double ShareWithoutRay(const CameraModel& model) {
+  constexpr int kCells = 32;
+  int without = 0;
+  for (int row = 0; row <= kCells; ++row) {
+    for (int column = 0; column <= kCells; ++column) {
+      const Eigen::Vector2d pixel(column * (WidthOf(model) - 1.0) / kCells,
+                                  row * (HeightOf(model) - 1.0) / kCells);
+      without += RayFromPixelCamera(model, pixel) ? 0 : 1;
+    }
+  }
+  return without / double{(kCells + 1) * (kCells + 1)};
+}
+
 /// Angle between the rays of two pixels, degrees.
 std::optional<double> AngleBetween(const CameraModel& model, const Eigen::Vector2d& a,
                                    const Eigen::Vector2d& b) {
@@ -61,6 +87,25 @@ std::string FieldLines(const CameraModel& model) {
               FieldText(model, {-0.5, -0.5}, {w - 0.5, h - 0.5}).c_str());
 }
 
+/// How far the lens moves a corner away from the image centre, as a share of the diagonal. Wide
+/// lenses move corners inwards, by any amount; outwards real ones move them by a few per cent.
+double OutwardShare(const CameraModel& model) {
+  const CahvorModel linear = LinearPartOf(model);
+  const CahvInternals internals = InternalsOf(linear);
+  const Eigen::Vector2d size(WidthOf(model) - 1, HeightOf(model) - 1);
+  double share = 0;
+  for (const Eigen::Vector2d& corner : {Eigen::Vector2d(0, 0), size}) {
+    const auto ray = RayFromPixelCamera(model, corner);
+    const auto straight = ray ? ProjectDirection({linear}, ray->direction) : std::nullopt;
+    const Eigen::Vector2d centre(internals.hc_px, internals.vc_px);
+    if (straight) {
+      const double outward = (corner - centre).norm() - (*straight - centre).norm();
+      share = std::max(share, outward / size.norm());
+    }
+  }
+  return share;
+}
+
 /// How far the lens moves the corners' rays from where the linear part would put them.
 std::string DistortionLines(const CameraModel& model) {
   const CameraModel linear{LinearPartOf(model)};
@@ -80,8 +125,8 @@ std::string DistortionLines(const CameraModel& model) {
       lines += Line("%-18s%-13s ray beyond 90 deg: no linear camera sees it", label, name);
     } else {
       const Eigen::Vector2d moved = corner - *straight;
-      lines +=
-          Line("%-18s%-13s %.4f px (%.4f, %.4f)", label, name, moved.norm(), moved.x(), moved.y());
+      lines += Line("%-18s%-13s %.4f px (%.4f, %.4f)", label, name, moved.norm(),
+                    Plain(moved.x(), 4), Plain(moved.y(), 4));
     }
   }
   return lines;
@@ -89,7 +134,7 @@ std::string DistortionLines(const CameraModel& model) {
 
 std::string CoefficientLines(const CameraModel& model) {
   const auto vector = [](const char* name, const Eigen::Vector3d& v, const char* unit) {
-    return Line("%-18s%.9g, %.9g, %.9g%s", name, v.x(), v.y(), v.z(), unit);
+    return Line("%-18s%s%s", name, Triple(v).c_str(), unit);
   };
   if (const auto* m = std::get_if<CahvorModel>(&model.lens)) {
     return IsLinear(*m) ? "" : vector("O, unit", m->O, "") + vector("R, no unit", m->R, "");
@@ -106,7 +151,8 @@ std::string CoefficientLines(const CameraModel& model) {
   const auto& m = std::get<OpenCvModel>(model.lens);
   std::string text = "coefficients      ";
   for (int i = 0; i < m.coefficients; ++i) {
-    const std::string number = Line("%s%.9g", i == 0 ? "" : ", ", m.k[static_cast<std::size_t>(i)]);
+    const std::string number =
+        Line("%s%.9g", i == 0 ? "" : ", ", m.k[static_cast<std::size_t>(i)] + 0.0);
     text += number.substr(0, number.size() - 1);
   }
   return text + (m.coefficients == 0 ? "none\n" : "\n");
@@ -124,17 +170,29 @@ std::string CameraInfoText(const CameraModel& model) {
   text += Line("unit of length    %s", model.unit_m == 1 ? "m" : "mm");
   text += Line("focal length      hs %.6f px, vs %.6f px", internals.hs_px, internals.vs_px);
   text += Line("image centre      hc %.6f px, vc %.6f px", internals.hc_px, internals.vc_px);
-  text += Line("theta             %.6f deg (row shear %.6f px)", Deg(internals.theta_rad),
-               PinholeFromCahv(linear).shear_px);
+  text += Line("theta             %.6f deg (row shear %.6f px)", Plain(Deg(internals.theta_rad), 6),
+               Plain(PinholeFromCahv(linear).shear_px, 6));
   text += CoefficientLines(model);
   if (HasSize(model)) {
     text += FieldLines(model) + DistortionLines(model);
+    if (const double share = ShareWithoutRay(model); share > 0) {
+      text += Line(
+          "warning           %.1f %% of the picture has no ray: beyond the lens model; is "
+          "the distortion right?",
+          100 * share);
+    }
+    constexpr double kLikelyOutward = 0.25;
+    if (const double share = OutwardShare(model); share > kLikelyOutward) {
+      text += Line(
+          "warning           corners are moved outwards by %.0f %% of the diagonal, no real "
+          "lens does; is the distortion right?",
+          100 * share);
+    }
   }
-  text +=
-      model.pose_is_known
-          ? Line("centre            %.9g, %.9g, %.9g m", centre_m.x(), centre_m.y(), centre_m.z()) +
-                Line("axis, unit        %.9g, %.9g, %.9g", linear.A.x(), linear.A.y(), linear.A.z())
-          : "pose              not told by the file; its frame is the camera itself\n";
+  text += model.pose_is_known
+              ? Line("centre            %s m", Triple(centre_m).c_str()) +
+                    Line("axis, unit        %s", Triple(linear.A).c_str())
+              : "pose              not told by the file; its frame is the camera itself\n";
   return text;
 }
 

@@ -21,6 +21,7 @@ struct CameraOptions {
   std::string right;
   std::string form = "auto";
   std::string field = "inside";
+  bool field_is_given = false;
   double baseline_m = 0;
 };
 

@@ -1,6 +1,9 @@
 // palacectl: the engine's verbs for scripts and analysts.
+#include <algorithm>
+#include <cstdio>
 #include <iostream>
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
@@ -13,6 +16,71 @@
 #include "engine/tools/log_command.h"
 #include "engine/tools/simulate_command.h"
 #include "gui/platform/offscreen_scene_camera.h"
+
+namespace {
+
+/// The verb that the command line chose so far, as a person types it, e.g. "palacectl camera info".
+std::string VerbText(const CLI::App& app) {
+  const auto chosen = app.get_subcommands();
+  return app.get_name() + (chosen.empty() ? "" : " " + VerbText(*chosen.front()));
+}
+
+const CLI::App& ChosenVerb(const CLI::App& app) {
+  const auto chosen = app.get_subcommands();
+  return chosen.empty() ? app : ChosenVerb(*chosen.front());
+}
+
+std::string VerbsOf(const CLI::App& app) {
+  std::string names;
+  for (const CLI::App* verb : app.get_subcommands([](const CLI::App*) { return true; })) {
+    names += (names.empty() ? "" : ", ") + verb->get_name();
+  }
+  return names;
+}
+
+/// What is wrong with the command line. A word that no verb knows comes before options that miss:
+/// it may be the missing one, misspelt.
+std::string MistakeText(const CLI::App& app, const CLI::ParseError& error) {
+  const CLI::App& verb = ChosenVerb(app);
+  const std::string name = VerbText(app);
+  const std::string help = "; see " + name + " --help";
+  const std::string verbs = VerbsOf(verb);
+  const std::vector<std::string> unknown = app.remaining(true);
+  const bool names_a_lack = dynamic_cast<const CLI::RequiredError*>(&error) != nullptr ||
+                            dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr;
+  if (!names_a_lack || unknown.empty()) {
+    return error.what() + (names_a_lack && !verbs.empty() ? ": choose one of " + verbs : "") + help;
+  }
+  const auto option = std::find_if(unknown.begin(), unknown.end(), [](const std::string& word) {
+    return word.size() > 1 && word[0] == '-';
+  });
+  if (option != unknown.end()) {
+    return name + " has no option " + *option + help;
+  }
+  if (!verbs.empty()) {
+    return (&verb == &app ? "" : name + ": ") + "there is no command '" + unknown.front() +
+           "'; choose one of " + verbs;
+  }
+  return name + ": nothing is known to do with '" + unknown.front() +
+         "'; files and values follow an option" + help;
+}
+
+/// False if what was printed did not arrive: a full disk behind stdout.
+bool IsPrinted() {
+  const bool stream = std::cout.flush().good();
+  return std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && stream;
+}
+
+int ExitCode(int code) {
+  if (!IsPrinted()) {
+    std::cerr << "palacectl: stdout cannot be written, what was printed is lost; choose a place "
+                 "that has room\n";
+    return code == 0 ? 1 : code;
+  }
+  return code;
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
   palace::InitLogging(false);
@@ -32,20 +100,10 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& done) {
-    return app.exit(done);
-  } catch (const CLI::RequiredError& error) {
-    const std::string verb = argc > 1 ? argv[1] : "";
-    if (!verb.empty() && verb[0] != '-' && app.get_subcommands().empty()) {
-      std::cerr
-          << "palacectl: there is no command '" << verb
-          << "'; choose one of simulate, analyze, capture, calibrate, camera, evaluate, log\n";
-    } else {
-      std::cerr << "palacectl: " << error.what() << "; see palacectl --help\n";
-    }
-    return 2;
+    return ExitCode(app.exit(done));
   } catch (const CLI::ParseError& error) {
-    std::cerr << "palacectl: " << error.what() << "; see palacectl --help\n";
+    std::cerr << "palacectl: " << MistakeText(app, error) << "\n";
     return 2;
   }
-  return exit_code;
+  return ExitCode(exit_code);
 }

@@ -177,7 +177,7 @@ INSTANTIATE_TEST_SUITE_P(
     Pictures, BadInputs,
     testing::Values(
         BadInput{"NoRig", true, H({"--images", "no.toml"}), 1, {"no.toml", "check the name"}},
-        BadInput{"RigFolder", true, H({"--images", "folder"}), 1, {"folder", "check the name"}},
+        BadInput{"RigFolder", true, H({"--images", "folder"}), 1, {"folder", "is a folder"}},
         BadInput{"MissingKey",
                  true,
                  H({"--images", "missing.toml"}),

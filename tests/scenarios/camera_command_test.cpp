@@ -252,11 +252,40 @@ TEST_F(CameraCommand, MistakesAreNamedWithTheRemedy) {
   WriteFile("two.csv", "1,2\n");
   WriteFile("nan.csv", "1,2,3\nnan,2,3\n");
   WriteFile("cut.cahvor", kCahvorText.substr(0, 120));
+  WriteFile("cut.yml", kOpenCvYamlText.substr(0, kOpenCvYamlText.rfind('[') + 1));
+  WriteFile("left.cahvor", Replaced(kCahvorText, "C = 0 -0.528 0", "C = 0 -1.528 0"));
   const BadRow rows[] = {
       {"no verb", {}, 2, "subcommand"},
       {"no model", {"info"}, 2, "--model"},
       {"missing file", {"info", "--model", "none.cahv"}, 1, "none.cahv: no such file"},
-      {"a folder", {"info", "--model", "."}, 1, "no such file"},
+      {"a folder", {"info", "--model", "."}, 1, ".: is a folder"},
+      {"a folder of points", {"project", "--model", "a.cahvor", "--points", "."}, 1, "is a folder"},
+      {"a model from stdin", {"info", "--model", "-"}, 2, "only points and pixels may come"},
+      {"a device", {"info", "--model", "/dev/null"}, 1, "/dev/null: is no file on disk"},
+      {"no such verb",
+       {"foo"},
+       2,
+       "palacectl camera: there is no command 'foo'; choose one of project, backproject, convert, "
+       "info, align"},
+      {"no such option", {"info", "--mode", "a.yml"}, 2, "camera info has no option --mode"},
+      {"no option", {"info", "a.yml"}, 2, "with 'a.yml'; files and values follow an option"},
+      {"side of one",
+       {"info", "--model", "a.yml", "--camera", "right"},
+       2,
+       "--camera right: a.yml holds one camera"},
+      {"cut",
+       {"info", "--model", "cut.yml"},
+       1,
+       "cut.yml:16: distortion_coefficients.data = [: the file ends in this value"},
+      {"a baseline behind",
+       {"align", "--left", "a.yml", "--right", "a.yml", "--baseline", "-1", "--out", "o"},
+       2,
+       "--baseline: Value -1 not in range 0.001000 to 1000.000000"},
+      {"exchanged",
+       {"align", "--left", "a.cahvor", "--right", "left.cahvor", "--out", "o"},
+       1,
+       "a.cahvor, left.cahvor: the right camera stands to the left of the left one, every "
+       "disparity would be negative; exchange --left and --right"},
       {"damaged", {"info", "--model", "cut.cahvor"}, 1, "cut.cahvor"},
       {"words",
        {"project", "--model", "a.cahvor", "--points", "words.csv"},
@@ -306,6 +335,61 @@ TEST_F(CameraCommand, MistakesAreNamedWithTheRemedy) {
     EXPECT_EQ(result.exit_code, row.exit_code) << result.err;
     EXPECT_NE(result.err.find(row.said), std::string::npos) << result.err;
     EXPECT_EQ(result.out, "");
+  }
+}
+
+TEST_F(CameraCommand, APairOfCahvFilesIsToldThatItsFieldIsNotKept) {
+  const CahvorModel left = std::get<CahvorModel>(Model("a.vic").lens);
+  CahvorModel right = left;
+  right.C.y() += 1;
+  WriteFile("l.cahv", CahvorToText(left));
+  WriteFile("r.cahv", CahvorToText(right));
+  const std::vector<std::string> arguments = {"align",  "--left", "l.cahv", "--right",
+                                              "r.cahv", "--out",  "o"};
+  std::vector<std::string> with_field = arguments;
+  with_field.insert(with_field.end(), {"--field", "inside"});
+  const ProcessResult plain = Run(arguments);
+  const ProcessResult field = Run(with_field);
+  ASSERT_EQ(plain.exit_code, 0) << plain.err;
+  ASSERT_EQ(field.exit_code, 0) << field.err;
+  EXPECT_NE(plain.out.find("field         the average"), std::string::npos) << plain.out;
+  EXPECT_NE(field.out.find("--field inside is not used"), std::string::npos) << field.out;
+}
+
+TEST_F(CameraCommand, InfoWarnsOfPixelsWithoutARayAndPrintsNoNegativeZero) {
+  const auto info = [&](const char* C, const char* R) {
+    WriteFile("m.cahvor", Replaced(Replaced(kCahvorText, "0.0004 -0.21 0.09", R), "0 -0.528 0", C));
+    return Run({"info", "--model", "m.cahvor"});
+  };
+  const ProcessResult wild = info("-0 -0 -0", "0 -20 0");
+  ASSERT_EQ(wild.exit_code, 0) << wild.err;
+  EXPECT_NE(wild.out.find("% of the picture has no ray"), std::string::npos) << wild.out;
+  EXPECT_NE(wild.out.find("centre            0, 0, 0 m"), std::string::npos) << wild.out;
+  EXPECT_NE(info("0 0 0", "0 50 9000").out.find("corners are moved outwards by"),
+            std::string::npos);
+  EXPECT_EQ(info("-0 -0 -0", "-0 0 0").out.find("warning"), std::string::npos);
+  for (const char* name : {"m.cahvor", "a.vic", "a.yml", "a.yaml"}) {
+    const ProcessResult result = Run({"info", "--model", name});
+    for (const char* zero : {"-0,", "-0 ", "-0\n", "-0.000000 ", "-0.0000,", "-0.0000)"}) {
+      EXPECT_EQ(result.out.find(zero), std::string::npos) << zero << "\n" << result.out;
+    }
+  }
+}
+
+TEST_F(CameraCommand, AFullDiskBehindStdoutIsAFailure) {
+  if (!std::filesystem::exists("/dev/full")) {
+    GTEST_SKIP() << "no /dev/full";
+  }
+  WriteFile("points.csv", "10,-3,12.5\n");
+  for (const char* verb : {"project --points points.csv", "info"}) {
+    SCOPED_TRACE(verb);
+    ProcessOptions shell = Palacectl({});
+    shell.command = {"/bin/sh", "-c",
+                     std::string("exec '") + PALACECTL_PROGRAM + "' camera " + verb +
+                         " --model a.cahvor > /dev/full"};
+    const ProcessResult result = RunProcess(shell, kLimit_s);
+    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_NE(result.err.find("stdout cannot be written"), std::string::npos) << result.err;
   }
 }
 
