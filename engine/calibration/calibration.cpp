@@ -7,6 +7,7 @@
 #include <set>
 #include <tuple>
 
+#include "engine/calibration/calibration_quality.h"
 #include "engine/calibration/rig_start.h"
 #include "engine/core/check.h"
 #include "engine/core/units.h"
@@ -17,6 +18,7 @@ namespace {
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kLeastPoints = 12;  // a side with fewer is not used
 constexpr double kMostOutliers = 0.25;    // share of all points
+constexpr double kLeastBaseline = 1e-3;   // of the board's distance; one camera moves by less
 constexpr int kRejectionRounds = 6;
 constexpr double kRobustTolerance = 1e-6;    // of a fit that only tells outliers apart
 constexpr double kMedianPerSigma = 1.17741;  // median length of a 2-D normal vector of sigma 1
@@ -168,6 +170,19 @@ Status CheckPoses(const std::vector<RigidTransform>& poses, const CalibrationOpt
 
 Status CheckRig(const RigEstimate& estimate) {
   const Eigen::Vector3d& C = estimate.X_C0C1.p;
+  double nearest_m = std::numeric_limits<double>::infinity();
+  for (const RigidTransform& X_C0T : estimate.X_C0T) {
+    nearest_m = std::min(nearest_m, X_C0T.p.norm());
+  }
+  if (!(C.norm() > kLeastBaseline * nearest_m)) {
+    char text[200];
+    std::snprintf(
+        text, sizeof text,
+        "the baseline is 0 (%.2g m, with the board %.3g m away): both lists hold the same "
+        "camera's pictures; give the right camera's as --right",
+        C.norm(), nearest_m);
+    return InvalidError(text);
+  }
   if (C.x() < 0 && std::abs(C.x()) > 0.3 * C.norm()) {
     char text[160];
     std::snprintf(text, sizeof text,
@@ -278,14 +293,16 @@ void DescribeViews(const CalibrationTarget& target, const std::vector<TargetView
     const int at = static_cast<int>(v);
     ViewResult view;
     view.name = views[v].name;
+    view.right_name = views[v].right_name;
     view.X_C0T = calibration.estimate.X_C0T[v];
     view.tilt_rad = TiltOf(view.X_C0T);
     view.distance_m = Middle(target, view.X_C0T).norm();
     view.left_points = static_cast<int>(views[v].left.size());
     view.right_points = static_cast<int>(views[v].right.size());
-    view.outliers =
-        static_cast<int>(std::count_if(calibration.rejected.begin(), calibration.rejected.end(),
-                                       [&](const PointResidual& r) { return r.view == at; }));
+    for (const PointResidual& r : calibration.rejected) {
+      view.left_outliers += r.view == at && r.side == 0 ? 1 : 0;
+      view.right_outliers += r.view == at && r.side == 1 ? 1 : 0;
+    }
     view.left_rms_px =
         Rms(calibration.residuals, [&](const auto& r) { return r.view == at && r.side == 0; });
     view.right_rms_px =
@@ -362,15 +379,17 @@ Result<Calibration> Calibrate(const CalibrationTarget& target, const std::vector
   calibration.residuals = Residuals(target, clean, calibration.estimate);
   calibration.outliers = static_cast<int>(fit->rejected.size());
   calibration.points = static_cast<int>(calibration.residuals.size()) + calibration.outliers;
+  DescribeViews(target, usable, calibration);
   if (calibration.outliers > kMostOutliers * calibration.points) {
+    const std::vector<std::string> contradictions = Contradictions(calibration);
     return InvalidError(std::to_string(calibration.outliers) + " of " +
                         std::to_string(calibration.points) +
                         " points do not fit (limit 25 %): is the board flat, still and the one "
-                        "TARGET.toml describes?");
+                        "TARGET.toml describes?" +
+                        (contradictions.empty() ? "" : " First: " + contradictions.front()));
   }
   calibration.left_rms_px = Rms(calibration.residuals, [](const auto& r) { return r.side == 0; });
   calibration.right_rms_px = Rms(calibration.residuals, [](const auto& r) { return r.side == 1; });
-  DescribeViews(target, usable, calibration);
   HoldOut(target, clean, options, calibration);
   return calibration;
 }

@@ -35,13 +35,16 @@ struct CalibrationOptions {
 };
 
 struct ViewResult {
-  std::string name;
+  std::string name;        ///< of the left picture
+  std::string right_name;  ///< may be empty
   RigidTransform X_C0T;
   double tilt_rad = 0;    ///< of the board against the left picture plane
   double distance_m = 0;  ///< of the board's middle
   int left_points = 0;    ///< seen, outliers included
   int right_points = 0;
-  int outliers = 0;
+  int left_outliers = 0;
+  int right_outliers = 0;
+  int outliers() const { return left_outliers + right_outliers; }
   double left_rms_px = 0;  ///< root mean square length of the residual; NaN where none was seen
   double right_rms_px = 0;
   bool held_out = false;       ///< of the fit behind held_out_rms_px
@@ -72,9 +75,9 @@ struct Calibration {
 };
 
 /// Refuses, with the reason and what to do: too few views or tilts, parallel boards, cameras that
-/// see no common board, swapped or wrongly paired pictures, parameters that the views do not
-/// determine. Views seen by one camera only help that camera; sides with fewer than 12 points and
-/// views without any are left out.
+/// see no common board, swapped, doubled or (a third and more of them) wrongly paired pictures,
+/// parameters that the views do not determine. Views seen by one camera only help that camera;
+/// sides with fewer than 12 points and views without any are left out.
 Result<Calibration> Calibrate(const CalibrationTarget& target, const std::vector<TargetView>& views,
                               const CalibrationOptions& options);
 

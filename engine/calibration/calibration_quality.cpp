@@ -14,6 +14,7 @@ namespace palace {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kMostOutliers = 0.25;  // share of one picture's points
 using LensMatrix = Eigen::Matrix<double, kLensSize, kLensSize>;
 
 Eigen::Matrix3d Cross(const Eigen::Vector3d& v) {
@@ -93,6 +94,32 @@ RowErrors MeasureRows(const Calibration& calibration, const RigEstimate& estimat
 }
 
 }  // namespace
+
+std::vector<std::string> Contradictions(const Calibration& calibration) {
+  std::vector<std::string> sentences;
+  for (const ViewResult& view : calibration.views) {
+    if (view.left_outliers <= kMostOutliers * view.left_points &&
+        view.right_outliers <= kMostOutliers * view.right_points) {
+      continue;
+    }
+    const std::string left = std::to_string(view.left_outliers) + " of " +
+                             std::to_string(view.left_points) + " left points",
+                      right = std::to_string(view.right_outliers) + " of " +
+                              std::to_string(view.right_points) + " right points";
+    if (view.left_points > 0 && view.right_points > 0) {
+      sentences.push_back((view.right_name.empty() ? "the pictures of " + view.name
+                                                   : view.name + " and " + view.right_name) +
+                          " do not show the same board position (" + left + " and " + right +
+                          " do not fit, limit 25 %): are they a pair, and was the board still?");
+    } else {
+      sentences.push_back(
+          (view.left_points > 0 || view.right_name.empty() ? view.name : view.right_name) +
+          " does not fit the other pictures (" + (view.left_points > 0 ? left : right) +
+          " do not fit, limit 25 %): was the board bent or covered?");
+    }
+  }
+  return sentences;
+}
 
 GridF CoverageMap(const Calibration& calibration, int side, int rows, int columns) {
   GridF map(rows, columns, 0.0f);

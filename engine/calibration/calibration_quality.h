@@ -12,6 +12,15 @@
 
 namespace palace {
 
+/// Cells of the maps that a person sees, and that NextView speaks of.
+inline constexpr int kMapColumns = 15;
+inline constexpr int kMapRows = 12;
+
+/// One sentence for every view of which a picture has more than a quarter of its points taken out
+/// as outliers: such a picture shows another board position than its partner or than was fitted,
+/// and must not pass as a few bad points. Empty when all pictures agree.
+std::vector<std::string> Contradictions(const Calibration& calibration);
+
 /// Number of points that fell into each cell. side: 0 left, 1 right.
 GridF CoverageMap(const Calibration& calibration, int side, int rows, int columns);
 
@@ -35,7 +44,8 @@ struct EpipolarCheck {
 EpipolarCheck CheckEpipolar(const Calibration& calibration);
 
 /// What a person should do next, in one or two sentences: where in the picture to hold the board,
-/// at which tilt, or that nothing is lacking.
+/// at which tilt, or that nothing is lacking. Its figures are those of CoverageMap and
+/// UncertaintyMap with kMapRows x kMapColumns cells.
 std::string NextView(const Calibration& calibration);
 
 }  // namespace palace

@@ -7,6 +7,8 @@
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "engine/calibration/chessboard_extent.h"
+
 namespace palace {
 namespace {
 
@@ -49,8 +51,13 @@ void RefineCorners(const cv::Mat& grey, int columns, int rows, std::vector<cv::P
   }
 }
 
-/// What board is in the picture when it is not the one looked for.
-std::string WhatIsSeen(const cv::Mat& grey) {
+std::string SizeText(int a, int b) {
+  return std::to_string(std::max(a, b)) + " x " + std::to_string(std::min(a, b));
+}
+
+/// The largest chessboard in the picture, whatever its size; 0 x 0 without any. Fast, and misses
+/// rows at a slant.
+cv::Size LargestBoard(const cv::Mat& grey) {
   // Only the count is wanted: a small picture does, and the search is slow.
   constexpr double kSearchSide_px = 400;
   const double scale = std::min(1.0, kSearchSide_px / std::max(grey.cols, grey.rows));
@@ -59,10 +66,21 @@ std::string WhatIsSeen(const cv::Mat& grey) {
   const cv::Size least(3, 3);
   if (!cv::findChessboardCornersSB(small, least, corners,
                                    cv::CALIB_CB_LARGER | cv::CALIB_CB_NORMALIZE_IMAGE, meta)) {
-    return "no chessboard found";
+    return {0, 0};
   }
-  const int a = std::max(meta.cols, meta.rows), b = std::min(meta.cols, meta.rows);
-  return "found " + std::to_string(a) + " x " + std::to_string(b) + " inner corners";
+  return meta.size();
+}
+
+Error WrongSize(const std::string& seen, int columns, int rows) {
+  return InvalidError(seen + ", the target has " + std::to_string(columns) + " x " +
+                      std::to_string(rows));
+}
+
+Error NotFound(const cv::Size& largest, int columns, int rows) {
+  return WrongSize(largest.empty() ? "no chessboard found"
+                                   : "found " + SizeText(largest.width, largest.height) +
+                                         " inner corners at most",
+                   columns, rows);
 }
 
 void MakeRightHanded(std::vector<Eigen::Vector2d>& corners, int columns, int rows) {
@@ -88,11 +106,18 @@ Result<std::vector<Eigen::Vector2d>> FindChessboardCorners(const ImageU8& pictur
   const cv::Size size(columns, rows);
   std::vector<cv::Point2f> found;
   try {
+    // The search takes seconds where there is no board (dots, foliage), so two quick looks that
+    // fail on different pictures must both find nothing before it is spared.
+    if (!cv::checkChessboard(grey, size)) {
+      const cv::Size largest = LargestBoard(grey);
+      if (SizeText(largest.width, largest.height) != SizeText(columns, rows)) {
+        return NotFound(largest, columns, rows);
+      }
+    }
     const bool seen = cv::findChessboardCorners(
         grey, size, found, cv::CALIB_CB_ADAPTIVE_THRESH | cv::CALIB_CB_NORMALIZE_IMAGE);
     if (!seen || static_cast<int>(found.size()) != columns * rows) {
-      return InvalidError(WhatIsSeen(grey) + ", the target has " + std::to_string(columns) + " x " +
-                          std::to_string(rows));
+      return NotFound(LargestBoard(grey), columns, rows);
     }
     RefineCorners(grey, columns, rows, found);
   } catch (const cv::Exception& error) {
@@ -103,6 +128,11 @@ Result<std::vector<Eigen::Vector2d>> FindChessboardCorners(const ImageU8& pictur
     corners.emplace_back(corner.x, corner.y);
   }
   MakeRightHanded(corners, columns, rows);
+  const ChessboardExtent whole = ExtentOfChessboard(picture, corners, columns, rows);
+  if (whole.columns != columns || whole.rows != rows) {
+    return WrongSize("found " + SizeText(whole.columns, whole.rows) + " inner corners", columns,
+                     rows);
+  }
   return corners;
 }
 

@@ -20,23 +20,48 @@ const std::array<const char*, 9> kZoneNames = {
     "upper left corner", "upper edge",        "upper right corner", "left edge",         "middle",
     "right edge",        "lower left corner", "lower edge",         "lower right corner"};
 
-/// The zone that most wants points: fewest where any is sparse, else the least certain one.
+/// A third by a third of the picture, as the maps of the report show it: the sum of its cells'
+/// points, and its least certain cell.
 struct Zone {
   int side = 0;
   int index = 0;
   double points = 0;
+  int cells = 0;
+  int empty_cells = 0;
   double sigma_px = 0;
+  int row = 0;  ///< of the least certain cell
+  int column = 0;
 };
 
+std::array<Zone, kZones * kZones> ZonesOf(const Calibration& calibration, int side) {
+  const GridF coverage = CoverageMap(calibration, side, kMapRows, kMapColumns);
+  const GridF sigma = UncertaintyMap(calibration, side, kMapRows, kMapColumns);
+  std::array<Zone, kZones * kZones> zones;
+  for (int row = 0; row < kMapRows; ++row) {
+    for (int column = 0; column < kMapColumns; ++column) {
+      const int index = row * kZones / kMapRows * kZones + column * kZones / kMapColumns;
+      Zone& zone = zones[static_cast<std::size_t>(index)];
+      zone.side = side;
+      zone.index = index;
+      zone.points += coverage.at(row, column);
+      ++zone.cells;
+      zone.empty_cells += coverage.at(row, column) == 0 ? 1 : 0;
+      if (sigma.at(row, column) > zone.sigma_px) {
+        zone.sigma_px = sigma.at(row, column);
+        zone.row = row;
+        zone.column = column;
+      }
+    }
+  }
+  return zones;
+}
+
+/// The zone that most wants points: fewest where any is sparse, else the least certain one.
 Zone WorstZone(const Calibration& calibration) {
   Zone sparse, uncertain;
   sparse.points = 1e9;
   for (const int side : {0, 1}) {
-    const GridF coverage = CoverageMap(calibration, side, kZones, kZones);
-    const GridF sigma = UncertaintyMap(calibration, side, kZones, kZones);
-    for (int i = 0; i < kZones * kZones; ++i) {
-      const auto at = static_cast<std::size_t>(i);
-      const Zone zone{side, i, coverage.cells()[at], sigma.cells()[at]};
+    for (const Zone& zone : ZonesOf(calibration, side)) {
       sparse = zone.points < sparse.points ? zone : sparse;
       uncertain = zone.sigma_px > uncertain.sigma_px ? zone : uncertain;
     }
@@ -77,6 +102,19 @@ std::string LackingTilt(const Leans& leans) {
   return least.first < kTilted_rad ? least.second : "";
 }
 
+std::string PlaceText(const Zone& zone) {
+  return std::string(kZoneNames[static_cast<std::size_t>(zone.index)]) + " of the " +
+         (zone.side == 0 ? "left" : "right") + " picture";
+}
+
+std::string CellText(const Calibration& calibration, const Zone& zone) {
+  char text[96];
+  std::snprintf(text, sizeof text, "%.3f px 1 sigma round column %.0f, row %.0f", zone.sigma_px,
+                (zone.column + 0.5) * calibration.width / kMapColumns - 0.5,
+                (zone.row + 0.5) * calibration.height / kMapRows - 0.5);
+  return text;
+}
+
 }  // namespace
 
 std::string NextView(const Calibration& calibration) {
@@ -90,21 +128,14 @@ std::string NextView(const Calibration& calibration) {
   const bool flat_depth = farthest < kDistanceRatio * nearest;
   const bool few = static_cast<int>(calibration.views.size()) < kEnoughViews;
   if (zone.points >= kSparseZone && tilt.empty() && !flat_depth && !few) {
-    char text[160];
-    std::snprintf(text, sizeof text,
-                  "Nothing is lacking. The least certain place is the %s of the %s picture, "
-                  "%.3f px (1 sigma).",
-                  kZoneNames[static_cast<std::size_t>(zone.index)],
-                  zone.side == 0 ? "left" : "right", zone.sigma_px);
-    return text;
+    return "Nothing is lacking. The least certain place is in the " + PlaceText(zone) + ", " +
+           CellText(calibration, zone) + ".";
   }
-  char where[200];
-  std::snprintf(where, sizeof where,
-                "Next view: hold the board in the %s of the %s picture (%.0f points there, %.3f px "
-                "1 sigma)",
-                kZoneNames[static_cast<std::size_t>(zone.index)], zone.side == 0 ? "left" : "right",
-                zone.points, zone.sigma_px);
-  std::string text = where;
+  char points[96];
+  std::snprintf(points, sizeof points, "%.0f points in that ninth, %d of its %d cells empty; ",
+                zone.points, zone.empty_cells, zone.cells);
+  std::string text = "Next view: hold the board in the " + PlaceText(zone) + " (" + points +
+                     CellText(calibration, zone) + ")";
   text += tilt.empty() ? ", tilted by 20 to 45 degrees" : ", tilted by 30 degrees with " + tilt;
   if (flat_depth) {
     char depth[96];

@@ -198,7 +198,9 @@ Result<RigEstimate> StartRig(const CalibrationTarget& target, const std::vector<
   std::vector<PairPose> pairs;
   for (std::size_t v = 0; v < views.size(); ++v) {
     if (X_C0T[v] && X_C1T[v]) {
-      pairs.push_back({views[v].name, *X_C0T[v] * X_C1T[v]->Inverse(), X_C0T[v]->p.norm()});
+      pairs.push_back(
+          {views[v].name + (views[v].right_name.empty() ? "" : " with " + views[v].right_name),
+           *X_C0T[v] * X_C1T[v]->Inverse(), X_C0T[v]->p.norm()});
     }
   }
   const auto X_C0C1 = AgreedPose(pairs);

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <set>
 #include <sstream>
 #include <tuple>
 
@@ -102,6 +101,9 @@ class TargetTable {
   }
 
   bool Has(const char* key) const { return table_.contains(key); }
+  bool IsText(const char* key, std::string_view text) const {
+    return table_[key].value<std::string_view>() == text;
+  }
 
   void Fail(const char* key, const std::string& text) {
     const toml::node* node = table_.get(key);
@@ -115,23 +117,22 @@ class TargetTable {
 
   const std::optional<Error>& error() const { return error_; }
 
-  /// Keys that nobody asked for.
-  void CheckUnknown() {
+  /// Before anything is read: a key misspelled is a key missing, and the misspelled one has a line.
+  void CheckUnknown(const std::vector<std::string>& known) {
     for (const auto& [key, node] : table_) {
-      if (!asked_.contains(std::string(key.str()))) {
-        std::string known;
-        for (const std::string& name : asked_) {
-          known += (known.empty() ? "" : ", ") + name;
+      if (std::find(known.begin(), known.end(), key.str()) == known.end()) {
+        std::string names;
+        for (const std::string& name : known) {
+          names += (names.empty() ? "" : ", ") + name;
         }
         Fail(std::string(key.str()).c_str(),
-             " is not a key of this kind of target; known here: " + known);
+             " is not a key of this kind of target; known here: " + names);
       }
     }
   }
 
  private:
   const toml::node* Node(const char* key) {
-    asked_.insert(key);
     const toml::node* node = table_.get(key);
     if (node == nullptr) {
       Fail(key, " is missing; add it to [target]");
@@ -142,7 +143,6 @@ class TargetTable {
   const toml::table& table_;
   const std::string name_;
   const int line_;
-  std::set<std::string> asked_;
   std::optional<Error> error_;
 };
 
@@ -210,6 +210,11 @@ void ReadMarks(TargetTable& table, CalibrationTarget& target) {
 
 CalibrationTarget ReadTarget(TargetTable& table) {
   CalibrationTarget target;
+  std::vector<std::string> known = {"kind", "columns", "rows", "pitch_m"};
+  if (!table.IsText("kind", "chessboard")) {
+    known.insert(known.end(), {"dot_diameter_m", "marks", "mark_diameter_m"});
+  }
+  table.CheckUnknown(known);
   const std::string kind = table.Text("kind");
   if (kind != "dots" && kind != "chessboard") {
     table.Fail("kind", " = \"" + kind + "\" is not known; choose \"dots\" or \"chessboard\"");
@@ -257,9 +262,6 @@ Result<CalibrationTarget> ParseTargetText(std::string_view text, const std::stri
   }
   TargetTable reader(*table, name, static_cast<int>(node->source().begin.line));
   const CalibrationTarget target = ReadTarget(reader);
-  if (!reader.error()) {
-    reader.CheckUnknown();
-  }
   if (reader.error()) {
     return *reader.error();
   }

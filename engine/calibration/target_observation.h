@@ -23,6 +23,7 @@ struct TargetView {
   std::string name;  ///< for messages and tables: the picture's file name
   TargetObservation left;
   TargetObservation right;
+  std::string right_name{};  ///< of the right picture's file; empty where it has none
 };
 
 }  // namespace palace

@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
@@ -35,6 +36,7 @@ struct Options {
   std::vector<std::string> right;
   fs::path out;
   bool write_target = false;
+  bool overwrite = false;
   int hold_out_every = 4;
 };
 
@@ -51,6 +53,46 @@ Result<std::vector<fs::path>> FilesOf(const std::vector<std::string>& patterns,
     files.insert(files.end(), matching.begin(), matching.end());
   }
   return files;
+}
+
+/// One picture given as both sides of a view, which then has no baseline.
+Status CheckPairs(const std::vector<fs::path>& left, const std::vector<fs::path>& right) {
+  if (left.size() != right.size()) {
+    return InvalidError(std::to_string(left.size()) + " left and " + std::to_string(right.size()) +
+                        " right pictures; every view needs one of each, in the same order");
+  }
+  for (std::size_t v = 0; v < left.size(); ++v) {
+    std::error_code error;
+    if (fs::equivalent(left[v], right[v], error)) {
+      return InvalidError("view " + std::to_string(v + 1) + ": --left and --right give the same " +
+                          "picture " + left[v].string() +
+                          "; give the two cameras' pictures in the same order");
+    }
+  }
+  return Ok();
+}
+
+/// Before minutes of work: the folder can be made and written, and holds nothing of these names.
+Status CheckFolder(const Options& options, const std::vector<const char*>& names) {
+  std::error_code error;
+  const fs::path& folder = options.out;
+  fs::path there = fs::absolute(folder, error).lexically_normal();
+  while (!fs::exists(there, error) && there.has_relative_path()) {
+    there = there.parent_path();
+  }
+  if (!fs::is_directory(there, error) || access(there.c_str(), W_OK) != 0) {
+    return UnavailableError(
+        folder.string() + ": cannot be made or written: " + there.string() +
+        (fs::is_directory(there, error) ? " may not be written" : " is no folder") +
+        "; choose another --out");
+  }
+  for (const char* name : names) {
+    if (!options.overwrite && fs::exists(folder / name, error)) {
+      return UsageError(folder.string() + " holds " + name +
+                        " already; choose another --out, or add --overwrite to replace it");
+    }
+  }
+  return Ok();
 }
 
 /// What the pictures show, and their common size.
@@ -85,6 +127,12 @@ Result<TargetObservation> Look(const fs::path& file, const CalibrationTarget& ta
   return seen;
 }
 
+void EndProgress(bool shows_progress) {
+  if (shows_progress) {
+    std::fputc('\n', stderr);
+  }
+}
+
 Result<Sightings> LookAtAll(const std::vector<fs::path>& left, const std::vector<fs::path>& right,
                             const CalibrationTarget& target) {
   const bool shows_progress = isatty(STDERR_FILENO) == 1;
@@ -92,19 +140,29 @@ Result<Sightings> LookAtAll(const std::vector<fs::path>& left, const std::vector
   for (std::size_t v = 0; v < left.size(); ++v) {
     TargetView view;
     view.name = left[v].filename().string();
+    view.right_name = right[v].filename().string();
     for (const bool is_left : {true, false}) {
+      if (shows_progress) {
+        std::fprintf(stderr, "\rcalibrate: picture %zu of %zu", 2 * v + (is_left ? 1 : 2),
+                     2 * left.size());
+      }
       auto seen = Look(is_left ? left[v] : right[v], target, sightings);
       if (!seen) {
+        EndProgress(shows_progress);
         return seen.error();
       }
       (is_left ? view.left : view.right) = std::move(*seen);
     }
     MatchTurn(target, view.left, view.right);
-    if (shows_progress) {
-      std::fprintf(stderr, "\rcalibrate: pair %zu of %zu%s", v + 1, left.size(),
-                   v + 1 == left.size() ? "\n" : "");
-    }
     sightings.views.push_back(std::move(view));
+  }
+  EndProgress(shows_progress);
+  if (sightings.unseen.size() > left.size()) {
+    return InvalidError("the target was not found in " + std::to_string(sightings.unseen.size()) +
+                        " of " + std::to_string(2 * left.size()) +
+                        " pictures (half of them are the most); does the target's file describe "
+                        "the board? First " +
+                        sightings.unseen.front());
   }
   return sightings;
 }
@@ -117,10 +175,26 @@ std::string Quoted(const std::string& text) {
   return quoted + "\"";
 }
 
+/// File names may hold line ends, which would leave the comment.
+std::string OneLine(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, '?');
+  return text;
+}
+
 std::string RigText(const Calibration& calibration, const Options& options) {
   char baseline[32];
   std::snprintf(baseline, sizeof baseline, "%.6f", calibration.baseline_m());
-  std::string text =
+  std::string text;
+  for (const Criterion& criterion : Acceptance(calibration)) {
+    if (!criterion.passed) {
+      text += (text.empty() ? "# NOT PASSED: this calibration does not meet every criterion; do "
+                              "not fly with it.\n# FAILED: "
+                            : "# FAILED: ") +
+              OneLine(criterion.text) + "\n";
+    }
+  }
+  text +=
       "# Written by palacectl calibrate. Both models are in the left camera's own axes: x right,\n"
       "# y down, z forward, origin at its projection centre. report.html says how good they are.\n"
       "[left]\nmodel_file = \"left.cahvor\"\n\n[right]\nmodel_file = \"right.cahvor\"\n\n[rig]\n"
@@ -170,6 +244,9 @@ Status WriteAll(const fs::path& folder,
 }
 
 Status WriteTarget(const Options& options) {
+  if (const Status free = CheckFolder(options, {"target.svg", "TARGET.toml"}); !free) {
+    return free;
+  }
   CalibrationTarget target = DefaultTarget();
   if (!options.target.empty()) {
     const auto loaded = LoadTargetFile(options.target);
@@ -198,14 +275,24 @@ void PrintSummary(const Calibration& calibration, const Sightings& sightings) {
   for (const std::string& reason : sightings.unseen) {
     std::cout << "not found in " << reason << "\n";
   }
-  std::printf("%zu views, %d points, %d outliers; rms left %.4f px, right %.4f px\n",
-              calibration.views.size(), calibration.points, calibration.outliers,
-              calibration.left_rms_px, calibration.right_rms_px);
+  const auto both = std::count_if(
+      calibration.views.begin(), calibration.views.end(),
+      [](const ViewResult& view) { return view.left_points > 0 && view.right_points > 0; });
+  std::printf(
+      "%zu views, %td of them seen by both cameras; %d points, %d outlier%s; rms left %.4f px, "
+      "right %.4f px\n",
+      calibration.views.size(), both, calibration.points, calibration.outliers,
+      calibration.outliers == 1 ? "" : "s", calibration.left_rms_px, calibration.right_rms_px);
   std::printf("focal length left %.3f +- %.3f px, right %.3f +- %.3f px; baseline %.5f +- %.5f m\n",
               calibration.estimate.lens[0][kHs], std::sqrt(calibration.covariance(kHs, kHs)),
               calibration.estimate.lens[1][kHs],
               std::sqrt(calibration.covariance(kRightLens + kHs, kRightLens + kHs)),
               calibration.baseline_m(), calibration.baseline_sigma_m());
+  if (!std::isfinite(calibration.held_out_rms_px)) {
+    std::printf(
+        "no view was held out (8 views are the least; --hold-out-every): the fit is not "
+        "checked on views it never saw\n");
+  }
   for (const Criterion& criterion : Acceptance(calibration)) {
     std::printf("%s: %s\n", criterion.passed ? "passed" : "FAILED", criterion.text.c_str());
   }
@@ -221,6 +308,16 @@ Result<bool> Run(const Options& options) {
   if (options.target.empty() || options.left.empty() || options.right.empty()) {
     return UsageError("--target, --left and --right are needed (or --write-target)");
   }
+  if (options.hold_out_every == 1) {
+    return UsageError(
+        "--hold-out-every 1 would hold out every view and leave none to fit; give 0 for none, or 2 "
+        "and more");
+  }
+  if (const Status free = CheckFolder(
+          options, {"left.cahvor", "right.cahvor", "RIG.toml", "calibration.json", "report.html"});
+      !free) {
+    return free.error();
+  }
   const auto target = LoadTargetFile(options.target);
   if (!target) {
     return target.error();
@@ -233,10 +330,8 @@ Result<bool> Run(const Options& options) {
   if (!right) {
     return right.error();
   }
-  if (left->size() != right->size()) {
-    return InvalidError(std::to_string(left->size()) + " left and " +
-                        std::to_string(right->size()) +
-                        " right pictures; every view needs one of each, in the same order");
+  if (const Status pairs = CheckPairs(*left, *right); !pairs) {
+    return pairs.error();
   }
   const auto sightings = LookAtAll(*left, *right, *target);
   if (!sightings) {
@@ -283,8 +378,10 @@ void AddCalibrateCommand(CLI::App& app, int& exit_code) {
   verb->add_flag("--write-target", options->write_target,
                  "write a sheet to print (target.svg) and its TARGET.toml instead; of --target, or "
                  "an A4 board of dots");
-  verb->add_option("--hold-out-every", options->hold_out_every,
-                   "every n-th of 8 and more views is kept out of a second fit; 0: none")
+  verb->add_flag("--overwrite", options->overwrite, "replace what an earlier run wrote to --out");
+  verb->add_option(
+          "--hold-out-every", options->hold_out_every,
+          "every n-th of 8 and more views is kept out of a second fit; 0: none, 1 is refused")
       ->check(CLI::Range(0, 1000))
       ->capture_default_str();
   verb->callback([options, &exit_code] {

@@ -21,8 +21,6 @@ constexpr double kMostHeldOutRatio = 1.5;
 constexpr double kMostFocalShare = 0.002;
 constexpr double kMostBaselineShare = 0.002;
 constexpr double kReportDepth_m = 15;
-constexpr int kMapColumns = 16;
-constexpr int kMapRows = 12;
 
 const std::array<const char*, 2> kSideNames = {"left", "right"};
 
@@ -197,7 +195,7 @@ void AddViews(const Calibration& calibration, const CalibrationNotes& notes, Htm
   for (const ViewResult& v : calibration.views) {
     rows.push_back({v.name, Fixed(Deg(v.tilt_rad), 1), Fixed(v.distance_m, 2),
                     std::to_string(v.left_points), std::to_string(v.right_points),
-                    std::to_string(v.outliers), Fixed(v.left_rms_px, 4), Fixed(v.right_rms_px, 4),
+                    std::to_string(v.outliers()), Fixed(v.left_rms_px, 4), Fixed(v.right_rms_px, 4),
                     v.held_out ? "yes, " + Fixed(v.held_out_rms_px, 4) + " px" : ""});
   }
   page.Table({"view", "tilt, deg", "distance, m", "points left", "points right", "outliers",
@@ -271,6 +269,13 @@ std::vector<Criterion> Acceptance(const Calibration& calibration) {
                             " px (limit 1.5 times as much); their rows agree to " +
                             Fixed(rows.held_out_rms_px, 4) + " px rms"});
   }
+  const std::vector<std::string> contradictions = Contradictions(calibration);
+  for (const std::string& sentence : contradictions) {
+    criteria.push_back({false, sentence});
+  }
+  if (contradictions.empty()) {
+    criteria.push_back({true, "every picture fits: none has more than 25 % outliers"});
+  }
   const double focal = FocalShare(calibration);
   criteria.push_back({focal <= kMostFocalShare, "focal lengths are known to " + Percent(focal) +
                                                     ", 1 sigma (limit " + Percent(kMostFocalShare) +
@@ -328,7 +333,10 @@ std::string CalibrationToJson(const Calibration& calibration, const CalibrationT
                              {"distance_m", v.distance_m},
                              {"left_points", v.left_points},
                              {"right_points", v.right_points},
-                             {"outliers", v.outliers},
+                             {"right_name", v.right_name},
+                             {"outliers", v.outliers()},
+                             {"left_outliers", v.left_outliers},
+                             {"right_outliers", v.right_outliers},
                              {"left_rms_px", NumberOrNull(v.left_rms_px)},
                              {"right_rms_px", NumberOrNull(v.right_rms_px)},
                              {"held_out", v.held_out},
@@ -348,7 +356,9 @@ std::string CalibrationToHtml(const Calibration& calibration, const CalibrationT
                  (target.kind == TargetKind::kDots ? " dots" : " inner corners") + ", pitch " +
                  Fixed(1000 * target.pitch_m, 3) + " mm (" + notes.target_file + "); " +
                  std::to_string(calibration.points) + " points, " +
-                 std::to_string(calibration.outliers) + " of them taken out as outliers.");
+                 std::to_string(calibration.outliers) +
+                 (calibration.outliers == 1 ? " of them taken out as outlier."
+                                            : " of them taken out as outliers."));
   for (const Criterion& criterion : Acceptance(calibration)) {
     page.Verdict(criterion.passed, criterion.text);
   }

@@ -138,7 +138,7 @@ struct Measure {
 };
 
 constexpr std::array<Measure, 3> kMeasures = {
-    {{"focal_error_percent", "focal length error, worst of four", "%", kFocalLimit_percent},
+    {{"focal_error_percent", "worst focal length error", "%", kFocalLimit_percent},
      {"baseline_error_percent", "baseline error", "%", kBaselineLimit_percent},
      {"row_rms_px", "epipolar row rms", "px", kRowLimit_px}}};
 
@@ -178,6 +178,12 @@ std::string MeasurePlot(const TrialTable& table, const Measure& measure) {
   plot.series = {{"trials", table.Numbers("trial"), table.Numbers(measure.column)}};
   plot.series[0].line = false;
   plot.limits = {{measure.limit, "limit"}};
+  // Half a trial of room on both sides, or the first and last points lie on the frame.
+  const std::vector<double>& trials = plot.series[0].x;
+  if (!trials.empty()) {
+    plot.x_min = *std::min_element(trials.begin(), trials.end()) - 0.5;
+    plot.x_max = *std::max_element(trials.begin(), trials.end()) + 0.5;
+  }
   plot.y_min = 0;
   return LinePlotSvg(plot);
 }

@@ -233,6 +233,13 @@ INSTANTIATE_TEST_SUITE_P(
                   }
                 },
                 "swapped"},
+        Refusal{"SamePicturesTwice", KeepSession,
+                [](std::vector<TargetView>& v) {
+                  for (TargetView& view : v) {
+                    view.right = view.left;
+                  }
+                },
+                "both lists hold the same camera's pictures"},
         Refusal{"WrongOrder", KeepSession,
                 [](std::vector<TargetView>& v) {
                   for (std::size_t i = 0; i + 1 < v.size(); ++i) {
@@ -253,6 +260,35 @@ INSTANTIATE_TEST_SUITE_P(
                 },
                 "px of error"}),
     [](const auto& row) { return row.param.name; });
+
+/// Two views exchanged on one side are thrown out whole by the robust fit, which then looks good.
+TEST(ContradictionsTest, NamesTheExchangedPicturesAndNoOthers) {
+  for (const std::size_t exchanged : {0u, 2u, 3u}) {
+    const CalibrationSession session = MakeCalibrationSession(16, kViews);
+    auto views = Observe(session.target, TruthOf(session), 0.03, 16);
+    for (std::size_t v = 0; v < views.size(); ++v) {
+      views[v].name = "left" + std::to_string(v);
+      views[v].right_name = "right" + std::to_string(v);
+    }
+    if (exchanged > 0) {  // a ring of 2 or 3 views from view 4 on
+      const auto first = views.begin() + 4;
+      for (std::size_t i = 0; i + 1 < exchanged; ++i) {
+        std::swap(first[static_cast<std::ptrdiff_t>(i)].right,
+                  first[static_cast<std::ptrdiff_t>(i) + 1].right);
+        std::swap(first[static_cast<std::ptrdiff_t>(i)].right_name,
+                  first[static_cast<std::ptrdiff_t>(i) + 1].right_name);
+      }
+    }
+    const auto result = Calibrate(session.target, views, Options());
+    ASSERT_TRUE(result.ok()) << result.error().message;
+    const std::vector<std::string> sentences = Contradictions(*result);
+    ASSERT_EQ(sentences.size(), exchanged);
+    for (std::size_t i = 0; i < exchanged; ++i) {
+      EXPECT_THAT(sentences[i], HasSubstr(views[4 + i].name + " and " + views[4 + i].right_name +
+                                          " do not show"));
+    }
+  }
+}
 
 TEST(CalibrationQualityTest, UncertaintyIsLeastWhereTheBoardWas) {
   const CalibrationSession session = MakeCalibrationSession(12, kViews);
@@ -318,6 +354,19 @@ TEST(NextViewTest, SaysWhatLacks) {
       Calibrate(session.target, Observe(session.target, TruthOf(session), 0.03, 14), Options());
   ASSERT_TRUE(result.ok());
   EXPECT_THAT(NextView(*result), HasSubstr("Next view: hold the board in the"));
+  // Its figure is the map's at the cell it names.
+  const std::string text = NextView(*result);
+  double sigma_px = 0, column = 0, row = 0;
+  ASSERT_EQ(std::sscanf(text.substr(text.find("; ") + 2).c_str(),
+                        "%lf px 1 sigma round column %lf, row %lf", &sigma_px, &column, &row),
+            3)
+      << text;
+  const int side = text.find("left picture") != std::string::npos ? 0 : 1;
+  const GridF map = UncertaintyMap(*result, side, kMapRows, kMapColumns);
+  EXPECT_NEAR(map.at(static_cast<int>((row + 0.5) * kMapRows / result->height),
+                     static_cast<int>((column + 0.5) * kMapColumns / result->width)),
+              sigma_px, 0.0006)
+      << text;
   // The left edge of the left picture is never in the right one's view of a near board.
   EXPECT_THAT(
       NextView(*result),

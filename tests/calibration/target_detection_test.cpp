@@ -265,8 +265,29 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(Mismatch{"LargerDots", Dots(), 12, 9, "found 13 x 10 dots"},
                     Mismatch{"OneRowMore", Dots(), 13, 9, "found 13 x 10"},
                     Mismatch{"SmallerDots", Dots(), 14, 11, "found 13 x 10"},
+                    Mismatch{"PartOfColumns", Chessboard(), 8, 6, "found 9 x 6 inner corners"},
+                    Mismatch{"PartOfRows", Chessboard(), 9, 5, "found 9 x 6 inner corners"},
+                    Mismatch{"PartOfBoth", Chessboard(), 6, 4, "found 9 x 6 inner corners"},
                     Mismatch{"Chessboard", Chessboard(), 13, 10, "found 9 x 6 inner corners"}),
     [](const auto& row) { return row.param.name; });
+
+/// The file's dot diameter against the picture's: right within a fifth, refused from 30 % on, near
+/// and far.
+TEST(DetectTargetTest, DotsOfAnotherSizeAreRefused) {
+  const CalibrationTarget shown = Dots();
+  for (const double distance_m : {2.2, 4.5}) {
+    const ImageU8 picture = Render(shown, Pose(shown, {0, 0, distance_m}, 5, 25, 40), {});
+    for (const double factor : {0.25, 0.6, 0.9, 1.0, 1.1, 1.45}) {
+      CalibrationTarget told = shown;
+      told.dot_diameter_m *= factor;
+      const auto seen = DetectTarget(picture, told);
+      EXPECT_EQ(seen.ok(), std::abs(factor - 1) < 0.2) << factor << " at " << distance_m << " m";
+      if (!seen) {
+        EXPECT_THAT(seen.error().message, HasSubstr("dot_diameter_m"));
+      }
+    }
+  }
+}
 
 TEST(DetectTargetTest, PicturesWithoutATargetAreNoTarget) {
   RandomStream random(3, "noise");

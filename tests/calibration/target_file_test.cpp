@@ -75,6 +75,8 @@ INSTANTIATE_TEST_SUITE_P(
         Damage{"Kind", "\"dots\"", "\"circles\"", {"TARGET.toml:2", "circles", "chessboard"}},
         Damage{"KindNumber", "\"dots\"", "3", {"TARGET.toml:2", "text in quotes"}},
         Damage{"NoColumns", "columns = 13\n", "", {"columns is missing"}},
+        Damage{
+            "Misspelled", "columns = 13", "colums = 13", {":3", "colums is not a key", "columns"}},
         Damage{"TooFew", "columns = 13", "columns = 2", {":3", "= 2", "3 .. 200"}},
         Damage{"TooMany", "rows = 10", "rows = 100000", {":4", "3 .. 200"}},
         Damage{"Fraction", "rows = 10", "rows = 9.5", {":4", "9.5", "whole"}},

@@ -88,8 +88,9 @@ TEST_F(Calibrate, RefusesWithOneMessage) {
   ExpectRefused(Run("q*.png"), {"--left", "q*.png"});
   ExpectRefused(Run("l*.png", "r0.png"), {"4 left and 1 right"});
   ExpectRefused(Run("r*.png", "l*.png"), {"swapped"});
+  ExpectRefused(Run("l*.png", "l*.png"), {"same picture", "l0.png"});
   WriteTargetFile(14, 11);
-  ExpectRefused(Run(), {"0 of 4 views", "found 13 x 10 dots, the target has 14 x 11", "l0.png"});
+  ExpectRefused(Run(), {"8 of 8 pictures", "found 13 x 10 dots, the target has 14 x 11", "l0.png"});
   WriteTargetFile(13, 10);
   cv::imwrite((folder_ / "r2.png").string(), cv::Mat(96, 64, CV_8UC1, cv::Scalar(90)));
   ExpectRefused(Run(), {"r2.png has 64 x 96 px", "640 x 480"});
@@ -99,8 +100,44 @@ TEST_F(Calibrate, RefusesWithOneMessage) {
   ExpectRefused(Run(), {"TARGET.toml:3", "-1"});
 }
 
+/// Exchanged pictures are outliers to the fit, whose figures then look good: exit 1 all the same.
+TEST_F(Calibrate, ExchangedPicturesDoNotPass) {
+  WriteViews(9);
+  std::filesystem::rename(folder_ / "r3.png", folder_ / "r.png");
+  std::filesystem::rename(folder_ / "r4.png", folder_ / "r3.png");
+  std::filesystem::rename(folder_ / "r.png", folder_ / "r4.png");
+  const ProcessResult result = Run();
+  EXPECT_EQ(result.exit_code, 1) << result.out;
+  for (const char* pair : {"FAILED: l3.png and r3.png", "FAILED: l4.png and r4.png"}) {
+    EXPECT_NE(result.out.find(pair), std::string::npos) << result.out;
+  }
+  std::ifstream file(folder_ / "out" / "RIG.toml");
+  std::string first_line;
+  std::getline(file, first_line);
+  EXPECT_EQ(first_line.rfind("# NOT PASSED", 0), 0u) << first_line;
+  EXPECT_TRUE(LoadRigFile(folder_ / "out" / "RIG.toml").ok());
+}
+
+TEST_F(Calibrate, KeepsWhatIsThere) {
+  WriteFile("out", "a file");
+  const ProcessResult no_folder = Run();
+  EXPECT_EQ(no_folder.exit_code, 1);
+  EXPECT_NE(no_folder.err.find("is no folder"), std::string::npos) << no_folder.err;
+  std::filesystem::remove(folder_ / "out");
+  std::filesystem::create_directory(folder_ / "out");
+  WriteFile("out/RIG.toml", "precious");
+  const ProcessResult taken = Run();
+  EXPECT_EQ(taken.exit_code, 2);
+  EXPECT_NE(taken.err.find("out holds RIG.toml already"), std::string::npos) << taken.err;
+}
+
 TEST_F(Calibrate, BadUsageIsExitTwo) {
   EXPECT_EQ(RunProcess(Palacectl({"calibrate", "--out", "out"}), kLimit_s).exit_code, 2);
+  EXPECT_EQ(RunProcess(Palacectl({"calibrate", "--target", "t", "--left", "l", "--right", "r",
+                                  "--out", "out", "--hold-out-every", "1"}),
+                       kLimit_s)
+                .exit_code,
+            2);
   EXPECT_EQ(RunProcess(Palacectl({"calibrate", "--wings", "2"}), kLimit_s).exit_code, 2);
   EXPECT_EQ(RunProcess(Palacectl({"calibrate", "--help"}), kLimit_s).exit_code, 0);
 }
