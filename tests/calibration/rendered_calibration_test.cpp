@@ -187,5 +187,26 @@ TEST(ChessboardTest, PhotographedPairsReachOpenCvsFigures) {
   EXPECT_NEAR(calibration->baseline_m(), 3.328, 0.01);  // OpenCV's, in squares
 }
 
+/// The board is cut through its outermost squares, and OpenCV finds 8 x 6 corners in most pictures.
+TEST(ChessboardTest, APartOfAPhotographedBoardIsNotTaken) {
+  const fs::path folder = fs::path(PALACE_SHARED_DATA_DIR) / "opencv_stereo_calib";
+  if (!fs::exists(folder / "left01.jpg")) {
+    GTEST_SKIP() << folder << " is not there";
+  }
+  for (const char* name :
+       {"left03.jpg", "left05.jpg", "left09.jpg", "right06.jpg", "right12.jpg"}) {
+    const auto picture = ReadGreyPicture(folder / name);
+    ASSERT_TRUE(picture.ok()) << picture.error().message;
+    for (const auto& [columns, rows] : {std::pair(8, 6), {7, 6}, {8, 5}}) {
+      CalibrationTarget part;
+      part.kind = TargetKind::kChessboard;
+      part.columns = columns;
+      part.rows = rows;
+      part.pitch_m = 1;
+      EXPECT_FALSE(DetectTarget(*picture, part).ok()) << name << " as " << columns << " x " << rows;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace palace
