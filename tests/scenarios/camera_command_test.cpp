@@ -140,7 +140,7 @@ TEST_F(CameraCommand, ConvertsAndTellsTheResidual) {
        "d.cahv",
        "CAHV",
        CameraFormat::kJplText,
-       "pictures must be resampled"},
+       "kept by JPL's rule, not fitted"},
       {{"--model", "a.cahvore", "--to", "fisheye", "--out", "t.yml"},
        "t.yml",
        "fisheye (equidistant)",
