@@ -219,6 +219,15 @@ KeyedText ParseXml(std::string_view text, const std::string& file) {
   int line = 1;
   bool has_root = false;
   std::size_t at = 0;
+  const auto leave = [&](std::string_view content) {
+    if (!path.empty()) {
+      keyed.Add(Joined(path), line, content);
+    }
+    --depth;
+    if (!path.empty() && depth <= static_cast<int>(path.size())) {
+      path.pop_back();
+    }
+  };
   while (at < text.size()) {
     const auto open = text.find('<', at);
     if (open == std::string_view::npos) {
@@ -232,13 +241,7 @@ KeyedText ParseXml(std::string_view text, const std::string& file) {
     }
     const std::string_view tag = text.substr(open + 1, close - open - 1);
     if (!comment && tag.substr(0, 1) == "/") {
-      if (!path.empty()) {
-        keyed.Add(Joined(path), line, content);
-      }
-      --depth;
-      if (!path.empty() && depth <= static_cast<int>(path.size())) {
-        path.pop_back();
-      }
+      leave(content);
     } else if (!comment && !tag.empty() && tag[0] != '?' && tag[0] != '!') {
       has_root = true;
       if (depth > 0 && path.size() < kDeepest) {
@@ -246,13 +249,7 @@ KeyedText ParseXml(std::string_view text, const std::string& file) {
       }
       ++depth;
       if (tag.back() == '/') {
-        if (!path.empty()) {
-          keyed.Add(Joined(path), line, "");
-        }
-        --depth;
-        if (!path.empty() && depth <= static_cast<int>(path.size())) {
-          path.pop_back();
-        }
+        leave({});
       }
     }
     line += CountLines(text.substr(at, close + 1 - at));
