@@ -8,20 +8,21 @@
 namespace palace {
 namespace {
 
-/// Lines of a text, numbered from 1; `is_cut` for a last one that no newline ends.
+/// Lines of a text, numbered from 1. A last one that no newline ends counts as whole: people's
+/// files end so.
 template <typename Use>
 void ForEachLine(std::string_view text, const Use& use) {
   for (int line = 1; !text.empty(); ++line) {
     const auto end = text.find('\n');
-    use(line, text.substr(0, end), end == std::string_view::npos);
+    use(line, text.substr(0, end));
     text = end == std::string_view::npos ? std::string_view{} : text.substr(end + 1);
   }
 }
 
-void AddAssignment(KeyedText& keyed, int line, std::string_view content, bool is_cut) {
+void AddAssignment(KeyedText& keyed, int line, std::string_view content) {
   const auto equals = content.find('=');
   if (equals != std::string_view::npos) {
-    keyed.Add(Trimmed(content.substr(0, equals)), line, content.substr(equals + 1), is_cut);
+    keyed.Add(Trimmed(content.substr(0, equals)), line, content.substr(equals + 1));
   }
 }
 
@@ -123,10 +124,8 @@ std::string Unquoted(std::string_view text) {
 
 KeyedText ParseAssignments(std::string_view text, const std::string& file) {
   KeyedText keyed(file);
-  ForEachLine(text, [&](int line, std::string_view content, bool is_cut) {
-    const auto comment = content.find('#');
-    AddAssignment(keyed, line, content.substr(0, comment),
-                  is_cut && comment == std::string_view::npos);
+  ForEachLine(text, [&](int line, std::string_view content) {
+    AddAssignment(keyed, line, content.substr(0, content.find('#')));
   });
   return keyed;
 }
@@ -134,10 +133,10 @@ KeyedText ParseAssignments(std::string_view text, const std::string& file) {
 KeyedText ParseNumberLines(std::string_view text, const std::string& file) {
   KeyedText keyed(file);
   int count = 0;
-  ForEachLine(text, [&](int line, std::string_view content, bool is_cut) {
+  ForEachLine(text, [&](int line, std::string_view content) {
     const std::string_view trimmed = Trimmed(content);
     if (trimmed.substr(0, 1) == "#") {
-      AddAssignment(keyed, line, trimmed.substr(1), is_cut);
+      AddAssignment(keyed, line, trimmed.substr(1));
     }
     for (std::string_view rest = trimmed; !rest.empty() && rest[0] != '#';) {
       const std::string_view word = rest.substr(0, rest.find_first_of(" \t#"));
@@ -145,7 +144,7 @@ KeyedText ParseNumberLines(std::string_view text, const std::string& file) {
       if (rest.size() < trimmed.size() && word.find_first_of("0123456789+-.") != 0) {
         break;
       }
-      keyed.Add(std::to_string(++count), line, word, is_cut && word.size() == rest.size());
+      keyed.Add(std::to_string(++count), line, word);
       rest = Trimmed(rest.substr(word.size()));
     }
   });

@@ -5,8 +5,10 @@
 // so with file, line, key, value and limit.
 //
 // Files cut short must not read as another camera. A value that the end of the text may have cut
-// (no closing bracket, quote or newline after it) is kept as such and refused by Numbers; a syntax
-// that closes what it opens (XML, Python dicts, groups of labels) tells by Whole what is open.
+// (no closing bracket or quote after it) is kept as such and refused by Numbers; a syntax
+// that closes what it opens (XML, Python dicts, groups of labels) tells by Whole what is open. In
+// the formats of one value a line a last number cut between its digits cannot be told from a
+// shorter one.
 #pragma once
 
 #include <cstddef>

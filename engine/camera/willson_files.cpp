@@ -55,10 +55,6 @@ Result<CameraModel> ReadWillson(const KeyedText& text) {
                           "a .cpcc file holds Ncx Nfx dx dy dpx dpy Cx Cy sx f kappa1 Tx Ty Tz Rx "
                           "Ry Rz, then p1 p2, one a line");
     }
-    // A last p1 or p2 without a newline is 0, or refused, however the digits go on.
-    if (optional && text.Word(key).find_first_not_of("0.") == std::string::npos) {
-      continue;
-    }
     const auto value = text.Number(key);
     if (!value) {
       return InvalidError(value.error().message + " (" + field.name + ")");

@@ -1,7 +1,10 @@
 // palacectl camera convert.
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <string>
+#include <variant>
 
 #include "engine/camera/conversion.h"
 #include "engine/tools/camera_verbs.h"
@@ -17,13 +20,24 @@ struct ConversionGoal {
   CameraFormat format = CameraFormat::kJplText;
 };
 
-Result<ConversionGoal> GoalOf(const CameraOptions& options) {
+/// The OpenCV family that keeps what the model has: 14 coefficients lose the tilt of the sensor.
+std::string OpenCvNameFor(const CameraModel& model) {
+  const auto* opencv = std::get_if<OpenCvModel>(&model.lens);
+  if (opencv == nullptr) {
+    return "opencv5";
+  }
+  return opencv->lens == OpenCvLens::kFisheye ? "fisheye"
+         : opencv->coefficients == 0
+             ? "pinhole"
+             : "opencv" + std::to_string(std::min(opencv->coefficients, 12));
+}
+
+Result<ConversionGoal> GoalOf(const CameraOptions& options, const CameraModel& source) {
   std::string name = options.to;
   std::string extension = std::filesystem::path(options.out).extension().string();
   if (name.empty()) {
-    name = extension == ".yml" || extension == ".yaml" || extension == ".xml" ? "opencv5"
-           : extension.size() > 1                                             ? extension.substr(1)
-                                                                              : "";
+    const bool opencv = extension == ".yml" || extension == ".yaml" || extension == ".xml";
+    name = opencv ? OpenCvNameFor(source) : extension.size() > 1 ? extension.substr(1) : "";
   }
   ConversionGoal goal;
   const bool ros = name.substr(0, 3) == "ros";
@@ -90,13 +104,13 @@ void PrintResidual(const ConvertedCamera& converted, LensFamily family, const Ca
 }  // namespace
 
 int RunCameraConvert(const CameraOptions& options) {
-  const auto goal = GoalOf(options);
-  if (!goal) {
-    return FailCamera(goal.error());
-  }
   const auto model = ReadCameraModel(options.model, options);
   if (!model) {
     return FailCamera(model.error());
+  }
+  const auto goal = GoalOf(options, *model);
+  if (!goal) {
+    return FailCamera(goal.error());
   }
   const auto converted = ConvertCamera(*model, goal->family);
   if (!converted) {
