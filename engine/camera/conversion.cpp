@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <vector>
 
 #include "engine/camera/alignment.h"
 #include "engine/camera/cahvor.h"
+#include "engine/camera/conversion_fit.h"
 #include "engine/camera/conversion_targets.h"
 
 namespace palace {
@@ -18,16 +18,11 @@ constexpr int kFitColumns = 33;
 constexpr int kFitRows = 25;
 constexpr int kCheckColumns = 64;
 constexpr int kCheckRows = 48;
-constexpr double kGood_px = 1e-9;  // rounding of the projections
-
-struct Sample {
-  Eigen::Vector2d pixel;
-  Eigen::Vector3d direction;
-};
 
 /// Rays of a grid that includes the picture's corners.
-std::vector<Sample> SamplesOf(const CameraModel& camera, int columns, int rows, int& without_ray) {
-  std::vector<Sample> samples;
+std::vector<RaySample> SamplesOf(const CameraModel& camera, int columns, int rows,
+                                 int& without_ray) {
+  std::vector<RaySample> samples;
   without_ray = 0;
   for (int j = 0; j < rows; ++j) {
     for (int i = 0; i < columns; ++i) {
@@ -43,10 +38,10 @@ std::vector<Sample> SamplesOf(const CameraModel& camera, int columns, int rows, 
   return samples;
 }
 
-Residual Compare(const std::vector<Sample>& samples, const CameraModel& to) {
+Residual Compare(const std::vector<RaySample>& samples, const CameraModel& to) {
   Residual residual;
   double sum = 0;
-  for (const Sample& sample : samples) {
+  for (const RaySample& sample : samples) {
     const auto seen = ProjectDirection(to, sample.direction);
     if (!seen) {
       ++residual.unseen;
@@ -64,98 +59,64 @@ Residual Compare(const std::vector<Sample>& samples, const CameraModel& to) {
   return residual;
 }
 
-/// Residuals of all samples; nothing when one has no pixel.
-std::optional<Eigen::VectorXd> Errors(const std::vector<Sample>& samples, const CameraModel& to) {
-  Eigen::VectorXd errors(2 * static_cast<Eigen::Index>(samples.size()));
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    const auto seen = ProjectDirection(to, samples[i].direction);
-    if (!seen) {
-      return std::nullopt;
-    }
-    errors.segment<2>(2 * static_cast<Eigen::Index>(i)) = *seen - samples[i].pixel;
-  }
-  return errors;
-}
-
-/// Levenberg-Marquardt with central differences; each parameter is of the order of 1. Steps into
-/// parameters that lose a ray count as uphill. Nothing when the start already loses one.
-std::optional<Eigen::VectorXd> Fit(const std::vector<Sample>& samples,
-                                   const ConversionTarget& target, Eigen::VectorXd x) {
-  auto errors = Errors(samples, target.camera(x));
-  if (!errors) {
-    return std::nullopt;
-  }
-  const double good = kGood_px * kGood_px * static_cast<double>(samples.size());
-  double damping = 1e-4;
-  for (int iteration = 0; iteration < 200 && errors->squaredNorm() > good; ++iteration) {
-    constexpr double kStep = 1e-6;
-    Eigen::MatrixXd J(errors->size(), x.size());
-    for (Eigen::Index k = 0; k < x.size(); ++k) {
-      const Eigen::VectorXd step = kStep * Eigen::VectorXd::Unit(x.size(), k);
-      const auto plus = Errors(samples, target.camera(x + step));
-      const auto minus = Errors(samples, target.camera(x - step));
-      if (!plus || !minus) {
-        return x;  // at the border of the model's range
-      }
-      J.col(k) = (*plus - *minus) / (2 * kStep);
-    }
-    const Eigen::MatrixXd normal = J.transpose() * J;
-    const Eigen::VectorXd gradient = J.transpose() * *errors;
-    bool improved = false;
-    double gain = 0;
-    while (!improved && damping < 1e12) {
-      Eigen::MatrixXd damped = normal;
-      damped.diagonal() += damping * (normal.diagonal().array() + 1e-12).matrix();
-      const Eigen::VectorXd next = x - damped.ldlt().solve(gradient);
-      const auto next_errors = next.allFinite() ? Errors(samples, target.camera(next))
-                                                : std::optional<Eigen::VectorXd>();
-      improved = next_errors && next_errors->squaredNorm() < errors->squaredNorm();
-      if (improved) {
-        gain = 1 - next_errors->squaredNorm() / errors->squaredNorm();
-        x = next;
-        errors = next_errors;
-      }
-      damping = improved ? std::max(damping / 10, 1e-15) : damping * 4;
-    }
-    if (!improved || gain < 1e-10) {
-      break;
-    }
-  }
-  return x;
-}
-
-double WidestAngle(const std::vector<Sample>& samples, const Eigen::Vector3d& axis) {
+double WidestAngle(const std::vector<RaySample>& samples, const Eigen::Vector3d& axis) {
   double least = 1;
-  for (const Sample& sample : samples) {
+  for (const RaySample& sample : samples) {
     least = std::min(least, sample.direction.dot(axis));
   }
   return std::acos(std::clamp(least, -1.0, 1.0));
 }
 
-Result<CameraModel> Refit(const CameraModel& source, LensFamily family,
-                          const std::vector<Sample>& samples) {
-  std::optional<CameraModel> best;
-  double best_cost = std::numeric_limits<double>::infinity();
-  for (const ConversionTarget& target : ConversionTargets(source, family)) {
-    const auto x = Fit(samples, target, target.start);
-    if (!x) {
-      continue;
+/// A fitted family: the best of its targets, and that of the first, which extends smaller ones.
+struct FamilyFit {
+  CameraModel camera;
+  TargetFit first;
+  double cost_px2 = 0;
+};
+
+/// Fits the nested families first: each begins where the smaller one ended.
+std::optional<FamilyFit> FitFamily(const CameraModel& source, LensFamily family,
+                                   const std::vector<RaySample>& samples,
+                                   const std::vector<RaySample>& judges, double widest_tangent) {
+  const auto smaller = NestedFamily(family);
+  const auto nested = smaller ? FitFamily(source, *smaller, samples, judges, widest_tangent)
+                              : std::optional<FamilyFit>();
+  std::optional<FamilyFit> best;
+  for (const ConversionTarget& target : ConversionTargets(source, family, widest_tangent)) {
+    Eigen::VectorXd start = target.start;
+    const bool is_first = !best;
+    if (nested && is_first) {
+      start.head(nested->first.x.size()) = nested->first.x;
     }
-    const double cost = Errors(samples, target.camera(*x))->squaredNorm();
-    if (cost < best_cost) {
-      best_cost = cost;
-      best = target.camera(*x);
+    const auto fit = FitTarget(samples, judges, target, start);
+    if (is_first && fit) {
+      best = FamilyFit{target.camera(fit->x), *fit, fit->cost_px2};
+    } else if (fit && fit->cost_px2 < best->cost_px2) {
+      best->camera = target.camera(fit->x);
+      best->cost_px2 = fit->cost_px2;
     }
   }
-  if (!best) {
-    const double angle = WidestAngle(samples, LinearPartOf(source).A);
+  return best;
+}
+
+Result<CameraModel> Refit(const CameraModel& source, LensFamily family,
+                          std::vector<RaySample> samples) {
+  int without_ray = 0;
+  const std::vector<RaySample> judges = SamplesOf(source, kCheckColumns, kCheckRows, without_ray);
+  const Eigen::Vector3d axis = LinearPartOf(source).A;
+  std::stable_sort(samples.begin(), samples.end(), [&](const RaySample& a, const RaySample& b) {
+    return a.direction.dot(axis) > b.direction.dot(axis);
+  });
+  const double angle = WidestAngle(samples, axis);
+  const auto fit = FitFamily(source, family, samples, judges, angle < 1.57 ? std::tan(angle) : 1);
+  if (!fit) {
     return InvalidError(
         "the picture holds rays " +
         std::to_string(static_cast<int>(std::lround(angle * 180 / std::numbers::pi))) +
         " degrees off the axis, beyond the range of " + LensFamilyName(family) +
         "; choose cahvore or fisheye");
   }
-  return *best;
+  return fit->camera;
 }
 
 }  // namespace
@@ -195,7 +156,7 @@ Result<ConvertedCamera> ConvertCamera(const CameraModel& source, LensFamily fami
   }
   const CameraModel metric = InUnit(source, 1);
   int without_ray = 0;
-  const std::vector<Sample> samples = SamplesOf(metric, kFitColumns, kFitRows, without_ray);
+  const std::vector<RaySample> samples = SamplesOf(metric, kFitColumns, kFitRows, without_ray);
   if (2 * without_ray > kFitColumns * kFitRows) {
     return InvalidError(
         "more than half of the picture's pixels have no ray in this model; is its "
@@ -221,7 +182,7 @@ Result<ConvertedCamera> ConvertCamera(const CameraModel& source, LensFamily fami
                            family == LensFamily::kCahvore;
   converted.lost_shear_px = keeps_shear ? 0 : PinholeFromCahv(LinearPartOf(metric)).shear_px;
   if (const auto* cahvore = std::get_if<CahvoreModel>(&metric.lens)) {
-    for (const Sample& sample : samples) {
+    for (const RaySample& sample : samples) {
       const auto ray = RayFromPixelCamera(metric, sample.pixel);
       converted.lost_pupil_m =
           std::max(converted.lost_pupil_m, (ray->origin - cahvore->base.C).norm());

@@ -7,9 +7,14 @@
 //
 //   minimise sum_i |project_target(ray_i) - pixel_i|^2      (Levenberg 1944, Marquardt 1963)
 //
+// Larger families begin at the answer of the smaller ones they contain and are never worse; weak
+// priors keep turn and centre where pixels do not decide (conversion_fit.h). Rays that the target
+// cannot reach are given up only where the rest of the picture gains more, and are counted.
+//
 // The projection centre stays. To CAHV the model of LinearizeCamera is taken, not a fit: its
 // pictures are resampled ones, and the residual is how far pixels then move. The residual is
-// measured on another, denser grid with the picture's corners.
+// measured on another, denser grid with the picture's corners; of several ends of the fit the one
+// that is best there counts.
 #pragma once
 
 #include <optional>
@@ -45,6 +50,9 @@ struct Residual {
   int pixels = 0;       ///< compared
   int without_ray = 0;  ///< pixels of the grid for which the first has no ray
   int unseen = 0;       ///< rays that the second does not project; not in rms and max
+
+  /// Share of the picture, 0 to 1, that the second camera does not see.
+  double UnseenShare() const { return unseen > 0 ? 1.0 * unseen / (unseen + pixels) : 0; }
 };
 
 /// Rays are taken from far away. The cameras share F and the unit of length; `from` has a size.
@@ -58,7 +66,8 @@ struct ConvertedCamera {
 };
 
 /// Lengths of the result are metres unless the model already is of the family. Refuses cameras
-/// without a size, pictures of which half has no ray, and rays that the target family cannot hold.
+/// without a size, pictures of which half has no ray, and rays at or behind the focal plane of a
+/// family with one.
 Result<ConvertedCamera> ConvertCamera(const CameraModel& source, LensFamily family);
 
 }  // namespace palace

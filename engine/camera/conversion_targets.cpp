@@ -1,6 +1,6 @@
 #include "engine/camera/conversion_targets.h"
 
-#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "engine/camera/cahvor.h"
@@ -58,26 +58,30 @@ Eigen::Vector3d AxisAt(const CahvPinhole& pinhole, double right, double down) {
   return pinhole.R_CF.transpose() * Eigen::Vector3d(right, down, 1).normalized();
 }
 
-ConversionTarget CahvorTarget(const Base& base) {
-  return {[base](const Eigen::VectorXd& x) {
+ConversionTarget CahvorTarget(const Base& base, double widest) {
+  const double square = widest * widest;
+  return {[base, square](const Eigen::VectorXd& x) {
             CahvorModel model = CahvAt(base, x);
             model.O = AxisAt(PinholeAt(base, x), x[7], x[8]);
-            model.R = {0, x[9], x[10]};
+            model.R = {0, x[9] / square, x[10] / (square * square)};
             return CameraModel{model, 1, base.pose_is_known};
           },
-          Eigen::VectorXd::Zero(kPinholeParameters + 4)};
+          Eigen::VectorXd::Zero(kPinholeParameters + 4), base.pinhole.camera.fx_px};
 }
 
-ConversionTarget CahvoreTarget(const Base& base, double linearity) {
-  ConversionTarget target = {[base](const Eigen::VectorXd& x) {
+ConversionTarget CahvoreTarget(const Base& base, double linearity, double widest) {
+  // chi grows as the tangent for linearity 1 and stays of the order of 1 for the others.
+  const double square = linearity == 1 ? widest * widest : 1;
+  ConversionTarget target = {[base, square](const Eigen::VectorXd& x) {
                                CahvoreModel model;
                                model.base = CahvAt(base, x);
                                model.base.O = AxisAt(PinholeAt(base, x), x[7], x[8]);
-                               model.base.R = {0, x[9], x[10]};
+                               model.base.R = {0, x[9] / square, x[10] / (square * square)};
                                model.linearity = x[11];
                                return CameraModel{model, 1, base.pose_is_known};
                              },
-                             Eigen::VectorXd::Zero(kPinholeParameters + 5)};
+                             Eigen::VectorXd::Zero(kPinholeParameters + 5),
+                             base.pinhole.camera.fx_px};
   target.start[11] = linearity;
   return target;
 }
@@ -100,25 +104,38 @@ ConversionTarget TsaiTarget(const Base& base) {
             model.T = -(pinhole.R_CF * pinhole.p_FC);
             return CameraModel{model, 1, base.pose_is_known};
           },
-          Eigen::VectorXd::Zero(kPinholeParameters + 1)};
+          Eigen::VectorXd::Zero(kPinholeParameters + 1), base.pinhole.camera.fx_px};
 }
 
-CameraModel OpenCvAt(const Base& base, const Eigen::VectorXd& x, OpenCvLens lens,
-                     int coefficients) {
+/// Powers of the radius by which k1 k2 p1 p2 k3 k4 k5 k6 s1 s2 s3 s4 move a point, less one.
+constexpr std::array<int, 12> kOrders = {2, 4, 1, 1, 6, 2, 4, 6, 1, 3, 1, 3};
+
+CameraModel OpenCvAt(const Base& base, const Eigen::VectorXd& x, OpenCvLens lens, int coefficients,
+                     double widest) {
   const CahvPinhole pinhole = PinholeAt(base, x);
   OpenCvModel model;
   model.pinhole = pinhole.camera;
   model.lens = lens;
   model.coefficients = coefficients;
-  std::copy(x.data() + kPinholeParameters, x.data() + x.size(), model.k.begin());
+  for (std::size_t i = 0; i < static_cast<std::size_t>(coefficients); ++i) {
+    const double scale = lens == OpenCvLens::kFisheye ? 1 : std::pow(widest, kOrders[i]);
+    model.k[i] = x[kPinholeParameters + static_cast<Eigen::Index>(i)] / scale;
+  }
   model.R_CF = pinhole.R_CF;
   model.t_CF = -(pinhole.R_CF * pinhole.p_FC);
   return {model, 1, base.pose_is_known};
 }
 
-ConversionTarget OpenCvTarget(const Base& base, OpenCvLens lens, int coefficients) {
-  return {[=](const Eigen::VectorXd& x) { return OpenCvAt(base, x, lens, coefficients); },
-          Eigen::VectorXd::Zero(kPinholeParameters + coefficients)};
+ConversionTarget OpenCvTarget(const Base& base, OpenCvLens lens, int coefficients, double widest) {
+  ConversionTarget target = {
+      [=](const Eigen::VectorXd& x) { return OpenCvAt(base, x, lens, coefficients, widest); },
+      Eigen::VectorXd::Zero(kPinholeParameters + coefficients), base.pinhole.camera.fx_px};
+  if (coefficients == 12) {
+    // Prism terms imitate a turn to the second order: without a hold K and R lose their meaning.
+    target.prior_weight = 1e-2;
+    target.only_refines = true;
+  }
+  return target;
 }
 
 int CoefficientsOf(LensFamily family) {
@@ -218,25 +235,46 @@ std::optional<CameraModel> ConvertedExactly(const CameraModel& source, LensFamil
       return std::nullopt;
     default:
       return OpenCvAt(base, Eigen::VectorXd::Zero(kPinholeParameters + CoefficientsOf(family)),
-                      OpenCvLens::kPolynomial, CoefficientsOf(family));
+                      OpenCvLens::kPolynomial, CoefficientsOf(family), 1);
   }
 }
 
-std::vector<ConversionTarget> ConversionTargets(const CameraModel& source, LensFamily family) {
+std::vector<ConversionTarget> ConversionTargets(const CameraModel& source, LensFamily family,
+                                                double widest_tangent) {
   const Base base = BaseOf(source);
   switch (family) {
     case LensFamily::kCahv:
       return {};
     case LensFamily::kCahvor:
-      return {CahvorTarget(base)};
+      return {CahvorTarget(base, widest_tangent)};
     case LensFamily::kCahvore:
-      return {CahvoreTarget(base, 1), CahvoreTarget(base, 0.3), CahvoreTarget(base, -0.5)};
+      return {CahvoreTarget(base, 1, widest_tangent), CahvoreTarget(base, 0.3, 1),
+              CahvoreTarget(base, -0.5, 1)};
     case LensFamily::kTsai:
       return {TsaiTarget(base)};
     case LensFamily::kFisheye:
-      return {OpenCvTarget(base, OpenCvLens::kFisheye, 4)};
+      return {OpenCvTarget(base, OpenCvLens::kFisheye, 4, 1)};
     default:
-      return {OpenCvTarget(base, OpenCvLens::kPolynomial, CoefficientsOf(family))};
+      return {OpenCvTarget(base, OpenCvLens::kPolynomial, CoefficientsOf(family), widest_tangent)};
+  }
+}
+
+std::optional<LensFamily> NestedFamily(LensFamily family) {
+  switch (family) {
+    case LensFamily::kOpenCv12:
+      return LensFamily::kOpenCv8;
+    case LensFamily::kOpenCv8:
+      return LensFamily::kOpenCv5;
+    case LensFamily::kOpenCv5:
+      return LensFamily::kOpenCv4;
+    case LensFamily::kCahvore:
+      return LensFamily::kCahvor;
+    case LensFamily::kOpenCv4:
+    case LensFamily::kCahvor:
+    case LensFamily::kTsai:
+      return LensFamily::kPinhole;
+    default:
+      return std::nullopt;
   }
 }
 

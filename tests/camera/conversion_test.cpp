@@ -2,10 +2,15 @@
 // elsewhere, refused where the rays do not fit.
 #include "engine/camera/conversion.h"
 
+#include <limits>
+#include <vector>
+
 #include <gtest/gtest.h>
 
 #include "engine/camera/cahvor.h"
 #include "engine/camera/camera_files.h"
+#include "engine/camera/conversion_fit.h"
+#include "engine/camera/conversion_targets.h"
 #include "tests/camera/reference_vectors.h"
 #include "tests/camera/sample_cameras.h"
 
@@ -123,6 +128,113 @@ TEST(Conversion, RefitsComeWithinAFractionOfAPixel) {
       const double worst = WorstOf(InUnit(source, 1), converted->model, random);
       EXPECT_LE(worst, 1.05 * converted->residual.max_px + 1e-9);
     }
+  }
+}
+
+/// 1024 x 768, a fisheye by the angle: 179 degrees from corner to corner at 400 px.
+CameraModel WideCamera(double focal_px) {
+  CahvoreModel wide;
+  wide.base = CahvFromPinhole({1024, 768, focal_px, focal_px, 511.5, 383.5},
+                              Eigen::Matrix3d::Identity(), Eigen::Vector3d::Zero());
+  wide.base.R = {0, 0.01, 0};
+  wide.linearity = 0;
+  return {wide};
+}
+
+/// The residual when a lost ray counts as one a picture's diagonal off.
+double WorthOf(const ConvertedCamera& converted) {
+  const Residual& r = converted.residual;
+  const double diagonal_px = std::hypot(WidthOf(converted.model), HeightOf(converted.model));
+  return std::sqrt((1 - r.UnseenShare()) * r.rms_px * r.rms_px +
+                   r.UnseenShare() * diagonal_px * diagonal_px);
+}
+
+TEST(Conversion, AFamilyThatContainsAnotherNeverFitsWorse) {
+  constexpr std::uint64_t kSeed = 64;
+  SCOPED_TRACE(kSeed);
+  RandomStream random(kSeed);
+  const std::vector<LensFamily> chains[] = {
+      {LensFamily::kPinhole, LensFamily::kOpenCv4, LensFamily::kOpenCv5, LensFamily::kOpenCv8,
+       LensFamily::kOpenCv12},
+      {LensFamily::kPinhole, LensFamily::kCahvor, LensFamily::kCahvore},
+      {LensFamily::kPinhole, LensFamily::kTsai},
+  };
+  std::vector<CameraModel> sources = {WideCamera(random.Uniform(400, 600))};
+  for (const int family : {1, 6, 13}) {
+    sources.push_back(RandomCamera(random, family));
+    MakePerpendicular(sources.back());
+  }
+  for (const CameraModel& source : sources) {
+    SCOPED_TRACE(FamilyOf(source));
+    for (const auto& chain : chains) {
+      double smaller_px = std::numeric_limits<double>::infinity();
+      for (const LensFamily family : chain) {
+        const auto converted = ConvertCamera(source, family);
+        ASSERT_TRUE(converted.ok()) << converted.error().message;
+        const double worth_px = WorthOf(*converted);
+        EXPECT_LE(worth_px, 1.01 * smaller_px + 1e-3) << LensFamilyName(family);
+        smaller_px = worth_px;
+      }
+    }
+  }
+}
+
+TEST(Conversion, WideLensesLeaveTheStartOfTheFit) {
+  // The start alone: 1611 px. Pinhole: 333 px.
+  const auto brown = ConvertCamera(WideCamera(400), LensFamily::kOpenCv4);
+  ASSERT_TRUE(brown.ok());
+  EXPECT_LT(brown->residual.rms_px, 200);
+  EXPECT_LT(brown->residual.UnseenShare(), 0.03);
+  const auto rational = ConvertCamera(WideCamera(450), LensFamily::kOpenCv8);  // 159 degrees
+  ASSERT_TRUE(rational.ok());
+  EXPECT_LT(rational->residual.max_px, 0.2);
+  EXPECT_EQ(rational->residual.unseen, 0);
+}
+
+TEST(Conversion, FitsEndWhereNoParameterHelps) {
+  constexpr std::uint64_t kSeed = 65;
+  SCOPED_TRACE(kSeed);
+  RandomStream random(kSeed);
+  for (int i = 0; i < 5; ++i) {
+    CameraModel source = RandomCamera(random, 1);
+    MakePerpendicular(source);
+    std::vector<RaySample> samples;
+    for (int k = 0; k < 300; ++k) {
+      const Eigen::Vector2d pixel(random.Uniform(0, 639), random.Uniform(0, 479));
+      if (const auto ray = RayFromPixelCamera(source, pixel)) {
+        samples.push_back({pixel, ray->direction});
+      }
+    }
+    for (const LensFamily family :
+         {LensFamily::kPinhole, LensFamily::kOpenCv4, LensFamily::kOpenCv5, LensFamily::kTsai}) {
+      SCOPED_TRACE(LensFamilyName(family));
+      const ConversionTarget target = ConversionTargets(source, family, 0.6).front();
+      const auto fit = FitTarget(samples, samples, target, target.start);
+      ASSERT_TRUE(fit);
+      EXPECT_LT(GradientCosine(samples, target, fit->x), 0.01);
+      EXPECT_GT(GradientCosine(samples, target, target.start), 0.1);
+    }
+  }
+}
+
+TEST(Conversion, PrismTermsDoNotTurnTheCameraForALittleShear) {
+  constexpr std::uint64_t kSeed = 66;
+  SCOPED_TRACE(kSeed);
+  RandomStream random(kSeed);
+  for (int i = 0; i < 3; ++i) {
+    CameraModel source{RandomCahvor(random)};
+    MakePerpendicular(source);
+    auto& cahvor = std::get<CahvorModel>(source.lens);
+    cahvor.V += PinholeFromCahv(cahvor).R_CF.row(0).transpose();  // K(1,0) = 1 px
+    const auto converted = ConvertCamera(source, LensFamily::kOpenCv12);
+    ASSERT_TRUE(converted.ok());
+    const double cosine = RotationOf(source).row(2).dot(RotationOf(converted->model).row(2));
+    EXPECT_GT(cosine, std::cos(0.01)) << "the axis turns";
+    const PinholeCamera before = PinholeFromCahv(cahvor).camera;
+    const PinholeCamera after = std::get<OpenCvModel>(converted->model.lens).pinhole;
+    EXPECT_NEAR(after.cx_px, before.cx_px, 7);
+    EXPECT_NEAR(after.cy_px, before.cy_px, 7);
+    EXPECT_LT(converted->residual.rms_px, 0.25);
   }
 }
 
