@@ -7,6 +7,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "engine/stereo/depth_edges.h"
 #include "engine/stereo/opencv_matchers.h"
 #include "engine/stereo/prefilter.h"
 #include "engine/stereo/semi_global.h"
@@ -95,7 +96,7 @@ ImageF MatchWholePixels(const ImageU8& left, const ImageU8& right, const Dispari
   const DisparityWindow searched{window.min_px, std::min(window.count, kWidestSearch_px)};
   ImageF disparity = MatchFullSize(left, right, searched, settings);
   RefuseUniform(left, right, disparity);
-  return disparity;
+  return DecideBesideDepthEdges(left, right, disparity);
 }
 
 }  // namespace palace
