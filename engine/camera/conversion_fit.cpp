@@ -117,7 +117,7 @@ Eigen::VectorXd Descend(const Residuals& residuals, Eigen::VectorXd x) {
     if (!improved) {
       break;
     }
-    idle = 1 - cost / before < 1e-9 ? idle + 1 : 0;
+    idle = 1 - cost / before < 1e-7 ? idle + 1 : 0;
   }
   return x;
 }
@@ -146,7 +146,7 @@ std::optional<TargetFit> FitTarget(const std::vector<RaySample>& samples,
       if (cost_px2 < best.cost_px2) {
         best = {x, cost_px2};
       }
-      if (is_fine()) {
+      if (target.only_refines || is_fine()) {
         return;
       }
     }

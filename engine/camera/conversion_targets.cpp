@@ -9,7 +9,8 @@
 namespace palace {
 namespace {
 
-constexpr double kPitch_m = 1e-5;  // a Tsai camera's pixels, where the source tells none
+constexpr double kWideTangent = 1.2;  // folds hinder the fits of wider pictures only
+constexpr double kPitch_m = 1e-5;     // a Tsai camera's pixels, where the source tells none
 
 /// Where a fit begins: the linear part of the source.
 struct Base {
@@ -130,6 +131,7 @@ ConversionTarget OpenCvTarget(const Base& base, OpenCvLens lens, int coefficient
   ConversionTarget target = {
       [=](const Eigen::VectorXd& x) { return OpenCvAt(base, x, lens, coefficients, widest); },
       Eigen::VectorXd::Zero(kPinholeParameters + coefficients), base.pinhole.camera.fx_px};
+  target.only_refines = lens == OpenCvLens::kPolynomial && widest < kWideTangent;
   if (coefficients == 12) {
     // Prism terms imitate a turn to the second order: without a hold K and R lose their meaning.
     target.prior_weight = 1e-2;

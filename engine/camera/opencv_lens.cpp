@@ -140,7 +140,8 @@ bool SegmentKeepsOrientation(const OpenCvModel& model, const Eigen::Vector2d& u)
   AddTo(all, Times(D, Times(G, trace)), 1);
   AddTo(all, Times(D, Times(W, quadratic)), -2, 2);  // u^T T u at t u
   AddTo(all, Times(D, Times(D, Times(D, determinant))), 1);
-  return PositiveOn(all, 1);
+  constexpr int kHalvings = 10;  // poles of D make the product flat
+  return PositiveOn(all, 1, kHalvings);
 }
 
 /// True when nothing folds between the axis and u. Cheap where the sideways terms are small: |T|

@@ -29,35 +29,63 @@ std::array<double, N> BernsteinOn(const std::array<double, N>& c, double end) {
   return b;
 }
 
+/// De Casteljau at the middle: `b` becomes the left half, the answer is the right one.
 template <std::size_t N>
-bool BernsteinIsPositive(std::array<double, N> left, int halvings) {
-  if (!(left[0] > 0) || !(left[N - 1] > 0)) {
+std::array<double, N> SplitInHalves(std::array<double, N>& b) {
+  std::array<double, N> right{};
+  for (std::size_t k = 0; k < N; ++k) {
+    right[N - 1 - k] = b[N - 1];
+    for (std::size_t j = N - 1; j > k; --j) {
+      b[j] = (b[j - 1] + b[j]) / 2;
+    }
+  }
+  return right;
+}
+
+template <std::size_t N>
+bool AllPositive(const std::array<double, N>& b) {
+  return std::all_of(b.begin(), b.end(), [](double value) { return value > 0; });
+}
+
+template <std::size_t N>
+bool BernsteinIsPositive(std::array<double, N> b, int halvings) {
+  if (!(b[0] > 0) || !(b[N - 1] > 0)) {
     return false;  // values at the ends
   }
-  if (std::all_of(left.begin(), left.end(), [](double b) { return b > 0; })) {
+  if (AllPositive(b)) {
     return true;
   }
   if (halvings == 0) {
     return false;
   }
-  std::array<double, N> right{};  // de Casteljau at the middle
-  for (std::size_t k = 0; k < N; ++k) {
-    right[N - 1 - k] = left[N - 1];
-    for (std::size_t j = N - 1; j > k; --j) {
-      left[j] = (left[j - 1] + left[j]) / 2;
-    }
-  }
-  return BernsteinIsPositive(left, halvings - 1) && BernsteinIsPositive(right, halvings - 1);
+  const std::array<double, N> right = SplitInHalves(b);
+  return BernsteinIsPositive(b, halvings - 1) && BernsteinIsPositive(right, halvings - 1);
 }
 
 }  // namespace internal
 
 /// True when c[0] + c[1] s + ... + c[N-1] s^(N-1) > 0 for all s of [0, end]. Bernstein coefficients
 /// that are all positive prove it, an end value that is not disproves it, and what neither decides
-/// is halved, 60 times at most (a zero that only touches counts as one). False for NaN.
+/// is halved: toward 0 as often as a large `end` asks for, each part away from it `halvings` times
+/// at most (a zero that only touches counts as one; where high powers of a factor make the
+/// polynomial flat, more halvings would only divide rounding). False for NaN.
 template <std::size_t N>
-bool PositiveOn(const std::array<double, N>& c, double end) {
-  return internal::BernsteinIsPositive(internal::BernsteinOn(c, end), 60);
+bool PositiveOn(const std::array<double, N>& c, double end, int halvings = 20) {
+  constexpr int kHalvingsToZero = 100;
+  std::array<double, N> b = internal::BernsteinOn(c, end);
+  for (int i = 0; i < kHalvingsToZero; ++i) {
+    if (!(b[0] > 0) || !(b[N - 1] > 0)) {
+      return false;
+    }
+    if (internal::AllPositive(b)) {
+      return true;
+    }
+    const std::array<double, N> right = internal::SplitInHalves(b);
+    if (!internal::BernsteinIsPositive(right, halvings)) {
+      return false;
+    }
+  }
+  return false;
 }
 
 /// r (c[0] + c[1] r^2 + c[2] r^4 + ...): the radial distortion of a lens.
