@@ -183,7 +183,7 @@ class FootprintFit {
 FootprintPlanes FitFootprintPlanes(const ElevationMap& map, double footprint_diameter_m) {
   const int rows = map.geometry.rows, cols = map.geometry.cols;
   const GridF unknown(rows, cols, kUnknownValue);
-  FootprintPlanes planes{{unknown, unknown, unknown}, unknown, unknown};
+  FootprintPlanes planes{{unknown, unknown, unknown, unknown}, unknown, unknown};
   if (unknown.empty()) {
     return planes;
   }
@@ -197,6 +197,8 @@ FootprintPlanes FitFootprintPlanes(const ElevationMap& map, double footprint_dia
         continue;
       }
       planes.plane.height_m.at(r, c) = static_cast<float>(s.height + fit.reference_m());
+      planes.plane.residual_m.at(r, c) = static_cast<float>(
+          static_cast<double>(map.height_m.at(r, c)) - fit.reference_m() - s.height);
       planes.plane.east_gradient.at(r, c) = static_cast<float>(s.east / cell_m);
       planes.plane.north_gradient.at(r, c) = static_cast<float>(-s.south / cell_m);
       planes.gradient_sigma.at(r, c) = static_cast<float>(s.gradient_sigma / cell_m);

@@ -81,15 +81,14 @@ void EvaluateThesis(const ElevationMap& map, const SladSettings& settings, Hazar
   for (int r = 0; r < map.geometry.rows; ++r) {
     for (int c = 0; c < map.geometry.cols; ++c) {
       std::uint8_t& reasons = hazards.reasons.at(r, c);
-      const float height = map.height_m.at(r, c), plane = planes.height_m.at(r, c);
-      if (std::isnan(height) || std::isnan(plane)) {
+      if (std::isnan(planes.residual_m.at(r, c))) {
         reasons = kHazardUnknown;
         continue;
       }
       const float slope = static_cast<float>(
           SlopeOfGradient(static_cast<double>(planes.north_gradient.at(r, c)),
                           static_cast<double>(planes.east_gradient.at(r, c)), up_W));
-      const float roughness = std::abs(height - plane);
+      const float roughness = std::abs(planes.residual_m.at(r, c));
       hazards.slope_rad.at(r, c) = slope;
       hazards.roughness_m.at(r, c) = roughness;
       hazards.cost.at(r, c) = ProductCost(slope, max_slope, roughness, max_roughness);

@@ -1,101 +1,102 @@
-// Triples and quadruples of a 3x3 window, for the exact LMedS fit. Internal to the SLAD room.
+// Triples and quadruples of a 3x3 window, for the exact LMedS fit; known to the compiler, so that
+// the fit is straight-line code. Internal to the SLAD room.
 #pragma once
 
-#include <array>
-#include <cstddef>
-#include <utility>
+namespace palace {
+namespace {  // each instruction set has its own
 
-namespace palace::lmeds {
-
+constexpr int kWindowPoints = 9;
 // Points 0..8 run row by row; x is columns east of the middle, y is rows south of it.
-inline constexpr int kPoints = 9;
-inline constexpr int X(int i) { return i % 3 - 1; }
-inline constexpr int Y(int i) { return i / 3 - 1; }
+constexpr int WindowX(int i) { return i % 3 - 1; }
+constexpr int WindowY(int i) { return i / 3 - 1; }
 
 /// Twice the signed area of a triple; 0 when collinear.
-inline constexpr int Area(int i, int j, int k) {
-  return (X(j) - X(i)) * (Y(k) - Y(i)) - (X(k) - X(i)) * (Y(j) - Y(i));
+constexpr int WindowArea(int i, int j, int k) {
+  return (WindowX(j) - WindowX(i)) * (WindowY(k) - WindowY(i)) -
+         (WindowX(k) - WindowX(i)) * (WindowY(j) - WindowY(i));
 }
 
 /// Four points and the weights of their heights in D: the 4x4 determinant of rows (1, x, y, z).
-struct Quadruple {
-  std::array<int, 4> point{};
-  std::array<float, 4> weight{};
-};
-/// Three points not in line, 1/|area|, and the quadruples they form with each of the other six.
-struct Triple {
-  std::array<int, 3> point{};
-  float inverse_area = 0;
-  std::array<int, 6> quadruple{};
+struct WindowQuadruple {
+  int point[4] = {};
+  int weight[4] = {};
 };
 
-inline constexpr int kQuadruples = 126;
-inline constexpr int kTriples = 76;
-struct Tables {
-  std::array<Quadruple, kQuadruples> quadruples{};
-  std::array<Triple, kTriples> triples{};
+/// Three points not in line, twice their area, and the quadruples they form with each other point.
+struct WindowTriple {
+  int point[3] = {};
+  int area = 0;  ///< without sign
+  int quadruple[6] = {};
 };
 
-constexpr int QuadrupleIndex(int a, int b, int c, int d) {
-  int index = 0;
-  for (int i = 0; i < kPoints; ++i) {
-    for (int j = i + 1; j < kPoints; ++j) {
-      for (int k = j + 1; k < kPoints; ++k) {
-        for (int m = k + 1; m < kPoints; ++m) {
-          if (i == a && j == b && k == c && m == d) {
-            return index;
-          }
-          ++index;
-        }
-      }
-    }
+/// The plane through a triple: height, east and south are sums of weight times the three heights.
+struct TriplePlane {
+  double height[3] = {};
+  double east[3] = {};
+  double south[3] = {};
+};
+
+constexpr int kQuadruples = 126;
+constexpr int kTriples = 76;
+struct LmedsTables {
+  WindowQuadruple quadruples[kQuadruples];
+  WindowTriple triples[kTriples];
+  TriplePlane planes[kTriples];
+};
+
+constexpr TriplePlane PlaneThroughTriple(int i, int j, int k) {
+  const double area = WindowArea(i, j, k);
+  TriplePlane plane;
+  const int point[3] = {i, j, k};
+  for (int n = 0; n < 3; ++n) {
+    const int a = point[(n + 1) % 3], b = point[(n + 2) % 3];
+    plane.east[n] = (WindowY(a) - WindowY(b)) / area;
+    plane.south[n] = (WindowX(b) - WindowX(a)) / area;
+    plane.height[n] = (WindowX(a) * WindowY(b) - WindowX(b) * WindowY(a)) / area;
   }
-  return -1;
+  return plane;
 }
 
-inline Tables MakeTables() {
-  Tables tables;
+constexpr LmedsTables MakeLmedsTables() {
+  LmedsTables tables;
+  int index_of_set[1 << kWindowPoints] = {};
   int count = 0;
-  for (int i = 0; i < kPoints; ++i) {
-    for (int j = i + 1; j < kPoints; ++j) {
-      for (int k = j + 1; k < kPoints; ++k) {
-        for (int m = k + 1; m < kPoints; ++m) {
-          tables.quadruples[static_cast<std::size_t>(count++)] = {
-              {i, j, k, m},
-              {static_cast<float>(Area(j, k, m)), static_cast<float>(-Area(i, k, m)),
-               static_cast<float>(Area(i, j, m)), static_cast<float>(-Area(i, j, k))}};
+  for (int i = 0; i < kWindowPoints; ++i) {
+    for (int j = i + 1; j < kWindowPoints; ++j) {
+      for (int k = j + 1; k < kWindowPoints; ++k) {
+        for (int m = k + 1; m < kWindowPoints; ++m) {
+          index_of_set[1 << i | 1 << j | 1 << k | 1 << m] = count;
+          tables.quadruples[count++] = {{i, j, k, m},
+                                        {WindowArea(j, k, m), -WindowArea(i, k, m),
+                                         WindowArea(i, j, m), -WindowArea(i, j, k)}};
         }
       }
     }
   }
   count = 0;
-  for (int i = 0; i < kPoints; ++i) {
-    for (int j = i + 1; j < kPoints; ++j) {
-      for (int k = j + 1; k < kPoints; ++k) {
-        const int area = Area(i, j, k);
+  for (int i = 0; i < kWindowPoints; ++i) {
+    for (int j = i + 1; j < kWindowPoints; ++j) {
+      for (int k = j + 1; k < kWindowPoints; ++k) {
+        const int area = WindowArea(i, j, k);
         if (area == 0) {
           continue;
         }
-        Triple triple{{i, j, k}, 1.0F / static_cast<float>(area < 0 ? -area : area), {}};
+        WindowTriple triple{{i, j, k}, area < 0 ? -area : area, {}};
         int others = 0;
-        for (int m = 0; m < kPoints; ++m) {
-          if (m == i || m == j || m == k) {
-            continue;
+        for (int m = 0; m < kWindowPoints; ++m) {
+          if (m != i && m != j && m != k) {
+            triple.quadruple[others++] = index_of_set[1 << i | 1 << j | 1 << k | 1 << m];
           }
-          std::array<int, 4> four{i, j, k, m};
-          for (int s = 3;
-               s > 0 && four[static_cast<std::size_t>(s)] < four[static_cast<std::size_t>(s) - 1];
-               --s) {
-            std::swap(four[static_cast<std::size_t>(s)], four[static_cast<std::size_t>(s) - 1]);
-          }
-          triple.quadruple[static_cast<std::size_t>(others++)] =
-              QuadrupleIndex(four[0], four[1], four[2], four[3]);
         }
-        tables.triples[static_cast<std::size_t>(count++)] = triple;
+        tables.planes[count] = PlaneThroughTriple(i, j, k);
+        tables.triples[count++] = triple;
       }
     }
   }
   return tables;
 }
 
-}  // namespace palace::lmeds
+constexpr LmedsTables kLmeds = MakeLmedsTables();
+
+}  // namespace
+}  // namespace palace

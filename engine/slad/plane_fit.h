@@ -5,6 +5,8 @@
 // median of nine (the 5th smallest) is the 2nd smallest of the other six. The residual of point m
 // off the plane of (i,j,k) is D(i,j,k,m) / A(i,j,k) with |D| symmetric in its four points: 126
 // values serve all 504 residuals. Inliers within 2.5 robust sigmas are refitted by least squares.
+// With n < 9 known samples the median is the (n/2 + 1)-th smallest; below six of them every
+// triple's is 0, so all known samples are refitted.
 #pragma once
 
 #include "engine/model/elevation_map.h"
@@ -12,18 +14,23 @@
 
 namespace palace {
 
+struct SladLoops;
+
 /// Planes per cell: height_m at the cell's centre and its gradient, metres per metre towards north
 /// and east. NaN where fewer than three points that span a plane are known.
 struct PlaneMaps {
   GridF height_m;
+  GridF residual_m;  ///< height of the cell less the plane's; NaN where either is unknown
   GridF north_gradient;
   GridF east_gradient;
 };
 
 /// Exact LMedS and least squares over the 3x3 samples `stride` cells apart around each cell.
 /// Unknown neighbours, and those outside the map, are left out; the median is then over those that
-/// remain.
-PlaneMaps FitThesisPlanes(const GridF& height_m, double cell_m, int stride);
+/// remain. Rows are shared among OpenCV's threads; their number, and which `loops` run (null: the
+/// fastest), change no bit.
+PlaneMaps FitThesisPlanes(const GridF& height_m, double cell_m, int stride,
+                          const SladLoops* loops = nullptr);
 
 /// Robust weighted least-squares plane of the ground over the footprint around each cell.
 struct FootprintPlanes {

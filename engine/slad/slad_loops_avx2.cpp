@@ -1,0 +1,20 @@
+// Built with -mavx2 (CMakeLists.txt). Includes nothing but the loops.
+#include "engine/slad/slad_loops.h"
+#if defined(__AVX2__)
+#include "engine/slad/lmeds_loops.h"
+#endif
+
+namespace palace {
+
+const SladLoops* SladLoopsBuiltForAvx2();
+
+const SladLoops* SladLoopsBuiltForAvx2() {
+#if defined(__AVX2__)
+  static constexpr SladLoops loops{FitPlaneRow};
+  return &loops;
+#else
+  return nullptr;
+#endif
+}
+
+}  // namespace palace
