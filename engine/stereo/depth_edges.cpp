@@ -108,7 +108,7 @@ Sides SidesOf(const float* here, std::ptrdiff_t stride) {
     for (int k = 2; k <= kReach_px; k += 2) {
       const float a = here[k * direction];
       const float b = here[-k * direction];
-      if (std::abs(a + b - 2 * own) <= kLeastStep_px) {
+      if (std::abs((a + b) / 2 - own) <= kLeastStep_px) {
         continue;  // not when either is unknown
       }
       for (const float side : {a, b}) {

@@ -10,13 +10,14 @@
 //
 // The other side clearly better (E below 0.6 of the own): the pixel is given to it. Not clearly
 // worse (below 1.15 of the own): unknown. A side is a neighbour 2 or 4 px off (row, column,
-// diagonals) by more than 1.5 px of disparity that the neighbour opposite does not balance: steep
-// ground has no sides. Smaller steps are left to the refinement, which follows them.
+// diagonals) more than 1.5 px of disparity away, unless its mean with the neighbour opposite lies
+// within that: steep ground has no sides. Smaller steps are left to the refinement, which follows
+// them.
 //
 // Sources: Yoon & Kweon 2006 (support weights); Hirschmueller 2008 (fattened edges). The mechanism
 // was found on Middlebury's Aloe; the limits were checked on ray-cast boxes 0.3 to 1 m high seen
 // from 4 m, where they remove a third to a half of the wrong pixels and one known pixel in a
-// hundred (weakest texture with most noise: four).
+// hundred (on the weakest texture with most noise up to four).
 #pragma once
 
 #include "engine/model/image.h"
