@@ -153,7 +153,8 @@ float Decide(const ImageU8& left, const ImageU8& right, const ImageF& disparity,
 /// 255 where known disparities within kReach_px of a pixel differ by more than a step.
 cv::Mat NearSteps(const ImageF& disparity) {
   constexpr std::int16_t kFar = 32000;  // unknown: neither least nor greatest
-  constexpr float kScale = 7;           // 4096 px fit
+  constexpr float kScale = 7;           // 4500 px fit; steps beyond are not looked for
+  constexpr float kMost = 31500;
   cv::Mat high(disparity.height(), disparity.width(), CV_16S);
   cv::Mat low(disparity.height(), disparity.width(), CV_16S);
   for (int y = 0; y < disparity.height(); ++y) {
@@ -162,7 +163,8 @@ cv::Mat NearSteps(const ImageF& disparity) {
     auto* down = low.ptr<std::int16_t>(y);
     for (int x = 0; x < disparity.width(); ++x) {
       const bool known = from[x] >= 0;  // false for NaN
-      const auto scaled = static_cast<std::int16_t>(known ? kScale * from[x] : 0.0F);
+      const auto scaled =
+          static_cast<std::int16_t>(known ? std::min(kScale * from[x], kMost) : 0.0F);
       up[x] = known ? scaled : static_cast<std::int16_t>(-kFar);
       down[x] = known ? scaled : kFar;
     }
