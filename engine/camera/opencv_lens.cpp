@@ -150,11 +150,10 @@ bool SegmentKeepsOrientation(const OpenCvModel& model, const Eigen::Vector2d& u)
 bool IsInRange(const OpenCvModel& model, const Eigen::Vector2d& u) {
   const double s = u.squaredNorm();
   const auto& k = model.k;
-  const double prism_x = std::abs(k[8]) + 2 * s * std::abs(k[9]);
-  const double prism_y = std::abs(k[10]) + 2 * s * std::abs(k[11]);
-  const double sideways =
-      2 * std::sqrt(s) *
-      (3 * std::sqrt(k[2] * k[2] + k[3] * k[3]) + std::sqrt(prism_x * prism_x + prism_y * prism_y));
+  const double tangential = std::abs(k[2]) + std::abs(k[3]);
+  const double prism =
+      std::abs(k[8]) + std::abs(k[10]) + 2 * s * (std::abs(k[9]) + std::abs(k[11]));
+  const double sideways = (1 + s) * (3 * tangential + prism);  // 2 r <= 1 + s: no roots
   if (RadialSlopeExceeds(model, s, sideways)) {
     return true;
   }
