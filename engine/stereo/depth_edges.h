@@ -15,9 +15,9 @@
 // them.
 //
 // Sources: Yoon & Kweon 2006 (support weights); Hirschmueller 2008 (fattened edges). The mechanism
-// was found on Middlebury's Aloe; the limits were checked on ray-cast boxes 0.3 to 1 m high seen
-// from 4 m, where they remove a third to a half of the wrong pixels and one known pixel in a
-// hundred (on the weakest texture with most noise up to four).
+// and its limits were chosen on Middlebury's Aloe, which is therefore no independent check, and
+// then tried on ray-cast boxes 0.3 to 1 m high seen from 4 m: they remove a third to a half of the
+// wrong pixels there and about one known pixel in a hundred.
 #pragma once
 
 #include "engine/model/image.h"
