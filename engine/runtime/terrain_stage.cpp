@@ -14,6 +14,7 @@ namespace {
 constexpr int kVerdictDivisor = 4;
 constexpr int kDepthStride_px = 16;
 constexpr int kMaxCellFactor = 16;
+constexpr std::size_t kFiguresKept = 2;
 constexpr double kWidestView = 2;  // views up to twice the map's width keep the set cell
 
 std::string Sentence(const char* format, double value, double limit) {
@@ -29,11 +30,13 @@ void TerrainStage::Reset() {
   fusion_.Reset();
   registry_.Reset();
   elevation_.reset();
+  figures_.clear();
   input_ = {};
 }
 
 void TerrainStage::Add(const TerrainInput& input, const SladSettings& settings) {
   input_ = input;
+  figures_.clear();
   FitCellToView(*input.range, settings);
   const SladSettings fitted = FittedToView(settings);
   elevation_ = settings.mode == SladMode::kModern
@@ -89,11 +92,24 @@ SiteContext TerrainStage::Context(const Settings& settings) const {
   return context;
 }
 
+const TerrainFigures& TerrainStage::FiguresFor(const SladSettings& settings) {
+  const auto kept = std::find_if(figures_.begin(), figures_.end(),
+                                 [&](const TerrainFigures& f) { return f.HoldFor(settings); });
+  if (kept != figures_.end()) {
+    return *kept;
+  }
+  if (figures_.size() == kFiguresKept) {
+    figures_.erase(figures_.begin());
+  }
+  return figures_.emplace_back(MeasureTerrain(*elevation_, settings));
+}
+
 std::shared_ptr<const TerrainDecision> TerrainStage::Evaluate(const Settings& settings,
                                                               bool keep_letters) {
   PALACE_CHECK(has_map());
   auto decision = std::make_shared<TerrainDecision>();
-  auto hazards = std::make_shared<HazardMaps>(EvaluateHazards(*elevation_, settings.slad));
+  auto hazards = std::make_shared<HazardMaps>(
+      JudgeTerrain(elevation_->geometry, FiguresFor(settings.slad), settings.slad));
   decision->map_time = elevation_->time;
   decision->elevation = elevation_;
   decision->settings = settings.slad;

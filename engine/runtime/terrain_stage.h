@@ -6,10 +6,12 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "engine/model/snapshot.h"
 #include "engine/slad/fusion.h"
 #include "engine/slad/site_selection.h"
+#include "engine/slad/terrain_figures.h"
 
 namespace palace {
 
@@ -40,12 +42,15 @@ class TerrainStage {
   SiteContext Context(const Settings& settings) const;
   SladSettings FittedToView(const SladSettings& settings) const;
   void FitCellToView(const RangeMap& range, const SladSettings& settings);
+  const TerrainFigures& FiguresFor(const SladSettings& settings);
 
   TerrainFusion fusion_;
   SiteRegistry registry_;
   TerrainInput input_;
   int cell_factor_ = 1;  // power of two on the set cell, so that the map covers a high view
   std::shared_ptr<const ElevationMap> elevation_;
+  // Of the newest map: for the settings in force and the previewed ones, newest last.
+  std::vector<TerrainFigures> figures_;
 };
 
 /// Why the rechecked site no longer holds, in words; empty when it holds.

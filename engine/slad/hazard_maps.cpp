@@ -1,60 +1,114 @@
 #include "engine/slad/hazard_maps.h"
 
-#include <algorithm>
-#include <cmath>
+#include <array>
+#include <cstddef>
+
+#include <opencv2/core.hpp>
 
 #include "engine/core/units.h"
-#include "engine/slad/cost_map.h"
 #include "engine/slad/hazard_layers.h"
-#include "engine/slad/plane_fit.h"
 #include "engine/slad/safe_distance.h"
+#include "engine/slad/slad_loops.h"
 
 namespace palace {
 namespace {
 
-void CountCells(const SladSettings& settings, HazardMaps& hazards) {
-  const float clear_m = static_cast<float>(settings.clear_radius_m());
-  for (int r = 0; r < hazards.geometry.rows; ++r) {
-    for (int c = 0; c < hazards.geometry.cols; ++c) {
-      const unsigned reasons = hazards.reasons.at(r, c);
-      if ((reasons & kHazardSlope) != 0) {
-        ++hazards.rejected.slope;
-      } else if ((reasons & (kHazardRoughness | kHazardStep)) != 0) {
-        ++hazards.rejected.roughness;
-      } else if ((reasons & kHazardUnknown) != 0) {
-        ++hazards.rejected.unknown;
-      } else if ((reasons & kHazardProbability) != 0) {
-        ++hazards.rejected.roughness;
-      } else if (hazards.safe_distance_m.at(r, c) < clear_m ||
-                 !FootprintHolds(hazards, settings, {r, c})) {
-        ++hazards.rejected.footprint;
-      } else {
-        ++hazards.safe_cells;
-      }
-    }
-  }
+static_assert(kSteep == kHazardSlope && kRough == kHazardRoughness && kStepped == kHazardStep &&
+              kNotKnown == kHazardUnknown && kUnlikely == kHazardProbability);
+
+/// How a cell with these reasons is counted.
+enum CountedAs { kAsSlope, kAsRoughness, kAsUnknown, kAsFootprint, kAsSafe, kCountings };
+CountedAs CountingOf(unsigned reasons) {
+  return (reasons & kHazardSlope) != 0                       ? kAsSlope
+         : (reasons & (kHazardRoughness | kHazardStep)) != 0 ? kAsRoughness
+         : (reasons & kHazardUnknown) != 0                   ? kAsUnknown
+         : (reasons & kHazardProbability) != 0               ? kAsRoughness
+                                                             : kAsSafe;
 }
 
-}  // namespace
+void CountCells(const SladSettings& settings, HazardMaps& hazards) {
+  constexpr unsigned kAllReasons = 31;
+  std::array<CountedAs, kAllReasons + 1> counting;
+  for (unsigned reasons = 0; reasons <= kAllReasons; ++reasons) {
+    counting[reasons] = CountingOf(reasons);
+  }
+  const float clear_m = static_cast<float>(settings.clear_radius_m());
+  std::array<int, kCountings> count{};
+  for (int r = 0; r < hazards.geometry.rows; ++r) {
+    const std::uint8_t* reasons = hazards.reasons.row(r);
+    const float* distance_m = hazards.safe_distance_m.row(r);
+    for (int c = 0; c < hazards.geometry.cols; ++c) {
+      CountedAs as = counting[reasons[c] & kAllReasons];
+      if (as == kAsSafe &&
+          (distance_m[c] < clear_m || !FootprintHolds(hazards, settings, {r, c}))) {
+        as = kAsFootprint;
+      }
+      ++count[as];
+    }
+  }
+  hazards.rejected = {count[kAsSlope], count[kAsRoughness], count[kAsUnknown], count[kAsFootprint]};
+  hazards.safe_cells = count[kAsSafe];
+}
 
-HazardMaps UnknownHazards(const GridGeometry& geometry) {
+class Judge {
+ public:
+  Judge(const TerrainFigures& figures, const SladSettings& settings, HazardMaps& hazards)
+      : figures_(figures),
+        hazards_(hazards),
+        up_W_{static_cast<float>(settings.up_W().x()), static_cast<float>(settings.up_W().y()),
+              static_cast<float>(settings.up_W().z())},
+        limits_{static_cast<float>(Rad(settings.max_slope_deg)),
+                static_cast<float>(settings.max_deviation_m),
+                static_cast<float>(settings.max_step_m),
+                static_cast<float>(settings.min_safe_probability)} {}
+
+  void Row(int r) const {
+    const int cols = hazards_.geometry.cols;
+    loops_.slope(figures_.north_gradient.row(r), figures_.east_gradient.row(r), up_W_.data(), cols,
+                 hazards_.slope_rad.row(r));
+    if (figures_.mode == SladMode::kThesis) {
+      loops_.thesis_verdict({limits_.max_slope_rad, limits_.max_deviation_m},
+                            hazards_.slope_rad.row(r), hazards_.roughness_m.row(r), cols,
+                            hazards_.cost.row(r), hazards_.reasons.row(r));
+      // A plane where the height itself is unknown has no roughness: it is no ground.
+      for (int c = 0; c < cols; ++c) {
+        float& slope = hazards_.slope_rad.at(r, c);
+        slope = hazards_.reasons.at(r, c) == kHazardUnknown ? kUnknownValue : slope;
+      }
+      return;
+    }
+    loops_.modern_verdict(
+        limits_,
+        {hazards_.slope_rad.row(r), figures_.slope_sigma_rad.row(r),
+         figures_.footprint_deviation_m.row(r), figures_.footprint_step_m.row(r),
+         figures_.footprint_sigma_m.row(r), figures_.deviation_m.row(r), figures_.step_m.row(r),
+         figures_.sigma_m.row(r), figures_.measured.row(r)},
+        cols, {hazards_.safe_probability.row(r), hazards_.cost.row(r), hazards_.reasons.row(r)});
+  }
+
+ private:
+  const TerrainFigures& figures_;
+  HazardMaps& hazards_;
+  const std::array<float, 3> up_W_;
+  const ModernLimits limits_;
+  const SladLoops& loops_ = FastestSladLoops();
+};
+
+HazardMaps LayersFor(const GridGeometry& geometry, const TerrainFigures& figures) {
   const GridF unknown(geometry.rows, geometry.cols, kUnknownValue);
+  const bool modern = figures.mode == SladMode::kModern;
   HazardMaps hazards;
   hazards.geometry = geometry;
-  hazards.slope_rad = hazards.slope_sigma_rad = unknown;
-  hazards.roughness_m = hazards.roughness_sigma_m = unknown;
-  hazards.step_m = hazards.cost = hazards.safe_probability = unknown;
-  hazards.safe_distance_m = GridF(geometry.rows, geometry.cols, 0.0F);
+  hazards.slope_rad = hazards.cost = hazards.safe_probability = unknown;
+  hazards.slope_sigma_rad = modern ? figures.slope_sigma_rad : unknown;
+  hazards.roughness_m = modern ? figures.footprint_deviation_m : figures.deviation_m;
+  hazards.roughness_sigma_m = modern ? figures.footprint_sigma_m : unknown;
+  hazards.step_m = modern ? figures.footprint_step_m : unknown;
   hazards.reasons = Grid<std::uint8_t>(geometry.rows, geometry.cols, kHazardNone);
   return hazards;
 }
 
-double SlopeOfGradient(double north_gradient, double east_gradient, const Eigen::Vector3d& up_W) {
-  // Height h(n, e) has the upward normal (-dh/dn, -dh/de, -1) in north-east-down.
-  const Eigen::Vector3d normal_W(-north_gradient, -east_gradient, -1);
-  // atan2 keeps small angles exact where acos(n . u) rounds them away.
-  return std::atan2(normal_W.cross(up_W).norm(), normal_W.dot(up_W));
-}
+}  // namespace
 
 bool FootprintHolds(const HazardMaps& hazards, const SladSettings& settings, Cell cell) {
   if (hazards.reasons.at(cell) != kHazardNone) {
@@ -69,58 +123,31 @@ bool FootprintHolds(const HazardMaps& hazards, const SladSettings& settings, Cel
          hazards.safe_probability.at(cell) >= static_cast<float>(settings.min_safe_probability);
 }
 
-void EvaluateThesis(const ElevationMap& map, const SladSettings& settings, HazardMaps& hazards) {
-  const double cell_m = map.geometry.cell_m;
-  // Samples a rock's size apart: a rock then spoils few of the nine and LMedS rejects it.
-  const int stride = std::clamp(static_cast<int>(settings.max_rock_size_m / cell_m), 1,
-                                std::max(1, std::min(map.geometry.rows, map.geometry.cols) / 3));
-  const PlaneMaps planes = FitThesisPlanes(map.height_m, cell_m, stride);
-  const Eigen::Vector3d up_W = settings.up_W();
-  const float max_slope = static_cast<float>(Rad(settings.max_slope_deg));
-  const float max_roughness = static_cast<float>(settings.max_deviation_m);
-  for (int r = 0; r < map.geometry.rows; ++r) {
-    for (int c = 0; c < map.geometry.cols; ++c) {
-      std::uint8_t& reasons = hazards.reasons.at(r, c);
-      if (std::isnan(planes.residual_m.at(r, c))) {
-        reasons = kHazardUnknown;
-        continue;
-      }
-      const float slope = static_cast<float>(
-          SlopeOfGradient(static_cast<double>(planes.north_gradient.at(r, c)),
-                          static_cast<double>(planes.east_gradient.at(r, c)), up_W));
-      const float roughness = std::abs(planes.residual_m.at(r, c));
-      hazards.slope_rad.at(r, c) = slope;
-      hazards.roughness_m.at(r, c) = roughness;
-      hazards.cost.at(r, c) = ProductCost(slope, max_slope, roughness, max_roughness);
-      if (slope > max_slope) {
-        reasons |= kHazardSlope;
-      }
-      if (roughness > max_roughness) {
-        reasons |= kHazardRoughness;
-      }
-    }
+HazardMaps JudgeTerrain(const GridGeometry& geometry, const TerrainFigures& figures,
+                        const SladSettings& settings) {
+  PALACE_CHECK(figures.HoldFor(settings));
+  PALACE_CHECK(figures.deviation_m.empty() || (figures.deviation_m.rows() == geometry.rows &&
+                                               figures.deviation_m.cols() == geometry.cols),
+               figures.deviation_m.rows(), geometry.rows);
+  HazardMaps hazards;
+  hazards.geometry = geometry;
+  if (figures.deviation_m.empty()) {
+    return hazards;
   }
+  hazards = LayersFor(geometry, figures);
+  const Judge judge(figures, settings, hazards);
+  cv::parallel_for_(cv::Range(0, geometry.rows), [&](const cv::Range& rows) {
+    for (int r = rows.start; r < rows.end; ++r) {
+      judge.Row(r);
+    }
+  });
+  hazards.safe_distance_m = SafeDistance(hazards.reasons, geometry.cell_m);
+  CountCells(settings, hazards);
+  return hazards;
 }
 
 HazardMaps EvaluateHazards(const ElevationMap& map, const SladSettings& settings) {
-  HazardMaps hazards = UnknownHazards(map.geometry);
-  if (map.height_m.empty()) {
-    return hazards;
-  }
-  PALACE_CHECK(map.height_m.rows() == map.geometry.rows && map.geometry.cell_m > 0,
-               map.height_m.rows(), map.geometry.rows, map.geometry.cell_m);
-  if (settings.mode == SladMode::kThesis) {
-    EvaluateThesis(map, settings, hazards);
-  } else {
-    EvaluateModern(map, settings, hazards);
-  }
-  Grid<std::uint8_t> safe(map.geometry.rows, map.geometry.cols, 0);
-  for (std::size_t i = 0; i < safe.cells().size(); ++i) {
-    safe.cells()[i] = hazards.reasons.cells()[i] == kHazardNone ? 1 : 0;
-  }
-  hazards.safe_distance_m = SafeDistance(safe, map.geometry.cell_m);
-  CountCells(settings, hazards);
-  return hazards;
+  return JudgeTerrain(map.geometry, MeasureTerrain(map, settings), settings);
 }
 
 }  // namespace palace

@@ -15,11 +15,18 @@
 #include "engine/model/elevation_map.h"
 #include "engine/model/hazard_maps.h"
 #include "engine/model/settings.h"
+#include "engine/slad/terrain_figures.h"
 
 namespace palace {
 
 /// Works on any size of map, also empty or all unknown: then nothing is safe.
 /// rejected and safe_cells together count every cell once; safe_cells could bear the lander.
+/// Rows are shared among OpenCV's threads; their number changes no bit.
 HazardMaps EvaluateHazards(const ElevationMap& map, const SladSettings& settings);
+
+/// The same from figures measured before: what a moved limit needs. The figures must HoldFor the
+/// settings.
+HazardMaps JudgeTerrain(const GridGeometry& geometry, const TerrainFigures& figures,
+                        const SladSettings& settings);
 
 }  // namespace palace

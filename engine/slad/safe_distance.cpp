@@ -2,96 +2,117 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
+#include <cstddef>
 #include <vector>
+
+#include <opencv2/core.hpp>
 
 namespace palace {
 namespace {
 
-/// Squared distance along one column to the nearest hazard, ring included.
-void ColumnPass(const Grid<std::uint8_t>& safe, Grid<std::int64_t>& square) {
-  std::vector<std::int64_t> gap(static_cast<std::size_t>(safe.cols()), 0);
-  const auto step = [&](int r, bool first) {
-    for (int c = 0; c < safe.cols(); ++c) {
-      auto& g = gap[static_cast<std::size_t>(c)];
-      g = safe.at(r, c) == 1 ? g + 1 : 0;
-      square.at(r, c) = first ? g * g : std::min(square.at(r, c), g * g);
+constexpr int kColumnsTogether = 256;
+
+/// Cells along the column to the nearest hazard, ring included, for columns first .. end-1.
+void ColumnPass(const Grid<std::uint8_t>& hazard, int first, int end, Grid<int>& gap) {
+  std::vector<int> run(static_cast<std::size_t>(end - first), 0);
+  const auto down_or_up = [&](int r, bool down) {
+    const std::uint8_t* is_hazard = hazard.row(r) + first;
+    int* out = gap.row(r) + first;
+    for (int c = 0; c < end - first; ++c) {
+      int& steps = run[static_cast<std::size_t>(c)];
+      steps = is_hazard[c] == 0 ? steps + 1 : 0;
+      out[c] = down ? steps : std::min(out[c], steps);
     }
   };
-  for (int r = 0; r < safe.rows(); ++r) {
-    step(r, true);
+  for (int r = 0; r < hazard.rows(); ++r) {
+    down_or_up(r, true);
   }
-  std::fill(gap.begin(), gap.end(), 0);
-  for (int r = safe.rows() - 1; r >= 0; --r) {
-    step(r, false);
+  std::fill(run.begin(), run.end(), 0);
+  for (int r = hazard.rows() - 1; r >= 0; --r) {
+    down_or_up(r, false);
   }
 }
 
-/// Lower envelope of the parabolas (x - i)^2 + f[i], i = 0 .. n-1.
+/// Lower envelope of the parabolas (x - i)^2 + f[i]. The ring stands at both ends, with f = 0.
 class Envelope {
  public:
-  explicit Envelope(int n) : vertex_(Size(n)), border_(Size(n) + 1) {}
+  explicit Envelope(int cols)
+      : cols_(cols),
+        f_(Size(cols + 2)),
+        vertex_(Size(cols + 2)),
+        border_(Size(cols + 3)),
+        reciprocal_(Size(cols + 2)) {
+    for (int d = 1; d < cols + 2; ++d) {
+      reciprocal_[Size(d)] = 0.5 / d;
+    }
+  }
 
-  void Transform(const std::vector<std::int64_t>& f, std::vector<std::int64_t>& out) {
-    const int n = static_cast<int>(f.size());
+  /// Distances of one row, in metres.
+  void Transform(const int* gap, double cell_m, float* distance_m) {
+    const int n = cols_ + 2;
+    f_[0] = f_[Size(n - 1)] = 0;
+    for (int c = 0; c < cols_; ++c) {
+      f_[Size(c + 1)] = static_cast<double>(gap[c]) * gap[c];
+    }
     int k = 0;
     vertex_[0] = 0;
     border_[0] = -HUGE_VAL;
-    border_[1] = HUGE_VAL;
     for (int q = 1; q < n; ++q) {
-      double s = Crossing(f, q, vertex_[Size(k)]);
+      double s = Crossing(q, vertex_[Size(k)]);
       while (s <= border_[Size(k)]) {
-        --k;
-        s = Crossing(f, q, vertex_[Size(k)]);
+        s = Crossing(q, vertex_[Size(--k)]);
       }
-      ++k;
-      vertex_[Size(k)] = q;
+      vertex_[Size(++k)] = q;
       border_[Size(k)] = s;
-      border_[Size(k) + 1] = HUGE_VAL;
     }
+    border_[Size(k) + 1] = HUGE_VAL;
     k = 0;
-    for (int q = 0; q < n; ++q) {
+    for (int c = 0; c < cols_; ++c) {
+      const int q = c + 1;
       while (border_[Size(k) + 1] < q) {
         ++k;
       }
-      const std::int64_t d = q - vertex_[Size(k)];
-      out[Size(q)] = d * d + f[Size(vertex_[Size(k)])];
+      const double d = q - vertex_[Size(k)];
+      distance_m[c] = static_cast<float>(cell_m * std::sqrt(d * d + f_[Size(vertex_[Size(k)])]));
     }
   }
 
  private:
   static std::size_t Size(int i) { return static_cast<std::size_t>(i); }
-  static double Crossing(const std::vector<std::int64_t>& f, int q, int v) {
-    const std::int64_t qq = q, vv = v;
-    return static_cast<double>((f[Size(q)] + qq * qq) - (f[Size(v)] + vv * vv)) /
-           (2.0 * static_cast<double>(q - v));
+  /// Where the later parabola comes below the earlier. Numerators are whole, and a crossing is
+  /// compared with whole columns only: the rounded reciprocal cannot change a distance.
+  double Crossing(int q, int v) const {
+    const double qq = q, vv = v;
+    return ((f_[Size(q)] - f_[Size(v)]) + (qq - vv) * (qq + vv)) * reciprocal_[Size(q - v)];
   }
+  int cols_;
+  std::vector<double> f_;
   std::vector<int> vertex_;
-  std::vector<double> border_;
+  std::vector<double> border_, reciprocal_;
 };
 
 }  // namespace
 
-GridF SafeDistance(const Grid<std::uint8_t>& safe, double cell_m) {
-  GridF distance(safe.rows(), safe.cols(), 0.0F);
-  if (safe.empty()) {
-    return distance;
+GridF SafeDistance(const Grid<std::uint8_t>& hazard, double cell_m) {
+  const int rows = hazard.rows(), cols = hazard.cols();
+  GridF distance_m(rows, cols, 0.0F);
+  if (hazard.empty()) {
+    return distance_m;
   }
-  Grid<std::int64_t> square(safe.rows(), safe.cols());
-  ColumnPass(safe, square);
-  // The ring enters each row as a hazard at both ends.
-  const int n = safe.cols() + 2;
-  std::vector<std::int64_t> f(static_cast<std::size_t>(n), 0), out(f.size(), 0);
-  Envelope envelope(n);
-  for (int r = 0; r < safe.rows(); ++r) {
-    std::copy(square.row(r), square.row(r) + safe.cols(), f.begin() + 1);
-    envelope.Transform(f, out);
-    for (int c = 0; c < safe.cols(); ++c) {
-      distance.at(r, c) = static_cast<float>(
-          cell_m * std::sqrt(static_cast<double>(out[static_cast<std::size_t>(c) + 1])));
+  Grid<int> gap(rows, cols);
+  const int stripes = (cols + kColumnsTogether - 1) / kColumnsTogether;
+  cv::parallel_for_(cv::Range(0, stripes), [&](const cv::Range& range) {
+    for (int s = range.start; s < range.end; ++s) {
+      ColumnPass(hazard, s * kColumnsTogether, std::min(cols, (s + 1) * kColumnsTogether), gap);
     }
-  }
-  return distance;
+  });
+  cv::parallel_for_(cv::Range(0, rows), [&](const cv::Range& range) {
+    Envelope envelope(cols);
+    for (int r = range.start; r < range.end; ++r) {
+      envelope.Transform(gap.row(r), cell_m, distance_m.row(r));
+    }
+  });
+  return distance_m;
 }
 
 }  // namespace palace

@@ -79,6 +79,34 @@ Eigen::Vector2d PixelFromPoint(const SiteContext& context, const Eigen::Vector3d
           camera.fy_px * p_CS.y() / p_CS.z() + camera.cy_px};
 }
 
+struct ColumnRange {
+  int first, last;
+};
+
+/// Columns of a row that the corridor may touch, a cell too many rather than one too few.
+ColumnRange CorridorInRow(const GridGeometry& g, const LandingSite& site,
+                          const Eigen::Vector2d& along, double north_m, double length_m,
+                          double half_width_m) {
+  double west_m = -HUGE_VAL, east_m = HUGE_VAL;
+  // low <= north * a + east * b <= high
+  const auto limit = [&](double a, double b, double low, double high) {
+    const double from = low - north_m * a, to = high - north_m * a;
+    if (std::abs(b) > 1e-9) {
+      west_m = std::max(west_m, std::min(from / b, to / b));
+      east_m = std::min(east_m, std::max(from / b, to / b));
+    } else if (from > g.cell_m || to < -g.cell_m) {
+      east_m = -HUGE_VAL;
+    }
+  };
+  limit(along.x(), along.y(), 0, length_m);
+  limit(along.y(), -along.x(), -half_width_m, half_width_m);
+  const double origin_m = g.EastOfCol(0) - site.p_WS.y();
+  const double first = std::floor((west_m - origin_m) / g.cell_m) - 1;
+  const double last = std::ceil((east_m - origin_m) / g.cell_m) + 1;
+  return {static_cast<int>(std::clamp(first, 0.0, g.cols - 1.0)),
+          last < 0 ? -1 : static_cast<int>(std::min(last, g.cols - 1.0))};
+}
+
 double Known(float value) { return static_cast<double>(value); }
 
 }  // namespace
@@ -126,12 +154,15 @@ bool CorridorIsClear(const ElevationMap& map, const SladSettings& settings,
   const Eigen::Vector2d along = to_vehicle / length_m;
   const double tangent = std::tan(std::min(context.glide_slope_rad, 1.55));
   const GridGeometry& g = map.geometry;
+  const double half_width_m = settings.rotor_diameter_m / 2;
   for (int r = 0; r < g.rows; ++r) {
-    for (int c = 0; c < g.cols; ++c) {
-      const Eigen::Vector2d offset(g.NorthOfRow(r) - site.p_WS.x(), g.EastOfCol(c) - site.p_WS.y());
+    const double north_m = g.NorthOfRow(r) - site.p_WS.x();
+    const ColumnRange columns = CorridorInRow(g, site, along, north_m, length_m, half_width_m);
+    for (int c = columns.first; c <= columns.last; ++c) {
+      const Eigen::Vector2d offset(north_m, g.EastOfCol(c) - site.p_WS.y());
       const double s = offset.dot(along);
       const double aside = std::abs(offset.x() * along.y() - offset.y() * along.x());
-      if (s <= site.clear_radius_m || s > length_m || aside > settings.rotor_diameter_m / 2 ||
+      if (s <= site.clear_radius_m || s > length_m || aside > half_width_m ||
           map.state.at(r, c) == CellState::kUnknown) {
         continue;
       }

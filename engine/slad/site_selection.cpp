@@ -3,19 +3,17 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 #include <string>
 #include <vector>
+
+#include <opencv2/core.hpp>
 
 #include "engine/slad/hazard_layers.h"
 #include "engine/slad/site_evaluation.h"
 
 namespace palace {
 namespace {
-
-struct Candidate {
-  Cell cell;
-  double score = 0;
-};
 
 std::string Text(const char* format, double value) {
   char text[80];
@@ -27,9 +25,8 @@ std::string Text(const char* format, double value) {
 double SmoothedCost(const GridF& cost, Cell cell) {
   double sum = 0;
   int count = 0;
-  for (int k = 0; k < 9; ++k) {
-    const int r = cell.row + k / 3 - 1, c = cell.col + k % 3 - 1;
-    if (r >= 0 && c >= 0 && r < cost.rows() && c < cost.cols()) {
+  for (int r = std::max(0, cell.row - 1); r <= std::min(cost.rows() - 1, cell.row + 1); ++r) {
+    for (int c = std::max(0, cell.col - 1); c <= std::min(cost.cols() - 1, cell.col + 1); ++c) {
       const float value = cost.at(r, c);
       sum += std::isnan(value) ? 1.0 : static_cast<double>(value);
       ++count;
@@ -38,52 +35,111 @@ double SmoothedCost(const GridF& cost, Cell cell) {
   return sum / count;
 }
 
-/// Distance of the place from the middle of the picture as a share of the picture's half diagonal;
+/// Distance of a place from the middle of the picture as a share of the picture's half diagonal;
 /// without a picture, 0.
-double OffCentre(const ElevationMap& map, const SiteContext& context, Cell cell) {
-  if (context.camera.width == 0) {
-    return 0;
-  }
-  const float height = map.height_m.at(cell);
-  const Eigen::Vector3d p_WS(map.geometry.NorthOfRow(cell.row), map.geometry.EastOfCol(cell.col),
-                             std::isnan(height) ? 0.0 : -static_cast<double>(height));
-  const Eigen::Vector3d p_CS = context.X_WC.Inverse() * p_WS;
-  if (!(p_CS.z() > 0)) {
-    return 2;
-  }
-  const double x = context.camera.fx_px * p_CS.x() / p_CS.z() / context.camera.width;
-  const double y = context.camera.fy_px * p_CS.y() / p_CS.z() / context.camera.height;
-  return std::min(2.0, std::hypot(x, y) / std::sqrt(0.5));
-}
+class OffCentre {
+ public:
+  explicit OffCentre(const SiteContext& context)
+      : camera_(context.camera), X_CW_(context.X_WC.Inverse()) {}
 
-std::vector<Candidate> RankedCandidates(const ElevationMap& map, const HazardMaps& hazards,
-                                        const SladSettings& settings, const SiteContext& context) {
-  std::vector<Candidate> candidates;
-  const float clear_m = static_cast<float>(settings.clear_radius_m());
-  const double cell_m = map.geometry.cell_m;
-  for (int r = 0; r < map.geometry.rows; ++r) {
-    for (int c = 0; c < map.geometry.cols; ++c) {
-      const Cell cell{r, c};
-      if (hazards.safe_distance_m.at(cell) < clear_m || !FootprintHolds(hazards, settings, cell)) {
-        continue;
+  double At(const ElevationMap& map, Cell cell) const {
+    if (camera_.width == 0) {
+      return 0;
+    }
+    const float height = map.height_m.at(cell);
+    const Eigen::Vector3d p_WS(map.geometry.NorthOfRow(cell.row), map.geometry.EastOfCol(cell.col),
+                               std::isnan(height) ? 0.0 : -static_cast<double>(height));
+    const Eigen::Vector3d p_CS = X_CW_ * p_WS;
+    if (!(p_CS.z() > 0)) {
+      return 2;
+    }
+    const double x = camera_.fx_px * p_CS.x() / p_CS.z() / camera_.width;
+    const double y = camera_.fy_px * p_CS.y() / p_CS.z() / camera_.height;
+    return std::min(2.0, std::sqrt((x * x + y * y) / 0.5));
+  }
+
+ private:
+  const PinholeCamera camera_;
+  const RigidTransform X_CW_;
+};
+
+/// Scores of all cells that could be a site, and the best of each row: the best that is left is
+/// found without sorting, and taking one touches only the rows around it.
+class Candidates {
+ public:
+  Candidates(const ElevationMap& map, const HazardMaps& hazards, const SladSettings& settings,
+             const SiteContext& context)
+      : score_(map.geometry.rows, map.geometry.cols, kNone),
+        best_of_row_(static_cast<std::size_t>(map.geometry.rows), -1) {
+    const OffCentre off_centre(context);
+    const float clear_m = static_cast<float>(settings.clear_radius_m());
+    const double cell_m = map.geometry.cell_m;
+    cv::parallel_for_(cv::Range(0, map.geometry.rows), [&](const cv::Range& rows) {
+      for (int r = rows.start; r < rows.end; ++r) {
+        for (int c = 0; c < map.geometry.cols; ++c) {
+          const Cell cell{r, c};
+          if (hazards.safe_distance_m.at(cell) < clear_m ||
+              !FootprintHolds(hazards, settings, cell)) {
+            continue;
+          }
+          const double distance_m = static_cast<double>(hazards.safe_distance_m.at(cell));
+          const double cost = SmoothedCost(hazards.cost, cell);
+          // Ties are broken within one cell's worth of distance, the first criterion's resolution.
+          const double tie = -0.05 * off_centre.At(map, cell);
+          score_.at(cell) = settings.choice == SiteChoice::kFarthest
+                                ? distance_m + cell_m * (0.4 * (1 - cost) + tie)
+                                : -cost + 1e-3 * (distance_m + tie);
+        }
+        FindBestOfRow(r);
       }
-      const double distance_m = static_cast<double>(hazards.safe_distance_m.at(cell));
-      const double cost = SmoothedCost(hazards.cost, cell);
-      // Ties are broken within one cell's worth of distance, the first criterion's resolution.
-      const double tie = -0.05 * OffCentre(map, context, cell);
-      const double score = settings.choice == SiteChoice::kFarthest
-                               ? distance_m + cell_m * (0.4 * (1 - cost) + tie)
-                               : -cost + 1e-3 * (distance_m + tie);
-      candidates.push_back({cell, score});
+    });
+  }
+
+  /// The best cell left, of equals the northernmost, then westernmost; nothing when none is left.
+  std::optional<Cell> Best() const {
+    std::optional<Cell> best;
+    for (int r = 0; r < score_.rows(); ++r) {
+      const int c = best_of_row_[static_cast<std::size_t>(r)];
+      if (c >= 0 && (!best || score_.at(r, c) > score_.at(*best))) {
+        best = Cell{r, c};
+      }
+    }
+    return best;
+  }
+
+  /// Drops the cell and all nearer to it than the spacing.
+  void DropAround(Cell cell, double spacing_cells) {
+    const int reach = static_cast<int>(std::min(spacing_cells, 1e6)) + 1;
+    const double square = spacing_cells * spacing_cells;
+    for (int r = std::max(0, cell.row - reach); r <= std::min(score_.rows() - 1, cell.row + reach);
+         ++r) {
+      for (int c = std::max(0, cell.col - reach);
+           c <= std::min(score_.cols() - 1, cell.col + reach); ++c) {
+        const double dr = r - cell.row, dc = c - cell.col;
+        if (dr * dr + dc * dc < square || Cell{r, c} == cell) {
+          score_.at(r, c) = kNone;
+        }
+      }
+      FindBestOfRow(r);
     }
   }
-  std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
-    return a.score != b.score         ? a.score > b.score
-           : a.cell.row != b.cell.row ? a.cell.row < b.cell.row
-                                      : a.cell.col < b.cell.col;
-  });
-  return candidates;
-}
+
+ private:
+  static constexpr double kNone = -HUGE_VAL;
+
+  void FindBestOfRow(int r) {
+    int best = -1;
+    for (int c = 0; c < score_.cols(); ++c) {
+      if (score_.at(r, c) > (best < 0 ? kNone : score_.at(r, best))) {
+        best = c;
+      }
+    }
+    best_of_row_[static_cast<std::size_t>(r)] = best;
+  }
+
+  Grid<double> score_;
+  std::vector<int> best_of_row_;
+};
 
 /// Why this site has its rank, against the best.
 std::string ReasonFor(const LandingSite& site, const LandingSite& best, bool is_best,
@@ -135,23 +191,16 @@ SiteSelection SelectSites(const ElevationMap& map, const HazardMaps& hazards,
   PALACE_CHECK(map.geometry == hazards.geometry);
   SiteSelection selection;
   std::vector<LandingSite> blocked;
-  std::vector<Cell> taken;
   const double spacing_cells = settings.site_spacing_m / std::max(map.geometry.cell_m, 1e-9);
-  const auto far_from_taken = [&](Cell cell) {
-    return std::all_of(taken.begin(), taken.end(), [&](Cell other) {
-      return std::hypot(cell.row - other.row, cell.col - other.col) >= spacing_cells;
-    });
-  };
   const auto kept = static_cast<std::size_t>(settings.sites_kept);
-  for (const Candidate& candidate : RankedCandidates(map, hazards, settings, context)) {
-    if (selection.sites.size() >= kept || taken.size() >= 3 * kept) {
+  Candidates candidates(map, hazards, settings, context);
+  for (std::size_t tried = 0; selection.sites.size() < kept && tried < 3 * kept; ++tried) {
+    const std::optional<Cell> cell = candidates.Best();
+    if (!cell) {
       break;
     }
-    if (!far_from_taken(candidate.cell)) {
-      continue;
-    }
-    taken.push_back(candidate.cell);
-    LandingSite site = EvaluateSite(map, hazards, settings, context, candidate.cell);
+    candidates.DropAround(*cell, spacing_cells);
+    LandingSite site = EvaluateSite(map, hazards, settings, context, *cell);
     (site.corridor_clear ? selection.sites : blocked).push_back(std::move(site));
   }
   for (LandingSite& site : blocked) {

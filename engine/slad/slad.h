@@ -1,7 +1,9 @@
 // Safe landing area determination (thesis 4.3): the calls in order.
 //
 //   TerrainFusion::Add        range map, X_WC      -> elevation map
-//   EvaluateHazards           elevation map        -> hazard, cost and safe-distance maps
+//   MeasureTerrain            elevation map        -> planes, deviations, sigmas: no limit asked
+//   JudgeTerrain              those, limits        -> hazard, cost and safe-distance maps
+//   EvaluateHazards           both in one
 //   SelectSites               maps, vehicle        -> ranked sites
 //   SiteRegistry::Assign      sites                -> ids and letters
 //   VerdictImage              range map, hazards   -> overlay for the left picture

@@ -1,13 +1,16 @@
 #include "engine/slad/slad_loops.h"
 
+#include "engine/slad/footprint_loops.h"
 #include "engine/slad/lmeds_loops.h"
+#include "engine/slad/verdict_loops.h"
 
 namespace palace {
 
 const SladLoops* SladLoopsBuiltForAvx2();  // slad_loops_avx2.cpp; null where it was not built
 
 const SladLoops& PortableSladLoops() {
-  static constexpr SladLoops loops{FitPlaneRow};
+  static constexpr SladLoops loops{FitPlaneRow, DiscDeviationRow, WindowMaximumRow,
+                                   SlopeRow,    ThesisVerdictRow, ModernVerdictRow};
   return loops;
 }
 

@@ -1,6 +1,6 @@
 // Inner loops of the hazard maps: compiled once for every x86-64 and once for AVX2, chosen at run
-// time. Both are made from the same source (lmeds_loops.h, verdict_loops.h) with uncontracted
-// floats, so they give the same bits.
+// time. Both are made from the same source (lmeds_loops.h, footprint_loops.h, verdict_loops.h) with
+// uncontracted floats, so they give the same bits.
 #pragma once
 
 namespace palace {
@@ -9,7 +9,7 @@ namespace palace {
 inline constexpr float kLeastThreshold_m = 1e-3F;
 /// With fewer samples every triple has a median residual of 0: least squares over all of them.
 inline constexpr float kLeastForMedian = 6;
-/// Rows of heights must be readable so many floats beyond the last window.
+/// Rows must be readable, and where it is said writable, so many floats beyond their end.
 inline constexpr int kLaneSlack = 8;
 
 /// One row of fitted planes; arrays of the row's length, NaN where no plane is spanned.
@@ -20,12 +20,69 @@ struct PlaneRow {
   float* east_gradient;
 };
 
+/// The rows a disc around the cells of one row takes part of, at column 0; readable `half` further
+/// on both sides, and kLaneSlack on the right.
+struct DiscRows {
+  int rows;
+  int stride;             ///< columns between the samples of a row
+  const int* row_offset;  ///< rows south of the middle
+  const int* half;        ///< of the disc in that row, a multiple of the stride
+  const float* const* height;
+  const float* const* noise2;  ///< taken from the square of the deviation
+};
+
+/// No height is known better than this.
+inline constexpr float kHeightSigmaFloor_m = 1e-3F;
+
+// Bits of HazardReason.
+inline constexpr int kSteep = 1, kRough = 2, kStepped = 4, kNotKnown = 8, kUnlikely = 16;
+
+struct ThesisLimits {
+  float max_slope_rad;
+  float max_roughness_m;
+};
+struct ModernLimits {
+  float max_slope_rad;
+  float max_deviation_m;
+  float max_step_m;
+  float min_safe_probability;
+};
+struct ModernRow {
+  const float* slope;  ///< NaN where there is no plane
+  const float* slope_sigma;
+  const float* footprint_deviation_m;
+  const float* footprint_step_m;
+  const float* footprint_sigma_m;
+  const float* cell_deviation_m;
+  const float* cell_step_m;
+  const float* cell_sigma_m;
+  const unsigned char* measured;  ///< 1 where the cell itself was
+};
+struct ModernVerdict {
+  float* safe_probability;
+  float* cost;
+  unsigned char* reasons;
+};
+
 struct SladLoops {
   /// Exact LMedS, then least squares, around each of `count` cells. rows: the heights `stride` rows
   /// to the north, of the row itself and to the south, at column 0; readable from -stride to
   /// count - 1 + stride + kLaneSlack, NaN where unknown.
   void (*fit_planes)(const float* const* rows, int stride, float spacing_m, int count,
                      const PlaneRow& out);
+  /// square = the largest of itself and (height - plane)^2 - noise2 over the disc. All rows are
+  /// readable, square writable, kLaneSlack beyond count.
+  void (*disc_deviation)(const DiscRows& disc, const float* plane, const float* east,
+                         const float* south, int count, float* square);
+  /// most = the largest of itself and values[c - half .. c + half]. work: count + 2 half floats.
+  void (*window_maximum)(const float* values, int half, int count, float* work, float* most);
+  /// Angle between the plane's normal and the up vector. NaN where the gradient is.
+  void (*slope)(const float* north_gradient, const float* east_gradient, const float* up_W,
+                int count, float* slope_rad);
+  void (*thesis_verdict)(const ThesisLimits& limits, const float* slope_rad,
+                         const float* roughness_m, int count, float* cost, unsigned char* reasons);
+  void (*modern_verdict)(const ModernLimits& limits, const ModernRow& row, int count,
+                         const ModernVerdict& out);
 };
 
 /// Runs on every x86-64.

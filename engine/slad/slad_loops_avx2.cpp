@@ -1,7 +1,9 @@
 // Built with -mavx2 (CMakeLists.txt). Includes nothing but the loops.
 #include "engine/slad/slad_loops.h"
 #if defined(__AVX2__)
+#include "engine/slad/footprint_loops.h"
 #include "engine/slad/lmeds_loops.h"
+#include "engine/slad/verdict_loops.h"
 #endif
 
 namespace palace {
@@ -10,7 +12,8 @@ const SladLoops* SladLoopsBuiltForAvx2();
 
 const SladLoops* SladLoopsBuiltForAvx2() {
 #if defined(__AVX2__)
-  static constexpr SladLoops loops{FitPlaneRow};
+  static constexpr SladLoops loops{FitPlaneRow, DiscDeviationRow, WindowMaximumRow,
+                                   SlopeRow,    ThesisVerdictRow, ModernVerdictRow};
   return &loops;
 #else
   return nullptr;

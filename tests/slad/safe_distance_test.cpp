@@ -10,12 +10,12 @@
 namespace palace {
 namespace {
 
-double BruteForce(const Grid<std::uint8_t>& safe, int r, int c) {
+double BruteForce(const Grid<std::uint8_t>& hazard, int r, int c) {
   double best = HUGE_VAL;
-  for (int y = -1; y <= safe.rows(); ++y) {
-    for (int x = -1; x <= safe.cols(); ++x) {
-      const bool outside = y < 0 || x < 0 || y == safe.rows() || x == safe.cols();
-      if (outside || safe.at(y, x) == 0) {
+  for (int y = -1; y <= hazard.rows(); ++y) {
+    for (int x = -1; x <= hazard.cols(); ++x) {
+      const bool outside = y < 0 || x < 0 || y == hazard.rows() || x == hazard.cols();
+      if (outside || hazard.at(y, x) != 0) {
         best = std::min(best, std::hypot(y - r, x - c));
       }
     }
@@ -28,14 +28,14 @@ TEST(SafeDistance, EqualsBruteForceOnRandomMaps) {
     RandomStream random(seed, "edt");
     const int rows = 1 + random.Index(30), cols = 1 + random.Index(30);
     const double hazard_share = random.Uniform(0, 0.2);
-    Grid<std::uint8_t> safe(rows, cols, 1);
-    for (auto& s : safe.cells()) {
-      s = random.Uniform() < hazard_share ? 0 : 1;
+    Grid<std::uint8_t> hazard(rows, cols, 0);
+    for (auto& h : hazard.cells()) {
+      h = random.Uniform() < hazard_share ? 1 : 0;
     }
-    const GridF distance = SafeDistance(safe, 0.5);
+    const GridF distance = SafeDistance(hazard, 0.5);
     for (int r = 0; r < rows; ++r) {
       for (int c = 0; c < cols; ++c) {
-        ASSERT_NEAR(double(distance.at(r, c)), 0.5 * BruteForce(safe, r, c), 1e-5)
+        ASSERT_NEAR(double(distance.at(r, c)), 0.5 * BruteForce(hazard, r, c), 1e-5)
             << "seed " << seed << " cell " << r << ' ' << c;
       }
     }

@@ -202,7 +202,7 @@ TEST(ThesisMode, EqualsTheSlowReferenceOnRandomMaps) {
   EXPECT_GT(tally.cells, 10000);
   EXPECT_GT(chosen, 50);
   // Steps and ramps make exact ties between planes; rounding then decides. Noise makes none.
-  EXPECT_LT(tally.in_doubt, tally.cells / 20) << tally.in_doubt << " of " << tally.cells;
+  EXPECT_LT(tally.in_doubt, tally.cells / 1000) << tally.in_doubt << " of " << tally.cells;
   RecordProperty("cells", tally.cells);
   RecordProperty("in_doubt", tally.in_doubt);
 }
@@ -224,7 +224,7 @@ TEST(ThesisMode, PlanesAreTheSameBitsOnEveryProcessorAndForAnyNumberOfThreads) {
     const int stride = 1 + random.Index(3);
     cv::setNumThreads(1);
     const PlaneMaps plain = FitThesisPlanes(map.height_m, 0.2, stride, &PortableSladLoops());
-    cv::setNumThreads(4);
+    cv::setNumThreads(2);
     const PlaneMaps fast = FitThesisPlanes(map.height_m, 0.2, stride);
     ExpectSameBits(plain.height_m, fast.height_m);
     ExpectSameBits(plain.residual_m, fast.residual_m);

@@ -1,0 +1,48 @@
+#include "engine/slad/terrain_figures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "engine/slad/hazard_layers.h"
+#include "engine/slad/plane_fit.h"
+
+namespace palace {
+namespace {
+
+void MeasureThesis(const ElevationMap& map, const SladSettings& settings, TerrainFigures& figures) {
+  const double cell_m = map.geometry.cell_m;
+  // Samples a rock's size apart: a rock then spoils few of the nine and LMedS rejects it.
+  const int stride = std::clamp(static_cast<int>(settings.max_rock_size_m / cell_m), 1,
+                                std::max(1, std::min(map.geometry.rows, map.geometry.cols) / 3));
+  PlaneMaps planes = FitThesisPlanes(map.height_m, cell_m, stride);
+  for (float& deviation : planes.residual_m.cells()) {
+    deviation = std::abs(deviation);  // erratum E22: pits count as rocks do
+  }
+  figures.deviation_m = std::move(planes.residual_m);
+  figures.north_gradient = std::move(planes.north_gradient);
+  figures.east_gradient = std::move(planes.east_gradient);
+}
+
+}  // namespace
+
+TerrainFigures MeasureTerrain(const ElevationMap& map, const SladSettings& settings) {
+  TerrainFigures figures;
+  figures.mode = settings.mode;
+  figures.max_rock_size_m = settings.max_rock_size_m;
+  figures.lander_base_size_m = settings.lander_base_size_m;
+  if (map.height_m.empty()) {
+    return figures;
+  }
+  PALACE_CHECK(map.height_m.rows() == map.geometry.rows &&
+                   map.height_m.cols() == map.geometry.cols && map.geometry.cell_m > 0,
+               map.height_m.rows(), map.geometry.rows, map.geometry.cell_m);
+  if (settings.mode == SladMode::kThesis) {
+    MeasureThesis(map, settings, figures);
+  } else {
+    MeasureModern(map, settings, figures);
+  }
+  return figures;
+}
+
+}  // namespace palace

@@ -1,0 +1,110 @@
+// From figures and limits to slope, cost and reasons, a row at a time. Included by slad_loops.cpp
+// and slad_loops_avx2.cpp only. Plain loops without branches, for the compiler to vectorise.
+#pragma once
+
+#include "engine/slad/slad_loops.h"
+
+namespace palace {
+namespace {
+
+/// atan over [0, 1], through nine Chebyshev points of atan(t)/t in t^2; within 1e-7.
+inline float ArcTangent(float t) {
+  const float s = t * t;
+  float p = 2.766283501e-03F;
+  p = p * s + -1.573124912e-02F;
+  p = p * s + 4.213762359e-02F;
+  p = p * s + -7.456854826e-02F;
+  p = p * s + 1.061837064e-01F;
+  p = p * s + -1.419779779e-01F;
+  p = p * s + 1.999187203e-01F;
+  p = p * s + -3.333303671e-01F;
+  p = p * s + 9.999999818e-01F;
+  return p * t;
+}
+
+/// Standard normal distribution function within 2e-7 (Abramowitz & Stegun 1964, 7.1.28).
+inline float NormalBelow(float x) {
+  const float y = (x < 0 ? -x : x) * 0.70710678F;
+  float q = 0.0000430638F;
+  q = q * y + 0.0002765672F;
+  q = q * y + 0.0001520143F;
+  q = q * y + 0.0092705272F;
+  q = q * y + 0.0422820123F;
+  q = q * y + 0.0705230784F;
+  q = q * y + 1.0F;
+  // Far out the power would overflow; the tail is 0 there.
+  q = q > 100.0F ? 100.0F : q;
+  const float q2 = q * q, q4 = q2 * q2, q8 = q4 * q4;
+  const float tail = 0.5F / q8 / q8;
+  return x > 0 ? 1.0F - tail : tail;
+}
+
+inline float Least(float a, float b) { return a < b ? a : b; }
+inline float Largest(float a, float b) { return a > b ? a : b; }
+
+/// atan2(|n x u|, n . u) of the normal n = (-north, -east, -1): small angles stay exact, where
+/// acos(n . u) rounds them away.
+void SlopeRow(const float* north, const float* east, const float* up_W, int count, float* slope) {
+  constexpr float kPi = 3.14159265F;
+  const float a = up_W[0], b = up_W[1], d = up_W[2];
+  for (int c = 0; c < count; ++c) {
+    const float x = b - east[c] * d, y = north[c] * d - a, z = east[c] * a - north[c] * b;
+    const float dot = -(north[c] * a + east[c] * b + d);
+    const float cross = __builtin_sqrtf(x * x + y * y + z * z);
+    const float length = dot < 0 ? -dot : dot;
+    const float t = ArcTangent(Least(cross, length) / Largest(cross, length));
+    const float acute = cross > length ? 0.5F * kPi - t : t;
+    const float angle = dot < 0 ? kPi - acute : acute;
+    slope[c] = north[c] == north[c] ? angle : north[c];
+  }
+}
+
+void ThesisVerdictRow(const ThesisLimits& limits, const float* slope, const float* roughness,
+                      int count, float* cost, unsigned char* reasons) {
+  const float scale = limits.max_roughness_m * limits.max_slope_rad;
+  for (int c = 0; c < count; ++c) {
+    const float a = slope[c], r = roughness[c];
+    const bool unknown = !(a + r == a + r), steep = a > limits.max_slope_rad,
+               rough = r > limits.max_roughness_m;
+    const float product = r * a / scale;
+    cost[c] = unknown ? a + r : (steep | rough ? 1.0F : product);
+    const int verdict = (steep ? kSteep : 0) | (rough ? kRough : 0);
+    reasons[c] = static_cast<unsigned char>(unknown ? kNotKnown : verdict);
+  }
+}
+
+void ModernVerdictRow(const ModernLimits& limits, const ModernRow& row, int count,
+                      const ModernVerdict& out) {
+  constexpr float kPerRoot2 = 0.70710678F;
+  for (int c = 0; c < count; ++c) {
+    const float slope = row.slope[c], deviation = row.footprint_deviation_m[c],
+                step = row.footprint_step_m[c];
+    const float flat = NormalBelow((limits.max_slope_rad - slope) / row.slope_sigma[c]);
+    const float footprint_margin =
+        Least(limits.max_deviation_m - deviation, (limits.max_step_m - step) * kPerRoot2);
+    const float cell_margin = Least(limits.max_deviation_m - row.cell_deviation_m[c],
+                                    (limits.max_step_m - row.cell_step_m[c]) * kPerRoot2);
+    const float sigma = __builtin_sqrtf(row.footprint_sigma_m[c] * row.footprint_sigma_m[c] +
+                                        kHeightSigmaFloor_m * kHeightSigmaFloor_m);
+    const float safe = flat * NormalBelow(footprint_margin / sigma);
+    const float cell_sigma = __builtin_sqrtf(row.cell_sigma_m[c] * row.cell_sigma_m[c] +
+                                             kHeightSigmaFloor_m * kHeightSigmaFloor_m);
+    const float cell_safe = flat * NormalBelow(cell_margin / cell_sigma);
+    const bool known = slope == slope;
+    const int verdict = (slope > limits.max_slope_rad ? kSteep : 0) |
+                        (row.cell_deviation_m[c] > limits.max_deviation_m ? kRough : 0) |
+                        (row.cell_step_m[c] > limits.max_step_m ? kStepped : 0) |
+                        (cell_safe < limits.min_safe_probability ? kUnlikely : 0);
+    const int reasons = (known ? verdict : kNotKnown) | (row.measured[c] != 0 ? 0 : kNotKnown);
+    const float share =
+        Largest(Largest(slope / limits.max_slope_rad, deviation / limits.max_deviation_m),
+                step / limits.max_step_m);
+    const float cost = reasons != 0 ? 1.0F : Least(share, 1.0F);
+    out.safe_probability[c] = known ? safe : slope;
+    out.cost[c] = known ? cost : slope;
+    out.reasons[c] = static_cast<unsigned char>(reasons);
+  }
+}
+
+}  // namespace
+}  // namespace palace
