@@ -21,7 +21,6 @@ constexpr float kNoise2 = 16;
 constexpr float kNever = 1e20F;
 /// Known limit of attitude: the slope of everything is off by this much.
 constexpr double kAttitudeSigma_rad = 0.1 * kRadPerDeg;
-constexpr double kCorrelatedCells = 4;
 constexpr int kMostOffsets = 24;
 
 float BeyondNoise(float square) { return square > 0 ? std::sqrt(square) : 0.0F; }
@@ -184,8 +183,8 @@ void FindCellFigures(const ElevationMap& map, const SladSettings& settings,
     for (int c = 0; c < map.geometry.cols; ++c) {
       const CellState state = map.state.at(r, c);
       figures.measured.at(r, c) = state == CellState::kMeasured ? 1 : 0;
-      const float height = map.height_m.at(r, c), plane = planes.plane.height_m.at(r, c);
-      if (state == CellState::kUnknown || std::isnan(plane)) {
+      const float off = planes.plane.residual_m.at(r, c);
+      if (state == CellState::kUnknown || std::isnan(off)) {
         figures.north_gradient.at(r, c) = kUnknownValue;
         figures.footprint_deviation_m.at(r, c) = figures.footprint_step_m.at(r, c) = kUnknownValue;
         continue;
@@ -199,8 +198,7 @@ void FindCellFigures(const ElevationMap& map, const SladSettings& settings,
       figures.east_gradient.at(r, c) = east;
       figures.slope_sigma_rad.at(r, c) = std::sqrt(gradient_sigma * gradient_sigma + attitude2);
       // A filled cell is judged by its filled height, so that it reads like its neighbours.
-      figures.deviation_m.at(r, c) =
-          BeyondNoise((height - plane) * (height - plane) - kNoise2 * variance);
+      figures.deviation_m.at(r, c) = BeyondNoise(off * off - kNoise2 * variance);
       figures.sigma_m.at(r, c) = averaging * std::sqrt(variance);
       figures.footprint_sigma_m.at(r, c) = averaging * std::sqrt(planes.cell_variance_m2.at(r, c));
     }

@@ -2,6 +2,7 @@
 
 #include "engine/slad/footprint_loops.h"
 #include "engine/slad/lmeds_loops.h"
+#include "engine/slad/moment_loops.h"
 #include "engine/slad/verdict_loops.h"
 
 namespace palace {
@@ -9,8 +10,9 @@ namespace palace {
 const SladLoops* SladLoopsBuiltForAvx2();  // slad_loops_avx2.cpp; null where it was not built
 
 const SladLoops& PortableSladLoops() {
-  static constexpr SladLoops loops{FitPlaneRow, DiscDeviationRow, WindowMaximumRow,
-                                   SlopeRow,    ThesisVerdictRow, ModernVerdictRow};
+  static constexpr SladLoops loops{FitPlaneRow,      DiscDeviationRow, WindowMaximumRow,
+                                   AddMomentsRow,    SolveMomentsRow,  SlopeRow,
+                                   ThesisVerdictRow, ModernVerdictRow};
   return loops;
 }
 

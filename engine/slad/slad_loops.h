@@ -1,5 +1,5 @@
 // Inner loops of the hazard maps: compiled once for every x86-64 and once for AVX2, chosen at run
-// time. Both are made from the same source (lmeds_loops.h, footprint_loops.h, verdict_loops.h) with
+// time. Both are made from the same source (lmeds_loops.h and its like) with
 // uncontracted floats, so they give the same bits.
 #pragma once
 
@@ -33,6 +33,24 @@ struct DiscRows {
 
 /// No height is known better than this.
 inline constexpr float kHeightSigmaFloor_m = 1e-3F;
+
+/// Weighted sums over a window: w, wx, wy, wxx, wxy, wyy, wz, wxz, wyz, wzz, count, variance.
+inline constexpr int kMoments = 12;
+/// A perfect cell's weight stays finite: variances below (1 cm)^2 count alike.
+inline constexpr double kVarianceFloor_m2 = 1e-4;
+/// Stereo noise is shared by this many neighbouring cells.
+inline constexpr double kCorrelatedCells = 4;
+
+/// Planes of one row over their windows, NaN where none was spanned; heights above the reference,
+/// gradients per cell.
+struct FittedRow {
+  float* height_m;
+  float* east;
+  float* south;
+  float* scatter_m;  ///< rms weighted residual
+  float* gradient_sigma;
+  float* cell_variance_m2;
+};
 
 // Bits of HazardReason.
 inline constexpr int kSteep = 1, kRough = 2, kStepped = 4, kNotKnown = 8, kUnlikely = 16;
@@ -76,6 +94,15 @@ struct SladLoops {
                          const float* south, int count, float* square);
   /// most = the largest of itself and values[c - half .. c + half]. work: count + 2 half floats.
   void (*window_maximum)(const float* values, int half, int count, float* work, float* most);
+  /// columns[k pitch + c] += sign times moment k of the cells of a row; those of weight 0 are left
+  /// out. x = c + x0.
+  void (*add_moments)(const float* weight, const float* height_m, const float* variance_m2, int x0,
+                      double y, double sign, int count, int pitch, double* columns);
+  /// Planes over the windows c - half .. c + half of the columns' sums, which are readable half
+  /// further on both sides. work: (kMoments + 1) pitch doubles, pitch >= count + 2 half. A window
+  /// that spans no plane leaves the row as it is.
+  void (*solve_moments)(const double* columns, int pitch, int half, int x0, double y, int count,
+                        double* work, const FittedRow& out);
   /// Angle between the plane's normal and the up vector. NaN where the gradient is.
   void (*slope)(const float* north_gradient, const float* east_gradient, const float* up_W,
                 int count, float* slope_rad);

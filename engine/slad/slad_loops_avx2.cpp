@@ -3,6 +3,7 @@
 #if defined(__AVX2__)
 #include "engine/slad/footprint_loops.h"
 #include "engine/slad/lmeds_loops.h"
+#include "engine/slad/moment_loops.h"
 #include "engine/slad/verdict_loops.h"
 #endif
 
@@ -12,8 +13,9 @@ const SladLoops* SladLoopsBuiltForAvx2();
 
 const SladLoops* SladLoopsBuiltForAvx2() {
 #if defined(__AVX2__)
-  static constexpr SladLoops loops{FitPlaneRow, DiscDeviationRow, WindowMaximumRow,
-                                   SlopeRow,    ThesisVerdictRow, ModernVerdictRow};
+  static constexpr SladLoops loops{FitPlaneRow,      DiscDeviationRow, WindowMaximumRow,
+                                   AddMomentsRow,    SolveMomentsRow,  SlopeRow,
+                                   ThesisVerdictRow, ModernVerdictRow};
   return &loops;
 #else
   return nullptr;

@@ -1,0 +1,123 @@
+// Weighted least-squares planes over a square window around each cell of a row, by moving sums.
+// Included by slad_loops.cpp and slad_loops_avx2.cpp only. Plain loops for the compiler to
+// vectorise: one moment after another, columns side by side.
+#pragma once
+
+#include "engine/slad/slad_loops.h"
+
+namespace palace {
+namespace {
+
+void AddMomentsRow(const float* weight, const float* height, const float* variance, int x0,
+                   double y, double sign, int count, int pitch, double* columns) {
+  double* __restrict__ m[kMoments];
+  for (int k = 0; k < kMoments; ++k) {
+    m[k] = columns + k * pitch;
+  }
+  double* __restrict__ m0 = m[0];
+  double* __restrict__ mx = m[1];
+  double* __restrict__ my = m[2];
+  double* __restrict__ mxx = m[3];
+  double* __restrict__ mxy = m[4];
+  double* __restrict__ myy = m[5];
+  double* __restrict__ mz = m[6];
+  double* __restrict__ mxz = m[7];
+  double* __restrict__ myz = m[8];
+  double* __restrict__ mzz = m[9];
+  double* __restrict__ mn = m[10];
+  double* __restrict__ mv = m[11];
+  for (int c = 0; c < count; ++c) {
+    const double x = c + x0;
+    const double one = weight[c] > 0 ? sign : 0;
+    const double w = sign * static_cast<double>(weight[c]);
+    const double z = static_cast<double>(height[c]);
+    const double wx = w * x, wy = w * y, wz = w * z;
+    m0[c] += w;
+    mx[c] += wx;
+    my[c] += wy;
+    mxx[c] += wx * x;
+    mxy[c] += wx * y;
+    myy[c] += wy * y;
+    mz[c] += wz;
+    mxz[c] += wz * x;
+    myz[c] += wz * y;
+    mzz[c] += wz * z;
+    mn[c] += one;
+    mv[c] += one * static_cast<double>(variance[c]);
+  }
+}
+
+/// sums[c] = columns[c - half] + .. + columns[c + half], from runs of 1, 2, 4 .. columns.
+inline void WindowSums(const double* columns, int half, int count, double* __restrict__ work,
+                       double* __restrict__ sums) {
+  const int length = count + 2 * half, width = 2 * half + 1;
+  for (int k = 0; k < length; ++k) {
+    work[k] = columns[k - half];
+  }
+  for (int c = 0; c < count; ++c) {
+    sums[c] = 0;
+  }
+  int offset = 0;
+  for (int run = 1; run <= width; run *= 2) {
+    if ((width & run) != 0) {
+      for (int c = 0; c < count; ++c) {
+        sums[c] += work[c + offset];
+      }
+      offset += run;
+    }
+    for (int k = 0; k + 2 * run <= length; ++k) {
+      work[k] += work[k + run];
+    }
+  }
+}
+
+void SolveMomentsRow(const double* columns, int pitch, int half, int x0, double y, int count,
+                     double* work, const FittedRow& out) {
+  double* sums = work + pitch;
+  for (int k = 0; k < kMoments; ++k) {
+    WindowSums(columns + k * pitch, half, count, work, sums + k * pitch);
+  }
+  const auto sum = [&](int k) { return sums + k * pitch; };
+  const double *m0 = sum(0), *m1 = sum(1), *m2 = sum(2), *m3 = sum(3), *m4 = sum(4), *m5 = sum(5),
+               *m6 = sum(6), *m7 = sum(7), *m8 = sum(8), *m9 = sum(9), *mn = sum(10), *mv = sum(11);
+  float* __restrict__ height = out.height_m;
+  float* __restrict__ east_out = out.east;
+  float* __restrict__ south_out = out.south;
+  float* __restrict__ scatter = out.scatter_m;
+  float* __restrict__ sigma = out.gradient_sigma;
+  float* __restrict__ variance = out.cell_variance_m2;
+  for (int c = 0; c < count; ++c) {
+    const double w = m0[c] > 0 ? m0[c] : 1, n = mn[c];
+    const double x_mean = m1[c] / w, y_mean = m2[c] / w, z_mean = m6[c] / w;
+    const double sxx = m3[c] - w * x_mean * x_mean, sxy = m4[c] - w * x_mean * y_mean,
+                 syy = m5[c] - w * y_mean * y_mean;
+    const double sxz = m7[c] - w * x_mean * z_mean, syz = m8[c] - w * y_mean * z_mean,
+                 szz = m9[c] - w * z_mean * z_mean;
+    const double determinant = sxx * syy - sxy * sxy;
+    const bool spanned = (n >= 2.5) & (m0[c] > 0) & (determinant >= 1e-3 * w * w);
+    const double d = spanned ? determinant : 1;
+    const double east = (sxz * syy - syz * sxy) / d, south = (syz * sxx - sxz * sxy) / d;
+    const double left = szz - east * sxz - south * syz, squares = left > 0 ? left : 0;
+    // Weights are floor / variance, so the covariance carries the floor; chi-square above 1 widens.
+    const double freedom = n > 3.5 ? n - 3 : 1;
+    const double chi2 = n > 3.5 ? squares / kVarianceFloor_m2 / freedom : 1;
+    const double scale = kVarianceFloor_m2 * (chi2 > 1 ? chi2 : 1) * kCorrelatedCells / d;
+    // Along the steepest direction; any on level ground.
+    const double steep2 = east * east + south * south;
+    const bool level = steep2 < 1e-18;
+    const double ee = level ? 1 : east * east, ss = level ? 0 : south * south,
+                 es = level ? 0 : east * south, unit = level ? 1 : steep2;
+    const double along = scale * (ee * syy - 2 * es * sxy + ss * sxx) / unit;
+    const double at_cell = z_mean + east * (c + x0 - x_mean) + south * (y - y_mean);
+    // With all its ground rejected a cell keeps the plane of the pass before.
+    height[c] = spanned ? static_cast<float>(at_cell) : height[c];
+    east_out[c] = spanned ? static_cast<float>(east) : east_out[c];
+    south_out[c] = spanned ? static_cast<float>(south) : south_out[c];
+    scatter[c] = spanned ? static_cast<float>(__builtin_sqrt(squares / w)) : scatter[c];
+    sigma[c] = spanned ? static_cast<float>(__builtin_sqrt(along > 0 ? along : 0)) : sigma[c];
+    variance[c] = spanned ? static_cast<float>(mv[c] / (n > 0 ? n : 1)) : variance[c];
+  }
+}
+
+}  // namespace
+}  // namespace palace
