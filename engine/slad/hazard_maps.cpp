@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <vector>
 
 #include <opencv2/core.hpp>
 
@@ -33,17 +34,27 @@ void CountCells(const SladSettings& settings, HazardMaps& hazards) {
     counting[reasons] = CountingOf(reasons);
   }
   const float clear_m = static_cast<float>(settings.clear_radius_m());
-  std::array<int, kCountings> count{};
-  for (int r = 0; r < hazards.geometry.rows; ++r) {
-    const std::uint8_t* reasons = hazards.reasons.row(r);
-    const float* distance_m = hazards.safe_distance_m.row(r);
-    for (int c = 0; c < hazards.geometry.cols; ++c) {
-      CountedAs as = counting[reasons[c] & kAllReasons];
-      if (as == kAsSafe &&
-          (distance_m[c] < clear_m || !FootprintHolds(hazards, settings, {r, c}))) {
-        as = kAsFootprint;
+  using Counts = std::array<int, kCountings>;
+  std::vector<Counts> of_row(static_cast<std::size_t>(hazards.geometry.rows), Counts{});
+  cv::parallel_for_(cv::Range(0, hazards.geometry.rows), [&](const cv::Range& rows) {
+    for (int r = rows.start; r < rows.end; ++r) {
+      Counts& count = of_row[static_cast<std::size_t>(r)];
+      const std::uint8_t* reasons = hazards.reasons.row(r);
+      const float* distance_m = hazards.safe_distance_m.row(r);
+      for (int c = 0; c < hazards.geometry.cols; ++c) {
+        CountedAs as = counting[reasons[c] & kAllReasons];
+        if (as == kAsSafe &&
+            (distance_m[c] < clear_m || !FootprintHolds(hazards, settings, {r, c}))) {
+          as = kAsFootprint;
+        }
+        ++count[as];
       }
-      ++count[as];
+    }
+  });
+  Counts count{};
+  for (const Counts& row : of_row) {
+    for (std::size_t k = 0; k < count.size(); ++k) {
+      count[k] += row[k];
     }
   }
   hazards.rejected = {count[kAsSlope], count[kAsRoughness], count[kAsUnknown], count[kAsFootprint]};

@@ -1,5 +1,6 @@
 #include "engine/slad/slad_loops.h"
 
+#include "engine/slad/distance_loops.h"
 #include "engine/slad/footprint_loops.h"
 #include "engine/slad/lmeds_loops.h"
 #include "engine/slad/moment_loops.h"
@@ -10,9 +11,9 @@ namespace palace {
 const SladLoops* SladLoopsBuiltForAvx2();  // slad_loops_avx2.cpp; null where it was not built
 
 const SladLoops& PortableSladLoops() {
-  static constexpr SladLoops loops{FitPlaneRow,      DiscDeviationRow, WindowMaximumRow,
-                                   AddMomentsRow,    SolveMomentsRow,  SlopeRow,
-                                   ThesisVerdictRow, ModernVerdictRow};
+  static constexpr SladLoops loops{FitPlaneRow,   DiscDeviationRow, WindowMaximumRow,
+                                   AddMomentsRow, SolveMomentsRow,  NearestInRow,
+                                   SlopeRow,      ThesisVerdictRow, ModernVerdictRow};
   return loops;
 }
 

@@ -52,6 +52,9 @@ struct FittedRow {
   float* cell_variance_m2;
 };
 
+/// Farthest hazard that nearest_in_row looks for, cells.
+inline constexpr int kNearestReach = 64;
+
 // Bits of HazardReason.
 inline constexpr int kSteep = 1, kRough = 2, kStepped = 4, kNotKnown = 8, kUnlikely = 16;
 
@@ -103,6 +106,9 @@ struct SladLoops {
   /// that spans no plane leaves the row as it is.
   void (*solve_moments)(const double* columns, int pitch, int half, int x0, double y, int count,
                         double* work, const FittedRow& out);
+  /// Square root of the least square[c + d] + d^2, squared cells to metres, where no square in
+  /// 0 .. count-1 is above kNearestReach^2. Readable kNearestReach + kLaneSlack further both ways.
+  void (*nearest_in_row)(const float* square, int count, double cell_m, float* distance_m);
   /// Angle between the plane's normal and the up vector. NaN where the gradient is.
   void (*slope)(const float* north_gradient, const float* east_gradient, const float* up_W,
                 int count, float* slope_rad);

@@ -1,6 +1,7 @@
 // Built with -mavx2 (CMakeLists.txt). Includes nothing but the loops.
 #include "engine/slad/slad_loops.h"
 #if defined(__AVX2__)
+#include "engine/slad/distance_loops.h"
 #include "engine/slad/footprint_loops.h"
 #include "engine/slad/lmeds_loops.h"
 #include "engine/slad/moment_loops.h"
@@ -13,9 +14,9 @@ const SladLoops* SladLoopsBuiltForAvx2();
 
 const SladLoops* SladLoopsBuiltForAvx2() {
 #if defined(__AVX2__)
-  static constexpr SladLoops loops{FitPlaneRow,      DiscDeviationRow, WindowMaximumRow,
-                                   AddMomentsRow,    SolveMomentsRow,  SlopeRow,
-                                   ThesisVerdictRow, ModernVerdictRow};
+  static constexpr SladLoops loops{FitPlaneRow,   DiscDeviationRow, WindowMaximumRow,
+                                   AddMomentsRow, SolveMomentsRow,  NearestInRow,
+                                   SlopeRow,      ThesisVerdictRow, ModernVerdictRow};
   return &loops;
 #else
   return nullptr;

@@ -61,15 +61,18 @@ void SlopeRow(const float* north, const float* east, const float* up_W, int coun
 
 void ThesisVerdictRow(const ThesisLimits& limits, const float* slope, const float* roughness,
                       int count, float* cost, unsigned char* reasons) {
-  const float scale = limits.max_roughness_m * limits.max_slope_rad;
+  const float most_a = limits.max_slope_rad, most_r = limits.max_roughness_m;
+  const float scale = most_r * most_a;
   for (int c = 0; c < count; ++c) {
     const float a = slope[c], r = roughness[c];
-    const bool unknown = !(a + r == a + r), steep = a > limits.max_slope_rad,
-               rough = r > limits.max_roughness_m;
-    const float product = r * a / scale;
-    cost[c] = unknown ? a + r : (steep | rough ? 1.0F : product);
-    const int verdict = (steep ? kSteep : 0) | (rough ? kRough : 0);
-    reasons[c] = static_cast<unsigned char>(unknown ? kNotKnown : verdict);
+    const float known_cost = a > most_a ? 1.0F : r > most_r ? 1.0F : r * a / scale;
+    cost[c] = a + r == a + r ? known_cost : a + r;
+  }
+  for (int c = 0; c < count; ++c) {
+    const float a = slope[c], r = roughness[c];
+    const int steep = a > most_a ? kSteep : 0;
+    const int rough = r > most_r ? kRough : 0;
+    reasons[c] = static_cast<unsigned char>(a + r == a + r ? steep | rough : kNotKnown);
   }
 }
 
