@@ -39,6 +39,8 @@ inline float NormalBelow(float x) {
   return x > 0 ? 1.0F - tail : tail;
 }
 
+constexpr int kVerdictRun = 128;  // columns
+
 inline float Least(float a, float b) { return a < b ? a : b; }
 inline float Largest(float a, float b) { return a > b ? a : b; }
 
@@ -76,36 +78,62 @@ void ThesisVerdictRow(const ThesisLimits& limits, const float* slope, const floa
   }
 }
 
+/// Some columns of ModernVerdictRow: one loop for each width of number, or none is vectorised.
+inline void ModernVerdictRun(const ModernLimits& limits, const ModernRow& row, int first, int count,
+                             const ModernVerdict& out) {
+  constexpr float kPerRoot2 = 0.70710678F;
+  constexpr float kFloor2 = kHeightSigmaFloor_m * kHeightSigmaFloor_m;
+  const ModernLimits most = limits;
+  float cell_safe[kVerdictRun];
+  int reasons[kVerdictRun];
+  const float* slope = row.slope + first;
+  const float* deviation = row.footprint_deviation_m + first;
+  const float* step = row.footprint_step_m + first;
+  const float* sigma = row.footprint_sigma_m + first;
+  const float* slope_sigma = row.slope_sigma + first;
+  const float* cell_deviation = row.cell_deviation_m + first;
+  const float* cell_step = row.cell_step_m + first;
+  const float* cell_sigma = row.cell_sigma_m + first;
+  for (int c = 0; c < count; ++c) {
+    const float flat = NormalBelow((most.max_slope_rad - slope[c]) / slope_sigma[c]);
+    // A step is a difference of two heights.
+    const float margin =
+        Least(most.max_deviation_m - deviation[c], (most.max_step_m - step[c]) * kPerRoot2);
+    const float cell_margin = Least(most.max_deviation_m - cell_deviation[c],
+                                    (most.max_step_m - cell_step[c]) * kPerRoot2);
+    const float s = __builtin_sqrtf(sigma[c] * sigma[c] + kFloor2);
+    const float cell_s = __builtin_sqrtf(cell_sigma[c] * cell_sigma[c] + kFloor2);
+    const float safe = flat * NormalBelow(margin / s);
+    cell_safe[c] = flat * NormalBelow(cell_margin / cell_s);
+    out.safe_probability[first + c] = slope[c] == slope[c] ? safe : slope[c];
+  }
+  for (int c = 0; c < count; ++c) {
+    reasons[c] = row.measured[first + c] != 0 ? 0 : kNotKnown;
+  }
+  for (int c = 0; c < count; ++c) {
+    const int steep = slope[c] > most.max_slope_rad ? kSteep : 0;
+    const int rough = cell_deviation[c] > most.max_deviation_m ? kRough : 0;
+    const int stepped = cell_step[c] > most.max_step_m ? kStepped : 0;
+    const int unlikely = cell_safe[c] < most.min_safe_probability ? kUnlikely : 0;
+    const int verdict = steep | rough | stepped | unlikely;
+    reasons[c] |= slope[c] == slope[c] ? verdict : kNotKnown;
+  }
+  for (int c = 0; c < count; ++c) {
+    const float share =
+        Largest(Largest(slope[c] / most.max_slope_rad, deviation[c] / most.max_deviation_m),
+                step[c] / most.max_step_m);
+    const float cost = reasons[c] != 0 ? 1.0F : Least(share, 1.0F);
+    out.cost[first + c] = slope[c] == slope[c] ? cost : slope[c];
+  }
+  for (int c = 0; c < count; ++c) {
+    out.reasons[first + c] = static_cast<unsigned char>(reasons[c]);
+  }
+}
+
 void ModernVerdictRow(const ModernLimits& limits, const ModernRow& row, int count,
                       const ModernVerdict& out) {
-  constexpr float kPerRoot2 = 0.70710678F;
-  for (int c = 0; c < count; ++c) {
-    const float slope = row.slope[c], deviation = row.footprint_deviation_m[c],
-                step = row.footprint_step_m[c];
-    const float flat = NormalBelow((limits.max_slope_rad - slope) / row.slope_sigma[c]);
-    const float footprint_margin =
-        Least(limits.max_deviation_m - deviation, (limits.max_step_m - step) * kPerRoot2);
-    const float cell_margin = Least(limits.max_deviation_m - row.cell_deviation_m[c],
-                                    (limits.max_step_m - row.cell_step_m[c]) * kPerRoot2);
-    const float sigma = __builtin_sqrtf(row.footprint_sigma_m[c] * row.footprint_sigma_m[c] +
-                                        kHeightSigmaFloor_m * kHeightSigmaFloor_m);
-    const float safe = flat * NormalBelow(footprint_margin / sigma);
-    const float cell_sigma = __builtin_sqrtf(row.cell_sigma_m[c] * row.cell_sigma_m[c] +
-                                             kHeightSigmaFloor_m * kHeightSigmaFloor_m);
-    const float cell_safe = flat * NormalBelow(cell_margin / cell_sigma);
-    const bool known = slope == slope;
-    const int verdict = (slope > limits.max_slope_rad ? kSteep : 0) |
-                        (row.cell_deviation_m[c] > limits.max_deviation_m ? kRough : 0) |
-                        (row.cell_step_m[c] > limits.max_step_m ? kStepped : 0) |
-                        (cell_safe < limits.min_safe_probability ? kUnlikely : 0);
-    const int reasons = (known ? verdict : kNotKnown) | (row.measured[c] != 0 ? 0 : kNotKnown);
-    const float share =
-        Largest(Largest(slope / limits.max_slope_rad, deviation / limits.max_deviation_m),
-                step / limits.max_step_m);
-    const float cost = reasons != 0 ? 1.0F : Least(share, 1.0F);
-    out.safe_probability[c] = known ? safe : slope;
-    out.cost[c] = known ? cost : slope;
-    out.reasons[c] = static_cast<unsigned char>(reasons);
+  for (int c = 0; c < count; c += kVerdictRun) {
+    ModernVerdictRun(limits, row, c, count - c < kVerdictRun ? count - c : kVerdictRun, out);
   }
 }
 
