@@ -1,7 +1,9 @@
 #include "engine/slad/hazard_maps.h"
 
 #include <gtest/gtest.h>
+#include <opencv2/core.hpp>
 
+#include "engine/slad/slad.h"
 #include "tests/slad/worlds.h"
 
 namespace palace {
@@ -162,6 +164,39 @@ TEST(HazardMaps, ThesisCostIsTheProduct) {
     const bool over = slope > Rad(10) || rough > 0.10;
     EXPECT_NEAR(double(h.cost.cells()[i]), over ? 1.0 : slope * rough / (Rad(10) * 0.10), 1e-5);
   }
+}
+
+TEST(HazardMaps, AMovedLimitGivesWhatMeasuringAgainWould) {
+  const ElevationMap map =
+      MakeMap(70, 90, 0.15, WithBox(Slope(Rad(5), 1), 1, 1, 1.5, 0.3), 0.03, 9);
+  for (const SladMode mode : {SladMode::kThesis, SladMode::kModern}) {
+    SladSettings settings = WithMode(mode);
+    const TerrainFigures figures = MeasureTerrain(map, settings);
+    settings.max_slope_deg = 6;
+    settings.max_deviation_m = 0.06;
+    settings.max_step_m = 0.08;
+    settings.min_safe_probability = 0.9;
+    settings.nav_error_m = 0.1;
+    settings.up_tilt_deg = 3;
+    ASSERT_TRUE(figures.HoldFor(settings));
+    EXPECT_EQ(HashOfMaps(map, JudgeTerrain(map.geometry, figures, settings)),
+              HashOfMaps(map, EvaluateHazards(map, settings)));
+    settings.max_rock_size_m = 0.9;
+    EXPECT_FALSE(figures.HoldFor(settings));
+  }
+}
+
+TEST(HazardMaps, AreTheSameBitsForAnyNumberOfThreads) {
+  const ElevationMap map =
+      MakeMap(75, 90, 0.15, WithBox(Slope(Rad(5), 1), 1, 1, 1.5, 0.3), 0.03, 9);
+  const int threads = cv::getNumThreads();
+  for (const SladMode mode : {SladMode::kThesis, SladMode::kModern}) {
+    cv::setNumThreads(1);
+    const std::uint64_t alone = HashOfMaps(map, EvaluateHazards(map, WithMode(mode)));
+    cv::setNumThreads(2);
+    EXPECT_EQ(HashOfMaps(map, EvaluateHazards(map, WithMode(mode))), alone);
+  }
+  cv::setNumThreads(threads);
 }
 
 }  // namespace

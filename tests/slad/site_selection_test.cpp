@@ -201,6 +201,19 @@ TEST(SiteRegistry, LettersStayWithTheirPlaces) {
   EXPECT_GT(next.sites[0].id, many.sites[21].id);
 }
 
+// The best place of a map moves a little with every frame: a letter that followed it would end up
+// on another place than the one the operator was shown.
+TEST(SiteRegistry, ASiteThatCreepsAwayLeavesItsLetterBehind) {
+  SiteRegistry registry;
+  for (const double north : {0.0, 1.0, 2.0, 3.0}) {
+    SiteSelection selection;
+    selection.sites.resize(1);
+    selection.sites[0].p_WS = {north, 0, 0};
+    registry.Assign(selection);
+    EXPECT_EQ(selection.sites[0].letter, north < 1.5 ? 'A' : 'B') << north;
+  }
+}
+
 TEST(Slad, FieldOfTablesSeenFromFiftyFeet) {
   // Three tables 0.75 m high; one clear patch. Ten fused frames as at 50 ft, 45 degrees.
   const auto world =

@@ -1,0 +1,124 @@
+#include "engine/slad/slad_loops.h"
+
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "engine/core/random.h"
+
+namespace palace {
+namespace {
+
+using Floats = std::vector<float>;
+
+Floats Random(RandomStream& random, std::size_t count, double low, double high) {
+  Floats values(count);
+  for (float& value : values) {
+    value = float(random.Uniform(low, high));
+  }
+  return values;
+}
+
+/// What one run of the loops leaves behind, byte by byte.
+Floats Results(const SladLoops& loops, std::uint64_t seed) {
+  RandomStream random(seed, "loops");
+  constexpr int kMargin = kNearestReach + kLaneSlack;
+  const int count = 1 + random.Index(300);
+  const std::size_t size = std::size_t(count + 2 * kMargin);
+  Floats all;
+  const auto keep = [&](const Floats& values) {
+    all.insert(all.end(), values.begin(), values.begin() + count);
+  };
+  const Floats a = Random(random, size, -1, 1), b = Random(random, size, -1, 1);
+  const Floats c = Random(random, size, 0, 0.3), d = Random(random, size, 1e-3, 0.2);
+  const float up[] = {0.1F, -0.2F, -0.97F};
+  Floats slope(size), cost(size), probability(size), distance(size), most(size, -1e20F);
+  loops.slope(a.data(), b.data(), up, count, slope.data());
+  keep(slope);
+  std::vector<unsigned char> reasons(size), measured(size, 1);
+  loops.modern_verdict({0.3F, 0.1F, 0.15F, 0.99F},
+                       {slope.data(), d.data(), c.data(), c.data(), d.data(), c.data() + 1,
+                        c.data() + 2, d.data(), measured.data()},
+                       count, {probability.data(), cost.data(), reasons.data()});
+  keep(probability);
+  keep(cost);
+  keep(Floats(reasons.begin(), reasons.end()));
+  Floats square = c;
+  for (float& value : square) {
+    value = std::floor(value * 40) * std::floor(value * 40);
+  }
+  loops.nearest_in_row(square.data() + kMargin, count, 0.15, distance.data());
+  keep(distance);
+  const int offset[] = {-1, 0, 1}, half[] = {2, 3, 2};
+  const float* heights[] = {a.data() + kMargin, b.data() + kMargin, c.data() + kMargin};
+  loops.disc_deviation({3, 1, offset, half, heights, heights}, b.data(), c.data(), d.data(), count,
+                       most.data());
+  keep(most);
+  const int reach = 4, pitch = count + 2 * reach;
+  std::vector<double> columns(std::size_t(kMoments * pitch)),
+      work(std::size_t(kMoments + 1) * std::size_t(pitch));
+  for (int row = 0; row < 3; ++row) {
+    loops.add_moments(d.data() + row, a.data() + row, c.data() + row, -count / 2, row, 1, count,
+                      pitch, columns.data() + reach);
+  }
+  Floats fit[6];
+  for (Floats& layer : fit) {
+    layer.assign(size, 0);
+  }
+  loops.solve_moments(
+      columns.data() + reach, pitch, reach, -count / 2, 1, count, work.data(),
+      {fit[0].data(), fit[1].data(), fit[2].data(), fit[3].data(), fit[4].data(), fit[5].data()});
+  for (const Floats& layer : fit) {
+    keep(layer);
+  }
+  return all;
+}
+
+TEST(SladLoops, GiveTheSameBitsOnEveryProcessor) {
+  const SladLoops* avx2 = Avx2SladLoops();
+  if (avx2 == nullptr) {
+    GTEST_SKIP() << "this processor has no AVX2: nothing to compare";
+  }
+  for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+    const Floats plain = Results(PortableSladLoops(), seed), fast = Results(*avx2, seed);
+    ASSERT_EQ(std::memcmp(plain.data(), fast.data(), plain.size() * sizeof(float)), 0)
+        << "seed " << seed;
+  }
+}
+
+TEST(SladLoops, SlopeIsTheAngleToTheUpVector) {
+  RandomStream random(7, "slope");
+  for (int k = 0; k < 2000; ++k) {
+    const float north = float(5 * random.Normal()), east = float(5 * random.Normal());
+    const double tilt = random.Uniform(0, 1.2), azimuth = random.Uniform(0, 6.28);
+    const float up[] = {float(std::sin(tilt) * std::cos(azimuth)),
+                        float(std::sin(tilt) * std::sin(azimuth)), float(-std::cos(tilt))};
+    float slope = 0;
+    FastestSladLoops().slope(&north, &east, up, 1, &slope);
+    const double n = double(north), e = double(east);
+    const double dot = -(n * double(up[0]) + e * double(up[1]) + double(up[2]));
+    ASSERT_NEAR(double(slope), std::acos(std::fmin(1, dot / std::sqrt(1 + n * n + e * e))), 1e-6);
+  }
+}
+
+TEST(SladLoops, ProbabilityIsTheNormalDistribution) {
+  for (double x = -7; x <= 7; x += 0.01) {
+    // Only the slope is near its limit: x sigmas below it.
+    const float slope = float(0.2 - 0.01 * x), sigma = 0.01F, none = 0, small = 1e-6F;
+    const unsigned char measured = 1;
+    float probability = 0, cost = 0;
+    unsigned char reasons = 0;
+    FastestSladLoops().modern_verdict(
+        {0.2F, 0.1F, 0.15F, 0.99F},
+        {&slope, &sigma, &none, &none, &small, &none, &none, &small, &measured}, 1,
+        {&probability, &cost, &reasons});
+    const double sigmas = double(0.2F - slope) / double(sigma);
+    ASSERT_NEAR(double(probability), 0.5 * std::erfc(-sigmas / std::sqrt(2.0)), 1e-6) << x;
+  }
+}
+
+}  // namespace
+}  // namespace palace
