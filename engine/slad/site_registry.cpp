@@ -43,7 +43,7 @@ void SiteRegistry::Assign(SiteSelection& selection) {
       }
     }
     if (nearest != nullptr) {
-      *nearest = {nearest->id, nearest->letter, site.p_WS, turn_};
+      nearest->last_used = turn_;  // the place stays where it was named: letters must not creep
       site.id = nearest->id;
       site.letter = nearest->letter;
     }

@@ -39,7 +39,7 @@ std::optional<LandingSite> RecheckSite(const ElevationMap& map, const HazardMaps
                                        const SiteContext& context);
 
 /// Gives each site an id and a letter that stay with the place while it is proposed. A place is the
-/// same within 1.5 m of where it was last. Of the letters A-Z the one unused longest is given
+/// same within 1.5 m of where it was first proposed. Of the letters A-Z the one unused longest is given
 /// next; ids are never reused.
 class SiteRegistry {
  public:
