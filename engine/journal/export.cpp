@@ -65,7 +65,7 @@ constexpr const char* kHeaders[][2] = {
      "time_us,map_time_us,map_hash,settings_hash,rank,site_id,letter,row,col,north_m,east_m,"
      "down_m,slope_rad,slope_3sigma_rad,roughness_m,roughness_3sigma_m,step_m,step_3sigma_m,"
      "height_m,height_3sigma_m,safe_distance_m,clear_radius_m,clearance_m,cost,safe_probability,"
-     "confirmed,corridor_clear,distance_m,reason"},
+     "worst_probability,worst_heading_rad,best_probability,best_heading_rad,flags,confirmed,corridor_clear,distance_m,reason"},
     {"settings.csv", "time_us,name,value"},
     {"events.csv", "time_us,kind,text"},
     {"status.csv",
@@ -200,6 +200,9 @@ class Exporter {
                            << s.cell.row << s.cell.col << s.p_WS << s.slope_rad << s.roughness_m
                            << s.step_m << s.height_m << s.safe_distance_m << s.clear_radius_m
                            << s.clearance_m << s.cost << s.safe_probability
+                           << s.touchdown.worst_probability << s.touchdown.worst_heading_rad
+                           << s.touchdown.best_probability << s.touchdown.best_heading_rad
+                           << static_cast<int>(s.flags)
                            << static_cast<int>(s.confirmed) << static_cast<int>(s.corridor_clear)
                            << s.distance_m << s.reason);
     }

@@ -15,6 +15,16 @@ enum class CellState : std::uint8_t {
   kBorder,    ///< rim filled by border_size_cells; never safe in modern mode
 };
 
+/// What pictures and motion say about a cell, bits.
+enum TerrainFlag : std::uint8_t {
+  kFlagNone = 0,
+  kFlagThinStructure = 1,  ///< a line above the ground seen in the picture: wire, rope, mast
+  kFlagNoTexture = 2,      ///< large and without texture: water, glass, bare snow
+  kFlagShadow = 4,         ///< deep shadow: little is seen there
+  kFlagMotion = 8,         ///< moved between frames
+  kFlagElevated = 16,      ///< flat top raised above its surroundings: roof, table, vehicle
+};
+
 /// Heights are metres above the origin of W, up-positive. NaN where state is kUnknown.
 struct ElevationMap {
   Timestamp time;
@@ -23,6 +33,8 @@ struct ElevationMap {
   GridF variance_m2;
   Grid<std::uint16_t> frame_count;  ///< frames fused into the cell
   Grid<CellState> state;
+  GridF age_s;                ///< since the cell was last measured; empty: all of one frame
+  Grid<std::uint8_t> flags;   ///< TerrainFlag bits; empty: none
 };
 
 }  // namespace palace

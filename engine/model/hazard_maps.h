@@ -15,6 +15,7 @@ enum HazardReason : std::uint8_t {
   kHazardStep = 4,
   kHazardUnknown = 8,       ///< unknown, filled or border (modern mode)
   kHazardProbability = 16,  ///< safe probability below the limit
+  kHazardFlagged = 32,      ///< a flag that forbids landing (modern mode)
 };
 
 /// How many cells fell to what; each cell counted once, under its first reason in this order.
@@ -22,6 +23,7 @@ struct RejectedCells {
   int slope = 0;
   int roughness = 0;  ///< roughness or step
   int unknown = 0;
+  int flagged = 0;    ///< thin structure, no texture, motion, elevated surface
   int footprint = 0;  ///< safe itself, but too near a hazard for the lander
 };
 
@@ -35,8 +37,10 @@ struct HazardMaps {
   GridF step_m;            ///< largest height difference inside the footprint; NaN in thesis mode
   GridF cost;              ///< 0 best .. 1 forbidden
   GridF safe_distance_m;   ///< to the nearest cell that is not safe; 0 on such a cell
-  GridF safe_probability;  ///< NaN in thesis mode
+  /// Of a safe touchdown of the lander's gear at its worst heading; NaN in thesis mode.
+  GridF safe_probability;
   Grid<std::uint8_t> reasons;  ///< HazardReason bits
+  Grid<std::uint8_t> flags;    ///< TerrainFlag bits; empty in thesis mode
   RejectedCells rejected;
   int safe_cells = 0;
 };

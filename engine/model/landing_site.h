@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,14 @@ namespace palace {
 struct Figure {
   double value = 0;
   double three_sigma = 0;
+};
+
+/// Safe touchdown of the lander's gear by heading; NaN in thesis mode.
+struct TouchdownOdds {
+  double worst_probability = std::numeric_limits<double>::quiet_NaN();
+  double worst_heading_rad = std::numeric_limits<double>::quiet_NaN();  ///< from north, 0..2 pi
+  double best_probability = std::numeric_limits<double>::quiet_NaN();
+  double best_heading_rad = std::numeric_limits<double>::quiet_NaN();
 };
 
 struct LandingSite {
@@ -35,6 +44,8 @@ struct LandingSite {
   double clearance_m = 0;      ///< safe_distance - clear_radius
   double cost = 0;
   double safe_probability = 1;
+  TouchdownOdds touchdown;
+  std::uint8_t flags = 0;  ///< TerrainFlag bits of the cells inside the clear radius
   int unknown_cells = 0;  ///< inside the clear radius
   int frames_fused = 0;
   bool confirmed = false;      ///< 3 sigma of height below the roughness limit

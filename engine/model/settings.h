@@ -15,6 +15,8 @@ namespace palace {
 
 enum class SladMode : int { kThesis = 0, kModern = 1 };
 enum class SiteChoice : int { kFarthest = 0, kCost = 1 };
+enum class LandingGear : int { kSkids = 0, kPads = 1 };
+enum class ElevatedSurface : int { kAvoid = 0, kAllow = 1 };
 enum class BoundsMode : int { kData = 0, kGiven = 1, kFieldOfView = 2 };
 
 /// Thesis Table 4.4 by name, and what modern mode needs. Angles in degrees only here, as in files.
@@ -34,6 +36,11 @@ struct SladSettings {
   double max_deviation_m = 0.10;
   double max_step_m = 0.15;
   double lander_base_size_m = 3.6;  ///< diameter
+  LandingGear gear = LandingGear::kSkids;
+  double gear_length_m = 1.2;       ///< of the skids, or between fore and aft pads
+  double gear_width_m = 0.9;        ///< between the skids' or pads' middles
+  double belly_clearance_m = 0.35;  ///< of the airframe above the plane the gear rests on
+  ElevatedSurface elevated = ElevatedSurface::kAvoid;
   double max_rock_size_m = 0.40;    ///< spacing of samples in the plane fit
   double up_tilt_deg = 0;           ///< up vector tilted towards up_azimuth_deg
   double up_azimuth_deg = 0;

@@ -1,6 +1,7 @@
 #include "engine/slad/hazard_maps.h"
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -18,17 +19,26 @@ static_assert(kSteep == kHazardSlope && kRough == kHazardRoughness && kStepped =
               kNotKnown == kHazardUnknown && kUnlikely == kHazardProbability);
 
 /// How a cell with these reasons is counted.
-enum CountedAs { kAsSlope, kAsRoughness, kAsUnknown, kAsFootprint, kAsSafe, kCountings };
+enum CountedAs {
+  kAsSlope,
+  kAsRoughness,
+  kAsUnknown,
+  kAsFlagged,
+  kAsFootprint,
+  kAsSafe,
+  kCountings
+};
 CountedAs CountingOf(unsigned reasons) {
   return (reasons & kHazardSlope) != 0                       ? kAsSlope
          : (reasons & (kHazardRoughness | kHazardStep)) != 0 ? kAsRoughness
          : (reasons & kHazardUnknown) != 0                   ? kAsUnknown
+         : (reasons & kHazardFlagged) != 0                   ? kAsFlagged
          : (reasons & kHazardProbability) != 0               ? kAsRoughness
                                                              : kAsSafe;
 }
 
 void CountCells(const SladSettings& settings, HazardMaps& hazards) {
-  constexpr unsigned kAllReasons = 31;
+  constexpr unsigned kAllReasons = 63;
   std::array<CountedAs, kAllReasons + 1> counting;
   for (unsigned reasons = 0; reasons <= kAllReasons; ++reasons) {
     counting[reasons] = CountingOf(reasons);
@@ -57,7 +67,8 @@ void CountCells(const SladSettings& settings, HazardMaps& hazards) {
       count[k] += row[k];
     }
   }
-  hazards.rejected = {count[kAsSlope], count[kAsRoughness], count[kAsUnknown], count[kAsFootprint]};
+  hazards.rejected = {count[kAsSlope], count[kAsRoughness], count[kAsUnknown], count[kAsFlagged],
+                      count[kAsFootprint]};
   hazards.safe_cells = count[kAsSafe];
 }
 
@@ -71,7 +82,8 @@ class Judge {
         limits_{static_cast<float>(Rad(settings.max_slope_deg)),
                 static_cast<float>(settings.max_deviation_m),
                 static_cast<float>(settings.max_step_m),
-                static_cast<float>(settings.min_safe_probability)} {}
+                static_cast<float>(settings.min_safe_probability)},
+        forbidden_flags_(ForbiddenFlags(settings)) {}
 
   void Row(int r) const {
     const int cols = hazards_.geometry.cols;
@@ -95,13 +107,26 @@ class Judge {
          figures_.footprint_sigma_m.row(r), figures_.deviation_m.row(r), figures_.step_m.row(r),
          figures_.sigma_m.row(r), figures_.measured.row(r)},
         cols, {hazards_.safe_probability.row(r), hazards_.cost.row(r), hazards_.reasons.row(r)});
+    if (!hazards_.flags.empty()) {
+      ForbidFlagged(r);
+    }
   }
 
  private:
+  void ForbidFlagged(int r) const {
+    for (int c = 0; c < hazards_.geometry.cols; ++c) {
+      if ((hazards_.flags.at(r, c) & forbidden_flags_) != 0) {
+        hazards_.reasons.at(r, c) |= kHazardFlagged;
+        hazards_.cost.at(r, c) = std::isnan(hazards_.cost.at(r, c)) ? kUnknownValue : 1.0F;
+      }
+    }
+  }
+
   const TerrainFigures& figures_;
   HazardMaps& hazards_;
   const std::array<float, 3> up_W_;
   const ModernLimits limits_;
+  const unsigned forbidden_flags_;
   const SladLoops& loops_ = FastestSladLoops();
 };
 
@@ -115,11 +140,17 @@ HazardMaps LayersFor(const GridGeometry& geometry, const TerrainFigures& figures
   hazards.roughness_m = modern ? figures.footprint_deviation_m : figures.deviation_m;
   hazards.roughness_sigma_m = modern ? figures.footprint_sigma_m : unknown;
   hazards.step_m = modern ? figures.footprint_step_m : unknown;
+  hazards.flags = figures.flags;
   hazards.reasons = Grid<std::uint8_t>(geometry.rows, geometry.cols, kHazardNone);
   return hazards;
 }
 
 }  // namespace
+
+unsigned ForbiddenFlags(const SladSettings& settings) {
+  const unsigned always = kFlagThinStructure | kFlagNoTexture | kFlagMotion;
+  return settings.elevated == ElevatedSurface::kAvoid ? always | kFlagElevated : always;
+}
 
 bool FootprintHolds(const HazardMaps& hazards, const SladSettings& settings, Cell cell) {
   if (hazards.reasons.at(cell) != kHazardNone) {

@@ -167,8 +167,9 @@ std::string NoneReason(const HazardMaps& hazards) {
   std::vector<Part> parts{{n.slope, "slope"},
                           {n.roughness, "roughness"},
                           {n.unknown, "unknown"},
+                          {n.flagged, "flagged"},
                           {n.footprint, "footprint"}};
-  const int total = n.slope + n.roughness + n.unknown + n.footprint + hazards.safe_cells;
+  const int total = n.slope + n.roughness + n.unknown + n.flagged + n.footprint + hazards.safe_cells;
   if (total == 0) {
     return "empty map";
   }

@@ -22,6 +22,7 @@ struct TerrainFigures {
   GridF deviation_m;  ///< of the cell from its plane; in modern mode beyond its noise
 
   // Modern mode.
+  Grid<std::uint8_t> flags;  ///< of the map, and kFlagElevated; empty: none
   GridF step_m;   ///< at the cell that makes it, beyond noise
   GridF sigma_m;  ///< of the cell's deviation, a rock's size averaged
   GridF slope_sigma_rad;

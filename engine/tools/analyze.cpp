@@ -163,6 +163,7 @@ Json ReportJson(const Outcome& o) {
   json["rejected"] = {{"slope", o.hazards.rejected.slope},
                       {"roughness", o.hazards.rejected.roughness},
                       {"unknown", o.hazards.rejected.unknown},
+                      {"flagged", o.hazards.rejected.flagged},
                       {"footprint", o.hazards.rejected.footprint}};
   if (o.input.range) {
     json["stereo"] = {{"coverage", o.input.stereo.coverage},

@@ -31,6 +31,11 @@ site_t SiteToWire(const LandingSite& s) {
   m.clearance_m = s.clearance_m;
   m.cost = s.cost;
   m.safe_probability = s.safe_probability;
+  m.touchdown_worst[0] = s.touchdown.worst_probability;
+  m.touchdown_worst[1] = s.touchdown.worst_heading_rad;
+  m.touchdown_best[0] = s.touchdown.best_probability;
+  m.touchdown_best[1] = s.touchdown.best_heading_rad;
+  m.flags = s.flags;
   m.unknown_cells = s.unknown_cells;
   m.frames_fused = s.frames_fused;
   m.confirmed = s.confirmed;
@@ -58,6 +63,9 @@ LandingSite SiteFromWire(const site_t& m) {
   s.clearance_m = m.clearance_m;
   s.cost = m.cost;
   s.safe_probability = m.safe_probability;
+  s.touchdown = {m.touchdown_worst[0], m.touchdown_worst[1], m.touchdown_best[0],
+                 m.touchdown_best[1]};
+  s.flags = static_cast<std::uint8_t>(m.flags);
   s.unknown_cells = m.unknown_cells;
   s.frames_fused = m.frames_fused;
   s.confirmed = m.confirmed != 0;
