@@ -33,8 +33,8 @@ struct ElevationMap {
   GridF variance_m2;
   Grid<std::uint16_t> frame_count;  ///< frames fused into the cell
   Grid<CellState> state;
-  GridF age_s;                ///< since the cell was last measured; empty: all of one frame
-  Grid<std::uint8_t> flags;   ///< TerrainFlag bits; empty: none
+  GridF age_s{};               ///< since the cell was last measured; empty: all of one frame
+  Grid<std::uint8_t> flags{};  ///< TerrainFlag bits; empty: none
 };
 
 }  // namespace palace

@@ -34,9 +34,9 @@ struct HazardMaps {
   GridF slope_sigma_rad;
   GridF roughness_m;  ///< |height - plane| (thesis) or its robust maximum over the footprint
   GridF roughness_sigma_m;
-  GridF step_m;            ///< largest height difference inside the footprint; NaN in thesis mode
-  GridF cost;              ///< 0 best .. 1 forbidden
-  GridF safe_distance_m;   ///< to the nearest cell that is not safe; 0 on such a cell
+  GridF step_m;           ///< largest height difference inside the footprint; NaN in thesis mode
+  GridF cost;             ///< 0 best .. 1 forbidden
+  GridF safe_distance_m;  ///< to the nearest cell that is not safe; 0 on such a cell
   /// Of a safe touchdown of the lander's gear at its worst heading; NaN in thesis mode.
   GridF safe_probability;
   Grid<std::uint8_t> reasons;  ///< HazardReason bits

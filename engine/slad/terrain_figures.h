@@ -23,8 +23,8 @@ struct TerrainFigures {
 
   // Modern mode.
   Grid<std::uint8_t> flags;  ///< of the map, and kFlagElevated; empty: none
-  GridF step_m;   ///< at the cell that makes it, beyond noise
-  GridF sigma_m;  ///< of the cell's deviation, a rock's size averaged
+  GridF step_m;              ///< at the cell that makes it, beyond noise
+  GridF sigma_m;             ///< of the cell's deviation, a rock's size averaged
   GridF slope_sigma_rad;
   GridF footprint_deviation_m;  ///< largest over the lander's disc, beyond noise
   GridF footprint_step_m;
