@@ -8,12 +8,13 @@
 namespace palace {
 namespace {
 
-void NearestInRow(const float* square, int count, double cell_m, float* distance_m) {
+void NearestInRow(const float* square, float inset, int count, double cell_m, float* distance_m) {
   constexpr int kCount = FloatLanes::kCount;
   for (int c = 0; c < count; c += kCount) {
     FloatLanes best = Load(square + c);
     for (int d = 1; d <= kNearestReach; ++d) {
-      const FloatLanes aside2 = Fill(static_cast<float>(d * d));
+      const float aside = static_cast<float>(d) - inset;
+      const FloatLanes aside2 = Fill(aside * aside);
       if (!Any(Less(aside2, best))) {
         break;
       }

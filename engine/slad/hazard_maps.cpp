@@ -183,7 +183,9 @@ HazardMaps JudgeTerrain(const GridGeometry& geometry, const TerrainFigures& figu
       judge.Row(r);
     }
   });
-  hazards.safe_distance_m = SafeDistance(hazards.reasons, geometry.cell_m);
+  hazards.safe_distance_m =
+      SafeDistance(hazards.reasons, geometry.cell_m,
+                   settings.mode == SladMode::kThesis ? DistanceTo::kCentre : DistanceTo::kSquare);
   CountCells(settings, hazards);
   return hazards;
 }

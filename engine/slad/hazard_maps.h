@@ -9,7 +9,8 @@
 // FOOTPRINT centred on the cell. Heights count only beyond their noise: a deviation r with sigma s
 // has the value sqrt(max(0, r^2 - 16 s^2)). Probabilities are Gaussian tails,
 //   P(safe) = Phi((slope_max - slope)/s_slope) * min(Phi of roughness, Phi of step).
-// safe_distance is exact Euclidean to the nearest hazard; outside the map counts as unknown.
+// safe_distance is exact Euclidean from the cell's centre to the nearest point of a hazard's square
+// (thesis mode: to its centre); outside the map counts as unknown.
 #pragma once
 
 #include "engine/model/elevation_map.h"

@@ -35,11 +35,22 @@ void ColumnPass(const Grid<std::uint8_t>& hazard, int first, int end, Grid<int>&
   }
 }
 
-/// Lower envelope of the parabolas (x - i)^2 + f[i]. The ring stands at both ends, with f = 0.
+/// Half the width of what a distance runs to, cells.
+double Inset(DistanceTo to) { return to == DistanceTo::kSquare ? 0.5 : 0.0; }
+
+double SquaredGap(int gap, double inset) {
+  const double along = gap == 0 ? 0.0 : gap - inset;
+  return along * along;
+}
+
+/// Lower envelope of the parabolas (x - i)^2 + f[i], for one row after another. The ring stands at
+/// both ends, with f = 0.
 class Envelope {
  public:
-  explicit Envelope(int cols)
+  Envelope(int cols, DistanceTo to)
       : cols_(cols),
+        inset_(Inset(to)),
+        own_(Size(cols + 2)),
         f_(Size(cols + 2)),
         vertex_(Size(cols + 2)),
         border_(Size(cols + 3)),
@@ -51,10 +62,15 @@ class Envelope {
 
   /// Distances of one row, in metres.
   void Transform(const int* gap, double cell_m, float* distance_m) {
-    const int n = cols_ + 2;
-    f_[0] = f_[Size(n - 1)] = 0;
+    own_[0] = own_[Size(cols_ + 1)] = 0;
     for (int c = 0; c < cols_; ++c) {
-      f_[Size(c + 1)] = static_cast<double>(gap[c]) * gap[c];
+      own_[Size(c + 1)] = SquaredGap(gap[c], inset_);
+    }
+    // Parabolas on the middles, or on the sides, which two cells share: side i is half a cell
+    // after middle i.
+    const int n = inset_ > 0 ? cols_ + 1 : cols_ + 2;
+    for (int i = 0; i < n; ++i) {
+      f_[Size(i)] = inset_ > 0 ? std::min(own_[Size(i)], own_[Size(i + 1)]) : own_[Size(i)];
     }
     int k = 0;
     vertex_[0] = 0;
@@ -70,25 +86,28 @@ class Envelope {
     border_[Size(k) + 1] = HUGE_VAL;
     k = 0;
     for (int c = 0; c < cols_; ++c) {
-      const int q = c + 1;
+      const double q = c + 1 - inset_;
       while (border_[Size(k) + 1] < q) {
         ++k;
       }
       const double d = q - vertex_[Size(k)];
-      distance_m[c] = static_cast<float>(cell_m * std::sqrt(d * d + f_[Size(vertex_[Size(k)])]));
+      const double aside = d * d + f_[Size(vertex_[Size(k)])];
+      distance_m[c] = static_cast<float>(cell_m * std::sqrt(std::min(aside, own_[Size(c + 1)])));
     }
   }
 
  private:
   static std::size_t Size(int i) { return static_cast<std::size_t>(i); }
-  /// Where the later parabola comes below the earlier. Numerators are whole, and a crossing is
-  /// compared with whole columns only: the rounded reciprocal cannot change a distance.
+  /// Where the later parabola comes below the earlier. Numerators are whole quarters, and a
+  /// crossing is compared with halves of columns only: the rounded reciprocal cannot change a
+  /// distance.
   double Crossing(int q, int v) const {
     const double qq = q, vv = v;
     return ((f_[Size(q)] - f_[Size(v)]) + (qq - vv) * (qq + vv)) * reciprocal_[Size(q - v)];
   }
   int cols_;
-  std::vector<double> f_;
+  double inset_;
+  std::vector<double> own_, f_;
   std::vector<int> vertex_;
   std::vector<double> border_, reciprocal_;
 };
@@ -97,10 +116,11 @@ class Envelope {
 /// that come into question is quicker than the envelope; the results are the same.
 class RowPass {
  public:
-  RowPass(int cols, double cell_m)
+  RowPass(int cols, double cell_m, DistanceTo to)
       : cols_(cols),
         cell_m_(cell_m),
-        envelope_(cols),
+        inset_(Inset(to)),
+        envelope_(cols, to),
         square_(static_cast<std::size_t>(cols + 2 * kMargin), kFar) {
     square_[kMargin - 1] = square_[static_cast<std::size_t>(cols + kMargin)] = 0;  // the ring
   }
@@ -110,10 +130,10 @@ class RowPass {
     int widest = 0;
     for (int c = 0; c < cols_; ++c) {
       widest = std::max(widest, gap[c]);
-      square[c] = static_cast<float>(gap[c]) * static_cast<float>(gap[c]);
+      square[c] = static_cast<float>(SquaredGap(gap[c], inset_));
     }
     if (widest <= kNearestReach) {
-      loops_.nearest_in_row(square, cols_, cell_m_, distance_m);
+      loops_.nearest_in_row(square, static_cast<float>(inset_), cols_, cell_m_, distance_m);
     } else {
       envelope_.Transform(gap, cell_m_, distance_m);
     }
@@ -124,7 +144,7 @@ class RowPass {
   static constexpr float kFar = 1e9F;
 
   int cols_;
-  double cell_m_;
+  double cell_m_, inset_;
   Envelope envelope_;
   std::vector<float> square_;
   const SladLoops& loops_ = FastestSladLoops();
@@ -132,7 +152,7 @@ class RowPass {
 
 }  // namespace
 
-GridF SafeDistance(const Grid<std::uint8_t>& hazard, double cell_m) {
+GridF SafeDistance(const Grid<std::uint8_t>& hazard, double cell_m, DistanceTo to) {
   const int rows = hazard.rows(), cols = hazard.cols();
   GridF distance_m(rows, cols, 0.0F);
   if (hazard.empty()) {
@@ -146,7 +166,7 @@ GridF SafeDistance(const Grid<std::uint8_t>& hazard, double cell_m) {
     }
   });
   cv::parallel_for_(cv::Range(0, rows), [&](const cv::Range& range) {
-    RowPass pass(cols, cell_m);
+    RowPass pass(cols, cell_m, to);
     for (int r = range.start; r < range.end; ++r) {
       pass.Run(gap.row(r), distance_m.row(r));
     }

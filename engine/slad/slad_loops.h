@@ -106,9 +106,11 @@ struct SladLoops {
   /// that spans no plane leaves the row as it is.
   void (*solve_moments)(const double* columns, int pitch, int half, int x0, double y, int count,
                         double* work, const FittedRow& out);
-  /// Square root of the least square[c + d] + d^2, squared cells to metres, where no square in
-  /// 0 .. count-1 is above kNearestReach^2. Readable kNearestReach + kLaneSlack further both ways.
-  void (*nearest_in_row)(const float* square, int count, double cell_m, float* distance_m);
+  /// Square root of the least of square[c] and all square[c + d] + (|d| - inset)^2, squared cells
+  /// to metres, where no square in 0 .. count-1 is above kNearestReach^2 and inset is 0 or 1/2.
+  /// Readable kNearestReach + kLaneSlack further both ways.
+  void (*nearest_in_row)(const float* square, float inset, int count, double cell_m,
+                         float* distance_m);
   /// Angle between the plane's normal and the up vector. NaN where the gradient is.
   void (*slope)(const float* north_gradient, const float* east_gradient, const float* up_W,
                 int count, float* slope_rad);

@@ -10,13 +10,17 @@
 namespace palace {
 namespace {
 
-double BruteForce(const Grid<std::uint8_t>& hazard, int r, int c) {
+double Aside(int d, DistanceTo to) {
+  return to == DistanceTo::kCentre ? std::abs(d) : std::max(0.0, std::abs(d) - 0.5);
+}
+
+double BruteForce(const Grid<std::uint8_t>& hazard, int r, int c, DistanceTo to) {
   double best = HUGE_VAL;
   for (int y = -1; y <= hazard.rows(); ++y) {
     for (int x = -1; x <= hazard.cols(); ++x) {
       const bool outside = y < 0 || x < 0 || y == hazard.rows() || x == hazard.cols();
       if (outside || hazard.at(y, x) != 0) {
-        best = std::min(best, std::hypot(y - r, x - c));
+        best = std::min(best, std::hypot(Aside(y - r, to), Aside(x - c, to)));
       }
     }
   }
@@ -34,11 +38,13 @@ TEST(SafeDistance, EqualsBruteForceOnRandomMaps) {
     for (auto& h : hazard.cells()) {
       h = random.Uniform() < hazard_share ? 1 : 0;
     }
-    const GridF distance = SafeDistance(hazard, 0.5);
-    for (int r = 0; r < rows; ++r) {
-      for (int c = 0; c < cols; ++c) {
-        ASSERT_NEAR(double(distance.at(r, c)), 0.5 * BruteForce(hazard, r, c), 1e-5)
-            << "seed " << seed << " cell " << r << ' ' << c;
+    for (const DistanceTo to : {DistanceTo::kCentre, DistanceTo::kSquare}) {
+      const GridF distance = SafeDistance(hazard, 0.5, to);
+      for (int r = 0; r < rows; ++r) {
+        for (int c = 0; c < cols; ++c) {
+          ASSERT_NEAR(double(distance.at(r, c)), 0.5 * BruteForce(hazard, r, c, to), 1e-5)
+              << "seed " << seed << " cell " << r << ' ' << c;
+        }
       }
     }
   }

@@ -50,7 +50,8 @@ Floats Results(const SladLoops& loops, std::uint64_t seed) {
   for (float& value : square) {
     value = std::floor(value * 40) * std::floor(value * 40);
   }
-  loops.nearest_in_row(square.data() + kMargin, count, 0.15, distance.data());
+  loops.nearest_in_row(square.data() + kMargin, seed % 2 == 0 ? 0.5F : 0.0F, count, 0.15,
+                       distance.data());
   keep(distance);
   const int offset[] = {-1, 0, 1}, half[] = {2, 3, 2};
   const float* heights[] = {a.data() + kMargin, b.data() + kMargin, c.data() + kMargin};
