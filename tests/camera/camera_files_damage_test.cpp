@@ -155,13 +155,14 @@ TEST(CameraFiles, SizeAloneCostsNothing) {
   for (int i = 0; distinct.size() < kSize; ++i) {
     distinct += "k" + std::to_string(i) + " = 1\n";
   }
+  const std::string long_key(kSize, 'k'), long_tag(kSize / 2, 'k');
   const std::string rows[] = {
       distinct,
       repeated("camera_matrix: [", "1,"),
-      repeated(std::string(kSize, 'k') + ":\n", " a:\n"),
+      repeated(long_key + ":\n", " a:\n"),
       repeated("a:\n", "- 1\n"),
       repeated("<?xml?>", "<a>"),
-      repeated("<?xml?><" + std::string(kSize / 2, 'k') + ">", "<a></a>"),
+      repeated("<?xml?><" + long_tag + ">", "<a></a>"),
       repeated("{'lensmodel': ", "["),
       repeated("{'lensmodel': 'x', ", "'a': 'b', "),
       repeated("GROUP = GEOMETRIC_CAMERA_MODEL\n", "OBJECT = A\n"),
