@@ -65,7 +65,8 @@ constexpr const char* kHeaders[][2] = {
      "time_us,map_time_us,map_hash,settings_hash,rank,site_id,letter,row,col,north_m,east_m,"
      "down_m,slope_rad,slope_3sigma_rad,roughness_m,roughness_3sigma_m,step_m,step_3sigma_m,"
      "height_m,height_3sigma_m,safe_distance_m,clear_radius_m,clearance_m,cost,safe_probability,"
-     "worst_probability,worst_heading_rad,best_probability,best_heading_rad,flags,confirmed,corridor_clear,distance_m,reason"},
+     "worst_probability,worst_heading_rad,best_probability,best_heading_rad,flags,confirmed,"
+     "corridor_clear,clear_approaches,age_s,distance_m,reason"},
     {"settings.csv", "time_us,name,value"},
     {"events.csv", "time_us,kind,text"},
     {"status.csv",
@@ -202,9 +203,10 @@ class Exporter {
                            << s.clearance_m << s.cost << s.safe_probability
                            << s.touchdown.worst_probability << s.touchdown.worst_heading_rad
                            << s.touchdown.best_probability << s.touchdown.best_heading_rad
-                           << static_cast<int>(s.flags)
-                           << static_cast<int>(s.confirmed) << static_cast<int>(s.corridor_clear)
-                           << s.distance_m << s.reason);
+                           << static_cast<int>(s.flags) << static_cast<int>(s.confirmed)
+                           << static_cast<int>(s.corridor_clear)
+                           << static_cast<int>(s.clear_approaches) << s.age_s << s.distance_m
+                           << s.reason);
     }
   }
   void TakeSettings(const WireMessage& m) {

@@ -46,12 +46,16 @@ struct LandingSite {
   double safe_probability = 1;
   TouchdownOdds touchdown;
   std::uint8_t flags = 0;  ///< TerrainFlag bits of the cells inside the clear radius
-  int unknown_cells = 0;  ///< inside the clear radius
+  int unknown_cells = 0;   ///< inside the clear radius
   int frames_fused = 0;
   bool confirmed = false;      ///< 3 sigma of height below the roughness limit
   bool corridor_clear = true;  ///< rotor-wide along the glide slope
-  double distance_m = 0;       ///< horizontal, from the vehicle at map_time
-  std::string reason;          ///< one reason for its rank, in words
+  /// Bit k: the same corridor is clear for a vehicle that comes from sector k of eight, from north
+  /// clockwise.
+  std::uint8_t clear_approaches = 0xFF;
+  double age_s = 0;       ///< since the ground inside the clear radius was measured, mean
+  double distance_m = 0;  ///< horizontal, from the vehicle at map_time
+  std::string reason;     ///< one reason for its rank, in words
 };
 
 /// Outcome of one site selection.

@@ -39,4 +39,16 @@ Names NamesOf(MissionState state) {
 const char* MissionStateName(MissionState state) { return NamesOf(state).name; }
 const char* MissionStateWord(MissionState state) { return NamesOf(state).word; }
 
+const char* SiteVerdictWord(SiteVerdict verdict) {
+  switch (verdict) {
+    case SiteVerdict::kHolds:
+      return "Holds";
+    case SiteVerdict::kDegraded:
+      return "Degraded";
+    case SiteVerdict::kLost:
+      return "Lost";
+  }
+  PALACE_CHECK(false);
+}
+
 }  // namespace palace

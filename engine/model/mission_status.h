@@ -62,13 +62,26 @@ struct Event {
   std::string text;
 };
 
+/// What the last maps together say of the approved site.
+enum class SiteVerdict : std::uint8_t {
+  kHolds,
+  kDegraded,  ///< inside the limits, but not surely, or with less room or older than it should be
+  kLost,
+};
+/// Word of the screen: "Holds".
+const char* SiteVerdictWord(SiteVerdict verdict);
+
 /// One re-check of the approved site during descent.
 struct SiteRecheck {
   Timestamp time;
   double height_above_site_m = 0;
   double safe_distance_m = 0;
-  bool holds = true;
-  std::string reason;
+  bool holds = true;   ///< on this map alone
+  std::string reason;  ///< why it is degraded or lost, with value and limit; empty when it holds
+  SiteVerdict verdict = SiteVerdict::kHolds;  ///< over the last maps, with hysteresis
+  /// The best other site that shares no ground with this one, of the same map; `reason` says why
+  /// it is kept. Offered when this one is lost, never flown to unasked.
+  std::optional<LandingSite> alternative{};
 };
 
 struct MissionStatus {

@@ -40,6 +40,8 @@ site_t SiteToWire(const LandingSite& s) {
   m.frames_fused = s.frames_fused;
   m.confirmed = s.confirmed;
   m.corridor_clear = s.corridor_clear;
+  m.clear_approaches = s.clear_approaches;
+  m.age_s = s.age_s;
   m.distance_m = s.distance_m;
   m.reason = s.reason;
   return m;
@@ -70,6 +72,8 @@ LandingSite SiteFromWire(const site_t& m) {
   s.frames_fused = m.frames_fused;
   s.confirmed = m.confirmed != 0;
   s.corridor_clear = m.corridor_clear != 0;
+  s.clear_approaches = static_cast<std::uint8_t>(m.clear_approaches);
+  s.age_s = m.age_s;
   s.distance_m = m.distance_m;
   s.reason = m.reason;
   return s;

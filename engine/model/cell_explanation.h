@@ -1,0 +1,71 @@
+// Why a cell of the hazard maps is safe or not: every term with its value, limit and band, and the
+// one that decided.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/model/elevation_map.h"
+#include "engine/model/landing_site.h"
+
+namespace palace {
+
+enum class CellTerm : std::uint8_t {
+  kSlope,           ///< rad
+  kRoughness,       ///< m
+  kStep,            ///< m
+  kProbability,     ///< 0..1
+  kHazardDistance,  ///< m, against the clear radius
+};
+
+/// One term of one cell, in SI. Modern mode: roughness and step are the largest under a lander that
+/// stands on the cell.
+struct ExplainedTerm {
+  CellTerm term = CellTerm::kSlope;
+  Figure figure;         ///< NaN unknown; three_sigma 0 or NaN: no band is known
+  double limit = 0;      ///< a largest value, of probability and distance a least one
+  bool over = false;     ///< the wrong side of the limit
+  bool decided = false;  ///< what the cell counts under
+};
+
+/// The hazard nearest to a cell that is no hazard itself.
+struct NearestHazard {
+  std::optional<Cell> cell;  ///< empty: the edge of the map
+  double distance_m = 0;     ///< between cell centres
+  double bearing_rad = 0;    ///< from the cell, from north clockwise, 0..2 pi
+  std::uint8_t reasons = 0;  ///< its HazardReason bits; of the edge kHazardUnknown
+};
+
+struct CellExplanation {
+  Cell cell;
+  CellState state = CellState::kUnknown;
+  Figure height_m;           ///< up-positive
+  int frames = 0;            ///< fused into the cell
+  double age_s = 0;          ///< since it was measured, at the time of the map; NaN never
+  std::uint8_t flags = 0;    ///< TerrainFlag bits
+  std::uint8_t reasons = 0;  ///< HazardReason bits of the cell itself
+  bool can_bear = false;     ///< a lander could be sent to this cell
+  std::vector<ExplainedTerm> terms;
+  std::optional<NearestHazard> nearest{};
+  std::string verdict;  ///< one sentence: what decided, with value and limit
+};
+
+/// A term in words: "Slope", "2.1°", "± 0.3°", "max 10°". A value that is not known is "––", a band
+/// that is not known empty.
+struct TermWords {
+  std::string name, value, spread, limit;
+};
+TermWords WordsOf(const ExplainedTerm& term);
+
+/// "measured", "filled", "border", "unknown".
+const char* CellStateWord(CellState state);
+/// "thin structure, motion"; empty when there is none.
+std::string FlagWords(unsigned flags);
+/// What hazard reason bits say of a cell, worst first: "slope", "roughness, step".
+std::string ReasonWords(unsigned reasons);
+/// "north", "south-west": the nearest of eight, for a direction from north clockwise.
+const char* DirectionWord(double bearing_rad);
+
+}  // namespace palace
