@@ -36,8 +36,8 @@ TEST(SiteSelection, FlatFieldIsWonByItsMiddle) {
     ASSERT_FALSE(selection.sites.empty());
     const LandingSite& site = selection.sites.front();
     EXPECT_EQ(site.cell, (Cell{50, 50}));
-    EXPECT_NEAR(site.safe_distance_m, 51 * 0.15, 1e-5);
-    EXPECT_NEAR(site.clearance_m, 51 * 0.15 - 2.3, 1e-5);
+    EXPECT_NEAR(site.safe_distance_m, 50.5 * 0.15, 1e-5);
+    EXPECT_NEAR(site.clearance_m, 50.5 * 0.15 - 2.3, 1e-5);
     EXPECT_NEAR((site.p_WS - Eigen::Vector3d(0, 0, -2)).norm(), 0, 1e-5);
     EXPECT_NEAR((site.normal_W + Eigen::Vector3d::UnitZ()).norm(), 0, 1e-6);
     EXPECT_EQ(site.reason, "Widest clear radius");
