@@ -7,6 +7,12 @@
 namespace palace {
 namespace {
 
+/// std::floor of moderate values, without a call into the library.
+double Floor(double x) {
+  const auto whole = static_cast<double>(static_cast<std::int64_t>(x));
+  return whole - (x < whole ? 1.0 : 0.0);
+}
+
 /// -0.5 .. 0.5 at a lattice point.
 double Lattice(std::int64_t i, std::int64_t j, std::uint64_t seed) {
   std::uint64_t h = seed * 0x9E3779B97F4A7C15ULL +
@@ -19,8 +25,8 @@ double Lattice(std::int64_t i, std::int64_t j, std::uint64_t seed) {
 
 /// Smooth noise of one wavelength, about -0.5 .. 0.5.
 double Noise(double u, double v, std::uint64_t seed) {
-  const double fu = std::floor(u);
-  const double fv = std::floor(v);
+  const double fu = Floor(u);
+  const double fv = Floor(v);
   const auto i = static_cast<std::int64_t>(fu);
   const auto j = static_cast<std::int64_t>(fv);
   const auto fade = [](double t) { return t * t * (3 - 2 * t); };
@@ -49,8 +55,8 @@ struct NearestPoints {
 
 NearestPoints FindNearest(double u, double v, std::uint64_t seed) {
   NearestPoints near;
-  const auto i0 = static_cast<std::int64_t>(std::floor(u));
-  const auto j0 = static_cast<std::int64_t>(std::floor(v));
+  const auto i0 = static_cast<std::int64_t>(Floor(u));
+  const auto j0 = static_cast<std::int64_t>(Floor(v));
   std::int64_t nearest_i = i0, nearest_j = j0;
   for (std::int64_t i = i0 - 1; i <= i0 + 1; ++i) {
     for (std::int64_t j = j0 - 1; j <= j0 + 1; ++j) {

@@ -12,26 +12,11 @@
 #include "engine/core/frames.h"
 #include "engine/model/image.h"
 #include "engine/model/rig.h"
+#include "engine/simulation/baked_ground.h"
 #include "engine/simulation/ground_texture.h"
+#include "engine/simulation/solids.h"
 
 namespace palace {
-
-/// Points p of W with normal . p <= offset.
-struct HalfSpace {
-  Eigen::Vector3d normal;
-  double offset = 0;
-};
-
-/// Convex: the points inside all faces.
-struct Solid {
-  std::vector<HalfSpace> faces;
-};
-
-/// On level ground at height 0, sides along north and east; metres.
-Solid MakeBox(double north_m, double east_m, double size_north_m, double size_east_m,
-              double height_m);
-/// A ramp that rises to the north by `slope_rad` over `length_m`, centred at (north, east).
-Solid MakeWedge(double north_m, double east_m, double length_m, double width_m, double slope_rad);
 
 struct StereoWorld {
   GroundTexture texture = GroundTexture::kCloud;
@@ -44,14 +29,20 @@ struct StereoWorld {
 /// Depth of the nearest surface along p + s r, for a ray r of W with unit depth; infinity for sky.
 double CastDepth(const StereoWorld& world, const Eigen::Vector3d& p_W, const Eigen::Vector3d& r_W);
 
-/// The lens spreads a point over a Gaussian of this standard deviation; with the pixel's own square
-/// the contrast at half a cycle a pixel is 0.35, as good lenses have it.
-inline constexpr double kLensBlur_px = 0.35;
-
 /// Grey that falls on each pixel: samples x samples rays a pixel, weighted by the pixel's square
 /// spread by the lens. Sky is 200.
 ImageF RenderGrey(const StereoWorld& world, const PinholeCamera& camera, const RigidTransform& X_WC,
                   int samples);
+/// The same, quickly: ground is looked up in what was baked for pictures like this one, and only
+/// pixels that a solid touches are cast. Ground there is spread by the lens twice, for a pixel or
+/// two along the solid's edge. Solids and ground beyond the bake are exact. Pictures whose ground
+/// sample distance leaves that of the bake by more than 25 % are made by RenderGrey.
+ImageF DrawGrey(const StereoWorld& world, const PinholeCamera& camera, const RigidTransform& X_WC,
+                const BakedGround& ground);
+/// Ground for DrawGrey of all these cameras' pictures; finest where they differ.
+BakedGround BakeFor(const StereoWorld& world, const PinholeCamera& camera,
+                    const std::vector<RigidTransform>& X_WCs);
+
 /// Through the pixels' centres.
 ImageF RenderDepth(const StereoWorld& world, const PinholeCamera& camera,
                    const RigidTransform& X_WC);
