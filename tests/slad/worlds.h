@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <utility>
 
 #include "engine/core/frames.h"
 #include "engine/core/random.h"
@@ -104,6 +105,81 @@ inline RangeMap SeeWorld(const Height& height, const RigidTransform& X_WC, doubl
   }
   return range;
 }
+
+/// Ground no two places of which are alike: a random slope, waves, rocks, holes nothing was
+/// measured in, and declared noise that differs from cell to cell.
+inline ElevationMap RandomGround(int rows, int cols, double cell_m, std::uint64_t seed) {
+  RandomStream random(seed, "random ground");
+  const Height slope = Slope(Rad(random.Uniform(0, 6)), random.Uniform(0, 6.28));
+  const double north_rad = random.Uniform(0, 6.28), east_rad = random.Uniform(0, 6.28);
+  Height world = [=](double n, double e) {
+    return slope(n, e) + 0.02 * std::sin(n / 0.9 + north_rad) + 0.03 * std::sin(e / 1.3 + east_rad);
+  };
+  const double half_m = std::min(rows, cols) * cell_m / 2;
+  for (int rock = 0; rock < 3; ++rock) {
+    world = WithBox(world, random.Uniform(-half_m, half_m), random.Uniform(-half_m, half_m),
+                    random.Uniform(0.2, 1.0), random.Uniform(-0.6, 0.9));
+  }
+  ElevationMap map = MakeMap(rows, cols, cell_m, world, random.Uniform(0.002, 0.02), seed);
+  for (std::size_t i = 0; i < map.state.cells().size(); ++i) {
+    map.variance_m2.cells()[i] *= static_cast<float>(random.Uniform(0.8, 1.3));
+    if (random.Uniform() < 0.001) {
+      map.state.cells()[i] = CellState::kUnknown;
+      map.height_m.cells()[i] = map.variance_m2.cells()[i] = kUnknownValue;
+      map.frame_count.cells()[i] = 0;
+    }
+  }
+  return map;
+}
+
+/// One of the eight ways to lay a map about the origin of W: mirrored east to west or not, then
+/// turned clockwise by quarters.
+struct Turn {
+  int quarters = 0;
+  bool mirrored = false;
+
+  Eigen::Vector3d operator()(Eigen::Vector3d p_W) const {
+    p_W.y() = mirrored ? -p_W.y() : p_W.y();
+    for (int k = 0; k < quarters; ++k) {
+      p_W = {-p_W.y(), p_W.x(), p_W.z()};
+    }
+    return p_W;
+  }
+  Cell operator()(Cell cell, int rows, int cols) const {
+    cell.col = mirrored ? cols - 1 - cell.col : cell.col;
+    for (int k = 0; k < quarters; ++k) {
+      cell = {cell.col, rows - 1 - cell.row};
+      std::swap(rows, cols);
+    }
+    return cell;
+  }
+  template <typename T>
+  Grid<T> operator()(const Grid<T>& grid) const {
+    Grid<T> turned =
+        quarters % 2 == 0 ? Grid<T>(grid.rows(), grid.cols()) : Grid<T>(grid.cols(), grid.rows());
+    for (int r = 0; r < grid.rows(); ++r) {
+      for (int c = 0; c < grid.cols(); ++c) {
+        turned.at((*this)(Cell{r, c}, grid.rows(), grid.cols())) = grid.at(r, c);
+      }
+    }
+    return turned;
+  }
+  /// Of a map whose middle is the origin.
+  ElevationMap operator()(const ElevationMap& map) const {
+    ElevationMap turned{map.time,
+                        map.geometry,
+                        (*this)(map.height_m),
+                        (*this)(map.variance_m2),
+                        (*this)(map.frame_count),
+                        (*this)(map.state)};
+    GridGeometry& g = turned.geometry;
+    g.rows = turned.height_m.rows();
+    g.cols = turned.height_m.cols();
+    g.north_min_m = -g.rows * g.cell_m / 2;
+    g.east_min_m = -g.cols * g.cell_m / 2;
+    return turned;
+  }
+};
 
 inline SladSettings WithMode(SladMode mode) {
   SladSettings settings;
