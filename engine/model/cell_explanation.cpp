@@ -17,21 +17,25 @@ struct Look {
   double factor;
   const char* unit;
   int decimals;
-  bool least;
 };
+
+/// Probability and distance have a least value, the others a largest.
+bool IsLeast(CellTerm term) {
+  return term == CellTerm::kProbability || term == CellTerm::kHazardDistance;
+}
 
 Look LookOf(CellTerm term) {
   switch (term) {
     case CellTerm::kSlope:
-      return {"Slope", kDegPerRad, "°", 1, false};
+      return {"Slope", kDegPerRad, "°", 1};
     case CellTerm::kRoughness:
-      return {"Roughness", 100, " cm", 1, false};
+      return {"Roughness", 100, " cm", 1};
     case CellTerm::kStep:
-      return {"Step", 100, " cm", 1, false};
+      return {"Step", 100, " cm", 1};
     case CellTerm::kProbability:
-      return {"Safe probability", 1, "", 3, true};
+      return {"Safe probability", 1, "", 3};
     case CellTerm::kHazardDistance:
-      return {"Clear radius", 1, " m", 1, true};
+      return {"Clear radius", 1, " m", 1};
   }
   PALACE_CHECK(false);
 }
@@ -63,6 +67,31 @@ std::string WordsOfBits(const Bit (&bits)[N], unsigned set) {
 
 }  // namespace
 
+std::vector<ExplainedTerm> TermsOf(const LandingSite& site, const SladSettings& settings) {
+  std::vector<ExplainedTerm> terms;
+  const auto add = [&](CellTerm term, Figure figure, double limit) {
+    // In the maps' own precision; an unknown value is over its limit.
+    const auto value = static_cast<float>(figure.value), edge = static_cast<float>(limit);
+    const bool inside = IsLeast(term) ? value >= edge : value <= edge;
+    terms.push_back({term, figure, limit, !inside, false});
+  };
+  const bool modern = settings.mode == SladMode::kModern;
+  add(CellTerm::kSlope, site.slope_rad, Rad(settings.max_slope_deg));
+  add(CellTerm::kRoughness, site.roughness_m, settings.max_deviation_m);
+  if (modern) {
+    add(CellTerm::kStep, site.step_m, settings.max_step_m);
+    add(CellTerm::kProbability, {site.safe_probability, 0}, settings.min_safe_probability);
+  }
+  add(CellTerm::kHazardDistance, {site.safe_distance_m, 0}, settings.clear_radius_m());
+  return terms;
+}
+
+bool BandCrossesLimit(const ExplainedTerm& term) {
+  const double towards = IsLeast(term.term) ? -term.figure.three_sigma : term.figure.three_sigma;
+  const double edge = term.figure.value + towards;
+  return !term.over && (IsLeast(term.term) ? edge < term.limit : edge > term.limit);
+}
+
 TermWords WordsOf(const ExplainedTerm& term) {
   const Look look = LookOf(term.term);
   const auto shown = [&](double value) {
@@ -74,7 +103,7 @@ TermWords WordsOf(const ExplainedTerm& term) {
   }
   const double limit = term.limit * look.factor;
   const int decimals = std::abs(limit - std::round(limit)) < 1e-6 ? 0 : look.decimals;
-  words.limit = (look.least ? "min " : "max ") + Number(limit, decimals, look.unit);
+  words.limit = (IsLeast(term.term) ? "min " : "max ") + Number(limit, decimals, look.unit);
   return words;
 }
 

@@ -9,6 +9,7 @@
 
 #include "engine/model/elevation_map.h"
 #include "engine/model/landing_site.h"
+#include "engine/model/settings.h"
 
 namespace palace {
 
@@ -51,6 +52,12 @@ struct CellExplanation {
   std::optional<NearestHazard> nearest{};
   std::string verdict;  ///< one sentence: what decided, with value and limit
 };
+
+/// The terms of a site against the limits, in the order of CellTerm. Thesis mode has no step and no
+/// probability. None is marked as the one that decided.
+std::vector<ExplainedTerm> TermsOf(const LandingSite& site, const SladSettings& settings);
+/// Inside its limit, but with the limit within the band. False where no band is known.
+bool BandCrossesLimit(const ExplainedTerm& term);
 
 /// A term in words: "Slope", "2.1°", "± 0.3°", "max 10°". A value that is not known is "––", a band
 /// that is not known empty.

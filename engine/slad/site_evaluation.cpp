@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <vector>
 
 namespace palace {
@@ -111,6 +112,18 @@ double Known(float value) { return static_cast<double>(value); }
 
 }  // namespace
 
+void TakeFigures(const HazardMaps& hazards, Cell cell, LandingSite& site) {
+  site.slope_rad = {Known(hazards.slope_rad.at(cell)), 3 * Known(hazards.slope_sigma_rad.at(cell))};
+  site.roughness_m = {Known(hazards.roughness_m.at(cell)),
+                      3 * Known(hazards.roughness_sigma_m.at(cell))};
+  // A step is a difference of two cells.
+  site.step_m = {Known(hazards.step_m.at(cell)),
+                 3 * std::sqrt(2.0) * Known(hazards.roughness_sigma_m.at(cell))};
+  site.safe_distance_m = Known(hazards.safe_distance_m.at(cell));
+  site.cost = Known(hazards.cost.at(cell));
+  site.safe_probability = Known(hazards.safe_probability.at(cell));
+}
+
 LandingSite EvaluateSite(const ElevationMap& map, const HazardMaps& hazards,
                          const SladSettings& settings, const SiteContext& context, Cell cell) {
   const GridGeometry& g = map.geometry;
@@ -121,38 +134,65 @@ LandingSite EvaluateSite(const ElevationMap& map, const HazardMaps& hazards,
   site.p_WS = {g.NorthOfRow(cell.row), g.EastOfCol(cell.col), -plane.height_m};
   site.normal_W = Eigen::Vector3d(-plane.north_gradient, -plane.east_gradient, -1).normalized();
   site.pixel = PixelFromPoint(context, site.p_WS);
-  site.slope_rad = {Known(hazards.slope_rad.at(cell)), 3 * Known(hazards.slope_sigma_rad.at(cell))};
-  site.roughness_m = {Known(hazards.roughness_m.at(cell)),
-                      3 * Known(hazards.roughness_sigma_m.at(cell))};
-  // A step is a difference of two cells.
-  site.step_m = {Known(hazards.step_m.at(cell)),
-                 3 * std::sqrt(2.0) * Known(hazards.roughness_sigma_m.at(cell))};
   site.height_m = {plane.height_m, 3 * std::sqrt(plane.cell_variance_m2)};
-  site.safe_distance_m = Known(hazards.safe_distance_m.at(cell));
+  TakeFigures(hazards, cell, site);
   site.clear_radius_m = settings.clear_radius_m();
   site.clearance_m = site.safe_distance_m - site.clear_radius_m;
-  site.cost = Known(hazards.cost.at(cell));
-  site.safe_probability = Known(hazards.safe_probability.at(cell));
+  double age_sum_s = 0;
+  int measured = 0;
   ForDisc(g, cell, site.clear_radius_m, [&](Cell near) {
-    const bool measured = g.Contains(near) && map.state.at(near) == CellState::kMeasured;
-    site.unknown_cells += measured ? 0 : 1;
+    if (!g.Contains(near) || map.state.at(near) != CellState::kMeasured) {
+      ++site.unknown_cells;
+      return;
+    }
+    ++measured;
+    age_sum_s += map.age_s.empty() ? 0 : Known(map.age_s.at(near));
+    site.flags |= hazards.flags.empty() ? std::uint8_t{0} : hazards.flags.at(near);
   });
+  site.age_s = measured > 0 ? age_sum_s / measured : std::numeric_limits<double>::quiet_NaN();
   site.frames_fused = plane.frames;
   site.confirmed = site.height_m.three_sigma < settings.max_deviation_m;
   site.distance_m = (context.p_WB - site.p_WS).head<2>().norm();
-  site.corridor_clear = CorridorIsClear(map, settings, context, site);
+  const std::optional<Approach> straight = StraightApproach(settings, context, site);
+  site.corridor_clear = !straight || IsClear(*straight, map, settings, site);
+  site.clear_approaches = ClearApproaches(map, settings, context, site);
   return site;
 }
 
-bool CorridorIsClear(const ElevationMap& map, const SladSettings& settings,
-                     const SiteContext& context, const LandingSite& site) {
+std::optional<Approach> StraightApproach(const SladSettings& settings, const SiteContext& context,
+                                         const LandingSite& site) {
   const Eigen::Vector2d to_vehicle = (context.p_WB - site.p_WS).head<2>();
   const double length_m = to_vehicle.norm();
-  if (!(length_m > settings.lander_radius_m()) || std::isnan(site.height_m.value)) {
-    return true;  // straight above: the descent is vertical
+  if (!(length_m > settings.lander_radius_m())) {
+    return std::nullopt;  // straight above: the descent is vertical
   }
-  const Eigen::Vector2d along = to_vehicle / length_m;
-  const double tangent = std::tan(std::min(context.glide_slope_rad, 1.55));
+  return Approach{to_vehicle / length_m, length_m, context.glide_slope_rad};
+}
+
+std::uint8_t ClearApproaches(const ElevationMap& map, const SladSettings& settings,
+                             const SiteContext& context, const LandingSite& site) {
+  // As far out as the slope is below the vehicle's present height.
+  const double tangent = std::tan(std::clamp(context.glide_slope_rad, 0.02, 1.55));
+  const double height_m = site.p_WS.z() - context.p_WB.z();
+  unsigned clear = 0;
+  for (unsigned sector = 0; sector < 8; ++sector) {
+    const double bearing_rad = sector * std::numbers::pi / 4;
+    const Approach approach{{std::cos(bearing_rad), std::sin(bearing_rad)},
+                            std::max(0.0, height_m / tangent),
+                            context.glide_slope_rad};
+    clear |= IsClear(approach, map, settings, site) ? 1U << sector : 0U;
+  }
+  return static_cast<std::uint8_t>(clear);
+}
+
+bool IsClear(const Approach& approach, const ElevationMap& map, const SladSettings& settings,
+             const LandingSite& site) {
+  if (std::isnan(site.height_m.value)) {
+    return true;
+  }
+  const double length_m = approach.length_m;
+  const Eigen::Vector2d& along = approach.from;
+  const double tangent = std::tan(std::min(approach.glide_slope_rad, 1.55));
   const GridGeometry& g = map.geometry;
   const double half_width_m = settings.rotor_diameter_m / 2;
   for (int r = 0; r < g.rows; ++r) {

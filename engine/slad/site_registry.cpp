@@ -9,6 +9,12 @@ namespace {
 constexpr double kSamePlace_m = 1.5;
 constexpr std::size_t kLetters = 26;
 
+void Replace(std::string& text, const std::string& words, const std::string& with) {
+  if (const auto at = text.rfind(words); at != std::string::npos) {
+    text.replace(at, words.size(), with);
+  }
+}
+
 }  // namespace
 
 void SiteRegistry::Reset() {
@@ -60,13 +66,12 @@ void SiteRegistry::Assign(SiteSelection& selection) {
   if (selection.sites.empty()) {
     return;
   }
+  // Reasons were written before letters were known.
   const std::string best(1, selection.sites.front().letter);
+  const std::string next(1, selection.sites.size() > 1 ? selection.sites[1].letter : '?');
   for (LandingSite& site : selection.sites) {
-    const std::string words = "than the best";
-    const auto at = site.reason.rfind(words);
-    if (at != std::string::npos) {
-      site.reason.replace(at, words.size(), "than " + best);
-    }
+    Replace(site.reason, "the best", best);
+    Replace(site.reason, "the next", next);
   }
 }
 

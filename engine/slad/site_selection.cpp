@@ -9,6 +9,7 @@
 
 #include <opencv2/core.hpp>
 
+#include "engine/slad/explanation.h"
 #include "engine/slad/hazard_layers.h"
 #include "engine/slad/site_evaluation.h"
 
@@ -141,23 +142,6 @@ class Candidates {
   std::vector<int> best_of_row_;
 };
 
-/// Why this site has its rank, against the best.
-std::string ReasonFor(const LandingSite& site, const LandingSite& best, bool is_best,
-                      SiteChoice choice) {
-  if (is_best) {
-    return choice == SiteChoice::kFarthest ? "Widest clear radius" : "Least cost";
-  }
-  if (!site.corridor_clear && best.corridor_clear) {
-    return "Approach corridor blocked";
-  }
-  if (choice == SiteChoice::kCost) {
-    return Text("Cost %.2f above the best", site.cost - best.cost);
-  }
-  const double less_m = best.safe_distance_m - site.safe_distance_m;
-  return less_m >= 0.05 ? Text("%.1f m less clear than the best", less_m)
-                        : "As clear, higher cost or farther from the middle";
-}
-
 std::string NoneReason(const HazardMaps& hazards) {
   const RejectedCells& n = hazards.rejected;
   struct Part {
@@ -169,7 +153,8 @@ std::string NoneReason(const HazardMaps& hazards) {
                           {n.unknown, "unknown"},
                           {n.flagged, "flagged"},
                           {n.footprint, "footprint"}};
-  const int total = n.slope + n.roughness + n.unknown + n.flagged + n.footprint + hazards.safe_cells;
+  const int total =
+      n.slope + n.roughness + n.unknown + n.flagged + n.footprint + hazards.safe_cells;
   if (total == 0) {
     return "empty map";
   }
@@ -191,7 +176,7 @@ SiteSelection SelectSites(const ElevationMap& map, const HazardMaps& hazards,
                           const SladSettings& settings, const SiteContext& context) {
   PALACE_CHECK(map.geometry == hazards.geometry);
   SiteSelection selection;
-  std::vector<LandingSite> blocked;
+  std::vector<LandingSite> blocked, closed;  // straight on; from everywhere
   const double spacing_cells = settings.site_spacing_m / std::max(map.geometry.cell_m, 1e-9);
   const auto kept = static_cast<std::size_t>(settings.sites_kept);
   Candidates candidates(map, hazards, settings, context);
@@ -202,17 +187,19 @@ SiteSelection SelectSites(const ElevationMap& map, const HazardMaps& hazards,
     }
     candidates.DropAround(*cell, spacing_cells);
     LandingSite site = EvaluateSite(map, hazards, settings, context, *cell);
-    (site.corridor_clear ? selection.sites : blocked).push_back(std::move(site));
+    (site.corridor_clear          ? selection.sites
+     : site.clear_approaches != 0 ? blocked
+                                  : closed)
+        .push_back(std::move(site));
   }
-  for (LandingSite& site : blocked) {
-    if (selection.sites.size() < kept) {
-      selection.sites.push_back(std::move(site));
+  for (std::vector<LandingSite>* later : {&blocked, &closed}) {
+    for (LandingSite& site : *later) {
+      if (selection.sites.size() < kept) {
+        selection.sites.push_back(std::move(site));
+      }
     }
   }
-  for (std::size_t i = 0; i < selection.sites.size(); ++i) {
-    selection.sites[i].reason =
-        ReasonFor(selection.sites[i], selection.sites.front(), i == 0, settings.choice);
-  }
+  GiveReasons(settings.choice, selection);
   if (selection.sites.empty()) {
     selection.none_reason = NoneReason(hazards);
   }

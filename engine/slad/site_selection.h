@@ -26,9 +26,10 @@ struct SiteContext {
 /// Best first. A site is a cell whose safe distance reaches the clear radius (lander radius +
 /// navigation error) and whose footprint keeps every limit. kFarthest ranks by safe distance, then
 /// cost, then nearness to the middle of the picture; kCost by the smoothed cost. Sites whose
-/// approach corridor is blocked come last. Sites lie at least site_spacing_m apart. Letters and ids
-/// are for SiteRegistry to give. Pixels come from forward projection (erratum E17); NaN behind the
-/// camera.
+/// straight approach is blocked come after those where it is clear, and last those that no sector
+/// of approach is clear to. Sites lie at least site_spacing_m apart. Each has the reason for its
+/// rank (GiveReasons, explanation.h). Letters and ids are for SiteRegistry to give. Pixels come
+/// from forward projection (erratum E17); NaN behind the camera.
 SiteSelection SelectSites(const ElevationMap& map, const HazardMaps& hazards,
                           const SladSettings& settings, const SiteContext& context);
 
@@ -39,8 +40,8 @@ std::optional<LandingSite> RecheckSite(const ElevationMap& map, const HazardMaps
                                        const SiteContext& context);
 
 /// Gives each site an id and a letter that stay with the place while it is proposed. A place is the
-/// same within 1.5 m of where it was first proposed. Of the letters A-Z the one unused longest is given
-/// next; ids are never reused.
+/// same within 1.5 m of where it was first proposed. Of the letters A-Z the one unused longest is
+/// given next; ids are never reused.
 class SiteRegistry {
  public:
   void Assign(SiteSelection& selection);

@@ -36,14 +36,18 @@ TEST(SiteSelection, FlatFieldIsWonByItsMiddle) {
     ASSERT_FALSE(selection.sites.empty());
     const LandingSite& site = selection.sites.front();
     EXPECT_EQ(site.cell, (Cell{50, 50}));
-    EXPECT_NEAR(site.safe_distance_m, 50.5 * 0.15, 1e-5);
-    EXPECT_NEAR(site.clearance_m, 50.5 * 0.15 - 2.3, 1e-5);
+    // To the middle of the cell beyond the rim, or to its side.
+    const double rim_m = (mode == SladMode::kThesis ? 51 : 50.5) * 0.15;
+    EXPECT_NEAR(site.safe_distance_m, rim_m, 1e-5);
+    EXPECT_NEAR(site.clearance_m, rim_m - 2.3, 1e-5);
     EXPECT_NEAR((site.p_WS - Eigen::Vector3d(0, 0, -2)).norm(), 0, 1e-5);
     EXPECT_NEAR((site.normal_W + Eigen::Vector3d::UnitZ()).norm(), 0, 1e-6);
-    EXPECT_EQ(site.reason, "Widest clear radius");
+    EXPECT_EQ(site.reason, "Widest: 2.2 m more clear than the next");
     EXPECT_EQ(site.unknown_cells, 0);
     EXPECT_TRUE(site.confirmed);
     EXPECT_TRUE(site.corridor_clear);
+    EXPECT_EQ(site.clear_approaches, 0xFF);
+    EXPECT_EQ(site.age_s, 0);
     EXPECT_NEAR(site.distance_m, 15, 1e-6);
   }
 }
@@ -137,6 +141,50 @@ TEST(SiteSelection, TallWallTowardsTheVehicleBlocksTheCorridor) {
   for (const LandingSite& site : Select(MakeMap(120, 120, 0.15, wall), {}, context).sites) {
     EXPECT_TRUE(site.corridor_clear || site.p_WS.x() < -4.5) << site.p_WS.transpose();
   }
+}
+
+// A wall as high as a house beside the middle, from each of eight sides: exactly the sectors that
+// face it are blocked, and they turn with the world.
+TEST(SiteSelection, SectorsOfApproachThatFaceAWallAreBlocked) {
+  for (unsigned side = 0; side < 8; ++side) {
+    const double bearing_rad = side * Rad(45);
+    const auto wall = [=](double n, double e) {
+      const double along = n * std::cos(bearing_rad) + e * std::sin(bearing_rad);
+      const double across = n * std::sin(bearing_rad) - e * std::cos(bearing_rad);
+      return std::abs(along - 5) < 0.3 && std::abs(across) < 1.5 ? 8.0 : 0.0;
+    };
+    const ElevationMap map = MakeMap(121, 121, 0.15, wall);
+    const SladSettings settings;
+    const HazardMaps hazards = EvaluateHazards(map, settings);
+    LandingSite middle;
+    const auto site = RecheckSite(map, hazards, settings, middle, Context());
+    ASSERT_TRUE(site);
+    EXPECT_EQ(site->clear_approaches, 0xFF & ~(1U << side)) << side;
+    EXPECT_EQ(site->corridor_clear, side != 4) << side;  // the vehicle stands in the south
+  }
+}
+
+// Of two places the wider has its straight approach blocked: it comes second and says from where it
+// can be reached; one that is walled in comes last.
+TEST(SiteSelection, ABlockedStraightApproachNamesAnother) {
+  const auto wall = [](double n, double e) {
+    return std::abs(n + 1) < 0.3 && e < 2 ? 9.0 : 0.0;  // north of it is the wide ground
+  };
+  SladSettings settings;
+  settings.sites_kept = 26;
+  const SiteSelection selection = Select(MakeMap(141, 141, 0.15, wall), settings);
+  bool found = false;
+  bool blocked_before = false;
+  for (const LandingSite& site : selection.sites) {
+    EXPECT_FALSE(blocked_before && site.corridor_clear) << "a clear one after a blocked one";
+    blocked_before = blocked_before || !site.corridor_clear;
+    if (!site.corridor_clear && site.clear_approaches != 0) {
+      found = true;
+      EXPECT_EQ(site.reason.rfind("Straight approach blocked; clear from north", 0), 0u)
+          << site.reason;
+    }
+  }
+  EXPECT_TRUE(found);
 }
 
 TEST(SiteSelection, NoiseOverTheLimitLeavesTheSiteProvisional) {
