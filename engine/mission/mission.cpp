@@ -9,8 +9,6 @@ namespace {
 constexpr double kRepeat_s = 0.5;
 constexpr double kShownMemory_s = 5;
 constexpr std::size_t kMostEvents = 20000;
-/// A flicker of one map does not clear a lost site.
-constexpr int kGoodMapsToClear = 2;
 /// A proposed site may miss this many maps before the proposal ends.
 constexpr int kProposalMissing = 2;
 
@@ -73,6 +71,8 @@ void Mission::ForgetSite() {
   status_.guards.clear();
   armed_ = {};
   site_ = {};
+  told_ = SiteVerdict::kHolds;
+  alternative_.reset();
 }
 
 void Mission::Kill(std::string_view why) {
@@ -292,35 +292,6 @@ bool Mission::WinnerStands(Timestamp now) const {
   return winner_.id != 0 && winner_.maps >= facts_.limits.propose_after_maps &&
          SecondsBetween(winner_.since, now) >= facts_.limits.propose_after_s &&
          SecondsBetween(map_seen_at_, now) <= GuardLimits::map_s;
-}
-
-void Mission::FollowSite(const MissionInputs& in) {
-  if (!in.new_map || !status_.armed) {
-    return;
-  }
-  site_.evaluated = true;
-  site_.holds = in.rechecked.has_value() && in.recheck_reason.empty();
-  site_.reason = in.recheck_reason;
-  if (!site_.holds && site_.reason.empty()) {
-    site_.reason = "Site " + std::string(1, status_.armed->letter) + " is not on the newest map";
-  }
-  armed_.confirmed = armed_.confirmed || (site_.holds && in.rechecked->confirmed);
-  if (site_.holds) {
-    site_.lost_maps = ++site_.good_maps >= kGoodMapsToClear ? 0 : site_.lost_maps;
-  } else {
-    site_.good_maps = 0;
-    site_.lost_since = site_.lost_maps++ == 0 ? in.now : site_.lost_since;
-  }
-  if (status_.state != MissionState::kDescending) {
-    return;
-  }
-  const auto& all = status_.rechecks;
-  if (all.empty() || all.back().holds != site_.holds ||
-      SecondsBetween(all.back().time, in.now) >= 1) {
-    const double safe_distance_m = in.rechecked ? in.rechecked->safe_distance_m : NAN;
-    status_.rechecks.push_back(
-        {in.now, HeightAboveSite(), safe_distance_m, site_.holds, site_.reason});
-  }
 }
 
 void Mission::FollowAcks(const MissionInputs& in) {

@@ -27,6 +27,7 @@
 #include "engine/mission/approval.h"
 #include "engine/mission/guards.h"
 #include "engine/mission/input_watch.h"
+#include "engine/mission/site_watch.h"
 #include "engine/model/command.h"
 #include "engine/model/snapshot.h"
 
@@ -51,10 +52,10 @@ struct MissionInputs {
   bool new_map = false;                      ///< `applied` was made from this bundle
   const NavigationStatus& navigation;
   const TrackerStatus& tracker;
-  StereoQuality stereo{};                ///< of the newest range map
-  RangeAgreement range_agreement{};      ///< stereo against laser
-  std::optional<LandingSite> rechecked;  ///< the armed site evaluated on the newest map
-  std::string recheck_reason;            ///< why it no longer holds, empty when it holds
+  StereoQuality stereo{};                  ///< of the newest range map
+  RangeAgreement range_agreement{};        ///< stereo against laser
+  std::optional<LandingSite> rechecked;    ///< the armed site evaluated on the newest map
+  std::optional<LandingSite> alternative;  ///< and the alternative kept for it
   const Settings& settings;
   std::uint64_t settings_hash = 0;
   std::uint64_t calibration_hash = 0;
@@ -83,6 +84,8 @@ class Mission {
   bool WantsTracking() const;   ///< ARMED to HOLD
   bool VisionAllowed() const;   ///< the vehicle accepted the approval
   bool SettingsFrozen() const;  ///< ARMED and later: moved limits preview only
+  /// The best other site that shares no ground with the armed one, kept as long as it holds.
+  const std::optional<LandingSite>& alternative() const { return alternative_; }
   /// Settings were applied while armed or approved (I13).
   void DropApproval(std::string_view why);
   void AddEvent(Timestamp time, EventKind kind, std::string text);
@@ -114,15 +117,6 @@ class Mission {
     Timestamp shown_since;
     bool confirmed = false;
   };
-  /// Agreement of the newest maps with the armed site.
-  struct SiteWatch {
-    bool evaluated = false;
-    bool holds = false;
-    std::string reason;
-    int lost_maps = 0;
-    int good_maps = 0;
-    Timestamp lost_since;
-  };
   /// The best site's run of wins.
   struct Winner {
     std::uint64_t id = 0;
@@ -145,6 +139,8 @@ class Mission {
   void RememberFacts(const MissionInputs& inputs);
   void FollowWinner(const MissionInputs& inputs);
   void FollowSite(const MissionInputs& inputs);
+  void FollowAlternative(const MissionInputs& inputs);
+  void RecordRecheck(const MissionInputs& inputs);
   void FollowAcks(const MissionInputs& inputs);
   void FollowDeadApproval(const MissionInputs& inputs);
   bool IsApproval(std::uint64_t id, std::uint64_t own) const;
@@ -160,6 +156,7 @@ class Mission {
   std::string WhyDrop(const MissionInputs& inputs) const;
   std::string WhyHold(const MissionInputs& inputs) const;
   bool SiteLost(Timestamp now) const;
+  std::string AlternativeWords() const;
   bool WinnerStands(Timestamp now) const;
   bool Executing() const;
   double HeightAboveSite() const;
@@ -191,6 +188,8 @@ class Mission {
   Facts facts_;
   ArmedFacts armed_;
   SiteWatch site_;
+  SiteVerdict told_ = SiteVerdict::kHolds;  ///< of the armed site, in the events
+  std::optional<LandingSite> alternative_;
   Winner winner_;
   InputWatch watch_;
   AlarmBoard alarms_;

@@ -98,8 +98,13 @@ GuardInputs Mission::MakeGuardInputs(Timestamp now) const {
                         facts_.calibration_hash == armed_.calibration_hash;
   in.boot_unchanged = watch_.heard_vehicle() && watch_.boot_id() == armed_.boot_id;
   in.site_letter = status_.armed->letter;
-  in.site_holds = site_.evaluated && site_.holds;
-  in.site_reason = site_.reason;
+  in.site_holds = site_.evaluated() && site_.newest().holds();
+  in.site_reason = site_.newest().reason;
+  if (in.site_holds && !site_.newest().approach_clear) {
+    // What is approved is the straight way from where the vehicle is.
+    in.site_holds = false;
+    in.site_reason = Words("Straight approach to site %c is blocked", in.site_letter);
+  }
   const double height_m = HeightAboveSite();
   if (in.site_holds && !armed_.confirmed && !(height_m > GuardLimits::confirm_height_m)) {
     in.site_holds = false;
@@ -251,10 +256,15 @@ std::vector<AlarmCondition> Mission::MissionAlarms(const MissionInputs& in) cons
                         : ". Waiting for the vehicle to confirm."),
        true},
       {"hold", AlarmLevel::kCaution, state == MissionState::kHold,
-       "Descent on hold: " + status_.why + ". Select a site again or wave off.", true},
-      {"site_degraded", AlarmLevel::kWarning,
-       Flying(state) && site_.lost_maps > 0 && HeightAboveSite() >= facts_.commit_height_m,
-       Words("Site %c degraded: ", letter) + site_.reason + ". The descent holds.", true},
+       "Descent on hold: " + status_.why + ". " +
+           (SiteLost(in.now) ? AlternativeWords() + " " : std::string()) +
+           "Select a site again or wave off.",
+       true},
+      {"site_degraded", AlarmLevel::kCaution,
+       Flying(state) && site_.VerdictAt(in.now) == SiteVerdict::kDegraded &&
+           HeightAboveSite() >= facts_.commit_height_m,
+       Words("Site %c degraded: ", letter) + site_.reason() + ". Watch it, hold or wave off.",
+       true},
       {"vision_lost", AlarmLevel::kWarning,
        state == MissionState::kDescending && on_vision && outage_s > kLateVision_s,
        Words("Vision lost for %.1f s, limit %.1f s. The descent holds or climbs.", outage_s,

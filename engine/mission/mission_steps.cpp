@@ -11,8 +11,6 @@ constexpr double kNoLiveAfter_s = 5;
 constexpr double kLinkDrop_s = 5;    // F19
 constexpr double kSensorDrop_s = 1;  // pose and cameras: F01, F10
 constexpr double kMapDrop_s = 3;
-constexpr int kLostMaps = 3;
-constexpr double kSiteLost_s = 0.4;    // I20 asks for a hold request within 0.5 s
 constexpr double kHoldShown_s = 3;     // a person must be able to read why
 constexpr double kAbortSettles_s = 2;  // a hover reported sooner may be the one before the abort
 constexpr double kLandedHeight_m = 0.5;
@@ -97,12 +95,6 @@ std::string Mission::WhyStale(Timestamp now) const {
   return {};
 }
 
-bool Mission::SiteLost(Timestamp now) const {
-  return site_.evaluated && site_.lost_maps > 0 &&
-         (site_.lost_maps >= kLostMaps ||
-          (!site_.holds && SecondsBetween(site_.lost_since, now) >= kSiteLost_s));
-}
-
 std::string Mission::WhyDrop(const MissionInputs& in) const {
   if (watch_.rebooted() || watch_.boot_id() != armed_.boot_id) {
     return "Vehicle restarted";
@@ -118,7 +110,7 @@ std::string Mission::WhyDrop(const MissionInputs& in) const {
     return "Calibration changed";
   }
   if (SiteLost(in.now)) {
-    return site_.reason;
+    return site_.reason();
   }
   return WhyStale(in.now);
 }
@@ -183,7 +175,7 @@ std::string Mission::WhyHold(const MissionInputs& in) const {
     return "Height above the site is unknown";
   }
   if (SiteLost(in.now)) {
-    return site_.reason;
+    return site_.reason();
   }
   if (status_.approval->provisional && !armed_.confirmed &&
       height_m <= GuardLimits::confirm_height_m) {

@@ -300,12 +300,13 @@ void Pipeline::Decide(Pass& pass) {
   }
   snapshot.channels = channels_.Health(pass.bundle->time);
   const Eigen::Matrix3d R_WB = snapshot.pose ? snapshot.pose->X_WB.R : Eigen::Matrix3d::Identity();
-  std::optional<LandingSite> rechecked;
-  std::string objection;
+  std::optional<LandingSite> rechecked, alternative;
   const auto& armed = mission_.status().armed;
   if (armed && pass.decision_of_record && pass.new_map) {
     rechecked = terrain_.Recheck(*pass.decision_of_record, *armed, settings_.recorded());
-    objection = SiteObjection(rechecked, settings_.recorded().slad);
+    if (const auto& kept = mission_.alternative()) {
+      alternative = terrain_.Recheck(*pass.decision_of_record, *kept, settings_.recorded());
+    }
   }
   const bool simulated = snapshot.vehicle && snapshot.vehicle->simulated;
   const Settings& in_force = settings_.recorded();
@@ -323,7 +324,7 @@ void Pipeline::Decide(Pass& pass) {
                    snapshot.stereo_quality,
                    snapshot.range_agreement,
                    rechecked,
-                   objection,
+                   alternative,
                    in_force,
                    HashOf(in_force),
                    calibration_hash_,

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <vector>
 
 #include "engine/core/units.h"
@@ -16,12 +15,6 @@ constexpr int kDepthStride_px = 16;
 constexpr int kMaxCellFactor = 16;
 constexpr std::size_t kFiguresKept = 2;
 constexpr double kWidestView = 2;  // views up to twice the map's width keep the set cell
-
-std::string Sentence(const char* format, double value, double limit) {
-  char text[120];
-  std::snprintf(text, sizeof text, format, value, limit);
-  return text;
-}
 
 }  // namespace
 
@@ -133,29 +126,6 @@ std::optional<LandingSite> TerrainStage::Recheck(const TerrainDecision& decision
                                                  const Settings& settings) const {
   return RecheckSite(*decision.elevation, *decision.hazards, decision.settings, site,
                      Context(settings));
-}
-
-std::string SiteObjection(const std::optional<LandingSite>& site, const SladSettings& settings) {
-  if (!site) {
-    return "the site left the map";
-  }
-  const double slope_deg = Deg(site->slope_rad.value);
-  if (slope_deg > settings.max_slope_deg) {
-    return Sentence("slope %.1f°, limit %.1f°", slope_deg, settings.max_slope_deg);
-  }
-  if (site->roughness_m.value > settings.max_deviation_m) {
-    return Sentence("roughness %.1f cm, limit %.1f cm", site->roughness_m.value * 100,
-                    settings.max_deviation_m * 100);
-  }
-  if (settings.mode == SladMode::kModern && site->step_m.value > settings.max_step_m) {
-    return Sentence("step %.1f cm, limit %.1f cm", site->step_m.value * 100,
-                    settings.max_step_m * 100);
-  }
-  if (site->safe_distance_m < site->clear_radius_m) {
-    return Sentence("clear radius %.1f m, limit %.1f m", site->safe_distance_m,
-                    site->clear_radius_m);
-  }
-  return {};
 }
 
 }  // namespace palace

@@ -53,7 +53,4 @@ class TerrainStage {
   std::vector<TerrainFigures> figures_;
 };
 
-/// Why the rechecked site no longer holds, in words; empty when it holds.
-std::string SiteObjection(const std::optional<LandingSite>& site, const SladSettings& settings);
-
 }  // namespace palace

@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/core/units.h"
 #include "engine/mission/mission.h"
 
 namespace palace {
@@ -103,6 +104,7 @@ struct MissionRig {
     site.p_WS = p_WS;
     site.safe_distance_m = 4;
     site.clear_radius_m = 2.3;
+    site.clearance_m = 1.7;
     site.confirmed = true;
     sites.push_back(site);
   }
@@ -163,7 +165,7 @@ struct MissionRig {
                      .tracker = tracker,
                      .stereo = stereo,
                      .rechecked = {},
-                     .recheck_reason = {},
+                     .alternative = {},
                      .settings = settings,
                      .settings_hash = settings_hash,
                      .calibration_hash = calibration_hash,
@@ -173,7 +175,12 @@ struct MissionRig {
     if (mission.status().armed) {
       if (const LandingSite* site = Site(mission.status().armed->id)) {
         in.rechecked = *site;
-        in.recheck_reason = site_reason;
+        in.rechecked->slope_rad.value = site_slope_rad;
+      }
+    }
+    if (mission.alternative()) {
+      if (const LandingSite* site = Site(mission.alternative()->id)) {
+        in.alternative = *site;
       }
     }
     mission.Update(in);
@@ -228,7 +235,7 @@ struct MissionRig {
   Settings settings;
   std::uint64_t settings_hash = 31, calibration_hash = 41;
   std::vector<LandingSite> sites;
-  std::string site_reason;
+  double site_slope_rad = 0;  ///< of the armed site as re-checked
   TerrainDecision decision;
   NavigationStatus navigation;
   TrackerStatus tracker;

@@ -25,9 +25,9 @@ void Disturb(MissionRig& rig, RandomStream& random) {
   toggle(rig.vehicle.answers, 0.01, 0.3);
   rig.tracker.coherence = random.Uniform() < 0.01 ? NAN : 0.95;
   if (random.Uniform() < 0.002) {
-    rig.site_reason = "Slope 12°, max 10°";
+    rig.site_slope_rad = Rad(12);
   } else if (random.Uniform() < 0.1) {
-    rig.site_reason.clear();
+    rig.site_slope_rad = 0;
   }
   if (random.Uniform() < 0.001) {
     rig.settings_hash += 1;
@@ -170,7 +170,7 @@ TEST_P(RandomMission, NeverBreaksAnInvariant) {
       ASSERT_EQ(status.state, MissionState::kArmed);
       ASSERT_TRUE(rig.tracker_locks && rig.tracker.coherence >= 0.7);
       ASSERT_TRUE(rig.recorder_ok || !status.alarms.empty());
-      ASSERT_TRUE(rig.site_reason.empty() || !rig.maps_up || !rig.cameras_up);
+      ASSERT_TRUE(rig.site_slope_rad == 0 || !rig.maps_up || !rig.cameras_up);
       ASSERT_EQ(FirstFailure(status.guards), nullptr);
     }
     if (before.state == MissionState::kAborting && status.state != MissionState::kAborting) {

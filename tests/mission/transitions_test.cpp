@@ -121,7 +121,7 @@ TEST_P(DescentFaults, HoldsInTime) {
 INSTANTIATE_TEST_SUITE_P(
     , DescentFaults,
     testing::Values(
-        Fault{"SiteOverALimit", [](MissionRig& r) { r.site_reason = "Slope 12°, max 10°"; }, 0.5},
+        Fault{"SiteOverALimit", [](MissionRig& r) { r.site_slope_rad = Rad(12); }, 0.5},
         Fault{"SiteOffTheMap", [](MissionRig& r) { r.sites.erase(r.sites.begin()); }, 0.5},
         Fault{"CamerasStop", [](MissionRig& r) { r.cameras_up = false; }, 1.3},
         Fault{"PoseStops", [](MissionRig& r) { r.pose_up = false; }, 1.3},
@@ -154,14 +154,14 @@ TEST_P(ArmedFaults, DropsTheSelectionAndTheApproval) {
 
 INSTANTIATE_TEST_SUITE_P(
     , ArmedFaults,
-    testing::Values(
-        Fault{"SiteOverALimit", [](MissionRig& r) { r.site_reason = "Slope 12°, max 10°"; }, 0.5},
-        Fault{"LimitsChanged", [](MissionRig& r) { r.settings_hash ^= 1; }, 0.1},
-        Fault{"CalibrationChanged", [](MissionRig& r) { r.calibration_hash ^= 1; }, 0.1},
-        Fault{"VehicleRestarts", [](MissionRig& r) { r.vehicle.boot_id = 78; }, 0.1},
-        Fault{"ClockSteps", [](MissionRig& r) { r.clock_offset_us += 3'000'000; }, 0.1},
-        Fault{"SettingsApplied", [](MissionRig& r) { r.mission.DropApproval("Limits applied"); },
-              0.1}),
+    testing::Values(Fault{"SiteOverALimit", [](MissionRig& r) { r.site_slope_rad = Rad(12); }, 0.5},
+                    Fault{"LimitsChanged", [](MissionRig& r) { r.settings_hash ^= 1; }, 0.1},
+                    Fault{"CalibrationChanged", [](MissionRig& r) { r.calibration_hash ^= 1; },
+                          0.1},
+                    Fault{"VehicleRestarts", [](MissionRig& r) { r.vehicle.boot_id = 78; }, 0.1},
+                    Fault{"ClockSteps", [](MissionRig& r) { r.clock_offset_us += 3'000'000; }, 0.1},
+                    Fault{"SettingsApplied",
+                          [](MissionRig& r) { r.mission.DropApproval("Limits applied"); }, 0.1}),
     [](const auto& row) { return row.param.name; });
 
 struct Block {
@@ -214,7 +214,7 @@ INSTANTIATE_TEST_SUITE_P(
         Block{"Tracker", "G5", [](MissionRig& r) { r.tracker_locks = false; }, 0.1},
         Block{"Coherence", "G5", [](MissionRig& r) { r.tracker.coherence = 0.3; }, 0.1},
         Block{"CoherenceUnknown", "G5", [](MissionRig& r) { r.tracker.coherence = NAN; }, 0.1},
-        Block{"Site", "G8", [](MissionRig& r) { r.site_reason = "Step 20 cm, max 15 cm"; }, 0.1},
+        Block{"Site", "G8", [](MissionRig& r) { r.site_slope_rad = Rad(12); }, 0.1},
         Block{"NoLink", "G10", [](MissionRig& r) { r.can_transmit = false; }, 0.1},
         Block{"Recorder", "G12", [](MissionRig& r) { r.recorder_ok = false; }, 0.1},
         Block{"Unlabelled", "G13", [](MissionRig& r) { r.simulated = false; }, 0.1}),
@@ -270,7 +270,7 @@ TEST(Mission, BelowCommitHeightTheLastVerdictStands) {
   while (rig.vehicle.height_m > 2.9) {
     rig.Step();
   }
-  rig.site_reason = "Slope 14°, max 10°";
+  rig.site_slope_rad = Rad(14);
   rig.cameras_up = false;
   EXPECT_TRUE(rig.RunUntil(MissionState::kLanded, 10)) << rig.mission.status().why;
 }

@@ -1,0 +1,66 @@
+#include "engine/mission/site_finding.h"
+
+#include <cstdio>
+#include <vector>
+
+#include "engine/model/cell_explanation.h"
+
+namespace palace {
+namespace {
+
+std::string Text(const char* format, double value, double limit) {
+  char text[96];
+  std::snprintf(text, sizeof text, format, value, limit);
+  return text;
+}
+
+std::string Sentence(const ExplainedTerm& term) {
+  const TermWords words = WordsOf(term);
+  return words.name + " " + words.value + (words.spread.empty() ? "" : " " + words.spread) + ", " +
+         words.limit;
+}
+
+/// Stands so far over its limit that no noise makes it. Without a known sigma nothing is.
+bool IsGross(const ExplainedTerm& term) {
+  const bool height = term.term == CellTerm::kRoughness || term.term == CellTerm::kStep;
+  return height && term.figure.value - term.figure.three_sigma > 2 * term.limit;
+}
+
+}  // namespace
+
+SiteFinding JudgeRecheck(const std::optional<LandingSite>& now, const ApprovedEvidence& approved,
+                         const SladSettings& settings) {
+  if (!now) {
+    return {Finding::kOver, "The site left the map", false};
+  }
+  SiteFinding found{Finding::kGood, "", now->corridor_clear};
+  const auto worse = [&](Finding finding, std::string reason) {
+    if (finding > found.finding) {
+      found.finding = finding;
+      found.reason = std::move(reason);
+    }
+  };
+  const bool under_lander = now->safe_distance_m < settings.lander_radius_m();
+  for (const ExplainedTerm& term : TermsOf(*now, settings)) {
+    if (term.over) {
+      worse(under_lander && IsGross(term) ? Finding::kGross : Finding::kOver, Sentence(term));
+    } else if (approved.confirmed && BandCrossesLimit(term)) {
+      worse(Finding::kDoubtful, Sentence(term));
+    }
+  }
+  if (!now->corridor_clear) {
+    worse(Finding::kDoubtful, "Something stands in the approach");
+  }
+  if (now->clearance_m < kLeastRoomShare * approved.clearance_m &&
+      now->clearance_m < approved.clearance_m - kNoticedRoom_m) {
+    worse(Finding::kDoubtful, Text("Room beyond the clear radius %.1f m, approved with %.1f m",
+                                   now->clearance_m, approved.clearance_m));
+  }
+  if (now->age_s > kOldGround_s) {
+    worse(Finding::kDoubtful,
+          Text("Ground last measured %.1f s ago, limit %.1f s", now->age_s, kOldGround_s));
+  }
+  return found;
+}
+
+}  // namespace palace

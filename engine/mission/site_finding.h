@@ -1,0 +1,46 @@
+// What one map says of the site that was approved.
+//
+//   gross      an obstacle under the lander, beyond twice its limit and beyond 3 sigma of it
+//   over       some figure is over its limit, unknown, or the site is off the map
+//   doubtful   inside every limit, but: the limit lies within the 3 sigma of a figure although the
+//              site was confirmed before, the approach is blocked, less than half the room is left
+//              that was approved, or the ground was last measured too long ago
+//   good       none of these
+//
+// The vehicle's limits are fixed; what distance changes is the sigma. A provisional site is one
+// whose sigma cannot tell yet: its bands are no reason for doubt until it was confirmed once.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "engine/model/landing_site.h"
+#include "engine/model/settings.h"
+
+namespace palace {
+
+enum class Finding : std::uint8_t { kGood, kDoubtful, kOver, kGross };
+
+struct SiteFinding {
+  Finding finding = Finding::kOver;
+  std::string reason;           ///< "Slope 12.0°, max 10°"; empty when good
+  bool approach_clear = false;  ///< straight from the vehicle
+  bool holds() const { return finding < Finding::kOver; }
+};
+
+/// What the site was known to be.
+struct ApprovedEvidence {
+  bool confirmed = false;
+  double clearance_m = 0;  ///< room beyond the clear radius
+};
+
+constexpr double kLeastRoomShare = 0.5;  ///< of the approved clearance
+constexpr double kNoticedRoom_m = 0.3;   ///< a smaller loss of room is noise of two cells
+constexpr double kOldGround_s = 2;       ///< as old as a map may be
+
+/// `now`: the site evaluated on the newest map, empty when it lies outside.
+SiteFinding JudgeRecheck(const std::optional<LandingSite>& now, const ApprovedEvidence& approved,
+                         const SladSettings& settings);
+
+}  // namespace palace
