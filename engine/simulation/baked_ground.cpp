@@ -48,11 +48,12 @@ BakedGround::BakedGround(GroundTexture texture, std::uint64_t seed, const Textur
   // Rows of samples are spread along v first; sums of kTaps of them give a finished row.
   ImageF along(cols, rows + 2 * kReach);
   std::vector<float> line(static_cast<std::size_t>(cols + 2 * kReach));
+  GroundPainter painter(texture, seed);
   for (int r = 0; r < along.height(); ++r) {
     const double u_m = u0_m_ + (r - kReach) / per_texel_;
     for (int c = 0; c < static_cast<int>(line.size()); ++c) {
       line[static_cast<std::size_t>(c)] =
-          static_cast<float>(GroundGrey(texture, u_m, v0_m_ + (c - kReach) / per_texel_, seed));
+          static_cast<float>(painter.Grey(u_m, v0_m_ + (c - kReach) / per_texel_));
     }
     float* out = along.row(r);
     for (int k = 0; k < kTaps; ++k) {

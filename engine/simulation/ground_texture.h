@@ -4,6 +4,7 @@
 // as an eye and a lens do) and the three kinds of ground differ in what they offer.
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 namespace palace {
@@ -21,5 +22,35 @@ const char* NameOf(GroundTexture texture);
 
 /// Grey about 0..255 at a place in metres.
 double GroundGrey(GroundTexture texture, double u_m, double v_m, std::uint64_t seed);
+
+/// Lattice values of the last place, one wavelength.
+struct NoiseMemory {
+  bool known = false;
+  std::int64_t i = 0, j = 0;
+  std::array<std::array<double, 2>, 2> grey;
+};
+/// Random points around the last place.
+struct PointsMemory {
+  bool known = false;
+  std::int64_t i = 0, j = 0;
+  std::array<std::array<std::array<double, 2>, 3>, 3> point;
+};
+struct TextureMemory {
+  std::array<NoiseMemory, 5> noise;
+  PointsMemory points;
+};
+
+/// GroundGrey to the bit at one place after the other; several times faster where each lies close
+/// to the last, best a little farther along v.
+class GroundPainter {
+ public:
+  GroundPainter(GroundTexture texture, std::uint64_t seed) : texture_(texture), seed_(seed) {}
+  double Grey(double u_m, double v_m);
+
+ private:
+  GroundTexture texture_;
+  std::uint64_t seed_;
+  TextureMemory memory_;
+};
 
 }  // namespace palace

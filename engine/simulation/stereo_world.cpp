@@ -58,11 +58,9 @@ double WithContrast(const StereoWorld& world, double grey) {
   return kMid + world.contrast * (grey - kMid);
 }
 
-double GreyOf(const StereoWorld& world, const Hit& hit) {
+double GreyOf(const StereoWorld& world, GroundPainter& painter, const Hit& hit) {
   constexpr double kSky = 200;
-  return std::isinf(hit.depth)
-             ? kSky
-             : WithContrast(world, GroundGrey(world.texture, hit.u_m, hit.v_m, world.texture_seed));
+  return std::isinf(hit.depth) ? kSky : WithContrast(world, painter.Grey(hit.u_m, hit.v_m));
 }
 
 /// The pixel's square, `samples` wide, spread by the lens; their sum is 1.
@@ -121,6 +119,27 @@ std::vector<SeenSolid> SolidsInView(const StereoWorld& world, const PinholeCamer
     }
   }
   return seen;
+}
+
+/// Boxes that overlap are joined, so that no pixel is cast twice.
+std::vector<PixelBox> MergedBoxes(const std::vector<SeenSolid>& solids) {
+  std::vector<PixelBox> merged;
+  for (const SeenSolid& seen : solids) {
+    PixelBox box = seen.box;
+    for (bool grown = true; grown;) {
+      const auto other = std::find_if(merged.begin(), merged.end(), [&](const PixelBox& b) {
+        return b.left < box.right && box.left < b.right && b.top < box.bottom && box.top < b.bottom;
+      });
+      grown = other != merged.end();
+      if (grown) {
+        box = {std::min(box.left, other->left), std::min(box.top, other->top),
+               std::max(box.right, other->right), std::max(box.bottom, other->bottom)};
+        merged.erase(other);
+      }
+    }
+    merged.push_back(box);
+  }
+  return merged;
 }
 
 struct View {
@@ -228,6 +247,7 @@ bool BakedAlike(const StereoWorld& world, const PinholeCamera& camera, const Rig
 }
 
 void DrawGround(const View& view, const BakedGround& ground, ImageF& grey) {
+  GroundPainter painter(view.world.texture, view.world.texture_seed);
   for (int y = 0; y < view.camera.height; ++y) {
     float* row = grey.row(y);
     const Vector3d first = view.X_WC.R * RayFromPixel(view.camera, {0, static_cast<double>(y)});
@@ -236,7 +256,7 @@ void DrawGround(const View& view, const BakedGround& ground, ImageF& grey) {
       const Hit hit = CastGround(view.world, view.X_WC.p, first + x * step);
       const float baked = ground.Grey(hit.u_m, hit.v_m);
       row[x] = static_cast<float>(std::isnan(baked)
-                                      ? GreyOf(view.world, hit)
+                                      ? GreyOf(view.world, painter, hit)
                                       : WithContrast(view.world, static_cast<double>(baked)));
     }
   }
@@ -255,10 +275,10 @@ double CastDepth(const StereoWorld& world, const Vector3d& p_W, const Vector3d& 
 ImageF RenderGrey(const StereoWorld& world, const PinholeCamera& camera, const RigidTransform& X_WC,
                   int samples) {
   const View view{world, camera, X_WC, SolidsInView(world, camera, X_WC)};
+  GroundPainter painter(world.texture, world.texture_seed);
+  const auto shade = [&](const Hit& hit) { return GreyOf(world, painter, hit); };
   ImageF grey(camera.width, camera.height);
-  CastBox(
-      view, samples, WholePicture(camera), true, [&](const Hit& hit) { return GreyOf(world, hit); },
-      grey);
+  CastBox(view, samples, WholePicture(camera), true, shade, grey);
   return grey;
 }
 
@@ -271,13 +291,15 @@ ImageF DrawGrey(const StereoWorld& world, const PinholeCamera& camera, const Rig
   const View view{world, camera, X_WC, SolidsInView(world, camera, X_WC)};
   ImageF grey(camera.width, camera.height);
   DrawGround(view, ground, grey);
+  GroundPainter painter(world.texture, world.texture_seed);
   const auto shade = [&](const Hit& hit) {
     const float baked =
         hit.on_solid ? std::numeric_limits<float>::quiet_NaN() : ground.Grey(hit.u_m, hit.v_m);
-    return std::isnan(baked) ? GreyOf(world, hit) : WithContrast(world, static_cast<double>(baked));
+    return std::isnan(baked) ? GreyOf(world, painter, hit)
+                             : WithContrast(world, static_cast<double>(baked));
   };
-  for (const SeenSolid& seen : view.solids) {
-    CastBox(view, kSamples, seen.box, false, shade, grey);
+  for (const PixelBox& box : MergedBoxes(view.solids)) {
+    CastBox(view, kSamples, box, false, shade, grey);
   }
   return grey;
 }
