@@ -1,0 +1,42 @@
+// Flags of the map's cells over several maps, so that none flickers and none is forgotten at once.
+//
+// A flag is raised when two of the last three maps that saw the cell have it; on a cell seen once
+// so far, by that one map (not for motion, which always needs two). Raised by two, it stays for a
+// number of maps that see the cell without it: thin structures and motion 20, no texture 5, shadow
+// 3. Cells out of view keep their flags, but motion there fades at the same rate.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "engine/model/elevation_map.h"
+
+namespace palace {
+
+class FlagMemory {
+ public:
+  void Reset();
+  /// The grid moves by whole cells; cells that leave it are forgotten. Another cell size starts
+  /// afresh.
+  void MoveTo(const GridGeometry& geometry);
+  /// One map's findings: bits of `seen` say which flags were looked for in the cell, bits of
+  /// `found` which were there. Both have the geometry's size.
+  void Add(const Grid<std::uint8_t>& seen, const Grid<std::uint8_t>& found);
+  /// The flags in force.
+  Grid<std::uint8_t> Flags() const;
+
+ private:
+  struct Track {
+    std::uint8_t recent = 0;     ///< of the last three maps, newest in bit 0
+    std::uint8_t looks = 0;      ///< maps that looked, at most three
+    std::uint8_t maps_left = 0;  ///< it stays without being found
+  };
+  static constexpr std::array<TerrainFlag, 4> kKinds = {kFlagThinStructure, kFlagNoTexture,
+                                                        kFlagShadow, kFlagMotion};
+  using CellTracks = std::array<Track, kKinds.size()>;
+
+  GridGeometry geometry_;
+  Grid<CellTracks> tracks_;
+};
+
+}  // namespace palace
