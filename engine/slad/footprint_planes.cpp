@@ -20,8 +20,11 @@ constexpr int kStripeRows = 32;
 
 class FootprintFit {
  public:
-  FootprintFit(const ElevationMap& map, double diameter_m, FootprintPlanes& out)
+  /// `leave_out`: cells with this flag are no ground; null: all are.
+  FootprintFit(const ElevationMap& map, double diameter_m, const Grid<std::uint8_t>* leave_out,
+               FootprintPlanes& out)
       : map_(map),
+        leave_out_(leave_out),
         rows_(map.geometry.rows),
         cols_(map.geometry.cols),
         out_(out),
@@ -33,12 +36,12 @@ class FootprintFit {
     // whole map.
     const double side = diameter_m * std::sqrt(M_PI) / 2 / map.geometry.cell_m;
     const double widest = std::max(rows_, cols_);
-    half_ = static_cast<int>(std::clamp(std::round((side - 1) / 2), 1.0, std::max(1.0, widest)));
+    half_ = static_cast<int>(std::clamp(std::round((side - 1) / 2), 2.0, std::max(2.0, widest)));
     double sum = 0;
     int count = 0;
     for (int r = 0; r < rows_; ++r) {
       for (int c = 0; c < cols_; ++c) {
-        if (map.state.at(r, c) == CellState::kMeasured) {
+        if (Counts(r, c)) {
           sum += static_cast<double>(map.height_m.at(r, c));
           ++count;
         }
@@ -47,7 +50,7 @@ class FootprintFit {
     reference_m_ = static_cast<float>(count > 0 ? sum / count : 0);
     for (int r = 0; r < rows_; ++r) {
       for (int c = 0; c < cols_; ++c) {
-        if (map.state.at(r, c) == CellState::kMeasured) {
+        if (Counts(r, c)) {
           height_m_.at(r, c) = map.height_m.at(r, c) - reference_m_;
           variance_m2_.at(r, c) = map.variance_m2.at(r, c);
           weight_.at(r, c) = FullWeight(r, c);
@@ -73,6 +76,10 @@ class FootprintFit {
   float reference_m() const { return reference_m_; }
 
  private:
+  bool Counts(int r, int c) const {
+    return map_.state.at(r, c) == CellState::kMeasured &&
+           (leave_out_ == nullptr || (leave_out_->at(r, c) & kFlagElevated) == 0);
+  }
   float FullWeight(int r, int c) const {
     constexpr float kFloor = static_cast<float>(kVarianceFloor_m2);
     return kFloor / (variance_m2_.at(r, c) + kFloor);
@@ -110,7 +117,7 @@ class FootprintFit {
       for (int r = range.start; r < range.end; ++r) {
         for (int c = 0; c < cols_; ++c) {
           const float plane_m = out_.plane.height_m.at(r, c), scatter_m = scatter_m_.at(r, c);
-          if (map_.state.at(r, c) != CellState::kMeasured || std::isnan(plane_m)) {
+          if (!Counts(r, c) || std::isnan(plane_m)) {
             continue;
           }
           const float off_m = height_m_.at(r, c) - plane_m;
@@ -126,6 +133,7 @@ class FootprintFit {
   }
 
   const ElevationMap& map_;
+  const Grid<std::uint8_t>* leave_out_;
   int rows_, cols_;
   FootprintPlanes& out_;
   int half_ = 1;
@@ -134,16 +142,12 @@ class FootprintFit {
   const SladLoops& loops_ = FastestSladLoops();
 };
 
-}  // namespace
-
-FootprintPlanes FitFootprintPlanes(const ElevationMap& map, double footprint_diameter_m) {
+FootprintPlanes Fit(const ElevationMap& map, double diameter_m,
+                    const Grid<std::uint8_t>* leave_out) {
   const int rows = map.geometry.rows, cols = map.geometry.cols;
   const GridF unknown(rows, cols, kUnknownValue);
   FootprintPlanes planes{{unknown, unknown, unknown, unknown}, unknown, unknown};
-  if (unknown.empty()) {
-    return planes;
-  }
-  FootprintFit fit(map, footprint_diameter_m, planes);
+  FootprintFit fit(map, diameter_m, leave_out, planes);
   fit.Run();
   const float cell_m = static_cast<float>(map.geometry.cell_m);
   for (int r = 0; r < rows; ++r) {
@@ -156,6 +160,38 @@ FootprintPlanes FitFootprintPlanes(const ElevationMap& map, double footprint_dia
       south_then_north /= -cell_m;
       planes.gradient_sigma.at(r, c) /= cell_m;
     }
+  }
+  return planes;
+}
+
+/// Beside a raised surface the ground keeps its own plane, wherever it spans one.
+void TakeGround(const FootprintPlanes& ground, const Grid<std::uint8_t>& flags,
+                FootprintPlanes& planes) {
+  for (std::size_t i = 0; i < flags.cells().size(); ++i) {
+    if ((flags.cells()[i] & kFlagElevated) != 0 || std::isnan(ground.plane.height_m.cells()[i])) {
+      continue;
+    }
+    planes.plane.height_m.cells()[i] = ground.plane.height_m.cells()[i];
+    planes.plane.residual_m.cells()[i] = ground.plane.residual_m.cells()[i];
+    planes.plane.north_gradient.cells()[i] = ground.plane.north_gradient.cells()[i];
+    planes.plane.east_gradient.cells()[i] = ground.plane.east_gradient.cells()[i];
+    planes.gradient_sigma.cells()[i] = ground.gradient_sigma.cells()[i];
+    planes.cell_variance_m2.cells()[i] = ground.cell_variance_m2.cells()[i];
+  }
+}
+
+}  // namespace
+
+FootprintPlanes FitFootprintPlanes(const ElevationMap& map, double footprint_diameter_m,
+                                   const Grid<std::uint8_t>& flags) {
+  if (map.height_m.empty()) {
+    return {};
+  }
+  FootprintPlanes planes = Fit(map, footprint_diameter_m, nullptr);
+  const bool any_raised = std::any_of(flags.cells().begin(), flags.cells().end(),
+                                      [](std::uint8_t f) { return (f & kFlagElevated) != 0; });
+  if (any_raised) {
+    TakeGround(Fit(map, footprint_diameter_m, &flags), flags, planes);
   }
   return planes;
 }

@@ -214,7 +214,7 @@ void MeasureModern(const ElevationMap& map, const SladSettings& settings, Terrai
   figures.deviation_m = figures.sigma_m = figures.step_m = unknown;
   figures.footprint_deviation_m = figures.footprint_step_m = figures.footprint_sigma_m = unknown;
   figures.measured = Grid<std::uint8_t>(rows, cols, 0);
-  const FootprintPlanes planes = FitFootprintPlanes(map, settings.lander_base_size_m);
+  const FootprintPlanes planes = FitFootprintPlanes(map, settings.lander_base_size_m, figures.flags);
   const Disc disc(std::max(1.5, settings.lander_radius_m() / map.geometry.cell_m));
   Layers layers(rows, cols, disc.reach);
   FillLayers(map, planes, layers);

@@ -39,9 +39,12 @@ struct FootprintPlanes {
   GridF cell_variance_m2;  ///< mean height variance of the cells in the window
 };
 
-/// Window: the square with the area of the footprint circle, at least 3x3 cells. Weights are
+/// Window: the square with the area of the footprint circle, at least 5x5 cells: of nine, some of
+/// them unknown, no robust fit can tell an outlier from a slope. Weights are
 /// inverse variances; three passes of summed-area moments, between which cells that stand off their
 /// own plane are rejected, upwards sooner than downwards because obstacles stand on ground.
-FootprintPlanes FitFootprintPlanes(const ElevationMap& map, double footprint_diameter_m);
+/// Cells with kFlagElevated in `flags` (empty: none) take no part in the planes of the others.
+FootprintPlanes FitFootprintPlanes(const ElevationMap& map, double footprint_diameter_m,
+                                   const Grid<std::uint8_t>& flags = {});
 
 }  // namespace palace

@@ -6,6 +6,7 @@
 
 #include "engine/slad/hazard_layers.h"
 #include "engine/slad/plane_fit.h"
+#include "engine/slad/raised_surface.h"
 
 namespace palace {
 namespace {
@@ -24,6 +25,17 @@ void MeasureThesis(const ElevationMap& map, const SladSettings& settings, Terrai
   figures.east_gradient = std::move(planes.east_gradient);
 }
 
+/// Flags of the map, and kFlagElevated.
+Grid<std::uint8_t> FlagsOf(const ElevationMap& map) {
+  Grid<std::uint8_t> flags = FindRaisedSurfaces(map);
+  PALACE_CHECK(map.flags.empty() || map.flags.cells().size() == flags.cells().size(),
+               map.flags.rows(), map.flags.cols());
+  for (std::size_t i = 0; i < map.flags.cells().size(); ++i) {
+    flags.cells()[i] |= map.flags.cells()[i];
+  }
+  return flags;
+}
+
 }  // namespace
 
 TerrainFigures MeasureTerrain(const ElevationMap& map, const SladSettings& settings) {
@@ -40,6 +52,7 @@ TerrainFigures MeasureTerrain(const ElevationMap& map, const SladSettings& setti
   if (settings.mode == SladMode::kThesis) {
     MeasureThesis(map, settings, figures);
   } else {
+    figures.flags = FlagsOf(map);
     MeasureModern(map, settings, figures);
   }
   return figures;

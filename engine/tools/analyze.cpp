@@ -94,8 +94,9 @@ GridF HazardLayer(const ElevationMap& map, const HazardMaps& hazards, SladMode m
     const CellState state = map.state.cells()[i];
     const bool known = state == CellState::kMeasured || state == CellState::kFilled ||
                        (state == CellState::kBorder && mode == SladMode::kThesis);
-    if (known && !std::isnan(hazards.slope_rad.cells()[i])) {
-      const unsigned over = hazards.reasons.cells()[i] & ~unsigned{kHazardUnknown};
+    const unsigned over = hazards.reasons.cells()[i] & ~unsigned{kHazardUnknown};
+    // A flag needs no plane to say what it says.
+    if (known && ((over & kHazardFlagged) != 0 || !std::isnan(hazards.slope_rad.cells()[i]))) {
       layer.cells()[i] = over != 0 ? 1.0F : 0.0F;
     }
   }

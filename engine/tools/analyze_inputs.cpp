@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "engine/camera/rectification.h"
 #include "engine/camera/rig_file.h"
@@ -14,6 +13,7 @@
 #include "engine/slad/terrain_points.h"
 #include "engine/stereo/prefilter.h"
 #include "engine/stereo/stereo.h"
+#include "engine/tools/analyze_cloud.h"
 #include "engine/tools/map_files.h"
 #include "engine/tools/point_files.h"
 
@@ -21,7 +21,6 @@ namespace palace {
 namespace {
 
 constexpr double kTallestObject_m = 5;
-constexpr int kMostCells = 4096;
 
 class Stopwatch {
  public:
@@ -35,28 +34,6 @@ class Stopwatch {
  private:
   double last_ = MonotonicSeconds();
 };
-
-std::string Text(const char* format, double a, double b = 0, double c = 0) {
-  char text[160];
-  std::snprintf(text, sizeof text, format, a, b, c);
-  return text;
-}
-
-/// Enlarges the cell until grid_rows x grid_cols cover the extent.
-void CoverExtent(double north_m, double east_m, SladSettings& slad,
-                 std::vector<std::string>& warnings) {
-  if (slad.mode == SladMode::kThesis || slad.bounds != BoundsMode::kData) {
-    return;
-  }
-  const double needed_m = std::max(north_m / slad.grid_rows, east_m / slad.grid_cols);
-  if (needed_m > slad.cell_m) {
-    warnings.push_back(
-        Text("cell enlarged from %.3g m to %.3g m so that the map covers the data; "
-             "set slad.grid_rows and slad.grid_cols, or the bounds, for finer cells",
-             slad.cell_m, needed_m));
-    slad.cell_m = needed_m;
-  }
-}
 
 ElevationMap MapOfLayer(const MapLayer& layer) {
   const GridGeometry& g = layer.geometry;
@@ -75,63 +52,6 @@ ElevationMap MapOfLayer(const MapLayer& layer) {
       map.height_m.cells()[i] = kUnknownValue;
     }
   }
-  return map;
-}
-
-/// Map over all points, survey coordinates being north and east of W.
-Result<ElevationMap> MapOfPoints(const std::vector<Eigen::Vector3d>& survey,
-                                 std::optional<double> cell_m, SladSettings slad,
-                                 std::vector<std::string>& warnings) {
-  std::vector<Eigen::Vector3d> p_W;
-  p_W.reserve(survey.size());
-  Eigen::Vector2d low = Eigen::Vector2d::Constant(HUGE_VAL), high = -low;
-  for (const Eigen::Vector3d& p : survey) {
-    if (p.allFinite()) {
-      p_W.emplace_back(p.y(), p.x(), -p.z());
-      low = low.cwiseMin(p_W.back().head<2>());
-      high = high.cwiseMax(p_W.back().head<2>());
-    }
-  }
-  if (p_W.empty()) {
-    return InvalidError("the input has no finite point");
-  }
-  if (slad.bounds != BoundsMode::kData || slad.mode == SladMode::kThesis) {
-    slad.cell_m = cell_m.value_or(slad.cell_m);
-    return ElevationFromPoints(p_W, nullptr, slad, {});
-  }
-  const Eigen::Vector2d extent = high - low;
-  if (cell_m) {
-    slad.cell_m = *cell_m;
-  } else {
-    CoverExtent(extent.x(), extent.y(), slad, warnings);
-    // Where points are scattered at random, three a cell leave one cell in twenty empty.
-    const double spacing_m = std::sqrt(3 * extent.x() * extent.y() / double(p_W.size()));
-    if (spacing_m > slad.cell_m) {
-      warnings.push_back(Text("cell enlarged to %.3g m: the points are that sparse", spacing_m));
-      slad.cell_m = spacing_m;
-    }
-  }
-  GridGeometry g;
-  g.cell_m = slad.cell_m;
-  const auto cells = [&](double metres) { return std::floor(metres / g.cell_m) + 1; };
-  if (!(std::max(cells(extent.x()), cells(extent.y())) <= kMostCells)) {
-    return UsageError(
-        Text("%.0f x %.0f cells needed, the limit is 4096 a side; use a larger "
-             "--cell-m",
-             cells(extent.x()), cells(extent.y())));
-  }
-  g.rows = static_cast<int>(cells(extent.x()));
-  g.cols = static_cast<int>(cells(extent.y()));
-  g.north_min_m = low.x();
-  g.east_min_m = low.y();
-  // The northernmost point may lie on the rim exactly; the half-open cell must hold it.
-  TerrainPoints points;
-  points.reserve(p_W.size());
-  for (const Eigen::Vector3d& p : p_W) {
-    points.push_back({std::min(p.x(), g.north_max_m() - 1e-9), p.y(), -p.z(), 0});
-  }
-  ElevationMap map = AccumulateCells(points, g, slad.mode, 1, {});
-  FillHoles(map, slad.data_size_cells, slad.border_size_cells);
   return map;
 }
 
@@ -197,9 +117,9 @@ Result<AnalyzeInput> ElevationOfPair(const std::filesystem::path& left,
   input.timings.push_back(watch.Lap("stereo"));
   if (match->quality.coverage < 0.05) {
     input.warnings.push_back(
-        Text("only %.1f %% of the picture could be matched; check rig, "
-             "disparity window and texture",
-             100 * match->quality.coverage));
+        WithNumbers("only %.1f %% of the picture could be matched; check rig, "
+                    "disparity window and texture",
+                    100 * match->quality.coverage));
   }
   if (match->quality.suspect_swapped) {
     input.warnings.push_back("left and right look exchanged");
@@ -241,7 +161,7 @@ Result<AnalyzeInput> ElevationOfModel(const std::filesystem::path& path,
                             static_cast<double>(layer->cells.at(r, c)));
       }
     }
-    auto map = MapOfPoints(points, cell_m, settings.slad, input.warnings);
+    auto map = MapOfCloud(points, cell_m, settings.slad, input.warnings);
     if (!map) {
       return Error{map.error().code, path.string() + ": " + map.error().message};
     }
@@ -264,7 +184,7 @@ Result<AnalyzeInput> ElevationOfCloud(const std::filesystem::path& path,
   }
   input.context = WithoutVehicle();
   input.timings.push_back(watch.Lap("read"));
-  auto map = MapOfPoints(*points, cell_m, settings.slad, input.warnings);
+  auto map = MapOfCloud(*points, cell_m, settings.slad, input.warnings);
   if (!map) {
     return Error{map.error().code, path.string() + ": " + map.error().message};
   }

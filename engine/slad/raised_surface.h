@@ -1,0 +1,31 @@
+// Raised surfaces: roofs, tables, vehicle tops, canopies: what stands above the ground around it
+// and has a drop nearly all around.
+//
+// 1. Ladder. The surface is opened with wider and wider squares (half width R up to 20 m): opening
+//    cuts off whatever is narrower than the square. A cell that loses more than
+//      max(0.3 m, R / 4) + 3 sigma
+//    in one rung is a candidate; the next rung opens what is left. Slopes under one in four never
+//    are candidates.
+// 2. Rim. Candidates that touch are one surface. Where a candidate and a neighbour within 0.3 m (at
+//    least one cell) that is none differ by more than max(0.3 m, 0.3 d) at the distance d, beyond
+//    3 sigma, there is a drop; where by less, beyond the same noise, one can walk up. A surface is
+//    raised where drops make at least 60 % of its known rim: hill tops, terraces and banks are
+//    not. The map's edge counts as unseen, and at least half of the rim must be seen.
+//
+// The ladder runs on cells of at least 0.3 m. Cost is linear in cells.
+// Sources: opening ladder: Zhang et al. 2003, Pingel, Clarke and McBride 2013 (linear threshold,
+// one parameter). We differ in geometric rungs, in the noise term, and in the rim, which they do
+// not ask.
+#pragma once
+
+#include <cstdint>
+
+#include "engine/model/elevation_map.h"
+
+namespace palace {
+
+/// kFlagElevated on the measured cells of raised surfaces, else 0; of the map's shape. Unknown,
+/// filled and border cells are never flagged and say nothing of a rim. Works on any size of map.
+Grid<std::uint8_t> FindRaisedSurfaces(const ElevationMap& map);
+
+}  // namespace palace

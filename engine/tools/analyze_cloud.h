@@ -1,0 +1,37 @@
+// Elevation map of a survey's point cloud.
+//
+// A cell keeps the highest thing a survey met in it: the mean of the points within 0.3 m of its
+// highest one. Flat ground averages its noise; a branch, a kerb or a car over ground is not
+// averaged down to a height where nothing is. The cell's variance is that of those points about
+// their mean, beyond what ordinary ground slopes inside a cell, shared among them; at least (1
+// mm)^2, because a cloud states no noise of its own.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Dense>
+
+#include "engine/core/result.h"
+#include "engine/model/elevation_map.h"
+#include "engine/model/settings.h"
+
+namespace palace {
+
+/// Points of a survey, X east, Y north, Z up, metres; points that are not finite are left out. The
+/// map covers all of them: cells of cell_m where given, else of the settings' size, enlarged with a
+/// warning until the map fits and most cells hold a point. Thesis mode, and bounds that are given,
+/// keep the thesis's grid and plain means. No more than 4096 cells a side.
+Result<ElevationMap> MapOfCloud(const std::vector<Eigen::Vector3d>& survey,
+                                std::optional<double> cell_m, SladSettings slad,
+                                std::vector<std::string>& warnings);
+
+/// Enlarges the cell, with a warning, until grid_rows x grid_cols cover the extent.
+void CoverExtent(double north_m, double east_m, SladSettings& slad,
+                 std::vector<std::string>& warnings);
+
+/// printf with up to three numbers.
+std::string WithNumbers(const char* format, double a, double b = 0, double c = 0);
+
+}  // namespace palace
