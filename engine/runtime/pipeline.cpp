@@ -230,7 +230,8 @@ void Pipeline::MeasureRange(Pass& pass) {
     range_check_.Add(*range, *spot);
     pass.snapshot->range_agreement = range_check_.agreement();
   }
-  terrain_.Add({range, pass.snapshot->X_WC, navigator_.PredictBodyPose(range->time).p},
+  terrain_.Add({range, pass.snapshot->X_WC, navigator_.PredictBodyPose(range->time).p,
+                pass.pair.left, pass.pair.right, rectifier_->baseline_m()},
                settings.slad);
   pass.new_map = true;
 }

@@ -21,6 +21,7 @@ constexpr double kWidestView = 2;  // views up to twice the map's width keep the
 void TerrainStage::Reset() {
   cell_factor_ = 1;
   fusion_.Reset();
+  scene_flags_.Reset();
   registry_.Reset();
   elevation_.reset();
   figures_.clear();
@@ -36,6 +37,16 @@ void TerrainStage::Add(const TerrainInput& input, const SladSettings& settings) 
                    ? fusion_.Add(*input.range, input.X_WC, fitted)
                    : std::make_shared<const ElevationMap>(
                          ElevationFromRange(*input.range, input.X_WC, fitted));
+  if (settings.mode == SladMode::kModern && input.left && input.right) {
+    FlagFromPictures();
+  }
+}
+
+void TerrainStage::FlagFromPictures() {
+  auto flagged = std::make_shared<ElevationMap>(*elevation_);
+  flagged->flags = scene_flags_.Add(
+      {input_.left, input_.right, input_.range, input_.X_WC, input_.baseline_m}, flagged->geometry);
+  elevation_ = std::move(flagged);
 }
 
 void TerrainStage::FitCellToView(const RangeMap& range, const SladSettings& settings) {

@@ -10,6 +10,7 @@
 
 #include "engine/model/snapshot.h"
 #include "engine/slad/fusion.h"
+#include "engine/slad/scene_flags.h"
 #include "engine/slad/site_selection.h"
 #include "engine/slad/terrain_figures.h"
 
@@ -20,6 +21,10 @@ struct TerrainInput {
   std::shared_ptr<const RangeMap> range;
   RigidTransform X_WC;
   Eigen::Vector3d p_WB = Eigen::Vector3d::Zero();
+  // The rectified pair the range map was made of, for flags; null: nothing is flagged from pictures.
+  std::shared_ptr<const ImageU8> left{};
+  std::shared_ptr<const ImageU8> right{};
+  double baseline_m = 0;
 };
 
 class TerrainStage {
@@ -44,7 +49,10 @@ class TerrainStage {
   void FitCellToView(const RangeMap& range, const SladSettings& settings);
   const TerrainFigures& FiguresFor(const SladSettings& settings);
 
+  void FlagFromPictures();
+
   TerrainFusion fusion_;
+  SceneFlags scene_flags_;
   SiteRegistry registry_;
   TerrainInput input_;
   int cell_factor_ = 1;  // power of two on the set cell, so that the map covers a high view
