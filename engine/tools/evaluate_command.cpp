@@ -4,6 +4,7 @@
 
 #include "engine/tools/evaluate_calibration.h"
 #include "engine/tools/evaluate_landing.h"
+#include "engine/tools/evaluate_site_range.h"
 #include "engine/tools/evaluate_stereo.h"
 #include "engine/tools/experiment.h"
 
@@ -14,7 +15,7 @@ void AddEvaluateCommand(CLI::App& app, int& exit_code, SceneCameraFactory camera
   evaluate->require_subcommand(1);
   AddExperiments(*evaluate,
                  {LandingExperiment(std::move(camera)), StereoAccuracyExperiment(),
-                  StereoCostExperiment(), CalibrationExperiment()},
+                  StereoCostExperiment(), CalibrationExperiment(), SiteRangeExperiment()},
                  exit_code);
 }
 
