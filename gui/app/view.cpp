@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/slad/explanation.h"
 #include "gui/app/keys.h"
 #include "gui/app/layout.h"
 #include "gui/app/view3d_input.h"
@@ -46,6 +47,10 @@ std::string PresetName(const UiState& state) {
     name.resize(name.size() - 5);
   }
   return name.empty() ? "defaults" : name;
+}
+
+CellExplanation Explain(const TerrainDecision& decision, Cell cell) {
+  return ExplainCell(*decision.elevation, *decision.hazards, decision.settings, cell);
 }
 
 /// Hands the operator's drags over the 3-D view to its camera. True when there were any.
@@ -143,7 +148,8 @@ Intents View::Draw(const EngineSnapshot* snapshot, const FlightRecord* record, U
   const FrameLayout layout = ComputeFrameLayout(frame.width_px, frame.height_px, style_.scale);
   items_.Clear();
   Intents intents;
-  UiFrame ui{style_, ids_, items_, intents, frame.ui_time_s, state.key_help, layout.wave_off};
+  UiFrame ui{style_,          ids_,           items_,          intents,
+             frame.ui_time_s, state.key_help, layout.wave_off, Explain};
   frame_state_.workspace = state.workspace;
   frame_state_.preset_name = PresetName(state);
   frame_state_.frame_ms = frame.frame_ms;

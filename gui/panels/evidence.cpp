@@ -70,13 +70,34 @@ EvidenceRow UnknownRow(const LandingSite& site, double cell_m) {
   return row;
 }
 
+/// "040°", as headings are read.
+std::string HeadingText(double heading_rad) {
+  const int degrees = static_cast<int>(std::lround(Deg(heading_rad)));
+  const std::string digits = std::to_string(((degrees % 360) + 360) % 360);
+  return std::string(3 - digits.size(), '0') + digits + "°";
+}
+
+/// At the worst heading of the lander, where the gear is known.
 EvidenceRow ProbabilityRow(const LandingSite& site, double limit) {
   EvidenceRow row;
   row.name = "Safe probability";
   row.value = Fixed(site.safe_probability, 3);
+  if (std::isfinite(site.touchdown.worst_heading_rad)) {
+    row.spread = "at " + HeadingText(site.touchdown.worst_heading_rad);
+  }
   row.limit = "min " + Fixed(limit, 3);
   row.share = ShareOfProbability(site.safe_probability, limit);
   return row;
+}
+
+/// "Gear: worst heading 040°, best 130° with 1.000."; empty when not known.
+std::string GearWords(const LandingSite& site) {
+  const TouchdownOdds& odds = site.touchdown;
+  if (!std::isfinite(odds.worst_heading_rad) || !std::isfinite(odds.best_heading_rad)) {
+    return "";
+  }
+  return "Safe at the worst heading; best " + HeadingText(odds.best_heading_rad) + " with " +
+         Fixed(odds.best_probability, 3) + ".";
 }
 
 std::vector<EvidenceRow> RowsOf(const EngineSnapshot& snap, const LandingSite& site, bool folded) {
@@ -135,6 +156,10 @@ void DrawEvidencePanel(const EngineSnapshot& snap, const Rect& rect, bool folded
   if (rect.bottom() - foot > s.Px(28)) {
     DrawText(ui, s.caption, s.palette.text2, rect.x + s.Px(12), foot + s.Px(14),
              "Share of limit used; whisker 3σ; white line: the limit.");
+  }
+  const std::string gear = GearWords(*site);
+  if (rect.bottom() - foot > s.Px(46) && !gear.empty()) {
+    DrawText(ui, s.caption, s.palette.text2, rect.x + s.Px(12), foot + s.Px(32), gear);
   }
 }
 

@@ -86,12 +86,13 @@ void DrawFlyWorkspace(const EngineSnapshot& snap, const FlyLayout& layout, FlySt
   DrawView3dPanel(snap, layout.view_3d, state.view, ui);
   DrawLowerLeft(snap, layout, state, ui);
   if (layout.descent) {
-    DrawSiteRecheckPanel(snap, layout.recheck, layout.narrow, ui);
+    DrawSiteRecheckPanel(snap, layout.recheck, layout.narrow, state.maps.probe, ui);
     DrawLimitsInForcePanel(snap, layout.limits, layout.narrow, ui);
     if (layout.tracker.h > 0) {
       DrawTrackerPanel(snap, layout.tracker, ui);
     }
     DrawLandingPanel(snap, layout.landing, ui);
+    DrawProbeWhy(ui, layout.frame.body, ShownDecision(snap), state.maps.probe, snap.time);
     return;
   }
   DrawSiteListPanel(snap, layout, state.sites, ui);
@@ -104,6 +105,7 @@ void DrawFlyWorkspace(const EngineSnapshot& snap, const FlyLayout& layout, FlySt
     DrawApprovePanel(snap, layout.approve, layout.narrow, state.focus == FlyFocus::kApprove,
                      state.approve, ui);
   }
+  DrawProbeWhy(ui, layout.frame.body, ShownDecision(snap), state.maps.probe, snap.time);
 }
 
 }  // namespace palace

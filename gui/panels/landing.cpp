@@ -31,10 +31,22 @@ std::string Headline(const EngineSnapshot& snap) {
   }
 }
 
+/// Why this site was proposed, as it stood when it was selected.
+std::string WhyChosen(const MissionStatus& m) {
+  return m.armed && !m.armed->reason.empty() ? " Chosen: " + m.armed->reason + "." : "";
+}
+
 std::string Record(const EngineSnapshot& snap) {
   const MissionStatus& m = snap.mission;
   if (m.state == MissionState::kHold || m.state == MissionState::kAborting) {
-    return m.why.empty() ? std::string("The approval is over.") : m.why + ".";
+    const std::string why = m.why.empty() ? std::string("The approval is over.") : m.why + ".";
+    const bool lost = m.state == MissionState::kHold && !m.rechecks.empty() &&
+                      m.rechecks.back().verdict == SiteVerdict::kLost;
+    const LandingSite* other =
+        lost && m.rechecks.back().alternative ? &*m.rechecks.back().alternative : nullptr;
+    return other == nullptr ? why
+                            : why + " Alternative: site " + other->letter + ", " +
+                                  Fixed(other->safe_distance_m, 1) + " m clear, not approved.";
   }
   if (m.state == MissionState::kLanded) {
     std::string text;
@@ -51,7 +63,7 @@ std::string Record(const EngineSnapshot& snap) {
   }
   std::string text = "Approved " + ClockText(m.approval->approved_at) + " by you";
   if (m.approval_phase == MissionStatus::ApprovalPhase::kAccepted) {
-    return text + ", accepted in " + Duration(m.approval_answer_s) + ".";
+    return text + ", accepted in " + Duration(m.approval_answer_s) + "." + WhyChosen(m);
   }
   text += ".";
   if (m.approval_phase == MissionStatus::ApprovalPhase::kSent) {

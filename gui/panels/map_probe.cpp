@@ -1,12 +1,18 @@
 #include "gui/panels/map_probe.h"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include "gui/widgets/why_box.h"
 
 namespace palace {
 
 void BeginProbe(MapProbe& probe) {
   probe.hovered = probe.next;
+  probe.hovered_map = std::move(probe.next_map);
   probe.next.reset();
+  probe.next_map.clear();
 }
 
 std::optional<Cell> ProbeCell(const MapProbe& probe, const GridGeometry& geometry) {
@@ -21,13 +27,47 @@ void OfferProbe(UiFrame& ui, const MapView& view, std::optional<Cell> cell, MapP
   const GridGeometry& g = view.geometry;
   const Eigen::Vector2d at(g.NorthOfRow(cell->row), g.EastOfCol(cell->col));
   probe.next = at;
-  const Item* square = ui.items.Find("map/" + view.key);
+  probe.next_map = "map/" + view.key;
+  const Item* square = ui.items.Find(probe.next_map);
   if (square == nullptr || !Clicked(ui, square->rect)) {
     return;
   }
   const bool again = probe.pinned && (*probe.pinned - at).norm() < 1.5 * g.cell_m;
   probe.pinned = again ? std::nullopt : std::optional<Eigen::Vector2d>(at);
+  probe.pinned_map = probe.next_map;
   ui.intents.push_back(UiAction(PinProbe{!again, *cell}));
+}
+
+void DrawProbeWhy(UiFrame& ui, const Rect& body, const TerrainDecision* decision,
+                  const MapProbe& probe, Timestamp now) {
+  const Item* square = probe.Shown() ? ui.items.Find(probe.ShownMap()) : nullptr;
+  if (ui.explain_cell == nullptr || square == nullptr || ui.blocked_by_popup ||
+      decision == nullptr || !decision->elevation || !decision->hazards) {
+    return;
+  }
+  const GridGeometry& g = decision->hazards->geometry;
+  const std::optional<Cell> cell = ProbeCell(probe, g);
+  if (!cell) {
+    return;
+  }
+  const CellExplanation why = ui.explain_cell(*decision, *cell);
+  const Style& s = ui.style;
+  const float across = square->rect.w / static_cast<float>(g.cols);
+  const float down = square->rect.h / static_cast<float>(g.rows);
+  const float side_x = std::max(across, s.Px(24)), side_y = std::max(down, s.Px(24));
+  const ImVec2 middle{square->rect.x + across * (static_cast<float>(cell->col) + 0.5F),
+                      square->rect.y + down * (static_cast<float>(cell->row) + 0.5F)};
+  const Rect anchor{middle.x - side_x / 2, middle.y - side_y / 2, side_x, side_y};
+  std::vector<Rect> avoid = {ui.wave_off_rect};
+  for (const char* name :
+       {"ring", "approve", "refuse", "hold_here", "acknowledge_wave_off", "apply", "discard"}) {
+    if (const Item* item = ui.items.Find(name)) {
+      avoid.push_back(item->rect);
+    }
+  }
+  if (const auto place = PlaceBeside(anchor, WhyBoxSize(s, why), body, avoid, s.Px(4))) {
+    DrawWhyBox(ui, *place, why, SecondsBetween(decision->map_time, now));
+  }
 }
 
 void DrawProbeOnPicture(UiFrame& ui, const PictureView& view, const TerrainDecision* decision,

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "engine/model/snapshot.h"
 #include "gui/widgets/map_image.h"
@@ -16,9 +17,12 @@ struct MapProbe {
   std::optional<Eigen::Vector2d> hovered;  ///< north, east; under the pointer in the last frame
   std::optional<Eigen::Vector2d> next;     ///< being collected
   std::optional<Eigen::Vector2d> pinned;
+  std::string hovered_map, next_map, pinned_map;  ///< item names of the maps they are on
 
   /// The place shown: under the pointer, else the pinned one.
   const std::optional<Eigen::Vector2d>& Shown() const { return hovered ? hovered : pinned; }
+  /// Item name of the map it is shown on.
+  const std::string& ShownMap() const { return hovered ? hovered_map : pinned_map; }
 };
 
 /// Call once a frame before the maps.
@@ -27,6 +31,11 @@ void BeginProbe(MapProbe& probe);
 std::optional<Cell> ProbeCell(const MapProbe& probe, const GridGeometry& geometry);
 /// Call with what DrawMapPicture or DrawMapPanel returned: follows the pointer and pins on a click.
 void OfferProbe(UiFrame& ui, const MapView& view, std::optional<Cell> cell, MapProbe& probe);
+/// Why the cell shown is as it is, in a box beside it; call last, after all panels. The box keeps
+/// inside `body`, off the probed cell, WAVE OFF, the ring on the picture and the buttons that
+/// commit, stop or apply; where no such place is left it is not drawn.
+void DrawProbeWhy(UiFrame& ui, const Rect& body, const TerrainDecision* decision,
+                  const MapProbe& probe, Timestamp now);
 /// Cross-hair on a picture, at the height of the map. Nothing where the height is unknown.
 void DrawProbeOnPicture(UiFrame& ui, const PictureView& view, const TerrainDecision* decision,
                         const MapProbe& probe);

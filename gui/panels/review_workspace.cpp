@@ -323,6 +323,9 @@ void DrawReviewWorkspace(const EngineSnapshot& snap, const FlightRecord* record,
     DrawDifferencesPanel(snap, record, {right_x, y, right_w, upper.bottom() - y}, ui);
   }
   DrawReviewTimeline(snap, record, timeline, narrow, state, ui);
+  const bool recorded = state.probe.ShownMap() == "map/Recorded";
+  DrawProbeWhy(ui, body, recorded ? RecordedDecision(snap) : snap.applied.get(), state.probe,
+               snap.time);
 }
 
 }  // namespace palace

@@ -17,12 +17,53 @@ std::vector<const SiteRecheck*> Spaced(const std::vector<SiteRecheck>& rechecks,
   for (auto it = rechecks.rbegin(); it != rechecks.rend() && picked.size() < most; ++it) {
     if (picked.empty() ||
         it->height_above_site_m >= picked.back()->height_above_site_m + kShownEvery_m ||
-        it->holds != picked.back()->holds) {
+        it->verdict != picked.back()->verdict) {
       picked.push_back(&*it);
     }
   }
   std::reverse(picked.begin(), picked.end());
   return picked;
+}
+
+struct VerdictLook {
+  Icon icon;
+  ImU32 colour;
+};
+
+VerdictLook LookOf(SiteVerdict verdict, const Palette& p) {
+  switch (verdict) {
+    case SiteVerdict::kHolds:
+      return {Icon::kDone, p.text2};
+    case SiteVerdict::kDegraded:
+      return {Icon::kCaution, p.caution};
+    case SiteVerdict::kLost:
+      break;
+  }
+  return {Icon::kWarning, p.warning};
+}
+
+/// As many whole lines as the column has room for; returns where the next may stand.
+float DrawLines(UiFrame& ui, const Rect& column, float y, const std::string& text, ImU32 colour) {
+  const Style& s = ui.style;
+  for (const std::string& line : WrapText(s.caption, text, column.w)) {
+    if (y + s.Px(8) > column.bottom()) {
+      break;
+    }
+    DrawText(ui, s.caption, colour, column.x, y, line);
+    y += s.Px(17);
+  }
+  return y + s.Px(5);
+}
+
+/// When the site is asked again.
+void DrawSchedule(const EngineSnapshot& snap, const Rect& column, float y, UiFrame& ui) {
+  const Style& s = ui.style;
+  const Palette& p = s.palette;
+  FillRect(Canvas(), {column.x, y - s.Px(4), column.w, s.Px(1)}, p.line);
+  DrawIcon(Canvas(), Icon::kStale, {column.x + s.Px(6), y + s.Px(14)}, s.Px(12), p.text2);
+  DrawText(ui, s.body, p.text1, column.x + s.Px(20), y + s.Px(14), "Each new map");
+  DrawText(ui, s.caption, p.text2, column.x + s.Px(20), y + s.Px(34),
+           "down to " + Fixed(snap.settings.slad.commit_height_m, 1) + " m");
 }
 
 void DrawChecksColumn(const EngineSnapshot& snap, const Rect& column, bool narrow, UiFrame& ui) {
@@ -32,43 +73,42 @@ void DrawChecksColumn(const EngineSnapshot& snap, const Rect& column, bool narro
   float y = column.y + s.Px(14);
   const bool roomy = column.w > s.Px(130);
   for (const SiteRecheck* check : Spaced(snap.mission.rechecks, narrow ? 3 : 4)) {
-    DrawIcon(Canvas(), check->holds ? Icon::kDone : Icon::kCaution, {column.x + s.Px(6), y},
-             s.Px(12), check->holds ? p.text2 : p.caution);
+    const VerdictLook look = LookOf(check->verdict, p);
+    DrawIcon(Canvas(), look.icon, {column.x + s.Px(6), y}, s.Px(12), look.colour);
     DrawText(ui, s.body, p.text2, column.x + s.Px(20), y,
              Fixed(check->height_above_site_m, 0) + " m");
     const std::string clear = Fixed(check->safe_distance_m, 1) + (roomy ? " m clear" : " m");
     DrawText(ui, s.medium, p.text1, column.right(), y, clear, Align::kRight);
     y += pitch;
   }
-  y += s.Px(2);
-  FillRect(Canvas(), {column.x, y - s.Px(6), column.w, s.Px(1)}, p.line);
-  y += s.Px(12);
-  DrawIcon(Canvas(), Icon::kStale, {column.x + s.Px(6), y}, s.Px(12), p.text2);
-  DrawText(ui, s.body, p.text1, column.x + s.Px(20), y, "Each new map");
-  y += s.Px(20);
-  DrawText(ui, s.caption, p.text2, column.x + s.Px(20), y,
-           "down to " + Fixed(snap.settings.slad.commit_height_m, 1) + " m");
-  y += s.Px(30);
-  const TerrainDecision* shown = ShownDecision(snap);
-  if (shown == nullptr || !snap.mission.armed || y + s.Px(28) > column.bottom()) {
+  if (!narrow) {
+    DrawSchedule(snap, column, y, ui);
+    y += s.Px(60);
+  }
+  if (snap.mission.rechecks.empty()) {
     return;
   }
-  for (const LandingSite& site : shown->selection.sites) {
-    // A place that shares ground with the approved one is no alternative.
-    const double apart_m = (site.p_WS - snap.mission.armed->p_WS).head<2>().norm();
-    if (site.id != snap.mission.armed->id && apart_m > site.clear_radius_m) {
-      DrawText(ui, s.caption, p.text2, column.x, y, "Alternative kept");
-      LetterPlate(ui, {column.x + s.Px(10), y + s.Px(24)}, site.letter, false);
-      DrawText(ui, s.medium, p.text1, column.x + s.Px(28), y + s.Px(24),
-               Fixed(site.safe_distance_m, 1) + " m clear");
-      return;
-    }
+  const SiteRecheck& newest = snap.mission.rechecks.back();
+  if (newest.verdict != SiteVerdict::kHolds) {
+    y = DrawLines(ui, column, y,
+                  std::string(SiteVerdictWord(newest.verdict)) + ": " + newest.reason, p.text1);
+  }
+  if (newest.alternative && y + s.Px(38) <= column.bottom()) {
+    const LandingSite& kept = *newest.alternative;
+    DrawText(ui, s.caption, p.text2, column.x, y, "Alternative kept");
+    LetterPlate(ui, {column.x + s.Px(10), y + s.Px(24)}, kept.letter, false);
+    DrawText(ui, s.medium, p.text1, column.x + s.Px(28), y + s.Px(24),
+             Fixed(kept.safe_distance_m, 1) + " m clear");
+    ui.items.Add("alternative", {column.x, y - s.Px(8), column.w, s.Px(42)}, true,
+                 std::string(1, kept.letter) + " " + kept.reason);
+    DrawLines(ui, column, y + s.Px(46), kept.reason, p.text2);
   }
 }
 
 }  // namespace
 
-void DrawSiteRecheckPanel(const EngineSnapshot& snap, const Rect& rect, bool narrow, UiFrame& ui) {
+void DrawSiteRecheckPanel(const EngineSnapshot& snap, const Rect& rect, bool narrow,
+                          MapProbe& probe, UiFrame& ui) {
   const Style& s = ui.style;
   const MissionStatus& m = snap.mission;
   std::string title = "Site re-checked";
@@ -86,7 +126,8 @@ void DrawSiteRecheckPanel(const EngineSnapshot& snap, const Rect& rect, bool nar
   MapMarks marks = MarksOf(snap, 0);
   marks.letters = false;
   marks.footprint.clear();
-  DrawMapPicture(ui, square, view, marks);
+  marks.probe = ProbeCell(probe, view.geometry);
+  OfferProbe(ui, view, DrawMapPicture(ui, square, view, marks), probe);
   DrawColourBar(ui, {square.x, square.bottom() + s.Px(10), side, s.Px(8)}, view, nullptr);
   const float column_x = square.right() + s.Px(16);
   DrawChecksColumn(snap, {column_x, content.y, rect.right() - s.Px(12) - column_x, content.h},

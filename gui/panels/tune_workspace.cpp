@@ -166,10 +166,12 @@ void DrawTuneWorkspace(const EngineSnapshot& snap, const Rect& body, TuneState& 
   const float x = body.x + left + gap;
   if (narrow) {
     DrawNarrowCentre(snap, {x, body.y, body.right() - x, body.h}, state, ui);
+    DrawProbeWhy(ui, body, FactsOf(snap).shown, state.probe, snap.time);
     return;
   }
   DrawWideCentre(snap, {x, body.y, body.right() - right - gap - x, body.h}, state, ui);
   DrawRight(snap, {body.right() - right, body.y, right, body.h}, state, ui);
+  DrawProbeWhy(ui, body, FactsOf(snap).shown, state.probe, snap.time);
 }
 
 }  // namespace palace

@@ -94,6 +94,16 @@ void DrawSites(UiFrame& ui, const PictureView& view, const SiteOverlay& overlay)
       DrawRing(s, dl, ring, *at, overlay.commanded ? RingKind::kCommanded : RingKind::kProposed);
       const float radius = static_cast<float>(overlay.selected->clear_radius_m) *
                            view.PixelsPerMetre(overlay.selected->p_WS);
+      Rect around{at->x - radius, at->y - radius, 2 * radius, 2 * radius};
+      for (const ImVec2& point : ring) {
+        const float right = std::max(around.right(), point.x);
+        const float bottom = std::max(around.bottom(), point.y);
+        around.x = std::min(around.x, point.x);
+        around.y = std::min(around.y, point.y);
+        around.w = right - around.x;
+        around.h = bottom - around.y;
+      }
+      ui.items.Add("ring", around, true, std::string(1, overlay.selected->letter));
       const ImVec2 plate{at->x + radius * 0.72f + s.Px(10), at->y - radius * 0.72f - s.Px(10)};
       if (view.rect.Contains(plate)) {
         LetterPlate(ui, plate, overlay.selected->letter, true);

@@ -50,6 +50,9 @@ struct SiteWord {
 };
 
 SiteWord WordOf(const LandingSite& site) {
+  if (!site.corridor_clear && site.clear_approaches != 0) {
+    return {Icon::kOff, "Other approach"};
+  }
   if (!site.corridor_clear) {
     return {Icon::kWarning, "Rejected"};
   }
@@ -89,7 +92,7 @@ bool DrawSiteRow(UiFrame& ui, const Rect& rect, const LandingSite& site,
   const float right = rect.right() - s.Px(14);
   const float word_w = DrawText(ui, s.caption, p.text2, right, first_y, status.word, Align::kRight);
   DrawIcon(dl, status.icon, {right - word_w - s.Px(13), first_y}, s.Px(12),
-           site.corridor_clear ? p.text2 : p.warning);
+           status.icon == Icon::kWarning ? p.warning : p.text2);
 
   const float width = right - left_x;
   if (look.narrow) {

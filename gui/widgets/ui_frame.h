@@ -69,6 +69,11 @@ struct PanelTextures {
 };
 
 struct Style;  // palette, fonts and scale: gui/widgets/style.h
+struct TerrainDecision;
+struct CellExplanation;
+struct Cell;
+/// Why a cell of a decision is as it is. The app lends the engine's answer to the panels.
+using CellExplainer = CellExplanation (*)(const TerrainDecision& decision, Cell cell);
 
 /// Handed to each draw function. Panels read const data, write their own state, append intents.
 struct UiFrame {
@@ -78,7 +83,8 @@ struct UiFrame {
   Intents& intents;
   double ui_time_s = 0;  ///< monotonic UI clock (simulated time when headless)
   bool blocked_by_popup = false;
-  Rect wave_off_rect;  ///< popups, toasts and tooltips keep out of it
+  Rect wave_off_rect;                    ///< popups, toasts and tooltips keep out of it
+  CellExplainer explain_cell = nullptr;  ///< null: no answers
 };
 
 }  // namespace palace

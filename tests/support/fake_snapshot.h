@@ -32,6 +32,7 @@ inline LandingSite Site(std::uint64_t id, char letter, double north_m, double ea
   site.clearance_m = safe_distance_m - 2.3;
   site.cost = 0.68;
   site.safe_probability = 0.998;
+  site.touchdown = {0.998, Rad(40), 1.0, Rad(130)};
   site.frames_fused = 10;
   site.confirmed = letter != 'D';
   site.distance_m = std::hypot(north_m, east_m);
@@ -52,7 +53,7 @@ inline std::shared_ptr<const TerrainDecision> Decision(const RigidTransform& X_W
   decision->map_hash = 0x51aa00 + hash;
   decision->verdict = Verdict(*decision->hazards, Camera(), X_WC);
   decision->selection.sites = {
-      Site(1, 'A', 3.0, 5.1, 4.8, "Widest clear radius"),
+      Site(1, 'A', 3.0, 5.1, 4.8, "Widest: 0.6 m more clear than B"),
       Site(2, 'B', 3.8, -5.7, 4.2, "0.6 m less clear than A; half in shadow"),
       Site(3, 'C', 2.2, 1.5, 3.0, "1.8 m less clear than A; kerb 3.0 m north"),
       Site(4, 'D', -0.2, 7.0, 2.8, "1.9 m less clear than A; height noise 8.4 cm")};
@@ -162,6 +163,7 @@ inline void FillMission(EngineSnapshot& snap, MissionState state) {
                   {{kNow_us - 19'000'000}, 33, 4.6, true, ""},
                   {{kNow_us - 9'000'000}, 28, 4.3, true, ""},
                   {{kNow_us - 800'000}, 24, 4.1, true, ""}};
+    m.rechecks.back().alternative = snap.applied->selection.sites[1];
     m.alarms = {{"recheck",
                  AlarmLevel::kAdvisory,
                  "Site A confirmed again at 24 m. Clear radius 4.1 m.",

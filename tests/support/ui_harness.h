@@ -45,7 +45,7 @@ class UiHarness {
     io.DeltaTime = dt_s;
     time_s += static_cast<double>(dt_s);
     items.Clear();
-    UiFrame ui{style, textures, items, intents, time_s, popup, wave_off_rect};
+    UiFrame ui{style, textures, items, intents, time_s, popup, wave_off_rect, explain};
     ImGui::NewFrame();
     BeginCanvas(style);
     draw(ui);
@@ -101,6 +101,7 @@ class UiHarness {
   double time_s = 0;
   bool popup = false;
   Rect wave_off_rect;
+  CellExplainer explain = nullptr;
 
  private:
   /// Several harnesses may live at a time; ImGui's context is one global.
