@@ -138,6 +138,7 @@ Neighbourhood Around(const ImageF& grey, const ImageF& depth_m, int i, int j) {
   return near;
 }
 
+/// Clusters with a block around them: what moves has more to it than its changed rim.
 void FlagClusters(const ImageU8& moved, ImageU8& flags) {
   for (int j = 1; j + 1 < moved.height(); ++j) {
     for (int i = 1; i + 1 < moved.width(); ++i) {
@@ -145,8 +146,13 @@ void FlagClusters(const ImageU8& moved, ImageU8& flags) {
       for (int b = j - 1; b <= j + 1; ++b) {
         count += moved.at(i - 1, b) + moved.at(i, b) + moved.at(i + 1, b);
       }
-      if (count >= kLeastNeighbours) {
-        flags.at(i, j) |= kFlagMotion;
+      if (count < kLeastNeighbours) {
+        continue;
+      }
+      for (int b = std::max(0, j - 2); b <= std::min(moved.height() - 1, j + 2); ++b) {
+        for (int a = std::max(0, i - 2); a <= std::min(moved.width() - 1, i + 2); ++a) {
+          flags.at(a, b) |= kFlagMotion;
+        }
       }
     }
   }

@@ -14,7 +14,7 @@ constexpr float kLeastCorrelation = 0.25F;  // chance alone: 0.05
 constexpr float kMostKnown = 0.35F;         // share of the window stereo measured
 constexpr float kMostNoise_grey = 5;        // contrast that may be noise
 constexpr float kLeastUsable = 8;           // blocks of the window
-constexpr float kShadow = 0.5F;             // of the median brightness, and of the contrast
+constexpr float kShadow = 0.5F;             // of the median brightness
 constexpr double kLeastSize_m = 0.3;
 
 /// Sums over one block after its mean is taken out; sums over a window after Smear.
@@ -118,11 +118,30 @@ void DropSmall(ImageU8& mask, int steps) {
   }
 }
 
-void SetFlag(ImageU8& mask, int steps, TerrainFlag flag, ImageU8& flags) {
-  if (std::none_of(mask.pixels().begin(), mask.pixels().end(), [](auto m) { return m != 0; })) {
-    return;
+/// Blocks of a row between the first and the last that stereo measured. Beyond them the ground's
+/// disparity is a guess, or one camera does not look there: no texture in common says nothing.
+struct Enclosed {
+  int first = 0;
+  int end = 0;
+};
+
+Enclosed MeasuredOnBothSides(const SceneGround& ground, int row) {
+  const float* known = ground.known_share.row(row);
+  Enclosed blocks{0, ground.cols()};
+  while (blocks.first < blocks.end && known[blocks.first] <= 0) {
+    ++blocks.first;
   }
-  DropSmall(mask, steps);
+  while (blocks.end > blocks.first && known[blocks.end - 1] <= 0) {
+    --blocks.end;
+  }
+  return blocks;
+}
+
+bool HasAny(const ImageU8& mask) {
+  return std::any_of(mask.pixels().begin(), mask.pixels().end(), [](auto m) { return m != 0; });
+}
+
+void SetFlag(const ImageU8& mask, TerrainFlag flag, ImageU8& flags) {
   for (std::size_t k = 0; k < mask.pixels().size(); ++k) {
     flags.pixels()[k] |= mask.pixels()[k] != 0 ? flag : kFlagNone;
   }
@@ -144,20 +163,33 @@ void FlagTextureAndShadow(const SceneView& view, const SceneGround& ground, Imag
   const int steps = std::clamp(static_cast<int>(std::lround(kLeastSize_m / 2 / block_m)), 1, 8);
 
   ImageU8 bare(ground.cols(), ground.rows(), 0), dark = bare;
-  for (std::size_t k = 0; k < bare.pixels().size(); ++k) {
-    const float usable = sums.usable.pixels()[k];
-    if (usable < kLeastUsable) {
-      continue;
+  for (int j = 0; j < ground.rows(); ++j) {
+    const Enclosed row = MeasuredOnBothSides(ground, j);
+    for (int i = row.first; i < row.end; ++i) {
+      const float usable = sums.usable.at(i, j);
+      if (usable < kLeastUsable) {
+        continue;
+      }
+      const float left = sums.left.at(i, j), right = sums.right.at(i, j);
+      bare.at(i, j) = sums.both.at(i, j) <= kLeastCorrelation * std::sqrt(left * right) &&
+                      left < kMostNoise_grey * kMostNoise_grey * kFree * usable &&
+                      sums.known.at(i, j) < kMostKnown * usable;
+      dark.at(i, j) = sums.bright.at(i, j) < kShadow * usual_bright && left <= usual_contrast;
     }
-    const float left = sums.left.pixels()[k], right = sums.right.pixels()[k];
-    bare.pixels()[k] = sums.both.pixels()[k] <= kLeastCorrelation * std::sqrt(left * right) &&
-                       left < kMostNoise_grey * kMostNoise_grey * kFree * usable &&
-                       sums.known.pixels()[k] < kMostKnown * usable;
-    dark.pixels()[k] =
-        sums.bright.pixels()[k] < kShadow * usual_bright && left < kShadow * usual_contrast;
   }
-  SetFlag(bare, steps, kFlagNoTexture, flags);
-  SetFlag(dark, steps, kFlagShadow, flags);
+  if (HasAny(bare)) {
+    // A window is bare only when the area around is: small areas are gone already, and the rim of
+    // large ones is.
+    DropSmall(bare, std::max(0, steps - kReach_blocks));
+    for (int k = 0; k < kReach_blocks; ++k) {
+      Step(bare, true);
+    }
+    SetFlag(bare, kFlagNoTexture, flags);
+  }
+  if (HasAny(dark)) {
+    DropSmall(dark, steps);
+    SetFlag(dark, kFlagShadow, flags);
+  }
 }
 
 }  // namespace palace

@@ -4,9 +4,10 @@
 // one laid over it are correlated after each block's mean is taken out. Sensor noise is independent
 // in the two, so faint texture counts while noise does not, and no noise figure is needed. Without
 // texture: the correlation does not stand out of chance, the contrast is no more than noise can be,
-// stereo has next to nothing, and all this over some 0.3 m. Water, glass, snow, burnt-out ground.
+// stereo has next to nothing though it has something on both sides of the row, and all this over
+// some 0.3 m. Water, glass, snow, burnt-out ground.
 //
-// Deep shadow: less than half as bright as the picture's median, with less than half its contrast.
+// Deep shadow: less than half as bright as the picture's median, with no more than usual contrast.
 #pragma once
 
 #include "engine/slad/scene_ground.h"

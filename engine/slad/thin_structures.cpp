@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "engine/slad/line_sums.h"
 
@@ -20,8 +21,12 @@ constexpr double kMostAbove_px = 96;
 constexpr double kStep_px = 0.5;
 constexpr double kAside_px = 4;
 constexpr float kMostDifference_grey = 40;
-constexpr double kLeastPieces = 3;
-constexpr double kLeastLength_m = 1.0;
+constexpr int kLeastPieces = 3;
+// Lines along the baseline.
+constexpr int kRidge_px = 3;
+constexpr int kLeastRidgeSum = 185;
+constexpr double kMostRidgeAside_px = 2;  // over a strip: 3.7 degrees
+constexpr double kLeastRidgeShare = 0.6;  // of the picture's width
 
 /// A candidate over one strip, in strip coordinates: `along` runs over the strips.
 struct Piece {
@@ -100,6 +105,47 @@ ImageU8 MarkDifferences(const ImageU8& left, const SceneGround& ground) {
       for (int x = kBlock_px * i; x < kBlock_px * (i + 1); ++x) {
         const float mark = std::abs(static_cast<float>(l[x] - r[x]) - mean) * gain;
         out[x] = static_cast<std::uint8_t>(std::min(mark, static_cast<float>(kLargestMark)));
+      }
+    }
+  }
+  return marks;
+}
+
+/// Marks of thin lines along the rows: what is darker, or brighter, than three rows above and
+/// below.
+ImageU8 MarkRidges(const ImageU8& left) {
+  const int width = left.width(), height = left.height();
+  ImageU8 marks(width, height, 0);
+  std::vector<int> ridge(static_cast<std::size_t>(width));
+  // The usual height of ridges, tile by tile along a band of rows.
+  for (int band = kRidge_px; band < height - kRidge_px; band += kTile_px) {
+    const int end = std::min(band + kTile_px, height - kRidge_px);
+    std::vector<float> sum(static_cast<std::size_t>(width / kTile_px + 1), 0.0F);
+    for (const bool marking : {false, true}) {
+      for (int y = band; y < end; y += marking ? 1 : 4) {
+        const std::uint8_t *up = left.row(y - kRidge_px), *here = left.row(y),
+                           *down = left.row(y + kRidge_px);
+        for (int x = 0; x < width; ++x) {
+          const int dark = std::min(up[x], down[x]) - here[x];
+          const int bright = here[x] - std::max(up[x], down[x]);
+          ridge[static_cast<std::size_t>(x)] = std::max(0, std::max(dark, bright));
+        }
+        for (int x0 = 0; x0 < width; x0 += kTile_px) {
+          const int x1 = std::min(x0 + kTile_px, width);
+          float& total = sum[static_cast<std::size_t>(x0 / kTile_px)];
+          const float rows = static_cast<float>((end - band + 3) / 4);
+          const float mean = total / (rows * static_cast<float>(x1 - x0));
+          const float gain = kMarksPerMean / std::max(kLeastMean_grey, mean);
+          for (int x = x0; x < x1; ++x) {
+            const float value = static_cast<float>(ridge[static_cast<std::size_t>(x)]);
+            if (marking) {
+              marks.at(x, y) = static_cast<std::uint8_t>(
+                  std::min(value * gain, static_cast<float>(kLargestMark)));
+            } else {
+              total += value;
+            }
+          }
+        }
       }
     }
   }
@@ -228,8 +274,8 @@ bool Continues(const Piece& upper, const Piece& lower) {
          std::abs(lower.above_px - upper.above_px) <= kClimb_px * (1 + skipped);
 }
 
-/// Keeps the pieces of chains long enough.
-std::vector<Piece> Chained(std::vector<Piece> pieces) {
+/// Keeps the pieces of chains of at least `least` of them.
+std::vector<Piece> Chained(const std::vector<Piece>& pieces, int least) {
   std::vector<int> root(pieces.size());
   std::iota(root.begin(), root.end(), 0);
   const auto find = [&](int k) {
@@ -252,11 +298,26 @@ std::vector<Piece> Chained(std::vector<Piece> pieces) {
   }
   std::vector<Piece> kept;
   for (std::size_t k = 0; k < pieces.size(); ++k) {
-    if (size[std::size_t(find(int(k)))] >= kLeastPieces) {
+    if (size[std::size_t(find(int(k)))] >= least) {
       kept.push_back(pieces[k]);
     }
   }
   return kept;
+}
+
+/// Ends in W of the pieces, at the disparity beyond the ground's.
+void AddPieces(const SceneView& view, const SceneGround& ground, const Strips& strips,
+               const std::vector<Piece>& pieces, bool height_known, std::vector<ThinPiece>& found) {
+  for (const Piece& piece : pieces) {
+    const auto end = [&](double share) {
+      const Eigen::Vector2d p = strips.Pixel(piece, share);
+      const int i = std::clamp(static_cast<int>(p.x()) / kBlock_px, 0, ground.cols() - 1);
+      const int j = std::clamp(static_cast<int>(p.y()) / kBlock_px, 0, ground.rows() - 1);
+      return PointAt(view, p.x(), p.y(),
+                     static_cast<double>(ground.disparity_px.at(i, j)) + piece.above_px);
+    };
+    found.push_back({end(0), end(1), height_known});
+  }
 }
 
 }  // namespace
@@ -267,37 +328,35 @@ std::vector<ThinPiece> FindThinStructures(const SceneView& view, const SceneGrou
     return found;
   }
   PieceMatcher matcher(view, ground);
-  Strips strips;
-  strips.marks = MarkDifferences(*view.left, ground);
   LineSums lines;
-  for (const bool transposed : {false, true}) {
-    if (transposed) {
-      strips.marks = Transposed(strips.marks);
-      strips.transposed = true;
-    }
+  Strips upright{MarkDifferences(*view.left, ground), false};
+  const Strips across{Transposed(upright.marks), true};
+  for (const Strips* strips : {&std::as_const(upright), &across}) {
     std::vector<Piece> matched;
-    for (int strip = 0; (strip + 1) * kStrip_px <= strips.marks.height(); ++strip) {
-      lines.Add(strips.marks, strip * kStrip_px);
-      for (Piece& piece : Candidates(lines, strips.marks.width(), strip)) {
-        if (matcher.Match(strips, piece)) {
+    for (int strip = 0; (strip + 1) * kStrip_px <= strips->marks.height(); ++strip) {
+      lines.Add(strips->marks, strip * kStrip_px);
+      for (Piece& piece : Candidates(lines, strips->marks.width(), strip)) {
+        if (matcher.Match(*strips, piece)) {
           matched.push_back(piece);
         }
       }
     }
-    for (const Piece& piece : Chained(std::move(matched))) {
-      ThinPiece thin;
-      const auto end = [&](double share) {
-        const Eigen::Vector2d p = strips.Pixel(piece, share);
-        const int i = std::clamp(static_cast<int>(p.x()) / kBlock_px, 0, ground.cols() - 1);
-        const int j = std::clamp(static_cast<int>(p.y()) / kBlock_px, 0, ground.rows() - 1);
-        return PointAt(view, p.x(), p.y(),
-                       static_cast<double>(ground.disparity_px.at(i, j)) + piece.above_px);
-      };
-      thin.from_W = end(0);
-      thin.to_W = end(1);
-      found.push_back(thin);
+    AddPieces(view, ground, *strips, Chained(matched, kLeastPieces), true, found);
+  }
+
+  const Strips ridges{Transposed(MarkRidges(*view.left)), true};
+  const int strips_across = ridges.marks.height() / kStrip_px;
+  std::vector<Piece> level;
+  for (int strip = 0; strip < strips_across; ++strip) {
+    lines.Add(ridges.marks, strip * kStrip_px);
+    for (const Piece& piece : Candidates(lines, ridges.marks.width(), strip)) {
+      if (piece.sum >= kLeastRidgeSum && std::abs(piece.to - piece.from) <= kMostRidgeAside_px) {
+        level.push_back(piece);
+      }
     }
   }
+  const int least = static_cast<int>(std::ceil(kLeastRidgeShare * strips_across));
+  AddPieces(view, ground, ridges, Chained(level, std::max(least, kLeastPieces)), false, found);
   return found;
 }
 
