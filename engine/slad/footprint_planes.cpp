@@ -15,6 +15,8 @@ namespace {
 /// Cells this far off their plane are kept whatever their noise.
 constexpr float kKeep_m = 0.02F;
 constexpr int kPasses = 3;
+/// Stereo's windows share their error over about this length: farther cells err by themselves.
+constexpr double kCorrelationLength_m = 0.6;
 /// Sums slide down stripes of so many rows, however many threads share them.
 constexpr int kStripeRows = 32;
 
@@ -150,6 +152,10 @@ FootprintPlanes Fit(const ElevationMap& map, double diameter_m,
   FootprintFit fit(map, diameter_m, leave_out, planes);
   fit.Run();
   const float cell_m = static_cast<float>(map.geometry.cell_m);
+  // The loops take kCorrelatedCells for granted.
+  const double correlated =
+      std::clamp(std::pow(kCorrelationLength_m / map.geometry.cell_m, 2), 1.0, kCorrelatedCells);
+  const float sigma_scale = static_cast<float>(std::sqrt(correlated / kCorrelatedCells)) / cell_m;
   for (int r = 0; r < rows; ++r) {
     for (int c = 0; c < cols; ++c) {
       float& height_m = planes.plane.height_m.at(r, c);
@@ -158,7 +164,7 @@ FootprintPlanes Fit(const ElevationMap& map, double diameter_m,
       height_m += fit.reference_m();
       planes.plane.east_gradient.at(r, c) /= cell_m;
       south_then_north /= -cell_m;
-      planes.gradient_sigma.at(r, c) /= cell_m;
+      planes.gradient_sigma.at(r, c) *= sigma_scale;
     }
   }
   return planes;

@@ -19,7 +19,7 @@ constexpr double kLadderCell_m = 0.3;
 constexpr std::array kRadii_m = {0.5, 1.0, 1.5, 2.0, 3.0, 4.0, 6.0, 8.0, 11.0, 15.0, 20.0};
 constexpr double kRimReach_m = 0.3;
 constexpr double kLeastDropShare = 0.6;
-constexpr double kLeastSeenShare = 0.5;
+constexpr double kLeastSeenShare = 0.4;
 
 constexpr float kHigh = std::numeric_limits<float>::infinity();
 
@@ -91,7 +91,7 @@ void Open(int half, GridF& surface) {
 struct Ladder {
   int block = 1;
   double cell_m = 0;
-  GridF surface;  ///< mean height; infinite where nothing is measured
+  GridF surface;  ///< highest of its cells; infinite where nothing is measured
   GridF noise_m;
 };
 
@@ -104,26 +104,24 @@ Ladder LadderOf(const ElevationMap& map) {
   ladder.cell_m = ladder.block * map.geometry.cell_m;
   const int coarse_rows = (rows + ladder.block - 1) / ladder.block;
   const int coarse_cols = (cols + ladder.block - 1) / ladder.block;
-  ladder.surface = GridF(coarse_rows, coarse_cols, 0);
+  ladder.surface = GridF(coarse_rows, coarse_cols, -kHigh);
   ladder.noise_m = GridF(coarse_rows, coarse_cols, 0);
-  Grid<int> count(coarse_rows, coarse_cols, 0);
   for (int r = 0; r < rows; ++r) {
     for (int c = 0; c < cols; ++c) {
       if (map.state.at(r, c) == CellState::kMeasured && std::isfinite(map.height_m.at(r, c))) {
-        const Cell to{r / ladder.block, c / ladder.block};
-        ladder.surface.at(to) += map.height_m.at(r, c);
-        ladder.noise_m.at(to) += map.variance_m2.at(r, c);
-        ++count.at(to);
+        // The highest, so that a surface that ends inside a coarse cell loses its whole height in
+        // one rung.
+        float& highest = ladder.surface.at(r / ladder.block, c / ladder.block);
+        if (map.height_m.at(r, c) > highest) {
+          highest = map.height_m.at(r, c);
+          ladder.noise_m.at(r / ladder.block, c / ladder.block) =
+              kSigmas * std::sqrt(map.variance_m2.at(r, c));
+        }
       }
     }
   }
-  for (std::size_t i = 0; i < count.cells().size(); ++i) {
-    const float n = static_cast<float>(count.cells()[i]);
-    float& height = ladder.surface.cells()[i];
-    height = n > 0 ? height / n : kHigh;
-    // Neighbouring cells share most of their error: the mean of several is no surer than one.
-    float& noise = ladder.noise_m.cells()[i];
-    noise = n > 0 ? kSigmas * std::sqrt(noise / n) : 0;
+  for (float& height : ladder.surface.cells()) {
+    height = height == -kHigh ? kHigh : height;
   }
   return ladder;
 }

@@ -10,7 +10,8 @@
 //    least one cell) that is none differ by more than max(0.3 m, 0.3 d) at the distance d, beyond
 //    3 sigma, there is a drop; where by less, beyond the same noise, one can walk up. A surface is
 //    raised where drops make at least 60 % of its known rim: hill tops, terraces and banks are
-//    not. The map's edge counts as unseen, and at least half of the rim must be seen.
+//    not. The map's edge counts as unseen, and at least 40 % of the rim must be seen:
+//    a roof in the corner is raised, the upper half of the map is not.
 //
 // The ladder runs on cells of at least 0.3 m. Cost is linear in cells.
 // Sources: opening ladder: Zhang et al. 2003, Pingel, Clarke and McBride 2013 (linear threshold,
