@@ -26,6 +26,36 @@ void DiscDeviationRow(const DiscRows& disc, const float* plane, const float* eas
   }
 }
 
+/// What the square root leaves of `off` beyond noise, with its sign.
+inline float BeyondNoise(float off, float noise2) {
+  const float square = off * off - noise2;
+  const float size = __builtin_sqrtf(square > 0 ? square : 0);
+  return off < 0 ? -size : size;
+}
+
+void SettleRow(const SettleRows& rows, int count, float* __restrict__ settled) {
+  // Nine sigmas^2. The mean of nine cells, of which neighbours share their noise, keeps 0.31 of it.
+  constexpr float kBroad = 9 * 0.31F, kFine = 9 * 0.69F;
+  const float *h0 = rows.height[0], *h1 = rows.height[1], *h2 = rows.height[2];
+  const float *k0 = rows.known[0], *k1 = rows.known[1], *k2 = rows.known[2];
+  for (int c = 0; c < count; ++c) {
+    const float n0 = k0[c - 1] + k0[c] + k0[c + 1], n2 = k2[c - 1] + k2[c] + k2[c + 1];
+    const float west = k0[c - 1] + k1[c - 1] + k2[c - 1], east = k0[c + 1] + k1[c + 1] + k2[c + 1];
+    const float n = n0 + k1[c - 1] + k1[c] + k1[c + 1] + n2;
+    // Heights that are not known are 0.
+    const float sum = (h0[c - 1] + h0[c] + h0[c + 1]) + (h1[c - 1] + h1[c] + h1[c + 1]) +
+                      (h2[c - 1] + h2[c] + h2[c + 1]);
+    const float around =
+        (sum - rows.east[c] * (east - west) - rows.south[c] * (n2 - n0)) / (n > 0 ? n : 1.0F) -
+        rows.plane[c];
+    const float rest = h1[c] - rows.plane[c] - around;
+    const float variance = rows.variance_m2[c];
+    const float height = rows.plane[c] + BeyondNoise(around, kBroad * variance) +
+                         BeyondNoise(rest, kFine * variance);
+    settled[c] = k1[c] > 0 ? height : 0.0F;
+  }
+}
+
 void WindowMaximumRow(const float* values, int half, int count, float* work, float* most) {
   // Runs of 2, 4, 8 .. values, then two overlapping runs that fill the window.
   const int width = 2 * half + 1;

@@ -1,5 +1,6 @@
 #include "engine/slad/hazard_maps.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -17,6 +18,9 @@ namespace {
 
 static_assert(kSteep == kHazardSlope && kRough == kHazardRoughness && kStepped == kHazardStep &&
               kNotKnown == kHazardUnknown && kUnlikely == kHazardProbability);
+
+/// A place seen no better needs no probability; level ground has 0.8 by then.
+constexpr float kProvisionalSigma_m = 0.05F;
 
 /// How a cell with these reasons is counted.
 enum CountedAs {
@@ -79,10 +83,7 @@ class Judge {
         hazards_(hazards),
         up_W_{static_cast<float>(settings.up_W().x()), static_cast<float>(settings.up_W().y()),
               static_cast<float>(settings.up_W().z())},
-        limits_{static_cast<float>(Rad(settings.max_slope_deg)),
-                static_cast<float>(settings.max_deviation_m),
-                static_cast<float>(settings.max_step_m),
-                static_cast<float>(settings.min_safe_probability)},
+        limits_(LimitsOf(settings)),
         forbidden_flags_(ForbiddenFlags(settings)) {}
 
   void Row(int r) const {
@@ -104,8 +105,9 @@ class Judge {
         limits_,
         {hazards_.slope_rad.row(r), figures_.slope_sigma_rad.row(r),
          figures_.footprint_deviation_m.row(r), figures_.footprint_step_m.row(r),
-         figures_.footprint_sigma_m.row(r), figures_.deviation_m.row(r), figures_.step_m.row(r),
-         figures_.sigma_m.row(r), figures_.measured.row(r)},
+         figures_.footprint_sigma_m.row(r), figures_.settled_deviation_m.row(r),
+         figures_.gear_tilt_rad.row(r), figures_.belly_rise_m.row(r), figures_.deviation_m.row(r),
+         figures_.step_m.row(r), figures_.sigma_m.row(r), figures_.measured.row(r)},
         cols, {hazards_.safe_probability.row(r), hazards_.cost.row(r), hazards_.reasons.row(r)});
     if (!hazards_.flags.empty()) {
       ForbidFlagged(r);
@@ -147,6 +149,15 @@ HazardMaps LayersFor(const GridGeometry& geometry, const TerrainFigures& figures
 
 }  // namespace
 
+ModernLimits LimitsOf(const SladSettings& settings) {
+  return {static_cast<float>(Rad(settings.max_slope_deg)),
+          static_cast<float>(settings.max_deviation_m),
+          static_cast<float>(settings.max_step_m),
+          static_cast<float>(settings.min_safe_probability),
+          static_cast<float>(settings.belly_clearance_m),
+          static_cast<float>(settings.gear_width_m)};
+}
+
 unsigned ForbiddenFlags(const SladSettings& settings) {
   const unsigned always = kFlagThinStructure | kFlagNoTexture | kFlagMotion;
   return settings.elevated == ElevatedSurface::kAvoid ? always | kFlagElevated : always;
@@ -159,10 +170,17 @@ bool FootprintHolds(const HazardMaps& hazards, const SladSettings& settings, Cel
   if (settings.mode == SladMode::kThesis) {
     return true;
   }
+  // The worse the ground is seen, the less certain can even level ground be: among simulated
+  // touchdowns its chance of being unsafe grew with the square of sigma. A place may be a few times
+  // worse than that; such a site is provisional until the noise has fallen. In metres, not in
+  // shares of a limit: a stricter limit must never ask for less.
+  const float noise = hazards.roughness_sigma_m.at(cell) / kProvisionalSigma_m;
+  const float enough =
+      std::min(static_cast<float>(settings.min_safe_probability), 1 - noise * noise);
   return hazards.slope_rad.at(cell) <= static_cast<float>(Rad(settings.max_slope_deg)) &&
          hazards.roughness_m.at(cell) <= static_cast<float>(settings.max_deviation_m) &&
          hazards.step_m.at(cell) <= static_cast<float>(settings.max_step_m) &&
-         hazards.safe_probability.at(cell) >= static_cast<float>(settings.min_safe_probability);
+         hazards.safe_probability.at(cell) >= enough;
 }
 
 HazardMaps JudgeTerrain(const GridGeometry& geometry, const TerrainFigures& figures,

@@ -10,6 +10,7 @@
 #include "engine/slad/hazard_layers.h"
 #include "engine/slad/plane_fit.h"
 #include "engine/slad/slad_loops.h"
+#include "engine/slad/touchdown.h"
 
 namespace palace {
 namespace {
@@ -65,14 +66,18 @@ struct Layers {
   RimmedLayer east, south;  ///< gradient per cell
 };
 
-void FillLayers(const ElevationMap& map, const FootprintPlanes& planes, Layers& layers) {
-  float reference = 0;
+/// What heights are taken relative to: the first plane's.
+float ReferenceOf(const FootprintPlanes& planes) {
   for (const float z : planes.plane.height_m.cells()) {
     if (!std::isnan(z)) {
-      reference = z;
-      break;
+      return z;
     }
   }
+  return 0;
+}
+
+void FillLayers(const ElevationMap& map, const FootprintPlanes& planes, float reference,
+                Layers& layers) {
   const float cell = static_cast<float>(map.geometry.cell_m);
   ForRows(map.geometry.rows, [&](int r) {
     for (int c = 0; c < map.geometry.cols; ++c) {
@@ -139,17 +144,55 @@ struct Disc {
   std::vector<int> row_offset, half;
 };
 
+/// Heights of all cells that have one, less their noise: what the gear is put down on.
+struct Settled {
+  Settled(int rows, int cols, int rim)
+      : height(rows, cols, rim, 0.0F), noise2(rows, cols, rim, kNever), known(rows, cols, 0.0F) {}
+  RimmedLayer height;  ///< 0 where not known
+  RimmedLayer noise2;  ///< none, 0, where measured, kNever elsewhere
+  GridF known;         ///< 1 or 0
+};
+
+void SettleHeights(const ElevationMap& map, const FootprintPlanes& planes, float reference,
+                   const Layers& layers, Settled& out) {
+  const SladLoops& loops = FastestSladLoops();
+  const int rows = map.geometry.rows, cols = map.geometry.cols;
+  RimmedLayer height(rows, cols, 1, 0.0F), known(rows, cols, 1, 0.0F);
+  ForRows(rows, [&](int r) {
+    for (int c = 0; c < cols; ++c) {
+      const float z = map.height_m.at(r, c);
+      if (!std::isnan(z) && !std::isnan(planes.plane.height_m.at(r, c))) {
+        height.row(r)[c] = z - reference;
+        known.row(r)[c] = out.known.at(r, c) = 1;
+      }
+      if (map.state.at(r, c) == CellState::kMeasured) {
+        out.noise2.row(r)[c] = 0;
+      }
+    }
+  });
+  ForRows(rows, [&](int r) {
+    loops.settle({{height.row(r - 1), height.row(r), height.row(r + 1)},
+                  {known.row(r - 1), known.row(r), known.row(r + 1)},
+                  layers.plane.row(r),
+                  layers.east.row(r),
+                  layers.south.row(r),
+                  map.variance_m2.row(r)},
+                 cols, out.height.row(r));
+  });
+}
+
 /// Largest deviation from the plane of each cell, and largest step, over its footprint disc.
 void FindFootprintMaxima(const GridGeometry& geometry, const Disc& disc, const Layers& layers,
-                         TerrainFigures& figures) {
+                         const Settled& settled, TerrainFigures& figures) {
   const SladLoops& loops = FastestSladLoops();
   const int cols = geometry.cols;
   ForRows(geometry.rows, [&](int r) {
     const std::size_t padded = static_cast<std::size_t>(cols + kLaneSlack);
     std::vector<float> deviation2(padded, -kNever), step2(padded, -kNever);
+    std::vector<float> settled2(padded, -kNever);
     std::vector<float> work(padded + 2 * static_cast<std::size_t>(disc.reach));
     std::vector<int> row_offset, half;
-    std::vector<const float*> height, noise2;
+    std::vector<const float*> height, noise2, settled_height, settled_noise2;
     for (std::size_t i = 0; i < disc.half.size(); ++i) {
       const int rr = r + disc.row_offset[i];
       if (rr >= 0 && rr < geometry.rows) {
@@ -157,6 +200,8 @@ void FindFootprintMaxima(const GridGeometry& geometry, const Disc& disc, const L
         half.push_back(disc.half[i]);
         height.push_back(layers.height.row(rr));
         noise2.push_back(layers.noise2.row(rr));
+        settled_height.push_back(settled.height.row(rr));
+        settled_noise2.push_back(settled.noise2.row(rr));
         loops.window_maximum(layers.step2.row(rr), disc.half[i], cols, work.data(), step2.data());
       }
     }
@@ -164,10 +209,31 @@ void FindFootprintMaxima(const GridGeometry& geometry, const Disc& disc, const L
                           half.data(), height.data(), noise2.data()},
                          layers.plane.row(r), layers.east.row(r), layers.south.row(r), cols,
                          deviation2.data());
+    loops.disc_deviation({static_cast<int>(half.size()), disc.stride, row_offset.data(),
+                          half.data(), settled_height.data(), settled_noise2.data()},
+                         layers.plane.row(r), layers.east.row(r), layers.south.row(r), cols,
+                         settled2.data());
     for (int c = 0; c < cols; ++c) {
       figures.footprint_deviation_m.at(r, c) = BeyondNoise(deviation2[static_cast<std::size_t>(c)]);
       figures.footprint_step_m.at(r, c) = BeyondNoise(step2[static_cast<std::size_t>(c)]);
+      figures.settled_deviation_m.at(r, c) = BeyondNoise(settled2[static_cast<std::size_t>(c)]);
     }
+  });
+}
+
+void RestGear(const GridGeometry& geometry, const Settled& settled, const SladSettings& settings,
+              TerrainFigures& figures) {
+  GridF height_m(geometry.rows, geometry.cols, kUnknownValue);
+  ForRows(geometry.rows, [&](int r) {
+    for (int c = 0; c < geometry.cols; ++c) {
+      if (settled.known.at(r, c) > 0) {
+        height_m.at(r, c) = settled.height.row(r)[c];
+      }
+    }
+  });
+  const GearOverMap gear(height_m, geometry.cell_m, settings);
+  ForRows(geometry.rows, [&](int r) {
+    gear.WorstOfRow(r, figures.gear_tilt_rad.row(r), figures.belly_rise_m.row(r));
   });
 }
 
@@ -213,13 +279,19 @@ void MeasureModern(const ElevationMap& map, const SladSettings& settings, Terrai
   figures.north_gradient = figures.east_gradient = figures.slope_sigma_rad = unknown;
   figures.deviation_m = figures.sigma_m = figures.step_m = unknown;
   figures.footprint_deviation_m = figures.footprint_step_m = figures.footprint_sigma_m = unknown;
+  figures.settled_deviation_m = figures.gear_tilt_rad = figures.belly_rise_m = unknown;
   figures.measured = Grid<std::uint8_t>(rows, cols, 0);
-  const FootprintPlanes planes = FitFootprintPlanes(map, settings.lander_base_size_m, figures.flags);
+  const FootprintPlanes planes =
+      FitFootprintPlanes(map, settings.lander_base_size_m, figures.flags);
   const Disc disc(std::max(1.5, settings.lander_radius_m() / map.geometry.cell_m));
   Layers layers(rows, cols, disc.reach);
-  FillLayers(map, planes, layers);
+  const float reference = ReferenceOf(planes);
+  FillLayers(map, planes, reference, layers);
   FindSteps(map.geometry, layers, figures.step_m);
-  FindFootprintMaxima(map.geometry, disc, layers, figures);
+  Settled settled(rows, cols, disc.reach);
+  SettleHeights(map, planes, reference, layers, settled);
+  FindFootprintMaxima(map.geometry, disc, layers, settled, figures);
+  RestGear(map.geometry, settled, settings, figures);
   FindCellFigures(map, settings, planes, figures);
 }
 

@@ -6,6 +6,8 @@
 #include <numbers>
 #include <vector>
 
+#include "engine/slad/touchdown.h"
+
 namespace palace {
 namespace {
 
@@ -136,6 +138,7 @@ LandingSite EvaluateSite(const ElevationMap& map, const HazardMaps& hazards,
   site.pixel = PixelFromPoint(context, site.p_WS);
   site.height_m = {plane.height_m, 3 * std::sqrt(plane.cell_variance_m2)};
   TakeFigures(hazards, cell, site);
+  site.touchdown = OddsOfTouchdown(map, hazards, settings, site);
   site.clear_radius_m = settings.clear_radius_m();
   site.clearance_m = site.safe_distance_m - site.clear_radius_m;
   double age_sum_s = 0;

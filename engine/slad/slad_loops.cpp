@@ -4,6 +4,7 @@
 #include "engine/slad/footprint_loops.h"
 #include "engine/slad/lmeds_loops.h"
 #include "engine/slad/moment_loops.h"
+#include "engine/slad/touchdown_loops.h"
 #include "engine/slad/verdict_loops.h"
 
 namespace palace {
@@ -11,9 +12,9 @@ namespace palace {
 const SladLoops* SladLoopsBuiltForAvx2();  // slad_loops_avx2.cpp; null where it was not built
 
 const SladLoops& PortableSladLoops() {
-  static constexpr SladLoops loops{FitPlaneRow,   DiscDeviationRow, WindowMaximumRow,
-                                   AddMomentsRow, SolveMomentsRow,  NearestInRow,
-                                   SlopeRow,      ThesisVerdictRow, ModernVerdictRow};
+  static constexpr SladLoops loops{
+      FitPlaneRow,  DiscDeviationRow, SettleRow, WindowMaximumRow, AddMomentsRow,   SolveMomentsRow,
+      NearestInRow, PutGearDownRow,   SlopeRow,  ThesisVerdictRow, ModernVerdictRow};
   return loops;
 }
 

@@ -31,6 +31,17 @@ struct DiscRows {
   const float* const* noise2;  ///< taken from the square of the deviation
 };
 
+/// The heights around the cells of one row that SettleRow looks at, at column 0; known is 1 or 0.
+/// Readable one further to the left, 1 + kLaneSlack to the right.
+struct SettleRows {
+  const float* height[3];  ///< of the row to the north, the row itself and that to the south
+  const float* known[3];
+  const float* plane;  ///< of each cell: height and gradients a cell
+  const float* east;
+  const float* south;
+  const float* variance_m2;
+};
+
 /// No height is known better than this.
 inline constexpr float kHeightSigmaFloor_m = 1e-3F;
 
@@ -67,6 +78,8 @@ struct ModernLimits {
   float max_deviation_m;
   float max_step_m;
   float min_safe_probability;
+  float belly_clearance_m;
+  float gear_width_m;
 };
 struct ModernRow {
   const float* slope;  ///< NaN where there is no plane
@@ -74,6 +87,9 @@ struct ModernRow {
   const float* footprint_deviation_m;
   const float* footprint_step_m;
   const float* footprint_sigma_m;
+  const float* settled_deviation_m;
+  const float* gear_tilt;  ///< NaN where the gear would reach unknown ground
+  const float* belly_rise_m;
   const float* cell_deviation_m;
   const float* cell_step_m;
   const float* cell_sigma_m;
@@ -83,6 +99,39 @@ struct ModernVerdict {
   float* safe_probability;
   float* cost;
   unsigned char* reasons;
+};
+
+/// Most points of one skid; a longer one on small cells has them farther apart.
+inline constexpr int kMostGearPoints = 13;
+
+/// A point of the gear between four cells: the north-western one at `offset` floats from the cell
+/// under the gear's middle, and the shares of it, its eastern, southern and south-eastern
+/// neighbours.
+struct GearPoint {
+  int offset;
+  float weight[4];
+};
+/// A cell under the belly, its centre seen from the gear's middle.
+struct BellyCell {
+  int offset;
+  float north_m, east_m;
+};
+struct GearHeading {
+  float north, east;                    ///< unit vector forward
+  GearPoint point[2][kMostGearPoints];  ///< left and right, aft to fore; pads: aft, fore
+  int belly_cells;
+  const BellyCell* belly;
+};
+/// The gear over a layer of heights whose rows are `pitch` floats apart.
+struct GearShape {
+  bool skids;
+  int points;  ///< of one skid; 2 for pads
+  float spacing_m;
+  float width_m;
+  float up_W[3];
+  int pitch;
+  int headings;
+  const GearHeading* heading;
 };
 
 struct SladLoops {
@@ -95,6 +144,9 @@ struct SladLoops {
   /// readable, square writable, kLaneSlack beyond count.
   void (*disc_deviation)(const DiscRows& disc, const float* plane, const float* east,
                          const float* south, int count, float* square);
+  /// Heights less their noise: off its plane a cell keeps sqrt(off^2 - 9 sigma^2), the mean of the
+  /// cells around it and the rest apart. 0 where not known.
+  void (*settle)(const SettleRows& rows, int count, float* settled_m);
   /// most = the largest of itself and values[c - half .. c + half]. work: count + 2 half floats.
   void (*window_maximum)(const float* values, int half, int count, float* work, float* most);
   /// columns[k pitch + c] += sign times moment k of the cells of a row; those of weight 0 are left
@@ -111,6 +163,11 @@ struct SladLoops {
   /// Readable kNearestReach + kLaneSlack further both ways.
   void (*nearest_in_row)(const float* square, float inset, int count, double cell_m,
                          float* distance_m);
+  /// Rests the gear around each cell of a row at every heading: the largest squared tangent of its
+  /// tilt and the largest height of the ground under its belly above the plane it rests on. All
+  /// cells it touches are readable, kLaneSlack more to the right; results writable as far.
+  void (*put_gear_down)(const GearShape& gear, const float* height, int count, float* tan2,
+                        float* rise_m);
   /// Angle between the plane's normal and the up vector. NaN where the gradient is.
   void (*slope)(const float* north_gradient, const float* east_gradient, const float* up_W,
                 int count, float* slope_rad);

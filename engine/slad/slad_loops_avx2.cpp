@@ -5,6 +5,7 @@
 #include "engine/slad/footprint_loops.h"
 #include "engine/slad/lmeds_loops.h"
 #include "engine/slad/moment_loops.h"
+#include "engine/slad/touchdown_loops.h"
 #include "engine/slad/verdict_loops.h"
 #endif
 
@@ -14,9 +15,9 @@ const SladLoops* SladLoopsBuiltForAvx2();
 
 const SladLoops* SladLoopsBuiltForAvx2() {
 #if defined(__AVX2__)
-  static constexpr SladLoops loops{FitPlaneRow,   DiscDeviationRow, WindowMaximumRow,
-                                   AddMomentsRow, SolveMomentsRow,  NearestInRow,
-                                   SlopeRow,      ThesisVerdictRow, ModernVerdictRow};
+  static constexpr SladLoops loops{
+      FitPlaneRow,  DiscDeviationRow, SettleRow, WindowMaximumRow, AddMomentsRow,   SolveMomentsRow,
+      NearestInRow, PutGearDownRow,   SlopeRow,  ThesisVerdictRow, ModernVerdictRow};
   return &loops;
 #else
   return nullptr;

@@ -43,6 +43,11 @@ TerrainFigures MeasureTerrain(const ElevationMap& map, const SladSettings& setti
   figures.mode = settings.mode;
   figures.max_rock_size_m = settings.max_rock_size_m;
   figures.lander_base_size_m = settings.lander_base_size_m;
+  figures.gear = settings.gear;
+  figures.gear_length_m = settings.gear_length_m;
+  figures.gear_width_m = settings.gear_width_m;
+  figures.up_tilt_deg = settings.up_tilt_deg;
+  figures.up_azimuth_deg = settings.up_azimuth_deg;
   if (map.height_m.empty()) {
     return figures;
   }

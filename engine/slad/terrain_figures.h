@@ -16,6 +16,10 @@ struct TerrainFigures {
   SladMode mode = SladMode::kModern;
   double max_rock_size_m = 0;
   double lander_base_size_m = 0;
+  LandingGear gear = LandingGear::kSkids;
+  double gear_length_m = 0;
+  double gear_width_m = 0;
+  double up_tilt_deg = 0, up_azimuth_deg = 0;  ///< the gear's worst heading depends on it
 
   GridF north_gradient;  ///< of the plane, metres per metre
   GridF east_gradient;
@@ -29,12 +33,18 @@ struct TerrainFigures {
   GridF footprint_deviation_m;  ///< largest over the lander's disc, beyond noise
   GridF footprint_step_m;
   GridF footprint_sigma_m;      ///< mean over the disc, a rock's size averaged
+  GridF settled_deviation_m;    ///< largest over the disc of the settled heights
+  GridF gear_tilt_rad;          ///< of the gear on the settled heights, at its worst heading
+  GridF belly_rise_m;           ///< of settled heights under the belly above the gear's plane
   Grid<std::uint8_t> measured;  ///< 1 where the cell itself was measured
 
   /// Whether measuring again under these settings would give the same figures.
   bool HoldFor(const SladSettings& settings) const {
     return mode == settings.mode && max_rock_size_m == settings.max_rock_size_m &&
-           (mode == SladMode::kThesis || lander_base_size_m == settings.lander_base_size_m);
+           (mode == SladMode::kThesis ||
+            (lander_base_size_m == settings.lander_base_size_m && gear == settings.gear &&
+             gear_length_m == settings.gear_length_m && gear_width_m == settings.gear_width_m &&
+             up_tilt_deg == settings.up_tilt_deg && up_azimuth_deg == settings.up_azimuth_deg));
   }
 };
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "engine/slad/slad_loops.h"
+#include "engine/slad/touchdown_calibration.h"
 
 namespace palace {
 namespace {
@@ -78,6 +79,29 @@ void ThesisVerdictRow(const ThesisLimits& limits, const float* slope, const floa
   }
 }
 
+/// What the figures of a footprint do not show whatever the noise: ground finer than a cell.
+/// Heights as shares of their limits, so that a smaller lander on smaller rocks is judged alike.
+/// Chosen, like the score, for the sharpest verdicts on the ground of `evaluate probability`.
+constexpr float kFinerPlane_rad = 0.0031F, kFinerTilt_rad = 0.0052F;
+constexpr float kFinerDeviation = 0.4F, kFinerStep = 0.53F, kFinerBelly = 0.12F;
+/// Share of a cell's noise left in the difference of two supports.
+constexpr float kSupportNoise = 0.33F;
+
+inline float Hypotenuse(float a, float b) { return __builtin_sqrtf(a * a + b * b); }
+
+/// Product of the chances that each figure of the touchdown keeps its limit.
+inline float TouchdownScore(const ModernLimits& most, float slope, float slope_sigma,
+                            float deviation, float step, float sigma, float tilt, float rise) {
+  return NormalBelow((most.max_slope_rad - slope) / Hypotenuse(slope_sigma, kFinerPlane_rad)) *
+         NormalBelow((most.max_deviation_m - deviation) /
+                     Hypotenuse(sigma, kFinerDeviation * most.max_deviation_m)) *
+         NormalBelow((most.max_step_m - step) / Hypotenuse(sigma, kFinerStep * most.max_step_m)) *
+         NormalBelow((most.max_slope_rad - tilt) /
+                     Hypotenuse(kSupportNoise * sigma / most.gear_width_m, kFinerTilt_rad)) *
+         NormalBelow((most.belly_clearance_m - rise) /
+                     Hypotenuse(sigma, kFinerBelly * most.belly_clearance_m));
+}
+
 /// Some columns of ModernVerdictRow: one loop for each width of number, or none is vectorised.
 inline void ModernVerdictRun(const ModernLimits& limits, const ModernRow& row, int first, int count,
                              const ModernVerdict& out) {
@@ -94,18 +118,22 @@ inline void ModernVerdictRun(const ModernLimits& limits, const ModernRow& row, i
   const float* cell_deviation = row.cell_deviation_m + first;
   const float* cell_step = row.cell_step_m + first;
   const float* cell_sigma = row.cell_sigma_m + first;
+  const float* settled = row.settled_deviation_m + first;
+  const float* tilt = row.gear_tilt + first;
+  const float* rise = row.belly_rise_m + first;
+  for (int c = 0; c < count; ++c) {
+    const float score = TouchdownScore(most, slope[c], slope_sigma[c], settled[c], step[c],
+                                       sigma[c], tilt[c], rise[c]);
+    const float share = tilt[c] == tilt[c] ? ShareOfSafe(score) : 0.0F;
+    out.safe_probability[first + c] = slope[c] == slope[c] ? share : slope[c];
+  }
   for (int c = 0; c < count; ++c) {
     const float flat = NormalBelow((most.max_slope_rad - slope[c]) / slope_sigma[c]);
     // A step is a difference of two heights.
-    const float margin =
-        Least(most.max_deviation_m - deviation[c], (most.max_step_m - step[c]) * kPerRoot2);
     const float cell_margin = Least(most.max_deviation_m - cell_deviation[c],
                                     (most.max_step_m - cell_step[c]) * kPerRoot2);
-    const float s = __builtin_sqrtf(sigma[c] * sigma[c] + kFloor2);
     const float cell_s = __builtin_sqrtf(cell_sigma[c] * cell_sigma[c] + kFloor2);
-    const float safe = flat * NormalBelow(margin / s);
     cell_safe[c] = flat * NormalBelow(cell_margin / cell_s);
-    out.safe_probability[first + c] = slope[c] == slope[c] ? safe : slope[c];
   }
   for (int c = 0; c < count; ++c) {
     reasons[c] = row.measured[first + c] != 0 ? 0 : kNotKnown;

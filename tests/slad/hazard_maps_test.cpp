@@ -177,7 +177,8 @@ TEST(HazardMaps, AMovedLimitGivesWhatMeasuringAgainWould) {
     settings.max_step_m = 0.08;
     settings.min_safe_probability = 0.9;
     settings.nav_error_m = 0.1;
-    settings.up_tilt_deg = 3;
+    settings.belly_clearance_m = 0.2;
+    settings.up_tilt_deg = mode == SladMode::kThesis ? 3 : 0;
     ASSERT_TRUE(figures.HoldFor(settings));
     EXPECT_EQ(HashOfMaps(map, JudgeTerrain(map.geometry, figures, settings)),
               HashOfMaps(map, EvaluateHazards(map, settings)));

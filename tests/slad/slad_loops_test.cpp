@@ -39,10 +39,11 @@ Floats Results(const SladLoops& loops, std::uint64_t seed) {
   loops.slope(a.data(), b.data(), up, count, slope.data());
   keep(slope);
   std::vector<unsigned char> reasons(size), measured(size, 1);
-  loops.modern_verdict({0.3F, 0.1F, 0.15F, 0.99F},
-                       {slope.data(), d.data(), c.data(), c.data(), d.data(), c.data() + 1,
-                        c.data() + 2, d.data(), measured.data()},
-                       count, {probability.data(), cost.data(), reasons.data()});
+  loops.modern_verdict(
+      {0.3F, 0.1F, 0.15F, 0.99F, 0.35F, 0.9F},
+      {slope.data(), d.data(), c.data(), c.data(), d.data(), c.data() + 3, slope.data() + 1,
+       b.data(), c.data() + 1, c.data() + 2, d.data(), measured.data()},
+      count, {probability.data(), cost.data(), reasons.data()});
   keep(probability);
   keep(cost);
   keep(Floats(reasons.begin(), reasons.end()));
@@ -105,20 +106,40 @@ TEST(SladLoops, SlopeIsTheAngleToTheUpVector) {
   }
 }
 
-TEST(SladLoops, ProbabilityIsTheNormalDistribution) {
-  for (double x = -7; x <= 7; x += 0.01) {
-    // Only the slope is near its limit: x sigmas below it.
-    const float slope = float(0.2 - 0.01 * x), sigma = 0.01F, none = 0, small = 1e-6F;
-    const unsigned char measured = 1;
-    float probability = 0, cost = 0;
-    unsigned char reasons = 0;
-    FastestSladLoops().modern_verdict(
-        {0.2F, 0.1F, 0.15F, 0.99F},
-        {&slope, &sigma, &none, &none, &small, &none, &none, &small, &measured}, 1,
-        {&probability, &cost, &reasons});
-    const double sigmas = double(0.2F - slope) / double(sigma);
-    ASSERT_NEAR(double(probability), 0.5 * std::erfc(-sigmas / std::sqrt(2.0)), 1e-6) << x;
+/// Chance that a touchdown is safe by the loops, from one figure each.
+struct Figures {
+  float slope = 0, slope_sigma = 1e-4F, deviation = 0, step = 0, sigma = 0, settled = 0, tilt = 0,
+        rise = 0;
+};
+double SafeProbability(const Figures& f) {
+  const float none = 0, small = 1e-6F;
+  const unsigned char measured = 1;
+  float probability = 0, cost = 0;
+  unsigned char reasons = 0;
+  FastestSladLoops().modern_verdict({0.2F, 0.1F, 0.15F, 0.99F, 0.35F, 0.9F},
+                                    {&f.slope, &f.slope_sigma, &f.deviation, &f.step, &f.sigma,
+                                     &f.settled, &f.tilt, &f.rise, &none, &none, &small, &measured},
+                                    1, {&probability, &cost, &reasons});
+  return double(probability);
+}
+
+TEST(SladLoops, ProbabilityFallsWithEveryFigureAndWithNoise) {
+  EXPECT_GT(SafeProbability({}), 0.999);
+  for (float Figures::*figure : {&Figures::slope, &Figures::step, &Figures::sigma,
+                                 &Figures::settled, &Figures::tilt, &Figures::rise}) {
+    double last = 1;
+    for (float value = 0; value < 0.6F; value += 0.002F) {
+      Figures f;
+      f.*figure = value;
+      const double now = SafeProbability(f);
+      ASSERT_LE(now, last + 1e-6) << value;
+      last = now;
+    }
+    EXPECT_LT(last, 0.5);
   }
+  Figures unknown;
+  unknown.tilt = NAN;
+  EXPECT_EQ(SafeProbability(unknown), 0) << "gear over unknown ground";
 }
 
 }  // namespace
