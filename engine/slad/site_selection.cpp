@@ -11,6 +11,7 @@
 
 #include "engine/slad/explanation.h"
 #include "engine/slad/hazard_layers.h"
+#include "engine/slad/sense_check.h"
 #include "engine/slad/site_evaluation.h"
 
 namespace palace {
@@ -176,6 +177,10 @@ SiteSelection SelectSites(const ElevationMap& map, const HazardMaps& hazards,
                           const SladSettings& settings, const SiteContext& context) {
   PALACE_CHECK(map.geometry == hazards.geometry);
   SiteSelection selection;
+  selection.none_reason = ObjectionTo(map, settings);
+  if (!selection.none_reason.empty()) {
+    return selection;
+  }
   std::vector<LandingSite> blocked, closed;  // straight on; from everywhere
   const double spacing_cells = settings.site_spacing_m / std::max(map.geometry.cell_m, 1e-9);
   const auto kept = static_cast<std::size_t>(settings.sites_kept);
@@ -187,6 +192,9 @@ SiteSelection SelectSites(const ElevationMap& map, const HazardMaps& hazards,
     }
     candidates.DropAround(*cell, spacing_cells);
     LandingSite site = EvaluateSite(map, hazards, settings, context, *cell);
+    if (!IsSound(site)) {
+      continue;
+    }
     (site.corridor_clear          ? selection.sites
      : site.clear_approaches != 0 ? blocked
                                   : closed)

@@ -163,7 +163,7 @@ TEST(Metamorphic, TurnedGroundTurnsThesisPlanesThatAreUnique) {
 ElevationMap Embedded(const ElevationMap& map, int rows, int cols) {
   const auto nothing = [](double, double) { return std::nan(""); };
   ElevationMap larger =
-      MakeMap(map.geometry.rows + 2 * rows + 1, map.geometry.cols + 2 * cols + 3, kCell_m, nothing);
+      MakeMap(map.geometry.rows + 2 * rows + 2, map.geometry.cols + 2 * cols + 4, kCell_m, nothing);
   larger.geometry.north_min_m = map.geometry.north_min_m;
   larger.geometry.east_min_m = map.geometry.east_min_m;
   for (int r = 0; r < map.geometry.rows; ++r) {
@@ -184,7 +184,9 @@ TEST(Metamorphic, GroundShiftedByWholeCellsShiftsEveryLayerAndTheSites) {
       SCOPED_TRACE(Label(mode, seed));
       const ElevationMap map = RandomGround(64, 72, kCell_m, seed);
       const Answer is = Ask(map, settings);
-      const int rows = 3 + static_cast<int>(seed) % 7, cols = 2 + static_cast<int>(seed) % 11;
+      // Raised surfaces are looked for on blocks of 0.3 m: two cells.
+      const int rows = 2 + 2 * (static_cast<int>(seed) % 7);
+      const int cols = 2 * (static_cast<int>(seed) % 5);
       const ElevationMap larger = Embedded(map, rows, cols);
       const Eigen::Vector3d offset_W(larger.geometry.NorthOfRow(rows) - map.geometry.NorthOfRow(0),
                                      larger.geometry.EastOfCol(cols) - map.geometry.EastOfCol(0),
