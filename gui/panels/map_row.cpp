@@ -36,6 +36,7 @@ std::array<MapView, 5> Views(const EngineSnapshot& snap, const MapRowState& stat
   }
   for (MapView& view : views) {
     view.geometry = shown->hazards->geometry;
+    view.flags = &shown->hazards->flags;
   }
   const SladSettings& slad = shown->settings;
   const SladSettings& wanted = snap.preview_settings.slad;

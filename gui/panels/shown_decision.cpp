@@ -74,6 +74,7 @@ MapView SafeDistanceMap(const EngineSnapshot& snap, const UiFrame& ui) {
   }
   view.geometry = shown->hazards->geometry;
   view.values = &shown->hazards->safe_distance_m;
+  view.flags = &shown->hazards->flags;
   const double clear_m = shown->settings.clear_radius_m();
   view.low = "0 m";
   view.high = Fixed(2.5 * clear_m, 1) + " m";

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/core/units.h"
+#include "gui/widgets/flag_marks.h"
 #include "gui/widgets/number_text.h"
 
 namespace palace {
@@ -163,6 +164,11 @@ void DrawCurrentVerdict(UiFrame& ui, const Rect& image, const EngineSnapshot& sn
                         const TerrainDecision* decision, OverlayCache& cache) {
   if (decision != nullptr && !(MapAge(snap, decision) > kOldMap_s)) {
     DrawVerdict(ui, image, decision->verdict, cache);
+    const auto camera = LeftCamera(snap);
+    if (camera && decision->hazards && decision->elevation) {
+      DrawFlagsOnPicture(ui.style, {*camera, snap.X_WC, image}, decision->hazards->geometry,
+                         decision->elevation->height_m, decision->hazards->flags);
+    }
   }
 }
 
@@ -174,7 +180,7 @@ void DrawVerdictPlate(UiFrame& ui, const Rect& image, const EngineSnapshot& snap
   } else if (age_s > kOldMap_s) {
     TextPlate(ui, image, Corner::kTopLeft, "Last map " + Duration(age_s) + " old");
   } else {
-    DrawVerdictLegend(ui, image);
+    DrawVerdictLegend(ui, image, decision->hazards ? FlagsPresent(decision->hazards->flags) : 0U);
   }
 }
 
@@ -194,6 +200,7 @@ MapView MakeMapView(MapKind kind, const TerrainDecision* decision, ImTextureID t
   view.geometry = decision->hazards     ? decision->hazards->geometry
                   : decision->elevation ? decision->elevation->geometry
                                         : GridGeometry{};
+  view.flags = decision->hazards ? &decision->hazards->flags : nullptr;
   FillRange(kind, decision->settings, applied, view);
   const LandingSite* best = BestSite(decision);
   if (view.values != nullptr && cursor && view.geometry.Contains(*cursor)) {

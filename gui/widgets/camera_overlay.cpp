@@ -4,6 +4,7 @@
 
 #include "gui/widgets/cell_hatch.h"
 #include "gui/widgets/contour.h"
+#include "gui/widgets/flag_marks.h"
 
 namespace palace {
 
@@ -135,7 +136,7 @@ void DrawTracker(UiFrame& ui, const PictureView& view, const TrackerStatus& trac
   dl->PopClipRect();
 }
 
-void DrawVerdictLegend(UiFrame& ui, const Rect& image) {
+void DrawVerdictLegend(UiFrame& ui, const Rect& image, unsigned flags) {
   const Style& s = ui.style;
   const char* safe = "Safe";
   const char* over = "Over a limit or unknown";
@@ -158,6 +159,12 @@ void DrawVerdictLegend(UiFrame& ui, const Rect& image) {
   Hatch(dl, swatch, Rgb(0xF5963C), s.Fine(2), s.Fine(6));
   x += half * 2 + s.Px(6);
   DrawText(ui, s.caption, picture::kPlateText, x, y, over);
+  const float flags_w = FlagLegendWidth(s, flags) + s.Px(12);
+  if (flags != 0 && flags_w + s.Px(16) <= image.w) {
+    const Rect below{plate.x, plate.bottom() + s.Px(4), flags_w, plate.h};
+    FillRect(dl, below, picture::kPlate, s.Fine(3));
+    DrawFlagLegend(ui, below.x - s.Px(6), below.centre().y, flags);
+  }
 }
 
 }  // namespace palace

@@ -32,7 +32,7 @@ struct SiteOverlay {
 void DrawSites(UiFrame& ui, const PictureView& view, const SiteOverlay& overlay);
 /// Brackets, search window.
 void DrawTracker(UiFrame& ui, const PictureView& view, const TrackerStatus& tracker);
-/// Plate "Safe | Over a limit or unknown" at the top left.
-void DrawVerdictLegend(UiFrame& ui, const Rect& image);
+/// Plate "Safe | Over a limit or unknown" at the top left; under it one of the flags that occur.
+void DrawVerdictLegend(UiFrame& ui, const Rect& image, unsigned flags = 0);
 
 }  // namespace palace

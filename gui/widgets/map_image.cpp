@@ -4,6 +4,7 @@
 
 #include "engine/model/settings.h"
 #include "gui/widgets/cell_hatch.h"
+#include "gui/widgets/flag_marks.h"
 #include "gui/widgets/site_marks.h"
 
 namespace palace {
@@ -123,6 +124,9 @@ std::optional<Cell> DrawMapPicture(UiFrame& ui, const Rect& square, const MapVie
                   {values.cols(), values.rows(), picture::kUnknown, picture::kUnknownLine,
                    s.Fine(1), s.Px(6)},
                   [&](int row, int col) { return !std::isfinite(values.at(row, col)); });
+    if (view.flags != nullptr) {
+      DrawFlagsOnMap(s, square, *view.flags);
+    }
     DrawFootprint(s, square, view, marks.footprint);
     DrawMapSites(ui, square, view, marks);
     if (marks.probe && view.geometry.Contains(*marks.probe)) {

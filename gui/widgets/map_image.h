@@ -32,7 +32,8 @@ struct MapView {
   Ramp ramp = Ramp::kElevation;
   GridGeometry geometry;
   const GridF* values = nullptr;  ///< NaN cells are hatched; null: the whole map is unknown
-  std::string low, high;          ///< labels of the ends
+  const Grid<std::uint8_t>* flags = nullptr;  ///< TerrainFlag bits; null or empty: none
+  std::string low, high;                      ///< labels of the ends
   LimitTick limit;
   bool preview = false;
 };

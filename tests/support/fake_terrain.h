@@ -106,6 +106,21 @@ inline std::shared_ptr<const HazardMaps> Hazards(const ElevationMap& map, double
                                     (rough > max_roughness_m ? kHazardRoughness : 0));
     }
   }
+  // A wire across a corner, a puddle, somebody walking, a tree's shadow, a table.
+  h.flags = Grid<std::uint8_t>(kCells, kCells, kFlagNone);
+  const auto near = [](int r, int c, int r0, int c0, int reach) {
+    return std::abs(r - r0) <= reach && std::abs(c - c0) <= reach;
+  };
+  for (int r = 0; r < kCells; ++r) {
+    for (int c = 0; c < kCells; ++c) {
+      h.flags.at(r, c) = static_cast<std::uint8_t>(
+          (std::abs(r + c - kCells / 3) <= 1 ? kFlagThinStructure : 0) |
+          (near(r, c, kCells * 4 / 5, kCells * 3 / 5, 5) ? kFlagNoTexture : 0) |
+          (near(r, c, kCells / 2, kCells * 9 / 10, 3) ? kFlagMotion : 0) |
+          (near(r, c, kCells / 6, kCells * 4 / 5, 6) ? kFlagShadow : 0) |
+          (near(r, c, kCells * 9 / 10, kCells / 8, 4) ? kFlagElevated : 0));
+    }
+  }
   for (int r = 0; r < kCells; ++r) {
     for (int c = 0; c < kCells; ++c) {
       int nearest2 = 1 << 20;
