@@ -16,6 +16,7 @@
 #include "engine/runtime/settings_io.h"
 #include "engine/slad/slad.h"
 #include "engine/tools/analyze_inputs.h"
+#include "engine/tools/hazard_layer.h"
 #include "engine/tools/map_files.h"
 #include "engine/tools/map_pictures.h"
 
@@ -85,22 +86,6 @@ Result<AnalyzeInput> LoadInput(const Options& options, const Settings& settings)
     return ElevationOfCloud(options.points, options.cell_m, settings);
   }
   return ElevationOfPair(options.left, options.right, options.rig, settings);
-}
-
-/// Per cell: 0 safe, 1 over a limit, NaN unknown. Filled holes count by their filled height.
-GridF HazardLayer(const ElevationMap& map, const HazardMaps& hazards, SladMode mode) {
-  GridF layer(map.geometry.rows, map.geometry.cols, kUnknownValue);
-  for (std::size_t i = 0; i < layer.cells().size(); ++i) {
-    const CellState state = map.state.cells()[i];
-    const bool known = state == CellState::kMeasured || state == CellState::kFilled ||
-                       (state == CellState::kBorder && mode == SladMode::kThesis);
-    const unsigned over = hazards.reasons.cells()[i] & ~unsigned{kHazardUnknown};
-    // A flag needs no plane to say what it says.
-    if (known && ((over & kHazardFlagged) != 0 || !std::isnan(hazards.slope_rad.cells()[i]))) {
-      layer.cells()[i] = over != 0 ? 1.0F : 0.0F;
-    }
-  }
-  return layer;
 }
 
 /// JSON has no NaN: unknown is null.

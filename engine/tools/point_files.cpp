@@ -17,17 +17,19 @@ Error AtLine(const std::filesystem::path& path, std::size_t line, const std::str
   return InvalidError(path.string() + ":" + std::to_string(line) + ": " + what);
 }
 
+bool Parts(char c) { return c == ' ' || c == '\t' || c == ',' || c == ';' || c == '\r'; }
+
 /// Up to `most` numbers parted by blanks, commas or semicolons; stops at the first other word.
 std::size_t ParseNumbers(const std::string& line, std::size_t most, std::vector<double>& numbers) {
   numbers.clear();
   const char* at = line.c_str();
   while (numbers.size() < most) {
-    while (*at == ' ' || *at == '\t' || *at == ',' || *at == ';' || *at == '\r') {
+    while (Parts(*at)) {
       ++at;
     }
     char* end = nullptr;
     const double value = std::strtod(at, &end);
-    if (end == at) {
+    if (end == at || !(Parts(*end) || *end == '\0')) {
       break;
     }
     numbers.push_back(value);
@@ -36,22 +38,59 @@ std::size_t ParseNumbers(const std::string& line, std::size_t most, std::vector<
   return numbers.size();
 }
 
-Result<Points> ReadText(const std::filesystem::path& path, std::ifstream& file) {
-  Points points;
+/// Start of a line fit for a message.
+std::string Quoted(const std::string& line) {
+  std::string text = line.substr(0, 40);
+  for (char& c : text) {
+    c = c >= ' ' && c <= '~' ? c : '?';
+  }
+  return '"' + text + '"';
+}
+
+/// Calls take(numbers) for every line of at least `least` numbers. Comments, empty lines and
+/// headings before the first point are passed over.
+template <typename Take>
+Status ReadLines(const std::filesystem::path& path, std::ifstream& file, std::size_t least,
+                 Take take) {
+  constexpr std::size_t kMostColumns = 16;
   std::vector<double> numbers;
+  std::size_t columns = 0;
   std::string line;
   for (std::size_t n = 1; std::getline(file, line); ++n) {
+    if (n == 1 && line.rfind("\xEF\xBB\xBF", 0) == 0) {
+      line.erase(0, 3);
+    }
     const auto first = line.find_first_not_of(" \t\r");
-    if (first == std::string::npos || line[first] == '#' || line[first] == '/') {
+    if (first == std::string::npos || std::strchr("#/%!", line[first]) != nullptr) {
       continue;
     }
-    if (ParseNumbers(line, 3, numbers) < 3) {
-      if (points.empty() && numbers.empty()) {
+    if (line.find(';') != std::string::npos && line.find(',') != std::string::npos) {
+      return AtLine(path, n, "both ; and , in " + Quoted(line) + "; write decimals with a point");
+    }
+    if (ParseNumbers(line, kMostColumns, numbers) < least) {
+      if (columns == 0 && numbers.empty()) {
         continue;  // a heading
       }
-      return AtLine(path, n, "expected x y z, found \"" + line.substr(0, 40) + "\"");
+      return AtLine(path, n,
+                    "expected " + std::string(least > 3 ? "x y z label" : "x y z") + ", found " +
+                        Quoted(line));
     }
+    if (file.eof() && numbers.size() < columns) {
+      return AtLine(path, n, "the last line is cut off: " + Quoted(line));
+    }
+    columns = columns == 0 ? numbers.size() : columns;
+    take(numbers);
+  }
+  return Ok();
+}
+
+Result<Points> ReadText(const std::filesystem::path& path, std::ifstream& file) {
+  Points points;
+  const Status read = ReadLines(path, file, 3, [&](const std::vector<double>& numbers) {
     points.emplace_back(numbers[0], numbers[1], numbers[2]);
+  });
+  if (!read) {
+    return read.error();
   }
   return points;
 }
@@ -180,19 +219,41 @@ Result<Points> ReadPly(const std::filesystem::path& path, std::ifstream& file) {
 }  // namespace
 
 Result<std::vector<Eigen::Vector3d>> ReadPointFile(const std::filesystem::path& path) {
+  std::error_code error;
+  if (std::filesystem::is_directory(path, error)) {
+    return InvalidError(path.string() + " is a folder; give the file of points");
+  }
   std::ifstream file(path, std::ios::binary);
   if (!file) {
     return UnavailableError("cannot read " + path.string() + ": does the file exist?");
   }
-  std::string start(3, '\0');
-  file.read(start.data(), 3);
-  const bool ply = file.gcount() == 3 && start == "ply";
+  std::string start(4, '\0');
+  file.read(start.data(), 4);
+  const bool ply = start.rfind("ply", 0) == 0;
+  if (start == "LASF") {
+    return InvalidError(path.string() + " is a LAS file; convert it to text of x y z, or to PLY");
+  }
   file.clear();
   file.seekg(0);
   auto points = ply ? ReadPly(path, file) : ReadText(path, file);
   if (points && points->size() < 3) {
     return InvalidError(path.string() + ": " + std::to_string(points->size()) +
                         " points; expected lines of x y z or a PLY cloud");
+  }
+  return points;
+}
+
+Result<std::vector<LabelledPoint>> ReadLabelledPoints(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) {
+    return UnavailableError("cannot read " + path.string() + ": does the file exist?");
+  }
+  std::vector<LabelledPoint> points;
+  const Status read = ReadLines(path, file, 4, [&](const std::vector<double>& numbers) {
+    points.push_back({{numbers[0], numbers[1], numbers[2]}, numbers[3] == 1});
+  });
+  if (!read) {
+    return read.error();
   }
   return points;
 }

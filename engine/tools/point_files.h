@@ -14,4 +14,13 @@ namespace palace {
 /// file and line.
 Result<std::vector<Eigen::Vector3d>> ReadPointFile(const std::filesystem::path& path);
 
+/// A point with what a survey's editor says it is.
+struct LabelledPoint {
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();
+  bool ground = false;
+};
+
+/// Text of x y z label, label 1 for ground and 0 for an object, as the ISPRS filter test has it.
+Result<std::vector<LabelledPoint>> ReadLabelledPoints(const std::filesystem::path& path);
+
 }  // namespace palace
