@@ -7,8 +7,15 @@
 // cell: the ground plane around it is too steep, the cell stands off that plane, it makes a step,
 // or is unknown. The layers slope, roughness, step, cost and safe_probability speak of the lander's
 // FOOTPRINT centred on the cell. Heights count only beyond their noise: a deviation r with sigma s
-// has the value sqrt(max(0, r^2 - 16 s^2)). Probabilities are Gaussian tails,
-//   P(safe) = Phi((slope_max - slope)/s_slope) * min(Phi of roughness, Phi of step).
+// has the value sqrt(max(0, r^2 - 16 s^2)).
+//
+// safe_probability is that of a touchdown of the lander's gear (touchdown.h) at its worst heading:
+// the ground plane's slope and the gear's tilt within the slope limit, deviation and step within
+// theirs, the ground below the belly. The product of the Gaussian tails of these five is a score,
+// and P is the share of simulated touchdowns of that score that were safe
+// (touchdown_calibration.h, `palacectl evaluate probability`). 0 where the gear would reach unknown
+// ground. Anchor: Ivanov, Huertas & Carson 2013; there one sigma holds for all cells and pads are
+// put on the noisy heights themselves.
 // safe_distance is exact Euclidean from the cell's centre to the nearest point of a hazard's square
 // (thesis mode: to its centre); outside the map counts as unknown.
 #pragma once
