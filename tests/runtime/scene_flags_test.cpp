@@ -1,0 +1,225 @@
+// What pictures show beside heights, through stereo and the flight's terrain stage: wires, painted
+// lines, still water, somebody moving; and nothing where there is nothing.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <opencv2/core.hpp>
+
+#include "engine/camera/pinhole.h"
+#include "engine/core/units.h"
+#include "engine/runtime/terrain_stage.h"
+#include "engine/simulation/painted_things.h"
+#include "engine/simulation/stereo_world.h"
+#include "engine/stereo/stereo.h"
+
+namespace palace {
+namespace {
+
+constexpr double kHeight_m = 50 * kMetresPerFoot;
+constexpr double kBaseline_m = 1;
+constexpr double kInterval_s = 0.2;
+
+PinholeCamera Camera() { return PinholeFromFov(640, 480, Rad(45)); }
+
+/// Straight down over the origin, a little elsewhere in every frame.
+RigidTransform PoseOf(int frame) {
+  return {CameraRotationFromTilt(-Rad(90)),
+          {0.03 * (frame % 3), 0.05 * (frame % 2), -kHeight_m - 0.04 * (frame % 4)}};
+}
+
+RigidTransform RightOf(const RigidTransform& X_WC) {
+  return {X_WC.R, X_WC.p + kBaseline_m * X_WC.R.col(0)};
+}
+
+StereoWorld FieldWithObstacles(GroundTexture texture) {
+  StereoWorld world;
+  world.texture = texture;
+  world.solids = {MakeBox(2.5, -2, 0.5, 0.5, 0.5), MakeBox(-2, 2, 1.0, 2.0, 1.0),
+                  MakeCone(1, 3, 0.3, 0.05, 0.7), MakeWedge(-2.5, -3, 2, 2, Rad(8))};
+  return world;
+}
+
+using Paint = std::function<void(const PinholeCamera&, const RigidTransform&, ImageF&)>;
+
+struct Seen {
+  std::shared_ptr<const ElevationMap> map;
+
+  bool At(double north_m, double east_m, unsigned flag) const {
+    const auto cell = map->geometry.CellFromPoint(north_m, east_m);
+    return cell && (map->flags.at(*cell) & flag) != 0;
+  }
+  int Count(unsigned flag) const {
+    return static_cast<int>(std::count_if(map->flags.cells().begin(), map->flags.cells().end(),
+                                          [&](unsigned f) { return (f & flag) != 0; }));
+  }
+};
+
+/// The map after some frames of a world, which may differ from frame to frame.
+Seen Look(int frames, const std::function<StereoWorld(int)>& world, const Paint& paint = {}) {
+  TerrainStage stage;
+  const PinholeCamera camera = Camera();
+  const BakedGround ground = BakeFor(world(0), camera, {PoseOf(0), RightOf(PoseOf(5))});
+  for (int k = 0; k < frames; ++k) {
+    const RigidTransform X_WC = PoseOf(k);
+    std::array<std::shared_ptr<const ImageU8>, 2> pictures;
+    for (const bool right : {false, true}) {
+      const RigidTransform& X = right ? RightOf(X_WC) : X_WC;
+      ImageF grey = DrawGrey(world(k), camera, X, ground);
+      if (paint) {
+        paint(camera, X, grey);
+      }
+      pictures[right] = std::make_shared<const ImageU8>(
+          Expose(grey, {2}, static_cast<std::uint64_t>(2 * k + right)));
+    }
+    StereoMatcher matcher;
+    const StereoSettings settings;
+    auto stereo = matcher.Match(*pictures[0], *pictures[1], camera, kBaseline_m,
+                                PredictWindow(camera, kBaseline_m, X_WC, 0, 3, settings), settings,
+                                AddSeconds({}, k * kInterval_s));
+    EXPECT_TRUE(stereo.ok());
+    stage.Add({std::make_shared<const RangeMap>(std::move(stereo->range)), X_WC, X_WC.p,
+               pictures[0], pictures[1], kBaseline_m},
+              SladSettings{});
+  }
+  return {stage.elevation()};
+}
+
+class SceneFlagsOn : public testing::TestWithParam<GroundTexture> {};
+
+TEST_P(SceneFlagsOn, NothingIsFlaggedWhereThereIsNothing) {
+  const StereoWorld world = FieldWithObstacles(GetParam());
+  const Seen seen = Look(4, [&](int) { return world; });
+  EXPECT_EQ(seen.Count(kFlagThinStructure | kFlagNoTexture | kFlagMotion), 0);
+}
+
+/// A wire 2 cm thick, 3 m above the ground, and a line of the same width painted beside it.
+TEST_P(SceneFlagsOn, AWireIsFlaggedAPaintedLineIsNot) {
+  const StereoWorld world = FieldWithObstacles(GetParam());
+  for (const double grey : {40.0, 220.0}) {
+    const Seen seen = Look(
+        2, [&](int) { return world; },
+        [&](const PinholeCamera& camera, const RigidTransform& X_WC, ImageF& picture) {
+          PaintWire({{-9, 1, -0.001}, {9, 3, -0.001}, 0.02, grey}, camera, X_WC, picture);
+          PaintWire({{-9, -2, -3}, {9, 1, -3}, 0.02, grey}, camera, X_WC, picture);
+        });
+    int under = 0, flagged = 0;
+    for (double north_m = -3; north_m <= 3; north_m += 0.1) {
+      ++under;
+      flagged += seen.At(north_m, -2 + (north_m + 9) / 6, kFlagThinStructure) ? 1 : 0;
+      EXPECT_FALSE(seen.At(north_m, 1 + (north_m + 9) / 9, kFlagThinStructure)) << north_m;
+    }
+    EXPECT_GE(flagged, 0.6 * under) << grey;
+    EXPECT_LE(seen.Count(kFlagThinStructure), 4 * 60);
+  }
+}
+
+TEST_P(SceneFlagsOn, StillWaterHasNoTexture) {
+  const StereoWorld world = FieldWithObstacles(GetParam());
+  const Seen seen = Look(
+      2, [&](int) { return world; },
+      [&](const PinholeCamera& camera, const RigidTransform& X_WC, ImageF& picture) {
+        PaintPool({0.3, -0.2, 0.8, 90}, camera, X_WC, picture);
+      });
+  EXPECT_TRUE(seen.At(0.3, -0.2, kFlagNoTexture));
+  EXPECT_FALSE(seen.At(0.3, -1.6, kFlagNoTexture));
+  const double area_m2 = seen.Count(kFlagNoTexture) * std::pow(seen.map->geometry.cell_m, 2);
+  EXPECT_NEAR(area_m2, 3.14 * 0.8 * 0.8, 0.9);
+}
+
+/// Half a metre wide, 1.6 m tall, 0.5 m/s to the east.
+TEST_P(SceneFlagsOn, SomebodyWalkingIsFlaggedAndSomebodyStandingIsNot) {
+  for (const double speed_mps : {0.5, 0.0}) {
+    const Seen seen = Look(6, [&](int frame) {
+      StereoWorld world = FieldWithObstacles(GetParam());
+      const double east_m = -0.8 + speed_mps * kInterval_s * frame;
+      world.solids.push_back(MakeBox(0, east_m, 0.5, 0.5, 1.6));
+      return world;
+    });
+    if (speed_mps > 0) {
+      EXPECT_TRUE(seen.At(0, -0.8 + 5 * speed_mps * kInterval_s, kFlagMotion));
+      EXPECT_LE(seen.Count(kFlagMotion), 60);
+    } else {
+      EXPECT_EQ(seen.Count(kFlagMotion), 0);
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, SceneFlagsOn,
+                         testing::Values(GroundTexture::kCloud, GroundTexture::kGravel,
+                                         GroundTexture::kGrass, GroundTexture::kAsphalt),
+                         [](const auto& texture) { return NameOf(texture.param); });
+
+/// Along the baseline a wire shows no disparity: it is flagged on the ground behind it.
+TEST(SceneFlags, AWireAlongTheBaselineIsFlaggedWithoutItsHeight) {
+  const StereoWorld world = FieldWithObstacles(GroundTexture::kAsphalt);
+  const Seen seen = Look(
+      2, [&](int) { return world; },
+      [&](const PinholeCamera& camera, const RigidTransform& X_WC, ImageF& picture) {
+        PaintWire({{0.2, -12, -2}, {0.2, 12, -2}, 0.02, 30}, camera, X_WC, picture);
+      });
+  EXPECT_TRUE(seen.At(0.2, 0.0, kFlagThinStructure));
+}
+
+TEST(SceneFlags, SameBitsForAnyNumberOfThreads) {
+  const StereoWorld world = FieldWithObstacles(GroundTexture::kGrass);
+  const auto look = [&] {
+    return Look(
+        2, [&](int) { return world; },
+        [&](const PinholeCamera& camera, const RigidTransform& X_WC, ImageF& picture) {
+          PaintWire({{-9, -2, -3}, {9, 1, -3}, 0.02, 40}, camera, X_WC, picture);
+        });
+  };
+  const int threads = cv::getNumThreads();
+  cv::setNumThreads(1);
+  const Seen one = look();
+  cv::setNumThreads(2);
+  const Seen two = look();
+  cv::setNumThreads(threads);
+  EXPECT_EQ(one.map->flags.cells(), two.map->flags.cells());
+  EXPECT_GT(one.Count(kFlagThinStructure), 0);
+}
+
+TEST(SceneFlags, PicturesThatMakeNoSenseFlagNothing) {
+  const GridGeometry geometry{20, 20, 0.15, -1.5, -1.5};
+  const auto picture = [](int w, int h) { return std::make_shared<const ImageU8>(w, h, 100); };
+  const auto range = [](int w, int h, float disparity_px) {
+    const ImageF layer(w, h, disparity_px);
+    return std::make_shared<const RangeMap>(RangeMap{
+        {}, PinholeFromFov(std::max(1, w), std::max(1, h), 1), layer, layer, layer, layer});
+  };
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const RigidTransform X_WC = PoseOf(0);
+  const std::vector<SceneView> views = {
+      {nullptr, nullptr, nullptr, X_WC, 1},
+      {picture(640, 480), picture(640, 480), nullptr, X_WC, 1},
+      {picture(0, 0), picture(0, 0), range(0, 0, 1), X_WC, 1},
+      {picture(1, 1), picture(1, 1), range(1, 1, 1), X_WC, 1},
+      {picture(67, 65), picture(64, 65), range(67, 65, 9), X_WC, 1},
+      {picture(67, 65), picture(67, 65), range(67, 65, nan), X_WC, 1},
+      {picture(67, 65), picture(67, 65), range(67, 65, 0), X_WC, 1},
+      {picture(67, 65), picture(67, 65), range(67, 65, -3), X_WC, 1},
+      {picture(67, 65), picture(67, 65), range(67, 65, 1e30F), X_WC, 1},
+      {picture(67, 65), picture(67, 65), range(67, 65, 9), X_WC, 0},
+      {picture(67, 65), picture(67, 65), range(67, 65, 9), X_WC, nan}};
+  for (std::size_t k = 0; k < views.size(); ++k) {
+    SceneFlags flags;
+    for (int map = 0; map < 3; ++map) {
+      const Grid<std::uint8_t> found = flags.Add(views[k], geometry);
+      EXPECT_EQ(found.rows(), geometry.rows) << k;
+      EXPECT_TRUE(std::all_of(found.cells().begin(), found.cells().end(), [](unsigned f) {
+        return (f & kFlagThinStructure) == 0;
+      })) << k;
+    }
+  }
+  SceneFlags flags;
+  EXPECT_TRUE(flags.Add(views.back(), GridGeometry{0, 0, 0.15, 0, 0}).empty());
+}
+
+}  // namespace
+}  // namespace palace

@@ -1,0 +1,82 @@
+// How long flags take to come and to go, as tables of what each map found.
+#include "engine/slad/flag_memory.h"
+
+#include <string>
+
+#include <gtest/gtest.h>
+
+namespace palace {
+namespace {
+
+const GridGeometry kGeometry{4, 4, 0.5, 0, 0};
+
+/// One letter a map: x found, . looked at without, - not looked at. Returns what was in force after
+/// each map: x or a dot.
+std::string InForce(TerrainFlag flag, const std::string& maps) {
+  FlagMemory memory;
+  memory.MoveTo(kGeometry);
+  std::string answer;
+  for (const char map : maps) {
+    Grid<std::uint8_t> seen(4, 4, map == '-' ? std::uint8_t{0} : std::uint8_t{flag});
+    Grid<std::uint8_t> found(4, 4, map == 'x' ? std::uint8_t{flag} : std::uint8_t{0});
+    memory.Add(seen, found);
+    answer += (memory.Flags().at(1, 2) & flag) != 0 ? 'x' : '.';
+  }
+  return answer;
+}
+
+struct Row {
+  const char* name;
+  TerrainFlag flag;
+  const char* maps;
+  const char* in_force;
+};
+
+class FlagMemoryTable : public testing::TestWithParam<Row> {};
+
+TEST_P(FlagMemoryTable, AnswersAsWritten) {
+  EXPECT_EQ(InForce(GetParam().flag, GetParam().maps), GetParam().in_force);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, FlagMemoryTable,
+    testing::Values(Row{"OneMapAloneWarnsAtOnce", kFlagNoTexture, "x", "x"},
+                    Row{"ButGoesWhenTheNextDoesNotAgree", kFlagNoTexture, "x.", "x."},
+                    Row{"ASingleLaterMapIsAFlicker", kFlagNoTexture, "..x..", "....."},
+                    Row{"TwoOfThreeRaise", kFlagNoTexture, "..x.x", "....x"},
+                    Row{"TwoOfFourDoNot", kFlagNoTexture, "..x..x", "......"},
+                    Row{"NoTextureStaysFiveMaps", kFlagNoTexture, "xx......", "xxxxxx.."},
+                    Row{"ShadowStaysThree", kFlagShadow, "xx......", "xxxx...."},
+                    Row{"OutOfViewItIsKept", kFlagNoTexture, "xx-------", "xxxxxxxxx"},
+                    Row{"MotionNeedsTwo", kFlagMotion, "x.xx", "..xx"},
+                    Row{"MotionFadesOutOfViewToo", kFlagMotion, "xx----------------------",
+                        ".xxxxxxxxxxxxxxxxxxxx..."},
+                    Row{"WiresStayTwenty", kFlagThinStructure, "xx......................",
+                        "xxxxxxxxxxxxxxxxxxxxx..."}),
+    [](const auto& row) { return row.param.name; });
+
+TEST(FlagMemory, MovesWithTheMapByWholeCellsAndForgetsWhatLeaves) {
+  FlagMemory memory;
+  memory.MoveTo(kGeometry);
+  Grid<std::uint8_t> seen(4, 4, kFlagNoTexture), found(4, 4, kFlagNone);
+  found.at(1, 2) = kFlagNoTexture;
+  memory.Add(seen, found);
+  // A cell to the north and one to the east: the same ground is a row lower and a column before.
+  memory.MoveTo({4, 4, 0.5, 0.5, 0.5});
+  EXPECT_EQ(memory.Flags().at(2, 1), kFlagNoTexture);
+  EXPECT_EQ(memory.Flags().at(1, 2), kFlagNone);
+  memory.MoveTo({4, 4, 0.5, 10, 0});
+  memory.MoveTo(kGeometry);
+  EXPECT_EQ(memory.Flags().at(1, 2), kFlagNone);
+}
+
+TEST(FlagMemory, AnotherCellSizeStartsAfresh) {
+  FlagMemory memory;
+  memory.MoveTo(kGeometry);
+  memory.Add(Grid<std::uint8_t>(4, 4, kFlagShadow), Grid<std::uint8_t>(4, 4, kFlagShadow));
+  memory.MoveTo({4, 4, 1.0, 0, 0});
+  EXPECT_EQ(memory.Flags().cells(), std::vector<std::uint8_t>(16, kFlagNone));
+}
+
+}  // namespace
+}  // namespace palace
