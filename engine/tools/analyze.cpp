@@ -16,6 +16,8 @@
 #include "engine/runtime/settings_io.h"
 #include "engine/slad/slad.h"
 #include "engine/tools/analyze_inputs.h"
+#include "engine/tools/analyze_report.h"
+#include "engine/tools/experiment.h"
 #include "engine/tools/hazard_layer.h"
 #include "engine/tools/map_files.h"
 #include "engine/tools/map_pictures.h"
@@ -221,6 +223,11 @@ Status WriteAll(const Outcome& o, const fs::path& folder) {
     if (!done) {
       return done;
     }
+  }
+  const Status report = WriteTextFile(
+      folder / "report.html", AnalyzeReport(o.input, o.settings, o.hazards, o.selection, folder));
+  if (!report) {
+    return report;
   }
   std::ofstream json(folder / "site.json");
   json << ReportJson(o).dump(2) << '\n';

@@ -103,6 +103,38 @@ std::pair<double, double> UsualRange(const GridF& cells) {
   return {at(0.02), std::max(at(0.98), at(0.02) + 1e-6)};
 }
 
+/// How bright the ground is under a lamp in the north-west, 45 degrees high; Lambert's law. Level
+/// ground, and cells without known neighbours, are of middle grey. Slopes count three times over,
+/// because landing ground is nearly level.
+Grid<std::uint8_t> Relief(const ElevationMap& map) {
+  const GridGeometry& g = map.geometry;
+  constexpr double kExaggeration = 3, kMiddle = 150;
+  const auto gradient = [&](Cell behind, Cell here, Cell ahead) {
+    const auto at = [&](Cell cell) {
+      return g.Contains(cell) ? static_cast<double>(map.height_m.at(cell)) : std::nan("");
+    };
+    const double low = std::isnan(at(behind)) ? at(here) : at(behind);
+    const double high = std::isnan(at(ahead)) ? at(here) : at(ahead);
+    const int spans = int{!std::isnan(at(behind))} + int{!std::isnan(at(ahead))};
+    return spans == 0 ? 0.0 : kExaggeration * (high - low) / (spans * g.cell_m);
+  };
+  Grid<std::uint8_t> relief(g.rows, g.cols, 0);
+  for (int r = 0; r < g.rows; ++r) {
+    for (int c = 0; c < g.cols; ++c) {
+      if (std::isnan(map.height_m.at(r, c))) {
+        continue;
+      }
+      const double north = gradient({r + 1, c}, {r, c}, {r - 1, c});
+      const double east = gradient({r, c - 1}, {r, c}, {r, c + 1});
+      // Normal (-north, -east, 1) against the lamp (1, -1, sqrt 2) / 2; 1 on level ground.
+      const double light = (M_SQRT2 - north + east) / std::sqrt(1 + north * north + east * east);
+      relief.at(r, c) =
+          static_cast<std::uint8_t>(std::clamp(kMiddle * light / M_SQRT2, 20.0, 255.0));
+    }
+  }
+  return relief;
+}
+
 double PixelsPerCell(const GridGeometry& g) {
   return std::max(0.25, static_cast<double>(kPictureSide_px) / std::max({g.rows, g.cols, 1}));
 }
@@ -214,7 +246,7 @@ Status WriteSafeLandingPicture(const std::filesystem::path& path, const Elevatio
   if (map.height_m.empty()) {
     return InvalidError(path.string() + ": the map has no cells");
   }
-  const auto [low, high] = UsualRange(map.height_m);
+  const Grid<std::uint8_t> relief = Relief(map);
   cv::Mat colours(g.rows, g.cols, CV_8UC3, cv::Scalar(40, 36, 34));
   const double clear_m = selection.sites.empty() ? 0 : selection.sites.front().clear_radius_m;
   for (int r = 0; r < g.rows; ++r) {
@@ -224,7 +256,7 @@ Status WriteSafeLandingPicture(const std::filesystem::path& path, const Elevatio
       if (!std::isfinite(height) || reasons == kHazardUnknown) {
         continue;
       }
-      const double grey = 60 + 140 * std::clamp((height - low) / (high - low), 0.0, 1.0);
+      const double grey = relief.at(r, c);
       const bool near = static_cast<double>(hazards.safe_distance_m.at(r, c)) < clear_m;
       const cv::Vec3d tint = reasons != 0 ? kUnsafeInk : near ? cv::Vec3d(150, 140, 130) : kSafeInk;
       colours.at<cv::Vec3b>(r, c) = cv::Vec3b(0.5 * tint + 0.5 * cv::Vec3d(grey, grey, grey));
@@ -285,6 +317,35 @@ Status WriteOverlay(const std::filesystem::path& path, const ImageU8& left,
     }
   }
   return Save(path, picture);
+}
+
+std::string PictureAsDataUri(const std::filesystem::path& path) {
+  constexpr int kMostSide_px = 1400;
+  std::error_code error;
+  cv::Mat picture = std::filesystem::exists(path, error) ? cv::imread(path.string()) : cv::Mat();
+  if (picture.empty()) {
+    return "";
+  }
+  const double scale = double(kMostSide_px) / std::max(picture.rows, picture.cols);
+  if (scale < 1) {
+    cv::resize(picture, picture, cv::Size(), scale, scale, cv::INTER_AREA);
+  }
+  std::vector<unsigned char> jpeg;
+  cv::imencode(".jpg", picture, jpeg, {cv::IMWRITE_JPEG_QUALITY, 85});
+  static constexpr char kDigits[] =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text = "data:image/jpeg;base64,";
+  for (std::size_t i = 0; i < jpeg.size(); i += 3) {
+    const std::size_t bytes = std::min<std::size_t>(3, jpeg.size() - i);
+    unsigned three = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      three = three << 8 | (k < bytes ? jpeg[i + k] : 0U);
+    }
+    for (std::size_t k = 0; k < 4; ++k) {
+      text += k <= bytes ? kDigits[three >> (18 - 6 * k) & 63] : '=';
+    }
+  }
+  return text;
 }
 
 }  // namespace palace

@@ -26,8 +26,8 @@ struct MapPicture {
 Status WriteMapPicture(const std::filesystem::path& path, const GridF& cells,
                        const MapPicture& picture);
 
-/// Elevation in grey under the verdict: safe green, near a hazard yellow, hazard red, unknown dark;
-/// the sites with their clear radius, the best with a cross.
+/// The ground in relief, lit from the north-west, under the verdict: safe blue, near a hazard grey,
+/// hazard orange, unknown dark; the sites with their clear radius, the best with a cross.
 Status WriteSafeLandingPicture(const std::filesystem::path& path, const ElevationMap& map,
                                const HazardMaps& hazards, const SiteSelection& selection);
 
@@ -36,5 +36,9 @@ Status WriteSafeLandingPicture(const std::filesystem::path& path, const Elevatio
 Status WriteOverlay(const std::filesystem::path& path, const ImageU8& left,
                     const SiteSelection& selection, const SiteContext& context,
                     const ImageU8& verdict);
+
+/// A picture file as text for a page that holds its pictures: JPEG, at most 1400 pixels a side.
+/// Empty where the file cannot be read.
+std::string PictureAsDataUri(const std::filesystem::path& path);
 
 }  // namespace palace

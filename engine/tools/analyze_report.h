@@ -1,0 +1,20 @@
+// report.html of palacectl analyze: where to land, why, and the maps, in one file to pass on.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "engine/model/hazard_maps.h"
+#include "engine/model/settings.h"
+#include "engine/slad/site_selection.h"
+#include "engine/tools/analyze_inputs.h"
+
+namespace palace {
+
+/// The page with every picture inside it. `folder` holds the pictures analyze wrote: overlay.png
+/// (with a pair), safe_landing.png and those of the layers; one that is missing is left out.
+std::string AnalyzeReport(const AnalyzeInput& input, const Settings& settings,
+                          const HazardMaps& hazards, const SiteSelection& selection,
+                          const std::filesystem::path& folder);
+
+}  // namespace palace
