@@ -15,6 +15,7 @@
 #include "engine/core/units.h"
 #include "engine/runtime/settings_io.h"
 #include "engine/slad/slad.h"
+#include "engine/tools/analyze_cloud.h"
 #include "engine/tools/analyze_inputs.h"
 #include "engine/tools/analyze_report.h"
 #include "engine/tools/experiment.h"
@@ -275,6 +276,12 @@ Status Analyze(const Options& options) {
   }
   Outcome o{std::move(input).value(), *settings, {}, {}};
   o.settings.slad.cell_m = o.input.map.geometry.cell_m;
+  if (o.settings.slad.cell_m > o.settings.slad.max_rock_size_m) {
+    o.input.warnings.push_back(
+        WithNumbers("cells of %.3g m are larger than slad.max_rock_size_m (%.3g m): lower rocks of "
+                    "that size may be averaged away",
+                    o.settings.slad.cell_m, o.settings.slad.max_rock_size_m));
+  }
   double start = MonotonicSeconds();
   o.hazards = EvaluateHazards(o.input.map, o.settings.slad);
   o.input.timings.push_back({"hazards", (MonotonicSeconds() - start) * 1e3});

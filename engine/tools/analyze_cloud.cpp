@@ -80,6 +80,8 @@ ElevationMap MapOfTops(const Points& points, const GridGeometry& geometry) {
 
 }  // namespace
 
+bool IsOnEarth(double height_m) { return height_m > -450 && height_m < 9000; }
+
 std::string WithNumbers(const char* format, double a, double b, double c) {
   char text[200];
   std::snprintf(text, sizeof text, format, a, b, c);
@@ -108,18 +110,19 @@ Result<ElevationMap> MapOfCloud(const std::vector<Eigen::Vector3d>& survey,
   points.reserve(survey.size());
   Eigen::Vector2d low = Eigen::Vector2d::Constant(HUGE_VAL), high = -low;
   for (const Eigen::Vector3d& p : survey) {
-    if (p.allFinite()) {
+    if (p.allFinite() && IsOnEarth(p.z())) {
       points.emplace_back(p.y(), p.x(), p.z());
       low = low.cwiseMin(points.back().head<2>());
       high = high.cwiseMax(points.back().head<2>());
     }
   }
   if (points.empty()) {
-    return InvalidError("the input has no finite point");
+    return InvalidError("no point is finite and on Earth");
   }
   if (points.size() < survey.size()) {
-    warnings.push_back(WithNumbers("%.0f of %.0f points are not finite and were left out",
-                                   double(survey.size() - points.size()), double(survey.size())));
+    warnings.push_back(
+        WithNumbers("%.0f of %.0f points are not finite, or below -450 m or above 9000 m: left out",
+                    double(survey.size() - points.size()), double(survey.size())));
   }
   slad.cell_m = cell_m.value_or(slad.cell_m);
   if (slad.bounds != BoundsMode::kData || slad.mode == SladMode::kThesis) {
@@ -145,7 +148,7 @@ Result<ElevationMap> MapOfCloud(const std::vector<Eigen::Vector3d>& survey,
   const double rows = cells(extent.x()), cols = cells(extent.y());
   if (!(std::max(rows, cols) <= kMostCells)) {
     return UsageError(WithNumbers(
-        "%.0f x %.0f cells needed, the limit is 4096 a side; use a larger --cell-m", rows, cols));
+        "%.5g x %.5g cells needed, the limit is 4096 a side; use a larger --cell-m", rows, cols));
   }
   g.rows = static_cast<int>(rows);
   g.cols = static_cast<int>(cols);

@@ -19,10 +19,11 @@
 
 namespace palace {
 
-/// Points of a survey, X east, Y north, Z up, metres; points that are not finite are left out. The
-/// map covers all of them: cells of cell_m where given, else of the settings' size, enlarged with a
-/// warning until the map fits and most cells hold a point. Thesis mode, and bounds that are given,
-/// keep the thesis's grid and plain means. No more than 4096 cells a side.
+/// Points of a survey, X east, Y north, Z up, metres; points that are not finite or not on Earth
+/// are left out, with a warning. The map covers all others: cells of cell_m where given, else of
+/// the settings' size, enlarged with a warning until the map fits and most cells hold a point.
+/// Thesis mode, and bounds that are given, keep the thesis's grid and plain means. No more than
+/// 4096 cells a side.
 Result<ElevationMap> MapOfCloud(const std::vector<Eigen::Vector3d>& survey,
                                 std::optional<double> cell_m, SladSettings slad,
                                 std::vector<std::string>& warnings);
@@ -30,6 +31,10 @@ Result<ElevationMap> MapOfCloud(const std::vector<Eigen::Vector3d>& survey,
 /// Enlarges the cell, with a warning, until grid_rows x grid_cols cover the extent.
 void CoverExtent(double north_m, double east_m, SladSettings& slad,
                  std::vector<std::string>& warnings);
+
+/// Whether land lies that high anywhere. Files without a no-data tag mark gaps by heights like
+/// -9999 or 1e38, which would be the flattest ground of all.
+bool IsOnEarth(double height_m);
 
 /// printf with up to three numbers.
 std::string WithNumbers(const char* format, double a, double b = 0, double c = 0);

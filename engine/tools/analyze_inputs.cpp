@@ -35,7 +35,7 @@ class Stopwatch {
   double last_ = MonotonicSeconds();
 };
 
-ElevationMap MapOfLayer(const MapLayer& layer) {
+ElevationMap MapOfLayer(const MapLayer& layer, std::vector<std::string>& warnings) {
   const GridGeometry& g = layer.geometry;
   ElevationMap map{{},
                    g,
@@ -43,14 +43,23 @@ ElevationMap MapOfLayer(const MapLayer& layer) {
                    GridF(g.rows, g.cols, kUnknownValue),
                    Grid<std::uint16_t>(g.rows, g.cols, 0),
                    Grid<CellState>(g.rows, g.cols, CellState::kUnknown)};
+  int not_on_earth = 0;
   for (std::size_t i = 0; i < layer.cells.cells().size(); ++i) {
-    if (std::isfinite(layer.cells.cells()[i])) {
+    const double height_m = static_cast<double>(layer.cells.cells()[i]);
+    if (IsOnEarth(height_m)) {
       map.variance_m2.cells()[i] = 1e-6F;  // a model states no noise
       map.frame_count.cells()[i] = 1;
       map.state.cells()[i] = CellState::kMeasured;
     } else {
       map.height_m.cells()[i] = kUnknownValue;
+      not_on_earth += std::isnan(height_m) ? 0 : 1;
     }
+  }
+  if (not_on_earth > 0) {
+    warnings.push_back(WithNumbers(
+        "%.0f cells below -450 m or above 9000 m taken as no-data; does the file lack its no-data "
+        "value?",
+        not_on_earth));
   }
   return map;
 }
@@ -157,8 +166,11 @@ Result<AnalyzeInput> ElevationOfModel(const std::filesystem::path& path,
     std::vector<Eigen::Vector3d> points;
     for (int r = 0; r < layer->geometry.rows; ++r) {
       for (int c = 0; c < layer->geometry.cols; ++c) {
-        points.emplace_back(layer->geometry.EastOfCol(c), layer->geometry.NorthOfRow(r),
-                            static_cast<double>(layer->cells.at(r, c)));
+        const double height_m = static_cast<double>(layer->cells.at(r, c));
+        if (!std::isnan(height_m)) {
+          points.emplace_back(layer->geometry.EastOfCol(c), layer->geometry.NorthOfRow(r),
+                              height_m);
+        }
       }
     }
     auto map = MapOfCloud(points, cell_m, settings.slad, input.warnings);
@@ -167,7 +179,7 @@ Result<AnalyzeInput> ElevationOfModel(const std::filesystem::path& path,
     }
     input.map = std::move(map).value();
   } else {
-    input.map = MapOfLayer(*layer);
+    input.map = MapOfLayer(*layer, input.warnings);
     FillHoles(input.map, settings.slad.data_size_cells, settings.slad.border_size_cells);
   }
   input.timings.push_back(watch.Lap("elevation"));

@@ -1,5 +1,6 @@
 #include "engine/tools/map_files.h"
 
+#include <geo_normalize.h>
 #include <geotiffio.h>
 #include <xtiffio.h>
 
@@ -15,7 +16,8 @@ namespace palace {
 namespace {
 
 constexpr ttag_t kNoDataTag = 42113;  // GDAL's
-constexpr int kMostCells = 16384;
+constexpr int kMostCells = 8192;
+constexpr double kLeastCell_m = 0.001, kMostCell_m = 1000;
 
 struct CloseTiff {
   void operator()(TIFF* file) const { XTIFFClose(file); }
@@ -147,36 +149,94 @@ void ReplaceNoData(TIFF* file, GridF& cells) {
   }
 }
 
-/// Place and coordinate system from the GeoTIFF tags.
-Status ReadPlace(const std::filesystem::path& path, TIFF* file, MapLayer& layer) {
-  std::uint16_t scale_count = 0, tie_count = 0;
-  double* scale = nullptr;
+/// Corner and cell of a raster with its rows along the axes.
+struct Placement {
+  double cell_x = 0, cell_y = 0;
+  double east = 0, north = 0;  ///< of the north-west corner
+};
+
+Result<Placement> ReadPlacement(const std::filesystem::path& path, TIFF* file) {
+  std::uint16_t count = 0, tie_count = 0;
+  double* values = nullptr;
   double* tie = nullptr;
-  if (TIFFGetField(file, TIFFTAG_GEOPIXELSCALE, &scale_count, &scale) == 0 || scale_count < 2 ||
+  if (TIFFGetField(file, TIFFTAG_GEOTRANSMATRIX, &count, &values) != 0 && count >= 8) {
+    if (values[1] != 0 || values[4] != 0) {
+      return Broken(path,
+                    "is rotated against north; turn it with gdalwarp -t_srs and its own system");
+    }
+    return Placement{values[0], -values[5], values[3], values[7]};
+  }
+  if (TIFFGetField(file, TIFFTAG_GEOPIXELSCALE, &count, &values) == 0 || count < 2 ||
       TIFFGetField(file, TIFFTAG_GEOTIEPOINTS, &tie_count, &tie) == 0 || tie_count < 6) {
     return Broken(path, "no GeoTIFF pixel scale and tie point; convert it with gdal_translate");
   }
-  if (!(scale[0] > 0) || std::abs(scale[0] - scale[1]) > 1e-3 * scale[0]) {
-    return Broken(path, "cells are not square; resample it with gdalwarp -tr");
+  if (tie_count > 6) {
+    return Broken(path, "is placed by several tie points; resample it with gdalwarp");
   }
-  layer.geometry.cell_m = scale[0];
-  double east_m = tie[3] - tie[0] * scale[0], north_m = tie[4] + tie[1] * scale[0];
+  return Placement{values[0], values[1], tie[3] - tie[0] * values[0], tie[4] + tie[1] * values[1]};
+}
+
+bool IsFoot(unsigned short unit) { return unit >= Linear_Foot && unit <= Linear_Foot_Clarke; }
+
+/// Metres both ways, or an error that says how to get there.
+Status CheckUnits(const std::filesystem::path& path, GTIF* keys, const Placement& place) {
+  unsigned short model = 0, unit = 0;
+  const bool stated = GTIFKeyGet(keys, GTModelTypeGeoKey, &model, 0, 1) == 1;
+  // A file that names no kind of system, lies on the globe and has cells of a few arc seconds.
+  const bool like_degrees = !stated && place.cell_x < 0.01 && std::abs(place.east) <= 180 &&
+                            std::abs(place.north) <= 90 && place.east != 0 && place.north != 0;
+  if (model == ModelTypeGeographic || like_degrees) {
+    return Broken(path, "is in degrees; project it to metres with gdalwarp -t_srs");
+  }
+  GTIFDefn definition;
+  const bool defined = GTIFGetDefn(keys, &definition) != 0;
+  if ((GTIFKeyGet(keys, ProjLinearUnitsGeoKey, &unit, 0, 1) == 1 && IsFoot(unit)) ||
+      (defined && definition.UOMLengthInMeters > 0 &&
+       std::abs(definition.UOMLengthInMeters - 1) > 1e-6)) {
+    return Broken(path, "is in feet or another unit; project it to metres with gdalwarp -t_srs");
+  }
+  if (GTIFKeyGet(keys, VerticalUnitsGeoKey, &unit, 0, 1) == 1 && IsFoot(unit)) {
+    return Broken(path,
+                  "has heights in feet; multiply them by 0.3048 with gdal_calc.py and name metres");
+  }
+  return Ok();
+}
+
+/// Place and coordinate system from the GeoTIFF tags.
+Status ReadPlace(const std::filesystem::path& path, TIFF* file, MapLayer& layer) {
+  const auto place = ReadPlacement(path, file);
+  if (!place) {
+    return place.error();
+  }
+  if (!std::isfinite(place->east) || !std::isfinite(place->north)) {
+    return Broken(path, "its corner is not a finite place; write its tags anew with gdal_edit.py");
+  }
+  if (!(place->cell_x > 0) || !(std::abs(place->cell_x - place->cell_y) <= 1e-3 * place->cell_x)) {
+    return Broken(path, "cells are not square, north up; resample it with gdalwarp -tr");
+  }
   const GeoKeys keys(GTIFNew(file));
+  if (keys) {
+    if (const Status metres = CheckUnits(path, keys.get(), *place); !metres) {
+      return metres;
+    }
+  }
+  if (!(place->cell_x >= kLeastCell_m && place->cell_x <= kMostCell_m)) {
+    return Broken(path,
+                  "its cells are not between 0.001 and 1000 m; resample it with gdalwarp -tr");
+  }
+  layer.geometry.cell_m = place->cell_x;
+  double east_m = place->east, north_m = place->north;
   unsigned short value = 0;
   if (keys && GTIFKeyGet(keys.get(), GTRasterTypeGeoKey, &value, 0, 1) == 1 &&
       value == RasterPixelIsPoint) {
-    east_m -= scale[0] / 2;
-    north_m += scale[0] / 2;
-  }
-  if (keys && GTIFKeyGet(keys.get(), GTModelTypeGeoKey, &value, 0, 1) == 1 &&
-      value == ModelTypeGeographic) {
-    return Broken(path, "is in degrees; project it to metres with gdalwarp -t_srs");
+    east_m -= place->cell_x / 2;
+    north_m += place->cell_x / 2;
   }
   if (keys && GTIFKeyGet(keys.get(), ProjectedCSTypeGeoKey, &value, 0, 1) == 1) {
     layer.epsg = value;
   }
   layer.geometry.east_min_m = east_m;
-  layer.geometry.north_min_m = north_m - layer.geometry.rows * scale[0];
+  layer.geometry.north_min_m = north_m - layer.geometry.rows * place->cell_x;
   return Ok();
 }
 
@@ -222,9 +282,15 @@ Status WriteGeoTiff(const std::filesystem::path& path, const MapLayer& layer) {
 }
 
 Result<MapLayer> ReadGeoTiff(const std::filesystem::path& path) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) {
+    return UnavailableError("cannot read " + path.string() + " as TIFF: does the file exist?");
+  }
   const TiffFile file = OpenTiff(path, "r");
   if (!file) {
-    return UnavailableError("cannot read " + path.string() + " as TIFF: does the file exist?");
+    return Broken(path,
+                  "is not a TIFF file, or cut off at its start; convert it with "
+                  "gdal_translate -of GTiff");
   }
   std::uint32_t cols = 0, rows = 0;
   std::uint16_t samples = 1;
@@ -235,9 +301,8 @@ Result<MapLayer> ReadGeoTiff(const std::filesystem::path& path) {
   TIFFGetFieldDefaulted(file.get(), TIFFTAG_BITSPERSAMPLE, &type.bits);
   TIFFGetFieldDefaulted(file.get(), TIFFTAG_SAMPLEFORMAT, &type.format);
   if (cols == 0 || rows == 0 || cols > kMostCells || rows > kMostCells) {
-    return Broken(path,
-                  std::to_string(cols) + " x " + std::to_string(rows) +
-                      " cells; the limit is 16384 a side, cut it with gdal_translate -srcwin");
+    return Broken(path, std::to_string(cols) + " x " + std::to_string(rows) +
+                            " cells; the limit is 8192 a side, cut it with gdal_translate -srcwin");
   }
   const unsigned char zeros[8] = {};
   if (samples != 1 || std::isnan(LoadSample(zeros, type))) {

@@ -19,8 +19,9 @@ struct MapLayer {
 /// Writes pixel scale and tie point (top-left corner of the north-west cell), NaN as no-data.
 Status WriteGeoTiff(const std::filesystem::path& path, const MapLayer& layer);
 
-/// Reads one-band strips or tiles of 8 to 64 bits; no-data becomes NaN. Refuses files without a
-/// pixel scale, with cells that are not square, and larger than 16384 cells a side.
+/// Reads one-band strips or tiles of 8 to 64 bits; no-data becomes NaN. Refuses, saying what to do:
+/// files without a place, rotated, in degrees, in feet, with cells that are not square or not
+/// between 1 mm and 1 km, larger than 8192 cells a side, cut off, or no TIFF at all.
 Result<MapLayer> ReadGeoTiff(const std::filesystem::path& path);
 
 }  // namespace palace
