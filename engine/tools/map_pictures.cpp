@@ -85,22 +85,27 @@ cv::Vec3b ColourOf(ColourTable table, double share) {
   return bgr;
 }
 
-/// 2nd and 98th percentile of the known cells: one stray cell must not flatten the picture.
+/// 2nd and 98th percentile of the known cells: one stray cell must not flatten the picture. Of a
+/// large map every so many cells tell.
 std::pair<double, double> UsualRange(const GridF& cells) {
+  constexpr std::size_t kEnough = 250'000;
+  const std::size_t step = cells.cells().size() / kEnough + 1;
   std::vector<float> known;
-  for (const float cell : cells.cells()) {
-    if (std::isfinite(cell)) {
-      known.push_back(cell);
+  for (std::size_t i = 0; i < cells.cells().size(); i += step) {
+    if (std::isfinite(cells.cells()[i])) {
+      known.push_back(cells.cells()[i]);
     }
   }
   if (known.empty()) {
     return {0, 1};
   }
-  std::sort(known.begin(), known.end());
   const auto at = [&](double share) {
-    return static_cast<double>(known[static_cast<std::size_t>(share * double(known.size() - 1))]);
+    const auto nth = known.begin() + static_cast<std::ptrdiff_t>(share * double(known.size() - 1));
+    std::nth_element(known.begin(), nth, known.end());
+    return static_cast<double>(*nth);
   };
-  return {at(0.02), std::max(at(0.98), at(0.02) + 1e-6)};
+  const double low = at(0.02), high = at(0.98);
+  return {low, std::max(high, low + 1e-6)};
 }
 
 /// How bright the ground is under a lamp in the north-west, 45 degrees high; Lambert's law. Level
