@@ -44,8 +44,7 @@ std::string ObjectionTo(const ElevationMap& map, const SladSettings& settings) {
                                    : "slad.lander_base_size_m = 0 m is no lander";
   }
   const GridGeometry& g = map.geometry;
-  if (!Fits(g, map.height_m) || !Fits(g, map.variance_m2) || !Fits(g, map.frame_count) ||
-      !Fits(g, map.state) || !FitsOrIsLeftOut(g, map.age_s) || !FitsOrIsLeftOut(g, map.flags)) {
+  if (!LayersFit(map)) {
     return "the map's layers differ in size";
   }
   if (!map.height_m.empty() &&
@@ -54,6 +53,22 @@ std::string ObjectionTo(const ElevationMap& map, const SladSettings& settings) {
            " m to two landers, " + Number(2 * settings.lander_base_size_m) + " m";
   }
   return {};
+}
+
+bool LayersFit(const ElevationMap& map) {
+  const GridGeometry& g = map.geometry;
+  return Fits(g, map.height_m) && Fits(g, map.variance_m2) && Fits(g, map.frame_count) &&
+         Fits(g, map.state) && FitsOrIsLeftOut(g, map.age_s) && FitsOrIsLeftOut(g, map.flags);
+}
+
+SladSettings WithinReason(const SladSettings& settings, const GridGeometry& geometry) {
+  SladSettings within = settings;
+  const double widest_m = 2 * std::max(geometry.rows, geometry.cols) * geometry.cell_m;
+  for (double* size_m : {&within.lander_base_size_m, &within.max_rock_size_m, &within.gear_length_m,
+                         &within.gear_width_m}) {
+    *size_m = *size_m <= widest_m ? std::max(0.0, *size_m) : widest_m;
+  }
+  return within;
 }
 
 bool IsSound(const LandingSite& site) {

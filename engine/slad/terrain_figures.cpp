@@ -7,6 +7,7 @@
 #include "engine/slad/hazard_layers.h"
 #include "engine/slad/plane_fit.h"
 #include "engine/slad/raised_surface.h"
+#include "engine/slad/sense_check.h"
 
 namespace palace {
 namespace {
@@ -28,8 +29,6 @@ void MeasureThesis(const ElevationMap& map, const SladSettings& settings, Terrai
 /// Flags of the map, and kFlagElevated.
 Grid<std::uint8_t> FlagsOf(const ElevationMap& map) {
   Grid<std::uint8_t> flags = FindRaisedSurfaces(map);
-  PALACE_CHECK(map.flags.empty() || map.flags.cells().size() == flags.cells().size(),
-               map.flags.rows(), map.flags.cols());
   for (std::size_t i = 0; i < map.flags.cells().size(); ++i) {
     flags.cells()[i] |= map.flags.cells()[i];
   }
@@ -51,14 +50,14 @@ TerrainFigures MeasureTerrain(const ElevationMap& map, const SladSettings& setti
   if (map.height_m.empty()) {
     return figures;
   }
-  PALACE_CHECK(map.height_m.rows() == map.geometry.rows &&
-                   map.height_m.cols() == map.geometry.cols && map.geometry.cell_m > 0,
-               map.height_m.rows(), map.geometry.rows, map.geometry.cell_m);
+  PALACE_CHECK(LayersFit(map) && map.geometry.cell_m > 0, map.height_m.rows(), map.geometry.rows,
+               map.geometry.cell_m);
+  const SladSettings sizes = WithinReason(settings, map.geometry);
   if (settings.mode == SladMode::kThesis) {
-    MeasureThesis(map, settings, figures);
+    MeasureThesis(map, sizes, figures);
   } else {
     figures.flags = FlagsOf(map);
-    MeasureModern(map, settings, figures);
+    MeasureModern(map, sizes, figures);
   }
   return figures;
 }

@@ -40,11 +40,13 @@ struct TerrainFigures {
 
   /// Whether measuring again under these settings would give the same figures.
   bool HoldFor(const SladSettings& settings) const {
-    return mode == settings.mode && max_rock_size_m == settings.max_rock_size_m &&
+    const auto same = [](double a, double b) { return a == b || (a != a && b != b); };
+    return mode == settings.mode && same(max_rock_size_m, settings.max_rock_size_m) &&
            (mode == SladMode::kThesis ||
-            (lander_base_size_m == settings.lander_base_size_m && gear == settings.gear &&
-             gear_length_m == settings.gear_length_m && gear_width_m == settings.gear_width_m &&
-             up_tilt_deg == settings.up_tilt_deg && up_azimuth_deg == settings.up_azimuth_deg));
+            (same(lander_base_size_m, settings.lander_base_size_m) && gear == settings.gear &&
+             same(gear_length_m, settings.gear_length_m) &&
+             same(gear_width_m, settings.gear_width_m) && same(up_tilt_deg, settings.up_tilt_deg) &&
+             same(up_azimuth_deg, settings.up_azimuth_deg)));
   }
 };
 
