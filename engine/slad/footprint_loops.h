@@ -26,6 +26,35 @@ void DiscDeviationRow(const DiscRows& disc, const float* plane, const float* eas
   }
 }
 
+void StepRow(const StepRows& rows, int count, float* most2, float* at_cell2) {
+  const FloatLanes none = Fill(-kNever), never = Fill(kNever);
+  for (int c = 0; c < count; c += FloatLanes::kCount) {
+    const FloatLanes height = Load(rows.height[1] + c), noise2 = Load(rows.noise2[1] + c);
+    const FloatLanes east = Load(rows.east + c), south = Load(rows.south + c);
+    const FloatLanes own_off = Abs(height - Load(rows.plane[1] + c));
+    FloatLanes most = none, at_cell = none;
+    for (int k = 0; k < 9; ++k) {
+      if (k == 4) {
+        continue;
+      }
+      const int dr = k / 3 - 1, dc = k % 3 - 1, near = c + dc;
+      const FloatLanes near_height = Load(rows.height[1 + dr] + near);
+      const FloatLanes near_noise2 = Load(rows.noise2[1 + dr] + near);
+      const FloatLanes rise = near_height - height - east * Fill(static_cast<float>(dc)) -
+                              south * Fill(static_cast<float>(dr));
+      const FloatLanes step2 =
+          Select(Less(near_noise2, never), rise * rise - noise2 - near_noise2, none);
+      most = Max(step2, most);
+      // The cell that stands off the ground makes the step, not its level neighbour.
+      const FloatLanes near_off = Abs(near_height - Load(rows.plane[1 + dr] + near));
+      at_cell = Select(Less(own_off, Fill(0.9F) * near_off), at_cell, Max(step2, at_cell));
+    }
+    const LaneMask known = Less(noise2, never);
+    Store(most2 + c, Select(known, most, none));
+    Store(at_cell2 + c, Select(known, at_cell, none));
+  }
+}
+
 /// What the square root leaves of `off` beyond noise, with its sign.
 inline float BeyondNoise(float off, float noise2) {
   const float square = off * off - noise2;

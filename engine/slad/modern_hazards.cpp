@@ -18,8 +18,6 @@ namespace {
 /// Squared noise multiple: thousands of cells are tested, so a deviation counts beyond four sigmas
 /// only.
 constexpr float kNoise2 = 16;
-/// Makes the squared deviation of an unknown cell negative whatever its height.
-constexpr float kNever = 1e20F;
 /// Known limit of attitude: the slope of everything is off by this much.
 constexpr double kAttitudeSigma_rad = 0.1 * kRadPerDeg;
 constexpr int kMostOffsets = 24;
@@ -55,7 +53,7 @@ struct Layers {
       : height(rows, cols, rim, 0.0F),
         noise2(rows, cols, rim, kNever),
         step2(rows, cols, rim, -kNever),
-        plane(rows, cols, 0, 0.0F),
+        plane(rows, cols, 1, 0.0F),
         east(rows, cols, 0, 0.0F),
         south(rows, cols, 0, 0.0F) {}
 
@@ -96,34 +94,18 @@ void FillLayers(const ElevationMap& map, const FootprintPlanes& planes, float re
 
 /// Steps between a cell and its eight neighbours, less what the ground plane itself rises.
 void FindSteps(const GridGeometry& geometry, Layers& layers, GridF& step_at_cell_m) {
+  const SladLoops& loops = FastestSladLoops();
+  const int cols = geometry.cols;
   ForRows(geometry.rows, [&](int r) {
-    const auto off_ground = [&](int rr, int cc) {
-      return std::abs(layers.height.row(rr)[cc] - layers.plane.row(rr)[cc]);
-    };
-    for (int c = 0; c < geometry.cols; ++c) {
-      const float noise2 = layers.noise2.row(r)[c];
-      float most2 = -kNever, at_cell2 = -kNever;
-      if (noise2 < kNever) {
-        const float own_off = off_ground(r, c);
-        for (int k = 0; k < 9; ++k) {
-          const int dr = k / 3 - 1, dc = k % 3 - 1;
-          const Cell near{r + dr, c + dc};
-          if (k == 4 || layers.noise2.row(near.row)[near.col] >= kNever) {
-            continue;
-          }
-          const float rise = layers.height.row(near.row)[near.col] - layers.height.row(r)[c] -
-                             layers.east.row(r)[c] * static_cast<float>(dc) -
-                             layers.south.row(r)[c] * static_cast<float>(dr);
-          const float step2 = rise * rise - noise2 - layers.noise2.row(near.row)[near.col];
-          most2 = std::max(most2, step2);
-          // The cell that stands off the ground makes the step, not its level neighbour.
-          if (own_off >= 0.9F * off_ground(near.row, near.col)) {
-            at_cell2 = std::max(at_cell2, step2);
-          }
-        }
-      }
-      layers.step2.row(r)[c] = most2;
-      step_at_cell_m.at(r, c) = BeyondNoise(at_cell2);
+    std::vector<float> at_cell2(static_cast<std::size_t>(cols + kLaneSlack));
+    loops.steps({{layers.height.row(r - 1), layers.height.row(r), layers.height.row(r + 1)},
+                 {layers.noise2.row(r - 1), layers.noise2.row(r), layers.noise2.row(r + 1)},
+                 {layers.plane.row(r - 1), layers.plane.row(r), layers.plane.row(r + 1)},
+                 layers.east.row(r),
+                 layers.south.row(r)},
+                cols, layers.step2.row(r), at_cell2.data());
+    for (int c = 0; c < cols; ++c) {
+      step_at_cell_m.at(r, c) = BeyondNoise(at_cell2[static_cast<std::size_t>(c)]);
     }
   });
 }

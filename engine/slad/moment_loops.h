@@ -71,21 +71,20 @@ inline void WindowSums(const double* columns, int half, int count, double* __res
   }
 }
 
-void SolveMomentsRow(const double* columns, int pitch, int half, int x0, double y, int count,
-                     double* work, const FittedRow& out) {
-  double* sums = work + pitch;
-  for (int k = 0; k < kMoments; ++k) {
-    WindowSums(columns + k * pitch, half, count, work, sums + k * pitch);
-  }
-  const auto sum = [&](int k) { return sums + k * pitch; };
+constexpr int kSolveRun = 64;  // columns
+
+/// Planes of some columns from the sums of their windows, moment k at sums + k pitch. Doubles into
+/// arrays of their own first, floats after: else none of it is vectorised.
+inline void SolveRun(const double* sums, int pitch, double first_x, double y, int first, int count,
+                     const FittedRow& out) {
+  const auto sum = [&](int k) { return sums + k * pitch + first; };
   const double *m0 = sum(0), *m1 = sum(1), *m2 = sum(2), *m3 = sum(3), *m4 = sum(4), *m5 = sum(5),
                *m6 = sum(6), *m7 = sum(7), *m8 = sum(8), *m9 = sum(9), *mn = sum(10), *mv = sum(11);
-  float* __restrict__ height = out.height_m;
-  float* __restrict__ east_out = out.east;
-  float* __restrict__ south_out = out.south;
-  float* __restrict__ scatter = out.scatter_m;
-  float* __restrict__ sigma = out.gradient_sigma;
-  float* __restrict__ variance = out.cell_variance_m2;
+  double x[kSolveRun], height[kSolveRun], easts[kSolveRun], souths[kSolveRun], scatter2[kSolveRun],
+      sigma2[kSolveRun], variance[kSolveRun], known[kSolveRun];
+  for (int c = 0; c < count; ++c) {
+    x[c] = first_x + c;
+  }
   for (int c = 0; c < count; ++c) {
     const double w = m0[c] > 0 ? m0[c] : 1, n = mn[c];
     const double x_mean = m1[c] / w, y_mean = m2[c] / w, z_mean = m6[c] / w;
@@ -94,8 +93,10 @@ void SolveMomentsRow(const double* columns, int pitch, int half, int x0, double 
     const double sxz = m7[c] - w * x_mean * z_mean, syz = m8[c] - w * y_mean * z_mean,
                  szz = m9[c] - w * z_mean * z_mean;
     const double determinant = sxx * syy - sxy * sxy;
-    const bool spanned = (n >= 2.5) & (m0[c] > 0) & (determinant >= 1e-3 * w * w);
-    const double d = spanned ? determinant : 1;
+    const double enough = n >= 2.5 ? determinant : -1;
+    const double weighed = m0[c] > 0 ? enough : -1;
+    const double least = 1e-3 * w * w;
+    const double d = weighed >= least ? determinant : 1;
     const double east = (sxz * syy - syz * sxy) / d, south = (syz * sxx - sxz * sxy) / d;
     const double left = szz - east * sxz - south * syz, squares = left > 0 ? left : 0;
     // Weights are floor / variance, so the covariance carries the floor; chi-square above 1 widens.
@@ -104,18 +105,43 @@ void SolveMomentsRow(const double* columns, int pitch, int half, int x0, double 
     const double scale = kVarianceFloor_m2 * (chi2 > 1 ? chi2 : 1) * kCorrelatedCells / d;
     // Along the steepest direction; any on level ground.
     const double steep2 = east * east + south * south;
-    const bool level = steep2 < 1e-18;
-    const double ee = level ? 1 : east * east, ss = level ? 0 : south * south,
-                 es = level ? 0 : east * south, unit = level ? 1 : steep2;
+    const double ee = steep2 < 1e-18 ? 1 : east * east, ss = steep2 < 1e-18 ? 0 : south * south,
+                 es = steep2 < 1e-18 ? 0 : east * south, unit = steep2 < 1e-18 ? 1 : steep2;
     const double along = scale * (ee * syy - 2 * es * sxy + ss * sxx) / unit;
-    const double at_cell = z_mean + east * (c + x0 - x_mean) + south * (y - y_mean);
-    // With all its ground rejected a cell keeps the plane of the pass before.
-    height[c] = spanned ? static_cast<float>(at_cell) : height[c];
-    east_out[c] = spanned ? static_cast<float>(east) : east_out[c];
-    south_out[c] = spanned ? static_cast<float>(south) : south_out[c];
-    scatter[c] = spanned ? static_cast<float>(__builtin_sqrt(squares / w)) : scatter[c];
-    sigma[c] = spanned ? static_cast<float>(__builtin_sqrt(along > 0 ? along : 0)) : sigma[c];
-    variance[c] = spanned ? static_cast<float>(mv[c] / (n > 0 ? n : 1)) : variance[c];
+    height[c] = z_mean + east * (x[c] - x_mean) + south * (y - y_mean);
+    easts[c] = east;
+    souths[c] = south;
+    scatter2[c] = squares / w;
+    sigma2[c] = along > 0 ? along : 0;
+    variance[c] = mv[c] / (n > 0 ? n : 1);
+    known[c] = weighed >= least ? 1 : 0;
+  }
+  for (int c = 0; c < count; ++c) {
+    scatter2[c] = __builtin_sqrt(scatter2[c]);
+    sigma2[c] = __builtin_sqrt(sigma2[c]);
+  }
+  // With all its ground rejected a cell keeps the plane of the pass before.
+  const auto keep = [&](const double* from, float* to) {
+    for (int c = 0; c < count; ++c) {
+      to[first + c] = known[c] > 0 ? static_cast<float>(from[c]) : to[first + c];
+    }
+  };
+  keep(height, out.height_m);
+  keep(easts, out.east);
+  keep(souths, out.south);
+  keep(scatter2, out.scatter_m);
+  keep(sigma2, out.gradient_sigma);
+  keep(variance, out.cell_variance_m2);
+}
+
+void SolveMomentsRow(const double* columns, int pitch, int half, int x0, double y, int count,
+                     double* work, const FittedRow& out) {
+  double* sums = work + pitch;
+  for (int k = 0; k < kMoments; ++k) {
+    WindowSums(columns + k * pitch, half, count, work, sums + k * pitch);
+  }
+  for (int c = 0; c < count; c += kSolveRun) {
+    SolveRun(sums, pitch, c + x0, y, c, count - c < kSolveRun ? count - c : kSolveRun, out);
   }
 }
 

@@ -31,6 +31,19 @@ struct DiscRows {
   const float* const* noise2;  ///< taken from the square of the deviation
 };
 
+/// Noise that makes the squared deviation of an unknown cell negative whatever its height.
+inline constexpr float kNever = 1e20F;
+
+/// The cells around those of one row, at column 0; readable one further to the left, 1 + kLaneSlack
+/// to the right.
+struct StepRows {
+  const float* height[3];  ///< of the row to the north, the row itself and that to the south
+  const float* noise2[3];  ///< taken from squared steps; kNever where not measured
+  const float* plane[3];
+  const float* east;  ///< gradients a cell
+  const float* south;
+};
+
 /// The heights around the cells of one row that SettleRow looks at, at column 0; known is 1 or 0.
 /// Readable one further to the left, 1 + kLaneSlack to the right.
 struct SettleRows {
@@ -111,21 +124,23 @@ struct GearPoint {
   int offset;
   float weight[4];
 };
-/// A cell under the belly, its centre seen from the gear's middle.
-struct BellyCell {
-  int offset;
+/// Cells of one row under the belly, `stride` floats apart; where the first one's centre is, seen
+/// from the gear's middle.
+struct BellyRow {
+  int offset, cells, stride;
   float north_m, east_m;
+  float step_m;  ///< to the east from cell to cell
 };
 struct GearHeading {
   float north, east;                    ///< unit vector forward
   GearPoint point[2][kMostGearPoints];  ///< left and right, aft to fore; pads: aft, fore
-  int belly_cells;
-  const BellyCell* belly;
+  int belly_rows;
+  const BellyRow* belly;
 };
 /// The gear over a layer of heights whose rows are `pitch` floats apart.
 struct GearShape {
   bool skids;
-  int points;  ///< of one skid; 2 for pads
+  int points;  ///< of one skid, odd and at least 3; 2 for pads
   float spacing_m;
   float width_m;
   float up_W[3];
@@ -144,6 +159,10 @@ struct SladLoops {
   /// readable, square writable, kLaneSlack beyond count.
   void (*disc_deviation)(const DiscRows& disc, const float* plane, const float* east,
                          const float* south, int count, float* square);
+  /// Largest squared step to one of the eight neighbours beyond what the plane rises and both
+  /// noises, and the same for the cell that stands farther off its plane and so makes the step;
+  /// -kNever where there is none. Writable kLaneSlack beyond count.
+  void (*steps)(const StepRows& rows, int count, float* most2, float* at_cell2);
   /// Heights less their noise: off its plane a cell keeps sqrt(off^2 - 9 sigma^2), the mean of the
   /// cells around it and the rest apart. 0 where not known.
   void (*settle)(const SettleRows& rows, int count, float* settled_m);

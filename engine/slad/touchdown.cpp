@@ -10,6 +10,8 @@ namespace palace {
 namespace {
 
 constexpr int kFewestHeadings = 4, kMostHeadings = 32;
+/// Cells the gear's corners may move from one heading to the next; a point feels a cell both ways.
+constexpr double kCellsBetweenHeadings = 1.25;
 
 /// The point (north_m, east_m) from the gear's middle, between the cells around it.
 GearPoint PointAt(double north_m, double east_m, double cell_m, int pitch) {
@@ -90,8 +92,9 @@ SettledPlace SettleAround(const ElevationMap& map, const SladSettings& settings,
 
 }  // namespace
 
-GearOverMap::GearOverMap(const GridF& height_m, double cell_m, const SladSettings& settings)
-    : rows_(height_m.rows()), cols_(height_m.cols()) {
+GearOverMap::GearOverMap(const GridF& height_m, double cell_m, const SladSettings& settings,
+                         const SladLoops& loops)
+    : loops_(loops), rows_(height_m.rows()), cols_(height_m.cols()) {
   LayOut(settings, cell_m);
   CopyHeights(height_m);
 }
@@ -102,13 +105,16 @@ void GearOverMap::LayOut(const SladSettings& settings, double cell_m) {
   const double length_m = settings.gear_length_m, width_m = settings.gear_width_m;
   const bool skids = settings.gear == LandingGear::kSkids;
   const double corner_m = std::hypot(length_m, width_m) / 2;
-  const double gaps = std::clamp(std::ceil(length_m / cell_m - 1e-9), 1.0, kMostGearPoints - 1.0);
+  // An even number of gaps: one point is the middle.
+  const double gaps =
+      std::clamp(2 * std::ceil(length_m / cell_m / 2 - 1e-9), 2.0, kMostGearPoints - 1.0);
   const int points = skids ? static_cast<int>(gaps) + 1 : 2;
   stride_ = skids ? std::max(1, static_cast<int>(std::ceil(length_m / gaps / cell_m - 1e-9))) : 1;
   reach_ = static_cast<int>(std::ceil(corner_m / cell_m)) + stride_ + 1;
   const int pitch = cols_ + 2 * reach_ + kLaneSlack;
-  const int headings = static_cast<int>(std::clamp(std::ceil(M_PI * corner_m / cell_m - 1e-9),
-                                                   double{kFewestHeadings}, double{kMostHeadings}));
+  const int headings = static_cast<int>(
+      std::clamp(std::ceil(M_PI * corner_m / cell_m / kCellsBetweenHeadings - 1e-9),
+                 double{kFewestHeadings}, double{kMostHeadings}));
   const double spacing_m = length_m / (points - 1);
   heading_.resize(static_cast<std::size_t>(headings));
   belly_.resize(heading_.size());
@@ -125,18 +131,30 @@ void GearOverMap::LayOut(const SladSettings& settings, double cell_m) {
       }
     }
     // Every stride-th cell: the layer then holds the highest around it.
-    std::vector<BellyCell>& belly = belly_[static_cast<std::size_t>(h)];
+    std::vector<BellyRow>& belly = belly_[static_cast<std::size_t>(h)];
     const int around = reach_ / stride_ * stride_;
     for (int r = -around; r <= around; r += stride_) {
+      BellyRow row{};
       for (int c = -around; c <= around; c += stride_) {
         const double n = -r * cell_m, e = c * cell_m;
         if (std::abs(n * north + e * east) <= length_m / 2 &&
             std::abs(e * north - n * east) <= width_m / 2) {
-          belly.push_back({r * pitch + c, static_cast<float>(n), static_cast<float>(e)});
+          if (row.cells == 0) {
+            row = {r * pitch + c,
+                   0,
+                   stride_,
+                   static_cast<float>(n),
+                   static_cast<float>(e),
+                   static_cast<float>(stride_ * cell_m)};
+          }
+          ++row.cells;
         }
       }
+      if (row.cells > 0) {
+        belly.push_back(row);
+      }
     }
-    heading.belly_cells = static_cast<int>(belly.size());
+    heading.belly_rows = static_cast<int>(belly.size());
     heading.belly = belly.data();
   }
   const Eigen::Vector3d up_W = settings.up_W();
@@ -172,15 +190,14 @@ void GearOverMap::CopyHeights(const GridF& height_m) {
       unknown_west.at(r, c) = unknown;
     }
   }
-  const SladLoops& loops = FastestSladLoops();
   if (stride_ > 1) {
     const GridF lone = height_;
     const int half = stride_ / 2, inner = cols_ + 2 * (reach_ - half);
     std::vector<float> work(static_cast<std::size_t>(cols + 2 * half));
     for (int r = half; r < rows - half; ++r) {
       for (int dr = -half; dr <= half; ++dr) {
-        loops.window_maximum(lone.row(r + dr) + half, half, inner, work.data(),
-                             height_.row(r) + half);
+        loops_.window_maximum(lone.row(r + dr) + half, half, inner, work.data(),
+                              height_.row(r) + half);
       }
     }
   }
@@ -199,7 +216,7 @@ void GearOverMap::CopyHeights(const GridF& height_m) {
 void GearOverMap::WorstOfRow(int row, float* tilt_rad, float* rise_m) const {
   const std::size_t padded = static_cast<std::size_t>(cols_ + kLaneSlack);
   std::vector<float> tan2(padded), rise(padded);
-  FastestSladLoops().put_gear_down(shape_, HeightRow(row), cols_, tan2.data(), rise.data());
+  loops_.put_gear_down(shape_, HeightRow(row), cols_, tan2.data(), rise.data());
   for (int c = 0; c < cols_; ++c) {
     const bool known = known_.at(row, c) != 0;
     const std::size_t i = static_cast<std::size_t>(c);
@@ -216,7 +233,7 @@ GearRest GearOverMap::At(Cell cell, int heading) const {
   one.headings = 1;
   one.heading = &heading_[static_cast<std::size_t>(heading)];
   float tan2[kLaneSlack], rise[kLaneSlack];
-  FastestSladLoops().put_gear_down(one, HeightRow(cell.row) + cell.col, 1, tan2, rise);
+  loops_.put_gear_down(one, HeightRow(cell.row) + cell.col, 1, tan2, rise);
   return {std::atan(std::sqrt(tan2[0])), rise[0]};
 }
 

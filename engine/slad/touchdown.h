@@ -9,9 +9,9 @@
 //  Pads: the diagonal with the higher mean carries; both planes through it and one of the other two
 //    pads count.
 // Between cell centres the ground is bilinear. Headings are so close that the gear's corners move
-// by no more than a cell from one to the next; half a turn holds them all, for the gear looks the
-// same from behind. A gear longer than 13 cells is felt at 13 points, between which the highest
-// cells count.
+// by no more than 1.25 cells from one to the next; half a turn holds them all, for the gear looks
+// the same from behind. A skid is felt at no more than 13 points; where they are farther apart than
+// cells, the highest cells between them count.
 #pragma once
 
 #include <vector>
@@ -33,7 +33,8 @@ struct GearRest {
 /// The gear over heights, NaN where unknown. Outside them nothing is known.
 class GearOverMap {
  public:
-  GearOverMap(const GridF& height_m, double cell_m, const SladSettings& settings);
+  GearOverMap(const GridF& height_m, double cell_m, const SladSettings& settings,
+              const SladLoops& loops = FastestSladLoops());
   GearOverMap(const GearOverMap&) = delete;
 
   int headings() const { return static_cast<int>(heading_.size()); }
@@ -48,12 +49,13 @@ class GearOverMap {
   void CopyHeights(const GridF& height_m);
   const float* HeightRow(int row) const { return height_.row(row + reach_) + reach_; }
 
+  const SladLoops& loops_;
   int rows_, cols_;
   int reach_ = 1;   ///< cells the gear reaches beyond its middle
   int stride_ = 1;  ///< cells between points of a skid
   GearShape shape_{};
   std::vector<GearHeading> heading_;
-  std::vector<std::vector<BellyCell>> belly_;
+  std::vector<std::vector<BellyRow>> belly_;
   GridF height_;              ///< reach_ cells wider on every side, relative to a known height
   Grid<std::uint8_t> known_;  ///< of the middles: 1 where all cells in reach are known
 };

@@ -24,53 +24,62 @@ inline FloatLanes HeightAt(const float* height, int pitch, const GearPoint& poin
          (Load(at + pitch) * Fill(point.weight[2]) + Load(at + pitch + 1) * Fill(point.weight[3]));
 }
 
-/// Highest of the skid's points above a line of this pitch through its middle.
-inline FloatLanes Support(const FloatLanes* skid, int points, float spacing_m, FloatLanes pitch) {
-  FloatLanes most = Fill(-1e30F);
-  for (int k = 0; k < points; ++k) {
-    const float x = spacing_m * (static_cast<float>(k) - 0.5F * static_cast<float>(points - 1));
-    most = Max(skid[k] - pitch * Fill(x), most);
+/// Highest of the skid's N points above a line through its middle that rises by `step` from point
+/// to point.
+template <int N>
+FloatLanes Support(const FloatLanes* skid, FloatLanes step) {
+  FloatLanes most = skid[0] + step * Fill(0.5F * (N - 1));
+#pragma GCC unroll 16
+  for (int k = 1; k < N; ++k) {
+    most = Max(skid[k] - step * Fill(static_cast<float>(k) - 0.5F * (N - 1)), most);
   }
   return most;
 }
 
 /// The two skids' supports add up to max over s of G(s) - pitch x(s), where G(s) is the highest sum
 /// of one point of each that lie together at x(s): their least is the height at 0 of the concave
-/// hull of G, and its pitch is the hull's there.
-inline Resting RestOfSkids(const GearShape& gear, const GearHeading& heading, const float* height) {
-  FloatLanes skid[2][kMostGearPoints];
-  FloatLanes sum[2 * kMostGearPoints] = {};
-  const int n = gear.points, most = n - 1;  // sums run from -most to most, in spacings
-  for (int k = 0; k < n; ++k) {
+/// hull of G, and its pitch is the hull's there. N points a skid, unrolled: it is nearly all the
+/// time.
+template <int N>
+Resting RestOfSkids(const GearShape& gear, const GearHeading& heading, const float* height) {
+  constexpr int kMost = N - 1;  // sums run from -kMost to kMost, in spacings
+  FloatLanes skid[2][N];
+  FloatLanes sum[2 * N - 1];
+#pragma GCC unroll 16
+  for (int k = 0; k < N; ++k) {
     skid[0][k] = HeightAt(height, gear.pitch, heading.point[0][k]);
     skid[1][k] = HeightAt(height, gear.pitch, heading.point[1][k]);
   }
-  for (int s = 0; s <= 2 * most; ++s) {
-    const int first = s > most ? s - most : 0, last = s < most ? s : most;
+#pragma GCC unroll 32
+  for (int s = 0; s <= 2 * kMost; ++s) {
+    const int first = s > kMost ? s - kMost : 0, last = s < kMost ? s : kMost;
     FloatLanes best = skid[0][first] + skid[1][s - first];
+#pragma GCC unroll 16
     for (int k = first + 1; k <= last; ++k) {
       best = Max(skid[0][k] + skid[1][s - k], best);
     }
     sum[s] = best;
   }
-  FloatLanes least = sum[most];
-  for (int a = 1; a <= most; ++a) {
-    for (int b = 1; b <= most; ++b) {
+  FloatLanes least = sum[kMost];
+#pragma GCC unroll 16
+  for (int a = 1; a <= kMost; ++a) {
+#pragma GCC unroll 16
+    for (int b = 1; b <= kMost; ++b) {
       const float share = static_cast<float>(b) / static_cast<float>(a + b);
-      least = Max(sum[most - a] * Fill(share) + sum[most + b] * Fill(1 - share), least);
+      least = Max(sum[kMost - a] * Fill(share) + sum[kMost + b] * Fill(1 - share), least);
     }
   }
   // Balanced on its middle the gear may fall either way: the steeper one counts.
-  FloatLanes low = Fill(-1e30F), high = Fill(1e30F);
-  for (int s = 1; s <= most; ++s) {
-    const FloatLanes per_x = Fill(1 / (static_cast<float>(s) * gear.spacing_m));
-    low = Max((sum[most + s] - least) * per_x, low);
-    high = Min((least - sum[most - s]) * per_x, high);
+  FloatLanes low = sum[kMost + 1] - least, high = least - sum[kMost - 1];
+#pragma GCC unroll 16
+  for (int s = 2; s <= kMost; ++s) {
+    const FloatLanes per_x = Fill(1 / static_cast<float>(s));
+    low = Max((sum[kMost + s] - least) * per_x, low);
+    high = Min((least - sum[kMost - s]) * per_x, high);
   }
-  const FloatLanes pitch = Select(Less(Abs(low), Abs(high)), high, low);
-  const FloatLanes left = Support(skid[0], n, gear.spacing_m, pitch);
-  const FloatLanes right = Support(skid[1], n, gear.spacing_m, pitch);
-  return {pitch, (right - left) * Fill(1 / gear.width_m), least * Fill(0.5F)};
+  const FloatLanes step = Select(Less(Abs(low), Abs(high)), high, low);
+  const FloatLanes roll = Support<N>(skid[1], step) - Support<N>(skid[0], step);
+  return {step * Fill(1 / gear.spacing_m), roll * Fill(1 / gear.width_m), least * Fill(0.5F)};
 }
 
 /// Measures one way to rest against the worst so far.
@@ -84,11 +93,14 @@ inline void Compare(const GearShape& gear, const GearHeading& heading, const flo
   const FloatLanes dot = Fill(0.0F) - (north * a + east * b + d);
   const FloatLanes tan2 = (x * x + y * y + z * z) / (dot * dot);
   worst.tan2 = Max(Select(Less(Fill(1e-3F), dot), tan2, Fill(1e6F)), worst.tan2);
-  for (int k = 0; k < heading.belly_cells; ++k) {
-    const BellyCell& cell = heading.belly[k];
-    const FloatLanes above = Load(height + cell.offset) - rest.middle_m -
-                             north * Fill(cell.north_m) - east * Fill(cell.east_m);
-    worst.rise_m = Max(above, worst.rise_m);
+  for (int k = 0; k < heading.belly_rows; ++k) {
+    const BellyRow& row = heading.belly[k];
+    const FloatLanes base = rest.middle_m + north * Fill(row.north_m) + east * Fill(row.east_m);
+    const FloatLanes step = east * Fill(row.step_m);
+    for (int c = 0; c < row.cells; ++c) {
+      const FloatLanes plane = base + step * Fill(static_cast<float>(c));
+      worst.rise_m = Max(Load(height + row.offset + c * row.stride) - plane, worst.rise_m);
+    }
   }
 }
 
@@ -112,17 +124,34 @@ inline void CompareRestsOfPads(const GearShape& gear, const GearHeading& heading
   Compare(gear, heading, height, {right, Select(carried_by_other, fore, aft), middle}, worst);
 }
 
-void PutGearDownRow(const GearShape& gear, const float* height, int count, float* tan2,
-                    float* rise_m) {
+template <int N>
+void PutSkidsDownRow(const GearShape& gear, const float* height, int count, float* tan2,
+                     float* rise_m) {
   for (int c = 0; c < count; c += FloatLanes::kCount) {
     WorstRest worst{Fill(0.0F), Fill(-1e30F)};
     for (int h = 0; h < gear.headings; ++h) {
       const GearHeading& heading = gear.heading[h];
-      if (gear.skids) {
-        Compare(gear, heading, height + c, RestOfSkids(gear, heading, height + c), worst);
-      } else {
-        CompareRestsOfPads(gear, heading, height + c, worst);
-      }
+      Compare(gear, heading, height + c, RestOfSkids<N>(gear, heading, height + c), worst);
+    }
+    Store(tan2 + c, worst.tan2);
+    Store(rise_m + c, worst.rise_m);
+  }
+}
+
+void PutGearDownRow(const GearShape& gear, const float* height, int count, float* tan2,
+                    float* rise_m) {
+  static_assert(kMostGearPoints == 13);
+  using Row = void (*)(const GearShape&, const float*, int, float*, float*);
+  static constexpr Row rows[] = {PutSkidsDownRow<3>, PutSkidsDownRow<5>,  PutSkidsDownRow<7>,
+                                 PutSkidsDownRow<9>, PutSkidsDownRow<11>, PutSkidsDownRow<13>};
+  if (gear.skids) {
+    rows[(gear.points - 3) / 2](gear, height, count, tan2, rise_m);
+    return;
+  }
+  for (int c = 0; c < count; c += FloatLanes::kCount) {
+    WorstRest worst{Fill(0.0F), Fill(-1e30F)};
+    for (int h = 0; h < gear.headings; ++h) {
+      CompareRestsOfPads(gear, gear.heading[h], height + c, worst);
     }
     Store(tan2 + c, worst.tan2);
     Store(rise_m + c, worst.rise_m);

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/core/random.h"
+#include "engine/slad/touchdown.h"
 
 namespace palace {
 namespace {
@@ -59,6 +60,26 @@ Floats Results(const SladLoops& loops, std::uint64_t seed) {
   loops.disc_deviation({3, 1, offset, half, heights, heights}, b.data(), c.data(), d.data(), count,
                        most.data());
   keep(most);
+  Floats at_cell(size);
+  const float* noises[] = {d.data() + kMargin, c.data() + kMargin, d.data() + kMargin};
+  loops.steps({{heights[0], heights[1], heights[2]},
+               {noises[0], noises[1], noises[2]},
+               {b.data() + kMargin, a.data() + kMargin, d.data() + kMargin},
+               a.data() + kMargin,
+               b.data() + kMargin},
+              count, most.data(), at_cell.data());
+  keep(most);
+  keep(at_cell);
+  const Floats ones(size, 1.0F);
+  const float* known = ones.data() + kMargin;
+  loops.settle({{heights[0], heights[1], heights[2]},
+                {known, known, known},
+                b.data() + kMargin,
+                a.data() + kMargin,
+                d.data() + kMargin,
+                d.data() + kMargin},
+               count, most.data());
+  keep(most);
   const int reach = 4, pitch = count + 2 * reach;
   std::vector<double> columns(std::size_t(kMoments * pitch)),
       work(std::size_t(kMoments + 1) * std::size_t(pitch));
@@ -88,6 +109,77 @@ TEST(SladLoops, GiveTheSameBitsOnEveryProcessor) {
     const Floats plain = Results(PortableSladLoops(), seed), fast = Results(*avx2, seed);
     ASSERT_EQ(std::memcmp(plain.data(), fast.data(), plain.size() * sizeof(float)), 0)
         << "seed " << seed;
+  }
+}
+
+TEST(SladLoops, GearComesDownWithTheSameBitsOnEveryProcessor) {
+  const SladLoops* avx2 = Avx2SladLoops();
+  if (avx2 == nullptr) {
+    GTEST_SKIP() << "this processor has no AVX2: nothing to compare";
+  }
+  for (const LandingGear kind : {LandingGear::kSkids, LandingGear::kPads}) {
+    for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+      RandomStream random(seed, "gear");
+      GridF height(40, 40);
+      for (float& z : height.cells()) {
+        z = float(random.Uniform(0, 0.3));
+      }
+      SladSettings settings;
+      settings.gear = kind;
+      settings.gear_length_m = random.Uniform(0.2, 2.4);
+      Floats tilt[2], rise[2];
+      for (int k = 0; k < 2; ++k) {
+        tilt[k].resize(40);
+        rise[k].resize(40);
+        const GearOverMap gear(height, 0.15, settings, k == 0 ? PortableSladLoops() : *avx2);
+        gear.WorstOfRow(20, tilt[k].data(), rise[k].data());
+      }
+      ASSERT_EQ(std::memcmp(tilt[0].data(), tilt[1].data(), 40 * sizeof(float)), 0) << seed;
+      ASSERT_EQ(std::memcmp(rise[0].data(), rise[1].data(), 40 * sizeof(float)), 0) << seed;
+    }
+  }
+}
+
+/// Largest squared step by the rule itself, cell by cell.
+TEST(SladLoops, StepsAreTheLargestBetweenNeighbours) {
+  RandomStream random(5, "steps");
+  constexpr int kCount = 37, kWide = kCount + 2 + kLaneSlack;
+  Floats height[3], noise2[3], plane[3];
+  for (int r = 0; r < 3; ++r) {
+    height[r] = Random(random, kWide, -0.3, 0.3);
+    noise2[r] = Random(random, kWide, 0, 0.01);
+    plane[r] = Random(random, kWide, -0.05, 0.05);
+    for (float& value : noise2[r]) {
+      value = random.Uniform() < 0.2 ? kNever : value;
+    }
+  }
+  const Floats east = Random(random, kWide, -0.1, 0.1), south = Random(random, kWide, -0.1, 0.1);
+  Floats most(kWide), at_cell(kWide);
+  FastestSladLoops().steps({{&height[0][1], &height[1][1], &height[2][1]},
+                            {&noise2[0][1], &noise2[1][1], &noise2[2][1]},
+                            {&plane[0][1], &plane[1][1], &plane[2][1]},
+                            &east[1],
+                            &south[1]},
+                           kCount, most.data(), at_cell.data());
+  for (int c = 0; c < kCount; ++c) {
+    const std::size_t i = std::size_t(c) + 1;
+    float want = -kNever, want_at_cell = -kNever;
+    for (int dr = -1; dr <= 1; ++dr) {
+      for (int dc = -1; dc <= 1; ++dc) {
+        const std::size_t j = i + std::size_t(dc), r = std::size_t(1 + dr);
+        if ((dr == 0 && dc == 0) || noise2[1][i] >= kNever || noise2[r][j] >= kNever) {
+          continue;
+        }
+        const float rise = height[r][j] - height[1][i] - east[i] * float(dc) - south[i] * float(dr);
+        const float step2 = rise * rise - noise2[1][i] - noise2[r][j];
+        want = std::max(want, step2);
+        if (std::abs(height[1][i] - plane[1][i]) >= 0.9F * std::abs(height[r][j] - plane[r][j])) {
+          want_at_cell = std::max(want_at_cell, step2);
+        }
+      }
+    }
+    ASSERT_EQ(most[std::size_t(c)], want) << c;
+    ASSERT_EQ(at_cell[std::size_t(c)], want_at_cell) << c;
   }
 }
 
