@@ -55,7 +55,8 @@ struct MissionInputs {
   StereoQuality stereo{};                  ///< of the newest range map
   RangeAgreement range_agreement{};        ///< stereo against laser
   std::optional<LandingSite> rechecked;    ///< the armed site evaluated on the newest map
-  std::optional<LandingSite> alternative;  ///< and the alternative kept for it
+  std::optional<NearestHazard> nearest;    ///< to it on that map, when it is no hazard itself
+  std::optional<LandingSite> alternative;  ///< the alternative kept for it, evaluated likewise
   const Settings& settings;
   std::uint64_t settings_hash = 0;
   std::uint64_t calibration_hash = 0;

@@ -20,9 +20,9 @@ void Mission::FollowSite(const MissionInputs& in) {
   if (!in.new_map || !status_.armed) {
     return;
   }
-  site_.Add(
-      JudgeRecheck(in.rechecked, {armed_.confirmed, status_.armed->clearance_m}, in.settings.slad),
-      in.now);
+  site_.Add(JudgeRecheck(in.rechecked, in.nearest, {armed_.confirmed, status_.armed->clearance_m},
+                         in.settings.slad),
+            in.now);
   armed_.confirmed = armed_.confirmed || (site_.newest().holds() && in.rechecked->confirmed);
   FollowAlternative(in);
   const SiteVerdict verdict = site_.VerdictAt(in.now);
@@ -44,7 +44,7 @@ void Mission::FollowAlternative(const MissionInputs& in) {
   const auto usable = [&](const std::optional<LandingSite>& site) {
     return site && refused_sites_.count(site->id) == 0 && site->corridor_clear &&
            !SharesGround(*site, *status_.armed) &&
-           JudgeRecheck(site, {false, 0}, in.settings.slad).holds();
+           JudgeRecheck(site, {}, {false, 0}, in.settings.slad).holds();
   };
   if (alternative_ && usable(in.alternative)) {
     alternative_ = in.alternative;  // the same place on this map

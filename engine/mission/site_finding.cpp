@@ -3,8 +3,6 @@
 #include <cstdio>
 #include <vector>
 
-#include "engine/model/cell_explanation.h"
-
 namespace palace {
 namespace {
 
@@ -28,8 +26,9 @@ bool IsGross(const ExplainedTerm& term) {
 
 }  // namespace
 
-SiteFinding JudgeRecheck(const std::optional<LandingSite>& now, const ApprovedEvidence& approved,
-                         const SladSettings& settings) {
+SiteFinding JudgeRecheck(const std::optional<LandingSite>& now,
+                         const std::optional<NearestHazard>& nearest,
+                         const ApprovedEvidence& approved, const SladSettings& settings) {
   if (!now) {
     return {Finding::kOver, "The site left the map", false};
   }
@@ -40,10 +39,13 @@ SiteFinding JudgeRecheck(const std::optional<LandingSite>& now, const ApprovedEv
       found.reason = std::move(reason);
     }
   };
+  const std::string where = nearest ? "; " + WhereWords(*nearest) : std::string();
   const bool under_lander = now->safe_distance_m < settings.lander_radius_m();
   for (const ExplainedTerm& term : TermsOf(*now, settings)) {
     if (term.over) {
-      worse(under_lander && IsGross(term) ? Finding::kGross : Finding::kOver, Sentence(term));
+      const bool room = term.term == CellTerm::kHazardDistance;
+      worse(under_lander && IsGross(term) ? Finding::kGross : Finding::kOver,
+            Sentence(term) + (room ? where : ""));
     } else if (approved.confirmed && BandCrossesLimit(term)) {
       worse(Finding::kDoubtful, Sentence(term));
     }
@@ -51,10 +53,11 @@ SiteFinding JudgeRecheck(const std::optional<LandingSite>& now, const ApprovedEv
   if (!now->corridor_clear) {
     worse(Finding::kDoubtful, "Something stands in the approach");
   }
-  if (now->clearance_m < kLeastRoomShare * approved.clearance_m &&
+  if (nearest && nearest->IsSeen() && now->clearance_m < kLeastRoomShare * approved.clearance_m &&
       now->clearance_m < approved.clearance_m - kNoticedRoom_m) {
     worse(Finding::kDoubtful, Text("Room beyond the clear radius %.1f m, approved with %.1f m",
-                                   now->clearance_m, approved.clearance_m));
+                                   now->clearance_m, approved.clearance_m) +
+                                  where);
   }
   if (now->age_s > kOldGround_s) {
     worse(Finding::kDoubtful,

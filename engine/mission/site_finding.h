@@ -3,8 +3,8 @@
 //   gross      an obstacle under the lander, beyond twice its limit and beyond 3 sigma of it
 //   over       some figure is over its limit, unknown, or the site is off the map
 //   doubtful   inside every limit, but: the limit lies within the 3 sigma of a figure although the
-//              site was confirmed before, the approach is blocked, less than half the room is left
-//              that was approved, or the ground was last measured too long ago
+//              site was confirmed before, the approach is blocked, a hazard leaves less than half
+//              the room that was approved, or the ground was last measured too long ago
 //   good       none of these
 //
 // The vehicle's limits are fixed; what distance changes is the sigma. A provisional site is one
@@ -15,6 +15,7 @@
 #include <optional>
 #include <string>
 
+#include "engine/model/cell_explanation.h"
 #include "engine/model/landing_site.h"
 #include "engine/model/settings.h"
 
@@ -39,8 +40,11 @@ constexpr double kLeastRoomShare = 0.5;  ///< of the approved clearance
 constexpr double kNoticedRoom_m = 0.3;   ///< a smaller loss of room is noise of two cells
 constexpr double kOldGround_s = 2;       ///< as old as a map may be
 
-/// `now`: the site evaluated on the newest map, empty when it lies outside.
-SiteFinding JudgeRecheck(const std::optional<LandingSite>& now, const ApprovedEvidence& approved,
-                         const SladSettings& settings);
+/// `now`: the site evaluated on the newest map, empty when it lies outside. `nearest`: the hazard
+/// nearest to it, when known. Room that shrinks because the map ends or was not seen is no doubt by
+/// itself: the view narrows on the way down.
+SiteFinding JudgeRecheck(const std::optional<LandingSite>& now,
+                         const std::optional<NearestHazard>& nearest,
+                         const ApprovedEvidence& approved, const SladSettings& settings);
 
 }  // namespace palace

@@ -140,6 +140,19 @@ std::string ReasonWords(unsigned reasons) {
                      reasons);
 }
 
+bool NearestHazard::IsSeen() const {
+  return cell.has_value() && (reasons & ~unsigned{kHazardUnknown}) != 0;
+}
+
+std::string WhereWords(const NearestHazard& nearest) {
+  const std::string all = !nearest.cell                         ? std::string("map edge")
+                          : (nearest.reasons == kHazardFlagged) ? FlagWords(nearest.flags)
+                                                                : ReasonWords(nearest.reasons);
+  const std::string first =
+      all.substr(0, all.find(','));  // the worst alone, to be read at a glance
+  return first + ", " + Number(nearest.distance_m, 1, " m ") + DirectionWord(nearest.bearing_rad);
+}
+
 const char* DirectionWord(double bearing_rad) {
   constexpr const char* kWords[] = {"north", "north-east", "east", "south-east",
                                     "south", "south-west", "west", "north-west"};

@@ -37,6 +37,9 @@ struct NearestHazard {
   double distance_m = 0;     ///< between cell centres
   double bearing_rad = 0;    ///< from the cell, from north clockwise, 0..2 pi
   std::uint8_t reasons = 0;  ///< its HazardReason bits; of the edge kHazardUnknown
+  std::uint8_t flags = 0;    ///< its TerrainFlag bits
+  /// Something seen, not merely something not known.
+  bool IsSeen() const;
 };
 
 struct CellExplanation {
@@ -68,6 +71,8 @@ TermWords WordsOf(const ExplainedTerm& term);
 
 /// "measured", "filled", "border", "unknown".
 const char* CellStateWord(CellState state);
+/// "roughness, 1.1 m south-west", "thin structure, 1.9 m south", "map edge, 0.8 m west".
+std::string WhereWords(const NearestHazard& nearest);
 /// "thin structure, motion"; empty when there is none.
 std::string FlagWords(unsigned flags);
 /// What hazard reason bits say of a cell, worst first: "slope", "roughness, step".

@@ -5,6 +5,7 @@
 
 #include "engine/runtime/decision_hash.h"
 #include "engine/runtime/pipeline_pass.h"
+#include "engine/slad/explanation.h"
 #include "engine/stereo/prefilter.h"
 
 namespace palace {
@@ -302,9 +303,14 @@ void Pipeline::Decide(Pass& pass) {
   snapshot.channels = channels_.Health(pass.bundle->time);
   const Eigen::Matrix3d R_WB = snapshot.pose ? snapshot.pose->X_WB.R : Eigen::Matrix3d::Identity();
   std::optional<LandingSite> rechecked, alternative;
+  std::optional<NearestHazard> nearest;
   const auto& armed = mission_.status().armed;
   if (armed && pass.decision_of_record && pass.new_map) {
     rechecked = terrain_.Recheck(*pass.decision_of_record, *armed, settings_.recorded());
+    if (rechecked) {
+      const TerrainDecision& map = *pass.decision_of_record;
+      nearest = ExplainCell(*map.elevation, *map.hazards, map.settings, rechecked->cell).nearest;
+    }
     if (const auto& kept = mission_.alternative()) {
       alternative = terrain_.Recheck(*pass.decision_of_record, *kept, settings_.recorded());
     }
@@ -325,6 +331,7 @@ void Pipeline::Decide(Pass& pass) {
                    snapshot.stereo_quality,
                    snapshot.range_agreement,
                    rechecked,
+                   nearest,
                    alternative,
                    in_force,
                    HashOf(in_force),

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <numbers>
 
@@ -12,12 +11,6 @@
 
 namespace palace {
 namespace {
-
-std::string Metres(double value, const char* after = "") {
-  char text[64];
-  std::snprintf(text, sizeof text, "%.1f m%s", value, after);
-  return text;
-}
 
 bool IsHazard(const HazardMaps& hazards, Cell cell) {
   return !hazards.geometry.Contains(cell) || hazards.reasons.at(cell) != kHazardNone;
@@ -48,6 +41,7 @@ NearestHazard FindNearestHazard(const HazardMaps& hazards, Cell from) {
   const bool inside = g.Contains(nearest);
   found.cell = inside ? std::optional(nearest) : std::nullopt;
   found.reasons = inside ? hazards.reasons.at(nearest) : std::uint8_t{kHazardUnknown};
+  found.flags = inside && !hazards.flags.empty() ? hazards.flags.at(nearest) : std::uint8_t{0};
   return found;
 }
 
@@ -68,12 +62,6 @@ std::string WhyUnknown(CellState state) {
 std::string Sentence(const ExplainedTerm& term, const char* where) {
   const TermWords words = WordsOf(term);
   return words.name + where + " " + words.value + ", " + words.limit;
-}
-
-std::string WhereWords(const NearestHazard& nearest) {
-  const std::string what =
-      nearest.cell ? "hazard (" + ReasonWords(nearest.reasons) + ") " : std::string("map edge ");
-  return what + Metres(nearest.distance_m) + " " + DirectionWord(nearest.bearing_rad);
 }
 
 ExplainedTerm* Find(CellExplanation& e, CellTerm wanted) {
@@ -134,7 +122,7 @@ void DecideRoom(const HazardMaps& hazards, const SladSettings& settings, CellExp
     }
   }
   e.can_bear = true;
-  e.verdict = "Safe; nearest " + WhereWords(*e.nearest);
+  e.verdict = "Safe; nearest hazard: " + WhereWords(*e.nearest);
 }
 
 double AgeOf(const ElevationMap& map, Cell cell) {

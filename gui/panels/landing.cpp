@@ -31,11 +31,6 @@ std::string Headline(const EngineSnapshot& snap) {
   }
 }
 
-/// Why this site was proposed, as it stood when it was selected.
-std::string WhyChosen(const MissionStatus& m) {
-  return m.armed && !m.armed->reason.empty() ? " Chosen: " + m.armed->reason + "." : "";
-}
-
 std::string Record(const EngineSnapshot& snap) {
   const MissionStatus& m = snap.mission;
   if (m.state == MissionState::kHold || m.state == MissionState::kAborting) {
@@ -63,7 +58,7 @@ std::string Record(const EngineSnapshot& snap) {
   }
   std::string text = "Approved " + ClockText(m.approval->approved_at) + " by you";
   if (m.approval_phase == MissionStatus::ApprovalPhase::kAccepted) {
-    return text + ", accepted in " + Duration(m.approval_answer_s) + "." + WhyChosen(m);
+    return text + ", accepted in " + Duration(m.approval_answer_s) + ".";
   }
   text += ".";
   if (m.approval_phase == MissionStatus::ApprovalPhase::kSent) {

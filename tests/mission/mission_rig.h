@@ -165,6 +165,7 @@ struct MissionRig {
                      .tracker = tracker,
                      .stereo = stereo,
                      .rechecked = {},
+                     .nearest = {},
                      .alternative = {},
                      .settings = settings,
                      .settings_hash = settings_hash,

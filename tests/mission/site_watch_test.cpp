@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "engine/core/random.h"
+#include "engine/model/hazard_maps.h"
 #include "tests/mission/mission_rig.h"
 
 namespace palace {
@@ -119,6 +120,10 @@ LandingSite GoodSite() {
   return site;
 }
 
+std::optional<NearestHazard> Rock() {
+  return NearestHazard{Cell{3, 4}, 3.2, std::numbers::pi, kHazardRoughness, 0};
+}
+
 struct Change {
   const char* name;
   std::function<void(LandingSite&)> change;
@@ -131,57 +136,70 @@ class Findings : public testing::TestWithParam<Change> {};
 TEST_P(Findings, AreNamedWithValueAndLimit) {
   LandingSite site = GoodSite();
   GetParam().change(site);
-  const SiteFinding found = JudgeRecheck(site, {true, 2.0}, SladSettings{});
+  const SiteFinding found = JudgeRecheck(site, Rock(), {true, 2.0}, SladSettings{});
   EXPECT_EQ(found.finding, GetParam().finding);
   EXPECT_EQ(found.reason, GetParam().reason);
 }
 
 INSTANTIATE_TEST_SUITE_P(
     , Findings,
-    testing::Values(Change{"Good", [](LandingSite&) {}, Finding::kGood, ""},
-                    Change{"Steep", [](LandingSite& s) { s.slope_rad.value = 12 * kDeg; },
-                           Finding::kOver, "Slope 12.0° ± 1.0°, max 10°"},
-                    Change{"SlopeUnknown",
-                           [](LandingSite& s) {
-                             s.slope_rad = {NAN, NAN};
-                           },
-                           Finding::kOver, "Slope ––, max 10°"},
-                    Change{"BandCrosses",
-                           [](LandingSite& s) {
-                             s.slope_rad = {9.4 * kDeg, 1 * kDeg};
-                           },
-                           Finding::kDoubtful, "Slope 9.4° ± 1.0°, max 10°"},
-                    Change{"Step", [](LandingSite& s) { s.step_m.value = 0.2; }, Finding::kOver,
-                           "Step 20.0 cm ± 3.0 cm, max 15 cm"},
-                    Change{"BoxUnderTheLander",
-                           [](LandingSite& s) {
-                             s.roughness_m = {0.5, 0.05};
-                             s.safe_distance_m = 1.2;
-                           },
-                           Finding::kGross, "Roughness 50.0 cm ± 5.0 cm, max 10 cm"},
-                    Change{"SameBoxInTheNoise",
-                           [](LandingSite& s) {
-                             s.roughness_m = {0.5, 0.35};
-                             s.safe_distance_m = 1.2;
-                           },
-                           Finding::kOver, "Roughness 50.0 cm ± 35.0 cm, max 10 cm"},
-                    Change{"NoRoom", [](LandingSite& s) { s.safe_distance_m = 2.1; },
-                           Finding::kOver, "Clear radius 2.1 m, min 2.3 m"},
-                    Change{"LessRoom", [](LandingSite& s) { s.clearance_m = 0.9; },
-                           Finding::kDoubtful,
-                           "Room beyond the clear radius 0.9 m, approved with 2.0 m"},
-                    Change{"Old", [](LandingSite& s) { s.age_s = 2.6; }, Finding::kDoubtful,
-                           "Ground last measured 2.6 s ago, limit 2.0 s"},
-                    Change{"Approach", [](LandingSite& s) { s.corridor_clear = false; },
-                           Finding::kDoubtful, "Something stands in the approach"}),
+    testing::Values(
+        Change{"Good", [](LandingSite&) {}, Finding::kGood, ""},
+        Change{"Steep", [](LandingSite& s) { s.slope_rad.value = 12 * kDeg; }, Finding::kOver,
+               "Slope 12.0° ± 1.0°, max 10°"},
+        Change{"SlopeUnknown",
+               [](LandingSite& s) {
+                 s.slope_rad = {NAN, NAN};
+               },
+               Finding::kOver, "Slope ––, max 10°"},
+        Change{"BandCrosses",
+               [](LandingSite& s) {
+                 s.slope_rad = {9.4 * kDeg, 1 * kDeg};
+               },
+               Finding::kDoubtful, "Slope 9.4° ± 1.0°, max 10°"},
+        Change{"Step", [](LandingSite& s) { s.step_m.value = 0.2; }, Finding::kOver,
+               "Step 20.0 cm ± 3.0 cm, max 15 cm"},
+        Change{"BoxUnderTheLander",
+               [](LandingSite& s) {
+                 s.roughness_m = {0.5, 0.05};
+                 s.safe_distance_m = 1.2;
+               },
+               Finding::kGross, "Roughness 50.0 cm ± 5.0 cm, max 10 cm"},
+        Change{"SameBoxInTheNoise",
+               [](LandingSite& s) {
+                 s.roughness_m = {0.5, 0.35};
+                 s.safe_distance_m = 1.2;
+               },
+               Finding::kOver, "Roughness 50.0 cm ± 35.0 cm, max 10 cm"},
+        Change{"NoRoom", [](LandingSite& s) { s.safe_distance_m = 2.1; }, Finding::kOver,
+               "Clear radius 2.1 m, min 2.3 m; roughness, 3.2 m south"},
+        Change{"LessRoom", [](LandingSite& s) { s.clearance_m = 0.9; }, Finding::kDoubtful,
+               "Room beyond the clear radius 0.9 m, approved with 2.0 m; roughness, 3.2 m south"},
+        Change{"Old", [](LandingSite& s) { s.age_s = 2.6; }, Finding::kDoubtful,
+               "Ground last measured 2.6 s ago, limit 2.0 s"},
+        Change{"Approach", [](LandingSite& s) { s.corridor_clear = false; }, Finding::kDoubtful,
+               "Something stands in the approach"}),
     [](const auto& row) { return row.param.name; });
 
 TEST(JudgeRecheck, BandsOfAProvisionalSiteAreNoDoubt) {
   LandingSite site = GoodSite();
   site.roughness_m = {0.05, 0.2};
-  EXPECT_EQ(JudgeRecheck(site, {false, 2.0}, SladSettings{}).finding, Finding::kGood);
-  EXPECT_EQ(JudgeRecheck(site, {true, 2.0}, SladSettings{}).finding, Finding::kDoubtful);
-  EXPECT_EQ(JudgeRecheck(std::nullopt, {true, 2.0}, SladSettings{}).finding, Finding::kOver);
+  EXPECT_EQ(JudgeRecheck(site, {}, {false, 2.0}, SladSettings{}).finding, Finding::kGood);
+  EXPECT_EQ(JudgeRecheck(site, {}, {true, 2.0}, SladSettings{}).finding, Finding::kDoubtful);
+  EXPECT_EQ(JudgeRecheck(std::nullopt, {}, {true, 2.0}, SladSettings{}).finding, Finding::kOver);
+}
+
+TEST(JudgeRecheck, RoomLostToWhatIsNotSeenIsNoDoubt) {
+  LandingSite site = GoodSite();
+  site.clearance_m = 0.4;
+  const auto finding = [&](std::optional<NearestHazard> nearest) {
+    return JudgeRecheck(site, nearest, {true, 2.0}, SladSettings{}).finding;
+  };
+  EXPECT_EQ(finding(Rock()), Finding::kDoubtful);
+  EXPECT_EQ(finding(NearestHazard{std::nullopt, 2.7, 0, kHazardUnknown, 0}), Finding::kGood);
+  EXPECT_EQ(finding(NearestHazard{Cell{3, 4}, 2.7, 0, kHazardUnknown, 0}), Finding::kGood);
+  EXPECT_EQ(finding(NearestHazard{Cell{3, 4}, 2.7, 0, kHazardFlagged, kFlagMotion}),
+            Finding::kDoubtful);
 }
 
 // ---- in the mission -----------------------------------------------------------------------------

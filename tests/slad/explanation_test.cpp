@@ -62,12 +62,12 @@ TEST_P(CellVerdict, NamesWhatDecided) {
 INSTANTIATE_TEST_SUITE_P(
     , CellVerdict,
     ::testing::Values(
-        Row{"Safe", Flat(2), {50, 50}, {}, "Safe; nearest map edge 7.6 m"},
+        Row{"Safe", Flat(2), {50, 50}, {}, "Safe; nearest hazard: map edge, 7.6 m"},
         Row{"NearTheEdge",
             Flat(2),
             {50, 4},
             CellTerm::kHazardDistance,
-            "Clear radius 0.7 m, min 2.3 m; map edge 0.8 m west"},
+            "Clear radius 0.7 m, min 2.3 m; map edge, 0.8 m west"},
         Row{"Steep", Slope(Rad(14), 0), {50, 50}, CellTerm::kSlope, "Slope 14.0°, max 10°"},
         Row{"OnABox",
             WithBox(Flat(), 0, 0, 0.45, 0.6),
@@ -184,6 +184,10 @@ TEST(CellExplanation, CellsNotMeasuredAndFlaggedOnesSayWhy) {
   const CellExplanation flagged = ExplainCell(map, hazards, settings, {80, 80});
   EXPECT_EQ(flagged.verdict, "Flagged: deep shadow, motion");
   EXPECT_FALSE(flagged.can_bear);
+  EXPECT_EQ(WhereWords(NearestHazard{Cell{1, 1}, 1.9, Rad(180), kHazardFlagged, kFlagMotion}),
+            "motion, 1.9 m south");
+  EXPECT_EQ(WhereWords(NearestHazard{Cell{1, 1}, 1.1, Rad(220), kHazardRoughness | kHazardStep, 0}),
+            "roughness, 1.1 m south-west");
 }
 
 TEST(CellExplanation, BadPlacesAreNeverSafe) {
