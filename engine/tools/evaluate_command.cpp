@@ -5,6 +5,7 @@
 #include "engine/tools/evaluate_calibration.h"
 #include "engine/tools/evaluate_landing.h"
 #include "engine/tools/evaluate_probability.h"
+#include "engine/tools/evaluate_site_flags.h"
 #include "engine/tools/evaluate_site_lidar.h"
 #include "engine/tools/evaluate_site_range.h"
 #include "engine/tools/evaluate_site_shapes.h"
@@ -16,11 +17,12 @@ namespace palace {
 void AddEvaluateCommand(CLI::App& app, int& exit_code, SceneCameraFactory camera) {
   CLI::App* evaluate = app.add_subcommand("evaluate", "Experiments with seeds and intervals");
   evaluate->require_subcommand(1);
-  AddExperiments(*evaluate,
-                 {LandingExperiment(std::move(camera)), StereoAccuracyExperiment(),
-                  StereoCostExperiment(), CalibrationExperiment(), ProbabilityExperiment(),
-                  SiteLidarExperiment(), SiteRangeExperiment(), SiteShapesExperiment()},
-                 exit_code);
+  AddExperiments(
+      *evaluate,
+      {LandingExperiment(std::move(camera)), StereoAccuracyExperiment(), StereoCostExperiment(),
+       CalibrationExperiment(), ProbabilityExperiment(), SiteFlagsExperiment(),
+       SiteLidarExperiment(), SiteRangeExperiment(), SiteShapesExperiment()},
+      exit_code);
 }
 
 }  // namespace palace
