@@ -142,14 +142,28 @@ Solid MakeRod(const Vector3d& from_W, const Vector3d& to_W, double diameter_m) {
 
 std::vector<Solid> MakeTrafficCone(double north_m, double east_m, double height_m) {
   constexpr double kFootWidth = 0.5, kFootHeight = 0.05, kBodyWidth = 0.36, kTipWidth = 0.08;
-  return {MakeBox(north_m, east_m, kFootWidth * height_m, kFootWidth * height_m,
-                  kFootHeight * height_m),
-          MakeCone(north_m, east_m, kBodyWidth * height_m / 2, kTipWidth * height_m / 2, height_m)};
+  constexpr double kBlack = 45, kOrange = 150, kWhite = 225;
+  constexpr double kCollarFrom = 0.6, kCollarTo = 0.85;  // of the height
+  Solid foot = MakeBox(north_m, east_m, kFootWidth * height_m, kFootWidth * height_m,
+                       kFootHeight * height_m);
+  foot.tone_grey = kBlack;
+  Solid body =
+      MakeCone(north_m, east_m, kBodyWidth * height_m / 2, kTipWidth * height_m / 2, height_m);
+  body.tone_grey = kOrange;
+  // The collar is a slice of the body, a hair wider.
+  Solid collar = MakeCone(north_m, east_m, kBodyWidth * height_m / 2 + 1e-3,
+                          kTipWidth * height_m / 2 + 1e-3, height_m);
+  collar.faces[0].offset = -kCollarFrom * height_m;
+  collar.faces[1].offset = kCollarTo * height_m;
+  collar = MakeSolid(std::move(collar.faces));
+  collar.tone_grey = kWhite;
+  return {foot, body, collar};
 }
 
 Solid Moved(const Solid& solid, double turn_rad, const Vector3d& shift_W) {
   const Eigen::Matrix3d turn = Eigen::AngleAxisd(turn_rad, Vector3d::UnitZ()).toRotationMatrix();
   Solid moved;
+  moved.tone_grey = solid.tone_grey;
   for (const HalfSpace& face : solid.faces) {
     const Vector3d normal = turn * face.normal;
     moved.faces.push_back({normal, face.offset + normal.dot(shift_W)});

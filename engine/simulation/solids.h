@@ -4,6 +4,7 @@
 // leave the true surface by less than 1 % of its radius.
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include <Eigen/Dense>
@@ -20,6 +21,9 @@ struct HalfSpace {
 struct Solid {
   std::vector<HalfSpace> faces;
   std::vector<Eigen::Vector3d> corners{};  ///< empty: unknown, it may be anywhere
+  /// Mean grey of its own paint, under which the ground's texture shows at a third of its contrast;
+  /// NaN: it looks like the ground.
+  double tone_grey = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// The bounded intersection of half-spaces, with its corners.
@@ -37,7 +41,8 @@ Solid MakeCone(double north_m, double east_m, double foot_radius_m, double top_r
 /// Straight wire, pole or antenna of any direction between two points of W.
 Solid MakeRod(const Eigen::Vector3d& from_W, const Eigen::Vector3d& to_W, double diameter_m);
 /// A road cone: a square foot half as wide as the cone is high, 1/20 of its height thick, and a
-/// cone of 0.36 to 0.08 of the height across (28 in: 0.71 m high, 0.36 m wide).
+/// cone of 0.36 to 0.08 of the height across (28 in: 0.71 m high, 0.36 m wide). The foot is black
+/// rubber, the cone orange with a white collar.
 std::vector<Solid> MakeTrafficCone(double north_m, double east_m, double height_m);
 
 /// Turned about the down axis through the origin of W, north towards east, then shifted.

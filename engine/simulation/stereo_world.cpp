@@ -18,7 +18,7 @@ struct Hit {
   double depth = std::numeric_limits<double>::infinity();
   double u_m = 0;  ///< texture coordinates
   double v_m = 0;
-  bool on_solid = false;
+  const Solid* solid = nullptr;
 };
 
 /// First pixel and the one behind the last.
@@ -49,18 +49,24 @@ void CastSolid(const Solid& solid, const Vector3d& p, const Vector3d& r, Hit& hi
   if (enter < hit.depth) {
     // Slanted over the walls, so that they show texture too; shifted off the ground's.
     const Vector3d q = p + enter * r;
-    hit = {enter, q.x() + 0.7 * q.z() + 31, q.y() + 0.7 * q.z() + 17, true};
+    hit = {enter, q.x() + 0.7 * q.z() + 31, q.y() + 0.7 * q.z() + 17, &solid};
   }
 }
 
+constexpr double kMidGrey = 128;
+
 double WithContrast(const StereoWorld& world, double grey) {
-  constexpr double kMid = 128;
-  return kMid + world.contrast * (grey - kMid);
+  return kMidGrey + world.contrast * (grey - kMidGrey);
 }
 
 double GreyOf(const StereoWorld& world, GroundPainter& painter, const Hit& hit) {
   constexpr double kSky = 200;
-  return std::isinf(hit.depth) ? kSky : WithContrast(world, painter.Grey(hit.u_m, hit.v_m));
+  if (std::isinf(hit.depth)) {
+    return kSky;
+  }
+  const double grey = WithContrast(world, painter.Grey(hit.u_m, hit.v_m));
+  const bool painted = hit.solid != nullptr && !std::isnan(hit.solid->tone_grey);
+  return painted ? hit.solid->tone_grey + (grey - kMidGrey) / 3 : grey;
 }
 
 /// The pixel's square, `samples` wide, spread by the lens; their sum is 1.
@@ -186,7 +192,7 @@ void CastBox(const View& view, int samples, const PixelBox& box, bool everything
         }
       }
       line[static_cast<std::size_t>(i)] = shade(hit);
-      solid_line[static_cast<std::size_t>(i)] = hit.on_solid ? 1 : 0;
+      solid_line[static_cast<std::size_t>(i)] = hit.solid != nullptr ? 1 : 0;
     }
     for (int x = 0; x < width; ++x) {
       const auto first = static_cast<std::ptrdiff_t>(x) * samples;
@@ -293,8 +299,8 @@ ImageF DrawGrey(const StereoWorld& world, const PinholeCamera& camera, const Rig
   DrawGround(view, ground, grey);
   GroundPainter painter(world.texture, world.texture_seed);
   const auto shade = [&](const Hit& hit) {
-    const float baked =
-        hit.on_solid ? std::numeric_limits<float>::quiet_NaN() : ground.Grey(hit.u_m, hit.v_m);
+    const float baked = hit.solid != nullptr ? std::numeric_limits<float>::quiet_NaN()
+                                             : ground.Grey(hit.u_m, hit.v_m);
     return std::isnan(baked) ? GreyOf(world, painter, hit)
                              : WithContrast(world, static_cast<double>(baked));
   };

@@ -87,15 +87,20 @@ Result<std::vector<FieldFrame>> LookAtField(const StereoWorld& world, const Hove
     frame.X_WC_true = poses[i];
     const RigidTransform X_WRight = RightOf(poses[i], view.baseline_m);
     const Exposure exposure{view.noise_grey};
-    frame.left = Expose(DrawGrey(world, camera, poses[i], baked), exposure, sensor.NextBits());
-    frame.right = Expose(DrawGrey(world, camera, X_WRight, baked), exposure, sensor.NextBits());
+    const auto look = [&](const RigidTransform& X_WCamera) {
+      return std::make_shared<const ImageU8>(
+          Expose(DrawGrey(world, camera, X_WCamera, baked), exposure, sensor.NextBits()));
+    };
+    frame.input.left = look(poses[i]);
+    frame.input.right = look(X_WRight);
+    frame.input.baseline_m = view.baseline_m;
     frame.input.X_WC = BelievedPose(poses[i], view, navigation);
     frame.input.p_WB = frame.input.X_WC.p;
     const DisparityWindow window =
         PredictWindow(camera, view.baseline_m, frame.input.X_WC, 0, kTallestObject_m, settings);
     Result<StereoResult> stereo =
-        matcher.Match(frame.left, frame.right, camera, view.baseline_m, window, settings,
-                      AddSeconds({}, static_cast<double>(i) * view.frame_interval_s));
+        matcher.Match(*frame.input.left, *frame.input.right, camera, view.baseline_m, window,
+                      settings, AddSeconds({}, static_cast<double>(i) * view.frame_interval_s));
     if (!stereo) {
       return stereo.error();
     }

@@ -42,13 +42,10 @@ struct HoverView {
   double noise_grey = 2;                ///< of the sensor
 };
 
-/// One frame as stereo hands it to the terrain stage: range map and believed pose, with the true
-/// pose and both pictures beside them.
+/// One frame as stereo hands it to the terrain stage, believed pose included.
 struct FieldFrame {
   TerrainInput input;
   RigidTransform X_WC_true;
-  ImageU8 left;
-  ImageU8 right;
 };
 
 /// All frames of one hover. Errors are stereo's refusals. One bake of the ground serves all frames;
