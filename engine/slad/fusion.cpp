@@ -4,9 +4,11 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/core/units.h"
 #include "engine/slad/elevation_map_builder.h"
 #include "engine/slad/frame_registration.h"
 #include "engine/slad/hole_filling.h"
+#include "engine/slad/narrow_relief.h"
 #include "engine/slad/terrain_points.h"
 
 namespace palace {
@@ -18,6 +20,10 @@ constexpr double kVarianceFloor_m2 = 1e-5;
 constexpr double kUnseenGrowth_m2 = 4e-6;  // a map unseen: 2 cm after a hundred maps
 constexpr double kForgotten_m2 = 0.25;
 constexpr int kLongestMemory_frames = 50;
+// Poses of the vehicle's navigation, one standard deviation.
+constexpr double kPosition_m = 0.03;
+constexpr double kAttitude_rad = 0.1 * kRadPerDeg;
+constexpr double kNarrow_m = 0.2;  // half of what max_rock_size_m is: cones, posts, hydrants
 /// The map follows the view once its centre is off by this share of its size.
 constexpr double kSlack = 0.08;
 
@@ -30,6 +36,40 @@ bool SameLayout(const SladSettings& a, const SladSettings& b) {
 bool CentreWithinSlack(const GridGeometry& a, const GridGeometry& b) {
   return std::abs(a.north_min_m - b.north_min_m) <= kSlack * a.rows * a.cell_m &&
          std::abs(a.east_min_m - b.east_min_m) <= kSlack * a.cols * a.cell_m;
+}
+
+/// Of a cell's height over two cells, by the neighbours that are measured; 0 without a pair.
+double SquaredGradient(const ElevationMap& frame, int r, int c) {
+  const auto slope = [&](Cell a, Cell b) {
+    const bool known = frame.geometry.Contains(a) && frame.geometry.Contains(b) &&
+                       frame.state.at(a) == CellState::kMeasured &&
+                       frame.state.at(b) == CellState::kMeasured;
+    return known ? static_cast<double>(frame.height_m.at(b) - frame.height_m.at(a)) /
+                       (2 * frame.geometry.cell_m)
+                 : 0.0;
+  };
+  const double north = slope({r + 1, c}, {r - 1, c});
+  const double east = slope({r, c - 1}, {r, c + 1});
+  return north * north + east * east;
+}
+
+/// Height variance by which a pose laid sideways misplaces each cell.
+GridF MisplacedVariance(const Eigen::Vector3d& p_WC, const ElevationMap& frame) {
+  const GridGeometry& g = frame.geometry;
+  GridF variance_m2(g.rows, g.cols, 0.0F);
+  for (int r = 0; r < g.rows; ++r) {
+    for (int c = 0; c < g.cols; ++c) {
+      if (frame.state.at(r, c) != CellState::kMeasured) {
+        continue;
+      }
+      const Eigen::Vector3d p_WQ(g.NorthOfRow(r), g.EastOfCol(c),
+                                 -static_cast<double>(frame.height_m.at(r, c)));
+      const double sideways2 =
+          kPosition_m * kPosition_m + kAttitude_rad * kAttitude_rad * (p_WQ - p_WC).squaredNorm();
+      variance_m2.at(r, c) = static_cast<float>(SquaredGradient(frame, r, c) * sideways2);
+    }
+  }
+  return variance_m2;
 }
 
 }  // namespace
@@ -62,11 +102,12 @@ std::shared_ptr<const ElevationMap> TerrainFusion::Add(const RangeMap& range,
   ElevationMap frame =
       AccumulateCells(points, map_.geometry, settings.mode, kCorrelatedPixels, range.time);
   Register(frame);
-  Fuse(frame, settings.frames_fused);
-  map_.time = range.time;
+  Age(range.time);
+  Fuse(frame, MisplacedVariance(X_WC.p, frame), settings.frames_fused);
   // Frames without a point do not count: the first real one lays out the grid.
   frames_ += points.empty() ? 0 : 1;
   auto published = std::make_shared<ElevationMap>(map_);
+  RaiseNarrowRelief(range.camera, X_WC.p, kNarrow_m, *published);
   FillHoles(*published, settings.data_size_cells, settings.border_size_cells);
   return published;
 }
@@ -78,7 +119,8 @@ void TerrainFusion::MoveTo(const GridGeometry& geometry) {
                      GridF(rows, cols, kUnknownValue),
                      GridF(rows, cols, kUnknownValue),
                      Grid<std::uint16_t>(rows, cols, 0),
-                     Grid<CellState>(rows, cols, CellState::kUnknown)};
+                     Grid<CellState>(rows, cols, CellState::kUnknown),
+                     GridF(rows, cols, kUnknownValue)};
   Grid<std::int8_t> disagreement(rows, cols, 0);
   if (frames_ > 0) {
     const GridGeometry& old = map_.geometry;
@@ -96,6 +138,7 @@ void TerrainFusion::MoveTo(const GridGeometry& geometry) {
         moved.variance_m2.at(r, c) = map_.variance_m2.at(from);
         moved.frame_count.at(r, c) = map_.frame_count.at(from);
         moved.state.at(r, c) = map_.state.at(from);
+        moved.age_s.at(r, c) = map_.age_s.at(from);
         disagreement.at(r, c) = disagreement_.at(from);
       }
     }
@@ -116,30 +159,41 @@ void TerrainFusion::Register(ElevationMap& frame) {
   ApplyCorrection(correction, map_gain - 1, frame);
 }
 
-void TerrainFusion::Fuse(const ElevationMap& frame, int frames_fused) {
-  const double remember = 1 - 1.0 / std::max(1, frames_fused);
+void TerrainFusion::Age(Timestamp now) {
+  const auto passed_s = static_cast<float>(std::max(0.0, SecondsBetween(map_.time, now)));
+  for (float& age_s : map_.age_s.cells()) {
+    age_s += passed_s;  // NaN stays NaN
+  }
+  map_.time = now;
+}
+
+void TerrainFusion::Fuse(const ElevationMap& frame, const GridF& misplaced_m2, int frames_fused) {
+  const int memory = std::max(1, frames_fused);
   for (std::size_t i = 0; i < frame.state.cells().size(); ++i) {
     float& mean = map_.height_m.cells()[i];
     float& variance = map_.variance_m2.cells()[i];
     std::uint16_t& count = map_.frame_count.cells()[i];
     CellState& state = map_.state.cells()[i];
     std::int8_t& disagreement = disagreement_.cells()[i];
+    float& age_s = map_.age_s.cells()[i];
     const double p = static_cast<double>(variance);
     if (frame.state.cells()[i] != CellState::kMeasured) {
       variance = static_cast<float>(p + kUnseenGrowth_m2);
       if (state == CellState::kMeasured && p > kForgotten_m2) {
-        mean = variance = kUnknownValue;
+        mean = variance = age_s = kUnknownValue;
         count = 0;
         state = CellState::kUnknown;
       }
       continue;
     }
+    age_s = 0;
     const double z = static_cast<double>(frame.height_m.cells()[i]);
     const double noise = static_cast<double>(frame.variance_m2.cells()[i]);
     const double m = static_cast<double>(mean);
     const double off = z - m;
     const bool known = state == CellState::kMeasured;
-    const bool agrees = known && off * off <= kGate2 * (p + noise) + kGateFloor_m2;
+    const double expected = p + noise + static_cast<double>(misplaced_m2.cells()[i]);
+    const bool agrees = known && off * off <= kGate2 * expected + kGateFloor_m2;
     const std::int8_t side = off > 0 ? 1 : -1;
     if (known && !agrees && disagreement != side) {
       variance = static_cast<float>(std::min(p + off * off / 4, kForgotten_m2));
@@ -154,10 +208,11 @@ void TerrainFusion::Fuse(const ElevationMap& frame, int frames_fused) {
       state = CellState::kMeasured;
       continue;
     }
+    const double remember = count < memory ? 1 : 1 - 1.0 / memory;
     const double fused = 1 / (remember / p + 1 / noise);
     mean = static_cast<float>(fused * (remember * m / p + z / noise));
     variance = static_cast<float>(std::max(fused, kVarianceFloor_m2));
-    count = static_cast<std::uint16_t>(std::min<int>(count + 1, std::max(1, frames_fused)));
+    count = static_cast<std::uint16_t>(std::min<int>(count + 1, memory));
   }
 }
 

@@ -4,11 +4,21 @@
 // first corrected by a plane (offset, north tilt, east tilt) fitted robustly to z - m, because the
 // noise of attitude and position moves a frame as a whole, then fused as
 //
-//   1/P' = lambda/P + 1/R,   m' = P' (lambda m / P + z / R),   lambda = 1 - 1/frames_fused
+//   1/P' = lambda/P + 1/R,   m' = P' (lambda m / P + z / R)
 //
-// A cell that disagrees by more than the gate is not averaged: its variance grows, and the second
-// disagreement in a row replaces it. Unseen cells keep their height while their variance grows.
-// Thesis mode fuses nothing: Add is ElevationFromRange.
+// lambda is 1 for the first frames_fused frames of a cell, so that their order does not matter, and
+// 1 - 1/frames_fused from then on: the weight of frames_fused frames is kept.
+//
+// A cell that disagrees by more than the gate, three sigmas of
+//
+//   P + R + g^2 s^2,   s^2 = position sigma^2 + (attitude sigma * range)^2,
+//
+// is not averaged: its variance grows, and the second
+// disagreement in a row replaces it. A pose laid sideways by s misplaces ground of
+// gradient g (the frame's own, over two cells): an edge that wanders is no contradiction. It stays
+// out of R, because it says where an edge is, not whether. Unseen cells keep their height while
+// their variance and age grow; age is the data time since a frame last held the cell, agreeing or
+// not. Thesis mode fuses nothing: Add is ElevationFromRange.
 #pragma once
 
 #include <cstdint>
@@ -33,7 +43,8 @@ class TerrainFusion {
  private:
   void MoveTo(const GridGeometry& geometry);
   void Register(ElevationMap& frame);
-  void Fuse(const ElevationMap& frame, int frames_fused);
+  void Age(Timestamp now);
+  void Fuse(const ElevationMap& frame, const GridF& misplaced_m2, int frames_fused);
 
   ElevationMap map_;                ///< measured cells only; holes are filled in what Add returns
   Grid<std::int8_t> disagreement_;  ///< sign of the last frame that failed the gate, 0 none

@@ -183,8 +183,9 @@ ElevationMap AccumulateCells(const TerrainPoints& points, const GridGeometry& ge
     s.square += w * z * z;
     ++s.count;
   }
-  // Ground of ordinary slope spreads inside a cell without being noise.
+  // Ground of ordinary slope spreads inside a cell, and points err by somewhat more than they say.
   const double slope_spread_m2 = std::pow(0.1 * geometry.cell_m, 2);
+  constexpr double kSaidVariance = 2;
   for (int r = 0; r < rows; ++r) {
     for (int c = 0; c < cols; ++c) {
       const CellSums& s = sums.at(r, c);
@@ -194,9 +195,15 @@ ElevationMap AccumulateCells(const TerrainPoints& points, const GridGeometry& ge
       const double mean = s.height / s.weight;
       const double bessel = s.count > 1 ? s.count / (s.count - 1.0) : 1.0;
       const double spread = std::max(0.0, s.square / s.weight - mean * mean) * bessel;
-      const double predicted = mode == SladMode::kThesis ? 0.0 : s.count / s.weight;
-      const double one_point = std::max({predicted, spread - slope_spread_m2, 1e-6});
-      map.height_m.at(r, c) = static_cast<float>(mean + reference_m);
+      const bool stated = mode != SladMode::kThesis && s.count / s.weight > 4e-6;
+      const double predicted = stated ? s.count / s.weight : 0.0;
+      // Spread beyond the points' own noise is relief inside the cell: its upper side counts.
+      const double relief_m2 = spread - kSaidVariance * predicted - slope_spread_m2;
+      const double relief_m = stated ? std::sqrt(std::max(0.0, relief_m2)) : 0.0;
+      const double one_point =
+          stated ? std::max({predicted, std::min(spread, kSaidVariance * predicted), 1e-6})
+                 : std::max(spread - slope_spread_m2, 1e-6);
+      map.height_m.at(r, c) = static_cast<float>(mean + relief_m + reference_m);
       map.variance_m2.at(r, c) =
           static_cast<float>(one_point / std::max(1.0, s.count / correlated_points));
       map.frame_count.at(r, c) = 1;

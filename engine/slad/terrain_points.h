@@ -42,7 +42,10 @@ GroundBounds ChooseBounds(const TerrainPoints& points, const SladSettings& setti
 /// The grid that settings lay over the bounds.
 GridGeometry LayOutGrid(const GroundBounds& bounds, const SladSettings& settings);
 
-/// Means and variances per cell. `correlated_points`: how many neighbouring points share one error,
+/// Heights and variances per cell. The height is the points' mean; where points that state their
+/// noise spread by more than it and an ordinary slope explain, as over the side of an obstacle, the
+/// standard deviation of that relief is added, so that what stands in the cell is not averaged away
+/// and does not pass for noise. `correlated_points`: how many neighbouring points share one error,
 /// as stereo's matching windows overlap; 1 for independent points.
 ElevationMap AccumulateCells(const TerrainPoints& points, const GridGeometry& geometry,
                              SladMode mode, double correlated_points, Timestamp time);

@@ -1,0 +1,73 @@
+#include "engine/slad/narrow_relief.h"
+
+#include <gtest/gtest.h>
+
+#include "engine/camera/pinhole.h"
+#include "tests/slad/worlds.h"
+
+namespace palace {
+namespace {
+
+using testing::Flat;
+using testing::MakeMap;
+using testing::Slope;
+using testing::WithBox;
+
+constexpr double kNarrow_m = 0.2;
+const PinholeCamera kCamera = PinholeFromFov(640, 480, Rad(60));
+
+ElevationMap RaisedFrom(double camera_height_m, const ElevationMap& map) {
+  ElevationMap raised = map;
+  RaiseNarrowRelief(kCamera, {0, 0, -camera_height_m}, kNarrow_m, raised);
+  return raised;
+}
+
+TEST(NarrowRelief, LevelAndSlopingGroundWithNoiseStays) {
+  for (const auto& world : {Flat(3), Slope(Rad(12), 0.7)}) {
+    const ElevationMap map = MakeMap(80, 80, 0.15, world, 0.02, 4);
+    const ElevationMap raised = RaisedFrom(25, map);
+    int changed = 0;
+    for (std::size_t i = 0; i < map.height_m.cells().size(); ++i) {
+      changed += map.height_m.cells()[i] != raised.height_m.cells()[i] ? 1 : 0;
+    }
+    EXPECT_LE(changed, 6);  // four sigmas, one side, of 6400 cells
+  }
+}
+
+TEST(NarrowRelief, AThingSmallerThanTheWindowGetsItsHeight) {
+  const double camera_m = 22;
+  const double window_m = 9 * camera_m / kCamera.fx_px;
+  const double seen_m = 0.5 * std::pow(kNarrow_m / window_m, 2);
+  const auto world = WithBox(Slope(Rad(4), 1), 0.075, 0.075, 0.14, seen_m);
+  const ElevationMap map = MakeMap(60, 60, 0.15, world, 0.005, 2);
+  const ElevationMap raised = RaisedFrom(camera_m, map);
+  const auto cell = map.geometry.CellFromPoint(0.075, 0.075);
+  ASSERT_TRUE(cell);
+  const double ground_m = Slope(Rad(4), 1)(0.075, 0.075);
+  EXPECT_NEAR(double(map.height_m.at(*cell)) - ground_m, seen_m, 0.02);
+  EXPECT_NEAR(double(raised.height_m.at(*cell)) - ground_m, 0.5, 0.08);
+}
+
+TEST(NarrowRelief, BelowTheHeightWhereTheWindowIsNarrowNothingChanges) {
+  const auto world = WithBox(Flat(), 0, 0, 0.3, 0.4);
+  const ElevationMap map = MakeMap(60, 60, 0.15, world, 0.005, 3);
+  EXPECT_EQ(RaisedFrom(9, map).height_m.cells(), map.height_m.cells());
+  EXPECT_NE(RaisedFrom(30, map).height_m.cells(), map.height_m.cells());
+}
+
+TEST(NarrowRelief, NothingIsLoweredAndUnknownStaysUnknown) {
+  auto world = WithBox(WithBox(Flat(), 2, 2, 0.5, -0.4), -2, -1, 0.4, 0.3);
+  const auto holed = [world](double n, double e) {
+    return std::abs(n) < 0.5 && std::abs(e) < 0.5 ? std::nan("") : world(n, e);
+  };
+  const ElevationMap map = MakeMap(60, 60, 0.15, holed, 0.02, 7);
+  const ElevationMap raised = RaisedFrom(30, map);
+  for (std::size_t i = 0; i < map.height_m.cells().size(); ++i) {
+    const float before = map.height_m.cells()[i], after = raised.height_m.cells()[i];
+    ASSERT_EQ(std::isnan(before), std::isnan(after));
+    ASSERT_FALSE(after < before);
+  }
+}
+
+}  // namespace
+}  // namespace palace
