@@ -4,7 +4,9 @@
 //   roughness  largest less smallest of the nine heights
 //
 // An unknown neighbour takes the height of the cell itself, as `gdaldem -compute_edges` has it; so
-// does one beyond the map, where gdaldem extrapolates. Unknown cells stay unknown.
+// does one beyond the map, where gdaldem extrapolates. Unknown cells stay unknown. Checked against
+// GDAL 3.6.2 in process on three lidar rasters: inside the rim roughness is equal, slope within
+// 0.004 degrees.
 #pragma once
 
 #include "engine/model/grid.h"
