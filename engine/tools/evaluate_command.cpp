@@ -9,6 +9,7 @@
 #include "engine/tools/evaluate_site_lidar.h"
 #include "engine/tools/evaluate_site_range.h"
 #include "engine/tools/evaluate_site_shapes.h"
+#include "engine/tools/evaluate_site_views.h"
 #include "engine/tools/evaluate_stereo.h"
 #include "engine/tools/experiment.h"
 
@@ -21,7 +22,7 @@ void AddEvaluateCommand(CLI::App& app, int& exit_code, SceneCameraFactory camera
       *evaluate,
       {LandingExperiment(std::move(camera)), StereoAccuracyExperiment(), StereoCostExperiment(),
        CalibrationExperiment(), ProbabilityExperiment(), SiteFlagsExperiment(),
-       SiteLidarExperiment(), SiteRangeExperiment(), SiteShapesExperiment()},
+       SiteLidarExperiment(), SiteRangeExperiment(), SiteShapesExperiment(), SiteViewsExperiment()},
       exit_code);
 }
 
