@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "engine/camera/rectification.h"
 #include "engine/camera/rig_file.h"
@@ -10,6 +11,7 @@
 #include "engine/core/units.h"
 #include "engine/slad/elevation_map_builder.h"
 #include "engine/slad/hole_filling.h"
+#include "engine/slad/scene_flags.h"
 #include "engine/slad/terrain_points.h"
 #include "engine/stereo/prefilter.h"
 #include "engine/stereo/stereo.h"
@@ -141,6 +143,12 @@ Result<AnalyzeInput> ElevationOfPair(const std::filesystem::path& left,
               settings.slad, input.warnings);
   input.map = ElevationFromRange(match->range, X_WC, settings.slad);
   input.timings.push_back(watch.Lap("elevation"));
+  if (settings.slad.mode == SladMode::kModern) {
+    const auto range = std::make_shared<const RangeMap>(match->range);
+    input.map.flags = SceneFlags().Add(
+        {pair->left, pair->right, range, X_WC, rectifier->baseline_m()}, input.map.geometry);
+    input.timings.push_back(watch.Lap("flags"));
+  }
   input.left = *pair->left;
   input.stereo = match->quality;
   input.range = std::move(match->range);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "engine/core/units.h"
+#include "engine/model/cell_explanation.h"
 #include "gui/widgets/draw.h"
 #include "gui/widgets/icons.h"
 #include "gui/widgets/number_text.h"
@@ -105,13 +106,16 @@ bool DrawSiteRow(UiFrame& ui, const Rect& rect, const LandingSite& site,
   } else {
     const std::string figures = "Slope " + Fixed(Deg(site.slope_rad.value), 1) + "°   Rough " +
                                 Fixed(site.roughness_m.value * 100, 0) + " cm   " +
-                                Fixed(site.distance_m, 1) + " m away";
-    DrawText(ui, s.caption, p.text2, left_x, first_y + s.Px(21), figures);
+                                Fixed(site.distance_m, 1) + " m away" +
+                                (site.flags != 0 ? "   " + FlagWords(site.flags) : std::string());
+    DrawText(ui, s.caption, p.text2, left_x, first_y + s.Px(21),
+             FitWords(s.caption, figures, width));
     DrawText(ui, s.caption, look.selected ? p.text1 : p.text2, left_x, first_y + s.Px(39),
              FitWords(s.caption, site.reason, width));
   }
   ui.items.Add(std::string("site/") + site.letter, rect, look.enabled,
-               site.letter + std::string(" ") + status.word + " " + site.reason);
+               site.letter + std::string(" ") + status.word + " " + site.reason +
+                   (site.flags != 0 ? " " + FlagWords(site.flags) : std::string()));
   return look.enabled && Clicked(ui, rect);
 }
 
