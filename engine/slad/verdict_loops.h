@@ -121,11 +121,16 @@ inline void ModernVerdictRun(const ModernLimits& limits, const ModernRow& row, i
   const float* settled = row.settled_deviation_m + first;
   const float* tilt = row.gear_tilt + first;
   const float* rise = row.belly_rise_m + first;
+  float score[kVerdictRun], safe_share[kVerdictRun];
   for (int c = 0; c < count; ++c) {
-    const float score = TouchdownScore(most, slope[c], slope_sigma[c], settled[c], step[c],
-                                       sigma[c], tilt[c], rise[c]);
-    const float share = tilt[c] == tilt[c] ? ShareOfSafe(score) : 0.0F;
-    out.safe_probability[first + c] = slope[c] == slope[c] ? share : slope[c];
+    score[c] = TouchdownScore(most, slope[c], slope_sigma[c], settled[c], step[c], sigma[c],
+                              tilt[c], rise[c]);
+  }
+  SharesOfSafe(score, count, safe_share);
+  float* __restrict__ safe_probability = out.safe_probability + first;
+  for (int c = 0; c < count; ++c) {
+    const float known = tilt[c] == tilt[c] ? safe_share[c] : 0.0F;
+    safe_probability[c] = slope[c] == slope[c] ? known : slope[c];
   }
   for (int c = 0; c < count; ++c) {
     const float flat = NormalBelow((most.max_slope_rad - slope[c]) / slope_sigma[c]);
