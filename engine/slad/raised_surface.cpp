@@ -243,10 +243,8 @@ class RimWalk {
         const float distance_m = cell_m * std::sqrt(static_cast<float>(dr * dr + dc * dc));
         const float rise_m = map_.height_m.at(cell) - map_.height_m.at(near) -
                              std::max(kLeastRise_m, kWalkableSlope * distance_m);
-        const float noise_m =
-            kSigmas * std::sqrt(map_.variance_m2.at(cell) + map_.variance_m2.at(near));
-        rim.drops += rise_m > noise_m ? 1 : 0;
-        rim.walkable += rise_m <= -noise_m ? 1 : 0;
+        rim.drops += rise_m > 0 ? 1 : 0;
+        rim.walkable += rise_m <= 0 ? 1 : 0;
       }
     }
   }

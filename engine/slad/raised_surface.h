@@ -7,13 +7,13 @@
 //    in one rung is a candidate; the next rung opens what is left. Slopes under one in four never
 //    are candidates.
 // 2. Rim. Candidates that touch are one surface. Where a candidate and a neighbour within 0.3 m (at
-//    least one cell) that is none differ by more than max(0.3 m, 0.3 d) at the distance d, beyond
-//    3 sigma, there is a drop; where by less, beyond the same noise, one can walk up. A surface is
-//    raised where drops make at least 60 % of its known rim: hill tops, terraces and banks are
-//    not. The map's edge counts as unseen, and at least 40 % of the rim must be seen:
-//    a roof in the corner is raised, the upper half of the map is not.
+//    least one cell) that is none differ by more than max(0.3 m, 0.3 d) at the distance d there is
+//    a drop, else one can walk up. Noise falls out of the many pairs. A surface is raised where
+//    drops make at least 60 % of its known rim: hill tops, terraces and banks are not. The map's
+//    edge counts as unseen, and at least 40 % of the rim must be seen: a roof in the corner is
+//    raised, the upper half of the map is not.
 //
-// The ladder runs on cells of at least 0.3 m. Cost is linear in cells.
+// The ladder runs on the highest of blocks of cells, up to 0.3 m wide. Cost is linear in cells.
 // Sources: opening ladder: Zhang et al. 2003, Pingel, Clarke and McBride 2013 (linear threshold,
 // one parameter). We differ in geometric rungs, in the noise term, and in the rim, which they do
 // not ask.

@@ -29,16 +29,18 @@ Height WithRectangle(Height ground, double north_m, double east_m, double height
     return ground(n, e) + (on ? height_m : 0.0);
   };
 }
-/// A platform 4 m wide that its ramp, one in four, leads up to over `share` of a turn.
-Height PlatformWithRamp(double height_m, double share) {
+/// A platform 4 m wide that its ramp leads up to over `share` of a turn.
+Height PlatformWithRamp(double height_m, double share, double gradient) {
   return [=](double n, double e) {
     const double radius = std::hypot(n, e), turn = (std::atan2(e, n) + M_PI) / (2 * M_PI);
     if (radius <= 2) {
       return height_m;
     }
-    return turn < share ? std::max(0.0, height_m - (radius - 2) / 4) : 0.0;
+    return turn < share ? std::max(0.0, height_m - (radius - 2) * gradient) : 0.0;
   };
 }
+double Mound(double n, double e) { return std::max(0.0, 2.4 - 0.8 * std::hypot(n, e)); }
+double Plateau(double n, double) { return n > -0.5 ? 4.0 : 0.0; }
 double Hill(double n, double e) { return 2.0 * std::exp(-(n * n + e * e) / 18); }
 double Terrace(double n, double) { return n > 0 ? 1.2 : 0.0; }
 double Bank(double n, double) { return std::clamp(n * 0.6, 0.0, 2.0); }
@@ -67,8 +69,11 @@ std::vector<World> Worlds() {
            true},
           {"roof_in_the_corner", WithRectangle(Flat(), 10, 10, 4, 4, 4), true},
           {"crate_on_a_roof", WithBox(WithRectangle(Flat(), 9, 9, 3), 0, 0, 1.2, 0.8), true},
-          {"platform_with_a_narrow_ramp", PlatformWithRamp(1, 0.15), true},
-          {"platform_with_a_wide_ramp", PlatformWithRamp(1, 0.6), false},
+          {"platform_with_a_narrow_ramp", PlatformWithRamp(1, 0.15, 0.25), true},
+          {"platform_with_a_wide_ramp", PlatformWithRamp(1, 0.6, 0.25), false},
+          {"platform_with_a_wide_steep_ramp", PlatformWithRamp(1.5, 0.6, 0.7), false},
+          {"steep_mound", Mound, false},
+          {"plateau_over_half_the_map", Plateau, false},
           {"plain", Flat(-3), false},
           {"steep_slope", Slope(Rad(35), 2), false},
           {"hill", Hill, false},
