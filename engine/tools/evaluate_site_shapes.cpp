@@ -13,6 +13,7 @@
 
 #include "engine/core/units.h"
 #include "engine/runtime/settings_io.h"
+#include "engine/slad/explanation.h"
 #include "engine/slad/slad.h"
 #include "engine/tools/shape_field.h"
 
@@ -119,16 +120,24 @@ RowWriter::Counts CountClearCells(const Judged& judged) {
   return n;
 }
 
-/// Whether the lander could be sent to the cell.
+/// Whether the lander could be sent to the cell: the rule of site selection.
 bool IsOffered(const Judged& judged, Cell cell) {
-  const SladSettings& s = judged.settings;
-  const HazardMaps& h = judged.hazards;
-  return h.reasons.at(cell) == kHazardNone &&
-         static_cast<double>(h.safe_distance_m.at(cell)) >= s.clear_radius_m() &&
-         static_cast<double>(h.slope_rad.at(cell)) <= Rad(s.max_slope_deg) &&
-         static_cast<double>(h.roughness_m.at(cell)) <= s.max_deviation_m &&
-         static_cast<double>(h.step_m.at(cell)) <= s.max_step_m &&
-         static_cast<double>(h.safe_probability.at(cell)) >= s.min_safe_probability;
+  return ExplainCell(judged.map, judged.hazards, judged.settings, cell).can_bear;
+}
+
+/// What stands against a footprint that is refused.
+const char* CauseOfRefusal(const Judged& judged, Cell centre) {
+  unsigned reasons = 0;
+  const double radius_m = judged.settings.clear_radius_m();
+  ForCells(judged.map.geometry, [&](Cell cell) {
+    const double away_m =
+        judged.map.geometry.cell_m * std::hypot(cell.row - centre.row, cell.col - centre.col);
+    reasons |= away_m <= radius_m ? judged.hazards.reasons.at(cell) : 0U;
+  });
+  return (reasons & (kHazardSlope | kHazardRoughness | kHazardStep)) != 0 ? kRefusedByHeight
+         : (reasons & kHazardFlagged) != 0                                ? kRefusedByFlags
+         : (reasons & kHazardUnknown) != 0                                ? kRefusedByUnknown
+                                                                          : kRefusedByOdds;
 }
 
 /// Footprints a lander radius apart, on a field without objects.
@@ -143,7 +152,10 @@ void AddFootprints(const Judged& judged, double limit_m, RowWriter& rows) {
       return;
     }
     ++n.tested;
-    n.found += IsOffered(judged, cell) ? 0 : 1;
+    if (!IsOffered(judged, cell)) {
+      ++n.found;
+      rows.Add(CauseOfRefusal(judged, cell), limit_m, {1, 1});
+    }
     if (limit_m == kShapesLimit_m) {
       const double slope_rad = static_cast<double>(judged.hazards.slope_rad.at(cell));
       rows.Add(kGroundSlope, limit_m, {1, 0}, Deg(slope_rad - truth_rad));

@@ -21,10 +21,15 @@ Experiment SiteShapesExperiment();
 ExperimentReport ReportSiteShapes(const TrialTable& table);
 
 /// Limit on roughness that the report speaks of; chosen on seeds from 10000, for seeds from 1.
-inline constexpr double kShapesLimit_m = 0.06;
+inline constexpr double kShapesLimit_m = 0.04;
 
 // Names of rows that are no shape.
 inline constexpr const char* kClearFootprints = "clear footprints";
+/// Refused ones of them, by the first of these found inside the circle.
+inline constexpr const char* kRefusedByHeight = "refused by height";
+inline constexpr const char* kRefusedByFlags = "refused by flags";
+inline constexpr const char* kRefusedByUnknown = "refused by unknown";
+inline constexpr const char* kRefusedByOdds = "refused by probability";
 inline constexpr const char* kClearCells = "clear cells";
 inline constexpr const char* kGroundSlope = "ground slope";
 inline constexpr const char* kChosenSite = "chosen site";

@@ -68,7 +68,7 @@ std::vector<std::string> ObjectNames(const TrialTable& table) {
   std::vector<std::string> names;
   for (const std::string& name : table.Values("shape")) {
     if (!IsTopName(name) && name != "ramp" && name != kClearFootprints && name != kClearCells &&
-        name != kGroundSlope && name != kChosenSite) {
+        name != kGroundSlope && name != kChosenSite && name.rfind("refused", 0) != 0) {
       names.push_back(name);
     }
   }
@@ -200,6 +200,17 @@ ExperimentReport ReportSiteShapes(const TrialTable& table) {
   findings.Judge(refused.value() <= kMostRefused,
                  "clear footprints refused: " + refused.count() + " (" + refused.percent() +
                      " %, 95 % interval " + refused.wilson() + "), at most 1 %");
+  std::string causes = "refused by";
+  for (const char* cause : {kRefusedByHeight, kRefusedByFlags, kRefusedByUnknown, kRefusedByOdds}) {
+    causes += std::string(" ") + (cause + 11) + " " +
+              Fixed("%.0f", Sum(At(Of(table, cause, kFused), Chosen()), "tested")) + ";";
+  }
+  for (const char* texture : {"gravel", "grass", "asphalt", "cloud"}) {
+    const TrialTable part = Of(table, kClearFootprints, kFused).Where("texture", texture);
+    causes += std::string(" on ") + texture + " " + Share(At(part, Chosen())).count() + ";";
+  }
+  report.lines.push_back(causes);
+  report.page.Paragraph(causes);
   for (const char* name : kWanted) {
     const Share found(At(Of(table, name, kFused), Chosen()));
     findings.Judge(found.value() >= kLeastFound,
