@@ -171,11 +171,11 @@ TEST(TerrainFusion, OrderOfTenFramesDoesNotMatter) {
       }
     }
     ASSERT_GT(cells, 4000);
-    // Which frame came first moves the whole map by a few millimetres; beside that the order costs
-    // less than half a sigma.
-    EXPECT_LT(std::sqrt(square / cells), 0.5) << "seed " << kSeed << " stride " << stride;
+    // Registration and the gate know the past, so the order is not quite nothing: less than a tenth
+    // of a sigma. Forgetting from the first frame on would cost up to twice that.
+    EXPECT_LT(std::sqrt(square / cells), 0.1) << "seed " << kSeed << " stride " << stride;
     EXPECT_LT(apart, cells / 500);
-    EXPECT_NEAR(offset / cells, 0, 0.02);
+    EXPECT_NEAR(offset / cells, 0, 0.002);
   }
 }
 
