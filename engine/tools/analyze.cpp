@@ -14,11 +14,13 @@
 #include "engine/core/time.h"
 #include "engine/core/units.h"
 #include "engine/runtime/settings_io.h"
+#include "engine/slad/explanation.h"
 #include "engine/slad/slad.h"
 #include "engine/tools/analyze_cloud.h"
 #include "engine/tools/analyze_inputs.h"
 #include "engine/tools/analyze_report.h"
 #include "engine/tools/experiment.h"
+#include "engine/tools/explanation_json.h"
 #include "engine/tools/hazard_layer.h"
 #include "engine/tools/map_files.h"
 #include "engine/tools/map_pictures.h"
@@ -35,6 +37,7 @@ struct Options {
   std::string left, right, rig, settings_file, out, elevation, points;
   std::vector<std::string> set;
   std::optional<double> cell_m;
+  std::vector<std::string> explain;
 };
 
 struct Outcome {
@@ -42,6 +45,7 @@ struct Outcome {
   Settings settings;
   HazardMaps hazards;
   SiteSelection selection;
+  std::vector<CellExplanation> explained{};
 };
 
 Status CheckOptions(const Options& options) {
@@ -55,6 +59,11 @@ Status CheckOptions(const Options& options) {
   }
   if (options.cell_m && !(*options.cell_m >= 0.001 && *options.cell_m <= 1000)) {
     return UsageError("--cell-m must lie between 0.001 and 1000 metres");
+  }
+  for (const std::string& text : options.explain) {
+    if (const auto cell = ParseCell(text); !cell) {
+      return cell.error();
+    }
   }
   return Ok();
 }
@@ -94,7 +103,18 @@ Result<AnalyzeInput> LoadInput(const Options& options, const Settings& settings)
 /// JSON has no NaN: unknown is null.
 Json Number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
-Json SiteJson(const LandingSite& site) {
+/// Directions a vehicle may come from along the glide slope.
+Json ApproachesJson(const LandingSite& site) {
+  Json json = Json::array();
+  for (unsigned k = 0; k < 8; ++k) {
+    if ((site.clear_approaches >> k & 1U) != 0) {
+      json.push_back(DirectionWord(Rad(45.0 * k)));
+    }
+  }
+  return json;
+}
+
+Json SiteJson(const LandingSite& site, const SladSettings& slad) {
   return {{"row", site.cell.row},
           {"col", site.cell.col},
           {"north_m", site.p_WS.x()},
@@ -113,6 +133,15 @@ Json SiteJson(const LandingSite& site) {
           {"safe_distance_m", site.safe_distance_m},
           {"clear_radius_m", site.clear_radius_m},
           {"corridor_clear", site.corridor_clear},
+          {"clear_approaches", ApproachesJson(site)},
+          {"age_s", Number(site.age_s)},
+          {"flags", FlagWords(site.flags)},
+          {"worst_probability", Number(site.touchdown.worst_probability)},
+          {"worst_heading_deg", Number(Deg(site.touchdown.worst_heading_rad))},
+          {"best_probability", Number(site.touchdown.best_probability)},
+          {"best_heading_deg", Number(Deg(site.touchdown.best_heading_rad))},
+          {"margins", MarginsJson(site, slad)},
+          {"why", site.reason},
           {"reason", site.reason}};
 }
 
@@ -136,13 +165,16 @@ Json ReportJson(const Outcome& o) {
   const GridGeometry& g = o.input.map.geometry;
   Json json;
   json["status"] = sites.empty() ? "none" : "found";
-  json["site"] = sites.empty() ? Json(nullptr) : SiteJson(sites.front());
+  json["site"] = sites.empty() ? Json(nullptr) : SiteJson(sites.front(), o.settings.slad);
   json["candidates"] = Json::array();
   for (const LandingSite& site : sites) {
-    json["candidates"].push_back(SiteJson(site));
+    json["candidates"].push_back(SiteJson(site, o.settings.slad));
   }
   if (sites.empty()) {
     json["none_reason"] = o.selection.none_reason;
+  }
+  for (const CellExplanation& cell : o.explained) {
+    json["cells"].push_back(CellJson(cell));
   }
   json["grid"] = {{"rows", g.rows},
                   {"cols", g.cols},
@@ -289,6 +321,11 @@ Status Analyze(const Options& options) {
   o.selection = SelectSites(o.input.map, o.hazards, o.settings.slad, o.input.context);
   SiteRegistry().Assign(o.selection);
   o.input.timings.push_back({"sites", (MonotonicSeconds() - start) * 1e3});
+  for (const std::string& text : options.explain) {
+    const auto cell = ParseCell(text);  // checked with the options
+    o.explained.push_back(ExplainCell(o.input.map, o.hazards, o.settings.slad, *cell));
+    std::printf("cell %d,%d: %s\n", cell->row, cell->col, o.explained.back().verdict.c_str());
+  }
   if (const Status done = Publish(o, options.out); !done) {
     return done;
   }
@@ -319,6 +356,9 @@ void AddAnalyzeCommand(CLI::App& app, int& exit_code) {
   verb->add_option("--cell-m", options->cell_m, "cell size for --elevation and --points, metres");
   verb->add_option("--settings", options->settings_file, "settings TOML");
   verb->add_option("--set", options->set, "one setting, e.g. slad.max_slope_deg=8; repeatable")
+      ->take_all();
+  verb->add_option("--explain", options->explain,
+                   "row,col of a cell: why it is as it is, printed and in site.json; repeatable")
       ->take_all();
   verb->add_option("--out", options->out, "folder for the maps and site.json")->required();
   verb->callback([options, &exit_code] {
