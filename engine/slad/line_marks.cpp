@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -81,21 +82,22 @@ ImageU8 MarkDifferences(const ImageU8& left, const SceneGround& ground) {
 /// Marks of thin lines along the rows: what is darker, or brighter, than three rows above and
 /// below.
 ImageU8 MarkRidges(const ImageU8& left) {
-  const int width = left.width(), height = left.height();
-  ImageU8 marks(width, height, 0);
+  const int width = left.width(), picture_rows = left.height();
+  ImageU8 marks(width, picture_rows, 0);
   std::vector<int> ridge(static_cast<std::size_t>(width));
   // The usual height of ridges, tile by tile along a band of rows.
-  for (int band = kRidge_px; band < height - kRidge_px; band += kTile_px) {
-    const int end = std::min(band + kTile_px, height - kRidge_px);
+  for (int band = kRidge_px; band < picture_rows - kRidge_px; band += kTile_px) {
+    const int end = std::min(band + kTile_px, picture_rows - kRidge_px);
     std::vector<float> sum(static_cast<std::size_t>(width / kTile_px + 1), 0.0F);
     for (const bool marking : {false, true}) {
       for (int y = band; y < end; y += marking ? 1 : 4) {
         const std::uint8_t *up = left.row(y - kRidge_px), *here = left.row(y),
                            *down = left.row(y + kRidge_px);
+        int* height = ridge.data();
         for (int x = 0; x < width; ++x) {
-          const int dark = std::min(up[x], down[x]) - here[x];
-          const int bright = here[x] - std::max(up[x], down[x]);
-          ridge[static_cast<std::size_t>(x)] = std::max(0, std::max(dark, bright));
+          const int dark = std::min<int>(up[x], down[x]) - here[x];
+          const int bright = here[x] - std::max<int>(up[x], down[x]);
+          height[x] = std::max(0, std::max(dark, bright));
         }
         for (int x0 = 0; x0 < width; x0 += kTile_px) {
           const int x1 = std::min(x0 + kTile_px, width);
@@ -103,14 +105,15 @@ ImageU8 MarkRidges(const ImageU8& left) {
           const float rows = static_cast<float>((end - band + 3) / 4);
           const float mean = total / (rows * static_cast<float>(x1 - x0));
           const float gain = kMarksPerMean / std::max(kLeastMean_grey, mean);
+          const int* r = ridge.data();
+          if (!marking) {
+            total += static_cast<float>(std::accumulate(r + x0, r + x1, 0));
+            continue;
+          }
+          std::uint8_t* out = marks.row(y);
           for (int x = x0; x < x1; ++x) {
-            const float value = static_cast<float>(ridge[static_cast<std::size_t>(x)]);
-            if (marking) {
-              marks.at(x, y) = static_cast<std::uint8_t>(
-                  std::min(value * gain, static_cast<float>(kLargestMark)));
-            } else {
-              total += value;
-            }
+            out[x] = static_cast<std::uint8_t>(
+                std::min(static_cast<float>(r[x]) * gain, static_cast<float>(kLargestMark)));
           }
         }
       }

@@ -188,18 +188,29 @@ void LayRightOverLeft(const ImageU8& picture, SceneGround& ground) {
     }
     const std::uint8_t* in = picture.row(y);
     std::uint8_t* out = ground.right.row(y);
-    for (int x = 0; x < width; ++x) {
-      const int i = std::clamp((x - 2) / kBlock_px, 0, std::max(0, cols - 2));
-      const float s =
-          std::clamp((static_cast<float>(x - kBlock_px * i) - 1.5F) / kBlock_px, 0.0F, 1.0F);
+    const float last = static_cast<float>(width) - 1.001F;
+    const auto lay = [&](int x, int i, float s) {
       const float left = line[static_cast<std::size_t>(i)];
       const float right = line[static_cast<std::size_t>(std::min(cols - 1, i + 1))];
-      const float from = std::clamp(static_cast<float>(x) - (left + s * (right - left)), 0.0F,
-                                    static_cast<float>(width) - 1.001F);
+      const float from =
+          std::clamp(static_cast<float>(x) - (left + s * (right - left)), 0.0F, last);
       const int k = static_cast<int>(from);
       const float f = from - static_cast<float>(k);
       const float grey = static_cast<float>(in[k]) * (1 - f) + static_cast<float>(in[k + 1]) * f;
       out[x] = static_cast<std::uint8_t>(grey + 0.5F);
+    };
+    // Between the middles of two blocks; the rims repeat the outermost ones.
+    const int inside = kBlock_px / 2, beyond = kBlock_px * (cols - 1) + inside;
+    for (int x = 0; x < inside; ++x) {
+      lay(x, 0, 0);
+    }
+    for (int i = 0; i + 1 < cols; ++i) {
+      for (int k = 0; k < kBlock_px; ++k) {
+        lay(kBlock_px * i + inside + k, i, (static_cast<float>(k) + 0.5F) / kBlock_px);
+      }
+    }
+    for (int x = beyond; x < width; ++x) {
+      lay(x, cols - 1, 0);
     }
   }
 }
