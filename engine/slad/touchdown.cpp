@@ -112,8 +112,9 @@ void GearOverMap::LayOut(const SladSettings& settings, double cell_m) {
   stride_ = skids ? std::max(1, static_cast<int>(std::ceil(length_m / gaps / cell_m - 1e-9))) : 1;
   reach_ = static_cast<int>(std::ceil(corner_m / cell_m)) + stride_ + 1;
   const int pitch = cols_ + 2 * reach_ + kLaneSlack;
+  // Even, so that ground turned by 90 degrees is tried in the same headings.
   const int headings = static_cast<int>(
-      std::clamp(std::ceil(M_PI * corner_m / cell_m / kCellsBetweenHeadings - 1e-9),
+      std::clamp(2 * std::ceil(M_PI * corner_m / cell_m / kCellsBetweenHeadings / 2 - 1e-9),
                  double{kFewestHeadings}, double{kMostHeadings}));
   const double spacing_m = length_m / (points - 1);
   heading_.resize(static_cast<std::size_t>(headings));
