@@ -62,15 +62,15 @@ int Count(const TrialTable& table, const char* column, const char* text) {
 }
 
 /// The rows of one altitude by one method.
-struct Cell {
+struct AltitudeFigures {
   int trials = 0, right = 0, wrong = 0, none = 0;
   int confirmed = 0, wrong_confirmed = 0;
   double refused = NAN;        ///< share of the truly safe cells
   double three_sigma_m = NAN;  ///< of the site's height, median
 };
 
-Cell CellOf(const TrialTable& rows) {
-  Cell cell;
+AltitudeFigures FiguresOf(const TrialTable& rows) {
+  AltitudeFigures cell;
   cell.trials = static_cast<int>(rows.rows.size());
   cell.right = Count(rows, "outcome", kRightSite);
   cell.wrong = Count(rows, "outcome", kWrongSite);
@@ -109,7 +109,7 @@ void AddCones(const TrialTable& table, const std::string& cone_in, ExperimentRep
     const TrialTable part = all.Where("method", method);
     PlotSeries series{.name = method, .x = {}, .y = {}};
     for (const std::string& altitude : part.Values("altitude_ft")) {
-      const Cell cell = CellOf(part.Where("altitude_ft", altitude));
+      const AltitudeFigures cell = FiguresOf(part.Where("altitude_ft", altitude));
       const Interval interval = WilsonInterval(cell.right, cell.trials);
       series.x.push_back(AltitudeOf(altitude));
       series.y.push_back(100.0 * cell.right / cell.trials);
@@ -160,7 +160,7 @@ void AddTargets(const TrialTable& tall, ExperimentReport& report) {
     if (target == nullptr || target->least <= 0) {
       continue;
     }
-    const Cell cell = CellOf(tall.Where("altitude_ft", altitude));
+    const AltitudeFigures cell = FiguresOf(tall.Where("altitude_ft", altitude));
     const bool passed = cell.right >= target->least * cell.trials;
     const std::string text = altitude + " ft: right sites " + ShareText(cell.right, cell.trials) +
                              ", wanted " + Text("%.0f %%", 100 * target->least);
@@ -203,7 +203,7 @@ void AddFalseSafe(const TrialTable& fused, ExperimentReport& report) {
 double DistanceAtSigma(const TrialTable& rows, double limit_m) {
   double below_ft = NAN, below_m = NAN;
   for (const std::string& altitude : rows.Values("altitude_ft")) {
-    const double sigma_m = CellOf(rows.Where("altitude_ft", altitude)).three_sigma_m;
+    const double sigma_m = FiguresOf(rows.Where("altitude_ft", altitude)).three_sigma_m;
     if (sigma_m < limit_m) {
       below_ft = AltitudeOf(altitude);
       below_m = sigma_m;
@@ -225,7 +225,7 @@ void AddConfirmedDistance(const TrialTable& tall, ExperimentReport& report) {
     PlotSeries series{.name = method, .x = {}, .y = {}};
     for (const std::string& altitude : part.Values("altitude_ft")) {
       series.x.push_back(AltitudeOf(altitude));
-      series.y.push_back(100 * CellOf(part.Where("altitude_ft", altitude)).three_sigma_m);
+      series.y.push_back(100 * FiguresOf(part.Where("altitude_ft", altitude)).three_sigma_m);
     }
     plot.series.push_back(std::move(series));
     rows.push_back({method, Text("%.1f m", DistanceAtSigma(part, 0.10)),
