@@ -44,13 +44,14 @@ bool TrulySafe(const StereoWorld& world, const Eigen::Vector3d& p_WS,
          std::atan(world.slope_north) <= Rad(settings.max_slope_deg);
 }
 
-/// Cells whose clear disc lies in what both cameras see and truly has no cone in it.
+/// Cells whose clear disc lies in the map and in what both cameras see and truly has no cone in it.
 void CountRefused(const ConeField& field, const TerrainDecision& decision, Judgement& judgement) {
   const double radius_m = decision.settings.clear_radius_m();
   const Eigen::Vector2d room = HalfOverlap(field.view) - Eigen::Vector2d::Constant(radius_m);
   const GridGeometry& grid = decision.hazards->geometry;
-  for (int r = 0; r < grid.rows; ++r) {
-    for (int c = 0; c < grid.cols; ++c) {
+  const int rim = static_cast<int>(std::ceil(radius_m / grid.cell_m));
+  for (int r = rim; r < grid.rows - rim; ++r) {
+    for (int c = rim; c < grid.cols - rim; ++c) {
       const double north_m = grid.NorthOfRow(r), east_m = grid.EastOfCol(c);
       const Eigen::Vector2d place = RightForward(field, north_m, east_m).cwiseAbs();
       if (place.x() > room.x() || place.y() > room.y() ||

@@ -230,13 +230,13 @@ void AddConfirmedDistance(const TrialTable& tall, ExperimentReport& report) {
     plot.series.push_back(std::move(series));
     rows.push_back({method, Text("%.1f m", DistanceAtSigma(part, 0.10)),
                     Text("%.1f m", DistanceAtSigma(part, 0.15))});
-    report.lines.push_back(std::string(method) + ": 3 sigma of height reaches 0.10 m at " +
-                           rows.back()[1] + ", 0.15 m at " + rows.back()[2]);
+    report.lines.push_back(std::string(method) + ": 3 sigma of height is under 0.10 m up to " +
+                           rows.back()[1] + ", under 0.15 m up to " + rows.back()[2]);
   }
   report.page.Heading("How far a site is confirmed")
       .Figure(LinePlotSvg(plot), "Medians over the fields in which a site was found.")
       .Table({"method", "3 sigma < 0.10 m up to", "3 sigma < 0.15 m up to"}, rows)
-      .Paragraph("The largest altitude flown where it is not reached.");
+      .Paragraph("Where it is nowhere exceeded, the largest altitude at which a site was found.");
 }
 
 }  // namespace
