@@ -83,7 +83,9 @@ Grid<std::uint8_t> SceneFlags::Add(const SceneView& view, const GridGeometry& ge
   const bool compared = motion_.Flag(view, ground, blocks);
 
   const unsigned looked_for =
-      kFlagThinStructure | kFlagNoTexture | kFlagShadow | (compared ? kFlagMotion : kFlagNone);
+      kFlagNoTexture | kFlagShadow |
+      (CanTellThinStructures(view, ground) ? kFlagThinStructure : kFlagNone) |
+      (compared ? kFlagMotion : kFlagNone);
   Grid<std::uint8_t> seen(geometry.rows, geometry.cols, kFlagNone), found = seen;
   const Grid<CellCount> counts = CountBlocks(view, ground, blocks, geometry);
   for (std::size_t cell = 0; cell < seen.cells().size(); ++cell) {

@@ -117,9 +117,21 @@ void AddPieces(const SceneView& view, const SceneGround& ground, const MarkStrip
 
 }  // namespace
 
+bool CanTellThinStructures(const SceneView& view, const SceneGround& ground) {
+  std::vector<float> known = ground.disparity_px.pixels();
+  std::erase_if(known, [](float d) { return !std::isfinite(d); });
+  if (known.empty()) {
+    return false;
+  }
+  const auto middle = known.begin() + static_cast<std::ptrdiff_t>(known.size() / 2);
+  std::nth_element(known.begin(), middle, known.end());
+  return view.range->camera.fx_px * view.baseline_m >=
+         kNearestThin_m * static_cast<double>(*middle);
+}
+
 std::vector<ThinPiece> FindThinStructures(const SceneView& view, const SceneGround& ground) {
   std::vector<ThinPiece> found;
-  if (ground.empty()) {
+  if (!CanTellThinStructures(view, ground)) {
     return found;
   }
   PieceMatcher matcher(view, ground);

@@ -28,7 +28,14 @@ struct ThinPiece {
   bool height_known = true;
 };
 
-/// Nothing without a ground. Pieces in a fixed order.
+/// Nearer than this the ground's disparity changes too much within a block for paint to cancel, and
+/// lines above it leave the right picture: what was found from farther away stands (flag_memory.h).
+inline constexpr double kNearestThin_m = 7;
+
+/// Whether thin structures can be told at the range most of the ground is at.
+bool CanTellThinStructures(const SceneView& view, const SceneGround& ground);
+
+/// Nothing without a ground or where they cannot be told. Pieces in a fixed order.
 std::vector<ThinPiece> FindThinStructures(const SceneView& view, const SceneGround& ground);
 
 }  // namespace palace
