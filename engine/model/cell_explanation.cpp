@@ -67,6 +67,13 @@ std::string WordsOfBits(const Bit (&bits)[N], unsigned set) {
 
 }  // namespace
 
+double RequiredSafeProbability(const SladSettings& settings, double sigma_m) {
+  const double noise = sigma_m / kProvisionalSigma_m;
+  // Below nothing, so that a limit of 0 stays one; unknown noise asks for the whole.
+  return noise >= 0 ? std::max(0.0, std::min(settings.min_safe_probability, 1 - noise * noise))
+                    : settings.min_safe_probability;
+}
+
 std::vector<ExplainedTerm> TermsOf(const LandingSite& site, const SladSettings& settings) {
   std::vector<ExplainedTerm> terms;
   const auto add = [&](CellTerm term, Figure figure, double limit) {
@@ -80,7 +87,8 @@ std::vector<ExplainedTerm> TermsOf(const LandingSite& site, const SladSettings& 
   add(CellTerm::kRoughness, site.roughness_m, settings.max_deviation_m);
   if (modern) {
     add(CellTerm::kStep, site.step_m, settings.max_step_m);
-    add(CellTerm::kProbability, {site.safe_probability, 0}, settings.min_safe_probability);
+    add(CellTerm::kProbability, {site.safe_probability, 0},
+        RequiredSafeProbability(settings, site.roughness_m.three_sigma / 3));
   }
   add(CellTerm::kHazardDistance, {site.safe_distance_m, 0}, settings.clear_radius_m());
   return terms;

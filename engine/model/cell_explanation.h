@@ -56,6 +56,17 @@ struct CellExplanation {
   std::string verdict;  ///< one sentence: what decided, with value and limit
 };
 
+/// What the probability of a safe touchdown must reach where heights are known to `sigma_m`, a
+/// rock's size averaged:
+///   min(min_safe_probability, 1 - (sigma / 5 cm)^2)
+/// The worse the ground is seen, the less certain can even level ground be: among simulated
+/// touchdowns its chance of being unsafe grew with the square of sigma. A place may be a few times
+/// worse than that; what passes below min_safe_probability is provisional until the noise has
+/// fallen. In metres, not in shares of a limit: a stricter limit must never ask for less.
+double RequiredSafeProbability(const SladSettings& settings, double sigma_m);
+/// Sigma at which any probability would do.
+inline constexpr double kProvisionalSigma_m = 0.05;
+
 /// The terms of a site against the limits, in the order of CellTerm. Thesis mode has no step and no
 /// probability. None is marked as the one that decided.
 std::vector<ExplainedTerm> TermsOf(const LandingSite& site, const SladSettings& settings);

@@ -23,6 +23,9 @@ constexpr int kLongestMemory_frames = 50;
 // Poses of the vehicle's navigation, one standard deviation.
 constexpr double kPosition_m = 0.03;
 constexpr double kAttitude_rad = 0.1 * kRadPerDeg;
+/// Stereo errs on the same ground by this much in every frame: texture under the window, steps of
+/// whole pixels. It does not average away.
+constexpr double kRepeated_px = 0.012;
 constexpr double kNarrow_m = 0.2;  // half of what max_rock_size_m is: cones, posts, hydrants
 /// The map follows the view once its centre is off by this share of its size.
 constexpr double kSlack = 0.08;
@@ -72,6 +75,37 @@ GridF MisplacedVariance(const Eigen::Vector3d& p_WC, const ElevationMap& frame) 
   return variance_m2;
 }
 
+/// Focal length times baseline, pixels metres; 0 when the range map holds no point.
+double FocalTimesBaseline(const RangeMap& range) {
+  for (std::size_t i = 0; i < range.depth_m.pixels().size(); ++i) {
+    const double product = static_cast<double>(range.depth_m.pixels()[i]) *
+                           static_cast<double>(range.disparity_px.pixels()[i]);
+    if (std::isfinite(product)) {
+      return product;
+    }
+  }
+  return 0;
+}
+
+void AddRepeatedError(const RangeMap& range, const RigidTransform& X_WC, ElevationMap& map) {
+  const double focal_times_baseline = FocalTimesBaseline(range);
+  if (!(focal_times_baseline > 0)) {
+    return;
+  }
+  const GridGeometry& g = map.geometry;
+  for (int r = 0; r < g.rows; ++r) {
+    for (int c = 0; c < g.cols; ++c) {
+      if (map.state.at(r, c) == CellState::kMeasured) {
+        const Eigen::Vector3d p_WQ(g.NorthOfRow(r), g.EastOfCol(c),
+                                   -static_cast<double>(map.height_m.at(r, c)));
+        const double depth_m = X_WC.R.col(2).dot(p_WQ - X_WC.p);
+        const double error_m = kRepeated_px * depth_m * depth_m / focal_times_baseline;
+        map.variance_m2.at(r, c) += static_cast<float>(error_m * error_m);
+      }
+    }
+  }
+}
+
 }  // namespace
 
 void TerrainFusion::Reset() {
@@ -107,6 +141,7 @@ std::shared_ptr<const ElevationMap> TerrainFusion::Add(const RangeMap& range,
   // Frames without a point do not count: the first real one lays out the grid.
   frames_ += points.empty() ? 0 : 1;
   auto published = std::make_shared<ElevationMap>(map_);
+  AddRepeatedError(range, X_WC, *published);
   RaiseNarrowRelief(range.camera, X_WC.p, kNarrow_m, *published);
   FillHoles(*published, settings.data_size_cells, settings.border_size_cells);
   return published;

@@ -9,6 +9,7 @@
 #include <opencv2/core.hpp>
 
 #include "engine/core/units.h"
+#include "engine/model/cell_explanation.h"
 #include "engine/slad/hazard_layers.h"
 #include "engine/slad/safe_distance.h"
 #include "engine/slad/slad_loops.h"
@@ -18,9 +19,6 @@ namespace {
 
 static_assert(kSteep == kHazardSlope && kRough == kHazardRoughness && kStepped == kHazardStep &&
               kNotKnown == kHazardUnknown && kUnlikely == kHazardProbability);
-
-/// A place seen no better needs no probability; level ground has 0.8 by then.
-constexpr float kProvisionalSigma_m = 0.05F;
 
 /// How a cell with these reasons is counted.
 enum CountedAs {
@@ -154,6 +152,7 @@ ModernLimits LimitsOf(const SladSettings& settings) {
           static_cast<float>(settings.max_deviation_m),
           static_cast<float>(settings.max_step_m),
           static_cast<float>(settings.min_safe_probability),
+          static_cast<float>(kProvisionalSigma_m),
           static_cast<float>(settings.belly_clearance_m),
           static_cast<float>(settings.gear_width_m)};
 }
@@ -170,17 +169,12 @@ bool FootprintHolds(const HazardMaps& hazards, const SladSettings& settings, Cel
   if (settings.mode == SladMode::kThesis) {
     return true;
   }
-  // The worse the ground is seen, the less certain can even level ground be: among simulated
-  // touchdowns its chance of being unsafe grew with the square of sigma. A place may be a few times
-  // worse than that; such a site is provisional until the noise has fallen. In metres, not in
-  // shares of a limit: a stricter limit must never ask for less.
-  const float noise = hazards.roughness_sigma_m.at(cell) / kProvisionalSigma_m;
-  const float enough =
-      std::min(static_cast<float>(settings.min_safe_probability), 1 - noise * noise);
+  const double enough =
+      RequiredSafeProbability(settings, static_cast<double>(hazards.roughness_sigma_m.at(cell)));
   return hazards.slope_rad.at(cell) <= static_cast<float>(Rad(settings.max_slope_deg)) &&
          hazards.roughness_m.at(cell) <= static_cast<float>(settings.max_deviation_m) &&
          hazards.step_m.at(cell) <= static_cast<float>(settings.max_step_m) &&
-         hazards.safe_probability.at(cell) >= enough;
+         static_cast<double>(hazards.safe_probability.at(cell)) >= enough;
 }
 
 HazardMaps JudgeTerrain(const GridGeometry& geometry, const TerrainFigures& figures,

@@ -12,7 +12,7 @@ constexpr double kWindow_px = 9;  // of stereo's refinement
 constexpr int kPlaces = 16;
 constexpr int kLeastPlaces = 10;
 constexpr double kSigmas = 4;
-constexpr double kMostFactor = 8;
+constexpr double kMostFactor = 4;
 
 struct Ring {
   double mean_m = 0;

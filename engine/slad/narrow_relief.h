@@ -13,7 +13,7 @@ namespace palace {
 /// it averages it with the ground around. Cells that stand above the mean of a ring around them by
 /// more than four sigmas are raised to what a thing `narrow_m` wide must then be:
 ///
-///   h += ((w / narrow_m)^2 - 1) (h - ring),   w = 9 px * range / f, factor at most 8
+///   h += ((w / narrow_m)^2 - 1) (h - ring),   w = 9 px * range / f, factor at most 4
 ///
 /// The ring, 0.75 w + narrow_m / 2 in radius (16 places), takes ordinary slope out. Level ground
 /// and noise stay as they are; nothing is lowered; below the height where w reaches narrow_m

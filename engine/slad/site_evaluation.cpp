@@ -154,7 +154,9 @@ LandingSite EvaluateSite(const ElevationMap& map, const HazardMaps& hazards,
   });
   site.age_s = measured > 0 ? age_sum_s / measured : std::numeric_limits<double>::quiet_NaN();
   site.frames_fused = plane.frames;
-  site.confirmed = site.height_m.three_sigma < settings.max_deviation_m;
+  const bool likely =
+      settings.mode == SladMode::kThesis || site.safe_probability >= settings.min_safe_probability;
+  site.confirmed = likely && site.height_m.three_sigma < settings.max_deviation_m;
   site.distance_m = (context.p_WB - site.p_WS).head<2>().norm();
   const std::optional<Approach> straight = StraightApproach(settings, context, site);
   site.corridor_clear = !straight || IsClear(*straight, map, settings, site);

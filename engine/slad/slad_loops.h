@@ -91,6 +91,7 @@ struct ModernLimits {
   float max_deviation_m;
   float max_step_m;
   float min_safe_probability;
+  float provisional_sigma_m;  ///< kProvisionalSigma_m
   float belly_clearance_m;
   float gear_width_m;
 };

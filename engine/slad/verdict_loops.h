@@ -121,6 +121,7 @@ inline void ModernVerdictRun(const ModernLimits& limits, const ModernRow& row, i
   const float* settled = row.settled_deviation_m + first;
   const float* tilt = row.gear_tilt + first;
   const float* rise = row.belly_rise_m + first;
+  float enough[kVerdictRun];
   float score[kVerdictRun], safe_share[kVerdictRun];
   for (int c = 0; c < count; ++c) {
     score[c] = TouchdownScore(most, slope[c], slope_sigma[c], settled[c], step[c], sigma[c],
@@ -139,6 +140,9 @@ inline void ModernVerdictRun(const ModernLimits& limits, const ModernRow& row, i
                                     (most.max_step_m - cell_step[c]) * kPerRoot2);
     const float cell_s = __builtin_sqrtf(cell_sigma[c] * cell_sigma[c] + kFloor2);
     cell_safe[c] = flat * NormalBelow(cell_margin / cell_s);
+    // RequiredSafeProbability (cell_explanation.h).
+    const float noise = cell_sigma[c] / most.provisional_sigma_m;
+    enough[c] = Least(most.min_safe_probability, 1 - noise * noise);
   }
   for (int c = 0; c < count; ++c) {
     reasons[c] = row.measured[first + c] != 0 ? 0 : kNotKnown;
@@ -147,7 +151,7 @@ inline void ModernVerdictRun(const ModernLimits& limits, const ModernRow& row, i
     const int steep = slope[c] > most.max_slope_rad ? kSteep : 0;
     const int rough = cell_deviation[c] > most.max_deviation_m ? kRough : 0;
     const int stepped = cell_step[c] > most.max_step_m ? kStepped : 0;
-    const int unlikely = cell_safe[c] < most.min_safe_probability ? kUnlikely : 0;
+    const int unlikely = cell_safe[c] < enough[c] ? kUnlikely : 0;
     const int verdict = steep | rough | stepped | unlikely;
     reasons[c] |= slope[c] == slope[c] ? verdict : kNotKnown;
   }

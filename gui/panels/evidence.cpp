@@ -2,6 +2,7 @@
 #include <numbers>
 
 #include "engine/core/units.h"
+#include "engine/model/cell_explanation.h"
 #include "gui/panels/fly_panels.h"
 #include "gui/widgets/evidence_row.h"
 #include "gui/widgets/number_text.h"
@@ -120,7 +121,8 @@ std::vector<EvidenceRow> RowsOf(const EngineSnapshot& snap, const LandingSite& s
         shown != nullptr && shown->hazards ? shown->hazards->geometry : GridGeometry{};
     rows.push_back(UnknownRow(site, geometry.rows > 0 ? geometry.cell_m : slad.cell_m));
   }
-  rows.push_back(ProbabilityRow(site, slad.min_safe_probability));
+  rows.push_back(
+      ProbabilityRow(site, RequiredSafeProbability(slad, site.roughness_m.three_sigma / 3)));
   rows.push_back(MaxRow("Height noise, 3σ", {site.height_m.three_sigma * 100, 0}, rough_cm, 1,
                         LimitDecimals(rough_cm), "cm"));
   rows.push_back(MaxRow("Wind", {wind, 0}, kMaxWind_mps, 1, 0, "m/s"));
