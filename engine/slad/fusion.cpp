@@ -141,8 +141,8 @@ std::shared_ptr<const ElevationMap> TerrainFusion::Add(const RangeMap& range,
   // Frames without a point do not count: the first real one lays out the grid.
   frames_ += points.empty() ? 0 : 1;
   auto published = std::make_shared<ElevationMap>(map_);
-  AddRepeatedError(range, X_WC, *published);
   RaiseNarrowRelief(range.camera, X_WC.p, kNarrow_m, *published);
+  AddRepeatedError(range, X_WC, *published);
   FillHoles(*published, settings.data_size_cells, settings.border_size_cells);
   return published;
 }

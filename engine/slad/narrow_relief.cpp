@@ -11,7 +11,7 @@ namespace {
 constexpr double kWindow_px = 9;  // of stereo's refinement
 constexpr int kPlaces = 16;
 constexpr int kLeastPlaces = 10;
-constexpr double kSigmas = 4;
+constexpr double kSigmas = 5;
 constexpr double kMostFactor = 4;
 
 struct Ring {

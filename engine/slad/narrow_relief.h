@@ -11,7 +11,7 @@ namespace palace {
 
 /// A matching window w metres wide reads a thing s < w wide as lower, by about (s / w)^2, because
 /// it averages it with the ground around. Cells that stand above the mean of a ring around them by
-/// more than four sigmas are raised to what a thing `narrow_m` wide must then be:
+/// more than five sigmas are raised to what a thing `narrow_m` wide must then be:
 ///
 ///   h += ((w / narrow_m)^2 - 1) (h - ring),   w = 9 px * range / f, factor at most 4
 ///
