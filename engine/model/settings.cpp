@@ -60,8 +60,9 @@ std::vector<Binding> MakeBindings() {
             0, 5, 0.1, 2},
            slad, &SladSettings::nav_error_m),
       Bind({"slad.min_safe_probability", "Min safe probability", hazard,
-            "A cell whose probability of a safe touchdown is lower is a hazard. Modern mode.", "",
-            1, 3, 0, 0.9999, 0.9, 0.9999},
+            "A place whose probability of a safe touchdown is lower is refused; where noise allows "
+            "no more, it is provisional. Modern mode.",
+            "", 1, 3, 0, 0.9999, 0.5, 0.9999},
            slad, &SladSettings::min_safe_probability),
       Bind({"slad.lander_base_size_m", "Base size", lander,
             "Diameter of the circle that holds the skids.", "m", 1, 2, 0.2, 20, 0.5, 6},

@@ -45,7 +45,7 @@ struct SladSettings {
   double up_tilt_deg = 0;           ///< up vector tilted towards up_azimuth_deg
   double up_azimuth_deg = 0;
   double nav_error_m = 0.5;  ///< touchdown dispersion added to the lander radius
-  double min_safe_probability = 0.99;
+  double min_safe_probability = 0.90;  ///< see RequiredSafeProbability (cell_explanation.h)
   int frames_fused = 10;        ///< a cell forgets frames older than this many maps
   double site_spacing_m = 3.1;  ///< at least one rotor diameter
   int sites_kept = 6;

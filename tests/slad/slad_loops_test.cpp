@@ -41,7 +41,7 @@ Floats Results(const SladLoops& loops, std::uint64_t seed) {
   keep(slope);
   std::vector<unsigned char> reasons(size), measured(size, 1);
   loops.modern_verdict(
-      {0.3F, 0.1F, 0.15F, 0.99F, 0.35F, 0.9F},
+      {0.3F, 0.1F, 0.15F, 0.99F, 0.05F, 0.35F, 0.9F},
       {slope.data(), d.data(), c.data(), c.data(), d.data(), c.data() + 3, slope.data() + 1,
        b.data(), c.data() + 1, c.data() + 2, d.data(), measured.data()},
       count, {probability.data(), cost.data(), reasons.data()});
@@ -208,7 +208,7 @@ double SafeProbability(const Figures& f) {
   const unsigned char measured = 1;
   float probability = 0, cost = 0;
   unsigned char reasons = 0;
-  FastestSladLoops().modern_verdict({0.2F, 0.1F, 0.15F, 0.99F, 0.35F, 0.9F},
+  FastestSladLoops().modern_verdict({0.2F, 0.1F, 0.15F, 0.99F, 0.05F, 0.35F, 0.9F},
                                     {&f.slope, &f.slope_sigma, &f.deviation, &f.step, &f.sigma,
                                      &f.settled, &f.tilt, &f.rise, &none, &none, &small, &measured},
                                     1, {&probability, &cost, &reasons});
