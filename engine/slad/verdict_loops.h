@@ -151,7 +151,7 @@ inline void ModernVerdictRun(const ModernLimits& limits, const ModernRow& row, i
     const int steep = slope[c] > most.max_slope_rad ? kSteep : 0;
     const int rough = cell_deviation[c] > most.max_deviation_m ? kRough : 0;
     const int stepped = cell_step[c] > most.max_step_m ? kStepped : 0;
-    const int unlikely = cell_safe[c] < enough[c] ? kUnlikely : 0;
+    const int unlikely = cell_safe[c] >= enough[c] ? 0 : kUnlikely;  // also of an unknown noise
     const int verdict = steep | rough | stepped | unlikely;
     reasons[c] |= slope[c] == slope[c] ? verdict : kNotKnown;
   }
