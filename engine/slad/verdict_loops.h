@@ -140,8 +140,9 @@ inline void ModernVerdictRun(const ModernLimits& limits, const ModernRow& row, i
                                     (most.max_step_m - cell_step[c]) * kPerRoot2);
     const float cell_s = __builtin_sqrtf(cell_sigma[c] * cell_sigma[c] + kFloor2);
     cell_safe[c] = flat * NormalBelow(cell_margin / cell_s);
-    // RequiredSafeProbability (cell_explanation.h).
-    const float noise = cell_sigma[c] / most.provisional_sigma_m;
+    // RequiredSafeProbability (cell_explanation.h) at the noise of the ground around: a cell that
+    // is less sure than its neighbours is where something stands.
+    const float noise = sigma[c] / most.provisional_sigma_m;
     enough[c] = Least(most.min_safe_probability, 1 - noise * noise);
   }
   for (int c = 0; c < count; ++c) {
