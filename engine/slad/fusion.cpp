@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/core/hash.h"
 #include "engine/core/units.h"
 #include "engine/slad/elevation_map_builder.h"
 #include "engine/slad/frame_registration.h"
@@ -75,6 +76,22 @@ GridF MisplacedVariance(const Eigen::Vector3d& p_WC, const ElevationMap& frame) 
   return variance_m2;
 }
 
+/// Of the pose and every 89th range: two exposures of one scene never share them all.
+std::uint64_t SampledHash(const RangeMap& range, const RigidTransform& X_WC) {
+  constexpr std::size_t kStride = 89;
+  ContentHash hash;
+  for (int i = 0; i < 3; ++i) {
+    hash.Add(X_WC.p[i]);
+    hash.Add(X_WC.R(i, 0));
+    hash.Add(X_WC.R(i, 2));
+  }
+  const auto& depths = range.depth_m.pixels();
+  for (std::size_t i = 0; i < depths.size(); i += kStride) {
+    hash.Add(depths[i]);
+  }
+  return hash.value();
+}
+
 /// Focal length times baseline, pixels metres; 0 when the range map holds no point.
 double FocalTimesBaseline(const RangeMap& range) {
   for (std::size_t i = 0; i < range.depth_m.pixels().size(); ++i) {
@@ -135,9 +152,14 @@ std::shared_ptr<const ElevationMap> TerrainFusion::Add(const RangeMap& range,
   }
   ElevationMap frame =
       AccumulateCells(points, map_.geometry, settings.mode, kCorrelatedPixels, range.time);
-  Register(frame);
   Age(range.time);
-  Fuse(frame, MisplacedVariance(X_WC.p, frame), settings.frames_fused);
+  const std::uint64_t ranges = SampledHash(range, X_WC);
+  // The very same ranges from the same place again, as of a still picture, say nothing new.
+  if (frames_ == 0 || points.empty() || ranges != last_ranges_) {
+    Register(frame);
+    Fuse(frame, MisplacedVariance(X_WC.p, frame), settings.frames_fused);
+  }
+  last_ranges_ = ranges;
   // Frames without a point do not count: the first real one lays out the grid.
   frames_ += points.empty() ? 0 : 1;
   auto published = std::make_shared<ElevationMap>(map_);

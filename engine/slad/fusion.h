@@ -50,6 +50,7 @@ class TerrainFusion {
   Grid<std::int8_t> disagreement_;  ///< sign of the last frame that failed the gate, 0 none
   SladSettings layout_;             ///< settings the grid was laid out with
   int frames_ = 0;
+  std::uint64_t last_ranges_ = 0;  ///< sampled hash of the last range map and its pose
 };
 
 }  // namespace palace
