@@ -167,9 +167,12 @@ std::optional<Eigen::Vector3d> Pipeline::LaserSpot(const EngineSnapshot& snapsho
   return rectifier_->R_C_Rect().transpose() * Eigen::Vector3d(0, 0, snapshot.laser->range_m);
 }
 
+const MissionStatus& Pipeline::MissionInForce() const {
+  return jumped_ && last_ ? last_->mission : mission_.status();
+}
+
 double Pipeline::GroundHeight() const {
-  const auto& armed = last_ ? last_->mission.armed : mission_.status().armed;
-  if (armed) {
+  if (const auto& armed = MissionInForce().armed) {
     return HeightFromDown(armed->p_WS.z());
   }
   if (laser_height_m_) {
@@ -183,7 +186,7 @@ void Pipeline::MeasureRange(Pass& pass) {
     return;
   }
   const Settings& settings = settings_.recorded();
-  const MissionStatus& mission = last_ ? last_->mission : mission_.status();
+  const MissionStatus& mission = MissionInForce();
   const bool committed = mission.state == MissionState::kDescending &&
                          mission.height_above_site_m < settings.slad.commit_height_m;
   const bool due =

@@ -70,6 +70,9 @@ class Pipeline {
   void Track(Pass& pass);
   void Decide(Pass& pass);
   PipelineOutput Publish(Pass& pass);
+  /// After this pass's commands: a command decides alike whether it came with the frame or before
+  /// it. After a jump, what the record restored.
+  const MissionStatus& MissionInForce() const;
   double GroundHeight() const;
   /// The laser's spot in the axes of the rectified left camera, when it is as new as the picture.
   std::optional<Eigen::Vector3d> LaserSpot(const EngineSnapshot& snapshot) const;
