@@ -130,6 +130,41 @@ class Judge {
   const SladLoops& loops_ = FastestSladLoops();
 };
 
+/// The foot of an obstacle stands out less than the limit allows and belongs to the obstacle all the
+/// same: what touches a cell over a limit takes over its reasons from this share of the limit on
+/// (two thresholds, as Canny 1986 follows edges).
+constexpr float kFlankShare = 0.3F;
+
+void SpreadToFlanks(const TerrainFigures& figures, float max_deviation_m, HazardReason reason,
+                    HazardMaps& hazards) {
+  const GridGeometry& g = hazards.geometry;
+  std::vector<Cell> open;
+  for (int r = 0; r < g.rows; ++r) {
+    const std::uint8_t* reasons = hazards.reasons.row(r);
+    for (int c = 0; c < g.cols; ++c) {
+      if ((reasons[c] & reason) != 0) {
+        open.push_back({r, c});
+      }
+    }
+  }
+  const float least_m = kFlankShare * max_deviation_m;
+  while (!open.empty()) {
+    const Cell from = open.back();
+    open.pop_back();
+    for (int r = from.row - 1; r <= from.row + 1; ++r) {
+      for (int c = from.col - 1; c <= from.col + 1; ++c) {
+        const Cell cell{r, c};
+        if (g.Contains(cell) && (hazards.reasons.at(cell) & reason) == 0 &&
+            figures.deviation_m.at(cell) > least_m) {
+          hazards.reasons.at(cell) |= static_cast<std::uint8_t>(reason);
+          hazards.cost.at(cell) = 1;
+          open.push_back(cell);
+        }
+      }
+    }
+  }
+}
+
 HazardMaps LayersFor(const GridGeometry& geometry, const TerrainFigures& figures) {
   const GridF unknown(geometry.rows, geometry.cols, kUnknownValue);
   const bool modern = figures.mode == SladMode::kModern;
@@ -195,6 +230,11 @@ HazardMaps JudgeTerrain(const GridGeometry& geometry, const TerrainFigures& figu
       judge.Row(r);
     }
   });
+  if (settings.mode == SladMode::kModern) {
+    for (const HazardReason reason : {kHazardRoughness, kHazardStep}) {
+      SpreadToFlanks(figures, static_cast<float>(settings.max_deviation_m), reason, hazards);
+    }
+  }
   hazards.safe_distance_m =
       SafeDistance(hazards.reasons, geometry.cell_m,
                    settings.mode == SladMode::kThesis ? DistanceTo::kCentre : DistanceTo::kSquare);

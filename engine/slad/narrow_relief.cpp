@@ -8,7 +8,6 @@
 namespace palace {
 namespace {
 
-constexpr double kWindow_px = 9;  // of stereo's refinement
 constexpr int kPlaces = 16;
 constexpr int kLeastPlaces = 10;
 constexpr double kSigmas = 5;
@@ -53,7 +52,7 @@ void RaiseNarrowRelief(const PinholeCamera& camera, const Eigen::Vector3d& p_WC,
       }
       const double height_m = static_cast<double>(before.at(r, c));
       const Eigen::Vector3d p_WQ(g.NorthOfRow(r), g.EastOfCol(c), -height_m);
-      const double window_m = kWindow_px * (p_WQ - p_WC).norm() / camera.fx_px;
+      const double window_m = kStereoWindow_px * (p_WQ - p_WC).norm() / camera.fx_px;
       if (window_m <= narrow_m) {
         continue;
       }

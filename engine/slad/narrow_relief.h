@@ -9,6 +9,8 @@
 
 namespace palace {
 
+inline constexpr double kStereoWindow_px = 9;  ///< of stereo's refinement
+
 /// A matching window w metres wide reads a thing s < w wide as lower, by about (s / w)^2, because
 /// it averages it with the ground around. Cells that stand above the mean of a ring around them by
 /// more than five sigmas are raised to what a thing `narrow_m` wide must then be:

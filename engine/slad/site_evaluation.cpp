@@ -6,6 +6,7 @@
 #include <numbers>
 #include <vector>
 
+#include "engine/slad/narrow_relief.h"
 #include "engine/slad/touchdown.h"
 
 namespace palace {
@@ -126,6 +127,17 @@ void TakeFigures(const HazardMaps& hazards, Cell cell, LandingSite& site) {
   site.safe_probability = Known(hazards.safe_probability.at(cell));
 }
 
+/// What is smaller than stereo's window may pass for ground, however little noise there is. True
+/// without a camera.
+bool RocksFillWindow(const SladSettings& settings, const SiteContext& context,
+                     const LandingSite& site) {
+  if (context.camera.width == 0) {
+    return true;
+  }
+  const double depth_m = (context.X_WC.Inverse() * site.p_WS).z();
+  return kStereoWindow_px * depth_m / context.camera.fx_px <= settings.max_rock_size_m;
+}
+
 LandingSite EvaluateSite(const ElevationMap& map, const HazardMaps& hazards,
                          const SladSettings& settings, const SiteContext& context, Cell cell) {
   const GridGeometry& g = map.geometry;
@@ -156,7 +168,8 @@ LandingSite EvaluateSite(const ElevationMap& map, const HazardMaps& hazards,
   site.frames_fused = plane.frames;
   const bool likely =
       settings.mode == SladMode::kThesis || site.safe_probability >= settings.min_safe_probability;
-  site.confirmed = likely && site.height_m.three_sigma < settings.max_deviation_m;
+  site.confirmed = likely && site.height_m.three_sigma < settings.max_deviation_m &&
+                   RocksFillWindow(settings, context, site);
   site.distance_m = (context.p_WB - site.p_WS).head<2>().norm();
   const std::optional<Approach> straight = StraightApproach(settings, context, site);
   site.corridor_clear = !straight || IsClear(*straight, map, settings, site);

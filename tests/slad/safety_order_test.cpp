@@ -174,12 +174,21 @@ Freed PutRocks(
 }
 
 // A rock moves the robust plane of the ground beside it by a hair: a cell whose probability was a
-// hair below the limit may rise above it. Nothing else may.
-TEST(SafetyOrder, RockFreesNothingButCellsOnTheEdgeOfTheSlopeLimit) {
+// hair below the limit may rise above it, and the foot of an obstacle may fall below a foot's.
+// Nothing else may.
+TEST(SafetyOrder, RockFreesNothingButCellsOnTheEdgeOfALimit) {
+  const SladSettings settings;
   const Freed count =
-      PutRocks(SladSettings{}, [](const ElevationMap&, const ElevationMap&,
-                                  const HazardMaps& before, const HazardMaps& after, Cell cell) {
-        EXPECT_EQ(before.reasons.at(cell) & ~(kHazardSlope | kHazardProbability), 0) << cell.row;
+      PutRocks(settings, [&](const ElevationMap& bare, const ElevationMap& rocky,
+                             const HazardMaps& before, const HazardMaps& after, Cell cell) {
+        const bool obstacle =
+            (before.reasons.at(cell) & (kHazardRoughness | kHazardStep | kHazardUnknown)) != 0;
+        const TerrainFigures own = MeasureTerrain(bare, settings);
+        const float moved_m =
+            own.deviation_m.at(cell) - MeasureTerrain(rocky, settings).deviation_m.at(cell);
+        const bool foot = own.deviation_m.at(cell) < 0.5 * settings.max_deviation_m &&
+                          own.step_m.at(cell) <= settings.max_step_m && std::abs(moved_m) < 0.005;
+        EXPECT_TRUE(!obstacle || foot) << cell.row << " " << own.deviation_m.at(cell);
         EXPECT_LT(std::abs(before.slope_rad.at(cell) - after.slope_rad.at(cell)),
                   before.slope_sigma_rad.at(cell))
             << cell.row;
