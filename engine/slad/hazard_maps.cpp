@@ -131,37 +131,40 @@ class Judge {
 };
 
 /// The foot of an obstacle stands out less than the limit allows and belongs to the obstacle all the
-/// same: what touches a cell over a limit takes over its reasons from this share of the limit on
-/// (two thresholds, as Canny 1986 follows edges).
-constexpr float kFlankShare = 0.3F;
+/// same: what touches a cell over a limit takes over its reason from this share of the limit on
+/// (two thresholds, as Canny 1986 follows edges), as far as a rock is wide.
+constexpr float kFootShare = 0.3F;
 
-void SpreadToFlanks(const TerrainFigures& figures, float max_deviation_m, HazardReason reason,
-                    HazardMaps& hazards) {
+void SpreadToFeet(const TerrainFigures& figures, const SladSettings& settings, HazardReason reason,
+                  HazardMaps& hazards) {
   const GridGeometry& g = hazards.geometry;
-  std::vector<Cell> open;
-  for (int r = 0; r < g.rows; ++r) {
+  const int reach = static_cast<int>(std::min(settings.max_rock_size_m / g.cell_m, 1e6));
+  const float least_m = kFootShare * static_cast<float>(settings.max_deviation_m);
+  std::vector<Cell> edge, grown;
+  for (int r = 0; reach > 0 && r < g.rows; ++r) {
     const std::uint8_t* reasons = hazards.reasons.row(r);
     for (int c = 0; c < g.cols; ++c) {
       if ((reasons[c] & reason) != 0) {
-        open.push_back({r, c});
+        edge.push_back({r, c});
       }
     }
   }
-  const float least_m = kFlankShare * max_deviation_m;
-  while (!open.empty()) {
-    const Cell from = open.back();
-    open.pop_back();
-    for (int r = from.row - 1; r <= from.row + 1; ++r) {
-      for (int c = from.col - 1; c <= from.col + 1; ++c) {
-        const Cell cell{r, c};
-        if (g.Contains(cell) && (hazards.reasons.at(cell) & reason) == 0 &&
-            figures.deviation_m.at(cell) > least_m) {
-          hazards.reasons.at(cell) |= static_cast<std::uint8_t>(reason);
-          hazards.cost.at(cell) = 1;
-          open.push_back(cell);
+  for (int step = 0; step < reach && !edge.empty(); ++step) {
+    grown.clear();
+    for (const Cell& from : edge) {
+      for (int r = from.row - 1; r <= from.row + 1; ++r) {
+        for (int c = from.col - 1; c <= from.col + 1; ++c) {
+          const Cell cell{r, c};
+          if (g.Contains(cell) && (hazards.reasons.at(cell) & reason) == 0 &&
+              figures.deviation_m.at(cell) > least_m) {
+            hazards.reasons.at(cell) |= static_cast<std::uint8_t>(reason);
+            hazards.cost.at(cell) = 1;
+            grown.push_back(cell);
+          }
         }
       }
     }
+    edge.swap(grown);
   }
 }
 
@@ -232,7 +235,7 @@ HazardMaps JudgeTerrain(const GridGeometry& geometry, const TerrainFigures& figu
   });
   if (settings.mode == SladMode::kModern) {
     for (const HazardReason reason : {kHazardRoughness, kHazardStep}) {
-      SpreadToFlanks(figures, static_cast<float>(settings.max_deviation_m), reason, hazards);
+      SpreadToFeet(figures, settings, reason, hazards);
     }
   }
   hazards.safe_distance_m =
