@@ -76,15 +76,6 @@ GridF MisplacedVariance(const Eigen::Vector3d& p_WC, const ElevationMap& frame) 
   return variance_m2;
 }
 
-/// Share of chi-square over its degrees of freedom that one cell of ten thousand exceeds by noise
-/// (Wilson & Hilferty 1931, eq. 9).
-double SpreadOfNoise(int degrees) {
-  constexpr double kOneInTenThousand = 3.72;  // normal quantile
-  const double a = 2.0 / (9.0 * degrees);
-  const double root = 1 - a + kOneInTenThousand * std::sqrt(a);
-  return root * root * root;
-}
-
 /// Of the pose and every 89th range: two exposures of one scene never share them all.
 std::uint64_t SampledHash(const RangeMap& range, const RigidTransform& X_WC) {
   constexpr std::size_t kStride = 89;
@@ -173,36 +164,11 @@ std::shared_ptr<const ElevationMap> TerrainFusion::Add(const RangeMap& range,
   // Frames without a point do not count: the first real one lays out the grid.
   frames_ += points.empty() ? 0 : 1;
   auto published = std::make_shared<ElevationMap>(map_);
-  AddReliefBetweenFrames(*published);
+  AddReliefBetweenFrames(spread_, *published);
   RaiseNarrowRelief(range.camera, X_WC.p, kNarrow_m, *published);
   AddRepeatedError(range, X_WC, *published);
   FillHoles(*published, settings.data_size_cells, settings.border_size_cells);
   return published;
-}
-
-void TerrainFusion::Spread::Add(double square_m2, double frame_noise_m2, int memory) {
-  frames = static_cast<std::uint16_t>(std::min<int>(frames + 1, memory));
-  const double share = 1.0 / frames;
-  const double s = static_cast<double>(seen_m2);
-  const double n = static_cast<double>(noise_m2);
-  seen_m2 = static_cast<float>(s + share * ((1 - share) * square_m2 - s));
-  noise_m2 = static_cast<float>(n + share * (frame_noise_m2 - n));
-}
-
-void TerrainFusion::AddReliefBetweenFrames(ElevationMap& map) const {
-  for (std::size_t i = 0; i < map.state.cells().size(); ++i) {
-    const Spread& spread = spread_.cells()[i];
-    if (map.state.cells()[i] != CellState::kMeasured || spread.frames < 2) {
-      continue;
-    }
-    const double by_noise = (spread.frames - 1.0) / spread.frames *
-                            SpreadOfNoise(spread.frames - 1) *
-                            static_cast<double>(spread.noise_m2);
-    const double relief_m2 = static_cast<double>(spread.seen_m2) - by_noise;
-    if (relief_m2 > 0) {
-      map.height_m.cells()[i] += static_cast<float>(std::sqrt(relief_m2));
-    }
-  }
 }
 
 void TerrainFusion::MoveTo(const GridGeometry& geometry) {
@@ -215,7 +181,7 @@ void TerrainFusion::MoveTo(const GridGeometry& geometry) {
                      Grid<CellState>(rows, cols, CellState::kUnknown),
                      GridF(rows, cols, kUnknownValue)};
   Grid<std::int8_t> disagreement(rows, cols, 0);
-  Grid<Spread> spread(rows, cols);
+  Grid<FrameSpread> spread(rows, cols);
   if (frames_ > 0) {
     const GridGeometry& old = map_.geometry;
     const int row_shift =
@@ -271,7 +237,7 @@ void TerrainFusion::Fuse(const ElevationMap& frame, const GridF& misplaced_m2, i
     std::uint16_t& count = map_.frame_count.cells()[i];
     CellState& state = map_.state.cells()[i];
     std::int8_t& disagreement = disagreement_.cells()[i];
-    Spread& spread = spread_.cells()[i];
+    FrameSpread& spread = spread_.cells()[i];
     float& age_s = map_.age_s.cells()[i];
     const double p = static_cast<double>(variance);
     if (frame.state.cells()[i] != CellState::kMeasured) {
@@ -305,7 +271,7 @@ void TerrainFusion::Fuse(const ElevationMap& frame, const GridF& misplaced_m2, i
       state = CellState::kMeasured;
       // Something new stands there. Where something is gone, what was seen of it fades slowly.
       const bool gone = known && off < 0;
-      spread = gone ? spread : Spread{};
+      spread = gone ? spread : FrameSpread{};
       spread.Add(gone ? off * off : 0, noise, memory);
       continue;
     }

@@ -9,13 +9,8 @@
 // lambda is 1 for the first frames_fused frames of a cell, so that their order does not matter, and
 // 1 - 1/frames_fused from then on: the weight of frames_fused frames is kept.
 //
-// Frames that differ in a cell by more than noise explains have seen relief narrower than the cell,
-// once on its top and once beside it: the published height is
-//
-//   m + sqrt(max(0, S - q R)),
-//
-// S the frames' weighted mean square about m, R their mean variance, q what noise alone exceeds in
-// one cell of ten thousand: the upper side counts, as for the spread of points inside a cell.
+// What frames disagree about by more than noise is relief (frame_spread.h): it is added to the
+// published height.
 //
 // A cell that disagrees by more than the gate, three sigmas of
 //
@@ -36,6 +31,7 @@
 #include "engine/model/elevation_map.h"
 #include "engine/model/range_map.h"
 #include "engine/model/settings.h"
+#include "engine/slad/frame_spread.h"
 
 namespace palace {
 
@@ -49,15 +45,6 @@ class TerrainFusion {
                                           const SladSettings& settings);
 
  private:
-  /// Of the frames' heights about the cell's mean; both means run over the frames remembered.
-  struct Spread {
-    float seen_m2 = 0;
-    float noise_m2 = 0;  ///< what the frames' own variances lead to expect
-    std::uint16_t frames = 0;
-    void Add(double square_m2, double frame_noise_m2, int memory);
-  };
-
-  void AddReliefBetweenFrames(ElevationMap& map) const;
   void MoveTo(const GridGeometry& geometry);
   void Register(ElevationMap& frame);
   void Age(Timestamp now);
@@ -65,8 +52,8 @@ class TerrainFusion {
 
   ElevationMap map_;                ///< measured cells only; holes are filled in what Add returns
   Grid<std::int8_t> disagreement_;  ///< sign of the last frame that failed the gate, 0 none
-  Grid<Spread> spread_;
-  SladSettings layout_;             ///< settings the grid was laid out with
+  Grid<FrameSpread> spread_;
+  SladSettings layout_;  ///< settings the grid was laid out with
   int frames_ = 0;
   std::uint64_t last_ranges_ = 0;  ///< sampled hash of the last range map and its pose
 };

@@ -130,8 +130,8 @@ class Judge {
   const SladLoops& loops_ = FastestSladLoops();
 };
 
-/// The foot of an obstacle stands out less than the limit allows and belongs to the obstacle all the
-/// same: what touches a cell over a limit takes over its reason from this share of the limit on
+/// The foot of an obstacle stands out less than the limit allows and belongs to the obstacle all
+/// the same: what touches a cell over a limit takes over its reason from this share of the limit on
 /// (two thresholds, as Canny 1986 follows edges), as far as a rock is wide.
 constexpr float kFootShare = 0.3F;
 

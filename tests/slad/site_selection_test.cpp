@@ -1,7 +1,10 @@
 #include "engine/slad/site_selection.h"
 
+#include <utility>
+
 #include <gtest/gtest.h>
 
+#include "engine/camera/pinhole.h"
 #include "engine/slad/slad.h"
 #include "tests/slad/worlds.h"
 
@@ -49,6 +52,23 @@ TEST(SiteSelection, FlatFieldIsWonByItsMiddle) {
     EXPECT_EQ(site.clear_approaches, 0xFF);
     EXPECT_EQ(site.age_s, 0);
     EXPECT_NEAR(site.distance_m, 15, 1e-6);
+  }
+}
+
+// Stereo's window is 9 px wide; rocks are 0.4 m. With 554 px focal length they fill it up to 24.6
+// m.
+TEST(SiteSelection, ASiteIsConfirmedOnlyWhereRocksFillTheStereoWindow) {
+  for (const auto& [height_m, confirmed] : {std::pair{24.0, true}, std::pair{25.0, false}}) {
+    SiteContext context;
+    context.p_WB = {0, 0, -height_m};
+    context.X_WC = {CameraRotationFromTilt(Rad(-90)), context.p_WB};
+    context.camera = PinholeFromFov(640, 480, Rad(60));
+    const SiteSelection selection = Select(MakeMap(101, 101, 0.15, Flat()), {}, context);
+    ASSERT_FALSE(selection.sites.empty());
+    EXPECT_EQ(selection.sites.front().confirmed, confirmed) << height_m;
+    SladSettings larger;
+    larger.max_rock_size_m = 0.5;
+    EXPECT_TRUE(Select(MakeMap(101, 101, 0.15, Flat()), larger, context).sites.at(0).confirmed);
   }
 }
 
