@@ -127,15 +127,16 @@ void TakeFigures(const HazardMaps& hazards, Cell cell, LandingSite& site) {
   site.safe_probability = Known(hazards.safe_probability.at(cell));
 }
 
-/// What is smaller than stereo's window may pass for ground, however little noise there is. True
-/// without a camera.
-bool RocksFillWindow(const SladSettings& settings, const SiteContext& context,
-                     const LandingSite& site) {
-  if (context.camera.width == 0) {
-    return true;
+/// Whether rocks are larger than what they are seen with, stereo's window and the map's cell: what
+/// is smaller may pass for ground, however little noise there is.
+bool RocksAreSeen(const ElevationMap& map, const SladSettings& settings, const SiteContext& context,
+                  const LandingSite& site) {
+  double seen_with_m = map.geometry.cell_m;
+  if (context.camera.width > 0) {
+    const double depth_m = (context.X_WC.Inverse() * site.p_WS).z();
+    seen_with_m = std::max(seen_with_m, kStereoWindow_px * depth_m / context.camera.fx_px);
   }
-  const double depth_m = (context.X_WC.Inverse() * site.p_WS).z();
-  return kStereoWindow_px * depth_m / context.camera.fx_px <= settings.max_rock_size_m;
+  return seen_with_m <= settings.max_rock_size_m;
 }
 
 LandingSite EvaluateSite(const ElevationMap& map, const HazardMaps& hazards,
@@ -169,7 +170,7 @@ LandingSite EvaluateSite(const ElevationMap& map, const HazardMaps& hazards,
   const bool likely =
       settings.mode == SladMode::kThesis || site.safe_probability >= settings.min_safe_probability;
   site.confirmed = likely && site.height_m.three_sigma < settings.max_deviation_m &&
-                   RocksFillWindow(settings, context, site);
+                   RocksAreSeen(map, settings, context, site);
   site.distance_m = (context.p_WB - site.p_WS).head<2>().norm();
   const std::optional<Approach> straight = StraightApproach(settings, context, site);
   site.corridor_clear = !straight || IsClear(*straight, map, settings, site);
@@ -213,20 +214,26 @@ bool IsClear(const Approach& approach, const ElevationMap& map, const SladSettin
   const double tangent = std::tan(std::min(approach.glide_slope_rad, 1.55));
   const GridGeometry& g = map.geometry;
   const double half_width_m = settings.rotor_diameter_m / 2;
+  const double lander_radius_m = settings.lander_radius_m();
   for (int r = 0; r < g.rows; ++r) {
     const double north_m = g.NorthOfRow(r) - site.p_WS.x();
     const ColumnRange columns = CorridorInRow(g, site, along, north_m, length_m, half_width_m);
+    const float* height_m = map.height_m.row(r);
     for (int c = columns.first; c <= columns.last; ++c) {
-      const Eigen::Vector2d offset(north_m, g.EastOfCol(c) - site.p_WS.y());
-      const double s = offset.dot(along);
-      const double aside = std::abs(offset.x() * along.y() - offset.y() * along.x());
+      const double east_m = g.EastOfCol(c) - site.p_WS.y();
+      const double s = north_m * along.x() + east_m * along.y();
+      const double rise_m = static_cast<double>(height_m[c]) - site.height_m.value;
+      const double free_m = (s - lander_radius_m) * tangent + settings.max_deviation_m;
+      // Asked first, for few cells rise so far.
+      if (!(rise_m > free_m)) {
+        continue;
+      }
+      const double aside = std::abs(north_m * along.y() - east_m * along.x());
       if (s <= site.clear_radius_m || s > length_m || aside > half_width_m ||
           map.state.at(r, c) == CellState::kUnknown) {
         continue;
       }
       const double noise_m = 3 * std::sqrt(static_cast<double>(map.variance_m2.at(r, c)));
-      const double rise_m = static_cast<double>(map.height_m.at(r, c)) - site.height_m.value;
-      const double free_m = (s - settings.lander_radius_m()) * tangent + settings.max_deviation_m;
       if (rise_m - noise_m > free_m) {
         return false;
       }

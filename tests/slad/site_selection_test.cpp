@@ -72,6 +72,14 @@ TEST(SiteSelection, ASiteIsConfirmedOnlyWhereRocksFillTheStereoWindow) {
   }
 }
 
+TEST(SiteSelection, ASiteOfASurveyIsConfirmedOnlyWhereCellsAreNoWiderThanRocks) {
+  for (const auto& [cell_m, confirmed] : {std::pair{0.4, true}, std::pair{0.5, false}}) {
+    const SiteSelection selection = Select(MakeMap(101, 101, cell_m, Flat()), {}, SiteContext{});
+    ASSERT_FALSE(selection.sites.empty());
+    EXPECT_EQ(selection.sites.front().confirmed, confirmed) << cell_m;
+  }
+}
+
 TEST(SiteSelection, PixelIsTheForwardProjection) {
   const SiteContext context = Context();
   for (const LandingSite& site : Select(MakeMap(101, 101, 0.15, Flat())).sites) {
