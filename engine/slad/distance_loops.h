@@ -1,5 +1,5 @@
-// Distance to the nearest hazard of the rows above and below, along one row. Included by
-// slad_loops.cpp and slad_loops_avx2.cpp only.
+// Distance to the nearest hazard: along the columns, then of the rows above and below, along one
+// row. Included by slad_loops.cpp and slad_loops_avx2.cpp only.
 #pragma once
 
 #include "engine/slad/float_lanes.h"
@@ -8,8 +8,26 @@
 namespace palace {
 namespace {
 
-void NearestInRow(const float* square, float inset, int count, double cell_m, float* distance_m) {
+void ColumnGapsRow(const unsigned char* hazard, const float* near, int count,
+                   float* __restrict__ gap) {
+  for (int c = 0; c < count; ++c) {
+    const float next = near[c] + 1;
+    const float least = gap[c] < next ? gap[c] : next;
+    gap[c] = hazard[c] == 0 ? least : 0.0F;
+  }
+}
+
+void SquareGapsRow(const float* gap, float inset, int count, float* __restrict__ square) {
+  for (int c = 0; c < count; ++c) {
+    const float along = gap[c] > inset ? gap[c] - inset : 0.0F;
+    square[c] = along * along;
+  }
+}
+
+bool NearestInRow(const float* square, float inset, int count, double cell_m, float* distance_m) {
   constexpr int kCount = FloatLanes::kCount;
+  constexpr float kFarthest = static_cast<float>(kNearestReach);
+  const FloatLanes most = Fill((kFarthest - inset) * (kFarthest - inset));
   for (int c = 0; c < count; c += kCount) {
     FloatLanes best = Load(square + c);
     for (int d = 1; d <= kNearestReach; ++d) {
@@ -20,6 +38,9 @@ void NearestInRow(const float* square, float inset, int count, double cell_m, fl
       }
       best = Min(best, Min(Load(square + c + d), Load(square + c - d)) + aside2);
     }
+    if (Any(Less(most, best))) {
+      return false;
+    }
     float squares[kCount];
     Store(squares, best);
     for (int k = 0; k < kCount && c + k < count; ++k) {
@@ -27,6 +48,7 @@ void NearestInRow(const float* square, float inset, int count, double cell_m, fl
           static_cast<float>(cell_m * __builtin_sqrt(static_cast<double>(squares[k])));
     }
   }
+  return true;
 }
 
 }  // namespace

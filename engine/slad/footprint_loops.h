@@ -9,20 +9,28 @@ namespace palace {
 namespace {
 
 void DiscDeviationRow(const DiscRows& disc, const float* plane, const float* east,
-                      const float* south, int count, float* square) {
+                      const float* south, int count, float* square, float* settled_off) {
+  const FloatLanes stride = Fill(static_cast<float>(disc.stride));
   for (int c = 0; c < count; c += FloatLanes::kCount) {
-    FloatLanes most = Load(square + c);
+    FloatLanes most = Load(square + c), settled_most = Load(settled_off + c);
     const FloatLanes slope = Load(east + c);
     for (int i = 0; i < disc.rows; ++i) {
       const FloatLanes base =
           Load(plane + c) + Load(south + c) * Fill(static_cast<float>(disc.row_offset[i]));
+      const float* height = disc.height[i] + c;
+      const float* noise2 = disc.noise2[i] + c;
+      const float* settled = disc.settled[i] + c;
+      FloatLanes aside = Fill(static_cast<float>(-disc.half[i]));
       for (int dc = -disc.half[i]; dc <= disc.half[i]; dc += disc.stride) {
-        const FloatLanes off =
-            Load(disc.height[i] + c + dc) - base - slope * Fill(static_cast<float>(dc));
-        most = Max(off * off - Load(disc.noise2[i] + c + dc), most);
+        const FloatLanes rise = slope * aside;
+        const FloatLanes off = Load(height + dc) - base - rise;
+        most = Max(off * off - Load(noise2 + dc), most);
+        settled_most = Max(Abs(Load(settled + dc) - base - rise), settled_most);
+        aside = aside + stride;
       }
     }
     Store(square + c, most);
+    Store(settled_off + c, settled_most);
   }
 }
 

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstring>
+#include <utility>
 #include <vector>
 
 #include <opencv2/core.hpp>
@@ -41,33 +43,33 @@ CountedAs CountingOf(unsigned reasons) {
 
 void CountCells(const SladSettings& settings, HazardMaps& hazards) {
   constexpr unsigned kAllReasons = 63;
-  std::array<CountedAs, kAllReasons + 1> counting;
-  for (unsigned reasons = 0; reasons <= kAllReasons; ++reasons) {
-    counting[reasons] = CountingOf(reasons);
-  }
   const float clear_m = static_cast<float>(settings.clear_radius_m());
-  using Counts = std::array<int, kCountings>;
-  std::vector<Counts> of_row(static_cast<std::size_t>(hazards.geometry.rows), Counts{});
+  struct Counts {
+    std::array<int, kAllReasons + 1> with{};  ///< these very reasons
+    int no_room = 0;                          ///< no hazards, but no place for the lander
+  };
+  std::vector<Counts> of_row(static_cast<std::size_t>(hazards.geometry.rows));
   cv::parallel_for_(cv::Range(0, hazards.geometry.rows), [&](const cv::Range& rows) {
     for (int r = rows.start; r < rows.end; ++r) {
       Counts& count = of_row[static_cast<std::size_t>(r)];
       const std::uint8_t* reasons = hazards.reasons.row(r);
       const float* distance_m = hazards.safe_distance_m.row(r);
       for (int c = 0; c < hazards.geometry.cols; ++c) {
-        CountedAs as = counting[reasons[c] & kAllReasons];
-        if (as == kAsSafe &&
+        ++count.with[reasons[c] & kAllReasons];
+        if (reasons[c] == kHazardNone &&
             (distance_m[c] < clear_m || !FootprintHolds(hazards, settings, {r, c}))) {
-          as = kAsFootprint;
+          ++count.no_room;
         }
-        ++count[as];
       }
     }
   });
-  Counts count{};
+  std::array<int, kCountings> count{};
   for (const Counts& row : of_row) {
-    for (std::size_t k = 0; k < count.size(); ++k) {
-      count[k] += row[k];
+    for (unsigned reasons = 0; reasons <= kAllReasons; ++reasons) {
+      count[CountingOf(reasons)] += row.with[reasons];
     }
+    count[kAsSafe] -= row.no_room;
+    count[kAsFootprint] += row.no_room;
   }
   hazards.rejected = {count[kAsSlope], count[kAsRoughness], count[kAsUnknown], count[kAsFlagged],
                       count[kAsFootprint]};
@@ -135,27 +137,32 @@ class Judge {
 /// (two thresholds, as Canny 1986 follows edges), as far as a rock is wide.
 constexpr float kFootShare = 0.3F;
 
-void SpreadToFeet(const TerrainFigures& figures, const SladSettings& settings, HazardReason reason,
-                  HazardMaps& hazards) {
-  const GridGeometry& g = hazards.geometry;
-  const int reach = static_cast<int>(std::min(settings.max_rock_size_m / g.cell_m, 1e6));
-  const float least_m = kFootShare * static_cast<float>(settings.max_deviation_m);
-  std::vector<Cell> edge, grown;
-  for (int r = 0; reach > 0 && r < g.rows; ++r) {
-    const std::uint8_t* reasons = hazards.reasons.row(r);
-    for (int c = 0; c < g.cols; ++c) {
-      if ((reasons[c] & reason) != 0) {
-        edge.push_back({r, c});
-      }
+/// First column from c on with one of the wanted reasons, `cols` without; most cells have none.
+int NextWith(unsigned wanted, const std::uint8_t* reasons, int c, int cols) {
+  const std::uint64_t in_any_of_eight = 0x0101010101010101U * wanted;
+  for (std::uint64_t eight = 0; c + 8 <= cols; c += 8) {
+    std::memcpy(&eight, reasons + c, 8);
+    if ((eight & in_any_of_eight) != 0) {
+      break;
     }
   }
+  while (c < cols && (reasons[c] & wanted) == 0) {
+    ++c;
+  }
+  return c;
+}
+
+/// One reason spreads from the cells that have it.
+void SpreadFrom(std::vector<Cell> edge, HazardReason reason, int reach, float least_m,
+                const TerrainFigures& figures, HazardMaps& hazards) {
+  std::vector<Cell> grown;
   for (int step = 0; step < reach && !edge.empty(); ++step) {
     grown.clear();
     for (const Cell& from : edge) {
       for (int r = from.row - 1; r <= from.row + 1; ++r) {
         for (int c = from.col - 1; c <= from.col + 1; ++c) {
           const Cell cell{r, c};
-          if (g.Contains(cell) && (hazards.reasons.at(cell) & reason) == 0 &&
+          if (hazards.geometry.Contains(cell) && (hazards.reasons.at(cell) & reason) == 0 &&
               figures.deviation_m.at(cell) > least_m) {
             hazards.reasons.at(cell) |= static_cast<std::uint8_t>(reason);
             hazards.cost.at(cell) = 1;
@@ -168,18 +175,55 @@ void SpreadToFeet(const TerrainFigures& figures, const SladSettings& settings, H
   }
 }
 
+void SpreadToFeet(const TerrainFigures& figures, const SladSettings& settings,
+                  HazardMaps& hazards) {
+  const GridGeometry& g = hazards.geometry;
+  const int reach = static_cast<int>(std::min(settings.max_rock_size_m / g.cell_m, 1e6));
+  std::vector<Cell> rough, stepped;
+  for (int r = 0; reach > 0 && r < g.rows; ++r) {
+    const std::uint8_t* reasons = hazards.reasons.row(r);
+    constexpr unsigned kEither = kHazardRoughness | kHazardStep;
+    for (int c = NextWith(kEither, reasons, 0, g.cols); c < g.cols;
+         c = NextWith(kEither, reasons, c + 1, g.cols)) {
+      if ((reasons[c] & kHazardRoughness) != 0) {
+        rough.push_back({r, c});
+      }
+      if ((reasons[c] & kHazardStep) != 0) {
+        stepped.push_back({r, c});
+      }
+    }
+  }
+  const float least_m = kFootShare * static_cast<float>(settings.max_deviation_m);
+  SpreadFrom(std::move(rough), kHazardRoughness, reach, least_m, figures, hazards);
+  SpreadFrom(std::move(stepped), kHazardStep, reach, least_m, figures, hazards);
+}
+
 HazardMaps LayersFor(const GridGeometry& geometry, const TerrainFigures& figures) {
-  const GridF unknown(geometry.rows, geometry.cols, kUnknownValue);
   const bool modern = figures.mode == SladMode::kModern;
   HazardMaps hazards;
   hazards.geometry = geometry;
-  hazards.slope_rad = hazards.cost = hazards.safe_probability = unknown;
-  hazards.slope_sigma_rad = modern ? figures.slope_sigma_rad : unknown;
-  hazards.roughness_m = modern ? figures.footprint_deviation_m : figures.deviation_m;
-  hazards.roughness_sigma_m = modern ? figures.footprint_sigma_m : unknown;
-  hazards.step_m = modern ? figures.footprint_step_m : unknown;
   hazards.flags = figures.flags;
   hazards.reasons = Grid<std::uint8_t>(geometry.rows, geometry.cols, kHazardNone);
+  struct Layer {
+    GridF& layer;
+    const GridF* same_as;  ///< null: unknown
+  };
+  const std::array layers = {
+      Layer{hazards.slope_rad, nullptr},
+      Layer{hazards.cost, nullptr},
+      Layer{hazards.safe_probability, nullptr},
+      Layer{hazards.slope_sigma_rad, modern ? &figures.slope_sigma_rad : nullptr},
+      Layer{hazards.roughness_m, modern ? &figures.footprint_deviation_m : &figures.deviation_m},
+      Layer{hazards.roughness_sigma_m, modern ? &figures.footprint_sigma_m : nullptr},
+      Layer{hazards.step_m, modern ? &figures.footprint_step_m : nullptr}};
+  // Of large maps the system's work of handing out memory is most of it: threads share that too.
+  cv::parallel_for_(cv::Range(0, static_cast<int>(layers.size())), [&](const cv::Range& range) {
+    for (int i = range.start; i < range.end; ++i) {
+      const Layer& made = layers[static_cast<std::size_t>(i)];
+      made.layer = made.same_as != nullptr ? *made.same_as
+                                           : GridF(geometry.rows, geometry.cols, kUnknownValue);
+    }
+  });
   return hazards;
 }
 
@@ -234,9 +278,7 @@ HazardMaps JudgeTerrain(const GridGeometry& geometry, const TerrainFigures& figu
     }
   });
   if (settings.mode == SladMode::kModern) {
-    for (const HazardReason reason : {kHazardRoughness, kHazardStep}) {
-      SpreadToFeet(figures, settings, reason, hazards);
-    }
+    SpreadToFeet(figures, settings, hazards);
   }
   hazards.safe_distance_m =
       SafeDistance(hazards.reasons, geometry.cell_m,

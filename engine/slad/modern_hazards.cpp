@@ -139,10 +139,12 @@ struct Disc {
 /// Heights of all cells that have one, less their noise: what the gear is put down on.
 struct Settled {
   Settled(int rows, int cols, int rim)
-      : height(rows, cols, rim, 0.0F), noise2(rows, cols, rim, kNever), known(rows, cols, 0.0F) {}
-  RimmedLayer height;  ///< 0 where not known
-  RimmedLayer noise2;  ///< none, 0, where measured, kNever elsewhere
-  GridF known;         ///< 1 or 0
+      : height(rows, cols, 0, 0.0F),
+        measured(rows, cols, rim, kUnknownValue),
+        known(rows, cols, 0.0F) {}
+  RimmedLayer height;    ///< 0 where not known
+  RimmedLayer measured;  ///< the same where measured, NaN elsewhere
+  GridF known;           ///< 1 or 0
 };
 
 void SettleHeights(const ElevationMap& map, const FootprintPlanes& planes, float reference,
@@ -157,9 +159,6 @@ void SettleHeights(const ElevationMap& map, const FootprintPlanes& planes, float
         height.row(r)[c] = z - reference;
         known.row(r)[c] = out.known.at(r, c) = 1;
       }
-      if (map.state.at(r, c) == CellState::kMeasured) {
-        out.noise2.row(r)[c] = 0;
-      }
     }
   });
   ForRows(rows, [&](int r) {
@@ -170,6 +169,11 @@ void SettleHeights(const ElevationMap& map, const FootprintPlanes& planes, float
                   layers.south.row(r),
                   map.variance_m2.row(r)},
                  cols, out.height.row(r));
+    for (int c = 0; c < cols; ++c) {
+      if (map.state.at(r, c) == CellState::kMeasured) {
+        out.measured.row(r)[c] = out.height.row(r)[c];
+      }
+    }
   });
 }
 
@@ -181,10 +185,10 @@ void FindFootprintMaxima(const GridGeometry& geometry, const Disc& disc, const L
   ForRows(geometry.rows, [&](int r) {
     const std::size_t padded = static_cast<std::size_t>(cols + kLaneSlack);
     std::vector<float> deviation2(padded, -kNever), step2(padded, -kNever);
-    std::vector<float> settled2(padded, -kNever);
+    std::vector<float> settled_off(padded, 0.0F);
     std::vector<float> work(padded + 2 * static_cast<std::size_t>(disc.reach));
     std::vector<int> row_offset, half;
-    std::vector<const float*> height, noise2, settled_height, settled_noise2;
+    std::vector<const float*> height, noise2, settled_height;
     for (std::size_t i = 0; i < disc.half.size(); ++i) {
       const int rr = r + disc.row_offset[i];
       if (rr >= 0 && rr < geometry.rows) {
@@ -192,23 +196,19 @@ void FindFootprintMaxima(const GridGeometry& geometry, const Disc& disc, const L
         half.push_back(disc.half[i]);
         height.push_back(layers.height.row(rr));
         noise2.push_back(layers.noise2.row(rr));
-        settled_height.push_back(settled.height.row(rr));
-        settled_noise2.push_back(settled.noise2.row(rr));
+        settled_height.push_back(settled.measured.row(rr));
         loops.window_maximum(layers.step2.row(rr), disc.half[i], cols, work.data(), step2.data());
       }
     }
     loops.disc_deviation({static_cast<int>(half.size()), disc.stride, row_offset.data(),
-                          half.data(), height.data(), noise2.data()},
+                          half.data(), height.data(), noise2.data(), settled_height.data()},
                          layers.plane.row(r), layers.east.row(r), layers.south.row(r), cols,
-                         deviation2.data());
-    loops.disc_deviation({static_cast<int>(half.size()), disc.stride, row_offset.data(),
-                          half.data(), settled_height.data(), settled_noise2.data()},
-                         layers.plane.row(r), layers.east.row(r), layers.south.row(r), cols,
-                         settled2.data());
+                         deviation2.data(), settled_off.data());
     for (int c = 0; c < cols; ++c) {
       figures.footprint_deviation_m.at(r, c) = BeyondNoise(deviation2[static_cast<std::size_t>(c)]);
       figures.footprint_step_m.at(r, c) = BeyondNoise(step2[static_cast<std::size_t>(c)]);
-      figures.settled_deviation_m.at(r, c) = BeyondNoise(settled2[static_cast<std::size_t>(c)]);
+      const float off = settled_off[static_cast<std::size_t>(c)];
+      figures.settled_deviation_m.at(r, c) = BeyondNoise(off * off);
     }
   });
 }

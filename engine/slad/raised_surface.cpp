@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "engine/slad/slad_loops.h"
+
 namespace palace {
 namespace {
 
@@ -23,65 +25,44 @@ constexpr double kLeastSeenShare = 0.4;
 
 constexpr float kHigh = std::numeric_limits<float>::infinity();
 
-struct Lesser {
-  static constexpr float kNone = kHigh;
-  static float Of(float a, float b) { return a < b ? a : b; }
-};
-struct Larger {
-  static constexpr float kNone = -kHigh;
-  static float Of(float a, float b) { return a > b ? a : b; }
-};
-
-/// Extreme over the square of half width `half`; infinities do not count. Runs of 2, 4, 8 .. cells,
-/// then two overlapping runs that fill the window.
-template <typename Extreme>
-void SquareExtreme(int half, GridF& cells) {
+/// Largest over the square of half width `half`; negative infinities do not count. Along the rows,
+/// then down the columns: runs of 2, 4, 8 .. cells, then two overlapping runs that fill the window.
+void SquareMaximum(int half, GridF& cells) {
+  const SladLoops& loops = FastestSladLoops();
   const int rows = cells.rows(), cols = cells.cols(), width = 2 * half + 1;
-  int run = 1;
-  while (2 * run <= width) {
-    run *= 2;
-  }
-  std::vector<float> line(static_cast<std::size_t>(cols + 2 * half), Extreme::kNone);
+  std::vector<float> line(static_cast<std::size_t>(cols + 2 * half), -kHigh);
+  std::vector<float> work(line.size());
+  GridF tall(rows + 2 * half, cols, -kHigh);
   for (int r = 0; r < rows; ++r) {
-    float* row = cells.row(r);
-    std::fill(line.begin(), line.end(), Extreme::kNone);
-    std::copy(row, row + cols, line.begin() + half);
-    for (int done = 1; done < run; done *= 2) {
-      for (int k = 0; k < cols + 2 * half - 2 * done + 1; ++k) {
-        line[static_cast<std::size_t>(k)] = Extreme::Of(line[static_cast<std::size_t>(k)],
-                                                        line[static_cast<std::size_t>(k + done)]);
-      }
-    }
-    for (int c = 0; c < cols; ++c) {
-      row[c] = Extreme::Of(line[static_cast<std::size_t>(c)],
-                           line[static_cast<std::size_t>(c + width - run)]);
-    }
+    std::copy_n(cells.row(r), cols, line.data() + half);
+    loops.window_maximum(line.data() + half, half, cols, work.data(), tall.row(r + half));
   }
-  GridF tall(rows + 2 * half, cols, Extreme::kNone);
-  std::copy(cells.cells().begin(), cells.cells().end(), tall.row(half));
-  const auto merge = [&](const float* a, const float* b, float* out) {
-    for (int c = 0; c < cols; ++c) {
-      out[c] = Extreme::Of(a[c], b[c]);
-    }
+  const auto merge = [&](const float* from, float* into) {
+    loops.window_maximum(from, 0, cols, work.data(), into);
   };
-  for (int done = 1; done < run; done *= 2) {
-    for (int k = 0; k < rows + 2 * half - 2 * done + 1; ++k) {
-      merge(tall.row(k), tall.row(k + done), tall.row(k));
+  int run = 1;
+  for (; 2 * run <= width; run *= 2) {
+    for (int k = 0; k < rows + 2 * half - 2 * run + 1; ++k) {
+      merge(tall.row(k + run), tall.row(k));
     }
   }
   for (int r = 0; r < rows; ++r) {
-    merge(tall.row(r), tall.row(r + width - run), cells.row(r));
+    std::copy_n(tall.row(r), cols, cells.row(r));
+    merge(tall.row(r + width - run), cells.row(r));
   }
 }
 
 /// Opening: least, then largest of the least. Infinite heights are unknown and stay so.
 void Open(int half, GridF& surface) {
   const GridF before = surface;
-  SquareExtreme<Lesser>(half, surface);
   for (float& height : surface.cells()) {
-    height = height == kHigh ? -kHigh : height;
+    height = -height;
   }
-  SquareExtreme<Larger>(half, surface);
+  SquareMaximum(half, surface);
+  for (float& depth : surface.cells()) {
+    depth = depth == -kHigh ? -kHigh : -depth;
+  }
+  SquareMaximum(half, surface);
   for (std::size_t i = 0; i < before.cells().size(); ++i) {
     surface.cells()[i] = before.cells()[i] == kHigh ? kHigh : surface.cells()[i];
   }
@@ -126,6 +107,16 @@ Ladder LadderOf(const ElevationMap& map) {
   return ladder;
 }
 
+/// Between the highest and the lowest known cell: no opening can lower a cell by more.
+float Relief(const GridF& surface) {
+  float lowest = kHigh, highest = -kHigh;
+  for (const float height : surface.cells()) {
+    lowest = std::min(lowest, height);
+    highest = height == kHigh ? highest : std::max(highest, height);
+  }
+  return highest - lowest;
+}
+
 /// Height under each candidate of the ladder, infinite where there is none.
 GridF GroundUnderCandidates(Ladder& ladder) {
   GridF ground(ladder.surface.rows(), ladder.surface.cols(), kHigh);
@@ -140,6 +131,9 @@ GridF GroundUnderCandidates(Ladder& ladder) {
     last = half;
     const float rise_m =
         std::max(kLeastRise_m, static_cast<float>(kRisePerRadius * half * ladder.cell_m));
+    if (!(Relief(ladder.surface) > rise_m)) {
+      break;  // wider rungs ask for more
+    }
     const GridF before = ladder.surface;
     Open(half, ladder.surface);
     for (std::size_t i = 0; i < ground.cells().size(); ++i) {

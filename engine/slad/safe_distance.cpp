@@ -14,32 +14,30 @@ namespace {
 
 constexpr int kColumnsTogether = 256;
 
-/// Cells along the column to the nearest hazard, ring included, for columns first .. end-1.
-void ColumnPass(const Grid<std::uint8_t>& hazard, int first, int end, Grid<int>& gap) {
-  std::vector<int> run(static_cast<std::size_t>(end - first), 0);
-  const auto down_or_up = [&](int r, bool down) {
-    const std::uint8_t* is_hazard = hazard.row(r) + first;
-    int* out = gap.row(r) + first;
-    for (int c = 0; c < end - first; ++c) {
-      int& steps = run[static_cast<std::size_t>(c)];
-      steps = is_hazard[c] == 0 ? steps + 1 : 0;
-      out[c] = down ? steps : std::min(out[c], steps);
-    }
+constexpr float kFar = 1e9F;
+
+/// Cells along the column to the nearest hazard, ring included, for columns first .. end-1. Gaps
+/// are whole numbers far below 2^24, which floats hold exactly; they come in as kFar.
+void ColumnPass(const Grid<std::uint8_t>& hazard, int first, int end, GridF& gap) {
+  const SladLoops& loops = FastestSladLoops();
+  const std::vector<float> ring(static_cast<std::size_t>(end - first), 0.0F);
+  const auto step = [&](int r, const float* near) {
+    loops.column_gaps(hazard.row(r) + first, near, end - first, gap.row(r) + first);
   };
-  for (int r = 0; r < hazard.rows(); ++r) {
-    down_or_up(r, true);
+  const int last = hazard.rows() - 1;
+  for (int r = 0; r <= last; ++r) {
+    step(r, r == 0 ? ring.data() : gap.row(r - 1) + first);
   }
-  std::fill(run.begin(), run.end(), 0);
-  for (int r = hazard.rows() - 1; r >= 0; --r) {
-    down_or_up(r, false);
+  for (int r = last; r >= 0; --r) {
+    step(r, r == last ? ring.data() : gap.row(r + 1) + first);
   }
 }
 
 /// Half the width of what a distance runs to, cells.
 double Inset(DistanceTo to) { return to == DistanceTo::kSquare ? 0.5 : 0.0; }
 
-double SquaredGap(int gap, double inset) {
-  const double along = gap == 0 ? 0.0 : gap - inset;
+double SquaredGap(float gap, double inset) {
+  const double along = gap == 0 ? 0.0 : static_cast<double>(gap) - inset;
   return along * along;
 }
 
@@ -61,7 +59,7 @@ class Envelope {
   }
 
   /// Distances of one row, in metres.
-  void Transform(const int* gap, double cell_m, float* distance_m) {
+  void Transform(const float* gap, double cell_m, float* distance_m) {
     own_[0] = own_[Size(cols_ + 1)] = 0;
     for (int c = 0; c < cols_; ++c) {
       own_[Size(c + 1)] = SquaredGap(gap[c], inset_);
@@ -121,32 +119,29 @@ class RowPass {
         cell_m_(cell_m),
         inset_(Inset(to)),
         envelope_(cols, to),
+        gap_(static_cast<std::size_t>(cols)),
         square_(static_cast<std::size_t>(cols + 2 * kMargin), kFar) {
     square_[kMargin - 1] = square_[static_cast<std::size_t>(cols + kMargin)] = 0;  // the ring
   }
 
-  void Run(const int* gap, float* distance_m) {
+  /// Distances in metres in place of the row's gaps.
+  void Run(float* gap_then_distance_m) {
+    const float inset = static_cast<float>(inset_);
     float* square = square_.data() + kMargin;
-    int widest = 0;
-    for (int c = 0; c < cols_; ++c) {
-      widest = std::max(widest, gap[c]);
-      square[c] = static_cast<float>(SquaredGap(gap[c], inset_));
-    }
-    if (widest <= kNearestReach) {
-      loops_.nearest_in_row(square, static_cast<float>(inset_), cols_, cell_m_, distance_m);
-    } else {
-      envelope_.Transform(gap, cell_m_, distance_m);
+    std::copy_n(gap_then_distance_m, gap_.size(), gap_.data());
+    loops_.square_gaps(gap_.data(), inset, cols_, square);
+    if (!loops_.nearest_in_row(square, inset, cols_, cell_m_, gap_then_distance_m)) {
+      envelope_.Transform(gap_.data(), cell_m_, gap_then_distance_m);
     }
   }
 
  private:
   static constexpr int kMargin = kNearestReach + kLaneSlack;
-  static constexpr float kFar = 1e9F;
 
   int cols_;
   double cell_m_, inset_;
   Envelope envelope_;
-  std::vector<float> square_;
+  std::vector<float> gap_, square_;
   const SladLoops& loops_ = FastestSladLoops();
 };
 
@@ -154,21 +149,21 @@ class RowPass {
 
 GridF SafeDistance(const Grid<std::uint8_t>& hazard, double cell_m, DistanceTo to) {
   const int rows = hazard.rows(), cols = hazard.cols();
-  GridF distance_m(rows, cols, 0.0F);
+  GridF distance_m(rows, cols, kFar);  // of the gaps first
   if (hazard.empty()) {
     return distance_m;
   }
-  Grid<int> gap(rows, cols);
   const int stripes = (cols + kColumnsTogether - 1) / kColumnsTogether;
   cv::parallel_for_(cv::Range(0, stripes), [&](const cv::Range& range) {
     for (int s = range.start; s < range.end; ++s) {
-      ColumnPass(hazard, s * kColumnsTogether, std::min(cols, (s + 1) * kColumnsTogether), gap);
+      ColumnPass(hazard, s * kColumnsTogether, std::min(cols, (s + 1) * kColumnsTogether),
+                 distance_m);
     }
   });
   cv::parallel_for_(cv::Range(0, rows), [&](const cv::Range& range) {
     RowPass pass(cols, cell_m, to);
     for (int r = range.start; r < range.end; ++r) {
-      pass.Run(gap.row(r), distance_m.row(r));
+      pass.Run(distance_m.row(r));
     }
   });
   return distance_m;

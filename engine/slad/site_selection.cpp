@@ -65,82 +65,107 @@ class OffCentre {
   const RigidTransform X_CW_;
 };
 
-/// Scores of all cells that could be a site, and the best of each row: the best that is left is
-/// found without sorting, and taking one touches only the rows around it.
+/// Scores of all cells that could be a site, row by row, and the best of each row: the best that is
+/// left is found without sorting, and taking one touches only the rows around it.
 class Candidates {
  public:
   Candidates(const ElevationMap& map, const HazardMaps& hazards, const SladSettings& settings,
              const SiteContext& context)
-      : score_(map.geometry.rows, map.geometry.cols, kNone),
-        best_of_row_(static_cast<std::size_t>(map.geometry.rows), -1) {
+      : rows_(static_cast<std::size_t>(map.geometry.rows)) {
     const OffCentre off_centre(context);
     const float clear_m = static_cast<float>(settings.clear_radius_m());
     const double cell_m = map.geometry.cell_m;
     cv::parallel_for_(cv::Range(0, map.geometry.rows), [&](const cv::Range& rows) {
       for (int r = rows.start; r < rows.end; ++r) {
+        Row& row = rows_[static_cast<std::size_t>(r)];
+        const float* distances_m = hazards.safe_distance_m.row(r);
         for (int c = 0; c < map.geometry.cols; ++c) {
           const Cell cell{r, c};
-          if (hazards.safe_distance_m.at(cell) < clear_m ||
-              !FootprintHolds(hazards, settings, cell)) {
+          if (distances_m[c] < clear_m || !FootprintHolds(hazards, settings, cell)) {
             continue;
           }
-          const double distance_m = static_cast<double>(hazards.safe_distance_m.at(cell));
+          const double distance_m = static_cast<double>(distances_m[c]);
           const double cost = SmoothedCost(hazards.cost, cell);
           // Ties are broken within one cell's worth of distance, the first criterion's resolution.
           const double tie = -0.05 * off_centre.At(map, cell);
-          score_.at(cell) = settings.choice == SiteChoice::kFarthest
-                                ? distance_m + cell_m * (0.4 * (1 - cost) + tie)
-                                : -cost + 1e-3 * (distance_m + tie);
+          const double score = settings.choice == SiteChoice::kFarthest
+                                   ? distance_m + cell_m * (0.4 * (1 - cost) + tie)
+                                   : -cost + 1e-3 * (distance_m + tie);
+          if (score > kNone) {
+            row.left.push_back({c, score});
+          }
         }
-        FindBestOfRow(r);
+        FindBest(row);
       }
     });
   }
 
+  /// The best `most` cells that keep the spacing from each other and from those taken before, best
+  /// first; fewer when no more are left.
+  std::vector<Cell> Take(std::size_t most, double spacing_cells) {
+    std::vector<Cell> taken;
+    while (taken.size() < most) {
+      const std::optional<Cell> cell = Best();
+      if (!cell) {
+        break;
+      }
+      DropAround(*cell, spacing_cells);
+      taken.push_back(*cell);
+    }
+    return taken;
+  }
+
+ private:
+  static constexpr double kNone = -HUGE_VAL;
+
+  struct Candidate {
+    int col = -1;
+    double score = kNone;
+  };
+  struct Row {
+    std::vector<Candidate> left;  ///< from west to east
+    Candidate best;
+  };
+
   /// The best cell left, of equals the northernmost, then westernmost; nothing when none is left.
   std::optional<Cell> Best() const {
-    std::optional<Cell> best;
-    for (int r = 0; r < score_.rows(); ++r) {
-      const int c = best_of_row_[static_cast<std::size_t>(r)];
-      if (c >= 0 && (!best || score_.at(r, c) > score_.at(*best))) {
-        best = Cell{r, c};
+    std::optional<Cell> cell;
+    double score = kNone;
+    for (std::size_t r = 0; r < rows_.size(); ++r) {
+      const Candidate& best = rows_[r].best;
+      if (best.score > score) {
+        cell = Cell{static_cast<int>(r), best.col};
+        score = best.score;
       }
     }
-    return best;
+    return cell;
   }
 
   /// Drops the cell and all nearer to it than the spacing.
   void DropAround(Cell cell, double spacing_cells) {
     const int reach = static_cast<int>(std::min(spacing_cells, 1e6)) + 1;
     const double square = spacing_cells * spacing_cells;
-    for (int r = std::max(0, cell.row - reach); r <= std::min(score_.rows() - 1, cell.row + reach);
-         ++r) {
-      for (int c = std::max(0, cell.col - reach);
-           c <= std::min(score_.cols() - 1, cell.col + reach); ++c) {
-        const double dr = r - cell.row, dc = c - cell.col;
-        if (dr * dr + dc * dc < square || Cell{r, c} == cell) {
-          score_.at(r, c) = kNone;
-        }
-      }
-      FindBestOfRow(r);
+    const int last = std::min(static_cast<int>(rows_.size()) - 1, cell.row + reach);
+    for (int r = std::max(0, cell.row - reach); r <= last; ++r) {
+      Row& row = rows_[static_cast<std::size_t>(r)];
+      std::erase_if(row.left, [&](const Candidate& near) {
+        const double dr = r - cell.row, dc = near.col - cell.col;
+        return dr * dr + dc * dc < square || Cell{r, near.col} == cell;
+      });
+      FindBest(row);
     }
   }
 
- private:
-  static constexpr double kNone = -HUGE_VAL;
-
-  void FindBestOfRow(int r) {
-    int best = -1;
-    for (int c = 0; c < score_.cols(); ++c) {
-      if (score_.at(r, c) > (best < 0 ? kNone : score_.at(r, best))) {
-        best = c;
+  static void FindBest(Row& row) {
+    row.best = {};
+    for (const Candidate& candidate : row.left) {
+      if (candidate.score > row.best.score) {
+        row.best = candidate;
       }
     }
-    best_of_row_[static_cast<std::size_t>(r)] = best;
   }
 
-  Grid<double> score_;
-  std::vector<int> best_of_row_;
+  std::vector<Row> rows_;
 };
 
 std::string NoneReason(const HazardMaps& hazards) {
@@ -171,6 +196,19 @@ std::string NoneReason(const HazardMaps& hazards) {
   return text;
 }
 
+std::vector<LandingSite> EvaluateSites(const ElevationMap& map, const HazardMaps& hazards,
+                                       const SladSettings& settings, const SiteContext& context,
+                                       const std::vector<Cell>& cells) {
+  std::vector<LandingSite> sites(cells.size());
+  cv::parallel_for_(cv::Range(0, static_cast<int>(cells.size())), [&](const cv::Range& range) {
+    for (int i = range.start; i < range.end; ++i) {
+      const std::size_t k = static_cast<std::size_t>(i);
+      sites[k] = EvaluateSite(map, hazards, settings, context, cells[k]);
+    }
+  });
+  return sites;
+}
+
 }  // namespace
 
 SiteSelection SelectSites(const ElevationMap& map, const HazardMaps& hazards,
@@ -185,20 +223,24 @@ SiteSelection SelectSites(const ElevationMap& map, const HazardMaps& hazards,
   const double spacing_cells = settings.site_spacing_m / std::max(map.geometry.cell_m, 1e-9);
   const auto kept = static_cast<std::size_t>(settings.sites_kept);
   Candidates candidates(map, hazards, settings, context);
-  for (std::size_t tried = 0; selection.sites.size() < kept && tried < 3 * kept; ++tried) {
-    const std::optional<Cell> cell = candidates.Best();
-    if (!cell) {
+  // How a site turns out does not change which cells come next: as many as are still wanted are
+  // looked at side by side.
+  std::size_t tried = 0;
+  while (selection.sites.size() < kept && tried < 3 * kept) {
+    const std::vector<Cell> cells =
+        candidates.Take(std::min(kept - selection.sites.size(), 3 * kept - tried), spacing_cells);
+    if (cells.empty()) {
       break;
     }
-    candidates.DropAround(*cell, spacing_cells);
-    LandingSite site = EvaluateSite(map, hazards, settings, context, *cell);
-    if (!IsSound(site)) {
-      continue;
+    tried += cells.size();
+    for (LandingSite& site : EvaluateSites(map, hazards, settings, context, cells)) {
+      if (IsSound(site)) {
+        (site.corridor_clear          ? selection.sites
+         : site.clear_approaches != 0 ? blocked
+                                      : closed)
+            .push_back(std::move(site));
+      }
     }
-    (site.corridor_clear          ? selection.sites
-     : site.clear_approaches != 0 ? blocked
-                                  : closed)
-        .push_back(std::move(site));
   }
   for (std::vector<LandingSite>* later : {&blocked, &closed}) {
     for (LandingSite& site : *later) {

@@ -12,10 +12,10 @@ namespace palace {
 const SladLoops* SladLoopsBuiltForAvx2();  // slad_loops_avx2.cpp; null where it was not built
 
 const SladLoops& PortableSladLoops() {
-  static constexpr SladLoops loops{FitPlaneRow,     DiscDeviationRow, StepRow,
-                                   SettleRow,       WindowMaximumRow, AddMomentsRow,
-                                   SolveMomentsRow, NearestInRow,     PutGearDownRow,
-                                   SlopeRow,        ThesisVerdictRow, ModernVerdictRow};
+  static constexpr SladLoops loops{
+      FitPlaneRow,    DiscDeviationRow, StepRow,          SettleRow,       WindowMaximumRow,
+      AddMomentsRow,  SolveMomentsRow,  ColumnGapsRow,    SquareGapsRow,   NearestInRow,
+      PutGearDownRow, SlopeRow,         ThesisVerdictRow, ModernVerdictRow};
   return loops;
 }
 

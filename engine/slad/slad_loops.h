@@ -28,7 +28,8 @@ struct DiscRows {
   const int* row_offset;  ///< rows south of the middle
   const int* half;        ///< of the disc in that row, a multiple of the stride
   const float* const* height;
-  const float* const* noise2;  ///< taken from the square of the deviation
+  const float* const* noise2;   ///< taken from the square of the deviation
+  const float* const* settled;  ///< heights less their noise already, NaN where none count
 };
 
 /// Noise that makes the squared deviation of an unknown cell negative whatever its height.
@@ -156,10 +157,11 @@ struct SladLoops {
   /// count - 1 + stride + kLaneSlack, NaN where unknown.
   void (*fit_planes)(const float* const* rows, int stride, float spacing_m, int count,
                      const PlaneRow& out);
-  /// square = the largest of itself and (height - plane)^2 - noise2 over the disc. All rows are
-  /// readable, square writable, kLaneSlack beyond count.
+  /// square = the largest of itself and (height - plane)^2 - noise2 over the disc, settled_off that
+  /// of itself and |settled - plane|. All rows are readable, both results writable, kLaneSlack
+  /// beyond count.
   void (*disc_deviation)(const DiscRows& disc, const float* plane, const float* east,
-                         const float* south, int count, float* square);
+                         const float* south, int count, float* square, float* settled_off);
   /// Largest squared step to one of the eight neighbours beyond what the plane rises and both
   /// noises, and the same for the cell that stands farther off its plane and so makes the step;
   /// -kNever where there is none. Writable kLaneSlack beyond count.
@@ -178,10 +180,15 @@ struct SladLoops {
   /// that spans no plane leaves the row as it is.
   void (*solve_moments)(const double* columns, int pitch, int half, int x0, double y, int count,
                         double* work, const FittedRow& out);
+  /// gap = 0 on a hazard, else the least of itself and one more than that of the row beside it.
+  void (*column_gaps)(const unsigned char* hazard, const float* near, int count, float* gap);
+  /// Squares of the gaps less the inset.
+  void (*square_gaps)(const float* gap, float inset, int count, float* square);
   /// Square root of the least of square[c] and all square[c + d] + (|d| - inset)^2, squared cells
-  /// to metres, where no square in 0 .. count-1 is above kNearestReach^2 and inset is 0 or 1/2.
-  /// Readable kNearestReach + kLaneSlack further both ways.
-  void (*nearest_in_row)(const float* square, float inset, int count, double cell_m,
+  /// to metres, inset 0 or 1/2. False, with the rest of the row left as it is, where a cell has
+  /// nothing within kNearestReach. Readable kNearestReach + kLaneSlack further both ways, where
+  /// there is a square of 0 at either end of the row.
+  bool (*nearest_in_row)(const float* square, float inset, int count, double cell_m,
                          float* distance_m);
   /// Rests the gear around each cell of a row at every heading: the largest squared tangent of its
   /// tilt and the largest height of the ground under its belly above the plane it rests on. All

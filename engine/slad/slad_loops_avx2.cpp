@@ -15,10 +15,10 @@ const SladLoops* SladLoopsBuiltForAvx2();
 
 const SladLoops* SladLoopsBuiltForAvx2() {
 #if defined(__AVX2__)
-  static constexpr SladLoops loops{FitPlaneRow,     DiscDeviationRow, StepRow,
-                                   SettleRow,       WindowMaximumRow, AddMomentsRow,
-                                   SolveMomentsRow, NearestInRow,     PutGearDownRow,
-                                   SlopeRow,        ThesisVerdictRow, ModernVerdictRow};
+  static constexpr SladLoops loops{
+      FitPlaneRow,    DiscDeviationRow, StepRow,          SettleRow,       WindowMaximumRow,
+      AddMomentsRow,  SolveMomentsRow,  ColumnGapsRow,    SquareGapsRow,   NearestInRow,
+      PutGearDownRow, SlopeRow,         ThesisVerdictRow, ModernVerdictRow};
   return &loops;
 #else
   return nullptr;

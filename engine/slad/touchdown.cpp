@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 
 #include "engine/slad/hazard_layers.h"
 
@@ -82,8 +83,9 @@ SettledPlace SettleAround(const ElevationMap& map, const SladSettings& settings,
       const float off = settled[static_cast<std::size_t>(c)];
       place.height_m.at(r, c) = off + step * (static_cast<float>(c - reach) * east -
                                               static_cast<float>(r - reach) * north);
-      if (std::hypot(r - reach, c - reach) * cell_m <= radius_m) {
-        place.deviation_m = std::max(place.deviation_m, std::abs(off));
+      if (std::abs(off) > place.deviation_m &&
+          std::hypot(r - reach, c - reach) * cell_m <= radius_m) {
+        place.deviation_m = std::abs(off);
       }
     }
   }
@@ -173,24 +175,19 @@ void GearOverMap::LayOut(const SladSettings& settings, double cell_m) {
 void GearOverMap::CopyHeights(const GridF& height_m) {
   const int rows = rows_ + 2 * reach_, cols = cols_ + 2 * reach_ + kLaneSlack;
   height_ = GridF(rows, cols, 0.0F);
-  Grid<int> unknown_west(rows, cols, 0);  // cells of the row without a height, up to the column
+  GridF unknown(rows, cols, 1.0F);
   float reference = kUnknownValue;
-  for (int r = 0; r < rows; ++r) {
-    int unknown = 0;
-    const int from_row = r - reach_;
-    for (int c = 0; c < cols; ++c) {
-      const int from_col = c - reach_;
-      const bool inside = from_row >= 0 && from_row < rows_ && from_col >= 0 && from_col < cols_;
-      const float z = inside ? height_m.at(from_row, from_col) : kUnknownValue;
-      if (std::isnan(z)) {
-        ++unknown;
-      } else {
+  for (int r = 0; r < rows_; ++r) {
+    for (int c = 0; c < cols_; ++c) {
+      const float z = height_m.at(r, c);
+      if (!std::isnan(z)) {
         reference = std::isnan(reference) ? z : reference;
-        height_.at(r, c) = z - reference;
+        height_.at(r + reach_, c + reach_) = z - reference;
+        unknown.at(r + reach_, c + reach_) = 0;
       }
-      unknown_west.at(r, c) = unknown;
     }
   }
+  FindUnknown(unknown);
   if (stride_ > 1) {
     const GridF lone = height_;
     const int half = stride_ / 2, inner = cols_ + 2 * (reach_ - half);
@@ -202,32 +199,51 @@ void GearOverMap::CopyHeights(const GridF& height_m) {
       }
     }
   }
-  known_ = Grid<std::uint8_t>(rows_, cols_, 1);
-  for (int r = 0; r < rows_; ++r) {
-    for (int c = 0; c < cols_; ++c) {
-      int unknown = 0;
-      for (int dr = 1; dr <= 2 * reach_ - 1 && unknown == 0; ++dr) {
-        unknown += unknown_west.at(r + dr, c + 2 * reach_ - 1) - unknown_west.at(r + dr, c);
-      }
-      known_.at(r, c) = unknown == 0 ? 1 : 0;
-    }
+}
+
+void GearOverMap::FindUnknown(const GridF& unknown) {
+  near_unknown_ = GridF(unknown.rows(), cols_, 0.0F);
+  std::vector<float> work(static_cast<std::size_t>(unknown.cols()));
+  for (int r = 0; r < unknown.rows(); ++r) {
+    loops_.window_maximum(unknown.row(r) + reach_, reach_ - 1, cols_, work.data(),
+                          near_unknown_.row(r));
   }
 }
 
 void GearOverMap::WorstOfRow(int row, float* tilt_rad, float* rise_m) const {
   const std::size_t padded = static_cast<std::size_t>(cols_ + kLaneSlack);
-  std::vector<float> tan2(padded), rise(padded);
-  loops_.put_gear_down(shape_, HeightRow(row), cols_, tan2.data(), rise.data());
+  std::vector<float> tan2(padded), rise(padded), unknown(padded), work(padded);
+  for (int r = row + 1; r < row + 2 * reach_; ++r) {
+    loops_.window_maximum(near_unknown_.row(r), 0, cols_, work.data(), unknown.data());
+  }
+  const auto is_known = [](float u) { return u == 0; };
+  const auto end = unknown.begin() + cols_;
+  const auto first = std::find_if(unknown.begin(), end, is_known);
+  const auto last =
+      std::find_if(std::reverse_iterator(end), std::reverse_iterator(first), is_known);
+  const std::ptrdiff_t from = first - unknown.begin(), count = last.base() - first;
+  if (count > 0) {
+    loops_.put_gear_down(shape_, HeightRow(row) + from, static_cast<int>(count), tan2.data() + from,
+                         rise.data() + from);
+  }
   for (int c = 0; c < cols_; ++c) {
-    const bool known = known_.at(row, c) != 0;
     const std::size_t i = static_cast<std::size_t>(c);
+    const bool known = is_known(unknown[i]);
     tilt_rad[c] = known ? std::atan(std::sqrt(tan2[i])) : kUnknownValue;
     rise_m[c] = known ? rise[i] : kUnknownValue;
   }
 }
 
+bool GearOverMap::IsKnown(Cell cell) const {
+  bool known = true;
+  for (int r = cell.row + 1; r < cell.row + 2 * reach_; ++r) {
+    known = known && near_unknown_.at(r, cell.col) == 0;
+  }
+  return known;
+}
+
 GearRest GearOverMap::At(Cell cell, int heading) const {
-  if (known_.at(cell) == 0) {
+  if (!IsKnown(cell)) {
     return {};
   }
   GearShape one = shape_;

@@ -47,6 +47,10 @@ class GearOverMap {
  private:
   void LayOut(const SladSettings& settings, double cell_m);
   void CopyHeights(const GridF& height_m);
+  /// unknown: 1 or 0, as large as height_.
+  void FindUnknown(const GridF& unknown);
+  /// Whether all cells in reach of the gear are.
+  bool IsKnown(Cell middle) const;
   const float* HeightRow(int row) const { return height_.row(row + reach_) + reach_; }
 
   const SladLoops& loops_;
@@ -56,8 +60,8 @@ class GearOverMap {
   GearShape shape_{};
   std::vector<GearHeading> heading_;
   std::vector<std::vector<BellyRow>> belly_;
-  GridF height_;              ///< reach_ cells wider on every side, relative to a known height
-  Grid<std::uint8_t> known_;  ///< of the middles: 1 where all cells in reach are known
+  GridF height_;        ///< reach_ cells wider on every side, relative to a known height
+  GridF near_unknown_;  ///< 1 where a cell in reach along the row is not known; rows as of height_
 };
 
 /// Worst and best heading of a touchdown at the site. The worst probability is the map's own; the

@@ -97,9 +97,13 @@ inline void Compare(const GearShape& gear, const GearHeading& heading, const flo
     const BellyRow& row = heading.belly[k];
     const FloatLanes base = rest.middle_m + north * Fill(row.north_m) + east * Fill(row.east_m);
     const FloatLanes step = east * Fill(row.step_m);
+    const float* ground = height + row.offset;
+    FloatLanes cells = Fill(0.0F);
     for (int c = 0; c < row.cells; ++c) {
-      const FloatLanes plane = base + step * Fill(static_cast<float>(c));
-      worst.rise_m = Max(Load(height + row.offset + c * row.stride) - plane, worst.rise_m);
+      const FloatLanes plane = base + step * cells;
+      worst.rise_m = Max(Load(ground) - plane, worst.rise_m);
+      cells = cells + Fill(1.0F);
+      ground += row.stride;
     }
   }
 }

@@ -55,11 +55,19 @@ Floats Results(const SladLoops& loops, std::uint64_t seed) {
   loops.nearest_in_row(square.data() + kMargin, seed % 2 == 0 ? 0.5F : 0.0F, count, 0.15,
                        distance.data());
   keep(distance);
+  Floats gap = square;
+  loops.column_gaps(measured.data(), c.data(), count, gap.data());  // hazards everywhere
+  keep(gap);
+  loops.column_gaps(reasons.data(), d.data(), count, square.data());
+  loops.square_gaps(square.data(), 0.5F, count, gap.data());
+  keep(gap);
   const int offset[] = {-1, 0, 1}, half[] = {2, 3, 2};
   const float* heights[] = {a.data() + kMargin, b.data() + kMargin, c.data() + kMargin};
-  loops.disc_deviation({3, 1, offset, half, heights, heights}, b.data(), c.data(), d.data(), count,
-                       most.data());
+  Floats settled_off(size);
+  loops.disc_deviation({3, 1, offset, half, heights, heights, heights}, b.data(), c.data(),
+                       d.data(), count, most.data(), settled_off.data());
   keep(most);
+  keep(settled_off);
   Floats at_cell(size);
   const float* noises[] = {d.data() + kMargin, c.data() + kMargin, d.data() + kMargin};
   loops.steps({{heights[0], heights[1], heights[2]},
