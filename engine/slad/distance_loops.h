@@ -44,9 +44,11 @@ bool NearestInRow(const float* square, float inset, int count, double cell_m, fl
     float squares[kCount];
     Store(squares, best);
     for (int k = 0; k < kCount && c + k < count; ++k) {
-      distance_m[c + k] =
-          static_cast<float>(cell_m * __builtin_sqrt(static_cast<double>(squares[k])));
+      distance_m[c + k] = squares[k];
     }
+  }
+  for (int c = 0; c < count; ++c) {
+    distance_m[c] = static_cast<float>(cell_m * __builtin_sqrt(static_cast<double>(distance_m[c])));
   }
   return true;
 }

@@ -61,34 +61,12 @@ class FootprintFit {
     }
   }
 
-  /// Leaves heights above the reference and gradients per cell.
-  void Run() {
-    for (int pass = 0; pass < kPasses; ++pass) {
-      const int stripes = (rows_ + kStripeRows - 1) / kStripeRows;
-      cv::parallel_for_(cv::Range(0, stripes), [&](const cv::Range& range) {
-        for (int s = range.start; s < range.end; ++s) {
-          SolveStripe(s * kStripeRows, std::min(rows_, (s + 1) * kStripeRows));
-        }
-      });
-      if (pass + 1 < kPasses) {
-        RejectOutliers();
-      }
-    }
-  }
-  float reference_m() const { return reference_m_; }
+  int stripes() const { return (rows_ + kStripeRows - 1) / kStripeRows; }
 
- private:
-  bool Counts(int r, int c) const {
-    return map_.state.at(r, c) == CellState::kMeasured &&
-           (leave_out_ == nullptr || (leave_out_->at(r, c) & kFlagElevated) == 0);
-  }
-  float FullWeight(int r, int c) const {
-    constexpr float kFloor = static_cast<float>(kVarianceFloor_m2);
-    return kFloor / (variance_m2_.at(r, c) + kFloor);
-  }
-
-  /// Sums of columns slide down the stripe; along each row the window adds those sums up.
-  void SolveStripe(int first, int end) {
+  /// One pass over a stripe; leaves heights above the reference and gradients per cell. Sums of
+  /// columns slide down the stripe; along each row the window adds those sums up.
+  void Solve(int stripe) {
+    const int first = FirstRow(stripe);
     const int pitch = cols_ + 2 * half_;
     const auto moments = [&](int count) { return static_cast<std::size_t>(count * pitch); };
     std::vector<double> columns(moments(kMoments), 0.0), work(moments(kMoments + 1));
@@ -102,7 +80,7 @@ class FootprintFit {
     for (int r = first - half_; r < first + half_; ++r) {
       add(r, 1);
     }
-    for (int r = first; r < end; ++r) {
+    for (int r = first; r < EndRow(stripe); ++r) {
       add(r + half_, 1);
       if (r > first) {
         add(r - half_ - 1, -1);
@@ -113,25 +91,55 @@ class FootprintFit {
                             out_.gradient_sigma.row(r), out_.cell_variance_m2.row(r)});
     }
   }
-
-  void RejectOutliers() {
-    cv::parallel_for_(cv::Range(0, rows_), [&](const cv::Range& range) {
-      for (int r = range.start; r < range.end; ++r) {
-        for (int c = 0; c < cols_; ++c) {
-          const float plane_m = out_.plane.height_m.at(r, c), scatter_m = scatter_m_.at(r, c);
-          if (!Counts(r, c) || std::isnan(plane_m)) {
-            continue;
-          }
-          const float off_m = height_m_.at(r, c) - plane_m;
-          const float keep_m = 3 * std::sqrt(variance_m2_.at(r, c)) + kKeep_m;
-          // An obstacle lifts the plane of the ground beside it: ground then lies far below its own
-          // plane and must stay, the obstacle stands above it and must go.
-          const bool outlier =
-              off_m > keep_m + 0.5F * scatter_m || off_m < -keep_m - 1.5F * scatter_m;
-          weight_.at(r, c) = outlier ? 0.0F : FullWeight(r, c);
+  /// Between two passes.
+  void RejectOutliers(int stripe) {
+    for (int r = FirstRow(stripe); r < EndRow(stripe); ++r) {
+      for (int c = 0; c < cols_; ++c) {
+        const float plane_m = out_.plane.height_m.at(r, c), scatter_m = scatter_m_.at(r, c);
+        if (!Counts(r, c) || std::isnan(plane_m)) {
+          continue;
         }
+        const float off_m = height_m_.at(r, c) - plane_m;
+        const float keep_m = 3 * std::sqrt(variance_m2_.at(r, c)) + kKeep_m;
+        // An obstacle lifts the plane of the ground beside it: ground then lies far below its own
+        // plane and must stay, the obstacle stands above it and must go.
+        const bool outlier =
+            off_m > keep_m + 0.5F * scatter_m || off_m < -keep_m - 1.5F * scatter_m;
+        weight_.at(r, c) = outlier ? 0.0F : FullWeight(r, c);
       }
-    });
+    }
+  }
+  /// After the last pass: heights and gradients in metres.
+  void Finish(int stripe) {
+    const double cell = map_.geometry.cell_m;
+    const float cell_m = static_cast<float>(cell);
+    // The loops take kCorrelatedCells for granted.
+    const double correlated =
+        std::clamp(std::pow(kCorrelationLength_m / cell, 2), 1.0, kCorrelatedCells);
+    const float sigma_scale = static_cast<float>(std::sqrt(correlated / kCorrelatedCells)) / cell_m;
+    for (int r = FirstRow(stripe); r < EndRow(stripe); ++r) {
+      for (int c = 0; c < cols_; ++c) {
+        float& height_m = out_.plane.height_m.at(r, c);
+        float& south_then_north = out_.plane.north_gradient.at(r, c);
+        out_.plane.residual_m.at(r, c) = (map_.height_m.at(r, c) - reference_m_) - height_m;
+        height_m += reference_m_;
+        out_.plane.east_gradient.at(r, c) /= cell_m;
+        south_then_north /= -cell_m;
+        out_.gradient_sigma.at(r, c) *= sigma_scale;
+      }
+    }
+  }
+
+ private:
+  static int FirstRow(int stripe) { return stripe * kStripeRows; }
+  int EndRow(int stripe) const { return std::min(rows_, FirstRow(stripe + 1)); }
+  bool Counts(int r, int c) const {
+    return map_.state.at(r, c) == CellState::kMeasured &&
+           (leave_out_ == nullptr || (leave_out_->at(r, c) & kFlagElevated) == 0);
+  }
+  float FullWeight(int r, int c) const {
+    constexpr float kFloor = static_cast<float>(kVarianceFloor_m2);
+    return kFloor / (variance_m2_.at(r, c) + kFloor);
   }
 
   const ElevationMap& map_;
@@ -144,30 +152,29 @@ class FootprintFit {
   const SladLoops& loops_ = FastestSladLoops();
 };
 
-FootprintPlanes Fit(const ElevationMap& map, double diameter_m,
-                    const Grid<std::uint8_t>* leave_out) {
-  const int rows = map.geometry.rows, cols = map.geometry.cols;
-  const GridF unknown(rows, cols, kUnknownValue);
-  FootprintPlanes planes{{unknown, unknown, unknown, unknown}, unknown, unknown};
-  FootprintFit fit(map, diameter_m, leave_out, planes);
-  fit.Run();
-  const float cell_m = static_cast<float>(map.geometry.cell_m);
-  // The loops take kCorrelatedCells for granted.
-  const double correlated =
-      std::clamp(std::pow(kCorrelationLength_m / map.geometry.cell_m, 2), 1.0, kCorrelatedCells);
-  const float sigma_scale = static_cast<float>(std::sqrt(correlated / kCorrelatedCells)) / cell_m;
-  for (int r = 0; r < rows; ++r) {
-    for (int c = 0; c < cols; ++c) {
-      float& height_m = planes.plane.height_m.at(r, c);
-      float& south_then_north = planes.plane.north_gradient.at(r, c);
-      planes.plane.residual_m.at(r, c) = (map.height_m.at(r, c) - fit.reference_m()) - height_m;
-      height_m += fit.reference_m();
-      planes.plane.east_gradient.at(r, c) /= cell_m;
-      south_then_north /= -cell_m;
-      planes.gradient_sigma.at(r, c) *= sigma_scale;
-    }
+/// Passes of several fits over one map, their stripes side by side: a map of few stripes keeps all
+/// threads busy that way.
+void Run(std::vector<FootprintFit>& fits) {
+  const int stripes = fits.front().stripes();
+  const auto in_all = [&](void (FootprintFit::*step)(int)) {
+    const int jobs = stripes * static_cast<int>(fits.size());
+    cv::parallel_for_(cv::Range(0, jobs), [&](const cv::Range& range) {
+      for (int job = range.start; job < range.end; ++job) {
+        (fits[static_cast<std::size_t>(job / stripes)].*step)(job % stripes);
+      }
+    });
+  };
+  in_all(&FootprintFit::Solve);
+  for (int pass = 1; pass < kPasses; ++pass) {
+    in_all(&FootprintFit::RejectOutliers);
+    in_all(&FootprintFit::Solve);
   }
-  return planes;
+  in_all(&FootprintFit::Finish);
+}
+
+FootprintPlanes UnknownPlanes(const GridGeometry& geometry) {
+  const GridF unknown(geometry.rows, geometry.cols, kUnknownValue);
+  return {{unknown, unknown, unknown, unknown}, unknown, unknown};
 }
 
 /// Beside a raised surface the ground keeps its own plane, wherever it spans one.
@@ -193,11 +200,19 @@ FootprintPlanes FitFootprintPlanes(const ElevationMap& map, double footprint_dia
   if (map.height_m.empty()) {
     return {};
   }
-  FootprintPlanes planes = Fit(map, footprint_diameter_m, nullptr);
   const bool any_raised = std::any_of(flags.cells().begin(), flags.cells().end(),
                                       [](std::uint8_t f) { return (f & kFlagElevated) != 0; });
+  FootprintPlanes planes = UnknownPlanes(map.geometry), ground;
+  std::vector<FootprintFit> fits;
+  fits.reserve(2);
+  fits.emplace_back(map, footprint_diameter_m, nullptr, planes);
   if (any_raised) {
-    TakeGround(Fit(map, footprint_diameter_m, &flags), flags, planes);
+    ground = UnknownPlanes(map.geometry);
+    fits.emplace_back(map, footprint_diameter_m, &flags, ground);
+  }
+  Run(fits);
+  if (any_raised) {
+    TakeGround(ground, flags, planes);
   }
   return planes;
 }

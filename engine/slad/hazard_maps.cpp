@@ -251,12 +251,12 @@ bool FootprintHolds(const HazardMaps& hazards, const SladSettings& settings, Cel
   if (settings.mode == SladMode::kThesis) {
     return true;
   }
-  const double enough =
-      RequiredSafeProbability(settings, static_cast<double>(hazards.roughness_sigma_m.at(cell)));
   return hazards.slope_rad.at(cell) <= static_cast<float>(Rad(settings.max_slope_deg)) &&
          hazards.roughness_m.at(cell) <= static_cast<float>(settings.max_deviation_m) &&
          hazards.step_m.at(cell) <= static_cast<float>(settings.max_step_m) &&
-         static_cast<double>(hazards.safe_probability.at(cell)) >= enough;
+         static_cast<double>(hazards.safe_probability.at(cell)) >=
+             RequiredSafeProbability(settings,
+                                     static_cast<double>(hazards.roughness_sigma_m.at(cell)));
 }
 
 HazardMaps JudgeTerrain(const GridGeometry& geometry, const TerrainFigures& figures,

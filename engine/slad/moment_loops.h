@@ -51,22 +51,26 @@ void AddMomentsRow(const float* weight, const float* height, const float* varian
 inline void WindowSums(const double* columns, int half, int count, double* __restrict__ work,
                        double* __restrict__ sums) {
   const int length = count + 2 * half, width = 2 * half + 1;
-  for (int k = 0; k < length; ++k) {
-    work[k] = columns[k - half];
-  }
+  const double* single = columns - half;
+  // The width is odd.
   for (int c = 0; c < count; ++c) {
-    sums[c] = 0;
+    sums[c] = single[c];
   }
-  int offset = 0;
-  for (int run = 1; run <= width; run *= 2) {
+  for (int k = 0; k + 2 <= length; ++k) {
+    work[k] = single[k] + single[k + 1];
+  }
+  int offset = 1;
+  for (int run = 2; run <= width; run *= 2) {
     if ((width & run) != 0) {
       for (int c = 0; c < count; ++c) {
         sums[c] += work[c + offset];
       }
       offset += run;
     }
-    for (int k = 0; k + 2 * run <= length; ++k) {
-      work[k] += work[k + run];
+    if (2 * run <= width) {
+      for (int k = 0; k + 2 * run <= length; ++k) {
+        work[k] += work[k + run];
+      }
     }
   }
 }

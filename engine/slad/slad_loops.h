@@ -185,8 +185,8 @@ struct SladLoops {
   /// Squares of the gaps less the inset.
   void (*square_gaps)(const float* gap, float inset, int count, float* square);
   /// Square root of the least of square[c] and all square[c + d] + (|d| - inset)^2, squared cells
-  /// to metres, inset 0 or 1/2. False, with the rest of the row left as it is, where a cell has
-  /// nothing within kNearestReach. Readable kNearestReach + kLaneSlack further both ways, where
+  /// to metres, inset 0 or 1/2. False, and no distances, where a cell has nothing within
+  /// kNearestReach. Readable kNearestReach + kLaneSlack further both ways, where
   /// there is a square of 0 at either end of the row.
   bool (*nearest_in_row)(const float* square, float inset, int count, double cell_m,
                          float* distance_m);
