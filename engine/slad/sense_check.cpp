@@ -48,9 +48,9 @@ std::string ObjectionTo(const ElevationMap& map, const SladSettings& settings) {
     return "the map's layers differ in size";
   }
   if (!map.height_m.empty() &&
-      !(g.cell_m >= kSmallestCell_m && g.cell_m <= 2 * settings.lander_base_size_m)) {
+      !(g.cell_m >= kSmallestCell_m && g.cell_m <= settings.lander_base_size_m)) {
     return "cells of " + Number(g.cell_m) + " m, limits " + Number(kSmallestCell_m) +
-           " m to two landers, " + Number(2 * settings.lander_base_size_m) + " m";
+           " m to one lander, " + Number(settings.lander_base_size_m) + " m";
   }
   return {};
 }

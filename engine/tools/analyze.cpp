@@ -13,6 +13,7 @@
 
 #include "engine/core/time.h"
 #include "engine/core/units.h"
+#include "engine/model/site_standing.h"
 #include "engine/runtime/settings_io.h"
 #include "engine/slad/explanation.h"
 #include "engine/slad/slad.h"
@@ -128,6 +129,7 @@ Json SiteJson(const LandingSite& site, const SladSettings& slad) {
           {"cost", Number(site.cost)},
           {"safe_probability", Number(site.safe_probability)},
           {"confirmed", site.confirmed},
+          {"provisional_because", WhyProvisional(site, slad)},
           {"letter", std::string(1, site.letter)},
           {"step_m", Number(site.step_m.value)},
           {"safe_distance_m", site.safe_distance_m},
@@ -336,8 +338,10 @@ Status Analyze(const Options& options) {
     std::cout << "no landing site: " << o.selection.none_reason << '\n';
   } else {
     const LandingSite& site = o.selection.sites.front();
-    std::printf("landing site at row %d, column %d, %.2f m north, %.2f m east, clear by %.2f m\n",
-                site.cell.row, site.cell.col, site.p_WS.x(), site.p_WS.y(), site.clearance_m);
+    const std::string doubt = WhyProvisional(site, o.settings.slad);
+    std::printf("landing site at row %d, column %d, %.2f m north, %.2f m east, clear by %.2f m%s\n",
+                site.cell.row, site.cell.col, site.p_WS.x(), site.p_WS.y(), site.clearance_m,
+                doubt.empty() ? "" : (", provisional: " + doubt).c_str());
   }
   return Ok();
 }

@@ -6,6 +6,7 @@
 
 #include "engine/core/units.h"
 #include "engine/model/cell_explanation.h"
+#include "engine/model/site_standing.h"
 #include "engine/report/html_page.h"
 #include "engine/tools/map_pictures.h"
 
@@ -41,7 +42,7 @@ std::vector<std::vector<std::string>> SiteRows(const SiteSelection& selection,
          modern ? Text("%.4f, limit %.4f", site.safe_probability, slad.min_safe_probability)
                 : "not in thesis mode",
          site.flags == 0 ? "none" : FlagWords(site.flags),
-         site.confirmed ? "confirmed" : "provisional", site.reason});
+         site.confirmed ? "confirmed" : "provisional: " + WhyProvisional(site, slad), site.reason});
   }
   return rows;
 }
@@ -82,10 +83,12 @@ std::string AnalyzeReport(const AnalyzeInput& input, const Settings& settings,
       page.Picture(data, caption);
     }
   };
-  picture(
-      "overlay",
-      "Left picture. Rings: clear radius of each site; cross: the best. Inside the blue rim the "
-      "ground is safe, hatched parts are not or are unknown.");
+  picture("overlay",
+          "Left picture. Rings: clear radius of each site; cross: the best. Inside the blue rim no "
+          "cell "
+          "is over a limit by itself, but the lander needs its whole ring there; hatched parts are "
+          "over "
+          "a limit or unknown.");
   if (!selection.sites.empty()) {
     page.Heading("Sites, best first")
         .Table({"Site", "Place, m", "Room", "Slope", "Roughness", "Step", "Safe probability",

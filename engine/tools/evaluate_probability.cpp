@@ -227,9 +227,13 @@ ExperimentReport Report(const TrialTable& table) {
   const Bin& best = bins.back();
   const Interval false_safe = WilsonInterval(best.count - best.safe, best.count);
   const double worst = WorstBin(bins);
-  report.passed = worst <= kWithin;
-  report.lines.push_back(Text("Largest distance in bins of at least %d: %.1f points (limit %.0f)",
-                              kEnough, 100 * worst, 100 * kWithin));
+  const bool judged =
+      std::any_of(bins.begin(), bins.end(), [](const Bin& bin) { return bin.count >= kEnough; });
+  report.passed = judged && worst <= kWithin;
+  report.lines.push_back(
+      judged ? Text("Largest distance in bins of at least %d: %.1f points (limit %.0f)", kEnough,
+                    100 * worst, 100 * kWithin)
+             : Text("Not judged: no bin holds %d touchdowns, more trials are needed", kEnough));
   report.lines.push_back(Text("Brier score %.4f of %zu touchdowns", all.Brier(), all.safe.size()));
   report.lines.push_back(Text(
       "Called safe with at least %.2f: %d, unsafe of them %d (95 %% %.2f to %.2f %%)", kCalledSafe,

@@ -146,8 +146,10 @@ double PixelsPerCell(const GridGeometry& g) {
 
 cv::Mat Enlarged(const cv::Mat& cells, double scale) {
   cv::Mat large;
-  cv::resize(cells, large, cv::Size(), scale, scale,
-             scale >= 1 ? cv::INTER_NEAREST : cv::INTER_AREA);
+  // A map a thousand times longer than wide keeps a pixel of width.
+  const cv::Size size(std::max(1, cvRound(cells.cols * scale)),
+                      std::max(1, cvRound(cells.rows * scale)));
+  cv::resize(cells, large, size, 0, 0, scale >= 1 ? cv::INTER_NEAREST : cv::INTER_AREA);
   return large;
 }
 
@@ -333,7 +335,7 @@ std::string PictureAsDataUri(const std::filesystem::path& path) {
   }
   const double scale = double(kMostSide_px) / std::max(picture.rows, picture.cols);
   if (scale < 1) {
-    cv::resize(picture, picture, cv::Size(), scale, scale, cv::INTER_AREA);
+    picture = Enlarged(picture, scale);
   }
   std::vector<unsigned char> jpeg;
   cv::imencode(".jpg", picture, jpeg, {cv::IMWRITE_JPEG_QUALITY, 85});

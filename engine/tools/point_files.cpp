@@ -138,7 +138,11 @@ Result<PlyHeader> ReadPlyHeader(const std::filesystem::path& path, std::ifstream
       words >> element;
       seen_other = seen_other || (element != "vertex" && header.count == 0);
       if (element == "vertex") {
-        words >> header.count;
+        long long count = -1;
+        if (!(words >> count) || count < 0) {
+          return AtLine(path, n, "element vertex needs a count, 0 or more");
+        }
+        header.count = static_cast<std::size_t>(count);
         if (seen_other) {
           return AtLine(path, n, "the vertices must come first; save the cloud without other data");
         }

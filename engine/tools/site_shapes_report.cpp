@@ -213,6 +213,11 @@ ExperimentReport ReportSiteShapes(const TrialTable& table) {
   report.page.Paragraph(causes);
   for (const char* name : kWanted) {
     const Share found(At(Of(table, name, kFused), Chosen()));
+    if (At(Of(table, name, kFused), Chosen()).rows.empty()) {
+      findings.Judge(false,
+                     std::string(name) + ": none among these fields, more trials are needed");
+      continue;
+    }
     findings.Judge(found.value() >= kLeastFound,
                    std::string(name) + ": " + found.count() + " found (" + found.percent() +
                        " %, 95 % interval " + found.wilson() + "), at least 99 %");

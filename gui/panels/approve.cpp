@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "engine/core/units.h"
+#include "engine/model/site_standing.h"
 #include "gui/panels/fly_panels.h"
 #include "gui/widgets/button.h"
 #include "gui/widgets/icons.h"
@@ -52,7 +53,7 @@ char NextLetter(const EngineSnapshot& snap) {
     return 0;
   }
   for (const LandingSite& site : snap.applied->selection.sites) {
-    if (site.id != snap.mission.armed->id) {
+    if (site.id != snap.mission.armed->id && !snap.mission.IsRefused(site.id)) {
       return site.letter;
     }
   }
@@ -67,6 +68,10 @@ std::string Consequence(const EngineSnapshot& snap, bool narrow) {
   if (std::isfinite(m.time_to_touchdown_s)) {
     text += (narrow ? ", touchdown in about " : ". Touchdown in about ") +
             Fixed(m.time_to_touchdown_s, 0) + " s";
+  }
+  const std::string doubt = m.armed ? WhyProvisional(*m.armed, snap.settings.slad) : std::string();
+  if (!narrow && !doubt.empty()) {
+    return text + ". Provisional: " + doubt + ".";
   }
   if (!narrow && snap.pose && m.armed) {
     const Eigen::Vector3d way = m.armed->p_WS - snap.pose->X_WB.p;

@@ -8,6 +8,7 @@
 #include "engine/model/grid.h"
 #include "engine/model/scene.h"
 #include "engine/model/settings.h"
+#include "engine/model/site_standing.h"
 
 namespace palace {
 namespace {
@@ -85,6 +86,25 @@ TEST(Scene, ObstacleDistanceAgainstSampledEdges) {
     }
     EXPECT_NEAR(scene.ObstacleDistance(n, e), nearest, 0.02);
   }
+}
+
+TEST(SiteStanding, AProvisionalSiteSaysWhy) {
+  Settings settings;
+  LandingSite site;
+  site.safe_probability = 0.95;
+  site.height_m.three_sigma = 0.03;
+  site.confirmed = true;
+  EXPECT_EQ(WhyProvisional(site, settings.slad), "");
+  site.confirmed = false;
+  EXPECT_EQ(WhyProvisional(site, settings.slad), "rocks of 0.40 m may not be seen from here");
+  site.height_m.three_sigma = 0.12;
+  EXPECT_EQ(WhyProvisional(site, settings.slad),
+            "height noise 12.0 cm (3 sigma), sure below 10.0 cm");
+  site.safe_probability = 0.8;
+  EXPECT_EQ(WhyProvisional(site, settings.slad), "safe probability 0.800, sure from 0.900 on");
+  settings.slad.mode = SladMode::kThesis;  // knows no probability
+  EXPECT_EQ(WhyProvisional(site, settings.slad),
+            "height noise 12.0 cm (3 sigma), sure below 10.0 cm");
 }
 
 }  // namespace

@@ -171,7 +171,7 @@ std::vector<Row> Clouds() {
        "ply\nformat binary_little_endian 1.0\nelement vertex -1\nproperty float x\n"
        "property float y\nproperty float z\nend_header\n",
        End::kRefused,
-       {"cut off"}},
+       {"cloud.xyz:3: ", "count"}},
       {"ply_without_z",
        true,
        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nend_header\n"
@@ -207,6 +207,18 @@ std::vector<Row> Models() {
       {"one_row", false, Dem([](TiffFile& t) {
          t.rows = 1;
          t.cells = BytesOf(std::vector<float>(40, 5));
+       }),
+       End::kNoSite},
+      {"one_long_row", false, Dem([](TiffFile& t) {
+         t.rows = 1;
+         t.cols = 3000;
+         t.cells = BytesOf(std::vector<float>(3000, 5));
+       }),
+       End::kNoSite},
+      {"one_long_column", false, Dem([](TiffFile& t) {
+         t.rows = 3000;
+         t.cols = 1;
+         t.cells = BytesOf(std::vector<float>(3000, 5));
        }),
        End::kNoSite},
       {"matrix_north_up", false, Dem([](TiffFile& t) {

@@ -141,16 +141,16 @@ std::vector<BadMap> BadMaps() {
        },
        "site", "site"},
       {"kilometre_cells", [] { return FlatMap(30, 30, 1000); },
-       "cells of 1e+03 m, limits 0.001 m to two landers, 7.2 m",
-       "cells of 1e+03 m, limits 0.001 m to two landers, 7.2 m"},
+       "cells of 1e+03 m, limits 0.001 m to one lander, 3.6 m",
+       "cells of 1e+03 m, limits 0.001 m to one lander, 3.6 m"},
       {"widest_cells", [] { return FlatMap(30, 30, 1e9); },
-       "cells of 1e+09 m, limits 0.001 m to two landers, 7.2 m",
-       "cells of 1e+09 m, limits 0.001 m to two landers, 7.2 m"},
+       "cells of 1e+09 m, limits 0.001 m to one lander, 3.6 m",
+       "cells of 1e+09 m, limits 0.001 m to one lander, 3.6 m"},
       {"millimetre_cells", [] { return FlatMap(60, 60, 1e-3); }, "100 % footprint",
        "100 % footprint"},
       {"nanometre_cells", [] { return FlatMap(60, 60, 1e-9); },
-       "cells of 1e-09 m, limits 0.001 m to two landers, 7.2 m",
-       "cells of 1e-09 m, limits 0.001 m to two landers, 7.2 m"},
+       "cells of 1e-09 m, limits 0.001 m to one lander, 3.6 m",
+       "cells of 1e-09 m, limits 0.001 m to one lander, 3.6 m"},
   };
 }
 

@@ -160,7 +160,9 @@ void CompareChoice(const ElevationMap& map, const SladSettings& settings, const 
   double best = -HUGE_VAL;
   for (int k = 0; k < map.geometry.rows * map.geometry.cols; ++k) {
     const Cell cell{k / map.geometry.cols, k % map.geometry.cols};
-    if (hazards.reasons.at(cell) == kHazardNone &&
+    // A cell wider than the lander shows nothing of what is under it.
+    if (map.geometry.cell_m <= settings.lander_base_size_m &&
+        hazards.reasons.at(cell) == kHazardNone &&
         hazards.safe_distance_m.at(cell) >= float(settings.clear_radius_m())) {
       best = std::max(best, ReferenceScore(map, settings, hazards, cell));
     }

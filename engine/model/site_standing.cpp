@@ -1,0 +1,32 @@
+#include "engine/model/site_standing.h"
+
+#include <cstdio>
+
+namespace palace {
+namespace {
+
+std::string Text(const char* format, double a, double b) {
+  char text[120];
+  std::snprintf(text, sizeof text, format, a, b);
+  return text;
+}
+
+}  // namespace
+
+std::string WhyProvisional(const LandingSite& site, const SladSettings& settings) {
+  if (site.confirmed) {
+    return {};
+  }
+  if (settings.mode == SladMode::kModern &&
+      !(site.safe_probability >= settings.min_safe_probability)) {
+    return Text("safe probability %.3f, sure from %.3f on", site.safe_probability,
+                settings.min_safe_probability);
+  }
+  if (!(site.height_m.three_sigma < settings.max_deviation_m)) {
+    return Text("height noise %.1f cm (3 sigma), sure below %.1f cm",
+                100 * site.height_m.three_sigma, 100 * settings.max_deviation_m);
+  }
+  return Text("rocks of %.2f m may not be seen from here", settings.max_rock_size_m, 0);
+}
+
+}  // namespace palace
