@@ -128,7 +128,6 @@ void Mission::Abort(std::string why, Timestamp now) {
   }
   abort_seen_ = wave_off_acknowledged_ = false;
   winner_ = {};
-  refused_sites_.clear();
   Enter(MissionState::kAborting, std::move(why), now);
 }
 
@@ -184,7 +183,7 @@ void Mission::Update(const MissionInputs& inputs) {
 void Mission::RestartReplay(Timestamp now) {
   ForgetSite();
   repeating_.reset();
-  refused_sites_.clear();
+  status_.refused_sites.clear();  // letters start anew
   refusal_.clear();
   alarms_ = {};
   counter_ = request_counter_ = dead_approval_id_ = hold_id_ = abort_id_ = 0;
@@ -221,9 +220,6 @@ void Mission::RememberFacts(const MissionInputs& in) {
   facts_.now = in.now;
   facts_.source_kind = in.source_kind;
   facts_.simulated_vehicle = in.simulated_vehicle;
-  if (in.settings_hash != facts_.settings_hash) {
-    refused_sites_.clear();  // refused under other limits
-  }
   facts_.settings_hash = in.settings_hash;
   facts_.calibration_hash = in.calibration_hash;
   facts_.limits = in.settings.mission;
@@ -267,21 +263,18 @@ void Mission::FollowWinner(const MissionInputs& in) {
   if (!in.new_map || in.applied == nullptr) {
     return;
   }
-  const auto& sites = in.applied->selection.sites;
-  const auto best = std::find_if(sites.begin(), sites.end(), [&](const LandingSite& site) {
-    return refused_sites_.count(site.id) == 0;
-  });
-  if (best == sites.end()) {
+  const LandingSite* best = status_.BestStanding(facts_.sites);
+  if (best == nullptr) {
     winner_ = {};
     return;
   }
-  const bool listed = FindSite(winner_.id) != nullptr && refused_sites_.count(winner_.id) == 0;
+  const bool refused = status_.IsRefused(winner_.id);
+  const bool listed = FindSite(winner_.id) != nullptr && !refused;
   const bool proposed = status_.state >= MissionState::kProposed;
   if (best->id == winner_.id || (proposed && listed)) {
     ++winner_.maps;
     winner_.missing = 0;
-  } else if (proposed && winner_.id != 0 && refused_sites_.count(winner_.id) == 0 &&
-             winner_.missing < kProposalMissing) {
+  } else if (proposed && winner_.id != 0 && !refused && winner_.missing < kProposalMissing) {
     ++winner_.missing;
   } else {
     winner_ = {best->id, 1, 0, in.now};

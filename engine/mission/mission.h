@@ -1,6 +1,7 @@
 // Mission: the safety state machine. It decides what may be approved, and when a descent must stop.
 //
 //   NO_LIVE -> SEARCH <-> PROPOSED <-> ARMED -> APPROVED -> DESCENDING -> LANDED
+//   ARMED, PROPOSED -> SEARCH            when the operator refuses the site, until another has won
 //   ARMED, APPROVED -> PROPOSED          when the site, a hash, the boot or the clock changes
 //   DESCENDING -> HOLD -> PROPOSED       when the site is lost, vision is lost, or by the operator
 //   any -> ABORTING -> SEARCH            by wave-off; the vehicle confirms and a person
@@ -14,7 +15,6 @@
 #include <cstdint>
 #include <deque>
 #include <optional>
-#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -159,6 +159,7 @@ class Mission {
   bool SiteLost(Timestamp now) const;
   std::string AlternativeWords() const;
   bool WinnerStands(Timestamp now) const;
+  std::string WhyNoProposal(Timestamp now) const;
   bool Executing() const;
   double HeightAboveSite() const;
   std::string SiteName() const;
@@ -194,7 +195,6 @@ class Mission {
   Winner winner_;
   InputWatch watch_;
   AlarmBoard alarms_;
-  std::set<std::uint64_t> refused_sites_;
   std::deque<std::pair<std::uint64_t, Timestamp>> shown_;  ///< recent snapshots
   std::uint64_t counter_ = 0;                              ///< of approvals
   std::uint64_t request_counter_ = 0;                      ///< of hold and abort requests

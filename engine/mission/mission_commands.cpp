@@ -114,9 +114,9 @@ const LandingSite* Mission::FindSite(std::uint64_t site_id) const {
 
 Status Mission::Select(std::uint64_t site_id, Timestamp now) {
   const LandingSite* site = FindSite(site_id);
-  // A refused site ends its proposal; changing one's mind must not need another map to propose it.
-  const bool reconsidered =
-      status_.state == MissionState::kSearch && refused_sites_.count(site_id) != 0;
+  // A refused site is never proposed again: a second look must not wait for that. It stays refused
+  // until it is approved.
+  const bool reconsidered = status_.state == MissionState::kSearch && status_.IsRefused(site_id);
   if (status_.state != MissionState::kProposed && status_.state != MissionState::kArmed &&
       !reconsidered) {
     return Refuse(
@@ -134,7 +134,6 @@ Status Mission::Select(std::uint64_t site_id, Timestamp now) {
   }
   const LandingSite chosen = *site;
   ForgetSite();
-  refused_sites_.erase(site_id);
   refusal_.clear();
   status_.armed = chosen;
   status_.armed_at = now;
@@ -177,13 +176,25 @@ Status Mission::RefuseProposal(std::uint64_t site_id, Timestamp now) {
   }
   const std::string name =
       "Site " + std::string(1, armed ? status_.armed->letter : site->letter) + " refused";
-  refused_sites_.insert(site_id);
+  if (!status_.IsRefused(site_id)) {
+    status_.refused_sites.push_back(site_id);
+  }
   AddEvent(now, EventKind::kDecision, name + " by the operator");
   if (winner_.id == site_id) {
     winner_ = {};
   }
+  const LandingSite* next = status_.BestStanding(facts_.sites);
+  const std::string why =
+      name + (next != nullptr ? ", next is " + std::string(1, next->letter) : ", no other site");
   if (armed) {
-    Drop(name, now);
+    Kill(why);
+    ForgetSite();
+  }
+  // What was not proposed before must win its maps first.
+  if (!WinnerStands(now)) {
+    Enter(MissionState::kSearch, why, now);
+  } else if (armed) {
+    Enter(MissionState::kProposed, why, now);
   }
   return Ok();
 }
@@ -217,6 +228,7 @@ Status Mission::Approve(const ApproveSite& action, CommandOrigin origin, Timesta
       return Refuse(now, "Approve", "The picture on the screen was not that of this selection");
     }
   }
+  std::erase(status_.refused_sites, status_.armed->id);  // approved on a second look
   status_.approval = MakeApproval(now);
   status_.approval_phase = MissionStatus::ApprovalPhase::kSent;
   status_.approval_answer.clear();

@@ -42,7 +42,7 @@ void Mission::FollowSite(const MissionInputs& in) {
 
 void Mission::FollowAlternative(const MissionInputs& in) {
   const auto usable = [&](const std::optional<LandingSite>& site) {
-    return site && refused_sites_.count(site->id) == 0 && site->corridor_clear &&
+    return site && !status_.IsRefused(site->id) && site->corridor_clear &&
            !SharesGround(*site, *status_.armed) &&
            JudgeRecheck(site, {}, {false, 0}, in.settings.slad).holds();
   };

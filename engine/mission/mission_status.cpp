@@ -136,7 +136,7 @@ void Mission::PublishGeometry(const MissionInputs& in) {
   const LandingSite* site = status_.armed ? &*status_.armed : nullptr;
   if (site == nullptr && !facts_.sites.empty()) {
     site = FindSite(winner_.id);
-    site = site != nullptr ? site : &facts_.sites.front();
+    site = site != nullptr ? site : status_.BestStanding(facts_.sites);
   }
   status_.height_above_site_m = status_.distance_to_site_m = status_.time_to_touchdown_s = NAN;
   if (site == nullptr || !in.skid_centre_W.allFinite()) {

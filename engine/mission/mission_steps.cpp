@@ -76,9 +76,21 @@ void Mission::StepSearching(const MissionInputs& in) {
               std::to_string(winner_.maps) + " maps",
           in.now);
   } else if (state == MissionState::kProposed && !WinnerStands(in.now)) {
-    const bool stale = SecondsBetween(map_seen_at_, in.now) > GuardLimits::map_s;
-    Enter(MissionState::kSearch, stale ? "No new map" : "No site stands on the newest map", in.now);
+    Enter(MissionState::kSearch, WhyNoProposal(in.now), in.now);
   }
+}
+
+std::string Mission::WhyNoProposal(Timestamp now) const {
+  if (SecondsBetween(map_seen_at_, now) > GuardLimits::map_s) {
+    return "No new map";
+  }
+  if (facts_.sites.empty()) {
+    return "No site stands on the newest map";
+  }
+  const LandingSite* best = status_.BestStanding(facts_.sites);
+  return best == nullptr
+             ? "Every site on the newest map is refused"
+             : "Site " + std::string(1, best->letter) + " leads, not for long enough yet";
 }
 
 std::string Mission::WhyStale(Timestamp now) const {

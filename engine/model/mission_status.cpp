@@ -1,5 +1,7 @@
 #include "engine/model/mission_status.h"
 
+#include <algorithm>
+
 #include "engine/core/check.h"
 
 namespace palace {
@@ -38,6 +40,16 @@ Names NamesOf(MissionState state) {
 
 const char* MissionStateName(MissionState state) { return NamesOf(state).name; }
 const char* MissionStateWord(MissionState state) { return NamesOf(state).word; }
+
+bool MissionStatus::IsRefused(std::uint64_t site_id) const {
+  return std::find(refused_sites.begin(), refused_sites.end(), site_id) != refused_sites.end();
+}
+
+const LandingSite* MissionStatus::BestStanding(const std::vector<LandingSite>& sites) const {
+  const auto best = std::find_if(sites.begin(), sites.end(),
+                                 [&](const LandingSite& site) { return !IsRefused(site.id); });
+  return best == sites.end() ? nullptr : &*best;
+}
 
 const char* SiteVerdictWord(SiteVerdict verdict) {
   switch (verdict) {

@@ -91,6 +91,11 @@ struct MissionStatus {
   std::optional<LandingSite> armed;  ///< frozen evidence, from ARMED to LANDED
   Timestamp armed_at;
   std::optional<Timestamp> arm_expires;
+  /// Ids of places the operator refused: listed, but never proposed again while their letters live.
+  std::vector<std::uint64_t> refused_sites;
+  bool IsRefused(std::uint64_t site_id) const;
+  /// The first of `sites`, best first, that is not refused; null when there is none.
+  const LandingSite* BestStanding(const std::vector<LandingSite>& sites) const;
   std::vector<GuardResult> guards;  ///< for the armed site
   bool can_approve = false;
   std::string cannot_approve_reason;  ///< first guard that fails

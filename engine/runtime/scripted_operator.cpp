@@ -18,8 +18,10 @@ std::vector<EngineCommand> ScriptedOperator::Decide(const EngineSnapshot& snapsh
   }
   switch (mission.state) {
     case MissionState::kProposed:
-      if (snapshot.applied && !snapshot.applied->selection.sites.empty()) {
-        return {{CommandOrigin::kScript, SelectSite{snapshot.applied->selection.sites.front().id}}};
+      if (snapshot.applied) {
+        if (const LandingSite* site = mission.BestStanding(snapshot.applied->selection.sites)) {
+          return {{CommandOrigin::kScript, SelectSite{site->id}}};
+        }
       }
       return {};
     case MissionState::kArmed:

@@ -20,7 +20,7 @@ const LandingSite* ShownSite(const EngineSnapshot& snapshot, const TerrainDecisi
   const auto& sites = decision->selection.sites;
   const auto it = std::find_if(sites.begin(), sites.end(),
                                [&](const LandingSite& s) { return s.id == highlighted; });
-  return it == sites.end() ? &sites.front() : &*it;
+  return it == sites.end() ? snapshot.mission.BestStanding(sites) : &*it;
 }
 
 void AddTrail(const EngineSnapshot& snapshot, View3dInput& input) {

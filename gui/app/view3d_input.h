@@ -7,7 +7,8 @@
 
 namespace palace {
 
-/// `highlighted` is the site whose ring is drawn when none is armed; 0: the best one.
+/// `highlighted` is the site whose ring is drawn when none is armed; 0: the best one that is not
+/// refused.
 View3dInput MakeView3dInput(const EngineSnapshot& snapshot, std::uint64_t highlighted,
                             double ui_scale);
 /// Keeps vehicle, map and site in view.

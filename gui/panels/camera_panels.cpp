@@ -65,7 +65,9 @@ SiteOverlay OverlayOf(const EngineSnapshot& snap, std::uint64_t highlighted) {
   overlay.highlighted = highlighted;
   overlay.commanded = snap.mission.state >= MissionState::kApproved;
   // The applied winner, where the preview moves it from the ring already drawn.
-  const LandingSite* applied = snap.preview ? BestSite(snap.applied.get()) : nullptr;
+  const LandingSite* applied = snap.preview && snap.applied
+                                   ? snap.mission.BestStanding(snap.applied->selection.sites)
+                                   : nullptr;
   if (applied != nullptr && (!overlay.selected || SitesDiffer(*overlay.selected, *applied))) {
     overlay.ghost = *applied;
     overlay.ghost_words = std::string("applied ") + overlay.ghost->letter;

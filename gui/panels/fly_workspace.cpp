@@ -43,9 +43,8 @@ void HandleKeys(const EngineSnapshot& snap, FlyState& state, UiFrame& ui) {
   if (io.MouseClicked[0]) {
     state.focus = FlyFocus::kNone;  // the ring is for the keyboard only
   }
-  const bool may_arm =
-      snap.mission.state == MissionState::kProposed || snap.mission.state == MissionState::kArmed;
-  if (state.focus == FlyFocus::kSites && state.sites.highlighted != 0 && may_arm &&
+  if (state.focus == FlyFocus::kSites && state.sites.highlighted != 0 &&
+      MaySelect(snap, state.sites.highlighted) &&
       ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter), false)) {
     ui.intents.push_back(CommandAction(SelectSite{state.sites.highlighted}));
   }

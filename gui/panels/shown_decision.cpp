@@ -20,7 +20,13 @@ const LandingSite* SiteInView(const EngineSnapshot& snap, std::uint64_t highligh
       return &site;
     }
   }
-  return &shown->selection.sites.front();
+  return snap.mission.BestStanding(shown->selection.sites);
+}
+
+bool MaySelect(const EngineSnapshot& snap, std::uint64_t site_id) {
+  return snap.mission.state == MissionState::kProposed ||
+         snap.mission.state == MissionState::kArmed ||
+         (snap.mission.state == MissionState::kSearch && snap.mission.IsRefused(site_id));
 }
 
 bool IsDescentView(const EngineSnapshot& snap) {

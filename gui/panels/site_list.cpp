@@ -60,8 +60,7 @@ void DrawSiteListPanel(const EngineSnapshot& snap, const FlyLayout& layout, Site
                     {0, 0, static_cast<float>(camera->width), static_cast<float>(camera->height)}};
   }
   const std::uint64_t armed = snap.mission.armed ? snap.mission.armed->id : 0;
-  const bool may_arm =
-      snap.mission.state == MissionState::kProposed || snap.mission.state == MissionState::kArmed;
+  const LandingSite* best = snap.mission.BestStanding(sites);
   const auto first = static_cast<std::size_t>(state.scroll / row);
   const std::size_t last = std::min(count, first + static_cast<std::size_t>(layout.site_rows));
   for (std::size_t i = first; i < last; ++i) {
@@ -70,13 +69,14 @@ void DrawSiteListPanel(const EngineSnapshot& snap, const FlyLayout& layout, Site
     look.selected = site.id == armed;
     look.highlighted = site.id == state.highlighted;
     look.narrow = layout.site_row_units < 60;
-    look.enabled = may_arm;
+    look.enabled = MaySelect(snap, site.id);
+    look.refused = snap.mission.IsRefused(site.id);
     const Rect rect{list.x, list.y + row * static_cast<float>(i - first), list.w, row};
     if (DrawSiteRow(ui, rect, site, view, ui.textures.left_camera, look)) {
       ui.intents.push_back(CommandAction(SelectSite{site.id}));
       state.highlighted = 0;
     }
-    if (i == 0) {
+    if (&site == best) {
       // Letters stay with places, so scripts need a name for whatever leads.
       ui.items.Add("site/best", rect, look.enabled, std::string(1, site.letter));
     }

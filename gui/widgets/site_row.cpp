@@ -15,6 +15,7 @@ namespace {
 
 /// Half side of the cut-out, in clear radii.
 constexpr float kCutOutRadii = 1.4f;
+constexpr std::string_view kRefusedReason = "By the operator; click for a second look";
 
 void DrawCutOut(const Style& s, const Rect& box, const LandingSite& site,
                 const std::optional<PictureView>& view, ImTextureID texture) {
@@ -50,7 +51,10 @@ struct SiteWord {
   const char* word;
 };
 
-SiteWord WordOf(const LandingSite& site) {
+SiteWord WordOf(const LandingSite& site, bool refused) {
+  if (refused) {
+    return {Icon::kOff, "Refused"};
+  }
   if (!site.corridor_clear && site.clear_approaches != 0) {
     return {Icon::kOff, "Other approach"};
   }
@@ -89,15 +93,17 @@ bool DrawSiteRow(UiFrame& ui, const Rect& rect, const LandingSite& site,
   const float left_x = look.narrow ? text_x : letter_x - s.Px(10);
   DrawText(ui, s.medium, p.text1, text_x, first_y, Fixed(site.safe_distance_m, 1) + " m clear");
 
-  const SiteWord status = WordOf(site);
+  const SiteWord status = WordOf(site, look.refused);
   const float right = rect.right() - s.Px(14);
   const float word_w = DrawText(ui, s.caption, p.text2, right, first_y, status.word, Align::kRight);
   DrawIcon(dl, status.icon, {right - word_w - s.Px(13), first_y}, s.Px(12),
            status.icon == Icon::kWarning ? p.warning : p.text2);
 
   const float width = right - left_x;
+  // What a refused site has over the others no longer ranks it.
+  const std::string_view why = look.refused ? kRefusedReason : std::string_view(site.reason);
   if (look.narrow) {
-    std::string_view reason = site.reason;
+    std::string_view reason = why;
     if (TextWidth(s.caption, reason) > width) {
       reason = reason.substr(0, reason.find(';'));  // whole clauses only: half a figure misleads
     }
@@ -111,10 +117,10 @@ bool DrawSiteRow(UiFrame& ui, const Rect& rect, const LandingSite& site,
     DrawText(ui, s.caption, p.text2, left_x, first_y + s.Px(21),
              FitWords(s.caption, figures, width));
     DrawText(ui, s.caption, look.selected ? p.text1 : p.text2, left_x, first_y + s.Px(39),
-             FitWords(s.caption, site.reason, width));
+             FitWords(s.caption, why, width));
   }
   ui.items.Add(std::string("site/") + site.letter, rect, look.enabled,
-               site.letter + std::string(" ") + status.word + " " + site.reason +
+               site.letter + std::string(" ") + status.word + " " + std::string(why) +
                    (site.flags != 0 ? " " + FlagWords(site.flags) : std::string()));
   return look.enabled && Clicked(ui, rect);
 }

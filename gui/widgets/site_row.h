@@ -10,6 +10,7 @@ struct SiteRowLook {
   bool highlighted = false;  ///< by keyboard
   bool narrow = false;       ///< 44 units high, reason only
   bool enabled = true;       ///< a click arms
+  bool refused = false;      ///< by the operator
 };
 
 /// Draws the row (item "site/<letter>"). True in the frame in which it is clicked. `view` maps the

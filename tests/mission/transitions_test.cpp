@@ -346,6 +346,58 @@ TEST(Mission, RefusingASiteProposesTheNext) {
   EXPECT_TRUE(rig.Do(SelectSite{101}).ok());  // on second thoughts
 }
 
+/// Texts of the events since `from`.
+std::string EventsSince(const MissionRig& rig, std::size_t from) {
+  std::string text;
+  for (std::size_t i = from; i < rig.mission.events().size(); ++i) {
+    text += rig.mission.events()[i].text + "\n";
+  }
+  return text;
+}
+
+TEST(Mission, ARefusedSiteStaysRefusedWhileItsLetterLives) {
+  MissionRig rig;
+  rig.Arm();
+  const std::size_t before = rig.mission.events().size();
+  ASSERT_TRUE(rig.Do(RefuseSite{101}).ok());
+  rig.Step();
+  EXPECT_EQ(rig.state(), MissionState::kSearch);
+  EXPECT_EQ(rig.mission.status().why, "Site A refused, next is B");
+  EXPECT_EQ(EventsSince(rig, before),
+            "Site A refused by the operator\nSEARCH: Site A refused, next is B\n");
+  EXPECT_TRUE(rig.mission.status().IsRefused(101));
+  EXPECT_EQ(rig.mission.status().BestStanding(rig.sites)->id, 102U);
+  EXPECT_NEAR(rig.mission.status().distance_to_site_m, std::hypot(15.5, 6), 1e-9);  // to B
+  ++rig.settings_hash;  // a moved limit is no change of mind
+  ASSERT_TRUE(rig.RunUntil(MissionState::kProposed, 3));
+  EXPECT_EQ(rig.mission.status().why.substr(0, 6), "Site B");
+  ASSERT_TRUE(rig.Do(WaveOff{}).ok());
+  ASSERT_TRUE(rig.Do(AcknowledgeWaveOff{}).ok());
+  ASSERT_TRUE(rig.RunUntil(MissionState::kProposed, 20));
+  EXPECT_EQ(rig.mission.status().why.substr(0, 6), "Site B");
+  EXPECT_TRUE(rig.mission.status().IsRefused(101));
+}
+
+TEST(Mission, ASecondLookAtARefusedSiteIsNoProposal) {
+  MissionRig rig;
+  rig.Arm();
+  ASSERT_TRUE(rig.Do(RefuseSite{101}).ok());
+  ASSERT_TRUE(rig.RunUntil(MissionState::kProposed, 3));
+  ASSERT_TRUE(rig.Do(RefuseSite{102}).ok());
+  rig.Run(1);
+  EXPECT_EQ(rig.mission.status().why, "Site B refused, no other site");
+  ASSERT_TRUE(rig.Do(SelectSite{101}).ok());
+  ASSERT_TRUE(rig.Do(DisarmSite{}).ok());
+  rig.Run(3);
+  EXPECT_EQ(rig.state(), MissionState::kSearch);
+  EXPECT_EQ(rig.mission.status().why, "Every site on the newest map is refused");
+  ASSERT_TRUE(rig.Do(SelectSite{101}).ok());
+  rig.Run(1.5);
+  ASSERT_TRUE(rig.ApproveNow().ok());
+  EXPECT_FALSE(rig.mission.status().IsRefused(101));  // approved: taken back
+  EXPECT_TRUE(rig.mission.status().IsRefused(102));
+}
+
 TEST(Mission, AJumpInTimeRestartsAReplay) {
   MissionRig rig;
   rig.source = SourceKind::kReplay;

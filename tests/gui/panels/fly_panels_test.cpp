@@ -1,3 +1,5 @@
+#include "gui/panels/fly_panels.h"
+
 #include <gtest/gtest.h>
 
 #include "tests/gui/panels/fly_window.h"
@@ -35,6 +37,46 @@ TEST(FlySites, NothingCanBeSelectedWhileSearching) {
   FlyWindow window(1920, 1080, fake::Snapshot(MissionState::kSearch));
   window.ui.Click("site/A", window.draw);
   EXPECT_TRUE(window.ui.intents.empty());
+}
+
+/// Proposed, with A, the first of the list, refused before.
+EngineSnapshot WithRefusedA(MissionState state) {
+  EngineSnapshot snap = fake::Snapshot(state);
+  snap.mission.refused_sites = {1};
+  return snap;
+}
+
+TEST(FlySites, ARefusedSiteIsListedAsSuchAndNeverTheBest) {
+  FlyWindow window(1920, 1080, WithRefusedA(MissionState::kProposed));
+  EXPECT_EQ(window.ui.items.Find("site/A")->text.rfind("A Refused ", 0), 0u)
+      << window.ui.items.Find("site/A")->text;
+  EXPECT_EQ(window.ui.items.Find("site/best")->text, "B");
+  EXPECT_EQ(SiteInView(window.snap, 0)->letter, 'B');
+  EXPECT_EQ(MarksOf(window.snap, 0).selected->letter, 'B');
+  EXPECT_EQ(window.ui.items.Find("panel/Evidence for site B") != nullptr,
+            window.ui.items.Find("panel/Evidence for site A") == nullptr);
+  window.ui.Click("site/best", window.draw);
+  EXPECT_EQ(window.ui.LastCommand<SelectSite>().site_id, 2u);
+  window.ui.Click("site/A", window.draw);  // a deliberate second look
+  EXPECT_EQ(window.ui.LastCommand<SelectSite>().site_id, 1u);
+}
+
+TEST(FlySites, WhileSearchingOnlyARefusedSiteMayBeLookedAtAgain) {
+  FlyWindow window(1920, 1080, WithRefusedA(MissionState::kSearch));
+  window.ui.Click("site/B", window.draw);
+  EXPECT_TRUE(window.ui.intents.empty());
+  window.ui.Click("site/A", window.draw);
+  EXPECT_EQ(window.ui.LastCommand<SelectSite>().site_id, 1u);
+}
+
+TEST(FlySites, WithEverySiteRefusedNoneIsRinged) {
+  EngineSnapshot snap = fake::Snapshot(MissionState::kSearch);
+  for (const LandingSite& site : snap.applied->selection.sites) {
+    snap.mission.refused_sites.push_back(site.id);
+  }
+  FlyWindow window(1920, 1080, snap);
+  EXPECT_EQ(SiteInView(window.snap, 0), nullptr);
+  EXPECT_EQ(window.ui.items.Find("site/best"), nullptr);
 }
 
 TEST(FlyApprove, AFullHoldApprovesTheArmedSiteOnTheSnapshotSeen) {
@@ -131,6 +173,13 @@ bool HasText(const ItemRecord& items, const std::string& start) {
     }
   }
   return false;
+}
+
+TEST(FlyApprove, RefuseNamesTheNextSiteThatIsNotRefused) {
+  EngineSnapshot snap = fake::Snapshot(MissionState::kArmed);  // A is armed
+  snap.mission.refused_sites = {2};
+  FlyWindow window(1920, 1080, snap);
+  EXPECT_TRUE(HasText(window.ui.items, "then site C"));
 }
 
 TEST(FlyMaps, ProbeFollowsThePointerAndAClickPinsItUntilTheNext) {
