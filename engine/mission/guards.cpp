@@ -28,9 +28,16 @@ std::string WhyCamerasBad(const GuardInputs& in) {
   return why.empty() ? in.camera_problem : why;
 }
 
+/// Checks that compare with the moment of selection have nothing to compare without one.
+constexpr const char* kNothingArmed = "Select a site first";
+bool NothingArmed(const GuardInputs& in) { return in.site_letter == '?'; }
+
 std::string WhyNotPositioned(const GuardInputs& in) {
   if (!in.position_healthy) {
     return "Position estimate not healthy";
+  }
+  if (NothingArmed(in)) {
+    return kNothingArmed;
   }
   if (!in.tracker_locked) {
     return "Tracker not locked on the site";
@@ -45,7 +52,7 @@ std::string WhyNotPositioned(const GuardInputs& in) {
 
 std::string WhyNotShown(const GuardInputs& in) {
   if (!std::isfinite(in.shown_for_s)) {
-    return "Select a site first";
+    return kNothingArmed;
   }
   return in.shown_for_s >= GuardLimits::shown_s
              ? ""
@@ -56,8 +63,8 @@ std::string WhySiteLost(const GuardInputs& in) {
   if (in.site_holds) {
     return {};
   }
-  if (in.site_letter == '?') {
-    return "Select a site first";
+  if (NothingArmed(in)) {
+    return kNothingArmed;
   }
   return in.site_reason.empty()
              ? "Site " + std::string(1, in.site_letter) + " is not on the newest map"
@@ -65,6 +72,9 @@ std::string WhySiteLost(const GuardInputs& in) {
 }
 
 std::string WhyVehicleChanged(const GuardInputs& in) {
+  if (NothingArmed(in)) {
+    return kNothingArmed;
+  }
   if (!in.boot_unchanged) {
     return "Vehicle restarted or is unknown";
   }
@@ -80,7 +90,7 @@ std::string WhyNotCommanding(const GuardInputs& in) {
 
 std::string WhyNotInTime(const GuardInputs& in) {
   if (!std::isfinite(in.armed_for_s)) {
-    return "Select a site first";
+    return kNothingArmed;
   }
   if (in.armed_for_s < GuardLimits::arm_to_approve_s) {
     return "Site selected " + Seconds(in.armed_for_s) + " ago, min 0.5 s";
@@ -109,7 +119,9 @@ std::vector<GuardResult> EvaluateGuards(const GuardInputs& in) {
   add("G5", "Position and tracker healthy", WhyNotPositioned(in));
   add("G6", "Evidence was on screen", WhyNotShown(in));
   add("G7", "Limits and calibration unchanged",
-      in.hashes_unchanged ? "" : "Limits or calibration changed since the site was selected");
+      NothingArmed(in)      ? kNothingArmed
+      : in.hashes_unchanged ? ""
+                            : "Limits or calibration changed since the site was selected");
   add("G8", "Site holds on the newest map", WhySiteLost(in));
   add("G9", "Vehicle did not restart", WhyVehicleChanged(in));
   add("G10", "This station commands", WhyNotCommanding(in));

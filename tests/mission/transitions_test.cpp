@@ -398,6 +398,19 @@ TEST(Mission, ASecondLookAtARefusedSiteIsNoProposal) {
   EXPECT_TRUE(rig.mission.status().IsRefused(102));
 }
 
+TEST(Mission, WithoutASelectionNoCheckClaimsAChange) {
+  MissionRig rig;
+  rig.Arm();
+  ASSERT_TRUE(rig.Do(RefuseSite{101}).ok());
+  rig.Step();
+  ASSERT_FALSE(rig.mission.status().armed.has_value());
+  for (const GuardResult& guard : rig.mission.status().guards) {
+    EXPECT_TRUE(guard.pass || guard.reason == "Select a site first")
+        << guard.id << " " << guard.reason;
+  }
+  EXPECT_FALSE(rig.mission.status().can_approve);
+}
+
 TEST(Mission, AJumpInTimeRestartsAReplay) {
   MissionRig rig;
   rig.source = SourceKind::kReplay;
