@@ -120,7 +120,8 @@ const std::vector<KeyBinding>& KeyTable() {
     // Bound by the panels themselves, because they need the focus there.
     bindings.push_back({"Tab", "Highlight the next site"});
     bindings.push_back({"Shift+Tab", "Highlight the previous site"});
-    bindings.push_back({"Enter", "Arm the highlighted site; held: approve the armed one"});
+    bindings.push_back({"Enter", "Arm the highlighted site"});
+    bindings.push_back({"Enter held", "Approve, with Tab on the button"});
     return bindings;
   }();
   return table;

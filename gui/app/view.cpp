@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "engine/slad/explanation.h"
-#include "gui/app/keys.h"
+#include "gui/app/key_help.h"
 #include "gui/app/layout.h"
 #include "gui/app/view3d_input.h"
 #include "gui/widgets/draw.h"
@@ -164,7 +164,7 @@ Intents View::Draw(const EngineSnapshot* snapshot, const FlightRecord* record, U
   DrawMessage(layout, state, ui);
   if (state.key_help) {
     ui.blocked_by_popup = false;
-    DrawKeyHelp(layout, ui);
+    DrawKeyHelp(layout.body, ui);
   }
   EndCanvas();
   return intents;
@@ -221,29 +221,6 @@ void View::DrawMessage(const FrameLayout& layout, const UiState& state, UiFrame&
   DrawText(ui, s.body, s.palette.text1, toast.x + s.Px(16), toast.centre().y,
            FitWords(s.body, state.message, toast.w - s.Px(32)));
   ui.items.Add("toast", toast, true, state.message);
-}
-
-void View::DrawKeyHelp(const FrameLayout& layout, UiFrame& ui) {
-  const Style& s = style_;
-  const auto& keys = KeyTable();
-  const int rows = (static_cast<int>(keys.size()) + 1) / 2;
-  const float row = s.Px(22), width = s.Px(720), height = s.Px(72) + row * static_cast<float>(rows);
-  const Rect box{layout.body.centre().x - width / 2, layout.body.centre().y - height / 2, width,
-                 height};
-  ImDrawList* dl = Canvas();
-  FillRect(dl, box, s.palette.control, s.Fine(4));
-  StrokeRect(dl, box, s.palette.strong_line, 1, s.Fine(4));
-  DrawText(ui, s.section, s.palette.text1, box.x + s.Px(20), box.y + s.Px(28), "Keys");
-  DrawText(ui, s.caption, s.palette.text2, box.right() - s.Px(20), box.y + s.Px(28),
-           "F1 or Escape closes", Align::kRight);
-  for (std::size_t i = 0; i < keys.size(); ++i) {
-    const float x = box.x + s.Px(20) + (static_cast<int>(i) < rows ? 0 : width / 2 - s.Px(10));
-    const float y = box.y + s.Px(62) + row * static_cast<float>(static_cast<int>(i) % rows);
-    DrawText(ui, s.medium, s.palette.text1, x, y, keys[i].keys);
-    DrawText(ui, s.body, s.palette.text2, x + s.Px(112), y,
-             FitWords(s.body, keys[i].description, width / 2 - s.Px(140)));
-  }
-  ui.items.Add("key_help", box, true, "Keys");
 }
 
 }  // namespace palace

@@ -50,7 +50,6 @@ class View {
                      UiFrame& ui);
   void DrawWaiting(const FrameLayout& layout, UiFrame& ui);
   void DrawMessage(const FrameLayout& layout, const UiState& state, UiFrame& ui);
-  void DrawKeyHelp(const FrameLayout& layout, UiFrame& ui);
 
   /// What the 3-D view was drawn for; drawn again only when it changes or the camera moves.
   struct View3dKey {
