@@ -150,7 +150,12 @@ void PrintAndReport(const AppOptions& options, const Session& session, const Hea
   for (const std::string& line : SummaryLines(run.summary())) {
     std::printf("%s\n", line.c_str());
   }
-  std::printf("Files: %s\n", session.output_dir.string().c_str());
+  if (options.report || !run.screenshots().empty()) {
+    std::printf("Files: %s\n", session.output_dir.string().c_str());
+  }
+  if (!options.report) {
+    return;
+  }
   const Status written = WriteFlightReport(options, session, run.summary(), run.screenshots());
   if (!written) {
     LogWarning(written.error().message);

@@ -64,7 +64,7 @@ void Declare(CLI::App& app, AppOptions& options, SourceArguments& sources, bool&
   app.add_option("--script", options.script_file,
                  "Drive the window by item name (README, \"Scripts\")");
   app.add_option("--record", options.record_dir, "Folder for flight logs")->capture_default_str();
-  app.add_flag("--no-record", no_record, "Do not record the flight");
+  app.add_flag("--no-record", no_record, "Do not record the flight, leave no report");
   app.add_option("--width", options.width_px, "Window width, pixels")
       ->check(CLI::Range(640, 7680))
       ->capture_default_str();
@@ -122,6 +122,7 @@ Result<AppOptions> ParseCommandLine(int argc, const char* const* argv) {
   if (options.ui_scale != 0 && (options.ui_scale < 0.75 || options.ui_scale > 2.5)) {
     return UsageError("--ui-scale must lie between 0.75 and 2.5, or be 0");
   }
+  options.report = !no_record;
   // A replay, or pictures from disk, are on disk already.
   options.record = !no_record && options.source != SourceChoice::kReplay &&
                    options.source != SourceChoice::kImages;

@@ -26,6 +26,7 @@ struct AppOptions {
   std::string script_file;
   std::filesystem::path record_dir = "logs";
   bool record = true;
+  bool report = true;  ///< false: not even report.html is left behind
   int width_px = 1920;
   int height_px = 1080;
   double ui_scale = 0;  ///< 0: from the monitor

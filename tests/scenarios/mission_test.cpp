@@ -138,6 +138,17 @@ TEST_F(Mission, LandsOnTheSiteAndTheLogDecidesTheSameAgain) {
                             << MissionStateName(flown[std::min(same, compared - 1)].state);
 }
 
+TEST_F(Mission, NothingIsLeftBehindWithoutARecord) {
+  WriteFile("look.script", "wait state PROPOSED 20\nquit\n");
+  const ProcessResult result =
+      RunProcess(Palace({"--headless", "--no-record", "--script", "look.script"}), 120);
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(result.out.find("Files:"), std::string::npos) << result.out;
+  for (const auto& entry : std::filesystem::directory_iterator(folder_)) {
+    EXPECT_EQ(entry.path().filename(), "look.script");
+  }
+}
+
 TEST_F(Mission, AMovedLimitDecidesInThePassItArrivesAndInTheReplay) {
   std::shared_ptr<Simulator> simulator;
   std::unique_ptr<Engine> engine = OpenMission(folder_, 1, simulator);
