@@ -67,16 +67,19 @@ ClosedField MakeClosedField(std::uint64_t seed) {
   return field;
 }
 
-/// Any height, heading and tilt whose picture holds the clear disc.
+/// Any height, heading and tilt whose pictures and map hold the clear disc: from high up the map is
+/// smaller than the pictures, and what lies outside it cannot be chosen.
 HoverView RandomViewpoint(const ClosedField& field, const ViewsOptions& options,
-                          RandomStream& random) {
+                          const SladSettings& slad, RandomStream& random) {
   HoverView view;
   view.frames = options.frames;
   view.height_m = random.Uniform(kLowest_ft, kHighest_ft) * kMetresPerFoot;
   view.heading_rad = random.Uniform(-std::numbers::pi, std::numbers::pi);
   view.tilt_rad = -std::numbers::pi / 2 + random.Uniform(-Rad(8), Rad(8));
   // Where the picture's middle falls: the disc may stand off it while it stays in both pictures.
-  const double slack_m = std::max(0.0, HalfOverlap(view).minCoeff() - field.clear_radius_m - 1.0);
+  const double half_map_m = std::min(slad.grid_rows, slad.grid_cols) * slad.cell_m / 2;
+  const double half_m = std::min(HalfOverlap(view).minCoeff(), half_map_m);
+  const double slack_m = std::max(0.0, half_m - field.clear_radius_m - 1.0);
   const double right_m = random.Uniform(-slack_m, slack_m) - view.baseline_m / 2;
   const double forward_m = random.Uniform(-slack_m, slack_m) +
                            view.height_m * std::tan(-std::numbers::pi / 2 - view.tilt_rad);
@@ -94,7 +97,7 @@ Result<std::vector<TrialRow>> RunTrial(const ViewsOptions& options, std::uint64_
   RandomStream random(seed, "viewpoints");
   std::vector<TrialRow> rows;
   for (int i = 0; i < options.viewpoints; ++i) {
-    const HoverView view = RandomViewpoint(field, options, random);
+    const HoverView view = RandomViewpoint(field, options, settings.slad, random);
     const auto frames = LookAtField(field.world, view, settings.stereo, random.NextBits());
     if (!frames) {
       return frames.error();
@@ -159,11 +162,9 @@ ExperimentReport Report(const TrialTable& table) {
   report.page.Paragraph(
       "Cones of 28 in stand all over a sloping field, too close together for a lander, but for one "
       "disc of 2.8 to 3.2 m radius. Each viewpoint has its own place, heading, height (35 to 60 "
-      "ft) "
-      "and tilt (within 8° of straight down), 10 frames of drift, sensor noise and pose errors. "
-      "The "
-      "chosen site should be one place whoever looks: within 0.5 m of the mean over all "
-      "viewpoints. "
+      "ft) and tilt (within 8° of straight down), 10 frames of drift, sensor noise and pose "
+      "errors; pictures and map hold the disc. The chosen site should be one place whoever looks: "
+      "within 0.5 m of the mean over all viewpoints. "
       "Below 35 ft the disc does not stay in both pictures from every heading.");
   LinePlot plot{"Chosen sites about their field's mean place", "east, m", "north, m"};
   std::vector<std::vector<std::string>> rows;
