@@ -76,13 +76,16 @@ HoverView RandomViewpoint(const ClosedField& field, const ViewsOptions& options,
   view.height_m = random.Uniform(kLowest_ft, kHighest_ft) * kMetresPerFoot;
   view.heading_rad = random.Uniform(-std::numbers::pi, std::numbers::pi);
   view.tilt_rad = -std::numbers::pi / 2 + random.Uniform(-Rad(8), Rad(8));
-  // Where the picture's middle falls: the disc may stand off it while it stays in both pictures.
+  // Where the picture's middle falls: the disc may stand off it while it stays in both pictures
+  // and, at any heading, in the map, which follows the picture's middle within a metre.
+  const double slack_m = std::max(0.0, HalfOverlap(view).minCoeff() - field.clear_radius_m - 1.0);
+  Vector2d off(random.Uniform(-slack_m, slack_m), random.Uniform(-slack_m, slack_m));
   const double half_map_m = std::min(slad.grid_rows, slad.grid_cols) * slad.cell_m / 2;
-  const double half_m = std::min(HalfOverlap(view).minCoeff(), half_map_m);
-  const double slack_m = std::max(0.0, half_m - field.clear_radius_m - 1.0);
-  const double right_m = random.Uniform(-slack_m, slack_m) - view.baseline_m / 2;
-  const double forward_m = random.Uniform(-slack_m, slack_m) +
-                           view.height_m * std::tan(-std::numbers::pi / 2 - view.tilt_rad);
+  const double most_m = std::max(0.1, half_map_m - field.clear_radius_m - 1.5);
+  off *= std::min(1.0, most_m / std::max(off.norm(), 1e-9));
+  const double right_m = off.x() - view.baseline_m / 2;
+  const double forward_m =
+      off.y() + view.height_m * std::tan(-std::numbers::pi / 2 - view.tilt_rad);
   const double c = std::cos(view.heading_rad), s = std::sin(view.heading_rad);
   const double ground_m = field.world.slope_north * field.clear_middle.x();
   view.north_m = field.clear_middle.x() + c * forward_m - s * right_m;
