@@ -16,8 +16,8 @@
 //
 //   P + R + g^2 s^2,   s^2 = position sigma^2 + (attitude sigma * range)^2,
 //
-// is not averaged: its variance grows, and the second
-// disagreement in a row replaces it. A pose laid sideways by s misplaces ground of
+// is not averaged: it counts in the spread only, and the second disagreement in a row on the same
+// side replaces the cell. A pose laid sideways by s misplaces ground of
 // gradient g (the frame's own, over two cells): an edge that wanders is no contradiction. It stays
 // out of R, because it says where an edge is, not whether. Unseen cells keep their height while
 // their variance and age grow; age is the data time since a frame last held the cell, agreeing or
