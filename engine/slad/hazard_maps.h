@@ -6,9 +6,10 @@
 // Modern mode keeps two notions apart. A CELL is a hazard (`reasons`) for what is wrong at that
 // cell: the ground plane around it is too steep, the cell stands off that plane, it makes a step,
 // or is unknown; so is an obstacle's foot: what touches a cell over the roughness or step limit,
-// stands out by 0.3 of the roughness limit and lies within max_rock_size_m. The layers slope, roughness, step, cost and safe_probability speak of the lander's
-// FOOTPRINT centred on the cell. Heights count only beyond their noise: a deviation r with sigma s
-// has the value sqrt(max(0, r^2 - 16 s^2)).
+// stands out by 0.3 of the roughness limit and lies within max_rock_size_m. The layers slope,
+// roughness, step, cost and safe_probability speak of the lander's FOOTPRINT centred on the cell.
+// Heights count only beyond their noise: a deviation r with sigma s has the value sqrt(max(0, r^2 -
+// 16 s^2)).
 //
 // safe_probability is that of a touchdown of the lander's gear (touchdown.h) at its worst heading:
 // the ground plane's slope and the gear's tilt within the slope limit, deviation and step within
