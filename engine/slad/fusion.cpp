@@ -27,7 +27,7 @@ constexpr double kAttitude_rad = 0.1 * kRadPerDeg;
 /// Stereo errs on the same ground by this much in every frame: texture under the window, steps of
 /// whole pixels. It does not average away.
 constexpr double kRepeated_px = 0.012;
-constexpr double kNarrow_m = 0.2;  // half of what max_rock_size_m is: cones, posts, hydrants
+constexpr double kNarrow_m = 0.08;  // the upper half of a small cone, a post
 /// The map follows the view once its centre is off by this share of its size.
 constexpr double kSlack = 0.08;
 
@@ -129,6 +129,7 @@ void TerrainFusion::Reset() {
   map_ = ElevationMap{};
   disagreement_ = {};
   spread_ = {};
+  pixels_ = {};
   frames_ = 0;
 }
 
@@ -159,13 +160,15 @@ std::shared_ptr<const ElevationMap> TerrainFusion::Add(const RangeMap& range,
   if (frames_ == 0 || points.empty() || ranges != last_ranges_) {
     Register(frame);
     Fuse(frame, MisplacedVariance(X_WC.p, frame), settings.frames_fused);
+    FadePixels(settings.frames_fused);
+    CountPixels(range, X_WC, map_.geometry, pixels_);
   }
   last_ranges_ = ranges;
   // Frames without a point do not count: the first real one lays out the grid.
   frames_ += points.empty() ? 0 : 1;
   auto published = std::make_shared<ElevationMap>(map_);
   AddReliefBetweenFrames(spread_, *published);
-  RaiseNarrowRelief(range.camera, X_WC.p, kNarrow_m, *published);
+  RaiseNarrowRelief(range.camera, X_WC.p, kNarrow_m, pixels_, *published);
   AddRepeatedError(range, X_WC, *published);
   FillHoles(*published, settings.data_size_cells, settings.border_size_cells);
   return published;
@@ -182,6 +185,7 @@ void TerrainFusion::MoveTo(const GridGeometry& geometry) {
                      GridF(rows, cols, kUnknownValue)};
   Grid<std::int8_t> disagreement(rows, cols, 0);
   Grid<FrameSpread> spread(rows, cols);
+  Grid<PixelCount> pixels(rows, cols);
   if (frames_ > 0) {
     const GridGeometry& old = map_.geometry;
     const int row_shift =
@@ -201,12 +205,23 @@ void TerrainFusion::MoveTo(const GridGeometry& geometry) {
         moved.age_s.at(r, c) = map_.age_s.at(from);
         disagreement.at(r, c) = disagreement_.at(from);
         spread.at(r, c) = spread_.at(from);
+        pixels.at(r, c) = pixels_.at(from);
       }
     }
   }
   map_ = std::move(moved);
   disagreement_ = std::move(disagreement);
   spread_ = std::move(spread);
+  pixels_ = std::move(pixels);
+}
+
+void TerrainFusion::FadePixels(int frames_fused) {
+  const int memory = std::max(1, frames_fused);
+  const auto remember = static_cast<float>(frames_ < memory ? 1.0 : 1 - 1.0 / memory);
+  for (PixelCount& count : pixels_.cells()) {
+    count.known *= remember;
+    count.refused *= remember;
+  }
 }
 
 void TerrainFusion::Register(ElevationMap& frame) {
@@ -259,7 +274,7 @@ void TerrainFusion::Fuse(const ElevationMap& frame, const GridF& misplaced_m2, i
     const bool agrees = known && off * off <= kGate2 * expected + kGateFloor_m2;
     const std::int8_t side = off > 0 ? 1 : -1;
     if (known && !agrees && disagreement != side) {
-      spread.Add(off * off, noise, memory);
+      spread.Add(off, noise, memory);
       disagreement = side;
       continue;
     }
@@ -270,15 +285,20 @@ void TerrainFusion::Fuse(const ElevationMap& frame, const GridF& misplaced_m2, i
       count = 1;
       state = CellState::kMeasured;
       // Something new stands there. Where something is gone, what was seen of it fades slowly.
-      const bool gone = known && off < 0;
-      spread = gone ? spread : FrameSpread{};
-      spread.Add(gone ? off * off : 0, noise, memory);
+      if (known && off < 0) {
+        spread.Add(off, noise, memory);
+        spread.Follow(off);
+      } else {
+        spread = FrameSpread{};
+        spread.Add(0, noise, memory);
+      }
       continue;
     }
     const double remember = count < memory ? 1 : 1 - 1.0 / memory;
     const double fused = 1 / (remember / p + 1 / noise);
-    spread.Add(off * off, noise, memory);
     mean = static_cast<float>(fused * (remember * m / p + z / noise));
+    spread.Add(off, noise, memory);
+    spread.Follow(static_cast<double>(mean) - m);
     variance = static_cast<float>(std::max(fused, kVarianceFloor_m2));
     count = static_cast<std::uint16_t>(std::min<int>(count + 1, memory));
   }

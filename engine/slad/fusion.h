@@ -10,7 +10,8 @@
 // 1 - 1/frames_fused from then on: the weight of frames_fused frames is kept.
 //
 // What frames disagree about by more than noise is relief (frame_spread.h): it is added to the
-// published height.
+// published height. So is what stands too narrow for stereo's window, or so steep that stereo
+// refuses its sides (narrow_relief.h).
 //
 // A cell that disagrees by more than the gate, three sigmas of
 //
@@ -32,6 +33,7 @@
 #include "engine/model/range_map.h"
 #include "engine/model/settings.h"
 #include "engine/slad/frame_spread.h"
+#include "engine/slad/refused_pixels.h"
 
 namespace palace {
 
@@ -48,11 +50,13 @@ class TerrainFusion {
   void MoveTo(const GridGeometry& geometry);
   void Register(ElevationMap& frame);
   void Age(Timestamp now);
+  void FadePixels(int frames_fused);
   void Fuse(const ElevationMap& frame, const GridF& misplaced_m2, int frames_fused);
 
   ElevationMap map_;                ///< measured cells only; holes are filled in what Add returns
   Grid<std::int8_t> disagreement_;  ///< sign of the last frame that failed the gate, 0 none
   Grid<FrameSpread> spread_;
+  Grid<PixelCount> pixels_;
   SladSettings layout_;  ///< settings the grid was laid out with
   int frames_ = 0;
   std::uint64_t last_ranges_ = 0;  ///< sampled hash of the last range map and its pose

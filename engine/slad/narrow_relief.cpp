@@ -10,8 +10,11 @@ namespace {
 
 constexpr int kPlaces = 16;
 constexpr int kLeastPlaces = 10;
-constexpr double kSigmas = 5;
-constexpr double kMostFactor = 4;
+constexpr double kSigmas = 6;
+constexpr double kMostFactor = 6;
+constexpr double kSteepFactor = 4;
+constexpr double kTallest_m = 1;
+constexpr double kMostRefused = 0.15;  // share of a cell's pixels
 
 struct Ring {
   double mean_m = 0;
@@ -38,10 +41,21 @@ Ring RingAround(const ElevationMap& map, int row, int col, double radius_cells) 
   return ring;
 }
 
+bool ManyRefused(const Grid<PixelCount>& pixels, const GridGeometry& geometry, int row, int col) {
+  for (int r = row - 1; !pixels.empty() && r <= row + 1; ++r) {
+    for (int c = col - 1; c <= col + 1; ++c) {
+      if (geometry.Contains({r, c}) && pixels.at(r, c).RefusedShare() > kMostRefused) {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
 }  // namespace
 
 void RaiseNarrowRelief(const PinholeCamera& camera, const Eigen::Vector3d& p_WC, double narrow_m,
-                       ElevationMap& map) {
+                       const Grid<PixelCount>& pixels, ElevationMap& map) {
   const GridGeometry& g = map.geometry;
   const GridF before = map.height_m;
   GridF raised = before;
@@ -53,7 +67,10 @@ void RaiseNarrowRelief(const PinholeCamera& camera, const Eigen::Vector3d& p_WC,
       const double height_m = static_cast<double>(before.at(r, c));
       const Eigen::Vector3d p_WQ(g.NorthOfRow(r), g.EastOfCol(c), -height_m);
       const double window_m = kStereoWindow_px * (p_WQ - p_WC).norm() / camera.fx_px;
-      if (window_m <= narrow_m) {
+      const double widths = window_m / narrow_m;
+      const double factor = std::clamp(
+          widths * widths, ManyRefused(pixels, g, r, c) ? kSteepFactor : 1.0, kMostFactor);
+      if (factor <= 1) {
         continue;
       }
       const Ring ring =
@@ -64,8 +81,8 @@ void RaiseNarrowRelief(const PinholeCamera& camera, const Eigen::Vector3d& p_WC,
           stands_m * stands_m <= kSigmas * kSigmas * noise_m2) {
         continue;
       }
-      const double factor = std::min(kMostFactor, window_m * window_m / (narrow_m * narrow_m));
-      raised.at(r, c) = static_cast<float>(height_m + (factor - 1) * stands_m);
+      const double must_be_m = std::max(stands_m, std::min(factor * stands_m, kTallest_m));
+      raised.at(r, c) = static_cast<float>(height_m + must_be_m - stands_m);
     }
   }
   map.height_m = std::move(raised);

@@ -6,6 +6,7 @@
 
 #include "engine/model/elevation_map.h"
 #include "engine/model/rig.h"
+#include "engine/slad/refused_pixels.h"
 
 namespace palace {
 
@@ -13,14 +14,19 @@ inline constexpr double kStereoWindow_px = 9;  ///< of stereo's refinement
 
 /// A matching window w metres wide reads a thing s < w wide as lower, by about (s / w)^2, because
 /// it averages it with the ground around. Cells that stand above the mean of a ring around them by
-/// more than five sigmas are raised to what a thing `narrow_m` wide must then be:
+/// more than six sigmas are raised to what a thing `narrow_m` wide must then be:
 ///
-///   h += ((w / narrow_m)^2 - 1) (h - ring),   w = 9 px * range / f, factor at most 4
+///   h := ring + k (h - ring),   k = (w / narrow_m)^2, from 1 to 6,   w = 9 px * range / f
+///
+/// but to no more than 1 m above the ring: edges of what is tall and wide need no help.
+///
+/// k is at least 4 where stereo refused more than 0.15 of the pixels of the cell or of one that
+/// touches it: steep sides were not measured, and what was is their foot.
 ///
 /// The ring, 0.75 w + narrow_m / 2 in radius (16 places), takes ordinary slope out. Level ground
-/// and noise stay as they are; nothing is lowered; below the height where w reaches narrow_m
-/// nothing changes. The variance is left: the sign of the thing is as certain as before.
+/// and noise stay as they are; nothing is lowered. The variance is left: the sign of the thing is
+/// as certain as before. `pixels` has the map's size, or is empty: none was refused.
 void RaiseNarrowRelief(const PinholeCamera& camera, const Eigen::Vector3d& p_WC, double narrow_m,
-                       ElevationMap& map);
+                       const Grid<PixelCount>& pixels, ElevationMap& map);
 
 }  // namespace palace

@@ -18,7 +18,7 @@ const PinholeCamera kCamera = PinholeFromFov(640, 480, Rad(60));
 
 ElevationMap RaisedFrom(double camera_height_m, const ElevationMap& map) {
   ElevationMap raised = map;
-  RaiseNarrowRelief(kCamera, {0, 0, -camera_height_m}, kNarrow_m, raised);
+  RaiseNarrowRelief(kCamera, {0, 0, -camera_height_m}, kNarrow_m, {}, raised);
   return raised;
 }
 
@@ -53,6 +53,33 @@ TEST(NarrowRelief, BelowTheHeightWhereTheWindowIsNarrowNothingChanges) {
   const ElevationMap map = MakeMap(60, 60, 0.15, world, 0.005, 3);
   EXPECT_EQ(RaisedFrom(9, map).height_m.cells(), map.height_m.cells());
   EXPECT_NE(RaisedFrom(30, map).height_m.cells(), map.height_m.cells());
+}
+
+// Stereo refuses the steep sides of a cone seen from near: what it leaves is the cone's foot.
+TEST(NarrowRelief, AThingWithRefusedSidesRisesFromAnyHeight) {
+  const double foot_m = 0.04;
+  const ElevationMap map = MakeMap(60, 60, 0.15, WithBox(Flat(), 0, 0, 0.3, foot_m), 0.002, 3);
+  const auto middle = map.geometry.CellFromPoint(0.05, 0.05);
+  ASSERT_TRUE(middle);
+  const auto height_with = [&](float refused) {
+    Grid<PixelCount> pixels(60, 60, {100, 0});
+    pixels.at(middle->row + 1, middle->col) = {100 - refused, refused};
+    ElevationMap raised = map;
+    RaiseNarrowRelief(kCamera, {0, 0, -6.0}, kNarrow_m, pixels, raised);
+    EXPECT_EQ(raised.height_m.at(5, 5), map.height_m.at(5, 5));
+    return double(raised.height_m.at(*middle));
+  };
+  EXPECT_NEAR(height_with(0), foot_m, 0.01);
+  EXPECT_NEAR(height_with(14), foot_m, 0.01);
+  EXPECT_NEAR(height_with(16), 4 * foot_m, 0.03);
+}
+
+TEST(NarrowRelief, WhatIsTallIsNotMadeTaller) {
+  const ElevationMap map = MakeMap(60, 60, 0.15, WithBox(Flat(), 0, 0, 0.14, 3), 0.005, 5);
+  const ElevationMap raised = RaisedFrom(30, map);
+  for (std::size_t i = 0; i < map.height_m.cells().size(); ++i) {
+    EXPECT_LE(raised.height_m.cells()[i], std::max(map.height_m.cells()[i], 1.05F));
+  }
 }
 
 TEST(NarrowRelief, NothingIsLoweredAndUnknownStaysUnknown) {

@@ -55,10 +55,10 @@ TEST(SiteSelection, FlatFieldIsWonByItsMiddle) {
   }
 }
 
-// Stereo's window is 9 px wide; rocks are 0.4 m. With 554 px focal length they fill it up to 24.6
-// m.
+// Stereo's window is 9 px wide and may cover 0.8 of a rock, which is 0.4 m: with 554 px focal
+// length up to 19.7 m.
 TEST(SiteSelection, ASiteIsConfirmedOnlyWhereRocksFillTheStereoWindow) {
-  for (const auto& [height_m, confirmed] : {std::pair{24.0, true}, std::pair{25.0, false}}) {
+  for (const auto& [height_m, confirmed] : {std::pair{19.5, true}, std::pair{19.9, false}}) {
     SiteContext context;
     context.p_WB = {0, 0, -height_m};
     context.X_WC = {CameraRotationFromTilt(Rad(-90)), context.p_WB};

@@ -1,0 +1,28 @@
+// Pixels that stereo refused, per cell: what stands too steep or too narrow to be matched leaves a
+// gap in the ranges, and what is known around the gap reads too low. Internal to the SLAD room.
+#pragma once
+
+#include "engine/core/frames.h"
+#include "engine/model/grid.h"
+#include "engine/model/range_map.h"
+
+namespace palace {
+
+/// Pixels of the frames remembered that fall into a cell.
+struct PixelCount {
+  float known = 0;
+  float refused = 0;
+
+  double RefusedShare() const {
+    return refused > 0 ? static_cast<double>(refused) / static_cast<double>(known + refused) : 0.0;
+  }
+};
+
+/// Adds the pixels of one range map taken from X_WC (left camera in W) to the cells of `geometry`.
+/// A refused pixel lies at the depth of the farther of the two known pixels that end its gap in the
+/// row: on the ground behind. Gaps that reach the picture's edge count nowhere, for the other
+/// camera does not see there. A pixel is known when depth and sigma are.
+void CountPixels(const RangeMap& range, const RigidTransform& X_WC, const GridGeometry& geometry,
+                 Grid<PixelCount>& counts);
+
+}  // namespace palace
