@@ -1,9 +1,11 @@
 // palace: the ground station.
 #include <cstdio>
 
+#include "engine/core/freed_memory.h"
 #include "gui/app/app.h"
 
 int main(int argc, char** argv) {
+  palace::KeepFreedMemory();
   const palace::Result<palace::AppOptions> options = palace::ParseCommandLine(argc, argv);
   if (!options) {
     std::fprintf(stderr, "palace: %s\n", options.error().message.c_str());

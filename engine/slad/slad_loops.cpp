@@ -1,23 +1,14 @@
 #include "engine/slad/slad_loops.h"
 
-#include "engine/slad/distance_loops.h"
-#include "engine/slad/footprint_loops.h"
-#include "engine/slad/lmeds_loops.h"
-#include "engine/slad/moment_loops.h"
-#include "engine/slad/touchdown_loops.h"
-#include "engine/slad/verdict_loops.h"
+#include "engine/slad/slad_loops_table.h"
 
 namespace palace {
 
-const SladLoops* SladLoopsBuiltForAvx2();  // slad_loops_avx2.cpp; null where it was not built
+// slad_loops_avx2.cpp, slad_loops_avx512.cpp; null where they were not built.
+const SladLoops* SladLoopsBuiltForAvx2();
+const SladLoops* SladLoopsBuiltForAvx512();
 
-const SladLoops& PortableSladLoops() {
-  static constexpr SladLoops loops{
-      FitPlaneRow,    DiscDeviationRow, StepRow,          SettleRow,       WindowMaximumRow,
-      AddMomentsRow,  SolveMomentsRow,  ColumnGapsRow,    SquareGapsRow,   NearestInRow,
-      PutGearDownRow, SlopeRow,         ThesisVerdictRow, ModernVerdictRow};
-  return loops;
-}
+const SladLoops& PortableSladLoops() { return kLoops; }
 
 const SladLoops* Avx2SladLoops() {
 #if defined(__x86_64__)
@@ -27,9 +18,20 @@ const SladLoops* Avx2SladLoops() {
 #endif
 }
 
+const SladLoops* Avx512SladLoops() {
+#if defined(__x86_64__)
+  return __builtin_cpu_supports("avx512f") ? SladLoopsBuiltForAvx512() : nullptr;
+#else
+  return nullptr;
+#endif
+}
+
 const SladLoops& FastestSladLoops() {
+  if (const SladLoops* avx512 = Avx512SladLoops()) {
+    return *avx512;
+  }
   const SladLoops* avx2 = Avx2SladLoops();
-  return avx2 ? *avx2 : PortableSladLoops();
+  return avx2 != nullptr ? *avx2 : PortableSladLoops();
 }
 
 }  // namespace palace

@@ -1,5 +1,5 @@
-// Inner loops of the hazard maps: compiled once for every x86-64 and once for AVX2, chosen at run
-// time. Both are made from the same source (lmeds_loops.h and its like) with
+// Inner loops of the hazard maps: compiled once for every x86-64, once for AVX2 and once for
+// AVX-512, chosen at run time. All are made from the same source (lmeds_loops.h and its like) with
 // uncontracted floats, so they give the same bits.
 #pragma once
 
@@ -10,7 +10,7 @@ inline constexpr float kLeastThreshold_m = 1e-3F;
 /// With fewer samples every triple has a median residual of 0: least squares over all of them.
 inline constexpr float kLeastForMedian = 6;
 /// Rows must be readable, and where it is said writable, so many floats beyond their end.
-inline constexpr int kLaneSlack = 8;
+inline constexpr int kLaneSlack = 16;
 
 /// One row of fitted planes; arrays of the row's length, NaN where no plane is spanned.
 struct PlaneRow {
@@ -206,8 +206,9 @@ struct SladLoops {
 
 /// Runs on every x86-64.
 const SladLoops& PortableSladLoops();
-/// Null where the processor has no AVX2.
+/// Null where the processor has no AVX2, and no AVX-512.
 const SladLoops* Avx2SladLoops();
+const SladLoops* Avx512SladLoops();
 const SladLoops& FastestSladLoops();
 
 }  // namespace palace

@@ -7,6 +7,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "engine/core/freed_memory.h"
 #include "engine/core/log.h"
 #include "engine/tools/analyze.h"
 #include "engine/tools/calibrate_command.h"
@@ -83,6 +84,7 @@ int ExitCode(int code) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  palace::KeepFreedMemory();
   palace::InitLogging(false);
   CLI::App app(
       "PALACE without a window: simulate, analyze, capture, calibrate, camera, evaluate, log",

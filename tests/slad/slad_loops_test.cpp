@@ -108,23 +108,35 @@ Floats Results(const SladLoops& loops, std::uint64_t seed) {
   return all;
 }
 
-TEST(SladLoops, GiveTheSameBitsOnEveryProcessor) {
-  const SladLoops* avx2 = Avx2SladLoops();
-  if (avx2 == nullptr) {
-    GTEST_SKIP() << "this processor has no AVX2: nothing to compare";
+struct Built {
+  const char* name;
+  const SladLoops* (*loops)();
+};
+
+class FasterLoops : public ::testing::TestWithParam<Built> {
+ protected:
+  void SetUp() override {
+    if (GetParam().loops() == nullptr) {
+      GTEST_SKIP() << "this processor has no " << GetParam().name << ": nothing to compare";
+    }
   }
+};
+
+INSTANTIATE_TEST_SUITE_P(Sets, FasterLoops,
+                         ::testing::Values(Built{"AVX2", Avx2SladLoops},
+                                           Built{"AVX512", Avx512SladLoops}),
+                         [](const auto& set) { return set.param.name; });
+
+TEST_P(FasterLoops, GiveTheSameBits) {
   for (std::uint64_t seed = 1; seed <= 100; ++seed) {
-    const Floats plain = Results(PortableSladLoops(), seed), fast = Results(*avx2, seed);
+    const Floats plain = Results(PortableSladLoops(), seed),
+                 fast = Results(*GetParam().loops(), seed);
     ASSERT_EQ(std::memcmp(plain.data(), fast.data(), plain.size() * sizeof(float)), 0)
         << "seed " << seed;
   }
 }
 
-TEST(SladLoops, GearComesDownWithTheSameBitsOnEveryProcessor) {
-  const SladLoops* avx2 = Avx2SladLoops();
-  if (avx2 == nullptr) {
-    GTEST_SKIP() << "this processor has no AVX2: nothing to compare";
-  }
+TEST_P(FasterLoops, PutTheGearDownWithTheSameBits) {
   for (const LandingGear kind : {LandingGear::kSkids, LandingGear::kPads}) {
     for (std::uint64_t seed = 1; seed <= 10; ++seed) {
       RandomStream random(seed, "gear");
@@ -139,7 +151,8 @@ TEST(SladLoops, GearComesDownWithTheSameBitsOnEveryProcessor) {
       for (int k = 0; k < 2; ++k) {
         tilt[k].resize(40);
         rise[k].resize(40);
-        const GearOverMap gear(height, 0.15, settings, k == 0 ? PortableSladLoops() : *avx2);
+        const GearOverMap gear(height, 0.15, settings,
+                               k == 0 ? PortableSladLoops() : *GetParam().loops());
         gear.WorstOfRow(20, tilt[k].data(), rise[k].data());
       }
       ASSERT_EQ(std::memcmp(tilt[0].data(), tilt[1].data(), 40 * sizeof(float)), 0) << seed;
