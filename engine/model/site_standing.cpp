@@ -1,5 +1,6 @@
 #include "engine/model/site_standing.h"
 
+#include <algorithm>
 #include <cstdio>
 
 namespace palace {
@@ -25,6 +26,10 @@ std::string WhyProvisional(const LandingSite& site, const SladSettings& settings
   if (!(site.height_m.three_sigma < settings.max_deviation_m)) {
     return Text("height noise %.1f cm (3 sigma), sure below %.1f cm",
                 100 * site.height_m.three_sigma, 100 * settings.max_deviation_m);
+  }
+  const int enough = std::min(kFramesToConfirm, settings.frames_fused);
+  if (settings.mode == SladMode::kModern && site.frames_fused < enough && !site.pixel.hasNaN()) {
+    return Text("seen in %.0f of the %.0f frames that it takes", site.frames_fused, enough);
   }
   return Text("rocks of %.2f m may not be seen from here", settings.max_rock_size_m, 0);
 }

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <vector>
 
+#include "engine/model/site_standing.h"
 #include "engine/slad/narrow_relief.h"
 #include "engine/slad/touchdown.h"
 
@@ -143,6 +144,13 @@ bool RocksAreSeen(const ElevationMap& map, const SladSettings& settings, const S
          kStereoWindow_px * depth_m / context.camera.fx_px <= kSeenWith * settings.max_rock_size_m;
 }
 
+/// Surveys and thesis mode have no frames to wait for.
+bool FramesAgree(const SladSettings& settings, const SiteContext& context,
+                 const LandingSite& site) {
+  return settings.mode == SladMode::kThesis || context.camera.width == 0 ||
+         site.frames_fused >= std::min(kFramesToConfirm, settings.frames_fused);
+}
+
 LandingSite EvaluateSite(const ElevationMap& map, const HazardMaps& hazards,
                          const SladSettings& settings, const SiteContext& context, Cell cell) {
   const GridGeometry& g = map.geometry;
@@ -174,6 +182,7 @@ LandingSite EvaluateSite(const ElevationMap& map, const HazardMaps& hazards,
   const bool likely =
       settings.mode == SladMode::kThesis || site.safe_probability >= settings.min_safe_probability;
   site.confirmed = likely && site.height_m.three_sigma < settings.max_deviation_m &&
+                   FramesAgree(settings, context, site) &&
                    RocksAreSeen(map, settings, context, site);
   site.distance_m = (context.p_WB - site.p_WS).head<2>().norm();
   const std::optional<Approach> straight = StraightApproach(settings, context, site);

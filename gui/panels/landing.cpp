@@ -46,7 +46,7 @@ std::string Record(const EngineSnapshot& snap) {
   if (m.state == MissionState::kLanded) {
     std::string text;
     if (m.touchdown_miss_m) {
-      text = Fixed(*m.touchdown_miss_m, 2) + " m from centre";
+      text = "By vision " + Fixed(*m.touchdown_miss_m, 2) + " m from centre";
     }
     if (m.touchdown_miss_true_m) {
       text += ", truly " + Fixed(*m.touchdown_miss_true_m, 2) + " m";

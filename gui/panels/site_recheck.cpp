@@ -66,6 +66,15 @@ void DrawSchedule(const EngineSnapshot& snap, const Rect& column, float y, UiFra
            "down to " + Fixed(snap.settings.slad.commit_height_m, 1) + " m");
 }
 
+/// The site's own reason compares it with the best of its map, which nobody may have chosen.
+std::string BesideFlown(const LandingSite& kept, const SiteRecheck& newest,
+                        const MissionStatus& mission) {
+  const double wider_m = kept.safe_distance_m - newest.safe_distance_m;
+  const std::string flown = mission.armed ? std::string(1, mission.armed->letter) : "the site";
+  return Fixed(std::abs(wider_m), 1) + (wider_m < 0 ? " m less" : " m more") + " clear than " +
+         flown;
+}
+
 void DrawChecksColumn(const EngineSnapshot& snap, const Rect& column, bool narrow, UiFrame& ui) {
   const Style& s = ui.style;
   const Palette& p = s.palette;
@@ -99,9 +108,10 @@ void DrawChecksColumn(const EngineSnapshot& snap, const Rect& column, bool narro
     LetterPlate(ui, {column.x + s.Px(10), y + s.Px(24)}, kept.letter, false);
     DrawText(ui, s.medium, p.text1, column.x + s.Px(28), y + s.Px(24),
              Fixed(kept.safe_distance_m, 1) + " m clear");
+    const std::string beside = BesideFlown(kept, newest, snap.mission);
     ui.items.Add("alternative", {column.x, y - s.Px(8), column.w, s.Px(42)}, true,
-                 std::string(1, kept.letter) + " " + kept.reason);
-    DrawLines(ui, column, y + s.Px(46), kept.reason, p.text2);
+                 std::string(1, kept.letter) + " " + beside);
+    DrawLines(ui, column, y + s.Px(46), beside, p.text2);
   }
 }
 

@@ -96,6 +96,12 @@ TEST(SiteStanding, AProvisionalSiteSaysWhy) {
   site.confirmed = true;
   EXPECT_EQ(WhyProvisional(site, settings.slad), "");
   site.confirmed = false;
+  site.frames_fused = 1;
+  EXPECT_EQ(WhyProvisional(site, settings.slad), "seen in 1 of the 3 frames that it takes");
+  site.frames_fused = 3;
+  EXPECT_EQ(WhyProvisional(site, settings.slad), "rocks of 0.40 m may not be seen from here");
+  site.pixel.setConstant(std::nan(""));  // a survey
+  site.frames_fused = 1;
   EXPECT_EQ(WhyProvisional(site, settings.slad), "rocks of 0.40 m may not be seen from here");
   site.height_m.three_sigma = 0.12;
   EXPECT_EQ(WhyProvisional(site, settings.slad),

@@ -1,5 +1,6 @@
 #include "engine/slad/site_selection.h"
 
+#include <algorithm>
 #include <utility>
 
 #include <gtest/gtest.h>
@@ -69,6 +70,19 @@ TEST(SiteSelection, ASiteIsConfirmedOnlyWhereRocksFillTheStereoWindow) {
     SladSettings larger;
     larger.max_rock_size_m = 0.5;
     EXPECT_TRUE(Select(MakeMap(101, 101, 0.15, Flat()), larger, context).sites.at(0).confirmed);
+  }
+}
+
+TEST(SiteSelection, ASiteOfPicturesIsConfirmedByThreeFrames) {
+  for (const int frames : {1, 2, 3, 10}) {
+    ElevationMap map = MakeMap(101, 101, 0.15, Flat());
+    std::fill(map.frame_count.cells().begin(), map.frame_count.cells().end(), frames);
+    EXPECT_EQ(Select(map).sites.at(0).confirmed, frames >= 3) << frames;
+    EXPECT_TRUE(Select(map, WithMode(SladMode::kThesis)).sites.at(0).confirmed);
+    EXPECT_TRUE(Select(map, {}, SiteContext{}).sites.at(0).confirmed) << "a survey";
+    SladSettings two;
+    two.frames_fused = 2;
+    EXPECT_EQ(Select(map, two).sites.at(0).confirmed, frames >= 2) << frames;
   }
 }
 

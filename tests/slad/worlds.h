@@ -12,6 +12,7 @@
 #include "engine/model/elevation_map.h"
 #include "engine/model/range_map.h"
 #include "engine/model/settings.h"
+#include "engine/model/site_standing.h"
 
 namespace palace::testing {
 
@@ -53,7 +54,7 @@ inline ElevationMap MakeMap(int rows, int cols, double cell_m, const Height& hei
       if (!std::isnan(z)) {
         map.height_m.at(r, c) = static_cast<float>(z + noise);
         map.variance_m2.at(r, c) = static_cast<float>(std::max(1e-6, sigma_m * sigma_m));
-        map.frame_count.at(r, c) = 1;
+        map.frame_count.at(r, c) = kFramesToConfirm;
         map.state.at(r, c) = CellState::kMeasured;
       }
     }

@@ -98,7 +98,7 @@ TEST(FlyDescent, TheKeptAlternativeAndALossAreShownWithTheirReasons) {
     FlyWindow window(size.width, size.height, snap);
     const Item* kept = window.ui.items.Find("alternative");
     ASSERT_NE(kept, nullptr);
-    EXPECT_EQ(kept->text, "B 0.6 m less clear than A; half in shadow");
+    EXPECT_EQ(kept->text, "B 0.1 m more clear than A");
     SiteRecheck& newest = snap.mission.rechecks.back();
     newest.verdict = SiteVerdict::kDegraded;
     newest.reason = "Slope 9.6° ± 0.9°, max 10°";
