@@ -12,8 +12,9 @@ void KeepFreedMemory() {
 #if defined(__GLIBC__)
   constexpr int kMiB = 1 << 20;
   // The largest threshold that glibc allows on 64 bits.
-  mallopt(M_MMAP_THRESHOLD, 32 * kMiB);
-  mallopt(M_TRIM_THRESHOLD, 256 * kMiB);
+  if (mallopt(M_MMAP_THRESHOLD, 32 * kMiB) == 1) {
+    mallopt(M_TRIM_THRESHOLD, 256 * kMiB);
+  }
 #endif
 }
 

@@ -4,8 +4,9 @@
 
 namespace palace {
 
-/// For main(), before threads start. Up to 256 MiB that were in use and were freed are kept; single
-/// blocks above 32 MiB go back as before. Where the allocator is not glibc's nothing changes.
+/// For main(), before threads start. Freed blocks of up to 32 MiB stay with the process until 256
+/// MiB lie free together at the end of the heap: it stays near its peak. Larger blocks go back as
+/// before. Where the allocator is not glibc's, or refuses, nothing changes.
 void KeepFreedMemory();
 
 }  // namespace palace

@@ -47,9 +47,9 @@ struct LandingSite {
   TouchdownOdds touchdown;
   std::uint8_t flags = 0;  ///< TerrainFlag bits of the cells inside the clear radius
   int unknown_cells = 0;   ///< inside the clear radius
-  int frames_fused = 0;
+  int frames_fused = 0;    ///< that nine tenths of the clear radius's cells have at least
   /// 3 sigma of height below the roughness limit, P at least min_safe_probability, seen in 3 frames
-  /// (pictures only), cell no wider than max_rock_size_m, stereo window no wider than 0.8 of it.
+  /// (pictures only), cell no wider than max_rock_size_m, stereo window within 0.735 of it.
   bool confirmed = false;
   bool corridor_clear = true;  ///< rotor-wide along the glide slope
   /// Bit k: the same corridor is clear for a vehicle that comes from sector k of eight, from north

@@ -1,5 +1,5 @@
 // Distance to the nearest hazard: along the columns, then of the rows above and below, along one
-// row. Included by slad_loops.cpp and slad_loops_avx2.cpp only.
+// row. Included by slad_loops_table.h only.
 #pragma once
 
 #include "engine/slad/float_lanes.h"

@@ -1,5 +1,5 @@
-// Largest deviation from the plane over a disc around each cell. Included by slad_loops.cpp and
-// slad_loops_avx2.cpp only.
+// Largest deviation from the plane over a disc around each cell. Included by slad_loops_table.h
+// only.
 #pragma once
 
 #include "engine/slad/float_lanes.h"

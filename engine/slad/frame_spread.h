@@ -7,12 +7,12 @@
 //
 //   m + max(0, o + min(1, t + sqrt(1 + t^2)) sqrt(S - q R)),   t = C / (2 S^1.5),   where S > q R
 //
-// q is what S / R of that many frames exceeds by noise alone in one cell of a million: the upper
-// side counts, as it does for the spread of points inside a cell. The factor is the place of the
-// upper of two levels that have this skewness, in parts of their spread: 1 for levels seen equally
-// often, less where a few frames lie below all others, no more than 1 where few see the top. Means
-// run over the frames remembered; what is gone fades with them. Frames outside fusion's gate count
-// here. The order of frames does not matter.
+// q is what S / R of that many frames exceeds by noise alone in about one cell of a million: the
+// upper side counts, as it does for the spread of points inside a cell. The factor is the place of
+// the upper of two levels that have this skewness, in parts of their spread: 1 for levels seen
+// equally often, less where a few frames lie below all others, no more than 1 where few see the
+// top. Means run over the frames remembered; what is gone fades with them. Frames outside fusion's
+// gate count here. Their order does not matter while all are remembered.
 #pragma once
 
 #include <cstdint>

@@ -160,8 +160,7 @@ std::shared_ptr<const ElevationMap> TerrainFusion::Add(const RangeMap& range,
   if (frames_ == 0 || points.empty() || ranges != last_ranges_) {
     Register(frame);
     Fuse(frame, MisplacedVariance(X_WC.p, frame), settings.frames_fused);
-    FadePixels(settings.frames_fused);
-    CountPixels(range, X_WC, map_.geometry, pixels_);
+    AddPixels(range, X_WC, settings.frames_fused);
   }
   last_ranges_ = ranges;
   // Frames without a point do not count: the first real one lays out the grid.
@@ -215,12 +214,18 @@ void TerrainFusion::MoveTo(const GridGeometry& geometry) {
   pixels_ = std::move(pixels);
 }
 
-void TerrainFusion::FadePixels(int frames_fused) {
+void TerrainFusion::AddPixels(const RangeMap& range, const RigidTransform& X_WC, int frames_fused) {
+  Grid<PixelCount> seen(pixels_.rows(), pixels_.cols());
+  CountPixels(range, X_WC, map_.geometry, seen);
   const int memory = std::max(1, frames_fused);
   const auto remember = static_cast<float>(frames_ < memory ? 1.0 : 1 - 1.0 / memory);
-  for (PixelCount& count : pixels_.cells()) {
-    count.known *= remember;
-    count.refused *= remember;
+  for (std::size_t i = 0; i < seen.cells().size(); ++i) {
+    const PixelCount& now = seen.cells()[i];
+    PixelCount& all = pixels_.cells()[i];
+    // What this frame does not see keeps its counts, as it keeps its height.
+    if (now.known + now.refused > 0) {
+      all = {remember * all.known + now.known, remember * all.refused + now.refused};
+    }
   }
 }
 

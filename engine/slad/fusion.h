@@ -50,7 +50,7 @@ class TerrainFusion {
   void MoveTo(const GridGeometry& geometry);
   void Register(ElevationMap& frame);
   void Age(Timestamp now);
-  void FadePixels(int frames_fused);
+  void AddPixels(const RangeMap& range, const RigidTransform& X_WC, int frames_fused);
   void Fuse(const ElevationMap& frame, const GridF& misplaced_m2, int frames_fused);
 
   ElevationMap map_;                ///< measured cells only; holes are filled in what Add returns

@@ -1,5 +1,5 @@
-// The exact LMedS fit of a row of cells, some cells side by side. Included by slad_loops.cpp and
-// slad_loops_avx2.cpp only.
+// The exact LMedS fit of a row of cells, some cells side by side. Included by slad_loops_table.h
+// only.
 #pragma once
 
 #include "engine/slad/float_lanes.h"

@@ -1,5 +1,5 @@
 // Weighted least-squares planes over a square window around each cell of a row, by moving sums.
-// Included by slad_loops.cpp and slad_loops_avx2.cpp only. Plain loops for the compiler to
+// Included by slad_loops_table.h only. Plain loops for the compiler to
 // vectorise: one moment after another, columns side by side.
 #pragma once
 

@@ -23,6 +23,9 @@ inline constexpr double kStereoWindow_px = 9;  ///< of stereo's refinement
 /// k is at least 4 where stereo refused more than 0.15 of the pixels of the cell or of one that
 /// touches it: steep sides were not measured, and what was is their foot.
 ///
+/// The sigmas are those of fusion, without the error that stereo repeats in every frame: what is
+/// raised is told from noise, not measured.
+///
 /// The ring, 0.75 w + narrow_m / 2 in radius (16 places), takes ordinary slope out. Level ground
 /// and noise stay as they are; nothing is lowered. The variance is left: the sign of the thing is
 /// as certain as before. `pixels` has the map's size, or is empty: none was refused.

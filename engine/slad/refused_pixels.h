@@ -13,8 +13,11 @@ struct PixelCount {
   float known = 0;
   float refused = 0;
 
+  /// 0 with fewer than 12 pixels: one of six says nothing.
   double RefusedShare() const {
-    return refused > 0 ? static_cast<double>(refused) / static_cast<double>(known + refused) : 0.0;
+    return known + refused < 12
+               ? 0.0
+               : static_cast<double>(refused) / static_cast<double>(known + refused);
   }
 };
 

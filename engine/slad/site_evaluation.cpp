@@ -32,7 +32,6 @@ struct SitePlane {
   double north_gradient = 0;
   double east_gradient = 0;
   double cell_variance_m2 = std::numeric_limits<double>::quiet_NaN();
-  int frames = 0;
 };
 
 SitePlane FitSitePlane(const ElevationMap& map, const SladSettings& settings, Cell centre) {
@@ -43,7 +42,7 @@ SitePlane FitSitePlane(const ElevationMap& map, const SladSettings& settings, Ce
   for (int pass = 0; pass < 2; ++pass) {
     Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
     Eigen::Vector3d right = Eigen::Vector3d::Zero();
-    double variance_sum = 0, frames = 0;
+    double variance_sum = 0;
     int count = 0;
     ForDisc(g, centre, radius_m, [&](Cell cell) {
       if (!g.Contains(cell) || map.state.at(cell) == CellState::kUnknown) {
@@ -61,7 +60,6 @@ SitePlane FitSitePlane(const ElevationMap& map, const SladSettings& settings, Ce
       normal += w * basis * basis.transpose();
       right += w * z * basis;
       variance_sum += variance;
-      frames += map.frame_count.at(cell);
       ++count;
     });
     const Eigen::LDLT<Eigen::Matrix3d> solver(normal);
@@ -69,7 +67,7 @@ SitePlane FitSitePlane(const ElevationMap& map, const SladSettings& settings, Ce
       return plane;
     }
     x = solver.solve(right);
-    plane = {x[0], x[1], x[2], variance_sum / count, static_cast<int>(std::lround(frames / count))};
+    plane = {x[0], x[1], x[2], variance_sum / count};
   }
   return plane;
 }
@@ -114,23 +112,20 @@ ColumnRange CorridorInRow(const GridGeometry& g, const LandingSite& site,
 
 double Known(float value) { return static_cast<double>(value); }
 
-}  // namespace
-
-void TakeFigures(const HazardMaps& hazards, Cell cell, LandingSite& site) {
-  site.slope_rad = {Known(hazards.slope_rad.at(cell)), 3 * Known(hazards.slope_sigma_rad.at(cell))};
-  site.roughness_m = {Known(hazards.roughness_m.at(cell)),
-                      3 * Known(hazards.roughness_sigma_m.at(cell))};
-  // A step is a difference of two cells.
-  site.step_m = {Known(hazards.step_m.at(cell)),
-                 3 * std::sqrt(2.0) * Known(hazards.roughness_sigma_m.at(cell))};
-  site.safe_distance_m = Known(hazards.safe_distance_m.at(cell));
-  site.cost = Known(hazards.cost.at(cell));
-  site.safe_probability = Known(hazards.safe_probability.at(cell));
+/// What nine tenths of the cells have been seen in; new ground at the rim must not pass for old.
+int FramesOfMost(std::vector<std::uint16_t>& counts) {
+  if (counts.empty()) {
+    return 0;
+  }
+  const auto tenth = counts.begin() + static_cast<std::ptrdiff_t>(counts.size() / 10);
+  std::nth_element(counts.begin(), tenth, counts.end());
+  return *tenth;
 }
 
-/// Of a rock: beyond, cones of 18 in begin to pass for ground (60 ft with the
-/// standard rig; of those in view 1 in 300 is lost up to there, 1 in 11 at 70 ft).
-constexpr double kSeenWith = 0.8;
+/// Of a rock: 18.1 m with the standard rig (640 px, 60 degrees). Beyond, cones of 18 in begin to
+/// pass for ground: no site chosen from 20 to 50 ft had one inside its clear radius, 4 of 125 from
+/// 60 ft, one in five from 70 ft.
+constexpr double kSeenWith = 0.735;
 
 /// Whether rocks are larger than what they are seen with, stereo's window and the map's cell: what
 /// is smaller may pass for ground, however little noise there is.
@@ -151,6 +146,20 @@ bool FramesAgree(const SladSettings& settings, const SiteContext& context,
          site.frames_fused >= std::min(kFramesToConfirm, settings.frames_fused);
 }
 
+}  // namespace
+
+void TakeFigures(const HazardMaps& hazards, Cell cell, LandingSite& site) {
+  site.slope_rad = {Known(hazards.slope_rad.at(cell)), 3 * Known(hazards.slope_sigma_rad.at(cell))};
+  site.roughness_m = {Known(hazards.roughness_m.at(cell)),
+                      3 * Known(hazards.roughness_sigma_m.at(cell))};
+  // A step is a difference of two cells.
+  site.step_m = {Known(hazards.step_m.at(cell)),
+                 3 * std::sqrt(2.0) * Known(hazards.roughness_sigma_m.at(cell))};
+  site.safe_distance_m = Known(hazards.safe_distance_m.at(cell));
+  site.cost = Known(hazards.cost.at(cell));
+  site.safe_probability = Known(hazards.safe_probability.at(cell));
+}
+
 LandingSite EvaluateSite(const ElevationMap& map, const HazardMaps& hazards,
                          const SladSettings& settings, const SiteContext& context, Cell cell) {
   const GridGeometry& g = map.geometry;
@@ -167,18 +176,19 @@ LandingSite EvaluateSite(const ElevationMap& map, const HazardMaps& hazards,
   site.clear_radius_m = settings.clear_radius_m();
   site.clearance_m = site.safe_distance_m - site.clear_radius_m;
   double age_sum_s = 0;
-  int measured = 0;
+  std::vector<std::uint16_t> frames;  // of the measured cells
   ForDisc(g, cell, site.clear_radius_m, [&](Cell near) {
     if (!g.Contains(near) || map.state.at(near) != CellState::kMeasured) {
       ++site.unknown_cells;
       return;
     }
-    ++measured;
+    frames.push_back(map.frame_count.at(near));
     age_sum_s += map.age_s.empty() ? 0 : Known(map.age_s.at(near));
     site.flags |= hazards.flags.empty() ? std::uint8_t{0} : hazards.flags.at(near);
   });
-  site.age_s = measured > 0 ? age_sum_s / measured : std::numeric_limits<double>::quiet_NaN();
-  site.frames_fused = plane.frames;
+  site.age_s = frames.empty() ? std::numeric_limits<double>::quiet_NaN()
+                              : age_sum_s / static_cast<double>(frames.size());
+  site.frames_fused = FramesOfMost(frames);
   const bool likely =
       settings.mode == SladMode::kThesis || site.safe_probability >= settings.min_safe_probability;
   site.confirmed = likely && site.height_m.three_sigma < settings.max_deviation_m &&

@@ -13,6 +13,8 @@
 namespace palace {
 namespace {
 
+static_assert(FloatLanes::kCount <= kLaneSlack, "loops read and write whole lanes");
+
 constexpr SladLoops kLoops{FitPlaneRow,      DiscDeviationRow, StepRow,         SettleRow,
                            WindowMaximumRow, AddMomentsRow,    SolveMomentsRow, ColumnGapsRow,
                            SquareGapsRow,    NearestInRow,     PutGearDownRow,  SlopeRow,

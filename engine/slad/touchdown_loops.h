@@ -1,5 +1,5 @@
 // Puts the gear down around each cell of a row, heading after heading (touchdown.h says how it
-// rests). Included by slad_loops.cpp and slad_loops_avx2.cpp only.
+// rests). Included by slad_loops_table.h only.
 #pragma once
 
 #include "engine/slad/float_lanes.h"

@@ -1,5 +1,5 @@
-// From figures and limits to slope, cost and reasons, a row at a time. Included by slad_loops.cpp
-// and slad_loops_avx2.cpp only. Plain loops without branches, for the compiler to vectorise.
+// From figures and limits to slope, cost and reasons, a row at a time. Included by
+// slad_loops_table.h only. Plain loops without branches, for the compiler to vectorise.
 #pragma once
 
 #include "engine/slad/slad_loops.h"

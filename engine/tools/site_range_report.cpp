@@ -233,7 +233,7 @@ void AddConfirmedDistance(const TrialTable& tall, ExperimentReport& report) {
     report.lines.push_back(std::string(method) + ": 3 sigma of height is under 0.10 m up to " +
                            rows.back()[1] + ", under 0.15 m up to " + rows.back()[2]);
   }
-  report.page.Heading("How far a site is confirmed")
+  report.page.Heading("How far the noise of height lets a site be confirmed")
       .Figure(LinePlotSvg(plot), "Medians over the fields in which a site was found.")
       .Table({"method", "3 sigma < 0.10 m up to", "3 sigma < 0.15 m up to"}, rows)
       .Paragraph("Where it is nowhere exceeded, the largest altitude at which a site was found.");

@@ -45,12 +45,13 @@ std::string Record(const EngineSnapshot& snap) {
   }
   if (m.state == MissionState::kLanded) {
     std::string text;
-    if (m.touchdown_miss_m) {
-      text = "By vision " + Fixed(*m.touchdown_miss_m, 2) + " m from centre";
-    }
-    if (m.touchdown_miss_true_m) {
-      text += ", truly " + Fixed(*m.touchdown_miss_true_m, 2) + " m";
-    }
+    const auto add = [&](const std::optional<double>& miss_m, const char* by) {
+      if (miss_m) {
+        text += (text.empty() ? "Off centre: " : ", ") + Fixed(*miss_m, 2) + " m " + by;
+      }
+    };
+    add(m.touchdown_miss_m, "by estimate");
+    add(m.touchdown_miss_true_m, "in truth");
     return text.empty() ? text : text + ".";
   }
   if (!m.approval) {

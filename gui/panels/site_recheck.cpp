@@ -71,6 +71,12 @@ std::string BesideFlown(const LandingSite& kept, const SiteRecheck& newest,
                         const MissionStatus& mission) {
   const double wider_m = kept.safe_distance_m - newest.safe_distance_m;
   const std::string flown = mission.armed ? std::string(1, mission.armed->letter) : "the site";
+  if (std::isnan(wider_m)) {
+    return flown + " is off the map";
+  }
+  if (std::abs(wider_m) < 0.05) {
+    return "as clear as " + flown;
+  }
   return Fixed(std::abs(wider_m), 1) + (wider_m < 0 ? " m less" : " m more") + " clear than " +
          flown;
 }

@@ -48,7 +48,7 @@ TEST(RefusedPixels, EveryPixelIsCountedWhereItLies) {
   const auto counts = Counted(LevelRange());
   for (const PixelCount& count : counts.cells()) {
     ASSERT_EQ(count.known, 1);
-    ASSERT_EQ(count.RefusedShare(), 0);
+    ASSERT_EQ(count.refused, 0);
   }
 }
 
@@ -60,14 +60,20 @@ TEST(RefusedPixels, AGapLiesOnTheGroundBehindIt) {
   range.depth_sigma_m.at(20, 8) = kNone;  // a depth without sigma is unknown, too
   const auto counts = Counted(range);
   for (int x = 18; x <= 20; ++x) {
-    EXPECT_EQ(counts.at(8, x).RefusedShare(), 1) << x;
+    EXPECT_EQ(counts.at(8, x).refused, 1) << x;
   }
-  EXPECT_EQ(counts.at(8, 21).RefusedShare(), 0);
+  EXPECT_EQ(counts.at(8, 21).refused, 0);
   float refused = 0;
   for (const PixelCount& count : counts.cells()) {
     refused += count.refused;
   }
   EXPECT_EQ(refused, 3);
+}
+
+TEST(RefusedPixels, FewPixelsSayNothing) {
+  EXPECT_EQ((PixelCount{0, 0}.RefusedShare()), 0);
+  EXPECT_EQ((PixelCount{5, 6}.RefusedShare()), 0);
+  EXPECT_EQ((PixelCount{9, 3}.RefusedShare()), 0.25);
 }
 
 TEST(RefusedPixels, GapsAtThePicturesEdgeCountNowhere) {

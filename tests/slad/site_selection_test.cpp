@@ -56,10 +56,10 @@ TEST(SiteSelection, FlatFieldIsWonByItsMiddle) {
   }
 }
 
-// Stereo's window is 9 px wide and may cover 0.8 of a rock, which is 0.4 m: with 554 px focal
-// length up to 19.7 m.
+// Stereo's window is 9 px wide and may cover 0.735 of a rock, which is 0.4 m: with 554 px focal
+// length up to 18.1 m.
 TEST(SiteSelection, ASiteIsConfirmedOnlyWhereRocksFillTheStereoWindow) {
-  for (const auto& [height_m, confirmed] : {std::pair{19.5, true}, std::pair{19.9, false}}) {
+  for (const auto& [height_m, confirmed] : {std::pair{18.0, true}, std::pair{18.2, false}}) {
     SiteContext context;
     context.p_WB = {0, 0, -height_m};
     context.X_WC = {CameraRotationFromTilt(Rad(-90)), context.p_WB};
@@ -83,6 +83,23 @@ TEST(SiteSelection, ASiteOfPicturesIsConfirmedByThreeFrames) {
     SladSettings two;
     two.frames_fused = 2;
     EXPECT_EQ(Select(map, two).sites.at(0).confirmed, frames >= 2) << frames;
+  }
+}
+
+TEST(SiteSelection, NewGroundAtTheRimOfASiteLeavesItProvisional) {
+  for (const int new_columns : {0, 2, 12}) {
+    ElevationMap map = MakeMap(101, 101, 0.15, Flat());
+    std::fill(map.frame_count.cells().begin(), map.frame_count.cells().end(), 10);
+    const Cell site = Select(map).sites.at(0).cell;
+    const int rim = static_cast<int>(2.3 / 0.15);
+    for (int r = 0; r < 101; ++r) {
+      for (int k = 0; k < new_columns; ++k) {
+        map.frame_count.at(r, site.col + rim - k) = 1;
+      }
+    }
+    const LandingSite again = Select(map).sites.at(0);
+    EXPECT_EQ(again.confirmed, new_columns < 12) << new_columns;
+    EXPECT_EQ(again.frames_fused, new_columns < 12 ? 10 : 1) << new_columns;
   }
 }
 

@@ -91,7 +91,7 @@ TEST(FlyMaps, APinnedCellKeepsItsWhyBoxUntilUnpinned) {
   EXPECT_EQ(window.ui.items.Find("why"), nullptr);
 }
 
-TEST(FlyDescent, TheKeptAlternativeAndALossAreShownWithTheirReasons) {
+TEST(FlyDescent, TheKeptAlternativeIsComparedWithTheSiteFlownAndALossHasItsReason) {
   for (const WindowSize& size : kWindowSizes) {
     SCOPED_TRACE(size.name);
     EngineSnapshot snap = fake::Snapshot(MissionState::kDescending);
