@@ -1,16 +1,11 @@
 #include "engine/mission/site_finding.h"
 
-#include <cstdio>
 #include <vector>
+
+#include "engine/core/text.h"
 
 namespace palace {
 namespace {
-
-std::string Text(const char* format, double value, double limit) {
-  char text[96];
-  std::snprintf(text, sizeof text, format, value, limit);
-  return text;
-}
 
 std::string Sentence(const ExplainedTerm& term) {
   const TermWords words = WordsOf(term);
@@ -55,13 +50,14 @@ SiteFinding JudgeRecheck(const std::optional<LandingSite>& now,
   }
   if (nearest && nearest->IsSeen() && now->clearance_m < kLeastRoomShare * approved.clearance_m &&
       now->clearance_m < approved.clearance_m - kNoticedRoom_m) {
-    worse(Finding::kDoubtful, Text("Room beyond the clear radius %.1f m, approved with %.1f m",
-                                   now->clearance_m, approved.clearance_m) +
-                                  where);
+    worse(Finding::kDoubtful,
+          WithNumbers("Room beyond the clear radius %.1f m, approved with %.1f m", now->clearance_m,
+                      approved.clearance_m) +
+              where);
   }
   if (now->age_s > kOldGround_s) {
     worse(Finding::kDoubtful,
-          Text("Ground last measured %.1f s ago, limit %.1f s", now->age_s, kOldGround_s));
+          WithNumbers("Ground last measured %.1f s ago, limit %.1f s", now->age_s, kOldGround_s));
   }
   return found;
 }

@@ -1,18 +1,10 @@
 #include "engine/model/site_standing.h"
 
 #include <algorithm>
-#include <cstdio>
+
+#include "engine/core/text.h"
 
 namespace palace {
-namespace {
-
-std::string Text(const char* format, double a, double b) {
-  char text[120];
-  std::snprintf(text, sizeof text, format, a, b);
-  return text;
-}
-
-}  // namespace
 
 std::string WhyProvisional(const LandingSite& site, const SladSettings& settings) {
   if (site.confirmed) {
@@ -20,18 +12,18 @@ std::string WhyProvisional(const LandingSite& site, const SladSettings& settings
   }
   if (settings.mode == SladMode::kModern &&
       !(site.safe_probability >= settings.min_safe_probability)) {
-    return Text("safe probability %.3f, sure from %.3f on", site.safe_probability,
-                settings.min_safe_probability);
+    return WithNumbers("safe probability %.3f, sure from %.3f on", site.safe_probability,
+                       settings.min_safe_probability);
   }
   if (!(site.height_m.three_sigma < settings.max_deviation_m)) {
-    return Text("height noise %.1f cm (3 sigma), sure below %.1f cm",
-                100 * site.height_m.three_sigma, 100 * settings.max_deviation_m);
+    return WithNumbers("height noise %.1f cm (3 sigma), sure below %.1f cm",
+                       100 * site.height_m.three_sigma, 100 * settings.max_deviation_m);
   }
   const int enough = std::min(kFramesToConfirm, settings.frames_fused);
   if (settings.mode == SladMode::kModern && site.frames_fused < enough && !site.pixel.hasNaN()) {
-    return Text("seen in %.0f of the %.0f frames that it takes", site.frames_fused, enough);
+    return WithNumbers("seen in %.0f of the %.0f frames that it takes", site.frames_fused, enough);
   }
-  return Text("rocks of %.2f m may not be seen from here", settings.max_rock_size_m, 0);
+  return WithNumbers("rocks of %.2f m may not be seen from here", settings.max_rock_size_m, 0);
 }
 
 }  // namespace palace

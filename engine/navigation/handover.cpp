@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+
+#include "engine/core/text.h"
 
 namespace palace {
 namespace {
@@ -12,12 +13,6 @@ constexpr double kMaxVelocityGap_mps = 0.3;
 constexpr double kMaxSilence_s = 0.5;
 constexpr int kMaxRejected = 5;
 constexpr double kStampSlack_s = 1e-3;
-
-std::string Text(const char* format, double a, double b) {
-  char line[128];
-  std::snprintf(line, sizeof line, format, a, b);
-  return line;
-}
 
 }  // namespace
 
@@ -66,15 +61,15 @@ std::string Handover::WaitingFor(Timestamp now) const {
     return "waiting for the first vision position";
   }
   if (rejected_in_row_ >= kMaxRejected) {
-    return Text("vision rejected %.0f times in a row", rejected_in_row_, 0);
+    return WithNumbers("vision rejected %.0f times in a row", rejected_in_row_, 0);
   }
   const double silence_s = SecondsBetween(last_accepted_, now);
   if (silence_s > kMaxSilence_s + kStampSlack_s) {
-    return Text("no vision position for %.1f s", silence_s, 0);
+    return WithNumbers("no vision position for %.1f s", silence_s, 0);
   }
   const double settled_s = SecondsBetween(settled_since_, last_accepted_);
   if (settled_s < kSettle_s - kStampSlack_s) {
-    return Text("vision settling, %.1f of %.1f s", settled_s, kSettle_s);
+    return WithNumbers("vision settling, %.1f of %.1f s", settled_s, kSettle_s);
   }
   double sum = 0;
   for (const HandoverSample& sample : samples_) {
@@ -83,12 +78,12 @@ std::string Handover::WaitingFor(Timestamp now) const {
   const double count = static_cast<double>(samples_.size());
   const double bound = 3 + 3 * std::sqrt(6 / count);
   if (sum / count > bound) {
-    return Text("vision residuals too large, %.1f over %.1f", sum / count, bound);
+    return WithNumbers("vision residuals too large, %.1f over %.1f", sum / count, bound);
   }
   const double gap_mps = samples_.back().velocity_gap_mps;
   if (!(gap_mps < kMaxVelocityGap_mps)) {
-    return Text("vision and GPS velocity differ by %.2f m/s, limit %.2f m/s", gap_mps,
-                kMaxVelocityGap_mps);
+    return WithNumbers("vision and GPS velocity differ by %.2f m/s, limit %.2f m/s", gap_mps,
+                       kMaxVelocityGap_mps);
   }
   return {};
 }

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include <opencv2/core.hpp>
 
+#include "engine/core/text.h"
 #include "engine/slad/explanation.h"
 #include "engine/slad/hazard_layers.h"
 #include "engine/slad/sense_check.h"
@@ -16,12 +16,6 @@
 
 namespace palace {
 namespace {
-
-std::string Text(const char* format, double value) {
-  char text[80];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
-}
 
 /// Cost averaged over 3x3 cells, so that a lone cheap cell beside dear ones does not win (4.3.3).
 double SmoothedCost(const GridF& cost, Cell cell) {
@@ -189,8 +183,8 @@ std::string NoneReason(const HazardMaps& hazards) {
   std::string text;
   for (const Part& part : parts) {
     if (part.count > 0) {
-      text +=
-          (text.empty() ? "" : ", ") + Text("%.0f", 100.0 * part.count / total) + " % " + part.name;
+      text += (text.empty() ? "" : ", ") + WithNumbers("%.0f", 100.0 * part.count / total) + " % " +
+              part.name;
     }
   }
   return text;

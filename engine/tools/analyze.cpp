@@ -11,6 +11,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "engine/core/text.h"
 #include "engine/core/time.h"
 #include "engine/core/units.h"
 #include "engine/model/site_standing.h"

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstdio>
 
+#include "engine/core/text.h"
 #include "engine/slad/elevation_map_builder.h"
 #include "engine/slad/hole_filling.h"
 
@@ -81,12 +81,6 @@ ElevationMap MapOfTops(const Points& points, const GridGeometry& geometry) {
 }  // namespace
 
 bool IsOnEarth(double height_m) { return height_m > -450 && height_m < 9000; }
-
-std::string WithNumbers(const char* format, double a, double b, double c) {
-  char text[200];
-  std::snprintf(text, sizeof text, format, a, b, c);
-  return text;
-}
 
 void CoverExtent(double north_m, double east_m, SladSettings& slad,
                  std::vector<std::string>& warnings) {

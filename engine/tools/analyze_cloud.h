@@ -36,7 +36,4 @@ void CoverExtent(double north_m, double east_m, SladSettings& slad,
 /// -9999 or 1e38, which would be the flattest ground of all.
 bool IsOnEarth(double height_m);
 
-/// printf with up to three numbers.
-std::string WithNumbers(const char* format, double a, double b = 0, double c = 0);
-
 }  // namespace palace

@@ -7,6 +7,7 @@
 #include "engine/camera/rectification.h"
 #include "engine/camera/rig_file.h"
 #include "engine/capture/picture_file.h"
+#include "engine/core/text.h"
 #include "engine/core/time.h"
 #include "engine/core/units.h"
 #include "engine/slad/elevation_map_builder.h"

@@ -1,9 +1,9 @@
 #include "engine/tools/analyze_report.h"
 
 #include <cmath>
-#include <cstdio>
 #include <vector>
 
+#include "engine/core/text.h"
 #include "engine/core/units.h"
 #include "engine/model/cell_explanation.h"
 #include "engine/model/site_standing.h"
@@ -13,17 +13,11 @@
 namespace palace {
 namespace {
 
-std::string Text(const char* format, double a, double b = 0, double c = 0) {
-  char text[128];
-  std::snprintf(text, sizeof text, format, a, b, c);
-  return text;
-}
-
 /// "3.1 ± 0.4 °, room 6.9 °": with its three sigma and what is left to the limit.
 std::string Against(const Figure& figure, double shown_per_unit, double limit, const char* unit) {
-  const std::string value =
-      Text("%.2f ± %.2f ", figure.value * shown_per_unit, figure.three_sigma * shown_per_unit);
-  return value + unit + Text(", room %.2f ", limit - figure.value * shown_per_unit) + unit;
+  const std::string value = WithNumbers("%.2f ± %.2f ", figure.value * shown_per_unit,
+                                        figure.three_sigma * shown_per_unit);
+  return value + unit + WithNumbers(", room %.2f ", limit - figure.value * shown_per_unit) + unit;
 }
 
 std::vector<std::vector<std::string>> SiteRows(const SiteSelection& selection,
@@ -33,13 +27,13 @@ std::vector<std::vector<std::string>> SiteRows(const SiteSelection& selection,
     const bool modern = slad.mode == SladMode::kModern;
     rows.push_back(
         {std::string(1, site.letter),
-         Text("%.2f N, %.2f E, %.2f up", site.p_WS.x(), site.p_WS.y(), site.height_m.value),
-         Text("%.2f m to the nearest hazard, %.2f m needed", site.safe_distance_m,
-              site.clear_radius_m),
+         WithNumbers("%.2f N, %.2f E, %.2f up", site.p_WS.x(), site.p_WS.y(), site.height_m.value),
+         WithNumbers("%.2f m to the nearest hazard, %.2f m needed", site.safe_distance_m,
+                     site.clear_radius_m),
          Against(site.slope_rad, kDegPerRad, slad.max_slope_deg, "°"),
          Against(site.roughness_m, 1, slad.max_deviation_m, "m"),
          modern ? Against(site.step_m, 1, slad.max_step_m, "m") : "not in thesis mode",
-         modern ? Text("%.4f, limit %.4f", site.safe_probability, slad.min_safe_probability)
+         modern ? WithNumbers("%.4f, limit %.4f", site.safe_probability, slad.min_safe_probability)
                 : "not in thesis mode",
          site.flags == 0 ? "none" : FlagWords(site.flags),
          site.confirmed ? "confirmed" : "provisional: " + WhyProvisional(site, slad), site.reason});
@@ -51,19 +45,20 @@ std::vector<std::string> Summary(const AnalyzeInput& input, const HazardMaps& ha
                                  const SiteSelection& selection) {
   const GridGeometry& g = input.map.geometry;
   std::vector<std::string> lines;
-  lines.push_back(selection.sites.empty()
-                      ? "No landing site: " + selection.none_reason
-                      : Text("%.0f landing sites; the best is A", double(selection.sites.size())));
-  lines.push_back(Text("Map of %.0f x %.0f cells of %.3g m", g.rows, g.cols, g.cell_m));
+  lines.push_back(selection.sites.empty() ? "No landing site: " + selection.none_reason
+                                          : WithNumbers("%.0f landing sites; the best is A",
+                                                        double(selection.sites.size())));
+  lines.push_back(WithNumbers("Map of %.0f x %.0f cells of %.3g m", g.rows, g.cols, g.cell_m));
   const RejectedCells& n = hazards.rejected;
   const double all = std::max(1.0, double(g.rows) * g.cols);
   lines.push_back(
-      Text("Cells that could bear the lander: %.1f %%", 100 * hazards.safe_cells / all));
-  lines.push_back(Text("Not safe for slope %.1f %%, roughness or step %.1f %%, unknown %.1f %%",
-                       100 * n.slope / all, 100 * n.roughness / all, 100 * n.unknown / all));
+      WithNumbers("Cells that could bear the lander: %.1f %%", 100 * hazards.safe_cells / all));
   lines.push_back(
-      Text("Not safe for a flag (raised surface, water, wire ..) %.1f %%, footprint %.1f %%",
-           100 * n.flagged / all, 100 * n.footprint / all));
+      WithNumbers("Not safe for slope %.1f %%, roughness or step %.1f %%, unknown %.1f %%",
+                  100 * n.slope / all, 100 * n.roughness / all, 100 * n.unknown / all));
+  lines.push_back(
+      WithNumbers("Not safe for a flag (raised surface, water, wire ..) %.1f %%, footprint %.1f %%",
+                  100 * n.flagged / all, 100 * n.footprint / all));
   for (const std::string& warning : input.warnings) {
     lines.push_back("Warning: " + warning);
   }
@@ -115,7 +110,7 @@ std::string AnalyzeReport(const AnalyzeInput& input, const Settings& settings,
   page.Heading("Settings").Table({"Setting", "Value", "Name"}, rows);
   std::vector<std::vector<std::string>> times;
   for (const StageTime& time : input.timings) {
-    times.push_back({time.stage, Text("%.1f", time.milliseconds)});
+    times.push_back({time.stage, WithNumbers("%.1f", time.milliseconds)});
   }
   page.Heading("Time").Table({"Stage", "ms"}, times);
   return page.Text();

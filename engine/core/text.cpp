@@ -1,0 +1,13 @@
+#include "engine/core/text.h"
+
+#include <cstdio>
+
+namespace palace {
+
+std::string WithNumbers(const char* format, double a, double b, double c) {
+  char text[200];
+  std::snprintf(text, sizeof text, format, a, b, c);
+  return text;
+}
+
+}  // namespace palace

@@ -1,0 +1,11 @@
+// Numbers in sentences for people.
+#pragma once
+
+#include <string>
+
+namespace palace {
+
+/// printf with up to three numbers, of at most 199 characters.
+std::string WithNumbers(const char* format, double a, double b = 0, double c = 0);
+
+}  // namespace palace
