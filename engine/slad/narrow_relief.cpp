@@ -1,7 +1,9 @@
 #include "engine/slad/narrow_relief.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
 #include <utility>
 
@@ -10,35 +12,98 @@ namespace {
 
 constexpr int kPlaces = 16;
 constexpr int kLeastPlaces = 10;
-constexpr double kSigmas = 6;
+constexpr double kSigmas = 5.5;
+constexpr double kNeighbourSigmas = 4;
+constexpr double kRoughs = 3.5;
 constexpr double kMostFactor = 6;
 constexpr double kSteepFactor = 4;
 constexpr double kTallest_m = 1;
 constexpr double kMostRefused = 0.15;  // share of a cell's pixels
 
+/// The ground around a cell: the plane through its ring.
 struct Ring {
-  double mean_m = 0;
+  double mean_m = 0;  ///< at the cell
+  double per_row_m = 0, per_col_m = 0;
   double variance_m2 = 0;  ///< of the mean, neighbours taken as independent
-  int known = 0;
+  double rough_m2 = 0;     ///< mean square off the plane
+  int places = 0;
 };
 
-Ring RingAround(const ElevationMap& map, int row, int col, double radius_cells) {
-  Ring ring;
-  for (int k = 0; k < kPlaces; ++k) {
+struct Place {
+  double south = 0, east = 0;
+};
+using HalfCircle = std::array<Place, kPlaces / 2>;
+
+HalfCircle Directions() {
+  HalfCircle directions;
+  for (int k = 0; k < kPlaces / 2; ++k) {
     const double azimuth = 2 * std::numbers::pi * k / kPlaces;
-    const Cell at{row + static_cast<int>(std::lround(radius_cells * std::cos(azimuth))),
-                  col + static_cast<int>(std::lround(radius_cells * std::sin(azimuth)))};
-    if (map.geometry.Contains(at) && map.state.at(at) == CellState::kMeasured) {
-      ring.mean_m += static_cast<double>(map.height_m.at(at));
-      ring.variance_m2 += static_cast<double>(map.variance_m2.at(at));
-      ++ring.known;
-    }
+    directions[static_cast<std::size_t>(k)] = {std::cos(azimuth), std::sin(azimuth)};
   }
-  if (ring.known > 0) {
-    ring.mean_m /= ring.known;
-    ring.variance_m2 /= static_cast<double>(ring.known) * ring.known;
+  return directions;
+}
+
+bool IsMeasured(const ElevationMap& map, Cell cell) {
+  return map.geometry.Contains(cell) && map.state.at(cell) == CellState::kMeasured;
+}
+
+/// Places count in pairs that face each other, so that a slope's mean is the cell's own height
+/// where part of the ring is unknown.
+Ring RingAround(const ElevationMap& map, const HalfCircle& directions, Cell cell,
+                double radius_cells) {
+  const double own_m = static_cast<double>(map.height_m.at(cell));
+  Ring ring;
+  double sum = 0, square = 0;
+  double rr = 0, rc = 0, cc = 0, rz = 0, cz = 0;  // sums of products: row, column, height
+  for (const auto& [south, east] : directions) {
+    const int dr = static_cast<int>(std::lround(radius_cells * south));
+    const int dc = static_cast<int>(std::lround(radius_cells * east));
+    const Cell ahead{cell.row + dr, cell.col + dc}, behind{cell.row - dr, cell.col - dc};
+    if (!IsMeasured(map, ahead) || !IsMeasured(map, behind)) {
+      continue;
+    }
+    const double a = static_cast<double>(map.height_m.at(ahead)) - own_m;
+    const double b = static_cast<double>(map.height_m.at(behind)) - own_m;
+    sum += a + b;
+    square += a * a + b * b;
+    rr += 2.0 * dr * dr;
+    rc += 2.0 * dr * dc;
+    cc += 2.0 * dc * dc;
+    rz += dr * (a - b);
+    cz += dc * (a - b);
+    ring.variance_m2 += static_cast<double>(map.variance_m2.at(ahead)) +
+                        static_cast<double>(map.variance_m2.at(behind));
+    ring.places += 2;
+  }
+  const double determinant = rr * cc - rc * rc;
+  if (ring.places > 0 && determinant > 0) {
+    const double n = ring.places, mean = sum / n;
+    ring.per_row_m = (cc * rz - rc * cz) / determinant;
+    ring.per_col_m = (rr * cz - rc * rz) / determinant;
+    ring.rough_m2 =
+        std::max(0.0, (square - ring.per_row_m * rz - ring.per_col_m * cz) / n - mean * mean);
+    ring.mean_m = mean + own_m;
+    ring.variance_m2 /= n * n;
   }
   return ring;
+}
+
+/// Whether one of the four cells beside stands above the ring's plane, too. Noise seldom does so
+/// twice; a thing as wide as the window lies in more than one cell.
+bool NeighbourStands(const ElevationMap& map, const Ring& ring, Cell cell) {
+  for (const auto& [dr, dc] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}}) {
+    const Cell near{cell.row + dr, cell.col + dc};
+    if (!IsMeasured(map, near)) {
+      continue;
+    }
+    const double stands_m = static_cast<double>(map.height_m.at(near)) - ring.mean_m -
+                            ring.per_row_m * dr - ring.per_col_m * dc;
+    const double noise_m2 = static_cast<double>(map.variance_m2.at(near)) + ring.variance_m2;
+    if (stands_m > 0 && stands_m * stands_m > kNeighbourSigmas * kNeighbourSigmas * noise_m2) {
+      return true;
+    }
+  }
+  return false;
 }
 
 bool ManyRefused(const Grid<PixelCount>& pixels, const GridGeometry& geometry, int row, int col) {
@@ -57,6 +122,7 @@ bool ManyRefused(const Grid<PixelCount>& pixels, const GridGeometry& geometry, i
 void RaiseNarrowRelief(const PinholeCamera& camera, const Eigen::Vector3d& p_WC, double narrow_m,
                        const Grid<PixelCount>& pixels, ElevationMap& map) {
   const GridGeometry& g = map.geometry;
+  const HalfCircle directions = Directions();
   const GridF before = map.height_m;
   GridF raised = before;
   for (int r = 0; r < g.rows; ++r) {
@@ -73,12 +139,14 @@ void RaiseNarrowRelief(const PinholeCamera& camera, const Eigen::Vector3d& p_WC,
       if (factor <= 1) {
         continue;
       }
-      const Ring ring =
-          RingAround(map, r, c, std::max(2.0, (0.75 * window_m + narrow_m / 2) / g.cell_m));
+      const Ring ring = RingAround(map, directions, {r, c},
+                                   std::max(2.0, (0.75 * window_m + narrow_m / 2) / g.cell_m));
       const double stands_m = height_m - ring.mean_m;
       const double noise_m2 = static_cast<double>(map.variance_m2.at(r, c)) + ring.variance_m2;
-      if (ring.known < kLeastPlaces || stands_m <= 0 ||
-          stands_m * stands_m <= kSigmas * kSigmas * noise_m2) {
+      if (ring.places < kLeastPlaces || stands_m <= 0 ||
+          stands_m * stands_m <= kSigmas * kSigmas * noise_m2 ||
+          stands_m * stands_m <= kRoughs * kRoughs * ring.rough_m2 ||
+          !NeighbourStands(map, ring, {r, c})) {
         continue;
       }
       const double must_be_m = std::max(stands_m, std::min(factor * stands_m, kTallest_m));

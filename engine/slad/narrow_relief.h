@@ -13,22 +13,28 @@ namespace palace {
 inline constexpr double kStereoWindow_px = 9;  ///< of stereo's refinement
 
 /// A matching window w metres wide reads a thing s < w wide as lower, by about (s / w)^2, because
-/// it averages it with the ground around. Cells that stand above the mean of a ring around them by
-/// more than six sigmas are raised to what a thing `narrow_m` wide must then be:
+/// it averages it with the ground around. Cells that stand above a ring around them by more than
+/// 5.5 sigmas, and by 3.5 times what the ring itself is rough by, are raised to what a thing
+/// `narrow_m` wide must then be:
 ///
 ///   h := ring + k (h - ring),   k = (w / narrow_m)^2, from 1 to 6,   w = 9 px * range / f
 ///
-/// but to no more than 1 m above the ring: edges of what is tall and wide need no help.
+/// but to no more than 1 m above the ring. Rough is the ring off its own plane: edges of wide
+/// things and rough ground are no narrow things and stay.
 ///
 /// k is at least 4 where stereo refused more than 0.15 of the pixels of the cell or of one that
 /// touches it: steep sides were not measured, and what was is their foot.
 ///
+/// One of the four cells beside must stand four sigmas above the same ring: a window as wide as a
+/// cell smears a thing over two, noise stands alone.
+///
 /// The sigmas are those of fusion, without the error that stereo repeats in every frame: what is
 /// raised is told from noise, not measured.
 ///
-/// The ring, 0.75 w + narrow_m / 2 in radius (16 places), takes ordinary slope out. Level ground
-/// and noise stay as they are; nothing is lowered. The variance is left: the sign of the thing is
-/// as certain as before. `pixels` has the map's size, or is empty: none was refused.
+/// The ring, 0.75 w + narrow_m / 2 in radius (8 pairs of places that face each other, at least 5
+/// known), takes slope out. Level ground and noise stay as they are; nothing is lowered. The
+/// variance is left: the sign of the thing is as certain as before. `pixels` has the map's size, or
+/// is empty: none was refused.
 void RaiseNarrowRelief(const PinholeCamera& camera, const Eigen::Vector3d& p_WC, double narrow_m,
                        const Grid<PixelCount>& pixels, ElevationMap& map);
 

@@ -14,7 +14,7 @@ namespace palace {
 namespace {
 
 constexpr float kLeastRise_m = 0.3F;
-constexpr float kRisePerRadius = 0.25F;
+constexpr float kRisePerRadius = 0.2F;
 constexpr float kWalkableSlope = 0.3F;
 constexpr float kSigmas = 3;
 constexpr double kLadderCell_m = 0.3;

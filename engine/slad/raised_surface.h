@@ -3,8 +3,8 @@
 //
 // 1. Ladder. The surface is opened with wider and wider squares (half width R up to 20 m): opening
 //    cuts off whatever is narrower than the square. A cell that loses more than
-//      max(0.3 m, R / 4) + 3 sigma
-//    in one rung is a candidate; the next rung opens what is left. Slopes under one in four never
+//      max(0.3 m, R / 5) + 3 sigma
+//    in one rung is a candidate; the next rung opens what is left. Slopes under one in five never
 //    are candidates.
 // 2. Rim. Candidates that touch are one surface. Where a candidate and a neighbour within 0.3 m (at
 //    least one cell) that is none differ by more than max(0.3 m, 0.3 d) at the distance d there is

@@ -30,7 +30,7 @@ TEST(NarrowRelief, LevelAndSlopingGroundWithNoiseStays) {
     for (std::size_t i = 0; i < map.height_m.cells().size(); ++i) {
       changed += map.height_m.cells()[i] != raised.height_m.cells()[i] ? 1 : 0;
     }
-    EXPECT_EQ(changed, 0) << "six sigmas, of 6400 cells";
+    EXPECT_EQ(changed, 0) << "of 6400 cells";
   }
 }
 
@@ -38,7 +38,8 @@ TEST(NarrowRelief, AThingSmallerThanTheWindowGetsItsHeight) {
   const double camera_m = 22;
   const double window_m = 9 * camera_m / kCamera.fx_px;
   const double seen_m = 0.5 * std::pow(kNarrow_m / window_m, 2);
-  const auto world = WithBox(Slope(Rad(4), 1), 0.075, 0.075, 0.14, seen_m);
+  // The window smears the thing as wide as itself.
+  const auto world = WithBox(Slope(Rad(4), 1), 0.075, 0.075, window_m, seen_m);
   const ElevationMap map = MakeMap(60, 60, 0.15, world, 0.005, 2);
   const ElevationMap raised = RaisedFrom(camera_m, map);
   const auto cell = map.geometry.CellFromPoint(0.075, 0.075);
@@ -72,6 +73,34 @@ TEST(NarrowRelief, AThingWithRefusedSidesRisesFromAnyHeight) {
   EXPECT_NEAR(height_with(0), foot_m, 0.01);
   EXPECT_NEAR(height_with(14), foot_m, 0.01);
   EXPECT_NEAR(height_with(16), 4 * foot_m, 0.03);
+}
+
+TEST(NarrowRelief, EdgesOfWideThingsAndRoughGroundStay) {
+  const auto ramp = [](double n, double e) {
+    return std::abs(n) < 1.5 && std::abs(e) < 1.5 ? 0.3 + 0.1 * n : 0.0;
+  };
+  const auto rough = [](double n, double e) { return 0.03 * std::sin(50 * n) * std::cos(70 * e); };
+  for (const testing::Height& world :
+       {testing::Height(ramp), WithBox(Slope(Rad(8), 1), 0, 0, 2, 0.5), testing::Height(rough)}) {
+    const ElevationMap map = MakeMap(80, 80, 0.15, world, 0.002, 6);
+    const ElevationMap raised = RaisedFrom(20, map);
+    for (int r = 0; r < 80; ++r) {
+      for (int c = 0; c < 80; ++c) {
+        EXPECT_EQ(raised.height_m.at(r, c), map.height_m.at(r, c)) << r << ' ' << c;
+      }
+    }
+  }
+}
+
+TEST(NarrowRelief, ACellThatStandsAloneIsNoise) {
+  for (const double beside_sigmas : {0.0, 3.0, 6.0}) {
+    ElevationMap map = MakeMap(60, 60, 0.15, Slope(Rad(6), 2), 0.0, 1);
+    const float sigma_m = std::sqrt(map.variance_m2.at(0, 0));
+    map.height_m.at(30, 30) += 10 * sigma_m;
+    map.height_m.at(30, 31) += static_cast<float>(beside_sigmas) * sigma_m;
+    EXPECT_EQ(RaisedFrom(25, map).height_m.at(30, 30) > map.height_m.at(30, 30), beside_sigmas > 4)
+        << beside_sigmas;
+  }
 }
 
 TEST(NarrowRelief, WhatIsTallIsNotMadeTaller) {

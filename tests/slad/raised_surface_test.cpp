@@ -72,6 +72,7 @@ std::vector<World> Worlds() {
           {"platform_with_a_narrow_ramp", PlatformWithRamp(1, 0.15, 0.25), true},
           {"platform_with_a_wide_ramp", PlatformWithRamp(1, 0.6, 0.25), false},
           {"platform_with_a_wide_steep_ramp", PlatformWithRamp(1.5, 0.6, 0.7), false},
+          {"platform_6_m", WithRectangle(Flat(), 6.4, 6.4, 1.1), true},
           {"steep_mound", Mound, false},
           {"plateau_over_half_the_map", Plateau, false},
           {"plain", Flat(-3), false},
