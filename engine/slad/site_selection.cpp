@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -65,7 +66,10 @@ class Candidates {
  public:
   Candidates(const ElevationMap& map, const HazardMaps& hazards, const SladSettings& settings,
              const SiteContext& context)
-      : rows_(static_cast<std::size_t>(map.geometry.rows)) {
+      : rows_(static_cast<std::size_t>(map.geometry.rows)),
+        as_good_(settings.mode == SladMode::kModern && settings.choice == SiteChoice::kFarthest
+                     ? 0.75 * map.geometry.cell_m
+                     : 0) {
     const OffCentre off_centre(context);
     const float clear_m = static_cast<float>(settings.clear_radius_m());
     const double cell_m = map.geometry.cell_m;
@@ -86,7 +90,7 @@ class Candidates {
                                    ? distance_m + cell_m * (0.4 * (1 - cost) + tie)
                                    : -cost + 1e-3 * (distance_m + tie);
           if (score > kNone) {
-            row.left.push_back({c, score});
+            row.left.push_back({c, false, score});
           }
         }
         FindBest(row);
@@ -103,8 +107,9 @@ class Candidates {
       if (!cell) {
         break;
       }
-      DropAround(*cell, spacing_cells);
-      taken.push_back(*cell);
+      const Cell middle = MiddleOfEquals(*cell);
+      DropAround(middle, spacing_cells);
+      taken.push_back(middle);
     }
     return taken;
   }
@@ -114,6 +119,7 @@ class Candidates {
 
   struct Candidate {
     int col = -1;
+    bool counted = false;  ///< by MiddleOfEquals
     double score = kNone;
   };
   struct Row {
@@ -133,6 +139,57 @@ class Candidates {
       }
     }
     return cell;
+  }
+
+  Candidate* Find(Cell cell) {
+    if (cell.row < 0 || cell.row >= static_cast<int>(rows_.size())) {
+      return nullptr;
+    }
+    std::vector<Candidate>& left = rows_[static_cast<std::size_t>(cell.row)].left;
+    const auto at = std::lower_bound(left.begin(), left.end(), cell.col,
+                                     [](const Candidate& a, int col) { return a.col < col; });
+    return at != left.end() && at->col == cell.col ? &*at : nullptr;
+  }
+
+  /// Along a ridge of safe distance it is chance, of a centimetre, which cell is the best: taken is
+  /// the cell nearest to the middle of all that touch it and are as good.
+  Cell MiddleOfEquals(Cell best) {
+    if (as_good_ == 0) {
+      return best;
+    }
+    const double least = Find(best)->score - as_good_;
+    std::vector<Cell> equals{best};
+    Find(best)->counted = true;
+    std::int64_t row_sum = 0, col_sum = 0;
+    for (std::size_t next = 0; next < equals.size(); ++next) {
+      const Cell cell = equals[next];
+      row_sum += cell.row;
+      col_sum += cell.col;
+      for (int k = 0; k < 9; ++k) {
+        const Cell near{cell.row + k / 3 - 1, cell.col + k % 3 - 1};
+        Candidate* candidate = Find(near);
+        if (candidate != nullptr && !candidate->counted && candidate->score >= least) {
+          candidate->counted = true;
+          equals.push_back(near);
+        }
+      }
+    }
+    const auto n = static_cast<std::int64_t>(equals.size());
+    const auto off2 = [&](Cell cell) {  // whole numbers, so that a turned map has the same ties
+      const auto dr = static_cast<double>(n * cell.row - row_sum);
+      const auto dc = static_cast<double>(n * cell.col - col_sum);
+      return dr * dr + dc * dc;
+    };
+    Cell middle = best;
+    for (const Cell& cell : equals) {
+      Candidate& candidate = *Find(cell);
+      candidate.counted = false;
+      const double nearer = off2(middle) - off2(cell);
+      if (nearer > 0 || (nearer == 0 && candidate.score > Find(middle)->score)) {
+        middle = cell;
+      }
+    }
+    return middle;
   }
 
   /// Drops the cell and all nearer to it than the spacing.
@@ -160,6 +217,7 @@ class Candidates {
   }
 
   std::vector<Row> rows_;
+  const double as_good_;  ///< scores that differ by less are equal; metres
 };
 
 std::string NoneReason(const HazardMaps& hazards) {

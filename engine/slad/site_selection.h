@@ -25,11 +25,12 @@ struct SiteContext {
 
 /// Best first. A site is a cell whose safe distance reaches the clear radius (lander radius +
 /// navigation error) and whose footprint keeps every limit. kFarthest ranks by safe distance, then
-/// cost, then nearness to the middle of the picture; kCost by the smoothed cost. Sites whose
-/// straight approach is blocked come after those where it is clear, and last those that no sector
-/// of approach is clear to. Sites lie at least site_spacing_m apart. Each has the reason for its
-/// rank (GiveReasons, explanation.h). Letters and ids are for SiteRegistry to give. Pixels come
-/// from forward projection (erratum E17); NaN behind the camera.
+/// cost, then nearness to the middle of the picture; kCost by the smoothed cost. In modern mode
+/// kFarthest takes the middle of the touching cells within 3/4 of a cell of the best distance.
+/// Sites whose straight approach is blocked come after those where it is clear, and last those that
+/// no sector of approach is clear to. Sites lie at least site_spacing_m apart. Each has the reason
+/// for its rank (GiveReasons, explanation.h). Letters and ids are for SiteRegistry to give. Pixels
+/// come from forward projection (erratum E17); NaN behind the camera.
 SiteSelection SelectSites(const ElevationMap& map, const HazardMaps& hazards,
                           const SladSettings& settings, const SiteContext& context);
 

@@ -1,6 +1,7 @@
 #include "engine/slad/site_selection.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include <gtest/gtest.h>
@@ -53,6 +54,23 @@ TEST(SiteSelection, FlatFieldIsWonByItsMiddle) {
     EXPECT_EQ(site.clear_approaches, 0xFF);
     EXPECT_EQ(site.age_s, 0);
     EXPECT_NEAR(site.distance_m, 15, 1e-6);
+  }
+}
+
+// Along the middle of a lane many places are equal but for how the walls fall into cells.
+TEST(SiteSelection, ALaneIsWonByItsMiddle) {
+  SiteContext context = Context();
+  context.camera.width = 0;
+  for (int turn_deg = 0; turn_deg < 180; turn_deg += 7) {
+    const double turn = Rad(turn_deg);
+    const auto lane = [turn](double n, double e) {
+      const double along = n * std::cos(turn) + e * std::sin(turn);
+      const double across = e * std::cos(turn) - n * std::sin(turn);
+      return std::abs(along) > 4 || std::abs(across) > 3 ? 1.5 : 0.0;
+    };
+    const SiteSelection selection = Select(MakeMap(81, 81, 0.15, lane, 0.004, 3), {}, context);
+    ASSERT_FALSE(selection.sites.empty()) << turn_deg;
+    EXPECT_LT(selection.sites.front().p_WS.head<2>().norm(), 0.3) << turn_deg;
   }
 }
 
