@@ -48,7 +48,7 @@ bool IsMeasured(const ElevationMap& map, Cell cell) {
 }
 
 /// Places count in pairs that face each other, so that a slope's mean is the cell's own height
-/// where part of the ring is unknown.
+/// where part of the ring is unknown. Without a plane: no place.
 Ring RingAround(const ElevationMap& map, const HalfCircle& directions, Cell cell,
                 double radius_cells) {
   const double own_m = static_cast<double>(map.height_m.at(cell));
@@ -76,15 +76,16 @@ Ring RingAround(const ElevationMap& map, const HalfCircle& directions, Cell cell
     ring.places += 2;
   }
   const double determinant = rr * cc - rc * rc;
-  if (ring.places > 0 && determinant > 0) {
-    const double n = ring.places, mean = sum / n;
-    ring.per_row_m = (cc * rz - rc * cz) / determinant;
-    ring.per_col_m = (rr * cz - rc * rz) / determinant;
-    ring.rough_m2 =
-        std::max(0.0, (square - ring.per_row_m * rz - ring.per_col_m * cz) / n - mean * mean);
-    ring.mean_m = mean + own_m;
-    ring.variance_m2 /= n * n;
+  if (!(determinant > 0)) {
+    return {};
   }
+  const double n = ring.places, mean = sum / n;
+  ring.per_row_m = (cc * rz - rc * cz) / determinant;
+  ring.per_col_m = (rr * cz - rc * rz) / determinant;
+  ring.rough_m2 =
+      std::max(0.0, (square - ring.per_row_m * rz - ring.per_col_m * cz) / n - mean * mean);
+  ring.mean_m = mean + own_m;
+  ring.variance_m2 /= n * n;
   return ring;
 }
 
