@@ -13,7 +13,9 @@ namespace {
 constexpr int kPlaces = 16;
 constexpr int kLeastPlaces = 10;
 constexpr double kSigmas = 5.5;
-constexpr double kNeighbourSigmas = 4;
+constexpr double kBesideSigmas = 4;
+constexpr double kClearSigmas = 8, kBesideClearSigmas = 2.5;
+constexpr double kLeastVariance_m2 = 1e-12;  // of maps that state none
 constexpr double kRoughs = 3.5;
 constexpr double kMostFactor = 6;
 constexpr double kSteepFactor = 4;
@@ -89,22 +91,25 @@ Ring RingAround(const ElevationMap& map, const HalfCircle& directions, Cell cell
   return ring;
 }
 
-/// Whether one of the four cells beside stands above the ring's plane, too. Noise seldom does so
+/// Height above the ring's plane in sigmas, of the cell `dr` and `dc` beside the ring's own.
+double SigmasAbove(const ElevationMap& map, const Ring& ring, Cell cell, int dr, int dc) {
+  const Cell at{cell.row + dr, cell.col + dc};
+  const double stands_m = static_cast<double>(map.height_m.at(at)) - ring.mean_m -
+                          ring.per_row_m * dr - ring.per_col_m * dc;
+  return stands_m / std::sqrt(static_cast<double>(map.variance_m2.at(at)) + ring.variance_m2 +
+                              kLeastVariance_m2);
+}
+
+/// The same of the highest of the four cells beside; 0 where none is known. Noise seldom stands
 /// twice; a thing as wide as the window lies in more than one cell.
-bool NeighbourStands(const ElevationMap& map, const Ring& ring, Cell cell) {
+double SigmasBeside(const ElevationMap& map, const Ring& ring, Cell cell) {
+  double most = 0;
   for (const auto& [dr, dc] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}}) {
-    const Cell near{cell.row + dr, cell.col + dc};
-    if (!IsMeasured(map, near)) {
-      continue;
-    }
-    const double stands_m = static_cast<double>(map.height_m.at(near)) - ring.mean_m -
-                            ring.per_row_m * dr - ring.per_col_m * dc;
-    const double noise_m2 = static_cast<double>(map.variance_m2.at(near)) + ring.variance_m2;
-    if (stands_m > 0 && stands_m * stands_m > kNeighbourSigmas * kNeighbourSigmas * noise_m2) {
-      return true;
+    if (IsMeasured(map, {cell.row + dr, cell.col + dc})) {
+      most = std::max(most, SigmasAbove(map, ring, cell, dr, dc));
     }
   }
-  return false;
+  return most;
 }
 
 bool ManyRefused(const Grid<PixelCount>& pixels, const GridGeometry& geometry, int row, int col) {
@@ -143,11 +148,12 @@ void RaiseNarrowRelief(const PinholeCamera& camera, const Eigen::Vector3d& p_WC,
       const Ring ring = RingAround(map, directions, {r, c},
                                    std::max(2.0, (0.75 * window_m + narrow_m / 2) / g.cell_m));
       const double stands_m = height_m - ring.mean_m;
-      const double noise_m2 = static_cast<double>(map.variance_m2.at(r, c)) + ring.variance_m2;
-      if (ring.places < kLeastPlaces || stands_m <= 0 ||
-          stands_m * stands_m <= kSigmas * kSigmas * noise_m2 ||
-          stands_m * stands_m <= kRoughs * kRoughs * ring.rough_m2 ||
-          !NeighbourStands(map, ring, {r, c})) {
+      if (ring.places < kLeastPlaces || stands_m * stands_m <= kRoughs * kRoughs * ring.rough_m2) {
+        continue;
+      }
+      const double sigmas = SigmasAbove(map, ring, {r, c}, 0, 0);
+      const double beside = sigmas > kClearSigmas ? kBesideClearSigmas : kBesideSigmas;
+      if (sigmas <= kSigmas || SigmasBeside(map, ring, {r, c}) <= beside) {
         continue;
       }
       const double must_be_m = std::max(stands_m, std::min(factor * stands_m, kTallest_m));

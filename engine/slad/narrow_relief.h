@@ -25,8 +25,8 @@ inline constexpr double kStereoWindow_px = 9;  ///< of stereo's refinement
 /// k is at least 4 where stereo refused more than 0.15 of the pixels of the cell or of one that
 /// touches it: steep sides were not measured, and what was is their foot.
 ///
-/// One of the four cells beside must stand four sigmas above the same ring: a window as wide as a
-/// cell smears a thing over two, noise stands alone.
+/// One of the four cells beside must stand four sigmas above the same ring, or 2.5 where the cell
+/// itself stands eight: a window as wide as a cell smears a thing over two, noise stands alone.
 ///
 /// The sigmas are those of fusion, without the error that stereo repeats in every frame: what is
 /// raised is told from noise, not measured.

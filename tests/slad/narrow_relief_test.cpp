@@ -93,13 +93,18 @@ TEST(NarrowRelief, EdgesOfWideThingsAndRoughGroundStay) {
 }
 
 TEST(NarrowRelief, ACellThatStandsAloneIsNoise) {
-  for (const double beside_sigmas : {0.0, 3.0, 6.0}) {
+  struct Case {
+    float own_sigmas, beside_sigmas;
+    bool raised;
+  };
+  for (const Case& c :
+       {Case{7, 3, false}, {7, 5, true}, {5, 6, false}, {12, 1, false}, {12, 3.5F, true}}) {
     ElevationMap map = MakeMap(60, 60, 0.15, Slope(Rad(6), 2), 0.0, 1);
     const float sigma_m = std::sqrt(map.variance_m2.at(0, 0));
-    map.height_m.at(30, 30) += 10 * sigma_m;
-    map.height_m.at(30, 31) += static_cast<float>(beside_sigmas) * sigma_m;
-    EXPECT_EQ(RaisedFrom(25, map).height_m.at(30, 30) > map.height_m.at(30, 30), beside_sigmas > 4)
-        << beside_sigmas;
+    map.height_m.at(30, 30) += c.own_sigmas * sigma_m;
+    map.height_m.at(30, 31) += c.beside_sigmas * sigma_m;
+    EXPECT_EQ(RaisedFrom(25, map).height_m.at(30, 30) > map.height_m.at(30, 30), c.raised)
+        << c.own_sigmas << " and " << c.beside_sigmas << " sigmas";
   }
 }
 
