@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <map>
 #include <optional>
+#include <set>
 
 #include "engine/core/check.h"
 
@@ -164,10 +165,14 @@ std::string TrialFileText(const TrialFile& file) {
 Result<TrialFile> ParseTrialFile(std::string_view text, const std::string& name) {
   TrialFile file;
   int line = 0;
+  std::set<int> trials;
   while (!text.empty()) {
     const auto end = text.find('\n');
+    if (end == std::string_view::npos) {
+      return At(name, line + 1, "the file is cut off within this line; run the shard again");
+    }
     std::string_view content = text.substr(0, end);
-    text = end == std::string_view::npos ? std::string_view{} : text.substr(end + 1);
+    text = text.substr(end + 1);
     content = content.ends_with('\r') ? content.substr(0, content.size() - 1) : content;
     ++line;
     if (line == 1) {
@@ -194,11 +199,18 @@ Result<TrialFile> ParseTrialFile(std::string_view text, const std::string& name)
           !file.header.shard.Holds(trial)) {
         return At(name, line, "trial = " + row[0] + " does not belong to this shard");
       }
+      trials.insert(trial);
       file.table.rows.push_back(std::move(row));
     }
   }
   if (line < 2) {
     return At(name, line, "the file ends before its columns");
+  }
+  for (int trial = file.header.shard.index - 1; trial < file.header.trials;
+       trial += file.header.shard.count) {
+    if (!trials.contains(trial)) {
+      return At(name, line, "trial " + std::to_string(trial) + " has no row; run the shard again");
+    }
   }
   return file;
 }

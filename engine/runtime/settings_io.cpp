@@ -101,18 +101,6 @@ Status SetUpVector(Settings& settings, const toml::node& node) {
               : done;
 }
 
-/// Rules between two values, checked once all keys are read.
-Status CheckBounds(const Settings& settings, const std::string& name) {
-  const SladSettings& s = settings.slad;
-  if (s.bounds == BoundsMode::kGiven && (s.x_min_m >= s.x_max_m || s.y_min_m >= s.y_max_m)) {
-    return InvalidError(
-        name + ": slad.x_min_m = " + Shortest(s.x_min_m) + ", x_max_m = " + Shortest(s.x_max_m) +
-        ", y_min_m = " + Shortest(s.y_min_m) + ", y_max_m = " + Shortest(s.y_max_m) +
-        ": each minimum must lie below its maximum");
-  }
-  return Ok();
-}
-
 Status ApplyKey(Settings& settings, const std::string& key, const toml::node& node) {
   if (key == "slad.up_vector_ned") {
     return SetUpVector(settings, node);
@@ -126,6 +114,17 @@ Status ApplyKey(Settings& settings, const std::string& key, const toml::node& no
 }
 
 }  // namespace
+
+Status CheckSettings(const Settings& settings, const std::string& name) {
+  const SladSettings& s = settings.slad;
+  if (s.bounds == BoundsMode::kGiven && (s.x_min_m >= s.x_max_m || s.y_min_m >= s.y_max_m)) {
+    return InvalidError(
+        name + ": slad.x_min_m = " + Shortest(s.x_min_m) + ", x_max_m = " + Shortest(s.x_max_m) +
+        ", y_min_m = " + Shortest(s.y_min_m) + ", y_max_m = " + Shortest(s.y_max_m) +
+        ": each minimum must lie below its maximum");
+  }
+  return Ok();
+}
 
 Result<Settings> ParseSettings(std::string_view text, const std::string& name,
                                const Settings& base) {
@@ -151,7 +150,7 @@ Result<Settings> ParseSettings(std::string_view text, const std::string& name,
       }
     }
   }
-  const Status bounds = CheckBounds(settings, name);
+  const Status bounds = CheckSettings(settings, name);
   return bounds ? Result<Settings>(settings) : Result<Settings>(bounds.error());
 }
 

@@ -19,6 +19,9 @@ Result<Settings> LoadSettingsFile(const std::filesystem::path& path, const Setti
 Result<Settings> ParseSettings(std::string_view text, const std::string& name,
                                const Settings& base);
 
+/// Rules between two values, asked once all are read: given bounds run from low to high.
+Status CheckSettings(const Settings& settings, const std::string& name);
+
 /// Applies one "slad.max_slope_deg=8" or "slad.mode=thesis", as --set gives it.
 Result<Settings> ApplySettingText(const Settings& base, std::string_view assignment);
 

@@ -213,15 +213,18 @@ std::optional<Approach> StraightApproach(const SladSettings& settings, const Sit
 
 std::uint8_t ClearApproaches(const ElevationMap& map, const SladSettings& settings,
                              const SiteContext& context, const LandingSite& site) {
-  // As far out as the slope is below the vehicle's present height.
+  // As far out as the slope is below the vehicle's present height; to the end of the map for a
+  // vehicle nobody knows.
   const double tangent = std::tan(std::clamp(context.glide_slope_rad, 0.02, 1.55));
+  const GridGeometry& g = map.geometry;
   const double height_m = site.p_WS.z() - context.p_WB.z();
+  const double length_m = std::isnan(height_m) ? g.cell_m * std::hypot(g.rows, g.cols)
+                                               : std::max(0.0, height_m / tangent);
   unsigned clear = 0;
   for (unsigned sector = 0; sector < 8; ++sector) {
     const double bearing_rad = sector * std::numbers::pi / 4;
-    const Approach approach{{std::cos(bearing_rad), std::sin(bearing_rad)},
-                            std::max(0.0, height_m / tangent),
-                            context.glide_slope_rad};
+    const Approach approach{
+        {std::cos(bearing_rad), std::sin(bearing_rad)}, length_m, context.glide_slope_rad};
     clear |= IsClear(approach, map, settings, site) ? 1U << sector : 0U;
   }
   return static_cast<std::uint8_t>(clear);

@@ -308,6 +308,11 @@ SiteSelection SelectSites(const ElevationMap& map, const HazardMaps& hazards,
   return selection;
 }
 
+bool CanBearLander(const HazardMaps& hazards, const SladSettings& settings, Cell cell) {
+  return hazards.safe_distance_m.at(cell) >= static_cast<float>(settings.clear_radius_m()) &&
+         FootprintHolds(hazards, settings, cell);
+}
+
 std::optional<LandingSite> RecheckSite(const ElevationMap& map, const HazardMaps& hazards,
                                        const SladSettings& settings, const LandingSite& site,
                                        const SiteContext& context) {

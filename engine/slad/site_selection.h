@@ -34,6 +34,10 @@ struct SiteContext {
 SiteSelection SelectSites(const ElevationMap& map, const HazardMaps& hazards,
                           const SladSettings& settings, const SiteContext& context);
 
+/// Whether a site may lie there: its safe distance reaches the clear radius, its footprint keeps
+/// every limit.
+bool CanBearLander(const HazardMaps& hazards, const SladSettings& settings, Cell cell);
+
 /// The same place on a newer map, id and letter kept, clearance negative when it no longer holds.
 /// Nothing when the place is outside the map.
 std::optional<LandingSite> RecheckSite(const ElevationMap& map, const HazardMaps& hazards,

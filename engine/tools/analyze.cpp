@@ -31,6 +31,7 @@ namespace palace {
 namespace {
 
 constexpr int kVerdictDivisor = 4;
+constexpr const char* kOverlay = "overlay.png";
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
@@ -89,6 +90,9 @@ Result<Settings> LoadSettings(const Options& options) {
     }
     settings = *changed;
   }
+  if (const Status good = CheckSettings(settings, "--set"); !good) {
+    return UsageError(good.error().message);
+  }
   return settings;
 }
 
@@ -135,7 +139,7 @@ Json SiteJson(const LandingSite& site, const SladSettings& slad) {
           {"step_m", Number(site.step_m.value)},
           {"safe_distance_m", site.safe_distance_m},
           {"clear_radius_m", site.clear_radius_m},
-          {"corridor_clear", site.corridor_clear},
+          {"corridor_clear", std::isfinite(site.distance_m) ? Json(site.corridor_clear) : Json()},
           {"clear_approaches", ApproachesJson(site)},
           {"age_s", Number(site.age_s)},
           {"flags", FlagWords(site.flags)},
@@ -230,7 +234,10 @@ Status WriteLayers(const Outcome& o, const fs::path& folder) {
        {"hazard: 0 safe, 1 over a limit", ColourTable::kInferno, 1, 0.0, 1.3}}};
   for (const Row& row : rows) {
     const std::string name = row.name;
-    const MapLayer layer{o.input.map.geometry, row.cells, o.input.epsg};
+    MapLayer layer{o.input.map.geometry, row.cells, o.input.epsg};
+    for (float& value : layer.cells.cells()) {
+      value *= static_cast<float>(row.picture.shown_per_unit);
+    }
     if (const Status done = WriteGeoTiff(folder / (name + ".tif"), layer); !done) {
       return done;
     }
@@ -246,8 +253,8 @@ Status WriteAll(const Outcome& o, const fs::path& folder) {
   if (const Status done = WriteLayers(o, folder); !done) {
     return done;
   }
-  if (const Status done =
-          WriteSafeLandingPicture(folder / "safe_landing.png", o.input.map, o.hazards, o.selection);
+  if (const Status done = WriteSafeLandingPicture(folder / "safe_landing.png", o.input.map,
+                                                  o.hazards, o.settings.slad, o.selection);
       !done) {
     return done;
   }
@@ -255,7 +262,7 @@ Status WriteAll(const Outcome& o, const fs::path& folder) {
     const ImageU8 verdict =
         VerdictImage(*o.input.range, o.input.context.X_WC, o.hazards, kVerdictDivisor);
     const Status done =
-        WriteOverlay(folder / "overlay.png", *o.input.left, o.selection, o.input.context, verdict);
+        WriteOverlay(folder / kOverlay, *o.input.left, o.selection, o.input.context, verdict);
     if (!done) {
       return done;
     }
@@ -284,6 +291,7 @@ Status Publish(const Outcome& o, const fs::path& out) {
   }
   Status done = WriteAll(o, partial);
   if (done) {
+    fs::remove(out / kOverlay, error);  // of an earlier pair; a map has none
     for (const auto& entry : fs::directory_iterator(partial, error)) {
       fs::rename(entry.path(), out / entry.path().filename(), error);
       if (error) {

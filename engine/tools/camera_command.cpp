@@ -10,6 +10,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "engine/core/command_line.h"
 #include "engine/tools/camera_info.h"
 #include "engine/tools/camera_points.h"
 #include "engine/tools/camera_verbs.h"
@@ -185,7 +186,7 @@ void AddCameraCommand(CLI::App& app, int& exit_code) {
   align
       ->add_option("--baseline", options->baseline_m,
                    "Metres between the cameras, for files without a pose")
-      ->check(CLI::Range(0.001, 1000.0));
+      ->check(FiniteRange(0.001, 1000.0));
   align->add_option("--size", options->size,
                     "Size of both pictures, for files that do not tell it");
   const CLI::Option* field = align->get_option("--field");

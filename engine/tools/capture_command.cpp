@@ -13,6 +13,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "engine/capture/cameras.h"
+#include "engine/core/command_line.h"
 
 namespace palace {
 namespace {
@@ -109,7 +110,7 @@ void AddCaptureCommand(CLI::App& app, int& exit_code) {
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
   verb->add_option("--every-s", options->every_s, "seconds between two pairs: move the board")
-      ->check(CLI::Range(0.0, 3600.0))
+      ->check(FiniteRange(0.0, 3600.0))
       ->capture_default_str();
   verb->callback([options, &exit_code] {
     if (const Status done = Run(*options); !done) {

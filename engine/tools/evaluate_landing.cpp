@@ -7,6 +7,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "engine/core/command_line.h"
 #include "engine/mission/approval_verifier.h"
 #include "engine/report/statistics.h"
 #include "engine/report/svg_plot.h"
@@ -176,7 +177,7 @@ Experiment LandingExperiment(SceneCameraFactory camera) {
   experiment.add_options = [options](CLI::App& verb) {
     verb.add_option("--scenario", options->scenario, "Scene")->capture_default_str();
     verb.add_option("--wind", options->wind_mps, "Mean wind, m/s")
-        ->check(CLI::Range(0.0, 15.0))
+        ->check(FiniteRange(0.0, 15.0))
         ->capture_default_str();
     verb.add_option("--set", options->set, "One setting, e.g. slad.max_slope_deg=8");
   };

@@ -11,6 +11,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "engine/core/command_line.h"
 #include "engine/core/random.h"
 #include "engine/core/units.h"
 #include "engine/runtime/settings_io.h"
@@ -180,15 +181,15 @@ Experiment SiteRangeExperiment() {
   experiment.columns = SiteRangeColumns();
   experiment.add_options = [options](CLI::App& app) {
     app.add_option("--altitudes-ft", options->altitudes_ft, "Heights above the ground, ft")
-        ->check(CLI::Range(5.0, 500.0))
+        ->check(FiniteRange(5.0, 500.0))
         ->delimiter(',')
         ->capture_default_str();
     app.add_option("--cones-in", options->cones_in, "Heights of the cones, inches")
-        ->check(CLI::Range(4.0, 60.0))
+        ->check(FiniteRange(4.0, 60.0))
         ->delimiter(',')
         ->capture_default_str();
     app.add_option("--fov-deg", options->field_of_view_deg, "Horizontal field of view, degrees")
-        ->check(CLI::Range(20.0, 100.0))
+        ->check(FiniteRange(20.0, 100.0))
         ->capture_default_str();
     app.add_option("--frames", options->frames, "Frames fused")
         ->check(CLI::Range(1, 100))

@@ -11,6 +11,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "engine/core/command_line.h"
 #include "engine/core/units.h"
 #include "engine/runtime/settings_io.h"
 #include "engine/slad/explanation.h"
@@ -311,10 +312,10 @@ Experiment SiteShapesExperiment() {
   experiment.columns = Columns();
   experiment.add_options = [options](CLI::App& app) {
     app.add_option("--height-ft", options->height_ft, "Camera above the ground, feet")
-        ->check(CLI::Range(5.0, 500.0))
+        ->check(FiniteRange(5.0, 500.0))
         ->capture_default_str();
     app.add_option("--fov-deg", options->fov_deg, "Horizontal field of view, degrees")
-        ->check(CLI::Range(20.0, 100.0))
+        ->check(FiniteRange(20.0, 100.0))
         ->capture_default_str();
     app.add_option("--set", options->set, "A setting, GROUP.KEY=VALUE; may be repeated");
   };

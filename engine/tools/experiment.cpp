@@ -9,6 +9,7 @@
 
 #include "engine/camera/text_file.h"
 #include "engine/core/check.h"
+#include "engine/core/command_line.h"
 
 namespace palace {
 namespace {
@@ -130,6 +131,7 @@ Result<fs::path> CsvOf(const fs::path& path, const std::vector<Experiment>& expe
 int Merge(const std::vector<Experiment>& experiments, const std::vector<std::string>& paths,
           const fs::path& out) {
   std::vector<TrialFile> shards;
+  std::vector<fs::path> inputs;
   for (const std::string& path : paths) {
     const Result<fs::path> csv = CsvOf(path, experiments);
     if (!csv) {
@@ -144,6 +146,7 @@ int Merge(const std::vector<Experiment>& experiments, const std::vector<std::str
       return Fail(shard.error());
     }
     shards.push_back(std::move(*shard));
+    inputs.push_back(*csv);
   }
   const Result<TrialFile> merged = MergeTrialFiles(shards);
   if (!merged) {
@@ -161,6 +164,13 @@ int Merge(const std::vector<Experiment>& experiments, const std::vector<std::str
     }
     if (const Status made = MakeFolder(out); !made) {
       return Fail(made.error());
+    }
+    for (const fs::path& csv : inputs) {
+      std::error_code error;
+      if (fs::equivalent(csv, out / (experiment.name + ".csv"), error)) {
+        return Fail(UsageError("merge: --out " + out.string() + " would overwrite the shard " +
+                               csv.string() + "; choose another folder"));
+      }
     }
     return WriteResults(experiment, *merged, out);
   }
@@ -203,6 +213,7 @@ void AddExperiments(CLI::App& evaluate, const std::vector<Experiment>& experimen
         ->check(CLI::Range(1, 1'000'000))
         ->capture_default_str();
     verb->add_option("--seed", options->seed, "Seed of the first trial; the others count on")
+        ->check(Seed())
         ->capture_default_str();
     verb->add_option("--shard", options->shard,
                      "i/n: only every n-th trial; `evaluate merge` joins the shards");

@@ -248,14 +248,14 @@ Status WriteMapPicture(const std::filesystem::path& path, const GridF& cells,
 }
 
 Status WriteSafeLandingPicture(const std::filesystem::path& path, const ElevationMap& map,
-                               const HazardMaps& hazards, const SiteSelection& selection) {
+                               const HazardMaps& hazards, const SladSettings& settings,
+                               const SiteSelection& selection) {
   const GridGeometry& g = map.geometry;
   if (map.height_m.empty()) {
     return InvalidError(path.string() + ": the map has no cells");
   }
   const Grid<std::uint8_t> relief = Relief(map);
   cv::Mat colours(g.rows, g.cols, CV_8UC3, cv::Scalar(40, 36, 34));
-  const double clear_m = selection.sites.empty() ? 0 : selection.sites.front().clear_radius_m;
   for (int r = 0; r < g.rows; ++r) {
     for (int c = 0; c < g.cols; ++c) {
       const double height = static_cast<double>(map.height_m.at(r, c));
@@ -264,8 +264,9 @@ Status WriteSafeLandingPicture(const std::filesystem::path& path, const Elevatio
         continue;
       }
       const double grey = relief.at(r, c);
-      const bool near = static_cast<double>(hazards.safe_distance_m.at(r, c)) < clear_m;
-      const cv::Vec3d tint = reasons != 0 ? kUnsafeInk : near ? cv::Vec3d(150, 140, 130) : kSafeInk;
+      const cv::Vec3d tint = reasons != 0                               ? kUnsafeInk
+                             : CanBearLander(hazards, settings, {r, c}) ? kSafeInk
+                                                                        : cv::Vec3d(150, 140, 130);
       colours.at<cv::Vec3b>(r, c) = cv::Vec3b(0.5 * tint + 0.5 * cv::Vec3d(grey, grey, grey));
     }
   }

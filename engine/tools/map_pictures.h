@@ -26,10 +26,12 @@ struct MapPicture {
 Status WriteMapPicture(const std::filesystem::path& path, const GridF& cells,
                        const MapPicture& picture);
 
-/// The ground in relief, lit from the north-west, under the verdict: safe blue, near a hazard grey,
-/// hazard orange, unknown dark; the sites with their clear radius, the best with a cross.
+/// The ground in relief, lit from the north-west, under the verdict: blue where a site may lie
+/// (CanBearLander), grey where not, hazard orange, unknown dark; the sites with their clear radius,
+/// the best with a cross.
 Status WriteSafeLandingPicture(const std::filesystem::path& path, const ElevationMap& map,
-                               const HazardMaps& hazards, const SiteSelection& selection);
+                               const HazardMaps& hazards, const SladSettings& settings,
+                               const SiteSelection& selection);
 
 /// The left picture with the cross at the best site, the rings of the clear radii on the ground,
 /// and the verdict (VerdictImage, any size): blue rim round what is safe, orange hatch elsewhere.

@@ -38,6 +38,24 @@ std::size_t ParseNumbers(const std::string& line, std::size_t most, std::vector<
   return numbers.size();
 }
 
+/// "0,100 0,000 100,002": a comma within a word, where blanks part the words.
+bool HasDecimalCommas(const std::string& line) {
+  const auto last = line.find_last_not_of(" \t\r");
+  const auto blank = line.find_first_of(" \t", line.find_first_not_of(" \t"));
+  if (blank == std::string::npos || blank > last) {
+    return false;
+  }
+  for (std::size_t at = line.find(','); at != std::string::npos; at = line.find(',', at + 1)) {
+    const auto digit = [&](std::size_t i) {
+      return i < line.size() && line[i] >= '0' && line[i] <= '9';
+    };
+    if (at > 0 && digit(at - 1) && digit(at + 1)) {
+      return true;
+    }
+  }
+  return false;
+}
+
 /// Start of a line fit for a message.
 std::string Quoted(const std::string& line) {
   std::string text = line.substr(0, 40);
@@ -66,6 +84,11 @@ Status ReadLines(const std::filesystem::path& path, std::ifstream& file, std::si
     }
     if (line.find(';') != std::string::npos && line.find(',') != std::string::npos) {
       return AtLine(path, n, "both ; and , in " + Quoted(line) + "; write decimals with a point");
+    }
+    if (HasDecimalCommas(line)) {
+      return AtLine(
+          path, n,
+          "both blanks and , between numbers in " + Quoted(line) + "; write decimals with a point");
     }
     if (ParseNumbers(line, kMostColumns, numbers) < least) {
       if (columns == 0 && numbers.empty()) {

@@ -14,6 +14,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "engine/core/command_line.h"
 #include "engine/journal/log_index.h"
 #include "engine/journal/log_writer.h"
 #include "engine/mission/approval.h"
@@ -221,11 +222,13 @@ void AddSimulateCommand(CLI::App& app, int& exit_code, SceneCameraFactory camera
       ->capture_default_str();
   command->add_option("--url", options->url, "LCM URL; without --log the default bus");
   command->add_option("--duration-s", options->duration_s, "Longest simulated time")
-      ->check(CLI::PositiveNumber)
+      ->check(FiniteRange(0.001, 1e6))
       ->capture_default_str();
-  command->add_option("--seed", options->seed, "One seed, one flight")->capture_default_str();
+  command->add_option("--seed", options->seed, "One seed, one flight")
+      ->check(Seed())
+      ->capture_default_str();
   command->add_option("--wind-mps", options->wind_mps, "Mean wind at 20 ft")
-      ->check(CLI::NonNegativeNumber);
+      ->check(FiniteRange(0, 50));
   command->add_option("--log", options->log, "Record to this LCM log (and its .idx)");
   command->add_option("--channels", options->channels_file, "Channel names (TOML)");
   command->add_option("--station-key", options->station_key,

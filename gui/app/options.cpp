@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "engine/core/command_line.h"
 #include "engine/runtime/settings_io.h"
 #include "engine/simulation/scene_library.h"
 
@@ -27,6 +28,9 @@ Result<Settings> ReadSettings(const AppOptions& options) {
       return changed;
     }
     settings = *changed;
+  }
+  if (const Status good = CheckSettings(settings, "--set"); !good) {
+    return UsageError(good.error().message);
   }
   return settings;
 }
@@ -53,9 +57,10 @@ void Declare(CLI::App& app, AppOptions& options, SourceArguments& sources, bool&
   source->add_option("--connect", sources.connect,
                      "A live vehicle on an LCM bus, e.g. udpm://239.255.76.67:7667?ttl=0");
   app.add_option("--seed", options.seed, "One seed decides everything in the simulation")
+      ->check(Seed())
       ->capture_default_str();
   app.add_option("--wind", options.wind_mps, "Mean wind of the simulation, m/s")
-      ->check(CLI::Range(0.0, 15.0))
+      ->check(FiniteRange(0.0, 15.0))
       ->capture_default_str();
   app.add_option("--settings", options.settings_file, "Settings file (TOML)");
   app.add_option("--set", options.set, "One setting, e.g. slad.max_slope_deg=8; may be repeated");

@@ -85,6 +85,8 @@ TEST(TrialTable, DamagedFilesAreRefusedWithTheirLine) {
       {"other columns", good.substr(0, first_line) + "a,b\n", "f.csv:2"},
       {"short row", good + "2,7\n", "f.csv:9: 2 values, there are 4 columns"},
       {"trial out of range", good + "3,8,30,0.5\n", "f.csv:9: trial = 3"},
+      {"cut in its last line", good.substr(0, good.size() - 3), "f.csv:8: the file is cut off"},
+      {"trial missing", good.substr(0, good.find("\n2,") + 1), "trial 2 has no row"},
       {"trial no number", good + "x,8,30,0.5\n", "f.csv:9: trial = x"},
   };
   for (const Row& row : table) {

@@ -57,6 +57,35 @@ TEST(SiteSelection, FlatFieldIsWonByItsMiddle) {
   }
 }
 
+// Nobody knows where the vehicle is: any wall on the map may stand in its way.
+TEST(SiteSelection, WithoutAVehicleAShaftHasNoApproach) {
+  SiteContext context;
+  context.p_WB.setConstant(std::nan(""));
+  const auto shaft = [](double n, double e) {
+    return std::max(std::abs(n), std::abs(e)) < 4 ? 0.0 : 30.0;
+  };
+  const SiteSelection walled = Select(MakeMap(81, 81, 0.15, shaft), {}, context);
+  ASSERT_FALSE(walled.sites.empty());
+  EXPECT_EQ(walled.sites.front().clear_approaches, 0);
+  const SiteSelection open = Select(MakeMap(81, 81, 0.15, Flat()), {}, context);
+  ASSERT_FALSE(open.sites.empty());
+  EXPECT_EQ(open.sites.front().clear_approaches, 0xFF);
+}
+
+TEST(SiteSelection, OnlyCellsThatCanBearTheLanderAreOffered) {
+  const SladSettings settings;
+  const ElevationMap map = MakeMap(81, 81, 0.15, WithBox(Flat(), 1, 1, 1, 0.5));
+  const HazardMaps hazards = EvaluateHazards(map, settings);
+  int can_bear = 0;
+  for (int r = 0; r < 81; ++r) {
+    for (int c = 0; c < 81; ++c) {
+      can_bear += CanBearLander(hazards, settings, {r, c}) ? 1 : 0;
+    }
+  }
+  EXPECT_EQ(can_bear, hazards.safe_cells);
+  EXPECT_GT(can_bear, 100);
+}
+
 // Along the middle of a lane many places are equal but for how the walls fall into cells.
 TEST(SiteSelection, ALaneIsWonByItsMiddle) {
   SiteContext context = Context();
