@@ -22,7 +22,7 @@ inline CLI::Validator FiniteRange(double low, double high) {
         return number && value >= low && value <= high ? std::string()
                                                        : text + " is not within " + limits;
       },
-      "in [" + WithNumbers("%.10g - %.10g", low, high) + "]");
+      limits);
 }
 
 /// A seed: digits that fit 64 bits.
