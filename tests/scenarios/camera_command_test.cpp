@@ -280,7 +280,7 @@ TEST_F(CameraCommand, MistakesAreNamedWithTheRemedy) {
       {"a baseline behind",
        {"align", "--left", "a.yml", "--right", "a.yml", "--baseline", "-1", "--out", "o"},
        2,
-       "--baseline: Value -1 not in range 0.001000 to 1000.000000"},
+       "--baseline: -1 is not within 0.001 to 1000"},
       {"exchanged",
        {"align", "--left", "a.cahvor", "--right", "left.cahvor", "--out", "o"},
        1,
