@@ -104,12 +104,14 @@ double FocalTimesBaseline(const RangeMap& range) {
   return 0;
 }
 
-void AddRepeatedError(const RangeMap& range, const RigidTransform& X_WC, ElevationMap& map) {
+/// Of the error that stereo repeats in every frame, per measured cell; empty without a range.
+GridF RepeatedVariance(const RangeMap& range, const RigidTransform& X_WC, const ElevationMap& map) {
   const double focal_times_baseline = FocalTimesBaseline(range);
   if (!(focal_times_baseline > 0)) {
-    return;
+    return {};
   }
   const GridGeometry& g = map.geometry;
+  GridF variance_m2(g.rows, g.cols, 0.0F);
   for (int r = 0; r < g.rows; ++r) {
     for (int c = 0; c < g.cols; ++c) {
       if (map.state.at(r, c) == CellState::kMeasured) {
@@ -117,9 +119,16 @@ void AddRepeatedError(const RangeMap& range, const RigidTransform& X_WC, Elevati
                                    -static_cast<double>(map.height_m.at(r, c)));
         const double depth_m = X_WC.R.col(2).dot(p_WQ - X_WC.p);
         const double error_m = kRepeated_px * depth_m * depth_m / focal_times_baseline;
-        map.variance_m2.at(r, c) += static_cast<float>(error_m * error_m);
+        variance_m2.at(r, c) = static_cast<float>(error_m * error_m);
       }
     }
+  }
+  return variance_m2;
+}
+
+void AddVariance(const GridF& variance_m2, ElevationMap& map) {
+  for (std::size_t i = 0; i < variance_m2.cells().size(); ++i) {
+    map.variance_m2.cells()[i] += variance_m2.cells()[i];
   }
 }
 
@@ -167,8 +176,9 @@ std::shared_ptr<const ElevationMap> TerrainFusion::Add(const RangeMap& range,
   frames_ += points.empty() ? 0 : 1;
   auto published = std::make_shared<ElevationMap>(map_);
   AddReliefBetweenFrames(spread_, *published);
-  RaiseNarrowRelief(range.camera, X_WC.p, kNarrow_m, pixels_, *published);
-  AddRepeatedError(range, X_WC, *published);
+  const GridF repeated_m2 = RepeatedVariance(range, X_WC, *published);
+  RaiseNarrowRelief(range.camera, X_WC.p, kNarrow_m, pixels_, repeated_m2, *published);
+  AddVariance(repeated_m2, *published);
   FillHoles(*published, settings.data_size_cells, settings.border_size_cells);
   return published;
 }

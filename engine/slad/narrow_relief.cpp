@@ -7,6 +7,8 @@
 #include <numbers>
 #include <utility>
 
+#include "engine/slad/ground_roughness.h"
+
 namespace palace {
 namespace {
 
@@ -16,7 +18,8 @@ constexpr double kSigmas = 5.5;
 constexpr double kBesideSigmas = 4;
 constexpr double kClearSigmas = 8, kBesideClearSigmas = 2.5;
 constexpr double kLeastVariance_m2 = 1e-12;  // of maps that state none
-constexpr double kRoughs = 3.5;
+constexpr double kRingRoughs = 3, kGroundRoughs = 4;
+constexpr double kRingWindows = 1.25;  // nearer, the window smears the thing onto the ring
 constexpr double kMostFactor = 6;
 constexpr double kSteepFactor = 4;
 constexpr double kTallest_m = 1;
@@ -123,41 +126,89 @@ bool ManyRefused(const Grid<PixelCount>& pixels, const GridGeometry& geometry, i
   return false;
 }
 
+/// Stereo's window on a map and the rings that fit it.
+class Windows {
+ public:
+  Windows(const PinholeCamera& camera, const Eigen::Vector3d& p_WC, double narrow_m)
+      : p_WC_(p_WC), per_m_(kStereoWindow_px / camera.fx_px), narrow_m_(narrow_m) {}
+
+  double Width_m(const ElevationMap& map, Cell cell) const {
+    const Eigen::Vector3d p_WQ(map.geometry.NorthOfRow(cell.row), map.geometry.EastOfCol(cell.col),
+                               -static_cast<double>(map.height_m.at(cell)));
+    return per_m_ * (p_WQ - p_WC_).norm();
+  }
+
+  Ring Around(const ElevationMap& map, Cell cell) const {
+    const double radius_m = kRingWindows * Width_m(map, cell) + narrow_m_ / 2;
+    return RingAround(map, directions_, cell, std::max(2.0, radius_m / map.geometry.cell_m));
+  }
+
+ private:
+  Eigen::Vector3d p_WC_;
+  double per_m_, narrow_m_;
+  HalfCircle directions_ = Directions();
+};
+
+/// What measured cells stand above their rings by, m; NaN without a ring.
+GridF StandsAbove(const ElevationMap& map, const Windows& windows) {
+  GridF stands_m(map.geometry.rows, map.geometry.cols, kUnknownValue);
+  for (int r = 0; r < stands_m.rows(); ++r) {
+    for (int c = 0; c < stands_m.cols(); ++c) {
+      if (!IsMeasured(map, {r, c})) {
+        continue;
+      }
+      const Ring ring = windows.Around(map, {r, c});
+      if (ring.places >= kLeastPlaces) {
+        stands_m.at(r, c) =
+            static_cast<float>(static_cast<double>(map.height_m.at(r, c)) - ring.mean_m);
+      }
+    }
+  }
+  return stands_m;
+}
+
+/// Whether a cell that stands `stands_m` above its ring is a thing on its own: not noise, not
+/// rough ground, not the edge of something wide.
+bool StandsAlone(const ElevationMap& map, const Ring& ring, Cell cell, double stands_m,
+                 double all_rough_m, double repeated_m2) {
+  const double noise_m2 =
+      static_cast<double>(map.variance_m2.at(cell)) + ring.variance_m2 + repeated_m2;
+  const double ground_m2 = std::max(0.0, all_rough_m * all_rough_m - noise_m2);
+  if (stands_m * stands_m <= std::max(kGroundRoughs * kGroundRoughs * ground_m2,
+                                      kRingRoughs * kRingRoughs * ring.rough_m2)) {
+    return false;
+  }
+  const double sigmas = SigmasAbove(map, ring, cell, 0, 0);
+  const double beside = sigmas > kClearSigmas ? kBesideClearSigmas : kBesideSigmas;
+  return sigmas > kSigmas && SigmasBeside(map, ring, cell) > beside;
+}
+
 }  // namespace
 
 void RaiseNarrowRelief(const PinholeCamera& camera, const Eigen::Vector3d& p_WC, double narrow_m,
-                       const Grid<PixelCount>& pixels, ElevationMap& map) {
+                       const Grid<PixelCount>& pixels, const GridF& repeated_m2,
+                       ElevationMap& map) {
   const GridGeometry& g = map.geometry;
-  const HalfCircle directions = Directions();
-  const GridF before = map.height_m;
-  GridF raised = before;
+  const Windows windows(camera, p_WC, narrow_m);
+  const GridF stands = StandsAbove(map, windows);
+  const GroundRoughness roughness(stands);
+  GridF raised = map.height_m;
   for (int r = 0; r < g.rows; ++r) {
     for (int c = 0; c < g.cols; ++c) {
-      if (map.state.at(r, c) != CellState::kMeasured) {
+      const double stands_m = static_cast<double>(stands.at(r, c));
+      const double sigma_m = std::sqrt(static_cast<double>(map.variance_m2.at(r, c)));
+      if (!(stands_m > kSigmas * sigma_m)) {
         continue;
       }
-      const double height_m = static_cast<double>(before.at(r, c));
-      const Eigen::Vector3d p_WQ(g.NorthOfRow(r), g.EastOfCol(c), -height_m);
-      const double window_m = kStereoWindow_px * (p_WQ - p_WC).norm() / camera.fx_px;
-      const double widths = window_m / narrow_m;
+      const double widths = windows.Width_m(map, {r, c}) / narrow_m;
       const double factor = std::clamp(
           widths * widths, ManyRefused(pixels, g, r, c) ? kSteepFactor : 1.0, kMostFactor);
-      if (factor <= 1) {
-        continue;
+      const double repeated = repeated_m2.empty() ? 0.0 : static_cast<double>(repeated_m2.at(r, c));
+      if (factor > 1 && StandsAlone(map, windows.Around(map, {r, c}), {r, c}, stands_m,
+                                    roughness.At(r, c), repeated)) {
+        const double must_be_m = std::max(stands_m, std::min(factor * stands_m, kTallest_m));
+        raised.at(r, c) += static_cast<float>(must_be_m - stands_m);
       }
-      const Ring ring = RingAround(map, directions, {r, c},
-                                   std::max(2.0, (0.75 * window_m + narrow_m / 2) / g.cell_m));
-      const double stands_m = height_m - ring.mean_m;
-      if (ring.places < kLeastPlaces || stands_m * stands_m <= kRoughs * kRoughs * ring.rough_m2) {
-        continue;
-      }
-      const double sigmas = SigmasAbove(map, ring, {r, c}, 0, 0);
-      const double beside = sigmas > kClearSigmas ? kBesideClearSigmas : kBesideSigmas;
-      if (sigmas <= kSigmas || SigmasBeside(map, ring, {r, c}) <= beside) {
-        continue;
-      }
-      const double must_be_m = std::max(stands_m, std::min(factor * stands_m, kTallest_m));
-      raised.at(r, c) = static_cast<float>(height_m + must_be_m - stands_m);
     }
   }
   map.height_m = std::move(raised);

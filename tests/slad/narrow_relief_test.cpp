@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/camera/pinhole.h"
+#include "engine/core/random.h"
 #include "tests/slad/worlds.h"
 
 namespace palace {
@@ -18,7 +19,7 @@ const PinholeCamera kCamera = PinholeFromFov(640, 480, Rad(60));
 
 ElevationMap RaisedFrom(double camera_height_m, const ElevationMap& map) {
   ElevationMap raised = map;
-  RaiseNarrowRelief(kCamera, {0, 0, -camera_height_m}, kNarrow_m, {}, raised);
+  RaiseNarrowRelief(kCamera, {0, 0, -camera_height_m}, kNarrow_m, {}, {}, raised);
   return raised;
 }
 
@@ -66,7 +67,7 @@ TEST(NarrowRelief, AThingWithRefusedSidesRisesFromAnyHeight) {
     Grid<PixelCount> pixels(60, 60, {100, 0});
     pixels.at(middle->row + 1, middle->col) = {100 - refused, refused};
     ElevationMap raised = map;
-    RaiseNarrowRelief(kCamera, {0, 0, -6.0}, kNarrow_m, pixels, raised);
+    RaiseNarrowRelief(kCamera, {0, 0, -6.0}, kNarrow_m, pixels, {}, raised);
     EXPECT_EQ(raised.height_m.at(5, 5), map.height_m.at(5, 5));
     return double(raised.height_m.at(*middle));
   };
@@ -75,21 +76,54 @@ TEST(NarrowRelief, AThingWithRefusedSidesRisesFromAnyHeight) {
   EXPECT_NEAR(height_with(16), 4 * foot_m, 0.03);
 }
 
-TEST(NarrowRelief, EdgesOfWideThingsAndRoughGroundStay) {
+TEST(NarrowRelief, EdgesOfWideThingsStay) {
   const auto ramp = [](double n, double e) {
     return std::abs(n) < 1.5 && std::abs(e) < 1.5 ? 0.3 + 0.1 * n : 0.0;
   };
-  const auto rough = [](double n, double e) { return 0.03 * std::sin(50 * n) * std::cos(70 * e); };
   for (const testing::Height& world :
-       {testing::Height(ramp), WithBox(Slope(Rad(8), 1), 0, 0, 2, 0.5), testing::Height(rough)}) {
+       {testing::Height(ramp), WithBox(Slope(Rad(8), 1), 0, 0, 2, 0.5)}) {
     const ElevationMap map = MakeMap(80, 80, 0.15, world, 0.002, 6);
-    const ElevationMap raised = RaisedFrom(20, map);
-    for (int r = 0; r < 80; ++r) {
-      for (int c = 0; c < 80; ++c) {
-        EXPECT_EQ(raised.height_m.at(r, c), map.height_m.at(r, c)) << r << ' ' << c;
+    EXPECT_EQ(RaisedFrom(20, map).height_m.cells(), map.height_m.cells());
+  }
+}
+
+TEST(NarrowRelief, RoughGroundStaysAndAThingOnItIsRaised) {
+  // Heights in 0.15 m cells, from gravel to clods; each bump is many sigmas high.
+  for (const double rough_m : {0.01, 0.02, 0.03}) {
+    for (const double range_m : {16.0, 20.0, 28.0}) {
+      ElevationMap map = MakeMap(200, 200, 0.15, Slope(Rad(4), 2), 0.0, 6);
+      RandomStream random(3, "rough ground");
+      for (float& height_m : map.height_m.cells()) {
+        height_m += static_cast<float>(rough_m * random.Normal());
       }
+      const ElevationMap raised = RaisedFrom(range_m, map);
+      int moved = 0;
+      for (std::size_t i = 0; i < map.height_m.cells().size(); ++i) {
+        moved += raised.height_m.cells()[i] == map.height_m.cells()[i] ? 0 : 1;
+      }
+      EXPECT_LE(moved, 8) << "of 40,000 cells, rough by " << rough_m << " m from " << range_m;
+
+      for (const Cell cell : {Cell{100, 100}, {100, 101}}) {
+        map.height_m.at(cell) = raised.height_m.at(100, 99) + static_cast<float>(8 * rough_m);
+      }
+      EXPECT_GT(RaisedFrom(range_m, map).height_m.at(100, 100), map.height_m.at(100, 100));
     }
   }
+}
+
+TEST(NarrowRelief, RoughnessThatStereoRepeatsIsNoneOfTheGround) {
+  ElevationMap map = MakeMap(100, 100, 0.15, Flat(), 0.0, 6);
+  RandomStream random(3, "repeated");
+  for (float& height_m : map.height_m.cells()) {
+    height_m += static_cast<float>(0.02 * random.Normal());
+  }
+  map.height_m.at(50, 50) = map.height_m.at(50, 51) = 0.078F;  // 3.9 times as high
+  const GridF repeated_m2(100, 100, 0.03F * 0.03F);
+  ElevationMap raised = map;
+  RaiseNarrowRelief(kCamera, {0, 0, -20}, kNarrow_m, {}, {}, raised);
+  EXPECT_EQ(raised.height_m.at(50, 50), map.height_m.at(50, 50));
+  RaiseNarrowRelief(kCamera, {0, 0, -20}, kNarrow_m, {}, repeated_m2, raised);
+  EXPECT_GT(raised.height_m.at(50, 50), map.height_m.at(50, 50));
 }
 
 TEST(NarrowRelief, ACellThatStandsAloneIsNoise) {

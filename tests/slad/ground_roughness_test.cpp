@@ -1,0 +1,69 @@
+#include "engine/slad/ground_roughness.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "engine/core/random.h"
+
+namespace palace {
+namespace {
+
+GridF Noise(int rows, int cols, double sigma_m) {
+  GridF stands_m(rows, cols, 0.0F);
+  RandomStream random(5, "ground");
+  for (float& value : stands_m.cells()) {
+    value = static_cast<float>(sigma_m * random.Normal());
+  }
+  return stands_m;
+}
+
+TEST(GroundRoughness, IsTheStandardDeviationOfNoise) {
+  for (const double sigma_m : {0.002, 0.03, 1.5}) {
+    const GroundRoughness roughness(Noise(95, 63, sigma_m));
+    for (int r = 0; r < 95; r += 7) {
+      for (int c = 0; c < 63; c += 7) {
+        EXPECT_NEAR(roughness.At(r, c), sigma_m, 0.25 * sigma_m) << r << ' ' << c;
+      }
+    }
+  }
+}
+
+TEST(GroundRoughness, ThingsOnAThirdOfTheGroundDoNotCountAsGround) {
+  GridF stands_m = Noise(60, 60, 0.01);
+  for (int r = 0; r < 60; ++r) {
+    for (int c = 0; c < 60; c += 3) {
+      stands_m.at(r, c) = 0.8F;
+    }
+  }
+  EXPECT_LT(GroundRoughness(stands_m).At(30, 30), 0.025);
+}
+
+TEST(GroundRoughness, BelongsToItsPlace) {
+  GridF stands_m = Noise(100, 100, 0.01);
+  for (int r = 0; r < 100; ++r) {
+    for (int c = 50; c < 100; ++c) {
+      stands_m.at(r, c) *= 5;
+    }
+  }
+  const GroundRoughness roughness(stands_m);
+  EXPECT_NEAR(roughness.At(50, 20), 0.01, 0.002);
+  EXPECT_NEAR(roughness.At(50, 80), 0.05, 0.01);
+}
+
+TEST(GroundRoughness, UnknownGroundIsLeftOutOrLevel) {
+  GridF stands_m = Noise(60, 60, 0.02);
+  for (int r = 0; r < 60; ++r) {
+    for (int c = 0; c < 60; ++c) {
+      if ((r + c) % 2 == 0) {
+        stands_m.at(r, c) = kUnknownValue;
+      }
+    }
+  }
+  EXPECT_NEAR(GroundRoughness(stands_m).At(25, 25), 0.02, 0.004);
+  EXPECT_EQ(GroundRoughness(GridF(30, 30, kUnknownValue)).At(29, 29), 0);
+  EXPECT_EQ(GroundRoughness(GridF(1, 1, 0.5F)).At(0, 0), 0);
+}
+
+}  // namespace
+}  // namespace palace
