@@ -18,7 +18,8 @@ constexpr double kSigmas = 5.5;
 constexpr double kBesideSigmas = 4;
 constexpr double kClearSigmas = 8, kBesideClearSigmas = 2.5;
 constexpr double kLeastVariance_m2 = 1e-12;  // of maps that state none
-constexpr double kRingRoughs = 3, kGroundRoughs = 4;
+constexpr double kRingRoughs = 3.5, kGroundRoughs = 4;
+constexpr double kRepeats = 2.5;       // what stereo repeats at worst, over its usual sigma
 constexpr double kRingWindows = 1.25;  // nearer, the window smears the thing onto the ring
 constexpr double kMostFactor = 6;
 constexpr double kSteepFactor = 4;
@@ -171,8 +172,8 @@ GridF StandsAbove(const ElevationMap& map, const Windows& windows) {
 /// rough ground, not the edge of something wide.
 bool StandsAlone(const ElevationMap& map, const Ring& ring, Cell cell, double stands_m,
                  double all_rough_m, double repeated_m2) {
-  const double noise_m2 =
-      static_cast<double>(map.variance_m2.at(cell)) + ring.variance_m2 + repeated_m2;
+  const double noise_m2 = static_cast<double>(map.variance_m2.at(cell)) + ring.variance_m2 +
+                          kRepeats * kRepeats * repeated_m2;
   const double ground_m2 = std::max(0.0, all_rough_m * all_rough_m - noise_m2);
   if (stands_m * stands_m <= std::max(kGroundRoughs * kGroundRoughs * ground_m2,
                                       kRingRoughs * kRingRoughs * ring.rough_m2)) {

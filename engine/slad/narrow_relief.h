@@ -14,14 +14,15 @@ inline constexpr double kStereoWindow_px = 9;  ///< of stereo's refinement
 
 /// A matching window w metres wide reads a thing s < w wide as lower, by about (s / w)^2, because
 /// it averages it with the ground around. Cells that stand above a ring around them by more than
-/// 5.5 sigmas, by three times what the ring is rough by and by four times what the ground around
+/// 5.5 sigmas, by 3.5 times what the ring is rough by and by four times what the ground around
 /// is rough by, are raised to what a thing `narrow_m` wide must then be:
 ///
 ///   h := ring + k (h - ring),   k = (w / narrow_m)^2, from 1 to 6,   w = 9 px * range / f
 ///
 /// but to no more than 1 m above the ring. The ring is rough by what it is off its own plane: edges
 /// of wide things are no narrow things and stay. The ground is rough by what its cells stand off
-/// their rings (`GroundRoughness`), less their noise: bumps among bumps stay as they are.
+/// their rings (`GroundRoughness`), less their noise, with 2.5 times the sigma of what stereo
+/// repeats, as on its worst textures: bumps among bumps stay as they are.
 ///
 /// k is at least 4 where stereo refused more than 0.15 of the pixels of the cell or of one that
 /// touches it: steep sides were not measured, and what was is their foot.

@@ -220,7 +220,7 @@ class Candidates {
   const double as_good_;  ///< scores that differ by less are equal; metres
 };
 
-std::string NoneReason(const HazardMaps& hazards) {
+std::string NoneReason(const HazardMaps& hazards, const SladSettings& settings) {
   const RejectedCells& n = hazards.rejected;
   struct Part {
     int count;
@@ -244,6 +244,12 @@ std::string NoneReason(const HazardMaps& hazards) {
       text += (text.empty() ? "" : ", ") + WithNumbers("%.0f", 100.0 * part.count / total) + " % " +
               part.name;
     }
+  }
+  const GridGeometry& g = hazards.geometry;
+  const double across_m = std::min(g.rows, g.cols) * g.cell_m;
+  if (n.footprint > 0 && across_m < 2 * settings.clear_radius_m()) {
+    text += WithNumbers("; the map is %.3g m across, the clear radius needs %.3g m", across_m,
+                        2 * settings.clear_radius_m());
   }
   return text;
 }
@@ -303,7 +309,7 @@ SiteSelection SelectSites(const ElevationMap& map, const HazardMaps& hazards,
   }
   GiveReasons(settings.choice, selection);
   if (selection.sites.empty()) {
-    selection.none_reason = NoneReason(hazards);
+    selection.none_reason = NoneReason(hazards, settings);
   }
   return selection;
 }

@@ -14,6 +14,7 @@
 #include "engine/core/text.h"
 #include "engine/core/time.h"
 #include "engine/core/units.h"
+#include "engine/core/version.h"
 #include "engine/model/site_standing.h"
 #include "engine/runtime/settings_io.h"
 #include "engine/slad/explanation.h"
@@ -171,6 +172,8 @@ Json ReportJson(const Outcome& o) {
   const auto& sites = o.selection.sites;
   const GridGeometry& g = o.input.map.geometry;
   Json json;
+  json["version"] = kVersion;
+  json["input"] = o.input.files;
   json["status"] = sites.empty() ? "none" : "found";
   json["site"] = sites.empty() ? Json(nullptr) : SiteJson(sites.front(), o.settings.slad);
   json["candidates"] = Json::array();
@@ -318,6 +321,12 @@ Status Analyze(const Options& options) {
     return input.error();
   }
   Outcome o{std::move(input).value(), *settings, {}, {}};
+  for (const std::string* file : {&options.left, &options.right, &options.rig, &options.elevation,
+                                  &options.points, &options.settings_file}) {
+    if (!file->empty()) {
+      o.input.files.push_back(*file);
+    }
+  }
   o.settings.slad.cell_m = o.input.map.geometry.cell_m;
   if (o.settings.slad.cell_m > o.settings.slad.max_rock_size_m) {
     o.input.warnings.push_back(

@@ -67,6 +67,21 @@ ElevationMap MapOfLayer(const MapLayer& layer, std::vector<std::string>& warning
   return map;
 }
 
+/// The model's own grid stays; settings that ask for another one are not heard.
+void WarnOfLayout(const GridGeometry& model, const SladSettings& asked,
+                  std::vector<std::string>& warnings) {
+  const SladSettings standard;
+  if (asked.cell_m != standard.cell_m && std::abs(asked.cell_m - model.cell_m) > 1e-6) {
+    warnings.push_back(
+        WithNumbers("slad.cell_m = %.3g m leaves the model's cells of %.3g m as they are; use "
+                    "--cell-m to change them",
+                    asked.cell_m, model.cell_m));
+  }
+  if (asked.bounds != standard.bounds) {
+    warnings.push_back("slad.bounds: an elevation model is taken whole");
+  }
+}
+
 SiteContext WithoutVehicle() {
   SiteContext context;
   context.p_WB.setConstant(std::nan(""));
@@ -187,8 +202,15 @@ Result<AnalyzeInput> ElevationOfModel(const std::filesystem::path& path,
       return Error{map.error().code, path.string() + ": " + map.error().message};
     }
     input.map = std::move(map).value();
+    if (*cell_m < layer->geometry.cell_m) {
+      input.warnings.push_back(
+          WithNumbers("--cell-m %.3g is finer than the model's cells of %.3g m: cells between its "
+                      "heights are unknown",
+                      *cell_m, layer->geometry.cell_m));
+    }
   } else {
     input.map = MapOfLayer(*layer, input.warnings);
+    WarnOfLayout(layer->geometry, settings.slad, input.warnings);
     FillHoles(input.map, settings.slad.data_size_cells, settings.slad.border_size_cells);
   }
   input.timings.push_back(watch.Lap("elevation"));

@@ -5,6 +5,7 @@
 
 #include "engine/core/text.h"
 #include "engine/core/units.h"
+#include "engine/core/version.h"
 #include "engine/model/cell_explanation.h"
 #include "engine/model/site_standing.h"
 #include "engine/report/html_page.h"
@@ -12,6 +13,14 @@
 
 namespace palace {
 namespace {
+
+std::string Joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) {
+    text += (text.empty() ? "" : ", ") + word;
+  }
+  return text;
+}
 
 /// "3.1 ± 0.4 °, room 6.9 °": with its three sigma and what is left to the limit.
 std::string Against(const Figure& figure, double shown_per_unit, double limit, const char* unit) {
@@ -45,9 +54,11 @@ std::vector<std::string> Summary(const AnalyzeInput& input, const HazardMaps& ha
                                  const SiteSelection& selection) {
   const GridGeometry& g = input.map.geometry;
   std::vector<std::string> lines;
-  lines.push_back(selection.sites.empty() ? "No landing site: " + selection.none_reason
-                                          : WithNumbers("%.0f landing sites; the best is A",
-                                                        double(selection.sites.size())));
+  lines.push_back(selection.sites.empty()       ? "No landing site: " + selection.none_reason
+                  : selection.sites.size() == 1 ? std::string("One landing site, A")
+                                                : WithNumbers("%.0f landing sites; the best is A",
+                                                              double(selection.sites.size())));
+  lines.push_back("From " + Joined(input.files) + ", by palacectl " + kVersion);
   lines.push_back(WithNumbers("Map of %.0f x %.0f cells of %.3g m", g.rows, g.cols, g.cell_m));
   const RejectedCells& n = hazards.rejected;
   const double all = std::max(1.0, double(g.rows) * g.cols);

@@ -241,17 +241,21 @@ ExperimentReport Report(const TrialTable& table) {
   report.page.Table({"height, ft", "tilt, degrees", "found, from 15 degrees"}, rows);
 
   rows.clear();
-  for (const char* thing : {"pool", "walker", "painted line"}) {
-    const TrialTable part = table.Where("thing", thing);
+  struct Thing {
+    const char *name, *size, *unit;
+  };
+  for (const Thing& thing : {Thing{"pool", "diameter", "m"},
+                             {"walker", "speed", "m/s"},
+                             {"painted line", "width", "cm"}}) {
+    const TrialTable part = table.Where("thing", thing.name);
     for (const std::string& size : part.Values("size")) {
-      rows.push_back({thing, size, Found(part.Where("size", size), any)});
-      line(std::string(thing) + " " + size + ": flagged " + rows.back()[2]);
+      const std::string named = std::string(thing.size) + " " + size + " " + thing.unit;
+      rows.push_back({thing.name, named, Found(part.Where("size", size), any)});
+      line(std::string(thing.name) + ", " + named + ": flagged " + rows.back()[2]);
     }
   }
   report.page.Heading("Other things")
-      .Paragraph(
-          "Size: diameter in metres, speed in metres a second, width in centimetres. A "
-          "painted line should not be flagged.")
+      .Paragraph("A painted line should not be flagged.")
       .Table({"thing", "size", "flagged"}, rows);
 
   rows.clear();

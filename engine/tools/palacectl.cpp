@@ -9,6 +9,7 @@
 
 #include "engine/core/freed_memory.h"
 #include "engine/core/log.h"
+#include "engine/core/version.h"
 #include "engine/tools/analyze.h"
 #include "engine/tools/calibrate_command.h"
 #include "engine/tools/camera_command.h"
@@ -89,7 +90,7 @@ int main(int argc, char** argv) {
   CLI::App app(
       "PALACE without a window: simulate, analyze, capture, calibrate, camera, evaluate, log",
       "palacectl");
-  app.set_version_flag("--version", "palacectl 0.1.0");
+  app.set_version_flag("--version", std::string("palacectl ") + palace::kVersion);
   app.require_subcommand(1);
   int exit_code = 0;
   palace::AddSimulateCommand(app, exit_code, palace::MakeOffscreenSceneCamera);

@@ -5,13 +5,12 @@
 #include <CLI/CLI.hpp>
 
 #include "engine/core/command_line.h"
+#include "engine/core/version.h"
 #include "engine/runtime/settings_io.h"
 #include "engine/simulation/scene_library.h"
 
 namespace palace {
 namespace {
-
-constexpr const char* kVersion = "palace 0.1.0";
 
 Result<Settings> ReadSettings(const AppOptions& options) {
   Settings settings;
@@ -44,7 +43,7 @@ struct SourceArguments {
 };
 
 void Declare(CLI::App& app, AppOptions& options, SourceArguments& sources, bool& no_record) {
-  app.set_version_flag("--version", kVersion);
+  app.set_version_flag("--version", std::string("palace ") + kVersion);
   auto* source = app.add_option_group(
       "source", "Where the pictures come from; nothing: the built-in simulated mission");
   source->add_option("--scenario", options.scenario, "Simulated scene: runway, cones, slope, empty")
@@ -100,7 +99,7 @@ Result<AppOptions> ParseCommandLine(int argc, const char* const* argv) {
     options.print = app.help();
     return options;
   } catch (const CLI::CallForVersion&) {
-    options.print = std::string(kVersion) + "\n";
+    options.print = std::string("palace ") + kVersion + "\n";
     return options;
   } catch (const CLI::ParseError& error) {
     return UsageError(std::string(error.what()) + "; see palace --help");

@@ -20,14 +20,14 @@ EvidenceRow MaxRow(std::string name, Figure figure, double limit, int decimals, 
   const std::string gap = unit == "°" ? "" : " ";
   EvidenceRow row;
   row.name = std::move(name);
-  row.value = Fixed(figure.value, decimals);
+  row.share = ShareOfMax(figure.value, limit);
+  row.value = FixedAgainst(figure.value, limit, row.share > 1, decimals);
   row.unit = unit;
   if (std::isfinite(figure.value) && figure.three_sigma > 0) {
     row.spread = "± " + Fixed(figure.three_sigma, decimals) + gap + unit;
     row.share_3s = figure.three_sigma / limit;
   }
   row.limit = "max " + Fixed(limit, limit_decimals) + gap + unit;
-  row.share = ShareOfMax(figure.value, limit);
   return row;
 }
 
@@ -53,10 +53,10 @@ double OffWindDeg(const EngineSnapshot& snap, const LandingSite& site) {
 EvidenceRow ClearRow(const LandingSite& site) {
   EvidenceRow row;
   row.name = "Clear radius";
-  row.value = Fixed(site.safe_distance_m, 1);
+  row.share = ShareOfMin(site.safe_distance_m, site.clear_radius_m);
+  row.value = FixedAgainst(site.safe_distance_m, site.clear_radius_m, row.share > 1, 1);
   row.unit = "m";
   row.limit = "min " + Fixed(site.clear_radius_m, 1) + " m";
-  row.share = ShareOfMin(site.safe_distance_m, site.clear_radius_m);
   return row;
 }
 

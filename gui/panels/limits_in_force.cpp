@@ -21,7 +21,8 @@ EvidenceRow Row(std::string name, double value, double spread, int decimals, dou
   const std::string gap = unit == "°" || unit.empty() ? "" : " ";
   EvidenceRow row;
   row.name = std::move(name);
-  row.value = Fixed(value, decimals);
+  row.share = is_min ? ShareOfMin(value, limit) : ShareOfMax(value, limit);
+  row.value = FixedAgainst(value, limit, row.share > 1, decimals);
   row.unit = unit;
   if (std::isfinite(value) && std::isfinite(spread) && spread > 0) {
     row.spread = "± " + Fixed(spread, decimals) + gap + unit;
@@ -30,7 +31,6 @@ EvidenceRow Row(std::string name, double value, double spread, int decimals, dou
   row.limit = (is_min ? "min " : "max ") +
               Fixed(limit, limit >= 3 && limit == std::round(limit) ? 0 : (unit.empty() ? 2 : 1)) +
               gap + unit;
-  row.share = is_min ? ShareOfMin(value, limit) : ShareOfMax(value, limit);
   return row;
 }
 

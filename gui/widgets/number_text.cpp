@@ -21,6 +21,14 @@ std::string Fixed(double value, int decimals) {
   return value < 0 && !zero ? std::string("−").append(text) : text;
 }
 
+std::string FixedAgainst(double value, double limit, bool over, int decimals) {
+  int shown = decimals;
+  while (over && shown < decimals + 2 && Fixed(value, shown) == Fixed(limit, shown)) {
+    ++shown;
+  }
+  return Fixed(value, shown);
+}
+
 std::string Duration(double seconds) {
   if (!std::isfinite(seconds)) {
     return "––";

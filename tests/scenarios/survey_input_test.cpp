@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "engine/core/version.h"
 #include "tests/scenarios/scenario.h"
 #include "tests/scenarios/survey_files.h"
 
@@ -206,6 +207,24 @@ std::vector<Row> Clouds() {
 std::vector<Row> Models() {
   std::vector<Row> rows = {
       {"float", false, Dem(), End::kSite},
+      {"cells_of_the_settings",
+       false,
+       Dem(),
+       End::kSite,
+       {"slad.cell_m = 0.3", "--cell-m"},
+       {"--set", "slad.cell_m=0.3"}},
+      {"bounds_of_the_settings",
+       false,
+       Dem(),
+       End::kSite,
+       {"slad.bounds", "whole"},
+       {"--set", "slad.bounds=given"}},
+      {"finer_than_the_model",
+       false,
+       Dem(),
+       End::kNoSite,
+       {"finer than the model's cells of 0.5 m"},
+       {"--cell-m", "0.2"}},
       {"double", false, DemOf<double>(100, 3), End::kSite},
       {"int16", false, DemOf<std::int16_t>(100, 2), End::kSite},
       {"uint8", false, DemOf<std::uint8_t>(100, 1), End::kSite},
@@ -377,6 +396,8 @@ class SurveyInput : public Scenario {
       EXPECT_NE(result.out.find(row.end == End::kSite ? "landing site at" : "no landing site: "),
                 std::string::npos)
           << result.out;
+      EXPECT_EQ(json["input"], nlohmann::json::array({file.filename().string()}));
+      EXPECT_EQ(json["version"], kVersion);
       EXPECT_TRUE(std::filesystem::exists(out / "report.html"));
       for (const auto& site : json["candidates"]) {
         EXPECT_GE(site["clearance_m"].get<double>(), 0);

@@ -154,10 +154,16 @@ std::vector<BadMap> BadMaps() {
   };
 }
 
-/// What is said of a map: "site", or why there is none.
+/// What is said of a map: "site", or why there is none, up to the sizes of map and lander.
 std::string Answer(const ElevationMap& map, const SladSettings& settings) {
   const SiteSelection selection = ExpectHonest(map, settings);
-  return selection.sites.empty() ? selection.none_reason : "site";
+  if (!selection.sites.empty()) {
+    return "site";
+  }
+  const std::size_t sizes = selection.none_reason.find("; the map is ");
+  const double across_m = std::min(map.geometry.rows, map.geometry.cols) * map.geometry.cell_m;
+  EXPECT_TRUE(sizes == std::string::npos || across_m < 2 * settings.clear_radius_m());
+  return selection.none_reason.substr(0, sizes);
 }
 
 TEST(BadMaps, GetAClearAnswerAndNeverALuckySite) {

@@ -228,7 +228,8 @@ TEST(SiteSelection, NoPlaceGivesTheSharesOfTheCauses) {
   EXPECT_EQ(Select(MakeMap(30, 30, 0.15, nothing)).none_reason, "100 % unknown");
   EXPECT_EQ(Select(MakeMap(1, 1, 0.15, nothing)).none_reason, "100 % unknown");
   EXPECT_EQ(Select(MakeMap(60, 60, 0.15, testing::Slope(Rad(15), 0))).none_reason, "100 % slope");
-  EXPECT_EQ(Select(MakeMap(20, 20, 0.15, Flat())).none_reason, "100 % footprint");
+  EXPECT_EQ(Select(MakeMap(20, 20, 0.15, Flat())).none_reason,
+            "100 % footprint; the map is 3 m across, the clear radius needs 4.6 m");
 }
 
 TEST(SiteSelection, TallWallTowardsTheVehicleBlocksTheCorridor) {

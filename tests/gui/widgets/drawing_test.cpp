@@ -53,6 +53,14 @@ TEST(NumberText, ShowsTrueMinusGroupsAndUnknown) {
   EXPECT_EQ(LengthText(252), "00:04:12");
 }
 
+TEST(NumberText, AValueOverItsLimitDoesNotReadLikeTheLimit) {
+  EXPECT_EQ(FixedAgainst(2.31, 2.3, false, 1), "2.3");
+  EXPECT_EQ(FixedAgainst(2.28, 2.3, true, 1), "2.28");
+  EXPECT_EQ(FixedAgainst(2.298, 2.3, true, 1), "2.298");
+  EXPECT_EQ(FixedAgainst(2.29999, 2.3, true, 1), "2.300");
+  EXPECT_EQ(FixedAgainst(NAN, 2.3, true, 1), "––");
+}
+
 TEST(Contour, ADiscOfHazardGivesOneClosedLineAtItsRim) {
   ImageU8 verdict(60, 60, 1);
   for (int y = 0; y < 60; ++y) {
