@@ -117,13 +117,13 @@ TEST(NarrowRelief, RoughnessThatStereoRepeatsIsNoneOfTheGround) {
   for (float& height_m : map.height_m.cells()) {
     height_m += static_cast<float>(0.02 * random.Normal());
   }
-  // 3.9 times as high, on a quiet spot.
-  for (int r = 44; r <= 56; ++r) {
-    for (int c = 44; c <= 56; ++c) {
+  // 3.5 times as high, on a quiet spot.
+  for (int r = 46; r <= 54; ++r) {
+    for (int c = 46; c <= 55; ++c) {
       map.height_m.at(r, c) /= 2;
     }
   }
-  map.height_m.at(50, 50) = map.height_m.at(50, 51) = 0.078F;
+  map.height_m.at(50, 50) = map.height_m.at(50, 51) = 0.07F;
   const GridF repeated_m2(100, 100, 0.012F * 0.012F);
   ElevationMap raised = map;
   RaiseNarrowRelief(kCamera, {0, 0, -20}, kNarrow_m, {}, {}, raised);
