@@ -3,16 +3,21 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <optional>
 #include <vector>
 
 namespace palace {
 namespace {
 
-constexpr int kBlock = 10;
+constexpr double kBlock_m = 1.5;
+constexpr int kLeastBlock = 10;
 constexpr double kNormalScale = 1.4826;  // standard deviation over median magnitude
 
-int Blocks(int cells) { return (cells + kBlock - 1) / kBlock; }
+int BlockCells(double cell_m) {
+  const double cells = std::ceil(kBlock_m / cell_m - 1e-9);
+  return std::max(kLeastBlock, cells < 1e6 ? static_cast<int>(cells) : 1000000);
+}
+
+int Blocks(int cells, int block) { return (cells + block - 1) / block; }
 
 float Median(std::vector<float>& values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -20,7 +25,7 @@ float Median(std::vector<float>& values) {
   return *middle;
 }
 
-/// Magnitudes of the known values in rows [row, row + rows) and columns alike.
+/// Magnitudes of the known values of a square; what lies outside the grid is left out.
 void Collect(const GridF& values, int row, int col, int size, std::vector<float>& known) {
   known.clear();
   for (int r = std::max(0, row); r < std::min(row + size, values.rows()); ++r) {
@@ -34,14 +39,17 @@ void Collect(const GridF& values, int row, int col, int size, std::vector<float>
 
 }  // namespace
 
-GroundRoughness::GroundRoughness(const GridF& stands_m)
-    : scales_m_(Blocks(stands_m.rows()), Blocks(stands_m.cols()), 0) {
+GroundRoughness::GroundRoughness(const GridF& stands_m, double cell_m)
+    : block_(BlockCells(cell_m)),
+      scales_m_(Blocks(stands_m.rows(), block_), Blocks(stands_m.cols(), block_), 0) {
   GridF own(scales_m_.rows(), scales_m_.cols(), kUnknownValue);
   std::vector<float> known;
   for (int r = 0; r < own.rows(); ++r) {
     for (int c = 0; c < own.cols(); ++c) {
-      Collect(stands_m, r * kBlock, c * kBlock, kBlock, known);
-      if (known.size() >= kBlock * kBlock / 4) {
+      Collect(stands_m, r * block_, c * block_, block_, known);
+      const int rows = std::min(block_, stands_m.rows() - r * block_);
+      const int cols = std::min(block_, stands_m.cols() - c * block_);
+      if (4 * known.size() >= static_cast<std::size_t>(rows) * static_cast<std::size_t>(cols)) {
         own.at(r, c) = Median(known);
       }
     }
@@ -55,7 +63,7 @@ GroundRoughness::GroundRoughness(const GridF& stands_m)
 }
 
 double GroundRoughness::At(int row, int col) const {
-  return kNormalScale * static_cast<double>(scales_m_.at(row / kBlock, col / kBlock));
+  return kNormalScale * static_cast<double>(scales_m_.at(row / block_, col / block_));
 }
 
 }  // namespace palace

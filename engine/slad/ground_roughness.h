@@ -6,20 +6,23 @@
 namespace palace {
 
 /// Scale of what cells stand off their surroundings by, as the standard deviation of a normal
-/// distribution, in metres:
+/// distribution about zero, in metres (Hampel 1974, median absolute deviation):
 ///
-///   1.4826 median(median |stands_m|)   (Hampel 1974)
+///   1.4826 median(median |stands_m|)
 ///
-/// the inner median over a block of 10 x 10 cells, the outer over it and the eight blocks around.
-/// Things on less than half of that ground do not count. Unknown cells are NaN; blocks of which
-/// less than a quarter is known are left out; without a block, 0.
+/// the inner median over a square block, the outer over it and the eight blocks around. A block is
+/// 1.5 m wide and at least 10 cells. Unknown cells are NaN; blocks of which less than a quarter is
+/// known are left out; without a block, 0. A few things do not move the scale; things on a third of
+/// the ground raise it by 1.7.
 class GroundRoughness {
  public:
-  explicit GroundRoughness(const GridF& stands_m);
+  GroundRoughness(const GridF& stands_m, double cell_m);
 
+  /// `row` and `col` lie in the grid.
   double At(int row, int col) const;
 
  private:
+  int block_;       ///< cells along a side
   GridF scales_m_;  ///< a block each
 };
 

@@ -19,8 +19,9 @@ constexpr double kBesideSigmas = 4;
 constexpr double kClearSigmas = 8, kBesideClearSigmas = 2.5;
 constexpr double kLeastVariance_m2 = 1e-12;  // of maps that state none
 constexpr double kRingRoughs = 3.5, kGroundRoughs = 4;
-constexpr double kRepeats = 2.5;       // what stereo repeats at worst, over its usual sigma
-constexpr double kRingWindows = 1.25;  // nearer, the window smears the thing onto the ring
+constexpr double kClearRingRoughs = 10;  // of many things on even ground
+constexpr double kRepeats = 2.5;         // what stereo repeats at worst, over its usual sigma
+constexpr double kRingWindows = 1.25;    // nearer, the window smears the thing onto the ring
 constexpr double kMostFactor = 6;
 constexpr double kSteepFactor = 4;
 constexpr double kTallest_m = 1;
@@ -171,12 +172,14 @@ GridF StandsAbove(const ElevationMap& map, const Windows& windows) {
 /// Whether a cell that stands `stands_m` above its ring is a thing on its own: not noise, not
 /// rough ground, not the edge of something wide.
 bool StandsAlone(const ElevationMap& map, const Ring& ring, Cell cell, double stands_m,
-                 double all_rough_m, double repeated_m2) {
+                 double ground_rough_m, double repeated_m2) {
   const double noise_m2 = static_cast<double>(map.variance_m2.at(cell)) + ring.variance_m2 +
                           kRepeats * kRepeats * repeated_m2;
-  const double ground_m2 = std::max(0.0, all_rough_m * all_rough_m - noise_m2);
-  if (stands_m * stands_m <= std::max(kGroundRoughs * kGroundRoughs * ground_m2,
-                                      kRingRoughs * kRingRoughs * ring.rough_m2)) {
+  const double ground_m2 = std::max(0.0, ground_rough_m * ground_rough_m - noise_m2);
+  const double needed_m2 = std::clamp(kGroundRoughs * kGroundRoughs * ground_m2,
+                                      kRingRoughs * kRingRoughs * ring.rough_m2,
+                                      kClearRingRoughs * kClearRingRoughs * ring.rough_m2);
+  if (stands_m * stands_m <= needed_m2) {
     return false;
   }
   const double sigmas = SigmasAbove(map, ring, cell, 0, 0);
@@ -192,7 +195,7 @@ void RaiseNarrowRelief(const PinholeCamera& camera, const Eigen::Vector3d& p_WC,
   const GridGeometry& g = map.geometry;
   const Windows windows(camera, p_WC, narrow_m);
   const GridF stands = StandsAbove(map, windows);
-  const GroundRoughness roughness(stands);
+  const GroundRoughness roughness(stands, g.cell_m);
   GridF raised = map.height_m;
   for (int r = 0; r < g.rows; ++r) {
     for (int c = 0; c < g.cols; ++c) {
