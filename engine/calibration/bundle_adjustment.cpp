@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "engine/core/check.h"
+#include "engine/core/median.h"
 
 namespace palace {
 namespace {
@@ -291,9 +292,7 @@ double MedianLength(const std::vector<PointResidual>& residuals) {
   if (lengths.empty()) {
     return kNaN;
   }
-  const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
-  std::nth_element(lengths.begin(), middle, lengths.end());
-  return *middle;
+  return UpperMedian(lengths);
 }
 
 /// Standard deviation of one coordinate: sum of squares over the degrees of freedom.

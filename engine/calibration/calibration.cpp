@@ -10,6 +10,7 @@
 #include "engine/calibration/calibration_quality.h"
 #include "engine/calibration/rig_start.h"
 #include "engine/core/check.h"
+#include "engine/core/median.h"
 #include "engine/core/units.h"
 
 namespace palace {
@@ -81,9 +82,7 @@ std::vector<PointResidual> FarOut(const std::vector<PointResidual>& residuals, d
                                              : std::numeric_limits<double>::infinity());
   }
   std::vector<double> sorted = lengths;
-  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-  std::nth_element(sorted.begin(), middle, sorted.end());
-  const double limit_px = sigmas * *middle / kMedianPerSigma;
+  const double limit_px = sigmas * UpperMedian(sorted) / kMedianPerSigma;
   std::vector<PointResidual> far;
   for (std::size_t i = 0; i < residuals.size(); ++i) {
     if (!(lengths[i] <= limit_px)) {

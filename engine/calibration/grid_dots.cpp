@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/calibration/dot_finder.h"
+#include "engine/core/median.h"
 
 namespace palace {
 namespace {
@@ -100,13 +101,8 @@ Status CheckDotSize(const CalibrationTarget& target, const TargetObservation& se
   if (ratios.empty()) {
     return Ok();
   }
-  const auto median = [](std::vector<double>& values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-  };
-  const double ratio = median(ratios);
-  if (std::abs(ratio - 1) > kMostShare + kSampling_px / median(diameters_px)) {
+  const double ratio = UpperMedian(ratios);
+  if (std::abs(ratio - 1) > kMostShare + kSampling_px / UpperMedian(diameters_px)) {
     char text[240];
     std::snprintf(text, sizeof text,
                   "the dots are %.2f of the pitch wide in the picture, dot_diameter_m = %.4g with "

@@ -10,6 +10,7 @@
 #include "engine/calibration/dot_finder.h"
 #include "engine/calibration/dot_lattice.h"
 #include "engine/calibration/grid_dots.h"
+#include "engine/core/median.h"
 
 namespace palace {
 namespace {
@@ -116,9 +117,7 @@ std::vector<std::pair<int, int>> LargeDots(const DotLattice& lattice, const std:
     if (around.size() < 4) {
       continue;
     }
-    const auto middle = around.begin() + static_cast<std::ptrdiff_t>(around.size() / 2);
-    std::nth_element(around.begin(), middle, around.end());
-    if (dots[dot].area_px > least_ratio * *middle) {
+    if (dots[dot].area_px > least_ratio * UpperMedian(around)) {
       large.push_back(place);
     }
   }

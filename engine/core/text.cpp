@@ -10,4 +10,12 @@ std::string WithNumbers(const char* format, double a, double b, double c) {
   return text;
 }
 
+std::string Joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) {
+    text += (text.empty() ? "" : ", ") + word;
+  }
+  return text;
+}
+
 }  // namespace palace

@@ -1,8 +1,8 @@
-// The program's version, as --version, reports and logs state it.
+// The program's version, as --version and reports state it. CMakeLists.txt reads it from here.
 #pragma once
 
 namespace palace {
 
-inline constexpr const char* kVersion = "0.1.0";
+inline constexpr const char* kProgramVersion = "0.1.0";
 
 }  // namespace palace

@@ -13,6 +13,7 @@
 
 #include <toml++/toml.h>
 
+#include "engine/core/text.h"
 #include "engine/core/units.h"
 
 namespace palace {
@@ -30,14 +31,6 @@ std::string Shortest(double value) {
   return {text, end};
 }
 
-std::string Join(const std::vector<std::string>& words) {
-  std::string joined;
-  for (const std::string& word : words) {
-    joined += (joined.empty() ? "" : ", ") + word;
-  }
-  return joined;
-}
-
 /// What may stand in place of an unknown name: the settings of its group, or the groups.
 std::string KnownSettings(const std::string& name) {
   const std::string group = name.substr(0, name.find('.') + 1);
@@ -51,7 +44,7 @@ std::string KnownSettings(const std::string& name) {
       groups.push_back(of);
     }
   }
-  return names.empty() ? "names begin with one of: " + Join(groups) : "known: " + Join(names);
+  return names.empty() ? "names begin with one of: " + Joined(groups) : "known: " + Joined(names);
 }
 
 /// The number a word stands for, e.g. "thesis".
@@ -69,10 +62,10 @@ Result<double> NumberOf(const SettingInfo& info, const toml::node& node) {
       return *value;
     }
     return InvalidError(info.name + " = \"" + *word + "\" is not " +
-                        (info.words.empty() ? "a number" : "one of: " + Join(info.words)));
+                        (info.words.empty() ? "a number" : "one of: " + Joined(info.words)));
   }
   if (!info.words.empty()) {
-    return InvalidError(info.name + " must be one of: " + Join(info.words));
+    return InvalidError(info.name + " must be one of: " + Joined(info.words));
   }
   if (const auto number = node.value<double>(); number && node.is_number()) {
     return *number;
@@ -189,7 +182,7 @@ Result<Settings> ApplySettingText(const Settings& base, std::string_view assignm
     const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), number);
     if (problem != std::errc() || end != text.data() + text.size()) {
       return UsageError(name + " = '" + text + "' is not " +
-                        (info->words.empty() ? "a number" : "one of: " + Join(info->words)));
+                        (info->words.empty() ? "a number" : "one of: " + Joined(info->words)));
     }
     value = number;
   }
@@ -215,7 +208,7 @@ std::string SettingsToToml(const Settings& settings) {
       text += info.words.empty() ? Shortest(value)
                                  : '"' + info.words[static_cast<std::size_t>(value)] + '"';
       text += info.words.empty() ? "  # " + Shortest(info.min) + " to " + Shortest(info.max) + "\n"
-                                 : "  # " + Join(info.words) + "\n";
+                                 : "  # " + Joined(info.words) + "\n";
     }
   }
   return text;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "engine/core/median.h"
 #include "engine/core/units.h"
 #include "engine/slad/slad.h"
 
@@ -63,10 +64,8 @@ void TerrainStage::FitCellToView(const RangeMap& range, const SladSettings& sett
     cell_factor_ = 1;
     return;
   }
-  std::nth_element(depths.begin(), depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 2),
-                   depths.end());
   const PinholeCamera& camera = range.camera;
-  const double view_m = static_cast<double>(depths[depths.size() / 2]) *
+  const double view_m = static_cast<double>(UpperMedian(depths)) *
                         std::max(camera.width / camera.fx_px, camera.height / camera.fy_px);
   const double map_m = std::min(settings.grid_rows, settings.grid_cols) * settings.cell_m;
   while (cell_factor_ < kMaxCellFactor && view_m > kWidestView * map_m * cell_factor_) {
@@ -127,7 +126,7 @@ std::shared_ptr<const TerrainDecision> TerrainStage::Evaluate(const Settings& se
     copy.Assign(decision->selection);
   }
   decision->verdict = std::make_shared<ImageU8>(
-      VerdictImage(*input_.range, input_.X_WC, *hazards, kVerdictDivisor));
+      VerdictImage(*input_.range, input_.X_WC, *elevation_, *hazards, kVerdictDivisor));
   decision->hazards = std::move(hazards);
   return decision;
 }

@@ -6,6 +6,8 @@
 
 #include <Eigen/Dense>
 
+#include "engine/core/median.h"
+
 namespace palace {
 namespace {
 
@@ -28,9 +30,7 @@ double MedianAbsolute(const std::vector<Pair>& pairs, const Eigen::Vector3d& x) 
   for (const Pair& p : pairs) {
     off.push_back(std::abs(p.difference_m - p.basis.dot(x)));
   }
-  const auto middle = off.begin() + static_cast<std::ptrdiff_t>(off.size() / 2);
-  std::nth_element(off.begin(), middle, off.end());
-  return *middle;
+  return UpperMedian(off);
 }
 
 std::vector<Pair> CommonCells(const ElevationMap& frame, const ElevationMap& map, double north_m,
@@ -71,11 +71,9 @@ PlaneCorrection RegisterFrame(const ElevationMap& frame, const ElevationMap& map
   for (const Pair& p : pairs) {
     differences.push_back(p.difference_m);
   }
-  const auto middle = differences.begin() + static_cast<std::ptrdiff_t>(differences.size() / 2);
-  std::nth_element(differences.begin(), middle, differences.end());
-  Eigen::Vector3d x(*middle, 0, 0);
+  Eigen::Vector3d x(UpperMedian(differences), 0, 0);
   for (int i = 0; i < kIterations; ++i) {
-    const double limit = kTukey * std::max(kScaleFloor_m, 1.4826 * MedianAbsolute(pairs, x));
+    const double limit = kTukey * std::max(kScaleFloor_m, kSigmaPerMad * MedianAbsolute(pairs, x));
     Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
     Eigen::Vector3d right = Eigen::Vector3d::Zero();
     for (const Pair& p : pairs) {

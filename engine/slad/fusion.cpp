@@ -104,9 +104,9 @@ double FocalTimesBaseline(const RangeMap& range) {
   return 0;
 }
 
-/// Of the error that stereo repeats in every frame, per measured cell; empty without a range.
-GridF RepeatedVariance(const RangeMap& range, const RigidTransform& X_WC, const ElevationMap& map) {
-  const double focal_times_baseline = FocalTimesBaseline(range);
+/// Of the error that stereo repeats in every frame, per measured cell; empty before any range.
+GridF RepeatedVariance(double focal_times_baseline, const RigidTransform& X_WC,
+                       const ElevationMap& map) {
   if (!(focal_times_baseline > 0)) {
     return {};
   }
@@ -140,6 +140,7 @@ void TerrainFusion::Reset() {
   spread_ = {};
   pixels_ = {};
   frames_ = 0;
+  focal_times_baseline_ = 0;
 }
 
 std::shared_ptr<const ElevationMap> TerrainFusion::Add(const RangeMap& range,
@@ -176,7 +177,10 @@ std::shared_ptr<const ElevationMap> TerrainFusion::Add(const RangeMap& range,
   frames_ += points.empty() ? 0 : 1;
   auto published = std::make_shared<ElevationMap>(map_);
   AddReliefBetweenFrames(spread_, *published);
-  const GridF repeated_m2 = RepeatedVariance(range, X_WC, *published);
+  if (const double now = FocalTimesBaseline(range); now > 0) {
+    focal_times_baseline_ = now;
+  }
+  const GridF repeated_m2 = RepeatedVariance(focal_times_baseline_, X_WC, *published);
   RaiseNarrowRelief(range.camera, X_WC.p, kNarrow_m, pixels_, repeated_m2, *published);
   AddVariance(repeated_m2, *published);
   FillHoles(*published, settings.data_size_cells, settings.border_size_cells);

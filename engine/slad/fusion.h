@@ -59,7 +59,8 @@ class TerrainFusion {
   Grid<PixelCount> pixels_;
   SladSettings layout_;  ///< settings the grid was laid out with
   int frames_ = 0;
-  std::uint64_t last_ranges_ = 0;  ///< sampled hash of the last range map and its pose
+  double focal_times_baseline_ = 0;  ///< of the last range map with a point, px m
+  std::uint64_t last_ranges_ = 0;    ///< sampled hash of the last range map and its pose
 };
 
 }  // namespace palace

@@ -5,12 +5,13 @@
 #include <cstddef>
 #include <vector>
 
+#include "engine/core/median.h"
+
 namespace palace {
 namespace {
 
 constexpr double kBlock_m = 1.5;
 constexpr int kLeastBlock = 10;
-constexpr double kNormalScale = 1.4826;  // standard deviation over median magnitude
 
 int BlockCells(double cell_m) {
   const double cells = std::ceil(kBlock_m / cell_m - 1e-9);
@@ -18,12 +19,6 @@ int BlockCells(double cell_m) {
 }
 
 int Blocks(int cells, int block) { return (cells + block - 1) / block; }
-
-float Median(std::vector<float>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 /// Magnitudes of the known values of a square; what lies outside the grid is left out.
 void Collect(const GridF& values, int row, int col, int size, std::vector<float>& known) {
@@ -50,20 +45,20 @@ GroundRoughness::GroundRoughness(const GridF& stands_m, double cell_m)
       const int rows = std::min(block_, stands_m.rows() - r * block_);
       const int cols = std::min(block_, stands_m.cols() - c * block_);
       if (4 * known.size() >= static_cast<std::size_t>(rows) * static_cast<std::size_t>(cols)) {
-        own.at(r, c) = Median(known);
+        own.at(r, c) = UpperMedian(known);
       }
     }
   }
   for (int r = 0; r < own.rows(); ++r) {
     for (int c = 0; c < own.cols(); ++c) {
       Collect(own, r - 1, c - 1, 3, known);
-      scales_m_.at(r, c) = known.empty() ? 0.0F : Median(known);
+      scales_m_.at(r, c) = known.empty() ? 0.0F : UpperMedian(known);
     }
   }
 }
 
 double GroundRoughness::At(int row, int col) const {
-  return kNormalScale * static_cast<double>(scales_m_.at(row / block_, col / block_));
+  return kSigmaPerMad * static_cast<double>(scales_m_.at(row / block_, col / block_));
 }
 
 }  // namespace palace

@@ -7,6 +7,9 @@
 #include <numbers>
 #include <utility>
 
+#include <opencv2/core.hpp>
+
+#include "engine/core/check.h"
 #include "engine/slad/ground_roughness.h"
 
 namespace palace {
@@ -128,10 +131,10 @@ bool ManyRefused(const Grid<PixelCount>& pixels, const GridGeometry& geometry, i
   return false;
 }
 
-/// Stereo's window on a map and the rings that fit it.
-class Windows {
+/// Stereo's matching window on a map and the rings that fit it.
+class MatchingWindow {
  public:
-  Windows(const PinholeCamera& camera, const Eigen::Vector3d& p_WC, double narrow_m)
+  MatchingWindow(const PinholeCamera& camera, const Eigen::Vector3d& p_WC, double narrow_m)
       : p_WC_(p_WC), per_m_(kStereoWindow_px / camera.fx_px), narrow_m_(narrow_m) {}
 
   double Width_m(const ElevationMap& map, Cell cell) const {
@@ -140,7 +143,7 @@ class Windows {
     return per_m_ * (p_WQ - p_WC_).norm();
   }
 
-  Ring Around(const ElevationMap& map, Cell cell) const {
+  Ring RingAt(const ElevationMap& map, Cell cell) const {
     const double radius_m = kRingWindows * Width_m(map, cell) + narrow_m_ / 2;
     return RingAround(map, directions_, cell, std::max(2.0, radius_m / map.geometry.cell_m));
   }
@@ -152,21 +155,35 @@ class Windows {
 };
 
 /// What measured cells stand above their rings by, m; NaN without a ring.
-GridF StandsAbove(const ElevationMap& map, const Windows& windows) {
+GridF StandsAbove(const ElevationMap& map, const MatchingWindow& window) {
   GridF stands_m(map.geometry.rows, map.geometry.cols, kUnknownValue);
-  for (int r = 0; r < stands_m.rows(); ++r) {
-    for (int c = 0; c < stands_m.cols(); ++c) {
-      if (!IsMeasured(map, {r, c})) {
-        continue;
+  cv::parallel_for_(cv::Range(0, stands_m.rows()), [&](const cv::Range& rows) {
+    for (int r = rows.start; r < rows.end; ++r) {
+      for (int c = 0; c < stands_m.cols(); ++c) {
+        if (!IsMeasured(map, {r, c})) {
+          continue;
+        }
+        const Ring ring = window.RingAt(map, {r, c});
+        if (ring.places >= kLeastPlaces) {
+          stands_m.at(r, c) =
+              static_cast<float>(static_cast<double>(map.height_m.at(r, c)) - ring.mean_m);
+        }
       }
-      const Ring ring = windows.Around(map, {r, c});
-      if (ring.places >= kLeastPlaces) {
-        stands_m.at(r, c) =
-            static_cast<float>(static_cast<double>(map.height_m.at(r, c)) - ring.mean_m);
+    }
+  });
+  return stands_m;
+}
+
+/// Whether the window is wider than a narrow thing anywhere.
+bool SmearsAnywhere(const ElevationMap& map, const MatchingWindow& window, double narrow_m) {
+  for (int r = 0; r < map.geometry.rows; ++r) {
+    for (int c = 0; c < map.geometry.cols; ++c) {
+      if (IsMeasured(map, {r, c}) && window.Width_m(map, {r, c}) > narrow_m) {
+        return true;
       }
     }
   }
-  return stands_m;
+  return false;
 }
 
 /// Whether a cell that stands `stands_m` above its ring is a thing on its own: not noise, not
@@ -193,8 +210,14 @@ void RaiseNarrowRelief(const PinholeCamera& camera, const Eigen::Vector3d& p_WC,
                        const Grid<PixelCount>& pixels, const GridF& repeated_m2,
                        ElevationMap& map) {
   const GridGeometry& g = map.geometry;
-  const Windows windows(camera, p_WC, narrow_m);
-  const GridF stands = StandsAbove(map, windows);
+  PALACE_CHECK(pixels.empty() || (pixels.rows() == g.rows && pixels.cols() == g.cols));
+  PALACE_CHECK(repeated_m2.empty() ||
+               (repeated_m2.rows() == g.rows && repeated_m2.cols() == g.cols));
+  const MatchingWindow window(camera, p_WC, narrow_m);
+  if (pixels.empty() && !SmearsAnywhere(map, window, narrow_m)) {
+    return;
+  }
+  const GridF stands = StandsAbove(map, window);
   const GroundRoughness roughness(stands, g.cell_m);
   GridF raised = map.height_m;
   for (int r = 0; r < g.rows; ++r) {
@@ -204,11 +227,11 @@ void RaiseNarrowRelief(const PinholeCamera& camera, const Eigen::Vector3d& p_WC,
       if (!(stands_m > kSigmas * sigma_m)) {
         continue;
       }
-      const double widths = windows.Width_m(map, {r, c}) / narrow_m;
+      const double widths = window.Width_m(map, {r, c}) / narrow_m;
       const double factor = std::clamp(
           widths * widths, ManyRefused(pixels, g, r, c) ? kSteepFactor : 1.0, kMostFactor);
       const double repeated = repeated_m2.empty() ? 0.0 : static_cast<double>(repeated_m2.at(r, c));
-      if (factor > 1 && StandsAlone(map, windows.Around(map, {r, c}), {r, c}, stands_m,
+      if (factor > 1 && StandsAlone(map, window.RingAt(map, {r, c}), {r, c}, stands_m,
                                     roughness.At(r, c), repeated)) {
         const double must_be_m = std::max(stands_m, std::min(factor * stands_m, kTallest_m));
         raised.at(r, c) += static_cast<float>(must_be_m - stands_m);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "engine/core/median.h"
 #include "engine/model/elevation_map.h"
 
 namespace palace {
@@ -84,14 +85,7 @@ void Smear(ImageF& values) {
   }
 }
 
-float MedianOf(std::vector<float> values) {
-  if (values.empty()) {
-    return 0;
-  }
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
+float MedianOf(std::vector<float> values) { return values.empty() ? 0.0F : UpperMedian(values); }
 
 /// Grows what is 1 by a block (or, `grow` false, what is 0).
 void Step(ImageU8& mask, bool grow) {

@@ -246,10 +246,11 @@ std::string NoneReason(const HazardMaps& hazards, const SladSettings& settings) 
     }
   }
   const GridGeometry& g = hazards.geometry;
-  const double across_m = std::min(g.rows, g.cols) * g.cell_m;
+  // The best middle of an even number of cells is half a cell off.
+  const double across_m = (std::min(g.rows, g.cols) - 1) / 2 * 2 * g.cell_m + g.cell_m;
   if (n.footprint > 0 && across_m < 2 * settings.clear_radius_m()) {
-    text += WithNumbers("; the map is %.3g m across, the clear radius needs %.3g m", across_m,
-                        2 * settings.clear_radius_m());
+    text += WithNumbers("; the map holds a disc %.3f m across, the lander's clear one is %.3f m",
+                        across_m, 2 * settings.clear_radius_m());
   }
   return text;
 }

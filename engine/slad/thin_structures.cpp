@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/core/median.h"
 #include "engine/slad/line_marks.h"
 #include "engine/slad/line_pieces.h"
 
@@ -123,10 +124,8 @@ bool CanTellThinStructures(const SceneView& view, const SceneGround& ground) {
   if (known.empty()) {
     return false;
   }
-  const auto middle = known.begin() + static_cast<std::ptrdiff_t>(known.size() / 2);
-  std::nth_element(known.begin(), middle, known.end());
   return view.range->camera.fx_px * view.baseline_m >=
-         kNearestThin_m * static_cast<double>(*middle);
+         kNearestThin_m * static_cast<double>(UpperMedian(known));
 }
 
 std::vector<ThinPiece> FindThinStructures(const SceneView& view, const SceneGround& ground) {

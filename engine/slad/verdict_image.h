@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/core/frames.h"
+#include "engine/model/elevation_map.h"
 #include "engine/model/hazard_maps.h"
 #include "engine/model/image.h"
 #include "engine/model/range_map.h"
@@ -10,8 +11,10 @@ namespace palace {
 
 /// 0 unknown, 1 safe, 2 over a limit. Size of the left picture divided by `divisor`, rounded down.
 /// Each pixel's point (its depth, or that of the nearest measured pixel within two blocks) is
-/// looked up in the map.
-ImageU8 VerdictImage(const RangeMap& range, const RigidTransform& X_WC, const HazardMaps& hazards,
-                     int divisor = 4);
+/// looked up in the maps. Without a depth (the right camera does not see there, texture lacks) it
+/// is the point where the pixel's ray first meets the ground of `map`, which older frames may have
+/// measured. `map` and `hazards` have one geometry.
+ImageU8 VerdictImage(const RangeMap& range, const RigidTransform& X_WC, const ElevationMap& map,
+                     const HazardMaps& hazards, int divisor = 4);
 
 }  // namespace palace

@@ -6,17 +6,12 @@
 #include <vector>
 
 #include "engine/camera/pinhole.h"
+#include "engine/core/median.h"
 
 namespace palace {
 namespace {
 
 constexpr int kHalfWindow_px = 4;  // the spot of a 1 cm beam, and the pixel's own uncertainty
-
-double MedianOf(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 /// Median stereo depth around the pixel; nothing when half of the window is unknown.
 std::optional<double> DepthAround(const RangeMap& range, const Eigen::Vector2d& pixel) {
@@ -35,7 +30,7 @@ std::optional<double> DepthAround(const RangeMap& range, const Eigen::Vector2d& 
   if (2 * depths.size() < static_cast<std::size_t>(kSide * kSide)) {
     return std::nullopt;
   }
-  return MedianOf(std::move(depths));
+  return UpperMedian(depths);
 }
 
 }  // namespace
@@ -61,14 +56,14 @@ RangeAgreement RangeCheck::agreement() const {
   if (agreement.pairs < kLeastPairs) {
     return agreement;
   }
-  agreement.ratio = MedianOf({ratios_.begin(), ratios_.end()});
+  std::vector<double> ratios(ratios_.begin(), ratios_.end());
+  agreement.ratio = UpperMedian(ratios);
   std::vector<double> deviations;
   for (const double ratio : ratios_) {
     deviations.push_back(std::abs(ratio - agreement.ratio));
   }
-  constexpr double kSigmaPerMad = 1.4826;
   constexpr double kMedianLoss = 1.2533;  // sigma of a median over sigma of a mean, Gaussian
-  agreement.sigma = kMedianLoss * kSigmaPerMad * MedianOf(std::move(deviations)) /
+  agreement.sigma = kMedianLoss * kSigmaPerMad * UpperMedian(deviations) /
                     std::sqrt(static_cast<double>(agreement.pairs));
   return agreement;
 }

@@ -6,6 +6,7 @@
 #include <limits>
 #include <vector>
 
+#include "engine/core/median.h"
 #include "engine/stereo/disparity.h"
 
 namespace palace {
@@ -17,17 +18,10 @@ constexpr int kPointsAcross = 24;
 constexpr int kPointsDown = 18;
 constexpr std::size_t kLeastPoints = 20;
 constexpr double kLeastRowContrast = 8;  // mean squared vertical difference, grey levels squared
-constexpr double kSigmaPerMad = 1.4826;  // of normal errors
 constexpr double kCoveredDeviation = 3;  // grey levels: camera noise and nothing else
 constexpr double kSeeingDeviation = 8;
 constexpr std::size_t kMedianSamples = 20000;  // known well enough from so many
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-
-double Median(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 /// Mean squared vertical difference of the left patch.
 double RowContrast(const ImageU8& left, int x, int y) {
@@ -155,12 +149,12 @@ void MeasureRowError(const ImageU8& left, const ImageU8& right, const ImageF& di
   for (const double shift : shifts) {
     sizes.push_back(std::abs(shift));
   }
-  quality.row_error_px = Median(sizes);
-  quality.row_shift_px = Median(shifts);
+  quality.row_error_px = UpperMedian(sizes);
+  quality.row_shift_px = UpperMedian(shifts);
   for (double& shift : shifts) {
     shift = std::abs(shift - quality.row_shift_px);
   }
-  quality.row_spread_px = kSigmaPerMad * Median(shifts);
+  quality.row_spread_px = kSigmaPerMad * UpperMedian(shifts);
 }
 
 void SuspectPictures(const ImageU8& left, const ImageU8& right, StereoQuality& quality) {
@@ -196,8 +190,8 @@ void SummariseRange(const RangeMap& range, StereoQuality& quality) {
     }
   }
   quality.coverage = KnownShare(range.depth_m);
-  quality.median_depth_m = depths.empty() ? kNaN : Median(depths);
-  quality.median_sigma_px = sigmas.empty() ? kNaN : Median(sigmas);
+  quality.median_depth_m = depths.empty() ? kNaN : UpperMedian(depths);
+  quality.median_sigma_px = sigmas.empty() ? kNaN : UpperMedian(sigmas);
 }
 
 }  // namespace palace

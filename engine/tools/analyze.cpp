@@ -45,6 +45,8 @@ struct Options {
 };
 
 struct Outcome {
+  std::vector<std::string> files;  ///< as given on the command line
+  std::string settings_file;       ///< the same; empty without
   AnalyzeInput input;
   Settings settings;
   HazardMaps hazards;
@@ -172,8 +174,9 @@ Json ReportJson(const Outcome& o) {
   const auto& sites = o.selection.sites;
   const GridGeometry& g = o.input.map.geometry;
   Json json;
-  json["version"] = kVersion;
-  json["input"] = o.input.files;
+  json["version"] = kProgramVersion;
+  json["input"] = o.files;
+  json["settings_file"] = o.settings_file.empty() ? Json(nullptr) : Json(o.settings_file);
   json["status"] = sites.empty() ? "none" : "found";
   json["site"] = sites.empty() ? Json(nullptr) : SiteJson(sites.front(), o.settings.slad);
   json["candidates"] = Json::array();
@@ -263,20 +266,22 @@ Status WriteAll(const Outcome& o, const fs::path& folder) {
   }
   if (o.input.left && o.input.range) {
     const ImageU8 verdict =
-        VerdictImage(*o.input.range, o.input.context.X_WC, o.hazards, kVerdictDivisor);
+        VerdictImage(*o.input.range, o.input.context.X_WC, o.input.map, o.hazards, kVerdictDivisor);
     const Status done =
         WriteOverlay(folder / kOverlay, *o.input.left, o.selection, o.input.context, verdict);
     if (!done) {
       return done;
     }
   }
-  const Status report = WriteTextFile(
-      folder / "report.html", AnalyzeReport(o.input, o.settings, o.hazards, o.selection, folder));
+  const Status report =
+      WriteTextFile(folder / "report.html",
+                    AnalyzeReport(o.files, o.input, o.settings, o.hazards, o.selection, folder));
   if (!report) {
     return report;
   }
   std::ofstream json(folder / "site.json");
-  json << ReportJson(o).dump(2) << '\n';
+  // File names need not be UTF-8.
+  json << ReportJson(o).dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
   json.close();
   return json ? Ok() : Status(UnavailableError("cannot write site.json: is the disk full?"));
 }
@@ -320,11 +325,11 @@ Status Analyze(const Options& options) {
   if (!input) {
     return input.error();
   }
-  Outcome o{std::move(input).value(), *settings, {}, {}};
-  for (const std::string* file : {&options.left, &options.right, &options.rig, &options.elevation,
-                                  &options.points, &options.settings_file}) {
+  Outcome o{{}, options.settings_file, std::move(input).value(), *settings, {}, {}};
+  for (const std::string* file :
+       {&options.left, &options.right, &options.rig, &options.elevation, &options.points}) {
     if (!file->empty()) {
-      o.input.files.push_back(*file);
+      o.files.push_back(*file);
     }
   }
   o.settings.slad.cell_m = o.input.map.geometry.cell_m;

@@ -67,7 +67,7 @@ ElevationMap MapOfLayer(const MapLayer& layer, std::vector<std::string>& warning
   return map;
 }
 
-/// The model's own grid stays; settings that ask for another one are not heard.
+/// The model's own grid stays. Settings that differ from the standard ones asked for another.
 void WarnOfLayout(const GridGeometry& model, const SladSettings& asked,
                   std::vector<std::string>& warnings) {
   const SladSettings standard;
@@ -202,10 +202,10 @@ Result<AnalyzeInput> ElevationOfModel(const std::filesystem::path& path,
       return Error{map.error().code, path.string() + ": " + map.error().message};
     }
     input.map = std::move(map).value();
-    if (*cell_m < layer->geometry.cell_m) {
+    if (settings.slad.mode == SladMode::kModern && *cell_m < layer->geometry.cell_m) {
       input.warnings.push_back(
           WithNumbers("--cell-m %.3g is finer than the model's cells of %.3g m: cells between its "
-                      "heights are unknown",
+                      "heights are filled or unknown",
                       *cell_m, layer->geometry.cell_m));
     }
   } else {

@@ -21,7 +21,6 @@ struct StageTime {
 };
 
 struct AnalyzeInput {
-  std::vector<std::string> files;  ///< as given on the command line
   ElevationMap map;
   SiteContext context;            ///< camera width 0 without a picture
   std::optional<ImageU8> left;    ///< rectified

@@ -14,14 +14,6 @@
 namespace palace {
 namespace {
 
-std::string Joined(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) {
-    text += (text.empty() ? "" : ", ") + word;
-  }
-  return text;
-}
-
 /// "3.1 ± 0.4 °, room 6.9 °": with its three sigma and what is left to the limit.
 std::string Against(const Figure& figure, double shown_per_unit, double limit, const char* unit) {
   const std::string value = WithNumbers("%.2f ± %.2f ", figure.value * shown_per_unit,
@@ -50,15 +42,15 @@ std::vector<std::vector<std::string>> SiteRows(const SiteSelection& selection,
   return rows;
 }
 
-std::vector<std::string> Summary(const AnalyzeInput& input, const HazardMaps& hazards,
-                                 const SiteSelection& selection) {
+std::vector<std::string> Summary(const std::vector<std::string>& files, const AnalyzeInput& input,
+                                 const HazardMaps& hazards, const SiteSelection& selection) {
   const GridGeometry& g = input.map.geometry;
   std::vector<std::string> lines;
   lines.push_back(selection.sites.empty()       ? "No landing site: " + selection.none_reason
                   : selection.sites.size() == 1 ? std::string("One landing site, A")
                                                 : WithNumbers("%.0f landing sites; the best is A",
                                                               double(selection.sites.size())));
-  lines.push_back("From " + Joined(input.files) + ", by palacectl " + kVersion);
+  lines.push_back("From " + Joined(files) + ", by palacectl " + kProgramVersion);
   lines.push_back(WithNumbers("Map of %.0f x %.0f cells of %.3g m", g.rows, g.cols, g.cell_m));
   const RejectedCells& n = hazards.rejected;
   const double all = std::max(1.0, double(g.rows) * g.cols);
@@ -78,11 +70,11 @@ std::vector<std::string> Summary(const AnalyzeInput& input, const HazardMaps& ha
 
 }  // namespace
 
-std::string AnalyzeReport(const AnalyzeInput& input, const Settings& settings,
-                          const HazardMaps& hazards, const SiteSelection& selection,
-                          const std::filesystem::path& folder) {
+std::string AnalyzeReport(const std::vector<std::string>& files, const AnalyzeInput& input,
+                          const Settings& settings, const HazardMaps& hazards,
+                          const SiteSelection& selection, const std::filesystem::path& folder) {
   HtmlPage page("PALACE: landing sites");
-  page.List(Summary(input, hazards, selection));
+  page.List(Summary(files, input, hazards, selection));
   const auto picture = [&](const char* name, const char* caption) {
     const std::string data = PictureAsDataUri(folder / (std::string(name) + ".png"));
     if (!data.empty()) {

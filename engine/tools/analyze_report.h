@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "engine/model/hazard_maps.h"
 #include "engine/model/settings.h"
@@ -13,8 +14,9 @@ namespace palace {
 
 /// The page with every picture inside it. `folder` holds the pictures analyze wrote: overlay.png
 /// (with a pair), safe_landing.png and those of the layers; one that is missing is left out.
-std::string AnalyzeReport(const AnalyzeInput& input, const Settings& settings,
-                          const HazardMaps& hazards, const SiteSelection& selection,
-                          const std::filesystem::path& folder);
+/// `files`: what the input was read from.
+std::string AnalyzeReport(const std::vector<std::string>& files, const AnalyzeInput& input,
+                          const Settings& settings, const HazardMaps& hazards,
+                          const SiteSelection& selection, const std::filesystem::path& folder);
 
 }  // namespace palace

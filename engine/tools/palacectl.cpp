@@ -90,7 +90,7 @@ int main(int argc, char** argv) {
   CLI::App app(
       "PALACE without a window: simulate, analyze, capture, calibrate, camera, evaluate, log",
       "palacectl");
-  app.set_version_flag("--version", std::string("palacectl ") + palace::kVersion);
+  app.set_version_flag("--version", std::string("palacectl ") + palace::kProgramVersion);
   app.require_subcommand(1);
   int exit_code = 0;
   palace::AddSimulateCommand(app, exit_code, palace::MakeOffscreenSceneCamera);

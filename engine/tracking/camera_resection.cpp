@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/core/median.h"
 #include "engine/tracking/view_geometry.h"
 
 namespace palace {
@@ -77,9 +78,7 @@ double Scale(const std::vector<Term>& terms) {
   for (const Term& term : terms) {
     sizes.push_back(term.size);
   }
-  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-  std::nth_element(sizes.begin(), middle, sizes.end());
-  return std::clamp(*middle / 1.1774, 1.0, 1e3);
+  return std::clamp(UpperMedian(sizes) / 1.1774, 1.0, 1e3);
 }
 
 double Weight(double size, double scale, bool settled) {
@@ -119,9 +118,7 @@ Result<Vector3d> LinearPosition(const std::vector<GroundLandmark>& landmarks,
       miss[i] = u.cross((landmarks[i].p_WF - p_WC).normalized()).norm();
     }
     std::vector<double> sorted = miss;
-    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-    std::nth_element(sorted.begin(), middle, sorted.end());
-    const double scale = std::max(*middle, 1e-9);
+    const double scale = std::max(UpperMedian(sorted), 1e-9);
     for (std::size_t i = 0; i < landmarks.size(); ++i) {
       weight[i] = 1 / (1 + miss[i] * miss[i] / (4 * scale * scale));
     }

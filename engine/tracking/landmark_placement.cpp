@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/core/median.h"
+
 namespace palace {
 namespace {
 
@@ -60,9 +62,7 @@ std::optional<double> MedianHeightAbovePlane(const PinholeCamera& camera,
   if (heights_m.size() < static_cast<std::size_t>(kMinRanges)) {
     return std::nullopt;
   }
-  const auto middle = heights_m.begin() + static_cast<std::ptrdiff_t>(heights_m.size() / 2);
-  std::nth_element(heights_m.begin(), middle, heights_m.end());
-  return *middle;
+  return UpperMedian(heights_m);
 }
 
 std::optional<PlacedLandmark> PlaceLandmark(const PinholeCamera& camera, const RigidTransform& X_WC,

@@ -43,7 +43,7 @@ struct SourceArguments {
 };
 
 void Declare(CLI::App& app, AppOptions& options, SourceArguments& sources, bool& no_record) {
-  app.set_version_flag("--version", std::string("palace ") + kVersion);
+  app.set_version_flag("--version", std::string("palace ") + kProgramVersion);
   auto* source = app.add_option_group(
       "source", "Where the pictures come from; nothing: the built-in simulated mission");
   source->add_option("--scenario", options.scenario, "Simulated scene: runway, cones, slope, empty")
@@ -99,7 +99,7 @@ Result<AppOptions> ParseCommandLine(int argc, const char* const* argv) {
     options.print = app.help();
     return options;
   } catch (const CLI::CallForVersion&) {
-    options.print = std::string("palace ") + kVersion + "\n";
+    options.print = std::string("palace ") + kProgramVersion + "\n";
     return options;
   } catch (const CLI::ParseError& error) {
     return UsageError(std::string(error.what()) + "; see palace --help");

@@ -15,7 +15,7 @@ namespace {
 constexpr double kMaxWind_mps = 8;
 constexpr double kMaxOffWind_deg = 60;
 
-EvidenceRow MaxRow(std::string name, Figure figure, double limit, int decimals, int limit_decimals,
+EvidenceRow MaxRow(std::string name, Figure figure, double limit, int decimals,
                    const std::string& unit) {
   const std::string gap = unit == "°" ? "" : " ";
   EvidenceRow row;
@@ -27,15 +27,13 @@ EvidenceRow MaxRow(std::string name, Figure figure, double limit, int decimals, 
     row.spread = "± " + Fixed(figure.three_sigma, decimals) + gap + unit;
     row.share_3s = figure.three_sigma / limit;
   }
-  row.limit = "max " + Fixed(limit, limit_decimals) + gap + unit;
+  row.limit = "max " + Fixed(limit, DecimalsOf(limit, 0)) + gap + unit;
   return row;
 }
 
 Figure Scaled(const Figure& figure, double factor) {
   return {figure.value * factor, figure.three_sigma * factor};
 }
-
-int LimitDecimals(double limit) { return std::abs(limit - std::round(limit)) < 1e-6 ? 0 : 1; }
 
 /// Angle between the approach and the direction the wind comes from.
 double OffWindDeg(const EngineSnapshot& snap, const LandingSite& site) {
@@ -56,7 +54,7 @@ EvidenceRow ClearRow(const LandingSite& site) {
   row.share = ShareOfMin(site.safe_distance_m, site.clear_radius_m);
   row.value = FixedAgainst(site.safe_distance_m, site.clear_radius_m, row.share > 1, 1);
   row.unit = "m";
-  row.limit = "min " + Fixed(site.clear_radius_m, 1) + " m";
+  row.limit = "min " + Fixed(site.clear_radius_m, DecimalsOf(site.clear_radius_m, 1)) + " m";
   return row;
 }
 
@@ -107,13 +105,11 @@ std::vector<EvidenceRow> RowsOf(const EngineSnapshot& snap, const LandingSite& s
   const double rough_cm = slad.max_deviation_m * 100;
   const double wind = snap.vehicle ? snap.vehicle->wind_speed_mps : NAN;
   std::vector<EvidenceRow> rows;
-  rows.push_back(MaxRow("Slope", Scaled(site.slope_rad, kDegPerRad), slad.max_slope_deg, 1,
-                        LimitDecimals(slad.max_slope_deg), "°"));
-  rows.push_back(MaxRow("Roughness", Scaled(site.roughness_m, 100), rough_cm, 1,
-                        LimitDecimals(rough_cm), "cm"));
+  rows.push_back(MaxRow("Slope", Scaled(site.slope_rad, kDegPerRad), slad.max_slope_deg, 1, "°"));
+  rows.push_back(MaxRow("Roughness", Scaled(site.roughness_m, 100), rough_cm, 1, "cm"));
   if (!folded) {
-    rows.push_back(MaxRow("Largest step", Scaled(site.step_m, 100), slad.max_step_m * 100, 1,
-                          LimitDecimals(slad.max_step_m * 100), "cm"));
+    rows.push_back(
+        MaxRow("Largest step", Scaled(site.step_m, 100), slad.max_step_m * 100, 1, "cm"));
   }
   rows.push_back(ClearRow(site));
   if (!folded) {
@@ -123,12 +119,12 @@ std::vector<EvidenceRow> RowsOf(const EngineSnapshot& snap, const LandingSite& s
   }
   rows.push_back(
       ProbabilityRow(site, RequiredSafeProbability(slad, site.roughness_m.three_sigma / 3)));
-  rows.push_back(MaxRow("Height noise, 3σ", {site.height_m.three_sigma * 100, 0}, rough_cm, 1,
-                        LimitDecimals(rough_cm), "cm"));
-  rows.push_back(MaxRow("Wind", {wind, 0}, kMaxWind_mps, 1, 0, "m/s"));
+  rows.push_back(
+      MaxRow("Height noise, 3σ", {site.height_m.three_sigma * 100, 0}, rough_cm, 1, "cm"));
+  rows.push_back(MaxRow("Wind", {wind, 0}, kMaxWind_mps, 1, "m/s"));
   if (!folded) {
     rows.push_back(
-        MaxRow("Approach off wind", {OffWindDeg(snap, site), 0}, kMaxOffWind_deg, 0, 0, "°"));
+        MaxRow("Approach off wind", {OffWindDeg(snap, site), 0}, kMaxOffWind_deg, 0, "°"));
   }
   return rows;
 }

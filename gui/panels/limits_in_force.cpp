@@ -29,8 +29,7 @@ EvidenceRow Row(std::string name, double value, double spread, int decimals, dou
     row.share_3s = spread / limit;
   }
   row.limit = (is_min ? "min " : "max ") +
-              Fixed(limit, limit >= 3 && limit == std::round(limit) ? 0 : (unit.empty() ? 2 : 1)) +
-              gap + unit;
+              Fixed(limit, DecimalsOf(limit, limit >= 3 ? 0 : (unit.empty() ? 2 : 1))) + gap + unit;
   return row;
 }
 

@@ -21,9 +21,19 @@ std::string Fixed(double value, int decimals) {
   return value < 0 && !zero ? std::string("−").append(text) : text;
 }
 
+int DecimalsOf(double value, int least) {
+  int decimals = least;
+  double scale = std::pow(10, decimals);
+  while (decimals < 3 && std::abs(value * scale - std::round(value * scale)) > 1e-6 * scale) {
+    ++decimals;
+    scale *= 10;
+  }
+  return decimals;
+}
+
 std::string FixedAgainst(double value, double limit, bool over, int decimals) {
-  int shown = decimals;
-  while (over && shown < decimals + 2 && Fixed(value, shown) == Fixed(limit, shown)) {
+  int shown = over ? DecimalsOf(limit, decimals) : decimals;
+  while (over && shown < 3 && Fixed(value, shown) == Fixed(limit, shown)) {
     ++shown;
   }
   return Fixed(value, shown);

@@ -9,8 +9,10 @@ namespace palace {
 
 /// "−1 234.5"; not finite: "––". A value that rounds to zero carries no sign.
 std::string Fixed(double value, int decimals);
-/// The same with up to two decimals more where a value over its limit would read like the limit:
-/// 2.298 with 2.3 as its least is "2.298", not "2.3".
+/// The fewest decimals, at least `least` and at most 3, that show the number as it is.
+int DecimalsOf(double value, int least);
+/// Fixed, with up to three decimals where a value over its limit would read like the limit: 2.298
+/// with 2.3 as its least is "2.298", not "2.3". The limit is shown with its DecimalsOf.
 std::string FixedAgainst(double value, double limit, bool over, int decimals);
 /// "0.3 s", "12 s", "3 min".
 std::string Duration(double seconds);

@@ -397,7 +397,7 @@ class SurveyInput : public Scenario {
                 std::string::npos)
           << result.out;
       EXPECT_EQ(json["input"], nlohmann::json::array({file.filename().string()}));
-      EXPECT_EQ(json["version"], kVersion);
+      EXPECT_EQ(json["version"], kProgramVersion);
       EXPECT_TRUE(std::filesystem::exists(out / "report.html"));
       for (const auto& site : json["candidates"]) {
         EXPECT_GE(site["clearance_m"].get<double>(), 0);
@@ -437,6 +437,15 @@ TEST_F(SurveyInput, NoSiteLiesInAGap) {
       EXPECT_GE(site["east_m"].get<double>(), 1010 + 2.3);
     }
   }
+}
+
+TEST_F(SurveyInput, NamesThatAreNoUtf8AreNamed) {
+  WriteFile("d\xE9m.tif", Dem());
+  const ProcessResult result =
+      RunProcess(Palacectl({"analyze", "--elevation", "d\xE9m.tif", "--out", "out"}), kLimit_s);
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  std::ifstream json_file(folder_ / "out/site.json");
+  EXPECT_TRUE(nlohmann::json::parse(json_file, nullptr, false).is_object());
 }
 
 /// The labelled samples: few objects pass for ground.

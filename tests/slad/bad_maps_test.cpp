@@ -160,9 +160,10 @@ std::string Answer(const ElevationMap& map, const SladSettings& settings) {
   if (!selection.sites.empty()) {
     return "site";
   }
-  const std::size_t sizes = selection.none_reason.find("; the map is ");
+  const std::size_t sizes = selection.none_reason.find("; the map holds ");
   const double across_m = std::min(map.geometry.rows, map.geometry.cols) * map.geometry.cell_m;
-  EXPECT_TRUE(sizes == std::string::npos || across_m < 2 * settings.clear_radius_m());
+  EXPECT_TRUE(sizes == std::string::npos ||
+              across_m < 2 * settings.clear_radius_m() + map.geometry.cell_m);
   return selection.none_reason.substr(0, sizes);
 }
 

@@ -264,6 +264,20 @@ TEST(TerrainFusion, AFootWhoseSidesWereRefusedStands) {
   }
 }
 
+TEST(TerrainFusion, APictureWithoutRangesLeavesTheNoise) {
+  TerrainFusion fusion;
+  const RigidTransform X_WC = CameraPose(15.24, Rad(45));
+  RangeMap range = SeeWorld(Flat(), X_WC, 0.15, 1);
+  const auto seen = fusion.Add(range, X_WC, SladSettings{});
+  for (ImageF* layer : {&range.depth_m, &range.depth_sigma_m, &range.disparity_px}) {
+    std::fill(layer->pixels().begin(), layer->pixels().end(), kUnknownValue);
+  }
+  const auto blind = fusion.Add(range, X_WC, SladSettings{});
+  const auto cell = seen->geometry.CellFromPoint(15, 0);
+  ASSERT_TRUE(cell && blind->geometry == seen->geometry);
+  EXPECT_GE(blind->variance_m2.at(*cell), seen->variance_m2.at(*cell));
+}
+
 TEST(TerrainFusion, EmptyRangeMapGivesAllUnknown) {
   TerrainFusion fusion;
   const auto nothing = [](double, double) { return -1e9; };

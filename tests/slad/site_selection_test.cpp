@@ -228,8 +228,9 @@ TEST(SiteSelection, NoPlaceGivesTheSharesOfTheCauses) {
   EXPECT_EQ(Select(MakeMap(30, 30, 0.15, nothing)).none_reason, "100 % unknown");
   EXPECT_EQ(Select(MakeMap(1, 1, 0.15, nothing)).none_reason, "100 % unknown");
   EXPECT_EQ(Select(MakeMap(60, 60, 0.15, testing::Slope(Rad(15), 0))).none_reason, "100 % slope");
-  EXPECT_EQ(Select(MakeMap(20, 20, 0.15, Flat())).none_reason,
-            "100 % footprint; the map is 3 m across, the clear radius needs 4.6 m");
+  EXPECT_EQ(
+      Select(MakeMap(20, 20, 0.15, Flat())).none_reason,
+      "100 % footprint; the map holds a disc 2.850 m across, the lander's clear one is 4.600 m");
 }
 
 TEST(SiteSelection, TallWallTowardsTheVehicleBlocksTheCorridor) {
@@ -347,7 +348,13 @@ TEST(Slad, FieldOfTablesSeenFromFiftyFeet) {
     }
     EXPECT_LT(Deg(site.slope_rad.value), 1.0);
   }
-  const ImageU8 verdict = VerdictImage(range, context.X_WC, hazards, 4);
+  // The newest picture has no depth in its left half: what older ones measured stands there.
+  for (int y = 0; y < range.depth_m.height(); ++y) {
+    for (int x = 0; x < range.depth_m.width() / 2; ++x) {
+      range.depth_m.at(x, y) = kUnknownValue;
+    }
+  }
+  const ImageU8 verdict = VerdictImage(range, context.X_WC, *map, hazards, 4);
   EXPECT_EQ(verdict.width(), 160);
   const auto verdict_at = [&](const Eigen::Vector3d& p_W) {
     const Eigen::Vector3d p = context.X_WC.Inverse() * p_W;
@@ -355,6 +362,10 @@ TEST(Slad, FieldOfTablesSeenFromFiftyFeet) {
                           int((context.camera.fy_px * p.y() / p.z() + 239.5) / 4)));
   };
   EXPECT_EQ(verdict_at({13, 3, -0.75}), 2);
+  EXPECT_EQ(verdict_at({18, -3, -0.75}), 2);
+  EXPECT_EQ(verdict_at({12, -4, -0.75}), 2);
+  EXPECT_EQ(verdict_at({15, -1, 0}), 1);
+  EXPECT_EQ(verdict_at({16, 1, 0}), 1);
   EXPECT_EQ(verdict_at(selection.sites[0].p_WS), 1);
   EXPECT_EQ(HashOfMaps(*map, hazards), HashOfMaps(*map, EvaluateHazards(*map, settings)));
 }

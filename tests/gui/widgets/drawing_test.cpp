@@ -58,7 +58,19 @@ TEST(NumberText, AValueOverItsLimitDoesNotReadLikeTheLimit) {
   EXPECT_EQ(FixedAgainst(2.28, 2.3, true, 1), "2.28");
   EXPECT_EQ(FixedAgainst(2.298, 2.3, true, 1), "2.298");
   EXPECT_EQ(FixedAgainst(2.29999, 2.3, true, 1), "2.300");
+  EXPECT_EQ(FixedAgainst(2.33, 2.34, true, 1), "2.33");
+  EXPECT_EQ(FixedAgainst(2.3, 2.34, true, 1), "2.30");
+  EXPECT_EQ(FixedAgainst(12.3, 10, true, 1), "12.3");
   EXPECT_EQ(FixedAgainst(NAN, 2.3, true, 1), "––");
+}
+
+TEST(NumberText, ALimitHasTheDecimalsThatItTakes) {
+  EXPECT_EQ(DecimalsOf(10, 0), 0);
+  EXPECT_EQ(DecimalsOf(10, 1), 1);
+  EXPECT_EQ(DecimalsOf(2.3, 1), 1);
+  EXPECT_EQ(DecimalsOf(2.34, 1), 2);
+  EXPECT_EQ(DecimalsOf(1.0 / 3, 0), 3);
+  EXPECT_EQ(DecimalsOf(NAN, 1), 1);
 }
 
 TEST(Contour, ADiscOfHazardGivesOneClosedLineAtItsRim) {
