@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/core/text.h"
 #include "engine/core/time.h"
 #include "engine/journal/track_reader.h"
 #include "engine/wire/convert.h"
@@ -233,6 +234,12 @@ SourceStatus ReplaySource::Status() const {
   status.can_seek = true;
   status.frame_index = next_bundle_;
   status.frame_count = bundles_.size();
+  if (const LogReport& report = index_.report; report.damaged()) {
+    status.damage = WithNumbers("%.0f bytes unreadable, %.0f events damaged, %.0f missing",
+                                static_cast<double>(report.skipped_bytes),
+                                static_cast<double>(report.suspect + report.checksum_errors),
+                                static_cast<double>(report.missing_events));
+  }
   return status;
 }
 

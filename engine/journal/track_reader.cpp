@@ -17,7 +17,7 @@ bool IsBound(MissionState state) {
 bool TrackReader::Wants(const std::string& channel) const {
   return channel == channels_.station_status || channel == channels_.event ||
          channel == channels_.site_decision || channel == channels_.site_proposal ||
-         (channel == channels_.slad_settings && !record_.has_settings);
+         channel == channels_.slad_settings;
 }
 
 void TrackReader::Add(const WireMessage& message) {
@@ -35,7 +35,8 @@ void TrackReader::Add(const WireMessage& message) {
   } else {
     const Result<Settings> settings = DecodeSettings(message);
     if (settings) {
-      record_.settings_at_start = *settings;
+      record_.settings.push_back({message.time, *settings});
+      record_.settings_at_start = record_.settings.front().settings;
       record_.has_settings = true;
     }
   }

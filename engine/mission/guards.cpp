@@ -127,7 +127,7 @@ std::vector<GuardResult> EvaluateGuards(const GuardInputs& in) {
   add("G10", "This station commands", WhyNotCommanding(in));
   add("G11", "No warning unacknowledged",
       in.unacknowledged_warning.empty() ? "" : "Acknowledge first: " + in.unacknowledged_warning);
-  add("G12", "Recording",
+  add("G12", "Recording as asked",
       in.recorder_ok || in.recorder_loss_acknowledged ? "" : "Recording is not running");
   add("G13", "Source may be approved on", in.source_reason);
   add("G14", "Selected and approved apart", WhyNotInTime(in));

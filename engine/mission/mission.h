@@ -66,6 +66,7 @@ struct MissionInputs {
   Eigen::Vector3d skid_centre_W = Eigen::Vector3d::Constant(NAN);  ///< by the estimate in force
   /// Wanted course over ground; NaN: straight to the site.
   double approach_heading_rad = NAN;
+  std::string_view source_damage{};  ///< SourceStatus::damage
 };
 
 class Mission {

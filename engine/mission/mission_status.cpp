@@ -230,6 +230,9 @@ std::vector<AlarmCondition> Mission::SensorAlarms(const MissionInputs& in) const
              kLaserMismatch_m)},
       {"recorder", AlarmLevel::kCaution, vehicle && !in.recorder_ok,
        "Recording is not running. Acknowledge to fly without a record."},
+      {"log_damaged", AlarmLevel::kAdvisory, !in.source_damage.empty(),
+       "The log is cut or damaged: " + std::string(in.source_damage) +
+           ". palacectl log verify tells where."},
       {"no_site", AlarmLevel::kAdvisory,
        in.applied != nullptr && in.applied->selection.sites.empty() &&
            status_.state <= MissionState::kProposed,

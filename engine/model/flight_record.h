@@ -26,14 +26,21 @@ struct FlightRecordSample {
   double height_m = NAN;              ///< body above the origin of W, up-positive
   int alarms = 0;                     ///< active
   bool vision_in_force = false;
-  int armed = -1;                     ///< index into FlightRecord::armed_sites; -1: none armed
+  int armed = -1;  ///< index into FlightRecord::armed_sites; -1: none armed
+};
+
+/// Limits in force from a time on.
+struct SettingsInForce {
+  Timestamp from;
+  Settings settings;
 };
 
 struct FlightRecord {
   std::string path;
   std::vector<FlightRecordSample> samples;  ///< in order of time; empty for foreign logs
   std::vector<Event> events;
-  std::vector<LandingSite> armed_sites;     ///< as proposed when the operator selected them
+  std::vector<LandingSite> armed_sites;   ///< as proposed when the operator selected them
+  std::vector<SettingsInForce> settings;  ///< in order of time; empty: none on record
   Settings settings_at_start;
   bool has_settings = false;  ///< false: settings_at_start holds the defaults
   double start_s = 0;         ///< of the first bundle, seconds of data time

@@ -63,6 +63,7 @@ struct SourceStatus {
   std::uint64_t frame_index = 0;
   std::uint64_t frame_count = 0;          ///< 0 unknown
   std::vector<CameraCounters> cameras{};  ///< of kCameras and kVideo
+  std::string damage{};  ///< of a log: what could not be read, for people; empty when whole
 };
 
 /// Arrival of one channel, measured against the active clock.
@@ -112,6 +113,7 @@ struct HistorySample {
   double glide_deviation_m = NAN;
   char best_site = 0;
   double best_safe_distance_m = NAN;
+  bool rebuilding = false;  ///< replay: the map holds fewer frames than it held in flight
 };
 
 struct StageTiming {
@@ -141,6 +143,9 @@ struct EngineSnapshot {
   std::shared_ptr<const TerrainDecision> preview;  ///< set while previewed settings differ
   std::shared_ptr<const TerrainDecision>
       recorded;  ///< replay: what the flight decided, when limits moved
+
+  /// Replay: maps still to come after a jump until the map holds as many frames as in flight.
+  int maps_to_rebuild = 0;
 
   MissionStatus mission;
   TrackerStatus tracker;

@@ -92,6 +92,7 @@ HistorySample SampleOf(const EngineSnapshot& snapshot, const FrameBundle& bundle
   HistorySample sample;
   sample.time = snapshot.time;
   sample.state = snapshot.mission.state;
+  sample.rebuilding = snapshot.maps_to_rebuild > 0;
   const NavigationStatus& nav = snapshot.navigation;
   const bool vision = nav.handover == NavigationStatus::Handover::kVision;
   const FilterStatus& filter = vision ? nav.vision : nav.gps;

@@ -1,5 +1,6 @@
 #include "engine/runtime/pipeline.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -26,7 +27,12 @@ void Pipeline::StartAfterJump(Timestamp now) {
   navigator_.Reset();
   channels_.Reset();
   jumped_ = replaying_;
-  history_.Reset(flight_of_record_.HistoryBefore(now));
+  if (const Settings* settings = replaying_ ? flight_of_record_.SettingsAt(now) : nullptr) {
+    settings_.RestoreRecorded(*settings);
+  }
+  std::vector<HistorySample> before = flight_of_record_.HistoryBefore(now);
+  maps_to_rebuild_ = replaying_ && !before.empty() ? settings_.recorded().slad.frames_fused : 0;
+  history_.Reset(std::move(before));
   laser_height_m_.reset();
   range_check_.Reset();
   stereo_frames_ = 0;
@@ -238,6 +244,7 @@ void Pipeline::MeasureRange(Pass& pass) {
                 pass.pair.left, pass.pair.right, rectifier_->baseline_m()},
                settings.slad);
   pass.new_map = true;
+  maps_to_rebuild_ = std::max(0, maps_to_rebuild_ - 1);
 }
 
 void Pipeline::Judge(Pass& pass) {
@@ -341,7 +348,9 @@ void Pipeline::Decide(Pass& pass) {
                    calibration_hash_,
                    sequence_,
                    estimate.p_WB,
-                   estimate.p_WB + R_WB * SkidCentreBody()});
+                   estimate.p_WB + R_WB * SkidCentreBody(),
+                   NAN,
+                   pass.session.source.damage});
   snapshot.mission = mission_.status();
   const FlightRecordSample* recorded = jumped_ ? flight_of_record_.At(pass.bundle->time) : nullptr;
   if (recorded) {
@@ -353,6 +362,7 @@ PipelineOutput Pipeline::Publish(Pass& pass) {
   EngineSnapshot& snapshot = *pass.snapshot;
   snapshot.sequence = ++sequence_;
   snapshot.source = pass.session.source;
+  snapshot.maps_to_rebuild = maps_to_rebuild_;
   snapshot.can_transmit = pass.session.can_transmit;
   snapshot.recording = pass.session.recording;
   snapshot.recording_path = pass.session.recording_path;

@@ -81,6 +81,7 @@ class Pipeline {
 
   bool replaying_ = false;
   bool jumped_ = false;  ///< replay: the mission was not seen from its start
+  int maps_to_rebuild_ = 0;
   RecordedFlight flight_of_record_;
   SettingsState settings_;
   Mission mission_;

@@ -16,6 +16,17 @@ const FlightRecordSample* RecordedFlight::At(Timestamp time) const {
   return after == samples.begin() ? &samples.front() : &*(after - 1);
 }
 
+const Settings* RecordedFlight::SettingsAt(Timestamp time) const {
+  if (!record_ || record_->settings.empty()) {
+    return nullptr;
+  }
+  const auto& all = record_->settings;
+  const auto after =
+      std::upper_bound(all.begin(), all.end(), time,
+                       [](Timestamp t, const SettingsInForce& entry) { return t < entry.from; });
+  return after == all.begin() ? &all.front().settings : &(after - 1)->settings;
+}
+
 const LandingSite* RecordedFlight::ArmedSite(const FlightRecordSample& sample) const {
   const bool known =
       sample.armed >= 0 && static_cast<std::size_t>(sample.armed) < record_->armed_sites.size();

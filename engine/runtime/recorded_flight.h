@@ -16,6 +16,8 @@ class RecordedFlight {
   void Follow(std::shared_ptr<const FlightRecord> record) { record_ = std::move(record); }
   /// The newest sample not after `time`; null without a record.
   const FlightRecordSample* At(Timestamp time) const;
+  /// Limits in force at `time`; null where the record tells none.
+  const Settings* SettingsAt(Timestamp time) const;
   const LandingSite* ArmedSite(const FlightRecordSample& sample) const;
   /// Plots of the flight before `time`, as far as the record tells.
   std::vector<HistorySample> HistoryBefore(Timestamp time) const;

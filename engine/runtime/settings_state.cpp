@@ -28,6 +28,11 @@ Status SettingsState::SetRecorded(const std::string& name, double value, bool pr
 
 void SettingsState::Apply() { applied_ = preview_; }
 
+void SettingsState::RestoreRecorded(const Settings& settings) {
+  recorded_preview_ = settings;
+  ApplyRecorded();
+}
+
 void SettingsState::ApplyRecorded() {
   for (const SettingInfo& info : SettingTable()) {
     const double value = GetSetting(recorded_preview_, info.name);

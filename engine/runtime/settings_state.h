@@ -27,6 +27,9 @@ class SettingsState {
   Status SetRecorded(const std::string& name, double value, bool preview_only);
   void Apply();
   void ApplyRecorded();
+  /// Replay: after a jump, what the flight's operator had set by then. What the reviewer moved
+  /// stays.
+  void RestoreRecorded(const Settings& settings);
   void Discard() { preview_ = applied_; }
   void DiscardRecorded() { recorded_preview_ = recorded_; }
   /// Live and simulated flights: what is applied is what will be on record.

@@ -362,9 +362,11 @@ Status Analyze(const Options& options) {
   } else {
     const LandingSite& site = o.selection.sites.front();
     const std::string doubt = WhyProvisional(site, o.settings.slad);
-    std::printf("landing site at row %d, column %d, %.2f m north, %.2f m east, clear by %.2f m%s\n",
-                site.cell.row, site.cell.col, site.p_WS.x(), site.p_WS.y(), site.clearance_m,
-                doubt.empty() ? "" : (", provisional: " + doubt).c_str());
+    std::printf(
+        "landing site at row %d, column %d, %.2f m north, %.2f m east, %.2f m clear, %.2f m "
+        "needed%s\n",
+        site.cell.row, site.cell.col, site.p_WS.x(), site.p_WS.y(), site.safe_distance_m,
+        site.clear_radius_m, doubt.empty() ? "" : (", provisional: " + doubt).c_str());
   }
   return Ok();
 }

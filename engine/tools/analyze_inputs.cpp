@@ -77,6 +77,11 @@ void WarnOfLayout(const GridGeometry& model, const SladSettings& asked,
                     "--cell-m to change them",
                     asked.cell_m, model.cell_m));
   }
+  if (asked.grid_rows != standard.grid_rows || asked.grid_cols != standard.grid_cols) {
+    warnings.push_back(WithNumbers(
+        "slad.grid_rows and slad.grid_cols leave the model's %.0f x %.0f cells as they are",
+        model.rows, model.cols));
+  }
   if (asked.bounds != standard.bounds) {
     warnings.push_back("slad.bounds: an elevation model is taken whole");
   }

@@ -104,7 +104,7 @@ void DrawFirst(const Alarm& alarm, const Rect& rect, float text_right, UiFrame& 
   }
   float x = rect.x + s.Px(40);
   x += DrawText(ui, s.medium, p.text1, x, y, look.word) + s.Px(10);
-  std::string text = alarm.text;
+  std::string text = (alarm.active ? "" : "Over now: ") + alarm.text;
   if (alarm.count > 1) {
     text += " ×" + std::to_string(alarm.count);
   }

@@ -261,7 +261,7 @@ std::vector<ReviewDifference> FindDifferences(const EngineSnapshot& snap,
     // Letters follow sites over time, so a re-decided flight may hand them out in another order.
     const bool same_place = both && std::abs(record->samples[i].best_safe_distance_m -
                                              now.best_safe_distance_m) < kSameRadius_m;
-    if (recorded == now.best_site || same_place) {
+    if (now.rebuilding || recorded == now.best_site || same_place) {
       open = false;
       continue;
     }

@@ -101,6 +101,11 @@ struct Verdict {
 
 Verdict JudgeSite(const EngineSnapshot& snap) {
   Verdict v;
+  if (snap.maps_to_rebuild > 0) {
+    v.reason = "After the jump the map is built anew: " + std::to_string(snap.maps_to_rebuild) +
+               " frames still to come. Play on.";
+    return v;
+  }
   const MissionStatus& m = snap.mission;
   const TerrainDecision* recorded = RecordedDecision(snap);
   const LandingSite* site = m.armed ? &*m.armed : BestSite(recorded);
@@ -140,8 +145,11 @@ void DrawRedecidePanel(const EngineSnapshot& snap, const FlightRecord* record, c
                        ReviewState& state, UiFrame& ui) {
   const Style& s = ui.style;
   const Palette& p = s.palette;
-  const Settings recorded =
+  Settings recorded =
       record != nullptr && record->has_settings ? record->settings_at_start : Settings{};
+  if (const TerrainDecision* decision = RecordedDecision(snap)) {
+    recorded.slad = decision->settings;  // in force here, where they were moved in flight
+  }
   int changed = 0;
   for (const SettingInfo& info : SettingTable()) {
     changed += GetSetting(snap.settings, info.name) != GetSetting(recorded, info.name) ? 1 : 0;

@@ -66,6 +66,8 @@ TEST_F(ReplayTest, TellsWhatTheFlightDecided) {
   }
   EXPECT_EQ(record->events.size(), flight_.items.size());
   EXPECT_TRUE(record->has_settings);
+  ASSERT_EQ(record->settings.size(), 1u);
+  EXPECT_EQ(record->settings[0].settings, record->settings_at_start);
   EXPECT_EQ(record->settings_at_start, flight_.items[0].snapshot->settings);
   EXPECT_NEAR(record->duration_s, 1.1, 1e-9);
 }
@@ -143,6 +145,13 @@ TEST_F(ReplayTest, KeepsTheRecordedPace) {
   }
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
   EXPECT_GE(took.count(), 0.10);
+}
+
+TEST_F(ReplayTest, TellsThatALogIsCut) {
+  EXPECT_EQ(Open(Fast())->Status().damage, "");
+  const auto bytes = std::filesystem::file_size(flight_.log);
+  std::filesystem::resize_file(flight_.log, bytes * 6 / 10);
+  EXPECT_NE(Open(Fast())->Status().damage, "");
 }
 
 TEST_F(ReplayTest, SkipsADamagedPictureAndGoesOn) {

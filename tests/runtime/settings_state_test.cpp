@@ -45,5 +45,20 @@ TEST(SettingsState, ReplayFollowsTheRecordUntilTheReviewerMovesALimit) {
   EXPECT_EQ(state.applied().slad.max_slope_deg, 5);
 }
 
+TEST(SettingsState, AJumpRestoresTheRecordAndKeepsWhatTheReviewerMoved) {
+  SettingsState state{Settings{}};
+  Settings later;
+  later.slad.max_slope_deg = 6;
+  later.slad.max_step_m = 0.12;
+  state.RestoreRecorded(later);
+  EXPECT_EQ(state.applied(), later);
+  EXPECT_FALSE(state.redecided());
+  ASSERT_TRUE(state.Set(kSlope, 3, false));
+  state.RestoreRecorded(Settings{});
+  EXPECT_EQ(state.recorded(), Settings{});
+  EXPECT_EQ(state.applied().slad.max_slope_deg, 3);
+  EXPECT_EQ(state.applied().slad.max_step_m, Settings{}.slad.max_step_m);
+}
+
 }  // namespace
 }  // namespace palace

@@ -178,6 +178,17 @@ TEST(ReviewWorkspace, FindsWhereTheDecisionsDiffer) {
   EXPECT_TRUE(FindDifferences(snap, nullptr).empty());
 }
 
+TEST(ReviewWorkspace, AMapBuiltAnewAfterAJumpDecidesNothingDifferently) {
+  const FlightRecord record = Record();
+  EngineSnapshot snap = Replay(true);
+  auto history = std::make_shared<std::vector<HistorySample>>(*snap.history);
+  for (HistorySample& sample : *history) {
+    sample.rebuilding = true;
+  }
+  snap.history = history;
+  EXPECT_TRUE(FindDifferences(snap, &record).empty());
+}
+
 TEST(ReviewWorkspace, ClickOnADifferenceSeeksToIt) {
   const FlightRecord record = Record();
   UiHarness ui(1920, 1080);
