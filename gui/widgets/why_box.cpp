@@ -60,6 +60,10 @@ void DrawTerm(UiFrame& ui, const Rect& row, const ExplainedTerm& term) {
     FillRect(Canvas(), row, p.hover);
     FillRect(Canvas(), {row.x, row.y, s.Px(4), row.h}, p.white_mark);
   }
+  if (term.over) {
+    const float edge = s.Px(4);
+    FillRect(Canvas(), {row.right() - edge, row.y + edge, edge, row.h - 2 * edge}, p.unsafe);
+  }
   const TermWords words = WordsOf(term);
   const float y = row.centre().y;
   DrawText(ui, term.decided ? s.medium : s.body, term.decided ? p.text1 : p.text2,
@@ -135,7 +139,7 @@ void DrawWhyBox(UiFrame& ui, const Rect& rect, const CellExplanation& why, doubl
     DrawTerm(ui, {rect.x, y, rect.w, s.Px(kRow)}, term);
     const TermWords words = WordsOf(term);
     record += "; " + words.name + " " + words.value + " " + words.spread + " " + words.limit +
-              (term.decided ? " decided" : "");
+              (term.over ? " over" : "") + (term.decided ? " decided" : "");
     y += s.Px(kRow);
   }
   y += s.Px(6);

@@ -53,7 +53,7 @@ TEST(FlyMaps, TheWhyBoxExplainsTheCellAndKeepsOffWhatMatters) {
           window.Run(0.05);
           const Item* why = window.ui.items.Find("why");
           ASSERT_NE(why, nullptr) << map << " place " << place;
-          EXPECT_NE(why->text.find("Roughness 23.0 cm ± 2.0 cm max 10 cm decided"),
+          EXPECT_NE(why->text.find("Roughness 23.0 cm ± 2.0 cm max 10 cm over decided"),
                     std::string::npos)
               << why->text;
           EXPECT_NE(why->text.find("Measured in 10 frames, 0.3 s ago"), std::string::npos)
