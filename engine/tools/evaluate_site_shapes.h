@@ -20,8 +20,9 @@ Experiment SiteShapesExperiment();
 /// How the table of all trials is read (site_shapes_report.cpp).
 ExperimentReport ReportSiteShapes(const TrialTable& table);
 
-/// Limit on roughness that the report speaks of; chosen on seeds from 10000, for seeds from 1.
-inline constexpr double kShapesLimit_m = 0.04;
+/// Limit on roughness that the report speaks of: in the middle of those (6 to 8 cm, 320 trials) that
+/// find every wanted shape and refuse fewer than 1 % of the clear footprints.
+inline constexpr double kShapesLimit_m = 0.07;
 
 // Names of rows that are no shape.
 inline constexpr const char* kClearFootprints = "clear footprints";
