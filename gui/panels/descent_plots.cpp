@@ -183,7 +183,9 @@ PlotView DistancePlot(const EngineSnapshot& snap, const Palette& p, const Histor
   const std::optional<float> since = SinksSince(snap);
   view.limits = {{limit, true, since ? "Limit " + words : "Limit over the site: " + words,
                   since.value_or(0.0f)}};
-  view.current = Fixed(now.from_site_m, 2) + " ± " + Fixed(band, 2) + " m";
+  // A band below what is shown is none that anybody knows.
+  const bool known = !(band < 0.005);
+  view.current = Fixed(now.from_site_m, 2) + (known ? " ± " + Fixed(band, 2) : "") + " m";
   return view;
 }
 
