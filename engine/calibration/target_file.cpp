@@ -12,7 +12,7 @@
 
 #include <toml++/toml.h>
 
-#include "engine/camera/text_file.h"
+#include "engine/camera/files/text_file.h"
 
 namespace palace {
 namespace {

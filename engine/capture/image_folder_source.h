@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/camera/rig_file.h"
+#include "engine/camera/files/rig_file.h"
 #include "engine/capture/playback_turns.h"
 #include "engine/runtime/source.h"
 

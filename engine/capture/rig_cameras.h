@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "engine/camera/rig_file.h"
+#include "engine/camera/files/rig_file.h"
 #include "engine/capture/camera_device.h"
 
 namespace palace {

@@ -24,12 +24,12 @@
 
 #include "engine/core/result.h"
 #include "engine/mission/alarms.h"
-#include "engine/mission/approval.h"
 #include "engine/mission/guards.h"
 #include "engine/mission/input_watch.h"
 #include "engine/mission/site_watch.h"
 #include "engine/model/command.h"
 #include "engine/model/snapshot.h"
+#include "engine/trust/approval.h"
 
 namespace palace {
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/model/scene.h"
 #include "engine/model/snapshot.h"
+#include "engine/world/scene.h"
 
 namespace palace {
 

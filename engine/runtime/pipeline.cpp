@@ -6,7 +6,7 @@
 
 #include "engine/runtime/decision_hash.h"
 #include "engine/runtime/pipeline_pass.h"
-#include "engine/slad/explanation.h"
+#include "engine/slad/hazards/explanation.h"
 #include "engine/stereo/prefilter.h"
 
 namespace palace {

@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "engine/model/snapshot.h"
-#include "engine/slad/fusion.h"
-#include "engine/slad/scene_flags.h"
-#include "engine/slad/site_selection.h"
-#include "engine/slad/terrain_figures.h"
+#include "engine/slad/hazards/terrain_figures.h"
+#include "engine/slad/pictures/scene_flags.h"
+#include "engine/slad/sites/site_selection.h"
+#include "engine/slad/terrain/fusion.h"
 
 namespace palace {
 
@@ -21,7 +21,8 @@ struct TerrainInput {
   std::shared_ptr<const RangeMap> range;
   RigidTransform X_WC;
   Eigen::Vector3d p_WB = Eigen::Vector3d::Zero();
-  // The rectified pair the range map was made of, for flags; null: nothing is flagged from pictures.
+  // The rectified pair the range map was made of, for flags; null: nothing is flagged from
+  // pictures.
   std::shared_ptr<const ImageU8> left{};
   std::shared_ptr<const ImageU8> right{};
   double baseline_m = 0;

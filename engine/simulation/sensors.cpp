@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "engine/simulation/scene_ray.h"
+#include "engine/world/scene_ray.h"
 
 namespace palace {
 namespace {

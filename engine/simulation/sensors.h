@@ -7,8 +7,8 @@
 #include <optional>
 
 #include "engine/core/random.h"
-#include "engine/model/scene.h"
 #include "engine/model/vehicle_state.h"
+#include "engine/world/scene.h"
 
 namespace palace {
 

@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-#include "engine/simulation/scene_ray.h"
+#include "engine/world/scene_ray.h"
 
 namespace palace {
 namespace {

@@ -11,12 +11,12 @@
 #include <string>
 
 #include "engine/model/rig.h"
-#include "engine/model/scene.h"
 #include "engine/runtime/source.h"
 #include "engine/runtime/vehicle_link.h"
 #include "engine/simulation/scene_camera.h"
-#include "engine/simulation/scene_library.h"
 #include "engine/simulation/wind.h"
+#include "engine/world/scene.h"
+#include "engine/world/scene_library.h"
 
 namespace palace {
 

@@ -12,11 +12,11 @@
 
 #include <cstdint>
 
-#include "engine/slad/elevation_map_builder.h"
-#include "engine/slad/fusion.h"
-#include "engine/slad/hazard_maps.h"
-#include "engine/slad/site_selection.h"
-#include "engine/slad/verdict_image.h"
+#include "engine/slad/hazards/hazard_maps.h"
+#include "engine/slad/sites/site_selection.h"
+#include "engine/slad/sites/verdict_image.h"
+#include "engine/slad/terrain/elevation_map_builder.h"
+#include "engine/slad/terrain/fusion.h"
 
 namespace palace {
 

@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-#include "engine/stereo/lanes.h"
+#include "engine/core/byte_lanes.h"
 #include "engine/stereo/stereo_loops.h"
 
 namespace palace {

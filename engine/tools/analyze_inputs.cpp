@@ -4,21 +4,21 @@
 #include <cmath>
 #include <memory>
 
+#include "engine/camera/files/rig_file.h"
 #include "engine/camera/rectification.h"
-#include "engine/camera/rig_file.h"
 #include "engine/capture/picture_file.h"
 #include "engine/core/text.h"
 #include "engine/core/time.h"
 #include "engine/core/units.h"
-#include "engine/slad/elevation_map_builder.h"
-#include "engine/slad/hole_filling.h"
-#include "engine/slad/scene_flags.h"
-#include "engine/slad/terrain_points.h"
+#include "engine/slad/pictures/scene_flags.h"
+#include "engine/slad/terrain/elevation_map_builder.h"
+#include "engine/slad/terrain/hole_filling.h"
+#include "engine/slad/terrain/terrain_points.h"
 #include "engine/stereo/prefilter.h"
 #include "engine/stereo/stereo.h"
-#include "engine/tools/analyze_cloud.h"
-#include "engine/tools/map_files.h"
-#include "engine/tools/point_files.h"
+#include "engine/survey/cloud_elevation.h"
+#include "engine/survey/map_files.h"
+#include "engine/survey/point_files.h"
 
 namespace palace {
 namespace {

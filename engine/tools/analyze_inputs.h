@@ -11,7 +11,7 @@
 #include "engine/model/image.h"
 #include "engine/model/range_map.h"
 #include "engine/model/settings.h"
-#include "engine/slad/site_selection.h"
+#include "engine/slad/sites/site_selection.h"
 
 namespace palace {
 

@@ -9,7 +9,7 @@
 #include "engine/model/cell_explanation.h"
 #include "engine/model/site_standing.h"
 #include "engine/report/html_page.h"
-#include "engine/tools/map_pictures.h"
+#include "engine/survey/map_pictures.h"
 
 namespace palace {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "engine/model/hazard_maps.h"
 #include "engine/model/settings.h"
-#include "engine/slad/site_selection.h"
+#include "engine/slad/sites/site_selection.h"
 #include "engine/tools/analyze_inputs.h"
 
 namespace palace {

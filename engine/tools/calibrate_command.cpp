@@ -16,14 +16,14 @@
 
 #include "engine/calibration/calibration.h"
 #include "engine/calibration/calibration_quality.h"
+#include "engine/tools/calibration_report.h"
 #include "engine/calibration/target_detection.h"
 #include "engine/calibration/target_file.h"
 #include "engine/calibration/target_sheet.h"
-#include "engine/camera/camera_files.h"
+#include "engine/camera/files/camera_files.h"
 #include "engine/capture/image_folder_source.h"
 #include "engine/capture/picture_file.h"
-#include "engine/tools/calibration_report.h"
-#include "engine/tools/experiment.h"
+#include "engine/experiments/experiment.h"
 
 namespace palace {
 namespace {

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "engine/camera/camera_files.h"
+#include "engine/camera/files/camera_files.h"
 #include "engine/core/result.h"
 
 namespace palace {

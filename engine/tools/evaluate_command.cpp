@@ -2,16 +2,16 @@
 
 #include <CLI/CLI.hpp>
 
-#include "engine/tools/evaluate_calibration.h"
-#include "engine/tools/evaluate_landing.h"
-#include "engine/tools/evaluate_probability.h"
-#include "engine/tools/evaluate_site_flags.h"
-#include "engine/tools/evaluate_site_lidar.h"
-#include "engine/tools/evaluate_site_range.h"
-#include "engine/tools/evaluate_site_shapes.h"
-#include "engine/tools/evaluate_site_views.h"
-#include "engine/tools/evaluate_stereo.h"
-#include "engine/tools/experiment.h"
+#include "engine/experiments/evaluate_calibration.h"
+#include "engine/experiments/evaluate_landing.h"
+#include "engine/experiments/evaluate_probability.h"
+#include "engine/experiments/evaluate_site_flags.h"
+#include "engine/experiments/evaluate_site_lidar.h"
+#include "engine/experiments/evaluate_site_range.h"
+#include "engine/experiments/evaluate_site_shapes.h"
+#include "engine/experiments/evaluate_site_views.h"
+#include "engine/experiments/evaluate_stereo.h"
+#include "engine/experiments/experiment.h"
 
 namespace palace {
 

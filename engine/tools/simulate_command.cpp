@@ -17,7 +17,7 @@
 #include "engine/core/command_line.h"
 #include "engine/journal/log_index.h"
 #include "engine/journal/log_writer.h"
-#include "engine/mission/approval.h"
+#include "engine/trust/approval.h"
 #include "engine/wire/bus.h"
 #include "engine/wire/channels.h"
 #include "engine/wire/convert.h"

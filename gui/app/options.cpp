@@ -7,7 +7,7 @@
 #include "engine/core/command_line.h"
 #include "engine/core/version.h"
 #include "engine/runtime/settings_io.h"
-#include "engine/simulation/scene_library.h"
+#include "engine/world/scene_library.h"
 
 namespace palace {
 namespace {

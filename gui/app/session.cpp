@@ -9,7 +9,7 @@
 #include "engine/core/units.h"
 #include "engine/journal/log_writer.h"
 #include "engine/journal/replay_source.h"
-#include "engine/mission/approval_verifier.h"
+#include "engine/trust/approval_verifier.h"
 #include "engine/wire/lcm_link.h"
 #include "engine/wire/lcm_source.h"
 #include "gui/platform/offscreen_scene_camera.h"

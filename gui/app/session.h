@@ -8,9 +8,9 @@
 
 #include "engine/core/result.h"
 #include "engine/model/flight_record.h"
-#include "engine/model/scene.h"
 #include "engine/runtime/engine.h"
 #include "engine/simulation/simulator.h"
+#include "engine/world/scene.h"
 #include "gui/app/options.h"
 
 namespace palace {

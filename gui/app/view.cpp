@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/slad/explanation.h"
+#include "engine/slad/hazards/explanation.h"
 #include "gui/app/key_help.h"
 #include "gui/app/layout.h"
 #include "gui/app/view3d_input.h"

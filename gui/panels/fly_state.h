@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "gui/panels/map_probe.h"
-#include "gui/widgets/camera_overlay.h"
 #include "gui/widgets/hold_button.h"
-#include "gui/widgets/map_image.h"
+#include "gui/widgets/map/camera_overlay.h"
+#include "gui/widgets/map/map_image.h"
 #include "gui/widgets/plot.h"
 
 namespace palace {

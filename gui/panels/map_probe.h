@@ -8,8 +8,8 @@
 #include <string>
 
 #include "engine/model/snapshot.h"
-#include "gui/widgets/map_image.h"
-#include "gui/widgets/projection.h"
+#include "gui/widgets/map/map_image.h"
+#include "gui/widgets/map/projection.h"
 
 namespace palace {
 

@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-#include "gui/panels/diagnose.h"
+#include "gui/panels/diagnose/diagnose.h"
 #include "gui/widgets/icons.h"
 #include "gui/widgets/number_text.h"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "engine/core/units.h"
-#include "gui/widgets/flag_marks.h"
+#include "gui/widgets/map/flag_marks.h"
 #include "gui/widgets/number_text.h"
 
 namespace palace {

@@ -6,8 +6,8 @@
 
 #include "engine/model/snapshot.h"
 #include "gui/panels/map_probe.h"
-#include "gui/widgets/camera_overlay.h"
-#include "gui/widgets/map_image.h"
+#include "gui/widgets/map/camera_overlay.h"
+#include "gui/widgets/map/map_image.h"
 
 namespace palace {
 

@@ -4,8 +4,8 @@
 #include <memory>
 
 #include "engine/core/result.h"
-#include "engine/model/scene.h"
 #include "engine/simulation/scene_camera.h"
+#include "engine/world/scene.h"
 
 namespace palace {
 

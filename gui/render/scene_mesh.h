@@ -5,7 +5,7 @@
 
 #include <Eigen/Dense>
 
-#include "engine/model/scene.h"
+#include "engine/world/scene.h"
 
 namespace palace {
 

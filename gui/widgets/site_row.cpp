@@ -6,8 +6,8 @@
 #include "engine/model/cell_explanation.h"
 #include "gui/widgets/draw.h"
 #include "gui/widgets/icons.h"
+#include "gui/widgets/map/site_marks.h"
 #include "gui/widgets/number_text.h"
-#include "gui/widgets/site_marks.h"
 
 namespace palace {
 

@@ -1,7 +1,7 @@
 // Site row: cut-out of the picture, letter, clear distance, status and one reason for its rank.
 #pragma once
 
-#include "gui/widgets/projection.h"
+#include "gui/widgets/map/projection.h"
 
 namespace palace {
 

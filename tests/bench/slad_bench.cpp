@@ -1,7 +1,7 @@
 // SLAD: maps and sites from an elevation map, both modes, and what a moved limit costs.
 #include <benchmark/benchmark.h>
 
-#include "engine/slad/plane_fit.h"
+#include "engine/slad/hazards/plane_fit.h"
 #include "engine/slad/slad.h"
 #include "tests/bench/slad_field.h"
 

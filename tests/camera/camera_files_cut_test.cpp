@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "engine/camera/camera_files.h"
+#include "engine/camera/files/camera_files.h"
 #include "engine/core/random.h"
 #include "tests/camera/camera_file_texts.h"
 #include "tests/camera/sample_cameras.h"

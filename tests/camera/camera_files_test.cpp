@@ -1,6 +1,6 @@
 // Camera files of every format: what they hold, exact round trips, real files. Damaged ones:
 // camera_files_damage_test.cpp.
-#include "engine/camera/camera_files.h"
+#include "engine/camera/files/camera_files.h"
 
 #include <filesystem>
 #include <fstream>
@@ -10,7 +10,7 @@
 #include <opencv2/core.hpp>
 
 #include "engine/camera/cahvor.h"
-#include "engine/camera/text_file.h"
+#include "engine/camera/files/text_file.h"
 #include "tests/camera/camera_file_texts.h"
 #include "tests/camera/reference_vectors.h"
 #include "tests/camera/sample_cameras.h"

@@ -8,9 +8,9 @@
 #include <gtest/gtest.h>
 
 #include "engine/camera/cahvor.h"
-#include "engine/camera/camera_files.h"
 #include "engine/camera/conversion_fit.h"
 #include "engine/camera/conversion_targets.h"
+#include "engine/camera/files/camera_files.h"
 #include "tests/camera/reference_vectors.h"
 #include "tests/camera/sample_cameras.h"
 

@@ -1,4 +1,4 @@
-#include "engine/camera/rig_file.h"
+#include "engine/camera/files/rig_file.h"
 
 #include <filesystem>
 #include <fstream>
@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "engine/camera/camera_files.h"
+#include "engine/camera/files/camera_files.h"
 #include "engine/camera/rectification.h"
 #include "engine/core/random.h"
 #include "engine/core/units.h"

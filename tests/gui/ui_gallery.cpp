@@ -6,11 +6,11 @@
 #include <string>
 
 #include "gui/app/layout.h"
-#include "gui/panels/diagnose.h"
+#include "gui/panels/diagnose/diagnose.h"
 #include "gui/panels/fly_workspace.h"
 #include "gui/panels/frame_bar.h"
-#include "gui/panels/review.h"
-#include "gui/panels/tune.h"
+#include "gui/panels/review/review.h"
+#include "gui/panels/tune/tune.h"
 #include "gui/platform/imgui_backend.h"
 #include "gui/platform/offscreen.h"
 #include "gui/platform/screenshot.h"

@@ -6,7 +6,6 @@
 #include "engine/core/random.h"
 #include "engine/core/units.h"
 #include "engine/model/grid.h"
-#include "engine/model/scene.h"
 #include "engine/model/settings.h"
 #include "engine/model/site_standing.h"
 
@@ -60,32 +59,6 @@ TEST(Settings, ShownWithTheirUnit) {
   EXPECT_EQ(FormatSetting(*FindSetting("slad.max_slope_deg"), 10), "10.0°");
   EXPECT_EQ(FormatSetting(*FindSetting("slad.max_deviation_m"), 0.08), "8.0 cm");
   EXPECT_EQ(FormatSetting(*FindSetting("slad.mode"), 0), "thesis");
-}
-
-TEST(Scene, ObstacleDistanceAgainstSampledEdges) {
-  Scene scene;
-  SceneObject box;
-  box.north_m = 1;
-  box.east_m = 2;
-  box.yaw_rad = Rad(30);
-  box.size_north_m = 2;
-  box.size_east_m = 1;
-  scene.objects.push_back(box);
-  constexpr std::uint64_t kSeed = 3;
-  SCOPED_TRACE("seed 3");
-  RandomStream random(kSeed);
-  for (int i = 0; i < 200; ++i) {
-    const double n = random.Uniform(-6, 8), e = random.Uniform(-6, 8);
-    double nearest = INFINITY;
-    for (double u = -1; u <= 1.0001; u += 0.01) {
-      for (double v = -0.5; v <= 0.5001; v += 0.01) {
-        const double c = std::cos(box.yaw_rad), s = std::sin(box.yaw_rad);
-        nearest = std::min(
-            nearest, std::hypot(box.north_m + c * u - s * v - n, box.east_m + s * u + c * v - e));
-      }
-    }
-    EXPECT_NEAR(scene.ObstacleDistance(n, e), nearest, 0.02);
-  }
 }
 
 TEST(SiteStanding, AProvisionalSiteSaysWhy) {

@@ -14,9 +14,9 @@
 #include "engine/camera/pinhole.h"
 #include "engine/core/units.h"
 #include "engine/runtime/terrain_stage.h"
-#include "engine/simulation/painted_things.h"
-#include "engine/simulation/stereo_world.h"
 #include "engine/stereo/stereo.h"
+#include "engine/world/painted_things.h"
+#include "engine/world/stereo_world.h"
 
 namespace palace {
 namespace {

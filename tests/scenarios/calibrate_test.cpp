@@ -7,7 +7,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 
-#include "engine/camera/rig_file.h"
+#include "engine/camera/files/rig_file.h"
 #include "engine/simulation/calibration_session.h"
 #include "tests/scenarios/scenario.h"
 

@@ -4,7 +4,7 @@
 
 #include "engine/camera/alignment.h"
 #include "engine/camera/cahvor.h"
-#include "engine/camera/camera_files.h"
+#include "engine/camera/files/camera_files.h"
 #include "tests/camera/camera_file_texts.h"
 #include "tests/camera/reference_vectors.h"
 #include "tests/scenarios/scenario.h"

@@ -9,7 +9,7 @@
 #include <opencv2/videoio.hpp>
 
 #include "engine/camera/pinhole.h"
-#include "engine/simulation/stereo_world.h"
+#include "engine/world/stereo_world.h"
 #include "tests/scenarios/scenario.h"
 
 namespace palace {

@@ -1,4 +1,4 @@
-#include "engine/slad/explanation.h"
+#include "engine/slad/hazards/explanation.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // How long flags take to come and to go, as tables of what each map found.
-#include "engine/slad/flag_memory.h"
+#include "engine/slad/pictures/flag_memory.h"
 
 #include <string>
 

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "engine/slad/fusion.h"
+#include "engine/slad/terrain/fusion.h"
 #include "tests/slad/worlds.h"
 
 namespace palace {

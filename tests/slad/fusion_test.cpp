@@ -1,8 +1,8 @@
-#include "engine/slad/fusion.h"
+#include "engine/slad/terrain/fusion.h"
 
 #include <gtest/gtest.h>
 
-#include "engine/slad/elevation_map_builder.h"
+#include "engine/slad/terrain/elevation_map_builder.h"
 #include "tests/slad/worlds.h"
 
 namespace palace {

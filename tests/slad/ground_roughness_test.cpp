@@ -1,4 +1,4 @@
-#include "engine/slad/ground_roughness.h"
+#include "engine/slad/terrain/ground_roughness.h"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "engine/slad/hazard_maps.h"
+#include "engine/slad/hazards/hazard_maps.h"
 
 #include <gtest/gtest.h>
 #include <opencv2/core.hpp>

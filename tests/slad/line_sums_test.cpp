@@ -1,5 +1,5 @@
 // The fast sums along lines against the plain recursion, and a drawn line that must be found.
-#include "engine/slad/line_sums.h"
+#include "engine/slad/pictures/line_sums.h"
 
 #include <cmath>
 #include <cstdio>

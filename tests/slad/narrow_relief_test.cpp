@@ -1,4 +1,4 @@
-#include "engine/slad/narrow_relief.h"
+#include "engine/slad/terrain/narrow_relief.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "engine/slad/plane_fit.h"
+#include "engine/slad/hazards/plane_fit.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // What stands above its surroundings with a drop around it, and what does not.
-#include "engine/slad/raised_surface.h"
+#include "engine/slad/terrain/raised_surface.h"
 
 #include <algorithm>
 #include <cmath>

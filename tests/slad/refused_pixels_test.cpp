@@ -1,4 +1,4 @@
-#include "engine/slad/refused_pixels.h"
+#include "engine/slad/terrain/refused_pixels.h"
 
 #include <limits>
 

@@ -1,4 +1,4 @@
-#include "engine/slad/safe_distance.h"
+#include "engine/slad/hazards/safe_distance.h"
 
 #include <algorithm>
 #include <cmath>

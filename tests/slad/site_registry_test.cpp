@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "engine/slad/site_selection.h"
+#include "engine/slad/sites/site_selection.h"
 
 namespace palace {
 namespace {

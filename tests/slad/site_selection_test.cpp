@@ -1,4 +1,4 @@
-#include "engine/slad/site_selection.h"
+#include "engine/slad/sites/site_selection.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "engine/slad/slad_loops.h"
+#include "engine/slad/hazards/loops/slad_loops.h"
 
 #include <cmath>
 #include <cstdint>
@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/core/random.h"
-#include "engine/slad/touchdown.h"
+#include "engine/slad/hazards/touchdown.h"
 
 namespace palace {
 namespace {

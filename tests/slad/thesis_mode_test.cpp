@@ -5,10 +5,10 @@
 #include <gtest/gtest.h>
 #include <opencv2/core.hpp>
 
-#include "engine/slad/hole_filling.h"
-#include "engine/slad/plane_fit.h"
+#include "engine/slad/hazards/loops/slad_loops.h"
+#include "engine/slad/hazards/plane_fit.h"
 #include "engine/slad/slad.h"
-#include "engine/slad/slad_loops.h"
+#include "engine/slad/terrain/hole_filling.h"
 #include "tests/slad/thesis_reference.h"
 #include "tests/slad/worlds.h"
 

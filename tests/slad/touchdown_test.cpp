@@ -1,5 +1,5 @@
 // The gear on the ground: closed forms, and the fast loops against a gear put down by brute force.
-#include "engine/slad/touchdown.h"
+#include "engine/slad/hazards/touchdown.h"
 
 #include <algorithm>
 #include <cmath>

@@ -13,8 +13,8 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 
+#include "engine/camera/files/rig_file.h"
 #include "engine/camera/rectification.h"
-#include "engine/camera/rig_file.h"
 #include "engine/stereo/stereo.h"
 
 namespace palace {

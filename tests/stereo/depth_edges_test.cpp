@@ -9,10 +9,10 @@
 
 #include "engine/camera/pinhole.h"
 #include "engine/core/units.h"
-#include "engine/simulation/stereo_world.h"
 #include "engine/stereo/accuracy.h"
 #include "engine/stereo/semi_global.h"
 #include "engine/stereo/subpixel.h"
+#include "engine/world/stereo_world.h"
 
 namespace palace {
 namespace {

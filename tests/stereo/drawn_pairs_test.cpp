@@ -5,9 +5,9 @@
 
 #include "engine/camera/pinhole.h"
 #include "engine/core/units.h"
-#include "engine/simulation/stereo_world.h"
 #include "engine/stereo/accuracy.h"
 #include "engine/stereo/stereo.h"
+#include "engine/world/stereo_world.h"
 
 namespace palace {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "engine/camera/pinhole.h"
-#include "engine/simulation/stereo_world.h"
+#include "engine/world/stereo_world.h"
 
 namespace palace::synthetic {
 

@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "engine/model/cell_explanation.h"
-#include "gui/panels/review.h"
-#include "gui/panels/tune.h"
+#include "gui/panels/review/review.h"
+#include "gui/panels/tune/tune.h"
 #include "tests/gui/panels/fly_window.h"
 #include "tests/gui/panels/panel_checks.h"
 

@@ -1,6 +1,6 @@
 // Review and Diagnose: texts stay in their panels; the timeline seeks; differences are found.
-#include "gui/panels/diagnose.h"
-#include "gui/panels/review.h"
+#include "gui/panels/diagnose/diagnose.h"
+#include "gui/panels/review/review.h"
 #include "gui/widgets/number_text.h"
 #include "tests/gui/panels/panel_checks.h"
 #include "tests/support/fake_snapshot.h"

@@ -1,5 +1,5 @@
 // Tune: texts stay in their panels; sliders, typing, undo, apply ask for the right thing.
-#include "gui/panels/tune.h"
+#include "gui/panels/tune/tune.h"
 #include "tests/gui/panels/panel_checks.h"
 #include "tests/support/fake_snapshot.h"
 #include "tests/support/ui_harness.h"

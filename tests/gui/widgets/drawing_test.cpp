@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "gui/widgets/contour.h"
 #include "gui/widgets/evidence_row.h"
+#include "gui/widgets/map/contour.h"
 #include "gui/widgets/number_text.h"
 #include "gui/widgets/plot.h"
 #include "gui/widgets/style.h"

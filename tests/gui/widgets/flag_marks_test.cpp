@@ -1,5 +1,5 @@
 // Marks of flags lie on the flagged cells, whatever the scale, and nowhere else.
-#include "gui/widgets/flag_marks.h"
+#include "gui/widgets/map/flag_marks.h"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,36 @@
+// One reader and writer a format behind camera_files.h.
+#pragma once
+
+#include "engine/camera/files/camera_files.h"
+#include "engine/camera/files/keyed_text.h"
+
+namespace palace {
+
+Result<CameraModel> ReadJplText(const KeyedText& text);
+std::string JplToText(const CahvorModel& base, const CahvoreModel* cahvore);
+Result<CameraModel> ReadPdsLabel(const KeyedText& text);
+Result<CameraModel> ReadWillson(const KeyedText& text);
+/// Lengths are converted to millimetres.
+std::string WillsonToText(const CameraModel& model);
+Result<CameraModel> ReadOpenCv(const KeyedText& text, const CameraFileOptions& options);
+std::string OpenCvToYaml(const CameraModel& model);
+std::string OpenCvToXml(const CameraModel& model);
+Result<CameraModel> ReadRos(const KeyedText& text);
+std::string RosToYaml(const CameraModel& model);
+Result<CameraModel> ReadMrcal(const KeyedText& text);
+
+constexpr int kLargestSide_px = 65536;
+
+/// Width and height from two keys, or 0 x 0 where the text has neither.
+Result<PictureSize> ReadSize(const KeyedText& text, const std::string& width_key,
+                             const std::string& height_key);
+/// Width and height from one list of two whole numbers.
+Result<PictureSize> ReadSides(const KeyedText& text, const std::string& key);
+/// The rotation about the axis `turn` by its length (Rodrigues).
+Eigen::Matrix3d RotationFromVector(const Eigen::Vector3d& turn);
+/// A number with 17 digits, which reads back to the same bits.
+std::string Exact(double value);
+/// Such numbers with `separator` between them.
+std::string Exact(const double* values, std::size_t count, const char* separator);
+
+}  // namespace palace

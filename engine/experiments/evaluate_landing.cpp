@@ -1,0 +1,199 @@
+#include "engine/experiments/evaluate_landing.h"
+
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <utility>
+
+#include <CLI/CLI.hpp>
+
+#include "engine/core/command_line.h"
+#include "engine/report/statistics.h"
+#include "engine/report/svg_plot.h"
+#include "engine/runtime/engine.h"
+#include "engine/runtime/flight_summary.h"
+#include "engine/runtime/scripted_operator.h"
+#include "engine/runtime/settings_io.h"
+#include "engine/trust/approval_verifier.h"
+
+namespace palace {
+namespace {
+
+constexpr double kMissionLimit_s = 180;
+constexpr double kGustPerMean = 1.5;  // W20 of the turbulence beside the mean wind
+constexpr double kWanted_m = 0.5;     // touchdown beside the site
+
+struct LandingOptions {
+  std::string scenario = "runway";
+  double wind_mps = 0;
+  std::vector<std::string> set;
+};
+
+Result<FlightSummary> FlyOne(const LandingOptions& options, const Settings& settings,
+                             std::uint64_t seed, const SceneCameraFactory& camera) {
+  Result<Scene> scene = MakeScene(options.scenario, seed);
+  if (!scene) {
+    return scene.error();
+  }
+  EngineParts parts;
+  parts.settings = settings;
+  parts.mission.session_id = seed;
+  parts.mission.signer = ApprovalSigner::FromSeed(seed);
+  SimulatorOptions simulation;
+  simulation.scene = *scene;
+  simulation.seed = seed;
+  simulation.wind.mean_mps = options.wind_mps;
+  simulation.wind.gust_w20_mps = kGustPerMean * options.wind_mps;
+  simulation.verify = MakeApprovalVerifier(parts.mission.signer.public_key());
+  auto simulator = std::make_shared<Simulator>(std::move(simulation), camera);
+  parts.source = simulator;
+  parts.link = simulator;
+  Engine engine(std::move(parts), /*threaded=*/false);
+  FlightSummarizer summarizer(*scene);
+  ScriptedOperator pilot;
+  while (engine.Step()) {
+    const auto snapshot = engine.Latest();
+    summarizer.Add(*snapshot);
+    for (const EngineCommand& command : pilot.Decide(*snapshot)) {
+      engine.Post(command);
+    }
+    if (pilot.finished() || summarizer.summary().duration_s > kMissionLimit_s) {
+      return summarizer.summary();
+    }
+  }
+  if (!engine.error().empty()) {
+    return UnavailableError(engine.error());
+  }
+  return summarizer.summary();
+}
+
+Result<std::vector<TrialRow>> RunTrial(const LandingOptions& options, std::uint64_t seed,
+                                       const SceneCameraFactory& camera) {
+  Settings settings;
+  for (const std::string& assignment : options.set) {
+    const Result<Settings> changed = ApplySettingText(settings, assignment);
+    if (!changed) {
+      return changed.error();
+    }
+    settings = *changed;
+  }
+  const Result<FlightSummary> flown = FlyOne(options, settings, seed, camera);
+  if (!flown) {
+    return flown.error();
+  }
+  const auto or_nan = [](const std::optional<double>& value) { return value.value_or(NAN); };
+  const auto series = [](const SeriesStats& stats, double value) {
+    return CsvNumber(stats.count > 0 ? value : NAN);
+  };
+  return std::vector<TrialRow>{{MissionStateName(flown->final_state), CsvNumber(flown->duration_s),
+                                CsvNumber(or_nan(flown->touchdown_miss_m)),
+                                CsvNumber(or_nan(flown->site_obstacle_distance_m)),
+                                CsvNumber(flown->lander_radius_m),
+                                series(flown->estimate_error_m, flown->estimate_error_m.mean),
+                                series(flown->estimate_error_m, flown->estimate_error_m.max),
+                                series(flown->gps_error_m, flown->gps_error_m.mean)}};
+}
+
+std::string ShareLine(const std::string& what, int hits, int trials) {
+  const Interval share = WilsonInterval(hits, trials);
+  char text[160];
+  std::snprintf(text, sizeof text, "%s: %d of %d (95 %% interval %.1f to %.1f %%)", what.c_str(),
+                hits, trials, 100 * share.low, 100 * share.high);
+  return text;
+}
+
+std::string SpreadLine(const std::string& what, const std::vector<double>& mean,
+                       const std::vector<double>& max) {
+  char text[160];
+  std::snprintf(text, sizeof text, "%s: mean %.3f m, max %.3f m", what.c_str(), SpreadOf(mean).mean,
+                SpreadOf(max).max);
+  return text;
+}
+
+ExperimentReport Report(const TrialTable& table) {
+  const int trials = static_cast<int>(table.rows.size());
+  const int landed = static_cast<int>(
+      table.Where("final_state", MissionStateName(MissionState::kLanded)).rows.size());
+  const std::vector<double> miss = table.Numbers("touchdown_miss_m");
+  const std::vector<double> obstacle = table.Numbers("site_obstacle_distance_m");
+  const std::vector<double> radius = table.Numbers("lander_radius_m");
+  const std::size_t state = table.Index("final_state");
+  int within = 0, clear = 0;
+  for (std::size_t i = 0; i < table.rows.size(); ++i) {
+    const bool down = table.rows[i][state] == MissionStateName(MissionState::kLanded);
+    within += down && miss[i] <= kWanted_m ? 1 : 0;
+    clear += obstacle[i] >= radius[i] ? 1 : 0;
+  }
+  ExperimentReport report{HtmlPage("PALACE: landing missions")};
+  report.passed = landed == trials;
+  report.lines = {
+      ShareLine("Landed", landed, trials), ShareLine("Touchdown within 0.5 m", within, trials),
+      ShareLine("Site clear of every true obstacle by the lander radius", clear, trials),
+      SpreadLine("Touchdown miss", miss, miss),
+      SpreadLine("Vision estimate against truth", table.Numbers("vision_error_mean_m"),
+                 table.Numbers("vision_error_max_m"))};
+  LinePlot plot{"Touchdown miss and vision error by mission", "seed", "distance, m", {}};
+  const std::vector<double> seed = table.Numbers("seed");
+  plot.series = {{.name = "touchdown miss", .x = seed, .y = miss, .line = false},
+                 {.name = "vision error, mean",
+                  .x = seed,
+                  .y = table.Numbers("vision_error_mean_m"),
+                  .line = false},
+                 {.name = "vision error, largest",
+                  .x = seed,
+                  .y = table.Numbers("vision_error_max_m"),
+                  .line = false}};
+  plot.limits = {{kWanted_m, "0.5 m wanted"}};
+  plot.y_min = 0;
+  report.page.List(report.lines).Figure(LinePlotSvg(plot), "One point a mission.");
+  std::vector<std::vector<std::string>> missions;
+  for (std::size_t i = 0; i < table.rows.size(); ++i) {
+    const auto metres = [&](const char* column) {
+      char text[24];
+      std::snprintf(text, sizeof text, "%.3f", table.Numbers(column)[i]);
+      return std::string(text);
+    };
+    missions.push_back({table.rows[i][1], table.rows[i][state], metres("touchdown_miss_m"),
+                        metres("site_obstacle_distance_m"), metres("vision_error_mean_m"),
+                        metres("vision_error_max_m"), metres("gps_error_mean_m")});
+  }
+  report.page.Heading("Missions")
+      .Table({"Seed", "End", "Miss, m", "Nearest obstacle, m", "Vision error, mean, m",
+              "Vision error, largest, m", "GPS error, mean, m"},
+             missions);
+  return report;
+}
+
+}  // namespace
+
+Experiment LandingExperiment(SceneCameraFactory camera) {
+  auto options = std::make_shared<LandingOptions>();
+  Experiment experiment;
+  experiment.name = "landing";
+  experiment.purpose = "Whole missions, one a seed, flown by a scripted operator";
+  experiment.columns = {
+      "final_state",     "duration_s",          "touchdown_miss_m",   "site_obstacle_distance_m",
+      "lander_radius_m", "vision_error_mean_m", "vision_error_max_m", "gps_error_mean_m"};
+  experiment.add_options = [options](CLI::App& verb) {
+    verb.add_option("--scenario", options->scenario, "Scene")->capture_default_str();
+    verb.add_option("--wind", options->wind_mps, "Mean wind, m/s")
+        ->check(FiniteRange(0.0, 15.0))
+        ->capture_default_str();
+    verb.add_option("--set", options->set, "One setting, e.g. slad.max_slope_deg=8");
+  };
+  experiment.setup = [options] {
+    std::string text =
+        "scene " + options->scenario + ", wind " + CsvNumber(options->wind_mps) + " m/s";
+    for (const std::string& assignment : options->set) {
+      text += ", " + assignment;
+    }
+    return text;
+  };
+  experiment.run = [options, camera = std::move(camera)](int, std::uint64_t seed) {
+    return RunTrial(*options, seed, camera);
+  };
+  experiment.report = Report;
+  return experiment;
+}
+
+}  // namespace palace

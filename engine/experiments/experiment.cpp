@@ -1,0 +1,236 @@
+#include "engine/experiments/experiment.h"
+
+#include <cstdio>
+#include <fstream>
+#include <iostream>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+
+#include "engine/camera/files/text_file.h"
+#include "engine/core/check.h"
+#include "engine/core/command_line.h"
+
+namespace palace {
+namespace {
+
+namespace fs = std::filesystem;
+constexpr std::size_t kLargestTable = std::size_t{1} << 30;
+
+struct RunOptions {
+  int trials = 10;
+  std::uint64_t seed = 1;
+  std::string shard = "1/1";
+  fs::path out;
+};
+
+int Fail(const Error& error) {
+  std::cerr << "palacectl: " << error.message << "\n";
+  return error.code == ErrorCode::kUsage ? 2 : 1;
+}
+
+Status MakeFolder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (!fs::is_directory(folder, error)) {
+    return UnavailableError("cannot make the folder " + folder.string() +
+                            "; choose one you may write to");
+  }
+  return Ok();
+}
+
+/// CSV, and for a whole run the report. Returns the exit code.
+int WriteResults(const Experiment& experiment, const TrialFile& file, const fs::path& out) {
+  if (!out.empty()) {
+    const fs::path csv = out / (experiment.name + ".csv");
+    if (const Status written = WriteTextFile(csv, TrialFileText(file)); !written) {
+      return Fail(written.error());
+    }
+    std::cout << "wrote " << csv.string() << "\n";
+  }
+  if (!file.header.shard.whole()) {
+    std::cout << "shard " << file.header.shard.index << " of " << file.header.shard.count
+              << "; join the shards with: palacectl evaluate merge --out DIR SHARD_DIR...\n";
+    return 0;
+  }
+  ExperimentReport report = experiment.report(file.table);
+  for (const std::string& line : report.lines) {
+    std::cout << line << "\n";
+  }
+  if (!out.empty()) {
+    const TrialHeader& h = file.header;
+    report.page.Heading("How this was made")
+        .Paragraph("palacectl evaluate " + h.experiment + ", " + std::to_string(h.trials) +
+                   " trials, seed " + std::to_string(h.seed) + "; " + h.setup)
+        .Link("Every trial:", experiment.name + ".csv");
+    const fs::path page = out / "report.html";
+    if (const Status written = WriteTextFile(page, report.page.Text()); !written) {
+      return Fail(written.error());
+    }
+    std::cout << "wrote " << page.string() << "\n";
+  }
+  return report.passed ? 0 : 1;
+}
+
+int RunExperiment(const Experiment& experiment, const RunOptions& options) {
+  const Result<Shard> shard = ParseShard(options.shard);
+  if (!shard) {
+    return Fail(shard.error());
+  }
+  if (!shard->whole() && options.out.empty()) {
+    return Fail(UsageError("--shard needs --out, a folder of its own for each shard"));
+  }
+  if (!options.out.empty()) {
+    if (const Status made = MakeFolder(options.out); !made) {
+      return Fail(made.error());
+    }
+  }
+  TrialFile file;
+  file.header = {experiment.name, experiment.setup ? experiment.setup() : "defaults", options.seed,
+                 options.trials, *shard};
+  file.table.columns = {"trial", "seed"};
+  file.table.columns.insert(file.table.columns.end(), experiment.columns.begin(),
+                            experiment.columns.end());
+  for (int trial = 0; trial < options.trials; ++trial) {
+    if (!shard->Holds(trial)) {
+      continue;
+    }
+    const std::uint64_t seed = TrialSeed(options.seed, trial);
+    const Result<std::vector<TrialRow>> rows = experiment.run(trial, seed);
+    if (!rows) {
+      return Fail(rows.error());
+    }
+    for (const TrialRow& values : *rows) {
+      PALACE_CHECK(values.size() == experiment.columns.size(), experiment.name, values.size());
+      std::vector<std::string> row = {std::to_string(trial), std::to_string(seed)};
+      row.insert(row.end(), values.begin(), values.end());
+      file.table.rows.push_back(std::move(row));
+    }
+    std::fprintf(stderr, "\r%s: trial %d of %d", experiment.name.c_str(), trial + 1,
+                 options.trials);
+  }
+  std::fputc('\n', stderr);
+  return WriteResults(experiment, file, options.out);
+}
+
+/// The CSV a shard's path means: the file itself, or the only experiment's CSV of the folder.
+Result<fs::path> CsvOf(const fs::path& path, const std::vector<Experiment>& experiments) {
+  std::error_code error;
+  if (!fs::is_directory(path, error)) {
+    return path;
+  }
+  for (const Experiment& experiment : experiments) {
+    const fs::path csv = path / (experiment.name + ".csv");
+    if (fs::exists(csv, error)) {
+      return csv;
+    }
+  }
+  return UnavailableError(path.string() + " holds no table of an experiment");
+}
+
+int Merge(const std::vector<Experiment>& experiments, const std::vector<std::string>& paths,
+          const fs::path& out) {
+  std::vector<TrialFile> shards;
+  std::vector<fs::path> inputs;
+  for (const std::string& path : paths) {
+    const Result<fs::path> csv = CsvOf(path, experiments);
+    if (!csv) {
+      return Fail(csv.error());
+    }
+    const Result<std::string> text = ReadTextFile(*csv, kLargestTable);
+    if (!text) {
+      return Fail(text.error());
+    }
+    Result<TrialFile> shard = ParseTrialFile(*text, csv->string());
+    if (!shard) {
+      return Fail(shard.error());
+    }
+    shards.push_back(std::move(*shard));
+    inputs.push_back(*csv);
+  }
+  const Result<TrialFile> merged = MergeTrialFiles(shards);
+  if (!merged) {
+    return Fail(merged.error());
+  }
+  for (const Experiment& experiment : experiments) {
+    if (experiment.name != merged->header.experiment) {
+      continue;
+    }
+    std::vector<std::string> columns = {"trial", "seed"};
+    columns.insert(columns.end(), experiment.columns.begin(), experiment.columns.end());
+    if (columns != merged->table.columns) {
+      return Fail(InvalidError("merge: the columns are not those of this version's " +
+                               experiment.name + "; run the shards again"));
+    }
+    if (const Status made = MakeFolder(out); !made) {
+      return Fail(made.error());
+    }
+    for (const fs::path& csv : inputs) {
+      std::error_code error;
+      if (fs::equivalent(csv, out / (experiment.name + ".csv"), error)) {
+        return Fail(UsageError("merge: --out " + out.string() + " would overwrite the shard " +
+                               csv.string() + "; choose another folder"));
+      }
+    }
+    return WriteResults(experiment, *merged, out);
+  }
+  return Fail(InvalidError("merge: there is no experiment '" + merged->header.experiment + "'"));
+}
+
+}  // namespace
+
+Status WriteTextFile(const std::filesystem::path& path, const std::string& text) {
+  std::filesystem::path part = path;
+  part += ".part";
+  std::ofstream out(part, std::ios::trunc | std::ios::binary);
+  out << text;
+  out.close();
+  std::error_code error;
+  if (out) {
+    std::filesystem::rename(part, path, error);
+  }
+  if (!out || error) {
+    std::filesystem::remove(part, error);
+    return UnavailableError("cannot write " + path.string() +
+                            "; choose a folder you may write to, with free space");
+  }
+  return Ok();
+}
+
+std::uint64_t TrialSeed(std::uint64_t seed, int trial) {
+  return seed + static_cast<std::uint64_t>(trial);
+}
+
+void AddExperiments(CLI::App& evaluate, const std::vector<Experiment>& experiments,
+                    int& exit_code) {
+  const auto all = std::make_shared<const std::vector<Experiment>>(experiments);
+  for (std::size_t i = 0; i < all->size(); ++i) {
+    const Experiment& experiment = (*all)[i];
+    CLI::App* verb = evaluate.add_subcommand(experiment.name, experiment.purpose);
+    auto options = std::make_shared<RunOptions>();
+    options->trials = experiment.default_trials;
+    verb->add_option("--trials", options->trials, "Trials, over all shards")
+        ->check(CLI::Range(1, 1'000'000))
+        ->capture_default_str();
+    verb->add_option("--seed", options->seed, "Seed of the first trial; the others count on")
+        ->check(Seed())
+        ->capture_default_str();
+    verb->add_option("--shard", options->shard,
+                     "i/n: only every n-th trial; `evaluate merge` joins the shards");
+    verb->add_option("--out", options->out,
+                     "Folder for " + experiment.name + ".csv and report.html");
+    if (experiment.add_options) {
+      experiment.add_options(*verb);
+    }
+    verb->callback(
+        [all, i, options, &exit_code] { exit_code = RunExperiment((*all)[i], *options); });
+  }
+  CLI::App* merge = evaluate.add_subcommand("merge", "Joins the shards of one experiment");
+  auto out = std::make_shared<fs::path>();
+  auto paths = std::make_shared<std::vector<std::string>>();
+  merge->add_option("--out", *out, "Folder for the joined CSV and report.html")->required();
+  merge->add_option("shards", *paths, "Folders or CSV files of all shards")->required();
+  merge->callback([all, out, paths, &exit_code] { exit_code = Merge(*all, *paths, *out); });
+}
+
+}  // namespace palace

@@ -1,0 +1,167 @@
+#include "engine/experiments/field_trial.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "engine/camera/pinhole.h"
+#include "engine/core/random.h"
+#include "engine/stereo/stereo.h"
+
+namespace palace {
+namespace {
+
+constexpr double kTallestObject_m = 3;  // as the pipeline expects
+
+PinholeCamera CameraOf(const HoverView& view) {
+  return PinholeFromFov(view.width_px, view.height_px, view.field_of_view_rad);
+}
+
+RigidTransform RightOf(const RigidTransform& X_WC, double baseline_m) {
+  return {X_WC.R, X_WC.p + X_WC.R.col(0) * baseline_m};
+}
+
+EulerAngles RandomAngles(RandomStream& random, double sigma_rad) {
+  EulerAngles angles;
+  angles.roll_rad = sigma_rad * random.Normal();
+  angles.pitch_rad = sigma_rad * random.Normal();
+  angles.yaw_rad = sigma_rad * random.Normal();
+  return angles;
+}
+
+Eigen::Vector3d RandomShift(RandomStream& random, double sigma_m) {
+  const double north = random.Normal(), east = random.Normal(), down = random.Normal();
+  return sigma_m * Eigen::Vector3d(north, east, down);
+}
+
+/// The pose navigation reports: attitude off in the body's axes, position off in W.
+RigidTransform BelievedPose(const RigidTransform& X_WC, const HoverView& view,
+                            RandomStream& random) {
+  const Eigen::Matrix3d R_BC = CameraRotationFromTilt(view.tilt_rad);
+  const Eigen::Matrix3d off = RotationFromEuler(RandomAngles(random, view.attitude_error_rad));
+  const Eigen::Matrix3d R_WB = X_WC.R * R_BC.transpose();
+  return {R_WB * off * R_BC, X_WC.p + RandomShift(random, view.position_error_m)};
+}
+
+}  // namespace
+
+std::vector<RigidTransform> HoverPoses(const HoverView& view, std::uint64_t seed) {
+  RandomStream random(seed, "hover");
+  std::vector<RigidTransform> poses;
+  for (int i = 0; i < view.frames; ++i) {
+    EulerAngles attitude = RandomAngles(random, view.attitude_motion_rad);
+    attitude.yaw_rad += view.heading_rad;
+    Eigen::Vector3d drift = RandomShift(random, view.drift_m);
+    drift.z() /= 2;
+    poses.push_back({RotationFromEuler(attitude) * CameraRotationFromTilt(view.tilt_rad),
+                     Eigen::Vector3d(view.north_m, view.east_m, -view.height_m) + drift});
+  }
+  return poses;
+}
+
+BakedGround BakeForHover(const StereoWorld& world, const HoverView& view,
+                         const std::vector<RigidTransform>& X_WCs) {
+  std::vector<RigidTransform> both = X_WCs;
+  for (const RigidTransform& X_WC : X_WCs) {
+    both.push_back(RightOf(X_WC, view.baseline_m));
+  }
+  return BakeFor(world, CameraOf(view), both);
+}
+
+Result<std::vector<FieldFrame>> LookAtField(const StereoWorld& world, const HoverView& view,
+                                            const StereoSettings& settings, std::uint64_t seed,
+                                            const BakedGround* ground) {
+  const PinholeCamera camera = CameraOf(view);
+  const std::vector<RigidTransform> poses = HoverPoses(view, seed);
+  const BakedGround own =
+      ground == nullptr ? BakeForHover(world, view, poses) : BakedGround({}, 0, {}, 1);
+  const BakedGround& baked = ground == nullptr ? own : *ground;
+  RandomStream navigation(seed, "pose errors");
+  RandomStream sensor(seed, "sensor seeds");
+  StereoMatcher matcher;
+  std::vector<FieldFrame> frames;
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    FieldFrame frame;
+    frame.X_WC_true = poses[i];
+    const RigidTransform X_WRight = RightOf(poses[i], view.baseline_m);
+    const Exposure exposure{view.noise_grey};
+    const auto look = [&](const RigidTransform& X_WCamera) {
+      return std::make_shared<const ImageU8>(
+          Expose(DrawGrey(world, camera, X_WCamera, baked), exposure, sensor.NextBits()));
+    };
+    frame.input.left = look(poses[i]);
+    frame.input.right = look(X_WRight);
+    frame.input.baseline_m = view.baseline_m;
+    frame.input.X_WC = BelievedPose(poses[i], view, navigation);
+    frame.input.p_WB = frame.input.X_WC.p;
+    const DisparityWindow window =
+        PredictWindow(camera, view.baseline_m, frame.input.X_WC, 0, kTallestObject_m, settings);
+    Result<StereoResult> stereo =
+        matcher.Match(*frame.input.left, *frame.input.right, camera, view.baseline_m, window,
+                      settings, AddSeconds({}, static_cast<double>(i) * view.frame_interval_s));
+    if (!stereo) {
+      return stereo.error();
+    }
+    frame.input.range = std::make_shared<const RangeMap>(std::move(stereo->range));
+    frames.push_back(std::move(frame));
+  }
+  return frames;
+}
+
+std::shared_ptr<const TerrainDecision> DecideOnField(const std::vector<FieldFrame>& frames,
+                                                     const Settings& settings, int count) {
+  TerrainStage stage;
+  const std::size_t used =
+      count > 0 ? std::min(frames.size(), static_cast<std::size_t>(count)) : frames.size();
+  PALACE_CHECK(used > 0);
+  for (std::size_t i = 0; i < used; ++i) {
+    stage.Add(frames[i].input, settings.slad);
+  }
+  return stage.Evaluate(settings, true);
+}
+
+double TrueHeight(const StereoWorld& world, double north_m, double east_m) {
+  constexpr double kAbove_m = 1000;
+  return kAbove_m - CastDepth(world, {north_m, east_m, -kAbove_m}, Eigen::Vector3d::UnitZ());
+}
+
+double TrueDistance(const StereoWorld& world, double north_m, double east_m) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const Solid& solid : world.solids) {
+    nearest = std::min(nearest, DistanceFromAbove(solid, north_m, east_m));
+  }
+  return nearest;
+}
+
+double TrueSlope(const StereoWorld& world, double north_m, double east_m, double radius_m) {
+  constexpr double kSpacing_m = 0.05, kSpan_m = 0.02;
+  double steepest = 0;
+  const auto edge_near = [&](double n, double e) {
+    return std::any_of(world.solids.begin(), world.solids.end(), [&](const Solid& solid) {
+      const double here = DistanceFromAbove(solid, n, e);
+      const auto inside = [&](double dn, double de) {
+        return DistanceFromAbove(solid, n + dn, e + de) <= 0;
+      };
+      return here < 2 * kSpan_m && !(inside(kSpan_m, 0) && inside(-kSpan_m, 0) &&
+                                     inside(0, kSpan_m) && inside(0, -kSpan_m));
+    });
+  };
+  const int reach = static_cast<int>(radius_m / kSpacing_m);
+  for (int i = -reach; i <= reach; ++i) {
+    for (int j = -reach; j <= reach; ++j) {
+      const double n = north_m + i * kSpacing_m, e = east_m + j * kSpacing_m;
+      if (std::hypot(i, j) * kSpacing_m > radius_m || edge_near(n, e)) {
+        continue;
+      }
+      const double half = kSpan_m / 2;
+      const double north = (TrueHeight(world, n + half, e) - TrueHeight(world, n - half, e));
+      const double east = (TrueHeight(world, n, e + half) - TrueHeight(world, n, e - half));
+      steepest = std::max(steepest, std::atan(std::hypot(north, east) / kSpan_m));
+    }
+  }
+  return steepest;
+}
+
+}  // namespace palace

@@ -1,0 +1,76 @@
+// A field seen from a hover: rendered pairs, stereo, fusion and sites exactly as in flight, beside
+// the truth of the field. What site experiments share.
+//
+//   FieldWorld -> frames of drawn pairs -> StereoMatcher -> TerrainStage -> TerrainDecision
+//
+// The camera hovers with drift and attitude motion. SLAD is given poses with errors, as a vehicle's
+// navigation has them, never the true ones. Same world, view and seed: same bits.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "engine/core/frames.h"
+#include "engine/core/result.h"
+#include "engine/model/settings.h"
+#include "engine/model/snapshot.h"
+#include "engine/runtime/terrain_stage.h"
+#include "engine/world/stereo_world.h"
+
+namespace palace {
+
+/// The rig and how it hovers. Heights are above the origin of W.
+struct HoverView {
+  double height_m = 15.24;
+  double north_m = 0;  ///< of the left camera's mean place
+  double east_m = 0;
+  double heading_rad = 0;
+  double tilt_rad = -1.5707963267948966;  ///< of the camera, negative down
+  double field_of_view_rad = 1.0471975511965976;
+  int width_px = 640;
+  int height_px = 480;
+  double baseline_m = 1;
+  int frames = 10;
+  double frame_interval_s = 0.1;
+  // Motion between frames, standard deviations.
+  double drift_m = 0.2;                ///< each axis; half of it in height
+  double attitude_motion_rad = 0.017;  ///< each of roll, pitch, yaw: 1 degree
+  // Errors of the poses SLAD is given, independent per frame, standard deviations.
+  double attitude_error_rad = 0.00175;  ///< each of roll, pitch, yaw: 0.1 degree
+  double position_error_m = 0.03;       ///< each axis
+  double noise_grey = 2;                ///< of the sensor
+};
+
+/// One frame as stereo hands it to the terrain stage, believed pose included.
+struct FieldFrame {
+  TerrainInput input;
+  RigidTransform X_WC_true;
+};
+
+/// All frames of one hover. Errors are stereo's refusals. One bake of the ground serves all frames;
+/// `ground` may hold one made for the same world and a wider view, or null.
+Result<std::vector<FieldFrame>> LookAtField(const StereoWorld& world, const HoverView& view,
+                                            const StereoSettings& settings, std::uint64_t seed,
+                                            const BakedGround* ground = nullptr);
+/// True left camera poses of that hover, as LookAtField draws them.
+std::vector<RigidTransform> HoverPoses(const HoverView& view, std::uint64_t seed);
+/// Ground that serves both cameras of these poses.
+BakedGround BakeForHover(const StereoWorld& world, const HoverView& view,
+                         const std::vector<RigidTransform>& X_WCs);
+
+/// The decision after the first `frames` frames (all when 0), by a TerrainStage as in flight.
+std::shared_ptr<const TerrainDecision> DecideOnField(const std::vector<FieldFrame>& frames,
+                                                     const Settings& settings, int count = 0);
+
+// ---- truth ----
+
+/// Height of the surface seen from above, up-positive, metres.
+double TrueHeight(const StereoWorld& world, double north_m, double east_m);
+/// Horizontal distance to the nearest edge of any solid; 0 on one, infinity without solids.
+double TrueDistance(const StereoWorld& world, double north_m, double east_m);
+/// Largest angle of the true surface to the level over the disc, walls of solids not counted: by
+/// differences over 2 cm where no edge lies between, at places 5 cm apart.
+double TrueSlope(const StereoWorld& world, double north_m, double east_m, double radius_m);
+
+}  // namespace palace

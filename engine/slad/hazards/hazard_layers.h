@@ -1,0 +1,21 @@
+// Pieces shared inside the SLAD room.
+#pragma once
+
+#include "engine/model/elevation_map.h"
+#include "engine/model/hazard_maps.h"
+#include "engine/model/settings.h"
+#include "engine/slad/hazards/loops/slad_loops.h"
+#include "engine/slad/hazards/terrain_figures.h"
+
+namespace palace {
+
+/// Fills the layers of modern mode.
+void MeasureModern(const ElevationMap& map, const SladSettings& settings, TerrainFigures& figures);
+
+/// The limits as the loops take them.
+ModernLimits LimitsOf(const SladSettings& settings);
+
+/// Whether the lander's footprint centred on the cell keeps every limit of its mode.
+bool FootprintHolds(const HazardMaps& hazards, const SladSettings& settings, Cell cell);
+
+}  // namespace palace

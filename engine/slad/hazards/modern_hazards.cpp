@@ -1,0 +1,291 @@
+// Modern mode: footprint plane, deviations and steps beyond their noise.
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include <opencv2/core.hpp>
+
+#include "engine/core/units.h"
+#include "engine/slad/hazards/hazard_layers.h"
+#include "engine/slad/hazards/loops/slad_loops.h"
+#include "engine/slad/hazards/plane_fit.h"
+#include "engine/slad/hazards/touchdown.h"
+
+namespace palace {
+namespace {
+
+/// Squared noise multiple: thousands of cells are tested, so a deviation counts beyond four sigmas
+/// only.
+constexpr float kNoise2 = 16;
+/// Known limit of attitude: the slope of everything is off by this much.
+constexpr double kAttitudeSigma_rad = 0.1 * kRadPerDeg;
+constexpr int kMostOffsets = 24;
+
+float BeyondNoise(float square) { return square > 0 ? std::sqrt(square) : 0.0F; }
+
+/// Rows of a stage shared among OpenCV's threads, each row computed the same whoever does it.
+template <typename RowWork>
+void ForRows(int rows, RowWork work) {
+  cv::parallel_for_(cv::Range(0, rows), [&](const cv::Range& range) {
+    for (int r = range.start; r < range.end; ++r) {
+      work(r);
+    }
+  });
+}
+
+/// A layer with a rim, readable `rim` cells beyond the map on every side.
+class RimmedLayer {
+ public:
+  RimmedLayer(int rows, int cols, int rim, float fill)
+      : rim_(rim), grid_(rows + 2 * rim, cols + 2 * rim + kLaneSlack, fill) {}
+  float* row(int r) { return grid_.row(r + rim_) + rim_; }
+  const float* row(int r) const { return grid_.row(r + rim_) + rim_; }
+
+ private:
+  int rim_;
+  GridF grid_;
+};
+
+/// Working layers, heights relative to a reference so that floats keep their digits.
+struct Layers {
+  Layers(int rows, int cols, int rim)
+      : height(rows, cols, rim, 0.0F),
+        noise2(rows, cols, rim, kNever),
+        step2(rows, cols, rim, -kNever),
+        plane(rows, cols, 1, 0.0F),
+        east(rows, cols, 0, 0.0F),
+        south(rows, cols, 0, 0.0F) {}
+
+  RimmedLayer height;       ///< 0 where not measured
+  RimmedLayer noise2;       ///< 16 sigma^2, kNever where not measured
+  RimmedLayer step2;        ///< largest squared step to a neighbour beyond noise, -kNever none
+  RimmedLayer plane;        ///< 0 where no plane
+  RimmedLayer east, south;  ///< gradient per cell
+};
+
+/// What heights are taken relative to: the first plane's.
+float ReferenceOf(const FootprintPlanes& planes) {
+  for (const float z : planes.plane.height_m.cells()) {
+    if (!std::isnan(z)) {
+      return z;
+    }
+  }
+  return 0;
+}
+
+/// Where frames disagree a cell's variance is large because something stands or moves there: noise
+/// is at most this many times the variance of the ground around.
+constexpr float kMostVariance = 4;
+
+float NoiseVariance(const ElevationMap& map, const FootprintPlanes& planes, int r, int c) {
+  const float around = kMostVariance * planes.cell_variance_m2.at(r, c);
+  const float own = map.variance_m2.at(r, c);
+  return around < own ? around : own;  // where nothing is known around, the cell's own
+}
+
+void FillLayers(const ElevationMap& map, const FootprintPlanes& planes, float reference,
+                Layers& layers) {
+  const float cell = static_cast<float>(map.geometry.cell_m);
+  ForRows(map.geometry.rows, [&](int r) {
+    for (int c = 0; c < map.geometry.cols; ++c) {
+      if (map.state.at(r, c) == CellState::kMeasured) {
+        layers.height.row(r)[c] = map.height_m.at(r, c) - reference;
+        layers.noise2.row(r)[c] = kNoise2 * NoiseVariance(map, planes, r, c);
+      }
+      if (!std::isnan(planes.plane.height_m.at(r, c))) {
+        layers.plane.row(r)[c] = planes.plane.height_m.at(r, c) - reference;
+        layers.east.row(r)[c] = planes.plane.east_gradient.at(r, c) * cell;
+        layers.south.row(r)[c] = -planes.plane.north_gradient.at(r, c) * cell;
+      }
+    }
+  });
+}
+
+/// Steps between a cell and its eight neighbours, less what the ground plane itself rises.
+void FindSteps(const GridGeometry& geometry, Layers& layers, GridF& step_at_cell_m) {
+  const SladLoops& loops = FastestSladLoops();
+  const int cols = geometry.cols;
+  ForRows(geometry.rows, [&](int r) {
+    std::vector<float> at_cell2(static_cast<std::size_t>(cols + kLaneSlack));
+    loops.steps({{layers.height.row(r - 1), layers.height.row(r), layers.height.row(r + 1)},
+                 {layers.noise2.row(r - 1), layers.noise2.row(r), layers.noise2.row(r + 1)},
+                 {layers.plane.row(r - 1), layers.plane.row(r), layers.plane.row(r + 1)},
+                 layers.east.row(r),
+                 layers.south.row(r)},
+                cols, layers.step2.row(r), at_cell2.data());
+    for (int c = 0; c < cols; ++c) {
+      step_at_cell_m.at(r, c) = BeyondNoise(at_cell2[static_cast<std::size_t>(c)]);
+    }
+  });
+}
+
+/// The disc of the footprint as runs of columns, one a row.
+struct Disc {
+  explicit Disc(double radius_cells) : reach(static_cast<int>(radius_cells)) {
+    // A huge footprint on tiny cells is sampled: every cell is a hazard by itself anyway.
+    stride = reach / kMostOffsets + 1;
+    for (int dr = -(reach / stride) * stride; dr <= reach; dr += stride) {
+      const int wide = static_cast<int>(std::sqrt(radius_cells * radius_cells - dr * dr));
+      row_offset.push_back(dr);
+      half.push_back(wide / stride * stride);
+    }
+  }
+  int reach;
+  int stride = 1;
+  std::vector<int> row_offset, half;
+};
+
+/// Heights of all cells that have one, less their noise: what the gear is put down on.
+struct Settled {
+  Settled(int rows, int cols, int rim)
+      : height(rows, cols, 0, 0.0F),
+        measured(rows, cols, rim, kUnknownValue),
+        known(rows, cols, 0.0F) {}
+  RimmedLayer height;    ///< 0 where not known
+  RimmedLayer measured;  ///< the same where measured, NaN elsewhere
+  GridF known;           ///< 1 or 0
+};
+
+void SettleHeights(const ElevationMap& map, const FootprintPlanes& planes, float reference,
+                   const Layers& layers, Settled& out) {
+  const SladLoops& loops = FastestSladLoops();
+  const int rows = map.geometry.rows, cols = map.geometry.cols;
+  RimmedLayer height(rows, cols, 1, 0.0F), known(rows, cols, 1, 0.0F);
+  ForRows(rows, [&](int r) {
+    for (int c = 0; c < cols; ++c) {
+      const float z = map.height_m.at(r, c);
+      if (!std::isnan(z) && !std::isnan(planes.plane.height_m.at(r, c))) {
+        height.row(r)[c] = z - reference;
+        known.row(r)[c] = out.known.at(r, c) = 1;
+      }
+    }
+  });
+  ForRows(rows, [&](int r) {
+    loops.settle({{height.row(r - 1), height.row(r), height.row(r + 1)},
+                  {known.row(r - 1), known.row(r), known.row(r + 1)},
+                  layers.plane.row(r),
+                  layers.east.row(r),
+                  layers.south.row(r),
+                  map.variance_m2.row(r)},
+                 cols, out.height.row(r));
+    for (int c = 0; c < cols; ++c) {
+      if (map.state.at(r, c) == CellState::kMeasured) {
+        out.measured.row(r)[c] = out.height.row(r)[c];
+      }
+    }
+  });
+}
+
+/// Largest deviation from the plane of each cell, and largest step, over its footprint disc.
+void FindFootprintMaxima(const GridGeometry& geometry, const Disc& disc, const Layers& layers,
+                         const Settled& settled, TerrainFigures& figures) {
+  const SladLoops& loops = FastestSladLoops();
+  const int cols = geometry.cols;
+  ForRows(geometry.rows, [&](int r) {
+    const std::size_t padded = static_cast<std::size_t>(cols + kLaneSlack);
+    std::vector<float> deviation2(padded, -kNever), step2(padded, -kNever);
+    std::vector<float> settled_off(padded, 0.0F);
+    std::vector<float> work(padded + 2 * static_cast<std::size_t>(disc.reach));
+    std::vector<int> row_offset, half;
+    std::vector<const float*> height, noise2, settled_height;
+    for (std::size_t i = 0; i < disc.half.size(); ++i) {
+      const int rr = r + disc.row_offset[i];
+      if (rr >= 0 && rr < geometry.rows) {
+        row_offset.push_back(disc.row_offset[i]);
+        half.push_back(disc.half[i]);
+        height.push_back(layers.height.row(rr));
+        noise2.push_back(layers.noise2.row(rr));
+        settled_height.push_back(settled.measured.row(rr));
+        loops.window_maximum(layers.step2.row(rr), disc.half[i], cols, work.data(), step2.data());
+      }
+    }
+    loops.disc_deviation({static_cast<int>(half.size()), disc.stride, row_offset.data(),
+                          half.data(), height.data(), noise2.data(), settled_height.data()},
+                         layers.plane.row(r), layers.east.row(r), layers.south.row(r), cols,
+                         deviation2.data(), settled_off.data());
+    for (int c = 0; c < cols; ++c) {
+      figures.footprint_deviation_m.at(r, c) = BeyondNoise(deviation2[static_cast<std::size_t>(c)]);
+      figures.footprint_step_m.at(r, c) = BeyondNoise(step2[static_cast<std::size_t>(c)]);
+      const float off = settled_off[static_cast<std::size_t>(c)];
+      figures.settled_deviation_m.at(r, c) = BeyondNoise(off * off);
+    }
+  });
+}
+
+void RestGear(const GridGeometry& geometry, const Settled& settled, const SladSettings& settings,
+              TerrainFigures& figures) {
+  GridF height_m(geometry.rows, geometry.cols, kUnknownValue);
+  ForRows(geometry.rows, [&](int r) {
+    for (int c = 0; c < geometry.cols; ++c) {
+      if (settled.known.at(r, c) > 0) {
+        height_m.at(r, c) = settled.height.row(r)[c];
+      }
+    }
+  });
+  const GearOverMap gear(height_m, geometry.cell_m, settings);
+  ForRows(geometry.rows, [&](int r) {
+    gear.WorstOfRow(r, figures.gear_tilt_rad.row(r), figures.belly_rise_m.row(r));
+  });
+}
+
+/// Deviation and sigmas of each cell by itself; no figures where there is no plane.
+void FindCellFigures(const ElevationMap& map, const SladSettings& settings,
+                     const FootprintPlanes& planes, TerrainFigures& figures) {
+  // A rock covers several cells, whose noise averages as far as it is independent.
+  const double rock_cells = std::pow(settings.max_rock_size_m / map.geometry.cell_m, 2);
+  const float averaging =
+      static_cast<float>(1 / std::sqrt(std::max(1.0, rock_cells / kCorrelatedCells)));
+  const float attitude2 = static_cast<float>(kAttitudeSigma_rad * kAttitudeSigma_rad);
+  ForRows(map.geometry.rows, [&](int r) {
+    for (int c = 0; c < map.geometry.cols; ++c) {
+      const CellState state = map.state.at(r, c);
+      figures.measured.at(r, c) = state == CellState::kMeasured ? 1 : 0;
+      const float off = planes.plane.residual_m.at(r, c);
+      if (state == CellState::kUnknown || std::isnan(off)) {
+        figures.north_gradient.at(r, c) = kUnknownValue;
+        figures.footprint_deviation_m.at(r, c) = figures.footprint_step_m.at(r, c) = kUnknownValue;
+        continue;
+      }
+      const float north = planes.plane.north_gradient.at(r, c);
+      const float east = planes.plane.east_gradient.at(r, c);
+      const float gradient_sigma =
+          planes.gradient_sigma.at(r, c) / (1 + north * north + east * east);
+      const float variance = map.variance_m2.at(r, c);
+      figures.north_gradient.at(r, c) = north;
+      figures.east_gradient.at(r, c) = east;
+      figures.slope_sigma_rad.at(r, c) = std::sqrt(gradient_sigma * gradient_sigma + attitude2);
+      // A filled cell is judged by its filled height, so that it reads like its neighbours.
+      figures.deviation_m.at(r, c) =
+          BeyondNoise(off * off - kNoise2 * NoiseVariance(map, planes, r, c));
+      figures.sigma_m.at(r, c) = averaging * std::sqrt(variance);
+      figures.footprint_sigma_m.at(r, c) = averaging * std::sqrt(planes.cell_variance_m2.at(r, c));
+    }
+  });
+}
+
+}  // namespace
+
+void MeasureModern(const ElevationMap& map, const SladSettings& settings, TerrainFigures& figures) {
+  const int rows = map.geometry.rows, cols = map.geometry.cols;
+  const GridF unknown(rows, cols, kUnknownValue);
+  figures.north_gradient = figures.east_gradient = figures.slope_sigma_rad = unknown;
+  figures.deviation_m = figures.sigma_m = figures.step_m = unknown;
+  figures.footprint_deviation_m = figures.footprint_step_m = figures.footprint_sigma_m = unknown;
+  figures.settled_deviation_m = figures.gear_tilt_rad = figures.belly_rise_m = unknown;
+  figures.measured = Grid<std::uint8_t>(rows, cols, 0);
+  const FootprintPlanes planes =
+      FitFootprintPlanes(map, settings.lander_base_size_m, figures.flags);
+  const Disc disc(std::max(1.5, settings.lander_radius_m() / map.geometry.cell_m));
+  Layers layers(rows, cols, disc.reach);
+  const float reference = ReferenceOf(planes);
+  FillLayers(map, planes, reference, layers);
+  FindSteps(map.geometry, layers, figures.step_m);
+  Settled settled(rows, cols, disc.reach);
+  SettleHeights(map, planes, reference, layers, settled);
+  FindFootprintMaxima(map.geometry, disc, layers, settled, figures);
+  RestGear(map.geometry, settled, settings, figures);
+  FindCellFigures(map, settings, planes, figures);
+}
+
+}  // namespace palace

@@ -1,0 +1,86 @@
+#include "engine/slad/pictures/flag_memory.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <utility>
+
+namespace palace {
+namespace {
+
+/// Maps a raised flag stays without being found, in the order of kKinds.
+constexpr std::array<std::uint8_t, 4> kStays = {20, 5, 3, 20};
+constexpr unsigned kLastThree = 7;
+
+}  // namespace
+
+void FlagMemory::Reset() {
+  geometry_ = {};
+  tracks_ = {};
+}
+
+void FlagMemory::MoveTo(const GridGeometry& geometry) {
+  if (geometry == geometry_) {
+    return;
+  }
+  Grid<CellTracks> moved(geometry.rows, geometry.cols);
+  if (geometry.cell_m == geometry_.cell_m) {
+    const int row_shift = static_cast<int>(
+        std::lround((geometry_.north_max_m() - geometry.north_max_m()) / geometry.cell_m));
+    const int col_shift = static_cast<int>(
+        std::lround((geometry.east_min_m - geometry_.east_min_m) / geometry.cell_m));
+    for (int r = 0; r < geometry.rows; ++r) {
+      for (int c = 0; c < geometry.cols; ++c) {
+        const Cell from{r + row_shift, c + col_shift};
+        if (geometry_.Contains(from)) {
+          moved.at(r, c) = tracks_.at(from);
+        }
+      }
+    }
+  }
+  geometry_ = geometry;
+  tracks_ = std::move(moved);
+}
+
+void FlagMemory::Add(const Grid<std::uint8_t>& seen, const Grid<std::uint8_t>& found) {
+  PALACE_CHECK(seen.rows() == geometry_.rows && found.rows() == geometry_.rows &&
+                   seen.cols() == geometry_.cols && found.cols() == geometry_.cols,
+               seen.rows(), found.rows(), geometry_.rows);
+  for (std::size_t cell = 0; cell < tracks_.cells().size(); ++cell) {
+    for (std::size_t k = 0; k < kKinds.size(); ++k) {
+      Track& track = tracks_.cells()[cell][k];
+      const bool is_found = (found.cells()[cell] & kKinds[k]) != 0;
+      if ((seen.cells()[cell] & kKinds[k]) == 0) {
+        const bool fades = kKinds[k] == kFlagMotion;
+        track.maps_left -= fades && track.maps_left > 0 ? 1 : 0;
+        track.recent = fades ? std::uint8_t{0} : track.recent;
+        continue;
+      }
+      track.recent =
+          static_cast<std::uint8_t>(((track.recent << 1U) | (is_found ? 1U : 0U)) & kLastThree);
+      track.looks = static_cast<std::uint8_t>(std::min(3, track.looks + 1));
+      const bool twice = std::popcount(track.recent) >= 2;
+      if (is_found && twice) {
+        track.maps_left = kStays[k];
+      } else if (track.maps_left > 0) {
+        --track.maps_left;
+      }
+    }
+  }
+}
+
+Grid<std::uint8_t> FlagMemory::Flags() const {
+  Grid<std::uint8_t> flags(geometry_.rows, geometry_.cols, kFlagNone);
+  for (std::size_t cell = 0; cell < tracks_.cells().size(); ++cell) {
+    for (std::size_t k = 0; k < kKinds.size(); ++k) {
+      const Track& track = tracks_.cells()[cell][k];
+      const bool first_look = kKinds[k] != kFlagMotion && track.looks == 1 && track.recent == 1;
+      if (track.maps_left > 0 || first_look) {
+        flags.cells()[cell] |= kKinds[k];
+      }
+    }
+  }
+  return flags;
+}
+
+}  // namespace palace

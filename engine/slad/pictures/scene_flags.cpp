@@ -1,0 +1,110 @@
+#include "engine/slad/pictures/scene_flags.h"
+
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "engine/slad/pictures/scene_texture.h"
+#include "engine/slad/pictures/thin_structures.h"
+
+namespace palace {
+namespace {
+
+constexpr std::array<TerrainFlag, 3> kBlockKinds = {kFlagNoTexture, kFlagShadow, kFlagMotion};
+
+/// How many blocks fell into a cell, and how many of them had each kind.
+struct CellCount {
+  int blocks = 0;
+  std::array<int, kBlockKinds.size()> flagged{};
+};
+
+Grid<CellCount> CountBlocks(const SceneView& view, const SceneGround& ground, const ImageU8& flags,
+                            const GridGeometry& geometry) {
+  constexpr double kMiddle_px = (kBlock_px - 1) / 2.0;
+  Grid<CellCount> counts(geometry.rows, geometry.cols);
+  for (int j = 0; j < ground.rows(); ++j) {
+    for (int i = 0; i < ground.cols(); ++i) {
+      const Eigen::Vector3d p_W =
+          PointAt(view, kBlock_px * i + kMiddle_px, kBlock_px * j + kMiddle_px,
+                  static_cast<double>(ground.disparity_px.at(i, j)));
+      const auto cell = geometry.CellFromPoint(p_W.x(), p_W.y());
+      if (!cell) {
+        continue;
+      }
+      CellCount& count = counts.at(*cell);
+      ++count.blocks;
+      for (std::size_t k = 0; k < kBlockKinds.size(); ++k) {
+        count.flagged[k] += (flags.at(i, j) & kBlockKinds[k]) != 0 ? 1 : 0;
+      }
+    }
+  }
+  return counts;
+}
+
+/// The cells below a piece, and their neighbours.
+void FlagBelow(const ThinPiece& piece, const GridGeometry& geometry, Grid<std::uint8_t>& found) {
+  const Eigen::Vector2d from = piece.from_W.head<2>(), to = piece.to_W.head<2>();
+  const double length_m = (to - from).norm();
+  if (!(length_m < 1e4)) {
+    return;
+  }
+  const int steps = 1 + static_cast<int>(2 * length_m / geometry.cell_m);
+  for (int k = 0; k <= steps; ++k) {
+    const Eigen::Vector2d p = from + (to - from) * k / steps;
+    const auto cell = geometry.CellFromPoint(p.x(), p.y());
+    if (!cell) {
+      continue;
+    }
+    for (int r = cell->row - 1; r <= cell->row + 1; ++r) {
+      for (int c = cell->col - 1; c <= cell->col + 1; ++c) {
+        if (geometry.Contains({r, c})) {
+          found.at(r, c) |= kFlagThinStructure;
+        }
+      }
+    }
+  }
+}
+
+}  // namespace
+
+void SceneFlags::Reset() {
+  motion_.Reset();
+  memory_.Reset();
+}
+
+Grid<std::uint8_t> SceneFlags::Add(const SceneView& view, const GridGeometry& geometry) {
+  memory_.MoveTo(geometry);
+  const SceneGround ground = FindSceneGround(view);
+  if (ground.empty()) {
+    return memory_.Flags();
+  }
+  ImageU8 blocks(ground.cols(), ground.rows(), kFlagNone);
+  FlagTextureAndShadow(view, ground, blocks);
+  const bool compared = motion_.Flag(view, ground, blocks);
+
+  const unsigned looked_for =
+      kFlagNoTexture | kFlagShadow |
+      (CanTellThinStructures(view, ground) ? kFlagThinStructure : kFlagNone) |
+      (compared ? kFlagMotion : kFlagNone);
+  Grid<std::uint8_t> seen(geometry.rows, geometry.cols, kFlagNone), found = seen;
+  const Grid<CellCount> counts = CountBlocks(view, ground, blocks, geometry);
+  for (std::size_t cell = 0; cell < seen.cells().size(); ++cell) {
+    const CellCount& count = counts.cells()[cell];
+    seen.cells()[cell] = static_cast<std::uint8_t>(count.blocks > 0 ? looked_for : 0U);
+    for (std::size_t k = 0; k < kBlockKinds.size(); ++k) {
+      if (count.blocks > 0 && 2 * count.flagged[k] >= count.blocks) {
+        found.cells()[cell] |= kBlockKinds[k];
+      }
+    }
+  }
+  for (const ThinPiece& piece : FindThinStructures(view, ground)) {
+    FlagBelow(piece, geometry, found);
+  }
+  for (std::size_t cell = 0; cell < seen.cells().size(); ++cell) {
+    seen.cells()[cell] |= found.cells()[cell] & kFlagThinStructure;  // the wire may be outside
+  }
+  memory_.Add(seen, found);
+  return memory_.Flags();
+}
+
+}  // namespace palace

@@ -1,0 +1,34 @@
+// Flags from pictures and motion: what heights alone cannot show, found in a stereo pair and kept
+// on the map.
+//
+//   FindSceneGround        range map, pictures -> the ground behind thin things, right over left
+//   FindThinStructures     their difference    -> wires, ropes, masts
+//   FlagTextureAndShadow   both pictures       -> no texture, deep shadow
+//   SceneMotion            an older view       -> what moved
+//   FlagMemory             per cell, map by map
+#pragma once
+
+#include <cstdint>
+
+#include "engine/model/elevation_map.h"
+#include "engine/slad/pictures/flag_memory.h"
+#include "engine/slad/pictures/scene_ground.h"
+#include "engine/slad/pictures/scene_motion.h"
+
+namespace palace {
+
+class SceneFlags {
+ public:
+  void Reset();
+  /// TerrainFlag bits for the cells of the map that the view's range map was just fused into. A
+  /// cell has no texture, shadow or motion when at least half of the blocks seen in it have. A thin
+  /// structure flags the cells straight below it and their neighbours; one of unknown height those
+  /// of the ground seen behind it. Without pictures the flags stay as they are.
+  Grid<std::uint8_t> Add(const SceneView& view, const GridGeometry& geometry);
+
+ private:
+  SceneMotion motion_;
+  FlagMemory memory_;
+};
+
+}  // namespace palace

@@ -1,0 +1,189 @@
+#include "engine/slad/pictures/scene_texture.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "engine/core/median.h"
+#include "engine/model/elevation_map.h"
+
+namespace palace {
+namespace {
+
+constexpr int kReach_blocks = 2;            // of the window
+constexpr float kLeastCorrelation = 0.25F;  // chance alone: 0.05
+constexpr float kMostKnown = 0.35F;         // share of the window stereo measured
+constexpr float kMostNoise_grey = 5;        // contrast that may be noise
+constexpr float kLeastUsable = 8;           // blocks of the window
+constexpr float kShadow = 0.5F;             // of the median brightness
+constexpr double kLeastSize_m = 0.3;
+
+/// Sums over one block after its mean is taken out; sums over a window after Smear.
+struct BlockSums {
+  ImageF left;    ///< of squares
+  ImageF right;   ///< of squares
+  ImageF both;    ///< of products
+  ImageF known;   ///< share stereo measured
+  ImageF usable;  ///< 1 or 0
+  ImageF bright;  ///< mean of the left picture; not smeared
+};
+
+BlockSums SumBlocks(const ImageU8& left, const SceneGround& ground) {
+  constexpr float kCount = kBlock_px * kBlock_px;
+  const int cols = ground.cols(), rows = ground.rows();
+  const ImageF none(cols, rows, 0.0F);
+  BlockSums sums{none, none, none, ground.known_share, none, none};
+  for (int j = 0; j < rows; ++j) {
+    for (int i = 0; i < cols; ++i) {
+      int l = 0, r = 0, ll = 0, rr = 0, lr = 0;
+      for (int y = kBlock_px * j; y < kBlock_px * (j + 1); ++y) {
+        const std::uint8_t* a = left.row(y) + kBlock_px * i;
+        const std::uint8_t* b = ground.right.row(y) + kBlock_px * i;
+        for (int x = 0; x < kBlock_px; ++x) {
+          l += a[x];
+          r += b[x];
+          ll += a[x] * a[x];
+          rr += b[x] * b[x];
+          lr += a[x] * b[x];
+        }
+      }
+      const float fl = static_cast<float>(l), fr = static_cast<float>(r);
+      const float use = ground.usable.at(i, j) != 0 ? 1.0F : 0.0F;
+      sums.bright.at(i, j) = fl / kCount;
+      sums.left.at(i, j) = use * (static_cast<float>(ll) - fl * fl / kCount);
+      sums.right.at(i, j) = use * (static_cast<float>(rr) - fr * fr / kCount);
+      sums.both.at(i, j) = use * (static_cast<float>(lr) - fl * fr / kCount);
+      sums.usable.at(i, j) = use;
+      sums.known.at(i, j) *= use;
+    }
+  }
+  return sums;
+}
+
+/// Replaces each value by the sum over its window; beyond the border nothing is added.
+void Smear(ImageF& values) {
+  const int cols = values.width(), rows = values.height();
+  ImageF along(cols, rows, 0.0F);
+  for (int j = 0; j < rows; ++j) {
+    for (int d = -kReach_blocks; d <= kReach_blocks; ++d) {
+      const float* in = values.row(j);
+      float* out = along.row(j);
+      for (int i = std::max(0, -d); i < std::min(cols, cols - d); ++i) {
+        out[i] += in[i + d];
+      }
+    }
+  }
+  for (int j = 0; j < rows; ++j) {
+    float* out = values.row(j);
+    std::fill_n(out, cols, 0.0F);
+    for (int k = std::max(0, j - kReach_blocks); k <= std::min(rows - 1, j + kReach_blocks); ++k) {
+      const float* in = along.row(k);
+      for (int i = 0; i < cols; ++i) {
+        out[i] += in[i];
+      }
+    }
+  }
+}
+
+float MedianOf(std::vector<float> values) { return values.empty() ? 0.0F : UpperMedian(values); }
+
+/// Grows what is 1 by a block (or, `grow` false, what is 0).
+void Step(ImageU8& mask, bool grow) {
+  const ImageU8 before = mask;
+  const std::uint8_t wins = grow ? 1 : 0;
+  for (int j = 0; j < mask.height(); ++j) {
+    for (int i = 0; i < mask.width(); ++i) {
+      for (const auto& [di, dj] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}}) {
+        if (before.Contains(i + di, j + dj) && before.at(i + di, j + dj) == wins) {
+          mask.at(i, j) = wins;
+        }
+      }
+    }
+  }
+}
+
+/// Drops areas narrower than 2 steps + 1 blocks.
+void DropSmall(ImageU8& mask, int steps) {
+  for (int k = 0; k < steps; ++k) {
+    Step(mask, false);
+  }
+  for (int k = 0; k < steps; ++k) {
+    Step(mask, true);
+  }
+}
+
+/// Blocks of a row between the first and the last that stereo measured. Beyond them the ground's
+/// disparity is a guess, or one camera does not look there: no texture in common says nothing.
+struct Enclosed {
+  int first = 0;
+  int end = 0;
+};
+
+Enclosed MeasuredOnBothSides(const SceneGround& ground, int row) {
+  const float* known = ground.known_share.row(row);
+  Enclosed blocks{0, ground.cols()};
+  while (blocks.first < blocks.end && known[blocks.first] <= 0) {
+    ++blocks.first;
+  }
+  while (blocks.end > blocks.first && known[blocks.end - 1] <= 0) {
+    --blocks.end;
+  }
+  return blocks;
+}
+
+bool HasAny(const ImageU8& mask) {
+  return std::any_of(mask.pixels().begin(), mask.pixels().end(), [](auto m) { return m != 0; });
+}
+
+void SetFlag(const ImageU8& mask, TerrainFlag flag, ImageU8& flags) {
+  for (std::size_t k = 0; k < mask.pixels().size(); ++k) {
+    flags.pixels()[k] |= mask.pixels()[k] != 0 ? flag : kFlagNone;
+  }
+}
+
+}  // namespace
+
+void FlagTextureAndShadow(const SceneView& view, const SceneGround& ground, ImageU8& flags) {
+  BlockSums sums = SumBlocks(*view.left, ground);
+  for (ImageF* layer : {&sums.left, &sums.right, &sums.both, &sums.known, &sums.usable}) {
+    Smear(*layer);
+  }
+  constexpr float kFree = kBlock_px * kBlock_px - 1;  // of a block's pixels, its mean known
+  const float usual_bright = MedianOf(sums.bright.pixels());
+  const float usual_contrast = MedianOf(sums.left.pixels());
+  const double depth_m = view.range->camera.fx_px * view.baseline_m /
+                         static_cast<double>(MedianOf(ground.disparity_px.pixels()));
+  const double block_m = kBlock_px * depth_m / view.range->camera.fx_px;
+  const int steps = std::clamp(static_cast<int>(std::lround(kLeastSize_m / 2 / block_m)), 1, 8);
+
+  ImageU8 bare(ground.cols(), ground.rows(), 0), dark = bare;
+  for (int j = 0; j < ground.rows(); ++j) {
+    const Enclosed row = MeasuredOnBothSides(ground, j);
+    for (int i = row.first; i < row.end; ++i) {
+      const float usable = sums.usable.at(i, j);
+      if (usable < kLeastUsable) {
+        continue;
+      }
+      const float left = sums.left.at(i, j), right = sums.right.at(i, j);
+      bare.at(i, j) = sums.both.at(i, j) <= kLeastCorrelation * std::sqrt(left * right) &&
+                      left < kMostNoise_grey * kMostNoise_grey * kFree * usable &&
+                      sums.known.at(i, j) < kMostKnown * usable;
+      dark.at(i, j) = sums.bright.at(i, j) < kShadow * usual_bright && left <= usual_contrast;
+    }
+  }
+  if (HasAny(bare)) {
+    // A window is bare only when the area around is: small areas are gone already, and the rim of
+    // large ones is.
+    DropSmall(bare, std::max(0, steps - kReach_blocks));
+    for (int k = 0; k < kReach_blocks; ++k) {
+      Step(bare, true);
+    }
+    SetFlag(bare, kFlagNoTexture, flags);
+  }
+  if (HasAny(dark)) {
+    DropSmall(dark, steps);
+    SetFlag(dark, kFlagShadow, flags);
+  }
+}
+
+}  // namespace palace

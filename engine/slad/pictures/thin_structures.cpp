@@ -1,0 +1,166 @@
+#include "engine/slad/pictures/thin_structures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "engine/core/median.h"
+#include "engine/slad/pictures/line_marks.h"
+#include "engine/slad/pictures/line_pieces.h"
+
+namespace palace {
+namespace {
+
+constexpr int kLeastSum = 130;          // of 224
+constexpr double kLeastAbove_px = 1.5;  // disparity beyond the ground's
+constexpr double kMostAbove_px = 96;
+constexpr double kStep_px = 0.5;
+constexpr double kAside_px = 4;
+constexpr float kMostDifference_grey = 40;
+constexpr int kLeastPieces = 3;
+// What a piece's own pixels may differ by, as a share of the difference on the ground, of the
+// lowest quarter of all disparities, and of the disparities kAside_px to both sides.
+constexpr float kOfGround = 0.56F;
+constexpr float kOfQuarter = 0.64F;
+constexpr float kOfAside = 0.68F;
+// Lines along the baseline.
+constexpr int kLeastRidgeSum = 185;
+constexpr double kMostRidgeAside_px = 2;  // over a strip: 3.7 degrees
+constexpr double kLeastRidgeShare = 0.6;  // of the picture's width
+
+/// How well a piece's own pixels are found again at disparities beyond the ground's.
+class PieceMatcher {
+ public:
+  PieceMatcher(const SceneView& view, const SceneGround& ground)
+      : left_(*view.left), right_(*view.right), ground_(ground) {}
+
+  bool Match(const MarkStrips& strips, LinePiece& piece) {
+    samples_.clear();
+    for (int k = 0; k < kStrip_px; ++k) {
+      const Eigen::Vector2d pixel = strips.Pixel(piece, k / double(kStrip_px - 1));
+      const int x = static_cast<int>(std::lround(pixel.x()));
+      const int y = static_cast<int>(std::lround(pixel.y()));
+      const int i = std::clamp(x / kBlock_px, 0, ground_.cols() - 1);
+      const int j = std::clamp(y / kBlock_px, 0, ground_.rows() - 1);
+      if (left_.Contains(x, y) && ground_.usable.at(i, j) != 0) {
+        samples_.push_back({right_.row(y), static_cast<float>(x) - ground_.disparity_px.at(i, j),
+                            static_cast<float>(left_.at(x, y))});
+      }
+    }
+    if (samples_.size() < kStrip_px / 2) {
+      return false;
+    }
+    const int steps = static_cast<int>((kMostAbove_px - kLeastAbove_px) / kStep_px);
+    errors_.clear();
+    int best = 0;
+    for (int k = 0; k < steps; ++k) {
+      errors_.push_back(Difference(kLeastAbove_px + k * kStep_px));
+      if (errors_[std::size_t(k)] < errors_[std::size_t(best)]) {
+        best = k;
+      }
+    }
+    const float on_ground = Difference(0);
+    const float found = errors_[std::size_t(best)];
+    std::vector<float> sorted = errors_;
+    const auto quarter = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 4);
+    std::nth_element(sorted.begin(), quarter, sorted.end());
+    piece.above_px = kLeastAbove_px + best * kStep_px;
+    // A sharp minimum: even ground hidden by a line fits a whole range of disparities.
+    const float aside =
+        std::min(Difference(piece.above_px - kAside_px), Difference(piece.above_px + kAside_px));
+    return found < kOfGround * on_ground && found < kOfQuarter * *quarter &&
+           found < kOfAside * aside;
+  }
+
+ private:
+  struct Sample {
+    const std::uint8_t* right_row;
+    float x_px;  ///< in the right picture when it is ground
+    float grey;
+  };
+
+  float Difference(double above_px) const {
+    float sum = 0;
+    for (const Sample& s : samples_) {
+      const float x = std::clamp(s.x_px - static_cast<float>(above_px), 0.0F,
+                                 static_cast<float>(right_.width()) - 1.001F);
+      const int k = static_cast<int>(x);
+      const float f = x - static_cast<float>(k);
+      const float grey =
+          static_cast<float>(s.right_row[k]) * (1 - f) + static_cast<float>(s.right_row[k + 1]) * f;
+      sum += std::min(std::abs(grey - s.grey), kMostDifference_grey);
+    }
+    return sum / static_cast<float>(samples_.size());
+  }
+
+  const ImageU8& left_;
+  const ImageU8& right_;
+  const SceneGround& ground_;
+  std::vector<Sample> samples_;
+  std::vector<float> errors_;
+};
+
+/// Ends in W of the pieces, at the disparity beyond the ground's.
+void AddPieces(const SceneView& view, const SceneGround& ground, const MarkStrips& strips,
+               const std::vector<LinePiece>& pieces, bool height_known,
+               std::vector<ThinPiece>& found) {
+  for (const LinePiece& piece : pieces) {
+    const auto end = [&](double share) {
+      const Eigen::Vector2d p = strips.Pixel(piece, share);
+      const int i = std::clamp(static_cast<int>(p.x()) / kBlock_px, 0, ground.cols() - 1);
+      const int j = std::clamp(static_cast<int>(p.y()) / kBlock_px, 0, ground.rows() - 1);
+      return PointAt(view, p.x(), p.y(),
+                     static_cast<double>(ground.disparity_px.at(i, j)) + piece.above_px);
+    };
+    found.push_back({end(0), end(1), height_known});
+  }
+}
+
+}  // namespace
+
+bool CanTellThinStructures(const SceneView& view, const SceneGround& ground) {
+  std::vector<float> known = ground.disparity_px.pixels();
+  std::erase_if(known, [](float d) { return !std::isfinite(d); });
+  if (known.empty()) {
+    return false;
+  }
+  return view.range->camera.fx_px * view.baseline_m >=
+         kNearestThin_m * static_cast<double>(UpperMedian(known));
+}
+
+std::vector<ThinPiece> FindThinStructures(const SceneView& view, const SceneGround& ground) {
+  std::vector<ThinPiece> found;
+  if (!CanTellThinStructures(view, ground)) {
+    return found;
+  }
+  PieceMatcher matcher(view, ground);
+  LineSums lines;
+  MarkStrips upright{MarkDifferences(*view.left, ground), false};
+  const MarkStrips across{Transposed(upright.marks), true};
+  for (const MarkStrips* strips : {&std::as_const(upright), &across}) {
+    std::vector<LinePiece> matched;
+    for (int strip = 0; strip < strips->count(); ++strip) {
+      for (LinePiece& piece : FindPieces(*strips, strip, kLeastSum, lines)) {
+        if (matcher.Match(*strips, piece)) {
+          matched.push_back(piece);
+        }
+      }
+    }
+    AddPieces(view, ground, *strips, InChains(matched, kLeastPieces), true, found);
+  }
+
+  const MarkStrips ridges{Transposed(MarkRidges(*view.left)), true};
+  std::vector<LinePiece> level;
+  for (int strip = 0; strip < ridges.count(); ++strip) {
+    for (const LinePiece& piece : FindPieces(ridges, strip, kLeastRidgeSum, lines)) {
+      if (std::abs(piece.to - piece.from) <= kMostRidgeAside_px) {
+        level.push_back(piece);
+      }
+    }
+  }
+  const int least = static_cast<int>(std::ceil(kLeastRidgeShare * ridges.count()));
+  AddPieces(view, ground, ridges, InChains(level, std::max(least, kLeastPieces)), false, found);
+  return found;
+}
+
+}  // namespace palace

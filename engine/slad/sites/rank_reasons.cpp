@@ -1,0 +1,87 @@
+// Why each site has its rank, in words.
+#include <cstdio>
+#include <numbers>
+#include <string>
+
+#include "engine/slad/hazards/explanation.h"
+
+namespace palace {
+namespace {
+
+/// Away from the straight line: "from the south-west clear", "from north to east clear".
+std::string ApproachWords(const LandingSite& site) {
+  if (site.clear_approaches == 0) {
+    return "Every approach blocked";
+  }
+  const unsigned clear = site.clear_approaches;
+  std::string from;
+  int count = 0;
+  for (unsigned k = 0; k < 8; ++k) {
+    if ((clear >> k & 1U) != 0 && ++count <= 2) {
+      from += (from.empty() ? "" : ", ") + std::string(DirectionWord(k * std::numbers::pi / 4));
+    }
+  }
+  const std::string more = count > 2 ? " and " + std::to_string(count - 2) + " more" : "";
+  return "Straight approach blocked; clear from " + from + more;
+}
+
+std::string Text(const char* format, double value, const char* against) {
+  char text[96];
+  std::snprintf(text, sizeof text, format, value, against);
+  return text;
+}
+
+/// What `better` has over `other` in the units of what decided; empty where nothing measurable.
+std::string Difference(SiteChoice choice, const LandingSite& better, const LandingSite& other,
+                       bool of_better, const char* against) {
+  const double wider_m = better.safe_distance_m - other.safe_distance_m;
+  const double cheaper = other.cost - better.cost;
+  if (choice == SiteChoice::kFarthest && wider_m >= 0.05) {
+    return Text(of_better ? "%.1f m more clear than %s" : "%.1f m less clear than %s", wider_m,
+                against);
+  }
+  if (cheaper >= 0.005) {
+    return Text(of_better ? "cost %.2f less than %s" : "cost %.2f more than %s", cheaper, against);
+  }
+  return of_better ? std::string("as good as ") + against + ", nearer to the middle"
+                   : std::string("as good as ") + against + ", farther from the middle";
+}
+
+std::string Capital(std::string text) {
+  if (!text.empty() && text[0] >= 'a' && text[0] <= 'z') {
+    text[0] = static_cast<char>(text[0] - 'a' + 'A');
+  }
+  return text;
+}
+
+std::string ReasonOfBest(SiteChoice choice, const SiteSelection& selection) {
+  const LandingSite& best = selection.sites.front();
+  if (!best.corridor_clear) {
+    return ApproachWords(best);
+  }
+  if (selection.sites.size() == 1) {
+    return "The only site";
+  }
+  const LandingSite& next = selection.sites[1];
+  if (!next.corridor_clear) {
+    return "The only straight approach that is clear";
+  }
+  const std::string by = Difference(choice, best, next, true, "the next");
+  const char* criterion = choice == SiteChoice::kFarthest ? "Widest: " : "Cheapest: ";
+  return by.rfind("as good", 0) == 0 ? Capital(by) : criterion + by;
+}
+
+}  // namespace
+
+void GiveReasons(SiteChoice choice, SiteSelection& selection) {
+  for (std::size_t i = 0; i < selection.sites.size(); ++i) {
+    LandingSite& site = selection.sites[i];
+    site.reason =
+        i == 0 ? ReasonOfBest(choice, selection)
+        : !site.corridor_clear
+            ? ApproachWords(site)
+            : Capital(Difference(choice, selection.sites.front(), site, false, "the best"));
+  }
+}
+
+}  // namespace palace

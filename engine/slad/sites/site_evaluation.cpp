@@ -1,0 +1,271 @@
+#include "engine/slad/sites/site_evaluation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+#include "engine/model/site_standing.h"
+#include "engine/slad/hazards/touchdown.h"
+#include "engine/slad/terrain/narrow_relief.h"
+
+namespace palace {
+namespace {
+
+/// Visits the cells of the map whose centre lies within `radius_m` of the cell's.
+template <typename Visit>
+void ForDisc(const GridGeometry& g, Cell centre, double radius_m, Visit visit) {
+  const int reach = static_cast<int>(radius_m / g.cell_m);
+  for (int dr = -reach; dr <= reach; ++dr) {
+    for (int dc = -reach; dc <= reach; ++dc) {
+      const Cell cell{centre.row + dr, centre.col + dc};
+      if ((dr * dr + dc * dc) * g.cell_m * g.cell_m <= radius_m * radius_m) {
+        visit(cell);
+      }
+    }
+  }
+}
+
+struct SitePlane {
+  double height_m = std::numeric_limits<double>::quiet_NaN();
+  double north_gradient = 0;
+  double east_gradient = 0;
+  double cell_variance_m2 = std::numeric_limits<double>::quiet_NaN();
+};
+
+SitePlane FitSitePlane(const ElevationMap& map, const SladSettings& settings, Cell centre) {
+  const GridGeometry& g = map.geometry;
+  const double radius_m = std::max(settings.lander_radius_m(), 1.5 * g.cell_m);
+  Eigen::Vector3d x = Eigen::Vector3d::Zero();
+  SitePlane plane;
+  for (int pass = 0; pass < 2; ++pass) {
+    Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+    Eigen::Vector3d right = Eigen::Vector3d::Zero();
+    double variance_sum = 0;
+    int count = 0;
+    ForDisc(g, centre, radius_m, [&](Cell cell) {
+      if (!g.Contains(cell) || map.state.at(cell) == CellState::kUnknown) {
+        return;
+      }
+      const double variance = static_cast<double>(map.variance_m2.at(cell));
+      const double z = static_cast<double>(map.height_m.at(cell));
+      const Eigen::Vector3d basis(1, (centre.row - cell.row) * g.cell_m,
+                                  (cell.col - centre.col) * g.cell_m);
+      const double limit = settings.max_deviation_m + 3 * std::sqrt(variance);
+      if (pass == 1 && std::abs(z - basis.dot(x)) > limit) {
+        return;
+      }
+      const double w = 1 / (variance + 1e-4);
+      normal += w * basis * basis.transpose();
+      right += w * z * basis;
+      variance_sum += variance;
+      ++count;
+    });
+    const Eigen::LDLT<Eigen::Matrix3d> solver(normal);
+    if (count < 3 || !(solver.rcond() > 1e-12)) {
+      return plane;
+    }
+    x = solver.solve(right);
+    plane = {x[0], x[1], x[2], variance_sum / count};
+  }
+  return plane;
+}
+
+Eigen::Vector2d PixelFromPoint(const SiteContext& context, const Eigen::Vector3d& p_WS) {
+  const Eigen::Vector3d p_CS = context.X_WC.Inverse() * p_WS;
+  const PinholeCamera& camera = context.camera;
+  if (!(p_CS.z() > 0) || camera.width == 0) {
+    return Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
+  }
+  return {camera.fx_px * p_CS.x() / p_CS.z() + camera.cx_px,
+          camera.fy_px * p_CS.y() / p_CS.z() + camera.cy_px};
+}
+
+struct ColumnRange {
+  int first, last;
+};
+
+/// Columns of a row that the corridor may touch, a cell too many rather than one too few.
+ColumnRange CorridorInRow(const GridGeometry& g, const LandingSite& site,
+                          const Eigen::Vector2d& along, double north_m, double length_m,
+                          double half_width_m) {
+  double west_m = -HUGE_VAL, east_m = HUGE_VAL;
+  // low <= north * a + east * b <= high
+  const auto limit = [&](double a, double b, double low, double high) {
+    const double from = low - north_m * a, to = high - north_m * a;
+    if (std::abs(b) > 1e-9) {
+      west_m = std::max(west_m, std::min(from / b, to / b));
+      east_m = std::min(east_m, std::max(from / b, to / b));
+    } else if (from > g.cell_m || to < -g.cell_m) {
+      east_m = -HUGE_VAL;
+    }
+  };
+  limit(along.x(), along.y(), 0, length_m);
+  limit(along.y(), -along.x(), -half_width_m, half_width_m);
+  const double origin_m = g.EastOfCol(0) - site.p_WS.y();
+  const double first = std::floor((west_m - origin_m) / g.cell_m) - 1;
+  const double last = std::ceil((east_m - origin_m) / g.cell_m) + 1;
+  return {static_cast<int>(std::clamp(first, 0.0, g.cols - 1.0)),
+          last < 0 ? -1 : static_cast<int>(std::min(last, g.cols - 1.0))};
+}
+
+double Known(float value) { return static_cast<double>(value); }
+
+/// What nine tenths of the cells have been seen in; new ground at the rim must not pass for old.
+int FramesOfMost(std::vector<std::uint16_t>& counts) {
+  if (counts.empty()) {
+    return 0;
+  }
+  const auto tenth = counts.begin() + static_cast<std::ptrdiff_t>(counts.size() / 10);
+  std::nth_element(counts.begin(), tenth, counts.end());
+  return *tenth;
+}
+
+/// Of a rock: 18.1 m with the standard rig (640 px, 60 degrees). Beyond, cones of 18 in begin to
+/// pass for ground: no site chosen from 20 to 50 ft had one inside its clear radius, 4 of 125 from
+/// 60 ft, one in five from 70 ft.
+constexpr double kSeenWith = 0.735;
+
+/// Whether rocks are larger than what they are seen with, stereo's window and the map's cell: what
+/// is smaller may pass for ground, however little noise there is.
+bool RocksAreSeen(const ElevationMap& map, const SladSettings& settings, const SiteContext& context,
+                  const LandingSite& site) {
+  if (map.geometry.cell_m > settings.max_rock_size_m) {
+    return false;
+  }
+  const double depth_m = (context.X_WC.Inverse() * site.p_WS).z();
+  return context.camera.width == 0 ||
+         kStereoWindow_px * depth_m / context.camera.fx_px <= kSeenWith * settings.max_rock_size_m;
+}
+
+/// Surveys and thesis mode have no frames to wait for.
+bool FramesAgree(const SladSettings& settings, const SiteContext& context,
+                 const LandingSite& site) {
+  return settings.mode == SladMode::kThesis || context.camera.width == 0 ||
+         site.frames_fused >= std::min(kFramesToConfirm, settings.frames_fused);
+}
+
+}  // namespace
+
+void TakeFigures(const HazardMaps& hazards, Cell cell, LandingSite& site) {
+  site.slope_rad = {Known(hazards.slope_rad.at(cell)), 3 * Known(hazards.slope_sigma_rad.at(cell))};
+  site.roughness_m = {Known(hazards.roughness_m.at(cell)),
+                      3 * Known(hazards.roughness_sigma_m.at(cell))};
+  // A step is a difference of two cells.
+  site.step_m = {Known(hazards.step_m.at(cell)),
+                 3 * std::sqrt(2.0) * Known(hazards.roughness_sigma_m.at(cell))};
+  site.safe_distance_m = Known(hazards.safe_distance_m.at(cell));
+  site.cost = Known(hazards.cost.at(cell));
+  site.safe_probability = Known(hazards.safe_probability.at(cell));
+}
+
+LandingSite EvaluateSite(const ElevationMap& map, const HazardMaps& hazards,
+                         const SladSettings& settings, const SiteContext& context, Cell cell) {
+  const GridGeometry& g = map.geometry;
+  LandingSite site;
+  site.map_time = map.time;
+  site.cell = cell;
+  const SitePlane plane = FitSitePlane(map, settings, cell);
+  site.p_WS = {g.NorthOfRow(cell.row), g.EastOfCol(cell.col), -plane.height_m};
+  site.normal_W = Eigen::Vector3d(-plane.north_gradient, -plane.east_gradient, -1).normalized();
+  site.pixel = PixelFromPoint(context, site.p_WS);
+  site.height_m = {plane.height_m, 3 * std::sqrt(plane.cell_variance_m2)};
+  TakeFigures(hazards, cell, site);
+  site.touchdown = OddsOfTouchdown(map, hazards, settings, site);
+  site.clear_radius_m = settings.clear_radius_m();
+  site.clearance_m = site.safe_distance_m - site.clear_radius_m;
+  double age_sum_s = 0;
+  std::vector<std::uint16_t> frames;  // of the measured cells
+  ForDisc(g, cell, site.clear_radius_m, [&](Cell near) {
+    if (!g.Contains(near) || map.state.at(near) != CellState::kMeasured) {
+      ++site.unknown_cells;
+      return;
+    }
+    frames.push_back(map.frame_count.at(near));
+    age_sum_s += map.age_s.empty() ? 0 : Known(map.age_s.at(near));
+    site.flags |= hazards.flags.empty() ? std::uint8_t{0} : hazards.flags.at(near);
+  });
+  site.age_s = frames.empty() ? std::numeric_limits<double>::quiet_NaN()
+                              : age_sum_s / static_cast<double>(frames.size());
+  site.frames_fused = FramesOfMost(frames);
+  const bool likely =
+      settings.mode == SladMode::kThesis || site.safe_probability >= settings.min_safe_probability;
+  site.confirmed = likely && site.height_m.three_sigma < settings.max_deviation_m &&
+                   FramesAgree(settings, context, site) &&
+                   RocksAreSeen(map, settings, context, site);
+  site.distance_m = (context.p_WB - site.p_WS).head<2>().norm();
+  const std::optional<Approach> straight = StraightApproach(settings, context, site);
+  site.corridor_clear = !straight || IsClear(*straight, map, settings, site);
+  site.clear_approaches = ClearApproaches(map, settings, context, site);
+  return site;
+}
+
+std::optional<Approach> StraightApproach(const SladSettings& settings, const SiteContext& context,
+                                         const LandingSite& site) {
+  const Eigen::Vector2d to_vehicle = (context.p_WB - site.p_WS).head<2>();
+  const double length_m = to_vehicle.norm();
+  if (!(length_m > settings.lander_radius_m())) {
+    return std::nullopt;  // straight above: the descent is vertical
+  }
+  return Approach{to_vehicle / length_m, length_m, context.glide_slope_rad};
+}
+
+std::uint8_t ClearApproaches(const ElevationMap& map, const SladSettings& settings,
+                             const SiteContext& context, const LandingSite& site) {
+  // As far out as the slope is below the vehicle's present height; to the end of the map for a
+  // vehicle nobody knows.
+  const double tangent = std::tan(std::clamp(context.glide_slope_rad, 0.02, 1.55));
+  const GridGeometry& g = map.geometry;
+  const double height_m = site.p_WS.z() - context.p_WB.z();
+  const double length_m = std::isnan(height_m) ? g.cell_m * std::hypot(g.rows, g.cols)
+                                               : std::max(0.0, height_m / tangent);
+  unsigned clear = 0;
+  for (unsigned sector = 0; sector < 8; ++sector) {
+    const double bearing_rad = sector * std::numbers::pi / 4;
+    const Approach approach{
+        {std::cos(bearing_rad), std::sin(bearing_rad)}, length_m, context.glide_slope_rad};
+    clear |= IsClear(approach, map, settings, site) ? 1U << sector : 0U;
+  }
+  return static_cast<std::uint8_t>(clear);
+}
+
+bool IsClear(const Approach& approach, const ElevationMap& map, const SladSettings& settings,
+             const LandingSite& site) {
+  if (std::isnan(site.height_m.value)) {
+    return true;
+  }
+  const double length_m = approach.length_m;
+  const Eigen::Vector2d& along = approach.from;
+  const double tangent = std::tan(std::min(approach.glide_slope_rad, 1.55));
+  const GridGeometry& g = map.geometry;
+  const double half_width_m = settings.rotor_diameter_m / 2;
+  const double lander_radius_m = settings.lander_radius_m();
+  for (int r = 0; r < g.rows; ++r) {
+    const double north_m = g.NorthOfRow(r) - site.p_WS.x();
+    const ColumnRange columns = CorridorInRow(g, site, along, north_m, length_m, half_width_m);
+    const float* height_m = map.height_m.row(r);
+    for (int c = columns.first; c <= columns.last; ++c) {
+      const double east_m = g.EastOfCol(c) - site.p_WS.y();
+      const double s = north_m * along.x() + east_m * along.y();
+      const double rise_m = static_cast<double>(height_m[c]) - site.height_m.value;
+      const double free_m = (s - lander_radius_m) * tangent + settings.max_deviation_m;
+      // Asked first, for few cells rise so far.
+      if (!(rise_m > free_m)) {
+        continue;
+      }
+      const double aside = std::abs(north_m * along.y() - east_m * along.x());
+      if (s <= site.clear_radius_m || s > length_m || aside > half_width_m ||
+          map.state.at(r, c) == CellState::kUnknown) {
+        continue;
+      }
+      const double noise_m = 3 * std::sqrt(static_cast<double>(map.variance_m2.at(r, c)));
+      if (rise_m - noise_m > free_m) {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
+}  // namespace palace

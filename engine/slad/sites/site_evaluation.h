@@ -1,0 +1,39 @@
+// The figures of one site on one map. Internal to the SLAD room.
+#pragma once
+
+#include "engine/slad/sites/site_selection.h"
+
+namespace palace {
+
+/// The figures that the hazard maps hold of a cell: slope, roughness, step, distance, cost and safe
+/// probability.
+void TakeFigures(const HazardMaps& hazards, Cell cell, LandingSite& site);
+
+/// All fields of a site centred on the cell but id, letter and reason. The plane of the site is the
+/// weighted least-squares plane of the known cells within the lander's radius, those more than
+/// three sigmas and the roughness limit off it left out.
+LandingSite EvaluateSite(const ElevationMap& map, const HazardMaps& hazards,
+                         const SladSettings& settings, const SiteContext& context, Cell cell);
+
+/// A straight way down to a site, as wide as the rotor.
+struct Approach {
+  Eigen::Vector2d from = Eigen::Vector2d::UnitX();  ///< unit, north and east, away from the site
+  double length_m = 0;                              ///< horizontal
+  double glide_slope_rad = 0;                       ///< down from the horizon
+};
+
+/// True when nothing known stands in the corridor that rises from the site along the approach. An
+/// object at distance s along it is met by the rim of a lander whose centre is one lander radius
+/// nearer, so it may rise to (s - radius) tan(slope) above the site, plus the roughness limit.
+bool IsClear(const Approach& approach, const ElevationMap& map, const SladSettings& settings,
+             const LandingSite& site);
+
+/// The approach straight from the vehicle; nothing when it hovers above the site.
+std::optional<Approach> StraightApproach(const SladSettings& settings, const SiteContext& context,
+                                         const LandingSite& site);
+
+/// Bit k: clear from sector k of eight (north, north-east, ...), as far out as the vehicle is.
+std::uint8_t ClearApproaches(const ElevationMap& map, const SladSettings& settings,
+                             const SiteContext& context, const LandingSite& site);
+
+}  // namespace palace

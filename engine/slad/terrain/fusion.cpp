@@ -1,0 +1,326 @@
+#include "engine/slad/terrain/fusion.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "engine/core/hash.h"
+#include "engine/core/units.h"
+#include "engine/slad/terrain/elevation_map_builder.h"
+#include "engine/slad/terrain/frame_registration.h"
+#include "engine/slad/terrain/hole_filling.h"
+#include "engine/slad/terrain/narrow_relief.h"
+#include "engine/slad/terrain/terrain_points.h"
+
+namespace palace {
+namespace {
+
+constexpr double kGate2 = 9;                   // three sigmas
+constexpr double kGateFloor_m2 = 0.05 * 0.05;  // matching wobbles this much beyond its sigma
+constexpr double kVarianceFloor_m2 = 1e-5;
+constexpr double kUnseenGrowth_m2 = 4e-6;  // a map unseen: 2 cm after a hundred maps
+constexpr double kForgotten_m2 = 0.25;
+constexpr int kLongestMemory_frames = 50;
+// Poses of the vehicle's navigation, one standard deviation.
+constexpr double kPosition_m = 0.03;
+constexpr double kAttitude_rad = 0.1 * kRadPerDeg;
+/// Stereo errs on the same ground by this much in every frame: texture under the window, steps of
+/// whole pixels. It does not average away.
+constexpr double kRepeated_px = 0.012;
+constexpr double kNarrow_m = 0.08;  // the upper half of a small cone, a post
+/// The map follows the view once its centre is off by this share of its size.
+constexpr double kSlack = 0.08;
+
+bool SameLayout(const SladSettings& a, const SladSettings& b) {
+  return a.mode == b.mode && a.grid_rows == b.grid_rows && a.grid_cols == b.grid_cols &&
+         a.cell_m == b.cell_m && a.bounds == b.bounds && a.x_min_m == b.x_min_m &&
+         a.x_max_m == b.x_max_m && a.y_min_m == b.y_min_m && a.y_max_m == b.y_max_m;
+}
+
+bool CentreWithinSlack(const GridGeometry& a, const GridGeometry& b) {
+  return std::abs(a.north_min_m - b.north_min_m) <= kSlack * a.rows * a.cell_m &&
+         std::abs(a.east_min_m - b.east_min_m) <= kSlack * a.cols * a.cell_m;
+}
+
+/// Of a cell's height over two cells, by the neighbours that are measured; 0 without a pair.
+double SquaredGradient(const ElevationMap& frame, int r, int c) {
+  const auto slope = [&](Cell a, Cell b) {
+    const bool known = frame.geometry.Contains(a) && frame.geometry.Contains(b) &&
+                       frame.state.at(a) == CellState::kMeasured &&
+                       frame.state.at(b) == CellState::kMeasured;
+    return known ? static_cast<double>(frame.height_m.at(b) - frame.height_m.at(a)) /
+                       (2 * frame.geometry.cell_m)
+                 : 0.0;
+  };
+  const double north = slope({r + 1, c}, {r - 1, c});
+  const double east = slope({r, c - 1}, {r, c + 1});
+  return north * north + east * east;
+}
+
+/// Height variance by which a pose laid sideways misplaces each cell.
+GridF MisplacedVariance(const Eigen::Vector3d& p_WC, const ElevationMap& frame) {
+  const GridGeometry& g = frame.geometry;
+  GridF variance_m2(g.rows, g.cols, 0.0F);
+  for (int r = 0; r < g.rows; ++r) {
+    for (int c = 0; c < g.cols; ++c) {
+      if (frame.state.at(r, c) != CellState::kMeasured) {
+        continue;
+      }
+      const Eigen::Vector3d p_WQ(g.NorthOfRow(r), g.EastOfCol(c),
+                                 -static_cast<double>(frame.height_m.at(r, c)));
+      const double sideways2 =
+          kPosition_m * kPosition_m + kAttitude_rad * kAttitude_rad * (p_WQ - p_WC).squaredNorm();
+      variance_m2.at(r, c) = static_cast<float>(SquaredGradient(frame, r, c) * sideways2);
+    }
+  }
+  return variance_m2;
+}
+
+/// Of the pose and every 89th range: two exposures of one scene never share them all.
+std::uint64_t SampledHash(const RangeMap& range, const RigidTransform& X_WC) {
+  constexpr std::size_t kStride = 89;
+  ContentHash hash;
+  for (int i = 0; i < 3; ++i) {
+    hash.Add(X_WC.p[i]);
+    hash.Add(X_WC.R(i, 0));
+    hash.Add(X_WC.R(i, 2));
+  }
+  const auto& depths = range.depth_m.pixels();
+  for (std::size_t i = 0; i < depths.size(); i += kStride) {
+    hash.Add(depths[i]);
+  }
+  return hash.value();
+}
+
+/// Focal length times baseline, pixels metres; 0 when the range map holds no point.
+double FocalTimesBaseline(const RangeMap& range) {
+  for (std::size_t i = 0; i < range.depth_m.pixels().size(); ++i) {
+    const double product = static_cast<double>(range.depth_m.pixels()[i]) *
+                           static_cast<double>(range.disparity_px.pixels()[i]);
+    if (std::isfinite(product)) {
+      return product;
+    }
+  }
+  return 0;
+}
+
+/// Of the error that stereo repeats in every frame, per measured cell; empty before any range.
+GridF RepeatedVariance(double focal_times_baseline, const RigidTransform& X_WC,
+                       const ElevationMap& map) {
+  if (!(focal_times_baseline > 0)) {
+    return {};
+  }
+  const GridGeometry& g = map.geometry;
+  GridF variance_m2(g.rows, g.cols, 0.0F);
+  for (int r = 0; r < g.rows; ++r) {
+    for (int c = 0; c < g.cols; ++c) {
+      if (map.state.at(r, c) == CellState::kMeasured) {
+        const Eigen::Vector3d p_WQ(g.NorthOfRow(r), g.EastOfCol(c),
+                                   -static_cast<double>(map.height_m.at(r, c)));
+        const double depth_m = X_WC.R.col(2).dot(p_WQ - X_WC.p);
+        const double error_m = kRepeated_px * depth_m * depth_m / focal_times_baseline;
+        variance_m2.at(r, c) = static_cast<float>(error_m * error_m);
+      }
+    }
+  }
+  return variance_m2;
+}
+
+void AddVariance(const GridF& variance_m2, ElevationMap& map) {
+  for (std::size_t i = 0; i < variance_m2.cells().size(); ++i) {
+    map.variance_m2.cells()[i] += variance_m2.cells()[i];
+  }
+}
+
+}  // namespace
+
+void TerrainFusion::Reset() {
+  map_ = ElevationMap{};
+  disagreement_ = {};
+  spread_ = {};
+  pixels_ = {};
+  frames_ = 0;
+  focal_times_baseline_ = 0;
+}
+
+std::shared_ptr<const ElevationMap> TerrainFusion::Add(const RangeMap& range,
+                                                       const RigidTransform& X_WC,
+                                                       const SladSettings& settings) {
+  if (!SameLayout(settings, layout_)) {
+    Reset();
+  }
+  layout_ = settings;
+  if (settings.mode == SladMode::kThesis) {
+    return std::make_shared<const ElevationMap>(ElevationFromRange(range, X_WC, settings));
+  }
+  const TerrainPoints points = PointsFromRange(range, X_WC);
+  if (!points.empty() || frames_ == 0) {
+    const GridGeometry wanted =
+        LayOutGrid(ChooseBounds(points, settings, &range.camera, X_WC), settings);
+    // A picture without a point says nothing about where to look: the map stays.
+    if (frames_ == 0 || !CentreWithinSlack(wanted, map_.geometry)) {
+      MoveTo(wanted);
+    }
+  }
+  ElevationMap frame =
+      AccumulateCells(points, map_.geometry, settings.mode, kCorrelatedPixels, range.time);
+  Age(range.time);
+  const std::uint64_t ranges = SampledHash(range, X_WC);
+  // The very same ranges from the same place again, as of a still picture, say nothing new.
+  if (frames_ == 0 || points.empty() || ranges != last_ranges_) {
+    Register(frame);
+    Fuse(frame, MisplacedVariance(X_WC.p, frame), settings.frames_fused);
+    AddPixels(range, X_WC, settings.frames_fused);
+  }
+  last_ranges_ = ranges;
+  // Frames without a point do not count: the first real one lays out the grid.
+  frames_ += points.empty() ? 0 : 1;
+  auto published = std::make_shared<ElevationMap>(map_);
+  AddReliefBetweenFrames(spread_, *published);
+  if (const double now = FocalTimesBaseline(range); now > 0) {
+    focal_times_baseline_ = now;
+  }
+  const GridF repeated_m2 = RepeatedVariance(focal_times_baseline_, X_WC, *published);
+  RaiseNarrowRelief(range.camera, X_WC.p, kNarrow_m, pixels_, repeated_m2, *published);
+  AddVariance(repeated_m2, *published);
+  FillHoles(*published, settings.data_size_cells, settings.border_size_cells);
+  return published;
+}
+
+void TerrainFusion::MoveTo(const GridGeometry& geometry) {
+  const int rows = geometry.rows, cols = geometry.cols;
+  ElevationMap moved{map_.time,
+                     geometry,
+                     GridF(rows, cols, kUnknownValue),
+                     GridF(rows, cols, kUnknownValue),
+                     Grid<std::uint16_t>(rows, cols, 0),
+                     Grid<CellState>(rows, cols, CellState::kUnknown),
+                     GridF(rows, cols, kUnknownValue)};
+  Grid<std::int8_t> disagreement(rows, cols, 0);
+  Grid<FrameSpread> spread(rows, cols);
+  Grid<PixelCount> pixels(rows, cols);
+  if (frames_ > 0) {
+    const GridGeometry& old = map_.geometry;
+    const int row_shift =
+        static_cast<int>(std::lround((old.north_max_m() - geometry.north_max_m()) / old.cell_m));
+    const int col_shift =
+        static_cast<int>(std::lround((geometry.east_min_m - old.east_min_m) / old.cell_m));
+    for (int r = 0; r < rows; ++r) {
+      for (int c = 0; c < cols; ++c) {
+        const Cell from{r + row_shift, c + col_shift};
+        if (!old.Contains(from)) {
+          continue;
+        }
+        moved.height_m.at(r, c) = map_.height_m.at(from);
+        moved.variance_m2.at(r, c) = map_.variance_m2.at(from);
+        moved.frame_count.at(r, c) = map_.frame_count.at(from);
+        moved.state.at(r, c) = map_.state.at(from);
+        moved.age_s.at(r, c) = map_.age_s.at(from);
+        disagreement.at(r, c) = disagreement_.at(from);
+        spread.at(r, c) = spread_.at(from);
+        pixels.at(r, c) = pixels_.at(from);
+      }
+    }
+  }
+  map_ = std::move(moved);
+  disagreement_ = std::move(disagreement);
+  spread_ = std::move(spread);
+  pixels_ = std::move(pixels);
+}
+
+void TerrainFusion::AddPixels(const RangeMap& range, const RigidTransform& X_WC, int frames_fused) {
+  Grid<PixelCount> seen(pixels_.rows(), pixels_.cols());
+  CountPixels(range, X_WC, map_.geometry, seen);
+  const int memory = std::max(1, frames_fused);
+  const auto remember = static_cast<float>(frames_ < memory ? 1.0 : 1 - 1.0 / memory);
+  for (std::size_t i = 0; i < seen.cells().size(); ++i) {
+    const PixelCount& now = seen.cells()[i];
+    PixelCount& all = pixels_.cells()[i];
+    // What this frame does not see keeps its counts, as it keeps its height.
+    if (now.known + now.refused > 0) {
+      all = {remember * all.known + now.known, remember * all.refused + now.refused};
+    }
+  }
+}
+
+void TerrainFusion::Register(ElevationMap& frame) {
+  if (frames_ == 0) {
+    return;
+  }
+  const PlaneCorrection correction = RegisterFrame(frame, map_);
+  // The map moves a little towards each frame, so that its own tilt becomes the mean of theirs
+  // and does not stay the first frame's.
+  const double map_gain = 1.0 / (1 + std::min(frames_, kLongestMemory_frames));
+  ApplyCorrection(correction, map_gain, map_);
+  ApplyCorrection(correction, map_gain - 1, frame);
+}
+
+void TerrainFusion::Age(Timestamp now) {
+  const auto passed_s = static_cast<float>(std::max(0.0, SecondsBetween(map_.time, now)));
+  for (float& age_s : map_.age_s.cells()) {
+    age_s += passed_s;  // NaN stays NaN
+  }
+  map_.time = now;
+}
+
+void TerrainFusion::Fuse(const ElevationMap& frame, const GridF& misplaced_m2, int frames_fused) {
+  const int memory = std::max(1, frames_fused);
+  for (std::size_t i = 0; i < frame.state.cells().size(); ++i) {
+    float& mean = map_.height_m.cells()[i];
+    float& variance = map_.variance_m2.cells()[i];
+    std::uint16_t& count = map_.frame_count.cells()[i];
+    CellState& state = map_.state.cells()[i];
+    std::int8_t& disagreement = disagreement_.cells()[i];
+    FrameSpread& spread = spread_.cells()[i];
+    float& age_s = map_.age_s.cells()[i];
+    const double p = static_cast<double>(variance);
+    if (frame.state.cells()[i] != CellState::kMeasured) {
+      variance = static_cast<float>(p + kUnseenGrowth_m2);
+      if (state == CellState::kMeasured && p > kForgotten_m2) {
+        mean = variance = age_s = kUnknownValue;
+        count = 0;
+        state = CellState::kUnknown;
+      }
+      continue;
+    }
+    age_s = 0;
+    const double z = static_cast<double>(frame.height_m.cells()[i]);
+    const double noise = static_cast<double>(frame.variance_m2.cells()[i]);
+    const double m = static_cast<double>(mean);
+    const double off = z - m;
+    const bool known = state == CellState::kMeasured;
+    const double expected = p + noise + static_cast<double>(misplaced_m2.cells()[i]);
+    const bool agrees = known && off * off <= kGate2 * expected + kGateFloor_m2;
+    const std::int8_t side = off > 0 ? 1 : -1;
+    if (known && !agrees && disagreement != side) {
+      spread.Add(off, noise, memory);
+      disagreement = side;
+      continue;
+    }
+    disagreement = 0;
+    if (!agrees) {
+      mean = static_cast<float>(z);
+      variance = static_cast<float>(noise);
+      count = 1;
+      state = CellState::kMeasured;
+      // Something new stands there. Where something is gone, what was seen of it fades slowly.
+      if (known && off < 0) {
+        spread.Add(off, noise, memory);
+        spread.Follow(off);
+      } else {
+        spread = FrameSpread{};
+        spread.Add(0, noise, memory);
+      }
+      continue;
+    }
+    const double remember = count < memory ? 1 : 1 - 1.0 / memory;
+    const double fused = 1 / (remember / p + 1 / noise);
+    mean = static_cast<float>(fused * (remember * m / p + z / noise));
+    spread.Add(off, noise, memory);
+    spread.Follow(static_cast<double>(mean) - m);
+    variance = static_cast<float>(std::max(fused, kVarianceFloor_m2));
+    count = static_cast<std::uint16_t>(std::min<int>(count + 1, memory));
+  }
+}
+
+}  // namespace palace

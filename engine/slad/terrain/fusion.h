@@ -1,0 +1,66 @@
+// Terrain fusion: elevation of many frames in one map that moves with the view.
+//
+// Each cell keeps a mean m, its variance P and a count. A frame's cell mean z with variance R is
+// first corrected by a plane (offset, north tilt, east tilt) fitted robustly to z - m, because the
+// noise of attitude and position moves a frame as a whole, then fused as
+//
+//   1/P' = lambda/P + 1/R,   m' = P' (lambda m / P + z / R)
+//
+// lambda is 1 for the first frames_fused frames of a cell, so that their order does not matter, and
+// 1 - 1/frames_fused from then on: the weight of frames_fused frames is kept.
+//
+// What frames disagree about by more than noise is relief (frame_spread.h): it is added to the
+// published height. So is what stands too narrow for stereo's window, or so steep that stereo
+// refuses its sides (narrow_relief.h).
+//
+// A cell that disagrees by more than the gate, three sigmas of
+//
+//   P + R + g^2 s^2,   s^2 = position sigma^2 + (attitude sigma * range)^2,
+//
+// is not averaged: it counts in the spread only, and the second disagreement in a row on the same
+// side replaces the cell. A pose laid sideways by s misplaces ground of
+// gradient g (the frame's own, over two cells): an edge that wanders is no contradiction. It stays
+// out of R, because it says where an edge is, not whether. Unseen cells keep their height while
+// their variance and age grow; age is the data time since a frame last held the cell, agreeing or
+// not. Thesis mode fuses nothing: Add is ElevationFromRange.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "engine/core/frames.h"
+#include "engine/model/elevation_map.h"
+#include "engine/model/range_map.h"
+#include "engine/model/settings.h"
+#include "engine/slad/terrain/frame_spread.h"
+#include "engine/slad/terrain/refused_pixels.h"
+
+namespace palace {
+
+class TerrainFusion {
+ public:
+  /// Forgets all frames.
+  void Reset();
+  /// Fuses one range map taken from X_WC (left camera in W) and returns the new map. A change of
+  /// mode, cell size, grid size or bounds starts afresh.
+  std::shared_ptr<const ElevationMap> Add(const RangeMap& range, const RigidTransform& X_WC,
+                                          const SladSettings& settings);
+
+ private:
+  void MoveTo(const GridGeometry& geometry);
+  void Register(ElevationMap& frame);
+  void Age(Timestamp now);
+  void AddPixels(const RangeMap& range, const RigidTransform& X_WC, int frames_fused);
+  void Fuse(const ElevationMap& frame, const GridF& misplaced_m2, int frames_fused);
+
+  ElevationMap map_;                ///< measured cells only; holes are filled in what Add returns
+  Grid<std::int8_t> disagreement_;  ///< sign of the last frame that failed the gate, 0 none
+  Grid<FrameSpread> spread_;
+  Grid<PixelCount> pixels_;
+  SladSettings layout_;  ///< settings the grid was laid out with
+  int frames_ = 0;
+  double focal_times_baseline_ = 0;  ///< of the last range map with a point, px m
+  std::uint64_t last_ranges_ = 0;    ///< sampled hash of the last range map and its pose
+};
+
+}  // namespace palace

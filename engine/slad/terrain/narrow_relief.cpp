@@ -1,0 +1,244 @@
+#include "engine/slad/terrain/narrow_relief.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <utility>
+
+#include <opencv2/core.hpp>
+
+#include "engine/core/check.h"
+#include "engine/slad/terrain/ground_roughness.h"
+
+namespace palace {
+namespace {
+
+constexpr int kPlaces = 16;
+constexpr int kLeastPlaces = 10;
+constexpr double kSigmas = 5.5;
+constexpr double kBesideSigmas = 4;
+constexpr double kClearSigmas = 8, kBesideClearSigmas = 2.5;
+constexpr double kLeastVariance_m2 = 1e-12;  // of maps that state none
+constexpr double kRingRoughs = 3.5, kGroundRoughs = 4;
+constexpr double kClearRingRoughs = 10;  // of many things on even ground
+constexpr double kRepeats = 2.5;         // what stereo repeats at worst, over its usual sigma
+constexpr double kRingWindows = 1.25;    // nearer, the window smears the thing onto the ring
+constexpr double kMostFactor = 6;
+constexpr double kSteepFactor = 4;
+constexpr double kTallest_m = 1;
+constexpr double kMostRefused = 0.15;  // share of a cell's pixels
+
+/// The ground around a cell: the plane through its ring.
+struct Ring {
+  double mean_m = 0;  ///< at the cell
+  double per_row_m = 0, per_col_m = 0;
+  double variance_m2 = 0;  ///< of the mean, neighbours taken as independent
+  double rough_m2 = 0;     ///< mean square off the plane
+  int places = 0;
+};
+
+struct Place {
+  double south = 0, east = 0;
+};
+using HalfCircle = std::array<Place, kPlaces / 2>;
+
+HalfCircle Directions() {
+  HalfCircle directions;
+  for (int k = 0; k < kPlaces / 2; ++k) {
+    const double azimuth = 2 * std::numbers::pi * k / kPlaces;
+    directions[static_cast<std::size_t>(k)] = {std::cos(azimuth), std::sin(azimuth)};
+  }
+  return directions;
+}
+
+bool IsMeasured(const ElevationMap& map, Cell cell) {
+  return map.geometry.Contains(cell) && map.state.at(cell) == CellState::kMeasured;
+}
+
+/// Places count in pairs that face each other, so that a slope's mean is the cell's own height
+/// where part of the ring is unknown. Without a plane: no place.
+Ring RingAround(const ElevationMap& map, const HalfCircle& directions, Cell cell,
+                double radius_cells) {
+  const double own_m = static_cast<double>(map.height_m.at(cell));
+  Ring ring;
+  double sum = 0, square = 0;
+  double rr = 0, rc = 0, cc = 0, rz = 0, cz = 0;  // sums of products: row, column, height
+  for (const auto& [south, east] : directions) {
+    const int dr = static_cast<int>(std::lround(radius_cells * south));
+    const int dc = static_cast<int>(std::lround(radius_cells * east));
+    const Cell ahead{cell.row + dr, cell.col + dc}, behind{cell.row - dr, cell.col - dc};
+    if (!IsMeasured(map, ahead) || !IsMeasured(map, behind)) {
+      continue;
+    }
+    const double a = static_cast<double>(map.height_m.at(ahead)) - own_m;
+    const double b = static_cast<double>(map.height_m.at(behind)) - own_m;
+    sum += a + b;
+    square += a * a + b * b;
+    rr += 2.0 * dr * dr;
+    rc += 2.0 * dr * dc;
+    cc += 2.0 * dc * dc;
+    rz += dr * (a - b);
+    cz += dc * (a - b);
+    ring.variance_m2 += static_cast<double>(map.variance_m2.at(ahead)) +
+                        static_cast<double>(map.variance_m2.at(behind));
+    ring.places += 2;
+  }
+  const double determinant = rr * cc - rc * rc;
+  if (!(determinant > 0)) {
+    return {};
+  }
+  const double n = ring.places, mean = sum / n;
+  ring.per_row_m = (cc * rz - rc * cz) / determinant;
+  ring.per_col_m = (rr * cz - rc * rz) / determinant;
+  ring.rough_m2 =
+      std::max(0.0, (square - ring.per_row_m * rz - ring.per_col_m * cz) / n - mean * mean);
+  ring.mean_m = mean + own_m;
+  ring.variance_m2 /= n * n;
+  return ring;
+}
+
+/// Height above the ring's plane in sigmas, of the cell `dr` and `dc` beside the ring's own.
+double SigmasAbove(const ElevationMap& map, const Ring& ring, Cell cell, int dr, int dc) {
+  const Cell at{cell.row + dr, cell.col + dc};
+  const double stands_m = static_cast<double>(map.height_m.at(at)) - ring.mean_m -
+                          ring.per_row_m * dr - ring.per_col_m * dc;
+  return stands_m / std::sqrt(static_cast<double>(map.variance_m2.at(at)) + ring.variance_m2 +
+                              kLeastVariance_m2);
+}
+
+/// The same of the highest of the four cells beside; 0 where none is known. Noise seldom stands
+/// twice; a thing as wide as the window lies in more than one cell.
+double SigmasBeside(const ElevationMap& map, const Ring& ring, Cell cell) {
+  double most = 0;
+  for (const auto& [dr, dc] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}}) {
+    if (IsMeasured(map, {cell.row + dr, cell.col + dc})) {
+      most = std::max(most, SigmasAbove(map, ring, cell, dr, dc));
+    }
+  }
+  return most;
+}
+
+bool ManyRefused(const Grid<PixelCount>& pixels, const GridGeometry& geometry, int row, int col) {
+  for (int r = row - 1; !pixels.empty() && r <= row + 1; ++r) {
+    for (int c = col - 1; c <= col + 1; ++c) {
+      if (geometry.Contains({r, c}) && pixels.at(r, c).RefusedShare() > kMostRefused) {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+/// Stereo's matching window on a map and the rings that fit it.
+class MatchingWindow {
+ public:
+  MatchingWindow(const PinholeCamera& camera, const Eigen::Vector3d& p_WC, double narrow_m)
+      : p_WC_(p_WC), per_m_(kStereoWindow_px / camera.fx_px), narrow_m_(narrow_m) {}
+
+  double Width_m(const ElevationMap& map, Cell cell) const {
+    const Eigen::Vector3d p_WQ(map.geometry.NorthOfRow(cell.row), map.geometry.EastOfCol(cell.col),
+                               -static_cast<double>(map.height_m.at(cell)));
+    return per_m_ * (p_WQ - p_WC_).norm();
+  }
+
+  Ring RingAt(const ElevationMap& map, Cell cell) const {
+    const double radius_m = kRingWindows * Width_m(map, cell) + narrow_m_ / 2;
+    return RingAround(map, directions_, cell, std::max(2.0, radius_m / map.geometry.cell_m));
+  }
+
+ private:
+  Eigen::Vector3d p_WC_;
+  double per_m_, narrow_m_;
+  HalfCircle directions_ = Directions();
+};
+
+/// What measured cells stand above their rings by, m; NaN without a ring.
+GridF StandsAbove(const ElevationMap& map, const MatchingWindow& window) {
+  GridF stands_m(map.geometry.rows, map.geometry.cols, kUnknownValue);
+  cv::parallel_for_(cv::Range(0, stands_m.rows()), [&](const cv::Range& rows) {
+    for (int r = rows.start; r < rows.end; ++r) {
+      for (int c = 0; c < stands_m.cols(); ++c) {
+        if (!IsMeasured(map, {r, c})) {
+          continue;
+        }
+        const Ring ring = window.RingAt(map, {r, c});
+        if (ring.places >= kLeastPlaces) {
+          stands_m.at(r, c) =
+              static_cast<float>(static_cast<double>(map.height_m.at(r, c)) - ring.mean_m);
+        }
+      }
+    }
+  });
+  return stands_m;
+}
+
+/// Whether the window is wider than a narrow thing anywhere.
+bool SmearsAnywhere(const ElevationMap& map, const MatchingWindow& window, double narrow_m) {
+  for (int r = 0; r < map.geometry.rows; ++r) {
+    for (int c = 0; c < map.geometry.cols; ++c) {
+      if (IsMeasured(map, {r, c}) && window.Width_m(map, {r, c}) > narrow_m) {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+/// Whether a cell that stands `stands_m` above its ring is a thing on its own: not noise, not
+/// rough ground, not the edge of something wide.
+bool StandsAlone(const ElevationMap& map, const Ring& ring, Cell cell, double stands_m,
+                 double ground_rough_m, double repeated_m2) {
+  const double noise_m2 = static_cast<double>(map.variance_m2.at(cell)) + ring.variance_m2 +
+                          kRepeats * kRepeats * repeated_m2;
+  const double ground_m2 = std::max(0.0, ground_rough_m * ground_rough_m - noise_m2);
+  const double needed_m2 = std::clamp(kGroundRoughs * kGroundRoughs * ground_m2,
+                                      kRingRoughs * kRingRoughs * ring.rough_m2,
+                                      kClearRingRoughs * kClearRingRoughs * ring.rough_m2);
+  if (stands_m * stands_m <= needed_m2) {
+    return false;
+  }
+  const double sigmas = SigmasAbove(map, ring, cell, 0, 0);
+  const double beside = sigmas > kClearSigmas ? kBesideClearSigmas : kBesideSigmas;
+  return sigmas > kSigmas && SigmasBeside(map, ring, cell) > beside;
+}
+
+}  // namespace
+
+void RaiseNarrowRelief(const PinholeCamera& camera, const Eigen::Vector3d& p_WC, double narrow_m,
+                       const Grid<PixelCount>& pixels, const GridF& repeated_m2,
+                       ElevationMap& map) {
+  const GridGeometry& g = map.geometry;
+  PALACE_CHECK(pixels.empty() || (pixels.rows() == g.rows && pixels.cols() == g.cols));
+  PALACE_CHECK(repeated_m2.empty() ||
+               (repeated_m2.rows() == g.rows && repeated_m2.cols() == g.cols));
+  const MatchingWindow window(camera, p_WC, narrow_m);
+  if (pixels.empty() && !SmearsAnywhere(map, window, narrow_m)) {
+    return;
+  }
+  const GridF stands = StandsAbove(map, window);
+  const GroundRoughness roughness(stands, g.cell_m);
+  GridF raised = map.height_m;
+  for (int r = 0; r < g.rows; ++r) {
+    for (int c = 0; c < g.cols; ++c) {
+      const double stands_m = static_cast<double>(stands.at(r, c));
+      const double sigma_m = std::sqrt(static_cast<double>(map.variance_m2.at(r, c)));
+      if (!(stands_m > kSigmas * sigma_m)) {
+        continue;
+      }
+      const double widths = window.Width_m(map, {r, c}) / narrow_m;
+      const double factor = std::clamp(
+          widths * widths, ManyRefused(pixels, g, r, c) ? kSteepFactor : 1.0, kMostFactor);
+      const double repeated = repeated_m2.empty() ? 0.0 : static_cast<double>(repeated_m2.at(r, c));
+      if (factor > 1 && StandsAlone(map, window.RingAt(map, {r, c}), {r, c}, stands_m,
+                                    roughness.At(r, c), repeated)) {
+        const double must_be_m = std::max(stands_m, std::min(factor * stands_m, kTallest_m));
+        raised.at(r, c) += static_cast<float>(must_be_m - stands_m);
+      }
+    }
+  }
+  map.height_m = std::move(raised);
+}
+
+}  // namespace palace

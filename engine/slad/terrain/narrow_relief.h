@@ -1,0 +1,44 @@
+// Narrow relief: the height of things smaller than stereo's matching window. Internal to the SLAD
+// room.
+#pragma once
+
+#include <Eigen/Dense>
+
+#include "engine/model/elevation_map.h"
+#include "engine/model/rig.h"
+#include "engine/slad/terrain/refused_pixels.h"
+
+namespace palace {
+
+inline constexpr double kStereoWindow_px = 9;  ///< of stereo's refinement
+
+/// A matching window w metres wide reads a thing s < w wide as lower, by about (s / w)^2, because
+/// it averages it with the ground around. Cells that stand above a ring around them by more than
+/// 5.5 sigmas, and by `rough`, are raised to what a thing `narrow_m` wide must then be:
+///
+///   h := ring + k (h - ring),   k = (w / narrow_m)^2, from 1 to 6,   w = 9 px * range / f
+///   rough = 4 ground, within 3.5 and 10 times the ring's own
+///
+/// but to no more than 1 m above the ring. The ring is rough by what it is off its own plane: edges
+/// of wide things are no narrow things and stay. The ground is rough by what its cells stand off
+/// their rings (`GroundRoughness`), less the variance of cell and ring and 2.5 times the sigma of
+/// what stereo repeats (`repeated_m2`, m^2), as on its worst textures: bumps among bumps stay, many
+/// things on even ground do not hide each other.
+///
+/// k is at least 4 where stereo refused more than 0.15 of the pixels of the cell or of one that
+/// touches it: steep sides were not measured, and what was is their foot.
+///
+/// One of the four cells beside must stand four sigmas above the same ring, or 2.5 where the cell
+/// itself stands eight: a window as wide as a cell smears a thing over two, noise stands alone.
+/// These sigmas are those of fusion, without what stereo repeats: what is raised is told from
+/// noise, not measured.
+///
+/// The ring, 1.25 w + narrow_m / 2 and at least two cells in radius (8 pairs of places that face
+/// each other; cells with fewer than 5 known stay), takes slope out. Level ground and noise stay as
+/// they are; nothing is lowered. The variance is left: the sign of the thing is as certain as
+/// before. `pixels` and `repeated_m2` have the map's size, or are empty: none was refused, nothing
+/// is repeated.
+void RaiseNarrowRelief(const PinholeCamera& camera, const Eigen::Vector3d& p_WC, double narrow_m,
+                       const Grid<PixelCount>& pixels, const GridF& repeated_m2, ElevationMap& map);
+
+}  // namespace palace

@@ -1,0 +1,156 @@
+#include "engine/survey/cloud_elevation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+#include "engine/core/text.h"
+#include "engine/slad/terrain/elevation_map_builder.h"
+#include "engine/slad/terrain/hole_filling.h"
+
+namespace palace {
+namespace {
+
+constexpr int kMostCells = 4096;
+/// Points this far below the highest of their cell belong to the same surface.
+constexpr double kSurfaceDepth_m = 0.3;
+constexpr double kLeastVariance_m2 = 1e-6;
+/// Surveys round their coordinates, so that many points would lie on lines between cells and belong
+/// to either, depending on which side one counts from. The grid starts this share of a cell
+/// earlier.
+constexpr double kOffLine = 1e-3;
+
+/// Of the points at the top of one cell, depths below the highest.
+struct TopSums {
+  float depth = 0;
+  float square = 0;
+  std::uint32_t count = 0;
+};
+
+using Points = std::vector<Eigen::Vector3d>;  ///< X north, Y east, Z up
+
+ElevationMap MapOfTops(const Points& points, const GridGeometry& geometry) {
+  const int rows = geometry.rows, cols = geometry.cols;
+  ElevationMap map{{},
+                   geometry,
+                   GridF(rows, cols, kUnknownValue),
+                   GridF(rows, cols, kUnknownValue),
+                   Grid<std::uint16_t>(rows, cols, 0),
+                   Grid<CellState>(rows, cols, CellState::kUnknown)};
+  const auto each = [&](auto work) {
+    for (const Eigen::Vector3d& p : points) {
+      if (const auto cell = geometry.CellFromPoint(p.x(), p.y())) {
+        work(*cell, p.z());
+      }
+    }
+  };
+  each([&](Cell cell, double z) {
+    float& high = map.height_m.at(cell);
+    high = std::isnan(high) ? static_cast<float>(z) : std::max(high, static_cast<float>(z));
+  });
+  Grid<TopSums> tops(rows, cols);
+  each([&](Cell cell, double z) {
+    const double depth = std::max(0.0, static_cast<double>(map.height_m.at(cell)) - z);
+    if (depth <= kSurfaceDepth_m) {
+      TopSums& top = tops.at(cell);
+      top.depth += static_cast<float>(depth);
+      top.square += static_cast<float>(depth * depth);
+      ++top.count;
+    }
+  });
+  // Ground of ordinary slope spreads inside a cell without being noise.
+  const double slope_spread_m2 = std::pow(0.1 * geometry.cell_m, 2);
+  for (std::size_t i = 0; i < tops.cells().size(); ++i) {
+    const TopSums& top = tops.cells()[i];
+    if (top.count == 0) {
+      continue;
+    }
+    const double n = top.count, mean = static_cast<double>(top.depth) / n;
+    const double bessel = n > 1 ? n / (n - 1) : 1;
+    const double spread = (static_cast<double>(top.square) / n - mean * mean) * bessel;
+    map.height_m.cells()[i] -= static_cast<float>(mean);
+    map.variance_m2.cells()[i] =
+        static_cast<float>(std::max(spread - slope_spread_m2, kLeastVariance_m2) / n);
+    map.frame_count.cells()[i] = 1;
+    map.state.cells()[i] = CellState::kMeasured;
+  }
+  return map;
+}
+
+}  // namespace
+
+bool IsOnEarth(double height_m) { return height_m > -450 && height_m < 9000; }
+
+void CoverExtent(double north_m, double east_m, SladSettings& slad,
+                 std::vector<std::string>& warnings) {
+  if (slad.mode == SladMode::kThesis || slad.bounds != BoundsMode::kData) {
+    return;
+  }
+  const double needed_m = std::max(north_m / slad.grid_rows, east_m / slad.grid_cols);
+  if (needed_m > slad.cell_m) {
+    warnings.push_back(
+        WithNumbers("cell enlarged from %.3g m to %.3g m so that the map covers the data; "
+                    "set slad.grid_rows and slad.grid_cols, or the bounds, for finer cells",
+                    slad.cell_m, needed_m));
+    slad.cell_m = needed_m;
+  }
+}
+
+Result<ElevationMap> MapOfCloud(const std::vector<Eigen::Vector3d>& survey,
+                                std::optional<double> cell_m, SladSettings slad,
+                                std::vector<std::string>& warnings) {
+  Points points;
+  points.reserve(survey.size());
+  Eigen::Vector2d low = Eigen::Vector2d::Constant(HUGE_VAL), high = -low;
+  for (const Eigen::Vector3d& p : survey) {
+    if (p.allFinite() && IsOnEarth(p.z())) {
+      points.emplace_back(p.y(), p.x(), p.z());
+      low = low.cwiseMin(points.back().head<2>());
+      high = high.cwiseMax(points.back().head<2>());
+    }
+  }
+  if (points.empty()) {
+    return InvalidError("no point is finite and on Earth");
+  }
+  if (points.size() < survey.size()) {
+    warnings.push_back(
+        WithNumbers("%.0f of %.0f points are not finite, or below -450 m or above 9000 m: left out",
+                    double(survey.size() - points.size()), double(survey.size())));
+  }
+  slad.cell_m = cell_m.value_or(slad.cell_m);
+  if (slad.bounds != BoundsMode::kData || slad.mode == SladMode::kThesis) {
+    for (Eigen::Vector3d& p : points) {
+      p.z() = -p.z();
+    }
+    return ElevationFromPoints(points, nullptr, slad, {});
+  }
+  const Eigen::Vector2d extent = high - low;
+  if (!cell_m) {
+    CoverExtent(extent.x(), extent.y(), slad, warnings);
+    // Where points are scattered at random, three a cell leave one cell in twenty empty.
+    const double spacing_m = std::sqrt(3 * extent.x() * extent.y() / double(points.size()));
+    if (spacing_m > slad.cell_m) {
+      warnings.push_back(
+          WithNumbers("cell enlarged to %.3g m: the points are that sparse", spacing_m));
+      slad.cell_m = spacing_m;
+    }
+  }
+  GridGeometry g;
+  g.cell_m = slad.cell_m;
+  const auto cells = [&](double metres) { return std::floor(metres / g.cell_m + kOffLine) + 1; };
+  const double rows = cells(extent.x()), cols = cells(extent.y());
+  if (!(std::max(rows, cols) <= kMostCells)) {
+    return UsageError(WithNumbers(
+        "%.5g x %.5g cells needed, the limit is 4096 a side; use a larger --cell-m", rows, cols));
+  }
+  g.rows = static_cast<int>(rows);
+  g.cols = static_cast<int>(cols);
+  g.north_min_m = low.x() - kOffLine * g.cell_m;
+  g.east_min_m = low.y() - kOffLine * g.cell_m;
+  ElevationMap map = MapOfTops(points, g);
+  FillHoles(map, slad.data_size_cells, slad.border_size_cells);
+  return map;
+}
+
+}  // namespace palace

@@ -1,0 +1,30 @@
+// Scenes by name: where the simulated helicopter can be sent.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "engine/core/result.h"
+#include "engine/model/rig.h"
+#include "engine/world/scene.h"
+
+namespace palace {
+
+/// "runway" (tables and cones), "cones", "slope" (5 degrees, rising north), "empty".
+std::vector<std::string_view> SceneNames();
+
+/// The named scene. `seed` scatters its objects and draws its texture; the same seed gives the same
+/// scene. From the default hover pose (origin of W, 50 ft, heading north) both cameras of
+/// DefaultRig() see at least one disc of kClearDiscRadius_m that no object reaches into.
+/// An unknown name is a usage error that lists the names.
+Result<Scene> MakeScene(std::string_view name, std::uint64_t seed);
+
+/// Radius of the clear disc every scene guarantees.
+inline constexpr double kClearDiscRadius_m = 3.0;
+
+/// The stereo rig of the R-50 flights (thesis 3.3): 640 x 480, 45 degrees wide, 1 m baseline along
+/// body y, 45 degrees down, 10 Hz; left focal point at (0.8, -0.5, 0.3) m in B.
+StereoRig DefaultRig();
+
+}  // namespace palace

@@ -1,0 +1,127 @@
+// Maps of Review: recorded, re-decided, and what became of each safe cell.
+#include <cmath>
+
+#include "gui/panels/review/review.h"
+#include "gui/widgets/map/cell_hatch.h"
+#include "gui/widgets/number_text.h"
+
+namespace palace {
+namespace {
+
+std::string LimitWords(const SladSettings& slad) {
+  return Fixed(slad.max_slope_deg, 1) + "°, " + Fixed(slad.max_deviation_m * 100, 1) + " cm";
+}
+
+Rect SquareIn(const Rect& panel, const Rect& content, const Style& s) {
+  const float side = std::min(panel.w, panel.bottom() - s.Px(4) - content.y);
+  return {std::round(content.centre().x - side / 2), content.y, side, side};
+}
+
+MapMarks MarksAt(const TerrainDecision* decision, const MapProbe& probe) {
+  MapMarks marks;
+  if (decision == nullptr) {
+    return marks;
+  }
+  marks.sites = &decision->selection.sites;
+  if (const LandingSite* best = BestSite(decision)) {
+    marks.selected = *best;
+  }
+  if (decision->hazards) {
+    marks.probe = ProbeCell(probe, decision->hazards->geometry);
+  }
+  return marks;
+}
+
+void DrawReviewMap(UiFrame& ui, const Rect& rect, const char* title, const std::string& fact,
+                   const TerrainDecision* decision, ImTextureID texture, MapProbe& probe) {
+  const MapMarks marks = MarksAt(decision, probe);
+  MapView view = MakeMapView(MapKind::kSafeDistance, decision, texture, nullptr, marks.probe);
+  view.key = title;
+  // While probing, the value under the cross-hair stands in place of the limits.
+  const Rect content =
+      DrawPanelFrame(ui, rect, title, {{marks.probe ? view.value : fact, 0, false, false}});
+  const auto cell = DrawMapPicture(ui, SquareIn(rect, content, ui.style), view, marks);
+  OfferProbe(ui, view, cell, probe);
+}
+
+/// A cell on which the lander could stand.
+bool Bears(const TerrainDecision& d, Cell cell) {
+  return d.hazards->reasons.at(cell) == kHazardNone &&
+         static_cast<double>(d.hazards->safe_distance_m.at(cell)) >= d.settings.clear_radius_m();
+}
+
+/// Hatch over the cells that `picks(was, is)`.
+template <typename Picks>
+void HatchCells(UiFrame& ui, const Rect& square, const TerrainDecision& before,
+                const TerrainDecision& now, ImU32 line, Picks picks) {
+  const Style& s = ui.style;
+  const GridGeometry& g = now.hazards->geometry;
+  DrawCellHatch(Canvas(), square, {g.cols, g.rows, 0, line, s.Fine(1.3f), s.Px(6)},
+                [&](int row, int col) {
+                  const auto was =
+                      before.hazards->geometry.CellFromPoint(g.NorthOfRow(row), g.EastOfCol(col));
+                  return picks(was && Bears(before, *was), Bears(now, {row, col}));
+                });
+}
+
+void DrawDifference(const EngineSnapshot& snap, const Rect& panel, const TerrainDecision* recorded,
+                    MapProbe& probe, UiFrame& ui) {
+  const Style& s = ui.style;
+  const TerrainDecision* now = snap.applied.get();
+  const bool moved = snap.recorded != nullptr && ui.textures.difference != nullptr &&
+                     now != nullptr && now->hazards && recorded->hazards;
+  const double change_m2 = SafeArea(now) - SafeArea(recorded);
+  const std::string change = std::isfinite(change_m2)
+                                 ? (change_m2 > 0 ? "+" : "") + Fixed(change_m2, 0) + " m² safe"
+                                 : std::string("––");
+  const Rect content =
+      DrawPanelFrame(ui, panel, "Difference", {{moved ? change : "none", 0, false, false}});
+  const Rect square = SquareIn(panel, content, s);
+  if (!moved) {
+    FillRect(Canvas(), square, s.palette.plot_floor);
+    DrawText(ui, s.caption, s.palette.text2, square.centre().x, square.centre().y,
+             panel.w > s.Px(160) ? "Limits as recorded" : "Same limits", Align::kCentre);
+    ui.items.Add("map/Difference", square, true, "Difference");
+    return;
+  }
+  MapView view = MakeMapView(MapKind::kSafeDistance, now, ui.textures.difference, nullptr, {});
+  view.key = "Difference";
+  view.title = "Difference";
+  MapMarks none;
+  none.probe = ProbeCell(probe, now->hazards->geometry);
+  const auto cell = DrawMapPicture(ui, square, view, none);
+  const ImU32 dark = WithAlpha(picture::kBlack, 0.6f);
+  HatchCells(ui, square, *recorded, *now, dark, [](bool was, bool is) { return was != is; });
+  if (const LandingSite* best = BestSite(now)) {
+    const GridGeometry& g = now->hazards->geometry;
+    const float per_m = square.w / static_cast<float>(g.cols * g.cell_m);
+    const ImVec2 at{square.x + static_cast<float>(best->p_WS.y() - g.east_min_m) * per_m,
+                    square.y + static_cast<float>(g.north_max_m() - best->p_WS.x()) * per_m};
+    Canvas()->PushClipRect(square.min(), square.max(), true);
+    DrawRing(s, Canvas(), at, static_cast<float>(best->clear_radius_m) * per_m,
+             RingKind::kProposed);
+    Canvas()->PopClipRect();
+  }
+  OfferProbe(ui, view, cell, probe);
+}
+
+}  // namespace
+
+const TerrainDecision* RecordedDecision(const EngineSnapshot& snap) {
+  return snap.recorded ? snap.recorded.get() : snap.applied.get();
+}
+
+void DrawReviewMaps(const EngineSnapshot& snap, const Rect& row, float w, MapProbe& probe,
+                    UiFrame& ui) {
+  const TerrainDecision* recorded = RecordedDecision(snap);
+  const TerrainDecision* now = snap.applied.get();
+  const float step = w + ui.style.Px(8);
+  DrawReviewMap(ui, {row.x, row.y, w, row.h}, "Recorded",
+                recorded != nullptr ? LimitWords(recorded->settings) : "", recorded,
+                snap.recorded ? ui.textures.recorded_safe_distance : ui.textures.maps[4], probe);
+  DrawReviewMap(ui, {row.x + step, row.y, w, row.h}, "Re-decided",
+                now != nullptr ? LimitWords(now->settings) : "", now, ui.textures.maps[4], probe);
+  DrawDifference(snap, {row.x + 2 * step, row.y, w, row.h}, recorded, probe, ui);
+}
+
+}  // namespace palace

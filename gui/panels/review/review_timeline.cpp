@@ -1,0 +1,395 @@
+// Timeline of Review: what the lanes hold, transport buttons, plots.
+#include <algorithm>
+#include <cmath>
+
+#include "gui/panels/review/review.h"
+#include "gui/widgets/button.h"
+#include "gui/widgets/number_text.h"
+#include "gui/widgets/plot.h"
+
+namespace palace {
+namespace {
+
+/// Two best sites of one moment whose clear radii agree so closely are one place.
+constexpr double kSameRadius_m = 0.05;
+
+std::string Letter(char letter) { return letter == 0 ? "none" : std::string(1, letter); }
+
+/// Extends the last segment while the value stays, else starts the next.
+void Append(std::vector<LaneSegment>& segments, double t, const std::string& text, int shade,
+            bool dashed) {
+  if (!segments.empty()) {
+    segments.back().to_s = t;
+    if (segments.back().text == text) {
+      return;
+    }
+  }
+  segments.push_back({t, t, text, shade, false, dashed});
+}
+
+int ShadeOf(MissionState state) {
+  return state >= MissionState::kDescending ? 2 : (state >= MissionState::kArmed ? 1 : 0);
+}
+
+Lane StateLane(const EngineSnapshot& snap, const FlightRecord* record) {
+  Lane lane{"State", {}, {}};
+  if (record != nullptr && !record->samples.empty()) {
+    for (const FlightRecordSample& sample : record->samples) {
+      Append(lane.segments, FlightSeconds(snap, record, sample.time),
+             MissionStateWord(sample.state), ShadeOf(sample.state), false);
+    }
+  } else if (snap.history) {
+    for (const HistorySample& sample : *snap.history) {
+      Append(lane.segments, FlightSeconds(snap, record, sample.time),
+             MissionStateWord(sample.state), ShadeOf(sample.state), false);
+    }
+  }
+  return lane;
+}
+
+Lane RecordedLane(const EngineSnapshot& snap, const FlightRecord* record) {
+  Lane lane{"Recorded site", {}, {}};
+  if (record != nullptr) {
+    for (const FlightRecordSample& sample : record->samples) {
+      Append(lane.segments, FlightSeconds(snap, record, sample.time), Letter(sample.best_site), 1,
+             sample.best_site == 0);
+    }
+  }
+  return lane;
+}
+
+Lane RedecidedLane(const EngineSnapshot& snap, const FlightRecord* record) {
+  Lane lane{record != nullptr ? "Re-decided site" : "Best site", {}, {}};
+  if (snap.history) {
+    for (const HistorySample& sample : *snap.history) {
+      Append(lane.segments, FlightSeconds(snap, record, sample.time), Letter(sample.best_site), 1,
+             sample.best_site == 0);
+    }
+  }
+  return lane;
+}
+
+const std::vector<Event>& EventsOf(const EngineSnapshot& snap, const FlightRecord* record) {
+  static const std::vector<Event> none;
+  if (record != nullptr && !record->events.empty()) {
+    return record->events;
+  }
+  return snap.events ? *snap.events : none;
+}
+
+/// "GPS horizontal error 2.6 m": a mark has room for the first clause only, whole words.
+std::string MarkWords(const std::string& text) {
+  constexpr std::size_t kMost = 32;
+  std::size_t stop = text.size();
+  for (const char* end : {", ", ". ", ": "}) {
+    stop = std::min(stop, text.find(end));
+  }
+  if (stop <= kMost) {
+    return text.substr(0, stop);
+  }
+  return text.substr(0, text.rfind(' ', kMost));
+}
+
+Lane AlarmLane(const EngineSnapshot& snap, const FlightRecord* record, const Palette& p) {
+  Lane lane{"Alarms", {}, {}};
+  for (const Event& event : EventsOf(snap, record)) {
+    if (event.kind == EventKind::kAlarm) {
+      lane.marks.push_back({FlightSeconds(snap, record, event.time), Icon::kCaution, p.caution,
+                            MarkWords(event.text)});
+    }
+  }
+  return lane;
+}
+
+Lane MarkLane(const EngineSnapshot& snap, const FlightRecord* record, const Palette& p) {
+  Lane lane{"Limits and marks", {}, {}};
+  for (const Event& event : EventsOf(snap, record)) {
+    const double t = FlightSeconds(snap, record, event.time);
+    if (event.kind == EventKind::kSetting) {
+      lane.marks.push_back({t, Icon::kScreen, p.text2, MarkWords(event.text)});
+    } else if (event.kind == EventKind::kBookmark) {
+      lane.marks.push_back({t, Icon::kFlag, p.text1, MarkWords(event.text)});
+    } else if (event.kind == EventKind::kDecision) {
+      lane.marks.push_back({t, Icon::kDone, p.text1, MarkWords(event.text)});
+    }
+  }
+  return lane;
+}
+
+double DurationOf(const EngineSnapshot& snap, const FlightRecord* record) {
+  if (snap.source.duration_s) {
+    return *snap.source.duration_s;
+  }
+  return record != nullptr && record->duration_s > 0 ? record->duration_s : snap.source.position_s;
+}
+
+void Playback(UiFrame& ui, PlaybackControl::Kind kind, double value = 0) {
+  ui.intents.push_back(PlaybackControl{kind, value});
+}
+
+/// The next of 2, 4, 10, 20, 40, 100 ...: its half is a round tick too.
+float RoundTop(float top) {
+  for (float decade = 1; decade < 1e6f; decade *= 10) {
+    for (const float factor : {2.0f, 4.0f, 10.0f}) {
+      if (top <= factor * decade) {
+        return factor * decade;
+      }
+    }
+  }
+  return top;
+}
+
+double NextSpeed(double speed) {
+  const double steps[] = {0.25, 0.5, 1, 2, 5, 20};
+  for (const double step : steps) {
+    if (speed > 0 && step > speed * 1.01) {
+      return step;
+    }
+  }
+  return speed > 0 ? 0 : steps[0];
+}
+
+bool IconButton(UiFrame& ui, const char* name, const Rect& rect, Icon icon, bool active,
+                bool enabled) {
+  const Style& s = ui.style;
+  ButtonLook look;
+  look.active = active;
+  look.enabled = enabled;
+  look.reason = "This source cannot jump in time";
+  const bool clicked = DrawButton(ui, name, rect, "", look);
+  const ImU32 colour = !enabled ? s.palette.text3 : (active ? s.palette.on_white : s.palette.text1);
+  DrawIcon(Canvas(), icon, rect.centre(), s.Px(20), colour);
+  return clicked;
+}
+
+/// Draws the buttons; returns where they end.
+float DrawTransport(UiFrame& ui, const Rect& row, const EngineSnapshot& snap, double duration_s) {
+  using Kind = PlaybackControl::Kind;
+  const Style& s = ui.style;
+  const bool seek = snap.source.can_seek;
+  const float y = std::round(row.centre().y - s.Px(16));
+  float x = row.x;
+  const auto next = [&](float width) {
+    const Rect box{x, y, s.Px(width), s.Px(32)};
+    x = box.right() + s.Px(8);
+    return box;
+  };
+  if (IconButton(ui, "to_start", next(36), Icon::kStepBack, false, seek)) {
+    Playback(ui, Kind::kSeek, 0);
+  }
+  if (IconButton(ui, "step_back", next(36), Icon::kFrameBack, false, seek)) {
+    Playback(ui, Kind::kStepBack);
+  }
+  const bool playing = !snap.source.paused && !snap.source.ended;
+  if (IconButton(ui, "play", next(36), playing ? Icon::kPause : Icon::kPlay, playing, true)) {
+    Playback(ui, playing ? Kind::kPause : Kind::kPlay);
+  }
+  if (IconButton(ui, "step_forward", next(36), Icon::kFrameForward, false, true)) {
+    Playback(ui, Kind::kStepForward);
+  }
+  if (IconButton(ui, "to_end", next(36), Icon::kStepForward, false, seek)) {
+    Playback(ui, Kind::kSeek, duration_s);
+  }
+  x += s.Px(4);
+  const std::string speed = snap.source.speed > 0
+                                ? Fixed(snap.source.speed, snap.source.speed < 1 ? 2 : 1) + "×"
+                                : std::string("Fastest");
+  if (DrawButton(ui, "speed", next(68), speed, {})) {
+    Playback(ui, Kind::kSpeed, NextSpeed(snap.source.speed));
+  }
+  if (IconButton(ui, "bookmark", next(36), Icon::kFlag, false, true)) {
+    ui.intents.push_back(
+        CommandAction(AddBookmark{"Bookmark at " + TimeLabel(snap.source.position_s, true)}));
+  }
+  return x;
+}
+
+void DrawClock(UiFrame& ui, const Rect& row, float x, const EngineSnapshot& snap,
+               double duration_s) {
+  const Style& s = ui.style;
+  const Palette& p = s.palette;
+  const float middle = row.centre().y;
+  x += s.Px(8);
+  x += DrawText(ui, s.replay_time, p.text1, x, middle, TimeLabel(snap.source.position_s, true)) +
+       s.Px(20);
+  std::vector<std::pair<ImFont*, std::string>> facts;
+  facts.emplace_back(s.body, "of " + TimeLabel(duration_s, true));
+  if (snap.source.frame_count > 0) {
+    facts.emplace_back(s.body, "Frame " + Fixed(static_cast<double>(snap.source.frame_index), 0) +
+                                   " of " + Fixed(static_cast<double>(snap.source.frame_count), 0));
+  }
+  facts.emplace_back(s.mono, ClockText(snap.time) + " UTC");
+  const std::string name = snap.source.name.substr(snap.source.name.find_last_of('/') + 1);
+  const float name_x = row.right() - TextWidth(s.body, name);
+  for (const auto& [font, text] : facts) {
+    const float width = TextWidth(font, text);
+    if (x + width > row.right()) {
+      return;
+    }
+    DrawText(ui, font, p.text2, x, middle, text);
+    x += width + s.Px(28);
+  }
+  if (name_x > x) {
+    DrawText(ui, s.body, p.text2, row.right(), middle, name, Align::kRight);
+  }
+}
+
+}  // namespace
+
+double FlightSeconds(const EngineSnapshot& snap, const FlightRecord* record, Timestamp time) {
+  if (record != nullptr && record->start_s > 0) {
+    return static_cast<double>(time.us) * 1e-6 - record->start_s;
+  }
+  return SecondsBetween(snap.source.start, time);
+}
+
+std::vector<ReviewDifference> FindDifferences(const EngineSnapshot& snap,
+                                              const FlightRecord* record) {
+  std::vector<ReviewDifference> found;
+  if (record == nullptr || record->samples.empty() || !snap.history) {
+    return found;
+  }
+  std::size_t i = 0;
+  bool open = false;
+  for (const HistorySample& now : *snap.history) {
+    while (i + 1 < record->samples.size() && record->samples[i + 1].time <= now.time) {
+      ++i;
+    }
+    const char recorded = record->samples[i].best_site;
+    const double t = FlightSeconds(snap, record, now.time);
+    const bool both = recorded != 0 && now.best_site != 0;
+    // Letters follow sites over time, so a re-decided flight may hand them out in another order.
+    const bool same_place = both && std::abs(record->samples[i].best_safe_distance_m -
+                                             now.best_safe_distance_m) < kSameRadius_m;
+    if (now.rebuilding || recorded == now.best_site || same_place) {
+      open = false;
+      continue;
+    }
+    if (open && found.back().recorded == recorded && found.back().now == now.best_site) {
+      found.back().to_s = t;
+    } else {
+      found.push_back({t, t, recorded, now.best_site});
+      open = true;
+    }
+  }
+  return found;
+}
+
+TimelineView MakeTimeline(const EngineSnapshot& snap, const FlightRecord* record,
+                          const Palette& palette, bool all) {
+  TimelineView view;
+  view.duration_s = DurationOf(snap, record);
+  view.position_s = snap.source.position_s;
+  view.can_seek = snap.source.can_seek;
+  Lane differs{"Differs", {}, {}};
+  for (const ReviewDifference& d : FindDifferences(snap, record)) {
+    differs.segments.push_back({d.at_s, d.to_s, "", 0, true, false});
+    view.differences_s.push_back(d.at_s);
+  }
+  view.lanes.push_back(StateLane(snap, record));
+  if (all) {
+    view.lanes.push_back(RecordedLane(snap, record));
+    view.lanes.push_back(RedecidedLane(snap, record));
+  }
+  view.lanes.push_back(std::move(differs));
+  if (all) {
+    view.lanes.push_back(AlarmLane(snap, record, palette));
+    view.lanes.push_back(MarkLane(snap, record, palette));
+  }
+  if (record != nullptr && !record->samples.empty()) {
+    for (const FlightRecordSample& sample : record->samples) {
+      view.height.push_back({static_cast<float>(FlightSeconds(snap, record, sample.time)),
+                             static_cast<float>(sample.height_m)});
+    }
+  } else if (snap.history) {
+    for (const HistorySample& sample : *snap.history) {
+      view.height.push_back({static_cast<float>(FlightSeconds(snap, record, sample.time)),
+                             static_cast<float>(sample.height_above_site_m)});
+    }
+  }
+  return view;
+}
+
+void DrawReviewTimeline(const EngineSnapshot& snap, const FlightRecord* record, const Rect& rect,
+                        bool narrow, ReviewState& state, UiFrame& ui) {
+  const Style& s = ui.style;
+  DrawPanelBackground(ui, rect, "Timeline");
+  const float pad = s.Px(12);
+  const Rect row{rect.x + pad, rect.y, rect.w - 2 * pad, s.Px(48)};
+  const TimelineView view = MakeTimeline(snap, record, s.palette, !narrow);
+  const float x = DrawTransport(ui, row, snap, view.duration_s);
+  DrawClock(ui, row, x, snap, view.duration_s);
+  DrawTimeline(ui, {row.x, row.bottom(), row.w, rect.bottom() - s.Px(6) - row.bottom()}, view,
+               state.timeline);
+}
+
+void DrawReviewPlots(const EngineSnapshot& snap, const FlightRecord* record, const Rect& rect,
+                     ReviewState& state, UiFrame& ui) {
+  const Style& s = ui.style;
+  const Palette& p = s.palette;
+  BeginPlots(state.plots);
+  PlotView height, clear;
+  height.name = "height";
+  height.title = "Height";
+  height.unit = "m";
+  clear.name = "clear_radius";
+  clear.title = "Clear radius of best site";
+  clear.unit = "m";
+  PlotTrace recorded_height, recorded_clear, now_height, now_clear;
+  recorded_height.colour = p.text2;
+  recorded_clear.colour = p.text2;
+  now_height.colour = p.safe;
+  now_clear.colour = p.text1;
+  now_height.width = now_clear.width = 2.2f;
+  if (record != nullptr) {
+    for (const FlightRecordSample& sample : record->samples) {
+      const float t = static_cast<float>(FlightSeconds(snap, record, sample.time));
+      recorded_height.points.push_back({t, static_cast<float>(sample.height_above_site_m)});
+      recorded_clear.points.push_back({t, static_cast<float>(sample.best_safe_distance_m)});
+    }
+  }
+  float top = 10, top_clear = 4;
+  if (snap.history) {
+    for (const HistorySample& sample : *snap.history) {
+      const float t = static_cast<float>(FlightSeconds(snap, record, sample.time));
+      now_height.points.push_back({t, static_cast<float>(sample.height_above_site_m)});
+      now_clear.points.push_back({t, static_cast<float>(sample.best_safe_distance_m)});
+    }
+  }
+  const auto grow = [](float& limit, const PlotTrace& series) {
+    for (const ImVec2& point : series.points) {
+      limit = std::isfinite(point.y) ? std::max(limit, point.y * 1.03f) : limit;
+    }
+  };
+  grow(top, recorded_height);
+  grow(top, now_height);
+  grow(top_clear, recorded_clear);
+  grow(top_clear, now_clear);
+  const float end = static_cast<float>(std::max(1.0, DurationOf(snap, record)));
+  for (PlotView* view : {&height, &clear}) {
+    view->x_min = 0;
+    view->x_max = end;
+    view->time_axis = PlotView::TimeAxis::kClock;
+    view->now = std::min(end, static_cast<float>(snap.source.position_s));
+  }
+  height.y_max = RoundTop(top);
+  height.current = Fixed(snap.mission.height_above_site_m, 1) + " m";
+  height.series = {now_height, recorded_height};
+  clear.y_max = RoundTop(top_clear);
+  const LandingSite* best = BestSite(snap.applied.get());
+  const LandingSite* was = BestSite(snap.recorded.get());
+  clear.current = best != nullptr ? Fixed(best->safe_distance_m, 1) + " m" : "––";
+  if (was != nullptr) {
+    clear.current = Fixed(was->safe_distance_m, 1) + " / " + clear.current;
+    clear.unit = "m, recorded / re-decided";
+    now_clear.stroke = PlotTrace::Stroke::kDashed;
+  }
+  clear.series = {now_clear, recorded_clear};
+  clear.limits = {{static_cast<float>(snap.settings.slad.clear_radius_m()), false,
+                   "min " + Fixed(snap.settings.slad.clear_radius_m(), 1) + " m"}};
+  const float gap = s.Px(8), h = std::floor((rect.h - gap) / 2);
+  DrawPlot(ui, {rect.x, rect.y, rect.w, h}, height, state.plots);
+  DrawPlot(ui, {rect.x, rect.y + h + gap, rect.w, rect.h - h - gap}, clear, state.plots);
+}
+
+}  // namespace palace

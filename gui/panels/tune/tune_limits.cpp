@@ -1,0 +1,225 @@
+// Limits panel of Tune: search, groups that fold, slider rows, preset foot.
+#include <algorithm>
+#include <cctype>
+
+#include "gui/panels/tune/tune.h"
+#include "gui/widgets/button.h"
+#include "gui/widgets/icons.h"
+#include "gui/widgets/number_text.h"
+
+namespace palace {
+namespace {
+
+std::string Lower(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
+
+/// A group heading (info null) or a setting.
+struct ListRow {
+  std::string group;
+  const SettingInfo* info = nullptr;
+  int changed_in_group = 0;
+};
+
+bool IsChanged(const Settings& settings, const SettingInfo& info) {
+  return GetSetting(settings, info.name) != info.default_value;
+}
+
+bool Matches(const SettingInfo& info, const std::string& wanted) {
+  return wanted.empty() || Lower(info.label).find(wanted) != std::string::npos ||
+         info.name.find(wanted) != std::string::npos;
+}
+
+std::vector<ListRow> RowsOf(const Settings& settings, const TuneState& state) {
+  const std::string wanted = Lower(state.search);
+  std::vector<ListRow> rows;
+  std::vector<std::string> groups;
+  for (const SettingInfo& info : SettingTable()) {
+    if (std::find(groups.begin(), groups.end(), info.group) == groups.end()) {
+      groups.push_back(info.group);
+    }
+  }
+  for (const std::string& group : groups) {
+    ListRow heading{group, nullptr, 0};
+    std::vector<ListRow> inside;
+    for (const SettingInfo& info : SettingTable()) {
+      if (info.group != group) {
+        continue;
+      }
+      const bool changed = IsChanged(settings, info);
+      heading.changed_in_group += changed ? 1 : 0;
+      if (Matches(info, wanted) && (changed || !state.changed_only)) {
+        inside.push_back({group, &info, 0});
+      }
+    }
+    const bool filtered = !wanted.empty() || state.changed_only;
+    if (filtered && inside.empty()) {
+      continue;
+    }
+    rows.push_back(heading);
+    if (filtered || state.folded.count(group) == 0) {
+      rows.insert(rows.end(), inside.begin(), inside.end());
+    }
+  }
+  return rows;
+}
+
+void DrawSearch(UiFrame& ui, const Rect& field, TuneState& state) {
+  const Style& s = ui.style;
+  const Palette& p = s.palette;
+  FillRect(Canvas(), field, p.window, s.Fine(3));
+  StrokeRect(Canvas(), field, p.strong_line, s.Fine(1), s.Fine(3));
+  DrawIcon(Canvas(), Icon::kSearch, {field.x + s.Px(16), field.centre().y}, s.Px(16), p.text3);
+  ImGui::SetCursorScreenPos({field.x + s.Px(26), field.y + s.Px(2)});
+  ImGui::PushFont(s.body);
+  ImGui::PushStyleColor(ImGuiCol_FrameBg, p.window);
+  ImGui::PushStyleColor(ImGuiCol_Text, p.text1);
+  ImGui::PushStyleColor(ImGuiCol_TextDisabled, p.text3);
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding,
+                      ImVec2(s.Px(4), (field.h - s.Px(4) - s.body->FontSize) / 2));
+  ImGui::SetNextItemWidth(field.w - s.Px(30));
+  ImGui::InputTextWithHint("##search_limits", "Search limits", state.search, sizeof state.search);
+  ImGui::PopStyleVar();
+  ImGui::PopStyleColor(3);
+  ImGui::PopFont();
+  ui.items.Add("limits/search", field, true, state.search);
+}
+
+void DrawHeading(UiFrame& ui, const Rect& row, const ListRow& heading, TuneState& state) {
+  const Style& s = ui.style;
+  const Palette& p = s.palette;
+  const bool folded = state.folded.count(heading.group) != 0;
+  const float middle = row.centre().y;
+  if (Hovered(ui, row)) {
+    FillRect(Canvas(), row, p.control);
+  }
+  DrawIcon(Canvas(), folded ? Icon::kChevronRight : Icon::kChevronDown, {row.x + s.Px(20), middle},
+           s.Px(12), p.text2);
+  DrawText(ui, s.medium, p.text1, row.x + s.Px(34), middle, heading.group);
+  if (heading.changed_in_group > 0) {
+    DrawText(ui, s.caption, p.text2, row.right() - s.Px(14), middle,
+             std::to_string(heading.changed_in_group) + " changed", Align::kRight);
+  }
+  ui.items.Add("group/" + heading.group, row, true, heading.group);
+  if (Clicked(ui, row)) {
+    if (folded) {
+      state.folded.erase(heading.group);
+    } else {
+      state.folded.insert(heading.group);
+    }
+  }
+}
+
+void DrawList(UiFrame& ui, const Rect& area, const EngineSnapshot& snap, TuneState& state) {
+  const Style& s = ui.style;
+  const std::vector<ListRow> rows = RowsOf(snap.preview_settings, state);
+  const float row_h = s.Px(36), group_h = s.Px(30);
+  const auto height = [&](const ListRow& row) { return row.info != nullptr ? row_h : group_h; };
+  // The list scrolls by whole rows, so that no text is ever cut.
+  int last_start = static_cast<int>(rows.size());
+  for (float room = area.h; last_start > 0; --last_start) {
+    room -= height(rows[static_cast<std::size_t>(last_start - 1)]);
+    if (room < 0) {
+      break;
+    }
+  }
+  if (Hovered(ui, area)) {
+    state.first_row -= static_cast<int>(ImGui::GetIO().MouseWheel * 2);
+  }
+  state.first_row = std::clamp(state.first_row, 0, last_start);
+  float y = area.y;
+  std::size_t i = static_cast<std::size_t>(state.first_row);
+  for (; i < rows.size() && y + height(rows[i]) <= area.bottom() + 0.5f; ++i) {
+    const Rect box{area.x, y, area.w, height(rows[i])};
+    y = box.bottom();
+    if (rows[i].info == nullptr) {
+      DrawHeading(ui, box, rows[i], state);
+      continue;
+    }
+    const SettingInfo& info = *rows[i].info;
+    SliderRow row;
+    row.info = &info;
+    row.value = GetSetting(snap.preview_settings, info.name);
+    row.pending = row.value != GetSetting(snap.settings, info.name);
+    DrawSliderRow(ui, box, row, snap.preview_settings, state.sliders);
+  }
+  if (rows.empty()) {
+    DrawText(ui, s.body, s.palette.text2, area.x + s.Px(16), area.y + s.Px(18),
+             state.changed_only ? "No limit differs from its default." : "No limit has that name.");
+  }
+  const std::size_t shown = i - static_cast<std::size_t>(state.first_row);
+  if (shown < rows.size() && !rows.empty()) {
+    const float tall = area.h * static_cast<float>(shown) / static_cast<float>(rows.size());
+    const float at = area.h * static_cast<float>(state.first_row) / static_cast<float>(rows.size());
+    FillRect(Canvas(), {area.right() - s.Px(5), area.y + at, s.Px(4), tall}, s.palette.line,
+             s.Fine(2));
+  }
+}
+
+void DrawFoot(UiFrame& ui, const Rect& foot, const TuneFacts& facts, TuneState& state) {
+  const Style& s = ui.style;
+  const Palette& p = s.palette;
+  FillRect(Canvas(), {foot.x + s.Px(12), foot.y, foot.w - s.Px(24), s.Px(1)}, p.line);
+  const float line = foot.y + s.Px(22);
+  std::string name = state.preset_path.empty() ? "defaults" : state.preset_path;
+  name = name.substr(name.find_last_of('/') + 1);
+  float x = foot.x + s.Px(12);
+  x += DrawText(ui, s.body, p.text2, x, line, "Preset") + s.Px(10);
+  x += DrawText(ui, s.medium, p.text1, x, line, name) + s.Px(16);
+  const std::string note = facts.changed == 0   ? "as the defaults"
+                           : facts.changed == 1 ? "+ 1 change"
+                                                : "+ " + std::to_string(facts.changed) + " changes";
+  if (x + TextWidth(s.body, note) < foot.right() - s.Px(12)) {
+    DrawText(ui, s.body, p.text2, x, line, note);
+  }
+  const float gap = s.Px(8), h = s.Px(32);
+  const float w = std::floor((foot.w - s.Px(24) - 3 * gap) / 4);
+  const float y = foot.bottom() - s.Px(12) - h;
+  const std::string path = state.preset_path.empty() ? "config/preset.toml" : state.preset_path;
+  const struct {
+    const char* name;
+    const char* label;
+    bool enabled;
+    UiAction action;
+  } buttons[] = {
+      {"undo", "Undo", state.can_undo && !state.history.empty(), UndoSetting{}},
+      {"redo", "Redo", state.can_redo, RedoSetting{}},
+      {"load_preset", w < s.Px(84) ? "Load" : "Load preset", true, LoadPreset{path}},
+      {"save_preset", w < s.Px(84) ? "Save" : "Save preset", true, SavePreset{state.preset_path}}};
+  for (int i = 0; i < 4; ++i) {
+    ButtonLook look;
+    look.enabled = buttons[i].enabled;
+    const Rect box{foot.x + s.Px(12) + static_cast<float>(i) * (w + gap), y, w, h};
+    if (DrawButton(ui, buttons[i].name, box, buttons[i].label, look)) {
+      ui.intents.push_back(buttons[i].action);
+    }
+  }
+}
+
+}  // namespace
+
+void DrawLimitsPanel(const EngineSnapshot& snap, const Rect& rect, TuneState& state, UiFrame& ui) {
+  const Style& s = ui.style;
+  const TuneFacts facts = FactsOf(snap);
+  const Rect content = DrawPanelFrame(ui, rect, "Limits");
+  const float pad = s.Px(12);
+  const float chip_w = s.Px(92);
+  const Rect search{content.x + pad, content.y + s.Px(8), content.w - 2 * pad - chip_w - s.Px(8),
+                    s.Px(28)};
+  DrawSearch(ui, search, state);
+  ButtonLook look;
+  look.active = state.changed_only;
+  if (DrawButton(ui, "limits/changed", {search.right() + s.Px(8), search.y, chip_w, search.h},
+                 std::to_string(facts.changed) + " changed", look)) {
+    state.changed_only = !state.changed_only;
+    state.first_row = 0;
+  }
+  const float foot_h = s.Px(92);
+  const float top = search.bottom() + s.Px(8);
+  DrawList(ui, {rect.x, top, rect.w, rect.bottom() - foot_h - top}, snap, state);
+  DrawFoot(ui, {rect.x, rect.bottom() - foot_h, rect.w, foot_h}, facts, state);
+}
+
+}  // namespace palace

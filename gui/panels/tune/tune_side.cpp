@@ -1,0 +1,289 @@
+// Right column of Tune: cells, site chosen, history, apply.
+#include <cmath>
+
+#include "engine/core/hash.h"
+#include "gui/panels/tune/tune.h"
+#include "gui/widgets/button.h"
+#include "gui/widgets/number_text.h"
+
+namespace palace {
+namespace {
+
+/// Cells of one kind, with what they were under the applied limits.
+struct CellCount {
+  const char* name;
+  int now = 0;
+  int before = 0;
+  ImU32 fill = 0;
+  ImU32 hatch = 0;
+};
+
+std::vector<CellCount> CountCells(const Style& s, const TuneFacts& f) {
+  const HazardMaps none;
+  const HazardMaps& now = f.shown != nullptr && f.shown->hazards ? *f.shown->hazards : none;
+  const HazardMaps& was = f.applied != nullptr && f.applied->hazards ? *f.applied->hazards : now;
+  const Palette& p = s.palette;
+  return {{"Safe", now.safe_cells, was.safe_cells, p.bar, 0},
+          {"Over slope", now.rejected.slope, was.rejected.slope, 0, p.unsafe},
+          {"Over roughness", now.rejected.roughness, was.rejected.roughness,
+           WithAlpha(p.unsafe, 0.35f), p.unsafe},
+          {"Too near a hazard", now.rejected.footprint, was.rejected.footprint, p.hover, 0},
+          {"Unknown", now.rejected.unknown, was.rejected.unknown, picture::kUnknown,
+           picture::kUnknownLine}};
+}
+
+void DrawSwatch(const Style& s, const Rect& box, const CellCount& c) {
+  FillRect(Canvas(), box, c.fill != 0 ? c.fill : s.palette.window);
+  if (c.hatch != 0) {
+    Hatch(Canvas(), box, c.hatch, s.Fine(1.5f), s.Px(6));
+  }
+}
+
+std::string Signed(int value) {
+  return value > 0 ? "+" + Fixed(value, 0) : (value == 0 ? std::string("0") : Fixed(value, 0));
+}
+
+/// What the apply panel says and whether its buttons work.
+struct ApplyWords {
+  std::string sentence;
+  std::string detail;
+  std::string state;
+  bool can_apply = false;
+  bool can_discard = false;
+  std::string why_not;
+};
+
+std::string RankEffect(const TuneFacts& f) {
+  const LandingSite* was = BestSite(f.applied);
+  const LandingSite* is = BestSite(f.shown);
+  if (was == nullptr && is == nullptr) {
+    return "No site either way. ";
+  }
+  if (is == nullptr) {
+    return std::string("Site ") + was->letter + " is lost, no site remains. ";
+  }
+  if (was == nullptr) {
+    return std::string("Site ") + is->letter + " is found. ";
+  }
+  if (was->id != is->id) {
+    return std::string("Site ") + was->letter + " loses its rank to " + is->letter + ". ";
+  }
+  return std::string("Site ") + is->letter + " stays first. ";
+}
+
+ApplyWords WordsFor(const EngineSnapshot& snap, const TuneFacts& f) {
+  ApplyWords w;
+  const std::string hash = "Recorded with hash " + ShortHash(snap.preview_hash) + ".";
+  if (!f.frozen) {
+    w.state = "Applies at once";
+    w.sentence = "Limits apply at the next map.";
+    w.detail = "While searching, a moved limit takes effect with the next map. " + hash;
+    w.why_not = "Nothing waits to be applied";
+    return w;
+  }
+  const bool descending = snap.mission.state == MissionState::kDescending;
+  if (f.pending == 0) {
+    w.state = "No preview";
+    w.sentence = "Nothing waits to be applied.";
+    w.detail = descending ? "While descending, a moved limit is a preview only."
+                          : "From Armed on, a moved limit is a preview until you apply it.";
+    w.why_not = "Nothing waits to be applied";
+    return w;
+  }
+  const std::string count = std::to_string(f.pending) + (f.pending == 1 ? " change" : " changes");
+  w.state = "Preview, not applied";
+  w.can_discard = true;
+  if (descending) {
+    w.sentence = count + ", preview only.";
+    w.detail = RankEffect(f) + "The descent keeps the limits it was approved under.";
+    w.why_not = "Not while descending";
+    return w;
+  }
+  w.can_apply = true;
+  const bool armed = snap.mission.armed.has_value();
+  w.sentence = armed ? std::string("Applying drops site ") + snap.mission.armed->letter + "."
+                     : count + " wait to be applied.";
+  w.detail = RankEffect(f) + hash;
+  return w;
+}
+
+}  // namespace
+
+void DrawCellsPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui) {
+  const Style& s = ui.style;
+  const Palette& p = s.palette;
+  const TuneFacts facts = FactsOf(snap);
+  const std::vector<CellCount> counts = CountCells(s, facts);
+  int total = 0;
+  for (const CellCount& c : counts) {
+    total += c.now;
+  }
+  const Rect content =
+      DrawPanelFrame(ui, rect, facts.previewing ? "Cells in preview" : "Cells",
+                     {{total > 0 ? Fixed(total, 0) + " cells" : "no map yet", 0, false, false}});
+  const float pad = s.Px(12);
+  const Rect bar{content.x + pad, content.y + s.Px(4), content.w - 2 * pad, s.Px(14)};
+  if (total == 0) {
+    UnknownFill(s, Canvas(), bar);
+  }
+  float x = bar.x;
+  for (const CellCount& c : counts) {
+    const float w =
+        total > 0 ? bar.w * static_cast<float>(c.now) / static_cast<float>(total) : 0.0f;
+    if (w >= 1) {
+      DrawSwatch(s, {x, bar.y, w - 1, bar.h}, c);
+    }
+    x += w;
+  }
+  const float row = std::min(s.Px(25), (rect.bottom() - bar.bottom() - s.Px(8)) / 5);
+  float y = bar.bottom() + s.Px(4);
+  for (const CellCount& c : counts) {
+    const float middle = y + row / 2;
+    DrawSwatch(s, {bar.x, std::round(middle - s.Px(6)), s.Px(12), s.Px(12)}, c);
+    DrawText(ui, s.body, p.text2, bar.x + s.Px(22), middle, c.name);
+    DrawText(ui, s.medium, p.text1, bar.x + bar.w * 0.64f, middle,
+             total > 0 ? Fixed(c.now, 0) : "––", Align::kRight);
+    if (facts.previewing) {
+      DrawText(ui, s.body, p.text2, bar.right(), middle, Signed(c.now - c.before) + " cells",
+               Align::kRight);
+    }
+    y += row;
+  }
+}
+
+void DrawChosenPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui) {
+  const Style& s = ui.style;
+  const Palette& p = s.palette;
+  const TuneFacts facts = FactsOf(snap);
+  const LandingSite* best = BestSite(facts.shown);
+  const Rect content = DrawPanelFrame(ui, rect, "Site chosen");
+  const float x = content.x + s.Px(12);
+  if (best == nullptr) {
+    const std::string why = facts.shown != nullptr && !facts.shown->selection.none_reason.empty()
+                                ? "No safe site: " + facts.shown->selection.none_reason + "."
+                                : "No site yet.";
+    float y = content.y + s.Px(14);
+    for (const std::string& line : WrapText(s.body, why, content.w - s.Px(24))) {
+      DrawText(ui, s.body, p.text1, x, y, line);
+      y += s.Px(20);
+    }
+    return;
+  }
+  const float middle = content.y + s.Px(16);
+  LetterPlate(ui, {x + s.Px(10), middle}, best->letter, true);
+  DrawText(ui, s.medium, p.text1, x + s.Px(30), middle,
+           Fixed(best->safe_distance_m, 1) + " m clear");
+  DrawText(ui, s.caption, p.text2, content.right() - s.Px(12), middle,
+           best->confirmed ? "Confirmed" : "Provisional", Align::kRight);
+  float y = content.y + s.Px(42);
+  const std::string reason = best->reason.empty() ? "Best of the newest map." : best->reason + ".";
+  for (const std::string& line : WrapText(s.body, reason, content.w - s.Px(24))) {
+    if (y + s.Px(8) > rect.bottom()) {
+      break;
+    }
+    DrawText(ui, s.body, p.text2, x, y, line);
+    y += s.Px(20);
+  }
+  if (facts.previewing && facts.applied != nullptr && y + s.Px(8) < rect.bottom()) {
+    DrawText(ui, s.body, p.text1, x, y, RankEffect(facts));
+  }
+}
+
+void DrawHistoryPanel(const EngineSnapshot&, const Rect& rect, const TuneState& state,
+                      UiFrame& ui) {
+  const Style& s = ui.style;
+  const Palette& p = s.palette;
+  const Rect content = DrawPanelFrame(ui, rect, "History", {{"Ctrl+Z", 0, false, false}});
+  if (state.history.empty()) {
+    DrawText(ui, s.body, p.text2, content.x + s.Px(12), content.y + s.Px(14),
+             "No limit moved yet. Drag a slider.");
+    return;
+  }
+  float y = content.y;
+  for (auto it = state.history.rbegin(); it != state.history.rend(); ++it) {
+    const Rect row{content.x, y, content.w, s.Px(28)};
+    if (row.bottom() > rect.bottom()) {
+      break;
+    }
+    y = row.bottom();
+    const SettingInfo* info = FindSetting(it->name);
+    if (info == nullptr) {
+      continue;
+    }
+    if (it == state.history.rbegin()) {
+      FillRect(Canvas(), row, p.hover);
+      FillRect(Canvas(), {row.x, row.y, s.Px(4), row.h}, p.white_mark);
+    }
+    const float middle = row.centre().y;
+    const float x = row.x + s.Px(16);
+    const float name_x =
+        x + DrawText(ui, s.mono, p.text2, x, middle, ClockText(it->time)) + s.Px(16);
+    const float name_end = name_x + DrawText(ui, s.body, p.text1, name_x, middle, info->label);
+    const std::string change =
+        FormatSetting(*info, it->before) + " to " + FormatSetting(*info, it->after);
+    if (row.right() - s.Px(12) - TextWidth(s.caption, change) > name_end + s.Px(8)) {
+      DrawText(ui, s.caption, p.text1, row.right() - s.Px(12), middle, change, Align::kRight);
+    }
+  }
+}
+
+void DrawApplyPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui) {
+  const Style& s = ui.style;
+  const Palette& p = s.palette;
+  const TuneFacts facts = FactsOf(snap);
+  const ApplyWords words = WordsFor(snap, facts);
+  const Rect content = DrawPanelFrame(ui, rect, "Apply", {{words.state, 0, false, false}});
+  const bool wide = rect.w > s.Px(600);
+  const float pad = s.Px(12);
+  const float text_w = wide ? content.w - s.Px(420) : content.w - 2 * pad;
+  float y = content.y + s.Px(14);
+  for (const std::string& line : WrapText(s.section, words.sentence, text_w)) {
+    DrawText(ui, s.section, p.text1, content.x + pad, y, line);
+    y += s.Px(24);
+  }
+  for (const std::string& line : WrapText(s.body, words.detail, text_w)) {
+    if (y + s.Px(8) > (wide ? rect.bottom() : rect.bottom() - s.Px(84))) {
+      break;
+    }
+    DrawText(ui, s.body, p.text2, content.x + pad, y, line);
+    y += s.Px(20);
+  }
+  const float h = s.Px(wide ? 52 : 68);
+  const float row_y = wide ? std::round(content.centre().y - h / 2) : rect.bottom() - pad - h;
+  const float left = wide ? rect.right() - s.Px(396) : rect.x + pad;
+  const float discard_w = s.Px(wide ? 120 : 112);
+  ButtonLook discard;
+  discard.enabled = words.can_discard;
+  discard.font = s.medium;
+  discard.reason = words.can_discard ? "" : words.why_not;
+  if (DrawButton(ui, "discard", {left, row_y, discard_w, h}, "Discard", discard)) {
+    ui.intents.push_back(CommandAction(DiscardSettings{}));
+  }
+  const Rect apply{left + discard_w + s.Px(12), row_y,
+                   rect.right() - pad - left - discard_w - s.Px(12), h};
+  const std::string label = facts.pending == 0 || !facts.frozen
+                                ? "Apply"
+                                : "Apply " + std::to_string(facts.pending) +
+                                      (facts.pending == 1 ? " change" : " changes");
+  if (!words.can_apply) {
+    ButtonLook look;
+    look.enabled = false;
+    look.font = s.medium;
+    look.sub = words.why_not;
+    look.reason = words.why_not;
+    DrawButton(ui, "apply", apply, label, look);
+    return;
+  }
+  FillRect(Canvas(), apply, Hovered(ui, apply) ? p.bar : p.go, s.Fine(4));
+  StrokeRect(Canvas(), apply, p.safe, s.Fine(2), s.Fine(4));
+  DrawText(ui, s.button, p.on_go, apply.centre().x, apply.centre().y - s.Px(9), label,
+           Align::kCentre);
+  DrawText(ui, s.caption, p.on_go, apply.centre().x, apply.centre().y + s.Px(13), "One click",
+           Align::kCentre);
+  ui.items.Add("apply", apply, true, label);
+  if (Clicked(ui, apply)) {
+    ui.intents.push_back(CommandAction(ApplySettings{}));
+  }
+}
+
+}  // namespace palace

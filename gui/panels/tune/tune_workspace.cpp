@@ -1,0 +1,177 @@
+// Tune: what the panels share, and where they lie.
+#include <algorithm>
+#include <cmath>
+
+#include "gui/panels/tune/tune.h"
+#include "gui/widgets/button.h"
+#include "gui/widgets/number_text.h"
+
+namespace palace {
+namespace {
+
+constexpr double kGesture_s = 1;
+constexpr std::size_t kMostChanges = 200;
+
+bool Narrow(const Style& s, const Rect& body) { return body.w < s.Px(1584) || body.h < s.Px(776); }
+
+void DrawMapRow(const EngineSnapshot& snap, const Rect& row, TuneState& state, UiFrame& ui) {
+  const float gap = ui.style.Px(8);
+  const float w = std::floor((row.w - 3 * gap) / 4);
+  const MapKind kinds[] = {MapKind::kElevation, MapKind::kSlope, MapKind::kRoughness,
+                           MapKind::kCost};
+  for (int i = 0; i < 4; ++i) {
+    const float x = row.x + static_cast<float>(i) * (w + gap);
+    const float width = i == 3 ? row.right() - x : w;
+    DrawTuneMap(snap, {x, row.y, width, row.h}, kinds[i], true, state, ui);
+  }
+}
+
+void DrawWideCentre(const EngineSnapshot& snap, const Rect& c, TuneState& state, UiFrame& ui) {
+  const Style& s = ui.style;
+  const float gap = s.Px(8), strip = s.Px(104);
+  const float both = c.h - strip - 2 * gap;
+  const float map_w = std::floor((c.w - 3 * gap) / 4);
+  // The four small maps are as wide as their panels; the picture takes what is left.
+  const float lower = std::min(map_w + s.Px(70), std::round(both * 0.42f));
+  const float upper = both - lower;
+  const float camera_w = std::min(std::round(c.w * 0.59f), std::floor((upper - s.Px(28)) * 4 / 3));
+  DrawTuneCamera(snap, {c.x, c.y, camera_w, upper}, state, ui);
+  DrawTuneMap(snap, {c.x + camera_w + gap, c.y, c.w - camera_w - gap, upper},
+              MapKind::kSafeDistance, true, state, ui);
+  DrawMapRow(snap, {c.x, c.y + upper + gap, c.w, lower}, state, ui);
+  DrawCompareStrip(snap, {c.x, c.bottom() - strip, c.w, strip}, state, ui);
+}
+
+void DrawRight(const EngineSnapshot& snap, const Rect& r, TuneState& state, UiFrame& ui) {
+  const Style& s = ui.style;
+  const float gap = s.Px(8);
+  const float cells = s.Px(190), chosen = s.Px(140), apply = s.Px(224);
+  float y = r.y;
+  DrawCellsPanel(snap, {r.x, y, r.w, cells}, ui);
+  y += cells + gap;
+  DrawChosenPanel(snap, {r.x, y, r.w, chosen}, ui);
+  y += chosen + gap;
+  DrawHistoryPanel(snap, {r.x, y, r.w, r.bottom() - apply - gap - y}, state, ui);
+  DrawApplyPanel(snap, {r.x, r.bottom() - apply, r.w, apply}, ui);
+}
+
+void DrawNarrowTabs(const EngineSnapshot& snap, const Rect& r, TuneState& state, UiFrame& ui) {
+  const Style& s = ui.style;
+  const struct {
+    const char* label;
+    TuneTab tab;
+  } tabs[] = {
+      {"Apply", TuneTab::kApply}, {"Cells", TuneTab::kCells}, {"History", TuneTab::kHistory}};
+  DrawPanelBackground(ui, {r.x, r.y, r.w, s.Px(32)}, "Tabs");
+  float x = r.x + s.Px(4);
+  for (const auto& tab : tabs) {
+    const Rect box{x, r.y + s.Px(4), s.Px(84), s.Px(24)};
+    ButtonLook look;
+    look.active = state.tab == tab.tab;
+    if (DrawButton(ui, std::string("tune_tab/") + tab.label, box, tab.label, look)) {
+      state.tab = tab.tab;
+    }
+    x = box.right() + s.Px(8);
+  }
+  const Rect content{r.x, r.y + s.Px(36), r.w, r.h - s.Px(36)};
+  if (state.tab == TuneTab::kApply) {
+    DrawApplyPanel(snap, content, ui);
+  } else if (state.tab == TuneTab::kCells) {
+    const float half = std::floor((content.w - s.Px(8)) / 2);
+    DrawCellsPanel(snap, {content.x, content.y, half, content.h}, ui);
+    DrawChosenPanel(snap, {content.x + half + s.Px(8), content.y, half, content.h}, ui);
+  } else {
+    DrawHistoryPanel(snap, content, state, ui);
+  }
+}
+
+void DrawNarrowCentre(const EngineSnapshot& snap, const Rect& c, TuneState& state, UiFrame& ui) {
+  const Style& s = ui.style;
+  const float gap = s.Px(8), strip = s.Px(88), tabs = s.Px(172);
+  const float upper = c.h - strip - tabs - 2 * gap;
+  const float camera_w = std::floor((upper - s.Px(28)) * 4 / 3);
+  DrawTuneCamera(snap, {c.x, c.y, camera_w, upper}, state, ui);
+  const float left = c.x + camera_w + gap;
+  const float w = std::floor((c.right() - left - gap) / 2), h = std::floor((upper - gap) / 2);
+  const MapKind kinds[] = {MapKind::kSafeDistance, MapKind::kSlope, MapKind::kRoughness,
+                           MapKind::kCost};
+  for (int i = 0; i < 4; ++i) {
+    const float x = left + static_cast<float>(i % 2) * (w + gap);
+    const float y = c.y + static_cast<float>(i / 2) * (h + gap);
+    DrawTuneMap(snap, {x, y, w, h}, kinds[i], false, state, ui);
+  }
+  DrawCompareStrip(snap, {c.x, c.y + upper + gap, c.w, strip}, state, ui);
+  DrawNarrowTabs(snap, {c.x, c.bottom() - tabs, c.w, tabs}, state, ui);
+}
+
+}  // namespace
+
+TuneFacts FactsOf(const EngineSnapshot& snap) {
+  TuneFacts facts;
+  facts.applied = snap.applied.get();
+  facts.previewing = snap.preview != nullptr;
+  facts.shown = facts.previewing ? snap.preview.get() : facts.applied;
+  facts.frozen = snap.mission.state >= MissionState::kArmed;
+  for (const SettingInfo& info : SettingTable()) {
+    const double value = GetSetting(snap.preview_settings, info.name);
+    facts.changed += value != info.default_value ? 1 : 0;
+    facts.pending += value != GetSetting(snap.settings, info.name) ? 1 : 0;
+  }
+  return facts;
+}
+
+void FollowChanges(const EngineSnapshot& snap, double ui_time_s, TuneState& state) {
+  if (!state.has_last_seen) {
+    state.last_seen = snap.preview_settings;
+    state.has_last_seen = true;
+    return;
+  }
+  if (snap.preview_settings == state.last_seen) {
+    return;
+  }
+  for (const SettingInfo& info : SettingTable()) {
+    const double before = GetSetting(state.last_seen, info.name);
+    const double after = GetSetting(snap.preview_settings, info.name);
+    if (before == after) {
+      continue;
+    }
+    const bool same_gesture =
+        !state.history.empty() && state.history.back().name == info.name &&
+        (state.sliders.dragging == info.name || ui_time_s - state.last_change_s < kGesture_s);
+    if (same_gesture) {
+      state.history.back().after = after;
+      state.history.back().time = snap.time;
+    } else {
+      state.history.push_back({snap.time, info.name, before, after});
+    }
+  }
+  if (state.history.size() > kMostChanges) {
+    state.history.erase(state.history.begin());
+  }
+  state.last_change_s = ui_time_s;
+  state.last_seen = snap.preview_settings;
+}
+
+void DrawTuneWorkspace(const EngineSnapshot& snap, const Rect& body, TuneState& state,
+                       UiFrame& ui) {
+  const Style& s = ui.style;
+  FollowChanges(snap, ui.ui_time_s, state);
+  if (!ImGui::GetIO().MouseDown[0]) {
+    state.sliders.dragging.clear();
+  }
+  BeginProbe(state.probe);
+  const bool narrow = Narrow(s, body);
+  const float gap = s.Px(8), left = s.Px(narrow ? 344 : 416), right = s.Px(400);
+  DrawLimitsPanel(snap, {body.x, body.y, left, body.h}, state, ui);
+  const float x = body.x + left + gap;
+  if (narrow) {
+    DrawNarrowCentre(snap, {x, body.y, body.right() - x, body.h}, state, ui);
+    DrawProbeWhy(ui, body, FactsOf(snap).shown, state.probe, snap.time);
+    return;
+  }
+  DrawWideCentre(snap, {x, body.y, body.right() - right - gap - x, body.h}, state, ui);
+  DrawRight(snap, {body.right() - right, body.y, right, body.h}, state, ui);
+  DrawProbeWhy(ui, body, FactsOf(snap).shown, state.probe, snap.time);
+}
+
+}  // namespace palace

@@ -1,0 +1,142 @@
+#include "gui/widgets/map/flag_marks.h"
+
+#include <array>
+#include <cmath>
+#include <set>
+#include <utility>
+
+#include "gui/widgets/draw.h"
+
+namespace palace {
+namespace {
+
+constexpr float kSpacing = 8;  // units between marks
+constexpr float kHalf = 2.4f;  // units, of a mark
+constexpr float kGap = 14;     // units, between words of the legend
+
+struct FlagLook {
+  TerrainFlag flag;
+  const char* word;
+};
+/// In the order they are drawn when a cell has several: the first wins.
+constexpr std::array<FlagLook, 5> kLooks = {{{kFlagThinStructure, "Thin structure"},
+                                             {kFlagMotion, "Motion"},
+                                             {kFlagNoTexture, "No texture"},
+                                             {kFlagElevated, "Elevated"},
+                                             {kFlagShadow, "Shadow"}}};
+
+/// Strokes of one mark, once wide and dark, once narrow and white.
+void Mark(ImDrawList* dl, const Style& s, ImVec2 at, TerrainFlag flag) {
+  const float h = s.Fine(kHalf);
+  for (const bool rim : {true, false}) {
+    const ImU32 colour = rim ? WithAlpha(picture::kBlack, 0.8f) : picture::kWhite;
+    const float width = s.Fine(rim ? 2.6f : 1.2f);
+    const auto line = [&](float ax, float ay, float bx, float by) {
+      dl->AddLine({at.x + ax * h, at.y + ay * h}, {at.x + bx * h, at.y + by * h}, colour, width);
+    };
+    switch (flag) {
+      case kFlagThinStructure:
+        line(-1, -1, 1, 1);
+        line(-1, 1, 1, -1);
+        break;
+      case kFlagNoTexture:
+        line(-1, -0.6f, 1, -0.6f);
+        line(-1, 0.6f, 1, 0.6f);
+        break;
+      case kFlagMotion:
+        line(-0.5f, -1, 0.5f, 0);
+        line(0.5f, 0, -0.5f, 1);
+        break;
+      case kFlagElevated:
+        dl->AddRect({at.x - h, at.y - h}, {at.x + h, at.y + h}, colour, 0, 0, width);
+        break;
+      default:
+        dl->AddCircleFilled(at, rim ? h * 0.75f : h * 0.4f, colour, 8);
+    }
+  }
+}
+
+void MarkFirst(ImDrawList* dl, const Style& s, ImVec2 at, unsigned flags) {
+  for (const FlagLook& look : kLooks) {
+    if ((flags & look.flag) != 0) {
+      Mark(dl, s, at, look.flag);
+      return;
+    }
+  }
+}
+
+}  // namespace
+
+void DrawFlagsOnMap(const Style& style, const Rect& square, const Grid<std::uint8_t>& flags) {
+  if (flags.empty()) {
+    return;
+  }
+  const float spacing = style.Px(kSpacing);
+  for (float y = square.y + spacing / 2; y < square.bottom(); y += spacing) {
+    for (float x = square.x + spacing / 2; x < square.right(); x += spacing) {
+      const int row =
+          static_cast<int>((y - square.y) / square.h * static_cast<float>(flags.rows()));
+      const int col =
+          static_cast<int>((x - square.x) / square.w * static_cast<float>(flags.cols()));
+      MarkFirst(Canvas(), style, {x, y}, flags.at(row, col));
+    }
+  }
+}
+
+void DrawFlagsOnPicture(const Style& style, const PictureView& view, const GridGeometry& geometry,
+                        const GridF& height_m, const Grid<std::uint8_t>& flags) {
+  const float spacing = style.Px(kSpacing * 1.5f);
+  std::set<std::pair<int, int>> taken;  // places of the screen that have their mark
+  for (int row = 0; row < flags.rows(); ++row) {
+    float height = kUnknownValue;
+    for (int col = 0; col < flags.cols(); ++col) {
+      height = std::isfinite(height_m.at(row, col)) ? height_m.at(row, col) : height;
+      if (flags.at(row, col) == kFlagNone || !std::isfinite(height)) {
+        continue;
+      }
+      const auto at = view.ScreenFromPoint(
+          {geometry.NorthOfRow(row), geometry.EastOfCol(col), -static_cast<double>(height)});
+      if (!at || !view.rect.Contains(*at)) {
+        continue;
+      }
+      const std::pair place{static_cast<int>((at->x - view.rect.x) / spacing),
+                            static_cast<int>((at->y - view.rect.y) / spacing)};
+      if (taken.insert(place).second) {
+        MarkFirst(Canvas(), style, *at, flags.at(row, col));
+      }
+    }
+  }
+}
+
+unsigned FlagsPresent(const Grid<std::uint8_t>& flags) {
+  unsigned present = 0;
+  for (const std::uint8_t cell : flags.cells()) {
+    present |= cell;
+  }
+  return present;
+}
+
+float FlagLegendWidth(const Style& style, unsigned flags) {
+  float width = 0;
+  for (const FlagLook& look : kLooks) {
+    if ((flags & look.flag) != 0) {
+      width += style.Px(kGap + 12) + TextWidth(style.caption, look.word);
+    }
+  }
+  return width;
+}
+
+void DrawFlagLegend(UiFrame& ui, float x, float y, unsigned flags) {
+  const Style& s = ui.style;
+  for (const FlagLook& look : kLooks) {
+    if ((flags & look.flag) == 0) {
+      continue;
+    }
+    x += s.Px(kGap);
+    Mark(Canvas(), s, {x + s.Px(4), y}, look.flag);
+    x += s.Px(12);
+    x += DrawText(ui, s.caption, picture::kPlateText, x, y, look.word);
+  }
+}
+
+}  // namespace palace

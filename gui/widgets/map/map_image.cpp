@@ -1,0 +1,199 @@
+#include "gui/widgets/map/map_image.h"
+
+#include <algorithm>
+
+#include "engine/model/settings.h"
+#include "gui/widgets/map/cell_hatch.h"
+#include "gui/widgets/map/flag_marks.h"
+#include "gui/widgets/map/site_marks.h"
+
+namespace palace {
+
+namespace {
+
+ImVec2 ScreenFromGround(const Rect& square, const GridGeometry& g, double north_m, double east_m) {
+  const double across = (east_m - g.east_min_m) / (g.cols * g.cell_m);
+  const double down = (g.north_max_m() - north_m) / (g.rows * g.cell_m);
+  return {square.x + static_cast<float>(across) * square.w,
+          square.y + static_cast<float>(down) * square.h};
+}
+
+void DrawFootprint(const Style& s, const Rect& square, const MapView& view,
+                   const std::vector<Eigen::Vector2d>& footprint) {
+  if (footprint.size() < 3) {
+    return;
+  }
+  std::vector<ImVec2> outline;
+  for (const Eigen::Vector2d& corner : footprint) {
+    outline.push_back(ScreenFromGround(square, view.geometry, corner.x(), corner.y()));
+  }
+  outline.push_back(outline.front());
+  ImDrawList* dl = Canvas();
+  for (std::size_t i = 1; i < outline.size(); ++i) {
+    dl->AddLine(outline[i - 1], outline[i], WithAlpha(picture::kBlack, 0.7f), s.Fine(3));
+  }
+  DashedPolyline(dl, outline, picture::kWhite, s.Fine(1.2f), s.Fine(5), s.Fine(4));
+}
+
+void DrawMapSites(UiFrame& ui, const Rect& square, const MapView& view, const MapMarks& marks) {
+  const Style& s = ui.style;
+  const float px_per_m = square.w / static_cast<float>(view.geometry.cols * view.geometry.cell_m);
+  const std::uint64_t selected = marks.selected ? marks.selected->id : 0;
+  if (marks.sites != nullptr && marks.letters) {
+    for (const LandingSite& site : *marks.sites) {
+      const ImVec2 at = ScreenFromGround(square, view.geometry, site.p_WS.x(), site.p_WS.y());
+      if (site.id != selected && square.Contains(at)) {
+        DrawLetterDisc(ui, at, site.letter, site.id == marks.highlighted, 9);
+      }
+    }
+  }
+  if (marks.selected) {
+    const Eigen::Vector3d& p_WS = marks.selected->p_WS;
+    const ImVec2 at = ScreenFromGround(square, view.geometry, p_WS.x(), p_WS.y());
+    DrawRing(s, Canvas(), at, static_cast<float>(marks.selected->clear_radius_m) * px_per_m,
+             marks.commanded ? RingKind::kCommanded : RingKind::kProposed);
+  }
+}
+
+void DrawProbe(const Style& s, const Rect& square, const MapView& view, Cell cell) {
+  const ImVec2 at = ScreenFromGround(square, view.geometry, view.geometry.NorthOfRow(cell.row),
+                                     view.geometry.EastOfCol(cell.col));
+  FillRect(Canvas(), {std::round(at.x), square.y, s.Px(1), square.h}, picture::kWhite);
+  FillRect(Canvas(), {square.x, std::round(at.y), square.w, s.Px(1)}, picture::kWhite);
+}
+
+/// Reads the drag of the tick and asks for the new value.
+void RunDrag(UiFrame& ui, const Rect& bar, float tick_x, const LimitTick& limit, LimitDrag& drag) {
+  const Style& s = ui.style;
+  const ImGuiIO& io = ImGui::GetIO();
+  const Rect grab{tick_x - s.Px(10), bar.y - s.Px(10), s.Px(20), s.Px(24)};
+  ui.items.Add("limit/" + limit.setting, grab, true, limit.label);
+  if (drag.setting.empty() && Pressed(ui, grab)) {
+    drag = {limit.setting, io.MousePos.x, limit.value, limit.per_bar / static_cast<double>(bar.w),
+            limit.value};
+  }
+  if (Hovered(ui, grab) || drag.setting == limit.setting) {
+    ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
+  }
+  if (drag.setting != limit.setting) {
+    return;
+  }
+  if (!io.MouseDown[0]) {
+    drag.setting.clear();
+    return;
+  }
+  const SettingInfo* info = FindSetting(limit.setting);
+  if (info == nullptr) {
+    return;
+  }
+  const double moved = static_cast<double>(io.MousePos.x - drag.start_x) * drag.per_px;
+  const double step = std::pow(10.0, -info->decimals) / info->shown_per_unit;
+  const double wanted = std::round((drag.start_value + moved) / step) * step;
+  const double value = ClampSetting(*info, wanted);
+  if (std::abs(value - drag.last_value) > step * 1e-3) {
+    drag.last_value = value;
+    ui.intents.push_back(CommandAction(SetSetting{limit.setting, value}));
+  }
+}
+
+void DrawTick(const Style& s, const Rect& bar, float x) {
+  ImDrawList* dl = Canvas();
+  FillRect(dl, {x - s.Px(2), bar.y - s.Px(2), s.Px(4), bar.h + s.Px(4)}, picture::kBlack);
+  FillRect(dl, {x - s.Px(1), bar.y - s.Px(2), s.Px(2), bar.h + s.Px(4)}, s.palette.white_mark);
+  dl->AddTriangleFilled({x - s.Fine(5), bar.y - s.Fine(8)}, {x + s.Fine(5), bar.y - s.Fine(8)},
+                        {x, bar.y - s.Fine(1)}, s.palette.white_mark);
+}
+
+}  // namespace
+
+std::optional<Cell> DrawMapPicture(UiFrame& ui, const Rect& square, const MapView& view,
+                                   const MapMarks& marks) {
+  const Style& s = ui.style;
+  ImDrawList* dl = Canvas();
+  dl->PushClipRect(square.min(), square.max(), true);
+  const bool known = view.values != nullptr && !view.values->empty();
+  if (!known) {
+    UnknownFill(s, dl, square);
+  } else {
+    FillRect(dl, square, picture::kUnknown);
+    if (view.texture != nullptr) {
+      dl->AddImage(view.texture, square.min(), square.max());
+    }
+    const GridF& values = *view.values;
+    DrawCellHatch(dl, square,
+                  {values.cols(), values.rows(), picture::kUnknown, picture::kUnknownLine,
+                   s.Fine(1), s.Px(6)},
+                  [&](int row, int col) { return !std::isfinite(values.at(row, col)); });
+    if (view.flags != nullptr) {
+      DrawFlagsOnMap(s, square, *view.flags);
+    }
+    DrawFootprint(s, square, view, marks.footprint);
+    DrawMapSites(ui, square, view, marks);
+    if (marks.probe && view.geometry.Contains(*marks.probe)) {
+      DrawProbe(s, square, view, *marks.probe);
+    }
+  }
+  dl->PopClipRect();
+  if (view.preview) {
+    PreviewChip(ui, {square.x + s.Px(8), square.y + s.Px(8)});
+  }
+  ui.items.Add("map/" + view.key, square, true, view.title + " " + view.value);
+  if (!known || !Hovered(ui, square)) {
+    return std::nullopt;
+  }
+  const ImVec2 mouse = ImGui::GetIO().MousePos;
+  const Cell cell{
+      static_cast<int>((mouse.y - square.y) / square.h * static_cast<float>(view.geometry.rows)),
+      static_cast<int>((mouse.x - square.x) / square.w * static_cast<float>(view.geometry.cols))};
+  return view.geometry.Contains(cell) ? std::optional<Cell>(cell) : std::nullopt;
+}
+
+void DrawColourBar(UiFrame& ui, const Rect& bar, const MapView& view, LimitDrag* drag) {
+  const Style& s = ui.style;
+  DrawRampBar(Canvas(), bar, view.ramp);
+  const float label_y = bar.bottom() + s.Px(12);
+  const bool has_limit = std::isfinite(view.limit.at);
+  float limit_from = 0;
+  float limit_to = 0;
+  if (has_limit) {
+    if (std::isfinite(view.limit.applied_at)) {
+      const float x = bar.x + std::clamp(view.limit.applied_at, 0.0f, 1.0f) * bar.w;
+      DashedLine(Canvas(), {x, bar.y - s.Px(6)}, {x, bar.bottom() + s.Px(4)}, s.palette.white_mark,
+                 s.Fine(1), s.Fine(3), s.Fine(2));
+    }
+    const float x = std::round(bar.x + std::clamp(view.limit.at, 0.0f, 1.0f) * bar.w);
+    DrawTick(s, bar, x);
+    const float width = TextWidth(s.medium, view.limit.label);
+    limit_from = std::clamp(x - width / 2, bar.x, bar.right() - width);
+    limit_to = limit_from + width;
+    DrawText(ui, s.medium, s.palette.text1, limit_from, label_y, view.limit.label);
+    if (drag != nullptr && !view.limit.setting.empty()) {
+      RunDrag(ui, bar, x, view.limit, *drag);
+    }
+  }
+  const float keep = s.Px(8);
+  const float low_end = bar.x + TextWidth(s.caption, view.low);
+  if (!has_limit || low_end + keep < limit_from) {
+    DrawText(ui, s.caption, s.palette.text2, bar.x, label_y, view.low);
+  }
+  const float high_from = bar.right() - TextWidth(s.caption, view.high);
+  if (!has_limit || high_from - keep > limit_to) {
+    DrawText(ui, s.caption, s.palette.text2, bar.right(), label_y, view.high, Align::kRight);
+  }
+}
+
+std::optional<Cell> DrawMapPanel(UiFrame& ui, const Rect& panel, float side, const MapView& view,
+                                 const MapMarks& marks, LimitDrag& drag) {
+  const Style& s = ui.style;
+  const std::string letter = view.letter != 0 ? std::string(1, view.letter) : std::string();
+  const Rect content = DrawPanelFrame(
+      ui, panel, view.title,
+      {{letter, s.palette.text3, false, false}, {view.value, s.palette.text1, true, false}});
+  const Rect square{std::round(content.x + (content.w - side) / 2), content.y, side, side};
+  const std::optional<Cell> cell = DrawMapPicture(ui, square, view, marks);
+  const Rect bar{panel.x + s.Px(12), square.bottom() + s.Px(12), panel.w - s.Px(24), s.Px(8)};
+  DrawColourBar(ui, bar, view, &drag);
+  return cell;
+}
+
+}  // namespace palace
