@@ -24,7 +24,7 @@ set(SHADER_INCLUDE_DIR ${CMAKE_BINARY_DIR}/shader_text)
 file(GENERATE OUTPUT ${SHADER_INCLUDE_DIR}/shader_text.h CONTENT "${SHADER_TEXT}")
 
 # palace_render is left unlinked to GL: a program links libOpenGL, one test links libOSMesa.
-palace_room(render gui/render palace_model palace_opencv)
+palace_room(render gui/render palace_world palace_opencv)
 palace_room(platform gui/platform palace_render palace_imgui)
 palace_room(widgets gui/widgets palace_model palace_imgui)
 palace_room(panels gui/panels palace_widgets)
