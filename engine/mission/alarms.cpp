@@ -1,106 +1,320 @@
 #include "engine/mission/alarms.h"
 
-#include <algorithm>
+#include <array>
+
+#include "engine/core/text.h"
+#include "engine/mission/wording.h"
 
 namespace palace {
+namespace {
 
-AlarmBoard::Entry& AlarmBoard::Find(const AlarmCondition& condition) {
-  for (Entry& entry : entries_) {
-    if (entry.alarm.id == condition.id) {
-      return entry;
-    }
+using Facts = AlarmFacts;
+
+/// What an old picture or pose does to the mission.
+std::string Consequence(const Facts& f) {
+  return f.pictures_only ? "Maps stand still."
+         : IsFlying(f.state)
+             ? "Descent holds after " + LimitWords({StaleLimits::sensor_s, "s", 0}) + "."
+             : "Approve is blocked.";
+}
+
+std::string StaleText(const char* what, double age_s, const std::string& limit) {
+  return what + (" " + words::Age(age_s)) + ", limit " + limit + ". ";
+}
+
+const std::array<AlarmRow, kAlarmCount> kAlarms = {{
+    {.id = AlarmId::kCameraLeft,
+     .level = AlarmLevel::kCaution,
+     .acts = Enforcer::kGuard,
+     .limit = {GuardLimits::camera_s, "s"},
+     .value = &Facts::left_camera_age_s,
+     .present = [](const Facts& f,
+                   double limit) { return f.has_source && !(f.left_camera_age_s <= limit); },
+     .text =
+         [](const Facts& f, const std::string& limit) {
+           return StaleText("Left camera", f.left_camera_age_s, limit) + Consequence(f);
+         }},
+    {.id = AlarmId::kCameraRight,
+     .level = AlarmLevel::kCaution,
+     .acts = Enforcer::kGuard,
+     .limit = {GuardLimits::camera_s, "s"},
+     .value = &Facts::right_camera_age_s,
+     .present = [](const Facts& f,
+                   double limit) { return f.has_source && !(f.right_camera_age_s <= limit); },
+     .text =
+         [](const Facts& f, const std::string& limit) {
+           return StaleText("Right camera", f.right_camera_age_s, limit) + Consequence(f);
+         }},
+    {.id = AlarmId::kPose,
+     .level = AlarmLevel::kCaution,
+     .acts = Enforcer::kGuard,
+     .limit = {GuardLimits::pose_s, "s"},
+     .value = &Facts::pose_age_s,
+     .present =
+         [](const Facts& f, double limit) {
+           return f.has_vehicle && f.heard_vehicle && !(f.pose_age_s <= limit);
+         },
+     .text =
+         [](const Facts& f, const std::string& limit) {
+           return StaleText("Vehicle pose", f.pose_age_s, limit) + Consequence(f);
+         }},
+    {.id = AlarmId::kNoPose,
+     .level = AlarmLevel::kAdvisory,
+     .acts = Enforcer::kNobody,
+     .present =
+         [](const Facts& f, double) {
+           return f.pictures_only && f.left_camera_age_s >= 0 && std::isnan(f.pose_age_s);
+         },
+     .text =
+         [](const Facts&, const std::string&) {
+           return std::string(
+               "Attitude and height unknown: no map, no sites. Add [pose] to RIG.toml.");
+         }},
+    {.id = AlarmId::kLink,
+     .level = AlarmLevel::kCaution,
+     .acts = Enforcer::kVehicle,
+     .limit = {GuardLimits::link_s, "s"},
+     .value = &Facts::link_age_s,
+     .present =
+         [](const Facts& f, double limit) {
+           return f.has_vehicle && f.heard_vehicle && !(f.link_age_s <= limit);
+         },
+     .text =
+         [](const Facts& f, const std::string& limit) {
+           return StaleText("Vehicle status", f.link_age_s, limit) + "The vehicle holds by itself.";
+         },
+     .grave = [](const Facts& f) { return f.link_age_s > StaleLimits::link_s; }},
+    {.id = AlarmId::kClock,
+     .level = AlarmLevel::kWarning,
+     .acts = Enforcer::kMission,
+     .immediate = true,
+     .present = [](const Facts& f, double) { return f.has_vehicle && f.clock_stepped; },
+     .text =
+         [](const Facts&, const std::string&) {
+           return std::string("Vehicle clock stepped. The selection is dropped, select again.");
+         }},
+    {.id = AlarmId::kReboot,
+     .level = AlarmLevel::kWarning,
+     .acts = Enforcer::kMission,
+     .immediate = true,
+     .present = [](const Facts& f, double) { return f.has_vehicle && f.rebooted; },
+     .text =
+         [](const Facts&, const std::string&) {
+           return std::string("Vehicle restarted. Every approval is void, select again.");
+         }},
+    {.id = AlarmId::kGpsError,
+     .level = AlarmLevel::kCaution,
+     .acts = Enforcer::kNobody,
+     .limit = {AlarmLimits::gps_error_m, "m"},
+     .value = &Facts::gps_error_m,
+     .present = [](const Facts& f, double limit) { return f.gps_error_m > limit; },
+     .text =
+         [](const Facts& f, const std::string& limit) {
+           return WithNumbers("GPS horizontal error %.1f m, limit ", f.gps_error_m) + limit +
+                  (f.on_vision ? ". Landing on vision, not GPS."
+                               : ". Vision takes over for the descent.");
+         }},
+    {.id = AlarmId::kCameraFrozen,
+     .level = AlarmLevel::kCaution,
+     .acts = Enforcer::kGuard,
+     .present = [](const Facts& f, double) { return f.pictures.frozen; },
+     .text =
+         [](const Facts& f, const std::string&) {
+           return "A camera repeats its picture to the last grey level. " + Consequence(f);
+         }},
+    {.id = AlarmId::kCamerasSwapped,
+     .level = AlarmLevel::kWarning,
+     .acts = Enforcer::kGuard,
+     .present = [](const Facts& f, double) { return f.pictures.swapped; },
+     .text =
+         [](const Facts&, const std::string&) {
+           return std::string(
+               "Left and right camera look exchanged. Exchange the cables or the entries of "
+               "RIG.toml.");
+         }},
+    {.id = AlarmId::kRowError,
+     .level = AlarmLevel::kCaution,
+     .acts = Enforcer::kGuard,
+     .limit = {AlarmLimits::row_error_px, "px", 2},
+     .value = &Facts::row_error_px,
+     .present = [](const Facts& f, double limit) { return f.row_error_px > limit; },
+     .text =
+         [](const Facts& f, const std::string& limit) {
+           return WithNumbers("Rows of the two pictures are %.2f px apart, limit ",
+                              f.row_error_px) +
+                  limit + ": calibrate.";
+         }},
+    {.id = AlarmId::kExposure,
+     .level = AlarmLevel::kAdvisory,
+     .acts = Enforcer::kNobody,
+     .limit = {AlarmLimits::exposure},
+     .value = &Facts::exposure_factor,
+     .present = [](const Facts& f, double limit) { return f.exposure_factor > limit; },
+     .text =
+         [](const Facts& f, const std::string& limit) {
+           return WithNumbers("Right picture is %.1f times as bright as the left, limit %.1f to ",
+                              f.exposure_ratio, 1 / AlarmLimits::exposure) +
+                  limit + ". Check the exposure.";
+         }},
+    {.id = AlarmId::kRangeScale,
+     .level = AlarmLevel::kCaution,
+     .acts = Enforcer::kNobody,
+     .limit = {AlarmLimits::scale_percent, "%", 0},
+     .value = &Facts::scale_error_percent,
+     .present =
+         [](const Facts& f, double limit) {
+           // Beyond the limit, and not by chance.
+           return f.scale_error_percent > limit &&
+                  f.scale_error_percent > 3 * f.scale_sigma_percent;
+         },
+     .text =
+         [](const Facts& f, const std::string& limit) {
+           return WithNumbers("Stereo reads %.1f %% ", f.scale_error_percent) +
+                  (f.reads_far ? "far" : "near") + " against the laser, limit " + limit +
+                  ". Focal length or baseline is wrong: calibrate.";
+         }},
+    {.id = AlarmId::kHeightMismatch,
+     .level = AlarmLevel::kAdvisory,
+     .acts = Enforcer::kNobody,
+     .limit = {AlarmLimits::laser_mismatch_m, "m"},
+     .value = &Facts::laser_mismatch_m,
+     .present = [](const Facts& f, double limit) { return f.laser_mismatch_m > limit; },
+     .text =
+         [](const Facts& f, const std::string& limit) {
+           return WithNumbers("Laser and map disagree by %.1f m, limit ", f.laser_mismatch_m) +
+                  limit + ". Check the cameras.";
+         }},
+    {.id = AlarmId::kRecorder,
+     .level = AlarmLevel::kCaution,
+     .acts = Enforcer::kGuard,
+     .present = [](const Facts& f, double) { return f.has_vehicle && !f.recorder_ok; },
+     .text =
+         [](const Facts&, const std::string&) {
+           return std::string("Recording is not running. Acknowledge to fly without a record.");
+         }},
+    {.id = AlarmId::kLogDamaged,
+     .level = AlarmLevel::kAdvisory,
+     .acts = Enforcer::kNobody,
+     .present = [](const Facts& f, double) { return !f.source_damage.empty(); },
+     .text =
+         [](const Facts& f, const std::string&) {
+           return "The log is cut or damaged: " + f.source_damage +
+                  ". palacectl log verify tells where.";
+         }},
+    {.id = AlarmId::kNoSite,
+     .level = AlarmLevel::kAdvisory,
+     .acts = Enforcer::kNobody,
+     .present = [](const Facts& f, double) { return f.no_site; },
+     .text =
+         [](const Facts& f, const std::string&) {
+           return "No safe site: " + f.no_site_reason +
+                  (f.pictures_only ? ". Widen a limit." : ". Fly on or widen a limit.");
+         }},
+    {.id = AlarmId::kWaveOff,
+     .level = AlarmLevel::kWarning,
+     .acts = Enforcer::kVehicle,
+     .immediate = true,
+     .present = [](const Facts& f, double) { return f.state == MissionState::kAborting; },
+     .text =
+         [](const Facts& f, const std::string&) {
+           return "Wave-off: " + f.why +
+                  (f.abort_seen ? ". Vehicle climbs. Acknowledge when it hovers."
+                                : ". Waiting for the vehicle to confirm.");
+         }},
+    {.id = AlarmId::kHold,
+     .level = AlarmLevel::kCaution,
+     .acts = Enforcer::kMission,
+     .immediate = true,
+     .present = [](const Facts& f, double) { return f.state == MissionState::kHold; },
+     .text =
+         [](const Facts& f, const std::string&) {
+           return "Descent on hold: " + f.why + ". " + f.alternative +
+                  (f.alternative.empty() ? "" : " ") + "Select a site again or wave off.";
+         }},
+    {.id = AlarmId::kSiteDegraded,
+     .level = AlarmLevel::kCaution,
+     .acts = Enforcer::kNobody,
+     .immediate = true,
+     .present = [](const Facts& f, double) { return f.site_degraded; },
+     .text =
+         [](const Facts& f, const std::string&) {
+           return std::string("Site ") + f.letter + " degraded: " + f.site_reason +
+                  ". Watch it, hold or wave off.";
+         }},
+    {.id = AlarmId::kVisionLost,
+     .level = AlarmLevel::kWarning,
+     .acts = Enforcer::kMission,
+     .limit = {AlarmLimits::vision_late_s, "s"},
+     .value = &Facts::vision_outage_s,
+     .present = [](const Facts& f, double limit) { return f.vision_outage_s > limit; },
+     .text =
+         [](const Facts& f, const std::string& limit) {
+           return WithNumbers("Vision lost for %.1f s, limit ", f.vision_outage_s) + limit +
+                  ". The descent holds or climbs after " +
+                  LimitWords({f.max_vision_outage_s, "s"}) + ".";
+         }},
+    {.id = AlarmId::kCoherenceLow,
+     .level = AlarmLevel::kCaution,
+     .acts = Enforcer::kGuard,
+     .limit = {NAN, "", 2},
+     .limit_from = &Facts::min_coherence,
+     .value = &Facts::coherence,
+     .present = [](const Facts& f, double limit) { return f.tracked && !(f.coherence >= limit); },
+     .text =
+         [](const Facts& f, const std::string& limit) {
+           return WithNumbers("Tracker coherence %.2f, limit ", f.coherence) + limit +
+                  ". Watch the site.";
+         }},
+    {.id = AlarmId::kApprovalUnanswered,
+     .level = AlarmLevel::kCaution,
+     .acts = Enforcer::kNobody,
+     .limit = {AlarmLimits::answer_s, "s", 0},
+     .value = &Facts::waiting_s,
+     .present = [](const Facts& f, double limit) { return f.waiting_s > limit; },
+     .text =
+         [](const Facts& f, const std::string& limit) {
+           return WithNumbers("Vehicle has not answered the approval for %.0f s, limit ",
+                              f.waiting_s) +
+                  limit + ". Wave off or wait.";
+         }},
+    {.id = AlarmId::kApprovalRefused,
+     .level = AlarmLevel::kCaution,
+     .acts = Enforcer::kVehicle,
+     .immediate = true,
+     .present = [](const Facts& f, double) { return !f.refusal.empty(); },
+     .text = [](const Facts& f,
+                const std::string&) { return f.refusal + ". Select a site again."; }},
+    {.id = AlarmId::kForeignDescent,
+     .level = AlarmLevel::kWarning,
+     .acts = Enforcer::kGuard,
+     .present = [](const Facts& f, double) { return f.foreign_descent; },
+     .text =
+         [](const Facts&, const std::string&) {
+           return std::string("Vehicle flies an approval that is not ours. Wave-off is available.");
+         }},
+}};
+
+}  // namespace
+
+std::span<const AlarmRow> AlarmTable() { return kAlarms; }
+
+Limit LimitOf(const AlarmRow& row, const AlarmFacts& facts) {
+  Limit limit = row.limit;
+  limit.value = row.limit_from != nullptr ? facts.*row.limit_from : limit.value;
+  return limit;
+}
+
+std::vector<AlarmCondition> EvaluateAlarms(const AlarmFacts& facts) {
+  std::vector<AlarmCondition> conditions;
+  for (const AlarmRow& row : kAlarms) {
+    const Limit limit = LimitOf(row, facts);
+    const bool present = row.present(facts, limit.value);
+    const bool grave = row.grave != nullptr && row.grave(facts);
+    conditions.push_back({row.id, grave ? AlarmLevel::kWarning : row.level, present,
+                          present ? row.text(facts, LimitWords(limit)) : std::string(),
+                          row.immediate});
   }
-  Entry entry;
-  entry.alarm.id = condition.id;
-  entry.alarm.active = false;
-  entry.alarm.count = 0;
-  entries_.push_back(entry);
-  return entries_.back();
-}
-
-void AlarmBoard::Update(const std::vector<AlarmCondition>& conditions, Timestamp now) {
-  raised_.clear();
-  for (const AlarmCondition& condition : conditions) {
-    Entry& entry = Find(condition);
-    Alarm& alarm = entry.alarm;
-    entry.streak = condition.present == alarm.active ? 0 : entry.streak + 1;
-    const bool worse = condition.present && alarm.active && condition.level > alarm.level;
-    if (condition.present && (alarm.active || condition.immediate)) {
-      alarm.text = condition.text;
-    }
-    if (worse) {
-      alarm.acknowledged = false;  // a caution that grows into a warning is news
-      raised_.push_back(alarm);
-    }
-    if (condition.present && alarm.active) {
-      alarm.level = condition.level;
-    }
-    if (entry.streak < (condition.immediate ? 1 : kPersistence)) {
-      continue;
-    }
-    entry.streak = 0;
-    alarm.active = condition.present;
-    if (alarm.active) {
-      alarm.level = condition.level;
-      alarm.text = condition.text;
-      alarm.since = now;
-      alarm.acknowledged = false;
-      ++alarm.count;
-      entry.shown = true;
-      raised_.push_back(alarm);
-    } else if (alarm.acknowledged || alarm.level == AlarmLevel::kAdvisory) {
-      entry.shown = false;
-      alarm.count = 0;
-    }
-  }
-}
-
-bool AlarmBoard::Acknowledge(std::string_view id) {
-  for (Entry& entry : entries_) {
-    if (entry.shown && entry.alarm.id == id) {
-      entry.alarm.acknowledged = true;
-      if (!entry.alarm.active) {
-        entry.shown = false;
-        entry.alarm.count = 0;
-      }
-      return true;
-    }
-  }
-  return false;
-}
-
-bool AlarmBoard::IsActive(std::string_view id) const {
-  return std::any_of(entries_.begin(), entries_.end(), [&](const Entry& entry) {
-    return entry.alarm.active && entry.alarm.id == id;
-  });
-}
-
-bool AlarmBoard::IsAcknowledged(std::string_view id) const {
-  return std::any_of(entries_.begin(), entries_.end(), [&](const Entry& entry) {
-    return entry.shown && entry.alarm.active && entry.alarm.acknowledged && entry.alarm.id == id;
-  });
-}
-
-std::string AlarmBoard::UnacknowledgedWarning() const {
-  for (const Alarm& alarm : Shown()) {
-    if (alarm.level == AlarmLevel::kWarning && !alarm.acknowledged) {
-      return alarm.text;
-    }
-  }
-  return {};
-}
-
-std::vector<Alarm> AlarmBoard::Shown() const {
-  std::vector<Alarm> shown;
-  for (const Entry& entry : entries_) {
-    if (entry.shown) {
-      shown.push_back(entry.alarm);
-    }
-  }
-  std::stable_sort(shown.begin(), shown.end(), [](const Alarm& a, const Alarm& b) {
-    return a.level != b.level ? a.level > b.level : a.since < b.since;
-  });
-  return shown;
+  return conditions;
 }
 
 }  // namespace palace

@@ -1,54 +1,84 @@
-// Alarms: what the operator must know, with persistence and acknowledgement.
+// Alarms: what the operator must know. A table: one row an alarm, with the limit that raises it,
+// who acts on it, and its words. The condition and the sentence are handed the same limit, so that
+// no text can name another one.
 //
-// An alarm comes on, and goes off, only after three samples in a row. It disappears only when its
-// cause is gone; acknowledging only silences (I15). A cleared warning or caution that nobody
-// acknowledged stays, marked not active. Advisories go with their cause.
 // Source: reference/station-gui.md 3.2, look.md 10.
 #pragma once
 
+#include <cmath>
+#include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
-#include "engine/model/mission_status.h"
+#include "engine/mission/alarm_board.h"
+#include "engine/mission/limits.h"
+#include "engine/mission/mission_inputs.h"
+#include "engine/mission/mission_memory.h"
 
 namespace palace {
 
-/// One condition of one sample. `text`: what, number, limit, then what to do.
-struct AlarmCondition {
-  std::string id;
-  AlarmLevel level = AlarmLevel::kAdvisory;
-  bool present = false;
-  std::string text;
-  bool immediate = false;  ///< events need no persistence: the vehicle's refusal, a wave-off
+/// What the alarms look at, for one step. NaN where nothing is known.
+struct AlarmFacts {
+  bool has_source = false;
+  bool has_vehicle = false;
+  bool pictures_only = false;
+  bool heard_vehicle = false;
+  bool recorder_ok = true;
+  std::string source_damage{};
+
+  double left_camera_age_s = NAN, right_camera_age_s = NAN;
+  double pose_age_s = NAN, link_age_s = NAN;
+  bool clock_stepped = false, rebooted = false;
+  double gps_error_m = NAN;  ///< 3 sigma, horizontal
+  bool on_vision = false;
+  PictureFaults pictures{};
+  double row_error_px = NAN;
+  double exposure_ratio = NAN;       ///< right over left brightness
+  double exposure_factor = NAN;      ///< how many times as bright the brighter one is
+  double scale_error_percent = NAN;  ///< stereo against laser
+  double scale_sigma_percent = NAN;
+  bool reads_far = false;
+  double laser_mismatch_m = NAN;
+
+  MissionState state = MissionState::kNoLive;
+  char letter = '?';
+  std::string why{};  ///< the state was entered
+  bool abort_seen = false;
+  std::string alternative{};  ///< words for it when the site is lost
+  bool site_degraded = false;
+  std::string site_reason{};
+  bool no_site = false;
+  std::string no_site_reason{};
+  double vision_outage_s = NAN;      ///< of a descent on vision
+  double max_vision_outage_s = NAN;  ///< setting
+  bool tracked = false;
+  double coherence = NAN;
+  double min_coherence = NAN;  ///< setting
+  double waiting_s = NAN;      ///< for the answer to an approval
+  std::string refusal{};
+  bool foreign_descent = false;
 };
+AlarmFacts AlarmFactsAt(const MissionMemory& memory, const MissionInputs& inputs);
 
-class AlarmBoard {
- public:
-  static constexpr int kPersistence = 3;
-
-  /// Once a sample, with the same set of ids each time.
-  void Update(const std::vector<AlarmCondition>& conditions, Timestamp now);
-  /// False when no alarm of that name is on the board.
-  bool Acknowledge(std::string_view id);
-  bool IsActive(std::string_view id) const;
-  bool IsAcknowledged(std::string_view id) const;
-  /// Text of the worst warning nobody acknowledged, empty when there is none.
-  std::string UnacknowledgedWarning() const;
-  /// Worst first, then oldest first.
-  std::vector<Alarm> Shown() const;
-  /// Alarms that came on in the last Update.
-  const std::vector<Alarm>& raised() const { return raised_; }
-
- private:
-  struct Entry {
-    Alarm alarm;
-    bool shown = false;
-    int streak = 0;  ///< samples in a row that disagree with `alarm.active`
-  };
-  Entry& Find(const AlarmCondition& condition);
-  std::vector<Entry> entries_;
-  std::vector<Alarm> raised_;
+struct AlarmRow {
+  AlarmId id;
+  AlarmLevel level;
+  Enforcer acts;  ///< beside the operator, who reads it
+  bool immediate = false;
+  Limit limit{};                             ///< that raises it; none: NaN
+  double AlarmFacts::*limit_from = nullptr;  ///< where the limit is a setting
+  double AlarmFacts::*value = nullptr;       ///< what is held against it
+  bool (*present)(const AlarmFacts& f, double limit) = nullptr;
+  /// What, number, limit, then what to do.
+  std::string (*text)(const AlarmFacts& f, const std::string& limit) = nullptr;
+  /// A caution that has become a warning; null: never.
+  bool (*grave)(const AlarmFacts& f) = nullptr;
 };
+/// All of them, in the order of AlarmId.
+std::span<const AlarmRow> AlarmTable();
+Limit LimitOf(const AlarmRow& row, const AlarmFacts& facts);
+
+/// Each alarm's condition, in the order of the table.
+std::vector<AlarmCondition> EvaluateAlarms(const AlarmFacts& facts);
 
 }  // namespace palace

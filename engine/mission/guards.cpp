@@ -1,148 +1,205 @@
 #include "engine/mission/guards.h"
 
-#include <cstdio>
+#include <algorithm>
+#include <array>
+
+#include "engine/core/text.h"
+#include "engine/mission/wording.h"
 
 namespace palace {
 namespace {
 
-std::string Seconds(double s) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.1f s", s);
-  return text;
-}
-
-/// Empty when the age is known and within the limit.
-std::string WhyOld(const char* what, double age_s, double limit_s) {
-  if (!std::isfinite(age_s)) {
-    return std::string(what) + " never received";
-  }
-  if (age_s > limit_s) {
-    return std::string(what) + " stale, " + Seconds(age_s);
-  }
-  return {};
-}
-
-std::string WhyCamerasBad(const GuardInputs& in) {
-  std::string why = WhyOld("Left camera", in.left_camera_age_s, GuardLimits::camera_s);
-  why = why.empty() ? WhyOld("Right camera", in.right_camera_age_s, GuardLimits::camera_s) : why;
-  return why.empty() ? in.camera_problem : why;
-}
+constexpr const char* kCameraProblems[] = {
+    "",
+    "A camera repeats its picture",
+    "Left and right camera look exchanged",
+    "Calibration does not fit the pictures",
+};
 
 /// Checks that compare with the moment of selection have nothing to compare without one.
-constexpr const char* kNothingArmed = "Select a site first";
 bool NothingArmed(const GuardInputs& in) { return in.site_letter == '?'; }
 
-std::string WhyNotPositioned(const GuardInputs& in) {
+std::string If(bool fails, const char* why) { return fails ? why : ""; }
+
+std::string WhyCamerasBad(const GuardInputs& in, const Limit& limit) {
+  for (const auto& [camera, age_s] : {std::pair{"Left camera", in.left_camera_age_s},
+                                      std::pair{"Right camera", in.right_camera_age_s}}) {
+    std::string why = words::Older(camera, age_s, limit.value);
+    if (!why.empty()) {
+      return why;
+    }
+  }
+  return kCameraProblems[static_cast<std::size_t>(in.camera_problem)];
+}
+
+std::string WhyNotPositioned(const GuardInputs& in, const Limit& limit) {
   if (!in.position_healthy) {
     return "Position estimate not healthy";
   }
   if (NothingArmed(in)) {
-    return kNothingArmed;
+    return words::kSelectFirst;
   }
   if (!in.tracker_locked) {
     return "Tracker not locked on the site";
   }
-  if (!(in.coherence >= in.min_coherence)) {
-    char text[64];
-    std::snprintf(text, sizeof text, "Coherence %.2f, min %.2f", in.coherence, in.min_coherence);
-    return text;
-  }
-  return {};
-}
-
-std::string WhyNotShown(const GuardInputs& in) {
-  if (!std::isfinite(in.shown_for_s)) {
-    return kNothingArmed;
-  }
-  return in.shown_for_s >= GuardLimits::shown_s
+  return in.coherence >= limit.value
              ? ""
-             : "Evidence on screen for " + Seconds(in.shown_for_s) + ", min 1.0 s";
+             : WithNumbers("Coherence %.2f, min ", in.coherence) + LimitWords(limit);
 }
 
-std::string WhySiteLost(const GuardInputs& in) {
+std::string WhyNotShown(const GuardInputs& in, const Limit& limit) {
+  if (!std::isfinite(in.shown_for_s)) {
+    return words::kSelectFirst;
+  }
+  return in.shown_for_s >= limit.value
+             ? ""
+             : WithNumbers("Evidence on screen for %.1f s, min ", in.shown_for_s) +
+                   LimitWords(limit);
+}
+
+std::string WhySiteLost(const GuardInputs& in, const Limit&) {
   if (in.site_holds) {
     return {};
   }
   if (NothingArmed(in)) {
-    return kNothingArmed;
+    return words::kSelectFirst;
   }
-  return in.site_reason.empty()
-             ? "Site " + std::string(1, in.site_letter) + " is not on the newest map"
-             : in.site_reason;
+  return in.site_reason.empty() ? words::OffTheMap(in.site_letter) : in.site_reason;
 }
 
-std::string WhyVehicleChanged(const GuardInputs& in) {
+std::string WhyVehicleChanged(const GuardInputs& in, const Limit&) {
   if (NothingArmed(in)) {
-    return kNothingArmed;
+    return words::kSelectFirst;
   }
   if (!in.boot_unchanged) {
     return "Vehicle restarted or is unknown";
   }
-  return in.clock_continuous ? "" : "Vehicle clock stepped or is not yet known";
+  return If(!in.clock_continuous, "Vehicle clock stepped or is not yet known");
 }
 
-std::string WhyNotCommanding(const GuardInputs& in) {
+std::string WhyNotCommanding(const GuardInputs& in, const Limit&) {
   if (!in.can_transmit) {
     return "No link to a vehicle";
   }
-  return in.foreign_approval ? "Vehicle executes an approval that is not ours" : "";
+  return If(in.foreign_approval, "Vehicle executes an approval that is not ours");
 }
 
-std::string WhyNotInTime(const GuardInputs& in) {
+std::string WhyNotInTime(const GuardInputs& in, const Limit& limit) {
   if (!std::isfinite(in.armed_for_s)) {
-    return kNothingArmed;
+    return words::kSelectFirst;
   }
-  if (in.armed_for_s < GuardLimits::arm_to_approve_s) {
-    return "Site selected " + Seconds(in.armed_for_s) + " ago, min 0.5 s";
+  if (in.armed_for_s < limit.value) {
+    return WithNumbers("Site selected %.1f s ago, min ", in.armed_for_s) + LimitWords(limit);
   }
-  return in.armed_for_s <= in.arm_window_s ? "" : "Arm window is over, select the site again";
+  return If(!(in.armed_for_s <= in.arm_window_s), words::kArmWindowOver);
 }
+
+const std::array<GuardRow, kGuardCount> kGuards = {{
+    {.id = GuardId::kLink,
+     .words = "Vehicle link fresh",
+     .of_station = true,
+     .limit = {GuardLimits::link_s, "s"},
+     .why =
+         [](const GuardInputs& in, const Limit& limit) {
+           return words::Older("Vehicle status", in.link_age_s, limit.value);
+         }},
+    {.id = GuardId::kAttitude,
+     .words = "Attitude fresh",
+     .limit = {GuardLimits::pose_s, "s"},
+     .why =
+         [](const GuardInputs& in, const Limit& limit) {
+           return words::Older("Vehicle pose", in.pose_age_s, limit.value);
+         }},
+    {.id = GuardId::kCameras,
+     .words = "Both cameras fresh and right",
+     .limit = {GuardLimits::camera_s, "s"},
+     .why = WhyCamerasBad},
+    {.id = GuardId::kMap,
+     .words = "Newest map fresh",
+     .limit = {GuardLimits::map_s, "s"},
+     .why = [](const GuardInputs& in,
+               const Limit& limit) { return words::Older("Map", in.map_age_s, limit.value); }},
+    {.id = GuardId::kPosition,
+     .words = "Position and tracker healthy",
+     .limit = {NAN, "", 2},
+     .limit_from = &GuardInputs::min_coherence,
+     .why = WhyNotPositioned},
+    {.id = GuardId::kShown,
+     .words = "Evidence was on screen",
+     .limit = {GuardLimits::shown_s, "s"},
+     .why = WhyNotShown},
+    {.id = GuardId::kUnchanged,
+     .words = "Limits and calibration unchanged",
+     .why =
+         [](const GuardInputs& in, const Limit&) {
+           return NothingArmed(in)
+                      ? std::string(words::kSelectFirst)
+                      : If(!in.hashes_unchanged,
+                           "Limits or calibration changed since the site was selected");
+         }},
+    {.id = GuardId::kSite, .words = "Site holds on the newest map", .why = WhySiteLost},
+    {.id = GuardId::kVehicle, .words = "Vehicle did not restart", .why = WhyVehicleChanged},
+    {.id = GuardId::kAuthority,
+     .words = "This station commands",
+     .of_station = true,
+     .why = WhyNotCommanding},
+    {.id = GuardId::kWarnings,
+     .words = "No warning unacknowledged",
+     .why =
+         [](const GuardInputs& in, const Limit&) {
+           return in.unacknowledged_warning.empty()
+                      ? std::string()
+                      : "Acknowledge first: " + in.unacknowledged_warning;
+         }},
+    {.id = GuardId::kRecorder,
+     .words = "Recording as asked",
+     .of_station = true,
+     .why =
+         [](const GuardInputs& in, const Limit&) {
+           return If(!in.recorder_ok && !in.recorder_loss_acknowledged, "Recording is not running");
+         }},
+    {.id = GuardId::kSource,
+     .words = "Source may be approved on",
+     .of_station = true,
+     .why = [](const GuardInputs& in, const Limit&) { return in.source_reason; }},
+    {.id = GuardId::kInTime,
+     .words = "Selected and approved apart",
+     .limit = {GuardLimits::arm_to_approve_s, "s"},
+     .why = WhyNotInTime},
+}};
+
+const GuardRow& RowOf(GuardId id) { return kGuards[static_cast<std::size_t>(id)]; }
 
 }  // namespace
 
-std::string WhyNoVehicle(SourceKind kind) {
-  return kind == SourceKind::kImages    ? "No vehicle in a picture folder"
-         : kind == SourceKind::kCameras ? "No vehicle, cameras only"
-         : kind == SourceKind::kVideo   ? "No vehicle in a video"
-                                        : "";
+std::span<const GuardRow> GuardTable() { return kGuards; }
+
+Limit LimitOf(const GuardRow& row, const GuardInputs& in) {
+  Limit limit = row.limit;
+  limit.value = row.limit_from != nullptr ? in.*row.limit_from : limit.value;
+  return limit;
 }
 
 std::vector<GuardResult> EvaluateGuards(const GuardInputs& in) {
   std::vector<GuardResult> guards;
-  const auto add = [&](const char* id, const char* name, std::string why) {
-    guards.push_back({id, name, why.empty(), std::move(why)});
-  };
-  add("G1", "Vehicle link fresh", WhyOld("Vehicle status", in.link_age_s, GuardLimits::link_s));
-  add("G2", "Attitude fresh", WhyOld("Vehicle pose", in.pose_age_s, GuardLimits::pose_s));
-  add("G3", "Both cameras fresh and right", WhyCamerasBad(in));
-  add("G4", "Newest map fresh", WhyOld("Map", in.map_age_s, GuardLimits::map_s));
-  add("G5", "Position and tracker healthy", WhyNotPositioned(in));
-  add("G6", "Evidence was on screen", WhyNotShown(in));
-  add("G7", "Limits and calibration unchanged",
-      NothingArmed(in)      ? kNothingArmed
-      : in.hashes_unchanged ? ""
-                            : "Limits or calibration changed since the site was selected");
-  add("G8", "Site holds on the newest map", WhySiteLost(in));
-  add("G9", "Vehicle did not restart", WhyVehicleChanged(in));
-  add("G10", "This station commands", WhyNotCommanding(in));
-  add("G11", "No warning unacknowledged",
-      in.unacknowledged_warning.empty() ? "" : "Acknowledge first: " + in.unacknowledged_warning);
-  add("G12", "Recording as asked",
-      in.recorder_ok || in.recorder_loss_acknowledged ? "" : "Recording is not running");
-  add("G13", "Source may be approved on", in.source_reason);
-  add("G14", "Selected and approved apart", WhyNotInTime(in));
+  for (const GuardRow& row : kGuards) {
+    std::string why = row.why(in, LimitOf(row, in));
+    guards.push_back({row.id, row.words, why.empty(), std::move(why)});
+  }
   return guards;
 }
 
 const GuardResult* FirstFailure(const std::vector<GuardResult>& guards, bool as_recorded) {
-  for (const GuardResult& guard : guards) {
-    const bool of_station =
-        guard.id == "G1" || guard.id == "G10" || guard.id == "G12" || guard.id == "G13";
-    if (!guard.pass && !(as_recorded && of_station)) {
-      return &guard;
-    }
-  }
-  return nullptr;
+  const auto failed = std::find_if(guards.begin(), guards.end(), [&](const GuardResult& guard) {
+    return !guard.pass && !(as_recorded && RowOf(guard.id).of_station);
+  });
+  return failed == guards.end() ? nullptr : &*failed;
+}
+
+const GuardResult* FindGuard(const std::vector<GuardResult>& guards, GuardId id) {
+  const auto found = std::find_if(guards.begin(), guards.end(),
+                                  [&](const GuardResult& result) { return result.id == id; });
+  return found == guards.end() ? nullptr : &*found;
 }
 
 }  // namespace palace

@@ -1,29 +1,21 @@
-// Guards G1-G14: what must hold at the instant of approval.
+// Guards G1-G14: what must hold at the instant of approval. A table: one row a guard, with the
+// limit it holds, its words, and why it fails. What fails blocks approval; nothing else acts on it.
 //
 // A guard passes only on evidence: NaN ages, missing inputs and unknown hashes fail (I3).
 // Source: reference/reliability.md 3.3; G4, G6 and G14 as settled in DESIGN.md 8.
 #pragma once
 
 #include <cmath>
-#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "engine/mission/limits.h"
+#include "engine/mission/mission_memory.h"
+#include "engine/mission/picture_watch.h"
 #include "engine/model/mission_status.h"
-#include "engine/model/snapshot.h"
 
 namespace palace {
-
-/// Limits of the guards, in seconds.
-struct GuardLimits {
-  static constexpr double link_s = 1.0;
-  static constexpr double pose_s = 0.2;
-  static constexpr double camera_s = 0.5;
-  static constexpr double map_s = 2.0;
-  static constexpr double shown_s = 1.0;  ///< evidence on screen
-  static constexpr double arm_to_approve_s = 0.5;
-  static constexpr double confirm_height_m = 10;  ///< a provisional site must be confirmed by here
-};
 
 /// What the guards look at. Ages in seconds, NaN when never; text says why, empty when fine.
 struct GuardInputs {
@@ -31,7 +23,7 @@ struct GuardInputs {
   double pose_age_s = NAN;
   double left_camera_age_s = NAN;
   double right_camera_age_s = NAN;
-  std::string camera_problem;  ///< what is wrong with the pictures, empty when nothing is
+  CameraProblem camera_problem = CameraProblem::kNone;
   double map_age_s = NAN;
   bool position_healthy = false;
   bool tracker_locked = false;
@@ -39,7 +31,7 @@ struct GuardInputs {
   double min_coherence = NAN;
   double shown_for_s = NAN;  ///< evidence of the armed site on screen
   bool hashes_unchanged = false;
-  char site_letter = '?';
+  char site_letter = '?';  ///< '?': nothing is armed
   bool site_holds = false;
   std::string site_reason;
   bool boot_unchanged = false;
@@ -53,14 +45,26 @@ struct GuardInputs {
   double armed_for_s = NAN;
   double arm_window_s = NAN;
 };
+GuardInputs GuardInputsAt(const MissionMemory& memory, Timestamp now);
 
-/// Why nothing can be approved on this source; empty unless it has pictures only.
-std::string WhyNoVehicle(SourceKind kind);
+struct GuardRow {
+  GuardId id;
+  const char* words;  ///< what holds when it passes
+  /// Speaks of this station's link, recorder or source: a recorded approval met it in its own time.
+  bool of_station = false;
+  Limit limit{};                              ///< none: NaN
+  double GuardInputs::*limit_from = nullptr;  ///< where the limit is a setting
+  /// Why it fails, naming `limit`; empty when it passes.
+  std::string (*why)(const GuardInputs& in, const Limit& limit) = nullptr;
+};
+/// All fourteen, in the order of GuardId.
+std::span<const GuardRow> GuardTable();
+Limit LimitOf(const GuardRow& row, const GuardInputs& inputs);
 
-/// All fourteen, in order.
 std::vector<GuardResult> EvaluateGuards(const GuardInputs& inputs);
-/// The first that fails, null when all pass. `as_recorded`: skip those that speak of this station's
-/// link, recorder and source (G1, G10, G12, G13); a recorded approval met them in its own time.
+/// The first that fails, null when all pass. `as_recorded`: skip those that speak of this station.
 const GuardResult* FirstFailure(const std::vector<GuardResult>& guards, bool as_recorded = false);
+/// The result of one guard; null in a list that has none of it.
+const GuardResult* FindGuard(const std::vector<GuardResult>& guards, GuardId id);
 
 }  // namespace palace

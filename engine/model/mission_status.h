@@ -8,6 +8,7 @@
 
 #include "engine/core/time.h"
 #include "engine/model/landing_site.h"
+#include "engine/model/mission_ids.h"
 #include "engine/model/vehicle_message.h"
 
 namespace palace {
@@ -30,7 +31,7 @@ const char* MissionStateWord(MissionState state);
 
 /// One check of the commit guards G1-G14 (reference: safety state machine).
 struct GuardResult {
-  std::string id;    ///< "G3"
+  GuardId id = GuardId::kLink;
   std::string name;  ///< "Both cameras fresh"
   bool pass = false;
   std::string reason;  ///< when it fails: what, since when, limit ("Left camera stale, 1.8 s")
@@ -38,13 +39,14 @@ struct GuardResult {
 
 enum class AlarmLevel : std::uint8_t { kAdvisory, kCaution, kWarning };
 struct Alarm {
-  std::string id;  ///< stable name, e.g. "gps_error"
+  AlarmId kind = AlarmId::kCameraLeft;
   AlarmLevel level = AlarmLevel::kAdvisory;
-  std::string text;  ///< what, number, limit, then what to do
-  Timestamp since;
+  std::string text{};  ///< what, number, limit, then what to do
+  Timestamp since{};
   int count = 1;
   bool acknowledged = false;
-  bool active = true;  ///< false: cleared but not acknowledged
+  bool active = true;                ///< false: cleared but not acknowledged
+  std::string id = AlarmName(kind);  ///< as the wire and AcknowledgeAlarm spell it: "gps_error"
 };
 
 enum class EventKind : std::uint8_t {

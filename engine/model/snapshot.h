@@ -18,23 +18,9 @@
 #include "engine/model/navigation_status.h"
 #include "engine/model/range_map.h"
 #include "engine/model/settings.h"
+#include "engine/model/source_kind.h"
 
 namespace palace {
-
-enum class SourceKind : std::uint8_t {
-  kNone,
-  kLive,  ///< a vehicle on a bus
-  kSimulation,
-  kReplay,
-  kImages,   ///< a folder of pictures
-  kCameras,  ///< live cameras without a vehicle
-  kVideo     ///< filmed pictures
-};
-
-/// Pictures and nothing else: there is no vehicle, so no site can be selected and nothing is sent.
-inline bool HasPicturesOnly(SourceKind kind) {
-  return kind == SourceKind::kImages || kind == SourceKind::kCameras || kind == SourceKind::kVideo;
-}
 
 /// One camera: what it gave, and what was lost on the way.
 struct CameraCounters {

@@ -325,36 +325,39 @@ void Pipeline::Decide(Pass& pass) {
       alternative = terrain_.Recheck(*pass.decision_of_record, *kept, settings_.recorded());
     }
   }
-  const bool simulated = snapshot.vehicle && snapshot.vehicle->simulated;
   const Settings& in_force = settings_.recorded();
-  mission_.Update({pass.bundle->time,
-                   pass.session.source.kind,
-                   pass.session.can_transmit,
-                   pass.session.recorder_ok,
-                   simulated,
-                   *pass.bundle,
-                   snapshot.channels,
-                   pass.decision_of_record.get(),
-                   pass.new_map,
-                   snapshot.navigation,
-                   snapshot.tracker,
-                   snapshot.stereo_quality,
-                   snapshot.range_agreement,
-                   rechecked,
-                   nearest,
-                   alternative,
-                   in_force,
-                   HashOf(in_force),
-                   calibration_hash_,
-                   sequence_,
-                   estimate.p_WB,
-                   estimate.p_WB + R_WB * SkidCentreBody(),
-                   NAN,
-                   pass.session.source.damage});
+  const SessionRole role = RoleOf(pass.session.source.kind, jumped_);
+  mission_.Update({
+      .session = {.now = pass.bundle->time,
+                  .role = role,
+                  .why_no_vehicle = WhyNoVehicle(pass.session.source.kind),
+                  .can_transmit = pass.session.can_transmit,
+                  .recorder_ok = pass.session.recorder_ok,
+                  .source_damage = pass.session.source.damage,
+                  .snapshot_sequence = sequence_},
+      .vehicle = {.bundle = *pass.bundle,
+                  .channels = snapshot.channels,
+                  .simulated = snapshot.vehicle && snapshot.vehicle->simulated},
+      .terrain = {.decision = pass.decision_of_record.get(),
+                  .new_map = pass.new_map,
+                  .rechecked = rechecked,
+                  .nearest = nearest,
+                  .alternative = alternative},
+      .navigation = {.navigation = snapshot.navigation,
+                     .tracker = snapshot.tracker,
+                     .stereo = snapshot.stereo_quality,
+                     .range_agreement = snapshot.range_agreement,
+                     .p_WB_estimate = estimate.p_WB,
+                     .skid_centre_W = estimate.p_WB + R_WB * SkidCentreBody()},
+      .limits = {.settings = in_force,
+                 .settings_hash = HashOf(in_force),
+                 .calibration_hash = calibration_hash_},
+  });
   snapshot.mission = mission_.status();
-  const FlightRecordSample* recorded = jumped_ ? flight_of_record_.At(pass.bundle->time) : nullptr;
-  if (recorded) {
-    flight_of_record_.Restore(*recorded, snapshot.mission);
+  if (!SeenFromStart(role)) {
+    if (const FlightRecordSample* recorded = flight_of_record_.At(pass.bundle->time)) {
+      flight_of_record_.Restore(*recorded, snapshot.mission);
+    }
   }
 }
 

@@ -28,7 +28,7 @@ AlarmLook LookOf(const Palette& p, AlarmLevel level) {
   return {Icon::kAdvisory, p.advisory, p.advisory_fill, "ADVISORY", "advisory"};
 }
 
-bool IsShelved(const FrameState& state, const std::string& id) {
+bool IsShelved(const FrameState& state, AlarmId id) {
   return std::find(state.shelved.begin(), state.shelved.end(), id) != state.shelved.end();
 }
 
@@ -78,7 +78,7 @@ float DrawAnswers(const Alarm& alarm, FrameState& state, float right, float y, U
   look.flat = true;
   const Rect shelve{right - s.Px(28 + 72), y - s.Px(12), s.Px(72), s.Px(24)};
   if (DrawButton(ui, "shelve", shelve, "Shelve", look)) {
-    state.shelved.push_back(alarm.id);
+    state.shelved.push_back(alarm.kind);
   }
   const Rect acknowledge{shelve.x - s.Px(8 + 112), shelve.y, s.Px(112), shelve.h};
   if (!alarm.acknowledged && DrawButton(ui, "acknowledge", acknowledge, "Acknowledge", look)) {
@@ -120,7 +120,7 @@ void DrawAlarmStripPanel(const EngineSnapshot& snap, const Rect& rect, FrameStat
   std::vector<const Alarm*> alarms;
   std::size_t shelved = 0;
   for (const Alarm& alarm : snap.mission.alarms) {
-    if (IsShelved(state, alarm.id)) {
+    if (IsShelved(state, alarm.kind)) {
       ++shelved;
     } else {
       alarms.push_back(&alarm);
@@ -177,9 +177,9 @@ void DrawFrameOverlay(const EngineSnapshot& snap, const FrameLayout& layout, Fra
     DrawIcon(Canvas(), look.icon, {list.x + s.Px(25), y}, s.Px(12), look.colour);
     DrawText(ui, s.body, p.text1, list.x + s.Px(40), y,
              FitWords(s.body, alarm.text, list.w - s.Px(240)));
-    const std::string status = IsShelved(state, alarm.id) ? "Shelved"
-                               : alarm.acknowledged       ? "Acknowledged"
-                                                          : "";
+    const std::string status = IsShelved(state, alarm.kind) ? "Shelved"
+                               : alarm.acknowledged         ? "Acknowledged"
+                                                            : "";
     DrawText(ui, s.caption, p.text2, list.right() - s.Px(27), y, status, Align::kRight);
     y += row;
   }

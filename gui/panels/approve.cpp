@@ -106,7 +106,8 @@ void DrawGuardList(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui) {
              guard.pass ? p.text2 : p.caution);
     const std::string words = guard.pass || guard.reason.empty() ? guard.name : guard.reason;
     DrawText(ui, s.body, p.text1, list.x + s.Px(36), y, FitWords(s.body, words, list.w - s.Px(90)));
-    DrawText(ui, s.caption, p.text2, list.right() - s.Px(12), y, guard.id, Align::kRight);
+    DrawText(ui, s.caption, p.text2, list.right() - s.Px(12), y, GuardName(guard.id),
+             Align::kRight);
     y += row;
   }
 }

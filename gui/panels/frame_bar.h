@@ -18,7 +18,7 @@ struct FrameState {
   std::string preset_name = "defaults";   ///< set by the app
   double frame_ms = 0;                    ///< set by the app
   bool history_open = false;              ///< alarm list below the strip
-  std::vector<std::string> shelved;       ///< alarm ids the operator shelved
+  std::vector<AlarmId> shelved;           ///< alarms the operator shelved
   double wave_off_sent_s = -std::numeric_limits<double>::infinity();
 };
 

@@ -16,9 +16,9 @@ struct HealthRow {
   bool fine = true;
 };
 
-bool HasAlarm(const EngineSnapshot& snap, const char* id) {
+bool HasAlarm(const EngineSnapshot& snap, AlarmId id) {
   for (const Alarm& alarm : snap.mission.alarms) {
-    if (alarm.active && alarm.id == id) {
+    if (alarm.active && alarm.kind == id) {
       return true;
     }
   }
@@ -51,13 +51,14 @@ std::vector<HealthRow> RowsOf(const EngineSnapshot& snap) {
       {"Coverage", Fixed(100 * q.coverage, 0) + " %", ""},
       {"Median depth", Fixed(q.median_depth_m, 2) + " m", ""},
       {"Disparity sigma", Fixed(q.median_sigma_px, 3) + " px", ""},
-      {"Row error", Fixed(q.row_error_px, 2) + " px", "max 0.50 px", !HasAlarm(snap, "row_error")},
+      {"Row error", Fixed(q.row_error_px, 2) + " px", "max 0.50 px",
+       !HasAlarm(snap, AlarmId::kRowError)},
       {"Row shift, spread", Signed(q.row_shift_px, 2) + " px, " + Fixed(q.row_spread_px, 2) + " px",
        ""},
       {"Right over left brightness", Fixed(q.exposure_ratio, 2), "0.50 to 2.00",
-       !HasAlarm(snap, "exposure")},
+       !HasAlarm(snap, AlarmId::kExposure)},
       {"Range against the laser", AgreementWords(snap.range_agreement), "max 2 %",
-       !HasAlarm(snap, "range_scale")},
+       !HasAlarm(snap, AlarmId::kRangeScale)},
   };
 }
 

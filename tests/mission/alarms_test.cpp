@@ -1,7 +1,7 @@
 // Alarms: three samples to come and to go; a cause must end before an alarm disappears (I15).
-#include "engine/mission/alarms.h"
-
 #include <gtest/gtest.h>
+
+#include "engine/mission/alarm_board.h"
 
 namespace palace {
 namespace {
@@ -11,7 +11,7 @@ void Feed(AlarmBoard& board, std::initializer_list<bool> samples,
   Timestamp now{0};
   for (const bool present : samples) {
     now = AddSeconds(now, 0.1);
-    board.Update({{"link", level, present, "Link 1.2 s, limit 1.0 s."}}, now);
+    board.Update({{AlarmId::kLink, level, present, "Link 1.2 s, limit 1.0 s."}}, now);
   }
 }
 
@@ -28,14 +28,14 @@ TEST(Alarms, ComesOnWithTheThirdSample) {
 TEST(Alarms, AcknowledgingOnlySilences) {
   AlarmBoard board;
   Feed(board, {true, true, true});
-  EXPECT_TRUE(board.Acknowledge("link"));
-  EXPECT_TRUE(board.IsAcknowledged("link"));
+  EXPECT_TRUE(board.Acknowledge(AlarmId::kLink));
+  EXPECT_TRUE(board.IsAcknowledged(AlarmId::kLink));
   Feed(board, {true, true});
   ASSERT_EQ(board.Shown().size(), 1U);
   EXPECT_TRUE(board.Shown()[0].acknowledged);
   Feed(board, {false, false, false});
   EXPECT_TRUE(board.Shown().empty());
-  EXPECT_FALSE(board.Acknowledge("link"));
+  EXPECT_FALSE(board.Acknowledge(AlarmId::kLink));
 }
 
 TEST(Alarms, ClearedButNotAcknowledgedStays) {
@@ -43,7 +43,7 @@ TEST(Alarms, ClearedButNotAcknowledgedStays) {
   Feed(board, {true, true, true, false, false, false, false});
   ASSERT_EQ(board.Shown().size(), 1U);
   EXPECT_FALSE(board.Shown()[0].active);
-  EXPECT_TRUE(board.Acknowledge("link"));
+  EXPECT_TRUE(board.Acknowledge(AlarmId::kLink));
   EXPECT_TRUE(board.Shown().empty());
 }
 
@@ -56,7 +56,7 @@ TEST(Alarms, AdvisoriesGoWithTheirCause) {
 TEST(Alarms, GrowingIntoAWarningAsksAgain) {
   AlarmBoard board;
   Feed(board, {true, true, true});
-  board.Acknowledge("link");
+  board.Acknowledge(AlarmId::kLink);
   EXPECT_EQ(board.UnacknowledgedWarning(), "");
   Feed(board, {true}, AlarmLevel::kWarning);
   EXPECT_EQ(board.UnacknowledgedWarning(), "Link 1.2 s, limit 1.0 s.");
@@ -65,14 +65,16 @@ TEST(Alarms, GrowingIntoAWarningAsksAgain) {
 TEST(Alarms, WorstFirst) {
   AlarmBoard board;
   for (int i = 0; i < 3; ++i) {
-    board.Update({{"a", AlarmLevel::kAdvisory, true, ""},
-                  {"c", AlarmLevel::kCaution, true, ""},
-                  {"w", AlarmLevel::kWarning, true, ""}},
+    board.Update({{AlarmId::kExposure, AlarmLevel::kAdvisory, true, ""},
+                  {AlarmId::kPose, AlarmLevel::kCaution, true, ""},
+                  {AlarmId::kClock, AlarmLevel::kWarning, true, ""}},
                  {i});
   }
   const auto shown = board.Shown();
   ASSERT_EQ(shown.size(), 3U);
-  EXPECT_EQ(shown[0].id + shown[1].id + shown[2].id, "wca");
+  EXPECT_EQ(shown[0].kind, AlarmId::kClock);
+  EXPECT_EQ(shown[1].kind, AlarmId::kPose);
+  EXPECT_EQ(shown[2].kind, AlarmId::kExposure);
 }
 
 }  // namespace

@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "engine/core/units.h"
+#include "engine/mission/guards.h"
 #include "engine/mission/mission.h"
 
 namespace palace {
@@ -89,7 +91,7 @@ struct SmallVehicle {
 
 struct MissionRig {
   explicit MissionRig(std::uint64_t session = 5)
-      : mission({session, ApprovalSigner::FromSeed(session), true}) {
+      : options{session, ApprovalSigner::FromSeed(session), true}, mission(options) {
     vehicle.public_key = ApprovalSigner::FromSeed(session).public_key();
     AddSite(101, 'A', {10, 2, 0});
     AddSite(102, 'B', {-6, 8, 0});
@@ -116,6 +118,11 @@ struct MissionRig {
 
   /// One tenth of a second: what the vehicle got, what it sends, one Update.
   void Step() {
+    Wait();
+    mission.Update(Inputs());
+  }
+  /// All of that but the Update.
+  void Wait() {
     now = AddSeconds(now, 0.1);
     ++sequence;
     for (VehicleMessage& message : mission.TakeMessages()) {
@@ -125,66 +132,42 @@ struct MissionRig {
       }
     }
     vehicle.Fly(0.1);
-    FrameBundle bundle;
-    bundle.sequence = sequence;
-    bundle.time = now;
-    bundle.discontinuity = std::exchange(jumped, false);
-    if (cameras_up) {
-      bundle.stereo =
-          std::make_shared<StereoFrame>(StereoFrame{now, ImageU8(2, 2, 7), ImageU8(2, 2, 7)});
-    }
-    if (pose_up) {
-      VehiclePose pose;
-      pose.time = now;
-      bundle.poses.push_back(pose);
-    }
-    if (link_up) {
-      VehicleStatus status;
-      status.time = VehicleNow();
-      status.boot_id = vehicle.boot_id;
-      status.mode = vehicle.mode;
-      status.on_ground = vehicle.mode == VehicleMode::kLanded;
-      status.approval_id = vehicle.approval_id;
-      bundle.status = status;
-      bundle.acks = std::exchange(vehicle.acks, {});
-    }
+    Sense();
     decision.selection.sites = sites;
     decision.map_hash = 1000 + (maps_up ? sequence : 0);
     decision.map_time = now;
     tracker.locked = mission.WantsTracking() && tracker_locks;
-    MissionInputs in{.now = now,
-                     .source_kind = source,
-                     .can_transmit = can_transmit,
-                     .recorder_ok = recorder_ok,
-                     .simulated_vehicle = simulated,
-                     .bundle = bundle,
-                     .channels = channels,
-                     .applied = &decision,
-                     .new_map = maps_up && cameras_up,
-                     .navigation = navigation,
-                     .tracker = tracker,
-                     .stereo = stereo,
-                     .rechecked = {},
-                     .nearest = {},
-                     .alternative = {},
-                     .settings = settings,
-                     .settings_hash = settings_hash,
-                     .calibration_hash = calibration_hash,
-                     .snapshot_sequence = sequence - 1,
-                     .p_WB_estimate = p_WB(),
-                     .skid_centre_W = p_WB()};
+  }
+  /// What this tenth of a second brought.
+  MissionInputs Inputs() {
+    MissionInputs in{.session = {.now = now,
+                                 .role = RoleOf(source, false),
+                                 .why_no_vehicle = WhyNoVehicle(source),
+                                 .can_transmit = can_transmit,
+                                 .recorder_ok = recorder_ok,
+                                 .snapshot_sequence = sequence - 1},
+                     .vehicle = {.bundle = bundle, .channels = channels, .simulated = simulated},
+                     .terrain = {.decision = &decision, .new_map = maps_up && cameras_up},
+                     .navigation = {.navigation = navigation,
+                                    .tracker = tracker,
+                                    .stereo = stereo,
+                                    .p_WB_estimate = p_WB(),
+                                    .skid_centre_W = p_WB()},
+                     .limits = {.settings = settings,
+                                .settings_hash = settings_hash,
+                                .calibration_hash = calibration_hash}};
     if (mission.status().armed) {
       if (const LandingSite* site = Site(mission.status().armed->id)) {
-        in.rechecked = *site;
-        in.rechecked->slope_rad.value = site_slope_rad;
+        in.terrain.rechecked = *site;
+        in.terrain.rechecked->slope_rad.value = site_slope_rad;
       }
     }
     if (mission.alternative()) {
       if (const LandingSite* site = Site(mission.alternative()->id)) {
-        in.alternative = *site;
+        in.terrain.alternative = *site;
       }
     }
-    mission.Update(in);
+    return in;
   }
   void Run(double seconds) {
     for (int i = 0; i < static_cast<int>(seconds * 10 + 0.5); ++i) {
@@ -224,8 +207,36 @@ struct MissionRig {
     }));
   }
 
+  void Sense() {
+    bundle = {};
+    bundle.sequence = sequence;
+    bundle.time = now;
+    bundle.discontinuity = std::exchange(jumped, false);
+    if (cameras_up) {
+      bundle.stereo =
+          std::make_shared<StereoFrame>(StereoFrame{now, ImageU8(2, 2, 7), ImageU8(2, 2, 7)});
+    }
+    if (pose_up) {
+      VehiclePose pose;
+      pose.time = now;
+      bundle.poses.push_back(pose);
+    }
+    if (link_up) {
+      VehicleStatus status;
+      status.time = VehicleNow();
+      status.boot_id = vehicle.boot_id;
+      status.mode = vehicle.mode;
+      status.on_ground = vehicle.mode == VehicleMode::kLanded;
+      status.approval_id = vehicle.approval_id;
+      bundle.status = status;
+      bundle.acks = std::exchange(vehicle.acks, {});
+    }
+  }
+
+  MissionOptions options;
   Mission mission;
   SmallVehicle vehicle;
+  FrameBundle bundle;  ///< of the newest Wait
   Timestamp now{1'000'000'000};
   std::uint64_t sequence = 0;
   std::int64_t clock_offset_us = 0;

@@ -211,10 +211,10 @@ void Descend(MissionRig& rig) {
   rig.Run(0.5);
 }
 
-bool HasAlarm(const MissionRig& rig, std::string_view id) {
+bool HasAlarm(const MissionRig& rig, AlarmId id) {
   const auto& alarms = rig.mission.status().alarms;
   return std::any_of(alarms.begin(), alarms.end(),
-                     [&](const Alarm& alarm) { return alarm.id == id && alarm.active; });
+                     [&](const Alarm& alarm) { return alarm.kind == id && alarm.active; });
 }
 
 TEST(Recheck, OneNoisyMapDoesNotStopADescent) {
@@ -240,11 +240,11 @@ TEST(Recheck, DegradedIsACautionAndTheDescentGoesOn) {
   EXPECT_EQ(rig.state(), MissionState::kDescending);
   EXPECT_EQ(rig.mission.status().rechecks.back().verdict, SiteVerdict::kDegraded);
   EXPECT_EQ(rig.mission.status().rechecks.back().reason, "Slope 9.5° ± 1.0°, max 10°");
-  EXPECT_TRUE(HasAlarm(rig, "site_degraded"));
+  EXPECT_TRUE(HasAlarm(rig, AlarmId::kSiteDegraded));
   rig.site_slope_rad = 0;
   rig.Run(1);
   EXPECT_EQ(rig.mission.status().rechecks.back().verdict, SiteVerdict::kHolds);
-  EXPECT_FALSE(HasAlarm(rig, "site_degraded"));
+  EXPECT_FALSE(HasAlarm(rig, AlarmId::kSiteDegraded));
   ASSERT_TRUE(rig.RunUntil(MissionState::kLanded, 30)) << rig.mission.status().why;
 }
 

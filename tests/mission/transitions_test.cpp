@@ -166,7 +166,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 struct Block {
   const char* name;
-  const char* guard;
+  GuardId guard;
   std::function<void(MissionRig&)> inject;
   double run_s;
 };
@@ -181,11 +181,10 @@ TEST_P(Guards, BlockApprovalAndNameTheReason) {
   rig.Run(GetParam().run_s);
   const auto& status = rig.mission.status();
   EXPECT_FALSE(status.can_approve);
-  bool named = false;
-  for (const GuardResult& guard : status.guards) {
-    named = named || (guard.id == GetParam().guard && !guard.pass && !guard.reason.empty());
-  }
-  EXPECT_TRUE(named) << status.cannot_approve_reason;
+  const GuardResult* guard = FindGuard(status.guards, GetParam().guard);
+  ASSERT_NE(guard, nullptr);
+  EXPECT_FALSE(guard->pass) << status.cannot_approve_reason;
+  EXPECT_FALSE(guard->reason.empty());
   const std::size_t events_before = rig.mission.events().size();
   const Status answer = rig.ApproveNow();
   ASSERT_FALSE(answer.ok());
@@ -197,27 +196,32 @@ TEST_P(Guards, BlockApprovalAndNameTheReason) {
 INSTANTIATE_TEST_SUITE_P(
     , Guards,
     testing::Values(
-        Block{"Link", "G1", [](MissionRig& r) { r.link_up = false; }, 1.2},
-        Block{"Pose", "G2", [](MissionRig& r) { r.pose_up = false; }, 0.4},
-        Block{"Cameras", "G3", [](MissionRig& r) { r.cameras_up = false; }, 0.7},
-        Block{"FrozenCamera", "G3", [](MissionRig& r) { r.stereo.suspect_frozen = true; }, 0.7},
-        Block{"SwappedCameras", "G3", [](MissionRig& r) { r.stereo.suspect_swapped = true; }, 0.7},
-        Block{"RowsApart", "G3", [](MissionRig& r) { r.stereo.row_error_px = 0.8; }, 0.7},
-        Block{"LeftChannel", "G3",
+        Block{"Link", GuardId::kLink, [](MissionRig& r) { r.link_up = false; }, 1.2},
+        Block{"Pose", GuardId::kAttitude, [](MissionRig& r) { r.pose_up = false; }, 0.4},
+        Block{"Cameras", GuardId::kCameras, [](MissionRig& r) { r.cameras_up = false; }, 0.7},
+        Block{"FrozenCamera", GuardId::kCameras,
+              [](MissionRig& r) { r.stereo.suspect_frozen = true; }, 0.7},
+        Block{"SwappedCameras", GuardId::kCameras,
+              [](MissionRig& r) { r.stereo.suspect_swapped = true; }, 0.7},
+        Block{"RowsApart", GuardId::kCameras, [](MissionRig& r) { r.stereo.row_error_px = 0.8; },
+              0.7},
+        Block{"LeftChannel", GuardId::kCameras,
               [](MissionRig& r) {
                 r.channels = {{"Camera left", ChannelHealth::State::kStale, 1.8, 0, 10, 1, 0, ""}};
               },
               0.1},
-        Block{"Map", "G4", [](MissionRig& r) { r.maps_up = false; }, 2.3},
-        Block{"Position", "G5", [](MissionRig& r) { r.navigation.gps.estimate.healthy = false; },
+        Block{"Map", GuardId::kMap, [](MissionRig& r) { r.maps_up = false; }, 2.3},
+        Block{"Position", GuardId::kPosition,
+              [](MissionRig& r) { r.navigation.gps.estimate.healthy = false; }, 0.1},
+        Block{"Tracker", GuardId::kPosition, [](MissionRig& r) { r.tracker_locks = false; }, 0.1},
+        Block{"Coherence", GuardId::kPosition, [](MissionRig& r) { r.tracker.coherence = 0.3; },
               0.1},
-        Block{"Tracker", "G5", [](MissionRig& r) { r.tracker_locks = false; }, 0.1},
-        Block{"Coherence", "G5", [](MissionRig& r) { r.tracker.coherence = 0.3; }, 0.1},
-        Block{"CoherenceUnknown", "G5", [](MissionRig& r) { r.tracker.coherence = NAN; }, 0.1},
-        Block{"Site", "G8", [](MissionRig& r) { r.site_slope_rad = Rad(12); }, 0.1},
-        Block{"NoLink", "G10", [](MissionRig& r) { r.can_transmit = false; }, 0.1},
-        Block{"Recorder", "G12", [](MissionRig& r) { r.recorder_ok = false; }, 0.1},
-        Block{"Unlabelled", "G13", [](MissionRig& r) { r.simulated = false; }, 0.1}),
+        Block{"CoherenceUnknown", GuardId::kPosition,
+              [](MissionRig& r) { r.tracker.coherence = NAN; }, 0.1},
+        Block{"Site", GuardId::kSite, [](MissionRig& r) { r.site_slope_rad = Rad(12); }, 0.1},
+        Block{"NoLink", GuardId::kAuthority, [](MissionRig& r) { r.can_transmit = false; }, 0.1},
+        Block{"Recorder", GuardId::kRecorder, [](MissionRig& r) { r.recorder_ok = false; }, 0.1},
+        Block{"Unlabelled", GuardId::kSource, [](MissionRig& r) { r.simulated = false; }, 0.1}),
     [](const auto& row) { return row.param.name; });
 
 TEST(Mission, RecorderLossMayBeAcknowledged) {
@@ -406,7 +410,7 @@ TEST(Mission, WithoutASelectionNoCheckClaimsAChange) {
   ASSERT_FALSE(rig.mission.status().armed.has_value());
   for (const GuardResult& guard : rig.mission.status().guards) {
     EXPECT_TRUE(guard.pass || guard.reason == "Select a site first")
-        << guard.id << " " << guard.reason;
+        << GuardName(guard.id) << " " << guard.reason;
   }
   EXPECT_FALSE(rig.mission.status().can_approve);
 }

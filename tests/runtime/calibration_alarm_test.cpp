@@ -54,9 +54,9 @@ std::shared_ptr<const EngineSnapshot> HoverWith(double focal_px, int frames) {
   return last;
 }
 
-const Alarm* FindAlarm(const EngineSnapshot& snapshot, const std::string& id) {
+const Alarm* FindAlarm(const EngineSnapshot& snapshot, AlarmId id) {
   for (const Alarm& alarm : snapshot.mission.alarms) {
-    if (alarm.id == id && alarm.active) {
+    if (alarm.kind == id && alarm.active) {
       return &alarm;
     }
   }
@@ -91,7 +91,7 @@ TEST(FocalLengthAsPrinted, StereoReadsTenPercentFarAndTheSelfCheckSaysSo) {
   const auto snapshot = HoverWith(FocalAsPrinted(640), 16);
   EXPECT_NEAR(snapshot->range_agreement.ratio, 1.107, 0.005);
   EXPECT_NEAR(snapshot->stereo_quality.median_depth_m, 1.107 * kHeight_m, 0.1);
-  const Alarm* alarm = FindAlarm(*snapshot, "range_scale");
+  const Alarm* alarm = FindAlarm(*snapshot, AlarmId::kRangeScale);
   ASSERT_NE(alarm, nullptr);
   EXPECT_EQ(alarm->level, AlarmLevel::kCaution);
   EXPECT_NE(alarm->text.find("far against the laser"), std::string::npos) << alarm->text;
@@ -100,15 +100,15 @@ TEST(FocalLengthAsPrinted, StereoReadsTenPercentFarAndTheSelfCheckSaysSo) {
 TEST(FocalLengthAsPrinted, TheRightFocalLengthRaisesNothing) {
   const auto snapshot = HoverWith(FocalFromFieldOfView(640, kFov_rad), 16);
   EXPECT_NEAR(snapshot->range_agreement.ratio, 1, 0.004);
-  EXPECT_EQ(FindAlarm(*snapshot, "range_scale"), nullptr);
+  EXPECT_EQ(FindAlarm(*snapshot, AlarmId::kRangeScale), nullptr);
 }
 
 // What the check can see: 3 % is found, 1 % is left to calibration.
 TEST(FocalLengthAsPrinted, ThreePercentIsFoundOnePercentIsTolerated) {
   const double right = FocalFromFieldOfView(640, kFov_rad);
-  EXPECT_NE(FindAlarm(*HoverWith(1.03 * right, 16), "range_scale"), nullptr);
-  EXPECT_NE(FindAlarm(*HoverWith(0.97 * right, 16), "range_scale"), nullptr);
-  EXPECT_EQ(FindAlarm(*HoverWith(1.01 * right, 16), "range_scale"), nullptr);
+  EXPECT_NE(FindAlarm(*HoverWith(1.03 * right, 16), AlarmId::kRangeScale), nullptr);
+  EXPECT_NE(FindAlarm(*HoverWith(0.97 * right, 16), AlarmId::kRangeScale), nullptr);
+  EXPECT_EQ(FindAlarm(*HoverWith(1.01 * right, 16), AlarmId::kRangeScale), nullptr);
 }
 
 }  // namespace

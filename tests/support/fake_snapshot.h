@@ -85,7 +85,7 @@ inline std::vector<GuardResult> Guards() {
                          "No warning standing", "Wind inside limit"};
   std::vector<GuardResult> guards;
   for (int i = 0; i < 11; ++i) {
-    guards.push_back({"G" + std::to_string(i + 1), names[i], true, ""});
+    guards.push_back({static_cast<GuardId>(i), names[i], true, ""});
   }
   return guards;
 }
@@ -164,17 +164,18 @@ inline void FillMission(EngineSnapshot& snap, MissionState state) {
                   {{kNow_us - 9'000'000}, 28, 4.3, true, ""},
                   {{kNow_us - 800'000}, 24, 4.1, true, ""}};
     m.rechecks.back().alternative = snap.applied->selection.sites[1];
-    m.alarms = {{"recheck",
+    m.alarms = {{AlarmId::kSiteDegraded,
                  AlarmLevel::kAdvisory,
                  "Site A confirmed again at 24 m. Clear radius 4.1 m.",
                  {kNow_us - 800'000}}};
   } else {
-    m.alarms = {{"gps_error",
-                 AlarmLevel::kCaution,
-                 "GPS horizontal error 2.6 m, limit 2.0 m. Landing on vision, not GPS.",
-                 {kNow_us - 900'000}},
-                {"shadow", AlarmLevel::kAdvisory, "Site B lies half in shadow.", {kNow_us}},
-                {"wind", AlarmLevel::kAdvisory, "Wind from 240\u00b0.", {kNow_us}}};
+    m.alarms = {
+        {AlarmId::kGpsError,
+         AlarmLevel::kCaution,
+         "GPS horizontal error 2.6 m, limit 2.0 m. Landing on vision, not GPS.",
+         {kNow_us - 900'000}},
+        {AlarmId::kExposure, AlarmLevel::kAdvisory, "Site B lies half in shadow.", {kNow_us}},
+        {AlarmId::kHeightMismatch, AlarmLevel::kAdvisory, "Wind from 240\u00b0.", {kNow_us}}};
   }
 }
 

@@ -35,10 +35,11 @@ void DrawGuards(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui) {
     }
     DrawIcon(Canvas(), guard.pass ? Icon::kDone : Icon::kOff, {content.x + s.Px(20), y}, s.Px(12),
              guard.pass ? p.text2 : p.text1);
-    DrawText(ui, s.caption, p.text3, content.x + s.Px(36), y, guard.id);
+    DrawText(ui, s.caption, p.text3, content.x + s.Px(36), y, GuardName(guard.id));
     const float width = DrawText(ui, guard.pass ? s.body : s.medium, guard.pass ? p.text2 : p.text1,
                                  name_x, y, guard.name);
-    ui.items.Add("guard/" + guard.id, {content.x, y - pitch / 2, content.w, pitch}, guard.pass,
+    ui.items.Add(std::string("guard/") + GuardName(guard.id),
+                 {content.x, y - pitch / 2, content.w, pitch}, guard.pass,
                  guard.name + (guard.pass ? " passes" : " fails: " + guard.reason));
     const std::string words = guard.pass ? std::string("Passes") : guard.reason;
     const float room = content.right() - s.Px(12) - name_x - width - s.Px(16);

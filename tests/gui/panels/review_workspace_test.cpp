@@ -262,7 +262,7 @@ TEST(DiagnoseWorkspace, StereoHealthNamesWhatIsWrong) {
   EXPECT_EQ(health("Pictures"), "bad: Pictures left and right look exchanged");
   snap.stereo_quality.row_error_px = 0.83;
   Alarm alarm;
-  alarm.id = "row_error";
+  alarm.kind = AlarmId::kRowError;
   snap.mission.alarms.push_back(alarm);
   EXPECT_EQ(health("Row error"), "bad: Row error 0.83 px");
   snap.range_agreement = {};

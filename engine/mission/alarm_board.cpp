@@ -1,0 +1,100 @@
+#include "engine/mission/alarm_board.h"
+
+#include <algorithm>
+
+namespace palace {
+
+AlarmBoard::Entry& AlarmBoard::Find(const AlarmCondition& condition) {
+  for (Entry& entry : entries_) {
+    if (entry.alarm.kind == condition.id) {
+      return entry;
+    }
+  }
+  Entry entry;
+  entry.alarm = Alarm{condition.id};
+  entry.alarm.active = false;
+  entry.alarm.count = 0;
+  entries_.push_back(entry);
+  return entries_.back();
+}
+
+void AlarmBoard::Update(const std::vector<AlarmCondition>& conditions, Timestamp now) {
+  raised_.clear();
+  for (const AlarmCondition& condition : conditions) {
+    Entry& entry = Find(condition);
+    Alarm& alarm = entry.alarm;
+    const bool changed =
+        entry.standing.Add(condition.present, condition.immediate ? 1 : Persistence::kSamples);
+    const bool worse = condition.present && alarm.active && condition.level > alarm.level;
+    if (condition.present && (alarm.active || condition.immediate)) {
+      alarm.text = condition.text;
+    }
+    if (worse) {
+      alarm.acknowledged = false;  // a caution that grows into a warning is news
+      raised_.push_back(alarm);
+    }
+    if (condition.present && alarm.active) {
+      alarm.level = condition.level;
+    }
+    if (!changed) {
+      continue;
+    }
+    alarm.active = condition.present;
+    if (alarm.active) {
+      alarm.level = condition.level;
+      alarm.text = condition.text;
+      alarm.since = now;
+      alarm.acknowledged = false;
+      ++alarm.count;
+      entry.shown = true;
+      raised_.push_back(alarm);
+    } else if (alarm.acknowledged || alarm.level == AlarmLevel::kAdvisory) {
+      entry.shown = false;
+      alarm.count = 0;
+    }
+  }
+}
+
+bool AlarmBoard::Acknowledge(AlarmId id) {
+  for (Entry& entry : entries_) {
+    if (entry.shown && entry.alarm.kind == id) {
+      entry.alarm.acknowledged = true;
+      if (!entry.alarm.active) {
+        entry.shown = false;
+        entry.alarm.count = 0;
+      }
+      return true;
+    }
+  }
+  return false;
+}
+
+bool AlarmBoard::IsAcknowledged(AlarmId id) const {
+  return std::any_of(entries_.begin(), entries_.end(), [&](const Entry& entry) {
+    return entry.shown && entry.alarm.active && entry.alarm.acknowledged && entry.alarm.kind == id;
+  });
+}
+
+std::string AlarmBoard::UnacknowledgedWarning() const {
+  for (const Alarm& alarm : Shown()) {
+    if (alarm.level == AlarmLevel::kWarning && !alarm.acknowledged) {
+      return alarm.text;
+    }
+  }
+  return {};
+}
+
+std::vector<Alarm> AlarmBoard::Shown() const {
+  std::vector<Alarm> shown;
+  for (const Entry& entry : entries_) {
+    if (entry.shown) {
+      shown.push_back(entry.alarm);
+    }
+  }
+  std::stable_sort(shown.begin(), shown.end(), [](const Alarm& a, const Alarm& b) {
+    return a.level != b.level ? a.level > b.level : a.since < b.since;
+  });
+  return shown;
+}
+
+}  // namespace palace

@@ -1,0 +1,51 @@
+// AlarmBoard: the alarms that stand, with persistence and acknowledgement.
+//
+// An alarm comes on, and goes off, only after three samples in a row. It disappears only when its
+// cause is gone; acknowledging only silences (I15). A cleared warning or caution that nobody
+// acknowledged stays, marked not active. Advisories go with their cause.
+// Source: reference/station-gui.md 3.2, look.md 10.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "engine/mission/persistence.h"
+#include "engine/model/mission_status.h"
+
+namespace palace {
+
+/// One condition of one sample. `text`: what, number, limit, then what to do.
+struct AlarmCondition {
+  AlarmId id = AlarmId::kCameraLeft;
+  AlarmLevel level = AlarmLevel::kAdvisory;
+  bool present = false;
+  std::string text;
+  bool immediate = false;  ///< events need no persistence: the vehicle's refusal, a wave-off
+};
+
+class AlarmBoard {
+ public:
+  /// Once a sample, with the same set of ids each time.
+  void Update(const std::vector<AlarmCondition>& conditions, Timestamp now);
+  /// False when that alarm is not on the board.
+  bool Acknowledge(AlarmId id);
+  bool IsAcknowledged(AlarmId id) const;
+  /// Text of the worst warning nobody acknowledged, empty when there is none.
+  std::string UnacknowledgedWarning() const;
+  /// Worst first, then oldest first.
+  std::vector<Alarm> Shown() const;
+  /// Alarms that came on in the last Update.
+  const std::vector<Alarm>& raised() const { return raised_; }
+
+ private:
+  struct Entry {
+    Alarm alarm;
+    Persistence standing;
+    bool shown = false;
+  };
+  Entry& Find(const AlarmCondition& condition);
+  std::vector<Entry> entries_;
+  std::vector<Alarm> raised_;
+};
+
+}  // namespace palace

@@ -1,0 +1,78 @@
+// What the alarms look at, out of the mission's memory and the inputs of this step.
+#include <algorithm>
+#include <cmath>
+
+#include "engine/mission/alarms.h"
+#include "engine/mission/geometry.h"
+#include "engine/mission/wording.h"
+
+namespace palace {
+namespace {
+
+void FillSensors(const MissionMemory& m, const MissionInputs& in, AlarmFacts& f) {
+  const Timestamp now = in.session.now;
+  const StereoQuality& stereo = in.navigation.stereo;
+  const RangeAgreement& agreement = in.navigation.range_agreement;
+  f.left_camera_age_s = m.watch.LeftCameraAge(now);
+  f.right_camera_age_s = m.watch.RightCameraAge(now);
+  f.pose_age_s = m.watch.PoseAge(now);
+  f.link_age_s = m.watch.LinkAge(now);
+  f.clock_stepped = m.watch.clock_stepped();
+  f.rebooted = m.watch.rebooted();
+  f.gps_error_m = m.watch.gps() ? 3 * m.watch.gps()->sigma_horizontal_m : NAN;
+  f.on_vision = in.navigation.navigation.handover == NavigationStatus::Handover::kVision;
+  f.pictures = JudgePictures(stereo, in.session.role);
+  f.row_error_px = stereo.row_error_px;
+  f.exposure_ratio = stereo.exposure_ratio;
+  f.exposure_factor = std::max(stereo.exposure_ratio, 1 / stereo.exposure_ratio);
+  f.scale_error_percent = 100 * std::abs(agreement.ratio - 1);
+  f.scale_sigma_percent = 100 * agreement.sigma;
+  f.reads_far = agreement.ratio > 1;
+  f.laser_mismatch_m = LaserMismatch(in);
+}
+
+void FillMission(const MissionMemory& m, const MissionInputs& in, AlarmFacts& f) {
+  const Timestamp now = in.session.now;
+  const MissionState state = m.status.state;
+  const TerrainDecision* decision = in.terrain.decision;
+  f.state = state;
+  f.letter = m.status.armed ? m.status.armed->letter : '?';
+  f.why = m.status.why;
+  f.abort_seen = m.abort_seen;
+  f.alternative = SiteLost(m, now) ? words::Alternative(m) : "";
+  f.site_degraded = IsFlying(state) && m.site.VerdictAt(now) == SiteVerdict::kDegraded &&
+                    HeightAboveSite(m) >= m.facts.commit_height_m;
+  f.site_reason = m.site.reason();
+  f.no_site =
+      decision != nullptr && decision->selection.sites.empty() && state <= MissionState::kProposed;
+  f.no_site_reason = decision != nullptr ? decision->selection.none_reason : "";
+  const bool descends_on_vision = state == MissionState::kDescending && f.on_vision;
+  f.vision_outage_s = descends_on_vision ? SecondsBetween(m.vision_good_at, now) : NAN;
+  f.max_vision_outage_s = m.facts.limits.max_vision_outage_s;
+  f.tracked = WatchesSite(m) && m.facts.tracker_locked;
+  f.coherence = m.facts.coherence;
+  f.min_coherence = m.facts.min_coherence;
+  const bool waiting = state == MissionState::kApproved &&
+                       m.status.approval_phase == MissionStatus::ApprovalPhase::kSent;
+  f.waiting_s = waiting ? SecondsBetween(m.approved_at, now) : NAN;
+  f.refusal = m.refusal;
+  f.foreign_descent =
+      state < MissionState::kHold && !FollowsRecord(in.session.role) && FliesForeignApproval(m);
+}
+
+}  // namespace
+
+AlarmFacts AlarmFactsAt(const MissionMemory& m, const MissionInputs& in) {
+  AlarmFacts f;
+  f.has_source = HasSource(in.session.role);
+  f.has_vehicle = HasVehicle(in.session.role);
+  f.pictures_only = HasPicturesOnly(in.session.role);
+  f.heard_vehicle = m.watch.heard_vehicle();
+  f.recorder_ok = in.session.recorder_ok;
+  f.source_damage = in.session.source_damage;
+  FillSensors(m, in, f);
+  FillMission(m, in, f);
+  return f;
+}
+
+}  // namespace palace

@@ -1,0 +1,175 @@
+#include "engine/mission/arrivals.h"
+
+#include "engine/mission/wording.h"
+
+namespace palace {
+namespace {
+
+constexpr double kShownMemory_s = 5;
+/// A proposed site may miss this many maps before the proposal ends.
+constexpr int kProposalMissing = 2;
+
+/// Another place of a record: nothing of the one before holds there.
+void StartAnew(MissionTurn& turn, Timestamp now) {
+  MissionMemory& m = turn.memory;
+  ForgetSite(m);
+  m.repeating.reset();
+  m.refusal.clear();
+  m.alarms = {};
+  m.pictures = {};
+  m.approvals_given = m.requests_made = m.dead_approval_id = m.hold_id = m.abort_id = 0;
+  m.status.refused_sites.clear();  // letters start anew
+  m.status.approval.reset();
+  m.status.approval_phase = MissionStatus::ApprovalPhase::kNone;
+  m.status.approval_answer.clear();
+  m.status.rechecks.clear();
+  m.status.touchdown_miss_m.reset();
+  m.status.touchdown_miss_true_m.reset();
+  Enter(turn, MissionState::kNoLive, words::kJumped, now);
+}
+
+void RememberNavigation(MissionFacts& facts, const MissionInputs::Navigation& in) {
+  const bool on_vision = in.navigation.handover == NavigationStatus::Handover::kVision;
+  const FilterStatus& filter = on_vision ? in.navigation.vision : in.navigation.gps;
+  facts.skid_centre_W = in.skid_centre_W;
+  facts.speed_mps = filter.estimate.v_WB.norm();
+  facts.position_healthy = in.p_WB_estimate.allFinite() && in.skid_centre_W.allFinite() &&
+                           filter.running && filter.estimate.healthy;
+  facts.tracker_locked = in.tracker.locked;
+  facts.coherence = in.tracker.coherence;
+}
+
+void RememberTerrain(MissionFacts& facts, const TerrainDecision* decision) {
+  if (decision == nullptr) {
+    facts.sites.clear();
+    facts.map_hash = 0;
+    return;
+  }
+  facts.sites = decision->selection.sites;
+  facts.map_hash = decision->map_hash;
+  facts.terrain_settings_hash = decision->settings_hash;
+}
+
+void RememberShown(MissionMemory& m, const MissionInputs::Session& in) {
+  m.shown.push_back({in.snapshot_sequence + 1, in.now});
+  while (m.shown.size() > 1 && SecondsBetween(m.shown.front().time, in.now) > kShownMemory_s) {
+    m.shown.pop_front();
+  }
+}
+
+void TakeApprovalAnswer(MissionTurn& turn, const CommandAck& ack, Timestamp now) {
+  using Phase = MissionStatus::ApprovalPhase;
+  MissionMemory& m = turn.memory;
+  const bool accepted = ack.result == AckResult::kAccepted;
+  m.repeating.reset();
+  m.status.approval_answer_s = SecondsBetween(m.approved_at, now);
+  m.status.approval_answer = ack.reason;
+  m.status.approval_phase = accepted ? Phase::kAccepted : Phase::kRefused;
+  const std::string site = words::SiteName(m.status);
+  AddEvent(
+      turn, now, EventKind::kVehicle,
+      accepted ? words::VehicleAccepted(site) : words::VehicleRefusedApproval(site, ack.reason));
+  m.vision_allowed = accepted;
+  if (!accepted) {
+    m.refusal = words::VehicleRefused(site, ack.reason);
+    Drop(turn, m.refusal, now);
+  }
+}
+
+}  // namespace
+
+void FollowJump(MissionTurn& turn, const MissionInputs& in) {
+  MissionMemory& m = turn.memory;
+  const Timestamp now = in.session.now;
+  if (!m.facts.valid || (!in.vehicle.bundle.discontinuity && now >= m.facts.now)) {
+    return;
+  }
+  m.watch = {};
+  m.shown.clear();
+  m.winner = {};
+  m.facts.now = m.sent_at = m.status.since = m.vision_good_at = now;
+  if (StartsAnewAfterJump(in.session.role)) {
+    StartAnew(turn, now);
+  } else if (m.status.state == MissionState::kArmed || m.status.state == MissionState::kApproved) {
+    Drop(turn, words::kTimeJumped, now);
+  } else if (m.status.state == MissionState::kDescending) {
+    Hold(turn, words::kTimeJumped, now);
+  }
+}
+
+void RememberFacts(MissionMemory& m, const MissionInputs& in) {
+  MissionFacts& facts = m.facts;
+  facts.valid = true;
+  facts.now = in.session.now;
+  facts.role = in.session.role;
+  facts.why_no_vehicle = in.session.why_no_vehicle;
+  facts.can_transmit = in.session.can_transmit;
+  facts.recorder_ok = in.session.recorder_ok;
+  facts.simulated_vehicle = in.vehicle.simulated;
+  facts.limits = in.limits.settings.mission;
+  facts.commit_height_m = in.limits.settings.slad.commit_height_m;
+  facts.min_coherence = in.limits.settings.tracking.min_coherence;
+  facts.settings_hash = in.limits.settings_hash;
+  facts.calibration_hash = in.limits.calibration_hash;
+  RememberTerrain(facts, in.terrain.decision);
+  RememberNavigation(facts, in.navigation);
+  m.vehicle_ever_heard = m.vehicle_ever_heard || m.watch.heard_vehicle();
+  m.pictures.Update(JudgePictures(in.navigation.stereo, in.session.role));
+  if (in.terrain.new_map && in.terrain.decision != nullptr) {
+    m.map_seen_at = in.session.now;
+  }
+  const FilterStatus& vision = in.navigation.navigation.vision;
+  if (vision.running && vision.estimate.healthy) {
+    m.vision_good_at = in.session.now;
+  }
+  RememberShown(m, in.session);
+}
+
+void FollowWinner(MissionMemory& m, const MissionInputs& in) {
+  if (!in.terrain.new_map || in.terrain.decision == nullptr) {
+    return;
+  }
+  const LandingSite* best = m.status.BestStanding(m.facts.sites);
+  if (best == nullptr) {
+    m.winner = {};
+    return;
+  }
+  const bool refused = m.status.IsRefused(m.winner.site_id);
+  const bool listed = FindSite(m, m.winner.site_id) != nullptr && !refused;
+  const bool proposed = m.status.state >= MissionState::kProposed;
+  if (best->id == m.winner.site_id || (proposed && listed)) {
+    ++m.winner.maps;
+    m.winner.missing = 0;
+  } else if (proposed && m.winner.site_id != 0 && !refused && m.winner.missing < kProposalMissing) {
+    ++m.winner.missing;
+  } else {
+    m.winner = {best->id, 1, 0, in.session.now};
+  }
+}
+
+void FollowAnswers(MissionTurn& turn, const MissionInputs& in) {
+  MissionMemory& m = turn.memory;
+  for (const CommandAck& ack : in.vehicle.bundle.acks) {
+    if (IsOwnApproval(m, ack.command_id) &&
+        m.status.approval_phase == MissionStatus::ApprovalPhase::kSent) {
+      TakeApprovalAnswer(turn, ack, in.session.now);
+    } else if (IsSameMessage(m, ack.command_id, m.hold_id) && m.repeating &&
+               std::holds_alternative<HoldRequest>(*m.repeating)) {
+      m.repeating.reset();
+    } else if (IsSameMessage(m, ack.command_id, m.abort_id)) {
+      m.abort_seen = m.abort_seen || ack.result == AckResult::kAccepted ||
+                     (m.watch.vehicle() && m.watch.vehicle()->on_ground);
+    }
+  }
+}
+
+void StopDeadApproval(MissionTurn& turn, const MissionInputs& in) {
+  const MissionMemory& m = turn.memory;
+  const bool searching = m.status.state <= MissionState::kArmed;
+  if (searching && in.vehicle.bundle.status && Executing(m) &&
+      m.watch.vehicle()->approval_id == m.dead_approval_id) {
+    Hold(turn, words::kFliesWithdrawn, in.session.now);
+  }
+}
+
+}  // namespace palace

@@ -1,0 +1,18 @@
+// What a bundle brings to the mission before any state looks at it: a jump in time, facts, the best
+// site's run of wins, the vehicle's answers.
+#pragma once
+
+#include "engine/mission/transitions.h"
+
+namespace palace {
+
+/// Ages across a jump mean nothing: forgets every arrival, waits for three new samples (I18), and
+/// stops what was under way. A record or a folder starts anew.
+void FollowJump(MissionTurn& turn, const MissionInputs& inputs);
+void RememberFacts(MissionMemory& memory, const MissionInputs& inputs);
+void FollowWinner(MissionMemory& memory, const MissionInputs& inputs);
+void FollowAnswers(MissionTurn& turn, const MissionInputs& inputs);
+/// A vehicle that flies an approval which ended is held again (I14).
+void StopDeadApproval(MissionTurn& turn, const MissionInputs& inputs);
+
+}  // namespace palace

@@ -1,0 +1,271 @@
+#include "engine/mission/commands.h"
+
+#include <cmath>
+#include <utility>
+
+#include "engine/core/units.h"
+#include "engine/mission/geometry.h"
+#include "engine/mission/guards.h"
+#include "engine/mission/wording.h"
+
+namespace palace {
+namespace {
+
+constexpr double kSnapshotOld_s = 2;
+constexpr std::uint64_t kRefreshes = 60;  ///< at most, between two passes
+
+Status Refuse(MissionTurn& turn, Timestamp now, std::string_view what, std::string why) {
+  AddEvent(turn, now, EventKind::kDecision, std::string(what) + " refused: " + why);
+  return UsageError(std::move(why));
+}
+
+Approval MakeApproval(MissionTurn& turn, Timestamp now) {
+  MissionMemory& m = turn.memory;
+  const LandingSite& site = *m.status.armed;
+  Approval a;
+  a.counter = ++m.approvals_given;
+  a.id = ApprovalNumber(turn.station.session_id, a.counter);
+  a.session_id = turn.station.session_id;
+  a.site_id = site.id;
+  a.map_hash = m.armed.map_hash;
+  a.settings_hash = m.armed.settings_hash;
+  a.calibration_hash = m.armed.calibration_hash;
+  a.vehicle_boot_id = m.armed.boot_id;
+  a.approved_at = m.watch.VehicleTime(now);
+  a.expires_at = AddSeconds(a.approved_at, m.facts.limits.approval_expiry_s);
+  a.provisional = !m.armed.confirmed;
+  a.p_WS = site.p_WS;
+  a.approach_heading_rad = HeadingTo(m, site.p_WS);
+  a.glide_slope_rad = Rad(m.facts.limits.glide_slope_deg);
+  a.clear_radius_m = site.clear_radius_m;
+  if (MaySign(m.facts.role)) {
+    turn.station.signer.Sign(a);  // unsigned, no vehicle takes it (I7)
+  }
+  return a;
+}
+
+/// G6: the picture the operator decided on showed this site armed, and was recent. Snapshots
+/// refreshed between two passes carry numbers the mission has not seen yet.
+bool WasOnScreen(const MissionMemory& m, std::uint64_t sequence, Timestamp now) {
+  bool recent = false;
+  for (const ShownSnapshot& shown : m.shown) {
+    recent = recent || (shown.sequence <= sequence && sequence <= shown.sequence + kRefreshes &&
+                        SecondsBetween(shown.time, now) <= kSnapshotOld_s);
+  }
+  return recent && sequence >= *m.armed.first_sequence;
+}
+
+/// One operator() a command.
+struct Obeying {
+  MissionTurn& turn;
+  CommandOrigin origin;
+  Timestamp now;
+
+  Status operator()(const SelectSite& action) const;
+  Status operator()(const DisarmSite&) const;
+  Status operator()(const ApproveSite& action) const;
+  Status operator()(const RefuseSite& action) const;
+  Status operator()(const HoldHere&) const;
+  Status operator()(const WaveOff&) const;
+  Status operator()(const AcknowledgeWaveOff&) const;
+  Status operator()(const AcknowledgeAlarm& action) const;
+  Status operator()(const AddBookmark& action) const;
+  // Limits are kept elsewhere.
+  Status operator()(const SetSetting&) const { return Ok(); }
+  Status operator()(const ApplySettings&) const { return Ok(); }
+  Status operator()(const DiscardSettings&) const { return Ok(); }
+};
+
+Status Obeying::operator()(const SelectSite& action) const {
+  MissionMemory& m = turn.memory;
+  const MissionState state = m.status.state;
+  const LandingSite* site = FindSite(m, action.site_id);
+  // A refused site is never proposed again: a second look must not wait for that. It stays refused
+  // until it is approved.
+  const bool reconsidered = state == MissionState::kSearch && m.status.IsRefused(action.site_id);
+  if (state != MissionState::kProposed && state != MissionState::kArmed && !reconsidered) {
+    return Refuse(turn, now, "Select", words::CannotSelectIn(state));
+  }
+  if (site == nullptr) {
+    return Refuse(turn, now, "Select", words::kNotOnMap);
+  }
+  if (!site->p_WS.allFinite() || !std::isfinite(site->clear_radius_m)) {
+    return Refuse(turn, now, "Select", words::kPlaceUnknown);
+  }
+  if (state == MissionState::kArmed && m.status.armed->id == action.site_id) {
+    return Ok();  // set, not toggle: a second copy changes nothing (I8)
+  }
+  ForgetSite(m);
+  m.refusal.clear();
+  m.status.armed = *site;
+  m.status.armed_at = now;
+  m.status.arm_expires = AddSeconds(now, m.facts.limits.arm_window_s);
+  m.status.approval_phase = MissionStatus::ApprovalPhase::kNone;
+  m.status.approval_answer.clear();
+  m.status.rechecks.clear();
+  m.armed.map_hash = m.facts.map_hash;
+  m.armed.settings_hash = m.facts.settings_hash;
+  m.armed.terrain_settings_hash = m.facts.terrain_settings_hash;
+  m.armed.calibration_hash = m.facts.calibration_hash;
+  m.armed.boot_id = m.watch.boot_id();
+  m.armed.confirmed = site->confirmed;
+  Enter(turn, MissionState::kArmed, words::SiteSelected(site->letter), now);
+  return Ok();
+}
+
+Status Obeying::operator()(const DisarmSite&) const {
+  const MissionState state = turn.memory.status.state;
+  if (state != MissionState::kArmed && state != MissionState::kApproved) {
+    return Refuse(turn, now, "Disarm", words::kNoneSelected);
+  }
+  Drop(turn, state == MissionState::kArmed ? words::kDeselected : words::kWithdrawn, now);
+  return Ok();
+}
+
+Status Obeying::operator()(const RefuseSite& action) const {
+  MissionMemory& m = turn.memory;
+  const MissionState state = m.status.state;
+  const LandingSite* site = FindSite(m, action.site_id);
+  const bool armed = state == MissionState::kArmed && m.status.armed->id == action.site_id;
+  if (state != MissionState::kProposed && state != MissionState::kArmed) {
+    return Refuse(turn, now, "Refuse",
+                  IsFlying(state) ? words::kApprovedHold : words::kNoneProposed);
+  }
+  if (site == nullptr && !armed) {
+    return Refuse(turn, now, "Refuse", words::kNotOnMap);
+  }
+  const char letter = armed ? m.status.armed->letter : site->letter;
+  if (!m.status.IsRefused(action.site_id)) {
+    m.status.refused_sites.push_back(action.site_id);
+  }
+  AddEvent(turn, now, EventKind::kDecision, words::SiteRefused(letter) + " by the operator");
+  if (m.winner.site_id == action.site_id) {
+    m.winner = {};
+  }
+  const std::string why = words::RefusedAndNext(letter, m.status.BestStanding(m.facts.sites));
+  if (armed) {
+    Kill(turn, why);
+    ForgetSite(m);
+  }
+  // What was not proposed before must win its maps first.
+  if (!WinnerStands(m, now)) {
+    Enter(turn, MissionState::kSearch, why, now);
+  } else if (armed) {
+    Enter(turn, MissionState::kProposed, why, now);
+  }
+  return Ok();
+}
+
+Status Obeying::operator()(const ApproveSite& action) const {
+  MissionMemory& m = turn.memory;
+  if (m.status.state != MissionState::kArmed) {
+    return Refuse(turn, now, "Approve",
+                  IsFlying(m.status.state) ? words::kAlreadyApproved : words::kSelectFirst);
+  }
+  if (action.site_id != m.status.armed->id) {
+    return Refuse(turn, now, "Approve", words::NotTheArmedOne(m.status));
+  }
+  const bool recorded = origin == CommandOrigin::kReplay;
+  const auto guards = EvaluateGuards(GuardInputsAt(m, now));
+  if (const GuardResult* failed = FirstFailure(guards, recorded)) {
+    return Refuse(turn, now, "Approve", failed->reason);
+  }
+  if (!recorded && !WasOnScreen(m, action.snapshot_sequence, now)) {
+    return Refuse(turn, now, "Approve", words::kOtherPicture);
+  }
+  std::erase(m.status.refused_sites, m.status.armed->id);  // approved on a second look
+  m.status.approval = MakeApproval(turn, now);
+  m.status.approval_phase = MissionStatus::ApprovalPhase::kSent;
+  m.status.approval_answer.clear();
+  m.status.arm_expires.reset();
+  m.approved_at = now;
+  AddEvent(turn, now, EventKind::kDecision, words::ApprovalGiven(m.status, m.approvals_given));
+  const char* who = origin == CommandOrigin::kScript ? "a script" : "the operator";
+  Enter(turn, MissionState::kApproved, words::ApprovedBy(who), now);
+  SendUntilAnswered(turn, *m.status.approval, now);
+  return Ok();
+}
+
+Status Obeying::operator()(const HoldHere&) const {
+  if (!IsFlying(turn.memory.status.state)) {
+    return Refuse(turn, now, "Hold", words::kNoDescent);
+  }
+  Hold(turn, words::kHeldByOperator, now);
+  return Ok();
+}
+
+Status Obeying::operator()(const WaveOff&) const {
+  Abort(turn, words::kWavedOff, now);
+  return Ok();
+}
+
+Status Obeying::operator()(const AcknowledgeWaveOff&) const {
+  if (turn.memory.status.state != MissionState::kAborting) {
+    return Refuse(turn, now, "Acknowledge", words::kNoWaveOff);
+  }
+  turn.memory.wave_off_acknowledged = true;
+  turn.memory.alarms.Acknowledge(AlarmId::kWaveOff);
+  return Ok();
+}
+
+Status Obeying::operator()(const AcknowledgeAlarm& action) const {
+  const std::optional<AlarmId> id = AlarmFromName(action.alarm);
+  if (!id || !turn.memory.alarms.Acknowledge(*id)) {
+    return Refuse(turn, now, "Acknowledge", words::NoAlarm(action.alarm));
+  }
+  AddEvent(turn, now, EventKind::kAlarm, "Acknowledged: " + action.alarm);
+  return Ok();
+}
+
+Status Obeying::operator()(const AddBookmark& action) const {
+  AddEvent(turn, now, EventKind::kBookmark, action.note);
+  return Ok();
+}
+
+struct ConcernsVehicle {
+  template <typename T>
+  bool operator()(const T&) const {
+    return false;
+  }
+  bool operator()(const SelectSite&) const { return true; }
+  bool operator()(const DisarmSite&) const { return true; }
+  bool operator()(const ApproveSite&) const { return true; }
+  bool operator()(const RefuseSite&) const { return true; }
+  bool operator()(const HoldHere&) const { return true; }
+  bool operator()(const WaveOff&) const { return true; }
+  bool operator()(const AcknowledgeWaveOff&) const { return true; }
+};
+
+/// Why this one may not ask for that; empty when it may.
+std::string WhyNotAllowed(const MissionTurn& turn, const EngineCommand& command) {
+  const MissionFacts& facts = turn.memory.facts;
+  const bool recorded = command.origin == CommandOrigin::kReplay;
+  if (recorded && !FollowsRecord(facts.role)) {
+    return words::kRecordedOnly;
+  }
+  if (!std::visit(ConcernsVehicle{}, command.action)) {
+    return {};
+  }
+  if (!recorded && !MaySend(facts.role)) {
+    return facts.why_no_vehicle;
+  }
+  const bool commits = std::holds_alternative<SelectSite>(command.action) ||
+                       std::holds_alternative<ApproveSite>(command.action);
+  const bool script_may = turn.station.allow_script_approvals && facts.simulated_vehicle;
+  if (commits && command.origin == CommandOrigin::kScript && !script_may) {
+    return words::kNoScript;
+  }
+  return {};
+}
+
+}  // namespace
+
+Status Obey(MissionTurn& turn, const EngineCommand& command, Timestamp now) {
+  std::string why_not = WhyNotAllowed(turn, command);
+  if (!why_not.empty()) {
+    return Refuse(turn, now, "Command", std::move(why_not));
+  }
+  return std::visit(Obeying{turn, command.origin, now}, command.action);
+}
+
+}  // namespace palace

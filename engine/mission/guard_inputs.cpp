@@ -1,0 +1,73 @@
+// What the guards look at, out of the mission's memory.
+#include "engine/mission/geometry.h"
+#include "engine/mission/guards.h"
+#include "engine/mission/wording.h"
+
+namespace palace {
+namespace {
+
+/// Why this source can never be approved on; empty when it can.
+std::string WhyNotThisSource(const MissionFacts& facts) {
+  if (!MaySelect(facts.role)) {
+    return facts.why_no_vehicle;
+  }
+  return MustBeLabelled(facts.role) && !facts.simulated_vehicle
+             ? "This simulation is not labelled so"
+             : "";
+}
+
+/// Fills what speaks of the armed site.
+void JudgeArmedSite(const MissionMemory& m, Timestamp now, GuardInputs& in) {
+  const ArmedFacts& armed = m.armed;
+  if (armed.first_sequence) {
+    in.shown_for_s = SecondsBetween(armed.shown_since, now);
+  }
+  in.armed_for_s = SecondsBetween(m.status.armed_at, now);
+  in.hashes_unchanged = m.facts.settings_hash == armed.settings_hash &&
+                        m.facts.terrain_settings_hash == armed.terrain_settings_hash &&
+                        m.facts.calibration_hash == armed.calibration_hash;
+  in.boot_unchanged = m.watch.heard_vehicle() && m.watch.boot_id() == armed.boot_id;
+  in.site_letter = m.status.armed->letter;
+  in.site_holds = m.site.evaluated() && m.site.newest().holds();
+  in.site_reason = m.site.newest().reason;
+  if (in.site_holds && !m.site.newest().approach_clear) {
+    // What is approved is the straight way from where the vehicle is.
+    in.site_holds = false;
+    in.site_reason = words::ApproachBlocked(in.site_letter);
+  }
+  if (in.site_holds && !armed.confirmed && !(HeightAboveSite(m) > GuardLimits::confirm_height_m)) {
+    in.site_holds = false;
+    in.site_reason = words::ConfirmHigher(in.site_letter);
+  }
+}
+
+}  // namespace
+
+GuardInputs GuardInputsAt(const MissionMemory& m, Timestamp now) {
+  GuardInputs in;
+  in.link_age_s = m.watch.LinkAge(now);
+  in.pose_age_s = m.watch.PoseAge(now);
+  in.left_camera_age_s = m.watch.LeftCameraAge(now);
+  in.right_camera_age_s = m.watch.RightCameraAge(now);
+  in.camera_problem = m.pictures.problem();
+  in.map_age_s =
+      m.facts.map_hash != 0 && now >= m.map_seen_at ? SecondsBetween(m.map_seen_at, now) : NAN;
+  in.position_healthy = m.facts.position_healthy;
+  in.tracker_locked = m.facts.tracker_locked;
+  in.coherence = m.facts.coherence;
+  in.min_coherence = m.facts.min_coherence;
+  in.clock_continuous = m.watch.clock_continuous();
+  in.can_transmit = m.facts.can_transmit;
+  in.foreign_approval = FliesForeignApproval(m);
+  in.unacknowledged_warning = m.alarms.UnacknowledgedWarning();
+  in.recorder_ok = m.facts.recorder_ok;
+  in.recorder_loss_acknowledged = m.alarms.IsAcknowledged(AlarmId::kRecorder);
+  in.source_reason = WhyNotThisSource(m.facts);
+  in.arm_window_s = m.facts.limits.arm_window_s;
+  if (m.status.armed) {
+    JudgeArmedSite(m, now, in);
+  }
+  return in;
+}
+
+}  // namespace palace

@@ -1,0 +1,59 @@
+// Numbers that the mission holds things against. Each stands once: the rule that enforces it and
+// the sentence that names it both read it here. Limits that a person may move are in Settings.
+//
+// Source: reference/reliability.md 3.3 (G) and 4 (F), DESIGN.md 6 and 8.
+#pragma once
+
+#include <cmath>
+#include <string>
+
+namespace palace {
+
+/// Limits of the guards.
+struct GuardLimits {
+  static constexpr double link_s = 1.0;
+  static constexpr double pose_s = 0.2;
+  static constexpr double camera_s = 0.5;
+  static constexpr double map_s = 2.0;
+  static constexpr double shown_s = 1.0;  ///< evidence on screen
+  static constexpr double arm_to_approve_s = 0.5;
+  static constexpr double confirm_height_m = 10;  ///< a provisional site must be confirmed by here
+};
+
+/// An age beyond which a selection, an approval or a descent ends.
+struct StaleLimits {
+  static constexpr double cameras_live_s = 5;  ///< no mission at all beyond this
+  static constexpr double link_s = 5;          ///< F19
+  static constexpr double sensor_s = 1;        ///< pose and cameras: F01, F10
+  static constexpr double map_s = 3;
+};
+
+/// Beyond these an alarm is raised, where no guard's limit does it.
+struct AlarmLimits {
+  static constexpr double gps_error_m = 2.0;
+  static constexpr double vision_late_s = 0.3;
+  static constexpr double answer_s = 2.0;
+  static constexpr double laser_mismatch_m = 1.0;
+  static constexpr double row_error_px = 0.5;  ///< a good calibration has 0.2
+  static constexpr double exposure = 2;        ///< one picture twice as bright as the other
+  static constexpr double scale_percent = 2;   ///< 0.3 m of height at 50 ft
+};
+
+/// A number with its unit, as a sentence names it.
+struct Limit {
+  double value = NAN;  ///< NaN: there is no number
+  const char* unit = "";
+  int decimals = 1;
+};
+/// "0.5 s"; empty when there is no number.
+std::string LimitWords(const Limit& limit);
+
+/// Who acts when a limit is passed.
+enum class Enforcer : std::uint8_t {
+  kNobody,   ///< for information
+  kGuard,    ///< approval is refused
+  kMission,  ///< selection or approval is dropped, or the descent held
+  kVehicle,  ///< by itself
+};
+
+}  // namespace palace

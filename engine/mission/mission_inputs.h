@@ -1,0 +1,74 @@
+// MissionInputs: everything the state machine may look at in one step, in five groups.
+//
+// References hold for the length of one step only; what a later command needs is copied.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include <Eigen/Dense>
+
+#include "engine/model/cell_explanation.h"
+#include "engine/model/landing_site.h"
+#include "engine/model/session_role.h"
+#include "engine/model/snapshot.h"
+#include "engine/trust/approval.h"
+
+namespace palace {
+
+/// What this station is, for as long as it runs.
+struct MissionOptions {
+  std::uint64_t session_id = 1;  ///< random per start; from the seed in lockstep simulation
+  ApprovalSigner signer = ApprovalSigner::FromSeed(1);
+  bool allow_script_approvals = true;  ///< still only on simulated vehicles (DESIGN.md 8)
+};
+
+struct MissionInputs {
+  struct Session {
+    Timestamp now;
+    SessionRole role = SessionRole::kNone;
+    /// WhyNoVehicle of the source: why nothing can be commanded; empty with a vehicle.
+    const char* why_no_vehicle = "";
+    bool can_transmit = false;
+    bool recorder_ok = false;
+    std::string_view source_damage{};  ///< SourceStatus::damage
+    /// Of the newest snapshot published; this pass publishes the next number.
+    std::uint64_t snapshot_sequence = 0;
+  };
+  struct Vehicle {
+    const FrameBundle& bundle;
+    const std::vector<ChannelHealth>& channels;
+    bool simulated = false;  ///< built-in simulator, or a session labelled simulated
+  };
+  struct Terrain {
+    const TerrainDecision* decision = nullptr;  ///< of record; may be null
+    bool new_map = false;                       ///< `decision` was made from this bundle
+    std::optional<LandingSite> rechecked{};     ///< the armed site evaluated on the newest map
+    std::optional<NearestHazard> nearest{};     ///< to it there, when it is no hazard itself
+    std::optional<LandingSite> alternative{};   ///< the alternative kept for it, likewise
+  };
+  struct Navigation {
+    const NavigationStatus& navigation;
+    const TrackerStatus& tracker;
+    StereoQuality stereo{};            ///< of the newest range map
+    RangeAgreement range_agreement{};  ///< stereo against laser
+    Eigen::Vector3d p_WB_estimate = Eigen::Vector3d::Constant(NAN);
+    Eigen::Vector3d skid_centre_W = Eigen::Vector3d::Constant(NAN);  ///< by the estimate in force
+  };
+  struct Limits {
+    const Settings& settings;
+    std::uint64_t settings_hash = 0;
+    std::uint64_t calibration_hash = 0;
+  };
+
+  Session session;
+  Vehicle vehicle;
+  Terrain terrain;
+  Navigation navigation;
+  Limits limits;
+};
+
+}  // namespace palace

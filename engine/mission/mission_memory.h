@@ -1,0 +1,127 @@
+// MissionMemory: all that the mission remembers from one step to the next, and questions to it.
+//
+// A plain value: copy it, and both copies go on alike. (`MissionState` is the name of the state the
+// machine is in, SEARCH or ARMED; this is the whole of what Step takes and gives back.)
+// Heights are metres above the site, skid centre. Times are data time of the station.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Dense>
+
+#include "engine/mission/alarm_board.h"
+#include "engine/mission/input_watch.h"
+#include "engine/mission/picture_watch.h"
+#include "engine/mission/site_watch.h"
+#include "engine/model/mission_status.h"
+#include "engine/model/session_role.h"
+#include "engine/model/settings.h"
+
+namespace palace {
+
+/// Of the last step, for the commands that come before the next: copies, nothing dangles.
+struct MissionFacts {
+  bool valid = false;
+  Timestamp now;
+  SessionRole role = SessionRole::kNone;
+  std::string why_no_vehicle;
+  bool simulated_vehicle = false;
+  bool can_transmit = false;
+  bool recorder_ok = false;
+  std::vector<LandingSite> sites;
+  std::uint64_t map_hash = 0;
+  std::uint64_t settings_hash = 0;
+  std::uint64_t terrain_settings_hash = 0;
+  std::uint64_t calibration_hash = 0;
+  MissionSettings limits;
+  double commit_height_m = 3;
+  double min_coherence = NAN;
+  Eigen::Vector3d skid_centre_W = Eigen::Vector3d::Constant(NAN);
+  double speed_mps = NAN;  ///< by the estimate in force
+  bool position_healthy = false;
+  bool tracker_locked = false;
+  double coherence = NAN;
+};
+
+/// What an armed site is bound to.
+struct ArmedFacts {
+  std::uint64_t map_hash = 0, settings_hash = 0, terrain_settings_hash = 0;
+  std::uint64_t calibration_hash = 0, boot_id = 0;
+  std::optional<std::uint64_t> first_sequence;  ///< first snapshot that showed it armed
+  Timestamp shown_since;
+  bool confirmed = false;
+};
+
+/// The best site's run of wins.
+struct WinningRun {
+  std::uint64_t site_id = 0;
+  int maps = 0;
+  int missing = 0;
+  Timestamp since;
+};
+
+/// A snapshot that was on the screen.
+struct ShownSnapshot {
+  std::uint64_t sequence = 0;
+  Timestamp time;
+};
+
+struct MissionMemory {
+  MissionMemory();
+
+  MissionStatus status;  ///< as published
+  MissionFacts facts;
+  ArmedFacts armed;
+  SiteWatch site;
+  SiteVerdict told = SiteVerdict::kHolds;  ///< of the armed site, in the events
+  /// The best other site that shares no ground with the armed one, kept as long as it holds.
+  std::optional<LandingSite> alternative;
+  WinningRun winner;
+  InputWatch watch;
+  PictureWatch pictures;
+  AlarmBoard alarms;
+  std::deque<ShownSnapshot> shown;  ///< recent ones
+
+  std::uint64_t approvals_given = 0;   ///< the counter that approvals carry (I9)
+  std::uint64_t requests_made = 0;     ///< holds and aborts
+  std::uint64_t dead_approval_id = 0;  ///< last approval that may never resume (I14)
+  std::uint64_t hold_id = 0, abort_id = 0;
+  std::optional<VehicleMessage> repeating;  ///< until the vehicle answers
+  Timestamp sent_at;                        ///< of the message being repeated
+  Timestamp approved_at;                    ///< station time of the approval
+  std::string refusal;  ///< the vehicle's refusal of the last approval, empty when none
+
+  bool vehicle_ever_heard = false;
+  bool abort_seen = false;  ///< the vehicle acknowledged or flies the abort
+  bool wave_off_acknowledged = false;
+  bool vision_allowed = false;
+  Timestamp vision_good_at;
+  Timestamp map_seen_at;
+};
+
+/// Requests (hold, abort) have this bit of their number set, approvals do not.
+inline constexpr std::uint64_t kRequestBit = 0x80000000U;
+
+/// Site of that id on the newest map; null when there is none.
+const LandingSite* FindSite(const MissionMemory& memory, std::uint64_t site_id);
+/// A site has won enough maps for long enough, and the maps are new.
+bool WinnerStands(const MissionMemory& memory, Timestamp now);
+bool SiteLost(const MissionMemory& memory, Timestamp now);
+/// The vehicle flies an approval, somebody's.
+bool Executing(const MissionMemory& memory);
+/// `id` as the vehicle names it is `own`. A record is of another session: there the kind decides.
+bool IsSameMessage(const MissionMemory& memory, std::uint64_t id, std::uint64_t own);
+bool IsOwnApproval(const MissionMemory& memory, std::uint64_t id);
+/// The vehicle flies an approval that is not this station's.
+bool FliesForeignApproval(const MissionMemory& memory);
+/// A site is armed and watched: ARMED to HOLD.
+bool WatchesSite(const MissionMemory& memory);
+/// APPROVED or DESCENDING.
+bool IsFlying(MissionState state);
+
+}  // namespace palace

@@ -1,0 +1,46 @@
+#include "engine/mission/publish.h"
+
+#include "engine/mission/alarms.h"
+#include "engine/mission/geometry.h"
+#include "engine/mission/guards.h"
+#include "engine/mission/wording.h"
+
+namespace palace {
+namespace {
+
+void PublishAlarms(MissionTurn& turn, const MissionInputs& in) {
+  MissionMemory& m = turn.memory;
+  m.alarms.Update(EvaluateAlarms(AlarmFactsAt(m, in)), in.session.now);
+  for (const Alarm& alarm : m.alarms.raised()) {
+    AddEvent(turn, in.session.now, EventKind::kAlarm, alarm.text);
+  }
+  m.status.alarms = m.alarms.Shown();
+}
+
+std::string WhyNoApproval(const MissionMemory& m) {
+  if (!MaySelect(m.facts.role)) {
+    return FindGuard(m.status.guards, GuardId::kSource)->reason;
+  }
+  if (IsFlying(m.status.state)) {
+    return words::kAlreadyApproved;
+  }
+  const GuardResult* failed = FirstFailure(m.status.guards);
+  if (m.status.state != MissionState::kArmed || failed == nullptr) {
+    return words::kSelectFirst;
+  }
+  return failed->reason;
+}
+
+}  // namespace
+
+void Publish(MissionTurn& turn, const MissionInputs& in) {
+  MissionMemory& m = turn.memory;
+  PublishAlarms(turn, in);
+  m.status.guards = EvaluateGuards(GuardInputsAt(m, in.session.now));
+  m.status.can_approve =
+      m.status.state == MissionState::kArmed && FirstFailure(m.status.guards) == nullptr;
+  m.status.cannot_approve_reason = m.status.can_approve ? std::string() : WhyNoApproval(m);
+  PublishGeometry(m, in);
+}
+
+}  // namespace palace

@@ -1,0 +1,90 @@
+#include "engine/mission/recheck.h"
+
+#include <cmath>
+#include <utility>
+
+#include "engine/mission/geometry.h"
+#include "engine/mission/wording.h"
+
+namespace palace {
+namespace {
+
+constexpr double kRecheckShown_s = 1;
+
+bool SharesGround(const LandingSite& a, const LandingSite& b) {
+  return (a.p_WS - b.p_WS).head<2>().norm() <= a.clear_radius_m + b.clear_radius_m;
+}
+
+bool IsUsableBeside(const MissionMemory& m, const std::optional<LandingSite>& site,
+                    const SladSettings& settings) {
+  return site && !m.status.IsRefused(site->id) && site->corridor_clear &&
+         !SharesGround(*site, *m.status.armed) &&
+         JudgeRecheck(site, {}, {false, 0}, settings).holds();
+}
+
+void FollowAlternative(MissionMemory& m, const MissionInputs& in) {
+  const SladSettings& settings = in.limits.settings.slad;
+  if (m.alternative && IsUsableBeside(m, in.terrain.alternative, settings)) {
+    m.alternative = in.terrain.alternative;  // the same place on this map
+    return;
+  }
+  m.alternative.reset();
+  for (const LandingSite& site : m.facts.sites) {
+    if (site.id != m.status.armed->id && IsUsableBeside(m, site, settings)) {
+      m.alternative = site;
+      return;
+    }
+  }
+}
+
+/// A re-check is worth a line when it says something new, or after a while.
+bool IsNews(const std::vector<SiteRecheck>& before, const SiteRecheck& check) {
+  if (before.empty()) {
+    return true;
+  }
+  const auto id = [](const SiteRecheck& c) { return c.alternative ? c.alternative->id : 0; };
+  const SiteRecheck& last = before.back();
+  return last.holds != check.holds || last.verdict != check.verdict || id(last) != id(check) ||
+         SecondsBetween(last.time, check.time) >= kRecheckShown_s;
+}
+
+void RecordRecheck(MissionMemory& m, const MissionInputs& in, SiteVerdict verdict) {
+  SiteRecheck check;
+  check.time = in.session.now;
+  check.height_above_site_m = HeightAboveSite(m);
+  check.safe_distance_m = in.terrain.rechecked ? in.terrain.rechecked->safe_distance_m : NAN;
+  check.holds = m.site.newest().holds();
+  check.verdict = verdict;
+  check.reason = verdict == SiteVerdict::kHolds ? m.site.newest().reason : m.site.reason();
+  check.alternative = m.alternative;
+  if (IsNews(m.status.rechecks, check)) {
+    m.status.rechecks.push_back(std::move(check));
+  }
+}
+
+}  // namespace
+
+void FollowSite(MissionTurn& turn, const MissionInputs& in) {
+  MissionMemory& m = turn.memory;
+  if (!in.terrain.new_map || !m.status.armed) {
+    return;
+  }
+  const Timestamp now = in.session.now;
+  m.site.Add(
+      JudgeRecheck(in.terrain.rechecked, in.terrain.nearest,
+                   {m.armed.confirmed, m.status.armed->clearance_m}, in.limits.settings.slad),
+      now);
+  m.armed.confirmed =
+      m.armed.confirmed || (m.site.newest().holds() && in.terrain.rechecked->confirmed);
+  FollowAlternative(m, in);
+  const SiteVerdict verdict = m.site.VerdictAt(now);
+  if (verdict != m.told) {
+    AddEvent(turn, now, EventKind::kSite, words::SiteTold(m, verdict));
+    m.told = verdict;
+  }
+  if (m.status.state == MissionState::kDescending || m.status.state == MissionState::kHold) {
+    RecordRecheck(m, in, verdict);
+  }
+}
+
+}  // namespace palace

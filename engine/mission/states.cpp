@@ -1,0 +1,284 @@
+#include "engine/mission/states.h"
+
+#include <cmath>
+#include <utility>
+
+#include "engine/mission/geometry.h"
+#include "engine/mission/limits.h"
+#include "engine/mission/wording.h"
+
+namespace palace {
+namespace {
+
+constexpr double kHoldShown_s = 3;     // a person must be able to read why
+constexpr double kAbortSettles_s = 2;  // a hover reported sooner may be the one before the abort
+constexpr double kLandedHeight_m = 0.5;
+constexpr double kLandedSpeed_mps = 0.3;
+
+std::string WhyNoProposal(const MissionMemory& m, Timestamp now) {
+  if (SecondsBetween(m.map_seen_at, now) > GuardLimits::map_s) {
+    return words::kNoNewMap;
+  }
+  if (m.facts.sites.empty()) {
+    return words::kNoSiteStands;
+  }
+  const LandingSite* best = m.status.BestStanding(m.facts.sites);
+  return best == nullptr ? words::kEverySiteRefused : words::SiteLeads(best->letter);
+}
+
+std::string WhyStale(const MissionMemory& m, Timestamp now) {
+  using words::Older;
+  for (const std::string& why :
+       {Older("Vehicle status", m.watch.LinkAge(now), StaleLimits::link_s),
+        Older("Vehicle pose", m.watch.PoseAge(now), StaleLimits::sensor_s),
+        Older("Left camera", m.watch.LeftCameraAge(now), StaleLimits::sensor_s),
+        Older("Right camera", m.watch.RightCameraAge(now), StaleLimits::sensor_s),
+        Older("Map", SecondsBetween(m.map_seen_at, now), StaleLimits::map_s)}) {
+    if (!why.empty()) {
+      return why;
+    }
+  }
+  return {};
+}
+
+/// Why what is armed or approved may not stay so; empty when it may.
+std::string WhyDrop(const MissionMemory& m, Timestamp now) {
+  if (m.watch.rebooted() || m.watch.boot_id() != m.armed.boot_id) {
+    return words::kRestarted;
+  }
+  if (m.watch.clock_stepped()) {
+    return words::kClockStepped;
+  }
+  if (m.facts.settings_hash != m.armed.settings_hash ||
+      m.facts.terrain_settings_hash != m.armed.terrain_settings_hash) {
+    return words::kLimitsChanged;
+  }
+  if (m.facts.calibration_hash != m.armed.calibration_hash) {
+    return words::kCalibrationChanged;
+  }
+  if (SiteLost(m, now)) {
+    return m.site.reason();
+  }
+  return WhyStale(m, now);
+}
+
+/// Why a descent may not go on; empty when it may.
+std::string WhyHold(const MissionMemory& m, Timestamp now) {
+  const VehicleStatus& vehicle = *m.watch.vehicle();
+  if (m.watch.rebooted()) {
+    return words::kRestarted;
+  }
+  if (vehicle.mode == VehicleMode::kHold) {
+    return words::kVehicleHolds;
+  }
+  if (vehicle.mode == VehicleMode::kHover || !IsOwnApproval(m, vehicle.approval_id)) {
+    return words::kLeftDescent;
+  }
+  const double height_m = HeightAboveSite(m);
+  if (height_m < m.facts.commit_height_m) {
+    // The last verdict stands; pictures and maps may end here.
+    return words::Older("Vehicle status", m.watch.LinkAge(now), StaleLimits::link_s);
+  }
+  if (!std::isfinite(height_m)) {
+    return words::kHeightUnknown;
+  }
+  if (SiteLost(m, now)) {
+    return m.site.reason();
+  }
+  if (m.status.approval->provisional && !m.armed.confirmed &&
+      height_m <= GuardLimits::confirm_height_m) {
+    return words::NotConfirmed(m.status.armed->letter);
+  }
+  return WhyStale(m, now);
+}
+
+void StepSearching(MissionTurn& turn, Timestamp now) {
+  MissionMemory& m = turn.memory;
+  const double age_s = m.watch.LeftCameraAge(now);
+  const bool live = HasSource(m.facts.role) && age_s <= StaleLimits::cameras_live_s;
+  const MissionState state = m.status.state;
+  if (!live) {
+    if (state != MissionState::kNoLive) {
+      m.winner = {};
+      Enter(turn, MissionState::kNoLive, words::Older("Cameras", age_s, 0), now);
+    }
+    return;
+  }
+  if (state == MissionState::kNoLive) {
+    Enter(turn, MissionState::kSearch, words::kCamerasLive, now);
+  } else if (state == MissionState::kSearch && WinnerStands(m, now)) {
+    const LandingSite* site = FindSite(m, m.winner.site_id);
+    Enter(turn, MissionState::kProposed,
+          words::SiteWon(site != nullptr ? site->letter : '?', m.winner.maps), now);
+  } else if (state == MissionState::kProposed && !WinnerStands(m, now)) {
+    Enter(turn, MissionState::kSearch, WhyNoProposal(m, now), now);
+  }
+}
+
+void StepArmed(MissionTurn& turn, const MissionInputs& in) {
+  MissionMemory& m = turn.memory;
+  const Timestamp now = in.session.now;
+  if (!m.armed.first_sequence) {
+    m.armed.first_sequence = in.session.snapshot_sequence + 1;
+    m.armed.shown_since = now;
+  }
+  std::string why = WhyDrop(m, now);
+  if (why.empty() && m.status.arm_expires && now >= *m.status.arm_expires) {
+    why = words::kArmWindowOver;
+  }
+  if (!why.empty()) {
+    Drop(turn, std::move(why), now);
+  }
+}
+
+void StepApproved(MissionTurn& turn, Timestamp now) {
+  using Phase = MissionStatus::ApprovalPhase;
+  MissionMemory& m = turn.memory;
+  const auto& vehicle = m.watch.vehicle();
+  const bool executing = Executing(m) && IsOwnApproval(m, vehicle->approval_id);
+  if (executing && m.status.approval_phase == Phase::kSent) {
+    // Its answer was lost, its deed says the same.
+    m.status.approval_phase = Phase::kAccepted;
+    m.status.approval_answer_s = SecondsBetween(m.approved_at, now);
+    m.vision_allowed = true;
+    m.repeating.reset();
+  }
+  std::string why = WhyDrop(m, now);
+  if (!why.empty()) {
+    executing ? Hold(turn, std::move(why), now) : Drop(turn, std::move(why), now);
+    return;
+  }
+  if (vehicle && vehicle->mode == VehicleMode::kAbort) {
+    Abort(turn, words::kVehicleAborts, now);
+  } else if (executing && vehicle->mode != VehicleMode::kAlign) {
+    Enter(turn, MissionState::kDescending, words::Descends(words::SiteName(m.status)), now);
+    m.vision_good_at = now;
+  } else if (!executing && m.watch.VehicleTime(now) >= m.status.approval->expires_at) {
+    Drop(turn, words::kExpired, now);
+  }
+}
+
+bool HasLanded(const MissionMemory& m) {
+  const auto& vehicle = m.watch.vehicle();
+  if (!vehicle || !vehicle->on_ground || !m.status.armed) {
+    return false;
+  }
+  const bool estimate_agrees =
+      std::abs(HeightAboveSite(m)) <= kLandedHeight_m && m.facts.speed_mps <= kLandedSpeed_mps;
+  return vehicle->mode == VehicleMode::kLanded || estimate_agrees;
+}
+
+void Land(MissionTurn& turn, const MissionInputs& in) {
+  MissionMemory& m = turn.memory;
+  m.status.touchdown_miss_m = TouchdownMiss(m);
+  m.status.touchdown_miss_true_m = TrueTouchdownMiss(m, in);
+  m.repeating.reset();
+  Enter(turn, MissionState::kLanded, words::OnTheGround(words::SiteName(m.status)), in.session.now);
+}
+
+/// True when the vehicle has landed, or aborts: the state was left.
+bool LandedOrAborting(MissionTurn& turn, const MissionInputs& in) {
+  if (HasLanded(turn.memory)) {
+    Land(turn, in);
+    return true;
+  }
+  const auto& vehicle = turn.memory.watch.vehicle();
+  if (vehicle && vehicle->mode == VehicleMode::kAbort) {
+    Abort(turn, words::kVehicleAborts, in.session.now);
+    return true;
+  }
+  return false;
+}
+
+void StepDescending(MissionTurn& turn, const MissionInputs& in) {
+  MissionMemory& m = turn.memory;
+  const Timestamp now = in.session.now;
+  if (LandedOrAborting(turn, in) || m.watch.vehicle()->mode == VehicleMode::kLanded) {
+    return;  // on the ground by its own word: the second sign is still missing
+  }
+  const bool on_vision = in.navigation.navigation.handover == NavigationStatus::Handover::kVision;
+  const double outage_s = SecondsBetween(m.vision_good_at, now);
+  const double limit_s = m.facts.limits.max_vision_outage_s;
+  if (on_vision && outage_s > limit_s) {
+    const std::string why = words::VisionLost(outage_s, limit_s);
+    // Without vision the last metres are not a place to hover.
+    HeightAboveSite(m) < m.facts.commit_height_m ? Abort(turn, why, now) : Hold(turn, why, now);
+    return;
+  }
+  std::string why = WhyHold(m, now);
+  if (!why.empty()) {
+    Hold(turn, std::move(why), now);
+  }
+}
+
+void StepHold(MissionTurn& turn, const MissionInputs& in) {
+  MissionMemory& m = turn.memory;
+  const Timestamp now = in.session.now;
+  if (LandedOrAborting(turn, in)) {
+    return;
+  }
+  const auto& vehicle = m.watch.vehicle();
+  const double held_s = SecondsBetween(m.status.since, now);
+  const bool stopped =
+      vehicle && (vehicle->mode == VehicleMode::kHold || vehicle->mode == VehicleMode::kHover) &&
+      m.watch.LinkAge(now) <= GuardLimits::link_s;
+  if (stopped && m.repeating && held_s >= GuardLimits::link_s) {
+    m.repeating.reset();
+  }
+  if (stopped && held_s >= kHoldShown_s && WinnerStands(m, now)) {
+    ForgetSite(m);
+    Enter(turn, MissionState::kProposed, words::kReevaluated, now);
+  }
+}
+
+void StepAborting(MissionTurn& turn, Timestamp now) {
+  MissionMemory& m = turn.memory;
+  const auto& vehicle = m.watch.vehicle();
+  bool over = !m.vehicle_ever_heard;  // nobody there: nothing to wait for
+  if (vehicle) {
+    const bool flies_it = vehicle->mode == VehicleMode::kAbort;
+    m.abort_seen = m.abort_seen || flies_it;
+    const bool hovers =
+        vehicle->mode == VehicleMode::kHover || vehicle->mode == VehicleMode::kLanded;
+    over = m.abort_seen && hovers && SecondsBetween(m.status.since, now) >= kAbortSettles_s;
+  }
+  if (m.abort_seen) {
+    m.repeating.reset();
+  }
+  if (over && m.wave_off_acknowledged) {
+    m.repeating.reset();
+    ForgetSite(m);
+    Enter(turn, MissionState::kSearch, words::kWaveOffOver, now);
+  }
+}
+
+}  // namespace
+
+void StepState(MissionTurn& turn, const MissionInputs& in) {
+  switch (turn.memory.status.state) {
+    case MissionState::kNoLive:
+    case MissionState::kSearch:
+    case MissionState::kProposed:
+      StepSearching(turn, in.session.now);
+      break;
+    case MissionState::kArmed:
+      StepArmed(turn, in);
+      break;
+    case MissionState::kApproved:
+      StepApproved(turn, in.session.now);
+      break;
+    case MissionState::kDescending:
+      StepDescending(turn, in);
+      break;
+    case MissionState::kHold:
+      StepHold(turn, in);
+      break;
+    case MissionState::kAborting:
+      StepAborting(turn, in.session.now);
+      break;
+    case MissionState::kLanded:
+      break;
+  }
+}
+
+}  // namespace palace

@@ -1,0 +1,46 @@
+#include "engine/mission/step.h"
+
+#include <utility>
+
+#include "engine/mission/arrivals.h"
+#include "engine/mission/commands.h"
+#include "engine/mission/publish.h"
+#include "engine/mission/recheck.h"
+#include "engine/mission/states.h"
+#include "engine/mission/transitions.h"
+
+namespace palace {
+
+MissionStep Step(const MissionOptions& station, MissionMemory memory, const MissionInputs& in) {
+  MissionTurn turn{station, std::move(memory), {}};
+  FollowJump(turn, in);
+  turn.memory.watch.Update(in.vehicle.bundle, in.vehicle.channels, in.session.now);
+  RememberFacts(turn.memory, in);
+  FollowWinner(turn.memory, in);
+  FollowSite(turn, in);
+  FollowAnswers(turn, in);
+  StopDeadApproval(turn, in);
+  StepState(turn, in);
+  Repeat(turn, in.session.now);
+  Publish(turn, in);
+  return {std::move(turn.memory), std::move(turn.effects)};
+}
+
+MissionAnswer Apply(const MissionOptions& station, MissionMemory memory,
+                    const EngineCommand& command, Timestamp now) {
+  MissionTurn turn{station, std::move(memory), {}};
+  Status status = Obey(turn, command, now);
+  return {std::move(turn.memory), std::move(turn.effects), std::move(status)};
+}
+
+MissionStep DropApproval(const MissionOptions& station, MissionMemory memory,
+                         std::string_view why) {
+  MissionTurn turn{station, std::move(memory), {}};
+  const MissionState state = turn.memory.status.state;
+  if (state == MissionState::kArmed || state == MissionState::kApproved) {
+    Drop(turn, std::string(why), turn.memory.facts.now);
+  }
+  return {std::move(turn.memory), std::move(turn.effects)};
+}
+
+}  // namespace palace

@@ -1,0 +1,126 @@
+#include "engine/mission/wording.h"
+
+#include <cmath>
+
+#include "engine/core/text.h"
+#include "engine/mission/limits.h"
+
+namespace palace::words {
+namespace {
+
+std::string Site(char letter) { return std::string("Site ") + letter; }
+
+std::string ConfirmHeight() { return LimitWords({GuardLimits::confirm_height_m, "m", 0}); }
+
+}  // namespace
+
+std::string NoAlarm(std::string_view name) { return "No alarm '" + std::string(name) + "'"; }
+
+std::string CannotSelectIn(MissionState state) {
+  return std::string("No site can be selected in state ") + MissionStateWord(state);
+}
+
+std::string NotTheArmedOne(const MissionStatus& status) {
+  return "Selected is " + SiteName(status) + ", not the site to approve";
+}
+
+std::string Age(double age_s) {
+  return std::isfinite(age_s) ? WithNumbers("stale, %.1f s", age_s) : "never received";
+}
+
+std::string Older(const char* what, double age_s, double limit_s) {
+  return age_s <= limit_s ? std::string() : std::string(what) + " " + Age(age_s);
+}
+
+std::string SiteName(const MissionStatus& status) {
+  return status.armed ? std::string("site ") + status.armed->letter : std::string("the site");
+}
+
+std::string SiteSelected(char letter) { return Site(letter) + " selected"; }
+
+std::string SiteWon(char letter, int maps) {
+  return Site(letter) + " won " + std::to_string(maps) + " maps";
+}
+
+std::string SiteLeads(char letter) { return Site(letter) + " leads, not for long enough yet"; }
+
+std::string SiteRefused(char letter) { return Site(letter) + " refused"; }
+
+std::string RefusedAndNext(char letter, const LandingSite* next) {
+  return SiteRefused(letter) +
+         (next != nullptr ? std::string(", next is ") + next->letter : ", no other site");
+}
+
+std::string SiteTold(const MissionMemory& m, SiteVerdict verdict) {
+  const std::string name = Site(m.status.armed->letter);
+  switch (verdict) {
+    case SiteVerdict::kHolds:
+      return name + " holds again";
+    case SiteVerdict::kDegraded:
+      return name + " degraded: " + m.site.reason();
+    case SiteVerdict::kLost:
+      break;
+  }
+  return name + " lost: " + m.site.reason() + ". " + Alternative(m);
+}
+
+std::string Alternative(const MissionMemory& m) {
+  if (!m.alternative) {
+    return "No alternative is kept.";
+  }
+  return std::string("Alternative: site ") + m.alternative->letter +
+         WithNumbers(", %.1f m clear.", m.alternative->safe_distance_m);
+}
+
+std::string OffTheMap(char letter) { return Site(letter) + " is not on the newest map"; }
+
+std::string NotConfirmed(char letter) {
+  return Site(letter) + " is not confirmed by " + ConfirmHeight() + " above it";
+}
+
+std::string ConfirmHigher(char letter) {
+  return Site(letter) + " is provisional, confirm it above " + ConfirmHeight();
+}
+
+std::string ApproachBlocked(char letter) {
+  return std::string("Straight approach to site ") + letter + " is blocked";
+}
+
+std::string ApprovalGiven(const MissionStatus& status, std::uint64_t counter) {
+  return "Approval " + std::to_string(counter) + " of " + SiteName(status) +
+         (status.approval->provisional ? ", provisional" : "") + " given";
+}
+
+std::string ApprovedBy(const char* who) {
+  return std::string("Approved by ") + who + ", sent to the vehicle";
+}
+
+std::string ApprovalEnded(std::string_view site, std::string_view why) {
+  return "Approval of " + std::string(site) + " ended: " + std::string(why);
+}
+
+std::string Withdrawn(std::string_view why) { return "Approval withdrawn: " + std::string(why); }
+
+std::string VehicleAccepted(std::string_view site) {
+  return "Vehicle accepted the approval of " + std::string(site);
+}
+
+std::string VehicleRefusedApproval(std::string_view site, std::string_view why) {
+  return "Vehicle refused the approval of " + std::string(site) + ": " + std::string(why);
+}
+
+std::string VehicleRefused(std::string_view site, std::string_view why) {
+  return "Vehicle refused " + std::string(site) + ": " + std::string(why);
+}
+
+std::string Descends(std::string_view site) { return "Vehicle descends to " + std::string(site); }
+
+std::string OnTheGround(std::string_view site) {
+  return "Vehicle is on the ground at " + std::string(site);
+}
+
+std::string VisionLost(double outage_s, double limit_s) {
+  return WithNumbers("Vision lost for %.1f s, limit %.1f s", outage_s, limit_s);
+}
+
+}  // namespace palace::words

@@ -1,0 +1,92 @@
+// Sentences of the mission: why a state was entered or a command refused, and what became of the
+// armed site. The rules decide; these say it. Sentences of guards and alarms stand in their tables.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "engine/mission/mission_memory.h"
+
+namespace palace::words {
+
+// Why a state was entered or left.
+inline constexpr const char* kNoDataYet = "No data yet";
+inline constexpr const char* kCamerasLive = "Cameras are live";
+inline constexpr const char* kNoNewMap = "No new map";
+inline constexpr const char* kNoSiteStands = "No site stands on the newest map";
+inline constexpr const char* kEverySiteRefused = "Every site on the newest map is refused";
+inline constexpr const char* kRestarted = "Vehicle restarted";
+inline constexpr const char* kClockStepped = "Vehicle clock stepped";
+inline constexpr const char* kLimitsChanged = "Limits changed";
+inline constexpr const char* kCalibrationChanged = "Calibration changed";
+inline constexpr const char* kArmWindowOver = "Arm window is over, select the site again";
+inline constexpr const char* kExpired = "Approval expired before the descent began";
+inline constexpr const char* kVehicleAborts = "Vehicle aborts by itself";
+inline constexpr const char* kVehicleHolds = "Vehicle holds by itself";
+inline constexpr const char* kLeftDescent = "Vehicle left the descent";
+inline constexpr const char* kFliesWithdrawn = "Vehicle flies a withdrawn approval";
+inline constexpr const char* kHeightUnknown = "Height above the site is unknown";
+inline constexpr const char* kReevaluated = "Vehicle hovers, sites re-evaluated";
+inline constexpr const char* kWaveOffOver = "Wave-off complete and acknowledged";
+inline constexpr const char* kTimeJumped = "Time jumped";
+inline constexpr const char* kJumped = "Jumped in time";
+inline constexpr const char* kHeldByOperator = "Held by the operator";
+inline constexpr const char* kWavedOff = "Waved off by the operator";
+inline constexpr const char* kDeselected = "Deselected by the operator";
+inline constexpr const char* kWithdrawn = "Approval withdrawn by the operator";
+
+// Why a command was refused.
+inline constexpr const char* kRecordedOnly = "Recorded commands act in a replay only";
+inline constexpr const char* kNoScript =
+    "A script may select and approve only on a simulated vehicle";
+inline constexpr const char* kNoDescent = "No descent to hold";
+inline constexpr const char* kNoWaveOff = "No wave-off to acknowledge";
+inline constexpr const char* kNotOnMap = "That site is not on the newest map";
+inline constexpr const char* kPlaceUnknown = "The place of that site is not known";
+inline constexpr const char* kNoneSelected = "No site is selected";
+inline constexpr const char* kNoneProposed = "No site is proposed";
+inline constexpr const char* kSelectFirst = "Select a site first";
+inline constexpr const char* kAlreadyApproved = "Already approved";
+inline constexpr const char* kApprovedHold = "Already approved, hold or wave off";
+inline constexpr const char* kOtherPicture =
+    "The picture on the screen was not that of this selection";
+std::string NoAlarm(std::string_view name);
+std::string CannotSelectIn(MissionState state);
+std::string NotTheArmedOne(const MissionStatus& status);
+
+/// "stale, 1.8 s" or "never received".
+std::string Age(double age_s);
+/// "Left camera stale, 1.8 s"; empty when the age is known and within the limit.
+std::string Older(const char* what, double age_s, double limit_s);
+
+/// "site A", or "the site" when none is armed.
+std::string SiteName(const MissionStatus& status);
+std::string SiteSelected(char letter);
+std::string SiteWon(char letter, int maps);
+std::string SiteLeads(char letter);
+/// "Site A refused".
+std::string SiteRefused(char letter);
+/// `next`: the site that is best now, null when there is none.
+std::string RefusedAndNext(char letter, const LandingSite* next);
+/// A changed verdict over the armed site.
+std::string SiteTold(const MissionMemory& memory, SiteVerdict verdict);
+std::string Alternative(const MissionMemory& memory);
+/// "Site A is not on the newest map".
+std::string OffTheMap(char letter);
+std::string NotConfirmed(char letter);
+/// A provisional site so low that it cannot be approved any more.
+std::string ConfirmHigher(char letter);
+std::string ApproachBlocked(char letter);
+
+std::string ApprovalGiven(const MissionStatus& status, std::uint64_t counter);
+std::string ApprovedBy(const char* who);
+std::string ApprovalEnded(std::string_view site, std::string_view why);
+std::string Withdrawn(std::string_view why);
+std::string VehicleAccepted(std::string_view site);
+std::string VehicleRefusedApproval(std::string_view site, std::string_view why);
+std::string VehicleRefused(std::string_view site, std::string_view why);
+std::string Descends(std::string_view site);
+std::string OnTheGround(std::string_view site);
+std::string VisionLost(double outage_s, double limit_s);
+
+}  // namespace palace::words

@@ -1,0 +1,64 @@
+#include "engine/model/mission_ids.h"
+
+#include <array>
+
+#include "engine/core/check.h"
+
+namespace palace {
+namespace {
+
+constexpr std::array<const char*, kGuardCount> kGuardNames = {
+    "G1", "G2", "G3", "G4", "G5", "G6", "G7", "G8", "G9", "G10", "G11", "G12", "G13", "G14"};
+
+constexpr std::array<const char*, kAlarmCount> kAlarmNames = {
+    "camera_left",
+    "camera_right",
+    "pose",
+    "no_pose",
+    "link",
+    "clock",
+    "reboot",
+    "gps_error",
+    "camera_frozen",
+    "cameras_swapped",
+    "row_error",
+    "exposure",
+    "range_scale",
+    "height_mismatch",
+    "recorder",
+    "log_damaged",
+    "no_site",
+    "wave_off",
+    "hold",
+    "site_degraded",
+    "vision_lost",
+    "coherence_low",
+    "approval_unanswered",
+    "approval_refused",
+    "foreign_descent",
+};
+
+}  // namespace
+
+const char* GuardName(GuardId id) {
+  const auto i = static_cast<std::size_t>(id);
+  PALACE_CHECK(i < kGuardNames.size(), i);
+  return kGuardNames[i];
+}
+
+const char* AlarmName(AlarmId id) {
+  const auto i = static_cast<std::size_t>(id);
+  PALACE_CHECK(i < kAlarmNames.size(), i);
+  return kAlarmNames[i];
+}
+
+std::optional<AlarmId> AlarmFromName(std::string_view name) {
+  for (std::size_t i = 0; i < kAlarmNames.size(); ++i) {
+    if (kAlarmNames[i] == name) {
+      return static_cast<AlarmId>(i);
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace palace

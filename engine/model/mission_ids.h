@@ -1,0 +1,66 @@
+// Guards and alarms by name: an enum inside, a stable string on the wire, in logs and in scripts.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+namespace palace {
+
+/// What must hold at the instant of approval: G1 to G14, in this order.
+enum class GuardId : std::uint8_t {
+  kLink,
+  kAttitude,
+  kCameras,
+  kMap,
+  kPosition,
+  kShown,
+  kUnchanged,
+  kSite,
+  kVehicle,
+  kAuthority,
+  kWarnings,
+  kRecorder,
+  kSource,
+  kInTime,
+};
+inline constexpr std::size_t kGuardCount = 14;
+/// "G1".
+const char* GuardName(GuardId id);
+
+/// In the order in which alarms of one level and one instant are listed.
+enum class AlarmId : std::uint8_t {
+  kCameraLeft,
+  kCameraRight,
+  kPose,
+  kNoPose,
+  kLink,
+  kClock,
+  kReboot,
+  kGpsError,
+  kCameraFrozen,
+  kCamerasSwapped,
+  kRowError,
+  kExposure,
+  kRangeScale,
+  kHeightMismatch,
+  kRecorder,
+  kLogDamaged,
+  kNoSite,
+  kWaveOff,
+  kHold,
+  kSiteDegraded,
+  kVisionLost,
+  kCoherenceLow,
+  kApprovalUnanswered,
+  kApprovalRefused,
+  kForeignDescent,
+};
+inline constexpr std::size_t kAlarmCount = 25;
+/// "gps_error".
+const char* AlarmName(AlarmId id);
+/// Empty for a name that no alarm has.
+std::optional<AlarmId> AlarmFromName(std::string_view name);
+
+}  // namespace palace

@@ -1,0 +1,23 @@
+// SourceKind: where the frames of a session come from.
+#pragma once
+
+#include <cstdint>
+
+namespace palace {
+
+enum class SourceKind : std::uint8_t {
+  kNone,
+  kLive,  ///< a vehicle on a bus
+  kSimulation,
+  kReplay,
+  kImages,   ///< a folder of pictures
+  kCameras,  ///< live cameras without a vehicle
+  kVideo     ///< filmed pictures
+};
+
+/// Pictures and nothing else: there is no vehicle, so no site can be selected and nothing is sent.
+constexpr bool HasPicturesOnly(SourceKind kind) {
+  return kind == SourceKind::kImages || kind == SourceKind::kCameras || kind == SourceKind::kVideo;
+}
+
+}  // namespace palace
