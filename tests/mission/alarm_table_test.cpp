@@ -1,0 +1,208 @@
+// The tables of guards and alarms: a text names the limit that raises it, and nothing else does.
+#include <regex>
+#include <set>
+
+#include "engine/mission/alarms.h"
+#include "tests/mission/mission_rig.h"
+
+namespace palace {
+namespace {
+
+/// A descent on vision where every figure is measured and nothing is wrong yet.
+AlarmFacts AllMeasured() {
+  AlarmFacts f;
+  f.has_source = f.has_vehicle = f.heard_vehicle = f.on_vision = f.tracked = true;
+  f.left_camera_age_s = f.right_camera_age_s = f.pose_age_s = f.link_age_s = 0;
+  f.gps_error_m = f.row_error_px = f.laser_mismatch_m = 0;
+  f.exposure_ratio = f.exposure_factor = 1;
+  f.scale_error_percent = f.scale_sigma_percent = 0;
+  f.vision_outage_s = f.waiting_s = 0;
+  f.max_vision_outage_s = Settings{}.mission.max_vision_outage_s;
+  f.coherence = 1;
+  f.min_coherence = Settings{}.tracking.min_coherence;
+  f.state = MissionState::kDescending;
+  f.letter = 'A';
+  return f;
+}
+
+/// Raised by this fact alone; the conditions of the others stay as they are.
+std::string TextOf(const AlarmRow& row, const AlarmFacts& facts) {
+  for (const AlarmCondition& condition : EvaluateAlarms(facts)) {
+    if (condition.id == row.id && condition.present) {
+      return condition.text;
+    }
+  }
+  return {};
+}
+
+TEST(AlarmTable, HasEachAlarmOnceInOrder) {
+  ASSERT_EQ(AlarmTable().size(), kAlarmCount);
+  std::set<std::string> names;
+  for (std::size_t i = 0; i < kAlarmCount; ++i) {
+    const AlarmRow& row = AlarmTable()[i];
+    EXPECT_EQ(static_cast<std::size_t>(row.id), i);
+    const std::string name = AlarmName(row.id);
+    EXPECT_TRUE(names.insert(name).second) << name;
+    EXPECT_EQ(AlarmFromName(name), row.id);
+    EXPECT_TRUE(row.present != nullptr && row.text != nullptr) << name;
+    EXPECT_EQ(row.value != nullptr, std::isfinite(LimitOf(row, AllMeasured()).value)) << name;
+  }
+  EXPECT_FALSE(AlarmFromName("none").has_value());
+}
+
+TEST(AlarmTable, NothingIsRaisedWhenAllIsWell) {
+  for (const AlarmCondition& condition : EvaluateAlarms(AllMeasured())) {
+    EXPECT_FALSE(condition.present) << AlarmName(condition.id) << ": " << condition.text;
+  }
+}
+
+// A thousandth inside the limit nothing is raised; a thousandth beyond it the alarm is, and its
+// text names that limit and no other number for it.
+TEST(AlarmTable, EachTextNamesTheLimitThatRaisesIt) {
+  int checked = 0;
+  for (const AlarmRow& row : AlarmTable()) {
+    if (row.value == nullptr) {
+      continue;
+    }
+    SCOPED_TRACE(AlarmName(row.id));
+    const Limit limit = LimitOf(row, AllMeasured());
+    AlarmFacts below = AllMeasured(), above = AllMeasured();
+    below.*row.value = 0.999 * limit.value;
+    above.*row.value = 1.001 * limit.value;
+    const std::string text = TextOf(row, below) + TextOf(row, above);
+    EXPECT_NE(TextOf(row, below).empty(), TextOf(row, above).empty());
+    const std::string named = LimitWords(limit);
+    EXPECT_NE(text.find(named), std::string::npos) << text << " / " << named;
+    EXPECT_NEAR(std::stod(named), limit.value, 1e-9) << "rounded until it is another limit";
+    std::smatch match;
+    ASSERT_TRUE(std::regex_search(text, match, std::regex("limit (?:[0-9.]+ to )?([0-9]+(?:[.][0-9]+)?)")))
+        << text;
+    EXPECT_NEAR(std::stod(match[1].str()), limit.value, 1e-9) << text;
+    ++checked;
+  }
+  EXPECT_GE(checked, 11);
+}
+
+TEST(AlarmTable, WithoutALimitNoTextNamesOne) {
+  AlarmFacts facts = AllMeasured();
+  facts.source_damage = facts.why = facts.site_reason = facts.refusal = "why";
+  for (const AlarmRow& row : AlarmTable()) {
+    const std::string text = row.text(facts, "17 parsec");
+    EXPECT_EQ(text.find("17 parsec") != std::string::npos, row.value != nullptr)
+        << AlarmName(row.id) << ": " << text;
+  }
+}
+
+TEST(AlarmTable, ACautionOfTheLinkGrowsIntoAWarning) {
+  AlarmFacts facts = AllMeasured();
+  for (const auto& [age_s, level] :
+       {std::pair{4.9, AlarmLevel::kCaution}, std::pair{5.1, AlarmLevel::kWarning}}) {
+    facts.link_age_s = age_s;
+    const auto conditions = EvaluateAlarms(facts);
+    EXPECT_EQ(conditions[static_cast<std::size_t>(AlarmId::kLink)].level, level) << age_s;
+  }
+}
+
+TEST(GuardTable, HasEachGuardOnceInOrder) {
+  ASSERT_EQ(GuardTable().size(), kGuardCount);
+  for (std::size_t i = 0; i < kGuardCount; ++i) {
+    EXPECT_EQ(static_cast<std::size_t>(GuardTable()[i].id), i);
+    EXPECT_EQ(GuardName(GuardTable()[i].id), "G" + std::to_string(i + 1));
+  }
+}
+
+// Whatever a guard is told, it fails by default: evidence passes, silence does not (I3).
+TEST(GuardTable, NothingKnownPassesNothingThatNeedsEvidence) {
+  const std::set<GuardId> silent = {GuardId::kWarnings, GuardId::kSource};
+  for (const GuardResult& result : EvaluateGuards(GuardInputs{})) {
+    EXPECT_EQ(result.pass, silent.count(result.id) == 1) << GuardName(result.id);
+    EXPECT_EQ(result.pass, result.reason.empty());
+  }
+}
+
+struct Late {
+  GuardId id;
+  double GuardInputs::*value;
+  bool more_is_better;
+};
+
+// The guards that hold a figure against a limit turn at that very limit.
+TEST(GuardTable, AgesTurnAtTheLimitOfTheRow) {
+  GuardInputs fine;
+  fine.link_age_s = fine.pose_age_s = fine.map_age_s = 0;
+  fine.left_camera_age_s = fine.right_camera_age_s = 0;
+  fine.position_healthy = fine.tracker_locked = true;
+  fine.coherence = 1;
+  fine.min_coherence = 0.7;
+  fine.shown_for_s = fine.armed_for_s = 10;
+  fine.arm_window_s = 60;
+  fine.site_letter = 'A';
+  for (const Late& late : {Late{GuardId::kLink, &GuardInputs::link_age_s, false},
+                           Late{GuardId::kAttitude, &GuardInputs::pose_age_s, false},
+                           Late{GuardId::kCameras, &GuardInputs::left_camera_age_s, false},
+                           Late{GuardId::kCameras, &GuardInputs::right_camera_age_s, false},
+                           Late{GuardId::kMap, &GuardInputs::map_age_s, false},
+                           Late{GuardId::kPosition, &GuardInputs::coherence, true},
+                           Late{GuardId::kShown, &GuardInputs::shown_for_s, true},
+                           Late{GuardId::kInTime, &GuardInputs::armed_for_s, true}}) {
+    SCOPED_TRACE(GuardName(late.id));
+    const Limit limit = LimitOf(GuardTable()[static_cast<std::size_t>(late.id)], fine);
+    for (const double factor : {0.999, 1.001}) {
+      GuardInputs in = fine;
+      in.*late.value = factor * limit.value;
+      const auto results = EvaluateGuards(in);
+      const GuardResult* result = FindGuard(results, late.id);
+      EXPECT_EQ(result->pass, (factor > 1) == late.more_is_better) << factor;
+      EXPECT_TRUE(result->pass || !late.more_is_better ||
+                  result->reason.find("min " + LimitWords(limit)) != std::string::npos)
+          << result->reason;
+    }
+  }
+}
+
+bool Stands(const MissionRig& rig, AlarmId id) {
+  const auto& alarms = rig.mission.status().alarms;
+  return std::any_of(alarms.begin(), alarms.end(),
+                     [&](const Alarm& alarm) { return alarm.kind == id && alarm.active; });
+}
+
+// What blocks approval is told: the pose at the 0.2 s of G2, not only at 0.5 s.
+TEST(AlarmTable, AStalePoseIsToldAtTheLimitThatBlocks) {
+  MissionRig rig;
+  rig.Arm();
+  rig.pose_up = false;
+  rig.Run(0.5);  // three samples beyond 0.2 s
+  EXPECT_FALSE(FindGuard(rig.mission.status().guards, GuardId::kAttitude)->pass);
+  ASSERT_TRUE(Stands(rig, AlarmId::kPose));
+  EXPECT_EQ(rig.mission.status().alarms[0].text,
+            "Vehicle pose stale, 0.5 s, limit 0.2 s. Approve is blocked.");
+}
+
+// A late picture flickers; a camera that repeats itself does not. Both take three pairs.
+TEST(PictureWatch, AFaultStandsAfterThreePairsAndGoesTheSameWay) {
+  StereoQuality bad, good;
+  bad.suspect_swapped = true;
+  bad.row_error_px = good.row_error_px = AlarmLimits::row_error_px;
+  PictureWatch watch;
+  const auto feed = [&](const StereoQuality& pair) {
+    watch.Update(JudgePictures(pair, SessionRole::kLive));
+    return watch.problem();
+  };
+  EXPECT_EQ(feed(bad), CameraProblem::kNone);
+  EXPECT_EQ(feed(bad), CameraProblem::kNone);
+  EXPECT_EQ(feed(good), CameraProblem::kNone);
+  for (const CameraProblem expected :
+       {CameraProblem::kNone, CameraProblem::kNone, CameraProblem::kSwapped}) {
+    EXPECT_EQ(feed(bad), expected);
+  }
+  for (const CameraProblem expected :
+       {CameraProblem::kSwapped, CameraProblem::kSwapped, CameraProblem::kNone}) {
+    EXPECT_EQ(feed(good), expected);
+  }
+  good.suspect_frozen = true;
+  EXPECT_FALSE(JudgePictures(good, SessionRole::kPictures).frozen);
+  EXPECT_TRUE(JudgePictures(good, SessionRole::kSimulated).frozen);
+}
+
+}  // namespace
+}  // namespace palace
