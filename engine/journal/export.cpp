@@ -1,58 +1,24 @@
 #include "engine/journal/export.h"
 
 #include <cmath>
-#include <cstdio>
 #include <fstream>
 #include <map>
 #include <system_error>
 
+#include "engine/core/csv_row.h"
 #include "engine/journal/log_index.h"
+#include "engine/model/site_columns.h"
 #include "engine/wire/convert.h"
 
 namespace palace {
 namespace {
 
-std::string Number(double value) {
-  if (std::isnan(value)) {
-    return "";
-  }
-  char text[40];
-  std::snprintf(text, sizeof text, "%.17g", value);
-  return text;
+/// One line of a table: the time first.
+CsvRow Row(Timestamp time) {
+  CsvRow row;
+  row << time.us;
+  return row;
 }
-
-/// Quoted where a comma, a quote or a line break needs it (RFC 4180).
-std::string Text(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) {
-    return text;
-  }
-  std::string quoted = "\"";
-  for (const char c : text) {
-    quoted += c == '"' ? "\"\"" : std::string(1, c);
-  }
-  return quoted + "\"";
-}
-
-/// One line of a table.
-class Row {
- public:
-  explicit Row(Timestamp time) : line_(std::to_string(time.us)) {}
-  Row& operator<<(double value) { return Field(Number(value)); }
-  Row& operator<<(int value) { return Field(std::to_string(value)); }
-  Row& operator<<(std::uint64_t value) { return Field(std::to_string(value)); }
-  Row& operator<<(const std::string& text) { return Field(Text(text)); }
-  Row& operator<<(const char* text) { return Field(Text(text)); }
-  Row& operator<<(const Eigen::Vector3d& v) { return *this << v.x() << v.y() << v.z(); }
-  Row& operator<<(const Figure& f) { return *this << f.value << f.three_sigma; }
-  std::string line() const { return line_ + "\n"; }
-
- private:
-  Row& Field(const std::string& text) {
-    line_ += ',' + text;
-    return *this;
-  }
-  std::string line_;
-};
 
 constexpr const char* kHeaders[][2] = {
     {"estimates.csv",
@@ -61,12 +27,6 @@ constexpr const char* kHeaders[][2] = {
     {"truth.csv",
      "time_us,north_m,east_m,down_m,north_mps,east_mps,down_mps,roll_rad,pitch_rad,yaw_rad"},
     {"decisions.csv", "time_us,origin,action,name,value,site_id,snapshot_sequence,text"},
-    {"sites.csv",
-     "time_us,map_time_us,map_hash,settings_hash,rank,site_id,letter,row,col,north_m,east_m,"
-     "down_m,slope_rad,slope_3sigma_rad,roughness_m,roughness_3sigma_m,step_m,step_3sigma_m,"
-     "height_m,height_3sigma_m,safe_distance_m,clear_radius_m,clearance_m,cost,safe_probability,"
-     "worst_probability,worst_heading_rad,best_probability,best_heading_rad,flags,confirmed,"
-     "corridor_clear,clear_approaches,age_s,distance_m,reason"},
     {"settings.csv", "time_us,name,value"},
     {"events.csv", "time_us,kind,text"},
     {"status.csv",
@@ -80,6 +40,8 @@ class Exporter {
     for (const auto& [file, header] : kHeaders) {
       tables_[file].text = std::string(header) + "\n";
     }
+    tables_["sites.csv"].text =
+        std::string("time_us,map_time_us,map_hash,settings_hash,") + kSiteColumns + "\n";
   }
 
   void Take(const WireMessage& m) {
@@ -123,7 +85,7 @@ class Exporter {
     std::uint64_t rows = 0;
   };
 
-  void Add(const char* table, const Row& row) {
+  void Add(const char* table, const CsvRow& row) {
     tables_[table].text += row.line();
     ++tables_[table].rows;
   }
@@ -194,19 +156,11 @@ class Exporter {
       return;
     }
     int rank = 0;
-    for (const LandingSite& s : proposal->selection.sites) {
-      Add("sites.csv", Row(proposal->time)
-                           << std::to_string(proposal->map_time.us) << proposal->map_hash
-                           << proposal->settings_hash << ++rank << s.id << std::string(1, s.letter)
-                           << s.cell.row << s.cell.col << s.p_WS << s.slope_rad << s.roughness_m
-                           << s.step_m << s.height_m << s.safe_distance_m << s.clear_radius_m
-                           << s.clearance_m << s.cost << s.safe_probability
-                           << s.touchdown.worst_probability << s.touchdown.worst_heading_rad
-                           << s.touchdown.best_probability << s.touchdown.best_heading_rad
-                           << static_cast<int>(s.flags) << static_cast<int>(s.confirmed)
-                           << static_cast<int>(s.corridor_clear)
-                           << static_cast<int>(s.clear_approaches) << s.age_s << s.distance_m
-                           << s.reason);
+    for (const LandingSite& site : proposal->selection.sites) {
+      CsvRow row = Row(proposal->time);
+      row << proposal->map_time.us << proposal->map_hash << proposal->settings_hash;
+      AppendSite(row, ++rank, site);
+      Add("sites.csv", row);
     }
   }
   void TakeSettings(const WireMessage& m) {

@@ -9,6 +9,7 @@
 
 #include "engine/journal/export.h"
 #include "engine/journal/log_tools.h"
+#include "engine/tools/log_rerun.h"
 #include "engine/wire/channels.h"
 
 namespace palace {
@@ -138,6 +139,8 @@ void AddLogCommand(CLI::App& app, int& exit_code) {
   with_out(export_verb, "Folder for the tables");
   export_verb->add_option("--channels", options->channels_file, "Channel names (TOML)");
   export_verb->callback([options, &exit_code] { exit_code = Export(*options); });
+
+  AddLogRerun(*log, exit_code);
 
   CLI::App* repair = verb("repair", "Write every readable event to a new log");
   with_out(repair, "The new log");

@@ -1,9 +1,14 @@
-// ui_gallery: draws the Fly workspace of a fake snapshot offscreen and saves pictures, to be looked
-// at beside the reference pictures. Usage: ui_gallery OUT_DIR
+// Pictures of the workspaces in every state, drawn offscreen from a fake snapshot: what the golden
+// pictures in tests/golden hold, at half size.
+#pragma once
+
 #include <cstdint>
-#include <cstdio>
+#include <functional>
 #include <memory>
 #include <string>
+#include <vector>
+
+#include <opencv2/imgproc.hpp>
 
 #include "gui/app/layout.h"
 #include "gui/panels/diagnose/diagnose.h"
@@ -13,18 +18,17 @@
 #include "gui/panels/tune/tune.h"
 #include "gui/platform/imgui_backend.h"
 #include "gui/platform/offscreen.h"
-#include "gui/platform/screenshot.h"
 #include "gui/render/texture_set.h"
 #include "tests/support/fake_snapshot.h"
 
 namespace palace {
-namespace {
+namespace golden {
 
-ImTextureID TextureId(unsigned name) {
+inline ImTextureID TextureId(unsigned name) {
   return name == 0 ? nullptr : reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(name));
 }
 
-void FillStyle(Style& style, const Fonts& fonts, double scale) {
+inline void FillStyle(Style& style, const Fonts& fonts, double scale) {
   style.scale = static_cast<float>(scale);
   style.palette = MakeDarkPalette();
   style.caption = fonts.caption;
@@ -41,7 +45,7 @@ void FillStyle(Style& style, const Fonts& fonts, double scale) {
 }
 
 struct Shot {
-  const char* file;
+  std::string name;  ///< of the golden picture, without the size
   int width, height;
   double scale;
   MissionState state;
@@ -50,7 +54,7 @@ struct Shot {
 };
 
 /// Other limits than the flight's: a preview while armed, a re-decision in replay.
-void MoveLimits(EngineSnapshot& snap) {
+inline void MoveLimits(EngineSnapshot& snap) {
   snap.preview_settings.slad.max_slope_deg = 6;
   snap.preview_settings.slad.max_deviation_m = 0.06;
   snap.preview_settings.slad.frames_fused = 24;
@@ -67,7 +71,7 @@ void MoveLimits(EngineSnapshot& snap) {
   }
 }
 
-FlightRecord Record(const EngineSnapshot& snap) {
+inline FlightRecord Record(const EngineSnapshot& snap) {
   FlightRecord record;
   record.start_s = static_cast<double>(snap.source.start.us) * 1e-6;
   record.duration_s = 338;
@@ -90,16 +94,17 @@ FlightRecord Record(const EngineSnapshot& snap) {
   return record;
 }
 
-int Take(const Shot& shot, const std::string& folder) {
+/// An empty picture where no offscreen screen can be had; `why` then says so.
+inline ImageRgba Draw(const Shot& shot, std::string& why) {
   auto offscreen = Offscreen::Open(shot.width, shot.height);
   if (!offscreen.ok()) {
-    std::fprintf(stderr, "no offscreen screen\n");
-    return 1;
+    why = offscreen.error().message;
+    return {};
   }
   auto backend = ImGuiBackend::ForOffscreen(*offscreen.value(), shot.scale);
   if (!backend.ok()) {
-    std::fprintf(stderr, "no ImGui backend\n");
-    return 1;
+    why = backend.error().message;
+    return {};
   }
   EngineSnapshot snap = fake::Snapshot(shot.state, shot.kind);
   if (shot.workspace != Workspace::kFly) {
@@ -160,38 +165,55 @@ int Take(const Shot& shot, const std::string& folder) {
     EndCanvas();
     backend.value()->EndFrame();
   }
-  const std::string path = folder + "/" + shot.file;
-  return SavePng(offscreen.value()->ReadPixels(), path).ok() ? 0 : 1;
+  return offscreen.value()->ReadPixels();
 }
 
-}  // namespace
-}  // namespace palace
-
-int main(int argc, char** argv) {
-  using palace::MissionState;
-  using palace::SourceKind;
-  using palace::Workspace;
-  const std::string folder = argc > 1 ? argv[1] : "/tmp";
-  const palace::Shot shots[] = {
-      {"fly-armed-1920.png", 1920, 1080, 1, MissionState::kArmed, SourceKind::kLive},
-      {"fly-armed-1280.png", 1280, 720, 1, MissionState::kArmed, SourceKind::kLive},
-      {"fly-descent-1920.png", 1920, 1080, 1, MissionState::kDescending, SourceKind::kSimulation},
-      {"fly-descent-1280.png", 1280, 720, 1, MissionState::kDescending, SourceKind::kSimulation},
-      {"fly-replay-1600.png", 1600, 900, 1, MissionState::kProposed, SourceKind::kReplay},
-      {"fly-armed-3840.png", 3840, 2160, 2, MissionState::kArmed, SourceKind::kLive},
-      {"tune-1920.png", 1920, 1080, 1, MissionState::kArmed, SourceKind::kSimulation,
-       Workspace::kTune},
-      {"tune-1280.png", 1280, 720, 1, MissionState::kArmed, SourceKind::kSimulation,
-       Workspace::kTune},
-      {"review-1920.png", 1920, 1080, 1, MissionState::kArmed, SourceKind::kReplay,
-       Workspace::kReview},
-      {"review-1280.png", 1280, 720, 1, MissionState::kArmed, SourceKind::kReplay,
-       Workspace::kReview},
-      {"diagnose-1920.png", 1920, 1080, 1, MissionState::kDescending, SourceKind::kLive,
-       Workspace::kDiagnose}};
-  int failed = 0;
-  for (const palace::Shot& shot : shots) {
-    failed += palace::Take(shot, folder);
+/// The golden pictures: each workspace in each of its states, in the two sizes that matter.
+inline std::vector<Shot> Shots() {
+  struct State {
+    const char* name;
+    MissionState state;
+    SourceKind kind;
+    Workspace workspace;
+  };
+  const State states[] = {
+      {"fly-search", MissionState::kSearch, SourceKind::kSimulation, Workspace::kFly},
+      {"fly-proposed", MissionState::kProposed, SourceKind::kSimulation, Workspace::kFly},
+      {"fly-armed", MissionState::kArmed, SourceKind::kLive, Workspace::kFly},
+      {"fly-approved", MissionState::kApproved, SourceKind::kLive, Workspace::kFly},
+      {"fly-descending", MissionState::kDescending, SourceKind::kSimulation, Workspace::kFly},
+      {"fly-hold", MissionState::kHold, SourceKind::kLive, Workspace::kFly},
+      {"fly-aborting", MissionState::kAborting, SourceKind::kLive, Workspace::kFly},
+      {"fly-landed", MissionState::kLanded, SourceKind::kSimulation, Workspace::kFly},
+      {"fly-replay", MissionState::kProposed, SourceKind::kReplay, Workspace::kFly},
+      {"tune-proposed", MissionState::kProposed, SourceKind::kSimulation, Workspace::kTune},
+      {"tune-armed", MissionState::kArmed, SourceKind::kSimulation, Workspace::kTune},
+      {"review-replay", MissionState::kArmed, SourceKind::kReplay, Workspace::kReview},
+      {"diagnose-live", MissionState::kDescending, SourceKind::kLive, Workspace::kDiagnose}};
+  std::vector<Shot> shots;
+  for (const State& s : states) {
+    shots.push_back({s.name, 1280, 720, 1, s.state, s.kind, s.workspace});
+    shots.push_back({s.name, 1920, 1080, 1, s.state, s.kind, s.workspace});
   }
-  return failed == 0 ? 0 : 1;
+  return shots;
 }
+
+inline std::string FileOf(const Shot& shot) {
+  return shot.name + "-" + std::to_string(shot.width) + ".jpg";
+}
+
+/// Half size, BGR, as the files hold it.
+inline cv::Mat HalfSize(const ImageRgba& picture) {
+  cv::Mat bgr(picture.height(), picture.width(), CV_8UC3), half;
+  for (int y = 0; y < picture.height(); ++y) {
+    for (int x = 0; x < picture.width(); ++x) {
+      const Rgba8 c = picture.at(x, y);
+      bgr.at<cv::Vec3b>(y, x) = {c.b, c.g, c.r};
+    }
+  }
+  cv::resize(bgr, half, {}, 0.5, 0.5, cv::INTER_AREA);
+  return half;
+}
+
+}  // namespace golden
+}  // namespace palace

@@ -1,0 +1,30 @@
+#include "engine/model/site_columns.h"
+
+#include <algorithm>
+#include <string_view>
+
+namespace palace {
+
+void AppendSite(CsvRow& row, int rank, const LandingSite& s) {
+  row << rank << s.id << std::string(1, s.letter) << s.cell.row << s.cell.col;
+  row << s.p_WS.x() << s.p_WS.y() << s.p_WS.z();
+  for (const Figure& figure : {s.slope_rad, s.roughness_m, s.step_m, s.height_m}) {
+    row << figure.value << figure.three_sigma;
+  }
+  row << s.safe_distance_m << s.clear_radius_m << s.clearance_m << s.cost << s.safe_probability;
+  row << s.touchdown.worst_probability << s.touchdown.worst_heading_rad;
+  row << s.touchdown.best_probability << s.touchdown.best_heading_rad;
+  row << int{s.flags} << int{s.confirmed} << int{s.corridor_clear} << int{s.clear_approaches};
+  row << s.age_s << s.distance_m << s.reason;
+}
+
+void AppendNoSite(CsvRow& row, const std::string& reason) {
+  const std::string_view names = kSiteColumns;
+  const auto columns = std::count(names.begin(), names.end(), ',');
+  for (std::ptrdiff_t i = 0; i < columns; ++i) {
+    row << "";
+  }
+  row << reason;
+}
+
+}  // namespace palace

@@ -1,0 +1,197 @@
+#include "engine/survey/rerun_files.h"
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+#include "engine/core/csv_row.h"
+#include "engine/model/site_columns.h"
+#include "engine/survey/hazard_layer.h"
+#include "engine/survey/map_files.h"
+
+namespace palace {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kShortest_s = 0.1, kLongest_s = 3600;
+constexpr std::array kTables = {"sites.csv", "decisions.csv", "maps.csv"};
+
+fs::path PartialName(const fs::path& folder, std::string_view table) {
+  return folder / (std::string(table) + ".partial");
+}
+
+GridF RootOf(const GridF& variance) {
+  GridF sigma = variance;
+  for (float& value : sigma.cells()) {
+    value = std::sqrt(value);
+  }
+  return sigma;
+}
+
+std::string LetterOf(char letter) { return letter == 0 ? "" : std::string(1, letter); }
+
+}  // namespace
+
+Result<MapTimes> ParseMapTimes(const std::string& text) {
+  if (text == "last") {
+    return MapTimes{.last = true, .every_s = {}};
+  }
+  double every_s = 0;
+  char unit[3] = "";
+  char rest = 0;
+  const int read = std::sscanf(text.c_str(), "every %lf %2s %c", &every_s, unit, &rest);
+  const bool whole = read == 1 || (read == 2 && std::string_view(unit) == "s");
+  if (!whole || !(every_s >= kShortest_s && every_s <= kLongest_s)) {
+    return UsageError("--maps '" + text +
+                      "': give \"last\" or \"every N s\" with N from 0.1 to 3600 seconds");
+  }
+  return MapTimes{.last = true, .every_s = every_s};
+}
+
+RerunFiles::RerunFiles(fs::path folder, const MapTimes& maps)
+    : folder_(std::move(folder)), when_(maps) {}
+
+Result<RerunFiles> RerunFiles::Open(const fs::path& folder, const MapTimes& maps) {
+  std::error_code failed;
+  fs::create_directories(folder, failed);
+  if (failed) {
+    return UnavailableError(folder.string() + ": cannot be made (" + failed.message() +
+                            "); choose a writable --out");
+  }
+  RerunFiles files(folder, maps);
+  const std::array streams = {&files.sites_, &files.decisions_, &files.maps_};
+  for (std::size_t i = 0; i < kTables.size(); ++i) {
+    streams[i]->open(PartialName(folder, kTables[i]), std::ios::binary | std::ios::trunc);
+    if (!*streams[i]) {
+      return UnavailableError((folder / kTables[i]).string() +
+                              ": cannot be written; choose a writable --out");
+    }
+  }
+  files.sites_ << "time_us,map_time_us,map_hash,settings_hash," << kSiteColumns << '\n';
+  files.decisions_ << "time_us,state,why,map_hash,settings_hash,decision_hash,best_site,"
+                      "best_safe_distance_m,height_above_site_m,recorded_state,"
+                      "recorded_decision_hash,recorded_best_site,same\n";
+  files.maps_ << "stem,time_us,map_hash,settings_hash,rows,cols,cell_m,north_min_m,east_min_m\n";
+  return files;
+}
+
+void RerunFiles::AddSites(const TerrainDecision& decision, Timestamp time) {
+  ++counts_.maps;
+  const auto begin = [&] {
+    CsvRow row;
+    row << time.us << decision.map_time.us << decision.map_hash << decision.settings_hash;
+    return row;
+  };
+  int rank = 0;
+  for (const LandingSite& site : decision.selection.sites) {
+    CsvRow row = begin();
+    AppendSite(row, ++rank, site);
+    sites_ << row.line();
+  }
+  if (rank == 0) {
+    ++counts_.maps_without_site;
+    CsvRow row = begin();
+    AppendNoSite(row, decision.selection.none_reason);
+    sites_ << row.line();
+  }
+}
+
+void RerunFiles::AddDecision(const EngineSnapshot& snapshot, const FlightRecordSample* recorded) {
+  const TerrainDecision* map = snapshot.applied.get();
+  const LandingSite* best =
+      map && !map->selection.sites.empty() ? &map->selection.sites.front() : nullptr;
+  CsvRow row;
+  row << snapshot.time.us << MissionStateName(snapshot.mission.state) << snapshot.mission.why;
+  row << (map ? std::to_string(map->map_hash) : "") << snapshot.settings_hash
+      << snapshot.decision_hash;
+  row << LetterOf(best ? best->letter : 0) << (best ? best->safe_distance_m : NAN);
+  row << snapshot.mission.height_above_site_m;
+  if (recorded) {
+    const bool same = recorded->decision_hash == snapshot.decision_hash;
+    ++counts_.recorded;
+    counts_.equal += same ? 1 : 0;
+    row << MissionStateName(recorded->state) << recorded->decision_hash
+        << LetterOf(recorded->best_site) << int{same};
+  } else {
+    row << ""
+        << ""
+        << ""
+        << "";
+  }
+  decisions_ << row.line();
+}
+
+Status RerunFiles::WriteMap(const TerrainDecision& decision) {
+  const ElevationMap& map = *decision.elevation;
+  const HazardMaps& hazards = *decision.hazards;
+  char stem[40];
+  std::snprintf(stem, sizeof stem, "map_%010.3f", SecondsBetween(*start_, decision.map_time));
+  const std::array<std::pair<const char*, GridF>, 7> layers = {{
+      {"elevation", map.height_m},
+      {"elevation_sigma", RootOf(map.variance_m2)},
+      {"slope", hazards.slope_rad},
+      {"roughness", hazards.roughness_m},
+      {"cost", hazards.cost},
+      {"safe_distance", hazards.safe_distance_m},
+      {"hazard", HazardLayer(map, hazards, decision.settings.mode)},
+  }};
+  for (const auto& [name, cells] : layers) {
+    const fs::path path = folder_ / (std::string(stem) + "_" + name + ".tif");
+    if (const Status done = WriteGeoTiff(path, {map.geometry, cells, {}}); !done) {
+      return done;
+    }
+  }
+  const GridGeometry& grid = map.geometry;
+  CsvRow row;
+  row << stem << decision.map_time.us << decision.map_hash << decision.settings_hash << grid.rows
+      << grid.cols << grid.cell_m << grid.north_min_m << grid.east_min_m;
+  maps_ << row.line();
+  ++counts_.maps_written;
+  return Ok();
+}
+
+Status RerunFiles::Add(const EngineSnapshot& snapshot, const FlightRecordSample* recorded) {
+  start_ = start_.value_or(snapshot.time);
+  ++counts_.frames;
+  AddDecision(snapshot, recorded);
+  if (!snapshot.applied || snapshot.applied == newest_) {
+    return Ok();
+  }
+  newest_ = snapshot.applied;
+  AddSites(*newest_, snapshot.time);
+  const bool due = when_.every_s &&
+                   (!last_map_ || SecondsBetween(*last_map_, newest_->map_time) >= *when_.every_s);
+  if (!due) {
+    return Ok();
+  }
+  last_map_ = newest_->map_time;
+  written_ = newest_;
+  return WriteMap(*newest_);
+}
+
+Status RerunFiles::Finish() {
+  if (when_.last && newest_ && newest_ != written_) {
+    if (const Status done = WriteMap(*newest_); !done) {
+      return done;
+    }
+  }
+  const std::array streams = {&sites_, &decisions_, &maps_};
+  for (std::size_t i = 0; i < kTables.size(); ++i) {
+    streams[i]->close();
+    std::error_code failed;
+    if (*streams[i]) {
+      fs::rename(PartialName(folder_, kTables[i]), folder_ / kTables[i], failed);
+    }
+    if (!*streams[i] || failed) {
+      return UnavailableError((folder_ / kTables[i]).string() +
+                              ": cannot be written; is the disk full?");
+    }
+  }
+  return Ok();
+}
+
+}  // namespace palace

@@ -1,0 +1,136 @@
+// palacectl log rerun: a log becomes tables and maps, decided to the bit as in flight.
+#include <fstream>
+#include <map>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "tests/scenarios/scenario.h"
+
+namespace palace {
+namespace {
+
+constexpr double kLimit_s = 120;
+
+using Table = std::vector<std::map<std::string, std::string>>;
+
+/// Fields here hold no quoted commas but in the last column, which is not asked for beyond them.
+Table ReadTable(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  const auto fields = [](const std::string& line) {
+    std::vector<std::string> words;
+    std::stringstream stream(line);
+    for (std::string word; std::getline(stream, word, ',');) {
+      words.push_back(word);
+    }
+    return words;
+  };
+  std::string line;
+  std::getline(file, line);
+  const std::vector<std::string> names = fields(line);
+  Table table;
+  while (std::getline(file, line)) {
+    const std::vector<std::string> words = fields(line);
+    auto& row = table.emplace_back();
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      row[names[i]] = i < words.size() ? words[i] : "";
+    }
+  }
+  return table;
+}
+
+class LogRerun : public Scenario {
+ protected:
+  /// Some seconds of a flight up to its first sites, on disk as records/<stamp>/flight.lcm.
+  std::filesystem::path Fly() {
+    WriteFile("look.script", "wait state PROPOSED 20\nset slad.max_slope_deg 9\nwait seconds 1\n");
+    const ProcessResult flight = RunProcess(
+        Palace({"--headless", "--seed", "3", "--record", "records", "--script", "look.script"}),
+        kLimit_s);
+    EXPECT_EQ(flight.exit_code, 0) << flight.err;
+    const auto flights = FlightsIn(folder_ / "records");
+    EXPECT_EQ(flights.size(), 1u);
+    return flights.empty() ? folder_ : flights.front() / "flight.lcm";
+  }
+  ProcessResult Rerun(const std::filesystem::path& log, std::vector<std::string> more) {
+    std::vector<std::string> words = {"log", "rerun", log.string()};
+    words.insert(words.end(), more.begin(), more.end());
+    return RunProcess(Palacectl(words), kLimit_s);
+  }
+};
+
+TEST_F(LogRerun, DecidesAsInFlightAndWritesEverySiteAndMap) {
+  const std::filesystem::path log = Fly();
+  const ProcessResult same = Rerun(log, {"--out", "same", "--maps", "every 0.5 s"});
+  ASSERT_EQ(same.exit_code, 0) << same.err;
+  const Table decisions = ReadTable(folder_ / "same/decisions.csv");
+  ASSERT_GT(decisions.size(), 10u);
+  for (const auto& row : decisions) {
+    EXPECT_EQ(row.at("same"), "1") << row.at("time_us");
+    EXPECT_EQ(row.at("decision_hash"), row.at("recorded_decision_hash"));
+  }
+  // The maps of the flight, as it recorded them, by their hashes.
+  ASSERT_EQ(
+      RunProcess(Palacectl({"log", "export", log.string(), "--out", "csv"}), kLimit_s).exit_code,
+      0);
+  std::map<std::string, std::string> flown;
+  for (const auto& row : ReadTable(folder_ / "csv/sites.csv")) {
+    flown[row.at("time_us") + "/" + row.at("rank")] = row.at("map_hash") + row.at("letter");
+  }
+  std::size_t compared = 0;
+  for (const auto& row : ReadTable(folder_ / "same/sites.csv")) {
+    const auto it = flown.find(row.at("time_us") + "/" + row.at("rank"));
+    if (it != flown.end()) {
+      EXPECT_EQ(row.at("map_hash") + row.at("letter"), it->second) << row.at("time_us");
+      ++compared;
+    }
+  }
+  EXPECT_GT(compared, 10u);
+  const Table maps = ReadTable(folder_ / "same/maps.csv");
+  ASSERT_GT(maps.size(), 2u);
+  for (const auto& row : maps) {
+    EXPECT_EQ(row.at("rows"), "100");
+    EXPECT_TRUE(std::filesystem::exists(folder_ / "same" / (row.at("stem") + "_elevation.tif")));
+  }
+  const ProcessResult read =
+      RunProcess(Palacectl({"analyze", "--elevation",
+                            "same/" + maps.back().at("stem") + "_elevation.tif", "--out", "again"}),
+                 kLimit_s);
+  EXPECT_EQ(read.exit_code, 0) << read.err;
+}
+
+TEST_F(LogRerun, OtherLimitsSayWhyThereIsNoSite) {
+  const std::filesystem::path log = Fly();
+  const ProcessResult steep =
+      Rerun(log, {"--out", "steep", "--set", "slad.max_slope_deg=0.5", "--maps", "last"});
+  ASSERT_EQ(steep.exit_code, 0) << steep.err;
+  std::size_t without = 0;
+  for (const auto& row : ReadTable(folder_ / "steep/sites.csv")) {
+    without += row.at("rank").empty() && row.at("reason") != "" ? 1 : 0;
+  }
+  EXPECT_GT(without, 3u);
+  EXPECT_EQ(ReadTable(folder_ / "steep/maps.csv").size(), 1u);
+}
+
+TEST_F(LogRerun, RefusesWhatItCannotDoAndLeavesNothing) {
+  const auto log = WriteFile("not_a.log", "this is no log");
+  const struct {
+    std::vector<std::string> words;
+    int exit_code;
+    const char* says;
+  } kTable[] = {
+      {{"--out", "o", "--maps", "often"}, 2, "every N s"},
+      {{"--out", "o", "--maps", "every -1 s"}, 2, "0.1 to 3600"},
+      {{"--out", "o", "--maps", "every nan s"}, 2, "0.1 to 3600"},
+      {{"--out", "o"}, 1, "not_a.log"},
+  };
+  for (const auto& row : kTable) {
+    const ProcessResult result = Rerun(log, row.words);
+    EXPECT_EQ(result.exit_code, row.exit_code) << result.err;
+    EXPECT_NE(result.err.find(row.says), std::string::npos) << result.err;
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "o"));
+  }
+}
+
+}  // namespace
+}  // namespace palace
