@@ -170,6 +170,7 @@ bool Mission::Executing() const {
 void Mission::Update(const MissionInputs& inputs) {
   FollowJump(inputs);
   watch_.Update(inputs.bundle, inputs.channels, inputs.now);
+  loss_watch_.Update(inputs.losses, inputs.bundle.stereo != nullptr, inputs.now);
   RememberFacts(inputs);
   FollowWinner(inputs);
   FollowSite(inputs);

@@ -26,6 +26,7 @@
 #include "engine/mission/alarms.h"
 #include "engine/mission/guards.h"
 #include "engine/mission/input_watch.h"
+#include "engine/mission/loss_watch.h"
 #include "engine/mission/site_watch.h"
 #include "engine/model/command.h"
 #include "engine/model/snapshot.h"
@@ -67,6 +68,7 @@ struct MissionInputs {
   /// Wanted course over ground; NaN: straight to the site.
   double approach_heading_rad = NAN;
   std::string_view source_damage{};  ///< SourceStatus::damage
+  Losses losses{};
 };
 
 class Mission {
@@ -195,6 +197,7 @@ class Mission {
   std::optional<LandingSite> alternative_;
   Winner winner_;
   InputWatch watch_;
+  LossWatch loss_watch_;
   AlarmBoard alarms_;
   std::deque<std::pair<std::uint64_t, Timestamp>> shown_;  ///< recent snapshots
   std::uint64_t counter_ = 0;                              ///< of approvals

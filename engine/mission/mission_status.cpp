@@ -293,6 +293,9 @@ void Mission::PublishAlarms(const MissionInputs& in) {
   for (AlarmCondition& condition : MissionAlarms(in)) {
     conditions.push_back(std::move(condition));
   }
+  for (AlarmCondition& condition : loss_watch_.Alarms(!HasPicturesOnly(in.source_kind))) {
+    conditions.push_back(std::move(condition));
+  }
   alarms_.Update(conditions, in.now);
   for (const Alarm& alarm : alarms_.raised()) {
     AddEvent(in.now, EventKind::kAlarm, alarm.text);

@@ -350,7 +350,8 @@ void Pipeline::Decide(Pass& pass) {
                    estimate.p_WB,
                    estimate.p_WB + R_WB * SkidCentreBody(),
                    NAN,
-                   pass.session.source.damage});
+                   pass.session.source.damage,
+                   pass.session.losses});
   snapshot.mission = mission_.status();
   const FlightRecordSample* recorded = jumped_ ? flight_of_record_.At(pass.bundle->time) : nullptr;
   if (recorded) {
@@ -362,6 +363,7 @@ PipelineOutput Pipeline::Publish(Pass& pass) {
   EngineSnapshot& snapshot = *pass.snapshot;
   snapshot.sequence = ++sequence_;
   snapshot.source = pass.session.source;
+  snapshot.losses = pass.session.losses;
   snapshot.maps_to_rebuild = maps_to_rebuild_;
   snapshot.can_transmit = pass.session.can_transmit;
   snapshot.recording = pass.session.recording;
