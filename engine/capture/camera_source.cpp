@@ -46,6 +46,7 @@ struct CameraSource::Shared {
   bool stopping = false;
   FramePairing pairing;
   std::optional<PicturePair> newest;
+  std::uint64_t pairs_replaced = 0;
   std::vector<CameraCounters> counters;
   std::vector<double> newest_s;
   std::vector<bool> blocked;  ///< a thread that has not ended
@@ -136,6 +137,7 @@ void CameraSource::Grab(const std::shared_ptr<Shared>& shared, CameraFeed& feed,
           side, {shared->TimeOf(outcome.picture->time_s), std::move(outcome.picture->grey)});
     }
     if (halves) {
+      shared->pairs_replaced += shared->newest ? 1 : 0;
       shared->newest = std::move(halves);
       shared->changed.notify_all();
     }
@@ -195,6 +197,15 @@ SourceStatus CameraSource::Status() const {
   }
   status.frame_index = status.cameras.front().frames;
   return status;
+}
+
+Losses CameraSource::Lost() const {
+  const std::lock_guard lock(shared_->mutex);
+  Losses losses;
+  losses.pairs_replaced = shared_->pairs_replaced;
+  losses.pictures_unpaired = shared_->pairing.unpaired(FramePairing::kLeft) +
+                             shared_->pairing.unpaired(FramePairing::kRight);
+  return losses;
 }
 
 }  // namespace palace

@@ -43,6 +43,7 @@ class CameraSource final : public Source {
   Result<std::shared_ptr<const FrameBundle>> Next(std::stop_token stop) override;
   bool IsLockstep() const override { return false; }
   SourceStatus Status() const override;
+  Losses Lost() const override;
   void Control(const PlaybackControl&) override {}
 
  private:

@@ -27,17 +27,20 @@ class BoundedQueue {
     return true;
   }
 
-  /// Never waits: drops the oldest item when full. Returns how many were dropped (0 or 1).
-  std::size_t PushNewest(T item) {
+  /// Never waits. When full the oldest item goes, and `fold(oldest, next)` hands what it holds to
+  /// the one after it. Returns how many went (0 or 1).
+  template <typename Fold>
+  std::size_t PushOrFold(T item, Fold fold) {
     const std::lock_guard lock(mutex_);
-    std::size_t dropped = 0;
-    if (items_.size() >= capacity_) {
-      items_.pop_front();
-      dropped = 1;
-    }
     items_.push_back(std::move(item));
     filled_.notify_one();
-    return dropped;
+    if (items_.size() <= capacity_) {
+      return 0;
+    }
+    T oldest = std::move(items_.front());
+    items_.pop_front();
+    fold(std::move(oldest), items_.front());
+    return 1;
   }
 
   /// Waits for an item. Empty when stop was requested and nothing is left.

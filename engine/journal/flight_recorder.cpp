@@ -1,4 +1,3 @@
-#include <limits>
 #include <system_error>
 #include <utility>
 
@@ -35,16 +34,13 @@ Result<std::unique_ptr<FlightRecorder>> FlightRecorder::Open(const std::filesyst
   // A flight begins with the first thing heard; a live vehicle's clock is not known before.
   const bool nothing_heard = item.bundle && !any_ && item.bundle->time == Timestamp{};
   if (!item.bundle || nothing_heard) {
+    waiting_sent_.insert(waiting_sent_.end(), item.sent.begin(), item.sent.end());
     return Ok();
   }
   const Timestamp now = item.bundle->time;
-  first_ = any_ ? first_ : now;
   last_ = now;
   any_ = true;
-  std::vector<WireMessage> messages;
-  for (const EngineCommand& command : std::exchange(waiting_, {})) {
-    messages.push_back(EncodeCommand(command, now, channels_));
-  }
+  std::vector<WireMessage> messages = TakeWaiting(now);
   for (WireMessage& message : EncodeBundle(*item.bundle, channels_)) {
     messages.push_back(std::move(message));
   }
@@ -59,6 +55,17 @@ Result<std::unique_ptr<FlightRecorder>> FlightRecorder::Open(const std::filesyst
   return WriteAll(messages);
 }
 
+std::vector<WireMessage> FlightRecorder::TakeWaiting(Timestamp now) {
+  std::vector<WireMessage> messages;
+  for (const EngineCommand& command : std::exchange(waiting_, {})) {
+    messages.push_back(EncodeCommand(command, now, channels_));
+  }
+  for (const VehicleMessage& message : std::exchange(waiting_sent_, {})) {
+    messages.push_back(EncodeVehicleMessage(message, now, channels_));
+  }
+  return messages;
+}
+
 ::palace::Status FlightRecorder::WriteAll(const std::vector<WireMessage>& messages) {
   for (const WireMessage& message : messages) {
     const ::palace::Status written = writer_.Write(message);
@@ -70,11 +77,7 @@ Result<std::unique_ptr<FlightRecorder>> FlightRecorder::Open(const std::filesyst
 }
 
 ::palace::Status FlightRecorder::Close() {
-  std::vector<WireMessage> messages;
-  for (const EngineCommand& command : std::exchange(waiting_, {})) {
-    messages.push_back(EncodeCommand(command, last_, channels_));
-  }
-  const ::palace::Status written = any_ ? WriteAll(messages) : Ok();
+  const ::palace::Status written = any_ ? WriteAll(TakeWaiting(last_)) : Ok();
   const ::palace::Status closed = writer_.Close();
   if (!any_) {
     const std::filesystem::path log = writer_.path();
@@ -87,17 +90,5 @@ Result<std::unique_ptr<FlightRecorder>> FlightRecorder::Open(const std::filesyst
 }
 
 std::string FlightRecorder::Path() const { return writer_.path().string(); }
-
-double FlightRecorder::MinutesLeft() const {
-  const double recorded_s = any_ ? SecondsBetween(first_, last_) : 0;
-  std::error_code failed;
-  const std::filesystem::space_info space =
-      std::filesystem::space(writer_.path().parent_path(), failed);
-  if (recorded_s < 1 || failed) {
-    return std::numeric_limits<double>::infinity();
-  }
-  const double bytes_per_s = static_cast<double>(writer_.bytes()) / recorded_s;
-  return static_cast<double>(space.available) / bytes_per_s / 60;
-}
 
 }  // namespace palace

@@ -87,23 +87,22 @@ class FlightRecorder final : public RecordSink {
   ::palace::Status Record(const RecordItem& item) override;
   ::palace::Status Close() override;
   std::string Path() const override;
-  /// Bytes of a minute of data at the rate so far, and the free space: minutes left. Infinity
-  /// before a second was recorded.
-  double MinutesLeft() const;
 
  private:
   FlightRecorder(LogWriter writer, ChannelNames channels)
       : writer_(std::move(writer)), channels_(channels), outputs_(channels) {}
+  std::vector<WireMessage> TakeWaiting(Timestamp now);
   ::palace::Status WriteAll(const std::vector<WireMessage>& messages);
 
   LogWriter writer_;
   ChannelNames channels_;
   OutputEncoder outputs_;
-  Timestamp first_;
   Timestamp last_;
   bool any_ = false;
-  std::vector<EngineCommand> waiting_;  ///< given while time stood still: they go before the next
-                                        ///< bundle, where a replay applies them
+  /// Given and sent while time stood still: they go before the next bundle, where a replay applies
+  /// the commands.
+  std::vector<EngineCommand> waiting_;
+  std::vector<VehicleMessage> waiting_sent_;
 };
 
 }  // namespace palace

@@ -292,6 +292,55 @@ const std::array<AlarmRow, kAlarmCount> kAlarms = {{
          [](const Facts&, const std::string&) {
            return std::string("Vehicle flies an approval that is not ours. Wave-off is available.");
          }},
+    {.id = AlarmId::kPicturesReplaced,
+     .level = AlarmLevel::kCaution,
+     .acts = Enforcer::kNobody,
+     .limit = {AlarmLimits::least_pairs_hz, "Hz"},
+     .value = &Facts::looked_at_hz,
+     .present = [](const Facts& f,
+                   double limit) { return f.has_vehicle && f.looked_at_hz < limit; },
+     .text =
+         [](const Facts& f, const std::string& limit) {
+           return WithNumbers("Stereo pairs are looked at %.1f times a second, limit ",
+                              f.looked_at_hz) +
+                  limit +
+                  WithNumbers(
+                      "; %.1f a second are missed. Close other programs or make "
+                      "fewer maps.",
+                      f.losses.replaced_hz);
+         }},
+    {.id = AlarmId::kUndecodable,
+     .level = AlarmLevel::kCaution,
+     .acts = Enforcer::kNobody,
+     .present = [](const Facts& f, double) { return f.losses.undecodable > 0; },
+     .text =
+         [](const Facts& f, const std::string&) {
+           return WithNumbers("%.0f messages of the last %.0f s could not be read: ",
+                              f.losses.undecodable, LossWatch::kWindow_s) +
+                  f.losses.channels + " in all. Is the sender of another version?";
+         }},
+    {.id = AlarmId::kRecordsDropped,
+     .level = AlarmLevel::kCaution,
+     .acts = Enforcer::kNobody,
+     .present = [](const Facts& f, double) { return f.losses.unrecorded > 0; },
+     .text =
+         [](const Facts& f, const std::string&) {
+           return WithNumbers(
+               "%.0f frames of the last %.0f s are not in the record: the disk is "
+               "too slow. Free it, or record elsewhere.",
+               f.losses.unrecorded, LossWatch::kWindow_s);
+         }},
+    {.id = AlarmId::kMessagesUnsent,
+     .level = AlarmLevel::kCaution,
+     .acts = Enforcer::kNobody,
+     .present = [](const Facts& f, double) { return f.losses.unsent > 0; },
+     .text =
+         [](const Facts& f, const std::string&) {
+           return WithNumbers(
+               "%.0f messages of the last %.0f s could not be sent. Check the "
+               "network link.",
+               f.losses.unsent, LossWatch::kWindow_s);
+         }},
 }};
 
 }  // namespace

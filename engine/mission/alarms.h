@@ -12,6 +12,7 @@
 
 #include "engine/mission/alarm_board.h"
 #include "engine/mission/limits.h"
+#include "engine/mission/loss_watch.h"
 #include "engine/mission/mission_inputs.h"
 #include "engine/mission/mission_memory.h"
 
@@ -57,6 +58,8 @@ struct AlarmFacts {
   double waiting_s = NAN;      ///< for the answer to an approval
   std::string refusal{};
   bool foreign_descent = false;
+  RecentLosses losses{};
+  double looked_at_hz = NAN;  ///< stereo pairs, while some are replaced by newer ones
 };
 AlarmFacts AlarmFactsAt(const MissionMemory& memory, const MissionInputs& inputs);
 

@@ -34,10 +34,6 @@ double InputWatch::Arrival::Age(Timestamp now) const {
   return stamp && now >= seen ? SecondsBetween(seen, now) : kNever;
 }
 
-double InputWatch::ChannelAge::Age(Timestamp now) const {
-  return known ? age_s + SecondsBetween(at, now) : 0;
-}
-
 double InputWatch::PoseAge(Timestamp now) const {
   return Worse(pose_.Age(now), pose_channel_.Age(now));
 }
@@ -65,16 +61,14 @@ void InputWatch::Update(const FrameBundle& bundle, const std::vector<ChannelHeal
   if (!bundle.gps.empty()) {
     gps_ = bundle.gps.back();
   }
-  for (const ChannelHealth& channel : channels) {
-    const double age = channel.state == ChannelHealth::State::kNever ? kNever : channel.age_s;
-    if (channel.name == kCameraLeftChannel) {
-      left_channel_ = {age, now, true};
-    } else if (channel.name == kCameraRightChannel) {
-      right_channel_ = {age, now, true};
-    } else if (channel.name == kPoseChannel) {
-      pose_channel_ = {age, now, true};
-    }
-  }
+  const auto age_of = [&](ChannelId id) -> ChannelAge {
+    const ChannelHealth* channel = FindChannel(channels, id);
+    const bool heard = channel != nullptr && channel->state != ChannelHealth::State::kNever;
+    return {heard ? channel->age_s : kNever, now};
+  };
+  left_channel_ = age_of(ChannelId::kCameraLeft);
+  right_channel_ = age_of(ChannelId::kCameraRight);
+  pose_channel_ = age_of(ChannelId::kVehiclePose);
   if (bundle.status) {
     WatchVehicle(*bundle.status, now);
   }

@@ -5,20 +5,15 @@
 // makes it untrusted until three consistent samples came (I18).
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <optional>
-#include <string_view>
 #include <vector>
 
 #include "engine/model/frame_bundle.h"
 #include "engine/model/snapshot.h"
 
 namespace palace {
-
-/// Names of the channels as ChannelHealth carries them.
-inline constexpr std::string_view kCameraLeftChannel = "Camera left";
-inline constexpr std::string_view kCameraRightChannel = "Camera right";
-inline constexpr std::string_view kPoseChannel = "Vehicle pose";
 
 class InputWatch {
  public:
@@ -47,11 +42,11 @@ class InputWatch {
     void See(Timestamp message_stamp, Timestamp now);
     double Age(Timestamp now) const;
   };
+  /// What the station's watch of one channel said last; NaN where it is not listed (I3).
   struct ChannelAge {
-    double age_s = 0;
+    double age_s = NAN;
     Timestamp at;
-    bool known = false;
-    double Age(Timestamp now) const;
+    double Age(Timestamp now) const { return age_s + SecondsBetween(at, now); }
   };
   void WatchVehicle(const VehicleStatus& status, Timestamp now);
 

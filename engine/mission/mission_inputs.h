@@ -13,6 +13,7 @@
 
 #include "engine/model/cell_explanation.h"
 #include "engine/model/landing_site.h"
+#include "engine/model/losses.h"
 #include "engine/model/session_role.h"
 #include "engine/model/snapshot.h"
 #include "engine/trust/approval.h"
@@ -35,6 +36,7 @@ struct MissionInputs {
     bool can_transmit = false;
     bool recorder_ok = false;
     std::string_view source_damage{};  ///< SourceStatus::damage
+    Losses losses{};                   ///< at the doors, since the session began
     /// Of the newest snapshot published; this pass publishes the next number.
     std::uint64_t snapshot_sequence = 0;
   };

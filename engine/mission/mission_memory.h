@@ -16,6 +16,7 @@
 
 #include "engine/mission/alarm_board.h"
 #include "engine/mission/input_watch.h"
+#include "engine/mission/loss_watch.h"
 #include "engine/mission/picture_watch.h"
 #include "engine/mission/site_watch.h"
 #include "engine/model/mission_status.h"
@@ -84,6 +85,7 @@ struct MissionMemory {
   WinningRun winner;
   InputWatch watch;
   PictureWatch pictures;
+  LossWatch losses;
   AlarmBoard alarms;
   std::deque<ShownSnapshot> shown;  ///< recent ones
 

@@ -15,6 +15,7 @@ MissionStep Step(const MissionOptions& station, MissionMemory memory, const Miss
   MissionTurn turn{station, std::move(memory), {}};
   FollowJump(turn, in);
   turn.memory.watch.Update(in.vehicle.bundle, in.vehicle.channels, in.session.now);
+  turn.memory.losses.Update(in.session.losses, in.vehicle.bundle.stereo != nullptr, in.session.now);
   RememberFacts(turn.memory, in);
   FollowWinner(turn.memory, in);
   FollowSite(turn, in);

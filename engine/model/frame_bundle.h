@@ -1,6 +1,7 @@
 // FrameBundle: one door into the engine. A stereo pair and all that arrived since the one before.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -45,5 +46,20 @@ struct FrameBundle {
   /// First bundle after a jump in time (a seek, a step back): filters and maps start afresh.
   bool discontinuity = false;
 };
+
+/// More samples of one kind than this do not wait in one bundle: 200 s of an IMU.
+inline constexpr std::size_t kMostSamplesInBundle = 20000;
+
+struct JoinedBundle {
+  std::shared_ptr<const FrameBundle> bundle;
+  bool pair_replaced = false;       ///< the older pictures were left out
+  std::size_t samples_dropped = 0;  ///< the oldest, beyond kMostSamplesInBundle
+};
+
+/// Two bundles that reach their reader as one: the newer, with what the older brought before its
+/// own. Pictures, and the pose at their exposure, are the newer's if it has any; status and rig the
+/// newest known. After a discontinuity of the newer only acknowledgements and commands of the older
+/// count: its measurements are of a time that filters and maps forget.
+JoinedBundle Join(const FrameBundle& older, const FrameBundle& newer);
 
 }  // namespace palace

@@ -36,6 +36,10 @@ constexpr std::array<const char*, kAlarmCount> kAlarmNames = {
     "approval_unanswered",
     "approval_refused",
     "foreign_descent",
+    "pictures_replaced",
+    "undecodable",
+    "records_dropped",
+    "messages_unsent",
 };
 
 }  // namespace

@@ -56,8 +56,12 @@ enum class AlarmId : std::uint8_t {
   kApprovalUnanswered,
   kApprovalRefused,
   kForeignDescent,
+  kPicturesReplaced,
+  kUndecodable,
+  kRecordsDropped,
+  kMessagesUnsent,
 };
-inline constexpr std::size_t kAlarmCount = 25;
+inline constexpr std::size_t kAlarmCount = 29;
 /// "gps_error".
 const char* AlarmName(AlarmId id);
 /// Empty for a name that no alarm has.

@@ -10,10 +10,12 @@
 #include <vector>
 
 #include "engine/core/diagnostics.h"
+#include "engine/model/channel.h"
 #include "engine/model/elevation_map.h"
 #include "engine/model/frame_bundle.h"
 #include "engine/model/hazard_maps.h"
 #include "engine/model/landing_site.h"
+#include "engine/model/losses.h"
 #include "engine/model/mission_status.h"
 #include "engine/model/navigation_status.h"
 #include "engine/model/range_map.h"
@@ -50,19 +52,6 @@ struct SourceStatus {
   std::uint64_t frame_count = 0;          ///< 0 unknown
   std::vector<CameraCounters> cameras{};  ///< of kCameras and kVideo
   std::string damage{};  ///< of a log: what could not be read, for people; empty when whole
-};
-
-/// Arrival of one channel, measured against the active clock.
-struct ChannelHealth {
-  enum class State : std::uint8_t { kNever, kFresh, kLate, kStale };
-  std::string name;  ///< "Camera left"
-  State state = State::kNever;
-  double age_s = 0;  ///< NaN when never
-  double rate_hz = 0;
-  double expected_hz = 0;
-  std::uint64_t count = 0;
-  std::uint64_t lost = 0;
-  std::string note;  ///< e.g. "± 2.6 m"
 };
 
 /// One evaluation of SLAD under one settings set.
@@ -116,6 +105,7 @@ struct EngineSnapshot {
   std::string recording_path;
   double recording_minutes_left = 0;
   std::vector<ChannelHealth> channels;
+  Losses losses;  ///< of all doors: source, inbox, recorder, link
 
   std::shared_ptr<const StereoRig> rig;
   std::shared_ptr<const StereoFrame> frame;  ///< raw pictures

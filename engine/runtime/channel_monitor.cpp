@@ -18,24 +18,21 @@ constexpr double kLostAfterPeriods = 1.5;
 ChannelMonitor::ChannelMonitor() { Reset(); }
 
 void ChannelMonitor::Reset() {
-  watches_.assign(kCount, {});
-  const auto expect = [&](Channel channel, const char* name, double hz) {
-    watches_[channel].name = name;
-    watches_[channel].expected_hz = hz;
-  };
-  expect(kLeft, "Camera left", 10);
-  expect(kRight, "Camera right", 10);
-  expect(kPose, "Vehicle pose", 50);
-  expect(kImu, "IMU", 100);
-  expect(kGps, "GPS", 5);
-  expect(kLaser, "Laser range", 20);
-  expect(kStatus, "Vehicle status", 10);
-  expect(kEstimate, "Position estimate", 10);
+  watches_ = {};
+  const auto expect = [&](ChannelId channel, double hz) { Of(channel).expected_hz = hz; };
+  expect(ChannelId::kCameraLeft, 10);
+  expect(ChannelId::kCameraRight, 10);
+  expect(ChannelId::kVehiclePose, 50);
+  expect(ChannelId::kImu, 100);
+  expect(ChannelId::kGps, 5);
+  expect(ChannelId::kLaserRange, 20);
+  expect(ChannelId::kVehicleStatus, 10);
+  expect(ChannelId::kPositionEstimate, 10);
   gps_sigma_m_ = 0;
 }
 
-void ChannelMonitor::Saw(Channel channel, Timestamp stamp) {
-  Watch& watch = watches_[channel];
+void ChannelMonitor::Saw(ChannelId channel, Timestamp stamp) {
+  Watch& watch = Of(channel);
   if (watch.count > 0) {
     const double period_s = SecondsBetween(watch.last, stamp);
     if (period_s <= 0) {
@@ -55,49 +52,55 @@ void ChannelMonitor::Saw(Channel channel, Timestamp stamp) {
 void ChannelMonitor::Add(const FrameBundle& bundle, bool has_vehicle) {
   has_vehicle_ = has_vehicle;
   if (bundle.rig) {
-    watches_[kLeft].expected_hz = watches_[kRight].expected_hz = bundle.rig->rate_hz;
-    watches_[kEstimate].expected_hz = bundle.rig->rate_hz;
+    for (const ChannelId channel :
+         {ChannelId::kCameraLeft, ChannelId::kCameraRight, ChannelId::kPositionEstimate}) {
+      Of(channel).expected_hz = bundle.rig->rate_hz;
+    }
     if (!has_vehicle) {
-      watches_[kPose].expected_hz = bundle.rig->rate_hz;  // of RIG.toml, once a pair
+      Of(ChannelId::kVehiclePose).expected_hz = bundle.rig->rate_hz;  // of RIG.toml, once a pair
     }
   }
   if (bundle.stereo) {
     if (!bundle.stereo->left.empty()) {
-      Saw(kLeft, bundle.stereo->time);
+      Saw(ChannelId::kCameraLeft, bundle.stereo->time);
     }
     if (!bundle.stereo->right.empty()) {
-      Saw(kRight, bundle.stereo->time);
+      Saw(ChannelId::kCameraRight, bundle.stereo->time);
     }
   }
   for (const VehiclePose& pose : bundle.poses) {
-    Saw(kPose, pose.time);
+    Saw(ChannelId::kVehiclePose, pose.time);
   }
   for (const ImuSample& sample : bundle.imu) {
-    Saw(kImu, sample.time);
+    Saw(ChannelId::kImu, sample.time);
   }
   for (const GpsFix& fix : bundle.gps) {
-    Saw(kGps, fix.time);
+    Saw(ChannelId::kGps, fix.time);
     gps_sigma_m_ = fix.sigma_horizontal_m;
   }
   for (const LaserRange& range : bundle.laser) {
-    Saw(kLaser, range.time);
+    Saw(ChannelId::kLaserRange, range.time);
   }
   if (bundle.status) {
-    Saw(kStatus, bundle.status->time);
+    Saw(ChannelId::kVehicleStatus, bundle.status->time);
   }
 }
 
-void ChannelMonitor::AddEstimate(Timestamp estimate_time) { Saw(kEstimate, estimate_time); }
+void ChannelMonitor::AddEstimate(Timestamp estimate_time) {
+  Saw(ChannelId::kPositionEstimate, estimate_time);
+}
 
 std::vector<ChannelHealth> ChannelMonitor::Health(Timestamp now) const {
   std::vector<ChannelHealth> all;
-  for (const Watch& watch : watches_) {
-    const bool camera = &watch == &watches_[kLeft] || &watch == &watches_[kRight];
+  for (std::size_t i = 0; i < kChannelCount; ++i) {
+    const Watch& watch = watches_[i];
+    const auto id = static_cast<ChannelId>(i);
+    const bool camera = id == ChannelId::kCameraLeft || id == ChannelId::kCameraRight;
     if (!has_vehicle_ && !camera && watch.count == 0) {
       continue;  // nobody is there to send it
     }
     ChannelHealth health;
-    health.name = watch.name;
+    health.id = id;
     health.expected_hz = watch.expected_hz;
     health.count = watch.count;
     health.lost = watch.lost;
@@ -112,7 +115,7 @@ std::vector<ChannelHealth> ChannelMonitor::Health(Timestamp now) const {
           : age_s > std::max(kFreshPeriods * period_s, 0.25)          ? ChannelHealth::State::kLate
                                                              : ChannelHealth::State::kFresh;
     }
-    if (watch.name == "GPS" && gps_sigma_m_ > 0) {
+    if (id == ChannelId::kGps && gps_sigma_m_ > 0) {
       char note[32];
       std::snprintf(note, sizeof note, "± %.2f m", 3 * gps_sigma_m_);
       health.note = note;

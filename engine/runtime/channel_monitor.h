@@ -1,7 +1,7 @@
 // Watches when each input last arrived, how often it should, and what was lost.
 #pragma once
 
-#include <string>
+#include <array>
 #include <vector>
 
 #include "engine/model/frame_bundle.h"
@@ -23,18 +23,17 @@ class ChannelMonitor {
   std::vector<ChannelHealth> Health(Timestamp now) const;
 
  private:
-  enum Channel { kLeft, kRight, kPose, kImu, kGps, kLaser, kStatus, kEstimate, kCount };
   struct Watch {
-    std::string name;
     double expected_hz = 0;
     Timestamp last;
     double mean_period_s = 0;
     std::uint64_t count = 0;
     std::uint64_t lost = 0;
   };
-  void Saw(Channel channel, Timestamp stamp);
+  void Saw(ChannelId channel, Timestamp stamp);
+  Watch& Of(ChannelId channel) { return watches_[static_cast<std::size_t>(channel)]; }
 
-  std::vector<Watch> watches_;
+  std::array<Watch, kChannelCount> watches_;
   double gps_sigma_m_ = 0;
   bool has_vehicle_ = true;
 };

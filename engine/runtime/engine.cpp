@@ -21,7 +21,7 @@ Engine::Engine(EngineParts parts, bool threaded)
     recorder_ = std::make_unique<Recorder>(std::move(parts.sink), threaded);
   }
   if (link_ && threaded) {
-    abort_ = std::make_unique<AbortSender>(link_);
+    stop_ = std::make_unique<StopSender>(link_);
   }
 }
 
@@ -44,10 +44,23 @@ Status Engine::Stop() {
 }
 
 void Engine::Post(EngineCommand command) {
-  if (abort_ && std::holds_alternative<WaveOff>(command.action)) {
-    abort_->Trigger();
+  if (stop_) {
+    SendStop(command);
   }
   inbox_.Post(std::move(command));
+}
+
+void Engine::SendStop(const EngineCommand& command) {
+  if (std::holds_alternative<WaveOff>(command.action)) {
+    stop_->WaveOff();
+  } else if (std::holds_alternative<HoldHere>(command.action)) {
+    // Only what the mission will hold too; it refuses a hold where nothing descends.
+    const std::shared_ptr<const EngineSnapshot> newest = latest_.Load();
+    if (newest && (newest->mission.state == MissionState::kApproved ||
+                   newest->mission.state == MissionState::kDescending)) {
+      stop_->Hold();
+    }
+  }
 }
 
 void Engine::Control(const PlaybackControl& control) {
@@ -58,8 +71,6 @@ void Engine::Control(const PlaybackControl& control) {
     jump_asked_ = true;
     ended_ = false;
   }
-  const SourceStatus status = source_->Status();
-  inbox_.SetIdle(status.paused || status.ended);
 }
 
 bool Engine::Step() {
@@ -94,7 +105,7 @@ void Engine::RunSource(std::stop_token stop) {
     if (source_->IsLockstep()) {
       inbox_.PutAndWait(std::move(*next), stop);
     } else {
-      frames_dropped_ += inbox_.PutNewest(std::move(*next));
+      inbox_.PutNewest(std::move(*next));
     }
   }
 }
@@ -108,10 +119,16 @@ void Engine::RunEngine(std::stop_token stop) {
 }
 
 void Engine::Handle(Inbox::Batch batch) {
-  const SessionStatus session = Session();
   if (!batch.bundle && !latest_.Load()) {
+    // Nothing can be decided yet.
+    early_.insert(early_.end(), batch.commands.begin(), batch.commands.end());
     return;
   }
+  if (!early_.empty()) {
+    batch.commands.insert(batch.commands.begin(), early_.begin(), early_.end());
+    early_.clear();
+  }
+  const SessionStatus session = Session();
   RecordItem item;
   item.bundle = batch.bundle;
   PipelineOutput output = batch.bundle
@@ -142,12 +159,17 @@ SessionStatus Engine::Session() const {
     session.recording_path = recorder_->path();
     session.recording_minutes_left = recorder_->MinutesLeft();
   }
+  session.losses = source_->Lost();
+  const Losses overtaken = inbox_.losses();
+  session.losses.pairs_replaced += overtaken.pairs_replaced;
+  session.losses.samples_overflowed += overtaken.samples_overflowed;
+  session.losses.records_dropped = recorder_ ? recorder_->dropped() : 0;
+  session.losses.messages_unsent = link_ ? link_->Unsent() : 0;
   return session;
 }
 
 void Engine::Fail(const Error& error) {
   ended_ = true;
-  inbox_.SetIdle(true);
   if (error.code == ErrorCode::kEnd) {
     return;
   }

@@ -1,18 +1,19 @@
 // Engine: the threads around the pipeline. One source thread, one engine thread, one recorder
-// thread, one abort thread; or none at all, stepped by the caller, with the same results.
+// thread, one thread for stops; or none at all, stepped by the caller, with the same results.
 #pragma once
 
 #include <atomic>
 #include <memory>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "engine/core/latest_value.h"
-#include "engine/runtime/abort_sender.h"
 #include "engine/runtime/inbox.h"
 #include "engine/runtime/pipeline.h"
 #include "engine/runtime/recorder.h"
 #include "engine/runtime/source.h"
+#include "engine/runtime/stop_sender.h"
 #include "engine/runtime/vehicle_link.h"
 
 namespace palace {
@@ -41,7 +42,8 @@ class Engine {
 
   /// The newest snapshot; null before the first.
   std::shared_ptr<const EngineSnapshot> Latest() const { return latest_.Load(); }
-  /// From any thread. A wave-off also leaves by the abort path at once.
+  /// From any thread. A wave-off, and a hold of a descent, also leave at once by a path of their
+  /// own.
   void Post(EngineCommand command);
   void Control(const PlaybackControl& control);
 
@@ -58,6 +60,7 @@ class Engine {
   void RunSource(std::stop_token stop);
   void RunEngine(std::stop_token stop);
   void Handle(Inbox::Batch batch);
+  void SendStop(const EngineCommand& command);
   SessionStatus Session() const;
   void Fail(const Error& error);
 
@@ -67,12 +70,12 @@ class Engine {
   std::unique_ptr<Recorder> recorder_;
   const bool record_wanted_;
   const bool threaded_;
-  std::unique_ptr<AbortSender> abort_;
+  std::unique_ptr<StopSender> stop_;
   Inbox inbox_;
+  std::vector<EngineCommand> early_;  ///< given before the first bundle, applied with it
   LatestValue<EngineSnapshot> latest_;
   std::atomic<bool> ended_{false};
   std::atomic<bool> jump_asked_{false};  ///< a paused source still has one bundle to give
-  std::atomic<std::uint64_t> frames_dropped_{0};
   mutable std::mutex error_mutex_;
   std::string error_;
   std::jthread source_thread_;

@@ -1,14 +1,8 @@
 #include "engine/runtime/inbox.h"
 
-#include <chrono>
 #include <utility>
 
 namespace palace {
-namespace {
-
-constexpr std::chrono::milliseconds kFrameExpected{250};
-
-}  // namespace
 
 void Inbox::Post(EngineCommand command) {
   const std::lock_guard lock(mutex_);
@@ -16,12 +10,19 @@ void Inbox::Post(EngineCommand command) {
   changed_.notify_all();
 }
 
-std::size_t Inbox::PutNewest(std::shared_ptr<const FrameBundle> bundle) {
+void Inbox::PutNewest(std::shared_ptr<const FrameBundle> bundle) {
+  JoinedBundle joined;
+  {
+    const std::lock_guard lock(mutex_);
+    joined.bundle = std::exchange(bundle_, nullptr);
+  }
+  // Samples are copied outside the lock: only this thread puts frames in.
+  joined = joined.bundle ? Join(*joined.bundle, *bundle) : JoinedBundle{std::move(bundle)};
   const std::lock_guard lock(mutex_);
-  const std::size_t dropped = bundle_ ? 1 : 0;
-  bundle_ = std::move(bundle);
+  bundle_ = std::move(joined.bundle);
+  losses_.pairs_replaced += joined.pair_replaced ? 1 : 0;
+  losses_.samples_overflowed += joined.samples_dropped;
   changed_.notify_all();
-  return dropped;
 }
 
 bool Inbox::PutAndWait(std::shared_ptr<const FrameBundle> bundle, std::stop_token stop) {
@@ -36,14 +37,8 @@ bool Inbox::Take(Batch& batch, std::stop_token stop) {
   if (!changed_.wait(lock, stop, [&] { return bundle_ || !commands_.empty(); })) {
     return false;
   }
-  if (!bundle_ && !idle_) {
-    // A frame is likely on its way; commands are applied with it.
-    changed_.wait_for(lock, stop, kFrameExpected, [&] { return bundle_ || idle_; });
-  }
-  batch.bundle = std::move(bundle_);
-  bundle_.reset();
-  batch.commands = std::move(commands_);
-  commands_.clear();
+  batch.bundle = std::exchange(bundle_, nullptr);
+  batch.commands = std::exchange(commands_, {});
   busy_ = true;
   return true;
 }
@@ -54,15 +49,14 @@ void Inbox::Finished() {
   changed_.notify_all();
 }
 
-void Inbox::SetIdle(bool idle) {
-  const std::lock_guard lock(mutex_);
-  idle_ = idle;
-  changed_.notify_all();
-}
-
 std::vector<EngineCommand> Inbox::TakeCommands() {
   const std::lock_guard lock(mutex_);
   return std::exchange(commands_, {});
+}
+
+Losses Inbox::losses() const {
+  const std::lock_guard lock(mutex_);
+  return losses_;
 }
 
 }  // namespace palace

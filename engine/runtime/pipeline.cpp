@@ -334,6 +334,7 @@ void Pipeline::Decide(Pass& pass) {
                   .can_transmit = pass.session.can_transmit,
                   .recorder_ok = pass.session.recorder_ok,
                   .source_damage = pass.session.source.damage,
+                  .losses = pass.session.losses,
                   .snapshot_sequence = sequence_},
       .vehicle = {.bundle = *pass.bundle,
                   .channels = snapshot.channels,
@@ -365,6 +366,7 @@ PipelineOutput Pipeline::Publish(Pass& pass) {
   EngineSnapshot& snapshot = *pass.snapshot;
   snapshot.sequence = ++sequence_;
   snapshot.source = pass.session.source;
+  snapshot.losses = pass.session.losses;
   snapshot.maps_to_rebuild = maps_to_rebuild_;
   snapshot.can_transmit = pass.session.can_transmit;
   snapshot.recording = pass.session.recording;

@@ -28,6 +28,7 @@ namespace palace {
 /// Facts about the session that only the outside knows.
 struct SessionStatus {
   SourceStatus source;
+  Losses losses;
   bool can_transmit = false;
   bool recording = false;
   bool recorder_ok = true;  ///< recording as asked, or not asked to record

@@ -1,12 +1,31 @@
 #include "engine/runtime/recorder.h"
 
 #include <filesystem>
+#include <iterator>
 #include <utility>
+#include <vector>
 
 namespace palace {
 namespace {
 
 constexpr std::uint64_t kItemsBetweenSpaceChecks = 50;
+
+template <typename T>
+void Prepend(std::vector<T>& older, std::vector<T>& newer) {
+  older.insert(older.end(), std::make_move_iterator(newer.begin()),
+               std::make_move_iterator(newer.end()));
+  newer = std::move(older);
+}
+
+/// What `older` holds goes before what `newer` holds; of two bundles with pictures the newer's
+/// stay.
+void HandOver(RecordItem older, RecordItem& newer) {
+  Prepend(older.commands, newer.commands);
+  Prepend(older.sent, newer.sent);
+  if (older.bundle && newer.bundle) {
+    newer.bundle = Join(*older.bundle, *newer.bundle).bundle;
+  }
+}
 
 }  // namespace
 
@@ -27,12 +46,15 @@ Recorder::Recorder(std::unique_ptr<RecordSink> sink, bool threaded)
 Recorder::~Recorder() { (void)Close(); }
 
 void Recorder::Record(RecordItem item, bool may_wait) {
-  if (!thread_.joinable()) {
+  HandOver(std::exchange(held_, {}), item);
+  if (!item.bundle) {
+    held_ = std::move(item);
+  } else if (!thread_.joinable()) {
     Write(item);
   } else if (may_wait) {
     queue_.Push(std::move(item));
   } else {
-    dropped_ += queue_.PushNewest(std::move(item));
+    dropped_ += queue_.PushOrFold(std::move(item), HandOver);
   }
 }
 
@@ -78,6 +100,9 @@ Status Recorder::Close() {
   if (thread_.joinable()) {
     thread_.request_stop();
     thread_.join();
+  }
+  if (!held_.commands.empty() || !held_.sent.empty()) {
+    Write(held_);
   }
   const Status done = sink_->Close();
   if (!ok_) {

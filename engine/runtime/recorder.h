@@ -12,6 +12,9 @@
 
 namespace palace {
 
+/// Passes without a bundle are handed to the sink with the next one: a replay applies their
+/// commands there. When the disk is too slow, the oldest pass that waits is joined to the one after
+/// it, so that commands, messages and samples are written and only its pictures are lost.
 class Recorder {
  public:
   /// `threaded` false writes in the caller's thread (headless runs, tests).
@@ -20,13 +23,14 @@ class Recorder {
   Recorder(const Recorder&) = delete;
   Recorder& operator=(const Recorder&) = delete;
 
-  /// A lockstep flight waits for room in the queue; a live one drops the oldest and counts it.
+  /// One thread. A lockstep flight waits for room in the queue; a live one never waits.
   void Record(RecordItem item, bool may_wait);
   /// Writes what waits and closes the log. The first error, if any, is returned.
   Status Close();
   bool ok() const { return ok_.load(); }
   std::string error() const;
   const std::string& path() const { return path_; }
+  /// Frames that were not written, though what came and went with them was.
   std::uint64_t dropped() const { return dropped_.load(); }
   /// Minutes of recording left on the disk at the present rate; negative when unknown.
   double MinutesLeft() const { return minutes_left_.load(); }
@@ -38,6 +42,7 @@ class Recorder {
   std::unique_ptr<RecordSink> sink_;
   const std::string path_;
   BoundedQueue<RecordItem> queue_{64};
+  RecordItem held_;  ///< of passes without a bundle, until the next with one
   std::atomic<bool> ok_{true};
   std::atomic<double> minutes_left_{-1};
   std::atomic<std::uint64_t> dropped_{0};

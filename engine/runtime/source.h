@@ -7,11 +7,12 @@
 #include "engine/core/result.h"
 #include "engine/model/command.h"
 #include "engine/model/frame_bundle.h"
+#include "engine/model/losses.h"
 #include "engine/model/snapshot.h"
 
 namespace palace {
 
-/// Called from one thread, except Control and Status, which any thread may call.
+/// Called from one thread, except Control, Status and Lost, which any thread may call.
 class Source {
  public:
   virtual ~Source() = default;
@@ -21,6 +22,8 @@ class Source {
   /// True: every bundle must be processed (simulator, log). False: newest wins (live).
   virtual bool IsLockstep() const = 0;
   virtual SourceStatus Status() const = 0;
+  /// What was lost between the sender and Next, so far.
+  virtual Losses Lost() const { return {}; }
   /// Play, pause, step, seek, speed; ignored by sources that cannot.
   virtual void Control(const PlaybackControl& control) = 0;
 };

@@ -9,10 +9,13 @@ namespace palace {
 class VehicleLink {
  public:
   virtual ~VehicleLink() = default;
-  /// Never waits; may be called from the engine thread and, for AbortRequest, from any thread.
+  /// Never waits; may be called from the engine thread and, for AbortRequest and
+  /// HoldRequest, from any thread.
   virtual void Send(const VehicleMessage& message) = 0;
   /// The station's own news after each pass, for links that carry it. Engine thread only.
   virtual void Announce(const EngineSnapshot& /*snapshot*/) {}
+  /// Messages that could not be sent, so far. Any thread.
+  virtual std::uint64_t Unsent() const { return 0; }
 };
 
 }  // namespace palace

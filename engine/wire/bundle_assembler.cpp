@@ -9,16 +9,16 @@
 namespace palace {
 namespace {
 
-constexpr std::size_t kMostPending = 20000;  ///< samples of one kind while no bundle closes
 constexpr double kNearestPose_s = 0.1;
 constexpr double kRestart_s = 10;  ///< a stamp this far back means the sender started anew
 
+/// Returns how many of the oldest had to go.
 template <typename T>
-void Append(std::vector<T>& samples, T sample) {
-  if (samples.size() >= kMostPending) {
-    samples.erase(samples.begin(), samples.begin() + kMostPending / 2);
-  }
+std::size_t Append(std::vector<T>& samples, T sample) {
+  const std::size_t excess = samples.size() < kMostSamplesInBundle ? 0 : kMostSamplesInBundle / 2;
+  samples.erase(samples.begin(), samples.begin() + static_cast<std::ptrdiff_t>(excess));
   samples.push_back(std::move(sample));
+  return excess;
 }
 
 /// The pose carried to `time` at constant velocity and turn rate.
@@ -50,6 +50,7 @@ BundleAssembler::Bundles BundleAssembler::Push(const WireMessage& message) {
   const ::palace::Status taken = Take(message, done);
   if (!taken) {
     ++report_.undecodable;
+    ++report_.undecodable_of[message.channel];
     report_.last_error = taken.error().message;
   }
   return done;
@@ -67,7 +68,6 @@ Status BundleAssembler::Take(const WireMessage& message, Bundles& done) {
 }
 
 bool BundleAssembler::IsNews(const std::string& channel, Timestamp time) {
-  ++counts_[channel];
   if (options_.drop_repeated) {
     const auto seen = newest_of_.find(channel);
     if (seen != newest_of_.end() && time <= seen->second &&
@@ -94,31 +94,34 @@ Status BundleAssembler::TakeSample(const WireMessage& message) {
     }
     return Ok();
   };
+  const auto keep_in = [&](auto& samples, auto sample) {
+    report_.samples_overflowed += Append(samples, std::move(sample));
+  };
   if (channel == channels_.vehicle_pose) {
-    return take(PoseFromWire(message), [&](VehiclePose p) { Append(pending_.poses, p); });
+    return take(PoseFromWire(message), [&](VehiclePose p) { keep_in(pending_.poses, p); });
   }
   if (channel == channels_.imu) {
-    return take(ImuFromWire(message), [&](ImuSample s) { Append(pending_.imu, s); });
+    return take(ImuFromWire(message), [&](ImuSample s) { keep_in(pending_.imu, s); });
   }
   if (channel == channels_.gps) {
-    return take(GpsFromWire(message), [&](GpsFix f) { Append(pending_.gps, f); });
+    return take(GpsFromWire(message), [&](GpsFix f) { keep_in(pending_.gps, f); });
   }
   if (channel == channels_.laser_range) {
-    return take(LaserFromWire(message), [&](LaserRange r) { Append(pending_.laser, r); });
+    return take(LaserFromWire(message), [&](LaserRange r) { keep_in(pending_.laser, r); });
   }
   if (channel == channels_.vehicle_status) {
     return take(StatusFromWire(message), [&](VehicleStatus s) { pending_.status = s; });
   }
   if (channel == channels_.truth) {
-    return take(DecodeTruth(message), [&](Truth t) { Append(pending_.truth, t); });
+    return take(DecodeTruth(message), [&](Truth t) { keep_in(pending_.truth, t); });
   }
   if (channel == channels_.command_ack) {
     Result<CommandAck> ack = AckFromWire(message);
     if (!ack) {
       return ack.error();
     }
-    ++counts_[channel];  // two answers may carry one stamp, so a repeated stamp is news here
-    Append(pending_.acks, std::move(*ack));
+    // Two answers may carry one stamp, so a repeated stamp is news here.
+    report_.samples_overflowed += Append(pending_.acks, std::move(*ack));
     return Ok();
   }
   ++report_.other_channels;

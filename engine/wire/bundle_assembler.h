@@ -18,14 +18,16 @@ namespace palace {
 /// What went by since the start. Nothing is lost silently.
 struct AssemblerReport {
   std::uint64_t messages = 0;
-  std::uint64_t undecodable = 0;        ///< of a known channel, refused by the decoder
-  std::uint64_t other_channels = 0;     ///< not ours; skipped
-  std::uint64_t pictures_unpaired = 0;  ///< no partner within the pairing window, or late
-  std::uint64_t pairs_without_rig = 0;  ///< foreign stream: dropped because no rig came yet
-  std::uint64_t bundles_lost = 0;       ///< gaps in the sequence of closed bundles
-  std::uint64_t samples_lost = 0;       ///< announced by CAMERA_RIG, never arrived
-  std::uint64_t repeated = 0;           ///< a stamp that did not advance (only when dropped)
-  std::string last_error;               ///< of the newest undecodable message
+  std::uint64_t undecodable = 0;  ///< of a known channel, refused by the decoder
+  std::map<std::string, std::uint64_t> undecodable_of{};  ///< the same by channel
+  std::uint64_t other_channels = 0;                       ///< not ours; skipped
+  std::uint64_t pictures_unpaired = 0;   ///< no partner within the pairing window, or late
+  std::uint64_t pairs_without_rig = 0;   ///< foreign stream: dropped because no rig came yet
+  std::uint64_t bundles_lost = 0;        ///< gaps in the sequence of closed bundles
+  std::uint64_t samples_lost = 0;        ///< announced by CAMERA_RIG, never arrived
+  std::uint64_t samples_overflowed = 0;  ///< the oldest, of more than wait in one bundle
+  std::uint64_t repeated = 0;            ///< a stamp that did not advance (only when dropped)
+  std::string last_error;                ///< of the newest undecodable message
 };
 
 struct AssemblerOptions {
@@ -54,8 +56,6 @@ class BundleAssembler {
   const std::shared_ptr<const StereoRig>& rig() const { return rig_; }
   /// Newest utime of any vehicle message; nothing before the first.
   std::optional<Timestamp> newest() const { return newest_; }
-  /// Messages per channel so far.
-  const std::map<std::string, std::uint64_t>& counts() const { return counts_; }
 
  private:
   using Bundles = std::vector<std::shared_ptr<const FrameBundle>>;
@@ -80,7 +80,6 @@ class BundleAssembler {
   std::optional<VehiclePose> last_pose_;
   std::optional<Timestamp> newest_;
   std::map<std::string, Timestamp> newest_of_;
-  std::map<std::string, std::uint64_t> counts_;
 };
 
 }  // namespace palace

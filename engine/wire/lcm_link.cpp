@@ -28,7 +28,7 @@ void LcmLink::Announce(const EngineSnapshot& snapshot) {
 
 void LcmLink::Publish(const WireMessage& message) {
   const Status published = bus_->Publish(message);
-  ++(published ? sent_ : failed_);
+  ++(published ? sent_ : unsent_);
 }
 
 VehicleServer::VehicleServer(std::shared_ptr<Bus> bus, VehicleLink& vehicle, ChannelNames channels)

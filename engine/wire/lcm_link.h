@@ -25,7 +25,7 @@ class LcmLink final : public VehicleLink {
   void Announce(const EngineSnapshot& snapshot) override;
 
   std::uint64_t sent() const { return sent_; }
-  std::uint64_t failed() const { return failed_; }
+  std::uint64_t Unsent() const override { return unsent_; }
 
  private:
   void Publish(const WireMessage& message);
@@ -34,7 +34,7 @@ class LcmLink final : public VehicleLink {
   ChannelNames channels_;
   OutputEncoder outputs_;
   std::atomic<std::uint64_t> sent_{0};
-  std::atomic<std::uint64_t> failed_{0};
+  std::atomic<std::uint64_t> unsent_{0};
   std::atomic<std::int64_t> newest_us_{0};  ///< data time commands are stamped with
 };
 

@@ -14,33 +14,6 @@ constexpr int kPictureQueue = 16;
 constexpr int kSampleQueue = 512;
 constexpr double kSlip_s = 1;   ///< time running back this little is ironed out
 constexpr double kJump_s = 60;  ///< time running on this much is a jump
-constexpr double kLate_s = 0.5;
-constexpr double kStale_s = 2.0;
-
-template <typename T>
-void Prepend(std::vector<T>& to, const std::vector<T>& older) {
-  to.insert(to.begin(), older.begin(), older.end());
-}
-
-/// The newer bundle with the older one's samples before its own.
-std::shared_ptr<const FrameBundle> Join(const FrameBundle& older, const FrameBundle& newer) {
-  auto joined = std::make_shared<FrameBundle>(newer);
-  joined->discontinuity = older.discontinuity || newer.discontinuity;
-  Prepend(joined->poses, older.poses);
-  Prepend(joined->imu, older.imu);
-  Prepend(joined->gps, older.gps);
-  Prepend(joined->laser, older.laser);
-  Prepend(joined->acks, older.acks);
-  Prepend(joined->truth, older.truth);
-  if (!joined->status) {
-    joined->status = older.status;
-  }
-  if (!joined->stereo) {
-    joined->stereo = older.stereo;
-    joined->pose_at_exposure = older.pose_at_exposure;
-  }
-  return joined;
-}
 
 }  // namespace
 
@@ -74,24 +47,12 @@ Result<std::unique_ptr<LcmSource>> LcmSource::Create(std::shared_ptr<Bus> bus,
 }
 
 void LcmSource::Take(WireMessage message) {
-  const AssemblerReport before = assembler_.report();
   for (auto& bundle : assembler_.Push(message)) {
     ready_.push_back(std::move(bundle));
   }
-  const AssemblerReport& after = assembler_.report();
-  const double now_s = MonotonicSeconds();
-  const std::lock_guard lock(mutex_);
-  report_ = after;
-  if (after.repeated != before.repeated || after.undecodable != before.undecodable) {
-    return;
-  }
-  Arrival& arrival = arrivals_[message.channel];
-  arrival.first_s = arrival.count == 0 ? now_s : arrival.first_s;
-  arrival.last_s = now_s;
-  ++arrival.count;
   if (assembler_.newest() && anchor_ != assembler_.newest()) {
     anchor_ = assembler_.newest();
-    anchor_s_ = now_s;
+    anchor_s_ = MonotonicSeconds();
   }
 }
 
@@ -108,6 +69,19 @@ Timestamp LcmSource::ClockNow(double now_s) const {
   return anchor_ ? AddSeconds(*anchor_, now_s - anchor_s_) : Timestamp{};
 }
 
+std::shared_ptr<const FrameBundle> LcmSource::TakeReady() {
+  std::shared_ptr<const FrameBundle> bundle = std::move(ready_.front());
+  ready_.pop_front();
+  while (!ready_.empty()) {
+    JoinedBundle joined = Join(*bundle, *ready_.front());
+    ready_.pop_front();
+    joined_.pairs_replaced += joined.pair_replaced ? 1 : 0;
+    joined_.samples_overflowed += joined.samples_dropped;
+    bundle = std::move(joined.bundle);
+  }
+  return bundle;
+}
+
 Result<std::shared_ptr<const FrameBundle>> LcmSource::Next(std::stop_token stop) {
   while (!stop.stop_requested()) {
     if (ready_.empty()) {
@@ -118,13 +92,7 @@ Result<std::shared_ptr<const FrameBundle>> LcmSource::Next(std::stop_token stop)
     }
     if (!ready_.empty()) {
       Drain();
-      std::shared_ptr<const FrameBundle> bundle = std::move(ready_.front());
-      ready_.pop_front();
-      while (!ready_.empty()) {
-        bundle = Join(*bundle, *ready_.front());
-        ready_.pop_front();
-      }
-      return Deliver(std::move(bundle));
+      return Deliver(TakeReady());
     }
     const double now_s = MonotonicSeconds();
     if (now_s - last_delivery_s_ >= options_.heartbeat_s) {
@@ -149,7 +117,9 @@ std::shared_ptr<const FrameBundle> LcmSource::Deliver(std::shared_ptr<const Fram
     last_time_ = delivered->time;
   }
   last_delivery_s_ = MonotonicSeconds();
+  Losses losses = Count();
   const std::lock_guard lock(mutex_);
+  losses_ = std::move(losses);
   if (begins) {
     status_.start = delivered->time;
   }
@@ -163,34 +133,22 @@ SourceStatus LcmSource::Status() const {
   return status_;
 }
 
-AssemblerReport LcmSource::Report() const {
+Losses LcmSource::Lost() const {
   const std::lock_guard lock(mutex_);
-  return report_;
+  return losses_;
 }
 
-std::vector<ChannelHealth> LcmSource::Health() const {
-  const double now_s = MonotonicSeconds();
-  const std::lock_guard lock(mutex_);
-  std::vector<ChannelHealth> rows;
-  for (const std::string& channel : channels_.FromVehicle()) {
-    ChannelHealth row;
-    row.name = channel;
-    row.age_s = NAN;
-    const auto found = arrivals_.find(channel);
-    if (found != arrivals_.end()) {
-      const Arrival& arrival = found->second;
-      using State = ChannelHealth::State;
-      row.count = arrival.count;
-      row.age_s = now_s - arrival.last_s;
-      row.state = row.age_s > kStale_s  ? State::kStale
-                  : row.age_s > kLate_s ? State::kLate
-                                        : State::kFresh;
-      const double span_s = arrival.last_s - arrival.first_s;
-      row.rate_hz = span_s > 0 ? static_cast<double>(arrival.count - 1) / span_s : 0;
-    }
-    rows.push_back(std::move(row));
-  }
-  return rows;
+Losses LcmSource::Count() const {
+  const AssemblerReport& report = assembler_.report();
+  Losses losses = joined_;
+  losses.pictures_unpaired = report.pictures_unpaired;
+  losses.pairs_without_rig = report.pairs_without_rig;
+  losses.bundles_missing = report.bundles_lost;
+  losses.samples_missing = report.samples_lost;
+  losses.samples_overflowed += report.samples_overflowed;
+  losses.datagrams_refused = bus_->dropped();
+  losses.undecodable = report.undecodable_of;
+  return losses;
 }
 
 }  // namespace palace

@@ -3,12 +3,9 @@
 
 #include <cstdint>
 #include <deque>
-#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
-#include <string>
-#include <vector>
 
 #include "engine/model/snapshot.h"
 #include "engine/runtime/source.h"
@@ -36,20 +33,14 @@ class LcmSource final : public Source {
   SourceStatus Status() const override;
   void Control(const PlaybackControl&) override {}
 
-  /// Counts of what was refused or lost.
-  AssemblerReport Report() const;
-  /// One row a channel, aged against the newest data time.
-  std::vector<ChannelHealth> Health() const;
+  Losses Lost() const override;
 
  private:
-  struct Arrival {
-    std::uint64_t count = 0;
-    double first_s = 0;  ///< monotonic
-    double last_s = 0;   ///< monotonic
-  };
   LcmSource(std::shared_ptr<Bus> bus, ChannelNames channels, LcmSourceOptions options);
   void Take(WireMessage message);
   void Drain();
+  std::shared_ptr<const FrameBundle> TakeReady();
+  Losses Count() const;
   std::shared_ptr<const FrameBundle> Deliver(std::shared_ptr<const FrameBundle> bundle);
   Timestamp ClockNow(double now_s) const;
 
@@ -63,10 +54,10 @@ class LcmSource final : public Source {
   std::optional<Timestamp> last_time_;
   double last_delivery_s_ = 0;
   std::uint64_t sequence_ = 0;
-  mutable std::mutex mutex_;  ///< guards what Status and Report read
+  Losses joined_;             ///< what joining bundles that waited here left out
+  mutable std::mutex mutex_;  ///< guards what Status and Lost read
   SourceStatus status_;
-  AssemblerReport report_;
-  std::map<std::string, Arrival> arrivals_;
+  Losses losses_;
 };
 
 }  // namespace palace

@@ -29,8 +29,8 @@ struct Arrival {
   double age_s = NAN;
 };
 
-Arrival ArrivalOf(const EngineSnapshot& snap, std::string_view channel) {
-  const ChannelHealth* health = FindChannel(snap, channel);
+Arrival ArrivalOf(const EngineSnapshot& snap, ChannelId channel) {
+  const ChannelHealth* health = FindChannel(snap.channels, channel);
   if (health == nullptr || health->state == ChannelHealth::State::kNever) {
     return {"never", "", NAN};
   }
@@ -121,7 +121,7 @@ std::string LeftFact(const EngineSnapshot& snap) {
 void DrawLeftCameraPanel(const EngineSnapshot& snap, const Rect& rect, CameraState& state,
                          const MapProbe& probe, std::uint64_t highlighted, UiFrame& ui) {
   const Style& s = ui.style;
-  const Arrival arrival = ArrivalOf(snap, "Camera left");
+  const Arrival arrival = ArrivalOf(snap, ChannelId::kCameraLeft);
   const Rect content = DrawPanelFrame(
       ui, rect, "Left camera",
       {{arrival.age, 0, true, arrival.age_s > kLateAge_s}, {arrival.rate, 0, true, false}});
@@ -165,7 +165,7 @@ void DrawLeftCameraPanel(const EngineSnapshot& snap, const Rect& rect, CameraSta
 
 void DrawRightCameraPanel(const EngineSnapshot& snap, const Rect& rect, const MapProbe& probe,
                           UiFrame& ui) {
-  const Arrival arrival = ArrivalOf(snap, "Camera right");
+  const Arrival arrival = ArrivalOf(snap, ChannelId::kCameraRight);
   const Rect content = DrawPanelFrame(
       ui, rect, "Right camera",
       {{arrival.age, 0, true, arrival.age_s > kLateAge_s}, {arrival.rate, 0, true, false}});

@@ -37,14 +37,15 @@ void DrawChannelStripPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame
     ImFont* fact_font = fine ? s.caption : s.medium;
     const ImU32 ink = fine ? p.text2 : p.text1;
     DrawText(ui, name_font, ink, text_x, first,
-             FitWords(name_font, channel.name, pitch - s.Px(26)));
+             FitWords(name_font, ChannelName(channel.id), pitch - s.Px(26)));
     std::string facts = "never";
     if (channel.state != State::kNever) {
       facts = (channel.note.empty() || fine ? AgeText(channel.age_s) : channel.note) + "   " +
               Fixed(channel.rate_hz, channel.rate_hz < 100 ? 1 : 0) + " Hz";
     }
     DrawText(ui, fact_font, ink, text_x, second, FitWords(fact_font, facts, pitch - s.Px(26)));
-    ui.items.Add("channel/" + channel.name, {x, rect.y, pitch, rect.h}, true, facts);
+    ui.items.Add(std::string("channel/") + ChannelName(channel.id), {x, rect.y, pitch, rect.h},
+                 true, facts);
     x += pitch;
   }
 }

@@ -18,7 +18,6 @@ bool MaySelect(const EngineSnapshot& snap, std::uint64_t site_id);
 bool IsDescentView(const EngineSnapshot& snap);
 /// Widest distance off the planned path during the descent.
 inline constexpr double kMaxOffPath_m = 1.2;
-const ChannelHealth* FindChannel(const EngineSnapshot& snap, std::string_view name);
 /// Marks that all maps share.
 MapMarks MarksOf(const EngineSnapshot& snap, std::uint64_t highlighted);
 /// The safe-distance map with its ranges, as the map row and the re-check panel show it.

@@ -42,15 +42,6 @@ bool IsDescentView(const EngineSnapshot& snap) {
   }
 }
 
-const ChannelHealth* FindChannel(const EngineSnapshot& snap, std::string_view name) {
-  for (const ChannelHealth& channel : snap.channels) {
-    if (channel.name == name) {
-      return &channel;
-    }
-  }
-  return nullptr;
-}
-
 MapMarks MarksOf(const EngineSnapshot& snap, std::uint64_t highlighted) {
   MapMarks marks;
   const TerrainDecision* shown = ShownDecision(snap);

@@ -24,13 +24,10 @@ std::string CamerasText(const std::vector<CameraCounters>& cameras) {
 
 std::string LinkText(const EngineSnapshot& snap, bool narrow) {
   std::uint64_t lost = 0;
-  double age_s = NAN;
   for (const ChannelHealth& channel : snap.channels) {
     lost += channel.lost;
-    if (channel.name == "Vehicle pose") {
-      age_s = channel.age_s;
-    }
   }
+  const ChannelHealth* pose = FindChannel(snap.channels, ChannelId::kVehiclePose);
   if (snap.source.kind == SourceKind::kReplay) {
     return snap.source.name;
   }
@@ -41,7 +38,7 @@ std::string LinkText(const EngineSnapshot& snap, bool narrow) {
     return "No link";
   }
   const char* name = snap.source.kind == SourceKind::kSimulation ? "Simulated link " : "Link ";
-  std::string text = name + AgeText(age_s);
+  std::string text = name + AgeText(pose != nullptr ? pose->age_s : NAN);
   if (!narrow && snap.source.kind != SourceKind::kSimulation) {
     text += ", " + std::to_string(lost) + " lost";
   }
@@ -130,7 +127,8 @@ void DrawStatusBarPanel(const EngineSnapshot& snap, const FrameLayout& layout,
     }
   }
   const std::string limits = state.preset_name + " · " + ShortHash(snap.settings_hash);
-  std::vector<std::string> left = {LinkText(snap, narrow), RecordingText(snap, narrow),
+  std::vector<std::string> left = {LinkText(snap, narrow),
+                                   RecordingText(snap, narrow),
                                    narrow ? limits : "Limits " + limits};
   if (!narrow) {
     left.push_back("Frame " + Fixed(state.frame_ms, 0) + " ms");

@@ -48,16 +48,16 @@ struct Ages {
 };
 
 Ages AgesOf(const EngineSnapshot& snap) {
-  const auto one = [&](std::string_view name, double period_s, double& age_s) {
-    const ChannelHealth* channel = FindChannel(snap, name);
+  const auto one = [&](ChannelId id, double period_s, double& age_s) {
+    const ChannelHealth* channel = FindChannel(snap.channels, id);
     age_s =
         channel != nullptr && channel->state != ChannelHealth::State::kNever ? channel->age_s : NAN;
     return AgeState(age_s, channel != nullptr && channel->expected_hz > 0 ? 1 / channel->expected_hz
                                                                           : period_s);
   };
   Ages ages{};
-  ages.pose = one("Vehicle pose", 0.02, ages.pose_s);
-  ages.status = one("Vehicle status", 1.0, ages.status_s);
+  ages.pose = one(ChannelId::kVehiclePose, 0.02, ages.pose_s);
+  ages.status = one(ChannelId::kVehicleStatus, 1.0, ages.status_s);
   return ages;
 }
 

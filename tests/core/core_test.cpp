@@ -106,11 +106,12 @@ TEST(Queue, KeepsOrderAcrossThreadsAndLosesNothing) {
   }
 }
 
-TEST(Queue, NewestWinsWhenFull) {
+TEST(Queue, TheOldestIsFoldedIntoTheNextWhenFull) {
   BoundedQueue<int> queue(2);
-  EXPECT_EQ(queue.PushNewest(1) + queue.PushNewest(2), 0u);
-  EXPECT_EQ(queue.PushNewest(3), 1u);
-  EXPECT_EQ(queue.TryPop(), 2);
+  const auto add = [](int oldest, int& next) { next += 10 * oldest; };
+  EXPECT_EQ(queue.PushOrFold(1, add) + queue.PushOrFold(2, add), 0u);
+  EXPECT_EQ(queue.PushOrFold(3, add), 1u);
+  EXPECT_EQ(queue.TryPop(), 12);
   EXPECT_EQ(queue.TryPop(), 3);
   EXPECT_EQ(queue.TryPop(), std::nullopt);
 }

@@ -75,7 +75,8 @@ TEST(AlarmTable, EachTextNamesTheLimitThatRaisesIt) {
     EXPECT_NE(text.find(named), std::string::npos) << text << " / " << named;
     EXPECT_NEAR(std::stod(named), limit.value, 1e-9) << "rounded until it is another limit";
     std::smatch match;
-    ASSERT_TRUE(std::regex_search(text, match, std::regex("limit (?:[0-9.]+ to )?([0-9]+(?:[.][0-9]+)?)")))
+    ASSERT_TRUE(
+        std::regex_search(text, match, std::regex("limit (?:[0-9.]+ to )?([0-9]+(?:[.][0-9]+)?)")))
         << text;
     EXPECT_NEAR(std::stod(match[1].str()), limit.value, 1e-9) << text;
     ++checked;

@@ -62,17 +62,17 @@ inline std::shared_ptr<const TerrainDecision> Decision(const RigidTransform& X_W
 
 inline std::vector<ChannelHealth> Channels() {
   using State = ChannelHealth::State;
-  const auto one = [](const char* name, double age_s, double rate_hz) {
-    return ChannelHealth{name, State::kFresh, age_s, rate_hz, rate_hz, 2520, 0, ""};
+  const auto one = [](ChannelId id, double age_s, double rate_hz) {
+    return ChannelHealth{id, State::kFresh, age_s, rate_hz, rate_hz, 2520, 0, ""};
   };
-  std::vector<ChannelHealth> channels = {one("Camera left", 0.024, 10),
-                                         one("Camera right", 0.026, 10),
-                                         one("Vehicle pose", 0.011, 50),
-                                         one("IMU", 0.004, 200),
-                                         one("GPS", 0.1, 5),
-                                         one("Laser range", 0.038, 20),
-                                         one("Vehicle status", 0.4, 1),
-                                         one("Position estimate", 0.026, 10)};
+  std::vector<ChannelHealth> channels = {one(ChannelId::kCameraLeft, 0.024, 10),
+                                         one(ChannelId::kCameraRight, 0.026, 10),
+                                         one(ChannelId::kVehiclePose, 0.011, 50),
+                                         one(ChannelId::kImu, 0.004, 200),
+                                         one(ChannelId::kGps, 0.1, 5),
+                                         one(ChannelId::kLaserRange, 0.038, 20),
+                                         one(ChannelId::kVehicleStatus, 0.4, 1),
+                                         one(ChannelId::kPositionEstimate, 0.026, 10)};
   channels[4].state = State::kLate;
   channels[4].note = "± 2.6 m";
   return channels;

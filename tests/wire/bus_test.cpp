@@ -45,7 +45,7 @@ TEST_F(BusTest, StationReceivesWhatTheVehicleMeasured) {
     EXPECT_EQ((*got)->imu.size(), sent->imu.size());
     EXPECT_EQ((*got)->sequence, i);
   }
-  EXPECT_EQ((*source)->Report().undecodable, 0u);
+  EXPECT_EQ((*source)->Lost(), Losses{});
   EXPECT_EQ((*source)->Status().kind, SourceKind::kLive);
   EXPECT_FALSE((*source)->IsLockstep());
 }
@@ -69,6 +69,7 @@ TEST_F(BusTest, NewestPicturesWinAndNoSampleIsLost) {
   EXPECT_EQ((*got)->stereo->left.pixels(), last->stereo->left.pixels());
   EXPECT_EQ((*got)->imu.size(), samples);
   EXPECT_EQ((*got)->time, last->time);
+  EXPECT_EQ((*source)->Lost().pairs_replaced, 7u);
 }
 
 TEST_F(BusTest, VehicleReceivesWhatTheStationSends) {
@@ -94,7 +95,7 @@ TEST_F(BusTest, VehicleReceivesWhatTheStationSends) {
   EXPECT_EQ(std::get<HoldRequest>(vehicle.got[2]).reason, "hold");
   EXPECT_EQ(std::get<AbortRequest>(vehicle.got[3]).command_id, 11u);
   EXPECT_EQ(link.sent(), 4u);
-  EXPECT_EQ(link.failed(), 0u);
+  EXPECT_EQ(link.Unsent(), 0u);
 }
 
 TEST_F(BusTest, RubbishOnEveryChannelIsCountedAndHarmless) {
@@ -110,7 +111,11 @@ TEST_F(BusTest, RubbishOnEveryChannelIsCountedAndHarmless) {
   }
   ASSERT_TRUE((*source)->Next({}).ok());
   ASSERT_TRUE((*server)->Poll(0).ok());
-  EXPECT_EQ((*source)->Report().undecodable, names.FromVehicle().size());
+  const Losses lost = (*source)->Lost();
+  EXPECT_EQ(lost.undecodable.size(), names.FromVehicle().size());
+  for (const std::string& channel : names.FromVehicle()) {
+    EXPECT_EQ(lost.undecodable.at(channel), 1u) << channel;
+  }
   EXPECT_EQ((*server)->refused(), names.ToVehicle().size());
   EXPECT_TRUE(vehicle.got.empty());
 }

@@ -102,15 +102,16 @@ void DrawChannels(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui) {
     DrawIcon(Canvas(), IconOf(c.state), {content.x + s.Px(20), y}, s.Px(12),
              fresh ? p.text3 : (late ? p.caution : p.text1));
     DrawText(ui, fresh ? s.body : s.medium, fresh ? p.text2 : p.text1, content.x + s.Px(34), y,
-             c.name);
+             ChannelName(c.id));
     const std::string cells[] = {AgeText(c.age_s), Fixed(c.rate_hz, 1) + " Hz",
                                  Fixed(c.expected_hz, 0) + " Hz",
                                  Fixed(static_cast<double>(c.lost), 0), c.note};
     for (int i = 0; i < columns; ++i) {
       DrawText(ui, s.body, p.text1, column(i), y, cells[i], Align::kRight);
     }
-    ui.items.Add("channel/" + c.name, {content.x, y - s.Px(10), content.w, s.Px(20)}, true,
-                 c.name + " " + cells[0]);
+    const std::string name = ChannelName(c.id);
+    ui.items.Add("channel/" + name, {content.x, y - s.Px(10), content.w, s.Px(20)}, true,
+                 name + " " + cells[0]);
     y += pitch;
   }
 }

@@ -93,7 +93,7 @@ void DrawChip(UiFrame& ui, const Rect& box, bool on, const char* title, const st
 
 void DrawTuneCamera(const EngineSnapshot& snap, const Rect& rect, TuneState& state, UiFrame& ui) {
   const TuneFacts facts = FactsOf(snap);
-  const ChannelHealth* channel = FindChannel(snap, "Camera left");
+  const ChannelHealth* channel = FindChannel(snap.channels, ChannelId::kCameraLeft);
   const Rect content = DrawPanelFrame(
       ui, rect, "Left camera",
       {{channel != nullptr ? AgeText(channel->age_s) : "", 0, false, false},

@@ -1,0 +1,49 @@
+// LossWatch: what was lost lately, for the alarms.
+//
+// Losses grow since the session began; an alarm is what came in the last ten seconds. Pictures are
+// replaced by newer ones whenever a pass takes longer than a frame, by design: that matters when
+// fewer than five pairs a second are left to look at, half of what maps and tracking are made for.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <deque>
+#include <string>
+
+#include "engine/core/time.h"
+#include "engine/model/losses.h"
+
+namespace palace {
+
+/// Of the last ten seconds. NaN: too little was seen for a rate.
+struct RecentLosses {
+  double pairs_hz = NAN;     ///< stereo pairs looked at
+  double replaced_hz = NAN;  ///< replaced by newer ones before anybody looked
+  double undecodable = 0;    ///< messages
+  std::string channels{};    ///< that carried them since the session began, "VEHICLE_POSE 3"
+  double unrecorded = 0;     ///< frames
+  double unsent = 0;         ///< messages to the vehicle
+};
+
+class LossWatch {
+ public:
+  static constexpr double kWindow_s = 10;
+
+  /// Once a bundle. `pair`: the bundle has pictures.
+  void Update(const Losses& losses, bool pair, Timestamp now);
+  RecentLosses recent() const;
+
+ private:
+  struct Sample {
+    Timestamp time;
+    std::uint64_t pairs = 0;  ///< looked at
+    std::uint64_t replaced = 0;
+    std::uint64_t undecodable = 0;
+    std::uint64_t unrecorded = 0;
+    std::uint64_t unsent = 0;
+  };
+  std::deque<Sample> samples_;  ///< of the window, oldest first; the first is what counts from
+  std::string channels_;        ///< that carried what could not be read
+};
+
+}  // namespace palace

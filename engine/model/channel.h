@@ -1,0 +1,44 @@
+// The inputs the station watches: one id each, and how each arrives. What the screen calls them
+// stands in one table, ChannelName.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace palace {
+
+enum class ChannelId : std::uint8_t {
+  kCameraLeft,
+  kCameraRight,
+  kVehiclePose,
+  kImu,
+  kGps,
+  kLaserRange,
+  kVehicleStatus,
+  kPositionEstimate,  ///< the station's own, watched like an input
+};
+inline constexpr std::size_t kChannelCount = 8;
+
+/// As the screen shows it: "Camera left".
+const char* ChannelName(ChannelId id);
+
+/// Arrival of one channel, measured against the active clock.
+struct ChannelHealth {
+  enum class State : std::uint8_t { kNever, kFresh, kLate, kStale };
+  ChannelId id = ChannelId::kCameraLeft;
+  State state = State::kNever;
+  double age_s = NAN;  ///< NaN when never
+  double rate_hz = 0;
+  double expected_hz = 0;
+  std::uint64_t count = 0;
+  std::uint64_t lost = 0;
+  std::string note;  ///< e.g. "± 2.6 m"
+};
+
+/// Null when that channel is not listed; then nothing of it is fresh.
+const ChannelHealth* FindChannel(const std::vector<ChannelHealth>& channels, ChannelId id);
+
+}  // namespace palace
