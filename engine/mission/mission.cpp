@@ -240,7 +240,16 @@ void Mission::RememberFacts(const MissionInputs& in) {
   const NavigationStatus& nav = in.navigation;
   const bool on_vision = nav.handover == NavigationStatus::Handover::kVision;
   const FilterStatus& filter = on_vision ? nav.vision : nav.gps;
-  facts_.speed_mps = filter.estimate.v_WB.norm();
+  facts_.p_WB = in.p_WB_estimate;
+  facts_.v_WB = filter.estimate.v_WB;
+  if (in.bundle.pose_at_exposure) {
+    facts_.yaw_rad = EulerFromRotation(in.bundle.pose_at_exposure->X_WB.R).yaw_rad;
+  } else if (!in.bundle.poses.empty()) {
+    facts_.yaw_rad = EulerFromRotation(in.bundle.poses.back().X_WB.R).yaw_rad;
+  }
+  if (in.bundle.rig) {
+    facts_.p_BC = in.bundle.rig->position_body_m;
+  }
   if (nav.vision.running && nav.vision.estimate.healthy) {
     vision_good_at_ = in.now;
   }

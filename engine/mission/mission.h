@@ -23,6 +23,7 @@
 #include <Eigen/Dense>
 
 #include "engine/core/result.h"
+#include "engine/flight/flight_path.h"
 #include "engine/mission/alarms.h"
 #include "engine/mission/guards.h"
 #include "engine/mission/input_watch.h"
@@ -107,7 +108,11 @@ class Mission {
     MissionSettings limits;
     double commit_height_m = 3;
     Eigen::Vector3d skid_centre_W = Eigen::Vector3d::Constant(NAN);
-    double speed_mps = NAN;  ///< by the estimate in force
+    // By the estimate in force; yaw by the vehicle's own attitude.
+    Eigen::Vector3d p_WB = Eigen::Vector3d::Constant(NAN);
+    Eigen::Vector3d v_WB = Eigen::Vector3d::Constant(NAN);
+    double yaw_rad = NAN;
+    Eigen::Vector3d p_BC = Eigen::Vector3d::Zero();  ///< of the newest rig
     double approach_heading_rad = NAN;
     GuardInputs guards;  ///< what does not age: health, link, recorder
   };
@@ -169,6 +174,10 @@ class Mission {
   // mission_status.cpp
   void Publish(const MissionInputs& inputs);
   void PublishGeometry(const MissionInputs& inputs);
+  /// The approved path, else the one that would be approved.
+  FlightPath PathTo(const LandingSite& site) const;
+  double TimeLeft(const FlightPath& path) const;
+  bool FliesPath() const;
   void PublishAlarms(const MissionInputs& inputs);
   std::vector<AlarmCondition> SensorAlarms(const MissionInputs& inputs) const;
   std::vector<AlarmCondition> MissionAlarms(const MissionInputs& inputs) const;

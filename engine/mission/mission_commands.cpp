@@ -261,10 +261,9 @@ Approval Mission::MakeApproval(Timestamp now) {
   a.expires_at = AddSeconds(a.approved_at, facts_.limits.approval_expiry_s);
   a.provisional = !armed_.confirmed;
   a.p_WS = site.p_WS;
-  const Eigen::Vector3d to_site = site.p_WS - facts_.skid_centre_W;
   a.approach_heading_rad = std::isfinite(facts_.approach_heading_rad)
                                ? facts_.approach_heading_rad
-                               : std::atan2(to_site.y(), to_site.x());
+                               : StraightHeading(facts_.skid_centre_W, site.p_WS);
   a.glide_slope_rad = Rad(facts_.limits.glide_slope_deg);
   a.clear_radius_m = site.clear_radius_m;
   if (facts_.source_kind != SourceKind::kReplay) {

@@ -4,29 +4,11 @@
 #include <cstdarg>
 #include <cstdio>
 
+#include "engine/core/units.h"
 #include "engine/mission/mission.h"
 
 namespace palace {
 namespace {
-
-// The path's last legs, as the vehicle flies them (DESIGN.md 6, last metres).
-constexpr double kSettleHeight_m = 2;  // level above this, over the site
-constexpr double kAlignTime_s = 7;     // turn to the site and fly to the slope, before descending
-constexpr double kLevelSpeed_mps = 0.5;
-constexpr double kSettleTime_s = 4;  // until it hovers still enough to sink
-constexpr double kLastSinkRate_mps = 0.35;
-constexpr double kOverSite_m = 0.3;
-
-/// Glide slope, level leg, settling and the last sink, one after the other.
-double TimeToTouchdown(double height_m, double distance_m, double descent_rate_mps) {
-  const double above_m = std::max(0.0, height_m - kSettleHeight_m);
-  const double sink_s = std::clamp(height_m, 0.0, kSettleHeight_m) / kLastSinkRate_mps;
-  const bool sinking = height_m < kSettleHeight_m - kOverSite_m;
-  // The camera leads the skids by about the settle height: that leg is flown level.
-  const double level_m = sinking ? 0 : above_m > 0 ? 1.7 * kSettleHeight_m : distance_m;
-  const double settle_s = sinking ? 0 : kSettleTime_s;
-  return above_m / descent_rate_mps + level_m / kLevelSpeed_mps + settle_s + sink_s;
-}
 
 constexpr double kMaxGpsError_m = 2.0;
 constexpr double kLateVision_s = 0.3;
@@ -139,18 +121,51 @@ void Mission::PublishGeometry(const MissionInputs& in) {
     site = site != nullptr ? site : status_.BestStanding(facts_.sites);
   }
   status_.height_above_site_m = status_.distance_to_site_m = status_.time_to_touchdown_s = NAN;
+  status_.path = {};
   if (site == nullptr || !in.skid_centre_W.allFinite()) {
     return;
   }
   status_.height_above_site_m = site->p_WS.z() - in.skid_centre_W.z();
   status_.distance_to_site_m = (site->p_WS - in.skid_centre_W).head<2>().norm();
-  status_.time_to_touchdown_s =
-      status_.state == MissionState::kLanded ? 0
-      : status_.state == MissionState::kAborting || status_.state == MissionState::kHold
-          ? NAN
-          : (status_.state == MissionState::kDescending ? 0 : kAlignTime_s) +
-                TimeToTouchdown(status_.height_above_site_m, status_.distance_to_site_m,
-                                facts_.limits.descent_rate_mps);
+  const FlightPath path = PathTo(*site);
+  status_.time_to_touchdown_s = TimeLeft(path);
+  if (FliesPath() && facts_.p_WB.allFinite() && facts_.v_WB.allFinite()) {
+    status_.path = ProgressOn(path, facts_.p_WB, facts_.v_WB);
+  }
+}
+
+FlightPath Mission::PathTo(const LandingSite& site) const {
+  if (status_.approval) {
+    return PathOf(*status_.approval, facts_.p_BC);
+  }
+  return {site.p_WS,
+          StraightHeading(facts_.skid_centre_W, site.p_WS),
+          Rad(facts_.limits.glide_slope_deg),
+          facts_.p_BC,
+          {}};
+}
+
+double Mission::TimeLeft(const FlightPath& path) const {
+  switch (status_.state) {
+    case MissionState::kLanded:
+      return 0;
+    case MissionState::kHold:
+    case MissionState::kAborting:
+      return NAN;
+    case MissionState::kDescending:
+      return TimeToTouchdown(path, facts_.p_WB, facts_.v_WB);
+    default:
+      return TimeToAlign(path, facts_.p_WB, facts_.yaw_rad) +
+             TimeToTouchdown(path, path.Start(facts_.p_WB), Eigen::Vector3d::Zero());
+  }
+}
+
+bool Mission::FliesPath() const {
+  const VehicleMode mode = watch_.vehicle() ? watch_.vehicle()->mode : VehicleMode::kUnknown;
+  // Turning towards its start is no deviation from it.
+  return status_.state == MissionState::kDescending && status_.approval &&
+         (mode == VehicleMode::kDescend || mode == VehicleMode::kSettle ||
+          mode == VehicleMode::kSink);
 }
 
 double Mission::LaserMismatch(const MissionInputs& in) const {

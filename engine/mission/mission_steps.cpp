@@ -273,7 +273,7 @@ bool Mission::HasLanded(const MissionInputs&) const {
     return false;
   }
   const bool estimate_agrees =
-      std::abs(HeightAboveSite()) <= kLandedHeight_m && facts_.speed_mps <= kLandedSpeed_mps;
+      std::abs(HeightAboveSite()) <= kLandedHeight_m && facts_.v_WB.norm() <= kLandedSpeed_mps;
   return vehicle->mode == VehicleMode::kLanded || estimate_agrees;
 }
 
