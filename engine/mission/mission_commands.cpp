@@ -265,6 +265,7 @@ Approval Mission::MakeApproval(Timestamp now) {
                                ? facts_.approach_heading_rad
                                : StraightHeading(facts_.skid_centre_W, site.p_WS);
   a.glide_slope_rad = Rad(facts_.limits.glide_slope_deg);
+  a.descent_rate_mps = facts_.limits.descent_rate_mps;
   a.clear_radius_m = site.clear_radius_m;
   if (facts_.source_kind != SourceKind::kReplay) {
     options_.signer.Sign(a);  // a replayed approval stays unsigned: no vehicle may take it (I7)

@@ -142,7 +142,7 @@ FlightPath Mission::PathTo(const LandingSite& site) const {
           StraightHeading(facts_.skid_centre_W, site.p_WS),
           Rad(facts_.limits.glide_slope_deg),
           facts_.p_BC,
-          {}};
+          {.sink_mps = facts_.limits.descent_rate_mps}};
 }
 
 double Mission::TimeLeft(const FlightPath& path) const {
