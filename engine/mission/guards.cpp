@@ -2,6 +2,8 @@
 
 #include <cstdio>
 
+#include "engine/mission/descent_limits.h"
+
 namespace palace {
 namespace {
 
@@ -88,6 +90,11 @@ std::string WhyNotCommanding(const GuardInputs& in) {
   return in.foreign_approval ? "Vehicle executes an approval that is not ours" : "";
 }
 
+std::string WhyWindy(const GuardInputs& in) {
+  const LimitRow wind = WindLimit(in.wind_mps, EnforcedBy::kGuard);
+  return wind.over ? "Wind " + ValueWords(wind) + ", max " + LimitWords(wind) : "";
+}
+
 std::string WhyNotInTime(const GuardInputs& in) {
   if (!std::isfinite(in.armed_for_s)) {
     return kNothingArmed;
@@ -131,14 +138,15 @@ std::vector<GuardResult> EvaluateGuards(const GuardInputs& in) {
       in.recorder_ok || in.recorder_loss_acknowledged ? "" : "Recording is not running");
   add("G13", "Source may be approved on", in.source_reason);
   add("G14", "Selected and approved apart", WhyNotInTime(in));
+  add("G15", "Wind inside limit", WhyWindy(in));
   return guards;
 }
 
 const GuardResult* FirstFailure(const std::vector<GuardResult>& guards, bool as_recorded) {
   for (const GuardResult& guard : guards) {
-    const bool of_station =
-        guard.id == "G1" || guard.id == "G10" || guard.id == "G12" || guard.id == "G13";
-    if (!guard.pass && !(as_recorded && of_station)) {
+    const bool of_its_time = guard.id == "G1" || guard.id == "G10" || guard.id == "G12" ||
+                             guard.id == "G13" || guard.id == "G15";
+    if (!guard.pass && !(as_recorded && of_its_time)) {
       return &guard;
     }
   }

@@ -1,7 +1,8 @@
-// Guards G1-G14: what must hold at the instant of approval.
+// Guards G1-G15: what must hold at the instant of approval.
 //
 // A guard passes only on evidence: NaN ages, missing inputs and unknown hashes fail (I3).
-// Source: reference/reliability.md 3.3; G4, G6 and G14 as settled in DESIGN.md 8.
+// Source: reference/reliability.md 3.3; G4, G6 and G14 as settled in DESIGN.md 8; G15: the wind
+// that the vehicle measures (descent_limits.h).
 #pragma once
 
 #include <cmath>
@@ -52,15 +53,17 @@ struct GuardInputs {
   std::string source_reason;  ///< why this source can never be approved on, empty when it can
   double armed_for_s = NAN;
   double arm_window_s = NAN;
+  double wind_mps = NAN;  ///< NaN: not known, or stale; then it blocks nothing
 };
 
 /// Why nothing can be approved on this source; empty unless it has pictures only.
 std::string WhyNoVehicle(SourceKind kind);
 
-/// All fourteen, in order.
+/// All fifteen, in order.
 std::vector<GuardResult> EvaluateGuards(const GuardInputs& inputs);
 /// The first that fails, null when all pass. `as_recorded`: skip those that speak of this station's
-/// link, recorder and source (G1, G10, G12, G13); a recorded approval met them in its own time.
+/// link, recorder and source (G1, G10, G12, G13) and of the weather (G15); a recorded approval met
+/// them in its own time.
 const GuardResult* FirstFailure(const std::vector<GuardResult>& guards, bool as_recorded = false);
 
 }  // namespace palace

@@ -20,6 +20,7 @@ std::uint32_t SessionPart(std::uint64_t session_id) {
 
 Mission::Mission(MissionOptions options) : options_(std::move(options)) {
   status_.why = "No data yet";
+  status_.confirm_height_m = GuardLimits::confirm_height_m;
   status_.height_above_site_m = status_.distance_to_site_m = status_.time_to_touchdown_s = NAN;
 }
 
@@ -67,6 +68,8 @@ void Mission::Enter(MissionState state, std::string why, Timestamp now) {
 
 void Mission::ForgetSite() {
   status_.armed.reset();
+  status_.approach.reset();
+  newest_.reset();
   status_.arm_expires.reset();
   status_.guards.clear();
   armed_ = {};
@@ -171,6 +174,7 @@ void Mission::Update(const MissionInputs& inputs) {
   FollowJump(inputs);
   watch_.Update(inputs.bundle, inputs.channels, inputs.now);
   RememberFacts(inputs);
+  PlanApproach();
   FollowWinner(inputs);
   FollowSite(inputs);
   FollowAcks(inputs);
@@ -225,7 +229,6 @@ void Mission::RememberFacts(const MissionInputs& in) {
   facts_.limits = in.settings.mission;
   facts_.commit_height_m = in.settings.slad.commit_height_m;
   facts_.skid_centre_W = in.skid_centre_W;
-  facts_.approach_heading_rad = in.approach_heading_rad;
   if (in.applied != nullptr) {
     facts_.sites = in.applied->selection.sites;
     facts_.map_hash = in.applied->map_hash;

@@ -9,7 +9,7 @@
 //
 // Everything stale, missing or not finite can only disable (I3). Once per bundle: Apply the
 // commands, then Update, then TakeMessages. Heights are metres above the site, skid centre.
-// Source: reference/reliability.md section 3 (guards G1-G14, invariants I1-I22), DESIGN.md 8.
+// Source: reference/reliability.md section 3 (guards G1-G15, invariants I1-I22), DESIGN.md 8.
 #pragma once
 
 #include <cstdint>
@@ -65,9 +65,7 @@ struct MissionInputs {
   std::uint64_t snapshot_sequence = 0;
   Eigen::Vector3d p_WB_estimate = Eigen::Vector3d::Constant(NAN);
   Eigen::Vector3d skid_centre_W = Eigen::Vector3d::Constant(NAN);  ///< by the estimate in force
-  /// Wanted course over ground; NaN: straight to the site.
-  double approach_heading_rad = NAN;
-  std::string_view source_damage{};  ///< SourceStatus::damage
+  std::string_view source_damage{};                                ///< SourceStatus::damage
 };
 
 class Mission {
@@ -113,8 +111,7 @@ class Mission {
     Eigen::Vector3d v_WB = Eigen::Vector3d::Constant(NAN);
     double yaw_rad = NAN;
     Eigen::Vector3d p_BC = Eigen::Vector3d::Zero();  ///< of the newest rig
-    double approach_heading_rad = NAN;
-    GuardInputs guards;  ///< what does not age: health, link, recorder
+    GuardInputs guards;                              ///< what does not age: health, link, recorder
   };
   /// What an armed site is bound to.
   struct ArmedFacts {
@@ -174,6 +171,13 @@ class Mission {
   // mission_status.cpp
   void Publish(const MissionInputs& inputs);
   void PublishGeometry(const MissionInputs& inputs);
+  void PublishLimits(const MissionInputs& inputs);
+  /// The armed site, else the one that leads.
+  const LandingSite* SiteInQuestion() const;
+  /// Freezes the way to the armed site as soon as the vehicle's place is known.
+  void PlanApproach();
+  ApproachPlan StraightPlan(const Eigen::Vector3d& p_WS) const;
+  double KnownWind(Timestamp now) const;
   /// The approved path, else the one that would be approved.
   FlightPath PathTo(const LandingSite& site) const;
   double TimeLeft(const FlightPath& path) const;
@@ -200,6 +204,7 @@ class Mission {
   Facts facts_;
   ArmedFacts armed_;
   SiteWatch site_;
+  std::optional<LandingSite> newest_;       ///< the armed site on the newest map; empty off it
   SiteVerdict told_ = SiteVerdict::kHolds;  ///< of the armed site, in the events
   std::optional<LandingSite> alternative_;
   Winner winner_;

@@ -1,7 +1,7 @@
 // Commands: who may ask for what, and when.
 #include <cmath>
 
-#include "engine/core/units.h"
+#include "engine/core/check.h"
 #include "engine/mission/mission.h"
 
 namespace palace {
@@ -147,6 +147,7 @@ Status Mission::Select(std::uint64_t site_id, Timestamp now) {
   armed_.calibration_hash = facts_.calibration_hash;
   armed_.boot_id = watch_.boot_id();
   armed_.confirmed = chosen.confirmed;
+  PlanApproach();
   Enter(MissionState::kArmed, "Site " + std::string(1, chosen.letter) + " selected", now);
   return Ok();
 }
@@ -261,11 +262,10 @@ Approval Mission::MakeApproval(Timestamp now) {
   a.expires_at = AddSeconds(a.approved_at, facts_.limits.approval_expiry_s);
   a.provisional = !armed_.confirmed;
   a.p_WS = site.p_WS;
-  a.approach_heading_rad = std::isfinite(facts_.approach_heading_rad)
-                               ? facts_.approach_heading_rad
-                               : StraightHeading(facts_.skid_centre_W, site.p_WS);
-  a.glide_slope_rad = Rad(facts_.limits.glide_slope_deg);
-  a.descent_rate_mps = facts_.limits.descent_rate_mps;
+  PALACE_CHECK(status_.approach.has_value());
+  a.approach_heading_rad = status_.approach->heading_rad;
+  a.glide_slope_rad = status_.approach->glide_slope_rad;
+  a.descent_rate_mps = status_.approach->descent_rate_mps;
   a.clear_radius_m = site.clear_radius_m;
   if (facts_.source_kind != SourceKind::kReplay) {
     options_.signer.Sign(a);  // a replayed approval stays unsigned: no vehicle may take it (I7)

@@ -23,6 +23,7 @@ void Mission::FollowSite(const MissionInputs& in) {
   site_.Add(JudgeRecheck(in.rechecked, in.nearest, {armed_.confirmed, status_.armed->clearance_m},
                          in.settings.slad),
             in.now);
+  newest_ = in.rechecked;
   armed_.confirmed = armed_.confirmed || (site_.newest().holds() && in.rechecked->confirmed);
   FollowAlternative(in);
   const SiteVerdict verdict = site_.VerdictAt(in.now);

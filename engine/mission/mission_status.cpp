@@ -4,7 +4,7 @@
 #include <cstdarg>
 #include <cstdio>
 
-#include "engine/core/units.h"
+#include "engine/mission/descent_limits.h"
 #include "engine/mission/mission.h"
 
 namespace palace {
@@ -14,9 +14,6 @@ constexpr double kMaxGpsError_m = 2.0;
 constexpr double kLateVision_s = 0.3;
 constexpr double kAnswerLate_s = 2.0;
 constexpr double kLaserMismatch_m = 1.0;
-constexpr double kRowErrorLimit_px = 0.5;  // a good calibration has 0.2
-constexpr double kExposureLimit = 2;       // one picture twice as bright as the other
-constexpr double kScaleLimit = 0.02;       // 0.3 m of height at 50 ft
 
 __attribute__((format(printf, 1, 2))) std::string Words(const char* format, ...) {
   char text[320];
@@ -31,10 +28,28 @@ bool Flying(MissionState state) {
   return state == MissionState::kApproved || state == MissionState::kDescending;
 }
 
-/// Beyond the limit, and not by chance.
-bool ScaleIsWrong(const RangeAgreement& agreement) {
-  const double off = std::abs(agreement.ratio - 1);
-  return off > kScaleLimit && off > 3 * agreement.sigma;
+/// Limits of the descent whose alarm asks the operator to act.
+struct LimitAlarm {
+  LimitId limit;
+  const char* alarm;
+  const char* advice;
+};
+constexpr LimitAlarm kLimitAlarms[] = {
+    {LimitId::kOffPath, "off_path", "Hold or wave off."},
+    {LimitId::kFromCentre, "off_centre", "Wave off unless the ground around is clear."},
+    {LimitId::kDescentRate, "descent_rate", "Hold or wave off."},
+    {LimitId::kResidual, "vision_residual", "Measurement refused. Watch the estimate."},
+    {LimitId::kWind, "wind", "Watch the descent, hold or wave off."},
+};
+
+AlarmCondition ConditionOf(const LimitAlarm& alarm, const std::vector<LimitRow>& limits) {
+  const LimitRow* row = FindLimit(limits, alarm.limit);
+  if (row == nullptr) {
+    return {alarm.alarm, AlarmLevel::kCaution, false, ""};
+  }
+  return {alarm.alarm, AlarmLevel::kCaution, row->over && row->enforced_by == EnforcedBy::kAlarm,
+          std::string(row->label) + " " + ValueWords(*row) + ", limit " + LimitWords(*row) + ". " +
+              alarm.advice};
 }
 
 std::string AgeWords(double age_s) {
@@ -56,6 +71,7 @@ GuardInputs Mission::MakeGuardInputs(Timestamp now) const {
   in.map_age_s =
       facts_.map_hash != 0 && now >= map_seen_at_ ? SecondsBetween(map_seen_at_, now) : NAN;
   in.clock_continuous = watch_.clock_continuous();
+  in.wind_mps = KnownWind(now);
   in.foreign_approval = Executing() && !OwnApproval(watch_.vehicle()->approval_id);
   in.unacknowledged_warning = alarms_.UnacknowledgedWarning();
   in.recorder_loss_acknowledged = alarms_.IsAcknowledged("recorder");
@@ -96,6 +112,8 @@ GuardInputs Mission::MakeGuardInputs(Timestamp now) const {
 }
 
 void Mission::Publish(const MissionInputs& in) {
+  PublishGeometry(in);
+  PublishLimits(in);
   PublishAlarms(in);
   status_.guards = EvaluateGuards(MakeGuardInputs(in.now));
   const GuardResult* failed = FirstFailure(status_.guards);
@@ -111,61 +129,6 @@ void Mission::Publish(const MissionInputs& in) {
                                             ? "Select a site first"
                                             : failed->reason));
   }
-  PublishGeometry(in);
-}
-
-void Mission::PublishGeometry(const MissionInputs& in) {
-  const LandingSite* site = status_.armed ? &*status_.armed : nullptr;
-  if (site == nullptr && !facts_.sites.empty()) {
-    site = FindSite(winner_.id);
-    site = site != nullptr ? site : status_.BestStanding(facts_.sites);
-  }
-  status_.height_above_site_m = status_.distance_to_site_m = status_.time_to_touchdown_s = NAN;
-  status_.path = {};
-  if (site == nullptr || !in.skid_centre_W.allFinite()) {
-    return;
-  }
-  status_.height_above_site_m = site->p_WS.z() - in.skid_centre_W.z();
-  status_.distance_to_site_m = (site->p_WS - in.skid_centre_W).head<2>().norm();
-  const FlightPath path = PathTo(*site);
-  status_.time_to_touchdown_s = TimeLeft(path);
-  if (FliesPath() && facts_.p_WB.allFinite() && facts_.v_WB.allFinite()) {
-    status_.path = ProgressOn(path, facts_.p_WB, facts_.v_WB);
-  }
-}
-
-FlightPath Mission::PathTo(const LandingSite& site) const {
-  if (status_.approval) {
-    return PathOf(*status_.approval, facts_.p_BC);
-  }
-  return {site.p_WS,
-          StraightHeading(facts_.skid_centre_W, site.p_WS),
-          Rad(facts_.limits.glide_slope_deg),
-          facts_.p_BC,
-          {.sink_mps = facts_.limits.descent_rate_mps}};
-}
-
-double Mission::TimeLeft(const FlightPath& path) const {
-  switch (status_.state) {
-    case MissionState::kLanded:
-      return 0;
-    case MissionState::kHold:
-    case MissionState::kAborting:
-      return NAN;
-    case MissionState::kDescending:
-      return TimeToTouchdown(path, facts_.p_WB, facts_.v_WB);
-    default:
-      return TimeToAlign(path, facts_.p_WB, facts_.yaw_rad) +
-             TimeToTouchdown(path, path.Start(facts_.p_WB), Eigen::Vector3d::Zero());
-  }
-}
-
-bool Mission::FliesPath() const {
-  const VehicleMode mode = watch_.vehicle() ? watch_.vehicle()->mode : VehicleMode::kUnknown;
-  // Turning towards its start is no deviation from it.
-  return status_.state == MissionState::kDescending && status_.approval &&
-         (mode == VehicleMode::kDescend || mode == VehicleMode::kSettle ||
-          mode == VehicleMode::kSink);
 }
 
 double Mission::LaserMismatch(const MissionInputs& in) const {
@@ -199,6 +162,10 @@ std::vector<AlarmCondition> Mission::SensorAlarms(const MissionInputs& in) const
   const char* blocked = pictures_only           ? "Maps stand still."
                         : Flying(status_.state) ? "Descent holds after 1 s."
                                                 : "Approve is blocked.";
+  const auto over = [&](LimitId id) {
+    const LimitRow* row = FindLimit(status_.limits, id);
+    return row != nullptr && row->over;
+  };
   return {
       {"camera_left", AlarmLevel::kCaution,
        in.source_kind != SourceKind::kNone && !(left_s <= GuardLimits::camera_s),
@@ -226,20 +193,20 @@ std::vector<AlarmCondition> Mission::SensorAlarms(const MissionInputs& in) const
        std::string("A camera repeats its picture to the last grey level. ") + blocked},
       {"cameras_swapped", AlarmLevel::kWarning, in.stereo.suspect_swapped,
        "Left and right camera look exchanged. Exchange the cables or the entries of RIG.toml."},
-      {"row_error", AlarmLevel::kCaution, in.stereo.row_error_px > kRowErrorLimit_px,
+      {"row_error", AlarmLevel::kCaution, over(LimitId::kRowError),
        Words("Rows of the two pictures are %.2f px apart, limit %.2f px: calibrate.",
-             in.stereo.row_error_px, kRowErrorLimit_px)},
-      {"exposure", AlarmLevel::kAdvisory,
-       in.stereo.exposure_ratio > kExposureLimit || in.stereo.exposure_ratio < 1 / kExposureLimit,
+             in.stereo.row_error_px, DescentLimits::row_error_px)},
+      {"exposure", AlarmLevel::kAdvisory, over(LimitId::kExposure),
        Words("Right picture is %.1f times as bright as the left, limit %.1f to %.1f. Check the "
              "exposure.",
-             in.stereo.exposure_ratio, 1 / kExposureLimit, kExposureLimit)},
-      {"range_scale", AlarmLevel::kCaution, ScaleIsWrong(in.range_agreement),
+             in.stereo.exposure_ratio, 1 / DescentLimits::exposure_ratio,
+             DescentLimits::exposure_ratio)},
+      {"range_scale", AlarmLevel::kCaution, over(LimitId::kRangeScale),
        Words(
            "Stereo reads %.1f %% %s against the laser, limit %.0f %%. Focal length or baseline is "
            "wrong: calibrate.",
            100 * std::abs(in.range_agreement.ratio - 1),
-           in.range_agreement.ratio > 1 ? "far" : "near", 100 * kScaleLimit)},
+           in.range_agreement.ratio > 1 ? "far" : "near", 100 * DescentLimits::range_scale)},
       {"height_mismatch", AlarmLevel::kAdvisory, mismatch_m > kLaserMismatch_m,
        Words("Laser and map disagree by %.1f m, limit %.1f m. Check the cameras.", mismatch_m,
              kLaserMismatch_m)},
@@ -307,6 +274,9 @@ void Mission::PublishAlarms(const MissionInputs& in) {
   std::vector<AlarmCondition> conditions = SensorAlarms(in);
   for (AlarmCondition& condition : MissionAlarms(in)) {
     conditions.push_back(std::move(condition));
+  }
+  for (const LimitAlarm& alarm : kLimitAlarms) {
+    conditions.push_back(ConditionOf(alarm, status_.limits));
   }
   alarms_.Update(conditions, in.now);
   for (const Alarm& alarm : alarms_.raised()) {

@@ -9,6 +9,7 @@
 
 #include "engine/core/time.h"
 #include "engine/model/landing_site.h"
+#include "engine/model/limit_row.h"
 #include "engine/model/vehicle_message.h"
 
 namespace palace {
@@ -29,7 +30,7 @@ const char* MissionStateName(MissionState state);
 /// Sentence-case word as the screen shows it: "Proposed".
 const char* MissionStateWord(MissionState state);
 
-/// One check of the commit guards G1-G14 (reference: safety state machine).
+/// One check of the commit guards G1-G15 (reference: safety state machine).
 struct GuardResult {
   std::string id;    ///< "G3"
   std::string name;  ///< "Both cameras fresh"
@@ -85,6 +86,13 @@ struct SiteRecheck {
   std::optional<LandingSite> alternative{};
 };
 
+/// How the site is approached: the same on the button, in the approval and in the vehicle.
+struct ApproachPlan {
+  double heading_rad = NAN;       ///< course over ground, from north over east
+  double glide_slope_rad = NAN;   ///< down from the horizon
+  double descent_rate_mps = NAN;  ///< down the slope, the vertical part
+};
+
 /// Where the vehicle is on the path that was approved; NaN and empty while it does not fly it.
 struct PathProgress {
   double plan_height_m = NAN;  ///< of the skids above the site, at the nearest point of the path
@@ -101,6 +109,8 @@ struct MissionStatus {
   Timestamp since;
   std::string why;                   ///< cause of the last transition, in words
   std::optional<LandingSite> armed;  ///< frozen evidence, from ARMED to LANDED
+  /// Of the armed site: frozen with it, as soon as the vehicle's place is known.
+  std::optional<ApproachPlan> approach;
   Timestamp armed_at;
   std::optional<Timestamp> arm_expires;
   /// Ids of places the operator refused: listed, but never proposed again while their letters live.
@@ -122,6 +132,8 @@ struct MissionStatus {
   double distance_to_site_m = 0;   ///< horizontal; NaN when no site
   double time_to_touchdown_s = 0;  ///< NaN when unknown
   PathProgress path;
+  std::vector<LimitRow> limits;   ///< of site, approach, descent and cameras, in force now
+  double confirm_height_m = NAN;  ///< a provisional site must be confirmed by here
   /// LANDED: miss of the skid centre to the site, by the estimate.
   std::optional<double> touchdown_miss_m;
   std::optional<double> touchdown_miss_true_m;  ///< in simulation
