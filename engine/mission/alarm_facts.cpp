@@ -70,6 +70,7 @@ AlarmFacts AlarmFactsAt(const MissionMemory& m, const MissionInputs& in) {
   f.heard_vehicle = m.watch.heard_vehicle();
   f.recorder_ok = in.session.recorder_ok;
   f.source_damage = in.session.source_damage;
+  f.limits = m.status.limits;
   f.losses = m.losses.recent();
   f.looked_at_hz = f.losses.replaced_hz > 0 ? f.losses.pairs_hz : NAN;
   FillSensors(m, in, f);

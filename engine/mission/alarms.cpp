@@ -22,6 +22,16 @@ std::string StaleText(const char* what, double age_s, const std::string& limit) 
   return what + (" " + words::Age(age_s)) + ", limit " + limit + ". ";
 }
 
+/// The published limit is passed, and an alarm is what asks the operator to act.
+bool IsOver(const Facts& f, LimitId id) {
+  const LimitRow* row = FindLimit(f.limits, id);
+  return row != nullptr && row->over && row->enforced_by == EnforcedBy::kAlarm;
+}
+std::string OverText(const Facts& f, LimitId id) {
+  const LimitRow* row = FindLimit(f.limits, id);
+  return std::string(row->label) + " " + ValueWords(*row) + ", limit " + LimitWords(*row) + ". ";
+}
+
 const std::array<AlarmRow, kAlarmCount> kAlarms = {{
     {.id = AlarmId::kCameraLeft,
      .level = AlarmLevel::kCaution,
@@ -340,6 +350,46 @@ const std::array<AlarmRow, kAlarmCount> kAlarms = {{
                "%.0f messages of the last %.0f s could not be sent. Check the "
                "network link.",
                f.losses.unsent, LossWatch::kWindow_s);
+         }},
+    {.id = AlarmId::kOffPath,
+     .level = AlarmLevel::kCaution,
+     .acts = Enforcer::kNobody,
+     .present = [](const Facts& f, double) { return IsOver(f, LimitId::kOffPath); },
+     .text =
+         [](const Facts& f, const std::string&) {
+           return OverText(f, LimitId::kOffPath) + "Hold or wave off.";
+         }},
+    {.id = AlarmId::kOffCentre,
+     .level = AlarmLevel::kCaution,
+     .acts = Enforcer::kNobody,
+     .present = [](const Facts& f, double) { return IsOver(f, LimitId::kFromCentre); },
+     .text =
+         [](const Facts& f, const std::string&) {
+           return OverText(f, LimitId::kFromCentre) + "Wave off unless the ground around is clear.";
+         }},
+    {.id = AlarmId::kDescentRate,
+     .level = AlarmLevel::kCaution,
+     .acts = Enforcer::kNobody,
+     .present = [](const Facts& f, double) { return IsOver(f, LimitId::kDescentRate); },
+     .text =
+         [](const Facts& f, const std::string&) {
+           return OverText(f, LimitId::kDescentRate) + "Hold or wave off.";
+         }},
+    {.id = AlarmId::kVisionResidual,
+     .level = AlarmLevel::kCaution,
+     .acts = Enforcer::kNobody,
+     .present = [](const Facts& f, double) { return IsOver(f, LimitId::kResidual); },
+     .text =
+         [](const Facts& f, const std::string&) {
+           return OverText(f, LimitId::kResidual) + "Measurement refused. Watch the estimate.";
+         }},
+    {.id = AlarmId::kWind,
+     .level = AlarmLevel::kCaution,
+     .acts = Enforcer::kNobody,
+     .present = [](const Facts& f, double) { return IsOver(f, LimitId::kWind); },
+     .text =
+         [](const Facts& f, const std::string&) {
+           return OverText(f, LimitId::kWind) + "Watch the descent, hold or wave off.";
          }},
 }};
 

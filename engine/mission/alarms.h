@@ -59,7 +59,8 @@ struct AlarmFacts {
   std::string refusal{};
   bool foreign_descent = false;
   RecentLosses losses{};
-  double looked_at_hz = NAN;  ///< stereo pairs, while some are replaced by newer ones
+  double looked_at_hz = NAN;       ///< stereo pairs, while some are replaced by newer ones
+  std::vector<LimitRow> limits{};  ///< of the descent, as published
 };
 AlarmFacts AlarmFactsAt(const MissionMemory& memory, const MissionInputs& inputs);
 

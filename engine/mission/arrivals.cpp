@@ -32,11 +32,24 @@ void RememberNavigation(MissionFacts& facts, const MissionInputs::Navigation& in
   const bool on_vision = in.navigation.handover == NavigationStatus::Handover::kVision;
   const FilterStatus& filter = on_vision ? in.navigation.vision : in.navigation.gps;
   facts.skid_centre_W = in.skid_centre_W;
-  facts.speed_mps = filter.estimate.v_WB.norm();
+  facts.p_WB = in.p_WB_estimate;
+  facts.v_WB = filter.estimate.v_WB;
   facts.position_healthy = in.p_WB_estimate.allFinite() && in.skid_centre_W.allFinite() &&
                            filter.running && filter.estimate.healthy;
   facts.tracker_locked = in.tracker.locked;
   facts.coherence = in.tracker.coherence;
+}
+
+void RememberAirframe(MissionFacts& facts, const FrameBundle& bundle) {
+  const VehiclePose* pose = bundle.pose_at_exposure ? &*bundle.pose_at_exposure
+                            : bundle.poses.empty()  ? nullptr
+                                                    : &bundle.poses.back();
+  if (pose != nullptr) {
+    facts.yaw_rad = EulerFromRotation(pose->X_WB.R).yaw_rad;
+  }
+  if (bundle.rig) {
+    facts.p_BC = bundle.rig->position_body_m;
+  }
 }
 
 void RememberTerrain(MissionFacts& facts, const TerrainDecision* decision) {
@@ -106,6 +119,7 @@ void RememberFacts(MissionMemory& m, const MissionInputs& in) {
   facts.can_transmit = in.session.can_transmit;
   facts.recorder_ok = in.session.recorder_ok;
   facts.simulated_vehicle = in.vehicle.simulated;
+  RememberAirframe(facts, in.vehicle.bundle);
   facts.limits = in.limits.settings.mission;
   facts.commit_height_m = in.limits.settings.slad.commit_height_m;
   facts.min_coherence = in.limits.settings.tracking.min_coherence;

@@ -12,14 +12,20 @@ namespace palace {
 /// Metres above the armed site, up-positive; NaN when none is armed.
 double HeightAboveSite(const MissionMemory& memory);
 
-/// Course over ground from the skid centre straight to `p_WS`, clockwise from north.
-double HeadingTo(const MissionMemory& memory, const Eigen::Vector3d& p_WS);
+/// The armed site, else the one that leads; null when there is none.
+const LandingSite* SiteInQuestion(const MissionMemory& memory);
 
-/// Glide slope, level leg, settling and the last sink, one after the other, in seconds.
-double TimeToTouchdown(double height_m, double distance_m, double descent_rate_mps);
+/// Freezes the way to the armed site as soon as the vehicle's place is known: straight, by the
+/// settings then in force. Approval, button, plots and vehicle take it from there.
+void PlanApproach(MissionMemory& memory);
 
-/// Fills height, distance and time left of the status, to the armed site or else the leading one.
+/// Wind as the vehicle measures it, m/s; NaN where it says none or is silent.
+double KnownWind(const MissionMemory& memory, Timestamp now);
+
+/// Fills height, distance, time left and the path of the status, to the site in question.
 void PublishGeometry(MissionMemory& memory, const MissionInputs& inputs);
+/// Fills the limits of the status: value, limit, who enforces it.
+void PublishLimits(MissionMemory& memory, const MissionInputs& inputs);
 
 /// How far the laser's spot lies from the map's height there, in metres.
 double LaserMismatch(const MissionInputs& inputs);

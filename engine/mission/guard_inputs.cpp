@@ -57,6 +57,7 @@ GuardInputs GuardInputsAt(const MissionMemory& m, Timestamp now) {
   in.coherence = m.facts.coherence;
   in.min_coherence = m.facts.min_coherence;
   in.clock_continuous = m.watch.clock_continuous();
+  in.wind_mps = KnownWind(m, now);
   in.can_transmit = m.facts.can_transmit;
   in.foreign_approval = FliesForeignApproval(m);
   in.unacknowledged_warning = m.alarms.UnacknowledgedWarning();

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "engine/core/text.h"
+#include "engine/mission/descent_limits.h"
 #include "engine/mission/wording.h"
 
 namespace palace {
@@ -166,6 +167,16 @@ const std::array<GuardRow, kGuardCount> kGuards = {{
      .words = "Selected and approved apart",
      .limit = {GuardLimits::arm_to_approve_s, "s"},
      .why = WhyNotInTime},
+    {.id = GuardId::kWind,
+     .words = "Wind inside limit",
+     .of_station = true,
+     .limit = {DescentLimits::wind_mps, "m/s"},
+     .why =
+         [](const GuardInputs& in, const Limit&) {
+           const LimitRow wind = WindLimit(in.wind_mps, EnforcedBy::kGuard);
+           return wind.over ? "Wind " + ValueWords(wind) + ", max " + LimitWords(wind)
+                            : std::string();
+         }},
 }};
 
 const GuardRow& RowOf(GuardId id) { return kGuards[static_cast<std::size_t>(id)]; }

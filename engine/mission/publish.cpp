@@ -35,12 +35,13 @@ std::string WhyNoApproval(const MissionMemory& m) {
 
 void Publish(MissionTurn& turn, const MissionInputs& in) {
   MissionMemory& m = turn.memory;
+  PublishGeometry(m, in);
+  PublishLimits(m, in);
   PublishAlarms(turn, in);
   m.status.guards = EvaluateGuards(GuardInputsAt(m, in.session.now));
   m.status.can_approve =
       m.status.state == MissionState::kArmed && FirstFailure(m.status.guards) == nullptr;
   m.status.cannot_approve_reason = m.status.can_approve ? std::string() : WhyNoApproval(m);
-  PublishGeometry(m, in);
 }
 
 }  // namespace palace

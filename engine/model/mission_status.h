@@ -1,6 +1,7 @@
 // Mission state as the engine publishes it: states, guards, alarms, events.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -8,6 +9,7 @@
 
 #include "engine/core/time.h"
 #include "engine/model/landing_site.h"
+#include "engine/model/limit_row.h"
 #include "engine/model/mission_ids.h"
 #include "engine/model/vehicle_message.h"
 
@@ -29,7 +31,7 @@ const char* MissionStateName(MissionState state);
 /// Sentence-case word as the screen shows it: "Proposed".
 const char* MissionStateWord(MissionState state);
 
-/// One check of the commit guards G1-G14 (reference: safety state machine).
+/// One check of the commit guards G1-G15 (reference: safety state machine).
 struct GuardResult {
   GuardId id = GuardId::kLink;
   std::string name;  ///< "Both cameras fresh"
@@ -86,11 +88,31 @@ struct SiteRecheck {
   std::optional<LandingSite> alternative{};
 };
 
+/// How the site is approached: the same on the button, in the approval and in the vehicle.
+struct ApproachPlan {
+  double heading_rad = NAN;       ///< course over ground, from north over east
+  double glide_slope_rad = NAN;   ///< down from the horizon
+  double descent_rate_mps = NAN;  ///< down the slope, the vertical part
+};
+
+/// Where the vehicle is on the path that was approved; NaN and empty while it does not fly it.
+struct PathProgress {
+  double plan_height_m = NAN;  ///< of the skids above the site, at the nearest point of the path
+  double off_path_m = NAN;     ///< distance from there
+  struct Height {
+    double in_s = 0;
+    double height_m = 0;
+  };
+  std::vector<Height> ahead;  ///< planned, from now on, until the touchdown or for a minute
+};
+
 struct MissionStatus {
   MissionState state = MissionState::kNoLive;
   Timestamp since;
   std::string why;                   ///< cause of the last transition, in words
   std::optional<LandingSite> armed;  ///< frozen evidence, from ARMED to LANDED
+  /// Of the armed site: frozen with it, as soon as the vehicle's place is known.
+  std::optional<ApproachPlan> approach;
   Timestamp armed_at;
   std::optional<Timestamp> arm_expires;
   /// Ids of places the operator refused: listed, but never proposed again while their letters live.
@@ -111,6 +133,9 @@ struct MissionStatus {
   double height_above_site_m = 0;  ///< skid above the site; NaN when no site
   double distance_to_site_m = 0;   ///< horizontal; NaN when no site
   double time_to_touchdown_s = 0;  ///< NaN when unknown
+  PathProgress path;
+  std::vector<LimitRow> limits;   ///< of site, approach, descent and cameras, in force now
+  double confirm_height_m = NAN;  ///< a provisional site must be confirmed by here
   /// LANDED: miss of the skid centre to the site, by the estimate.
   std::optional<double> touchdown_miss_m;
   std::optional<double> touchdown_miss_true_m;  ///< in simulation

@@ -3,7 +3,6 @@
 #include <optional>
 
 #include "engine/core/frames.h"
-#include "engine/core/units.h"
 #include "gui/panels/fly_panels.h"
 #include "gui/widgets/number_text.h"
 
@@ -107,31 +106,29 @@ PlotTrace RateOf(const EngineSnapshot& snap, PositionMember track, ImU32 colour,
 }
 
 /// What is still to be flown: down the slope, level over the site, straight down.
-PlotTrace PlanAhead(const EngineSnapshot& snap, const HistorySample& now, const Palette& p) {
-  constexpr double kSettleHeight_m = 2, kLevelSpeed_mps = 0.7, kTouchRate_mps = 0.4;
+PlotTrace PlanAhead(const EngineSnapshot& snap, const Palette& p) {
   PlotTrace plan;
   plan.colour = p.text2;
   plan.stroke = PlotTrace::Stroke::kDashed;
-  const double rate = std::max(0.1, snap.settings.mission.descent_rate_mps);
-  const double slope = Rad(std::clamp(snap.settings.mission.glide_slope_deg, 5.0, 90.0));
-  const bool on_slope = now.height_above_site_m > kSettleHeight_m + 0.1;
-  const double level_m = on_slope ? kSettleHeight_m / std::tan(slope) : now.from_site_m;
-  double left_level_s =
-      now.height_above_site_m > kSettleHeight_m - 0.3 ? level_m / kLevelSpeed_mps : 0.0;
-  double height_m = now.height_above_site_m;
-  constexpr float kStep_s = 0.5f;
-  for (float t = 0; t <= kFuture_s; t += kStep_s) {
-    plan.points.push_back({t, static_cast<float>(height_m)});
-    const auto dt = static_cast<double>(kStep_s);
-    if (height_m > kSettleHeight_m + 1e-6) {
-      height_m = std::max(kSettleHeight_m, height_m - rate * dt);
-    } else if (left_level_s > 0) {
-      left_level_s -= dt;
-    } else {
-      height_m = std::max(0.0, height_m - kTouchRate_mps * dt);
+  for (const PathProgress::Height& ahead : snap.mission.path.ahead) {
+    const auto t = static_cast<float>(ahead.in_s);
+    if (t > kFuture_s) {
+      break;
     }
+    plan.points.push_back({t, static_cast<float>(ahead.height_m)});
   }
   return plan;
+}
+
+/// A limit as its row says; none while the row is not there or its limit unknown.
+std::vector<PlotLimit> LimitLine(const EngineSnapshot& snap, LimitId id) {
+  const LimitRow* row = FindLimit(snap.mission.limits, id);
+  if (row == nullptr || !std::isfinite(row->limit)) {
+    return {};
+  }
+  const bool enforced = row->enforced_by != EnforcedBy::kNobody;
+  return {{static_cast<float>(row->limit * row->shown_per_unit), !row->is_least && enforced,
+           (enforced ? "Limit " : "For information: ") + LimitWords(*row)}};
 }
 
 PlotView HeightPlot(const EngineSnapshot& snap, const Palette& p, const HistorySample& now) {
@@ -143,8 +140,8 @@ PlotView HeightPlot(const EngineSnapshot& snap, const Palette& p, const HistoryS
                  SeriesOf(snap, &HistorySample::laser_m, p.laser, 1.5f),
                  HeightOf(snap, &HistorySample::gps_p_WB, p.gps, Stroke::kSolid),
                  SeriesOf(snap, &HistorySample::plan_height_m, p.text2, 1.5f, Stroke::kDashed)};
-  if (std::isfinite(now.height_above_site_m) && snap.mission.state == MissionState::kDescending) {
-    view.series.push_back(PlanAhead(snap, now, p));
+  if (!snap.mission.path.ahead.empty()) {
+    view.series.push_back(PlanAhead(snap, p));
   }
   const float top = Largest(view.series, 4);
   view.y_max = RoundUp(top * 1.05f, top > 20 ? 10 : (top > 8 ? 5 : 2));
@@ -196,10 +193,9 @@ PlotView RatePlot(const EngineSnapshot& snap, const Palette& p, const HistorySam
                           3 * snap.navigation.vision.estimate.sigma_v_mps.z()),
                  RateOf(snap, &HistorySample::truth_p_WB, p.truth, Stroke::kDotted),
                  RateOf(snap, &HistorySample::gps_p_WB, p.gps, Stroke::kSolid)};
-  const auto limit = static_cast<float>(snap.settings.mission.descent_rate_mps * 1.5);
   view.y_min = -0.25f;
-  view.y_max = RoundUp(limit * 1.2f, 0.5f);
-  view.limits = {{limit, true, "Limit " + Fixed(static_cast<double>(limit), 1) + " m/s"}};
+  view.limits = LimitLine(snap, LimitId::kDescentRate);
+  view.y_max = RoundUp(1.2f * (view.limits.empty() ? 1.5f : view.limits.front().value), 0.5f);
   view.current = Fixed(now.descent_rate_mps, 2) + " m/s";
   return view;
 }
@@ -209,8 +205,7 @@ PlotView CoherencePlot(const EngineSnapshot& snap, const Palette& p, const Histo
   view.series = {Estimate(snap, &HistorySample::coherence, p, NAN)};
   view.y_min = 0.4f;
   view.y_max = 1.0f;
-  const auto limit = static_cast<float>(snap.settings.tracking.min_coherence);
-  view.limits = {{limit, false, "Limit " + Fixed(static_cast<double>(limit), 2) + ": re-anchor"}};
+  view.limits = LimitLine(snap, LimitId::kCoherence);
   view.current = Fixed(now.coherence, 2);
   return view;
 }
@@ -218,9 +213,9 @@ PlotView CoherencePlot(const EngineSnapshot& snap, const Palette& p, const Histo
 PlotView ResidualPlot(const EngineSnapshot& snap, const Palette& p, const HistorySample& now) {
   PlotView view = Base("residual", "Vision residual", "σ");
   view.series = {Estimate(snap, &HistorySample::residual_sigma, p, NAN)};
-  view.y_min = -4;
+  view.y_min = 0;
   view.y_max = 4;
-  view.limits = {{3, true, "Gate ± 3 σ"}, {-3, false, ""}};
+  view.limits = LimitLine(snap, LimitId::kResidual);
   view.current = Fixed(now.residual_sigma, 1) + Unit(now.residual_sigma, " σ");
   return view;
 }
@@ -229,9 +224,8 @@ PlotView PathPlot(const EngineSnapshot& snap, const Palette& p, const HistorySam
   PlotView view = Base("path", "Off the planned path", "m");
   view.series = {Estimate(snap, &HistorySample::glide_deviation_m, p,
                           3 * snap.navigation.vision.estimate.sigma_p_m.norm())};
-  const auto limit = static_cast<float>(kMaxOffPath_m);
   view.y_max = 1.6f;
-  view.limits = {{limit, true, "Limit " + Fixed(kMaxOffPath_m, 1) + " m"}};
+  view.limits = LimitLine(snap, LimitId::kOffPath);
   view.current = Fixed(now.glide_deviation_m, 2) + Unit(now.glide_deviation_m, " m");
   return view;
 }

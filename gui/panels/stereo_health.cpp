@@ -16,13 +16,14 @@ struct HealthRow {
   bool fine = true;
 };
 
-bool HasAlarm(const EngineSnapshot& snap, AlarmId id) {
-  for (const Alarm& alarm : snap.mission.alarms) {
-    if (alarm.active && alarm.kind == id) {
-      return true;
-    }
-  }
-  return false;
+/// "max 0.50 px" and whether the figure keeps it, as the engine says.
+HealthRow WithLimit(const EngineSnapshot& snap, LimitId id, const char* name, std::string value) {
+  const LimitRow* limit = FindLimit(snap.mission.limits, id);
+  return {name, std::move(value),
+          limit == nullptr           ? ""
+          : id == LimitId::kExposure ? "max " + LimitWords(*limit) + " either way"
+                                     : "max " + LimitWords(*limit),
+          limit == nullptr || !limit->over};
 }
 
 std::string PictureWords(const StereoQuality& q) {
@@ -51,14 +52,13 @@ std::vector<HealthRow> RowsOf(const EngineSnapshot& snap) {
       {"Coverage", Fixed(100 * q.coverage, 0) + " %", ""},
       {"Median depth", Fixed(q.median_depth_m, 2) + " m", ""},
       {"Disparity sigma", Fixed(q.median_sigma_px, 3) + " px", ""},
-      {"Row error", Fixed(q.row_error_px, 2) + " px", "max 0.50 px",
-       !HasAlarm(snap, AlarmId::kRowError)},
+      WithLimit(snap, LimitId::kRowError, "Row error", Fixed(q.row_error_px, 2) + " px"),
       {"Row shift, spread", Signed(q.row_shift_px, 2) + " px, " + Fixed(q.row_spread_px, 2) + " px",
        ""},
-      {"Right over left brightness", Fixed(q.exposure_ratio, 2), "0.50 to 2.00",
-       !HasAlarm(snap, AlarmId::kExposure)},
-      {"Range against the laser", AgreementWords(snap.range_agreement), "max 2 %",
-       !HasAlarm(snap, AlarmId::kRangeScale)},
+      WithLimit(snap, LimitId::kExposure, "Brightness, right over left",
+                Fixed(q.exposure_ratio, 2)),
+      WithLimit(snap, LimitId::kRangeScale, "Range against the laser",
+                AgreementWords(snap.range_agreement)),
   };
 }
 

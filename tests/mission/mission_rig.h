@@ -22,6 +22,7 @@ struct SmallVehicle {
   std::uint64_t boot_id = 77;
   VehicleMode mode = VehicleMode::kHover;
   std::uint64_t approval_id = 0;
+  double wind_mps = 0;
   double height_m = 20;
   double mode_for_s = 0;
   bool answers = true;
@@ -97,6 +98,7 @@ struct MissionRig {
     AddSite(102, 'B', {-6, 8, 0});
     navigation.gps.running = navigation.gps.estimate.healthy = true;
     tracker.coherence = 0.95;
+    settings.mission.glide_slope_deg = 90;  // the small vehicle comes straight down
   }
 
   void AddSite(std::uint64_t id, char letter, const Eigen::Vector3d& p_WS) {
@@ -198,7 +200,7 @@ struct MissionRig {
     return Do(ApproveSite{armed ? armed->id : 101, sequence}, origin);
   }
   Timestamp VehicleNow() const { return {now.us + clock_offset_us}; }
-  Eigen::Vector3d p_WB() const { return {9.5, 2, -vehicle.height_m}; }
+  Eigen::Vector3d p_WB() const { return {9.5, east_m, -vehicle.height_m}; }
   MissionState state() const { return mission.status().state; }
   template <typename T>
   int SentCount() const {
@@ -228,6 +230,7 @@ struct MissionRig {
       status.mode = vehicle.mode;
       status.on_ground = vehicle.mode == VehicleMode::kLanded;
       status.approval_id = vehicle.approval_id;
+      status.wind_speed_mps = vehicle.wind_mps;
       bundle.status = status;
       bundle.acks = std::exchange(vehicle.acks, {});
     }
@@ -238,6 +241,7 @@ struct MissionRig {
   SmallVehicle vehicle;
   FrameBundle bundle;  ///< of the newest Wait
   Timestamp now{1'000'000'000};
+  double east_m = 2;  ///< where the vehicle is
   std::uint64_t sequence = 0;
   std::int64_t clock_offset_us = 0;
   bool jumped = false;  ///< the next bundle follows a jump in time

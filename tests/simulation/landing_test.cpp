@@ -1,10 +1,12 @@
 // Landings on vision without pictures: touchdown, hand-over, refusals, outages, wave-off.
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <string>
 
 #include <gtest/gtest.h>
 
+#include "engine/flight/flight_path.h"
 #include "tests/simulation/simulated_station.h"
 
 namespace palace {
@@ -56,6 +58,39 @@ TEST_P(Landing, TouchesDownOnTheSite) {
               Deg(touchdown->tilt_rad));
 }
 
+// What the screen tells beforehand is what the vehicle takes.
+TEST_P(Landing, TakesTheTimeThePathSays) {
+  const LandingCase& c = GetParam();
+  SimulatorOptions options = Options(c.seed);
+  options.wind = c.wind;
+  Flight flight(options);
+  const Approval approval = flight.MakeApproval({c.north_m, c.east_m, 0}, c.heading_rad);
+  const FlightPath path = PathOf(approval, options.rig.position_body_m);
+  flight.simulator.Send(approval);
+  flight.estimates_on = true;
+  const auto now_s = [&] { return SecondsBetween(Simulator::kEpoch, flight.last->time); };
+  const Truth& hover = flight.last->truth.back();
+  const double align_s =
+      now_s() + TimeToAlign(path, hover.X_WB.p, EulerFromRotation(hover.X_WB.R).yaw_rad);
+  ASSERT_TRUE(flight.StepUntil(VehicleMode::kDescend, 60));
+  EXPECT_NEAR(align_s, now_s(), 3);
+  std::vector<double> told_s;
+  while (flight.last->status->mode != VehicleMode::kLanded && now_s() < 120) {
+    const Truth& truth = flight.last->truth.back();
+    told_s.push_back(now_s() + TimeToTouchdown(path, truth.X_WB.p, truth.v_WB));
+    flight.Step();
+  }
+  ASSERT_EQ(flight.last->status->mode, VehicleMode::kLanded);
+  const auto [early, late] = std::minmax_element(told_s.begin(), told_s.end());
+  std::printf(
+      "  seed %d: align told %.1f s, touchdown at %.1f s, told %.1f s at first, %.1f to %.1f s\n",
+      static_cast<int>(c.seed), align_s, now_s(), told_s.front(), *early, *late);
+  // Above the site it waits until the vehicle is still, in gusts longer.
+  EXPECT_NEAR(told_s.front(), now_s(), c.wind.mean_mps > 0 ? 12 : 2);
+  EXPECT_GT(*early, now_s() - (c.wind.mean_mps > 0 ? 12 : 4));
+  EXPECT_LT(*late, now_s() + 6);
+}
+
 INSTANTIATE_TEST_SUITE_P(Calm, Landing,
                          testing::Values(LandingCase{1, 15.7, 0, 0, {}, 0.3},
                                          LandingCase{2, 12, 5, 0, {}, 0.3},
@@ -66,6 +101,22 @@ INSTANTIATE_TEST_SUITE_P(LightWind, Landing,
                          testing::Values(LandingCase{6, 16, 1, 0, {4, 0.2, 5}, 0.8},
                                          LandingCase{7, 16, 1, 0, {4, 1.5, 5}, 0.8},
                                          LandingCase{8, 14, -3, 0.5, {4, 3.0, 5}, 0.8}));
+
+TEST(Autopilot, FliesTheDescentRateThatWasApproved) {
+  for (const double rate_mps : {0.4, 0.8, 1.2}) {
+    Flight flight(Options(21));
+    Approval approval = flight.MakeApproval({17, 0, 0});
+    approval.descent_rate_mps = rate_mps;
+    flight.simulator.Send(approval);
+    flight.estimates_on = true;
+    ASSERT_TRUE(flight.StepUntil(VehicleMode::kDescend, 60)) << rate_mps;
+    flight.StepSeconds(6);
+    const double from_m = -flight.last->truth.back().X_WB.p.z();
+    flight.StepSeconds(3);
+    ASSERT_EQ(flight.last->status->mode, VehicleMode::kDescend) << rate_mps;
+    EXPECT_NEAR((from_m + flight.last->truth.back().X_WB.p.z()) / 3, rate_mps, 0.1);
+  }
+}
 
 TEST(Autopilot, HandOverShiftsTheReferenceInsteadOfTheVehicle) {
   Flight flight(Options(8));
@@ -132,6 +183,10 @@ TEST(Autopilot, RefusesApprovalsThatAreNotForThisMoment) {
       {"not finite", [](Approval& a, const FrameBundle&) { a.p_WS.y() = NAN; }, "finite"},
       {"glide slope", [](Approval& a, const FrameBundle&) { a.glide_slope_rad = 0.05; },
        "glide slope"},
+      {"descent rate", [](Approval& a, const FrameBundle&) { a.descent_rate_mps = 2; },
+       "descent rate"},
+      {"no descent rate", [](Approval& a, const FrameBundle&) { a.descent_rate_mps = 0; },
+       "descent rate"},
       {"far away", [](Approval& a, const FrameBundle&) { a.p_WS.x() = 500; }, "100 m"},
       {"signature", [](Approval& a, const FrameBundle&) { a.signature = {1}; }, "forged"},
   };
