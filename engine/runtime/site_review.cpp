@@ -11,17 +11,20 @@ SiteReview ReviewSite(const LandingSite& site, const std::optional<LandingSite>&
                       const SladSettings& settings) {
   SiteReview review;
   review.letter = site.letter;
-  const std::string name = std::string("Site ") + site.letter;
+  review.reason = "Site ";
+  review.reason += site.letter;
   if (!now) {
-    review.reason = name + " is not on this map.";
+    review.reason += " is not on this map.";
     return review;
   }
   const SiteFinding found = JudgeRecheck(now, {}, {site.confirmed, site.clearance_m}, settings);
   review.kept = found.holds();
-  review.reason = found.finding == Finding::kGood
-                      ? name + WithNumbers(" has %.1f m to the nearest hazard, min %.1f m.",
-                                           now->safe_distance_m, now->clear_radius_m)
-                      : name + ": " + found.reason + ".";
+  if (found.finding == Finding::kGood) {
+    review.reason += WithNumbers(" has %.1f m to the nearest hazard, min %.1f m.",
+                                 now->safe_distance_m, now->clear_radius_m);
+  } else {
+    review.reason += ": " + found.reason + ".";
+  }
   return review;
 }
 

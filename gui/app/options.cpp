@@ -60,8 +60,7 @@ void Declare(CLI::App& app, AppOptions& options, SourceArguments& sources, bool&
       ->capture_default_str();
   app.add_option("--wind", options.wind_mps,
                  "Mean wind of the simulation 6 m above ground, m/s; with more than 8 at the "
-                 "vehicle nothing "
-                 "can be approved")
+                 "vehicle nothing can be approved")
       ->check(FiniteRange(0.0, 15.0))
       ->capture_default_str();
   app.add_option("--settings", options.settings_file, "Settings file (TOML)");

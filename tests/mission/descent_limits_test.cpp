@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/flight/flight_path.h"
 #include "tests/mission/mission_rig.h"
 
 namespace palace {
@@ -50,7 +51,7 @@ TEST(WindGuard, BlocksApproveBeyondItsLimitOnly) {
   rig.vehicle.wind_mps = 9.24;
   rig.Arm();
   EXPECT_EQ(rig.mission.status().cannot_approve_reason, "Wind 9.2 m/s, max 8.0 m/s");
-  EXPECT_EQ(rig.mission.status().guards.back().id, "G15");
+  EXPECT_EQ(rig.mission.status().guards.back().id, GuardId::kWind);
   EXPECT_TRUE(Row(rig, LimitId::kWind).over);
   EXPECT_EQ(Row(rig, LimitId::kWind).enforced_by, EnforcedBy::kGuard);
 }
