@@ -12,6 +12,7 @@
 #include "gui/platform/imgui_backend.h"
 #include "gui/platform/offscreen.h"
 #include "gui/platform/screenshot.h"
+#include "gui/widgets/imgui_input.h"
 
 namespace palace {
 namespace {
@@ -47,7 +48,7 @@ class HeadlessRun {
       return backend.error();
     }
     backend_ = std::move(*backend);
-    MapKeysForOffscreen();
+    StartFedInput();
     Result<std::unique_ptr<View>> view = View::Create(options_.theme);
     if (!view) {
       return view.error();
@@ -142,7 +143,7 @@ class HeadlessRun {
   UiState state_;
   double wanted_scale_ = 1;
   double time_s_ = 0;
-  std::vector<int> keys_down_;
+  std::vector<ImGuiKey> keys_down_;
   std::vector<std::string> screenshots_;
 };
 

@@ -5,7 +5,8 @@
 #include <map>
 
 #include <GLFW/glfw3.h>
-#include <imgui.h>
+
+#include "gui/widgets/imgui_input.h"
 
 namespace palace {
 namespace {
@@ -43,35 +44,27 @@ std::string GlfwKeyName(int key) {
 
 }  // namespace
 
-void MapKeysForOffscreen() {
-  ImGuiIO& io = ImGui::GetIO();
-  for (int key = 0; key < ImGuiKey_COUNT; ++key) {
-    io.KeyMap[key] = key;
-  }
-}
-
-void FeedScriptInput(const ScriptInput& input, std::vector<int>& previous) {
-  ImGuiIO& io = ImGui::GetIO();
-  io.MousePos = input.mouse;
-  io.MouseDown[0] = input.mouse_down;
-  for (const int slot : previous) {
-    io.KeysDown[slot] = false;
+void FeedScriptInput(const ScriptInput& input, std::vector<ImGuiKey>& previous) {
+  FeedMousePosition(input.mouse);
+  FeedMouseButton(0, input.mouse_down);
+  for (const ImGuiKey key : previous) {
+    FeedKey(key, false);
   }
   previous.clear();
-  io.KeyShift = io.KeyCtrl = io.KeyAlt = false;
+  bool shift = false, ctrl = false;
   for (const auto& keys : {input.key, input.hold_key}) {
     if (!keys) {
       continue;
     }
-    io.KeyShift |= keys->find("Shift+") != std::string::npos;
-    io.KeyCtrl |= keys->find("Ctrl+") != std::string::npos;
+    shift |= keys->find("Shift+") != std::string::npos;
+    ctrl |= keys->find("Ctrl+") != std::string::npos;
     const auto named = NamedKeys().find(BaseKey(*keys));
     if (named != NamedKeys().end()) {
-      const int slot = io.KeyMap[named->second];
-      io.KeysDown[slot] = true;
-      previous.push_back(slot);
+      FeedKey(named->second, true);
+      previous.push_back(named->second);
     }
   }
+  FeedModifiers(shift, ctrl);
 }
 
 std::string KeyName(const KeyEvent& event) {

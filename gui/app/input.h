@@ -4,16 +4,16 @@
 #include <string>
 #include <vector>
 
+#include <imgui.h>
+
 #include "gui/app/script.h"
 #include "gui/platform/window.h"
 
 namespace palace {
 
-/// Where no backend fills it (offscreen): one slot a named key.
-void MapKeysForOffscreen();
-/// Puts the script's mouse and keys into ImGui's input, before the frame. `previous` are the keys
-/// that were down; they are released first.
-void FeedScriptInput(const ScriptInput& input, std::vector<int>& previous);
+/// Puts the script's mouse and keys into ImGui's input, before the frame, after StartFedInput().
+/// `previous` are the keys that were down; they are released first.
+void FeedScriptInput(const ScriptInput& input, std::vector<ImGuiKey>& previous);
 /// "Shift+Escape", "Ctrl+Z", "Space": the key table's spelling. Letters follow the keyboard's
 /// layout.
 std::string KeyName(const KeyEvent& event);

@@ -18,6 +18,7 @@
 #include "gui/platform/imgui_backend.h"
 #include "gui/platform/screenshot.h"
 #include "gui/platform/window.h"
+#include "gui/widgets/imgui_input.h"
 
 namespace palace {
 namespace {
@@ -75,6 +76,9 @@ class WindowedRun {
       return backend.error();
     }
     backend_ = std::move(*backend);
+    if (script_) {
+      StartFedInput();
+    }
     Result<std::unique_ptr<View>> view = View::Create(options_.theme);
     if (!view) {
       return view.error();
@@ -221,7 +225,7 @@ class WindowedRun {
   double start_s_ = 0;
   double last_s_ = 0;
   double frame_ms_ = 0;
-  std::vector<int> keys_down_;
+  std::vector<ImGuiKey> keys_down_;
   std::vector<std::string> screenshots_;
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "gui/panels/fly_panels.h"
+#include "gui/widgets/imgui_input.h"
 
 namespace palace {
 
@@ -37,15 +38,14 @@ void HandleKeys(const EngineSnapshot& snap, FlyState& state, UiFrame& ui) {
   if (io.WantTextInput || ui.blocked_by_popup) {
     return;
   }
-  if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Tab), true)) {
+  if (KeyPressed(ImGuiKey_Tab, true)) {
     StepFocus(snap, state, io.KeyShift ? -1 : 1);
   }
   if (io.MouseClicked[0]) {
     state.focus = FlyFocus::kNone;  // the ring is for the keyboard only
   }
   if (state.focus == FlyFocus::kSites && state.sites.highlighted != 0 &&
-      MaySelect(snap, state.sites.highlighted) &&
-      ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter), false)) {
+      MaySelect(snap, state.sites.highlighted) && KeyPressed(ImGuiKey_Enter, false)) {
     ui.intents.push_back(CommandAction(SelectSite{state.sites.highlighted}));
   }
 }

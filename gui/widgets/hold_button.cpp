@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "gui/widgets/icons.h"
+#include "gui/widgets/imgui_input.h"
 #include "gui/widgets/number_text.h"
 
 namespace palace {
@@ -124,15 +125,14 @@ bool DrawHoldButton(UiFrame& ui, std::string_view name, const Rect& rect,
   const Style& s = ui.style;
   const Palette& p = s.palette;
   const ImGuiIO& io = ImGui::GetIO();
-  const int enter = ImGui::GetKeyIndex(ImGuiKey_Enter);
   HoldInput input;
   input.now_s = ui.ui_time_s;
   input.pointer_inside = rect.Contains(io.MousePos);
   input.mouse_pressed = io.MouseClicked[0];
   input.mouse_down = io.MouseDown[0];
   input.has_focus = view.focused;
-  input.key_pressed = !io.WantTextInput && ImGui::IsKeyPressed(enter, false);
-  input.key_down = ImGui::IsKeyDown(enter);
+  input.key_pressed = !io.WantTextInput && KeyPressed(ImGuiKey_Enter, false);
+  input.key_down = KeyDown(ImGuiKey_Enter);
   input.popup = ui.blocked_by_popup;
   input.blocked = view.phase != HoldPhase::kReady;
   input.subject = view.subject;

@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "gui/widgets/icons.h"
+#include "gui/widgets/imgui_input.h"
 
 namespace palace {
 namespace {
@@ -145,7 +146,7 @@ bool RunTyping(UiFrame& ui, const Rect& field, const SliderRow& row, const Setti
       ImGui::InputText("##value", state.text, sizeof state.text,
                        ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
   const bool left = !state.focus_wanted && !ImGui::IsItemActive();
-  const bool escaped = ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape), false);
+  const bool escaped = KeyPressed(ImGuiKey_Escape, false);
   state.focus_wanted = state.focus_wanted && !ImGui::IsItemActive();
   ImGui::PopStyleColor(2);
   ImGui::PopStyleVar();

@@ -13,6 +13,7 @@
 #include "engine/calibration/target_detection.h"
 #include "engine/capture/picture_file.h"
 #include "tests/calibration/calibration_world.h"
+#include "tests/support/reference_data.h"
 
 namespace palace {
 namespace {
@@ -111,10 +112,10 @@ CahvorModel ModelOf(const nlohmann::json& json) {
 }
 
 TEST(DotGridTest, TruthIsFoundWithinTheLimitsAndItsSigmas) {
-  const fs::path folder = fs::path(PALACE_SHARED_DATA_DIR) / "dotgrid_synthetic";
+  const fs::path folder = ReferenceData("dotgrid_synthetic");
   std::ifstream file(folder / "truth.json");
   if (!file) {
-    GTEST_SKIP() << folder << " is not there";
+    GTEST_SKIP() << NoReferenceData("dotgrid_synthetic");
   }
   const nlohmann::json json = nlohmann::json::parse(file);
   CalibrationSession session;
@@ -155,9 +156,9 @@ TEST(DotGridTest, TruthIsFoundWithinTheLimitsAndItsSigmas) {
 }
 
 TEST(ChessboardTest, PhotographedPairsReachOpenCvsFigures) {
-  const fs::path folder = fs::path(PALACE_SHARED_DATA_DIR) / "opencv_stereo_calib";
+  const fs::path folder = ReferenceData("opencv_stereo_calib");
   if (!fs::exists(folder / "left01.jpg")) {
-    GTEST_SKIP() << folder << " is not there";
+    GTEST_SKIP() << NoReferenceData("opencv_stereo_calib");
   }
   CalibrationTarget target;
   target.kind = TargetKind::kChessboard;
@@ -189,9 +190,9 @@ TEST(ChessboardTest, PhotographedPairsReachOpenCvsFigures) {
 
 /// The board is cut through its outermost squares, and OpenCV finds 8 x 6 corners in most pictures.
 TEST(ChessboardTest, APartOfAPhotographedBoardIsNotTaken) {
-  const fs::path folder = fs::path(PALACE_SHARED_DATA_DIR) / "opencv_stereo_calib";
+  const fs::path folder = ReferenceData("opencv_stereo_calib");
   if (!fs::exists(folder / "left01.jpg")) {
-    GTEST_SKIP() << folder << " is not there";
+    GTEST_SKIP() << NoReferenceData("opencv_stereo_calib");
   }
   for (const char* name :
        {"left03.jpg", "left05.jpg", "left09.jpg", "right06.jpg", "right12.jpg"}) {

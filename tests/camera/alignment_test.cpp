@@ -24,7 +24,7 @@ void ExpectModel(const CahvorModel& model, const json& expected) {
 TEST(AlignmentVectors, LinearizedModelsAreThoseOfJpl) {
   const auto vectors = ReadVectors("camera_models.json");
   if (!vectors) {
-    GTEST_SKIP() << "no " << SharedData("cahvor_vectors");
+    GTEST_SKIP() << NoReferenceData("cahvor_vectors");
   }
   int compared = 0;
   for (const json& entry : vectors->at("models")) {
@@ -47,7 +47,7 @@ TEST(AlignmentVectors, LinearizedModelsAreThoseOfJpl) {
 TEST(AlignmentVectors, PairsAreThoseOfJpl) {
   const auto vectors = ReadVectors("stereo_alignment.json");
   if (!vectors) {
-    GTEST_SKIP() << "no " << SharedData("cahvor_vectors");
+    GTEST_SKIP() << NoReferenceData("cahvor_vectors");
   }
   const CameraModel left = JplModelFrom(vectors->at("models").at("cahvor_640_landing_left"));
   const CameraModel right = JplModelFrom(vectors->at("models").at("cahvor_640_landing_right"));

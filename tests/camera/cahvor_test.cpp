@@ -31,7 +31,7 @@ CahvorModel Example() {
 TEST(CahvorVectors, InternalsAndPinholeAgreeWithTheReference) {
   const auto vectors = ReadVectors("camera_models.json");
   if (!vectors) {
-    GTEST_SKIP() << "no " << SharedData("cahvor_vectors");
+    GTEST_SKIP() << NoReferenceData("cahvor_vectors");
   }
   for (const json& entry : vectors->at("models")) {
     SCOPED_TRACE(entry.at("id").get<std::string>());

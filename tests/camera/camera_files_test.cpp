@@ -245,9 +245,10 @@ TEST(CameraFiles, FormatsRefuseFamiliesTheyCannotHold) {
 }
 
 TEST(CameraFiles, RealFilesParse) {
-  const auto folder = SharedData("mrcal_reference");
-  if (!std::filesystem::exists(folder)) {
-    GTEST_SKIP() << "no " << folder;
+  for (const char* set : {"mrcal_reference", "msl_navcam_label", "opencv_stereo_calib"}) {
+    if (!HasReferenceData(set)) {
+      GTEST_SKIP() << NoReferenceData(set);
+    }
   }
   for (const char* name :
        {"mrcal_reference/splined-0.scale0.6.cahvor", "mrcal_reference/splined-1.scale0.6.cahvor",
@@ -257,7 +258,7 @@ TEST(CameraFiles, RealFilesParse) {
         "msl_navcam_label/geometric_camera_model_group.txt",
         "opencv_stereo_calib/left_intrinsics.yml", "opencv_stereo_calib/intrinsics.yml"}) {
     SCOPED_TRACE(name);
-    const auto model = ReadCameraFile(SharedData(name), {StereoSide::kRight, {}});
+    const auto model = ReadCameraFile(ReferenceData(name), {StereoSide::kRight, {}});
     ASSERT_TRUE(model.ok()) << model.error().message;
     const auto text = CameraToText(*model, FormatFor(*model, 0));
     ASSERT_TRUE(text.ok());
@@ -267,17 +268,17 @@ TEST(CameraFiles, RealFilesParse) {
     ASSERT_TRUE(ray);
     EXPECT_EQ(RayFromPixelCamera(again, {300, 200})->direction, ray->direction);
   }
-  const auto list = ReadCameraFile(SharedData("opencv_stereo_calib/stereo_calib.xml"));
+  const auto list = ReadCameraFile(ReferenceData("opencv_stereo_calib/stereo_calib.xml"));
   ASSERT_FALSE(list.ok()) << "a list of pictures";
   EXPECT_NE(list.error().message.find("camera_matrix is missing"), std::string::npos);
 }
 
 TEST(CameraFiles, TheMslNavcamLabelProjectsAsPublished) {
-  const auto path = SharedData("msl_navcam_label/geometric_camera_model_group.txt");
-  if (!std::filesystem::exists(path)) {
-    GTEST_SKIP() << "no " << path;
+  if (!HasReferenceData("msl_navcam_label")) {
+    GTEST_SKIP() << NoReferenceData("msl_navcam_label");
   }
-  const auto model = ReadCameraFile(path);
+  const auto model =
+      ReadCameraFile(ReferenceData("msl_navcam_label/geometric_camera_model_group.txt"));
   ASSERT_TRUE(model.ok()) << model.error().message;
   const auto pixel = ProjectCamera(*model, {19.494, -4.013, 21.262});
   ASSERT_TRUE(pixel);

@@ -24,7 +24,7 @@ using Matrix23 = Eigen::Matrix<double, 2, 3>;
 TEST(CameraVectors, JplModelsProjectAndBackProject) {
   const auto vectors = ReadVectors("camera_models.json");
   if (!vectors) {
-    GTEST_SKIP() << "no " << SharedData("cahvor_vectors");
+    GTEST_SKIP() << NoReferenceData("cahvor_vectors");
   }
   int rows = 0;
   for (const json& entry : vectors->at("models")) {
@@ -60,7 +60,7 @@ TEST(CameraVectors, JplModelsProjectAndBackProject) {
 TEST(CameraVectors, TsaiModelsOfWillson) {
   const auto vectors = ReadVectors("tsai.json");
   if (!vectors) {
-    GTEST_SKIP() << "no " << SharedData("cahvor_vectors");
+    GTEST_SKIP() << NoReferenceData("cahvor_vectors");
   }
   int rows = 0;
   for (const json& entry : vectors->at("models")) {

@@ -1,7 +1,6 @@
 // The vectors of ../shared/data/cahvor_vectors as camera models.
 #pragma once
 
-#include <filesystem>
 #include <fstream>
 #include <optional>
 #include <string>
@@ -9,16 +8,13 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/model/camera_models.h"
+#include "tests/support/reference_data.h"
 
 namespace palace {
 
-inline std::filesystem::path SharedData(const std::string& name) {
-  return std::filesystem::path(PALACE_SHARED_DATA_DIR) / name;
-}
-
-/// The parsed file, or nothing where the shared data are absent.
+/// The parsed file, or nothing where the reference data are absent.
 inline std::optional<nlohmann::json> ReadVectors(const std::string& name) {
-  std::ifstream file(SharedData("cahvor_vectors/" + name));
+  std::ifstream file(ReferenceData("cahvor_vectors/" + name));
   return file ? std::optional<nlohmann::json>(nlohmann::json::parse(file)) : std::nullopt;
 }
 

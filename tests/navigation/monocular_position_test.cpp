@@ -8,6 +8,7 @@
 
 #include "engine/core/random.h"
 #include "engine/core/units.h"
+#include "tests/support/reference_data.h"
 
 namespace palace {
 namespace {
@@ -17,9 +18,9 @@ Eigen::Vector3d Vector(const nlohmann::json& list) {
 }
 
 TEST(MonocularPosition, AgreesWithTheReferenceVectors) {
-  std::ifstream file(PALACE_SHARED_DATA_DIR "/cahvor_vectors/monocular.json");
+  std::ifstream file(ReferenceData("cahvor_vectors/monocular.json"));
   if (!file) {
-    GTEST_SKIP() << "reference data is not here";
+    GTEST_SKIP() << NoReferenceData("cahvor_vectors");
   }
   const nlohmann::json data = nlohmann::json::parse(file);
   int count = 0;

@@ -83,7 +83,7 @@ TEST_F(CameraCommand, ProjectsAndBackProjectsEachOther) {
 TEST_F(CameraCommand, ReferenceVectorsComeOutOfTheProgram) {
   const auto vectors = ReadVectors("camera_models.json");
   if (!vectors) {
-    GTEST_SKIP() << "no " << SharedData("cahvor_vectors");
+    GTEST_SKIP() << NoReferenceData("cahvor_vectors");
   }
   for (const nlohmann::json& entry : vectors->at("models")) {
     SCOPED_TRACE(entry.at("id").get<std::string>());
@@ -194,7 +194,7 @@ TEST_F(CameraCommand, InfoTellsTheCameraWithUnits) {
 TEST_F(CameraCommand, AlignWritesThePairAndChecksTheRows) {
   const auto vectors = ReadVectors("stereo_alignment.json");
   if (!vectors) {
-    GTEST_SKIP() << "no " << SharedData("cahvor_vectors");
+    GTEST_SKIP() << NoReferenceData("cahvor_vectors");
   }
   const auto write = [&](const char* id, const char* name, bool linear) {
     CahvorModel model = CahvorFrom(vectors->at("models").at(id));

@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/scenarios/scenario.h"
+#include "tests/support/reference_data.h"
 
 namespace palace {
 namespace {
@@ -12,9 +13,9 @@ const std::filesystem::path kRig =
 class Photographs : public Scenario {
  protected:
   void SetUp() override {
-    pictures_ = std::filesystem::path(PALACE_SHARED_DATA_DIR) / "brighton_beach_rect";
+    pictures_ = ReferenceData("brighton_beach_rect");
     if (!std::filesystem::exists(pictures_ / "pair_25_26_left.png")) {
-      GTEST_SKIP() << "the photographs are not in " << pictures_;
+      GTEST_SKIP() << NoReferenceData("brighton_beach_rect");
     }
   }
   std::filesystem::path pictures_;

@@ -8,6 +8,7 @@
 #include "engine/core/version.h"
 #include "tests/scenarios/scenario.h"
 #include "tests/scenarios/survey_files.h"
+#include "tests/support/reference_data.h"
 
 namespace palace {
 namespace {
@@ -450,9 +451,9 @@ TEST_F(SurveyInput, NamesThatAreNoUtf8AreNamed) {
 
 /// The labelled samples: few objects pass for ground.
 TEST_F(SurveyInput, LabelledLidarShowsObjects) {
-  const std::filesystem::path data = std::filesystem::path(PALACE_SHARED_DATA_DIR) / "isprs_lidar";
+  const std::filesystem::path data = ReferenceData("isprs_lidar");
   if (!std::filesystem::exists(data / "samp31.xyz")) {
-    GTEST_SKIP() << "the labelled lidar is not in " << data;
+    GTEST_SKIP() << NoReferenceData("isprs_lidar");
   }
   const ProcessResult result =
       RunProcess(Palacectl({"evaluate", "site-lidar", "--data", data, "--out", "out"}), 120);

@@ -8,6 +8,7 @@
 #include "engine/runtime/engine.h"
 #include "gui/app/layout.h"
 #include "tests/scenarios/scenario.h"
+#include "tests/support/x_server.h"
 
 namespace palace {
 namespace {
@@ -18,21 +19,14 @@ constexpr int kHeight = 1080;
 class RealWindow : public Scenario {
  protected:
   void SetUp() override {
-    for (const char* program : {"Xvfb", "xdotool"}) {
-      if (FindProgram(program).empty()) {
-        GTEST_SKIP() << program << " is not installed";
-      }
+    if (!XServer::IsInstalled() || FindProgram("xdotool").empty()) {
+      GTEST_SKIP() << "xvfb or xdotool is not installed";
     }
-    ProcessOptions server;
-    server.command = {"Xvfb", "-displayfd",   "1",         "-screen",
-                      "0",    "1920x1080x24", "-nolisten", "tcp"};
-    server_ = std::make_unique<Process>(server);
-    ASSERT_TRUE(Until(20, [&] { return server_->Out().find('\n') != std::string::npos; }))
-        << server_->Err();
-    display_ = ":" + server_->Out().substr(0, server_->Out().find('\n'));
+    server_ = std::make_unique<XServer>();
+    ASSERT_NE(server_->display(), "") << server_->Complaint();
     ProcessOptions station = Palace({"--record", "rec", "--width", std::to_string(kWidth),
                                      "--height", std::to_string(kHeight), "--ui-scale", "1"});
-    station.environment = {{"DISPLAY", display_}};
+    station.environment = {{"DISPLAY", server_->display()}};
     station_ = std::make_unique<Process>(station);
     ASSERT_TRUE(Until(30, [&] {
       window_ = Tool({"search", "--onlyvisible", "--name", "PALACE"});
@@ -62,7 +56,7 @@ class RealWindow : public Scenario {
     ProcessOptions options;
     options.command = std::move(words);
     options.command.insert(options.command.begin(), "xdotool");
-    options.environment = {{"DISPLAY", display_}};
+    options.environment = {{"DISPLAY", server_->display()}};
     return RunProcess(options, 20).out;
   }
   void MoveTo(double x, double y) const {
@@ -124,9 +118,8 @@ class RealWindow : public Scenario {
     return pixels;
   }
 
-  std::unique_ptr<Process> server_;
+  std::unique_ptr<XServer> server_;
   std::unique_ptr<Process> station_;
-  std::string display_;
   std::string window_;
 };
 

@@ -15,6 +15,7 @@
 
 #include "engine/stereo/opencv_matchers.h"
 #include "engine/stereo/stereo.h"
+#include "tests/support/reference_data.h"
 
 namespace palace {
 namespace {
@@ -28,8 +29,7 @@ struct Aloe {
 };
 
 cv::Mat Read(const char* file) {
-  return cv::imread((std::filesystem::path(PALACE_SHARED_DATA_DIR) / "opencv_aloe" / file).string(),
-                    cv::IMREAD_GRAYSCALE);
+  return cv::imread((ReferenceData("opencv_aloe") / file).string(), cv::IMREAD_GRAYSCALE);
 }
 
 ImageU8 HalfOf(const cv::Mat& picture) {
@@ -177,7 +177,7 @@ Best BestSgbmAt(const std::vector<Curve>& peers, double coverage) {
 // of 40 to 60 % is ahead, by up to a third at 0.79: printed, not hidden.
 TEST(Aloe, WrongPixelsAgainstTheBestSgbmModeAtEqualCoverage) {
   if (Read("aloeL.jpg").empty()) {
-    GTEST_SKIP() << "no opencv_aloe in " << PALACE_SHARED_DATA_DIR;
+    GTEST_SKIP() << NoReferenceData("opencv_aloe");
   }
   const Aloe aloe = LoadAloe();
   const PinholeCamera camera{aloe.left.width(), aloe.left.height(), 600, 600, 320, 277};

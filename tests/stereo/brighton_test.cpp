@@ -16,6 +16,7 @@
 #include "engine/camera/files/rig_file.h"
 #include "engine/camera/rectification.h"
 #include "engine/stereo/stereo.h"
+#include "tests/support/reference_data.h"
 
 namespace palace {
 namespace {
@@ -59,7 +60,7 @@ std::optional<Matched> MatchPair(const std::string& rig) {
 TEST(Brighton, GroundLiesAFlightHeightBelow) {
   const auto matched = MatchPair("pair_25_26");
   if (!matched) {
-    GTEST_SKIP() << "no brighton_beach_rect in " << PALACE_SHARED_DATA_DIR;
+    GTEST_SKIP() << NoReferenceData("brighton_beach_rect");
   }
   const StereoQuality& quality = matched->quality;
   std::printf("median depth %.2f m, coverage %.3f, sigma %.3f px, rows %.3f px\n",
@@ -119,7 +120,7 @@ TEST(Brighton, FlatGroundIsFlatToTwoCentimetres) {
     SCOPED_TRACE(rig);
     const auto matched = MatchPair(rig);
     if (!matched) {
-      GTEST_SKIP() << "no brighton_beach_rect in " << PALACE_SHARED_DATA_DIR;
+      GTEST_SKIP() << NoReferenceData("brighton_beach_rect");
     }
     constexpr int kSide_px = 59;  // 2 m at 39 m
     const ImageF& depth_m = matched->range.depth_m;

@@ -10,6 +10,7 @@
 #include <imgui.h>
 
 #include "gui/widgets/draw.h"
+#include "gui/widgets/imgui_input.h"
 
 namespace palace {
 
@@ -23,9 +24,7 @@ class UiHarness {
     io.DisplaySize = {width, height};
     io.DeltaTime = 1.0f / 60;
     io.BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;
-    for (int key = 0; key < ImGuiKey_COUNT; ++key) {
-      io.KeyMap[key] = key;  // key code = name
-    }
+    StartFedInput();
     style.scale = scale;
     style.palette = MakeDarkPalette();
     LoadFonts(scale);
@@ -52,7 +51,7 @@ class UiHarness {
     EndCanvas();
     ImGui::Render();
   }
-  void MoveTo(ImVec2 p) { Use(), ImGui::GetIO().MousePos = p; }
+  void MoveTo(ImVec2 p) { Use(), FeedMousePosition(p); }
   void MoveTo(const std::string& item) {
     if (const Item* found = items.Find(item)) {
       MoveTo(found->rect.centre());
@@ -60,8 +59,8 @@ class UiHarness {
       std::fprintf(stderr, "no item %s\n", item.c_str());
     }
   }
-  void Button(bool down) { Use(), ImGui::GetIO().MouseDown[0] = down; }
-  void Key(ImGuiKey key, bool down) { Use(), ImGui::GetIO().KeysDown[key] = down; }
+  void Button(bool down) { Use(), FeedMouseButton(0, down); }
+  void Key(ImGuiKey key, bool down) { Use(), FeedKey(key, down); }
   /// Moves onto the item of the last frame, presses and releases over four frames.
   void Click(const std::string& item, const std::function<void(UiFrame&)>& draw) {
     MoveTo(item);

@@ -144,8 +144,8 @@ TEST(FlyFrame, AcknowledgeRefuseAndHoldHereAskForWhatTheySay) {
 TEST(FlyMaps, DraggingTheLimitTickSetsTheLimit) {
   FlyWindow window(1920, 1080, fake::Snapshot(MissionState::kProposed));
   window.ui.MoveTo("limit/slad.max_slope_deg");
-  const ImVec2 at = ImGui::GetIO().MousePos;
   window.Run(0.05);
+  const ImVec2 at = ImGui::GetIO().MousePos;
   window.ui.Button(true);
   window.Run(0.05);
   window.ui.MoveTo(ImVec2{at.x - 26.4f, at.y});  // a tenth of the 264 px bar: 2 degrees of 20

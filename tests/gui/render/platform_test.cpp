@@ -1,5 +1,4 @@
 // The offscreen screen: ImGui without any window, fonts, screenshots.
-#include <cstdlib>
 #include <filesystem>
 
 #include <gtest/gtest.h>
@@ -10,6 +9,8 @@
 #include "gui/platform/offscreen.h"
 #include "gui/platform/screenshot.h"
 #include "gui/platform/window.h"
+#include "tests/support/environment.h"
+#include "tests/support/x_server.h"
 
 namespace palace {
 namespace {
@@ -81,19 +82,22 @@ TEST(ScreenshotTest, WritesWhatWasGivenAndNamesWhatItCannotWrite) {
 }
 
 TEST(WindowTest, WithoutADisplaySaysHowToRunWithoutOne) {
-  if (std::getenv("DISPLAY") != nullptr || std::getenv("WAYLAND_DISPLAY") != nullptr) {
-    GTEST_SKIP() << "this machine has a display";
-  }
+  const EnvironmentVariable x11("DISPLAY", std::nullopt), wayland("WAYLAND_DISPLAY", std::nullopt);
   const auto window = Window::Open("PALACE", 640, 360, true);
   ASSERT_FALSE(window.ok());
   EXPECT_NE(window.error().message.find("--headless"), std::string::npos);
 }
 
 TEST(WindowTest, HiddenWindowDrawsAndResizes) {
-  auto opened = Window::Open("PALACE", 320, 200, true);
-  if (!opened.ok()) {
-    GTEST_SKIP() << opened.error().message;
+  if (!XServer::IsInstalled()) {
+    GTEST_SKIP() << "xvfb is not installed";
   }
+  const XServer server;
+  ASSERT_NE(server.display(), "") << server.Complaint();
+  const EnvironmentVariable x11("DISPLAY", server.display());
+  const EnvironmentVariable wayland("WAYLAND_DISPLAY", std::nullopt);
+  auto opened = Window::Open("PALACE", 320, 200, true);
+  ASSERT_TRUE(opened.ok()) << opened.error().message;
   Window& window = **opened;
   auto backend = ImGuiBackend::ForWindow(window, 1);
   ASSERT_TRUE(backend.ok()) << backend.error().message;
