@@ -42,20 +42,16 @@ void DrawBar(UiFrame& ui, const Rect& track, float wall, const EvidenceRow& row)
 
 }  // namespace
 
-int DrawEvidenceRows(UiFrame& ui, const Rect& rect, const std::vector<EvidenceRow>& rows,
-                     bool narrow) {
+void DrawEvidenceRows(UiFrame& ui, const Rect& rect, const std::vector<EvidenceRow>& rows,
+                      bool narrow) {
   const Style& s = ui.style;
   const Palette& p = s.palette;
   const Metrics m = MetricsOf(s, narrow);
   const float height = EvidenceRowHeight(s, narrow);
-  int clicked = -1;
   float y = rect.y;
   for (std::size_t i = 0; i < rows.size(); ++i, y += height) {
     const EvidenceRow& row = rows[i];
     const Rect area{rect.x, y, rect.w, height};
-    if (Hovered(ui, area)) {
-      FillRect(Canvas(), area, p.control);
-    }
     const float middle = y + height / 2;
     DrawText(ui, s.body, p.text2, rect.x + s.Px(12), middle, row.name);
     float right = rect.right() - m.value_right;
@@ -75,14 +71,12 @@ int DrawEvidenceRows(UiFrame& ui, const Rect& rect, const std::vector<EvidenceRo
     DrawBar(ui, {bar_x, std::round(middle - s.Px(8) / 2), m.bar, s.Px(8)}, m.wall, row);
     ui.items.Add("evidence/" + row.name, area, true,
                  row.name + " " + row.value + " " + row.spread + " " + row.limit);
-    clicked = Clicked(ui, area) ? static_cast<int>(i) : clicked;
   }
   if (!rows.empty()) {
     const float wall_x = rect.right() - s.Px(12) - m.bar + m.wall;
     FillRect(Canvas(), {wall_x - s.Px(1), rect.y + s.Px(2), s.Px(2), y - rect.y - s.Px(4)},
              p.white_mark);
   }
-  return clicked;
 }
 
 }  // namespace palace

@@ -32,9 +32,9 @@ inline double ShareOfProbability(double p, double limit) {
   return (1 - p) / std::max(1 - limit, 1e-9);
 }
 
-/// Draws rows from the top of `rect` (full panel width); returns the index of a clicked row or -1.
-int DrawEvidenceRows(UiFrame& ui, const Rect& rect, const std::vector<EvidenceRow>& rows,
-                     bool narrow);
+/// Draws rows from the top of `rect` (full panel width); items "evidence/<name>".
+void DrawEvidenceRows(UiFrame& ui, const Rect& rect, const std::vector<EvidenceRow>& rows,
+                      bool narrow);
 inline float EvidenceRowHeight(const Style& s, bool narrow) { return s.Px(narrow ? 26 : 28); }
 
 }  // namespace palace

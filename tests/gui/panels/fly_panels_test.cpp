@@ -19,12 +19,9 @@ TEST(FlySites, AClickSelectsExactlyThatSiteOnce) {
 TEST(FlySites, TabHighlightsAndEnterArmsTheHighlightedOne) {
   FlyWindow window(1920, 1080, fake::Snapshot(MissionState::kProposed));
   for (int i = 0; i < 3; ++i) {
-    window.ui.Key(ImGuiKey_Tab, true);
-    window.Run(0.02);
-    window.ui.Key(ImGuiKey_Tab, false);
-    window.Run(0.02);
+    window.ui.Tap(ImGuiKey_Tab, window.draw);
   }
-  EXPECT_EQ(window.fly.sites.highlighted, 3u);
+  EXPECT_EQ(window.ui.highlighted_site, 3u);
   EXPECT_TRUE(window.ui.intents.empty());
   window.ui.Key(ImGuiKey_Enter, true);
   window.Run(1.5);  // held: arms once, never approves
@@ -143,9 +140,9 @@ TEST(FlyFrame, AcknowledgeRefuseAndHoldHereAskForWhatTheySay) {
 
 TEST(FlyMaps, DraggingTheLimitTickSetsTheLimit) {
   FlyWindow window(1920, 1080, fake::Snapshot(MissionState::kProposed));
-  window.ui.MoveTo("limit/slad.max_slope_deg");
-  const ImVec2 at = ImGui::GetIO().MousePos;
+  window.ui.MoveTo("tick/slad.max_slope_deg");
   window.Run(0.05);
+  const ImVec2 at = ImGui::GetIO().MousePos;
   window.ui.Button(true);
   window.Run(0.05);
   window.ui.MoveTo(ImVec2{at.x - 26.4f, at.y});  // a tenth of the 264 px bar: 2 degrees of 20
@@ -238,6 +235,20 @@ TEST(FlyLimits, AfterLandingAnUnlockedTrackerIsUnknownNotOverALimit) {
   EXPECT_NE(window.ui.items.Find("evidence/Coherence")->text.find("––"), std::string::npos);
   EXPECT_TRUE(HasText(window.ui.items, "On the ground"));
   EXPECT_FALSE(HasText(window.ui.items, "1 over a limit"));
+}
+
+TEST(FlyPictures, ViewAndCameraLieWhereTheLayoutSays) {
+  for (const ImVec2 size : {ImVec2(1280, 720), ImVec2(1920, 1080)}) {
+    FlyWindow window(size.x, size.y, fake::Snapshot(MissionState::kProposed));
+    const FlyLayout layout = ComputeFlyLayout(size.x, size.y, 1, false);
+    const auto same = [](const Rect& a, const Rect& b) {
+      return a.x == b.x && a.y == b.y && a.w == b.w && a.h == b.h;
+    };
+    EXPECT_TRUE(
+        same(window.ui.items.Find("view_3d")->rect, View3dScene(layout.view_3d, window.ui.style)));
+    EXPECT_TRUE(same(window.ui.items.Find("left_camera")->rect,
+                     LeftCameraImage(window.snap, layout.left_camera, window.ui.style)));
+  }
 }
 
 struct TextCase {
