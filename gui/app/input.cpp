@@ -5,7 +5,8 @@
 #include <map>
 
 #include <GLFW/glfw3.h>
-#include <imgui.h>
+
+#include "gui/widgets/imgui_input.h"
 
 namespace palace {
 namespace {
@@ -28,11 +29,11 @@ std::string BaseKey(const std::string& keys) {
 
 std::string GlfwKeyName(int key) {
   static const std::map<int, std::string> names = {
-      {GLFW_KEY_ESCAPE, "Escape"},  {GLFW_KEY_SPACE, "Space"}, {GLFW_KEY_ENTER, "Enter"},
-      {GLFW_KEY_KP_ENTER, "Enter"}, {GLFW_KEY_TAB, "Tab"},     {GLFW_KEY_LEFT, "Left"},
-      {GLFW_KEY_RIGHT, "Right"},    {GLFW_KEY_UP, "Up"},       {GLFW_KEY_DOWN, "Down"},
-      {GLFW_KEY_HOME, "Home"},      {GLFW_KEY_END, "End"},     {GLFW_KEY_KP_ADD, "+"},
-      {GLFW_KEY_KP_SUBTRACT, "-"},
+      {GLFW_KEY_ESCAPE, "Escape"},  {GLFW_KEY_SPACE, "Space"},   {GLFW_KEY_ENTER, "Enter"},
+      {GLFW_KEY_KP_ENTER, "Enter"}, {GLFW_KEY_TAB, "Tab"},       {GLFW_KEY_LEFT, "Left"},
+      {GLFW_KEY_RIGHT, "Right"},    {GLFW_KEY_UP, "Up"},         {GLFW_KEY_DOWN, "Down"},
+      {GLFW_KEY_HOME, "Home"},      {GLFW_KEY_END, "End"},       {GLFW_KEY_KP_ADD, "+"},
+      {GLFW_KEY_KP_SUBTRACT, "-"},  {GLFW_KEY_DELETE, "Delete"}, {GLFW_KEY_BACKSPACE, "Backspace"},
   };
   if (key >= GLFW_KEY_F1 && key <= GLFW_KEY_F12) {
     return "F" + std::to_string(key - GLFW_KEY_F1 + 1);
@@ -43,35 +44,56 @@ std::string GlfwKeyName(int key) {
 
 }  // namespace
 
-void MapKeysForOffscreen() {
-  ImGuiIO& io = ImGui::GetIO();
-  for (int key = 0; key < ImGuiKey_COUNT; ++key) {
-    io.KeyMap[key] = key;
-  }
-}
-
-void FeedScriptInput(const ScriptInput& input, std::vector<int>& previous) {
-  ImGuiIO& io = ImGui::GetIO();
-  io.MousePos = input.mouse;
-  io.MouseDown[0] = input.mouse_down;
-  for (const int slot : previous) {
-    io.KeysDown[slot] = false;
+void FeedScriptInput(const ScriptInput& input, std::vector<ImGuiKey>& previous) {
+  FeedMousePosition(input.mouse);
+  FeedMouseButton(0, input.mouse_down);
+  for (const ImGuiKey key : previous) {
+    FeedKey(key, false);
   }
   previous.clear();
-  io.KeyShift = io.KeyCtrl = io.KeyAlt = false;
+  bool shift = false, ctrl = false;
   for (const auto& keys : {input.key, input.hold_key}) {
     if (!keys) {
       continue;
     }
-    io.KeyShift |= keys->find("Shift+") != std::string::npos;
-    io.KeyCtrl |= keys->find("Ctrl+") != std::string::npos;
+    shift |= keys->find("Shift+") != std::string::npos;
+    ctrl |= keys->find("Ctrl+") != std::string::npos;
     const auto named = NamedKeys().find(BaseKey(*keys));
     if (named != NamedKeys().end()) {
-      const int slot = io.KeyMap[named->second];
-      io.KeysDown[slot] = true;
-      previous.push_back(slot);
+      FeedKey(named->second, true);
+      previous.push_back(named->second);
     }
   }
+  FeedModifiers(shift, ctrl);
+}
+
+void FeedShortTaps(const std::vector<KeyEvent>& events, std::vector<ImGuiKey>& held) {
+#if IMGUI_VERSION_NUM >= 18900
+  static_cast<void>(events);
+  static_cast<void>(held);
+#else
+  const auto has = [&](int key, KeyAction action) {
+    return std::any_of(events.begin(), events.end(), [&](const KeyEvent& event) {
+      return event.key == key && event.action == action;
+    });
+  };
+  std::vector<ImGuiKey> taps, down;
+  for (const KeyEvent& event : events) {
+    const auto named = NamedKeys().find(GlfwKeyName(event.key));
+    if (event.action == KeyAction::kPress && named != NamedKeys().end()) {
+      (has(event.key, KeyAction::kRelease) ? taps : down).push_back(named->second);
+    }
+  }
+  for (const ImGuiKey key : held) {
+    if (std::find(down.begin(), down.end(), key) == down.end()) {
+      FeedKey(key, false);
+    }
+  }
+  for (const ImGuiKey key : taps) {
+    FeedKey(key, true);
+  }
+  held = taps;
+#endif
 }
 
 std::string KeyName(const KeyEvent& event) {

@@ -4,16 +4,20 @@
 #include <string>
 #include <vector>
 
+#include <imgui.h>
+
 #include "gui/app/script.h"
 #include "gui/platform/window.h"
 
 namespace palace {
 
-/// Where no backend fills it (offscreen): one slot a named key.
-void MapKeysForOffscreen();
-/// Puts the script's mouse and keys into ImGui's input, before the frame. `previous` are the keys
-/// that were down; they are released first.
-void FeedScriptInput(const ScriptInput& input, std::vector<int>& previous);
+/// Puts the script's mouse and keys into ImGui's input, before the frame, after StartFedInput().
+/// `previous` are the keys that were down; they are released first.
+void FeedScriptInput(const ScriptInput& input, std::vector<ImGuiKey>& previous);
+/// Keys of the window that went down and up between two frames: held for one frame where ImGui
+/// reads arrays and would miss them; nothing where it takes events. `held` carries them to the next
+/// frame.
+void FeedShortTaps(const std::vector<KeyEvent>& events, std::vector<ImGuiKey>& held);
 /// "Shift+Escape", "Ctrl+Z", "Space": the key table's spelling. Letters follow the keyboard's
 /// layout.
 std::string KeyName(const KeyEvent& event);
