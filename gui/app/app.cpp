@@ -4,10 +4,9 @@
 #include <optional>
 
 #include "engine/core/log.h"
-#include "gui/app/headless.h"
+#include "gui/app/run.h"
 #include "gui/app/script.h"
 #include "gui/app/session.h"
-#include "gui/app/windowed.h"
 
 namespace palace {
 namespace {
@@ -41,8 +40,7 @@ int RunApp(const AppOptions& options) {
   if (!session) {
     return Fail(session.error());
   }
-  return options.headless ? RunHeadless(options, *session, std::move(*script), script_name)
-                          : RunWindowed(options, *session, std::move(script), script_name);
+  return RunStation(options, *session, std::move(script), script_name);
 }
 
 }  // namespace palace

@@ -10,11 +10,12 @@ namespace {
 constexpr double kMessageTime_s = 5;
 
 void Post(const CommandAction& action, CommandOrigin origin, const EngineSnapshot* snapshot,
-          bool mouse_held, Engine& engine, UiState& state) {
-  if (const auto* set = std::get_if<SetSetting>(&action); set && snapshot) {
-    if (FindSetting(set->name) != nullptr) {
-      RememberChange(state, *set, snapshot->preview_settings, mouse_held);
-    }
+          const Gesture& gesture, Engine& engine, UiState& state) {
+  if (snapshot) {
+    state.tune.history.Remember(action, *snapshot, gesture);
+  }
+  if (std::holds_alternative<WaveOff>(action)) {
+    state.frame.wave_off_sent_s = gesture.ui_time_s;
   }
   engine.Post({origin, action});
 }
@@ -27,16 +28,22 @@ void LoadPresetFile(const std::string& path, CommandOrigin origin, const EngineS
     ShowMessage(state, loaded.error().message, ui_time_s);
     return;
   }
-  int changed = 0;
+  std::vector<SetSetting> sets;
   for (const SettingInfo& info : SettingTable()) {
     const double value = GetSetting(*loaded, info.name);
     if (value != GetSetting(now, info.name)) {
-      Post(SetSetting{info.name, value}, origin, snapshot, false, engine, state);
-      ++changed;
+      sets.push_back({info.name, value});
     }
   }
-  state.preset_path = path;
-  ShowMessage(state, "Preset loaded, " + std::to_string(changed) + " values changed", ui_time_s);
+  if (snapshot) {
+    state.tune.history.Remember(sets, *snapshot);
+  }
+  for (const SetSetting& set : sets) {
+    engine.Post({origin, set});
+  }
+  state.tune.preset_path = path;
+  ShowMessage(state, "Preset loaded, " + std::to_string(sets.size()) + " values changed",
+              ui_time_s);
 }
 
 void SavePresetFile(const std::string& wanted, const EngineSnapshot* snapshot, double ui_time_s,
@@ -44,12 +51,12 @@ void SavePresetFile(const std::string& wanted, const EngineSnapshot* snapshot, d
   if (!snapshot) {
     return;
   }
-  const std::string path = !wanted.empty()              ? wanted
-                           : !state.preset_path.empty() ? state.preset_path
-                                                        : "config/preset.toml";
+  const std::string path = !wanted.empty()                   ? wanted
+                           : !state.tune.preset_path.empty() ? state.tune.preset_path
+                                                             : "config/preset.toml";
   const Status saved = SaveSettingsFile(path, snapshot->preview_settings);
   if (saved) {
-    state.preset_path = path;
+    state.tune.preset_path = path;
   }
   ShowMessage(state, saved ? "Preset saved to " + path : saved.error().message, ui_time_s);
 }
@@ -62,10 +69,11 @@ void ShowMessage(UiState& state, std::string text, double ui_time_s) {
 }
 
 void Dispatch(const Intents& intents, CommandOrigin origin, const EngineSnapshot* snapshot,
-              bool mouse_held, double ui_time_s, Engine& engine, UiState& state) {
+              const Gesture& gesture, Engine& engine, UiState& state) {
+  const double ui_time_s = gesture.ui_time_s;
   for (const Intent& intent : intents) {
     if (const auto* command = std::get_if<CommandAction>(&intent)) {
-      Post(*command, origin, snapshot, mouse_held, engine, state);
+      Post(*command, origin, snapshot, gesture, engine, state);
     } else if (const auto* playback = std::get_if<PlaybackControl>(&intent)) {
       engine.Control(*playback);
     } else {

@@ -8,9 +8,9 @@
 namespace palace {
 
 /// Commands go to the engine, playback to the source, the rest into the window state.
-/// `mouse_held` joins successive moves of one limit into one undo step.
+/// `gesture` joins successive moves of one limit into one step of the history.
 void Dispatch(const Intents& intents, CommandOrigin origin, const EngineSnapshot* snapshot,
-              bool mouse_held, double ui_time_s, Engine& engine, UiState& state);
+              const Gesture& gesture, Engine& engine, UiState& state);
 
 /// Shows one line to the operator for a few seconds.
 void ShowMessage(UiState& state, std::string text, double ui_time_s);

@@ -29,11 +29,11 @@ std::string BaseKey(const std::string& keys) {
 
 std::string GlfwKeyName(int key) {
   static const std::map<int, std::string> names = {
-      {GLFW_KEY_ESCAPE, "Escape"},  {GLFW_KEY_SPACE, "Space"}, {GLFW_KEY_ENTER, "Enter"},
-      {GLFW_KEY_KP_ENTER, "Enter"}, {GLFW_KEY_TAB, "Tab"},     {GLFW_KEY_LEFT, "Left"},
-      {GLFW_KEY_RIGHT, "Right"},    {GLFW_KEY_UP, "Up"},       {GLFW_KEY_DOWN, "Down"},
-      {GLFW_KEY_HOME, "Home"},      {GLFW_KEY_END, "End"},     {GLFW_KEY_KP_ADD, "+"},
-      {GLFW_KEY_KP_SUBTRACT, "-"},
+      {GLFW_KEY_ESCAPE, "Escape"},  {GLFW_KEY_SPACE, "Space"},   {GLFW_KEY_ENTER, "Enter"},
+      {GLFW_KEY_KP_ENTER, "Enter"}, {GLFW_KEY_TAB, "Tab"},       {GLFW_KEY_LEFT, "Left"},
+      {GLFW_KEY_RIGHT, "Right"},    {GLFW_KEY_UP, "Up"},         {GLFW_KEY_DOWN, "Down"},
+      {GLFW_KEY_HOME, "Home"},      {GLFW_KEY_END, "End"},       {GLFW_KEY_KP_ADD, "+"},
+      {GLFW_KEY_KP_SUBTRACT, "-"},  {GLFW_KEY_DELETE, "Delete"}, {GLFW_KEY_BACKSPACE, "Backspace"},
   };
   if (key >= GLFW_KEY_F1 && key <= GLFW_KEY_F12) {
     return "F" + std::to_string(key - GLFW_KEY_F1 + 1);
@@ -65,6 +65,35 @@ void FeedScriptInput(const ScriptInput& input, std::vector<ImGuiKey>& previous) 
     }
   }
   FeedModifiers(shift, ctrl);
+}
+
+void FeedShortTaps(const std::vector<KeyEvent>& events, std::vector<ImGuiKey>& held) {
+#if IMGUI_VERSION_NUM >= 18900
+  static_cast<void>(events);
+  static_cast<void>(held);
+#else
+  const auto has = [&](int key, KeyAction action) {
+    return std::any_of(events.begin(), events.end(), [&](const KeyEvent& event) {
+      return event.key == key && event.action == action;
+    });
+  };
+  std::vector<ImGuiKey> taps, down;
+  for (const KeyEvent& event : events) {
+    const auto named = NamedKeys().find(GlfwKeyName(event.key));
+    if (event.action == KeyAction::kPress && named != NamedKeys().end()) {
+      (has(event.key, KeyAction::kRelease) ? taps : down).push_back(named->second);
+    }
+  }
+  for (const ImGuiKey key : held) {
+    if (std::find(down.begin(), down.end(), key) == down.end()) {
+      FeedKey(key, false);
+    }
+  }
+  for (const ImGuiKey key : taps) {
+    FeedKey(key, true);
+  }
+  held = taps;
+#endif
 }
 
 std::string KeyName(const KeyEvent& event) {

@@ -14,6 +14,10 @@ namespace palace {
 /// Puts the script's mouse and keys into ImGui's input, before the frame, after StartFedInput().
 /// `previous` are the keys that were down; they are released first.
 void FeedScriptInput(const ScriptInput& input, std::vector<ImGuiKey>& previous);
+/// Keys of the window that went down and up between two frames: held for one frame where ImGui
+/// reads arrays and would miss them; nothing where it takes events. `held` carries them to the next
+/// frame.
+void FeedShortTaps(const std::vector<KeyEvent>& events, std::vector<ImGuiKey>& held);
 /// "Shift+Escape", "Ctrl+Z", "Space": the key table's spelling. Letters follow the keyboard's
 /// layout.
 std::string KeyName(const KeyEvent& event);

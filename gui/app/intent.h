@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "engine/model/command.h"
-#include "engine/model/grid.h"
 
 namespace palace {
 
@@ -19,6 +18,18 @@ struct ShowWorkspace {
 /// Highlights a candidate without arming it. 0: none.
 struct HighlightSite {
   std::uint64_t site_id = 0;
+};
+/// Presets of the 3-D view, in the order of the render room's.
+enum class ViewPreset : std::uint8_t { kOrbit, kAbove, kBehind };
+struct ShowView3dPreset {
+  ViewPreset preset = ViewPreset::kOrbit;
+};
+/// Turns, moves or zooms the 3-D view by hand; the way of the pointer in pixels.
+struct MoveView3d {
+  float turn_x = 0, turn_y = 0;
+  float pan_x = 0, pan_y = 0;
+  float zoom = 0;            ///< wheel steps; positive comes closer
+  float view_height_px = 1;  ///< of the picture that is moved
 };
 struct SetUiScale {
   double scale = 1;
@@ -34,20 +45,18 @@ struct LoadPreset {
 struct SavePreset {
   std::string path;  ///< empty: the preset's own file
 };
-/// Pins the probe to a map cell, or removes it.
-struct PinProbe {
-  bool pinned = false;
-  Cell cell;
-};
 struct ShowKeyHelp {
   bool shown = false;
 };
+/// Escape: ends the topmost thing that is open, and only that one (the order: CloseTop in
+/// ui_state).
+struct CloseTop {};
 struct QuitProgram {};
 
 /// What changes the window only; reduced into UiState.
-using UiAction =
-    std::variant<ShowWorkspace, HighlightSite, SetUiScale, TakeScreenshot, UndoSetting, RedoSetting,
-                 LoadPreset, SavePreset, PinProbe, ShowKeyHelp, QuitProgram>;
+using UiAction = std::variant<ShowWorkspace, HighlightSite, ShowView3dPreset, MoveView3d,
+                              SetUiScale, TakeScreenshot, UndoSetting, RedoSetting, LoadPreset,
+                              SavePreset, ShowKeyHelp, CloseTop, QuitProgram>;
 
 /// Everything a panel can ask for.
 using Intent = std::variant<CommandAction, PlaybackControl, UiAction>;

@@ -1,6 +1,7 @@
 #include "gui/app/key_help.h"
 
 #include "gui/app/keys.h"
+#include "gui/widgets/interact.h"
 
 namespace palace {
 
@@ -8,8 +9,9 @@ void DrawKeyHelp(const Rect& body, UiFrame& ui) {
   const Style& s = ui.style;
   const auto& keys = KeyTable();
   const int rows = (static_cast<int>(keys.size()) + 1) / 2;
-  const float row = s.Px(22), width = s.Px(720), height = s.Px(72) + row * static_cast<float>(rows);
+  const float row = s.Px(22), width = s.Px(840), height = s.Px(72) + row * static_cast<float>(rows);
   const Rect box{body.centre().x - width / 2, body.centre().y - height / 2, width, height};
+  BeginOverlay("##key_help", box);
   ImDrawList* dl = Canvas();
   FillRect(dl, box, s.palette.control, s.Fine(4));
   StrokeRect(dl, box, s.palette.strong_line, 1, s.Fine(4));
@@ -23,6 +25,7 @@ void DrawKeyHelp(const Rect& body, UiFrame& ui) {
     DrawText(ui, s.body, s.palette.text2, x + s.Px(112), y,
              FitWords(s.body, keys[i].description, width / 2 - s.Px(140)));
   }
+  EndOverlay();
   ui.items.Add("key_help", box, true, "Keys");
 }
 

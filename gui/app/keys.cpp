@@ -57,16 +57,16 @@ std::vector<Row> MakeRows() {
   using K = PlaybackControl::Kind;
   const auto always = [](Intents intents) { return [intents](const Context&) { return intents; }; };
   return {
-      {{"Shift+Escape", "Wave off", false, true}, always({CommandAction(WaveOff{})})},
-      {{"F2", "Show Fly"}, always(Ui(ShowWorkspace{Workspace::kFly}))},
-      {{"F3", "Show Tune"}, always(Ui(ShowWorkspace{Workspace::kTune}))},
-      {{"F4", "Show Review"}, always(Ui(ShowWorkspace{Workspace::kReview}))},
-      {{"F5", "Show Diagnose"}, always(Ui(ShowWorkspace{Workspace::kDiagnose}))},
-      {{"F1", "Show or close this list", false, true},
+      {{"Shift+Escape", "Wave off", false, true, true}, always({CommandAction(WaveOff{})})},
+      {{"F2", "Show Fly", false, false, true}, always(Ui(ShowWorkspace{Workspace::kFly}))},
+      {{"F3", "Show Tune", false, false, true}, always(Ui(ShowWorkspace{Workspace::kTune}))},
+      {{"F4", "Show Review", false, false, true}, always(Ui(ShowWorkspace{Workspace::kReview}))},
+      {{"F5", "Show Diagnose", false, false, true},
+       always(Ui(ShowWorkspace{Workspace::kDiagnose}))},
+      {{"F1", "Show or close this list", false, true, true},
        [](const Context& c) { return Ui(ShowKeyHelp{!c.state.key_help}); }},
-      {{"Escape", "Close a popup, cancel a hold", false, true},
-       [](const Context& c) { return c.state.key_help ? Ui(ShowKeyHelp{false}) : Intents{}; }},
-      {{"Space", "Play or pause"}, PlayOrPause},
+      {{"Escape", "Cancel a hold, close what is open", false, true}, always(Ui(CloseTop{}))},
+      {{"Space", "Play or pause, or as Enter"}, PlayOrPause},
       {{"Left", "Step back 0.1 s", true},
        [](const Context& c) { return SeekBy(c, -kSmallStep_s); }},
       {{"Right", "Step forward 0.1 s", true},
@@ -94,13 +94,13 @@ std::vector<Row> MakeRows() {
       {{"Ctrl+Shift+Z", "Redo it", true}, always(Ui(RedoSetting{}))},
       {{"Ctrl+Y", "Redo it", true}, always(Ui(RedoSetting{}))},
       {{"Ctrl+S", "Save the preset"}, always(Ui(SavePreset{}))},
-      {{"F12", "Take a screenshot"}, always(Ui(TakeScreenshot{}))},
+      {{"F12", "Take a screenshot", false, false, true}, always(Ui(TakeScreenshot{}))},
       {{"Ctrl++", "Larger text", true},
        [](const Context& c) { return Ui(SetUiScale{c.state.scale + kScaleStep}); }},
       {{"Ctrl+-", "Smaller text", true},
        [](const Context& c) { return Ui(SetUiScale{c.state.scale - kScaleStep}); }},
       {{"Ctrl+0", "Normal text size"}, always(Ui(SetUiScale{1}))},
-      {{"Ctrl+Q", "Quit"}, always(Ui(QuitProgram{}))},
+      {{"Ctrl+Q", "Quit", false, false, true}, always(Ui(QuitProgram{}))},
   };
 }
 
@@ -117,11 +117,16 @@ const std::vector<KeyBinding>& KeyTable() {
     for (const Row& row : Rows()) {
       bindings.push_back(row.binding);
     }
-    // Bound by the panels themselves, because they need the focus there.
-    bindings.push_back({"Tab", "Highlight the next site"});
-    bindings.push_back({"Shift+Tab", "Highlight the previous site"});
-    bindings.push_back({"Enter", "Arm the highlighted site"});
-    bindings.push_back({"Enter held", "Approve, with Tab on the button"});
+    // Bound by the controls themselves (gui/widgets/interact.h): the one with the ring has them.
+    bindings.push_back({"Tab", "Next control; the sites come first", true});
+    bindings.push_back({"Shift+Tab", "Previous control", true});
+    bindings.push_back({"Up", "Previous row of a list", true});
+    bindings.push_back({"Down", "Next row of a list", true});
+    bindings.push_back({"Enter", "Press the control, arm the site"});
+    bindings.push_back({"Enter held", "Approve, with the ring on the button"});
+    bindings.push_back({"Arrows", "Step a limit, a map's pin, the 3-D view"});
+    bindings.push_back({"Shift+Arrows", "Ten steps"});
+    bindings.push_back({"Backspace", "Reset the limit with the ring"});
     return bindings;
   }();
   return table;
@@ -134,8 +139,8 @@ Intents IntentsOfKey(std::string_view keys, const EngineSnapshot* snapshot, cons
   if (row == Rows().end()) {
     return {};
   }
-  const bool is_wave_off = row->binding.keys == "Shift+Escape";
-  if ((text_field_active && !is_wave_off) || (state.key_help && !row->binding.works_in_popup)) {
+  if ((text_field_active && !row->binding.works_while_typing) ||
+      (state.key_help && !row->binding.works_in_popup) || state.focus.Owns(keys)) {
     return {};
   }
   return row->intents({snapshot, state});

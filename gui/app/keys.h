@@ -18,12 +18,13 @@ struct KeyBinding {
   std::string description;  ///< a verb with an object
   bool repeats = false;     ///< may be held down (steps, never toggles)
   bool works_in_popup = false;
+  bool works_while_typing = false;  ///< keys that print nothing
 };
 
 const std::vector<KeyBinding>& KeyTable();
 
-/// The intents of a pressed key; empty for a key that is not bound or not allowed now. No key works
-/// while a text field is active, except the wave-off.
+/// The intents of a pressed key; empty for a key that is not bound or not allowed now. Keys that
+/// the control with the focus answers to are its own.
 Intents IntentsOfKey(std::string_view keys, const EngineSnapshot* snapshot, const UiState& state,
                      bool text_field_active);
 

@@ -13,6 +13,7 @@ namespace {
 
 constexpr double kDefaultWait_s = 60;
 constexpr int kDragFrames = 8;
+constexpr int kMostTaps = 200;
 
 /// Verbs, with the least and most words after them.
 struct Grammar {
@@ -24,7 +25,7 @@ const std::map<std::string, Grammar>& Verbs() {
       {"wait", {2, 4}},   {"click", {1, 1}},      {"hover", {1, 1}},    {"hold", {2, 2}},
       {"set", {2, 2}},    {"key", {1, 1}},        {"hold_key", {2, 2}}, {"drag", {3, 3}},
       {"expect", {2, 9}}, {"screenshot", {1, 1}}, {"resize", {2, 2}},   {"speed", {1, 1}},
-      {"seek", {1, 1}},   {"quit", {0, 0}},
+      {"seek", {1, 1}},   {"quit", {0, 0}},       {"tab_to", {1, 1}},   {"down_to", {1, 1}},
   };
   return verbs;
 }
@@ -197,6 +198,7 @@ void ScriptRunner::Begin(const ScriptLine& line, const ItemRecord& items,
   if (!started_) {
     started_ = true;
     start_s_ = now_s_;
+    taps_ = 0;
   }
   ScriptInput input;
   input.mouse = mouse_;
@@ -207,11 +209,15 @@ void ScriptRunner::Begin(const ScriptLine& line, const ItemRecord& items,
   } else if (line.verb == "click" || line.verb == "hover" || line.verb == "hold" ||
              line.verb == "drag") {
     Point(line, items);
+  } else if (line.verb == "tab_to" || line.verb == "down_to") {
+    MoveFocus(line, items);
   } else if (line.verb == "quit") {
     done_ = true;
   } else {
     if (line.verb == "key") {
       input.key = line.words[0];
+      pending_.push_back({input});
+      input.key.reset();  // let go: the same key may be pressed again
     } else if (line.verb == "hold_key") {
       input.hold_key = line.words[0];
       pending_.push_back({input, *Number(line.words[1])});
@@ -231,6 +237,25 @@ void ScriptRunner::Begin(const ScriptLine& line, const ItemRecord& items,
     pending_.push_back({input});
     Next();
   }
+}
+
+void ScriptRunner::MoveFocus(const ScriptLine& line, const ItemRecord& items) {
+  const Item* focus = items.Find("focus");
+  const std::string at = focus ? focus->text : "nothing";
+  if (at == line.words[0]) {
+    Next();
+    return;
+  }
+  const std::string key = line.verb == "tab_to" ? "Tab" : "Down";
+  if (++taps_ > kMostTaps) {
+    Fail(line, key + " does not reach it; the focus is on " + at);
+    return;
+  }
+  ScriptInput input;
+  input.mouse = mouse_;
+  input.key = key;
+  pending_.push_back({input});
+  pending_.push_back({Rest()});  // the ring is drawn one frame later
 }
 
 void ScriptRunner::Wait(const ScriptLine& line, const ItemRecord& items,

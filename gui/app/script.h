@@ -61,6 +61,8 @@ class ScriptRunner {
   void Wait(const ScriptLine& line, const ItemRecord& items, const EngineSnapshot* snapshot);
   void Expect(const ScriptLine& line, const ItemRecord& items, const EngineSnapshot* snapshot);
   void Point(const ScriptLine& line, const ItemRecord& items);
+  /// Presses Tab, or Down in a list, until the item has the focus.
+  void MoveFocus(const ScriptLine& line, const ItemRecord& items);
   void Press(ImVec2 from, ImVec2 to, double seconds);
   void Fail(const ScriptLine& line, const std::string& found);
   void Next() {
@@ -72,6 +74,7 @@ class ScriptRunner {
   std::string name_;
   std::size_t next_ = 0;
   bool started_ = false;
+  int taps_ = 0;  // pressed for the line under way
   double start_s_ = 0;
   double now_s_ = 0;
   std::deque<Gesture> pending_;     // what is left of the gesture under way

@@ -7,61 +7,108 @@ namespace {
 
 constexpr double kMinScale = 0.75;
 constexpr double kMaxScale = 2.5;
-constexpr std::size_t kMaxUndo = 200;
 
-/// Moves the newest change from one stack to the other and asks for its value.
-void Step(std::vector<SettingChange>& from, std::vector<SettingChange>& to, bool forward,
-          UiRequest& request) {
-  if (from.empty()) {
+/// The probe of the workspace shown; null where there is none.
+MapProbe* ProbeOf(UiState& state) {
+  switch (state.frame.workspace) {
+    case Workspace::kFly:
+      return &state.fly.maps.probe;
+    case Workspace::kTune:
+      return &state.tune.probe;
+    case Workspace::kReview:
+      return &state.review.probe;
+    case Workspace::kDiagnose:
+      break;
+  }
+  return nullptr;
+}
+
+/// Clears a switch that is on.
+bool SwitchOff(bool& on) {
+  const bool was = on;
+  on = false;
+  return was;
+}
+
+void CloseTopmost(UiState& state) {
+  if (state.focus.escape_taken() || SwitchOff(state.key_help) ||
+      SwitchOff(state.frame.history_open) ||
+      (state.frame.workspace == Workspace::kFly && SwitchOff(state.fly.approve.show_guards))) {
     return;
   }
-  const SettingChange change = from.back();
-  from.pop_back();
-  to.push_back(change);
-  request.settings.push_back({change.name, forward ? change.after : change.before});
+  MapProbe* probe = ProbeOf(state);
+  if (probe != nullptr && probe->pinned) {
+    probe->pinned.reset();
+  } else {
+    state.focus.Clear();
+  }
 }
+
+void Show(UiState& state, Workspace workspace) {
+  state.frame.workspace = workspace;
+  state.highlighted_site = 0;
+  if (state.focus.shown().substr(0, 4) != "tab/") {  // the tabs are in every workspace
+    state.focus.Clear();
+  }
+}
+
+void Move(UiState& state, const MoveView3d& move) {
+  if (move.turn_x != 0 || move.turn_y != 0) {
+    state.orbit.Drag(move.turn_x, move.turn_y);
+  }
+  if (move.pan_x != 0 || move.pan_y != 0) {
+    state.orbit.Pan(move.pan_x, move.pan_y, move.view_height_px);
+  }
+  if (move.zoom != 0) {
+    state.orbit.Zoom(move.zoom);
+  }
+  ++state.orbit_moves;
+}
+
+View3dPreset PresetOf(ViewPreset preset) {
+  switch (preset) {
+    case ViewPreset::kOrbit:
+      return View3dPreset::kOrbit;
+    case ViewPreset::kAbove:
+      return View3dPreset::kAbove;
+    case ViewPreset::kBehind:
+      break;
+  }
+  return View3dPreset::kBehind;
+}
+
+struct Reducer {
+  UiState& state;
+  UiRequest request{};
+
+  void operator()(const ShowWorkspace& show) { Show(state, show.workspace); }
+  void operator()(const HighlightSite& site) { state.highlighted_site = site.site_id; }
+  void operator()(const ShowView3dPreset& show) {
+    state.orbit.SetPreset(PresetOf(show.preset));
+    ++state.orbit_moves;
+  }
+  void operator()(const MoveView3d& move) { Move(state, move); }
+  void operator()(const SetUiScale& to) {
+    state.scale = std::clamp(to.scale, kMinScale, kMaxScale);
+  }
+  void operator()(const TakeScreenshot& shot) {
+    state.screenshots_wanted.push_back(shot.file_name);
+  }
+  void operator()(const UndoSetting&) { request.settings = state.tune.history.Undo(); }
+  void operator()(const RedoSetting&) { request.settings = state.tune.history.Redo(); }
+  void operator()(const LoadPreset& load) { request.load_preset = load.path; }
+  void operator()(const SavePreset& save) { request.save_preset = save.path; }
+  void operator()(const ShowKeyHelp& help) { state.key_help = help.shown; }
+  void operator()(const CloseTop&) { CloseTopmost(state); }
+  void operator()(const QuitProgram&) { state.quit = true; }
+};
 
 }  // namespace
 
 UiRequest Reduce(UiState& state, const UiAction& action) {
-  UiRequest request;
-  if (const auto* show = std::get_if<ShowWorkspace>(&action)) {
-    state.workspace = show->workspace;
-  } else if (const auto* highlight = std::get_if<HighlightSite>(&action)) {
-    state.highlighted_site = highlight->site_id;
-  } else if (const auto* scale = std::get_if<SetUiScale>(&action)) {
-    state.scale = std::clamp(scale->scale, kMinScale, kMaxScale);
-  } else if (const auto* shot = std::get_if<TakeScreenshot>(&action)) {
-    state.screenshots_wanted.push_back(shot->file_name);
-  } else if (std::holds_alternative<UndoSetting>(action)) {
-    Step(state.undo, state.redo, false, request);
-  } else if (std::holds_alternative<RedoSetting>(action)) {
-    Step(state.redo, state.undo, true, request);
-  } else if (const auto* load = std::get_if<LoadPreset>(&action)) {
-    request.load_preset = load->path;
-  } else if (const auto* save = std::get_if<SavePreset>(&action)) {
-    request.save_preset = save->path;
-  } else if (const auto* probe = std::get_if<PinProbe>(&action)) {
-    state.probe = probe->pinned ? std::optional<Cell>(probe->cell) : std::nullopt;
-  } else if (const auto* help = std::get_if<ShowKeyHelp>(&action)) {
-    state.key_help = help->shown;
-  } else if (std::holds_alternative<QuitProgram>(action)) {
-    state.quit = true;
-  }
-  return request;
-}
-
-void RememberChange(UiState& state, const SetSetting& change, const Settings& before,
-                    bool same_gesture) {
-  state.redo.clear();
-  if (same_gesture && !state.undo.empty() && state.undo.back().name == change.name) {
-    state.undo.back().after = change.value;
-    return;
-  }
-  state.undo.push_back({change.name, GetSetting(before, change.name), change.value});
-  if (state.undo.size() > kMaxUndo) {
-    state.undo.erase(state.undo.begin());
-  }
+  Reducer reducer{state};
+  std::visit(reducer, action);
+  return reducer.request;
 }
 
 }  // namespace palace

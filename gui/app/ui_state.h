@@ -6,28 +6,30 @@
 #include <string>
 #include <vector>
 
-#include "engine/model/settings.h"
 #include "gui/app/intent.h"
+#include "gui/panels/diagnose/diagnose.h"
+#include "gui/panels/fly_state.h"
+#include "gui/panels/frame_bar.h"
+#include "gui/panels/review/review.h"
+#include "gui/panels/tune/tune.h"
+#include "gui/render/orbit_camera.h"
+#include "gui/widgets/focus.h"
 
 namespace palace {
 
-/// One gesture on a limit: one undo step.
-struct SettingChange {
-  std::string name;
-  double before = 0;
-  double after = 0;
-};
-
 struct UiState {
-  Workspace workspace = Workspace::kFly;
-  double scale = 1;
+  FrameState frame;  ///< holds the workspace shown
+  FlyState fly;
+  TuneState tune;  ///< holds the history of the limits and the preset's path
+  ReviewState review;
+  DiagnoseState diagnose;
+  Focus focus;
+  OrbitCamera orbit;              ///< of the 3-D view, wherever it is shown
+  std::uint64_t orbit_moves = 0;  ///< counts the operator's turns of it
   std::uint64_t highlighted_site = 0;
+  double scale = 1;
   bool key_help = false;
   bool quit = false;
-  std::optional<Cell> probe;
-  std::vector<SettingChange> undo;
-  std::vector<SettingChange> redo;
-  std::string preset_path;                      ///< of the preset loaded or saved last
   std::string message;                          ///< toast, newest
   double message_until_s = 0;                   ///< UI clock
   std::vector<std::string> screenshots_wanted;  ///< file names, taken after the next frame
@@ -41,10 +43,10 @@ struct UiRequest {
 };
 
 /// Applies one action to the state. Pure, so that tests and scripts can drive it.
+///
+/// CloseTop ends the first of these that is there, and nothing else: a hold under way, the list of
+/// keys, the list of alarms, the list of checks, the pinned probe of the workspace, the focus ring.
+/// (A text field that is typed in has the Escape before any of them.)
 UiRequest Reduce(UiState& state, const UiAction& action);
-
-/// Remembers a limit that moved; successive moves of one limit within a gesture are one step.
-void RememberChange(UiState& state, const SetSetting& change, const Settings& before,
-                    bool same_gesture);
 
 }  // namespace palace

@@ -7,7 +7,10 @@
 #include "gui/app/key_help.h"
 #include "gui/app/layout.h"
 #include "gui/app/view3d_input.h"
+#include "gui/panels/fly_panels.h"
+#include "gui/panels/fly_workspace.h"
 #include "gui/widgets/draw.h"
+#include "gui/widgets/interact.h"
 
 namespace palace {
 namespace {
@@ -40,9 +43,9 @@ void TakeFonts(const Fonts& fonts, Style& style) {
 }
 
 std::string PresetName(const UiState& state) {
-  const std::size_t slash = state.preset_path.find_last_of('/');
-  std::string name =
-      slash == std::string::npos ? state.preset_path : state.preset_path.substr(slash + 1);
+  const std::string& path = state.tune.preset_path;
+  const std::size_t slash = path.find_last_of('/');
+  std::string name = slash == std::string::npos ? path : path.substr(slash + 1);
   if (name.size() > 5 && name.substr(name.size() - 5) == ".toml") {
     name.resize(name.size() - 5);
   }
@@ -53,27 +56,20 @@ CellExplanation Explain(const TerrainDecision& decision, Cell cell) {
   return ExplainCell(*decision.elevation, *decision.hazards, decision.settings, cell);
 }
 
-/// Hands the operator's drags over the 3-D view to its camera. True when there were any.
-bool MoveOrbit(View3dState& view, OrbitCamera& orbit) {
-  const bool moved = view.wanted_preset || view.drag_x != 0 || view.drag_y != 0 ||
-                     view.pan_x != 0 || view.pan_y != 0 || view.wheel != 0;
-  constexpr View3dPreset kPresets[] = {View3dPreset::kOrbit, View3dPreset::kAbove,
-                                       View3dPreset::kBehind};
-  if (view.wanted_preset) {
-    orbit.SetPreset(kPresets[static_cast<int>(*view.wanted_preset)]);
+/// The preset that the 3-D view is seen from.
+std::optional<ViewPreset> PresetOf(const OrbitCamera& orbit) {
+  if (!orbit.preset()) {
+    return std::nullopt;
   }
-  if (view.drag_x != 0 || view.drag_y != 0) {
-    orbit.Drag(view.drag_x, view.drag_y);
+  switch (*orbit.preset()) {
+    case View3dPreset::kOrbit:
+      return ViewPreset::kOrbit;
+    case View3dPreset::kAbove:
+      return ViewPreset::kAbove;
+    case View3dPreset::kBehind:
+      break;
   }
-  if (view.pan_x != 0 || view.pan_y != 0) {
-    orbit.Pan(view.pan_x, view.pan_y, view.scene.h);
-  }
-  if (view.wheel != 0) {
-    orbit.Zoom(view.wheel);
-  }
-  view.wanted_preset.reset();
-  view.drag_x = view.drag_y = view.pan_x = view.pan_y = view.wheel = 0;
-  return moved;
+  return ViewPreset::kBehind;
 }
 
 }  // namespace
@@ -92,11 +88,34 @@ double View::FittingScale(int width_px, int height_px, double wanted) {
   return palace::FittingScale(width_px, height_px, wanted);
 }
 
-void View::Upload(const EngineSnapshot& snapshot, const UiState& state, double dt_s) {
-  const Item* camera = items_.Find("left_camera");
-  const double camera_scale =
-      camera && snapshot.left_rectified ? camera->rect.w / snapshot.left_rectified->width() : 1;
-  textures_.ShowRange(fly_.camera.show_depth);
+void View::Fit(const UiState& state, const ViewFrame& frame) {
+  style_.scale = static_cast<float>(FittingScale(frame.width_px, frame.height_px, state.scale));
+}
+
+Rect View::SceneRect(const EngineSnapshot& snapshot, const UiState& state,
+                     const ViewFrame& frame) const {
+  const double w = frame.width_px, h = frame.height_px, scale = style_.scale;
+  if (state.frame.workspace == Workspace::kFly) {
+    return View3dScene(ComputeFlyLayout(w, h, scale, ShowsDescent(snapshot)).view_3d, style_);
+  }
+  if (state.frame.workspace == Workspace::kReview && snapshot.source.kind != SourceKind::kNone) {
+    const Rect body = ComputeFrameLayout(w, h, scale).body;
+    const Rect panel = LayReview(body, style_, state.review.picture).view_3d;
+    return panel.h > 0 ? View3dScene(panel, style_) : Rect{};
+  }
+  return {};
+}
+
+void View::UploadPictures(const EngineSnapshot& snapshot, const UiState& state,
+                          const ViewFrame& frame) {
+  double camera_scale = 1;
+  if (state.frame.workspace == Workspace::kFly && snapshot.left_rectified) {
+    const FlyLayout fly =
+        ComputeFlyLayout(frame.width_px, frame.height_px, style_.scale, ShowsDescent(snapshot));
+    camera_scale = static_cast<double>(LeftCameraImage(snapshot, fly.left_camera, style_).w) /
+                   snapshot.left_rectified->width();
+  }
+  textures_.ShowRange(state.fly.camera.show_depth);
   textures_.Update(snapshot, camera_scale);
   const TextureNames& names = textures_.names();
   ids_.left_camera = Id(names.left_camera);
@@ -104,6 +123,8 @@ void View::Upload(const EngineSnapshot& snapshot, const UiState& state, double d
   for (std::size_t i = 0; i < names.maps.size(); ++i) {
     ids_.maps[i] = Id(names.maps[i]);
   }
+  ids_.elevation_low_m = static_cast<float>(textures_.ranges().elevation_m.low);
+  ids_.elevation_high_m = static_cast<float>(textures_.ranges().elevation_m.high);
   ids_.recorded_safe_distance = Id(names.recorded_safe_distance);
   ids_.difference = Id(names.difference);
   ids_.anchor_patch = Id(names.anchor_patch);
@@ -112,87 +133,87 @@ void View::Upload(const EngineSnapshot& snapshot, const UiState& state, double d
   ids_.range_tint = Id(names.range_tint);
   ids_.range_near_m = names.range_tint_m.low;
   ids_.range_far_m = names.range_tint_m.high;
-  fly_.maps.elevation_low_m = static_cast<float>(textures_.ranges().elevation_m.low);
-  fly_.maps.elevation_high_m = static_cast<float>(textures_.ranges().elevation_m.high);
+}
 
-  const Item* scene = items_.Find("view_3d");
-  if (scene == nullptr || scene->rect.w < 16 || scene->rect.h < 16) {
+void View::Upload(const EngineSnapshot& snapshot, const ViewFrame& frame, UiState& state,
+                  double dt_s) {
+  Fit(state, frame);
+  UploadPictures(snapshot, state, frame);
+  const Rect scene = SceneRect(snapshot, state, frame);
+  if (scene.w < 16 || scene.h < 16) {
     return;
   }
-  const bool moved = MoveOrbit(fly_.view, orbit_);
-  settle_s_ = moved ? kOrbitSettles_s : settle_s_ - dt_s;
-  const View3dKey key{snapshot.sequence, state.highlighted_site, scene->rect.w, scene->rect.h};
+  const View3dKey key{snapshot.sequence, state.highlighted_site, state.orbit_moves, scene.w,
+                      scene.h};
+  settle_s_ = key.orbit_moves != drawn_3d_.orbit_moves ? kOrbitSettles_s : settle_s_ - dt_s;
   if (key == drawn_3d_ && settle_s_ <= 0) {
     return;
   }
   drawn_3d_ = key;
-  const View3dInput input = MakeView3dInput(snapshot, state.highlighted_site, style_.scale);
-  FrameView3d(input, orbit_);
-  orbit_.Advance(dt_s);
-  const Result<View3dLabels> labels = view3d_->Render(
-      input, orbit_, static_cast<int>(scene->rect.w), static_cast<int>(scene->rect.h));
+  const View3dInput input =
+      MakeView3dInput(snapshot, state.highlighted_site, static_cast<double>(style_.scale));
+  FrameView3d(input, state.orbit);
+  state.orbit.Advance(dt_s);
+  const Result<View3dLabels> labels =
+      view3d_->Render(input, state.orbit, static_cast<int>(scene.w), static_cast<int>(scene.h));
   if (!labels) {
     return;
   }
   ids_.scene_3d = Id(view3d_->texture());
-  fly_.view.ticks.clear();
+  ids_.scene_3d_ticks.clear();
   for (const View3dLabel& label : labels->height_ticks) {
-    fly_.view.ticks.push_back({{label.pixel.x(), label.pixel.y()}, label.text});
+    ids_.scene_3d_ticks.push_back({{label.pixel.x(), label.pixel.y()}, label.text});
   }
 }
 
 Intents View::Draw(const EngineSnapshot* snapshot, const FlightRecord* record, UiState& state,
                    const Fonts& fonts, const ViewFrame& frame) {
   TakeFonts(fonts, style_);
-  style_.scale = static_cast<float>(FittingScale(frame.width_px, frame.height_px, state.scale));
+  Fit(state, frame);
   const FrameLayout layout = ComputeFrameLayout(frame.width_px, frame.height_px, style_.scale);
+  ids_.scene_3d_preset = PresetOf(state.orbit);
   items_.Clear();
   Intents intents;
-  UiFrame ui{style_,          ids_,           items_,          intents,
+  UiFrame ui{style_,          ids_,           items_,          intents, state.focus,
              frame.ui_time_s, state.key_help, layout.wave_off, Explain};
-  frame_state_.workspace = state.workspace;
-  frame_state_.preset_name = PresetName(state);
-  frame_state_.frame_ms = frame.frame_ms;
-  BeginCanvas(style_);
+  ui.highlighted_site = state.highlighted_site;
+  ui.window_focused = frame.window_focused;
+  state.frame.preset_name = PresetName(state);
+  state.frame.frame_ms = frame.frame_ms;
+  BeginCanvas(ui);
   if (snapshot == nullptr) {
     DrawWaiting(layout, ui);
   } else {
-    DrawFrameBar(*snapshot, layout, frame_state_, ui);
+    DrawFrameBar(*snapshot, layout, state.frame, ui);
     DrawWorkspace(*snapshot, record, layout, frame, state, ui);
-    DrawFrameOverlay(*snapshot, layout, frame_state_, ui);
+    DrawFrameOverlay(*snapshot, layout, state.frame, ui);
   }
   DrawMessage(layout, state, ui);
   if (state.key_help) {
-    ui.blocked_by_popup = false;
     DrawKeyHelp(layout.body, ui);
   }
-  EndCanvas();
+  EndCanvas(ui);
   return intents;
 }
 
 void View::DrawWorkspace(const EngineSnapshot& snapshot, const FlightRecord* record,
                          const FrameLayout& layout, const ViewFrame& frame, UiState& state,
                          UiFrame& ui) {
-  switch (state.workspace) {
+  switch (state.frame.workspace) {
     case Workspace::kFly:
       DrawFlyWorkspace(
           snapshot,
           ComputeFlyLayout(frame.width_px, frame.height_px, style_.scale, ShowsDescent(snapshot)),
-          fly_, ui);
+          state.fly, ui);
       break;
     case Workspace::kTune:
-      tune_.elevation_low_m = fly_.maps.elevation_low_m;
-      tune_.elevation_high_m = fly_.maps.elevation_high_m;
-      tune_.preset_path = state.preset_path;
-      tune_.can_undo = !state.undo.empty();
-      tune_.can_redo = !state.redo.empty();
-      DrawTuneWorkspace(snapshot, layout.body, tune_, ui);
+      DrawTuneWorkspace(snapshot, layout.body, state.tune, ui);
       break;
     case Workspace::kReview:
-      DrawReviewWorkspace(snapshot, record, layout.body, review_, ui);
+      DrawReviewWorkspace(snapshot, record, layout.body, state.review, ui);
       break;
     case Workspace::kDiagnose:
-      DrawDiagnoseWorkspace(snapshot, layout.body, diagnose_, ui);
+      DrawDiagnoseWorkspace(snapshot, layout.body, state.diagnose, ui);
       break;
   }
 }

@@ -8,13 +8,8 @@
 #include "engine/model/flight_record.h"
 #include "engine/model/snapshot.h"
 #include "gui/app/ui_state.h"
-#include "gui/panels/diagnose/diagnose.h"
-#include "gui/panels/fly_workspace.h"
-#include "gui/panels/frame_bar.h"
-#include "gui/panels/review/review.h"
-#include "gui/panels/tune/tune.h"
+#include "gui/panels/fly_layout.h"
 #include "gui/platform/fonts.h"
-#include "gui/render/orbit_camera.h"
 #include "gui/render/texture_set.h"
 #include "gui/render/view3d_renderer.h"
 #include "gui/widgets/style.h"
@@ -26,7 +21,8 @@ struct ViewFrame {
   int width_px = 0;
   int height_px = 0;
   double ui_time_s = 0;
-  double frame_ms = 0;  ///< of the frame before, shown in the status bar
+  double frame_ms = 0;         ///< of the frame before, shown in the status bar
+  bool window_focused = true;  ///< the window has the system's keyboard
 };
 
 /// Owns GL objects: create, use and destroy with one GL context current.
@@ -34,7 +30,7 @@ class View {
  public:
   static Result<std::unique_ptr<View>> Create(const std::string& theme);
   /// Uploads what the snapshot shows and renders the 3-D view. Only needed when pixels are made.
-  void Upload(const EngineSnapshot& snapshot, const UiState& state, double dt_s);
+  void Upload(const EngineSnapshot& snapshot, const ViewFrame& frame, UiState& state, double dt_s);
   /// Draws into the current ImGui frame. `snapshot` null: nothing has arrived yet.
   Intents Draw(const EngineSnapshot* snapshot, const FlightRecord* record, UiState& state,
                const Fonts& fonts, const ViewFrame& frame);
@@ -48,6 +44,11 @@ class View {
   void DrawWorkspace(const EngineSnapshot& snapshot, const FlightRecord* record,
                      const FrameLayout& layout, const ViewFrame& frame, UiState& state,
                      UiFrame& ui);
+  void UploadPictures(const EngineSnapshot& snapshot, const UiState& state, const ViewFrame& frame);
+  /// Where the 3-D picture lies in the workspace shown; empty where there is none.
+  Rect SceneRect(const EngineSnapshot& snapshot, const UiState& state,
+                 const ViewFrame& frame) const;
+  void Fit(const UiState& state, const ViewFrame& frame);
   void DrawWaiting(const FrameLayout& layout, UiFrame& ui);
   void DrawMessage(const FrameLayout& layout, const UiState& state, UiFrame& ui);
 
@@ -55,6 +56,7 @@ class View {
   struct View3dKey {
     std::uint64_t sequence = 0;
     std::uint64_t highlighted_site = 0;
+    std::uint64_t orbit_moves = 0;
     float width = 0;
     float height = 0;
     friend bool operator==(const View3dKey&, const View3dKey&) = default;
@@ -63,16 +65,10 @@ class View {
   Style style_;
   TextureSet textures_;
   std::unique_ptr<View3dRenderer> view3d_;
-  OrbitCamera orbit_;
   View3dKey drawn_3d_;
   double settle_s_ = 0;
   PanelTextures ids_;
   ItemRecord items_;
-  FrameState frame_state_;
-  FlyState fly_;
-  TuneState tune_;
-  ReviewState review_;
-  DiagnoseState diagnose_;
 };
 
 }  // namespace palace

@@ -4,6 +4,7 @@
 #include "gui/panels/frame_bar.h"
 #include "gui/widgets/button.h"
 #include "gui/widgets/icons.h"
+#include "gui/widgets/interact.h"
 
 namespace palace {
 
@@ -145,8 +146,7 @@ void DrawAlarmStripPanel(const EngineSnapshot& snap, const Rect& rect, FrameStat
   right = DrawAnswers(*alarms.front(), state, right, y, ui);
   DrawFirst(*alarms.front(), rect, right, ui);
   const Rect words{rect.x, rect.y, right - rect.x, rect.h};
-  ui.items.Add("alarm", words, true, alarms.front()->text);
-  if (Clicked(ui, words)) {
+  if (Interact(ui, "alarm", words, 0, alarms.front()->text).clicked) {
     state.history_open = !state.history_open;
   }
 }
@@ -165,9 +165,10 @@ void DrawFrameOverlay(const EngineSnapshot& snap, const FrameLayout& layout, Fra
   const auto count = static_cast<float>(snap.mission.alarms.size());
   const Rect list{layout.alarm_strip.x, layout.alarm_strip.bottom(), layout.alarm_strip.w,
                   std::min(row * count + s.Px(16), layout.body.h / 2)};
+  BeginOverlay("##alarm_history", list);
+  const bool on_list = Interact(ui, "alarm_history", list, kNoTab).hovered;
   FillRect(Canvas(), list, p.control);
   StrokeRect(Canvas(), list, p.strong_line, s.Fine(1));
-  ui.items.Add("alarm_history", list, true, "");
   float y = list.y + s.Px(8) + row / 2;
   for (const Alarm& alarm : snap.mission.alarms) {
     if (y + row / 2 > list.bottom()) {
@@ -183,8 +184,9 @@ void DrawFrameOverlay(const EngineSnapshot& snap, const FrameLayout& layout, Fra
     DrawText(ui, s.caption, p.text2, list.right() - s.Px(27), y, status, Align::kRight);
     y += row;
   }
-  if (ImGui::GetIO().MouseClicked[0] && !list.Contains(ImGui::GetIO().MousePos) &&
-      !layout.alarm_strip.Contains(ImGui::GetIO().MousePos)) {
+  EndOverlay();
+  const bool on_strip = Interact(ui, "alarm", layout.alarm_strip, kPassive).hovered;
+  if (ImGui::IsMouseClicked(0) && !on_list && !on_strip) {
     state.history_open = false;
   }
 }

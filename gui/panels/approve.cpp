@@ -12,10 +12,9 @@ namespace palace {
 
 namespace {
 
-HoldButtonView ButtonOf(const EngineSnapshot& snap, bool focused) {
+HoldButtonView ButtonOf(const EngineSnapshot& snap) {
   const MissionStatus& m = snap.mission;
   HoldButtonView view;
-  view.focused = focused;
   view.subject = m.armed ? m.armed->id : 0;
   const std::string letter = m.armed ? std::string(1, m.armed->letter) : std::string();
   view.label = "Hold to approve " + letter;
@@ -97,9 +96,10 @@ void DrawGuardList(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui) {
   const float row = s.Px(22);
   const auto count = static_cast<float>(snap.mission.guards.size());
   const Rect list{rect.x, rect.y - row * count - s.Px(24), rect.w, row * count + s.Px(16)};
+  BeginOverlay("##checks", list);
+  Interact(ui, "panel/Checks", list, kNoTab);
   FillRect(Canvas(), list, p.control, s.Fine(4));
   StrokeRect(Canvas(), list, p.strong_line, s.Fine(1), s.Fine(4));
-  ui.items.Add("panel/Checks", list, true, "");
   float y = list.y + s.Px(8) + row / 2;
   for (const GuardResult& guard : snap.mission.guards) {
     DrawIcon(Canvas(), guard.pass ? Icon::kDone : Icon::kCaution, {list.x + s.Px(20), y}, s.Px(12),
@@ -110,6 +110,7 @@ void DrawGuardList(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui) {
              Align::kRight);
     y += row;
   }
+  EndOverlay();
 }
 
 /// "26 s" until the arm window closes; empty when nothing runs.
@@ -142,8 +143,7 @@ void DrawChecks(const EngineSnapshot& snap, const Rect& rect, float y, bool narr
   } else {
     DrawText(ui, s.body, p.text2, right, y, state.show_guards ? "Hide" : "Show", Align::kRight);
   }
-  ui.items.Add("show_checks", line, true, CheckLine(m));
-  if (Clicked(ui, line)) {
+  if (Interact(ui, "show_checks", line, 0, CheckLine(m)).clicked) {
     state.show_guards = !state.show_guards;
   }
 }
@@ -167,8 +167,8 @@ void DrawExpiry(const EngineSnapshot& snap, const Rect& rect, float y, UiFrame& 
            p.text2, s.Fine(2));
 }
 
-void DrawButtons(const EngineSnapshot& snap, const Rect& rect, bool narrow, bool focused,
-                 ApproveState& state, UiFrame& ui) {
+void DrawButtons(const EngineSnapshot& snap, const Rect& rect, bool narrow, ApproveState& state,
+                 UiFrame& ui) {
   const Style& s = ui.style;
   const float height = s.Px(narrow ? 52 : 68);
   const float width = s.Px(narrow ? 228 : 268);
@@ -188,7 +188,7 @@ void DrawButtons(const EngineSnapshot& snap, const Rect& rect, bool narrow, bool
   if (DrawButton(ui, "refuse", refuse, "Refuse", look)) {
     ui.intents.push_back(CommandAction(RefuseSite{snap.mission.armed->id}));
   }
-  const HoldButtonView view = ButtonOf(snap, focused);
+  const HoldButtonView view = ButtonOf(snap);
   if (DrawHoldButton(ui, "approve", hold, view, state.hold)) {
     ui.intents.push_back(CommandAction(ApproveSite{view.subject, snap.sequence}));
   }
@@ -196,7 +196,7 @@ void DrawButtons(const EngineSnapshot& snap, const Rect& rect, bool narrow, bool
 
 }  // namespace
 
-void DrawApprovePanel(const EngineSnapshot& snap, const Rect& rect, bool narrow, bool focused,
+void DrawApprovePanel(const EngineSnapshot& snap, const Rect& rect, bool narrow,
                       ApproveState& state, UiFrame& ui) {
   const Style& s = ui.style;
   const Palette& p = s.palette;
@@ -233,7 +233,7 @@ void DrawApprovePanel(const EngineSnapshot& snap, const Rect& rect, bool narrow,
                            : "Waiting for a site inside all limits.";
     DrawText(ui, s.body, p.text2, x, rect.y + s.Px(narrow ? 64 : 73), help);
   }
-  DrawButtons(snap, rect, narrow, focused, state, ui);
+  DrawButtons(snap, rect, narrow, state, ui);
   if (state.show_guards && !m.guards.empty()) {
     DrawGuardList(snap, rect, ui);
   }

@@ -76,16 +76,13 @@ SiteOverlay OverlayOf(const EngineSnapshot& snap, std::uint64_t highlighted) {
 }
 
 /// "Depth" switches the tint by the range map; beside it the colours' ends. The chip appears with
-/// the pointer, so that the picture stays free.
+/// the pointer or the focus, so that the picture stays free.
 void DrawDepthChip(UiFrame& ui, const Rect& image, CameraState& state) {
   const Style& s = ui.style;
   const Rect chip{image.x + s.Px(8), image.y + s.Px(42), s.Px(64), s.Px(24)};
-  if (!Hovered(ui, image) && !state.show_depth) {
-    ui.items.Add("depth", chip, true, "Depth");
-    return;
-  }
   ButtonLook look;
   look.active = state.show_depth;
+  look.unseen = !state.show_depth && !Interact(ui, "left_camera", image, kPassive).hovered;
   if (DrawButton(ui, "depth", chip, "Depth", look)) {
     state.show_depth = !state.show_depth;
   }
@@ -118,16 +115,21 @@ std::string LeftFact(const EngineSnapshot& snap) {
 
 }  // namespace
 
+Rect LeftCameraImage(const EngineSnapshot& snap, const Rect& panel, const Style& style) {
+  const auto camera = LeftCamera(snap);
+  const double aspect = camera ? static_cast<double>(camera->width) / camera->height : 4.0 / 3;
+  return PictureRect(PanelContent(panel, style), aspect);
+}
+
 void DrawLeftCameraPanel(const EngineSnapshot& snap, const Rect& rect, CameraState& state,
-                         const MapProbe& probe, std::uint64_t highlighted, UiFrame& ui) {
+                         const MapProbe& probe, UiFrame& ui) {
   const Style& s = ui.style;
   const Arrival arrival = ArrivalOf(snap, ChannelId::kCameraLeft);
-  const Rect content = DrawPanelFrame(
+  DrawPanelFrame(
       ui, rect, "Left camera",
       {{arrival.age, 0, true, arrival.age_s > kLateAge_s}, {arrival.rate, 0, true, false}});
   const auto camera = LeftCamera(snap);
-  const double aspect = camera ? static_cast<double>(camera->width) / camera->height : 4.0 / 3;
-  const Rect image = PictureRect(content, aspect);
+  const Rect image = LeftCameraImage(snap, rect, s);
   ui.items.Add("left_camera", image, true, "");
   if (ui.textures.left_camera == nullptr || !camera) {
     DrawMissing(ui, image);
@@ -147,7 +149,7 @@ void DrawLeftCameraPanel(const EngineSnapshot& snap, const Rect& rect, CameraSta
   if (tracking) {
     DrawTracker(ui, view, snap.tracker);
   }
-  DrawSites(ui, view, OverlayOf(snap, highlighted));
+  DrawSites(ui, view, OverlayOf(snap, ui.highlighted_site));
   DrawProbeOnPicture(ui, view, shown, probe);
   DrawStale(ui, image, arrival.age_s);
   DrawVerdictPlate(ui, image, snap, shown);

@@ -4,6 +4,7 @@
 
 #include "engine/core/frames.h"
 #include "gui/panels/fly_panels.h"
+#include "gui/widgets/interact.h"
 #include "gui/widgets/number_text.h"
 
 namespace palace {
@@ -284,15 +285,14 @@ void DrawPlotTabs(const EngineSnapshot& snap, const Rect& rect, PlotTab& tab, Ui
     const bool on = (tab == PlotTab::kMaps) == (i == 1);
     const float width = TextWidth(s.body, kNames[i]);
     const Rect area{x - s.Px(12), rect.y, width + s.Px(24), rect.h};
-    const bool hovered = Hovered(ui, area);
-    DrawText(ui, on ? s.medium : s.body, on || hovered ? p.text1 : p.text2, x, rect.centre().y,
+    const Interaction in = Interact(ui, std::string("tab/") + kNames[i], area, 0, kNames[i]);
+    DrawText(ui, on ? s.medium : s.body, on || in.hovered ? p.text1 : p.text2, x, rect.centre().y,
              kNames[i]);
     if (on) {
       FillRect(Canvas(), {x - s.Px(6), rect.bottom() - s.Px(3), width + s.Px(14), s.Px(3)},
                p.white_mark);
     }
-    ui.items.Add(std::string("tab/") + kNames[i], area, true, kNames[i]);
-    if (Clicked(ui, area)) {
+    if (in.clicked) {
       tab = i == 1 ? PlotTab::kMaps : PlotTab::kDescent;
     }
     x += width + s.Px(28);

@@ -18,25 +18,28 @@ bool MaySelect(const EngineSnapshot& snap, std::uint64_t site_id);
 bool IsDescentView(const EngineSnapshot& snap);
 /// Marks that all maps share.
 MapMarks MarksOf(const EngineSnapshot& snap, std::uint64_t highlighted);
-/// The safe-distance map with its ranges, as the map row and the re-check panel show it.
-MapView SafeDistanceMap(const EngineSnapshot& snap, const UiFrame& ui);
 
+/// Where the picture lies in its panel.
+Rect LeftCameraImage(const EngineSnapshot& snap, const Rect& panel, const Style& style);
 void DrawLeftCameraPanel(const EngineSnapshot& snap, const Rect& rect, CameraState& state,
-                         const MapProbe& probe, std::uint64_t highlighted, UiFrame& ui);
+                         const MapProbe& probe, UiFrame& ui);
 void DrawRightCameraPanel(const EngineSnapshot& snap, const Rect& rect, const MapProbe& probe,
                           UiFrame& ui);
 void DrawVehiclePanel(const EngineSnapshot& snap, const Rect& rect, bool narrow, UiFrame& ui);
-void DrawView3dPanel(const EngineSnapshot& snap, const Rect& rect, View3dState& state, UiFrame& ui);
+/// Where the 3-D picture lies in its panel: it is rendered at this size.
+Rect View3dScene(const Rect& panel, const Style& style);
+/// Items "view_3d", "view/Orbit", "view/Above", "view/Behind": MoveView3d, ShowView3dPreset.
+void DrawView3dPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui);
 /// Five maps: items "map/elevation", "map/slope", "map/roughness", "map/cost", "map/safe_distance".
 void DrawMapRowPanel(const EngineSnapshot& snap, const std::array<Rect, 5>& rects, float side,
-                     std::uint64_t highlighted, bool letters, MapRowState& state, UiFrame& ui);
-/// A click arms ("site/A"): SelectSite.
+                     bool letters, MapRowState& state, UiFrame& ui);
+/// A click or Enter arms ("site/A"): SelectSite. The row with the focus: HighlightSite.
 void DrawSiteListPanel(const EngineSnapshot& snap, const FlyLayout& layout, SiteListState& state,
                        UiFrame& ui);
 void DrawEvidencePanel(const EngineSnapshot& snap, const Rect& rect, bool folded, bool narrow,
                        std::uint64_t highlighted, UiFrame& ui);
 /// Hold button "approve", button "refuse", list of guards behind "show_checks".
-void DrawApprovePanel(const EngineSnapshot& snap, const Rect& rect, bool narrow, bool focused,
+void DrawApprovePanel(const EngineSnapshot& snap, const Rect& rect, bool narrow,
                       ApproveState& state, UiFrame& ui);
 /// From APPROVED on: "hold_here", after a wave-off "acknowledge_wave_off".
 void DrawLandingPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui);

@@ -6,7 +6,8 @@
 
 namespace palace {
 
-/// Draws the whole workspace below the shared frame and handles its keys (Tab, Shift+Tab, Enter).
+/// Draws the whole workspace below the shared frame and moves the focus to the hold button once
+/// a site is armed.
 void DrawFlyWorkspace(const EngineSnapshot& snap, const FlyLayout& layout, FlyState& state,
                       UiFrame& ui);
 /// True when the layout must be computed with descent = true.

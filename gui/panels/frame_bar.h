@@ -13,12 +13,12 @@ namespace palace {
 
 /// Own state of the frame. The app sets what the frame cannot know from the snapshot.
 struct FrameState {
-  Workspace workspace = Workspace::kFly;  ///< set by the app
-  bool frozen = false;                    ///< display only, set by the app
-  std::string preset_name = "defaults";   ///< set by the app
-  double frame_ms = 0;                    ///< set by the app
-  bool history_open = false;              ///< alarm list below the strip
-  std::vector<AlarmId> shelved;           ///< alarms the operator shelved
+  Workspace workspace = Workspace::kFly;
+  bool frozen = false;                   ///< display only, set by the app
+  std::string preset_name = "defaults";  ///< set by the app
+  double frame_ms = 0;                   ///< set by the app
+  bool history_open = false;             ///< alarm list below the strip
+  std::vector<AlarmId> shelved;          ///< alarms the operator shelved
   double wave_off_sent_s = -std::numeric_limits<double>::infinity();
 };
 

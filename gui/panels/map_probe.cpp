@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "gui/widgets/interact.h"
 #include "gui/widgets/why_box.h"
 
 namespace palace {
@@ -20,22 +21,55 @@ std::optional<Cell> ProbeCell(const MapProbe& probe, const GridGeometry& geometr
   return at && geometry.rows > 0 ? geometry.CellFromPoint(at->x(), at->y()) : std::nullopt;
 }
 
-void OfferProbe(UiFrame& ui, const MapView& view, std::optional<Cell> cell, MapProbe& probe) {
-  if (!cell) {
+namespace {
+
+void Pin(const MapView& view, Cell cell, MapProbe& probe) {
+  probe.pinned =
+      Eigen::Vector2d(view.geometry.NorthOfRow(cell.row), view.geometry.EastOfCol(cell.col));
+  probe.pinned_map = "map/" + view.key;
+}
+
+/// Arrows move the pin, from the middle of the map when there is none; Enter takes it away again.
+void PinByKeys(const MapView& view, const MapAnswer& answer, MapProbe& probe) {
+  const GridGeometry& g = view.geometry;
+  if (answer.key_pressed && probe.pinned) {
+    probe.pinned.reset();
     return;
   }
+  if (!answer.key_pressed && answer.rows_up == 0 && answer.cols_right == 0) {
+    return;
+  }
+  const auto at =
+      probe.pinned ? g.CellFromPoint(probe.pinned->x(), probe.pinned->y()) : std::optional<Cell>();
+  const Cell from = at.value_or(Cell{g.rows / 2, g.cols / 2});
+  Pin(view,
+      {std::clamp(from.row - answer.rows_up, 0, g.rows - 1),
+       std::clamp(from.col + answer.cols_right, 0, g.cols - 1)},
+      probe);
+}
+
+}  // namespace
+
+void OfferProbe(const MapView& view, const MapAnswer& answer, MapProbe& probe) {
   const GridGeometry& g = view.geometry;
-  const Eigen::Vector2d at(g.NorthOfRow(cell->row), g.EastOfCol(cell->col));
+  if (g.rows <= 0 || g.cols <= 0) {
+    return;
+  }
+  PinByKeys(view, answer, probe);
+  if (!answer.under_pointer) {
+    return;
+  }
+  const Cell cell = *answer.under_pointer;
+  const Eigen::Vector2d at(g.NorthOfRow(cell.row), g.EastOfCol(cell.col));
   probe.next = at;
   probe.next_map = "map/" + view.key;
-  const Item* square = ui.items.Find(probe.next_map);
-  if (square == nullptr || !Clicked(ui, square->rect)) {
-    return;
+  if (answer.clicked) {
+    const bool again = probe.pinned && (*probe.pinned - at).norm() < 1.5 * g.cell_m;
+    Pin(view, cell, probe);
+    if (again) {
+      probe.pinned.reset();
+    }
   }
-  const bool again = probe.pinned && (*probe.pinned - at).norm() < 1.5 * g.cell_m;
-  probe.pinned = again ? std::nullopt : std::optional<Eigen::Vector2d>(at);
-  probe.pinned_map = probe.next_map;
-  ui.intents.push_back(UiAction(PinProbe{!again, *cell}));
 }
 
 void DrawProbeWhy(UiFrame& ui, const Rect& body, const TerrainDecision* decision,
@@ -66,7 +100,14 @@ void DrawProbeWhy(UiFrame& ui, const Rect& body, const TerrainDecision* decision
     }
   }
   if (const auto place = PlaceBeside(anchor, WhyBoxSize(s, why), body, avoid, s.Px(4))) {
-    DrawWhyBox(ui, *place, why, SecondsBetween(decision->map_time, now));
+    const double map_age_s = SecondsBetween(decision->map_time, now);
+    if (probe.hovered) {
+      DrawWhyBox(ui, *place, why, map_age_s);
+    } else {  // pinned: it stays, so it must shield what it covers
+      BeginOverlay("##why", *place);
+      DrawWhyBox(ui, *place, why, map_age_s);
+      EndOverlay();
+    }
   }
 }
 

@@ -1,7 +1,8 @@
 // Map probe: one place on the ground, read on all maps and marked on all pictures.
 //
-// The pointer over a map shows the place under it; a click pins it there, a click on the pin takes
-// it away. Kept as north and east, because the grid under a flying camera moves.
+// The pointer over a map shows the place under it; a click pins it there, a click on the pin or
+// Escape takes it away. With the focus on a map, arrows move the pin by a cell (with Shift ten).
+// Kept as north and east, because the grid under a flying camera moves.
 #pragma once
 
 #include <optional>
@@ -29,8 +30,9 @@ struct MapProbe {
 void BeginProbe(MapProbe& probe);
 /// Cell of the place shown; empty without one or where the map does not reach.
 std::optional<Cell> ProbeCell(const MapProbe& probe, const GridGeometry& geometry);
-/// Call with what DrawMapPicture or DrawMapPanel returned: follows the pointer and pins on a click.
-void OfferProbe(UiFrame& ui, const MapView& view, std::optional<Cell> cell, MapProbe& probe);
+/// Call with what DrawMapPicture or DrawMapPanel returned: follows the pointer, pins on a click and
+/// moves the pin by the arrow keys.
+void OfferProbe(const MapView& view, const MapAnswer& answer, MapProbe& probe);
 /// Why the cell shown is as it is, in a box beside it; call last, after all panels. The box keeps
 /// inside `body`, off the probed cell, WAVE OFF, the ring on the picture and the buttons that
 /// commit, stop or apply; where no such place is left it is not drawn.

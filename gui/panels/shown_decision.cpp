@@ -1,5 +1,4 @@
 #include "gui/panels/fly_panels.h"
-#include "gui/widgets/number_text.h"
 
 namespace palace {
 
@@ -56,31 +55,6 @@ MapMarks MarksOf(const EngineSnapshot& snap, std::uint64_t highlighted) {
     marks.footprint = GroundFootprint(*camera, snap.X_WC, marks.selected->height_m.value);
   }
   return marks;
-}
-
-MapView SafeDistanceMap(const EngineSnapshot& snap, const UiFrame& ui) {
-  MapView view;
-  view.key = "safe_distance";
-  view.title = "Safe distance";
-  view.texture = ui.textures.maps[4];
-  view.ramp = Ramp::kSafeDistance;
-  view.preview = snap.preview != nullptr;
-  const TerrainDecision* shown = ShownDecision(snap);
-  if (shown == nullptr || !shown->hazards) {
-    return view;
-  }
-  view.geometry = shown->hazards->geometry;
-  view.values = &shown->hazards->safe_distance_m;
-  view.flags = &shown->hazards->flags;
-  const double clear_m = shown->settings.clear_radius_m();
-  view.low = "0 m";
-  view.high = Fixed(2.5 * clear_m, 1) + " m";
-  view.limit.label = "min " + Fixed(clear_m, 1) + " m";
-  view.limit.at = 0.4f;
-  view.limit.setting = "slad.nav_error_m";
-  view.limit.value = snap.preview_settings.slad.nav_error_m;
-  view.limit.per_bar = 2.5 * clear_m;
-  return view;
 }
 
 }  // namespace palace

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "gui/panels/fly_panels.h"
+#include "gui/widgets/interact.h"
 #include "gui/widgets/site_row.h"
 
 namespace palace {
@@ -40,6 +41,9 @@ void DrawSiteListPanel(const EngineSnapshot& snap, const FlyLayout& layout, Site
                       {count > 0 && !layout.narrow ? std::string("Tab for next") : std::string()}});
   if (count == 0) {
     DrawEmpty(snap, content, ui);
+    if (ui.highlighted_site != 0) {
+      ui.intents.push_back(UiAction(HighlightSite{}));
+    }
     return;
   }
   const std::vector<LandingSite>& sites = shown->selection.sites;
@@ -47,9 +51,14 @@ void DrawSiteListPanel(const EngineSnapshot& snap, const FlyLayout& layout, Site
   const Rect list{content.x, content.y + s.Px(layout.narrow ? 2 : 4), content.w,
                   row * static_cast<float>(layout.site_rows)};
   const float beyond = std::max(0.0f, row * static_cast<float>(count) - list.h);
-  if (Hovered(ui, list)) {
-    state.scroll -= ImGui::GetIO().MouseWheel * row;
+  state.scroll -= Interact(ui, "panel/Sites", list, kPassive).wheel * row;
+  for (std::size_t i = 0; i < count && ui.focus.shown() != state.followed; ++i) {
+    if (ui.focus.Has(SiteItemName(sites[i].letter))) {  // the keyboard's row comes into sight
+      const float top = row * static_cast<float>(i);
+      state.scroll = std::clamp(state.scroll, top + row - list.h, top);
+    }
   }
+  state.followed = ui.focus.shown();
   state.scroll = std::clamp(std::round(state.scroll / row) * row, 0.0f, beyond);
   const auto camera = LeftCamera(snap);
   std::optional<PictureView> view;
@@ -63,23 +72,31 @@ void DrawSiteListPanel(const EngineSnapshot& snap, const FlyLayout& layout, Site
   const LandingSite* best = snap.mission.BestStanding(sites);
   const auto first = static_cast<std::size_t>(state.scroll / row);
   const std::size_t last = std::min(count, first + static_cast<std::size_t>(layout.site_rows));
-  for (std::size_t i = first; i < last; ++i) {
+  std::uint64_t focused = 0;
+  for (std::size_t i = 0; i < count; ++i) {
     const LandingSite& site = sites[i];
+    if (i < first || i >= last) {
+      OfferHidden(ui, SiteItemName(site.letter));
+      continue;
+    }
     SiteRowLook look;
     look.selected = site.id == armed;
-    look.highlighted = site.id == state.highlighted;
     look.narrow = layout.site_row_units < 60;
     look.enabled = MaySelect(snap, site.id);
     look.refused = snap.mission.IsRefused(site.id);
     const Rect rect{list.x, list.y + row * static_cast<float>(i - first), list.w, row};
-    if (DrawSiteRow(ui, rect, site, view, ui.textures.left_camera, look)) {
+    const SiteRowAnswer answer = DrawSiteRow(ui, rect, site, view, ui.textures.left_camera, look);
+    focused = answer.focused ? site.id : focused;
+    if (answer.clicked) {
       ui.intents.push_back(CommandAction(SelectSite{site.id}));
-      state.highlighted = 0;
     }
     if (&site == best) {
       // Letters stay with places, so scripts need a name for whatever leads.
       ui.items.Add("site/best", rect, look.enabled, std::string(1, site.letter));
     }
+  }
+  if (focused != ui.highlighted_site) {
+    ui.intents.push_back(UiAction(HighlightSite{focused}));
   }
   if (beyond > 0) {
     const float share = list.h / (list.h + beyond);

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "gui/panels/fly_panels.h"
+#include "gui/panels/map_views.h"
 #include "gui/widgets/icons.h"
 #include "gui/widgets/number_text.h"
 
@@ -137,13 +138,13 @@ void DrawSiteRecheckPanel(const EngineSnapshot& snap, const Rect& rect, bool nar
   const Rect content = DrawPanelFrame(ui, rect, title, {{age}});
   const float side = std::min(s.Px(232), content.h - s.Px(52));
   const Rect square{content.x + s.Px(12), content.y + s.Px(4), side, side};
-  MapView view = SafeDistanceMap(snap, ui);
+  MapView view = MakeMapView(MapKind::kSafeDistance, ShownMap(snap), ui.textures);
   view.key = "recheck";
   MapMarks marks = MarksOf(snap, 0);
   marks.letters = false;
   marks.footprint.clear();
   marks.probe = ProbeCell(probe, view.geometry);
-  OfferProbe(ui, view, DrawMapPicture(ui, square, view, marks), probe);
+  OfferProbe(view, DrawMapPicture(ui, square, view, marks), probe);
   DrawColourBar(ui, {square.x, square.bottom() + s.Px(10), side, s.Px(8)}, view, nullptr);
   const float column_x = square.right() + s.Px(16);
   DrawChecksColumn(snap, {column_x, content.y, rect.right() - s.Px(12) - column_x, content.h},

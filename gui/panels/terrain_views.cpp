@@ -3,118 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/core/units.h"
 #include "gui/widgets/map/flag_marks.h"
 #include "gui/widgets/number_text.h"
 
 namespace palace {
 namespace {
-
-struct Layer {
-  const char* key;
-  const char* title;
-  Ramp ramp;
-  int texture;
-};
-
-Layer LayerOf(MapKind kind) {
-  switch (kind) {
-    case MapKind::kElevation:
-      return {"elevation", "Elevation", Ramp::kElevation, 0};
-    case MapKind::kSlope:
-      return {"slope", "Slope", Ramp::kSlope, 1};
-    case MapKind::kRoughness:
-      return {"roughness", "Roughness", Ramp::kRoughness, 2};
-    case MapKind::kCost:
-      return {"cost", "Cost", Ramp::kCost, 3};
-    case MapKind::kSafeDistance:
-      break;
-  }
-  return {"safe_distance", "Safe distance", Ramp::kSafeDistance, 4};
-}
-
-const GridF* ValuesOf(MapKind kind, const TerrainDecision& d) {
-  if (kind == MapKind::kElevation) {
-    return d.elevation ? &d.elevation->height_m : nullptr;
-  }
-  if (!d.hazards) {
-    return nullptr;
-  }
-  switch (kind) {
-    case MapKind::kSlope:
-      return &d.hazards->slope_rad;
-    case MapKind::kRoughness:
-      return &d.hazards->roughness_m;
-    case MapKind::kCost:
-      return &d.hazards->cost;
-    default:
-      return &d.hazards->safe_distance_m;
-  }
-}
-
-std::string ValueText(MapKind kind, double value) {
-  switch (kind) {
-    case MapKind::kElevation:
-      return Fixed(value, 2) + " m";
-    case MapKind::kSlope:
-      return Fixed(Deg(value), 1) + "°";
-    case MapKind::kRoughness:
-      return Fixed(value * 100, 1) + " cm";
-    case MapKind::kCost:
-      return Fixed(value, 2);
-    case MapKind::kSafeDistance:
-      break;
-  }
-  return Fixed(value, 1) + " m";
-}
-
-/// Range of the colours: slope 0..2 limits, roughness 0..2.5, safe distance 0..2.5 clear radii, as
-/// the pictures are coloured.
-void FillRange(MapKind kind, const SladSettings& now, const SladSettings* applied, MapView& view) {
-  LimitTick& tick = view.limit;
-  const auto limit = [&](double value, double top, double before) {
-    tick.at = static_cast<float>(value / top);
-    if (applied != nullptr && before != value) {
-      tick.applied_at = static_cast<float>(before / top);
-    }
-  };
-  switch (kind) {
-    case MapKind::kElevation:
-      break;
-    case MapKind::kSlope:
-      view.low = "0°";
-      view.high = Fixed(2 * now.max_slope_deg, 0) + "°+";
-      limit(now.max_slope_deg, 2 * now.max_slope_deg,
-            applied != nullptr ? applied->max_slope_deg : 0);
-      tick.label = "max " + Fixed(now.max_slope_deg, 1) + "°";
-      tick.setting = "slad.max_slope_deg";
-      tick.value = now.max_slope_deg;
-      tick.per_bar = 2 * now.max_slope_deg;
-      break;
-    case MapKind::kRoughness:
-      view.low = "0 cm";
-      view.high = Fixed(250 * now.max_deviation_m, 0) + " cm+";
-      limit(now.max_deviation_m, 2.5 * now.max_deviation_m,
-            applied != nullptr ? applied->max_deviation_m : 0);
-      tick.label = "max " + Fixed(100 * now.max_deviation_m, 1) + " cm";
-      tick.setting = "slad.max_deviation_m";
-      tick.value = now.max_deviation_m;
-      tick.per_bar = 2.5 * now.max_deviation_m;
-      break;
-    case MapKind::kCost:
-      view.low = "0.0";
-      tick.at = 1;
-      tick.label = "limit 1.0";
-      break;
-    case MapKind::kSafeDistance:
-      view.low = "0 m";
-      view.high = Fixed(2.5 * now.clear_radius_m(), 1) + " m+";
-      limit(now.clear_radius_m(), 2.5 * now.clear_radius_m(),
-            applied != nullptr ? applied->clear_radius_m() : 0);
-      tick.label = "min " + Fixed(now.clear_radius_m(), 1) + " m";
-      break;
-  }
-}
 
 Rect FitPicture(const Rect& area, const EngineSnapshot& snap) {
   const auto camera = LeftCamera(snap);
@@ -181,34 +74,6 @@ void DrawVerdictPlate(UiFrame& ui, const Rect& image, const EngineSnapshot& snap
   } else {
     DrawVerdictLegend(ui, image, decision->hazards ? FlagsPresent(decision->hazards->flags) : 0U);
   }
-}
-
-MapView MakeMapView(MapKind kind, const TerrainDecision* decision, ImTextureID texture,
-                    const SladSettings* applied, std::optional<Cell> cursor) {
-  const Layer layer = LayerOf(kind);
-  MapView view;
-  view.key = layer.key;
-  view.title = layer.title;
-  view.ramp = layer.ramp;
-  view.texture = texture;
-  view.value = "––";
-  if (decision == nullptr) {
-    return view;
-  }
-  view.values = ValuesOf(kind, *decision);
-  view.geometry = decision->hazards     ? decision->hazards->geometry
-                  : decision->elevation ? decision->elevation->geometry
-                                        : GridGeometry{};
-  view.flags = decision->hazards ? &decision->hazards->flags : nullptr;
-  FillRange(kind, decision->settings, applied, view);
-  const LandingSite* best = BestSite(decision);
-  if (view.values != nullptr && cursor && view.geometry.Contains(*cursor)) {
-    view.value = ValueText(kind, static_cast<double>(view.values->at(*cursor)));
-  } else if (view.values != nullptr && best != nullptr && view.geometry.Contains(best->cell)) {
-    view.letter = best->letter;
-    view.value = ValueText(kind, static_cast<double>(view.values->at(best->cell)));
-  }
-  return view;
 }
 
 void DrawLeftPicture(UiFrame& ui, const Rect& area, const EngineSnapshot& snap,

@@ -1,4 +1,4 @@
-// Terrain views: maps and the left picture of one decision, as Tune and Review show them.
+// Terrain views: the pictures under one decision, as Tune and Review show them.
 #pragma once
 
 #include <optional>
@@ -6,17 +6,11 @@
 
 #include "engine/model/snapshot.h"
 #include "gui/panels/map_probe.h"
+#include "gui/panels/map_views.h"
 #include "gui/widgets/map/camera_overlay.h"
 #include "gui/widgets/map/map_image.h"
 
 namespace palace {
-
-enum class MapKind { kElevation, kSlope, kRoughness, kCost, kSafeDistance };
-
-/// One map of `decision` (null: all unknown) with its limit tick. `applied` limits are drawn dashed
-/// while they differ. The value is the one under `cursor`, else the one at the best site.
-MapView MakeMapView(MapKind kind, const TerrainDecision* decision, ImTextureID texture,
-                    const SladSettings* applied, std::optional<Cell> cursor);
 
 /// A verdict is drawn on the picture of its own map only, give or take one missed map.
 inline constexpr double kOldMap_s = 0.35;

@@ -2,6 +2,7 @@
 
 #include "gui/panels/frame_bar.h"
 #include "gui/widgets/icons.h"
+#include "gui/widgets/interact.h"
 
 namespace palace {
 
@@ -57,17 +58,16 @@ float DrawTabs(float x, const Rect& bar, Workspace active, UiFrame& ui) {
     ImFont* font = on ? s.medium : s.body;
     const float width = TextWidth(font, kNames[i]);
     const Rect area{x - s.Px(14), bar.y, width + s.Px(28), bar.h};
-    const bool hovered = Hovered(ui, area);
-    if (hovered && !on) {
+    const Interaction in = Interact(ui, std::string("tab/") + kNames[i], area, 0, kNames[i]);
+    if (in.hovered && !on) {
       FillRect(Canvas(), area, p.control);
     }
-    DrawText(ui, font, on || hovered ? p.text1 : p.text2, x, bar.centre().y, kNames[i]);
+    DrawText(ui, font, on || in.hovered ? p.text1 : p.text2, x, bar.centre().y, kNames[i]);
     if (on) {
       FillRect(Canvas(), {x - s.Px(8), bar.bottom() - s.Px(4), width + s.Px(16), s.Px(4)},
                p.white_mark);
     }
-    ui.items.Add(std::string("tab/") + kNames[i], area, true, kNames[i]);
-    if (Clicked(ui, area)) {
+    if (in.clicked) {
       ui.intents.push_back(UiAction(ShowWorkspace{static_cast<Workspace>(i)}));
     }
     x += width + s.Px(38);

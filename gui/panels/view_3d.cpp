@@ -5,20 +5,29 @@ namespace palace {
 
 namespace {
 
-void ReadMouse(const Rect& scene, View3dState& state, UiFrame& ui) {
-  const ImGuiIO& io = ImGui::GetIO();
-  if (HeldFrom(ui, scene) && !io.MouseClicked[0]) {
-    (io.KeyShift ? state.pan_x : state.drag_x) += io.MouseDelta.x;
-    (io.KeyShift ? state.pan_y : state.drag_y) += io.MouseDelta.y;
-  }
-  if (Hovered(ui, scene)) {
-    state.wheel += io.MouseWheel;
+constexpr float kKeyTurn_px = 8;  // one arrow key turns as far as this drag
+
+/// Drags turn it, with Shift they move it, the wheel zooms; so do the arrow keys and, zooming,
+/// Enter and Backspace.
+void RunScene(const Rect& scene, UiFrame& ui) {
+  const Interaction in = Interact(ui, "view_3d", scene, kAllSteps | kClears);
+  MoveView3d move;
+  move.view_height_px = scene.h;
+  (in.shift ? move.pan_x : move.turn_x) += in.drag.x;
+  (in.shift ? move.pan_y : move.turn_y) += in.drag.y;
+  move.turn_x += kKeyTurn_px * static_cast<float>(in.step_right);
+  move.turn_y -= kKeyTurn_px * static_cast<float>(in.step_up);
+  move.zoom = in.wheel + (in.key_pressed ? 1.0f : 0.0f) - (in.cleared ? 1.0f : 0.0f);
+  const bool moved =
+      move.turn_x != 0 || move.turn_y != 0 || move.pan_x != 0 || move.pan_y != 0 || move.zoom != 0;
+  if (moved) {
+    ui.intents.push_back(UiAction(move));
   }
 }
 
-void DrawTicks(const Rect& scene, const View3dState& state, UiFrame& ui) {
+void DrawTicks(const Rect& scene, UiFrame& ui) {
   const Style& s = ui.style;
-  for (const View3dTick& tick : state.ticks) {
+  for (const View3dTick& tick : ui.textures.scene_3d_ticks) {
     const float x = scene.x + tick.pixel.x;
     const float y = scene.y + tick.pixel.y;
     const float width = TextWidth(s.caption, tick.text);
@@ -31,14 +40,14 @@ void DrawTicks(const Rect& scene, const View3dState& state, UiFrame& ui) {
 
 }  // namespace
 
-void DrawView3dPanel(const EngineSnapshot& snap, const Rect& rect, View3dState& state,
-                     UiFrame& ui) {
+Rect View3dScene(const Rect& panel, const Style& style) { return PanelContent(panel, style); }
+
+void DrawView3dPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui) {
   const Style& s = ui.style;
   const Rect scene = DrawPanelFrame(ui, rect, "3-D view",
                                     {{rect.w < s.Px(300) ? ""
                                       : snap.applied     ? "Safe distance over picture"
                                                          : "No map yet"}});
-  state.scene = scene;
   ImDrawList* dl = Canvas();
   if (ui.textures.scene_3d != nullptr) {
     dl->AddImageRounded(ui.textures.scene_3d, scene.min(), scene.max(), {0, 0}, {1, 1},
@@ -47,32 +56,23 @@ void DrawView3dPanel(const EngineSnapshot& snap, const Rect& rect, View3dState& 
     dl->AddRectFilledMultiColor(scene.min(), scene.max(), Rgb(0x0E1319), Rgb(0x0E1319),
                                 Rgb(0x181F27), Rgb(0x181F27));
   }
-  ui.items.Add("view_3d", scene, true, "");
-  DrawTicks(scene, state, ui);
-  // The presets appear with the pointer, so that the picture stays free.
-  const bool near = Hovered(ui, scene);
+  DrawTicks(scene, ui);
+  // The presets appear with the pointer or the focus, so that the picture stays free.
   constexpr const char* kNames[] = {"Orbit", "Above", "Behind"};
-  bool on_button = false;
+  const bool near = Interact(ui, "view_3d", scene, kPassive).hovered;
   float x = scene.x + s.Px(8);
   for (int i = 0; i < 3; ++i) {
+    const auto preset = static_cast<ViewPreset>(i);
     const Rect button{x, scene.y + s.Px(8), TextWidth(s.body, kNames[i]) + s.Px(20), s.Px(24)};
-    const std::string name = std::string("view/") + kNames[i];
-    on_button = on_button || Hovered(ui, button);
-    if (!near) {
-      ui.items.Add(name, button, true, kNames[i]);
-    } else {
-      ButtonLook look;
-      look.active = static_cast<int>(state.preset) == i;
-      if (DrawButton(ui, name, button, kNames[i], look)) {
-        state.wanted_preset = static_cast<ViewPreset>(i);
-        state.preset = static_cast<ViewPreset>(i);
-      }
+    ButtonLook look;
+    look.active = ui.textures.scene_3d_preset == preset;
+    look.unseen = !near;
+    if (DrawButton(ui, std::string("view/") + kNames[i], button, kNames[i], look)) {
+      ui.intents.push_back(UiAction(ShowView3dPreset{preset}));
     }
     x += button.w + s.Px(6);
   }
-  if (!on_button) {
-    ReadMouse(scene, state, ui);
-  }
+  RunScene(scene, ui);
 }
 
 }  // namespace palace

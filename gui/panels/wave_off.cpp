@@ -1,4 +1,5 @@
 #include "gui/panels/frame_bar.h"
+#include "gui/widgets/interact.h"
 
 namespace palace {
 
@@ -31,18 +32,22 @@ void DrawWaveOffPanel(const EngineSnapshot& snap, const Rect& rect, FrameState& 
   const Style& s = ui.style;
   const Palette& p = s.palette;
   const bool enabled = snap.can_transmit;
-  // A popup never stands in the way of a wave-off, so this does not ask Hovered().
-  const bool inside = rect.Contains(ImGui::GetIO().MousePos);
-  if (enabled && inside && ImGui::GetIO().MouseClicked[0]) {
+  ui.items.Add("panel/WAVE OFF", rect, true, "");
+  // A popup never stands in its way; from the keyboard it has a key of its own that works anywhere.
+  const Interaction in = Interact(
+      ui, "wave_off", rect, kOnPress | kOverPopup | kNoTab | (enabled ? 0U : unsigned{kDisabled}));
+  if (in.pressed) {
     ui.intents.push_back(CommandAction(WaveOff{}));
     state.wave_off_sent_s = ui.ui_time_s;
   }
+  const std::string second = SecondLine(snap, state, ui.ui_time_s);
+  ui.items.Last("wave_off").text = "WAVE OFF | " + second;
   const bool latched = enabled && (snap.mission.state == MissionState::kAborting ||
                                    ui.ui_time_s - state.wave_off_sent_s < kAnswerTime_s);
   ImU32 fill = p.wave_off;
   if (latched) {
     fill = p.white_mark;
-  } else if (enabled && inside) {
+  } else if (enabled && in.hovered) {
     fill = Mix(p.wave_off, p.white_mark, 0.08f);
   }
   ImDrawList* dl = Canvas();
@@ -52,12 +57,9 @@ void DrawWaveOffPanel(const EngineSnapshot& snap, const Rect& rect, FrameState& 
   FillRect(dl, {rect.x, rect.y, s.Px(2), rect.h}, enabled ? p.white_mark : p.line);
   FillRect(dl, {rect.x, rect.bottom() - s.Px(2), rect.w, s.Px(2)}, enabled ? p.white_mark : p.line);
   const ImU32 text = latched ? p.on_white : (enabled ? p.text1 : p.text3);
-  const std::string second = SecondLine(snap, state, ui.ui_time_s);
   const float x = rect.x + s.Px(34);
-  ui.items.Add("panel/WAVE OFF", rect, true, "");
   DrawText(ui, s.wave_off, text, x, rect.y + s.Px(28), "WAVE OFF");
   DrawText(ui, s.body, text, x, rect.y + s.Px(56), second);
-  ui.items.Add("wave_off", rect, enabled, "WAVE OFF | " + second);
 }
 
 }  // namespace palace

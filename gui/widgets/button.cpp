@@ -8,8 +8,11 @@ bool DrawButton(UiFrame& ui, std::string_view name, const Rect& rect, std::strin
                 const ButtonLook& look) {
   const Style& s = ui.style;
   const Palette& p = s.palette;
-  const bool hovered = Hovered(ui, rect);
-  const bool pressed = look.enabled && hovered && HeldFrom(ui, rect);
+  const Interaction in = Interact(ui, name, rect, look.enabled ? 0U : unsigned{kDisabled}, label);
+  if (look.unseen && !in.hovered && !in.focused) {
+    return in.clicked;
+  }
+  const bool pressed = (in.held && in.hovered) || in.key_held;
   ImU32 fill = look.flat ? 0 : p.control;
   ImU32 border = p.strong_line;
   ImU32 text = p.text1;
@@ -22,7 +25,7 @@ bool DrawButton(UiFrame& ui, std::string_view name, const Rect& rect, std::strin
   } else if (pressed) {
     fill = p.window;
     border = p.text2;
-  } else if (hovered) {
+  } else if (in.hovered) {
     fill = p.hover;
   }
   ImDrawList* dl = Canvas();
@@ -37,14 +40,10 @@ bool DrawButton(UiFrame& ui, std::string_view name, const Rect& rect, std::strin
     DrawText(ui, s.caption, look.enabled ? p.text2 : p.text3, rect.centre().x, middle + s.Px(11),
              look.sub, Align::kCentre);
   }
-  if (look.focused) {
-    FocusRing(s, dl, rect);
-  }
-  if (hovered && !look.enabled && !look.reason.empty()) {
+  if (in.hovered && !look.enabled && !look.reason.empty()) {
     DrawTooltip(ui, look.reason);
   }
-  ui.items.Add(name, rect, look.enabled, label);
-  return ClickedItem(ui, name, rect) && look.enabled;
+  return in.clicked;
 }
 
 void DrawTooltip(UiFrame& ui, std::string_view text) {

@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "gui/widgets/draw.h"
+#include "gui/widgets/interact.h"
 
 namespace palace {
 
@@ -11,13 +12,14 @@ struct ButtonLook {
   ImFont* font = nullptr;     ///< null: body
   bool enabled = true;        ///< disabled: quiet line, text 3, never fires
   bool active = false;        ///< a switch that is on: white fill
-  bool focused = false;       ///< keyboard focus ring
   bool flat = false;          ///< no fill of its own (strips)
+  bool unseen = false;        ///< drawn only with the pointer or the focus on it
   std::string_view sub{};     ///< second line in caption, "then site B"
   std::string_view reason{};  ///< why it is disabled, shown as tooltip
 };
 
-/// True in the frame in which the button is released after being pressed on it.
+/// True in the frame in which the button is released after being pressed on it, or Enter or Space
+/// goes down on it.
 bool DrawButton(UiFrame& ui, std::string_view name, const Rect& rect, std::string_view label,
                 const ButtonLook& look = {});
 /// Small box with one line beside the pointer; keeps out of the WAVE OFF rectangle.

@@ -4,33 +4,6 @@
 
 namespace palace {
 
-namespace {
-
-/// Where the canvas remembers which item took the press.
-ImGuiID PressTaker() { return ImGui::GetID("item that took the press"); }
-
-}  // namespace
-
-void BeginCanvas(const Style&) {
-  ImGui::SetNextWindowPos({0, 0});
-  ImGui::SetNextWindowSize(ImGui::GetIO().DisplaySize);
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(0, 0));
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 0.0f);
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.0f);
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, ImVec2(1, 1));
-  ImGui::Begin("##canvas", nullptr,
-               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
-                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus |
-                   ImGuiWindowFlags_NoBackground | ImGuiWindowFlags_NoNav |
-                   ImGuiWindowFlags_NoScrollWithMouse);
-  ImGui::PopStyleVar(4);
-  if (ImGui::GetIO().MouseClicked[0]) {
-    ImGui::GetStateStorage()->SetInt(PressTaker(), 0);
-  }
-}
-
-void EndCanvas() { ImGui::End(); }
-
 void FillRect(ImDrawList* dl, const Rect& r, ImU32 colour, float rounding) {
   dl->AddRectFilled(r.min(), r.max(), colour, rounding);
 }
@@ -190,37 +163,6 @@ void FocusRing(const Style& s, ImDrawList* dl, const Rect& rect) {
   const float out = s.Px(4);
   StrokeRect(dl, {rect.x - out, rect.y - out, rect.w + 2 * out, rect.h + 2 * out},
              s.palette.white_mark, s.Fine(2), s.Fine(5));
-}
-
-bool Hovered(const UiFrame& ui, const Rect& rect) {
-  return !ui.blocked_by_popup && rect.Contains(ImGui::GetIO().MousePos);
-}
-
-bool Clicked(const UiFrame& ui, const Rect& rect) {
-  const ImGuiIO& io = ImGui::GetIO();
-  return Hovered(ui, rect) && io.MouseReleased[0] && rect.Contains(io.MouseClickedPos[0]);
-}
-
-bool ClickedItem(const UiFrame& ui, std::string_view name, const Rect& rect) {
-  ImGuiStorage& storage = *ImGui::GetStateStorage();
-  const ImGuiID self = ImGui::GetID(name.data(), name.data() + name.size());
-  if (Pressed(ui, rect)) {
-    storage.SetInt(PressTaker(), static_cast<int>(self));
-  }
-  return Clicked(ui, rect) && storage.GetInt(PressTaker()) == static_cast<int>(self);
-}
-
-bool Pressed(const UiFrame& ui, const Rect& rect) {
-  return Hovered(ui, rect) && ImGui::GetIO().MouseClicked[0];
-}
-
-bool HeldFrom(const UiFrame& ui, const Rect& rect) {
-  const ImGuiIO& io = ImGui::GetIO();
-  return !ui.blocked_by_popup && io.MouseDown[0] && rect.Contains(io.MouseClickedPos[0]);
-}
-
-bool DoubleClicked(const UiFrame& ui, const Rect& rect) {
-  return Hovered(ui, rect) && ImGui::GetIO().MouseDoubleClicked[0];
 }
 
 }  // namespace palace

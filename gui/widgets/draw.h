@@ -14,10 +14,7 @@
 
 namespace palace {
 
-/// Opens the one borderless window that all panels draw into; call once a frame around them.
-void BeginCanvas(const Style& style);
-void EndCanvas();
-/// Draw list of the canvas.
+/// Draw list of the canvas, or of the overlay being drawn.
 inline ImDrawList* Canvas() { return ImGui::GetWindowDrawList(); }
 
 // ---- text -------------------------------------------------------------------------------------
@@ -68,19 +65,5 @@ void LetterPlate(UiFrame& ui, ImVec2 centre, char letter, bool selected, float s
 void PreviewChip(UiFrame& ui, ImVec2 pos);
 /// White focus ring, 2 px, 2 px outside.
 void FocusRing(const Style& style, ImDrawList* dl, const Rect& rect);
-
-// ---- input --------------------------------------------------------------------------------------
-/// Mouse over the rectangle and no popup in the way.
-bool Hovered(const UiFrame& ui, const Rect& rect);
-/// Released inside after being pressed inside.
-bool Clicked(const UiFrame& ui, const Rect& rect);
-/// The same, and this very item took the press: a control that appeared under a pointer that is
-/// already down (hold to approve becomes "Hold here") does not fire on its release.
-bool ClickedItem(const UiFrame& ui, std::string_view name, const Rect& rect);
-/// Pressed in this frame inside.
-bool Pressed(const UiFrame& ui, const Rect& rect);
-/// Being held down since a press inside (the pointer may have left).
-bool HeldFrom(const UiFrame& ui, const Rect& rect);
-bool DoubleClicked(const UiFrame& ui, const Rect& rect);
 
 }  // namespace palace

@@ -84,20 +84,16 @@ EvidenceRow RowOf(const LimitRow& limit) {
   return row;
 }
 
-int DrawEvidenceRows(UiFrame& ui, const Rect& rect, const std::vector<EvidenceRow>& rows,
-                     bool narrow) {
+void DrawEvidenceRows(UiFrame& ui, const Rect& rect, const std::vector<EvidenceRow>& rows,
+                      bool narrow) {
   const Style& s = ui.style;
   const Palette& p = s.palette;
   const Metrics m = MetricsOf(s, narrow);
   const float height = EvidenceRowHeight(s, narrow);
-  int clicked = -1;
   float y = rect.y;
   for (std::size_t i = 0; i < rows.size(); ++i, y += height) {
     const EvidenceRow& row = rows[i];
     const Rect area{rect.x, y, rect.w, height};
-    if (Hovered(ui, area)) {
-      FillRect(Canvas(), area, p.control);
-    }
     const float middle = y + height / 2;
     DrawText(ui, s.body, p.text2, rect.x + s.Px(12), middle, row.name);
     float right = rect.right() - m.value_right;
@@ -112,7 +108,6 @@ int DrawEvidenceRows(UiFrame& ui, const Rect& rect, const std::vector<EvidenceRo
       DrawText(ui, s.medium, p.text1, right, middle, text, Align::kRight);
     }
     ui.items.Add("evidence/" + row.name, area, true, FullName(row));
-    clicked = Clicked(ui, area) ? static_cast<int>(i) : clicked;
     if (row.enforcer.empty()) {
       DrawText(ui, s.caption, p.text3, rect.right() - s.Px(12), middle, row.limit, Align::kRight);
       continue;
@@ -129,7 +124,6 @@ int DrawEvidenceRows(UiFrame& ui, const Rect& rect, const std::vector<EvidenceRo
     }
     DrawText(ui, s.caption, p.text3, rect.right() - s.Px(12), middle, who, Align::kRight);
   }
-  return clicked;
 }
 
 }  // namespace palace

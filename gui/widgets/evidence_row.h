@@ -26,9 +26,9 @@ struct EvidenceRow {
 /// The row as the screen shows it.
 EvidenceRow RowOf(const LimitRow& limit);
 
-/// Draws rows from the top of `rect` (full panel width); returns the index of a clicked row or -1.
-int DrawEvidenceRows(UiFrame& ui, const Rect& rect, const std::vector<EvidenceRow>& rows,
-                     bool narrow);
+/// Draws rows from the top of `rect` (full panel width); items "evidence/<name>".
+void DrawEvidenceRows(UiFrame& ui, const Rect& rect, const std::vector<EvidenceRow>& rows,
+                      bool narrow);
 inline float EvidenceRowHeight(const Style& s, bool narrow) { return s.Px(narrow ? 26 : 28); }
 
 }  // namespace palace

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "gui/widgets/icons.h"
-#include "gui/widgets/imgui_input.h"
+#include "gui/widgets/interact.h"
 #include "gui/widgets/number_text.h"
 
 namespace palace {
@@ -90,7 +90,7 @@ double HeldSeconds(const HoldState& state, double now_s) {
 }
 
 bool AdvanceHold(HoldState& state, const HoldInput& in) {
-  const bool allowed = !in.blocked && !in.popup && in.window_focused;
+  const bool allowed = !in.blocked && !in.popup && !in.cancelled && in.window_focused;
   if (state.holding) {
     const bool kept =
         state.by_key ? in.key_down && in.has_focus : in.mouse_down && in.pointer_inside;
@@ -124,25 +124,31 @@ bool DrawHoldButton(UiFrame& ui, std::string_view name, const Rect& rect,
                     const HoldButtonView& view, HoldState& state) {
   const Style& s = ui.style;
   const Palette& p = s.palette;
-  const ImGuiIO& io = ImGui::GetIO();
+  const bool ready = view.phase == HoldPhase::kReady;
+  const Interaction in = Interact(ui, name, rect, kKeepsStop | (ready ? 0U : unsigned{kDisabled}));
   HoldInput input;
   input.now_s = ui.ui_time_s;
-  input.pointer_inside = rect.Contains(io.MousePos);
-  input.mouse_pressed = io.MouseClicked[0];
-  input.mouse_down = io.MouseDown[0];
-  input.has_focus = view.focused;
-  input.key_pressed = !io.WantTextInput && KeyPressed(ImGuiKey_Enter, false);
-  input.key_down = KeyDown(ImGuiKey_Enter);
+  input.pointer_inside = in.hovered;
+  input.mouse_pressed = in.pressed;
+  input.mouse_down = in.held;
+  input.has_focus = in.focused;
+  input.key_pressed = in.key_pressed;
+  input.key_down = in.key_held;
+  input.window_focused = ui.window_focused;
   input.popup = ui.blocked_by_popup;
-  input.blocked = view.phase != HoldPhase::kReady;
+  input.cancelled = state.holding && EscapePressed();
+  input.blocked = !ready;
   input.subject = view.subject;
   input.duration_s = view.duration_s;
+  if (input.cancelled) {
+    ui.focus.TakeEscape();
+  }
   const bool fired = AdvanceHold(state, input);
 
   const double held = HeldSeconds(state, ui.ui_time_s);
   DrawBody(ui, rect, view, static_cast<float>(std::min(1.0, held / view.duration_s)));
   const Words words = WordsOf(view, state, ui.ui_time_s);
-  const bool ready = view.phase == HoldPhase::kReady;
+  ui.items.Last(name).text = words.title + " | " + words.second;
   const bool quiet = view.phase == HoldPhase::kBlocked || view.phase == HoldPhase::kReplay;
   const ImU32 title = ready ? p.on_go : (quiet ? p.text2 : p.text1);
   const ImU32 second = ready ? p.on_go : (view.phase == HoldPhase::kBlocked ? p.text1 : p.text2);
@@ -159,10 +165,6 @@ bool DrawHoldButton(UiFrame& ui, std::string_view name, const Rect& rect,
              {rect.x + s.Px(24), y}, s.Px(14),
              view.phase == HoldPhase::kAccepted ? p.text1 : p.caution);
   }
-  if (view.focused) {
-    FocusRing(s, Canvas(), rect);
-  }
-  ui.items.Add(name, rect, ready, words.title + " | " + words.second);
   return fired;
 }
 

@@ -1,5 +1,6 @@
 // Hold-to-confirm: a button that fires only after being held for its full time without a break.
-// Release, leaving the button, a popup, a change of subject, a block or a lost focus empties it.
+// Release, leaving the button, Escape, a popup, a change of subject, a block or a lost focus
+// empties it.
 #pragma once
 
 #include <cstdint>
@@ -30,7 +31,8 @@ struct HoldInput {
   bool key_down = false;
   bool window_focused = true;
   bool popup = false;
-  bool blocked = false;  ///< may not fire now, for whatever reason
+  bool cancelled = false;  ///< Escape
+  bool blocked = false;    ///< may not fire now, for whatever reason
   std::uint64_t subject = 0;
   double duration_s = 1.0;
 };
@@ -47,11 +49,11 @@ struct HoldButtonView {
   std::string label;   ///< "Hold to approve A"
   std::string reason;  ///< second line of blocked, requested, accepted, refused
   std::uint64_t subject = 0;
-  bool focused = false;
   double duration_s = 1.0;
 };
 
-/// Draws the button and runs the hold. True in the frame in which it fires.
+/// Draws the button and runs the hold. True in the frame in which it fires. A hold that Escape
+/// cancels takes the Escape.
 bool DrawHoldButton(UiFrame& ui, std::string_view name, const Rect& rect,
                     const HoldButtonView& view, HoldState& state);
 

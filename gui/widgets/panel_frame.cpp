@@ -56,11 +56,12 @@ Rect DrawPanelFrame(UiFrame& ui, const Rect& rect, std::string_view title,
     }
     right -= width + icon + s.Px(12);
   }
-  return {rect.x, rect.y + header, rect.w, rect.h - header};
+  return PanelContent(rect, s);
 }
 
-bool PanelHeaderDoubleClicked(const UiFrame& ui, const Rect& rect) {
-  return DoubleClicked(ui, {rect.x, rect.y, rect.w, ui.style.Px(28)});
+Rect PanelContent(const Rect& rect, const Style& style) {
+  const float header = style.Px(28);
+  return {rect.x, rect.y + header, rect.w, rect.h - header};
 }
 
 }  // namespace palace

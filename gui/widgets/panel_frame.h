@@ -21,9 +21,9 @@ struct PanelFact {
 /// Facts that do not fit beside the title are dropped from the end. Recorded as "panel/<title>".
 Rect DrawPanelFrame(UiFrame& ui, const Rect& rect, std::string_view title,
                     std::initializer_list<PanelFact> facts = {});
+/// What DrawPanelFrame leaves below the header.
+Rect PanelContent(const Rect& rect, const Style& style);
 /// Background alone, for panels without a header.
 void DrawPanelBackground(UiFrame& ui, const Rect& rect, std::string_view name);
-/// True in the frame in which the header is double-clicked (maximise or restore).
-bool PanelHeaderDoubleClicked(const UiFrame& ui, const Rect& rect);
 
 }  // namespace palace

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gui/widgets/interact.h"
 #include "gui/widgets/number_text.h"
 
 namespace palace {
@@ -338,8 +339,8 @@ void DrawPlot(UiFrame& ui, const Rect& panel, const PlotView& view, PlotHover& h
   }
   DrawHover(ui, axes, hover);
   dl->PopClipRect();
-  if (Hovered(ui, axes.floor)) {
-    const float share = (ImGui::GetIO().MousePos.x - axes.floor.x) / axes.floor.w;
+  if (const Interaction in = Interact(ui, view.name, axes.floor, kPassive); in.hovered) {
+    const float share = (in.pointer.x - axes.floor.x) / axes.floor.w;
     hover.next_x = view.x_min + share * (view.x_max - view.x_min);
   }
   ui.items.Add("plot/" + view.name, panel, true, view.title + " " + view.current);

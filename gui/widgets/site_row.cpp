@@ -6,6 +6,7 @@
 #include "engine/model/cell_explanation.h"
 #include "gui/widgets/draw.h"
 #include "gui/widgets/icons.h"
+#include "gui/widgets/interact.h"
 #include "gui/widgets/map/site_marks.h"
 #include "gui/widgets/number_text.h"
 
@@ -67,20 +68,25 @@ SiteWord WordOf(const LandingSite& site, bool refused) {
 
 }  // namespace
 
-bool DrawSiteRow(UiFrame& ui, const Rect& rect, const LandingSite& site,
-                 const std::optional<PictureView>& view, ImTextureID texture,
-                 const SiteRowLook& look) {
+SiteRowAnswer DrawSiteRow(UiFrame& ui, const Rect& rect, const LandingSite& site,
+                          const std::optional<PictureView>& view, ImTextureID texture,
+                          const SiteRowLook& look) {
   const Style& s = ui.style;
   const Palette& p = s.palette;
   ImDrawList* dl = Canvas();
-  const bool hovered = look.enabled && Hovered(ui, rect);
-  if (look.selected || hovered || look.highlighted) {
+  const SiteWord status = WordOf(site, look.refused);
+  // What a refused site has over the others no longer ranks it.
+  const std::string_view why = look.refused ? kRefusedReason : std::string_view(site.reason);
+  const std::string words = site.letter + std::string(" ") + status.word + " " + std::string(why) +
+                            (site.flags != 0 ? " " + FlagWords(site.flags) : std::string());
+  const Interaction in = Interact(ui, SiteItemName(site.letter), rect,
+                                  kKeepsStop | (look.enabled ? 0U : unsigned{kDisabled}), words);
+  const bool hovered = look.enabled && in.hovered;
+  if (look.selected || hovered || in.focused) {
     FillRect(dl, rect, look.selected ? p.hover : p.control);
   }
   if (look.selected) {
     FillRect(dl, {rect.x, rect.y, s.Px(4), rect.h}, p.white_mark);
-  } else if (look.highlighted) {
-    StrokeRect(dl, rect, p.white_mark, s.Fine(2), s.Fine(2));
   }
   const float side = s.Px(look.narrow ? 36 : 56);
   const Rect box{rect.x + s.Px(16), std::round(rect.centre().y - side / 2), side, side};
@@ -93,15 +99,12 @@ bool DrawSiteRow(UiFrame& ui, const Rect& rect, const LandingSite& site,
   const float left_x = look.narrow ? text_x : letter_x - s.Px(10);
   DrawText(ui, s.medium, p.text1, text_x, first_y, Fixed(site.safe_distance_m, 1) + " m clear");
 
-  const SiteWord status = WordOf(site, look.refused);
   const float right = rect.right() - s.Px(14);
   const float word_w = DrawText(ui, s.caption, p.text2, right, first_y, status.word, Align::kRight);
   DrawIcon(dl, status.icon, {right - word_w - s.Px(13), first_y}, s.Px(12),
            status.icon == Icon::kWarning ? p.warning : p.text2);
 
   const float width = right - left_x;
-  // What a refused site has over the others no longer ranks it.
-  const std::string_view why = look.refused ? kRefusedReason : std::string_view(site.reason);
   if (look.narrow) {
     std::string_view reason = why;
     if (TextWidth(s.caption, reason) > width) {
@@ -119,10 +122,7 @@ bool DrawSiteRow(UiFrame& ui, const Rect& rect, const LandingSite& site,
     DrawText(ui, s.caption, look.selected ? p.text1 : p.text2, left_x, first_y + s.Px(39),
              FitWords(s.caption, why, width));
   }
-  ui.items.Add(std::string("site/") + site.letter, rect, look.enabled,
-               site.letter + std::string(" ") + status.word + " " + std::string(why) +
-                   (site.flags != 0 ? " " + FlagWords(site.flags) : std::string()));
-  return look.enabled && Clicked(ui, rect);
+  return {in.clicked, in.focused};
 }
 
 }  // namespace palace

@@ -7,7 +7,7 @@
 #include <cstring>
 
 #include "gui/widgets/icons.h"
-#include "gui/widgets/imgui_input.h"
+#include "gui/widgets/interact.h"
 
 namespace palace {
 namespace {
@@ -32,6 +32,14 @@ bool IsChanged(const SliderRow& row) {
 
 void Ask(UiFrame& ui, const SettingInfo& info, double value) {
   ui.intents.push_back(CommandAction(SetSetting{info.name, value}));
+}
+
+void StartTyping(const SliderRow& row, SliderState& state) {
+  state.typing = row.info->name;
+  state.focus_wanted = true;
+  state.refused.clear();
+  std::snprintf(state.text, sizeof state.text, "%.*f", row.info->decimals,
+                row.value * row.info->shown_per_unit);
 }
 
 /// The value a drag to `share` gives: whole display steps, clamped.
@@ -65,40 +73,72 @@ void DrawTrack(UiFrame& ui, const Rect& track, const SliderRow& row, bool dragge
   const Rect grab{std::round(x - s.Px(5)), std::round(track.centre().y - s.Px(10)), s.Px(10),
                   s.Px(20)};
   FillRect(dl, grab, dragged || changed ? p.white_mark : p.text2, s.Fine(2));
-  ui.items.Add("limit/" + info.name, grab, true, info.label + " " + FormatSetting(info, row.value));
+  ui.items.Last("limit/" + info.name).rect = grab;
 }
 
-void RunDrag(UiFrame& ui, const Rect& track, const SliderRow& row, SliderState& state) {
+/// The value after `steps` display steps, or the next one that the setting can take that way.
+double SteppedValue(const SettingInfo& info, double value, int steps) {
+  constexpr int kWidestGap = 16;  // of the settings that take multiples
+  const double step = std::pow(10.0, -info.decimals) / info.shown_per_unit;
+  const int sign = steps > 0 ? 1 : -1;
+  for (int n = std::abs(steps); n <= std::abs(steps) + kWidestGap; ++n) {
+    const double wanted = std::round((value + sign * n * step) / step) * step;
+    const double to = ClampSetting(info, wanted);
+    if ((to - value) * sign > step * 1e-3) {
+      return to;
+    }
+  }
+  return value;
+}
+
+/// What the keyboard asks of a setting: arrows step it, Enter types, Backspace resets.
+void RunSettingKeys(UiFrame& ui, const SliderRow& row, const Interaction& in, SliderState& state) {
+  const SettingInfo& info = *row.info;
+  if (in.step_right != 0) {
+    const double value = SteppedValue(info, row.value, in.step_right);
+    if (value != row.value) {
+      Ask(ui, info, value);
+    }
+  }
+  if (in.cleared && IsChanged(row)) {
+    Ask(ui, info, info.default_value);
+  }
+  if (in.key_pressed && info.words.empty()) {
+    StartTyping(row, state);
+  }
+}
+
+/// Mouse and keyboard over the track. Records the item, whose rectangle becomes the grab's.
+Interaction RunTrack(UiFrame& ui, const Rect& track, const SliderRow& row, SliderState& state) {
   const Style& s = ui.style;
   const SettingInfo& info = *row.info;
-  const ImGuiIO& io = ImGui::GetIO();
   const float x = track.x + TrackShare(info, row.value) * track.w;
   const Rect reach{track.x - s.Px(6), track.centre().y - s.Px(12), track.w + s.Px(12), s.Px(24)};
-  if (state.dragging.empty() && state.typing.empty() && Pressed(ui, reach)) {
-    state.dragging = info.name;
-    state.last_value = row.value;
-    const bool on_grab = std::abs(io.MousePos.x - x) <= s.Px(7);
-    state.grab_offset_px = on_grab ? io.MousePos.x - x : 0;
-  }
-  if (Hovered(ui, reach) || state.dragging == info.name) {
+  const Interaction in =
+      Interact(ui, "limit/" + info.name, reach,
+               kSideSteps | kClears | (state.typing.empty() ? 0U : unsigned{kKeysOnly}),
+               info.label + " " + FormatSetting(info, row.value));
+  RunSettingKeys(ui, row, in, state);
+  if (in.hovered || in.held) {
     ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
   }
-  if (state.dragging != info.name) {
-    return;
+  if (in.pressed) {
+    state.last_value = row.value;
+    const bool on_grab = std::abs(in.pointer.x - x) <= s.Px(7);
+    state.grab_offset_px = on_grab ? in.pointer.x - x : 0;
   }
-  if (!io.MouseDown[0]) {
-    state.dragging.clear();
-    return;
+  if (in.held) {
+    const float at = in.pointer.x - state.grab_offset_px;
+    const double value = DraggedValue(info, (at - track.x) / track.w);
+    if (value != state.last_value && std::abs(at - x) >= 0.5f) {
+      state.last_value = value;
+      Ask(ui, info, value);
+    }
   }
-  const double value =
-      DraggedValue(info, (io.MousePos.x - state.grab_offset_px - track.x) / track.w);
-  if (value != state.last_value && std::abs(io.MousePos.x - state.grab_offset_px - x) >= 0.5f) {
-    state.last_value = value;
-    Ask(ui, info, value);
-  }
+  return in;
 }
 
-void DrawWords(UiFrame& ui, const Rect& area, const SliderRow& row) {
+void DrawWords(UiFrame& ui, const Rect& area, const SliderRow& row, SliderState& state) {
   const Style& s = ui.style;
   const Palette& p = s.palette;
   const SettingInfo& info = *row.info;
@@ -108,19 +148,23 @@ void DrawWords(UiFrame& ui, const Rect& area, const SliderRow& row) {
     std::replace(word.begin(), word.end(), '_', ' ');
     total += TextWidth(s.caption, word);
   }
+  const Interaction keys =
+      Interact(ui, "limit/" + info.name, area, kSideSteps | kClears | kKeysOnly,
+               info.label + " " + FormatSetting(info, row.value));
+  RunSettingKeys(ui, row, keys, state);
   const float pad = (area.w - total) / static_cast<float>(words.size());
   float x = area.x;
   for (std::size_t i = 0; i < words.size(); ++i) {
     const Rect box{std::round(x), area.y, std::round(TextWidth(s.caption, words[i]) + pad), area.h};
     x += box.w;
     const bool on = static_cast<int>(row.value) == static_cast<int>(i);
-    const bool hovered = Hovered(ui, box);
-    FillRect(Canvas(), box, on ? p.white_mark : (hovered ? p.hover : p.window), s.Fine(3));
+    const Interaction in =
+        Interact(ui, "limit/" + info.name + "/" + info.words[i], box, kNoTab, words[i]);
+    FillRect(Canvas(), box, on ? p.white_mark : (in.hovered ? p.hover : p.window), s.Fine(3));
     StrokeRect(Canvas(), box, row.pending && on ? p.strong_line : p.line, s.Fine(1), s.Fine(3));
     DrawText(ui, s.caption, on ? p.on_white : p.text2, box.centre().x, box.centre().y, words[i],
              Align::kCentre);
-    ui.items.Add("limit/" + info.name + "/" + info.words[i], box, true, words[i]);
-    if (!on && Clicked(ui, box)) {
+    if (!on && in.clicked) {
       Ask(ui, info, static_cast<double>(i));
     }
   }
@@ -146,7 +190,6 @@ bool RunTyping(UiFrame& ui, const Rect& field, const SliderRow& row, const Setti
       ImGui::InputText("##value", state.text, sizeof state.text,
                        ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
   const bool left = !state.focus_wanted && !ImGui::IsItemActive();
-  const bool escaped = KeyPressed(ImGuiKey_Escape, false);
   state.focus_wanted = state.focus_wanted && !ImGui::IsItemActive();
   ImGui::PopStyleColor(2);
   ImGui::PopStyleVar();
@@ -157,7 +200,7 @@ bool RunTyping(UiFrame& ui, const Rect& field, const SliderRow& row, const Setti
     return false;
   }
   state.typing.clear();
-  if (entered && !escaped) {
+  if (entered) {
     double value = 0;
     std::string refusal;
     if (ParseTyped(info, settings, state.text, value, refusal)) {
@@ -177,12 +220,11 @@ bool ShowsRefusal(const UiFrame& ui, const SliderState& state, const SettingInfo
 
 void DrawReset(UiFrame& ui, const Rect& box, const SliderRow& row) {
   const Style& s = ui.style;
-  const bool hovered = Hovered(ui, box);
+  const Interaction in = Interact(ui, "reset/" + row.info->name, box, kNoTab,
+                                  "Reset to " + FormatSetting(*row.info, row.info->default_value));
   DrawIcon(Canvas(), Icon::kReset, box.centre(), s.Px(14),
-           hovered ? s.palette.text1 : s.palette.text2);
-  ui.items.Add("reset/" + row.info->name, box, true,
-               "Reset to " + FormatSetting(*row.info, row.info->default_value));
-  if (Clicked(ui, box)) {
+           in.hovered ? s.palette.text1 : s.palette.text2);
+  if (in.clicked) {
     Ask(ui, *row.info, row.info->default_value);
   }
 }
@@ -249,13 +291,17 @@ bool ParseTyped(const SettingInfo& info, const Settings& settings, const std::st
 }
 
 void DrawValueField(UiFrame& ui, const Rect& field, const SliderRow& row, const Settings& settings,
-                    SliderState& state) {
+                    SliderState& state, FieldKeys keys) {
   const Style& s = ui.style;
   const Palette& p = s.palette;
   const SettingInfo& info = *row.info;
   const std::string shown = FormatSetting(info, row.value);
-  ui.items.Add("field/" + info.name, field, true, shown);
-  if (state.typing == info.name && !RunTyping(ui, field, row, settings, state)) {
+  const bool own = keys == FieldKeys::kOwn;
+  const bool typing = state.typing == info.name;
+  const unsigned flags =
+      (own ? kSideSteps | kClears : unsigned{kNoTab}) | (typing ? unsigned{kKeysOnly} : 0U);
+  const Interaction in = Interact(ui, "field/" + info.name, field, flags, shown);
+  if (typing && !RunTyping(ui, field, row, settings, state)) {
     return;
   }
   const bool refused = ShowsRefusal(ui, state, info);
@@ -266,12 +312,11 @@ void DrawValueField(UiFrame& ui, const Rect& field, const SliderRow& row, const 
   if (refused) {
     ui.items.Add("refused/" + info.name, field, true, state.refusal);
   }
-  if (Clicked(ui, field) && state.dragging.empty()) {
-    state.typing = info.name;
-    state.focus_wanted = true;
-    state.refused.clear();
-    std::snprintf(state.text, sizeof state.text, "%.*f", info.decimals,
-                  row.value * info.shown_per_unit);
+  if (own) {
+    RunSettingKeys(ui, row, in, state);
+  }
+  if (in.clicked && !in.key_pressed) {
+    StartTyping(row, state);
   }
 }
 
@@ -294,8 +339,9 @@ void DrawSliderRow(UiFrame& ui, const Rect& rect, const SliderRow& row, const Se
   const float track_left = std::max(rect.x + s.Px(narrow ? 150 : 160), track_right - s.Px(120));
   const Rect track{track_left, std::round(middle - s.Px(2)), track_right - track_left, s.Px(4)};
   if (!info.words.empty()) {
-    DrawWords(ui, {track.x, field.y, field.right() - track.x, field.h}, row);
+    DrawWords(ui, {track.x, field.y, field.right() - track.x, field.h}, row, state);
   } else {
+    const Interaction in = RunTrack(ui, track, row, state);
     if (ShowsRefusal(ui, state, info)) {
       DrawText(ui, s.caption, p.caution, track.right(), middle,
                state.refusal.substr(state.refusal.find(", ") == std::string::npos
@@ -303,10 +349,9 @@ void DrawSliderRow(UiFrame& ui, const Rect& rect, const SliderRow& row, const Se
                                         : state.refusal.find(", ") + 2),
                Align::kRight);
     } else {
-      DrawTrack(ui, track, row, state.dragging == info.name);
-      RunDrag(ui, track, row, state);
+      DrawTrack(ui, track, row, in.held);
     }
-    DrawValueField(ui, field, row, settings, state);
+    DrawValueField(ui, field, row, settings, state, FieldKeys::kOfSlider);
   }
   if (changed) {
     DrawReset(ui, {rect.right() - s.Px(26), std::round(middle - s.Px(10)), s.Px(20), s.Px(20)},

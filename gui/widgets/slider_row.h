@@ -1,5 +1,7 @@
 // Slider row: one setting with its changed bar, name, track, default tick, soft limits, value field
 // and reset. A drag stops at the limit; a typed value out of range is refused with the reason.
+// Keyboard: Left and Right step it (with Shift ten times as far), Enter types a value, Backspace
+// resets it.
 //
 // The track has three parts so that the usual range is wide and the hard limits are still in reach:
 // [min, soft min] 12 %, [soft min, soft max] the rest, [soft max, max] 20 %, each linear.
@@ -14,10 +16,8 @@ namespace palace {
 
 /// Of all rows of one panel: at most one is dragged and one is typed in.
 struct SliderState {
-  std::string dragging;
-  float grab_offset_px = 0;
-  double last_value = 0;
-  bool active() const { return !dragging.empty() || !typing.empty(); }
+  float grab_offset_px = 0;  ///< of the drag under way
+  double last_value = 0;     ///< that it asked for
 
   std::string typing;
   char text[32] = {};
@@ -48,8 +48,10 @@ bool ParseTyped(const SettingInfo& info, const Settings& settings, const std::st
 /// SetSetting at every change. `settings` are the values being edited.
 void DrawSliderRow(UiFrame& ui, const Rect& rect, const SliderRow& row, const Settings& settings,
                    SliderState& state);
-/// The value field alone, as the Review column uses it.
+/// Whether a value field answers to the keyboard itself, or the slider beside it does.
+enum class FieldKeys { kOfSlider, kOwn };
+/// The value field; alone (kOwn) in the Review column.
 void DrawValueField(UiFrame& ui, const Rect& field, const SliderRow& row, const Settings& settings,
-                    SliderState& state);
+                    SliderState& state, FieldKeys keys);
 
 }  // namespace palace

@@ -5,10 +5,14 @@
 #include <cmath>
 #include <cstdio>
 
+#include "gui/widgets/interact.h"
+
 namespace palace {
 namespace {
 
 constexpr double kLeastWindow_s = 2;
+constexpr double kZoomStep = 0.8;
+constexpr double kStep_s = 0.1;
 
 /// Seconds to pixels of one strip.
 struct Scale {
@@ -53,31 +57,30 @@ void DrawSilhouette(const Style& s, const Scale& scale, const std::vector<ImVec2
   }
 }
 
-void RunWindow(UiFrame& ui, const Scale& scale, const TimelineView& view, TimelineState& state) {
+/// The overview: its grips zoom the lanes, elsewhere it seeks.
+void RunOverview(UiFrame& ui, const Scale& scale, const TimelineView& view, TimelineState& state) {
   const Style& s = ui.style;
-  const ImGuiIO& io = ImGui::GetIO();
   const float left = scale.X(state.from_s), right = scale.X(state.to_s);
-  const Rect left_grip{left - s.Px(6), scale.area.y, s.Px(12), scale.area.h};
-  const Rect right_grip{right - s.Px(6), scale.area.y, s.Px(12), scale.area.h};
-  if (Pressed(ui, left_grip)) {
-    state.grip = -1;
-  } else if (Pressed(ui, right_grip)) {
-    state.grip = 1;
-  } else if (Pressed(ui, scale.area)) {
-    state.grip = 2;
-  }
-  if (!io.MouseDown[0]) {
-    state.grip = 0;
-  }
-  const double t = std::clamp(scale.T(io.MousePos.x), 0.0, view.duration_s);
-  if (state.grip == -1) {
-    state.from_s = std::min(t, state.to_s - kLeastWindow_s);
+  const auto at = [&](const Interaction& in) {
+    return std::clamp(scale.T(in.pointer.x), 0.0, view.duration_s);
+  };
+  const Interaction from =
+      Interact(ui, "overview/from", {left - s.Px(6), scale.area.y, s.Px(12), scale.area.h}, kNoTab);
+  if (from.held) {
+    state.from_s = std::min(at(from), state.to_s - kLeastWindow_s);
     state.zoomed = true;
-  } else if (state.grip == 1) {
-    state.to_s = std::max(t, state.from_s + kLeastWindow_s);
+  }
+  const Interaction to =
+      Interact(ui, "overview/to", {right - s.Px(6), scale.area.y, s.Px(12), scale.area.h}, kNoTab);
+  if (to.held) {
+    state.to_s = std::max(at(to), state.from_s + kLeastWindow_s);
     state.zoomed = true;
-  } else if (state.grip == 2 && view.can_seek) {
-    Seek(ui, view, t, state);
+  }
+  const Interaction strip =
+      Interact(ui, "overview", scale.area, kNoTab | (view.can_seek ? 0U : unsigned{kDisabled}),
+               TimeLabel(view.position_s, true));
+  if (strip.held) {
+    Seek(ui, view, at(strip), state);
   }
 }
 
@@ -101,8 +104,7 @@ void DrawOverview(UiFrame& ui, const Rect& rect, const TimelineView& view, Timel
   }
   FillRect(dl, {std::round(scale.X(view.position_s)) - s.Px(1), rect.y, s.Px(2), rect.h},
            p.white_mark);
-  ui.items.Add("overview", rect, view.can_seek, TimeLabel(view.position_s, true));
-  RunWindow(ui, scale, view, state);
+  RunOverview(ui, scale, view, state);
 }
 
 double RulerStep(double span_s, float width_px, float label_px) {
@@ -186,23 +188,33 @@ void DrawMarks(UiFrame& ui, const Scale& scale, const Rect& lane,
   }
 }
 
+/// Zooms the lanes about a moment; above 1 shows more of the flight.
+void Zoom(const TimelineView& view, double about_s, double factor, TimelineState& state) {
+  state.from_s = std::max(0.0, about_s - (about_s - state.from_s) * factor);
+  state.to_s = std::min(view.duration_s, about_s + (state.to_s - about_s) * factor);
+  state.to_s = std::max(state.to_s, state.from_s + std::min(kLeastWindow_s, view.duration_s));
+  state.zoomed = true;
+}
+
+/// The lanes: press and drag seek, the wheel zooms about the pointer; Left and Right step by 0.1 s
+/// (with Shift 1 s), Up and Down zoom about the cursor.
 void RunLanes(UiFrame& ui, const Scale& scale, const TimelineView& view, TimelineState& state) {
-  const ImGuiIO& io = ImGui::GetIO();
-  if (view.can_seek && Pressed(ui, scale.area)) {
-    state.scrubbing = true;
+  const Interaction in =
+      Interact(ui, "timeline", scale.area,
+               kAllSteps | kKeepsStop | (view.can_seek ? 0U : unsigned{kDisabled}),
+               TimeLabel(view.position_s, true));
+  if (in.held) {
+    Seek(ui, view, std::clamp(scale.T(in.pointer.x), scale.from_s, scale.to_s), state);
   }
-  if (state.scrubbing && io.MouseDown[0]) {
-    Seek(ui, view, std::clamp(scale.T(io.MousePos.x), scale.from_s, scale.to_s), state);
-  } else {
-    state.scrubbing = false;
+  if (in.wheel != 0) {
+    Zoom(view, scale.T(in.pointer.x), std::pow(kZoomStep, static_cast<double>(in.wheel)), state);
   }
-  if (Hovered(ui, scale.area) && io.MouseWheel != 0) {
-    const double at = scale.T(io.MousePos.x);
-    const double factor = std::pow(0.8, static_cast<double>(io.MouseWheel));
-    state.from_s = std::max(0.0, at - (at - state.from_s) * factor);
-    state.to_s = std::min(view.duration_s, at + (state.to_s - at) * factor);
-    state.to_s = std::max(state.to_s, state.from_s + std::min(kLeastWindow_s, view.duration_s));
-    state.zoomed = true;
+  if (in.step_right != 0) {
+    ui.intents.push_back(PlaybackControl{PlaybackControl::Kind::kPause, 0});
+    Seek(ui, view, view.position_s + kStep_s * in.step_right, state);
+  }
+  if (in.step_up != 0) {
+    Zoom(view, view.position_s, std::pow(kZoomStep, in.step_up), state);
   }
 }
 
@@ -229,7 +241,7 @@ void DrawTimeline(UiFrame& ui, const Rect& rect, const TimelineView& view, Timel
     state.to_s = std::max(view.duration_s, 1e-3);
     state.zoomed = false;
   }
-  if (!ImGui::GetIO().MouseDown[0]) {
+  if (!ImGui::IsMouseDown(0)) {
     state.last_seek_s = -1;
   }
   const float names = s.Px(128);
@@ -264,9 +276,9 @@ void DrawTimeline(UiFrame& ui, const Rect& rect, const TimelineView& view, Timel
                                 {cursor_x + s.Fine(6), ruler_y + s.Fine(10)},
                                 {cursor_x, ruler_y + s.Fine(18)}, p.white_mark);
   }
-  ui.items.Add("timeline", {scale.area.x, scale.area.y, scale.area.w, y - scale.area.y},
-               view.can_seek, TimeLabel(view.position_s, true));
-  RunLanes(ui, scale, view, state);
+  RunLanes(ui,
+           {{scale.area.x, scale.area.y, scale.area.w, y - scale.area.y}, scale.from_s, scale.to_s},
+           view, state);
 }
 
 }  // namespace palace

@@ -46,8 +46,6 @@ struct TimelineState {
   double from_s = 0;
   double to_s = 0;
   bool zoomed = false;
-  bool scrubbing = false;
-  int grip = 0;  ///< dragged grip of the overview: -1 left, 1 right, 2 the window, 0 none
   double last_seek_s = -1;
 };
 

@@ -1,13 +1,17 @@
 // UiFrame: what every panel is handed for one frame, beside the snapshot and its own state.
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include <imgui.h>
 
+#include "engine/core/check.h"
 #include "gui/app/intent.h"
+#include "gui/widgets/focus.h"
 
 namespace palace {
 
@@ -35,6 +39,11 @@ class ItemRecord {
   void Add(std::string_view name, const Rect& rect, bool enabled, std::string_view text) {
     items_.push_back({std::string(name), rect, enabled, std::string(text)});
   }
+  /// The item recorded last, which must be of that name: to write down what only the drawing shows.
+  Item& Last(std::string_view name) {
+    PALACE_CHECK(!items_.empty() && items_.back().name == name, std::string(name));
+    return items_.back();
+  }
   /// Null when nothing of that name was drawn this frame.
   const Item* Find(std::string_view name) const {
     for (const Item& item : items_) {
@@ -50,14 +59,25 @@ class ItemRecord {
   std::vector<Item> items_;
 };
 
-/// Pictures uploaded by the render room; null ids are drawn as "unknown" hatch.
+/// A height beside the 3-D view's drop line.
+struct View3dTick {
+  ImVec2 pixel;  ///< from the picture's top-left corner
+  std::string text;
+};
+
+/// Pictures uploaded by the render room, with what is needed to read them; null ids are drawn as
+/// "unknown" hatch.
 struct PanelTextures {
   ImTextureID left_camera = nullptr;  ///< rectified left, grey
   ImTextureID right_camera = nullptr;
-  ImTextureID scene_3d = nullptr;  ///< 3-D view, rendered at scene_3d_rect's size
+  ImTextureID scene_3d = nullptr;  ///< 3-D view, rendered at the size the layout gives it
+  std::vector<View3dTick> scene_3d_ticks;
+  std::optional<ViewPreset> scene_3d_preset;  ///< it is seen from; empty: turned by hand
   /// Maps of the decision shown (preview while previewing): elevation, slope, roughness, cost, safe
   /// distance.
   ImTextureID maps[5] = {};
+  float elevation_low_m = -0.5f;  ///< height of the first colour of the elevation map
+  float elevation_high_m = 1.5f;  ///< and of the last
   ImTextureID recorded_safe_distance = nullptr;  ///< replay
   ImTextureID difference = nullptr;              ///< recorded against re-decided
   ImTextureID anchor_patch = nullptr;
@@ -75,16 +95,27 @@ struct Cell;
 /// Why a cell of a decision is as it is. The app lends the engine's answer to the panels.
 using CellExplainer = CellExplanation (*)(const TerrainDecision& decision, Cell cell);
 
+/// Where the focus ring of this frame goes.
+struct FocusMark {
+  Rect rect;
+  ImDrawList* over = nullptr;  ///< draw list of the window that holds the control
+};
+
 /// Handed to each draw function. Panels read const data, write their own state, append intents.
 struct UiFrame {
   const Style& style;
   const PanelTextures& textures;
   ItemRecord& items;
   Intents& intents;
+  Focus& focus;
   double ui_time_s = 0;  ///< monotonic UI clock (simulated time when headless)
   bool blocked_by_popup = false;
   Rect wave_off_rect;                    ///< popups, toasts and tooltips keep out of it
   CellExplainer explain_cell = nullptr;  ///< null: no answers
+  std::uint64_t highlighted_site = 0;    ///< candidate that the keyboard is on; 0: none
+  bool window_focused = true;            ///< the window has the system's keyboard
+  TabPlace tab{};                        ///< of the controls drawn now; panels set it
+  std::optional<FocusMark> ring{};       ///< set by Interact, drawn by EndCanvas
 };
 
 }  // namespace palace

@@ -11,6 +11,7 @@
 
 #include "gui/widgets/draw.h"
 #include "gui/widgets/imgui_input.h"
+#include "gui/widgets/interact.h"
 
 namespace palace {
 
@@ -44,12 +45,14 @@ class UiHarness {
     io.DeltaTime = dt_s;
     time_s += static_cast<double>(dt_s);
     items.Clear();
-    UiFrame ui{style, textures, items, intents, time_s, popup, wave_off_rect, explain};
+    UiFrame ui{style, textures, items, intents, focus, time_s, popup, wave_off_rect, explain};
+    ui.highlighted_site = highlighted_site;
     ImGui::NewFrame();
-    BeginCanvas(style);
+    BeginCanvas(ui);
     draw(ui);
-    EndCanvas();
+    EndCanvas(ui);
     ImGui::Render();
+    Highlight();
   }
   void MoveTo(ImVec2 p) { Use(), FeedMousePosition(p); }
   void MoveTo(const std::string& item) {
@@ -61,6 +64,13 @@ class UiHarness {
   }
   void Button(bool down) { Use(), FeedMouseButton(0, down); }
   void Key(ImGuiKey key, bool down) { Use(), FeedKey(key, down); }
+  /// Presses and releases a key over two frames.
+  void Tap(ImGuiKey key, const std::function<void(UiFrame&)>& draw) {
+    Key(key, true);
+    Frame(draw);
+    Key(key, false);
+    Frame(draw);
+  }
   /// Moves onto the item of the last frame, presses and releases over four frames.
   void Click(const std::string& item, const std::function<void(UiFrame&)>& draw) {
     MoveTo(item);
@@ -96,13 +106,24 @@ class UiHarness {
   Style style;
   PanelTextures textures;
   ItemRecord items;
-  Intents intents;
+  Intents intents;  ///< all so far, but for the highlight, which is carried out
+  Focus focus;
+  std::uint64_t highlighted_site = 0;
   double time_s = 0;
   bool popup = false;
   Rect wave_off_rect;
   CellExplainer explain = nullptr;
 
  private:
+  /// The one intent that comes back to the panels without the engine.
+  void Highlight() {
+    for (auto it = intents.begin(); it != intents.end();) {
+      const auto* action = std::get_if<UiAction>(&*it);
+      const auto* site = action != nullptr ? std::get_if<HighlightSite>(action) : nullptr;
+      highlighted_site = site != nullptr ? site->site_id : highlighted_site;
+      it = site != nullptr ? intents.erase(it) : it + 1;
+    }
+  }
   /// Several harnesses may live at a time; ImGui's context is one global.
   void Use() { ImGui::SetCurrentContext(context_); }
   static bool Exists(const std::string& path) { return std::ifstream(path).good(); }

@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "gui/widgets/icons.h"
+#include "gui/widgets/interact.h"
 #include "gui/widgets/number_text.h"
 
 namespace palace {
@@ -44,9 +45,8 @@ void DrawEvents(const EngineSnapshot& snap, const Rect& rect, DiagnoseState& sta
   }
   const float row_h = s.Px(26);
   const int rows = static_cast<int>((rect.bottom() - content.y - s.Px(4)) / row_h);
-  if (Hovered(ui, rect)) {
-    state.event_offset -= static_cast<int>(ImGui::GetIO().MouseWheel * 3);
-  }
+  const Interaction in = Interact(ui, "events", content, kAllSteps);
+  state.event_offset -= static_cast<int>(in.wheel * 3) + in.step_up;
   state.event_offset = std::clamp(state.event_offset, 0, std::max(0, count - rows));
   for (int i = 0; i < rows && i + state.event_offset < count; ++i) {
     const Event& event =

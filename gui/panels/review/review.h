@@ -4,12 +4,15 @@
 // Without a record (a foreign log, a flight still running) only the replayed lanes are shown.
 #pragma once
 
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "engine/model/flight_record.h"
 #include "engine/model/snapshot.h"
 #include "gui/panels/fly_state.h"
+#include "gui/panels/review/review_layout.h"
 #include "gui/panels/terrain_views.h"
 #include "gui/widgets/slider_row.h"
 #include "gui/widgets/timeline_strip.h"
@@ -24,7 +27,19 @@ struct ReviewDifference {
   char now = 0;
 };
 
-enum class ReviewPicture { kRightCamera, kView3d };
+/// What is read out of the whole record and the whole replay so far, once a snapshot.
+struct ReviewDigest {
+  struct Key {
+    std::uint64_t sequence = 0;
+    std::shared_ptr<const std::vector<HistorySample>> history;
+    const FlightRecord* record = nullptr;
+    bool all_lanes = false;
+    bool operator==(const Key&) const = default;
+  };
+  std::optional<Key> key;  ///< what it was read out of
+  std::vector<ReviewDifference> differences;
+  TimelineView timeline;
+};
 
 struct ReviewState {
   OverlayCache overlay;
@@ -32,7 +47,7 @@ struct ReviewState {
   TimelineState timeline;
   PlotHover plots;
   MapProbe probe;
-  View3dState view;
+  ReviewDigest digest;
   ReviewPicture picture = ReviewPicture::kView3d;  ///< narrow windows
 };
 
@@ -43,13 +58,17 @@ std::vector<ReviewDifference> FindDifferences(const EngineSnapshot& snap,
                                               const FlightRecord* record);
 /// Lanes, silhouette and differences of the timeline. `all`: six lanes, else State and Differs.
 TimelineView MakeTimeline(const EngineSnapshot& snap, const FlightRecord* record,
-                          const Palette& palette, bool all);
+                          const std::vector<ReviewDifference>& differences, const Palette& palette,
+                          bool all);
+/// `kept`, read anew when the snapshot is another one.
+const ReviewDigest& DigestOf(const EngineSnapshot& snap, const FlightRecord* record,
+                             const Palette& palette, bool all, ReviewDigest& kept);
 
 void DrawReviewWorkspace(const EngineSnapshot& snap, const FlightRecord* record, const Rect& body,
                          ReviewState& state, UiFrame& ui);
 
-void DrawReviewTimeline(const EngineSnapshot& snap, const FlightRecord* record, const Rect& rect,
-                        bool narrow, ReviewState& state, UiFrame& ui);
+void DrawReviewTimeline(const EngineSnapshot& snap, const TimelineView& view, const Rect& rect,
+                        ReviewState& state, UiFrame& ui);
 void DrawReviewPlots(const EngineSnapshot& snap, const FlightRecord* record, const Rect& rect,
                      ReviewState& state, UiFrame& ui);
 /// What the flight decided: the record's decision, or the replayed one while no limit moved.
@@ -60,7 +79,8 @@ void DrawReviewMaps(const EngineSnapshot& snap, const Rect& row, float w, MapPro
 void DrawRedecidePanel(const EngineSnapshot& snap, const FlightRecord* record, const Rect& rect,
                        ReviewState& state, UiFrame& ui);
 void DrawDecisionPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui);
-void DrawDifferencesPanel(const EngineSnapshot& snap, const FlightRecord* record, const Rect& rect,
+void DrawDifferencesPanel(const EngineSnapshot& snap, const FlightRecord* record,
+                          const std::vector<ReviewDifference>& found, const Rect& rect,
                           UiFrame& ui);
 
 }  // namespace palace

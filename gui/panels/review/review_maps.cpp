@@ -35,13 +35,15 @@ MapMarks MarksAt(const TerrainDecision* decision, const MapProbe& probe) {
 void DrawReviewMap(UiFrame& ui, const Rect& rect, const char* title, const std::string& fact,
                    const TerrainDecision* decision, ImTextureID texture, MapProbe& probe) {
   const MapMarks marks = MarksAt(decision, probe);
-  MapView view = MakeMapView(MapKind::kSafeDistance, decision, texture, nullptr, marks.probe);
+  MapView view = MakeMapView(
+      MapKind::kSafeDistance,
+      {.decision = decision, .cursor = marks.probe, .site = BestSite(decision)}, ui.textures);
+  view.texture = texture;
   view.key = title;
   // While probing, the value under the cross-hair stands in place of the limits.
   const Rect content =
       DrawPanelFrame(ui, rect, title, {{marks.probe ? view.value : fact, 0, false, false}});
-  const auto cell = DrawMapPicture(ui, SquareIn(rect, content, ui.style), view, marks);
-  OfferProbe(ui, view, cell, probe);
+  OfferProbe(view, DrawMapPicture(ui, SquareIn(rect, content, ui.style), view, marks), probe);
 }
 
 /// Hatch over the cells that `picks(was, is)`.
@@ -79,12 +81,13 @@ void DrawDifference(const EngineSnapshot& snap, const Rect& panel, const Terrain
     ui.items.Add("map/Difference", square, true, "Difference");
     return;
   }
-  MapView view = MakeMapView(MapKind::kSafeDistance, now, ui.textures.difference, nullptr, {});
+  MapView view = MakeMapView(MapKind::kSafeDistance, {.decision = now}, ui.textures);
+  view.texture = ui.textures.difference;
   view.key = "Difference";
   view.title = "Difference";
   MapMarks none;
   none.probe = ProbeCell(probe, now->hazards->geometry);
-  const auto cell = DrawMapPicture(ui, square, view, none);
+  const MapAnswer answer = DrawMapPicture(ui, square, view, none);
   const ImU32 dark = WithAlpha(picture::kBlack, 0.6f);
   HatchCells(ui, square, *recorded, *now, dark, [](bool was, bool is) { return was != is; });
   if (const LandingSite* best = BestSite(now)) {
@@ -97,7 +100,7 @@ void DrawDifference(const EngineSnapshot& snap, const Rect& panel, const Terrain
              RingKind::kProposed);
     Canvas()->PopClipRect();
   }
-  OfferProbe(ui, view, cell, probe);
+  OfferProbe(view, answer, probe);
 }
 
 }  // namespace

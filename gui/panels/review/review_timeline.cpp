@@ -275,14 +275,26 @@ std::vector<ReviewDifference> FindDifferences(const EngineSnapshot& snap,
   return found;
 }
 
+const ReviewDigest& DigestOf(const EngineSnapshot& snap, const FlightRecord* record,
+                             const Palette& palette, bool all, ReviewDigest& kept) {
+  const ReviewDigest::Key key{snap.sequence, snap.history, record, all};
+  if (kept.key != key) {
+    kept.key = key;
+    kept.differences = FindDifferences(snap, record);
+    kept.timeline = MakeTimeline(snap, record, kept.differences, palette, all);
+  }
+  return kept;
+}
+
 TimelineView MakeTimeline(const EngineSnapshot& snap, const FlightRecord* record,
-                          const Palette& palette, bool all) {
+                          const std::vector<ReviewDifference>& differences, const Palette& palette,
+                          bool all) {
   TimelineView view;
   view.duration_s = DurationOf(snap, record);
   view.position_s = snap.source.position_s;
   view.can_seek = snap.source.can_seek;
   Lane differs{"Differs", {}, {}};
-  for (const ReviewDifference& d : FindDifferences(snap, record)) {
+  for (const ReviewDifference& d : differences) {
     differs.segments.push_back({d.at_s, d.to_s, "", 0, true, false});
     view.differences_s.push_back(d.at_s);
   }
@@ -310,13 +322,12 @@ TimelineView MakeTimeline(const EngineSnapshot& snap, const FlightRecord* record
   return view;
 }
 
-void DrawReviewTimeline(const EngineSnapshot& snap, const FlightRecord* record, const Rect& rect,
-                        bool narrow, ReviewState& state, UiFrame& ui) {
+void DrawReviewTimeline(const EngineSnapshot& snap, const TimelineView& view, const Rect& rect,
+                        ReviewState& state, UiFrame& ui) {
   const Style& s = ui.style;
   DrawPanelBackground(ui, rect, "Timeline");
   const float pad = s.Px(12);
   const Rect row{rect.x + pad, rect.y, rect.w - 2 * pad, s.Px(48)};
-  const TimelineView view = MakeTimeline(snap, record, s.palette, !narrow);
   const float x = DrawTransport(ui, row, snap, view.duration_s);
   DrawClock(ui, row, x, snap, view.duration_s);
   DrawTimeline(ui, {row.x, row.bottom(), row.w, rect.bottom() - s.Px(6) - row.bottom()}, view,

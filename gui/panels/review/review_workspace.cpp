@@ -7,6 +7,7 @@
 #include "gui/panels/fly_panels.h"
 #include "gui/panels/review/review.h"
 #include "gui/widgets/button.h"
+#include "gui/widgets/interact.h"
 #include "gui/widgets/number_text.h"
 
 namespace palace {
@@ -38,38 +39,9 @@ void DrawRightPicture(const EngineSnapshot& snap, const Rect& rect, const MapPro
                    &probe);
 }
 
-void DrawWide(const EngineSnapshot& snap, const FlightRecord* record, const Rect& area,
-              ReviewState& state, UiFrame& ui) {
+/// Narrow: which of the two pictures is shown.
+void DrawPictureTabs(const Rect& tabs, ReviewState& state, UiFrame& ui) {
   const Style& s = ui.style;
-  const float gap = s.Px(8);
-  const float row1 = std::round(area.h * 0.6f), row2 = area.h - row1 - gap;
-  const float camera_w =
-      std::min(std::floor((row1 - s.Px(28)) * 4 / 3), std::floor(area.w * 0.36f));
-  DrawLeft(snap, {area.x, area.y, camera_w, row1}, state, ui);
-  DrawRightPicture(snap, {area.x + camera_w + gap, area.y, camera_w, row1}, state.probe, ui);
-  const float view_x = area.x + 2 * (camera_w + gap);
-  DrawView3dPanel(snap, {view_x, area.y, area.right() - view_x, row1}, state.view, ui);
-  const float map_w = row2 - s.Px(32);
-  const Rect lower{area.x, area.y + row1 + gap, area.w, row2};
-  DrawReviewMaps(snap, lower, map_w, state.probe, ui);
-  const float plots_x = lower.x + 3 * (map_w + gap);
-  DrawReviewPlots(snap, record, {plots_x, lower.y, area.right() - plots_x, row2}, state, ui);
-}
-
-void DrawNarrowArea(const EngineSnapshot& snap, const FlightRecord* record, const Rect& area,
-                    ReviewState& state, UiFrame& ui) {
-  const Style& s = ui.style;
-  const float gap = s.Px(8);
-  const float row1 = std::round(area.h * 0.56f), row2 = area.h - row1 - gap;
-  const float camera_w = std::floor((row1 - s.Px(28)) * 4 / 3);
-  DrawLeft(snap, {area.x, area.y, camera_w, row1}, state, ui);
-  const float x = area.x + camera_w + gap;
-  DrawReviewPlots(snap, record, {x, area.y, area.right() - x, row1}, state, ui);
-  const float map_w = row2 - s.Px(32);
-  const Rect lower{area.x, area.y + row1 + gap, area.w, row2};
-  DrawReviewMaps(snap, lower, map_w, state.probe, ui);
-  const float tabs_x = lower.x + 3 * (map_w + gap);
-  const Rect tabs{tabs_x, lower.y, area.right() - tabs_x, s.Px(32)};
   const float tab_y = tabs.y + s.Px(4);
   DrawPanelBackground(ui, tabs, "Tabs");
   ButtonLook look;
@@ -83,12 +55,19 @@ void DrawNarrowArea(const EngineSnapshot& snap, const FlightRecord* record, cons
                  "Right camera", look)) {
     state.picture = ReviewPicture::kRightCamera;
   }
-  const Rect shown{tabs.x, tabs.bottom() + s.Px(4), tabs.w,
-                   lower.bottom() - tabs.bottom() - s.Px(4)};
-  if (state.picture == ReviewPicture::kView3d) {
-    DrawView3dPanel(snap, shown, state.view, ui);
-  } else {
-    DrawRightPicture(snap, shown, state.probe, ui);
+}
+
+void DrawPictures(const EngineSnapshot& snap, const ReviewLayout& layout, ReviewState& state,
+                  UiFrame& ui) {
+  DrawLeft(snap, layout.left_camera, state, ui);
+  if (layout.picture_tabs.h > 0) {
+    DrawPictureTabs(layout.picture_tabs, state, ui);
+  }
+  if (layout.right_camera.h > 0) {
+    DrawRightPicture(snap, layout.right_camera, state.probe, ui);
+  }
+  if (layout.view_3d.h > 0) {
+    DrawView3dPanel(snap, layout.view_3d, ui);
   }
 }
 
@@ -176,7 +155,7 @@ void DrawRedecidePanel(const EngineSnapshot& snap, const FlightRecord* record, c
              content.x + s.Px(16), middle, info->label);
     DrawText(ui, s.body, p.text2, recorded_x, middle, FormatSetting(*info, before), Align::kRight);
     DrawValueField(ui, {field_x, y + s.Px(2), s.Px(88), pitch - s.Px(4)}, row,
-                   snap.preview_settings, state.fields);
+                   snap.preview_settings, state.fields, FieldKeys::kOwn);
     y += pitch;
   }
   ButtonLook look;
@@ -241,11 +220,11 @@ void DrawDecisionPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui
   }
 }
 
-void DrawDifferencesPanel(const EngineSnapshot& snap, const FlightRecord* record, const Rect& rect,
+void DrawDifferencesPanel(const EngineSnapshot& snap, const FlightRecord* record,
+                          const std::vector<ReviewDifference>& found, const Rect& rect,
                           UiFrame& ui) {
   const Style& s = ui.style;
   const Palette& p = s.palette;
-  const std::vector<ReviewDifference> found = FindDifferences(snap, record);
   const Rect content =
       DrawPanelFrame(ui, rect, "Differences", {{std::to_string(found.size()), 0, false, false}});
   float y = content.y;
@@ -259,12 +238,19 @@ void DrawDifferencesPanel(const EngineSnapshot& snap, const FlightRecord* record
     }
     return;
   }
+  ui.tab.list = "differences";
   for (std::size_t i = 0; i < found.size() && y + s.Px(30) <= rect.bottom(); ++i) {
     const ReviewDifference& d = found[i];
     const Rect row{content.x, y, content.w, s.Px(30)};
     y = row.bottom();
+    const auto name = [](char letter) {
+      return letter == 0 ? std::string("no site") : "site " + std::string(1, letter);
+    };
+    const std::string words = "Best " + name(d.recorded) + ", now " + name(d.now);
+    const Interaction in = Interact(ui, "difference/" + std::to_string(i), row,
+                                    snap.source.can_seek ? 0U : unsigned{kDisabled}, words);
     const bool here = snap.source.position_s >= d.at_s && snap.source.position_s <= d.to_s;
-    if (here || Hovered(ui, row)) {
+    if (here || in.hovered) {
       FillRect(Canvas(), row, here ? p.hover : p.control);
     }
     if (here) {
@@ -274,17 +260,13 @@ void DrawDifferencesPanel(const EngineSnapshot& snap, const FlightRecord* record
     const float x = row.x + s.Px(16);
     const float text_x =
         x + DrawText(ui, s.mono, p.text2, x, middle, TimeLabel(d.at_s, true)) + s.Px(20);
-    const auto name = [](char letter) {
-      return letter == 0 ? std::string("no site") : "site " + std::string(1, letter);
-    };
-    const std::string words = "Best " + name(d.recorded) + ", now " + name(d.now);
     DrawText(ui, s.body, p.text1, text_x, middle, words);
     DrawIcon(Canvas(), Icon::kChevronRight, {row.right() - s.Px(18), middle}, s.Px(12), p.text2);
-    ui.items.Add("difference/" + std::to_string(i), row, snap.source.can_seek, words);
-    if (snap.source.can_seek && Clicked(ui, row)) {
+    if (in.clicked) {
       ui.intents.push_back(PlaybackControl{PlaybackControl::Kind::kSeek, d.at_s});
     }
   }
+  ui.tab.list = {};
 }
 
 void DrawReviewWorkspace(const EngineSnapshot& snap, const FlightRecord* record, const Rect& body,
@@ -296,30 +278,20 @@ void DrawReviewWorkspace(const EngineSnapshot& snap, const FlightRecord* record,
              "No log open. Start palace with --replay LOG to review a flight.", Align::kCentre);
     return;
   }
+  const ReviewLayout layout = LayReview(body, s, state.picture);
+  const ReviewDigest& digest = DigestOf(snap, record, s.palette, !layout.narrow, state.digest);
   BeginProbe(state.probe);
-  const bool narrow = body.w < s.Px(1584) || body.h < s.Px(776);
-  const float gap = s.Px(8);
-  const float timeline_h = s.Px(narrow ? 164 : 260), right_w = s.Px(narrow ? 344 : 416);
-  const Rect timeline{body.x, body.bottom() - timeline_h, body.w, timeline_h};
-  const Rect upper{body.x, body.y, body.w - right_w - gap, body.h - timeline_h - gap};
-  if (narrow) {
-    DrawNarrowArea(snap, record, upper, state, ui);
-  } else {
-    DrawWide(snap, record, upper, state, ui);
+  ui.tab.group = kDecisionTabs;
+  DrawReviewTimeline(snap, digest.timeline, layout.timeline, state, ui);
+  DrawRedecidePanel(snap, record, layout.redecide, state, ui);
+  DrawDecisionPanel(snap, layout.decision, ui);
+  if (layout.differences.h > 0) {
+    DrawDifferencesPanel(snap, record, digest.differences, layout.differences, ui);
   }
-  const float right_x = body.right() - right_w;
-  const float redecide_h = s.Px(narrow ? 198 : 228);
-  DrawRedecidePanel(snap, record, {right_x, body.y, right_w, redecide_h}, state, ui);
-  const float decision_y = body.y + redecide_h + gap;
-  const float rest = upper.bottom() - decision_y;
-  const bool list = rest >= s.Px(264 + 100);
-  const float decision_h = list ? s.Px(264) : rest;
-  DrawDecisionPanel(snap, {right_x, decision_y, right_w, decision_h}, ui);
-  if (list) {
-    const float y = decision_y + decision_h + gap;
-    DrawDifferencesPanel(snap, record, {right_x, y, right_w, upper.bottom() - y}, ui);
-  }
-  DrawReviewTimeline(snap, record, timeline, narrow, state, ui);
+  ui.tab.group = kViewTabs;
+  DrawPictures(snap, layout, state, ui);
+  DrawReviewMaps(snap, layout.maps, layout.map_side, state.probe, ui);
+  DrawReviewPlots(snap, record, layout.plots, state, ui);
   const bool recorded = state.probe.ShownMap() == "map/Recorded";
   DrawProbeWhy(ui, body, recorded ? RecordedDecision(snap) : snap.applied.get(), state.probe,
                snap.time);

@@ -1,7 +1,7 @@
 // Tune: every limit beside what it does to the picture, the maps and the chosen site.
 //
 // SEARCH, PROPOSED: a moved limit applies at the next map. ARMED and later it previews; Apply drops
-// the selection or approval (DESIGN.md 8). The history counts one entry a gesture.
+// the selection or approval (DESIGN.md 8). The history has one entry a gesture.
 #pragma once
 
 #include <set>
@@ -10,17 +10,10 @@
 
 #include "engine/model/snapshot.h"
 #include "gui/panels/terrain_views.h"
+#include "gui/panels/tune/setting_history.h"
 #include "gui/widgets/slider_row.h"
 
 namespace palace {
-
-/// One gesture on one limit.
-struct TuneChange {
-  Timestamp time;
-  std::string name;
-  double before = 0;
-  double after = 0;
-};
 
 enum class TuneTab { kApply, kCells, kHistory };
 
@@ -31,18 +24,12 @@ struct TuneState {
   char search[48] = {};
   bool changed_only = false;
   std::set<std::string> folded = {"Stereo", "Tracker", "Mission"};
-  int first_row = 0;  ///< scrolled past
-  std::vector<TuneChange> history;
-  Settings last_seen;
-  bool has_last_seen = false;
-  double last_change_s = 0;
+  int first_row = 0;     ///< scrolled past
+  std::string followed;  ///< row with the focus that the list has scrolled to
+  SettingHistory history;
   MapProbe probe;
-  float elevation_low_m = -0.5f;  ///< range of the elevation picture, set by the app
-  float elevation_high_m = 1.5f;
   TuneTab tab = TuneTab::kApply;  ///< narrow windows
-  bool can_undo = true;           ///< the app knows its stacks
-  bool can_redo = true;
-  std::string preset_path;  ///< shown and loaded; empty: the built-in defaults
+  std::string preset_path;        ///< loaded or saved last; empty: the built-in defaults
 };
 
 /// What a limit would do, counted once a frame.
@@ -55,8 +42,6 @@ struct TuneFacts {
   int pending = 0;      ///< previewed, not applied
 };
 TuneFacts FactsOf(const EngineSnapshot& snap);
-/// Notes changed limits in state.history, one entry a gesture.
-void FollowChanges(const EngineSnapshot& snap, double ui_time_s, TuneState& state);
 
 void DrawTuneWorkspace(const EngineSnapshot& snap, const Rect& body, TuneState& state, UiFrame& ui);
 

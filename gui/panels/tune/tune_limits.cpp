@@ -5,6 +5,7 @@
 #include "gui/panels/tune/tune.h"
 #include "gui/widgets/button.h"
 #include "gui/widgets/icons.h"
+#include "gui/widgets/interact.h"
 #include "gui/widgets/number_text.h"
 
 namespace palace {
@@ -22,6 +23,11 @@ struct ListRow {
   const SettingInfo* info = nullptr;
   int changed_in_group = 0;
 };
+
+std::string GroupItemName(const ListRow& heading) { return "group/" + heading.group; }
+std::string ItemName(const ListRow& row) {
+  return row.info != nullptr ? "limit/" + row.info->name : GroupItemName(row);
+}
 
 bool IsChanged(const Settings& settings, const SettingInfo& info) {
   return GetSetting(settings, info.name) != info.default_value;
@@ -80,11 +86,13 @@ void DrawSearch(UiFrame& ui, const Rect& field, TuneState& state) {
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding,
                       ImVec2(s.Px(4), (field.h - s.Px(4) - s.body->FontSize) / 2));
   ImGui::SetNextItemWidth(field.w - s.Px(30));
+  if (Interact(ui, "limits/search", field, kKeysOnly, state.search).key_pressed) {
+    ImGui::SetKeyboardFocusHere();
+  }
   ImGui::InputTextWithHint("##search_limits", "Search limits", state.search, sizeof state.search);
   ImGui::PopStyleVar();
   ImGui::PopStyleColor(3);
   ImGui::PopFont();
-  ui.items.Add("limits/search", field, true, state.search);
 }
 
 void DrawHeading(UiFrame& ui, const Rect& row, const ListRow& heading, TuneState& state) {
@@ -92,7 +100,8 @@ void DrawHeading(UiFrame& ui, const Rect& row, const ListRow& heading, TuneState
   const Palette& p = s.palette;
   const bool folded = state.folded.count(heading.group) != 0;
   const float middle = row.centre().y;
-  if (Hovered(ui, row)) {
+  const Interaction in = Interact(ui, GroupItemName(heading), row, 0, heading.group);
+  if (in.hovered) {
     FillRect(Canvas(), row, p.control);
   }
   DrawIcon(Canvas(), folded ? Icon::kChevronRight : Icon::kChevronDown, {row.x + s.Px(20), middle},
@@ -102,8 +111,7 @@ void DrawHeading(UiFrame& ui, const Rect& row, const ListRow& heading, TuneState
     DrawText(ui, s.caption, p.text2, row.right() - s.Px(14), middle,
              std::to_string(heading.changed_in_group) + " changed", Align::kRight);
   }
-  ui.items.Add("group/" + heading.group, row, true, heading.group);
-  if (Clicked(ui, row)) {
+  if (in.clicked) {
     if (folded) {
       state.folded.erase(heading.group);
     } else {
@@ -112,47 +120,88 @@ void DrawHeading(UiFrame& ui, const Rect& row, const ListRow& heading, TuneState
   }
 }
 
-void DrawList(UiFrame& ui, const Rect& area, const EngineSnapshot& snap, TuneState& state) {
-  const Style& s = ui.style;
-  const std::vector<ListRow> rows = RowsOf(snap.preview_settings, state);
-  const float row_h = s.Px(36), group_h = s.Px(30);
-  const auto height = [&](const ListRow& row) { return row.info != nullptr ? row_h : group_h; };
-  // The list scrolls by whole rows, so that no text is ever cut.
-  int last_start = static_cast<int>(rows.size());
-  for (float room = area.h; last_start > 0; --last_start) {
-    room -= height(rows[static_cast<std::size_t>(last_start - 1)]);
+/// Heights of the rows, and how many fit from one of them on.
+struct ListMetrics {
+  float row = 0, group = 0, area = 0;
+  float HeightOf(const ListRow& r) const { return r.info != nullptr ? row : group; }
+  int Fitting(const std::vector<ListRow>& rows, int first) const {
+    int count = 0;
+    float room = area + 0.5f;
+    for (std::size_t i = static_cast<std::size_t>(first); i < rows.size(); ++i, ++count) {
+      room -= HeightOf(rows[i]);
+      if (room < 0) {
+        break;
+      }
+    }
+    return count;
+  }
+};
+
+/// The list scrolls by whole rows, so that no text is ever cut, by the wheel or after the focus.
+void ScrollList(const UiFrame& ui, const std::vector<ListRow>& rows, const ListMetrics& metrics,
+                float wheel, TuneState& state) {
+  const int count = static_cast<int>(rows.size());
+  int last_start = count;
+  for (float room = metrics.area; last_start > 0; --last_start) {
+    room -= metrics.HeightOf(rows[static_cast<std::size_t>(last_start - 1)]);
     if (room < 0) {
       break;
     }
   }
-  if (Hovered(ui, area)) {
-    state.first_row -= static_cast<int>(ImGui::GetIO().MouseWheel * 2);
+  state.first_row = std::clamp(state.first_row - static_cast<int>(wheel * 2), 0, last_start);
+  const bool moved = ui.focus.shown() != state.followed;
+  state.followed = ui.focus.shown();
+  const auto focused = std::find_if(
+      rows.begin(), rows.end(), [&](const ListRow& row) { return ui.focus.Has(ItemName(row)); });
+  if (!moved || focused == rows.end()) {
+    return;
   }
-  state.first_row = std::clamp(state.first_row, 0, last_start);
+  const int at = static_cast<int>(focused - rows.begin());
+  state.first_row = std::min(state.first_row, at);
+  while (at >= state.first_row + metrics.Fitting(rows, state.first_row) && state.first_row < at) {
+    ++state.first_row;
+  }
+}
+
+void DrawRow(UiFrame& ui, const Rect& box, const ListRow& row, const EngineSnapshot& snap,
+             TuneState& state) {
+  if (row.info == nullptr) {
+    DrawHeading(ui, box, row, state);
+    return;
+  }
+  SliderRow slider;
+  slider.info = row.info;
+  slider.value = GetSetting(snap.preview_settings, row.info->name);
+  slider.pending = slider.value != GetSetting(snap.settings, row.info->name);
+  DrawSliderRow(ui, box, slider, snap.preview_settings, state.sliders);
+}
+
+void DrawList(UiFrame& ui, const Rect& area, const EngineSnapshot& snap, TuneState& state) {
+  const Style& s = ui.style;
+  const std::vector<ListRow> rows = RowsOf(snap.preview_settings, state);
+  const ListMetrics metrics{s.Px(36), s.Px(30), area.h};
+  ScrollList(ui, rows, metrics, Interact(ui, "panel/Limits", area, kPassive).wheel, state);
+  const auto first = static_cast<std::size_t>(state.first_row);
+  const auto shown = static_cast<std::size_t>(metrics.Fitting(rows, state.first_row));
+  ui.tab.list = "limits";
   float y = area.y;
-  std::size_t i = static_cast<std::size_t>(state.first_row);
-  for (; i < rows.size() && y + height(rows[i]) <= area.bottom() + 0.5f; ++i) {
-    const Rect box{area.x, y, area.w, height(rows[i])};
-    y = box.bottom();
-    if (rows[i].info == nullptr) {
-      DrawHeading(ui, box, rows[i], state);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (i < first || i >= first + shown) {
+      OfferHidden(ui, ItemName(rows[i]));
       continue;
     }
-    const SettingInfo& info = *rows[i].info;
-    SliderRow row;
-    row.info = &info;
-    row.value = GetSetting(snap.preview_settings, info.name);
-    row.pending = row.value != GetSetting(snap.settings, info.name);
-    DrawSliderRow(ui, box, row, snap.preview_settings, state.sliders);
+    const Rect box{area.x, y, area.w, metrics.HeightOf(rows[i])};
+    y = box.bottom();
+    DrawRow(ui, box, rows[i], snap, state);
   }
+  ui.tab.list = {};
   if (rows.empty()) {
     DrawText(ui, s.body, s.palette.text2, area.x + s.Px(16), area.y + s.Px(18),
              state.changed_only ? "No limit differs from its default." : "No limit has that name.");
-  }
-  const std::size_t shown = i - static_cast<std::size_t>(state.first_row);
-  if (shown < rows.size() && !rows.empty()) {
-    const float tall = area.h * static_cast<float>(shown) / static_cast<float>(rows.size());
-    const float at = area.h * static_cast<float>(state.first_row) / static_cast<float>(rows.size());
+  } else if (shown < rows.size()) {
+    const auto total = static_cast<float>(rows.size());
+    const float tall = area.h * static_cast<float>(shown) / total;
+    const float at = area.h * static_cast<float>(first) / total;
     FillRect(Canvas(), {area.right() - s.Px(5), area.y + at, s.Px(4), tall}, s.palette.line,
              s.Fine(2));
   }
@@ -184,8 +233,8 @@ void DrawFoot(UiFrame& ui, const Rect& foot, const TuneFacts& facts, TuneState& 
     bool enabled;
     UiAction action;
   } buttons[] = {
-      {"undo", "Undo", state.can_undo && !state.history.empty(), UndoSetting{}},
-      {"redo", "Redo", state.can_redo, RedoSetting{}},
+      {"undo", "Undo", state.history.can_undo(), UndoSetting{}},
+      {"redo", "Redo", state.history.can_redo(), RedoSetting{}},
       {"load_preset", w < s.Px(84) ? "Load" : "Load preset", true, LoadPreset{path}},
       {"save_preset", w < s.Px(84) ? "Save" : "Save preset", true, SavePreset{state.preset_path}}};
   for (int i = 0; i < 4; ++i) {

@@ -11,8 +11,6 @@
 namespace palace {
 namespace {
 
-int TextureOf(MapKind kind) { return static_cast<int>(kind); }
-
 std::string Signed(double value, int decimals) {
   return (value > 0 ? "+" : "") + Fixed(value, decimals);
 }
@@ -113,16 +111,13 @@ void DrawTuneMap(const EngineSnapshot& snap, const Rect& rect, MapKind kind, boo
                  TuneState& state, UiFrame& ui) {
   const Style& s = ui.style;
   const TuneFacts facts = FactsOf(snap);
-  const SladSettings* applied =
-      facts.previewing && facts.applied != nullptr ? &facts.applied->settings : nullptr;
   const std::optional<Cell> at = facts.shown != nullptr && facts.shown->hazards
                                      ? ProbeCell(state.probe, facts.shown->hazards->geometry)
                                      : std::nullopt;
-  MapView view = MakeMapView(kind, facts.shown, ui.textures.maps[TextureOf(kind)], applied, at);
-  if (kind == MapKind::kElevation) {
-    view.low = Fixed(static_cast<double>(state.elevation_low_m), 1) + " m";
-    view.high = Fixed(static_cast<double>(state.elevation_high_m), 1) + " m+";
-  }
+  MapSource source = ShownMap(snap);
+  source.cursor = at;
+  source.site = BestSite(facts.shown);
+  MapView view = MakeMapView(kind, source, ui.textures);
   MapMarks marks;
   marks.probe = at;
   marks.sites = facts.shown != nullptr ? &facts.shown->selection.sites : nullptr;
@@ -134,17 +129,17 @@ void DrawTuneMap(const EngineSnapshot& snap, const Rect& rect, MapKind kind, boo
   // On a small map the chip would hide what it speaks of; the picture beside it carries one.
   view.preview = facts.previewing && side >= s.Px(160);
   marks.letters = side >= s.Px(150);
-  std::optional<Cell> cell;
+  MapAnswer answer;
   if (colour_bar) {
-    cell = DrawMapPanel(ui, rect, side, view, marks, state.map_drag);
+    answer = DrawMapPanel(ui, rect, side, view, marks, state.map_drag);
   } else {
     const Rect content = DrawPanelFrame(
         ui, rect, view.title,
         {{view.limit.label, s.palette.text2, false, false}, {view.value, 0, true, false}});
-    cell = DrawMapPicture(ui, {std::round(content.centre().x - side / 2), content.y, side, side},
-                          view, marks);
+    answer = DrawMapPicture(ui, {std::round(content.centre().x - side / 2), content.y, side, side},
+                            view, marks);
   }
-  OfferProbe(ui, view, cell, state.probe);
+  OfferProbe(view, answer, state.probe);
 }
 
 void DrawCompareStrip(const EngineSnapshot& snap, const Rect& rect, TuneState& state, UiFrame& ui) {

@@ -4,6 +4,7 @@
 #include "engine/core/hash.h"
 #include "gui/panels/tune/tune.h"
 #include "gui/widgets/button.h"
+#include "gui/widgets/interact.h"
 #include "gui/widgets/number_text.h"
 
 namespace palace {
@@ -107,6 +108,34 @@ ApplyWords WordsFor(const EngineSnapshot& snap, const TuneFacts& f) {
   return w;
 }
 
+/// "Max slope", "7 limits" and from where to where.
+void DrawStep(UiFrame& ui, const Rect& row, const SettingStep& step, bool undone) {
+  const Style& s = ui.style;
+  const Palette& p = s.palette;
+  const SettingChange& first = step.changes.front();
+  const SettingInfo* info = FindSetting(first.name);
+  if (info == nullptr) {
+    return;
+  }
+  const bool one = step.changes.size() == 1;
+  const std::string name = one ? info->label : std::to_string(step.changes.size()) + " limits";
+  std::string change =
+      one ? FormatSetting(*info, first.before) + " to " + FormatSetting(*info, first.after) : "";
+  if (undone) {
+    change += one ? ", undone" : "undone";
+  }
+  const float middle = row.centre().y;
+  const float x = row.x + s.Px(16);
+  const float name_x =
+      x + DrawText(ui, s.mono, p.text2, x, middle, ClockText(step.time)) + s.Px(16);
+  const float name_end =
+      name_x + DrawText(ui, s.body, undone ? p.text3 : p.text1, name_x, middle, name);
+  if (row.right() - s.Px(12) - TextWidth(s.caption, change) > name_end + s.Px(8)) {
+    DrawText(ui, s.caption, undone ? p.text3 : p.text1, row.right() - s.Px(12), middle, change,
+             Align::kRight);
+  }
+}
+
 }  // namespace
 
 void DrawCellsPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui) {
@@ -194,36 +223,24 @@ void DrawHistoryPanel(const EngineSnapshot&, const Rect& rect, const TuneState& 
   const Style& s = ui.style;
   const Palette& p = s.palette;
   const Rect content = DrawPanelFrame(ui, rect, "History", {{"Ctrl+Z", 0, false, false}});
-  if (state.history.empty()) {
+  const std::vector<SettingStep>& steps = state.history.steps();
+  if (steps.empty()) {
     DrawText(ui, s.body, p.text2, content.x + s.Px(12), content.y + s.Px(14),
              "No limit moved yet. Drag a slider.");
     return;
   }
   float y = content.y;
-  for (auto it = state.history.rbegin(); it != state.history.rend(); ++it) {
+  for (std::size_t i = steps.size(); i-- > 0;) {
     const Rect row{content.x, y, content.w, s.Px(28)};
     if (row.bottom() > rect.bottom()) {
       break;
     }
     y = row.bottom();
-    const SettingInfo* info = FindSetting(it->name);
-    if (info == nullptr) {
-      continue;
-    }
-    if (it == state.history.rbegin()) {
+    if (i + 1 == state.history.done()) {  // what Ctrl+Z takes back
       FillRect(Canvas(), row, p.hover);
       FillRect(Canvas(), {row.x, row.y, s.Px(4), row.h}, p.white_mark);
     }
-    const float middle = row.centre().y;
-    const float x = row.x + s.Px(16);
-    const float name_x =
-        x + DrawText(ui, s.mono, p.text2, x, middle, ClockText(it->time)) + s.Px(16);
-    const float name_end = name_x + DrawText(ui, s.body, p.text1, name_x, middle, info->label);
-    const std::string change =
-        FormatSetting(*info, it->before) + " to " + FormatSetting(*info, it->after);
-    if (row.right() - s.Px(12) - TextWidth(s.caption, change) > name_end + s.Px(8)) {
-      DrawText(ui, s.caption, p.text1, row.right() - s.Px(12), middle, change, Align::kRight);
-    }
+    DrawStep(ui, row, steps[i], i >= state.history.done());
   }
 }
 
@@ -274,14 +291,14 @@ void DrawApplyPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui) {
     DrawButton(ui, "apply", apply, label, look);
     return;
   }
-  FillRect(Canvas(), apply, Hovered(ui, apply) ? p.bar : p.go, s.Fine(4));
+  const Interaction in = Interact(ui, "apply", apply, 0, label);
+  FillRect(Canvas(), apply, in.hovered ? p.bar : p.go, s.Fine(4));
   StrokeRect(Canvas(), apply, p.safe, s.Fine(2), s.Fine(4));
   DrawText(ui, s.button, p.on_go, apply.centre().x, apply.centre().y - s.Px(9), label,
            Align::kCentre);
   DrawText(ui, s.caption, p.on_go, apply.centre().x, apply.centre().y + s.Px(13), "One click",
            Align::kCentre);
-  ui.items.Add("apply", apply, true, label);
-  if (Clicked(ui, apply)) {
+  if (in.clicked) {
     ui.intents.push_back(CommandAction(ApplySettings{}));
   }
 }

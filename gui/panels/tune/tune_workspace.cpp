@@ -9,9 +9,6 @@
 namespace palace {
 namespace {
 
-constexpr double kGesture_s = 1;
-constexpr std::size_t kMostChanges = 200;
-
 bool Narrow(const Style& s, const Rect& body) { return body.w < s.Px(1584) || body.h < s.Px(776); }
 
 void DrawMapRow(const EngineSnapshot& snap, const Rect& row, TuneState& state, UiFrame& ui) {
@@ -90,6 +87,7 @@ void DrawNarrowCentre(const EngineSnapshot& snap, const Rect& c, TuneState& stat
   const float gap = s.Px(8), strip = s.Px(88), tabs = s.Px(172);
   const float upper = c.h - strip - tabs - 2 * gap;
   const float camera_w = std::floor((upper - s.Px(28)) * 4 / 3);
+  ui.tab.group = kViewTabs;
   DrawTuneCamera(snap, {c.x, c.y, camera_w, upper}, state, ui);
   const float left = c.x + camera_w + gap;
   const float w = std::floor((c.right() - left - gap) / 2), h = std::floor((upper - gap) / 2);
@@ -101,6 +99,7 @@ void DrawNarrowCentre(const EngineSnapshot& snap, const Rect& c, TuneState& stat
     DrawTuneMap(snap, {x, y, w, h}, kinds[i], false, state, ui);
   }
   DrawCompareStrip(snap, {c.x, c.y + upper + gap, c.w, strip}, state, ui);
+  ui.tab.group = kDecisionTabs;
   DrawNarrowTabs(snap, {c.x, c.bottom() - tabs, c.w, tabs}, state, ui);
 }
 
@@ -120,45 +119,9 @@ TuneFacts FactsOf(const EngineSnapshot& snap) {
   return facts;
 }
 
-void FollowChanges(const EngineSnapshot& snap, double ui_time_s, TuneState& state) {
-  if (!state.has_last_seen) {
-    state.last_seen = snap.preview_settings;
-    state.has_last_seen = true;
-    return;
-  }
-  if (snap.preview_settings == state.last_seen) {
-    return;
-  }
-  for (const SettingInfo& info : SettingTable()) {
-    const double before = GetSetting(state.last_seen, info.name);
-    const double after = GetSetting(snap.preview_settings, info.name);
-    if (before == after) {
-      continue;
-    }
-    const bool same_gesture =
-        !state.history.empty() && state.history.back().name == info.name &&
-        (state.sliders.dragging == info.name || ui_time_s - state.last_change_s < kGesture_s);
-    if (same_gesture) {
-      state.history.back().after = after;
-      state.history.back().time = snap.time;
-    } else {
-      state.history.push_back({snap.time, info.name, before, after});
-    }
-  }
-  if (state.history.size() > kMostChanges) {
-    state.history.erase(state.history.begin());
-  }
-  state.last_change_s = ui_time_s;
-  state.last_seen = snap.preview_settings;
-}
-
 void DrawTuneWorkspace(const EngineSnapshot& snap, const Rect& body, TuneState& state,
                        UiFrame& ui) {
   const Style& s = ui.style;
-  FollowChanges(snap, ui.ui_time_s, state);
-  if (!ImGui::GetIO().MouseDown[0]) {
-    state.sliders.dragging.clear();
-  }
   BeginProbe(state.probe);
   const bool narrow = Narrow(s, body);
   const float gap = s.Px(8), left = s.Px(narrow ? 344 : 416), right = s.Px(400);
@@ -166,11 +129,12 @@ void DrawTuneWorkspace(const EngineSnapshot& snap, const Rect& body, TuneState& 
   const float x = body.x + left + gap;
   if (narrow) {
     DrawNarrowCentre(snap, {x, body.y, body.right() - x, body.h}, state, ui);
-    DrawProbeWhy(ui, body, FactsOf(snap).shown, state.probe, snap.time);
-    return;
+  } else {
+    ui.tab.group = kViewTabs;
+    DrawWideCentre(snap, {x, body.y, body.right() - right - gap - x, body.h}, state, ui);
+    ui.tab.group = kDecisionTabs;
+    DrawRight(snap, {body.right() - right, body.y, right, body.h}, state, ui);
   }
-  DrawWideCentre(snap, {x, body.y, body.right() - right - gap - x, body.h}, state, ui);
-  DrawRight(snap, {body.right() - right, body.y, right, body.h}, state, ui);
   DrawProbeWhy(ui, body, FactsOf(snap).shown, state.probe, snap.time);
 }
 

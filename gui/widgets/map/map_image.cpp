@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "engine/model/settings.h"
+#include "gui/widgets/interact.h"
 #include "gui/widgets/map/cell_hatch.h"
 #include "gui/widgets/map/flag_marks.h"
 #include "gui/widgets/map/site_marks.h"
@@ -62,35 +63,29 @@ void DrawProbe(const Style& s, const Rect& square, const MapView& view, Cell cel
   FillRect(Canvas(), {square.x, std::round(at.y), square.w, s.Px(1)}, picture::kWhite);
 }
 
-/// Reads the drag of the tick and asks for the new value.
-void RunDrag(UiFrame& ui, const Rect& bar, float tick_x, const LimitTick& limit, LimitDrag& drag) {
+/// Mouse and keyboard on the tick: asks for the new value.
+void RunTick(UiFrame& ui, const Rect& bar, float tick_x, const LimitTick& limit, LimitDrag& drag) {
   const Style& s = ui.style;
-  const ImGuiIO& io = ImGui::GetIO();
   const Rect grab{tick_x - s.Px(10), bar.y - s.Px(10), s.Px(20), s.Px(24)};
-  ui.items.Add("limit/" + limit.setting, grab, true, limit.label);
-  if (drag.setting.empty() && Pressed(ui, grab)) {
-    drag = {limit.setting, io.MousePos.x, limit.value, limit.per_bar / static_cast<double>(bar.w),
-            limit.value};
-  }
-  if (Hovered(ui, grab) || drag.setting == limit.setting) {
+  const Interaction in = Interact(ui, "tick/" + limit.setting, grab, kSideSteps, limit.label);
+  if (in.hovered || in.held) {
     ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
-  }
-  if (drag.setting != limit.setting) {
-    return;
-  }
-  if (!io.MouseDown[0]) {
-    drag.setting.clear();
-    return;
   }
   const SettingInfo* info = FindSetting(limit.setting);
   if (info == nullptr) {
     return;
   }
-  const double moved = static_cast<double>(io.MousePos.x - drag.start_x) * drag.per_px;
+  if (in.pressed) {
+    drag = {in.pointer.x, limit.value, limit.per_bar / static_cast<double>(bar.w), limit.value};
+  }
   const double step = std::pow(10.0, -info->decimals) / info->shown_per_unit;
-  const double wanted = std::round((drag.start_value + moved) / step) * step;
-  const double value = ClampSetting(*info, wanted);
-  if (std::abs(value - drag.last_value) > step * 1e-3) {
+  double wanted = limit.value + in.step_right * step, last = limit.value;
+  if (in.held) {
+    wanted = drag.start_value + static_cast<double>(in.pointer.x - drag.start_x) * drag.per_px;
+    last = drag.last_value;
+  }
+  const double value = ClampSetting(*info, std::round(wanted / step) * step);
+  if ((in.held || in.step_right != 0) && std::abs(value - last) > step * 1e-3) {
     drag.last_value = value;
     ui.intents.push_back(CommandAction(SetSetting{limit.setting, value}));
   }
@@ -106,8 +101,8 @@ void DrawTick(const Style& s, const Rect& bar, float x) {
 
 }  // namespace
 
-std::optional<Cell> DrawMapPicture(UiFrame& ui, const Rect& square, const MapView& view,
-                                   const MapMarks& marks) {
+MapAnswer DrawMapPicture(UiFrame& ui, const Rect& square, const MapView& view,
+                         const MapMarks& marks) {
   const Style& s = ui.style;
   ImDrawList* dl = Canvas();
   dl->PushClipRect(square.min(), square.max(), true);
@@ -137,15 +132,23 @@ std::optional<Cell> DrawMapPicture(UiFrame& ui, const Rect& square, const MapVie
   if (view.preview) {
     PreviewChip(ui, {square.x + s.Px(8), square.y + s.Px(8)});
   }
-  ui.items.Add("map/" + view.key, square, true, view.title + " " + view.value);
-  if (!known || !Hovered(ui, square)) {
-    return std::nullopt;
+  const Interaction in = Interact(ui, "map/" + view.key, square,
+                                  kAllSteps | kKeepsStop | (known ? 0U : unsigned{kDisabled}),
+                                  view.title + " " + view.value);
+  MapAnswer answer;
+  answer.square = square;
+  answer.clicked = in.clicked && !in.key_pressed;
+  answer.key_pressed = in.key_pressed;
+  answer.rows_up = in.step_up;
+  answer.cols_right = in.step_right;
+  const Cell cell{static_cast<int>((in.pointer.y - square.y) / square.h *
+                                   static_cast<float>(view.geometry.rows)),
+                  static_cast<int>((in.pointer.x - square.x) / square.w *
+                                   static_cast<float>(view.geometry.cols))};
+  if (known && in.hovered && view.geometry.Contains(cell)) {
+    answer.under_pointer = cell;
   }
-  const ImVec2 mouse = ImGui::GetIO().MousePos;
-  const Cell cell{
-      static_cast<int>((mouse.y - square.y) / square.h * static_cast<float>(view.geometry.rows)),
-      static_cast<int>((mouse.x - square.x) / square.w * static_cast<float>(view.geometry.cols))};
-  return view.geometry.Contains(cell) ? std::optional<Cell>(cell) : std::nullopt;
+  return answer;
 }
 
 void DrawColourBar(UiFrame& ui, const Rect& bar, const MapView& view, LimitDrag* drag) {
@@ -168,7 +171,7 @@ void DrawColourBar(UiFrame& ui, const Rect& bar, const MapView& view, LimitDrag*
     limit_to = limit_from + width;
     DrawText(ui, s.medium, s.palette.text1, limit_from, label_y, view.limit.label);
     if (drag != nullptr && !view.limit.setting.empty()) {
-      RunDrag(ui, bar, x, view.limit, *drag);
+      RunTick(ui, bar, x, view.limit, *drag);
     }
   }
   const float keep = s.Px(8);
@@ -182,18 +185,18 @@ void DrawColourBar(UiFrame& ui, const Rect& bar, const MapView& view, LimitDrag*
   }
 }
 
-std::optional<Cell> DrawMapPanel(UiFrame& ui, const Rect& panel, float side, const MapView& view,
-                                 const MapMarks& marks, LimitDrag& drag) {
+MapAnswer DrawMapPanel(UiFrame& ui, const Rect& panel, float side, const MapView& view,
+                       const MapMarks& marks, LimitDrag& drag) {
   const Style& s = ui.style;
   const std::string letter = view.letter != 0 ? std::string(1, view.letter) : std::string();
   const Rect content = DrawPanelFrame(
       ui, panel, view.title,
       {{letter, s.palette.text3, false, false}, {view.value, s.palette.text1, true, false}});
   const Rect square{std::round(content.x + (content.w - side) / 2), content.y, side, side};
-  const std::optional<Cell> cell = DrawMapPicture(ui, square, view, marks);
+  const MapAnswer answer = DrawMapPicture(ui, square, view, marks);
   const Rect bar{panel.x + s.Px(12), square.bottom() + s.Px(12), panel.w - s.Px(24), s.Px(8)};
   DrawColourBar(ui, bar, view, &drag);
-  return cell;
+  return answer;
 }
 
 }  // namespace palace

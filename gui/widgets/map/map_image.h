@@ -49,22 +49,30 @@ struct MapMarks {
   std::optional<Cell> probe;
 };
 
-/// Drag of one limit tick.
+/// The drag of a limit tick under way.
 struct LimitDrag {
-  std::string setting;  ///< empty: not dragging
   float start_x = 0;
   double start_value = 0;
   double per_px = 0;
   double last_value = 0;
 };
 
-/// Draws the panel; appends SetSetting while the tick is dragged. Returns the cell under the
-/// cursor.
-std::optional<Cell> DrawMapPanel(UiFrame& ui, const Rect& panel, float side, const MapView& view,
-                                 const MapMarks& marks, LimitDrag& drag);
+/// What was done to a map.
+struct MapAnswer {
+  Rect square;
+  std::optional<Cell> under_pointer;
+  bool clicked = false;
+  bool key_pressed = false;         ///< Enter or Space with the focus
+  int rows_up = 0, cols_right = 0;  ///< arrow keys, in cells
+};
+
+/// Draws the panel (items "map/<key>" and "tick/<setting>"); appends SetSetting while the tick is
+/// dragged or stepped.
+MapAnswer DrawMapPanel(UiFrame& ui, const Rect& panel, float side, const MapView& view,
+                       const MapMarks& marks, LimitDrag& drag);
 /// The square picture alone with all its marks.
-std::optional<Cell> DrawMapPicture(UiFrame& ui, const Rect& square, const MapView& view,
-                                   const MapMarks& marks);
+MapAnswer DrawMapPicture(UiFrame& ui, const Rect& square, const MapView& view,
+                         const MapMarks& marks);
 /// Colour bar with end labels and limit; `bar` is the 8-unit strip itself. `drag` may be null.
 void DrawColourBar(UiFrame& ui, const Rect& bar, const MapView& view, LimitDrag* drag);
 

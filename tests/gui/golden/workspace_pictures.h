@@ -19,6 +19,7 @@
 #include "gui/platform/imgui_backend.h"
 #include "gui/platform/offscreen.h"
 #include "gui/render/texture_set.h"
+#include "gui/widgets/interact.h"
 #include "tests/support/fake_snapshot.h"
 
 namespace palace {
@@ -128,10 +129,13 @@ inline ImageRgba Draw(const Shot& shot, std::string& why) {
   textures.difference = TextureId(set.names().difference);
   ItemRecord items;
   Intents intents;
+  Focus focus;
   FlyState fly;
   TuneState tune;
-  tune.history = {{snap.time, "slad.max_slope_deg", 10, 6},
-                  {snap.time, "slad.max_deviation_m", 0.1, 0.06}};
+  EngineSnapshot before = snap;
+  before.preview_settings = {};
+  tune.history.Remember(CommandAction(SetSetting{"slad.max_slope_deg", 6}), before, {});
+  tune.history.Remember(CommandAction(SetSetting{"slad.max_deviation_m", 0.06}), before, {});
   ReviewState review;
   DiagnoseState diagnose;
   FrameState frame;
@@ -144,8 +148,8 @@ inline ImageRgba Draw(const Shot& shot, std::string& why) {
     items.Clear();
     const FlyLayout layout =
         ComputeFlyLayout(shot.width, shot.height, shot.scale, ShowsDescent(snap));
-    UiFrame ui{style, textures, items, intents, i / 60.0, false, layout.frame.wave_off};
-    BeginCanvas(style);
+    UiFrame ui{style, textures, items, intents, focus, i / 60.0, false, layout.frame.wave_off};
+    BeginCanvas(ui);
     DrawFrameBar(snap, layout.frame, frame, ui);
     switch (shot.workspace) {
       case Workspace::kFly:
@@ -162,7 +166,7 @@ inline ImageRgba Draw(const Shot& shot, std::string& why) {
         break;
     }
     DrawFrameOverlay(snap, layout.frame, frame, ui);
-    EndCanvas();
+    EndCanvas(ui);
     backend.value()->EndFrame();
   }
   return offscreen.value()->ReadPixels();

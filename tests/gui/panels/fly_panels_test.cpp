@@ -19,12 +19,9 @@ TEST(FlySites, AClickSelectsExactlyThatSiteOnce) {
 TEST(FlySites, TabHighlightsAndEnterArmsTheHighlightedOne) {
   FlyWindow window(1920, 1080, fake::Snapshot(MissionState::kProposed));
   for (int i = 0; i < 3; ++i) {
-    window.ui.Key(ImGuiKey_Tab, true);
-    window.Run(0.02);
-    window.ui.Key(ImGuiKey_Tab, false);
-    window.Run(0.02);
+    window.ui.Tap(ImGuiKey_Tab, window.draw);
   }
-  EXPECT_EQ(window.fly.sites.highlighted, 3u);
+  EXPECT_EQ(window.ui.highlighted_site, 3u);
   EXPECT_TRUE(window.ui.intents.empty());
   window.ui.Key(ImGuiKey_Enter, true);
   window.Run(1.5);  // held: arms once, never approves
@@ -143,7 +140,7 @@ TEST(FlyFrame, AcknowledgeRefuseAndHoldHereAskForWhatTheySay) {
 
 TEST(FlyMaps, DraggingTheLimitTickSetsTheLimit) {
   FlyWindow window(1920, 1080, fake::Snapshot(MissionState::kProposed));
-  window.ui.MoveTo("limit/slad.max_slope_deg");
+  window.ui.MoveTo("tick/slad.max_slope_deg");
   window.Run(0.05);
   const ImVec2 at = ImGui::GetIO().MousePos;
   window.ui.Button(true);
@@ -268,6 +265,20 @@ TEST(FlyApprove, TellsTheHeadingThatWillBeSigned) {
     all += item.text + " ";
   }
   EXPECT_NE(all.find("heading 340° at 0.8 m/s"), std::string::npos);
+}
+
+TEST(FlyPictures, ViewAndCameraLieWhereTheLayoutSays) {
+  for (const ImVec2 size : {ImVec2(1280, 720), ImVec2(1920, 1080)}) {
+    FlyWindow window(size.x, size.y, fake::Snapshot(MissionState::kProposed));
+    const FlyLayout layout = ComputeFlyLayout(size.x, size.y, 1, false);
+    const auto same = [](const Rect& a, const Rect& b) {
+      return a.x == b.x && a.y == b.y && a.w == b.w && a.h == b.h;
+    };
+    EXPECT_TRUE(
+        same(window.ui.items.Find("view_3d")->rect, View3dScene(layout.view_3d, window.ui.style)));
+    EXPECT_TRUE(same(window.ui.items.Find("left_camera")->rect,
+                     LeftCameraImage(window.snap, layout.left_camera, window.ui.style)));
+  }
 }
 
 struct TextCase {

@@ -1,5 +1,6 @@
 // Review and Diagnose: texts stay in their panels; the timeline seeks; differences are found.
 #include "gui/panels/diagnose/diagnose.h"
+#include "gui/panels/fly_panels.h"
 #include "gui/panels/review/review.h"
 #include "gui/widgets/number_text.h"
 #include "tests/gui/panels/panel_checks.h"
@@ -78,6 +79,21 @@ TEST(ReviewWorkspace, TextsStayInTheirPanels) {
         }
       }
     }
+  }
+}
+
+/// What the app renders the 3-D picture for is where the panel shows it.
+TEST(ReviewWorkspace, ThePictureOfTheViewLiesWhereTheLayoutSays) {
+  const EngineSnapshot snap = Replay(false);
+  for (const WindowSize& size : kWindowSizes) {
+    SCOPED_TRACE(size.name);
+    UiHarness ui(size.width, size.height);
+    const Rect body = BodyOf(size.width, size.height);
+    ReviewState state;
+    ui.Frame([&](UiFrame& f) { DrawReviewWorkspace(snap, nullptr, body, state, f); });
+    const Rect drawn = ui.items.Find("view_3d")->rect;
+    const Rect laid = View3dScene(LayReview(body, ui.style, state.picture).view_3d, ui.style);
+    EXPECT_TRUE(drawn.x == laid.x && drawn.y == laid.y && drawn.w == laid.w && drawn.h == laid.h);
   }
 }
 
@@ -189,6 +205,20 @@ TEST(ReviewWorkspace, AMapBuiltAnewAfterAJumpDecidesNothingDifferently) {
   EXPECT_TRUE(FindDifferences(snap, &record).empty());
 }
 
+TEST(ReviewWorkspace, TheRecordIsReadOncePerSnapshot) {
+  FlightRecord record = Record();
+  EngineSnapshot snap = Replay(true);
+  ReviewDigest digest;
+  const Palette palette = MakeDarkPalette();
+  ASSERT_EQ(DigestOf(snap, &record, palette, true, digest).differences.size(), 1U);
+  for (FlightRecordSample& sample : record.samples) {
+    sample.best_site = 'A';
+  }
+  EXPECT_EQ(DigestOf(snap, &record, palette, true, digest).differences.size(), 1U);  // kept
+  ++snap.sequence;
+  EXPECT_TRUE(DigestOf(snap, &record, palette, true, digest).differences.empty());
+}
+
 TEST(ReviewWorkspace, ClickOnADifferenceSeeksToIt) {
   const FlightRecord record = Record();
   UiHarness ui(1920, 1080);
@@ -206,7 +236,7 @@ TEST(ReviewWorkspace, ClickOnADifferenceSeeksToIt) {
 
 TEST(ReviewWorkspace, LanesHoldTheStatesInOrder) {
   const FlightRecord record = Record();
-  const TimelineView view = MakeTimeline(Replay(false), &record, MakeDarkPalette(), true);
+  const TimelineView view = MakeTimeline(Replay(false), &record, {}, MakeDarkPalette(), true);
   ASSERT_EQ(view.lanes.size(), 6U);
   const auto& states = view.lanes[0].segments;
   ASSERT_EQ(states.size(), 4U);

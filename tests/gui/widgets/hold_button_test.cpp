@@ -23,7 +23,7 @@ class HoldButton : public testing::Test {
     ui.Button(true);
   }
   UiHarness ui{800, 600};
-  HoldButtonView view{HoldPhase::kReady, "Hold to approve A", "", 7, false, 1.0};
+  HoldButtonView view{HoldPhase::kReady, "Hold to approve A", "", 7, 1.0};
   HoldState state;
   int fired = 0;
 };
@@ -94,7 +94,7 @@ TEST_F(HoldButton, EnterHeldWithFocusFiresAndWithoutFocusDoesNot) {
   ui.Key(ImGuiKey_Enter, true);
   Run(1.5);
   EXPECT_EQ(fired, 0);
-  view.focused = true;  // a key already down when the focus came does not count
+  ui.focus.Show("approve");  // a key already down when the focus came does not count
   Run(1.5);
   EXPECT_EQ(fired, 0);
   ui.Key(ImGuiKey_Enter, false);
@@ -102,6 +102,32 @@ TEST_F(HoldButton, EnterHeldWithFocusFiresAndWithoutFocusDoesNot) {
   ui.Key(ImGuiKey_Enter, true);
   Run(1.1);
   EXPECT_EQ(fired, 1);
+}
+
+TEST_F(HoldButton, EscapeCancelsByMouseAndByKeyAndIsTaken) {
+  PressInside();
+  Run(0.6);
+  ui.Key(ImGuiKey_Escape, true);
+  Run(1.0 / 60);
+  EXPECT_TRUE(ui.focus.escape_taken());
+  ui.Key(ImGuiKey_Escape, false);
+  Run(2);  // the finger never left
+  EXPECT_EQ(fired, 0);
+  ui.Button(false);
+  ui.focus.Show("approve");
+  Run(0.05);
+  ui.Key(ImGuiKey_Enter, true);
+  Run(0.6);
+  ui.Key(ImGuiKey_Escape, true);
+  Run(2);
+  EXPECT_EQ(fired, 0);
+}
+
+TEST_F(HoldButton, AnEscapeWithoutAHoldIsLeftToOthers) {
+  Run(0.05);
+  ui.Key(ImGuiKey_Escape, true);
+  Run(1.0 / 60);
+  EXPECT_FALSE(ui.focus.escape_taken());
 }
 
 TEST(HoldStateMachine, ALostWindowFocusCancels) {

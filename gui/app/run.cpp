@@ -1,0 +1,261 @@
+#include "gui/app/run.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+
+#include <imgui.h>
+
+#include "engine/core/log.h"
+#include "engine/core/time.h"
+#include "engine/runtime/flight_summary.h"
+#include "gui/app/dispatch.h"
+#include "gui/app/input.h"
+#include "gui/app/keys.h"
+#include "gui/app/report.h"
+#include "gui/app/surface.h"
+#include "gui/app/view.h"
+#include "gui/platform/screenshot.h"
+
+namespace palace {
+namespace {
+
+constexpr double kLockstepFrame_s = 0.1;  // of the UI clock, one engine pass
+constexpr double kMinimisedWait_s = 0.1;
+constexpr double kSlowFrame_ms = 20;
+
+/// A step that is repeated by holding its key down; the rest waits for a new press.
+bool MayRepeat(const std::string& keys) {
+  const auto& table = KeyTable();
+  const auto row =
+      std::find_if(table.begin(), table.end(), [&](const KeyBinding& b) { return b.keys == keys; });
+  return row == table.end() || row->repeats;
+}
+
+/// When a command of this frame is asked for: the mouse press under way is one gesture.
+Gesture GestureNow(double ui_time_s) {
+  const bool held = ImGui::IsMouseDown(0);
+  return {ui_time_s, held ? ImGui::GetIO().MouseClickedTime[0] : NAN};
+}
+
+class StationRun {
+ public:
+  StationRun(const AppOptions& options, Session& session, Surface& surface,
+             std::unique_ptr<View> view, std::optional<ScriptRunner> script)
+      : session_(session),
+        surface_(surface),
+        view_(std::move(view)),
+        script_(std::move(script)),
+        summarizer_(session.scene),
+        start_s_(MonotonicSeconds()) {
+    state_.scale = options.ui_scale > 0 ? options.ui_scale : surface.natural_scale();
+  }
+
+  Status Run() {
+    while (!state_.quit && !(script_ && script_->done())) {
+      const WindowInput input = surface_.Poll(WaitForInput());
+      if (input.close_requested) {
+        break;
+      }
+      const bool more = !surface_.lockstep() || session_.engine->Step();
+      const bool dead = surface_.lockstep() ? !more : session_.engine->Latest() == nullptr;
+      if (dead && !session_.engine->error().empty()) {
+        return UnavailableError(session_.engine->error());
+      }
+      if (const Status drawn = Frame(input); !drawn) {
+        return drawn;
+      }
+    }
+    // A screenshot asked for by the last line of a script still waits for its frame.
+    return surface_.lockstep() && !state_.screenshots_wanted.empty() ? Frame({}) : Ok();
+  }
+
+  std::string script_error() const { return script_ ? script_->error() : std::string(); }
+  const FlightSummary& summary() const { return summarizer_.summary(); }
+  const std::vector<std::string>& screenshots() const { return screenshots_; }
+
+ private:
+  /// When drawing is slow (software GL) the engine gets every other moment: the frame rate of the
+  /// window yields first. Input ends the wait.
+  double WaitForInput() const {
+    if (surface_.minimised()) {
+      return kMinimisedWait_s;
+    }
+    return frame_ms_ > kSlowFrame_ms ? std::min(frame_ms_ * 1e-3, kMinimisedWait_s) : 0;
+  }
+
+  /// Moves the UI clock on; returns by how much.
+  double Tick() {
+    const double before_s = ui_time_s_;
+    ui_time_s_ =
+        surface_.lockstep() ? ui_time_s_ + kLockstepFrame_s : MonotonicSeconds() - start_s_;
+    return ui_time_s_ - before_s;
+  }
+
+  Status Frame(const WindowInput& window_input) {
+    const double started_s = MonotonicSeconds();
+    const double dt_s = Tick();
+    const auto snapshot = session_.engine->Latest();
+    if (snapshot) {
+      summarizer_.Add(*snapshot);
+    }
+    // A picture shows the window as it was when it was asked for; the script waits for it.
+    const bool photograph = !state_.screenshots_wanted.empty();
+    ScriptInput input;
+    if (script_) {
+      input =
+          photograph ? script_->Rest() : script_->Tick(view_->items(), snapshot.get(), ui_time_s_);
+    }
+    if (input.resize) {
+      if (const Status sized = surface_.SetSize(input.resize->first, input.resize->second);
+          !sized) {
+        return sized;
+      }
+    }
+    Intents intents = Draw(snapshot.get(), input, window_input, dt_s, photograph);
+    const Status saved = photograph ? SaveScreenshots() : Ok();
+    frame_ms_ = surface_.lockstep() ? 0 : (MonotonicSeconds() - started_s) * 1e3;
+    surface_.Present();
+    AddKeys(window_input, input, snapshot.get(), intents);
+    const CommandOrigin origin = script_ ? CommandOrigin::kScript : CommandOrigin::kOperator;
+    Dispatch(intents, origin, snapshot.get(), GestureNow(ui_time_s_), *session_.engine, state_);
+    return saved;
+  }
+
+  Intents Draw(const EngineSnapshot* snapshot, const ScriptInput& input,
+               const WindowInput& window_input, double dt_s, bool photograph) {
+    ViewFrame frame{surface_.width_px(), surface_.height_px(), ui_time_s_, frame_ms_};
+    frame.window_focused = window_input.focused || script_.has_value();
+    ImGuiBackend& backend = surface_.backend();
+    backend.SetUiScale(View::FittingScale(frame.width_px, frame.height_px, state_.scale));
+    const bool pixels = photograph || !surface_.lockstep();
+    if (pixels && snapshot) {
+      view_->Upload(*snapshot, frame, state_, dt_s);
+    }
+    backend.BeginFrame(surface_.lockstep() ? kLockstepFrame_s : 0, [&] {
+      if (script_) {
+        FeedScriptInput(input, keys_down_);
+      } else {
+        FeedShortTaps(window_input.keys, keys_down_);
+      }
+    });
+    Intents intents = view_->Draw(snapshot, session_.record.get(), state_, backend.fonts(), frame);
+    backend.EndFrame(pixels);
+    return intents;
+  }
+
+  /// Appends what the keys of person and script ask for, and the script's own intents.
+  void AddKeys(const WindowInput& window_input, const ScriptInput& input,
+               const EngineSnapshot* snapshot, Intents& intents) const {
+    const bool typing = ImGui::GetIO().WantTextInput;
+    const auto add = [&](const std::string& keys) {
+      const Intents of_key = IntentsOfKey(keys, snapshot, state_, typing);
+      intents.insert(intents.end(), of_key.begin(), of_key.end());
+    };
+    for (const KeyEvent& event : window_input.keys) {
+      const std::string name = KeyName(event);
+      if (event.action == KeyAction::kPress ||
+          (event.action == KeyAction::kRepeat && MayRepeat(name))) {
+        add(name);
+      }
+    }
+    intents.insert(intents.end(), input.intents.begin(), input.intents.end());
+    if (input.key) {
+      add(*input.key);
+    }
+  }
+
+  Status SaveScreenshots() {
+    std::error_code error;
+    std::filesystem::create_directories(session_.output_dir, error);
+    const ImageRgba picture = surface_.ReadPixels();
+    for (const std::string& wanted : state_.screenshots_wanted) {
+      const std::string name = wanted.empty() ? "screenshot-" + TimeStampName() + ".png" : wanted;
+      const Status saved = SavePng(picture, (session_.output_dir / name).string());
+      if (!saved && script_) {
+        return saved;
+      }
+      if (!script_) {
+        ShowMessage(state_, saved ? "Screenshot saved: " + name : saved.error().message,
+                    ui_time_s_);
+      }
+      screenshots_.push_back(name);
+    }
+    state_.screenshots_wanted.clear();
+    return Ok();
+  }
+
+  Session& session_;
+  Surface& surface_;
+  std::unique_ptr<View> view_;
+  std::optional<ScriptRunner> script_;
+  FlightSummarizer summarizer_;
+  UiState state_;
+  double start_s_;
+  double ui_time_s_ = 0;
+  double frame_ms_ = 0;
+  std::vector<ImGuiKey> keys_down_;
+  std::vector<std::string> screenshots_;
+};
+
+int Fail(const Error& error) {
+  std::fprintf(stderr, "palace: %s\n", error.message.c_str());
+  return error.code == ErrorCode::kUsage ? 2 : 1;
+}
+
+/// Without a window the figures go to the terminal; the report goes beside the log.
+void Report(const AppOptions& options, const Session& session, const StationRun& run) {
+  if (options.headless) {
+    for (const std::string& line : SummaryLines(run.summary())) {
+      std::printf("%s\n", line.c_str());
+    }
+  }
+  const bool report = options.headless ? options.report : session.recorded;
+  if (report || (options.headless && !run.screenshots().empty())) {
+    std::printf("Files: %s\n", session.output_dir.string().c_str());
+  }
+  if (!report) {
+    return;
+  }
+  const Status written = WriteFlightReport(options, session, run.summary(), run.screenshots());
+  if (!written) {
+    LogWarning(written.error().message);
+  }
+}
+
+}  // namespace
+
+int RunStation(const AppOptions& options, Session& session,
+               std::optional<std::vector<ScriptLine>> script, const std::string& script_name) {
+  const Result<std::unique_ptr<Surface>> surface = Surface::Open(options);
+  Result<std::unique_ptr<View>> view =
+      surface ? View::Create(options.theme) : Result<std::unique_ptr<View>>(surface.error());
+  if (!view) {
+    const Status ignored = session.engine->Stop();
+    return Fail(view.error());
+  }
+  std::optional<ScriptRunner> runner;
+  if (script) {
+    runner.emplace(std::move(*script), script_name);
+  }
+  if (options.headless) {
+    session.source->Control({PlaybackControl::Kind::kSpeed, 0});
+  } else {
+    session.engine->Start();
+  }
+  StationRun run(options, session, **surface, std::move(*view), std::move(runner));
+  const Status done = run.Run();
+  const Status closed = session.engine->Stop();
+  if (done) {
+    Report(options, session, run);
+  }
+  for (const Status& status : {done, closed}) {
+    if (!status) {
+      return Fail(status.error());
+    }
+  }
+  return run.script_error().empty() ? 0 : Fail(UnavailableError(run.script_error()));
+}
+
+}  // namespace palace

@@ -1,0 +1,44 @@
+// Surface: what the station is drawn into, a window or an offscreen picture, with its clock.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "engine/core/result.h"
+#include "gui/app/options.h"
+#include "gui/platform/imgui_backend.h"
+#include "gui/platform/offscreen.h"
+#include "gui/platform/window.h"
+
+namespace palace {
+
+/// Main thread only; its GL context is current on it. A window shows every frame and runs in real
+/// time; offscreen, engine and user interface go in lockstep, and pixels are made on demand.
+class Surface {
+ public:
+  static Result<std::unique_ptr<Surface>> Open(const AppOptions& options);
+
+  /// Offscreen: one engine pass, then one frame of kFrame_s, whatever the machine's speed.
+  bool lockstep() const { return offscreen_ != nullptr; }
+  int width_px() const;
+  int height_px() const;
+  bool minimised() const;
+  /// The scale wanted where the command line says none.
+  double natural_scale() const;
+  ImGuiBackend& backend() { return *backend_; }
+
+  /// What came in since the last call; waits at most `wait_s` for it. Offscreen nothing comes.
+  WindowInput Poll(double wait_s);
+  Status SetSize(int width_px, int height_px);
+  ImageRgba ReadPixels() const;
+  /// Shows what was drawn.
+  void Present();
+
+ private:
+  Surface() = default;
+  std::unique_ptr<Window> window_;  // one of the two
+  std::unique_ptr<Offscreen> offscreen_;
+  std::unique_ptr<ImGuiBackend> backend_;  // goes first
+};
+
+}  // namespace palace

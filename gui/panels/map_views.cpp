@@ -1,0 +1,178 @@
+#include "gui/panels/map_views.h"
+
+#include <cmath>
+
+#include "engine/core/units.h"
+#include "gui/widgets/number_text.h"
+
+namespace palace {
+namespace {
+
+struct Layer {
+  const char* key;
+  const char* title;
+  Ramp ramp;
+};
+
+Layer LayerOf(MapKind kind) {
+  switch (kind) {
+    case MapKind::kElevation:
+      return {"elevation", "Elevation", Ramp::kElevation};
+    case MapKind::kSlope:
+      return {"slope", "Slope", Ramp::kSlope};
+    case MapKind::kRoughness:
+      return {"roughness", "Roughness", Ramp::kRoughness};
+    case MapKind::kCost:
+      return {"cost", "Cost", Ramp::kCost};
+    case MapKind::kSafeDistance:
+      break;
+  }
+  return {"safe_distance", "Safe distance", Ramp::kSafeDistance};
+}
+
+const GridF* ValuesOf(MapKind kind, const TerrainDecision& d) {
+  if (kind == MapKind::kElevation) {
+    return d.elevation ? &d.elevation->height_m : nullptr;
+  }
+  if (!d.hazards) {
+    return nullptr;
+  }
+  switch (kind) {
+    case MapKind::kSlope:
+      return &d.hazards->slope_rad;
+    case MapKind::kRoughness:
+      return &d.hazards->roughness_m;
+    case MapKind::kCost:
+      return &d.hazards->cost;
+    default:
+      return &d.hazards->safe_distance_m;
+  }
+}
+
+std::string ValueText(MapKind kind, double value) {
+  if (!std::isfinite(value)) {
+    return "––";
+  }
+  switch (kind) {
+    case MapKind::kElevation:
+      return Fixed(value, 2) + " m";
+    case MapKind::kSlope:
+      return Fixed(Deg(value), 1) + "°";
+    case MapKind::kRoughness:
+      return Fixed(value * 100, 1) + " cm";
+    case MapKind::kCost:
+      return Fixed(value, 2);
+    case MapKind::kSafeDistance:
+      break;
+  }
+  return Fixed(value, 1) + " m";
+}
+
+/// A limit as a colour bar shows it.
+struct BarLimit {
+  double value = 0;    ///< of the decision, in setting units
+  double applied = 0;  ///< dashed where it differs
+  double wanted = 0;   ///< of the setting that a drag moves
+  double top = 0;      ///< end of the bar
+  const char* setting = "";
+  std::string label;
+};
+
+void FillLimit(const BarLimit& limit, LimitTick& tick) {
+  tick.at = static_cast<float>(limit.value / limit.top);
+  if (limit.applied != limit.value) {
+    tick.applied_at = static_cast<float>(limit.applied / limit.top);
+  }
+  tick.label = limit.label;
+  tick.setting = limit.setting;
+  tick.value = limit.wanted;
+  tick.per_bar = limit.top;
+}
+
+/// Ends of the colours and the limit between them.
+void FillRange(MapKind kind, const SladSettings& now, const SladSettings& applied,
+               const SladSettings& wanted, MapView& view) {
+  const auto label = [](const char* which, double value, const char* unit) {
+    return which + Fixed(value, DecimalsOf(value, 0)) + unit;
+  };
+  switch (kind) {
+    case MapKind::kElevation:
+      break;
+    case MapKind::kSlope:
+      view.low = "0°";
+      view.high = Fixed(2 * now.max_slope_deg, 0) + "°+";
+      FillLimit(
+          {now.max_slope_deg, applied.max_slope_deg, wanted.max_slope_deg, 2 * now.max_slope_deg,
+           "slad.max_slope_deg", label("max ", now.max_slope_deg, "°")},
+          view.limit);
+      break;
+    case MapKind::kRoughness:
+      view.low = "0 cm";
+      view.high = Fixed(250 * now.max_deviation_m, 0) + " cm+";
+      FillLimit({now.max_deviation_m, applied.max_deviation_m, wanted.max_deviation_m,
+                 2.5 * now.max_deviation_m, "slad.max_deviation_m",
+                 label("max ", 100 * now.max_deviation_m, " cm")},
+                view.limit);
+      break;
+    case MapKind::kCost:
+      view.low = "0.0";
+      view.limit.at = 1;
+      view.limit.label = "limit 1.0";
+      break;
+    case MapKind::kSafeDistance:
+      view.low = "0 m";
+      view.high = Fixed(2.5 * now.clear_radius_m(), 1) + " m+";
+      FillLimit({now.clear_radius_m(), applied.clear_radius_m(), wanted.nav_error_m,
+                 2.5 * now.clear_radius_m(), "slad.nav_error_m",
+                 "min " + Fixed(now.clear_radius_m(), DecimalsOf(now.clear_radius_m(), 1)) + " m"},
+                view.limit);
+      break;
+  }
+}
+
+}  // namespace
+
+MapView MakeMapView(MapKind kind, const MapSource& source, const PanelTextures& textures) {
+  const Layer layer = LayerOf(kind);
+  MapView view;
+  view.key = layer.key;
+  view.title = layer.title;
+  view.ramp = layer.ramp;
+  view.texture = textures.maps[static_cast<int>(kind)];
+  view.value = "––";
+  if (source.decision == nullptr) {
+    return view;
+  }
+  const TerrainDecision& decision = *source.decision;
+  view.values = ValuesOf(kind, decision);
+  view.geometry = decision.hazards     ? decision.hazards->geometry
+                  : decision.elevation ? decision.elevation->geometry
+                                       : GridGeometry{};
+  view.flags = decision.hazards ? &decision.hazards->flags : nullptr;
+  const SladSettings& now = decision.settings;
+  FillRange(kind, now, source.applied != nullptr ? *source.applied : now,
+            source.wanted != nullptr ? *source.wanted : now, view);
+  if (kind == MapKind::kElevation) {
+    view.low = Fixed(static_cast<double>(textures.elevation_low_m), 1) + " m";
+    view.high = Fixed(static_cast<double>(textures.elevation_high_m), 1) + " m+";
+  }
+  std::optional<Cell> at = source.cursor;
+  if (!at && source.site != nullptr && view.geometry.rows > 0) {
+    at = view.geometry.CellFromPoint(source.site->p_WS.x(), source.site->p_WS.y());
+    view.letter = source.site->letter;
+  }
+  if (at && view.values != nullptr && view.geometry.Contains(*at)) {
+    view.value = ValueText(kind, static_cast<double>(view.values->at(*at)));
+  }
+  return view;
+}
+
+MapSource ShownMap(const EngineSnapshot& snap) {
+  MapSource source;
+  source.decision = snap.preview ? snap.preview.get() : snap.applied.get();
+  source.applied = snap.preview && snap.applied ? &snap.applied->settings : nullptr;
+  source.wanted = &snap.preview_settings.slad;
+  return source;
+}
+
+}  // namespace palace
