@@ -26,7 +26,7 @@ Timestamp LeadInStart() { return AddSeconds(Simulator::kEpoch, -SimulatedVehicle
 AutopilotOptions MakeAutopilotOptions(const SimulatorOptions& options, std::uint64_t boot_id) {
   AutopilotOptions result;
   result.boot_id = boot_id;
-  result.signature_check = options.verify;
+  result.station_key = options.station_key;
   result.hover_p_WB = StartPosition(options);
   result.hover_yaw_rad = options.heading_rad;
   result.p_BC = options.rig.position_body_m;

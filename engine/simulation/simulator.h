@@ -8,13 +8,14 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
-#include <string>
+#include <optional>
 
 #include "engine/model/rig.h"
 #include "engine/runtime/source.h"
 #include "engine/runtime/vehicle_link.h"
 #include "engine/simulation/scene_camera.h"
 #include "engine/simulation/wind.h"
+#include "engine/trust/approval.h"
 #include "engine/world/scene.h"
 #include "engine/world/scene_library.h"
 
@@ -22,11 +23,6 @@ namespace palace {
 
 /// Called on the thread that first calls Next(), so that a GL context belongs to that thread.
 using SceneCameraFactory = std::function<Result<std::unique_ptr<SceneCamera>>(const Scene&)>;
-
-/// Checks the signature of an approval: empty text accepts, otherwise the reason of the refusal.
-/// Expiry, boot id, counter and finite numbers are always checked besides.
-using ApprovalCheck =
-    std::function<std::string(const Approval&, Timestamp now, std::uint64_t boot_id)>;
 
 struct SimulatorOptions {
   Scene scene;
@@ -42,7 +38,7 @@ struct SimulatorOptions {
   double duration_limit_s = 600;
   double speed = 0;    ///< times real time; 0 as fast as possible
   bool render = true;  ///< false: bundles carry no pictures and no factory is needed
-  ApprovalCheck verify;
+  std::optional<PublicKey> station_key{};  ///< as ApprovalVerifier
 };
 
 /// How the vehicle met the ground, by the truth.
