@@ -34,7 +34,7 @@ struct ViewsOptions {
 
 /// Cones all over, too close for a lander, but for one disc about `clear_middle`: the only site.
 struct ClosedField {
-  StereoWorld world;
+  World world;
   Vector2d clear_middle = Vector2d::Zero();
   double clear_radius_m = 0;
 };
@@ -43,9 +43,9 @@ ClosedField MakeClosedField(std::uint64_t seed) {
   constexpr double kSpacing_m = 2.6, kJitter_m = 0.3, kHalf_m = 13;
   RandomStream random(seed, "closed field");
   ClosedField field;
-  field.world.texture = static_cast<GroundTexture>(random.Index(4));
-  field.world.texture_seed = random.NextBits() >> 16;
-  field.world.slope_north = std::tan(random.Uniform(0, Rad(3)));
+  field.world.ground.texture = static_cast<GroundTexture>(random.Index(4));
+  field.world.ground.texture_seed = random.NextBits() >> 16;
+  field.world.ground.rise_north = std::tan(random.Uniform(0, Rad(3)));
   field.clear_middle = {random.Uniform(-1, 1), random.Uniform(-1, 1)};
   field.clear_radius_m = random.Uniform(2.8, 3.2);
   const double row_m = kSpacing_m * std::numbers::sqrt3 / 2;
@@ -59,7 +59,7 @@ ClosedField MakeClosedField(std::uint64_t seed) {
         continue;
       }
       for (const Solid& part : MakeTrafficCone(0, 0, kTallCone_m)) {
-        const double down_m = -field.world.slope_north * at.x() + 0.01;
+        const double down_m = -field.world.ground.rise_north * at.x() + 0.01;
         field.world.solids.push_back(Moved(part, turn_rad, {at.x(), at.y(), down_m}));
       }
     }
@@ -87,7 +87,7 @@ HoverView RandomViewpoint(const ClosedField& field, const ViewsOptions& options,
   const double forward_m =
       off.y() + view.height_m * std::tan(-std::numbers::pi / 2 - view.tilt_rad);
   const double c = std::cos(view.heading_rad), s = std::sin(view.heading_rad);
-  const double ground_m = field.world.slope_north * field.clear_middle.x();
+  const double ground_m = field.world.ground.rise_north * field.clear_middle.x();
   view.north_m = field.clear_middle.x() + c * forward_m - s * right_m;
   view.east_m = field.clear_middle.y() + s * forward_m + c * right_m;
   view.height_m += ground_m;
@@ -111,11 +111,11 @@ Result<std::vector<TrialRow>> RunTrial(const ViewsOptions& options, std::uint64_
     const Eigen::Vector3d p_WS =
         found ? decision->selection.sites.front().p_WS : Eigen::Vector3d::Constant(unknown);
     rows.push_back(
-        {std::to_string(i + 1), NameOf(field.world.texture),
+        {std::to_string(i + 1), NameOf(field.world.ground.texture),
          CsvNumber(view.height_m / kMetresPerFoot), CsvNumber(Deg(view.heading_rad)),
          CsvNumber(Deg(view.tilt_rad)), CsvNumber(view.north_m), CsvNumber(view.east_m),
          found ? "found" : "none", CsvNumber(p_WS.x()), CsvNumber(p_WS.y()),
-         CsvNumber(found ? TrueDistance(field.world, p_WS.x(), p_WS.y()) : unknown),
+         CsvNumber(found ? ObstacleDistance(field.world, p_WS.x(), p_WS.y()) : unknown),
          CsvNumber(found ? decision->selection.sites.front().safe_distance_m : unknown)});
   }
   return rows;

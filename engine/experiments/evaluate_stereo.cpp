@@ -14,7 +14,7 @@
 #include "engine/stereo/accuracy.h"
 #include "engine/stereo/opencv_matchers.h"
 #include "engine/stereo/stereo.h"
-#include "engine/world/stereo_world.h"
+#include "engine/world/ray_pictures.h"
 
 namespace palace {
 namespace {
@@ -72,10 +72,10 @@ Obstacles PlaceObstacles(double north_m, double height_m) {
   return obstacles;
 }
 
-StereoWorld MakeWorld(const Condition& condition, const Obstacles& obstacles, std::uint64_t seed) {
-  StereoWorld world;
-  world.texture = condition.texture;
-  world.texture_seed = seed;
+World MakeWorld(const Condition& condition, const Obstacles& obstacles, std::uint64_t seed) {
+  World world;
+  world.ground.texture = condition.texture;
+  world.ground.texture_seed = seed;
   for (const auto* boxes : {&obstacles.small, &obstacles.wide}) {
     for (const Patch& box : *boxes) {
       world.solids.push_back(

@@ -40,7 +40,7 @@ void FlightSummarizer::Add(const EngineSnapshot& snapshot) {
     summary_.site = snapshot.mission.armed;
     if (scene_) {
       const Eigen::Vector3d& p = summary_.site->p_WS;
-      summary_.site_obstacle_distance_m = scene_->ObstacleDistance(p.x(), p.y());
+      summary_.site_obstacle_distance_m = ObstacleDistance(*scene_, p.x(), p.y());
     }
   }
   if (snapshot.truth && flying) {

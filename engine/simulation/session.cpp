@@ -10,7 +10,7 @@ constexpr double kGustPerMean = 1.5;  // W20 of the turbulence beside the mean w
 }  // namespace
 
 Result<SimulatedSession> OpenSimulatedSession(const SessionSpec& spec, SceneCameraFactory cameras) {
-  Result<Scene> scene = MakeScene(spec.scenario, spec.seed);
+  Result<World> scene = MakeScene(spec.scenario, spec.seed);
   if (!scene) {
     return scene.error();
   }

@@ -29,7 +29,7 @@ struct SessionSpec {
 struct SimulatedSession {
   std::uint64_t id = 1;
   ApprovalSigner signer;  ///< the same for the same seed: never a key of a real vehicle
-  Scene scene;
+  World scene;
   std::shared_ptr<Simulator> simulator;
 };
 

@@ -3,8 +3,6 @@
 #include <array>
 #include <cmath>
 
-#include "engine/world/scene_ray.h"
-
 namespace palace {
 namespace {
 
@@ -17,7 +15,7 @@ constexpr int kLaserSteps = 10;
 constexpr int kGpsSteps = 40;
 
 Vector3d StartPosition(const SimulatorOptions& options) {
-  const double ground = options.scene.GroundHeight(options.start_north_m, options.start_east_m);
+  const double ground = options.scene.ground.Height(options.start_north_m, options.start_east_m);
   return {options.start_north_m, options.start_east_m, -(ground + options.hover_height_m)};
 }
 
@@ -46,7 +44,7 @@ std::array<Vector3d, 5> SkidPoints() {
 }  // namespace
 
 SimulatedVehicle::SimulatedVehicle(const SimulatorOptions& options)
-    : scene_(options.scene),
+    : world_(options.scene),
       X_BC_(options.rig.X_BC()),
       now_(LeadInStart()),
       boot_id_(BootId(options.seed)),
@@ -117,7 +115,7 @@ void SimulatedVehicle::StepSlowSensors(FrameBundle& bundle) {
     bundle.gps.push_back(*fix);
   }
   if (step_ % kLaserSteps == 0) {
-    bundle.laser.push_back(laser_.Measure(now_, scene_, X_WB() * X_BC_));
+    bundle.laser.push_back(laser_.Measure(now_, world_, X_WB() * X_BC_));
   }
   if (step_ % kControlSteps == 0) {
     bundle.poses.push_back(Pose());
@@ -136,7 +134,7 @@ void SimulatedVehicle::CheckGround() {
   const RigidTransform X = X_WB();
   for (const Vector3d& p_B : SkidPoints()) {
     const Vector3d p_W = X * p_B;
-    const double surface = SurfaceHeight(scene_, p_W.x(), p_W.y());
+    const double surface = SurfaceHeight(world_, p_W.x(), p_W.y());
     if (HeightFromDown(p_W.z()) > surface) {
       continue;
     }
@@ -147,7 +145,7 @@ void SimulatedVehicle::CheckGround() {
     touchdown.vertical_speed_mps = v.z();
     touchdown.horizontal_speed_mps = v.head<2>().norm();
     touchdown.tilt_rad = std::acos(std::min(1.0, X.R(2, 2)));
-    touchdown.on_object = surface > scene_.GroundHeight(p_W.x(), p_W.y()) + 1e-6;
+    touchdown.on_object = surface > world_.ground.Height(p_W.x(), p_W.y()) + 1e-6;
     touchdown_ = touchdown;
     rotorcraft_.Freeze();
     return;
@@ -156,7 +154,7 @@ void SimulatedVehicle::CheckGround() {
 
 double SimulatedVehicle::HeightAboveGround() const {
   const Vector3d p = rotorcraft_.state().p_WB();
-  return HeightFromDown(p.z()) - scene_.GroundHeight(p.x(), p.y());
+  return HeightFromDown(p.z()) - world_.ground.Height(p.x(), p.y());
 }
 
 VehiclePose SimulatedVehicle::Pose() const {

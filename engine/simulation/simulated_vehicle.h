@@ -44,7 +44,7 @@ class SimulatedVehicle {
   void CheckGround();
   double HeightAboveGround() const;
 
-  Scene scene_;
+  World world_;
   RigidTransform X_BC_;
   Timestamp now_;
   std::int64_t step_ = 0;

@@ -16,16 +16,16 @@
 #include "engine/simulation/scene_camera.h"
 #include "engine/simulation/wind.h"
 #include "engine/trust/approval.h"
-#include "engine/world/scene.h"
 #include "engine/world/scene_library.h"
+#include "engine/world/world.h"
 
 namespace palace {
 
 /// Called on the thread that first calls Next(), so that a GL context belongs to that thread.
-using SceneCameraFactory = std::function<Result<std::unique_ptr<SceneCamera>>(const Scene&)>;
+using SceneCameraFactory = std::function<Result<std::unique_ptr<SceneCamera>>(const World&)>;
 
 struct SimulatorOptions {
-  Scene scene;
+  World scene;
   StereoRig rig = DefaultRig();
   std::uint64_t seed = 1;
   double hover_height_m = 15.24;  ///< of B above the bare ground at the start
