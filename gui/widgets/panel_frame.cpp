@@ -59,8 +59,4 @@ Rect DrawPanelFrame(UiFrame& ui, const Rect& rect, std::string_view title,
   return {rect.x, rect.y + header, rect.w, rect.h - header};
 }
 
-bool PanelHeaderDoubleClicked(const UiFrame& ui, const Rect& rect) {
-  return DoubleClicked(ui, {rect.x, rect.y, rect.w, ui.style.Px(28)});
-}
-
 }  // namespace palace

@@ -23,7 +23,5 @@ Rect DrawPanelFrame(UiFrame& ui, const Rect& rect, std::string_view title,
                     std::initializer_list<PanelFact> facts = {});
 /// Background alone, for panels without a header.
 void DrawPanelBackground(UiFrame& ui, const Rect& rect, std::string_view name);
-/// True in the frame in which the header is double-clicked (maximise or restore).
-bool PanelHeaderDoubleClicked(const UiFrame& ui, const Rect& rect);
 
 }  // namespace palace
