@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <functional>
 #include <string>
 #include <vector>
 
 #include "engine/core/random.h"
+#include "engine/core/text.h"
 #include "engine/core/units.h"
 #include "engine/experiments/flag_field.h"
 #include "engine/report/statistics.h"
@@ -178,20 +178,6 @@ Result<std::vector<TrialRow>> RunTrial(int trial, std::uint64_t seed) {
   return rows;
 }
 
-std::string Text(const char* format, double value) {
-  char text[64];
-  std::snprintf(text, sizeof text, format, value);
-  return std::isfinite(value) ? text : "-";
-}
-
-double Sum(const TrialTable& table, const char* column) {
-  double sum = 0;
-  for (const double value : table.Numbers(column)) {
-    sum += value;
-  }
-  return sum;
-}
-
 /// "97 % (92-99), 31 of 32" of the rows that pass; found is half of what should be flagged.
 std::string Found(const TrialTable& table, const std::function<bool(double direction)>& passes) {
   const std::vector<double> shares = table.Numbers("share");
@@ -204,10 +190,11 @@ std::string Found(const TrialTable& table, const std::function<bool(double direc
     }
   }
   const Interval interval = WilsonInterval(hits, count);
-  return count == 0 ? "-"
-                    : Text("%.0f %% (", 100.0 * hits / count) + Text("%.0f-", 100 * interval.low) +
-                          Text("%.0f), ", 100 * interval.high) + std::to_string(hits) + " of " +
-                          std::to_string(count);
+  return count == 0
+             ? "-"
+             : OrDash("%.0f %% (", 100.0 * hits / count) + OrDash("%.0f-", 100 * interval.low) +
+                   OrDash("%.0f), ", 100 * interval.high) + std::to_string(hits) + " of " +
+                   std::to_string(count);
 }
 
 ExperimentReport Report(const TrialTable& table) {
@@ -271,12 +258,12 @@ ExperimentReport Report(const TrialTable& table) {
   rows.clear();
   const TrialTable nothing = table.Where("thing", "nothing");
   const auto falses = [&](const TrialTable& part, const std::string& name) {
-    const double cells = Sum(part, "cells");
+    const double cells = part.Sum("cells");
     std::vector<std::string> row = {name};
     double worst = 0;
     for (const char* column : {"thin_cells", "bare_cells", "motion_cells", "shadow_cells"}) {
-      const double share = Sum(part, column) / cells;
-      row.push_back(Text("%.4f %%", 100 * share));
+      const double share = part.Sum(column) / cells;
+      row.push_back(OrDash("%.4f %%", 100 * share));
       worst = column == std::string("shadow_cells") ? worst : std::max(worst, share);
     }
     line("nothing there, " + name + ": thin " + row[1] + ", no texture " + row[2] + ", motion " +
@@ -291,7 +278,7 @@ ExperimentReport Report(const TrialTable& table) {
   report.page.Heading("Where there is nothing")
       .Table({"ground", "thin structure", "no texture", "motion", "shadow"}, rows);
   report.passed = !(worst > kFalseLimit);
-  report.page.Verdict(report.passed, "At most " + Text("%.1f %%", 100 * kFalseLimit) +
+  report.page.Verdict(report.passed, "At most " + OrDash("%.1f %%", 100 * kFalseLimit) +
                                          " of the cells flagged falsely, each kind by itself");
   return report;
 }

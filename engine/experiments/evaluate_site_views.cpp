@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <memory>
 #include <numbers>
@@ -13,6 +12,7 @@
 #include <CLI/CLI.hpp>
 
 #include "engine/core/random.h"
+#include "engine/core/text.h"
 #include "engine/core/units.h"
 #include "engine/experiments/cone_field.h"
 #include "engine/experiments/field_trial.h"
@@ -123,12 +123,6 @@ Result<std::vector<TrialRow>> RunTrial(const ViewsOptions& options, std::uint64_
 
 // ---- report ----
 
-std::string Text(const char* format, double value) {
-  char text[64];
-  std::snprintf(text, sizeof text, format, value);
-  return std::isfinite(value) ? text : "-";
-}
-
 /// Sites of one field about their mean place.
 struct FieldSpread {
   int viewpoints = 0, found = 0, same = 0;
@@ -181,8 +175,8 @@ ExperimentReport Report(const TrialTable& table) {
     most_m = std::max(most_m, spread.most_m);
     rows.push_back({seed, field.Values("texture").front(), std::to_string(spread.viewpoints),
                     std::to_string(spread.found), std::to_string(spread.same),
-                    Text("%.2f", spread.rms_m), Text("%.2f", spread.most_m),
-                    Text("%.2f", spread.least_distance_m)});
+                    OrDash("%.2f", spread.rms_m), OrDash("%.2f", spread.most_m),
+                    OrDash("%.2f", spread.least_distance_m)});
     spread.places.name = "seed " + seed;
     spread.places.line = false;
     plot.series.push_back(std::move(spread.places));
@@ -195,8 +189,8 @@ ExperimentReport Report(const TrialTable& table) {
   report.passed = viewpoints > 0 && same == viewpoints;
   const std::string text =
       std::to_string(same) + " of " + std::to_string(viewpoints) +
-      " viewpoints chose the same site within 0.5 m (" + Text("%.1f", 100 * interval.low) + "-" +
-      Text("%.1f %%", 100 * interval.high) + "), the farthest " + Text("%.2f m", most_m);
+      " viewpoints chose the same site within 0.5 m (" + OrDash("%.1f", 100 * interval.low) + "-" +
+      OrDash("%.1f %%", 100 * interval.high) + "), the farthest " + OrDash("%.2f m", most_m);
   report.page.Verdict(report.passed, text);
   report.lines.push_back((report.passed ? "met: " : "NOT MET: ") + text);
   report.page.Figure(LinePlotSvg(plot), "One colour a field.")

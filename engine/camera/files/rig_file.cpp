@@ -9,6 +9,7 @@
 #include "engine/camera/files/camera_files.h"
 #include "engine/camera/files/text_file.h"
 #include "engine/camera/files/toml_table.h"
+#include "engine/core/text.h"
 #include "engine/core/units.h"
 
 namespace palace {
