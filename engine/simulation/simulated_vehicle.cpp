@@ -1,6 +1,5 @@
 #include "engine/simulation/simulated_vehicle.h"
 
-#include <array>
 #include <cmath>
 
 namespace palace {
@@ -34,17 +33,11 @@ AutopilotOptions MakeAutopilotOptions(const SimulatorOptions& options, std::uint
 /// A number no earlier flight had: an approval for another flight is refused.
 std::uint64_t BootId(std::uint64_t seed) { return RandomStream(seed, "boot").NextBits() | 1; }
 
-/// Ends of the skids in B, besides their centre.
-std::array<Vector3d, 5> SkidPoints() {
-  const Vector3d c = SkidCentreBody();
-  return {c, c + Vector3d(0.6, 0.45, 0), c + Vector3d(0.6, -0.45, 0), c + Vector3d(-0.6, 0.45, 0),
-          c + Vector3d(-0.6, -0.45, 0)};
-}
-
 }  // namespace
 
 SimulatedVehicle::SimulatedVehicle(const SimulatorOptions& options)
     : world_(options.scene),
+      airframe_(options.airframe),
       X_BC_(options.rig.X_BC()),
       now_(LeadInStart()),
       boot_id_(BootId(options.seed)),
@@ -132,7 +125,7 @@ void SimulatedVehicle::CheckGround() {
     return;
   }
   const RigidTransform X = X_WB();
-  for (const Vector3d& p_B : SkidPoints()) {
+  for (const Vector3d& p_B : airframe_.SkidPoints()) {
     const Vector3d p_W = X * p_B;
     const double surface = SurfaceHeight(world_, p_W.x(), p_W.y());
     if (HeightFromDown(p_W.z()) > surface) {
@@ -140,7 +133,7 @@ void SimulatedVehicle::CheckGround() {
     }
     Touchdown touchdown;
     touchdown.time = now_;
-    touchdown.p_W_skid = X * SkidCentreBody();
+    touchdown.p_W_skid = X * airframe_.skid_centre_B;
     const Vector3d v = rotorcraft_.state().v_WB();
     touchdown.vertical_speed_mps = v.z();
     touchdown.horizontal_speed_mps = v.head<2>().norm();

@@ -45,6 +45,7 @@ class SimulatedVehicle {
   double HeightAboveGround() const;
 
   World world_;
+  Airframe airframe_;
   RigidTransform X_BC_;
   Timestamp now_;
   std::int64_t step_ = 0;

@@ -11,6 +11,7 @@
 #include <optional>
 
 #include "engine/model/rig.h"
+#include "engine/model/vehicle.h"
 #include "engine/runtime/source.h"
 #include "engine/runtime/vehicle_link.h"
 #include "engine/simulation/scene_camera.h"
@@ -27,6 +28,7 @@ using SceneCameraFactory = std::function<Result<std::unique_ptr<SceneCamera>>(co
 struct SimulatorOptions {
   World scene;
   StereoRig rig = DefaultRig();
+  Airframe airframe{};
   std::uint64_t seed = 1;
   double hover_height_m = 15.24;  ///< of B above the bare ground at the start
   double heading_rad = 0;
