@@ -1,4 +1,4 @@
-#include "engine/tools/calibration_report.h"
+#include "engine/calibration/calibration_report.h"
 
 #include <algorithm>
 #include <array>
