@@ -13,6 +13,7 @@
 #include <toml++/toml.h>
 
 #include "engine/camera/files/text_file.h"
+#include "engine/core/text.h"
 
 namespace palace {
 namespace {
@@ -28,13 +29,6 @@ constexpr double kLeastMark = 1.2;  // of the dots' diameter, to be told from th
 constexpr double kMostMark = 2;
 constexpr std::size_t kLeastMarks = 3;
 constexpr std::size_t kMostMarks = 16;
-
-std::string NumberText(double value) {
-  std::ostringstream text;
-  text.precision(10);
-  text << value;
-  return text.str();
-}
 
 /// The [target] table. The first error is kept.
 class TargetTable {

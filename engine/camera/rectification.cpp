@@ -56,10 +56,6 @@ void PlumbBobMaps(const RigCamera& raw, const PinholeCamera& rectified, cv::Mat&
                               CV_32FC1, x, y);
 }
 
-std::optional<CameraModel> ModelOf(const RigCamera& camera) {
-  return camera.cahvor ? std::optional(CameraModel{*camera.cahvor}) : camera.model;
-}
-
 /// The camera with its centre, and its pupil for good, at the origin: projecting a point then is
 /// projecting a direction.
 CameraModel Centred(const CameraModel& camera) {
@@ -107,8 +103,8 @@ std::shared_ptr<const ImageU8> Resample(const ImageU8& raw, const cv::Mat& x, co
 }  // namespace
 
 Result<StereoRectifier> StereoRectifier::Make(const StereoRig& rig) {
-  const auto left = ModelOf(rig.left);
-  const auto right = ModelOf(rig.right);
+  const std::optional<CameraModel>& left = rig.left.model;
+  const std::optional<CameraModel>& right = rig.right.model;
   if (left.has_value() != right.has_value()) {
     return InvalidError(
         "rig: one camera has a model_file and the other has not; give both or none");

@@ -66,4 +66,16 @@ Result<ImageU8> ReadGreyPicture(const std::filesystem::path& path) {
   return image;
 }
 
+Status WriteGreyPicture(const std::filesystem::path& path, const ImageU8& image) {
+  const cv::Mat view(image.height(), image.width(), CV_8UC1,
+                     const_cast<std::uint8_t*>(image.pixels().data()));
+  try {
+    if (cv::imwrite(path.string(), view)) {
+      return Ok();
+    }
+  } catch (const cv::Exception&) {  // said below
+  }
+  return UnavailableError(path.string() + ": cannot be written; check folder and disk");
+}
+
 }  // namespace palace

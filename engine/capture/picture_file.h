@@ -1,4 +1,4 @@
-// Pictures from disk as 8-bit grey.
+// Pictures on disk as 8-bit grey.
 #pragma once
 
 #include <filesystem>
@@ -11,5 +11,7 @@ namespace palace {
 /// Reads PNG, JPEG, TIFF or PGM. Errors name the file and what to do: missing, no picture, or a PNG
 /// or JPEG that ends before the picture does (half of one would be grey ground that is not there).
 Result<ImageU8> ReadGreyPicture(const std::filesystem::path& path);
+/// In the format of the name's extension. Errors name the file.
+Status WriteGreyPicture(const std::filesystem::path& path, const ImageU8& image);
 
 }  // namespace palace

@@ -5,7 +5,6 @@
 
 namespace palace {
 
-void LogDebug(std::string_view text) { spdlog::debug("{}", text); }
 void LogInfo(std::string_view text) { spdlog::info("{}", text); }
 void LogWarning(std::string_view text) { spdlog::warn("{}", text); }
 void LogError(std::string_view text) { spdlog::error("{}", text); }

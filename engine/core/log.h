@@ -1,11 +1,10 @@
-// Log lines for people: operator (info, warning, error) and developer (debug). Never per frame.
+// Log lines for people: info, warning, error. Never per frame.
 #pragma once
 
 #include <string_view>
 
 namespace palace {
 
-void LogDebug(std::string_view text);
 void LogInfo(std::string_view text);
 void LogWarning(std::string_view text);
 void LogError(std::string_view text);

@@ -1,5 +1,6 @@
 #include "engine/core/text.h"
 
+#include <cmath>
 #include <cstdio>
 
 namespace palace {
@@ -9,6 +10,12 @@ std::string WithNumbers(const char* format, double a, double b, double c) {
   std::snprintf(text, sizeof text, format, a, b, c);
   return text;
 }
+
+std::string OrDash(const char* format, double value) {
+  return std::isfinite(value) ? WithNumbers(format, value) : "-";
+}
+
+std::string NumberText(double value) { return WithNumbers("%.10g", value); }
 
 std::string Joined(const std::vector<std::string>& words) {
   std::string text;

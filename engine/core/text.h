@@ -9,6 +9,11 @@ namespace palace {
 /// printf with up to three numbers, of at most 199 characters.
 std::string WithNumbers(const char* format, double a, double b = 0, double c = 0);
 
+/// printf with one number; "-" where it is not finite.
+std::string OrDash(const char* format, double value);
+/// As short as ten digits allow: "0.5", "15.24", "1e+20". For what a person wrote, said back.
+std::string NumberText(double value);
+
 /// "a, b, c".
 std::string Joined(const std::vector<std::string>& words);
 

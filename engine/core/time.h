@@ -19,13 +19,6 @@ inline Timestamp AddSeconds(Timestamp t, double seconds) {
   return {t.us + static_cast<std::int64_t>(seconds * 1e6 + (seconds < 0 ? -0.5 : 0.5))};
 }
 
-/// The active clock: simulated, the log's, or the wall's. Ages are computed against it.
-class Clock {
- public:
-  virtual ~Clock() = default;
-  virtual Timestamp Now() const = 0;
-};
-
 /// Wall clock in microseconds since the Unix epoch; for file names and live sources only.
 Timestamp WallTime();
 /// Monotonic seconds, for measuring durations only.

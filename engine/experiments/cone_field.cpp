@@ -60,9 +60,9 @@ Vector2d RightForward(const ConeField& field, double north_m, double east_m) {
 ConeField MakeConeField(const ConeFieldPlan& plan, const HoverView& view, std::uint64_t seed) {
   RandomStream random(seed, "cone field");
   ConeField field;
-  field.world.texture = kTextures[static_cast<std::size_t>(random.Index(kTextures.size()))];
-  field.world.texture_seed = random.NextBits() >> 16;
-  field.world.slope_north = std::tan(random.Uniform(0, plan.largest_slope_rad));
+  field.world.ground.texture = kTextures[static_cast<std::size_t>(random.Index(kTextures.size()))];
+  field.world.ground.texture_seed = random.NextBits() >> 16;
+  field.world.ground.rise_north = std::tan(random.Uniform(0, plan.largest_slope_rad));
   field.view = view;
   field.view.heading_rad = random.Uniform(-std::numbers::pi, std::numbers::pi);
   const Vector2d left_camera = NorthEast(field.view, {-view.baseline_m / 2, 0});
@@ -77,7 +77,7 @@ ConeField MakeConeField(const ConeFieldPlan& plan, const HoverView& view, std::u
   const double keep_out_m = field.disc_fits ? plan.clear_radius_m + plan.margin_m + half_foot_m : 0;
   for (const Vector2d& place : PlaceCones(random, half, clear, keep_out_m)) {
     const Vector2d at = NorthEast(field.view, place);
-    const double height_m = field.world.slope_north * at.x();
+    const double height_m = field.world.ground.rise_north * at.x();
     const double turn_rad = random.Uniform(0, std::numbers::pi);
     // A little into the ground, so that no gap opens downhill.
     constexpr double kSunk_m = 0.01;

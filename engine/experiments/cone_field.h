@@ -7,7 +7,7 @@
 #include <Eigen/Dense>
 
 #include "engine/experiments/field_trial.h"
-#include "engine/world/stereo_world.h"
+#include "engine/world/ray_pictures.h"
 
 namespace palace {
 
@@ -25,7 +25,7 @@ struct ConeFieldPlan {
 };
 
 struct ConeField {
-  StereoWorld world;
+  World world;
   HoverView view;  ///< centred so that both pictures' overlap lies about the origin of W
   Eigen::Vector2d clear_middle = Eigen::Vector2d::Zero();  ///< north, east, metres
   /// False where the clear disc does not fit into what both cameras see; cones then stand anywhere.

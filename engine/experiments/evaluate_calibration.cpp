@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <memory>
 #include <utility>
 
@@ -13,6 +12,7 @@
 #include "engine/calibration/calibration_quality.h"
 #include "engine/calibration/rig_difference.h"
 #include "engine/calibration/target_detection.h"
+#include "engine/core/text.h"
 #include "engine/report/statistics.h"
 #include "engine/report/svg_plot.h"
 #include "engine/simulation/calibration_session.h"
@@ -106,12 +106,6 @@ Result<std::vector<TrialRow>> RunTrial(std::uint64_t seed, const CalibrationTria
   return std::vector<TrialRow>{row};
 }
 
-std::string Text(double value, const char* format = "%.4f") {
-  char text[64];
-  std::snprintf(text, sizeof text, format, value);
-  return std::isfinite(value) ? text : "-";
-}
-
 /// All z of all trials.
 std::vector<double> AllZ(const TrialTable& table) {
   std::vector<double> all;
@@ -148,9 +142,9 @@ void AddMeasure(const TrialTable& table, const Measure& measure, ExperimentRepor
   const bool passed = spread.count == static_cast<int>(values.size()) && spread.count > 0 &&
                       spread.max <= measure.limit;
   const std::string text = std::string(measure.label) + ": median " +
-                           Text(Percentile(values, 0.5)) + " " + measure.unit + ", worst " +
-                           Text(spread.max) + " " + measure.unit + " (limit " +
-                           Text(measure.limit, "%.2f") + " " + measure.unit + ")";
+                           OrDash("%.4f", Percentile(values, 0.5)) + " " + measure.unit +
+                           ", worst " + OrDash("%.4f", spread.max) + " " + measure.unit +
+                           " (limit " + OrDash("%.2f", measure.limit) + " " + measure.unit + ")";
   report.page.Verdict(passed, text);
   report.lines.push_back((passed ? "passed: " : "FAILED: ") + text);
   report.passed = report.passed && passed;
@@ -163,8 +157,8 @@ void AddCoverage(const std::vector<double>& all, ExperimentReport& report) {
   const bool passed = count > 0 && inside >= kInsideLimit * count;
   const std::string text = "truth inside the stated 3 sigma: " + std::to_string(inside) + " of " +
                            std::to_string(count) + " parameters (95 % interval " +
-                           Text(100 * interval.low, "%.1f") + " to " +
-                           Text(100 * interval.high, "%.1f") + " %, wanted 95 %)";
+                           OrDash("%.1f", 100 * interval.low) + " to " +
+                           OrDash("%.1f", 100 * interval.high) + " %, wanted 95 %)";
   report.page.Verdict(passed, text);
   report.lines.push_back((passed ? "passed: " : "FAILED: ") + text);
   report.passed = report.passed && passed;
@@ -243,7 +237,7 @@ ExperimentReport Report(const TrialTable& table) {
   }
   const double rms = SpreadOf(all).rms;
   const std::string honesty =
-      "error over stated sigma: rms " + Text(rms, "%.2f") + " over all parameters (1 is honest)";
+      "error over stated sigma: rms " + OrDash("%.2f", rms) + " over all parameters (1 is honest)";
   report.page.Paragraph(honesty);
   report.lines.push_back(honesty);
   report.page.Heading("Errors");
@@ -258,8 +252,8 @@ ExperimentReport Report(const TrialTable& table) {
   for (int i = 0; i < kCameraSize; ++i) {
     const std::vector<double> z = table.Numbers(ZColumn(i));
     const Spread spread = SpreadOf(z);
-    rows.push_back({kParameterNames[static_cast<std::size_t>(i)], Text(spread.mean, "%.2f"),
-                    Text(spread.rms, "%.2f"),
+    rows.push_back({kParameterNames[static_cast<std::size_t>(i)], OrDash("%.2f", spread.mean),
+                    OrDash("%.2f", spread.rms),
                     std::to_string(CountWithin(z, 3)) + " of " + std::to_string(spread.count)});
   }
   report.page.Table({"parameter", "mean error / sigma", "rms", "inside 3 sigma"}, rows);

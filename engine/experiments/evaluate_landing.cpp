@@ -14,14 +14,13 @@
 #include "engine/runtime/flight_summary.h"
 #include "engine/runtime/scripted_operator.h"
 #include "engine/runtime/settings_io.h"
-#include "engine/trust/approval_verifier.h"
+#include "engine/simulation/session.h"
 
 namespace palace {
 namespace {
 
 constexpr double kMissionLimit_s = 180;
-constexpr double kGustPerMean = 1.5;  // W20 of the turbulence beside the mean wind
-constexpr double kWanted_m = 0.5;     // touchdown beside the site
+constexpr double kWanted_m = 0.5;  // touchdown beside the site
 
 struct LandingOptions {
   std::string scenario = "runway";
@@ -31,25 +30,19 @@ struct LandingOptions {
 
 Result<FlightSummary> FlyOne(const LandingOptions& options, const Settings& settings,
                              std::uint64_t seed, const SceneCameraFactory& camera) {
-  Result<Scene> scene = MakeScene(options.scenario, seed);
-  if (!scene) {
-    return scene.error();
+  Result<SimulatedSession> session = OpenSimulatedSession(
+      {.scenario = options.scenario, .seed = seed, .wind_mps = options.wind_mps}, camera);
+  if (!session) {
+    return session.error();
   }
   EngineParts parts;
   parts.settings = settings;
-  parts.mission.session_id = seed;
-  parts.mission.signer = ApprovalSigner::FromSeed(seed);
-  SimulatorOptions simulation;
-  simulation.scene = *scene;
-  simulation.seed = seed;
-  simulation.wind.mean_mps = options.wind_mps;
-  simulation.wind.gust_w20_mps = kGustPerMean * options.wind_mps;
-  simulation.verify = MakeApprovalVerifier(parts.mission.signer.public_key());
-  auto simulator = std::make_shared<Simulator>(std::move(simulation), camera);
-  parts.source = simulator;
-  parts.link = simulator;
+  parts.mission.session_id = session->id;
+  parts.mission.signer = session->signer;
+  parts.source = session->simulator;
+  parts.link = session->simulator;
   Engine engine(std::move(parts), /*threaded=*/false);
-  FlightSummarizer summarizer(*scene);
+  FlightSummarizer summarizer(std::move(session->scene));
   ScriptedOperator pilot;
   while (engine.Step()) {
     const auto snapshot = engine.Latest();

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <functional>
 #include <string>
 #include <vector>
 
 #include "engine/core/random.h"
+#include "engine/core/text.h"
 #include "engine/core/units.h"
 #include "engine/experiments/flag_field.h"
 #include "engine/report/statistics.h"
@@ -109,10 +109,10 @@ Result<std::vector<TrialRow>> RunTrial(int trial, std::uint64_t seed) {
   std::vector<TrialRow> rows;
 
   const auto add = [&](const char* kind, double size, double grey, double direction_deg,
-                       double height_m, const FlagThing& thing, unsigned flag,
+                       double height_m, const FlagField& seen, unsigned flag,
                        const Belongs& belongs) -> Status {
-    const int frames = thing.walker || flag == 0 ? kMovingFrames : kStillFrames;
-    const auto map = FlagsOfField(field, thing, frames, ground, seed);
+    const int frames = flag == kFlagMotion || flag == 0 ? kMovingFrames : kStillFrames;
+    const auto map = FlagsOfField(seen, frames, ground, seed);
     if (!map) {
       return map.error();
     }
@@ -123,28 +123,35 @@ Result<std::vector<TrialRow>> RunTrial(int trial, std::uint64_t seed) {
                     std::to_string(o.bare), std::to_string(o.motion), std::to_string(o.shadow)});
     return Ok();
   };
+  const auto with_wire = [&](const PaintedWire& wire) {
+    FlagField wired = field;
+    wired.world.wires.push_back(wire);
+    return wired;
+  };
   const double unknown = std::nan("");
   std::vector<std::function<Status()>> looks;
-  looks.push_back([&] { return add("nothing", 0, unknown, unknown, unknown, {}, 0, nullptr); });
+  looks.push_back([&] { return add("nothing", 0, unknown, unknown, unknown, field, 0, nullptr); });
   for (const double diameter_m : {0.01, 0.02, 0.03}) {
     for (const double grey : {40.0, 100.0, 220.0}) {
       looks.push_back([&, diameter_m, grey] {
         const WireCase made = MakeWire(field, diameter_m, grey, false, random);
         return add("wire", diameter_m * 100, grey, made.direction_deg, made.height_m,
-                   {.wire = made.wire}, kFlagThinStructure, made.below);
+                   with_wire(made.wire), kFlagThinStructure, made.below);
       });
     }
   }
   looks.push_back([&] {
     const WireCase made = MakeWire(field, 0.03, 220, true, random);
-    return add("painted line", 3, 220, made.direction_deg, 0, {.wire = made.wire},
+    return add("painted line", 3, 220, made.direction_deg, 0, with_wire(made.wire),
                kFlagThinStructure, made.below);
   });
   for (const double radius_m : {0.3, 0.6}) {
     looks.push_back([&, radius_m] {
       const PaintedPool pool{field.middle_north_m + random.Uniform(-1, 1), random.Uniform(-1, 1),
                              radius_m, 90};
-      return add("pool", 2 * radius_m, 90, unknown, 0, {.pool = pool}, kFlagNoTexture,
+      FlagField wet = field;
+      wet.world.pools.push_back(pool);
+      return add("pool", 2 * radius_m, 90, unknown, 0, wet, kFlagNoTexture,
                  [=](double n, double e) {
                    return std::hypot(n - pool.north_m, e - pool.east_m) < 0.75 * radius_m;
                  });
@@ -154,8 +161,11 @@ Result<std::vector<TrialRow>> RunTrial(int trial, std::uint64_t seed) {
     const Eigen::Vector2d start(field.middle_north_m + random.Uniform(-1, 1),
                                 random.Uniform(-1.5, 0.5));
     const double end_m = start.y() + kWalk_mps * 0.2 * (kMovingFrames - 1);
-    return add("walker", kWalk_mps, unknown, unknown, 1.6,
-               {.walker = start, .walker_mps = kWalk_mps}, kFlagMotion, [=](double n, double e) {
+    FlagField walked = field;
+    walked.world.solids.push_back(MakeBox(start.x(), start.y(), 0.5, 0.5, 1.6));
+    walked.world.solids.back().v_WO.y() = kWalk_mps;
+    return add("walker", kWalk_mps, unknown, unknown, 1.6, walked, kFlagMotion,
+               [=](double n, double e) {
                  return std::abs(n - start.x()) < 0.25 && std::abs(e - end_m) < 0.25;
                });
   });
@@ -166,20 +176,6 @@ Result<std::vector<TrialRow>> RunTrial(int trial, std::uint64_t seed) {
     }
   }
   return rows;
-}
-
-std::string Text(const char* format, double value) {
-  char text[64];
-  std::snprintf(text, sizeof text, format, value);
-  return std::isfinite(value) ? text : "-";
-}
-
-double Sum(const TrialTable& table, const char* column) {
-  double sum = 0;
-  for (const double value : table.Numbers(column)) {
-    sum += value;
-  }
-  return sum;
 }
 
 /// "97 % (92-99), 31 of 32" of the rows that pass; found is half of what should be flagged.
@@ -194,10 +190,11 @@ std::string Found(const TrialTable& table, const std::function<bool(double direc
     }
   }
   const Interval interval = WilsonInterval(hits, count);
-  return count == 0 ? "-"
-                    : Text("%.0f %% (", 100.0 * hits / count) + Text("%.0f-", 100 * interval.low) +
-                          Text("%.0f), ", 100 * interval.high) + std::to_string(hits) + " of " +
-                          std::to_string(count);
+  return count == 0
+             ? "-"
+             : OrDash("%.0f %% (", 100.0 * hits / count) + OrDash("%.0f-", 100 * interval.low) +
+                   OrDash("%.0f), ", 100 * interval.high) + std::to_string(hits) + " of " +
+                   std::to_string(count);
 }
 
 ExperimentReport Report(const TrialTable& table) {
@@ -261,12 +258,12 @@ ExperimentReport Report(const TrialTable& table) {
   rows.clear();
   const TrialTable nothing = table.Where("thing", "nothing");
   const auto falses = [&](const TrialTable& part, const std::string& name) {
-    const double cells = Sum(part, "cells");
+    const double cells = part.Sum("cells");
     std::vector<std::string> row = {name};
     double worst = 0;
     for (const char* column : {"thin_cells", "bare_cells", "motion_cells", "shadow_cells"}) {
-      const double share = Sum(part, column) / cells;
-      row.push_back(Text("%.4f %%", 100 * share));
+      const double share = part.Sum(column) / cells;
+      row.push_back(OrDash("%.4f %%", 100 * share));
       worst = column == std::string("shadow_cells") ? worst : std::max(worst, share);
     }
     line("nothing there, " + name + ": thin " + row[1] + ", no texture " + row[2] + ", motion " +
@@ -281,7 +278,7 @@ ExperimentReport Report(const TrialTable& table) {
   report.page.Heading("Where there is nothing")
       .Table({"ground", "thin structure", "no texture", "motion", "shadow"}, rows);
   report.passed = !(worst > kFalseLimit);
-  report.page.Verdict(report.passed, "At most " + Text("%.1f %%", 100 * kFalseLimit) +
+  report.page.Verdict(report.passed, "At most " + OrDash("%.1f %%", 100 * kFalseLimit) +
                                          " of the cells flagged falsely, each kind by itself");
   return report;
 }

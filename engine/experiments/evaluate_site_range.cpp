@@ -39,10 +39,9 @@ struct Judgement {
   int listed = 0, listed_unsafe = 0;
 };
 
-bool TrulySafe(const StereoWorld& world, const Eigen::Vector3d& p_WS,
-               const SladSettings& settings) {
-  return TrueDistance(world, p_WS.x(), p_WS.y()) >= settings.clear_radius_m() &&
-         std::atan(world.slope_north) <= Rad(settings.max_slope_deg);
+bool TrulySafe(const World& world, const Eigen::Vector3d& p_WS, const SladSettings& settings) {
+  return ObstacleDistance(world, p_WS.x(), p_WS.y()) >= settings.clear_radius_m() &&
+         std::atan(world.ground.rise_north) <= Rad(settings.max_slope_deg);
 }
 
 /// Cells whose clear disc lies in the map and in what both cameras see and truly has no cone in it.
@@ -56,7 +55,7 @@ void CountRefused(const ConeField& field, const TerrainDecision& decision, Judge
       const double north_m = grid.NorthOfRow(r), east_m = grid.EastOfCol(c);
       const Eigen::Vector2d place = RightForward(field, north_m, east_m).cwiseAbs();
       if (place.x() > room.x() || place.y() > room.y() ||
-          TrueDistance(field.world, north_m, east_m) < radius_m) {
+          ObstacleDistance(field.world, north_m, east_m) < radius_m) {
         continue;
       }
       ++judgement.safe_cells;
@@ -75,8 +74,8 @@ Judgement Judge(const ConeField& field, const TerrainDecision& decision) {
   if (!decision.selection.sites.empty()) {
     judgement.site = &decision.selection.sites.front();
     judgement.true_distance_m =
-        TrueDistance(field.world, judgement.site->p_WS.x(), judgement.site->p_WS.y());
-    judgement.true_slope_rad = std::atan(field.world.slope_north);
+        ObstacleDistance(field.world, judgement.site->p_WS.x(), judgement.site->p_WS.y());
+    judgement.true_slope_rad = std::atan(field.world.ground.rise_north);
   }
   CountRefused(field, decision, judgement);
   return judgement;
@@ -90,8 +89,8 @@ TrialRow RowOf(double altitude_ft, double cone_in, const char* method, const Con
   return {CsvNumber(altitude_ft),
           CsvNumber(cone_in),
           method,
-          NameOf(field.world.texture),
-          CsvNumber(Deg(std::atan(field.world.slope_north))),
+          NameOf(field.world.ground.texture),
+          CsvNumber(Deg(std::atan(field.world.ground.rise_north))),
           j.site == nullptr ? kNoSite : (safe ? kRightSite : kWrongSite),
           j.site == nullptr ? "-" : (j.site->confirmed ? kConfirmed : kProvisional),
           CsvNumber(j.site ? j.site->p_WS.x() : unknown),

@@ -48,7 +48,7 @@ struct Judged {
 class RowWriter {
  public:
   RowWriter(const ShapeField& field, int frames, std::vector<TrialRow>& rows)
-      : start_{NameOf(field.kind), NameOf(field.world.texture), std::to_string(frames)},
+      : start_{NameOf(field.kind), NameOf(field.world.ground.texture), std::to_string(frames)},
         rows_(rows) {}
 
   struct Counts {
@@ -112,7 +112,7 @@ RowWriter::Counts CountClearCells(const Judged& judged) {
   RowWriter::Counts n;
   ForCells(judged.map.geometry, [&](Cell cell) {
     if (judged.map.state.at(cell) == CellState::kMeasured && IsSeen(judged, cell, 0) &&
-        TrueDistance(judged.field.world, judged.north(cell.row), judged.east(cell.col)) >
+        ObstacleDistance(judged.field.world, judged.north(cell.row), judged.east(cell.col)) >
             2 * judged.map.geometry.cell_m) {
       ++n.tested;
       n.found += IsKnownHazard(judged.hazards, cell) ? 1 : 0;
@@ -145,7 +145,7 @@ const char* CauseOfRefusal(const Judged& judged, Cell centre) {
 void AddFootprints(const Judged& judged, double limit_m, RowWriter& rows) {
   const int apart =
       std::max(1, static_cast<int>(judged.settings.lander_radius_m() / judged.map.geometry.cell_m));
-  const double truth_rad = std::atan(judged.field.world.slope_north);
+  const double truth_rad = std::atan(judged.field.world.ground.rise_north);
   RowWriter::Counts n;
   ForCells(judged.map.geometry, [&](Cell cell) {
     if (cell.row % apart != 0 || cell.col % apart != 0 ||

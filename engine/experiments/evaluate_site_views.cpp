@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <memory>
 #include <numbers>
@@ -13,6 +12,7 @@
 #include <CLI/CLI.hpp>
 
 #include "engine/core/random.h"
+#include "engine/core/text.h"
 #include "engine/core/units.h"
 #include "engine/experiments/cone_field.h"
 #include "engine/experiments/field_trial.h"
@@ -34,7 +34,7 @@ struct ViewsOptions {
 
 /// Cones all over, too close for a lander, but for one disc about `clear_middle`: the only site.
 struct ClosedField {
-  StereoWorld world;
+  World world;
   Vector2d clear_middle = Vector2d::Zero();
   double clear_radius_m = 0;
 };
@@ -43,9 +43,9 @@ ClosedField MakeClosedField(std::uint64_t seed) {
   constexpr double kSpacing_m = 2.6, kJitter_m = 0.3, kHalf_m = 13;
   RandomStream random(seed, "closed field");
   ClosedField field;
-  field.world.texture = static_cast<GroundTexture>(random.Index(4));
-  field.world.texture_seed = random.NextBits() >> 16;
-  field.world.slope_north = std::tan(random.Uniform(0, Rad(3)));
+  field.world.ground.texture = static_cast<GroundTexture>(random.Index(4));
+  field.world.ground.texture_seed = random.NextBits() >> 16;
+  field.world.ground.rise_north = std::tan(random.Uniform(0, Rad(3)));
   field.clear_middle = {random.Uniform(-1, 1), random.Uniform(-1, 1)};
   field.clear_radius_m = random.Uniform(2.8, 3.2);
   const double row_m = kSpacing_m * std::numbers::sqrt3 / 2;
@@ -59,7 +59,7 @@ ClosedField MakeClosedField(std::uint64_t seed) {
         continue;
       }
       for (const Solid& part : MakeTrafficCone(0, 0, kTallCone_m)) {
-        const double down_m = -field.world.slope_north * at.x() + 0.01;
+        const double down_m = -field.world.ground.rise_north * at.x() + 0.01;
         field.world.solids.push_back(Moved(part, turn_rad, {at.x(), at.y(), down_m}));
       }
     }
@@ -87,7 +87,7 @@ HoverView RandomViewpoint(const ClosedField& field, const ViewsOptions& options,
   const double forward_m =
       off.y() + view.height_m * std::tan(-std::numbers::pi / 2 - view.tilt_rad);
   const double c = std::cos(view.heading_rad), s = std::sin(view.heading_rad);
-  const double ground_m = field.world.slope_north * field.clear_middle.x();
+  const double ground_m = field.world.ground.rise_north * field.clear_middle.x();
   view.north_m = field.clear_middle.x() + c * forward_m - s * right_m;
   view.east_m = field.clear_middle.y() + s * forward_m + c * right_m;
   view.height_m += ground_m;
@@ -111,23 +111,17 @@ Result<std::vector<TrialRow>> RunTrial(const ViewsOptions& options, std::uint64_
     const Eigen::Vector3d p_WS =
         found ? decision->selection.sites.front().p_WS : Eigen::Vector3d::Constant(unknown);
     rows.push_back(
-        {std::to_string(i + 1), NameOf(field.world.texture),
+        {std::to_string(i + 1), NameOf(field.world.ground.texture),
          CsvNumber(view.height_m / kMetresPerFoot), CsvNumber(Deg(view.heading_rad)),
          CsvNumber(Deg(view.tilt_rad)), CsvNumber(view.north_m), CsvNumber(view.east_m),
          found ? "found" : "none", CsvNumber(p_WS.x()), CsvNumber(p_WS.y()),
-         CsvNumber(found ? TrueDistance(field.world, p_WS.x(), p_WS.y()) : unknown),
+         CsvNumber(found ? ObstacleDistance(field.world, p_WS.x(), p_WS.y()) : unknown),
          CsvNumber(found ? decision->selection.sites.front().safe_distance_m : unknown)});
   }
   return rows;
 }
 
 // ---- report ----
-
-std::string Text(const char* format, double value) {
-  char text[64];
-  std::snprintf(text, sizeof text, format, value);
-  return std::isfinite(value) ? text : "-";
-}
 
 /// Sites of one field about their mean place.
 struct FieldSpread {
@@ -181,8 +175,8 @@ ExperimentReport Report(const TrialTable& table) {
     most_m = std::max(most_m, spread.most_m);
     rows.push_back({seed, field.Values("texture").front(), std::to_string(spread.viewpoints),
                     std::to_string(spread.found), std::to_string(spread.same),
-                    Text("%.2f", spread.rms_m), Text("%.2f", spread.most_m),
-                    Text("%.2f", spread.least_distance_m)});
+                    OrDash("%.2f", spread.rms_m), OrDash("%.2f", spread.most_m),
+                    OrDash("%.2f", spread.least_distance_m)});
     spread.places.name = "seed " + seed;
     spread.places.line = false;
     plot.series.push_back(std::move(spread.places));
@@ -195,8 +189,8 @@ ExperimentReport Report(const TrialTable& table) {
   report.passed = viewpoints > 0 && same == viewpoints;
   const std::string text =
       std::to_string(same) + " of " + std::to_string(viewpoints) +
-      " viewpoints chose the same site within 0.5 m (" + Text("%.1f", 100 * interval.low) + "-" +
-      Text("%.1f %%", 100 * interval.high) + "), the farthest " + Text("%.2f m", most_m);
+      " viewpoints chose the same site within 0.5 m (" + OrDash("%.1f", 100 * interval.low) + "-" +
+      OrDash("%.1f %%", 100 * interval.high) + "), the farthest " + OrDash("%.2f m", most_m);
   report.page.Verdict(report.passed, text);
   report.lines.push_back((report.passed ? "met: " : "NOT MET: ") + text);
   report.page.Figure(LinePlotSvg(plot), "One colour a field.")

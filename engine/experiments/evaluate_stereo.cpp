@@ -3,18 +3,18 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 #include <utility>
 
 #include "engine/camera/pinhole.h"
+#include "engine/core/text.h"
 #include "engine/core/units.h"
 #include "engine/report/statistics.h"
 #include "engine/report/svg_plot.h"
 #include "engine/stereo/accuracy.h"
 #include "engine/stereo/opencv_matchers.h"
 #include "engine/stereo/stereo.h"
-#include "engine/world/stereo_world.h"
+#include "engine/world/ray_pictures.h"
 
 namespace palace {
 namespace {
@@ -72,10 +72,10 @@ Obstacles PlaceObstacles(double north_m, double height_m) {
   return obstacles;
 }
 
-StereoWorld MakeWorld(const Condition& condition, const Obstacles& obstacles, std::uint64_t seed) {
-  StereoWorld world;
-  world.texture = condition.texture;
-  world.texture_seed = seed;
+World MakeWorld(const Condition& condition, const Obstacles& obstacles, std::uint64_t seed) {
+  World world;
+  world.ground.texture = condition.texture;
+  world.ground.texture_seed = seed;
   for (const auto* boxes : {&obstacles.small, &obstacles.wide}) {
     for (const Patch& box : *boxes) {
       world.solids.push_back(
@@ -177,12 +177,6 @@ Result<std::vector<TrialRow>> RunAccuracy(int trial, std::uint64_t seed) {
 
 // ---- report ----
 
-std::string Fixed(const char* format, double value) {
-  char text[64];
-  std::snprintf(text, sizeof text, format, value);
-  return std::isfinite(value) ? text : "-";
-}
-
 /// Mean error by fraction of a pixel: flat when nothing locks.
 LinePlot LockPlot(const TrialTable& table) {
   LinePlot plot{"Lock to whole pixels", "fraction of the true disparity, px", "mean error, px", {}};
@@ -220,12 +214,12 @@ std::vector<std::vector<std::string>> Summary(const TrialTable& table) {
     for (const double tilt : kTilts_deg) {
       const TrialTable part = table.Where("matcher", name).Where("tilt_deg", CsvNumber(tilt));
       const auto mean = [&](const char* column) { return MeanOf(part.Numbers(column)); };
-      rows.push_back({name, tilt < -60 ? "nadir" : "45°", Fixed("%.3f", mean("coverage")),
-                      Fixed("%.4f", mean("outliers")), Fixed("%.3f", mean("rms_px")),
-                      Fixed("%.3f", mean("lock_px")), Fixed("%.2f", mean("error_per_sigma")),
-                      Fixed("%.1f", mean("box_0_3_m_cm")), Fixed("%.1f", mean("box_0_5_m_cm")),
-                      Fixed("%.2f", mean("ramp_deg")), Fixed("%.2f", mean("slope_median_deg")),
-                      Fixed("%.2f", mean("slope_p95_deg"))});
+      rows.push_back({name, tilt < -60 ? "nadir" : "45°", OrDash("%.3f", mean("coverage")),
+                      OrDash("%.4f", mean("outliers")), OrDash("%.3f", mean("rms_px")),
+                      OrDash("%.3f", mean("lock_px")), OrDash("%.2f", mean("error_per_sigma")),
+                      OrDash("%.1f", mean("box_0_3_m_cm")), OrDash("%.1f", mean("box_0_5_m_cm")),
+                      OrDash("%.2f", mean("ramp_deg")), OrDash("%.2f", mean("slope_median_deg")),
+                      OrDash("%.2f", mean("slope_p95_deg"))});
     }
   }
   return rows;
@@ -265,8 +259,8 @@ ExperimentReport ReportAccuracy(const TrialTable& table) {
   std::vector<std::vector<std::string>> sigmas;
   for (const GroundTexture texture : kTextures) {
     const TrialTable part = ours.Where("texture", NameOf(texture));
-    sigmas.push_back({NameOf(texture), Fixed("%.2f", MeanOf(part.Numbers("error_per_sigma"))),
-                      Fixed("%.3f", MeanOf(part.Numbers("rms_px")))});
+    sigmas.push_back({NameOf(texture), OrDash("%.2f", MeanOf(part.Numbers("error_per_sigma"))),
+                      OrDash("%.3f", MeanOf(part.Numbers("rms_px")))});
   }
   report.page.Heading("Honesty of sigma at 50 ft, by texture")
       .Table({"texture", "sd of error / sigma", "rms, px"}, sigmas);

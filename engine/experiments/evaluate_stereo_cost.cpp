@@ -14,7 +14,7 @@
 #include "engine/report/svg_plot.h"
 #include "engine/stereo/opencv_matchers.h"
 #include "engine/stereo/stereo.h"
-#include "engine/world/stereo_world.h"
+#include "engine/world/ray_pictures.h"
 
 namespace palace {
 namespace {
@@ -50,8 +50,8 @@ double TimeOf(const Work& work) {
 
 Result<std::vector<TrialRow>> RunCost(int trial, std::uint64_t seed) {
   const Load load = kLoads[static_cast<std::size_t>(trial) % kLoads.size()];
-  StereoWorld world;
-  world.texture_seed = seed;
+  World world;
+  world.ground.texture_seed = seed;
   const StereoView view =
       ViewFrom(world, PinholeFromFov(load.width, load.height, Rad(45)), 15.24, Rad(-90), 1);
   const ImageU8 left = Expose(view.left_grey, {}, 1), right = Expose(view.right_grey, {}, 2);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "engine/camera/pinhole.h"
@@ -61,7 +60,7 @@ std::vector<RigidTransform> HoverPoses(const HoverView& view, std::uint64_t seed
   return poses;
 }
 
-BakedGround BakeForHover(const StereoWorld& world, const HoverView& view,
+BakedGround BakeForHover(const World& world, const HoverView& view,
                          const std::vector<RigidTransform>& X_WCs) {
   std::vector<RigidTransform> both = X_WCs;
   for (const RigidTransform& X_WC : X_WCs) {
@@ -70,7 +69,7 @@ BakedGround BakeForHover(const StereoWorld& world, const HoverView& view,
   return BakeFor(world, CameraOf(view), both);
 }
 
-Result<std::vector<FieldFrame>> LookAtField(const StereoWorld& world, const HoverView& view,
+Result<std::vector<FieldFrame>> LookAtField(const World& world, const HoverView& view,
                                             const StereoSettings& settings, std::uint64_t seed,
                                             const BakedGround* ground) {
   const PinholeCamera camera = CameraOf(view);
@@ -120,48 +119,6 @@ std::shared_ptr<const TerrainDecision> DecideOnField(const std::vector<FieldFram
     stage.Add(frames[i].input, settings.slad);
   }
   return stage.Evaluate(settings, true);
-}
-
-double TrueHeight(const StereoWorld& world, double north_m, double east_m) {
-  constexpr double kAbove_m = 1000;
-  return kAbove_m - CastDepth(world, {north_m, east_m, -kAbove_m}, Eigen::Vector3d::UnitZ());
-}
-
-double TrueDistance(const StereoWorld& world, double north_m, double east_m) {
-  double nearest = std::numeric_limits<double>::infinity();
-  for (const Solid& solid : world.solids) {
-    nearest = std::min(nearest, DistanceFromAbove(solid, north_m, east_m));
-  }
-  return nearest;
-}
-
-double TrueSlope(const StereoWorld& world, double north_m, double east_m, double radius_m) {
-  constexpr double kSpacing_m = 0.05, kSpan_m = 0.02;
-  double steepest = 0;
-  const auto edge_near = [&](double n, double e) {
-    return std::any_of(world.solids.begin(), world.solids.end(), [&](const Solid& solid) {
-      const double here = DistanceFromAbove(solid, n, e);
-      const auto inside = [&](double dn, double de) {
-        return DistanceFromAbove(solid, n + dn, e + de) <= 0;
-      };
-      return here < 2 * kSpan_m && !(inside(kSpan_m, 0) && inside(-kSpan_m, 0) &&
-                                     inside(0, kSpan_m) && inside(0, -kSpan_m));
-    });
-  };
-  const int reach = static_cast<int>(radius_m / kSpacing_m);
-  for (int i = -reach; i <= reach; ++i) {
-    for (int j = -reach; j <= reach; ++j) {
-      const double n = north_m + i * kSpacing_m, e = east_m + j * kSpacing_m;
-      if (std::hypot(i, j) * kSpacing_m > radius_m || edge_near(n, e)) {
-        continue;
-      }
-      const double half = kSpan_m / 2;
-      const double north = (TrueHeight(world, n + half, e) - TrueHeight(world, n - half, e));
-      const double east = (TrueHeight(world, n, e + half) - TrueHeight(world, n, e - half));
-      steepest = std::max(steepest, std::atan(std::hypot(north, east) / kSpan_m));
-    }
-  }
-  return steepest;
 }
 
 }  // namespace palace

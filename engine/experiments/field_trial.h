@@ -16,7 +16,7 @@
 #include "engine/model/settings.h"
 #include "engine/model/snapshot.h"
 #include "engine/runtime/terrain_stage.h"
-#include "engine/world/stereo_world.h"
+#include "engine/world/ray_pictures.h"
 
 namespace palace {
 
@@ -50,27 +50,17 @@ struct FieldFrame {
 
 /// All frames of one hover. Errors are stereo's refusals. One bake of the ground serves all frames;
 /// `ground` may hold one made for the same world and a wider view, or null.
-Result<std::vector<FieldFrame>> LookAtField(const StereoWorld& world, const HoverView& view,
+Result<std::vector<FieldFrame>> LookAtField(const World& world, const HoverView& view,
                                             const StereoSettings& settings, std::uint64_t seed,
                                             const BakedGround* ground = nullptr);
 /// True left camera poses of that hover, as LookAtField draws them.
 std::vector<RigidTransform> HoverPoses(const HoverView& view, std::uint64_t seed);
 /// Ground that serves both cameras of these poses.
-BakedGround BakeForHover(const StereoWorld& world, const HoverView& view,
+BakedGround BakeForHover(const World& world, const HoverView& view,
                          const std::vector<RigidTransform>& X_WCs);
 
 /// The decision after the first `frames` frames (all when 0), by a TerrainStage as in flight.
 std::shared_ptr<const TerrainDecision> DecideOnField(const std::vector<FieldFrame>& frames,
                                                      const Settings& settings, int count = 0);
-
-// ---- truth ----
-
-/// Height of the surface seen from above, up-positive, metres.
-double TrueHeight(const StereoWorld& world, double north_m, double east_m);
-/// Horizontal distance to the nearest edge of any solid; 0 on one, infinity without solids.
-double TrueDistance(const StereoWorld& world, double north_m, double east_m);
-/// Largest angle of the true surface to the level over the disc, walls of solids not counted: by
-/// differences over 2 cm where no edge lies between, at places 5 cm apart.
-double TrueSlope(const StereoWorld& world, double north_m, double east_m, double radius_m);
 
 }  // namespace palace

@@ -35,23 +35,14 @@ RigidTransform Believed(const RigidTransform& X_WC, const HoverView& view, Rando
           X_WC.p + view.position_error_m * Eigen::Vector3d(north, east, down)};
 }
 
-StereoWorld WorldAt(const FlagField& field, const FlagThing& thing, int frame) {
-  StereoWorld world = field.world;
-  if (thing.walker) {
-    const double east_m = thing.walker->y() + thing.walker_mps * kInterval_s * frame;
-    world.solids.push_back(MakeBox(thing.walker->x(), east_m, 0.5, 0.5, 1.6));
-  }
-  return world;
-}
-
 }  // namespace
 
 FlagField MakeFlagField(GroundTexture texture, double height_m, double tilt_rad,
                         std::uint64_t seed) {
   RandomStream random(seed, "flag field");
   FlagField field;
-  field.world.texture = texture;
-  field.world.texture_seed = seed;
+  field.world.ground.texture = texture;
+  field.world.ground.texture_seed = seed;
   field.view.height_m = height_m;
   field.view.tilt_rad = tilt_rad;
   field.view.field_of_view_rad = Rad(45);
@@ -75,8 +66,7 @@ BakedGround BakeFlagField(const FlagField& field, int frames, std::uint64_t seed
   return BakeForHover(field.world, field.view, PosesOf(field, frames, seed));
 }
 
-Result<std::shared_ptr<const ElevationMap>> FlagsOfField(const FlagField& field,
-                                                         const FlagThing& thing, int frames,
+Result<std::shared_ptr<const ElevationMap>> FlagsOfField(const FlagField& field, int frames,
                                                          const BakedGround& ground,
                                                          std::uint64_t seed) {
   const HoverView& view = field.view;
@@ -88,17 +78,11 @@ Result<std::shared_ptr<const ElevationMap>> FlagsOfField(const FlagField& field,
   TerrainStage stage;
   const StereoSettings settings;
   for (int k = 0; k < frames; ++k) {
-    const StereoWorld world = WorldAt(field, thing, k);
+    const World world = WorldAt(field.world, k * kInterval_s);
     const RigidTransform& X_WC = poses[static_cast<std::size_t>(k)];
     const auto look = [&](const RigidTransform& X) {
-      ImageF grey = DrawGrey(world, camera, X, ground);
-      if (thing.wire) {
-        PaintWire(*thing.wire, camera, X, grey);
-      }
-      if (thing.pool) {
-        PaintPool(*thing.pool, camera, X, grey);
-      }
-      return std::make_shared<const ImageU8>(Expose(grey, {view.noise_grey}, sensor.NextBits()));
+      return std::make_shared<const ImageU8>(
+          Expose(DrawGrey(world, camera, X, ground), {view.noise_grey}, sensor.NextBits()));
     };
     TerrainInput input;
     input.left = look(X_WC);

@@ -4,26 +4,15 @@
 
 #include <cstdint>
 #include <memory>
-#include <optional>
-#include <vector>
 
 #include "engine/core/result.h"
 #include "engine/experiments/field_trial.h"
-#include "engine/world/painted_things.h"
+#include "engine/world/ray_pictures.h"
 
 namespace palace {
 
-/// At most one of them.
-struct FlagThing {
-  std::optional<PaintedWire> wire{};
-  std::optional<PaintedPool> pool{};
-  /// A box 0.5 m wide and 1.6 m tall that starts here and moves east.
-  std::optional<Eigen::Vector2d> walker{};
-  double walker_mps = 0;
-};
-
 struct FlagField {
-  StereoWorld world;
+  World world;
   HoverView view;
   double middle_north_m = 0;  ///< where the camera looks
 };
@@ -31,9 +20,9 @@ struct FlagField {
 FlagField MakeFlagField(GroundTexture texture, double height_m, double tilt_rad,
                         std::uint64_t seed);
 
-/// The map after `frames` frames, 0.2 s apart. `ground` is the field's own bake.
-Result<std::shared_ptr<const ElevationMap>> FlagsOfField(const FlagField& field,
-                                                         const FlagThing& thing, int frames,
+/// The map after `frames` frames, 0.2 s apart, of the field's world or one with things added that
+/// may move. `ground` is the field's own bake.
+Result<std::shared_ptr<const ElevationMap>> FlagsOfField(const FlagField& field, int frames,
                                                          const BakedGround& ground,
                                                          std::uint64_t seed);
 BakedGround BakeFlagField(const FlagField& field, int frames, std::uint64_t seed);

@@ -53,14 +53,6 @@ class Builder {
   ShapeField& field_;
 };
 
-/// A level slab between two heights.
-Solid MakeSlab(double north_m, double east_m, double size_north_m, double size_east_m,
-               double from_m, double to_m) {
-  Solid box = MakeBox(north_m, east_m, size_north_m, size_east_m, to_m);
-  box.faces.push_back({Eigen::Vector3d::UnitZ(), -from_m});
-  return MakeSolid(std::move(box.faces));
-}
-
 void PlaceObjects(const HoverView& view, int number, RandomStream& random, Builder& builder) {
   constexpr double kPitch_m = 1.8;
   const SeenGround seen = GroundSeenBy(view);
@@ -145,15 +137,15 @@ ShapeField MakeShapeField(ShapeFieldKind kind, const HoverView& view, int number
   RandomStream random(seed, "shape field");
   ShapeField field;
   field.kind = kind;
-  field.world.texture = kTextures[static_cast<std::size_t>(random.Index(kTextures.size()))];
-  field.world.texture_seed = random.NextBits();
+  field.world.ground.texture = kTextures[static_cast<std::size_t>(random.Index(kTextures.size()))];
+  field.world.ground.texture_seed = random.NextBits();
   Builder builder(field);
   switch (kind) {
     case ShapeFieldKind::kObjects:
       PlaceObjects(view, number, random, builder);
       break;
     case ShapeFieldKind::kSlope:
-      field.world.slope_north = std::tan(Rad(random.Uniform(0, 7)));
+      field.world.ground.rise_north = std::tan(Rad(random.Uniform(0, 7)));
       break;
     case ShapeFieldKind::kHouse:
       PlaceHouse(random, builder);
@@ -181,12 +173,13 @@ double DistanceToShape(const ShapeField& field, const PlacedShape& shape, double
 double DepthInShape(const ShapeField& field, const PlacedShape& shape, double north_m,
                     double east_m) {
   const Solid& solid = field.world.solids[shape.first_solid];
+  const Eigen::Vector3d p_O =
+      solid.X_WO.R.transpose() * (Eigen::Vector3d(north_m, east_m, 0) - solid.X_WO.p);
   double depth_m = HUGE_VAL;
-  for (const HalfSpace& face : solid.faces) {
+  for (const HalfSpace& face : std::get<Polyhedron>(solid.shape).faces) {
     const double level = face.normal.head<2>().norm();
     if (level > 1e-6 && std::abs(face.normal.z()) < 1e-6) {  // a wall
-      depth_m = std::min(
-          depth_m, (face.offset - face.normal.x() * north_m - face.normal.y() * east_m) / level);
+      depth_m = std::min(depth_m, (face.offset - face.normal.head<2>().dot(p_O.head<2>())) / level);
     }
   }
   return std::max(0.0, depth_m);

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "engine/experiments/field_trial.h"
-#include "engine/world/stereo_world.h"
+#include "engine/world/ray_pictures.h"
 
 namespace palace {
 
@@ -33,7 +33,7 @@ struct PlacedShape {
 
 struct ShapeField {
   ShapeFieldKind kind = ShapeFieldKind::kObjects;
-  StereoWorld world;
+  World world;
   std::vector<PlacedShape> shapes{};
 };
 

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
 #include <utility>
 
+#include "engine/core/text.h"
 #include "engine/core/units.h"
 #include "engine/report/statistics.h"
 #include "engine/report/svg_plot.h"
@@ -35,26 +35,13 @@ const std::array<Target, 9> kTargets = {{{10, 0, NAN},
                                          {100, 0.95, NAN},
                                          {150, 0, NAN}}};
 
-std::string Text(const char* format, double value) {
-  char text[64];
-  std::snprintf(text, sizeof text, format, value);
-  return std::isfinite(value) ? text : "-";
-}
-
 /// "99.3 % (97.6-99.8)".
 std::string ShareText(int hits, int count) {
   const Interval interval = WilsonInterval(hits, count);
-  return count == 0 ? "-"
-                    : Text("%.1f %% (", 100.0 * hits / count) + Text("%.1f-", 100 * interval.low) +
-                          Text("%.1f)", 100 * interval.high);
-}
-
-double Sum(const TrialTable& table, const char* column) {
-  double sum = 0;
-  for (const double value : table.Numbers(column)) {
-    sum += std::isfinite(value) ? value : 0;
-  }
-  return sum;
+  return count == 0
+             ? "-"
+             : OrDash("%.1f %% (", 100.0 * hits / count) + OrDash("%.1f-", 100 * interval.low) +
+                   OrDash("%.1f)", 100 * interval.high);
 }
 
 int Count(const TrialTable& table, const char* column, const char* text) {
@@ -78,8 +65,8 @@ AltitudeFigures FiguresOf(const TrialTable& rows) {
   const TrialTable confirmed = rows.Where("standing", kConfirmed);
   cell.confirmed = static_cast<int>(confirmed.rows.size());
   cell.wrong_confirmed = Count(confirmed, "outcome", kWrongSite);
-  const double safe = Sum(rows, "safe_cells");
-  cell.refused = safe > 0 ? Sum(rows, "refused_cells") / safe : NAN;
+  const double safe = rows.Sum("safe_cells");
+  cell.refused = safe > 0 ? rows.Sum("refused_cells") / safe : NAN;
   std::vector<double> sigmas;
   for (const double sigma : rows.Numbers("three_sigma_m")) {
     if (std::isfinite(sigma)) {
@@ -117,20 +104,20 @@ void AddCones(const TrialTable& table, const std::string& cone_in, ExperimentRep
       series.high.push_back(100 * interval.high);
       const Target* target = TargetAt(AltitudeOf(altitude));
       const std::string thesis = target != nullptr && method == std::string(kThesisMode)
-                                     ? Text("%.0f %%", target->thesis)
+                                     ? OrDash("%.0f %%", target->thesis)
                                      : "";
       rows.push_back({altitude, method, std::to_string(cell.trials),
                       ShareText(cell.right, cell.trials), std::to_string(cell.wrong),
                       std::to_string(cell.none), std::to_string(cell.confirmed),
-                      std::to_string(cell.wrong_confirmed), Text("%.1f %%", 100 * cell.refused),
-                      Text("%.1f", 100 * cell.three_sigma_m), thesis});
+                      std::to_string(cell.wrong_confirmed), OrDash("%.1f %%", 100 * cell.refused),
+                      OrDash("%.1f", 100 * cell.three_sigma_m), thesis});
       report.lines.push_back(cone_in + " in, " + altitude + " ft, " + method + ": right " +
                              ShareText(cell.right, cell.trials) + ", wrong " +
                              std::to_string(cell.wrong) + ", none " + std::to_string(cell.none) +
                              ", confirmed " + std::to_string(cell.confirmed) + " (" +
                              std::to_string(cell.wrong_confirmed) + " wrong), refused " +
-                             Text("%.1f %%", 100 * cell.refused) + ", 3 sigma " +
-                             Text("%.1f cm", 100 * cell.three_sigma_m));
+                             OrDash("%.1f %%", 100 * cell.refused) + ", 3 sigma " +
+                             OrDash("%.1f cm", 100 * cell.three_sigma_m));
     }
     plot.series.push_back(std::move(series));
   }
@@ -163,7 +150,7 @@ void AddTargets(const TrialTable& tall, ExperimentReport& report) {
     const AltitudeFigures cell = FiguresOf(tall.Where("altitude_ft", altitude));
     const bool passed = cell.right >= target->least * cell.trials;
     const std::string text = altitude + " ft: right sites " + ShareText(cell.right, cell.trials) +
-                             ", wanted " + Text("%.0f %%", 100 * target->least);
+                             ", wanted " + OrDash("%.0f %%", 100 * target->least);
     report.page.Verdict(passed, text);
     report.lines.push_back((passed ? "met: " : "NOT MET: ") + text);
     report.passed = report.passed && passed;
@@ -228,8 +215,8 @@ void AddConfirmedDistance(const TrialTable& tall, ExperimentReport& report) {
       series.y.push_back(100 * FiguresOf(part.Where("altitude_ft", altitude)).three_sigma_m);
     }
     plot.series.push_back(std::move(series));
-    rows.push_back({method, Text("%.1f m", DistanceAtSigma(part, 0.10)),
-                    Text("%.1f m", DistanceAtSigma(part, 0.15))});
+    rows.push_back({method, OrDash("%.1f m", DistanceAtSigma(part, 0.10)),
+                    OrDash("%.1f m", DistanceAtSigma(part, 0.15))});
     report.lines.push_back(std::string(method) + ": 3 sigma of height is under 0.10 m up to " +
                            rows.back()[1] + ", under 0.15 m up to " + rows.back()[2]);
   }

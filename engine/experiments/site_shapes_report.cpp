@@ -2,11 +2,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "engine/core/text.h"
 #include "engine/experiments/evaluate_site_shapes.h"
 #include "engine/report/statistics.h"
 #include "engine/report/svg_plot.h"
@@ -21,34 +21,20 @@ constexpr std::array kWanted = {"cube 6 in", "square 4 in high 0.30 m",
                                 "rectangle 4 in high 0.30 x 0.60 m", "cylinder 4 in high 0.30 m"};
 constexpr double kLeastFound = 0.99, kMostRefused = 0.01, kMostSlopeError_deg = 1.5;
 
-std::string Fixed(const char* format, double value) {
-  char text[64];
-  std::snprintf(text, sizeof text, format, value);
-  return std::isfinite(value) ? text : "-";
-}
-
-double Sum(const TrialTable& table, const char* column) {
-  double sum = 0;
-  for (const double value : table.Numbers(column)) {
-    sum += value;
-  }
-  return sum;
-}
-
 /// found of tested with its interval.
 struct Share {
   explicit Share(const TrialTable& rows, const char* column = "found")
-      : hits(Sum(rows, column)), trials(Sum(rows, "tested")) {}
+      : hits(rows.Sum(column)), trials(rows.Sum("tested")) {}
   double hits, trials;
   double value() const { return trials > 0 ? hits / trials : NAN; }
   Interval interval() const {
     return WilsonInterval(static_cast<int>(hits), static_cast<int>(trials));
   }
-  std::string percent() const { return Fixed("%.2f", 100 * value()); }
+  std::string percent() const { return OrDash("%.2f", 100 * value()); }
   std::string wilson() const {
-    return Fixed("%.2f", 100 * interval().low) + " to " + Fixed("%.2f", 100 * interval().high);
+    return OrDash("%.2f", 100 * interval().low) + " to " + OrDash("%.2f", 100 * interval().high);
   }
-  std::string count() const { return Fixed("%.0f", hits) + " of " + Fixed("%.0f", trials); }
+  std::string count() const { return OrDash("%.0f", hits) + " of " + OrDash("%.0f", trials); }
 };
 
 TrialTable Of(const TrialTable& table, const std::string& shape, const std::string& frames) {
@@ -149,10 +135,10 @@ std::vector<std::vector<std::string>> SlopeRows(const TrialTable& table) {
       const int count = static_cast<int>(errors.size());
       const Interval interval = WilsonInterval(within, count);
       rows.push_back(
-          {name, frames, std::to_string(count), Fixed("%.2f", Percentile(errors, 0.5)),
-           Fixed("%.2f", Percentile(errors, 0.95)), Fixed("%.2f", Percentile(errors, 1)),
+          {name, frames, std::to_string(count), OrDash("%.2f", Percentile(errors, 0.5)),
+           OrDash("%.2f", Percentile(errors, 0.95)), OrDash("%.2f", Percentile(errors, 1)),
            std::to_string(within) + " of " + std::to_string(count),
-           Fixed("%.1f", 100 * interval.low) + " to " + Fixed("%.1f", 100 * interval.high)});
+           OrDash("%.1f", 100 * interval.low) + " to " + OrDash("%.1f", 100 * interval.high)});
     }
   }
   return rows;
@@ -162,7 +148,7 @@ std::vector<std::vector<std::string>> TopRows(const TrialTable& table) {
   std::vector<std::vector<std::string>> rows;
   for (const char* name : kTopNames) {
     const TrialTable part = At(Of(table, name, kFused), Chosen());
-    rows.push_back({name, Fixed("%.0f", Sum(part, "tested")), Share(part, "elevated").percent(),
+    rows.push_back({name, OrDash("%.0f", part.Sum("tested")), Share(part, "elevated").percent(),
                     Share(part).percent(), Share(part, "accepted").percent()});
   }
   return rows;
@@ -203,7 +189,7 @@ ExperimentReport ReportSiteShapes(const TrialTable& table) {
   std::string causes = "refused by";
   for (const char* cause : {kRefusedByHeight, kRefusedByFlags, kRefusedByUnknown, kRefusedByOdds}) {
     causes += std::string(" ") + (cause + 11) + " " +
-              Fixed("%.0f", Sum(At(Of(table, cause, kFused), Chosen()), "tested")) + ";";
+              OrDash("%.0f", At(Of(table, cause, kFused), Chosen()).Sum("tested")) + ";";
   }
   for (const char* texture : {"gravel", "grass", "asphalt", "cloud"}) {
     const TrialTable part = Of(table, kClearFootprints, kFused).Where("texture", texture);
@@ -224,7 +210,7 @@ ExperimentReport ReportSiteShapes(const TrialTable& table) {
   }
   const std::vector<double> slopes = Errors(table, kGroundSlope, kFused);
   findings.Judge(!slopes.empty() && Percentile(slopes, 1) <= kMostSlopeError_deg,
-                 "slope of footprints: error at most " + Fixed("%.2f", Percentile(slopes, 1)) +
+                 "slope of footprints: error at most " + OrDash("%.2f", Percentile(slopes, 1)) +
                      " deg over " + std::to_string(slopes.size()) + " (limit 1.5 deg; thesis 5)");
   const Share site(Of(table, kChosenSite, kFused));
   std::string held;
@@ -254,7 +240,7 @@ ExperimentReport ReportSiteShapes(const TrialTable& table) {
     const Share footprints(At(Of(table, kClearFootprints, kFused), limit_cm));
     const Share clear(At(Of(table, kClearCells, kFused), limit_cm));
     limits.push_back({limit_cm, footprints.count(), footprints.percent(), footprints.wilson(),
-                      Fixed("%.4f", 100 * clear.value())});
+                      OrDash("%.4f", 100 * clear.value())});
   }
   report.page.Heading("False alarm by limit")
       .Table({"limit, cm", "clear footprints refused", "%", "95 % interval",

@@ -234,12 +234,17 @@ SourceStatus ReplaySource::Status() const {
   status.can_seek = true;
   status.frame_index = next_bundle_;
   status.frame_count = bundles_.size();
+  std::vector<std::string> damage;
   if (const LogReport& report = index_.report; report.damaged()) {
-    status.damage = WithNumbers("%.0f bytes unreadable, %.0f events damaged, %.0f missing",
-                                static_cast<double>(report.skipped_bytes),
-                                static_cast<double>(report.suspect + report.checksum_errors),
-                                static_cast<double>(report.missing_events));
+    damage.push_back(WithNumbers("%.0f bytes unreadable, %.0f events damaged, %.0f missing",
+                                 static_cast<double>(report.skipped_bytes),
+                                 static_cast<double>(report.suspect + report.checksum_errors),
+                                 static_cast<double>(report.missing_events)));
   }
+  if (const std::uint64_t refused = events_refused_; refused > 0) {
+    damage.push_back(WithNumbers("%.0f not decoded so far", static_cast<double>(refused)));
+  }
+  status.damage = Joined(damage);
   return status;
 }
 

@@ -47,11 +47,7 @@ class ReplaySource final : public Source {
 
   /// What the flight decided when it was recorded.
   std::shared_ptr<const RecordedTrack> recorded() const { return recorded_; }
-  /// What reading has found wrong so far; rows for the status panel.
-  const LogReport& log_report() const { return index_.report; }
   const std::vector<BundleMark>& bundles() const { return bundles_; }
-  /// Events that could not be read or decoded on the way.
-  std::uint64_t events_refused() const { return events_refused_; }
 
  private:
   ReplaySource(LogFile file, LogIndex index, const ReplayOptions& options);
@@ -68,9 +64,9 @@ class ReplaySource final : public Source {
   std::vector<BundleMark> bundles_;
   std::shared_ptr<const RecordedTrack> recorded_;
   BundleAssembler assembler_;
-  std::size_t next_event_ = 0;  ///< reader's position; Next's thread only
-  bool was_jump_ = false;       ///< Next's thread only
-  std::atomic<std::uint64_t> events_refused_{0};
+  std::size_t next_event_ = 0;                    ///< reader's position; Next's thread only
+  bool was_jump_ = false;                         ///< Next's thread only
+  std::atomic<std::uint64_t> events_refused_{0};  ///< could not be read or decoded on the way
 
   mutable std::mutex mutex_;
   std::condition_variable_any changed_;

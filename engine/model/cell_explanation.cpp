@@ -1,10 +1,10 @@
 #include "engine/model/cell_explanation.h"
 
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 
 #include "engine/core/check.h"
+#include "engine/core/text.h"
 #include "engine/core/units.h"
 #include "engine/model/hazard_maps.h"
 
@@ -44,9 +44,7 @@ std::string Number(double value, int decimals, const char* unit) {
   if (!std::isfinite(value)) {
     return "––";
   }
-  char text[48];
-  std::snprintf(text, sizeof text, "%.*f%s", decimals, value, unit);
-  return text;
+  return WithNumbers(("%." + std::to_string(decimals) + "f").c_str(), value) + unit;
 }
 
 struct Bit {

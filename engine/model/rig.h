@@ -11,14 +11,13 @@
 
 namespace palace {
 
-/// Pinhole intrinsics with OpenCV's plumb-bob distortion (k1 k2 p1 p2 k3), as RIG.toml gives them.
+/// One camera of a rig: a model of any family where RIG.toml names a model_file, else the pinhole
+/// with OpenCV's plumb-bob distortion (k1 k2 p1 p2 k3) that it writes out. Those two are rectified
+/// differently: models tell how the cameras are turned, written-out pinholes are taken as parallel.
 struct RigCamera {
-  PinholeCamera pinhole;
+  PinholeCamera pinhole;  ///< with a model: of its linear part
   std::array<double, 5> distortion{};
-  /// Set when RIG.toml names a model_file of the CAHV or CAHVOR family; then it decides.
-  std::optional<CahvorModel> cahvor;
-  /// Set when the model_file is of another family; then it decides. Lengths in metres.
-  std::optional<CameraModel> model;
+  std::optional<CameraModel> model{};  ///< lengths in metres, the pose known; then it decides
 };
 
 /// A stereo pair on a vehicle.

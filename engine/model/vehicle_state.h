@@ -9,6 +9,7 @@
 
 #include "engine/core/frames.h"
 #include "engine/core/time.h"
+#include "engine/model/vehicle.h"
 
 namespace palace {
 
@@ -33,8 +34,8 @@ struct LaserRange {
   double range_m = 0;  ///< NaN when no return
 };
 
-/// The touchdown point: centre of the skids in B, metres. Constant of the airframe.
-inline Eigen::Vector3d SkidCentreBody() { return {0.0, 0.0, 0.9}; }
+/// The touchdown point of the default airframe in B, metres.
+inline Eigen::Vector3d SkidCentreBody() { return Airframe{}.skid_centre_B; }
 
 /// The autopilot's own navigation solution (GPS, IMU, AHRS).
 struct VehiclePose {

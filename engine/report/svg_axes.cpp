@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <limits>
 
+#include "engine/core/text.h"
 #include "engine/report/html_page.h"
 
 namespace palace {
@@ -88,11 +89,7 @@ std::string TickText(double value) {
   return text;
 }
 
-std::string Number(double pixel) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.1f", pixel);
-  return text;
-}
+std::string Number(double pixel) { return WithNumbers("%.1f", pixel); }
 
 std::string DrawText(double x, double y, const std::string& anchor, const std::string& text,
                      const char* colour_class) {

@@ -91,6 +91,14 @@ std::size_t TrialTable::Index(std::string_view column) const {
   return 0;
 }
 
+double TrialTable::Sum(std::string_view column) const {
+  double sum = 0;
+  for (const double value : Numbers(column)) {
+    sum += value;
+  }
+  return sum;
+}
+
 std::vector<double> TrialTable::Numbers(std::string_view column) const {
   const std::size_t index = Index(column);
   std::vector<double> numbers;

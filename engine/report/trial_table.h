@@ -19,6 +19,8 @@ struct TrialTable {
   std::size_t Index(std::string_view column) const;
   /// A column as numbers; NaN where the text is no number.
   std::vector<double> Numbers(std::string_view column) const;
+  /// Of those numbers; NaN when one is.
+  double Sum(std::string_view column) const;
   /// The rows whose `column` reads `text`.
   TrialTable Where(std::string_view column, std::string_view text) const;
   /// The different texts of a column, in the order of first appearance.

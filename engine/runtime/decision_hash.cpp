@@ -28,13 +28,14 @@ void AddCamera(ContentHash& hash, const RigCamera& camera) {
   for (const double value : camera.distortion) {
     hash.Add(value);
   }
-  if (camera.cahvor) {
-    for (const auto* v : {&camera.cahvor->C, &camera.cahvor->A, &camera.cahvor->H,
-                          &camera.cahvor->V, &camera.cahvor->O, &camera.cahvor->R}) {
+  if (!camera.model) {
+    return;
+  }
+  if (const auto* cahvor = std::get_if<CahvorModel>(&camera.model->lens)) {
+    for (const auto* v : {&cahvor->C, &cahvor->A, &cahvor->H, &cahvor->V, &cahvor->O, &cahvor->R}) {
       AddVector(hash, *v);
     }
-  }
-  if (camera.model) {
+  } else {
     hash.Add(NumbersOf(*camera.model));
   }
 }

@@ -2,18 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+
+#include "engine/core/text.h"
 
 namespace palace {
-namespace {
-
-std::string Line(const char* format, double a, double b = 0, double c = 0) {
-  char text[160];
-  std::snprintf(text, sizeof text, format, a, b, c);
-  return text;
-}
-
-}  // namespace
+namespace {}  // namespace
 
 void SeriesStats::Add(double value) {
   if (!std::isfinite(value)) {
@@ -40,7 +33,7 @@ void FlightSummarizer::Add(const EngineSnapshot& snapshot) {
     summary_.site = snapshot.mission.armed;
     if (scene_) {
       const Eigen::Vector3d& p = summary_.site->p_WS;
-      summary_.site_obstacle_distance_m = scene_->ObstacleDistance(p.x(), p.y());
+      summary_.site_obstacle_distance_m = ObstacleDistance(*scene_, p.x(), p.y());
     }
   }
   if (snapshot.truth && flying) {
@@ -67,27 +60,29 @@ void FlightSummarizer::Add(const EngineSnapshot& snapshot) {
 std::vector<std::string> SummaryLines(const FlightSummary& s) {
   std::vector<std::string> lines;
   lines.push_back(std::string("Final state: ") + MissionStateName(s.final_state));
-  lines.push_back(Line("Flight time: %.1f s", s.duration_s));
+  lines.push_back(WithNumbers("Flight time: %.1f s", s.duration_s));
   if (s.site) {
     lines.push_back(std::string("Site ") + s.site->letter +
-                    Line(": %.2f m north, %.2f m east, safe distance %.2f m", s.site->p_WS.x(),
-                         s.site->p_WS.y(), s.site->safe_distance_m));
+                    WithNumbers(": %.2f m north, %.2f m east, safe distance %.2f m",
+                                s.site->p_WS.x(), s.site->p_WS.y(), s.site->safe_distance_m));
   }
   if (s.site_obstacle_distance_m) {
-    lines.push_back(Line("Nearest true obstacle to the site: %.2f m (lander radius %.2f m)",
-                         *s.site_obstacle_distance_m, s.lander_radius_m));
+    lines.push_back(WithNumbers("Nearest true obstacle to the site: %.2f m (lander radius %.2f m)",
+                                *s.site_obstacle_distance_m, s.lander_radius_m));
   }
   if (s.touchdown_miss_m) {
-    lines.push_back(Line("Touchdown: %.3f m from the approved site (true)", *s.touchdown_miss_m));
+    lines.push_back(
+        WithNumbers("Touchdown: %.3f m from the approved site (true)", *s.touchdown_miss_m));
   }
   if (s.estimate_error_m.count > 0) {
-    lines.push_back(Line("Vision estimate against truth: mean %.3f m, max %.3f m over %.0f frames",
-                         s.estimate_error_m.mean, s.estimate_error_m.max,
-                         s.estimate_error_m.count));
+    lines.push_back(
+        WithNumbers("Vision estimate against truth: mean %.3f m, max %.3f m over %.0f frames",
+                    s.estimate_error_m.mean, s.estimate_error_m.max, s.estimate_error_m.count));
   }
   if (s.gps_error_m.count > 0) {
-    lines.push_back(Line("GPS estimate against truth: mean %.3f m, max %.3f m over %.0f frames",
-                         s.gps_error_m.mean, s.gps_error_m.max, s.gps_error_m.count));
+    lines.push_back(
+        WithNumbers("GPS estimate against truth: mean %.3f m, max %.3f m over %.0f frames",
+                    s.gps_error_m.mean, s.gps_error_m.max, s.gps_error_m.count));
   }
   return lines;
 }

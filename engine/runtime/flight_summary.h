@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "engine/model/snapshot.h"
-#include "engine/world/scene.h"
+#include "engine/world/world.h"
 
 namespace palace {
 
@@ -34,12 +34,12 @@ struct FlightSummary {
 class FlightSummarizer {
  public:
   /// `scene` is the simulated truth, when there is one.
-  explicit FlightSummarizer(std::optional<Scene> scene) : scene_(std::move(scene)) {}
+  explicit FlightSummarizer(std::optional<World> scene) : scene_(std::move(scene)) {}
   void Add(const EngineSnapshot& snapshot);
   const FlightSummary& summary() const { return summary_; }
 
  private:
-  std::optional<Scene> scene_;
+  std::optional<World> scene_;
   FlightSummary summary_;
   std::optional<Timestamp> start_;
   std::uint64_t last_sequence_ = 0;

@@ -36,8 +36,6 @@ class SettingsState {
   void FollowApplied() { recorded_ = recorded_preview_ = applied_; }
   /// Replay: the reviewer's limits, in place of the recorded ones.
   void Redecide(const Settings& settings) { applied_ = preview_ = settings; }
-  /// Replay: everything starts from what the log says.
-  void StartFrom(const Settings& settings) { *this = SettingsState(settings); }
 
  private:
   Settings recorded_;

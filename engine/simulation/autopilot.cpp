@@ -32,7 +32,7 @@ Vector3d StoppingPoint(const Vector3d& p, const Vector3d& v) {
 
 Autopilot::Autopilot(const AutopilotOptions& options)
     : options_(options),
-      gate_(options.boot_id, options.signature_check),
+      gate_(options.boot_id, options.station_key),
       hold_p_W_(options.hover_p_WB),
       skid_lever_W_(SkidCentreBody()) {
   reference_.p_W = options.hover_p_WB;
@@ -63,6 +63,10 @@ void Autopilot::Receive(const VehicleMessage& message, Timestamp now) {
 }
 
 void Autopilot::ReceiveApproval(const Approval& approval, Timestamp now) {
+  if (gate_.IsRepeat(approval)) {
+    Acknowledge(approval.id, {}, now);
+    return;
+  }
   if (mode_ != VehicleMode::kHover && mode_ != VehicleMode::kHold) {
     Acknowledge(approval.id, "the vehicle is not in hover", now);
     return;

@@ -27,7 +27,7 @@ namespace palace {
 
 struct AutopilotOptions {
   std::uint64_t boot_id = 1;
-  ApprovalGate::Check signature_check;
+  std::optional<PublicKey> station_key{};  ///< whose approvals it obeys; none: unsigned ones too
   Eigen::Vector3d hover_p_WB = Eigen::Vector3d::Zero();
   double hover_yaw_rad = 0;
   Eigen::Vector3d p_BC = Eigen::Vector3d::Zero();  ///< left focal point in B

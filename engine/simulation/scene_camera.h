@@ -11,7 +11,7 @@ namespace palace {
 class SceneCamera {
  public:
   virtual ~SceneCamera() = default;
-  /// Renders what an ideal pinhole camera at X_WC sees of the scene it was made for. Grey, without
+  /// Renders what an ideal pinhole camera at X_WC sees of the world it was made for. Grey, without
   /// sensor noise. Called from the simulator's thread only.
   virtual Result<ImageU8> Render(const PinholeCamera& camera, const RigidTransform& X_WC) = 0;
 };

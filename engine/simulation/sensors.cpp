@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "engine/world/scene_ray.h"
+#include "engine/world/world.h"
 
 namespace palace {
 namespace {
@@ -70,8 +70,9 @@ Eigen::Matrix3d AhrsSensor::Measure(const Eigen::Matrix3d& R_WB) {
 LaserSensor::LaserSensor(const LaserNoise& noise, std::uint64_t seed)
     : noise_(noise), random_(seed, "laser") {}
 
-LaserRange LaserSensor::Measure(Timestamp now, const Scene& scene, const RigidTransform& X_WC) {
-  const double range = CastRay(scene, X_WC.p, X_WC.R.col(2), noise_.max_range_m);
+LaserRange LaserSensor::Measure(Timestamp now, const World& world, const RigidTransform& X_WC) {
+  const double distance = CastRay(world, X_WC.p, X_WC.R.col(2)).s;
+  const double range = distance <= noise_.max_range_m ? distance : std::nan("");
   const double noisy = range + (noise_.sigma_m + noise_.sigma_per_m * range) * random_.Normal();
   const bool lost = random_.Uniform() < noise_.dropout;
   LaserRange sample;

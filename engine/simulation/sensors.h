@@ -8,7 +8,7 @@
 
 #include "engine/core/random.h"
 #include "engine/model/vehicle_state.h"
-#include "engine/world/scene.h"
+#include "engine/world/world.h"
 
 namespace palace {
 
@@ -85,7 +85,7 @@ struct LaserNoise {
 class LaserSensor {
  public:
   LaserSensor(const LaserNoise& noise, std::uint64_t seed);
-  LaserRange Measure(Timestamp now, const Scene& scene, const RigidTransform& X_WC);
+  LaserRange Measure(Timestamp now, const World& world, const RigidTransform& X_WC);
 
  private:
   LaserNoise noise_;

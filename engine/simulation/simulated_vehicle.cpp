@@ -1,9 +1,6 @@
 #include "engine/simulation/simulated_vehicle.h"
 
-#include <array>
 #include <cmath>
-
-#include "engine/world/scene_ray.h"
 
 namespace palace {
 namespace {
@@ -17,7 +14,7 @@ constexpr int kLaserSteps = 10;
 constexpr int kGpsSteps = 40;
 
 Vector3d StartPosition(const SimulatorOptions& options) {
-  const double ground = options.scene.GroundHeight(options.start_north_m, options.start_east_m);
+  const double ground = options.scene.ground.Height(options.start_north_m, options.start_east_m);
   return {options.start_north_m, options.start_east_m, -(ground + options.hover_height_m)};
 }
 
@@ -26,7 +23,7 @@ Timestamp LeadInStart() { return AddSeconds(Simulator::kEpoch, -SimulatedVehicle
 AutopilotOptions MakeAutopilotOptions(const SimulatorOptions& options, std::uint64_t boot_id) {
   AutopilotOptions result;
   result.boot_id = boot_id;
-  result.signature_check = options.verify;
+  result.station_key = options.station_key;
   result.hover_p_WB = StartPosition(options);
   result.hover_yaw_rad = options.heading_rad;
   result.p_BC = options.rig.position_body_m;
@@ -36,17 +33,11 @@ AutopilotOptions MakeAutopilotOptions(const SimulatorOptions& options, std::uint
 /// A number no earlier flight had: an approval for another flight is refused.
 std::uint64_t BootId(std::uint64_t seed) { return RandomStream(seed, "boot").NextBits() | 1; }
 
-/// Ends of the skids in B, besides their centre.
-std::array<Vector3d, 5> SkidPoints() {
-  const Vector3d c = SkidCentreBody();
-  return {c, c + Vector3d(0.6, 0.45, 0), c + Vector3d(0.6, -0.45, 0), c + Vector3d(-0.6, 0.45, 0),
-          c + Vector3d(-0.6, -0.45, 0)};
-}
-
 }  // namespace
 
 SimulatedVehicle::SimulatedVehicle(const SimulatorOptions& options)
-    : scene_(options.scene),
+    : world_(options.scene),
+      airframe_(options.airframe),
       X_BC_(options.rig.X_BC()),
       now_(LeadInStart()),
       boot_id_(BootId(options.seed)),
@@ -117,7 +108,7 @@ void SimulatedVehicle::StepSlowSensors(FrameBundle& bundle) {
     bundle.gps.push_back(*fix);
   }
   if (step_ % kLaserSteps == 0) {
-    bundle.laser.push_back(laser_.Measure(now_, scene_, X_WB() * X_BC_));
+    bundle.laser.push_back(laser_.Measure(now_, world_, X_WB() * X_BC_));
   }
   if (step_ % kControlSteps == 0) {
     bundle.poses.push_back(Pose());
@@ -134,20 +125,20 @@ void SimulatedVehicle::CheckGround() {
     return;
   }
   const RigidTransform X = X_WB();
-  for (const Vector3d& p_B : SkidPoints()) {
+  for (const Vector3d& p_B : airframe_.SkidPoints()) {
     const Vector3d p_W = X * p_B;
-    const double surface = SurfaceHeight(scene_, p_W.x(), p_W.y());
+    const double surface = SurfaceHeight(world_, p_W.x(), p_W.y());
     if (HeightFromDown(p_W.z()) > surface) {
       continue;
     }
     Touchdown touchdown;
     touchdown.time = now_;
-    touchdown.p_W_skid = X * SkidCentreBody();
+    touchdown.p_W_skid = X * airframe_.skid_centre_B;
     const Vector3d v = rotorcraft_.state().v_WB();
     touchdown.vertical_speed_mps = v.z();
     touchdown.horizontal_speed_mps = v.head<2>().norm();
     touchdown.tilt_rad = std::acos(std::min(1.0, X.R(2, 2)));
-    touchdown.on_object = surface > scene_.GroundHeight(p_W.x(), p_W.y()) + 1e-6;
+    touchdown.on_object = surface > world_.ground.Height(p_W.x(), p_W.y()) + 1e-6;
     touchdown_ = touchdown;
     rotorcraft_.Freeze();
     return;
@@ -156,7 +147,7 @@ void SimulatedVehicle::CheckGround() {
 
 double SimulatedVehicle::HeightAboveGround() const {
   const Vector3d p = rotorcraft_.state().p_WB();
-  return HeightFromDown(p.z()) - scene_.GroundHeight(p.x(), p.y());
+  return HeightFromDown(p.z()) - world_.ground.Height(p.x(), p.y());
 }
 
 VehiclePose SimulatedVehicle::Pose() const {

@@ -44,7 +44,8 @@ class SimulatedVehicle {
   void CheckGround();
   double HeightAboveGround() const;
 
-  Scene scene_;
+  World world_;
+  Airframe airframe_;
   RigidTransform X_BC_;
   Timestamp now_;
   std::int64_t step_ = 0;

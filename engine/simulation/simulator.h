@@ -8,29 +8,27 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
-#include <string>
+#include <optional>
 
 #include "engine/model/rig.h"
+#include "engine/model/vehicle.h"
 #include "engine/runtime/source.h"
 #include "engine/runtime/vehicle_link.h"
 #include "engine/simulation/scene_camera.h"
 #include "engine/simulation/wind.h"
-#include "engine/world/scene.h"
+#include "engine/trust/approval.h"
 #include "engine/world/scene_library.h"
+#include "engine/world/world.h"
 
 namespace palace {
 
 /// Called on the thread that first calls Next(), so that a GL context belongs to that thread.
-using SceneCameraFactory = std::function<Result<std::unique_ptr<SceneCamera>>(const Scene&)>;
-
-/// Checks the signature of an approval: empty text accepts, otherwise the reason of the refusal.
-/// Expiry, boot id, counter and finite numbers are always checked besides.
-using ApprovalCheck =
-    std::function<std::string(const Approval&, Timestamp now, std::uint64_t boot_id)>;
+using SceneCameraFactory = std::function<Result<std::unique_ptr<SceneCamera>>(const World&)>;
 
 struct SimulatorOptions {
-  Scene scene;
+  World scene;
   StereoRig rig = DefaultRig();
+  Airframe airframe{};
   std::uint64_t seed = 1;
   double hover_height_m = 15.24;  ///< of B above the bare ground at the start
   double heading_rad = 0;
@@ -42,7 +40,7 @@ struct SimulatorOptions {
   double duration_limit_s = 600;
   double speed = 0;    ///< times real time; 0 as fast as possible
   bool render = true;  ///< false: bundles carry no pictures and no factory is needed
-  ApprovalCheck verify;
+  std::optional<PublicKey> station_key{};  ///< as ApprovalVerifier
 };
 
 /// How the vehicle met the ground, by the truth.

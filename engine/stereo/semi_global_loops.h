@@ -5,14 +5,14 @@
 
 #include <cstdint>
 
-#include "engine/core/byte_lanes.h"
+#include "engine/core/lanes/byte_lanes.h"
 #include "engine/stereo/stereo_loops.h"
 
 namespace palace {
 namespace {
 
 using Byte = std::uint8_t;
-static_assert(kDisparityBlock % Lanes::kCount == 0);
+static_assert(kDisparityBlock % ByteLanes::kCount == 0);
 
 // ---- census ----
 
@@ -40,16 +40,16 @@ void CensusRow(const Byte* const* rows, int width, Byte* const* planes) {
 
 /// Bits set in three bytes. A full adder first joins them to twos and ones, so that only two bytes
 /// have to be counted (bits, pairs, nibbles).
-inline Lanes CountBits(Lanes a, Lanes b, Lanes c) {
-  const Lanes odd = Fill(0x55), pairs = Fill(0x33), nibbles = Fill(0x0F);
-  const Lanes half = a ^ b;
-  const Lanes ones = half ^ c;
-  const Lanes twos = (a & b) | (half & c);
-  const Lanes ones2 = ones - (ShiftRight<1>(ones) & odd);
-  const Lanes twos2 = twos - (ShiftRight<1>(twos) & odd);
-  const Lanes ones4 = (ones2 & pairs) + (ShiftRight<2>(ones2) & pairs);
-  const Lanes twos4 = (twos2 & pairs) + (ShiftRight<2>(twos2) & pairs);
-  const Lanes all = ones4 + twos4 + twos4;  // at most 12 in each nibble
+inline ByteLanes CountBits(ByteLanes a, ByteLanes b, ByteLanes c) {
+  const ByteLanes odd = Fill(0x55), pairs = Fill(0x33), nibbles = Fill(0x0F);
+  const ByteLanes half = a ^ b;
+  const ByteLanes ones = half ^ c;
+  const ByteLanes twos = (a & b) | (half & c);
+  const ByteLanes ones2 = ones - (ShiftRight<1>(ones) & odd);
+  const ByteLanes twos2 = twos - (ShiftRight<1>(twos) & odd);
+  const ByteLanes ones4 = (ones2 & pairs) + (ShiftRight<2>(ones2) & pairs);
+  const ByteLanes twos4 = (twos2 & pairs) + (ShiftRight<2>(twos2) & pairs);
+  const ByteLanes all = ones4 + twos4 + twos4;  // at most 12 in each nibble
   return (all & nibbles) + (ShiftRight<4>(all) & nibbles);
 }
 
@@ -57,11 +57,11 @@ void MatchRow(const Byte* const* left, const Byte* const* right_reversed, int co
               Byte* cost) {
   const int wide = blocks * kDisparityBlock;
   for (int x = 0; x < columns; ++x) {
-    const Lanes a = Fill(left[0][x]), b = Fill(left[1][x]), c = Fill(left[2][x]);
+    const ByteLanes a = Fill(left[0][x]), b = Fill(left[1][x]), c = Fill(left[2][x]);
     const Byte* ra = right_reversed[0] + (columns - 1 - x);
     const Byte* rb = right_reversed[1] + (columns - 1 - x);
     const Byte* rc = right_reversed[2] + (columns - 1 - x);
-    for (int d = 0; d < wide; d += Lanes::kCount) {
+    for (int d = 0; d < wide; d += ByteLanes::kCount) {
       Store(cost + d, CountBits(a ^ Load(ra + d), b ^ Load(rb + d), c ^ Load(rc + d)));
     }
     cost += wide;
@@ -79,14 +79,14 @@ struct Jumps {
 template <bool kFirstInSum>
 inline Byte StepPath(const Byte* cost, const Byte* before, Byte before_least, int wide, Jumps jumps,
                      Byte* after, Byte* sum) {
-  const Lanes small = Fill(jumps.small);
-  const Lanes jump = Fill(static_cast<Byte>(before_least + jumps.large));
-  const Lanes base = Fill(before_least);
-  Lanes lowest = Fill(255);
-  for (int d = 0; d < wide; d += Lanes::kCount) {
-    const Lanes side = Min(Load(before + d - 1), Load(before + d + 1)) + small;
-    const Lanes stay = Min(Min(Load(before + d), side), jump);
-    const Lanes now = Load(cost + d) + (stay - base);
+  const ByteLanes small = Fill(jumps.small);
+  const ByteLanes jump = Fill(static_cast<Byte>(before_least + jumps.large));
+  const ByteLanes base = Fill(before_least);
+  ByteLanes lowest = Fill(255);
+  for (int d = 0; d < wide; d += ByteLanes::kCount) {
+    const ByteLanes side = Min(Load(before + d - 1), Load(before + d + 1)) + small;
+    const ByteLanes stay = Min(Min(Load(before + d), side), jump);
+    const ByteLanes now = Load(cost + d) + (stay - base);
     Store(after + d, now);
     Store(sum + d, kFirstInSum ? now : Load(sum + d) + now);
     lowest = Min(lowest, now);
@@ -163,16 +163,16 @@ struct Winner {
 
 /// The first of the least costs. `names`: 0, 1, 2, ..
 inline Winner FindLeast(const Byte* sum, int wide, const Byte* names) {
-  Lanes low = Load(sum);
-  for (int d = Lanes::kCount; d < wide; d += Lanes::kCount) {
+  ByteLanes low = Load(sum);
+  for (int d = ByteLanes::kCount; d < wide; d += ByteLanes::kCount) {
     low = Min(low, Load(sum + d));
   }
   const Byte least = LeastLane(low);
-  const Lanes wanted = Fill(least);
-  Lanes missed = Fill(255);
-  for (int d = 0; d < wide; d += Lanes::kCount) {
+  const ByteLanes wanted = Fill(least);
+  ByteLanes missed = Fill(255);
+  for (int d = 0; d < wide; d += ByteLanes::kCount) {
     // 255 - name where the cost is the least: the greatest of them belongs to the first.
-    const Lanes hit = Equal(Load(sum + d), wanted) & (Fill(255) - Load(names + d));
+    const ByteLanes hit = Equal(Load(sum + d), wanted) & (Fill(255) - Load(names + d));
     missed = Min(missed, Fill(255) - hit);
   }
   return {least, LeastLane(missed)};
@@ -180,12 +180,12 @@ inline Winner FindLeast(const Byte* sum, int wide, const Byte* names) {
 
 /// True when no disparity but the winner and its neighbours costs `limit` or less.
 inline bool StandsAlone(const Byte* sum, int wide, Byte index, Byte limit, const Byte* names) {
-  const Lanes dear = Fill(limit);
-  const Lanes first = Fill(static_cast<Byte>(index > 0 ? index - 1 : 0));
-  const Lanes reach = Fill(index > 0 && index < 255 ? 2 : 1);
-  Lanes rivals = Fill(0);
-  for (int d = 0; d < wide; d += Lanes::kCount) {
-    const Lanes beside = AtMost(Load(names + d) - first, reach);
+  const ByteLanes dear = Fill(limit);
+  const ByteLanes first = Fill(static_cast<Byte>(index > 0 ? index - 1 : 0));
+  const ByteLanes reach = Fill(index > 0 && index < 255 ? 2 : 1);
+  ByteLanes rivals = Fill(0);
+  for (int d = 0; d < wide; d += ByteLanes::kCount) {
+    const ByteLanes beside = AtMost(Load(names + d) - first, reach);
     rivals = rivals | (AtMost(Load(sum + d), dear) & (beside ^ Fill(255)));
   }
   return !Any(rivals);

@@ -14,12 +14,13 @@
 
 #include <CLI/CLI.hpp>
 
+#include "engine/calibration/calibrated_rig.h"
 #include "engine/calibration/calibration.h"
 #include "engine/calibration/calibration_quality.h"
-#include "engine/tools/calibration_report.h"
-#include "engine/calibration/target_detection.h"
+#include "engine/calibration/calibration_report.h"
 #include "engine/calibration/target_file.h"
 #include "engine/calibration/target_sheet.h"
+#include "engine/calibration/target_sightings.h"
 #include "engine/camera/files/camera_files.h"
 #include "engine/capture/image_folder_source.h"
 #include "engine/capture/picture_file.h"
@@ -55,23 +56,6 @@ Result<std::vector<fs::path>> FilesOf(const std::vector<std::string>& patterns,
   return files;
 }
 
-/// One picture given as both sides of a view, which then has no baseline.
-Status CheckPairs(const std::vector<fs::path>& left, const std::vector<fs::path>& right) {
-  if (left.size() != right.size()) {
-    return InvalidError(std::to_string(left.size()) + " left and " + std::to_string(right.size()) +
-                        " right pictures; every view needs one of each, in the same order");
-  }
-  for (std::size_t v = 0; v < left.size(); ++v) {
-    std::error_code error;
-    if (fs::equivalent(left[v], right[v], error)) {
-      return InvalidError("view " + std::to_string(v + 1) + ": --left and --right give the same " +
-                          "picture " + left[v].string() +
-                          "; give the two cameras' pictures in the same order");
-    }
-  }
-  return Ok();
-}
-
 /// Before minutes of work: the folder can be made and written, and holds nothing of these names.
 Status CheckFolder(const Options& options, const std::vector<const char*>& names) {
   std::error_code error;
@@ -95,128 +79,33 @@ Status CheckFolder(const Options& options, const std::vector<const char*>& names
   return Ok();
 }
 
-/// What the pictures show, and their common size.
-struct Sightings {
-  std::vector<TargetView> views;
-  std::vector<std::string> unseen;
-  int width = 0;
-  int height = 0;
-};
-
-Result<TargetObservation> Look(const fs::path& file, const CalibrationTarget& target,
-                               Sightings& sightings) {
-  const auto picture = ReadGreyPicture(file);
-  if (!picture) {
-    return picture.error();
+Result<Sightings> Sight(const std::vector<fs::path>& left, const std::vector<fs::path>& right,
+                        const CalibrationTarget& target) {
+  const bool shows_progress = isatty(STDERR_FILENO) == 1;
+  PictureReader reader{.read = ReadGreyPicture};
+  if (shows_progress) {
+    reader.before = [](std::size_t number, std::size_t of) {
+      std::fprintf(stderr, "\rcalibrate: picture %zu of %zu", number, of);
+    };
   }
-  if (sightings.width == 0) {
-    sightings.width = picture->width();
-    sightings.height = picture->height();
-  }
-  if (picture->width() != sightings.width || picture->height() != sightings.height) {
-    return InvalidError(file.string() + " has " + std::to_string(picture->width()) + " x " +
-                        std::to_string(picture->height()) + " px, the pictures before it " +
-                        std::to_string(sightings.width) + " x " + std::to_string(sightings.height) +
-                        "; one calibration needs one size of picture");
-  }
-  const auto seen = DetectTarget(*picture, target);
-  if (!seen) {
-    sightings.unseen.push_back(file.string() + ": " + seen.error().message);
-    return TargetObservation{};
-  }
-  return seen;
-}
-
-void EndProgress(bool shows_progress) {
+  auto sightings = SightTarget(left, right, target, reader);
   if (shows_progress) {
     std::fputc('\n', stderr);
-  }
-}
-
-Result<Sightings> LookAtAll(const std::vector<fs::path>& left, const std::vector<fs::path>& right,
-                            const CalibrationTarget& target) {
-  const bool shows_progress = isatty(STDERR_FILENO) == 1;
-  Sightings sightings;
-  for (std::size_t v = 0; v < left.size(); ++v) {
-    TargetView view;
-    view.name = left[v].filename().string();
-    view.right_name = right[v].filename().string();
-    for (const bool is_left : {true, false}) {
-      if (shows_progress) {
-        std::fprintf(stderr, "\rcalibrate: picture %zu of %zu", 2 * v + (is_left ? 1 : 2),
-                     2 * left.size());
-      }
-      auto seen = Look(is_left ? left[v] : right[v], target, sightings);
-      if (!seen) {
-        EndProgress(shows_progress);
-        return seen.error();
-      }
-      (is_left ? view.left : view.right) = std::move(*seen);
-    }
-    MatchTurn(target, view.left, view.right);
-    sightings.views.push_back(std::move(view));
-  }
-  EndProgress(shows_progress);
-  if (sightings.unseen.size() > left.size()) {
-    return InvalidError("the target was not found in " + std::to_string(sightings.unseen.size()) +
-                        " of " + std::to_string(2 * left.size()) +
-                        " pictures (half of them are the most); does the target's file describe "
-                        "the board? First " +
-                        sightings.unseen.front());
   }
   return sightings;
 }
 
-std::string Quoted(const std::string& text) {
-  std::string quoted = "\"";
-  for (const char c : text) {
-    quoted += c == '"' || c == '\\' ? std::string("\\") + c : std::string(1, c);
+/// Patterns with their folder, where each side is one.
+RigPictures PicturesOf(const Options& options) {
+  if (options.left.size() != 1 || options.right.size() != 1) {
+    return {};
   }
-  return quoted + "\"";
-}
-
-/// File names may hold line ends, which would leave the comment.
-std::string OneLine(std::string text) {
-  std::replace_if(
-      text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, '?');
-  return text;
-}
-
-std::string RigText(const Calibration& calibration, const Options& options) {
-  char baseline[32];
-  std::snprintf(baseline, sizeof baseline, "%.6f", calibration.baseline_m());
-  std::string text;
-  for (const Criterion& criterion : Acceptance(calibration)) {
-    if (!criterion.passed) {
-      text += (text.empty() ? "# NOT PASSED: this calibration does not meet every criterion; do "
-                              "not fly with it.\n# FAILED: "
-                            : "# FAILED: ") +
-              OneLine(criterion.text) + "\n";
-    }
-  }
-  text +=
-      "# Written by palacectl calibrate. Both models are in the left camera's own axes: x right,\n"
-      "# y down, z forward, origin at its projection centre. report.html says how good they are.\n"
-      "[left]\nmodel_file = \"left.cahvor\"\n\n[right]\nmodel_file = \"right.cahvor\"\n\n[rig]\n"
-      "baseline_m = " +
-      std::string(baseline) +
-      "\n\n[mount]\ntilt_deg = -45  # how the cameras look out of the aircraft: -90 down, 0 ahead; "
-      "set it\n\n"
-      "[pose]  # of the aircraft over the ground when pictures were taken; only used for pictures\n"
-      "roll_deg = 0  # without a vehicle (analyze, --images), so set it to theirs\n"
-      "pitch_deg = 0\nheading_deg = 0\nheight_m = 15.24  # 50 ft\n";
-  if (options.left.size() == 1 && options.right.size() == 1) {
-    const auto absolute = [](const std::string& pattern) {
-      std::error_code error;
-      const fs::path path = fs::absolute(pattern, error);
-      return Quoted(error ? pattern : path.string());
-    };
-    text +=
-        "\n[images]  # the calibration's own pictures, to look at the result; set to yours\n"
-        "left = " +
-        absolute(options.left[0]) + "\nright = " + absolute(options.right[0]) + "\n";
-  }
-  return text;
+  const auto absolute = [](const std::string& pattern) {
+    std::error_code error;
+    const fs::path path = fs::absolute(pattern, error);
+    return error ? pattern : path.string();
+  };
+  return {absolute(options.left[0]), absolute(options.right[0])};
 }
 
 Status MakeFolder(const fs::path& folder) {
@@ -330,10 +219,7 @@ Result<bool> Run(const Options& options) {
   if (!right) {
     return right.error();
   }
-  if (const Status pairs = CheckPairs(*left, *right); !pairs) {
-    return pairs.error();
-  }
-  const auto sightings = LookAtAll(*left, *right, *target);
+  const auto sightings = Sight(*left, *right, *target);
   if (!sightings) {
     return sightings.error();
   }
@@ -350,7 +236,7 @@ Result<bool> Run(const Options& options) {
   const Status written =
       WriteAll(options.out, {{"left.cahvor", CahvorToText(calibration->LeftModel())},
                              {"right.cahvor", CahvorToText(calibration->RightModel())},
-                             {"RIG.toml", RigText(*calibration, options)},
+                             {"RIG.toml", RigToToml(*calibration, PicturesOf(options))},
                              {"calibration.json", CalibrationToJson(*calibration, *target, notes)},
                              {"report.html", CalibrationToHtml(*calibration, *target, notes)}});
   if (!written) {

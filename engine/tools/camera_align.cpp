@@ -13,27 +13,6 @@
 namespace palace {
 namespace {
 
-/// Greatest difference of rows over points in front of both cameras, 2 to 200 baselines away.
-double WorstRowError(const AlignedPair& pair) {
-  const double baseline = (pair.right.C - pair.left.C).norm();
-  double worst = 0;
-  for (int i = 0; i <= 20; ++i) {
-    for (int j = 0; j <= 20; ++j) {
-      const auto ray = RayFromPixelCahvor(
-          pair.left, {i * (pair.left.width - 1) / 20.0, j * (pair.left.height - 1) / 20.0});
-      for (const double range : {2.0, 20.0, 200.0}) {
-        const Eigen::Vector3d p = ray->origin + range * baseline * ray->direction;
-        const auto a = ProjectCahvor(pair.left, p);
-        const auto b = ProjectCahvor(pair.right, p);
-        if (a && b) {
-          worst = std::max(worst, std::abs(a->y() - b->y()));
-        }
-      }
-    }
-  }
-  return worst;
-}
-
 bool IsCahv(const CameraModel& model) {
   const auto* cahvor = std::get_if<CahvorModel>(&model.lens);
   return cahvor != nullptr && IsLinear(*cahvor);

@@ -10,9 +10,9 @@
 
 #include <CLI/CLI.hpp>
 
+#include "engine/camera/camera_info.h"
+#include "engine/camera/files/point_lines.h"
 #include "engine/core/command_line.h"
-#include "engine/tools/camera_info.h"
-#include "engine/tools/camera_points.h"
 #include "engine/tools/camera_verbs.h"
 
 namespace palace {

@@ -9,10 +9,9 @@
 #include <system_error>
 
 #include <CLI/CLI.hpp>
-#include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
 
 #include "engine/capture/cameras.h"
+#include "engine/capture/picture_file.h"
 #include "engine/core/command_line.h"
 
 namespace palace {
@@ -31,18 +30,6 @@ fs::path PictureName(const fs::path& folder, const char* side, int index) {
   char name[32];
   std::snprintf(name, sizeof name, "%s_%03d.png", side, index);
   return folder / name;
-}
-
-Status WritePicture(const fs::path& path, const ImageU8& image) {
-  const cv::Mat view(image.height(), image.width(), CV_8UC1,
-                     const_cast<std::uint8_t*>(image.pixels().data()));
-  try {
-    if (cv::imwrite(path.string(), view)) {
-      return Ok();
-    }
-  } catch (const cv::Exception&) {  // said below
-  }
-  return UnavailableError(path.string() + ": cannot be written; check folder and disk");
 }
 
 Status PrepareFolder(const fs::path& folder) {
@@ -87,7 +74,8 @@ Status Run(const CaptureOptions& options) {
       continue;
     }
     for (const auto& [side, image] : {std::pair("left", &pair->left), {"right", &pair->right}}) {
-      if (Status written = WritePicture(PictureName(options.out, side, taken), *image); !written) {
+      if (Status written = WriteGreyPicture(PictureName(options.out, side, taken), *image);
+          !written) {
         return written;
       }
     }

@@ -132,7 +132,7 @@ Result<int> Rerun(const RerunOptions& options) {
     return done.error();
   }
   Print(options, files->counts(), moved);
-  return source->log_report().damaged() || source->events_refused() > 0 ? 3 : 0;
+  return source->Status().damage.empty() ? 0 : 3;
 }
 
 }  // namespace

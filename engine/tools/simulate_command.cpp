@@ -17,7 +17,7 @@
 #include "engine/core/command_line.h"
 #include "engine/journal/log_index.h"
 #include "engine/journal/log_writer.h"
-#include "engine/trust/approval.h"
+#include "engine/simulation/session.h"
 #include "engine/wire/bus.h"
 #include "engine/wire/channels.h"
 #include "engine/wire/convert.h"
@@ -60,29 +60,22 @@ Result<PublicKey> ParseKey(const std::string& hex) {
   return key;
 }
 
-Result<SimulatorOptions> MakeOptions(const SimulateOptions& options) {
-  Result<Scene> scene = MakeScene(options.scenario, options.seed);
-  if (!scene) {
-    return scene.error();
-  }
-  SimulatorOptions simulation;
-  simulation.scene = std::move(*scene);
-  simulation.seed = options.seed;
-  simulation.wind.mean_mps = options.wind_mps;
-  simulation.duration_limit_s = options.duration_s;
-  simulation.speed = options.fast ? 0 : 1;
-  simulation.render = !options.no_pictures;
+Result<SimulatedSession> OpenSession(const SimulateOptions& options, SceneCameraFactory cameras) {
+  SessionSpec spec{.scenario = options.scenario,
+                   .seed = options.seed,
+                   .wind_mps = options.wind_mps,
+                   .speed = options.fast ? 0.0 : 1.0,
+                   .duration_limit_s = options.duration_s,
+                   .render = !options.no_pictures,
+                   .other_station = SessionSpec::OtherStation{}};
   if (!options.station_key.empty()) {
     const Result<PublicKey> key = ParseKey(options.station_key);
     if (!key) {
       return key.error();
     }
-    simulation.verify = [key = *key, state = std::make_shared<VerifierState>()](
-                            const Approval& approval, Timestamp now, std::uint64_t boot) {
-      return VerifyApproval(approval, key, *state, now, boot);
-    };
+    spec.other_station->key = *key;
   }
-  return simulation;
+  return OpenSimulatedSession(spec, std::move(cameras));
 }
 
 /// Ends the flight on Ctrl-C or a termination request, without a handler that could interrupt
@@ -147,17 +140,17 @@ void PrintTouchdown(const Simulator& simulator) {
 }
 
 int Simulate(const SimulateOptions& options, const SceneCameraFactory& cameras) {
-  Result<SimulatorOptions> simulation = MakeOptions(options);
-  if (!simulation) {
-    return Fail(simulation.error());
+  const Result<SimulatedSession> session = OpenSession(options, cameras);
+  if (!session) {
+    return Fail(session.error());
   }
+  Simulator& simulator = *session->simulator;
   const Result<ChannelNames> channels = options.channels_file.empty()
                                             ? Result<ChannelNames>(ChannelNames())
                                             : LoadChannels(options.channels_file);
   if (!channels) {
     return Fail(channels.error());
   }
-  Simulator simulator(std::move(*simulation), cameras);
   std::unique_ptr<VehicleServer> server;
   // With a log and no URL the flight is only recorded; otherwise it goes to the bus.
   if (options.url || options.log.empty()) {

@@ -1,7 +1,6 @@
 #include "engine/trust/approval.h"
 
 #include <bit>
-#include <cmath>
 #include <string_view>
 
 #include <sodium.h>
@@ -30,45 +29,6 @@ class Encoder {
 };
 
 void InitSodium() { PALACE_CHECK(sodium_init() >= 0); }
-
-bool IsSigned(const Approval& approval, const PublicKey& public_key) {
-  InitSodium();
-  if (approval.signature.size() != crypto_sign_BYTES) {
-    return false;
-  }
-  const auto bytes = EncodeApproval(approval);
-  return crypto_sign_verify_detached(approval.signature.data(), bytes.data(), bytes.size(),
-                                     public_key.data()) == 0;
-}
-
-bool IsFinite(const Approval& a) {
-  return a.p_WS.allFinite() && std::isfinite(a.approach_heading_rad) &&
-         std::isfinite(a.glide_slope_rad) && std::isfinite(a.descent_rate_mps) &&
-         std::isfinite(a.clear_radius_m);
-}
-
-std::string WhyRefused(const Approval& approval, const PublicKey& public_key,
-                       const VerifierState& state, Timestamp vehicle_now, std::uint64_t boot_id) {
-  if (!IsSigned(approval, public_key)) {
-    return "Signature does not match";
-  }
-  if (!IsFinite(approval)) {
-    return "A value is not finite";
-  }
-  if (approval.vehicle_boot_id != boot_id) {
-    return "Given for another start of this vehicle";
-  }
-  if (state.session_id && *state.session_id != approval.session_id) {
-    return "Given by another session";
-  }
-  if (approval.counter <= state.last_counter) {
-    return "Counter " + std::to_string(approval.counter) + " was already used";
-  }
-  if (approval.expires_at <= approval.approved_at || vehicle_now >= approval.expires_at) {
-    return "Expired";
-  }
-  return {};
-}
 
 }  // namespace
 
@@ -117,24 +77,14 @@ void ApprovalSigner::Sign(Approval& approval) const {
                                     secret_key_.data()) == 0);
 }
 
-std::string VerifyApproval(const Approval& approval, const PublicKey& public_key,
-                           VerifierState& state, Timestamp vehicle_now, std::uint64_t boot_id) {
-  std::string why = WhyRefused(approval, public_key, state, vehicle_now, boot_id);
-  if (!why.empty()) {
-    ++state.refused;
-    return why;
+bool IsSignedBy(const PublicKey& public_key, const Approval& approval) {
+  InitSodium();
+  if (approval.signature.size() != crypto_sign_BYTES) {
+    return false;
   }
-  state.session_id = approval.session_id;
-  state.last_counter = approval.counter;
-  state.last_id = approval.id;
-  return {};
-}
-
-bool IsRepeatOfAccepted(const Approval& approval, const PublicKey& public_key,
-                        const VerifierState& state) {
-  return state.session_id && *state.session_id == approval.session_id &&
-         approval.counter == state.last_counter && approval.id == state.last_id &&
-         IsSigned(approval, public_key);
+  const auto bytes = EncodeApproval(approval);
+  return crypto_sign_verify_detached(approval.signature.data(), bytes.data(), bytes.size(),
+                                     public_key.data()) == 0;
 }
 
 }  // namespace palace

@@ -1,17 +1,15 @@
-// Approvals: canonical encoding, Ed25519 signature, and the check a vehicle makes before it obeys.
+// Approvals: canonical encoding and Ed25519 signature. What a vehicle checks before it obeys is in
+// approval_verifier.h.
 //
 // The signature covers a version string and every field of Approval except the signature itself,
 // each as eight big-endian bytes (doubles by their IEEE bits), so that a change of any one field
-// makes the approval void (invariant I1). The vehicle includes this header too: a station cannot
-// enforce I1, I4, I8 and I9 alone.
+// makes the approval void (invariant I1).
 //
 // Source: Bernstein et al. 2012, "High-speed high-security signatures" (Ed25519), by libsodium.
 #pragma once
 
 #include <array>
 #include <cstdint>
-#include <optional>
-#include <string>
 #include <vector>
 
 #include "engine/core/time.h"
@@ -42,22 +40,7 @@ class ApprovalSigner {
   std::array<std::uint8_t, 64> secret_key_{};
 };
 
-/// What a vehicle remembers about approvals since it booted.
-struct VerifierState {
-  std::optional<std::uint64_t> session_id;  ///< set by the first accepted approval
-  std::uint64_t last_counter = 0;           ///< of the last accepted approval
-  std::uint64_t last_id = 0;                ///< of the last accepted approval
-  std::uint64_t refused = 0;                ///< how many were refused
-};
-
-/// Checks an approval on the vehicle. Empty: accepted, and `state` remembers it. Otherwise the
-/// reason, in words for the operator; `state` only counts the refusal.
-std::string VerifyApproval(const Approval& approval, const PublicKey& public_key,
-                           VerifierState& state, Timestamp vehicle_now, std::uint64_t boot_id);
-
-/// True when `approval` is another copy of the one accepted last and is signed as such: the vehicle
-/// repeats its acknowledgement and does nothing else (I8).
-bool IsRepeatOfAccepted(const Approval& approval, const PublicKey& public_key,
-                        const VerifierState& state);
+/// True when the signature is that of the key over every field as it stands.
+bool IsSignedBy(const PublicKey& public_key, const Approval& approval);
 
 }  // namespace palace

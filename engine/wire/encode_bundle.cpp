@@ -81,17 +81,19 @@ rig_camera_t CameraToWire(const RigCamera& camera) {
   m.cx_px = camera.pinhole.cx_px;
   m.cy_px = camera.pinhole.cy_px;
   std::copy(camera.distortion.begin(), camera.distortion.end(), m.distortion);
-  if (camera.cahvor) {
-    const CahvorModel& model = *camera.cahvor;
+  if (!camera.model) {
+    return m;
+  }
+  if (const auto* cahvor = std::get_if<CahvorModel>(&camera.model->lens)) {
     m.has_cahvor = 1;
-    m.cahvor_width = model.width;
-    m.cahvor_height = model.height;
+    m.cahvor_width = cahvor->width;
+    m.cahvor_height = cahvor->height;
     double* out = m.cahvor;
-    for (const Eigen::Vector3d* v : {&model.C, &model.A, &model.H, &model.V, &model.O, &model.R}) {
+    for (const Eigen::Vector3d* v :
+         {&cahvor->C, &cahvor->A, &cahvor->H, &cahvor->V, &cahvor->O, &cahvor->R}) {
       out = std::copy_n(v->data(), 3, out);
     }
-  }
-  if (camera.model) {
+  } else {
     m.lens = NumbersOf(*camera.model);
     m.lens_size = static_cast<std::int32_t>(m.lens.size());
   }

@@ -9,9 +9,8 @@ constexpr double kMissionPeriod_s = 1.0;
 
 std::vector<WireMessage> OutputEncoder::Encode(const EngineSnapshot& snapshot) {
   std::vector<WireMessage> messages;
-  const std::uint64_t hash = HashOf(snapshot.settings);
-  if (settings_hash_ != hash) {
-    settings_hash_ = hash;
+  if (settings_hash_ != snapshot.settings_hash) {
+    settings_hash_ = snapshot.settings_hash;
     messages.push_back(EncodeSettings(snapshot.settings, snapshot.time, channels_));
   }
   const auto& map = snapshot.applied;

@@ -20,7 +20,7 @@ RigCamera CameraFromWire(const rig_camera_t& m) {
     for (int i = 0; i < 6; ++i) {
       *vectors[i] = Eigen::Map<const Eigen::Vector3d>(m.cahvor + 3 * i);
     }
-    camera.cahvor = model;
+    camera.model = CameraModel{model};
   }
   if (m.lens_size > 0) {
     camera.model = CameraFromNumbers(m.lens);
@@ -44,15 +44,6 @@ std::vector<double> Flatten(const StereoRig& rig) {
     row.insert(row.end(), {static_cast<double>(p.width), static_cast<double>(p.height), p.fx_px,
                            p.fy_px, p.cx_px, p.cy_px});
     row.insert(row.end(), camera->distortion.begin(), camera->distortion.end());
-    row.push_back(camera->cahvor ? 1.0 : 0.0);
-    if (camera->cahvor) {
-      const CahvorModel& c = *camera->cahvor;
-      row.push_back(c.width);
-      row.push_back(c.height);
-      for (const Eigen::Vector3d* v : {&c.C, &c.A, &c.H, &c.V, &c.O, &c.R}) {
-        row.insert(row.end(), v->data(), v->data() + 3);
-      }
-    }
     if (camera->model) {
       const std::vector<double> lens = NumbersOf(*camera->model);
       row.insert(row.end(), lens.begin(), lens.end());

@@ -3,7 +3,7 @@
 // A picture at ground sample distance g (metres a pixel) sees grey spread over the pixel's square
 // and the lens's spot. Here that spread is applied beforehand on a grid of g/3, so that a picture
 // needs one bilinear look-up a pixel, whose own mean spread (1/6 of a texel squared) is taken off
-// the lens's. Each grid point is one sample of GroundGrey: nine a pixel.
+// the lens's. Each grid point is one sample of GroundPainter: nine a pixel.
 #pragma once
 
 #include <cstdint>

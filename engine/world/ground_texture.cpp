@@ -174,8 +174,4 @@ double GroundPainter::Grey(double u_m, double v_m) {
   return Cloud(u_m, v_m, seed_, memory_);
 }
 
-double GroundGrey(GroundTexture texture, double u_m, double v_m, std::uint64_t seed) {
-  return GroundPainter(texture, seed).Grey(u_m, v_m);
-}
-
 }  // namespace palace

@@ -20,9 +20,6 @@ enum class GroundTexture {
 /// Lower-case English: "gravel".
 const char* NameOf(GroundTexture texture);
 
-/// Grey about 0..255 at a place in metres.
-double GroundGrey(GroundTexture texture, double u_m, double v_m, std::uint64_t seed);
-
 /// Lattice values of the last place, one wavelength.
 struct NoiseMemory {
   bool known = false;
@@ -40,8 +37,8 @@ struct TextureMemory {
   PointsMemory points;
 };
 
-/// GroundGrey to the bit at one place after the other; several times faster where each lies close
-/// to the last, best a little farther along v.
+/// Grey about 0..255 at a place in metres, the same in any order of places; several times faster
+/// where each lies close to the last, best a little farther along v.
 class GroundPainter {
  public:
   GroundPainter(GroundTexture texture, std::uint64_t seed) : texture_(texture), seed_(seed) {}

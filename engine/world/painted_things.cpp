@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "engine/camera/pinhole.h"
-#include "engine/world/stereo_world.h"
+#include "engine/world/baked_ground.h"
 
 namespace palace {
 namespace {
@@ -68,6 +68,16 @@ void PaintPool(const PaintedPool& pool, const PinholeCamera& camera, const Rigid
         grey.at(x, y) = static_cast<float>(pool.grey);
       }
     }
+  }
+}
+
+void PaintThings(const std::vector<PaintedWire>& wires, const std::vector<PaintedPool>& pools,
+                 const PinholeCamera& camera, const RigidTransform& X_WC, ImageF& grey) {
+  for (const PaintedWire& wire : wires) {
+    PaintWire(wire, camera, X_WC, grey);
+  }
+  for (const PaintedPool& pool : pools) {
+    PaintPool(pool, camera, X_WC, grey);
   }
 }
 

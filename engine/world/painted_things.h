@@ -2,6 +2,8 @@
 // any grey. One picture of the ground serves many of them.
 #pragma once
 
+#include <vector>
+
 #include <Eigen/Dense>
 
 #include "engine/core/frames.h"
@@ -31,5 +33,9 @@ struct PaintedPool {
 };
 void PaintPool(const PaintedPool& pool, const PinholeCamera& camera, const RigidTransform& X_WC,
                ImageF& grey);
+
+/// Wires, then pools.
+void PaintThings(const std::vector<PaintedWire>& wires, const std::vector<PaintedPool>& pools,
+                 const PinholeCamera& camera, const RigidTransform& X_WC, ImageF& grey);
 
 }  // namespace palace

@@ -34,45 +34,34 @@ bool BothCamerasSee(const StereoRig& rig, const Eigen::Vector3d& p_WQ) {
          right_x > kImageMargin_px && left_x < camera.width - 1 - kImageMargin_px;
 }
 
-bool SeesWholeDisc(const Scene& scene, const StereoRig& rig, double north_m, double east_m) {
+bool SeesWholeDisc(const World& scene, const StereoRig& rig, double north_m, double east_m) {
   for (int i = 0; i < 32; ++i) {
     const double angle = 2 * std::numbers::pi * i / 32;
     const double n = north_m + kKeptClear_m * std::cos(angle);
     const double e = east_m + kKeptClear_m * std::sin(angle);
-    if (!BothCamerasSee(rig, {n, e, -scene.GroundHeight(n, e)})) {
+    if (!BothCamerasSee(rig, {n, e, -scene.ground.Height(n, e)})) {
       return false;
     }
   }
   return true;
 }
 
-/// Radius of the circle that holds the object's base.
-double BaseRadius(const SceneObject& object) {
-  const bool round = object.shape == SceneShape::kCone || object.shape == SceneShape::kCylinder;
-  return round ? object.size_north_m / 2 : std::hypot(object.size_north_m, object.size_east_m) / 2;
-}
-
-SceneObject DrawObject(RandomStream& random, bool table) {
-  SceneObject object;
-  object.shape = table ? SceneShape::kTable : SceneShape::kCone;
-  object.north_m = random.Uniform(3, 31);
-  object.east_m = random.Uniform(-14, 14);
+Solid DrawSolid(const Ground& ground, RandomStream& random, bool table) {
+  const double north_m = random.Uniform(3, 31), east_m = random.Uniform(-14, 14);
   if (table) {
-    object.yaw_rad = random.Uniform(0, std::numbers::pi);
-    object.size_north_m = random.Uniform(1.4, 1.6);
-    object.size_east_m = random.Uniform(0.75, 0.85);
-    object.height_m = 0.75;
-    object.grey = static_cast<float>(random.Uniform(0.25, 0.9));
-  } else {
-    object.size_north_m = object.size_east_m = 0.4;
-    object.height_m = 0.71;
-    object.grey = static_cast<float>(random.Uniform(0.55, 0.85));
+    const double yaw_rad = random.Uniform(0, std::numbers::pi);
+    const double size_x_m = random.Uniform(1.4, 1.6), size_y_m = random.Uniform(0.75, 0.85);
+    Solid solid = StandingOn(ground, Table{size_x_m, size_y_m, 0.75}, north_m, east_m, yaw_rad);
+    solid.albedo = random.Uniform(0.25, 0.9);
+    return solid;
   }
-  return object;
+  Solid solid = StandingOn(ground, Cone{0.4, 0.71}, north_m, east_m);
+  solid.albedo = random.Uniform(0.55, 0.85);
+  return solid;
 }
 
-/// Keeps the disc and the space around other objects free; objects are redrawn until they fit.
-void Scatter(Scene& scene, const ScatterPlan& plan, RandomStream& random) {
+/// Keeps the disc and the space around other solids free; solids are redrawn until they fit.
+void Scatter(World& scene, const ScatterPlan& plan, RandomStream& random) {
   const StereoRig rig = DefaultRig();
   double disc_north = 0, disc_east = 0;
   do {
@@ -81,13 +70,14 @@ void Scatter(Scene& scene, const ScatterPlan& plan, RandomStream& random) {
   } while (!SeesWholeDisc(scene, rig, disc_north, disc_east));
   for (int i = 0; i < plan.tables + plan.cones; ++i) {
     for (;;) {
-      const SceneObject object = DrawObject(random, i < plan.tables);
-      const double radius = BaseRadius(object);
-      const bool off_disc = std::hypot(object.north_m - disc_north, object.east_m - disc_east) >
-                            kKeptClear_m + radius;
-      const bool off_others = scene.ObstacleDistance(object.north_m, object.east_m) > radius + 0.5;
+      const Solid solid = DrawSolid(scene.ground, random, i < plan.tables);
+      const double north_m = solid.X_WO.p.x(), east_m = solid.X_WO.p.y();
+      const double radius = FootRadius(solid.shape);
+      const bool off_disc =
+          std::hypot(north_m - disc_north, east_m - disc_east) > kKeptClear_m + radius;
+      const bool off_others = ObstacleDistance(scene, north_m, east_m) > radius + 0.5;
       if (off_disc && off_others) {
-        scene.objects.push_back(object);
+        scene.solids.push_back(solid);
         break;
       }
     }
@@ -114,20 +104,19 @@ StereoRig DefaultRig() {
   return rig;
 }
 
-Result<Scene> MakeScene(std::string_view name, std::uint64_t seed) {
+Result<World> MakeScene(std::string_view name, std::uint64_t seed) {
   RandomStream random(seed, name);
-  Scene scene;
+  World scene;
   scene.name = std::string(name);
-  scene.texture_seed = seed;
+  scene.ground.texture_seed = seed;
+  scene.ground.runway_markings = name == "runway" || name == "empty";
   if (name == "runway") {
     const int tables = 6 + random.Index(4), cones = 6 + random.Index(4);
     Scatter(scene, {tables, cones}, random);
   } else if (name == "cones") {
-    scene.runway_markings = false;
     Scatter(scene, {0, 16}, random);
   } else if (name == "slope") {
-    scene.runway_markings = false;
-    scene.slope_north_rad = Rad(5);
+    scene.ground.rise_north = std::tan(Rad(5));
     Scatter(scene, {4, 4}, random);
   } else if (name != "empty") {
     std::string known;

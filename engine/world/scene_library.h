@@ -1,4 +1,4 @@
-// Scenes by name: where the simulated helicopter can be sent.
+// Scenes: worlds by name, where the simulated helicopter can be sent.
 #pragma once
 
 #include <cstdint>
@@ -7,18 +7,18 @@
 
 #include "engine/core/result.h"
 #include "engine/model/rig.h"
-#include "engine/world/scene.h"
+#include "engine/world/world.h"
 
 namespace palace {
 
 /// "runway" (tables and cones), "cones", "slope" (5 degrees, rising north), "empty".
 std::vector<std::string_view> SceneNames();
 
-/// The named scene. `seed` scatters its objects and draws its texture; the same seed gives the same
+/// The named scene. `seed` scatters its solids and draws its texture; the same seed gives the same
 /// scene. From the default hover pose (origin of W, 50 ft, heading north) both cameras of
-/// DefaultRig() see at least one disc of kClearDiscRadius_m that no object reaches into.
+/// DefaultRig() see at least one disc of kClearDiscRadius_m that no solid reaches into.
 /// An unknown name is a usage error that lists the names.
-Result<Scene> MakeScene(std::string_view name, std::uint64_t seed);
+Result<World> MakeScene(std::string_view name, std::uint64_t seed);
 
 /// Radius of the clear disc every scene guarantees.
 inline constexpr double kClearDiscRadius_m = 3.0;

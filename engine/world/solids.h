@@ -1,7 +1,9 @@
-// Obstacles of ray-cast worlds: convex solids as intersections of half-spaces.
+// What stands in the simulated world: shapes with a pose, a paint and a motion, and how experiments
+// make them.
 //
-// W is north-east-down, so tops have negative z. Round solids have kSides flat sides that touch and
-// leave the true surface by less than 1 % of its radius.
+// W is north-east-down, so tops have negative z. The makers below give polyhedra, which can be cut
+// further; their round ones have kSides flat sides that touch and leave the true surface by less
+// than 1 % of its radius.
 #pragma once
 
 #include <limits>
@@ -9,29 +11,33 @@
 
 #include <Eigen/Dense>
 
+#include "engine/core/frames.h"
+#include "engine/world/shapes.h"
+
 namespace palace {
 
-/// Points p of W with normal . p <= offset.
-struct HalfSpace {
-  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();
-  double offset = 0;
-};
-
-/// Convex: the points inside all faces. Made by the functions below, which know its corners.
 struct Solid {
-  std::vector<HalfSpace> faces;
-  std::vector<Eigen::Vector3d> corners{};  ///< empty: unknown, it may be anywhere
-  /// Mean grey of its own paint, under which the ground's texture shows at a third of its contrast;
-  /// NaN: it looks like the ground.
-  double tone_grey = std::numeric_limits<double>::quiet_NaN();
+  Shape shape;
+  RigidTransform X_WO{};  ///< at time 0; upright: turned about the down axis only
+  /// Albedo 0..1 of its own paint; NaN: it looks like the ground. Ray-cast pictures show a painted
+  /// solid at that share of 255, under a third of the ground's contrast.
+  double albedo = std::numeric_limits<double>::quiet_NaN();
+  Eigen::Vector3d v_WO = Eigen::Vector3d::Zero();  ///< it moves so, m/s
 };
 
-/// The bounded intersection of half-spaces, with its corners.
-Solid MakeSolid(std::vector<HalfSpace> faces);
+/// Upright on a place, turned from north towards east.
+RigidTransform Upright(const Eigen::Vector3d& p_WO, double yaw_rad);
+/// Where the ray p + s r of W enters the solid: as Enter of its shape.
+double Enter(const Solid& solid, const Eigen::Vector3d& p_W, const Eigen::Vector3d& r_W);
+/// Horizontal distance from a place to the solid seen from above, metres; 0 under or on it.
+double DistanceFromAbove(const Solid& solid, double north_m, double east_m);
 
 /// On level ground at height 0, sides along north and east; metres.
 Solid MakeBox(double north_m, double east_m, double size_north_m, double size_east_m,
               double height_m);
+/// A level slab between two heights.
+Solid MakeSlab(double north_m, double east_m, double size_north_m, double size_east_m,
+               double from_m, double to_m);
 /// A ramp that rises to the north by `slope_rad` over `length_m`, centred at (north, east).
 Solid MakeWedge(double north_m, double east_m, double length_m, double width_m, double slope_rad);
 /// Upright cone whose radius shrinks from the ground to the top; equal radii make a cylinder, a top
@@ -47,12 +53,5 @@ std::vector<Solid> MakeTrafficCone(double north_m, double east_m, double height_
 
 /// Turned about the down axis through the origin of W, north towards east, then shifted.
 Solid Moved(const Solid& solid, double turn_rad, const Eigen::Vector3d& shift_W);
-
-/// Where the ray p + s r enters the solid, s >= 0; infinity when it misses, 0 from inside
-/// (Cyrus & Beck 1978).
-double EnterSolid(const Solid& solid, const Eigen::Vector3d& p_W, const Eigen::Vector3d& r_W);
-
-/// Horizontal distance from a place to the solid seen from above, metres; 0 under or on it.
-double DistanceFromAbove(const Solid& solid, double north_m, double east_m);
 
 }  // namespace palace

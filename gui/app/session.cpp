@@ -9,7 +9,7 @@
 #include "engine/core/units.h"
 #include "engine/journal/log_writer.h"
 #include "engine/journal/replay_source.h"
-#include "engine/trust/approval_verifier.h"
+#include "engine/simulation/session.h"
 #include "engine/wire/lcm_link.h"
 #include "engine/wire/lcm_source.h"
 #include "gui/app/channels_file.h"
@@ -18,24 +18,19 @@
 namespace palace {
 namespace {
 
-constexpr double kGustPerMean = 1.5;  // W20 of the turbulence beside the mean wind
-
 Status OpenSimulation(const AppOptions& options, bool paced, Session& session, EngineParts& parts) {
-  Result<Scene> scene = MakeScene(options.scenario, options.seed);
-  if (!scene) {
-    return scene.error();
+  Result<SimulatedSession> simulated = OpenSimulatedSession({.scenario = options.scenario,
+                                                             .seed = options.seed,
+                                                             .wind_mps = options.wind_mps,
+                                                             .speed = paced ? 1.0 : 0.0},
+                                                            MakeOffscreenSceneCamera);
+  if (!simulated) {
+    return simulated.error();
   }
-  parts.mission.session_id = options.seed;
-  parts.mission.signer = ApprovalSigner::FromSeed(options.seed);
-  SimulatorOptions simulation;
-  simulation.scene = *scene;
-  simulation.seed = options.seed;
-  simulation.wind.mean_mps = options.wind_mps;
-  simulation.wind.gust_w20_mps = kGustPerMean * options.wind_mps;
-  simulation.speed = paced ? 1 : 0;
-  simulation.verify = MakeApprovalVerifier(parts.mission.signer.public_key());
-  session.simulator = std::make_shared<Simulator>(std::move(simulation), MakeOffscreenSceneCamera);
-  session.scene = std::move(*scene);
+  parts.mission.session_id = simulated->id;
+  parts.mission.signer = simulated->signer;
+  session.simulator = simulated->simulator;
+  session.scene = std::move(simulated->scene);
   session.source = session.simulator;
   parts.source = session.simulator;
   parts.link = session.simulator;

@@ -10,7 +10,7 @@
 #include "engine/model/flight_record.h"
 #include "engine/runtime/engine.h"
 #include "engine/simulation/simulator.h"
-#include "engine/world/scene.h"
+#include "engine/world/world.h"
 #include "gui/app/options.h"
 
 namespace palace {
@@ -20,7 +20,7 @@ struct Session {
   std::filesystem::path
       output_dir;  ///< log, screenshots and report of this session; may not exist yet
   std::shared_ptr<Simulator> simulator;        ///< simulation only
-  std::optional<Scene> scene;                  ///< simulation only
+  std::optional<World> scene;                  ///< simulation only
   std::shared_ptr<const FlightRecord> record;  ///< replay only
   std::shared_ptr<Source> source;
   bool recorded = false;  ///< by this session, into output_dir

@@ -10,7 +10,7 @@ namespace {
 
 class OffscreenSceneCamera final : public SceneCamera {
  public:
-  OffscreenSceneCamera(std::unique_ptr<EglContext> context, Scene scene)
+  OffscreenSceneCamera(std::unique_ptr<EglContext> context, World scene)
       : context_(std::move(context)), scene_(std::move(scene)) {}
 
   ~OffscreenSceneCamera() override {
@@ -35,13 +35,13 @@ class OffscreenSceneCamera final : public SceneCamera {
 
  private:
   std::unique_ptr<EglContext> context_;
-  Scene scene_;
+  World scene_;
   std::unique_ptr<SceneRenderer> renderer_;
 };
 
 }  // namespace
 
-Result<std::unique_ptr<SceneCamera>> MakeOffscreenSceneCamera(const Scene& scene) {
+Result<std::unique_ptr<SceneCamera>> MakeOffscreenSceneCamera(const World& scene) {
   Result<std::unique_ptr<EglContext>> context = EglContext::Open();
   if (!context) {
     return context.error();

@@ -5,7 +5,7 @@
 
 #include "engine/core/result.h"
 #include "engine/simulation/scene_camera.h"
-#include "engine/world/scene.h"
+#include "engine/world/world.h"
 
 namespace palace {
 
@@ -13,6 +13,6 @@ namespace palace {
 /// created on one thread and used on another (one at a time), beside any window's context on other
 /// threads. Shaders and textures are made at the first Render.
 /// kUnavailable with the remedy when the machine has no EGL or OpenGL driver.
-Result<std::unique_ptr<SceneCamera>> MakeOffscreenSceneCamera(const Scene& scene);
+Result<std::unique_ptr<SceneCamera>> MakeOffscreenSceneCamera(const World& scene);
 
 }  // namespace palace

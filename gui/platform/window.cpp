@@ -146,12 +146,6 @@ int Window::height_px() const {
   return height;
 }
 
-double Window::content_scale() const {
-  float x = 1, y = 1;
-  glfwGetWindowContentScale(window_, &x, &y);
-  return x;
-}
-
 double Window::dots_per_inch() const {
   GLFWmonitor* monitor = glfwGetPrimaryMonitor();
   if (monitor == nullptr) {
@@ -167,8 +161,6 @@ double Window::dots_per_inch() const {
 }
 
 bool Window::minimised() const { return glfwGetWindowAttrib(window_, GLFW_ICONIFIED) != 0; }
-
-void Window::SetTitle(const std::string& title) { glfwSetWindowTitle(window_, title.c_str()); }
 
 void Window::SetSize(int width_px, int height_px) {
   glfwSetWindowSize(window_, width_px, height_px);

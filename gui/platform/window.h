@@ -60,10 +60,8 @@ class Window {
 
   int width_px() const;  ///< of the framebuffer
   int height_px() const;
-  double content_scale() const;  ///< 1 at 96 dpi
   double dots_per_inch() const;  ///< of the monitor; 96 when it does not say
   bool minimised() const;
-  void SetTitle(const std::string& title);
   void SetSize(int width_px, int height_px);
   GLFWwindow* handle() const { return window_; }
 

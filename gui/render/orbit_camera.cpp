@@ -18,18 +18,6 @@ constexpr double kMargin = 1.12;
 
 }  // namespace
 
-const char* View3dPresetName(View3dPreset preset) {
-  switch (preset) {
-    case View3dPreset::kOrbit:
-      return "Orbit";
-    case View3dPreset::kAbove:
-      return "Bird's eye";
-    case View3dPreset::kBehind:
-      return "Behind";
-  }
-  return "";
-}
-
 void OrbitCamera::SetPreset(View3dPreset preset) {
   preset_ = preset;
   zoom_ = 1;

@@ -9,7 +9,6 @@ namespace palace {
 
 enum class View3dPreset { kOrbit, kAbove, kBehind };
 /// "Orbit", "Bird's eye", "Behind": as the screen shows it.
-const char* View3dPresetName(View3dPreset preset);
 
 /// World frame W (north, east, down). azimuth 0: the eye lies south of the target and looks north;
 /// elevation is the angle of the eye above the horizon as seen from the target.

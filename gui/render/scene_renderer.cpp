@@ -6,10 +6,10 @@
 #include <utility>
 #include <vector>
 
+#include "engine/world/world_mesh.h"
 #include "gui/render/framebuffer.h"
 #include "gui/render/gl_handle.h"
 #include "gui/render/noise_texture.h"
-#include "gui/render/scene_mesh.h"
 #include "gui/render/shader.h"
 #include "shader_text.h"
 
@@ -145,7 +145,7 @@ Eigen::Matrix4f FromAbsolute(const Eigen::Matrix4f& clip_from_world, const Eigen
 }  // namespace
 
 struct SceneRenderer::Parts {
-  Scene scene;
+  World scene;
   SceneLook look;
   Eigen::Vector3d normal_W;
   Eigen::Vector3d sun_W;
@@ -163,8 +163,8 @@ struct SceneRenderer::Parts {
 };
 
 void SceneRenderer::Parts::MakeMeshes() {
-  const std::vector<SceneVertex> solids = SceneTriangles(scene);
-  constexpr std::size_t kStride = sizeof(SceneVertex);
+  const std::vector<MeshVertex> solids = SolidTriangles(scene, look.ground_grey);
+  constexpr std::size_t kStride = sizeof(MeshVertex);
   objects.Start(solids.data(), solids.size() * kStride, solids.size());
   objects.Attribute(0, 3, kStride, 0);
   objects.Attribute(1, 3, kStride, 3 * sizeof(float));
@@ -180,7 +180,7 @@ void SceneRenderer::Parts::MakeMeshes() {
   constexpr float r = kGroundReach_m;
   for (const auto& [n, e] : std::array<std::pair<float, float>, 6>{
            {{-r, -r}, {r, -r}, {r, r}, {-r, -r}, {r, r}, {-r, r}}}) {
-    plane.emplace_back(n, e, -static_cast<float>(scene.GroundHeight(n, e)));
+    plane.emplace_back(n, e, -static_cast<float>(scene.ground.Height(n, e)));
   }
   ground.Start(plane.data(), plane.size() * sizeof(Eigen::Vector3f), plane.size());
   ground.Attribute(0, 3, sizeof(Eigen::Vector3f), 0);
@@ -251,7 +251,7 @@ void SceneRenderer::Parts::DrawGround(const PinholeCamera& camera,
   shader.Set("plane_distance", static_cast<float>(-normal_W.dot(X_WC.p)));
   shader.Set("ground_grey", look.ground_grey);
   shader.Set("light", static_cast<float>(kAmbient + kSun * std::max(0.0, normal_W.dot(sun_W))));
-  shader.Set("markings", scene.runway_markings ? 1.0F : 0.0F);
+  shader.Set("markings", scene.ground.runway_markings ? 1.0F : 0.0F);
   ground.Draw();
 }
 
@@ -279,13 +279,13 @@ void SceneRenderer::Parts::DarkenShadows(const Eigen::Matrix4f& clip_from_world,
 SceneRenderer::SceneRenderer(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
 SceneRenderer::~SceneRenderer() = default;
 
-Result<std::unique_ptr<SceneRenderer>> SceneRenderer::Create(const Scene& scene,
+Result<std::unique_ptr<SceneRenderer>> SceneRenderer::Create(const World& scene,
                                                              const SceneLook& look) {
   auto parts = std::make_unique<Parts>();
   parts->scene = scene;
   parts->look = look;
-  parts->normal_W = GroundNormal(scene);
-  parts->sun_W = SunDirection(scene);
+  parts->normal_W = scene.ground.Normal();
+  parts->sun_W = scene.sun.Direction();
   struct Wanted {
     const char* name;
     ShaderProgram* program;
@@ -313,7 +313,7 @@ Result<std::unique_ptr<SceneRenderer>> SceneRenderer::Create(const Scene& scene,
     }
     *wanted.program = std::move(built).value();
   }
-  const std::uint64_t seed = scene.texture_seed;
+  const std::uint64_t seed = scene.ground.texture_seed;
   const std::vector<float> weights = {0.5F, 1.0F, 1.0F, 1.2F};
   parts->coarse = CoarseTile(seed);
   parts->medium = GrainTile(1024, weights, RandomStream(seed, "medium grain"));

@@ -1,11 +1,11 @@
-// SceneRenderer: what an ideal pinhole camera sees of a Scene, drawn by OpenGL 3.3 core.
+// SceneRenderer: what an ideal pinhole camera sees of a World, drawn by OpenGL 3.3 core.
 #pragma once
 
 #include <memory>
 
 #include "engine/core/result.h"
 #include "engine/simulation/scene_camera.h"
-#include "engine/world/scene.h"
+#include "engine/world/world.h"
 
 namespace palace {
 
@@ -28,8 +28,8 @@ struct SceneLook {
 /// destructor.
 class SceneRenderer final : public SceneCamera {
  public:
-  /// Compiles shaders and makes the textures of scene.texture_seed.
-  static Result<std::unique_ptr<SceneRenderer>> Create(const Scene& scene,
+  /// Compiles shaders and makes the textures of its ground.texture_seed.
+  static Result<std::unique_ptr<SceneRenderer>> Create(const World& scene,
                                                        const SceneLook& look = {});
   ~SceneRenderer() override;
 

@@ -43,8 +43,6 @@ class TextureSet {
   const MapRanges& ranges() const { return ranges_; }
   /// Uploads the range map as a tint with each update, or no longer.
   void ShowRange(bool shown) { range_shown_ = shown; }
-  /// Fixes the elevation range; without it the mission's first map sets it.
-  void SetElevationRange(ValueRange range_m) { elevation_range_m_ = range_m; }
   /// Another mission, log or source: forgets the range and all pictures.
   void Reset();
 
@@ -57,7 +55,7 @@ class TextureSet {
 
   TextureNames names_;
   MapRanges ranges_;
-  std::optional<ValueRange> elevation_range_m_;
+  std::optional<ValueRange> elevation_range_m_;    ///< of the mission's first map
   std::unique_ptr<std::array<Slot, 5>> pictures_;  ///< left, right, three patches
   std::array<Texture, 5> maps_;
   Texture recorded_;

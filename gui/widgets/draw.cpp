@@ -62,18 +62,6 @@ void DashedRect(ImDrawList* dl, const Rect& r, ImU32 colour, float width, float 
   DashedLine(dl, {a.x, c.y}, a, colour, width, on, off);
 }
 
-void DashedCircle(ImDrawList* dl, ImVec2 centre, float radius, ImU32 colour, float width, float on,
-                  float off) {
-  const float full = 2 * 3.14159265f;
-  const int dashes = std::max(4, static_cast<int>(full * radius / std::max(on + off, 1.0f)));
-  const float step = full / static_cast<float>(dashes);
-  for (int i = 0; i < dashes; ++i) {
-    const float from = step * static_cast<float>(i);
-    dl->PathArcTo(centre, radius, from, from + step * on / (on + off), 6);
-    dl->PathStroke(colour, 0, width);
-  }
-}
-
 void Hatch(ImDrawList* dl, const Rect& r, ImU32 colour, float width, float spacing) {
   // Lines x + y = k, anchored at the screen's origin so that they never scale with the picture.
   // `spacing` is measured along x.

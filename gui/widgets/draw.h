@@ -41,8 +41,6 @@ void DashedLine(ImDrawList* dl, ImVec2 a, ImVec2 b, ImU32 colour, float width, f
 void DashedPolyline(ImDrawList* dl, const std::vector<ImVec2>& points, ImU32 colour, float width,
                     float on, float off);
 void DashedRect(ImDrawList* dl, const Rect& rect, ImU32 colour, float width, float on, float off);
-void DashedCircle(ImDrawList* dl, ImVec2 centre, float radius, ImU32 colour, float width, float on,
-                  float off);
 /// 45-degree lines (rising to the right) over the rectangle, fixed in screen pixels.
 void Hatch(ImDrawList* dl, const Rect& rect, ImU32 colour, float width, float spacing);
 /// 45-degree stripes of two colours, `stripe` pixels wide each (measured across).

@@ -70,12 +70,12 @@ TEST(Rectification, ImpossibleRigsAreRefused) {
   rig.right.pinhole.fx_px = -1;
   EXPECT_FALSE(StereoRectifier::Make(rig).ok());
   rig = PlainRig();
-  rig.left.cahvor = CahvorModel{};
+  rig.left.model = CameraModel{CahvorModel{}};
   EXPECT_FALSE(StereoRectifier::Make(rig).ok());
-  rig.left.cahvor =
-      CahvFromPinhole(PinholeFromFov(160, 120, 0.8), Eigen::Matrix3d::Identity(), {1, 0, 0});
-  rig.right.cahvor =
-      CahvFromPinhole(PinholeFromFov(160, 120, 0.8), Eigen::Matrix3d::Identity(), {0, 0, 0});
+  rig.left.model = CameraModel{
+      CahvFromPinhole(PinholeFromFov(160, 120, 0.8), Eigen::Matrix3d::Identity(), {1, 0, 0})};
+  rig.right.model = CameraModel{
+      CahvFromPinhole(PinholeFromFov(160, 120, 0.8), Eigen::Matrix3d::Identity(), {0, 0, 0})};
   const auto exchanged = StereoRectifier::Make(rig);
   ASSERT_FALSE(exchanged.ok());
   EXPECT_NE(exchanged.error().message.find("exchange [left] and [right]"), std::string::npos);
@@ -127,8 +127,8 @@ TEST(Rectification, CahvorPairIsAligned) {
   CahvorModel right = CahvFromPinhole(PinholeFromFov(160, 120, 0.82),
                                       RotationFromEuler({-0.015, 0.01, 0.02}), {1.02, 0.01, 0.03});
   right.R = {0.0002, -0.12, 0.04};
-  rig.left.cahvor = left;
-  rig.right.cahvor = right;
+  rig.left.model = CameraModel{left};
+  rig.right.model = CameraModel{right};
   const auto rectifier = StereoRectifier::Make(rig);
   ASSERT_TRUE(rectifier.ok()) << rectifier.error().message;
   EXPECT_NEAR(rectifier->baseline_m(), (right.C - left.C).norm(), 1e-12);

@@ -215,7 +215,8 @@ TEST_F(RigFileTest, ModelFilesDecide) {
   EXPECT_EQ(file->rig.baseline_m, 1.5);
   EXPECT_FALSE(file->rig.rectified);
   EXPECT_NEAR(file->rig.left.pinhole.fx_px, 770, 1e-9);
-  ASSERT_TRUE(file->rig.right.cahvor.has_value());
+  ASSERT_TRUE(file->rig.right.model.has_value());
+  EXPECT_TRUE(std::holds_alternative<CahvorModel>(file->rig.right.model->lens));
   const auto wrong = Load(cameras + "[rig]\nbaseline_m = 1.0\n" + mount);
   ASSERT_FALSE(wrong.ok());
   EXPECT_NE(wrong.error().message.find("1.5 m apart"), std::string::npos) << wrong.error().message;

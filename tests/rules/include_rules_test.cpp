@@ -69,7 +69,7 @@ const std::map<std::string, std::set<std::string>>& Allowed() {
       {"engine/model", {"engine/core"}},
       {"engine/camera", base},
       {"engine/report", base},
-      {"engine/calibration", with({"engine/camera"})},
+      {"engine/calibration", with({"engine/camera", "engine/report"})},
       {"engine/stereo", with({"engine/camera", "engine/calibration"})},
       {"engine/slad", with({"engine/camera", "engine/calibration", "engine/stereo"})},
       {"engine/tracking", with({"engine/camera", "engine/stereo", "engine/slad"})},

@@ -16,7 +16,7 @@
 #include "engine/runtime/terrain_stage.h"
 #include "engine/stereo/stereo.h"
 #include "engine/world/painted_things.h"
-#include "engine/world/stereo_world.h"
+#include "engine/world/ray_pictures.h"
 
 namespace palace {
 namespace {
@@ -37,9 +37,9 @@ RigidTransform RightOf(const RigidTransform& X_WC) {
   return {X_WC.R, X_WC.p + kBaseline_m * X_WC.R.col(0)};
 }
 
-StereoWorld FieldWithObstacles(GroundTexture texture) {
-  StereoWorld world;
-  world.texture = texture;
+World FieldWithObstacles(GroundTexture texture) {
+  World world;
+  world.ground.texture = texture;
   world.solids = {MakeBox(2.5, -2, 0.5, 0.5, 0.5), MakeBox(-2, 2, 1.0, 2.0, 1.0),
                   MakeCone(1, 3, 0.3, 0.05, 0.7), MakeWedge(-2.5, -3, 2, 2, Rad(8))};
   return world;
@@ -61,7 +61,7 @@ struct Seen {
 };
 
 /// The map after some frames of a world, which may differ from frame to frame.
-Seen Look(int frames, const std::function<StereoWorld(int)>& world, const Paint& paint = {}) {
+Seen Look(int frames, const std::function<World(int)>& world, const Paint& paint = {}) {
   TerrainStage stage;
   const PinholeCamera camera = Camera();
   const BakedGround ground = BakeFor(world(0), camera, {PoseOf(0), RightOf(PoseOf(5))});
@@ -93,14 +93,14 @@ Seen Look(int frames, const std::function<StereoWorld(int)>& world, const Paint&
 class SceneFlagsOn : public testing::TestWithParam<GroundTexture> {};
 
 TEST_P(SceneFlagsOn, NothingIsFlaggedWhereThereIsNothing) {
-  const StereoWorld world = FieldWithObstacles(GetParam());
+  const World world = FieldWithObstacles(GetParam());
   const Seen seen = Look(4, [&](int) { return world; });
   EXPECT_EQ(seen.Count(kFlagThinStructure | kFlagNoTexture | kFlagMotion), 0);
 }
 
 /// A wire 2 cm thick, 3 m above the ground, and a line of the same width painted beside it.
 TEST_P(SceneFlagsOn, AWireIsFlaggedAPaintedLineIsNot) {
-  const StereoWorld world = FieldWithObstacles(GetParam());
+  const World world = FieldWithObstacles(GetParam());
   for (const double grey : {40.0, 220.0}) {
     const Seen seen = Look(
         2, [&](int) { return world; },
@@ -120,7 +120,7 @@ TEST_P(SceneFlagsOn, AWireIsFlaggedAPaintedLineIsNot) {
 }
 
 TEST_P(SceneFlagsOn, StillWaterHasNoTexture) {
-  const StereoWorld world = FieldWithObstacles(GetParam());
+  const World world = FieldWithObstacles(GetParam());
   const Seen seen = Look(
       2, [&](int) { return world; },
       [&](const PinholeCamera& camera, const RigidTransform& X_WC, ImageF& picture) {
@@ -136,7 +136,7 @@ TEST_P(SceneFlagsOn, StillWaterHasNoTexture) {
 TEST_P(SceneFlagsOn, SomebodyWalkingIsFlaggedAndSomebodyStandingIsNot) {
   for (const double speed_mps : {0.5, 0.0}) {
     const Seen seen = Look(6, [&](int frame) {
-      StereoWorld world = FieldWithObstacles(GetParam());
+      World world = FieldWithObstacles(GetParam());
       const double east_m = -0.8 + speed_mps * kInterval_s * frame;
       world.solids.push_back(MakeBox(0, east_m, 0.5, 0.5, 1.6));
       return world;
@@ -157,7 +157,7 @@ INSTANTIATE_TEST_SUITE_P(All, SceneFlagsOn,
 
 /// Along the baseline a wire shows no disparity: it is flagged on the ground behind it.
 TEST(SceneFlags, AWireAlongTheBaselineIsFlaggedWithoutItsHeight) {
-  const StereoWorld world = FieldWithObstacles(GroundTexture::kAsphalt);
+  const World world = FieldWithObstacles(GroundTexture::kAsphalt);
   const Seen seen = Look(
       2, [&](int) { return world; },
       [&](const PinholeCamera& camera, const RigidTransform& X_WC, ImageF& picture) {
@@ -167,7 +167,7 @@ TEST(SceneFlags, AWireAlongTheBaselineIsFlaggedWithoutItsHeight) {
 }
 
 TEST(SceneFlags, SameBitsForAnyNumberOfThreads) {
-  const StereoWorld world = FieldWithObstacles(GroundTexture::kGrass);
+  const World world = FieldWithObstacles(GroundTexture::kGrass);
   const auto look = [&] {
     return Look(
         2, [&](int) { return world; },

@@ -9,7 +9,7 @@
 #include <opencv2/videoio.hpp>
 
 #include "engine/camera/pinhole.h"
-#include "engine/world/stereo_world.h"
+#include "engine/world/ray_pictures.h"
 #include "tests/scenarios/scenario.h"
 
 namespace palace {
@@ -41,7 +41,7 @@ class Cameras : public Scenario {
   }
   /// A ground with five boxes, seen from 50 ft, with fresh sensor noise in every picture.
   void WriteFilms() const {
-    StereoWorld world;
+    World world;
     for (const auto& [north_m, east_m, side_m, height_m] : {std::array{-2.5, -2.0, 1.0, 0.6},
                                                             {2.5, 3.0, 0.8, 0.5},
                                                             {-3.0, 2.5, 0.5, 0.35},

@@ -5,7 +5,7 @@
 #include "engine/runtime/engine.h"
 #include "engine/runtime/flight_summary.h"
 #include "engine/runtime/scripted_operator.h"
-#include "engine/simulation/simulator.h"
+#include "engine/simulation/session.h"
 #include "gui/platform/offscreen_scene_camera.h"
 #include "tests/scenarios/scenario.h"
 
@@ -18,18 +18,12 @@ constexpr double kReplayed_s = 12;  // of the log, and at least until the descen
 /// An engine over the simulated mission, recorded into folder/flight.
 std::unique_ptr<Engine> OpenMission(const std::filesystem::path& folder, std::uint64_t seed,
                                     std::shared_ptr<Simulator>& simulator) {
+  const SimulatedSession session =
+      OpenSimulatedSession({.seed = seed}, MakeOffscreenSceneCamera).value();
   EngineParts parts;
-  parts.mission.session_id = seed;
-  parts.mission.signer = ApprovalSigner::FromSeed(seed);
-  SimulatorOptions simulation;
-  simulation.scene = MakeScene("runway", seed).value();
-  simulation.seed = seed;
-  simulation.verify = [key = parts.mission.signer.public_key(),
-                       state = std::make_shared<VerifierState>()](
-                          const Approval& approval, Timestamp now, std::uint64_t boot) {
-    return VerifyApproval(approval, key, *state, now, boot);
-  };
-  simulator = std::make_shared<Simulator>(std::move(simulation), MakeOffscreenSceneCamera);
+  parts.mission.session_id = session.id;
+  parts.mission.signer = session.signer;
+  simulator = session.simulator;
   parts.source = simulator;
   parts.link = simulator;
   auto recorder = FlightRecorder::Open(folder, "flight");

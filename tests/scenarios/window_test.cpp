@@ -200,7 +200,7 @@ TEST_F(RealWindow, FliesUntilTheWaveOff) {
   ASSERT_EQ(flights.size(), 1u);
   EXPECT_TRUE(std::filesystem::exists(flights[0] / "report.html"));
   const auto source = OpenLog(flights[0] / "flight.lcm");
-  EXPECT_FALSE(source->log_report().damaged());
+  EXPECT_EQ(source->Status().damage, "");
   const std::vector<MissionState> states = StatesOf(*source->recorded());
   const std::vector<MissionState> wanted = {MissionState::kProposed, MissionState::kArmed,
                                             MissionState::kApproved, MissionState::kAborting};

@@ -167,6 +167,39 @@ TEST(Autopilot, NoDescentWithoutVisionAndTheApprovalExpires) {
   EXPECT_NEAR(flight.last->truth.back().X_WB.p.z(), -15.24, 0.5);
 }
 
+TEST(Autopilot, ACopyOfTheApprovalUnderWayIsAnsweredAgain) {
+  Flight flight(Options(11));
+  const Approval approval = flight.MakeApproval({15.7, 0, 0});
+  flight.simulator.Send(approval);
+  ASSERT_TRUE(flight.StepUntil(VehicleMode::kAlign, 1));
+  flight.simulator.Send(approval);
+  flight.Step();
+  ASSERT_EQ(flight.acks.size(), 2u);
+  EXPECT_EQ(flight.acks[1].result, AckResult::kAccepted);
+  EXPECT_EQ(flight.acks[1].command_id, approval.id);
+  EXPECT_EQ(flight.last->status->mode, VehicleMode::kAlign);
+}
+
+TEST(Autopilot, WithAStationsKeyOnlyItsApprovalsAreFlown) {
+  const ApprovalSigner station = ApprovalSigner::FromSeed(3), other = ApprovalSigner::FromSeed(4);
+  SimulatorOptions options = Options(10);
+  options.station_key = station.public_key();
+  Flight flight(options);
+  Approval approval = flight.MakeApproval({15.7, 0, 0});
+  for (const ApprovalSigner* signer : {static_cast<const ApprovalSigner*>(nullptr), &other}) {
+    if (signer != nullptr) {
+      signer->Sign(approval);
+    }
+    flight.simulator.Send(approval);
+    flight.Step();
+    EXPECT_EQ(flight.acks.back().reason, "Signature does not match");
+    EXPECT_EQ(flight.last->status->mode, VehicleMode::kHover);
+  }
+  station.Sign(approval);
+  flight.simulator.Send(approval);
+  EXPECT_TRUE(flight.StepUntil(VehicleMode::kAlign, 1));
+}
+
 struct RefusalCase {
   const char* name;
   void (*spoil)(Approval&, const FrameBundle&);
@@ -177,7 +210,7 @@ TEST(Autopilot, RefusesApprovalsThatAreNotForThisMoment) {
   const RefusalCase cases[] = {
       {"expired",
        [](Approval& a, const FrameBundle& b) { a.expires_at = AddSeconds(b.time, -0.01); },
-       "expired"},
+       "Expired"},
       {"wrong boot", [](Approval& a, const FrameBundle&) { a.vehicle_boot_id += 2; },
        "another start"},
       {"not finite", [](Approval& a, const FrameBundle&) { a.p_WS.y() = NAN; }, "finite"},
@@ -188,13 +221,10 @@ TEST(Autopilot, RefusesApprovalsThatAreNotForThisMoment) {
       {"no descent rate", [](Approval& a, const FrameBundle&) { a.descent_rate_mps = 0; },
        "descent rate"},
       {"far away", [](Approval& a, const FrameBundle&) { a.p_WS.x() = 500; }, "100 m"},
-      {"signature", [](Approval& a, const FrameBundle&) { a.signature = {1}; }, "forged"},
+      {"at its end", [](Approval& a, const FrameBundle& b) { a.expires_at = b.time; }, "Expired"},
   };
   for (const RefusalCase& c : cases) {
     SimulatorOptions options = Options(10);
-    options.verify = [](const Approval& a, Timestamp, std::uint64_t) {
-      return a.signature.empty() ? std::string() : std::string("forged");
-    };
     Flight flight(options);
     Approval approval = flight.MakeApproval({15.7, 0, 0});
     c.spoil(approval, *flight.last);
@@ -218,10 +248,18 @@ TEST(Autopilot, AnApprovalWorksOnce) {
   EXPECT_EQ(flight.last->status->mode, VehicleMode::kHold);
   flight.simulator.Send(approval);
   flight.Step();
+  // The copy is answered as the first was and moves nothing; one with an old counter is refused.
   ASSERT_EQ(flight.acks.size(), 3u);
   EXPECT_EQ(flight.acks[0].result, AckResult::kAccepted);
   EXPECT_EQ(flight.acks[1].command_id, 500u);
-  EXPECT_EQ(flight.acks[2].result, AckResult::kRefused);
+  EXPECT_EQ(flight.acks[2].result, AckResult::kAccepted);
+  EXPECT_EQ(flight.last->status->mode, VehicleMode::kHold);
+  Approval reused = approval;
+  reused.id += 1;
+  flight.simulator.Send(reused);
+  flight.Step();
+  ASSERT_EQ(flight.acks.size(), 4u);
+  EXPECT_EQ(flight.acks[3].result, AckResult::kRefused);
   EXPECT_EQ(flight.last->status->mode, VehicleMode::kHold);
 }
 

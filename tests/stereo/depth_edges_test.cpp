@@ -12,7 +12,7 @@
 #include "engine/stereo/accuracy.h"
 #include "engine/stereo/semi_global.h"
 #include "engine/stereo/subpixel.h"
-#include "engine/world/stereo_world.h"
+#include "engine/world/ray_pictures.h"
 
 namespace palace {
 namespace {
@@ -23,8 +23,8 @@ constexpr double kHeight_m = 4;
 /// Boxes 0.3 to 1 m high, seen from 4 m: steps of 5 to 60 px.
 StereoView BoxesFrom(double tilt_rad, GroundTexture texture) {
   const double north_m = tilt_rad < Rad(-60) ? 0 : kHeight_m;
-  StereoWorld world;
-  world.texture = texture;
+  World world;
+  world.ground.texture = texture;
   for (int k = 0; k < 20; ++k) {
     world.solids.push_back(MakeBox(north_m - 2 + 1.1 * (k / 4), -2 + 1.4 * (k % 4),
                                    0.3 + 0.14 * (k % 5), 0.3 + 0.14 * (k % 5),
@@ -59,8 +59,8 @@ TEST(DepthEdges, FewerPixelsAreGivenToTheWrongSurface) {
 
 TEST(DepthEdges, GroundWithoutEdgesStaysAsItIs) {
   const Exposure noise{4};
-  const StereoView view = ViewFrom({GroundTexture::kAsphalt}, PinholeFromFov(320, 240, Rad(45)),
-                                   kHeight_m, Rad(-45), 1);
+  const StereoView view = ViewFrom({.ground = {.texture = GroundTexture::kAsphalt}},
+                                   PinholeFromFov(320, 240, Rad(45)), kHeight_m, Rad(-45), 1);
   ImageF truth = DisparityFromDepth(view.depth_m, view.camera.fx_px * view.baseline_m);
   for (int x = 0; x < truth.width(); x += 7) {
     truth.at(x, x % truth.height()) = kUnknown;

@@ -7,7 +7,7 @@
 #include "engine/core/units.h"
 #include "engine/stereo/accuracy.h"
 #include "engine/stereo/stereo.h"
-#include "engine/world/stereo_world.h"
+#include "engine/world/ray_pictures.h"
 
 namespace palace {
 namespace {
@@ -16,7 +16,7 @@ constexpr double kNadir_rad = -1.5707963267948966;
 constexpr double kHeight_m = 10;
 constexpr double kBaseline_m = 0.5;
 
-DisparityAccuracy AccuracyOf(const StereoWorld& world, const PinholeCamera& camera,
+DisparityAccuracy AccuracyOf(const World& world, const PinholeCamera& camera,
                              const RigidTransform& X_WC, bool drawn) {
   RigidTransform X_WRight = X_WC;
   X_WRight.p += X_WC.R.col(0) * kBaseline_m;
@@ -38,8 +38,8 @@ DisparityAccuracy AccuracyOf(const StereoWorld& world, const PinholeCamera& came
 TEST(DrawnPairs, MeasureStereoAsSlowPairsDo) {
   for (const GroundTexture texture :
        {GroundTexture::kGravel, GroundTexture::kGrass, GroundTexture::kAsphalt}) {
-    StereoWorld world;
-    world.texture = texture;
+    World world;
+    world.ground.texture = texture;
     world.solids = MakeTrafficCone(0.8, 0.6, 0.711);
     world.solids.push_back(MakeBox(-1, -0.5, 0.4, 0.3, 0.15));
     const PinholeCamera camera = PinholeFromFov(240, 180, Rad(35));

@@ -124,8 +124,8 @@ class FiftyFeet : public testing::TestWithParam<ViewRow> {};
 TEST_P(FiftyFeet, MeasuresSixInchObjectsAndFiveDegreeRampsWithHonestSigmas) {
   const double north_m = GetParam().tilt_deg < -60 ? 0 : kHeight_m;
   const Obstacles obstacles(north_m);
-  StereoWorld world;
-  world.texture = GetParam().texture;
+  World world;
+  world.ground.texture = GetParam().texture;
   world.solids = obstacles.Solids();
   const StereoView view = ViewFrom(world, ThesisCamera(), kHeight_m, Rad(GetParam().tilt_deg),
                                    SamplesFor(GetParam().texture));
@@ -182,9 +182,9 @@ INSTANTIATE_TEST_SUITE_P(Views, FiftyFeet,
 class LockCurve : public testing::TestWithParam<ViewRow> {};
 
 TEST_P(LockCurve, IsFlat) {
-  StereoWorld world;
-  world.texture = GetParam().texture;
-  world.slope_north = GetParam().tilt_deg < -60 ? 0.15 : 0;
+  World world;
+  world.ground.texture = GetParam().texture;
+  world.ground.rise_north = GetParam().tilt_deg < -60 ? 0.15 : 0;
   const StereoView view = ViewFrom(world, ThesisCamera(), kHeight_m, Rad(GetParam().tilt_deg),
                                    SamplesFor(GetParam().texture));
   const auto result = MatchExposed(view, 2);
@@ -209,8 +209,8 @@ INSTANTIATE_TEST_SUITE_P(
 
 // At 10 ft and 45 degrees disparity changes by half a pixel a row: neither flattened nor noisier.
 TEST(StereoAccuracy, SteepGroundIsMeasuredLikeLevelGround) {
-  StereoWorld world;
-  world.texture = GroundTexture::kGrass;
+  World world;
+  world.ground.texture = GroundTexture::kGrass;
   const StereoView view = ViewFrom(world, ThesisCamera(), 10 * kMetresPerFoot, Rad(-45), 3);
   const auto result = MatchExposed(view, 2);
   ASSERT_TRUE(result.ok()) << result.error().message;
@@ -267,8 +267,8 @@ struct DifferenceRow {
 };
 
 TEST(StereoAccuracy, ToleratesCamerasThatDiffer) {
-  StereoWorld world;
-  world.texture = GroundTexture::kGravel;
+  World world;
+  world.ground.texture = GroundTexture::kGravel;
   const StereoView view = ViewFrom(world, ThesisCamera(), kHeight_m, Rad(-45), 4);
   const ImageU8 left = Expose(view.left_grey, {}, 1);
   for (const DifferenceRow& row : {DifferenceRow{"alike", {}, 0, 0, 0, 0.09},

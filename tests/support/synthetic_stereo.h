@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "engine/camera/pinhole.h"
-#include "engine/world/stereo_world.h"
+#include "engine/world/ray_pictures.h"
 
 namespace palace::synthetic {
 
@@ -37,10 +37,10 @@ struct Pair {
 inline Pair MakePair(const World& world, double height_m, double tilt_rad, double noise_grey = 2,
                      double right_gain = 1, double right_offset = 0, int width = 640,
                      int height = 480) {
-  StereoWorld scene;
-  scene.texture_seed = world.texture_seed;
-  scene.contrast = world.contrast;
-  scene.slope_north = world.slope_north;
+  palace::World scene;
+  scene.ground.texture_seed = world.texture_seed;
+  scene.ground.contrast = world.contrast;
+  scene.ground.rise_north = world.slope_north;
   for (const Box& box : world.boxes) {
     scene.solids.push_back(MakeBox(box.north_m, box.east_m, box.side_m, box.side_m, box.height_m));
   }

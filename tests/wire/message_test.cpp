@@ -161,6 +161,7 @@ TEST(OutputEncoder, SendsOnlyNews) {
                                "MISSION", "STATION_STATUS"}));
   EXPECT_EQ(channels(), Names{"STATION_STATUS"});
   s.settings.slad.max_slope_deg = 9;
+  s.settings_hash = HashOf(s.settings);
   EXPECT_EQ(channels(), (Names{"SLAD_SETTINGS", "STATION_STATUS"}));
   s.events = std::make_shared<const std::vector<Event>>(
       std::vector<Event>{{s.time, EventKind::kState, "one"}, {s.time, EventKind::kState, "two"}});

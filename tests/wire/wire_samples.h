@@ -44,7 +44,7 @@ inline StereoRig RandomRig(RandomStream& random) {
                     RandomVector(random),
                     RandomVector(random),
                     RandomVector(random)};
-  rig.right.cahvor = model;
+  rig.right.model = CameraModel{model};
   OpenCvModel lens;
   lens.pinhole = rig.left.pinhole;
   lens.coefficients = 8;

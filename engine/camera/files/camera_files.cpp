@@ -238,14 +238,6 @@ Result<CahvorModel> ParseCahvorText(std::string_view text, const std::string& na
   return *cahvor;
 }
 
-Result<CahvorModel> ReadCahvorFile(const std::filesystem::path& path) {
-  const auto text = ReadTextFile(path, kSizeLimit);
-  if (!text) {
-    return text.error();
-  }
-  return ParseCahvorText(*text, path.string());
-}
-
 std::string CahvorToText(const CahvorModel& model) { return JplToText(model, nullptr); }
 
 Result<PictureSize> ReadSize(const KeyedText& text, const std::string& width_key,

@@ -60,7 +60,6 @@ Result<std::string> CameraToText(const CameraModel& model, CameraFormat format);
 
 /// JPL text that must be CAHV or CAHVOR with Dimensions, as rigs and calibration use it.
 Result<CahvorModel> ParseCahvorText(std::string_view text, const std::string& name);
-Result<CahvorModel> ReadCahvorFile(const std::filesystem::path& path);
 std::string CahvorToText(const CahvorModel& model);
 
 }  // namespace palace

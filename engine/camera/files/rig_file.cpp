@@ -9,6 +9,7 @@
 #include "engine/camera/files/camera_files.h"
 #include "engine/camera/files/text_file.h"
 #include "engine/camera/files/toml_table.h"
+#include "engine/core/text.h"
 #include "engine/core/units.h"
 
 namespace palace {
@@ -102,15 +103,11 @@ Status ReadCamera(const toml::table& root, const std::string& name, StereoSide s
 }
 
 bool Distorted(const RigCamera& camera) {
-  return camera.cahvor || camera.model || camera.distortion != std::array<double, 5>{};
+  return camera.model || camera.distortion != std::array<double, 5>{};
 }
 
 void SetModel(RigCamera& camera, const CameraModel& model) {
-  if (const auto* cahvor = std::get_if<CahvorModel>(&model.lens)) {
-    camera.cahvor = *cahvor;
-  } else {
-    camera.model = model;
-  }
+  camera.model = model;
   camera.pinhole = PinholeFromCahv(LinearPartOf(model)).camera;
 }
 

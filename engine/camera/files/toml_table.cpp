@@ -2,8 +2,9 @@
 
 #include <cmath>
 #include <cstdint>
-#include <sstream>
 #include <utility>
+
+#include "engine/core/text.h"
 
 namespace palace {
 namespace {
@@ -13,13 +14,6 @@ constexpr std::int64_t kLargestDevice = 255;
 int LineOf(const toml::node& node) { return static_cast<int>(node.source().begin.line); }
 
 }  // namespace
-
-std::string NumberText(double value) {
-  std::ostringstream text;
-  text.precision(10);
-  text << value;
-  return text.str();
-}
 
 TomlTable::TomlTable(const toml::table& root, std::string file, std::string name)
     : file_(std::move(file)), name_(std::move(name)), line_(1) {

@@ -30,9 +30,6 @@ struct NumberLimits {
   bool whole = false;
 };
 
-/// Ten digits, as messages show a number.
-std::string NumberText(double value);
-
 class TomlTable {
  public:
   /// `name` in `root`, which must outlive this. A missing table is an error once a key is asked

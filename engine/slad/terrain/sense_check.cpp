@@ -3,18 +3,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
+
+#include "engine/core/text.h"
 
 namespace palace {
 namespace {
 
 constexpr double kSmallestCell_m = 1e-3;
 
-std::string Number(double value) {
-  char text[40];
-  std::snprintf(text, sizeof text, "%.3g", value);
-  return text;
-}
+std::string Number(double value) { return WithNumbers("%.3g", value); }
 
 template <typename T>
 bool Fits(const GridGeometry& geometry, const Grid<T>& layer) {

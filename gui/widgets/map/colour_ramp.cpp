@@ -1,7 +1,5 @@
 #include "gui/widgets/map/colour_ramp.h"
 
-#include <algorithm>
-
 namespace palace {
 
 const std::vector<ImU32>& RampStops(Ramp ramp) {
@@ -16,14 +14,6 @@ const std::vector<ImU32>& RampStops(Ramp ramp) {
        Rgb(0xED6925), Rgb(0xFB9B06), Rgb(0xF7D13D), Rgb(0xFCFFA4)},
       {Rgb(0xDCE9F7), Rgb(0x9CC3EA), Rgb(0x5B97D6), Rgb(0x2F67AE), Rgb(0x173D7A), Rgb(0x0A2250)}};
   return stops[static_cast<int>(ramp)];
-}
-
-ImU32 RampColour(Ramp ramp, float t) {
-  const std::vector<ImU32>& stops = RampStops(ramp);
-  const float last = static_cast<float>(stops.size() - 1);
-  const float at = std::clamp(t, 0.0f, 1.0f) * last;
-  const std::size_t i = std::min(static_cast<std::size_t>(at), stops.size() - 2);
-  return Mix(stops[i], stops[i + 1], at - static_cast<float>(i));
 }
 
 void DrawRampBar(ImDrawList* dl, const Rect& r, Ramp ramp) {

@@ -13,8 +13,6 @@ enum class Ramp { kElevation, kSlope, kRoughness, kCost, kSafeDistance };
 
 /// Even stops of viridis, cividis, magma, inferno and the safe-distance blues (dark = far).
 const std::vector<ImU32>& RampStops(Ramp ramp);
-/// Colour at 0..1, clamped.
-ImU32 RampColour(Ramp ramp, float t);
 /// Horizontal bar from 0 (left) to 1 (right).
 void DrawRampBar(ImDrawList* dl, const Rect& rect, Ramp ramp);
 

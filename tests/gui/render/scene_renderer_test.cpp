@@ -11,7 +11,6 @@
 
 #include "engine/core/units.h"
 #include "gui/platform/offscreen_scene_camera.h"
-#include "gui/render/scene_mesh.h"
 #include "tests/gui/render/gl_fixture.h"
 
 namespace palace {
@@ -60,29 +59,31 @@ Eigen::Vector2d BrightCentroid(const ImageU8& picture, const Eigen::Vector2d& ne
   return sum / weight;
 }
 
+void Add(World& scene, Shape shape, double north_m, double east_m, double yaw_rad, double albedo) {
+  scene.solids.push_back(StandingOn(scene.ground, std::move(shape), north_m, east_m, yaw_rad));
+  scene.solids.back().albedo = albedo;
+}
+
 /// Black ground, white tiles 1 mm high. Each is turned a little: the edge of a straight-on tile
 /// falls between the four samples of a pixel and says nothing finer than an eighth of it.
-Scene TileScene() {
-  Scene scene;
-  scene.runway_markings = false;
-  scene.sun_elevation_rad = Rad(89.9);
+World TileScene() {
+  World scene;
+  scene.sun.elevation_rad = Rad(89.9);
   for (int i = -2; i <= 2; ++i) {
     for (int j = -2; j <= 2; ++j) {
-      scene.objects.push_back(
-          {SceneShape::kBox, 2.6 * i, 2.3 * j, 0.31 + 0.1 * i, 0.9, 0.9, 0.001, 1.0F});
+      Add(scene, Box{0.9, 0.9, 0.001}, 2.6 * i, 2.3 * j, 0.31 + 0.1 * i, 1);
     }
   }
   return scene;
 }
 const SceneLook kPlain{0.0F, 0.0F, false};
 
-std::vector<Eigen::Vector3d> TopCorners(const Scene& scene, const SceneObject& box) {
+std::vector<Eigen::Vector3d> TopCorners(const Solid& box) {
+  const Box& size = std::get<Box>(box.shape);
   std::vector<Eigen::Vector3d> corners;
   for (const auto& [sx, sy] : {std::pair{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}) {
-    const double x = sx * box.size_north_m / 2, y = sy * box.size_east_m / 2;
-    const double c = std::cos(box.yaw_rad), s = std::sin(box.yaw_rad);
-    corners.emplace_back(box.north_m + c * x - s * y, box.east_m + s * x + c * y,
-                         -scene.GroundHeight(box.north_m, box.east_m) - box.height_m);
+    corners.push_back(
+        box.X_WO * Eigen::Vector3d(sx * size.size_x_m / 2, sy * size.size_y_m / 2, -size.height_m));
   }
   return corners;
 }
@@ -106,7 +107,7 @@ std::vector<ViewCase> Views() {
 
 class SceneRendererTest : public GlTest {
  protected:
-  static ImageU8 Shot(const Scene& scene, const SceneLook& look, const PinholeCamera& camera,
+  static ImageU8 Shot(const World& scene, const SceneLook& look, const PinholeCamera& camera,
                       const RigidTransform& X_WC) {
     auto renderer = SceneRenderer::Create(scene, look);
     EXPECT_TRUE(renderer.ok());
@@ -117,7 +118,7 @@ class SceneRendererTest : public GlTest {
 };
 
 TEST_F(SceneRendererTest, KnownTilesProjectWithin005Pixels) {
-  const Scene scene = TileScene();
+  const World scene = TileScene();
   auto renderer = SceneRenderer::Create(scene, kPlain);
   ASSERT_TRUE(renderer.ok());
   for (const ViewCase& view : Views()) {
@@ -127,10 +128,10 @@ TEST_F(SceneRendererTest, KnownTilesProjectWithin005Pixels) {
     int seen = 0;
     double worst_px = 0;
     Eigen::Vector2d sum_px(0, 0);
-    for (const SceneObject& tile : scene.objects) {
+    for (const Solid& tile : scene.solids) {
       std::vector<Eigen::Vector2d> pixels;
       bool inside = true;
-      for (const Eigen::Vector3d& corner : TopCorners(scene, tile)) {
+      for (const Eigen::Vector3d& corner : TopCorners(tile)) {
         pixels.push_back(Project(view.camera, view.X_WC, corner));
         inside = inside && (pixels.back().array() > 3).all() &&
                  pixels.back().x() < view.camera.width - 4 &&
@@ -158,16 +159,15 @@ TEST_F(SceneRendererTest, KnownTilesProjectWithin005Pixels) {
 }
 
 TEST_F(SceneRendererTest, TopOfABoxLiesAtItsHeight) {
-  Scene scene;
-  scene.runway_markings = false;
-  scene.sun_elevation_rad = Rad(89.9);
-  scene.slope_north_rad = 0.08;
-  scene.slope_east_rad = -0.05;
-  scene.objects = {{SceneShape::kBox, 2, 3, 0.4, 1.2, 0.9, 1.1, 1.0F}};
+  World scene;
+  scene.sun.elevation_rad = Rad(89.9);
+  scene.ground.rise_north = std::tan(0.08);
+  scene.ground.rise_east = std::tan(-0.05);
+  Add(scene, Box{1.2, 0.9, 1.1}, 2, 3, 0.4, 1);
   const RigidTransform X_WC = LookDown(0, 0, 15, -90);
   const ImageU8 picture = Shot(scene, kPlain, kCamera, X_WC);
   std::vector<Eigen::Vector2d> pixels;
-  for (const Eigen::Vector3d& corner : TopCorners(scene, scene.objects[0])) {
+  for (const Eigen::Vector3d& corner : TopCorners(scene.solids[0])) {
     pixels.push_back(Project(kCamera, X_WC, corner));
   }
   // Only the sunlit top is brighter than 200; the sides see the sky alone.
@@ -175,8 +175,27 @@ TEST_F(SceneRendererTest, TopOfABoxLiesAtItsHeight) {
   EXPECT_LT((BrightCentroid(picture, expected, 60, 200) - expected).norm(), 0.15);
 }
 
+/// What experiments cut out of half-spaces is drawn as the same shapes are that GL always had.
+TEST_F(SceneRendererTest, ABoxOfHalfSpacesIsDrawnAsABox) {
+  World exact, cut;
+  exact.sun.elevation_rad = cut.sun.elevation_rad = Rad(70);
+  Add(exact, Box{1.2, 0.9, 1.1}, 2, 3, 0.4, 1);
+  cut.solids = {Moved(MakeBox(0, 0, 1.2, 0.9, 1.1), 0.4, {2, 3, 0})};
+  cut.solids[0].albedo = 1;
+  const SceneLook plain_shaded{0.4F, 0.0F, true};
+  const RigidTransform X_WC = LookDown(-3, 2, 9, -60);
+  const ImageU8 a = Shot(exact, plain_shaded, kCamera, X_WC);
+  const ImageU8 b = Shot(cut, plain_shaded, kCamera, X_WC);
+  int apart = 0;
+  for (std::size_t i = 0; i < a.pixels().size(); ++i) {
+    apart += std::abs(a.pixels()[i] - b.pixels()[i]) > 3 ? 1 : 0;
+  }
+  EXPECT_LE(apart, 40);  // of the pixels on its edges
+}
+
 TEST_F(SceneRendererTest, RightPictureIsTheLeftShiftedByTheExactDisparity) {
-  Scene scene;
+  World scene;
+  scene.ground.runway_markings = true;
   auto renderer = SceneRenderer::Create(scene);
   ASSERT_TRUE(renderer.ok());
   for (const double height_m : {15.24, 5.0, 1.2}) {
@@ -207,8 +226,7 @@ TEST_F(SceneRendererTest, RightPictureIsTheLeftShiftedByTheExactDisparity) {
 }
 
 TEST_F(SceneRendererTest, GrainIsRichAtEveryHeight) {
-  Scene scene;
-  scene.runway_markings = false;
+  World scene;
   auto renderer = SceneRenderer::Create(scene);
   ASSERT_TRUE(renderer.ok());
   for (const double height_m : {38.0, 15.24, 8.0, 5.0, 3.0, 1.2}) {
@@ -242,8 +260,7 @@ TEST_F(SceneRendererTest, GrainIsRichAtEveryHeight) {
 
 /// Repeats would show as a second peak of the autocorrelation.
 TEST_F(SceneRendererTest, GrainDoesNotRepeatWithinThePicture) {
-  Scene scene;
-  scene.runway_markings = false;
+  World scene;
   auto renderer = SceneRenderer::Create(scene);
   ASSERT_TRUE(renderer.ok());
   for (const double height_m : {25.0, 15.24, 5.0, 3.0}) {
@@ -273,15 +290,14 @@ TEST_F(SceneRendererTest, GrainDoesNotRepeatWithinThePicture) {
 }
 
 TEST_F(SceneRendererTest, ShadowFallsWhereTheSunSends) {
-  Scene scene;
-  scene.runway_markings = false;
-  scene.objects = {{SceneShape::kCylinder, 0, 0, 0, 0.8, 0.8, 1.5, 0.5F}};
+  World scene;
+  Add(scene, Cylinder{0.8, 1.5}, 0, 0, 0, 0.5);
   const SceneLook lit{0.42F, 0.0F, false};
   const SceneLook shaded{0.42F, 0.0F, true};
   const RigidTransform X_WC = LookDown(0, 0, 15, -90);
   const ImageU8 without = Shot(scene, lit, kCamera, X_WC);
   const ImageU8 with = Shot(scene, shaded, kCamera, X_WC);
-  const Eigen::Vector3d sun = SunDirection(scene);
+  const Eigen::Vector3d sun = scene.sun.Direction();
   const auto grey = [&](const ImageU8& picture, const Eigen::Vector3d& p_W) {
     const Eigen::Vector2d pixel = Project(kCamera, X_WC, p_W);
     return static_cast<double>(picture.at(static_cast<int>(std::lround(pixel.x())),
@@ -291,24 +307,24 @@ TEST_F(SceneRendererTest, ShadowFallsWhereTheSunSends) {
   const Eigen::Vector3d in_shadow = -sun * (1.0 / -sun.z()) - Eigen::Vector3d(0, 0, 1);
   const Eigen::Vector3d opposite(-in_shadow.x(), -in_shadow.y(), 0);
   EXPECT_NEAR(grey(with, in_shadow) / grey(without, in_shadow),
-              0.50 / (0.50 + 0.70 * std::sin(scene.sun_elevation_rad)), 0.03);
+              0.50 / (0.50 + 0.70 * std::sin(scene.sun.elevation_rad)), 0.03);
   EXPECT_EQ(grey(with, opposite), grey(without, opposite));
 }
 
 TEST_F(SceneRendererTest, SameInputGivesTheSameBits) {
-  Scene scene = TileScene();
-  scene.objects.push_back({SceneShape::kCone, 1, 1, 0, 0.5, 0.5, 0.7, 0.5F});
-  scene.objects.push_back({SceneShape::kTable, -1, 1, 0.2, 1.8, 0.8, 0.75, 0.6F});
+  World scene = TileScene();
+  Add(scene, Cone{0.5, 0.7}, 1, 1, 0, 0.5);
+  Add(scene, Table{1.8, 0.8, 0.75}, -1, 1, 0.2, 0.6);
   const RigidTransform X_WC = LookDown(-6, 0, 8, -50);
   const ImageU8 first = Shot(scene, {}, kCamera, X_WC);
   const ImageU8 again = Shot(scene, {}, kCamera, X_WC);
   EXPECT_EQ(first.pixels(), again.pixels());
-  scene.texture_seed = 2;
+  scene.ground.texture_seed = 2;
   EXPECT_NE(first.pixels(), Shot(scene, {}, kCamera, X_WC).pixels());
 }
 
 TEST(OffscreenSceneCameraTest, WorksOnAThreadItWasNotMadeOn) {
-  const Scene scene = TileScene();
+  const World scene = TileScene();
   auto here = MakeOffscreenSceneCamera(scene);
   auto there = MakeOffscreenSceneCamera(scene);
   if (!here.ok() || !there.ok()) {
@@ -323,7 +339,7 @@ TEST(OffscreenSceneCameraTest, WorksOnAThreadItWasNotMadeOn) {
 }
 
 TEST(OffscreenSceneCameraTest, RefusesAPictureWithoutPixels) {
-  auto camera = MakeOffscreenSceneCamera(Scene{});
+  auto camera = MakeOffscreenSceneCamera(World{});
   if (!camera.ok()) {
     GTEST_SKIP() << camera.error().message;
   }

@@ -28,9 +28,9 @@ TEST(OsMesaTest, SceneIsDrawnThroughOffscreenMesa) {
   std::vector<unsigned char> screen(16 * 16 * 4);
   ASSERT_TRUE(OSMesaMakeCurrent(context, screen.data(), GL_UNSIGNED_BYTE, 16, 16));
   {
-    Scene scene;
-    scene.runway_markings = false;
-    scene.objects = {{SceneShape::kBox, 0, 0, 0, 2, 2, 0.5, 1.0F}};
+    World scene;
+    scene.solids = {StandingOn(scene.ground, Box{2, 2, 0.5}, 0, 0)};
+    scene.solids[0].albedo = 1;
     auto renderer = SceneRenderer::Create(scene, {0.0F, 0.0F, false});
     ASSERT_TRUE(renderer.ok()) << renderer.error().message;
     const PinholeCamera camera{160, 120, 170, 170, 79.5, 59.5};

@@ -2,7 +2,7 @@
 // only.
 #pragma once
 
-#include "engine/core/float_lanes.h"
+#include "engine/core/lanes/float_lanes.h"
 #include "engine/slad/hazards/loops/slad_loops.h"
 
 namespace palace {

@@ -1,5 +1,6 @@
 #include "engine/slad/hazards/loops/slad_loops.h"
 
+#include "engine/core/lanes/instruction_sets.h"
 #include "engine/slad/hazards/loops/slad_loops_table.h"
 
 namespace palace {
@@ -11,19 +12,11 @@ const SladLoops* SladLoopsBuiltForAvx512();
 const SladLoops& PortableSladLoops() { return kLoops; }
 
 const SladLoops* Avx2SladLoops() {
-#if defined(__x86_64__)
-  return __builtin_cpu_supports("avx2") ? SladLoopsBuiltForAvx2() : nullptr;
-#else
-  return nullptr;
-#endif
+  return Has(InstructionSet::kAvx2) ? SladLoopsBuiltForAvx2() : nullptr;
 }
 
 const SladLoops* Avx512SladLoops() {
-#if defined(__x86_64__)
-  return __builtin_cpu_supports("avx512f") ? SladLoopsBuiltForAvx512() : nullptr;
-#else
-  return nullptr;
-#endif
+  return Has(InstructionSet::kAvx512) ? SladLoopsBuiltForAvx512() : nullptr;
 }
 
 const SladLoops& FastestSladLoops() {

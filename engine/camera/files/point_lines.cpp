@@ -1,4 +1,4 @@
-#include "engine/tools/camera_points.h"
+#include "engine/camera/files/point_lines.h"
 
 #include <array>
 #include <charconv>

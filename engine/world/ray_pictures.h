@@ -1,4 +1,4 @@
-// Stereo pairs with exact depths: a small world of convex solids on textured ground, ray cast.
+// Pictures and stereo pairs of a world with exact depths, ray cast.
 //
 // Depth is the distance along the optical axis. No GL: pictures depend on nothing but the numbers
 // given, so accuracy is measured against them to any digit.
@@ -13,39 +13,26 @@
 #include "engine/model/image.h"
 #include "engine/model/rig.h"
 #include "engine/world/baked_ground.h"
-#include "engine/world/ground_texture.h"
-#include "engine/world/solids.h"
+#include "engine/world/world.h"
 
 namespace palace {
 
-struct StereoWorld {
-  GroundTexture texture = GroundTexture::kCloud;
-  std::uint64_t texture_seed = 7;
-  double contrast = 1;     ///< of the texture about mid grey; 0: none
-  double slope_north = 0;  ///< rise of the ground per metre north
-  std::vector<Solid> solids{};
-};
-
-/// Depth of the nearest surface along p + s r, for a ray r of W with unit depth; infinity for sky.
-double CastDepth(const StereoWorld& world, const Eigen::Vector3d& p_W, const Eigen::Vector3d& r_W);
-
 /// Grey that falls on each pixel: samples x samples rays a pixel, weighted by the pixel's square
 /// spread by the lens. Sky is 200.
-ImageF RenderGrey(const StereoWorld& world, const PinholeCamera& camera, const RigidTransform& X_WC,
+ImageF RenderGrey(const World& world, const PinholeCamera& camera, const RigidTransform& X_WC,
                   int samples);
 /// The same, quickly: ground is looked up in what was baked for pictures like this one, and only
 /// pixels that a solid touches are cast. Ground there is spread by the lens twice, for a pixel or
 /// two along the solid's edge. Solids and ground beyond the bake are exact. Pictures whose ground
 /// sample distance leaves that of the bake by more than 25 % are made by RenderGrey.
-ImageF DrawGrey(const StereoWorld& world, const PinholeCamera& camera, const RigidTransform& X_WC,
+ImageF DrawGrey(const World& world, const PinholeCamera& camera, const RigidTransform& X_WC,
                 const BakedGround& ground);
 /// Ground for DrawGrey of all these cameras' pictures; finest where they differ.
-BakedGround BakeFor(const StereoWorld& world, const PinholeCamera& camera,
+BakedGround BakeFor(const World& world, const PinholeCamera& camera,
                     const std::vector<RigidTransform>& X_WCs);
 
 /// Through the pixels' centres.
-ImageF RenderDepth(const StereoWorld& world, const PinholeCamera& camera,
-                   const RigidTransform& X_WC);
+ImageF RenderDepth(const World& world, const PinholeCamera& camera, const RigidTransform& X_WC);
 
 /// What a sensor makes of it: gain * grey + offset, normal noise, whole levels 0..255.
 struct Exposure {
@@ -67,7 +54,7 @@ struct StereoView {
 };
 
 /// Camera `height_m` over the origin of W, tilted (negative down, -pi/2 nadir), heading north.
-StereoView ViewFrom(const StereoWorld& world, const PinholeCamera& camera, double height_m,
+StereoView ViewFrom(const World& world, const PinholeCamera& camera, double height_m,
                     double tilt_rad, int samples = 4);
 
 }  // namespace palace

@@ -1,4 +1,4 @@
-#include "engine/world/stereo_world.h"
+#include "engine/world/ray_pictures.h"
 
 #include <algorithm>
 #include <array>
@@ -14,9 +14,10 @@ namespace {
 
 using Eigen::Vector3d;
 
-struct Hit {
+/// A hit and where it lies on the texture, metres.
+struct TexturedHit {
   double depth = std::numeric_limits<double>::infinity();
-  double u_m = 0;  ///< texture coordinates
+  double u_m = 0;
   double v_m = 0;
   const Solid* solid = nullptr;
 };
@@ -32,20 +33,17 @@ struct SeenSolid {
   PixelBox box;
 };
 
-Hit CastGround(const StereoWorld& world, const Vector3d& p, const Vector3d& r) {
-  Hit hit;
-  // Ground: height = slope * north, so -z = slope x.
-  const double fall = r.z() + world.slope_north * r.x();
-  if (fall > 1e-9) {
-    hit.depth = -(p.z() + world.slope_north * p.x()) / fall;
+TexturedHit GroundHit(const World& world, const Vector3d& p, const Vector3d& r) {
+  TexturedHit hit{CastGround(world.ground, p, r).s};
+  if (!std::isinf(hit.depth)) {
     hit.u_m = p.x() + hit.depth * r.x();
     hit.v_m = p.y() + hit.depth * r.y();
   }
   return hit;
 }
 
-void CastSolid(const Solid& solid, const Vector3d& p, const Vector3d& r, Hit& hit) {
-  const double enter = EnterSolid(solid, p, r);
+void CastSolid(const Solid& solid, const Vector3d& p, const Vector3d& r, TexturedHit& hit) {
+  const double enter = Enter(solid, p, r);
   if (enter < hit.depth) {
     // Slanted over the walls, so that they show texture too; shifted off the ground's.
     const Vector3d q = p + enter * r;
@@ -53,20 +51,20 @@ void CastSolid(const Solid& solid, const Vector3d& p, const Vector3d& r, Hit& hi
   }
 }
 
-constexpr double kMidGrey = 128;
+constexpr double kMidGrey = 128, kWhite = 255;
 
-double WithContrast(const StereoWorld& world, double grey) {
-  return kMidGrey + world.contrast * (grey - kMidGrey);
+double WithContrast(const World& world, double grey) {
+  return kMidGrey + world.ground.contrast * (grey - kMidGrey);
 }
 
-double GreyOf(const StereoWorld& world, GroundPainter& painter, const Hit& hit) {
+double GreyOf(const World& world, GroundPainter& painter, const TexturedHit& hit) {
   constexpr double kSky = 200;
   if (std::isinf(hit.depth)) {
     return kSky;
   }
   const double grey = WithContrast(world, painter.Grey(hit.u_m, hit.v_m));
-  const bool painted = hit.solid != nullptr && !std::isnan(hit.solid->tone_grey);
-  return painted ? hit.solid->tone_grey + (grey - kMidGrey) / 3 : grey;
+  const bool painted = hit.solid != nullptr && !std::isnan(hit.solid->albedo);
+  return painted ? kWhite * hit.solid->albedo + (grey - kMidGrey) / 3 : grey;
 }
 
 /// The pixel's square, `samples` wide, spread by the lens; their sum is 1.
@@ -96,8 +94,8 @@ PixelBox PixelsOf(const Solid& solid, const PinholeCamera& camera, const RigidTr
   const PixelBox whole = WholePicture(camera);
   const RigidTransform X_CW = X_WC.Inverse();
   Eigen::AlignedBox2d box;
-  for (const Vector3d& corner : solid.corners) {
-    const auto pixel = ProjectPinhole(camera, X_CW * corner);
+  for (const Vector3d& corner : Bounds(solid.shape)) {
+    const auto pixel = ProjectPinhole(camera, X_CW * (solid.X_WO * corner));
     if (!pixel) {
       return whole;
     }
@@ -115,7 +113,7 @@ PixelBox PixelsOf(const Solid& solid, const PinholeCamera& camera, const RigidTr
           within(box.max().y() + kReach_px + 1, whole.bottom)};
 }
 
-std::vector<SeenSolid> SolidsInView(const StereoWorld& world, const PinholeCamera& camera,
+std::vector<SeenSolid> SolidsInView(const World& world, const PinholeCamera& camera,
                                     const RigidTransform& X_WC) {
   std::vector<SeenSolid> seen;
   for (const Solid& solid : world.solids) {
@@ -149,7 +147,7 @@ std::vector<PixelBox> MergedBoxes(const std::vector<SeenSolid>& solids) {
 }
 
 struct View {
-  const StereoWorld& world;
+  const World& world;
   const PinholeCamera& camera;
   const RigidTransform& X_WC;
   std::vector<SeenSolid> solids;
@@ -185,7 +183,7 @@ void CastBox(const View& view, int samples, const PixelBox& box, bool everything
     for (int i = 0; i < across; ++i) {
       const double x = place(box.left, i);
       const Vector3d ray = view.X_WC.R * RayFromPixel(view.camera, {x, y});
-      Hit hit = CastGround(view.world, view.X_WC.p, ray);
+      TexturedHit hit = GroundHit(view.world, view.X_WC.p, ray);
       for (const SeenSolid* seen : in_row) {
         if (x >= seen->box.left - 1 && x <= seen->box.right) {
           CastSolid(*seen->solid, view.X_WC.p, ray, hit);
@@ -220,12 +218,12 @@ void CastBox(const View& view, int samples, const PixelBox& box, bool everything
 }
 
 /// Metres of ground a pixel spans at a place of the picture; infinity at the horizon.
-double SampleDistance(const StereoWorld& world, const PinholeCamera& camera,
-                      const RigidTransform& X_WC, double x, double y) {
+double SampleDistance(const World& world, const PinholeCamera& camera, const RigidTransform& X_WC,
+                      double x, double y) {
   const auto at = [&](double px, double py) {
-    return CastGround(world, X_WC.p, X_WC.R * RayFromPixel(camera, {px, py}));
+    return GroundHit(world, X_WC.p, X_WC.R * RayFromPixel(camera, {px, py}));
   };
-  const Hit centre = at(x, y), right = at(x + 1, y), below = at(x, y + 1);
+  const TexturedHit centre = at(x, y), right = at(x + 1, y), below = at(x, y + 1);
   if (std::isinf(centre.depth) || std::isinf(right.depth) || std::isinf(below.depth)) {
     return std::numeric_limits<double>::infinity();
   }
@@ -239,7 +237,7 @@ std::array<Eigen::Vector2d, 4> PictureCorners(const PinholeCamera& camera) {
   return {{{-0.5, -0.5}, {right, -0.5}, {-0.5, bottom}, {right, bottom}}};
 }
 
-bool BakedAlike(const StereoWorld& world, const PinholeCamera& camera, const RigidTransform& X_WC,
+bool BakedAlike(const World& world, const PinholeCamera& camera, const RigidTransform& X_WC,
                 const BakedGround& ground) {
   constexpr double kMostUnlike = 1.25;
   for (const Eigen::Vector2d& corner : PictureCorners(camera)) {
@@ -253,13 +251,13 @@ bool BakedAlike(const StereoWorld& world, const PinholeCamera& camera, const Rig
 }
 
 void DrawGround(const View& view, const BakedGround& ground, ImageF& grey) {
-  GroundPainter painter(view.world.texture, view.world.texture_seed);
+  GroundPainter painter(view.world.ground.texture, view.world.ground.texture_seed);
   for (int y = 0; y < view.camera.height; ++y) {
     float* row = grey.row(y);
     const Vector3d first = view.X_WC.R * RayFromPixel(view.camera, {0, static_cast<double>(y)});
     const Vector3d step = view.X_WC.R.col(0) / view.camera.fx_px;
     for (int x = 0; x < view.camera.width; ++x) {
-      const Hit hit = CastGround(view.world, view.X_WC.p, first + x * step);
+      const TexturedHit hit = GroundHit(view.world, view.X_WC.p, first + x * step);
       const float baked = ground.Grey(hit.u_m, hit.v_m);
       row[x] = static_cast<float>(std::isnan(baked)
                                       ? GreyOf(view.world, painter, hit)
@@ -270,25 +268,18 @@ void DrawGround(const View& view, const BakedGround& ground, ImageF& grey) {
 
 }  // namespace
 
-double CastDepth(const StereoWorld& world, const Vector3d& p_W, const Vector3d& r_W) {
-  Hit hit = CastGround(world, p_W, r_W);
-  for (const Solid& solid : world.solids) {
-    CastSolid(solid, p_W, r_W, hit);
-  }
-  return hit.depth;
-}
-
-ImageF RenderGrey(const StereoWorld& world, const PinholeCamera& camera, const RigidTransform& X_WC,
+ImageF RenderGrey(const World& world, const PinholeCamera& camera, const RigidTransform& X_WC,
                   int samples) {
   const View view{world, camera, X_WC, SolidsInView(world, camera, X_WC)};
-  GroundPainter painter(world.texture, world.texture_seed);
-  const auto shade = [&](const Hit& hit) { return GreyOf(world, painter, hit); };
+  GroundPainter painter(world.ground.texture, world.ground.texture_seed);
+  const auto shade = [&](const TexturedHit& hit) { return GreyOf(world, painter, hit); };
   ImageF grey(camera.width, camera.height);
   CastBox(view, samples, WholePicture(camera), true, shade, grey);
+  PaintThings(world.wires, world.pools, camera, X_WC, grey);
   return grey;
 }
 
-ImageF DrawGrey(const StereoWorld& world, const PinholeCamera& camera, const RigidTransform& X_WC,
+ImageF DrawGrey(const World& world, const PinholeCamera& camera, const RigidTransform& X_WC,
                 const BakedGround& ground) {
   constexpr int kSamples = 4;
   if (!BakedAlike(world, camera, X_WC, ground)) {
@@ -297,8 +288,8 @@ ImageF DrawGrey(const StereoWorld& world, const PinholeCamera& camera, const Rig
   const View view{world, camera, X_WC, SolidsInView(world, camera, X_WC)};
   ImageF grey(camera.width, camera.height);
   DrawGround(view, ground, grey);
-  GroundPainter painter(world.texture, world.texture_seed);
-  const auto shade = [&](const Hit& hit) {
+  GroundPainter painter(world.ground.texture, world.ground.texture_seed);
+  const auto shade = [&](const TexturedHit& hit) {
     const float baked = hit.solid != nullptr ? std::numeric_limits<float>::quiet_NaN()
                                              : ground.Grey(hit.u_m, hit.v_m);
     return std::isnan(baked) ? GreyOf(world, painter, hit)
@@ -307,10 +298,11 @@ ImageF DrawGrey(const StereoWorld& world, const PinholeCamera& camera, const Rig
   for (const PixelBox& box : MergedBoxes(view.solids)) {
     CastBox(view, kSamples, box, false, shade, grey);
   }
+  PaintThings(world.wires, world.pools, camera, X_WC, grey);
   return grey;
 }
 
-BakedGround BakeFor(const StereoWorld& world, const PinholeCamera& camera,
+BakedGround BakeFor(const World& world, const PinholeCamera& camera,
                     const std::vector<RigidTransform>& X_WCs) {
   constexpr double kMargin_m = 0.05;
   constexpr double kFarthest_m = 1000;
@@ -320,7 +312,7 @@ BakedGround BakeFor(const StereoWorld& world, const PinholeCamera& camera,
     const double middle = SampleDistance(world, camera, X_WC, camera.cx_px, camera.cy_px);
     distance_m = std::min(distance_m, middle);
     for (const Eigen::Vector2d& corner : PictureCorners(camera)) {
-      const Hit hit = CastGround(world, X_WC.p, X_WC.R * RayFromPixel(camera, corner));
+      const TexturedHit hit = GroundHit(world, X_WC.p, X_WC.R * RayFromPixel(camera, corner));
       if (!std::isinf(hit.depth)) {
         place.u_min_m = std::min(place.u_min_m, hit.u_m - kMargin_m);
         place.u_max_m = std::max(place.u_max_m, hit.u_m + kMargin_m);
@@ -336,17 +328,16 @@ BakedGround BakeFor(const StereoWorld& world, const PinholeCamera& camera,
                     place.u_max_m - place.u_min_m < kFarthest_m &&
                     place.v_max_m - place.v_min_m < kFarthest_m && place.u_min_m < place.u_max_m;
   // Nothing to bake: every look-up falls outside and is worked out in place.
-  return seen ? BakedGround(world.texture, world.texture_seed, place, distance_m)
-              : BakedGround(world.texture, world.texture_seed, {}, 1);
+  return seen ? BakedGround(world.ground.texture, world.ground.texture_seed, place, distance_m)
+              : BakedGround(world.ground.texture, world.ground.texture_seed, {}, 1);
 }
 
-ImageF RenderDepth(const StereoWorld& world, const PinholeCamera& camera,
-                   const RigidTransform& X_WC) {
+ImageF RenderDepth(const World& world, const PinholeCamera& camera, const RigidTransform& X_WC) {
   ImageF depth_m(camera.width, camera.height);
   for (int y = 0; y < camera.height; ++y) {
     for (int x = 0; x < camera.width; ++x) {
       const Vector3d ray = RayFromPixel(camera, {static_cast<double>(x), static_cast<double>(y)});
-      depth_m.at(x, y) = static_cast<float>(CastDepth(world, X_WC.p, X_WC.R * ray));
+      depth_m.at(x, y) = static_cast<float>(CastRay(world, X_WC.p, X_WC.R * ray).s);
     }
   }
   return depth_m;
@@ -363,7 +354,7 @@ ImageU8 Expose(const ImageF& grey, const Exposure& exposure, std::uint64_t seed)
   return picture;
 }
 
-StereoView ViewFrom(const StereoWorld& world, const PinholeCamera& camera, double height_m,
+StereoView ViewFrom(const World& world, const PinholeCamera& camera, double height_m,
                     double tilt_rad, int samples) {
   StereoView view;
   view.camera = camera;

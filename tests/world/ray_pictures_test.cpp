@@ -1,4 +1,4 @@
-#include "engine/world/stereo_world.h"
+#include "engine/world/ray_pictures.h"
 
 #include <cmath>
 #include <numbers>
@@ -45,9 +45,9 @@ class DrawnGround : public ::testing::TestWithParam<GroundTexture> {};
 // Fine grain is sampled 9 times a pixel by the bake and 16 times by the slow picture, so both stand
 // off a picture of 64 samples by their aliasing.
 TEST_P(DrawnGround, IsTheSlowPicture) {
-  StereoWorld world;
-  world.texture = GetParam();
-  world.slope_north = 0.04;
+  World world;
+  world.ground.texture = GetParam();
+  world.ground.rise_north = 0.04;
   // A quarter of the rig's picture from a quarter of its height: the same ground a pixel.
   const PinholeCamera camera = PinholeFromFov(160, 120, Rad(60));
   for (const double height_m : {3.05, 7.0, 15.24, 30.5}) {
@@ -76,8 +76,8 @@ std::vector<Solid> SomeSolids() {
 }
 
 TEST(DrawnSolids, AreTheSlowPicture) {
-  StereoWorld world;
-  world.texture = GroundTexture::kGrass;
+  World world;
+  world.ground.texture = GroundTexture::kGrass;
   world.solids = SomeSolids();
   const PinholeCamera camera = PinholeFromFov(320, 240, Rad(45));
   const RigidTransform X_WC = Above(4, {0.02, 0.03, -0.4});
@@ -93,15 +93,15 @@ TEST(DrawnSolids, AreTheSlowPicture) {
 
 // Bounds in the picture may leave nothing out: every solid cast against every ray is the reference.
 TEST(DrawnSolids, BoundsLeaveNothingOut) {
-  StereoWorld world;
+  World world;
   world.solids = SomeSolids();
   const PinholeCamera camera = PinholeFromFov(160, 120, Rad(50));
   for (const double tilt_rad : {kNadir_rad, -0.7}) {
     const RigidTransform X_WC{CameraRotationFromTilt(tilt_rad),
                               {tilt_rad < -1 ? 0.0 : -4.0, 0, -3}};
-    StereoWorld unbounded = world;
+    World unbounded = world;
     for (Solid& solid : unbounded.solids) {
-      solid.corners.clear();
+      std::get<Polyhedron>(solid.shape).corners.clear();
     }
     EXPECT_EQ(RenderGrey(world, camera, X_WC, 2).pixels(),
               RenderGrey(unbounded, camera, X_WC, 2).pixels());
@@ -109,9 +109,11 @@ TEST(DrawnSolids, BoundsLeaveNothingOut) {
 }
 
 double HeightAt(const Solid& solid, double north_m, double east_m) {
-  StereoWorld world;
+  World world;
   world.solids = {solid};
-  return 100 - CastDepth(world, {north_m, east_m, -100}, Eigen::Vector3d::UnitZ());
+  EXPECT_NEAR(100 - CastRay(world, {north_m, east_m, -100}, Eigen::Vector3d::UnitZ()).s,
+              SurfaceHeight(world, north_m, east_m), 1e-9);
+  return SurfaceHeight(world, north_m, east_m);
 }
 
 TEST(Solids, ConesAndCylindersAreRoundWithinOnePercent) {
@@ -141,8 +143,8 @@ TEST(Solids, RodsRunBetweenTheirEndsInAnyDirection) {
     const Eigen::Vector3d middle = 0.3 * from + 0.7 * to;
     const Eigen::Vector3d across = (to - from).unitOrthogonal();
     // From 1 m to the side it is met 2.5 cm before its middle, give or take its flat sides.
-    EXPECT_NEAR(EnterSolid(rod, middle + across, -across), 1 - 0.025, 0.0025);
-    EXPECT_TRUE(std::isinf(EnterSolid(rod, 1.2 * to - 0.2 * from + across, -across)));
+    EXPECT_NEAR(Enter(rod, middle + across, -across), 1 - 0.025, 0.0025);
+    EXPECT_TRUE(std::isinf(Enter(rod, 1.2 * to - 0.2 * from + across, -across)));
   }
 }
 

@@ -1,4 +1,4 @@
-#include "engine/tools/camera_info.h"
+#include "engine/camera/camera_info.h"
 
 #include <algorithm>
 #include <array>

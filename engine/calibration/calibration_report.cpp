@@ -1,14 +1,14 @@
-#include "engine/tools/calibration_report.h"
+#include "engine/calibration/calibration_report.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 
 #include <nlohmann/json.hpp>
 
 #include "engine/calibration/calibration_quality.h"
 #include "engine/camera/cahvor.h"
+#include "engine/core/text.h"
 #include "engine/core/units.h"
 #include "engine/report/html_page.h"
 #include "engine/report/svg_plot.h"
@@ -25,9 +25,7 @@ constexpr double kReportDepth_m = 15;
 const std::array<const char*, 2> kSideNames = {"left", "right"};
 
 std::string Fixed(double value, int decimals) {
-  char text[64];
-  std::snprintf(text, sizeof text, "%.*f", decimals, value);
-  return std::isfinite(value) ? text : "-";
+  return OrDash(("%." + std::to_string(decimals) + "f").c_str(), value);
 }
 
 std::string Percent(double share) { return Fixed(100 * share, 3) + " %"; }

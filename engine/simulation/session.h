@@ -1,0 +1,40 @@
+// A simulated session: scene, wind, vehicle and the key it obeys, from one seed. The one way to
+// assemble it, for window, experiments, `palacectl simulate` and tests.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "engine/core/result.h"
+#include "engine/simulation/simulator.h"
+#include "engine/trust/approval.h"
+
+namespace palace {
+
+struct SessionSpec {
+  std::string scenario = "runway";  ///< of SceneNames()
+  std::uint64_t seed = 1;           ///< of scene, noise, wind and session; one seed, one flight
+  double wind_mps = 0;              ///< mean at 20 ft; its gusts have a W20 of 1.5 times as much
+  double speed = 0;                 ///< times real time; 0 as fast as possible
+  double duration_limit_s = 600;
+  bool render = true;  ///< false: bundles carry no pictures
+  /// Where the station is another program: its key, or none to take unsigned approvals.
+  struct OtherStation {
+    std::optional<PublicKey> key{};
+  };
+  std::optional<OtherStation> other_station{};  ///< none: the vehicle obeys the session's signer
+};
+
+struct SimulatedSession {
+  std::uint64_t id = 1;
+  ApprovalSigner signer;  ///< the same for the same seed: never a key of a real vehicle
+  World scene;
+  std::shared_ptr<Simulator> simulator;
+};
+
+/// An unknown scenario is a usage error that lists the names. `cameras` may be null without
+/// pictures.
+Result<SimulatedSession> OpenSimulatedSession(const SessionSpec& spec, SceneCameraFactory cameras);
+
+}  // namespace palace

@@ -1,0 +1,69 @@
+#include "engine/world/world.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace palace {
+
+using Eigen::Vector3d;
+
+double Ground::Height(double north_m, double east_m) const {
+  return rise_north * north_m + rise_east * east_m;
+}
+
+Vector3d Ground::Normal() const { return Vector3d(-rise_north, -rise_east, -1).normalized(); }
+
+Vector3d Sun::Direction() const {
+  return {std::cos(elevation_rad) * std::cos(azimuth_rad),
+          std::cos(elevation_rad) * std::sin(azimuth_rad), -std::sin(elevation_rad)};
+}
+
+World WorldAt(const World& world, double time_s) {
+  World moved = world;
+  for (Solid& solid : moved.solids) {
+    solid.X_WO.p += time_s * solid.v_WO;
+  }
+  return moved;
+}
+
+Solid StandingOn(const Ground& ground, Shape shape, double north_m, double east_m, double yaw_rad) {
+  return {std::move(shape), Upright({north_m, east_m, -ground.Height(north_m, east_m)}, yaw_rad)};
+}
+
+Hit CastGround(const Ground& ground, const Vector3d& p_W, const Vector3d& r_W) {
+  // Height above the plane falls from `above` by `fall` a unit of s.
+  const double fall = r_W.z() + ground.rise_north * r_W.x() + ground.rise_east * r_W.y();
+  const double above = -(p_W.z() + ground.rise_north * p_W.x() + ground.rise_east * p_W.y());
+  return fall > 1e-9 && above >= 0 ? Hit{above / fall} : Hit{};
+}
+
+Hit CastRay(const World& world, const Vector3d& p_W, const Vector3d& r_W) {
+  Hit hit = CastGround(world.ground, p_W, r_W);
+  for (const Solid& solid : world.solids) {
+    const double enter = Enter(solid, p_W, r_W);
+    if (enter < hit.s) {
+      hit = {enter, &solid};
+    }
+  }
+  return hit;
+}
+
+double SurfaceHeight(const World& world, double north_m, double east_m) {
+  double top = world.ground.Height(north_m, east_m);
+  for (const Solid& solid : world.solids) {
+    const Vector3d p_O = solid.X_WO.R.transpose() * (Vector3d(north_m, east_m, 0) - solid.X_WO.p);
+    top = std::max(top, TopHeight(solid.shape, p_O.x(), p_O.y()) - solid.X_WO.p.z());
+  }
+  return top;
+}
+
+double ObstacleDistance(const World& world, double north_m, double east_m) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const Solid& solid : world.solids) {
+    nearest = std::min(nearest, DistanceFromAbove(solid, north_m, east_m));
+  }
+  return nearest;
+}
+
+}  // namespace palace
