@@ -112,14 +112,14 @@ Result<std::vector<FieldFrame>> LookAtField(const StereoWorld& world, const Hove
 
 std::shared_ptr<const TerrainDecision> DecideOnField(const std::vector<FieldFrame>& frames,
                                                      const Settings& settings, int count) {
-  TerrainStage stage;
+  Slad slad;
   const std::size_t used =
       count > 0 ? std::min(frames.size(), static_cast<std::size_t>(count)) : frames.size();
   PALACE_CHECK(used > 0);
   for (std::size_t i = 0; i < used; ++i) {
-    stage.Add(frames[i].input, settings.slad);
+    slad.Add(frames[i].input, settings.slad);
   }
-  return stage.Evaluate(settings, true);
+  return slad.Decide(settings, Letters::kOfRecord);
 }
 
 double TrueHeight(const StereoWorld& world, double north_m, double east_m) {

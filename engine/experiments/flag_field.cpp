@@ -6,7 +6,7 @@
 #include "engine/camera/pinhole.h"
 #include "engine/core/random.h"
 #include "engine/core/units.h"
-#include "engine/runtime/terrain_stage.h"
+#include "engine/slad/slad.h"
 #include "engine/stereo/stereo.h"
 
 namespace palace {
@@ -85,7 +85,7 @@ Result<std::shared_ptr<const ElevationMap>> FlagsOfField(const FlagField& field,
   RandomStream navigation(seed, "pose errors"), sensor(seed, "sensor seeds");
   const std::vector<RigidTransform> poses = PosesOf(field, frames, seed);
   StereoMatcher matcher;
-  TerrainStage stage;
+  Slad slad;
   const StereoSettings settings;
   for (int k = 0; k < frames; ++k) {
     const StereoWorld world = WorldAt(field, thing, k);
@@ -100,7 +100,7 @@ Result<std::shared_ptr<const ElevationMap>> FlagsOfField(const FlagField& field,
       }
       return std::make_shared<const ImageU8>(Expose(grey, {view.noise_grey}, sensor.NextBits()));
     };
-    TerrainInput input;
+    SladInput input;
     input.left = look(X_WC);
     input.right = look(RightOf(X_WC, view.baseline_m));
     input.baseline_m = view.baseline_m;
@@ -114,9 +114,9 @@ Result<std::shared_ptr<const ElevationMap>> FlagsOfField(const FlagField& field,
       return stereo.error();
     }
     input.range = std::make_shared<const RangeMap>(std::move(stereo->range));
-    stage.Add(input, SladSettings{});
+    slad.Add(input, SladSettings{});
   }
-  return stage.elevation();
+  return slad.elevation();
 }
 
 }  // namespace palace

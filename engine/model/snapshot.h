@@ -18,6 +18,7 @@
 #include "engine/model/navigation_status.h"
 #include "engine/model/range_map.h"
 #include "engine/model/settings.h"
+#include "engine/model/terrain_decision.h"
 
 namespace palace {
 
@@ -77,19 +78,6 @@ struct ChannelHealth {
   std::uint64_t count = 0;
   std::uint64_t lost = 0;
   std::string note;  ///< e.g. "± 2.6 m"
-};
-
-/// One evaluation of SLAD under one settings set.
-struct TerrainDecision {
-  Timestamp map_time;
-  std::shared_ptr<const ElevationMap> elevation;
-  std::shared_ptr<const HazardMaps> hazards;
-  SiteSelection selection;  ///< letters assigned
-  SladSettings settings;
-  std::uint64_t settings_hash = 0;
-  std::uint64_t map_hash = 0;
-  /// Verdict per pixel of the left image at quarter size: 0 unknown, 1 safe, 2 over a limit.
-  std::shared_ptr<const ImageU8> verdict;
 };
 
 /// One sample of the descent history, one a frame.

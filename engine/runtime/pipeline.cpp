@@ -21,7 +21,7 @@ Pipeline::Pipeline(const Settings& settings, MissionOptions mission)
     : settings_(settings), mission_(std::move(mission)) {}
 
 void Pipeline::StartAfterJump(Timestamp now) {
-  terrain_.Reset();
+  slad_.Forget();
   tracker_.Reset();
   tracked_site_ = 0;
   navigator_.Reset();
@@ -87,7 +87,7 @@ PipelineOutput Pipeline::Refresh(std::vector<EngineCommand> commands,
     pass.snapshot->timings.clear();
   }
   ApplyCommands(pass);
-  if (pass.settings_moved && terrain_.has_map()) {
+  if (pass.settings_moved && slad_.has_map()) {
     pass.Run("slad", [&] { Judge(pass); });
   }
   if (!jumped_) {
@@ -240,26 +240,31 @@ void Pipeline::MeasureRange(Pass& pass) {
     range_check_.Add(*range, *spot);
     pass.snapshot->range_agreement = range_check_.agreement();
   }
-  terrain_.Add({range, pass.snapshot->X_WC, navigator_.PredictBodyPose(range->time).p,
-                pass.pair.left, pass.pair.right, rectifier_->baseline_m()},
-               settings.slad);
+  slad_.Add({.range = range,
+             .X_WC = pass.snapshot->X_WC,
+             .p_WB = navigator_.PredictBodyPose(range->time).p,
+             .left = pass.pair.left,
+             .right = pass.pair.right,
+             .baseline_m = rectifier_->baseline_m()},
+            settings.slad);
   pass.new_map = true;
   maps_to_rebuild_ = std::max(0, maps_to_rebuild_ - 1);
 }
 
 void Pipeline::Judge(Pass& pass) {
   EngineSnapshot& snapshot = *pass.snapshot;
-  if (!terrain_.has_map() || (!pass.new_map && !pass.settings_moved)) {
+  if (!slad_.has_map() || (!pass.new_map && !pass.settings_moved)) {
     pass.decision_of_record = snapshot.recorded ? snapshot.recorded : snapshot.applied;
     return;
   }
   // Letters follow the limits of record; a preview or a re-decision uses a copy of them.
-  pass.decision_of_record = terrain_.Evaluate(settings_.recorded(), pass.new_map);
-  snapshot.applied = settings_.redecided() ? terrain_.Evaluate(settings_.applied(), false)
+  pass.decision_of_record =
+      slad_.Decide(settings_.recorded(), pass.new_map ? Letters::kOfRecord : Letters::kOfCopy);
+  snapshot.applied = settings_.redecided() ? slad_.Decide(settings_.applied(), Letters::kOfCopy)
                                            : pass.decision_of_record;
   snapshot.recorded = settings_.redecided() ? pass.decision_of_record : nullptr;
   snapshot.preview =
-      settings_.previewing() ? terrain_.Evaluate(settings_.preview(), false) : nullptr;
+      settings_.previewing() ? slad_.Decide(settings_.preview(), Letters::kOfCopy) : nullptr;
 }
 
 std::optional<LandingSite> Pipeline::TrackedSite(Timestamp now) const {
@@ -316,13 +321,13 @@ void Pipeline::Decide(Pass& pass) {
   std::optional<NearestHazard> nearest;
   const auto& armed = mission_.status().armed;
   if (armed && pass.decision_of_record && pass.new_map) {
-    rechecked = terrain_.Recheck(*pass.decision_of_record, *armed, settings_.recorded());
+    rechecked = slad_.Recheck(*pass.decision_of_record, *armed, settings_.recorded());
     if (rechecked) {
       const TerrainDecision& map = *pass.decision_of_record;
       nearest = ExplainCell(*map.elevation, *map.hazards, map.settings, rechecked->cell).nearest;
     }
     if (const auto& kept = mission_.alternative()) {
-      alternative = terrain_.Recheck(*pass.decision_of_record, *kept, settings_.recorded());
+      alternative = slad_.Recheck(*pass.decision_of_record, *kept, settings_.recorded());
     }
   }
   const bool simulated = snapshot.vehicle && snapshot.vehicle->simulated;

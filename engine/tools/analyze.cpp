@@ -19,6 +19,7 @@
 #include "engine/model/site_standing.h"
 #include "engine/runtime/settings_io.h"
 #include "engine/slad/hazards/explanation.h"
+#include "engine/slad/sites/verdict_image.h"
 #include "engine/slad/slad.h"
 #include "engine/survey/cloud_elevation.h"
 #include "engine/survey/hazard_layer.h"

@@ -1,4 +1,4 @@
-// What pictures show beside heights, through stereo and the flight's terrain stage: wires, painted
+// What pictures show beside heights, through stereo and SLAD: wires, painted
 // lines, still water, somebody moving; and nothing where there is nothing.
 #include <algorithm>
 #include <array>
@@ -13,7 +13,7 @@
 
 #include "engine/camera/pinhole.h"
 #include "engine/core/units.h"
-#include "engine/runtime/terrain_stage.h"
+#include "engine/slad/slad.h"
 #include "engine/stereo/stereo.h"
 #include "engine/world/painted_things.h"
 #include "engine/world/stereo_world.h"
@@ -62,7 +62,7 @@ struct Seen {
 
 /// The map after some frames of a world, which may differ from frame to frame.
 Seen Look(int frames, const std::function<StereoWorld(int)>& world, const Paint& paint = {}) {
-  TerrainStage stage;
+  Slad slad;
   const PinholeCamera camera = Camera();
   const BakedGround ground = BakeFor(world(0), camera, {PoseOf(0), RightOf(PoseOf(5))});
   for (int k = 0; k < frames; ++k) {
@@ -83,11 +83,11 @@ Seen Look(int frames, const std::function<StereoWorld(int)>& world, const Paint&
                                 PredictWindow(camera, kBaseline_m, X_WC, 0, 3, settings), settings,
                                 AddSeconds({}, k * kInterval_s));
     EXPECT_TRUE(stereo.ok());
-    stage.Add({std::make_shared<const RangeMap>(std::move(stereo->range)), X_WC, X_WC.p,
-               pictures[0], pictures[1], kBaseline_m},
-              SladSettings{});
+    slad.Add({std::make_shared<const RangeMap>(std::move(stereo->range)), X_WC, X_WC.p, pictures[0],
+              pictures[1], kBaseline_m},
+             SladSettings{});
   }
-  return {stage.elevation()};
+  return {slad.elevation()};
 }
 
 class SceneFlagsOn : public testing::TestWithParam<GroundTexture> {};

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/slad/slad.h"
+#include "engine/slad/terrain/elevation_map_builder.h"
 #include "tests/slad/worlds.h"
 
 namespace palace {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <opencv2/core.hpp>
 
+#include "engine/slad/map_hash.h"
 #include "engine/slad/slad.h"
 #include "tests/slad/worlds.h"
 

@@ -7,6 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "engine/camera/pinhole.h"
+#include "engine/slad/map_hash.h"
+#include "engine/slad/sites/verdict_image.h"
 #include "engine/slad/slad.h"
 #include "tests/slad/worlds.h"
 
