@@ -13,8 +13,6 @@
 namespace palace {
 namespace {
 
-constexpr double kTallestObject_m = 3;  // as the pipeline expects
-
 PinholeCamera CameraOf(const HoverView& view) {
   return PinholeFromFov(view.width_px, view.height_px, view.field_of_view_rad);
 }
@@ -91,20 +89,21 @@ Result<std::vector<FieldFrame>> LookAtField(const StereoWorld& world, const Hove
       return std::make_shared<const ImageU8>(
           Expose(DrawGrey(world, camera, X_WCamera, baked), exposure, sensor.NextBits()));
     };
-    frame.input.left = look(poses[i]);
-    frame.input.right = look(X_WRight);
-    frame.input.baseline_m = view.baseline_m;
-    frame.input.X_WC = BelievedPose(poses[i], view, navigation);
-    frame.input.p_WB = frame.input.X_WC.p;
+    SceneView& seen = frame.input.view;
+    seen.left = look(poses[i]);
+    seen.right = look(X_WRight);
+    const ViewPose believed{BelievedPose(poses[i], view, navigation)};
+    frame.input.p_WB = believed.X_WC.p;
     const DisparityWindow window =
-        PredictWindow(camera, view.baseline_m, frame.input.X_WC, 0, kTallestObject_m, settings);
+        PredictWindow(camera, view.baseline_m, believed.X_WC, 0, kTallestObject_m, settings);
     Result<StereoResult> stereo =
-        matcher.Match(*frame.input.left, *frame.input.right, camera, view.baseline_m, window,
-                      settings, AddSeconds({}, static_cast<double>(i) * view.frame_interval_s));
+        matcher.Match(*seen.left, *seen.right, camera, view.baseline_m, window, settings,
+                      AddSeconds({}, static_cast<double>(i) * view.frame_interval_s));
     if (!stereo) {
       return stereo.error();
     }
-    frame.input.range = std::make_shared<const RangeMap>(std::move(stereo->range));
+    stereo->range.pose = believed;
+    seen.range = std::make_shared<const RangeMap>(std::move(stereo->range));
     frames.push_back(std::move(frame));
   }
   return frames;

@@ -13,7 +13,6 @@ namespace palace {
 namespace {
 
 constexpr double kInterval_s = 0.2;
-constexpr double kTallestObject_m = 3;  // as the pipeline expects
 
 std::vector<RigidTransform> PosesOf(const FlagField& field, int frames, std::uint64_t seed) {
   HoverView view = field.view;
@@ -101,19 +100,19 @@ Result<std::shared_ptr<const ElevationMap>> FlagsOfField(const FlagField& field,
       return std::make_shared<const ImageU8>(Expose(grey, {view.noise_grey}, sensor.NextBits()));
     };
     SladInput input;
-    input.left = look(X_WC);
-    input.right = look(RightOf(X_WC, view.baseline_m));
-    input.baseline_m = view.baseline_m;
-    input.X_WC = Believed(X_WC, view, navigation);
-    input.p_WB = input.X_WC.p;
+    input.view.left = look(X_WC);
+    input.view.right = look(RightOf(X_WC, view.baseline_m));
+    const ViewPose believed{Believed(X_WC, view, navigation)};
+    input.p_WB = believed.X_WC.p;
     auto stereo = matcher.Match(
-        *input.left, *input.right, camera, view.baseline_m,
-        PredictWindow(camera, view.baseline_m, input.X_WC, 0, kTallestObject_m, settings), settings,
-        AddSeconds({}, k * kInterval_s));
+        *input.view.left, *input.view.right, camera, view.baseline_m,
+        PredictWindow(camera, view.baseline_m, believed.X_WC, 0, kTallestObject_m, settings),
+        settings, AddSeconds({}, k * kInterval_s));
     if (!stereo) {
       return stereo.error();
     }
-    input.range = std::make_shared<const RangeMap>(std::move(stereo->range));
+    stereo->range.pose = believed;
+    input.view.range = std::make_shared<const RangeMap>(std::move(stereo->range));
     slad.Add(input, SladSettings{});
   }
   return slad.elevation();

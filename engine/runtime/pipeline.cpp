@@ -7,12 +7,11 @@
 #include "engine/runtime/decision_hash.h"
 #include "engine/runtime/pipeline_pass.h"
 #include "engine/slad/hazards/explanation.h"
-#include "engine/stereo/prefilter.h"
+#include "engine/stereo/range_measurement.h"
 
 namespace palace {
 namespace {
 
-constexpr double kTallestObject_m = 3;
 constexpr double kLaserAge_s = 0.1;  // a laser range older than this is of another place
 
 }  // namespace
@@ -145,9 +144,7 @@ void Pipeline::See(Pass& pass) {
     return;
   }
   snapshot.frame = bundle.stereo;
-  RigidTransform X_BC = rig_->X_BC();
-  X_BC.R = X_BC.R * rectifier_->R_C_Rect();
-  snapshot.X_WC = navigator_.PredictBodyPose(bundle.stereo->time) * X_BC;
+  snapshot.X_WC = navigator_.PredictBodyPose(bundle.stereo->time) * rectifier_->X_BC(*rig_);
   if (const auto spot = LaserSpot(snapshot)) {
     laser_height_m_ = HeightFromDown((snapshot.X_WC * *spot).z());
   }
@@ -200,21 +197,17 @@ void Pipeline::MeasureRange(Pass& pass) {
   if (committed || !due || mission.state == MissionState::kLanded) {
     return;
   }
-  DisparityWindow window;
-  const bool placed = pass.snapshot->pose.has_value();
-  if (rig_->num_disparities > 0) {
-    window = {rig_->min_disparity_px, rig_->num_disparities};
-  } else if (!placed) {
-    window = {0, settings.stereo.num_disparities};
-  } else {
-    window = PredictWindow(rectifier_->camera(), rectifier_->baseline_m(), pass.snapshot->X_WC,
-                           GroundHeight(), kTallestObject_m, settings.stereo);
+  std::optional<ViewPose> pose;
+  if (pass.snapshot->pose) {
+    pose = ViewPose{pass.snapshot->X_WC, pass.snapshot->pose->sigmas};
   }
-  const std::optional<RectifiedPair> filtered =
-      FilterThenRectify(*pass.bundle->stereo, *rectifier_, settings.stereo);
-  Result<StereoResult> result = matcher_.Match(
-      *pass.pair.left, *pass.pair.right, rectifier_->camera(), rectifier_->baseline_m(), window,
-      settings.stereo, pass.bundle->stereo->time, filtered ? &*filtered : nullptr);
+  Result<StereoResult> result = MeasureRanges({.raw = *pass.bundle->stereo,
+                                               .pair = pass.pair,
+                                               .rig = *rig_,
+                                               .rectifier = *rectifier_,
+                                               .pose = pose,
+                                               .ground_height_m = GroundHeight()},
+                                              settings.stereo, matcher_);
   if (!result) {
     pass.Note(DiagnosticLevel::kError, "stereo", result.error().message);
     return;
@@ -230,7 +223,7 @@ void Pipeline::MeasureRange(Pass& pass) {
   }
   auto range = std::make_shared<const RangeMap>(std::move(result->range));
   pass.snapshot->range = range;
-  if (!placed) {
+  if (!pose) {
     pass.Note(DiagnosticLevel::kWarning, "slad",
               "attitude and height are unknown, so ranges make no map; give a pose ([pose] in "
               "RIG.toml, or a vehicle)");
@@ -240,12 +233,8 @@ void Pipeline::MeasureRange(Pass& pass) {
     range_check_.Add(*range, *spot);
     pass.snapshot->range_agreement = range_check_.agreement();
   }
-  slad_.Add({.range = range,
-             .X_WC = pass.snapshot->X_WC,
-             .p_WB = navigator_.PredictBodyPose(range->time).p,
-             .left = pass.pair.left,
-             .right = pass.pair.right,
-             .baseline_m = rectifier_->baseline_m()},
+  slad_.Add({.view = {pass.pair.left, pass.pair.right, range},
+             .p_WB = navigator_.PredictBodyPose(range->time).p},
             settings.slad);
   pass.new_map = true;
   maps_to_rebuild_ = std::max(0, maps_to_rebuild_ - 1);
@@ -302,9 +291,7 @@ void Pipeline::Track(Pass& pass) {
                                               range, tracking, exposure);
     snapshot.tracker = result.status;
     navigator_.AddVision(result, rectifier_->camera(), *rig_, *pass.bundle, tracking);
-    RigidTransform X_BC = rig_->X_BC();
-    X_BC.R = X_BC.R * rectifier_->R_C_Rect();
-    snapshot.X_WC = navigator_.PredictBodyPose(exposure) * X_BC;
+    snapshot.X_WC = navigator_.PredictBodyPose(exposure) * rectifier_->X_BC(*rig_);
   }
   snapshot.navigation = navigator_.status();
 }

@@ -29,9 +29,9 @@ void Slad::Forget() {
 void Slad::Add(const SladInput& input, const SladSettings& settings) {
   input_ = input;
   figures_.clear();
-  const SladSettings fitted = view_cell_.Fit(*input.range, settings);
-  elevation_ = fusion_.Add(*input.range, input.X_WC, fitted);
-  if (settings.mode == SladMode::kModern && input.left && input.right) {
+  const SladSettings fitted = view_cell_.Fit(*input.view.range, settings);
+  elevation_ = fusion_.Add(*input.view.range, fitted);
+  if (settings.mode == SladMode::kModern && input.view.left && input.view.right) {
     FlagFromPictures();
   }
 }
@@ -45,8 +45,7 @@ void Slad::Take(ElevationMap map) {
 
 void Slad::FlagFromPictures() {
   auto flagged = std::make_shared<ElevationMap>(*elevation_);
-  flagged->flags = scene_flags_.Add(
-      {input_.left, input_.right, input_.range, input_.X_WC, input_.baseline_m}, flagged->geometry);
+  flagged->flags = scene_flags_.Add(input_.view, flagged->geometry);
   elevation_ = std::move(flagged);
 }
 
@@ -55,9 +54,9 @@ SiteContext Slad::Context(const Settings& settings) const {
   context.p_WB = input_.p_WB;
   context.time = elevation_->time;
   context.glide_slope_rad = Rad(settings.mission.glide_slope_deg);
-  if (input_.range) {
-    context.X_WC = input_.X_WC;
-    context.camera = input_.range->camera;
+  if (const auto& range = input_.view.range) {
+    context.X_WC = range->pose->X_WC;
+    context.camera = range->camera;
   }
   return context;
 }
@@ -91,9 +90,9 @@ std::shared_ptr<const TerrainDecision> Slad::Decide(const Settings& settings, Le
     SiteRegistry copy = registry_;
     copy.Assign(decision->selection);
   }
-  if (input_.range) {
+  if (input_.view.range) {
     decision->verdict = std::make_shared<ImageU8>(
-        VerdictImage(*input_.range, input_.X_WC, *elevation_, *hazards, kVerdictDivisor));
+        VerdictImage(*input_.view.range, *elevation_, *hazards, kVerdictDivisor));
   }
   decision->hazards = std::move(hazards);
   return decision;

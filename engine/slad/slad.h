@@ -34,14 +34,8 @@ namespace palace {
 
 /// What the maps are made from, for one frame.
 struct SladInput {
-  std::shared_ptr<const RangeMap> range;
-  RigidTransform X_WC;
-  Eigen::Vector3d p_WB = Eigen::Vector3d::Zero();
-  // The rectified pair the range map was made of, for flags; null: nothing is flagged from
-  // pictures.
-  std::shared_ptr<const ImageU8> left{};
-  std::shared_ptr<const ImageU8> right{};
-  double baseline_m = 0;
+  SceneView view;  ///< a range map with pose and baseline; without pictures nothing is flagged
+  Eigen::Vector3d p_WB = Eigen::Vector3d::Zero();  ///< the vehicle then
 };
 
 /// Whose letters a decision may give out: the flight's own, or a copy of them, so that a preview or

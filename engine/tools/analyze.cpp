@@ -266,8 +266,7 @@ Status WriteAll(const Outcome& o, const fs::path& folder) {
     return done;
   }
   if (o.input.left && o.input.range) {
-    const ImageU8 verdict =
-        VerdictImage(*o.input.range, o.input.context.X_WC, o.input.map, o.hazards, kVerdictDivisor);
+    const ImageU8 verdict = VerdictImage(*o.input.range, o.input.map, o.hazards, kVerdictDivisor);
     const Status done =
         WriteOverlay(folder / kOverlay, *o.input.left, o.selection, o.input.context, verdict);
     if (!done) {

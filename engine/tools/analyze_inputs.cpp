@@ -23,8 +23,6 @@
 namespace palace {
 namespace {
 
-constexpr double kTallestObject_m = 5;
-
 class Stopwatch {
  public:
   StageTime Lap(const char* stage) {
@@ -159,15 +157,15 @@ Result<AnalyzeInput> ElevationOfPair(const std::filesystem::path& left,
   if (match->quality.suspect_same) {
     input.warnings.push_back("left and right are the same picture");
   }
-  const GroundBounds bounds = BoundsOfData(PointsFromRange(match->range, X_WC));
+  match->range.pose = ViewPose{X_WC};
+  const GroundBounds bounds = BoundsOfData(PointsFromRange(match->range));
   CoverExtent(bounds.north_max_m - bounds.north_min_m, bounds.east_max_m - bounds.east_min_m,
               settings.slad, input.warnings);
-  input.map = ElevationFromRange(match->range, X_WC, settings.slad);
+  input.map = ElevationFromRange(match->range, settings.slad);
   input.timings.push_back(watch.Lap("elevation"));
   if (settings.slad.mode == SladMode::kModern) {
     const auto range = std::make_shared<const RangeMap>(match->range);
-    input.map.flags = SceneFlags().Add(
-        {pair->left, pair->right, range, X_WC, rectifier->baseline_m()}, input.map.geometry);
+    input.map.flags = SceneFlags().Add({pair->left, pair->right, range}, input.map.geometry);
     input.timings.push_back(watch.Lap("flags"));
   }
   input.left = *pair->left;

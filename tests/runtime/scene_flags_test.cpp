@@ -83,8 +83,10 @@ Seen Look(int frames, const std::function<StereoWorld(int)>& world, const Paint&
                                 PredictWindow(camera, kBaseline_m, X_WC, 0, 3, settings), settings,
                                 AddSeconds({}, k * kInterval_s));
     EXPECT_TRUE(stereo.ok());
-    slad.Add({std::make_shared<const RangeMap>(std::move(stereo->range)), X_WC, X_WC.p, pictures[0],
-              pictures[1], kBaseline_m},
+    stereo->range.pose = ViewPose{X_WC};
+    slad.Add({.view = {pictures[0], pictures[1],
+                       std::make_shared<const RangeMap>(std::move(stereo->range))},
+              .p_WB = X_WC.p},
              SladSettings{});
   }
   return {slad.elevation()};
@@ -188,25 +190,30 @@ TEST(SceneFlags, SameBitsForAnyNumberOfThreads) {
 TEST(SceneFlags, PicturesThatMakeNoSenseFlagNothing) {
   const GridGeometry geometry{20, 20, 0.15, -1.5, -1.5};
   const auto picture = [](int w, int h) { return std::make_shared<const ImageU8>(w, h, 100); };
-  const auto range = [](int w, int h, float disparity_px) {
+  const auto range = [](int w, int h, float disparity_px, double baseline_m = 1) {
     const ImageF layer(w, h, disparity_px);
-    return std::make_shared<const RangeMap>(RangeMap{
-        {}, PinholeFromFov(std::max(1, w), std::max(1, h), 1), layer, layer, layer, layer});
+    RangeMap made{{},   PinholeFromFov(std::max(1, w), std::max(1, h), 1), layer, layer, layer,
+                  layer};
+    made.baseline_m = baseline_m;
+    made.pose = ViewPose{PoseOf(0)};
+    return std::make_shared<RangeMap>(std::move(made));
   };
   const float nan = std::numeric_limits<float>::quiet_NaN();
-  const RigidTransform X_WC = PoseOf(0);
+  const auto without_pose = range(67, 65, 9);
+  without_pose->pose.reset();
   const std::vector<SceneView> views = {
-      {nullptr, nullptr, nullptr, X_WC, 1},
-      {picture(640, 480), picture(640, 480), nullptr, X_WC, 1},
-      {picture(0, 0), picture(0, 0), range(0, 0, 1), X_WC, 1},
-      {picture(1, 1), picture(1, 1), range(1, 1, 1), X_WC, 1},
-      {picture(67, 65), picture(64, 65), range(67, 65, 9), X_WC, 1},
-      {picture(67, 65), picture(67, 65), range(67, 65, nan), X_WC, 1},
-      {picture(67, 65), picture(67, 65), range(67, 65, 0), X_WC, 1},
-      {picture(67, 65), picture(67, 65), range(67, 65, -3), X_WC, 1},
-      {picture(67, 65), picture(67, 65), range(67, 65, 1e30F), X_WC, 1},
-      {picture(67, 65), picture(67, 65), range(67, 65, 9), X_WC, 0},
-      {picture(67, 65), picture(67, 65), range(67, 65, 9), X_WC, nan}};
+      {nullptr, nullptr, nullptr},
+      {picture(640, 480), picture(640, 480), nullptr},
+      {picture(0, 0), picture(0, 0), range(0, 0, 1)},
+      {picture(1, 1), picture(1, 1), range(1, 1, 1)},
+      {picture(67, 65), picture(64, 65), range(67, 65, 9)},
+      {picture(67, 65), picture(67, 65), range(67, 65, nan)},
+      {picture(67, 65), picture(67, 65), range(67, 65, 0)},
+      {picture(67, 65), picture(67, 65), range(67, 65, -3)},
+      {picture(67, 65), picture(67, 65), range(67, 65, 1e30F)},
+      {picture(67, 65), picture(67, 65), without_pose},
+      {picture(67, 65), picture(67, 65), range(67, 65, 9, 0)},
+      {picture(67, 65), picture(67, 65), range(67, 65, 9, double(nan))}};
   for (std::size_t k = 0; k < views.size(); ++k) {
     SceneFlags flags;
     for (int map = 0; map < 3; ++map) {

@@ -338,7 +338,7 @@ TEST(Slad, FieldOfTablesSeenFromFiftyFeet) {
   RangeMap range;
   for (std::uint64_t frame = 1; frame <= 10; ++frame) {
     range = SeeWorld(world, context.X_WC, 0.1, frame);
-    map = fusion.Add(range, context.X_WC, SladSettings{});
+    map = fusion.Add(range, SladSettings{});
   }
   const SladSettings settings;
   const HazardMaps hazards = EvaluateHazards(*map, settings);
@@ -356,7 +356,7 @@ TEST(Slad, FieldOfTablesSeenFromFiftyFeet) {
       range.depth_m.at(x, y) = kUnknownValue;
     }
   }
-  const ImageU8 verdict = VerdictImage(range, context.X_WC, *map, hazards, 4);
+  const ImageU8 verdict = VerdictImage(range, *map, hazards, 4);
   EXPECT_EQ(verdict.width(), 160);
   const auto verdict_at = [&](const Eigen::Vector3d& p_W) {
     const Eigen::Vector3d p = context.X_WC.Inverse() * p_W;

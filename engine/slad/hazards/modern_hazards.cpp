@@ -6,7 +6,6 @@
 
 #include <opencv2/core.hpp>
 
-#include "engine/core/units.h"
 #include "engine/slad/hazards/hazard_layers.h"
 #include "engine/slad/hazards/loops/slad_loops.h"
 #include "engine/slad/hazards/plane_fit.h"
@@ -18,8 +17,6 @@ namespace {
 /// Squared noise multiple: thousands of cells are tested, so a deviation counts beyond four sigmas
 /// only.
 constexpr float kNoise2 = 16;
-/// Known limit of attitude: the slope of everything is off by this much.
-constexpr double kAttitudeSigma_rad = 0.1 * kRadPerDeg;
 constexpr int kMostOffsets = 24;
 
 float BeyondNoise(float square) { return square > 0 ? std::sqrt(square) : 0.0F; }
@@ -236,7 +233,7 @@ void FindCellFigures(const ElevationMap& map, const SladSettings& settings,
   const double rock_cells = std::pow(settings.max_rock_size_m / map.geometry.cell_m, 2);
   const float averaging =
       static_cast<float>(1 / std::sqrt(std::max(1.0, rock_cells / kCorrelatedCells)));
-  const float attitude2 = static_cast<float>(kAttitudeSigma_rad * kAttitudeSigma_rad);
+  const float attitude2 = static_cast<float>(map.attitude_sigma_rad * map.attitude_sigma_rad);
   ForRows(map.geometry.rows, [&](int r) {
     for (int c = 0; c < map.geometry.cols; ++c) {
       const CellState state = map.state.at(r, c);

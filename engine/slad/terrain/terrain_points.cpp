@@ -43,7 +43,9 @@ struct CellSums {
 
 }  // namespace
 
-TerrainPoints PointsFromRange(const RangeMap& range, const RigidTransform& X_WC) {
+TerrainPoints PointsFromRange(const RangeMap& range) {
+  PALACE_CHECK(range.pose.has_value());
+  const RigidTransform& X_WC = range.pose->X_WC;
   TerrainPoints points;
   const PinholeCamera& camera = range.camera;
   points.reserve(range.depth_m.pixels().size());
