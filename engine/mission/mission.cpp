@@ -223,7 +223,7 @@ void Mission::RememberFacts(const MissionInputs& in) {
   facts_.settings_hash = in.settings_hash;
   facts_.calibration_hash = in.calibration_hash;
   facts_.limits = in.settings.mission;
-  facts_.commit_height_m = in.settings.slad.commit_height_m;
+  facts_.commit_height_m = in.settings.slad.fusion.commit_height_m;
   facts_.skid_centre_W = in.skid_centre_W;
   facts_.approach_heading_rad = in.approach_heading_rad;
   if (in.applied != nullptr) {

@@ -30,7 +30,8 @@ void Pipeline::StartAfterJump(Timestamp now) {
     settings_.RestoreRecorded(*settings);
   }
   std::vector<HistorySample> before = flight_of_record_.HistoryBefore(now);
-  maps_to_rebuild_ = replaying_ && !before.empty() ? settings_.recorded().slad.frames_fused : 0;
+  maps_to_rebuild_ =
+      replaying_ && !before.empty() ? settings_.recorded().slad.fusion.frames_fused : 0;
   history_.Reset(std::move(before));
   laser_height_m_.reset();
   range_check_.Reset();
@@ -191,7 +192,7 @@ void Pipeline::MeasureRange(Pass& pass) {
   const Settings& settings = settings_.recorded();
   const MissionStatus& mission = MissionInForce();
   const bool committed = mission.state == MissionState::kDescending &&
-                         mission.height_above_site_m < settings.slad.commit_height_m;
+                         mission.height_above_site_m < settings.slad.fusion.commit_height_m;
   const bool due =
       stereo_frames_++ % static_cast<std::uint64_t>(settings.stereo.map_every_frames) == 0;
   if (committed || !due || mission.state == MissionState::kLanded) {

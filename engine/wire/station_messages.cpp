@@ -208,7 +208,7 @@ WireMessage EncodeMission(const EngineSnapshot& snapshot, const ChannelNames& ch
   m.approval_id = mission.approval ? WireId(mission.approval->id) : 0;
   m.glide_slope_rad = Rad(settings.mission.glide_slope_deg);
   m.descent_rate_mps = settings.mission.descent_rate_mps;
-  m.commit_height_m = settings.slad.commit_height_m;
+  m.commit_height_m = settings.slad.fusion.commit_height_m;
   return MakeMessage(channels.mission, snapshot.time, m);
 }
 

@@ -102,20 +102,21 @@ std::string GearWords(const LandingSite& site) {
 std::vector<EvidenceRow> RowsOf(const EngineSnapshot& snap, const LandingSite& site, bool folded) {
   const TerrainDecision* shown = ShownDecision(snap);
   const SladSettings& slad = shown != nullptr ? shown->settings : snap.settings.slad;
-  const double rough_cm = slad.max_deviation_m * 100;
+  const double rough_cm = slad.limits.max_deviation_m * 100;
   const double wind = snap.vehicle ? snap.vehicle->wind_speed_mps : NAN;
   std::vector<EvidenceRow> rows;
-  rows.push_back(MaxRow("Slope", Scaled(site.slope_rad, kDegPerRad), slad.max_slope_deg, 1, "°"));
+  rows.push_back(
+      MaxRow("Slope", Scaled(site.slope_rad, kDegPerRad), slad.limits.max_slope_deg, 1, "°"));
   rows.push_back(MaxRow("Roughness", Scaled(site.roughness_m, 100), rough_cm, 1, "cm"));
   if (!folded) {
     rows.push_back(
-        MaxRow("Largest step", Scaled(site.step_m, 100), slad.max_step_m * 100, 1, "cm"));
+        MaxRow("Largest step", Scaled(site.step_m, 100), slad.limits.max_step_m * 100, 1, "cm"));
   }
   rows.push_back(ClearRow(site));
   if (!folded) {
     const GridGeometry geometry =
         shown != nullptr && shown->hazards ? shown->hazards->geometry : GridGeometry{};
-    rows.push_back(UnknownRow(site, geometry.rows > 0 ? geometry.cell_m : slad.cell_m));
+    rows.push_back(UnknownRow(site, geometry.rows > 0 ? geometry.cell_m : slad.grid.cell_m));
   }
   rows.push_back(
       ProbabilityRow(site, RequiredSafeProbability(slad, site.roughness_m.three_sigma / 3)));

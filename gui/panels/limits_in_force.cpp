@@ -50,7 +50,7 @@ void DrawLimitsInForcePanel(const EngineSnapshot& snap, const Rect& rect, bool n
   const bool moving_over = mode == VehicleMode::kSettle;
   if (SettlesOrLater(mode) || landed) {
     rows.push_back(
-        Row("From centre", now.from_site_m, position_3s, 2, settings.slad.nav_error_m, "m"));
+        Row("From centre", now.from_site_m, position_3s, 2, settings.slad.lander.nav_error_m, "m"));
     if (moving_over) {
       // Still on the level leg towards the site: the limit holds from where it sinks.
       rows.back().share = rows.back().share_3s = NAN;
@@ -78,10 +78,10 @@ void DrawLimitsInForcePanel(const EngineSnapshot& snap, const Rect& rect, bool n
   if (site != nullptr) {
     if (!narrow) {
       rows.push_back(Row("Slope", Deg(site->slope_rad.value), Deg(site->slope_rad.three_sigma), 1,
-                         settings.slad.max_slope_deg, "°"));
+                         settings.slad.limits.max_slope_deg, "°"));
       rows.push_back(Row("Roughness", site->roughness_m.value * 100,
                          site->roughness_m.three_sigma * 100, 1,
-                         settings.slad.max_deviation_m * 100, "cm"));
+                         settings.slad.limits.max_deviation_m * 100, "cm"));
     }
     rows.push_back(
         Row("Clear radius", site->safe_distance_m, NAN, 1, site->clear_radius_m, "m", true));

@@ -45,23 +45,26 @@ std::array<MapView, 5> Views(const EngineSnapshot& snap, const MapRowState& stat
   views[0].high = Fixed(static_cast<double>(state.elevation_high_m), 1) + " m+";
   views[1].values = &shown->hazards->slope_rad;
   views[1].low = "0°";
-  views[1].high = Fixed(2 * slad.max_slope_deg, 0) + "°+";
-  views[1].limit = {"max " + Fixed(slad.max_slope_deg, slad.max_slope_deg < 10 ? 1 : 0) + "°",
-                    0.5f,
-                    NAN,
-                    "slad.max_slope_deg",
-                    wanted.max_slope_deg,
-                    2 * slad.max_slope_deg};
+  views[1].high = Fixed(2 * slad.limits.max_slope_deg, 0) + "°+";
+  views[1].limit = {
+      "max " + Fixed(slad.limits.max_slope_deg, slad.limits.max_slope_deg < 10 ? 1 : 0) + "°",
+      0.5f,
+      NAN,
+      "slad.max_slope_deg",
+      wanted.limits.max_slope_deg,
+      2 * slad.limits.max_slope_deg};
   views[2].values = &shown->hazards->roughness_m;
   views[2].low = "0 cm";
-  views[2].high = Fixed(250 * slad.max_deviation_m, 0) + " cm+";
+  views[2].high = Fixed(250 * slad.limits.max_deviation_m, 0) + " cm+";
   views[2].limit = {
-      "max " + Fixed(100 * slad.max_deviation_m, slad.max_deviation_m < 0.0995 ? 1 : 0) + " cm",
+      "max " +
+          Fixed(100 * slad.limits.max_deviation_m, slad.limits.max_deviation_m < 0.0995 ? 1 : 0) +
+          " cm",
       0.4f,
       NAN,
       "slad.max_deviation_m",
-      wanted.max_deviation_m,
-      2.5 * slad.max_deviation_m};
+      wanted.limits.max_deviation_m,
+      2.5 * slad.limits.max_deviation_m};
   views[3].values = &shown->hazards->cost;
   views[3].low = "0.0";
   views[3].high = "";
@@ -69,11 +72,11 @@ std::array<MapView, 5> Views(const EngineSnapshot& snap, const MapRowState& stat
   if (snap.preview && snap.applied) {
     const SladSettings& applied = snap.applied->settings;
     views[1].limit.applied_at =
-        static_cast<float>(applied.max_slope_deg / (2 * slad.max_slope_deg));
+        static_cast<float>(applied.limits.max_slope_deg / (2 * slad.limits.max_slope_deg));
     views[2].limit.applied_at =
-        static_cast<float>(applied.max_deviation_m / (2.5 * slad.max_deviation_m));
+        static_cast<float>(applied.limits.max_deviation_m / (2.5 * slad.limits.max_deviation_m));
     views[4].limit.applied_at =
-        static_cast<float>(applied.clear_radius_m() / (2.5 * slad.clear_radius_m()));
+        static_cast<float>(applied.lander.clear_radius_m() / (2.5 * slad.lander.clear_radius_m()));
   }
   return views;
 }

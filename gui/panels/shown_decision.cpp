@@ -81,13 +81,13 @@ MapView SafeDistanceMap(const EngineSnapshot& snap, const UiFrame& ui) {
   view.geometry = shown->hazards->geometry;
   view.values = &shown->hazards->safe_distance_m;
   view.flags = &shown->hazards->flags;
-  const double clear_m = shown->settings.clear_radius_m();
+  const double clear_m = shown->settings.lander.clear_radius_m();
   view.low = "0 m";
   view.high = Fixed(2.5 * clear_m, 1) + " m";
   view.limit.label = "min " + Fixed(clear_m, 1) + " m";
   view.limit.at = 0.4f;
   view.limit.setting = "slad.nav_error_m";
-  view.limit.value = snap.preview_settings.slad.nav_error_m;
+  view.limit.value = snap.preview_settings.slad.lander.nav_error_m;
   view.limit.per_bar = 2.5 * clear_m;
   return view;
 }

@@ -83,23 +83,23 @@ void FillRange(MapKind kind, const SladSettings& now, const SladSettings* applie
       break;
     case MapKind::kSlope:
       view.low = "0°";
-      view.high = Fixed(2 * now.max_slope_deg, 0) + "°+";
-      limit(now.max_slope_deg, 2 * now.max_slope_deg,
-            applied != nullptr ? applied->max_slope_deg : 0);
-      tick.label = "max " + Fixed(now.max_slope_deg, 1) + "°";
+      view.high = Fixed(2 * now.limits.max_slope_deg, 0) + "°+";
+      limit(now.limits.max_slope_deg, 2 * now.limits.max_slope_deg,
+            applied != nullptr ? applied->limits.max_slope_deg : 0);
+      tick.label = "max " + Fixed(now.limits.max_slope_deg, 1) + "°";
       tick.setting = "slad.max_slope_deg";
-      tick.value = now.max_slope_deg;
-      tick.per_bar = 2 * now.max_slope_deg;
+      tick.value = now.limits.max_slope_deg;
+      tick.per_bar = 2 * now.limits.max_slope_deg;
       break;
     case MapKind::kRoughness:
       view.low = "0 cm";
-      view.high = Fixed(250 * now.max_deviation_m, 0) + " cm+";
-      limit(now.max_deviation_m, 2.5 * now.max_deviation_m,
-            applied != nullptr ? applied->max_deviation_m : 0);
-      tick.label = "max " + Fixed(100 * now.max_deviation_m, 1) + " cm";
+      view.high = Fixed(250 * now.limits.max_deviation_m, 0) + " cm+";
+      limit(now.limits.max_deviation_m, 2.5 * now.limits.max_deviation_m,
+            applied != nullptr ? applied->limits.max_deviation_m : 0);
+      tick.label = "max " + Fixed(100 * now.limits.max_deviation_m, 1) + " cm";
       tick.setting = "slad.max_deviation_m";
-      tick.value = now.max_deviation_m;
-      tick.per_bar = 2.5 * now.max_deviation_m;
+      tick.value = now.limits.max_deviation_m;
+      tick.per_bar = 2.5 * now.limits.max_deviation_m;
       break;
     case MapKind::kCost:
       view.low = "0.0";
@@ -108,10 +108,10 @@ void FillRange(MapKind kind, const SladSettings& now, const SladSettings* applie
       break;
     case MapKind::kSafeDistance:
       view.low = "0 m";
-      view.high = Fixed(2.5 * now.clear_radius_m(), 1) + " m+";
-      limit(now.clear_radius_m(), 2.5 * now.clear_radius_m(),
-            applied != nullptr ? applied->clear_radius_m() : 0);
-      tick.label = "min " + Fixed(now.clear_radius_m(), 1) + " m";
+      view.high = Fixed(2.5 * now.lander.clear_radius_m(), 1) + " m+";
+      limit(now.lander.clear_radius_m(), 2.5 * now.lander.clear_radius_m(),
+            applied != nullptr ? applied->lander.clear_radius_m() : 0);
+      tick.label = "min " + Fixed(now.lander.clear_radius_m(), 1) + " m";
       break;
   }
 }

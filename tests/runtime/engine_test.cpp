@@ -116,7 +116,7 @@ TEST(Engine, CommandsFromOtherThreadsAreAppliedOnceAndRecorded) {
   EXPECT_LE(tape->commands.size(), 60u);
   EXPECT_GE(tape->commands.size(), 1u);
   ASSERT_NE(last, nullptr);
-  EXPECT_NE(last->settings.slad.max_slope_deg, 10);
+  EXPECT_NE(last->settings.slad.limits.max_slope_deg, 10);
 }
 
 TEST(Engine, ARecorderThatFailsIsShownAndReported) {

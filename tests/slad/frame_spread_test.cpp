@@ -58,7 +58,7 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(TerrainFusion, WhatIsGoneFades) {
   TerrainFusion fusion;
   SladSettings settings;
-  settings.frames_fused = 5;
+  settings.fusion.frames_fused = 5;
   const RigidTransform X_WC = CameraPose(15.24, Rad(60));
   const auto box = WithBox(Flat(), 9, 0, 1.2, 1.0);
   std::vector<double> height_m;

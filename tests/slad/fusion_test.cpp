@@ -96,7 +96,7 @@ TEST(TerrainFusion, MapFollowsTheViewByWholeCells) {
     const RigidTransform X_WC = CameraPose(15.24, Rad(45), 0.5 * frame);
     const auto map = fusion.Add(SeeWorld(world, X_WC, 0.05, std::uint64_t(frame) + 1), settings);
     first = frame == 0 ? map->geometry : first;
-    const double shift = (map->geometry.north_min_m - first.north_min_m) / settings.cell_m;
+    const double shift = (map->geometry.north_min_m - first.north_min_m) / settings.grid.cell_m;
     EXPECT_NEAR(shift, std::round(shift), 1e-6);
     const auto box = map->geometry.CellFromPoint(14.0, 0.0);
     ASSERT_TRUE(box);
@@ -240,7 +240,7 @@ TEST(TerrainFusion, APostNarrowerThanACellKeepsItsHeight) {
 TEST(TerrainFusion, AFootWhoseSidesWereRefusedStands) {
   const auto foot = WithBox(Flat(), 0.05, 0.05, 0.3, 0.05);
   SladSettings settings;
-  settings.grid_rows = settings.grid_cols = 40;
+  settings.grid.rows = settings.grid.cols = 40;
   for (const bool refused : {false, true}) {
     TerrainFusion fusion;
     std::shared_ptr<const ElevationMap> map;
@@ -305,7 +305,7 @@ TEST(ElevationMapBuilder, ThesisGridCoversTheDataWithFixedRows) {
 TEST(ElevationMapBuilder, FieldOfViewAtNadirIsThesis44) {
   SladSettings settings;
   settings.mode = SladMode::kThesis;
-  settings.bounds = BoundsMode::kFieldOfView;
+  settings.grid.bounds = BoundsMode::kFieldOfView;
   const RigidTransform X_WC = CameraPose(15.24, Rad(90));
   const ElevationMap map = ElevationFromRange(SeeWorld(Flat(), X_WC, 0, 1), settings);
   EXPECT_NEAR(map.geometry.cell_m * 100, 2 * 15.24 * std::tan(Rad(22.5)), 0.03);
@@ -313,11 +313,11 @@ TEST(ElevationMapBuilder, FieldOfViewAtNadirIsThesis44) {
 
 TEST(ElevationMapBuilder, GivenBoundsAreRelativeToTheMedian) {
   SladSettings settings;
-  settings.bounds = BoundsMode::kGiven;
-  settings.x_min_m = -3;
-  settings.x_max_m = 4.5;
-  settings.y_min_m = -1.5;
-  settings.y_max_m = 1.5;
+  settings.grid.bounds = BoundsMode::kGiven;
+  settings.grid.x_min_m = -3;
+  settings.grid.x_max_m = 4.5;
+  settings.grid.y_min_m = -1.5;
+  settings.grid.y_max_m = 1.5;
   std::vector<Eigen::Vector3d> points;
   for (int i = 0; i < 400; ++i) {
     points.push_back({1000 + 0.05 * i - 10, 2000 + 0.05 * (i * 7 % 400) - 10, -5});
@@ -331,10 +331,10 @@ TEST(ElevationMapBuilder, GivenBoundsAreRelativeToTheMedian) {
 
 TEST(ElevationMapBuilder, HolesUpToDataSizeAreFilledAndLargerStayUnknown) {
   SladSettings settings;
-  settings.cell_m = 1;
-  settings.grid_rows = settings.grid_cols = 20;
-  settings.data_size_cells = 2;
-  settings.border_size_cells = 1;
+  settings.grid.cell_m = 1;
+  settings.grid.rows = settings.grid.cols = 20;
+  settings.grid.data_size_cells = 2;
+  settings.grid.border_size_cells = 1;
   std::vector<Eigen::Vector3d> points;
   for (int n = 0; n < 12; ++n) {
     for (int e = 0; e < 12; ++e) {

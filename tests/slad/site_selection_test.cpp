@@ -117,7 +117,7 @@ TEST(SiteSelection, ASiteIsConfirmedOnlyWhereRocksFillTheStereoWindow) {
     ASSERT_FALSE(selection.sites.empty());
     EXPECT_EQ(selection.sites.front().confirmed, confirmed) << height_m;
     SladSettings larger;
-    larger.max_rock_size_m = 0.5;
+    larger.lander.max_rock_size_m = 0.5;
     EXPECT_TRUE(Select(MakeMap(101, 101, 0.15, Flat()), larger, context).sites.at(0).confirmed);
   }
 }
@@ -130,7 +130,7 @@ TEST(SiteSelection, ASiteOfPicturesIsConfirmedByThreeFrames) {
     EXPECT_TRUE(Select(map, WithMode(SladMode::kThesis)).sites.at(0).confirmed);
     EXPECT_TRUE(Select(map, {}, SiteContext{}).sites.at(0).confirmed) << "a survey";
     SladSettings two;
-    two.frames_fused = 2;
+    two.fusion.frames_fused = 2;
     EXPECT_EQ(Select(map, two).sites.at(0).confirmed, frames >= 2) << frames;
   }
 }
@@ -148,7 +148,7 @@ TEST(SiteSelection, NewGroundAtTheRimOfASiteLeavesItProvisional) {
     }
     const LandingSite again = Select(map).sites.at(0);
     EXPECT_EQ(again.confirmed, new_columns < 12) << new_columns;
-    EXPECT_EQ(again.frames_fused, new_columns < 12 ? 10 : 1) << new_columns;
+    EXPECT_EQ(again.fusion.frames_fused, new_columns < 12 ? 10 : 1) << new_columns;
   }
 }
 
@@ -281,7 +281,7 @@ TEST(SiteSelection, ABlockedStraightApproachNamesAnother) {
     return std::abs(n + 1) < 0.3 && e < 2 ? 9.0 : 0.0;  // north of it is the wide ground
   };
   SladSettings settings;
-  settings.sites_kept = 26;
+  settings.choice.sites_kept = 26;
   const SiteSelection selection = Select(MakeMap(141, 141, 0.15, wall), settings);
   bool found = false;
   bool blocked_before = false;

@@ -27,10 +27,12 @@ constexpr double kNarrow_m = 0.08;  // the upper half of a small cone, a post
 /// The map follows the view once its centre is off by this share of its size.
 constexpr double kSlack = 0.08;
 
+/// The holes that are filled and the rim are no part of the layout.
 bool SameLayout(const SladSettings& a, const SladSettings& b) {
-  return a.mode == b.mode && a.grid_rows == b.grid_rows && a.grid_cols == b.grid_cols &&
-         a.cell_m == b.cell_m && a.bounds == b.bounds && a.x_min_m == b.x_min_m &&
-         a.x_max_m == b.x_max_m && a.y_min_m == b.y_min_m && a.y_max_m == b.y_max_m;
+  GridSettings grid = a.grid;
+  grid.data_size_cells = b.grid.data_size_cells;
+  grid.border_size_cells = b.grid.border_size_cells;
+  return a.mode == b.mode && grid == b.grid;
 }
 
 bool CentreWithinSlack(const GridGeometry& a, const GridGeometry& b) {
@@ -152,8 +154,8 @@ std::shared_ptr<const ElevationMap> TerrainFusion::Add(const RangeMap& range,
   // The very same ranges from the same place again, as of a still picture, say nothing new.
   if (frames_ == 0 || points.empty() || ranges != last_ranges_) {
     Register(frame);
-    Fuse(frame, MisplacedVariance(*range.pose, frame), settings.frames_fused);
-    AddPixels(range, settings.frames_fused);
+    Fuse(frame, MisplacedVariance(*range.pose, frame), settings.fusion.frames_fused);
+    AddPixels(range, settings.fusion.frames_fused);
   }
   last_ranges_ = ranges;
   // Frames without a point do not count: the first real one lays out the grid.
@@ -164,7 +166,7 @@ std::shared_ptr<const ElevationMap> TerrainFusion::Add(const RangeMap& range,
   const GridF repeated_m2 = RepeatedVariance(range, *published);
   RaiseNarrowRelief(range.camera, range.pose->X_WC.p, kNarrow_m, pixels_, repeated_m2, *published);
   AddVariance(repeated_m2, *published);
-  FillHoles(*published, settings.data_size_cells, settings.border_size_cells);
+  FillHoles(*published, settings.grid.data_size_cells, settings.grid.border_size_cells);
   return published;
 }
 

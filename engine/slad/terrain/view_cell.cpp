@@ -32,14 +32,15 @@ double MedianDepth(const RangeMap& range) {
 
 SladSettings ViewCell::Fit(const RangeMap& range, const SladSettings& settings) {
   const double depth_m = MedianDepth(range);
-  if (depth_m == 0 || settings.mode != SladMode::kModern || settings.bounds != BoundsMode::kData) {
+  if (depth_m == 0 || settings.mode != SladMode::kModern ||
+      settings.grid.bounds != BoundsMode::kData) {
     factor_ = 1;
     return settings;
   }
   const PinholeCamera& camera = range.camera;
   const double view_m =
       depth_m * std::max(camera.width / camera.fx_px, camera.height / camera.fy_px);
-  const double map_m = std::min(settings.grid_rows, settings.grid_cols) * settings.cell_m;
+  const double map_m = std::min(settings.grid.rows, settings.grid.cols) * settings.grid.cell_m;
   while (factor_ < kMostFactor && view_m > kWidestView * map_m * factor_) {
     factor_ *= 2;
   }
@@ -47,7 +48,7 @@ SladSettings ViewCell::Fit(const RangeMap& range, const SladSettings& settings) 
     factor_ /= 2;
   }
   SladSettings fitted = settings;
-  fitted.cell_m *= factor_;
+  fitted.grid.cell_m *= factor_;
   return fitted;
 }
 

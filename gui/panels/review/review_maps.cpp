@@ -9,7 +9,8 @@ namespace palace {
 namespace {
 
 std::string LimitWords(const SladSettings& slad) {
-  return Fixed(slad.max_slope_deg, 1) + "°, " + Fixed(slad.max_deviation_m * 100, 1) + " cm";
+  return Fixed(slad.limits.max_slope_deg, 1) + "°, " + Fixed(slad.limits.max_deviation_m * 100, 1) +
+         " cm";
 }
 
 Rect SquareIn(const Rect& panel, const Rect& content, const Style& s) {
@@ -47,7 +48,8 @@ void DrawReviewMap(UiFrame& ui, const Rect& rect, const char* title, const std::
 /// A cell on which the lander could stand.
 bool Bears(const TerrainDecision& d, Cell cell) {
   return d.hazards->reasons.at(cell) == kHazardNone &&
-         static_cast<double>(d.hazards->safe_distance_m.at(cell)) >= d.settings.clear_radius_m();
+         static_cast<double>(d.hazards->safe_distance_m.at(cell)) >=
+             d.settings.lander.clear_radius_m();
 }
 
 /// Hatch over the cells that `picks(was, is)`.

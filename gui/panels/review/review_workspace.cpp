@@ -129,7 +129,7 @@ Verdict JudgeSite(const EngineSnapshot& snap) {
   const auto cell = g.CellFromPoint(site->p_WS.x(), site->p_WS.y());
   const double distance_m =
       cell ? static_cast<double>(now->hazards->safe_distance_m.at(*cell)) : NAN;
-  const double needed_m = now->settings.clear_radius_m();
+  const double needed_m = now->settings.lander.clear_radius_m();
   const bool holds = distance_m >= needed_m;
   v.now = (holds ? "Would keep " : "Would refuse ") + letter;
   v.reason = std::isfinite(distance_m)
