@@ -186,5 +186,10 @@ Result<RectifiedPair> StereoRectifier::Rectify(const StereoFrame& frame) const {
 const PinholeCamera& StereoRectifier::camera() const { return camera_; }
 double StereoRectifier::baseline_m() const { return baseline_m_; }
 const Eigen::Matrix3d& StereoRectifier::R_C_Rect() const { return R_C_Rect_; }
+RigidTransform StereoRectifier::X_BC(const StereoRig& rig) const {
+  RigidTransform X_BC = rig.X_BC();
+  X_BC.R = X_BC.R * R_C_Rect_;
+  return X_BC;
+}
 
 }  // namespace palace

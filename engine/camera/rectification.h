@@ -40,6 +40,8 @@ class StereoRectifier {
   /// Rectified axes in the left camera's own axes (of models: RotationOf). Identity for
   /// rectified rigs.
   const Eigen::Matrix3d& R_C_Rect() const;
+  /// Of the rectified left camera: the rig's mount, turned to the rectified axes.
+  RigidTransform X_BC(const StereoRig& rig) const;
 
  private:
   struct Maps;

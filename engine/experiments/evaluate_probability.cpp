@@ -56,9 +56,10 @@ Result<std::vector<TrialRow>> RunTrial(const std::vector<std::string>& assignmen
   }
   const SladSettings& slad = settings->slad;
   // The footprint, its planes' window and the gear must lie on the field.
-  const double reach_m =
-      std::max(slad.lander_base_size_m, std::hypot(slad.gear_length_m, slad.gear_width_m)) / 2;
-  const int rim = static_cast<int>(std::ceil(reach_m / slad.cell_m)) + 1;
+  const double reach_m = std::max(slad.lander.base_size_m,
+                                  std::hypot(slad.lander.gear_length_m, slad.lander.gear_width_m)) /
+                         2;
+  const int rim = static_cast<int>(std::ceil(reach_m / slad.grid.cell_m)) + 1;
   const int side = 2 * rim + 22;
   if (side > 400) {
     return InvalidError("slad.lander_base_size_m: more than 190 cells of slad.cell_m");

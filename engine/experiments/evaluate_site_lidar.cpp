@@ -63,8 +63,8 @@ Result<std::vector<fs::path>> FilesOf(const fs::path& folder) {
 
 SladSettings Limits(double slope_deg, double rough_m) {
   SladSettings slad;
-  slad.max_slope_deg = slope_deg;
-  slad.max_deviation_m = slad.max_step_m = rough_m;
+  slad.limits.max_slope_deg = slope_deg;
+  slad.limits.max_deviation_m = slad.limits.max_step_m = rough_m;
   return slad;
 }
 
@@ -108,7 +108,7 @@ Result<Sample> ReadSample(const fs::path& path) {
       bare.state.cells()[i] = CellState::kUnknown;
     }
   }
-  const FootprintPlanes ground = FitFootprintPlanes(bare, SladSettings{}.lander_base_size_m);
+  const FootprintPlanes ground = FitFootprintPlanes(bare, Lander{}.base_size_m);
   sample.truly_steep = Grid<std::uint8_t>(g.rows, g.cols, 0);
   for (std::size_t i = 0; i < bare.state.cells().size(); ++i) {
     const float north = ground.plane.north_gradient.cells()[i];
@@ -178,7 +178,7 @@ Result<std::vector<TrialRow>> RunSample(const LidarOptions& options, int trial) 
     const double share = std::tan(Rad(slope_deg)) / std::tan(Rad(kSlope_deg));
     SladSettings slad = Limits(slope_deg, kRough_m * share);
     ours(kAllMoved, slope_deg, slad);
-    slad.elevated = ElevatedSurface::kAllow;
+    slad.limits.elevated = ElevatedSurface::kAllow;
     ours(kAllowed, slope_deg, slad);
   }
   // The plain passes see the raster as it was measured, without filled holes.

@@ -40,13 +40,13 @@ struct Judgement {
 };
 
 bool TrulySafe(const World& world, const Eigen::Vector3d& p_WS, const SladSettings& settings) {
-  return ObstacleDistance(world, p_WS.x(), p_WS.y()) >= settings.clear_radius_m() &&
-         std::atan(world.ground.rise_north) <= Rad(settings.max_slope_deg);
+  return ObstacleDistance(world, p_WS.x(), p_WS.y()) >= settings.lander.clear_radius_m() &&
+         std::atan(world.ground.rise_north) <= Rad(settings.limits.max_slope_deg);
 }
 
 /// Cells whose clear disc lies in the map and in what both cameras see and truly has no cone in it.
 void CountRefused(const ConeField& field, const TerrainDecision& decision, Judgement& judgement) {
-  const double radius_m = decision.settings.clear_radius_m();
+  const double radius_m = decision.settings.lander.clear_radius_m();
   const Eigen::Vector2d room = HalfOverlap(field.view) - Eigen::Vector2d::Constant(radius_m);
   const GridGeometry& grid = decision.hazards->geometry;
   const int rim = static_cast<int>(std::ceil(radius_m / grid.cell_m));
@@ -126,7 +126,7 @@ Result<std::vector<TrialRow>> RunTrial(const RangeOptions& options, std::uint64_
     const std::uint64_t field_seed =
         RandomStream(seed, "at " + CsvNumber(altitude_ft) + " ft").NextBits();
     ConeFieldPlan plan;
-    plan.clear_radius_m = settings.slad.clear_radius_m();
+    plan.clear_radius_m = settings.slad.lander.clear_radius_m();
     const ConeField bare = MakeConeField(plan, view, field_seed);
     const BakedGround ground =
         BakeForHover(bare.world, bare.view, HoverPoses(bare.view, field_seed));

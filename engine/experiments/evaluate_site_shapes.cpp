@@ -129,7 +129,7 @@ bool IsOffered(const Judged& judged, Cell cell) {
 /// What stands against a footprint that is refused.
 const char* CauseOfRefusal(const Judged& judged, Cell centre) {
   unsigned reasons = 0;
-  const double radius_m = judged.settings.clear_radius_m();
+  const double radius_m = judged.settings.lander.clear_radius_m();
   ForCells(judged.map.geometry, [&](Cell cell) {
     const double away_m =
         judged.map.geometry.cell_m * std::hypot(cell.row - centre.row, cell.col - centre.col);
@@ -144,12 +144,12 @@ const char* CauseOfRefusal(const Judged& judged, Cell centre) {
 /// Footprints a lander radius apart, on a field without objects.
 void AddFootprints(const Judged& judged, double limit_m, RowWriter& rows) {
   const int apart =
-      std::max(1, static_cast<int>(judged.settings.lander_radius_m() / judged.map.geometry.cell_m));
+      std::max(1, static_cast<int>(judged.settings.lander.radius_m() / judged.map.geometry.cell_m));
   const double truth_rad = std::atan(judged.field.world.ground.rise_north);
   RowWriter::Counts n;
   ForCells(judged.map.geometry, [&](Cell cell) {
     if (cell.row % apart != 0 || cell.col % apart != 0 ||
-        !IsSeen(judged, cell, judged.settings.clear_radius_m())) {
+        !IsSeen(judged, cell, judged.settings.lander.clear_radius_m())) {
       return;
     }
     ++n.tested;
@@ -219,7 +219,7 @@ void AddSite(const Judged& judged, const SiteContext& context, RowWriter& rows) 
   std::string held = "-";
   if (!selection.sites.empty()) {
     const Eigen::Vector3d& p_WS = selection.sites.front().p_WS;
-    const double radius_m = judged.settings.lander_radius_m();
+    const double radius_m = judged.settings.lander.radius_m();
     n.tested = 1;
     for (const PlacedShape& shape : judged.field.shapes) {
       if (IsTop(shape) && DepthInShape(judged.field, shape, p_WS.x(), p_WS.y()) > radius_m) {
@@ -230,15 +230,15 @@ void AddSite(const Judged& judged, const SiteContext& context, RowWriter& rows) 
       }
     }
   }
-  rows.Add(kChosenSite, judged.settings.max_deviation_m, n, NAN, held);
+  rows.Add(kChosenSite, judged.settings.limits.max_deviation_m, n, NAN, held);
 }
 
 void AddRows(const ShapeField& field, const HoverView& view, const ElevationMap& map,
              const SiteContext& context, SladSettings settings, RowWriter& rows) {
   const TerrainFigures figures = MeasureTerrain(map, settings);
   for (const double limit_m : kLimits_m) {
-    settings.max_deviation_m = limit_m;
-    settings.max_step_m = kStepPerDeviation * limit_m;
+    settings.limits.max_deviation_m = limit_m;
+    settings.limits.max_step_m = kStepPerDeviation * limit_m;
     const HazardMaps hazards = JudgeTerrain(map.geometry, figures, settings);
     const Judged judged{field, view, map, hazards, settings};
     if (limit_m == kShapesLimit_m) {
@@ -249,7 +249,7 @@ void AddRows(const ShapeField& field, const HoverView& view, const ElevationMap&
     }
     rows.Add(kClearCells, limit_m, CountClearCells(judged));
     SladSettings allowing = settings;
-    allowing.elevated = ElevatedSurface::kAllow;
+    allowing.limits.elevated = ElevatedSurface::kAllow;
     const HazardMaps allowed_hazards = JudgeTerrain(map.geometry, figures, allowing);
     const Judged allowed{field, view, map, allowed_hazards, allowing};
     for (const PlacedShape& shape : field.shapes) {

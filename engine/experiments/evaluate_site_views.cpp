@@ -80,7 +80,7 @@ HoverView RandomViewpoint(const ClosedField& field, const ViewsOptions& options,
   // and, at any heading, in the map, which follows the picture's middle within a metre.
   const double slack_m = std::max(0.0, HalfOverlap(view).minCoeff() - field.clear_radius_m - 1.0);
   Vector2d off(random.Uniform(-slack_m, slack_m), random.Uniform(-slack_m, slack_m));
-  const double half_map_m = std::min(slad.grid_rows, slad.grid_cols) * slad.cell_m / 2;
+  const double half_map_m = std::min(slad.grid.rows, slad.grid.cols) * slad.grid.cell_m / 2;
   const double most_m = std::max(0.1, half_map_m - field.clear_radius_m - 1.5);
   off *= std::min(1.0, most_m / std::max(off.norm(), 1e-9));
   const double right_m = off.x() - view.baseline_m / 2;

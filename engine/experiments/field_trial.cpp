@@ -12,8 +12,6 @@
 namespace palace {
 namespace {
 
-constexpr double kTallestObject_m = 3;  // as the pipeline expects
-
 PinholeCamera CameraOf(const HoverView& view) {
   return PinholeFromFov(view.width_px, view.height_px, view.field_of_view_rad);
 }
@@ -90,20 +88,21 @@ Result<std::vector<FieldFrame>> LookAtField(const World& world, const HoverView&
       return std::make_shared<const ImageU8>(
           Expose(DrawGrey(world, camera, X_WCamera, baked), exposure, sensor.NextBits()));
     };
-    frame.input.left = look(poses[i]);
-    frame.input.right = look(X_WRight);
-    frame.input.baseline_m = view.baseline_m;
-    frame.input.X_WC = BelievedPose(poses[i], view, navigation);
-    frame.input.p_WB = frame.input.X_WC.p;
+    SceneView& seen = frame.input.view;
+    seen.left = look(poses[i]);
+    seen.right = look(X_WRight);
+    const ViewPose believed{BelievedPose(poses[i], view, navigation)};
+    frame.input.p_WB = believed.X_WC.p;
     const DisparityWindow window =
-        PredictWindow(camera, view.baseline_m, frame.input.X_WC, 0, kTallestObject_m, settings);
+        PredictWindow(camera, view.baseline_m, believed.X_WC, 0, kTallestObject_m, settings);
     Result<StereoResult> stereo =
-        matcher.Match(*frame.input.left, *frame.input.right, camera, view.baseline_m, window,
-                      settings, AddSeconds({}, static_cast<double>(i) * view.frame_interval_s));
+        matcher.Match(*seen.left, *seen.right, camera, view.baseline_m, window, settings,
+                      AddSeconds({}, static_cast<double>(i) * view.frame_interval_s));
     if (!stereo) {
       return stereo.error();
     }
-    frame.input.range = std::make_shared<const RangeMap>(std::move(stereo->range));
+    stereo->range.pose = believed;
+    seen.range = std::make_shared<const RangeMap>(std::move(stereo->range));
     frames.push_back(std::move(frame));
   }
   return frames;
@@ -111,14 +110,14 @@ Result<std::vector<FieldFrame>> LookAtField(const World& world, const HoverView&
 
 std::shared_ptr<const TerrainDecision> DecideOnField(const std::vector<FieldFrame>& frames,
                                                      const Settings& settings, int count) {
-  TerrainStage stage;
+  Slad slad;
   const std::size_t used =
       count > 0 ? std::min(frames.size(), static_cast<std::size_t>(count)) : frames.size();
   PALACE_CHECK(used > 0);
   for (std::size_t i = 0; i < used; ++i) {
-    stage.Add(frames[i].input, settings.slad);
+    slad.Add(frames[i].input, settings.slad);
   }
-  return stage.Evaluate(settings, true);
+  return slad.Decide(settings, Letters::kOfRecord);
 }
 
 }  // namespace palace

@@ -1,7 +1,7 @@
 // A field seen from a hover: rendered pairs, stereo, fusion and sites exactly as in flight, beside
 // the truth of the field. What site experiments share.
 //
-//   FieldWorld -> frames of drawn pairs -> StereoMatcher -> TerrainStage -> TerrainDecision
+//   FieldWorld -> frames of drawn pairs -> StereoMatcher -> Slad -> TerrainDecision
 //
 // The camera hovers with drift and attitude motion. SLAD is given poses with errors, as a vehicle's
 // navigation has them, never the true ones. Same world, view and seed: same bits.
@@ -15,7 +15,7 @@
 #include "engine/core/result.h"
 #include "engine/model/settings.h"
 #include "engine/model/snapshot.h"
-#include "engine/runtime/terrain_stage.h"
+#include "engine/slad/slad.h"
 #include "engine/world/ray_pictures.h"
 
 namespace palace {
@@ -42,9 +42,9 @@ struct HoverView {
   double noise_grey = 2;                ///< of the sensor
 };
 
-/// One frame as stereo hands it to the terrain stage, believed pose included.
+/// One frame as stereo hands it to SLAD, believed pose included.
 struct FieldFrame {
-  TerrainInput input;
+  SladInput input;
   RigidTransform X_WC_true;
 };
 
@@ -59,7 +59,7 @@ std::vector<RigidTransform> HoverPoses(const HoverView& view, std::uint64_t seed
 BakedGround BakeForHover(const World& world, const HoverView& view,
                          const std::vector<RigidTransform>& X_WCs);
 
-/// The decision after the first `frames` frames (all when 0), by a TerrainStage as in flight.
+/// The decision after the first `frames` frames (all when 0), by Slad as in flight.
 std::shared_ptr<const TerrainDecision> DecideOnField(const std::vector<FieldFrame>& frames,
                                                      const Settings& settings, int count = 0);
 

@@ -6,14 +6,13 @@
 #include "engine/camera/pinhole.h"
 #include "engine/core/random.h"
 #include "engine/core/units.h"
-#include "engine/runtime/terrain_stage.h"
+#include "engine/slad/slad.h"
 #include "engine/stereo/stereo.h"
 
 namespace palace {
 namespace {
 
 constexpr double kInterval_s = 0.2;
-constexpr double kTallestObject_m = 3;  // as the pipeline expects
 
 std::vector<RigidTransform> PosesOf(const FlagField& field, int frames, std::uint64_t seed) {
   HoverView view = field.view;
@@ -75,7 +74,7 @@ Result<std::shared_ptr<const ElevationMap>> FlagsOfField(const FlagField& field,
   RandomStream navigation(seed, "pose errors"), sensor(seed, "sensor seeds");
   const std::vector<RigidTransform> poses = PosesOf(field, frames, seed);
   StereoMatcher matcher;
-  TerrainStage stage;
+  Slad slad;
   const StereoSettings settings;
   for (int k = 0; k < frames; ++k) {
     const World world = WorldAt(field.world, k * kInterval_s);
@@ -84,23 +83,23 @@ Result<std::shared_ptr<const ElevationMap>> FlagsOfField(const FlagField& field,
       return std::make_shared<const ImageU8>(
           Expose(DrawGrey(world, camera, X, ground), {view.noise_grey}, sensor.NextBits()));
     };
-    TerrainInput input;
-    input.left = look(X_WC);
-    input.right = look(RightOf(X_WC, view.baseline_m));
-    input.baseline_m = view.baseline_m;
-    input.X_WC = Believed(X_WC, view, navigation);
-    input.p_WB = input.X_WC.p;
+    SladInput input;
+    input.view.left = look(X_WC);
+    input.view.right = look(RightOf(X_WC, view.baseline_m));
+    const ViewPose believed{Believed(X_WC, view, navigation)};
+    input.p_WB = believed.X_WC.p;
     auto stereo = matcher.Match(
-        *input.left, *input.right, camera, view.baseline_m,
-        PredictWindow(camera, view.baseline_m, input.X_WC, 0, kTallestObject_m, settings), settings,
-        AddSeconds({}, k * kInterval_s));
+        *input.view.left, *input.view.right, camera, view.baseline_m,
+        PredictWindow(camera, view.baseline_m, believed.X_WC, 0, kTallestObject_m, settings),
+        settings, AddSeconds({}, k * kInterval_s));
     if (!stereo) {
       return stereo.error();
     }
-    input.range = std::make_shared<const RangeMap>(std::move(stereo->range));
-    stage.Add(input, SladSettings{});
+    stereo->range.pose = believed;
+    input.view.range = std::make_shared<const RangeMap>(std::move(stereo->range));
+    slad.Add(input, SladSettings{});
   }
-  return stage.elevation();
+  return slad.elevation();
 }
 
 }  // namespace palace

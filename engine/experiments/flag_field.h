@@ -1,5 +1,5 @@
 // A field seen from a hover with one thing in it that heights alone do not show, and what the
-// terrain stage flags. For `evaluate site-flags`.
+// SLAD flags. For `evaluate site-flags`.
 #pragma once
 
 #include <cstdint>

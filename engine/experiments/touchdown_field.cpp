@@ -225,8 +225,8 @@ SkidsRest RestSkids(const std::vector<double>& left, const std::vector<double>& 
 }
 
 void PutGearDown(const Points& points, const SladSettings& settings, TrueTouchdown& truth) {
-  const double length_m = settings.gear_length_m, width_m = settings.gear_width_m;
-  const bool skids = settings.gear == LandingGear::kSkids;
+  const double length_m = settings.lander.gear_length_m, width_m = settings.lander.gear_width_m;
+  const bool skids = settings.lander.gear == LandingGear::kSkids;
   const double corner_m = std::hypot(length_m, width_m) / 2;
   const int headings = static_cast<int>(std::ceil(M_PI * corner_m / points.spacing_m() / 1.5));
   const int gaps = skids ? static_cast<int>(std::ceil(length_m / points.spacing_m() - 1e-9)) : 1;
@@ -245,8 +245,9 @@ void PutGearDown(const Points& points, const SladSettings& settings, TrueTouchdo
     const auto compare = [&](double pitch, double roll, double middle_m) {
       const Eigen::Vector3d normal =
           Eigen::Vector3d(-(pitch * n - roll * e), -(pitch * e + roll * n), -1).normalized();
-      truth.tilt_rad = std::max(truth.tilt_rad, std::atan2(normal.cross(settings.up_W()).norm(),
-                                                           normal.dot(settings.up_W())));
+      truth.tilt_rad =
+          std::max(truth.tilt_rad, std::atan2(normal.cross(settings.lander.up_W()).norm(),
+                                              normal.dot(settings.lander.up_W())));
       points.ForDisc(corner_m, [&](int south, int east) {
         const double north_m = -south * points.spacing_m(), east_m = east * points.spacing_m();
         const double x = north_m * n + east_m * e, y = east_m * n - north_m * e;
@@ -280,7 +281,7 @@ void PutGearDown(const Points& points, const SladSettings& settings, TrueTouchdo
 TouchdownField MakeTouchdownField(GroundKind kind, const SladSettings& settings, int side,
                                   std::uint64_t seed) {
   RandomStream random(seed, "touchdown field");
-  const double cell_m = settings.cell_m;
+  const double cell_m = settings.grid.cell_m;
   const GridGeometry geometry{side, side, cell_m, -side * cell_m / 2, -side * cell_m / 2};
   const Ground ground(kind, side * cell_m, random);
   TouchdownField field;
@@ -321,20 +322,22 @@ TouchdownField MakeTouchdownField(GroundKind kind, const SladSettings& settings,
 }
 
 bool TrueTouchdown::Safe(const SladSettings& settings) const {
-  const double most_rad = Rad(settings.max_slope_deg);
-  return slope_rad <= most_rad && tilt_rad <= most_rad && deviation_m <= settings.max_deviation_m &&
-         step_m <= settings.max_step_m && rise_m <= settings.belly_clearance_m;
+  const double most_rad = Rad(settings.limits.max_slope_deg);
+  return slope_rad <= most_rad && tilt_rad <= most_rad &&
+         deviation_m <= settings.limits.max_deviation_m && step_m <= settings.limits.max_step_m &&
+         rise_m <= settings.lander.belly_clearance_m;
 }
 
 TrueTouchdown FindTrueTouchdown(const TouchdownField& field, const SladSettings& settings,
                                 Cell cell) {
-  const Points points(field, settings.cell_m, cell);
-  const Eigen::Vector3d plane = PlaneOf(points, settings.lander_base_size_m);
+  const Points points(field, settings.grid.cell_m, cell);
+  const Eigen::Vector3d plane = PlaneOf(points, settings.lander.base_size_m);
   TrueTouchdown truth;
   const Eigen::Vector3d normal = Eigen::Vector3d(-plane[1], -plane[2], -1).normalized();
-  truth.slope_rad = std::atan2(normal.cross(settings.up_W()).norm(), normal.dot(settings.up_W()));
+  truth.slope_rad =
+      std::atan2(normal.cross(settings.lander.up_W()).norm(), normal.dot(settings.lander.up_W()));
   const double spacing_m = points.spacing_m();
-  points.ForDisc(settings.lander_radius_m(), [&](int south, int east) {
+  points.ForDisc(settings.lander.radius_m(), [&](int south, int east) {
     const auto off = [&](int r, int c) {
       return points.At(r, c) - plane.dot(Eigen::Vector3d(1, -r * spacing_m, c * spacing_m));
     };

@@ -121,7 +121,7 @@ void RememberFacts(MissionMemory& m, const MissionInputs& in) {
   facts.simulated_vehicle = in.vehicle.simulated;
   RememberAirframe(facts, in.vehicle.bundle);
   facts.limits = in.limits.settings.mission;
-  facts.commit_height_m = in.limits.settings.slad.commit_height_m;
+  facts.commit_height_m = in.limits.settings.slad.fusion.commit_height_m;
   facts.min_coherence = in.limits.settings.tracking.min_coherence;
   facts.settings_hash = in.limits.settings_hash;
   facts.calibration_hash = in.limits.calibration_hash;

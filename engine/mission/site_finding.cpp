@@ -35,7 +35,7 @@ SiteFinding JudgeRecheck(const std::optional<LandingSite>& now,
     }
   };
   const std::string where = nearest ? "; " + WhereWords(*nearest) : std::string();
-  const bool under_lander = now->safe_distance_m < settings.lander_radius_m();
+  const bool under_lander = now->safe_distance_m < settings.lander.radius_m();
   for (const ExplainedTerm& term : TermsOf(*now, settings)) {
     if (term.over) {
       const bool room = term.term == CellTerm::kHazardDistance;

@@ -68,8 +68,9 @@ std::string WordsOfBits(const Bit (&bits)[N], unsigned set) {
 double RequiredSafeProbability(const SladSettings& settings, double sigma_m) {
   const double noise = sigma_m / kProvisionalSigma_m;
   // Below nothing, so that a limit of 0 stays one; unknown noise asks for the whole.
-  return noise >= 0 ? std::max(0.0, std::min(settings.min_safe_probability, 1 - noise * noise))
-                    : settings.min_safe_probability;
+  return noise >= 0
+             ? std::max(0.0, std::min(settings.limits.min_safe_probability, 1 - noise * noise))
+             : settings.limits.min_safe_probability;
 }
 
 std::vector<ExplainedTerm> TermsOf(const LandingSite& site, const SladSettings& settings) {
@@ -81,14 +82,14 @@ std::vector<ExplainedTerm> TermsOf(const LandingSite& site, const SladSettings& 
     terms.push_back({term, figure, limit, !inside, false});
   };
   const bool modern = settings.mode == SladMode::kModern;
-  add(CellTerm::kSlope, site.slope_rad, Rad(settings.max_slope_deg));
-  add(CellTerm::kRoughness, site.roughness_m, settings.max_deviation_m);
+  add(CellTerm::kSlope, site.slope_rad, Rad(settings.limits.max_slope_deg));
+  add(CellTerm::kRoughness, site.roughness_m, settings.limits.max_deviation_m);
   if (modern) {
-    add(CellTerm::kStep, site.step_m, settings.max_step_m);
+    add(CellTerm::kStep, site.step_m, settings.limits.max_step_m);
     add(CellTerm::kProbability, {site.safe_probability, 0},
         RequiredSafeProbability(settings, site.roughness_m.three_sigma / 3));
   }
-  add(CellTerm::kHazardDistance, {site.safe_distance_m, 0}, settings.clear_radius_m());
+  add(CellTerm::kHazardDistance, {site.safe_distance_m, 0}, settings.lander.clear_radius_m());
   return terms;
 }
 

@@ -5,6 +5,7 @@
 
 #include "engine/core/time.h"
 #include "engine/model/grid.h"
+#include "engine/model/view_pose.h"
 
 namespace palace {
 
@@ -35,6 +36,8 @@ struct ElevationMap {
   Grid<CellState> state;
   GridF age_s{};               ///< since the cell was last measured; empty: all of one frame
   Grid<std::uint8_t> flags{};  ///< TerrainFlag bits; empty: none
+  /// Of the newest pose the heights were taken from: the slope of everything is off by this much.
+  double attitude_sigma_rad = PoseSigmas{}.attitude_rad;
 };
 
 }  // namespace palace

@@ -108,7 +108,7 @@ std::vector<LimitRow> SiteLimits(const LandingSite& site, const SladSettings& se
   rows.push_back(Judged({.id = LimitId::kHeightNoise,
                          .label = "Height noise, 3σ",
                          .value = site.height_m.three_sigma,
-                         .limit = settings.max_deviation_m,
+                         .limit = settings.limits.max_deviation_m,
                          .unit = "cm",
                          .shown_per_unit = 100,
                          .enforced_by = EnforcedBy::kGuard}));

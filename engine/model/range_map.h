@@ -1,11 +1,13 @@
-// Range map: what stereo knows about each pixel of the rectified left image.
+// Range map: what stereo knows about each pixel of the rectified left image, and from where.
 #pragma once
 
 #include <limits>
+#include <optional>
 
 #include "engine/core/time.h"
 #include "engine/model/image.h"
 #include "engine/model/rig.h"
+#include "engine/model/view_pose.h"
 
 namespace palace {
 
@@ -17,6 +19,12 @@ struct RangeMap {
   ImageF disparity_sigma_px;  ///< one standard deviation
   ImageF depth_m;             ///< along the optical axis: f b / disparity
   ImageF depth_sigma_m;       ///< depth^2 sigma_d / (f b)
+  double baseline_m = std::numeric_limits<double>::quiet_NaN();  ///< between the two cameras
+  /// Of the rectified left camera at `time`; nothing where it is unknown: such ranges make no map.
+  std::optional<ViewPose> pose{};
+
+  /// f b, pixels times metres: depth times disparity.
+  double FocalTimesBaseline() const { return camera.fx_px * baseline_m; }
 };
 
 /// Stereo depth over laser depth, from the last pairs. NaN while too few pairs were compared.

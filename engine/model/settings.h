@@ -14,16 +14,18 @@
 namespace palace {
 
 enum class SladMode : int { kThesis = 0, kModern = 1 };
-enum class SiteChoice : int { kFarthest = 0, kCost = 1 };
+enum class SiteRanking : int { kFarthest = 0, kCost = 1 };
 enum class LandingGear : int { kSkids = 0, kPads = 1 };
 enum class ElevatedSurface : int { kAvoid = 0, kAllow = 1 };
 enum class BoundsMode : int { kData = 0, kGiven = 1, kFieldOfView = 2 };
 
-/// Thesis Table 4.4 by name, and what modern mode needs. Angles in degrees only here, as in files.
-struct SladSettings {
-  SladMode mode = SladMode::kModern;
-  int grid_rows = 100;
-  int grid_cols = 100;
+// SLAD's settings: thesis Table 4.4 by name, and what modern mode needs. Angles in degrees only
+// here, as in files, where all of them are called "slad.<name>".
+
+/// Where the maps lie, how fine they are, and which holes in them are filled.
+struct GridSettings {
+  int rows = 100;
+  int cols = 100;
   double cell_m = 0.15;  ///< modern mode; thesis mode derives it from the bounds
   BoundsMode bounds = BoundsMode::kData;
   double x_min_m = -7.5;  ///< north, relative to the map centre under kGiven
@@ -32,31 +34,61 @@ struct SladSettings {
   double y_max_m = 7.5;
   int border_size_cells = 2;
   int data_size_cells = 1;
+  friend bool operator==(const GridSettings&, const GridSettings&) = default;
+};
+
+/// What the ground may be like under the lander.
+struct HazardLimits {
   double max_slope_deg = 10;
   double max_deviation_m = 0.10;
   double max_step_m = 0.15;
-  double lander_base_size_m = 3.6;  ///< diameter
+  double min_safe_probability = 0.90;  ///< see RequiredSafeProbability (cell_explanation.h)
+  ElevatedSurface elevated = ElevatedSurface::kAvoid;
+  friend bool operator==(const HazardLimits&, const HazardLimits&) = default;
+};
+
+/// What lands: its sizes, how it stands, and how well it meets the place.
+struct Lander {
+  double base_size_m = 3.6;  ///< diameter
   LandingGear gear = LandingGear::kSkids;
   double gear_length_m = 1.2;       ///< of the skids, or between fore and aft pads
   double gear_width_m = 0.9;        ///< between the skids' or pads' middles
   double belly_clearance_m = 0.35;  ///< of the airframe above the plane the gear rests on
-  ElevatedSurface elevated = ElevatedSurface::kAvoid;
-  double max_rock_size_m = 0.40;    ///< spacing of samples in the plane fit
-  double up_tilt_deg = 0;           ///< up vector tilted towards up_azimuth_deg
+  double rotor_diameter_m = 3.1;
+  double max_rock_size_m = 0.40;  ///< spacing of samples in the plane fit
+  double up_tilt_deg = 0;         ///< up vector tilted towards up_azimuth_deg
   double up_azimuth_deg = 0;
   double nav_error_m = 0.5;  ///< touchdown dispersion added to the lander radius
-  double min_safe_probability = 0.90;  ///< see RequiredSafeProbability (cell_explanation.h)
-  int frames_fused = 10;        ///< a cell forgets frames older than this many maps
-  double site_spacing_m = 3.1;  ///< at least one rotor diameter
-  int sites_kept = 6;
-  double rotor_diameter_m = 3.1;
-  double commit_height_m = 3.0;
-  SiteChoice choice = SiteChoice::kFarthest;
 
-  double lander_radius_m() const { return lander_base_size_m / 2; }
-  double clear_radius_m() const { return lander_radius_m() + nav_error_m; }
+  double radius_m() const { return base_size_m / 2; }
+  double clear_radius_m() const { return radius_m() + nav_error_m; }
   /// Unit up vector in W (north, east, down).
   Eigen::Vector3d up_W() const;
+  friend bool operator==(const Lander&, const Lander&) = default;
+};
+
+/// How long maps are remembered, and until when they are made.
+struct FusionSettings {
+  int frames_fused = 10;  ///< a cell forgets frames older than this many maps
+  double commit_height_m = 3.0;
+  friend bool operator==(const FusionSettings&, const FusionSettings&) = default;
+};
+
+/// Which places are proposed.
+struct SiteChoice {
+  SiteRanking ranking = SiteRanking::kFarthest;
+  double spacing_m = 3.1;  ///< at least one rotor diameter
+  int sites_kept = 6;
+  friend bool operator==(const SiteChoice&, const SiteChoice&) = default;
+};
+
+struct SladSettings {
+  SladMode mode = SladMode::kModern;
+  GridSettings grid;
+  HazardLimits limits;
+  Lander lander;
+  FusionSettings fusion;
+  SiteChoice choice;
   friend bool operator==(const SladSettings&, const SladSettings&) = default;
 };
 
@@ -112,11 +144,11 @@ struct Settings {
 
 /// One row of the table of settings.
 struct SettingInfo {
-  std::string name;           ///< "slad.max_slope_deg", as files and scripts write it
-  std::string label;          ///< "Max slope", as the screen shows it
-  std::string group;          ///< "Hazard limits"
-  std::string description;    ///< one or two sentences
-  std::string unit;           ///< shown unit: "°", "cm", "m", "cells", ""
+  std::string name{};         ///< "slad.max_slope_deg", as files and scripts write it
+  std::string label{};        ///< "Max slope", as the screen shows it
+  std::string group{};        ///< "Hazard limits"
+  std::string description{};  ///< one or two sentences
+  std::string unit{};         ///< shown unit: "°", "cm", "m", "cells", ""
   double shown_per_unit = 1;  ///< shown value = value * shown_per_unit (100 for cm)
   int decimals = 1;           ///< of the shown value
   double min = 0;             ///< hard limits

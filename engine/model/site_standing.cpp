@@ -11,19 +11,20 @@ std::string WhyProvisional(const LandingSite& site, const SladSettings& settings
     return {};
   }
   if (settings.mode == SladMode::kModern &&
-      !(site.safe_probability >= settings.min_safe_probability)) {
+      !(site.safe_probability >= settings.limits.min_safe_probability)) {
     return WithNumbers("safe probability %.3f, sure from %.3f on", site.safe_probability,
-                       settings.min_safe_probability);
+                       settings.limits.min_safe_probability);
   }
-  if (!(site.height_m.three_sigma < settings.max_deviation_m)) {
+  if (!(site.height_m.three_sigma < settings.limits.max_deviation_m)) {
     return WithNumbers("height noise %.1f cm (3 sigma), sure below %.1f cm",
-                       100 * site.height_m.three_sigma, 100 * settings.max_deviation_m);
+                       100 * site.height_m.three_sigma, 100 * settings.limits.max_deviation_m);
   }
-  const int enough = std::min(kFramesToConfirm, settings.frames_fused);
+  const int enough = std::min(kFramesToConfirm, settings.fusion.frames_fused);
   if (settings.mode == SladMode::kModern && site.frames_fused < enough && !site.pixel.hasNaN()) {
     return WithNumbers("seen in %.0f of the %.0f frames that it takes", site.frames_fused, enough);
   }
-  return WithNumbers("rocks of %.2f m may not be seen from here", settings.max_rock_size_m, 0);
+  return WithNumbers("rocks of %.2f m may not be seen from here", settings.lander.max_rock_size_m,
+                     0);
 }
 
 }  // namespace palace

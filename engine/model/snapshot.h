@@ -21,6 +21,7 @@
 #include "engine/model/range_map.h"
 #include "engine/model/settings.h"
 #include "engine/model/source_kind.h"
+#include "engine/model/terrain_decision.h"
 
 namespace palace {
 
@@ -52,19 +53,6 @@ struct SourceStatus {
   std::uint64_t frame_count = 0;          ///< 0 unknown
   std::vector<CameraCounters> cameras{};  ///< of kCameras and kVideo
   std::string damage{};  ///< of a log: what could not be read, for people; empty when whole
-};
-
-/// One evaluation of SLAD under one settings set.
-struct TerrainDecision {
-  Timestamp map_time;
-  std::shared_ptr<const ElevationMap> elevation;
-  std::shared_ptr<const HazardMaps> hazards;
-  SiteSelection selection;  ///< letters assigned
-  SladSettings settings;
-  std::uint64_t settings_hash = 0;
-  std::uint64_t map_hash = 0;
-  /// Verdict per pixel of the left image at quarter size: 0 unknown, 1 safe, 2 over a limit.
-  std::shared_ptr<const ImageU8> verdict;
 };
 
 /// What the limits in force say of the site that the flight chose: the armed one, else the best.

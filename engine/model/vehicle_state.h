@@ -10,6 +10,7 @@
 #include "engine/core/frames.h"
 #include "engine/core/time.h"
 #include "engine/model/vehicle.h"
+#include "engine/model/view_pose.h"
 
 namespace palace {
 
@@ -43,6 +44,7 @@ struct VehiclePose {
   RigidTransform X_WB;
   Eigen::Vector3d v_WB = Eigen::Vector3d::Zero();
   Eigen::Vector3d angular_rate_B = Eigen::Vector3d::Zero();
+  PoseSigmas sigmas{};  ///< not on the wire: the default of all poses
 };
 
 enum class VehicleMode : std::uint8_t {

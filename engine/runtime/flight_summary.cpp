@@ -27,7 +27,7 @@ void FlightSummarizer::Add(const EngineSnapshot& snapshot) {
   }
   summary_.duration_s = SecondsBetween(*start_, snapshot.time);
   summary_.final_state = snapshot.mission.state;
-  summary_.lander_radius_m = snapshot.settings.slad.lander_radius_m();
+  summary_.lander_radius_m = snapshot.settings.slad.lander.radius_m();
   const bool flying = snapshot.mission.state != MissionState::kLanded;
   if (snapshot.mission.approval && snapshot.mission.armed) {
     summary_.site = snapshot.mission.armed;

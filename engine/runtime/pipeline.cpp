@@ -7,12 +7,11 @@
 #include "engine/runtime/decision_hash.h"
 #include "engine/runtime/pipeline_pass.h"
 #include "engine/slad/hazards/explanation.h"
-#include "engine/stereo/prefilter.h"
+#include "engine/stereo/range_measurement.h"
 
 namespace palace {
 namespace {
 
-constexpr double kTallestObject_m = 3;
 constexpr double kLaserAge_s = 0.1;  // a laser range older than this is of another place
 
 }  // namespace
@@ -21,7 +20,7 @@ Pipeline::Pipeline(const Settings& settings, MissionOptions mission)
     : settings_(settings), mission_(std::move(mission)) {}
 
 void Pipeline::StartAfterJump(Timestamp now) {
-  terrain_.Reset();
+  slad_.Forget();
   tracker_.Reset();
   tracked_site_ = 0;
   navigator_.Reset();
@@ -31,7 +30,8 @@ void Pipeline::StartAfterJump(Timestamp now) {
     settings_.RestoreRecorded(*settings);
   }
   std::vector<HistorySample> before = flight_of_record_.HistoryBefore(now);
-  maps_to_rebuild_ = replaying_ && !before.empty() ? settings_.recorded().slad.frames_fused : 0;
+  maps_to_rebuild_ =
+      replaying_ && !before.empty() ? settings_.recorded().slad.fusion.frames_fused : 0;
   history_.Reset(std::move(before));
   laser_height_m_.reset();
   range_check_.Reset();
@@ -89,7 +89,7 @@ PipelineOutput Pipeline::Refresh(std::vector<EngineCommand> commands,
     pass.snapshot->timings.clear();
   }
   ApplyCommands(pass);
-  if (pass.settings_moved && terrain_.has_map()) {
+  if (pass.settings_moved && slad_.has_map()) {
     pass.Run("slad", [&] { Judge(pass); });
   }
   if (!jumped_) {
@@ -148,9 +148,7 @@ void Pipeline::See(Pass& pass) {
     return;
   }
   snapshot.frame = bundle.stereo;
-  RigidTransform X_BC = rig_->X_BC();
-  X_BC.R = X_BC.R * rectifier_->R_C_Rect();
-  snapshot.X_WC = navigator_.PredictBodyPose(bundle.stereo->time) * X_BC;
+  snapshot.X_WC = navigator_.PredictBodyPose(bundle.stereo->time) * rectifier_->X_BC(*rig_);
   if (const auto spot = LaserSpot(snapshot)) {
     laser_height_m_ = HeightFromDown((snapshot.X_WC * *spot).z());
   }
@@ -197,27 +195,23 @@ void Pipeline::MeasureRange(Pass& pass) {
   const Settings& settings = settings_.recorded();
   const MissionStatus& mission = MissionInForce();
   const bool committed = mission.state == MissionState::kDescending &&
-                         mission.height_above_site_m < settings.slad.commit_height_m;
+                         mission.height_above_site_m < settings.slad.fusion.commit_height_m;
   const bool due =
       stereo_frames_++ % static_cast<std::uint64_t>(settings.stereo.map_every_frames) == 0;
   if (committed || !due || mission.state == MissionState::kLanded) {
     return;
   }
-  DisparityWindow window;
-  const bool placed = pass.snapshot->pose.has_value();
-  if (rig_->num_disparities > 0) {
-    window = {rig_->min_disparity_px, rig_->num_disparities};
-  } else if (!placed) {
-    window = {0, settings.stereo.num_disparities};
-  } else {
-    window = PredictWindow(rectifier_->camera(), rectifier_->baseline_m(), pass.snapshot->X_WC,
-                           GroundHeight(), kTallestObject_m, settings.stereo);
+  std::optional<ViewPose> pose;
+  if (pass.snapshot->pose) {
+    pose = ViewPose{pass.snapshot->X_WC, pass.snapshot->pose->sigmas};
   }
-  const std::optional<RectifiedPair> filtered =
-      FilterThenRectify(*pass.bundle->stereo, *rectifier_, settings.stereo);
-  Result<StereoResult> result = matcher_.Match(
-      *pass.pair.left, *pass.pair.right, rectifier_->camera(), rectifier_->baseline_m(), window,
-      settings.stereo, pass.bundle->stereo->time, filtered ? &*filtered : nullptr);
+  Result<StereoResult> result = MeasureRanges({.raw = *pass.bundle->stereo,
+                                               .pair = pass.pair,
+                                               .rig = *rig_,
+                                               .rectifier = *rectifier_,
+                                               .pose = pose,
+                                               .ground_height_m = GroundHeight()},
+                                              settings.stereo, matcher_);
   if (!result) {
     pass.Note(DiagnosticLevel::kError, "stereo", result.error().message);
     return;
@@ -233,7 +227,7 @@ void Pipeline::MeasureRange(Pass& pass) {
   }
   auto range = std::make_shared<const RangeMap>(std::move(result->range));
   pass.snapshot->range = range;
-  if (!placed) {
+  if (!pose) {
     pass.Note(DiagnosticLevel::kWarning, "slad",
               "attitude and height are unknown, so ranges make no map; give a pose ([pose] in "
               "RIG.toml, or a vehicle)");
@@ -243,26 +237,27 @@ void Pipeline::MeasureRange(Pass& pass) {
     range_check_.Add(*range, *spot);
     pass.snapshot->range_agreement = range_check_.agreement();
   }
-  terrain_.Add({range, pass.snapshot->X_WC, navigator_.PredictBodyPose(range->time).p,
-                pass.pair.left, pass.pair.right, rectifier_->baseline_m()},
-               settings.slad);
+  slad_.Add({.view = {pass.pair.left, pass.pair.right, range},
+             .p_WB = navigator_.PredictBodyPose(range->time).p},
+            settings.slad);
   pass.new_map = true;
   maps_to_rebuild_ = std::max(0, maps_to_rebuild_ - 1);
 }
 
 void Pipeline::Judge(Pass& pass) {
   EngineSnapshot& snapshot = *pass.snapshot;
-  if (!terrain_.has_map() || (!pass.new_map && !pass.settings_moved)) {
+  if (!slad_.has_map() || (!pass.new_map && !pass.settings_moved)) {
     pass.decision_of_record = snapshot.recorded ? snapshot.recorded : snapshot.applied;
     return;
   }
   // Letters follow the limits of record; a preview or a re-decision uses a copy of them.
-  pass.decision_of_record = terrain_.Evaluate(settings_.recorded(), pass.new_map);
-  snapshot.applied = settings_.redecided() ? terrain_.Evaluate(settings_.applied(), false)
+  pass.decision_of_record =
+      slad_.Decide(settings_.recorded(), pass.new_map ? Letters::kOfRecord : Letters::kOfCopy);
+  snapshot.applied = settings_.redecided() ? slad_.Decide(settings_.applied(), Letters::kOfCopy)
                                            : pass.decision_of_record;
   snapshot.recorded = settings_.redecided() ? pass.decision_of_record : nullptr;
   snapshot.preview =
-      settings_.previewing() ? terrain_.Evaluate(settings_.preview(), false) : nullptr;
+      settings_.previewing() ? slad_.Decide(settings_.preview(), Letters::kOfCopy) : nullptr;
 }
 
 std::optional<LandingSite> Pipeline::TrackedSite(Timestamp now) const {
@@ -300,9 +295,7 @@ void Pipeline::Track(Pass& pass) {
                                               range, tracking, exposure);
     snapshot.tracker = result.status;
     navigator_.AddVision(result, rectifier_->camera(), *rig_, *pass.bundle, tracking);
-    RigidTransform X_BC = rig_->X_BC();
-    X_BC.R = X_BC.R * rectifier_->R_C_Rect();
-    snapshot.X_WC = navigator_.PredictBodyPose(exposure) * X_BC;
+    snapshot.X_WC = navigator_.PredictBodyPose(exposure) * rectifier_->X_BC(*rig_);
   }
   snapshot.navigation = navigator_.status();
 }
@@ -320,14 +313,14 @@ void Pipeline::Decide(Pass& pass) {
   const auto& armed = mission_.status().armed;
   if (armed && pass.decision_of_record && pass.new_map) {
     const auto& approach = mission_.status().approach;
-    rechecked = terrain_.Recheck(*pass.decision_of_record, *armed, settings_.recorded(),
+    rechecked = slad_.Recheck(*pass.decision_of_record, *armed, settings_.recorded(),
                                  approach ? approach->heading_rad : NAN);
     if (rechecked) {
       const TerrainDecision& map = *pass.decision_of_record;
       nearest = ExplainCell(*map.elevation, *map.hazards, map.settings, rechecked->cell).nearest;
     }
     if (const auto& kept = mission_.alternative()) {
-      alternative = terrain_.Recheck(*pass.decision_of_record, *kept, settings_.recorded(), NAN);
+      alternative = slad_.Recheck(*pass.decision_of_record, *kept, settings_.recorded(), NAN);
     }
   }
   const Settings& in_force = settings_.recorded();

@@ -18,7 +18,7 @@
 #include "engine/runtime/flight_history.h"
 #include "engine/runtime/recorded_flight.h"
 #include "engine/runtime/settings_state.h"
-#include "engine/runtime/terrain_stage.h"
+#include "engine/slad/slad.h"
 #include "engine/stereo/range_check.h"
 #include "engine/stereo/stereo.h"
 #include "engine/tracking/site_tracker.h"
@@ -94,7 +94,7 @@ class Pipeline {
   std::string rig_problem_;
   StereoMatcher matcher_;
   RangeCheck range_check_;
-  TerrainStage terrain_;
+  Slad slad_;
   SiteTracker tracker_;
   std::uint64_t tracked_site_ = 0;
   Navigator navigator_;

@@ -15,7 +15,7 @@ void Pipeline::Review(Pass& pass) {
                             : flown != nullptr && !flown->selection.sites.empty()
                                 ? &flown->selection.sites.front()
                                 : nullptr;
-  if (site == nullptr || !snapshot.applied || !terrain_.has_map()) {
+  if (site == nullptr || !snapshot.applied || !slad_.has_map()) {
     snapshot.site_review.reset();
     return;
   }
@@ -24,7 +24,7 @@ void Pipeline::Review(Pass& pass) {
     const Settings& settings = settings_.applied();
     const auto& approach = snapshot.mission.approach;
     snapshot.site_review = ReviewSite(*site,
-                                      terrain_.Recheck(*snapshot.applied, *site, settings,
+                                      slad_.Recheck(*snapshot.applied, *site, settings,
                                                        approach ? approach->heading_rad : NAN),
                                       settings.slad);
   }

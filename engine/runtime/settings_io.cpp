@@ -110,11 +110,12 @@ Status ApplyKey(Settings& settings, const std::string& key, const toml::node& no
 
 Status CheckSettings(const Settings& settings, const std::string& name) {
   const SladSettings& s = settings.slad;
-  if (s.bounds == BoundsMode::kGiven && (s.x_min_m >= s.x_max_m || s.y_min_m >= s.y_max_m)) {
+  if (s.grid.bounds == BoundsMode::kGiven &&
+      (s.grid.x_min_m >= s.grid.x_max_m || s.grid.y_min_m >= s.grid.y_max_m)) {
     return InvalidError(
-        name + ": slad.x_min_m = " + Shortest(s.x_min_m) + ", x_max_m = " + Shortest(s.x_max_m) +
-        ", y_min_m = " + Shortest(s.y_min_m) + ", y_max_m = " + Shortest(s.y_max_m) +
-        ": each minimum must lie below its maximum");
+        name + ": slad.x_min_m = " + Shortest(s.grid.x_min_m) +
+        ", x_max_m = " + Shortest(s.grid.x_max_m) + ", y_min_m = " + Shortest(s.grid.y_min_m) +
+        ", y_max_m = " + Shortest(s.grid.y_max_m) + ": each minimum must lie below its maximum");
   }
   return Ok();
 }

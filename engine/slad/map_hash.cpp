@@ -1,5 +1,6 @@
+#include "engine/slad/map_hash.h"
+
 #include "engine/core/hash.h"
-#include "engine/slad/slad.h"
 
 namespace palace {
 

@@ -60,11 +60,12 @@ RangeMap RangeMapFromDisparity(SubpixelDisparity refined, const PinholeCamera& c
   RangeMap range;
   range.time = time;
   range.camera = camera;
+  range.baseline_m = baseline_m;
   range.disparity_px = std::move(refined.disparity_px);
   range.disparity_sigma_px = std::move(refined.sigma_px);
   range.depth_m = ImageF(camera.width, camera.height, kNaN);
   range.depth_sigma_m = ImageF(camera.width, camera.height, kNaN);
-  const auto fb = static_cast<float>(camera.fx_px * baseline_m);
+  const auto fb = static_cast<float>(range.FocalTimesBaseline());
   cv::parallel_for_(cv::Range(0, camera.height), [&](const cv::Range& rows) {
     for (int y = rows.start; y < rows.end; ++y) {
       float* disparity = range.disparity_px.row(y);

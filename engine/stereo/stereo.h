@@ -18,6 +18,9 @@ struct DisparityWindow {
   friend bool operator==(const DisparityWindow&, const DisparityWindow&) = default;
 };
 
+/// Objects up to this height stand on the ground that a predicted window must hold.
+inline constexpr double kTallestObject_m = 3;
+
 /// The window that holds level ground at `ground_height_m` (metres above the origin of W,
 /// up-positive) and objects up to `tallest_m` on it, seen by the left camera at X_WC:
 /// d = fx b / Z with Z where the rays of the picture's border meet the ground. Rays at or above the
@@ -43,11 +46,11 @@ class StereoMatcher {
   StereoMatcher(StereoMatcher&&) noexcept;
   StereoMatcher& operator=(StereoMatcher&&) noexcept;
 
-  /// Pixels without texture, without a unique match, hidden from one camera, outside the window or
-  /// with a sigma over settings.max_sigma_px are NaN in all layers. Refuses pictures whose sizes
-  /// differ from the camera's, a baseline that is not positive, and impossible windows.
-  /// `filtered`: pictures for the whole-pixel stage, from FilterThenRectify; null: the prefilter of
-  /// the settings is applied here.
+  /// The range map has no pose: who knows it adds it. Pixels without texture, without a unique
+  /// match, hidden from one camera, outside the window or with a sigma over settings.max_sigma_px
+  /// are NaN in all layers. Refuses pictures whose sizes differ from the camera's, a baseline that
+  /// is not positive, and impossible windows. `filtered`: pictures for the whole-pixel stage, from
+  /// FilterThenRectify; null: the prefilter of the settings is applied here.
   Result<StereoResult> Match(const ImageU8& left, const ImageU8& right, const PinholeCamera& camera,
                              double baseline_m, const DisparityWindow& window,
                              const StereoSettings& settings, Timestamp time,

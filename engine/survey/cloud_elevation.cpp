@@ -84,16 +84,16 @@ bool IsOnEarth(double height_m) { return height_m > -450 && height_m < 9000; }
 
 void CoverExtent(double north_m, double east_m, SladSettings& slad,
                  std::vector<std::string>& warnings) {
-  if (slad.mode == SladMode::kThesis || slad.bounds != BoundsMode::kData) {
+  if (slad.mode == SladMode::kThesis || slad.grid.bounds != BoundsMode::kData) {
     return;
   }
-  const double needed_m = std::max(north_m / slad.grid_rows, east_m / slad.grid_cols);
-  if (needed_m > slad.cell_m) {
+  const double needed_m = std::max(north_m / slad.grid.rows, east_m / slad.grid.cols);
+  if (needed_m > slad.grid.cell_m) {
     warnings.push_back(
         WithNumbers("cell enlarged from %.3g m to %.3g m so that the map covers the data; "
                     "set slad.grid_rows and slad.grid_cols, or the bounds, for finer cells",
-                    slad.cell_m, needed_m));
-    slad.cell_m = needed_m;
+                    slad.grid.cell_m, needed_m));
+    slad.grid.cell_m = needed_m;
   }
 }
 
@@ -118,8 +118,8 @@ Result<ElevationMap> MapOfCloud(const std::vector<Eigen::Vector3d>& survey,
         WithNumbers("%.0f of %.0f points are not finite, or below -450 m or above 9000 m: left out",
                     double(survey.size() - points.size()), double(survey.size())));
   }
-  slad.cell_m = cell_m.value_or(slad.cell_m);
-  if (slad.bounds != BoundsMode::kData || slad.mode == SladMode::kThesis) {
+  slad.grid.cell_m = cell_m.value_or(slad.grid.cell_m);
+  if (slad.grid.bounds != BoundsMode::kData || slad.mode == SladMode::kThesis) {
     for (Eigen::Vector3d& p : points) {
       p.z() = -p.z();
     }
@@ -130,14 +130,14 @@ Result<ElevationMap> MapOfCloud(const std::vector<Eigen::Vector3d>& survey,
     CoverExtent(extent.x(), extent.y(), slad, warnings);
     // Where points are scattered at random, three a cell leave one cell in twenty empty.
     const double spacing_m = std::sqrt(3 * extent.x() * extent.y() / double(points.size()));
-    if (spacing_m > slad.cell_m) {
+    if (spacing_m > slad.grid.cell_m) {
       warnings.push_back(
           WithNumbers("cell enlarged to %.3g m: the points are that sparse", spacing_m));
-      slad.cell_m = spacing_m;
+      slad.grid.cell_m = spacing_m;
     }
   }
   GridGeometry g;
-  g.cell_m = slad.cell_m;
+  g.cell_m = slad.grid.cell_m;
   const auto cells = [&](double metres) { return std::floor(metres / g.cell_m + kOffLine) + 1; };
   const double rows = cells(extent.x()), cols = cells(extent.y());
   if (!(std::max(rows, cols) <= kMostCells)) {
@@ -149,7 +149,7 @@ Result<ElevationMap> MapOfCloud(const std::vector<Eigen::Vector3d>& survey,
   g.north_min_m = low.x() - kOffLine * g.cell_m;
   g.east_min_m = low.y() - kOffLine * g.cell_m;
   ElevationMap map = MapOfTops(points, g);
-  FillHoles(map, slad.data_size_cells, slad.border_size_cells);
+  FillHoles(map, slad.grid.data_size_cells, slad.grid.border_size_cells);
   return map;
 }
 

@@ -19,6 +19,7 @@
 #include "engine/model/site_standing.h"
 #include "engine/runtime/settings_io.h"
 #include "engine/slad/hazards/explanation.h"
+#include "engine/slad/sites/verdict_image.h"
 #include "engine/slad/slad.h"
 #include "engine/survey/cloud_elevation.h"
 #include "engine/survey/hazard_layer.h"
@@ -84,7 +85,7 @@ Result<Settings> LoadSettings(const Options& options) {
     settings = *loaded;
   }
   if (options.cell_m) {
-    settings.slad.cell_m = *options.cell_m;
+    settings.slad.grid.cell_m = *options.cell_m;
   }
   for (const std::string& assignment : options.set) {
     auto changed = ApplySettingText(settings, assignment);
@@ -215,7 +216,7 @@ Json ReportJson(const Outcome& o) {
 }
 
 Status WriteLayers(const Outcome& o, const fs::path& folder) {
-  const double max_distance = o.selection.sites.empty() ? o.settings.slad.clear_radius_m()
+  const double max_distance = o.selection.sites.empty() ? o.settings.slad.lander.clear_radius_m()
                                                         : o.selection.sites.front().safe_distance_m;
   struct Row {
     const char* name;
@@ -227,10 +228,10 @@ Status WriteLayers(const Outcome& o, const fs::path& folder) {
       {"elevation", o.input.map.height_m, {"elevation, m", ColourTable::kViridis, 1, {}, {}}},
       {"slope",
        o.hazards.slope_rad,
-       {"slope, deg", ColourTable::kMagma, kDegPerRad, 0.0, 2 * slad.max_slope_deg}},
+       {"slope, deg", ColourTable::kMagma, kDegPerRad, 0.0, 2 * slad.limits.max_slope_deg}},
       {"roughness",
        o.hazards.roughness_m,
-       {"roughness, m", ColourTable::kInferno, 1, 0.0, 2 * slad.max_deviation_m}},
+       {"roughness, m", ColourTable::kInferno, 1, 0.0, 2 * slad.limits.max_deviation_m}},
       {"cost", o.hazards.cost, {"cost", ColourTable::kCividis, 1, 0.0, 1.0}},
       {"safe_distance",
        o.hazards.safe_distance_m,
@@ -265,8 +266,7 @@ Status WriteAll(const Outcome& o, const fs::path& folder) {
     return done;
   }
   if (o.input.left && o.input.range) {
-    const ImageU8 verdict =
-        VerdictImage(*o.input.range, o.input.context.X_WC, o.input.map, o.hazards, kVerdictDivisor);
+    const ImageU8 verdict = VerdictImage(*o.input.range, o.input.map, o.hazards, kVerdictDivisor);
     const Status done =
         WriteOverlay(folder / kOverlay, *o.input.left, o.selection, o.input.context, verdict);
     if (!done) {
@@ -332,12 +332,12 @@ Status Analyze(const Options& options) {
       o.files.push_back(*file);
     }
   }
-  o.settings.slad.cell_m = o.input.map.geometry.cell_m;
-  if (o.settings.slad.cell_m > o.settings.slad.max_rock_size_m) {
+  o.settings.slad.grid.cell_m = o.input.map.geometry.cell_m;
+  if (o.settings.slad.grid.cell_m > o.settings.slad.lander.max_rock_size_m) {
     o.input.warnings.push_back(
         WithNumbers("cells of %.3g m are larger than slad.max_rock_size_m (%.3g m): lower rocks of "
                     "that size may be averaged away",
-                    o.settings.slad.cell_m, o.settings.slad.max_rock_size_m));
+                    o.settings.slad.grid.cell_m, o.settings.slad.lander.max_rock_size_m));
   }
   double start = MonotonicSeconds();
   o.hazards = EvaluateHazards(o.input.map, o.settings.slad);

@@ -23,8 +23,6 @@
 namespace palace {
 namespace {
 
-constexpr double kTallestObject_m = 5;
-
 class Stopwatch {
  public:
   StageTime Lap(const char* stage) {
@@ -71,18 +69,19 @@ ElevationMap MapOfLayer(const MapLayer& layer, std::vector<std::string>& warning
 void WarnOfLayout(const GridGeometry& model, const SladSettings& asked,
                   std::vector<std::string>& warnings) {
   const SladSettings standard;
-  if (asked.cell_m != standard.cell_m && std::abs(asked.cell_m - model.cell_m) > 1e-6) {
+  if (asked.grid.cell_m != standard.grid.cell_m &&
+      std::abs(asked.grid.cell_m - model.cell_m) > 1e-6) {
     warnings.push_back(
         WithNumbers("slad.cell_m = %.3g m leaves the model's cells of %.3g m as they are; use "
                     "--cell-m to change them",
-                    asked.cell_m, model.cell_m));
+                    asked.grid.cell_m, model.cell_m));
   }
-  if (asked.grid_rows != standard.grid_rows || asked.grid_cols != standard.grid_cols) {
+  if (asked.grid.rows != standard.grid.rows || asked.grid.cols != standard.grid.cols) {
     warnings.push_back(WithNumbers(
         "slad.grid_rows and slad.grid_cols leave the model's %.0f x %.0f cells as they are",
         model.rows, model.cols));
   }
-  if (asked.bounds != standard.bounds) {
+  if (asked.grid.bounds != standard.grid.bounds) {
     warnings.push_back("slad.bounds: an elevation model is taken whole");
   }
 }
@@ -159,15 +158,15 @@ Result<AnalyzeInput> ElevationOfPair(const std::filesystem::path& left,
   if (match->quality.suspect_same) {
     input.warnings.push_back("left and right are the same picture");
   }
-  const GroundBounds bounds = BoundsOfData(PointsFromRange(match->range, X_WC));
+  match->range.pose = ViewPose{X_WC};
+  const GroundBounds bounds = BoundsOfData(PointsFromRange(match->range));
   CoverExtent(bounds.north_max_m - bounds.north_min_m, bounds.east_max_m - bounds.east_min_m,
               settings.slad, input.warnings);
-  input.map = ElevationFromRange(match->range, X_WC, settings.slad);
+  input.map = ElevationFromRange(match->range, settings.slad);
   input.timings.push_back(watch.Lap("elevation"));
   if (settings.slad.mode == SladMode::kModern) {
     const auto range = std::make_shared<const RangeMap>(match->range);
-    input.map.flags = SceneFlags().Add(
-        {pair->left, pair->right, range, X_WC, rectifier->baseline_m()}, input.map.geometry);
+    input.map.flags = SceneFlags().Add({pair->left, pair->right, range}, input.map.geometry);
     input.timings.push_back(watch.Lap("flags"));
   }
   input.left = *pair->left;
@@ -216,7 +215,7 @@ Result<AnalyzeInput> ElevationOfModel(const std::filesystem::path& path,
   } else {
     input.map = MapOfLayer(*layer, input.warnings);
     WarnOfLayout(layer->geometry, settings.slad, input.warnings);
-    FillHoles(input.map, settings.slad.data_size_cells, settings.slad.border_size_cells);
+    FillHoles(input.map, settings.slad.grid.data_size_cells, settings.slad.grid.border_size_cells);
   }
   input.timings.push_back(watch.Lap("elevation"));
   return input;

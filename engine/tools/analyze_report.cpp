@@ -31,10 +31,11 @@ std::vector<std::vector<std::string>> SiteRows(const SiteSelection& selection,
          WithNumbers("%.2f N, %.2f E, %.2f up", site.p_WS.x(), site.p_WS.y(), site.height_m.value),
          WithNumbers("%.2f m to the nearest hazard, %.2f m needed", site.safe_distance_m,
                      site.clear_radius_m),
-         Against(site.slope_rad, kDegPerRad, slad.max_slope_deg, "°"),
-         Against(site.roughness_m, 1, slad.max_deviation_m, "m"),
-         modern ? Against(site.step_m, 1, slad.max_step_m, "m") : "not in thesis mode",
-         modern ? WithNumbers("%.4f, limit %.4f", site.safe_probability, slad.min_safe_probability)
+         Against(site.slope_rad, kDegPerRad, slad.limits.max_slope_deg, "°"),
+         Against(site.roughness_m, 1, slad.limits.max_deviation_m, "m"),
+         modern ? Against(site.step_m, 1, slad.limits.max_step_m, "m") : "not in thesis mode",
+         modern ? WithNumbers("%.4f, limit %.4f", site.safe_probability,
+                              slad.limits.min_safe_probability)
                 : "not in thesis mode",
          site.flags == 0 ? "none" : FlagWords(site.flags),
          site.confirmed ? "confirmed" : "provisional: " + WhyProvisional(site, slad), site.reason});

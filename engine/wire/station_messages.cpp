@@ -210,7 +210,7 @@ WireMessage EncodeMission(const EngineSnapshot& snapshot, const ChannelNames& ch
                                        : Rad(settings.mission.glide_slope_deg);
   m.descent_rate_mps = mission.approach ? mission.approach->descent_rate_mps
                                         : settings.mission.descent_rate_mps;
-  m.commit_height_m = settings.slad.commit_height_m;
+  m.commit_height_m = settings.slad.fusion.commit_height_m;
   return MakeMessage(channels.mission, snapshot.time, m);
 }
 

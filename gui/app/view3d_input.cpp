@@ -46,7 +46,8 @@ View3dInput MakeView3dInput(const EngineSnapshot& snapshot, std::uint64_t highli
   if (decision) {
     input.elevation = decision->elevation;
     input.hazards = decision->hazards;
-    input.safe_distance_max_m = kSafeDistanceEndPerMinimum * decision->settings.clear_radius_m();
+    input.safe_distance_max_m =
+        kSafeDistanceEndPerMinimum * decision->settings.lander.clear_radius_m();
   }
   // The picture and the range map of one moment belong together; between maps the newest serves.
   if (snapshot.left_rectified && snapshot.range) {

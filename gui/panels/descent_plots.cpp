@@ -174,7 +174,7 @@ PlotView DistancePlot(const EngineSnapshot& snap, const Palette& p, const Histor
   view.series = {Estimate(snap, &HistorySample::from_site_m, p, band),
                  SeriesOf(snap, &HistorySample::from_site_truth_m, p.truth, 1.5f, Stroke::kDotted),
                  SeriesOf(snap, &HistorySample::from_site_gps_m, p.gps, 1.5f)};
-  const auto limit = static_cast<float>(snap.settings.slad.nav_error_m);
+  const auto limit = static_cast<float>(snap.settings.slad.lander.nav_error_m);
   const float top = Largest(view.series, 2 * limit);
   view.y_max = RoundUp(top * 1.05f, top > 8 ? 5 : (top > 3 ? 1 : 0.5f));
   const std::string words = Fixed(static_cast<double>(limit), 1) + " m";

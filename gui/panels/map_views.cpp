@@ -100,18 +100,18 @@ void FillRange(MapKind kind, const SladSettings& now, const SladSettings& applie
       break;
     case MapKind::kSlope:
       view.low = "0°";
-      view.high = Fixed(2 * now.max_slope_deg, 0) + "°+";
+      view.high = Fixed(2 * now.limits.max_slope_deg, 0) + "°+";
       FillLimit(
-          {now.max_slope_deg, applied.max_slope_deg, wanted.max_slope_deg, 2 * now.max_slope_deg,
-           "slad.max_slope_deg", label("max ", now.max_slope_deg, "°")},
+          {now.limits.max_slope_deg, applied.limits.max_slope_deg, wanted.limits.max_slope_deg, 2 * now.limits.max_slope_deg,
+           "slad.max_slope_deg", label("max ", now.limits.max_slope_deg, "°")},
           view.limit);
       break;
     case MapKind::kRoughness:
       view.low = "0 cm";
-      view.high = Fixed(250 * now.max_deviation_m, 0) + " cm+";
-      FillLimit({now.max_deviation_m, applied.max_deviation_m, wanted.max_deviation_m,
-                 2.5 * now.max_deviation_m, "slad.max_deviation_m",
-                 label("max ", 100 * now.max_deviation_m, " cm")},
+      view.high = Fixed(250 * now.limits.max_deviation_m, 0) + " cm+";
+      FillLimit({now.limits.max_deviation_m, applied.limits.max_deviation_m, wanted.limits.max_deviation_m,
+                 2.5 * now.limits.max_deviation_m, "slad.max_deviation_m",
+                 label("max ", 100 * now.limits.max_deviation_m, " cm")},
                 view.limit);
       break;
     case MapKind::kCost:
@@ -121,10 +121,10 @@ void FillRange(MapKind kind, const SladSettings& now, const SladSettings& applie
       break;
     case MapKind::kSafeDistance:
       view.low = "0 m";
-      view.high = Fixed(2.5 * now.clear_radius_m(), 1) + " m+";
-      FillLimit({now.clear_radius_m(), applied.clear_radius_m(), wanted.nav_error_m,
-                 2.5 * now.clear_radius_m(), "slad.nav_error_m",
-                 "min " + Fixed(now.clear_radius_m(), DecimalsOf(now.clear_radius_m(), 1)) + " m"},
+      view.high = Fixed(2.5 * now.lander.clear_radius_m(), 1) + " m+";
+      FillLimit({now.lander.clear_radius_m(), applied.lander.clear_radius_m(), wanted.lander.nav_error_m,
+                 2.5 * now.lander.clear_radius_m(), "slad.nav_error_m",
+                 "min " + Fixed(now.lander.clear_radius_m(), DecimalsOf(now.lander.clear_radius_m(), 1)) + " m"},
                 view.limit);
       break;
   }

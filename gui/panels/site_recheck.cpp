@@ -64,7 +64,7 @@ void DrawSchedule(const EngineSnapshot& snap, const Rect& column, float y, UiFra
   DrawIcon(Canvas(), Icon::kStale, {column.x + s.Px(6), y + s.Px(14)}, s.Px(12), p.text2);
   DrawText(ui, s.body, p.text1, column.x + s.Px(20), y + s.Px(14), "Each new map");
   DrawText(ui, s.caption, p.text2, column.x + s.Px(20), y + s.Px(34),
-           "down to " + Fixed(snap.settings.slad.commit_height_m, 1) + " m");
+           "down to " + Fixed(snap.settings.slad.fusion.commit_height_m, 1) + " m");
 }
 
 /// The site's own reason compares it with the best of its map, which nobody may have chosen.

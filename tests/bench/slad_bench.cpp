@@ -42,7 +42,8 @@ void LimitMoved(benchmark::State& state, SladMode mode) {
   const SiteContext context = Approach(map);
   const TerrainFigures figures = MeasureTerrain(map, settings);
   for (auto _ : state) {
-    settings.max_slope_deg = settings.max_slope_deg > 11 ? 8 : settings.max_slope_deg + 0.5;
+    settings.limits.max_slope_deg =
+        settings.limits.max_slope_deg > 11 ? 8 : settings.limits.max_slope_deg + 0.5;
     const HazardMaps hazards = JudgeTerrain(map.geometry, figures, settings);
     SiteSelection selection = SelectSites(map, hazards, settings, context);
     benchmark::DoNotOptimize(selection);

@@ -105,7 +105,7 @@ TEST(SiteLimits, SayWhatTheVerdictOfTheSiteSays) {
     const bool modern = settings.mode == SladMode::kModern;
     EXPECT_EQ(FindLimit(rows, LimitId::kUnknownCells)->over, modern && site.unknown_cells > 0);
     EXPECT_EQ(FindLimit(rows, LimitId::kHeightNoise)->over,
-              site.height_m.three_sigma > settings.max_deviation_m);
+              site.height_m.three_sigma > settings.limits.max_deviation_m);
   }
 }
 

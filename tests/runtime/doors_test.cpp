@@ -255,7 +255,7 @@ TEST(Doors, CommandsBeforeTheFirstFrameAreAppliedWithIt) {
       ASSERT_TRUE(engine.Step());
     }
     ASSERT_TRUE(engine.Stop());
-    EXPECT_EQ(engine.Latest()->settings.slad.max_slope_deg, 7);
+    EXPECT_EQ(engine.Latest()->settings.slad.limits.max_slope_deg, 7);
     ASSERT_EQ(tape->items.size(), 1u);
     EXPECT_EQ(tape->items[0].commands.size(), 2u);
     EXPECT_NE(tape->items[0].bundle, nullptr);

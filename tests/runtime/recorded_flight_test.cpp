@@ -13,7 +13,7 @@ TEST(RecordedFlight, TellsTheLimitsInForceAtATime) {
   EXPECT_EQ(flight.SettingsAt({5}), nullptr);
   for (const int degrees : {10, 6, 8}) {
     SettingsInForce entry{{static_cast<std::int64_t>(record->settings.size()) * 100 + 100}, {}};
-    entry.settings.slad.max_slope_deg = degrees;
+    entry.settings.slad.limits.max_slope_deg = degrees;
     record->settings.push_back(entry);
   }
   struct Case {
@@ -24,7 +24,7 @@ TEST(RecordedFlight, TellsTheLimitsInForceAtATime) {
        {Case{0, 10}, {100, 10}, {199, 10}, {200, 6}, {299, 6}, {300, 8}, {9999, 8}}) {
     const Settings* settings = flight.SettingsAt({c.at_us});
     ASSERT_NE(settings, nullptr);
-    EXPECT_EQ(settings->slad.max_slope_deg, c.slope_deg) << c.at_us;
+    EXPECT_EQ(settings->slad.limits.max_slope_deg, c.slope_deg) << c.at_us;
   }
 }
 

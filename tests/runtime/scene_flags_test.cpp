@@ -1,4 +1,4 @@
-// What pictures show beside heights, through stereo and the flight's terrain stage: wires, painted
+// What pictures show beside heights, through stereo and SLAD: wires, painted
 // lines, still water, somebody moving; and nothing where there is nothing.
 #include <algorithm>
 #include <array>
@@ -13,7 +13,7 @@
 
 #include "engine/camera/pinhole.h"
 #include "engine/core/units.h"
-#include "engine/runtime/terrain_stage.h"
+#include "engine/slad/slad.h"
 #include "engine/stereo/stereo.h"
 #include "engine/world/painted_things.h"
 #include "engine/world/ray_pictures.h"
@@ -62,7 +62,7 @@ struct Seen {
 
 /// The map after some frames of a world, which may differ from frame to frame.
 Seen Look(int frames, const std::function<World(int)>& world, const Paint& paint = {}) {
-  TerrainStage stage;
+  Slad slad;
   const PinholeCamera camera = Camera();
   const BakedGround ground = BakeFor(world(0), camera, {PoseOf(0), RightOf(PoseOf(5))});
   for (int k = 0; k < frames; ++k) {
@@ -83,11 +83,13 @@ Seen Look(int frames, const std::function<World(int)>& world, const Paint& paint
                                 PredictWindow(camera, kBaseline_m, X_WC, 0, 3, settings), settings,
                                 AddSeconds({}, k * kInterval_s));
     EXPECT_TRUE(stereo.ok());
-    stage.Add({std::make_shared<const RangeMap>(std::move(stereo->range)), X_WC, X_WC.p,
-               pictures[0], pictures[1], kBaseline_m},
-              SladSettings{});
+    stereo->range.pose = ViewPose{X_WC};
+    slad.Add({.view = {pictures[0], pictures[1],
+                       std::make_shared<const RangeMap>(std::move(stereo->range))},
+              .p_WB = X_WC.p},
+             SladSettings{});
   }
-  return {stage.elevation()};
+  return {slad.elevation()};
 }
 
 class SceneFlagsOn : public testing::TestWithParam<GroundTexture> {};
@@ -188,25 +190,30 @@ TEST(SceneFlags, SameBitsForAnyNumberOfThreads) {
 TEST(SceneFlags, PicturesThatMakeNoSenseFlagNothing) {
   const GridGeometry geometry{20, 20, 0.15, -1.5, -1.5};
   const auto picture = [](int w, int h) { return std::make_shared<const ImageU8>(w, h, 100); };
-  const auto range = [](int w, int h, float disparity_px) {
+  const auto range = [](int w, int h, float disparity_px, double baseline_m = 1) {
     const ImageF layer(w, h, disparity_px);
-    return std::make_shared<const RangeMap>(RangeMap{
-        {}, PinholeFromFov(std::max(1, w), std::max(1, h), 1), layer, layer, layer, layer});
+    RangeMap made{{},   PinholeFromFov(std::max(1, w), std::max(1, h), 1), layer, layer, layer,
+                  layer};
+    made.baseline_m = baseline_m;
+    made.pose = ViewPose{PoseOf(0)};
+    return std::make_shared<RangeMap>(std::move(made));
   };
   const float nan = std::numeric_limits<float>::quiet_NaN();
-  const RigidTransform X_WC = PoseOf(0);
+  const auto without_pose = range(67, 65, 9);
+  without_pose->pose.reset();
   const std::vector<SceneView> views = {
-      {nullptr, nullptr, nullptr, X_WC, 1},
-      {picture(640, 480), picture(640, 480), nullptr, X_WC, 1},
-      {picture(0, 0), picture(0, 0), range(0, 0, 1), X_WC, 1},
-      {picture(1, 1), picture(1, 1), range(1, 1, 1), X_WC, 1},
-      {picture(67, 65), picture(64, 65), range(67, 65, 9), X_WC, 1},
-      {picture(67, 65), picture(67, 65), range(67, 65, nan), X_WC, 1},
-      {picture(67, 65), picture(67, 65), range(67, 65, 0), X_WC, 1},
-      {picture(67, 65), picture(67, 65), range(67, 65, -3), X_WC, 1},
-      {picture(67, 65), picture(67, 65), range(67, 65, 1e30F), X_WC, 1},
-      {picture(67, 65), picture(67, 65), range(67, 65, 9), X_WC, 0},
-      {picture(67, 65), picture(67, 65), range(67, 65, 9), X_WC, nan}};
+      {nullptr, nullptr, nullptr},
+      {picture(640, 480), picture(640, 480), nullptr},
+      {picture(0, 0), picture(0, 0), range(0, 0, 1)},
+      {picture(1, 1), picture(1, 1), range(1, 1, 1)},
+      {picture(67, 65), picture(64, 65), range(67, 65, 9)},
+      {picture(67, 65), picture(67, 65), range(67, 65, nan)},
+      {picture(67, 65), picture(67, 65), range(67, 65, 0)},
+      {picture(67, 65), picture(67, 65), range(67, 65, -3)},
+      {picture(67, 65), picture(67, 65), range(67, 65, 1e30F)},
+      {picture(67, 65), picture(67, 65), without_pose},
+      {picture(67, 65), picture(67, 65), range(67, 65, 9, 0)},
+      {picture(67, 65), picture(67, 65), range(67, 65, 9, double(nan))}};
   for (std::size_t k = 0; k < views.size(); ++k) {
     SceneFlags flags;
     for (int map = 0; map < 3; ++map) {

@@ -10,7 +10,7 @@ namespace {
 
 TEST(SettingsIo, FileReadsBackToEqualSettings) {
   Settings settings;
-  settings.slad.max_slope_deg = 7.25;
+  settings.slad.limits.max_slope_deg = 7.25;
   settings.slad.mode = SladMode::kThesis;
   settings.stereo.num_disparities = 96;
   settings.mission.descent_rate_mps = 0.6;
@@ -66,11 +66,12 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(SettingsIo, UpVectorBecomesTiltAndAzimuth) {
   const auto read = ParseSettings("[slad]\nup_vector_ned = [0, -0.1, -1]\n", "x.toml", Settings{});
   ASSERT_TRUE(read) << read.error().message;
-  EXPECT_NEAR((read->slad.up_W() - Eigen::Vector3d(0, -0.1, -1).normalized()).norm(), 0, 1e-9);
+  EXPECT_NEAR((read->slad.lander.up_W() - Eigen::Vector3d(0, -0.1, -1).normalized()).norm(), 0,
+              1e-9);
 }
 
 TEST(SettingsIo, AssignmentsAsOnTheCommandLine) {
-  EXPECT_EQ(ApplySettingText(Settings{}, "slad.max_slope_deg=8")->slad.max_slope_deg, 8);
+  EXPECT_EQ(ApplySettingText(Settings{}, "slad.max_slope_deg=8")->slad.limits.max_slope_deg, 8);
   EXPECT_EQ(ApplySettingText(Settings{}, "slad.mode=thesis")->slad.mode, SladMode::kThesis);
   for (const char* bad : {"slad.max_slope_deg", "slad.nothing=1", "slad.max_slope_deg=8x",
                           "slad.max_slope_deg=", "slad.max_slope_deg=800"}) {

@@ -11,20 +11,20 @@ const char* kSlope = "slad.max_slope_deg";
 TEST(SettingsState, AMovedLimitAppliesAtOnceWhileSearching) {
   SettingsState state{Settings{}};
   ASSERT_TRUE(state.Set(kSlope, 7, false));
-  EXPECT_EQ(state.applied().slad.max_slope_deg, 7);
+  EXPECT_EQ(state.applied().slad.limits.max_slope_deg, 7);
   EXPECT_FALSE(state.previewing());
 }
 
 TEST(SettingsState, AMovedLimitPreviewsOnlyWhileArmed) {
   SettingsState state{Settings{}};
   ASSERT_TRUE(state.Set(kSlope, 7, true));
-  EXPECT_EQ(state.applied().slad.max_slope_deg, 10);
+  EXPECT_EQ(state.applied().slad.limits.max_slope_deg, 10);
   EXPECT_TRUE(state.previewing());
   state.Discard();
   EXPECT_FALSE(state.previewing());
   ASSERT_TRUE(state.Set(kSlope, 6, true));
   state.Apply();
-  EXPECT_EQ(state.applied().slad.max_slope_deg, 6);
+  EXPECT_EQ(state.applied().slad.limits.max_slope_deg, 6);
 }
 
 TEST(SettingsState, ARefusedValueChangesNothing) {
@@ -36,28 +36,28 @@ TEST(SettingsState, ARefusedValueChangesNothing) {
 TEST(SettingsState, ReplayFollowsTheRecordUntilTheReviewerMovesALimit) {
   SettingsState state{Settings{}};
   ASSERT_TRUE(state.SetRecorded(kSlope, 8, false));
-  EXPECT_EQ(state.applied().slad.max_slope_deg, 8);
+  EXPECT_EQ(state.applied().slad.limits.max_slope_deg, 8);
   EXPECT_FALSE(state.redecided());
   ASSERT_TRUE(state.Set(kSlope, 5, false));
   EXPECT_TRUE(state.redecided());
   ASSERT_TRUE(state.SetRecorded(kSlope, 9, false));
-  EXPECT_EQ(state.recorded().slad.max_slope_deg, 9);
-  EXPECT_EQ(state.applied().slad.max_slope_deg, 5);
+  EXPECT_EQ(state.recorded().slad.limits.max_slope_deg, 9);
+  EXPECT_EQ(state.applied().slad.limits.max_slope_deg, 5);
 }
 
 TEST(SettingsState, AJumpRestoresTheRecordAndKeepsWhatTheReviewerMoved) {
   SettingsState state{Settings{}};
   Settings later;
-  later.slad.max_slope_deg = 6;
-  later.slad.max_step_m = 0.12;
+  later.slad.limits.max_slope_deg = 6;
+  later.slad.limits.max_step_m = 0.12;
   state.RestoreRecorded(later);
   EXPECT_EQ(state.applied(), later);
   EXPECT_FALSE(state.redecided());
   ASSERT_TRUE(state.Set(kSlope, 3, false));
   state.RestoreRecorded(Settings{});
   EXPECT_EQ(state.recorded(), Settings{});
-  EXPECT_EQ(state.applied().slad.max_slope_deg, 3);
-  EXPECT_EQ(state.applied().slad.max_step_m, Settings{}.slad.max_step_m);
+  EXPECT_EQ(state.applied().slad.limits.max_slope_deg, 3);
+  EXPECT_EQ(state.applied().slad.limits.max_step_m, Settings{}.slad.limits.max_step_m);
 }
 
 }  // namespace

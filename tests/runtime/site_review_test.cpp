@@ -61,7 +61,7 @@ TEST(SiteReview, RoomAloneKeepsNoSite) {
     return ReviewSite(site, RecheckSite(map, hazards, settings, site, AboveTheMap()), settings);
   };
   EXPECT_TRUE(review().kept) << review().reason;
-  settings.max_slope_deg = 5;
+  settings.limits.max_slope_deg = 5;
   EXPECT_FALSE(review().kept);
   EXPECT_NE(review().reason.find("Slope"), std::string::npos) << review().reason;
   EXPECT_NE(review().reason.find("max 5°"), std::string::npos) << review().reason;

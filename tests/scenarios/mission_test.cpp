@@ -159,8 +159,8 @@ TEST_F(Mission, AMovedLimitDecidesInThePassItArrivesAndInTheReplay) {
   engine->Post({CommandOrigin::kOperator, SetSetting{"slad.max_slope_deg", limit_deg}});
   step();
   const auto moved = engine->Latest();
-  ASSERT_EQ(moved->settings.slad.max_slope_deg, limit_deg);
-  EXPECT_EQ(moved->applied->settings.max_slope_deg, limit_deg);
+  ASSERT_EQ(moved->settings.slad.limits.max_slope_deg, limit_deg);
+  EXPECT_EQ(moved->applied->settings.limits.max_slope_deg, limit_deg);
   EXPECT_NE(moved->applied->settings_hash, before->applied->settings_hash);
   EXPECT_GT(TooSteep(*moved), TooSteep(*before));
   step();
@@ -169,7 +169,7 @@ TEST_F(Mission, AMovedLimitDecidesInThePassItArrivesAndInTheReplay) {
   engine->Control({PlaybackControl::Kind::kPause, 0});
   engine->Post({CommandOrigin::kOperator, SetSetting{"slad.max_slope_deg", 9}});
   ASSERT_TRUE(engine->Step());
-  EXPECT_EQ(engine->Latest()->applied->settings.max_slope_deg, 9);
+  EXPECT_EQ(engine->Latest()->applied->settings.limits.max_slope_deg, 9);
   EXPECT_EQ(engine->Latest()->time, flown.back().time);
   engine->Control({PlaybackControl::Kind::kPlay, 0});
   for (int i = 0; i < 5; ++i) {

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/slad/slad.h"
+#include "engine/slad/terrain/elevation_map_builder.h"
 #include "tests/slad/worlds.h"
 
 namespace palace {
@@ -163,17 +164,17 @@ std::string Answer(const ElevationMap& map, const SladSettings& settings) {
   const std::size_t sizes = selection.none_reason.find("; the map holds ");
   const double across_m = std::min(map.geometry.rows, map.geometry.cols) * map.geometry.cell_m;
   EXPECT_TRUE(sizes == std::string::npos ||
-              across_m < 2 * settings.clear_radius_m() + map.geometry.cell_m);
+              across_m < 2 * settings.lander.clear_radius_m() + map.geometry.cell_m);
   return selection.none_reason.substr(0, sizes);
 }
 
 TEST(BadMaps, GetAClearAnswerAndNeverALuckySite) {
   for (const BadMap& row : BadMaps()) {
     for (const SladMode mode : kModes) {
-      for (const SiteChoice choice : {SiteChoice::kFarthest, SiteChoice::kCost}) {
+      for (const SiteRanking choice : {SiteRanking::kFarthest, SiteRanking::kCost}) {
         SCOPED_TRACE(std::string(row.name) + (mode == SladMode::kModern ? " modern" : " thesis"));
         SladSettings settings = WithMode(mode);
-        settings.choice = choice;
+        settings.choice.ranking = choice;
         const std::string want = mode == SladMode::kModern ? row.modern : row.thesis;
         const std::string answer = Answer(row.make(), settings);
         EXPECT_TRUE(want == "any" || answer == want) << answer << ", not " << want;
@@ -191,20 +192,21 @@ struct BadSetting {
 // Such settings cannot be typed, dragged or loaded; a program may still ask with them.
 TEST(BadSettings, GetNoSiteAndAreNamed) {
   const std::vector<BadSetting> rows = {
-      {"slad.lander_base_size_m", [](auto& s, double v) { s.lander_base_size_m = v; }, true},
-      {"slad.max_rock_size_m", [](auto& s, double v) { s.max_rock_size_m = v; }, false},
-      {"slad.nav_error_m", [](auto& s, double v) { s.nav_error_m = v; }, false},
-      {"slad.max_slope_deg", [](auto& s, double v) { s.max_slope_deg = v; }, false},
-      {"slad.max_deviation_m", [](auto& s, double v) { s.max_deviation_m = v; }, false},
-      {"slad.max_step_m", [](auto& s, double v) { s.max_step_m = v; }, false},
-      {"slad.min_safe_probability", [](auto& s, double v) { s.min_safe_probability = v; }, false},
-      {"slad.site_spacing_m", [](auto& s, double v) { s.site_spacing_m = v; }, false},
-      {"slad.rotor_diameter_m", [](auto& s, double v) { s.rotor_diameter_m = v; }, false},
-      {"slad.gear_length_m", [](auto& s, double v) { s.gear_length_m = v; }, false},
-      {"slad.gear_width_m", [](auto& s, double v) { s.gear_width_m = v; }, false},
-      {"slad.belly_clearance_m", [](auto& s, double v) { s.belly_clearance_m = v; }, false},
-      {"slad.up_tilt_deg", [](auto& s, double v) { s.up_tilt_deg = v; }, false},
-      {"slad.up_azimuth_deg", [](auto& s, double v) { s.up_azimuth_deg = v; }, false},
+      {"slad.lander_base_size_m", [](auto& s, double v) { s.lander.base_size_m = v; }, true},
+      {"slad.max_rock_size_m", [](auto& s, double v) { s.lander.max_rock_size_m = v; }, false},
+      {"slad.nav_error_m", [](auto& s, double v) { s.lander.nav_error_m = v; }, false},
+      {"slad.max_slope_deg", [](auto& s, double v) { s.limits.max_slope_deg = v; }, false},
+      {"slad.max_deviation_m", [](auto& s, double v) { s.limits.max_deviation_m = v; }, false},
+      {"slad.max_step_m", [](auto& s, double v) { s.limits.max_step_m = v; }, false},
+      {"slad.min_safe_probability", [](auto& s, double v) { s.limits.min_safe_probability = v; },
+       false},
+      {"slad.site_spacing_m", [](auto& s, double v) { s.choice.spacing_m = v; }, false},
+      {"slad.rotor_diameter_m", [](auto& s, double v) { s.lander.rotor_diameter_m = v; }, false},
+      {"slad.gear_length_m", [](auto& s, double v) { s.lander.gear_length_m = v; }, false},
+      {"slad.gear_width_m", [](auto& s, double v) { s.lander.gear_width_m = v; }, false},
+      {"slad.belly_clearance_m", [](auto& s, double v) { s.lander.belly_clearance_m = v; }, false},
+      {"slad.up_tilt_deg", [](auto& s, double v) { s.lander.up_tilt_deg = v; }, false},
+      {"slad.up_azimuth_deg", [](auto& s, double v) { s.lander.up_azimuth_deg = v; }, false},
   };
   for (const BadSetting& row : rows) {
     for (const double value : {-1.0, -1e30, double(kNan), double(kInfinity), 0.0}) {
@@ -225,7 +227,7 @@ TEST(BadSettings, LanderLargerThanTheMapHasNoRoom) {
   for (const SladMode mode : kModes) {
     for (const double size_m : {9.5, 20.0, 1e4, 1e9, 1e30}) {
       SladSettings settings = WithMode(mode);
-      settings.lander_base_size_m = size_m;
+      settings.lander.base_size_m = size_m;
       EXPECT_EQ(Answer(FlatMap(), settings), "100 % footprint") << size_m;
     }
   }
@@ -234,7 +236,7 @@ TEST(BadSettings, LanderLargerThanTheMapHasNoRoom) {
 TEST(BadSettings, NoSiteAskedForIsSaid) {
   for (const int kept : {0, -3}) {
     SladSettings settings;
-    settings.sites_kept = kept;
+    settings.choice.sites_kept = kept;
     EXPECT_EQ(Answer(FlatMap(), settings).rfind("slad.sites_kept", 0), 0U);
   }
 }
@@ -276,15 +278,16 @@ TEST(BadBounds, ReversedAreExchangedAndEmptyOnesHaveNoRoom) {
   }
   for (const SladMode mode : kModes) {
     SladSettings settings = WithMode(mode);
-    settings.bounds = BoundsMode::kGiven;
-    settings.data_size_cells = 2;
+    settings.grid.bounds = BoundsMode::kGiven;
+    settings.grid.data_size_cells = 2;
     const ElevationMap straight = ElevationFromPoints(points, nullptr, settings, {});
-    std::swap(settings.x_min_m, settings.x_max_m);
-    std::swap(settings.y_min_m, settings.y_max_m);
+    std::swap(settings.grid.x_min_m, settings.grid.x_max_m);
+    std::swap(settings.grid.y_min_m, settings.grid.y_max_m);
     const ElevationMap reversed = ElevationFromPoints(points, nullptr, settings, {});
     EXPECT_EQ(straight.geometry, reversed.geometry);
     EXPECT_EQ(Answer(straight, settings), Answer(reversed, settings));
-    settings.x_min_m = settings.x_max_m = settings.y_min_m = settings.y_max_m = 3;
+    settings.grid.x_min_m = settings.grid.x_max_m = settings.grid.y_min_m = settings.grid.y_max_m =
+        3;
     const ElevationMap empty = ElevationFromPoints(points, nullptr, settings, {});
     EXPECT_NE(Answer(empty, settings), "site");
   }

@@ -241,11 +241,11 @@ LandingSite SiteOf(double safe_distance_m, double cost, bool straight = true,
 
 TEST(RankReasons, SayWhatDecidedAndByHowMuch) {
   struct Case {
-    SiteChoice choice;
+    SiteRanking choice;
     std::vector<LandingSite> sites;
     std::vector<const char*> reasons;
   };
-  using enum SiteChoice;
+  using enum SiteRanking;
   const Case cases[] = {
       {kFarthest, {SiteOf(4.8, 0.2)}, {"The only site"}},
       {kFarthest,

@@ -33,7 +33,7 @@ TEST_P(ReliefBetweenFrames, AMetreSeenInSomeFramesStands) {
   std::shared_ptr<const ElevationMap> map;
   std::uint64_t seed = 0;
   for (const bool high : GetParam().high) {
-    map = fusion.Add(SeeWorld(high ? box : Flat(), X_WC, 0.05, ++seed), X_WC, SladSettings{});
+    map = fusion.Add(SeeWorld(high ? box : Flat(), X_WC, 0.05, ++seed), SladSettings{});
   }
   const auto cell = map->geometry.CellFromPoint(9, 0);
   const auto beside = map->geometry.CellFromPoint(9, 2);
@@ -58,12 +58,12 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(TerrainFusion, WhatIsGoneFades) {
   TerrainFusion fusion;
   SladSettings settings;
-  settings.frames_fused = 5;
+  settings.fusion.frames_fused = 5;
   const RigidTransform X_WC = CameraPose(15.24, Rad(60));
   const auto box = WithBox(Flat(), 9, 0, 1.2, 1.0);
   std::vector<double> height_m;
   for (std::uint64_t i = 1; i <= 28; ++i) {
-    const auto map = fusion.Add(SeeWorld(i <= 4 ? box : Flat(), X_WC, 0.05, i), X_WC, settings);
+    const auto map = fusion.Add(SeeWorld(i <= 4 ? box : Flat(), X_WC, 0.05, i), settings);
     const auto cell = map->geometry.CellFromPoint(9, 0);
     ASSERT_TRUE(cell);
     height_m.push_back(double(map->height_m.at(*cell)));

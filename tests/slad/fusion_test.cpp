@@ -46,7 +46,7 @@ TEST(TerrainFusion, TenFramesLowerTheNoise) {
   const RigidTransform X_WC = CameraPose(15.24, Rad(45));
   Errors first, last;
   for (std::uint64_t frame = 1; frame <= 10; ++frame) {
-    const auto map = fusion.Add(SeeWorld(Flat(), X_WC, 0.15, frame), X_WC, SladSettings{});
+    const auto map = fusion.Add(SeeWorld(Flat(), X_WC, 0.15, frame), SladSettings{});
     last = ErrorsOf(*map, Flat());
     first = frame == 1 ? last : first;
   }
@@ -68,7 +68,9 @@ TEST(TerrainFusion, FrameTiltsAreRegistered) {
     const EulerAngles error{Rad(0.3) * random.Normal(), Rad(0.3) * random.Normal(), 0};
     RigidTransform believed = CameraPose(15.24, Rad(45), 0, error);
     believed.p.z() += 0.05 * random.Normal();
-    map = fusion.Add(SeeWorld(world, truth, 0.08, frame), believed, SladSettings{});
+    RangeMap range = SeeWorld(world, truth, 0.08, frame);
+    range.pose->X_WC = believed;
+    map = fusion.Add(range, SladSettings{});
     const auto cell = map->geometry.CellFromPoint(18, 3);
     ASSERT_TRUE(cell);
     const double height = double(map->height_m.at(*cell));
@@ -92,10 +94,9 @@ TEST(TerrainFusion, MapFollowsTheViewByWholeCells) {
   const auto world = WithBox(Flat(), 14.0, 0, 0.9, 0.8);
   for (int frame = 0; frame < 8; ++frame) {
     const RigidTransform X_WC = CameraPose(15.24, Rad(45), 0.5 * frame);
-    const auto map =
-        fusion.Add(SeeWorld(world, X_WC, 0.05, std::uint64_t(frame) + 1), X_WC, settings);
+    const auto map = fusion.Add(SeeWorld(world, X_WC, 0.05, std::uint64_t(frame) + 1), settings);
     first = frame == 0 ? map->geometry : first;
-    const double shift = (map->geometry.north_min_m - first.north_min_m) / settings.cell_m;
+    const double shift = (map->geometry.north_min_m - first.north_min_m) / settings.grid.cell_m;
     EXPECT_NEAR(shift, std::round(shift), 1e-6);
     const auto box = map->geometry.CellFromPoint(14.0, 0.0);
     ASSERT_TRUE(box);
@@ -110,7 +111,7 @@ TEST(TerrainFusion, NewObstacleWarnsOnItsFirstSightingAndReplacesTheGroundOnItsS
   TerrainFusion fusion;
   const RigidTransform X_WC = CameraPose(15.24, Rad(60));
   const auto see = [&](const testing::Height& world, std::uint64_t seed) {
-    return fusion.Add(SeeWorld(world, X_WC, 0.05, seed), X_WC, SladSettings{});
+    return fusion.Add(SeeWorld(world, X_WC, 0.05, seed), SladSettings{});
   };
   for (std::uint64_t i = 1; i <= 5; ++i) {
     see(Flat(), i);
@@ -132,20 +133,20 @@ TEST(TerrainFusion, OrderOfTenFramesDoesNotMatter) {
   RandomStream random(kSeed, "order");
   const auto world = WithBox(Flat(), 14, 1, 1.0, 0.5);
   std::vector<RangeMap> ranges;
-  std::vector<RigidTransform> poses;
   for (std::uint64_t i = 0; i < kFrames; ++i) {
     const RigidTransform truth = CameraPose(15.24, Rad(45));
     const EulerAngles error{Rad(0.1) * random.Normal(), Rad(0.1) * random.Normal(), 0};
-    poses.push_back(CameraPose(15.24, Rad(45), 0, error));
-    poses.back().p.z() += 0.03 * random.Normal();
     ranges.push_back(SeeWorld(world, truth, 0.08, 100 + i));
+    RigidTransform& believed = ranges.back().pose->X_WC;
+    believed = CameraPose(15.24, Rad(45), 0, error);
+    believed.p.z() += 0.03 * random.Normal();
   }
   const auto fuse = [&](auto index_of) {
     TerrainFusion fusion;
     std::shared_ptr<const ElevationMap> map;
     for (int i = 0; i < kFrames; ++i) {
       const auto at = static_cast<std::size_t>(index_of(i));
-      map = fusion.Add(ranges[at], poses[at], SladSettings{});
+      map = fusion.Add(ranges[at], SladSettings{});
     }
     return map;
   };
@@ -186,7 +187,7 @@ TEST(TerrainFusion, AgeIsTheTimeSinceACellWasLastSeen) {
   const auto see = [&](const RigidTransform& X_WC, double time_s) {
     RangeMap range = SeeWorld(Flat(), X_WC, 0.02, 1);
     range.time = AddSeconds({}, time_s);
-    return fusion.Add(range, X_WC, SladSettings{});
+    return fusion.Add(range, SladSettings{});
   };
   const auto first = see(near, 1.0);
   const auto last = see(north, 3.5);
@@ -219,7 +220,7 @@ TEST(TerrainFusion, APostNarrowerThanACellKeepsItsHeight) {
   TerrainFusion fusion;
   std::shared_ptr<const ElevationMap> map;
   for (std::uint64_t i = 1; i <= 10; ++i) {
-    map = fusion.Add(SeeWorld(post, X_WC, 0.03, i), X_WC, SladSettings{});
+    map = fusion.Add(SeeWorld(post, X_WC, 0.03, i), SladSettings{});
   }
   double highest = 0;
   for (double n = 8.8; n < 9.4; n += 0.05) {
@@ -239,7 +240,7 @@ TEST(TerrainFusion, APostNarrowerThanACellKeepsItsHeight) {
 TEST(TerrainFusion, AFootWhoseSidesWereRefusedStands) {
   const auto foot = WithBox(Flat(), 0.05, 0.05, 0.3, 0.05);
   SladSettings settings;
-  settings.grid_rows = settings.grid_cols = 40;
+  settings.grid.rows = settings.grid.cols = 40;
   for (const bool refused : {false, true}) {
     TerrainFusion fusion;
     std::shared_ptr<const ElevationMap> map;
@@ -254,7 +255,7 @@ TEST(TerrainFusion, AFootWhoseSidesWereRefusedStands) {
           depth_m = depth_m < 5.975F ? std::nanf("") : depth_m;
         }
       }
-      map = fusion.Add(range, X_WC, settings);
+      map = fusion.Add(range, settings);
       first = frame == 0 ? map->geometry : first;
     }
     EXPECT_NE(map->geometry.north_min_m, first.north_min_m);
@@ -268,11 +269,11 @@ TEST(TerrainFusion, APictureWithoutRangesLeavesTheNoise) {
   TerrainFusion fusion;
   const RigidTransform X_WC = CameraPose(15.24, Rad(45));
   RangeMap range = SeeWorld(Flat(), X_WC, 0.15, 1);
-  const auto seen = fusion.Add(range, X_WC, SladSettings{});
+  const auto seen = fusion.Add(range, SladSettings{});
   for (ImageF* layer : {&range.depth_m, &range.depth_sigma_m, &range.disparity_px}) {
     std::fill(layer->pixels().begin(), layer->pixels().end(), kUnknownValue);
   }
-  const auto blind = fusion.Add(range, X_WC, SladSettings{});
+  const auto blind = fusion.Add(range, SladSettings{});
   const auto cell = seen->geometry.CellFromPoint(15, 0);
   ASSERT_TRUE(cell && blind->geometry == seen->geometry);
   EXPECT_GE(blind->variance_m2.at(*cell), seen->variance_m2.at(*cell));
@@ -282,7 +283,7 @@ TEST(TerrainFusion, EmptyRangeMapGivesAllUnknown) {
   TerrainFusion fusion;
   const auto nothing = [](double, double) { return -1e9; };
   const RigidTransform X_WC = CameraPose(15, Rad(45));
-  const auto map = fusion.Add(SeeWorld(nothing, X_WC, 0.1, 1), X_WC, SladSettings{});
+  const auto map = fusion.Add(SeeWorld(nothing, X_WC, 0.1, 1), SladSettings{});
   for (const CellState state : map->state.cells()) {
     ASSERT_EQ(state, CellState::kUnknown);
   }
@@ -292,8 +293,7 @@ TEST(ElevationMapBuilder, ThesisGridCoversTheDataWithFixedRows) {
   SladSettings settings;
   settings.mode = SladMode::kThesis;
   const RigidTransform X_WC = CameraPose(15.24, Rad(90));
-  const ElevationMap map =
-      ElevationFromRange(SeeWorld(Slope(Rad(5), 0), X_WC, 0, 1), X_WC, settings);
+  const ElevationMap map = ElevationFromRange(SeeWorld(Slope(Rad(5), 0), X_WC, 0, 1), settings);
   EXPECT_EQ(map.geometry.rows, 100);
   EXPECT_EQ(map.geometry.cols, 100);
   // 45 degrees across at 15.24 m: h = 2 R tan(f/2) = 12.6 m, of which 98 % percentiles remain.
@@ -305,19 +305,19 @@ TEST(ElevationMapBuilder, ThesisGridCoversTheDataWithFixedRows) {
 TEST(ElevationMapBuilder, FieldOfViewAtNadirIsThesis44) {
   SladSettings settings;
   settings.mode = SladMode::kThesis;
-  settings.bounds = BoundsMode::kFieldOfView;
+  settings.grid.bounds = BoundsMode::kFieldOfView;
   const RigidTransform X_WC = CameraPose(15.24, Rad(90));
-  const ElevationMap map = ElevationFromRange(SeeWorld(Flat(), X_WC, 0, 1), X_WC, settings);
+  const ElevationMap map = ElevationFromRange(SeeWorld(Flat(), X_WC, 0, 1), settings);
   EXPECT_NEAR(map.geometry.cell_m * 100, 2 * 15.24 * std::tan(Rad(22.5)), 0.03);
 }
 
 TEST(ElevationMapBuilder, GivenBoundsAreRelativeToTheMedian) {
   SladSettings settings;
-  settings.bounds = BoundsMode::kGiven;
-  settings.x_min_m = -3;
-  settings.x_max_m = 4.5;
-  settings.y_min_m = -1.5;
-  settings.y_max_m = 1.5;
+  settings.grid.bounds = BoundsMode::kGiven;
+  settings.grid.x_min_m = -3;
+  settings.grid.x_max_m = 4.5;
+  settings.grid.y_min_m = -1.5;
+  settings.grid.y_max_m = 1.5;
   std::vector<Eigen::Vector3d> points;
   for (int i = 0; i < 400; ++i) {
     points.push_back({1000 + 0.05 * i - 10, 2000 + 0.05 * (i * 7 % 400) - 10, -5});
@@ -331,10 +331,10 @@ TEST(ElevationMapBuilder, GivenBoundsAreRelativeToTheMedian) {
 
 TEST(ElevationMapBuilder, HolesUpToDataSizeAreFilledAndLargerStayUnknown) {
   SladSettings settings;
-  settings.cell_m = 1;
-  settings.grid_rows = settings.grid_cols = 20;
-  settings.data_size_cells = 2;
-  settings.border_size_cells = 1;
+  settings.grid.cell_m = 1;
+  settings.grid.rows = settings.grid.cols = 20;
+  settings.grid.data_size_cells = 2;
+  settings.grid.border_size_cells = 1;
   std::vector<Eigen::Vector3d> points;
   for (int n = 0; n < 12; ++n) {
     for (int e = 0; e < 12; ++e) {

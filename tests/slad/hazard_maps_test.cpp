@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <opencv2/core.hpp>
 
+#include "engine/slad/map_hash.h"
 #include "engine/slad/slad.h"
 #include "tests/slad/worlds.h"
 
@@ -56,8 +57,8 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST(HazardMaps, UpVectorTiltsTheLimit) {
   SladSettings settings;
-  settings.up_tilt_deg = 12;
-  settings.up_azimuth_deg = 180;  // ground rising north by 12 deg has a normal leaning south
+  settings.lander.up_tilt_deg = 12;
+  settings.lander.up_azimuth_deg = 180;  // ground rising north by 12 deg has a normal leaning south
   const HazardMaps hazards = EvaluateHazards(MakeMap(50, 50, 0.15, Slope(Rad(12), 0)), settings);
   EXPECT_NEAR(Deg(double(hazards.slope_rad.at(25, 25))), 0, 0.01);
   EXPECT_EQ(hazards.reasons.at(25, 25), kHazardNone);
@@ -204,17 +205,17 @@ TEST(HazardMaps, AMovedLimitGivesWhatMeasuringAgainWould) {
   for (const SladMode mode : {SladMode::kThesis, SladMode::kModern}) {
     SladSettings settings = WithMode(mode);
     const TerrainFigures figures = MeasureTerrain(map, settings);
-    settings.max_slope_deg = 6;
-    settings.max_deviation_m = 0.06;
-    settings.max_step_m = 0.08;
-    settings.min_safe_probability = 0.9;
-    settings.nav_error_m = 0.1;
-    settings.belly_clearance_m = 0.2;
-    settings.up_tilt_deg = mode == SladMode::kThesis ? 3 : 0;
+    settings.limits.max_slope_deg = 6;
+    settings.limits.max_deviation_m = 0.06;
+    settings.limits.max_step_m = 0.08;
+    settings.limits.min_safe_probability = 0.9;
+    settings.lander.nav_error_m = 0.1;
+    settings.lander.belly_clearance_m = 0.2;
+    settings.lander.up_tilt_deg = mode == SladMode::kThesis ? 3 : 0;
     ASSERT_TRUE(figures.HoldFor(settings));
     EXPECT_EQ(HashOfMaps(map, JudgeTerrain(map.geometry, figures, settings)),
               HashOfMaps(map, EvaluateHazards(map, settings)));
-    settings.max_rock_size_m = 0.9;
+    settings.lander.max_rock_size_m = 0.9;
     EXPECT_FALSE(figures.HoldFor(settings));
   }
 }

@@ -262,8 +262,8 @@ TEST(Metamorphic, ThesisModeIsTheSameAtTwiceTheScale) {
       larger.height_m.cells()[i] = 2 * map.height_m.cells()[i];
       larger.variance_m2.cells()[i] = 4 * map.variance_m2.cells()[i];
     }
-    for (double* length_m : {&settings.max_deviation_m, &settings.max_rock_size_m,
-                             &settings.lander_base_size_m, &settings.nav_error_m}) {
+    for (double* length_m : {&settings.limits.max_deviation_m, &settings.lander.max_rock_size_m,
+                             &settings.lander.base_size_m, &settings.lander.nav_error_m}) {
       *length_m *= 2;
     }
     const HazardMaps now = EvaluateHazards(larger, settings);

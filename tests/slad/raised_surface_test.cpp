@@ -183,18 +183,18 @@ TEST(RaisedSurface, IsALandingPlaceOnlyWhereAllowed) {
   EXPECT_EQ(hazards.flags.at(50, 50), kFlagElevated);
   EXPECT_EQ(hazards.reasons.at(50, 50), kHazardFlagged);
   EXPECT_GT(hazards.rejected.flagged, 1000);
-  settings.elevated = ElevatedSurface::kAllow;
+  settings.limits.elevated = ElevatedSurface::kAllow;
   hazards = EvaluateHazards(map, settings);
   EXPECT_EQ(hazards.flags.at(50, 50), kFlagElevated);
   EXPECT_EQ(hazards.reasons.at(50, 50), kHazardNone);
-  EXPECT_GT(hazards.safe_distance_m.at(50, 50), settings.clear_radius_m());
+  EXPECT_GT(hazards.safe_distance_m.at(50, 50), settings.lander.clear_radius_m());
 }
 
 /// Beside a wall the ground's own plane decides: level ground is no hazard up to the wall.
 TEST(RaisedSurface, LeavesTheGroundBesideItAlone) {
   const ElevationMap map = MakeMap(60, 60, 1.0, WithBox(Slope(Rad(3), 0.5), 0, 0, 20, 5));
   SladSettings settings = WithMode(SladMode::kModern);
-  settings.cell_m = 1.0;
+  settings.grid.cell_m = 1.0;
   const HazardMaps hazards = EvaluateHazards(map, settings);
   for (int r = 0; r < 60; ++r) {
     for (int c = 0; c < 60; ++c) {

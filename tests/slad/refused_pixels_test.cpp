@@ -14,6 +14,8 @@ constexpr int kWidth = 40, kHeight = 20;
 constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
 constexpr double kDepth_m = 10;
 
+const RigidTransform kDown{CameraRotationFromTilt(Rad(-90)), {0, 0, -kDepth_m}};
+
 /// Straight down from 10 m on level ground; a pixel is 0.25 m wide.
 RangeMap LevelRange() {
   RangeMap range;
@@ -25,10 +27,9 @@ RangeMap LevelRange() {
   range.camera.cy_px = kHeight / 2.0;
   range.depth_m = ImageF(kWidth, kHeight, float(kDepth_m));
   range.depth_sigma_m = ImageF(kWidth, kHeight, 0.01F);
+  range.pose = ViewPose{kDown};
   return range;
 }
-
-const RigidTransform kDown{CameraRotationFromTilt(Rad(-90)), {0, 0, -kDepth_m}};
 
 /// One cell a pixel: heading north, columns of the picture go east, rows south.
 Grid<PixelCount> Counted(const RangeMap& range) {
@@ -40,7 +41,7 @@ Grid<PixelCount> Counted(const RangeMap& range) {
   geometry.north_min_m = -kHeight * 0.125 + 0.125;
   geometry.east_min_m = -kWidth * 0.125 - 0.125;
   Grid<PixelCount> counts(geometry.rows, geometry.cols);
-  CountPixels(range, kDown, geometry, counts);
+  CountPixels(range, geometry, counts);
   return counts;
 }
 

@@ -80,16 +80,16 @@ TEST_P(Stricter, LimitMakesNoCellSafer) {
 
 INSTANTIATE_TEST_SUITE_P(
     Limits, Stricter,
-    ::testing::Values(StricterLimit{"slope", [](SladSettings& s) { s.max_slope_deg *= 0.8; }},
-                      StricterLimit{"deviation",
-                                    [](SladSettings& s) { s.max_deviation_m *= 0.75; }},
-                      StricterLimit{"step", [](SladSettings& s) { s.max_step_m *= 0.75; }},
-                      StricterLimit{"probability",
-                                    [](SladSettings& s) {
-                                      s.min_safe_probability = 1 - (1 - s.min_safe_probability) / 3;
-                                    }},
-                      StricterLimit{"nav_error", [](SladSettings& s) { s.nav_error_m += 0.3; }},
-                      StricterLimit{"belly", [](SladSettings& s) { s.belly_clearance_m *= 0.7; }}),
+    ::testing::Values(
+        StricterLimit{"slope", [](SladSettings& s) { s.limits.max_slope_deg *= 0.8; }},
+        StricterLimit{"deviation", [](SladSettings& s) { s.limits.max_deviation_m *= 0.75; }},
+        StricterLimit{"step", [](SladSettings& s) { s.limits.max_step_m *= 0.75; }},
+        StricterLimit{"probability",
+                      [](SladSettings& s) {
+                        s.limits.min_safe_probability = 1 - (1 - s.limits.min_safe_probability) / 3;
+                      }},
+        StricterLimit{"nav_error", [](SladSettings& s) { s.lander.nav_error_m += 0.3; }},
+        StricterLimit{"belly", [](SladSettings& s) { s.lander.belly_clearance_m *= 0.7; }}),
     [](const auto& row) { return row.param.name; });
 
 TEST(SafetyOrder, SmallerLanderHasNoFewerPlacesAmongRocks) {
@@ -107,9 +107,9 @@ TEST(SafetyOrder, SmallerLanderHasNoFewerPlacesAmongRocks) {
       SladSettings settings = WithMode(mode);
       int larger_lander = 0;
       for (const double size_m : {6.0, 4.8, 3.6, 2.4, 1.5}) {
-        settings.lander_base_size_m = size_m;
-        settings.gear_length_m = size_m / 3;
-        settings.gear_width_m = size_m / 4;
+        settings.lander.base_size_m = size_m;
+        settings.lander.gear_length_m = size_m / 3;
+        settings.lander.gear_width_m = size_m / 4;
         const int safe_cells = EvaluateHazards(map, settings).safe_cells;
         EXPECT_GE(safe_cells, larger_lander) << size_m << " m";
         larger_lander = safe_cells;
@@ -186,8 +186,9 @@ TEST(SafetyOrder, RockFreesNothingButCellsOnTheEdgeOfALimit) {
         const TerrainFigures own = MeasureTerrain(bare, settings);
         const float moved_m =
             own.deviation_m.at(cell) - MeasureTerrain(rocky, settings).deviation_m.at(cell);
-        const bool foot = own.deviation_m.at(cell) < 0.5 * settings.max_deviation_m &&
-                          own.step_m.at(cell) <= settings.max_step_m && std::abs(moved_m) < 0.005;
+        const bool foot = own.deviation_m.at(cell) < 0.5 * settings.limits.max_deviation_m &&
+                          own.step_m.at(cell) <= settings.limits.max_step_m &&
+                          std::abs(moved_m) < 0.005;
         EXPECT_TRUE(!obstacle || foot) << cell.row << " " << own.deviation_m.at(cell);
         EXPECT_LT(std::abs(before.slope_rad.at(cell) - after.slope_rad.at(cell)),
                   before.slope_sigma_rad.at(cell))
@@ -200,7 +201,7 @@ TEST(SafetyOrder, RockFreesNothingButCellsOnTheEdgeOfALimit) {
 // where its own cells are among the nine.
 TEST(SafetyOrder, RockFreesThesisCellsOnlyInWindowsItStandsIn) {
   const SladSettings settings = WithMode(SladMode::kThesis);
-  const int stride = static_cast<int>(settings.max_rock_size_m / kCell_m);
+  const int stride = static_cast<int>(settings.lander.max_rock_size_m / kCell_m);
   const Freed count = PutRocks(settings, [&](const ElevationMap& bare, const ElevationMap& rocky,
                                              const HazardMaps&, const HazardMaps&, Cell cell) {
     bool touched = false;

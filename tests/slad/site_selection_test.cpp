@@ -7,6 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "engine/camera/pinhole.h"
+#include "engine/slad/map_hash.h"
+#include "engine/slad/sites/verdict_image.h"
 #include "engine/slad/slad.h"
 #include "tests/slad/worlds.h"
 
@@ -115,7 +117,7 @@ TEST(SiteSelection, ASiteIsConfirmedOnlyWhereRocksFillTheStereoWindow) {
     ASSERT_FALSE(selection.sites.empty());
     EXPECT_EQ(selection.sites.front().confirmed, confirmed) << height_m;
     SladSettings larger;
-    larger.max_rock_size_m = 0.5;
+    larger.lander.max_rock_size_m = 0.5;
     EXPECT_TRUE(Select(MakeMap(101, 101, 0.15, Flat()), larger, context).sites.at(0).confirmed);
   }
 }
@@ -128,7 +130,7 @@ TEST(SiteSelection, ASiteOfPicturesIsConfirmedByThreeFrames) {
     EXPECT_TRUE(Select(map, WithMode(SladMode::kThesis)).sites.at(0).confirmed);
     EXPECT_TRUE(Select(map, {}, SiteContext{}).sites.at(0).confirmed) << "a survey";
     SladSettings two;
-    two.frames_fused = 2;
+    two.fusion.frames_fused = 2;
     EXPECT_EQ(Select(map, two).sites.at(0).confirmed, frames >= 2) << frames;
   }
 }
@@ -146,7 +148,7 @@ TEST(SiteSelection, NewGroundAtTheRimOfASiteLeavesItProvisional) {
     }
     const LandingSite again = Select(map).sites.at(0);
     EXPECT_EQ(again.confirmed, new_columns < 12) << new_columns;
-    EXPECT_EQ(again.frames_fused, new_columns < 12 ? 10 : 1) << new_columns;
+    EXPECT_EQ(again.fusion.frames_fused, new_columns < 12 ? 10 : 1) << new_columns;
   }
 }
 
@@ -279,7 +281,7 @@ TEST(SiteSelection, ABlockedStraightApproachNamesAnother) {
     return std::abs(n + 1) < 0.3 && e < 2 ? 9.0 : 0.0;  // north of it is the wide ground
   };
   SladSettings settings;
-  settings.sites_kept = 26;
+  settings.choice.sites_kept = 26;
   const SiteSelection selection = Select(MakeMap(141, 141, 0.15, wall), settings);
   bool found = false;
   bool blocked_before = false;
@@ -336,7 +338,7 @@ TEST(Slad, FieldOfTablesSeenFromFiftyFeet) {
   RangeMap range;
   for (std::uint64_t frame = 1; frame <= 10; ++frame) {
     range = SeeWorld(world, context.X_WC, 0.1, frame);
-    map = fusion.Add(range, context.X_WC, SladSettings{});
+    map = fusion.Add(range, SladSettings{});
   }
   const SladSettings settings;
   const HazardMaps hazards = EvaluateHazards(*map, settings);
@@ -354,7 +356,7 @@ TEST(Slad, FieldOfTablesSeenFromFiftyFeet) {
       range.depth_m.at(x, y) = kUnknownValue;
     }
   }
-  const ImageU8 verdict = VerdictImage(range, context.X_WC, *map, hazards, 4);
+  const ImageU8 verdict = VerdictImage(range, *map, hazards, 4);
   EXPECT_EQ(verdict.width(), 160);
   const auto verdict_at = [&](const Eigen::Vector3d& p_W) {
     const Eigen::Vector3d p = context.X_WC.Inverse() * p_W;

@@ -144,14 +144,14 @@ TEST_P(FasterLoops, PutTheGearDownWithTheSameBits) {
       for (float& z : height.cells()) {
         z = float(random.Uniform(0, 0.3));
       }
-      SladSettings settings;
-      settings.gear = kind;
-      settings.gear_length_m = random.Uniform(0.2, 2.4);
+      Lander lander;
+      lander.gear = kind;
+      lander.gear_length_m = random.Uniform(0.2, 2.4);
       Floats tilt[2], rise[2];
       for (int k = 0; k < 2; ++k) {
         tilt[k].resize(40);
         rise[k].resize(40);
-        const GearOverMap gear(height, 0.15, settings,
+        const GearOverMap gear(height, 0.15, lander,
                                k == 0 ? PortableSladLoops() : *GetParam().loops());
         gear.WorstOfRow(20, tilt[k].data(), rise[k].data());
       }

@@ -58,17 +58,17 @@ ElevationMap RandomMap(RandomStream& random) {
 
 SladSettings RandomSettings(RandomStream& random) {
   SladSettings settings = testing::WithMode(SladMode::kThesis);
-  settings.max_slope_deg = random.Uniform(4, 30);
-  settings.max_deviation_m = random.Uniform(0.02, 0.3);
-  settings.max_rock_size_m = random.Uniform(0.05, 1.0);
-  settings.up_tilt_deg = random.Uniform() < 0.5 ? 0.0 : random.Uniform(0, 20);
-  settings.up_azimuth_deg = random.Uniform(0, 360);
-  settings.lander_base_size_m = random.Uniform(0.2, 0.8);
-  settings.nav_error_m = 0;
-  settings.rotor_diameter_m = 0;  // the thesis knows no approach corridor
-  settings.choice = random.Uniform() < 0.5 ? SiteChoice::kFarthest : SiteChoice::kCost;
-  settings.data_size_cells = random.Index(4);
-  settings.border_size_cells = random.Index(4);
+  settings.limits.max_slope_deg = random.Uniform(4, 30);
+  settings.limits.max_deviation_m = random.Uniform(0.02, 0.3);
+  settings.lander.max_rock_size_m = random.Uniform(0.05, 1.0);
+  settings.lander.up_tilt_deg = random.Uniform() < 0.5 ? 0.0 : random.Uniform(0, 20);
+  settings.lander.up_azimuth_deg = random.Uniform(0, 360);
+  settings.lander.base_size_m = random.Uniform(0.2, 0.8);
+  settings.lander.nav_error_m = 0;
+  settings.lander.rotor_diameter_m = 0;  // the thesis knows no approach corridor
+  settings.choice.ranking = random.Uniform() < 0.5 ? SiteRanking::kFarthest : SiteRanking::kCost;
+  settings.grid.data_size_cells = random.Index(4);
+  settings.grid.border_size_cells = random.Index(4);
   return settings;
 }
 
@@ -117,8 +117,8 @@ void CompareVerdicts(const ElevationMap& map, const SladSettings& settings,
                      const HazardMaps& fast) {
   Grid<std::uint8_t> safe(map.geometry.rows, map.geometry.cols, 0);
   const auto near_limit = [&](Cell cell) {
-    return std::abs(double(fast.slope_rad.at(cell)) - Rad(settings.max_slope_deg)) < kSame ||
-           std::abs(double(fast.roughness_m.at(cell)) - settings.max_deviation_m) < kSame;
+    return std::abs(double(fast.slope_rad.at(cell)) - Rad(settings.limits.max_slope_deg)) < kSame ||
+           std::abs(double(fast.roughness_m.at(cell)) - settings.limits.max_deviation_m) < kSame;
   };
   for (int k = 0; k < map.geometry.rows * map.geometry.cols; ++k) {
     const Cell cell{k / map.geometry.cols, k % map.geometry.cols};
@@ -128,9 +128,10 @@ void CompareVerdicts(const ElevationMap& map, const SladSettings& settings,
     if (std::isnan(slope) || near_limit(cell)) {
       continue;
     }
-    ASSERT_EQ((fast.reasons.at(cell) & kHazardSlope) != 0, slope > Rad(settings.max_slope_deg));
+    ASSERT_EQ((fast.reasons.at(cell) & kHazardSlope) != 0,
+              slope > Rad(settings.limits.max_slope_deg));
     ASSERT_EQ((fast.reasons.at(cell) & kHazardRoughness) != 0,
-              roughness > settings.max_deviation_m);
+              roughness > settings.limits.max_deviation_m);
     ASSERT_NEAR(double(fast.cost.at(cell)),
                 testing::thesis::ReferenceCost(slope, roughness, settings), kSame);
   }
@@ -147,7 +148,7 @@ double ReferenceScore(const ElevationMap& map, const SladSettings& settings,
                       const HazardMaps& hazards, Cell cell) {
   const double cost = testing::thesis::ReferenceSmoothedCost(hazards.cost, cell);
   const double distance_m = double(hazards.safe_distance_m.at(cell));
-  return settings.choice == SiteChoice::kFarthest
+  return settings.choice.ranking == SiteRanking::kFarthest
              ? distance_m + 0.4 * map.geometry.cell_m * (1 - cost)
              : -cost + 1e-3 * distance_m;
 }
@@ -161,9 +162,9 @@ void CompareChoice(const ElevationMap& map, const SladSettings& settings, const 
   for (int k = 0; k < map.geometry.rows * map.geometry.cols; ++k) {
     const Cell cell{k / map.geometry.cols, k % map.geometry.cols};
     // A cell wider than the lander shows nothing of what is under it.
-    if (map.geometry.cell_m <= settings.lander_base_size_m &&
+    if (map.geometry.cell_m <= settings.lander.base_size_m &&
         hazards.reasons.at(cell) == kHazardNone &&
-        hazards.safe_distance_m.at(cell) >= float(settings.clear_radius_m())) {
+        hazards.safe_distance_m.at(cell) >= float(settings.lander.clear_radius_m())) {
       best = std::max(best, ReferenceScore(map, settings, hazards, cell));
     }
   }
@@ -183,9 +184,9 @@ TEST(ThesisMode, EqualsTheSlowReferenceOnRandomMaps) {
     const ElevationMap measured = RandomMap(random);
     const SladSettings settings = RandomSettings(random);
     ElevationMap map = measured, reference = measured;
-    FillHoles(map, settings.data_size_cells, settings.border_size_cells);
-    testing::thesis::ReferenceFillHoles(reference, settings.data_size_cells,
-                                        settings.border_size_cells);
+    FillHoles(map, settings.grid.data_size_cells, settings.grid.border_size_cells);
+    testing::thesis::ReferenceFillHoles(reference, settings.grid.data_size_cells,
+                                        settings.grid.border_size_cells);
     for (std::size_t i = 0; i < map.state.cells().size(); ++i) {
       ASSERT_EQ(map.state.cells()[i], reference.state.cells()[i]) << i;
       // Filled heights are floats, 60 m up at most: half a last digit is 2 um.

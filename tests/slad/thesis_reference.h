@@ -131,7 +131,7 @@ inline std::vector<ReferencePlane> ReferencePlanes(const GridF& height_m, int ro
 /// Samples in the plane fit lie a rock apart, but never more than a third of the map.
 inline int ReferenceStride(const GridGeometry& geometry, const SladSettings& settings) {
   const int most = std::max(1, std::min(geometry.rows, geometry.cols) / 3);
-  return std::clamp(int(settings.max_rock_size_m / geometry.cell_m), 1, most);
+  return std::clamp(int(settings.lander.max_rock_size_m / geometry.cell_m), 1, most);
 }
 
 /// Angle of the plane's normal to the up vector by acos(n . u), radians (errata E21).
@@ -140,13 +140,13 @@ inline double ReferenceSlope(const ReferencePlane& plane, double spacing_m,
   // Up-positive height over (north, east): the normal in north-east-down.
   const double north_gradient = -plane.south / spacing_m, east_gradient = plane.east / spacing_m;
   const Eigen::Vector3d normal = Eigen::Vector3d(-north_gradient, -east_gradient, -1).normalized();
-  return std::acos(std::clamp(normal.dot(settings.up_W()), -1.0, 1.0));
+  return std::acos(std::clamp(normal.dot(settings.lander.up_W()), -1.0, 1.0));
 }
 
 /// 4.6-4.10.
 inline double ReferenceCost(double slope_rad, double roughness_m, const SladSettings& settings) {
-  const double slope_limit = Rad(settings.max_slope_deg),
-               roughness_limit = settings.max_deviation_m;
+  const double slope_limit = Rad(settings.limits.max_slope_deg),
+               roughness_limit = settings.limits.max_deviation_m;
   if (slope_rad > slope_limit || roughness_m > roughness_limit) {
     return 1;
   }

@@ -22,10 +22,10 @@ using testing::WithBox;
 
 constexpr double kCell_m = 0.15;
 
-SladSettings Gear(LandingGear gear) {
-  SladSettings settings;
-  settings.gear = gear;
-  return settings;
+Lander Gear(LandingGear gear) {
+  Lander lander;
+  lander.gear = gear;
+  return lander;
 }
 
 GridF Heights(const Height& height, int side = 21) {
@@ -39,12 +39,12 @@ struct BruteForce {
 };
 class BruteGear {
  public:
-  BruteGear(const GridF& height_m, const SladSettings& settings, Cell middle)
-      : height_m_(height_m), settings_(settings), middle_(middle) {}
+  BruteGear(const GridF& height_m, const Lander& lander, Cell middle)
+      : height_m_(height_m), lander_(lander), middle_(middle) {}
 
   BruteForce At(double heading_rad) const {
     BruteForce worst;
-    if (settings_.gear == LandingGear::kSkids) {
+    if (lander_.gear == LandingGear::kSkids) {
       AddSkids(heading_rad, worst);
     } else {
       AddPads(heading_rad, worst);
@@ -69,15 +69,13 @@ class BruteGear {
     const double north = pitch * std::cos(heading_rad) - roll * std::sin(heading_rad);
     const double east = pitch * std::sin(heading_rad) + roll * std::cos(heading_rad);
     const Eigen::Vector3d normal = Eigen::Vector3d(-north, -east, -1).normalized();
-    worst.tilt_rad =
-        std::max(worst.tilt_rad, std::acos(std::min(1.0, normal.dot(settings_.up_W()))));
+    worst.tilt_rad = std::max(worst.tilt_rad, std::acos(std::min(1.0, normal.dot(lander_.up_W()))));
     for (int r = 0; r < height_m_.rows(); ++r) {
       for (int c = 0; c < height_m_.cols(); ++c) {
         const double n = (middle_.row - r) * kCell_m, e = (c - middle_.col) * kCell_m;
         const double x = n * std::cos(heading_rad) + e * std::sin(heading_rad);
         const double y = e * std::cos(heading_rad) - n * std::sin(heading_rad);
-        if (std::abs(x) <= settings_.gear_length_m / 2 &&
-            std::abs(y) <= settings_.gear_width_m / 2) {
+        if (std::abs(x) <= lander_.gear_length_m / 2 && std::abs(y) <= lander_.gear_width_m / 2) {
           worst.rise_m =
               std::max(worst.rise_m, double(height_m_.at(r, c)) - middle_m - n * north - e * east);
         }
@@ -88,8 +86,8 @@ class BruteGear {
   double Support(double heading_rad, double side, double pitch) const {
     double most = -HUGE_VAL;
     for (int k = 0; k <= 8; ++k) {
-      const double x = settings_.gear_length_m * (k / 8.0 - 0.5);
-      most = std::max(most, Ground(heading_rad, x, side * settings_.gear_width_m / 2) - pitch * x);
+      const double x = lander_.gear_length_m * (k / 8.0 - 0.5);
+      most = std::max(most, Ground(heading_rad, x, side * lander_.gear_width_m / 2) - pitch * x);
     }
     return most;
   }
@@ -110,13 +108,12 @@ class BruteGear {
     const double pitch = std::abs(first) > std::abs(last) ? first : last;
     worst.tie = last - first > 5e-3 && std::abs(std::abs(first) - std::abs(last)) < 5e-3;
     const double left = Support(heading_rad, -1, pitch), right = Support(heading_rad, 1, pitch);
-    AddPlane(heading_rad, pitch, (right - left) / settings_.gear_width_m, (left + right) / 2,
-             worst);
+    AddPlane(heading_rad, pitch, (right - left) / lander_.gear_width_m, (left + right) / 2, worst);
   }
 
   /// Every three pads; no plane to rest on leaves the fourth below the ground.
   void AddPads(double heading_rad, BruteForce& worst) const {
-    const double x = settings_.gear_length_m / 2, y = settings_.gear_width_m / 2;
+    const double x = lander_.gear_length_m / 2, y = lander_.gear_width_m / 2;
     const Eigen::Vector2d corner[] = {{x, y}, {x, -y}, {-x, -y}, {-x, y}};
     for (int out = 0; out < 4; ++out) {
       Eigen::Matrix3d at;
@@ -137,7 +134,7 @@ class BruteGear {
   }
 
   const GridF& height_m_;
-  SladSettings settings_;
+  Lander lander_;
   Cell middle_;
 };
 
@@ -155,15 +152,15 @@ GridF RandomHeights(std::uint64_t seed, double low_m, double high_m) {
 
 TEST(Touchdown, RestsAsTheBruteForceGearDoes) {
   for (const LandingGear kind : {LandingGear::kSkids, LandingGear::kPads}) {
-    const SladSettings settings = Gear(kind);
+    const Lander lander = Gear(kind);
     int ties = 0;
     for (std::uint64_t seed = 1; seed <= 40; ++seed) {
       const GridF height = RandomHeights(seed, 0, 0.3);
-      const GearOverMap gear(height, kCell_m, settings);
+      const GearOverMap gear(height, kCell_m, lander);
       const Cell middle{10, 10};
       for (int h = 0; h < gear.headings(); h += 3) {
         const GearRest rest = gear.At(middle, h);
-        const BruteForce slow = BruteGear(height, settings, middle).At(gear.heading_rad(h));
+        const BruteForce slow = BruteGear(height, lander, middle).At(gear.heading_rad(h));
         if (slow.tie) {
           ++ties;  // the comb cannot tell which end is steeper
           continue;
@@ -229,14 +226,14 @@ TEST(Touchdown, ARockBetweenTheSkidsReachesForTheBelly) {
 }
 
 TEST(Touchdown, ALongGearOnSmallCellsMissesNoPost) {
-  SladSettings settings = Gear(LandingGear::kSkids);
-  settings.gear_length_m = 6;
-  settings.gear_width_m = 2;
+  Lander lander = Gear(LandingGear::kSkids);
+  lander.gear_length_m = 6;
+  lander.gear_width_m = 2;
   const int side = 61, post = 30 + 7;  // one cell, 1 m right of the middle
   for (int row = 12; row <= 48; ++row) {
     GridF height(side, side, 0.0F);
     height.at(row, post) = 0.5F;
-    const GearOverMap gear(height, kCell_m, settings);
+    const GearOverMap gear(height, kCell_m, lander);
     EXPECT_GT(double(gear.At({30, 30}, 0).tilt_rad), 0.1) << row;
   }
 }
@@ -253,9 +250,9 @@ TEST(Touchdown, UnknownGroundUnderTheGearIsNeverSafe) {
 
 TEST(Touchdown, TiltBeyondNoiseStaysNearTheTrueTilt) {
   // Monte Carlo: the gear on settled heights, against the gear on the ground itself.
-  const SladSettings settings = Gear(LandingGear::kSkids);
+  const SladSettings settings;
   const Height ground = WithBox(Slope(Rad(4), 1), 0.1, 0.5, 0.6, 0.2);
-  const GearOverMap exact(MakeMap(41, 41, kCell_m, ground).height_m, kCell_m, settings);
+  const GearOverMap exact(MakeMap(41, 41, kCell_m, ground).height_m, kCell_m, settings.lander);
   double truth = 0;
   for (int h = 0; h < exact.headings(); ++h) {
     truth = std::max(truth, double(exact.At({20, 20}, h).tilt_rad));
@@ -274,7 +271,7 @@ TEST(Touchdown, WorstAndBestHeadingOfASiteBesideACurb) {
   const auto curb = [](double, double east) { return 0.07 * (east > 0.3); };
   const ElevationMap map = MakeMap(60, 60, kCell_m, curb, 0.003, 4);
   SladSettings settings;
-  settings.max_slope_deg = 6;
+  settings.limits.max_slope_deg = 6;
   const HazardMaps hazards = EvaluateHazards(map, settings);
   LandingSite site;
   site.cell = {30, 30};

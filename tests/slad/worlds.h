@@ -79,7 +79,7 @@ inline RangeMap SeeWorld(const Height& height, const RigidTransform& X_WC, doubl
                          std::uint64_t seed, int step = 2) {
   const PinholeCamera camera = ThesisCamera();
   const ImageF unknown(camera.width, camera.height, std::numeric_limits<float>::quiet_NaN());
-  RangeMap range{{}, camera, unknown, unknown, unknown, unknown};
+  RangeMap range{{}, camera, unknown, unknown, unknown, unknown, 1, ViewPose{X_WC}};
   RandomStream random(seed, "disparity noise");
   for (int y = 0; y < camera.height; y += step) {
     for (int x = 0; x < camera.width; x += step) {

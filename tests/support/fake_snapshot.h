@@ -46,8 +46,8 @@ inline std::shared_ptr<const TerrainDecision> Decision(const RigidTransform& X_W
   auto decision = std::make_shared<TerrainDecision>();
   decision->map_time = {kNow_us - 100'000};
   decision->elevation = Elevation(decision->map_time);
-  decision->hazards =
-      Hazards(*decision->elevation, Rad(settings.max_slope_deg), settings.max_deviation_m);
+  decision->hazards = Hazards(*decision->elevation, Rad(settings.limits.max_slope_deg),
+                              settings.limits.max_deviation_m);
   decision->settings = settings;
   decision->settings_hash = hash;
   decision->map_hash = 0x51aa00 + hash;

@@ -106,8 +106,8 @@ TEST(Settings, SurviveWithEveryValueMoved) {
 
 TEST(Settings, BoundsBeyondTheDefaultsOfTheirPartnersSurvive) {
   Settings settings;
-  settings.slad.x_max_m = 20;
-  settings.slad.x_min_m = 10;
+  settings.slad.grid.x_max_m = 20;
+  settings.slad.grid.x_min_m = 10;
   const Result<Settings> back = DecodeSettings(EncodeSettings(settings, {5}, kChannels));
   ASSERT_TRUE(back.ok()) << back.error().message;
   EXPECT_EQ(*back, settings);
@@ -160,7 +160,7 @@ TEST(OutputEncoder, SendsOnlyNews) {
   EXPECT_EQ(channels(), (Names{"SLAD_SETTINGS", "SITE_PROPOSAL", "TRACKER_STATUS", "EVENT",
                                "MISSION", "STATION_STATUS"}));
   EXPECT_EQ(channels(), Names{"STATION_STATUS"});
-  s.settings.slad.max_slope_deg = 9;
+  s.settings.slad.limits.max_slope_deg = 9;
   s.settings_hash = HashOf(s.settings);
   EXPECT_EQ(channels(), (Names{"SLAD_SETTINGS", "STATION_STATUS"}));
   s.events = std::make_shared<const std::vector<Event>>(

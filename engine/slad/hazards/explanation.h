@@ -23,6 +23,6 @@ CellExplanation ExplainCell(const ElevationMap& map, const HazardMaps& hazards,
 /// Fills `reason` of every site, in the units of what decided: metres of clear radius, cost, or the
 /// corridor. The first says what it has over the next, the others what they lack against the best.
 /// "the best" and "the next" become letters in SiteRegistry::Assign.
-void GiveReasons(SiteChoice choice, SiteSelection& selection);
+void GiveReasons(SiteRanking ranking, SiteSelection& selection);
 
 }  // namespace palace

@@ -10,7 +10,7 @@
 namespace palace {
 
 /// Fills the layers of modern mode.
-void MeasureModern(const ElevationMap& map, const SladSettings& settings, TerrainFigures& figures);
+void MeasureModern(const ElevationMap& map, const Lander& lander, TerrainFigures& figures);
 
 /// The limits as the loops take them.
 ModernLimits LimitsOf(const SladSettings& settings);

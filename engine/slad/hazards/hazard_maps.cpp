@@ -49,9 +49,9 @@ bool FootprintHolds(const HazardMaps& hazards, const SladSettings& settings, Cel
   if (settings.mode == SladMode::kThesis) {
     return true;
   }
-  return hazards.slope_rad.at(cell) <= static_cast<float>(Rad(settings.max_slope_deg)) &&
-         hazards.roughness_m.at(cell) <= static_cast<float>(settings.max_deviation_m) &&
-         hazards.step_m.at(cell) <= static_cast<float>(settings.max_step_m) &&
+  return hazards.slope_rad.at(cell) <= static_cast<float>(Rad(settings.limits.max_slope_deg)) &&
+         hazards.roughness_m.at(cell) <= static_cast<float>(settings.limits.max_deviation_m) &&
+         hazards.step_m.at(cell) <= static_cast<float>(settings.limits.max_step_m) &&
          static_cast<double>(hazards.safe_probability.at(cell)) >=
              RequiredSafeProbability(settings,
                                      static_cast<double>(hazards.roughness_sigma_m.at(cell)));
@@ -59,7 +59,7 @@ bool FootprintHolds(const HazardMaps& hazards, const SladSettings& settings, Cel
 
 void CountCells(const SladSettings& settings, HazardMaps& hazards) {
   constexpr unsigned kAllReasons = 63;
-  const float clear_m = static_cast<float>(settings.clear_radius_m());
+  const float clear_m = static_cast<float>(settings.lander.clear_radius_m());
   struct Counts {
     std::array<int, kAllReasons + 1> with{};  ///< these very reasons
     int no_room = 0;                          ///< no hazards, but no place for the lander
@@ -99,10 +99,11 @@ class Judge {
   Judge(const TerrainFigures& figures, const SladSettings& settings, HazardMaps& hazards)
       : figures_(figures),
         hazards_(hazards),
-        up_W_{static_cast<float>(settings.up_W().x()), static_cast<float>(settings.up_W().y()),
-              static_cast<float>(settings.up_W().z())},
+        up_W_{static_cast<float>(settings.lander.up_W().x()),
+              static_cast<float>(settings.lander.up_W().y()),
+              static_cast<float>(settings.lander.up_W().z())},
         limits_(LimitsOf(settings)),
-        forbidden_flags_(ForbiddenFlags(settings)) {}
+        forbidden_flags_(ForbiddenFlags(settings.limits)) {}
 
   void Row(int r) const {
     const int cols = hazards_.geometry.cols;
@@ -196,7 +197,7 @@ void SpreadFrom(std::vector<Cell> edge, HazardReason reason, int reach, float le
 void SpreadToFeet(const TerrainFigures& figures, const SladSettings& settings,
                   HazardMaps& hazards) {
   const GridGeometry& g = hazards.geometry;
-  const int reach = static_cast<int>(std::min(settings.max_rock_size_m / g.cell_m, 1e6));
+  const int reach = static_cast<int>(std::min(settings.lander.max_rock_size_m / g.cell_m, 1e6));
   std::vector<Cell> rough, stepped;
   for (int r = 0; reach > 0 && r < g.rows; ++r) {
     const std::uint8_t* reasons = hazards.reasons.row(r);
@@ -211,7 +212,7 @@ void SpreadToFeet(const TerrainFigures& figures, const SladSettings& settings,
       }
     }
   }
-  const float least_m = kFootShare * static_cast<float>(settings.max_deviation_m);
+  const float least_m = kFootShare * static_cast<float>(settings.limits.max_deviation_m);
   SpreadFrom(std::move(rough), kHazardRoughness, reach, least_m, figures, hazards);
   SpreadFrom(std::move(stepped), kHazardStep, reach, least_m, figures, hazards);
 }
@@ -248,18 +249,18 @@ HazardMaps LayersFor(const GridGeometry& geometry, const TerrainFigures& figures
 }  // namespace
 
 ModernLimits LimitsOf(const SladSettings& settings) {
-  return {static_cast<float>(Rad(settings.max_slope_deg)),
-          static_cast<float>(settings.max_deviation_m),
-          static_cast<float>(settings.max_step_m),
-          static_cast<float>(settings.min_safe_probability),
+  return {static_cast<float>(Rad(settings.limits.max_slope_deg)),
+          static_cast<float>(settings.limits.max_deviation_m),
+          static_cast<float>(settings.limits.max_step_m),
+          static_cast<float>(settings.limits.min_safe_probability),
           static_cast<float>(kProvisionalSigma_m),
-          static_cast<float>(settings.belly_clearance_m),
-          static_cast<float>(settings.gear_width_m)};
+          static_cast<float>(settings.lander.belly_clearance_m),
+          static_cast<float>(settings.lander.gear_width_m)};
 }
 
-unsigned ForbiddenFlags(const SladSettings& settings) {
+unsigned ForbiddenFlags(const HazardLimits& limits) {
   const unsigned always = kFlagThinStructure | kFlagNoTexture | kFlagMotion;
-  return settings.elevated == ElevatedSurface::kAvoid ? always | kFlagElevated : always;
+  return limits.elevated == ElevatedSurface::kAvoid ? always | kFlagElevated : always;
 }
 
 HazardMaps JudgeTerrain(const GridGeometry& geometry, const TerrainFigures& figures,

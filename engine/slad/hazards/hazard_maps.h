@@ -31,7 +31,7 @@ namespace palace {
 
 /// TerrainFlag bits that make a cell a hazard. Shadow alone does not: what little is seen there has
 /// its larger sigma.
-unsigned ForbiddenFlags(const SladSettings& settings);
+unsigned ForbiddenFlags(const HazardLimits& limits);
 
 /// Works on any size of map, also empty or all unknown: then nothing is safe.
 /// rejected and safe_cells together count every cell once; safe_cells could bear the lander.

@@ -6,7 +6,6 @@
 
 #include <opencv2/core.hpp>
 
-#include "engine/core/units.h"
 #include "engine/slad/hazards/hazard_layers.h"
 #include "engine/slad/hazards/loops/slad_loops.h"
 #include "engine/slad/hazards/plane_fit.h"
@@ -18,8 +17,6 @@ namespace {
 /// Squared noise multiple: thousands of cells are tested, so a deviation counts beyond four sigmas
 /// only.
 constexpr float kNoise2 = 16;
-/// Known limit of attitude: the slope of everything is off by this much.
-constexpr double kAttitudeSigma_rad = 0.1 * kRadPerDeg;
 constexpr int kMostOffsets = 24;
 
 float BeyondNoise(float square) { return square > 0 ? std::sqrt(square) : 0.0F; }
@@ -213,7 +210,7 @@ void FindFootprintMaxima(const GridGeometry& geometry, const Disc& disc, const L
   });
 }
 
-void RestGear(const GridGeometry& geometry, const Settled& settled, const SladSettings& settings,
+void RestGear(const GridGeometry& geometry, const Settled& settled, const Lander& lander,
               TerrainFigures& figures) {
   GridF height_m(geometry.rows, geometry.cols, kUnknownValue);
   ForRows(geometry.rows, [&](int r) {
@@ -223,20 +220,20 @@ void RestGear(const GridGeometry& geometry, const Settled& settled, const SladSe
       }
     }
   });
-  const GearOverMap gear(height_m, geometry.cell_m, settings);
+  const GearOverMap gear(height_m, geometry.cell_m, lander);
   ForRows(geometry.rows, [&](int r) {
     gear.WorstOfRow(r, figures.gear_tilt_rad.row(r), figures.belly_rise_m.row(r));
   });
 }
 
 /// Deviation and sigmas of each cell by itself; no figures where there is no plane.
-void FindCellFigures(const ElevationMap& map, const SladSettings& settings,
-                     const FootprintPlanes& planes, TerrainFigures& figures) {
+void FindCellFigures(const ElevationMap& map, const Lander& lander, const FootprintPlanes& planes,
+                     TerrainFigures& figures) {
   // A rock covers several cells, whose noise averages as far as it is independent.
-  const double rock_cells = std::pow(settings.max_rock_size_m / map.geometry.cell_m, 2);
+  const double rock_cells = std::pow(lander.max_rock_size_m / map.geometry.cell_m, 2);
   const float averaging =
       static_cast<float>(1 / std::sqrt(std::max(1.0, rock_cells / kCorrelatedCells)));
-  const float attitude2 = static_cast<float>(kAttitudeSigma_rad * kAttitudeSigma_rad);
+  const float attitude2 = static_cast<float>(map.attitude_sigma_rad * map.attitude_sigma_rad);
   ForRows(map.geometry.rows, [&](int r) {
     for (int c = 0; c < map.geometry.cols; ++c) {
       const CellState state = map.state.at(r, c);
@@ -266,7 +263,7 @@ void FindCellFigures(const ElevationMap& map, const SladSettings& settings,
 
 }  // namespace
 
-void MeasureModern(const ElevationMap& map, const SladSettings& settings, TerrainFigures& figures) {
+void MeasureModern(const ElevationMap& map, const Lander& lander, TerrainFigures& figures) {
   const int rows = map.geometry.rows, cols = map.geometry.cols;
   const GridF unknown(rows, cols, kUnknownValue);
   figures.north_gradient = figures.east_gradient = figures.slope_sigma_rad = unknown;
@@ -274,9 +271,8 @@ void MeasureModern(const ElevationMap& map, const SladSettings& settings, Terrai
   figures.footprint_deviation_m = figures.footprint_step_m = figures.footprint_sigma_m = unknown;
   figures.settled_deviation_m = figures.gear_tilt_rad = figures.belly_rise_m = unknown;
   figures.measured = Grid<std::uint8_t>(rows, cols, 0);
-  const FootprintPlanes planes =
-      FitFootprintPlanes(map, settings.lander_base_size_m, figures.flags);
-  const Disc disc(std::max(1.5, settings.lander_radius_m() / map.geometry.cell_m));
+  const FootprintPlanes planes = FitFootprintPlanes(map, lander.base_size_m, figures.flags);
+  const Disc disc(std::max(1.5, lander.radius_m() / map.geometry.cell_m));
   Layers layers(rows, cols, disc.reach);
   const float reference = ReferenceOf(planes);
   FillLayers(map, planes, reference, layers);
@@ -284,8 +280,8 @@ void MeasureModern(const ElevationMap& map, const SladSettings& settings, Terrai
   Settled settled(rows, cols, disc.reach);
   SettleHeights(map, planes, reference, layers, settled);
   FindFootprintMaxima(map.geometry, disc, layers, settled, figures);
-  RestGear(map.geometry, settled, settings, figures);
-  FindCellFigures(map, settings, planes, figures);
+  RestGear(map.geometry, settled, lander, figures);
+  FindCellFigures(map, lander, planes, figures);
 }
 
 }  // namespace palace

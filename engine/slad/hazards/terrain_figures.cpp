@@ -12,10 +12,10 @@
 namespace palace {
 namespace {
 
-void MeasureThesis(const ElevationMap& map, const SladSettings& settings, TerrainFigures& figures) {
+void MeasureThesis(const ElevationMap& map, const Lander& lander, TerrainFigures& figures) {
   const double cell_m = map.geometry.cell_m;
   // Samples a rock's size apart: a rock then spoils few of the nine and LMedS rejects it.
-  const int stride = std::clamp(static_cast<int>(settings.max_rock_size_m / cell_m), 1,
+  const int stride = std::clamp(static_cast<int>(lander.max_rock_size_m / cell_m), 1,
                                 std::max(1, std::min(map.geometry.rows, map.geometry.cols) / 3));
   PlaneMaps planes = FitThesisPlanes(map.height_m, cell_m, stride);
   for (float& deviation : planes.residual_m.cells()) {
@@ -37,27 +37,34 @@ Grid<std::uint8_t> FlagsOf(const ElevationMap& map) {
 
 }  // namespace
 
+bool TerrainFigures::HoldFor(const SladSettings& settings) const {
+  const Lander& asked = settings.lander;
+  const auto same = [](double a, double b) { return a == b || (a != a && b != b); };
+  return mode == settings.mode && same(lander.max_rock_size_m, asked.max_rock_size_m) &&
+         (mode == SladMode::kThesis ||
+          (same(lander.base_size_m, asked.base_size_m) && lander.gear == asked.gear &&
+           same(lander.gear_length_m, asked.gear_length_m) &&
+           same(lander.gear_width_m, asked.gear_width_m) &&
+           // The gear's worst heading depends on the up vector.
+           same(lander.up_tilt_deg, asked.up_tilt_deg) &&
+           same(lander.up_azimuth_deg, asked.up_azimuth_deg)));
+}
+
 TerrainFigures MeasureTerrain(const ElevationMap& map, const SladSettings& settings) {
   TerrainFigures figures;
   figures.mode = settings.mode;
-  figures.max_rock_size_m = settings.max_rock_size_m;
-  figures.lander_base_size_m = settings.lander_base_size_m;
-  figures.gear = settings.gear;
-  figures.gear_length_m = settings.gear_length_m;
-  figures.gear_width_m = settings.gear_width_m;
-  figures.up_tilt_deg = settings.up_tilt_deg;
-  figures.up_azimuth_deg = settings.up_azimuth_deg;
+  figures.lander = settings.lander;
   if (map.height_m.empty()) {
     return figures;
   }
   PALACE_CHECK(LayersFit(map) && map.geometry.cell_m > 0, map.height_m.rows(), map.geometry.rows,
                map.geometry.cell_m);
-  const SladSettings sizes = WithinReason(settings, map.geometry);
+  const Lander lander = WithinReason(settings.lander, map.geometry);
   if (settings.mode == SladMode::kThesis) {
-    MeasureThesis(map, sizes, figures);
+    MeasureThesis(map, lander, figures);
   } else {
     figures.flags = FlagsOf(map);
-    MeasureModern(map, sizes, figures);
+    MeasureModern(map, lander, figures);
   }
   return figures;
 }

@@ -12,14 +12,8 @@ namespace palace {
 /// Layers share the elevation map's geometry; NaN where unknown. Those of modern mode are empty in
 /// thesis mode.
 struct TerrainFigures {
-  // The settings they depend on.
-  SladMode mode = SladMode::kModern;
-  double max_rock_size_m = 0;
-  double lander_base_size_m = 0;
-  LandingGear gear = LandingGear::kSkids;
-  double gear_length_m = 0;
-  double gear_width_m = 0;
-  double up_tilt_deg = 0, up_azimuth_deg = 0;  ///< the gear's worst heading depends on it
+  SladMode mode = SladMode::kModern;  ///< and lander: what they were measured for
+  Lander lander;
 
   GridF north_gradient;  ///< of the plane, metres per metre
   GridF east_gradient;
@@ -39,15 +33,7 @@ struct TerrainFigures {
   Grid<std::uint8_t> measured;  ///< 1 where the cell itself was measured
 
   /// Whether measuring again under these settings would give the same figures.
-  bool HoldFor(const SladSettings& settings) const {
-    const auto same = [](double a, double b) { return a == b || (a != a && b != b); };
-    return mode == settings.mode && same(max_rock_size_m, settings.max_rock_size_m) &&
-           (mode == SladMode::kThesis ||
-            (same(lander_base_size_m, settings.lander_base_size_m) && gear == settings.gear &&
-             same(gear_length_m, settings.gear_length_m) &&
-             same(gear_width_m, settings.gear_width_m) && same(up_tilt_deg, settings.up_tilt_deg) &&
-             same(up_azimuth_deg, settings.up_azimuth_deg)));
-  }
+  bool HoldFor(const SladSettings& settings) const;
 };
 
 /// Works on any size of map, also empty or all unknown.

@@ -32,11 +32,10 @@ struct SettledPlace {
   float deviation_m = 0;  ///< largest off the plane over the footprint
 };
 
-SettledPlace SettleAround(const ElevationMap& map, const SladSettings& settings,
-                          const LandingSite& site) {
+SettledPlace SettleAround(const ElevationMap& map, const Lander& lander, const LandingSite& site) {
   const double cell_m = map.geometry.cell_m;
-  const double corner_m = std::hypot(settings.gear_length_m, settings.gear_width_m) / 2;
-  const double radius_m = std::max(settings.lander_radius_m(), 1.5 * cell_m);
+  const double corner_m = std::hypot(lander.gear_length_m, lander.gear_width_m) / 2;
+  const double radius_m = std::max(lander.radius_m(), 1.5 * cell_m);
   // A huge lander is looked at over the map's width, where it cannot stand anyway.
   const int widest = std::max(map.geometry.rows, map.geometry.cols) + 2;
   const int reach = static_cast<int>(
@@ -94,18 +93,18 @@ SettledPlace SettleAround(const ElevationMap& map, const SladSettings& settings,
 
 }  // namespace
 
-GearOverMap::GearOverMap(const GridF& height_m, double cell_m, const SladSettings& settings,
+GearOverMap::GearOverMap(const GridF& height_m, double cell_m, const Lander& lander,
                          const SladLoops& loops)
     : loops_(loops), rows_(height_m.rows()), cols_(height_m.cols()) {
-  LayOut(settings, cell_m);
+  LayOut(lander, cell_m);
   CopyHeights(height_m);
 }
 
 double GearOverMap::heading_rad(int index) const { return index * M_PI / headings(); }
 
-void GearOverMap::LayOut(const SladSettings& settings, double cell_m) {
-  const double length_m = settings.gear_length_m, width_m = settings.gear_width_m;
-  const bool skids = settings.gear == LandingGear::kSkids;
+void GearOverMap::LayOut(const Lander& lander, double cell_m) {
+  const double length_m = lander.gear_length_m, width_m = lander.gear_width_m;
+  const bool skids = lander.gear == LandingGear::kSkids;
   const double corner_m = std::hypot(length_m, width_m) / 2;
   // An even number of gaps: one point is the middle.
   const double gaps =
@@ -160,7 +159,7 @@ void GearOverMap::LayOut(const SladSettings& settings, double cell_m) {
     heading.belly_rows = static_cast<int>(belly.size());
     heading.belly = belly.data();
   }
-  const Eigen::Vector3d up_W = settings.up_W();
+  const Eigen::Vector3d up_W = lander.up_W();
   shape_ = {
       skids,
       points,
@@ -261,8 +260,8 @@ TouchdownOdds OddsOfTouchdown(const ElevationMap& map, const HazardMaps& hazards
   if (settings.mode == SladMode::kThesis || std::isnan(known) || site.p_WS.hasNaN()) {
     return odds;
   }
-  const SettledPlace place = SettleAround(map, settings, site);
-  const GearOverMap gear(place.height_m, map.geometry.cell_m, settings);
+  const SettledPlace place = SettleAround(map, settings.lander, site);
+  const GearOverMap gear(place.height_m, map.geometry.cell_m, settings.lander);
   const Cell middle{place.height_m.rows() / 2, place.height_m.cols() / 2};
   // All figures but the gear's are those of the worst heading too.
   const ModernLimits limits = LimitsOf(settings);

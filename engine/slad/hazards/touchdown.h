@@ -33,7 +33,7 @@ struct GearRest {
 /// The gear over heights, NaN where unknown. Outside them nothing is known.
 class GearOverMap {
  public:
-  GearOverMap(const GridF& height_m, double cell_m, const SladSettings& settings,
+  GearOverMap(const GridF& height_m, double cell_m, const Lander& lander,
               const SladLoops& loops = FastestSladLoops());
   GearOverMap(const GearOverMap&) = delete;
 
@@ -45,7 +45,7 @@ class GearOverMap {
   GearRest At(Cell cell, int heading) const;
 
  private:
-  void LayOut(const SladSettings& settings, double cell_m);
+  void LayOut(const Lander& lander, double cell_m);
   void CopyHeights(const GridF& height_m);
   /// unknown: 1 or 0, as large as height_.
   void FindUnknown(const GridF& unknown);

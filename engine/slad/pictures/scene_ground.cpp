@@ -219,14 +219,14 @@ void LayRightOverLeft(const ImageU8& picture, SceneGround& ground) {
 
 SceneGround FindSceneGround(const SceneView& view) {
   SceneGround ground;
-  if (!view.left || !view.right || !view.range) {
+  if (!view.left || !view.right || !view.range || !view.range->pose) {
     return ground;
   }
   const int width = view.left->width(), height = view.left->height();
   const ImageF& disparity_px = view.range->disparity_px;
   if (width < kSmallest_px || height < kSmallest_px || view.right->width() != width ||
       view.right->height() != height || disparity_px.width() != width ||
-      disparity_px.height() != height || !(view.baseline_m > 0)) {
+      disparity_px.height() != height || !(view.range->baseline_m > 0)) {
     return ground;
   }
   const int cols = width / kBlock_px, rows = height / kBlock_px;
@@ -246,9 +246,10 @@ SceneGround FindSceneGround(const SceneView& view) {
 
 Eigen::Vector3d PointAt(const SceneView& view, double x_px, double y_px, double disparity_px) {
   const PinholeCamera& camera = view.range->camera;
-  const double depth_m = camera.fx_px * view.baseline_m / disparity_px;
-  return view.X_WC * Eigen::Vector3d(depth_m * (x_px - camera.cx_px) / camera.fx_px,
-                                     depth_m * (y_px - camera.cy_px) / camera.fy_px, depth_m);
+  const double depth_m = view.range->FocalTimesBaseline() / disparity_px;
+  return view.range->pose->X_WC * Eigen::Vector3d(depth_m * (x_px - camera.cx_px) / camera.fx_px,
+                                                  depth_m * (y_px - camera.cy_px) / camera.fy_px,
+                                                  depth_m);
 }
 
 }  // namespace palace

@@ -10,20 +10,16 @@
 #include <cstdint>
 #include <memory>
 
-#include "engine/core/frames.h"
 #include "engine/model/image.h"
 #include "engine/model/range_map.h"
 
 namespace palace {
 
-/// One rectified pair, where its left camera stood, and the range map made of it. All pictures have
-/// one size.
+/// One rectified pair and the range map made of it, with its pose. All pictures have one size.
 struct SceneView {
   std::shared_ptr<const ImageU8> left;
   std::shared_ptr<const ImageU8> right;
   std::shared_ptr<const RangeMap> range;
-  RigidTransform X_WC;
-  double baseline_m = 0;
 };
 
 inline constexpr int kBlock_px = 4;
@@ -41,7 +37,8 @@ struct SceneGround {
   bool empty() const { return disparity_px.empty(); }
 };
 
-/// Empty when pictures or ranges are missing, differ in size, are too small or nothing is known.
+/// Empty when pictures, ranges or their pose are missing, differ in size, are too small or nothing
+/// is known.
 SceneGround FindSceneGround(const SceneView& view);
 
 /// The point at a pixel of the rectified left picture with this disparity, in W.

@@ -151,7 +151,7 @@ void FlagTextureAndShadow(const SceneView& view, const SceneGround& ground, Imag
   constexpr float kFree = kBlock_px * kBlock_px - 1;  // of a block's pixels, its mean known
   const float usual_bright = MedianOf(sums.bright.pixels());
   const float usual_contrast = MedianOf(sums.left.pixels());
-  const double depth_m = view.range->camera.fx_px * view.baseline_m /
+  const double depth_m = view.range->FocalTimesBaseline() /
                          static_cast<double>(MedianOf(ground.disparity_px.pixels()));
   const double block_m = kBlock_px * depth_m / view.range->camera.fx_px;
   const int steps = std::clamp(static_cast<int>(std::lround(kLeastSize_m / 2 / block_m)), 1, 8);

@@ -124,7 +124,7 @@ bool CanTellThinStructures(const SceneView& view, const SceneGround& ground) {
   if (known.empty()) {
     return false;
   }
-  return view.range->camera.fx_px * view.baseline_m >=
+  return view.range->FocalTimesBaseline() >=
          kNearestThin_m * static_cast<double>(UpperMedian(known));
 }
 

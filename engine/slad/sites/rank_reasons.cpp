@@ -32,11 +32,11 @@ std::string Text(const char* format, double value, const char* against) {
 }
 
 /// What `better` has over `other` in the units of what decided; empty where nothing measurable.
-std::string Difference(SiteChoice choice, const LandingSite& better, const LandingSite& other,
+std::string Difference(SiteRanking ranking, const LandingSite& better, const LandingSite& other,
                        bool of_better, const char* against) {
   const double wider_m = better.safe_distance_m - other.safe_distance_m;
   const double cheaper = other.cost - better.cost;
-  if (choice == SiteChoice::kFarthest && wider_m >= 0.05) {
+  if (ranking == SiteRanking::kFarthest && wider_m >= 0.05) {
     return Text(of_better ? "%.1f m more clear than %s" : "%.1f m less clear than %s", wider_m,
                 against);
   }
@@ -54,7 +54,7 @@ std::string Capital(std::string text) {
   return text;
 }
 
-std::string ReasonOfBest(SiteChoice choice, const SiteSelection& selection) {
+std::string ReasonOfBest(SiteRanking ranking, const SiteSelection& selection) {
   const LandingSite& best = selection.sites.front();
   if (!best.corridor_clear) {
     return ApproachWords(best);
@@ -66,21 +66,21 @@ std::string ReasonOfBest(SiteChoice choice, const SiteSelection& selection) {
   if (!next.corridor_clear) {
     return "The only straight approach that is clear";
   }
-  const std::string by = Difference(choice, best, next, true, "the next");
-  const char* criterion = choice == SiteChoice::kFarthest ? "Widest: " : "Cheapest: ";
+  const std::string by = Difference(ranking, best, next, true, "the next");
+  const char* criterion = ranking == SiteRanking::kFarthest ? "Widest: " : "Cheapest: ";
   return by.rfind("as good", 0) == 0 ? Capital(by) : criterion + by;
 }
 
 }  // namespace
 
-void GiveReasons(SiteChoice choice, SiteSelection& selection) {
+void GiveReasons(SiteRanking ranking, SiteSelection& selection) {
   for (std::size_t i = 0; i < selection.sites.size(); ++i) {
     LandingSite& site = selection.sites[i];
     site.reason =
-        i == 0 ? ReasonOfBest(choice, selection)
+        i == 0 ? ReasonOfBest(ranking, selection)
         : !site.corridor_clear
             ? ApproachWords(site)
-            : Capital(Difference(choice, selection.sites.front(), site, false, "the best"));
+            : Capital(Difference(ranking, selection.sites.front(), site, false, "the best"));
   }
 }
 

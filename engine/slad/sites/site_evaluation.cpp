@@ -36,7 +36,7 @@ struct SitePlane {
 
 SitePlane FitSitePlane(const ElevationMap& map, const SladSettings& settings, Cell centre) {
   const GridGeometry& g = map.geometry;
-  const double radius_m = std::max(settings.lander_radius_m(), 1.5 * g.cell_m);
+  const double radius_m = std::max(settings.lander.radius_m(), 1.5 * g.cell_m);
   Eigen::Vector3d x = Eigen::Vector3d::Zero();
   SitePlane plane;
   for (int pass = 0; pass < 2; ++pass) {
@@ -52,7 +52,7 @@ SitePlane FitSitePlane(const ElevationMap& map, const SladSettings& settings, Ce
       const double z = static_cast<double>(map.height_m.at(cell));
       const Eigen::Vector3d basis(1, (centre.row - cell.row) * g.cell_m,
                                   (cell.col - centre.col) * g.cell_m);
-      const double limit = settings.max_deviation_m + 3 * std::sqrt(variance);
+      const double limit = settings.limits.max_deviation_m + 3 * std::sqrt(variance);
       if (pass == 1 && std::abs(z - basis.dot(x)) > limit) {
         return;
       }
@@ -129,21 +129,21 @@ constexpr double kSeenWith = 0.735;
 
 /// Whether rocks are larger than what they are seen with, stereo's window and the map's cell: what
 /// is smaller may pass for ground, however little noise there is.
-bool RocksAreSeen(const ElevationMap& map, const SladSettings& settings, const SiteContext& context,
+bool RocksAreSeen(const ElevationMap& map, const Lander& lander, const SiteContext& context,
                   const LandingSite& site) {
-  if (map.geometry.cell_m > settings.max_rock_size_m) {
+  if (map.geometry.cell_m > lander.max_rock_size_m) {
     return false;
   }
   const double depth_m = (context.X_WC.Inverse() * site.p_WS).z();
   return context.camera.width == 0 ||
-         kStereoWindow_px * depth_m / context.camera.fx_px <= kSeenWith * settings.max_rock_size_m;
+         kStereoWindow_px * depth_m / context.camera.fx_px <= kSeenWith * lander.max_rock_size_m;
 }
 
 /// Surveys and thesis mode have no frames to wait for.
 bool FramesAgree(const SladSettings& settings, const SiteContext& context,
                  const LandingSite& site) {
   return settings.mode == SladMode::kThesis || context.camera.width == 0 ||
-         site.frames_fused >= std::min(kFramesToConfirm, settings.frames_fused);
+         site.frames_fused >= std::min(kFramesToConfirm, settings.fusion.frames_fused);
 }
 
 }  // namespace
@@ -173,7 +173,7 @@ LandingSite EvaluateSite(const ElevationMap& map, const HazardMaps& hazards,
   site.height_m = {plane.height_m, 3 * std::sqrt(plane.cell_variance_m2)};
   TakeFigures(hazards, cell, site);
   site.touchdown = OddsOfTouchdown(map, hazards, settings, site);
-  site.clear_radius_m = settings.clear_radius_m();
+  site.clear_radius_m = settings.lander.clear_radius_m();
   site.clearance_m = site.safe_distance_m - site.clear_radius_m;
   double age_sum_s = 0;
   std::vector<std::uint16_t> frames;  // of the measured cells
@@ -189,11 +189,11 @@ LandingSite EvaluateSite(const ElevationMap& map, const HazardMaps& hazards,
   site.age_s = frames.empty() ? std::numeric_limits<double>::quiet_NaN()
                               : age_sum_s / static_cast<double>(frames.size());
   site.frames_fused = FramesOfMost(frames);
-  const bool likely =
-      settings.mode == SladMode::kThesis || site.safe_probability >= settings.min_safe_probability;
-  site.confirmed = likely && site.height_m.three_sigma < settings.max_deviation_m &&
+  const bool likely = settings.mode == SladMode::kThesis ||
+                      site.safe_probability >= settings.limits.min_safe_probability;
+  site.confirmed = likely && site.height_m.three_sigma < settings.limits.max_deviation_m &&
                    FramesAgree(settings, context, site) &&
-                   RocksAreSeen(map, settings, context, site);
+                   RocksAreSeen(map, settings.lander, context, site);
   site.distance_m = (context.p_WB - site.p_WS).head<2>().norm();
   const std::optional<Approach> straight = StraightApproach(settings, context, site);
   site.corridor_clear = !straight || IsClear(*straight, map, settings, site);
@@ -205,7 +205,7 @@ std::optional<Approach> StraightApproach(const SladSettings& settings, const Sit
                                          const LandingSite& site) {
   const Eigen::Vector2d to_vehicle = (context.p_WB - site.p_WS).head<2>();
   const double length_m = to_vehicle.norm();
-  if (!(length_m > settings.lander_radius_m())) {
+  if (!(length_m > settings.lander.radius_m())) {
     return std::nullopt;  // straight above: the descent is vertical
   }
   const double heading_rad = context.approach_heading_rad;
@@ -243,8 +243,8 @@ bool IsClear(const Approach& approach, const ElevationMap& map, const SladSettin
   const Eigen::Vector2d& along = approach.from;
   const double tangent = std::tan(std::min(approach.glide_slope_rad, 1.55));
   const GridGeometry& g = map.geometry;
-  const double half_width_m = settings.rotor_diameter_m / 2;
-  const double lander_radius_m = settings.lander_radius_m();
+  const double half_width_m = settings.lander.rotor_diameter_m / 2;
+  const double lander_radius_m = settings.lander.radius_m();
   for (int r = 0; r < g.rows; ++r) {
     const double north_m = g.NorthOfRow(r) - site.p_WS.x();
     const ColumnRange columns = CorridorInRow(g, site, along, north_m, length_m, half_width_m);
@@ -253,7 +253,7 @@ bool IsClear(const Approach& approach, const ElevationMap& map, const SladSettin
       const double east_m = g.EastOfCol(c) - site.p_WS.y();
       const double s = north_m * along.x() + east_m * along.y();
       const double rise_m = static_cast<double>(height_m[c]) - site.height_m.value;
-      const double free_m = (s - lander_radius_m) * tangent + settings.max_deviation_m;
+      const double free_m = (s - lander_radius_m) * tangent + settings.limits.max_deviation_m;
       // Asked first, for few cells rise so far.
       if (!(rise_m > free_m)) {
         continue;

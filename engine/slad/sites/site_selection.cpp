@@ -67,7 +67,7 @@ class Candidates {
   Candidates(const ElevationMap& map, const HazardMaps& hazards, const SladSettings& settings,
              const SiteContext& context)
       : rows_(static_cast<std::size_t>(map.geometry.rows)),
-        as_good_(settings.mode == SladMode::kModern && settings.choice == SiteChoice::kFarthest
+        as_good_(settings.mode == SladMode::kModern && settings.choice.ranking == SiteRanking::kFarthest
                      ? 0.75 * map.geometry.cell_m
                      : 0) {
     const OffCentre off_centre(context);
@@ -85,7 +85,7 @@ class Candidates {
           const double cost = SmoothedCost(hazards.cost, cell);
           // Ties are broken within one cell's worth of distance, the first criterion's resolution.
           const double tie = -0.05 * off_centre.At(map, cell);
-          const double score = settings.choice == SiteChoice::kFarthest
+          const double score = settings.choice.ranking == SiteRanking::kFarthest
                                    ? distance_m + cell_m * (0.4 * (1 - cost) + tie)
                                    : -cost + 1e-3 * (distance_m + tie);
           if (score > kNone) {
@@ -247,9 +247,9 @@ std::string NoneReason(const HazardMaps& hazards, const SladSettings& settings) 
   const GridGeometry& g = hazards.geometry;
   // The best middle of an even number of cells is half a cell off.
   const double across_m = (std::min(g.rows, g.cols) - 1) / 2 * 2 * g.cell_m + g.cell_m;
-  if (n.footprint > 0 && across_m < 2 * settings.clear_radius_m()) {
+  if (n.footprint > 0 && across_m < 2 * settings.lander.clear_radius_m()) {
     text += WithNumbers("; the map holds a disc %.3f m across, the lander's clear one is %.3f m",
-                        across_m, 2 * settings.clear_radius_m());
+                        across_m, 2 * settings.lander.clear_radius_m());
   }
   return text;
 }
@@ -278,8 +278,8 @@ SiteSelection SelectSites(const ElevationMap& map, const HazardMaps& hazards,
     return selection;
   }
   std::vector<LandingSite> blocked, closed;  // straight on; from everywhere
-  const double spacing_cells = settings.site_spacing_m / std::max(map.geometry.cell_m, 1e-9);
-  const auto kept = static_cast<std::size_t>(settings.sites_kept);
+  const double spacing_cells = settings.choice.spacing_m / std::max(map.geometry.cell_m, 1e-9);
+  const auto kept = static_cast<std::size_t>(settings.choice.sites_kept);
   Candidates candidates(map, hazards, settings, context);
   // How a site turns out does not change which cells come next: as many as are still wanted are
   // looked at side by side.
@@ -307,7 +307,7 @@ SiteSelection SelectSites(const ElevationMap& map, const HazardMaps& hazards,
       }
     }
   }
-  GiveReasons(settings.choice, selection);
+  GiveReasons(settings.choice.ranking, selection);
   if (selection.sites.empty()) {
     selection.none_reason = NoneReason(hazards, settings);
   }

@@ -64,11 +64,13 @@ std::optional<Cell> FirstHit(const ElevationMap& map, const HeightSpan& span,
 
 }  // namespace
 
-ImageU8 VerdictImage(const RangeMap& range, const RigidTransform& X_WC, const ElevationMap& map,
-                     const HazardMaps& hazards, int divisor) {
+ImageU8 VerdictImage(const RangeMap& range, const ElevationMap& map, const HazardMaps& hazards,
+                     int divisor) {
   PALACE_CHECK(divisor >= 1, divisor);
   PALACE_CHECK(map.geometry == hazards.geometry);
+  PALACE_CHECK(range.pose.has_value());
   const PinholeCamera& camera = range.camera;
+  const RigidTransform& X_WC = range.pose->X_WC;
   const HeightSpan span = SpanOf(map);
   ImageU8 verdict(range.depth_m.width() / divisor, range.depth_m.height() / divisor, 0);
   for (int v = 0; v < verdict.height(); ++v) {

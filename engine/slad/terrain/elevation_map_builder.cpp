@@ -7,14 +7,14 @@
 
 namespace palace {
 
-ElevationMap ElevationFromRange(const RangeMap& range, const RigidTransform& X_WC,
-                                const SladSettings& settings) {
-  const TerrainPoints points = PointsFromRange(range, X_WC);
+ElevationMap ElevationFromRange(const RangeMap& range, const SladSettings& settings) {
+  const TerrainPoints points = PointsFromRange(range);
   const GridGeometry geometry =
-      LayOutGrid(ChooseBounds(points, settings, &range.camera, X_WC), settings);
+      LayOutGrid(ChooseBounds(points, settings, &range.camera, range.pose->X_WC), settings);
   ElevationMap map =
       AccumulateCells(points, geometry, settings.mode, kCorrelatedPixels, range.time);
-  FillHoles(map, settings.data_size_cells, settings.border_size_cells);
+  map.attitude_sigma_rad = range.pose->sigmas.attitude_rad;
+  FillHoles(map, settings.grid.data_size_cells, settings.grid.border_size_cells);
   return map;
 }
 
@@ -32,7 +32,7 @@ ElevationMap ElevationFromPoints(const std::vector<Eigen::Vector3d>& p_W,
   }
   const GridGeometry geometry = LayOutGrid(ChooseBounds(points, settings, nullptr, {}), settings);
   ElevationMap map = AccumulateCells(points, geometry, settings.mode, 1, time);
-  FillHoles(map, settings.data_size_cells, settings.border_size_cells);
+  FillHoles(map, settings.grid.data_size_cells, settings.grid.border_size_cells);
   return map;
 }
 

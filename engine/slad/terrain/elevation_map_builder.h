@@ -2,8 +2,8 @@
 //
 //   z(r,c) = sum(z_i / s_i^2) / sum(1 / s_i^2)  over the points i that fall into the cell
 //
-// Rotating by X_WC removes the tilt of the camera and the perspective (thesis 4.3.1). A point's
-// height sigma s_i is its depth sigma projected on the vertical. Thesis mode: plain mean.
+// Rotating by the pose X_WC removes the tilt of the camera and the perspective (thesis 4.3.1). A
+// point's height sigma s_i is its depth sigma projected on the vertical. Thesis mode: plain mean.
 // Cells without a point are NaN (kUnknown); small holes are kFilled, the outer rim kBorder.
 //
 // Grid: thesis mode lays grid_rows x grid_cols over the bounds with one square cell size; modern
@@ -18,16 +18,14 @@
 
 #include <Eigen/Dense>
 
-#include "engine/core/frames.h"
 #include "engine/model/elevation_map.h"
 #include "engine/model/range_map.h"
 #include "engine/model/settings.h"
 
 namespace palace {
 
-/// X_WC: left camera in the level frame W (north-east-down, metres).
-ElevationMap ElevationFromRange(const RangeMap& range, const RigidTransform& X_WC,
-                                const SladSettings& settings);
+/// The range map has a pose, in the level frame W (north-east-down, metres).
+ElevationMap ElevationFromRange(const RangeMap& range, const SladSettings& settings);
 
 /// p_W: points in W, metres; points with a NaN are ignored. sigma_m: height sigma of each point,
 /// same length, or null for points without noise figure (a survey).

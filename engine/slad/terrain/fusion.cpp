@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "engine/core/hash.h"
-#include "engine/core/units.h"
 #include "engine/slad/terrain/elevation_map_builder.h"
 #include "engine/slad/terrain/frame_registration.h"
 #include "engine/slad/terrain/hole_filling.h"
@@ -21,9 +20,6 @@ constexpr double kVarianceFloor_m2 = 1e-5;
 constexpr double kUnseenGrowth_m2 = 4e-6;  // a map unseen: 2 cm after a hundred maps
 constexpr double kForgotten_m2 = 0.25;
 constexpr int kLongestMemory_frames = 50;
-// Poses of the vehicle's navigation, one standard deviation.
-constexpr double kPosition_m = 0.03;
-constexpr double kAttitude_rad = 0.1 * kRadPerDeg;
 /// Stereo errs on the same ground by this much in every frame: texture under the window, steps of
 /// whole pixels. It does not average away.
 constexpr double kRepeated_px = 0.012;
@@ -31,10 +27,12 @@ constexpr double kNarrow_m = 0.08;  // the upper half of a small cone, a post
 /// The map follows the view once its centre is off by this share of its size.
 constexpr double kSlack = 0.08;
 
+/// The holes that are filled and the rim are no part of the layout.
 bool SameLayout(const SladSettings& a, const SladSettings& b) {
-  return a.mode == b.mode && a.grid_rows == b.grid_rows && a.grid_cols == b.grid_cols &&
-         a.cell_m == b.cell_m && a.bounds == b.bounds && a.x_min_m == b.x_min_m &&
-         a.x_max_m == b.x_max_m && a.y_min_m == b.y_min_m && a.y_max_m == b.y_max_m;
+  GridSettings grid = a.grid;
+  grid.data_size_cells = b.grid.data_size_cells;
+  grid.border_size_cells = b.grid.border_size_cells;
+  return a.mode == b.mode && grid == b.grid;
 }
 
 bool CentreWithinSlack(const GridGeometry& a, const GridGeometry& b) {
@@ -58,7 +56,8 @@ double SquaredGradient(const ElevationMap& frame, int r, int c) {
 }
 
 /// Height variance by which a pose laid sideways misplaces each cell.
-GridF MisplacedVariance(const Eigen::Vector3d& p_WC, const ElevationMap& frame) {
+GridF MisplacedVariance(const ViewPose& pose, const ElevationMap& frame) {
+  const double position_m = pose.sigmas.position_m, attitude_rad = pose.sigmas.attitude_rad;
   const GridGeometry& g = frame.geometry;
   GridF variance_m2(g.rows, g.cols, 0.0F);
   for (int r = 0; r < g.rows; ++r) {
@@ -68,8 +67,8 @@ GridF MisplacedVariance(const Eigen::Vector3d& p_WC, const ElevationMap& frame) 
       }
       const Eigen::Vector3d p_WQ(g.NorthOfRow(r), g.EastOfCol(c),
                                  -static_cast<double>(frame.height_m.at(r, c)));
-      const double sideways2 =
-          kPosition_m * kPosition_m + kAttitude_rad * kAttitude_rad * (p_WQ - p_WC).squaredNorm();
+      const double sideways2 = position_m * position_m +
+                               attitude_rad * attitude_rad * (p_WQ - pose.X_WC.p).squaredNorm();
       variance_m2.at(r, c) = static_cast<float>(SquaredGradient(frame, r, c) * sideways2);
     }
   }
@@ -77,8 +76,9 @@ GridF MisplacedVariance(const Eigen::Vector3d& p_WC, const ElevationMap& frame) 
 }
 
 /// Of the pose and every 89th range: two exposures of one scene never share them all.
-std::uint64_t SampledHash(const RangeMap& range, const RigidTransform& X_WC) {
+std::uint64_t SampledHash(const RangeMap& range) {
   constexpr std::size_t kStride = 89;
+  const RigidTransform& X_WC = range.pose->X_WC;
   ContentHash hash;
   for (int i = 0; i < 3; ++i) {
     hash.Add(X_WC.p[i]);
@@ -92,24 +92,10 @@ std::uint64_t SampledHash(const RangeMap& range, const RigidTransform& X_WC) {
   return hash.value();
 }
 
-/// Focal length times baseline, pixels metres; 0 when the range map holds no point.
-double FocalTimesBaseline(const RangeMap& range) {
-  for (std::size_t i = 0; i < range.depth_m.pixels().size(); ++i) {
-    const double product = static_cast<double>(range.depth_m.pixels()[i]) *
-                           static_cast<double>(range.disparity_px.pixels()[i]);
-    if (std::isfinite(product)) {
-      return product;
-    }
-  }
-  return 0;
-}
-
-/// Of the error that stereo repeats in every frame, per measured cell; empty before any range.
-GridF RepeatedVariance(double focal_times_baseline, const RigidTransform& X_WC,
-                       const ElevationMap& map) {
-  if (!(focal_times_baseline > 0)) {
-    return {};
-  }
+/// Of the error that stereo repeats in every frame, per measured cell.
+GridF RepeatedVariance(const RangeMap& range, const ElevationMap& map) {
+  const RigidTransform& X_WC = range.pose->X_WC;
+  const double focal_times_baseline = range.FocalTimesBaseline();
   const GridGeometry& g = map.geometry;
   GridF variance_m2(g.rows, g.cols, 0.0F);
   for (int r = 0; r < g.rows; ++r) {
@@ -140,23 +126,22 @@ void TerrainFusion::Reset() {
   spread_ = {};
   pixels_ = {};
   frames_ = 0;
-  focal_times_baseline_ = 0;
 }
 
 std::shared_ptr<const ElevationMap> TerrainFusion::Add(const RangeMap& range,
-                                                       const RigidTransform& X_WC,
                                                        const SladSettings& settings) {
+  PALACE_CHECK(range.pose.has_value() && range.FocalTimesBaseline() > 0, range.baseline_m);
   if (!SameLayout(settings, layout_)) {
     Reset();
   }
   layout_ = settings;
   if (settings.mode == SladMode::kThesis) {
-    return std::make_shared<const ElevationMap>(ElevationFromRange(range, X_WC, settings));
+    return std::make_shared<const ElevationMap>(ElevationFromRange(range, settings));
   }
-  const TerrainPoints points = PointsFromRange(range, X_WC);
+  const TerrainPoints points = PointsFromRange(range);
   if (!points.empty() || frames_ == 0) {
     const GridGeometry wanted =
-        LayOutGrid(ChooseBounds(points, settings, &range.camera, X_WC), settings);
+        LayOutGrid(ChooseBounds(points, settings, &range.camera, range.pose->X_WC), settings);
     // A picture without a point says nothing about where to look: the map stays.
     if (frames_ == 0 || !CentreWithinSlack(wanted, map_.geometry)) {
       MoveTo(wanted);
@@ -165,25 +150,23 @@ std::shared_ptr<const ElevationMap> TerrainFusion::Add(const RangeMap& range,
   ElevationMap frame =
       AccumulateCells(points, map_.geometry, settings.mode, kCorrelatedPixels, range.time);
   Age(range.time);
-  const std::uint64_t ranges = SampledHash(range, X_WC);
+  const std::uint64_t ranges = SampledHash(range);
   // The very same ranges from the same place again, as of a still picture, say nothing new.
   if (frames_ == 0 || points.empty() || ranges != last_ranges_) {
     Register(frame);
-    Fuse(frame, MisplacedVariance(X_WC.p, frame), settings.frames_fused);
-    AddPixels(range, X_WC, settings.frames_fused);
+    Fuse(frame, MisplacedVariance(*range.pose, frame), settings.fusion.frames_fused);
+    AddPixels(range, settings.fusion.frames_fused);
   }
   last_ranges_ = ranges;
   // Frames without a point do not count: the first real one lays out the grid.
   frames_ += points.empty() ? 0 : 1;
+  map_.attitude_sigma_rad = range.pose->sigmas.attitude_rad;
   auto published = std::make_shared<ElevationMap>(map_);
   AddReliefBetweenFrames(spread_, *published);
-  if (const double now = FocalTimesBaseline(range); now > 0) {
-    focal_times_baseline_ = now;
-  }
-  const GridF repeated_m2 = RepeatedVariance(focal_times_baseline_, X_WC, *published);
-  RaiseNarrowRelief(range.camera, X_WC.p, kNarrow_m, pixels_, repeated_m2, *published);
+  const GridF repeated_m2 = RepeatedVariance(range, *published);
+  RaiseNarrowRelief(range.camera, range.pose->X_WC.p, kNarrow_m, pixels_, repeated_m2, *published);
   AddVariance(repeated_m2, *published);
-  FillHoles(*published, settings.data_size_cells, settings.border_size_cells);
+  FillHoles(*published, settings.grid.data_size_cells, settings.grid.border_size_cells);
   return published;
 }
 
@@ -228,9 +211,9 @@ void TerrainFusion::MoveTo(const GridGeometry& geometry) {
   pixels_ = std::move(pixels);
 }
 
-void TerrainFusion::AddPixels(const RangeMap& range, const RigidTransform& X_WC, int frames_fused) {
+void TerrainFusion::AddPixels(const RangeMap& range, int frames_fused) {
   Grid<PixelCount> seen(pixels_.rows(), pixels_.cols());
-  CountPixels(range, X_WC, map_.geometry, seen);
+  CountPixels(range, map_.geometry, seen);
   const int memory = std::max(1, frames_fused);
   const auto remember = static_cast<float>(frames_ < memory ? 1.0 : 1 - 1.0 / memory);
   for (std::size_t i = 0; i < seen.cells().size(); ++i) {

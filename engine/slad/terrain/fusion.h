@@ -15,7 +15,7 @@
 //
 // A cell that disagrees by more than the gate, three sigmas of
 //
-//   P + R + g^2 s^2,   s^2 = position sigma^2 + (attitude sigma * range)^2,
+//   P + R + g^2 s^2,   s^2 = position sigma^2 + (attitude sigma * range)^2, of the frame's pose,
 //
 // is not averaged: it counts in the spread only, and the second disagreement in a row on the same
 // side replaces the cell. A pose laid sideways by s misplaces ground of
@@ -28,7 +28,6 @@
 #include <cstdint>
 #include <memory>
 
-#include "engine/core/frames.h"
 #include "engine/model/elevation_map.h"
 #include "engine/model/range_map.h"
 #include "engine/model/settings.h"
@@ -41,16 +40,15 @@ class TerrainFusion {
  public:
   /// Forgets all frames.
   void Reset();
-  /// Fuses one range map taken from X_WC (left camera in W) and returns the new map. A change of
+  /// Fuses one range map, which has a pose and a baseline, and returns the new map. A change of
   /// mode, cell size, grid size or bounds starts afresh.
-  std::shared_ptr<const ElevationMap> Add(const RangeMap& range, const RigidTransform& X_WC,
-                                          const SladSettings& settings);
+  std::shared_ptr<const ElevationMap> Add(const RangeMap& range, const SladSettings& settings);
 
  private:
   void MoveTo(const GridGeometry& geometry);
   void Register(ElevationMap& frame);
   void Age(Timestamp now);
-  void AddPixels(const RangeMap& range, const RigidTransform& X_WC, int frames_fused);
+  void AddPixels(const RangeMap& range, int frames_fused);
   void Fuse(const ElevationMap& frame, const GridF& misplaced_m2, int frames_fused);
 
   ElevationMap map_;                ///< measured cells only; holes are filled in what Add returns
@@ -59,8 +57,7 @@ class TerrainFusion {
   Grid<PixelCount> pixels_;
   SladSettings layout_;  ///< settings the grid was laid out with
   int frames_ = 0;
-  double focal_times_baseline_ = 0;  ///< of the last range map with a point, px m
-  std::uint64_t last_ranges_ = 0;    ///< sampled hash of the last range map and its pose
+  std::uint64_t last_ranges_ = 0;  ///< sampled hash of the last range map and its pose
 };
 
 }  // namespace palace

@@ -14,9 +14,10 @@ bool IsKnown(const RangeMap& range, int x, int y) {
 
 }  // namespace
 
-void CountPixels(const RangeMap& range, const RigidTransform& X_WC, const GridGeometry& geometry,
-                 Grid<PixelCount>& counts) {
+void CountPixels(const RangeMap& range, const GridGeometry& geometry, Grid<PixelCount>& counts) {
+  PALACE_CHECK(range.pose.has_value());
   const PinholeCamera& camera = range.camera;
+  const RigidTransform& X_WC = range.pose->X_WC;
   const Eigen::Vector3d step_W = X_WC.R.col(0) / camera.fx_px;
   for (int y = 0; y < range.depth_m.height(); ++y) {
     const Eigen::Vector3d row_W = X_WC.R * Eigen::Vector3d(-camera.cx_px / camera.fx_px,

@@ -2,7 +2,6 @@
 // gap in the ranges, and what is known around the gap reads too low. Internal to the SLAD room.
 #pragma once
 
-#include "engine/core/frames.h"
 #include "engine/model/grid.h"
 #include "engine/model/range_map.h"
 
@@ -21,11 +20,10 @@ struct PixelCount {
   }
 };
 
-/// Adds the pixels of one range map taken from X_WC (left camera in W) to the cells of `geometry`.
+/// Adds the pixels of one range map, which has a pose, to the cells of `geometry`.
 /// A refused pixel lies at the depth of the farther of the two known pixels that end its gap in the
 /// row: on the ground behind. Gaps that reach the picture's edge count nowhere, for the other
 /// camera does not see there. A pixel is known when depth and sigma are.
-void CountPixels(const RangeMap& range, const RigidTransform& X_WC, const GridGeometry& geometry,
-                 Grid<PixelCount>& counts);
+void CountPixels(const RangeMap& range, const GridGeometry& geometry, Grid<PixelCount>& counts);
 
 }  // namespace palace

@@ -36,18 +36,18 @@ std::string ObjectionTo(const ElevationMap& map, const SladSettings& settings) {
              " to " + Number(info.max);
     }
   }
-  if (!(settings.lander_base_size_m > 0) || settings.sites_kept < 1) {
-    return settings.sites_kept < 1 ? "slad.sites_kept = 0: no site is asked for"
-                                   : "slad.lander_base_size_m = 0 m is no lander";
+  if (!(settings.lander.base_size_m > 0) || settings.choice.sites_kept < 1) {
+    return settings.choice.sites_kept < 1 ? "slad.sites_kept = 0: no site is asked for"
+                                          : "slad.lander_base_size_m = 0 m is no lander";
   }
   const GridGeometry& g = map.geometry;
   if (!LayersFit(map)) {
     return "the map's layers differ in size";
   }
   if (!map.height_m.empty() &&
-      !(g.cell_m >= kSmallestCell_m && g.cell_m <= settings.lander_base_size_m)) {
+      !(g.cell_m >= kSmallestCell_m && g.cell_m <= settings.lander.base_size_m)) {
     return "cells of " + Number(g.cell_m) + " m, limits " + Number(kSmallestCell_m) +
-           " m to one lander, " + Number(settings.lander_base_size_m) + " m";
+           " m to one lander, " + Number(settings.lander.base_size_m) + " m";
   }
   return {};
 }
@@ -58,10 +58,10 @@ bool LayersFit(const ElevationMap& map) {
          Fits(g, map.state) && FitsOrIsLeftOut(g, map.age_s) && FitsOrIsLeftOut(g, map.flags);
 }
 
-SladSettings WithinReason(const SladSettings& settings, const GridGeometry& geometry) {
-  SladSettings within = settings;
+Lander WithinReason(const Lander& lander, const GridGeometry& geometry) {
+  Lander within = lander;
   const double widest_m = 2 * std::max(geometry.rows, geometry.cols) * geometry.cell_m;
-  for (double* size_m : {&within.lander_base_size_m, &within.max_rock_size_m, &within.gear_length_m,
+  for (double* size_m : {&within.base_size_m, &within.max_rock_size_m, &within.gear_length_m,
                          &within.gear_width_m}) {
     *size_m = *size_m <= widest_m ? std::max(0.0, *size_m) : widest_m;
   }

@@ -18,9 +18,9 @@ std::string ObjectionTo(const ElevationMap& map, const SladSettings& settings);
 /// Whether all layers have the grid's size; those that may be left out, when they are there.
 bool LayersFit(const ElevationMap& map);
 
-/// The settings with sizes that a map of this grid can be measured with: from 0 to twice the map's
+/// The lander with sizes that a map of this grid can be measured with: from 0 to twice the map's
 /// width, which is as good as any larger one; what is no number becomes that width.
-SladSettings WithinReason(const SladSettings& settings, const GridGeometry& geometry);
+Lander WithinReason(const Lander& lander, const GridGeometry& geometry);
 
 /// Heights beyond this are no ground: a float's last digit is a centimetre there.
 inline constexpr double kHighestGround_m = 1e5;

@@ -43,7 +43,9 @@ struct CellSums {
 
 }  // namespace
 
-TerrainPoints PointsFromRange(const RangeMap& range, const RigidTransform& X_WC) {
+TerrainPoints PointsFromRange(const RangeMap& range) {
+  PALACE_CHECK(range.pose.has_value());
+  const RigidTransform& X_WC = range.pose->X_WC;
   TerrainPoints points;
   const PinholeCamera& camera = range.camera;
   points.reserve(range.depth_m.pixels().size());
@@ -111,18 +113,18 @@ GroundBounds BoundsOfView(const TerrainPoints& points, const PinholeCamera& came
 
 GroundBounds ChooseBounds(const TerrainPoints& points, const SladSettings& settings,
                           const PinholeCamera* camera, const RigidTransform& X_WC) {
-  if (settings.bounds == BoundsMode::kFieldOfView && camera != nullptr && !points.empty()) {
+  if (settings.grid.bounds == BoundsMode::kFieldOfView && camera != nullptr && !points.empty()) {
     return BoundsOfView(points, *camera, X_WC);
   }
-  if (settings.bounds != BoundsMode::kGiven) {
+  if (settings.grid.bounds != BoundsMode::kGiven) {
     return BoundsOfData(points);
   }
   auto north = SampleOf(points, [](const TerrainPoint& p) { return p.north_m; });
   auto east = SampleOf(points, [](const TerrainPoint& p) { return p.east_m; });
   const double north_m = Percentile(north, 0.5);
   const double east_m = Percentile(east, 0.5);
-  const auto [x_min, x_max] = std::minmax(settings.x_min_m, settings.x_max_m);
-  const auto [y_min, y_max] = std::minmax(settings.y_min_m, settings.y_max_m);
+  const auto [x_min, x_max] = std::minmax(settings.grid.x_min_m, settings.grid.x_max_m);
+  const auto [y_min, y_max] = std::minmax(settings.grid.y_min_m, settings.grid.y_max_m);
   return {north_m + x_min, north_m + x_max, east_m + y_min, east_m + y_max};
 }
 
@@ -132,8 +134,8 @@ GridGeometry LayOutGrid(const GroundBounds& bounds, const SladSettings& settings
   const double height_m = bounds.north_max_m - bounds.north_min_m;
   const double width_m = bounds.east_max_m - bounds.east_min_m;
   GridGeometry grid;
-  grid.rows = settings.grid_rows;
-  grid.cols = settings.grid_cols;
+  grid.rows = settings.grid.rows;
+  grid.cols = settings.grid.cols;
   if (settings.mode == SladMode::kThesis) {
     // A hair wider, so that the points on the bounds themselves fall inside.
     grid.cell_m = std::max({height_m / grid.rows, width_m / grid.cols, 1e-3}) * (1 + 1e-9);
@@ -141,8 +143,8 @@ GridGeometry LayOutGrid(const GroundBounds& bounds, const SladSettings& settings
     grid.east_min_m = east_m - grid.cols * grid.cell_m / 2;
     return grid;
   }
-  grid.cell_m = settings.cell_m;
-  if (settings.bounds == BoundsMode::kGiven) {
+  grid.cell_m = settings.grid.cell_m;
+  if (settings.grid.bounds == BoundsMode::kGiven) {
     const auto cells = [&](double extent_m, int limit) {
       return std::clamp(static_cast<int>(std::lround(std::min(extent_m / grid.cell_m, 1e6))), 1,
                         limit);

@@ -28,7 +28,8 @@ struct GroundBounds {
   double east_max_m = 0;
 };
 
-TerrainPoints PointsFromRange(const RangeMap& range, const RigidTransform& X_WC);
+/// In W; the range map has a pose.
+TerrainPoints PointsFromRange(const RangeMap& range);
 
 /// 1st to 99th percentile of the points. Zeros when there are none.
 GroundBounds BoundsOfData(const TerrainPoints& points);

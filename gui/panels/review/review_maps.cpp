@@ -9,7 +9,7 @@ namespace palace {
 namespace {
 
 std::string LimitWords(const SladSettings& slad) {
-  return Fixed(slad.max_slope_deg, 1) + "°, " + Fixed(slad.max_deviation_m * 100, 1) + " cm";
+  return Fixed(slad.limits.max_slope_deg, 1) + "°, " + Fixed(slad.limits.max_deviation_m * 100, 1) + " cm";
 }
 
 Rect SquareIn(const Rect& panel, const Rect& content, const Style& s) {

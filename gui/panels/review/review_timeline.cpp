@@ -396,8 +396,8 @@ void DrawReviewPlots(const EngineSnapshot& snap, const FlightRecord* record, con
     now_clear.stroke = PlotTrace::Stroke::kDashed;
   }
   clear.series = {now_clear, recorded_clear};
-  clear.limits = {{static_cast<float>(snap.settings.slad.clear_radius_m()), false,
-                   "min " + Fixed(snap.settings.slad.clear_radius_m(), 1) + " m"}};
+  clear.limits = {{static_cast<float>(snap.settings.slad.lander.clear_radius_m()), false,
+                   "min " + Fixed(snap.settings.slad.lander.clear_radius_m(), 1) + " m"}};
   const float gap = s.Px(8), h = std::floor((rect.h - gap) / 2);
   DrawPlot(ui, {rect.x, rect.y, rect.w, h}, height, state.plots);
   DrawPlot(ui, {rect.x, rect.y + h + gap, rect.w, rect.h - h - gap}, clear, state.plots);

@@ -56,9 +56,9 @@ struct Shot {
 
 /// Other limits than the flight's: a preview while armed, a re-decision in replay.
 inline void MoveLimits(EngineSnapshot& snap) {
-  snap.preview_settings.slad.max_slope_deg = 6;
-  snap.preview_settings.slad.max_deviation_m = 0.06;
-  snap.preview_settings.slad.frames_fused = 24;
+  snap.preview_settings.slad.limits.max_slope_deg = 6;
+  snap.preview_settings.slad.limits.max_deviation_m = 0.06;
+  snap.preview_settings.slad.fusion.frames_fused = 24;
   snap.preview_hash = 0x91c07e;
   auto moved = std::make_shared<TerrainDecision>(
       *fake::Decision(snap.X_WC, snap.preview_settings.slad, snap.preview_hash));

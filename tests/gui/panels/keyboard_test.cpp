@@ -296,7 +296,7 @@ TEST(TuneKeyboard, TabLeavesATextFieldAndEscapeInItSetsNothing) {
 TEST(TuneKeyboard, ApplyAndDiscardArePressedByEnter) {
   TuneDesk desk;
   desk.snap = fake::Snapshot(MissionState::kArmed);
-  desk.snap.preview_settings.slad.max_slope_deg = 6;
+  desk.snap.preview_settings.slad.limits.max_slope_deg = 6;
   desk.snap.preview = desk.snap.applied;
   TabTo(desk.ui, "discard", desk.draw);
   desk.ui.Tap(ImGuiKey_Enter, desk.draw);

@@ -42,7 +42,7 @@ EngineSnapshot Replay(bool redecided) {
   EngineSnapshot snap = fake::Snapshot(MissionState::kArmed, SourceKind::kReplay);
   if (redecided) {
     snap.recorded = snap.applied;
-    snap.settings.slad.max_slope_deg = snap.preview_settings.slad.max_slope_deg = 6;
+    snap.settings.slad.limits.max_slope_deg = snap.preview_settings.slad.limits.max_slope_deg = 6;
     auto applied =
         std::make_shared<TerrainDecision>(*fake::Decision(snap.X_WC, snap.settings.slad, 0x91c07e));
     std::swap(applied->selection.sites[0], applied->selection.sites[1]);

@@ -22,7 +22,7 @@ struct Desk {
       EXPECT_TRUE(SetSettingValue(snap.preview_settings, set.name, set.value).ok());
     }
   }
-  double slope() const { return snap.preview_settings.slad.max_slope_deg; }
+  double slope() const { return snap.preview_settings.slad.limits.max_slope_deg; }
 };
 
 TEST(SettingHistory, ADragIsOneStepHoweverLongItLasts) {
@@ -83,7 +83,7 @@ TEST(SettingHistory, ALoadedPresetAndADiscardedPreviewAreOneStepEach) {
   ASSERT_EQ(desk.history.steps().size(), 2U);
   desk.Take(desk.history.Undo());
   EXPECT_EQ(desk.slope(), 8);
-  EXPECT_EQ(desk.snap.preview_settings.slad.max_deviation_m, 0.05);
+  EXPECT_EQ(desk.snap.preview_settings.slad.limits.max_deviation_m, 0.05);
   desk.Take(desk.history.Undo());
   EXPECT_TRUE(desk.snap.preview_settings == Settings{});
 }

@@ -10,9 +10,9 @@ namespace {
 /// A snapshot with a preview: slope 6° instead of 10°, another best site.
 EngineSnapshot Previewing(MissionState state) {
   EngineSnapshot snap = fake::Snapshot(state, SourceKind::kSimulation);
-  snap.preview_settings.slad.max_slope_deg = 6;
-  snap.preview_settings.slad.max_deviation_m = 0.06;
-  snap.preview_settings.slad.frames_fused = 24;
+  snap.preview_settings.slad.limits.max_slope_deg = 6;
+  snap.preview_settings.slad.limits.max_deviation_m = 0.06;
+  snap.preview_settings.slad.fusion.frames_fused = 24;
   snap.preview_hash = 0x91c07e0000000000;
   auto preview = std::make_shared<TerrainDecision>(
       *fake::Decision(snap.X_WC, snap.preview_settings.slad, snap.preview_hash));
@@ -82,7 +82,7 @@ TEST(TuneWorkspace, DraggingASliderSetsTheLimitAtEveryMove) {
   ui.Button(true);
   ui.Frame(draw);
   EXPECT_EQ(ui.CountCommands<SetSetting>(), 0);  // a press alone moves nothing
-  double last = snap.settings.slad.max_slope_deg;
+  double last = snap.settings.slad.limits.max_slope_deg;
   for (int step = 1; step <= 3; ++step) {
     ui.MoveTo(ImVec2{from.x - 8.0f * static_cast<float>(step), from.y});
     ui.Frame(draw);
@@ -91,7 +91,7 @@ TEST(TuneWorkspace, DraggingASliderSetsTheLimitAtEveryMove) {
     EXPECT_EQ(set.name, "slad.max_slope_deg");
     EXPECT_LT(set.value, last);
     last = set.value;
-    snap.preview_settings.slad.max_slope_deg = set.value;  // the engine follows
+    snap.preview_settings.slad.limits.max_slope_deg = set.value;  // the engine follows
     snap.settings = snap.preview_settings;
   }
   ui.MoveTo(ImVec2{from.x - 4000, from.y});  // far over the end: stops at the limit
@@ -192,7 +192,7 @@ TEST(TuneWorkspace, ResetAppearsOnlyWhenChangedAndSetsTheDefault) {
   const auto draw = [&](UiFrame& f) { DrawTuneWorkspace(snap, Body(), state, f); };
   ui.Frame(draw);
   EXPECT_EQ(ui.items.Find("reset/slad.max_slope_deg"), nullptr);
-  snap.settings.slad.max_slope_deg = snap.preview_settings.slad.max_slope_deg = 7;
+  snap.settings.slad.limits.max_slope_deg = snap.preview_settings.slad.limits.max_slope_deg = 7;
   ui.Frame(draw);
   ui.Click("reset/slad.max_slope_deg", draw);
   EXPECT_EQ(ui.LastCommand<SetSetting>().value, 10);
@@ -235,7 +235,7 @@ TEST(TuneWorkspace, SearchAndGroupsChooseTheRows) {
   EXPECT_NE(ui.items.Find("field/tracking.min_coherence"), nullptr);  // search opens groups
   EXPECT_EQ(ui.items.Find("field/slad.cell_m"), nullptr);
   state.search[0] = '\0';
-  snap.preview_settings.slad.cell_m = 0.3;
+  snap.preview_settings.slad.grid.cell_m = 0.3;
   ui.Click("limits/changed", draw);
   ui.Frame(draw);
   EXPECT_NE(ui.items.Find("field/slad.cell_m"), nullptr);

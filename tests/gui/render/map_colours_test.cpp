@@ -79,9 +79,12 @@ TEST(MapColoursTest, PictureKeepsRowZeroInTheNorth) {
 TEST(MapColoursTest, RangesFollowTheLimits) {
   SladSettings settings;
   const MapRanges ranges = RangesFor(settings, {-0.5F, 1.5F});
-  EXPECT_FLOAT_EQ(ranges.slope_rad.high, static_cast<float>(Rad(2 * settings.max_slope_deg)));
-  EXPECT_FLOAT_EQ(ranges.roughness_m.high, static_cast<float>(2.5 * settings.max_deviation_m));
-  EXPECT_FLOAT_EQ(ranges.safe_distance_m.high, static_cast<float>(2.5 * settings.clear_radius_m()));
+  EXPECT_FLOAT_EQ(ranges.slope_rad.high,
+                  static_cast<float>(Rad(2 * settings.limits.max_slope_deg)));
+  EXPECT_FLOAT_EQ(ranges.roughness_m.high,
+                  static_cast<float>(2.5 * settings.limits.max_deviation_m));
+  EXPECT_FLOAT_EQ(ranges.safe_distance_m.high,
+                  static_cast<float>(2.5 * settings.lander.clear_radius_m()));
   EXPECT_FLOAT_EQ(ranges.cost.high, 1.0F);
 }
 

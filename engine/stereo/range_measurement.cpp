@@ -1,0 +1,34 @@
+#include "engine/stereo/range_measurement.h"
+
+#include "engine/stereo/prefilter.h"
+
+namespace palace {
+namespace {
+
+DisparityWindow WindowOf(const RigExposure& exposure, const StereoSettings& settings) {
+  if (exposure.rig.num_disparities > 0) {
+    return {exposure.rig.min_disparity_px, exposure.rig.num_disparities};
+  }
+  if (!exposure.pose) {
+    return {0, settings.num_disparities};
+  }
+  return PredictWindow(exposure.rectifier.camera(), exposure.rectifier.baseline_m(),
+                       exposure.pose->X_WC, exposure.ground_height_m, kTallestObject_m, settings);
+}
+
+}  // namespace
+
+Result<StereoResult> MeasureRanges(const RigExposure& exposure, const StereoSettings& settings,
+                                   StereoMatcher& matcher) {
+  const StereoRectifier& rectifier = exposure.rectifier;
+  const auto filtered = FilterThenRectify(exposure.raw, rectifier, settings);
+  Result<StereoResult> result = matcher.Match(
+      *exposure.pair.left, *exposure.pair.right, rectifier.camera(), rectifier.baseline_m(),
+      WindowOf(exposure, settings), settings, exposure.raw.time, filtered ? &*filtered : nullptr);
+  if (result) {
+    result->range.pose = exposure.pose;
+  }
+  return result;
+}
+
+}  // namespace palace
