@@ -45,6 +45,15 @@ std::string LinkText(const EngineSnapshot& snap, bool narrow) {
   return text;
 }
 
+/// Pictures that came and were not looked at, because newer ones had come; empty while there are
+/// none.
+std::string ReplacedText(const EngineSnapshot& snap) {
+  const std::uint64_t replaced = snap.losses.pairs_replaced;
+  return replaced == 0
+             ? ""
+             : std::to_string(replaced) + (replaced == 1 ? " pair" : " pairs") + " overtaken";
+}
+
 /// Simulated time starts at an epoch of its own; only live and recorded clocks are UTC.
 const char* ClockName(const EngineSnapshot& snap) {
   switch (snap.source.kind) {
@@ -127,7 +136,7 @@ void DrawStatusBarPanel(const EngineSnapshot& snap, const FrameLayout& layout,
     }
   }
   const std::string limits = state.preset_name + " · " + ShortHash(snap.settings_hash);
-  std::vector<std::string> left = {LinkText(snap, narrow),
+  std::vector<std::string> left = {LinkText(snap, narrow), ReplacedText(snap),
                                    RecordingText(snap, narrow),
                                    narrow ? limits : "Limits " + limits};
   if (!narrow) {

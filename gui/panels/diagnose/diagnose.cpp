@@ -222,7 +222,10 @@ void DrawDiagnoseWorkspace(const EngineSnapshot& snap, const Rect& body, Diagnos
   const float left = std::floor((body.w - 2 * gap) * 0.32f);
   const float middle = std::floor((body.w - 2 * gap) * 0.36f);
   const float health_h = std::min(s.Px(262), std::round(body.h * 0.4f));
-  DrawEvents(snap, {body.x, body.y, left, body.h - health_h - gap}, state, ui);
+  const float losses_h = LossesHeight(snap, s, std::round(body.h * 0.25f));
+  const float losses_y = body.bottom() - health_h - gap - losses_h;
+  DrawEvents(snap, {body.x, body.y, left, losses_y - gap - body.y}, state, ui);
+  DrawLosses(snap, {body.x, losses_y, left, losses_h}, ui);
   DrawStereoHealth(snap, {body.x, body.bottom() - health_h, left, health_h}, ui);
   const float x = body.x + left + gap;
   const auto rows_h = [&](std::size_t rows, float head) {

@@ -20,6 +20,9 @@ void DrawAlarmTable(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui);
 void DrawCameraTable(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui);
 /// What the last pair says about the cameras: coverage, rows, brightness, scale against the laser.
 void DrawStereoHealth(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui);
+/// What did not get through the doors, and what each means; and the height that it needs.
+void DrawLosses(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui);
+float LossesHeight(const EngineSnapshot& snap, const Style& style, float most);
 /// Figures of the candidates of the newest map.
 void DrawSiteTable(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui);
 void DrawDiagnoseWorkspace(const EngineSnapshot& snap, const Rect& body, DiagnoseState& state,

@@ -340,5 +340,25 @@ TEST(FlyEmpty, ASnapshotWithNothingInItIsDrawnWithoutValues) {
   EXPECT_FALSE(window.ui.items.Find("approve")->enabled);
 }
 
+TEST(StatusBar, CountsPicturesThatWereOvertaken) {
+  for (const std::uint64_t replaced : {0, 1, 31}) {
+    EngineSnapshot snap = fake::Snapshot(MissionState::kProposed);
+    snap.losses.pairs_replaced = replaced;
+    for (const ImVec2 size : {ImVec2(1280, 720), ImVec2(1920, 1080)}) {
+      SCOPED_TRACE(size.x);
+      FlyWindow window(size.x, size.y, snap);
+      std::string said;
+      for (const Item& item : window.ui.items.items()) {
+        if (item.name == "text" && item.text.find("overtaken") != std::string::npos) {
+          said = item.text;
+        }
+      }
+      EXPECT_EQ(said, replaced == 0   ? ""
+                      : replaced == 1 ? "1 pair overtaken"
+                                      : "31 pairs overtaken");
+    }
+  }
+}
+
 }  // namespace
 }  // namespace palace

@@ -276,6 +276,45 @@ TEST(DiagnoseWorkspace, EachCameraHasItsCounters) {
   }
 }
 
+TEST(DiagnoseWorkspace, EveryLossHasItsCountAndItsMeaning) {
+  EngineSnapshot snap = fake::Snapshot(MissionState::kProposed);
+  const auto draw = [&](UiHarness& ui, const WindowSize& size) {
+    DiagnoseState state;
+    const Rect body = BodyOf(size.width, size.height);
+    ui.Frame([&](UiFrame& f) { DrawDiagnoseWorkspace(snap, body, state, f); });
+    ExpectTextsInPanels(ui.items);
+    ExpectPanelsApart(ui.items, body);
+  };
+  const auto count = [](const UiHarness& ui) {
+    return std::count_if(ui.items.items().begin(), ui.items.items().end(),
+                         [](const Item& item) { return item.name.rfind("loss/", 0) == 0; });
+  };
+  for (const WindowSize& size : kWindowSizes) {
+    SCOPED_TRACE(size.name);
+    UiHarness quiet(size.width, size.height);
+    snap.losses = {};
+    draw(quiet, size);
+    EXPECT_EQ(count(quiet), 0);
+    snap.losses = {.pairs_replaced = 31,
+                   .pictures_unpaired = 2,
+                   .pairs_without_rig = 3,
+                   .bundles_missing = 4,
+                   .samples_missing = 5,
+                   .samples_overflowed = 6,
+                   .datagrams_refused = 7,
+                   .undecodable = {{"CAMERA_LEFT", 8}, {"VEHICLE_POSE", 1}},
+                   .messages_unsent = 10,
+                   .records_dropped = 11};
+    UiHarness ui(size.width, size.height);
+    draw(ui, size);
+    EXPECT_EQ(count(ui), 10);
+    ASSERT_NE(ui.items.Find("loss/Undecodable"), nullptr);
+    EXPECT_EQ(ui.items.Find("loss/Undecodable")->text, "9: Refused: CAMERA_LEFT 8, VEHICLE_POSE 1");
+    ASSERT_NE(ui.items.Find("loss/Pairs overtaken"), nullptr);
+    EXPECT_EQ(ui.items.Find("loss/Pairs overtaken")->text.rfind("31: ", 0), 0u);
+  }
+}
+
 TEST(DiagnoseWorkspace, StereoHealthNamesWhatIsWrong) {
   EngineSnapshot snap = fake::Snapshot(MissionState::kProposed);
   const auto health = [&](const char* row) {
