@@ -25,7 +25,7 @@ AlarmFacts AllMeasured() {
   return f;
 }
 
-/// Raised by this fact alone; the conditions of the others stay as they are.
+/// The text of this alarm under these facts; empty when it is not raised.
 std::string TextOf(const AlarmRow& row, const AlarmFacts& facts) {
   for (const AlarmCondition& condition : EvaluateAlarms(facts)) {
     if (condition.id == row.id && condition.present) {
@@ -112,7 +112,7 @@ TEST(GuardTable, HasEachGuardOnceInOrder) {
   }
 }
 
-// Whatever a guard is told, it fails by default: evidence passes, silence does not (I3).
+// Evidence passes, silence does not (I3).
 TEST(GuardTable, NothingKnownPassesNothingThatNeedsEvidence) {
   const std::set<GuardId> silent = {GuardId::kWarnings, GuardId::kSource};
   for (const GuardResult& result : EvaluateGuards(GuardInputs{})) {
@@ -179,7 +179,7 @@ TEST(AlarmTable, AStalePoseIsToldAtTheLimitThatBlocks) {
             "Vehicle pose stale, 0.5 s, limit 0.2 s. Approve is blocked.");
 }
 
-// A late picture flickers; a camera that repeats itself does not. Both take three pairs.
+// One odd pair is chance, and one good pair is no cure.
 TEST(PictureWatch, AFaultStandsAfterThreePairsAndGoesTheSameWay) {
   StereoQuality bad, good;
   bad.suspect_swapped = true;
