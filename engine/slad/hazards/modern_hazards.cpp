@@ -276,7 +276,7 @@ void MeasureModern(const ElevationMap& map, const SladSettings& settings, Terrai
   figures.measured = Grid<std::uint8_t>(rows, cols, 0);
   const FootprintPlanes planes =
       FitFootprintPlanes(map, settings.lander_base_size_m, figures.flags);
-  const Disc disc(std::max(1.5, settings.lander_radius_m() / map.geometry.cell_m));
+  const Disc disc(std::max(kLeastDisc_cells, settings.lander_radius_m() / map.geometry.cell_m));
   Layers layers(rows, cols, disc.reach);
   const float reference = ReferenceOf(planes);
   FillLayers(map, planes, reference, layers);

@@ -36,7 +36,7 @@ SettledPlace SettleAround(const ElevationMap& map, const SladSettings& settings,
                           const LandingSite& site) {
   const double cell_m = map.geometry.cell_m;
   const double corner_m = std::hypot(settings.gear_length_m, settings.gear_width_m) / 2;
-  const double radius_m = std::max(settings.lander_radius_m(), 1.5 * cell_m);
+  const double radius_m = std::max(settings.lander_radius_m(), kLeastDisc_cells * cell_m);
   // A huge lander is looked at over the map's width, where it cannot stand anyway.
   const int widest = std::max(map.geometry.rows, map.geometry.cols) + 2;
   const int reach = static_cast<int>(

@@ -18,6 +18,14 @@
 namespace palace {
 namespace {
 
+/// Places that touch and are as good as the best to within so many cells are equal.
+constexpr double kEqual_cells = 0.75;
+// Weights that break ties of safe distance, within one cell's worth of it, the resolution of the
+// first criterion: of the cost, and of nearness to the middle of the picture.
+constexpr double kCostWeight_cells = 0.4, kMiddleWeight_cells = 0.05;
+constexpr double kDistanceWeight_per_m = 1e-3;  // breaks ties of cost
+constexpr std::size_t kTriesPerSite = 3;        // places looked at for each site kept
+
 /// Cost averaged over 3x3 cells, so that a lone cheap cell beside dear ones does not win (4.3.3).
 double SmoothedCost(const GridF& cost, Cell cell) {
   double sum = 0;
@@ -68,7 +76,7 @@ class Candidates {
              const SiteContext& context)
       : rows_(static_cast<std::size_t>(map.geometry.rows)),
         as_good_(settings.mode == SladMode::kModern && settings.choice == SiteChoice::kFarthest
-                     ? 0.75 * map.geometry.cell_m
+                     ? kEqual_cells * map.geometry.cell_m
                      : 0) {
     const OffCentre off_centre(context);
     const float clear_m = static_cast<float>(settings.clear_radius_m());
@@ -84,11 +92,10 @@ class Candidates {
           }
           const double distance_m = static_cast<double>(distances_m[c]);
           const double cost = SmoothedCost(hazards.cost, cell);
-          // Ties are broken within one cell's worth of distance, the first criterion's resolution.
-          const double tie = -0.05 * off_centre.At(map, cell);
+          const double tie = -kMiddleWeight_cells * off_centre.At(map, cell);
           const double score = settings.choice == SiteChoice::kFarthest
-                                   ? distance_m + cell_m * (0.4 * (1 - cost) + tie)
-                                   : -cost + 1e-3 * (distance_m + tie);
+                                   ? distance_m + cell_m * (kCostWeight_cells * (1 - cost) + tie)
+                                   : -cost + kDistanceWeight_per_m * (distance_m + tie);
           if (score > kNone) {
             row.left.push_back({c, false, score});
           }
@@ -285,9 +292,9 @@ SiteSelection SelectSites(const ElevationMap& map, const HazardMaps& hazards,
   // How a site turns out does not change which cells come next: as many as are still wanted are
   // looked at side by side.
   std::size_t tried = 0;
-  while (selection.sites.size() < kept && tried < 3 * kept) {
-    const std::vector<Cell> cells =
-        candidates.Take(std::min(kept - selection.sites.size(), 3 * kept - tried), spacing_cells);
+  while (selection.sites.size() < kept && tried < kTriesPerSite * kept) {
+    const std::vector<Cell> cells = candidates.Take(
+        std::min(kept - selection.sites.size(), kTriesPerSite * kept - tried), spacing_cells);
     if (cells.empty()) {
       break;
     }

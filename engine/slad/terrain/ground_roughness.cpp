@@ -12,6 +12,7 @@ namespace {
 
 constexpr double kBlock_m = 1.5;
 constexpr int kLeastBlock = 10;
+constexpr std::size_t kKnownOneIn = 4;  // cells of a block
 
 int BlockCells(double cell_m) {
   const double cells = std::ceil(kBlock_m / cell_m - 1e-9);
@@ -44,7 +45,8 @@ GroundRoughness::GroundRoughness(const GridF& stands_m, double cell_m)
       Collect(stands_m, r * block_, c * block_, block_, known);
       const int rows = std::min(block_, stands_m.rows() - r * block_);
       const int cols = std::min(block_, stands_m.cols() - c * block_);
-      if (4 * known.size() >= static_cast<std::size_t>(rows) * static_cast<std::size_t>(cols)) {
+      if (kKnownOneIn * known.size() >=
+          static_cast<std::size_t>(rows) * static_cast<std::size_t>(cols)) {
         own.at(r, c) = UpperMedian(known);
       }
     }

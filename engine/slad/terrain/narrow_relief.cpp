@@ -25,6 +25,7 @@ constexpr double kRingRoughs = 3.5, kGroundRoughs = 4;
 constexpr double kClearRingRoughs = 10;  // of many things on even ground
 constexpr double kRepeats = 2.5;         // what stereo repeats at worst, over its usual sigma
 constexpr double kRingWindows = 1.25;    // nearer, the window smears the thing onto the ring
+constexpr double kLeastRing_cells = 2;
 constexpr double kMostFactor = 6;
 constexpr double kSteepFactor = 4;
 constexpr double kTallest_m = 1;
@@ -145,7 +146,8 @@ class MatchingWindow {
 
   Ring RingAt(const ElevationMap& map, Cell cell) const {
     const double radius_m = kRingWindows * Width_m(map, cell) + narrow_m_ / 2;
-    return RingAround(map, directions_, cell, std::max(2.0, radius_m / map.geometry.cell_m));
+    return RingAround(map, directions_, cell,
+                      std::max(kLeastRing_cells, radius_m / map.geometry.cell_m));
   }
 
  private:

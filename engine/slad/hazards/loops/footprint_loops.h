@@ -34,6 +34,10 @@ void DiscDeviationRow(const DiscRows& disc, const float* plane, const float* eas
   }
 }
 
+/// The cell that stands off the ground makes the step, not its level neighbour: one that stands off
+/// by less than this share of what the neighbour does makes none.
+constexpr float kMakesStep = 0.9F;
+
 void StepRow(const StepRows& rows, int count, float* most2, float* at_cell2) {
   const FloatLanes none = Fill(-kNever), never = Fill(kNever);
   for (int c = 0; c < count; c += FloatLanes::kCount) {
@@ -53,9 +57,8 @@ void StepRow(const StepRows& rows, int count, float* most2, float* at_cell2) {
       const FloatLanes step2 =
           Select(Less(near_noise2, never), rise * rise - noise2 - near_noise2, none);
       most = Max(step2, most);
-      // The cell that stands off the ground makes the step, not its level neighbour.
       const FloatLanes near_off = Abs(near_height - Load(rows.plane[1 + dr] + near));
-      at_cell = Select(Less(own_off, Fill(0.9F) * near_off), at_cell, Max(step2, at_cell));
+      at_cell = Select(Less(own_off, Fill(kMakesStep) * near_off), at_cell, Max(step2, at_cell));
     }
     const LaneMask known = Less(noise2, never);
     Store(most2 + c, Select(known, most, none));
