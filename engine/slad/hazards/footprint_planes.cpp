@@ -183,8 +183,8 @@ FootprintPlanes UnknownPlanes(const GridGeometry& geometry) {
 }
 
 /// Beside a raised surface the ground keeps its own plane, wherever it spans one.
-void TakeGround(const FootprintPlanes& ground, const Grid<std::uint8_t>& flags,
-                FootprintPlanes& planes) {
+void PreferGroundPlanes(const FootprintPlanes& ground, const Grid<std::uint8_t>& flags,
+                        FootprintPlanes& planes) {
   for (std::size_t i = 0; i < flags.cells().size(); ++i) {
     if ((flags.cells()[i] & kFlagElevated) != 0 || std::isnan(ground.plane.height_m.cells()[i])) {
       continue;
@@ -217,7 +217,7 @@ FootprintPlanes FitFootprintPlanes(const ElevationMap& map, double footprint_dia
   }
   Run(fits);
   if (any_raised) {
-    TakeGround(ground, flags, planes);
+    PreferGroundPlanes(ground, flags, planes);
   }
   return planes;
 }

@@ -114,8 +114,8 @@ class Candidates {
       if (!cell) {
         break;
       }
-      const Cell middle = MiddleOfEquals(*cell);
-      DropAround(middle, spacing_cells);
+      const Cell middle = MiddleOfPlateau(*cell);
+      SuppressAround(middle, spacing_cells);
       taken.push_back(middle);
     }
     return taken;
@@ -126,7 +126,7 @@ class Candidates {
 
   struct Candidate {
     int col = -1;
-    bool counted = false;  ///< by MiddleOfEquals
+    bool counted = false;  ///< by MiddleOfPlateau
     double score = kNone;
   };
   struct Row {
@@ -160,7 +160,7 @@ class Candidates {
 
   /// Along a ridge of safe distance it is chance, of a centimetre, which cell is the best: taken is
   /// the cell nearest to the middle of all that touch it and are as good.
-  Cell MiddleOfEquals(Cell best) {
+  Cell MiddleOfPlateau(Cell best) {
     if (as_good_ == 0) {
       return best;
     }
@@ -200,7 +200,7 @@ class Candidates {
   }
 
   /// Drops the cell and all nearer to it than the spacing.
-  void DropAround(Cell cell, double spacing_cells) {
+  void SuppressAround(Cell cell, double spacing_cells) {
     const int reach = static_cast<int>(std::min(spacing_cells, 1e6)) + 1;
     const double square = spacing_cells * spacing_cells;
     const int last = std::min(static_cast<int>(rows_.size()) - 1, cell.row + reach);

@@ -9,28 +9,28 @@ namespace palace {
 namespace {
 
 void DiscDeviationRow(const DiscRows& disc, const float* plane, const float* east,
-                      const float* south, int count, float* square, float* settled_off) {
+                      const float* south, int count, float* square, float* denoised_off) {
   const FloatLanes stride = Fill(static_cast<float>(disc.stride));
   for (int c = 0; c < count; c += FloatLanes::kCount) {
-    FloatLanes most = Load(square + c), settled_most = Load(settled_off + c);
+    FloatLanes most = Load(square + c), denoised_most = Load(denoised_off + c);
     const FloatLanes slope = Load(east + c);
     for (int i = 0; i < disc.rows; ++i) {
       const FloatLanes base =
           Load(plane + c) + Load(south + c) * Fill(static_cast<float>(disc.row_offset[i]));
       const float* height = disc.height[i] + c;
       const float* noise2 = disc.noise2[i] + c;
-      const float* settled = disc.settled[i] + c;
+      const float* denoised = disc.denoised[i] + c;
       FloatLanes aside = Fill(static_cast<float>(-disc.half[i]));
       for (int dc = -disc.half[i]; dc <= disc.half[i]; dc += disc.stride) {
         const FloatLanes rise = slope * aside;
         const FloatLanes off = Load(height + dc) - base - rise;
         most = Max(off * off - Load(noise2 + dc), most);
-        settled_most = Max(Abs(Load(settled + dc) - base - rise), settled_most);
+        denoised_most = Max(Abs(Load(denoised + dc) - base - rise), denoised_most);
         aside = aside + stride;
       }
     }
     Store(square + c, most);
-    Store(settled_off + c, settled_most);
+    Store(denoised_off + c, denoised_most);
   }
 }
 
@@ -73,7 +73,7 @@ inline float BeyondNoise(float off, float noise2) {
   return off < 0 ? -size : size;
 }
 
-void SettleRow(const SettleRows& rows, int count, float* __restrict__ settled) {
+void DenoiseRow(const DenoiseRows& rows, int count, float* __restrict__ denoised) {
   // Nine sigmas^2. The mean of nine cells, of which neighbours share their noise, keeps 0.31 of it.
   constexpr float kBroad = 9 * 0.31F, kFine = 9 * 0.69F;
   const float *h0 = rows.height[0], *h1 = rows.height[1], *h2 = rows.height[2];
@@ -92,7 +92,7 @@ void SettleRow(const SettleRows& rows, int count, float* __restrict__ settled) {
     const float variance = rows.variance_m2[c];
     const float height = rows.plane[c] + BeyondNoise(around, kBroad * variance) +
                          BeyondNoise(rest, kFine * variance);
-    settled[c] = k1[c] > 0 ? height : 0.0F;
+    denoised[c] = k1[c] > 0 ? height : 0.0F;
   }
 }
 
