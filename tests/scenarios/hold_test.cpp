@@ -8,7 +8,7 @@
 #include "engine/journal/log_writer.h"
 #include "engine/runtime/engine.h"
 #include "engine/runtime/scripted_operator.h"
-#include "engine/simulation/simulator.h"
+#include "engine/simulation/session.h"
 #include "gui/platform/offscreen_scene_camera.h"
 #include "tests/scenarios/scenario.h"
 
@@ -89,24 +89,14 @@ class GatedVehicle final : public Source, public VehicleLink {
   bool in_pass_ = false;
 };
 
-std::shared_ptr<Simulator> MakeSimulator(const PublicKey& key) {
-  SimulatorOptions simulation;
-  simulation.scene = MakeScene("runway", 1).value();
-  simulation.seed = 1;
-  simulation.verify = [key, state = std::make_shared<VerifierState>()](
-                          const Approval& approval, Timestamp now, std::uint64_t boot) {
-    return VerifyApproval(approval, key, *state, now, boot);
-  };
-  return std::make_shared<Simulator>(std::move(simulation), MakeOffscreenSceneCamera);
-}
-
 using Hold = Scenario;
 
 TEST_F(Hold, LeavesWithoutAFrameOrAPassAndIsReplayedAsFlown) {
   EngineParts parts;
-  parts.mission.signer = ApprovalSigner::FromSeed(1);
-  const auto vehicle =
-      std::make_shared<GatedVehicle>(MakeSimulator(parts.mission.signer.public_key()));
+  const SimulatedSession session =
+      OpenSimulatedSession({.seed = 1}, MakeOffscreenSceneCamera).value();
+  parts.mission.signer = session.signer;
+  const auto vehicle = std::make_shared<GatedVehicle>(session.simulator);
   parts.source = vehicle;
   parts.link = vehicle;
   auto recorder = FlightRecorder::Open(folder_, "flight");

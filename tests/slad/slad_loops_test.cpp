@@ -63,11 +63,11 @@ Floats Results(const SladLoops& loops, std::uint64_t seed) {
   keep(gap);
   const int offset[] = {-1, 0, 1}, half[] = {2, 3, 2};
   const float* heights[] = {a.data() + kMargin, b.data() + kMargin, c.data() + kMargin};
-  Floats settled_off(size);
+  Floats denoised_off(size);
   loops.disc_deviation({3, 1, offset, half, heights, heights, heights}, b.data(), c.data(),
-                       d.data(), count, most.data(), settled_off.data());
+                       d.data(), count, most.data(), denoised_off.data());
   keep(most);
-  keep(settled_off);
+  keep(denoised_off);
   Floats at_cell(size);
   const float* noises[] = {d.data() + kMargin, c.data() + kMargin, d.data() + kMargin};
   loops.steps({{heights[0], heights[1], heights[2]},
@@ -80,13 +80,13 @@ Floats Results(const SladLoops& loops, std::uint64_t seed) {
   keep(at_cell);
   const Floats ones(size, 1.0F);
   const float* known = ones.data() + kMargin;
-  loops.settle({{heights[0], heights[1], heights[2]},
-                {known, known, known},
-                b.data() + kMargin,
-                a.data() + kMargin,
-                d.data() + kMargin,
-                d.data() + kMargin},
-               count, most.data());
+  loops.denoise({{heights[0], heights[1], heights[2]},
+                 {known, known, known},
+                 b.data() + kMargin,
+                 a.data() + kMargin,
+                 d.data() + kMargin,
+                 d.data() + kMargin},
+                count, most.data());
   keep(most);
   const int reach = 4, pitch = count + 2 * reach;
   std::vector<double> columns(std::size_t(kMoments * pitch)),
@@ -221,7 +221,7 @@ TEST(SladLoops, SlopeIsTheAngleToTheUpVector) {
 
 /// Chance that a touchdown is safe by the loops, from one figure each.
 struct Figures {
-  float slope = 0, slope_sigma = 1e-4F, deviation = 0, step = 0, sigma = 0, settled = 0, tilt = 0,
+  float slope = 0, slope_sigma = 1e-4F, deviation = 0, step = 0, sigma = 0, denoised = 0, tilt = 0,
         rise = 0;
 };
 double SafeProbability(const Figures& f) {
@@ -229,17 +229,18 @@ double SafeProbability(const Figures& f) {
   const unsigned char measured = 1;
   float probability = 0, cost = 0;
   unsigned char reasons = 0;
-  FastestSladLoops().modern_verdict({0.2F, 0.1F, 0.15F, 0.99F, 0.05F, 0.35F, 0.9F},
-                                    {&f.slope, &f.slope_sigma, &f.deviation, &f.step, &f.sigma,
-                                     &f.settled, &f.tilt, &f.rise, &none, &none, &small, &measured},
-                                    1, {&probability, &cost, &reasons});
+  FastestSladLoops().modern_verdict(
+      {0.2F, 0.1F, 0.15F, 0.99F, 0.05F, 0.35F, 0.9F},
+      {&f.slope, &f.slope_sigma, &f.deviation, &f.step, &f.sigma, &f.denoised, &f.tilt, &f.rise,
+       &none, &none, &small, &measured},
+      1, {&probability, &cost, &reasons});
   return double(probability);
 }
 
 TEST(SladLoops, ProbabilityFallsWithEveryFigureAndWithNoise) {
   EXPECT_GT(SafeProbability({}), 0.999);
   for (float Figures::*figure : {&Figures::slope, &Figures::step, &Figures::sigma,
-                                 &Figures::settled, &Figures::tilt, &Figures::rise}) {
+                                 &Figures::denoised, &Figures::tilt, &Figures::rise}) {
     double last = 1;
     for (float value = 0; value < 0.6F; value += 0.002F) {
       Figures f;

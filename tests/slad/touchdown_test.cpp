@@ -249,7 +249,7 @@ TEST(Touchdown, UnknownGroundUnderTheGearIsNeverSafe) {
 }
 
 TEST(Touchdown, TiltBeyondNoiseStaysNearTheTrueTilt) {
-  // Monte Carlo: the gear on settled heights, against the gear on the ground itself.
+  // Monte Carlo: the gear on denoised heights, against the gear on the ground itself.
   const SladSettings settings;
   const Height ground = WithBox(Slope(Rad(4), 1), 0.1, 0.5, 0.6, 0.2);
   const GearOverMap exact(MakeMap(41, 41, kCell_m, ground).height_m, kCell_m, settings.lander);

@@ -12,8 +12,12 @@
 namespace palace {
 namespace {
 
-/// Cells this far off their plane are kept whatever their noise.
+/// Cells this far off their plane are kept whatever their noise; those farther off by so many
+/// sigmas and shares of the plane's scatter, above it and below it, are not.
 constexpr float kKeep_m = 0.02F;
+constexpr float kKeepSigmas = 3;
+constexpr float kKeepAbove = 0.5F, kKeepBelow = 1.5F;
+constexpr double kLeastHalf_cells = 2;  // of the window: of nine cells no fit is robust
 constexpr int kPasses = 3;
 /// Stereo's windows share their error over about this length: farther cells err by themselves.
 constexpr double kCorrelationLength_m = 0.6;
@@ -38,7 +42,8 @@ class FootprintFit {
     // whole map.
     const double side = diameter_m * std::sqrt(M_PI) / 2 / map.geometry.cell_m;
     const double widest = std::max(rows_, cols_);
-    half_ = static_cast<int>(std::clamp(std::round((side - 1) / 2), 2.0, std::max(2.0, widest)));
+    half_ = static_cast<int>(std::clamp(std::round((side - 1) / 2), kLeastHalf_cells,
+                                        std::max(kLeastHalf_cells, widest)));
     double sum = 0;
     int count = 0;
     for (int r = 0; r < rows_; ++r) {
@@ -100,11 +105,11 @@ class FootprintFit {
           continue;
         }
         const float off_m = height_m_.at(r, c) - plane_m;
-        const float keep_m = 3 * std::sqrt(variance_m2_.at(r, c)) + kKeep_m;
+        const float keep_m = kKeepSigmas * std::sqrt(variance_m2_.at(r, c)) + kKeep_m;
         // An obstacle lifts the plane of the ground beside it: ground then lies far below its own
         // plane and must stay, the obstacle stands above it and must go.
         const bool outlier =
-            off_m > keep_m + 0.5F * scatter_m || off_m < -keep_m - 1.5F * scatter_m;
+            off_m > keep_m + kKeepAbove * scatter_m || off_m < -keep_m - kKeepBelow * scatter_m;
         weight_.at(r, c) = outlier ? 0.0F : FullWeight(r, c);
       }
     }
@@ -178,8 +183,8 @@ FootprintPlanes UnknownPlanes(const GridGeometry& geometry) {
 }
 
 /// Beside a raised surface the ground keeps its own plane, wherever it spans one.
-void TakeGround(const FootprintPlanes& ground, const Grid<std::uint8_t>& flags,
-                FootprintPlanes& planes) {
+void PreferGroundPlanes(const FootprintPlanes& ground, const Grid<std::uint8_t>& flags,
+                        FootprintPlanes& planes) {
   for (std::size_t i = 0; i < flags.cells().size(); ++i) {
     if ((flags.cells()[i] & kFlagElevated) != 0 || std::isnan(ground.plane.height_m.cells()[i])) {
       continue;
@@ -212,7 +217,7 @@ FootprintPlanes FitFootprintPlanes(const ElevationMap& map, double footprint_dia
   }
   Run(fits);
   if (any_raised) {
-    TakeGround(ground, flags, planes);
+    PreferGroundPlanes(ground, flags, planes);
   }
   return planes;
 }

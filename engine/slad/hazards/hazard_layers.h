@@ -9,6 +9,9 @@
 
 namespace palace {
 
+/// A lander smaller than its cells is looked at over a disc of at least this radius.
+inline constexpr double kLeastDisc_cells = 1.5;
+
 /// Fills the layers of modern mode.
 void MeasureModern(const ElevationMap& map, const Lander& lander, TerrainFigures& figures);
 

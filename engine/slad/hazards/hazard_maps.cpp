@@ -124,7 +124,7 @@ class Judge {
         limits_,
         {hazards_.slope_rad.row(r), figures_.slope_sigma_rad.row(r),
          figures_.footprint_deviation_m.row(r), figures_.footprint_step_m.row(r),
-         figures_.footprint_sigma_m.row(r), figures_.settled_deviation_m.row(r),
+         figures_.footprint_sigma_m.row(r), figures_.denoised_deviation_m.row(r),
          figures_.gear_tilt_rad.row(r), figures_.belly_rise_m.row(r), figures_.deviation_m.row(r),
          figures_.step_m.row(r), figures_.sigma_m.row(r), figures_.measured.row(r)},
         cols, {hazards_.safe_probability.row(r), hazards_.cost.row(r), hazards_.reasons.row(r)});
@@ -153,8 +153,8 @@ class Judge {
 
 /// The foot of an obstacle stands out less than the limit allows and belongs to the obstacle all
 /// the same: what touches a cell over a limit takes over its reason from this share of the limit on
-/// (two thresholds, as Canny 1986 follows edges), as far as a rock is wide.
-constexpr float kFootShare = 0.3F;
+/// (hysteresis, as Canny 1986 follows edges), as far as a rock is wide.
+constexpr float kLowThreshold = 0.3F;
 
 /// First column from c on with one of the wanted reasons, `cols` without; most cells have none.
 int NextWith(unsigned wanted, const std::uint8_t* reasons, int c, int cols) {
@@ -172,8 +172,8 @@ int NextWith(unsigned wanted, const std::uint8_t* reasons, int c, int cols) {
 }
 
 /// One reason spreads from the cells that have it.
-void SpreadFrom(std::vector<Cell> edge, HazardReason reason, int reach, float least_m,
-                const TerrainFigures& figures, HazardMaps& hazards) {
+void GrowFrom(std::vector<Cell> edge, HazardReason reason, int reach, float least_m,
+              const TerrainFigures& figures, HazardMaps& hazards) {
   std::vector<Cell> grown;
   for (int step = 0; step < reach && !edge.empty(); ++step) {
     grown.clear();
@@ -194,8 +194,8 @@ void SpreadFrom(std::vector<Cell> edge, HazardReason reason, int reach, float le
   }
 }
 
-void SpreadToFeet(const TerrainFigures& figures, const SladSettings& settings,
-                  HazardMaps& hazards) {
+void GrowByHysteresis(const TerrainFigures& figures, const SladSettings& settings,
+                      HazardMaps& hazards) {
   const GridGeometry& g = hazards.geometry;
   const int reach = static_cast<int>(std::min(settings.lander.max_rock_size_m / g.cell_m, 1e6));
   std::vector<Cell> rough, stepped;
@@ -212,9 +212,9 @@ void SpreadToFeet(const TerrainFigures& figures, const SladSettings& settings,
       }
     }
   }
-  const float least_m = kFootShare * static_cast<float>(settings.limits.max_deviation_m);
-  SpreadFrom(std::move(rough), kHazardRoughness, reach, least_m, figures, hazards);
-  SpreadFrom(std::move(stepped), kHazardStep, reach, least_m, figures, hazards);
+  const float least_m = kLowThreshold * static_cast<float>(settings.limits.max_deviation_m);
+  GrowFrom(std::move(rough), kHazardRoughness, reach, least_m, figures, hazards);
+  GrowFrom(std::move(stepped), kHazardStep, reach, least_m, figures, hazards);
 }
 
 HazardMaps LayersFor(const GridGeometry& geometry, const TerrainFigures& figures) {
@@ -282,7 +282,7 @@ HazardMaps JudgeTerrain(const GridGeometry& geometry, const TerrainFigures& figu
     }
   });
   if (settings.mode == SladMode::kModern) {
-    SpreadToFeet(figures, settings, hazards);
+    GrowByHysteresis(figures, settings, hazards);
   }
   hazards.safe_distance_m =
       SafeDistance(hazards.reasons, geometry.cell_m,

@@ -134,8 +134,8 @@ struct Disc {
 };
 
 /// Heights of all cells that have one, less their noise: what the gear is put down on.
-struct Settled {
-  Settled(int rows, int cols, int rim)
+struct Denoised {
+  Denoised(int rows, int cols, int rim)
       : height(rows, cols, 0, 0.0F),
         measured(rows, cols, rim, kUnknownValue),
         known(rows, cols, 0.0F) {}
@@ -144,8 +144,8 @@ struct Settled {
   GridF known;           ///< 1 or 0
 };
 
-void SettleHeights(const ElevationMap& map, const FootprintPlanes& planes, float reference,
-                   const Layers& layers, Settled& out) {
+void DenoiseHeights(const ElevationMap& map, const FootprintPlanes& planes, float reference,
+                    const Layers& layers, Denoised& out) {
   const SladLoops& loops = FastestSladLoops();
   const int rows = map.geometry.rows, cols = map.geometry.cols;
   RimmedLayer height(rows, cols, 1, 0.0F), known(rows, cols, 1, 0.0F);
@@ -159,13 +159,13 @@ void SettleHeights(const ElevationMap& map, const FootprintPlanes& planes, float
     }
   });
   ForRows(rows, [&](int r) {
-    loops.settle({{height.row(r - 1), height.row(r), height.row(r + 1)},
-                  {known.row(r - 1), known.row(r), known.row(r + 1)},
-                  layers.plane.row(r),
-                  layers.east.row(r),
-                  layers.south.row(r),
-                  map.variance_m2.row(r)},
-                 cols, out.height.row(r));
+    loops.denoise({{height.row(r - 1), height.row(r), height.row(r + 1)},
+                   {known.row(r - 1), known.row(r), known.row(r + 1)},
+                   layers.plane.row(r),
+                   layers.east.row(r),
+                   layers.south.row(r),
+                   map.variance_m2.row(r)},
+                  cols, out.height.row(r));
     for (int c = 0; c < cols; ++c) {
       if (map.state.at(r, c) == CellState::kMeasured) {
         out.measured.row(r)[c] = out.height.row(r)[c];
@@ -176,16 +176,16 @@ void SettleHeights(const ElevationMap& map, const FootprintPlanes& planes, float
 
 /// Largest deviation from the plane of each cell, and largest step, over its footprint disc.
 void FindFootprintMaxima(const GridGeometry& geometry, const Disc& disc, const Layers& layers,
-                         const Settled& settled, TerrainFigures& figures) {
+                         const Denoised& denoised, TerrainFigures& figures) {
   const SladLoops& loops = FastestSladLoops();
   const int cols = geometry.cols;
   ForRows(geometry.rows, [&](int r) {
     const std::size_t padded = static_cast<std::size_t>(cols + kLaneSlack);
     std::vector<float> deviation2(padded, -kNever), step2(padded, -kNever);
-    std::vector<float> settled_off(padded, 0.0F);
+    std::vector<float> denoised_off(padded, 0.0F);
     std::vector<float> work(padded + 2 * static_cast<std::size_t>(disc.reach));
     std::vector<int> row_offset, half;
-    std::vector<const float*> height, noise2, settled_height;
+    std::vector<const float*> height, noise2, denoised_height;
     for (std::size_t i = 0; i < disc.half.size(); ++i) {
       const int rr = r + disc.row_offset[i];
       if (rr >= 0 && rr < geometry.rows) {
@@ -193,30 +193,30 @@ void FindFootprintMaxima(const GridGeometry& geometry, const Disc& disc, const L
         half.push_back(disc.half[i]);
         height.push_back(layers.height.row(rr));
         noise2.push_back(layers.noise2.row(rr));
-        settled_height.push_back(settled.measured.row(rr));
+        denoised_height.push_back(denoised.measured.row(rr));
         loops.window_maximum(layers.step2.row(rr), disc.half[i], cols, work.data(), step2.data());
       }
     }
     loops.disc_deviation({static_cast<int>(half.size()), disc.stride, row_offset.data(),
-                          half.data(), height.data(), noise2.data(), settled_height.data()},
+                          half.data(), height.data(), noise2.data(), denoised_height.data()},
                          layers.plane.row(r), layers.east.row(r), layers.south.row(r), cols,
-                         deviation2.data(), settled_off.data());
+                         deviation2.data(), denoised_off.data());
     for (int c = 0; c < cols; ++c) {
       figures.footprint_deviation_m.at(r, c) = BeyondNoise(deviation2[static_cast<std::size_t>(c)]);
       figures.footprint_step_m.at(r, c) = BeyondNoise(step2[static_cast<std::size_t>(c)]);
-      const float off = settled_off[static_cast<std::size_t>(c)];
-      figures.settled_deviation_m.at(r, c) = BeyondNoise(off * off);
+      const float off = denoised_off[static_cast<std::size_t>(c)];
+      figures.denoised_deviation_m.at(r, c) = BeyondNoise(off * off);
     }
   });
 }
 
-void RestGear(const GridGeometry& geometry, const Settled& settled, const Lander& lander,
-              TerrainFigures& figures) {
+void MeasureGearTilt(const GridGeometry& geometry, const Denoised& denoised, const Lander& lander,
+                     TerrainFigures& figures) {
   GridF height_m(geometry.rows, geometry.cols, kUnknownValue);
   ForRows(geometry.rows, [&](int r) {
     for (int c = 0; c < geometry.cols; ++c) {
-      if (settled.known.at(r, c) > 0) {
-        height_m.at(r, c) = settled.height.row(r)[c];
+      if (denoised.known.at(r, c) > 0) {
+        height_m.at(r, c) = denoised.height.row(r)[c];
       }
     }
   });
@@ -269,18 +269,18 @@ void MeasureModern(const ElevationMap& map, const Lander& lander, TerrainFigures
   figures.north_gradient = figures.east_gradient = figures.slope_sigma_rad = unknown;
   figures.deviation_m = figures.sigma_m = figures.step_m = unknown;
   figures.footprint_deviation_m = figures.footprint_step_m = figures.footprint_sigma_m = unknown;
-  figures.settled_deviation_m = figures.gear_tilt_rad = figures.belly_rise_m = unknown;
+  figures.denoised_deviation_m = figures.gear_tilt_rad = figures.belly_rise_m = unknown;
   figures.measured = Grid<std::uint8_t>(rows, cols, 0);
   const FootprintPlanes planes = FitFootprintPlanes(map, lander.base_size_m, figures.flags);
-  const Disc disc(std::max(1.5, lander.radius_m() / map.geometry.cell_m));
+  const Disc disc(std::max(kLeastDisc_cells, lander.radius_m() / map.geometry.cell_m));
   Layers layers(rows, cols, disc.reach);
   const float reference = ReferenceOf(planes);
   FillLayers(map, planes, reference, layers);
   FindSteps(map.geometry, layers, figures.step_m);
-  Settled settled(rows, cols, disc.reach);
-  SettleHeights(map, planes, reference, layers, settled);
-  FindFootprintMaxima(map.geometry, disc, layers, settled, figures);
-  RestGear(map.geometry, settled, lander, figures);
+  Denoised denoised(rows, cols, disc.reach);
+  DenoiseHeights(map, planes, reference, layers, denoised);
+  FindFootprintMaxima(map.geometry, disc, layers, denoised, figures);
+  MeasureGearTilt(map.geometry, denoised, lander, figures);
   FindCellFigures(map, lander, planes, figures);
 }
 

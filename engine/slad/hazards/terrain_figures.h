@@ -27,9 +27,9 @@ struct TerrainFigures {
   GridF footprint_deviation_m;  ///< largest over the lander's disc, beyond noise
   GridF footprint_step_m;
   GridF footprint_sigma_m;      ///< mean over the disc, a rock's size averaged
-  GridF settled_deviation_m;    ///< largest over the disc of the settled heights
-  GridF gear_tilt_rad;          ///< of the gear on the settled heights, at its worst heading
-  GridF belly_rise_m;           ///< of settled heights under the belly above the gear's plane
+  GridF denoised_deviation_m;   ///< largest over the disc of the denoised heights
+  GridF gear_tilt_rad;          ///< of the gear on the denoised heights, at its worst heading
+  GridF belly_rise_m;           ///< of denoised heights under the belly above the gear's plane
   Grid<std::uint8_t> measured;  ///< 1 where the cell itself was measured
 
   /// Whether measuring again under these settings would give the same figures.

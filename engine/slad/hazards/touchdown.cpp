@@ -26,16 +26,17 @@ GearPoint PointAt(double north_m, double east_m, double cell_m, int pitch) {
            static_cast<float>(south * (1 - east)), static_cast<float>(south * east)}};
 }
 
-/// Settled heights (slad_loops.h) around a site, off its plane.
-struct SettledPlace {
+/// Denoised heights (slad_loops.h) around a site, off its plane.
+struct DenoisedPlace {
   GridF height_m;         ///< the site in the middle
   float deviation_m = 0;  ///< largest off the plane over the footprint
 };
 
-SettledPlace SettleAround(const ElevationMap& map, const Lander& lander, const LandingSite& site) {
+DenoisedPlace DenoiseAround(const ElevationMap& map, const Lander& lander,
+                            const LandingSite& site) {
   const double cell_m = map.geometry.cell_m;
   const double corner_m = std::hypot(lander.gear_length_m, lander.gear_width_m) / 2;
-  const double radius_m = std::max(lander.radius_m(), 1.5 * cell_m);
+  const double radius_m = std::max(lander.radius_m(), kLeastDisc_cells * cell_m);
   // A huge lander is looked at over the map's width, where it cannot stand anyway.
   const int widest = std::max(map.geometry.rows, map.geometry.cols) + 2;
   const int reach = static_cast<int>(
@@ -63,23 +64,23 @@ SettledPlace SettleAround(const ElevationMap& map, const Lander& lander, const L
       }
     }
   }
-  SettledPlace place{GridF(side, side, kUnknownValue)};
+  DenoisedPlace place{GridF(side, side, kUnknownValue)};
   const std::vector<float> level(static_cast<std::size_t>(padded), 0.0F);
-  std::vector<float> settled(static_cast<std::size_t>(padded));
+  std::vector<float> denoised(static_cast<std::size_t>(padded));
   for (int r = 0; r < side; ++r) {
     const auto row = [&](const GridF& layer, int south) { return layer.row(r + 1 + south) + 1; };
-    FastestSladLoops().settle({{row(height, -1), row(height, 0), row(height, 1)},
-                               {row(known, -1), row(known, 0), row(known, 1)},
-                               level.data(),
-                               level.data(),
-                               level.data(),
-                               variance.row(r)},
-                              side, settled.data());
+    FastestSladLoops().denoise({{row(height, -1), row(height, 0), row(height, 1)},
+                                {row(known, -1), row(known, 0), row(known, 1)},
+                                level.data(),
+                                level.data(),
+                                level.data(),
+                                variance.row(r)},
+                               side, denoised.data());
     for (int c = 0; c < side; ++c) {
       if (row(known, 0)[c] == 0) {
         continue;
       }
-      const float off = settled[static_cast<std::size_t>(c)];
+      const float off = denoised[static_cast<std::size_t>(c)];
       place.height_m.at(r, c) = off + step * (static_cast<float>(c - reach) * east -
                                               static_cast<float>(r - reach) * north);
       if (std::abs(off) > place.deviation_m &&
@@ -260,7 +261,7 @@ TouchdownOdds OddsOfTouchdown(const ElevationMap& map, const HazardMaps& hazards
   if (settings.mode == SladMode::kThesis || std::isnan(known) || site.p_WS.hasNaN()) {
     return odds;
   }
-  const SettledPlace place = SettleAround(map, settings.lander, site);
+  const DenoisedPlace place = DenoiseAround(map, settings.lander, site);
   const GearOverMap gear(place.height_m, map.geometry.cell_m, settings.lander);
   const Cell middle{place.height_m.rows() / 2, place.height_m.cols() / 2};
   // All figures but the gear's are those of the worst heading too.

@@ -65,7 +65,7 @@ class GearOverMap {
 };
 
 /// Worst and best heading of a touchdown at the site. The worst probability is the map's own; the
-/// headings are told apart on the settled heights off the site's plane. Headings run to pi: the
+/// headings are told apart on the denoised heights off the site's plane. Headings run to pi: the
 /// opposite one is as good. NaN in thesis mode, and where the map has none.
 TouchdownOdds OddsOfTouchdown(const ElevationMap& map, const HazardMaps& hazards,
                               const SladSettings& settings, const LandingSite& site);

@@ -11,6 +11,7 @@ namespace palace {
 namespace {
 
 constexpr std::array<TerrainFlag, 3> kBlockKinds = {kFlagNoTexture, kFlagShadow, kFlagMotion};
+constexpr int kFlaggedOneIn = 2;  // blocks of a cell
 
 /// How many blocks fell into a cell, and how many of them had each kind.
 struct CellCount {
@@ -92,7 +93,7 @@ Grid<std::uint8_t> SceneFlags::Add(const SceneView& view, const GridGeometry& ge
     const CellCount& count = counts.cells()[cell];
     seen.cells()[cell] = static_cast<std::uint8_t>(count.blocks > 0 ? looked_for : 0U);
     for (std::size_t k = 0; k < kBlockKinds.size(); ++k) {
-      if (count.blocks > 0 && 2 * count.flagged[k] >= count.blocks) {
+      if (count.blocks > 0 && kFlaggedOneIn * count.flagged[k] >= count.blocks) {
         found.cells()[cell] |= kBlockKinds[k];
       }
     }

@@ -67,7 +67,7 @@ void MeasureBlocks(const ImageF& disparity_px, SceneGround& ground) {
 
 /// Without what is narrower than five blocks: nearer things by the opening, then pits of wrong
 /// matches beside them by the closing.
-ImageF WithoutThinThings(const ImageF& measured_px) {
+ImageF OpenThenClose(const ImageF& measured_px) {
   const auto smaller = [](float a, float b) { return a < b ? a : b; };
   const auto larger = [](float a, float b) { return a > b ? a : b; };
   ImageF values = measured_px;
@@ -172,7 +172,7 @@ void MarkUsable(SceneGround& ground) {
   }
 }
 
-void LayRightOverLeft(const ImageU8& picture, SceneGround& ground) {
+void WarpRightToLeft(const ImageU8& picture, SceneGround& ground) {
   const int cols = ground.cols(), rows = ground.rows();
   const int width = picture.width();
   std::vector<float> line(static_cast<std::size_t>(cols));
@@ -233,14 +233,14 @@ SceneGround FindSceneGround(const SceneView& view) {
   ground.measured_px = ground.known_share = ground.disparity_px = ImageF(cols, rows);
   ground.usable = ImageU8(cols, rows, 0);
   MeasureBlocks(disparity_px, ground);
-  AverageSurface(WithoutThinThings(ground.measured_px), ground);
+  AverageSurface(OpenThenClose(ground.measured_px), ground);
   FillUnknown(ground.disparity_px);
   if (!std::isfinite(ground.disparity_px.at(0, 0))) {
     return {};
   }
   MarkUsable(ground);
   ground.right = ImageU8(width, height);
-  LayRightOverLeft(*view.right, ground);
+  WarpRightToLeft(*view.right, ground);
   return ground;
 }
 

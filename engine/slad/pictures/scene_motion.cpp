@@ -21,6 +21,7 @@ constexpr float kLeastChange_grey = 12;
 constexpr int kShift_blocks = 2;  // what the pose may leave over
 constexpr int kShiftStride_blocks = 4;
 constexpr int kLeastNeighbours = 5;  // of nine
+constexpr double kNearestPoint_m = 0.1;
 
 /// Where a block of the new view lies in the older one.
 struct Place {
@@ -56,7 +57,7 @@ std::vector<Place> Places(const SceneView& view, const SceneGround& ground,
       const Eigen::Vector3d p =
           X_OldW * PointAt(view, kBlock_px * i + kMiddle_px, kBlock_px * j + kMiddle_px,
                            static_cast<double>(disparity));
-      if (!(p.z() > 0.1)) {
+      if (!(p.z() > kNearestPoint_m)) {
         continue;
       }
       const double x = (camera.fx_px * p.x() / p.z() + camera.cx_px - kMiddle_px) / kBlock_px;

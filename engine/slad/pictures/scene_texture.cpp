@@ -18,7 +18,7 @@ constexpr float kLeastUsable = 8;           // blocks of the window
 constexpr float kShadow = 0.5F;             // of the median brightness
 constexpr double kLeastSize_m = 0.3;
 
-/// Sums over one block after its mean is taken out; sums over a window after Smear.
+/// Sums over one block after its mean is taken out; sums over a window after BoxSum.
 struct BlockSums {
   ImageF left;    ///< of squares
   ImageF right;   ///< of squares
@@ -61,7 +61,7 @@ BlockSums SumBlocks(const ImageU8& left, const SceneGround& ground) {
 }
 
 /// Replaces each value by the sum over its window; beyond the border nothing is added.
-void Smear(ImageF& values) {
+void BoxSum(ImageF& values) {
   const int cols = values.width(), rows = values.height();
   ImageF along(cols, rows, 0.0F);
   for (int j = 0; j < rows; ++j) {
@@ -88,7 +88,7 @@ void Smear(ImageF& values) {
 float MedianOf(std::vector<float> values) { return values.empty() ? 0.0F : UpperMedian(values); }
 
 /// Grows what is 1 by a block (or, `grow` false, what is 0).
-void Step(ImageU8& mask, bool grow) {
+void DilateOrErode(ImageU8& mask, bool grow) {
   const ImageU8 before = mask;
   const std::uint8_t wins = grow ? 1 : 0;
   for (int j = 0; j < mask.height(); ++j) {
@@ -103,12 +103,12 @@ void Step(ImageU8& mask, bool grow) {
 }
 
 /// Drops areas narrower than 2 steps + 1 blocks.
-void DropSmall(ImageU8& mask, int steps) {
+void OpenMask(ImageU8& mask, int steps) {
   for (int k = 0; k < steps; ++k) {
-    Step(mask, false);
+    DilateOrErode(mask, false);
   }
   for (int k = 0; k < steps; ++k) {
-    Step(mask, true);
+    DilateOrErode(mask, true);
   }
 }
 
@@ -146,7 +146,7 @@ void SetFlag(const ImageU8& mask, TerrainFlag flag, ImageU8& flags) {
 void FlagTextureAndShadow(const SceneView& view, const SceneGround& ground, ImageU8& flags) {
   BlockSums sums = SumBlocks(*view.left, ground);
   for (ImageF* layer : {&sums.left, &sums.right, &sums.both, &sums.known, &sums.usable}) {
-    Smear(*layer);
+    BoxSum(*layer);
   }
   constexpr float kFree = kBlock_px * kBlock_px - 1;  // of a block's pixels, its mean known
   const float usual_bright = MedianOf(sums.bright.pixels());
@@ -174,14 +174,14 @@ void FlagTextureAndShadow(const SceneView& view, const SceneGround& ground, Imag
   if (HasAny(bare)) {
     // A window is bare only when the area around is: small areas are gone already, and the rim of
     // large ones is.
-    DropSmall(bare, std::max(0, steps - kReach_blocks));
+    OpenMask(bare, std::max(0, steps - kReach_blocks));
     for (int k = 0; k < kReach_blocks; ++k) {
-      Step(bare, true);
+      DilateOrErode(bare, true);
     }
     SetFlag(bare, kFlagNoTexture, flags);
   }
   if (HasAny(dark)) {
-    DropSmall(dark, steps);
+    OpenMask(dark, steps);
     SetFlag(dark, kFlagShadow, flags);
   }
 }

@@ -18,6 +18,7 @@ constexpr double kStep_px = 0.5;
 constexpr double kAside_px = 4;
 constexpr float kMostDifference_grey = 40;
 constexpr int kLeastPieces = 3;
+constexpr std::size_t kLeastSamples = kStrip_px / 2;
 // What a piece's own pixels may differ by, as a share of the difference on the ground, of the
 // lowest quarter of all disparities, and of the disparities kAside_px to both sides.
 constexpr float kOfGround = 0.56F;
@@ -47,7 +48,7 @@ class PieceMatcher {
                             static_cast<float>(left_.at(x, y))});
       }
     }
-    if (samples_.size() < kStrip_px / 2) {
+    if (samples_.size() < kLeastSamples) {
       return false;
     }
     const int steps = static_cast<int>((kMostAbove_px - kLeastAbove_px) / kStep_px);

@@ -7,11 +7,16 @@
 #include <vector>
 
 #include "engine/model/site_standing.h"
+#include "engine/slad/hazards/hazard_layers.h"
 #include "engine/slad/hazards/touchdown.h"
 #include "engine/slad/terrain/narrow_relief.h"
 
 namespace palace {
 namespace {
+
+/// Noise that a height may owe: of the site's plane, of what stands in the corridor.
+constexpr double kSigmas = 3;
+constexpr std::size_t kNewCellsOneIn = 10;  // of the clear radius: new ground at the rim
 
 /// Visits the cells of the map whose centre lies within `radius_m` of the cell's.
 template <typename Visit>
@@ -36,7 +41,7 @@ struct SitePlane {
 
 SitePlane FitSitePlane(const ElevationMap& map, const SladSettings& settings, Cell centre) {
   const GridGeometry& g = map.geometry;
-  const double radius_m = std::max(settings.lander.radius_m(), 1.5 * g.cell_m);
+  const double radius_m = std::max(settings.lander.radius_m(), kLeastDisc_cells * g.cell_m);
   Eigen::Vector3d x = Eigen::Vector3d::Zero();
   SitePlane plane;
   for (int pass = 0; pass < 2; ++pass) {
@@ -52,11 +57,11 @@ SitePlane FitSitePlane(const ElevationMap& map, const SladSettings& settings, Ce
       const double z = static_cast<double>(map.height_m.at(cell));
       const Eigen::Vector3d basis(1, (centre.row - cell.row) * g.cell_m,
                                   (cell.col - centre.col) * g.cell_m);
-      const double limit = settings.limits.max_deviation_m + 3 * std::sqrt(variance);
+      const double limit = settings.limits.max_deviation_m + kSigmas * std::sqrt(variance);
       if (pass == 1 && std::abs(z - basis.dot(x)) > limit) {
         return;
       }
-      const double w = 1 / (variance + 1e-4);
+      const double w = 1 / (variance + kVarianceFloor_m2);
       normal += w * basis * basis.transpose();
       right += w * z * basis;
       variance_sum += variance;
@@ -117,7 +122,7 @@ int FramesOfMost(std::vector<std::uint16_t>& counts) {
   if (counts.empty()) {
     return 0;
   }
-  const auto tenth = counts.begin() + static_cast<std::ptrdiff_t>(counts.size() / 10);
+  const auto tenth = counts.begin() + static_cast<std::ptrdiff_t>(counts.size() / kNewCellsOneIn);
   std::nth_element(counts.begin(), tenth, counts.end());
   return *tenth;
 }
@@ -263,7 +268,7 @@ bool IsClear(const Approach& approach, const ElevationMap& map, const SladSettin
           map.state.at(r, c) == CellState::kUnknown) {
         continue;
       }
-      const double noise_m = 3 * std::sqrt(static_cast<double>(map.variance_m2.at(r, c)));
+      const double noise_m = kSigmas * std::sqrt(static_cast<double>(map.variance_m2.at(r, c)));
       if (rise_m - noise_m > free_m) {
         return false;
       }

@@ -18,6 +18,14 @@
 namespace palace {
 namespace {
 
+/// Places that touch and are as good as the best to within so many cells are equal.
+constexpr double kEqual_cells = 0.75;
+// Weights that break ties of safe distance, within one cell's worth of it, the resolution of the
+// first criterion: of the cost, and of nearness to the middle of the picture.
+constexpr double kCostWeight_cells = 0.4, kMiddleWeight_cells = 0.05;
+constexpr double kDistanceWeight_per_m = 1e-3;  // breaks ties of cost
+constexpr std::size_t kTriesPerSite = 3;        // places looked at for each site kept
+
 /// Cost averaged over 3x3 cells, so that a lone cheap cell beside dear ones does not win (4.3.3).
 double SmoothedCost(const GridF& cost, Cell cell) {
   double sum = 0;
@@ -67,8 +75,9 @@ class Candidates {
   Candidates(const ElevationMap& map, const HazardMaps& hazards, const SladSettings& settings,
              const SiteContext& context)
       : rows_(static_cast<std::size_t>(map.geometry.rows)),
-        as_good_(settings.mode == SladMode::kModern && settings.choice.ranking == SiteRanking::kFarthest
-                     ? 0.75 * map.geometry.cell_m
+        as_good_(settings.mode == SladMode::kModern &&
+                         settings.choice.ranking == SiteRanking::kFarthest
+                     ? kEqual_cells * map.geometry.cell_m
                      : 0) {
     const OffCentre off_centre(context);
     const double cell_m = map.geometry.cell_m;
@@ -83,11 +92,10 @@ class Candidates {
           }
           const double distance_m = static_cast<double>(distances_m[c]);
           const double cost = SmoothedCost(hazards.cost, cell);
-          // Ties are broken within one cell's worth of distance, the first criterion's resolution.
-          const double tie = -0.05 * off_centre.At(map, cell);
+          const double tie = -kMiddleWeight_cells * off_centre.At(map, cell);
           const double score = settings.choice.ranking == SiteRanking::kFarthest
-                                   ? distance_m + cell_m * (0.4 * (1 - cost) + tie)
-                                   : -cost + 1e-3 * (distance_m + tie);
+                                   ? distance_m + cell_m * (kCostWeight_cells * (1 - cost) + tie)
+                                   : -cost + kDistanceWeight_per_m * (distance_m + tie);
           if (score > kNone) {
             row.left.push_back({c, false, score});
           }
@@ -106,8 +114,8 @@ class Candidates {
       if (!cell) {
         break;
       }
-      const Cell middle = MiddleOfEquals(*cell);
-      DropAround(middle, spacing_cells);
+      const Cell middle = MiddleOfPlateau(*cell);
+      SuppressAround(middle, spacing_cells);
       taken.push_back(middle);
     }
     return taken;
@@ -118,7 +126,7 @@ class Candidates {
 
   struct Candidate {
     int col = -1;
-    bool counted = false;  ///< by MiddleOfEquals
+    bool counted = false;  ///< by MiddleOfPlateau
     double score = kNone;
   };
   struct Row {
@@ -152,7 +160,7 @@ class Candidates {
 
   /// Along a ridge of safe distance it is chance, of a centimetre, which cell is the best: taken is
   /// the cell nearest to the middle of all that touch it and are as good.
-  Cell MiddleOfEquals(Cell best) {
+  Cell MiddleOfPlateau(Cell best) {
     if (as_good_ == 0) {
       return best;
     }
@@ -192,7 +200,7 @@ class Candidates {
   }
 
   /// Drops the cell and all nearer to it than the spacing.
-  void DropAround(Cell cell, double spacing_cells) {
+  void SuppressAround(Cell cell, double spacing_cells) {
     const int reach = static_cast<int>(std::min(spacing_cells, 1e6)) + 1;
     const double square = spacing_cells * spacing_cells;
     const int last = std::min(static_cast<int>(rows_.size()) - 1, cell.row + reach);
@@ -284,9 +292,9 @@ SiteSelection SelectSites(const ElevationMap& map, const HazardMaps& hazards,
   // How a site turns out does not change which cells come next: as many as are still wanted are
   // looked at side by side.
   std::size_t tried = 0;
-  while (selection.sites.size() < kept && tried < 3 * kept) {
-    const std::vector<Cell> cells =
-        candidates.Take(std::min(kept - selection.sites.size(), 3 * kept - tried), spacing_cells);
+  while (selection.sites.size() < kept && tried < kTriesPerSite * kept) {
+    const std::vector<Cell> cells = candidates.Take(
+        std::min(kept - selection.sites.size(), kTriesPerSite * kept - tried), spacing_cells);
     if (cells.empty()) {
       break;
     }

@@ -7,6 +7,8 @@
 namespace palace {
 namespace {
 
+constexpr int kDepthReach_blocks = 2;
+
 /// Depth at the pixel or at the nearest measured one on growing squares around it; NaN when none.
 float NearestDepth(const ImageF& depth, int x, int y, int reach) {
   for (int d = 0; d <= reach; ++d) {
@@ -78,7 +80,7 @@ ImageU8 VerdictImage(const RangeMap& range, const ElevationMap& map, const Hazar
       const int x = u * divisor + divisor / 2, y = v * divisor + divisor / 2;
       const Eigen::Vector3d ray_C((x - camera.cx_px) / camera.fx_px,
                                   (y - camera.cy_px) / camera.fy_px, 1);
-      const float depth = NearestDepth(range.depth_m, x, y, 2 * divisor);
+      const float depth = NearestDepth(range.depth_m, x, y, kDepthReach_blocks * divisor);
       std::optional<Cell> cell;
       if (depth > 0) {
         const Eigen::Vector3d p_W = X_WC * (static_cast<double>(depth) * ray_C);

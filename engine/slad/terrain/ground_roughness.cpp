@@ -12,6 +12,7 @@ namespace {
 
 constexpr double kBlock_m = 1.5;
 constexpr int kLeastBlock = 10;
+constexpr std::size_t kKnownOneIn = 4;  // cells of a block
 
 int BlockCells(double cell_m) {
   const double cells = std::ceil(kBlock_m / cell_m - 1e-9);
@@ -34,17 +35,18 @@ void Collect(const GridF& values, int row, int col, int size, std::vector<float>
 
 }  // namespace
 
-GroundRoughness::GroundRoughness(const GridF& stands_m, double cell_m)
+GroundRoughness::GroundRoughness(const GridF& prominence_m, double cell_m)
     : block_(BlockCells(cell_m)),
-      scales_m_(Blocks(stands_m.rows(), block_), Blocks(stands_m.cols(), block_), 0) {
+      scales_m_(Blocks(prominence_m.rows(), block_), Blocks(prominence_m.cols(), block_), 0) {
   GridF own(scales_m_.rows(), scales_m_.cols(), kUnknownValue);
   std::vector<float> known;
   for (int r = 0; r < own.rows(); ++r) {
     for (int c = 0; c < own.cols(); ++c) {
-      Collect(stands_m, r * block_, c * block_, block_, known);
-      const int rows = std::min(block_, stands_m.rows() - r * block_);
-      const int cols = std::min(block_, stands_m.cols() - c * block_);
-      if (4 * known.size() >= static_cast<std::size_t>(rows) * static_cast<std::size_t>(cols)) {
+      Collect(prominence_m, r * block_, c * block_, block_, known);
+      const int rows = std::min(block_, prominence_m.rows() - r * block_);
+      const int cols = std::min(block_, prominence_m.cols() - c * block_);
+      if (kKnownOneIn * known.size() >=
+          static_cast<std::size_t>(rows) * static_cast<std::size_t>(cols)) {
         own.at(r, c) = UpperMedian(known);
       }
     }

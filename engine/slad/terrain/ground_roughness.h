@@ -8,7 +8,7 @@ namespace palace {
 /// Scale of what cells stand off their surroundings by, as the standard deviation of a normal
 /// distribution about zero, in metres (Hampel 1974, median absolute deviation):
 ///
-///   1.4826 median(median |stands_m|)
+///   1.4826 median(median |prominence_m|)
 ///
 /// the inner median over a square block, the outer over it and the eight blocks around. A block is
 /// 1.5 m wide and at least 10 cells. Unknown cells are NaN; blocks of which less than a quarter is
@@ -16,7 +16,7 @@ namespace palace {
 /// the ground raise it by 1.7.
 class GroundRoughness {
  public:
-  GroundRoughness(const GridF& stands_m, double cell_m);
+  GroundRoughness(const GridF& prominence_m, double cell_m);
 
   /// `row` and `col` lie in the grid.
   double At(int row, int col) const;

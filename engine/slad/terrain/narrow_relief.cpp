@@ -25,6 +25,7 @@ constexpr double kRingRoughs = 3.5, kGroundRoughs = 4;
 constexpr double kClearRingRoughs = 10;  // of many things on even ground
 constexpr double kRepeats = 2.5;         // what stereo repeats at worst, over its usual sigma
 constexpr double kRingWindows = 1.25;    // nearer, the window smears the thing onto the ring
+constexpr double kLeastRing_cells = 2;
 constexpr double kMostFactor = 6;
 constexpr double kSteepFactor = 4;
 constexpr double kTallest_m = 1;
@@ -100,12 +101,12 @@ Ring RingAround(const ElevationMap& map, const HalfCircle& directions, Cell cell
 }
 
 /// Height above the ring's plane in sigmas, of the cell `dr` and `dc` beside the ring's own.
-double SigmasAbove(const ElevationMap& map, const Ring& ring, Cell cell, int dr, int dc) {
+double SigmasProminent(const ElevationMap& map, const Ring& ring, Cell cell, int dr, int dc) {
   const Cell at{cell.row + dr, cell.col + dc};
-  const double stands_m = static_cast<double>(map.height_m.at(at)) - ring.mean_m -
-                          ring.per_row_m * dr - ring.per_col_m * dc;
-  return stands_m / std::sqrt(static_cast<double>(map.variance_m2.at(at)) + ring.variance_m2 +
-                              kLeastVariance_m2);
+  const double prominence_m = static_cast<double>(map.height_m.at(at)) - ring.mean_m -
+                              ring.per_row_m * dr - ring.per_col_m * dc;
+  return prominence_m / std::sqrt(static_cast<double>(map.variance_m2.at(at)) + ring.variance_m2 +
+                                  kLeastVariance_m2);
 }
 
 /// The same of the highest of the four cells beside; 0 where none is known. Noise seldom stands
@@ -114,7 +115,7 @@ double SigmasBeside(const ElevationMap& map, const Ring& ring, Cell cell) {
   double most = 0;
   for (const auto& [dr, dc] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}}) {
     if (IsMeasured(map, {cell.row + dr, cell.col + dc})) {
-      most = std::max(most, SigmasAbove(map, ring, cell, dr, dc));
+      most = std::max(most, SigmasProminent(map, ring, cell, dr, dc));
     }
   }
   return most;
@@ -145,7 +146,8 @@ class MatchingWindow {
 
   Ring RingAt(const ElevationMap& map, Cell cell) const {
     const double radius_m = kRingWindows * Width_m(map, cell) + narrow_m_ / 2;
-    return RingAround(map, directions_, cell, std::max(2.0, radius_m / map.geometry.cell_m));
+    return RingAround(map, directions_, cell,
+                      std::max(kLeastRing_cells, radius_m / map.geometry.cell_m));
   }
 
  private:
@@ -155,23 +157,23 @@ class MatchingWindow {
 };
 
 /// What measured cells stand above their rings by, m; NaN without a ring.
-GridF StandsAbove(const ElevationMap& map, const MatchingWindow& window) {
-  GridF stands_m(map.geometry.rows, map.geometry.cols, kUnknownValue);
-  cv::parallel_for_(cv::Range(0, stands_m.rows()), [&](const cv::Range& rows) {
+GridF ProminenceMap(const ElevationMap& map, const MatchingWindow& window) {
+  GridF prominence_m(map.geometry.rows, map.geometry.cols, kUnknownValue);
+  cv::parallel_for_(cv::Range(0, prominence_m.rows()), [&](const cv::Range& rows) {
     for (int r = rows.start; r < rows.end; ++r) {
-      for (int c = 0; c < stands_m.cols(); ++c) {
+      for (int c = 0; c < prominence_m.cols(); ++c) {
         if (!IsMeasured(map, {r, c})) {
           continue;
         }
         const Ring ring = window.RingAt(map, {r, c});
         if (ring.places >= kLeastPlaces) {
-          stands_m.at(r, c) =
+          prominence_m.at(r, c) =
               static_cast<float>(static_cast<double>(map.height_m.at(r, c)) - ring.mean_m);
         }
       }
     }
   });
-  return stands_m;
+  return prominence_m;
 }
 
 /// Whether the window is wider than a narrow thing anywhere.
@@ -186,9 +188,9 @@ bool SmearsAnywhere(const ElevationMap& map, const MatchingWindow& window, doubl
   return false;
 }
 
-/// Whether a cell that stands `stands_m` above its ring is a thing on its own: not noise, not
+/// Whether a cell that stands `prominence_m` above its ring is a thing on its own: not noise, not
 /// rough ground, not the edge of something wide.
-bool StandsAlone(const ElevationMap& map, const Ring& ring, Cell cell, double stands_m,
+bool IsProminent(const ElevationMap& map, const Ring& ring, Cell cell, double prominence_m,
                  double ground_rough_m, double repeated_m2) {
   const double noise_m2 = static_cast<double>(map.variance_m2.at(cell)) + ring.variance_m2 +
                           kRepeats * kRepeats * repeated_m2;
@@ -196,10 +198,10 @@ bool StandsAlone(const ElevationMap& map, const Ring& ring, Cell cell, double st
   const double needed_m2 = std::clamp(kGroundRoughs * kGroundRoughs * ground_m2,
                                       kRingRoughs * kRingRoughs * ring.rough_m2,
                                       kClearRingRoughs * kClearRingRoughs * ring.rough_m2);
-  if (stands_m * stands_m <= needed_m2) {
+  if (prominence_m * prominence_m <= needed_m2) {
     return false;
   }
-  const double sigmas = SigmasAbove(map, ring, cell, 0, 0);
+  const double sigmas = SigmasProminent(map, ring, cell, 0, 0);
   const double beside = sigmas > kClearSigmas ? kBesideClearSigmas : kBesideSigmas;
   return sigmas > kSigmas && SigmasBeside(map, ring, cell) > beside;
 }
@@ -217,24 +219,25 @@ void RaiseNarrowRelief(const PinholeCamera& camera, const Eigen::Vector3d& p_WC,
   if (pixels.empty() && !SmearsAnywhere(map, window, narrow_m)) {
     return;
   }
-  const GridF stands = StandsAbove(map, window);
-  const GroundRoughness roughness(stands, g.cell_m);
+  const GridF prominence = ProminenceMap(map, window);
+  const GroundRoughness roughness(prominence, g.cell_m);
   GridF raised = map.height_m;
   for (int r = 0; r < g.rows; ++r) {
     for (int c = 0; c < g.cols; ++c) {
-      const double stands_m = static_cast<double>(stands.at(r, c));
+      const double prominence_m = static_cast<double>(prominence.at(r, c));
       const double sigma_m = std::sqrt(static_cast<double>(map.variance_m2.at(r, c)));
-      if (!(stands_m > kSigmas * sigma_m)) {
+      if (!(prominence_m > kSigmas * sigma_m)) {
         continue;
       }
       const double widths = window.Width_m(map, {r, c}) / narrow_m;
       const double factor = std::clamp(
           widths * widths, ManyRefused(pixels, g, r, c) ? kSteepFactor : 1.0, kMostFactor);
       const double repeated = repeated_m2.empty() ? 0.0 : static_cast<double>(repeated_m2.at(r, c));
-      if (factor > 1 && StandsAlone(map, window.RingAt(map, {r, c}), {r, c}, stands_m,
+      if (factor > 1 && IsProminent(map, window.RingAt(map, {r, c}), {r, c}, prominence_m,
                                     roughness.At(r, c), repeated)) {
-        const double must_be_m = std::max(stands_m, std::min(factor * stands_m, kTallest_m));
-        raised.at(r, c) += static_cast<float>(must_be_m - stands_m);
+        const double must_be_m =
+            std::max(prominence_m, std::min(factor * prominence_m, kTallest_m));
+        raised.at(r, c) += static_cast<float>(must_be_m - prominence_m);
       }
     }
   }

@@ -17,7 +17,7 @@ constexpr float kLeastRise_m = 0.3F;
 constexpr float kRisePerRadius = 0.2F;
 constexpr float kWalkableSlope = 0.3F;
 constexpr float kSigmas = 3;
-constexpr double kLadderCell_m = 0.3;
+constexpr double kOpeningCell_m = 0.3;
 constexpr std::array kRadii_m = {0.5, 1.0, 1.5, 2.0, 3.0, 4.0, 6.0, 8.0, 11.0, 15.0, 20.0};
 constexpr double kRimReach_m = 0.3;
 constexpr double kLeastDropShare = 0.6;
@@ -68,43 +68,43 @@ void Open(int half, GridF& surface) {
   }
 }
 
-/// The map in cells of at least kLadderCell_m.
-struct Ladder {
+/// The map in cells of at least kOpeningCell_m.
+struct CoarseMap {
   int block = 1;
   double cell_m = 0;
   GridF surface;  ///< highest of its cells; infinite where nothing is measured
   GridF noise_m;
 };
 
-Ladder LadderOf(const ElevationMap& map) {
+CoarseMap Coarsened(const ElevationMap& map) {
   const int rows = map.geometry.rows, cols = map.geometry.cols;
-  Ladder ladder;
+  CoarseMap coarse;
   // A map of tiny cells is not coarser than its own size.
-  const double wanted = std::floor(kLadderCell_m / map.geometry.cell_m + 1e-6);
-  ladder.block = static_cast<int>(std::clamp(wanted, 1.0, double(std::max(rows, cols))));
-  ladder.cell_m = ladder.block * map.geometry.cell_m;
-  const int coarse_rows = (rows + ladder.block - 1) / ladder.block;
-  const int coarse_cols = (cols + ladder.block - 1) / ladder.block;
-  ladder.surface = GridF(coarse_rows, coarse_cols, -kHigh);
-  ladder.noise_m = GridF(coarse_rows, coarse_cols, 0);
+  const double wanted = std::floor(kOpeningCell_m / map.geometry.cell_m + 1e-6);
+  coarse.block = static_cast<int>(std::clamp(wanted, 1.0, double(std::max(rows, cols))));
+  coarse.cell_m = coarse.block * map.geometry.cell_m;
+  const int coarse_rows = (rows + coarse.block - 1) / coarse.block;
+  const int coarse_cols = (cols + coarse.block - 1) / coarse.block;
+  coarse.surface = GridF(coarse_rows, coarse_cols, -kHigh);
+  coarse.noise_m = GridF(coarse_rows, coarse_cols, 0);
   for (int r = 0; r < rows; ++r) {
     for (int c = 0; c < cols; ++c) {
       if (map.state.at(r, c) == CellState::kMeasured && std::isfinite(map.height_m.at(r, c))) {
         // The highest, so that a surface that ends inside a coarse cell loses its whole height in
-        // one rung.
-        float& highest = ladder.surface.at(r / ladder.block, c / ladder.block);
+        // one opening.
+        float& highest = coarse.surface.at(r / coarse.block, c / coarse.block);
         if (map.height_m.at(r, c) > highest) {
           highest = map.height_m.at(r, c);
-          ladder.noise_m.at(r / ladder.block, c / ladder.block) =
+          coarse.noise_m.at(r / coarse.block, c / coarse.block) =
               kSigmas * std::sqrt(map.variance_m2.at(r, c));
         }
       }
     }
   }
-  for (float& height : ladder.surface.cells()) {
+  for (float& height : coarse.surface.cells()) {
     height = height == -kHigh ? kHigh : height;
   }
-  return ladder;
+  return coarse;
 }
 
 /// Between the highest and the lowest known cell: no opening can lower a cell by more.
@@ -117,28 +117,28 @@ float Relief(const GridF& surface) {
   return highest - lowest;
 }
 
-/// Height under each candidate of the ladder, infinite where there is none.
-GridF GroundUnderCandidates(Ladder& ladder) {
-  GridF ground(ladder.surface.rows(), ladder.surface.cols(), kHigh);
+/// Height under each candidate, infinite where there is none.
+GridF GroundUnderCandidates(CoarseMap& coarse) {
+  GridF ground(coarse.surface.rows(), coarse.surface.cols(), kHigh);
   const int widest = std::max(ground.rows(), ground.cols());
   int last = 0;
   for (const double radius_m : kRadii_m) {
-    const double wanted = std::max(1.0, std::round(radius_m / ladder.cell_m));
+    const double wanted = std::max(1.0, std::round(radius_m / coarse.cell_m));
     const int half = static_cast<int>(std::min<double>(wanted, widest));
     if (half == last) {
       continue;
     }
     last = half;
     const float rise_m =
-        std::max(kLeastRise_m, static_cast<float>(kRisePerRadius * half * ladder.cell_m));
-    if (!(Relief(ladder.surface) > rise_m)) {
-      break;  // wider rungs ask for more
+        std::max(kLeastRise_m, static_cast<float>(kRisePerRadius * half * coarse.cell_m));
+    if (!(Relief(coarse.surface) > rise_m)) {
+      break;  // wider openings ask for more
     }
-    const GridF before = ladder.surface;
-    Open(half, ladder.surface);
+    const GridF before = coarse.surface;
+    Open(half, coarse.surface);
     for (std::size_t i = 0; i < ground.cells().size(); ++i) {
-      const float low = ladder.surface.cells()[i];
-      const bool lost = before.cells()[i] - low > rise_m + ladder.noise_m.cells()[i];
+      const float low = coarse.surface.cells()[i];
+      const bool lost = before.cells()[i] - low > rise_m + coarse.noise_m.cells()[i];
       ground.cells()[i] = lost && ground.cells()[i] == kHigh ? low : ground.cells()[i];
     }
   }
@@ -146,11 +146,12 @@ GridF GroundUnderCandidates(Ladder& ladder) {
 }
 
 /// Cells of the map that stand above the ground under their candidate.
-Grid<std::uint8_t> Candidates(const ElevationMap& map, const Ladder& ladder, const GridF& ground) {
+Grid<std::uint8_t> Candidates(const ElevationMap& map, const CoarseMap& coarse,
+                              const GridF& ground) {
   Grid<std::uint8_t> candidates(map.geometry.rows, map.geometry.cols, 0);
   for (int r = 0; r < candidates.rows(); ++r) {
     for (int c = 0; c < candidates.cols(); ++c) {
-      const float low = ground.at(r / ladder.block, c / ladder.block);
+      const float low = ground.at(r / coarse.block, c / coarse.block);
       const bool above =
           map.state.at(r, c) == CellState::kMeasured && map.height_m.at(r, c) - low > kLeastRise_m;
       candidates.at(r, c) = above ? 1 : 0;
@@ -185,7 +186,7 @@ class RimWalk {
     Grid<std::uint8_t> flags(left_.rows(), left_.cols(), kFlagNone);
     for (int r = 0; r < left_.rows(); ++r) {
       for (int c = 0; c < left_.cols(); ++c) {
-        if (left_.at(r, c) != 0 && Take({r, c}).Raised()) {
+        if (left_.at(r, c) != 0 && FloodFill({r, c}).Raised()) {
           for (const Cell& cell : surface_) {
             flags.at(cell) = kFlagElevated;
           }
@@ -199,7 +200,7 @@ class RimWalk {
   static constexpr int kMostReach = 8;
 
   /// Leaves the cells of the surface that holds `first` in surface_.
-  Rim Take(Cell first) {
+  Rim FloodFill(Cell first) {
     Rim rim;
     surface_.assign(1, first);
     left_.at(first) = 0;
@@ -256,9 +257,9 @@ Grid<std::uint8_t> FindRaisedSurfaces(const ElevationMap& map) {
   if (map.height_m.empty()) {
     return {};
   }
-  Ladder ladder = LadderOf(map);
-  const GridF ground = GroundUnderCandidates(ladder);
-  return RimWalk(map, Candidates(map, ladder, ground)).Run();
+  CoarseMap coarse = Coarsened(map);
+  const GridF ground = GroundUnderCandidates(coarse);
+  return RimWalk(map, Candidates(map, coarse, ground)).Run();
 }
 
 }  // namespace palace

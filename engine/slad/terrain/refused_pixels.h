@@ -7,14 +7,17 @@
 
 namespace palace {
 
+/// With fewer pixels the share says nothing: one of six is no sixth.
+inline constexpr float kLeastPixels = 12;
+
 /// Pixels of the frames remembered that fall into a cell.
 struct PixelCount {
   float known = 0;
   float refused = 0;
 
-  /// 0 with fewer than 12 pixels: one of six says nothing.
+  /// 0 with fewer than kLeastPixels.
   double RefusedShare() const {
-    return known + refused < 12
+    return known + refused < kLeastPixels
                ? 0.0
                : static_cast<double>(refused) / static_cast<double>(known + refused);
   }

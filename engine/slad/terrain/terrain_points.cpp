@@ -9,6 +9,16 @@ namespace {
 
 /// Percentiles need no more than this many points; taken at even spacing, so deterministic.
 constexpr std::size_t kSampleSize = 20000;
+/// Share of the points left out on each side of the bounds: stray matches.
+constexpr double kBoundsShare = 0.01;
+constexpr double kFarthestView = 2;  // in mean ranges
+/// A perfect point's weight stays finite: variances below (1 mm)^2 count alike.
+constexpr double kLeastPointVariance_m2 = 1e-6;
+/// Mean variance above which points state their noise; a survey's do not.
+constexpr double kStatedVariance_m2 = 4e-6;
+/// What ground of ordinary slope spreads inside a cell by, in cells, one standard deviation.
+constexpr double kSlopeSpread_cells = 0.1;
+constexpr double kSaidVariance = 2;  // points err by somewhat more than they say
 
 template <typename Get>
 std::vector<double> SampleOf(const TerrainPoints& points, Get get) {
@@ -77,10 +87,10 @@ GroundBounds BoundsOfData(const TerrainPoints& points) {
   auto north = SampleOf(points, [](const TerrainPoint& p) { return p.north_m; });
   auto east = SampleOf(points, [](const TerrainPoint& p) { return p.east_m; });
   GroundBounds bounds;
-  bounds.north_min_m = Percentile(north, 0.01);
-  bounds.north_max_m = Percentile(north, 0.99);
-  bounds.east_min_m = Percentile(east, 0.01);
-  bounds.east_max_m = Percentile(east, 0.99);
+  bounds.north_min_m = Percentile(north, kBoundsShare);
+  bounds.north_max_m = Percentile(north, 1 - kBoundsShare);
+  bounds.east_min_m = Percentile(east, kBoundsShare);
+  bounds.east_max_m = Percentile(east, 1 - kBoundsShare);
   return bounds;
 }
 
@@ -90,7 +100,7 @@ GroundBounds BoundsOfView(const TerrainPoints& points, const PinholeCamera& came
   for (const TerrainPoint& p : points) {
     range_sum += (Eigen::Vector3d(p.north_m, p.east_m, -p.height_m) - X_WC.p).norm();
   }
-  const double farthest_m = 2 * range_sum / std::max<double>(1, double(points.size()));
+  const double farthest_m = kFarthestView * range_sum / std::max<double>(1, double(points.size()));
   const double down_m = -MedianHeight(points) - X_WC.p.z();
   constexpr double kFar = std::numeric_limits<double>::infinity();
   GroundBounds bounds{kFar, -kFar, kFar, -kFar};
@@ -177,17 +187,16 @@ ElevationMap AccumulateCells(const TerrainPoints& points, const GridGeometry& ge
       continue;
     }
     CellSums& s = sums.at(*cell);
-    // Thesis mode: every point counts alike. A millimetre keeps a perfect point's weight finite.
-    const double w = mode == SladMode::kThesis ? 1.0 : 1.0 / (p.variance_m2 + 1e-6);
+    // Thesis mode: every point counts alike.
+    const double w =
+        mode == SladMode::kThesis ? 1.0 : 1.0 / (p.variance_m2 + kLeastPointVariance_m2);
     const double z = p.height_m - reference_m;
     s.weight += w;
     s.height += w * z;
     s.square += w * z * z;
     ++s.count;
   }
-  // Ground of ordinary slope spreads inside a cell, and points err by somewhat more than they say.
-  const double slope_spread_m2 = std::pow(0.1 * geometry.cell_m, 2);
-  constexpr double kSaidVariance = 2;
+  const double slope_spread_m2 = std::pow(kSlopeSpread_cells * geometry.cell_m, 2);
   for (int r = 0; r < rows; ++r) {
     for (int c = 0; c < cols; ++c) {
       const CellSums& s = sums.at(r, c);
@@ -197,14 +206,15 @@ ElevationMap AccumulateCells(const TerrainPoints& points, const GridGeometry& ge
       const double mean = s.height / s.weight;
       const double bessel = s.count > 1 ? s.count / (s.count - 1.0) : 1.0;
       const double spread = std::max(0.0, s.square / s.weight - mean * mean) * bessel;
-      const bool stated = mode != SladMode::kThesis && s.count / s.weight > 4e-6;
+      const bool stated = mode != SladMode::kThesis && s.count / s.weight > kStatedVariance_m2;
       const double predicted = stated ? s.count / s.weight : 0.0;
       // Spread beyond the points' own noise is relief inside the cell: its upper side counts.
       const double relief_m2 = spread - kSaidVariance * predicted - slope_spread_m2;
       const double relief_m = stated ? std::sqrt(std::max(0.0, relief_m2)) : 0.0;
       const double one_point =
-          stated ? std::max({predicted, std::min(spread, kSaidVariance * predicted), 1e-6})
-                 : std::max(spread - slope_spread_m2, 1e-6);
+          stated ? std::max({predicted, std::min(spread, kSaidVariance * predicted),
+                             kLeastPointVariance_m2})
+                 : std::max(spread - slope_spread_m2, kLeastPointVariance_m2);
       map.height_m.at(r, c) = static_cast<float>(mean + relief_m + reference_m);
       map.variance_m2.at(r, c) =
           static_cast<float>(one_point / std::max(1.0, s.count / correlated_points));

@@ -9,30 +9,34 @@ namespace palace {
 namespace {
 
 void DiscDeviationRow(const DiscRows& disc, const float* plane, const float* east,
-                      const float* south, int count, float* square, float* settled_off) {
+                      const float* south, int count, float* square, float* denoised_off) {
   const FloatLanes stride = Fill(static_cast<float>(disc.stride));
   for (int c = 0; c < count; c += FloatLanes::kCount) {
-    FloatLanes most = Load(square + c), settled_most = Load(settled_off + c);
+    FloatLanes most = Load(square + c), denoised_most = Load(denoised_off + c);
     const FloatLanes slope = Load(east + c);
     for (int i = 0; i < disc.rows; ++i) {
       const FloatLanes base =
           Load(plane + c) + Load(south + c) * Fill(static_cast<float>(disc.row_offset[i]));
       const float* height = disc.height[i] + c;
       const float* noise2 = disc.noise2[i] + c;
-      const float* settled = disc.settled[i] + c;
+      const float* denoised = disc.denoised[i] + c;
       FloatLanes aside = Fill(static_cast<float>(-disc.half[i]));
       for (int dc = -disc.half[i]; dc <= disc.half[i]; dc += disc.stride) {
         const FloatLanes rise = slope * aside;
         const FloatLanes off = Load(height + dc) - base - rise;
         most = Max(off * off - Load(noise2 + dc), most);
-        settled_most = Max(Abs(Load(settled + dc) - base - rise), settled_most);
+        denoised_most = Max(Abs(Load(denoised + dc) - base - rise), denoised_most);
         aside = aside + stride;
       }
     }
     Store(square + c, most);
-    Store(settled_off + c, settled_most);
+    Store(denoised_off + c, denoised_most);
   }
 }
+
+/// The cell that stands off the ground makes the step, not its level neighbour: one that stands off
+/// by less than this share of what the neighbour does makes none.
+constexpr float kMakesStep = 0.9F;
 
 void StepRow(const StepRows& rows, int count, float* most2, float* at_cell2) {
   const FloatLanes none = Fill(-kNever), never = Fill(kNever);
@@ -53,9 +57,8 @@ void StepRow(const StepRows& rows, int count, float* most2, float* at_cell2) {
       const FloatLanes step2 =
           Select(Less(near_noise2, never), rise * rise - noise2 - near_noise2, none);
       most = Max(step2, most);
-      // The cell that stands off the ground makes the step, not its level neighbour.
       const FloatLanes near_off = Abs(near_height - Load(rows.plane[1 + dr] + near));
-      at_cell = Select(Less(own_off, Fill(0.9F) * near_off), at_cell, Max(step2, at_cell));
+      at_cell = Select(Less(own_off, Fill(kMakesStep) * near_off), at_cell, Max(step2, at_cell));
     }
     const LaneMask known = Less(noise2, never);
     Store(most2 + c, Select(known, most, none));
@@ -70,7 +73,7 @@ inline float BeyondNoise(float off, float noise2) {
   return off < 0 ? -size : size;
 }
 
-void SettleRow(const SettleRows& rows, int count, float* __restrict__ settled) {
+void DenoiseRow(const DenoiseRows& rows, int count, float* __restrict__ denoised) {
   // Nine sigmas^2. The mean of nine cells, of which neighbours share their noise, keeps 0.31 of it.
   constexpr float kBroad = 9 * 0.31F, kFine = 9 * 0.69F;
   const float *h0 = rows.height[0], *h1 = rows.height[1], *h2 = rows.height[2];
@@ -89,7 +92,7 @@ void SettleRow(const SettleRows& rows, int count, float* __restrict__ settled) {
     const float variance = rows.variance_m2[c];
     const float height = rows.plane[c] + BeyondNoise(around, kBroad * variance) +
                          BeyondNoise(rest, kFine * variance);
-    settled[c] = k1[c] > 0 ? height : 0.0F;
+    denoised[c] = k1[c] > 0 ? height : 0.0F;
   }
 }
 

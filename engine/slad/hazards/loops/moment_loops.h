@@ -76,6 +76,8 @@ inline void WindowSums(const double* columns, int half, int count, double* __res
 }
 
 constexpr int kSolveRun = 64;  // columns
+/// Determinant of the window's second moments, per squared weight, from which it spans a plane.
+constexpr double kLeastSpan = 1e-3;
 
 /// Planes of some columns from the sums of their windows, moment k at sums + k pitch. Doubles into
 /// arrays of their own first, floats after: else none of it is vectorised.
@@ -99,7 +101,7 @@ inline void SolveRun(const double* sums, int pitch, double first_x, double y, in
     const double determinant = sxx * syy - sxy * sxy;
     const double enough = n >= 2.5 ? determinant : -1;
     const double weighed = m0[c] > 0 ? enough : -1;
-    const double least = 1e-3 * w * w;
+    const double least = kLeastSpan * w * w;
     const double d = weighed >= least ? determinant : 1;
     const double east = (sxz * syy - syz * sxy) / d, south = (syz * sxx - sxz * sxy) / d;
     const double left = szz - east * sxz - south * syz, squares = left > 0 ? left : 0;

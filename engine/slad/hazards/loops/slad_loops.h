@@ -28,8 +28,8 @@ struct DiscRows {
   const int* row_offset;  ///< rows south of the middle
   const int* half;        ///< of the disc in that row, a multiple of the stride
   const float* const* height;
-  const float* const* noise2;   ///< taken from the square of the deviation
-  const float* const* settled;  ///< heights less their noise already, NaN where none count
+  const float* const* noise2;    ///< taken from the square of the deviation
+  const float* const* denoised;  ///< heights less their noise already, NaN where none count
 };
 
 /// Noise that makes the squared deviation of an unknown cell negative whatever its height.
@@ -45,9 +45,9 @@ struct StepRows {
   const float* south;
 };
 
-/// The heights around the cells of one row that SettleRow looks at, at column 0; known is 1 or 0.
+/// The heights around the cells of one row that DenoiseRow looks at, at column 0; known is 1 or 0.
 /// Readable one further to the left, 1 + kLaneSlack to the right.
-struct SettleRows {
+struct DenoiseRows {
   const float* height[3];  ///< of the row to the north, the row itself and that to the south
   const float* known[3];
   const float* plane;  ///< of each cell: height and gradients a cell
@@ -102,7 +102,7 @@ struct ModernRow {
   const float* footprint_deviation_m;
   const float* footprint_step_m;
   const float* footprint_sigma_m;
-  const float* settled_deviation_m;
+  const float* denoised_deviation_m;
   const float* gear_tilt;  ///< NaN where the gear would reach unknown ground
   const float* belly_rise_m;
   const float* cell_deviation_m;
@@ -157,18 +157,18 @@ struct SladLoops {
   /// count - 1 + stride + kLaneSlack, NaN where unknown.
   void (*fit_planes)(const float* const* rows, int stride, float spacing_m, int count,
                      const PlaneRow& out);
-  /// square = the largest of itself and (height - plane)^2 - noise2 over the disc, settled_off that
-  /// of itself and |settled - plane|. All rows are readable, both results writable, kLaneSlack
-  /// beyond count.
+  /// square = the largest of itself and (height - plane)^2 - noise2 over the disc, denoised_off
+  /// that of itself and |denoised - plane|. All rows are readable, both results writable,
+  /// kLaneSlack beyond count.
   void (*disc_deviation)(const DiscRows& disc, const float* plane, const float* east,
-                         const float* south, int count, float* square, float* settled_off);
+                         const float* south, int count, float* square, float* denoised_off);
   /// Largest squared step to one of the eight neighbours beyond what the plane rises and both
   /// noises, and the same for the cell that stands farther off its plane and so makes the step;
   /// -kNever where there is none. Writable kLaneSlack beyond count.
   void (*steps)(const StepRows& rows, int count, float* most2, float* at_cell2);
-  /// Heights less their noise: off its plane a cell keeps sqrt(off^2 - 9 sigma^2), the mean of the
-  /// cells around it and the rest apart. 0 where not known.
-  void (*settle)(const SettleRows& rows, int count, float* settled_m);
+  /// Heights less their noise, by hyperbolic shrinkage: off its plane a cell keeps sqrt(off^2 - 9
+  /// sigma^2), the mean of the cells around it and the rest apart. 0 where not known.
+  void (*denoise)(const DenoiseRows& rows, int count, float* denoised_m);
   /// most = the largest of itself and values[c - half .. c + half]. work: count + 2 half floats.
   void (*window_maximum)(const float* values, int half, int count, float* work, float* most);
   /// columns[k pitch + c] += sign times moment k of the cells of a row; those of weight 0 are left

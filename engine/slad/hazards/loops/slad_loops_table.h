@@ -15,7 +15,7 @@ namespace {
 
 static_assert(FloatLanes::kCount <= kLaneSlack, "loops read and write whole lanes");
 
-constexpr SladLoops kLoops{FitPlaneRow,      DiscDeviationRow, StepRow,         SettleRow,
+constexpr SladLoops kLoops{FitPlaneRow,      DiscDeviationRow, StepRow,         DenoiseRow,
                            WindowMaximumRow, AddMomentsRow,    SolveMomentsRow, ColumnGapsRow,
                            SquareGapsRow,    NearestInRow,     PutGearDownRow,  SlopeRow,
                            ThesisVerdictRow, ModernVerdictRow};

@@ -118,13 +118,13 @@ inline void ModernVerdictRun(const ModernLimits& limits, const ModernRow& row, i
   const float* cell_deviation = row.cell_deviation_m + first;
   const float* cell_step = row.cell_step_m + first;
   const float* cell_sigma = row.cell_sigma_m + first;
-  const float* settled = row.settled_deviation_m + first;
+  const float* denoised = row.denoised_deviation_m + first;
   const float* tilt = row.gear_tilt + first;
   const float* rise = row.belly_rise_m + first;
   float enough[kVerdictRun];
   float score[kVerdictRun], safe_share[kVerdictRun];
   for (int c = 0; c < count; ++c) {
-    score[c] = TouchdownScore(most, slope[c], slope_sigma[c], settled[c], step[c], sigma[c],
+    score[c] = TouchdownScore(most, slope[c], slope_sigma[c], denoised[c], step[c], sigma[c],
                               tilt[c], rise[c]);
   }
   SharesOfSafe(score, count, safe_share);
