@@ -26,7 +26,7 @@ LimitRow PlaceRow(const DescentFigures& f, EnforcedBy alarm_in_descent) {
           .label = "From centre",
           .value = f.from_centre_m,
           .three_sigma = f.horizontal_3s_m,
-          .limit = f.lander.nav_error_m,
+          .limit = f.nav_error_m,
           .unit = "m",
           .decimals = 2,
           .enforced_by = alarm_in_descent};

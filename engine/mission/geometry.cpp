@@ -73,7 +73,7 @@ DescentFigures FiguresOf(const MissionMemory& m, const MissionInputs& in) {
   f.descent_rate_3s_mps = 3 * estimate.sigma_v_mps.z();
   f.approved_rate_mps =
       m.status.approach ? m.status.approach->descent_rate_mps : m.facts.limits.descent_rate_mps;
-  f.lander.nav_error_m = in.limits.settings.slad.lander.nav_error_m;
+  f.nav_error_m = in.limits.settings.slad.lander.nav_error_m;
   f.tracked = tracker.locked;
   f.coherence = tracker.coherence;
   f.min_coherence = in.limits.settings.tracking.min_coherence;
