@@ -128,8 +128,10 @@ TEST(TrialTable, ColumnsAreReadByName) {
   EXPECT_EQ(table.Values("altitude_ft"), (std::vector<std::string>{"30", "70"}));
   EXPECT_EQ(table.Where("altitude_ft", "70").rows.size(), 4u);
   EXPECT_EQ(table.Numbers("trial"), (std::vector<double>{0, 0, 1, 1, 2, 2, 3, 3}));
+  EXPECT_EQ(table.Sum("trial"), 12);
   TrialTable odd{{"trial", "v"}, {{"0", "nan"}, {"1", "word"}, {"2", "1e3"}}};
   EXPECT_TRUE(std::isnan(odd.Numbers("v")[0]));
+  EXPECT_TRUE(std::isnan(odd.Sum("v")));
   EXPECT_TRUE(std::isnan(odd.Numbers("v")[1]));
   EXPECT_EQ(odd.Numbers("v")[2], 1000);
 }
