@@ -63,9 +63,9 @@ TEST_P(GoldenPictures, LookAsTheyDid) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Workspaces, GoldenPictures, testing::ValuesIn(golden::Shots()),
-                         [](const auto& info) {
+                         [](const auto& shot) {
                            std::string name =
-                               info.param.name + "_" + std::to_string(info.param.width);
+                               shot.param.name + "_" + std::to_string(shot.param.width);
                            std::replace(name.begin(), name.end(), '-', '_');
                            return name;
                          });
