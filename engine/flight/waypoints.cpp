@@ -7,6 +7,13 @@
 
 namespace palace {
 
+namespace {
+
+// Braking at 80 % of the limit leaves the rest for the change of direction.
+constexpr double kBrakingShare = 0.8;
+
+}  // namespace
+
 void MovingReference::MoveTowards(const Eigen::Vector3d& waypoint_W, const TravelLimits& limits,
                                   double dt_s) {
   const Eigen::Vector3d way = waypoint_W - p_W;
@@ -19,13 +26,21 @@ void MovingReference::MoveTowards(const Eigen::Vector3d& waypoint_W, const Trave
     a_W.setZero();
     return;
   }
-  // Braking at 80 % of the limit leaves the rest for the change of direction.
-  const double speed = std::min({limits.max_speed_mps, distance / dt_s,
-                                 std::sqrt(1.6 * limits.acceleration_mps2 * distance)});
+  const double speed =
+      std::min({limits.max_speed_mps, distance / dt_s,
+                std::sqrt(2 * kBrakingShare * limits.acceleration_mps2 * distance)});
   const Eigen::Vector3d change = way * (speed / std::max(distance, 1e-12)) - v_W;
   a_W = change * (std::min(1.0, step / std::max(change.norm(), 1e-12)) / dt_s);
   v_W += a_W * dt_s;
   p_W += v_W * dt_s;
+}
+
+double TravelTime(double distance_m, const TravelLimits& limits) {
+  const double a = limits.acceleration_mps2, b = kBrakingShare * a;
+  const double changing = 1 / (2 * a) + 1 / (2 * b);  // metres, per square of the top speed
+  const double top_mps = std::min(limits.max_speed_mps, std::sqrt(distance_m / changing));
+  const double cruise_m = distance_m - changing * top_mps * top_mps;
+  return top_mps / a + top_mps / b + (top_mps > 0 ? cruise_m / top_mps : 0);
 }
 
 double Slew(double from, double to, double step) {

@@ -21,6 +21,9 @@ struct MovingReference {
   void MoveTowards(const Eigen::Vector3d& waypoint_W, const TravelLimits& limits, double dt_s);
 };
 
+/// Seconds that a MovingReference takes over the distance, from rest to rest.
+double TravelTime(double distance_m, const TravelLimits& limits);
+
 /// `from` moved towards `to` by at most `step`; angles the short way round.
 double SlewAngle(double from_rad, double to_rad, double step_rad);
 double Slew(double from, double to, double step);

@@ -32,11 +32,24 @@ void RememberNavigation(MissionFacts& facts, const MissionInputs::Navigation& in
   const bool on_vision = in.navigation.handover == NavigationStatus::Handover::kVision;
   const FilterStatus& filter = on_vision ? in.navigation.vision : in.navigation.gps;
   facts.skid_centre_W = in.skid_centre_W;
-  facts.speed_mps = filter.estimate.v_WB.norm();
+  facts.p_WB = in.p_WB_estimate;
+  facts.v_WB = filter.estimate.v_WB;
   facts.position_healthy = in.p_WB_estimate.allFinite() && in.skid_centre_W.allFinite() &&
                            filter.running && filter.estimate.healthy;
   facts.tracker_locked = in.tracker.locked;
   facts.coherence = in.tracker.coherence;
+}
+
+void RememberVehicle(MissionFacts& facts, const MissionInputs::Vehicle& in) {
+  facts.simulated_vehicle = in.simulated;
+  if (in.bundle.pose_at_exposure) {
+    facts.yaw_rad = EulerFromRotation(in.bundle.pose_at_exposure->X_WB.R).yaw_rad;
+  } else if (!in.bundle.poses.empty()) {
+    facts.yaw_rad = EulerFromRotation(in.bundle.poses.back().X_WB.R).yaw_rad;
+  }
+  if (in.bundle.rig) {
+    facts.p_BC = in.bundle.rig->position_body_m;
+  }
 }
 
 void RememberTerrain(MissionFacts& facts, const TerrainDecision* decision) {
@@ -105,7 +118,6 @@ void RememberFacts(MissionMemory& m, const MissionInputs& in) {
   facts.why_no_vehicle = in.session.why_no_vehicle;
   facts.can_transmit = in.session.can_transmit;
   facts.recorder_ok = in.session.recorder_ok;
-  facts.simulated_vehicle = in.vehicle.simulated;
   facts.limits = in.limits.settings.mission;
   facts.commit_height_m = in.limits.settings.slad.commit_height_m;
   facts.min_coherence = in.limits.settings.tracking.min_coherence;
@@ -113,6 +125,7 @@ void RememberFacts(MissionMemory& m, const MissionInputs& in) {
   facts.calibration_hash = in.limits.calibration_hash;
   RememberTerrain(facts, in.terrain.decision);
   RememberNavigation(facts, in.navigation);
+  RememberVehicle(facts, in.vehicle);
   m.vehicle_ever_heard = m.vehicle_ever_heard || m.watch.heard_vehicle();
   m.pictures.Update(JudgePictures(in.navigation.stereo, in.session.role));
   if (in.terrain.new_map && in.terrain.decision != nullptr) {

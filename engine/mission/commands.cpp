@@ -35,7 +35,7 @@ Approval MakeApproval(MissionTurn& turn, Timestamp now) {
   a.expires_at = AddSeconds(a.approved_at, m.facts.limits.approval_expiry_s);
   a.provisional = !m.armed.confirmed;
   a.p_WS = site.p_WS;
-  a.approach_heading_rad = HeadingTo(m, site.p_WS);
+  a.approach_heading_rad = StraightHeading(m.facts.skid_centre_W, site.p_WS);
   a.glide_slope_rad = Rad(m.facts.limits.glide_slope_deg);
   a.clear_radius_m = site.clear_radius_m;
   if (MaySign(m.facts.role)) {

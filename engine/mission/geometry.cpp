@@ -1,33 +1,35 @@
 #include "engine/mission/geometry.h"
 
-#include <algorithm>
 #include <cmath>
+
+#include "engine/core/units.h"
 
 namespace palace {
 namespace {
 
-// The path's last legs, as the vehicle flies them (DESIGN.md 6, last metres).
-constexpr double kSettleHeight_m = 2;  // level above this, over the site
-constexpr double kAlignTime_s = 7;     // turn to the site and fly to the slope, before descending
-constexpr double kLevelSpeed_mps = 0.5;
-constexpr double kSettleTime_s = 4;  // until it hovers still enough to sink
-constexpr double kLastSinkRate_mps = 0.35;
-constexpr double kOverSite_m = 0.3;
-constexpr double kLeadPerHeight = 1.7;  // the camera leads the skids by about the settle height
-
-double TimeLeft(const MissionMemory& m) {
+double TimeLeft(const MissionMemory& m, const FlightPath& path) {
+  const MissionFacts& facts = m.facts;
   switch (m.status.state) {
     case MissionState::kLanded:
       return 0;
     case MissionState::kAborting:
     case MissionState::kHold:
       return NAN;
+    case MissionState::kDescending:
+      return TimeToTouchdown(path, facts.p_WB, facts.v_WB);
     default:
-      break;
+      return TimeToAlign(path, facts.p_WB, facts.yaw_rad) +
+             TimeToTouchdown(path, path.Start(facts.p_WB), Eigen::Vector3d::Zero());
   }
-  const double align_s = m.status.state == MissionState::kDescending ? 0 : kAlignTime_s;
-  return align_s + TimeToTouchdown(m.status.height_above_site_m, m.status.distance_to_site_m,
-                                   m.facts.limits.descent_rate_mps);
+}
+
+/// Turning towards the start of the path is no deviation from it.
+bool FliesPath(const MissionMemory& m) {
+  const auto& vehicle = m.watch.vehicle();
+  const VehicleMode mode = vehicle ? vehicle->mode : VehicleMode::kUnknown;
+  return m.status.state == MissionState::kDescending && m.status.approval &&
+         (mode == VehicleMode::kDescend || mode == VehicleMode::kSettle ||
+          mode == VehicleMode::kSink);
 }
 
 }  // namespace
@@ -37,31 +39,37 @@ double HeightAboveSite(const MissionMemory& m) {
   return m.status.armed ? m.status.armed->p_WS.z() - m.facts.skid_centre_W.z() : NAN;
 }
 
-double HeadingTo(const MissionMemory& m, const Eigen::Vector3d& p_WS) {
-  const Eigen::Vector3d way = p_WS - m.facts.skid_centre_W;
-  return std::atan2(way.y(), way.x());
+FlightPath PathTo(const MissionMemory& m, const LandingSite& site) {
+  if (m.status.approval) {
+    return PathOf(*m.status.approval, m.facts.p_BC);
+  }
+  return {site.p_WS,
+          StraightHeading(m.facts.skid_centre_W, site.p_WS),
+          Rad(m.facts.limits.glide_slope_deg),
+          m.facts.p_BC,
+          {}};
 }
 
-double TimeToTouchdown(double height_m, double distance_m, double descent_rate_mps) {
-  const double above_m = std::max(0.0, height_m - kSettleHeight_m);
-  const double sink_s = std::clamp(height_m, 0.0, kSettleHeight_m) / kLastSinkRate_mps;
-  const bool sinking = height_m < kSettleHeight_m - kOverSite_m;
-  const double level_m = sinking ? 0 : above_m > 0 ? kLeadPerHeight * kSettleHeight_m : distance_m;
-  const double settle_s = sinking ? 0 : kSettleTime_s;
-  return above_m / descent_rate_mps + level_m / kLevelSpeed_mps + settle_s + sink_s;
+const LandingSite* SiteInQuestion(const MissionMemory& m) {
+  const LandingSite* site = m.status.armed ? &*m.status.armed : FindSite(m, m.winner.site_id);
+  return site != nullptr ? site : m.status.BestStanding(m.facts.sites);
 }
 
 void PublishGeometry(MissionMemory& m, const MissionInputs& in) {
-  const LandingSite* site = m.status.armed ? &*m.status.armed : FindSite(m, m.winner.site_id);
-  site = site != nullptr ? site : m.status.BestStanding(m.facts.sites);
+  const LandingSite* site = SiteInQuestion(m);
   const Eigen::Vector3d& skid_W = in.navigation.skid_centre_W;
   m.status.height_above_site_m = m.status.distance_to_site_m = m.status.time_to_touchdown_s = NAN;
+  m.status.path = {};
   if (site == nullptr || !skid_W.allFinite()) {
     return;
   }
   m.status.height_above_site_m = site->p_WS.z() - skid_W.z();
   m.status.distance_to_site_m = (site->p_WS - skid_W).head<2>().norm();
-  m.status.time_to_touchdown_s = TimeLeft(m);
+  const FlightPath path = PathTo(m, *site);
+  m.status.time_to_touchdown_s = TimeLeft(m, path);
+  if (FliesPath(m) && m.facts.p_WB.allFinite() && m.facts.v_WB.allFinite()) {
+    m.status.path = ProgressOn(path, m.facts.p_WB, m.facts.v_WB);
+  }
 }
 
 double LaserMismatch(const MissionInputs& in) {

@@ -4,6 +4,7 @@
 
 #include <optional>
 
+#include "engine/flight/flight_path.h"
 #include "engine/mission/mission_inputs.h"
 #include "engine/mission/mission_memory.h"
 
@@ -12,13 +13,13 @@ namespace palace {
 /// Metres above the armed site, up-positive; NaN when none is armed.
 double HeightAboveSite(const MissionMemory& memory);
 
-/// Course over ground from the skid centre straight to `p_WS`, clockwise from north.
-double HeadingTo(const MissionMemory& memory, const Eigen::Vector3d& p_WS);
+/// The way to the site: the approved one, else the one that would be approved.
+FlightPath PathTo(const MissionMemory& memory, const LandingSite& site);
 
-/// Glide slope, level leg, settling and the last sink, one after the other, in seconds.
-double TimeToTouchdown(double height_m, double distance_m, double descent_rate_mps);
+/// The armed site, else the one that leads; null when there is none.
+const LandingSite* SiteInQuestion(const MissionMemory& memory);
 
-/// Fills height, distance and time left of the status, to the armed site or else the leading one.
+/// Fills height, distance, time left and the place on the path of the status, to that site.
 void PublishGeometry(MissionMemory& memory, const MissionInputs& inputs);
 
 /// How far the laser's spot lies from the map's height there, in metres.

@@ -43,7 +43,11 @@ struct MissionFacts {
   double commit_height_m = 3;
   double min_coherence = NAN;
   Eigen::Vector3d skid_centre_W = Eigen::Vector3d::Constant(NAN);
-  double speed_mps = NAN;  ///< by the estimate in force
+  // By the estimate in force; yaw by the vehicle's own attitude.
+  Eigen::Vector3d p_WB = Eigen::Vector3d::Constant(NAN);
+  Eigen::Vector3d v_WB = Eigen::Vector3d::Constant(NAN);
+  double yaw_rad = NAN;
+  Eigen::Vector3d p_BC = Eigen::Vector3d::Zero();  ///< left focal point, of the newest rig
   bool position_healthy = false;
   bool tracker_locked = false;
   double coherence = NAN;

@@ -164,7 +164,7 @@ bool HasLanded(const MissionMemory& m) {
     return false;
   }
   const bool estimate_agrees =
-      std::abs(HeightAboveSite(m)) <= kLandedHeight_m && m.facts.speed_mps <= kLandedSpeed_mps;
+      std::abs(HeightAboveSite(m)) <= kLandedHeight_m && m.facts.v_WB.norm() <= kLandedSpeed_mps;
   return vehicle->mode == VehicleMode::kLanded || estimate_agrees;
 }
 

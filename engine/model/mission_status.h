@@ -1,6 +1,7 @@
 // Mission state as the engine publishes it: states, guards, alarms, events.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -86,6 +87,17 @@ struct SiteRecheck {
   std::optional<LandingSite> alternative{};
 };
 
+/// Where the vehicle is on the path that was approved; NaN and empty while it does not fly it.
+struct PathProgress {
+  double plan_height_m = NAN;  ///< of the skids above the site, at the nearest point of the path
+  double off_path_m = NAN;     ///< distance from there
+  struct Height {
+    double in_s = 0;
+    double height_m = 0;
+  };
+  std::vector<Height> ahead;  ///< planned, from now on, until the touchdown or for a minute
+};
+
 struct MissionStatus {
   MissionState state = MissionState::kNoLive;
   Timestamp since;
@@ -111,6 +123,7 @@ struct MissionStatus {
   double height_above_site_m = 0;  ///< skid above the site; NaN when no site
   double distance_to_site_m = 0;   ///< horizontal; NaN when no site
   double time_to_touchdown_s = 0;  ///< NaN when unknown
+  PathProgress path;
   /// LANDED: miss of the skid centre to the site, by the estimate.
   std::optional<double> touchdown_miss_m;
   std::optional<double> touchdown_miss_true_m;  ///< in simulation

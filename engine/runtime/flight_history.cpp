@@ -1,11 +1,5 @@
 #include "engine/runtime/flight_history.h"
 
-#include <algorithm>
-#include <cmath>
-
-#include "engine/core/units.h"
-#include "engine/flight/glide_slope.h"
-
 namespace palace {
 namespace {
 
@@ -19,41 +13,6 @@ Eigen::Vector3d SkidOf(const Eigen::Vector3d& p_WB, const Eigen::Matrix3d& R_WB)
   return p_WB + R_WB * SkidCentreBody();
 }
 
-/// Nearest point to p of the segment from a to b.
-Eigen::Vector3d NearestOnSegment(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
-                                 const Eigen::Vector3d& p) {
-  const Eigen::Vector3d along = b - a;
-  const double share = along.dot(p - a) / std::max(along.squaredNorm(), 1e-12);
-  return a + std::clamp(share, 0.0, 1.0) * along;
-}
-
-/// Where B should be now: the nearest point of the whole path. The path runs down the line of sight
-/// to kSettleHeight_m, level until the skids are above the site, then straight down.
-Eigen::Vector3d NearestOnPath(const GlideSlope& slope, const Eigen::Vector3d& p_WB) {
-  const double high_m = std::max(slope.SkidHeight(p_WB), kSettleHeight_m) + kSettleHeight_m;
-  const Eigen::Vector3d corners[] = {slope.BodyAt(high_m), slope.BodyAt(kSettleHeight_m),
-                                     slope.BodyAboveSite(kSettleHeight_m), slope.BodyAboveSite(0)};
-  Eigen::Vector3d nearest = corners[0];
-  for (int i = 0; i < 3; ++i) {
-    const Eigen::Vector3d candidate = NearestOnSegment(corners[i], corners[i + 1], p_WB);
-    if ((candidate - p_WB).norm() < (nearest - p_WB).norm()) {
-      nearest = candidate;
-    }
-  }
-  return nearest;
-}
-
-/// Only while the vehicle flies the path: turning towards its start is no deviation from it.
-bool FliesPath(const EngineSnapshot& snapshot) {
-  if (snapshot.mission.state != MissionState::kDescending || !snapshot.mission.approval ||
-      !snapshot.rig) {
-    return false;
-  }
-  const VehicleMode mode = snapshot.vehicle ? snapshot.vehicle->mode : VehicleMode::kUnknown;
-  return mode == VehicleMode::kDescend || mode == VehicleMode::kSettle ||
-         mode == VehicleMode::kSink;
-}
-
 void AddSiteFigures(HistorySample& sample, const EngineSnapshot& snapshot,
                     const Eigen::Matrix3d& R_WB) {
   const LandingSite& site = *snapshot.mission.armed;
@@ -65,14 +24,8 @@ void AddSiteFigures(HistorySample& sample, const EngineSnapshot& snapshot,
     sample.from_site_truth_m =
         Horizontal(SkidOf(sample.truth_p_WB, snapshot.truth->X_WB.R), site.p_WS);
   }
-  if (FliesPath(snapshot) && sample.estimate_p_WB.allFinite()) {
-    const Approval& approval = *snapshot.mission.approval;
-    const GlideSlope slope{approval.p_WS, approval.approach_heading_rad, approval.glide_slope_rad,
-                           snapshot.rig->position_body_m};
-    const Eigen::Vector3d planned = NearestOnPath(slope, sample.estimate_p_WB);
-    sample.plan_height_m = slope.SkidHeight(planned);
-    sample.glide_deviation_m = (sample.estimate_p_WB - planned).norm();
-  }
+  sample.plan_height_m = snapshot.mission.path.plan_height_m;
+  sample.glide_deviation_m = snapshot.mission.path.off_path_m;
 }
 
 }  // namespace

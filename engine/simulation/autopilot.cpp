@@ -16,15 +16,11 @@ constexpr int kEstimatesBeforeUse = 5;
 constexpr double kHandOverSpeed_mps = 0.5;
 constexpr double kOffsetFade_s = 3.0;
 constexpr double kLeverAverage_s = 2.0;
-constexpr double kYawRate_rad_s = Rad(15);
-constexpr double kPathAcceleration_mps2 = 0.3;
 constexpr double kPathLag_m = 1.0;
 constexpr double kSettleError_m = 0.15;
 constexpr double kSettleSpeed_mps = 0.15;
 // Long enough for the station to see the mode, also when there is nothing left to climb.
 constexpr double kShortestAbort_s = 1.0;
-constexpr TravelLimits kAlignTravel{2.0, 0.4};
-constexpr TravelLimits kSettleTravel{0.9, 0.5};
 constexpr TravelLimits kStopTravel{4.0, 0.8};
 
 /// The reference stops after braking from its present velocity.
@@ -77,8 +73,8 @@ void Autopilot::ReceiveApproval(const Approval& approval, Timestamp now) {
     return;
   }
   approval_ = approval;
-  slope_ = {approval.p_WS, approval.approach_heading_rad, approval.glide_slope_rad, options_.p_BC};
-  path_height_m_ = std::max(slope_.SkidHeight(reference_.p_W), kSettleHeight_m);
+  path_ = PathOf(approval, options_.p_BC);
+  path_height_m_ = std::max(path_.SkidHeight(reference_.p_W), kSettleHeight_m);
   last_estimate_.reset();
   last_arrival_.reset();
   estimates_seen_ = 0;
@@ -183,12 +179,13 @@ void Autopilot::StepAlign(Timestamp now) {
     EnterHold();
     return;
   }
-  const Vector3d start = slope_.BodyAt(path_height_m_);
-  reference_.MoveTowards(start, kAlignTravel, dt);
-  yaw_reference_rad_ = SlewAngle(yaw_reference_rad_, slope_.heading_rad, kYawRate_rad_s * dt);
+  const Vector3d start = path_.BodyAt(path_height_m_);
+  reference_.MoveTowards(start, path_.speeds.align, dt);
+  yaw_reference_rad_ =
+      SlewAngle(yaw_reference_rad_, path_.heading_rad, path_.speeds.turn_rate_rad_s * dt);
   const double yaw = EulerFromRotation(gps_.R_WB).yaw_rad;
   const bool aligned = (gps_.p_WB - start).norm() < 0.5 && gps_.v_WB.norm() < 0.4 &&
-                       std::abs(WrapAngle(yaw - slope_.heading_rad)) < Rad(3);
+                       std::abs(WrapAngle(yaw - path_.heading_rad)) < Rad(3);
   const bool vision_ready = estimates_seen_ >= kEstimatesBeforeUse &&
                             VisionAge(now) < kHoldAfter_s &&
                             (last_estimate_->v_WB - gps_.v_WB).norm() < kHandOverSpeed_mps;
@@ -204,8 +201,8 @@ void Autopilot::HandOverToVision() {
   flown_.v_WB = vision_->now().v_WB;
   flies_on_vision_ = true;
   reference_.p_W += shift;
-  path_height_m_ = slope_.SkidHeight(reference_.p_W);
-  path_offset_W_ = reference_.p_W - slope_.BodyAt(path_height_m_);
+  path_height_m_ = path_.SkidHeight(reference_.p_W);
+  path_offset_W_ = reference_.p_W - path_.BodyAt(path_height_m_);
   path_rate_mps_ = 0;
   reference_.v_W.setZero();
   mode_ = VehicleMode::kDescend;
@@ -213,21 +210,15 @@ void Autopilot::HandOverToVision() {
 
 void Autopilot::StepDescend(bool fresh) {
   const double dt = options_.control_period_s;
-  const double to_go = path_height_m_ - kSettleHeight_m;
-  // The floor ends the path in finite time; braking at the end leaves no step for the height loop.
-  const double braking = std::max(0.1, std::sqrt(2 * kPathAcceleration_mps2 * std::max(to_go, 0.)));
-  const double slow_to_go = std::max(path_height_m_ - options_.slow_height_m, 0.0);
-  const double wanted = std::min({options_.sink_rate_mps, braking,
-                                  std::hypot(options_.slow_sink_rate_mps,
-                                             std::sqrt(2 * kPathAcceleration_mps2 * slow_to_go))});
+  const double wanted = path_.speeds.SinkRateAt(path_height_m_);
   const bool keeps_up = (reference_.p_W - flown_.p_WB).norm() < kPathLag_m;
   const bool moving = fresh && keeps_up;
-  path_rate_mps_ =
-      Slew(path_rate_mps_, moving ? wanted : 0, (moving ? 1 : 4) * kPathAcceleration_mps2 * dt);
+  path_rate_mps_ = Slew(path_rate_mps_, moving ? wanted : 0,
+                        (moving ? 1 : 4) * path_.speeds.acceleration_mps2 * dt);
   path_height_m_ -= path_rate_mps_ * dt;
   path_offset_W_ *= std::exp(-dt / kOffsetFade_s);
-  reference_.p_W = slope_.BodyAt(path_height_m_) + path_offset_W_;
-  const Vector3d v_W = -path_rate_mps_ * slope_.BodyPerMetre();
+  reference_.p_W = path_.BodyAt(path_height_m_) + path_offset_W_;
+  const Vector3d v_W = -path_rate_mps_ * path_.BodyPerMetre();
   reference_.a_W = (v_W - reference_.v_W) / dt;
   reference_.v_W = v_W;
   if (path_height_m_ <= kSettleHeight_m) {
@@ -238,9 +229,9 @@ void Autopilot::StepDescend(bool fresh) {
 
 void Autopilot::StepSettle(Timestamp, bool fresh) {
   const double dt = options_.control_period_s;
-  const Vector3d target = slope_.p_WS - kSettleHeight_m * Vector3d::UnitZ() - skid_lever_W_;
+  const Vector3d target = path_.p_WS - kSettleHeight_m * Vector3d::UnitZ() - skid_lever_W_;
   reference_.MoveTowards(fresh ? target : StoppingPoint(reference_.p_W, reference_.v_W),
-                         kSettleTravel, dt);
+                         path_.speeds.level, dt);
   settle_time_s_ += dt;
   // In gusts the tight tolerance may never hold; it widens, to less than the navigation error that
   // every clear radius includes.
@@ -259,10 +250,10 @@ void Autopilot::StepSettle(Timestamp, bool fresh) {
 
 void Autopilot::StepSink(bool fresh) {
   const double dt = options_.control_period_s;
-  path_rate_mps_ = Slew(path_rate_mps_, fresh ? options_.touch_rate_mps : 0,
-                        (fresh ? 1 : 4) * kPathAcceleration_mps2 * dt);
+  path_rate_mps_ = Slew(path_rate_mps_, fresh ? path_.speeds.touch_mps : 0,
+                        (fresh ? 1 : 4) * path_.speeds.acceleration_mps2 * dt);
   path_height_m_ -= path_rate_mps_ * dt;
-  reference_.p_W = slope_.p_WS - path_height_m_ * Vector3d::UnitZ() - skid_lever_W_;
+  reference_.p_W = path_.p_WS - path_height_m_ * Vector3d::UnitZ() - skid_lever_W_;
   reference_.v_W = {0, 0, path_rate_mps_};
   reference_.a_W.setZero();
 }

@@ -5,7 +5,7 @@
 //           Leaves when within 0.5 m, 3 deg and 0.4 m/s AND healthy vision estimates for this
 //           approval arrive; too late for the expiry means kHold.
 //   kDescend, kSettle, kSink  fly on vision: down the slope, level until the skids are above the
-//           site at 2 m, then 0.35 m/s down until they touch.
+//           site, then straight down until they touch. Geometry and speeds: flight_path.h.
 //   kLanded stays. kHold hovers where it is on GPS. kAbort climbs at 1.5 m/s, then kHover.
 //
 // On vision, no healthy estimate with an advancing stamp for 0.5 s stops the motion (inertial
@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "engine/flight/controllers.h"
-#include "engine/flight/glide_slope.h"
+#include "engine/flight/flight_path.h"
 #include "engine/flight/waypoints.h"
 #include "engine/simulation/approval_gate.h"
 #include "engine/simulation/vehicle_navigator.h"
@@ -32,10 +32,6 @@ struct AutopilotOptions {
   double hover_yaw_rad = 0;
   Eigen::Vector3d p_BC = Eigen::Vector3d::Zero();  ///< left focal point in B
   double control_period_s = 0.02;
-  double sink_rate_mps = 1.0;       ///< on the slope
-  double slow_sink_rate_mps = 0.5;  ///< below slow_height_m of skid height
-  double slow_height_m = 4.0;
-  double touch_rate_mps = 0.35;
   double climb_rate_mps = 1.5;
 };
 
@@ -79,7 +75,7 @@ class Autopilot {
   FlightController controller_;
   VehicleMode mode_ = VehicleMode::kHover;
   std::optional<Approval> approval_;
-  GlideSlope slope_;
+  FlightPath path_;
 
   FlightState gps_;  ///< of the last control step
   FlightState flown_;

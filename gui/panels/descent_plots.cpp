@@ -3,7 +3,6 @@
 #include <optional>
 
 #include "engine/core/frames.h"
-#include "engine/core/units.h"
 #include "gui/panels/fly_panels.h"
 #include "gui/widgets/number_text.h"
 
@@ -107,29 +106,16 @@ PlotTrace RateOf(const EngineSnapshot& snap, PositionMember track, ImU32 colour,
 }
 
 /// What is still to be flown: down the slope, level over the site, straight down.
-PlotTrace PlanAhead(const EngineSnapshot& snap, const HistorySample& now, const Palette& p) {
-  constexpr double kSettleHeight_m = 2, kLevelSpeed_mps = 0.7, kTouchRate_mps = 0.4;
+PlotTrace PlanAhead(const EngineSnapshot& snap, const Palette& p) {
   PlotTrace plan;
   plan.colour = p.text2;
   plan.stroke = PlotTrace::Stroke::kDashed;
-  const double rate = std::max(0.1, snap.settings.mission.descent_rate_mps);
-  const double slope = Rad(std::clamp(snap.settings.mission.glide_slope_deg, 5.0, 90.0));
-  const bool on_slope = now.height_above_site_m > kSettleHeight_m + 0.1;
-  const double level_m = on_slope ? kSettleHeight_m / std::tan(slope) : now.from_site_m;
-  double left_level_s =
-      now.height_above_site_m > kSettleHeight_m - 0.3 ? level_m / kLevelSpeed_mps : 0.0;
-  double height_m = now.height_above_site_m;
-  constexpr float kStep_s = 0.5f;
-  for (float t = 0; t <= kFuture_s; t += kStep_s) {
-    plan.points.push_back({t, static_cast<float>(height_m)});
-    const auto dt = static_cast<double>(kStep_s);
-    if (height_m > kSettleHeight_m + 1e-6) {
-      height_m = std::max(kSettleHeight_m, height_m - rate * dt);
-    } else if (left_level_s > 0) {
-      left_level_s -= dt;
-    } else {
-      height_m = std::max(0.0, height_m - kTouchRate_mps * dt);
+  for (const PathProgress::Height& ahead : snap.mission.path.ahead) {
+    const auto t = static_cast<float>(ahead.in_s);
+    if (t > kFuture_s) {
+      break;
     }
+    plan.points.push_back({t, static_cast<float>(ahead.height_m)});
   }
   return plan;
 }
@@ -143,8 +129,8 @@ PlotView HeightPlot(const EngineSnapshot& snap, const Palette& p, const HistoryS
                  SeriesOf(snap, &HistorySample::laser_m, p.laser, 1.5f),
                  HeightOf(snap, &HistorySample::gps_p_WB, p.gps, Stroke::kSolid),
                  SeriesOf(snap, &HistorySample::plan_height_m, p.text2, 1.5f, Stroke::kDashed)};
-  if (std::isfinite(now.height_above_site_m) && snap.mission.state == MissionState::kDescending) {
-    view.series.push_back(PlanAhead(snap, now, p));
+  if (!snap.mission.path.ahead.empty()) {
+    view.series.push_back(PlanAhead(snap, p));
   }
   const float top = Largest(view.series, 4);
   view.y_max = RoundUp(top * 1.05f, top > 20 ? 10 : (top > 8 ? 5 : 2));

@@ -31,6 +31,23 @@ TEST(MovingReference, KeepsItsLimitsAndArrivesAtRest) {
   }
 }
 
+TEST(TravelTime, IsWhatTheReferenceTakes) {
+  RandomStream random(10);
+  for (int trial = 0; trial < 100; ++trial) {
+    const TravelLimits limits{random.Uniform(0.5, 3), random.Uniform(0.2, 1)};
+    const double distance_m = random.Uniform(0.5, 30), dt = 0.02;
+    MovingReference reference;
+    const Eigen::Vector3d goal(distance_m, 0, 0);
+    double taken_s = 0;
+    for (; (reference.p_W - goal).norm() > 0.02; taken_s += dt) {
+      reference.MoveTowards(goal, limits, dt);
+    }
+    EXPECT_NEAR(TravelTime(distance_m, limits), taken_s, 0.06 * taken_s + 0.4)
+        << "seed 10 trial " << trial;
+  }
+  EXPECT_EQ(TravelTime(0, {}), 0);
+}
+
 TEST(SlewAngle, TakesTheShortWay) {
   EXPECT_NEAR(SlewAngle(3.1, -3.1, 0.05), -2 * 3.14159265358979 + 3.15, 1e-9);
   EXPECT_NEAR(SlewAngle(0.5, 0.52, 0.05), 0.52, 1e-12);

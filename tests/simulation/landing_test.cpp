@@ -1,10 +1,12 @@
 // Landings on vision without pictures: touchdown, hand-over, refusals, outages, wave-off.
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <string>
 
 #include <gtest/gtest.h>
 
+#include "engine/flight/flight_path.h"
 #include "tests/simulation/simulated_station.h"
 
 namespace palace {
@@ -54,6 +56,39 @@ TEST_P(Landing, TouchesDownOnTheSite) {
               static_cast<int>(c.seed), SecondsBetween(Simulator::kEpoch, touchdown->time), miss_m,
               touchdown->vertical_speed_mps, touchdown->horizontal_speed_mps,
               Deg(touchdown->tilt_rad));
+}
+
+// What the screen tells beforehand is what the vehicle takes.
+TEST_P(Landing, TakesTheTimeThePathSays) {
+  const LandingCase& c = GetParam();
+  SimulatorOptions options = Options(c.seed);
+  options.wind = c.wind;
+  Flight flight(options);
+  const Approval approval = flight.MakeApproval({c.north_m, c.east_m, 0}, c.heading_rad);
+  const FlightPath path = PathOf(approval, options.rig.position_body_m);
+  flight.simulator.Send(approval);
+  flight.estimates_on = true;
+  const auto now_s = [&] { return SecondsBetween(Simulator::kEpoch, flight.last->time); };
+  const Truth& hover = flight.last->truth.back();
+  const double align_s =
+      now_s() + TimeToAlign(path, hover.X_WB.p, EulerFromRotation(hover.X_WB.R).yaw_rad);
+  ASSERT_TRUE(flight.StepUntil(VehicleMode::kDescend, 60));
+  EXPECT_NEAR(align_s, now_s(), 3);
+  std::vector<double> told_s;
+  while (flight.last->status->mode != VehicleMode::kLanded && now_s() < 120) {
+    const Truth& truth = flight.last->truth.back();
+    told_s.push_back(now_s() + TimeToTouchdown(path, truth.X_WB.p, truth.v_WB));
+    flight.Step();
+  }
+  ASSERT_EQ(flight.last->status->mode, VehicleMode::kLanded);
+  const auto [early, late] = std::minmax_element(told_s.begin(), told_s.end());
+  std::printf(
+      "  seed %d: align told %.1f s, touchdown at %.1f s, told %.1f s at first, %.1f to %.1f s\n",
+      static_cast<int>(c.seed), align_s, now_s(), told_s.front(), *early, *late);
+  // Above the site it waits until the vehicle is still, in gusts longer.
+  EXPECT_NEAR(told_s.front(), now_s(), c.wind.mean_mps > 0 ? 12 : 2);
+  EXPECT_GT(*early, now_s() - (c.wind.mean_mps > 0 ? 12 : 4));
+  EXPECT_LT(*late, now_s() + 6);
 }
 
 INSTANTIATE_TEST_SUITE_P(Calm, Landing,
