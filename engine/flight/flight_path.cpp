@@ -72,7 +72,11 @@ PathPoint FlightPath::Nearest(const Eigen::Vector3d& p_WB) const {
 }
 
 FlightPath PathOf(const Approval& approval, const Eigen::Vector3d& p_BC) {
-  return {approval.p_WS, approval.approach_heading_rad, approval.glide_slope_rad, p_BC, {}};
+  return {approval.p_WS,
+          approval.approach_heading_rad,
+          approval.glide_slope_rad,
+          p_BC,
+          {.sink_mps = approval.descent_rate_mps}};
 }
 
 double StraightHeading(const Eigen::Vector3d& p_W_skid, const Eigen::Vector3d& p_WS) {

@@ -37,6 +37,7 @@ Approval MakeApproval(MissionTurn& turn, Timestamp now) {
   a.p_WS = site.p_WS;
   a.approach_heading_rad = StraightHeading(m.facts.skid_centre_W, site.p_WS);
   a.glide_slope_rad = Rad(m.facts.limits.glide_slope_deg);
+  a.descent_rate_mps = m.facts.limits.descent_rate_mps;
   a.clear_radius_m = site.clear_radius_m;
   if (MaySign(m.facts.role)) {
     turn.station.signer.Sign(a);  // unsigned, no vehicle takes it (I7)

@@ -47,7 +47,7 @@ FlightPath PathTo(const MissionMemory& m, const LandingSite& site) {
           StraightHeading(m.facts.skid_centre_W, site.p_WS),
           Rad(m.facts.limits.glide_slope_deg),
           m.facts.p_BC,
-          {}};
+          {.sink_mps = m.facts.limits.descent_rate_mps}};
 }
 
 const LandingSite* SiteInQuestion(const MissionMemory& m) {

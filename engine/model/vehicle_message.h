@@ -28,7 +28,8 @@ struct Approval {
   bool provisional = false;
   Eigen::Vector3d p_WS = Eigen::Vector3d::Zero();  ///< site, NED metres
   double approach_heading_rad = 0;
-  double glide_slope_rad = 0;  ///< down from the horizon
+  double glide_slope_rad = 0;   ///< down from the horizon
+  double descent_rate_mps = 0;  ///< down the glide slope, the vertical part
   double clear_radius_m = 0;
   std::vector<std::uint8_t> signature;  ///< Ed25519 over the canonical encoding of all of the above
 };

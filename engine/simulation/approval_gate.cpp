@@ -10,6 +10,8 @@ namespace {
 
 constexpr double kMinSlope_rad = Rad(15);
 constexpr double kMaxSlope_rad = Rad(90.001);
+constexpr double kMinSink_mps = 0.1;
+constexpr double kMaxSink_mps = 1.5;  // what the cascade's height loop holds
 constexpr double kMaxDistance_m = 100;
 
 }  // namespace
@@ -20,7 +22,7 @@ ApprovalGate::ApprovalGate(std::uint64_t boot_id, Check signature_check)
 std::string ApprovalGate::Admit(const Approval& approval, Timestamp now,
                                 const Eigen::Vector3d& p_WB) {
   if (!approval.p_WS.allFinite() || !std::isfinite(approval.approach_heading_rad) ||
-      !std::isfinite(approval.glide_slope_rad)) {
+      !std::isfinite(approval.glide_slope_rad) || !std::isfinite(approval.descent_rate_mps)) {
     return "a number in the approval is not finite";
   }
   if (approval.id == 0) {
@@ -38,6 +40,9 @@ std::string ApprovalGate::Admit(const Approval& approval, Timestamp now,
   }
   if (approval.glide_slope_rad < kMinSlope_rad || approval.glide_slope_rad > kMaxSlope_rad) {
     return "the glide slope is outside 15 to 90 degrees";
+  }
+  if (approval.descent_rate_mps < kMinSink_mps || approval.descent_rate_mps > kMaxSink_mps) {
+    return "the descent rate is outside 0.1 to 1.5 m/s";
   }
   if ((approval.p_WS - p_WB).norm() > kMaxDistance_m) {
     return "the site is more than 100 m away";

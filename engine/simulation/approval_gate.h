@@ -18,8 +18,9 @@ class ApprovalGate {
   ApprovalGate(std::uint64_t boot_id, Check signature_check);
 
   /// Empty: accepted, and its counter is spent. Otherwise the reason of the refusal. Demands finite
-  /// numbers, a glide slope of 15 to 90 degrees, a site within 100 m, this boot, vehicle time
-  /// before the expiry, a counter above every accepted one of its session, and the signature.
+  /// numbers, a glide slope of 15 to 90 degrees, a descent rate of 0.1 to 1.5 m/s, a site within
+  /// 100 m, this boot, vehicle time before the expiry, a counter above every accepted one of its
+  /// session, and the signature.
   std::string Admit(const Approval& approval, Timestamp now, const Eigen::Vector3d& p_WB);
 
  private:

@@ -11,7 +11,7 @@
 namespace palace {
 namespace {
 
-constexpr std::string_view kVersion = "PALACE-APPROVAL-1";
+constexpr std::string_view kVersion = "PALACE-APPROVAL-2";
 
 class Encoder {
  public:
@@ -43,7 +43,8 @@ bool IsSigned(const Approval& approval, const PublicKey& public_key) {
 
 bool IsFinite(const Approval& a) {
   return a.p_WS.allFinite() && std::isfinite(a.approach_heading_rad) &&
-         std::isfinite(a.glide_slope_rad) && std::isfinite(a.clear_radius_m);
+         std::isfinite(a.glide_slope_rad) && std::isfinite(a.descent_rate_mps) &&
+         std::isfinite(a.clear_radius_m);
 }
 
 std::string WhyRefused(const Approval& approval, const PublicKey& public_key,
@@ -82,7 +83,7 @@ std::vector<std::uint8_t> EncodeApproval(const Approval& a) {
   encoder.Time(a.expires_at);
   encoder.Word(a.provisional ? 1 : 0);
   for (const double value : {a.p_WS.x(), a.p_WS.y(), a.p_WS.z(), a.approach_heading_rad,
-                             a.glide_slope_rad, a.clear_radius_m}) {
+                             a.glide_slope_rad, a.descent_rate_mps, a.clear_radius_m}) {
     encoder.Real(value);
   }
   return encoder.Take();

@@ -23,6 +23,7 @@ command_t ApprovalToWire(const Approval& a, Timestamp now) {
   Pack(a.p_WS, m.site_pos);
   m.approach_heading_rad = a.approach_heading_rad;
   m.glide_slope_rad = a.glide_slope_rad;
+  m.descent_rate_mps = a.descent_rate_mps;
   m.clear_radius_m = a.clear_radius_m;
   m.signature = a.signature;
   m.signature_size = static_cast<std::int32_t>(a.signature.size());
@@ -45,10 +46,12 @@ Result<VehicleMessage> ApprovalFromWire(const command_t& m) {
   a.p_WS = Unpack(m.site_pos);
   a.approach_heading_rad = m.approach_heading_rad;
   a.glide_slope_rad = m.glide_slope_rad;
+  a.descent_rate_mps = m.descent_rate_mps;
   a.clear_radius_m = m.clear_radius_m;
   a.signature = m.signature;
   if (!a.p_WS.allFinite() || !std::isfinite(a.approach_heading_rad) ||
-      !std::isfinite(a.glide_slope_rad) || !std::isfinite(a.clear_radius_m)) {
+      !std::isfinite(a.glide_slope_rad) || !std::isfinite(a.descent_rate_mps) ||
+      !std::isfinite(a.clear_radius_m)) {
     return InvalidError("an approval holds a number that is not finite");
   }
   return VehicleMessage(std::move(a));

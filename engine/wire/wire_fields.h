@@ -118,8 +118,8 @@ template <typename Reader>
 void VisitFields(Reader& read, command_t& m) {
   read(m.utime, m.kind, m.command_id, m.session_id, m.counter, m.site_id, m.map_hash,
        m.settings_hash, m.calibration_hash, m.vehicle_boot_id, m.approved_utime, m.expires_utime,
-       m.provisional, m.site_pos, m.approach_heading_rad, m.glide_slope_rad, m.clear_radius_m,
-       m.reason, m.signature_size);
+       m.provisional, m.site_pos, m.approach_heading_rad, m.glide_slope_rad, m.descent_rate_mps,
+       m.clear_radius_m, m.reason, m.signature_size);
   read.List(m.signature_size, m.signature);
 }
 template <typename Reader>

@@ -102,6 +102,22 @@ INSTANTIATE_TEST_SUITE_P(LightWind, Landing,
                                          LandingCase{7, 16, 1, 0, {4, 1.5, 5}, 0.8},
                                          LandingCase{8, 14, -3, 0.5, {4, 3.0, 5}, 0.8}));
 
+TEST(Autopilot, FliesTheDescentRateThatWasApproved) {
+  for (const double rate_mps : {0.4, 0.8, 1.2}) {
+    Flight flight(Options(21));
+    Approval approval = flight.MakeApproval({17, 0, 0});
+    approval.descent_rate_mps = rate_mps;
+    flight.simulator.Send(approval);
+    flight.estimates_on = true;
+    ASSERT_TRUE(flight.StepUntil(VehicleMode::kDescend, 60)) << rate_mps;
+    flight.StepSeconds(6);
+    const double from_m = -flight.last->truth.back().X_WB.p.z();
+    flight.StepSeconds(3);
+    ASSERT_EQ(flight.last->status->mode, VehicleMode::kDescend) << rate_mps;
+    EXPECT_NEAR((from_m + flight.last->truth.back().X_WB.p.z()) / 3, rate_mps, 0.1);
+  }
+}
+
 TEST(Autopilot, HandOverShiftsTheReferenceInsteadOfTheVehicle) {
   Flight flight(Options(8));
   flight.vision_offset_W = {0.4, -0.3, 0.2};
@@ -167,6 +183,10 @@ TEST(Autopilot, RefusesApprovalsThatAreNotForThisMoment) {
       {"not finite", [](Approval& a, const FrameBundle&) { a.p_WS.y() = NAN; }, "finite"},
       {"glide slope", [](Approval& a, const FrameBundle&) { a.glide_slope_rad = 0.05; },
        "glide slope"},
+      {"descent rate", [](Approval& a, const FrameBundle&) { a.descent_rate_mps = 2; },
+       "descent rate"},
+      {"no descent rate", [](Approval& a, const FrameBundle&) { a.descent_rate_mps = 0; },
+       "descent rate"},
       {"far away", [](Approval& a, const FrameBundle&) { a.p_WS.x() = 500; }, "100 m"},
       {"signature", [](Approval& a, const FrameBundle&) { a.signature = {1}; }, "forged"},
   };

@@ -83,6 +83,7 @@ class Flight {
     approval.p_WS = p_WS;
     approval.approach_heading_rad = heading_rad;
     approval.glide_slope_rad = Rad(45);
+    approval.descent_rate_mps = 1.0;
     approval.clear_radius_m = 2.3;
     return approval;
   }

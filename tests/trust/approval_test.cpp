@@ -27,6 +27,7 @@ Approval Good(const ApprovalSigner& signer, std::uint64_t counter = 1) {
   a.p_WS = {1, 2, 3};
   a.approach_heading_rad = 0.5;
   a.glide_slope_rad = 0.7;
+  a.descent_rate_mps = 0.8;
   a.clear_radius_m = 2.3;
   signer.Sign(a);
   return a;
@@ -66,6 +67,7 @@ TEST(Approval, AnyChangedFieldVoidsTheSignature) {
       {"down", [](Approval& a) { a.p_WS.z() += 1e-12; }},
       {"heading", [](Approval& a) { a.approach_heading_rad += 1e-12; }},
       {"glide", [](Approval& a) { a.glide_slope_rad += 1e-12; }},
+      {"descent rate", [](Approval& a) { a.descent_rate_mps += 1e-12; }},
       {"radius", [](Approval& a) { a.clear_radius_m += 1e-12; }},
       {"signature", [](Approval& a) { a.signature[17] ^= 1; }},
       {"short signature", [](Approval& a) { a.signature.pop_back(); }},

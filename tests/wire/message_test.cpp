@@ -58,6 +58,7 @@ TEST(VehicleMessage, ApprovalSurvivesWithEveryBoundField) {
   a.p_WS = RandomVector(random);
   a.approach_heading_rad = 1.25;
   a.glide_slope_rad = 0.75;
+  a.descent_rate_mps = 0.6;
   a.clear_radius_m = 2.3;
   a.signature = {1, 2, 3, 255};
   const auto back = DecodeVehicleMessage(EncodeVehicleMessage(a, {9}, kChannels), kChannels);
@@ -77,6 +78,7 @@ TEST(VehicleMessage, ApprovalSurvivesWithEveryBoundField) {
   EXPECT_EQ(b.p_WS, a.p_WS);
   EXPECT_EQ(b.approach_heading_rad, a.approach_heading_rad);
   EXPECT_EQ(b.glide_slope_rad, a.glide_slope_rad);
+  EXPECT_EQ(b.descent_rate_mps, a.descent_rate_mps);
   EXPECT_EQ(b.clear_radius_m, a.clear_radius_m);
   EXPECT_EQ(b.signature, a.signature);
 }
