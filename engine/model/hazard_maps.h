@@ -41,8 +41,15 @@ struct HazardMaps {
   GridF safe_probability;
   Grid<std::uint8_t> reasons;  ///< HazardReason bits
   Grid<std::uint8_t> flags;    ///< TerrainFlag bits; empty in thesis mode
+  /// 1 where a lander could be sent: the nearest hazard is at least the clear radius away, and the
+  /// footprint keeps every limit.
+  Grid<std::uint8_t> can_bear;
   RejectedCells rejected;
-  int safe_cells = 0;
+  int safe_cells = 0;  ///< that can bear the lander
 };
+
+inline bool CanBearLander(const HazardMaps& hazards, Cell cell) {
+  return hazards.can_bear.at(cell) != 0;
+}
 
 }  // namespace palace

@@ -264,9 +264,9 @@ Status WriteSafeLandingPicture(const std::filesystem::path& path, const Elevatio
         continue;
       }
       const double grey = relief.at(r, c);
-      const cv::Vec3d tint = reasons != 0                               ? kUnsafeInk
-                             : CanBearLander(hazards, settings, {r, c}) ? kSafeInk
-                                                                        : cv::Vec3d(150, 140, 130);
+      const cv::Vec3d tint = reasons != 0                     ? kUnsafeInk
+                             : CanBearLander(hazards, {r, c}) ? kSafeInk
+                                                              : cv::Vec3d(150, 140, 130);
       colours.at<cv::Vec3b>(r, c) = cv::Vec3b(0.5 * tint + 0.5 * cv::Vec3d(grey, grey, grey));
     }
   }

@@ -149,12 +149,7 @@ ImageRgba RangeTint(const ImageF& depth_m, ValueRange range_m) {
   return tint;
 }
 
-ImageRgba DifferencePicture(const HazardMaps& before, const HazardMaps& now, double clear_before_m,
-                            double clear_now_m) {
-  const auto placeable = [](const HazardMaps& maps, Cell cell, double clear_m) {
-    return maps.reasons.at(cell) == kHazardNone &&
-           (clear_m <= 0 || static_cast<double>(maps.safe_distance_m.at(cell)) >= clear_m);
-  };
+ImageRgba DifferencePicture(const HazardMaps& before, const HazardMaps& now) {
   const GridGeometry& geometry = now.geometry;
   ImageRgba picture(geometry.cols, geometry.rows);
   for (int row = 0; row < geometry.rows; ++row) {
@@ -162,9 +157,9 @@ ImageRgba DifferencePicture(const HazardMaps& before, const HazardMaps& now, dou
       const std::uint8_t reasons = now.reasons.at(row, col);
       const std::optional<Cell> cell =
           before.geometry.CellFromPoint(geometry.NorthOfRow(row), geometry.EastOfCol(col));
-      const bool was_safe = cell && placeable(before, *cell, clear_before_m);
+      const bool was_safe = cell && CanBearLander(before, *cell);
       const bool was_unknown = !cell || (before.reasons.at(*cell) & kHazardUnknown) != 0;
-      const bool is_safe = placeable(now, {row, col}, clear_now_m);
+      const bool is_safe = CanBearLander(now, {row, col});
       const bool is_unknown = (reasons & kHazardUnknown) != 0;
       picture.at(col, row) = is_safe && was_safe         ? kKeptSafe
                              : is_safe                   ? kGained

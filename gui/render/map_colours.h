@@ -49,11 +49,9 @@ ImageRgba MapPicture(const GridF& values, ValueRange range, ColourMap map);
 Rgba8 ColourOf(float value, ValueRange range, ColourMap map);
 
 /// What became of each safe cell: kept safe #2B6FB5, lost #F0963C, gained #F2F5F8, unsafe in both
-/// #161C22, unknown in both kUnknownColour. A cell is safe when its reasons are zero and the
-/// nearest hazard is at least the clear radius away. Maps of different geometry are compared by
-/// place; cells of `now` outside `before` count as unsafe there.
-ImageRgba DifferencePicture(const HazardMaps& before, const HazardMaps& now,
-                            double clear_before_m = 0, double clear_now_m = 0);
+/// #161C22, unknown in both kUnknownColour. A cell is safe when it can bear the lander. Maps of
+/// different geometry are compared by place; cells of `now` outside `before` count as unsafe there.
+ImageRgba DifferencePicture(const HazardMaps& before, const HazardMaps& now);
 
 /// Depths that hold all but the nearest and farthest 2 % of the pixels, on half metres.
 ValueRange DepthRangeFor(const ImageF& depth_m);

@@ -131,10 +131,8 @@ void TextureSet::UpdateComparison(const EngineSnapshot& snapshot) {
                    TextureFilter::kNearest);
   names_.recorded_safe_distance = recorded_.name();
   if (shown_ != nullptr && shown_->hazards != nullptr) {
-    difference_.Upload(
-        DifferencePicture(*recorded->hazards, *shown_->hazards, recorded->settings.clear_radius_m(),
-                          shown_->settings.clear_radius_m()),
-        TextureFilter::kNearest);
+    difference_.Upload(DifferencePicture(*recorded->hazards, *shown_->hazards),
+                       TextureFilter::kNearest);
     names_.difference = difference_.name();
   }
 }

@@ -79,7 +79,7 @@ TEST(SiteSelection, OnlyCellsThatCanBearTheLanderAreOffered) {
   int can_bear = 0;
   for (int r = 0; r < 81; ++r) {
     for (int c = 0; c < 81; ++c) {
-      can_bear += CanBearLander(hazards, settings, {r, c}) ? 1 : 0;
+      can_bear += CanBearLander(hazards, {r, c}) ? 1 : 0;
     }
   }
   EXPECT_EQ(can_bear, hazards.safe_cells);

@@ -87,6 +87,7 @@ inline std::shared_ptr<const HazardMaps> Hazards(const ElevationMap& map, double
       h.safe_probability = GridF(kCells, kCells, kUnknownValue);
   h.safe_distance_m = GridF(kCells, kCells, 0);
   h.reasons = Grid<std::uint8_t>(kCells, kCells, kHazardUnknown);
+  h.can_bear = Grid<std::uint8_t>(kCells, kCells);
   for (int r = 1; r + 1 < kCells; ++r) {
     for (int c = 1; c + 1 < kCells; ++c) {
       const double dn = (map.height_m.at(r - 1, c) - map.height_m.at(r + 1, c)) / (2 * kCell_m);
@@ -132,7 +133,8 @@ inline std::shared_ptr<const HazardMaps> Hazards(const ElevationMap& map, double
         }
       }
       h.safe_distance_m.at(r, c) = static_cast<float>(std::sqrt(nearest2) * kCell_m);
-      h.safe_cells += nearest2 > 0 ? 1 : 0;
+      h.can_bear.at(r, c) = h.safe_distance_m.at(r, c) >= 2.3f;  // the clear radius
+      h.safe_cells += h.can_bear.at(r, c);
     }
   }
   return std::make_shared<const HazardMaps>(std::move(h));

@@ -105,7 +105,7 @@ void DecideHazard(CellExplanation& e) {
 }
 
 /// A cell that is none: is there room for the lander?
-void DecideRoom(const HazardMaps& hazards, const SladSettings& settings, CellExplanation& e) {
+void DecideRoom(const HazardMaps& hazards, CellExplanation& e) {
   e.nearest = FindNearestHazard(hazards, e.cell);
   ExplainedTerm* room = Find(e, CellTerm::kHazardDistance);
   if (room->over) {
@@ -113,7 +113,7 @@ void DecideRoom(const HazardMaps& hazards, const SladSettings& settings, CellExp
     e.verdict += "; " + WhereWords(*e.nearest);
     return;
   }
-  if (!FootprintHolds(hazards, settings, e.cell)) {
+  if (!CanBearLander(hazards, e.cell)) {
     for (ExplainedTerm& term : e.terms) {
       if (term.over) {
         Decide(e, &term, " under the lander");
@@ -160,7 +160,7 @@ CellExplanation ExplainCell(const ElevationMap& map, const HazardMaps& hazards,
   if (e.reasons != kHazardNone) {
     DecideHazard(e);
   } else {
-    DecideRoom(hazards, settings, e);
+    DecideRoom(hazards, e);
   }
   return e;
 }

@@ -15,7 +15,4 @@ void MeasureModern(const ElevationMap& map, const SladSettings& settings, Terrai
 /// The limits as the loops take them.
 ModernLimits LimitsOf(const SladSettings& settings);
 
-/// Whether the lander's footprint centred on the cell keeps every limit of its mode.
-bool FootprintHolds(const HazardMaps& hazards, const SladSettings& settings, Cell cell);
-
 }  // namespace palace

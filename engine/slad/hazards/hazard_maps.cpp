@@ -41,6 +41,22 @@ CountedAs CountingOf(unsigned reasons) {
                                                              : kAsSafe;
 }
 
+/// Whether the lander's footprint centred on the cell keeps every limit of its mode.
+bool FootprintHolds(const HazardMaps& hazards, const SladSettings& settings, Cell cell) {
+  if (hazards.reasons.at(cell) != kHazardNone) {
+    return false;
+  }
+  if (settings.mode == SladMode::kThesis) {
+    return true;
+  }
+  return hazards.slope_rad.at(cell) <= static_cast<float>(Rad(settings.max_slope_deg)) &&
+         hazards.roughness_m.at(cell) <= static_cast<float>(settings.max_deviation_m) &&
+         hazards.step_m.at(cell) <= static_cast<float>(settings.max_step_m) &&
+         static_cast<double>(hazards.safe_probability.at(cell)) >=
+             RequiredSafeProbability(settings,
+                                     static_cast<double>(hazards.roughness_sigma_m.at(cell)));
+}
+
 void CountCells(const SladSettings& settings, HazardMaps& hazards) {
   constexpr unsigned kAllReasons = 63;
   const float clear_m = static_cast<float>(settings.clear_radius_m());
@@ -48,17 +64,19 @@ void CountCells(const SladSettings& settings, HazardMaps& hazards) {
     std::array<int, kAllReasons + 1> with{};  ///< these very reasons
     int no_room = 0;                          ///< no hazards, but no place for the lander
   };
+  hazards.can_bear = Grid<std::uint8_t>(hazards.geometry.rows, hazards.geometry.cols);
   std::vector<Counts> of_row(static_cast<std::size_t>(hazards.geometry.rows));
   cv::parallel_for_(cv::Range(0, hazards.geometry.rows), [&](const cv::Range& rows) {
     for (int r = rows.start; r < rows.end; ++r) {
       Counts& count = of_row[static_cast<std::size_t>(r)];
       const std::uint8_t* reasons = hazards.reasons.row(r);
       const float* distance_m = hazards.safe_distance_m.row(r);
+      std::uint8_t* can_bear = hazards.can_bear.row(r);
       for (int c = 0; c < hazards.geometry.cols; ++c) {
         ++count.with[reasons[c] & kAllReasons];
-        if (reasons[c] == kHazardNone &&
-            (distance_m[c] < clear_m || !FootprintHolds(hazards, settings, {r, c}))) {
-          ++count.no_room;
+        if (reasons[c] == kHazardNone) {
+          can_bear[c] = distance_m[c] >= clear_m && FootprintHolds(hazards, settings, {r, c});
+          count.no_room += can_bear[c] != 0 ? 0 : 1;
         }
       }
     }
@@ -242,21 +260,6 @@ ModernLimits LimitsOf(const SladSettings& settings) {
 unsigned ForbiddenFlags(const SladSettings& settings) {
   const unsigned always = kFlagThinStructure | kFlagNoTexture | kFlagMotion;
   return settings.elevated == ElevatedSurface::kAvoid ? always | kFlagElevated : always;
-}
-
-bool FootprintHolds(const HazardMaps& hazards, const SladSettings& settings, Cell cell) {
-  if (hazards.reasons.at(cell) != kHazardNone) {
-    return false;
-  }
-  if (settings.mode == SladMode::kThesis) {
-    return true;
-  }
-  return hazards.slope_rad.at(cell) <= static_cast<float>(Rad(settings.max_slope_deg)) &&
-         hazards.roughness_m.at(cell) <= static_cast<float>(settings.max_deviation_m) &&
-         hazards.step_m.at(cell) <= static_cast<float>(settings.max_step_m) &&
-         static_cast<double>(hazards.safe_probability.at(cell)) >=
-             RequiredSafeProbability(settings,
-                                     static_cast<double>(hazards.roughness_sigma_m.at(cell)));
 }
 
 HazardMaps JudgeTerrain(const GridGeometry& geometry, const TerrainFigures& figures,

@@ -71,7 +71,6 @@ class Candidates {
                      ? 0.75 * map.geometry.cell_m
                      : 0) {
     const OffCentre off_centre(context);
-    const float clear_m = static_cast<float>(settings.clear_radius_m());
     const double cell_m = map.geometry.cell_m;
     cv::parallel_for_(cv::Range(0, map.geometry.rows), [&](const cv::Range& rows) {
       for (int r = rows.start; r < rows.end; ++r) {
@@ -79,7 +78,7 @@ class Candidates {
         const float* distances_m = hazards.safe_distance_m.row(r);
         for (int c = 0; c < map.geometry.cols; ++c) {
           const Cell cell{r, c};
-          if (distances_m[c] < clear_m || !FootprintHolds(hazards, settings, cell)) {
+          if (!CanBearLander(hazards, cell)) {
             continue;
           }
           const double distance_m = static_cast<double>(distances_m[c]);
@@ -313,11 +312,6 @@ SiteSelection SelectSites(const ElevationMap& map, const HazardMaps& hazards,
     selection.none_reason = NoneReason(hazards, settings);
   }
   return selection;
-}
-
-bool CanBearLander(const HazardMaps& hazards, const SladSettings& settings, Cell cell) {
-  return hazards.safe_distance_m.at(cell) >= static_cast<float>(settings.clear_radius_m()) &&
-         FootprintHolds(hazards, settings, cell);
 }
 
 std::optional<LandingSite> RecheckSite(const ElevationMap& map, const HazardMaps& hazards,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -21,22 +22,20 @@ struct SiteContext {
   PinholeCamera camera;                            ///< rectified left camera; width 0: no picture
   Timestamp time;
   double glide_slope_rad = 0.78539816339;  ///< down from the horizon, for the corridor
+  /// Course of an approach that is planned; NaN: straight from the vehicle.
+  double approach_heading_rad = std::numeric_limits<double>::quiet_NaN();
 };
 
-/// Best first. A site is a cell whose safe distance reaches the clear radius (lander radius +
-/// navigation error) and whose footprint keeps every limit. kFarthest ranks by safe distance, then
-/// cost, then nearness to the middle of the picture; kCost by the smoothed cost. In modern mode
-/// kFarthest takes the middle of the touching cells within 3/4 of a cell of the best distance.
-/// Sites whose straight approach is blocked come after those where it is clear, and last those that
-/// no sector of approach is clear to. Sites lie at least site_spacing_m apart. Each has the reason
-/// for its rank (GiveReasons, explanation.h). Letters and ids are for SiteRegistry to give. Pixels
-/// come from forward projection (erratum E17); NaN behind the camera.
+/// Best first. A site is a cell that can bear the lander: its safe distance reaches the clear
+/// radius (lander radius + navigation error) and its footprint keeps every limit. kFarthest ranks
+/// by safe distance, then cost, then nearness to the middle of the picture; kCost by the smoothed
+/// cost. In modern mode kFarthest takes the middle of the touching cells within 3/4 of a cell of
+/// the best distance. Sites whose straight approach is blocked come after those where it is clear,
+/// and last those that no sector of approach is clear to. Sites lie at least site_spacing_m apart.
+/// Each has the reason for its rank (GiveReasons, explanation.h). Letters and ids are for
+/// SiteRegistry to give. Pixels come from forward projection (erratum E17); NaN behind the camera.
 SiteSelection SelectSites(const ElevationMap& map, const HazardMaps& hazards,
                           const SladSettings& settings, const SiteContext& context);
-
-/// Whether a site may lie there: its safe distance reaches the clear radius, its footprint keeps
-/// every limit.
-bool CanBearLander(const HazardMaps& hazards, const SladSettings& settings, Cell cell);
 
 /// The same place on a newer map, id and letter kept, clearance negative when it no longer holds.
 /// Nothing when the place is outside the map.

@@ -44,12 +44,6 @@ void DrawReviewMap(UiFrame& ui, const Rect& rect, const char* title, const std::
   OfferProbe(ui, view, cell, probe);
 }
 
-/// A cell on which the lander could stand.
-bool Bears(const TerrainDecision& d, Cell cell) {
-  return d.hazards->reasons.at(cell) == kHazardNone &&
-         static_cast<double>(d.hazards->safe_distance_m.at(cell)) >= d.settings.clear_radius_m();
-}
-
 /// Hatch over the cells that `picks(was, is)`.
 template <typename Picks>
 void HatchCells(UiFrame& ui, const Rect& square, const TerrainDecision& before,
@@ -60,7 +54,8 @@ void HatchCells(UiFrame& ui, const Rect& square, const TerrainDecision& before,
                 [&](int row, int col) {
                   const auto was =
                       before.hazards->geometry.CellFromPoint(g.NorthOfRow(row), g.EastOfCol(col));
-                  return picks(was && Bears(before, *was), Bears(now, {row, col}));
+                  return picks(was && CanBearLander(*before.hazards, *was),
+                               CanBearLander(*now.hazards, {row, col}));
                 });
 }
 
