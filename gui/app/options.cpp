@@ -58,10 +58,16 @@ void Declare(CLI::App& app, AppOptions& options, SourceArguments& sources, bool&
   app.add_option("--seed", options.seed, "One seed decides everything in the simulation")
       ->check(Seed())
       ->capture_default_str();
-  app.add_option("--wind", options.wind_mps, "Mean wind of the simulation, m/s")
+  app.add_option("--wind", options.wind_mps,
+                 "Mean wind of the simulation 6 m above ground, m/s; with more than 8 at the "
+                 "vehicle nothing can be approved")
       ->check(FiniteRange(0.0, 15.0))
       ->capture_default_str();
   app.add_option("--settings", options.settings_file, "Settings file (TOML)");
+  app.add_option(
+      "--channels", options.channels_file,
+      "Channel names of --connect or --replay (TOML); without it a vehicle's are those of "
+      "config/channels.toml beside this program");
   app.add_option("--set", options.set, "One setting, e.g. slad.max_slope_deg=8; may be repeated");
   app.add_flag("--headless", options.headless,
                "No window: draw offscreen and fly the mission by script");

@@ -20,6 +20,7 @@ struct AppOptions {
   std::uint64_t seed = 1;
   double wind_mps = 0;
   std::string settings_file;
+  std::string channels_file;     ///< empty: see channels_file.h
   std::vector<std::string> set;  ///< "slad.max_slope_deg=8"
   Settings settings;             ///< file and --set applied
   bool headless = false;

@@ -12,6 +12,7 @@
 #include "engine/trust/approval_verifier.h"
 #include "engine/wire/lcm_link.h"
 #include "engine/wire/lcm_source.h"
+#include "gui/app/channels_file.h"
 #include "gui/platform/offscreen_scene_camera.h"
 
 namespace palace {
@@ -45,6 +46,11 @@ Status OpenReplay(const AppOptions& options, bool paced, Session& session, Engin
   ReplayOptions replay;
   replay.speed = paced ? 1 : 0;
   replay.wait_at_end = paced;
+  const Result<ChannelNames> channels = ChannelsFor(options);
+  if (!channels) {
+    return channels.error();
+  }
+  replay.channels = *channels;
   Result<std::unique_ptr<ReplaySource>> source = ReplaySource::Open(options.source_path, replay);
   if (!source) {
     return source.error();
@@ -85,6 +91,10 @@ Status OpenCameraSource(const AppOptions& options, bool paced, Session& session,
 }
 
 Status OpenBus(const AppOptions& options, Session& session, EngineParts& parts) {
+  const Result<ChannelNames> channels = ChannelsFor(options);
+  if (!channels) {
+    return channels.error();
+  }
   Result<std::shared_ptr<Bus>> bus = Bus::Open(options.source_path);
   if (!bus) {
     return bus.error();
@@ -92,7 +102,7 @@ Status OpenBus(const AppOptions& options, Session& session, EngineParts& parts) 
   for (const std::string& warning : (*bus)->warnings()) {
     LogWarning(warning);
   }
-  Result<std::unique_ptr<LcmSource>> source = LcmSource::Create(*bus);
+  Result<std::unique_ptr<LcmSource>> source = LcmSource::Create(*bus, *channels);
   if (!source) {
     return source.error();
   }
@@ -101,7 +111,7 @@ Status OpenBus(const AppOptions& options, Session& session, EngineParts& parts) 
   parts.mission.signer = ApprovalSigner::Random();
   session.source = std::move(*source);
   parts.source = session.source;
-  parts.link = std::make_shared<LcmLink>(*bus);
+  parts.link = std::make_shared<LcmLink>(*bus, *channels);
   return Ok();
 }
 

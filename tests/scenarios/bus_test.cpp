@@ -107,6 +107,26 @@ TEST_F(LiveBus, TheSimulatedVehicleAndItsLogInTheStockPlayerAppearLive) {
   EXPECT_GE(again.poses, 5);
 }
 
+TEST_F(LiveBus, RenamedChannelsAreHeardByWhoIsToldTheirNames) {
+  const std::string names = WriteFile("names.toml",
+                                      "[channels]\ncamera_left = \"HELI_LEFT\"\n"
+                                      "camera_rig = \"HELI_RIG\"\nvehicle_pose = \"HELI_POSE\"\n");
+  WriteFile("look.script", "wait state SEARCH|PROPOSED 30\nquit\n");
+  Process vehicle(
+      network_->Inside(Palacectl({"simulate", "--scenario", "runway", "--url", kUrl, "--realtime",
+                                  "--duration-s", "40", "--channels", names})));
+  const ProcessResult told =
+      RunProcess(network_->Inside(Palace({"--headless", "--no-record", "--connect", kUrl,
+                                          "--channels", names, "--script", "look.script"})),
+                 60);
+  EXPECT_EQ(told.exit_code, 0) << told.err;
+  WriteFile("look.script", "wait seconds 1\nexpect state NO_LIVE\nquit\n");
+  const ProcessResult untold = Station("rec");
+  EXPECT_EQ(untold.exit_code, 0) << untold.err;
+  vehicle.Signal(SIGINT);
+  EXPECT_EQ(vehicle.Wait(10).exit_code, 0);
+}
+
 TEST_F(LiveBus, ASilentBusIsWaitedForAndLeavesNoFlight) {
   WriteFile("look.script",
             "wait seconds 0.5\n"
