@@ -3,7 +3,7 @@
 #include <cmath>
 #include <utility>
 
-#include "engine/core/units.h"
+#include "engine/core/check.h"
 #include "engine/mission/geometry.h"
 #include "engine/mission/guards.h"
 #include "engine/mission/wording.h"
@@ -35,9 +35,10 @@ Approval MakeApproval(MissionTurn& turn, Timestamp now) {
   a.expires_at = AddSeconds(a.approved_at, m.facts.limits.approval_expiry_s);
   a.provisional = !m.armed.confirmed;
   a.p_WS = site.p_WS;
-  a.approach_heading_rad = StraightHeading(m.facts.skid_centre_W, site.p_WS);
-  a.glide_slope_rad = Rad(m.facts.limits.glide_slope_deg);
-  a.descent_rate_mps = m.facts.limits.descent_rate_mps;
+  PALACE_CHECK(m.status.approach.has_value());
+  a.approach_heading_rad = m.status.approach->heading_rad;
+  a.glide_slope_rad = m.status.approach->glide_slope_rad;
+  a.descent_rate_mps = m.status.approach->descent_rate_mps;
   a.clear_radius_m = site.clear_radius_m;
   if (MaySign(m.facts.role)) {
     turn.station.signer.Sign(a);  // unsigned, no vehicle takes it (I7)
@@ -110,6 +111,7 @@ Status Obeying::operator()(const SelectSite& action) const {
   m.armed.calibration_hash = m.facts.calibration_hash;
   m.armed.boot_id = m.watch.boot_id();
   m.armed.confirmed = site->confirmed;
+  PlanApproach(m);
   Enter(turn, MissionState::kArmed, words::SiteSelected(site->letter), now);
   return Ok();
 }

@@ -23,6 +23,11 @@ double TimeLeft(const MissionMemory& m, const FlightPath& path) {
   }
 }
 
+ApproachPlan StraightPlan(const MissionMemory& m, const Eigen::Vector3d& p_WS) {
+  return {StraightHeading(m.facts.skid_centre_W, p_WS), Rad(m.facts.limits.glide_slope_deg),
+          m.facts.limits.descent_rate_mps};
+}
+
 /// Turning towards the start of the path is no deviation from it.
 bool FliesPath(const MissionMemory& m) {
   const auto& vehicle = m.watch.vehicle();
@@ -39,15 +44,22 @@ double HeightAboveSite(const MissionMemory& m) {
   return m.status.armed ? m.status.armed->p_WS.z() - m.facts.skid_centre_W.z() : NAN;
 }
 
+void PlanApproach(MissionMemory& m) {
+  if (m.status.armed && !m.status.approach && m.facts.skid_centre_W.allFinite()) {
+    m.status.approach = StraightPlan(m, m.status.armed->p_WS);
+  }
+}
+
 FlightPath PathTo(const MissionMemory& m, const LandingSite& site) {
   if (m.status.approval) {
     return PathOf(*m.status.approval, m.facts.p_BC);
   }
+  const ApproachPlan plan = m.status.approach ? *m.status.approach : StraightPlan(m, site.p_WS);
   return {site.p_WS,
-          StraightHeading(m.facts.skid_centre_W, site.p_WS),
-          Rad(m.facts.limits.glide_slope_deg),
+          plan.heading_rad,
+          plan.glide_slope_rad,
           m.facts.p_BC,
-          {.sink_mps = m.facts.limits.descent_rate_mps}};
+          {.sink_mps = plan.descent_rate_mps}};
 }
 
 const LandingSite* SiteInQuestion(const MissionMemory& m) {

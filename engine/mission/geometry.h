@@ -13,6 +13,9 @@ namespace palace {
 /// Metres above the armed site, up-positive; NaN when none is armed.
 double HeightAboveSite(const MissionMemory& memory);
 
+/// Freezes the approach of the armed site, once, as soon as the vehicle's place is known.
+void PlanApproach(MissionMemory& memory);
+
 /// The way to the site: the approved one, else the one that would be approved.
 FlightPath PathTo(const MissionMemory& memory, const LandingSite& site);
 

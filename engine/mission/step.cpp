@@ -4,6 +4,7 @@
 
 #include "engine/mission/arrivals.h"
 #include "engine/mission/commands.h"
+#include "engine/mission/geometry.h"
 #include "engine/mission/publish.h"
 #include "engine/mission/recheck.h"
 #include "engine/mission/states.h"
@@ -17,6 +18,7 @@ MissionStep Step(const MissionOptions& station, MissionMemory memory, const Miss
   turn.memory.watch.Update(in.vehicle.bundle, in.vehicle.channels, in.session.now);
   turn.memory.losses.Update(in.session.losses, in.vehicle.bundle.stereo != nullptr, in.session.now);
   RememberFacts(turn.memory, in);
+  PlanApproach(turn.memory);
   FollowWinner(turn.memory, in);
   FollowSite(turn, in);
   FollowAnswers(turn, in);

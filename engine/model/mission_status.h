@@ -87,6 +87,13 @@ struct SiteRecheck {
   std::optional<LandingSite> alternative{};
 };
 
+/// How the site is approached: the same on the button, in the approval and in the vehicle.
+struct ApproachPlan {
+  double heading_rad = NAN;       ///< course over ground, from north over east
+  double glide_slope_rad = NAN;   ///< down from the horizon
+  double descent_rate_mps = NAN;  ///< down the slope, the vertical part
+};
+
 /// Where the vehicle is on the path that was approved; NaN and empty while it does not fly it.
 struct PathProgress {
   double plan_height_m = NAN;  ///< of the skids above the site, at the nearest point of the path
@@ -103,6 +110,8 @@ struct MissionStatus {
   Timestamp since;
   std::string why;                   ///< cause of the last transition, in words
   std::optional<LandingSite> armed;  ///< frozen evidence, from ARMED to LANDED
+  /// Of the armed site: frozen with it, as soon as the vehicle's place is known.
+  std::optional<ApproachPlan> approach;
   Timestamp armed_at;
   std::optional<Timestamp> arm_expires;
   /// Ids of places the operator refused: listed, but never proposed again while their letters live.

@@ -316,13 +316,15 @@ void Pipeline::Decide(Pass& pass) {
   std::optional<NearestHazard> nearest;
   const auto& armed = mission_.status().armed;
   if (armed && pass.decision_of_record && pass.new_map) {
-    rechecked = terrain_.Recheck(*pass.decision_of_record, *armed, settings_.recorded());
+    const auto& approach = mission_.status().approach;
+    rechecked = terrain_.Recheck(*pass.decision_of_record, *armed, settings_.recorded(),
+                                 approach ? approach->heading_rad : NAN);
     if (rechecked) {
       const TerrainDecision& map = *pass.decision_of_record;
       nearest = ExplainCell(*map.elevation, *map.hazards, map.settings, rechecked->cell).nearest;
     }
     if (const auto& kept = mission_.alternative()) {
-      alternative = terrain_.Recheck(*pass.decision_of_record, *kept, settings_.recorded());
+      alternative = terrain_.Recheck(*pass.decision_of_record, *kept, settings_.recorded(), NAN);
     }
   }
   const Settings& in_force = settings_.recorded();

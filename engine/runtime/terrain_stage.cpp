@@ -132,10 +132,11 @@ std::shared_ptr<const TerrainDecision> TerrainStage::Evaluate(const Settings& se
 }
 
 std::optional<LandingSite> TerrainStage::Recheck(const TerrainDecision& decision,
-                                                 const LandingSite& site,
-                                                 const Settings& settings) const {
-  return RecheckSite(*decision.elevation, *decision.hazards, decision.settings, site,
-                     Context(settings));
+                                                 const LandingSite& site, const Settings& settings,
+                                                 double heading_rad) const {
+  SiteContext context = Context(settings);
+  context.approach_heading_rad = heading_rad;
+  return RecheckSite(*decision.elevation, *decision.hazards, decision.settings, site, context);
 }
 
 }  // namespace palace

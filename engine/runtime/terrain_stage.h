@@ -40,9 +40,10 @@ class TerrainStage {
   /// Judges the newest elevation map under the given settings. `keep_letters` false uses a copy of
   /// the letters, so that a preview never changes them.
   std::shared_ptr<const TerrainDecision> Evaluate(const Settings& settings, bool keep_letters);
-  /// The same place on a newer decision; empty when it lies outside that map.
+  /// The same place on a newer decision; empty when it lies outside that map. `heading_rad`: of the
+  /// approach that is planned to it, NaN straight from the vehicle.
   std::optional<LandingSite> Recheck(const TerrainDecision& decision, const LandingSite& site,
-                                     const Settings& settings) const;
+                                     const Settings& settings, double heading_rad) const;
 
  private:
   SiteContext Context(const Settings& settings) const;

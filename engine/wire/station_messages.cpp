@@ -206,8 +206,10 @@ WireMessage EncodeMission(const EngineSnapshot& snapshot, const ChannelNames& ch
     Pack(mission.armed->p_WS, m.site_pos);
   }
   m.approval_id = mission.approval ? WireId(mission.approval->id) : 0;
-  m.glide_slope_rad = Rad(settings.mission.glide_slope_deg);
-  m.descent_rate_mps = settings.mission.descent_rate_mps;
+  m.glide_slope_rad = mission.approach ? mission.approach->glide_slope_rad
+                                       : Rad(settings.mission.glide_slope_deg);
+  m.descent_rate_mps = mission.approach ? mission.approach->descent_rate_mps
+                                        : settings.mission.descent_rate_mps;
   m.commit_height_m = settings.slad.commit_height_m;
   return MakeMessage(channels.mission, snapshot.time, m);
 }

@@ -73,11 +73,11 @@ std::string Consequence(const EngineSnapshot& snap, bool narrow) {
   if (!narrow && !doubt.empty()) {
     return text + ". Provisional: " + doubt + ".";
   }
-  if (!narrow && snap.pose && m.armed) {
-    const Eigen::Vector3d way = m.armed->p_WS - snap.pose->X_WB.p;
-    double heading = Deg(std::atan2(way.y(), way.x()));
+  if (!narrow && m.approach) {
+    double heading = Deg(m.approach->heading_rad);
     heading += heading < -0.5 ? 360 : 0;
-    text += ", heading " + Fixed(heading, 0) + "°. Vision steers; wave-off stays available";
+    text += ", heading " + Fixed(heading, 0) + "° at " + Fixed(m.approach->descent_rate_mps, 1) +
+            " m/s. Vision steers; wave-off stays available";
   }
   return text + ".";
 }

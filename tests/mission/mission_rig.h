@@ -97,6 +97,7 @@ struct MissionRig {
     AddSite(102, 'B', {-6, 8, 0});
     navigation.gps.running = navigation.gps.estimate.healthy = true;
     tracker.coherence = 0.95;
+    settings.mission.glide_slope_deg = 90;  // the small vehicle comes straight down
   }
 
   void AddSite(std::uint64_t id, char letter, const Eigen::Vector3d& p_WS) {
@@ -198,7 +199,7 @@ struct MissionRig {
     return Do(ApproveSite{armed ? armed->id : 101, sequence}, origin);
   }
   Timestamp VehicleNow() const { return {now.us + clock_offset_us}; }
-  Eigen::Vector3d p_WB() const { return {9.5, 2, -vehicle.height_m}; }
+  Eigen::Vector3d p_WB() const { return {9.5, east_m, -vehicle.height_m}; }
   MissionState state() const { return mission.status().state; }
   template <typename T>
   int SentCount() const {
@@ -240,6 +241,7 @@ struct MissionRig {
   Timestamp now{1'000'000'000};
   std::uint64_t sequence = 0;
   std::int64_t clock_offset_us = 0;
+  double east_m = 2;    ///< where the vehicle is
   bool jumped = false;  ///< the next bundle follows a jump in time
   SourceKind source = SourceKind::kSimulation;
   bool can_transmit = true, recorder_ok = true, simulated = true;

@@ -140,6 +140,7 @@ inline void FillMission(EngineSnapshot& snap, MissionState state) {
   if (armed) {
     m.armed = snap.applied->selection.sites.front();
     m.armed_at = {kNow_us - 3'200'000};
+    m.approach = ApproachPlan{Rad(40), Rad(45), 1.0};
     m.arm_expires = Timestamp{kNow_us + 26'000'000};
     m.can_approve = state == MissionState::kArmed;
   } else {
@@ -158,6 +159,11 @@ inline void FillMission(EngineSnapshot& snap, MissionState state) {
   m.height_above_site_m = descending ? 21.4 : 38.2;
   m.distance_to_site_m = descending ? 0.12 : 5.9;
   m.time_to_touchdown_s = descending ? 41 : 72;
+  if (state == MissionState::kDescending) {
+    for (int i = 0; i <= 82; ++i) {
+      m.path.ahead.push_back({0.5 * i, 21.4 * (1 - i / 82.0)});
+    }
+  }
   if (descending) {
     m.rechecks = {{{kNow_us - 28'000'000}, 38, 4.8, true, ""},
                   {{kNow_us - 19'000'000}, 33, 4.6, true, ""},

@@ -208,7 +208,11 @@ std::optional<Approach> StraightApproach(const SladSettings& settings, const Sit
   if (!(length_m > settings.lander_radius_m())) {
     return std::nullopt;  // straight above: the descent is vertical
   }
-  return Approach{to_vehicle / length_m, length_m, context.glide_slope_rad};
+  const double heading_rad = context.approach_heading_rad;
+  const Eigen::Vector2d from =
+      std::isnan(heading_rad) ? Eigen::Vector2d(to_vehicle / length_m)
+                              : Eigen::Vector2d(-std::cos(heading_rad), -std::sin(heading_rad));
+  return Approach{from, length_m, context.glide_slope_rad};
 }
 
 std::uint8_t ClearApproaches(const ElevationMap& map, const SladSettings& settings,

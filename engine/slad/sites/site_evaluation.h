@@ -28,7 +28,8 @@ struct Approach {
 bool IsClear(const Approach& approach, const ElevationMap& map, const SladSettings& settings,
              const LandingSite& site);
 
-/// The approach straight from the vehicle; nothing when it hovers above the site.
+/// The approach straight from the vehicle, or on the planned course as far out as the vehicle is;
+/// nothing when it hovers above the site.
 std::optional<Approach> StraightApproach(const SladSettings& settings, const SiteContext& context,
                                          const LandingSite& site);
 

@@ -240,6 +240,17 @@ TEST(FlyLimits, AfterLandingAnUnlockedTrackerIsUnknownNotOverALimit) {
   EXPECT_FALSE(HasText(window.ui.items, "1 over a limit"));
 }
 
+TEST(FlyApprove, TellsTheHeadingThatWillBeSigned) {
+  EngineSnapshot snap = fake::Snapshot(MissionState::kArmed);
+  snap.mission.approach = ApproachPlan{Rad(-20), Rad(45), 0.8};
+  FlyWindow window(1920, 1080, snap);
+  std::string all;
+  for (const Item& item : window.ui.items.items()) {
+    all += item.text + " ";
+  }
+  EXPECT_NE(all.find("heading 340° at 0.8 m/s"), std::string::npos);
+}
+
 struct TextCase {
   const char* name;
   float width, height, scale;
