@@ -176,7 +176,9 @@ Experiment LandingExperiment(SceneCameraFactory camera) {
       "lander_radius_m", "vision_error_mean_m", "vision_error_max_m", "gps_error_mean_m"};
   experiment.add_options = [options](CLI::App& verb) {
     verb.add_option("--scenario", options->scenario, "Scene")->capture_default_str();
-    verb.add_option("--wind", options->wind_mps, "Mean wind, m/s")
+    verb.add_option("--wind", options->wind_mps,
+                    "Mean wind 6 m above ground, m/s; with more than 8 at the vehicle nothing can "
+                    "be approved")
         ->check(FiniteRange(0.0, 15.0))
         ->capture_default_str();
     verb.add_option("--set", options->set, "One setting, e.g. slad.max_slope_deg=8");

@@ -3,6 +3,7 @@
 #include <array>
 
 #include "engine/core/text.h"
+#include "engine/mission/descent_limits.h"
 #include "engine/mission/wording.h"
 
 namespace palace {
@@ -340,6 +341,64 @@ const std::array<AlarmRow, kAlarmCount> kAlarms = {{
                "%.0f messages of the last %.0f s could not be sent. Check the "
                "network link.",
                f.losses.unsent, LossWatch::kWindow_s);
+         }},
+    {.id = AlarmId::kOffPath,
+     .level = AlarmLevel::kCaution,
+     .acts = Enforcer::kNobody,
+     .limit = {DescentLimits::off_path_m, "m"},
+     .value = &Facts::off_path_m,
+     .present = [](const Facts& f, double limit) { return f.off_path_m > limit; },
+     .text =
+         [](const Facts& f, const std::string& limit) {
+           return WithNumbers("Off the path by %.1f m, limit ", f.off_path_m) + limit +
+                  ". Hold or wave off.";
+         }},
+    {.id = AlarmId::kOffCentre,
+     .level = AlarmLevel::kCaution,
+     .acts = Enforcer::kNobody,
+     .limit = {NAN, "m", 2},
+     .limit_from = &Facts::nav_error_m,
+     .value = &Facts::off_centre_m,
+     .present = [](const Facts& f, double limit) { return f.off_centre_m > limit; },
+     .text =
+         [](const Facts& f, const std::string& limit) {
+           return WithNumbers("Sinks %.2f m off the site's centre, limit ", f.off_centre_m) +
+                  limit + ". Wave off unless the ground around is clear.";
+         }},
+    {.id = AlarmId::kDescentRate,
+     .level = AlarmLevel::kCaution,
+     .acts = Enforcer::kNobody,
+     .limit = {NAN, "m/s", 2},
+     .limit_from = &Facts::max_descent_rate_mps,
+     .value = &Facts::descent_rate_mps,
+     .present = [](const Facts& f, double limit) { return f.descent_rate_mps > limit; },
+     .text =
+         [](const Facts& f, const std::string& limit) {
+           return WithNumbers("Sinks at %.2f m/s, limit ", f.descent_rate_mps) + limit +
+                  ". Hold or wave off.";
+         }},
+    {.id = AlarmId::kVisionResidual,
+     .level = AlarmLevel::kCaution,
+     .acts = Enforcer::kMission,
+     .limit = {NAN, "σ", 2},
+     .limit_from = &Facts::max_residual_sigma,
+     .value = &Facts::residual_sigma,
+     .present = [](const Facts& f, double limit) { return f.residual_sigma > limit; },
+     .text =
+         [](const Facts& f, const std::string& limit) {
+           return WithNumbers("Vision is %.2f σ off the estimate, limit ", f.residual_sigma) +
+                  limit + ": measurement refused. Watch the estimate.";
+         }},
+    {.id = AlarmId::kWind,
+     .level = AlarmLevel::kCaution,
+     .acts = Enforcer::kNobody,
+     .limit = {DescentLimits::wind_mps, "m/s"},
+     .value = &Facts::wind_mps,
+     .present = [](const Facts& f, double limit) { return f.wind_mps > limit; },
+     .text =
+         [](const Facts& f, const std::string& limit) {
+           return WithNumbers("Wind %.1f m/s, limit ", f.wind_mps) + limit +
+                  ". Watch the descent, hold or wave off.";
          }},
 }};
 

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "engine/core/text.h"
+#include "engine/mission/descent_limits.h"
 #include "engine/mission/wording.h"
 
 namespace palace {
@@ -94,6 +95,12 @@ std::string WhyNotInTime(const GuardInputs& in, const Limit& limit) {
   return If(!(in.armed_for_s <= in.arm_window_s), words::kArmWindowOver);
 }
 
+std::string WhyWindy(const GuardInputs& in, const Limit& limit) {
+  return WindLimit(in.wind_mps, EnforcedBy::kGuard).over
+             ? WithNumbers("Wind %.1f m/s, max ", in.wind_mps) + LimitWords(limit)
+             : "";
+}
+
 const std::array<GuardRow, kGuardCount> kGuards = {{
     {.id = GuardId::kLink,
      .words = "Vehicle link fresh",
@@ -166,6 +173,11 @@ const std::array<GuardRow, kGuardCount> kGuards = {{
      .words = "Selected and approved apart",
      .limit = {GuardLimits::arm_to_approve_s, "s"},
      .why = WhyNotInTime},
+    {.id = GuardId::kWind,
+     .words = "Wind inside limit",
+     .of_station = true,
+     .limit = {DescentLimits::wind_mps, "m/s"},
+     .why = WhyWindy},
 }};
 
 const GuardRow& RowOf(GuardId id) { return kGuards[static_cast<std::size_t>(id)]; }

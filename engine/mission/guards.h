@@ -1,8 +1,9 @@
-// Guards G1-G14: what must hold at the instant of approval. A table: one row a guard, with the
+// Guards G1-G15: what must hold at the instant of approval. A table: one row a guard, with the
 // limit it holds, its words, and why it fails. What fails blocks approval; nothing else acts on it.
 //
 // A guard passes only on evidence: NaN ages, missing inputs and unknown hashes fail (I3).
-// Source: reference/reliability.md 3.3; G4, G6 and G14 as settled in DESIGN.md 8.
+// Source: reference/reliability.md 3.3; G4, G6 and G14 as settled in DESIGN.md 8;
+// G15: the wind that the vehicle measures (descent_limits.h).
 #pragma once
 
 #include <cmath>
@@ -44,20 +45,22 @@ struct GuardInputs {
   std::string source_reason;  ///< why this source can never be approved on, empty when it can
   double armed_for_s = NAN;
   double arm_window_s = NAN;
+  double wind_mps = NAN;  ///< NaN: not known, or stale; then it blocks nothing
 };
 GuardInputs GuardInputsAt(const MissionMemory& memory, Timestamp now);
 
 struct GuardRow {
   GuardId id;
   const char* words;  ///< what holds when it passes
-  /// Speaks of this station's link, recorder or source: a recorded approval met it in its own time.
+  /// Speaks of this station's link, recorder or source, or of the weather: a recorded approval met
+  /// it in its own time.
   bool of_station = false;
   Limit limit{};                              ///< none: NaN
   double GuardInputs::*limit_from = nullptr;  ///< where the limit is a setting
   /// Why it fails, naming `limit`; empty when it passes.
   std::string (*why)(const GuardInputs& in, const Limit& limit) = nullptr;
 };
-/// All fourteen, in the order of GuardId.
+/// All fifteen, in the order of GuardId.
 std::span<const GuardRow> GuardTable();
 Limit LimitOf(const GuardRow& row, const GuardInputs& inputs);
 

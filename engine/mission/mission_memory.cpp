@@ -6,6 +6,7 @@
 namespace palace {
 MissionMemory::MissionMemory() {
   status.why = words::kNoDataYet;
+  status.confirm_height_m = GuardLimits::confirm_height_m;
   status.height_above_site_m = status.distance_to_site_m = status.time_to_touchdown_s = NAN;
 }
 

@@ -83,6 +83,7 @@ struct MissionMemory {
   MissionFacts facts;
   ArmedFacts armed;
   SiteWatch site;
+  std::optional<LandingSite> newest;       ///< the armed site on the newest map; empty off it
   SiteVerdict told = SiteVerdict::kHolds;  ///< of the armed site, in the events
   /// The best other site that shares no ground with the armed one, kept as long as it holds.
   std::optional<LandingSite> alternative;

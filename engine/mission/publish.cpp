@@ -1,6 +1,7 @@
 #include "engine/mission/publish.h"
 
 #include "engine/mission/alarms.h"
+#include "engine/mission/descent_limits.h"
 #include "engine/mission/geometry.h"
 #include "engine/mission/guards.h"
 #include "engine/mission/wording.h"
@@ -35,12 +36,13 @@ std::string WhyNoApproval(const MissionMemory& m) {
 
 void Publish(MissionTurn& turn, const MissionInputs& in) {
   MissionMemory& m = turn.memory;
+  PublishGeometry(m, in);
+  PublishLimits(m, in);
   PublishAlarms(turn, in);
   m.status.guards = EvaluateGuards(GuardInputsAt(m, in.session.now));
   m.status.can_approve =
       m.status.state == MissionState::kArmed && FirstFailure(m.status.guards) == nullptr;
   m.status.cannot_approve_reason = m.status.can_approve ? std::string() : WhyNoApproval(m);
-  PublishGeometry(m, in);
 }
 
 }  // namespace palace

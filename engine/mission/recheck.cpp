@@ -74,6 +74,7 @@ void FollowSite(MissionTurn& turn, const MissionInputs& in) {
       JudgeRecheck(in.terrain.rechecked, in.terrain.nearest,
                    {m.armed.confirmed, m.status.armed->clearance_m}, in.limits.settings.slad),
       now);
+  m.newest = in.terrain.rechecked;
   m.armed.confirmed =
       m.armed.confirmed || (m.site.newest().holds() && in.terrain.rechecked->confirmed);
   FollowAlternative(m, in);

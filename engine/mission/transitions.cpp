@@ -65,6 +65,7 @@ void ForgetSite(MissionMemory& m) {
   m.status.guards.clear();
   m.armed = {};
   m.site = {};
+  m.newest.reset();
   m.told = SiteVerdict::kHolds;
   m.alternative.reset();
 }

@@ -8,7 +8,7 @@ namespace palace {
 namespace {
 
 constexpr std::array<const char*, kGuardCount> kGuardNames = {
-    "G1", "G2", "G3", "G4", "G5", "G6", "G7", "G8", "G9", "G10", "G11", "G12", "G13", "G14"};
+    "G1", "G2", "G3", "G4", "G5", "G6", "G7", "G8", "G9", "G10", "G11", "G12", "G13", "G14", "G15"};
 
 constexpr std::array<const char*, kAlarmCount> kAlarmNames = {
     "camera_left",
@@ -40,6 +40,11 @@ constexpr std::array<const char*, kAlarmCount> kAlarmNames = {
     "undecodable",
     "records_dropped",
     "messages_unsent",
+    "off_path",
+    "off_centre",
+    "descent_rate",
+    "vision_residual",
+    "wind",
 };
 
 }  // namespace

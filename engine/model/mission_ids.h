@@ -8,7 +8,7 @@
 
 namespace palace {
 
-/// What must hold at the instant of approval: G1 to G14, in this order.
+/// What must hold at the instant of approval: G1 to G15, in this order.
 enum class GuardId : std::uint8_t {
   kLink,
   kAttitude,
@@ -24,8 +24,9 @@ enum class GuardId : std::uint8_t {
   kRecorder,
   kSource,
   kInTime,
+  kWind,
 };
-inline constexpr std::size_t kGuardCount = 14;
+inline constexpr std::size_t kGuardCount = 15;
 /// "G1".
 const char* GuardName(GuardId id);
 
@@ -60,8 +61,13 @@ enum class AlarmId : std::uint8_t {
   kUndecodable,
   kRecordsDropped,
   kMessagesUnsent,
+  kOffPath,
+  kOffCentre,
+  kDescentRate,
+  kVisionResidual,
+  kWind,
 };
-inline constexpr std::size_t kAlarmCount = 29;
+inline constexpr std::size_t kAlarmCount = 34;
 /// "gps_error".
 const char* AlarmName(AlarmId id);
 /// Empty for a name that no alarm has.

@@ -9,6 +9,7 @@
 
 #include "engine/core/time.h"
 #include "engine/model/landing_site.h"
+#include "engine/model/limit_row.h"
 #include "engine/model/mission_ids.h"
 #include "engine/model/vehicle_message.h"
 
@@ -30,7 +31,7 @@ const char* MissionStateName(MissionState state);
 /// Sentence-case word as the screen shows it: "Proposed".
 const char* MissionStateWord(MissionState state);
 
-/// One check of the commit guards G1-G14 (reference: safety state machine).
+/// One check of the commit guards G1-G15 (reference: safety state machine).
 struct GuardResult {
   GuardId id = GuardId::kLink;
   std::string name;  ///< "Both cameras fresh"
@@ -133,6 +134,8 @@ struct MissionStatus {
   double distance_to_site_m = 0;   ///< horizontal; NaN when no site
   double time_to_touchdown_s = 0;  ///< NaN when unknown
   PathProgress path;
+  std::vector<LimitRow> limits;   ///< of site, approach, descent and cameras, in force now
+  double confirm_height_m = NAN;  ///< a provisional site must be confirmed by here
   /// LANDED: miss of the skid centre to the site, by the estimate.
   std::optional<double> touchdown_miss_m;
   std::optional<double> touchdown_miss_true_m;  ///< in simulation

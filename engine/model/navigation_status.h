@@ -1,6 +1,7 @@
 // Tracker and navigation results of one frame.
 #pragma once
 
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <string>
@@ -44,6 +45,7 @@ struct FilterStatus {
   bool running = false;
   PositionEstimate estimate;
   double residual_sigma = 0;  ///< sqrt(innovation' S^-1 innovation / dof) of the last measurement
+  double max_residual_sigma = NAN;  ///< beyond it a measurement is refused
   int rejected_in_row = 0;
 };
 

@@ -37,6 +37,7 @@ Innovation Apply(InertialState& state, const Eigen::Matrix<double, N, 1>& differ
   Innovation innovation;
   innovation.dof = N;
   innovation.squared = difference.dot(solver.solve(difference));
+  innovation.gate = gate;
   innovation.within_gate = innovation.squared <= gate;
   if (innovation.within_gate) {
     const Eigen::Matrix<double, 9, N> K = solver.solve(H * state.P).transpose();

@@ -2,6 +2,7 @@
 // Equations in position_filter.h.
 #pragma once
 
+#include <limits>
 #include <optional>
 
 #include <Eigen/Dense>
@@ -49,6 +50,7 @@ void PredictState(InertialState& state, Timestamp time, const InertialInput& inp
 struct Innovation {
   double squared = 0;
   int dof = 3;
+  double gate = std::numeric_limits<double>::quiet_NaN();  ///< the largest square that is used
   bool within_gate = false;
 };
 /// Gates, and, when inside, updates. The times must agree.

@@ -273,10 +273,12 @@ void Navigator::UpdateStatus() {
   status_.gps.running = gps_.running();
   status_.gps.estimate = GpsEstimate(now_);
   status_.gps.residual_sigma = gps_.residual_sigma();
+  status_.gps.max_residual_sigma = gps_.max_residual_sigma();
   status_.gps.rejected_in_row = gps_.rejected_in_row();
   status_.vision.running = vision_.running();
   status_.vision.estimate = vision_.running() ? VisionEstimate(now_) : PositionEstimate{};
   status_.vision.residual_sigma = vision_.residual_sigma();
+  status_.vision.max_residual_sigma = vision_.max_residual_sigma();
   status_.vision.rejected_in_row = vision_.rejected_in_row();
   status_.handover = handover_.state();
   status_.handover_reason = handover_.reason();

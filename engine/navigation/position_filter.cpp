@@ -43,6 +43,7 @@ FixOutcome PositionFilter::AddFix(const PositionMeasurement& fix) {
     return FixOutcome::kTooOld;
   }
   residual_sigma_ = std::sqrt(innovation->squared / innovation->dof);
+  max_residual_sigma_ = std::sqrt(innovation->gate / innovation->dof);
   if (!innovation->within_gate) {
     ++rejected_in_row_;
     return FixOutcome::kRejected;

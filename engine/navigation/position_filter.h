@@ -59,6 +59,8 @@ class PositionFilter {
   int rejected_in_row() const { return rejected_in_row_; }
   /// sqrt(innovation' S^-1 innovation / dof) of the last fix.
   double residual_sigma() const { return residual_sigma_; }
+  /// What residual_sigma may be for the fix to be used; NaN before any.
+  double max_residual_sigma() const { return max_residual_sigma_; }
   /// innovation' S^-1 innovation of the last fix, scaled to three degrees of freedom.
   double nis() const { return 3 * residual_sigma_ * residual_sigma_; }
   /// Stamp of the newest accepted fix; the start before any.
@@ -69,6 +71,7 @@ class PositionFilter {
   DelayedMeasurements history_;
   int rejected_in_row_ = 0;
   double residual_sigma_ = 0;
+  double max_residual_sigma_ = std::numeric_limits<double>::quiet_NaN();
   Timestamp last_accepted_;
 };
 

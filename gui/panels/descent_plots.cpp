@@ -120,6 +120,17 @@ PlotTrace PlanAhead(const EngineSnapshot& snap, const Palette& p) {
   return plan;
 }
 
+/// A limit as its row says; none while the row is not there or its limit unknown.
+std::vector<PlotLimit> LimitLine(const EngineSnapshot& snap, LimitId id) {
+  const LimitRow* row = FindLimit(snap.mission.limits, id);
+  if (row == nullptr || !std::isfinite(row->limit)) {
+    return {};
+  }
+  const bool enforced = row->enforced_by != EnforcedBy::kNobody;
+  return {{static_cast<float>(row->limit * row->shown_per_unit), !row->is_least && enforced,
+           (enforced ? "Limit " : "For information: ") + LimitWords(*row)}};
+}
+
 PlotView HeightPlot(const EngineSnapshot& snap, const Palette& p, const HistorySample& now) {
   using Stroke = PlotTrace::Stroke;
   PlotView view = Base("height", "Height above site", "m");
@@ -182,10 +193,9 @@ PlotView RatePlot(const EngineSnapshot& snap, const Palette& p, const HistorySam
                           3 * snap.navigation.vision.estimate.sigma_v_mps.z()),
                  RateOf(snap, &HistorySample::truth_p_WB, p.truth, Stroke::kDotted),
                  RateOf(snap, &HistorySample::gps_p_WB, p.gps, Stroke::kSolid)};
-  const auto limit = static_cast<float>(snap.settings.mission.descent_rate_mps * 1.5);
   view.y_min = -0.25f;
-  view.y_max = RoundUp(limit * 1.2f, 0.5f);
-  view.limits = {{limit, true, "Limit " + Fixed(static_cast<double>(limit), 1) + " m/s"}};
+  view.limits = LimitLine(snap, LimitId::kDescentRate);
+  view.y_max = RoundUp(1.2f * (view.limits.empty() ? 1.5f : view.limits.front().value), 0.5f);
   view.current = Fixed(now.descent_rate_mps, 2) + " m/s";
   return view;
 }
@@ -195,8 +205,7 @@ PlotView CoherencePlot(const EngineSnapshot& snap, const Palette& p, const Histo
   view.series = {Estimate(snap, &HistorySample::coherence, p, NAN)};
   view.y_min = 0.4f;
   view.y_max = 1.0f;
-  const auto limit = static_cast<float>(snap.settings.tracking.min_coherence);
-  view.limits = {{limit, false, "Limit " + Fixed(static_cast<double>(limit), 2) + ": re-anchor"}};
+  view.limits = LimitLine(snap, LimitId::kCoherence);
   view.current = Fixed(now.coherence, 2);
   return view;
 }
@@ -204,9 +213,9 @@ PlotView CoherencePlot(const EngineSnapshot& snap, const Palette& p, const Histo
 PlotView ResidualPlot(const EngineSnapshot& snap, const Palette& p, const HistorySample& now) {
   PlotView view = Base("residual", "Vision residual", "σ");
   view.series = {Estimate(snap, &HistorySample::residual_sigma, p, NAN)};
-  view.y_min = -4;
+  view.y_min = 0;
   view.y_max = 4;
-  view.limits = {{3, true, "Gate ± 3 σ"}, {-3, false, ""}};
+  view.limits = LimitLine(snap, LimitId::kResidual);
   view.current = Fixed(now.residual_sigma, 1) + Unit(now.residual_sigma, " σ");
   return view;
 }
@@ -215,9 +224,8 @@ PlotView PathPlot(const EngineSnapshot& snap, const Palette& p, const HistorySam
   PlotView view = Base("path", "Off the planned path", "m");
   view.series = {Estimate(snap, &HistorySample::glide_deviation_m, p,
                           3 * snap.navigation.vision.estimate.sigma_p_m.norm())};
-  const auto limit = static_cast<float>(kMaxOffPath_m);
   view.y_max = 1.6f;
-  view.limits = {{limit, true, "Limit " + Fixed(kMaxOffPath_m, 1) + " m"}};
+  view.limits = LimitLine(snap, LimitId::kOffPath);
   view.current = Fixed(now.glide_deviation_m, 2) + Unit(now.glide_deviation_m, " m");
   return view;
 }

@@ -16,8 +16,6 @@ const LandingSite* SiteInView(const EngineSnapshot& snap, std::uint64_t highligh
 bool MaySelect(const EngineSnapshot& snap, std::uint64_t site_id);
 /// The mission is past APPROVED: the descent panels are shown.
 bool IsDescentView(const EngineSnapshot& snap);
-/// Widest distance off the planned path during the descent.
-inline constexpr double kMaxOffPath_m = 1.2;
 /// Marks that all maps share.
 MapMarks MarksOf(const EngineSnapshot& snap, std::uint64_t highlighted);
 /// The safe-distance map with its ranges, as the map row and the re-check panel show it.

@@ -10,9 +10,6 @@ namespace palace {
 
 namespace {
 
-// A provisional site must be confirmed by here, else the descent holds.
-constexpr double kConfirmHeight_m = 10;
-
 std::string Headline(const EngineSnapshot& snap) {
   const MissionStatus& m = snap.mission;
   const std::string site = m.armed ? std::string("site ") + m.armed->letter : std::string("site");
@@ -91,7 +88,8 @@ void DrawLadder(const EngineSnapshot& snap, const Rect& bar, UiFrame& ui) {
   }
   float free_from = bar.x;
   const float end = bar.right() - TextWidth(s.caption, "0") - s.Px(8);
-  for (const double height_m : {top_m, kConfirmHeight_m, snap.settings.slad.commit_height_m, 0.0}) {
+  for (const double height_m :
+       {top_m, m.confirm_height_m, snap.settings.slad.commit_height_m, 0.0}) {
     const float x = std::min(at(height_m), bar.right() - s.Px(2));
     FillRect(Canvas(), {x, bar.y - s.Px(4), s.Px(2), bar.h + s.Px(8)}, p.text1);
     const std::string label = height_m > 0 ? Fixed(height_m, 0) + " m" : "0";

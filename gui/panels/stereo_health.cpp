@@ -16,13 +16,17 @@ struct HealthRow {
   bool fine = true;
 };
 
-bool HasAlarm(const EngineSnapshot& snap, AlarmId id) {
-  for (const Alarm& alarm : snap.mission.alarms) {
-    if (alarm.active && alarm.kind == id) {
-      return true;
-    }
-  }
-  return false;
+/// "max 0.50 px"; a ratio may be as much below 1 as above.
+std::string LimitText(const LimitRow& limit) {
+  return limit.id == LimitId::kExposure ? Fixed(1 / limit.limit, 2) + " to " + Fixed(limit.limit, 2)
+                                        : "max " + LimitWords(limit);
+}
+
+/// The figure with its limit, and whether the engine calls it over.
+HealthRow WithLimit(const EngineSnapshot& snap, LimitId id, const char* name, std::string value) {
+  const LimitRow* limit = FindLimit(snap.mission.limits, id);
+  return {name, std::move(value), limit != nullptr ? LimitText(*limit) : "",
+          limit == nullptr || !limit->over};
 }
 
 std::string PictureWords(const StereoQuality& q) {
@@ -51,14 +55,12 @@ std::vector<HealthRow> RowsOf(const EngineSnapshot& snap) {
       {"Coverage", Fixed(100 * q.coverage, 0) + " %", ""},
       {"Median depth", Fixed(q.median_depth_m, 2) + " m", ""},
       {"Disparity sigma", Fixed(q.median_sigma_px, 3) + " px", ""},
-      {"Row error", Fixed(q.row_error_px, 2) + " px", "max 0.50 px",
-       !HasAlarm(snap, AlarmId::kRowError)},
+      WithLimit(snap, LimitId::kRowError, "Row error", Fixed(q.row_error_px, 2) + " px"),
       {"Row shift, spread", Signed(q.row_shift_px, 2) + " px, " + Fixed(q.row_spread_px, 2) + " px",
        ""},
-      {"Right over left brightness", Fixed(q.exposure_ratio, 2), "0.50 to 2.00",
-       !HasAlarm(snap, AlarmId::kExposure)},
-      {"Range against the laser", AgreementWords(snap.range_agreement), "max 2 %",
-       !HasAlarm(snap, AlarmId::kRangeScale)},
+      WithLimit(snap, LimitId::kExposure, "Right over left brightness", Fixed(q.exposure_ratio, 2)),
+      WithLimit(snap, LimitId::kRangeScale, "Range against the laser",
+                AgreementWords(snap.range_agreement)),
   };
 }
 

@@ -1,5 +1,10 @@
 #include "gui/widgets/evidence_row.h"
 
+#include <algorithm>
+#include <cctype>
+
+#include "gui/widgets/number_text.h"
+
 namespace palace {
 
 namespace {
@@ -9,8 +14,8 @@ struct Metrics {
 };
 
 Metrics MetricsOf(const Style& s, bool narrow) {
-  return narrow ? Metrics{s.Px(64), s.Px(52), s.Px(168), s.Px(88)}
-                : Metrics{s.Px(104), s.Px(86), s.Px(212), s.Px(128)};
+  return narrow ? Metrics{s.Px(48), s.Px(39), s.Px(168), s.Px(88)}
+                : Metrics{s.Px(60), s.Px(50), s.Px(212), s.Px(128)};
 }
 
 void DrawBar(UiFrame& ui, const Rect& track, float wall, const EvidenceRow& row) {
@@ -22,7 +27,7 @@ void DrawBar(UiFrame& ui, const Rect& track, float wall, const EvidenceRow& row)
   }
   const float end = std::clamp(static_cast<float>(row.share) * wall, 0.0f, track.w);
   const Rect bar{track.x, track.y, std::max(end, s.Px(1)), track.h};
-  if (row.share > 1) {
+  if (row.over) {
     FillRect(dl, bar, s.palette.unsafe, s.Fine(1));
     Hatch(dl, bar, s.palette.window, s.Fine(2), s.Fine(6));
   } else {
@@ -40,7 +45,44 @@ void DrawBar(UiFrame& ui, const Rect& track, float wall, const EvidenceRow& row)
   }
 }
 
+/// Where bars begin, from the right edge: behind them who enforces the limit has its place.
+float BarsFromRight(const Style& s, const Metrics& m, bool narrow) {
+  return s.Px(narrow ? 28 : 56) + m.bar;
+}
+
+std::string FullName(const EvidenceRow& row) {
+  return row.name + " " + row.value + " " + row.spread + " " + row.limit +
+         (row.enforcer.empty() ? "" : ", " + row.enforcer);
+}
+
 }  // namespace
+
+EvidenceRow RowOf(const LimitRow& limit) {
+  const std::string unit = limit.unit;
+  const std::string gap = unit == "°" || unit.empty() ? "" : " ";
+  const double value = limit.value * limit.shown_per_unit;
+  const double most = limit.limit * limit.shown_per_unit;
+  const double spread = limit.three_sigma * limit.shown_per_unit;
+  const bool enforced = limit.enforced_by != EnforcedBy::kNobody;
+  EvidenceRow row;
+  row.name = limit.label;
+  row.value = FixedAgainst(value, most, limit.over, limit.decimals);
+  row.unit = unit;
+  row.over = limit.over;
+  if (std::isfinite(value) && spread > 0) {
+    row.spread = "± " + Fixed(spread, limit.decimals) + gap + unit;
+  }
+  if (!enforced) {
+    row.limit = EnforcedByWord(limit.enforced_by);
+    return row;
+  }
+  row.limit = (limit.is_least ? "min " : "max ") +
+              Fixed(most, unit.empty() ? limit.decimals : DecimalsOf(most, 0)) + gap + unit;
+  row.enforcer = EnforcedByWord(limit.enforced_by);
+  row.share = ShareUsed(limit);
+  row.share_3s = spread / most;
+  return row;
+}
 
 int DrawEvidenceRows(UiFrame& ui, const Rect& rect, const std::vector<EvidenceRow>& rows,
                      bool narrow) {
@@ -69,18 +111,23 @@ int DrawEvidenceRows(UiFrame& ui, const Rect& rect, const std::vector<EvidenceRo
                                                  : row.value + " " + row.unit;
       DrawText(ui, s.medium, p.text1, right, middle, text, Align::kRight);
     }
+    ui.items.Add("evidence/" + row.name, area, true, FullName(row));
+    clicked = Clicked(ui, area) ? static_cast<int>(i) : clicked;
+    if (row.enforcer.empty()) {
+      DrawText(ui, s.caption, p.text3, rect.right() - s.Px(12), middle, row.limit, Align::kRight);
+      continue;
+    }
     DrawText(ui, s.caption, p.text3, rect.right() - m.limit_right, middle, row.limit,
              Align::kRight);
-    const float bar_x = rect.right() - s.Px(12) - m.bar;
+    const float bar_x = rect.right() - BarsFromRight(s, m, narrow);
     DrawBar(ui, {bar_x, std::round(middle - s.Px(8) / 2), m.bar, s.Px(8)}, m.wall, row);
-    ui.items.Add("evidence/" + row.name, area, true,
-                 row.name + " " + row.value + " " + row.spread + " " + row.limit);
-    clicked = Clicked(ui, area) ? static_cast<int>(i) : clicked;
-  }
-  if (!rows.empty()) {
-    const float wall_x = rect.right() - s.Px(12) - m.bar + m.wall;
-    FillRect(Canvas(), {wall_x - s.Px(1), rect.y + s.Px(2), s.Px(2), y - rect.y - s.Px(4)},
+    FillRect(Canvas(), {bar_x + m.wall - s.Px(1), y + s.Px(2), s.Px(2), height - s.Px(4)},
              p.white_mark);
+    std::string who = row.enforcer;
+    if (narrow) {
+      who = std::string(1, static_cast<char>(std::toupper(static_cast<unsigned char>(who[0]))));
+    }
+    DrawText(ui, s.caption, p.text3, rect.right() - s.Px(12), middle, who, Align::kRight);
   }
   return clicked;
 }

@@ -23,6 +23,7 @@ struct SmallVehicle {
   VehicleMode mode = VehicleMode::kHover;
   std::uint64_t approval_id = 0;
   double height_m = 20;
+  double wind_mps = 0;
   double mode_for_s = 0;
   bool answers = true;
   bool refuses = false;
@@ -229,6 +230,7 @@ struct MissionRig {
       status.mode = vehicle.mode;
       status.on_ground = vehicle.mode == VehicleMode::kLanded;
       status.approval_id = vehicle.approval_id;
+      status.wind_speed_mps = vehicle.wind_mps;
       bundle.status = status;
       bundle.acks = std::exchange(vehicle.acks, {});
     }

@@ -18,7 +18,7 @@ TEST(Mission, WholeFlight) {
   EXPECT_TRUE(rig.mission.WantsTracking());
   EXPECT_TRUE(rig.mission.SettingsFrozen());
   ASSERT_TRUE(rig.mission.status().can_approve) << rig.mission.status().cannot_approve_reason;
-  EXPECT_EQ(rig.mission.status().guards.size(), 14U);
+  EXPECT_EQ(rig.mission.status().guards.size(), 15U);
   ASSERT_TRUE(rig.ApproveNow().ok());
   EXPECT_EQ(rig.state(), MissionState::kApproved);
   EXPECT_FALSE(rig.mission.VisionAllowed());

@@ -107,7 +107,7 @@ inline std::vector<HistorySample> History(bool descending) {
     h.from_site_truth_m = 0.1;
     h.descent_rate_mps = fall > 0 ? 0.58 + 0.05 * wave : 0.02 * wave;
     h.coherence = 0.9 + 0.06 * wave - (i > -160 && i < -130 ? 0.2 : 0.0);
-    h.residual_sigma = 3.0 * (SmoothNoise(i * 0.5, 5) - 0.5);
+    h.residual_sigma = std::abs(3.0 * (SmoothNoise(i * 0.5, 5) - 0.5));
     h.glide_deviation_m = 0.1 + 0.2 * std::abs(wave);
     h.estimate_p_WB = {0.0, 0.0, -h.height_above_site_m};
     h.estimate_v_WB = {0, 0, h.descent_rate_mps};
@@ -119,6 +119,79 @@ inline std::vector<HistorySample> History(bool descending) {
     history.push_back(h);
   }
   return history;
+}
+
+/// What the mission would say of the flight: nothing is over its limit.
+inline std::vector<LimitRow> Limits(const EngineSnapshot& snap) {
+  const bool descending = snap.mission.state == MissionState::kDescending;
+  const EnforcedBy by = descending ? EnforcedBy::kAlarm : EnforcedBy::kNobody;
+  std::vector<LimitRow> rows = {{.id = LimitId::kOffPath,
+                                 .label = "Off the path",
+                                 .value = 0.14,
+                                 .three_sigma = 0.13,
+                                 .limit = 1.2,
+                                 .unit = "m",
+                                 .decimals = 2,
+                                 .enforced_by = by},
+                                {.id = LimitId::kDescentRate,
+                                 .label = "Descent rate",
+                                 .value = 0.58,
+                                 .three_sigma = 0.02,
+                                 .limit = 1.5,
+                                 .unit = "m/s",
+                                 .decimals = 2,
+                                 .enforced_by = by},
+                                {.id = LimitId::kCoherence,
+                                 .label = "Coherence",
+                                 .value = 0.94,
+                                 .limit = 0.7,
+                                 .is_least = true,
+                                 .decimals = 2,
+                                 .enforced_by = EnforcedBy::kGuard},
+                                {.id = LimitId::kResidual,
+                                 .label = "Residual",
+                                 .value = 0.4,
+                                 .limit = 2.15,
+                                 .unit = "σ",
+                                 .enforced_by = EnforcedBy::kAlarm},
+                                {.id = LimitId::kWind,
+                                 .label = "Wind",
+                                 .value = 2.1,
+                                 .limit = 8,
+                                 .unit = "m/s",
+                                 .enforced_by = EnforcedBy::kGuard},
+                                {.id = LimitId::kOffWind,
+                                 .label = "Approach off wind",
+                                 .value = Rad(60),
+                                 .limit = Rad(60),
+                                 .unit = "°",
+                                 .shown_per_unit = kDegPerRad,
+                                 .decimals = 0},
+                                {.id = LimitId::kRowError,
+                                 .label = "Row error",
+                                 .value = 0.22,
+                                 .limit = 0.5,
+                                 .unit = "px",
+                                 .decimals = 2,
+                                 .enforced_by = EnforcedBy::kGuard},
+                                {.id = LimitId::kExposure,
+                                 .label = "Brighter over darker picture",
+                                 .value = 1,
+                                 .limit = 2,
+                                 .decimals = 2,
+                                 .enforced_by = EnforcedBy::kAlarm},
+                                {.id = LimitId::kRangeScale,
+                                 .label = "Range against the laser",
+                                 .value = 0.004,
+                                 .limit = 0.02,
+                                 .unit = "%",
+                                 .shown_per_unit = 100,
+                                 .enforced_by = EnforcedBy::kAlarm}};
+  if (snap.mission.armed) {
+    const auto site = SiteLimits(*snap.mission.armed, snap.settings.slad);
+    rows.insert(rows.end(), site.begin(), site.end());
+  }
+  return rows;
 }
 
 inline std::vector<Event> Events() {
@@ -159,6 +232,7 @@ inline void FillMission(EngineSnapshot& snap, MissionState state) {
   m.height_above_site_m = descending ? 21.4 : 38.2;
   m.distance_to_site_m = descending ? 0.12 : 5.9;
   m.time_to_touchdown_s = descending ? 41 : 72;
+  m.confirm_height_m = 10;
   if (state == MissionState::kDescending) {
     for (int i = 0; i <= 82; ++i) {
       m.path.ahead.push_back({0.5 * i, 21.4 * (1 - i / 82.0)});
@@ -275,6 +349,7 @@ inline EngineSnapshot Snapshot(MissionState state = MissionState::kArmed,
   vehicle.simulated = kind == SourceKind::kSimulation;
   snap.vehicle = vehicle;
   snap.laser = LaserRange{{kNow_us - 38'000}, descending ? 21.7 : 38.2};
+  snap.mission.limits = Limits(snap);
   snap.events = std::make_shared<const std::vector<Event>>(Events());
   snap.history = std::make_shared<const std::vector<HistorySample>>(History(descending));
   snap.timings = {{"rectify", 1.2}, {"disparity", 28.0}, {"slad", 4.1}, {"tracking", 1.9}};

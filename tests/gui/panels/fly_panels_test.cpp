@@ -214,26 +214,45 @@ TEST(FlyPictures, AVerdictOlderThanThePictureIsNotExplainedButDated) {
   EXPECT_FALSE(HasText(late.ui.items, "Over a limit or unknown"));
 }
 
-TEST(FlyLimits, DistanceFromCentreIsALimitOnlyOnceAboveTheSite) {
+/// The row of the list, to be changed by a test.
+LimitRow& RowOf(EngineSnapshot& snap, LimitId id) {
+  for (LimitRow& row : snap.mission.limits) {
+    if (row.id == id) {
+      return row;
+    }
+  }
+  ADD_FAILURE() << "no such row";
+  return snap.mission.limits.front();
+}
+
+TEST(FlyLimits, ShowWhoActsAndCountWhatTheEngineCallsOver) {
   EngineSnapshot snap = fake::Snapshot(MissionState::kDescending);
-  const struct {
-    VehicleMode mode;
-    bool path, centre;
-  } rows[] = {{VehicleMode::kDescend, true, false},
-              {VehicleMode::kSettle, false, true},
-              {VehicleMode::kSink, false, true}};
-  for (const auto& row : rows) {
-    snap.vehicle->mode = row.mode;
+  {
     FlyWindow window(1920, 1080, snap);
-    EXPECT_EQ(window.ui.items.Find("evidence/Off the path") != nullptr, row.path);
-    EXPECT_EQ(window.ui.items.Find("evidence/From centre") != nullptr, row.centre);
+    EXPECT_TRUE(HasText(window.ui.items, "All inside"));
+    EXPECT_EQ(window.ui.items.Find("evidence/Off the path")->text,
+              "Off the path 0.14 ± 0.13 m max 1.2 m, alarm");
+    EXPECT_EQ(window.ui.items.Find("evidence/Slope")->text, "Slope 1.9 ± 0.3° max 10°, guard");
+  }
+  // Beyond its limit but for information: neither a wall nor a count.
+  LimitRow& wind = RowOf(snap, LimitId::kWind);
+  wind.value = 12;
+  wind.enforced_by = EnforcedBy::kNobody;
+  {
+    FlyWindow window(1920, 1080, snap);
+    EXPECT_TRUE(HasText(window.ui.items, "All inside"));
+    EXPECT_EQ(window.ui.items.Find("evidence/Wind")->text, "Wind 12.0  for information");
+  }
+  RowOf(snap, LimitId::kOffPath).over = true;
+  {
+    FlyWindow window(1920, 1080, snap);
+    EXPECT_TRUE(HasText(window.ui.items, "1 over a limit"));
   }
 }
 
 TEST(FlyLimits, AfterLandingAnUnlockedTrackerIsUnknownNotOverALimit) {
   EngineSnapshot snap = fake::Snapshot(MissionState::kLanded);
-  snap.tracker.locked = false;
-  snap.tracker.coherence = 0;
+  RowOf(snap, LimitId::kCoherence).value = NAN;
   FlyWindow window(1920, 1080, snap);
   EXPECT_NE(window.ui.items.Find("evidence/Coherence")->text.find("––"), std::string::npos);
   EXPECT_TRUE(HasText(window.ui.items, "On the ground"));

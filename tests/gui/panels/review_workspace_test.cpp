@@ -261,9 +261,9 @@ TEST(DiagnoseWorkspace, StereoHealthNamesWhatIsWrong) {
   snap.stereo_quality.suspect_swapped = true;
   EXPECT_EQ(health("Pictures"), "bad: Pictures left and right look exchanged");
   snap.stereo_quality.row_error_px = 0.83;
-  Alarm alarm;
-  alarm.kind = AlarmId::kRowError;
-  snap.mission.alarms.push_back(alarm);
+  for (LimitRow& row : snap.mission.limits) {
+    row.over = row.id == LimitId::kRowError;
+  }
   EXPECT_EQ(health("Row error"), "bad: Row error 0.83 px");
   snap.range_agreement = {};
   EXPECT_EQ(health("Range against the laser"), "fine: Range against the laser ––");

@@ -1,0 +1,157 @@
+#include "engine/mission/descent_limits.h"
+
+#include "engine/mission/geometry.h"
+#include "engine/mission/limits.h"
+
+namespace palace {
+namespace {
+
+/// The vehicle is to be above the site, or is on it.
+bool IsOverSite(const DescentFigures& f) {
+  return f.mode == VehicleMode::kSink || f.mode == VehicleMode::kLanded ||
+         f.state == MissionState::kLanded;
+}
+
+LimitRow PlaceRow(const DescentFigures& f, EnforcedBy alarm_in_descent) {
+  if (!IsOverSite(f)) {
+    return {.id = LimitId::kOffPath,
+            .label = "Off the path",
+            .value = f.off_path_m,
+            .three_sigma = f.horizontal_3s_m,
+            .limit = DescentLimits::off_path_m,
+            .unit = "m",
+            .decimals = 2,
+            .enforced_by = alarm_in_descent};
+  }
+  return {.id = LimitId::kFromCentre,
+          .label = "From centre",
+          .value = f.from_centre_m,
+          .three_sigma = f.horizontal_3s_m,
+          .limit = f.nav_error_m,
+          .unit = "m",
+          .decimals = 2,
+          .enforced_by = alarm_in_descent};
+}
+
+DescentFigures FiguresOf(const MissionMemory& m, const MissionInputs& in) {
+  const NavigationStatus& navigation = in.navigation.navigation;
+  const bool on_vision = navigation.handover == NavigationStatus::Handover::kVision;
+  const PositionEstimate& estimate = (on_vision ? navigation.vision : navigation.gps).estimate;
+  const auto& vehicle = m.watch.vehicle();
+  const LandingSite* site = SiteInQuestion(m);
+  DescentFigures f;
+  f.state = m.status.state;
+  f.mode = vehicle ? vehicle->mode : VehicleMode::kUnknown;
+  f.off_path_m = m.status.path.off_path_m;
+  f.from_centre_m = m.status.distance_to_site_m;
+  f.horizontal_3s_m = 3 * estimate.sigma_p_m.head<2>().norm();
+  f.descent_rate_mps = m.facts.v_WB.z();
+  f.descent_rate_3s_mps = 3 * estimate.sigma_v_mps.z();
+  f.approved_rate_mps =
+      m.status.approach ? m.status.approach->descent_rate_mps : m.facts.limits.descent_rate_mps;
+  f.nav_error_m = in.limits.settings.slad.nav_error_m;
+  f.tracked = m.facts.tracker_locked;
+  f.coherence = m.facts.coherence;
+  f.min_coherence = m.facts.min_coherence;
+  f.residual_sigma = navigation.vision.residual_sigma;
+  f.max_residual_sigma = navigation.vision.max_residual_sigma;
+  f.wind_mps = KnownWind(m, in.session.now);
+  if (site != nullptr && std::isfinite(f.wind_mps)) {
+    f.off_wind_rad = std::abs(WrapAngle(PathTo(m, *site).heading_rad - vehicle->wind_from_rad));
+  }
+  return f;
+}
+
+}  // namespace
+
+LimitRow WindLimit(double wind_mps, EnforcedBy by) {
+  return Judged({.id = LimitId::kWind,
+                 .label = "Wind",
+                 .value = wind_mps,
+                 .limit = DescentLimits::wind_mps,
+                 .unit = "m/s",
+                 .enforced_by = std::isfinite(wind_mps) ? by : EnforcedBy::kNobody});
+}
+
+std::vector<LimitRow> LimitsOfDescent(const DescentFigures& f) {
+  const bool descending = f.state == MissionState::kDescending;
+  const bool decided = descending || f.state == MissionState::kApproved;
+  const EnforcedBy in_descent = descending ? EnforcedBy::kAlarm : EnforcedBy::kNobody;
+  const EnforcedBy before_and_in = decided ? EnforcedBy::kAlarm : EnforcedBy::kGuard;
+  return {Judged(PlaceRow(f, in_descent)),
+          Judged({.id = LimitId::kDescentRate,
+                  .label = "Descent rate",
+                  .value = f.descent_rate_mps,
+                  .three_sigma = f.descent_rate_3s_mps,
+                  .limit = DescentLimits::rate_share * f.approved_rate_mps,
+                  .unit = "m/s",
+                  .decimals = 2,
+                  .enforced_by = in_descent}),
+          Judged({.id = LimitId::kCoherence,
+                  .label = "Coherence",
+                  .value = f.tracked ? f.coherence : NAN,
+                  .limit = f.min_coherence,
+                  .is_least = true,
+                  .decimals = 2,
+                  .enforced_by = before_and_in}),
+          Judged({.id = LimitId::kResidual,
+                  .label = "Residual",
+                  .value = f.tracked ? f.residual_sigma : NAN,
+                  .limit = f.max_residual_sigma,
+                  .unit = "σ",
+                  .decimals = 2,
+                  .enforced_by = EnforcedBy::kAlarm}),
+          WindLimit(f.wind_mps, before_and_in),
+          Judged({.id = LimitId::kOffWind,
+                  .label = "Approach off wind",
+                  .value = f.off_wind_rad,
+                  .limit = DescentLimits::off_wind_rad,
+                  .unit = "°",
+                  .shown_per_unit = kDegPerRad,
+                  .decimals = 0})};
+}
+
+std::vector<LimitRow> LimitsOfCameras(const StereoQuality& stereo, const RangeAgreement& range) {
+  LimitRow scale{.id = LimitId::kRangeScale,
+                 .label = "Range against the laser",
+                 .value = std::abs(range.ratio - 1),
+                 .three_sigma = 3 * range.sigma,
+                 .limit = AlarmLimits::scale_percent / 100,
+                 .unit = "%",
+                 .shown_per_unit = 100,
+                 .enforced_by = EnforcedBy::kAlarm};
+  scale = Judged(scale);
+  scale.over = scale.over && scale.value > scale.three_sigma;  // and not by chance
+  return {Judged({.id = LimitId::kRowError,
+                  .label = "Row error",
+                  .value = stereo.row_error_px,
+                  .limit = AlarmLimits::row_error_px,
+                  .unit = "px",
+                  .decimals = 2,
+                  .enforced_by = EnforcedBy::kGuard}),
+          Judged({.id = LimitId::kExposure,
+                  .label = "Brighter over darker picture",
+                  .value = std::exp(std::abs(std::log(stereo.exposure_ratio))),
+                  .limit = AlarmLimits::exposure,
+                  .decimals = 2,
+                  .enforced_by = EnforcedBy::kAlarm}),
+          scale};
+}
+
+double KnownWind(const MissionMemory& m, Timestamp now) {
+  const bool fresh = m.watch.LinkAge(now) <= GuardLimits::link_s;
+  return fresh && m.watch.vehicle() ? m.watch.vehicle()->wind_speed_mps : NAN;
+}
+
+void PublishLimits(MissionMemory& m, const MissionInputs& in) {
+  m.status.limits = LimitsOfDescent(FiguresOf(m, in));
+  const auto add = [&](const std::vector<LimitRow>& rows) {
+    m.status.limits.insert(m.status.limits.end(), rows.begin(), rows.end());
+  };
+  if (m.status.armed && (m.newest || !m.site.evaluated())) {
+    add(SiteLimits(m.newest ? *m.newest : *m.status.armed, in.limits.settings.slad));
+  }
+  add(LimitsOfCameras(in.navigation.stereo, in.navigation.range_agreement));
+}
+
+}  // namespace palace

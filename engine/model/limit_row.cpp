@@ -1,0 +1,118 @@
+#include "engine/model/limit_row.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "engine/core/check.h"
+#include "engine/core/units.h"
+#include "engine/model/cell_explanation.h"
+
+namespace palace {
+namespace {
+
+constexpr double kFull = 10;  // of a limit that any value is beyond
+
+/// A term of the site's verdict as a row, without its numbers.
+LimitRow RowFor(CellTerm term) {
+  switch (term) {
+    case CellTerm::kSlope:
+      return {.id = LimitId::kSlope, .label = "Slope", .unit = "°", .shown_per_unit = kDegPerRad};
+    case CellTerm::kRoughness:
+      return {.id = LimitId::kRoughness, .label = "Roughness", .unit = "cm", .shown_per_unit = 100};
+    case CellTerm::kStep:
+      return {.id = LimitId::kStep, .label = "Largest step", .unit = "cm", .shown_per_unit = 100};
+    case CellTerm::kProbability:
+      return {.id = LimitId::kProbability,
+              .label = "Safe probability",
+              .is_least = true,
+              .decimals = 3};
+    case CellTerm::kHazardDistance:
+      return {.id = LimitId::kClearRadius, .label = "Clear radius", .is_least = true, .unit = "m"};
+  }
+  PALACE_CHECK(false);
+}
+
+std::string Words(double value, const LimitRow& row) {
+  if (!std::isfinite(value)) {
+    return "––";
+  }
+  char text[48];
+  std::snprintf(text, sizeof text, "%.*f", row.decimals, value * row.shown_per_unit);
+  const std::string unit = row.unit;
+  return text + (unit.empty() || unit == "°" ? unit : " " + unit);
+}
+
+}  // namespace
+
+const char* EnforcedByWord(EnforcedBy by) {
+  switch (by) {
+    case EnforcedBy::kNobody:
+      return "for information";
+    case EnforcedBy::kGuard:
+      return "guard";
+    case EnforcedBy::kAlarm:
+      return "alarm";
+    case EnforcedBy::kVehicle:
+      return "vehicle";
+  }
+  PALACE_CHECK(false);
+}
+
+LimitRow Judged(LimitRow row) {
+  const bool beyond = row.is_least ? row.value < row.limit : row.value > row.limit;
+  row.over = row.enforced_by != EnforcedBy::kNobody && beyond;
+  return row;
+}
+
+double ShareUsed(const LimitRow& row) {
+  if (!std::isfinite(row.value)) {
+    return NAN;
+  }
+  if (row.id == LimitId::kProbability) {
+    return (1 - row.value) / std::max(1 - row.limit, 1e-9);
+  }
+  const double used = row.is_least ? row.limit : row.value;
+  const double whole = row.is_least ? row.value : row.limit;
+  return whole > 0 ? std::min(used / whole, kFull) : used > 0 ? kFull : 0;
+}
+
+std::string ValueWords(const LimitRow& row) { return Words(row.value, row); }
+std::string LimitWords(const LimitRow& row) { return Words(row.limit, row); }
+
+const LimitRow* FindLimit(const std::vector<LimitRow>& rows, LimitId id) {
+  const auto row =
+      std::find_if(rows.begin(), rows.end(), [&](const LimitRow& r) { return r.id == id; });
+  return row == rows.end() ? nullptr : &*row;
+}
+
+std::vector<LimitRow> SiteLimits(const LandingSite& site, const SladSettings& settings) {
+  std::vector<LimitRow> rows;
+  for (const ExplainedTerm& term : TermsOf(site, settings)) {
+    LimitRow row = RowFor(term.term);
+    row.value = term.figure.value;
+    row.three_sigma = term.figure.three_sigma > 0 ? term.figure.three_sigma : NAN;
+    row.limit = term.limit;
+    row.enforced_by = EnforcedBy::kGuard;
+    row.over = term.over && std::isfinite(row.value);
+    rows.push_back(row);
+  }
+  // In modern mode a cell that was not measured is a hazard, so that the clear radius holds none.
+  const bool modern = settings.mode == SladMode::kModern;
+  rows.push_back(Judged({.id = LimitId::kUnknownCells,
+                         .label = "Unknown cells",
+                         .value = static_cast<double>(site.unknown_cells),
+                         .limit = 0,
+                         .decimals = 0,
+                         .enforced_by = modern ? EnforcedBy::kGuard : EnforcedBy::kNobody}));
+  // Beyond it the site is provisional: the descent holds at 10 m unless it is confirmed by then.
+  rows.push_back(Judged({.id = LimitId::kHeightNoise,
+                         .label = "Height noise, 3σ",
+                         .value = site.height_m.three_sigma,
+                         .limit = settings.max_deviation_m,
+                         .unit = "cm",
+                         .shown_per_unit = 100,
+                         .enforced_by = EnforcedBy::kGuard}));
+  return rows;
+}
+
+}  // namespace palace

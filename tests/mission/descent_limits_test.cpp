@@ -1,0 +1,191 @@
+// Limits that people see: who acts on them, and that he does. The state machine is in
+// transitions_test.cpp.
+#include "engine/mission/descent_limits.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "tests/mission/mission_rig.h"
+
+namespace palace {
+namespace {
+
+const LimitRow& Row(const MissionRig& rig, LimitId id) {
+  const LimitRow* row = FindLimit(rig.mission.status().limits, id);
+  PALACE_CHECK(row != nullptr, static_cast<int>(id));
+  return *row;
+}
+
+const Alarm* FindAlarm(const MissionRig& rig, const std::string& id) {
+  const auto& alarms = rig.mission.status().alarms;
+  const auto alarm =
+      std::find_if(alarms.begin(), alarms.end(), [&](const Alarm& a) { return a.id == id; });
+  return alarm == alarms.end() ? nullptr : &*alarm;
+}
+
+void Descend(MissionRig& rig) {
+  rig.Arm();
+  ASSERT_TRUE(rig.ApproveNow().ok());
+  ASSERT_TRUE(rig.RunUntil(MissionState::kDescending, 5));
+}
+
+TEST(WindGuard, BlocksApproveBeyondItsLimitOnly) {
+  const struct {
+    double wind_mps;
+    bool may;
+  } rows[] = {{0, true}, {8, true}, {8.1, false}, {14, false}, {NAN, true}};
+  for (const auto& row : rows) {
+    SCOPED_TRACE(row.wind_mps);
+    MissionRig rig;
+    rig.vehicle.wind_mps = row.wind_mps;
+    rig.Arm();
+    EXPECT_EQ(rig.mission.status().can_approve, row.may);
+    EXPECT_EQ(rig.ApproveNow().ok(), row.may);
+    EXPECT_EQ(rig.SentCount<Approval>() > 0 || !rig.mission.TakeMessages().empty(), row.may);
+  }
+  MissionRig rig;
+  rig.vehicle.wind_mps = 9.24;
+  rig.Arm();
+  EXPECT_EQ(rig.mission.status().cannot_approve_reason, "Wind 9.2 m/s, max 8.0 m/s");
+  EXPECT_EQ(rig.mission.status().guards.back().id, GuardId::kWind);
+  EXPECT_TRUE(Row(rig, LimitId::kWind).over);
+  EXPECT_EQ(Row(rig, LimitId::kWind).enforced_by, EnforcedBy::kGuard);
+}
+
+TEST(WindGuard, AWindThatIsNotKnownIsForInformation) {
+  MissionRig unknown;
+  unknown.vehicle.wind_mps = NAN;
+  unknown.Arm();
+  EXPECT_EQ(Row(unknown, LimitId::kWind).enforced_by, EnforcedBy::kNobody);
+  MissionRig stale;
+  stale.vehicle.wind_mps = 14;
+  stale.Arm();
+  stale.link_up = false;
+  stale.Run(1.3);
+  EXPECT_TRUE(std::isnan(Row(stale, LimitId::kWind).value));
+  EXPECT_FALSE(Row(stale, LimitId::kWind).over);
+  EXPECT_FALSE(stale.mission.status().can_approve);  // by G1: the link is stale
+}
+
+TEST(WindGuard, ARecordedApprovalMetItsOwnWind) {
+  MissionRig rig;
+  rig.source = SourceKind::kReplay;
+  rig.can_transmit = rig.recorder_ok = false;
+  rig.vehicle.wind_mps = 12;
+  ASSERT_TRUE(rig.RunUntil(MissionState::kProposed));
+  ASSERT_TRUE(rig.Do(SelectSite{101}, CommandOrigin::kReplay).ok());
+  rig.Run(1.5);
+  EXPECT_TRUE(rig.ApproveNow(CommandOrigin::kReplay).ok());
+}
+
+struct LimitCase {
+  const char* alarm;
+  LimitId limit;
+  std::function<void(MissionRig&)> exceed;
+  const char* text;
+};
+
+class DescentAlarms : public testing::TestWithParam<LimitCase> {};
+
+// The limit on the screen, the one in the alarm's text and the one that raised it are one number.
+TEST_P(DescentAlarms, ComeWhenTheRowIsOver) {
+  const LimitCase& c = GetParam();
+  MissionRig rig;
+  Descend(rig);
+  EXPECT_EQ(FindAlarm(rig, c.alarm), nullptr);
+  c.exceed(rig);
+  rig.Run(0.6);
+  ASSERT_EQ(rig.state(), MissionState::kDescending) << rig.mission.status().why;
+  EXPECT_TRUE(Row(rig, c.limit).over);
+  EXPECT_EQ(Row(rig, c.limit).enforced_by, EnforcedBy::kAlarm);
+  const Alarm* alarm = FindAlarm(rig, c.alarm);
+  ASSERT_NE(alarm, nullptr);
+  EXPECT_EQ(alarm->level, AlarmLevel::kCaution);
+  EXPECT_EQ(alarm->text, c.text);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    , DescentAlarms,
+    testing::Values(
+        LimitCase{"wind", LimitId::kWind, [](MissionRig& r) { r.vehicle.wind_mps = 9; },
+                  "Wind 9.0 m/s, limit 8.0 m/s. Watch the descent, hold or wave off."},
+        LimitCase{"off_path", LimitId::kOffPath, [](MissionRig& r) { r.east_m += 1.5; },
+                  "Off the path by 1.6 m, limit 1.2 m. Hold or wave off."},
+        LimitCase{"off_centre", LimitId::kFromCentre,
+                  [](MissionRig& r) {
+                    r.vehicle.Set(VehicleMode::kSink);
+                    r.east_m += 0.6;
+                  },
+                  "Sinks 0.78 m off the site's centre, limit 0.50 m. Wave off unless the ground "
+                  "around is "
+                  "clear."},
+        LimitCase{"descent_rate", LimitId::kDescentRate,
+                  [](MissionRig& r) { r.navigation.gps.estimate.v_WB.z() = 1.6; },
+                  "Sinks at 1.60 m/s, limit 1.50 m/s. Hold or wave off."},
+        LimitCase{"vision_residual", LimitId::kResidual,
+                  [](MissionRig& r) {
+                    r.navigation.vision.residual_sigma = 2.6;
+                    r.navigation.vision.max_residual_sigma = 2.15;
+                  },
+                  "Vision is 2.60 σ off the estimate, limit 2.15 σ: measurement refused. Watch the "
+                  "estimate."}),
+    [](const auto& row) { return row.param.alarm; });
+
+TEST(DescentLimits, NothingIsOverOutsideOfItsTime) {
+  DescentFigures f;
+  f.off_path_m = f.from_centre_m = f.descent_rate_mps = f.off_wind_rad = 99;
+  f.approved_rate_mps = 1;
+  f.nav_error_m = 0.5;
+  for (const MissionState state : {MissionState::kSearch, MissionState::kArmed, MissionState::kHold,
+                                   MissionState::kAborting, MissionState::kLanded}) {
+    f.state = state;
+    for (const LimitRow& row : LimitsOfDescent(f)) {
+      EXPECT_FALSE(row.over) << row.label << " in " << MissionStateName(state);
+    }
+  }
+}
+
+TEST(DescentLimits, ThePlaceIsAskedAgainstPathOrCentre) {
+  const struct {
+    VehicleMode mode;
+    LimitId id;
+  } rows[] = {{VehicleMode::kDescend, LimitId::kOffPath},
+              {VehicleMode::kSettle, LimitId::kOffPath},
+              {VehicleMode::kSink, LimitId::kFromCentre},
+              {VehicleMode::kLanded, LimitId::kFromCentre}};
+  for (const auto& row : rows) {
+    DescentFigures f;
+    f.state = MissionState::kDescending;
+    f.mode = row.mode;
+    const auto limits = LimitsOfDescent(f);
+    EXPECT_NE(FindLimit(limits, row.id), nullptr);
+    EXPECT_EQ(
+        FindLimit(limits, row.id == LimitId::kOffPath ? LimitId::kFromCentre : LimitId::kOffPath),
+        nullptr);
+  }
+}
+
+TEST(CameraLimits, AreTheOnesThatRaiseTheirAlarms) {
+  const auto over = [](const StereoQuality& stereo, const RangeAgreement& range, LimitId id) {
+    return FindLimit(LimitsOfCameras(stereo, range), id)->over;
+  };
+  StereoQuality good, rows, dark, bright;
+  rows.row_error_px = 0.51;
+  dark.exposure_ratio = 0.49;
+  bright.exposure_ratio = 2.01;
+  EXPECT_FALSE(over(good, {}, LimitId::kRowError));
+  EXPECT_TRUE(over(rows, {}, LimitId::kRowError));
+  EXPECT_FALSE(over(good, {}, LimitId::kExposure));
+  EXPECT_TRUE(over(dark, {}, LimitId::kExposure));
+  EXPECT_TRUE(over(bright, {}, LimitId::kExposure));
+  EXPECT_TRUE(over(good, {1.03, 0.002, 40}, LimitId::kRangeScale));
+  EXPECT_TRUE(over(good, {0.97, 0.002, 40}, LimitId::kRangeScale));
+  EXPECT_FALSE(over(good, {1.03, 0.02, 40}, LimitId::kRangeScale));  // by chance
+  EXPECT_FALSE(over(good, {}, LimitId::kRangeScale));                // not known
+}
+
+}  // namespace
+}  // namespace palace
