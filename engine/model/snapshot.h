@@ -67,6 +67,13 @@ struct TerrainDecision {
   std::shared_ptr<const ImageU8> verdict;
 };
 
+/// What the limits in force say of the site that the flight chose: the armed one, else the best.
+struct SiteReview {
+  char letter = 0;
+  bool kept = false;   ///< a re-check on the newest map holds
+  std::string reason;  ///< a sentence with value and limit
+};
+
 /// One sample of the descent history, one a frame.
 struct HistorySample {
   Timestamp time;
@@ -119,6 +126,8 @@ struct EngineSnapshot {
   std::shared_ptr<const TerrainDecision> preview;  ///< set while previewed settings differ
   std::shared_ptr<const TerrainDecision>
       recorded;  ///< replay: what the flight decided, when limits moved
+
+  std::optional<SiteReview> site_review;  ///< empty before the first site
 
   /// Replay: maps still to come after a jump until the map holds as many frames as in flight.
   int maps_to_rebuild = 0;

@@ -52,6 +52,7 @@ PipelineOutput Pipeline::Process(std::shared_ptr<const FrameBundle> bundle,
     pass.snapshot->applied = last_->applied;
     pass.snapshot->preview = last_->preview;
     pass.snapshot->recorded = last_->recorded;
+    pass.snapshot->site_review = last_->site_review;
     pass.snapshot->range = last_->range;
     pass.snapshot->stereo_quality = last_->stereo_quality;
     pass.snapshot->range_agreement = last_->range_agreement;
@@ -73,6 +74,7 @@ PipelineOutput Pipeline::Process(std::shared_ptr<const FrameBundle> bundle,
   pass.Run("slad", [&] { Judge(pass); });
   pass.Run("track", [&] { Track(pass); });
   pass.Run("mission", [&] { Decide(pass); });
+  Review(pass);
   last_bundle_ = std::move(bundle);
   return Publish(pass);
 }
@@ -93,6 +95,7 @@ PipelineOutput Pipeline::Refresh(std::vector<EngineCommand> commands,
   if (!jumped_) {
     pass.snapshot->mission = mission_.status();
   }
+  Review(pass);
   return Publish(pass);
 }
 

@@ -70,6 +70,8 @@ class Pipeline {
   void Judge(Pass& pass);
   void Track(Pass& pass);
   void Decide(Pass& pass);
+  /// What the limits in force say of the site that the flight chose.
+  void Review(Pass& pass);
   PipelineOutput Publish(Pass& pass);
   /// After this pass's commands: a command decides alike whether it came with the frame or before
   /// it. After a jump, what the record restored.

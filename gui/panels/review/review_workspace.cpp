@@ -121,21 +121,10 @@ Verdict JudgeSite(const EngineSnapshot& snap) {
       (m.approval || m.state >= MissionState::kApproved ? "Approved "
                                                         : (m.armed ? "Armed " : "Proposed ")) +
       letter;
-  const TerrainDecision* now = snap.applied.get();
-  if (now == nullptr || !now->hazards) {
-    return v;
+  if (snap.site_review && snap.site_review->letter == site->letter) {
+    v.now = (snap.site_review->kept ? "Would keep " : "Would refuse ") + letter;
+    v.reason = snap.site_review->reason;
   }
-  const GridGeometry& g = now->hazards->geometry;
-  const auto cell = g.CellFromPoint(site->p_WS.x(), site->p_WS.y());
-  const double distance_m =
-      cell ? static_cast<double>(now->hazards->safe_distance_m.at(*cell)) : NAN;
-  const double needed_m = now->settings.clear_radius_m();
-  const bool holds = distance_m >= needed_m;
-  v.now = (holds ? "Would keep " : "Would refuse ") + letter;
-  v.reason = std::isfinite(distance_m)
-                 ? "Site " + letter + " has " + Fixed(distance_m, 1) +
-                       " m to the nearest hazard, min " + Fixed(needed_m, 1) + " m."
-                 : "Site " + letter + " is not on this map.";
   return v;
 }
 
