@@ -46,7 +46,7 @@ std::array<MapView, 5> Views(const EngineSnapshot& snap, const MapRowState& stat
   views[1].values = &shown->hazards->slope_rad;
   views[1].low = "0°";
   views[1].high = Fixed(2 * slad.max_slope_deg, 0) + "°+";
-  views[1].limit = {"max " + Fixed(slad.max_slope_deg, slad.max_slope_deg < 10 ? 1 : 0) + "°",
+  views[1].limit = {"max " + Fixed(slad.max_slope_deg, DecimalsOf(slad.max_slope_deg, 0)) + "°",
                     0.5f,
                     NAN,
                     "slad.max_slope_deg",
@@ -56,7 +56,7 @@ std::array<MapView, 5> Views(const EngineSnapshot& snap, const MapRowState& stat
   views[2].low = "0 cm";
   views[2].high = Fixed(250 * slad.max_deviation_m, 0) + " cm+";
   views[2].limit = {
-      "max " + Fixed(100 * slad.max_deviation_m, slad.max_deviation_m < 0.0995 ? 1 : 0) + " cm",
+      "max " + Fixed(100 * slad.max_deviation_m, DecimalsOf(100 * slad.max_deviation_m, 0)) + " cm",
       0.4f,
       NAN,
       "slad.max_deviation_m",

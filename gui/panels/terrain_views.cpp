@@ -135,9 +135,8 @@ const LandingSite* BestSite(const TerrainDecision* decision) {
 }
 
 bool SitesDiffer(const LandingSite& a, const LandingSite& b) {
-  constexpr double kSamePlace_m = 0.3, kSameRadius_m = 0.05;
-  return (a.p_WS - b.p_WS).head<2>().norm() > kSamePlace_m ||
-         std::abs(a.clear_radius_m - b.clear_radius_m) > kSameRadius_m;
+  constexpr double kSamePlace_m = 0.3;
+  return (a.p_WS - b.p_WS).head<2>().norm() > kSamePlace_m || a.clear_radius_m != b.clear_radius_m;
 }
 
 double SafeArea(const TerrainDecision* decision) {

@@ -1,0 +1,111 @@
+// The window shows verdicts and reaches none: no line under gui compares a limit, or a figure that
+// limits are for. What is over a limit is in the snapshot (engine/model/limit_row.h,
+// hazard_maps.h). clang-format puts blanks around every comparison and around no template's
+// brackets: that is how one is told from the other.
+#include <filesystem>
+#include <fstream>
+#include <regex>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace palace {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Names of limits, and of figures that have one.
+constexpr const char* kLimits =
+    R"(\b(?:settings|slad|GuardLimits|DescentLimits|clear_radius_m|nav_error_m|commit_height_m|)"
+    R"(confirm_height_m|max_(?:slope|deviation|step|rock|sigma|left_right|vision)\w*|)"
+    R"(min_(?:safe_probability|coherence)|(?:\w+(?:\.|->))limit|kMax\w*_(?:m|mps|deg|rad|s|px|sigma)|)"
+    R"(kMin\w*_(?:m|mps|deg|rad|s|px|sigma)|safe_distance_m|clearance_m|slope_rad|roughness_m|step_m|)"
+    R"(safe_probability|unknown_cells|wind_speed_mps|coherence|residual_sigma|row_error_px|)"
+    R"(exposure_ratio|glide_deviation_m|off_path_m|from_site_m|descent_rate_mps)\b)";
+
+/// Lines that compare such a name but reach no verdict, and why.
+const std::set<std::string> kAllowed = {
+    // Two rings that cover each other are drawn as one.
+    "overlay.ghost->clear_radius_m;",
+};
+
+struct Finding {
+  std::string file;
+  std::string text;
+};
+
+/// The file without comments, its white space made single blanks.
+std::string Flat(const fs::path& path) {
+  std::ifstream file(path);
+  std::string text;
+  for (std::string line; std::getline(file, line);) {
+    text += line.substr(0, line.find("//")) + " ";
+  }
+  return std::regex_replace(text, std::regex(R"(\s+)"), " ");
+}
+
+std::vector<Finding> Comparisons(const std::string& file, const std::string& text) {
+  static const std::regex limits(kLimits);
+  std::vector<Finding> found;
+  std::istringstream words(text);
+  std::string before, word, after;
+  words >> before >> word;
+  while (words >> after) {
+    const bool compares = word == "<" || word == ">" || word == "<=" || word == ">=";
+    if (compares && (std::regex_search(before, limits) || std::regex_search(after, limits)) &&
+        !kAllowed.count(after)) {
+      found.push_back({file, before + " " + word + " " + after});
+    }
+    before = word;
+    word = after;
+  }
+  return found;
+}
+
+TEST(LimitRules, TheWindowComparesNoLimit) {
+  const fs::path root = PALACE_SOURCE_DIR;
+  int files = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(root / "gui")) {
+    const std::string extension = entry.path().extension();
+    if (extension != ".h" && extension != ".cpp") {
+      continue;
+    }
+    ++files;
+    const std::string name = fs::relative(entry.path(), root).string();
+    for (const Finding& finding : Comparisons(name, Flat(entry.path()))) {
+      ADD_FAILURE() << finding.file << " decides by itself: " << finding.text;
+    }
+  }
+  EXPECT_GT(files, 50);
+}
+
+TEST(LimitRules, TheRuleFindsWhatItIsFor) {
+  const char* bad[] = {
+      "const bool holds = distance_m >= now->settings.clear_radius_m();",
+      "if (hazards.safe_distance_m.at(cell) < needed_m) {",
+      "over += row.limit < value ? 1 : 0;",
+      "fine = q.row_error_px <= 0.5;",
+      "return speed > kMaxWind_mps;",
+      "d.hazards->reasons == 0 && site.slope_rad.value > limit_rad",
+  };
+  for (const char* line : bad) {
+    EXPECT_EQ(Comparisons("x", line).size(), 1U) << line;
+  }
+  const char* good[] = {
+      "std::vector<LimitRow> limits = SiteLimits(site, settings);",
+      "static_cast<float>(slad.max_slope_deg) / 2",
+      "over += limit->over ? 1 : 0;",
+      "for (std::size_t i = 0; i < rows.size(); ++i) {",
+      "const bool on = x < 3;  // max_slope_deg > 4",
+  };
+  for (const char* line : good) {
+    EXPECT_TRUE(Comparisons("x", std::string(line).substr(0, std::string(line).find("//"))).empty())
+        << line;
+  }
+}
+
+}  // namespace
+}  // namespace palace
