@@ -60,6 +60,24 @@ void FillMission(const MissionMemory& m, const MissionInputs& in, AlarmFacts& f)
       state < MissionState::kHold && !FollowsRecord(in.session.role) && FliesForeignApproval(m);
 }
 
+/// The rows that people see are the ones that raise the alarms.
+void FillDescent(const MissionMemory& m, AlarmFacts& f) {
+  const auto take = [&](LimitId id, double& value, double* limit = nullptr) {
+    const LimitRow* row = FindLimit(m.status.limits, id);
+    if (row != nullptr && row->enforced_by == EnforcedBy::kAlarm) {
+      value = row->value;
+      if (limit != nullptr) {
+        *limit = row->limit;
+      }
+    }
+  };
+  take(LimitId::kOffPath, f.off_path_m);
+  take(LimitId::kFromCentre, f.off_centre_m, &f.lander.nav_error_m);
+  take(LimitId::kDescentRate, f.descent_rate_mps, &f.max_descent_rate_mps);
+  take(LimitId::kResidual, f.residual_sigma, &f.max_residual_sigma);
+  take(LimitId::kWind, f.wind_mps);
+}
+
 }  // namespace
 
 AlarmFacts AlarmFactsAt(const MissionMemory& m, const MissionInputs& in) {
@@ -70,11 +88,11 @@ AlarmFacts AlarmFactsAt(const MissionMemory& m, const MissionInputs& in) {
   f.heard_vehicle = m.watch.heard_vehicle();
   f.recorder_ok = in.session.recorder_ok;
   f.source_damage = in.session.source_damage;
-  f.limits = m.status.limits;
   f.losses = m.losses.recent();
   f.looked_at_hz = f.losses.replaced_hz > 0 ? f.losses.pairs_hz : NAN;
   FillSensors(m, in, f);
   FillMission(m, in, f);
+  FillDescent(m, f);
   return f;
 }
 

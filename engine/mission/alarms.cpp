@@ -3,6 +3,7 @@
 #include <array>
 
 #include "engine/core/text.h"
+#include "engine/mission/descent_limits.h"
 #include "engine/mission/wording.h"
 
 namespace palace {
@@ -20,16 +21,6 @@ std::string Consequence(const Facts& f) {
 
 std::string StaleText(const char* what, double age_s, const std::string& limit) {
   return what + (" " + words::Age(age_s)) + ", limit " + limit + ". ";
-}
-
-/// The published limit is passed, and an alarm is what asks the operator to act.
-bool IsOver(const Facts& f, LimitId id) {
-  const LimitRow* row = FindLimit(f.limits, id);
-  return row != nullptr && row->over && row->enforced_by == EnforcedBy::kAlarm;
-}
-std::string OverText(const Facts& f, LimitId id) {
-  const LimitRow* row = FindLimit(f.limits, id);
-  return std::string(row->label) + " " + ValueWords(*row) + ", limit " + LimitWords(*row) + ". ";
 }
 
 const std::array<AlarmRow, kAlarmCount> kAlarms = {{
@@ -354,42 +345,60 @@ const std::array<AlarmRow, kAlarmCount> kAlarms = {{
     {.id = AlarmId::kOffPath,
      .level = AlarmLevel::kCaution,
      .acts = Enforcer::kNobody,
-     .present = [](const Facts& f, double) { return IsOver(f, LimitId::kOffPath); },
+     .limit = {DescentLimits::off_path_m, "m"},
+     .value = &Facts::off_path_m,
+     .present = [](const Facts& f, double limit) { return f.off_path_m > limit; },
      .text =
-         [](const Facts& f, const std::string&) {
-           return OverText(f, LimitId::kOffPath) + "Hold or wave off.";
+         [](const Facts& f, const std::string& limit) {
+           return WithNumbers("Off the path by %.1f m, limit ", f.off_path_m) + limit +
+                  ". Hold or wave off.";
          }},
     {.id = AlarmId::kOffCentre,
      .level = AlarmLevel::kCaution,
      .acts = Enforcer::kNobody,
-     .present = [](const Facts& f, double) { return IsOver(f, LimitId::kFromCentre); },
+     .limit = {NAN, "m", 2},
+     .limit_from = &Facts::nav_error_m,
+     .value = &Facts::off_centre_m,
+     .present = [](const Facts& f, double limit) { return f.off_centre_m > limit; },
      .text =
-         [](const Facts& f, const std::string&) {
-           return OverText(f, LimitId::kFromCentre) + "Wave off unless the ground around is clear.";
+         [](const Facts& f, const std::string& limit) {
+           return WithNumbers("Sinks %.2f m off the site's centre, limit ", f.off_centre_m) +
+                  limit + ". Wave off unless the ground around is clear.";
          }},
     {.id = AlarmId::kDescentRate,
      .level = AlarmLevel::kCaution,
      .acts = Enforcer::kNobody,
-     .present = [](const Facts& f, double) { return IsOver(f, LimitId::kDescentRate); },
+     .limit = {NAN, "m/s", 2},
+     .limit_from = &Facts::max_descent_rate_mps,
+     .value = &Facts::descent_rate_mps,
+     .present = [](const Facts& f, double limit) { return f.descent_rate_mps > limit; },
      .text =
-         [](const Facts& f, const std::string&) {
-           return OverText(f, LimitId::kDescentRate) + "Hold or wave off.";
+         [](const Facts& f, const std::string& limit) {
+           return WithNumbers("Sinks at %.2f m/s, limit ", f.descent_rate_mps) + limit +
+                  ". Hold or wave off.";
          }},
     {.id = AlarmId::kVisionResidual,
      .level = AlarmLevel::kCaution,
-     .acts = Enforcer::kNobody,
-     .present = [](const Facts& f, double) { return IsOver(f, LimitId::kResidual); },
+     .acts = Enforcer::kMission,
+     .limit = {NAN, "σ", 2},
+     .limit_from = &Facts::max_residual_sigma,
+     .value = &Facts::residual_sigma,
+     .present = [](const Facts& f, double limit) { return f.residual_sigma > limit; },
      .text =
-         [](const Facts& f, const std::string&) {
-           return OverText(f, LimitId::kResidual) + "Measurement refused. Watch the estimate.";
+         [](const Facts& f, const std::string& limit) {
+           return WithNumbers("Vision is %.2f σ off the estimate, limit ", f.residual_sigma) +
+                  limit + ": measurement refused. Watch the estimate.";
          }},
     {.id = AlarmId::kWind,
      .level = AlarmLevel::kCaution,
      .acts = Enforcer::kNobody,
-     .present = [](const Facts& f, double) { return IsOver(f, LimitId::kWind); },
+     .limit = {DescentLimits::wind_mps, "m/s"},
+     .value = &Facts::wind_mps,
+     .present = [](const Facts& f, double limit) { return f.wind_mps > limit; },
      .text =
-         [](const Facts& f, const std::string&) {
-           return OverText(f, LimitId::kWind) + "Watch the descent, hold or wave off.";
+         [](const Facts& f, const std::string& limit) {
+           return WithNumbers("Wind %.1f m/s, limit ", f.wind_mps) + limit +
+                  ". Watch the descent, hold or wave off.";
          }},
 }};
 

@@ -58,9 +58,17 @@ struct AlarmFacts {
   double waiting_s = NAN;      ///< for the answer to an approval
   std::string refusal{};
   bool foreign_descent = false;
+  // Figures of the descent that an alarm guards now; NaN while none does.
+  double off_path_m = NAN;
+  double off_centre_m = NAN;
+  double nav_error_m = NAN;  ///< setting
+  double descent_rate_mps = NAN;
+  double max_descent_rate_mps = NAN;
+  double residual_sigma = NAN;
+  double max_residual_sigma = NAN;  ///< of the position filter
+  double wind_mps = NAN;
   RecentLosses losses{};
-  double looked_at_hz = NAN;       ///< stereo pairs, while some are replaced by newer ones
-  std::vector<LimitRow> limits{};  ///< of the descent, as published
+  double looked_at_hz = NAN;  ///< stereo pairs, while some are replaced by newer ones
 };
 AlarmFacts AlarmFactsAt(const MissionMemory& memory, const MissionInputs& inputs);
 

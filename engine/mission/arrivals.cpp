@@ -40,15 +40,15 @@ void RememberNavigation(MissionFacts& facts, const MissionInputs::Navigation& in
   facts.coherence = in.tracker.coherence;
 }
 
-void RememberAirframe(MissionFacts& facts, const FrameBundle& bundle) {
-  const VehiclePose* pose = bundle.pose_at_exposure ? &*bundle.pose_at_exposure
-                            : bundle.poses.empty()  ? nullptr
-                                                    : &bundle.poses.back();
-  if (pose != nullptr) {
-    facts.yaw_rad = EulerFromRotation(pose->X_WB.R).yaw_rad;
+void RememberVehicle(MissionFacts& facts, const MissionInputs::Vehicle& in) {
+  facts.simulated_vehicle = in.simulated;
+  if (in.bundle.pose_at_exposure) {
+    facts.yaw_rad = EulerFromRotation(in.bundle.pose_at_exposure->X_WB.R).yaw_rad;
+  } else if (!in.bundle.poses.empty()) {
+    facts.yaw_rad = EulerFromRotation(in.bundle.poses.back().X_WB.R).yaw_rad;
   }
-  if (bundle.rig) {
-    facts.p_BC = bundle.rig->position_body_m;
+  if (in.bundle.rig) {
+    facts.p_BC = in.bundle.rig->position_body_m;
   }
 }
 
@@ -118,8 +118,6 @@ void RememberFacts(MissionMemory& m, const MissionInputs& in) {
   facts.why_no_vehicle = in.session.why_no_vehicle;
   facts.can_transmit = in.session.can_transmit;
   facts.recorder_ok = in.session.recorder_ok;
-  facts.simulated_vehicle = in.vehicle.simulated;
-  RememberAirframe(facts, in.vehicle.bundle);
   facts.limits = in.limits.settings.mission;
   facts.commit_height_m = in.limits.settings.slad.fusion.commit_height_m;
   facts.min_coherence = in.limits.settings.tracking.min_coherence;
@@ -127,6 +125,7 @@ void RememberFacts(MissionMemory& m, const MissionInputs& in) {
   facts.calibration_hash = in.limits.calibration_hash;
   RememberTerrain(facts, in.terrain.decision);
   RememberNavigation(facts, in.navigation);
+  RememberVehicle(facts, in.vehicle);
   m.vehicle_ever_heard = m.vehicle_ever_heard || m.watch.heard_vehicle();
   m.pictures.Update(JudgePictures(in.navigation.stereo, in.session.role));
   if (in.terrain.new_map && in.terrain.decision != nullptr) {

@@ -1,5 +1,6 @@
 #include "engine/mission/descent_limits.h"
 
+#include "engine/mission/geometry.h"
 #include "engine/mission/limits.h"
 
 namespace palace {
@@ -26,10 +27,39 @@ LimitRow PlaceRow(const DescentFigures& f, EnforcedBy alarm_in_descent) {
           .label = "From centre",
           .value = f.from_centre_m,
           .three_sigma = f.horizontal_3s_m,
-          .limit = f.nav_error_m,
+          .limit = f.lander.nav_error_m,
           .unit = "m",
           .decimals = 2,
           .enforced_by = alarm_in_descent};
+}
+
+DescentFigures FiguresOf(const MissionMemory& m, const MissionInputs& in) {
+  const NavigationStatus& navigation = in.navigation.navigation;
+  const bool on_vision = navigation.handover == NavigationStatus::Handover::kVision;
+  const PositionEstimate& estimate = (on_vision ? navigation.vision : navigation.gps).estimate;
+  const auto& vehicle = m.watch.vehicle();
+  const LandingSite* site = SiteInQuestion(m);
+  DescentFigures f;
+  f.state = m.status.state;
+  f.mode = vehicle ? vehicle->mode : VehicleMode::kUnknown;
+  f.off_path_m = m.status.path.off_path_m;
+  f.from_centre_m = m.status.distance_to_site_m;
+  f.horizontal_3s_m = 3 * estimate.sigma_p_m.head<2>().norm();
+  f.descent_rate_mps = m.facts.v_WB.z();
+  f.descent_rate_3s_mps = 3 * estimate.sigma_v_mps.z();
+  f.approved_rate_mps =
+      m.status.approach ? m.status.approach->descent_rate_mps : m.facts.limits.descent_rate_mps;
+  f.lander.nav_error_m = in.limits.settings.slad.lander.nav_error_m;
+  f.tracked = m.facts.tracker_locked;
+  f.coherence = m.facts.coherence;
+  f.min_coherence = m.facts.min_coherence;
+  f.residual_sigma = navigation.vision.residual_sigma;
+  f.max_residual_sigma = navigation.vision.max_residual_sigma;
+  f.wind_mps = KnownWind(m, in.session.now);
+  if (site != nullptr && std::isfinite(f.wind_mps)) {
+    f.off_wind_rad = std::abs(WrapAngle(PathTo(m, *site).heading_rad - vehicle->wind_from_rad));
+  }
+  return f;
 }
 
 }  // namespace
@@ -69,6 +99,7 @@ std::vector<LimitRow> LimitsOfDescent(const DescentFigures& f) {
                   .value = f.tracked ? f.residual_sigma : NAN,
                   .limit = f.max_residual_sigma,
                   .unit = "σ",
+                  .decimals = 2,
                   .enforced_by = EnforcedBy::kAlarm}),
           WindLimit(f.wind_mps, before_and_in),
           Judged({.id = LimitId::kOffWind,
@@ -105,6 +136,22 @@ std::vector<LimitRow> LimitsOfCameras(const StereoQuality& stereo, const RangeAg
                   .decimals = 2,
                   .enforced_by = EnforcedBy::kAlarm}),
           scale};
+}
+
+double KnownWind(const MissionMemory& m, Timestamp now) {
+  const bool fresh = m.watch.LinkAge(now) <= GuardLimits::link_s;
+  return fresh && m.watch.vehicle() ? m.watch.vehicle()->wind_speed_mps : NAN;
+}
+
+void PublishLimits(MissionMemory& m, const MissionInputs& in) {
+  m.status.limits = LimitsOfDescent(FiguresOf(m, in));
+  const auto add = [&](const std::vector<LimitRow>& rows) {
+    m.status.limits.insert(m.status.limits.end(), rows.begin(), rows.end());
+  };
+  if (m.status.armed && (m.newest || !m.site.evaluated())) {
+    add(SiteLimits(m.newest ? *m.newest : *m.status.armed, in.limits.settings.slad));
+  }
+  add(LimitsOfCameras(in.navigation.stereo, in.navigation.range_agreement));
 }
 
 }  // namespace palace

@@ -9,16 +9,16 @@
 //   coherence      blocks approve (G5); in the descent an alarm, and the tracker re-anchors
 //   residual       alarm; the position filter refuses such a measurement
 //   off wind       for information: no landing was tried that would tell what matters
-//   cameras        alarms; rows apart also block approve (G3)
+//   cameras        alarms, at the AlarmLimits; rows apart also block approve (G3)
 #pragma once
 
 #include <cmath>
 #include <vector>
 
 #include "engine/core/units.h"
+#include "engine/mission/mission_inputs.h"
+#include "engine/mission/mission_memory.h"
 #include "engine/model/limit_row.h"
-#include "engine/model/mission_status.h"
-#include "engine/model/snapshot.h"
 
 namespace palace {
 
@@ -53,5 +53,10 @@ struct DescentFigures {
 LimitRow WindLimit(double wind_mps, EnforcedBy by);
 std::vector<LimitRow> LimitsOfDescent(const DescentFigures& figures);
 std::vector<LimitRow> LimitsOfCameras(const StereoQuality& stereo, const RangeAgreement& range);
+
+/// The wind that the vehicle told last; NaN when it told none, or when that is stale.
+double KnownWind(const MissionMemory& memory, Timestamp now);
+/// Fills the limits of the status. After PublishGeometry.
+void PublishLimits(MissionMemory& memory, const MissionInputs& inputs);
 
 }  // namespace palace

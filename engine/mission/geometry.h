@@ -4,6 +4,7 @@
 
 #include <optional>
 
+#include "engine/flight/flight_path.h"
 #include "engine/mission/mission_inputs.h"
 #include "engine/mission/mission_memory.h"
 
@@ -12,20 +13,17 @@ namespace palace {
 /// Metres above the armed site, up-positive; NaN when none is armed.
 double HeightAboveSite(const MissionMemory& memory);
 
+/// Freezes the approach of the armed site, once, as soon as the vehicle's place is known.
+void PlanApproach(MissionMemory& memory);
+
+/// The way to the site: the approved one, else the one that would be approved.
+FlightPath PathTo(const MissionMemory& memory, const LandingSite& site);
+
 /// The armed site, else the one that leads; null when there is none.
 const LandingSite* SiteInQuestion(const MissionMemory& memory);
 
-/// Freezes the way to the armed site as soon as the vehicle's place is known: straight, by the
-/// settings then in force. Approval, button, plots and vehicle take it from there.
-void PlanApproach(MissionMemory& memory);
-
-/// Wind as the vehicle measures it, m/s; NaN where it says none or is silent.
-double KnownWind(const MissionMemory& memory, Timestamp now);
-
-/// Fills height, distance, time left and the path of the status, to the site in question.
+/// Fills height, distance, time left and the place on the path of the status, to that site.
 void PublishGeometry(MissionMemory& memory, const MissionInputs& inputs);
-/// Fills the limits of the status: value, limit, who enforces it.
-void PublishLimits(MissionMemory& memory, const MissionInputs& inputs);
 
 /// How far the laser's spot lies from the map's height there, in metres.
 double LaserMismatch(const MissionInputs& inputs);

@@ -1,4 +1,5 @@
 // What the guards look at, out of the mission's memory.
+#include "engine/mission/descent_limits.h"
 #include "engine/mission/geometry.h"
 #include "engine/mission/guards.h"
 #include "engine/mission/wording.h"
@@ -57,7 +58,6 @@ GuardInputs GuardInputsAt(const MissionMemory& m, Timestamp now) {
   in.coherence = m.facts.coherence;
   in.min_coherence = m.facts.min_coherence;
   in.clock_continuous = m.watch.clock_continuous();
-  in.wind_mps = KnownWind(m, now);
   in.can_transmit = m.facts.can_transmit;
   in.foreign_approval = FliesForeignApproval(m);
   in.unacknowledged_warning = m.alarms.UnacknowledgedWarning();
@@ -65,6 +65,7 @@ GuardInputs GuardInputsAt(const MissionMemory& m, Timestamp now) {
   in.recorder_loss_acknowledged = m.alarms.IsAcknowledged(AlarmId::kRecorder);
   in.source_reason = WhyNotThisSource(m.facts);
   in.arm_window_s = m.facts.limits.arm_window_s;
+  in.wind_mps = KnownWind(m, now);
   if (m.status.armed) {
     JudgeArmedSite(m, now, in);
   }

@@ -95,6 +95,12 @@ std::string WhyNotInTime(const GuardInputs& in, const Limit& limit) {
   return If(!(in.armed_for_s <= in.arm_window_s), words::kArmWindowOver);
 }
 
+std::string WhyWindy(const GuardInputs& in, const Limit& limit) {
+  return WindLimit(in.wind_mps, EnforcedBy::kGuard).over
+             ? WithNumbers("Wind %.1f m/s, max ", in.wind_mps) + LimitWords(limit)
+             : "";
+}
+
 const std::array<GuardRow, kGuardCount> kGuards = {{
     {.id = GuardId::kLink,
      .words = "Vehicle link fresh",
@@ -171,12 +177,7 @@ const std::array<GuardRow, kGuardCount> kGuards = {{
      .words = "Wind inside limit",
      .of_station = true,
      .limit = {DescentLimits::wind_mps, "m/s"},
-     .why =
-         [](const GuardInputs& in, const Limit&) {
-           const LimitRow wind = WindLimit(in.wind_mps, EnforcedBy::kGuard);
-           return wind.over ? "Wind " + ValueWords(wind) + ", max " + LimitWords(wind)
-                            : std::string();
-         }},
+     .why = WhyWindy},
 }};
 
 const GuardRow& RowOf(GuardId id) { return kGuards[static_cast<std::size_t>(id)]; }

@@ -2,8 +2,8 @@
 // limit it holds, its words, and why it fails. What fails blocks approval; nothing else acts on it.
 //
 // A guard passes only on evidence: NaN ages, missing inputs and unknown hashes fail (I3).
-// Source: reference/reliability.md 3.3; G4, G6 and G14 as settled in DESIGN.md 8; G15: the
-// wind that the vehicle measures (descent_limits.h).
+// Source: reference/reliability.md 3.3; G4, G6 and G14 as settled in DESIGN.md 8;
+// G15: the wind that the vehicle measures (descent_limits.h).
 #pragma once
 
 #include <cmath>

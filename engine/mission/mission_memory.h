@@ -47,7 +47,7 @@ struct MissionFacts {
   Eigen::Vector3d p_WB = Eigen::Vector3d::Constant(NAN);
   Eigen::Vector3d v_WB = Eigen::Vector3d::Constant(NAN);
   double yaw_rad = NAN;
-  Eigen::Vector3d p_BC = Eigen::Vector3d::Zero();  ///< of the newest rig
+  Eigen::Vector3d p_BC = Eigen::Vector3d::Zero();  ///< left focal point, of the newest rig
   bool position_healthy = false;
   bool tracker_locked = false;
   double coherence = NAN;

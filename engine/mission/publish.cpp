@@ -1,6 +1,7 @@
 #include "engine/mission/publish.h"
 
 #include "engine/mission/alarms.h"
+#include "engine/mission/descent_limits.h"
 #include "engine/mission/geometry.h"
 #include "engine/mission/guards.h"
 #include "engine/mission/wording.h"

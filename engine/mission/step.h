@@ -11,7 +11,7 @@
 // Everything stale, missing or not finite can only disable (I3). Once per bundle: Apply the
 // commands, then Step. The order within a step: a jump in time, arrivals, facts, the winner, the
 // re-check of the armed site, the vehicle's answers, the state, repeats, what is published.
-// Source: reference/reliability.md section 3 (guards G1-G14, invariants I1-I22), DESIGN.md 8.
+// Source: reference/reliability.md section 3 (guards G1-G15, invariants I1-I22), DESIGN.md 8.
 #pragma once
 
 #include <string_view>

@@ -61,11 +61,11 @@ void Enter(MissionTurn& turn, MissionState state, std::string why, Timestamp now
 void ForgetSite(MissionMemory& m) {
   m.status.armed.reset();
   m.status.approach.reset();
-  m.newest.reset();
   m.status.arm_expires.reset();
   m.status.guards.clear();
   m.armed = {};
   m.site = {};
+  m.newest.reset();
   m.told = SiteVerdict::kHolds;
   m.alternative.reset();
 }

@@ -8,7 +8,7 @@
 
 namespace palace {
 
-/// What must hold at the instant of approval: G1 to G14, in this order.
+/// What must hold at the instant of approval: G1 to G15, in this order.
 enum class GuardId : std::uint8_t {
   kLink,
   kAttitude,

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <memory>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,19 +12,18 @@
 #include "engine/core/units.h"
 #include "engine/mission/guards.h"
 #include "engine/mission/mission.h"
-#include "engine/trust/approval_verifier.h"
 
 namespace palace {
 
 /// Obeys as DESIGN.md 7 asks of a vehicle: verifies approvals, answers, aligns, descends, sinks.
 struct SmallVehicle {
   PublicKey public_key;
-  std::optional<ApprovalVerifier> verifier;  ///< of this boot, from its first approval on
+  VerifierState verifier;
   std::uint64_t boot_id = 77;
   VehicleMode mode = VehicleMode::kHover;
   std::uint64_t approval_id = 0;
-  double wind_mps = 0;
   double height_m = 20;
+  double wind_mps = 0;
   double mode_for_s = 0;
   bool answers = true;
   bool refuses = false;
@@ -38,11 +36,8 @@ struct SmallVehicle {
   void Take(const VehicleMessage& message, Timestamp now) {
     if (const auto* approval = std::get_if<Approval>(&message)) {
       std::string why = refuses ? "Fuel low" : "";
-      if (!verifier || verifier->boot_id() != boot_id) {
-        verifier.emplace(boot_id, public_key);
-      }
-      if (why.empty() && !verifier->IsRepeat(*approval)) {
-        why = verifier->Verify(*approval, now);
+      if (why.empty() && !IsRepeatOfAccepted(*approval, public_key, verifier)) {
+        why = VerifyApproval(*approval, public_key, verifier, now, boot_id);
         if (why.empty()) {
           approval_id = approval->id;
           Set(VehicleMode::kAlign);
@@ -246,9 +241,9 @@ struct MissionRig {
   SmallVehicle vehicle;
   FrameBundle bundle;  ///< of the newest Wait
   Timestamp now{1'000'000'000};
-  double east_m = 2;  ///< where the vehicle is
   std::uint64_t sequence = 0;
   std::int64_t clock_offset_us = 0;
+  double east_m = 2;    ///< where the vehicle is
   bool jumped = false;  ///< the next bundle follows a jump in time
   SourceKind source = SourceKind::kSimulation;
   bool can_transmit = true, recorder_ok = true, simulated = true;

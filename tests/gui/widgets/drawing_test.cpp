@@ -107,14 +107,6 @@ TEST(Contour, NoLineAlongTheRimOfTheMapButOneRoundAHoleInIt) {
   }
 }
 
-TEST(EvidenceShare, IsOneExactlyAtTheLimit) {
-  EXPECT_DOUBLE_EQ(ShareOfMax(10, 10), 1);
-  EXPECT_DOUBLE_EQ(ShareOfMin(2.3, 2.3), 1);
-  EXPECT_NEAR(ShareOfProbability(0.99, 0.99), 1, 1e-12);
-  EXPECT_GT(ShareOfMin(0, 2.3), 1);
-  EXPECT_TRUE(std::isnan(ShareOfMin(NAN, 2.3)));
-}
-
 TEST(PlotTicks, AreRoundAndInside) {
   EXPECT_EQ(RoundTicks(0, 42, 4), (std::vector<float>{0, 20, 40}));
   for (const float tick : RoundTicks(-1.6f, 1.6f, 5)) {
