@@ -18,8 +18,7 @@
 #include "engine/core/hash.h"
 #include "engine/runtime/engine.h"
 #include "engine/runtime/scripted_operator.h"
-#include "engine/simulation/simulator.h"
-#include "engine/trust/approval_verifier.h"
+#include "engine/simulation/session.h"
 #include "tests/support/ray_cast_camera.h"
 
 namespace palace {
@@ -51,17 +50,16 @@ struct Flown {
 };
 
 Flown Fly(const KnownFlight& flight) {
+  const SimulatedSession session = OpenSimulatedSession({.scenario = flight.scene,
+                                                         .seed = flight.seed,
+                                                         .wind_mps = flight.wind_mps,
+                                                         .duration_limit_s = kLimit_s},
+                                                        MakeRayCastCamera)
+                                       .value();
+  const std::shared_ptr<Simulator>& simulator = session.simulator;
   EngineParts parts;
-  parts.mission.session_id = flight.seed;
-  parts.mission.signer = ApprovalSigner::FromSeed(flight.seed);
-  SimulatorOptions options;
-  options.scene = MakeScene(flight.scene, flight.seed).value();
-  options.seed = flight.seed;
-  options.wind.mean_mps = flight.wind_mps;
-  options.wind.gust_w20_mps = 1.5 * flight.wind_mps;
-  options.duration_limit_s = kLimit_s;
-  options.verify = MakeApprovalVerifier(parts.mission.signer.public_key());
-  const auto simulator = std::make_shared<Simulator>(std::move(options), MakeRayCastCamera);
+  parts.mission.session_id = session.id;
+  parts.mission.signer = session.signer;
   parts.source = simulator;
   parts.link = simulator;
   Engine engine(std::move(parts), /*threaded=*/false);
