@@ -16,13 +16,16 @@ struct HealthRow {
   bool fine = true;
 };
 
-/// "max 0.50 px" and whether the figure keeps it, as the engine says.
+/// "max 0.50 px"; a ratio may be as much below 1 as above.
+std::string LimitText(const LimitRow& limit) {
+  return limit.id == LimitId::kExposure ? Fixed(1 / limit.limit, 2) + " to " + Fixed(limit.limit, 2)
+                                        : "max " + LimitWords(limit);
+}
+
+/// The figure with its limit, and whether the engine calls it over.
 HealthRow WithLimit(const EngineSnapshot& snap, LimitId id, const char* name, std::string value) {
   const LimitRow* limit = FindLimit(snap.mission.limits, id);
-  return {name, std::move(value),
-          limit == nullptr           ? ""
-          : id == LimitId::kExposure ? "max " + LimitWords(*limit) + " either way"
-                                     : "max " + LimitWords(*limit),
+  return {name, std::move(value), limit != nullptr ? LimitText(*limit) : "",
           limit == nullptr || !limit->over};
 }
 
@@ -55,8 +58,7 @@ std::vector<HealthRow> RowsOf(const EngineSnapshot& snap) {
       WithLimit(snap, LimitId::kRowError, "Row error", Fixed(q.row_error_px, 2) + " px"),
       {"Row shift, spread", Signed(q.row_shift_px, 2) + " px, " + Fixed(q.row_spread_px, 2) + " px",
        ""},
-      WithLimit(snap, LimitId::kExposure, "Brightness, right over left",
-                Fixed(q.exposure_ratio, 2)),
+      WithLimit(snap, LimitId::kExposure, "Right over left brightness", Fixed(q.exposure_ratio, 2)),
       WithLimit(snap, LimitId::kRangeScale, "Range against the laser",
                 AgreementWords(snap.range_agreement)),
   };
