@@ -72,7 +72,7 @@ void FillDescent(const MissionMemory& m, AlarmFacts& f) {
     }
   };
   take(LimitId::kOffPath, f.off_path_m);
-  take(LimitId::kFromCentre, f.off_centre_m, &f.lander.nav_error_m);
+  take(LimitId::kFromCentre, f.off_centre_m, &f.nav_error_m);
   take(LimitId::kDescentRate, f.descent_rate_mps, &f.max_descent_rate_mps);
   take(LimitId::kResidual, f.residual_sigma, &f.max_residual_sigma);
   take(LimitId::kWind, f.wind_mps);

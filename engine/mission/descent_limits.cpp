@@ -27,7 +27,7 @@ LimitRow PlaceRow(const DescentFigures& f, EnforcedBy alarm_in_descent) {
           .label = "From centre",
           .value = f.from_centre_m,
           .three_sigma = f.horizontal_3s_m,
-          .limit = f.lander.nav_error_m,
+          .limit = f.nav_error_m,
           .unit = "m",
           .decimals = 2,
           .enforced_by = alarm_in_descent};
@@ -49,7 +49,7 @@ DescentFigures FiguresOf(const MissionMemory& m, const MissionInputs& in) {
   f.descent_rate_3s_mps = 3 * estimate.sigma_v_mps.z();
   f.approved_rate_mps =
       m.status.approach ? m.status.approach->descent_rate_mps : m.facts.limits.descent_rate_mps;
-  f.lander.nav_error_m = in.limits.settings.slad.lander.nav_error_m;
+  f.nav_error_m = in.limits.settings.slad.lander.nav_error_m;
   f.tracked = m.facts.tracker_locked;
   f.coherence = m.facts.coherence;
   f.min_coherence = m.facts.min_coherence;

@@ -82,8 +82,8 @@ void DrawChip(UiFrame& ui, const Rect& box, bool on, const char* title, const st
   const float y = box.y + box.h * 0.23f;
   DrawText(ui, s.medium, on ? p.text1 : p.text2, x, y, title);
   DrawText(ui, s.caption, on ? p.text1 : p.text2, x, y + step, line);
-  const std::string words = "Slope " + Short(limits.limits.limits.limits.max_slope_deg) + "°, rough " +
-                            Short(limits.limits.limits.limits.max_deviation_m * 100) + " cm";
+  const std::string words = "Slope " + Short(limits.limits.max_slope_deg) + "°, rough " +
+                            Short(limits.limits.max_deviation_m * 100) + " cm";
   DrawText(ui, s.caption, on ? p.text1 : p.text2, x, y + 2 * step, words);
 }
 
