@@ -8,27 +8,20 @@
 #include <vector>
 
 #include "engine/camera/files/rig_file.h"
+#include "engine/capture/image_sequence.h"
 #include "engine/capture/playback_turns.h"
 #include "engine/runtime/source.h"
 
 namespace palace {
 
-/// Reads both pictures as 8-bit grey. Errors name the file; sizes that differ from each other are
-/// refused. The frame's time is zero.
-Result<StereoFrame> ReadStereoPair(const std::filesystem::path& left,
-                                   const std::filesystem::path& right);
-
-/// Files that match a pattern whose last part may hold * and ?, sorted by name.
-std::vector<std::filesystem::path> ExpandPattern(const std::filesystem::path& folder,
-                                                 const std::string& pattern);
-
-/// Pair k is exposed at 1'000'000 s + k / rate_hz in data time. Every bundle carries the pose of
-/// [pose] (none without that table). No vehicle status and no laser: there is no vehicle.
+/// Pair k is exposed at 1'000'000 s + k / rate_hz in data time, and every bundle carries the pose
+/// of [pose] (none without that table); with [images] poses, times and poses are those of that file
+/// and rate_hz their mean (image_sequence.h). No vehicle status and no laser: there is no vehicle.
 /// Lockstep; paced to `speed` times rate_hz, 0 as fast as possible. With `loop` the last pair is
 /// repeated for ever, with new sequence numbers and advancing time.
 class ImageFolderSource final : public Source {
  public:
-  /// Refuses rigs without [images], patterns without files, and unequal numbers of files. The first
+  /// Refuses rigs without [images], patterns without files, and what SequenceOf refuses. The first
   /// pair is read, so that a wrong size is found at once.
   static Result<std::unique_ptr<ImageFolderSource>> Open(const std::filesystem::path& rig_toml,
                                                          bool loop);
@@ -39,15 +32,13 @@ class ImageFolderSource final : public Source {
   void Control(const PlaybackControl& control) override;
 
  private:
-  ImageFolderSource(RigFile file, std::vector<std::filesystem::path> left,
-                    std::vector<std::filesystem::path> right, std::string name, bool loop);
+  ImageFolderSource(RigFile file, std::vector<ImagePair> pairs, std::string name, bool loop);
   Result<std::shared_ptr<const StereoFrame>> LoadPair(std::int64_t index);
   Timestamp TimeOf(std::int64_t index) const;
 
   const RigFile file_;
   const std::shared_ptr<const StereoRig> rig_;
-  const std::vector<std::filesystem::path> left_;
-  const std::vector<std::filesystem::path> right_;
+  const std::vector<ImagePair> pairs_;
   const std::string name_;
   std::shared_ptr<const StereoFrame> cached_;  ///< last pair read; used by Next only
   std::int64_t cached_index_ = -1;

@@ -78,10 +78,7 @@ ElevationMap MapOfTops(const Points& points, const GridGeometry& geometry) {
   return map;
 }
 
-}  // namespace
-
-bool IsOnEarth(double height_m) { return height_m > -450 && height_m < 9000; }
-
+/// Enlarges the cell, with a warning, until the grid covers the extent.
 void CoverExtent(double north_m, double east_m, SladSettings& slad,
                  std::vector<std::string>& warnings) {
   if (slad.mode == SladMode::kThesis || slad.grid.bounds != BoundsMode::kData) {
@@ -96,6 +93,10 @@ void CoverExtent(double north_m, double east_m, SladSettings& slad,
     slad.grid.cell_m = needed_m;
   }
 }
+
+}  // namespace
+
+bool IsOnEarth(double height_m) { return height_m > -450 && height_m < 9000; }
 
 Result<ElevationMap> MapOfCloud(const std::vector<Eigen::Vector3d>& survey,
                                 std::optional<double> cell_m, SladSettings slad,

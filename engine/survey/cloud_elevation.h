@@ -28,10 +28,6 @@ Result<ElevationMap> MapOfCloud(const std::vector<Eigen::Vector3d>& survey,
                                 std::optional<double> cell_m, SladSettings slad,
                                 std::vector<std::string>& warnings);
 
-/// Enlarges the cell, with a warning, until grid_rows x grid_cols cover the extent.
-void CoverExtent(double north_m, double east_m, SladSettings& slad,
-                 std::vector<std::string>& warnings);
-
 /// Whether land lies that high anywhere. Files without a no-data tag mark gaps by heights like
 /// -9999 or 1e38, which would be the flattest ground of all.
 bool IsOnEarth(double height_m);

@@ -9,6 +9,8 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "engine/slad/sites/site_selection.h"
+
 namespace palace {
 namespace {
 
@@ -287,8 +289,10 @@ Status WriteSafeLandingPicture(const std::filesystem::path& path, const Elevatio
 }
 
 Status WriteOverlay(const std::filesystem::path& path, const ImageU8& left,
-                    const SiteSelection& selection, const SiteContext& context,
-                    const ImageU8& verdict) {
+                    const SiteSelection& selection, const RangeMap& range, const ImageU8& verdict) {
+  PALACE_CHECK(range.pose.has_value());
+  const RigidTransform X_CW = range.pose->X_WC.Inverse();
+  const PinholeCamera& camera = range.camera;
   cv::Mat picture(left.height(), left.width(), CV_8UC3);
   for (int y = 0; y < left.height(); ++y) {
     for (int x = 0; x < left.width(); ++x) {
@@ -306,11 +310,10 @@ Status WriteOverlay(const std::filesystem::path& path, const ImageU8& left,
       const double angle = 2 * M_PI * k / 64;
       const Eigen::Vector3d p_W =
           site.p_WS + site.clear_radius_m * (std::cos(angle) * along + std::sin(angle) * aside);
-      const Eigen::Vector3d p_C = context.X_WC.Inverse() * p_W;
+      const Eigen::Vector3d p_C = X_CW * p_W;
       if (p_C.z() > 0) {
-        ring.emplace_back(
-            static_cast<int>(context.camera.fx_px * p_C.x() / p_C.z() + context.camera.cx_px),
-            static_cast<int>(context.camera.fy_px * p_C.y() / p_C.z() + context.camera.cy_px));
+        ring.emplace_back(static_cast<int>(camera.fx_px * p_C.x() / p_C.z() + camera.cx_px),
+                          static_cast<int>(camera.fy_px * p_C.y() / p_C.z() + camera.cy_px));
       }
     }
     cv::polylines(picture, ring, true, cv::Scalar(0, 0, 0), i == 0 ? 6 : 4, cv::LINE_AA);

@@ -8,7 +8,8 @@
 #include "engine/core/result.h"
 #include "engine/model/hazard_maps.h"
 #include "engine/model/landing_site.h"
-#include "engine/slad/sites/site_selection.h"
+#include "engine/model/range_map.h"
+#include "engine/model/settings.h"
 
 namespace palace {
 
@@ -33,11 +34,11 @@ Status WriteSafeLandingPicture(const std::filesystem::path& path, const Elevatio
                                const HazardMaps& hazards, const SladSettings& settings,
                                const SiteSelection& selection);
 
-/// The left picture with the cross at the best site, the rings of the clear radii on the ground,
-/// and the verdict (VerdictImage, any size): blue rim round what is safe, orange hatch elsewhere.
+/// The left picture of a range map that has a pose, with the cross at the best site, the rings of
+/// the clear radii on the ground, and the verdict (VerdictImage, any size): blue rim round what is
+/// safe, orange hatch elsewhere.
 Status WriteOverlay(const std::filesystem::path& path, const ImageU8& left,
-                    const SiteSelection& selection, const SiteContext& context,
-                    const ImageU8& verdict);
+                    const SiteSelection& selection, const RangeMap& range, const ImageU8& verdict);
 
 /// A picture file as text for a page that holds its pictures: JPEG, at most 1400 pixels a side.
 /// Empty where the file cannot be read.

@@ -9,50 +9,33 @@
 #include <string>
 #include <vector>
 
-#include <nlohmann/json.hpp>
-
 #include "engine/core/text.h"
 #include "engine/core/time.h"
 #include "engine/core/units.h"
-#include "engine/core/version.h"
 #include "engine/experiments/experiment.h"
 #include "engine/model/site_standing.h"
 #include "engine/runtime/settings_io.h"
 #include "engine/slad/hazards/explanation.h"
-#include "engine/slad/sites/verdict_image.h"
-#include "engine/slad/slad.h"
-#include "engine/survey/cloud_elevation.h"
 #include "engine/survey/hazard_layer.h"
 #include "engine/survey/map_files.h"
 #include "engine/survey/map_pictures.h"
 #include "engine/tools/analyze_inputs.h"
+#include "engine/tools/analyze_json.h"
 #include "engine/tools/analyze_report.h"
 #include "engine/tools/explanation_json.h"
 
 namespace palace {
 namespace {
 
-constexpr int kVerdictDivisor = 4;
 constexpr const char* kOverlay = "overlay.png";
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 
 struct Options {
-  std::string left, right, rig, settings_file, out, elevation, points;
+  std::string left, right, rig, poses, settings_file, out, elevation, points;
   std::vector<std::string> set;
   std::optional<double> cell_m;
   std::vector<std::string> explain;
-};
-
-struct Outcome {
-  std::vector<std::string> files;  ///< as given on the command line
-  std::string settings_file;       ///< the same; empty without
-  AnalyzeInput input;
-  Settings settings;
-  HazardMaps hazards;
-  SiteSelection selection;
-  std::vector<CellExplanation> explained{};
 };
 
 Status CheckOptions(const Options& options) {
@@ -63,6 +46,9 @@ Status CheckOptions(const Options& options) {
   }
   if (pair && (options.left.empty() || options.right.empty() || options.rig.empty())) {
     return UsageError("a pair needs all of --left, --right and --rig");
+  }
+  if (!pair && !options.poses.empty()) {
+    return UsageError("--poses belongs to --left, --right and --rig");
   }
   if (options.cell_m && !(*options.cell_m >= 0.001 && *options.cell_m <= 1000)) {
     return UsageError("--cell-m must lie between 0.001 and 1000 metres");
@@ -107,117 +93,13 @@ Result<AnalyzeInput> LoadInput(const Options& options, const Settings& settings)
   if (!options.points.empty()) {
     return ElevationOfCloud(options.points, options.cell_m, settings);
   }
-  return ElevationOfPair(options.left, options.right, options.rig, settings);
+  return ElevationOfPairs({options.left, options.right, options.rig, options.poses}, settings);
 }
 
-/// JSON has no NaN: unknown is null.
-Json Number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
-/// Directions a vehicle may come from along the glide slope.
-Json ApproachesJson(const LandingSite& site) {
-  Json json = Json::array();
-  for (unsigned k = 0; k < 8; ++k) {
-    if ((site.clear_approaches >> k & 1U) != 0) {
-      json.push_back(DirectionWord(Rad(45.0 * k)));
-    }
-  }
-  return json;
-}
-
-Json SiteJson(const LandingSite& site, const SladSettings& slad) {
-  return {{"row", site.cell.row},
-          {"col", site.cell.col},
-          {"north_m", site.p_WS.x()},
-          {"east_m", site.p_WS.y()},
-          {"height_m", Number(site.height_m.value)},
-          {"pixel_x", Number(site.pixel.x())},
-          {"pixel_y", Number(site.pixel.y())},
-          {"slope_deg", Number(Deg(site.slope_rad.value))},
-          {"roughness_m", Number(site.roughness_m.value)},
-          {"clearance_m", site.clearance_m},
-          {"cost", Number(site.cost)},
-          {"safe_probability", Number(site.safe_probability)},
-          {"confirmed", site.confirmed},
-          {"provisional_because", WhyProvisional(site, slad)},
-          {"letter", std::string(1, site.letter)},
-          {"step_m", Number(site.step_m.value)},
-          {"safe_distance_m", site.safe_distance_m},
-          {"clear_radius_m", site.clear_radius_m},
-          {"corridor_clear", std::isfinite(site.distance_m) ? Json(site.corridor_clear) : Json()},
-          {"clear_approaches", ApproachesJson(site)},
-          {"age_s", Number(site.age_s)},
-          {"flags", FlagWords(site.flags)},
-          {"worst_probability", Number(site.touchdown.worst_probability)},
-          {"worst_heading_deg", Number(Deg(site.touchdown.worst_heading_rad))},
-          {"best_probability", Number(site.touchdown.best_probability)},
-          {"best_heading_deg", Number(Deg(site.touchdown.best_heading_rad))},
-          {"margins", MarginsJson(site, slad)},
-          {"why", site.reason},
-          {"reason", site.reason}};
-}
-
-Json SettingsJson(const Settings& settings) {
-  Json json = Json::object();
-  for (const SettingInfo& info : SettingTable()) {
-    const double value = GetSetting(settings, info.name);
-    if (!info.words.empty()) {
-      json[info.name] = info.words[static_cast<std::size_t>(value)];
-    } else if (info.integer) {
-      json[info.name] = std::llround(value);
-    } else {
-      json[info.name] = value;
-    }
-  }
-  return json;
-}
-
-Json ReportJson(const Outcome& o) {
-  const auto& sites = o.selection.sites;
-  const GridGeometry& g = o.input.map.geometry;
-  Json json;
-  json["version"] = kProgramVersion;
-  json["input"] = o.files;
-  json["settings_file"] = o.settings_file.empty() ? Json(nullptr) : Json(o.settings_file);
-  json["status"] = sites.empty() ? "none" : "found";
-  json["site"] = sites.empty() ? Json(nullptr) : SiteJson(sites.front(), o.settings.slad);
-  json["candidates"] = Json::array();
-  for (const LandingSite& site : sites) {
-    json["candidates"].push_back(SiteJson(site, o.settings.slad));
-  }
-  if (sites.empty()) {
-    json["none_reason"] = o.selection.none_reason;
-  }
-  for (const CellExplanation& cell : o.explained) {
-    json["cells"].push_back(CellJson(cell));
-  }
-  json["grid"] = {{"rows", g.rows},
-                  {"cols", g.cols},
-                  {"cell_m", g.cell_m},
-                  {"north_min_m", g.north_min_m},
-                  {"east_min_m", g.east_min_m}};
-  json["rejected"] = {{"slope", o.hazards.rejected.slope},
-                      {"roughness", o.hazards.rejected.roughness},
-                      {"unknown", o.hazards.rejected.unknown},
-                      {"flagged", o.hazards.rejected.flagged},
-                      {"footprint", o.hazards.rejected.footprint}};
-  if (o.input.range) {
-    json["stereo"] = {{"coverage", o.input.stereo.coverage},
-                      {"median_depth_m", o.input.stereo.median_depth_m},
-                      {"median_sigma_px", o.input.stereo.median_sigma_px},
-                      {"row_error_px", o.input.stereo.row_error_px}};
-  }
-  json["settings"] = SettingsJson(o.settings);
-  json["timing_ms"] = Json::object();
-  for (const StageTime& time : o.input.timings) {
-    json["timing_ms"][time.stage] = time.milliseconds;
-  }
-  json["warnings"] = o.input.warnings;
-  return json;
-}
-
-Status WriteLayers(const Outcome& o, const fs::path& folder) {
-  const double max_distance = o.selection.sites.empty() ? o.settings.slad.lander.clear_radius_m()
-                                                        : o.selection.sites.front().safe_distance_m;
+Status WriteLayers(const AnalyzeOutcome& o, const fs::path& folder) {
+  const double max_distance = o.selection().sites.empty()
+                                  ? o.settings.slad.lander.clear_radius_m()
+                                  : o.selection().sites.front().safe_distance_m;
   struct Row {
     const char* name;
     GridF cells;
@@ -225,23 +107,23 @@ Status WriteLayers(const Outcome& o, const fs::path& folder) {
   };
   const SladSettings& slad = o.settings.slad;
   const Row rows[] = {
-      {"elevation", o.input.map.height_m, {"elevation, m", ColourTable::kViridis, 1, {}, {}}},
+      {"elevation", o.map().height_m, {"elevation, m", ColourTable::kViridis, 1, {}, {}}},
       {"slope",
-       o.hazards.slope_rad,
+       o.hazards().slope_rad,
        {"slope, deg", ColourTable::kMagma, kDegPerRad, 0.0, 2 * slad.limits.max_slope_deg}},
       {"roughness",
-       o.hazards.roughness_m,
+       o.hazards().roughness_m,
        {"roughness, m", ColourTable::kInferno, 1, 0.0, 2 * slad.limits.max_deviation_m}},
-      {"cost", o.hazards.cost, {"cost", ColourTable::kCividis, 1, 0.0, 1.0}},
+      {"cost", o.hazards().cost, {"cost", ColourTable::kCividis, 1, 0.0, 1.0}},
       {"safe_distance",
-       o.hazards.safe_distance_m,
+       o.hazards().safe_distance_m,
        {"safe distance, m", ColourTable::kBlues, 1, 0.0, std::max(max_distance, 0.1)}},
       {"hazard",
-       HazardLayer(o.input.map, o.hazards, slad.mode),
+       HazardLayer(o.map(), o.hazards(), slad.mode),
        {"hazard: 0 safe, 1 over a limit", ColourTable::kInferno, 1, 0.0, 1.3}}};
   for (const Row& row : rows) {
     const std::string name = row.name;
-    MapLayer layer{o.input.map.geometry, row.cells, o.input.epsg};
+    MapLayer layer{o.map().geometry, row.cells, o.input.epsg};
     for (float& value : layer.cells.cells()) {
       value *= static_cast<float>(row.picture.shown_per_unit);
     }
@@ -256,39 +138,36 @@ Status WriteLayers(const Outcome& o, const fs::path& folder) {
   return Ok();
 }
 
-Status WriteAll(const Outcome& o, const fs::path& folder) {
+Status WriteAll(const AnalyzeOutcome& o, const fs::path& folder) {
   if (const Status done = WriteLayers(o, folder); !done) {
     return done;
   }
-  if (const Status done = WriteSafeLandingPicture(folder / "safe_landing.png", o.input.map,
-                                                  o.hazards, o.settings.slad, o.selection);
+  if (const Status done = WriteSafeLandingPicture(folder / "safe_landing.png", o.map(), o.hazards(),
+                                                  o.settings.slad, o.selection());
       !done) {
     return done;
   }
-  if (o.input.left && o.input.range) {
-    const ImageU8 verdict = VerdictImage(*o.input.range, o.input.map, o.hazards, kVerdictDivisor);
-    const Status done =
-        WriteOverlay(folder / kOverlay, *o.input.left, o.selection, o.input.context, verdict);
+  if (o.input.pairs > 0) {
+    const Status done = WriteOverlay(folder / kOverlay, *o.input.left, o.selection(),
+                                     *o.input.range, *o.decision->verdict);
     if (!done) {
       return done;
     }
   }
-  const Status report =
-      WriteTextFile(folder / "report.html",
-                    AnalyzeReport(o.files, o.input, o.settings, o.hazards, o.selection, folder));
+  const Status report = WriteTextFile(
+      folder / "report.html", AnalyzeReport(o.files, o.input, o.settings, *o.decision, folder));
   if (!report) {
     return report;
   }
   std::ofstream json(folder / "site.json");
-  // File names need not be UTF-8.
-  json << ReportJson(o).dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
+  json << AnalyzeJson(o) << '\n';
   json.close();
   return json ? Ok() : Status(UnavailableError("cannot write site.json: is the disk full?"));
 }
 
 /// Writes beside the target first and moves the finished files, so that a failure leaves nothing
 /// half written.
-Status Publish(const Outcome& o, const fs::path& out) {
+Status Publish(const AnalyzeOutcome& o, const fs::path& out) {
   std::error_code error;
   fs::create_directories(out, error);
   const fs::path partial = out / ".analyze-partial";
@@ -313,6 +192,15 @@ Status Publish(const Outcome& o, const fs::path& out) {
   return done;
 }
 
+void WarnOfCell(const SladSettings& slad, std::vector<std::string>& warnings) {
+  if (slad.grid.cell_m > slad.lander.max_rock_size_m) {
+    warnings.push_back(
+        WithNumbers("cells of %.3g m are larger than slad.max_rock_size_m (%.3g m): lower rocks of "
+                    "that size may be averaged away",
+                    slad.grid.cell_m, slad.lander.max_rock_size_m));
+  }
+}
+
 Status Analyze(const Options& options) {
   if (const Status good = CheckOptions(options); !good) {
     return good;
@@ -325,30 +213,21 @@ Status Analyze(const Options& options) {
   if (!input) {
     return input.error();
   }
-  Outcome o{{}, options.settings_file, std::move(input).value(), *settings, {}, {}};
-  for (const std::string* file :
-       {&options.left, &options.right, &options.rig, &options.elevation, &options.points}) {
+  AnalyzeOutcome o{{}, options.settings_file, std::move(input).value(), *settings};
+  for (const std::string* file : {&options.left, &options.right, &options.rig, &options.poses,
+                                  &options.elevation, &options.points}) {
     if (!file->empty()) {
       o.files.push_back(*file);
     }
   }
-  o.settings.slad.grid.cell_m = o.input.map.geometry.cell_m;
-  if (o.settings.slad.grid.cell_m > o.settings.slad.lander.max_rock_size_m) {
-    o.input.warnings.push_back(
-        WithNumbers("cells of %.3g m are larger than slad.max_rock_size_m (%.3g m): lower rocks of "
-                    "that size may be averaged away",
-                    o.settings.slad.grid.cell_m, o.settings.slad.lander.max_rock_size_m));
-  }
-  double start = MonotonicSeconds();
-  o.hazards = EvaluateHazards(o.input.map, o.settings.slad);
-  o.input.timings.push_back({"hazards", (MonotonicSeconds() - start) * 1e3});
-  start = MonotonicSeconds();
-  o.selection = SelectSites(o.input.map, o.hazards, o.settings.slad, o.input.context);
-  SiteRegistry().Assign(o.selection);
-  o.input.timings.push_back({"sites", (MonotonicSeconds() - start) * 1e3});
+  const double start = MonotonicSeconds();
+  o.decision = o.input.slad.Decide(o.settings, Letters::kOfRecord);
+  o.input.timings.push_back({"decide", (MonotonicSeconds() - start) * 1e3});
+  o.settings.slad.grid.cell_m = o.map().geometry.cell_m;
+  WarnOfCell(o.settings.slad, o.input.warnings);
   for (const std::string& text : options.explain) {
     const auto cell = ParseCell(text);  // checked with the options
-    o.explained.push_back(ExplainCell(o.input.map, o.hazards, o.settings.slad, *cell));
+    o.explained.push_back(ExplainCell(o.map(), o.hazards(), o.settings.slad, *cell));
     std::printf("cell %d,%d: %s\n", cell->row, cell->col, o.explained.back().verdict.c_str());
   }
   if (const Status done = Publish(o, options.out); !done) {
@@ -357,10 +236,10 @@ Status Analyze(const Options& options) {
   for (const std::string& warning : o.input.warnings) {
     std::cerr << "palacectl: warning: " << warning << '\n';
   }
-  if (o.selection.sites.empty()) {
-    std::cout << "no landing site: " << o.selection.none_reason << '\n';
+  if (o.selection().sites.empty()) {
+    std::cout << "no landing site: " << o.selection().none_reason << '\n';
   } else {
-    const LandingSite& site = o.selection.sites.front();
+    const LandingSite& site = o.selection().sites.front();
     const std::string doubt = WhyProvisional(site, o.settings.slad);
     std::printf(
         "landing site at row %d, column %d, %.2f m north, %.2f m east, %.2f m clear, %.2f m "
@@ -375,11 +254,15 @@ Status Analyze(const Options& options) {
 
 void AddAnalyzeCommand(CLI::App& app, int& exit_code) {
   CLI::App* verb = app.add_subcommand(
-      "analyze", "one stereo pair, elevation model or point cloud: maps and landing site");
+      "analyze", "stereo pairs, an elevation model or a point cloud: maps and landing site");
   auto options = std::make_shared<Options>();
-  verb->add_option("--left", options->left, "left picture");
-  verb->add_option("--right", options->right, "right picture");
+  verb->add_option("--left", options->left,
+                   "left picture; with --poses a pattern such as 'left_*.png'");
+  verb->add_option("--right", options->right, "right picture or pattern");
   verb->add_option("--rig", options->rig, "RIG.toml");
+  verb->add_option("--poses", options->poses,
+                   "POSES.csv of several pairs (file,time,north,east,down,roll,pitch,heading), "
+                   "which are fused in order of time; without it [images] poses of RIG.toml");
   verb->add_option("--elevation", options->elevation, "GeoTIFF elevation model instead of a pair");
   verb->add_option("--points", options->points, "xyz or ply cloud instead of a pair");
   verb->add_option("--cell-m", options->cell_m, "cell size for --elevation and --points, metres");

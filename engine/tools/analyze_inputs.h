@@ -1,41 +1,43 @@
-// What analyze works on: an elevation map from a pair, an elevation model or a cloud.
+// What analyze works on: SLAD with the map of one pair, of a surveyed sequence, of an elevation
+// model or of a cloud.
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "engine/core/result.h"
-#include "engine/model/elevation_map.h"
 #include "engine/model/image.h"
 #include "engine/model/range_map.h"
 #include "engine/model/settings.h"
-#include "engine/slad/sites/site_selection.h"
+#include "engine/slad/slad.h"
+#include "engine/tools/stopwatch.h"
 
 namespace palace {
 
-struct StageTime {
-  std::string stage;
-  double milliseconds = 0;
+/// Where the pictures are, as given on the command line.
+struct PairFiles {
+  std::string left;  ///< a file, or a pattern whose last part may hold * and ?
+  std::string right;
+  std::filesystem::path rig;
+  std::filesystem::path poses;  ///< POSES.csv; empty: that of RIG.toml, if it names one
 };
 
 struct AnalyzeInput {
-  ElevationMap map;
-  SiteContext context;            ///< camera width 0 without a picture
-  std::optional<ImageU8> left;    ///< rectified
-  std::optional<RangeMap> range;  ///< of that picture
-  StereoQuality stereo;           ///< of the pair; meaningful with a range map
+  Slad slad;                              ///< it has a map
+  int pairs = 0;                          ///< fused; 0 without pictures
+  std::shared_ptr<const ImageU8> left;    ///< rectified, of the newest pair; null without pictures
+  std::shared_ptr<const RangeMap> range;  ///< of that picture
+  StereoQuality stereo;                   ///< of the newest pair
   std::optional<int> epsg;
   std::vector<StageTime> timings;
   std::vector<std::string> warnings;
 };
 
-/// settings.slad.cell_m is enlarged, with a warning, when the data would not fit the grid, unless
-/// the bounds are given.
-Result<AnalyzeInput> ElevationOfPair(const std::filesystem::path& left,
-                                     const std::filesystem::path& right,
-                                     const std::filesystem::path& rig, Settings settings);
+/// Fuses the pairs in order of time, as in flight. Several pairs need poses.
+Result<AnalyzeInput> ElevationOfPairs(const PairFiles& files, const Settings& settings);
 
 /// Keeps the grid of the model unless cell_m is given. X east, Y north, Z up.
 Result<AnalyzeInput> ElevationOfModel(const std::filesystem::path& path,

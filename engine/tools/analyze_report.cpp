@@ -44,14 +44,19 @@ std::vector<std::vector<std::string>> SiteRows(const SiteSelection& selection,
 }
 
 std::vector<std::string> Summary(const std::vector<std::string>& files, const AnalyzeInput& input,
-                                 const HazardMaps& hazards, const SiteSelection& selection) {
-  const GridGeometry& g = input.map.geometry;
+                                 const TerrainDecision& decision) {
+  const SiteSelection& selection = decision.selection;
+  const HazardMaps& hazards = *decision.hazards;
+  const GridGeometry& g = decision.elevation->geometry;
   std::vector<std::string> lines;
   lines.push_back(selection.sites.empty()       ? "No landing site: " + selection.none_reason
                   : selection.sites.size() == 1 ? std::string("One landing site, A")
                                                 : WithNumbers("%.0f landing sites; the best is A",
                                                               double(selection.sites.size())));
   lines.push_back("From " + Joined(files) + ", by palacectl " + kProgramVersion);
+  if (input.pairs > 1) {
+    lines.push_back(WithNumbers("%.0f pairs fused in order of time", input.pairs));
+  }
   lines.push_back(WithNumbers("Map of %.0f x %.0f cells of %.3g m", g.rows, g.cols, g.cell_m));
   const RejectedCells& n = hazards.rejected;
   const double all = std::max(1.0, double(g.rows) * g.cols);
@@ -72,10 +77,11 @@ std::vector<std::string> Summary(const std::vector<std::string>& files, const An
 }  // namespace
 
 std::string AnalyzeReport(const std::vector<std::string>& files, const AnalyzeInput& input,
-                          const Settings& settings, const HazardMaps& hazards,
-                          const SiteSelection& selection, const std::filesystem::path& folder) {
+                          const Settings& settings, const TerrainDecision& decision,
+                          const std::filesystem::path& folder) {
+  const SiteSelection& selection = decision.selection;
   HtmlPage page("PALACE: landing sites");
-  page.List(Summary(files, input, hazards, selection));
+  page.List(Summary(files, input, decision));
   const auto picture = [&](const char* name, const char* caption) {
     const std::string data = PictureAsDataUri(folder / (std::string(name) + ".png"));
     if (!data.empty()) {

@@ -5,9 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/model/hazard_maps.h"
 #include "engine/model/settings.h"
-#include "engine/slad/sites/site_selection.h"
+#include "engine/model/terrain_decision.h"
 #include "engine/tools/analyze_inputs.h"
 
 namespace palace {
@@ -16,7 +15,7 @@ namespace palace {
 /// (with a pair), safe_landing.png and those of the layers; one that is missing is left out.
 /// `files`: what the input was read from.
 std::string AnalyzeReport(const std::vector<std::string>& files, const AnalyzeInput& input,
-                          const Settings& settings, const HazardMaps& hazards,
-                          const SiteSelection& selection, const std::filesystem::path& folder);
+                          const Settings& settings, const TerrainDecision& decision,
+                          const std::filesystem::path& folder);
 
 }  // namespace palace

@@ -9,6 +9,8 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 
+#include "engine/capture/playback_turns.h"
+
 namespace palace {
 namespace {
 
@@ -152,6 +154,52 @@ TEST_F(ImageFolderTest, ErrorsNameTheFile) {
   EXPECT_NE(message().find("l0.png"), std::string::npos) << message();
   WriteRig("");
   EXPECT_NE(message().find("[images] is missing"), std::string::npos) << message();
+}
+
+TEST_F(ImageFolderTest, ASurveyTellsOrderTimesAndPoses) {
+  WritePairs(3);
+  WriteRig(
+      "[images]\nleft = \"pictures/l*.png\"\nright = \"pictures/r*.png\"\n"
+      "rate_hz = 4\nposes = \"poses.csv\"\n");
+  std::ofstream(folder_ / "poses.csv") << "file,time,north,east,down,roll,pitch,heading\n"
+                                          "l2,50,1,0,-20,0,0,90\nl9,51,0,0,-20,0,0,0\n"
+                                          "l0,52.5,2,0,-21,0,0,0\nl1,60,3,0,-22,0,0,0\n";
+  const auto source = Open(true);
+  const struct {
+    int grey;
+    double time_s, north_m;
+  } rows[] = {{12, 0, 1}, {10, 2.5, 2}, {11, 10, 3}, {11, 15, 3}};  // the last pair is held
+  for (const auto& row : rows) {
+    const auto bundle = source->Next({});
+    ASSERT_TRUE(bundle.ok()) << bundle.error().message;
+    EXPECT_EQ(Grey(**bundle), row.grey);
+    EXPECT_EQ((*bundle)->stereo->time, AddSeconds(kRecordedStart, row.time_s));
+    EXPECT_EQ((*bundle)->pose_at_exposure->time, (*bundle)->time);
+    EXPECT_EQ((*bundle)->pose_at_exposure->X_WB.p.x(), row.north_m);
+    EXPECT_EQ((*bundle)->rig->rate_hz, 0.2) << "the mean of the survey";
+  }
+}
+
+TEST_F(ImageFolderTest, ASurveyThatDoesNotFitThePicturesIsRefused) {
+  WritePairs(3);
+  WriteRig(
+      "[images]\nleft = \"pictures/l*.png\"\nright = \"pictures/r*.png\"\n"
+      "poses = \"poses.csv\"\n");
+  const auto message = [&] {
+    const auto source = ImageFolderSource::Open(folder_ / "rig.toml", false);
+    return source.ok() ? std::string() : source.error().message;
+  };
+  EXPECT_NE(message().find("poses.csv"), std::string::npos) << message();
+  std::ofstream(folder_ / "poses.csv") << "file,time,north,east,down,roll,pitch,heading\n"
+                                          "l2,50,1,0,-20,0,0,90\nl9,51,0,0,-20,0,0,0\n";
+  for (const char* part : {"poses.csv:3: ", "file = l0", "2 of 3 left pictures", "2 rows"}) {
+    EXPECT_NE(message().find(part), std::string::npos) << message();
+  }
+  std::filesystem::rename(folder_ / "pictures/l1.png", folder_ / "pictures/l0.bmp");
+  WriteRig(
+      "[images]\nleft = \"pictures/l*\"\nright = \"pictures/r*.png\"\n"
+      "poses = \"poses.csv\"\n");
+  EXPECT_NE(message().find("have one stem"), std::string::npos) << message();
 }
 
 TEST_F(ImageFolderTest, AWrongSizeLaterIsAnErrorOfThatPair) {

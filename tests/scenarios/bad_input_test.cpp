@@ -58,6 +58,15 @@ class BadInputs : public Scenario, public testing::WithParamInterface<BadInput> 
     std::filesystem::copy_file(folder_ / "l.png", cut);
     std::filesystem::resize_file(cut, std::filesystem::file_size(cut) / 2);
     WriteRig("good", "", "");
+    const std::string columns = "file,time,north,east,down,roll,pitch,heading\n";
+    const std::string pose = "l,0,0,0,-10,0,0,0\n";
+    WriteFile("poses_stem.csv", columns + "other,0,0,0,-10,0,0,0\n");
+    WriteFile("poses_few.csv", columns + pose);
+    WriteFile("poses_nan.csv", columns + "l,0,0,0,nan,0,0,0\n");
+    WriteFile("poses_back.csv", columns + pose + "r,-1,0,0,-10,0,0,0\n");
+    WriteFile("poses_twice.csv", columns + pose + "l,1,0,0,-10,0,0,0\n");
+    WriteFile("poses_column.csv", "file,time,north,east,down,roll,pitch,yaw\n" + pose);
+    WriteRig("surveyed", "\"r.png\"", "\"r.png\"\nposes = \"poses_nan.csv\"");
     WriteRig("missing", "fx_px = 60\n", "");
     WriteRig("negative", "width = 64", "width = -64");
     WriteRig("nan", "baseline_m = 0.5", "baseline_m = nan");
@@ -188,6 +197,11 @@ INSTANTIATE_TEST_SUITE_P(
                  H({"--images", "negative.toml"}),
                  1,
                  {"negative.toml:2", "left.width = -64", "1 .. 16384"}},
+        BadInput{"SurveyIsNaN",
+                 true,
+                 H({"--images", "surveyed.toml"}),
+                 1,
+                 {"poses_nan.csv:2", "down = nan"}},
         BadInput{"NotANumber",
                  true,
                  H({"--images", "nan.toml"}),
@@ -363,6 +377,56 @@ INSTANTIATE_TEST_SUITE_P(
                  A("l.png", "r.png", "good.toml", {"--set", "slad.x=1"}),
                  2,
                  {"slad.x", "slad.max_slope_deg"}},
+        BadInput{"PosesWithoutThePicture",
+                 false,
+                 A("l.png", "r.png", "good.toml", {"--poses", "poses_stem.csv"}),
+                 1,
+                 {"poses_stem.csv:2", "file = l", "1 rows"}},
+        BadInput{"FewerPosesThanPairs",
+                 false,
+                 A("?.png", "?.png", "good.toml", {"--poses", "poses_few.csv"}),
+                 1,
+                 {"poses_few.csv:2", "file = r", "1 of 2 left pictures"}},
+        BadInput{"PairsWithoutPoses",
+                 false,
+                 A("?.png", "?.png", "good.toml"),
+                 2,
+                 {"2 left pictures", "--poses POSES.csv"}},
+        BadInput{"PoseIsNaN",
+                 false,
+                 A("l.png", "r.png", "good.toml", {"--poses", "poses_nan.csv"}),
+                 1,
+                 {"poses_nan.csv:2", "down = nan", "-100000 .. 100000"}},
+        BadInput{"PoseOfTheRigIsNaN",
+                 false,
+                 A("l.png", "r.png", "surveyed.toml"),
+                 1,
+                 {"poses_nan.csv:2", "down = nan"}},
+        BadInput{"TimesGoBack",
+                 false,
+                 A("l.png", "r.png", "good.toml", {"--poses", "poses_back.csv"}),
+                 1,
+                 {"poses_back.csv:3", "time = -1", "the 0 of line 2"}},
+        BadInput{"StemTwice",
+                 false,
+                 A("l.png", "r.png", "good.toml", {"--poses", "poses_twice.csv"}),
+                 1,
+                 {"poses_twice.csv:3", "file = l", "line 2"}},
+        BadInput{"PosesColumn",
+                 false,
+                 A("l.png", "r.png", "good.toml", {"--poses", "poses_column.csv"}),
+                 1,
+                 {"poses_column.csv:1", "'yaw'", "heading"}},
+        BadInput{"NoPoses",
+                 false,
+                 A("l.png", "r.png", "good.toml", {"--poses", "no.csv"}),
+                 1,
+                 {"no.csv"}},
+        BadInput{"PosesOfAModel",
+                 false,
+                 {"analyze", "--elevation", "dem.tif", "--poses", "p.csv", "--out", "out"},
+                 2,
+                 {"--poses", "--left"}},
         BadInput{"OutIsAFile",
                  false,
                  {"analyze", "--left", "l.png", "--right", "r.png", "--rig", "good.toml", "--out",

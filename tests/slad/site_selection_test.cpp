@@ -148,7 +148,7 @@ TEST(SiteSelection, NewGroundAtTheRimOfASiteLeavesItProvisional) {
     }
     const LandingSite again = Select(map).sites.at(0);
     EXPECT_EQ(again.confirmed, new_columns < 12) << new_columns;
-    EXPECT_EQ(again.fusion.frames_fused, new_columns < 12 ? 10 : 1) << new_columns;
+    EXPECT_EQ(again.frames_fused, new_columns < 12 ? 10 : 1) << new_columns;
   }
 }
 

@@ -206,7 +206,12 @@ Status ReadImages(const toml::table& root, const std::string& name, RigFile& fil
   if (images.present()) {
     file.left_pattern = images.Text("left");
     file.right_pattern = images.Text("right");
-    images.Allow("rate_hz");
+    for (const char* key : {"rate_hz", "poses"}) {
+      images.Allow(key);
+    }
+    if (images.Has("poses")) {
+      file.poses_csv = file.folder / images.Text("poses");
+    }
     file.rig.rate_hz = images.NumberOr("rate_hz", kRate, file.rig.rate_hz);
   }
   return images.Finish();

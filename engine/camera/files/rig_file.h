@@ -32,6 +32,7 @@ struct RigFile {
   std::optional<VehiclePose> pose;
   std::string left_pattern;  ///< [images]; empty without that table
   std::string right_pattern;
+  std::filesystem::path poses_csv;  ///< [images] poses (poses_file.h), with folder; empty without
   std::optional<RigCapture> capture;
   std::filesystem::path folder;  ///< of the TOML file; patterns and model files are relative to it
 };
@@ -46,7 +47,7 @@ struct RigFile {
 ///                    rectified, min_disparity_px, num_disparities
 ///   [mount]          tilt_deg (-90 nadir .. 0 horizon), position_body_m
 ///   [pose]           roll_deg pitch_deg heading_deg height_m
-///   [images]         left right rate_hz
+///   [images]         left right rate_hz, and poses: a POSES.csv that then tells times and poses
 ///   [capture]        left right, or left and side_by_side = true; optional width height rate_hz
 ///                    pair_tolerance_ms fourcc loop
 /// Required: [left], [right], [rig], [mount] tilt_deg; [pose] needs all its keys, [images] both
