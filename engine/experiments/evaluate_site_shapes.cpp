@@ -293,7 +293,7 @@ Result<std::vector<TrialRow>> RunField(const ShapesOptions& options, const Setti
     const FieldFrame& last = (*frames)[static_cast<std::size_t>(count) - 1];
     SiteContext context;
     context.p_WB = last.input.p_WB;
-    context.X_WC = last.input.view.range->X_WC;
+    context.X_WC = last.input.view.range->pose->X_WC;
     context.camera = last.input.view.range->camera;
     RowWriter writer(field, count, rows);
     AddRows(field, view, *decision->elevation, context, settings.slad, writer);

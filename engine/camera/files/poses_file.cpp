@@ -11,6 +11,7 @@
 #include "engine/camera/files/keyed_text.h"
 #include "engine/camera/files/text_file.h"
 #include "engine/camera/files/toml_table.h"
+#include "engine/core/text.h"
 #include "engine/core/units.h"
 
 namespace palace {
