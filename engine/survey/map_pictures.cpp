@@ -250,8 +250,7 @@ Status WriteMapPicture(const std::filesystem::path& path, const GridF& cells,
 }
 
 Status WriteSafeLandingPicture(const std::filesystem::path& path, const ElevationMap& map,
-                               const HazardMaps& hazards, const SladSettings& settings,
-                               const SiteSelection& selection) {
+                               const HazardMaps& hazards, const SiteSelection& selection) {
   const GridGeometry& g = map.geometry;
   if (map.height_m.empty()) {
     return InvalidError(path.string() + ": the map has no cells");

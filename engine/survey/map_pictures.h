@@ -31,8 +31,7 @@ Status WriteMapPicture(const std::filesystem::path& path, const GridF& cells,
 /// (CanBearLander), grey where not, hazard orange, unknown dark; the sites with their clear radius,
 /// the best with a cross.
 Status WriteSafeLandingPicture(const std::filesystem::path& path, const ElevationMap& map,
-                               const HazardMaps& hazards, const SladSettings& settings,
-                               const SiteSelection& selection);
+                               const HazardMaps& hazards, const SiteSelection& selection);
 
 /// The left picture of a range map that has a pose, with the cross at the best site, the rings of
 /// the clear radii on the ground, and the verdict (VerdictImage, any size): blue rim round what is

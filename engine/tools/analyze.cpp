@@ -142,8 +142,8 @@ Status WriteAll(const AnalyzeOutcome& o, const fs::path& folder) {
   if (const Status done = WriteLayers(o, folder); !done) {
     return done;
   }
-  if (const Status done = WriteSafeLandingPicture(folder / "safe_landing.png", o.map(), o.hazards(),
-                                                  o.settings.slad, o.selection());
+  if (const Status done =
+          WriteSafeLandingPicture(folder / "safe_landing.png", o.map(), o.hazards(), o.selection());
       !done) {
     return done;
   }
