@@ -21,7 +21,7 @@ AlarmFacts AllMeasured() {
   f.coherence = 1;
   f.min_coherence = Settings{}.tracking.min_coherence;
   f.off_path_m = f.off_centre_m = f.descent_rate_mps = f.residual_sigma = f.wind_mps = 0;
-  f.lander.nav_error_m = 0.5;
+  f.nav_error_m = 0.5;
   f.max_descent_rate_mps = 1.5;
   f.max_residual_sigma = 2;
   f.state = MissionState::kDescending;
@@ -29,7 +29,7 @@ AlarmFacts AllMeasured() {
   return f;
 }
 
-/// Raised by this fact alone; the conditions of the others stay as they are.
+/// The text of this alarm under these facts; empty when it is not raised.
 std::string TextOf(const AlarmRow& row, const AlarmFacts& facts) {
   for (const AlarmCondition& condition : EvaluateAlarms(facts)) {
     if (condition.id == row.id && condition.present) {
@@ -116,8 +116,8 @@ TEST(GuardTable, HasEachGuardOnceInOrder) {
   }
 }
 
-// Whatever a guard is told, it fails by default: evidence passes, silence does not (I3). Many
-// vehicles measure no wind: there silence is no evidence of much wind.
+// Evidence passes, silence does not (I3). Many vehicles measure no wind: there silence is no evidence
+// of much wind.
 TEST(GuardTable, NothingKnownPassesNothingThatNeedsEvidence) {
   const std::set<GuardId> silent = {GuardId::kWarnings, GuardId::kSource, GuardId::kWind};
   for (const GuardResult& result : EvaluateGuards(GuardInputs{})) {
@@ -185,7 +185,7 @@ TEST(AlarmTable, AStalePoseIsToldAtTheLimitThatBlocks) {
             "Vehicle pose stale, 0.5 s, limit 0.2 s. Approve is blocked.");
 }
 
-// A late picture flickers; a camera that repeats itself does not. Both take three pairs.
+// One odd pair is chance, and one good pair is no cure.
 TEST(PictureWatch, AFaultStandsAfterThreePairsAndGoesTheSameWay) {
   StereoQuality bad, good;
   bad.suspect_swapped = true;

@@ -1,6 +1,7 @@
 // The way down to the armed site: planned once, shown, signed, and followed on the way.
 #include <cmath>
 
+#include "engine/flight/flight_path.h"
 #include "tests/mission/mission_rig.h"
 
 namespace palace {

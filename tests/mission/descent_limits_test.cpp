@@ -138,7 +138,7 @@ TEST(DescentLimits, NothingIsOverOutsideOfItsTime) {
   DescentFigures f;
   f.off_path_m = f.from_centre_m = f.descent_rate_mps = f.off_wind_rad = 99;
   f.approved_rate_mps = 1;
-  f.lander.nav_error_m = 0.5;
+  f.nav_error_m = 0.5;
   for (const MissionState state : {MissionState::kSearch, MissionState::kArmed, MissionState::kHold,
                                    MissionState::kAborting, MissionState::kLanded}) {
     f.state = state;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,13 +13,14 @@
 #include "engine/core/units.h"
 #include "engine/mission/guards.h"
 #include "engine/mission/mission.h"
+#include "engine/trust/approval_verifier.h"
 
 namespace palace {
 
 /// Obeys as DESIGN.md 7 asks of a vehicle: verifies approvals, answers, aligns, descends, sinks.
 struct SmallVehicle {
   PublicKey public_key;
-  VerifierState verifier;
+  std::optional<ApprovalVerifier> verifier;  ///< of this boot, from its first approval on
   std::uint64_t boot_id = 77;
   VehicleMode mode = VehicleMode::kHover;
   std::uint64_t approval_id = 0;
@@ -36,8 +38,11 @@ struct SmallVehicle {
   void Take(const VehicleMessage& message, Timestamp now) {
     if (const auto* approval = std::get_if<Approval>(&message)) {
       std::string why = refuses ? "Fuel low" : "";
-      if (why.empty() && !IsRepeatOfAccepted(*approval, public_key, verifier)) {
-        why = VerifyApproval(*approval, public_key, verifier, now, boot_id);
+      if (!verifier || verifier->boot_id() != boot_id) {
+        verifier.emplace(boot_id, public_key);
+      }
+      if (why.empty() && !verifier->IsRepeat(*approval)) {
+        why = verifier->Verify(*approval, now);
         if (why.empty()) {
           approval_id = approval->id;
           Set(VehicleMode::kAlign);
