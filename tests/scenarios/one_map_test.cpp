@@ -35,8 +35,8 @@ HoverView Hover() {
   return view;
 }
 
-StereoWorld Field() {
-  StereoWorld world;
+World Field() {
+  World world;
   world.solids = {MakeBox(2.5, -2, 0.5, 0.5, 0.5), MakeBox(-2, 2, 1.0, 2.0, 1.0)};
   return world;
 }
