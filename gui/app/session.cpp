@@ -86,13 +86,13 @@ Status OpenCameraSource(const AppOptions& options, bool paced, Session& session,
 }
 
 Status OpenBus(const AppOptions& options, Session& session, EngineParts& parts) {
-  const Result<ChannelNames> channels = ChannelsFor(options);
-  if (!channels) {
-    return channels.error();
-  }
   Result<std::shared_ptr<Bus>> bus = Bus::Open(options.source_path);
   if (!bus) {
     return bus.error();
+  }
+  const Result<ChannelNames> channels = ChannelsFor(options);
+  if (!channels) {
+    return channels.error();
   }
   for (const std::string& warning : (*bus)->warnings()) {
     LogWarning(warning);

@@ -20,6 +20,7 @@ CommandAck AnswerTo(Simulator& simulator, const ApprovalSigner* signer) {
   approval.expires_at = AddSeconds(first->time, 30);
   approval.p_WS = {15.7, 0, 0};
   approval.glide_slope_rad = Rad(45);
+  approval.descent_rate_mps = 1;
   approval.clear_radius_m = 2.3;
   if (signer != nullptr) {
     signer->Sign(approval);
