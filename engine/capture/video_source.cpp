@@ -196,7 +196,7 @@ Status VideoSource::GoTo(double time_s) {
 
 Result<PicturePair> VideoSource::PairAt(std::int64_t index) {
   if (index != position_) {
-    jumped_ = true;
+    jump_pending_ = true;
     if (const ::palace::Status there = GoTo(static_cast<double>(index) / rate_hz_); !there) {
       return there.error();
     }
@@ -250,7 +250,7 @@ Result<std::shared_ptr<const FrameBundle>> VideoSource::Next(std::stop_token sto
                                AddSeconds(kRecordedStart, lap_start_s_ + time_s),
                                std::move(pair->left.grey), std::move(pair->right.grey)}));
     bundle->sequence = ++sequence_;
-    bundle->discontinuity = std::exchange(jumped_, false);
+    bundle->discontinuity = std::exchange(jump_pending_, false);
     return std::shared_ptr<const FrameBundle>(std::move(bundle));
   }
 }

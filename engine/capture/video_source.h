@@ -66,7 +66,7 @@ class VideoSource final : public Source {
   double lap_start_s_ = 0;              ///< when this lap began
   double lap_s_ = 0;                    ///< what it lasted so far
   std::uint64_t sequence_ = 0;
-  bool jumped_ = false;
+  bool jump_pending_ = false;
 
   mutable std::mutex mutex_;  ///< guards what Status reads
   std::vector<CameraCounters> counters_;

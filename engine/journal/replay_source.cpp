@@ -132,22 +132,22 @@ std::shared_ptr<const FrameBundle> ReplaySource::ReadBundle() {
 
 bool ReplaySource::WaitForTurn(std::unique_lock<std::mutex>& lock, std::stop_token stop) {
   while (!stop.stop_requested()) {
-    const bool at_end = next_bundle_ >= bundles_.size() && !jumped_;
+    const bool at_end = next_bundle_ >= bundles_.size() && !jump_pending_;
     if (at_end) {
       ended_ = true;
       if (!options_.wait_at_end) {
         return false;
       }
       steps_ = 0;
-      changed_.wait(lock, stop, [&] { return jumped_; });
+      changed_.wait(lock, stop, [&] { return jump_pending_; });
       continue;
     }
     ended_ = false;
-    if (jumped_ || steps_ > 0) {
+    if (jump_pending_ || steps_ > 0) {
       return true;
     }
     if (paused_) {
-      changed_.wait(lock, stop, [&] { return jumped_ || steps_ > 0 || !paused_; });
+      changed_.wait(lock, stop, [&] { return jump_pending_ || steps_ > 0 || !paused_; });
       continue;
     }
     if (speed_ <= 0 || !last_delivery_s_ || !last_time_) {
@@ -159,7 +159,7 @@ bool ReplaySource::WaitForTurn(std::unique_lock<std::mutex>& lock, std::stop_tok
     const double speed = speed_;
     const double due_s = *last_delivery_s_ + gap_s / speed;
     const bool disturbed = changed_.wait_until(lock, stop, TimePoint(due_s), [&] {
-      return jumped_ || steps_ > 0 || paused_ || speed_ != speed;
+      return jump_pending_ || steps_ > 0 || paused_ || speed_ != speed;
     });
     if (!disturbed && !stop.stop_requested()) {
       return true;
@@ -171,7 +171,7 @@ bool ReplaySource::WaitForTurn(std::unique_lock<std::mutex>& lock, std::stop_tok
 Result<std::shared_ptr<const FrameBundle>> ReplaySource::Next(std::stop_token stop) {
   std::unique_lock lock(mutex_);
   while (WaitForTurn(lock, stop)) {
-    const bool jump = std::exchange(jumped_, false);
+    const bool jump = std::exchange(jump_pending_, false);
     steps_ = std::max(0, steps_ - 1);
     const std::uint64_t generation = generation_;
     if (jump) {
@@ -250,7 +250,7 @@ SourceStatus ReplaySource::Status() const {
 
 void ReplaySource::JumpTo(std::size_t bundle) {
   next_bundle_ = std::min(bundle, bundles_.size() - 1);
-  jumped_ = true;
+  jump_pending_ = true;
   ++generation_;
 }
 

@@ -72,7 +72,7 @@ class ReplaySource final : public Source {
   std::condition_variable_any changed_;
   std::size_t next_bundle_ = 0;
   std::uint64_t generation_ = 0;  ///< counts jumps
-  bool jumped_ = false;
+  bool jump_pending_ = false;
   int steps_ = 0;  ///< bundles to deliver although paused
   bool ended_ = false;
   bool paused_ = false;

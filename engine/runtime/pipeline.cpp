@@ -25,13 +25,16 @@ void Pipeline::StartAfterJump(Timestamp now) {
   tracked_site_ = 0;
   navigator_.Reset();
   channels_.Reset();
-  jumped_ = replaying_;
-  if (const Settings* settings = replaying_ ? flight_of_record_.SettingsAt(now) : nullptr) {
+  if (FollowsRecord(role_)) {
+    role_ = SessionRole::kReplayedAfterJump;
+  }
+  if (const Settings* settings =
+          FollowsRecord(role_) ? flight_of_record_.SettingsAt(now) : nullptr) {
     settings_.RestoreRecorded(*settings);
   }
   std::vector<HistorySample> before = flight_of_record_.HistoryBefore(now);
   maps_to_rebuild_ =
-      replaying_ && !before.empty() ? settings_.recorded().slad.fusion.frames_fused : 0;
+      FollowsRecord(role_) && !before.empty() ? settings_.recorded().slad.fusion.frames_fused : 0;
   history_.Reset(std::move(before));
   laser_height_m_.reset();
   range_check_.Reset();
@@ -43,7 +46,7 @@ PipelineOutput Pipeline::Process(std::shared_ptr<const FrameBundle> bundle,
                                  std::vector<EngineCommand> commands,
                                  const SessionStatus& session) {
   Pass pass{bundle, std::move(commands), session};
-  replaying_ = session.source.kind == SourceKind::kReplay;
+  role_ = RoleOf(session.source.kind, !SeenFromStart(role_));
   if (bundle->discontinuity) {
     StartAfterJump(bundle->time);
   }
@@ -82,7 +85,7 @@ PipelineOutput Pipeline::Process(std::shared_ptr<const FrameBundle> bundle,
 PipelineOutput Pipeline::Refresh(std::vector<EngineCommand> commands,
                                  const SessionStatus& session) {
   Pass pass{last_bundle_, std::move(commands), session};
-  replaying_ = session.source.kind == SourceKind::kReplay;
+  role_ = RoleOf(session.source.kind, !SeenFromStart(role_));
   if (last_) {
     *pass.snapshot = *last_;
     pass.snapshot->diagnostics.clear();
@@ -92,7 +95,7 @@ PipelineOutput Pipeline::Refresh(std::vector<EngineCommand> commands,
   if (pass.settings_moved && slad_.has_map()) {
     pass.Run("slad", [&] { Judge(pass); });
   }
-  if (!jumped_) {
+  if (SeenFromStart(role_)) {
     pass.snapshot->mission = mission_.status();
   }
   Review(pass);
@@ -175,7 +178,7 @@ std::optional<Eigen::Vector3d> Pipeline::LaserSpot(const EngineSnapshot& snapsho
 }
 
 const MissionStatus& Pipeline::MissionInForce() const {
-  return jumped_ && last_ ? last_->mission : mission_.status();
+  return !SeenFromStart(role_) && last_ ? last_->mission : mission_.status();
 }
 
 double Pipeline::GroundHeight() const {
@@ -261,7 +264,7 @@ void Pipeline::Judge(Pass& pass) {
 }
 
 std::optional<LandingSite> Pipeline::TrackedSite(Timestamp now) const {
-  if (!jumped_) {
+  if (SeenFromStart(role_)) {
     return mission_.WantsTracking() ? mission_.status().armed : std::nullopt;
   }
   const FlightRecordSample* sample = flight_of_record_.At(now);
@@ -273,7 +276,7 @@ void Pipeline::Track(Pass& pass) {
   EngineSnapshot& snapshot = *pass.snapshot;
   const std::optional<LandingSite> armed = TrackedSite(pass.bundle->time);
   const TrackingSettings& tracking = settings_.recorded().tracking;
-  navigator_.AllowVision(jumped_ ? armed.has_value() : mission_.VisionAllowed());
+  navigator_.AllowVision(SeenFromStart(role_) ? mission_.VisionAllowed() : armed.has_value());
   if (!armed) {
     if (tracked_site_ != 0) {
       tracker_.Reset();
@@ -314,7 +317,7 @@ void Pipeline::Decide(Pass& pass) {
   if (armed && pass.decision_of_record && pass.new_map) {
     const auto& approach = mission_.status().approach;
     rechecked = slad_.Recheck(*pass.decision_of_record, *armed, settings_.recorded(),
-                                 approach ? approach->heading_rad : NAN);
+                              approach ? approach->heading_rad : NAN);
     if (rechecked) {
       const TerrainDecision& map = *pass.decision_of_record;
       nearest = ExplainCell(*map.elevation, *map.hazards, map.settings, rechecked->cell).nearest;
@@ -324,10 +327,9 @@ void Pipeline::Decide(Pass& pass) {
     }
   }
   const Settings& in_force = settings_.recorded();
-  const SessionRole role = RoleOf(pass.session.source.kind, jumped_);
   mission_.Update({
       .session = {.now = pass.bundle->time,
-                  .role = role,
+                  .role = role_,
                   .why_no_vehicle = WhyNoVehicle(pass.session.source.kind),
                   .can_transmit = pass.session.can_transmit,
                   .recorder_ok = pass.session.recorder_ok,
@@ -353,7 +355,7 @@ void Pipeline::Decide(Pass& pass) {
                  .calibration_hash = calibration_hash_},
   });
   snapshot.mission = mission_.status();
-  if (!SeenFromStart(role)) {
+  if (!SeenFromStart(role_)) {
     if (const FlightRecordSample* recorded = flight_of_record_.At(pass.bundle->time)) {
       flight_of_record_.Restore(*recorded, snapshot.mission);
     }

@@ -12,6 +12,7 @@
 
 #include "engine/camera/rectification.h"
 #include "engine/mission/mission.h"
+#include "engine/model/session_role.h"
 #include "engine/model/snapshot.h"
 #include "engine/navigation/navigator.h"
 #include "engine/runtime/channel_monitor.h"
@@ -82,8 +83,7 @@ class Pipeline {
   /// The site tracked and flown to; after a jump in a replay the recorded one.
   std::optional<LandingSite> TrackedSite(Timestamp now) const;
 
-  bool replaying_ = false;
-  bool jumped_ = false;  ///< replay: the mission was not seen from its start
+  SessionRole role_ = SessionRole::kNone;
   int maps_to_rebuild_ = 0;
   RecordedFlight flight_of_record_;
   SettingsState settings_;

@@ -14,7 +14,7 @@ bool IsSettingCommand(const EngineCommand& command) {
 
 void Pipeline::ApplySettingCommand(Pass& pass, const EngineCommand& command) {
   const bool of_record = command.origin == CommandOrigin::kReplay;
-  const bool preview_only = mission_.SettingsFrozen() && (!replaying_ || of_record);
+  const bool preview_only = mission_.SettingsFrozen() && (!FollowsRecord(role_) || of_record);
   Status done = Ok();
   std::string text;
   if (const auto* set = std::get_if<SetSetting>(&command.action)) {
@@ -43,7 +43,7 @@ void Pipeline::ApplySettingCommand(Pass& pass, const EngineCommand& command) {
     mission_.AddEvent(pass.snapshot->time, EventKind::kSetting, "Refused: " + done.error().message);
     return;
   }
-  if (!replaying_) {
+  if (!FollowsRecord(role_)) {
     settings_.FollowApplied();
   }
   pass.settings_moved = true;
@@ -53,7 +53,7 @@ void Pipeline::ApplySettingCommand(Pass& pass, const EngineCommand& command) {
 }
 
 void Pipeline::ApplyCommands(Pass& pass) {
-  if (replaying_ && pass.bundle && pass.bundle != last_bundle_) {
+  if (FollowsRecord(role_) && pass.bundle && pass.bundle != last_bundle_) {
     std::vector<EngineCommand> recorded = pass.bundle->recorded_commands;
     for (EngineCommand& command : recorded) {
       command.origin = CommandOrigin::kReplay;
