@@ -13,7 +13,7 @@
 
 #include "engine/core/frames.h"
 #include "engine/core/result.h"
-#include "engine/model/settings.h"
+#include "engine/model/settings/settings.h"
 #include "engine/model/snapshot.h"
 #include "engine/slad/slad.h"
 #include "engine/world/ray_pictures.h"

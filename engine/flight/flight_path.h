@@ -15,7 +15,7 @@
 #include "engine/core/frames.h"
 #include "engine/core/units.h"
 #include "engine/flight/waypoints.h"
-#include "engine/model/mission_status.h"
+#include "engine/model/mission/mission_status.h"
 #include "engine/model/vehicle_message.h"
 #include "engine/model/vehicle_state.h"
 

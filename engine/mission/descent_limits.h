@@ -18,7 +18,7 @@
 #include "engine/core/units.h"
 #include "engine/mission/mission_inputs.h"
 #include "engine/mission/mission_memory.h"
-#include "engine/model/limit_row.h"
+#include "engine/model/mission/limit_row.h"
 
 namespace palace {
 

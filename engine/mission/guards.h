@@ -13,8 +13,8 @@
 
 #include "engine/mission/limits.h"
 #include "engine/mission/mission_memory.h"
-#include "engine/mission/picture_watch.h"
-#include "engine/model/mission_status.h"
+#include "engine/mission/watch/picture_watch.h"
+#include "engine/model/mission/mission_status.h"
 
 namespace palace {
 

@@ -13,8 +13,8 @@
 
 #include "engine/model/cell_explanation.h"
 #include "engine/model/landing_site.h"
-#include "engine/model/losses.h"
-#include "engine/model/session_role.h"
+#include "engine/model/mission/losses.h"
+#include "engine/model/mission/session_role.h"
 #include "engine/model/snapshot.h"
 #include "engine/trust/approval.h"
 

@@ -14,14 +14,14 @@
 
 #include <Eigen/Dense>
 
-#include "engine/mission/alarm_board.h"
-#include "engine/mission/input_watch.h"
-#include "engine/mission/loss_watch.h"
-#include "engine/mission/picture_watch.h"
-#include "engine/mission/site_watch.h"
-#include "engine/model/mission_status.h"
-#include "engine/model/session_role.h"
-#include "engine/model/settings.h"
+#include "engine/mission/alarms/alarm_board.h"
+#include "engine/mission/watch/input_watch.h"
+#include "engine/mission/watch/loss_watch.h"
+#include "engine/mission/watch/picture_watch.h"
+#include "engine/mission/watch/site_watch.h"
+#include "engine/model/mission/mission_status.h"
+#include "engine/model/mission/session_role.h"
+#include "engine/model/settings/settings.h"
 
 namespace palace {
 

@@ -1,6 +1,6 @@
 #include "engine/mission/publish.h"
 
-#include "engine/mission/alarms.h"
+#include "engine/mission/alarms/alarms.h"
 #include "engine/mission/descent_limits.h"
 #include "engine/mission/geometry.h"
 #include "engine/mission/guards.h"

@@ -17,7 +17,7 @@
 
 #include "engine/model/cell_explanation.h"
 #include "engine/model/landing_site.h"
-#include "engine/model/settings.h"
+#include "engine/model/settings/settings.h"
 
 namespace palace {
 

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "engine/core/time.h"
-#include "engine/model/mission_status.h"
-#include "engine/model/settings.h"
+#include "engine/model/mission/mission_status.h"
+#include "engine/model/settings/settings.h"
 
 namespace palace {
 

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "engine/model/landing_site.h"
-#include "engine/model/settings.h"
+#include "engine/model/settings/settings.h"
 
 namespace palace {
 

@@ -9,7 +9,7 @@
 #include "engine/model/hazard_maps.h"
 #include "engine/model/image.h"
 #include "engine/model/landing_site.h"
-#include "engine/model/settings.h"
+#include "engine/model/settings/settings.h"
 
 namespace palace {
 

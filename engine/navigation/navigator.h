@@ -21,7 +21,7 @@
 #include "engine/model/landing_site.h"
 #include "engine/model/navigation_status.h"
 #include "engine/model/rig.h"
-#include "engine/model/settings.h"
+#include "engine/model/settings/settings.h"
 #include "engine/navigation/attitude_history.h"
 #include "engine/navigation/handover.h"
 #include "engine/navigation/position_filter.h"

@@ -11,7 +11,7 @@
 #include "engine/core/result.h"
 #include "engine/model/landing_site.h"
 #include "engine/model/rig.h"
-#include "engine/model/settings.h"
+#include "engine/model/settings/settings.h"
 #include "engine/navigation/inertial_kalman.h"
 #include "engine/tracking/site_tracker.h"
 

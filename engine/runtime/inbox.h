@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "engine/model/frame_bundle.h"
-#include "engine/model/losses.h"
+#include "engine/model/mission/losses.h"
 
 namespace palace {
 

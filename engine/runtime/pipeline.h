@@ -12,7 +12,7 @@
 
 #include "engine/camera/rectification.h"
 #include "engine/mission/mission.h"
-#include "engine/model/session_role.h"
+#include "engine/model/mission/session_role.h"
 #include "engine/model/snapshot.h"
 #include "engine/navigation/navigator.h"
 #include "engine/runtime/channel_monitor.h"

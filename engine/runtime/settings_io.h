@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "engine/core/result.h"
-#include "engine/model/settings.h"
+#include "engine/model/settings/settings.h"
 
 namespace palace {
 

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "engine/core/result.h"
-#include "engine/model/settings.h"
+#include "engine/model/settings/settings.h"
 
 namespace palace {
 

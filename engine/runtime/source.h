@@ -7,7 +7,7 @@
 #include "engine/core/result.h"
 #include "engine/model/command.h"
 #include "engine/model/frame_bundle.h"
-#include "engine/model/losses.h"
+#include "engine/model/mission/losses.h"
 #include "engine/model/snapshot.h"
 
 namespace palace {

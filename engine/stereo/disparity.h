@@ -2,7 +2,7 @@
 #pragma once
 
 #include "engine/model/image.h"
-#include "engine/model/settings.h"
+#include "engine/model/settings/settings.h"
 #include "engine/stereo/stereo.h"
 
 namespace palace {

@@ -5,7 +5,7 @@
 
 #include "engine/camera/rectification.h"
 #include "engine/model/image.h"
-#include "engine/model/settings.h"
+#include "engine/model/settings/settings.h"
 
 namespace palace {
 

@@ -10,7 +10,7 @@
 #include "engine/camera/rectification.h"
 #include "engine/core/result.h"
 #include "engine/model/frame_bundle.h"
-#include "engine/model/settings.h"
+#include "engine/model/settings/settings.h"
 #include "engine/model/view_pose.h"
 #include "engine/stereo/stereo.h"
 

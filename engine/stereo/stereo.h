@@ -7,7 +7,7 @@
 #include "engine/core/frames.h"
 #include "engine/core/result.h"
 #include "engine/model/range_map.h"
-#include "engine/model/settings.h"
+#include "engine/model/settings/settings.h"
 
 namespace palace {
 

@@ -3,7 +3,7 @@
 
 #include "engine/model/image.h"
 #include "engine/model/range_map.h"
-#include "engine/model/settings.h"
+#include "engine/model/settings/settings.h"
 #include "engine/stereo/stereo.h"
 
 namespace palace {

@@ -15,7 +15,7 @@
 
 #include "engine/core/result.h"
 #include "engine/model/elevation_map.h"
-#include "engine/model/settings.h"
+#include "engine/model/settings/settings.h"
 
 namespace palace {
 

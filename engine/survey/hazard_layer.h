@@ -2,7 +2,7 @@
 #pragma once
 
 #include "engine/model/hazard_maps.h"
-#include "engine/model/settings.h"
+#include "engine/model/settings/settings.h"
 
 namespace palace {
 

@@ -11,7 +11,7 @@
 #include "engine/core/result.h"
 #include "engine/model/image.h"
 #include "engine/model/range_map.h"
-#include "engine/model/settings.h"
+#include "engine/model/settings/settings.h"
 #include "engine/slad/slad.h"
 #include "engine/tools/stopwatch.h"
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/model/settings.h"
+#include "engine/model/settings/settings.h"
 #include "engine/model/terrain_decision.h"
 #include "engine/tools/analyze_inputs.h"
 

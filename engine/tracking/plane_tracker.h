@@ -19,7 +19,7 @@
 #include "engine/model/image.h"
 #include "engine/model/landing_site.h"
 #include "engine/model/range_map.h"
-#include "engine/model/settings.h"
+#include "engine/model/settings/settings.h"
 #include "engine/tracking/site_tracker.h"
 #include "engine/tracking/view_geometry.h"
 

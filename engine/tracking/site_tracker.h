@@ -21,7 +21,7 @@
 #include "engine/model/navigation_status.h"
 #include "engine/model/range_map.h"
 #include "engine/model/rig.h"
-#include "engine/model/settings.h"
+#include "engine/model/settings/settings.h"
 #include "engine/tracking/landmark.h"
 
 namespace palace {

@@ -13,7 +13,7 @@
 #include "engine/core/time.h"
 #include "engine/model/image.h"
 #include "engine/model/landing_site.h"
-#include "engine/model/settings.h"
+#include "engine/model/settings/settings.h"
 #include "engine/tracking/site_tracker.h"
 
 namespace palace {

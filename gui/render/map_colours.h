@@ -7,7 +7,7 @@
 #include "engine/model/grid.h"
 #include "engine/model/hazard_maps.h"
 #include "engine/model/image.h"
-#include "engine/model/settings.h"
+#include "engine/model/settings/settings.h"
 #include "gui/render/picture.h"
 
 namespace palace {

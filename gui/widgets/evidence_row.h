@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/model/limit_row.h"
+#include "engine/model/mission/limit_row.h"
 #include "gui/widgets/draw.h"
 
 namespace palace {

@@ -9,7 +9,7 @@
 
 #include <string>
 
-#include "engine/model/settings.h"
+#include "engine/model/settings/settings.h"
 #include "gui/widgets/draw.h"
 
 namespace palace {

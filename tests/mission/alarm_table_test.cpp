@@ -2,7 +2,7 @@
 #include <regex>
 #include <set>
 
-#include "engine/mission/alarms.h"
+#include "engine/mission/alarms/alarms.h"
 #include "tests/mission/mission_rig.h"
 
 namespace palace {

@@ -1,7 +1,7 @@
 // Alarms: three samples to come and to go; a cause must end before an alarm disappears (I15).
 #include <gtest/gtest.h>
 
-#include "engine/mission/alarm_board.h"
+#include "engine/mission/alarms/alarm_board.h"
 
 namespace palace {
 namespace {

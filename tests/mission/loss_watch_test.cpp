@@ -1,9 +1,9 @@
 // Losses that matter raise an alarm, and only while they go on.
-#include "engine/mission/loss_watch.h"
+#include "engine/mission/watch/loss_watch.h"
 
 #include <gtest/gtest.h>
 
-#include "engine/mission/alarms.h"
+#include "engine/mission/alarms/alarms.h"
 
 namespace palace {
 namespace {

@@ -1,5 +1,5 @@
 // Sequences of maps against the verdict they make together.
-#include "engine/mission/site_watch.h"
+#include "engine/mission/watch/site_watch.h"
 
 #include <numbers>
 

@@ -1,5 +1,5 @@
 // Rows say of a site what its verdict says, and a row that nobody enforces is never over.
-#include "engine/model/limit_row.h"
+#include "engine/model/mission/limit_row.h"
 
 #include <cmath>
 

@@ -6,7 +6,7 @@
 #include "engine/core/random.h"
 #include "engine/core/units.h"
 #include "engine/model/grid.h"
-#include "engine/model/settings.h"
+#include "engine/model/settings/settings.h"
 #include "engine/model/site_standing.h"
 
 namespace palace {

@@ -1,5 +1,5 @@
 // What may be done in a session, role by role.
-#include "engine/model/session_role.h"
+#include "engine/model/mission/session_role.h"
 
 #include <string>
 

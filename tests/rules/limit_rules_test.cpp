@@ -1,5 +1,5 @@
 // The window shows verdicts and reaches none: no line under gui compares a limit, or a figure that
-// limits are for. What is over a limit is in the snapshot (engine/model/limit_row.h,
+// limits are for. What is over a limit is in the snapshot (engine/model/mission/limit_row.h,
 // hazard_maps.h). clang-format puts blanks around every comparison and around no template's
 // brackets: that is how one is told from the other.
 #include <filesystem>

@@ -10,7 +10,7 @@
 
 #include "engine/core/units.h"
 #include "engine/model/elevation_map.h"
-#include "engine/model/settings.h"
+#include "engine/model/settings/settings.h"
 
 namespace palace::testing::thesis {
 

@@ -11,7 +11,7 @@
 #include "engine/core/units.h"
 #include "engine/model/elevation_map.h"
 #include "engine/model/range_map.h"
-#include "engine/model/settings.h"
+#include "engine/model/settings/settings.h"
 #include "engine/model/site_standing.h"
 
 namespace palace::testing {

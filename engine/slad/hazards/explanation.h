@@ -10,7 +10,7 @@
 
 #include "engine/model/cell_explanation.h"
 #include "engine/model/hazard_maps.h"
-#include "engine/model/settings.h"
+#include "engine/model/settings/settings.h"
 #include "engine/slad/sites/site_selection.h"
 
 namespace palace {

@@ -3,7 +3,7 @@
 
 #include "engine/model/elevation_map.h"
 #include "engine/model/hazard_maps.h"
-#include "engine/model/settings.h"
+#include "engine/model/settings/settings.h"
 #include "engine/slad/hazards/loops/slad_loops.h"
 #include "engine/slad/hazards/terrain_figures.h"
 

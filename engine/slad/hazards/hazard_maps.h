@@ -24,7 +24,7 @@
 
 #include "engine/model/elevation_map.h"
 #include "engine/model/hazard_maps.h"
-#include "engine/model/settings.h"
+#include "engine/model/settings/settings.h"
 #include "engine/slad/hazards/terrain_figures.h"
 
 namespace palace {

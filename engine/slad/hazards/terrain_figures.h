@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "engine/model/elevation_map.h"
-#include "engine/model/settings.h"
+#include "engine/model/settings/settings.h"
 
 namespace palace {
 

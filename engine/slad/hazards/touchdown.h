@@ -19,7 +19,7 @@
 #include "engine/model/elevation_map.h"
 #include "engine/model/hazard_maps.h"
 #include "engine/model/landing_site.h"
-#include "engine/model/settings.h"
+#include "engine/model/settings/settings.h"
 #include "engine/slad/hazards/loops/slad_loops.h"
 
 namespace palace {

@@ -11,7 +11,7 @@
 #include "engine/model/hazard_maps.h"
 #include "engine/model/landing_site.h"
 #include "engine/model/range_map.h"
-#include "engine/model/settings.h"
+#include "engine/model/settings/settings.h"
 
 namespace palace {
 

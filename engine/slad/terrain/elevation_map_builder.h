@@ -20,7 +20,7 @@
 
 #include "engine/model/elevation_map.h"
 #include "engine/model/range_map.h"
-#include "engine/model/settings.h"
+#include "engine/model/settings/settings.h"
 
 namespace palace {
 

@@ -30,7 +30,7 @@
 
 #include "engine/model/elevation_map.h"
 #include "engine/model/range_map.h"
-#include "engine/model/settings.h"
+#include "engine/model/settings/settings.h"
 #include "engine/slad/terrain/frame_spread.h"
 #include "engine/slad/terrain/refused_pixels.h"
 

@@ -6,7 +6,7 @@
 
 #include "engine/model/elevation_map.h"
 #include "engine/model/landing_site.h"
-#include "engine/model/settings.h"
+#include "engine/model/settings/settings.h"
 
 namespace palace {
 

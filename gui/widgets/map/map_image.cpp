@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "engine/model/settings.h"
+#include "engine/model/settings/settings.h"
 #include "gui/widgets/interact.h"
 #include "gui/widgets/map/cell_hatch.h"
 #include "gui/widgets/map/flag_marks.h"

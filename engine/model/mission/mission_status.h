@@ -9,8 +9,8 @@
 
 #include "engine/core/time.h"
 #include "engine/model/landing_site.h"
-#include "engine/model/limit_row.h"
-#include "engine/model/mission_ids.h"
+#include "engine/model/mission/limit_row.h"
+#include "engine/model/mission/mission_ids.h"
 #include "engine/model/vehicle_message.h"
 
 namespace palace {

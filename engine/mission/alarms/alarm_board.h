@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/mission/persistence.h"
-#include "engine/model/mission_status.h"
+#include "engine/mission/watch/persistence.h"
+#include "engine/model/mission/mission_status.h"
 
 namespace palace {
 

@@ -1,4 +1,4 @@
-#include "engine/model/mission_status.h"
+#include "engine/model/mission/mission_status.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "engine/model/setting_rows.h"
+#include "engine/model/settings/setting_rows.h"
 
 #include <utility>
 

@@ -1,4 +1,4 @@
-#include "engine/model/settings.h"
+#include "engine/model/settings/settings.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 
 #include "engine/core/hash.h"
 #include "engine/core/units.h"
-#include "engine/model/setting_rows.h"
+#include "engine/model/settings/setting_rows.h"
 
 namespace palace {
 namespace {

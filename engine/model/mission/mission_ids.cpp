@@ -1,4 +1,4 @@
-#include "engine/model/mission_ids.h"
+#include "engine/model/mission/mission_ids.h"
 
 #include <array>
 

@@ -6,9 +6,9 @@
 
 #include <cstdint>
 
-#include "engine/mission/persistence.h"
+#include "engine/mission/watch/persistence.h"
 #include "engine/model/range_map.h"
-#include "engine/model/session_role.h"
+#include "engine/model/mission/session_role.h"
 
 namespace palace {
 

@@ -1,4 +1,4 @@
-#include "engine/mission/site_watch.h"
+#include "engine/mission/watch/site_watch.h"
 
 #include <algorithm>
 #include <utility>

@@ -1,4 +1,4 @@
-#include "engine/model/limit_row.h"
+#include "engine/model/mission/limit_row.h"
 
 #include <algorithm>
 #include <cstdio>

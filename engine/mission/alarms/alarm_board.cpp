@@ -1,4 +1,4 @@
-#include "engine/mission/alarm_board.h"
+#include "engine/mission/alarms/alarm_board.h"
 
 #include <algorithm>
 

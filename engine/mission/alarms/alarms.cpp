@@ -1,4 +1,4 @@
-#include "engine/mission/alarms.h"
+#include "engine/mission/alarms/alarms.h"
 
 #include <array>
 

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/mission/alarms.h"
+#include "engine/mission/alarms/alarms.h"
 #include "engine/mission/geometry.h"
 #include "engine/mission/wording.h"
 

@@ -15,7 +15,7 @@
 
 #include "engine/core/time.h"
 #include "engine/mission/site_finding.h"
-#include "engine/model/mission_status.h"
+#include "engine/model/mission/mission_status.h"
 
 namespace palace {
 

@@ -1,4 +1,4 @@
-#include "engine/model/session_role.h"
+#include "engine/model/mission/session_role.h"
 
 namespace palace {
 

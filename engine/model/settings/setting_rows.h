@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/model/settings.h"
+#include "engine/model/settings/settings.h"
 
 namespace palace {
 

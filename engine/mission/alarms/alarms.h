@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "engine/mission/alarm_board.h"
+#include "engine/mission/alarms/alarm_board.h"
 #include "engine/mission/limits.h"
-#include "engine/mission/loss_watch.h"
+#include "engine/mission/watch/loss_watch.h"
 #include "engine/mission/mission_inputs.h"
 #include "engine/mission/mission_memory.h"
 

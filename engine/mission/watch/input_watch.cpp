@@ -1,4 +1,4 @@
-#include "engine/mission/input_watch.h"
+#include "engine/mission/watch/input_watch.h"
 
 #include <algorithm>
 #include <cmath>

@@ -11,7 +11,7 @@
 #include <string>
 
 #include "engine/core/time.h"
-#include "engine/model/losses.h"
+#include "engine/model/mission/losses.h"
 
 namespace palace {
 

@@ -1,4 +1,4 @@
-#include "engine/mission/picture_watch.h"
+#include "engine/mission/watch/picture_watch.h"
 
 #include "engine/mission/limits.h"
 

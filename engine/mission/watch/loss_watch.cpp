@@ -1,4 +1,4 @@
-#include "engine/mission/loss_watch.h"
+#include "engine/mission/watch/loss_watch.h"
 
 #include "engine/core/text.h"
 
