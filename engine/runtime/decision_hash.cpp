@@ -45,20 +45,20 @@ void AddCamera(ContentHash& hash, const RigCamera& camera) {
 std::uint64_t DecisionHash(const EngineSnapshot& snapshot) {
   ContentHash hash;
   hash.Add(snapshot.time.us);
-  hash.Add(snapshot.mission.state);
-  hash.Add(snapshot.settings_hash);
-  if (snapshot.applied) {
-    hash.Add(snapshot.applied->map_hash);
-    for (const LandingSite& site : snapshot.applied->selection.sites) {
+  hash.Add(snapshot.flight->mission.state);
+  hash.Add(snapshot.session->settings_hash);
+  if (snapshot.terrain->applied) {
+    hash.Add(snapshot.terrain->applied->map_hash);
+    for (const LandingSite& site : snapshot.terrain->applied->selection.sites) {
       hash.Add(site.letter);
       AddVector(hash, site.p_WS);
       hash.Add(site.cost);
       hash.Add(site.safe_distance_m);
     }
   }
-  AddEstimate(hash, snapshot.navigation.gps);
-  AddEstimate(hash, snapshot.navigation.vision);
-  hash.Add(snapshot.tracker.coherence);
+  AddEstimate(hash, snapshot.flight->navigation.gps);
+  AddEstimate(hash, snapshot.flight->navigation.vision);
+  hash.Add(snapshot.flight->tracker.coherence);
   return hash.value();
 }
 

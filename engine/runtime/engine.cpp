@@ -56,8 +56,8 @@ void Engine::SendStop(const EngineCommand& command) {
   } else if (std::holds_alternative<HoldHere>(command.action)) {
     // Only what the mission will hold too; it refuses a hold where nothing descends.
     const std::shared_ptr<const EngineSnapshot> newest = latest_.Load();
-    if (newest && (newest->mission.state == MissionState::kApproved ||
-                   newest->mission.state == MissionState::kDescending)) {
+    if (newest && (newest->flight->mission.state == MissionState::kApproved ||
+                   newest->flight->mission.state == MissionState::kDescending)) {
       stop_->Hold();
     }
   }

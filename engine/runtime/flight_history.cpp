@@ -15,17 +15,17 @@ Eigen::Vector3d SkidOf(const Eigen::Vector3d& p_WB, const Eigen::Matrix3d& R_WB)
 
 void AddSiteFigures(HistorySample& sample, const EngineSnapshot& snapshot,
                     const Eigen::Matrix3d& R_WB) {
-  const LandingSite& site = *snapshot.mission.armed;
+  const LandingSite& site = *snapshot.flight->mission.armed;
   const Eigen::Vector3d skid = SkidOf(sample.estimate_p_WB, R_WB);
   sample.height_above_site_m = site.p_WS.z() - skid.z();
   sample.from_site_m = Horizontal(skid, site.p_WS);
   sample.from_site_gps_m = Horizontal(SkidOf(sample.gps_p_WB, R_WB), site.p_WS);
-  if (snapshot.truth) {
+  if (snapshot.sensors->truth) {
     sample.from_site_truth_m =
-        Horizontal(SkidOf(sample.truth_p_WB, snapshot.truth->X_WB.R), site.p_WS);
+        Horizontal(SkidOf(sample.truth_p_WB, snapshot.sensors->truth->X_WB.R), site.p_WS);
   }
-  sample.plan_height_m = snapshot.mission.path.plan_height_m;
-  sample.glide_deviation_m = snapshot.mission.path.off_path_m;
+  sample.plan_height_m = snapshot.flight->mission.path.plan_height_m;
+  sample.glide_deviation_m = snapshot.flight->mission.path.off_path_m;
 }
 
 }  // namespace
@@ -44,16 +44,16 @@ std::shared_ptr<const std::vector<HistorySample>> FlightHistory::Publish() const
 HistorySample SampleOf(const EngineSnapshot& snapshot, const FrameBundle& bundle) {
   HistorySample sample;
   sample.time = snapshot.time;
-  sample.state = snapshot.mission.state;
-  sample.rebuilding = snapshot.maps_to_rebuild > 0;
-  const NavigationStatus& nav = snapshot.navigation;
+  sample.state = snapshot.flight->mission.state;
+  sample.rebuilding = snapshot.terrain->maps_to_rebuild > 0;
+  const NavigationStatus& nav = snapshot.flight->navigation;
   const bool vision = nav.handover == NavigationStatus::Handover::kVision;
   const FilterStatus& filter = vision ? nav.vision : nav.gps;
   Eigen::Matrix3d R_WB = Eigen::Matrix3d::Identity();
-  if (snapshot.pose) {
-    R_WB = snapshot.pose->X_WB.R;
-    sample.estimate_p_WB = snapshot.pose->X_WB.p;
-    sample.estimate_v_WB = snapshot.pose->v_WB;
+  if (snapshot.sensors->pose) {
+    R_WB = snapshot.sensors->pose->X_WB.R;
+    sample.estimate_p_WB = snapshot.sensors->pose->X_WB.p;
+    sample.estimate_v_WB = snapshot.sensors->pose->v_WB;
   }
   if (filter.running) {
     sample.estimate_p_WB = filter.estimate.p_WB;
@@ -63,24 +63,26 @@ HistorySample SampleOf(const EngineSnapshot& snapshot, const FrameBundle& bundle
   if (nav.gps.running) {
     sample.gps_p_WB = nav.gps.estimate.p_WB;
   }
-  if (snapshot.truth) {
-    sample.truth_p_WB = snapshot.truth->X_WB.p;
+  if (snapshot.sensors->truth) {
+    sample.truth_p_WB = snapshot.sensors->truth->X_WB.p;
   }
   sample.descent_rate_mps = sample.estimate_v_WB.z();
   if (!bundle.laser.empty()) {
     // The beam runs along the optical axis: the height of the skids above its spot.
-    const double skid_below_m = SkidOf(sample.estimate_p_WB, R_WB).z() - snapshot.X_WC.p.z();
-    sample.laser_m = bundle.laser.back().range_m * snapshot.X_WC.R(2, 2) - skid_below_m;
+    const double skid_below_m =
+        SkidOf(sample.estimate_p_WB, R_WB).z() - snapshot.sensors->X_WC.p.z();
+    sample.laser_m = bundle.laser.back().range_m * snapshot.sensors->X_WC.R(2, 2) - skid_below_m;
   }
-  if (snapshot.tracker.locked) {
-    sample.coherence = snapshot.tracker.coherence;
+  if (snapshot.flight->tracker.locked) {
+    sample.coherence = snapshot.flight->tracker.coherence;
     sample.residual_sigma = nav.vision.residual_sigma;
   }
-  if (snapshot.applied && !snapshot.applied->selection.sites.empty()) {
-    sample.best_site = snapshot.applied->selection.sites.front().letter;
-    sample.best_safe_distance_m = snapshot.applied->selection.sites.front().safe_distance_m;
+  if (snapshot.terrain->applied && !snapshot.terrain->applied->selection.sites.empty()) {
+    sample.best_site = snapshot.terrain->applied->selection.sites.front().letter;
+    sample.best_safe_distance_m =
+        snapshot.terrain->applied->selection.sites.front().safe_distance_m;
   }
-  if (snapshot.mission.armed) {
+  if (snapshot.flight->mission.armed) {
     AddSiteFigures(sample, snapshot, R_WB);
   }
   return sample;

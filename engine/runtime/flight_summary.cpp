@@ -26,19 +26,19 @@ void FlightSummarizer::Add(const EngineSnapshot& snapshot) {
     start_ = snapshot.time;
   }
   summary_.duration_s = SecondsBetween(*start_, snapshot.time);
-  summary_.final_state = snapshot.mission.state;
-  summary_.lander_radius_m = snapshot.settings.slad.lander.radius_m();
-  const bool flying = snapshot.mission.state != MissionState::kLanded;
-  if (snapshot.mission.approval && snapshot.mission.armed) {
-    summary_.site = snapshot.mission.armed;
+  summary_.final_state = snapshot.flight->mission.state;
+  summary_.lander_radius_m = snapshot.session->settings.slad.lander.radius_m();
+  const bool flying = snapshot.flight->mission.state != MissionState::kLanded;
+  if (snapshot.flight->mission.approval && snapshot.flight->mission.armed) {
+    summary_.site = snapshot.flight->mission.armed;
     if (scene_) {
       const Eigen::Vector3d& p = summary_.site->p_WS;
       summary_.site_obstacle_distance_m = ObstacleDistance(*scene_, p.x(), p.y());
     }
   }
-  if (snapshot.truth && flying) {
-    const Eigen::Vector3d& truth = snapshot.truth->X_WB.p;
-    const NavigationStatus& nav = snapshot.navigation;
+  if (snapshot.sensors->truth && flying) {
+    const Eigen::Vector3d& truth = snapshot.sensors->truth->X_WB.p;
+    const NavigationStatus& nav = snapshot.flight->navigation;
     const bool vision = nav.handover == NavigationStatus::Handover::kVision;
     if (nav.gps.running) {
       summary_.gps_error_m.Add((nav.gps.estimate.p_WB - truth).norm());
@@ -51,8 +51,8 @@ void FlightSummarizer::Add(const EngineSnapshot& snapshot) {
       summary_.approach_error_m.Add((in_force.estimate.p_WB - truth).norm());
     }
   }
-  if (!flying && snapshot.truth && summary_.site && !summary_.touchdown_miss_m) {
-    const Eigen::Vector3d skid = snapshot.truth->X_WB * SkidCentreBody();
+  if (!flying && snapshot.sensors->truth && summary_.site && !summary_.touchdown_miss_m) {
+    const Eigen::Vector3d skid = snapshot.sensors->truth->X_WB * SkidCentreBody();
     summary_.touchdown_miss_m = (skid - summary_.site->p_WS).head<2>().norm();
   }
 }

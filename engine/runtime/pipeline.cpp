@@ -45,30 +45,11 @@ void Pipeline::StartAfterJump(Timestamp now) {
 PipelineOutput Pipeline::Process(std::shared_ptr<const FrameBundle> bundle,
                                  std::vector<EngineCommand> commands,
                                  const SessionStatus& session) {
-  Pass pass{bundle, std::move(commands), session};
   role_ = RoleOf(session.source.kind, !SeenFromStart(role_));
   if (bundle->discontinuity) {
     StartAfterJump(bundle->time);
   }
-  if (last_) {
-    // What this pass does not renew stays as it was.
-    pass.snapshot->applied = last_->applied;
-    pass.snapshot->preview = last_->preview;
-    pass.snapshot->recorded = last_->recorded;
-    pass.snapshot->site_review = last_->site_review;
-    pass.snapshot->range = last_->range;
-    pass.snapshot->stereo_quality = last_->stereo_quality;
-    pass.snapshot->range_agreement = last_->range_agreement;
-    pass.snapshot->tracker = last_->tracker;
-    pass.snapshot->pose = last_->pose;
-    pass.snapshot->vehicle = last_->vehicle;
-    pass.snapshot->laser = last_->laser;
-    pass.snapshot->truth = last_->truth;
-    pass.snapshot->frame = last_->frame;
-    pass.snapshot->left_rectified = last_->left_rectified;
-    pass.snapshot->right_rectified = last_->right_rectified;
-    pass.snapshot->X_WC = last_->X_WC;
-  }
+  Pass pass{bundle, std::move(commands), session, NextSnapshot()};
   pass.snapshot->time = bundle->time;
   ApplyCommands(pass);
   PrepareRig(pass);
@@ -84,22 +65,25 @@ PipelineOutput Pipeline::Process(std::shared_ptr<const FrameBundle> bundle,
 
 PipelineOutput Pipeline::Refresh(std::vector<EngineCommand> commands,
                                  const SessionStatus& session) {
-  Pass pass{last_bundle_, std::move(commands), session};
   role_ = RoleOf(session.source.kind, !SeenFromStart(role_));
-  if (last_) {
-    *pass.snapshot = *last_;
-    pass.snapshot->diagnostics.clear();
-    pass.snapshot->timings.clear();
-  }
+  Pass pass{last_bundle_, std::move(commands), session, NextSnapshot()};
   ApplyCommands(pass);
   if (pass.settings_moved && slad_.has_map()) {
     pass.Run("slad", [&] { Judge(pass); });
   }
   if (SeenFromStart(role_)) {
-    pass.snapshot->mission = mission_.status();
+    pass.snapshot->flight.Edit().mission = mission_.status();
   }
   Review(pass);
   return Publish(pass);
+}
+
+std::shared_ptr<EngineSnapshot> Pipeline::NextSnapshot() const {
+  // What a pass does not renew stays as it was; only what is told of the pass itself starts empty.
+  auto next = last_ ? std::make_shared<EngineSnapshot>(*last_) : std::make_shared<EngineSnapshot>();
+  next->session.Edit().diagnostics.clear();
+  next->session.Edit().timings.clear();
+  return next;
 }
 
 void Pipeline::PrepareRig(Pass& pass) {
@@ -117,15 +101,15 @@ void Pipeline::PrepareRig(Pass& pass) {
     }
     rig_ = rig;
   }
-  pass.snapshot->rig = rig_;
+  pass.snapshot->sensors.Edit().rig = rig_;
   if (!rig_problem_.empty()) {
     pass.Note(DiagnosticLevel::kError, "camera", rig_problem_);
   }
 }
 
 void Pipeline::See(Pass& pass) {
+  SensorsPart& sensors = pass.snapshot->sensors.Edit();
   const FrameBundle& bundle = *pass.bundle;
-  EngineSnapshot& snapshot = *pass.snapshot;
   for (const CameraCounters& camera : pass.session.source.cameras) {
     if (!camera.problem.empty()) {
       pass.Note(DiagnosticLevel::kError, "camera", camera.problem);
@@ -134,26 +118,26 @@ void Pipeline::See(Pass& pass) {
   channels_.Add(bundle, !HasPicturesOnly(pass.session.source.kind));
   navigator_.AddSensors(bundle);
   if (bundle.pose_at_exposure) {
-    snapshot.pose = bundle.pose_at_exposure;
+    sensors.pose = bundle.pose_at_exposure;
   } else if (!bundle.poses.empty()) {
-    snapshot.pose = bundle.poses.back();
+    sensors.pose = bundle.poses.back();
   }
   if (bundle.status) {
-    snapshot.vehicle = bundle.status;
+    sensors.vehicle = bundle.status;
   }
   if (!bundle.laser.empty()) {
-    snapshot.laser = bundle.laser.back();
+    sensors.laser = bundle.laser.back();
   }
   if (!bundle.truth.empty()) {
-    snapshot.truth = bundle.truth.back();
+    sensors.truth = bundle.truth.back();
   }
   if (!bundle.stereo || !rectifier_) {
     return;
   }
-  snapshot.frame = bundle.stereo;
-  snapshot.X_WC = navigator_.PredictBodyPose(bundle.stereo->time) * rectifier_->X_BC(*rig_);
-  if (const auto spot = LaserSpot(snapshot)) {
-    laser_height_m_ = HeightFromDown((snapshot.X_WC * *spot).z());
+  sensors.frame = bundle.stereo;
+  sensors.X_WC = navigator_.PredictBodyPose(bundle.stereo->time) * rectifier_->X_BC(*rig_);
+  if (const auto spot = LaserSpot(*pass.snapshot)) {
+    laser_height_m_ = HeightFromDown((sensors.X_WC * *spot).z());
   }
   pass.Run("rectify", [&] {
     Result<RectifiedPair> pair = rectifier_->Rectify(*bundle.stereo);
@@ -162,23 +146,25 @@ void Pipeline::See(Pass& pass) {
       return;
     }
     pass.pair = *pair;
-    snapshot.left_rectified = pair->left;
-    snapshot.right_rectified = pair->right;
+    sensors.left_rectified = pair->left;
+    sensors.right_rectified = pair->right;
   });
 }
 
 std::optional<Eigen::Vector3d> Pipeline::LaserSpot(const EngineSnapshot& snapshot) const {
-  if (!snapshot.laser || !std::isfinite(snapshot.laser->range_m) || !rectifier_ ||
-      !snapshot.frame ||
-      std::abs(SecondsBetween(snapshot.laser->time, snapshot.frame->time)) > kLaserAge_s) {
+  if (!snapshot.sensors->laser || !std::isfinite(snapshot.sensors->laser->range_m) || !rectifier_ ||
+      !snapshot.sensors->frame ||
+      std::abs(SecondsBetween(snapshot.sensors->laser->time, snapshot.sensors->frame->time)) >
+          kLaserAge_s) {
     return std::nullopt;
   }
   // The beam runs along the axis of the raw camera, which is not the rectified one.
-  return rectifier_->R_C_Rect().transpose() * Eigen::Vector3d(0, 0, snapshot.laser->range_m);
+  return rectifier_->R_C_Rect().transpose() *
+         Eigen::Vector3d(0, 0, snapshot.sensors->laser->range_m);
 }
 
 const MissionStatus& Pipeline::MissionInForce() const {
-  return !SeenFromStart(role_) && last_ ? last_->mission : mission_.status();
+  return !SeenFromStart(role_) && last_ ? last_->flight->mission : mission_.status();
 }
 
 double Pipeline::GroundHeight() const {
@@ -205,8 +191,8 @@ void Pipeline::MeasureRange(Pass& pass) {
     return;
   }
   std::optional<ViewPose> pose;
-  if (pass.snapshot->pose) {
-    pose = ViewPose{pass.snapshot->X_WC, pass.snapshot->pose->sigmas};
+  if (pass.snapshot->sensors->pose) {
+    pose = ViewPose{pass.snapshot->sensors->X_WC, pass.snapshot->sensors->pose->sigmas};
   }
   Result<StereoResult> result = MeasureRanges({.raw = *pass.bundle->stereo,
                                                .pair = pass.pair,
@@ -219,7 +205,7 @@ void Pipeline::MeasureRange(Pass& pass) {
     pass.Note(DiagnosticLevel::kError, "stereo", result.error().message);
     return;
   }
-  pass.snapshot->stereo_quality = result->quality;
+  pass.snapshot->terrain.Edit().stereo_quality = result->quality;
   if (result->quality.suspect_covered) {
     pass.Note(DiagnosticLevel::kWarning, "stereo",
               "one camera shows nothing while the other does; it may be covered");
@@ -229,7 +215,7 @@ void Pipeline::MeasureRange(Pass& pass) {
               "left and right are the same picture; check the capture devices");
   }
   auto range = std::make_shared<const RangeMap>(std::move(result->range));
-  pass.snapshot->range = range;
+  pass.snapshot->terrain.Edit().range = range;
   if (!pose) {
     pass.Note(DiagnosticLevel::kWarning, "slad",
               "attitude and height are unknown, so ranges make no map; give a pose ([pose] in "
@@ -238,7 +224,7 @@ void Pipeline::MeasureRange(Pass& pass) {
   }
   if (const auto spot = LaserSpot(*pass.snapshot)) {
     range_check_.Add(*range, *spot);
-    pass.snapshot->range_agreement = range_check_.agreement();
+    pass.snapshot->terrain.Edit().range_agreement = range_check_.agreement();
   }
   slad_.Add({.view = {pass.pair.left, pass.pair.right, range},
              .p_WB = navigator_.PredictBodyPose(range->time).p},
@@ -248,18 +234,18 @@ void Pipeline::MeasureRange(Pass& pass) {
 }
 
 void Pipeline::Judge(Pass& pass) {
-  EngineSnapshot& snapshot = *pass.snapshot;
+  TerrainPart& terrain = pass.snapshot->terrain.Edit();
   if (!slad_.has_map() || (!pass.new_map && !pass.settings_moved)) {
-    pass.decision_of_record = snapshot.recorded ? snapshot.recorded : snapshot.applied;
+    pass.decision_of_record = terrain.recorded ? terrain.recorded : terrain.applied;
     return;
   }
   // Letters follow the limits of record; a preview or a re-decision uses a copy of them.
   pass.decision_of_record =
       slad_.Decide(settings_.recorded(), pass.new_map ? Letters::kOfRecord : Letters::kOfCopy);
-  snapshot.applied = settings_.redecided() ? slad_.Decide(settings_.applied(), Letters::kOfCopy)
-                                           : pass.decision_of_record;
-  snapshot.recorded = settings_.redecided() ? pass.decision_of_record : nullptr;
-  snapshot.preview =
+  terrain.applied = settings_.redecided() ? slad_.Decide(settings_.applied(), Letters::kOfCopy)
+                                          : pass.decision_of_record;
+  terrain.recorded = settings_.redecided() ? pass.decision_of_record : nullptr;
+  terrain.preview =
       settings_.previewing() ? slad_.Decide(settings_.preview(), Letters::kOfCopy) : nullptr;
 }
 
@@ -283,24 +269,24 @@ void Pipeline::Track(Pass& pass) {
       navigator_.StopVision();
       tracked_site_ = 0;
     }
-    snapshot.tracker = TrackerStatus{};
+    snapshot.flight.Edit().tracker = TrackerStatus{};
   } else if (pass.pair.left) {
     const Timestamp exposure = pass.bundle->stereo->time;
-    const RangeMap* range = pass.new_map ? snapshot.range.get() : nullptr;
+    const RangeMap* range = pass.new_map ? snapshot.terrain->range.get() : nullptr;
     if (tracked_site_ != armed->id) {
       tracker_.Reset();
-      tracker_.Lock(*pass.pair.left, rectifier_->camera(), snapshot.X_WC, range, *armed, tracking,
-                    exposure);
+      tracker_.Lock(*pass.pair.left, rectifier_->camera(), snapshot.sensors->X_WC, range, *armed,
+                    tracking, exposure);
       navigator_.StartVision(*armed, exposure);
       tracked_site_ = armed->id;
     }
-    const TrackResult result = tracker_.Track(*pass.pair.left, rectifier_->camera(), snapshot.X_WC,
-                                              range, tracking, exposure);
-    snapshot.tracker = result.status;
+    const TrackResult result = tracker_.Track(*pass.pair.left, rectifier_->camera(),
+                                              snapshot.sensors->X_WC, range, tracking, exposure);
+    snapshot.flight.Edit().tracker = result.status;
     navigator_.AddVision(result, rectifier_->camera(), *rig_, *pass.bundle, tracking);
-    snapshot.X_WC = navigator_.PredictBodyPose(exposure) * rectifier_->X_BC(*rig_);
+    snapshot.sensors.Edit().X_WC = navigator_.PredictBodyPose(exposure) * rectifier_->X_BC(*rig_);
   }
-  snapshot.navigation = navigator_.status();
+  snapshot.flight.Edit().navigation = navigator_.status();
 }
 
 void Pipeline::Decide(Pass& pass) {
@@ -309,8 +295,9 @@ void Pipeline::Decide(Pass& pass) {
   if (estimate.source != EstimateSource::kNone) {
     channels_.AddEstimate(estimate.time);
   }
-  snapshot.channels = channels_.Health(pass.bundle->time);
-  const Eigen::Matrix3d R_WB = snapshot.pose ? snapshot.pose->X_WB.R : Eigen::Matrix3d::Identity();
+  snapshot.sensors.Edit().channels = channels_.Health(pass.bundle->time);
+  const Eigen::Matrix3d R_WB =
+      snapshot.sensors->pose ? snapshot.sensors->pose->X_WB.R : Eigen::Matrix3d::Identity();
   std::optional<LandingSite> rechecked, alternative;
   std::optional<NearestHazard> nearest;
   const auto& armed = mission_.status().armed;
@@ -337,51 +324,53 @@ void Pipeline::Decide(Pass& pass) {
                   .losses = pass.session.losses,
                   .snapshot_sequence = sequence_},
       .vehicle = {.bundle = *pass.bundle,
-                  .channels = snapshot.channels,
-                  .simulated = snapshot.vehicle && snapshot.vehicle->simulated},
+                  .channels = snapshot.sensors->channels,
+                  .simulated = snapshot.sensors->vehicle && snapshot.sensors->vehicle->simulated},
       .terrain = {.decision = pass.decision_of_record.get(),
                   .new_map = pass.new_map,
                   .rechecked = rechecked,
                   .nearest = nearest,
                   .alternative = alternative},
-      .navigation = {.navigation = snapshot.navigation,
-                     .tracker = snapshot.tracker,
-                     .stereo = snapshot.stereo_quality,
-                     .range_agreement = snapshot.range_agreement,
+      .navigation = {.navigation = snapshot.flight->navigation,
+                     .tracker = snapshot.flight->tracker,
+                     .stereo = snapshot.terrain->stereo_quality,
+                     .range_agreement = snapshot.terrain->range_agreement,
                      .p_WB_estimate = estimate.p_WB,
                      .skid_centre_W = estimate.p_WB + R_WB * SkidCentreBody()},
       .limits = {.settings = in_force,
                  .settings_hash = HashOf(in_force),
                  .calibration_hash = calibration_hash_},
   });
-  snapshot.mission = mission_.status();
+  snapshot.flight.Edit().mission = mission_.status();
   if (!SeenFromStart(role_)) {
     if (const FlightRecordSample* recorded = flight_of_record_.At(pass.bundle->time)) {
-      flight_of_record_.Restore(*recorded, snapshot.mission);
+      flight_of_record_.Restore(*recorded, snapshot.flight.Edit().mission);
     }
   }
 }
 
 PipelineOutput Pipeline::Publish(Pass& pass) {
   EngineSnapshot& snapshot = *pass.snapshot;
+  SessionPart& part = snapshot.session.Edit();
+  part.role = role_;
   snapshot.sequence = ++sequence_;
-  snapshot.source = pass.session.source;
-  snapshot.losses = pass.session.losses;
-  snapshot.maps_to_rebuild = maps_to_rebuild_;
-  snapshot.can_transmit = pass.session.can_transmit;
-  snapshot.recording = pass.session.recording;
-  snapshot.recording_path = pass.session.recording_path;
-  snapshot.recording_minutes_left = pass.session.recording_minutes_left;
-  snapshot.settings = settings_.applied();
-  snapshot.preview_settings = settings_.preview();
-  snapshot.settings_hash = HashOf(snapshot.settings);
-  snapshot.preview_hash = HashOf(snapshot.preview_settings);
-  snapshot.events = std::make_shared<const std::vector<Event>>(mission_.events());
+  part.source = pass.session.source;
+  part.losses = pass.session.losses;
+  snapshot.terrain.Edit().maps_to_rebuild = maps_to_rebuild_;
+  part.can_transmit = pass.session.can_transmit;
+  part.recording = pass.session.recording;
+  part.recording_path = pass.session.recording_path;
+  part.recording_minutes_left = pass.session.recording_minutes_left;
+  part.settings = settings_.applied();
+  part.preview_settings = settings_.preview();
+  part.settings_hash = HashOf(part.settings);
+  part.preview_hash = HashOf(part.preview_settings);
+  part.events = std::make_shared<const std::vector<Event>>(mission_.events());
   const bool new_time = !last_ || last_->time != snapshot.time;
   if (new_time && pass.bundle) {
     history_.Add(SampleOf(snapshot, *pass.bundle));
   }
-  snapshot.history = history_.Publish();
+  snapshot.flight.Edit().history = history_.Publish();
   snapshot.decision_hash = DecisionHash(snapshot);
 
   PipelineOutput output;

@@ -62,6 +62,8 @@ class Pipeline {
 
  private:
   struct Pass;  // what one call works on
+  /// The last snapshot, to be renewed in parts.
+  std::shared_ptr<EngineSnapshot> NextSnapshot() const;
   void StartAfterJump(Timestamp now);
   void ApplyCommands(Pass& pass);
   void ApplySettingCommand(Pass& pass, const EngineCommand& command);

@@ -17,14 +17,14 @@ struct Pipeline::Pass {
   std::shared_ptr<const FrameBundle> bundle;
   std::vector<EngineCommand> commands;
   const SessionStatus& session;
-  std::shared_ptr<EngineSnapshot> snapshot = std::make_shared<EngineSnapshot>();
+  std::shared_ptr<EngineSnapshot> snapshot;
   RectifiedPair pair{};
   std::shared_ptr<const TerrainDecision> decision_of_record{};
   bool new_map = false;
   bool settings_moved = false;
 
   void Note(DiagnosticLevel level, std::string stage, std::string message) {
-    snapshot->diagnostics.push_back({level, std::move(stage), std::move(message)});
+    snapshot->session.Edit().diagnostics.push_back({level, std::move(stage), std::move(message)});
   }
   /// Runs one stage; a library's exception becomes a stage fault, never a crash. Times it.
   template <typename Stage>
@@ -35,7 +35,7 @@ struct Pipeline::Pass {
     } catch (const std::exception& error) {
       Note(DiagnosticLevel::kError, name, std::string("stage failed: ") + error.what());
     }
-    snapshot->timings.push_back({name, (MonotonicSeconds() - start_s) * 1e3});
+    snapshot->session.Edit().timings.push_back({name, (MonotonicSeconds() - start_s) * 1e3});
   }
 };
 

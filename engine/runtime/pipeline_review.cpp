@@ -9,24 +9,26 @@ namespace palace {
 
 void Pipeline::Review(Pass& pass) {
   EngineSnapshot& snapshot = *pass.snapshot;
-  const TerrainDecision* flown =
-      snapshot.recorded ? snapshot.recorded.get() : snapshot.applied.get();
-  const LandingSite* site = snapshot.mission.armed ? &*snapshot.mission.armed
+  const TerrainDecision* flown = snapshot.terrain->recorded ? snapshot.terrain->recorded.get()
+                                                            : snapshot.terrain->applied.get();
+  const LandingSite* site = snapshot.flight->mission.armed ? &*snapshot.flight->mission.armed
                             : flown != nullptr && !flown->selection.sites.empty()
                                 ? &flown->selection.sites.front()
                                 : nullptr;
-  if (site == nullptr || !snapshot.applied || !slad_.has_map()) {
-    snapshot.site_review.reset();
+  if (site == nullptr || !snapshot.terrain->applied || !slad_.has_map()) {
+    snapshot.terrain.Edit().site_review.reset();
     return;
   }
-  const bool another = !snapshot.site_review || snapshot.site_review->letter != site->letter;
+  const bool another =
+      !snapshot.terrain->site_review || snapshot.terrain->site_review->letter != site->letter;
   if (pass.new_map || pass.settings_moved || another) {
     const Settings& settings = settings_.applied();
-    const auto& approach = snapshot.mission.approach;
-    snapshot.site_review = ReviewSite(*site,
-                                      slad_.Recheck(*snapshot.applied, *site, settings,
-                                                       approach ? approach->heading_rad : NAN),
-                                      settings.slad);
+    const auto& approach = snapshot.flight->mission.approach;
+    snapshot.terrain.Edit().site_review =
+        ReviewSite(*site,
+                   slad_.Recheck(*snapshot.terrain->applied, *site, settings,
+                                 approach ? approach->heading_rad : NAN),
+                   settings.slad);
   }
 }
 

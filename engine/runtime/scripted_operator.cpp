@@ -8,7 +8,7 @@ constexpr double kLooksFor_s = 2;
 }  // namespace
 
 std::vector<EngineCommand> ScriptedOperator::Decide(const EngineSnapshot& snapshot) {
-  const MissionStatus& mission = snapshot.mission;
+  const MissionStatus& mission = snapshot.flight->mission;
   if (mission.state != last_ || !seen_since_) {
     last_ = mission.state;
     seen_since_ = snapshot.time;
@@ -18,8 +18,9 @@ std::vector<EngineCommand> ScriptedOperator::Decide(const EngineSnapshot& snapsh
   }
   switch (mission.state) {
     case MissionState::kProposed:
-      if (snapshot.applied) {
-        if (const LandingSite* site = mission.BestStanding(snapshot.applied->selection.sites)) {
+      if (snapshot.terrain->applied) {
+        if (const LandingSite* site =
+                mission.BestStanding(snapshot.terrain->applied->selection.sites)) {
           return {{CommandOrigin::kScript, SelectSite{site->id}}};
         }
       }

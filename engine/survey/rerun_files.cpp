@@ -101,15 +101,16 @@ void RerunFiles::AddSites(const TerrainDecision& decision, Timestamp time) {
 }
 
 void RerunFiles::AddDecision(const EngineSnapshot& snapshot, const FlightRecordSample* recorded) {
-  const TerrainDecision* map = snapshot.applied.get();
+  const TerrainDecision* map = snapshot.terrain->applied.get();
   const LandingSite* best =
       map && !map->selection.sites.empty() ? &map->selection.sites.front() : nullptr;
   CsvRow row;
-  row << snapshot.time.us << MissionStateName(snapshot.mission.state) << snapshot.mission.why;
-  row << (map ? std::to_string(map->map_hash) : "") << snapshot.settings_hash
+  row << snapshot.time.us << MissionStateName(snapshot.flight->mission.state)
+      << snapshot.flight->mission.why;
+  row << (map ? std::to_string(map->map_hash) : "") << snapshot.session->settings_hash
       << snapshot.decision_hash;
   row << LetterOf(best ? best->letter : 0) << (best ? best->safe_distance_m : NAN);
-  row << snapshot.mission.height_above_site_m;
+  row << snapshot.flight->mission.height_above_site_m;
   if (recorded) {
     const bool same = recorded->decision_hash == snapshot.decision_hash;
     ++counts_.recorded;
@@ -158,10 +159,10 @@ Status RerunFiles::Add(const EngineSnapshot& snapshot, const FlightRecordSample*
   start_ = start_.value_or(snapshot.time);
   ++counts_.frames;
   AddDecision(snapshot, recorded);
-  if (!snapshot.applied || snapshot.applied == newest_) {
+  if (!snapshot.terrain->applied || snapshot.terrain->applied == newest_) {
     return Ok();
   }
-  newest_ = snapshot.applied;
+  newest_ = snapshot.terrain->applied;
   AddSites(*newest_, snapshot.time);
   const bool due = when_.every_s &&
                    (!last_map_ || SecondsBetween(*last_map_, newest_->map_time) >= *when_.every_s);

@@ -150,22 +150,22 @@ WireMessage EncodeStationStatus(const EngineSnapshot& snapshot, const ChannelNam
   station_status_t m{};
   m.utime = snapshot.time.us;
   m.sequence = WireId(snapshot.sequence);
-  m.state = static_cast<std::int8_t>(snapshot.mission.state);
-  m.settings_hash = WireId(snapshot.settings_hash);
+  m.state = static_cast<std::int8_t>(snapshot.flight->mission.state);
+  m.settings_hash = WireId(snapshot.session->settings_hash);
   m.decision_hash = WireId(snapshot.decision_hash);
   m.best_safe_distance_m = NAN;
-  if (snapshot.applied && !snapshot.applied->selection.sites.empty()) {
-    const LandingSite& best = snapshot.applied->selection.sites.front();
+  if (snapshot.terrain->applied && !snapshot.terrain->applied->selection.sites.empty()) {
+    const LandingSite& best = snapshot.terrain->applied->selection.sites.front();
     m.best_site = static_cast<std::int8_t>(best.letter);
     m.best_safe_distance_m = best.safe_distance_m;
   }
-  m.height_above_site_m = snapshot.mission.height_above_site_m;
-  m.distance_to_site_m = snapshot.mission.distance_to_site_m;
-  m.height_m = snapshot.pose ? HeightFromDown(snapshot.pose->X_WB.p.z()) : NAN;
-  for (const Alarm& alarm : snapshot.mission.alarms) {
+  m.height_above_site_m = snapshot.flight->mission.height_above_site_m;
+  m.distance_to_site_m = snapshot.flight->mission.distance_to_site_m;
+  m.height_m = snapshot.sensors->pose ? HeightFromDown(snapshot.sensors->pose->X_WB.p.z()) : NAN;
+  for (const Alarm& alarm : snapshot.flight->mission.alarms) {
     m.alarms += alarm.active ? 1 : 0;
   }
-  m.vision_in_force = snapshot.navigation.handover == NavigationStatus::Handover::kVision;
+  m.vision_in_force = snapshot.flight->navigation.handover == NavigationStatus::Handover::kVision;
   return MakeMessage(channels.station_status, snapshot.time, m);
 }
 
@@ -193,8 +193,8 @@ Result<FlightRecordSample> DecodeStationStatus(const WireMessage& message) {
 }
 
 WireMessage EncodeMission(const EngineSnapshot& snapshot, const ChannelNames& channels) {
-  const MissionStatus& mission = snapshot.mission;
-  const Settings& settings = snapshot.settings;
+  const MissionStatus& mission = snapshot.flight->mission;
+  const Settings& settings = snapshot.session->settings;
   mission_t m{};
   m.utime = snapshot.time.us;
   m.state = static_cast<std::int8_t>(mission.state);
@@ -206,10 +206,10 @@ WireMessage EncodeMission(const EngineSnapshot& snapshot, const ChannelNames& ch
     Pack(mission.armed->p_WS, m.site_pos);
   }
   m.approval_id = mission.approval ? WireId(mission.approval->id) : 0;
-  m.glide_slope_rad = mission.approach ? mission.approach->glide_slope_rad
-                                       : Rad(settings.mission.glide_slope_deg);
-  m.descent_rate_mps = mission.approach ? mission.approach->descent_rate_mps
-                                        : settings.mission.descent_rate_mps;
+  m.glide_slope_rad =
+      mission.approach ? mission.approach->glide_slope_rad : Rad(settings.mission.glide_slope_deg);
+  m.descent_rate_mps =
+      mission.approach ? mission.approach->descent_rate_mps : settings.mission.descent_rate_mps;
   m.commit_height_m = settings.slad.fusion.commit_height_m;
   return MakeMessage(channels.mission, snapshot.time, m);
 }

@@ -22,7 +22,7 @@ void Post(const CommandAction& action, CommandOrigin origin, const EngineSnapsho
 
 void LoadPresetFile(const std::string& path, CommandOrigin origin, const EngineSnapshot* snapshot,
                     double ui_time_s, Engine& engine, UiState& state) {
-  const Settings now = snapshot ? snapshot->preview_settings : Settings{};
+  const Settings now = snapshot ? snapshot->session->preview_settings : Settings{};
   const Result<Settings> loaded = LoadSettingsFile(path, now);
   if (!loaded) {
     ShowMessage(state, loaded.error().message, ui_time_s);
@@ -54,7 +54,7 @@ void SavePresetFile(const std::string& wanted, const EngineSnapshot* snapshot, d
   const std::string path = !wanted.empty()                   ? wanted
                            : !state.tune.preset_path.empty() ? state.tune.preset_path
                                                              : "config/preset.toml";
-  const Status saved = SaveSettingsFile(path, snapshot->preview_settings);
+  const Status saved = SaveSettingsFile(path, snapshot->session->preview_settings);
   if (saved) {
     state.tune.preset_path = path;
   }

@@ -28,10 +28,10 @@ Intents Ui(UiAction action) { return {std::move(action)}; }
 
 /// Arrow keys pause first, then move.
 Intents SeekBy(const Context& c, double seconds) {
-  if (!c.snapshot || !c.snapshot->source.can_seek) {
+  if (!c.snapshot || !c.snapshot->session->source.can_seek) {
     return {};
   }
-  const double to = std::max(0.0, c.snapshot->source.position_s + seconds);
+  const double to = std::max(0.0, c.snapshot->session->source.position_s + seconds);
   return {PlaybackControl{PlaybackControl::Kind::kPause, 0},
           PlaybackControl{PlaybackControl::Kind::kSeek, to}};
 }
@@ -40,7 +40,7 @@ Intents ScaleSpeed(const Context& c, double factor) {
   if (!c.snapshot) {
     return {};
   }
-  const double speed = c.snapshot->source.speed;
+  const double speed = c.snapshot->session->source.speed;
   return Play(PlaybackControl::Kind::kSpeed,
               std::clamp((speed > 0 ? speed : 1) * factor, kMinSpeed, kMaxSpeed));
 }
@@ -49,8 +49,8 @@ Intents PlayOrPause(const Context& c) {
   if (!c.snapshot) {
     return {};
   }
-  return Play(c.snapshot->source.paused ? PlaybackControl::Kind::kPlay
-                                        : PlaybackControl::Kind::kPause);
+  return Play(c.snapshot->session->source.paused ? PlaybackControl::Kind::kPlay
+                                                 : PlaybackControl::Kind::kPause);
 }
 
 std::vector<Row> MakeRows() {
@@ -82,8 +82,8 @@ std::vector<Row> MakeRows() {
       {{"Home", "Go to the start"}, always(Play(K::kSeek, 0))},
       {{"End", "Go to the end"},
        [](const Context& c) {
-         return c.snapshot && c.snapshot->source.duration_s
-                    ? Play(K::kSeek, *c.snapshot->source.duration_s)
+         return c.snapshot && c.snapshot->session->source.duration_s
+                    ? Play(K::kSeek, *c.snapshot->session->source.duration_s)
                     : Intents{};
        }},
       {{"[", "Half speed", true}, [](const Context& c) { return ScaleSpeed(c, 0.5); }},

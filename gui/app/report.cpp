@@ -48,14 +48,14 @@ void AddPlots(HtmlPage& page, const std::vector<HistorySample>& samples) {
 }
 
 void AddEvents(HtmlPage& page, const EngineSnapshot& last) {
-  if (!last.events || last.events->empty()) {
+  if (!last.session->events || last.session->events->empty()) {
     return;
   }
   std::vector<std::vector<std::string>> rows;
-  for (const Event& event : *last.events) {
+  for (const Event& event : *last.session->events) {
     char time[32];
     std::snprintf(time, sizeof time, "%.1f s",
-                  SecondsBetween(last.events->front().time, event.time));
+                  SecondsBetween(last.session->events->front().time, event.time));
     rows.push_back({time, event.text});
   }
   page.Heading("Events").Table({"Time", "Event"}, rows);
@@ -64,9 +64,9 @@ void AddEvents(HtmlPage& page, const EngineSnapshot& last) {
 void AddSettings(HtmlPage& page, const EngineSnapshot& last) {
   std::vector<std::vector<std::string>> rows;
   for (const SettingInfo& info : SettingTable()) {
-    rows.push_back({info.name, FormatSetting(info, GetSetting(last.settings, info.name))});
+    rows.push_back({info.name, FormatSetting(info, GetSetting(last.session->settings, info.name))});
   }
-  page.Heading("Limits in force, " + ShortHash(last.settings_hash))
+  page.Heading("Limits in force, " + ShortHash(last.session->settings_hash))
       .Table({"Setting", "Value"}, rows);
 }
 
@@ -79,8 +79,8 @@ Status WriteReport(const std::filesystem::path& file, const ReportInput& input) 
     page.Link("Log:", input.log_name);
   }
   if (input.last) {
-    if (input.last->history) {
-      AddPlots(page, *input.last->history);
+    if (input.last->flight->history) {
+      AddPlots(page, *input.last->flight->history);
     }
     AddEvents(page, *input.last);
     AddSettings(page, *input.last);

@@ -99,7 +99,7 @@ std::string Problem(const ScriptLine& line) {
 }
 
 std::string StateOf(const EngineSnapshot* snapshot) {
-  return snapshot ? MissionStateName(snapshot->mission.state) : "none";
+  return snapshot ? MissionStateName(snapshot->flight->mission.state) : "none";
 }
 
 /// "HOLD|PROPOSED" matches either.
@@ -271,7 +271,7 @@ void ScriptRunner::Wait(const ScriptLine& line, const ItemRecord& items,
     found = "the state is " + StateOf(snapshot);
     met = StateMatches(line.words[1], StateOf(snapshot));
   } else if (what == "height") {
-    const double height = snapshot ? snapshot->mission.height_above_site_m : NAN;
+    const double height = snapshot ? snapshot->flight->mission.height_above_site_m : NAN;
     found = "the height above the site is " + std::to_string(height) + " m";
     met = height <= Number(line.words[1]).value_or(-INFINITY);
   } else {

@@ -98,7 +98,8 @@ Rect View::SceneRect(const EngineSnapshot& snapshot, const UiState& state,
   if (state.frame.workspace == Workspace::kFly) {
     return View3dScene(ComputeFlyLayout(w, h, scale, ShowsDescent(snapshot)).view_3d, style_);
   }
-  if (state.frame.workspace == Workspace::kReview && snapshot.source.kind != SourceKind::kNone) {
+  if (state.frame.workspace == Workspace::kReview &&
+      snapshot.session->source.kind != SourceKind::kNone) {
     const Rect body = ComputeFrameLayout(w, h, scale).body;
     const Rect panel = LayReview(body, style_, state.review.picture).view_3d;
     return panel.h > 0 ? View3dScene(panel, style_) : Rect{};
@@ -109,11 +110,11 @@ Rect View::SceneRect(const EngineSnapshot& snapshot, const UiState& state,
 void View::UploadPictures(const EngineSnapshot& snapshot, const UiState& state,
                           const ViewFrame& frame) {
   double camera_scale = 1;
-  if (state.frame.workspace == Workspace::kFly && snapshot.left_rectified) {
+  if (state.frame.workspace == Workspace::kFly && snapshot.sensors->left_rectified) {
     const FlyLayout fly =
         ComputeFlyLayout(frame.width_px, frame.height_px, style_.scale, ShowsDescent(snapshot));
     camera_scale = static_cast<double>(LeftCameraImage(snapshot, fly.left_camera, style_).w) /
-                   snapshot.left_rectified->width();
+                   snapshot.sensors->left_rectified->width();
   }
   textures_.ShowRange(state.fly.camera.show_depth);
   textures_.Update(snapshot, camera_scale);

@@ -11,8 +11,8 @@ constexpr std::size_t kTrailStride = 2;
 
 const LandingSite* ShownSite(const EngineSnapshot& snapshot, const TerrainDecision* decision,
                              std::uint64_t highlighted) {
-  if (snapshot.mission.armed) {
-    return &*snapshot.mission.armed;
+  if (snapshot.flight->mission.armed) {
+    return &*snapshot.flight->mission.armed;
   }
   if (!decision || decision->selection.sites.empty()) {
     return nullptr;
@@ -20,14 +20,14 @@ const LandingSite* ShownSite(const EngineSnapshot& snapshot, const TerrainDecisi
   const auto& sites = decision->selection.sites;
   const auto it = std::find_if(sites.begin(), sites.end(),
                                [&](const LandingSite& s) { return s.id == highlighted; });
-  return it == sites.end() ? snapshot.mission.BestStanding(sites) : &*it;
+  return it == sites.end() ? snapshot.flight->mission.BestStanding(sites) : &*it;
 }
 
 void AddTrail(const EngineSnapshot& snapshot, View3dInput& input) {
-  if (!snapshot.history) {
+  if (!snapshot.flight->history) {
     return;
   }
-  const auto& samples = *snapshot.history;
+  const auto& samples = *snapshot.flight->history;
   for (std::size_t i = 0; i < samples.size(); i += kTrailStride) {
     if (samples[i].estimate_p_WB.allFinite()) {
       input.trail.push_back(samples[i].estimate_p_WB.cast<float>());
@@ -42,7 +42,7 @@ View3dInput MakeView3dInput(const EngineSnapshot& snapshot, std::uint64_t highli
   View3dInput input;
   input.ui_scale = ui_scale;
   const TerrainDecision* decision =
-      snapshot.preview ? snapshot.preview.get() : snapshot.applied.get();
+      snapshot.terrain->preview ? snapshot.terrain->preview.get() : snapshot.terrain->applied.get();
   if (decision) {
     input.elevation = decision->elevation;
     input.hazards = decision->hazards;
@@ -50,16 +50,16 @@ View3dInput MakeView3dInput(const EngineSnapshot& snapshot, std::uint64_t highli
         kSafeDistanceEndPerMinimum * decision->settings.lander.clear_radius_m();
   }
   // The picture and the range map of one moment belong together; between maps the newest serves.
-  if (snapshot.left_rectified && snapshot.range) {
-    input.picture = snapshot.left_rectified;
-    input.picture_camera = snapshot.range->camera;
-    input.picture_X_WC = snapshot.X_WC;
-    input.camera = snapshot.range->camera;
-    input.X_WC = snapshot.X_WC;
+  if (snapshot.sensors->left_rectified && snapshot.terrain->range) {
+    input.picture = snapshot.sensors->left_rectified;
+    input.picture_camera = snapshot.terrain->range->camera;
+    input.picture_X_WC = snapshot.sensors->X_WC;
+    input.camera = snapshot.terrain->range->camera;
+    input.X_WC = snapshot.sensors->X_WC;
   }
-  if (snapshot.pose) {
-    RigidTransform X_WB = snapshot.pose->X_WB;
-    const NavigationStatus& nav = snapshot.navigation;
+  if (snapshot.sensors->pose) {
+    RigidTransform X_WB = snapshot.sensors->pose->X_WB;
+    const NavigationStatus& nav = snapshot.flight->navigation;
     if (nav.handover == NavigationStatus::Handover::kVision && nav.vision.running) {
       X_WB.p = nav.vision.estimate.p_WB;
     }
@@ -69,12 +69,12 @@ View3dInput MakeView3dInput(const EngineSnapshot& snapshot, std::uint64_t highli
   if (shown) {
     input.site = View3dSite{shown->p_WS, shown->clear_radius_m};
     input.ground_height_m = HeightFromDown(shown->p_WS.z());
-    input.site_commanded = snapshot.mission.approval.has_value();
+    input.site_commanded = snapshot.flight->mission.approval.has_value();
     if (input.X_WB) {
       input.path = {input.X_WB->p.cast<float>(), shown->p_WS.cast<float>()};
     }
   }
-  if (decision && !snapshot.mission.armed) {
+  if (decision && !snapshot.flight->mission.armed) {
     for (const LandingSite& site : decision->selection.sites) {
       if (!shown || site.id != shown->id) {
         input.other_sites.push_back({site.p_WS, site.clear_radius_m});

@@ -120,7 +120,7 @@ void DrawAlarmStripPanel(const EngineSnapshot& snap, const Rect& rect, FrameStat
   const Palette& p = s.palette;
   std::vector<const Alarm*> alarms;
   std::size_t shelved = 0;
-  for (const Alarm& alarm : snap.mission.alarms) {
+  for (const Alarm& alarm : snap.flight->mission.alarms) {
     if (IsShelved(state, alarm.kind)) {
       ++shelved;
     } else {
@@ -155,14 +155,14 @@ void DrawFrameOverlay(const EngineSnapshot& snap, const FrameLayout& layout, Fra
                       UiFrame& ui) {
   const Style& s = ui.style;
   const Palette& p = s.palette;
-  if (snap.source.kind == SourceKind::kReplay) {
+  if (snap.session->source.kind == SourceKind::kReplay) {
     StrokeRect(Canvas(), layout.window, p.replay, s.Fine(4));
   }
-  if (!state.history_open || snap.mission.alarms.empty()) {
+  if (!state.history_open || snap.flight->mission.alarms.empty()) {
     return;
   }
   const float row = s.Px(28);
-  const auto count = static_cast<float>(snap.mission.alarms.size());
+  const auto count = static_cast<float>(snap.flight->mission.alarms.size());
   const Rect list{layout.alarm_strip.x, layout.alarm_strip.bottom(), layout.alarm_strip.w,
                   std::min(row * count + s.Px(16), layout.body.h / 2)};
   BeginOverlay("##alarm_history", list);
@@ -170,7 +170,7 @@ void DrawFrameOverlay(const EngineSnapshot& snap, const FrameLayout& layout, Fra
   FillRect(Canvas(), list, p.control);
   StrokeRect(Canvas(), list, p.strong_line, s.Fine(1));
   float y = list.y + s.Px(8) + row / 2;
-  for (const Alarm& alarm : snap.mission.alarms) {
+  for (const Alarm& alarm : snap.flight->mission.alarms) {
     if (y + row / 2 > list.bottom()) {
       break;
     }

@@ -13,7 +13,7 @@ namespace palace {
 namespace {
 
 HoldButtonView ButtonOf(const EngineSnapshot& snap) {
-  const MissionStatus& m = snap.mission;
+  const MissionStatus& m = snap.flight->mission;
   HoldButtonView view;
   view.subject = m.armed ? m.armed->id : 0;
   const std::string letter = m.armed ? std::string(1, m.armed->letter) : std::string();
@@ -22,7 +22,7 @@ HoldButtonView ButtonOf(const EngineSnapshot& snap) {
     view.label += ", provisional";
   }
   using Phase = MissionStatus::ApprovalPhase;
-  if (snap.source.kind == SourceKind::kReplay) {
+  if (snap.session->source.kind == SourceKind::kReplay) {
     view.phase = HoldPhase::kReplay;
   } else if (m.approval_phase == Phase::kSent) {
     view.phase = HoldPhase::kRequested;
@@ -34,7 +34,7 @@ HoldButtonView ButtonOf(const EngineSnapshot& snap) {
   } else if (m.approval_phase == Phase::kRefused) {
     view.phase = HoldPhase::kRefused;
     view.reason = m.approval_answer;
-  } else if (snap.preview) {
+  } else if (snap.terrain->preview) {
     view.phase = HoldPhase::kBlocked;
     view.reason = "Maps are a preview";
   } else if (!m.can_approve) {
@@ -48,11 +48,11 @@ HoldButtonView ButtonOf(const EngineSnapshot& snap) {
 
 /// The site that follows when the armed one is refused.
 char NextLetter(const EngineSnapshot& snap) {
-  if (!snap.mission.armed || !snap.applied) {
+  if (!snap.flight->mission.armed || !snap.terrain->applied) {
     return 0;
   }
-  for (const LandingSite& site : snap.applied->selection.sites) {
-    if (site.id != snap.mission.armed->id && !snap.mission.IsRefused(site.id)) {
+  for (const LandingSite& site : snap.terrain->applied->selection.sites) {
+    if (site.id != snap.flight->mission.armed->id && !snap.flight->mission.IsRefused(site.id)) {
       return site.letter;
     }
   }
@@ -61,14 +61,15 @@ char NextLetter(const EngineSnapshot& snap) {
 
 /// Distance, height, time and heading, in sentences.
 std::string Consequence(const EngineSnapshot& snap, bool narrow) {
-  const MissionStatus& m = snap.mission;
+  const MissionStatus& m = snap.flight->mission;
   std::string text =
       Fixed(m.distance_to_site_m, 1) + " m away, " + Fixed(m.height_above_site_m, 1) + " m down";
   if (std::isfinite(m.time_to_touchdown_s)) {
     text += (narrow ? ", touchdown in about " : ". Touchdown in about ") +
             Fixed(m.time_to_touchdown_s, 0) + " s";
   }
-  const std::string doubt = m.armed ? WhyProvisional(*m.armed, snap.settings.slad) : std::string();
+  const std::string doubt =
+      m.armed ? WhyProvisional(*m.armed, snap.session->settings.slad) : std::string();
   if (!narrow && !doubt.empty()) {
     return text + ". Provisional: " + doubt + ".";
   }
@@ -94,14 +95,14 @@ void DrawGuardList(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui) {
   const Style& s = ui.style;
   const Palette& p = s.palette;
   const float row = s.Px(22);
-  const auto count = static_cast<float>(snap.mission.guards.size());
+  const auto count = static_cast<float>(snap.flight->mission.guards.size());
   const Rect list{rect.x, rect.y - row * count - s.Px(24), rect.w, row * count + s.Px(16)};
   BeginOverlay("##checks", list);
   Interact(ui, "panel/Checks", list, kNoTab);
   FillRect(Canvas(), list, p.control, s.Fine(4));
   StrokeRect(Canvas(), list, p.strong_line, s.Fine(1), s.Fine(4));
   float y = list.y + s.Px(8) + row / 2;
-  for (const GuardResult& guard : snap.mission.guards) {
+  for (const GuardResult& guard : snap.flight->mission.guards) {
     DrawIcon(Canvas(), guard.pass ? Icon::kDone : Icon::kCaution, {list.x + s.Px(20), y}, s.Px(12),
              guard.pass ? p.text2 : p.caution);
     const std::string words = guard.pass || guard.reason.empty() ? guard.name : guard.reason;
@@ -115,14 +116,16 @@ void DrawGuardList(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui) {
 
 /// "26 s" until the arm window closes; empty when nothing runs.
 double SecondsLeft(const EngineSnapshot& snap) {
-  return snap.mission.arm_expires ? SecondsBetween(snap.time, *snap.mission.arm_expires) : NAN;
+  return snap.flight->mission.arm_expires
+             ? SecondsBetween(snap.time, *snap.flight->mission.arm_expires)
+             : NAN;
 }
 
 void DrawChecks(const EngineSnapshot& snap, const Rect& rect, float y, bool narrow,
                 ApproveState& state, UiFrame& ui) {
   const Style& s = ui.style;
   const Palette& p = s.palette;
-  const MissionStatus& m = snap.mission;
+  const MissionStatus& m = snap.flight->mission;
   if (m.guards.empty()) {
     return;
   }
@@ -160,7 +163,7 @@ void DrawExpiry(const EngineSnapshot& snap, const Rect& rect, float y, UiFrame& 
   x += DrawText(ui, s.body, p.text2, x, y, "Selection expires in") + s.Px(6);
   x += DrawText(ui, s.medium, p.text1, x, y, Fixed(left, 0) + " s") + s.Px(12);
   const Rect track{x, std::round(y) - s.Px(2), rect.right() - s.Px(12) - x, s.Px(4)};
-  const double share = left / std::max(snap.settings.mission.arm_window_s, 1.0);
+  const double share = left / std::max(snap.session->settings.mission.arm_window_s, 1.0);
   FillRect(Canvas(), track, p.hover, s.Fine(2));
   FillRect(Canvas(),
            {track.x, track.y, track.w * static_cast<float>(std::clamp(share, 0.0, 1.0)), track.h},
@@ -181,12 +184,12 @@ void DrawButtons(const EngineSnapshot& snap, const Rect& rect, bool narrow, Appr
   ButtonLook look;
   look.font = narrow ? s.medium : s.section;
   look.flat = true;
-  look.enabled = snap.mission.armed.has_value() && snap.can_transmit &&
-                 snap.mission.state == MissionState::kArmed;
+  look.enabled = snap.flight->mission.armed.has_value() && snap.session->can_transmit &&
+                 snap.flight->mission.state == MissionState::kArmed;
   look.sub = then;
-  look.reason = snap.can_transmit ? "Select a site first" : "No link in replay";
+  look.reason = snap.session->can_transmit ? "Select a site first" : "No link in replay";
   if (DrawButton(ui, "refuse", refuse, "Refuse", look)) {
-    ui.intents.push_back(CommandAction(RefuseSite{snap.mission.armed->id}));
+    ui.intents.push_back(CommandAction(RefuseSite{snap.flight->mission.armed->id}));
   }
   const HoldButtonView view = ButtonOf(snap);
   if (DrawHoldButton(ui, "approve", hold, view, state.hold)) {
@@ -200,7 +203,7 @@ void DrawApprovePanel(const EngineSnapshot& snap, const Rect& rect, bool narrow,
                       ApproveState& state, UiFrame& ui) {
   const Style& s = ui.style;
   const Palette& p = s.palette;
-  const MissionStatus& m = snap.mission;
+  const MissionStatus& m = snap.flight->mission;
   const std::string fact = m.armed ? std::string("Site ") + m.armed->letter + " selected" : "";
   DrawPanelFrame(ui, rect, "Approve", {{narrow ? std::string() : fact}});
   const float x = rect.x + s.Px(12);
@@ -228,7 +231,7 @@ void DrawApprovePanel(const EngineSnapshot& snap, const Rect& rect, bool narrow,
   } else {
     DrawText(ui, narrow ? s.medium : s.section, p.text1, x, rect.y + s.Px(narrow ? 42 : 46),
              "Nothing is committed yet.");
-    const char* help = snap.applied && !snap.applied->selection.sites.empty()
+    const char* help = snap.terrain->applied && !snap.terrain->applied->selection.sites.empty()
                            ? "Click a site, or press Tab and Enter, to select it."
                            : "Waiting for a site inside all limits.";
     DrawText(ui, s.body, p.text2, x, rect.y + s.Px(narrow ? 64 : 73), help);

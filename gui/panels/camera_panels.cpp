@@ -30,7 +30,7 @@ struct Arrival {
 };
 
 Arrival ArrivalOf(const EngineSnapshot& snap, ChannelId channel) {
-  const ChannelHealth* health = FindChannel(snap.channels, channel);
+  const ChannelHealth* health = FindChannel(snap.sensors->channels, channel);
   if (health == nullptr || health->state == ChannelHealth::State::kNever) {
     return {"never", "", NAN};
   }
@@ -50,8 +50,9 @@ void DrawMissing(UiFrame& ui, const Rect& image) {
 }
 
 bool TrackerShown(const EngineSnapshot& snap) {
-  return snap.mission.state == MissionState::kDescending ||
-         snap.mission.state == MissionState::kHold || snap.mission.state == MissionState::kApproved;
+  return snap.flight->mission.state == MissionState::kDescending ||
+         snap.flight->mission.state == MissionState::kHold ||
+         snap.flight->mission.state == MissionState::kApproved;
 }
 
 SiteOverlay OverlayOf(const EngineSnapshot& snap, std::uint64_t highlighted) {
@@ -63,11 +64,12 @@ SiteOverlay OverlayOf(const EngineSnapshot& snap, std::uint64_t highlighted) {
     overlay.selected = *site;
   }
   overlay.highlighted = highlighted;
-  overlay.commanded = snap.mission.state >= MissionState::kApproved;
+  overlay.commanded = snap.flight->mission.state >= MissionState::kApproved;
   // The applied winner, where the preview moves it from the ring already drawn.
-  const LandingSite* applied = snap.preview && snap.applied
-                                   ? snap.mission.BestStanding(snap.applied->selection.sites)
-                                   : nullptr;
+  const LandingSite* applied =
+      snap.terrain->preview && snap.terrain->applied
+          ? snap.flight->mission.BestStanding(snap.terrain->applied->selection.sites)
+          : nullptr;
   if (applied != nullptr && (!overlay.selected || SitesDiffer(*overlay.selected, *applied))) {
     overlay.ghost = *applied;
     overlay.ghost_words = std::string("applied ") + overlay.ghost->letter;
@@ -104,12 +106,12 @@ void DrawDepthChip(UiFrame& ui, const Rect& image, CameraState& state) {
 }
 
 std::string LeftFact(const EngineSnapshot& snap) {
-  if (TrackerShown(snap) && snap.tracker.locked) {
-    return "Tracking " + std::to_string(snap.tracker.inliers) + " of " +
-           std::to_string(snap.tracker.features.size()) + " features";
+  if (TrackerShown(snap) && snap.flight->tracker.locked) {
+    return "Tracking " + std::to_string(snap.flight->tracker.inliers) + " of " +
+           std::to_string(snap.flight->tracker.features.size()) + " features";
   }
-  return snap.laser && std::isfinite(snap.laser->range_m)
-             ? "Laser " + Fixed(snap.laser->range_m, 1) + " m"
+  return snap.sensors->laser && std::isfinite(snap.sensors->laser->range_m)
+             ? "Laser " + Fixed(snap.sensors->laser->range_m, 1) + " m"
              : std::string();
 }
 
@@ -144,17 +146,17 @@ void DrawLeftCameraPanel(const EngineSnapshot& snap, const Rect& rect, CameraSta
   }
   const TerrainDecision* shown = ShownDecision(snap);
   DrawCurrentVerdict(ui, image, snap, shown, state.overlay);
-  const PictureView view{*camera, snap.X_WC, image};
+  const PictureView view{*camera, snap.sensors->X_WC, image};
   const bool tracking = TrackerShown(snap);
   if (tracking) {
-    DrawTracker(ui, view, snap.tracker);
+    DrawTracker(ui, view, snap.flight->tracker);
   }
   DrawSites(ui, view, OverlayOf(snap, ui.highlighted_site));
   DrawProbeOnPicture(ui, view, shown, probe);
   DrawStale(ui, image, arrival.age_s);
   DrawVerdictPlate(ui, image, snap, shown);
   DrawDepthChip(ui, image, state);
-  if (snap.preview) {
+  if (snap.terrain->preview) {
     PreviewChip(ui, {image.right() - s.Px(92), image.y + s.Px(8)});
   }
   const LandingSite* site = SiteInView(snap, 0);
@@ -182,7 +184,7 @@ void DrawRightCameraPanel(const EngineSnapshot& snap, const Rect& rect, const Ma
   ImDrawList* dl = Canvas();
   dl->AddImage(ui.textures.right_camera, image.min(), image.max());
   if (camera) {
-    if (const auto view = RightView(snap, {*camera, snap.X_WC, image}, image)) {
+    if (const auto view = RightView(snap, {*camera, snap.sensors->X_WC, image}, image)) {
       DrawProbeOnPicture(ui, *view, ShownDecision(snap), probe);
     }
   }
@@ -192,12 +194,12 @@ void DrawRightCameraPanel(const EngineSnapshot& snap, const Rect& rect, const Ma
     return;  // plates would hide a small picture
   }
   if (camera && site != nullptr) {
-    const PictureView view{*camera, snap.X_WC, image};
+    const PictureView view{*camera, snap.sensors->X_WC, image};
     DrawScaleBar(ui, image, view.PixelsPerMetre(site->p_WS));
   }
-  if (std::isfinite(snap.stereo_quality.row_error_px)) {
+  if (std::isfinite(snap.terrain->stereo_quality.row_error_px)) {
     TextPlate(ui, image, Corner::kBottomRight,
-              "Row error " + Fixed(snap.stereo_quality.row_error_px, 2) + " px");
+              "Row error " + Fixed(snap.terrain->stereo_quality.row_error_px, 2) + " px");
   }
 }
 

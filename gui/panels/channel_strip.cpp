@@ -8,13 +8,13 @@ void DrawChannelStripPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame
   const Style& s = ui.style;
   const Palette& p = s.palette;
   DrawPanelBackground(ui, rect, "Channels");
-  if (snap.channels.empty()) {
+  if (snap.sensors->channels.empty()) {
     DrawText(ui, s.body, p.text2, rect.x + s.Px(12), rect.centre().y, "No channel heard yet.");
     return;
   }
-  const float pitch = (rect.w - s.Px(24)) / static_cast<float>(snap.channels.size());
+  const float pitch = (rect.w - s.Px(24)) / static_cast<float>(snap.sensors->channels.size());
   float x = rect.x + s.Px(10);
-  for (const ChannelHealth& channel : snap.channels) {
+  for (const ChannelHealth& channel : snap.sensors->channels) {
     using State = ChannelHealth::State;
     const bool fine =
         channel.state == State::kFresh && channel.note.find("limit") == std::string::npos;

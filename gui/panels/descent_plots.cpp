@@ -22,7 +22,7 @@ PlotTrace SeriesOf(const EngineSnapshot& snap, Member member, ImU32 colour, floa
   series.colour = colour;
   series.width = width;
   series.stroke = stroke;
-  const auto& history = *snap.history;
+  const auto& history = *snap.flight->history;
   const auto first = std::lower_bound(
       history.begin(), history.end(), AddSeconds(snap.time, static_cast<double>(-kPast_s)),
       [](const HistorySample& sample, Timestamp t) { return sample.time < t; });
@@ -74,7 +74,7 @@ float Largest(const std::vector<PlotTrace>& all, float at_least) {
 template <typename Get>
 PlotTrace Derived(const EngineSnapshot& snap, ImU32 colour, PlotTrace::Stroke stroke, Get get) {
   PlotTrace series = SeriesOf(snap, &HistorySample::laser_m, colour, 1.5f, stroke);
-  const auto& history = *snap.history;
+  const auto& history = *snap.flight->history;
   const std::size_t first = history.size() - series.points.size();
   for (std::size_t i = 0; i < series.points.size(); ++i) {
     series.points[i].y = static_cast<float>(get(first + i));
@@ -87,16 +87,16 @@ using PositionMember = Eigen::Vector3d HistorySample::*;
 /// Height of the skids above the site along a track that history keeps as positions of B, level.
 PlotTrace HeightOf(const EngineSnapshot& snap, PositionMember track, ImU32 colour,
                    PlotTrace::Stroke stroke) {
-  const double site_m = snap.mission.armed ? snap.mission.armed->p_WS.z() : NAN;
+  const double site_m = snap.flight->mission.armed ? snap.flight->mission.armed->p_WS.z() : NAN;
   return Derived(snap, colour, stroke, [&, site_m](std::size_t i) {
-    return site_m - ((*snap.history)[i].*track).z() - SkidCentreBody().z();
+    return site_m - ((*snap.flight->history)[i].*track).z() - SkidCentreBody().z();
   });
 }
 
 /// Descent rate along a track: its change over the half second around each sample.
 PlotTrace RateOf(const EngineSnapshot& snap, PositionMember track, ImU32 colour,
                  PlotTrace::Stroke stroke) {
-  const std::vector<HistorySample>& h = *snap.history;
+  const std::vector<HistorySample>& h = *snap.flight->history;
   return Derived(snap, colour, stroke, [&h, track](std::size_t i) {
     const HistorySample& before = h[i >= 3 ? i - 3 : 0];
     const HistorySample& after = h[std::min(i + 2, h.size() - 1)];
@@ -111,7 +111,7 @@ PlotTrace PlanAhead(const EngineSnapshot& snap, const Palette& p) {
   PlotTrace plan;
   plan.colour = p.text2;
   plan.stroke = PlotTrace::Stroke::kDashed;
-  for (const PathProgress::Height& ahead : snap.mission.path.ahead) {
+  for (const PathProgress::Height& ahead : snap.flight->mission.path.ahead) {
     const auto t = static_cast<float>(ahead.in_s);
     if (t > kFuture_s) {
       break;
@@ -123,7 +123,7 @@ PlotTrace PlanAhead(const EngineSnapshot& snap, const Palette& p) {
 
 /// A limit as its row says; none while the row is not there or its limit unknown.
 std::vector<PlotLimit> LimitLine(const EngineSnapshot& snap, LimitId id) {
-  const LimitRow* row = FindLimit(snap.mission.limits, id);
+  const LimitRow* row = FindLimit(snap.flight->mission.limits, id);
   if (row == nullptr || !std::isfinite(row->limit)) {
     return {};
   }
@@ -135,13 +135,13 @@ std::vector<PlotLimit> LimitLine(const EngineSnapshot& snap, LimitId id) {
 PlotView HeightPlot(const EngineSnapshot& snap, const Palette& p, const HistorySample& now) {
   using Stroke = PlotTrace::Stroke;
   PlotView view = Base("height", "Height above site", "m");
-  const double sigma = snap.navigation.vision.estimate.sigma_p_m.z();
+  const double sigma = snap.flight->navigation.vision.estimate.sigma_p_m.z();
   view.series = {Estimate(snap, &HistorySample::height_above_site_m, p, 3 * sigma),
                  HeightOf(snap, &HistorySample::truth_p_WB, p.truth, Stroke::kDotted),
                  SeriesOf(snap, &HistorySample::laser_m, p.laser, 1.5f),
                  HeightOf(snap, &HistorySample::gps_p_WB, p.gps, Stroke::kSolid),
                  SeriesOf(snap, &HistorySample::plan_height_m, p.text2, 1.5f, Stroke::kDashed)};
-  if (!snap.mission.path.ahead.empty()) {
+  if (!snap.flight->mission.path.ahead.empty()) {
     view.series.push_back(PlanAhead(snap, p));
   }
   const float top = Largest(view.series, 4);
@@ -155,7 +155,7 @@ PlotView HeightPlot(const EngineSnapshot& snap, const Palette& p, const HistoryS
 std::optional<float> SinksSince(const EngineSnapshot& snap) {
   constexpr double kSinking_m = 1.7;  // well below the height at which it moves over the site
   std::optional<float> since;
-  const std::vector<HistorySample>& history = *snap.history;
+  const std::vector<HistorySample>& history = *snap.flight->history;
   for (auto it = history.rbegin(); it != history.rend(); ++it) {
     const bool landing =
         it->state == MissionState::kDescending || it->state == MissionState::kLanded;
@@ -170,11 +170,11 @@ std::optional<float> SinksSince(const EngineSnapshot& snap) {
 PlotView DistancePlot(const EngineSnapshot& snap, const Palette& p, const HistorySample& now) {
   using Stroke = PlotTrace::Stroke;
   PlotView view = Base("distance", "Distance from site centre", "m");
-  const double band = 3 * snap.navigation.vision.estimate.sigma_p_m.head<2>().norm();
+  const double band = 3 * snap.flight->navigation.vision.estimate.sigma_p_m.head<2>().norm();
   view.series = {Estimate(snap, &HistorySample::from_site_m, p, band),
                  SeriesOf(snap, &HistorySample::from_site_truth_m, p.truth, 1.5f, Stroke::kDotted),
                  SeriesOf(snap, &HistorySample::from_site_gps_m, p.gps, 1.5f)};
-  const auto limit = static_cast<float>(snap.settings.slad.lander.nav_error_m);
+  const auto limit = static_cast<float>(snap.session->settings.slad.lander.nav_error_m);
   const float top = Largest(view.series, 2 * limit);
   view.y_max = RoundUp(top * 1.05f, top > 8 ? 5 : (top > 3 ? 1 : 0.5f));
   const std::string words = Fixed(static_cast<double>(limit), 1) + " m";
@@ -191,7 +191,7 @@ PlotView RatePlot(const EngineSnapshot& snap, const Palette& p, const HistorySam
   using Stroke = PlotTrace::Stroke;
   PlotView view = Base("rate", "Descent rate", "m/s");
   view.series = {Estimate(snap, &HistorySample::descent_rate_mps, p,
-                          3 * snap.navigation.vision.estimate.sigma_v_mps.z()),
+                          3 * snap.flight->navigation.vision.estimate.sigma_v_mps.z()),
                  RateOf(snap, &HistorySample::truth_p_WB, p.truth, Stroke::kDotted),
                  RateOf(snap, &HistorySample::gps_p_WB, p.gps, Stroke::kSolid)};
   view.y_min = -0.25f;
@@ -224,7 +224,7 @@ PlotView ResidualPlot(const EngineSnapshot& snap, const Palette& p, const Histor
 PlotView PathPlot(const EngineSnapshot& snap, const Palette& p, const HistorySample& now) {
   PlotView view = Base("path", "Off the planned path", "m");
   view.series = {Estimate(snap, &HistorySample::glide_deviation_m, p,
-                          3 * snap.navigation.vision.estimate.sigma_p_m.norm())};
+                          3 * snap.flight->navigation.vision.estimate.sigma_p_m.norm())};
   view.y_max = 1.6f;
   view.limits = LimitLine(snap, LimitId::kOffPath);
   view.current = Fixed(now.glide_deviation_m, 2) + Unit(now.glide_deviation_m, " m");
@@ -246,7 +246,7 @@ void DrawLegend(const EngineSnapshot& snap, const Rect& rect, float left_end, Ui
                                       {"GPS", p.gps, Stroke::kSolid},
                                       {"Laser", p.laser, Stroke::kSolid},
                                       {"Vision estimate, ±3σ", p.safe, Stroke::kSolid}};
-  if (snap.truth || snap.source.kind == SourceKind::kSimulation) {
+  if (snap.sensors->truth || snap.session->source.kind == SourceKind::kSimulation) {
     entries.insert(entries.begin() + 2, {"Truth, simulation only", p.truth, Stroke::kDotted});
   }
   float x = rect.right() - s.Px(12);
@@ -304,12 +304,12 @@ void DrawPlotTabs(const EngineSnapshot& snap, const Rect& rect, PlotTab& tab, Ui
 
 void DrawDescentPlotsPanel(const EngineSnapshot& snap, const std::array<Rect, 6>& rects,
                            PlotHover& hover, UiFrame& ui) {
-  if (!snap.history || snap.history->empty()) {
+  if (!snap.flight->history || snap.flight->history->empty()) {
     DrawPanelFrame(ui, rects[0], "No flight history yet");
     return;
   }
   const Palette& p = ui.style.palette;
-  const HistorySample& now = snap.history->back();
+  const HistorySample& now = snap.flight->history->back();
   BeginPlots(hover);
   DrawPlot(ui, rects[0], HeightPlot(snap, p, now), hover);
   DrawPlot(ui, rects[1], DistancePlot(snap, p, now), hover);

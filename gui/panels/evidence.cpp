@@ -38,7 +38,7 @@ std::vector<EvidenceRow> RowsOf(const EngineSnapshot& snap, const LandingSite& s
   };
   const TerrainDecision* shown = ShownDecision(snap);
   const std::vector<LimitRow> limits =
-      SiteLimits(site, shown != nullptr ? shown->settings : snap.settings.slad);
+      SiteLimits(site, shown != nullptr ? shown->settings : snap.session->settings.slad);
   std::vector<EvidenceRow> rows;
   const auto add = [&](const LimitRow* limit) {
     if (limit != nullptr && (!folded || in_folded(limit->id))) {
@@ -52,8 +52,8 @@ std::vector<EvidenceRow> RowsOf(const EngineSnapshot& snap, const LandingSite& s
       rows.back().spread = "at " + HeadingText(site.touchdown.worst_heading_rad);
     }
   }
-  add(FindLimit(snap.mission.limits, LimitId::kWind));
-  add(FindLimit(snap.mission.limits, LimitId::kOffWind));
+  add(FindLimit(snap.flight->mission.limits, LimitId::kWind));
+  add(FindLimit(snap.flight->mission.limits, LimitId::kOffWind));
   return rows;
 }
 
@@ -69,9 +69,9 @@ void DrawEvidencePanel(const EngineSnapshot& snap, const Rect& rect, bool folded
              "No site to show evidence for.");
     return;
   }
-  const bool frozen = snap.mission.armed.has_value();
+  const bool frozen = snap.flight->mission.armed.has_value();
   const std::string age =
-      AgeText(SecondsBetween(frozen ? snap.mission.armed_at : site->map_time, snap.time));
+      AgeText(SecondsBetween(frozen ? snap.flight->mission.armed_at : site->map_time, snap.time));
   const Rect content =
       DrawPanelFrame(ui, rect, std::string("Evidence for site ") + site->letter,
                      {{frozen ? "Frozen " + age + " ago" : "Map " + age + " ago"}});

@@ -9,7 +9,7 @@ namespace {
 /// Once a site is armed, the keyboard's next step is the hold button: with the ring when the
 /// keyboard armed it, else at the next Tab.
 void FollowArming(const EngineSnapshot& snap, ApproveState& state, UiFrame& ui) {
-  const std::uint64_t armed = snap.mission.armed ? snap.mission.armed->id : 0;
+  const std::uint64_t armed = snap.flight->mission.armed ? snap.flight->mission.armed->id : 0;
   if (armed != 0 && armed != state.armed) {
     if (ui.focus.shown().substr(0, 5) == "site/") {
       ui.focus.Show("approve");
@@ -43,7 +43,7 @@ void DrawDecisionColumn(const EngineSnapshot& snap, const FlyLayout& layout, Fly
   DrawSiteListPanel(snap, layout, state.sites, ui);
   DrawEvidencePanel(snap, layout.evidence, layout.folded_evidence, layout.narrow,
                     ui.highlighted_site, ui);
-  const MissionState mission = snap.mission.state;
+  const MissionState mission = snap.flight->mission.state;
   if (mission == MissionState::kApproved || mission == MissionState::kAborting ||
       mission == MissionState::kHold) {
     DrawLandingPanel(snap, layout.approve, ui);

@@ -11,7 +11,7 @@ namespace palace {
 namespace {
 
 std::string Headline(const EngineSnapshot& snap) {
-  const MissionStatus& m = snap.mission;
+  const MissionStatus& m = snap.flight->mission;
   const std::string site = m.armed ? std::string("site ") + m.armed->letter : std::string("site");
   switch (m.state) {
     case MissionState::kApproved:
@@ -19,8 +19,9 @@ std::string Headline(const EngineSnapshot& snap) {
     case MissionState::kHold:
       return "Holding above " + site;
     case MissionState::kAborting:
-      return snap.vehicle && snap.vehicle->mode == VehicleMode::kHover ? "Waved off, hovering"
-                                                                       : "Wave-off: climbing away";
+      return snap.sensors->vehicle && snap.sensors->vehicle->mode == VehicleMode::kHover
+                 ? "Waved off, hovering"
+                 : "Wave-off: climbing away";
     case MissionState::kLanded:
       return "Landed on " + site;
     default:
@@ -29,7 +30,7 @@ std::string Headline(const EngineSnapshot& snap) {
 }
 
 std::string Record(const EngineSnapshot& snap) {
-  const MissionStatus& m = snap.mission;
+  const MissionStatus& m = snap.flight->mission;
   if (m.state == MissionState::kHold || m.state == MissionState::kAborting) {
     const std::string why = m.why.empty() ? std::string("The approval is over.") : m.why + ".";
     const bool lost = m.state == MissionState::kHold && !m.rechecks.empty() &&
@@ -71,7 +72,7 @@ std::string Record(const EngineSnapshot& snap) {
 void DrawLadder(const EngineSnapshot& snap, const Rect& bar, UiFrame& ui) {
   const Style& s = ui.style;
   const Palette& p = s.palette;
-  const MissionStatus& m = snap.mission;
+  const MissionStatus& m = snap.flight->mission;
   double top_m = std::isfinite(m.height_above_site_m) ? m.height_above_site_m : 0;
   for (const SiteRecheck& recheck : m.rechecks) {
     top_m = std::max(top_m, recheck.height_above_site_m);
@@ -89,7 +90,7 @@ void DrawLadder(const EngineSnapshot& snap, const Rect& bar, UiFrame& ui) {
   float free_from = bar.x;
   const float end = bar.right() - TextWidth(s.caption, "0") - s.Px(8);
   for (const double height_m :
-       {top_m, m.confirm_height_m, snap.settings.slad.fusion.commit_height_m, 0.0}) {
+       {top_m, m.confirm_height_m, snap.session->settings.slad.fusion.commit_height_m, 0.0}) {
     const float x = std::min(at(height_m), bar.right() - s.Px(2));
     FillRect(Canvas(), {x, bar.y - s.Px(4), s.Px(2), bar.h + s.Px(8)}, p.text1);
     const std::string label = height_m > 0 ? Fixed(height_m, 0) + " m" : "0";
@@ -108,7 +109,7 @@ void DrawLadder(const EngineSnapshot& snap, const Rect& bar, UiFrame& ui) {
 void DrawLandingPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui) {
   const Style& s = ui.style;
   const Palette& p = s.palette;
-  const MissionStatus& m = snap.mission;
+  const MissionStatus& m = snap.flight->mission;
   const bool tall = rect.h >= s.Px(184);
   DrawPanelFrame(ui, rect, "Landing");
   const float x = rect.x + s.Px(12);
@@ -140,15 +141,15 @@ void DrawLandingPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui)
   look.font = s.section;
   look.flat = true;
   if (m.state == MissionState::kAborting) {
-    look.enabled = snap.can_transmit;
+    look.enabled = snap.session->can_transmit;
     if (DrawButton(ui, "acknowledge_wave_off", button, "Wave-off complete, search again", look)) {
       ui.intents.push_back(CommandAction(AcknowledgeWaveOff{}));
     }
     return;
   }
   const bool flying = m.state == MissionState::kApproved || m.state == MissionState::kDescending;
-  look.enabled = flying && snap.can_transmit;
-  look.reason = snap.can_transmit ? "Nothing to stop" : "No link in replay";
+  look.enabled = flying && snap.session->can_transmit;
+  look.reason = snap.session->can_transmit ? "Nothing to stop" : "No link in replay";
   if (DrawButton(ui, "hold_here", button, "Hold here", look)) {
     ui.intents.push_back(CommandAction(HoldHere{}));
   }

@@ -31,7 +31,7 @@ void DrawLimitsInForcePanel(const EngineSnapshot& snap, const Rect& rect, bool n
   int over = 0;
   int unknown = 0;
   for (const ShownLimit& shown : kShown) {
-    const LimitRow* limit = FindLimit(snap.mission.limits, shown.id);
+    const LimitRow* limit = FindLimit(snap.flight->mission.limits, shown.id);
     if (limit == nullptr || (narrow && shown.wide_only)) {
       continue;
     }
@@ -42,7 +42,7 @@ void DrawLimitsInForcePanel(const EngineSnapshot& snap, const Rect& rect, bool n
   std::string fact = "All inside";
   if (over > 0) {
     fact = std::to_string(over) + " over a limit";
-  } else if (snap.mission.state == MissionState::kLanded) {
+  } else if (snap.flight->mission.state == MissionState::kLanded) {
     fact = "On the ground";
   } else if (unknown > 0) {
     fact = std::to_string(unknown) + " unknown";

@@ -141,12 +141,12 @@ void DrawProbeOnPicture(UiFrame& ui, const PictureView& view, const TerrainDecis
 
 std::optional<PictureView> RightView(const EngineSnapshot& snap, const PictureView& left,
                                      const Rect& image) {
-  if (!snap.rig) {
+  if (!snap.sensors->rig) {
     return std::nullopt;
   }
   PictureView right = left;
   right.rect = image;
-  right.X_WC.p += left.X_WC.R * Eigen::Vector3d(snap.rig->baseline_m, 0, 0);
+  right.X_WC.p += left.X_WC.R * Eigen::Vector3d(snap.sensors->rig->baseline_m, 0, 0);
   return right;
 }
 

@@ -15,7 +15,7 @@ void DrawMapRowPanel(const EngineSnapshot& snap, const std::array<Rect, 5>& rect
   source.site = marks.selected ? &*marks.selected : nullptr;
   for (std::size_t i = 0; i < rects.size(); ++i) {
     MapView view = MakeMapView(static_cast<MapKind>(i), source, ui.textures);
-    view.preview = snap.preview != nullptr;
+    view.preview = snap.terrain->preview != nullptr;
     view.letter = letters ? view.letter : '\0';
     OfferProbe(view, DrawMapPanel(ui, rects[i], side, view, marks, state.drag), state.probe);
   }

@@ -3,12 +3,12 @@
 namespace palace {
 
 const TerrainDecision* ShownDecision(const EngineSnapshot& snap) {
-  return snap.preview ? snap.preview.get() : snap.applied.get();
+  return snap.terrain->preview ? snap.terrain->preview.get() : snap.terrain->applied.get();
 }
 
 const LandingSite* SiteInView(const EngineSnapshot& snap, std::uint64_t highlighted) {
-  if (snap.mission.armed) {
-    return &*snap.mission.armed;
+  if (snap.flight->mission.armed) {
+    return &*snap.flight->mission.armed;
   }
   const TerrainDecision* shown = ShownDecision(snap);
   if (shown == nullptr || shown->selection.sites.empty()) {
@@ -19,23 +19,24 @@ const LandingSite* SiteInView(const EngineSnapshot& snap, std::uint64_t highligh
       return &site;
     }
   }
-  return snap.mission.BestStanding(shown->selection.sites);
+  return snap.flight->mission.BestStanding(shown->selection.sites);
 }
 
 bool MaySelect(const EngineSnapshot& snap, std::uint64_t site_id) {
-  return snap.mission.state == MissionState::kProposed ||
-         snap.mission.state == MissionState::kArmed ||
-         (snap.mission.state == MissionState::kSearch && snap.mission.IsRefused(site_id));
+  return snap.flight->mission.state == MissionState::kProposed ||
+         snap.flight->mission.state == MissionState::kArmed ||
+         (snap.flight->mission.state == MissionState::kSearch &&
+          snap.flight->mission.IsRefused(site_id));
 }
 
 bool IsDescentView(const EngineSnapshot& snap) {
-  switch (snap.mission.state) {
+  switch (snap.flight->mission.state) {
     case MissionState::kDescending:
     case MissionState::kLanded:
       return true;
     case MissionState::kHold:
     case MissionState::kAborting:
-      return snap.mission.armed.has_value();
+      return snap.flight->mission.armed.has_value();
     default:
       return false;
   }
@@ -49,10 +50,10 @@ MapMarks MarksOf(const EngineSnapshot& snap, std::uint64_t highlighted) {
     marks.selected = *site;
   }
   marks.highlighted = highlighted;
-  marks.commanded = snap.mission.state >= MissionState::kApproved;
+  marks.commanded = snap.flight->mission.state >= MissionState::kApproved;
   const auto camera = LeftCamera(snap);
   if (camera && marks.selected) {
-    marks.footprint = GroundFootprint(*camera, snap.X_WC, marks.selected->height_m.value);
+    marks.footprint = GroundFootprint(*camera, snap.sensors->X_WC, marks.selected->height_m.value);
   }
   return marks;
 }

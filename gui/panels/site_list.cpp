@@ -12,9 +12,9 @@ void DrawEmpty(const EngineSnapshot& snap, const Rect& content, UiFrame& ui) {
   const Style& s = ui.style;
   const TerrainDecision* shown = ShownDecision(snap);
   std::string text = "No map yet. Sites appear with the first stereo pairs.";
-  if (shown == nullptr && snap.range && !snap.pose) {
+  if (shown == nullptr && snap.terrain->range && !snap.sensors->pose) {
     text = "Attitude and height are unknown: ranges make no map. Add [pose] to RIG.toml.";
-  } else if (shown != nullptr && HasPicturesOnly(snap.source.kind)) {
+  } else if (shown != nullptr && HasPicturesOnly(snap.session->source.kind)) {
     text = "No site inside the limits: " + shown->selection.none_reason +
            ". Look at the maps to see which limit decides.";
   } else if (shown != nullptr) {
@@ -65,11 +65,11 @@ void DrawSiteListPanel(const EngineSnapshot& snap, const FlyLayout& layout, Site
   if (camera) {
     view =
         PictureView{*camera,
-                    snap.X_WC,
+                    snap.sensors->X_WC,
                     {0, 0, static_cast<float>(camera->width), static_cast<float>(camera->height)}};
   }
-  const std::uint64_t armed = snap.mission.armed ? snap.mission.armed->id : 0;
-  const LandingSite* best = snap.mission.BestStanding(sites);
+  const std::uint64_t armed = snap.flight->mission.armed ? snap.flight->mission.armed->id : 0;
+  const LandingSite* best = snap.flight->mission.BestStanding(sites);
   const auto first = static_cast<std::size_t>(state.scroll / row);
   const std::size_t last = std::min(count, first + static_cast<std::size_t>(layout.site_rows));
   std::uint64_t focused = 0;
@@ -83,7 +83,7 @@ void DrawSiteListPanel(const EngineSnapshot& snap, const FlyLayout& layout, Site
     look.selected = site.id == armed;
     look.narrow = layout.site_row_units < 60;
     look.enabled = MaySelect(snap, site.id);
-    look.refused = snap.mission.IsRefused(site.id);
+    look.refused = snap.flight->mission.IsRefused(site.id);
     const Rect rect{list.x, list.y + row * static_cast<float>(i - first), list.w, row};
     const SiteRowAnswer answer = DrawSiteRow(ui, rect, site, view, ui.textures.left_camera, look);
     focused = answer.focused ? site.id : focused;

@@ -64,7 +64,7 @@ void DrawSchedule(const EngineSnapshot& snap, const Rect& column, float y, UiFra
   DrawIcon(Canvas(), Icon::kStale, {column.x + s.Px(6), y + s.Px(14)}, s.Px(12), p.text2);
   DrawText(ui, s.body, p.text1, column.x + s.Px(20), y + s.Px(14), "Each new map");
   DrawText(ui, s.caption, p.text2, column.x + s.Px(20), y + s.Px(34),
-           "down to " + Fixed(snap.settings.slad.fusion.commit_height_m, 1) + " m");
+           "down to " + Fixed(snap.session->settings.slad.fusion.commit_height_m, 1) + " m");
 }
 
 /// The site's own reason compares it with the best of its map, which nobody may have chosen.
@@ -88,7 +88,7 @@ void DrawChecksColumn(const EngineSnapshot& snap, const Rect& column, bool narro
   const float pitch = s.Px(narrow ? 22 : 28);
   float y = column.y + s.Px(14);
   const bool roomy = column.w > s.Px(130);
-  for (const SiteRecheck* check : Spaced(snap.mission.rechecks, narrow ? 3 : 4)) {
+  for (const SiteRecheck* check : Spaced(snap.flight->mission.rechecks, narrow ? 3 : 4)) {
     const VerdictLook look = LookOf(check->verdict, p);
     DrawIcon(Canvas(), look.icon, {column.x + s.Px(6), y}, s.Px(12), look.colour);
     DrawText(ui, s.body, p.text2, column.x + s.Px(20), y,
@@ -101,10 +101,10 @@ void DrawChecksColumn(const EngineSnapshot& snap, const Rect& column, bool narro
     DrawSchedule(snap, column, y, ui);
     y += s.Px(60);
   }
-  if (snap.mission.rechecks.empty()) {
+  if (snap.flight->mission.rechecks.empty()) {
     return;
   }
-  const SiteRecheck& newest = snap.mission.rechecks.back();
+  const SiteRecheck& newest = snap.flight->mission.rechecks.back();
   if (newest.verdict != SiteVerdict::kHolds) {
     y = DrawLines(ui, column, y,
                   std::string(SiteVerdictWord(newest.verdict)) + ": " + newest.reason, p.text1);
@@ -115,7 +115,7 @@ void DrawChecksColumn(const EngineSnapshot& snap, const Rect& column, bool narro
     LetterPlate(ui, {column.x + s.Px(10), y + s.Px(24)}, kept.letter, false);
     DrawText(ui, s.medium, p.text1, column.x + s.Px(28), y + s.Px(24),
              Fixed(kept.safe_distance_m, 1) + " m clear");
-    const std::string beside = BesideFlown(kept, newest, snap.mission);
+    const std::string beside = BesideFlown(kept, newest, snap.flight->mission);
     ui.items.Add("alternative", {column.x, y - s.Px(8), column.w, s.Px(42)}, true,
                  std::string(1, kept.letter) + " " + beside);
     DrawLines(ui, column, y + s.Px(46), beside, p.text2);
@@ -127,7 +127,7 @@ void DrawChecksColumn(const EngineSnapshot& snap, const Rect& column, bool narro
 void DrawSiteRecheckPanel(const EngineSnapshot& snap, const Rect& rect, bool narrow,
                           MapProbe& probe, UiFrame& ui) {
   const Style& s = ui.style;
-  const MissionStatus& m = snap.mission;
+  const MissionStatus& m = snap.flight->mission;
   std::string title = "Site re-checked";
   if (m.armed) {
     title = std::string("Site ") + m.armed->letter + " re-checked";

@@ -24,22 +24,23 @@ std::string CamerasText(const std::vector<CameraCounters>& cameras) {
 
 std::string LinkText(const EngineSnapshot& snap, bool narrow) {
   std::uint64_t lost = 0;
-  for (const ChannelHealth& channel : snap.channels) {
+  for (const ChannelHealth& channel : snap.sensors->channels) {
     lost += channel.lost;
   }
-  const ChannelHealth* pose = FindChannel(snap.channels, ChannelId::kVehiclePose);
-  if (snap.source.kind == SourceKind::kReplay) {
-    return snap.source.name;
+  const ChannelHealth* pose = FindChannel(snap.sensors->channels, ChannelId::kVehiclePose);
+  if (snap.session->source.kind == SourceKind::kReplay) {
+    return snap.session->source.name;
   }
-  if (!snap.source.cameras.empty()) {
-    return CamerasText(snap.source.cameras);
+  if (!snap.session->source.cameras.empty()) {
+    return CamerasText(snap.session->source.cameras);
   }
-  if (!snap.can_transmit) {
+  if (!snap.session->can_transmit) {
     return "No link";
   }
-  const char* name = snap.source.kind == SourceKind::kSimulation ? "Simulated link " : "Link ";
+  const char* name =
+      snap.session->source.kind == SourceKind::kSimulation ? "Simulated link " : "Link ";
   std::string text = name + AgeText(pose != nullptr ? pose->age_s : NAN);
-  if (!narrow && snap.source.kind != SourceKind::kSimulation) {
+  if (!narrow && snap.session->source.kind != SourceKind::kSimulation) {
     text += ", " + std::to_string(lost) + " lost";
   }
   return text;
@@ -48,7 +49,7 @@ std::string LinkText(const EngineSnapshot& snap, bool narrow) {
 /// Pictures that came and were not looked at, because newer ones had come; empty while there are
 /// none.
 std::string ReplacedText(const EngineSnapshot& snap) {
-  const std::uint64_t replaced = snap.losses.pairs_replaced;
+  const std::uint64_t replaced = snap.session->losses.pairs_replaced;
   return replaced == 0
              ? ""
              : std::to_string(replaced) + (replaced == 1 ? " pair" : " pairs") + " overtaken";
@@ -56,7 +57,7 @@ std::string ReplacedText(const EngineSnapshot& snap) {
 
 /// Simulated time starts at an epoch of its own; only live and recorded clocks are UTC.
 const char* ClockName(const EngineSnapshot& snap) {
-  switch (snap.source.kind) {
+  switch (snap.session->source.kind) {
     case SourceKind::kSimulation:
       return " sim";
     case SourceKind::kReplay:
@@ -71,28 +72,30 @@ const char* ClockName(const EngineSnapshot& snap) {
 }
 
 std::string RecordingText(const EngineSnapshot& snap, bool narrow) {
-  if (!snap.recording) {
-    return snap.source.kind == SourceKind::kReplay ? "" : "Not recording";
+  if (!snap.session->recording) {
+    return snap.session->source.kind == SourceKind::kReplay ? "" : "Not recording";
   }
   // Negative: the recorder does not know its rate yet.
-  const std::string left = snap.recording_minutes_left < 0
-                               ? std::string()
-                               : ", " + Fixed(snap.recording_minutes_left, 0) + " min left";
-  return narrow ? "Recording" + left : "Recording " + LengthText(snap.source.position_s) + left;
+  const std::string left =
+      snap.session->recording_minutes_left < 0
+          ? std::string()
+          : ", " + Fixed(snap.session->recording_minutes_left, 0) + " min left";
+  return narrow ? "Recording" + left
+                : "Recording " + LengthText(snap.session->source.position_s) + left;
 }
 
 std::string ChannelsText(const EngineSnapshot& snap) {
   const auto fresh =
-      std::count_if(snap.channels.begin(), snap.channels.end(),
+      std::count_if(snap.sensors->channels.begin(), snap.sensors->channels.end(),
                     [](const ChannelHealth& c) { return c.state == ChannelHealth::State::kFresh; });
-  const auto rest = static_cast<std::ptrdiff_t>(snap.channels.size()) - fresh;
+  const auto rest = static_cast<std::ptrdiff_t>(snap.sensors->channels.size()) - fresh;
   std::string text = "Channels: " + std::to_string(fresh) + " fresh";
   return rest > 0 ? text + ", " + std::to_string(rest) + " late or stale" : text;
 }
 
 std::string AlarmText(const EngineSnapshot& snap) {
   const auto count = [&](AlarmLevel level) {
-    return std::count_if(snap.mission.alarms.begin(), snap.mission.alarms.end(),
+    return std::count_if(snap.flight->mission.alarms.begin(), snap.flight->mission.alarms.end(),
                          [&](const Alarm& a) { return a.level == level && a.active; });
   };
   const auto warnings = count(AlarmLevel::kWarning);
@@ -118,16 +121,17 @@ void DrawStatusBarPanel(const EngineSnapshot& snap, const FrameLayout& layout,
   float right = bar.right() - s.Px(12);
   right -= DrawText(ui, s.mono, p.text2, right, y, ClockText(snap.time) + ClockName(snap),
                     Align::kRight);
-  const std::size_t sites = snap.applied ? snap.applied->selection.sites.size() : 0;
-  std::vector<std::string> group = {snap.can_transmit ? "In control: you" : "Watching"};
+  const std::size_t sites =
+      snap.terrain->applied ? snap.terrain->applied->selection.sites.size() : 0;
+  std::vector<std::string> group = {snap.session->can_transmit ? "In control: you" : "Watching"};
   if (narrow) {
     group.push_back(ChannelsText(snap));
     std::swap(group[0], group[1]);
   } else {
     group.push_back(sites == 1 ? "1 site" : std::to_string(sites) + " sites");
     group.push_back(AlarmText(snap));
-    if (snap.source.kind == SourceKind::kSimulation) {
-      group.push_back(Fixed(snap.source.speed_reached, 1) + "× real time");
+    if (snap.session->source.kind == SourceKind::kSimulation) {
+      group.push_back(Fixed(snap.session->source.speed_reached, 1) + "× real time");
     }
   }
   for (auto item = group.rbegin(); item != group.rend(); ++item) {
@@ -135,7 +139,7 @@ void DrawStatusBarPanel(const EngineSnapshot& snap, const FrameLayout& layout,
       right -= gap + DrawText(ui, s.caption, p.text2, right - gap, y, *item, Align::kRight);
     }
   }
-  const std::string limits = state.preset_name + " · " + ShortHash(snap.settings_hash);
+  const std::string limits = state.preset_name + " · " + ShortHash(snap.session->settings_hash);
   std::vector<std::string> left = {LinkText(snap, narrow), ReplacedText(snap),
                                    RecordingText(snap, narrow),
                                    narrow ? limits : "Limits " + limits};

@@ -24,7 +24,7 @@ std::string LimitText(const LimitRow& limit) {
 
 /// The figure with its limit, and whether the engine calls it over.
 HealthRow WithLimit(const EngineSnapshot& snap, LimitId id, const char* name, std::string value) {
-  const LimitRow* limit = FindLimit(snap.mission.limits, id);
+  const LimitRow* limit = FindLimit(snap.flight->mission.limits, id);
   return {name, std::move(value), limit != nullptr ? LimitText(*limit) : "",
           limit == nullptr || !limit->over};
 }
@@ -47,7 +47,7 @@ std::string AgreementWords(const RangeAgreement& a) {
 }
 
 std::vector<HealthRow> RowsOf(const EngineSnapshot& snap) {
-  const StereoQuality& q = snap.stereo_quality;
+  const StereoQuality& q = snap.terrain->stereo_quality;
   const bool pictures_fine =
       !q.suspect_swapped && !q.suspect_same && !q.suspect_covered && !q.suspect_frozen;
   return {
@@ -60,7 +60,7 @@ std::vector<HealthRow> RowsOf(const EngineSnapshot& snap) {
        ""},
       WithLimit(snap, LimitId::kExposure, "Right over left brightness", Fixed(q.exposure_ratio, 2)),
       WithLimit(snap, LimitId::kRangeScale, "Range against the laser",
-                AgreementWords(snap.range_agreement)),
+                AgreementWords(snap.terrain->range_agreement)),
   };
 }
 
@@ -71,7 +71,7 @@ void DrawStereoHealth(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui)
   const Palette& p = s.palette;
   const Rect content = DrawPanelFrame(ui, rect, "Stereo health");
   float y = content.y + s.Px(12);
-  if (!snap.range) {
+  if (!snap.terrain->range) {
     DrawText(ui, s.body, p.text2, content.x + s.Px(12), y, "No pair has been matched yet.");
     return;
   }

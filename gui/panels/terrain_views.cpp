@@ -49,7 +49,8 @@ double MapAge(const EngineSnapshot& snap, const TerrainDecision* decision) {
   if (decision == nullptr) {
     return NAN;
   }
-  return SecondsBetween(decision->map_time, snap.frame ? snap.frame->time : snap.time);
+  return SecondsBetween(decision->map_time,
+                        snap.sensors->frame ? snap.sensors->frame->time : snap.time);
 }
 
 void DrawCurrentVerdict(UiFrame& ui, const Rect& image, const EngineSnapshot& snap,
@@ -58,8 +59,9 @@ void DrawCurrentVerdict(UiFrame& ui, const Rect& image, const EngineSnapshot& sn
     DrawVerdict(ui, image, decision->verdict, cache);
     const auto camera = LeftCamera(snap);
     if (camera && decision->hazards && decision->elevation) {
-      DrawFlagsOnPicture(ui.style, {*camera, snap.X_WC, image}, decision->hazards->geometry,
-                         decision->elevation->height_m, decision->hazards->flags);
+      DrawFlagsOnPicture(ui.style, {*camera, snap.sensors->X_WC, image},
+                         decision->hazards->geometry, decision->elevation->height_m,
+                         decision->hazards->flags);
     }
   }
 }
@@ -89,7 +91,7 @@ void DrawLeftPicture(UiFrame& ui, const Rect& area, const EngineSnapshot& snap,
   ImDrawList* dl = Canvas();
   dl->PushClipRect(image.min(), image.max(), true);
   dl->AddImage(ui.textures.left_camera, image.min(), image.max());
-  const PictureView view{*camera, snap.X_WC, image};
+  const PictureView view{*camera, snap.sensors->X_WC, image};
   if (look.decision != nullptr) {
     DrawCurrentVerdict(ui, image, snap, look.decision, cache);
     SiteOverlay overlay;
@@ -132,8 +134,11 @@ void DrawPlainPicture(UiFrame& ui, const Rect& area, const EngineSnapshot& snap,
   Canvas()->AddImage(texture, image.min(), image.max());
   const auto camera = LeftCamera(snap);
   if (probe != nullptr && camera) {
-    if (const auto view = RightView(snap, {*camera, snap.X_WC, image}, image)) {
-      DrawProbeOnPicture(ui, *view, snap.preview ? snap.preview.get() : snap.applied.get(), *probe);
+    if (const auto view = RightView(snap, {*camera, snap.sensors->X_WC, image}, image)) {
+      DrawProbeOnPicture(
+          ui, *view,
+          snap.terrain->preview ? snap.terrain->preview.get() : snap.terrain->applied.get(),
+          *probe);
     }
   }
   if (!plate.empty()) {

@@ -21,27 +21,27 @@ void DrawModeBlock(const EngineSnapshot& snap, const Rect& r, bool frozen, UiFra
     StrokeRect(dl, r, p.white_mark, s.Fine(2));
     DrawIcon(dl, Icon::kPause, {icon_x, y}, s.Px(20), p.text1);
     DrawText(ui, s.mode_replay, p.text1, r.x + s.Px(34), y, word);
-  } else if (snap.source.kind == SourceKind::kReplay) {
+  } else if (snap.session->source.kind == SourceKind::kReplay) {
     word = "REPLAY";
     FillRect(dl, r, p.replay);
     DrawIcon(dl, Icon::kReplay, {icon_x + s.Px(2), y}, s.Px(20), p.on_replay);
     DrawText(ui, s.mode_replay, p.on_replay, r.x + s.Px(36), y, word);
-  } else if (snap.source.kind == SourceKind::kSimulation) {
+  } else if (snap.session->source.kind == SourceKind::kSimulation) {
     word = "SIM";
     Stripes(dl, r, p.white_mark, p.on_white, s.Px(6));
     const float edge = s.Px(4);
     FillRect(dl, {r.x + edge, r.y + edge, r.w - 2 * edge, r.h - 2 * edge}, p.panel);
     DrawIcon(dl, Icon::kSimulation, {icon_x + s.Px(6), y}, s.Px(20), p.text1);
     DrawText(ui, s.mode, p.text1, r.x + s.Px(46), y, word);
-  } else if (snap.source.kind == SourceKind::kLive) {
+  } else if (snap.session->source.kind == SourceKind::kLive) {
     FillRect(dl, r, p.white_mark);
     dl->AddCircleFilled({icon_x, y}, s.Fine(6), p.on_white);
     DrawText(ui, s.mode, p.on_white, word_x, y, word);
   } else {
-    word = snap.source.kind == SourceKind::kImages    ? "IMAGES"
-           : snap.source.kind == SourceKind::kCameras ? "CAMERAS"
-           : snap.source.kind == SourceKind::kVideo   ? "VIDEO"
-                                                      : "NO LINK";
+    word = snap.session->source.kind == SourceKind::kImages    ? "IMAGES"
+           : snap.session->source.kind == SourceKind::kCameras ? "CAMERAS"
+           : snap.session->source.kind == SourceKind::kVideo   ? "VIDEO"
+                                                               : "NO LINK";
     StrokeRect(dl, r, p.strong_line, s.Fine(2));
     DrawText(ui, s.mode_replay, p.text1, r.centre().x, y, word, Align::kCentre);
   }
@@ -159,19 +159,20 @@ void DrawTopBarPanel(const EngineSnapshot& snap, const FrameLayout& layout, Fram
     x += s.Px(20);
   }
   const float tabs_end = DrawTabs(x, bar, state.workspace, ui);
-  const int now = ChainIndex(snap.mission.state);
-  ui.items.Add("state", bar, true, MissionStateName(snap.mission.state));
+  const int now = ChainIndex(snap.flight->mission.state);
+  ui.items.Add("state", bar, true, MissionStateName(snap.flight->mission.state));
   if (narrow) {
     x = tabs_end + s.Px(41);
     x += DrawText(ui, s.body, s.palette.text2, x, y, "State") + s.Px(12);
     if (now < 0) {
-      DrawSideState(snap.mission.state, x, y, ui);
+      DrawSideState(snap.flight->mission.state, x, y, ui);
       return;
     }
-    DrawStateBox({x, y - s.Px(14), s.Px(124), s.Px(28)}, MissionStateWord(snap.mission.state), ui);
+    DrawStateBox({x, y - s.Px(14), s.Px(124), s.Px(28)},
+                 MissionStateWord(snap.flight->mission.state), ui);
     DrawText(ui, s.body, s.palette.text2, x + s.Px(136), y, std::to_string(now + 1) + " of 6");
   } else if (now < 0) {
-    DrawSideState(snap.mission.state, tabs_end + s.Px(100), y, ui);
+    DrawSideState(snap.flight->mission.state, tabs_end + s.Px(100), y, ui);
   } else {
     DrawChain(now, tabs_end + s.Px(100), y, ui);
   }

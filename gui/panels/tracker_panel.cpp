@@ -5,7 +5,7 @@ namespace palace {
 
 void DrawTrackerPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui) {
   const Style& s = ui.style;
-  const TrackerStatus& tracker = snap.tracker;
+  const TrackerStatus& tracker = snap.flight->tracker;
   std::string fact = tracker.locked ? tracker.mode : "Not locked";
   if (tracker.locked && tracker.anchor_patch) {
     fact += ", " + std::to_string(tracker.anchor_patch->width()) + " px";
@@ -15,7 +15,7 @@ void DrawTrackerPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui)
                                   ui.textures.difference_patch};
   const std::string captions[] = {
       tracker.locked ? "Anchor, " + Fixed(tracker.anchor_height_m, 0) + " m" : "Anchor",
-      tracker.locked ? "Now, " + Fixed(snap.mission.height_above_site_m, 0) + " m" : "Now",
+      tracker.locked ? "Now, " + Fixed(snap.flight->mission.height_above_site_m, 0) + " m" : "Now",
       "Difference"};
   const float gap = s.Px(7);
   const float width = std::floor((content.w - s.Px(24) - 2 * gap) / 3);

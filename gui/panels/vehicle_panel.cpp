@@ -11,16 +11,16 @@ namespace palace {
 namespace {
 
 const char* ModeWords(const EngineSnapshot& snap) {
-  if (!snap.vehicle) {
+  if (!snap.sensors->vehicle) {
     return "No status yet";
   }
-  switch (snap.vehicle->mode) {
+  switch (snap.sensors->vehicle->mode) {
     case VehicleMode::kHover:
       return "Hover hold";
     case VehicleMode::kAlign:
       return "Aligning";
     case VehicleMode::kDescend:
-      return snap.vehicle->flies_on_vision ? "Landing on vision" : "Descending on GPS";
+      return snap.sensors->vehicle->flies_on_vision ? "Landing on vision" : "Descending on GPS";
     case VehicleMode::kSettle:
       return "Settling";
     case VehicleMode::kSink:
@@ -49,7 +49,7 @@ struct Ages {
 
 Ages AgesOf(const EngineSnapshot& snap) {
   const auto one = [&](ChannelId id, double period_s, double& age_s) {
-    const ChannelHealth* channel = FindChannel(snap.channels, id);
+    const ChannelHealth* channel = FindChannel(snap.sensors->channels, id);
     age_s =
         channel != nullptr && channel->state != ChannelHealth::State::kNever ? channel->age_s : NAN;
     return AgeState(age_s, channel != nullptr && channel->expected_hz > 0 ? 1 / channel->expected_hz
@@ -62,9 +62,9 @@ Ages AgesOf(const EngineSnapshot& snap) {
 }
 
 double PositionError3s(const EngineSnapshot& snap) {
-  const FilterStatus& vision = snap.navigation.vision;
+  const FilterStatus& vision = snap.flight->navigation.vision;
   const FilterStatus& filter =
-      vision.running && vision.estimate.healthy ? vision : snap.navigation.gps;
+      vision.running && vision.estimate.healthy ? vision : snap.flight->navigation.gps;
   return filter.running ? 3 * filter.estimate.sigma_p_m.norm() : NAN;
 }
 
@@ -78,16 +78,19 @@ std::vector<Readout> Readouts(const EngineSnapshot& snap, bool narrow) {
     return Readout{std::move(label), Fixed(value, decimals), std::move(unit),
                    ages.status,      ages.status_s,          ""};
   };
-  const MissionStatus& m = snap.mission;
-  const double wind = snap.vehicle ? snap.vehicle->wind_speed_mps : NAN;
+  const MissionStatus& m = snap.flight->mission;
+  const double wind = snap.sensors->vehicle ? snap.sensors->vehicle->wind_speed_mps : NAN;
   const std::string wind_unit =
-      snap.vehicle && !narrow ? "m/s, " + Fixed(Deg(snap.vehicle->wind_from_rad), 0) + "°" : "m/s";
-  const double fuel = snap.vehicle ? snap.vehicle->battery_or_fuel * 100 : NAN;
-  const double speed = snap.pose ? snap.pose->v_WB.head<2>().norm() : NAN;
-  const double down = snap.pose ? snap.pose->v_WB.z() : NAN;
+      snap.sensors->vehicle && !narrow
+          ? "m/s, " + Fixed(Deg(snap.sensors->vehicle->wind_from_rad), 0) + "°"
+          : "m/s";
+  const double fuel = snap.sensors->vehicle ? snap.sensors->vehicle->battery_or_fuel * 100 : NAN;
+  const double speed = snap.sensors->pose ? snap.sensors->pose->v_WB.head<2>().norm() : NAN;
+  const double down = snap.sensors->pose ? snap.sensors->pose->v_WB.z() : NAN;
   if (IsDescentView(snap)) {
-    const double from_m = snap.history && !snap.history->empty() ? snap.history->back().from_site_m
-                                                                 : m.distance_to_site_m;
+    const double from_m = snap.flight->history && !snap.flight->history->empty()
+                              ? snap.flight->history->back().from_site_m
+                              : m.distance_to_site_m;
     if (narrow) {
       return {pose("Height", m.height_above_site_m, 1, "m"),
               pose("To go", m.time_to_touchdown_s, 0, "s"), pose("Descent", down, 2, "m/s"),
@@ -100,17 +103,18 @@ std::vector<Readout> Readouts(const EngineSnapshot& snap, bool narrow) {
             status("Wind", wind, 1, wind_unit),
             status("Fuel", fuel, 0, "%")};
   }
-  const double height = snap.laser && std::isfinite(snap.laser->range_m)
-                            // The laser looks along the camera: only its vertical share is height.
-                            ? snap.laser->range_m * snap.X_WC.R(2, 2)
-                            : snap.pose ? HeightFromDown(snap.pose->X_WB.p.z()) : NAN;
+  const double height =
+      snap.sensors->laser && std::isfinite(snap.sensors->laser->range_m)
+          // The laser looks along the camera: only its vertical share is height.
+          ? snap.sensors->laser->range_m * snap.sensors->X_WC.R(2, 2)
+          : snap.sensors->pose ? HeightFromDown(snap.sensors->pose->X_WB.p.z()) : NAN;
   if (narrow) {
     return {pose("Height", height, 1, "m"), pose("Speed", speed, 1, "m/s"),
             status("Wind", wind, 1, "m/s"), pose("Error, 3σ", PositionError3s(snap), 2, "m")};
   }
   return {pose("Height above ground", height, 1, "m"),
           pose("Ground speed", speed, 1, "m/s"),
-          pose("Heading", snap.pose ? HeadingDeg(*snap.pose) : NAN, 0, "°"),
+          pose("Heading", snap.sensors->pose ? HeadingDeg(*snap.sensors->pose) : NAN, 0, "°"),
           status("Wind", wind, 1, wind_unit),
           pose("Position error", PositionError3s(snap), 2, "m, 3σ"),
           status("Fuel", fuel, 0, "%")};

@@ -45,9 +45,9 @@ Rect View3dScene(const Rect& panel, const Style& style) { return PanelContent(pa
 void DrawView3dPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui) {
   const Style& s = ui.style;
   const Rect scene = DrawPanelFrame(ui, rect, "3-D view",
-                                    {{rect.w < s.Px(300) ? ""
-                                      : snap.applied     ? "Safe distance over picture"
-                                                         : "No map yet"}});
+                                    {{rect.w < s.Px(300)      ? ""
+                                      : snap.terrain->applied ? "Safe distance over picture"
+                                                              : "No map yet"}});
   ImDrawList* dl = Canvas();
   if (ui.textures.scene_3d != nullptr) {
     dl->AddImageRounded(ui.textures.scene_3d, scene.min(), scene.max(), {0, 0}, {1, 1},

@@ -8,14 +8,14 @@ namespace {
 constexpr double kAnswerTime_s = 1.0;
 
 std::string SecondLine(const EngineSnapshot& snap, const FrameState& state, double now_s) {
-  if (!snap.can_transmit) {
-    return snap.source.kind == SourceKind::kReplay ? "No link in replay" : "No link";
+  if (!snap.session->can_transmit) {
+    return snap.session->source.kind == SourceKind::kReplay ? "No link in replay" : "No link";
   }
-  const bool aborting = snap.mission.state == MissionState::kAborting;
-  if (aborting && snap.vehicle && snap.vehicle->mode == VehicleMode::kAbort) {
+  const bool aborting = snap.flight->mission.state == MissionState::kAborting;
+  if (aborting && snap.sensors->vehicle && snap.sensors->vehicle->mode == VehicleMode::kAbort) {
     return "Vehicle confirms";
   }
-  if (aborting && snap.vehicle && snap.vehicle->mode == VehicleMode::kHover &&
+  if (aborting && snap.sensors->vehicle && snap.sensors->vehicle->mode == VehicleMode::kHover &&
       now_s - state.wave_off_sent_s > kAnswerTime_s) {
     return "Done, vehicle hovers";
   }
@@ -31,7 +31,7 @@ void DrawWaveOffPanel(const EngineSnapshot& snap, const Rect& rect, FrameState& 
                       UiFrame& ui) {
   const Style& s = ui.style;
   const Palette& p = s.palette;
-  const bool enabled = snap.can_transmit;
+  const bool enabled = snap.session->can_transmit;
   ui.items.Add("panel/WAVE OFF", rect, true, "");
   // A popup never stands in its way; from the keyboard it has a key of its own that works anywhere.
   const Interaction in = Interact(
@@ -42,7 +42,7 @@ void DrawWaveOffPanel(const EngineSnapshot& snap, const Rect& rect, FrameState& 
   }
   const std::string second = SecondLine(snap, state, ui.ui_time_s);
   ui.items.Last("wave_off").text = "WAVE OFF | " + second;
-  const bool latched = enabled && (snap.mission.state == MissionState::kAborting ||
+  const bool latched = enabled && (snap.flight->mission.state == MissionState::kAborting ||
                                    ui.ui_time_s - state.wave_off_sent_s < kAnswerTime_s);
   ImU32 fill = p.wave_off;
   if (latched) {

@@ -46,16 +46,16 @@ GLuint TextureSet::Show(Slot& slot, std::shared_ptr<const ImageU8> picture, Text
 void TextureSet::Update(const EngineSnapshot& snapshot, double camera_scale) {
   const TextureFilter filter = camera_scale > 2 ? TextureFilter::kNearest : TextureFilter::kLinear;
   // An alias keeps the whole frame alive as long as its picture is shown.
-  std::shared_ptr<const ImageU8> left = snapshot.left_rectified;
-  std::shared_ptr<const ImageU8> right = snapshot.right_rectified;
-  if (left == nullptr && snapshot.frame != nullptr) {
-    left = {snapshot.frame, &snapshot.frame->left};
+  std::shared_ptr<const ImageU8> left = snapshot.sensors->left_rectified;
+  std::shared_ptr<const ImageU8> right = snapshot.sensors->right_rectified;
+  if (left == nullptr && snapshot.sensors->frame != nullptr) {
+    left = {snapshot.sensors->frame, &snapshot.sensors->frame->left};
   }
-  if (right == nullptr && snapshot.frame != nullptr) {
-    right = {snapshot.frame, &snapshot.frame->right};
+  if (right == nullptr && snapshot.sensors->frame != nullptr) {
+    right = {snapshot.sensors->frame, &snapshot.sensors->frame->right};
   }
   std::array<Slot, 5>& slots = *pictures_;
-  const TrackerStatus& tracker = snapshot.tracker;
+  const TrackerStatus& tracker = snapshot.flight->tracker;
   names_.left_camera = Show(slots[0], std::move(left), filter);
   names_.right_camera = Show(slots[1], std::move(right), filter);
   names_.anchor_patch = Show(slots[2], tracker.anchor_patch, TextureFilter::kLinear);
@@ -67,22 +67,24 @@ void TextureSet::Update(const EngineSnapshot& snapshot, double camera_scale) {
 }
 
 void TextureSet::UpdateRange(const EngineSnapshot& snapshot) {
-  if (!range_shown_ || snapshot.range == nullptr || snapshot.range->depth_m.empty()) {
+  if (!range_shown_ || snapshot.terrain->range == nullptr ||
+      snapshot.terrain->range->depth_m.empty()) {
     names_.range_tint = 0;
     range_uploaded_.reset();
     return;
   }
-  if (snapshot.range != range_uploaded_) {
-    range_uploaded_ = snapshot.range;
-    names_.range_tint_m = DepthRangeFor(snapshot.range->depth_m);
-    range_.Upload(RangeTint(snapshot.range->depth_m, names_.range_tint_m), TextureFilter::kLinear);
+  if (snapshot.terrain->range != range_uploaded_) {
+    range_uploaded_ = snapshot.terrain->range;
+    names_.range_tint_m = DepthRangeFor(snapshot.terrain->range->depth_m);
+    range_.Upload(RangeTint(snapshot.terrain->range->depth_m, names_.range_tint_m),
+                  TextureFilter::kLinear);
   }
   names_.range_tint = range_.name();
 }
 
 void TextureSet::UpdateMaps(const EngineSnapshot& snapshot) {
   const std::shared_ptr<const TerrainDecision>& decision =
-      snapshot.preview != nullptr ? snapshot.preview : snapshot.applied;
+      snapshot.terrain->preview != nullptr ? snapshot.terrain->preview : snapshot.terrain->applied;
   if (decision == shown_) {
     return;
   }
@@ -115,7 +117,7 @@ void TextureSet::UpdateMaps(const EngineSnapshot& snapshot) {
 }
 
 void TextureSet::UpdateComparison(const EngineSnapshot& snapshot) {
-  const std::shared_ptr<const TerrainDecision>& recorded = snapshot.recorded;
+  const std::shared_ptr<const TerrainDecision>& recorded = snapshot.terrain->recorded;
   if (recorded == compared_recorded_ && shown_ == compared_now_) {
     return;
   }

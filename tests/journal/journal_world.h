@@ -71,7 +71,7 @@ inline RecordedFlight RecordFlight(const std::filesystem::path& folder, int bund
     }
     auto snapshot = std::make_shared<EngineSnapshot>(RandomSnapshot(random, *item.bundle));
     events->push_back({item.bundle->time, EventKind::kState, "event " + std::to_string(i)});
-    snapshot->events = std::make_shared<const std::vector<Event>>(*events);
+    snapshot->session.Edit().events = std::make_shared<const std::vector<Event>>(*events);
     item.snapshot = snapshot;
     PositionEstimate estimate;
     estimate.time = item.bundle->time;

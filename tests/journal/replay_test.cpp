@@ -60,7 +60,7 @@ TEST_F(ReplayTest, TellsWhatTheFlightDecided) {
   ASSERT_EQ(record->samples.size(), flight_.items.size());
   for (std::size_t i = 0; i < record->samples.size(); ++i) {
     const EngineSnapshot& snapshot = *flight_.items[i].snapshot;
-    EXPECT_EQ(record->samples[i].state, snapshot.mission.state);
+    EXPECT_EQ(record->samples[i].state, snapshot.flight->mission.state);
     EXPECT_EQ(record->samples[i].decision_hash, snapshot.decision_hash);
     EXPECT_EQ(record->samples[i].best_site, 'C');
   }
@@ -68,7 +68,7 @@ TEST_F(ReplayTest, TellsWhatTheFlightDecided) {
   EXPECT_TRUE(record->has_settings);
   ASSERT_EQ(record->settings.size(), 1u);
   EXPECT_EQ(record->settings[0].settings, record->settings_at_start);
-  EXPECT_EQ(record->settings_at_start, flight_.items[0].snapshot->settings);
+  EXPECT_EQ(record->settings_at_start, flight_.items[0].snapshot->session->settings);
   EXPECT_NEAR(record->duration_s, 1.1, 1e-9);
 }
 

@@ -116,8 +116,8 @@ TEST(GuardTable, HasEachGuardOnceInOrder) {
   }
 }
 
-// Evidence passes, silence does not (I3). Many vehicles measure no wind: there silence is no evidence
-// of much wind.
+// Evidence passes, silence does not (I3). Many vehicles measure no wind: there silence is no
+// evidence of much wind.
 TEST(GuardTable, NothingKnownPassesNothingThatNeedsEvidence) {
   const std::set<GuardId> silent = {GuardId::kWarnings, GuardId::kSource, GuardId::kWind};
   for (const GuardResult& result : EvaluateGuards(GuardInputs{})) {

@@ -55,7 +55,7 @@ std::shared_ptr<const EngineSnapshot> HoverWith(double focal_px, int frames) {
 }
 
 const Alarm* FindAlarm(const EngineSnapshot& snapshot, AlarmId id) {
-  for (const Alarm& alarm : snapshot.mission.alarms) {
+  for (const Alarm& alarm : snapshot.flight->mission.alarms) {
     if (alarm.kind == id && alarm.active) {
       return &alarm;
     }
@@ -89,8 +89,8 @@ TEST(FocalLengthAsPrinted, MovesTheMonocularPositionAsTheErrataSay) {
 
 TEST(FocalLengthAsPrinted, StereoReadsTenPercentFarAndTheSelfCheckSaysSo) {
   const auto snapshot = HoverWith(FocalAsPrinted(640), 16);
-  EXPECT_NEAR(snapshot->range_agreement.ratio, 1.107, 0.005);
-  EXPECT_NEAR(snapshot->stereo_quality.median_depth_m, 1.107 * kHeight_m, 0.1);
+  EXPECT_NEAR(snapshot->terrain->range_agreement.ratio, 1.107, 0.005);
+  EXPECT_NEAR(snapshot->terrain->stereo_quality.median_depth_m, 1.107 * kHeight_m, 0.1);
   const Alarm* alarm = FindAlarm(*snapshot, AlarmId::kRangeScale);
   ASSERT_NE(alarm, nullptr);
   EXPECT_EQ(alarm->level, AlarmLevel::kCaution);
@@ -99,7 +99,7 @@ TEST(FocalLengthAsPrinted, StereoReadsTenPercentFarAndTheSelfCheckSaysSo) {
 
 TEST(FocalLengthAsPrinted, TheRightFocalLengthRaisesNothing) {
   const auto snapshot = HoverWith(FocalFromFieldOfView(640, kFov_rad), 16);
-  EXPECT_NEAR(snapshot->range_agreement.ratio, 1, 0.004);
+  EXPECT_NEAR(snapshot->terrain->range_agreement.ratio, 1, 0.004);
   EXPECT_EQ(FindAlarm(*snapshot, AlarmId::kRangeScale), nullptr);
 }
 

@@ -176,8 +176,8 @@ TEST(Doors, ASlowEngineLosesPicturesOnlyAndCountsThem) {
   done.wait();
   ASSERT_TRUE(engine.Stop());
 
-  EXPECT_EQ(engine.Latest()->losses.pairs_replaced, 3u);
-  EXPECT_EQ(engine.Latest()->losses.samples_overflowed, 0u);
+  EXPECT_EQ(engine.Latest()->session->losses.pairs_replaced, 3u);
+  EXPECT_EQ(engine.Latest()->session->losses.samples_overflowed, 0u);
   EXPECT_EQ(tape->imu(), samples);
   EXPECT_EQ(tape->notes(), (std::vector<std::string>{"1", "2", "3", "4", "5"}));
   std::vector<std::uint64_t> acks;
@@ -193,7 +193,7 @@ TEST(Doors, ASlowEngineLosesPicturesOnlyAndCountsThem) {
 TEST(Doors, ACommandBetweenFramesReachesTheWireAtOnce) {
   std::latch seen(1), sent(1);
   const auto link = std::make_shared<Link>([&](const EngineSnapshot& snapshot) {
-    if (snapshot.mission.state == MissionState::kAborting) {
+    if (snapshot.flight->mission.state == MissionState::kAborting) {
       sent.count_down();
     } else {
       seen.count_down();
@@ -255,7 +255,7 @@ TEST(Doors, CommandsBeforeTheFirstFrameAreAppliedWithIt) {
       ASSERT_TRUE(engine.Step());
     }
     ASSERT_TRUE(engine.Stop());
-    EXPECT_EQ(engine.Latest()->settings.slad.limits.max_slope_deg, 7);
+    EXPECT_EQ(engine.Latest()->session->settings.slad.limits.max_slope_deg, 7);
     ASSERT_EQ(tape->items.size(), 1u);
     EXPECT_EQ(tape->items[0].commands.size(), 2u);
     EXPECT_NE(tape->items[0].bundle, nullptr);

@@ -116,7 +116,7 @@ TEST(Engine, CommandsFromOtherThreadsAreAppliedOnceInOrderAndRecorded) {
   for (const EngineCommand& command : tape->commands) {
     recorded.push_back(std::get<AddBookmark>(command.action).note);
   }
-  for (const Event& event : *engine.Latest()->events) {
+  for (const Event& event : *engine.Latest()->session->events) {
     if (event.kind == EventKind::kBookmark) {
       happened.push_back(event.text);
     }
@@ -140,7 +140,7 @@ TEST(Engine, ARecorderThatFailsIsShownAndReported) {
   Engine engine(Parts(3, tape, 5), false);
   while (engine.Step()) {
   }
-  EXPECT_FALSE(engine.Latest()->recording);
+  EXPECT_FALSE(engine.Latest()->session->recording);
   const Status stopped = engine.Stop();
   ASSERT_FALSE(stopped);
   EXPECT_EQ(stopped.error().message, "the disk is full");

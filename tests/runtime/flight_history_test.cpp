@@ -15,22 +15,22 @@ EngineSnapshot FlyingAt(const Eigen::Vector3d& p_WB, VehicleMode mode) {
   EngineSnapshot snap;
   auto rig = std::make_shared<StereoRig>();
   rig->position_body_m = kPath.p_BC;
-  snap.rig = rig;
-  snap.mission.state = MissionState::kDescending;
+  snap.sensors.Edit().rig = rig;
+  snap.flight.Edit().mission.state = MissionState::kDescending;
   LandingSite site;
   site.p_WS = kPath.p_WS;
-  snap.mission.armed = site;
+  snap.flight.Edit().mission.armed = site;
   Approval approval;
   approval.p_WS = kPath.p_WS;
   approval.approach_heading_rad = kPath.heading_rad;
   approval.glide_slope_rad = kPath.slope_rad;
-  snap.mission.approval = approval;
+  snap.flight.Edit().mission.approval = approval;
   VehicleStatus vehicle;
   vehicle.mode = mode;
-  snap.vehicle = vehicle;
+  snap.sensors.Edit().vehicle = vehicle;
   VehiclePose pose;
   pose.X_WB = {kPath.LevelRotation(), p_WB};
-  snap.pose = pose;
+  snap.sensors.Edit().pose = pose;
   return snap;
 }
 
@@ -38,18 +38,19 @@ TEST(FlightHistoryPath, IsTheMissions) {
   EngineSnapshot snap = FlyingAt(kPath.BodyAt(10), VehicleMode::kDescend);
   EXPECT_TRUE(std::isnan(SampleOf(snap, FrameBundle{}).glide_deviation_m));
   EXPECT_TRUE(std::isnan(SampleOf(snap, FrameBundle{}).plan_height_m));
-  snap.mission.path = {9.5, 0.25, {}};
+  snap.flight.Edit().mission.path = {9.5, 0.25, {}};
   EXPECT_EQ(SampleOf(snap, FrameBundle{}).glide_deviation_m, 0.25);
   EXPECT_EQ(SampleOf(snap, FrameBundle{}).plan_height_m, 9.5);
 }
 
 TEST(FlightHistoryPath, TheLaserReadsAsHeightOfTheSkids) {
   EngineSnapshot snap = FlyingAt(kPath.BodyAt(10), VehicleMode::kDescend);
-  snap.X_WC = snap.pose->X_WB * snap.rig->X_BC();
+  snap.sensors.Edit().X_WC = snap.sensors->pose->X_WB * snap.sensors->rig->X_BC();
   FrameBundle bundle;
   LaserRange laser;
-  const Eigen::Vector3d beam = snap.X_WC.R.col(2);
-  laser.range_m = (kPath.p_WS.z() - snap.X_WC.p.z()) / beam.z();  // level ground at the site
+  const Eigen::Vector3d beam = snap.sensors->X_WC.R.col(2);
+  laser.range_m =
+      (kPath.p_WS.z() - snap.sensors->X_WC.p.z()) / beam.z();  // level ground at the site
   bundle.laser.push_back(laser);
   EXPECT_NEAR(SampleOf(snap, bundle).laser_m, 10, 1e-9);
 }

@@ -113,7 +113,7 @@ TEST_F(Hold, LeavesWithoutAFrameOrAPassAndIsReplayedAsFlown) {
     }
   };
   ScriptedOperator pilot;
-  const auto state = [&] { return engine.Latest()->mission.state; };
+  const auto state = [&] { return engine.Latest()->flight->mission.state; };
   step();
   for (int i = 0; i < kMostFrames && state() != MissionState::kDescending; ++i) {
     for (const EngineCommand& command : pilot.Decide(*engine.Latest())) {
@@ -121,7 +121,7 @@ TEST_F(Hold, LeavesWithoutAFrameOrAPassAndIsReplayedAsFlown) {
     }
     step();
   }
-  ASSERT_EQ(state(), MissionState::kDescending) << engine.Latest()->mission.why;
+  ASSERT_EQ(state(), MissionState::kDescending) << engine.Latest()->flight->mission.why;
   step();
 
   // A pass that does not end: the short path does not wait for it.
@@ -144,7 +144,7 @@ TEST_F(Hold, LeavesWithoutAFrameOrAPassAndIsReplayedAsFlown) {
   step();
   step();
   EXPECT_EQ(state(), MissionState::kHold);
-  EXPECT_EQ(engine.Latest()->vehicle->mode, VehicleMode::kHold);
+  EXPECT_EQ(engine.Latest()->sensors->vehicle->mode, VehicleMode::kHold);
   ASSERT_TRUE(engine.Stop().ok());
 
   const auto flown = vehicle->flown();
@@ -158,7 +158,7 @@ TEST_F(Hold, LeavesWithoutAFrameOrAPassAndIsReplayedAsFlown) {
     ASSERT_EQ(replay.Latest()->time, flown[i].first) << i;
     ASSERT_EQ(replay.Latest()->decision_hash, flown[i].second) << i;
   }
-  EXPECT_EQ(replay.Latest()->mission.state, MissionState::kHold);
+  EXPECT_EQ(replay.Latest()->flight->mission.state, MissionState::kHold);
 }
 
 }  // namespace

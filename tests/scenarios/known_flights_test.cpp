@@ -69,8 +69,8 @@ Flown Fly(const KnownFlight& flight) {
   while (flown.state != flight.until && engine.Step()) {
     const auto snapshot = engine.Latest();
     hash.Add(snapshot->decision_hash);
-    flown.state = snapshot->mission.state;
-    flown.why = snapshot->mission.why;
+    flown.state = snapshot->flight->mission.state;
+    flown.why = snapshot->flight->mission.why;
     ++flown.passes;
     for (const EngineCommand& command : pilot.Decide(*snapshot)) {
       engine.Post(command);

@@ -42,8 +42,8 @@ struct Decision {
 };
 
 Decision DecisionOf(const EngineSnapshot& snapshot) {
-  return {snapshot.time, snapshot.mission.state, snapshot.decision_hash,
-          snapshot.applied ? snapshot.applied->map_hash : 0};
+  return {snapshot.time, snapshot.flight->mission.state, snapshot.decision_hash,
+          snapshot.terrain->applied ? snapshot.terrain->applied->map_hash : 0};
 }
 
 std::vector<Decision> Replay(const std::filesystem::path& log, std::size_t most) {
@@ -63,7 +63,7 @@ std::vector<Decision> Replay(const std::filesystem::path& log, std::size_t most)
 /// Cells that may be over the slope limit.
 int TooSteep(const EngineSnapshot& snapshot) {
   int count = 0;
-  for (const auto reasons : snapshot.applied->hazards->reasons.cells()) {
+  for (const auto reasons : snapshot.terrain->applied->hazards->reasons.cells()) {
     count += (reasons & kHazardSlope) != 0 ? 1 : 0;
   }
   return count;
@@ -99,7 +99,7 @@ TEST_F(Mission, LandsOnTheSiteAndTheLogDecidesTheSameAgain) {
   ASSERT_TRUE(engine->Stop().ok());
   const FlightSummary& summary = summarizer.summary();
   ASSERT_EQ(summary.final_state, MissionState::kLanded)
-      << "seed " << kSeed << ": " << engine->Latest()->mission.why;
+      << "seed " << kSeed << ": " << engine->Latest()->flight->mission.why;
   ASSERT_TRUE(summary.touchdown_miss_m.has_value());
   EXPECT_LE(*summary.touchdown_miss_m, 0.5) << "seed " << kSeed;
   ASSERT_TRUE(summary.site_obstacle_distance_m.has_value());
@@ -151,7 +151,7 @@ TEST_F(Mission, AMovedLimitDecidesInThePassItArrivesAndInTheReplay) {
     ASSERT_TRUE(engine->Step()) << engine->error();
     flown.push_back(DecisionOf(*engine->Latest()));
   };
-  while (!(flown.size() > 10 && engine->Latest()->applied)) {
+  while (!(flown.size() > 10 && engine->Latest()->terrain->applied)) {
     step();
   }
   const auto before = engine->Latest();
@@ -159,9 +159,9 @@ TEST_F(Mission, AMovedLimitDecidesInThePassItArrivesAndInTheReplay) {
   engine->Post({CommandOrigin::kOperator, SetSetting{"slad.max_slope_deg", limit_deg}});
   step();
   const auto moved = engine->Latest();
-  ASSERT_EQ(moved->settings.slad.limits.max_slope_deg, limit_deg);
-  EXPECT_EQ(moved->applied->settings.limits.max_slope_deg, limit_deg);
-  EXPECT_NE(moved->applied->settings_hash, before->applied->settings_hash);
+  ASSERT_EQ(moved->session->settings.slad.limits.max_slope_deg, limit_deg);
+  EXPECT_EQ(moved->terrain->applied->settings.limits.max_slope_deg, limit_deg);
+  EXPECT_NE(moved->terrain->applied->settings_hash, before->terrain->applied->settings_hash);
   EXPECT_GT(TooSteep(*moved), TooSteep(*before));
   step();
 
@@ -169,7 +169,7 @@ TEST_F(Mission, AMovedLimitDecidesInThePassItArrivesAndInTheReplay) {
   engine->Control({PlaybackControl::Kind::kPause, 0});
   engine->Post({CommandOrigin::kOperator, SetSetting{"slad.max_slope_deg", 9}});
   ASSERT_TRUE(engine->Step());
-  EXPECT_EQ(engine->Latest()->applied->settings.limits.max_slope_deg, 9);
+  EXPECT_EQ(engine->Latest()->terrain->applied->settings.limits.max_slope_deg, 9);
   EXPECT_EQ(engine->Latest()->time, flown.back().time);
   engine->Control({PlaybackControl::Kind::kPlay, 0});
   for (int i = 0; i < 5; ++i) {
@@ -204,11 +204,11 @@ TEST_F(Mission, AStepTakenBetweenFramesIsReplayedAsFlown) {
     while (flown.size() < 200) {
       ASSERT_TRUE(engine->Step()) << engine->error();
       flown.push_back(DecisionOf(*engine->Latest()));
-      if (engine->Latest()->mission.state == state) {
+      if (engine->Latest()->flight->mission.state == state) {
         return;
       }
     }
-    FAIL() << MissionStateName(engine->Latest()->mission.state);
+    FAIL() << MissionStateName(engine->Latest()->flight->mission.state);
   };
   const auto between_frames = [&](CommandAction action) {
     engine->Control({PlaybackControl::Kind::kPause, 0});
@@ -218,8 +218,8 @@ TEST_F(Mission, AStepTakenBetweenFramesIsReplayedAsFlown) {
     engine->Control({PlaybackControl::Kind::kPlay, 0});
   };
   step_until(MissionState::kProposed);
-  between_frames(SelectSite{engine->Latest()->applied->selection.sites.at(0).id});
-  ASSERT_EQ(engine->Latest()->mission.state, MissionState::kArmed);
+  between_frames(SelectSite{engine->Latest()->terrain->applied->selection.sites.at(0).id});
+  ASSERT_EQ(engine->Latest()->flight->mission.state, MissionState::kArmed);
   for (int i = 0; i < 5; ++i) {
     step_until(MissionState::kArmed);
   }

@@ -73,9 +73,9 @@ std::vector<std::uint64_t> MapsOf(Engine& engine) {
   Timestamp last;
   while (engine.Step()) {
     const auto snapshot = engine.Latest();
-    if (snapshot->applied && snapshot->applied->map_time != last) {
-      last = snapshot->applied->map_time;
-      maps.push_back(snapshot->applied->map_hash);
+    if (snapshot->terrain->applied && snapshot->terrain->applied->map_time != last) {
+      last = snapshot->terrain->applied->map_time;
+      maps.push_back(snapshot->terrain->applied->map_hash);
     }
   }
   EXPECT_EQ(engine.error(), "");

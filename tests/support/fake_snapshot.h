@@ -123,7 +123,7 @@ inline std::vector<HistorySample> History(bool descending) {
 
 /// What the mission would say of the flight: nothing is over its limit.
 inline std::vector<LimitRow> Limits(const EngineSnapshot& snap) {
-  const bool descending = snap.mission.state == MissionState::kDescending;
+  const bool descending = snap.flight->mission.state == MissionState::kDescending;
   const EnforcedBy by = descending ? EnforcedBy::kAlarm : EnforcedBy::kNobody;
   std::vector<LimitRow> rows = {{.id = LimitId::kOffPath,
                                  .label = "Off the path",
@@ -187,8 +187,8 @@ inline std::vector<LimitRow> Limits(const EngineSnapshot& snap) {
                                  .unit = "%",
                                  .shown_per_unit = 100,
                                  .enforced_by = EnforcedBy::kAlarm}};
-  if (snap.mission.armed) {
-    const auto site = SiteLimits(*snap.mission.armed, snap.settings.slad);
+  if (snap.flight->mission.armed) {
+    const auto site = SiteLimits(*snap.flight->mission.armed, snap.session->settings.slad);
     rows.insert(rows.end(), site.begin(), site.end());
   }
   return rows;
@@ -203,7 +203,7 @@ inline std::vector<Event> Events() {
 }
 
 inline void FillMission(EngineSnapshot& snap, MissionState state) {
-  MissionStatus& m = snap.mission;
+  MissionStatus& m = snap.flight.Edit().mission;
   const bool armed = state >= MissionState::kArmed;
   const bool descending = state == MissionState::kDescending || state == MissionState::kHold ||
                           state == MissionState::kAborting || state == MissionState::kLanded;
@@ -211,7 +211,7 @@ inline void FillMission(EngineSnapshot& snap, MissionState state) {
   m.since = {kNow_us - 3'200'000};
   m.guards = Guards();
   if (armed) {
-    m.armed = snap.applied->selection.sites.front();
+    m.armed = snap.terrain->applied->selection.sites.front();
     m.armed_at = {kNow_us - 3'200'000};
     m.approach = ApproachPlan{Rad(40), Rad(45), 1.0};
     m.arm_expires = Timestamp{kNow_us + 26'000'000};
@@ -243,7 +243,7 @@ inline void FillMission(EngineSnapshot& snap, MissionState state) {
                   {{kNow_us - 19'000'000}, 33, 4.6, true, ""},
                   {{kNow_us - 9'000'000}, 28, 4.3, true, ""},
                   {{kNow_us - 800'000}, 24, 4.1, true, ""}};
-    m.rechecks.back().alternative = snap.applied->selection.sites[1];
+    m.rechecks.back().alternative = snap.terrain->applied->selection.sites[1];
     m.alarms = {{AlarmId::kSiteDegraded,
                  AlarmLevel::kAdvisory,
                  "Site A confirmed again at 24 m. Clear radius 4.1 m.",
@@ -286,58 +286,59 @@ inline EngineSnapshot Snapshot(MissionState state = MissionState::kArmed,
   EngineSnapshot snap;
   snap.sequence = 2520;
   snap.time = {kNow_us};
-  snap.source = {
+  snap.session.Edit().source = {
       kind,         "udpm://239.255.76.67:7667", false, false, 1, 1, {kNow_us - 252'000'000}, 252,
       std::nullopt, kind == SourceKind::kReplay, 2520,  0};
   if (kind == SourceKind::kReplay) {
-    snap.source.name = "2026-05-04_1432.log";
-    snap.source.duration_s = 338;
-    snap.source.frame_count = 3380;
+    snap.session.Edit().source.name = "2026-05-04_1432.log";
+    snap.session.Edit().source.duration_s = 338;
+    snap.session.Edit().source.frame_count = 3380;
   }
-  snap.can_transmit = kind != SourceKind::kReplay;
-  snap.recording = kind != SourceKind::kReplay;
-  snap.recording_path = "logs/flight.log";
-  snap.recording_minutes_left = 212;
-  snap.channels = Channels();
+  snap.session.Edit().can_transmit = kind != SourceKind::kReplay;
+  snap.session.Edit().recording = kind != SourceKind::kReplay;
+  snap.session.Edit().recording_path = "logs/flight.log";
+  snap.session.Edit().recording_minutes_left = 212;
+  snap.sensors.Edit().channels = Channels();
   StereoRig rig;
   rig.left.pinhole = rig.right.pinhole = Camera();
   rig.tilt_rad = Rad(-90);
-  snap.rig = std::make_shared<const StereoRig>(rig);
+  snap.sensors.Edit().rig = std::make_shared<const StereoRig>(rig);
   VehiclePose pose;
   pose.time = {kNow_us - 11'000};
   pose.X_WB.p = {0, 0, descending ? -22.0 : -38.5};
   pose.X_WB.R = RotationFromEuler({0, 0, 0});
   pose.v_WB = {0.1, 0, descending ? 0.6 : 0};
-  snap.pose = pose;
-  snap.X_WC = pose.X_WB * rig.X_BC();
-  const ImageU8 picture = Picture(Camera(), snap.X_WC);
-  snap.left_rectified = std::make_shared<const ImageU8>(picture);
-  snap.right_rectified = snap.left_rectified;
-  snap.frame =
+  snap.sensors.Edit().pose = pose;
+  snap.sensors.Edit().X_WC = pose.X_WB * rig.X_BC();
+  const ImageU8 picture = Picture(Camera(), snap.sensors->X_WC);
+  snap.sensors.Edit().left_rectified = std::make_shared<const ImageU8>(picture);
+  snap.sensors.Edit().right_rectified = snap.sensors->left_rectified;
+  snap.sensors.Edit().frame =
       std::make_shared<const StereoFrame>(StereoFrame{{kNow_us - 24'000}, picture, picture});
-  snap.stereo_quality.coverage = 0.93;
-  snap.stereo_quality.row_error_px = 0.22;
-  snap.stereo_quality.median_sigma_px = 0.12;
-  snap.stereo_quality.median_depth_m = 38.2;
-  snap.stereo_quality.row_shift_px = -0.08;
-  snap.stereo_quality.row_spread_px = 0.31;
-  snap.range_agreement = {1.004, 0.0011, 40};
+  snap.terrain.Edit().stereo_quality.coverage = 0.93;
+  snap.terrain.Edit().stereo_quality.row_error_px = 0.22;
+  snap.terrain.Edit().stereo_quality.median_sigma_px = 0.12;
+  snap.terrain.Edit().stereo_quality.median_depth_m = 38.2;
+  snap.terrain.Edit().stereo_quality.row_shift_px = -0.08;
+  snap.terrain.Edit().stereo_quality.row_spread_px = 0.31;
+  snap.terrain.Edit().range_agreement = {1.004, 0.0011, 40};
   auto range = std::make_shared<RangeMap>();
   range->camera = Camera();
-  snap.range = range;
-  snap.settings_hash = snap.preview_hash = 0x4f2a9c;
-  snap.applied = Decision(snap.X_WC, snap.settings.slad, snap.settings_hash);
+  snap.terrain.Edit().range = range;
+  snap.session.Edit().settings_hash = snap.session.Edit().preview_hash = 0x4f2a9c;
+  snap.terrain.Edit().applied =
+      Decision(snap.sensors->X_WC, snap.session->settings.slad, snap.session->settings_hash);
   FillMission(snap, state);
-  FillTracker(snap.tracker);
-  snap.navigation.gps.running = snap.navigation.vision.running = true;
-  PositionEstimate& estimate = snap.navigation.vision.estimate;
+  FillTracker(snap.flight.Edit().tracker);
+  snap.flight.Edit().navigation.gps.running = snap.flight.Edit().navigation.vision.running = true;
+  PositionEstimate& estimate = snap.flight.Edit().navigation.vision.estimate;
   estimate = {{kNow_us - 26'000}, EstimateSource::kVision, true, 7, pose.X_WB.p, pose.v_WB,
               {0.03, 0.03, 0.05}, {0.01, 0.01, 0.007}};
-  snap.navigation.vision.residual_sigma = 0.4;
-  snap.navigation.gps.estimate = estimate;
-  snap.navigation.gps.estimate.source = EstimateSource::kGps;
-  snap.navigation.gps.estimate.sigma_p_m = {0.87, 0.87, 1.4};
-  snap.navigation.handover = NavigationStatus::Handover::kVision;
+  snap.flight.Edit().navigation.vision.residual_sigma = 0.4;
+  snap.flight.Edit().navigation.gps.estimate = estimate;
+  snap.flight.Edit().navigation.gps.estimate.source = EstimateSource::kGps;
+  snap.flight.Edit().navigation.gps.estimate.sigma_p_m = {0.87, 0.87, 1.4};
+  snap.flight.Edit().navigation.handover = NavigationStatus::Handover::kVision;
   VehicleStatus vehicle;
   vehicle.time = {kNow_us - 400'000};
   vehicle.boot_id = 7;
@@ -347,12 +348,14 @@ inline EngineSnapshot Snapshot(MissionState state = MissionState::kArmed,
   vehicle.wind_from_rad = Rad(240);
   vehicle.battery_or_fuel = 0.74;
   vehicle.simulated = kind == SourceKind::kSimulation;
-  snap.vehicle = vehicle;
-  snap.laser = LaserRange{{kNow_us - 38'000}, descending ? 21.7 : 38.2};
-  snap.mission.limits = Limits(snap);
-  snap.events = std::make_shared<const std::vector<Event>>(Events());
-  snap.history = std::make_shared<const std::vector<HistorySample>>(History(descending));
-  snap.timings = {{"rectify", 1.2}, {"disparity", 28.0}, {"slad", 4.1}, {"tracking", 1.9}};
+  snap.sensors.Edit().vehicle = vehicle;
+  snap.sensors.Edit().laser = LaserRange{{kNow_us - 38'000}, descending ? 21.7 : 38.2};
+  snap.flight.Edit().mission.limits = Limits(snap);
+  snap.session.Edit().events = std::make_shared<const std::vector<Event>>(Events());
+  snap.flight.Edit().history =
+      std::make_shared<const std::vector<HistorySample>>(History(descending));
+  snap.session.Edit().timings = {
+      {"rectify", 1.2}, {"disparity", 28.0}, {"slad", 4.1}, {"tracking", 1.9}};
   snap.decision_hash = 0xfeed;
   return snap;
 }

@@ -117,12 +117,12 @@ TEST(Proposal, SurvivesWithEveryFigure) {
   RandomStream random(32);
   const auto bundle = RandomBundle(random, 1, nullptr);
   const EngineSnapshot snapshot = RandomSnapshot(random, *bundle);
-  const WireMessage message = EncodeProposal(*snapshot.applied, bundle->time, kChannels);
+  const WireMessage message = EncodeProposal(*snapshot.terrain->applied, bundle->time, kChannels);
   const Result<SiteProposal> back = DecodeProposal(message);
   ASSERT_TRUE(back.ok());
-  EXPECT_EQ(back->map_hash, snapshot.applied->map_hash);
+  EXPECT_EQ(back->map_hash, snapshot.terrain->applied->map_hash);
   ASSERT_EQ(back->selection.sites.size(), 2u);
-  TerrainDecision again = *snapshot.applied;
+  TerrainDecision again = *snapshot.terrain->applied;
   again.selection = back->selection;
   EXPECT_EQ(EncodeProposal(again, bundle->time, kChannels).payload, message.payload);
   EXPECT_EQ(back->selection.sites[0].reason, "widest clearance");
@@ -134,11 +134,11 @@ TEST(StationStatus, SurvivesAsARecordSample) {
   const EngineSnapshot s = RandomSnapshot(random, *bundle);
   const auto back = DecodeStationStatus(EncodeStationStatus(s, kChannels));
   ASSERT_TRUE(back.ok());
-  EXPECT_EQ(back->state, s.mission.state);
+  EXPECT_EQ(back->state, s.flight->mission.state);
   EXPECT_EQ(back->decision_hash, s.decision_hash);
   EXPECT_EQ(back->best_site, 'C');
-  EXPECT_EQ(back->best_safe_distance_m, s.applied->selection.sites[0].safe_distance_m);
-  EXPECT_EQ(back->height_above_site_m, s.mission.height_above_site_m);
+  EXPECT_EQ(back->best_safe_distance_m, s.terrain->applied->selection.sites[0].safe_distance_m);
+  EXPECT_EQ(back->height_above_site_m, s.flight->mission.height_above_site_m);
   EXPECT_TRUE(std::isnan(back->distance_to_site_m));
 }
 
@@ -146,7 +146,7 @@ TEST(OutputEncoder, SendsOnlyNews) {
   RandomStream random(34);
   const auto bundle = RandomBundle(random, 1, nullptr);
   EngineSnapshot s = RandomSnapshot(random, *bundle);
-  s.events = std::make_shared<const std::vector<Event>>(
+  s.session.Edit().events = std::make_shared<const std::vector<Event>>(
       std::vector<Event>{{s.time, EventKind::kState, "one"}});
   OutputEncoder encoder;
   const auto channels = [&] {
@@ -160,10 +160,10 @@ TEST(OutputEncoder, SendsOnlyNews) {
   EXPECT_EQ(channels(), (Names{"SLAD_SETTINGS", "SITE_PROPOSAL", "TRACKER_STATUS", "EVENT",
                                "MISSION", "STATION_STATUS"}));
   EXPECT_EQ(channels(), Names{"STATION_STATUS"});
-  s.settings.slad.limits.max_slope_deg = 9;
-  s.settings_hash = HashOf(s.settings);
+  s.session.Edit().settings.slad.limits.max_slope_deg = 9;
+  s.session.Edit().settings_hash = HashOf(s.session->settings);
   EXPECT_EQ(channels(), (Names{"SLAD_SETTINGS", "STATION_STATUS"}));
-  s.events = std::make_shared<const std::vector<Event>>(
+  s.session.Edit().events = std::make_shared<const std::vector<Event>>(
       std::vector<Event>{{s.time, EventKind::kState, "one"}, {s.time, EventKind::kState, "two"}});
   EXPECT_EQ(channels(), (Names{"EVENT", "STATION_STATUS"}));
 }

@@ -112,13 +112,13 @@ inline EngineSnapshot RandomSnapshot(RandomStream& random, const FrameBundle& bu
   EngineSnapshot snapshot;
   snapshot.sequence = bundle.sequence + 1;
   snapshot.time = bundle.time;
-  snapshot.pose = bundle.pose_at_exposure;
-  snapshot.mission.state = static_cast<MissionState>(random.Index(9));
-  snapshot.mission.why = "a test";
-  snapshot.mission.height_above_site_m = random.Uniform(0, 15);
-  snapshot.mission.distance_to_site_m = NAN;
+  snapshot.sensors.Edit().pose = bundle.pose_at_exposure;
+  snapshot.flight.Edit().mission.state = static_cast<MissionState>(random.Index(9));
+  snapshot.flight.Edit().mission.why = "a test";
+  snapshot.flight.Edit().mission.height_above_site_m = random.Uniform(0, 15);
+  snapshot.flight.Edit().mission.distance_to_site_m = NAN;
   snapshot.decision_hash = random.NextBits();
-  snapshot.settings_hash = HashOf(snapshot.settings);
+  snapshot.session.Edit().settings_hash = HashOf(snapshot.session->settings);
   auto decision = std::make_shared<TerrainDecision>();
   decision->map_time = bundle.time;
   decision->map_hash = random.NextBits();
@@ -135,11 +135,11 @@ inline EngineSnapshot RandomSnapshot(RandomStream& random, const FrameBundle& bu
   site.confirmed = true;
   site.reason = "widest clearance";
   decision->selection.sites = {site, site};
-  snapshot.applied = decision;
-  snapshot.tracker.time = bundle.time;
-  snapshot.tracker.locked = true;
-  snapshot.tracker.mode = "Plane";
-  snapshot.tracker.coherence = random.Uniform();
+  snapshot.terrain.Edit().applied = decision;
+  snapshot.flight.Edit().tracker.time = bundle.time;
+  snapshot.flight.Edit().tracker.locked = true;
+  snapshot.flight.Edit().tracker.mode = "Plane";
+  snapshot.flight.Edit().tracker.coherence = random.Uniform();
   return snapshot;
 }
 
@@ -168,7 +168,7 @@ inline std::vector<WireMessage> OneOfEach(RandomStream& random) {
     messages.push_back(EncodeVehicleMessage(message, bundle->time, channels));
   }
   EngineSnapshot snapshot = RandomSnapshot(random, *bundle);
-  snapshot.events = std::make_shared<const std::vector<Event>>(
+  snapshot.session.Edit().events = std::make_shared<const std::vector<Event>>(
       std::vector<Event>{{bundle->time, EventKind::kBookmark, "here"}});
   for (WireMessage& message : OutputEncoder(channels).Encode(snapshot)) {
     messages.push_back(std::move(message));

@@ -12,9 +12,9 @@
 
 #include "engine/mission/alarms/alarm_board.h"
 #include "engine/mission/limits.h"
-#include "engine/mission/watch/loss_watch.h"
 #include "engine/mission/mission_inputs.h"
 #include "engine/mission/mission_memory.h"
+#include "engine/mission/watch/loss_watch.h"
 
 namespace palace {
 

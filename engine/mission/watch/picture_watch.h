@@ -7,8 +7,8 @@
 #include <cstdint>
 
 #include "engine/mission/watch/persistence.h"
-#include "engine/model/range_map.h"
 #include "engine/model/mission/session_role.h"
+#include "engine/model/range_map.h"
 
 namespace palace {
 

@@ -35,7 +35,7 @@ const char* KindWord(EventKind kind) {
 void DrawEvents(const EngineSnapshot& snap, const Rect& rect, DiagnoseState& state, UiFrame& ui) {
   const Style& s = ui.style;
   const Palette& p = s.palette;
-  const int count = snap.events ? static_cast<int>(snap.events->size()) : 0;
+  const int count = snap.session->events ? static_cast<int>(snap.session->events->size()) : 0;
   const Rect content =
       DrawPanelFrame(ui, rect, "Events", {{Fixed(count, 0) + ", newest first", 0, false, false}});
   if (count == 0) {
@@ -50,7 +50,7 @@ void DrawEvents(const EngineSnapshot& snap, const Rect& rect, DiagnoseState& sta
   state.event_offset = std::clamp(state.event_offset, 0, std::max(0, count - rows));
   for (int i = 0; i < rows && i + state.event_offset < count; ++i) {
     const Event& event =
-        (*snap.events)[static_cast<std::size_t>(count - 1 - i - state.event_offset)];
+        (*snap.session->events)[static_cast<std::size_t>(count - 1 - i - state.event_offset)];
     const float y = content.y + row_h * (static_cast<float>(i) + 0.5f);
     float x = content.x + s.Px(12);
     x += DrawText(ui, s.mono, p.text2, x, y, ClockText(event.time)) + s.Px(14);
@@ -89,11 +89,12 @@ void DrawChannels(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui) {
     DrawText(ui, s.caption, p.text2, column(i), y, heads[i], Align::kRight);
   }
   y += s.Px(22);
-  const float pitch = RowPitch(s, rect.bottom() - s.Px(6) - y + s.Px(13), snap.channels.size());
-  if (snap.channels.empty()) {
+  const float pitch =
+      RowPitch(s, rect.bottom() - s.Px(6) - y + s.Px(13), snap.sensors->channels.size());
+  if (snap.sensors->channels.empty()) {
     DrawText(ui, s.body, p.text2, content.x + s.Px(12), y, "Nothing has arrived yet.");
   }
-  for (const ChannelHealth& c : snap.channels) {
+  for (const ChannelHealth& c : snap.sensors->channels) {
     if (y + s.Px(10) > rect.bottom()) {
       break;
     }
@@ -120,15 +121,16 @@ void DrawTimings(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui) {
   const Style& s = ui.style;
   const Palette& p = s.palette;
   double total_ms = 0, longest_ms = 1;
-  for (const StageTiming& t : snap.timings) {
+  for (const StageTiming& t : snap.session->timings) {
     total_ms += t.milliseconds;
     longest_ms = std::max(longest_ms, t.milliseconds);
   }
   const Rect content =
       DrawPanelFrame(ui, rect, "Stages", {{Fixed(total_ms, 1) + " ms a frame", 0, false, false}});
   float y = content.y + s.Px(10);
-  const float pitch = RowPitch(s, rect.bottom() - s.Px(6) - y + s.Px(13), snap.timings.size());
-  for (const StageTiming& t : snap.timings) {
+  const float pitch =
+      RowPitch(s, rect.bottom() - s.Px(6) - y + s.Px(13), snap.session->timings.size());
+  for (const StageTiming& t : snap.session->timings) {
     if (y + s.Px(10) > rect.bottom()) {
       break;
     }
@@ -149,11 +151,11 @@ void DrawNotes(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui) {
   const Palette& p = s.palette;
   const Rect content = DrawPanelFrame(ui, rect, "Diagnostics of this frame");
   float y = content.y + s.Px(12);
-  if (snap.diagnostics.empty()) {
+  if (snap.session->diagnostics.empty()) {
     DrawText(ui, s.body, p.text2, content.x + s.Px(12), y, "Every stage did its work.");
     return;
   }
-  for (const Diagnostic& d : snap.diagnostics) {
+  for (const Diagnostic& d : snap.session->diagnostics) {
     const ImU32 colour = d.level == DiagnosticLevel::kError     ? p.warning
                          : d.level == DiagnosticLevel::kWarning ? p.caution
                                                                 : p.advisory;
@@ -190,9 +192,9 @@ void DrawHashes(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui) {
   const struct {
     const char* name;
     std::string value;
-  } rows[] = {{"Limits in force", Hex(snap.settings_hash)},
-              {"Limits previewed", Hex(snap.preview_hash)},
-              {"Newest map", snap.applied ? Hex(snap.applied->map_hash) : "––"},
+  } rows[] = {{"Limits in force", Hex(snap.session->settings_hash)},
+              {"Limits previewed", Hex(snap.session->preview_hash)},
+              {"Newest map", snap.terrain->applied ? Hex(snap.terrain->applied->map_hash) : "––"},
               {"Decision", Hex(snap.decision_hash)},
               {"Snapshot", Fixed(static_cast<double>(snap.sequence), 0)}};
   float y = content.y + s.Px(10);
@@ -231,12 +233,13 @@ void DrawDiagnoseWorkspace(const EngineSnapshot& snap, const Rect& body, Diagnos
   const auto rows_h = [&](std::size_t rows, float head) {
     return s.Px(head + 26 * static_cast<float>(std::max<std::size_t>(rows, 1)));
   };
-  const std::size_t sites = snap.applied ? snap.applied->selection.sites.size() : 0;
+  const std::size_t sites =
+      snap.terrain->applied ? snap.terrain->applied->selection.sites.size() : 0;
   const float sites_h = std::min(rows_h(sites, 66), std::round(body.h * 0.36f));
   // Guards and sites as tall as they need; what is left lists the alarms.
   constexpr std::size_t kGuards = 14;
-  const float guards_h =
-      std::min(rows_h(std::max(snap.mission.guards.size(), kGuards), 40), body.h - sites_h - gap);
+  const float guards_h = std::min(rows_h(std::max(snap.flight->mission.guards.size(), kGuards), 40),
+                                  body.h - sites_h - gap);
   const float alarms_y = body.y + guards_h + gap + sites_h + gap;
   const bool alarms = body.bottom() - alarms_y > s.Px(80);
   const float sites_y = alarms ? body.y + guards_h + gap : body.bottom() - sites_h;
@@ -249,11 +252,11 @@ void DrawDiagnoseWorkspace(const EngineSnapshot& snap, const Rect& body, Diagnos
   const auto share = [&](float wanted, float most) {
     return std::min(s.Px(wanted), std::round(body.h * most));
   };
-  const bool cameras = !snap.source.cameras.empty();
-  const float channels_h =
-      share(62 + 26 * static_cast<float>(std::max<std::size_t>(snap.channels.size(), 1)), 0.38f);
-  const float stages_h =
-      share(40 + 26 * static_cast<float>(std::max<std::size_t>(snap.timings.size(), 1)), 0.23f);
+  const bool cameras = !snap.session->source.cameras.empty();
+  const float channels_h = share(
+      62 + 26 * static_cast<float>(std::max<std::size_t>(snap.sensors->channels.size(), 1)), 0.38f);
+  const float stages_h = share(
+      40 + 26 * static_cast<float>(std::max<std::size_t>(snap.session->timings.size(), 1)), 0.23f);
   // In a low window the cameras' counters take the place of the hashes.
   const bool hashes = !cameras || body.h > s.Px(760);
   const float hashes_h = share(170, cameras ? 0.18f : 0.23f);
@@ -261,7 +264,8 @@ void DrawDiagnoseWorkspace(const EngineSnapshot& snap, const Rect& body, Diagnos
   DrawChannels(snap, {right_x, y, right, channels_h}, ui);
   y += channels_h + gap;
   if (cameras) {
-    const float cameras_h = share(62 + 26 * static_cast<float>(snap.source.cameras.size()), 0.18f);
+    const float cameras_h =
+        share(62 + 26 * static_cast<float>(snap.session->source.cameras.size()), 0.18f);
     DrawCameraTable(snap, {right_x, y, right, cameras_h}, ui);
     y += cameras_h + gap;
   }

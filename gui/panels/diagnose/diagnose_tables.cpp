@@ -11,7 +11,7 @@ namespace palace {
 void DrawGuards(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui) {
   const Style& s = ui.style;
   const Palette& p = s.palette;
-  const std::vector<GuardResult>& guards = snap.mission.guards;
+  const std::vector<GuardResult>& guards = snap.flight->mission.guards;
   std::size_t passing = 0;
   for (const GuardResult& guard : guards) {
     passing += guard.pass ? 1 : 0;
@@ -66,7 +66,7 @@ void DrawGuards(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui) {
 void DrawAlarmTable(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui) {
   const Style& s = ui.style;
   const Palette& p = s.palette;
-  const std::vector<Alarm>& alarms = snap.mission.alarms;
+  const std::vector<Alarm>& alarms = snap.flight->mission.alarms;
   const Rect content = DrawPanelFrame(ui, rect, "Alarms");
   float y = content.y + s.Px(12);
   if (alarms.empty()) {
@@ -116,7 +116,7 @@ void DrawCameraTable(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui) 
   }
   y += s.Px(22);
   const auto count = [](std::uint64_t n) { return Fixed(static_cast<double>(n), 0); };
-  for (const CameraCounters& camera : snap.source.cameras) {
+  for (const CameraCounters& camera : snap.session->source.cameras) {
     if (y + s.Px(10) > rect.bottom()) {
       return;
     }
@@ -145,12 +145,14 @@ void DrawSiteTable(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui) {
   const Palette& p = s.palette;
   const Rect content = DrawPanelFrame(
       ui, rect, "Sites of the newest map",
-      {{snap.applied ? AgeText(SecondsBetween(snap.applied->map_time, snap.time)) + " old" : "", 0,
-        false, false}});
+      {{snap.terrain->applied
+            ? AgeText(SecondsBetween(snap.terrain->applied->map_time, snap.time)) + " old"
+            : "",
+        0, false, false}});
   float y = content.y + s.Px(12);
-  if (!snap.applied || snap.applied->selection.sites.empty()) {
+  if (!snap.terrain->applied || snap.terrain->applied->selection.sites.empty()) {
     DrawText(ui, s.body, p.text2, content.x + s.Px(12), y,
-             snap.applied ? "No cell is far enough from every hazard." : "No map yet.");
+             snap.terrain->applied ? "No cell is far enough from every hazard." : "No map yet.");
     return;
   }
   const char* heads[] = {"Clear", "Slope", "Rough", "Probability", "North", "East"};
@@ -162,11 +164,11 @@ void DrawSiteTable(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui) {
              Align::kRight);
   }
   y += s.Px(25);
-  for (const LandingSite& site : snap.applied->selection.sites) {
+  for (const LandingSite& site : snap.terrain->applied->selection.sites) {
     if (y + s.Px(10) > rect.bottom()) {
       return;
     }
-    const bool armed = snap.mission.armed && snap.mission.armed->id == site.id;
+    const bool armed = snap.flight->mission.armed && snap.flight->mission.armed->id == site.id;
     LetterPlate(ui, {content.x + s.Px(22), y}, site.letter, armed);
     const std::string cells[] = {Fixed(site.safe_distance_m, 1) + " m",
                                  Fixed(Deg(site.slope_rad.value), 1) + "°",

@@ -42,14 +42,15 @@ constexpr float kHead = 40, kOneLine = 20, kTwoLines = 42;
 }  // namespace
 
 float LossesHeight(const EngineSnapshot& snap, const Style& s, float most) {
-  const auto rows = static_cast<float>(std::max<std::size_t>(RowsOf(snap.losses).size(), 1));
+  const auto rows =
+      static_cast<float>(std::max<std::size_t>(RowsOf(snap.session->losses).size(), 1));
   return std::max(s.Px(kHead + kOneLine * rows), std::min(s.Px(kHead + kTwoLines * rows), most));
 }
 
 void DrawLosses(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui) {
   const Style& s = ui.style;
   const Palette& p = s.palette;
-  const std::vector<LossRow> rows = RowsOf(snap.losses);
+  const std::vector<LossRow> rows = RowsOf(snap.session->losses);
   const Rect content = DrawPanelFrame(ui, rect, "Losses", {{"since the start", 0, false, false}});
   const float left = content.x + s.Px(12), right = content.right() - s.Px(12);
   float y = content.y + s.Px(12);

@@ -9,7 +9,8 @@ namespace palace {
 namespace {
 
 std::string LimitWords(const SladSettings& slad) {
-  return Fixed(slad.limits.max_slope_deg, 1) + "°, " + Fixed(slad.limits.max_deviation_m * 100, 1) + " cm";
+  return Fixed(slad.limits.max_slope_deg, 1) + "°, " + Fixed(slad.limits.max_deviation_m * 100, 1) +
+         " cm";
 }
 
 Rect SquareIn(const Rect& panel, const Rect& content, const Style& s) {
@@ -64,8 +65,8 @@ void HatchCells(UiFrame& ui, const Rect& square, const TerrainDecision& before,
 void DrawDifference(const EngineSnapshot& snap, const Rect& panel, const TerrainDecision* recorded,
                     MapProbe& probe, UiFrame& ui) {
   const Style& s = ui.style;
-  const TerrainDecision* now = snap.applied.get();
-  const bool moved = snap.recorded != nullptr && ui.textures.difference != nullptr &&
+  const TerrainDecision* now = snap.terrain->applied.get();
+  const bool moved = snap.terrain->recorded != nullptr && ui.textures.difference != nullptr &&
                      now != nullptr && now->hazards && recorded->hazards;
   const double change_m2 = SafeArea(now) - SafeArea(recorded);
   const std::string change = std::isfinite(change_m2)
@@ -106,17 +107,18 @@ void DrawDifference(const EngineSnapshot& snap, const Rect& panel, const Terrain
 }  // namespace
 
 const TerrainDecision* RecordedDecision(const EngineSnapshot& snap) {
-  return snap.recorded ? snap.recorded.get() : snap.applied.get();
+  return snap.terrain->recorded ? snap.terrain->recorded.get() : snap.terrain->applied.get();
 }
 
 void DrawReviewMaps(const EngineSnapshot& snap, const Rect& row, float w, MapProbe& probe,
                     UiFrame& ui) {
   const TerrainDecision* recorded = RecordedDecision(snap);
-  const TerrainDecision* now = snap.applied.get();
+  const TerrainDecision* now = snap.terrain->applied.get();
   const float step = w + ui.style.Px(8);
   DrawReviewMap(ui, {row.x, row.y, w, row.h}, "Recorded",
                 recorded != nullptr ? LimitWords(recorded->settings) : "", recorded,
-                snap.recorded ? ui.textures.recorded_safe_distance : ui.textures.maps[4], probe);
+                snap.terrain->recorded ? ui.textures.recorded_safe_distance : ui.textures.maps[4],
+                probe);
   DrawReviewMap(ui, {row.x + step, row.y, w, row.h}, "Re-decided",
                 now != nullptr ? LimitWords(now->settings) : "", now, ui.textures.maps[4], probe);
   DrawDifference(snap, {row.x + 2 * step, row.y, w, row.h}, recorded, probe, ui);

@@ -38,8 +38,8 @@ Lane StateLane(const EngineSnapshot& snap, const FlightRecord* record) {
       Append(lane.segments, FlightSeconds(snap, record, sample.time),
              MissionStateWord(sample.state), ShadeOf(sample.state), false);
     }
-  } else if (snap.history) {
-    for (const HistorySample& sample : *snap.history) {
+  } else if (snap.flight->history) {
+    for (const HistorySample& sample : *snap.flight->history) {
       Append(lane.segments, FlightSeconds(snap, record, sample.time),
              MissionStateWord(sample.state), ShadeOf(sample.state), false);
     }
@@ -60,8 +60,8 @@ Lane RecordedLane(const EngineSnapshot& snap, const FlightRecord* record) {
 
 Lane RedecidedLane(const EngineSnapshot& snap, const FlightRecord* record) {
   Lane lane{record != nullptr ? "Re-decided site" : "Best site", {}, {}};
-  if (snap.history) {
-    for (const HistorySample& sample : *snap.history) {
+  if (snap.flight->history) {
+    for (const HistorySample& sample : *snap.flight->history) {
       Append(lane.segments, FlightSeconds(snap, record, sample.time), Letter(sample.best_site), 1,
              sample.best_site == 0);
     }
@@ -74,7 +74,7 @@ const std::vector<Event>& EventsOf(const EngineSnapshot& snap, const FlightRecor
   if (record != nullptr && !record->events.empty()) {
     return record->events;
   }
-  return snap.events ? *snap.events : none;
+  return snap.session->events ? *snap.session->events : none;
 }
 
 /// "GPS horizontal error 2.6 m": a mark has room for the first clause only, whole words.
@@ -117,10 +117,11 @@ Lane MarkLane(const EngineSnapshot& snap, const FlightRecord* record, const Pale
 }
 
 double DurationOf(const EngineSnapshot& snap, const FlightRecord* record) {
-  if (snap.source.duration_s) {
-    return *snap.source.duration_s;
+  if (snap.session->source.duration_s) {
+    return *snap.session->source.duration_s;
   }
-  return record != nullptr && record->duration_s > 0 ? record->duration_s : snap.source.position_s;
+  return record != nullptr && record->duration_s > 0 ? record->duration_s
+                                                     : snap.session->source.position_s;
 }
 
 void Playback(UiFrame& ui, PlaybackControl::Kind kind, double value = 0) {
@@ -166,7 +167,7 @@ bool IconButton(UiFrame& ui, const char* name, const Rect& rect, Icon icon, bool
 float DrawTransport(UiFrame& ui, const Rect& row, const EngineSnapshot& snap, double duration_s) {
   using Kind = PlaybackControl::Kind;
   const Style& s = ui.style;
-  const bool seek = snap.source.can_seek;
+  const bool seek = snap.session->source.can_seek;
   const float y = std::round(row.centre().y - s.Px(16));
   float x = row.x;
   const auto next = [&](float width) {
@@ -180,7 +181,7 @@ float DrawTransport(UiFrame& ui, const Rect& row, const EngineSnapshot& snap, do
   if (IconButton(ui, "step_back", next(36), Icon::kFrameBack, false, seek)) {
     Playback(ui, Kind::kStepBack);
   }
-  const bool playing = !snap.source.paused && !snap.source.ended;
+  const bool playing = !snap.session->source.paused && !snap.session->source.ended;
   if (IconButton(ui, "play", next(36), playing ? Icon::kPause : Icon::kPlay, playing, true)) {
     Playback(ui, playing ? Kind::kPause : Kind::kPlay);
   }
@@ -191,15 +192,16 @@ float DrawTransport(UiFrame& ui, const Rect& row, const EngineSnapshot& snap, do
     Playback(ui, Kind::kSeek, duration_s);
   }
   x += s.Px(4);
-  const std::string speed = snap.source.speed > 0
-                                ? Fixed(snap.source.speed, snap.source.speed < 1 ? 2 : 1) + "×"
-                                : std::string("Fastest");
+  const std::string speed =
+      snap.session->source.speed > 0
+          ? Fixed(snap.session->source.speed, snap.session->source.speed < 1 ? 2 : 1) + "×"
+          : std::string("Fastest");
   if (DrawButton(ui, "speed", next(68), speed, {})) {
-    Playback(ui, Kind::kSpeed, NextSpeed(snap.source.speed));
+    Playback(ui, Kind::kSpeed, NextSpeed(snap.session->source.speed));
   }
   if (IconButton(ui, "bookmark", next(36), Icon::kFlag, false, true)) {
-    ui.intents.push_back(
-        CommandAction(AddBookmark{"Bookmark at " + TimeLabel(snap.source.position_s, true)}));
+    ui.intents.push_back(CommandAction(
+        AddBookmark{"Bookmark at " + TimeLabel(snap.session->source.position_s, true)}));
   }
   return x;
 }
@@ -210,16 +212,19 @@ void DrawClock(UiFrame& ui, const Rect& row, float x, const EngineSnapshot& snap
   const Palette& p = s.palette;
   const float middle = row.centre().y;
   x += s.Px(8);
-  x += DrawText(ui, s.replay_time, p.text1, x, middle, TimeLabel(snap.source.position_s, true)) +
+  x += DrawText(ui, s.replay_time, p.text1, x, middle,
+                TimeLabel(snap.session->source.position_s, true)) +
        s.Px(20);
   std::vector<std::pair<ImFont*, std::string>> facts;
   facts.emplace_back(s.body, "of " + TimeLabel(duration_s, true));
-  if (snap.source.frame_count > 0) {
-    facts.emplace_back(s.body, "Frame " + Fixed(static_cast<double>(snap.source.frame_index), 0) +
-                                   " of " + Fixed(static_cast<double>(snap.source.frame_count), 0));
+  if (snap.session->source.frame_count > 0) {
+    facts.emplace_back(
+        s.body, "Frame " + Fixed(static_cast<double>(snap.session->source.frame_index), 0) +
+                    " of " + Fixed(static_cast<double>(snap.session->source.frame_count), 0));
   }
   facts.emplace_back(s.mono, ClockText(snap.time) + " UTC");
-  const std::string name = snap.source.name.substr(snap.source.name.find_last_of('/') + 1);
+  const std::string name =
+      snap.session->source.name.substr(snap.session->source.name.find_last_of('/') + 1);
   const float name_x = row.right() - TextWidth(s.body, name);
   for (const auto& [font, text] : facts) {
     const float width = TextWidth(font, text);
@@ -240,18 +245,18 @@ double FlightSeconds(const EngineSnapshot& snap, const FlightRecord* record, Tim
   if (record != nullptr && record->start_s > 0) {
     return static_cast<double>(time.us) * 1e-6 - record->start_s;
   }
-  return SecondsBetween(snap.source.start, time);
+  return SecondsBetween(snap.session->source.start, time);
 }
 
 std::vector<ReviewDifference> FindDifferences(const EngineSnapshot& snap,
                                               const FlightRecord* record) {
   std::vector<ReviewDifference> found;
-  if (record == nullptr || record->samples.empty() || !snap.history) {
+  if (record == nullptr || record->samples.empty() || !snap.flight->history) {
     return found;
   }
   std::size_t i = 0;
   bool open = false;
-  for (const HistorySample& now : *snap.history) {
+  for (const HistorySample& now : *snap.flight->history) {
     while (i + 1 < record->samples.size() && record->samples[i + 1].time <= now.time) {
       ++i;
     }
@@ -277,7 +282,7 @@ std::vector<ReviewDifference> FindDifferences(const EngineSnapshot& snap,
 
 const ReviewDigest& DigestOf(const EngineSnapshot& snap, const FlightRecord* record,
                              const Palette& palette, bool all, ReviewDigest& kept) {
-  const ReviewDigest::Key key{snap.sequence, snap.history, record, all};
+  const ReviewDigest::Key key{snap.sequence, snap.flight->history, record, all};
   if (kept.key != key) {
     kept.key = key;
     kept.differences = FindDifferences(snap, record);
@@ -291,8 +296,8 @@ TimelineView MakeTimeline(const EngineSnapshot& snap, const FlightRecord* record
                           bool all) {
   TimelineView view;
   view.duration_s = DurationOf(snap, record);
-  view.position_s = snap.source.position_s;
-  view.can_seek = snap.source.can_seek;
+  view.position_s = snap.session->source.position_s;
+  view.can_seek = snap.session->source.can_seek;
   Lane differs{"Differs", {}, {}};
   for (const ReviewDifference& d : differences) {
     differs.segments.push_back({d.at_s, d.to_s, "", 0, true, false});
@@ -313,8 +318,8 @@ TimelineView MakeTimeline(const EngineSnapshot& snap, const FlightRecord* record
       view.height.push_back({static_cast<float>(FlightSeconds(snap, record, sample.time)),
                              static_cast<float>(sample.height_m)});
     }
-  } else if (snap.history) {
-    for (const HistorySample& sample : *snap.history) {
+  } else if (snap.flight->history) {
+    for (const HistorySample& sample : *snap.flight->history) {
       view.height.push_back({static_cast<float>(FlightSeconds(snap, record, sample.time)),
                              static_cast<float>(sample.height_above_site_m)});
     }
@@ -360,8 +365,8 @@ void DrawReviewPlots(const EngineSnapshot& snap, const FlightRecord* record, con
     }
   }
   float top = 10, top_clear = 4;
-  if (snap.history) {
-    for (const HistorySample& sample : *snap.history) {
+  if (snap.flight->history) {
+    for (const HistorySample& sample : *snap.flight->history) {
       const float t = static_cast<float>(FlightSeconds(snap, record, sample.time));
       now_height.points.push_back({t, static_cast<float>(sample.height_above_site_m)});
       now_clear.points.push_back({t, static_cast<float>(sample.best_safe_distance_m)});
@@ -381,14 +386,14 @@ void DrawReviewPlots(const EngineSnapshot& snap, const FlightRecord* record, con
     view->x_min = 0;
     view->x_max = end;
     view->time_axis = PlotView::TimeAxis::kClock;
-    view->now = std::min(end, static_cast<float>(snap.source.position_s));
+    view->now = std::min(end, static_cast<float>(snap.session->source.position_s));
   }
   height.y_max = RoundTop(top);
-  height.current = Fixed(snap.mission.height_above_site_m, 1) + " m";
+  height.current = Fixed(snap.flight->mission.height_above_site_m, 1) + " m";
   height.series = {now_height, recorded_height};
   clear.y_max = RoundTop(top_clear);
-  const LandingSite* best = BestSite(snap.applied.get());
-  const LandingSite* was = BestSite(snap.recorded.get());
+  const LandingSite* best = BestSite(snap.terrain->applied.get());
+  const LandingSite* was = BestSite(snap.terrain->recorded.get());
   clear.current = best != nullptr ? Fixed(best->safe_distance_m, 1) + " m" : "––";
   if (was != nullptr) {
     clear.current = Fixed(was->safe_distance_m, 1) + " / " + clear.current;
@@ -396,8 +401,8 @@ void DrawReviewPlots(const EngineSnapshot& snap, const FlightRecord* record, con
     now_clear.stroke = PlotTrace::Stroke::kDashed;
   }
   clear.series = {now_clear, recorded_clear};
-  clear.limits = {{static_cast<float>(snap.settings.slad.lander.clear_radius_m()), false,
-                   "min " + Fixed(snap.settings.slad.lander.clear_radius_m(), 1) + " m"}};
+  clear.limits = {{static_cast<float>(snap.session->settings.slad.lander.clear_radius_m()), false,
+                   "min " + Fixed(snap.session->settings.slad.lander.clear_radius_m(), 1) + " m"}};
   const float gap = s.Px(8), h = std::floor((rect.h - gap) / 2);
   DrawPlot(ui, {rect.x, rect.y, rect.w, h}, height, state.plots);
   DrawPlot(ui, {rect.x, rect.y + h + gap, rect.w, rect.h - h - gap}, clear, state.plots);

@@ -17,23 +17,26 @@ constexpr const char* kFields[] = {"slad.max_slope_deg", "slad.max_deviation_m",
                                    "slad.nav_error_m"};
 
 void DrawLeft(const EngineSnapshot& snap, const Rect& rect, ReviewState& state, UiFrame& ui) {
-  const std::string frame = "Frame " + Fixed(static_cast<double>(snap.source.frame_index), 0);
+  const std::string frame =
+      "Frame " + Fixed(static_cast<double>(snap.session->source.frame_index), 0);
   const Rect content = DrawPanelFrame(ui, rect, "Left camera", {{frame, 0, false, false}});
   LeftPicture look;
-  look.decision = snap.applied.get();
-  look.ghost = snap.recorded.get();
+  look.decision = snap.terrain->applied.get();
+  look.ghost = snap.terrain->recorded.get();
   look.ghost_word = "recorded";
-  look.plate =
-      snap.recorded && !(MapAge(snap, look.decision) > kOldMap_s) ? "Re-decided overlay" : "";
+  look.plate = snap.terrain->recorded && !(MapAge(snap, look.decision) > kOldMap_s)
+                   ? "Re-decided overlay"
+                   : "";
   look.probe = &state.probe;
   DrawLeftPicture(ui, content, snap, look, state.overlay);
 }
 
 void DrawRightPicture(const EngineSnapshot& snap, const Rect& rect, const MapProbe& probe,
                       UiFrame& ui) {
-  const std::string frame = "Frame " + Fixed(static_cast<double>(snap.source.frame_index), 0);
+  const std::string frame =
+      "Frame " + Fixed(static_cast<double>(snap.session->source.frame_index), 0);
   const Rect content = DrawPanelFrame(ui, rect, "Right camera", {{frame, 0, false, false}});
-  const double row_error_px = snap.stereo_quality.row_error_px;
+  const double row_error_px = snap.terrain->stereo_quality.row_error_px;
   DrawPlainPicture(ui, content, snap, ui.textures.right_camera,
                    std::isfinite(row_error_px) ? "Row error " + Fixed(row_error_px, 2) + " px" : "",
                    &probe);
@@ -80,18 +83,19 @@ struct Verdict {
 
 Verdict JudgeSite(const EngineSnapshot& snap) {
   Verdict v;
-  if (snap.maps_to_rebuild > 0) {
-    v.reason = "After the jump the map is built anew: " + std::to_string(snap.maps_to_rebuild) +
-               " frames still to come. Play on.";
+  if (snap.terrain->maps_to_rebuild > 0) {
+    v.reason =
+        "After the jump the map is built anew: " + std::to_string(snap.terrain->maps_to_rebuild) +
+        " frames still to come. Play on.";
     return v;
   }
-  const MissionStatus& m = snap.mission;
+  const MissionStatus& m = snap.flight->mission;
   const TerrainDecision* recorded = RecordedDecision(snap);
   const LandingSite* site = m.armed ? &*m.armed : BestSite(recorded);
   if (site == nullptr) {
     v.recorded = "No site";
-    v.now = BestSite(snap.applied.get()) != nullptr
-                ? "Would propose " + BestLetter(snap.applied.get())
+    v.now = BestSite(snap.terrain->applied.get()) != nullptr
+                ? "Would propose " + BestLetter(snap.terrain->applied.get())
                 : "No site";
     return v;
   }
@@ -100,9 +104,9 @@ Verdict JudgeSite(const EngineSnapshot& snap) {
       (m.approval || m.state >= MissionState::kApproved ? "Approved "
                                                         : (m.armed ? "Armed " : "Proposed ")) +
       letter;
-  if (snap.site_review && snap.site_review->letter == site->letter) {
-    v.now = (snap.site_review->kept ? "Would keep " : "Would refuse ") + letter;
-    v.reason = snap.site_review->reason;
+  if (snap.terrain->site_review && snap.terrain->site_review->letter == site->letter) {
+    v.now = (snap.terrain->site_review->kept ? "Would keep " : "Would refuse ") + letter;
+    v.reason = snap.terrain->site_review->reason;
   }
   return v;
 }
@@ -120,7 +124,8 @@ void DrawRedecidePanel(const EngineSnapshot& snap, const FlightRecord* record, c
   }
   int changed = 0;
   for (const SettingInfo& info : SettingTable()) {
-    changed += GetSetting(snap.settings, info.name) != GetSetting(recorded, info.name) ? 1 : 0;
+    changed +=
+        GetSetting(snap.session->settings, info.name) != GetSetting(recorded, info.name) ? 1 : 0;
   }
   const Rect content = DrawPanelFrame(
       ui, rect, "Re-decide",
@@ -145,7 +150,7 @@ void DrawRedecidePanel(const EngineSnapshot& snap, const FlightRecord* record, c
     const float middle = y + pitch / 2;
     SliderRow row;
     row.info = info;
-    row.value = GetSetting(snap.preview_settings, name);
+    row.value = GetSetting(snap.session->preview_settings, name);
     const double before = GetSetting(recorded, name);
     row.pending = row.value != before;
     if (row.pending) {
@@ -155,12 +160,12 @@ void DrawRedecidePanel(const EngineSnapshot& snap, const FlightRecord* record, c
              content.x + s.Px(16), middle, info->label);
     DrawText(ui, s.body, p.text2, recorded_x, middle, FormatSetting(*info, before), Align::kRight);
     DrawValueField(ui, {field_x, y + s.Px(2), s.Px(88), pitch - s.Px(4)}, row,
-                   snap.preview_settings, state.fields, FieldKeys::kOwn);
+                   snap.session->preview_settings, state.fields, FieldKeys::kOwn);
     y += pitch;
   }
   ButtonLook look;
   look.font = s.medium;
-  look.enabled = snap.source.can_seek;
+  look.enabled = snap.session->source.can_seek;
   look.reason = "Only a log can be decided again";
   const Rect button{rect.x + pad, rect.bottom() - s.Px(8) - button_h, rect.w - 2 * pad, button_h};
   if (DrawButton(ui, "redecide", button, "Re-decide whole flight", look)) {
@@ -174,9 +179,9 @@ void DrawDecisionPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui
   const Style& s = ui.style;
   const Palette& p = s.palette;
   const Rect content =
-      DrawPanelFrame(ui, rect, "Decision at " + TimeLabel(snap.source.position_s, true));
+      DrawPanelFrame(ui, rect, "Decision at " + TimeLabel(snap.session->source.position_s, true));
   const TerrainDecision* was = RecordedDecision(snap);
-  const TerrainDecision* is = snap.applied.get();
+  const TerrainDecision* is = snap.terrain->applied.get();
   const LandingSite* a = BestSite(was);
   const LandingSite* b = BestSite(is);
   const Verdict verdict = JudgeSite(snap);
@@ -247,9 +252,11 @@ void DrawDifferencesPanel(const EngineSnapshot& snap, const FlightRecord* record
       return letter == 0 ? std::string("no site") : "site " + std::string(1, letter);
     };
     const std::string words = "Best " + name(d.recorded) + ", now " + name(d.now);
-    const Interaction in = Interact(ui, "difference/" + std::to_string(i), row,
-                                    snap.source.can_seek ? 0U : unsigned{kDisabled}, words);
-    const bool here = snap.source.position_s >= d.at_s && snap.source.position_s <= d.to_s;
+    const Interaction in =
+        Interact(ui, "difference/" + std::to_string(i), row,
+                 snap.session->source.can_seek ? 0U : unsigned{kDisabled}, words);
+    const bool here =
+        snap.session->source.position_s >= d.at_s && snap.session->source.position_s <= d.to_s;
     if (here || in.hovered) {
       FillRect(Canvas(), row, here ? p.hover : p.control);
     }
@@ -272,7 +279,7 @@ void DrawDifferencesPanel(const EngineSnapshot& snap, const FlightRecord* record
 void DrawReviewWorkspace(const EngineSnapshot& snap, const FlightRecord* record, const Rect& body,
                          ReviewState& state, UiFrame& ui) {
   const Style& s = ui.style;
-  if (snap.source.kind == SourceKind::kNone) {
+  if (snap.session->source.kind == SourceKind::kNone) {
     DrawPanelBackground(ui, body, "Review");
     DrawText(ui, s.section, s.palette.text1, body.centre().x, body.centre().y,
              "No log open. Start palace with --replay LOG to review a flight.", Align::kCentre);
@@ -293,8 +300,8 @@ void DrawReviewWorkspace(const EngineSnapshot& snap, const FlightRecord* record,
   DrawReviewMaps(snap, layout.maps, layout.map_side, state.probe, ui);
   DrawReviewPlots(snap, record, layout.plots, state, ui);
   const bool recorded = state.probe.ShownMap() == "map/Recorded";
-  DrawProbeWhy(ui, body, recorded ? RecordedDecision(snap) : snap.applied.get(), state.probe,
-               snap.time);
+  DrawProbeWhy(ui, body, recorded ? RecordedDecision(snap) : snap.terrain->applied.get(),
+               state.probe, snap.time);
 }
 
 }  // namespace palace

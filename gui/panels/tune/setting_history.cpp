@@ -27,8 +27,8 @@ std::vector<SettingChange> ChangesOf(const std::vector<SetSetting>& sets, const 
 std::vector<SettingChange> DiscardedBy(const EngineSnapshot& snap) {
   std::vector<SettingChange> changes;
   for (const SettingInfo& info : SettingTable()) {
-    const double before = GetSetting(snap.preview_settings, info.name);
-    const double after = GetSetting(snap.settings, info.name);
+    const double before = GetSetting(snap.session->preview_settings, info.name);
+    const double after = GetSetting(snap.session->settings, info.name);
     if (before != after) {
       changes.push_back({info.name, before, after});
     }
@@ -66,19 +66,19 @@ void SettingHistory::Remember(const CommandAction& command, const EngineSnapshot
   if (set == nullptr) {
     return;
   }
-  Settings trial = snap.preview_settings;
+  Settings trial = snap.session->preview_settings;
   if (Continues(set->name, gesture) && SetSettingValue(trial, set->name, set->value)) {
     // A drag asks faster than the engine reports: the step goes on from where it stands.
     steps_.back().changes.front().after = GetSetting(trial, set->name);
     steps_.back().time = snap.time;
   } else {
-    Add({snap.time, ChangesOf({*set}, snap.preview_settings)});
+    Add({snap.time, ChangesOf({*set}, snap.session->preview_settings)});
   }
   last_ = gesture;
 }
 
 void SettingHistory::Remember(const std::vector<SetSetting>& together, const EngineSnapshot& snap) {
-  Add({snap.time, ChangesOf(together, snap.preview_settings)});
+  Add({snap.time, ChangesOf(together, snap.session->preview_settings)});
 }
 
 void SettingHistory::Add(SettingStep step) {

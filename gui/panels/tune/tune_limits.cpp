@@ -171,14 +171,14 @@ void DrawRow(UiFrame& ui, const Rect& box, const ListRow& row, const EngineSnaps
   }
   SliderRow slider;
   slider.info = row.info;
-  slider.value = GetSetting(snap.preview_settings, row.info->name);
-  slider.pending = slider.value != GetSetting(snap.settings, row.info->name);
-  DrawSliderRow(ui, box, slider, snap.preview_settings, state.sliders);
+  slider.value = GetSetting(snap.session->preview_settings, row.info->name);
+  slider.pending = slider.value != GetSetting(snap.session->settings, row.info->name);
+  DrawSliderRow(ui, box, slider, snap.session->preview_settings, state.sliders);
 }
 
 void DrawList(UiFrame& ui, const Rect& area, const EngineSnapshot& snap, TuneState& state) {
   const Style& s = ui.style;
-  const std::vector<ListRow> rows = RowsOf(snap.preview_settings, state);
+  const std::vector<ListRow> rows = RowsOf(snap.session->preview_settings, state);
   const ListMetrics metrics{s.Px(36), s.Px(30), area.h};
   ScrollList(ui, rows, metrics, Interact(ui, "panel/Limits", area, kPassive).wheel, state);
   const auto first = static_cast<std::size_t>(state.first_row);

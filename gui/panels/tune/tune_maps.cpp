@@ -91,7 +91,7 @@ void DrawChip(UiFrame& ui, const Rect& box, bool on, const char* title, const st
 
 void DrawTuneCamera(const EngineSnapshot& snap, const Rect& rect, TuneState& state, UiFrame& ui) {
   const TuneFacts facts = FactsOf(snap);
-  const ChannelHealth* channel = FindChannel(snap.channels, ChannelId::kCameraLeft);
+  const ChannelHealth* channel = FindChannel(snap.sensors->channels, ChannelId::kCameraLeft);
   const Rect content = DrawPanelFrame(
       ui, rect, "Left camera",
       {{channel != nullptr ? AgeText(channel->age_s) : "", 0, false, false},
@@ -101,8 +101,8 @@ void DrawTuneCamera(const EngineSnapshot& snap, const Rect& rect, TuneState& sta
   look.ghost = facts.previewing ? facts.applied : nullptr;
   look.preview = facts.previewing;
   look.probe = &state.probe;
-  look.plate = snap.laser && std::isfinite(snap.laser->range_m)
-                   ? "Laser " + Fixed(snap.laser->range_m, 1) + " m"
+  look.plate = snap.sensors->laser && std::isfinite(snap.sensors->laser->range_m)
+                   ? "Laser " + Fixed(snap.sensors->laser->range_m, 1) + " m"
                    : "";
   DrawLeftPicture(ui, content, snap, look, state.overlay);
 }
@@ -151,15 +151,16 @@ void DrawCompareStrip(const EngineSnapshot& snap, const Rect& rect, TuneState& s
   const Rect applied{rect.x + pad, rect.y + pad, chip, rect.h - 2 * pad};
   std::string preset = state.preset_path.empty() ? "defaults" : state.preset_path;
   preset = preset.substr(preset.find_last_of('/') + 1);
-  const std::string name = preset + " · " + ShortHash(snap.settings_hash);
-  DrawChip(ui, applied, !facts.previewing, "Applied",
-           TextWidth(s.caption, name) < chip - 2 * pad ? name : ShortHash(snap.settings_hash),
-           snap.settings.slad);
+  const std::string name = preset + " · " + ShortHash(snap.session->settings_hash);
+  DrawChip(
+      ui, applied, !facts.previewing, "Applied",
+      TextWidth(s.caption, name) < chip - 2 * pad ? name : ShortHash(snap.session->settings_hash),
+      snap.session->settings.slad);
   const Rect preview{applied.right() + s.Px(8), applied.y, chip, applied.h};
   DrawChip(
       ui, preview, facts.previewing, "Preview",
       facts.previewing ? std::to_string(facts.pending) + " changes, not sent" : "same as applied",
-      snap.preview_settings.slad);
+      snap.session->preview_settings.slad);
   const std::vector<Comparison> columns = CompareColumns(facts);
   const float left = preview.right() + s.Px(24);
   const float w = (rect.right() - pad - left) / static_cast<float>(columns.size());

@@ -74,7 +74,7 @@ std::string RankEffect(const TuneFacts& f) {
 
 ApplyWords WordsFor(const EngineSnapshot& snap, const TuneFacts& f) {
   ApplyWords w;
-  const std::string hash = "Recorded with hash " + ShortHash(snap.preview_hash) + ".";
+  const std::string hash = "Recorded with hash " + ShortHash(snap.session->preview_hash) + ".";
   if (!f.frozen) {
     w.state = "Applies at once";
     w.sentence = "Limits apply at the next map.";
@@ -82,7 +82,7 @@ ApplyWords WordsFor(const EngineSnapshot& snap, const TuneFacts& f) {
     w.why_not = "Nothing waits to be applied";
     return w;
   }
-  const bool descending = snap.mission.state == MissionState::kDescending;
+  const bool descending = snap.flight->mission.state == MissionState::kDescending;
   if (f.pending == 0) {
     w.state = "No preview";
     w.sentence = "Nothing waits to be applied.";
@@ -101,9 +101,10 @@ ApplyWords WordsFor(const EngineSnapshot& snap, const TuneFacts& f) {
     return w;
   }
   w.can_apply = true;
-  const bool armed = snap.mission.armed.has_value();
-  w.sentence = armed ? std::string("Applying drops site ") + snap.mission.armed->letter + "."
-                     : count + " wait to be applied.";
+  const bool armed = snap.flight->mission.armed.has_value();
+  w.sentence = armed
+                   ? std::string("Applying drops site ") + snap.flight->mission.armed->letter + "."
+                   : count + " wait to be applied.";
   w.detail = RankEffect(f) + hash;
   return w;
 }

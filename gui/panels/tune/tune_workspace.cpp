@@ -107,14 +107,14 @@ void DrawNarrowCentre(const EngineSnapshot& snap, const Rect& c, TuneState& stat
 
 TuneFacts FactsOf(const EngineSnapshot& snap) {
   TuneFacts facts;
-  facts.applied = snap.applied.get();
-  facts.previewing = snap.preview != nullptr;
-  facts.shown = facts.previewing ? snap.preview.get() : facts.applied;
-  facts.frozen = snap.mission.state >= MissionState::kArmed;
+  facts.applied = snap.terrain->applied.get();
+  facts.previewing = snap.terrain->preview != nullptr;
+  facts.shown = facts.previewing ? snap.terrain->preview.get() : facts.applied;
+  facts.frozen = snap.flight->mission.state >= MissionState::kArmed;
   for (const SettingInfo& info : SettingTable()) {
-    const double value = GetSetting(snap.preview_settings, info.name);
+    const double value = GetSetting(snap.session->preview_settings, info.name);
     facts.changed += value != info.default_value ? 1 : 0;
-    facts.pending += value != GetSetting(snap.settings, info.name) ? 1 : 0;
+    facts.pending += value != GetSetting(snap.session->settings, info.name) ? 1 : 0;
   }
   return facts;
 }

@@ -5,11 +5,11 @@
 namespace palace {
 
 std::optional<PinholeCamera> LeftCamera(const EngineSnapshot& snap) {
-  if (snap.range && snap.range->camera.width > 0) {
-    return snap.range->camera;
+  if (snap.terrain->range && snap.terrain->range->camera.width > 0) {
+    return snap.terrain->range->camera;
   }
-  if (snap.rig && snap.rig->left.pinhole.width > 0) {
-    return snap.rig->left.pinhole;
+  if (snap.sensors->rig && snap.sensors->rig->left.pinhole.width > 0) {
+    return snap.sensors->rig->left.pinhole;
   }
   return std::nullopt;
 }

@@ -40,7 +40,7 @@ TEST(Keys, WhileTypingOnlyKeysWorkThatPrintNothing) {
 
 TEST(Keys, TheFocusedControlHasItsOwnKeys) {
   EngineSnapshot snapshot;
-  snapshot.source.can_seek = true;
+  snapshot.session.Edit().source.can_seek = true;
   UiState state;
   const auto works = [&](const char* keys) {
     return !IntentsOfKey(keys, &snapshot, state, false).empty();

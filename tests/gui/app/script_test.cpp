@@ -42,7 +42,7 @@ class Runner {
   explicit Runner(const char* text) : script_(*ParseScript(text, "s.txt"), "s.txt") {
     items_.Add("go", {100, 100, 40, 20}, true, "Go now");
     items_.Add("off", {200, 100, 40, 20}, false, "Not yet");
-    snapshot_.mission.state = MissionState::kSearch;
+    snapshot_.flight.Edit().mission.state = MissionState::kSearch;
   }
   ScriptInput Tick() {
     time_s_ += 0.1;
@@ -82,7 +82,7 @@ TEST(Script, HoldKeepsTheButtonDownForItsTime) {
 TEST(Script, WaitEndsWithTheStateOrFailsAfterItsTime) {
   Runner met("wait state PROPOSED 5\n");
   met.Tick();
-  met.snapshot_.mission.state = MissionState::kProposed;
+  met.snapshot_.flight.Edit().mission.state = MissionState::kProposed;
   met.RunOut();
   EXPECT_EQ(met.script_.error(), "");
   Runner late("wait state PROPOSED 5\n");

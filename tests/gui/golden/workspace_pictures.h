@@ -56,32 +56,32 @@ struct Shot {
 
 /// Other limits than the flight's: a preview while armed, a re-decision in replay.
 inline void MoveLimits(EngineSnapshot& snap) {
-  snap.preview_settings.slad.limits.max_slope_deg = 6;
-  snap.preview_settings.slad.limits.max_deviation_m = 0.06;
-  snap.preview_settings.slad.fusion.frames_fused = 24;
-  snap.preview_hash = 0x91c07e;
-  auto moved = std::make_shared<TerrainDecision>(
-      *fake::Decision(snap.X_WC, snap.preview_settings.slad, snap.preview_hash));
+  snap.session.Edit().preview_settings.slad.limits.max_slope_deg = 6;
+  snap.session.Edit().preview_settings.slad.limits.max_deviation_m = 0.06;
+  snap.session.Edit().preview_settings.slad.fusion.frames_fused = 24;
+  snap.session.Edit().preview_hash = 0x91c07e;
+  auto moved = std::make_shared<TerrainDecision>(*fake::Decision(
+      snap.sensors->X_WC, snap.session->preview_settings.slad, snap.session->preview_hash));
   std::swap(moved->selection.sites[0], moved->selection.sites[1]);
-  if (snap.source.kind == SourceKind::kReplay) {
-    snap.recorded = snap.applied;
-    snap.applied = moved;
-    snap.settings = snap.preview_settings;
+  if (snap.session->source.kind == SourceKind::kReplay) {
+    snap.terrain.Edit().recorded = snap.terrain->applied;
+    snap.terrain.Edit().applied = moved;
+    snap.session.Edit().settings = snap.session->preview_settings;
   } else {
-    snap.preview = moved;
+    snap.terrain.Edit().preview = moved;
   }
 }
 
 inline FlightRecord Record(const EngineSnapshot& snap) {
   FlightRecord record;
-  record.start_s = static_cast<double>(snap.source.start.us) * 1e-6;
+  record.start_s = static_cast<double>(snap.session->source.start.us) * 1e-6;
   record.duration_s = 338;
   record.has_settings = true;
-  record.events = *snap.events;
+  record.events = *snap.session->events;
   for (int i = 0; i < 676; ++i) {
     const double t = 0.5 * i;
     FlightRecordSample sample;
-    sample.time = AddSeconds(snap.source.start, t);
+    sample.time = AddSeconds(snap.session->source.start, t);
     sample.state = t < 60    ? MissionState::kSearch
                    : t < 180 ? MissionState::kProposed
                    : t < 220 ? MissionState::kArmed
@@ -133,7 +133,7 @@ inline ImageRgba Draw(const Shot& shot, std::string& why) {
   FlyState fly;
   TuneState tune;
   EngineSnapshot before = snap;
-  before.preview_settings = {};
+  before.session.Edit().preview_settings = {};
   tune.history.Remember(CommandAction(SetSetting{"slad.max_slope_deg", 6}), before, {});
   tune.history.Remember(CommandAction(SetSetting{"slad.max_deviation_m", 0.06}), before, {});
   ReviewState review;

@@ -99,7 +99,7 @@ TEST(FlyDescent, TheKeptAlternativeIsComparedWithTheSiteFlownAndALossHasItsReaso
     const Item* kept = window.ui.items.Find("alternative");
     ASSERT_NE(kept, nullptr);
     EXPECT_EQ(kept->text, "B 0.1 m more clear than A");
-    SiteRecheck& newest = snap.mission.rechecks.back();
+    SiteRecheck& newest = snap.flight.Edit().mission.rechecks.back();
     newest.verdict = SiteVerdict::kDegraded;
     newest.reason = "Slope 9.6° ± 0.9°, max 10°";
     FlyWindow degraded(size.width, size.height, snap);

@@ -39,7 +39,7 @@ TEST(FlySites, NothingCanBeSelectedWhileSearching) {
 /// Proposed, with A, the first of the list, refused before.
 EngineSnapshot WithRefusedA(MissionState state) {
   EngineSnapshot snap = fake::Snapshot(state);
-  snap.mission.refused_sites = {1};
+  snap.flight.Edit().mission.refused_sites = {1};
   return snap;
 }
 
@@ -68,8 +68,8 @@ TEST(FlySites, WhileSearchingOnlyARefusedSiteMayBeLookedAtAgain) {
 
 TEST(FlySites, WithEverySiteRefusedNoneIsRinged) {
   EngineSnapshot snap = fake::Snapshot(MissionState::kSearch);
-  for (const LandingSite& site : snap.applied->selection.sites) {
-    snap.mission.refused_sites.push_back(site.id);
+  for (const LandingSite& site : snap.terrain->applied->selection.sites) {
+    snap.flight.Edit().mission.refused_sites.push_back(site.id);
   }
   FlyWindow window(1920, 1080, snap);
   EXPECT_EQ(SiteInView(window.snap, 0), nullptr);
@@ -93,10 +93,10 @@ TEST(FlyApprove, AFullHoldApprovesTheArmedSiteOnTheSnapshotSeen) {
 
 TEST(FlyApprove, NeverFiresWhenBlockedUnarmedPreviewingOrInReplay) {
   EngineSnapshot blocked = fake::Snapshot(MissionState::kArmed);
-  blocked.mission.can_approve = false;
-  blocked.mission.cannot_approve_reason = "Left camera stale, 1.8 s";
+  blocked.flight.Edit().mission.can_approve = false;
+  blocked.flight.Edit().mission.cannot_approve_reason = "Left camera stale, 1.8 s";
   EngineSnapshot preview = fake::Snapshot(MissionState::kArmed);
-  preview.preview = preview.applied;
+  preview.terrain.Edit().preview = preview.terrain->applied;
   for (const EngineSnapshot& snap : {blocked, preview, fake::Snapshot(MissionState::kProposed),
                                      fake::Snapshot(MissionState::kArmed, SourceKind::kReplay)}) {
     FlyWindow window(1920, 1080, snap);
@@ -174,7 +174,7 @@ bool HasText(const ItemRecord& items, const std::string& start) {
 
 TEST(FlyApprove, RefuseNamesTheNextSiteThatIsNotRefused) {
   EngineSnapshot snap = fake::Snapshot(MissionState::kArmed);  // A is armed
-  snap.mission.refused_sites = {2};
+  snap.flight.Edit().mission.refused_sites = {2};
   FlyWindow window(1920, 1080, snap);
   EXPECT_TRUE(HasText(window.ui.items, "then site C"));
 }
@@ -186,7 +186,7 @@ TEST(FlyMaps, ProbeFollowsThePointerAndAClickPinsItUntilTheNext) {
   window.ui.MoveTo(ImVec2(5, 5));
   window.Run(0.1);
   ASSERT_TRUE(window.fly.maps.probe.pinned.has_value());
-  const GridGeometry& g = window.snap.applied->hazards->geometry;
+  const GridGeometry& g = window.snap.terrain->applied->hazards->geometry;
   const auto cell = ProbeCell(window.fly.maps.probe, g);
   ASSERT_TRUE(cell.has_value());
   EXPECT_NEAR(cell->row, g.rows / 2, 1);
@@ -203,9 +203,9 @@ TEST(FlyPictures, AVerdictOlderThanThePictureIsNotExplainedButDated) {
   FlyWindow fresh(1920, 1080, snap);
   EXPECT_TRUE(HasText(fresh.ui.items, "Over a limit or unknown"));
   EXPECT_FALSE(HasText(fresh.ui.items, "Last map"));
-  auto old = std::make_shared<TerrainDecision>(*snap.applied);
-  old->map_time = AddSeconds(snap.frame ? snap.frame->time : snap.time, -4.2);
-  snap.applied = old;
+  auto old = std::make_shared<TerrainDecision>(*snap.terrain->applied);
+  old->map_time = AddSeconds(snap.sensors->frame ? snap.sensors->frame->time : snap.time, -4.2);
+  snap.terrain.Edit().applied = old;
   FlyWindow late(1920, 1080, snap);
   EXPECT_TRUE(HasText(late.ui.items, "Last map 4.2 s old"));
   EXPECT_FALSE(HasText(late.ui.items, "Over a limit or unknown"));
@@ -213,13 +213,13 @@ TEST(FlyPictures, AVerdictOlderThanThePictureIsNotExplainedButDated) {
 
 /// The row of the list, to be changed by a test.
 LimitRow& RowOf(EngineSnapshot& snap, LimitId id) {
-  for (LimitRow& row : snap.mission.limits) {
+  for (LimitRow& row : snap.flight.Edit().mission.limits) {
     if (row.id == id) {
       return row;
     }
   }
   ADD_FAILURE() << "no such row";
-  return snap.mission.limits.front();
+  return snap.flight.Edit().mission.limits.front();
 }
 
 TEST(FlyLimits, ShowWhoActsAndCountWhatTheEngineCallsOver) {
@@ -258,7 +258,7 @@ TEST(FlyLimits, AfterLandingAnUnlockedTrackerIsUnknownNotOverALimit) {
 
 TEST(FlyApprove, TellsTheHeadingThatWillBeSigned) {
   EngineSnapshot snap = fake::Snapshot(MissionState::kArmed);
-  snap.mission.approach = ApproachPlan{Rad(-20), Rad(45), 0.8};
+  snap.flight.Edit().mission.approach = ApproachPlan{Rad(-20), Rad(45), 0.8};
   FlyWindow window(1920, 1080, snap);
   std::string all;
   for (const Item& item : window.ui.items.items()) {
@@ -343,7 +343,7 @@ TEST(FlyEmpty, ASnapshotWithNothingInItIsDrawnWithoutValues) {
 TEST(StatusBar, CountsPicturesThatWereOvertaken) {
   for (const std::uint64_t replaced : {0, 1, 31}) {
     EngineSnapshot snap = fake::Snapshot(MissionState::kProposed);
-    snap.losses.pairs_replaced = replaced;
+    snap.session.Edit().losses.pairs_replaced = replaced;
     for (const ImVec2 size : {ImVec2(1280, 720), ImVec2(1920, 1080)}) {
       SCOPED_TRACE(size.x);
       FlyWindow window(size.x, size.y, snap);

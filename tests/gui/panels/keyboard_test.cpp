@@ -154,7 +154,7 @@ TEST(FlyKeyboard, ArrowsMoveThePinOfTheMapAndEnterTakesItAway) {
   ASSERT_TRUE(window.fly.maps.probe.pinned.has_value());
   const Eigen::Vector2d first = *window.fly.maps.probe.pinned;
   window.ui.Tap(ImGuiKey_UpArrow, window.draw);
-  const double cell_m = window.snap.applied->hazards->geometry.cell_m;
+  const double cell_m = window.snap.terrain->applied->hazards->geometry.cell_m;
   EXPECT_NEAR(window.fly.maps.probe.pinned->x() - first.x(), cell_m, 1e-9);
   window.ui.Tap(ImGuiKey_RightArrow, window.draw);
   EXPECT_NEAR(window.fly.maps.probe.pinned->y() - first.y(), cell_m, 1e-9);
@@ -183,11 +183,12 @@ struct TuneDesk {
     for (const Intent& intent : ui.intents) {
       const auto* command = std::get_if<CommandAction>(&intent);
       if (const auto* set = command != nullptr ? std::get_if<SetSetting>(command) : nullptr) {
-        EXPECT_TRUE(SetSettingValue(snap.preview_settings, set->name, set->value).ok());
+        EXPECT_TRUE(
+            SetSettingValue(snap.session.Edit().preview_settings, set->name, set->value).ok());
       }
     }
     ui.intents.clear();
-    snap.settings = snap.preview_settings;
+    snap.session.Edit().settings = snap.session->preview_settings;
   }
   void Tap(ImGuiKey key, bool shift = false) {
     FeedModifiers(shift, false);
@@ -200,7 +201,9 @@ struct TuneDesk {
     ui.Tap(ImGuiKey_Tab, draw);
     DownTo(ui, "limit/" + setting, draw);
   }
-  double Value(const char* setting) const { return GetSetting(snap.preview_settings, setting); }
+  double Value(const char* setting) const {
+    return GetSetting(snap.session->preview_settings, setting);
+  }
   UiHarness ui{1920, 1080};
   EngineSnapshot snap;
   TuneState state;
@@ -296,8 +299,8 @@ TEST(TuneKeyboard, TabLeavesATextFieldAndEscapeInItSetsNothing) {
 TEST(TuneKeyboard, ApplyAndDiscardArePressedByEnter) {
   TuneDesk desk;
   desk.snap = fake::Snapshot(MissionState::kArmed);
-  desk.snap.preview_settings.slad.limits.max_slope_deg = 6;
-  desk.snap.preview = desk.snap.applied;
+  desk.snap.session.Edit().preview_settings.slad.limits.max_slope_deg = 6;
+  desk.snap.terrain.Edit().preview = desk.snap.terrain->applied;
   TabTo(desk.ui, "discard", desk.draw);
   desk.ui.Tap(ImGuiKey_Enter, desk.draw);
   EXPECT_EQ(desk.ui.CountCommands<DiscardSettings>(), 1);
@@ -326,7 +329,7 @@ TEST(ReviewKeyboard, TransportFieldsTimelineAndViewAreWorkedByKeys) {
   TabTo(ui, "timeline", draw);
   ui.Tap(ImGuiKey_RightArrow, draw);
   EXPECT_EQ(last_playback().kind, PlaybackControl::Kind::kSeek);
-  EXPECT_NEAR(last_playback().value, snap.source.position_s + 0.1, 1e-9);
+  EXPECT_NEAR(last_playback().value, snap.session->source.position_s + 0.1, 1e-9);
   const double span_s = state.timeline.to_s - state.timeline.from_s;
   ui.Tap(ImGuiKey_UpArrow, draw);
   EXPECT_LT(state.timeline.to_s - state.timeline.from_s, span_s);
@@ -350,7 +353,7 @@ TEST(DiagnoseKeyboard, TheListOfEventsScrolls) {
   for (int i = 0; i < 200; ++i) {
     many.push_back({snap.time, EventKind::kState, "Event " + std::to_string(i)});
   }
-  snap.events = std::make_shared<const std::vector<Event>>(many);
+  snap.session.Edit().events = std::make_shared<const std::vector<Event>>(many);
   DiagnoseState state;
   const Draw draw = [&](UiFrame& f) { DrawDiagnoseWorkspace(snap, BodyOf(1280, 720), state, f); };
   ui.Frame(draw);

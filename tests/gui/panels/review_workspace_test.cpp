@@ -41,12 +41,13 @@ FlightRecord Record() {
 EngineSnapshot Replay(bool redecided) {
   EngineSnapshot snap = fake::Snapshot(MissionState::kArmed, SourceKind::kReplay);
   if (redecided) {
-    snap.recorded = snap.applied;
-    snap.settings.slad.limits.max_slope_deg = snap.preview_settings.slad.limits.max_slope_deg = 6;
-    auto applied =
-        std::make_shared<TerrainDecision>(*fake::Decision(snap.X_WC, snap.settings.slad, 0x91c07e));
+    snap.terrain.Edit().recorded = snap.terrain->applied;
+    snap.session.Edit().settings.slad.limits.max_slope_deg =
+        snap.session.Edit().preview_settings.slad.limits.max_slope_deg = 6;
+    auto applied = std::make_shared<TerrainDecision>(
+        *fake::Decision(snap.sensors->X_WC, snap.session->settings.slad, 0x91c07e));
     std::swap(applied->selection.sites[0], applied->selection.sites[1]);
-    snap.applied = applied;
+    snap.terrain.Edit().applied = applied;
   }
   return snap;
 }
@@ -70,7 +71,7 @@ TEST(ReviewWorkspace, TextsStayInTheirPanels) {
     for (const EngineSnapshot* snap : {&as_recorded, &redecided}) {
       for (const FlightRecord* with : {&record, static_cast<const FlightRecord*>(nullptr)}) {
         for (const auto picture : {ReviewPicture::kView3d, ReviewPicture::kRightCamera}) {
-          SCOPED_TRACE(std::string(size.name) + (snap->recorded ? " re-decided" : ""));
+          SCOPED_TRACE(std::string(size.name) + (snap->terrain->recorded ? " re-decided" : ""));
           ReviewState state;
           state.picture = picture;
           ui.Frame([&](UiFrame& f) { DrawReviewWorkspace(*snap, with, body, state, f); });
@@ -197,11 +198,11 @@ TEST(ReviewWorkspace, FindsWhereTheDecisionsDiffer) {
 TEST(ReviewWorkspace, AMapBuiltAnewAfterAJumpDecidesNothingDifferently) {
   const FlightRecord record = Record();
   EngineSnapshot snap = Replay(true);
-  auto history = std::make_shared<std::vector<HistorySample>>(*snap.history);
+  auto history = std::make_shared<std::vector<HistorySample>>(*snap.flight->history);
   for (HistorySample& sample : *history) {
     sample.rebuilding = true;
   }
-  snap.history = history;
+  snap.flight.Edit().history = history;
   EXPECT_TRUE(FindDifferences(snap, &record).empty());
 }
 
@@ -257,8 +258,9 @@ TEST(TimelineStrip, LabelsRoundAsClocksDo) {
 
 TEST(DiagnoseWorkspace, EachCameraHasItsCounters) {
   EngineSnapshot snap = fake::Snapshot(MissionState::kProposed, SourceKind::kCameras);
-  snap.source.cameras = {{"Camera left", "", 1234, 7, 3, 1, 29.97, 0.02},
-                         {"Camera right", "/dev/video2: unplugged", 1200, 0, 0, 0, NAN, 3.2}};
+  snap.session.Edit().source.cameras = {
+      {"Camera left", "", 1234, 7, 3, 1, 29.97, 0.02},
+      {"Camera right", "/dev/video2: unplugged", 1200, 0, 0, 0, NAN, 3.2}};
   for (const WindowSize& size : kWindowSizes) {
     SCOPED_TRACE(size.name);
     UiHarness ui(size.width, size.height);
@@ -292,19 +294,19 @@ TEST(DiagnoseWorkspace, EveryLossHasItsCountAndItsMeaning) {
   for (const WindowSize& size : kWindowSizes) {
     SCOPED_TRACE(size.name);
     UiHarness quiet(size.width, size.height);
-    snap.losses = {};
+    snap.session.Edit().losses = {};
     draw(quiet, size);
     EXPECT_EQ(count(quiet), 0);
-    snap.losses = {.pairs_replaced = 31,
-                   .pictures_unpaired = 2,
-                   .pairs_without_rig = 3,
-                   .bundles_missing = 4,
-                   .samples_missing = 5,
-                   .samples_overflowed = 6,
-                   .datagrams_refused = 7,
-                   .undecodable = {{"CAMERA_LEFT", 8}, {"VEHICLE_POSE", 1}},
-                   .messages_unsent = 10,
-                   .records_dropped = 11};
+    snap.session.Edit().losses = {.pairs_replaced = 31,
+                                  .pictures_unpaired = 2,
+                                  .pairs_without_rig = 3,
+                                  .bundles_missing = 4,
+                                  .samples_missing = 5,
+                                  .samples_overflowed = 6,
+                                  .datagrams_refused = 7,
+                                  .undecodable = {{"CAMERA_LEFT", 8}, {"VEHICLE_POSE", 1}},
+                                  .messages_unsent = 10,
+                                  .records_dropped = 11};
     UiHarness ui(size.width, size.height);
     draw(ui, size);
     EXPECT_EQ(count(ui), 10);
@@ -327,14 +329,14 @@ TEST(DiagnoseWorkspace, StereoHealthNamesWhatIsWrong) {
   };
   EXPECT_EQ(health("Pictures"), "fine: Pictures two different views");
   EXPECT_EQ(health("Range against the laser"), "fine: Range against the laser +0.4 % ± 0.3 %");
-  snap.stereo_quality.suspect_swapped = true;
+  snap.terrain.Edit().stereo_quality.suspect_swapped = true;
   EXPECT_EQ(health("Pictures"), "bad: Pictures left and right look exchanged");
-  snap.stereo_quality.row_error_px = 0.83;
-  for (LimitRow& row : snap.mission.limits) {
+  snap.terrain.Edit().stereo_quality.row_error_px = 0.83;
+  for (LimitRow& row : snap.flight.Edit().mission.limits) {
     row.over = row.id == LimitId::kRowError;
   }
   EXPECT_EQ(health("Row error"), "bad: Row error 0.83 px");
-  snap.range_agreement = {};
+  snap.terrain.Edit().range_agreement = {};
   EXPECT_EQ(health("Range against the laser"), "fine: Range against the laser ––");
 }
 
@@ -343,15 +345,16 @@ TEST(DiagnoseWorkspace, TextsStayInTheirPanels) {
     SCOPED_TRACE(size.name);
     UiHarness ui(size.width, size.height);
     EngineSnapshot snap = fake::Snapshot(MissionState::kDescending);
-    snap.diagnostics = {{DiagnosticLevel::kWarning, "stereo",
-                         "41 % of the picture has no depth, limit 30 %. Check the exposure of the "
-                         "right camera."},
-                        {DiagnosticLevel::kInfo, "slad", "Border filled."}};
-    auto events = *snap.events;
+    snap.session.Edit().diagnostics = {
+        {DiagnosticLevel::kWarning, "stereo",
+         "41 % of the picture has no depth, limit 30 %. Check the exposure of the "
+         "right camera."},
+        {DiagnosticLevel::kInfo, "slad", "Border filled."}};
+    auto events = *snap.session->events;
     events.push_back({snap.time, EventKind::kDecision,
                       "Approve refused: Left camera stale, 1.8 s, and a very long explanation that "
                       "no panel of this program could ever hold in a single line of its list"});
-    snap.events = std::make_shared<const std::vector<Event>>(events);
+    snap.session.Edit().events = std::make_shared<const std::vector<Event>>(events);
     DiagnoseState state;
     const Rect body = BodyOf(size.width, size.height);
     ui.Frame([&](UiFrame& f) { DrawDiagnoseWorkspace(snap, body, state, f); });

@@ -15,14 +15,14 @@ struct Desk {
 
   void Set(const char* name, double value, const Gesture& gesture = {}) {
     history.Remember(CommandAction(SetSetting{name, value}), snap, gesture);
-    const Status ignored = SetSettingValue(snap.preview_settings, name, value);
+    const Status ignored = SetSettingValue(snap.session.Edit().preview_settings, name, value);
   }
   void Take(const std::vector<SetSetting>& sets) {
     for (const SetSetting& set : sets) {
-      EXPECT_TRUE(SetSettingValue(snap.preview_settings, set.name, set.value).ok());
+      EXPECT_TRUE(SetSettingValue(snap.session.Edit().preview_settings, set.name, set.value).ok());
     }
   }
-  double slope() const { return snap.preview_settings.slad.limits.max_slope_deg; }
+  double slope() const { return snap.session->preview_settings.slad.limits.max_slope_deg; }
 };
 
 TEST(SettingHistory, ADragIsOneStepHoweverLongItLasts) {
@@ -79,13 +79,13 @@ TEST(SettingHistory, ALoadedPresetAndADiscardedPreviewAreOneStepEach) {
   desk.history.Remember({{kSlope, 8}, {"slad.max_deviation_m", 0.05}}, desk.snap);
   desk.Take({{kSlope, 8}, {"slad.max_deviation_m", 0.05}});
   desk.history.Remember(CommandAction(DiscardSettings{}), desk.snap, {});
-  desk.snap.preview_settings = desk.snap.settings;
+  desk.snap.session.Edit().preview_settings = desk.snap.session->settings;
   ASSERT_EQ(desk.history.steps().size(), 2U);
   desk.Take(desk.history.Undo());
   EXPECT_EQ(desk.slope(), 8);
-  EXPECT_EQ(desk.snap.preview_settings.slad.limits.max_deviation_m, 0.05);
+  EXPECT_EQ(desk.snap.session->preview_settings.slad.limits.max_deviation_m, 0.05);
   desk.Take(desk.history.Undo());
-  EXPECT_TRUE(desk.snap.preview_settings == Settings{});
+  EXPECT_TRUE(desk.snap.session->preview_settings == Settings{});
 }
 
 TEST(SettingHistory, ANewStepForgetsTheUndoneOnes) {

@@ -10,14 +10,14 @@ namespace {
 /// A snapshot with a preview: slope 6° instead of 10°, another best site.
 EngineSnapshot Previewing(MissionState state) {
   EngineSnapshot snap = fake::Snapshot(state, SourceKind::kSimulation);
-  snap.preview_settings.slad.limits.max_slope_deg = 6;
-  snap.preview_settings.slad.limits.max_deviation_m = 0.06;
-  snap.preview_settings.slad.fusion.frames_fused = 24;
-  snap.preview_hash = 0x91c07e0000000000;
-  auto preview = std::make_shared<TerrainDecision>(
-      *fake::Decision(snap.X_WC, snap.preview_settings.slad, snap.preview_hash));
+  snap.session.Edit().preview_settings.slad.limits.max_slope_deg = 6;
+  snap.session.Edit().preview_settings.slad.limits.max_deviation_m = 0.06;
+  snap.session.Edit().preview_settings.slad.fusion.frames_fused = 24;
+  snap.session.Edit().preview_hash = 0x91c07e0000000000;
+  auto preview = std::make_shared<TerrainDecision>(*fake::Decision(
+      snap.sensors->X_WC, snap.session->preview_settings.slad, snap.session->preview_hash));
   std::swap(preview->selection.sites[0], preview->selection.sites[1]);
-  snap.preview = preview;
+  snap.terrain.Edit().preview = preview;
   return snap;
 }
 
@@ -48,7 +48,7 @@ TEST(TuneWorkspace, TextsStayInTheirPanels) {
     const Rect body = BodyOf(size.width, size.height);
     for (const EngineSnapshot* snap : {&applied, &preview}) {
       for (const TuneTab tab : {TuneTab::kApply, TuneTab::kCells, TuneTab::kHistory}) {
-        SCOPED_TRACE(std::string(size.name) + (snap->preview ? " preview" : " applied"));
+        SCOPED_TRACE(std::string(size.name) + (snap->terrain->preview ? " preview" : " applied"));
         TuneState state;
         state.tab = tab;
         MoveTwoLimits(state.history);
@@ -82,7 +82,7 @@ TEST(TuneWorkspace, DraggingASliderSetsTheLimitAtEveryMove) {
   ui.Button(true);
   ui.Frame(draw);
   EXPECT_EQ(ui.CountCommands<SetSetting>(), 0);  // a press alone moves nothing
-  double last = snap.settings.slad.limits.max_slope_deg;
+  double last = snap.session->settings.slad.limits.max_slope_deg;
   for (int step = 1; step <= 3; ++step) {
     ui.MoveTo(ImVec2{from.x - 8.0f * static_cast<float>(step), from.y});
     ui.Frame(draw);
@@ -91,8 +91,9 @@ TEST(TuneWorkspace, DraggingASliderSetsTheLimitAtEveryMove) {
     EXPECT_EQ(set.name, "slad.max_slope_deg");
     EXPECT_LT(set.value, last);
     last = set.value;
-    snap.preview_settings.slad.limits.max_slope_deg = set.value;  // the engine follows
-    snap.settings = snap.preview_settings;
+    snap.session.Edit().preview_settings.slad.limits.max_slope_deg =
+        set.value;  // the engine follows
+    snap.session.Edit().settings = snap.session->preview_settings;
   }
   ui.MoveTo(ImVec2{from.x - 4000, from.y});  // far over the end: stops at the limit
   ui.Frame(draw);
@@ -192,7 +193,8 @@ TEST(TuneWorkspace, ResetAppearsOnlyWhenChangedAndSetsTheDefault) {
   const auto draw = [&](UiFrame& f) { DrawTuneWorkspace(snap, Body(), state, f); };
   ui.Frame(draw);
   EXPECT_EQ(ui.items.Find("reset/slad.max_slope_deg"), nullptr);
-  snap.settings.slad.limits.max_slope_deg = snap.preview_settings.slad.limits.max_slope_deg = 7;
+  snap.session.Edit().settings.slad.limits.max_slope_deg =
+      snap.session.Edit().preview_settings.slad.limits.max_slope_deg = 7;
   ui.Frame(draw);
   ui.Click("reset/slad.max_slope_deg", draw);
   EXPECT_EQ(ui.LastCommand<SetSetting>().value, 10);
@@ -235,7 +237,7 @@ TEST(TuneWorkspace, SearchAndGroupsChooseTheRows) {
   EXPECT_NE(ui.items.Find("field/tracking.min_coherence"), nullptr);  // search opens groups
   EXPECT_EQ(ui.items.Find("field/slad.cell_m"), nullptr);
   state.search[0] = '\0';
-  snap.preview_settings.slad.grid.cell_m = 0.3;
+  snap.session.Edit().preview_settings.slad.grid.cell_m = 0.3;
   ui.Click("limits/changed", draw);
   ui.Frame(draw);
   EXPECT_NE(ui.items.Find("field/slad.cell_m"), nullptr);

@@ -51,7 +51,7 @@ TEST_F(TextureSetTest, UploadsOncePerPicture) {
   TextureSet textures;
   EngineSnapshot snapshot;
   auto picture = std::make_shared<ImageU8>(5, 3, std::uint8_t{7});
-  snapshot.left_rectified = picture;
+  snapshot.sensors.Edit().left_rectified = picture;
   textures.Update(snapshot);
   const GLuint name = textures.names().left_camera;
   ASSERT_NE(name, 0U);
@@ -59,10 +59,10 @@ TEST_F(TextureSetTest, UploadsOncePerPicture) {
   picture->at(4, 2) = 99;  // same pointer: the engine promises it does not change
   textures.Update(snapshot);
   EXPECT_EQ(Content(name, 5, 3).at(4, 2).r, 7);
-  snapshot.left_rectified = std::make_shared<ImageU8>(5, 3, std::uint8_t{42});
+  snapshot.sensors.Edit().left_rectified = std::make_shared<ImageU8>(5, 3, std::uint8_t{42});
   textures.Update(snapshot);
   EXPECT_EQ(Content(textures.names().left_camera, 5, 3).at(0, 0).r, 42);
-  snapshot.left_rectified = std::make_shared<ImageU8>(8, 6, std::uint8_t{50});
+  snapshot.sensors.Edit().left_rectified = std::make_shared<ImageU8>(8, 6, std::uint8_t{50});
   textures.Update(snapshot);
   EXPECT_EQ(Content(textures.names().left_camera, 8, 6).at(7, 5).r, 50);
 }
@@ -70,7 +70,7 @@ TEST_F(TextureSetTest, UploadsOncePerPicture) {
 TEST_F(TextureSetTest, RawPicturesStandInBeforeRectifiedOnes) {
   TextureSet textures;
   EngineSnapshot snapshot;
-  snapshot.frame = std::make_shared<StereoFrame>(
+  snapshot.sensors.Edit().frame = std::make_shared<StereoFrame>(
       StereoFrame{{}, ImageU8(4, 4, std::uint8_t{11}), ImageU8(4, 4, std::uint8_t{22})});
   textures.Update(snapshot);
   EXPECT_EQ(Content(textures.names().left_camera, 4, 4).at(0, 0).r, 11);
@@ -80,8 +80,8 @@ TEST_F(TextureSetTest, RawPicturesStandInBeforeRectifiedOnes) {
 TEST_F(TextureSetTest, NoSmoothingAboveTwoHundredPercentNorOnMaps) {
   TextureSet textures;
   EngineSnapshot snapshot;
-  snapshot.left_rectified = std::make_shared<ImageU8>(4, 4);
-  snapshot.applied = Decision(1, kHazardNone);
+  snapshot.sensors.Edit().left_rectified = std::make_shared<ImageU8>(4, 4);
+  snapshot.terrain.Edit().applied = Decision(1, kHazardNone);
   textures.Update(snapshot, 1.5);
   EXPECT_EQ(MagFilter(textures.names().left_camera), GL_LINEAR);
   EXPECT_EQ(MagFilter(textures.names().maps[0]), GL_NEAREST);
@@ -92,11 +92,11 @@ TEST_F(TextureSetTest, NoSmoothingAboveTwoHundredPercentNorOnMaps) {
 TEST_F(TextureSetTest, PreviewComesBeforeApplied) {
   TextureSet textures;
   EngineSnapshot snapshot;
-  snapshot.applied = Decision(0, kHazardNone);
-  snapshot.preview = Decision(99, kHazardNone);
+  snapshot.terrain.Edit().applied = Decision(0, kHazardNone);
+  snapshot.terrain.Edit().preview = Decision(99, kHazardNone);
   textures.Update(snapshot);
   EXPECT_EQ(Content(textures.names().maps[4], 4, 3).at(0, 0), RgbaFromHex(0x0A2250));
-  snapshot.preview = nullptr;
+  snapshot.terrain.Edit().preview = nullptr;
   textures.Update(snapshot);
   EXPECT_EQ(Content(textures.names().maps[4], 4, 3).at(0, 0), RgbaFromHex(0xDCE9F7));
 }
@@ -104,8 +104,8 @@ TEST_F(TextureSetTest, PreviewComesBeforeApplied) {
 TEST_F(TextureSetTest, RecordedAgainstReDecided) {
   TextureSet textures;
   EngineSnapshot snapshot;
-  snapshot.applied = Decision(1, kHazardSlope);
-  snapshot.recorded = Decision(99, kHazardNone);
+  snapshot.terrain.Edit().applied = Decision(1, kHazardSlope);
+  snapshot.terrain.Edit().recorded = Decision(99, kHazardNone);
   textures.Update(snapshot);
   EXPECT_EQ(Content(textures.names().difference, 4, 3).at(3, 2), RgbaFromHex(0xF0963C));
   EXPECT_EQ(Content(textures.names().recorded_safe_distance, 4, 3).at(0, 0), RgbaFromHex(0x0A2250));
@@ -119,7 +119,7 @@ TEST_F(TextureSetTest, RangeIsTintedOnlyWhileAskedFor) {
   for (int i = 0; i < 12; ++i) {
     range->depth_m.pixels()[static_cast<std::size_t>(i)] = i == 11 ? NAN : 10.0F;
   }
-  snapshot.range = range;
+  snapshot.terrain.Edit().range = range;
   textures.Update(snapshot);
   EXPECT_EQ(textures.names().range_tint, 0U);
   textures.ShowRange(true);
@@ -138,14 +138,14 @@ TEST_F(TextureSetTest, RangeIsTintedOnlyWhileAskedFor) {
 TEST_F(TextureSetTest, ElevationRangeIsSetOncePerMission) {
   TextureSet textures;
   EngineSnapshot snapshot;
-  snapshot.applied = Decision(1, kHazardNone);
+  snapshot.terrain.Edit().applied = Decision(1, kHazardNone);
   textures.Update(snapshot);
   const float low = textures.ranges().elevation_m.low;
   auto higher = Decision(1, kHazardNone);
   auto raised = std::make_shared<ElevationMap>(*higher->elevation);
   raised->height_m = GridF(3, 4, 50.0F);
   higher->elevation = raised;
-  snapshot.applied = higher;
+  snapshot.terrain.Edit().applied = higher;
   textures.Update(snapshot);
   EXPECT_EQ(textures.ranges().elevation_m.low, low);
   textures.Reset();
