@@ -29,8 +29,7 @@ void StartAnew(MissionTurn& turn, Timestamp now) {
 }
 
 void RememberNavigation(MissionFacts& facts, const MissionInputs::Navigation& in) {
-  const bool on_vision = in.navigation.handover == NavigationStatus::Handover::kVision;
-  const FilterStatus& filter = on_vision ? in.navigation.vision : in.navigation.gps;
+  const FilterStatus& filter = in.navigation.InForce();
   facts.skid_centre_W = in.skid_centre_W;
   facts.p_WB = in.p_WB_estimate;
   facts.v_WB = filter.estimate.v_WB;
@@ -59,6 +58,7 @@ void RememberTerrain(MissionFacts& facts, const TerrainDecision* decision) {
     return;
   }
   facts.sites = decision->selection.sites;
+  facts.site_limits = decision->settings;
   facts.map_hash = decision->map_hash;
   facts.terrain_settings_hash = decision->settings_hash;
 }

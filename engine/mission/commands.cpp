@@ -84,8 +84,7 @@ Status Obeying::operator()(const SelectSite& action) const {
   const LandingSite* site = FindSite(m, action.site_id);
   // A refused site is never proposed again: a second look must not wait for that. It stays refused
   // until it is approved.
-  const bool reconsidered = state == MissionState::kSearch && m.status.IsRefused(action.site_id);
-  if (state != MissionState::kProposed && state != MissionState::kArmed && !reconsidered) {
+  if (!m.status.TakesSelection(action.site_id)) {
     return Refuse(turn, now, "Select", words::CannotSelectIn(state));
   }
   if (site == nullptr) {
@@ -100,6 +99,7 @@ Status Obeying::operator()(const SelectSite& action) const {
   ForgetSite(m);
   m.refusal.clear();
   m.status.armed = *site;
+  m.status.armed_limits = SiteLimits(*site, m.facts.site_limits);
   m.status.armed_at = now;
   m.status.arm_expires = AddSeconds(now, m.facts.limits.arm_window_s);
   m.status.approval_phase = MissionStatus::ApprovalPhase::kNone;

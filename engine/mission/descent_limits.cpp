@@ -35,8 +35,7 @@ LimitRow PlaceRow(const DescentFigures& f, EnforcedBy alarm_in_descent) {
 
 DescentFigures FiguresOf(const MissionMemory& m, const MissionInputs& in) {
   const NavigationStatus& navigation = in.navigation.navigation;
-  const bool on_vision = navigation.handover == NavigationStatus::Handover::kVision;
-  const PositionEstimate& estimate = (on_vision ? navigation.vision : navigation.gps).estimate;
+  const PositionEstimate& estimate = navigation.InForce().estimate;
   const auto& vehicle = m.watch.vehicle();
   const LandingSite* site = SiteInQuestion(m);
   DescentFigures f;

@@ -30,6 +30,7 @@ class Mission {
   bool VisionAllowed() const { return memory_.vision_allowed; }
   /// ARMED and later: moved limits preview only.
   bool SettingsFrozen() const { return memory_.status.state >= MissionState::kArmed; }
+  bool DropsWithSettings() const { return palace::DropsWithSettings(memory_.status); }
 
   const std::vector<Event>& events() const { return events_; }
   void AddEvent(Timestamp time, EventKind kind, std::string text);

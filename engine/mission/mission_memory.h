@@ -35,6 +35,7 @@ struct MissionFacts {
   bool can_transmit = false;
   bool recorder_ok = false;
   std::vector<LandingSite> sites;
+  SladSettings site_limits;  ///< under which they were chosen
   std::uint64_t map_hash = 0;
   std::uint64_t settings_hash = 0;
   std::uint64_t terrain_settings_hash = 0;

@@ -39,6 +39,7 @@ void Publish(MissionTurn& turn, const MissionInputs& in) {
   PublishGeometry(m, in);
   PublishLimits(m, in);
   PublishAlarms(turn, in);
+  m.status.may_select = MaySelect(m.facts.role);
   m.status.guards = EvaluateGuards(GuardInputsAt(m, in.session.now));
   m.status.can_approve =
       m.status.state == MissionState::kArmed && FirstFailure(m.status.guards) == nullptr;

@@ -196,7 +196,7 @@ void StepDescending(MissionTurn& turn, const MissionInputs& in) {
   if (LandedOrAborting(turn, in) || m.watch.vehicle()->mode == VehicleMode::kLanded) {
     return;  // on the ground by its own word: the second sign is still missing
   }
-  const bool on_vision = in.navigation.navigation.handover == NavigationStatus::Handover::kVision;
+  const bool on_vision = in.navigation.navigation.OnVision();
   const double outage_s = SecondsBetween(m.vision_good_at, now);
   const double limit_s = m.facts.limits.max_vision_outage_s;
   if (on_vision && outage_s > limit_s) {

@@ -36,11 +36,14 @@ MissionAnswer Apply(const MissionOptions& station, MissionMemory memory,
   return {std::move(turn.memory), std::move(turn.effects), std::move(status)};
 }
 
+bool DropsWithSettings(const MissionStatus& status) {
+  return status.state == MissionState::kArmed || status.state == MissionState::kApproved;
+}
+
 MissionStep DropApproval(const MissionOptions& station, MissionMemory memory,
                          std::string_view why) {
   MissionTurn turn{station, std::move(memory), {}};
-  const MissionState state = turn.memory.status.state;
-  if (state == MissionState::kArmed || state == MissionState::kApproved) {
+  if (DropsWithSettings(turn.memory.status)) {
     Drop(turn, std::string(why), turn.memory.facts.now);
   }
   return {std::move(turn.memory), std::move(turn.effects)};

@@ -47,6 +47,8 @@ MissionStep Step(const MissionOptions& station, MissionMemory memory, const Miss
 MissionAnswer Apply(const MissionOptions& station, MissionMemory memory,
                     const EngineCommand& command, Timestamp now);
 
+/// An armed site, or an approval that is not flown yet: applied settings drop it (I13).
+bool DropsWithSettings(const MissionStatus& status);
 /// Settings were applied: what is armed or approved but not flying falls (I13).
 MissionStep DropApproval(const MissionOptions& station, MissionMemory memory, std::string_view why);
 

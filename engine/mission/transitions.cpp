@@ -60,6 +60,7 @@ void Enter(MissionTurn& turn, MissionState state, std::string why, Timestamp now
 
 void ForgetSite(MissionMemory& m) {
   m.status.armed.reset();
+  m.status.armed_limits.clear();
   m.status.approach.reset();
   m.status.arm_expires.reset();
   m.status.guards.clear();

@@ -56,6 +56,9 @@ struct NavigationStatus {
   Eigen::Vector3d vision_p_WB = Eigen::Vector3d::Zero();  ///< raw, before the filter
   enum class Handover : std::uint8_t { kGps, kSettling, kReady, kVision };
   Handover handover = Handover::kGps;
+  bool OnVision() const { return handover == Handover::kVision; }
+  /// The filter whose estimate the vehicle flies on.
+  const FilterStatus& InForce() const { return OnVision() ? vision : gps; }
   std::string handover_reason;  ///< what it waits for
   double offset_m = 0;          ///< |vision - GPS| at the switch
 };

@@ -47,13 +47,17 @@ struct HistorySample {
   Eigen::Vector3d estimate_sigma_m{NAN, NAN, NAN};
   Eigen::Vector3d gps_p_WB{NAN, NAN, NAN};
   Eigen::Vector3d truth_p_WB{NAN, NAN, NAN};
-  double height_above_site_m = NAN;  ///< skid above site by the estimate in force
-  double from_site_m = NAN;          ///< horizontal distance of skid centre to site, estimate
+  // Heights of the skid centre above the site.
+  double height_above_site_m = NAN;  ///< by the estimate in force
+  double gps_height_m = NAN;
+  double truth_height_m = NAN;
+  double from_site_m = NAN;  ///< horizontal distance of skid centre to site, estimate
   double from_site_gps_m = NAN;
   double from_site_truth_m = NAN;
+  bool centre_limited = false;  ///< the distance from the site's centre has its limit now
   double plan_height_m = NAN;
   double descent_rate_mps = NAN;
-  double laser_m = NAN;
+  double laser_m = NAN;  ///< height of the skids above the laser's spot
   double coherence = NAN;
   double residual_sigma = NAN;
   double glide_deviation_m = NAN;
@@ -65,6 +69,13 @@ struct HistorySample {
 struct StageTiming {
   std::string stage;
   double milliseconds = 0;
+};
+
+/// When a limit that a person moves comes into force.
+enum class LimitsApply : std::uint8_t {
+  kAtOnce,       ///< with the next map
+  kWhenApplied,  ///< until then it is a preview
+  kNotNow,       ///< a preview only: the descent keeps the limits it was approved under
 };
 
 /// The session: what is so until somebody changes it. Diagnostics and timings are of one pass.
@@ -81,6 +92,8 @@ struct SessionPart {
   Settings preview_settings;  ///< equal to settings when nothing is previewed
   std::uint64_t settings_hash = 0;
   std::uint64_t preview_hash = 0;
+  LimitsApply limits_apply = LimitsApply::kAtOnce;
+  bool apply_drops = false;  ///< applying drops the site that is armed, or its approval
 
   std::shared_ptr<const std::vector<Event>> events;
   std::vector<StageTiming> timings;
@@ -113,6 +126,9 @@ struct TerrainPart {
   std::optional<SiteReview> site_review;  ///< empty before the first site
   /// Replay: maps still to come after a jump until the map holds as many frames as in flight.
   int maps_to_rebuild = 0;
+
+  /// What a screen shows as decided: the preview while there is one.
+  const TerrainDecision* Shown() const { return preview ? preview.get() : applied.get(); }
 };
 
 /// Where the mission stands and where the vehicle is.

@@ -19,11 +19,16 @@ void AddSiteFigures(HistorySample& sample, const EngineSnapshot& snapshot,
   const Eigen::Vector3d skid = SkidOf(sample.estimate_p_WB, R_WB);
   sample.height_above_site_m = site.p_WS.z() - skid.z();
   sample.from_site_m = Horizontal(skid, site.p_WS);
-  sample.from_site_gps_m = Horizontal(SkidOf(sample.gps_p_WB, R_WB), site.p_WS);
+  const Eigen::Vector3d by_gps = SkidOf(sample.gps_p_WB, R_WB);
+  sample.gps_height_m = site.p_WS.z() - by_gps.z();
+  sample.from_site_gps_m = Horizontal(by_gps, site.p_WS);
   if (snapshot.sensors->truth) {
-    sample.from_site_truth_m =
-        Horizontal(SkidOf(sample.truth_p_WB, snapshot.sensors->truth->X_WB.R), site.p_WS);
+    const Eigen::Vector3d in_truth = SkidOf(sample.truth_p_WB, snapshot.sensors->truth->X_WB.R);
+    sample.truth_height_m = site.p_WS.z() - in_truth.z();
+    sample.from_site_truth_m = Horizontal(in_truth, site.p_WS);
   }
+  const LimitRow* centre = FindLimit(snapshot.flight->mission.limits, LimitId::kFromCentre);
+  sample.centre_limited = centre != nullptr && centre->enforced_by != EnforcedBy::kNobody;
   sample.plan_height_m = snapshot.flight->mission.path.plan_height_m;
   sample.glide_deviation_m = snapshot.flight->mission.path.off_path_m;
 }
@@ -47,8 +52,7 @@ HistorySample SampleOf(const EngineSnapshot& snapshot, const FrameBundle& bundle
   sample.state = snapshot.flight->mission.state;
   sample.rebuilding = snapshot.terrain->maps_to_rebuild > 0;
   const NavigationStatus& nav = snapshot.flight->navigation;
-  const bool vision = nav.handover == NavigationStatus::Handover::kVision;
-  const FilterStatus& filter = vision ? nav.vision : nav.gps;
+  const FilterStatus& filter = nav.InForce();
   Eigen::Matrix3d R_WB = Eigen::Matrix3d::Identity();
   if (snapshot.sensors->pose) {
     R_WB = snapshot.sensors->pose->X_WB.R;

@@ -39,16 +39,14 @@ void FlightSummarizer::Add(const EngineSnapshot& snapshot) {
   if (snapshot.sensors->truth && flying) {
     const Eigen::Vector3d& truth = snapshot.sensors->truth->X_WB.p;
     const NavigationStatus& nav = snapshot.flight->navigation;
-    const bool vision = nav.handover == NavigationStatus::Handover::kVision;
     if (nav.gps.running) {
       summary_.gps_error_m.Add((nav.gps.estimate.p_WB - truth).norm());
     }
-    if (vision && nav.vision.running) {
+    if (nav.OnVision() && nav.vision.running) {
       summary_.estimate_error_m.Add((nav.vision.estimate.p_WB - truth).norm());
     }
-    const FilterStatus& in_force = vision ? nav.vision : nav.gps;
-    if (in_force.running) {
-      summary_.approach_error_m.Add((in_force.estimate.p_WB - truth).norm());
+    if (nav.InForce().running) {
+      summary_.approach_error_m.Add((nav.InForce().estimate.p_WB - truth).norm());
     }
   }
   if (!flying && snapshot.sensors->truth && summary_.site && !summary_.touchdown_miss_m) {

@@ -365,6 +365,8 @@ PipelineOutput Pipeline::Publish(Pass& pass) {
   part.preview_settings = settings_.preview();
   part.settings_hash = HashOf(part.settings);
   part.preview_hash = HashOf(part.preview_settings);
+  part.limits_apply = WhenLimitsApply(/*of_record=*/false);
+  part.apply_drops = part.limits_apply == LimitsApply::kWhenApplied && mission_.DropsWithSettings();
   part.events = std::make_shared<const std::vector<Event>>(mission_.events());
   const bool new_time = !last_ || last_->time != snapshot.time;
   if (new_time && pass.bundle) {

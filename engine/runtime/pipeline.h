@@ -67,6 +67,8 @@ class Pipeline {
   void StartAfterJump(Timestamp now);
   void ApplyCommands(Pass& pass);
   void ApplySettingCommand(Pass& pass, const EngineCommand& command);
+  /// `of_record`: a limit that the recorded flight's own operator moved.
+  LimitsApply WhenLimitsApply(bool of_record) const;
   void PrepareRig(Pass& pass);
   void See(Pass& pass);
   void MeasureRange(Pass& pass);

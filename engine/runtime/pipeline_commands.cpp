@@ -12,9 +12,19 @@ bool IsSettingCommand(const EngineCommand& command) {
 
 }  // namespace
 
+LimitsApply Pipeline::WhenLimitsApply(bool of_record) const {
+  const bool reviewed = FollowsRecord(role_) && !of_record;
+  if (reviewed || !mission_.SettingsFrozen()) {
+    return LimitsApply::kAtOnce;
+  }
+  return mission_.status().state == MissionState::kDescending ? LimitsApply::kNotNow
+                                                              : LimitsApply::kWhenApplied;
+}
+
 void Pipeline::ApplySettingCommand(Pass& pass, const EngineCommand& command) {
   const bool of_record = command.origin == CommandOrigin::kReplay;
-  const bool preview_only = mission_.SettingsFrozen() && (!FollowsRecord(role_) || of_record);
+  const LimitsApply when = WhenLimitsApply(of_record);
+  const bool preview_only = when != LimitsApply::kAtOnce;
   Status done = Ok();
   std::string text;
   if (const auto* set = std::get_if<SetSetting>(&command.action)) {
@@ -27,7 +37,7 @@ void Pipeline::ApplySettingCommand(Pass& pass, const EngineCommand& command) {
              " to " + FormatSetting(*info, set->value);
     }
   } else if (std::holds_alternative<ApplySettings>(command.action)) {
-    if (mission_.status().state == MissionState::kDescending) {
+    if (when == LimitsApply::kNotNow) {
       done = InvalidError("limits cannot be applied during the descent, only previewed");
     } else if (of_record || settings_.previewing()) {
       mission_.DropApproval("limits applied");

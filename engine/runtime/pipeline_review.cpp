@@ -11,10 +11,10 @@ void Pipeline::Review(Pass& pass) {
   EngineSnapshot& snapshot = *pass.snapshot;
   const TerrainDecision* flown = snapshot.terrain->recorded ? snapshot.terrain->recorded.get()
                                                             : snapshot.terrain->applied.get();
-  const LandingSite* site = snapshot.flight->mission.armed ? &*snapshot.flight->mission.armed
-                            : flown != nullptr && !flown->selection.sites.empty()
-                                ? &flown->selection.sites.front()
-                                : nullptr;
+  const MissionStatus& mission = snapshot.flight->mission;
+  const LandingSite* site = mission.armed      ? &*mission.armed
+                            : flown != nullptr ? mission.BestStanding(flown->selection.sites)
+                                               : nullptr;
   if (site == nullptr || !snapshot.terrain->applied || !slad_.has_map()) {
     snapshot.terrain.Edit().site_review.reset();
     return;

@@ -61,9 +61,14 @@ void RecordedFlight::Restore(const FlightRecordSample& sample, MissionStatus& st
   status.distance_to_site_m = sample.distance_to_site_m;
   const LandingSite* site = ArmedSite(sample);
   status.armed = site ? std::optional<LandingSite>(*site) : std::nullopt;
+  const Settings* limits = SettingsAt(sample.time);
+  status.armed_limits =
+      site ? SiteLimits(*site, (limits ? *limits : record_->settings_at_start).slad)
+           : std::vector<LimitRow>{};
   status.guards.clear();
   status.can_approve = false;
-  status.cannot_approve_reason = "No link in replay";
+  status.may_select = false;
+  status.cannot_approve_reason = WhyNoVehicle(SourceKind::kReplay);
 }
 
 }  // namespace palace

@@ -165,7 +165,7 @@ WireMessage EncodeStationStatus(const EngineSnapshot& snapshot, const ChannelNam
   for (const Alarm& alarm : snapshot.flight->mission.alarms) {
     m.alarms += alarm.active ? 1 : 0;
   }
-  m.vision_in_force = snapshot.flight->navigation.handover == NavigationStatus::Handover::kVision;
+  m.vision_in_force = snapshot.flight->navigation.OnVision();
   return MakeMessage(channels.station_status, snapshot.time, m);
 }
 

@@ -20,7 +20,7 @@ void FillSensors(const MissionMemory& m, const MissionInputs& in, AlarmFacts& f)
   f.clock_stepped = m.watch.clock_stepped();
   f.rebooted = m.watch.rebooted();
   f.gps_error_m = m.watch.gps() ? 3 * m.watch.gps()->sigma_horizontal_m : NAN;
-  f.on_vision = in.navigation.navigation.handover == NavigationStatus::Handover::kVision;
+  f.on_vision = in.navigation.navigation.OnVision();
   f.pictures = JudgePictures(stereo, in.session.role);
   f.row_error_px = stereo.row_error_px;
   f.exposure_ratio = stereo.exposure_ratio;

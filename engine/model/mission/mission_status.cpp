@@ -51,6 +51,11 @@ const LandingSite* MissionStatus::BestStanding(const std::vector<LandingSite>& s
   return best == sites.end() ? nullptr : &*best;
 }
 
+bool MissionStatus::TakesSelection(std::uint64_t site_id) const {
+  return state == MissionState::kProposed || state == MissionState::kArmed ||
+         (state == MissionState::kSearch && IsRefused(site_id));
+}
+
 const char* SiteVerdictWord(SiteVerdict verdict) {
   switch (verdict) {
     case SiteVerdict::kHolds:

@@ -109,8 +109,9 @@ struct PathProgress {
 struct MissionStatus {
   MissionState state = MissionState::kNoLive;
   Timestamp since;
-  std::string why;                   ///< cause of the last transition, in words
-  std::optional<LandingSite> armed;  ///< frozen evidence, from ARMED to LANDED
+  std::string why;                     ///< cause of the last transition, in words
+  std::optional<LandingSite> armed;    ///< frozen evidence, from ARMED to LANDED
+  std::vector<LimitRow> armed_limits;  ///< of `armed`, under the limits that it was armed under
   /// Of the armed site: frozen with it, as soon as the vehicle's place is known.
   std::optional<ApproachPlan> approach;
   Timestamp armed_at;
@@ -120,6 +121,12 @@ struct MissionStatus {
   bool IsRefused(std::uint64_t site_id) const;
   /// The first of `sites`, best first, that is not refused; null when there is none.
   const LandingSite* BestStanding(const std::vector<LandingSite>& sites) const;
+  /// The state is one in which that site can be selected: any that is proposed; while searching
+  /// only a refused one, for a second look.
+  bool TakesSelection(std::uint64_t site_id) const;
+  bool may_select = false;  ///< a person may select in this session (session_role.h)
+  /// That person may select that site now.
+  bool MaySelect(std::uint64_t site_id) const { return may_select && TakesSelection(site_id); }
   std::vector<GuardResult> guards;  ///< for the armed site
   bool can_approve = false;
   std::string cannot_approve_reason;  ///< first guard that fails
