@@ -9,7 +9,7 @@
 
 #include "engine/journal/replay_source.h"
 #include "engine/runtime/engine.h"
-#include "engine/runtime/settings_io.h"
+#include "engine/runtime/wanted_settings.h"
 #include "engine/survey/rerun_files.h"
 #include "engine/wire/channels.h"
 
@@ -17,44 +17,9 @@ namespace palace {
 namespace {
 
 struct RerunOptions {
-  std::string log, out, settings_file, maps, channels_file;
-  std::vector<std::string> set;
+  std::string log, out, maps, channels_file;
+  SettingsRequest settings;
 };
-
-/// What was recorded at the start, with the file and the single values over it.
-Result<Settings> WantedSettings(const RerunOptions& options, const Settings& recorded) {
-  Settings settings = recorded;
-  if (!options.settings_file.empty()) {
-    Result<Settings> loaded = LoadSettingsFile(options.settings_file, settings);
-    if (!loaded) {
-      return loaded;
-    }
-    settings = *loaded;
-  }
-  for (const std::string& assignment : options.set) {
-    Result<Settings> changed = ApplySettingText(settings, assignment);
-    if (!changed) {
-      return UsageError("--set " + assignment + ": " + changed.error().message);
-    }
-    settings = *changed;
-  }
-  if (const Status good = CheckSettings(settings, "--set"); !good) {
-    return UsageError(good.error().message);
-  }
-  return settings;
-}
-
-/// What the ranges, the fused map and the tracker are made with comes from `wanted` from the start;
-/// limits, lander and choice stay as recorded, and `wanted` is judged beside them.
-Settings WithPerceptionOf(const Settings& wanted, const Settings& recorded) {
-  Settings settings = recorded;
-  settings.stereo = wanted.stereo;
-  settings.tracking = wanted.tracking;
-  settings.slad.mode = wanted.slad.mode;
-  settings.slad.grid = wanted.slad.grid;
-  settings.slad.fusion = wanted.slad.fusion;
-  return settings;
-}
 
 /// The record's sample of that very time; null where the log holds none.
 const FlightRecordSample* SampleAt(const FlightRecord& record, Timestamp time, std::size_t& next) {
@@ -100,9 +65,9 @@ Result<int> Rerun(const RerunOptions& options) {
   }
   const std::shared_ptr<ReplaySource> source = std::move(*opened);
   const FlightRecord& record = *source->recorded();
-  const Result<Settings> wanted = WantedSettings(options, record.settings_at_start);
-  if (!wanted) {
-    return wanted.error();
+  const Result<ReplaySettings> settings = SettingsOfReplay(options.settings, record);
+  if (!settings) {
+    return settings.error();
   }
   Result<RerunFiles> files = RerunFiles::Open(options.out, *maps);
   if (!files) {
@@ -111,11 +76,8 @@ Result<int> Rerun(const RerunOptions& options) {
   EngineParts parts;
   parts.source = source;
   parts.record = source->recorded();
-  parts.settings = WithPerceptionOf(*wanted, record.settings_at_start);
-  const bool moved = !(*wanted == record.settings_at_start);
-  if (moved) {
-    parts.redecide_with = *wanted;
-  }
+  parts.settings = settings->settings;
+  parts.redecide_with = settings->redecide_with;
   Engine engine(std::move(parts), /*threaded=*/false);
   std::size_t next = 0;
   while (engine.Step()) {
@@ -131,7 +93,7 @@ Result<int> Rerun(const RerunOptions& options) {
   if (const Status done = files->Finish(); !done) {
     return done.error();
   }
-  Print(options, files->counts(), moved);
+  Print(options, files->counts(), settings->redecide_with.has_value());
   return source->Status().damage.empty() ? 0 : 3;
 }
 
@@ -144,10 +106,11 @@ void AddLogRerun(CLI::App& log, int& exit_code) {
   verb->add_option("LOG", options->log, "An LCM event log")->required();
   verb->add_option("--out", options->out, "Folder for sites.csv, decisions.csv and maps")
       ->required();
-  verb->add_option("--settings", options->settings_file,
+  verb->add_option("--settings", options->settings.file,
                    "Settings (TOML) over the recorded ones: limits are judged beside them, what "
                    "maps are made with holds from the start");
-  verb->add_option("--set", options->set, "One setting, e.g. slad.max_slope_deg=8; repeatable")
+  verb->add_option("--set", options->settings.set,
+                   "One setting, e.g. slad.max_slope_deg=8; repeatable")
       ->take_all();
   verb->add_option("--maps", options->maps,
                    "Fused maps as GeoTIFF: last, or \"every N s\" of the flight's time");

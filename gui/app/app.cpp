@@ -1,23 +1,14 @@
 #include "gui/app/app.h"
 
-#include <cstdio>
 #include <optional>
 
 #include "engine/core/log.h"
+#include "gui/app/exit_code.h"
 #include "gui/app/run.h"
 #include "gui/app/script.h"
 #include "gui/app/session.h"
 
 namespace palace {
-namespace {
-
-int Fail(const Error& error) {
-  std::fprintf(stderr, "palace: %s\n", error.message.c_str());
-  return error.code == ErrorCode::kUsage ? 2 : 1;
-}
-
-}  // namespace
-
 int RunApp(const AppOptions& options) {
   InitLogging(options.verbose);
   std::optional<std::vector<ScriptLine>> script;
@@ -25,7 +16,7 @@ int RunApp(const AppOptions& options) {
   if (!options.script_file.empty()) {
     Result<std::vector<ScriptLine>> lines = LoadScript(options.script_file);
     if (!lines) {
-      return Fail(lines.error());
+      return FailWith(lines.error());
     }
     script = std::move(*lines);
   } else if (options.headless) {
@@ -38,7 +29,7 @@ int RunApp(const AppOptions& options) {
   }
   Result<Session> session = OpenSession(options, /*threaded=*/!options.headless);
   if (!session) {
-    return Fail(session.error());
+    return FailWith(session.error());
   }
   return RunStation(options, *session, std::move(script), script_name);
 }

@@ -5,34 +5,12 @@
 #include <CLI/CLI.hpp>
 
 #include "engine/core/command_line.h"
+#include "engine/core/text.h"
 #include "engine/core/version.h"
-#include "engine/runtime/settings_io.h"
-#include "engine/world/scene_library.h"
+#include "engine/mission/descent_limits.h"
 
 namespace palace {
 namespace {
-
-Result<Settings> ReadSettings(const AppOptions& options) {
-  Settings settings;
-  if (!options.settings_file.empty()) {
-    Result<Settings> loaded = LoadSettingsFile(options.settings_file, settings);
-    if (!loaded) {
-      return loaded;
-    }
-    settings = *loaded;
-  }
-  for (const std::string& assignment : options.set) {
-    Result<Settings> changed = ApplySettingText(settings, assignment);
-    if (!changed) {
-      return changed;
-    }
-    settings = *changed;
-  }
-  if (const Status good = CheckSettings(settings, "--set"); !good) {
-    return UsageError(good.error().message);
-  }
-  return settings;
-}
 
 /// One of these, or none.
 struct SourceArguments {
@@ -59,16 +37,18 @@ void Declare(CLI::App& app, AppOptions& options, SourceArguments& sources, bool&
       ->check(Seed())
       ->capture_default_str();
   app.add_option("--wind", options.wind_mps,
-                 "Mean wind of the simulation 6 m above ground, m/s; with more than 8 at the "
-                 "vehicle nothing can be approved")
+                 WithNumbers("Mean wind of the simulation 6 m above ground, m/s; with more than "
+                             "%.0f at the vehicle nothing can be approved",
+                             DescentLimits::wind_mps, 0))
       ->check(FiniteRange(0.0, 15.0))
       ->capture_default_str();
-  app.add_option("--settings", options.settings_file, "Settings file (TOML)");
+  app.add_option("--settings", options.settings.file, "Settings file (TOML)");
   app.add_option(
       "--channels", options.channels_file,
       "Channel names of --connect or --replay (TOML); without it a vehicle's are those of "
       "config/channels.toml beside this program");
-  app.add_option("--set", options.set, "One setting, e.g. slad.max_slope_deg=8; may be repeated");
+  app.add_option("--set", options.settings.set,
+                 "One setting, e.g. slad.max_slope_deg=8; may be repeated");
   app.add_flag("--headless", options.headless,
                "No window: draw offscreen and fly the mission by script");
   app.add_option("--script", options.script_file,
@@ -136,11 +116,6 @@ Result<AppOptions> ParseCommandLine(int argc, const char* const* argv) {
   // A replay, or pictures from disk, are on disk already.
   options.record = !no_record && options.source != SourceChoice::kReplay &&
                    options.source != SourceChoice::kImages;
-  const Result<Settings> settings = ReadSettings(options);
-  if (!settings) {
-    return settings.error();
-  }
-  options.settings = *settings;
   return options;
 }
 

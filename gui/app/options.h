@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "engine/core/result.h"
-#include "engine/model/settings/settings.h"
+#include "engine/runtime/wanted_settings.h"
 
 namespace palace {
 
@@ -19,10 +19,8 @@ struct AppOptions {
   std::string scenario = "runway";
   std::uint64_t seed = 1;
   double wind_mps = 0;
-  std::string settings_file;
-  std::string channels_file;     ///< empty: see channels_file.h
-  std::vector<std::string> set;  ///< "slad.max_slope_deg=8"
-  Settings settings;             ///< file and --set applied
+  SettingsRequest settings;   ///< read where it is known what they stand over
+  std::string channels_file;  ///< empty: see channels_file.h
   bool headless = false;
   std::string script_file;
   std::filesystem::path record_dir = "logs";
@@ -33,12 +31,10 @@ struct AppOptions {
   double ui_scale = 0;  ///< 0: from the monitor
   std::string theme = "dark";
   bool verbose = false;
-  /// Set by --help and --version: print this and leave with exit_code.
-  std::string print;
-  int exit_code = 0;
+  std::string print;  ///< of --help and --version: print this and leave
 };
 
-/// Errors are usage errors (exit 2) unless a file cannot be read.
+/// Errors are usage errors (exit 2).
 Result<AppOptions> ParseCommandLine(int argc, const char* const* argv);
 
 }  // namespace palace

@@ -52,12 +52,12 @@ Status OpenReplay(const AppOptions& options, bool paced, Session& session, Engin
   }
   session.record = (*source)->recorded();
   parts.record = session.record;
-  const bool moved = !options.settings_file.empty() || !options.set.empty();
-  parts.settings =
-      session.record->has_settings ? session.record->settings_at_start : options.settings;
-  if (moved) {
-    parts.redecide_with = options.settings;
+  const Result<ReplaySettings> settings = SettingsOfReplay(options.settings, *session.record);
+  if (!settings) {
+    return settings.error();
   }
+  parts.settings = settings->settings;
+  parts.redecide_with = settings->redecide_with;
   session.source = std::move(*source);
   parts.source = session.source;
   return Ok();
@@ -140,7 +140,13 @@ std::string TimeStampName() {
 Result<Session> OpenSession(const AppOptions& options, bool threaded) {
   Session session;
   EngineParts parts;
-  parts.settings = options.settings;
+  if (options.source != SourceChoice::kReplay) {
+    const Result<Settings> settings = WantedSettings(options.settings, Settings{});
+    if (!settings) {
+      return settings.error();
+    }
+    parts.settings = *settings;
+  }
   const Status source = OpenSource(options, threaded, session, parts);
   if (!source) {
     return source.error();

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/core/hash.h"
 #include "tests/scenarios/scenario.h"
 
 namespace palace {
@@ -97,6 +98,42 @@ TEST_F(LogRerun, DecidesAsInFlightAndWritesEverySiteAndMap) {
                             "same/" + maps.back().at("stem") + "_elevation.tif", "--out", "again"}),
                  kLimit_s);
   EXPECT_EQ(read.exit_code, 0) << read.err;
+}
+
+/// The hash of the limits that a replay in palace judged under, in the eight digits of its report.
+std::string HashOfReport(const std::filesystem::path& report) {
+  std::ifstream file(report);
+  std::stringstream text;
+  text << file.rdbuf();
+  const std::string heading = "Limits in force, ";
+  const std::size_t at = text.str().find(heading);
+  return at == std::string::npos ? "" : text.str().substr(at + heading.size(), 8);
+}
+
+TEST_F(LogRerun, AndAReplayOfTheWindowJudgeUnderTheSameLimits) {
+  WriteFile("look.script", "wait state PROPOSED 20\nquit\n");
+  // The flight itself began with other limits than the built-in ones.
+  const ProcessResult flight =
+      RunProcess(Palace({"--headless", "--seed", "3", "--record", "records", "--script",
+                         "look.script", "--set", "slad.max_step_m=0.12"}),
+                 kLimit_s);
+  ASSERT_EQ(flight.exit_code, 0) << flight.err;
+  const std::string log = (FlightsIn(folder_ / "records").front() / "flight.lcm").string();
+  const ProcessResult rerun = Rerun(log, {"--out", "again", "--set", "slad.max_slope_deg=6"});
+  ASSERT_EQ(rerun.exit_code, 0) << rerun.err;
+  WriteFile("watch.script", "wait state PROPOSED 20\nquit\n");
+  const ProcessResult window =
+      RunProcess(Palace({"--headless", "--replay", log, "--record", "shown", "--script",
+                         "watch.script", "--set", "slad.max_slope_deg=6"}),
+                 kLimit_s);
+  ASSERT_EQ(window.exit_code, 0) << window.err;
+  Settings both;
+  both.slad.limits.max_step_m = 0.12;
+  both.slad.limits.max_slope_deg = 6;
+  EXPECT_EQ(ReadTable(folder_ / "again/decisions.csv").back().at("settings_hash"),
+            std::to_string(HashOf(both)));
+  EXPECT_EQ(HashOfReport(FlightsIn(folder_ / "shown").front() / "report.html"),
+            ShortHash(HashOf(both)));
 }
 
 TEST_F(LogRerun, OtherLimitsSayWhyThereIsNoSite) {
