@@ -96,6 +96,28 @@ void FeedShortTaps(const std::vector<KeyEvent>& events, std::vector<ImGuiKey>& h
 #endif
 }
 
+bool IsKey(const std::string& keys) {
+  std::string base = keys;
+  for (bool modified = true; modified;) {
+    modified = false;
+    for (const char* modifier : {"Ctrl+", "Alt+", "Shift+"}) {
+      if (base.rfind(modifier, 0) == 0) {
+        base.erase(0, std::string(modifier).size());
+        modified = true;
+      }
+    }
+  }
+  if (base.size() == 1 || NamedKeys().count(base) > 0) {
+    return true;
+  }
+  for (int key = GLFW_KEY_F1; key <= GLFW_KEY_F12; ++key) {
+    if (base == GlfwKeyName(key)) {
+      return true;
+    }
+  }
+  return false;
+}
+
 std::string KeyName(const KeyEvent& event) {
   std::string base = GlfwKeyName(event.key);
   if (base.empty()) {

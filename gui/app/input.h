@@ -21,5 +21,7 @@ void FeedShortTaps(const std::vector<KeyEvent>& events, std::vector<ImGuiKey>& h
 /// "Shift+Escape", "Ctrl+Z", "Space": the key table's spelling. Letters follow the keyboard's
 /// layout.
 std::string KeyName(const KeyEvent& event);
+/// The text is spelt so.
+bool IsKey(const std::string& keys);
 
 }  // namespace palace

@@ -11,6 +11,7 @@
 #include "engine/core/time.h"
 #include "engine/runtime/flight_summary.h"
 #include "gui/app/dispatch.h"
+#include "gui/app/exit_code.h"
 #include "gui/app/input.h"
 #include "gui/app/keys.h"
 #include "gui/app/report.h"
@@ -131,7 +132,8 @@ class StationRun {
     backend.SetUiScale(View::FittingScale(frame.width_px, frame.height_px, state_.scale));
     const bool pixels = photograph || !surface_.lockstep();
     if (pixels && snapshot) {
-      view_->Upload(*snapshot, frame, state_, dt_s);
+      // Offscreen no frame is drawn between two pictures: the 3-D view is where it glides to.
+      view_->Upload(*snapshot, frame, state_, surface_.lockstep() ? INFINITY : dt_s);
     }
     backend.BeginFrame(surface_.lockstep() ? kLockstepFrame_s : 0, [&] {
       if (script_) {
@@ -180,7 +182,9 @@ class StationRun {
         ShowMessage(state_, saved ? "Screenshot saved: " + name : saved.error().message,
                     ui_time_s_);
       }
-      screenshots_.push_back(name);
+      if (saved) {
+        screenshots_.push_back(name);
+      }
     }
     state_.screenshots_wanted.clear();
     return Ok();
@@ -198,11 +202,6 @@ class StationRun {
   std::vector<ImGuiKey> keys_down_;
   std::vector<std::string> screenshots_;
 };
-
-int Fail(const Error& error) {
-  std::fprintf(stderr, "palace: %s\n", error.message.c_str());
-  return error.code == ErrorCode::kUsage ? 2 : 1;
-}
 
 /// Without a window the figures go to the terminal; the report goes beside the log.
 void Report(const AppOptions& options, const Session& session, const StationRun& run) {
@@ -233,7 +232,7 @@ int RunStation(const AppOptions& options, Session& session,
       surface ? View::Create(options.theme) : Result<std::unique_ptr<View>>(surface.error());
   if (!view) {
     const Status ignored = session.engine->Stop();
-    return Fail(view.error());
+    return FailWith(view.error());
   }
   std::optional<ScriptRunner> runner;
   if (script) {
@@ -252,10 +251,10 @@ int RunStation(const AppOptions& options, Session& session,
   }
   for (const Status& status : {done, closed}) {
     if (!status) {
-      return Fail(status.error());
+      return FailWith(status.error());
     }
   }
-  return run.script_error().empty() ? 0 : Fail(UnavailableError(run.script_error()));
+  return run.script_error().empty() ? 0 : FailWith(UnavailableError(run.script_error()));
 }
 
 }  // namespace palace

@@ -1,6 +1,7 @@
 // Scripts: drive the real window by item name, one action a line (README, "Scripts").
 #pragma once
 
+#include <cmath>
 #include <deque>
 #include <optional>
 #include <string>
@@ -21,10 +22,12 @@ struct ScriptLine {
   std::string verb;
   std::vector<std::string> words;
   std::string text;  ///< as written, for messages
+  /// The word of that index, which was checked to be a number; where it was left out, `otherwise`.
+  double NumberAt(std::size_t index, double otherwise = NAN) const;
 };
 
-/// Checks every line before anything runs: unknown verbs, missing or bad arguments are errors that
-/// name file and line. '#' starts a comment.
+/// Checks every line before anything runs: unknown verbs, missing, bad or surplus arguments are
+/// errors that name file, line, argument, value and limit. '#' starts a comment.
 Result<std::vector<ScriptLine>> ParseScript(std::string_view text, const std::string& name);
 Result<std::vector<ScriptLine>> LoadScript(const std::string& path);
 

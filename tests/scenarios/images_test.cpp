@@ -1,6 +1,8 @@
 // Photographs of a beach park: analysed by palacectl, and shown by palace.
 #include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
 
+#include "gui/app/layout.h"
 #include "tests/scenarios/scenario.h"
 #include "tests/support/reference_data.h"
 
@@ -70,6 +72,11 @@ TEST_F(Photographs, PalaceShowsThemAndTheirSites) {
             "screenshot fly.png\n"
             "click tab/Tune\n"
             "screenshot tune.png\n"
+            "click tab/Fly\n"
+            "click view/Above\n"
+            "screenshot above.png\n"
+            "wait seconds 1\n"
+            "screenshot later.png\n"
             "quit\n");
   const ProcessResult result = RunProcess(
       Palace({"--headless", "--images", kRig, "--script", "look.script", "--record", "rec"}), 120);
@@ -79,6 +86,16 @@ TEST_F(Photographs, PalaceShowsThemAndTheirSites) {
   for (const char* name : {"fly.png", "tune.png"}) {
     EXPECT_TRUE(std::filesystem::exists(flights[0] / name)) << name;
   }
+  // The view stands where it was sent, in the first picture already.
+  const Rect view = ComputeFlyLayout(1920, 1080, 1, false).view_3d;
+  const cv::Rect scene(static_cast<int>(view.x) + 4, static_cast<int>(view.y) + 70,
+                       static_cast<int>(view.w) - 8, static_cast<int>(view.h) - 80);
+  const cv::Mat before = cv::imread((flights[0] / "fly.png").string());
+  const cv::Mat above = cv::imread((flights[0] / "above.png").string());
+  const cv::Mat later = cv::imread((flights[0] / "later.png").string());
+  ASSERT_FALSE(before.empty() || above.empty() || later.empty());
+  EXPECT_GT(cv::norm(before(scene), above(scene), cv::NORM_INF), 40);
+  EXPECT_EQ(cv::norm(above(scene), later(scene), cv::NORM_INF), 0);
 }
 
 }  // namespace

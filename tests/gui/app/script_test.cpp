@@ -23,11 +23,30 @@ TEST_P(BadScripts, AreRefusedNamingTheLine) {
 
 INSTANTIATE_TEST_SUITE_P(
     Table, BadScripts,
-    testing::Values(BadScript{"verb", "quit\nfly away\n", "s.txt:2: unknown action 'fly'"},
-                    BadScript{"count", "click\n", "s.txt:1: 'click' takes"},
-                    BadScript{"number", "hold approve long\n", "'long' is not a number"},
-                    BadScript{"setting", "set slad.nothing 3\n", "unknown setting 'slad.nothing'"},
-                    BadScript{"what", "wait weather 3\n", "not 'weather'"}),
+    testing::Values(
+        BadScript{"verb", "quit\nfly away\n", "s.txt:2: unknown action 'fly'"},
+        BadScript{"count", "click\n", "s.txt:1: 'click' takes"},
+        BadScript{"number", "hold approve long\n", "'long' is not a number"},
+        BadScript{"setting", "set slad.nothing 3\n", "unknown setting 'slad.nothing'"},
+        BadScript{"what", "wait weather 3\n", "not 'weather'"},
+        BadScript{"no_seconds_to_expect", "expect seconds 3\n", "not 'seconds'"},
+        BadScript{"no_text_to_wait_for", "wait text go Go\n", "not 'text'"},
+        BadScript{"bare_wait", "wait\n", "takes one of state, seconds, item, height"},
+        BadScript{"height", "wait height low\n", "s.txt:1: wait: HEIGHT 'low' is not"},
+        BadScript{"expect_height", "expect height nan\n", "'nan' is not a number"},
+        BadScript{"item_limit", "wait item go soon\n", "WITHIN 'soon' is not"},
+        BadScript{"negative", "wait seconds -1\n", "SECONDS = -1 must lie between 0 and 3600 s"},
+        BadScript{"hold", "hold go 90\n", "SECONDS = 90 must lie between 0 and 60 s"},
+        BadScript{"size", "resize 10 720\n", "WIDTH = 10 must lie between 640 and 7680 px"},
+        BadScript{"speed", "speed -2\n", "SPEED = -2 must lie between 0 and 100"},
+        BadScript{"surplus", "click go now\n", "nothing after it: 'now'"},
+        BadScript{"no_words", "expect text go\n", "takes text NAME WORDS"},
+        BadScript{"key", "key Tabb\n", "unknown key 'Tabb'"},
+        BadScript{"held_key", "hold_key Entr 1\n", "unknown key 'Entr'"},
+        BadScript{"picture", "screenshot ../a.png\n", "without a folder"},
+        BadScript{"picture_kind", "screenshot a.bmp\n", "ends in .png"},
+        BadScript{"state", "wait state PROPOSED|\nwait state NOWHERE\n",
+                  "unknown state 'NOWHERE'"}),
     [](const auto& row) { return std::string(row.param.name); });
 
 TEST(Script, DefaultMissionParses) {
@@ -98,6 +117,38 @@ TEST(Script, DisabledAndMissingItemsFail) {
   Runner missing("click nowhere\n");
   missing.RunOut();
   EXPECT_NE(missing.script_.error().find("nothing of that name"), std::string::npos);
+}
+
+TEST(Script, EveryKeyOfTheTableMayBePressed) {
+  for (const char* keys : {"Tab", "Shift+Tab", "F12", "Ctrl+Z", "Ctrl+Shift+Z", "Ctrl++", "[", "B",
+                           "Shift+Escape", "Space"}) {
+    EXPECT_TRUE(ParseScript(std::string("key ") + keys, "s.txt").ok()) << keys;
+  }
+}
+
+TEST(Script, ExpectHeightHoldsTheHeightAboveTheSite) {
+  Runner low("expect height 4\n");
+  low.snapshot_.flight.Edit().mission.height_above_site_m = 3.5;
+  low.RunOut();
+  EXPECT_EQ(low.script_.error(), "");
+  Runner high("expect height 4\n");
+  high.snapshot_.flight.Edit().mission.height_above_site_m = 12;
+  high.RunOut();
+  EXPECT_EQ(high.script_.error(),
+            "s.txt:1: 'expect height 4' failed: the height above the site is 12.0 m");
+  Runner unknown("expect height 4\n");
+  unknown.snapshot_.flight.Edit().mission.height_above_site_m = NAN;
+  unknown.RunOut();
+  EXPECT_NE(unknown.script_.error().find("not known"), std::string::npos);
+}
+
+TEST(Script, ExpectItemHoldsThatItMayBeUsed) {
+  Runner on("expect item go\n");
+  on.RunOut();
+  EXPECT_EQ(on.script_.error(), "");
+  Runner off("expect item off\n");
+  off.RunOut();
+  EXPECT_NE(off.script_.error().find("it is disabled"), std::string::npos);
 }
 
 TEST(Script, ExpectReadsTheTextOfAnItem) {
