@@ -6,8 +6,6 @@
 #include "engine/core/text.h"
 
 namespace palace {
-namespace {}  // namespace
-
 void SeriesStats::Add(double value) {
   if (!std::isfinite(value)) {
     return;

@@ -26,8 +26,6 @@ struct Grid2 {
 
 double Floor4(double value) { return std::floor(value / 4) * 4; }
 
-bool IsNarrow(double width, double height) { return width < 1600 || height < 900; }
-
 /// Sizes in units shared by the parts of Fly.
 struct FlyUnits {
   double width, height;
@@ -44,10 +42,10 @@ FlyUnits MeasureFly(double width, double height) {
   u.narrow = IsNarrow(width, height);
   u.right_w = u.narrow ? 344 : (width >= 3000 ? 480 : 416);
   u.left_x = kMargin;
-  u.left_w = width - 2 * kMargin - kGap - u.right_w;
+  u.left_w = width - kBesideBody - kGap - u.right_w;
   u.right_x = u.left_x + u.left_w + kGap;
   u.body_y = 88;
-  u.body_h = height - 124;
+  u.body_h = height - kAroundBody;
   u.channel_h = u.narrow ? 0 : 72;
   const double channel_gap = u.narrow ? 0 : kGap;
   // The picture is the hero: maps grow only with what the picture row does not need.
@@ -187,12 +185,12 @@ FrameLayout ComputeFrameLayout(double width_px, double height_px, double scale) 
   frame.scale = scale;
   frame.narrow = IsNarrow(width, height);
   frame.window = grid.Of(0, 0, width, height);
-  const double wave_off_w = width < 1600 ? 200 : 216;
+  const double wave_off_w = width < kWideWidth ? 200 : 216;
   frame.wave_off = grid.Of(width - wave_off_w, 0, wave_off_w, 80);
   frame.top_bar = grid.Of(0, 0, width - wave_off_w, 48);
   frame.mode_block = grid.Of(0, 0, 112, 48);
   frame.alarm_strip = grid.Of(0, 48, width - wave_off_w, 32);
-  frame.body = grid.Of(kMargin, 88, width - 2 * kMargin, height - 124);
+  frame.body = grid.Of(kMargin, 88, width - kBesideBody, height - kAroundBody);
   frame.status_bar = grid.Of(0, height - 28, width, 28);
   return frame;
 }

@@ -31,12 +31,12 @@ void AddPlots(HtmlPage& page, const std::vector<HistorySample>& samples) {
   if (samples.size() < 2) {
     return;
   }
-  LinePlot height{"Height above the site", "flight time, s", "height, m"};
+  LinePlot height{"Height of the skids above the site", "flight time, s", "height, m"};
   height.series = {
       SeriesOf("estimate", samples, [](const HistorySample& s) { return s.height_above_site_m; }),
-      SeriesOf("laser, slant range", samples, [](const HistorySample& s) { return s.laser_m; }),
-      SeriesOf("truth, of the body", samples,
-               [](const HistorySample& s) { return -s.truth_p_WB.z(); })};
+      SeriesOf("laser, above its spot", samples, [](const HistorySample& s) { return s.laser_m; }),
+      SeriesOf("GPS", samples, [](const HistorySample& s) { return s.gps_height_m; }),
+      SeriesOf("truth", samples, [](const HistorySample& s) { return s.truth_height_m; })};
   page.Figure(LinePlotSvg(height), "Gaps: not measured then.");
   LinePlot distance{"Distance of the skids from the site's centre", "flight time, s",
                     "distance, m"};

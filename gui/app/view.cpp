@@ -6,6 +6,7 @@
 #include "engine/slad/hazards/explanation.h"
 #include "gui/app/key_help.h"
 #include "gui/app/layout.h"
+#include "gui/app/take_fonts.h"
 #include "gui/app/view3d_input.h"
 #include "gui/panels/fly_panels.h"
 #include "gui/panels/fly_workspace.h"
@@ -26,30 +27,6 @@ Palette PaletteOf(const std::string& theme) {
     return MakeLightPalette();
   }
   return theme == "contrast" ? MakeHighContrastPalette() : MakeDarkPalette();
-}
-
-void TakeFonts(const Fonts& fonts, Style& style) {
-  style.caption = fonts.caption;
-  style.body = fonts.body;
-  style.medium = fonts.medium;
-  style.section = fonts.section;
-  style.button = fonts.button;
-  style.readout = fonts.readout;
-  style.mode = fonts.mode;
-  style.mode_replay = fonts.mode_replay;
-  style.wave_off = fonts.wave_off;
-  style.replay_time = fonts.replay_time;
-  style.mono = fonts.mono;
-}
-
-std::string PresetName(const UiState& state) {
-  const std::string& path = state.tune.preset_path;
-  const std::size_t slash = path.find_last_of('/');
-  std::string name = slash == std::string::npos ? path : path.substr(slash + 1);
-  if (name.size() > 5 && name.substr(name.size() - 5) == ".toml") {
-    name.resize(name.size() - 5);
-  }
-  return name.empty() ? "defaults" : name;
 }
 
 CellExplanation Explain(const TerrainDecision& decision, Cell cell) {
@@ -98,8 +75,7 @@ Rect View::SceneRect(const EngineSnapshot& snapshot, const UiState& state,
   if (state.frame.workspace == Workspace::kFly) {
     return View3dScene(ComputeFlyLayout(w, h, scale, ShowsDescent(snapshot)).view_3d, style_);
   }
-  if (state.frame.workspace == Workspace::kReview &&
-      snapshot.session->source.kind != SourceKind::kNone) {
+  if (state.frame.workspace == Workspace::kReview && HasSource(snapshot.session->role)) {
     const Rect body = ComputeFrameLayout(w, h, scale).body;
     const Rect panel = LayReview(body, style_, state.review.picture).view_3d;
     return panel.h > 0 ? View3dScene(panel, style_) : Rect{};
@@ -179,7 +155,7 @@ Intents View::Draw(const EngineSnapshot* snapshot, const FlightRecord* record, U
              frame.ui_time_s, state.key_help, layout.wave_off, Explain};
   ui.highlighted_site = state.highlighted_site;
   ui.window_focused = frame.window_focused;
-  state.frame.preset_name = PresetName(state);
+  state.frame.preset_name = PresetName(state.tune);
   state.frame.frame_ms = frame.frame_ms;
   BeginCanvas(ui);
   if (snapshot == nullptr) {

@@ -3,25 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gui/panels/fly_panels.h"
+#include "gui/render/map_scale.h"
+
 namespace palace {
 namespace {
 
-constexpr double kSafeDistanceEndPerMinimum = 2.5;
 constexpr std::size_t kTrailStride = 2;
-
-const LandingSite* ShownSite(const EngineSnapshot& snapshot, const TerrainDecision* decision,
-                             std::uint64_t highlighted) {
-  if (snapshot.flight->mission.armed) {
-    return &*snapshot.flight->mission.armed;
-  }
-  if (!decision || decision->selection.sites.empty()) {
-    return nullptr;
-  }
-  const auto& sites = decision->selection.sites;
-  const auto it = std::find_if(sites.begin(), sites.end(),
-                               [&](const LandingSite& s) { return s.id == highlighted; });
-  return it == sites.end() ? snapshot.flight->mission.BestStanding(sites) : &*it;
-}
 
 void AddTrail(const EngineSnapshot& snapshot, View3dInput& input) {
   if (!snapshot.flight->history) {
@@ -41,13 +29,11 @@ View3dInput MakeView3dInput(const EngineSnapshot& snapshot, std::uint64_t highli
                             double ui_scale) {
   View3dInput input;
   input.ui_scale = ui_scale;
-  const TerrainDecision* decision =
-      snapshot.terrain->preview ? snapshot.terrain->preview.get() : snapshot.terrain->applied.get();
+  const TerrainDecision* decision = snapshot.terrain->Shown();
   if (decision) {
     input.elevation = decision->elevation;
     input.hazards = decision->hazards;
-    input.safe_distance_max_m =
-        kSafeDistanceEndPerMinimum * decision->settings.lander.clear_radius_m();
+    input.safe_distance_max_m = kClearRadiiShown * decision->settings.lander.clear_radius_m();
   }
   // The picture and the range map of one moment belong together; between maps the newest serves.
   if (snapshot.sensors->left_rectified && snapshot.terrain->range) {
@@ -60,12 +46,12 @@ View3dInput MakeView3dInput(const EngineSnapshot& snapshot, std::uint64_t highli
   if (snapshot.sensors->pose) {
     RigidTransform X_WB = snapshot.sensors->pose->X_WB;
     const NavigationStatus& nav = snapshot.flight->navigation;
-    if (nav.handover == NavigationStatus::Handover::kVision && nav.vision.running) {
-      X_WB.p = nav.vision.estimate.p_WB;
+    if (nav.OnVision() && nav.vision.running) {
+      X_WB.p = nav.InForce().estimate.p_WB;
     }
     input.X_WB = X_WB;
   }
-  const LandingSite* shown = ShownSite(snapshot, decision, highlighted);
+  const LandingSite* shown = SiteInView(snapshot, highlighted);
   if (shown) {
     input.site = View3dSite{shown->p_WS, shown->clear_radius_m};
     input.ground_height_m = HeightFromDown(shown->p_WS.z());

@@ -29,18 +29,49 @@ AlarmLook LookOf(const Palette& p, AlarmLevel level) {
   return {Icon::kAdvisory, p.advisory, p.advisory_fill, "ADVISORY", "advisory"};
 }
 
-bool IsShelved(const FrameState& state, AlarmId id) {
-  return std::find(state.shelved.begin(), state.shelved.end(), id) != state.shelved.end();
+bool IsSame(const ShelvedAlarm& shelved, const Alarm& alarm) {
+  return alarm.active && alarm.kind == shelved.kind && alarm.level == shelved.level &&
+         alarm.since == shelved.since;
+}
+
+bool IsShelved(const FrameState& state, const Alarm& alarm) {
+  return std::any_of(state.shelved.begin(), state.shelved.end(),
+                     [&](const ShelvedAlarm& shelved) { return IsSame(shelved, alarm); });
+}
+
+/// What ended, worsened or was raised anew is not what was shelved.
+void ForgetEnded(const std::vector<Alarm>& alarms, FrameState& state) {
+  std::erase_if(state.shelved, [&](const ShelvedAlarm& shelved) {
+    return std::none_of(alarms.begin(), alarms.end(),
+                        [&](const Alarm& alarm) { return IsSame(shelved, alarm); });
+  });
+}
+
+/// Says how many are shelved, and brings them back; returns the left edge.
+float DrawShelf(FrameState& state, float right, float y, UiFrame& ui) {
+  const Style& s = ui.style;
+  if (state.shelved.empty()) {
+    return right;
+  }
+  ButtonLook look;
+  look.flat = true;
+  const std::string words = std::to_string(state.shelved.size()) + " shelved";
+  const float width = TextWidth(s.body, words) + s.Px(24);
+  const Rect button{right - s.Px(12) - width, y - s.Px(12), width, s.Px(24)};
+  if (DrawButton(ui, "unshelve", button, words, look)) {
+    state.shelved.clear();
+  }
+  return button.x + s.Px(12);
 }
 
 /// "2 advisories" and the worst shape among them; drawn right-aligned. Returns the left edge.
-float DrawRest(const std::vector<const Alarm*>& rest, std::size_t shelved, const char* none,
-               float right, float y, UiFrame& ui) {
+float DrawRest(const std::vector<const Alarm*>& rest, const char* none, float right, float y,
+               UiFrame& ui) {
   const Style& s = ui.style;
   std::string words;
   std::optional<AlarmLook> look;
   if (rest.empty()) {
-    words = shelved > 0 ? "(" + std::to_string(shelved) + " shelved)" : none;
+    words = none;
   } else {
     const AlarmLevel worst = rest.front()->level;
     const auto count = std::count_if(rest.begin(), rest.end(),
@@ -53,9 +84,6 @@ float DrawRest(const std::vector<const Alarm*>& rest, std::size_t shelved, const
     const std::size_t others = rest.size() - static_cast<std::size_t>(count);
     if (others > 0) {
       words += ", " + std::to_string(others) + " more";
-    }
-    if (shelved > 0) {
-      words += " (" + std::to_string(shelved) + " shelved)";
     }
   }
   float x = right - s.Px(27);
@@ -79,7 +107,7 @@ float DrawAnswers(const Alarm& alarm, FrameState& state, float right, float y, U
   look.flat = true;
   const Rect shelve{right - s.Px(28 + 72), y - s.Px(12), s.Px(72), s.Px(24)};
   if (DrawButton(ui, "shelve", shelve, "Shelve", look)) {
-    state.shelved.push_back(alarm.kind);
+    state.shelved.push_back({alarm.kind, alarm.level, alarm.since});
   }
   const Rect acknowledge{shelve.x - s.Px(8 + 112), shelve.y, s.Px(112), shelve.h};
   if (!alarm.acknowledged && DrawButton(ui, "acknowledge", acknowledge, "Acknowledge", look)) {
@@ -118,12 +146,10 @@ void DrawAlarmStripPanel(const EngineSnapshot& snap, const Rect& rect, FrameStat
                          UiFrame& ui) {
   const Style& s = ui.style;
   const Palette& p = s.palette;
+  ForgetEnded(snap.flight->mission.alarms, state);
   std::vector<const Alarm*> alarms;
-  std::size_t shelved = 0;
   for (const Alarm& alarm : snap.flight->mission.alarms) {
-    if (IsShelved(state, alarm.kind)) {
-      ++shelved;
-    } else {
+    if (!IsShelved(state, alarm)) {
       alarms.push_back(&alarm);
     }
   }
@@ -133,16 +159,20 @@ void DrawAlarmStripPanel(const EngineSnapshot& snap, const Rect& rect, FrameStat
   ui.items.Add("panel/Alarm strip", rect, true, "");
   const float y = rect.centre().y;
   if (quiet) {
-    DrawRest({}, shelved, "", rect.right(), y, ui);
-    DrawIcon(Canvas(), Icon::kNormal, {rect.x + s.Px(25), y}, s.Px(14), p.text3);
-    DrawText(ui, s.medium, p.text1, rect.x + s.Px(40), y, "No alarms");
-    ui.items.Add("alarm", rect, true, "No alarms");
+    const bool shelved = !state.shelved.empty();
+    const char* words = shelved ? "No alarm but what is shelved" : "No alarms";
+    DrawShelf(state, rect.right(), y, ui);
+    DrawIcon(Canvas(), shelved ? Icon::kOff : Icon::kNormal, {rect.x + s.Px(25), y}, s.Px(14),
+             p.text3);
+    DrawText(ui, s.medium, p.text1, rect.x + s.Px(40), y, words);
+    ui.items.Add("alarm", rect, true, words);
     return;
   }
   const std::vector<const Alarm*> rest(alarms.begin() + 1, alarms.end());
-  float right =
-      DrawRest(rest, shelved, alarms.front()->level == AlarmLevel::kAdvisory ? "No cautions" : "",
-               rect.right(), y, ui);
+  const char* none =
+      alarms.front()->level == AlarmLevel::kAdvisory && state.shelved.empty() ? "No cautions" : "";
+  float right = DrawShelf(state, rect.right(), y, ui);
+  right = DrawRest(rest, none, right, y, ui);
   right = DrawAnswers(*alarms.front(), state, right, y, ui);
   DrawFirst(*alarms.front(), rect, right, ui);
   const Rect words{rect.x, rect.y, right - rect.x, rect.h};
@@ -155,7 +185,7 @@ void DrawFrameOverlay(const EngineSnapshot& snap, const FrameLayout& layout, Fra
                       UiFrame& ui) {
   const Style& s = ui.style;
   const Palette& p = s.palette;
-  if (snap.session->source.kind == SourceKind::kReplay) {
+  if (FollowsRecord(snap.session->role)) {
     StrokeRect(Canvas(), layout.window, p.replay, s.Fine(4));
   }
   if (!state.history_open || snap.flight->mission.alarms.empty()) {
@@ -178,9 +208,9 @@ void DrawFrameOverlay(const EngineSnapshot& snap, const FrameLayout& layout, Fra
     DrawIcon(Canvas(), look.icon, {list.x + s.Px(25), y}, s.Px(12), look.colour);
     DrawText(ui, s.body, p.text1, list.x + s.Px(40), y,
              FitWords(s.body, alarm.text, list.w - s.Px(240)));
-    const std::string status = IsShelved(state, alarm.kind) ? "Shelved"
-                               : alarm.acknowledged         ? "Acknowledged"
-                                                            : "";
+    const std::string status = IsShelved(state, alarm) ? "Shelved"
+                               : alarm.acknowledged    ? "Acknowledged"
+                                                       : "";
     DrawText(ui, s.caption, p.text2, list.right() - s.Px(27), y, status, Align::kRight);
     y += row;
   }

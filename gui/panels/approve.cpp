@@ -4,6 +4,7 @@
 #include "engine/core/units.h"
 #include "engine/model/site_standing.h"
 #include "gui/panels/fly_panels.h"
+#include "gui/panels/session_words.h"
 #include "gui/widgets/button.h"
 #include "gui/widgets/icons.h"
 #include "gui/widgets/number_text.h"
@@ -22,8 +23,9 @@ HoldButtonView ButtonOf(const EngineSnapshot& snap) {
     view.label += ", provisional";
   }
   using Phase = MissionStatus::ApprovalPhase;
-  if (snap.session->source.kind == SourceKind::kReplay) {
-    view.phase = HoldPhase::kReplay;
+  if (FollowsRecord(snap.session->role) || HasPicturesOnly(snap.session->role)) {
+    view.phase = HoldPhase::kNoVehicle;
+    view.reason = WhyNoLink(snap);
   } else if (m.approval_phase == Phase::kSent) {
     view.phase = HoldPhase::kRequested;
     view.reason = "Waiting " + Duration(m.approval_answer_s);
@@ -187,7 +189,7 @@ void DrawButtons(const EngineSnapshot& snap, const Rect& rect, bool narrow, Appr
   look.enabled = snap.flight->mission.armed.has_value() && snap.session->can_transmit &&
                  snap.flight->mission.state == MissionState::kArmed;
   look.sub = then;
-  look.reason = snap.session->can_transmit ? "Select a site first" : "No link in replay";
+  look.reason = snap.session->can_transmit ? "Select a site first" : WhyNoLink(snap);
   if (DrawButton(ui, "refuse", refuse, "Refuse", look)) {
     ui.intents.push_back(CommandAction(RefuseSite{snap.flight->mission.armed->id}));
   }

@@ -11,9 +11,6 @@ namespace palace {
 
 namespace {
 
-constexpr double kLateAge_s = 0.25;
-constexpr double kStaleAge_s = 1.0;
-
 /// Largest rectangle of the picture's shape at the top of the content.
 Rect PictureRect(const Rect& content, double aspect) {
   const float by_width = std::round(content.w / static_cast<float>(aspect));
@@ -25,22 +22,26 @@ Rect PictureRect(const Rect& content, double aspect) {
 }
 
 struct Arrival {
-  std::string age, rate;
+  std::string age = "never", rate;
   double age_s = NAN;
+  ChannelHealth::State state = ChannelHealth::State::kNever;
+  bool late() const {
+    return state == ChannelHealth::State::kLate || state == ChannelHealth::State::kStale;
+  }
 };
 
 Arrival ArrivalOf(const EngineSnapshot& snap, ChannelId channel) {
   const ChannelHealth* health = FindChannel(snap.sensors->channels, channel);
   if (health == nullptr || health->state == ChannelHealth::State::kNever) {
-    return {"never", "", NAN};
+    return {};
   }
-  return {AgeText(health->age_s), Fixed(health->rate_hz, 1) + " Hz", health->age_s};
+  return {AgeText(health->age_s), Fixed(health->rate_hz, 1) + " Hz", health->age_s, health->state};
 }
 
-void DrawStale(UiFrame& ui, const Rect& image, double age_s) {
-  if (age_s > kStaleAge_s) {
+void DrawStale(UiFrame& ui, const Rect& image, const Arrival& arrival) {
+  if (arrival.state == ChannelHealth::State::kStale) {
     StaleVeil(ui.style, Canvas(), image);
-    TextPlate(ui, image, Corner::kTopRight, Fixed(age_s, 1) + " s old");
+    TextPlate(ui, image, Corner::kTopRight, Fixed(arrival.age_s, 1) + " s old");
   }
 }
 
@@ -57,7 +58,7 @@ bool TrackerShown(const EngineSnapshot& snap) {
 
 SiteOverlay OverlayOf(const EngineSnapshot& snap, std::uint64_t highlighted) {
   SiteOverlay overlay;
-  const TerrainDecision* shown = ShownDecision(snap);
+  const TerrainDecision* shown = snap.terrain->Shown();
   const bool descent = IsDescentView(snap);
   overlay.sites = shown != nullptr && !descent ? &shown->selection.sites : nullptr;
   if (const LandingSite* site = SiteInView(snap, 0)) {
@@ -127,9 +128,8 @@ void DrawLeftCameraPanel(const EngineSnapshot& snap, const Rect& rect, CameraSta
                          const MapProbe& probe, UiFrame& ui) {
   const Style& s = ui.style;
   const Arrival arrival = ArrivalOf(snap, ChannelId::kCameraLeft);
-  DrawPanelFrame(
-      ui, rect, "Left camera",
-      {{arrival.age, 0, true, arrival.age_s > kLateAge_s}, {arrival.rate, 0, true, false}});
+  DrawPanelFrame(ui, rect, "Left camera",
+                 {{arrival.age, 0, true, arrival.late()}, {arrival.rate, 0, true, false}});
   const auto camera = LeftCamera(snap);
   const Rect image = LeftCameraImage(snap, rect, s);
   ui.items.Add("left_camera", image, true, "");
@@ -144,7 +144,7 @@ void DrawLeftCameraPanel(const EngineSnapshot& snap, const Rect& rect, CameraSta
   if (state.show_depth && ui.textures.range_tint != nullptr) {
     dl->AddImage(ui.textures.range_tint, image.min(), image.max());
   }
-  const TerrainDecision* shown = ShownDecision(snap);
+  const TerrainDecision* shown = snap.terrain->Shown();
   DrawCurrentVerdict(ui, image, snap, shown, state.overlay);
   const PictureView view{*camera, snap.sensors->X_WC, image};
   const bool tracking = TrackerShown(snap);
@@ -153,7 +153,7 @@ void DrawLeftCameraPanel(const EngineSnapshot& snap, const Rect& rect, CameraSta
   }
   DrawSites(ui, view, OverlayOf(snap, ui.highlighted_site));
   DrawProbeOnPicture(ui, view, shown, probe);
-  DrawStale(ui, image, arrival.age_s);
+  DrawStale(ui, image, arrival);
   DrawVerdictPlate(ui, image, snap, shown);
   DrawDepthChip(ui, image, state);
   if (snap.terrain->preview) {
@@ -170,9 +170,9 @@ void DrawLeftCameraPanel(const EngineSnapshot& snap, const Rect& rect, CameraSta
 void DrawRightCameraPanel(const EngineSnapshot& snap, const Rect& rect, const MapProbe& probe,
                           UiFrame& ui) {
   const Arrival arrival = ArrivalOf(snap, ChannelId::kCameraRight);
-  const Rect content = DrawPanelFrame(
-      ui, rect, "Right camera",
-      {{arrival.age, 0, true, arrival.age_s > kLateAge_s}, {arrival.rate, 0, true, false}});
+  const Rect content =
+      DrawPanelFrame(ui, rect, "Right camera",
+                     {{arrival.age, 0, true, arrival.late()}, {arrival.rate, 0, true, false}});
   const auto camera = LeftCamera(snap);
   const double aspect = camera ? static_cast<double>(camera->width) / camera->height : 4.0 / 3;
   const Rect image = PictureRect(content, aspect);
@@ -185,10 +185,10 @@ void DrawRightCameraPanel(const EngineSnapshot& snap, const Rect& rect, const Ma
   dl->AddImage(ui.textures.right_camera, image.min(), image.max());
   if (camera) {
     if (const auto view = RightView(snap, {*camera, snap.sensors->X_WC, image}, image)) {
-      DrawProbeOnPicture(ui, *view, ShownDecision(snap), probe);
+      DrawProbeOnPicture(ui, *view, snap.terrain->Shown(), probe);
     }
   }
-  DrawStale(ui, image, arrival.age_s);
+  DrawStale(ui, image, arrival);
   const LandingSite* site = SiteInView(snap, 0);
   if (image.w < ui.style.Px(300)) {
     return;  // plates would hide a small picture

@@ -16,8 +16,7 @@ void DrawChannelStripPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame
   float x = rect.x + s.Px(10);
   for (const ChannelHealth& channel : snap.sensors->channels) {
     using State = ChannelHealth::State;
-    const bool fine =
-        channel.state == State::kFresh && channel.note.find("limit") == std::string::npos;
+    const bool fine = channel.state == State::kFresh;
     Icon icon = Icon::kNormal;
     ImU32 colour = p.text3;
     if (channel.state == State::kNever) {
@@ -40,8 +39,9 @@ void DrawChannelStripPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame
              FitWords(name_font, ChannelName(channel.id), pitch - s.Px(26)));
     std::string facts = "never";
     if (channel.state != State::kNever) {
-      facts = (channel.note.empty() || fine ? AgeText(channel.age_s) : channel.note) + "   " +
-              Fixed(channel.rate_hz, channel.rate_hz < 100 ? 1 : 0) + " Hz";
+      facts = AgeText(channel.age_s) + "   " +
+              Fixed(channel.rate_hz, channel.rate_hz < 100 ? 1 : 0) + " Hz" +
+              (channel.note.empty() ? "" : "   " + channel.note);
     }
     DrawText(ui, fact_font, ink, text_x, second, FitWords(fact_font, facts, pitch - s.Px(26)));
     ui.items.Add(std::string("channel/") + ChannelName(channel.id), {x, rect.y, pitch, rect.h},

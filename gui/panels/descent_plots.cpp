@@ -1,8 +1,6 @@
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
-#include "engine/core/frames.h"
 #include "gui/panels/fly_panels.h"
 #include "gui/widgets/interact.h"
 #include "gui/widgets/number_text.h"
@@ -33,7 +31,7 @@ PlotTrace SeriesOf(const EngineSnapshot& snap, Member member, ImU32 colour, floa
   return series;
 }
 
-/// The vision estimate: thick, with a band of constant three sigma of now.
+/// The estimate in force: thick, with a band of constant three sigma of now.
 PlotTrace Estimate(const EngineSnapshot& snap, Member member, const Palette& p, double band) {
   PlotTrace series = SeriesOf(snap, member, p.safe, 2.2f);
   series.dot_at_end = true;
@@ -84,15 +82,6 @@ PlotTrace Derived(const EngineSnapshot& snap, ImU32 colour, PlotTrace::Stroke st
 
 using PositionMember = Eigen::Vector3d HistorySample::*;
 
-/// Height of the skids above the site along a track that history keeps as positions of B, level.
-PlotTrace HeightOf(const EngineSnapshot& snap, PositionMember track, ImU32 colour,
-                   PlotTrace::Stroke stroke) {
-  const double site_m = snap.flight->mission.armed ? snap.flight->mission.armed->p_WS.z() : NAN;
-  return Derived(snap, colour, stroke, [&, site_m](std::size_t i) {
-    return site_m - ((*snap.flight->history)[i].*track).z() - SkidCentreBody().z();
-  });
-}
-
 /// Descent rate along a track: its change over the half second around each sample.
 PlotTrace RateOf(const EngineSnapshot& snap, PositionMember track, ImU32 colour,
                  PlotTrace::Stroke stroke) {
@@ -127,19 +116,23 @@ std::vector<PlotLimit> LimitLine(const EngineSnapshot& snap, LimitId id) {
   if (row == nullptr || !std::isfinite(row->limit)) {
     return {};
   }
+  using Kind = PlotLimit::Kind;
   const bool enforced = row->enforced_by != EnforcedBy::kNobody;
-  return {{static_cast<float>(row->limit * row->shown_per_unit), !row->is_least && enforced,
+  return {{static_cast<float>(row->limit * row->shown_per_unit),
+           !enforced       ? Kind::kInformation
+           : row->is_least ? Kind::kLeast
+                           : Kind::kMost,
            (enforced ? "Limit " : "For information: ") + LimitWords(*row)}};
 }
 
 PlotView HeightPlot(const EngineSnapshot& snap, const Palette& p, const HistorySample& now) {
   using Stroke = PlotTrace::Stroke;
   PlotView view = Base("height", "Height above site", "m");
-  const double sigma = snap.flight->navigation.vision.estimate.sigma_p_m.z();
+  const double sigma = snap.flight->navigation.InForce().estimate.sigma_p_m.z();
   view.series = {Estimate(snap, &HistorySample::height_above_site_m, p, 3 * sigma),
-                 HeightOf(snap, &HistorySample::truth_p_WB, p.truth, Stroke::kDotted),
+                 SeriesOf(snap, &HistorySample::truth_height_m, p.truth, 1.5f, Stroke::kDotted),
                  SeriesOf(snap, &HistorySample::laser_m, p.laser, 1.5f),
-                 HeightOf(snap, &HistorySample::gps_p_WB, p.gps, Stroke::kSolid),
+                 SeriesOf(snap, &HistorySample::gps_height_m, p.gps, 1.5f),
                  SeriesOf(snap, &HistorySample::plan_height_m, p.text2, 1.5f, Stroke::kDashed)};
   if (!snap.flight->mission.path.ahead.empty()) {
     view.series.push_back(PlanAhead(snap, p));
@@ -150,19 +143,16 @@ PlotView HeightPlot(const EngineSnapshot& snap, const Palette& p, const HistoryS
   return view;
 }
 
-/// Seconds before now when the vehicle began to sink onto the site; from there its distance from
-/// the centre is limited. Empty while it has not.
-std::optional<float> SinksSince(const EngineSnapshot& snap) {
-  constexpr double kSinking_m = 1.7;  // well below the height at which it moves over the site
-  std::optional<float> since;
+/// When, against now, the distance from the centre was last put under its limit; 0: never.
+float CentreLimitedSince(const EngineSnapshot& snap) {
+  float since = 0;
+  bool found = false;
   const std::vector<HistorySample>& history = *snap.flight->history;
-  for (auto it = history.rbegin(); it != history.rend(); ++it) {
-    const bool landing =
-        it->state == MissionState::kDescending || it->state == MissionState::kLanded;
-    if (!landing || !(it->height_above_site_m < kSinking_m)) {
-      break;
+  for (auto it = history.rbegin(); it != history.rend() && (it->centre_limited || !found); ++it) {
+    if (it->centre_limited) {
+      found = true;
+      since = static_cast<float>(SecondsBetween(snap.time, it->time));
     }
-    since = static_cast<float>(SecondsBetween(snap.time, it->time));
   }
   return since;
 }
@@ -170,17 +160,16 @@ std::optional<float> SinksSince(const EngineSnapshot& snap) {
 PlotView DistancePlot(const EngineSnapshot& snap, const Palette& p, const HistorySample& now) {
   using Stroke = PlotTrace::Stroke;
   PlotView view = Base("distance", "Distance from site centre", "m");
-  const double band = 3 * snap.flight->navigation.vision.estimate.sigma_p_m.head<2>().norm();
+  const double band = 3 * snap.flight->navigation.InForce().estimate.sigma_p_m.head<2>().norm();
   view.series = {Estimate(snap, &HistorySample::from_site_m, p, band),
                  SeriesOf(snap, &HistorySample::from_site_truth_m, p.truth, 1.5f, Stroke::kDotted),
                  SeriesOf(snap, &HistorySample::from_site_gps_m, p.gps, 1.5f)};
-  const auto limit = static_cast<float>(snap.session->settings.slad.lander.nav_error_m);
-  const float top = Largest(view.series, 2 * limit);
+  view.limits = LimitLine(snap, LimitId::kFromCentre);
+  for (PlotLimit& limit : view.limits) {
+    limit.from_x = CentreLimitedSince(snap);
+  }
+  const float top = Largest(view.series, view.limits.empty() ? 1 : 2 * view.limits.front().value);
   view.y_max = RoundUp(top * 1.05f, top > 8 ? 5 : (top > 3 ? 1 : 0.5f));
-  const std::string words = Fixed(static_cast<double>(limit), 1) + " m";
-  const std::optional<float> since = SinksSince(snap);
-  view.limits = {{limit, true, since ? "Limit " + words : "Limit over the site: " + words,
-                  since.value_or(0.0f)}};
   // A band below what is shown is none that anybody knows.
   const bool known = !(band < 0.005);
   view.current = Fixed(now.from_site_m, 2) + (known ? " ± " + Fixed(band, 2) : "") + " m";
@@ -191,7 +180,7 @@ PlotView RatePlot(const EngineSnapshot& snap, const Palette& p, const HistorySam
   using Stroke = PlotTrace::Stroke;
   PlotView view = Base("rate", "Descent rate", "m/s");
   view.series = {Estimate(snap, &HistorySample::descent_rate_mps, p,
-                          3 * snap.flight->navigation.vision.estimate.sigma_v_mps.z()),
+                          3 * snap.flight->navigation.InForce().estimate.sigma_v_mps.z()),
                  RateOf(snap, &HistorySample::truth_p_WB, p.truth, Stroke::kDotted),
                  RateOf(snap, &HistorySample::gps_p_WB, p.gps, Stroke::kSolid)};
   view.y_min = -0.25f;
@@ -224,7 +213,7 @@ PlotView ResidualPlot(const EngineSnapshot& snap, const Palette& p, const Histor
 PlotView PathPlot(const EngineSnapshot& snap, const Palette& p, const HistorySample& now) {
   PlotView view = Base("path", "Off the planned path", "m");
   view.series = {Estimate(snap, &HistorySample::glide_deviation_m, p,
-                          3 * snap.flight->navigation.vision.estimate.sigma_p_m.norm())};
+                          3 * snap.flight->navigation.InForce().estimate.sigma_p_m.norm())};
   view.y_max = 1.6f;
   view.limits = LimitLine(snap, LimitId::kOffPath);
   view.current = Fixed(now.glide_deviation_m, 2) + Unit(now.glide_deviation_m, " m");
@@ -245,7 +234,7 @@ void DrawLegend(const EngineSnapshot& snap, const Rect& rect, float left_end, Ui
                                       {"Plan", p.text2, Stroke::kDashed},
                                       {"GPS", p.gps, Stroke::kSolid},
                                       {"Laser", p.laser, Stroke::kSolid},
-                                      {"Vision estimate, ±3σ", p.safe, Stroke::kSolid}};
+                                      {"Estimate in force, ±3σ", p.safe, Stroke::kSolid}};
   if (snap.sensors->truth || snap.session->source.kind == SourceKind::kSimulation) {
     entries.insert(entries.begin() + 2, {"Truth, simulation only", p.truth, Stroke::kDotted});
   }

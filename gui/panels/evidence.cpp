@@ -36,9 +36,12 @@ std::vector<EvidenceRow> RowsOf(const EngineSnapshot& snap, const LandingSite& s
   const auto in_folded = [](LimitId id) {
     return id != LimitId::kStep && id != LimitId::kUnknownCells && id != LimitId::kOffWind;
   };
-  const TerrainDecision* shown = ShownDecision(snap);
-  const std::vector<LimitRow> limits =
-      SiteLimits(site, shown != nullptr ? shown->settings : snap.session->settings.slad);
+  const MissionStatus& mission = snap.flight->mission;
+  const TerrainDecision* shown = snap.terrain->Shown();
+  // What is frozen stands under the limits that it was frozen with, whatever is previewed.
+  const std::vector<LimitRow> limits = mission.armed      ? mission.armed_limits
+                                       : shown != nullptr ? SiteLimits(site, shown->settings)
+                                                          : std::vector<LimitRow>{};
   std::vector<EvidenceRow> rows;
   const auto add = [&](const LimitRow* limit) {
     if (limit != nullptr && (!folded || in_folded(limit->id))) {
@@ -46,9 +49,11 @@ std::vector<EvidenceRow> RowsOf(const EngineSnapshot& snap, const LandingSite& s
     }
   };
   for (const LimitId id : kSite) {
+    const std::size_t before = rows.size();
     add(FindLimit(limits, id));
     // At the worst heading of the lander, where the gear is known.
-    if (id == LimitId::kProbability && std::isfinite(site.touchdown.worst_heading_rad)) {
+    if (id == LimitId::kProbability && rows.size() > before &&
+        std::isfinite(site.touchdown.worst_heading_rad)) {
       rows.back().spread = "at " + HeadingText(site.touchdown.worst_heading_rad);
     }
   }
@@ -72,9 +77,10 @@ void DrawEvidencePanel(const EngineSnapshot& snap, const Rect& rect, bool folded
   const bool frozen = snap.flight->mission.armed.has_value();
   const std::string age =
       AgeText(SecondsBetween(frozen ? snap.flight->mission.armed_at : site->map_time, snap.time));
-  const Rect content =
-      DrawPanelFrame(ui, rect, std::string("Evidence for site ") + site->letter,
-                     {{frozen ? "Frozen " + age + " ago" : "Map " + age + " ago"}});
+  const Rect content = DrawPanelFrame(ui, rect, std::string("Evidence for site ") + site->letter,
+                                      {{frozen                  ? "Frozen " + age + " ago"
+                                        : snap.terrain->preview ? "Preview, map " + age + " ago"
+                                                                : "Map " + age + " ago"}});
   const std::vector<EvidenceRow> rows = RowsOf(snap, *site, folded);
   const Rect area{content.x, content.y + s.Px(4), content.w, content.h - s.Px(4)};
   DrawEvidenceRows(ui, area, rows, narrow);

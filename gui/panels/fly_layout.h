@@ -3,14 +3,28 @@
 
 #include <array>
 
+#include "gui/widgets/style.h"
 #include "gui/widgets/ui_frame.h"
 
 namespace palace {
 
+/// Every workspace folds in a window below one of these, in units.
+inline constexpr float kWideWidth = 1600, kWideHeight = 900;
+/// What the shared frame takes of a window: margins beside the body, bars above and below it.
+inline constexpr float kBesideBody = 16, kAroundBody = 124;
+inline bool IsNarrow(double width, double height) {
+  return width < kWideWidth || height < kWideHeight;
+}
+/// The same, asked of the body that such a window has.
+inline bool IsNarrowBody(const Rect& body, const Style& style) {
+  return body.w < style.Px(kWideWidth - kBesideBody) ||
+         body.h < style.Px(kWideHeight - kAroundBody);
+}
+
 /// What every workspace shares. All rectangles in whole pixels.
 struct FrameLayout {
   double scale = 1;
-  bool narrow = false;  ///< under 1600 x 900 units
+  bool narrow = false;  ///< IsNarrow
   Rect window;
   Rect top_bar;      ///< ends where WAVE OFF begins
   Rect mode_block;   ///< at 0,0

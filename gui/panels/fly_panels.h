@@ -8,12 +8,8 @@
 
 namespace palace {
 
-/// What the screen shows as decided: the preview while one exists, else what is applied.
-const TerrainDecision* ShownDecision(const EngineSnapshot& snap);
 /// The armed site, else the highlighted candidate, else the best one not refused; null without any.
 const LandingSite* SiteInView(const EngineSnapshot& snap, std::uint64_t highlighted);
-/// By hand: any candidate of a proposal; a refused one also while searching, for a second look.
-bool MaySelect(const EngineSnapshot& snap, std::uint64_t site_id);
 /// The mission is past APPROVED: the descent panels are shown.
 bool IsDescentView(const EngineSnapshot& snap);
 /// Marks that all maps share.

@@ -31,14 +31,14 @@ struct ApproveState {
   std::uint64_t armed = 0;  ///< site that was armed in the last frame
 };
 
-enum class PlotTab { kAuto, kDescent, kMaps };
+enum class PlotTab { kDescent, kMaps };
 
 struct FlyState {
   SiteListState sites;
   ApproveState approve;
   CameraState camera;
   MapRowState maps;
-  PlotTab tab = PlotTab::kAuto;
+  PlotTab tab = PlotTab::kDescent;
   PlotHover plots;
 };
 

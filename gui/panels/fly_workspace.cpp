@@ -82,7 +82,7 @@ void DrawFlyWorkspace(const EngineSnapshot& snap, const FlyLayout& layout, FlySt
   } else {
     DrawDecisionColumn(snap, layout, state, ui);
   }
-  DrawProbeWhy(ui, layout.frame.body, ShownDecision(snap), state.maps.probe, snap.time);
+  DrawProbeWhy(ui, layout.frame.body, snap.terrain->Shown(), state.maps.probe, snap.time);
 }
 
 }  // namespace palace

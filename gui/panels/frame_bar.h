@@ -11,21 +11,30 @@
 
 namespace palace {
 
+/// An alarm that the operator put aside: the very one that stood then.
+struct ShelvedAlarm {
+  AlarmId kind = AlarmId::kCameraLeft;
+  AlarmLevel level = AlarmLevel::kCaution;
+  Timestamp since;
+};
+
 /// Own state of the frame. The app sets what the frame cannot know from the snapshot.
 struct FrameState {
   Workspace workspace = Workspace::kFly;
-  bool frozen = false;                   ///< display only, set by the app
   std::string preset_name = "defaults";  ///< set by the app
   double frame_ms = 0;                   ///< set by the app
   bool history_open = false;             ///< alarm list below the strip
-  std::vector<AlarmId> shelved;          ///< alarms the operator shelved
+  std::vector<ShelvedAlarm> shelved;     ///< as long as they stand as they were shelved
+  /// UI clock when a wave-off was asked for last; set by the app, whoever asked.
   double wave_off_sent_s = -std::numeric_limits<double>::infinity();
 };
 
 /// Mode block, name, workspace tabs ("tab/Fly" ...), state chain.
 void DrawTopBarPanel(const EngineSnapshot& snap, const FrameLayout& layout, FrameState& state,
                      UiFrame& ui);
-/// Worst alarm, Acknowledge ("acknowledge"), Shelve ("shelve"), count of the rest.
+/// Worst alarm, Acknowledge ("acknowledge"), Shelve ("shelve"), count of the rest. "unshelve" says
+/// how many are shelved and brings them back; one that ends, worsens or is raised anew comes back
+/// by itself.
 void DrawAlarmStripPanel(const EngineSnapshot& snap, const Rect& rect, FrameState& state,
                          UiFrame& ui);
 /// Fires WaveOff on press ("wave_off"); stays pressed until the mission left ABORTING.

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "gui/panels/fly_panels.h"
+#include "gui/panels/session_words.h"
 #include "gui/widgets/button.h"
 #include "gui/widgets/icons.h"
 #include "gui/widgets/number_text.h"
@@ -149,7 +150,7 @@ void DrawLandingPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui)
   }
   const bool flying = m.state == MissionState::kApproved || m.state == MissionState::kDescending;
   look.enabled = flying && snap.session->can_transmit;
-  look.reason = snap.session->can_transmit ? "Nothing to stop" : "No link in replay";
+  look.reason = snap.session->can_transmit ? "Nothing to stop" : WhyNoLink(snap);
   if (DrawButton(ui, "hold_here", button, "Hold here", look)) {
     ui.intents.push_back(CommandAction(HoldHere{}));
   }

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -23,22 +24,41 @@ constexpr std::array kShown = {ShownLimit{LimitId::kOffPath},
                                ShownLimit{LimitId::kClearRadius},
                                ShownLimit{LimitId::kWind}};
 
+/// The rows of the list, then whatever else is over its limit. Short of room, what is inside its
+/// limit goes first, from the bottom.
+std::vector<const LimitRow*> RowsToShow(const std::vector<LimitRow>& limits, bool narrow,
+                                        std::size_t room) {
+  std::vector<const LimitRow*> rows;
+  for (const ShownLimit& shown : kShown) {
+    const LimitRow* limit = FindLimit(limits, shown.id);
+    if (limit != nullptr && (limit->over || !narrow || !shown.wide_only)) {
+      rows.push_back(limit);
+    }
+  }
+  for (const LimitRow& limit : limits) {
+    if (limit.over && std::find(rows.begin(), rows.end(), &limit) == rows.end()) {
+      rows.push_back(&limit);
+    }
+  }
+  for (std::size_t i = rows.size(); i-- > 0 && rows.size() > room;) {
+    if (!rows[i]->over) {
+      rows.erase(rows.begin() + static_cast<std::ptrdiff_t>(i));
+    }
+  }
+  return rows;
+}
+
 }  // namespace
 
 void DrawLimitsInForcePanel(const EngineSnapshot& snap, const Rect& rect, bool narrow,
                             UiFrame& ui) {
-  std::vector<EvidenceRow> rows;
-  int over = 0;
-  int unknown = 0;
-  for (const ShownLimit& shown : kShown) {
-    const LimitRow* limit = FindLimit(snap.flight->mission.limits, shown.id);
-    if (limit == nullptr || (narrow && shown.wide_only)) {
-      continue;
-    }
-    rows.push_back(RowOf(*limit));
-    over += limit->over ? 1 : 0;
-    unknown += limit->enforced_by != EnforcedBy::kNobody && std::isnan(limit->value) ? 1 : 0;
-  }
+  const Style& s = ui.style;
+  const std::vector<LimitRow>& limits = snap.flight->mission.limits;
+  const auto over =
+      std::count_if(limits.begin(), limits.end(), [](const LimitRow& limit) { return limit.over; });
+  const auto unknown = std::count_if(limits.begin(), limits.end(), [](const LimitRow& limit) {
+    return limit.enforced_by != EnforcedBy::kNobody && std::isnan(limit.value);
+  });
   std::string fact = "All inside";
   if (over > 0) {
     fact = std::to_string(over) + " over a limit";
@@ -48,7 +68,13 @@ void DrawLimitsInForcePanel(const EngineSnapshot& snap, const Rect& rect, bool n
     fact = std::to_string(unknown) + " unknown";
   }
   const Rect content = DrawPanelFrame(ui, rect, "Limits in force", {{fact, 0, false, over > 0}});
-  DrawEvidenceRows(ui, {content.x, content.y + ui.style.Px(4), content.w, content.h}, rows, narrow);
+  const Rect area{content.x, content.y + s.Px(4), content.w, content.h - s.Px(4)};
+  const auto room = static_cast<std::size_t>(std::max(area.h, 0.0f) / EvidenceRowHeight(s, narrow));
+  std::vector<EvidenceRow> rows;
+  for (const LimitRow* limit : RowsToShow(limits, narrow, room)) {
+    rows.push_back(RowOf(*limit));
+  }
+  DrawEvidenceRows(ui, area, rows, narrow);
 }
 
 }  // namespace palace

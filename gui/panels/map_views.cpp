@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "engine/core/units.h"
+#include "gui/render/map_scale.h"
 #include "gui/widgets/number_text.h"
 
 namespace palace {
@@ -100,17 +101,17 @@ void FillRange(MapKind kind, const SladSettings& now, const SladSettings& applie
       break;
     case MapKind::kSlope:
       view.low = "0°";
-      view.high = Fixed(2 * now.limits.max_slope_deg, 0) + "°+";
+      view.high = Fixed(kSlopeLimitsShown * now.limits.max_slope_deg, 0) + "°+";
       FillLimit({now.limits.max_slope_deg, applied.limits.max_slope_deg,
-                 wanted.limits.max_slope_deg, 2 * now.limits.max_slope_deg, "slad.max_slope_deg",
-                 label("max ", now.limits.max_slope_deg, "°")},
+                 wanted.limits.max_slope_deg, kSlopeLimitsShown * now.limits.max_slope_deg,
+                 "slad.max_slope_deg", label("max ", now.limits.max_slope_deg, "°")},
                 view.limit);
       break;
     case MapKind::kRoughness:
       view.low = "0 cm";
-      view.high = Fixed(250 * now.limits.max_deviation_m, 0) + " cm+";
+      view.high = Fixed(100 * kRoughnessLimitsShown * now.limits.max_deviation_m, 0) + " cm+";
       FillLimit({now.limits.max_deviation_m, applied.limits.max_deviation_m,
-                 wanted.limits.max_deviation_m, 2.5 * now.limits.max_deviation_m,
+                 wanted.limits.max_deviation_m, kRoughnessLimitsShown * now.limits.max_deviation_m,
                  "slad.max_deviation_m", label("max ", 100 * now.limits.max_deviation_m, " cm")},
                 view.limit);
       break;
@@ -121,10 +122,10 @@ void FillRange(MapKind kind, const SladSettings& now, const SladSettings& applie
       break;
     case MapKind::kSafeDistance:
       view.low = "0 m";
-      view.high = Fixed(2.5 * now.lander.clear_radius_m(), 1) + " m+";
+      view.high = Fixed(kClearRadiiShown * now.lander.clear_radius_m(), 1) + " m+";
       FillLimit(
           {now.lander.clear_radius_m(), applied.lander.clear_radius_m(), wanted.lander.nav_error_m,
-           2.5 * now.lander.clear_radius_m(), "slad.nav_error_m",
+           kClearRadiiShown * now.lander.clear_radius_m(), "slad.nav_error_m",
            "min " + Fixed(now.lander.clear_radius_m(), DecimalsOf(now.lander.clear_radius_m(), 1)) +
                " m"},
           view.limit);
@@ -171,8 +172,7 @@ MapView MakeMapView(MapKind kind, const MapSource& source, const PanelTextures& 
 
 MapSource ShownMap(const EngineSnapshot& snap) {
   MapSource source;
-  source.decision =
-      snap.terrain->preview ? snap.terrain->preview.get() : snap.terrain->applied.get();
+  source.decision = snap.terrain->Shown();
   source.applied =
       snap.terrain->preview && snap.terrain->applied ? &snap.terrain->applied->settings : nullptr;
   source.wanted = &snap.session->preview_settings.slad;

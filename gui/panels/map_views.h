@@ -1,8 +1,8 @@
 // Map views: what the five maps of a decision show, built in one place for all workspaces.
 //
-// Ranges of the colours, as the pictures are coloured: slope 0..2 limits, roughness 0..2.5, safe
-// distance 0..2.5 clear radii, cost 0..1; elevation is fixed once per mission. Shown in degrees,
-// centimetres and metres.
+// Ranges of the colours, as the pictures are coloured: slope, roughness and safe distance over so
+// many limits (gui/render/map_scale.h), cost 0..1; elevation is fixed once per mission. Shown in
+// degrees, centimetres and metres.
 #pragma once
 
 #include <optional>

@@ -2,15 +2,11 @@
 
 namespace palace {
 
-const TerrainDecision* ShownDecision(const EngineSnapshot& snap) {
-  return snap.terrain->preview ? snap.terrain->preview.get() : snap.terrain->applied.get();
-}
-
 const LandingSite* SiteInView(const EngineSnapshot& snap, std::uint64_t highlighted) {
   if (snap.flight->mission.armed) {
     return &*snap.flight->mission.armed;
   }
-  const TerrainDecision* shown = ShownDecision(snap);
+  const TerrainDecision* shown = snap.terrain->Shown();
   if (shown == nullptr || shown->selection.sites.empty()) {
     return nullptr;
   }
@@ -20,13 +16,6 @@ const LandingSite* SiteInView(const EngineSnapshot& snap, std::uint64_t highligh
     }
   }
   return snap.flight->mission.BestStanding(shown->selection.sites);
-}
-
-bool MaySelect(const EngineSnapshot& snap, std::uint64_t site_id) {
-  return snap.flight->mission.state == MissionState::kProposed ||
-         snap.flight->mission.state == MissionState::kArmed ||
-         (snap.flight->mission.state == MissionState::kSearch &&
-          snap.flight->mission.IsRefused(site_id));
 }
 
 bool IsDescentView(const EngineSnapshot& snap) {
@@ -44,7 +33,7 @@ bool IsDescentView(const EngineSnapshot& snap) {
 
 MapMarks MarksOf(const EngineSnapshot& snap, std::uint64_t highlighted) {
   MapMarks marks;
-  const TerrainDecision* shown = ShownDecision(snap);
+  const TerrainDecision* shown = snap.terrain->Shown();
   marks.sites = shown != nullptr ? &shown->selection.sites : nullptr;
   if (const LandingSite* site = SiteInView(snap, 0)) {
     marks.selected = *site;

@@ -10,7 +10,7 @@ namespace {
 
 void DrawEmpty(const EngineSnapshot& snap, const Rect& content, UiFrame& ui) {
   const Style& s = ui.style;
-  const TerrainDecision* shown = ShownDecision(snap);
+  const TerrainDecision* shown = snap.terrain->Shown();
   std::string text = "No map yet. Sites appear with the first stereo pairs.";
   if (shown == nullptr && snap.terrain->range && !snap.sensors->pose) {
     text = "Attitude and height are unknown: ranges make no map. Add [pose] to RIG.toml.";
@@ -33,7 +33,7 @@ void DrawEmpty(const EngineSnapshot& snap, const Rect& content, UiFrame& ui) {
 void DrawSiteListPanel(const EngineSnapshot& snap, const FlyLayout& layout, SiteListState& state,
                        UiFrame& ui) {
   const Style& s = ui.style;
-  const TerrainDecision* shown = ShownDecision(snap);
+  const TerrainDecision* shown = snap.terrain->Shown();
   const std::size_t count = shown != nullptr ? shown->selection.sites.size() : 0;
   const Rect content =
       DrawPanelFrame(ui, layout.sites, "Sites",
@@ -82,7 +82,7 @@ void DrawSiteListPanel(const EngineSnapshot& snap, const FlyLayout& layout, Site
     SiteRowLook look;
     look.selected = site.id == armed;
     look.narrow = layout.site_row_units < 60;
-    look.enabled = MaySelect(snap, site.id);
+    look.enabled = snap.flight->mission.MaySelect(site.id);
     look.refused = snap.flight->mission.IsRefused(site.id);
     const Rect rect{list.x, list.y + row * static_cast<float>(i - first), list.w, row};
     const SiteRowAnswer answer = DrawSiteRow(ui, rect, site, view, ui.textures.left_camera, look);

@@ -2,6 +2,7 @@
 
 #include "engine/core/hash.h"
 #include "gui/panels/frame_bar.h"
+#include "gui/panels/session_words.h"
 #include "gui/widgets/number_text.h"
 
 namespace palace {
@@ -28,14 +29,14 @@ std::string LinkText(const EngineSnapshot& snap, bool narrow) {
     lost += channel.lost;
   }
   const ChannelHealth* pose = FindChannel(snap.sensors->channels, ChannelId::kVehiclePose);
-  if (snap.session->source.kind == SourceKind::kReplay) {
+  if (FollowsRecord(snap.session->role)) {
     return snap.session->source.name;
   }
   if (!snap.session->source.cameras.empty()) {
     return CamerasText(snap.session->source.cameras);
   }
   if (!snap.session->can_transmit) {
-    return "No link";
+    return WhyNoLink(snap);
   }
   const char* name =
       snap.session->source.kind == SourceKind::kSimulation ? "Simulated link " : "Link ";
@@ -73,7 +74,7 @@ const char* ClockName(const EngineSnapshot& snap) {
 
 std::string RecordingText(const EngineSnapshot& snap, bool narrow) {
   if (!snap.session->recording) {
-    return snap.session->source.kind == SourceKind::kReplay ? "" : "Not recording";
+    return FollowsRecord(snap.session->role) ? "" : "Not recording";
   }
   // Negative: the recorder does not know its rate yet.
   const std::string left =
@@ -85,12 +86,15 @@ std::string RecordingText(const EngineSnapshot& snap, bool narrow) {
 }
 
 std::string ChannelsText(const EngineSnapshot& snap) {
-  const auto fresh =
-      std::count_if(snap.sensors->channels.begin(), snap.sensors->channels.end(),
-                    [](const ChannelHealth& c) { return c.state == ChannelHealth::State::kFresh; });
-  const auto rest = static_cast<std::ptrdiff_t>(snap.sensors->channels.size()) - fresh;
-  std::string text = "Channels: " + std::to_string(fresh) + " fresh";
-  return rest > 0 ? text + ", " + std::to_string(rest) + " late or stale" : text;
+  using State = ChannelHealth::State;
+  const auto count = [&](State state) {
+    return std::count_if(snap.sensors->channels.begin(), snap.sensors->channels.end(),
+                         [&](const ChannelHealth& c) { return c.state == state; });
+  };
+  std::string text = "Channels: " + std::to_string(count(State::kFresh)) + " fresh";
+  const auto late = count(State::kLate) + count(State::kStale), never = count(State::kNever);
+  text += late > 0 ? ", " + std::to_string(late) + " late or stale" : "";
+  return text + (never > 0 ? ", " + std::to_string(never) + " never heard" : "");
 }
 
 std::string AlarmText(const EngineSnapshot& snap) {

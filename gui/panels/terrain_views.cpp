@@ -21,10 +21,9 @@ Rect FitPicture(const Rect& area, const EngineSnapshot& snap) {
 
 }  // namespace
 
-const LandingSite* BestSite(const TerrainDecision* decision) {
-  return decision != nullptr && !decision->selection.sites.empty()
-             ? &decision->selection.sites.front()
-             : nullptr;
+const LandingSite* BestSite(const EngineSnapshot& snap, const TerrainDecision* decision) {
+  return decision != nullptr ? snap.flight->mission.BestStanding(decision->selection.sites)
+                             : nullptr;
 }
 
 bool SitesDiffer(const LandingSite& a, const LandingSite& b) {
@@ -40,9 +39,8 @@ double SafeArea(const TerrainDecision* decision) {
   return decision->hazards->safe_cells * cell_m * cell_m;
 }
 
-std::string BestLetter(const TerrainDecision* decision) {
-  const LandingSite* best = BestSite(decision);
-  return best != nullptr ? std::string(1, best->letter) : std::string("none");
+std::string LetterOf(const LandingSite* site) {
+  return site != nullptr ? std::string(1, site->letter) : std::string("none");
 }
 
 double MapAge(const EngineSnapshot& snap, const TerrainDecision* decision) {
@@ -96,10 +94,10 @@ void DrawLeftPicture(UiFrame& ui, const Rect& area, const EngineSnapshot& snap,
     DrawCurrentVerdict(ui, image, snap, look.decision, cache);
     SiteOverlay overlay;
     overlay.sites = &look.decision->selection.sites;
-    if (const LandingSite* best = BestSite(look.decision)) {
+    if (const LandingSite* best = BestSite(snap, look.decision)) {
       overlay.selected = *best;
     }
-    const LandingSite* ghost = BestSite(look.ghost);
+    const LandingSite* ghost = BestSite(snap, look.ghost);
     if (ghost != nullptr && (!overlay.selected || SitesDiffer(*overlay.selected, *ghost))) {
       overlay.ghost = *ghost;
       overlay.ghost_words = std::string(look.ghost_word) + " " + ghost->letter;
@@ -135,10 +133,7 @@ void DrawPlainPicture(UiFrame& ui, const Rect& area, const EngineSnapshot& snap,
   const auto camera = LeftCamera(snap);
   if (probe != nullptr && camera) {
     if (const auto view = RightView(snap, {*camera, snap.sensors->X_WC, image}, image)) {
-      DrawProbeOnPicture(
-          ui, *view,
-          snap.terrain->preview ? snap.terrain->preview.get() : snap.terrain->applied.get(),
-          *probe);
+      DrawProbeOnPicture(ui, *view, snap.terrain->Shown(), *probe);
     }
   }
   if (!plate.empty()) {

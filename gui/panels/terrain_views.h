@@ -44,11 +44,11 @@ void DrawPlainPicture(UiFrame& ui, const Rect& area, const EngineSnapshot& snap,
 
 /// Another place, or the same place under another clear radius: worth two rings.
 bool SitesDiffer(const LandingSite& a, const LandingSite& b);
-/// Best site of a decision, null when it has none.
-const LandingSite* BestSite(const TerrainDecision* decision);
+/// Best site of a decision that the operator has not refused; null when it has none.
+const LandingSite* BestSite(const EngineSnapshot& snap, const TerrainDecision* decision);
 /// Area of the safe cells, m^2; NaN without a map.
 double SafeArea(const TerrainDecision* decision);
-/// "A", "none".
-std::string BestLetter(const TerrainDecision* decision);
+/// "A"; of null "none".
+std::string LetterOf(const LandingSite* site);
 
 }  // namespace palace

@@ -8,7 +8,7 @@ namespace palace {
 
 namespace {
 
-void DrawModeBlock(const EngineSnapshot& snap, const Rect& r, bool frozen, UiFrame& ui) {
+void DrawModeBlock(const EngineSnapshot& snap, const Rect& r, UiFrame& ui) {
   const Style& s = ui.style;
   const Palette& p = s.palette;
   ImDrawList* dl = Canvas();
@@ -16,12 +16,7 @@ void DrawModeBlock(const EngineSnapshot& snap, const Rect& r, bool frozen, UiFra
   const float word_x = r.x + s.Px(40);
   const float y = r.centre().y;
   const char* word = "LIVE";
-  if (frozen) {
-    word = "FROZEN";
-    StrokeRect(dl, r, p.white_mark, s.Fine(2));
-    DrawIcon(dl, Icon::kPause, {icon_x, y}, s.Px(20), p.text1);
-    DrawText(ui, s.mode_replay, p.text1, r.x + s.Px(34), y, word);
-  } else if (snap.session->source.kind == SourceKind::kReplay) {
+  if (snap.session->source.kind == SourceKind::kReplay) {
     word = "REPLAY";
     FillRect(dl, r, p.replay);
     DrawIcon(dl, Icon::kReplay, {icon_x + s.Px(2), y}, s.Px(20), p.on_replay);
@@ -144,8 +139,8 @@ void DrawTopBarPanel(const EngineSnapshot& snap, const FrameLayout& layout, Fram
   const Rect& bar = layout.top_bar;
   FillRect(Canvas(), {bar.x, bar.y, layout.window.w, bar.h}, s.palette.panel);
   ui.items.Add("panel/Top bar", bar, true, "");
-  DrawModeBlock(snap, layout.mode_block, state.frozen, ui);
-  const bool narrow = bar.w + layout.wave_off.w < s.Px(1600);
+  DrawModeBlock(snap, layout.mode_block, ui);
+  const bool narrow = layout.narrow;
   float x = layout.mode_block.right() + s.Px(20);
   const float y = bar.centre().y;
   if (!narrow) {

@@ -42,42 +42,32 @@ double HeadingDeg(const VehiclePose& pose) {
   return deg < -0.5 ? deg + 360 : deg;
 }
 
-struct Ages {
-  Readout::State pose, status;
-  double pose_s, status_s;
+/// How old is what that channel brought last.
+struct Freshness {
+  Readout::State state = Readout::State::kNever;
+  double age_s = NAN;
 };
 
-Ages AgesOf(const EngineSnapshot& snap) {
-  const auto one = [&](ChannelId id, double period_s, double& age_s) {
-    const ChannelHealth* channel = FindChannel(snap.sensors->channels, id);
-    age_s =
-        channel != nullptr && channel->state != ChannelHealth::State::kNever ? channel->age_s : NAN;
-    return AgeState(age_s, channel != nullptr && channel->expected_hz > 0 ? 1 / channel->expected_hz
-                                                                          : period_s);
-  };
-  Ages ages{};
-  ages.pose = one(ChannelId::kVehiclePose, 0.02, ages.pose_s);
-  ages.status = one(ChannelId::kVehicleStatus, 1.0, ages.status_s);
-  return ages;
+Freshness FreshnessOf(const EngineSnapshot& snap, ChannelId id) {
+  const ChannelHealth* channel = FindChannel(snap.sensors->channels, id);
+  return channel != nullptr ? Freshness{channel->state, channel->age_s} : Freshness{};
 }
 
 double PositionError3s(const EngineSnapshot& snap) {
-  const FilterStatus& vision = snap.flight->navigation.vision;
-  const FilterStatus& filter =
-      vision.running && vision.estimate.healthy ? vision : snap.flight->navigation.gps;
+  const FilterStatus& filter = snap.flight->navigation.InForce();
   return filter.running ? 3 * filter.estimate.sigma_p_m.norm() : NAN;
 }
 
 std::vector<Readout> Readouts(const EngineSnapshot& snap, bool narrow) {
-  const Ages ages = AgesOf(snap);
-  const auto pose = [&](std::string label, double value, int decimals, std::string unit) {
-    return Readout{
-        std::move(label), Fixed(value, decimals), std::move(unit), ages.pose, ages.pose_s, ""};
+  const auto by = [&](ChannelId channel) {
+    const Freshness fresh = FreshnessOf(snap, channel);
+    return [fresh](std::string label, double value, int decimals, std::string unit) {
+      return Readout{std::move(label), Fixed(value, decimals), std::move(unit), fresh.state,
+                     fresh.age_s};
+    };
   };
-  const auto status = [&](std::string label, double value, int decimals, std::string unit) {
-    return Readout{std::move(label), Fixed(value, decimals), std::move(unit),
-                   ages.status,      ages.status_s,          ""};
-  };
+  const auto pose = by(ChannelId::kVehiclePose);
+  const auto status = by(ChannelId::kVehicleStatus);
   const MissionStatus& m = snap.flight->mission;
   const double wind = snap.sensors->vehicle ? snap.sensors->vehicle->wind_speed_mps : NAN;
   const std::string wind_unit =

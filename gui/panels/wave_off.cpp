@@ -1,4 +1,5 @@
 #include "gui/panels/frame_bar.h"
+#include "gui/panels/session_words.h"
 #include "gui/widgets/interact.h"
 
 namespace palace {
@@ -9,7 +10,7 @@ constexpr double kAnswerTime_s = 1.0;
 
 std::string SecondLine(const EngineSnapshot& snap, const FrameState& state, double now_s) {
   if (!snap.session->can_transmit) {
-    return snap.session->source.kind == SourceKind::kReplay ? "No link in replay" : "No link";
+    return WhyNoLink(snap);
   }
   const bool aborting = snap.flight->mission.state == MissionState::kAborting;
   if (aborting && snap.sensors->vehicle && snap.sensors->vehicle->mode == VehicleMode::kAbort) {
@@ -38,7 +39,6 @@ void DrawWaveOffPanel(const EngineSnapshot& snap, const Rect& rect, FrameState& 
       ui, "wave_off", rect, kOnPress | kOverPopup | kNoTab | (enabled ? 0U : unsigned{kDisabled}));
   if (in.pressed) {
     ui.intents.push_back(CommandAction(WaveOff{}));
-    state.wave_off_sent_s = ui.ui_time_s;
   }
   const std::string second = SecondLine(snap, state, ui.ui_time_s);
   ui.items.Last("wave_off").text = "WAVE OFF | " + second;

@@ -1,7 +1,6 @@
 #include "gui/platform/window.h"
 
 #include <algorithm>
-#include <tuple>
 #include <utility>
 
 #include "gui/render/gl.h"
@@ -22,14 +21,6 @@ std::string GlfwReason() {
   const char* text = nullptr;
   glfwGetError(&text);
   return text != nullptr ? text : "unknown reason";
-}
-
-/// Cursor positions come in window units; panels count framebuffer pixels.
-std::pair<double, double> PixelsFromWindow(GLFWwindow* window, double x, double y) {
-  int window_width = 1, window_height = 1, width = 1, height = 1;
-  glfwGetWindowSize(window, &window_width, &window_height);
-  glfwGetFramebufferSize(window, &width, &height);
-  return {x * width / std::max(window_width, 1), y * height / std::max(window_height, 1)};
 }
 
 }  // namespace
@@ -81,20 +72,6 @@ void Window::InstallCallbacks(GLFWwindow* window) {
     static_cast<Latch*>(glfwGetWindowUserPointer(w))
         ->input.keys.push_back({key, mods, what, name != nullptr ? name : ""});
   });
-  glfwSetMouseButtonCallback(window, [](GLFWwindow* w, int button, int action, int) {
-    double x = 0, y = 0;
-    glfwGetCursorPos(w, &x, &y);
-    const auto [x_px, y_px] = PixelsFromWindow(w, x, y);
-    static_cast<Latch*>(glfwGetWindowUserPointer(w))
-        ->input.buttons.push_back({button, action == GLFW_PRESS, x_px, y_px});
-  });
-  glfwSetScrollCallback(window, [](GLFWwindow* w, double, double dy) {
-    static_cast<Latch*>(glfwGetWindowUserPointer(w))->input.scroll += dy;
-  });
-  glfwSetDropCallback(window, [](GLFWwindow* w, int count, const char** paths) {
-    auto& files = static_cast<Latch*>(glfwGetWindowUserPointer(w))->input.dropped_files;
-    files.insert(files.end(), paths, paths + count);
-  });
 }
 
 WindowInput Window::PollInput(double wait_s) {
@@ -104,9 +81,6 @@ WindowInput Window::PollInput(double wait_s) {
     glfwPollEvents();
   }
   WindowInput input = std::exchange(latch_->input, {});
-  double x = 0, y = 0;
-  glfwGetCursorPos(window_, &x, &y);
-  std::tie(input.mouse_x_px, input.mouse_y_px) = PixelsFromWindow(window_, x, y);
   input.focused = glfwGetWindowAttrib(window_, GLFW_FOCUSED) != 0;
   input.close_requested = glfwWindowShouldClose(window_) != 0;
   return input;

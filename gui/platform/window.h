@@ -21,21 +21,11 @@ struct KeyEvent {
   KeyAction action = KeyAction::kPress;
   std::string name;
 };
-struct MouseButtonEvent {
-  int button = 0;
-  bool pressed = false;
-  double x_px = 0;  ///< framebuffer pixels
-  double y_px = 0;
-};
 
-/// Everything since the last call: a press and release inside one frame is not lost.
+/// Everything since the last call that ImGui does not take itself: a press and release inside one
+/// frame is not lost.
 struct WindowInput {
   std::vector<KeyEvent> keys;
-  std::vector<MouseButtonEvent> buttons;
-  std::vector<std::string> dropped_files;
-  double scroll = 0;
-  double mouse_x_px = 0;  ///< framebuffer pixels
-  double mouse_y_px = 0;
   bool focused = true;
   bool close_requested = false;
 };

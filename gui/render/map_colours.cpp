@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/core/units.h"
+#include "gui/render/map_scale.h"
 
 namespace palace {
 namespace {
@@ -77,10 +78,13 @@ const ColourTable& TableOf(ColourMap map) {
 MapRanges RangesFor(const SladSettings& settings, ValueRange elevation_m) {
   MapRanges ranges;
   ranges.elevation_m = elevation_m;
-  ranges.slope_rad = {0, static_cast<float>(2 * Rad(settings.limits.max_slope_deg))};
-  ranges.roughness_m = {0, static_cast<float>(2.5 * settings.limits.max_deviation_m)};
+  ranges.slope_rad = {0,
+                      static_cast<float>(kSlopeLimitsShown * Rad(settings.limits.max_slope_deg))};
+  ranges.roughness_m = {
+      0, static_cast<float>(kRoughnessLimitsShown * settings.limits.max_deviation_m)};
   ranges.cost = {0, 1};
-  ranges.safe_distance_m = {0, static_cast<float>(2.5 * settings.lander.clear_radius_m())};
+  ranges.safe_distance_m = {
+      0, static_cast<float>(kClearRadiiShown * settings.lander.clear_radius_m())};
   return ranges;
 }
 

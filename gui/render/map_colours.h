@@ -27,7 +27,7 @@ struct ValueRange {
 };
 
 /// Fixed ranges of all maps. Elevation is set once per mission; the others follow the limits:
-/// slope 0..2 x limit, roughness 0..2.5 x limit, cost 0..1, safe distance 0..2.5 x clear radius.
+/// slope, roughness and safe distance over so many limits (map_scale.h), cost 0..1.
 struct MapRanges {
   ValueRange elevation_m{-0.5F, 1.5F};
   ValueRange slope_rad;

@@ -29,7 +29,7 @@ struct View3dSite {
 struct View3dInput {
   std::shared_ptr<const ElevationMap> elevation;
   std::shared_ptr<const HazardMaps> hazards;
-  double safe_distance_max_m = 5;  ///< end of the safe-distance colours: 2.5 x the minimum
+  double safe_distance_max_m = 5;  ///< end of the safe-distance colours
 
   /// Rectified left picture whose brightness is draped over the terrain, and where it was taken.
   std::shared_ptr<const ImageU8> picture;

@@ -1,7 +1,6 @@
 #include "gui/widgets/evidence_row.h"
 
 #include <algorithm>
-#include <cctype>
 
 #include "gui/widgets/number_text.h"
 
@@ -14,7 +13,7 @@ struct Metrics {
 };
 
 Metrics MetricsOf(const Style& s, bool narrow) {
-  return narrow ? Metrics{s.Px(48), s.Px(39), s.Px(168), s.Px(88)}
+  return narrow ? Metrics{s.Px(34), s.Px(27), s.Px(178), s.Px(98)}
                 : Metrics{s.Px(60), s.Px(50), s.Px(212), s.Px(128)};
 }
 
@@ -47,11 +46,21 @@ void DrawBar(UiFrame& ui, const Rect& track, float wall, const EvidenceRow& row)
 
 /// Where bars begin, from the right edge: behind them who enforces the limit has its place.
 float BarsFromRight(const Style& s, const Metrics& m, bool narrow) {
-  return s.Px(narrow ? 28 : 56) + m.bar;
+  return s.Px(narrow ? 52 : 56) + m.bar;
 }
 
+/// "0.58 m/s"; unknown stands without its unit.
+std::string WithUnit(const EvidenceRow& row) {
+  if (row.value == "––" || row.unit.empty()) {
+    return row.value;
+  }
+  return row.value + (row.unit == "°" ? "" : " ") + row.unit;
+}
+
+/// "Wind 2.1 m/s max 8 m/s, guard"; where there is a spread, it carries the unit.
 std::string FullName(const EvidenceRow& row) {
-  return row.name + " " + row.value + " " + row.spread + " " + row.limit +
+  const std::string figure = row.spread.empty() ? WithUnit(row) : row.value + " " + row.spread;
+  return row.name + " " + figure + " " + row.limit +
          (row.enforcer.empty() ? "" : ", " + row.enforcer);
 }
 
@@ -101,11 +110,7 @@ void DrawEvidenceRows(UiFrame& ui, const Rect& rect, const std::vector<EvidenceR
       right -= DrawText(ui, s.body, p.text2, right, middle, row.spread, Align::kRight) + s.Px(4);
       DrawText(ui, s.medium, p.text1, right, middle, row.value, Align::kRight);
     } else {
-      const bool degree = row.unit == "°" || row.unit.empty() || row.value == "––";
-      const std::string text = row.value == "––" ? row.value
-                               : degree          ? row.value + row.unit
-                                                 : row.value + " " + row.unit;
-      DrawText(ui, s.medium, p.text1, right, middle, text, Align::kRight);
+      DrawText(ui, s.medium, p.text1, right, middle, WithUnit(row), Align::kRight);
     }
     ui.items.Add("evidence/" + row.name, area, true, FullName(row));
     if (row.enforcer.empty()) {
@@ -118,11 +123,7 @@ void DrawEvidenceRows(UiFrame& ui, const Rect& rect, const std::vector<EvidenceR
     DrawBar(ui, {bar_x, std::round(middle - s.Px(8) / 2), m.bar, s.Px(8)}, m.wall, row);
     FillRect(Canvas(), {bar_x + m.wall - s.Px(1), y + s.Px(2), s.Px(2), height - s.Px(4)},
              p.white_mark);
-    std::string who = row.enforcer;
-    if (narrow) {
-      who = std::string(1, static_cast<char>(std::toupper(static_cast<unsigned char>(who[0]))));
-    }
-    DrawText(ui, s.caption, p.text3, rect.right() - s.Px(12), middle, who, Align::kRight);
+    DrawText(ui, s.caption, p.text3, rect.right() - s.Px(12), middle, row.enforcer, Align::kRight);
   }
 }
 

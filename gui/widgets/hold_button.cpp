@@ -20,9 +20,8 @@ struct Words {
 Words WordsOf(const HoldButtonView& view, const HoldState& state, double now_s) {
   switch (view.phase) {
     case HoldPhase::kBlocked:
+    case HoldPhase::kNoVehicle:
       return {"Cannot approve", view.reason};
-    case HoldPhase::kReplay:
-      return {"Cannot approve", "No link in replay"};
     case HoldPhase::kRequested:
       return {"Sent to vehicle", view.reason};
     case HoldPhase::kAccepted:
@@ -55,7 +54,7 @@ void DrawBody(UiFrame& ui, const Rect& rect, const HoldButtonView& view, float p
       fill = p.go;
       border = p.safe;
       break;
-    case HoldPhase::kReplay:
+    case HoldPhase::kNoVehicle:
       fill = p.panel;
       border = p.line;
       break;
@@ -149,7 +148,7 @@ bool DrawHoldButton(UiFrame& ui, std::string_view name, const Rect& rect,
   DrawBody(ui, rect, view, static_cast<float>(std::min(1.0, held / view.duration_s)));
   const Words words = WordsOf(view, state, ui.ui_time_s);
   ui.items.Last(name).text = words.title + " | " + words.second;
-  const bool quiet = view.phase == HoldPhase::kBlocked || view.phase == HoldPhase::kReplay;
+  const bool quiet = view.phase == HoldPhase::kBlocked || view.phase == HoldPhase::kNoVehicle;
   const ImU32 title = ready ? p.on_go : (quiet ? p.text2 : p.text1);
   const ImU32 second = ready ? p.on_go : (view.phase == HoldPhase::kBlocked ? p.text1 : p.text2);
   const float x = rect.centre().x;

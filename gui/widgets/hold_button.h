@@ -43,11 +43,11 @@ bool AdvanceHold(HoldState& state, const HoldInput& input);
 /// Seconds held so far, 0 when not holding.
 double HeldSeconds(const HoldState& state, double now_s);
 
-enum class HoldPhase { kReady, kBlocked, kRequested, kAccepted, kRefused, kReplay };
+enum class HoldPhase { kReady, kBlocked, kRequested, kAccepted, kRefused, kNoVehicle };
 struct HoldButtonView {
   HoldPhase phase = HoldPhase::kReady;
   std::string label;   ///< "Hold to approve A"
-  std::string reason;  ///< second line of blocked, requested, accepted, refused
+  std::string reason;  ///< second line, but for ready
   std::uint64_t subject = 0;
   double duration_s = 1.0;
 };

@@ -102,11 +102,15 @@ float LeftOf(const Axes& axes, const PlotLimit& limit) {
 }
 
 void DrawLimitArea(const Style& s, const Axes& axes, const PlotLimit& limit) {
+  if (limit.kind == PlotLimit::Kind::kInformation) {
+    return;
+  }
   const float y = std::clamp(axes.Y(limit.value), axes.floor.y, axes.floor.bottom());
   const float left = LeftOf(axes, limit);
   const float right = axes.view.now ? axes.X(*axes.view.now) : axes.floor.right();
-  const Rect area = limit.forbidden_above ? Rect{left, axes.floor.y, right - left, y - axes.floor.y}
-                                          : Rect{left, y, right - left, axes.floor.bottom() - y};
+  const Rect area = limit.kind == PlotLimit::Kind::kMost
+                        ? Rect{left, axes.floor.y, right - left, y - axes.floor.y}
+                        : Rect{left, y, right - left, axes.floor.bottom() - y};
   if (area.h > 0 && area.w > 0) {
     FillRect(Canvas(), area, WithAlpha(s.palette.unsafe, 0.06f));
     Hatch(Canvas(), area, WithAlpha(s.palette.unsafe, 0.32f), s.Fine(1), s.Px(9));
@@ -119,8 +123,10 @@ void DrawLimitLine(UiFrame& ui, const Axes& axes, const PlotLimit& limit) {
   if (y < axes.floor.y || y > axes.floor.bottom()) {
     return;
   }
-  DashedLine(Canvas(), {LeftOf(axes, limit), y}, {axes.floor.right(), y}, s.palette.unsafe,
-             s.Fine(1.5f), s.Fine(8), s.Fine(4));
+  const bool forbids = limit.kind != PlotLimit::Kind::kInformation;
+  const ImU32 colour = forbids ? s.palette.unsafe : s.palette.text3;
+  DashedLine(Canvas(), {LeftOf(axes, limit), y}, {axes.floor.right(), y}, colour, s.Fine(1.5f),
+             s.Fine(8), s.Fine(4));
   const bool room_above = y - axes.floor.y > s.Px(20);
   const float text_y = room_above ? y - s.Px(9) : y + s.Px(10);
   // The words stand where nothing is measured yet; short of room they lose their second half.
@@ -131,9 +137,11 @@ void DrawLimitLine(UiFrame& ui, const Axes& axes, const PlotLimit& limit) {
     words = words.substr(0, words.find(':'));
   }
   if (TextWidth(s.caption, words) <= room && axes.floor.h > s.Px(40)) {
-    DrawText(ui, s.caption, s.palette.unsafe, axes.floor.right() - s.Px(6), text_y, words,
-             Align::kRight);
+    DrawText(ui, s.caption, colour, axes.floor.right() - s.Px(6), text_y, words, Align::kRight);
   }
+  ui.items.Add("plot_limit/" + axes.view.name,
+               {LeftOf(axes, limit), y, axes.floor.right() - LeftOf(axes, limit), 1}, forbids,
+               limit.text);
 }
 
 void DrawBand(const Axes& axes, const PlotTrace& series) {
@@ -331,11 +339,6 @@ void DrawPlot(UiFrame& ui, const Rect& panel, const PlotView& view, PlotHover& h
   }
   for (const PlotLimit& limit : view.limits) {
     DrawLimitLine(ui, axes, limit);
-  }
-  for (const PlotNote& note : view.notes) {
-    const ImVec2 at = axes.At(note.at);
-    DrawText(ui, note.strong ? s.medium : s.caption, note.strong ? p.text1 : p.text2, at.x, at.y,
-             note.text);
   }
   DrawHover(ui, axes, hover);
   dl->PopClipRect();

@@ -1,5 +1,5 @@
-// Line plot: series with bands, limit lines with hatch beyond them, a now line, hover over all
-// plots.
+// Line plot: series with bands, limit lines with hatch beyond them (grey and without, where a
+// limit is for information), a now line, hover over all plots.
 #pragma once
 
 #include <limits>
@@ -21,14 +21,10 @@ struct PlotTrace {
 };
 struct PlotLimit {
   float value = 0;
-  bool forbidden_above = true;
+  /// What is forbidden lies above the most, below the least; for information: nothing is.
+  enum class Kind { kMost, kLeast, kInformation } kind = Kind::kMost;
   std::string text;
   float from_x = -std::numeric_limits<float>::infinity();  ///< the limit holds from here on
-};
-struct PlotNote {
-  ImVec2 at;
-  std::string text;
-  bool strong = false;
 };
 
 struct PlotView {
@@ -39,7 +35,6 @@ struct PlotView {
   std::optional<float> now;    ///< beyond it the future is veiled
   std::vector<PlotTrace> series;
   std::vector<PlotLimit> limits;
-  std::vector<PlotNote> notes;
   enum class TimeAxis { kRelative, kClock } time_axis = TimeAxis::kRelative;  ///< "−10", "1:30"
 };
 

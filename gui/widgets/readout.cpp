@@ -8,16 +8,6 @@
 
 namespace palace {
 
-Readout::State AgeState(double age_s, double period_s) {
-  if (!std::isfinite(age_s)) {
-    return Readout::State::kNever;
-  }
-  if (age_s > std::max(5 * period_s, 1.0)) {
-    return Readout::State::kStale;
-  }
-  return age_s > 2 * period_s ? Readout::State::kLate : Readout::State::kFresh;
-}
-
 void DrawReadout(UiFrame& ui, const Rect& cell, const Readout& r) {
   const Style& s = ui.style;
   const Palette& p = s.palette;
@@ -35,7 +25,7 @@ void DrawReadout(UiFrame& ui, const Rect& cell, const Readout& r) {
   } else {
     DrawValueUnit(ui, s.readout, cell.x, value_y, value, unit);
   }
-  if (r.state == Readout::State::kFresh && r.over_limit.empty()) {
+  if (r.state == Readout::State::kFresh) {
     return;
   }
   if (stale) {
@@ -52,9 +42,6 @@ void DrawReadout(UiFrame& ui, const Rect& cell, const Readout& r) {
     note = "never";
   } else if (stale) {
     note = Fixed(r.age_s, 1) + " s old";
-  } else if (!r.over_limit.empty()) {
-    icon = Icon::kCaution;
-    note = r.over_limit;
   }
   const float note_y = cell.y + s.Px(52);
   DrawIcon(Canvas(), icon, {cell.x + s.Px(6), note_y}, s.Px(12), colour);

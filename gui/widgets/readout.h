@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "engine/model/channel.h"
 #include "gui/widgets/draw.h"
 
 namespace palace {
@@ -12,14 +13,11 @@ struct Readout {
   std::string label;
   std::string value;
   std::string unit;
-  enum class State { kFresh, kLate, kStale, kNever } state = State::kFresh;
+  using State = ChannelHealth::State;
+  State state = State::kFresh;  ///< of the channel it came by, as the engine says
   double age_s = 0;
-  std::string over_limit;  ///< "max 2.0 m" when the value is over it, else empty
 };
 
-/// Expected period to state: late above 2 periods, stale above 5 periods or 1 s, whichever is
-/// larger.
-Readout::State AgeState(double age_s, double period_s);
 /// Draws into a cell whose top left corner is the label's.
 void DrawReadout(UiFrame& ui, const Rect& cell, const Readout& readout);
 

@@ -32,7 +32,6 @@ struct SliderRow {
   const SettingInfo* info = nullptr;
   double value = 0;      ///< shown and edited
   bool pending = false;  ///< not in force yet: the field's border is the strong line
-  bool show_slider = true;
 };
 
 /// Share of the track for a value, and back. Both are clamped to the hard limits.

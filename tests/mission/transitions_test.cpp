@@ -35,6 +35,49 @@ TEST(Mission, WholeFlight) {
   EXPECT_TRUE(rig.mission.status().alarms.empty());
 }
 
+TEST(Mission, SaysWhoMaySelectWhichSite) {
+  MissionRig rig;
+  ASSERT_TRUE(rig.RunUntil(MissionState::kProposed));
+  EXPECT_TRUE(rig.mission.status().MaySelect(101));
+  ASSERT_TRUE(rig.Do(RefuseSite{101}).ok());
+  rig.sites.pop_back();  // the other is gone: back to searching
+  ASSERT_TRUE(rig.RunUntil(MissionState::kSearch));
+  EXPECT_TRUE(rig.mission.status().MaySelect(101));  // a second look
+  EXPECT_FALSE(rig.mission.status().MaySelect(102));
+  rig.source = SourceKind::kReplay;
+  rig.Step();
+  EXPECT_FALSE(rig.mission.status().MaySelect(101));
+}
+
+TEST(Mission, EvidenceIsFrozenWithTheLimitsItWasArmedUnder) {
+  MissionRig rig;
+  rig.decision.settings.limits.max_slope_deg = 7;
+  rig.Arm();
+  rig.decision.settings.limits.max_slope_deg = 3;  // of later maps
+  rig.settings.slad.limits.max_slope_deg = 3;
+  rig.Run(0.3);
+  const LimitRow* slope = FindLimit(rig.mission.status().armed_limits, LimitId::kSlope);
+  ASSERT_NE(slope, nullptr);
+  EXPECT_NEAR(slope->limit, Rad(7), 1e-12);
+  ASSERT_TRUE(rig.Do(DisarmSite{}).ok());
+  EXPECT_TRUE(rig.mission.status().armed_limits.empty());
+}
+
+TEST(Mission, AppliedLimitsDropWhatIsNotYetFlown) {
+  MissionRig rig;
+  EXPECT_FALSE(rig.mission.DropsWithSettings());
+  rig.Arm();
+  EXPECT_TRUE(rig.mission.DropsWithSettings());
+  ASSERT_TRUE(rig.ApproveNow().ok());
+  EXPECT_TRUE(rig.mission.DropsWithSettings());
+  ASSERT_TRUE(rig.RunUntil(MissionState::kDescending));
+  ASSERT_TRUE(rig.Do(HoldHere{}).ok());
+  ASSERT_EQ(rig.state(), MissionState::kHold);
+  EXPECT_FALSE(rig.mission.DropsWithSettings());
+  rig.mission.DropApproval("limits applied");
+  EXPECT_EQ(rig.state(), MissionState::kHold);
+}
+
 TEST(Mission, ProposesOnlyAfterThreeMapsAndOneSecond) {
   MissionRig rig;
   rig.Run(0.9);

@@ -43,6 +43,33 @@ TEST(FlightHistoryPath, IsTheMissions) {
   EXPECT_EQ(SampleOf(snap, FrameBundle{}).plan_height_m, 9.5);
 }
 
+TEST(FlightHistoryPath, EveryHeightIsOfTheSkidsAboveTheSite) {
+  EngineSnapshot snap = FlyingAt(kPath.BodyAt(10), VehicleMode::kDescend);
+  FilterStatus& gps = snap.flight.Edit().navigation.gps;
+  gps.running = true;
+  gps.estimate.p_WB = snap.sensors->pose->X_WB.p + Eigen::Vector3d(1, 0, -2);
+  Truth truth;
+  truth.X_WB = snap.sensors->pose->X_WB;
+  truth.X_WB.p.z() += 0.5;
+  snap.sensors.Edit().truth = truth;
+  const HistorySample sample = SampleOf(snap, FrameBundle{});
+  EXPECT_NEAR(sample.height_above_site_m, 12, 1e-9);  // GPS is in force
+  EXPECT_NEAR(sample.gps_height_m, 12, 1e-9);
+  EXPECT_NEAR(sample.truth_height_m, 9.5, 1e-9);
+  snap.flight.Edit().navigation.handover = NavigationStatus::Handover::kVision;
+  EXPECT_NEAR(SampleOf(snap, FrameBundle{}).height_above_site_m, 10, 1e-9);  // pose: no filter runs
+}
+
+TEST(FlightHistoryPath, TheCentreIsLimitedWhileItsRowIsEnforced) {
+  EngineSnapshot snap = FlyingAt(kPath.BodyAt(1), VehicleMode::kSink);
+  EXPECT_FALSE(SampleOf(snap, FrameBundle{}).centre_limited);
+  snap.flight.Edit().mission.limits = {
+      {.id = LimitId::kFromCentre, .limit = 0.5, .enforced_by = EnforcedBy::kAlarm}};
+  EXPECT_TRUE(SampleOf(snap, FrameBundle{}).centre_limited);
+  snap.flight.Edit().mission.limits[0].enforced_by = EnforcedBy::kNobody;
+  EXPECT_FALSE(SampleOf(snap, FrameBundle{}).centre_limited);
+}
+
 TEST(FlightHistoryPath, TheLaserReadsAsHeightOfTheSkids) {
   EngineSnapshot snap = FlyingAt(kPath.BodyAt(10), VehicleMode::kDescend);
   snap.sensors.Edit().X_WC = snap.sensors->pose->X_WB * snap.sensors->rig->X_BC();

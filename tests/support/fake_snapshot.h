@@ -100,6 +100,8 @@ inline std::vector<HistorySample> History(bool descending) {
     const double fall = descending ? std::max(0.0, t + 28) * 0.6 : 0.0;
     const double wave = SmoothNoise(i * 0.2, 3);
     h.height_above_site_m = 38.2 - fall + 0.05 * wave;
+    h.gps_height_m = h.height_above_site_m + 0.6;
+    h.truth_height_m = h.height_above_site_m;
     h.plan_height_m = 38.2 - fall;
     h.laser_m = h.height_above_site_m + 0.04 * wave;
     h.from_site_m = 0.08 + 0.1 * wave;
@@ -208,10 +210,12 @@ inline void FillMission(EngineSnapshot& snap, MissionState state) {
   const bool descending = state == MissionState::kDescending || state == MissionState::kHold ||
                           state == MissionState::kAborting || state == MissionState::kLanded;
   m.state = state;
+  m.may_select = MaySelect(snap.session->role);
   m.since = {kNow_us - 3'200'000};
   m.guards = Guards();
   if (armed) {
     m.armed = snap.terrain->applied->selection.sites.front();
+    m.armed_limits = SiteLimits(*m.armed, snap.session->settings.slad);
     m.armed_at = {kNow_us - 3'200'000};
     m.approach = ApproachPlan{Rad(40), Rad(45), 1.0};
     m.arm_expires = Timestamp{kNow_us + 26'000'000};
@@ -294,6 +298,14 @@ inline EngineSnapshot Snapshot(MissionState state = MissionState::kArmed,
     snap.session.Edit().source.duration_s = 338;
     snap.session.Edit().source.frame_count = 3380;
   }
+  snap.session.Edit().role = RoleOf(kind, false);
+  const bool frozen = kind != SourceKind::kReplay && state >= MissionState::kArmed;
+  snap.session.Edit().limits_apply = !frozen ? LimitsApply::kAtOnce
+                                     : state == MissionState::kDescending
+                                         ? LimitsApply::kNotNow
+                                         : LimitsApply::kWhenApplied;
+  snap.session.Edit().apply_drops =
+      frozen && (state == MissionState::kArmed || state == MissionState::kApproved);
   snap.session.Edit().can_transmit = kind != SourceKind::kReplay;
   snap.session.Edit().recording = kind != SourceKind::kReplay;
   snap.session.Edit().recording_path = "logs/flight.log";

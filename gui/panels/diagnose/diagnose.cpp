@@ -237,9 +237,9 @@ void DrawDiagnoseWorkspace(const EngineSnapshot& snap, const Rect& body, Diagnos
       snap.terrain->applied ? snap.terrain->applied->selection.sites.size() : 0;
   const float sites_h = std::min(rows_h(sites, 66), std::round(body.h * 0.36f));
   // Guards and sites as tall as they need; what is left lists the alarms.
-  constexpr std::size_t kGuards = 14;
-  const float guards_h = std::min(rows_h(std::max(snap.flight->mission.guards.size(), kGuards), 40),
-                                  body.h - sites_h - gap);
+  const float guards_h =
+      std::min(rows_h(std::max(snap.flight->mission.guards.size(), kGuardCount), 40),
+               body.h - sites_h - gap);
   const float alarms_y = body.y + guards_h + gap + sites_h + gap;
   const bool alarms = body.bottom() - alarms_y > s.Px(80);
   const float sites_y = alarms ? body.y + guards_h + gap : body.bottom() - sites_h;

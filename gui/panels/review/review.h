@@ -27,6 +27,11 @@ struct ReviewDifference {
   char now = 0;
 };
 
+/// The plots of Review: height, and clear radius of the best site; recorded and re-decided.
+struct ReviewPlots {
+  PlotView height, clear_radius;
+};
+
 /// What is read out of the whole record and the whole replay so far, once a snapshot.
 struct ReviewDigest {
   struct Key {
@@ -39,6 +44,10 @@ struct ReviewDigest {
   std::optional<Key> key;  ///< what it was read out of
   std::vector<ReviewDifference> differences;
   TimelineView timeline;
+  ReviewPlots plots;
+  /// Cells of the re-decided map that bear the lander in one of the two maps only; empty without
+  /// both.
+  Grid<std::uint8_t> changed_cells;
 };
 
 struct ReviewState {
@@ -69,13 +78,17 @@ void DrawReviewWorkspace(const EngineSnapshot& snap, const FlightRecord* record,
 
 void DrawReviewTimeline(const EngineSnapshot& snap, const TimelineView& view, const Rect& rect,
                         ReviewState& state, UiFrame& ui);
-void DrawReviewPlots(const EngineSnapshot& snap, const FlightRecord* record, const Rect& rect,
-                     ReviewState& state, UiFrame& ui);
+ReviewPlots MakeReviewPlots(const EngineSnapshot& snap, const FlightRecord* record,
+                            const Palette& palette);
+void DrawReviewPlots(const ReviewPlots& plots, const Rect& rect, PlotHover& hover, UiFrame& ui);
+Grid<std::uint8_t> ChangedCells(const EngineSnapshot& snap);
+/// Seconds of the whole flight, or of what was replayed of it where nobody knows.
+double DurationOf(const EngineSnapshot& snap, const FlightRecord* record);
 /// What the flight decided: the record's decision, or the replayed one while no limit moved.
 const TerrainDecision* RecordedDecision(const EngineSnapshot& snap);
 /// Three square maps of side `w` from the left of `row`.
-void DrawReviewMaps(const EngineSnapshot& snap, const Rect& row, float w, MapProbe& probe,
-                    UiFrame& ui);
+void DrawReviewMaps(const EngineSnapshot& snap, const ReviewDigest& digest, const Rect& row,
+                    float w, MapProbe& probe, UiFrame& ui);
 void DrawRedecidePanel(const EngineSnapshot& snap, const FlightRecord* record, const Rect& rect,
                        ReviewState& state, UiFrame& ui);
 void DrawDecisionPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gui/panels/fly_layout.h"
+
 namespace palace {
 namespace {
 
@@ -42,7 +44,7 @@ void LayNarrow(const Rect& area, const Style& s, ReviewPicture picture, ReviewLa
 
 ReviewLayout LayReview(const Rect& body, const Style& s, ReviewPicture picture) {
   ReviewLayout layout;
-  layout.narrow = body.w < s.Px(1584) || body.h < s.Px(776);
+  layout.narrow = IsNarrowBody(body, s);
   const bool narrow = layout.narrow;
   const float gap = s.Px(8);
   const float timeline_h = s.Px(narrow ? 164 : 260), right_w = s.Px(narrow ? 344 : 416);

@@ -18,13 +18,13 @@ Rect SquareIn(const Rect& panel, const Rect& content, const Style& s) {
   return {std::round(content.centre().x - side / 2), content.y, side, side};
 }
 
-MapMarks MarksAt(const TerrainDecision* decision, const MapProbe& probe) {
+MapMarks MarksAt(const TerrainDecision* decision, const LandingSite* best, const MapProbe& probe) {
   MapMarks marks;
   if (decision == nullptr) {
     return marks;
   }
   marks.sites = &decision->selection.sites;
-  if (const LandingSite* best = BestSite(decision)) {
+  if (best != nullptr) {
     marks.selected = *best;
   }
   if (decision->hazards) {
@@ -34,11 +34,12 @@ MapMarks MarksAt(const TerrainDecision* decision, const MapProbe& probe) {
 }
 
 void DrawReviewMap(UiFrame& ui, const Rect& rect, const char* title, const std::string& fact,
-                   const TerrainDecision* decision, ImTextureID texture, MapProbe& probe) {
-  const MapMarks marks = MarksAt(decision, probe);
-  MapView view = MakeMapView(
-      MapKind::kSafeDistance,
-      {.decision = decision, .cursor = marks.probe, .site = BestSite(decision)}, ui.textures);
+                   const TerrainDecision* decision, const LandingSite* best, ImTextureID texture,
+                   MapProbe& probe) {
+  const MapMarks marks = MarksAt(decision, best, probe);
+  MapView view =
+      MakeMapView(MapKind::kSafeDistance,
+                  {.decision = decision, .cursor = marks.probe, .site = best}, ui.textures);
   view.texture = texture;
   view.key = title;
   // While probing, the value under the cross-hair stands in place of the limits.
@@ -47,33 +48,19 @@ void DrawReviewMap(UiFrame& ui, const Rect& rect, const char* title, const std::
   OfferProbe(view, DrawMapPicture(ui, SquareIn(rect, content, ui.style), view, marks), probe);
 }
 
-/// Hatch over the cells that `picks(was, is)`.
-template <typename Picks>
-void HatchCells(UiFrame& ui, const Rect& square, const TerrainDecision& before,
-                const TerrainDecision& now, ImU32 line, Picks picks) {
-  const Style& s = ui.style;
-  const GridGeometry& g = now.hazards->geometry;
-  DrawCellHatch(Canvas(), square, {g.cols, g.rows, 0, line, s.Fine(1.3f), s.Px(6)},
-                [&](int row, int col) {
-                  const auto was =
-                      before.hazards->geometry.CellFromPoint(g.NorthOfRow(row), g.EastOfCol(col));
-                  return picks(was && CanBearLander(*before.hazards, *was),
-                               CanBearLander(*now.hazards, {row, col}));
-                });
-}
-
-void DrawDifference(const EngineSnapshot& snap, const Rect& panel, const TerrainDecision* recorded,
-                    MapProbe& probe, UiFrame& ui) {
+void DrawDifference(const EngineSnapshot& snap, const Grid<std::uint8_t>& changed,
+                    const Rect& panel, const TerrainDecision* recorded, MapProbe& probe,
+                    UiFrame& ui) {
   const Style& s = ui.style;
   const TerrainDecision* now = snap.terrain->applied.get();
   const bool moved = snap.terrain->recorded != nullptr && ui.textures.difference != nullptr &&
                      now != nullptr && now->hazards && recorded->hazards;
   const double change_m2 = SafeArea(now) - SafeArea(recorded);
-  const std::string change = std::isfinite(change_m2)
-                                 ? (change_m2 > 0 ? "+" : "") + Fixed(change_m2, 0) + " m² safe"
-                                 : std::string("––");
+  const std::string change_words =
+      std::isfinite(change_m2) ? (change_m2 > 0 ? "+" : "") + Fixed(change_m2, 0) + " m² safe"
+                               : std::string("––");
   const Rect content =
-      DrawPanelFrame(ui, panel, "Difference", {{moved ? change : "none", 0, false, false}});
+      DrawPanelFrame(ui, panel, "Difference", {{moved ? change_words : "none", 0, false, false}});
   const Rect square = SquareIn(panel, content, s);
   if (!moved) {
     FillRect(Canvas(), square, s.palette.plot_floor);
@@ -90,8 +77,9 @@ void DrawDifference(const EngineSnapshot& snap, const Rect& panel, const Terrain
   none.probe = ProbeCell(probe, now->hazards->geometry);
   const MapAnswer answer = DrawMapPicture(ui, square, view, none);
   const ImU32 dark = WithAlpha(picture::kBlack, 0.6f);
-  HatchCells(ui, square, *recorded, *now, dark, [](bool was, bool is) { return was != is; });
-  if (const LandingSite* best = BestSite(now)) {
+  DrawCellHatch(Canvas(), square, {changed.cols(), changed.rows(), 0, dark, s.Fine(1.3f), s.Px(6)},
+                [&](int row, int col) { return changed.at(row, col) != 0; });
+  if (const LandingSite* best = BestSite(snap, now)) {
     const GridGeometry& g = now->hazards->geometry;
     const float per_m = square.w / static_cast<float>(g.cols * g.cell_m);
     const ImVec2 at{square.x + static_cast<float>(best->p_WS.y() - g.east_min_m) * per_m,
@@ -110,18 +98,39 @@ const TerrainDecision* RecordedDecision(const EngineSnapshot& snap) {
   return snap.terrain->recorded ? snap.terrain->recorded.get() : snap.terrain->applied.get();
 }
 
-void DrawReviewMaps(const EngineSnapshot& snap, const Rect& row, float w, MapProbe& probe,
-                    UiFrame& ui) {
+Grid<std::uint8_t> ChangedCells(const EngineSnapshot& snap) {
+  const TerrainDecision* before = snap.terrain->recorded.get();
+  const TerrainDecision* now = snap.terrain->applied.get();
+  if (before == nullptr || now == nullptr || !before->hazards || !now->hazards) {
+    return {};
+  }
+  const GridGeometry& g = now->hazards->geometry;
+  Grid<std::uint8_t> changed(g.rows, g.cols);
+  for (int row = 0; row < g.rows; ++row) {
+    for (int col = 0; col < g.cols; ++col) {
+      const auto there =
+          before->hazards->geometry.CellFromPoint(g.NorthOfRow(row), g.EastOfCol(col));
+      const bool was = there && CanBearLander(*before->hazards, *there);
+      changed.at(row, col) = was != CanBearLander(*now->hazards, {row, col}) ? 1 : 0;
+    }
+  }
+  return changed;
+}
+
+void DrawReviewMaps(const EngineSnapshot& snap, const ReviewDigest& digest, const Rect& row,
+                    float w, MapProbe& probe, UiFrame& ui) {
   const TerrainDecision* recorded = RecordedDecision(snap);
   const TerrainDecision* now = snap.terrain->applied.get();
   const float step = w + ui.style.Px(8);
-  DrawReviewMap(ui, {row.x, row.y, w, row.h}, "Recorded",
-                recorded != nullptr ? LimitWords(recorded->settings) : "", recorded,
-                snap.terrain->recorded ? ui.textures.recorded_safe_distance : ui.textures.maps[4],
-                probe);
+  DrawReviewMap(
+      ui, {row.x, row.y, w, row.h}, "Recorded",
+      recorded != nullptr ? LimitWords(recorded->settings) : "", recorded, BestSite(snap, recorded),
+      snap.terrain->recorded ? ui.textures.recorded_safe_distance : ui.textures.maps[4], probe);
   DrawReviewMap(ui, {row.x + step, row.y, w, row.h}, "Re-decided",
-                now != nullptr ? LimitWords(now->settings) : "", now, ui.textures.maps[4], probe);
-  DrawDifference(snap, {row.x + 2 * step, row.y, w, row.h}, recorded, probe, ui);
+                now != nullptr ? LimitWords(now->settings) : "", now, BestSite(snap, now),
+                ui.textures.maps[4], probe);
+  DrawDifference(snap, digest.changed_cells, {row.x + 2 * step, row.y, w, row.h}, recorded, probe,
+                 ui);
 }
 
 }  // namespace palace

@@ -1,11 +1,10 @@
-// Timeline of Review: what the lanes hold, transport buttons, plots.
+// Timeline of Review: what the lanes hold, transport buttons.
 #include <algorithm>
 #include <cmath>
 
 #include "gui/panels/review/review.h"
 #include "gui/widgets/button.h"
 #include "gui/widgets/number_text.h"
-#include "gui/widgets/plot.h"
 
 namespace palace {
 namespace {
@@ -116,28 +115,8 @@ Lane MarkLane(const EngineSnapshot& snap, const FlightRecord* record, const Pale
   return lane;
 }
 
-double DurationOf(const EngineSnapshot& snap, const FlightRecord* record) {
-  if (snap.session->source.duration_s) {
-    return *snap.session->source.duration_s;
-  }
-  return record != nullptr && record->duration_s > 0 ? record->duration_s
-                                                     : snap.session->source.position_s;
-}
-
 void Playback(UiFrame& ui, PlaybackControl::Kind kind, double value = 0) {
   ui.intents.push_back(PlaybackControl{kind, value});
-}
-
-/// The next of 2, 4, 10, 20, 40, 100 ...: its half is a round tick too.
-float RoundTop(float top) {
-  for (float decade = 1; decade < 1e6f; decade *= 10) {
-    for (const float factor : {2.0f, 4.0f, 10.0f}) {
-      if (top <= factor * decade) {
-        return factor * decade;
-      }
-    }
-  }
-  return top;
 }
 
 double NextSpeed(double speed) {
@@ -248,6 +227,14 @@ double FlightSeconds(const EngineSnapshot& snap, const FlightRecord* record, Tim
   return SecondsBetween(snap.session->source.start, time);
 }
 
+double DurationOf(const EngineSnapshot& snap, const FlightRecord* record) {
+  if (snap.session->source.duration_s) {
+    return *snap.session->source.duration_s;
+  }
+  return record != nullptr && record->duration_s > 0 ? record->duration_s
+                                                     : snap.session->source.position_s;
+}
+
 std::vector<ReviewDifference> FindDifferences(const EngineSnapshot& snap,
                                               const FlightRecord* record) {
   std::vector<ReviewDifference> found;
@@ -287,6 +274,8 @@ const ReviewDigest& DigestOf(const EngineSnapshot& snap, const FlightRecord* rec
     kept.key = key;
     kept.differences = FindDifferences(snap, record);
     kept.timeline = MakeTimeline(snap, record, kept.differences, palette, all);
+    kept.plots = MakeReviewPlots(snap, record, palette);
+    kept.changed_cells = ChangedCells(snap);
   }
   return kept;
 }
@@ -337,75 +326,6 @@ void DrawReviewTimeline(const EngineSnapshot& snap, const TimelineView& view, co
   DrawClock(ui, row, x, snap, view.duration_s);
   DrawTimeline(ui, {row.x, row.bottom(), row.w, rect.bottom() - s.Px(6) - row.bottom()}, view,
                state.timeline);
-}
-
-void DrawReviewPlots(const EngineSnapshot& snap, const FlightRecord* record, const Rect& rect,
-                     ReviewState& state, UiFrame& ui) {
-  const Style& s = ui.style;
-  const Palette& p = s.palette;
-  BeginPlots(state.plots);
-  PlotView height, clear;
-  height.name = "height";
-  height.title = "Height";
-  height.unit = "m";
-  clear.name = "clear_radius";
-  clear.title = "Clear radius of best site";
-  clear.unit = "m";
-  PlotTrace recorded_height, recorded_clear, now_height, now_clear;
-  recorded_height.colour = p.text2;
-  recorded_clear.colour = p.text2;
-  now_height.colour = p.safe;
-  now_clear.colour = p.text1;
-  now_height.width = now_clear.width = 2.2f;
-  if (record != nullptr) {
-    for (const FlightRecordSample& sample : record->samples) {
-      const float t = static_cast<float>(FlightSeconds(snap, record, sample.time));
-      recorded_height.points.push_back({t, static_cast<float>(sample.height_above_site_m)});
-      recorded_clear.points.push_back({t, static_cast<float>(sample.best_safe_distance_m)});
-    }
-  }
-  float top = 10, top_clear = 4;
-  if (snap.flight->history) {
-    for (const HistorySample& sample : *snap.flight->history) {
-      const float t = static_cast<float>(FlightSeconds(snap, record, sample.time));
-      now_height.points.push_back({t, static_cast<float>(sample.height_above_site_m)});
-      now_clear.points.push_back({t, static_cast<float>(sample.best_safe_distance_m)});
-    }
-  }
-  const auto grow = [](float& limit, const PlotTrace& series) {
-    for (const ImVec2& point : series.points) {
-      limit = std::isfinite(point.y) ? std::max(limit, point.y * 1.03f) : limit;
-    }
-  };
-  grow(top, recorded_height);
-  grow(top, now_height);
-  grow(top_clear, recorded_clear);
-  grow(top_clear, now_clear);
-  const float end = static_cast<float>(std::max(1.0, DurationOf(snap, record)));
-  for (PlotView* view : {&height, &clear}) {
-    view->x_min = 0;
-    view->x_max = end;
-    view->time_axis = PlotView::TimeAxis::kClock;
-    view->now = std::min(end, static_cast<float>(snap.session->source.position_s));
-  }
-  height.y_max = RoundTop(top);
-  height.current = Fixed(snap.flight->mission.height_above_site_m, 1) + " m";
-  height.series = {now_height, recorded_height};
-  clear.y_max = RoundTop(top_clear);
-  const LandingSite* best = BestSite(snap.terrain->applied.get());
-  const LandingSite* was = BestSite(snap.terrain->recorded.get());
-  clear.current = best != nullptr ? Fixed(best->safe_distance_m, 1) + " m" : "––";
-  if (was != nullptr) {
-    clear.current = Fixed(was->safe_distance_m, 1) + " / " + clear.current;
-    clear.unit = "m, recorded / re-decided";
-    now_clear.stroke = PlotTrace::Stroke::kDashed;
-  }
-  clear.series = {now_clear, recorded_clear};
-  clear.limits = {{static_cast<float>(snap.session->settings.slad.lander.clear_radius_m()), false,
-                   "min " + Fixed(snap.session->settings.slad.lander.clear_radius_m(), 1) + " m"}};
-  const float gap = s.Px(8), h = std::floor((rect.h - gap) / 2);
-  DrawPlot(ui, {rect.x, rect.y, rect.w, h}, height, state.plots);
-  DrawPlot(ui, {rect.x, rect.y + h + gap, rect.w, rect.h - h - gap}, clear, state.plots);
 }
 
 }  // namespace palace

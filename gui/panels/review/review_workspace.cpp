@@ -91,12 +91,11 @@ Verdict JudgeSite(const EngineSnapshot& snap) {
   }
   const MissionStatus& m = snap.flight->mission;
   const TerrainDecision* recorded = RecordedDecision(snap);
-  const LandingSite* site = m.armed ? &*m.armed : BestSite(recorded);
+  const LandingSite* site = m.armed ? &*m.armed : BestSite(snap, recorded);
   if (site == nullptr) {
     v.recorded = "No site";
-    v.now = BestSite(snap.terrain->applied.get()) != nullptr
-                ? "Would propose " + BestLetter(snap.terrain->applied.get())
-                : "No site";
+    const LandingSite* now = BestSite(snap, snap.terrain->applied.get());
+    v.now = now != nullptr ? "Would propose " + LetterOf(now) : "No site";
     return v;
   }
   const std::string letter(1, site->letter);
@@ -182,8 +181,8 @@ void DrawDecisionPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui
       DrawPanelFrame(ui, rect, "Decision at " + TimeLabel(snap.session->source.position_s, true));
   const TerrainDecision* was = RecordedDecision(snap);
   const TerrainDecision* is = snap.terrain->applied.get();
-  const LandingSite* a = BestSite(was);
-  const LandingSite* b = BestSite(is);
+  const LandingSite* a = BestSite(snap, was);
+  const LandingSite* b = BestSite(snap, is);
   const Verdict verdict = JudgeSite(snap);
   const auto figure = [](const LandingSite* site, auto get) {
     return site != nullptr ? get(*site) : std::string("––");
@@ -197,7 +196,7 @@ void DrawDecisionPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui
     const char* name;
     std::string recorded, now;
   } rows[] = {{"", "Recorded", "Re-decided"},
-              {"Best site", BestLetter(was), BestLetter(is)},
+              {"Best site", LetterOf(a), LetterOf(b)},
               {"Clear radius", figure(a, radius), figure(b, radius)},
               {"Slope", figure(a, slope), figure(b, slope)},
               {"Roughness", figure(a, rough), figure(b, rough)},
@@ -279,7 +278,7 @@ void DrawDifferencesPanel(const EngineSnapshot& snap, const FlightRecord* record
 void DrawReviewWorkspace(const EngineSnapshot& snap, const FlightRecord* record, const Rect& body,
                          ReviewState& state, UiFrame& ui) {
   const Style& s = ui.style;
-  if (snap.session->source.kind == SourceKind::kNone) {
+  if (!HasSource(snap.session->role)) {
     DrawPanelBackground(ui, body, "Review");
     DrawText(ui, s.section, s.palette.text1, body.centre().x, body.centre().y,
              "No log open. Start palace with --replay LOG to review a flight.", Align::kCentre);
@@ -297,8 +296,8 @@ void DrawReviewWorkspace(const EngineSnapshot& snap, const FlightRecord* record,
   }
   ui.tab.group = kViewTabs;
   DrawPictures(snap, layout, state, ui);
-  DrawReviewMaps(snap, layout.maps, layout.map_side, state.probe, ui);
-  DrawReviewPlots(snap, record, layout.plots, state, ui);
+  DrawReviewMaps(snap, digest, layout.maps, layout.map_side, state.probe, ui);
+  DrawReviewPlots(digest.plots, layout.plots, state.plots, ui);
   const bool recorded = state.probe.ShownMap() == "map/Recorded";
   DrawProbeWhy(ui, body, recorded ? RecordedDecision(snap) : snap.terrain->applied.get(),
                state.probe, snap.time);

@@ -1,7 +1,7 @@
 // Tune: every limit beside what it does to the picture, the maps and the chosen site.
 //
-// SEARCH, PROPOSED: a moved limit applies at the next map. ARMED and later it previews; Apply drops
-// the selection or approval (DESIGN.md 8). The history has one entry a gesture.
+// When a moved limit applies, and whether applying drops a site, is what the engine says
+// (SessionPart::limits_apply, apply_drops). The history has one entry a gesture.
 #pragma once
 
 #include <set>
@@ -36,12 +36,16 @@ struct TuneState {
 struct TuneFacts {
   const TerrainDecision* shown = nullptr;    ///< preview while previewing, else applied
   const TerrainDecision* applied = nullptr;  ///< may be null
+  const LandingSite* best_shown = nullptr;   ///< of these two, of what is not refused
+  const LandingSite* best_applied = nullptr;
   bool previewing = false;
-  bool frozen = false;  ///< ARMED and later
-  int changed = 0;      ///< from the defaults
-  int pending = 0;      ///< previewed, not applied
+  int changed = 0;  ///< from the defaults
+  int pending = 0;  ///< previewed, not applied
 };
 TuneFacts FactsOf(const EngineSnapshot& snap);
+
+/// Name of the preset, as people know it: "r50-field"; "defaults" where none was loaded.
+std::string PresetName(const TuneState& state);
 
 void DrawTuneWorkspace(const EngineSnapshot& snap, const Rect& body, TuneState& state, UiFrame& ui);
 

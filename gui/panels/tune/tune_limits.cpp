@@ -212,11 +212,9 @@ void DrawFoot(UiFrame& ui, const Rect& foot, const TuneFacts& facts, TuneState& 
   const Palette& p = s.palette;
   FillRect(Canvas(), {foot.x + s.Px(12), foot.y, foot.w - s.Px(24), s.Px(1)}, p.line);
   const float line = foot.y + s.Px(22);
-  std::string name = state.preset_path.empty() ? "defaults" : state.preset_path;
-  name = name.substr(name.find_last_of('/') + 1);
   float x = foot.x + s.Px(12);
   x += DrawText(ui, s.body, p.text2, x, line, "Preset") + s.Px(10);
-  x += DrawText(ui, s.medium, p.text1, x, line, name) + s.Px(16);
+  x += DrawText(ui, s.medium, p.text1, x, line, PresetName(state)) + s.Px(16);
   const std::string note = facts.changed == 0   ? "as the defaults"
                            : facts.changed == 1 ? "+ 1 change"
                                                 : "+ " + std::to_string(facts.changed) + " changes";

@@ -29,8 +29,8 @@ struct Comparison {
 };
 
 std::vector<Comparison> CompareColumns(const TuneFacts& f) {
-  const LandingSite* was = BestSite(f.applied);
-  const LandingSite* is = BestSite(f.shown);
+  const LandingSite* was = f.best_applied;
+  const LandingSite* is = f.best_shown;
   const auto radius = [](const LandingSite* site) {
     return site != nullptr ? Fixed(site->safe_distance_m, 1) + " m" : std::string("––");
   };
@@ -47,7 +47,7 @@ std::vector<Comparison> CompareColumns(const TuneFacts& f) {
   const bool both = was != nullptr && is != nullptr;
   return {{"Safe area", Fixed(SafeArea(f.applied), 0) + " m²", Fixed(SafeArea(f.shown), 0) + " m²",
            std::isfinite(area_change) ? Signed(area_change, 0) + " m²" : ""},
-          {"Best site", BestLetter(f.applied), BestLetter(f.shown), moved},
+          {"Best site", LetterOf(was), LetterOf(is), moved},
           {"Its clear radius", radius(was), radius(is),
            both ? Signed(is->safe_distance_m - was->safe_distance_m, 1) + " m" : ""},
           {"Sites found", count(f.applied), count(f.shown), ""}};
@@ -116,12 +116,12 @@ void DrawTuneMap(const EngineSnapshot& snap, const Rect& rect, MapKind kind, boo
                                      : std::nullopt;
   MapSource source = ShownMap(snap);
   source.cursor = at;
-  source.site = BestSite(facts.shown);
+  source.site = facts.best_shown;
   MapView view = MakeMapView(kind, source, ui.textures);
   MapMarks marks;
   marks.probe = at;
   marks.sites = facts.shown != nullptr ? &facts.shown->selection.sites : nullptr;
-  if (const LandingSite* best = BestSite(facts.shown)) {
+  if (const LandingSite* best = facts.best_shown) {
     marks.selected = *best;
   }
   const float below = colour_bar ? s.Px(42) : s.Px(8);
@@ -149,9 +149,7 @@ void DrawCompareStrip(const EngineSnapshot& snap, const Rect& rect, TuneState& s
   const bool narrow = rect.h < s.Px(100);
   const float pad = s.Px(12), chip = s.Px(narrow ? 156 : 168);
   const Rect applied{rect.x + pad, rect.y + pad, chip, rect.h - 2 * pad};
-  std::string preset = state.preset_path.empty() ? "defaults" : state.preset_path;
-  preset = preset.substr(preset.find_last_of('/') + 1);
-  const std::string name = preset + " · " + ShortHash(snap.session->settings_hash);
+  const std::string name = PresetName(state) + " · " + ShortHash(snap.session->settings_hash);
   DrawChip(
       ui, applied, !facts.previewing, "Applied",
       TextWidth(s.caption, name) < chip - 2 * pad ? name : ShortHash(snap.session->settings_hash),

@@ -55,8 +55,8 @@ struct ApplyWords {
 };
 
 std::string RankEffect(const TuneFacts& f) {
-  const LandingSite* was = BestSite(f.applied);
-  const LandingSite* is = BestSite(f.shown);
+  const LandingSite* was = f.best_applied;
+  const LandingSite* is = f.best_shown;
   if (was == nullptr && is == nullptr) {
     return "No site either way. ";
   }
@@ -73,38 +73,40 @@ std::string RankEffect(const TuneFacts& f) {
 }
 
 ApplyWords WordsFor(const EngineSnapshot& snap, const TuneFacts& f) {
+  const SessionPart& session = *snap.session;
+  const bool at_once = session.limits_apply == LimitsApply::kAtOnce;
+  const bool not_now = session.limits_apply == LimitsApply::kNotNow;
+  const std::string hash =
+      (session.recording ? "Recorded with hash " : "Hash ") + ShortHash(session.preview_hash) + ".";
   ApplyWords w;
-  const std::string hash = "Recorded with hash " + ShortHash(snap.session->preview_hash) + ".";
-  if (!f.frozen) {
+  w.why_not = "Nothing waits to be applied";
+  if (at_once) {
     w.state = "Applies at once";
-    w.sentence = "Limits apply at the next map.";
-    w.detail = "While searching, a moved limit takes effect with the next map. " + hash;
-    w.why_not = "Nothing waits to be applied";
+    w.sentence = "Limits apply at once.";
+    w.detail = "A moved limit judges the newest map, and all after it. " + hash;
     return w;
   }
-  const bool descending = snap.flight->mission.state == MissionState::kDescending;
   if (f.pending == 0) {
     w.state = "No preview";
     w.sentence = "Nothing waits to be applied.";
-    w.detail = descending ? "While descending, a moved limit is a preview only."
-                          : "From Armed on, a moved limit is a preview until you apply it.";
-    w.why_not = "Nothing waits to be applied";
+    w.detail = not_now ? "While descending, a moved limit is a preview only."
+                       : "A moved limit is a preview until you apply it.";
     return w;
   }
   const std::string count = std::to_string(f.pending) + (f.pending == 1 ? " change" : " changes");
   w.state = "Preview, not applied";
   w.can_discard = true;
-  if (descending) {
+  if (not_now) {
     w.sentence = count + ", preview only.";
     w.detail = RankEffect(f) + "The descent keeps the limits it was approved under.";
     w.why_not = "Not while descending";
     return w;
   }
   w.can_apply = true;
-  const bool armed = snap.flight->mission.armed.has_value();
-  w.sentence = armed
-                   ? std::string("Applying drops site ") + snap.flight->mission.armed->letter + "."
-                   : count + " wait to be applied.";
+  const auto& armed = snap.flight->mission.armed;
+  w.sentence = session.apply_drops && armed
+                   ? std::string("Applying drops site ") + armed->letter + "."
+                   : count + (f.pending == 1 ? " waits" : " wait") + " to be applied.";
   w.detail = RankEffect(f) + hash;
   return w;
 }
@@ -185,7 +187,7 @@ void DrawChosenPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui) 
   const Style& s = ui.style;
   const Palette& p = s.palette;
   const TuneFacts facts = FactsOf(snap);
-  const LandingSite* best = BestSite(facts.shown);
+  const LandingSite* best = facts.best_shown;
   const Rect content = DrawPanelFrame(ui, rect, "Site chosen");
   const float x = content.x + s.Px(12);
   if (best == nullptr) {
@@ -279,10 +281,9 @@ void DrawApplyPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui) {
   }
   const Rect apply{left + discard_w + s.Px(12), row_y,
                    rect.right() - pad - left - discard_w - s.Px(12), h};
-  const std::string label = facts.pending == 0 || !facts.frozen
-                                ? "Apply"
-                                : "Apply " + std::to_string(facts.pending) +
-                                      (facts.pending == 1 ? " change" : " changes");
+  const std::string label = facts.pending == 0 ? "Apply"
+                                               : "Apply " + std::to_string(facts.pending) +
+                                                     (facts.pending == 1 ? " change" : " changes");
   if (!words.can_apply) {
     ButtonLook look;
     look.enabled = false;

@@ -1,15 +1,15 @@
 // Tune: what the panels share, and where they lie.
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
+#include "gui/panels/fly_layout.h"
 #include "gui/panels/tune/tune.h"
 #include "gui/widgets/button.h"
 #include "gui/widgets/number_text.h"
 
 namespace palace {
 namespace {
-
-bool Narrow(const Style& s, const Rect& body) { return body.w < s.Px(1584) || body.h < s.Px(776); }
 
 void DrawMapRow(const EngineSnapshot& snap, const Rect& row, TuneState& state, UiFrame& ui) {
   const float gap = ui.style.Px(8);
@@ -108,9 +108,10 @@ void DrawNarrowCentre(const EngineSnapshot& snap, const Rect& c, TuneState& stat
 TuneFacts FactsOf(const EngineSnapshot& snap) {
   TuneFacts facts;
   facts.applied = snap.terrain->applied.get();
+  facts.shown = snap.terrain->Shown();
   facts.previewing = snap.terrain->preview != nullptr;
-  facts.shown = facts.previewing ? snap.terrain->preview.get() : facts.applied;
-  facts.frozen = snap.flight->mission.state >= MissionState::kArmed;
+  facts.best_shown = BestSite(snap, facts.shown);
+  facts.best_applied = BestSite(snap, facts.applied);
   for (const SettingInfo& info : SettingTable()) {
     const double value = GetSetting(snap.session->preview_settings, info.name);
     facts.changed += value != info.default_value ? 1 : 0;
@@ -119,11 +120,17 @@ TuneFacts FactsOf(const EngineSnapshot& snap) {
   return facts;
 }
 
+std::string PresetName(const TuneState& state) {
+  const std::filesystem::path path(state.preset_path);
+  return path.empty() ? "defaults"
+                      : (path.extension() == ".toml" ? path.stem() : path.filename()).string();
+}
+
 void DrawTuneWorkspace(const EngineSnapshot& snap, const Rect& body, TuneState& state,
                        UiFrame& ui) {
   const Style& s = ui.style;
   BeginProbe(state.probe);
-  const bool narrow = Narrow(s, body);
+  const bool narrow = IsNarrowBody(body, s);
   const float gap = s.Px(8), left = s.Px(narrow ? 344 : 416), right = s.Px(400);
   DrawLimitsPanel(snap, {body.x, body.y, left, body.h}, state, ui);
   const float x = body.x + left + gap;

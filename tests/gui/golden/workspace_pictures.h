@@ -11,6 +11,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "gui/app/layout.h"
+#include "gui/app/take_fonts.h"
 #include "gui/panels/diagnose/diagnose.h"
 #include "gui/panels/fly_workspace.h"
 #include "gui/panels/frame_bar.h"
@@ -27,22 +28,6 @@ namespace golden {
 
 inline ImTextureID TextureId(unsigned name) {
   return name == 0 ? nullptr : reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(name));
-}
-
-inline void FillStyle(Style& style, const Fonts& fonts, double scale) {
-  style.scale = static_cast<float>(scale);
-  style.palette = MakeDarkPalette();
-  style.caption = fonts.caption;
-  style.body = fonts.body;
-  style.medium = fonts.medium;
-  style.section = fonts.section;
-  style.button = fonts.button;
-  style.readout = fonts.readout;
-  style.mode = fonts.mode;
-  style.mode_replay = fonts.mode_replay;
-  style.wave_off = fonts.wave_off;
-  style.replay_time = fonts.replay_time;
-  style.mono = fonts.mono;
 }
 
 struct Shot {
@@ -113,7 +98,9 @@ inline ImageRgba Draw(const Shot& shot, std::string& why) {
   }
   const FlightRecord record = Record(snap);
   Style style;
-  FillStyle(style, backend.value()->fonts(), shot.scale);
+  style.scale = static_cast<float>(shot.scale);
+  style.palette = MakeDarkPalette();
+  TakeFonts(backend.value()->fonts(), style);
   TextureSet set;
   set.Update(snap, 1);
   PanelTextures textures;

@@ -238,7 +238,7 @@ TEST(FlyLimits, ShowWhoActsAndCountWhatTheEngineCallsOver) {
   {
     FlyWindow window(1920, 1080, snap);
     EXPECT_TRUE(HasText(window.ui.items, "All inside"));
-    EXPECT_EQ(window.ui.items.Find("evidence/Wind")->text, "Wind 12.0  for information");
+    EXPECT_EQ(window.ui.items.Find("evidence/Wind")->text, "Wind 12.0 m/s for information");
   }
   RowOf(snap, LimitId::kOffPath).over = true;
   {

@@ -1,0 +1,310 @@
+// The window tells what the engine says and enforces, and nothing beside it: limits that nobody
+// enforces forbid nothing, ages are judged by the channel's state, words follow source and role.
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include "gui/panels/fly_panels.h"
+#include "gui/panels/review/review.h"
+#include "gui/panels/tune/tune.h"
+#include "gui/widgets/number_text.h"
+#include "tests/gui/panels/fly_window.h"
+#include "tests/gui/panels/panel_checks.h"
+
+namespace palace {
+namespace {
+
+bool HasText(const ItemRecord& items, const std::string& part) {
+  return std::any_of(items.items().begin(), items.items().end(), [&](const Item& item) {
+    return item.name == "text" && item.text.find(part) != std::string::npos;
+  });
+}
+
+LimitRow& Row(EngineSnapshot& snap, LimitId id) {
+  auto& rows = snap.flight.Edit().mission.limits;
+  const auto found =
+      std::find_if(rows.begin(), rows.end(), [&](auto& row) { return row.id == id; });
+  EXPECT_NE(found, rows.end());
+  return *found;
+}
+
+TEST(PlotLimits, ForbidOnlyWhatSomebodyEnforces) {
+  EngineSnapshot snap = fake::Snapshot(MissionState::kDescending);
+  Row(snap, LimitId::kCoherence).enforced_by = EnforcedBy::kNobody;
+  FlyWindow window(1920, 1080, snap);
+  const Item* rate = window.ui.items.Find("plot_limit/rate");
+  const Item* coherence = window.ui.items.Find("plot_limit/coherence");
+  ASSERT_TRUE(rate != nullptr && coherence != nullptr);
+  EXPECT_TRUE(rate->enabled);
+  EXPECT_EQ(rate->text, "Limit 1.50 m/s");
+  EXPECT_FALSE(coherence->enabled);
+  EXPECT_EQ(coherence->text, "For information: 0.70");
+}
+
+TEST(PlotLimits, TheDistanceFromTheCentreHasALimitWhileTheEngineSaysSo) {
+  EngineSnapshot snap = fake::Snapshot(MissionState::kDescending);
+  EXPECT_EQ(FlyWindow(1920, 1080, snap).ui.items.Find("plot_limit/distance"), nullptr);
+  snap.flight.Edit().mission.limits[0] = {.id = LimitId::kFromCentre,
+                                          .label = "From centre",
+                                          .value = 0.1,
+                                          .limit = 0.7,
+                                          .unit = "m",
+                                          .enforced_by = EnforcedBy::kAlarm};
+  auto history = *snap.flight->history;
+  for (std::size_t i = history.size() - 50; i < history.size(); ++i) {
+    history[i].centre_limited = true;
+  }
+  snap.flight.Edit().history = std::make_shared<const std::vector<HistorySample>>(history);
+  FlyWindow window(1920, 1080, snap);
+  const Item* limit = window.ui.items.Find("plot_limit/distance");
+  ASSERT_NE(limit, nullptr);
+  EXPECT_EQ(limit->text, "Limit 0.7 m");
+  EXPECT_TRUE(limit->enabled);
+  // It began 4.9 s ago, of the 40 s of past and 24 s of future that the plot holds.
+  const Rect plot = window.ui.items.Find("plot/distance")->rect;
+  EXPECT_NEAR(limit->rect.x, plot.x + 52 + (plot.w - 66) * (40 - 4.9f) / 64, 2);
+}
+
+TEST(Evidence, OfAnArmedSiteStandsUnderTheLimitsItWasArmedUnder) {
+  EngineSnapshot snap = fake::Snapshot(MissionState::kArmed);
+  snap.session.Edit().preview_settings.slad.limits.max_slope_deg = 1;
+  snap.terrain.Edit().preview =
+      fake::Decision(snap.sensors->X_WC, snap.session->preview_settings.slad, 0x91c07e);
+  FlyWindow window(1920, 1080, snap);
+  EXPECT_EQ(window.ui.items.Find("evidence/Slope")->text, "Slope 1.9 ± 0.3° max 10°, guard");
+}
+
+TEST(LimitsInForce, CountAndShowWhateverIsOver) {
+  EngineSnapshot snap = fake::Snapshot(MissionState::kDescending);
+  Row(snap, LimitId::kExposure).over = true;  // stands in no list of the panel
+  Row(snap, LimitId::kSlope).over = true;     // a narrow window leaves it out
+  for (const ImVec2 size : {ImVec2(1920, 1080), ImVec2(1280, 720)}) {
+    SCOPED_TRACE(size.x);
+    FlyWindow window(size.x, size.y, snap);
+    EXPECT_TRUE(HasText(window.ui.items, "2 over a limit"));
+    EXPECT_FALSE(HasText(window.ui.items, "All inside"));
+    const Rect panel = window.ui.items.Find("panel/Limits in force")->rect;
+    for (const char* name : {"evidence/Brighter over darker picture", "evidence/Slope"}) {
+      const Item* row = window.ui.items.Find(name);
+      ASSERT_NE(row, nullptr) << name;
+      EXPECT_TRUE(Inside(row->rect, panel)) << name;
+    }
+  }
+}
+
+TEST(LimitsInForce, SayHowManyAreUnknownAlsoOfThoseNotListed) {
+  EngineSnapshot snap = fake::Snapshot(MissionState::kDescending);
+  Row(snap, LimitId::kRangeScale).value = NAN;
+  FlyWindow window(1920, 1080, snap);
+  EXPECT_TRUE(HasText(window.ui.items, "1 unknown"));
+}
+
+/// A station with one caution, which is shelved.
+struct Shelved : FlyWindow {
+  Shelved() : FlyWindow(1920, 1080, fake::Snapshot(MissionState::kArmed)) {
+    snap.flight.Edit().mission.alarms.resize(1);
+    ui.Frame(draw);
+    ui.Click("shelve", draw);
+  }
+  Alarm& alarm() { return snap.flight.Edit().mission.alarms[0]; }
+  std::string Strip() {
+    ui.Frame(draw);
+    ui.Frame(draw);
+    return ui.items.Find("alarm")->text;
+  }
+};
+
+TEST(AlarmShelf, SaysWhatItHoldsAndAClickBringsItBack) {
+  Shelved window;
+  EXPECT_EQ(window.Strip(), "No alarm but what is shelved");
+  EXPECT_EQ(window.ui.items.Find("unshelve")->text, "1 shelved");
+  window.ui.Click("unshelve", window.draw);
+  EXPECT_EQ(window.Strip(), window.alarm().text);
+  EXPECT_EQ(window.ui.items.Find("unshelve"), nullptr);
+}
+
+TEST(AlarmShelf, TheKeyboardBringsItBackToo) {
+  Shelved window;
+  for (int i = 0; i < 60 && window.ui.focus.shown() != "unshelve"; ++i) {
+    window.ui.Tap(ImGuiKey_Tab, window.draw);
+  }
+  ASSERT_EQ(window.ui.focus.shown(), "unshelve");
+  window.ui.Tap(ImGuiKey_Enter, window.draw);
+  EXPECT_EQ(window.Strip(), window.alarm().text);
+}
+
+TEST(AlarmShelf, HoldsTheAlarmThatStoodAndNoOther) {
+  {
+    Shelved raised_anew;
+    raised_anew.alarm().since = AddSeconds(raised_anew.alarm().since, 5);
+    EXPECT_EQ(raised_anew.Strip(), raised_anew.alarm().text);
+  }
+  {
+    Shelved worse;
+    worse.alarm().level = AlarmLevel::kWarning;
+    EXPECT_EQ(worse.Strip(), worse.alarm().text);
+  }
+  {
+    Shelved cleared;
+    const Alarm alarm = cleared.alarm();
+    cleared.alarm().active = false;  // over, and not acknowledged
+    EXPECT_EQ(cleared.Strip(), alarm.text);
+    cleared.snap.flight.Edit().mission.alarms.clear();
+    EXPECT_EQ(cleared.Strip(), "No alarms");
+    cleared.snap.flight.Edit().mission.alarms = {alarm};
+    EXPECT_EQ(cleared.Strip(), alarm.text);
+  }
+}
+
+TEST(VehiclePanel, PositionErrorIsOfTheEstimateInForce) {
+  EngineSnapshot snap = fake::Snapshot(MissionState::kArmed);
+  snap.flight.Edit().navigation.vision.estimate.sigma_p_m = {0.03, 0, 0};
+  snap.flight.Edit().navigation.gps.estimate.sigma_p_m = {1, 0, 0};
+  snap.flight.Edit().navigation.handover = NavigationStatus::Handover::kSettling;
+  EXPECT_EQ(FlyWindow(1920, 1080, snap).ui.items.Find("readout/Position error")->text,
+            "3.00 m, 3σ");
+  snap.flight.Edit().navigation.handover = NavigationStatus::Handover::kVision;
+  EXPECT_EQ(FlyWindow(1920, 1080, snap).ui.items.Find("readout/Position error")->text,
+            "0.09 m, 3σ");
+}
+
+TEST(Freshness, IsTheChannelsStateWhateverItsAge) {
+  using State = ChannelHealth::State;
+  EngineSnapshot snap = fake::Snapshot(MissionState::kArmed);
+  auto& channels = snap.sensors.Edit().channels;
+  const auto set = [&](ChannelId id, State state, double age_s) {
+    auto& channel = channels[static_cast<std::size_t>(id)];
+    channel.state = state;
+    channel.age_s = age_s;
+  };
+  set(ChannelId::kVehicleStatus, State::kFresh, 7);  // sent every 10 s: nothing is late
+  set(ChannelId::kCameraLeft, State::kFresh, 1.6);
+  {
+    FlyWindow window(1920, 1080, snap);
+    EXPECT_FALSE(HasText(window.ui.items, "s old"));
+  }
+  set(ChannelId::kCameraLeft, State::kStale, 0.6);  // a fast camera that stopped
+  {
+    FlyWindow window(1920, 1080, snap);
+    EXPECT_TRUE(HasText(window.ui.items, "0.6 s old"));
+  }
+}
+
+TEST(ChannelStrip, TheStateDecidesAndTheAgeIsAlwaysShown) {
+  EngineSnapshot snap = fake::Snapshot(MissionState::kArmed);
+  ChannelHealth& gps = snap.sensors.Edit().channels[4];
+  gps.state = ChannelHealth::State::kFresh;
+  gps.age_s = 0.1;
+  gps.note = "limit";
+  EXPECT_EQ(FlyWindow(1920, 1080, snap).ui.items.Find("channel/GPS")->text,
+            "100 ms   5.0 Hz   limit");
+}
+
+TEST(StatusBar, TellsWhatWasNeverHeardFromWhatIsStale) {
+  EngineSnapshot snap = fake::Snapshot(MissionState::kArmed);
+  auto& channels = snap.sensors.Edit().channels;
+  channels[4].state = ChannelHealth::State::kStale;
+  channels[5].state = ChannelHealth::State::kNever;
+  FlyWindow window(1280, 720, snap);
+  EXPECT_TRUE(HasText(window.ui.items, "6 fresh, 1 late or stale, 1 never heard"));
+}
+
+TEST(SiteList, OffersNothingWhereTheSessionMayNotSelect) {
+  FlyWindow window(1920, 1080, fake::Snapshot(MissionState::kProposed, SourceKind::kReplay));
+  EXPECT_FALSE(window.ui.items.Find("site/A")->enabled);
+  window.ui.Click("site/A", window.draw);
+  EXPECT_EQ(window.ui.CountCommands<SelectSite>(), 0);
+}
+
+TEST(LinkWords, FollowTheSource) {
+  const struct {
+    SourceKind kind;
+    const char* words;
+  } table[] = {{SourceKind::kReplay, "No link in replay"},
+               {SourceKind::kImages, "No vehicle in a picture folder"},
+               {SourceKind::kCameras, "No vehicle, cameras only"},
+               {SourceKind::kVideo, "No vehicle in a video"},
+               {SourceKind::kLive, "No link"}};
+  for (const auto& row : table) {
+    SCOPED_TRACE(row.words);
+    EngineSnapshot snap = fake::Snapshot(MissionState::kDescending, row.kind);
+    snap.session.Edit().can_transmit = false;
+    FlyWindow flying(1920, 1080, snap);
+    EXPECT_EQ(flying.ui.items.Find("wave_off")->text, std::string("WAVE OFF | ") + row.words);
+    flying.ui.MoveTo("hold_here");
+    flying.Run(1);
+    EXPECT_TRUE(HasText(flying.ui.items, row.words));
+    snap = fake::Snapshot(MissionState::kProposed, row.kind);
+    snap.session.Edit().can_transmit = false;
+    snap.flight.Edit().mission.cannot_approve_reason = row.words;
+    FlyWindow proposed(1920, 1080, snap);
+    EXPECT_NE(proposed.ui.items.Find("approve")->text.find(row.words), std::string::npos)
+        << proposed.ui.items.Find("approve")->text;
+  }
+}
+
+TEST(BestSite, IsTheBestThatStands) {
+  EngineSnapshot snap = fake::Snapshot(MissionState::kProposed);
+  EXPECT_EQ(BestSite(snap, snap.terrain->applied.get())->letter, 'A');
+  snap.flight.Edit().mission.refused_sites = {1};
+  EXPECT_EQ(BestSite(snap, snap.terrain->applied.get())->letter, 'B');
+  EXPECT_EQ(FactsOf(snap).best_shown->letter, 'B');
+  UiHarness ui(1920, 1080);
+  TuneState state;
+  ui.Frame([&](UiFrame& f) { DrawTuneWorkspace(snap, BodyOf(1920, 1080), state, f); });
+  EXPECT_NE(ui.items.Find("panel/Site chosen"), nullptr);
+  EXPECT_TRUE(HasText(
+      ui.items, Fixed(snap.terrain->applied->selection.sites[1].safe_distance_m, 1) + " m clear"));
+}
+
+TEST(Tune, SaysWhenLimitsApplyAsTheEngineDoes) {
+  const struct {
+    LimitsApply apply;
+    bool drops, pending;
+    const char* sentence;
+  } table[] = {
+      {LimitsApply::kAtOnce, false, false, "Limits apply at once."},
+      {LimitsApply::kWhenApplied, true, true, "Applying drops site A."},
+      {LimitsApply::kWhenApplied, false, true, "1 change waits to be applied."},  // under HOLD
+      {LimitsApply::kNotNow, false, true, "1 change, preview only."},
+      {LimitsApply::kWhenApplied, true, false, "Nothing waits to be applied."},
+  };
+  for (const auto& row : table) {
+    SCOPED_TRACE(row.sentence);
+    EngineSnapshot snap =
+        fake::Snapshot(MissionState::kArmed);  // the state tells the panel nothing
+    snap.session.Edit().limits_apply = row.apply;
+    snap.session.Edit().apply_drops = row.drops;
+    if (row.pending) {
+      snap.session.Edit().preview_settings.slad.limits.max_slope_deg = 6;
+      snap.terrain.Edit().preview = snap.terrain->applied;
+    }
+    UiHarness ui(1920, 1080);
+    TuneState state;
+    ui.Frame([&](UiFrame& f) { DrawTuneWorkspace(snap, BodyOf(1920, 1080), state, f); });
+    EXPECT_TRUE(HasText(ui.items, row.sentence));
+    EXPECT_EQ(ui.items.Find("apply")->enabled,
+              row.pending && row.apply == LimitsApply::kWhenApplied);
+  }
+}
+
+TEST(Review, PlotsAndChangedCellsAreWorkedOutOnceASnapshot) {
+  EngineSnapshot snap = fake::Snapshot(MissionState::kArmed, SourceKind::kReplay);
+  snap.terrain.Edit().recorded = snap.terrain->applied;
+  UiHarness ui(1920, 1080);
+  ReviewState state;
+  const auto draw = [&](UiFrame& f) {
+    DrawReviewWorkspace(snap, nullptr, BodyOf(1920, 1080), state, f);
+  };
+  ui.Frame(draw);
+  EXPECT_FALSE(state.digest.changed_cells.empty());
+  state.digest.plots.height.title = "Kept";
+  ui.Frame(draw);
+  EXPECT_EQ(ui.items.Find("plot/height")->text.rfind("Kept", 0), 0U);
+  ++snap.sequence;
+  ui.Frame(draw);
+  EXPECT_EQ(ui.items.Find("plot/height")->text.rfind("Height", 0), 0U);
+}
+
+}  // namespace
+}  // namespace palace
