@@ -233,9 +233,10 @@ void DrawApprovePanel(const EngineSnapshot& snap, const Rect& rect, bool narrow,
   } else {
     DrawText(ui, narrow ? s.medium : s.section, p.text1, x, rect.y + s.Px(narrow ? 42 : 46),
              "Nothing is committed yet.");
-    const char* help = snap.terrain->applied && !snap.terrain->applied->selection.sites.empty()
-                           ? "Click a site, or press Tab and Enter, to select it."
-                           : "Waiting for a site inside all limits.";
+    const bool sites = snap.terrain->applied && !snap.terrain->applied->selection.sites.empty();
+    const char* help = !sites         ? "Waiting for a site inside all limits."
+                       : m.may_select ? "Click a site, or press Tab and Enter, to select it."
+                                      : "Sites cannot be selected here.";
     DrawText(ui, s.body, p.text2, x, rect.y + s.Px(narrow ? 64 : 73), help);
   }
   DrawButtons(snap, rect, narrow, state, ui);

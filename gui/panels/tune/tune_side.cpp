@@ -281,7 +281,7 @@ void DrawApplyPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui) {
   }
   const Rect apply{left + discard_w + s.Px(12), row_y,
                    rect.right() - pad - left - discard_w - s.Px(12), h};
-  const std::string label = facts.pending == 0 ? "Apply"
+  const std::string label = !words.can_discard ? "Apply"
                                                : "Apply " + std::to_string(facts.pending) +
                                                      (facts.pending == 1 ? " change" : " changes");
   if (!words.can_apply) {

@@ -212,6 +212,7 @@ TEST(StatusBar, TellsWhatWasNeverHeardFromWhatIsStale) {
 TEST(SiteList, OffersNothingWhereTheSessionMayNotSelect) {
   FlyWindow window(1920, 1080, fake::Snapshot(MissionState::kProposed, SourceKind::kReplay));
   EXPECT_FALSE(window.ui.items.Find("site/A")->enabled);
+  EXPECT_TRUE(HasText(window.ui.items, "Sites cannot be selected here."));
   window.ui.Click("site/A", window.draw);
   EXPECT_EQ(window.ui.CountCommands<SelectSite>(), 0);
 }
