@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/core/units.h"
+
 namespace palace {
 namespace {
 
@@ -26,6 +28,18 @@ TEST(RecordedFlight, TellsTheLimitsInForceAtATime) {
     ASSERT_NE(settings, nullptr);
     EXPECT_EQ(settings->slad.limits.max_slope_deg, c.slope_deg) << c.at_us;
   }
+  // The site that was armed then stands under them, and nobody can select another.
+  record->armed_sites.emplace_back();
+  FlightRecordSample sample;
+  sample.time = {250};
+  sample.armed = 0;
+  MissionStatus status;
+  status.may_select = true;
+  flight.Restore(sample, status);
+  const LimitRow* slope = FindLimit(status.armed_limits, LimitId::kSlope);
+  ASSERT_NE(slope, nullptr);
+  EXPECT_NEAR(slope->limit, Rad(6), 1e-12);
+  EXPECT_FALSE(status.may_select);
 }
 
 }  // namespace

@@ -73,6 +73,7 @@ TEST_F(Photographs, PalaceShowsThemAndTheirSites) {
             "click tab/Tune\n"
             "screenshot tune.png\n"
             "click tab/Fly\n"
+            "wait item view/Above 5\n"
             "click view/Above\n"
             "screenshot above.png\n"
             "wait seconds 1\n"

@@ -100,14 +100,14 @@ TEST_F(LogRerun, DecidesAsInFlightAndWritesEverySiteAndMap) {
   EXPECT_EQ(read.exit_code, 0) << read.err;
 }
 
-/// The hash of the limits that a replay in palace judged under, in the eight digits of its report.
+/// The hash of the limits that a replay in palace judged under, in the digits of its report.
 std::string HashOfReport(const std::filesystem::path& report) {
   std::ifstream file(report);
   std::stringstream text;
   text << file.rdbuf();
   const std::string heading = "Limits in force, ";
   const std::size_t at = text.str().find(heading);
-  return at == std::string::npos ? "" : text.str().substr(at + heading.size(), 8);
+  return at == std::string::npos ? "" : text.str().substr(at + heading.size(), ShortHash(0).size());
 }
 
 TEST_F(LogRerun, AndAReplayOfTheWindowJudgeUnderTheSameLimits) {

@@ -91,6 +91,8 @@ TEST_F(Mission, LandsOnTheSiteAndTheLogDecidesTheSameAgain) {
     const auto snapshot = engine->Latest();
     summarizer.Add(*snapshot);
     flown.push_back(DecisionOf(*snapshot));
+    EXPECT_EQ(snapshot->session->limits_apply == LimitsApply::kNotNow,
+              snapshot->flight->mission.state == MissionState::kDescending);
     for (const EngineCommand& command : pilot.Decide(*snapshot)) {
       engine->Post(command);
     }
@@ -218,8 +220,11 @@ TEST_F(Mission, AStepTakenBetweenFramesIsReplayedAsFlown) {
     engine->Control({PlaybackControl::Kind::kPlay, 0});
   };
   step_until(MissionState::kProposed);
+  EXPECT_EQ(engine->Latest()->session->limits_apply, LimitsApply::kAtOnce);
   between_frames(SelectSite{engine->Latest()->terrain->applied->selection.sites.at(0).id});
   ASSERT_EQ(engine->Latest()->flight->mission.state, MissionState::kArmed);
+  EXPECT_EQ(engine->Latest()->session->limits_apply, LimitsApply::kWhenApplied);
+  EXPECT_TRUE(engine->Latest()->session->apply_drops);
   for (int i = 0; i < 5; ++i) {
     step_until(MissionState::kArmed);
   }
