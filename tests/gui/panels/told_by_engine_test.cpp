@@ -123,6 +123,25 @@ TEST(AlarmShelf, SaysWhatItHoldsAndAClickBringsItBack) {
   EXPECT_EQ(window.ui.items.Find("unshelve"), nullptr);
 }
 
+TEST(AlarmShelf, ItsWordsStandBesideTheOthers) {
+  FlyWindow window(1280, 720, fake::Snapshot(MissionState::kArmed));
+  window.ui.Click("shelve", window.draw);
+  window.ui.Frame(window.draw);
+  ASSERT_NE(window.ui.items.Find("unshelve"), nullptr);
+  const Rect strip = window.ui.items.Find("panel/Alarm strip")->rect;
+  std::vector<Item> texts;
+  for (const Item& item : window.ui.items.items()) {
+    if (item.name == "text" && strip.Contains(item.rect.centre())) {
+      EXPECT_TRUE(Inside(item.rect, strip, 1.5f)) << item.text;
+      for (const Item& other : texts) {
+        EXPECT_FALSE(Touch(item.rect, other.rect)) << item.text << " touches " << other.text;
+      }
+      texts.push_back(item);
+    }
+  }
+  EXPECT_GE(texts.size(), 4U);
+}
+
 TEST(AlarmShelf, TheKeyboardBringsItBackToo) {
   Shelved window;
   for (int i = 0; i < 60 && window.ui.focus.shown() != "unshelve"; ++i) {
