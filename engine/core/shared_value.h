@@ -17,6 +17,9 @@ class SharedValue {
   const T& operator*() const { return *value_; }
   const T* operator->() const { return value_.get(); }
 
+  /// The value as it is now, to keep; Edit() then works on a copy.
+  std::shared_ptr<const T> Share() const { return value_; }
+
   /// The value to change. Only by the thread that builds the holder, before it is handed on.
   T& Edit() {
     if (value_.use_count() != 1) {

@@ -30,6 +30,9 @@ void StartAnew(MissionTurn& turn, Timestamp now) {
 
 void RememberNavigation(MissionFacts& facts, const MissionInputs::Navigation& in) {
   const FilterStatus& filter = in.navigation.InForce();
+  facts.navigation = in.navigation;
+  facts.stereo = in.stereo;
+  facts.range_agreement = in.range_agreement;
   facts.skid_centre_W = in.skid_centre_W;
   facts.p_WB = in.p_WB_estimate;
   facts.v_WB = filter.estimate.v_WB;
@@ -110,24 +113,28 @@ void FollowJump(MissionTurn& turn, const MissionInputs& in) {
   }
 }
 
+void RememberSession(MissionFacts& facts, const MissionInputs::Session& in) {
+  facts.role = in.role;
+  facts.why_no_vehicle = in.why_no_vehicle;
+  facts.can_transmit = in.can_transmit;
+  facts.recorder_ok = in.recorder_ok;
+}
+
 void RememberFacts(MissionMemory& m, const MissionInputs& in) {
   MissionFacts& facts = m.facts;
   facts.valid = true;
   facts.now = in.session.now;
-  facts.role = in.session.role;
-  facts.why_no_vehicle = in.session.why_no_vehicle;
-  facts.can_transmit = in.session.can_transmit;
-  facts.recorder_ok = in.session.recorder_ok;
-  facts.limits = in.limits.settings.mission;
-  facts.commit_height_m = in.limits.settings.slad.fusion.commit_height_m;
-  facts.min_coherence = in.limits.settings.tracking.min_coherence;
+  RememberSession(facts, in.session);
+  facts.settings = in.limits.settings;
   facts.settings_hash = in.limits.settings_hash;
   facts.calibration_hash = in.limits.calibration_hash;
   RememberTerrain(facts, in.terrain.decision);
   RememberNavigation(facts, in.navigation);
   RememberVehicle(facts, in.vehicle);
   m.vehicle_ever_heard = m.vehicle_ever_heard || m.watch.heard_vehicle();
-  m.pictures.Update(JudgePictures(in.navigation.stereo, in.session.role));
+  if (in.navigation.new_stereo) {
+    m.pictures.Update(JudgePictures(in.navigation.stereo, in.session.role));
+  }
   if (in.terrain.new_map && in.terrain.decision != nullptr) {
     m.map_seen_at = in.session.now;
   }

@@ -32,7 +32,7 @@ Approval MakeApproval(MissionTurn& turn, Timestamp now) {
   a.calibration_hash = m.armed.calibration_hash;
   a.vehicle_boot_id = m.armed.boot_id;
   a.approved_at = m.watch.VehicleTime(now);
-  a.expires_at = AddSeconds(a.approved_at, m.facts.limits.approval_expiry_s);
+  a.expires_at = AddSeconds(a.approved_at, m.facts.settings.mission.approval_expiry_s);
   a.provisional = !m.armed.confirmed;
   a.p_WS = site.p_WS;
   PALACE_CHECK(m.status.approach.has_value());
@@ -101,7 +101,7 @@ Status Obeying::operator()(const SelectSite& action) const {
   m.status.armed = *site;
   m.status.armed_limits = SiteLimits(*site, m.facts.site_limits);
   m.status.armed_at = now;
-  m.status.arm_expires = AddSeconds(now, m.facts.limits.arm_window_s);
+  m.status.arm_expires = AddSeconds(now, m.facts.settings.mission.arm_window_s);
   m.status.approval_phase = MissionStatus::ApprovalPhase::kNone;
   m.status.approval_answer.clear();
   m.status.rechecks.clear();

@@ -33,8 +33,8 @@ LimitRow PlaceRow(const DescentFigures& f, EnforcedBy alarm_in_descent) {
           .enforced_by = alarm_in_descent};
 }
 
-DescentFigures FiguresOf(const MissionMemory& m, const MissionInputs& in) {
-  const NavigationStatus& navigation = in.navigation.navigation;
+DescentFigures FiguresOf(const MissionMemory& m, Timestamp now) {
+  const NavigationStatus& navigation = m.facts.navigation;
   const PositionEstimate& estimate = navigation.InForce().estimate;
   const auto& vehicle = m.watch.vehicle();
   const LandingSite* site = SiteInQuestion(m);
@@ -46,15 +46,15 @@ DescentFigures FiguresOf(const MissionMemory& m, const MissionInputs& in) {
   f.horizontal_3s_m = 3 * estimate.sigma_p_m.head<2>().norm();
   f.descent_rate_mps = m.facts.v_WB.z();
   f.descent_rate_3s_mps = 3 * estimate.sigma_v_mps.z();
-  f.approved_rate_mps =
-      m.status.approach ? m.status.approach->descent_rate_mps : m.facts.limits.descent_rate_mps;
-  f.nav_error_m = in.limits.settings.slad.lander.nav_error_m;
+  f.approved_rate_mps = m.status.approach ? m.status.approach->descent_rate_mps
+                                          : m.facts.settings.mission.descent_rate_mps;
+  f.nav_error_m = m.facts.settings.slad.lander.nav_error_m;
   f.tracked = m.facts.tracker_locked;
   f.coherence = m.facts.coherence;
-  f.min_coherence = m.facts.min_coherence;
+  f.min_coherence = m.facts.settings.tracking.min_coherence;
   f.residual_sigma = navigation.vision.residual_sigma;
   f.max_residual_sigma = navigation.vision.max_residual_sigma;
-  f.wind_mps = KnownWind(m, in.session.now);
+  f.wind_mps = KnownWind(m, now);
   if (site != nullptr && std::isfinite(f.wind_mps)) {
     f.off_wind_rad = std::abs(WrapAngle(PathTo(m, *site).heading_rad - vehicle->wind_from_rad));
   }
@@ -142,15 +142,15 @@ double KnownWind(const MissionMemory& m, Timestamp now) {
   return fresh && m.watch.vehicle() ? m.watch.vehicle()->wind_speed_mps : NAN;
 }
 
-void PublishLimits(MissionMemory& m, const MissionInputs& in) {
-  m.status.limits = LimitsOfDescent(FiguresOf(m, in));
+void PublishLimits(MissionMemory& m, Timestamp now) {
+  m.status.limits = LimitsOfDescent(FiguresOf(m, now));
   const auto add = [&](const std::vector<LimitRow>& rows) {
     m.status.limits.insert(m.status.limits.end(), rows.begin(), rows.end());
   };
   if (m.status.armed && (m.newest || !m.site.evaluated())) {
-    add(SiteLimits(m.newest ? *m.newest : *m.status.armed, in.limits.settings.slad));
+    add(SiteLimits(m.newest ? *m.newest : *m.status.armed, m.facts.settings.slad));
   }
-  add(LimitsOfCameras(in.navigation.stereo, in.navigation.range_agreement));
+  add(LimitsOfCameras(m.facts.stereo, m.facts.range_agreement));
 }
 
 }  // namespace palace

@@ -57,6 +57,6 @@ std::vector<LimitRow> LimitsOfCameras(const StereoQuality& stereo, const RangeAg
 /// The wind that the vehicle told last; NaN when it told none, or when that is stale.
 double KnownWind(const MissionMemory& memory, Timestamp now);
 /// Fills the limits of the status. After PublishGeometry.
-void PublishLimits(MissionMemory& memory, const MissionInputs& inputs);
+void PublishLimits(MissionMemory& memory, Timestamp now);
 
 }  // namespace palace

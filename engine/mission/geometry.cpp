@@ -24,8 +24,8 @@ double TimeLeft(const MissionMemory& m, const FlightPath& path) {
 }
 
 ApproachPlan StraightPlan(const MissionMemory& m, const Eigen::Vector3d& p_WS) {
-  return {StraightHeading(m.facts.skid_centre_W, p_WS), Rad(m.facts.limits.glide_slope_deg),
-          m.facts.limits.descent_rate_mps};
+  return {StraightHeading(m.facts.skid_centre_W, p_WS),
+          Rad(m.facts.settings.mission.glide_slope_deg), m.facts.settings.mission.descent_rate_mps};
 }
 
 /// Turning towards the start of the path is no deviation from it.
@@ -42,6 +42,10 @@ bool FliesPath(const MissionMemory& m) {
 double HeightAboveSite(const MissionMemory& m) {
   // Down is positive in W: the skid is above the site when its z is smaller.
   return m.status.armed ? m.status.armed->p_WS.z() - m.facts.skid_centre_W.z() : NAN;
+}
+
+bool IsCommitted(const MissionMemory& m) {
+  return HeightAboveSite(m) < m.facts.settings.slad.fusion.commit_height_m;
 }
 
 void PlanApproach(MissionMemory& m) {
@@ -67,9 +71,9 @@ const LandingSite* SiteInQuestion(const MissionMemory& m) {
   return site != nullptr ? site : m.status.BestStanding(m.facts.sites);
 }
 
-void PublishGeometry(MissionMemory& m, const MissionInputs& in) {
+void PublishGeometry(MissionMemory& m) {
   const LandingSite* site = SiteInQuestion(m);
-  const Eigen::Vector3d& skid_W = in.navigation.skid_centre_W;
+  const Eigen::Vector3d& skid_W = m.facts.skid_centre_W;
   m.status.height_above_site_m = m.status.distance_to_site_m = m.status.time_to_touchdown_s = NAN;
   m.status.path = {};
   if (site == nullptr || !skid_W.allFinite()) {
@@ -113,9 +117,7 @@ std::optional<double> TrueTouchdownMiss(const MissionMemory& m, const MissionInp
   if (truth.empty()) {
     return std::nullopt;
   }
-  // The skid centre's place on the airframe is the same for estimate and truth.
-  const Eigen::Vector3d skid_from_body = m.facts.skid_centre_W - in.navigation.p_WB_estimate;
-  const Eigen::Vector3d skid_W = truth.back().X_WB.p + skid_from_body;
+  const Eigen::Vector3d skid_W = truth.back().X_WB * SkidCentreBody();
   return (skid_W - m.status.armed->p_WS).head<2>().norm();
 }
 

@@ -13,6 +13,9 @@ namespace palace {
 /// Metres above the armed site, up-positive; NaN when none is armed.
 double HeightAboveSite(const MissionMemory& memory);
 
+/// Below the commit height: the last verdict stands; pictures and maps may end here.
+bool IsCommitted(const MissionMemory& memory);
+
 /// Freezes the approach of the armed site, once, as soon as the vehicle's place is known.
 void PlanApproach(MissionMemory& memory);
 
@@ -23,7 +26,7 @@ FlightPath PathTo(const MissionMemory& memory, const LandingSite& site);
 const LandingSite* SiteInQuestion(const MissionMemory& memory);
 
 /// Fills height, distance, time left and the place on the path of the status, to that site.
-void PublishGeometry(MissionMemory& memory, const MissionInputs& inputs);
+void PublishGeometry(MissionMemory& memory);
 
 /// How far the laser's spot lies from the map's height there, in metres.
 double LaserMismatch(const MissionInputs& inputs);

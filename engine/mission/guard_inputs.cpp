@@ -56,7 +56,7 @@ GuardInputs GuardInputsAt(const MissionMemory& m, Timestamp now) {
   in.position_healthy = m.facts.position_healthy;
   in.tracker_locked = m.facts.tracker_locked;
   in.coherence = m.facts.coherence;
-  in.min_coherence = m.facts.min_coherence;
+  in.min_coherence = m.facts.settings.tracking.min_coherence;
   in.clock_continuous = m.watch.clock_continuous();
   in.can_transmit = m.facts.can_transmit;
   in.foreign_approval = FliesForeignApproval(m);
@@ -64,7 +64,7 @@ GuardInputs GuardInputsAt(const MissionMemory& m, Timestamp now) {
   in.recorder_ok = m.facts.recorder_ok;
   in.recorder_loss_acknowledged = m.alarms.IsAcknowledged(AlarmId::kRecorder);
   in.source_reason = WhyNotThisSource(m.facts);
-  in.arm_window_s = m.facts.limits.arm_window_s;
+  in.arm_window_s = m.facts.settings.mission.arm_window_s;
   in.wind_mps = KnownWind(m, now);
   if (m.status.armed) {
     JudgeArmedSite(m, now, in);

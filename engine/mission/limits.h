@@ -49,12 +49,4 @@ struct Limit {
 /// "0.5 s"; empty when there is no number.
 std::string LimitWords(const Limit& limit);
 
-/// Who acts when a limit is passed.
-enum class Enforcer : std::uint8_t {
-  kNobody,   ///< for information
-  kGuard,    ///< approval is refused
-  kMission,  ///< selection or approval is dropped, or the descent held
-  kVehicle,  ///< by itself
-};
-
 }  // namespace palace

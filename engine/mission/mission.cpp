@@ -9,8 +9,8 @@ constexpr std::size_t kMostEvents = 20000;
 
 }  // namespace
 
-Status Mission::Apply(const EngineCommand& command, Timestamp now) {
-  MissionAnswer answer = palace::Apply(options_, memory_, command, now);
+Status Mission::Apply(const EngineCommand& command, const MissionInputs::Session& session) {
+  MissionAnswer answer = palace::Apply(options_, memory_, command, session);
   memory_ = std::move(answer.memory);
   Take(std::move(answer.effects));
   return std::move(answer.status);
@@ -29,10 +29,11 @@ void Mission::DropApproval(std::string_view why) {
 }
 
 void Mission::AddEvent(Timestamp time, EventKind kind, std::string text) {
-  if (events_.size() >= kMostEvents) {
-    events_.erase(events_.begin(), events_.begin() + kMostEvents / 2);
+  std::vector<Event>& events = events_.Edit();
+  if (events.size() >= kMostEvents) {
+    events.erase(events.begin(), events.begin() + kMostEvents / 2);
   }
-  events_.push_back({time, kind, std::move(text)});
+  events.push_back({time, kind, std::move(text)});
 }
 
 std::vector<VehicleMessage> Mission::TakeMessages() { return std::exchange(outbox_, {}); }

@@ -4,11 +4,13 @@
 // A step that fails half-way leaves the mission as it was before.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "engine/core/shared_value.h"
 #include "engine/mission/step.h"
 
 namespace palace {
@@ -18,7 +20,7 @@ class Mission {
   explicit Mission(MissionOptions options) : options_(std::move(options)) {}
 
   /// Refuses with the reason (I22), which is also in the events.
-  Status Apply(const EngineCommand& command, Timestamp now);
+  Status Apply(const EngineCommand& command, const MissionInputs::Session& session);
   void Update(const MissionInputs& inputs);
   /// Settings were applied while armed or approved (I13).
   void DropApproval(std::string_view why);
@@ -32,7 +34,9 @@ class Mission {
   bool SettingsFrozen() const { return memory_.status.state >= MissionState::kArmed; }
   bool DropsWithSettings() const { return palace::DropsWithSettings(memory_.status); }
 
-  const std::vector<Event>& events() const { return events_; }
+  const std::vector<Event>& events() const { return *events_; }
+  /// The same, to keep: never changes.
+  std::shared_ptr<const std::vector<Event>> SharedEvents() const { return events_.Share(); }
   void AddEvent(Timestamp time, EventKind kind, std::string text);
   /// Messages for the vehicle since the last call, oldest first. Always empty in replay.
   std::vector<VehicleMessage> TakeMessages();
@@ -42,7 +46,7 @@ class Mission {
 
   MissionOptions options_;
   MissionMemory memory_;
-  std::vector<Event> events_;
+  SharedValue<std::vector<Event>> events_;
   std::vector<VehicleMessage> outbox_;
 };
 

@@ -56,6 +56,7 @@ struct MissionInputs {
     const NavigationStatus& navigation;
     const TrackerStatus& tracker;
     StereoQuality stereo{};            ///< of the newest range map
+    bool new_stereo = false;           ///< which was made from this bundle
     RangeAgreement range_agreement{};  ///< stereo against laser
     Eigen::Vector3d p_WB_estimate = Eigen::Vector3d::Constant(NAN);
     Eigen::Vector3d skid_centre_W = Eigen::Vector3d::Constant(NAN);  ///< by the estimate in force

@@ -20,8 +20,8 @@ const LandingSite* FindSite(const MissionMemory& m, std::uint64_t site_id) {
 }
 
 bool WinnerStands(const MissionMemory& m, Timestamp now) {
-  return m.winner.site_id != 0 && m.winner.maps >= m.facts.limits.propose_after_maps &&
-         SecondsBetween(m.winner.since, now) >= m.facts.limits.propose_after_s &&
+  return m.winner.site_id != 0 && m.winner.maps >= m.facts.settings.mission.propose_after_maps &&
+         SecondsBetween(m.winner.since, now) >= m.facts.settings.mission.propose_after_s &&
          SecondsBetween(m.map_seen_at, now) <= GuardLimits::map_s;
 }
 
@@ -58,10 +58,6 @@ bool WatchesSite(const MissionMemory& m) {
   const MissionState state = m.status.state;
   return m.status.armed.has_value() &&
          (state == MissionState::kArmed || IsFlying(state) || state == MissionState::kHold);
-}
-
-bool IsFlying(MissionState state) {
-  return state == MissionState::kApproved || state == MissionState::kDescending;
 }
 
 }  // namespace palace

@@ -21,6 +21,8 @@
 #include "engine/mission/watch/site_watch.h"
 #include "engine/model/mission/mission_status.h"
 #include "engine/model/mission/session_role.h"
+#include "engine/model/navigation_status.h"
+#include "engine/model/range_map.h"
 #include "engine/model/settings/settings.h"
 
 namespace palace {
@@ -40,9 +42,10 @@ struct MissionFacts {
   std::uint64_t settings_hash = 0;
   std::uint64_t terrain_settings_hash = 0;
   std::uint64_t calibration_hash = 0;
-  MissionSettings limits;
-  double commit_height_m = 3;
-  double min_coherence = NAN;
+  Settings settings;
+  NavigationStatus navigation;
+  StereoQuality stereo;
+  RangeAgreement range_agreement;
   Eigen::Vector3d skid_centre_W = Eigen::Vector3d::Constant(NAN);
   // By the estimate in force; yaw by the vehicle's own attitude.
   Eigen::Vector3d p_WB = Eigen::Vector3d::Constant(NAN);
@@ -129,7 +132,5 @@ bool IsOwnApproval(const MissionMemory& memory, std::uint64_t id);
 bool FliesForeignApproval(const MissionMemory& memory);
 /// A site is armed and watched: ARMED to HOLD.
 bool WatchesSite(const MissionMemory& memory);
-/// APPROVED or DESCENDING.
-bool IsFlying(MissionState state);
 
 }  // namespace palace

@@ -32,18 +32,34 @@ std::string WhyNoApproval(const MissionMemory& m) {
   return failed->reason;
 }
 
-}  // namespace
+void PublishFigures(MissionMemory& m, Timestamp now) {
+  PublishGeometry(m);
+  PublishLimits(m, now);
+  if (m.status.approval_phase == MissionStatus::ApprovalPhase::kSent) {
+    m.status.approval_answer_s = SecondsBetween(m.approved_at, now);
+  }
+}
 
-void Publish(MissionTurn& turn, const MissionInputs& in) {
-  MissionMemory& m = turn.memory;
-  PublishGeometry(m, in);
-  PublishLimits(m, in);
-  PublishAlarms(turn, in);
+void PublishGuards(MissionMemory& m, Timestamp now) {
   m.status.may_select = MaySelect(m.facts.role);
-  m.status.guards = EvaluateGuards(GuardInputsAt(m, in.session.now));
+  m.status.guards = EvaluateGuards(GuardInputsAt(m, now));
   m.status.can_approve =
       m.status.state == MissionState::kArmed && FirstFailure(m.status.guards) == nullptr;
   m.status.cannot_approve_reason = m.status.can_approve ? std::string() : WhyNoApproval(m);
+}
+
+}  // namespace
+
+void Publish(MissionTurn& turn, const MissionInputs& in) {
+  PublishFigures(turn.memory, in.session.now);
+  PublishAlarms(turn, in);
+  PublishGuards(turn.memory, in.session.now);
+}
+
+void PublishBetweenSteps(MissionMemory& m, Timestamp now) {
+  PublishFigures(m, now);
+  m.status.alarms = m.alarms.Shown();
+  PublishGuards(m, now);
 }
 
 }  // namespace palace

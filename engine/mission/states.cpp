@@ -74,11 +74,10 @@ std::string WhyHold(const MissionMemory& m, Timestamp now) {
   if (vehicle.mode == VehicleMode::kHover || !IsOwnApproval(m, vehicle.approval_id)) {
     return words::kLeftDescent;
   }
-  const double height_m = HeightAboveSite(m);
-  if (height_m < m.facts.commit_height_m) {
-    // The last verdict stands; pictures and maps may end here.
+  if (IsCommitted(m)) {
     return words::Older("Vehicle status", m.watch.LinkAge(now), StaleLimits::link_s);
   }
+  const double height_m = HeightAboveSite(m);
   if (!std::isfinite(height_m)) {
     return words::kHeightUnknown;
   }
@@ -198,11 +197,11 @@ void StepDescending(MissionTurn& turn, const MissionInputs& in) {
   }
   const bool on_vision = in.navigation.navigation.OnVision();
   const double outage_s = SecondsBetween(m.vision_good_at, now);
-  const double limit_s = m.facts.limits.max_vision_outage_s;
+  const double limit_s = m.facts.settings.mission.max_vision_outage_s;
   if (on_vision && outage_s > limit_s) {
     const std::string why = words::VisionLost(outage_s, limit_s);
     // Without vision the last metres are not a place to hover.
-    HeightAboveSite(m) < m.facts.commit_height_m ? Abort(turn, why, now) : Hold(turn, why, now);
+    IsCommitted(m) ? Abort(turn, why, now) : Hold(turn, why, now);
     return;
   }
   std::string why = WhyHold(m, now);

@@ -30,9 +30,11 @@ MissionStep Step(const MissionOptions& station, MissionMemory memory, const Miss
 }
 
 MissionAnswer Apply(const MissionOptions& station, MissionMemory memory,
-                    const EngineCommand& command, Timestamp now) {
+                    const EngineCommand& command, const MissionInputs::Session& session) {
   MissionTurn turn{station, std::move(memory), {}};
-  Status status = Obey(turn, command, now);
+  RememberSession(turn.memory.facts, session);
+  Status status = Obey(turn, command, session.now);
+  PublishBetweenSteps(turn.memory, session.now);
   return {std::move(turn.memory), std::move(turn.effects), std::move(status)};
 }
 
@@ -45,6 +47,7 @@ MissionStep DropApproval(const MissionOptions& station, MissionMemory memory,
   MissionTurn turn{station, std::move(memory), {}};
   if (DropsWithSettings(turn.memory.status)) {
     Drop(turn, std::string(why), turn.memory.facts.now);
+    PublishBetweenSteps(turn.memory, turn.memory.facts.now);
   }
   return {std::move(turn.memory), std::move(turn.effects)};
 }

@@ -43,9 +43,10 @@ struct MissionAnswer {
 
 MissionStep Step(const MissionOptions& station, MissionMemory memory, const MissionInputs& inputs);
 
-/// Commands about settings are not the mission's business: they succeed and change nothing here.
+/// `session.now` is the time of the picture that the command was given on. Commands about settings
+/// are not the mission's business: they succeed and change nothing here.
 MissionAnswer Apply(const MissionOptions& station, MissionMemory memory,
-                    const EngineCommand& command, Timestamp now);
+                    const EngineCommand& command, const MissionInputs::Session& session);
 
 /// An armed site, or an approval that is not flown yet: applied settings drop it (I13).
 bool DropsWithSettings(const MissionStatus& status);

@@ -8,7 +8,7 @@
 
 namespace palace {
 
-/// Names with units, from "rank" to "reason", as SiteColumns fills them.
+/// Names with units, from "rank" to "reason", as AppendSite fills them.
 inline constexpr const char* kSiteColumns =
     "rank,site_id,letter,row,col,north_m,east_m,down_m,slope_rad,slope_3sigma_rad,roughness_m,"
     "roughness_3sigma_m,step_m,step_3sigma_m,height_m,height_3sigma_m,safe_distance_m,"

@@ -15,9 +15,4 @@ enum class SourceKind : std::uint8_t {
   kVideo     ///< filmed pictures
 };
 
-/// Pictures and nothing else: there is no vehicle, so no site can be selected and nothing is sent.
-constexpr bool HasPicturesOnly(SourceKind kind) {
-  return kind == SourceKind::kImages || kind == SourceKind::kCameras || kind == SourceKind::kVideo;
-}
-
 }  // namespace palace

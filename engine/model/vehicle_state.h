@@ -66,10 +66,10 @@ struct VehicleStatus {
   bool on_ground = false;
   bool flies_on_vision = false;   ///< control uses the station's POSITION_ESTIMATE
   std::uint64_t approval_id = 0;  ///< approval being executed, 0 none
-  double wind_speed_mps = 0;
-  double wind_from_rad = 0;
-  double battery_or_fuel = 1;  ///< share left, 0..1
-  bool simulated = false;      ///< the session is labelled simulated
+  double wind_speed_mps = 0;      ///< NaN: not measured
+  double wind_from_rad = 0;       ///< from north over east; NaN likewise
+  double battery_or_fuel = 1;     ///< share left, 0..1; NaN: not known
+  bool simulated = false;         ///< the session is labelled simulated
 };
 
 enum class AckResult : std::uint8_t { kAccepted, kRefused };

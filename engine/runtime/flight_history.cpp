@@ -15,10 +15,10 @@ Eigen::Vector3d SkidOf(const Eigen::Vector3d& p_WB, const Eigen::Matrix3d& R_WB)
 
 void AddSiteFigures(HistorySample& sample, const EngineSnapshot& snapshot,
                     const Eigen::Matrix3d& R_WB) {
-  const LandingSite& site = *snapshot.flight->mission.armed;
-  const Eigen::Vector3d skid = SkidOf(sample.estimate_p_WB, R_WB);
-  sample.height_above_site_m = site.p_WS.z() - skid.z();
-  sample.from_site_m = Horizontal(skid, site.p_WS);
+  const MissionStatus& mission = snapshot.flight->mission;
+  const LandingSite& site = *mission.armed;
+  sample.height_above_site_m = mission.height_above_site_m;
+  sample.from_site_m = mission.distance_to_site_m;
   const Eigen::Vector3d by_gps = SkidOf(sample.gps_p_WB, R_WB);
   sample.gps_height_m = site.p_WS.z() - by_gps.z();
   sample.from_site_gps_m = Horizontal(by_gps, site.p_WS);
@@ -27,10 +27,10 @@ void AddSiteFigures(HistorySample& sample, const EngineSnapshot& snapshot,
     sample.truth_height_m = site.p_WS.z() - in_truth.z();
     sample.from_site_truth_m = Horizontal(in_truth, site.p_WS);
   }
-  const LimitRow* centre = FindLimit(snapshot.flight->mission.limits, LimitId::kFromCentre);
+  const LimitRow* centre = FindLimit(mission.limits, LimitId::kFromCentre);
   sample.centre_limited = centre != nullptr && centre->enforced_by != EnforcedBy::kNobody;
-  sample.plan_height_m = snapshot.flight->mission.path.plan_height_m;
-  sample.glide_deviation_m = snapshot.flight->mission.path.off_path_m;
+  sample.plan_height_m = mission.path.plan_height_m;
+  sample.glide_deviation_m = mission.path.off_path_m;
 }
 
 }  // namespace

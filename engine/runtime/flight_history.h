@@ -12,7 +12,6 @@ namespace palace {
 /// Keeps the newest samples. Copies on write, so that a published history never changes.
 class FlightHistory {
  public:
-  void Reset() { samples_.clear(); }
   void Reset(std::vector<HistorySample> samples) { samples_ = std::move(samples); }
   void Add(const HistorySample& sample);
   std::shared_ptr<const std::vector<HistorySample>> Publish() const;

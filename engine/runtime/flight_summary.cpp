@@ -6,6 +6,7 @@
 #include "engine/core/text.h"
 
 namespace palace {
+
 void SeriesStats::Add(double value) {
   if (!std::isfinite(value)) {
     return;

@@ -29,10 +29,10 @@ void Pipeline::StartAfterJump(Timestamp now) {
     role_ = SessionRole::kReplayedAfterJump;
   }
   if (const Settings* settings =
-          FollowsRecord(role_) ? flight_of_record_.SettingsAt(now) : nullptr) {
+          FollowsRecord(role_) ? mission_of_record_.SettingsAt(now) : nullptr) {
     settings_.RestoreRecorded(*settings);
   }
-  std::vector<HistorySample> before = flight_of_record_.HistoryBefore(now);
+  std::vector<HistorySample> before = mission_of_record_.HistoryBefore(now);
   maps_to_rebuild_ =
       FollowsRecord(role_) && !before.empty() ? settings_.recorded().slad.fusion.frames_fused : 0;
   history_.Reset(std::move(before));
@@ -58,7 +58,7 @@ PipelineOutput Pipeline::Process(std::shared_ptr<const FrameBundle> bundle,
   pass.Run("slad", [&] { Judge(pass); });
   pass.Run("track", [&] { Track(pass); });
   pass.Run("mission", [&] { Decide(pass); });
-  Review(pass);
+  pass.Run("review", [&] { Review(pass); });
   last_bundle_ = std::move(bundle);
   return Publish(pass);
 }
@@ -74,7 +74,7 @@ PipelineOutput Pipeline::Refresh(std::vector<EngineCommand> commands,
   if (SeenFromStart(role_)) {
     pass.snapshot->flight.Edit().mission = mission_.status();
   }
-  Review(pass);
+  pass.Run("review", [&] { Review(pass); });
   return Publish(pass);
 }
 
@@ -115,7 +115,7 @@ void Pipeline::See(Pass& pass) {
       pass.Note(DiagnosticLevel::kError, "camera", camera.problem);
     }
   }
-  channels_.Add(bundle, !HasPicturesOnly(pass.session.source.kind));
+  channels_.Add(bundle, !HasPicturesOnly(role_));
   navigator_.AddSensors(bundle);
   if (bundle.pose_at_exposure) {
     sensors.pose = bundle.pose_at_exposure;
@@ -206,6 +206,7 @@ void Pipeline::MeasureRange(Pass& pass) {
     return;
   }
   pass.snapshot->terrain.Edit().stereo_quality = result->quality;
+  pass.new_stereo = true;
   if (result->quality.suspect_covered) {
     pass.Note(DiagnosticLevel::kWarning, "stereo",
               "one camera shows nothing while the other does; it may be covered");
@@ -250,12 +251,10 @@ void Pipeline::Judge(Pass& pass) {
 }
 
 std::optional<LandingSite> Pipeline::TrackedSite(Timestamp now) const {
-  if (SeenFromStart(role_)) {
-    return mission_.WantsTracking() ? mission_.status().armed : std::nullopt;
+  if (!SeenFromStart(role_)) {
+    return mission_of_record_.TrackedSite(now);
   }
-  const FlightRecordSample* sample = flight_of_record_.At(now);
-  const LandingSite* site = sample ? flight_of_record_.ArmedSite(*sample) : nullptr;
-  return site && sample->state != MissionState::kLanded ? std::optional(*site) : std::nullopt;
+  return mission_.WantsTracking() ? mission_.status().armed : std::nullopt;
 }
 
 void Pipeline::Track(Pass& pass) {
@@ -315,14 +314,7 @@ void Pipeline::Decide(Pass& pass) {
   }
   const Settings& in_force = settings_.recorded();
   mission_.Update({
-      .session = {.now = pass.bundle->time,
-                  .role = role_,
-                  .why_no_vehicle = WhyNoVehicle(pass.session.source.kind),
-                  .can_transmit = pass.session.can_transmit,
-                  .recorder_ok = pass.session.recorder_ok,
-                  .source_damage = pass.session.source.damage,
-                  .losses = pass.session.losses,
-                  .snapshot_sequence = sequence_},
+      .session = MissionSession(pass, pass.bundle->time),
       .vehicle = {.bundle = *pass.bundle,
                   .channels = snapshot.sensors->channels,
                   .simulated = snapshot.sensors->vehicle && snapshot.sensors->vehicle->simulated},
@@ -334,6 +326,7 @@ void Pipeline::Decide(Pass& pass) {
       .navigation = {.navigation = snapshot.flight->navigation,
                      .tracker = snapshot.flight->tracker,
                      .stereo = snapshot.terrain->stereo_quality,
+                     .new_stereo = pass.new_stereo,
                      .range_agreement = snapshot.terrain->range_agreement,
                      .p_WB_estimate = estimate.p_WB,
                      .skid_centre_W = estimate.p_WB + R_WB * SkidCentreBody()},
@@ -341,12 +334,21 @@ void Pipeline::Decide(Pass& pass) {
                  .settings_hash = HashOf(in_force),
                  .calibration_hash = calibration_hash_},
   });
-  snapshot.flight.Edit().mission = mission_.status();
-  if (!SeenFromStart(role_)) {
-    if (const FlightRecordSample* recorded = flight_of_record_.At(pass.bundle->time)) {
-      flight_of_record_.Restore(*recorded, snapshot.flight.Edit().mission);
-    }
-  }
+  snapshot.flight.Edit().mission =
+      SeenFromStart(role_) ? mission_.status()
+                           : mission_of_record_.StatusAt(pass.bundle->time, mission_.status());
+}
+
+MissionInputs::Session Pipeline::MissionSession(const Pass& pass, Timestamp now) const {
+  const SessionStatus& session = pass.session;
+  return {.now = now,
+          .role = role_,
+          .why_no_vehicle = WhyNoVehicle(session.source.kind),
+          .can_transmit = session.can_transmit,
+          .recorder_ok = session.recorder_ok,
+          .source_damage = session.source.damage,
+          .losses = session.losses,
+          .snapshot_sequence = sequence_};
 }
 
 PipelineOutput Pipeline::Publish(Pass& pass) {
@@ -367,7 +369,7 @@ PipelineOutput Pipeline::Publish(Pass& pass) {
   part.preview_hash = HashOf(part.preview_settings);
   part.limits_apply = WhenLimitsApply(/*of_record=*/false);
   part.apply_drops = part.limits_apply == LimitsApply::kWhenApplied && mission_.DropsWithSettings();
-  part.events = std::make_shared<const std::vector<Event>>(mission_.events());
+  part.events = mission_.SharedEvents();
   const bool new_time = !last_ || last_->time != snapshot.time;
   if (new_time && pass.bundle) {
     history_.Add(SampleOf(snapshot, *pass.bundle));

@@ -17,7 +17,7 @@
 #include "engine/navigation/navigator.h"
 #include "engine/runtime/channel_monitor.h"
 #include "engine/runtime/flight_history.h"
-#include "engine/runtime/recorded_flight.h"
+#include "engine/runtime/recorded_mission.h"
 #include "engine/runtime/settings_state.h"
 #include "engine/slad/slad.h"
 #include "engine/stereo/range_check.h"
@@ -52,7 +52,7 @@ class Pipeline {
 
   /// Replay: what the flight decided, for pictures reached by a jump.
   void FollowRecord(std::shared_ptr<const FlightRecord> record) {
-    flight_of_record_.Follow(std::move(record));
+    mission_of_record_.Follow(std::move(record));
   }
 
   PipelineOutput Process(std::shared_ptr<const FrameBundle> bundle,
@@ -78,6 +78,7 @@ class Pipeline {
   /// What the limits in force say of the site that the flight chose.
   void Review(Pass& pass);
   PipelineOutput Publish(Pass& pass);
+  MissionInputs::Session MissionSession(const Pass& pass, Timestamp now) const;
   /// After this pass's commands: a command decides alike whether it came with the frame or before
   /// it. After a jump, what the record restored.
   const MissionStatus& MissionInForce() const;
@@ -89,7 +90,7 @@ class Pipeline {
 
   SessionRole role_ = SessionRole::kNone;
   int maps_to_rebuild_ = 0;
-  RecordedFlight flight_of_record_;
+  RecordedMission mission_of_record_;
   SettingsState settings_;
   Mission mission_;
   std::optional<StereoRectifier> rectifier_;

@@ -76,7 +76,7 @@ void Pipeline::ApplyCommands(Pass& pass) {
       ApplySettingCommand(pass, command);
       continue;
     }
-    const Status done = mission_.Apply(command, before);
+    const Status done = mission_.Apply(command, MissionSession(pass, before));
     if (!done) {
       pass.Note(DiagnosticLevel::kWarning, "mission", done.error().message);
     }

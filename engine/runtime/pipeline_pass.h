@@ -21,6 +21,7 @@ struct Pipeline::Pass {
   RectifiedPair pair{};
   std::shared_ptr<const TerrainDecision> decision_of_record{};
   bool new_map = false;
+  bool new_stereo = false;  // a range map was measured; without a pose it makes no map
   bool settings_moved = false;
 
   void Note(DiagnosticLevel level, std::string stage, std::string message) {

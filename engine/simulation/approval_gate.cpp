@@ -30,7 +30,9 @@ std::string WhyNotFlown(const Approval& approval, const Eigen::Vector3d& p_WB) {
 std::string ApprovalGate::Admit(const Approval& approval, Timestamp now,
                                 const Eigen::Vector3d& p_WB) {
   const std::string why = WhyNotFlown(approval, p_WB);
-  return why.empty() ? verifier_.Verify(approval, now) : why;
+  // Nobody but the station itself is told what this vehicle can fly.
+  const bool own = verifier_.WhyRefused(approval, now).empty();
+  return own && !why.empty() ? why : verifier_.Verify(approval, now);
 }
 
 }  // namespace palace

@@ -179,7 +179,7 @@ void Autopilot::StepMode(Timestamp now) {
 
 void Autopilot::StepAlign(Timestamp now) {
   const double dt = options_.control_period_s;
-  if (now > approval_->expires_at) {
+  if (now >= approval_->expires_at) {
     EnterHold();
     return;
   }

@@ -37,7 +37,6 @@ std::uint64_t BootId(std::uint64_t seed) { return RandomStream(seed, "boot").Nex
 
 SimulatedVehicle::SimulatedVehicle(const SimulatorOptions& options)
     : world_(options.scene),
-      airframe_(options.airframe),
       X_BC_(options.rig.X_BC()),
       now_(LeadInStart()),
       boot_id_(BootId(options.seed)),

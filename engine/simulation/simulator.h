@@ -28,7 +28,6 @@ using SceneCameraFactory = std::function<Result<std::unique_ptr<SceneCamera>>(co
 struct SimulatorOptions {
   World scene;
   StereoRig rig = DefaultRig();
-  Airframe airframe{};
   std::uint64_t seed = 1;
   double hover_height_m = 15.24;  ///< of B above the bare ground at the start
   double heading_rad = 0;

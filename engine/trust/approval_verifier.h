@@ -28,14 +28,14 @@ class ApprovalVerifier {
 
   /// Empty: accepted, and its counter is spent. Otherwise the reason, in words for the operator.
   std::string Verify(const Approval& approval, Timestamp vehicle_now);
+  /// What Verify would answer; nothing is remembered.
+  std::string WhyRefused(const Approval& approval, Timestamp vehicle_now) const;
   /// Another copy of the approval accepted last. Ask before Verify, which refuses it.
   bool IsRepeat(const Approval& approval) const;
   std::uint64_t boot_id() const { return boot_id_; }
   std::uint64_t refused() const { return refused_; }
 
  private:
-  std::string WhyRefused(const Approval& approval, Timestamp vehicle_now) const;
-
   std::uint64_t boot_id_;
   std::optional<PublicKey> station_key_;
   std::map<std::uint64_t, std::uint64_t> last_counter_;  ///< accepted, per session

@@ -51,7 +51,6 @@ BundleAssembler::Bundles BundleAssembler::Push(const WireMessage& message) {
   if (!taken) {
     ++report_.undecodable;
     ++report_.undecodable_of[message.channel];
-    report_.last_error = taken.error().message;
   }
   return done;
 }

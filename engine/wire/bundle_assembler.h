@@ -27,7 +27,6 @@ struct AssemblerReport {
   std::uint64_t samples_lost = 0;        ///< announced by CAMERA_RIG, never arrived
   std::uint64_t samples_overflowed = 0;  ///< the oldest, of more than wait in one bundle
   std::uint64_t repeated = 0;            ///< a stamp that did not advance (only when dropped)
-  std::string last_error;                ///< of the newest undecodable message
 };
 
 struct AssemblerOptions {

@@ -136,22 +136,11 @@ WireMessage EncodeSettings(const Settings& settings, Timestamp now, const Channe
 Result<Settings> DecodeSettings(const WireMessage& message) {
   return DecodeAnd<slad_settings_t>(message, [](const slad_settings_t& m) -> Result<Settings> {
     Settings settings;
-    // Pairs of limits are checked against each other, so one may have to wait for its partner.
-    std::vector<slad_setting_t> waiting = m.rows;
-    while (!waiting.empty()) {
-      std::vector<slad_setting_t> refused;
-      std::string reason;
-      for (const slad_setting_t& row : waiting) {
-        const Status set = SetSettingValue(settings, row.name, row.value);
-        if (!set) {
-          refused.push_back(row);
-          reason = set.error().message;
-        }
+    for (const slad_setting_t& row : m.rows) {
+      const Status set = SetSettingValue(settings, row.name, row.value);
+      if (!set) {
+        return set.error();
       }
-      if (refused.size() == waiting.size()) {
-        return InvalidError(reason);
-      }
-      waiting = std::move(refused);
     }
     return settings;
   });

@@ -67,8 +67,9 @@ Result<VehicleStatus> StatusFromWire(const WireMessage& message) {
         if (m.mode < vehicle_status_t::UNKNOWN || m.mode > vehicle_status_t::ABORT) {
           return InvalidError("vehicle mode " + std::to_string(m.mode) + " is not one of 0..8");
         }
-        if (!std::isfinite(m.wind_speed_mps) || !std::isfinite(m.wind_from_rad) ||
-            !std::isfinite(m.battery_or_fuel)) {
+        // NaN: the vehicle measures no wind, or does not know its fuel.
+        if (std::isinf(m.wind_speed_mps) || std::isinf(m.wind_from_rad) ||
+            std::isinf(m.battery_or_fuel)) {
           return NotFinite("vehicle status");
         }
         VehicleStatus status;

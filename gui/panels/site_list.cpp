@@ -14,7 +14,7 @@ void DrawEmpty(const EngineSnapshot& snap, const Rect& content, UiFrame& ui) {
   std::string text = "No map yet. Sites appear with the first stereo pairs.";
   if (shown == nullptr && snap.terrain->range && !snap.sensors->pose) {
     text = "Attitude and height are unknown: ranges make no map. Add [pose] to RIG.toml.";
-  } else if (shown != nullptr && HasPicturesOnly(snap.session->source.kind)) {
+  } else if (shown != nullptr && HasPicturesOnly(snap.session->role)) {
     text = "No site inside the limits: " + shown->selection.none_reason +
            ". Look at the maps to see which limit decides.";
   } else if (shown != nullptr) {

@@ -71,7 +71,7 @@ std::vector<Readout> Readouts(const EngineSnapshot& snap, bool narrow) {
   const MissionStatus& m = snap.flight->mission;
   const double wind = snap.sensors->vehicle ? snap.sensors->vehicle->wind_speed_mps : NAN;
   const std::string wind_unit =
-      snap.sensors->vehicle && !narrow
+      std::isfinite(wind) && !narrow
           ? "m/s, " + Fixed(Deg(snap.sensors->vehicle->wind_from_rad), 0) + "°"
           : "m/s";
   const double fuel = snap.sensors->vehicle ? snap.sensors->vehicle->battery_or_fuel * 100 : NAN;

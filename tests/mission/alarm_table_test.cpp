@@ -1,4 +1,6 @@
 // The tables of guards and alarms: a text names the limit that raises it, and nothing else does.
+#include <gmock/gmock.h>
+
 #include <regex>
 #include <set>
 
@@ -182,7 +184,30 @@ TEST(AlarmTable, AStalePoseIsToldAtTheLimitThatBlocks) {
   EXPECT_FALSE(FindGuard(rig.mission.status().guards, GuardId::kAttitude)->pass);
   ASSERT_TRUE(Stands(rig, AlarmId::kPose));
   EXPECT_EQ(rig.mission.status().alarms[0].text,
-            "Vehicle pose stale, 0.5 s, limit 0.2 s. Approve is blocked.");
+            "Vehicle pose stale, 0.5 s, limit 0.2 s. Approve is blocked, the selection ends after "
+            "1 s.");
+}
+
+// What an old pose does depends on where the mission is: each sentence is what the states do.
+TEST(AlarmTable, AStalePoseSaysWhatItDoesInEachState) {
+  struct Row {
+    MissionState state;
+    bool committed;
+    const char* end;
+  };
+  for (const Row& row :
+       {Row{MissionState::kProposed, false, "Approve is blocked."},
+        Row{MissionState::kArmed, false, "Approve is blocked, the selection ends after 1 s."},
+        Row{MissionState::kApproved, false, "Approval ends after 1 s."},
+        Row{MissionState::kDescending, false, "Descent holds after 1 s."},
+        Row{MissionState::kDescending, true, "So low the descent goes on."}}) {
+    AlarmFacts facts = AllMeasured();
+    facts.pose_age_s = 0.5;
+    facts.state = row.state;
+    facts.committed = row.committed;
+    EXPECT_THAT(TextOf(AlarmTable()[static_cast<std::size_t>(AlarmId::kPose)], facts),
+                testing::EndsWith(row.end));
+  }
 }
 
 // One odd pair is chance, and one good pair is no cure.

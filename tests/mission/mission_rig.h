@@ -145,19 +145,23 @@ struct MissionRig {
     decision.map_time = now;
     tracker.locked = mission.WantsTracking() && tracker_locks;
   }
+  MissionInputs::Session Session() const {
+    return {.now = now,
+            .role = RoleOf(source, false),
+            .why_no_vehicle = WhyNoVehicle(source),
+            .can_transmit = can_transmit,
+            .recorder_ok = recorder_ok,
+            .snapshot_sequence = sequence - 1};
+  }
   /// What this tenth of a second brought.
   MissionInputs Inputs() {
-    MissionInputs in{.session = {.now = now,
-                                 .role = RoleOf(source, false),
-                                 .why_no_vehicle = WhyNoVehicle(source),
-                                 .can_transmit = can_transmit,
-                                 .recorder_ok = recorder_ok,
-                                 .snapshot_sequence = sequence - 1},
+    MissionInputs in{.session = Session(),
                      .vehicle = {.bundle = bundle, .channels = channels, .simulated = simulated},
                      .terrain = {.decision = &decision, .new_map = maps_up && cameras_up},
                      .navigation = {.navigation = navigation,
                                     .tracker = tracker,
                                     .stereo = stereo,
+                                    .new_stereo = cameras_up,
                                     .p_WB_estimate = p_WB(),
                                     .skid_centre_W = p_WB()},
                      .limits = {.settings = settings,
@@ -192,7 +196,7 @@ struct MissionRig {
     return mission.status().state == state;
   }
   Status Do(CommandAction action, CommandOrigin origin = CommandOrigin::kOperator) {
-    return mission.Apply({origin, std::move(action)}, now);
+    return mission.Apply({origin, std::move(action)}, Session());
   }
   /// Arms site A and waits until it may be approved.
   void Arm(std::uint64_t id = 101) {

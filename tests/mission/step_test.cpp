@@ -123,15 +123,15 @@ TEST(Step, CopiesOfAMemoryGoOnAlike) {
   rig.Wait();
   const MissionMemory kept = rig.mission.memory();
   const EngineCommand select{CommandOrigin::kOperator, SelectSite{102}};
-  const MissionAnswer one = Apply(rig.options, kept, select, rig.now);
+  const MissionAnswer one = Apply(rig.options, kept, select, rig.Session());
   ASSERT_TRUE(one.status.ok());
   EXPECT_EQ(one.memory.status.armed->id, 102U);
   EXPECT_EQ(kept.status.armed->id, 101U);
   const EngineCommand disarm{CommandOrigin::kOperator, DisarmSite{}};
-  const MissionAnswer other = Apply(rig.options, kept, disarm, rig.now);
+  const MissionAnswer other = Apply(rig.options, kept, disarm, rig.Session());
   ASSERT_TRUE(other.status.ok());
   EXPECT_FALSE(other.memory.status.armed.has_value());
-  EXPECT_EQ(Told(Apply(rig.options, kept, select, rig.now).effects), Told(one.effects));
+  EXPECT_EQ(Told(Apply(rig.options, kept, select, rig.Session()).effects), Told(one.effects));
 }
 
 // What is refused leaves no trace but the reason (I22).
@@ -143,7 +143,7 @@ TEST(Step, ARefusedCommandChangesOnlyTheEvents) {
         CommandAction(SelectSite{999}), CommandAction(AcknowledgeWaveOff{}),
         CommandAction(AcknowledgeAlarm{"no such alarm"})}) {
     const MissionAnswer answer =
-        Apply(rig.options, before, {CommandOrigin::kOperator, action}, rig.now);
+        Apply(rig.options, before, {CommandOrigin::kOperator, action}, rig.Session());
     ASSERT_FALSE(answer.status.ok());
     ASSERT_EQ(answer.effects.events.size(), 1U);
     EXPECT_NE(answer.effects.events[0].text.find(answer.status.error().message), std::string::npos);

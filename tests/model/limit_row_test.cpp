@@ -104,8 +104,11 @@ TEST(SiteLimits, SayWhatTheVerdictOfTheSiteSays) {
     }
     const bool modern = settings.mode == SladMode::kModern;
     EXPECT_EQ(FindLimit(rows, LimitId::kUnknownCells)->over, modern && site.unknown_cells > 0);
-    EXPECT_EQ(FindLimit(rows, LimitId::kHeightNoise)->over,
-              site.height_m.three_sigma > settings.limits.max_deviation_m);
+    // What is enforced is the confirmation that follows from it, so the row never claims a guard.
+    const LimitRow* noise = FindLimit(rows, LimitId::kHeightNoise);
+    EXPECT_EQ(noise->value, site.height_m.three_sigma);
+    EXPECT_EQ(noise->enforced_by, EnforcedBy::kNobody);
+    EXPECT_FALSE(noise->over);
   }
 }
 

@@ -13,18 +13,19 @@ struct Row {
   bool jumped;
   const char* may;  ///< select, sign, send, follow a record, start anew after a jump
   const char* why;
+  bool pictures_only;
 };
 
 TEST(SessionRole, AnswersForEverySource) {
   const Row rows[] = {
-      {SourceKind::kNone, false, "--S--", "No data"},
-      {SourceKind::kLive, false, "sgS--", ""},
-      {SourceKind::kSimulation, false, "sgS--", ""},
-      {SourceKind::kReplay, false, "---ra", "No link in replay"},
-      {SourceKind::kReplay, true, "---ra", "No link in replay"},
-      {SourceKind::kImages, false, "----a", "No vehicle in a picture folder"},
-      {SourceKind::kCameras, false, "----a", "No vehicle, cameras only"},
-      {SourceKind::kVideo, false, "----a", "No vehicle in a video"},
+      {SourceKind::kNone, false, "--S--", "No data", false},
+      {SourceKind::kLive, false, "sgS--", "", false},
+      {SourceKind::kSimulation, false, "sgS--", "", false},
+      {SourceKind::kReplay, false, "---ra", "No link in replay", false},
+      {SourceKind::kReplay, true, "---ra", "No link in replay", false},
+      {SourceKind::kImages, false, "----a", "No vehicle in a picture folder", true},
+      {SourceKind::kCameras, false, "----a", "No vehicle, cameras only", true},
+      {SourceKind::kVideo, false, "----a", "No vehicle in a video", true},
   };
   for (const Row& row : rows) {
     const SessionRole role = RoleOf(row.kind, row.jumped);
@@ -36,7 +37,7 @@ TEST(SessionRole, AnswersForEverySource) {
     may[4] = StartsAnewAfterJump(role) ? 'a' : '-';
     EXPECT_EQ(may, row.may) << static_cast<int>(row.kind);
     EXPECT_STREQ(WhyNoVehicle(row.kind), row.why);
-    EXPECT_EQ(HasPicturesOnly(role), HasPicturesOnly(row.kind));
+    EXPECT_EQ(HasPicturesOnly(role), row.pictures_only);
     EXPECT_EQ(SeenFromStart(role), !row.jumped);
     EXPECT_TRUE(MaySelect(role) == (*row.why == '\0')) << row.why;
   }

@@ -169,7 +169,8 @@ TEST(Decode, NotFiniteNumbersAreRefusedWhereDecisionsRestOnThem) {
       {"pose", [](FrameBundle& b) { b.poses[0].X_WB.p.x() = NAN; }},
       {"imu", [](FrameBundle& b) { b.imu[0].angular_rate_B.z() = INFINITY; }},
       {"gps", [](FrameBundle& b) { b.gps[0].sigma_vertical_m = NAN; }},
-      {"status", [](FrameBundle& b) { b.status->battery_or_fuel = NAN; }},
+      {"status", [](FrameBundle& b) { b.status->battery_or_fuel = INFINITY; }},
+      {"wind", [](FrameBundle& b) { b.status->wind_speed_mps = -INFINITY; }},
       {"exposure", [](FrameBundle& b) { b.pose_at_exposure->X_WB.R(1, 1) = NAN; }},
   };
   for (const auto& [name, damage] : breaks) {
@@ -182,6 +183,27 @@ TEST(Decode, NotFiniteNumbersAreRefusedWhereDecisionsRestOnThem) {
     }
     EXPECT_EQ(assembler.report().undecodable, 1u);
   }
+}
+
+// Many vehicles measure no wind: NaN says so, and the status counts all the same.
+TEST(Decode, AVehicleMayNotKnowTheWindOrItsFuel) {
+  RandomStream random(25);
+  const auto rig = std::make_shared<const StereoRig>(RandomRig(random));
+  FrameBundle bundle = *RandomBundle(random, 1, rig);
+  bundle.status->wind_speed_mps = bundle.status->wind_from_rad = NAN;
+  bundle.status->battery_or_fuel = NAN;
+  BundleAssembler assembler;
+  BundleAssembler::Bundles done;
+  for (const WireMessage& message : EncodeBundle(bundle, {})) {
+    for (auto& got : assembler.Push(message)) {
+      done.push_back(std::move(got));
+    }
+  }
+  EXPECT_EQ(assembler.report().undecodable, 0u);
+  ASSERT_EQ(done.size(), 1u);
+  ASSERT_TRUE(done[0]->status.has_value());
+  EXPECT_TRUE(std::isnan(done[0]->status->wind_speed_mps));
+  EXPECT_TRUE(std::isnan(done[0]->status->battery_or_fuel));
 }
 
 }  // namespace

@@ -11,8 +11,6 @@ namespace {
 
 void FillSensors(const MissionMemory& m, const MissionInputs& in, AlarmFacts& f) {
   const Timestamp now = in.session.now;
-  const StereoQuality& stereo = in.navigation.stereo;
-  const RangeAgreement& agreement = in.navigation.range_agreement;
   f.left_camera_age_s = m.watch.LeftCameraAge(now);
   f.right_camera_age_s = m.watch.RightCameraAge(now);
   f.pose_age_s = m.watch.PoseAge(now);
@@ -21,13 +19,9 @@ void FillSensors(const MissionMemory& m, const MissionInputs& in, AlarmFacts& f)
   f.rebooted = m.watch.rebooted();
   f.gps_error_m = m.watch.gps() ? 3 * m.watch.gps()->sigma_horizontal_m : NAN;
   f.on_vision = in.navigation.navigation.OnVision();
-  f.pictures = JudgePictures(stereo, in.session.role);
-  f.row_error_px = stereo.row_error_px;
-  f.exposure_ratio = stereo.exposure_ratio;
-  f.exposure_factor = std::max(stereo.exposure_ratio, 1 / stereo.exposure_ratio);
-  f.scale_error_percent = 100 * std::abs(agreement.ratio - 1);
-  f.scale_sigma_percent = 100 * agreement.sigma;
-  f.reads_far = agreement.ratio > 1;
+  f.pictures = m.pictures.standing();
+  f.exposure_ratio = in.navigation.stereo.exposure_ratio;
+  f.reads_far = in.navigation.range_agreement.ratio > 1;
   f.laser_mismatch_m = LaserMismatch(in);
 }
 
@@ -38,20 +32,21 @@ void FillMission(const MissionMemory& m, const MissionInputs& in, AlarmFacts& f)
   f.state = state;
   f.letter = m.status.armed ? m.status.armed->letter : '?';
   f.why = m.status.why;
+  f.committed = state == MissionState::kDescending && IsCommitted(m);
   f.abort_seen = m.abort_seen;
   f.alternative = SiteLost(m, now) ? words::Alternative(m) : "";
-  f.site_degraded = IsFlying(state) && m.site.VerdictAt(now) == SiteVerdict::kDegraded &&
-                    HeightAboveSite(m) >= m.facts.commit_height_m;
+  f.site_degraded =
+      IsFlying(state) && m.site.VerdictAt(now) == SiteVerdict::kDegraded && !IsCommitted(m);
   f.site_reason = m.site.reason();
   f.no_site =
       decision != nullptr && decision->selection.sites.empty() && state <= MissionState::kProposed;
   f.no_site_reason = decision != nullptr ? decision->selection.none_reason : "";
   const bool descends_on_vision = state == MissionState::kDescending && f.on_vision;
   f.vision_outage_s = descends_on_vision ? SecondsBetween(m.vision_good_at, now) : NAN;
-  f.max_vision_outage_s = m.facts.limits.max_vision_outage_s;
+  f.max_vision_outage_s = m.facts.settings.mission.max_vision_outage_s;
   f.tracked = WatchesSite(m) && m.facts.tracker_locked;
   f.coherence = m.facts.coherence;
-  f.min_coherence = m.facts.min_coherence;
+  f.min_coherence = m.facts.settings.tracking.min_coherence;
   const bool waiting = state == MissionState::kApproved &&
                        m.status.approval_phase == MissionStatus::ApprovalPhase::kSent;
   f.waiting_s = waiting ? SecondsBetween(m.approved_at, now) : NAN;
@@ -61,7 +56,7 @@ void FillMission(const MissionMemory& m, const MissionInputs& in, AlarmFacts& f)
 }
 
 /// The rows that people see are the ones that raise the alarms.
-void FillDescent(const MissionMemory& m, AlarmFacts& f) {
+void FillFromLimits(const MissionMemory& m, AlarmFacts& f) {
   const auto take = [&](LimitId id, double& value, double* limit = nullptr) {
     const LimitRow* row = FindLimit(m.status.limits, id);
     if (row != nullptr && row->enforced_by == EnforcedBy::kAlarm) {
@@ -76,6 +71,14 @@ void FillDescent(const MissionMemory& m, AlarmFacts& f) {
   take(LimitId::kDescentRate, f.descent_rate_mps, &f.max_descent_rate_mps);
   take(LimitId::kResidual, f.residual_sigma, &f.max_residual_sigma);
   take(LimitId::kWind, f.wind_mps);
+  take(LimitId::kExposure, f.exposure_factor);
+  if (const LimitRow* scale = FindLimit(m.status.limits, LimitId::kRangeScale)) {
+    f.scale_error_percent = 100 * scale->value;
+    f.scale_sigma_percent = 100 * scale->three_sigma / 3;
+  }
+  // A single pair may look wrong by chance: told once it stands, as the guard sees it.
+  const LimitRow* rows = FindLimit(m.status.limits, LimitId::kRowError);
+  f.row_error_px = f.pictures.rows_apart && rows != nullptr ? rows->value : NAN;
 }
 
 }  // namespace
@@ -92,7 +95,7 @@ AlarmFacts AlarmFactsAt(const MissionMemory& m, const MissionInputs& in) {
   f.looked_at_hz = f.losses.replaced_hz > 0 ? f.losses.pairs_hz : NAN;
   FillSensors(m, in, f);
   FillMission(m, in, f);
-  FillDescent(m, f);
+  FillFromLimits(m, f);
   return f;
 }
 

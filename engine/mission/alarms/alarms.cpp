@@ -13,10 +13,13 @@ using Facts = AlarmFacts;
 
 /// What an old picture or pose does to the mission.
 std::string Consequence(const Facts& f) {
-  return f.pictures_only ? "Maps stand still."
-         : IsFlying(f.state)
-             ? "Descent holds after " + LimitWords({StaleLimits::sensor_s, "s", 0}) + "."
-             : "Approve is blocked.";
+  const std::string after = " after " + LimitWords({StaleLimits::sensor_s, "s", 0}) + ".";
+  return f.pictures_only                        ? "Maps stand still."
+         : f.committed                          ? "So low the descent goes on."
+         : f.state == MissionState::kDescending ? "Descent holds" + after
+         : f.state == MissionState::kApproved   ? "Approval ends" + after
+         : f.state == MissionState::kArmed      ? "Approve is blocked, the selection ends" + after
+                                                : "Approve is blocked.";
 }
 
 std::string StaleText(const char* what, double age_s, const std::string& limit) {
@@ -26,7 +29,6 @@ std::string StaleText(const char* what, double age_s, const std::string& limit) 
 const std::array<AlarmRow, kAlarmCount> kAlarms = {{
     {.id = AlarmId::kCameraLeft,
      .level = AlarmLevel::kCaution,
-     .acts = Enforcer::kGuard,
      .limit = {GuardLimits::camera_s, "s"},
      .value = &Facts::left_camera_age_s,
      .present = [](const Facts& f,
@@ -37,7 +39,6 @@ const std::array<AlarmRow, kAlarmCount> kAlarms = {{
          }},
     {.id = AlarmId::kCameraRight,
      .level = AlarmLevel::kCaution,
-     .acts = Enforcer::kGuard,
      .limit = {GuardLimits::camera_s, "s"},
      .value = &Facts::right_camera_age_s,
      .present = [](const Facts& f,
@@ -48,7 +49,6 @@ const std::array<AlarmRow, kAlarmCount> kAlarms = {{
          }},
     {.id = AlarmId::kPose,
      .level = AlarmLevel::kCaution,
-     .acts = Enforcer::kGuard,
      .limit = {GuardLimits::pose_s, "s"},
      .value = &Facts::pose_age_s,
      .present =
@@ -61,7 +61,6 @@ const std::array<AlarmRow, kAlarmCount> kAlarms = {{
          }},
     {.id = AlarmId::kNoPose,
      .level = AlarmLevel::kAdvisory,
-     .acts = Enforcer::kNobody,
      .present =
          [](const Facts& f, double) {
            return f.pictures_only && f.left_camera_age_s >= 0 && std::isnan(f.pose_age_s);
@@ -73,7 +72,6 @@ const std::array<AlarmRow, kAlarmCount> kAlarms = {{
          }},
     {.id = AlarmId::kLink,
      .level = AlarmLevel::kCaution,
-     .acts = Enforcer::kVehicle,
      .limit = {GuardLimits::link_s, "s"},
      .value = &Facts::link_age_s,
      .present =
@@ -87,7 +85,6 @@ const std::array<AlarmRow, kAlarmCount> kAlarms = {{
      .grave = [](const Facts& f) { return f.link_age_s > StaleLimits::link_s; }},
     {.id = AlarmId::kClock,
      .level = AlarmLevel::kWarning,
-     .acts = Enforcer::kMission,
      .immediate = true,
      .present = [](const Facts& f, double) { return f.has_vehicle && f.clock_stepped; },
      .text =
@@ -96,7 +93,6 @@ const std::array<AlarmRow, kAlarmCount> kAlarms = {{
          }},
     {.id = AlarmId::kReboot,
      .level = AlarmLevel::kWarning,
-     .acts = Enforcer::kMission,
      .immediate = true,
      .present = [](const Facts& f, double) { return f.has_vehicle && f.rebooted; },
      .text =
@@ -105,7 +101,6 @@ const std::array<AlarmRow, kAlarmCount> kAlarms = {{
          }},
     {.id = AlarmId::kGpsError,
      .level = AlarmLevel::kCaution,
-     .acts = Enforcer::kNobody,
      .limit = {AlarmLimits::gps_error_m, "m"},
      .value = &Facts::gps_error_m,
      .present = [](const Facts& f, double limit) { return f.gps_error_m > limit; },
@@ -117,7 +112,7 @@ const std::array<AlarmRow, kAlarmCount> kAlarms = {{
          }},
     {.id = AlarmId::kCameraFrozen,
      .level = AlarmLevel::kCaution,
-     .acts = Enforcer::kGuard,
+     .immediate = true,  // three pairs said so
      .present = [](const Facts& f, double) { return f.pictures.frozen; },
      .text =
          [](const Facts& f, const std::string&) {
@@ -125,7 +120,7 @@ const std::array<AlarmRow, kAlarmCount> kAlarms = {{
          }},
     {.id = AlarmId::kCamerasSwapped,
      .level = AlarmLevel::kWarning,
-     .acts = Enforcer::kGuard,
+     .immediate = true,  // three pairs said so
      .present = [](const Facts& f, double) { return f.pictures.swapped; },
      .text =
          [](const Facts&, const std::string&) {
@@ -135,7 +130,6 @@ const std::array<AlarmRow, kAlarmCount> kAlarms = {{
          }},
     {.id = AlarmId::kRowError,
      .level = AlarmLevel::kCaution,
-     .acts = Enforcer::kGuard,
      .limit = {AlarmLimits::row_error_px, "px", 2},
      .value = &Facts::row_error_px,
      .present = [](const Facts& f, double limit) { return f.row_error_px > limit; },
@@ -147,7 +141,6 @@ const std::array<AlarmRow, kAlarmCount> kAlarms = {{
          }},
     {.id = AlarmId::kExposure,
      .level = AlarmLevel::kAdvisory,
-     .acts = Enforcer::kNobody,
      .limit = {AlarmLimits::exposure},
      .value = &Facts::exposure_factor,
      .present = [](const Facts& f, double limit) { return f.exposure_factor > limit; },
@@ -159,7 +152,6 @@ const std::array<AlarmRow, kAlarmCount> kAlarms = {{
          }},
     {.id = AlarmId::kRangeScale,
      .level = AlarmLevel::kCaution,
-     .acts = Enforcer::kNobody,
      .limit = {AlarmLimits::scale_percent, "%", 0},
      .value = &Facts::scale_error_percent,
      .present =
@@ -176,7 +168,6 @@ const std::array<AlarmRow, kAlarmCount> kAlarms = {{
          }},
     {.id = AlarmId::kHeightMismatch,
      .level = AlarmLevel::kAdvisory,
-     .acts = Enforcer::kNobody,
      .limit = {AlarmLimits::laser_mismatch_m, "m"},
      .value = &Facts::laser_mismatch_m,
      .present = [](const Facts& f, double limit) { return f.laser_mismatch_m > limit; },
@@ -187,7 +178,6 @@ const std::array<AlarmRow, kAlarmCount> kAlarms = {{
          }},
     {.id = AlarmId::kRecorder,
      .level = AlarmLevel::kCaution,
-     .acts = Enforcer::kGuard,
      .present = [](const Facts& f, double) { return f.has_vehicle && !f.recorder_ok; },
      .text =
          [](const Facts&, const std::string&) {
@@ -195,7 +185,6 @@ const std::array<AlarmRow, kAlarmCount> kAlarms = {{
          }},
     {.id = AlarmId::kLogDamaged,
      .level = AlarmLevel::kAdvisory,
-     .acts = Enforcer::kNobody,
      .present = [](const Facts& f, double) { return !f.source_damage.empty(); },
      .text =
          [](const Facts& f, const std::string&) {
@@ -204,7 +193,6 @@ const std::array<AlarmRow, kAlarmCount> kAlarms = {{
          }},
     {.id = AlarmId::kNoSite,
      .level = AlarmLevel::kAdvisory,
-     .acts = Enforcer::kNobody,
      .present = [](const Facts& f, double) { return f.no_site; },
      .text =
          [](const Facts& f, const std::string&) {
@@ -213,7 +201,6 @@ const std::array<AlarmRow, kAlarmCount> kAlarms = {{
          }},
     {.id = AlarmId::kWaveOff,
      .level = AlarmLevel::kWarning,
-     .acts = Enforcer::kVehicle,
      .immediate = true,
      .present = [](const Facts& f, double) { return f.state == MissionState::kAborting; },
      .text =
@@ -224,7 +211,6 @@ const std::array<AlarmRow, kAlarmCount> kAlarms = {{
          }},
     {.id = AlarmId::kHold,
      .level = AlarmLevel::kCaution,
-     .acts = Enforcer::kMission,
      .immediate = true,
      .present = [](const Facts& f, double) { return f.state == MissionState::kHold; },
      .text =
@@ -234,7 +220,6 @@ const std::array<AlarmRow, kAlarmCount> kAlarms = {{
          }},
     {.id = AlarmId::kSiteDegraded,
      .level = AlarmLevel::kCaution,
-     .acts = Enforcer::kNobody,
      .immediate = true,
      .present = [](const Facts& f, double) { return f.site_degraded; },
      .text =
@@ -244,7 +229,6 @@ const std::array<AlarmRow, kAlarmCount> kAlarms = {{
          }},
     {.id = AlarmId::kVisionLost,
      .level = AlarmLevel::kWarning,
-     .acts = Enforcer::kMission,
      .limit = {AlarmLimits::vision_late_s, "s"},
      .value = &Facts::vision_outage_s,
      .present = [](const Facts& f, double limit) { return f.vision_outage_s > limit; },
@@ -256,7 +240,6 @@ const std::array<AlarmRow, kAlarmCount> kAlarms = {{
          }},
     {.id = AlarmId::kCoherenceLow,
      .level = AlarmLevel::kCaution,
-     .acts = Enforcer::kGuard,
      .limit = {NAN, "", 2},
      .limit_from = &Facts::min_coherence,
      .value = &Facts::coherence,
@@ -268,7 +251,6 @@ const std::array<AlarmRow, kAlarmCount> kAlarms = {{
          }},
     {.id = AlarmId::kApprovalUnanswered,
      .level = AlarmLevel::kCaution,
-     .acts = Enforcer::kNobody,
      .limit = {AlarmLimits::answer_s, "s", 0},
      .value = &Facts::waiting_s,
      .present = [](const Facts& f, double limit) { return f.waiting_s > limit; },
@@ -280,14 +262,12 @@ const std::array<AlarmRow, kAlarmCount> kAlarms = {{
          }},
     {.id = AlarmId::kApprovalRefused,
      .level = AlarmLevel::kCaution,
-     .acts = Enforcer::kVehicle,
      .immediate = true,
      .present = [](const Facts& f, double) { return !f.refusal.empty(); },
      .text = [](const Facts& f,
                 const std::string&) { return f.refusal + ". Select a site again."; }},
     {.id = AlarmId::kForeignDescent,
      .level = AlarmLevel::kWarning,
-     .acts = Enforcer::kGuard,
      .present = [](const Facts& f, double) { return f.foreign_descent; },
      .text =
          [](const Facts&, const std::string&) {
@@ -295,7 +275,6 @@ const std::array<AlarmRow, kAlarmCount> kAlarms = {{
          }},
     {.id = AlarmId::kPicturesReplaced,
      .level = AlarmLevel::kCaution,
-     .acts = Enforcer::kNobody,
      .limit = {AlarmLimits::least_pairs_hz, "Hz"},
      .value = &Facts::looked_at_hz,
      .present = [](const Facts& f,
@@ -312,7 +291,6 @@ const std::array<AlarmRow, kAlarmCount> kAlarms = {{
          }},
     {.id = AlarmId::kUndecodable,
      .level = AlarmLevel::kCaution,
-     .acts = Enforcer::kNobody,
      .present = [](const Facts& f, double) { return f.losses.undecodable > 0; },
      .text =
          [](const Facts& f, const std::string&) {
@@ -322,7 +300,6 @@ const std::array<AlarmRow, kAlarmCount> kAlarms = {{
          }},
     {.id = AlarmId::kRecordsDropped,
      .level = AlarmLevel::kCaution,
-     .acts = Enforcer::kNobody,
      .present = [](const Facts& f, double) { return f.losses.unrecorded > 0; },
      .text =
          [](const Facts& f, const std::string&) {
@@ -333,7 +310,6 @@ const std::array<AlarmRow, kAlarmCount> kAlarms = {{
          }},
     {.id = AlarmId::kMessagesUnsent,
      .level = AlarmLevel::kCaution,
-     .acts = Enforcer::kNobody,
      .present = [](const Facts& f, double) { return f.losses.unsent > 0; },
      .text =
          [](const Facts& f, const std::string&) {
@@ -344,7 +320,6 @@ const std::array<AlarmRow, kAlarmCount> kAlarms = {{
          }},
     {.id = AlarmId::kOffPath,
      .level = AlarmLevel::kCaution,
-     .acts = Enforcer::kNobody,
      .limit = {DescentLimits::off_path_m, "m"},
      .value = &Facts::off_path_m,
      .present = [](const Facts& f, double limit) { return f.off_path_m > limit; },
@@ -355,7 +330,6 @@ const std::array<AlarmRow, kAlarmCount> kAlarms = {{
          }},
     {.id = AlarmId::kOffCentre,
      .level = AlarmLevel::kCaution,
-     .acts = Enforcer::kNobody,
      .limit = {NAN, "m", 2},
      .limit_from = &Facts::nav_error_m,
      .value = &Facts::off_centre_m,
@@ -367,7 +341,6 @@ const std::array<AlarmRow, kAlarmCount> kAlarms = {{
          }},
     {.id = AlarmId::kDescentRate,
      .level = AlarmLevel::kCaution,
-     .acts = Enforcer::kNobody,
      .limit = {NAN, "m/s", 2},
      .limit_from = &Facts::max_descent_rate_mps,
      .value = &Facts::descent_rate_mps,
@@ -379,7 +352,6 @@ const std::array<AlarmRow, kAlarmCount> kAlarms = {{
          }},
     {.id = AlarmId::kVisionResidual,
      .level = AlarmLevel::kCaution,
-     .acts = Enforcer::kMission,
      .limit = {NAN, "σ", 2},
      .limit_from = &Facts::max_residual_sigma,
      .value = &Facts::residual_sigma,
@@ -391,7 +363,6 @@ const std::array<AlarmRow, kAlarmCount> kAlarms = {{
          }},
     {.id = AlarmId::kWind,
      .level = AlarmLevel::kCaution,
-     .acts = Enforcer::kNobody,
      .limit = {DescentLimits::wind_mps, "m/s"},
      .value = &Facts::wind_mps,
      .present = [](const Facts& f, double limit) { return f.wind_mps > limit; },

@@ -1,5 +1,5 @@
 // Alarms: what the operator must know. A table: one row an alarm, with the limit that raises it,
-// who acts on it, and its words. The condition and the sentence are handed the same limit, so that
+// and its words. The condition and the sentence are handed the same limit, so that
 // no text can name another one.
 //
 // Source: reference/station-gui.md 3.2, look.md 10.
@@ -43,7 +43,8 @@ struct AlarmFacts {
 
   MissionState state = MissionState::kNoLive;
   char letter = '?';
-  std::string why{};  ///< the state was entered
+  std::string why{};       ///< the state was entered
+  bool committed = false;  ///< descends below the commit height: no age stops it but the link's
   bool abort_seen = false;
   std::string alternative{};  ///< words for it when the site is lost
   bool site_degraded = false;
@@ -75,7 +76,6 @@ AlarmFacts AlarmFactsAt(const MissionMemory& memory, const MissionInputs& inputs
 struct AlarmRow {
   AlarmId id;
   AlarmLevel level;
-  Enforcer acts;  ///< beside the operator, who reads it
   bool immediate = false;
   Limit limit{};                             ///< that raises it; none: NaN
   double AlarmFacts::*limit_from = nullptr;  ///< where the limit is a setting

@@ -25,6 +25,7 @@ enum class CameraProblem : std::uint8_t { kNone, kFrozen, kSwapped, kRowsApart }
 class PictureWatch {
  public:
   void Update(const PictureFaults& faults);
+  PictureFaults standing() const { return {frozen_.on(), swapped_.on(), rows_apart_.on()}; }
   /// The first that stands, in the order of the enum.
   CameraProblem problem() const;
 

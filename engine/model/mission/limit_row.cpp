@@ -104,14 +104,13 @@ std::vector<LimitRow> SiteLimits(const LandingSite& site, const SladSettings& se
                          .limit = 0,
                          .decimals = 0,
                          .enforced_by = modern ? EnforcedBy::kGuard : EnforcedBy::kNobody}));
-  // Beyond it the site is provisional: the descent holds at 10 m unless it is confirmed by then.
+  // Beyond it the site is provisional; what is enforced then is its confirmation (G8), not this.
   rows.push_back(Judged({.id = LimitId::kHeightNoise,
                          .label = "Height noise, 3σ",
                          .value = site.height_m.three_sigma,
                          .limit = settings.limits.max_deviation_m,
                          .unit = "cm",
-                         .shown_per_unit = 100,
-                         .enforced_by = EnforcedBy::kGuard}));
+                         .shown_per_unit = 100}));
   return rows;
 }
 

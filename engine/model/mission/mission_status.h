@@ -30,6 +30,10 @@ enum class MissionState : std::uint8_t {
 const char* MissionStateName(MissionState state);
 /// Sentence-case word as the screen shows it: "Proposed".
 const char* MissionStateWord(MissionState state);
+/// An approval is out: APPROVED or DESCENDING.
+constexpr bool IsFlying(MissionState state) {
+  return state == MissionState::kApproved || state == MissionState::kDescending;
+}
 
 /// One check of the commit guards G1-G15 (reference: safety state machine).
 struct GuardResult {
@@ -134,7 +138,7 @@ struct MissionStatus {
   enum class ApprovalPhase : std::uint8_t { kNone, kSent, kAccepted, kRefused };
   ApprovalPhase approval_phase = ApprovalPhase::kNone;
   std::string approval_answer;   ///< the vehicle's reason when refused
-  double approval_answer_s = 0;  ///< time the vehicle took to answer
+  double approval_answer_s = 0;  ///< time the vehicle took to answer; while SENT, waits so far
   std::vector<SiteRecheck> rechecks;
   std::vector<Alarm> alarms;       ///< worst first
   double height_above_site_m = 0;  ///< skid above the site; NaN when no site

@@ -165,8 +165,8 @@ const std::vector<SettingInfo>& SettingTable();
 /// Null when no setting has that name.
 const SettingInfo* FindSetting(std::string_view name);
 double GetSetting(const Settings& settings, std::string_view name);
-/// Refuses unknown names and values out of range, naming the limit. Bounds that contradict each
-/// other (x_min_m >= x_max_m) are refused too.
+/// Refuses unknown names and values out of range, naming the limit. Bounds that contradict
+/// each other (x_min_m >= x_max_m) are refused where a file is read whole (settings_io.h).
 Status SetSettingValue(Settings& settings, std::string_view name, double value);
 /// The value a drag may reach: clamped to the hard limits and rounded for integers.
 double ClampSetting(const SettingInfo& info, double value);

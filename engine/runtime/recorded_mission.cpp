@@ -1,0 +1,123 @@
+#include "engine/runtime/recorded_mission.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+namespace palace {
+namespace {
+
+/// Alarms about the state of the mission, not about what channels and cameras bring.
+bool ComesFromMission(AlarmId id) {
+  switch (id) {
+    case AlarmId::kNoSite:
+    case AlarmId::kWaveOff:
+    case AlarmId::kHold:
+    case AlarmId::kSiteDegraded:
+    case AlarmId::kVisionLost:
+    case AlarmId::kCoherenceLow:
+    case AlarmId::kApprovalUnanswered:
+    case AlarmId::kApprovalRefused:
+    case AlarmId::kForeignDescent:
+    case AlarmId::kOffPath:
+    case AlarmId::kOffCentre:
+    case AlarmId::kDescentRate:
+    case AlarmId::kVisionResidual:
+    case AlarmId::kWind:
+      return true;
+    default:
+      return false;
+  }
+}
+
+}  // namespace
+
+const FlightRecordSample* RecordedMission::At(Timestamp time) const {
+  if (!record_ || record_->samples.empty()) {
+    return nullptr;
+  }
+  const auto& samples = record_->samples;
+  const auto after = std::upper_bound(
+      samples.begin(), samples.end(), time,
+      [](Timestamp t, const FlightRecordSample& sample) { return t < sample.time; });
+  return after == samples.begin() ? &samples.front() : &*(after - 1);
+}
+
+const Settings* RecordedMission::SettingsAt(Timestamp time) const {
+  if (!record_ || record_->settings.empty()) {
+    return nullptr;
+  }
+  const auto& all = record_->settings;
+  const auto after =
+      std::upper_bound(all.begin(), all.end(), time,
+                       [](Timestamp t, const SettingsInForce& entry) { return t < entry.from; });
+  return after == all.begin() ? &all.front().settings : &(after - 1)->settings;
+}
+
+const LandingSite* RecordedMission::ArmedSite(const FlightRecordSample& sample) const {
+  const bool known =
+      sample.armed >= 0 && static_cast<std::size_t>(sample.armed) < record_->armed_sites.size();
+  return known ? &record_->armed_sites[static_cast<std::size_t>(sample.armed)] : nullptr;
+}
+
+std::vector<HistorySample> RecordedMission::HistoryBefore(Timestamp time) const {
+  std::vector<HistorySample> history;
+  if (!record_) {
+    return history;
+  }
+  for (const FlightRecordSample& recorded : record_->samples) {
+    if (recorded.time >= time) {
+      break;
+    }
+    HistorySample sample;
+    sample.time = recorded.time;
+    sample.state = recorded.state;
+    sample.height_above_site_m = recorded.height_above_site_m;
+    sample.from_site_m = recorded.distance_to_site_m;
+    sample.best_site = recorded.best_site;
+    sample.best_safe_distance_m = recorded.best_safe_distance_m;
+    history.push_back(sample);
+  }
+  return history;
+}
+
+std::optional<LandingSite> RecordedMission::TrackedSite(Timestamp time) const {
+  const FlightRecordSample* sample = At(time);
+  const LandingSite* site = sample ? ArmedSite(*sample) : nullptr;
+  return site && sample->state != MissionState::kLanded ? std::optional(*site) : std::nullopt;
+}
+
+MissionStatus RecordedMission::StatusAt(Timestamp time, const MissionStatus& watched) const {
+  const FlightRecordSample* sample = At(time);
+  if (sample == nullptr) {
+    return watched;
+  }
+  MissionStatus status;
+  status.state = sample->state;
+  status.since = sample->time;
+  for (const FlightRecordSample* s = sample;
+       s >= record_->samples.data() && s->state == sample->state; --s) {
+    status.since = s->time;
+  }
+  status.why = "As recorded";
+  if (const LandingSite* site = ArmedSite(*sample)) {
+    status.armed = *site;
+    const Settings* limits = SettingsAt(sample->time);
+    status.armed_limits = SiteLimits(*site, (limits ? *limits : record_->settings_at_start).slad);
+  }
+  status.height_above_site_m = sample->height_above_site_m;
+  status.distance_to_site_m = sample->distance_to_site_m;
+  status.time_to_touchdown_s = sample->state == MissionState::kLanded ? 0 : NAN;
+  status.confirm_height_m = watched.confirm_height_m;
+  status.cannot_approve_reason = WhyNoVehicle(SourceKind::kReplay);
+  std::copy_if(watched.alarms.begin(), watched.alarms.end(), std::back_inserter(status.alarms),
+               [](const Alarm& alarm) { return !ComesFromMission(alarm.kind); });
+  for (const LimitId id : {LimitId::kRowError, LimitId::kExposure, LimitId::kRangeScale}) {
+    if (const LimitRow* row = FindLimit(watched.limits, id)) {
+      status.limits.push_back(*row);
+    }
+  }
+  return status;
+}
+
+}  // namespace palace

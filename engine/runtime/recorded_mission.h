@@ -1,0 +1,39 @@
+// RecordedMission: what a recorded mission was doing, for pictures reached by a jump in its log.
+//
+// After a jump the mission cannot be re-lived, because what led to it was not seen. State, armed
+// site, limits and the plots then come from the record; what the record does not tell is unknown.
+// Beside Mission, and asked instead of it where SeenFromStart(role) is false.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "engine/model/flight_record.h"
+#include "engine/model/snapshot.h"
+
+namespace palace {
+
+class RecordedMission {
+ public:
+  void Follow(std::shared_ptr<const FlightRecord> record) { record_ = std::move(record); }
+  /// Limits in force at `time`; null where the record tells none.
+  const Settings* SettingsAt(Timestamp time) const;
+  /// Plots of the flight before `time`, as far as the record tells.
+  std::vector<HistorySample> HistoryBefore(Timestamp time) const;
+  /// The site that was tracked and flown to; empty before it was armed and after the landing.
+  std::optional<LandingSite> TrackedSite(Timestamp time) const;
+  /// The whole status by the record: state and since when, armed site, height, distance. Of
+  /// `watched`, which Mission says of the pictures played, it takes what needs no past: the alarms
+  /// of channels and cameras, and the limits of the cameras. Without a sample: `watched`.
+  MissionStatus StatusAt(Timestamp time, const MissionStatus& watched) const;
+
+ private:
+  /// The newest sample not after `time`; null without a record.
+  const FlightRecordSample* At(Timestamp time) const;
+  const LandingSite* ArmedSite(const FlightRecordSample& sample) const;
+
+  std::shared_ptr<const FlightRecord> record_;
+};
+
+}  // namespace palace

@@ -1,0 +1,94 @@
+#include "engine/runtime/recorded_mission.h"
+
+#include <gtest/gtest.h>
+
+#include "engine/core/units.h"
+
+namespace palace {
+namespace {
+
+TEST(RecordedMission, TellsTheLimitsInForceAtATime) {
+  auto record = std::make_shared<FlightRecord>();
+  RecordedMission flight;
+  EXPECT_EQ(flight.SettingsAt({5}), nullptr);
+  flight.Follow(record);
+  EXPECT_EQ(flight.SettingsAt({5}), nullptr);
+  for (const int degrees : {10, 6, 8}) {
+    SettingsInForce entry{{static_cast<std::int64_t>(record->settings.size()) * 100 + 100}, {}};
+    entry.settings.slad.limits.max_slope_deg = degrees;
+    record->settings.push_back(entry);
+  }
+  struct Case {
+    std::int64_t at_us;
+    double slope_deg;
+  };
+  for (const Case& c :
+       {Case{0, 10}, {100, 10}, {199, 10}, {200, 6}, {299, 6}, {300, 8}, {9999, 8}}) {
+    const Settings* settings = flight.SettingsAt({c.at_us});
+    ASSERT_NE(settings, nullptr);
+    EXPECT_EQ(settings->slad.limits.max_slope_deg, c.slope_deg) << c.at_us;
+  }
+}
+
+FlightRecordSample At(std::int64_t us, MissionState state, int armed) {
+  FlightRecordSample sample;
+  sample.time = {us};
+  sample.state = state;
+  sample.height_above_site_m = 1e-6 * static_cast<double>(us);
+  sample.distance_to_site_m = 2;
+  sample.armed = armed;
+  return sample;
+}
+
+// After a jump the status is the record's; of what this session's mission says, only what needs no
+// past is taken.
+TEST(RecordedMission, TellsTheRecordAndNothingOfAMissionThatWasNotSeen) {
+  auto record = std::make_shared<FlightRecord>();
+  LandingSite site;
+  site.id = 7;
+  site.letter = 'C';
+  record->armed_sites = {site};
+  record->samples = {
+      At(1'000'000, MissionState::kProposed, -1), At(2'000'000, MissionState::kDescending, 0),
+      At(3'000'000, MissionState::kDescending, 0), At(4'000'000, MissionState::kLanded, 0)};
+  RecordedMission mission;
+  MissionStatus watched;
+  watched.state = MissionState::kProposed;
+  watched.approval.emplace();
+  watched.rechecks.emplace_back();
+  watched.can_approve = watched.may_select = true;
+  record->settings.push_back({{2'500'000}, {}});
+  record->settings.back().settings.slad.limits.max_slope_deg = 6;
+  watched.guards.emplace_back();
+  watched.alarms = {Alarm{AlarmId::kNoSite}, Alarm{AlarmId::kRowError}, Alarm{AlarmId::kHold}};
+  watched.limits = {{.id = LimitId::kWind}, {.id = LimitId::kRowError, .value = 0.25}};
+
+  EXPECT_EQ(mission.StatusAt({3'500'000}, watched).state, MissionState::kProposed);  // no record
+  EXPECT_FALSE(mission.TrackedSite({3'500'000}).has_value());
+  mission.Follow(record);
+
+  const MissionStatus status = mission.StatusAt({3'500'000}, watched);
+  EXPECT_EQ(status.state, MissionState::kDescending);
+  EXPECT_EQ(status.since.us, 2'000'000);
+  EXPECT_EQ(status.armed->letter, 'C');
+  EXPECT_EQ(status.height_above_site_m, 3);
+  ASSERT_NE(FindLimit(status.armed_limits, LimitId::kSlope), nullptr);
+  EXPECT_NEAR(FindLimit(status.armed_limits, LimitId::kSlope)->limit, Rad(6), 1e-12);
+  EXPECT_FALSE(status.can_approve);
+  EXPECT_FALSE(status.may_select);
+  EXPECT_EQ(status.cannot_approve_reason, WhyNoVehicle(SourceKind::kReplay));
+  EXPECT_FALSE(status.approval.has_value());
+  EXPECT_TRUE(status.rechecks.empty() && status.guards.empty());
+  ASSERT_EQ(status.alarms.size(), 1U);
+  EXPECT_EQ(status.alarms[0].kind, AlarmId::kRowError);
+  ASSERT_EQ(status.limits.size(), 1U);
+  EXPECT_EQ(status.limits[0].value, 0.25);
+
+  EXPECT_EQ(mission.StatusAt({500'000}, watched).since.us, 1'000'000);  // before it: its first
+  EXPECT_EQ(mission.TrackedSite({2'000'000})->id, 7U);
+  EXPECT_FALSE(mission.TrackedSite({1'500'000}).has_value());
+  EXPECT_FALSE(mission.TrackedSite({4'000'000}).has_value());
+}
+
+}  // namespace
+}  // namespace palace
