@@ -1,7 +1,7 @@
 #include "engine/experiments/experiment.h"
 
 #include <cstdio>
-#include <fstream>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 
@@ -10,6 +10,7 @@
 #include "engine/camera/files/text_file.h"
 #include "engine/core/check.h"
 #include "engine/core/command_line.h"
+#include "engine/core/files.h"
 
 namespace palace {
 namespace {
@@ -27,16 +28,6 @@ struct RunOptions {
 int Fail(const Error& error) {
   std::cerr << "palacectl: " << error.message << "\n";
   return error.code == ErrorCode::kUsage ? 2 : 1;
-}
-
-Status MakeFolder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (!fs::is_directory(folder, error)) {
-    return UnavailableError("cannot make the folder " + folder.string() +
-                            "; choose one you may write to");
-  }
-  return Ok();
 }
 
 /// CSV, and for a whole run the report. Returns the exit code.
@@ -178,24 +169,6 @@ int Merge(const std::vector<Experiment>& experiments, const std::vector<std::str
 }
 
 }  // namespace
-
-Status WriteTextFile(const std::filesystem::path& path, const std::string& text) {
-  std::filesystem::path part = path;
-  part += ".part";
-  std::ofstream out(part, std::ios::trunc | std::ios::binary);
-  out << text;
-  out.close();
-  std::error_code error;
-  if (out) {
-    std::filesystem::rename(part, path, error);
-  }
-  if (!out || error) {
-    std::filesystem::remove(part, error);
-    return UnavailableError("cannot write " + path.string() +
-                            "; choose a folder you may write to, with free space");
-  }
-  return Ok();
-}
 
 std::uint64_t TrialSeed(std::uint64_t seed, int trial) {
   return seed + static_cast<std::uint64_t>(trial);

@@ -6,7 +6,6 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <functional>
 #include <string>
 #include <string_view>
@@ -49,9 +48,6 @@ struct Experiment {
 /// Options: --trials --seed --shard i/n --out. Writes NAME.csv and, unless it is a shard,
 /// report.html.
 void AddExperiments(CLI::App& evaluate, const std::vector<Experiment>& experiments, int& exit_code);
-
-/// Writes through a neighbour file, so that a full disk leaves no half file under the name.
-Status WriteTextFile(const std::filesystem::path& path, const std::string& text);
 
 /// Seed of one trial, --seed + trial: `--seed 17 --trials 1` repeats trial 16 of `--seed 1`.
 std::uint64_t TrialSeed(std::uint64_t seed, int trial);

@@ -24,7 +24,7 @@
 #include "engine/camera/files/camera_files.h"
 #include "engine/capture/image_folder_source.h"
 #include "engine/capture/picture_file.h"
-#include "engine/experiments/experiment.h"
+#include "engine/core/files.h"
 
 namespace palace {
 namespace {
@@ -106,16 +106,6 @@ RigPictures PicturesOf(const Options& options) {
     return error ? pattern : path.string();
   };
   return {absolute(options.left[0]), absolute(options.right[0])};
-}
-
-Status MakeFolder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (!fs::is_directory(folder, error)) {
-    return UnavailableError("cannot make the folder " + folder.string() +
-                            "; choose one you may write to");
-  }
-  return Ok();
 }
 
 Status WriteAll(const fs::path& folder,

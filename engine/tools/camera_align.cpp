@@ -8,6 +8,7 @@
 #include "engine/camera/alignment.h"
 #include "engine/camera/cahvor.h"
 #include "engine/camera/camera_pair.h"
+#include "engine/core/files.h"
 #include "engine/tools/camera_verbs.h"
 
 namespace palace {
@@ -53,8 +54,9 @@ int RunCameraAlign(const CameraOptions& options) {
                                    ": the right camera stands to the left of the left one, every "
                                    "disparity would be negative; exchange --left and --right"));
   }
-  std::error_code error;
-  std::filesystem::create_directories(options.out, error);
+  if (const Status made = MakeFolder(options.out); !made) {
+    return FailCamera(made.error());
+  }
   const std::filesystem::path folder = options.out;
   for (const auto& [name, model] :
        {std::pair{"left.cahv", &pair->left}, {"right.cahv", &pair->right}}) {

@@ -13,6 +13,7 @@
 #include "engine/capture/cameras.h"
 #include "engine/capture/picture_file.h"
 #include "engine/core/command_line.h"
+#include "engine/core/files.h"
 
 namespace palace {
 namespace {
@@ -33,12 +34,10 @@ fs::path PictureName(const fs::path& folder, const char* side, int index) {
 }
 
 Status PrepareFolder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) {
-    return UnavailableError(folder.string() + ": cannot be made: " + error.message() +
-                            "; choose another --out");
+  if (const Status made = MakeFolder(folder); !made) {
+    return made;
   }
+  std::error_code error;
   if (fs::exists(PictureName(folder, "left", 0), error)) {
     return UsageError(folder.string() + " holds pairs already; choose another --out");
   }

@@ -1,0 +1,49 @@
+// Files are written whole or not at all.
+#include "engine/core/files.h"
+
+#include <fstream>
+#include <sstream>
+
+#include <gtest/gtest.h>
+
+namespace palace {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Files : public testing::Test {
+ protected:
+  Files() { fs::remove_all(folder_); }
+  ~Files() override { fs::remove_all(folder_); }
+  std::string Text(const fs::path& path) const {
+    std::ifstream file(path, std::ios::binary);
+    return (std::stringstream() << file.rdbuf()).str();
+  }
+  const fs::path folder_ = fs::path(testing::TempDir()) / "core_files";
+};
+
+TEST_F(Files, ATextReplacesTheOneBeforeAndLeavesNothingElse) {
+  ASSERT_TRUE(MakeFolder(folder_ / "deep" / "down").ok());
+  ASSERT_TRUE(MakeFolder(folder_ / "deep" / "down").ok()) << "there already";
+  const fs::path path = folder_ / "deep/down/a.txt";
+  const std::string second("two\0lines\r\n", 11);
+  ASSERT_TRUE(WriteTextFile(path, "a first text, longer than the second").ok());
+  ASSERT_TRUE(WriteTextFile(path, second).ok());
+  EXPECT_EQ(Text(path), second);
+  EXPECT_EQ(std::distance(fs::directory_iterator(path.parent_path()), {}), 1);
+}
+
+TEST_F(Files, WhatCannotBeWrittenIsNamedAndKeepsItsOldText) {
+  ASSERT_TRUE(MakeFolder(folder_).ok());
+  ASSERT_TRUE(WriteTextFile(folder_ / "file", "old").ok());
+  const Status in_a_file = WriteTextFile(folder_ / "file/a.txt", "new");
+  ASSERT_FALSE(in_a_file.ok());
+  EXPECT_NE(in_a_file.error().message.find("file/a.txt"), std::string::npos);
+  EXPECT_EQ(Text(folder_ / "file"), "old");
+  const Status folder = MakeFolder(folder_ / "file");
+  ASSERT_FALSE(folder.ok());
+  EXPECT_NE(folder.error().message.find("core_files/file"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace palace
