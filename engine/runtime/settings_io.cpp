@@ -215,6 +215,27 @@ std::string SettingsToToml(const Settings& settings) {
   return text;
 }
 
+Result<Settings> SettingsOfCommandLine(const Settings& base, const std::filesystem::path& file,
+                                       const std::vector<std::string>& assignments) {
+  Result<Settings> settings = file.empty() ? base : LoadSettingsFile(file, base);
+  for (const std::string& assignment : assignments) {
+    if (!settings) {
+      return settings;
+    }
+    settings = ApplySettingText(*settings, assignment);
+    if (!settings) {
+      return UsageError("--set " + assignment + ": " + settings.error().message);
+    }
+  }
+  if (!settings) {
+    return settings;
+  }
+  if (const Status good = CheckSettings(*settings, "--set"); !good) {
+    return UsageError(good.error().message);
+  }
+  return settings;
+}
+
 Status SaveSettingsFile(const std::filesystem::path& path, const Settings& settings) {
   const std::filesystem::path temporary = path.string() + ".new";
   std::ofstream file(temporary, std::ios::trunc);

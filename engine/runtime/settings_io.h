@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "engine/core/result.h"
 #include "engine/model/settings/settings.h"
@@ -24,6 +25,11 @@ Status CheckSettings(const Settings& settings, const std::string& name);
 
 /// Applies one "slad.max_slope_deg=8" or "slad.mode=thesis", as --set gives it.
 Result<Settings> ApplySettingText(const Settings& base, std::string_view assignment);
+
+/// Settings as a command line gives them: those of `base`, under those of a file (none where
+/// empty), under each "name=value" of --set in order; then the rules between two values.
+Result<Settings> SettingsOfCommandLine(const Settings& base, const std::filesystem::path& file,
+                                       const std::vector<std::string>& assignments);
 
 /// A settings file with every value, its unit and range as comments. LoadSettingsFile reads it back
 /// to equal settings.

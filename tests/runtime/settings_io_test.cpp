@@ -2,6 +2,7 @@
 #include "engine/runtime/settings_io.h"
 
 #include <filesystem>
+#include <fstream>
 
 #include <gtest/gtest.h>
 
@@ -79,6 +80,34 @@ TEST(SettingsIo, AssignmentsAsOnTheCommandLine) {
     ASSERT_FALSE(result) << bad;
     EXPECT_EQ(result.error().code, ErrorCode::kUsage) << bad;
   }
+}
+
+TEST(SettingsIo, ACommandLineIsAFileUnderAssignmentsUnderTheRules) {
+  const std::filesystem::path file =
+      std::filesystem::path(testing::TempDir()) / "command_line.toml";
+  std::ofstream(file) << "[slad]\nmax_slope_deg = 5\nmax_deviation_m = 0.04\n";
+  Settings base;
+  base.slad.lander.nav_error_m = 0.7;
+  const auto settings =
+      SettingsOfCommandLine(base, file, {"slad.max_slope_deg=6", "slad.max_slope_deg=8"});
+  ASSERT_TRUE(settings) << settings.error().message;
+  EXPECT_EQ(settings->slad.limits.max_slope_deg, 8);
+  EXPECT_EQ(settings->slad.limits.max_deviation_m, 0.04);
+  EXPECT_EQ(settings->slad.lander.nav_error_m, 0.7);
+  EXPECT_EQ(*SettingsOfCommandLine(base, {}, {}), base);
+  const struct {
+    std::filesystem::path file;
+    std::vector<std::string> set;
+    const char* said;
+  } rows[] = {{"/no/such/file.toml", {"slad.max_slope_deg=8"}, "/no/such/file.toml"},
+              {{}, {"slad.max_slope_deg=8", "slad.nothing=1"}, "--set slad.nothing=1: "},
+              {{}, {"slad.bounds=given", "slad.x_min_m=5", "slad.x_max_m=-5"}, "--set"}};
+  for (const auto& row : rows) {
+    const auto refused = SettingsOfCommandLine(base, row.file, row.set);
+    ASSERT_FALSE(refused) << row.said;
+    EXPECT_NE(refused.error().message.find(row.said), std::string::npos) << refused.error().message;
+  }
+  std::filesystem::remove(file);
 }
 
 TEST(SettingsIo, MissingFileAndUnwritableFolderSayWhatToDo) {
