@@ -14,6 +14,15 @@ Status CheckSize(const ImageU8& image, const RigCamera& camera, const std::files
                           "correct width and height or the pattern");
 }
 
+/// Seconds since the first.
+std::vector<double> TimesOf(const std::vector<ImagePair>& pairs) {
+  std::vector<double> times_s;
+  for (const ImagePair& pair : pairs) {
+    times_s.push_back(SecondsBetween(pairs.front().time, pair.time));
+  }
+  return times_s;
+}
+
 }  // namespace
 
 Result<std::unique_ptr<ImageFolderSource>> ImageFolderSource::Open(
@@ -36,10 +45,6 @@ Result<std::unique_ptr<ImageFolderSource>> ImageFolderSource::Open(
                               "; patterns are relative to the folder of RIG.toml");
     }
   }
-  if (left.size() != right.size()) {
-    return InvalidError(rig_toml.string() + ": " + std::to_string(left.size()) + " left and " +
-                        std::to_string(right.size()) + " right pictures; every pair needs both");
-  }
   auto sequence = SequenceOf(left, right, *file, file->poses_csv);
   if (!sequence) {
     return sequence.error();
@@ -59,23 +64,20 @@ ImageFolderSource::ImageFolderSource(RigFile file, std::vector<ImagePair> pairs,
       rig_(std::make_shared<const StereoRig>(file_.rig)),
       pairs_(std::move(pairs)),
       name_(std::move(name)),
-      turns_(file_.rig.rate_hz, static_cast<std::int64_t>(pairs_.size()),
+      times_(TimesOf(pairs_), file_.rig.rate_hz),
+      turns_(times_, static_cast<std::int64_t>(pairs_.size()),
              loop ? PlaybackTurns::AtEnd::kRunOn : PlaybackTurns::AtEnd::kEnd) {
   turns_.EndsAt(static_cast<std::int64_t>(pairs_.size()));
 }
 
-Timestamp ImageFolderSource::TimeOf(std::int64_t index) const {
-  const auto last = static_cast<std::int64_t>(pairs_.size()) - 1;
-  return index <= last ? pairs_[static_cast<std::size_t>(index)].time
-                       : AddSeconds(pairs_.back().time,
-                                    static_cast<double>(index - last) / file_.rig.rate_hz);
+const ImagePair& ImageFolderSource::PairAt(std::int64_t index) const {
+  return pairs_[std::min(static_cast<std::size_t>(index), pairs_.size() - 1)];
 }
 
 Result<std::shared_ptr<const StereoFrame>> ImageFolderSource::LoadPair(std::int64_t index) {
-  const auto last = static_cast<std::int64_t>(pairs_.size()) - 1;
-  const std::int64_t picture = std::min(index, last);
-  if (!cached_ || cached_index_ != picture) {
-    const ImagePair& pair = pairs_[static_cast<std::size_t>(picture)];
+  const ImagePair& pair = PairAt(index);
+  const Timestamp time = AddSeconds(kRecordedStart, times_.At(index));
+  if (!cached_ || cached_pair_ != &pair) {
     auto frame = ReadStereoPair(pair.left, pair.right);
     if (!frame) {
       return frame.error();
@@ -86,13 +88,13 @@ Result<std::shared_ptr<const StereoFrame>> ImageFolderSource::LoadPair(std::int6
     if (const auto status = CheckSize(frame->right, file_.rig.right, pair.right); !status) {
       return status.error();
     }
-    frame->time = TimeOf(index);
+    frame->time = time;
     cached_ = std::make_shared<const StereoFrame>(std::move(frame).value());
-    cached_index_ = picture;
+    cached_pair_ = &pair;
   }
-  if (cached_->time != TimeOf(index)) {
+  if (cached_->time != time) {
     auto again = std::make_shared<StereoFrame>(*cached_);
-    again->time = TimeOf(index);
+    again->time = time;
     cached_ = std::move(again);
   }
   return cached_;
@@ -108,9 +110,7 @@ Result<std::shared_ptr<const FrameBundle>> ImageFolderSource::Next(std::stop_tok
   if (!frame) {
     return frame.error();
   }
-  const auto last = static_cast<std::int64_t>(pairs_.size()) - 1;
-  auto bundle =
-      BundleOf(rig_, pairs_[static_cast<std::size_t>(std::min(*index, last))].pose, *frame);
+  auto bundle = BundleOf(rig_, PairAt(*index).pose, *frame);
   bundle->sequence = ++sequence_;
   return std::shared_ptr<const FrameBundle>(std::move(bundle));
 }

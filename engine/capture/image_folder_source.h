@@ -17,8 +17,9 @@ namespace palace {
 /// Pair k is exposed at 1'000'000 s + k / rate_hz in data time, and every bundle carries the pose
 /// of [pose] (none without that table); with [images] poses, times and poses are those of that file
 /// and rate_hz their mean (image_sequence.h). No vehicle status and no laser: there is no vehicle.
-/// Lockstep; paced to `speed` times rate_hz, 0 as fast as possible. With `loop` the last pair is
-/// repeated for ever, with new sequence numbers and advancing time.
+/// Lockstep; pairs follow each other as they were taken, `speed` times as fast, 0 as fast as
+/// possible. With `loop` the last pair is repeated for ever at rate_hz, with new sequence numbers
+/// and advancing time.
 class ImageFolderSource final : public Source {
  public:
   /// Refuses rigs without [images], patterns without files, and what SequenceOf refuses. The first
@@ -34,15 +35,17 @@ class ImageFolderSource final : public Source {
  private:
   ImageFolderSource(RigFile file, std::vector<ImagePair> pairs, std::string name, bool loop);
   Result<std::shared_ptr<const StereoFrame>> LoadPair(std::int64_t index);
-  Timestamp TimeOf(std::int64_t index) const;
+  /// The last one for all that follow it.
+  const ImagePair& PairAt(std::int64_t index) const;
 
   const RigFile file_;
   const std::shared_ptr<const StereoRig> rig_;
   const std::vector<ImagePair> pairs_;
   const std::string name_;
   std::shared_ptr<const StereoFrame> cached_;  ///< last pair read; used by Next only
-  std::int64_t cached_index_ = -1;
+  const ImagePair* cached_pair_ = nullptr;
   std::uint64_t sequence_ = 0;
+  const PictureTimes times_;
   PlaybackTurns turns_;
 };
 

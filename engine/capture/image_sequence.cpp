@@ -114,7 +114,8 @@ Result<ImageSequence> SequenceOf(const std::vector<fs::path>& left,
                                  const std::vector<fs::path>& right, const RigFile& rig,
                                  const fs::path& poses_csv) {
   if (left.size() != right.size()) {
-    return InvalidError(std::to_string(left.size()) + " left and " + std::to_string(right.size()) +
+    return InvalidError(left.front().string() + ", " + right.front().string() + ": " +
+                        std::to_string(left.size()) + " left and " + std::to_string(right.size()) +
                         " right pictures; every pair needs both");
   }
   ImageSequence sequence;

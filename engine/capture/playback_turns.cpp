@@ -3,12 +3,13 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <utility>
 
 namespace palace {
 
-PlaybackTurns::PlaybackTurns(double rate_hz, std::int64_t count, AtEnd at_end)
-    : rate_hz_(rate_hz), at_end_(at_end), count_(count), count_found_(false) {
-  PALACE_CHECK(rate_hz > 0 && count >= 0, rate_hz, count);
+PlaybackTurns::PlaybackTurns(PictureTimes times, std::int64_t count, AtEnd at_end)
+    : times_(std::move(times)), at_end_(at_end), count_(count), count_found_(false) {
+  PALACE_CHECK(count >= 0, count);
 }
 
 std::optional<std::int64_t> PlaybackTurns::Wait(std::stop_token stop) {
@@ -34,7 +35,7 @@ std::optional<std::int64_t> PlaybackTurns::Wait(std::stop_token stop) {
     const double now = MonotonicSeconds();
     if (steps_ > 0 || speed_ <= 0 || now >= due_s_) {
       steps_ = std::max(0, steps_ - 1);
-      const double period = speed_ > 0 ? 1 / (rate_hz_ * speed_) : 0;
+      const double period = speed_ > 0 ? times_.Gap(next_index_) / speed_ : 0;
       // Keep the beat when in time; start a new one after a pause or when the engine is slower.
       const double late = now - due_s_;
       due_s_ = (late < period ? due_s_ : now) + period;
@@ -71,9 +72,9 @@ void PlaybackTurns::FillStatus(SourceStatus& status) const {
   status.speed_reached = speed_reached_;
   status.start = kRecordedStart;
   status.frame_index = static_cast<std::uint64_t>(std::max<std::int64_t>(0, shown_index_));
-  status.position_s = static_cast<double>(status.frame_index) / rate_hz_;
+  status.position_s = times_.At(static_cast<std::int64_t>(status.frame_index));
   if (count_ > 0) {
-    status.duration_s = static_cast<double>(count_) / rate_hz_;
+    status.duration_s = times_.At(count_);
   }
   status.can_seek = true;
   status.frame_count = static_cast<std::uint64_t>(count_);
@@ -100,10 +101,9 @@ void PlaybackTurns::Control(const PlaybackControl& control) {
       break;
     case PlaybackControl::Kind::kSeek:
       if (std::isfinite(control.value)) {
-        constexpr double kFarthest = 1e12;
-        const double last = count_ > 0 ? static_cast<double>(count_ - 1) : kFarthest;
-        next_index_ =
-            static_cast<std::int64_t>(std::round(std::clamp(control.value * rate_hz_, 0.0, last)));
+        constexpr std::int64_t kFarthest = 1'000'000'000'000;
+        const double last_s = times_.At(count_ > 0 ? count_ - 1 : kFarthest);
+        next_index_ = times_.Nearest(std::clamp(control.value, 0.0, last_s));
         ended_ = false;
         due_s_ = 0;
         steps_ = paused_ ? 1 : 0;  // a seek while paused shows the picture it went to

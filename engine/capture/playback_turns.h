@@ -7,6 +7,7 @@
 #include <optional>
 #include <stop_token>
 
+#include "engine/capture/picture_times.h"
 #include "engine/model/command.h"
 #include "engine/model/snapshot.h"
 
@@ -15,8 +16,8 @@ namespace palace {
 /// Data time of the first recorded picture; files of pictures have no clock of their own.
 inline constexpr Timestamp kRecordedStart{1'000'000'000'000};
 
-/// Hands out the indices 0, 1, 2 ... of pictures `rate_hz` apart, paced to `speed` times real time
-/// (0: as fast as asked for). Wait is called from one thread, the rest from any.
+/// Hands out the indices 0, 1, 2 ... of pictures as far apart as they were taken, paced to `speed`
+/// times real time (0: as fast as asked for). Wait is called from one thread, the rest from any.
 class PlaybackTurns {
  public:
   enum class AtEnd : std::uint8_t {
@@ -26,7 +27,7 @@ class PlaybackTurns {
     kRestart  ///< at index 0
   };
   /// `count` 0: not known before EndsAt.
-  PlaybackTurns(double rate_hz, std::int64_t count, AtEnd at_end);
+  PlaybackTurns(PictureTimes times, std::int64_t count, AtEnd at_end);
 
   /// Waits for the next turn and gives its index. Nothing when stopped or ended.
   std::optional<std::int64_t> Wait(std::stop_token stop);
@@ -38,7 +39,7 @@ class PlaybackTurns {
   void FillStatus(SourceStatus& status) const;
 
  private:
-  const double rate_hz_;
+  const PictureTimes times_;
   const AtEnd at_end_;
   mutable std::mutex mutex_;
   std::condition_variable_any changed_;

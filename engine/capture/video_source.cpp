@@ -42,7 +42,7 @@ Result<std::unique_ptr<VideoSource>> VideoSource::Open(RigCameras cameras,
     count = count == 0 ? film.device.frame_count : std::min(count, film.device.frame_count);
   }
   using AtEnd = PlaybackTurns::AtEnd;
-  source->turns_.emplace(source->rate_hz_, static_cast<std::int64_t>(count),
+  source->turns_.emplace(PictureTimes(source->rate_hz_), static_cast<std::int64_t>(count),
                          capture.loop                   ? AtEnd::kRestart
                          : source->options_.wait_at_end ? AtEnd::kWait
                                                         : AtEnd::kEnd);

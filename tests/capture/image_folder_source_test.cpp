@@ -165,6 +165,12 @@ TEST_F(ImageFolderTest, ASurveyTellsOrderTimesAndPoses) {
                                           "l2,50,1,0,-20,0,0,90\nl9,51,0,0,-20,0,0,0\n"
                                           "l0,52.5,2,0,-21,0,0,0\nl1,60,3,0,-22,0,0,0\n";
   const auto source = Open(true);
+  EXPECT_EQ(source->Status().duration_s, 15) << "with the last pair";
+  source->Control({PlaybackControl::Kind::kSeek, 2.5});
+  ASSERT_TRUE(source->Next({}).ok());
+  EXPECT_EQ(source->Status().position_s, 2.5);
+  EXPECT_EQ(source->Status().frame_index, 1u);
+  source->Control({PlaybackControl::Kind::kSeek, 0});
   const struct {
     int grey;
     double time_s, north_m;
