@@ -1,5 +1,5 @@
-// Every lens family: vectors of the reference libraries, Jacobians against differences, round
-// trips, and the limits beyond which a model has no answer.
+// Every lens family: Jacobians against differences, round trips, and the limits beyond which a
+// model has no answer. Vectors of the reference libraries: camera_vectors_test.cpp.
 #include "engine/camera/camera_model.h"
 
 #include <cmath>
@@ -10,104 +10,13 @@
 
 #include "engine/camera/cahvore.h"
 #include "engine/camera/opencv_lens.h"
-#include "engine/camera/polynomial.h"
 #include "engine/model/camera_numbers.h"
-#include "tests/camera/reference_vectors.h"
 #include "tests/camera/sample_cameras.h"
 
 namespace palace {
 namespace {
 
-using nlohmann::json;
 using Matrix23 = Eigen::Matrix<double, 2, 3>;
-
-TEST(CameraVectors, JplModelsProjectAndBackProject) {
-  const auto vectors = ReadVectors("camera_models.json");
-  if (!vectors) {
-    GTEST_SKIP() << NoReferenceData("cahvor_vectors");
-  }
-  int rows = 0;
-  for (const json& entry : vectors->at("models")) {
-    SCOPED_TRACE(entry.at("id").get<std::string>());
-    const CameraModel model = JplModelFrom(entry);
-    for (const json& row : entry.at("project")) {
-      const Eigen::Vector3d p = Vector3From(row.at("P"));
-      const auto pixel = ProjectCamera(model, p);
-      const auto jacobian = JacobianOfCamera(model, p);
-      ASSERT_TRUE(pixel && jacobian) << row;
-      EXPECT_LT((*pixel - Vector2From(row.at("px"))).cwiseAbs().maxCoeff(), 1e-9);
-      EXPECT_EQ(*pixel, jacobian->pixel);
-      Matrix23 expected;
-      expected << Vector3From(row.at("dpx_dP").at(0)).transpose(),
-          Vector3From(row.at("dpx_dP").at(1)).transpose();
-      EXPECT_LT((jacobian->dpixel_dp - expected).cwiseAbs().maxCoeff(),
-                1e-9 * expected.cwiseAbs().maxCoeff())
-          << jacobian->dpixel_dp << "\n"
-          << expected;
-      ++rows;
-    }
-    for (const json& row : entry.at("backproject")) {
-      const auto ray = RayFromPixelCamera(model, Vector2From(row.at("px")));
-      ASSERT_TRUE(ray) << row;
-      EXPECT_LT((ray->direction - Vector3From(row.at("ray"))).norm(), 1e-12);
-      EXPECT_LT((ray->origin - Vector3From(row.at("origin"))).norm(), 1e-12);
-      ++rows;
-    }
-  }
-  EXPECT_GE(rows, 90);
-}
-
-TEST(CameraVectors, TsaiModelsOfWillson) {
-  const auto vectors = ReadVectors("tsai.json");
-  if (!vectors) {
-    GTEST_SKIP() << NoReferenceData("cahvor_vectors");
-  }
-  int rows = 0;
-  for (const json& entry : vectors->at("models")) {
-    SCOPED_TRACE(entry.at("id").get<std::string>());
-    const CameraModel model{TsaiFrom(entry), 0.001};
-    for (const json& row : entry.at("project")) {
-      const auto pixel = ProjectCamera(model, Vector3From(row.at("P_world")));
-      ASSERT_TRUE(pixel);
-      EXPECT_LT((*pixel - Vector2From(row.at("px_distorted"))).norm(), 1e-9);
-    }
-    for (const json& row : entry.at("backproject_to_z")) {
-      const auto ray = RayFromPixelCamera(model, Vector2From(row.at("px_distorted")));
-      ASSERT_TRUE(ray);
-      const double along = (row.at("zw").get<double>() - ray->origin.z()) / ray->direction.z();
-      const Eigen::Vector3d p = ray->origin + along * ray->direction;
-      EXPECT_LT((p - Vector3From(row.at("P_world"))).norm(), 1e-7) << "millimetres";
-      ++rows;
-    }
-  }
-  EXPECT_GE(rows, 12);
-}
-
-/// Published self-test of mrcal: p, and its pixel to about 1e-8. It scales p to length 1, which
-/// counts where the pupil moves.
-TEST(CameraModel, AgreesWithFiguresPublishedByMrcal) {
-  const Eigen::Vector3d p(-1.1, 0.3, 1.0);
-  OpenCvModel opencv;
-  opencv.pinhole = {0, 0, 1512, 1112, 500, 333};
-  opencv.coefficients = 5;
-  opencv.k = {-0.012, 0.035, -0.001, 0.002, 0.019};
-  const auto pixel = ProjectCamera({opencv}, p);
-  ASSERT_TRUE(pixel);
-  EXPECT_NEAR(pixel->x(), -1292.8121176, 1e-6);
-  EXPECT_NEAR(pixel->y(), 691.9401448, 1e-6);
-  CahvoreModel cahvore;
-  cahvore.base = CahvFromPinhole({0, 0, 4842.918, 4842.771, 1970.528, 1085.302},
-                                 Eigen::Matrix3d::Identity(), Eigen::Vector3d::Zero());
-  const double alpha = -0.001, beta = 0.002;
-  cahvore.base.O = {std::sin(alpha) * std::cos(beta), std::sin(beta),
-                    std::cos(alpha) * std::cos(beta)};
-  cahvore.base.R = {-0.637, -0.002, 0.016};
-  cahvore.E = {1e-2, 2e-2, 3e-2};
-  const auto wide = ProjectCamera({cahvore}, p.normalized());
-  ASSERT_TRUE(wide);
-  EXPECT_NEAR(wide->x(), 489.05797783, 1e-6);
-  EXPECT_NEAR(wide->y(), 1495.37110356, 1e-6);
-}
 
 TEST(CameraModel, OpenCvProjectsTheSame) {
   constexpr std::uint64_t kSeed = 31;
@@ -399,50 +308,6 @@ TEST(CameraModel, PixelsThatNoRayReachesHaveNoRay) {
   EXPECT_TRUE(RayFromPixelCamera({fisheye}, {319.5 + 628, 239.5}));
   EXPECT_FALSE(RayFromPixelCamera({fisheye}, {319.5 + 629, 239.5}));
   EXPECT_FALSE(RayFromPixelCamera({fisheye}, {NAN, 0}));
-}
-
-TEST(Polynomial, PositiveOnFindsNarrowDips) {
-  EXPECT_TRUE(PositiveOn(std::array<double, 3>{1.0001, -2, 1}, 2));   // (s-1)^2 + 1e-4
-  EXPECT_FALSE(PositiveOn(std::array<double, 3>{0.9999, -2, 1}, 2));  // (s-1)^2 - 1e-4
-  EXPECT_TRUE(PositiveOn(std::array<double, 3>{0.9999, -2, 1}, 0.98));
-  EXPECT_TRUE(PositiveOn(std::array<double, 3>{1, -0.3, 0.1}, 1e14)) << "a dip far from the end";
-  EXPECT_FALSE(PositiveOn(std::array<double, 2>{1, NAN}, 1));
-  EXPECT_FALSE(PositiveOn(std::array<double, 2>{1, 1}, std::nan("")));
-  constexpr std::uint64_t kSeed = 35;
-  SCOPED_TRACE(kSeed);
-  RandomStream random(kSeed);
-  for (int i = 0; i < 500; ++i) {
-    std::array<double, 7> c{};
-    for (double& value : c) {
-      value = random.Uniform(-1, 1);
-    }
-    c[0] = 1;
-    double least = 1e9;
-    for (int k = 0; k <= 2000; ++k) {
-      const double s = 2.0 * k / 2000;
-      double value = 0;
-      for (std::size_t n = 7; n-- > 0;) {
-        value = value * s + c[n];
-      }
-      least = std::min(least, value);
-    }
-    if (std::abs(least) > 1e-3) {  // nearer than the sampling can tell
-      EXPECT_EQ(PositiveOn(c, 2.0), least > 0) << least;
-    }
-  }
-}
-
-TEST(Polynomial, InvertRadialStopsAtTheFold) {
-  const std::array<double, 2> barrel = {1, -1.0 / 3};  // r - r^3/3 folds at r = 1, value 2/3
-  for (const double r : {0.0, 1e-12, 0.3, 0.9, 0.9999}) {
-    const auto root = InvertRadial(barrel, RadialValue(barrel, r));
-    ASSERT_TRUE(root) << r;
-    EXPECT_NEAR(*root, r, 1e-11);
-  }
-  EXPECT_FALSE(InvertRadial(barrel, 0.667));
-  EXPECT_FALSE(InvertRadial(barrel, 1e300));
-  EXPECT_FALSE(InvertRadial(barrel, NAN));
-  EXPECT_FALSE(InvertRadial(std::array<double, 2>{-1, 1}, 0.5)) << "falls at the axis";
 }
 
 }  // namespace
