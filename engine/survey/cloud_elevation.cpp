@@ -16,6 +16,11 @@ constexpr int kMostCells = 4096;
 /// Points this far below the highest of their cell belong to the same surface.
 constexpr double kSurfaceDepth_m = 0.3;
 constexpr double kLeastVariance_m2 = 1e-6;
+/// Ground of ordinary slope spreads inside a cell, by this share of its side, without being noise.
+constexpr double kSlopeSpread = 0.1;
+/// Where points are scattered at random, three a cell leave one cell in twenty empty.
+constexpr double kPointsACell = 3;
+constexpr double kLowestLand_m = -450, kHighestLand_m = 9000;
 /// Surveys round their coordinates, so that many points would lie on lines between cells and belong
 /// to either, depending on which side one counts from. The grid starts this share of a cell
 /// earlier.
@@ -59,8 +64,7 @@ ElevationMap MapOfTops(const Points& points, const GridGeometry& geometry) {
       ++top.count;
     }
   });
-  // Ground of ordinary slope spreads inside a cell without being noise.
-  const double slope_spread_m2 = std::pow(0.1 * geometry.cell_m, 2);
+  const double slope_spread_m2 = std::pow(kSlopeSpread * geometry.cell_m, 2);
   for (std::size_t i = 0; i < tops.cells().size(); ++i) {
     const TopSums& top = tops.cells()[i];
     if (top.count == 0) {
@@ -96,7 +100,7 @@ void CoverExtent(double north_m, double east_m, SladSettings& slad,
 
 }  // namespace
 
-bool IsOnEarth(double height_m) { return height_m > -450 && height_m < 9000; }
+bool IsOnEarth(double height_m) { return height_m > kLowestLand_m && height_m < kHighestLand_m; }
 
 Result<ElevationMap> MapOfCloud(const std::vector<Eigen::Vector3d>& survey,
                                 std::optional<double> cell_m, SladSettings slad,
@@ -129,8 +133,8 @@ Result<ElevationMap> MapOfCloud(const std::vector<Eigen::Vector3d>& survey,
   const Eigen::Vector2d extent = high - low;
   if (!cell_m) {
     CoverExtent(extent.x(), extent.y(), slad, warnings);
-    // Where points are scattered at random, three a cell leave one cell in twenty empty.
-    const double spacing_m = std::sqrt(3 * extent.x() * extent.y() / double(points.size()));
+    const double spacing_m =
+        std::sqrt(kPointsACell * extent.x() * extent.y() / double(points.size()));
     if (spacing_m > slad.grid.cell_m) {
       warnings.push_back(
           WithNumbers("cell enlarged to %.3g m: the points are that sparse", spacing_m));

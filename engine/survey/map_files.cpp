@@ -232,7 +232,8 @@ Status ReadPlace(const std::filesystem::path& path, TIFF* file, MapLayer& layer)
     east_m -= place->cell_x / 2;
     north_m += place->cell_x / 2;
   }
-  if (keys && GTIFKeyGet(keys.get(), ProjectedCSTypeGeoKey, &value, 0, 1) == 1) {
+  if (keys && GTIFKeyGet(keys.get(), ProjectedCSTypeGeoKey, &value, 0, 1) == 1 &&
+      value != KvUserDefined) {
     layer.epsg = value;
   }
   layer.geometry.east_min_m = east_m;

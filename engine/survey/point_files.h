@@ -20,7 +20,7 @@ struct LabelledPoint {
   bool ground = false;
 };
 
-/// Text of x y z label, label 1 for ground and 0 for an object, as the ISPRS filter test has it.
+/// Text of x y z label: label 1 is ground, any other (0 in the ISPRS filter test) an object.
 Result<std::vector<LabelledPoint>> ReadLabelledPoints(const std::filesystem::path& path);
 
 }  // namespace palace

@@ -8,9 +8,10 @@
 #include <utility>
 
 #include "engine/core/csv_row.h"
+#include "engine/core/files.h"
 #include "engine/model/site_columns.h"
-#include "engine/survey/hazard_layer.h"
 #include "engine/survey/map_files.h"
+#include "engine/survey/map_layers.h"
 
 namespace palace {
 namespace {
@@ -22,14 +23,6 @@ constexpr std::array kTables = {"sites.csv", "decisions.csv", "maps.csv"};
 
 fs::path PartialName(const fs::path& folder, std::string_view table) {
   return folder / (std::string(table) + ".partial");
-}
-
-GridF RootOf(const GridF& variance) {
-  GridF sigma = variance;
-  for (float& value : sigma.cells()) {
-    value = std::sqrt(value);
-  }
-  return sigma;
 }
 
 std::string LetterOf(char letter) { return letter == 0 ? "" : std::string(1, letter); }
@@ -56,11 +49,8 @@ RerunFiles::RerunFiles(fs::path folder, const MapTimes& maps)
     : folder_(std::move(folder)), when_(maps) {}
 
 Result<RerunFiles> RerunFiles::Open(const fs::path& folder, const MapTimes& maps) {
-  std::error_code failed;
-  fs::create_directories(folder, failed);
-  if (failed) {
-    return UnavailableError(folder.string() + ": cannot be made (" + failed.message() +
-                            "); choose a writable --out");
+  if (const Status made = MakeFolder(folder); !made) {
+    return made.error();
   }
   RerunFiles files(folder, maps);
   const std::array streams = {&files.sites_, &files.decisions_, &files.maps_};
@@ -80,7 +70,6 @@ Result<RerunFiles> RerunFiles::Open(const fs::path& folder, const MapTimes& maps
 }
 
 void RerunFiles::AddSites(const TerrainDecision& decision, Timestamp time) {
-  ++counts_.maps;
   const auto begin = [&] {
     CsvRow row;
     row << time.us << decision.map_time.us << decision.map_hash << decision.settings_hash;
@@ -93,7 +82,7 @@ void RerunFiles::AddSites(const TerrainDecision& decision, Timestamp time) {
     sites_ << row.line();
   }
   if (rank == 0) {
-    ++counts_.maps_without_site;
+    ++counts_.without_site;
     CsvRow row = begin();
     AppendNoSite(row, decision.selection.none_reason);
     sites_ << row.line();
@@ -126,32 +115,27 @@ void RerunFiles::AddDecision(const EngineSnapshot& snapshot, const FlightRecordS
   decisions_ << row.line();
 }
 
-Status RerunFiles::WriteMap(const TerrainDecision& decision) {
-  const ElevationMap& map = *decision.elevation;
-  const HazardMaps& hazards = *decision.hazards;
+std::string RerunFiles::NewStem(Timestamp map_time) {
   char stem[40];
-  std::snprintf(stem, sizeof stem, "map_%010.3f", SecondsBetween(*start_, decision.map_time));
-  const std::array<std::pair<const char*, GridF>, 7> layers = {{
-      {"elevation", map.height_m},
-      {"elevation_sigma", RootOf(map.variance_m2)},
-      {"slope", hazards.slope_rad},
-      {"roughness", hazards.roughness_m},
-      {"cost", hazards.cost},
-      {"safe_distance", hazards.safe_distance_m},
-      {"hazard", HazardLayer(map, hazards, decision.settings.mode)},
-  }};
-  for (const auto& [name, cells] : layers) {
-    const fs::path path = folder_ / (std::string(stem) + "_" + name + ".tif");
-    if (const Status done = WriteGeoTiff(path, {map.geometry, cells, {}}); !done) {
+  std::snprintf(stem, sizeof stem, "map_%010.3f", SecondsBetween(*start_, map_time));
+  const int uses = ++stems_[stem];
+  return uses == 1 ? stem : std::string(stem) + "_" + std::to_string(uses);
+}
+
+Status RerunFiles::WriteMap(const TerrainDecision& decision) {
+  const GridGeometry& grid = decision.elevation->geometry;
+  const std::string stem = NewStem(decision.map_time);
+  for (const DecidedLayer& layer : LayersOf(decision)) {
+    const fs::path path = folder_ / (stem + "_" + layer.name + ".tif");
+    if (const Status done = WriteGeoTiff(path, {grid, layer.cells, {}}); !done) {
       return done;
     }
   }
-  const GridGeometry& grid = map.geometry;
   CsvRow row;
   row << stem << decision.map_time.us << decision.map_hash << decision.settings_hash << grid.rows
       << grid.cols << grid.cell_m << grid.north_min_m << grid.east_min_m;
   maps_ << row.line();
-  ++counts_.maps_written;
+  ++counts_.written;
   return Ok();
 }
 
@@ -162,6 +146,8 @@ Status RerunFiles::Add(const EngineSnapshot& snapshot, const FlightRecordSample*
   if (!snapshot.terrain->applied || snapshot.terrain->applied == newest_) {
     return Ok();
   }
+  const bool again = newest_ && newest_->elevation == snapshot.terrain->applied->elevation;
+  ++(again ? counts_.judged_again : counts_.maps);
   newest_ = snapshot.terrain->applied;
   AddSites(*newest_, snapshot.time);
   const bool due = when_.every_s &&

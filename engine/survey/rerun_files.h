@@ -1,15 +1,19 @@
 // What `palacectl log rerun` writes: a log's maps, sites and decisions as data.
 //
-//   sites.csv      every map's sites, best first; a map without one has a row that says why
+//   sites.csv      every judged map's sites, best first; one without has a row that says why
 //   decisions.csv  every frame: state, hashes, best site, beside what was recorded
 //   maps.csv       the maps written, with their grid and origin in W (metres north and east)
-//   map_T_*.tif    elevation, its sigma, slope, roughness, cost, safe distance and hazard of the
-//                  fused map at T seconds after the first frame: float32 GeoTIFF, SI, NaN unknown
+//   map_T_*.tif    the layers (map_layers.h) of the fused map at T seconds after the first frame:
+//                  float32 GeoTIFF, SI (slope in radians), NaN unknown
+//
+// A map whose settings changed is judged again: it has new rows in sites.csv, and where it is
+// written once more, its files are map_T_2_*.tif.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -22,7 +26,7 @@ namespace palace {
 
 /// When fused maps are written as GeoTIFF.
 struct MapTimes {
-  bool last = false;              ///< the newest one at the end
+  bool last = false;              ///< the newest one at the end, as it was judged last
   std::optional<double> every_s;  ///< and the first one after each such stretch of data time
 };
 
@@ -45,8 +49,9 @@ class RerunFiles {
     std::uint64_t recorded = 0;  ///< frames with a decision on record
     std::uint64_t equal = 0;     ///< of those, decided the same again, to the bit
     std::uint64_t maps = 0;
-    std::uint64_t maps_without_site = 0;
-    std::uint64_t maps_written = 0;
+    std::uint64_t judged_again = 0;  ///< maps under other settings
+    std::uint64_t without_site = 0;  ///< of both
+    std::uint64_t written = 0;       ///< of both
   };
   const Counts& counts() const { return counts_; }
 
@@ -55,6 +60,8 @@ class RerunFiles {
   void AddSites(const TerrainDecision& decision, Timestamp time);
   void AddDecision(const EngineSnapshot& snapshot, const FlightRecordSample* recorded);
   Status WriteMap(const TerrainDecision& decision);
+  /// map_T, with a number from the second on that has this time.
+  std::string NewStem(Timestamp map_time);
 
   std::filesystem::path folder_;
   MapTimes when_;
@@ -63,6 +70,7 @@ class RerunFiles {
   std::shared_ptr<const TerrainDecision> written_;
   std::optional<Timestamp> start_;
   std::optional<Timestamp> last_map_;  ///< time of the last map written by every_s
+  std::map<std::string, int> stems_;   ///< times each was asked for
   Counts counts_;
 };
 

@@ -1,8 +1,5 @@
 #include "engine/tools/analyze.h"
 
-#include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -10,26 +7,16 @@
 #include <vector>
 
 #include "engine/core/text.h"
-#include "engine/core/time.h"
-#include "engine/core/units.h"
-#include "engine/experiments/experiment.h"
 #include "engine/model/site_standing.h"
 #include "engine/runtime/settings_io.h"
 #include "engine/slad/hazards/explanation.h"
-#include "engine/survey/hazard_layer.h"
-#include "engine/survey/map_files.h"
-#include "engine/survey/map_pictures.h"
+#include "engine/tools/analyze_files.h"
 #include "engine/tools/analyze_inputs.h"
-#include "engine/tools/analyze_json.h"
-#include "engine/tools/analyze_report.h"
+#include "engine/tools/analyze_outcome.h"
 #include "engine/tools/explanation_json.h"
 
 namespace palace {
 namespace {
-
-constexpr const char* kOverlay = "overlay.png";
-
-namespace fs = std::filesystem;
 
 struct Options {
   std::string left, right, rig, poses, settings_file, out, elevation, points;
@@ -62,28 +49,11 @@ Status CheckOptions(const Options& options) {
 }
 
 Result<Settings> LoadSettings(const Options& options) {
-  Settings settings;
-  if (!options.settings_file.empty()) {
-    auto loaded = LoadSettingsFile(options.settings_file, settings);
-    if (!loaded) {
-      return loaded;
-    }
-    settings = *loaded;
+  Result<Settings> settings = SettingsOfCommandLine(Settings{}, options.settings_file, {});
+  if (settings && options.cell_m) {
+    settings->slad.grid.cell_m = *options.cell_m;
   }
-  if (options.cell_m) {
-    settings.slad.grid.cell_m = *options.cell_m;
-  }
-  for (const std::string& assignment : options.set) {
-    auto changed = ApplySettingText(settings, assignment);
-    if (!changed) {
-      return UsageError("--set " + assignment + ": " + changed.error().message);
-    }
-    settings = *changed;
-  }
-  if (const Status good = CheckSettings(settings, "--set"); !good) {
-    return UsageError(good.error().message);
-  }
-  return settings;
+  return settings ? SettingsOfCommandLine(*settings, {}, options.set) : settings;
 }
 
 Result<AnalyzeInput> LoadInput(const Options& options, const Settings& settings) {
@@ -94,102 +64,6 @@ Result<AnalyzeInput> LoadInput(const Options& options, const Settings& settings)
     return ElevationOfCloud(options.points, options.cell_m, settings);
   }
   return ElevationOfPairs({options.left, options.right, options.rig, options.poses}, settings);
-}
-
-Status WriteLayers(const AnalyzeOutcome& o, const fs::path& folder) {
-  const double max_distance = o.selection().sites.empty()
-                                  ? o.settings.slad.lander.clear_radius_m()
-                                  : o.selection().sites.front().safe_distance_m;
-  struct Row {
-    const char* name;
-    GridF cells;
-    MapPicture picture;
-  };
-  const SladSettings& slad = o.settings.slad;
-  const Row rows[] = {
-      {"elevation", o.map().height_m, {"elevation, m", ColourTable::kViridis, 1, {}, {}}},
-      {"slope",
-       o.hazards().slope_rad,
-       {"slope, deg", ColourTable::kMagma, kDegPerRad, 0.0, 2 * slad.limits.max_slope_deg}},
-      {"roughness",
-       o.hazards().roughness_m,
-       {"roughness, m", ColourTable::kInferno, 1, 0.0, 2 * slad.limits.max_deviation_m}},
-      {"cost", o.hazards().cost, {"cost", ColourTable::kCividis, 1, 0.0, 1.0}},
-      {"safe_distance",
-       o.hazards().safe_distance_m,
-       {"safe distance, m", ColourTable::kBlues, 1, 0.0, std::max(max_distance, 0.1)}},
-      {"hazard",
-       HazardLayer(o.map(), o.hazards(), slad.mode),
-       {"hazard: 0 safe, 1 over a limit", ColourTable::kInferno, 1, 0.0, 1.3}}};
-  for (const Row& row : rows) {
-    const std::string name = row.name;
-    MapLayer layer{o.map().geometry, row.cells, o.input.epsg};
-    for (float& value : layer.cells.cells()) {
-      value *= static_cast<float>(row.picture.shown_per_unit);
-    }
-    if (const Status done = WriteGeoTiff(folder / (name + ".tif"), layer); !done) {
-      return done;
-    }
-    if (const Status done = WriteMapPicture(folder / (name + ".png"), row.cells, row.picture);
-        !done) {
-      return done;
-    }
-  }
-  return Ok();
-}
-
-Status WriteAll(const AnalyzeOutcome& o, const fs::path& folder) {
-  if (const Status done = WriteLayers(o, folder); !done) {
-    return done;
-  }
-  if (const Status done =
-          WriteSafeLandingPicture(folder / "safe_landing.png", o.map(), o.hazards(), o.selection());
-      !done) {
-    return done;
-  }
-  if (o.input.pairs > 0) {
-    const Status done = WriteOverlay(folder / kOverlay, *o.input.left, o.selection(),
-                                     *o.input.range, *o.decision->verdict);
-    if (!done) {
-      return done;
-    }
-  }
-  const Status report = WriteTextFile(
-      folder / "report.html", AnalyzeReport(o.files, o.input, o.settings, *o.decision, folder));
-  if (!report) {
-    return report;
-  }
-  std::ofstream json(folder / "site.json");
-  json << AnalyzeJson(o) << '\n';
-  json.close();
-  return json ? Ok() : Status(UnavailableError("cannot write site.json: is the disk full?"));
-}
-
-/// Writes beside the target first and moves the finished files, so that a failure leaves nothing
-/// half written.
-Status Publish(const AnalyzeOutcome& o, const fs::path& out) {
-  std::error_code error;
-  fs::create_directories(out, error);
-  const fs::path partial = out / ".analyze-partial";
-  fs::remove_all(partial, error);
-  if (!fs::create_directory(partial, error)) {
-    return UnavailableError("cannot create " + partial.string() + ": " + error.message() +
-                            "; choose a writable --out");
-  }
-  Status done = WriteAll(o, partial);
-  if (done) {
-    fs::remove(out / kOverlay, error);  // of an earlier pair; a map has none
-    for (const auto& entry : fs::directory_iterator(partial, error)) {
-      fs::rename(entry.path(), out / entry.path().filename(), error);
-      if (error) {
-        done = UnavailableError("cannot write " + (out / entry.path().filename()).string() + ": " +
-                                error.message());
-        break;
-      }
-    }
-  }
-  fs::remove_all(partial, error);
-  return done;
 }
 
 void WarnOfCell(const SladSettings& slad, std::vector<std::string>& warnings) {
@@ -220,9 +94,8 @@ Status Analyze(const Options& options) {
       o.files.push_back(*file);
     }
   }
-  const double start = MonotonicSeconds();
   o.decision = o.input.slad.Decide(o.settings, Letters::kOfRecord);
-  o.input.timings.push_back({"decide", (MonotonicSeconds() - start) * 1e3});
+  o.input.watch.Lap("decide");
   o.settings.slad.grid.cell_m = o.map().geometry.cell_m;
   WarnOfCell(o.settings.slad, o.input.warnings);
   for (const std::string& text : options.explain) {
@@ -230,7 +103,7 @@ Status Analyze(const Options& options) {
     o.explained.push_back(ExplainCell(o.map(), o.hazards(), o.settings.slad, *cell));
     std::printf("cell %d,%d: %s\n", cell->row, cell->col, o.explained.back().verdict.c_str());
   }
-  if (const Status done = Publish(o, options.out); !done) {
+  if (const Status done = PublishAnalysis(o, options.out); !done) {
     return done;
   }
   for (const std::string& warning : o.input.warnings) {
@@ -260,9 +133,10 @@ void AddAnalyzeCommand(CLI::App& app, int& exit_code) {
                    "left picture; with --poses a pattern such as 'left_*.png'");
   verb->add_option("--right", options->right, "right picture or pattern");
   verb->add_option("--rig", options->rig, "RIG.toml");
-  verb->add_option("--poses", options->poses,
-                   "POSES.csv of several pairs (file,time,north,east,down,roll,pitch,heading), "
-                   "which are fused in order of time; without it [images] poses of RIG.toml");
+  verb->add_option(
+      "--poses", options->poses,
+      "POSES.csv of several pairs (file,time,north,east,down,roll,pitch,heading), "
+      "which modern mode fuses in order of time; without it [images] poses of RIG.toml");
   verb->add_option("--elevation", options->elevation, "GeoTIFF elevation model instead of a pair");
   verb->add_option("--points", options->points, "xyz or ply cloud instead of a pair");
   verb->add_option("--cell-m", options->cell_m, "cell size for --elevation and --points, metres");
@@ -272,7 +146,10 @@ void AddAnalyzeCommand(CLI::App& app, int& exit_code) {
   verb->add_option("--explain", options->explain,
                    "row,col of a cell: why it is as it is, printed and in site.json; repeatable")
       ->take_all();
-  verb->add_option("--out", options->out, "folder for the maps and site.json")->required();
+  verb->add_option("--out", options->out,
+                   "folder for site.json, report.html, pictures, and the layers as GeoTIFF: "
+                   "metres, slope.tif in radians, NaN unknown")
+      ->required();
   verb->callback([options, &exit_code] {
     const Status done = Analyze(*options);
     if (!done) {

@@ -8,10 +8,12 @@
 #include "engine/survey/cloud_elevation.h"
 #include "engine/survey/map_files.h"
 #include "engine/survey/point_files.h"
-#include "engine/tools/stopwatch.h"
 
 namespace palace {
 namespace {
+
+/// A model states no noise of its own.
+constexpr double kModelSigma_m = 0.001;
 
 ElevationMap MapOfLayer(const MapLayer& layer, std::vector<std::string>& warnings) {
   const GridGeometry& g = layer.geometry;
@@ -25,7 +27,7 @@ ElevationMap MapOfLayer(const MapLayer& layer, std::vector<std::string>& warning
   for (std::size_t i = 0; i < layer.cells.cells().size(); ++i) {
     const double height_m = static_cast<double>(layer.cells.cells()[i]);
     if (IsOnEarth(height_m)) {
-      map.variance_m2.cells()[i] = 1e-6F;  // a model states no noise
+      map.variance_m2.cells()[i] = static_cast<float>(kModelSigma_m * kModelSigma_m);
       map.frame_count.cells()[i] = 1;
       map.state.cells()[i] = CellState::kMeasured;
     } else {
@@ -68,13 +70,12 @@ void WarnOfLayout(const GridGeometry& model, const SladSettings& asked,
 Result<AnalyzeInput> ElevationOfModel(const std::filesystem::path& path,
                                       std::optional<double> cell_m, const Settings& settings) {
   AnalyzeInput input;
-  Stopwatch watch;
   const auto layer = ReadGeoTiff(path);
   if (!layer) {
     return layer.error();
   }
   input.epsg = layer->epsg;
-  input.timings.push_back(watch.Lap("read"));
+  input.watch.Lap("read");
   ElevationMap map;
   if (cell_m && std::abs(*cell_m - layer->geometry.cell_m) > 1e-6) {
     std::vector<Eigen::Vector3d> points;
@@ -104,25 +105,24 @@ Result<AnalyzeInput> ElevationOfModel(const std::filesystem::path& path,
     FillHoles(map, settings.slad.grid.data_size_cells, settings.slad.grid.border_size_cells);
   }
   input.slad.Take(std::move(map));
-  input.timings.push_back(watch.Lap("elevation"));
+  input.watch.Lap("elevation");
   return input;
 }
 
 Result<AnalyzeInput> ElevationOfCloud(const std::filesystem::path& path,
                                       std::optional<double> cell_m, const Settings& settings) {
   AnalyzeInput input;
-  Stopwatch watch;
   const auto points = ReadPointFile(path);
   if (!points) {
     return points.error();
   }
-  input.timings.push_back(watch.Lap("read"));
+  input.watch.Lap("read");
   auto map = MapOfCloud(*points, cell_m, settings.slad, input.warnings);
   if (!map) {
     return Error{map.error().code, path.string() + ": " + map.error().message};
   }
   input.slad.Take(std::move(map).value());
-  input.timings.push_back(watch.Lap("elevation"));
+  input.watch.Lap("elevation");
   return input;
 }
 

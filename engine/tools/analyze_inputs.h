@@ -27,16 +27,18 @@ struct PairFiles {
 
 struct AnalyzeInput {
   Slad slad;                              ///< it has a map
-  int pairs = 0;                          ///< fused; 0 without pictures
+  int pairs = 0;                          ///< measured, in order of time; 0 without pictures
+  int pairs_in_map = 0;                   ///< all of them; thesis mode has the newest only
   std::shared_ptr<const ImageU8> left;    ///< rectified, of the newest pair; null without pictures
   std::shared_ptr<const RangeMap> range;  ///< of that picture
   StereoQuality stereo;                   ///< of the newest pair
   std::optional<int> epsg;
-  std::vector<StageTime> timings;
+  Stopwatch watch;
   std::vector<std::string> warnings;
 };
 
-/// Fuses the pairs in order of time, as in flight. Several pairs need poses.
+/// Gives SLAD the pairs in order of time, as in flight: modern mode fuses them, thesis mode keeps
+/// the map of the newest, with a warning. Several pairs need poses.
 Result<AnalyzeInput> ElevationOfPairs(const PairFiles& files, const Settings& settings);
 
 /// Keeps the grid of the model unless cell_m is given. X east, Y north, Z up.

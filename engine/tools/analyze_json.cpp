@@ -110,6 +110,7 @@ std::string AnalyzeJson(const AnalyzeOutcome& o) {
                       {"footprint", o.hazards().rejected.footprint}};
   if (o.input.pairs > 0) {
     json["pairs"] = o.input.pairs;
+    json["pairs_in_map"] = o.input.pairs_in_map;
     json["stereo"] = {{"coverage", o.input.stereo.coverage},
                       {"median_depth_m", o.input.stereo.median_depth_m},
                       {"median_sigma_px", o.input.stereo.median_sigma_px},
@@ -117,7 +118,7 @@ std::string AnalyzeJson(const AnalyzeOutcome& o) {
   }
   json["settings"] = SettingsJson(o.settings);
   json["timing_ms"] = Json::object();
-  for (const StageTime& time : o.input.timings) {
+  for (const StageTime& time : o.input.watch.times()) {
     json["timing_ms"][time.stage] = time.milliseconds;
   }
   json["warnings"] = o.input.warnings;

@@ -48,7 +48,6 @@ struct Work {
   const Settings& settings;
   bool several = false;  ///< pairs, so that warnings name theirs
   StereoMatcher matcher{};
-  Stopwatch watch{};
   GroundBounds seen{HUGE_VAL, -HUGE_VAL, HUGE_VAL, -HUGE_VAL};  ///< by all pairs
 };
 
@@ -85,12 +84,12 @@ Status AddPair(const ImagePair& pair, Work& work, AnalyzeInput& input) {
     return raw.error();
   }
   raw->time = pair.time;
-  work.watch.LapInto(input.timings, "read");
+  input.watch.Lap("read");
   const auto rectified = work.rectifier.Rectify(*raw);
   if (!rectified) {
     return InvalidError(name + ": " + rectified.error().message);
   }
-  work.watch.LapInto(input.timings, "rectify");
+  input.watch.Lap("rectify");
   const VehiclePose at = pair.pose.value_or(VehiclePose{});
   auto match =
       MeasureRanges({.raw = *raw,
@@ -102,7 +101,7 @@ Status AddPair(const ImagePair& pair, Work& work, AnalyzeInput& input) {
   if (!match) {
     return InvalidError(name + ": " + match.error().message);
   }
-  work.watch.LapInto(input.timings, "stereo");
+  input.watch.Lap("stereo");
   input.stereo = match->quality;
   WarnOfStereo(match->quality, work.several ? name + ": " : "", input.warnings);
   Widen(match->range, work.seen);
@@ -110,8 +109,9 @@ Status AddPair(const ImagePair& pair, Work& work, AnalyzeInput& input) {
   input.range = std::make_shared<const RangeMap>(std::move(match->range));
   input.slad.Add({.view = {rectified->left, rectified->right, input.range}, .p_WB = at.X_WB.p},
                  work.settings.slad);
-  work.watch.LapInto(input.timings, "fuse");
+  input.watch.Lap("fuse");
   ++input.pairs;
+  input.pairs_in_map = work.settings.slad.mode == SladMode::kModern ? input.pairs : 1;
   return Ok();
 }
 
@@ -169,6 +169,10 @@ Result<AnalyzeInput> ElevationOfPairs(const PairFiles& files, const Settings& se
     if (const Status done = AddPair(pair, work, input); !done) {
       return done.error();
     }
+  }
+  if (input.pairs_in_map < input.pairs) {
+    input.warnings.push_back(WithNumbers(
+        "thesis mode fuses nothing: the map is that of the last of %.0f pairs", input.pairs));
   }
   WarnOfMap(work.seen, settings.slad, input);
   return input;

@@ -43,19 +43,26 @@ std::vector<std::vector<std::string>> SiteRows(const SiteSelection& selection,
   return rows;
 }
 
-std::vector<std::string> Summary(const std::vector<std::string>& files, const AnalyzeInput& input,
-                                 const TerrainDecision& decision) {
-  const SiteSelection& selection = decision.selection;
-  const HazardMaps& hazards = *decision.hazards;
-  const GridGeometry& g = decision.elevation->geometry;
+/// What was done with several pairs.
+std::string PairsText(const AnalyzeInput& input) {
+  return input.pairs_in_map == input.pairs
+             ? WithNumbers("%.0f pairs fused in order of time", input.pairs)
+             : WithNumbers("%.0f pairs, of which thesis mode takes the last: nothing is fused",
+                           input.pairs);
+}
+
+std::vector<std::string> Summary(const AnalyzeOutcome& o) {
+  const SiteSelection& selection = o.selection();
+  const HazardMaps& hazards = o.hazards();
+  const GridGeometry& g = o.map().geometry;
   std::vector<std::string> lines;
   lines.push_back(selection.sites.empty()       ? "No landing site: " + selection.none_reason
                   : selection.sites.size() == 1 ? std::string("One landing site, A")
                                                 : WithNumbers("%.0f landing sites; the best is A",
                                                               double(selection.sites.size())));
-  lines.push_back("From " + Joined(files) + ", by palacectl " + kProgramVersion);
-  if (input.pairs > 1) {
-    lines.push_back(WithNumbers("%.0f pairs fused in order of time", input.pairs));
+  lines.push_back("From " + Joined(o.files) + ", by palacectl " + kProgramVersion);
+  if (o.input.pairs > 1) {
+    lines.push_back(PairsText(o.input));
   }
   lines.push_back(WithNumbers("Map of %.0f x %.0f cells of %.3g m", g.rows, g.cols, g.cell_m));
   const RejectedCells& n = hazards.rejected;
@@ -68,7 +75,7 @@ std::vector<std::string> Summary(const std::vector<std::string>& files, const An
   lines.push_back(
       WithNumbers("Not safe for a flag (raised surface, water, wire ..) %.1f %%, footprint %.1f %%",
                   100 * n.flagged / all, 100 * n.footprint / all));
-  for (const std::string& warning : input.warnings) {
+  for (const std::string& warning : o.input.warnings) {
     lines.push_back("Warning: " + warning);
   }
   return lines;
@@ -76,12 +83,10 @@ std::vector<std::string> Summary(const std::vector<std::string>& files, const An
 
 }  // namespace
 
-std::string AnalyzeReport(const std::vector<std::string>& files, const AnalyzeInput& input,
-                          const Settings& settings, const TerrainDecision& decision,
-                          const std::filesystem::path& folder) {
-  const SiteSelection& selection = decision.selection;
+std::string AnalyzeReport(const AnalyzeOutcome& o, const std::filesystem::path& folder) {
+  const SiteSelection& selection = o.selection();
   HtmlPage page("PALACE: landing sites");
-  page.List(Summary(files, input, decision));
+  page.List(Summary(o));
   const auto picture = [&](const char* name, const char* caption) {
     const std::string data = PictureAsDataUri(folder / (std::string(name) + ".png"));
     if (!data.empty()) {
@@ -98,7 +103,7 @@ std::string AnalyzeReport(const std::vector<std::string>& files, const AnalyzeIn
     page.Heading("Sites, best first")
         .Table({"Site", "Place, m", "Room", "Slope", "Roughness", "Step", "Safe probability",
                 "Flags", "State", "Why this rank"},
-               SiteRows(selection, settings.slad));
+               SiteRows(selection, o.settings.slad));
   }
   page.Heading("Maps").Paragraph("North is up. Grey or black cells of a map are unknown.");
   picture(
@@ -106,6 +111,7 @@ std::string AnalyzeReport(const std::vector<std::string>& files, const AnalyzeIn
       "Ground in relief, lit from the north-west. Blue: safe with room; grey: safe but too near "
       "a hazard; orange: hazard; black: unknown.");
   picture("elevation", "Elevation");
+  picture("elevation_sigma", "Standard deviation of the elevation");
   picture("slope", "Slope of the ground plane under the lander");
   picture("roughness", "Roughness: largest deviation from that plane");
   picture("hazard", "Cells over a limit by themselves");
@@ -114,12 +120,13 @@ std::string AnalyzeReport(const std::vector<std::string>& files, const AnalyzeIn
   std::vector<std::vector<std::string>> rows;
   for (const SettingInfo& info : SettingTable()) {
     if (info.name.rfind("slad.", 0) == 0) {
-      rows.push_back({info.label, FormatSetting(info, GetSetting(settings, info.name)), info.name});
+      rows.push_back(
+          {info.label, FormatSetting(info, GetSetting(o.settings, info.name)), info.name});
     }
   }
   page.Heading("Settings").Table({"Setting", "Value", "Name"}, rows);
   std::vector<std::vector<std::string>> times;
-  for (const StageTime& time : input.timings) {
+  for (const StageTime& time : o.input.watch.times()) {
     times.push_back({time.stage, WithNumbers("%.1f", time.milliseconds)});
   }
   page.Heading("Time").Table({"Stage", "ms"}, times);

@@ -1,4 +1,4 @@
-// palacectl log info|verify|repair|cut|export LOG
+// palacectl log info|verify|repair|cut|export|rerun LOG
 #pragma once
 
 namespace CLI {

@@ -32,13 +32,17 @@ const FlightRecordSample* SampleAt(const FlightRecord& record, Timestamp time, s
 
 void Print(const RerunOptions& options, const RerunFiles::Counts& counts, bool moved) {
   const auto number = [](std::uint64_t n) { return static_cast<unsigned long long>(n); };
-  std::printf("%s: %llu frames, %llu maps, %llu without a site, %llu written\n",
-              options.out.c_str(), number(counts.frames), number(counts.maps),
-              number(counts.maps_without_site), number(counts.maps_written));
+  std::printf("%s: %llu frames, %llu maps", options.out.c_str(), number(counts.frames),
+              number(counts.maps));
+  if (counts.judged_again > 0) {
+    std::printf(", %llu judged again under other settings", number(counts.judged_again));
+  }
+  std::printf(", %llu without a site, %llu written\n", number(counts.without_site),
+              number(counts.written));
   if (counts.recorded > 0) {
     std::printf("%llu of %llu recorded decisions are the same, to the bit%s\n",
                 number(counts.equal), number(counts.recorded),
-                moved ? " (limits were changed)" : "");
+                moved ? " (settings were changed)" : "");
   } else {
     std::printf("the log holds no decisions to compare with\n");
   }
@@ -113,7 +117,8 @@ void AddLogRerun(CLI::App& log, int& exit_code) {
                    "One setting, e.g. slad.max_slope_deg=8; repeatable")
       ->take_all();
   verb->add_option("--maps", options->maps,
-                   "Fused maps as GeoTIFF: last, or \"every N s\" of the flight's time");
+                   "Fused maps as GeoTIFF: last, or \"every N s\" of the flight's time; metres, "
+                   "slope in radians, NaN unknown");
   verb->add_option("--channels", options->channels_file, "Channel names (TOML)");
   verb->callback([options, &exit_code] {
     const Result<int> done = Rerun(*options);

@@ -13,29 +13,28 @@ struct StageTime {
   double milliseconds = 0;
 };
 
+/// Runs from construction on.
 class Stopwatch {
  public:
-  /// The time since the last lap, under this name.
-  StageTime Lap(const char* stage) {
+  /// The time since the last lap belongs to this stage, beside what it had before.
+  void Lap(const char* stage) {
     const double now = MonotonicSeconds();
-    const StageTime time{stage, (now - last_) * 1e3};
+    const double milliseconds = (now - last_) * 1e3;
     last_ = now;
-    return time;
-  }
-  /// The same, added to the entry of that name.
-  void LapInto(std::vector<StageTime>& times, const char* stage) {
-    const StageTime lap = Lap(stage);
-    for (StageTime& time : times) {
-      if (time.stage == lap.stage) {
-        time.milliseconds += lap.milliseconds;
+    for (StageTime& time : times_) {
+      if (time.stage == stage) {
+        time.milliseconds += milliseconds;
         return;
       }
     }
-    times.push_back(lap);
+    times_.push_back({stage, milliseconds});
   }
+  /// In the order in which the stages came first.
+  const std::vector<StageTime>& times() const { return times_; }
 
  private:
   double last_ = MonotonicSeconds();
+  std::vector<StageTime> times_;
 };
 
 }  // namespace palace

@@ -1,16 +1,15 @@
 # palacectl: the same engine with no window. Its simulated pictures need GL, so it comes with the GUI
 # rooms; engine-only builds (sanitizers) leave it out.
 palace_room(survey engine/survey palace_slad TIFF::TIFF ${GEOTIFF_LIBRARY})
-palace_room(experiments engine/experiments palace_report palace_calibration palace_runtime palace_simulation palace_survey
-  nlohmann_json::nlohmann_json)
-foreach(room survey experiments)
-  target_include_directories(palace_${room} SYSTEM PRIVATE ${CLI11_INCLUDE_DIR} ${GEOTIFF_INCLUDE_DIR} ${GEOTIFF_INCLUDE_DIR}/geotiff)
-endforeach()
+target_include_directories(palace_survey SYSTEM PRIVATE ${GEOTIFF_INCLUDE_DIR} ${GEOTIFF_INCLUDE_DIR}/geotiff)
+palace_room(experiments engine/experiments palace_report palace_calibration palace_runtime palace_simulation palace_survey)
+target_include_directories(palace_experiments SYSTEM PRIVATE ${CLI11_INCLUDE_DIR})
 palace_precompile(survey experiments)
 if(NOT PALACE_ENGINE_ONLY)
   file(GLOB PALACE_TOOLS CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/engine/tools/*.cpp)
   add_executable(palacectl ${PALACE_TOOLS})
-  target_link_libraries(palacectl PRIVATE palace_experiments palace_capture palace_journal palace_platform palace_render ${OPENGL_LIBRARY})
-  target_include_directories(palacectl SYSTEM PRIVATE ${CLI11_INCLUDE_DIR} ${GEOTIFF_INCLUDE_DIR} ${GEOTIFF_INCLUDE_DIR}/geotiff)
+  target_link_libraries(palacectl PRIVATE palace_experiments palace_capture palace_journal palace_platform palace_render
+    nlohmann_json::nlohmann_json ${OPENGL_LIBRARY})
+  target_include_directories(palacectl SYSTEM PRIVATE ${CLI11_INCLUDE_DIR})
   install(TARGETS palacectl RUNTIME DESTINATION bin)
 endif()

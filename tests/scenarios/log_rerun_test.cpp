@@ -1,44 +1,16 @@
 // palacectl log rerun: a log becomes tables and maps, decided to the bit as in flight.
-#include <fstream>
 #include <map>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include "engine/core/hash.h"
+#include "tests/scenarios/csv_table.h"
 #include "tests/scenarios/scenario.h"
 
 namespace palace {
 namespace {
 
 constexpr double kLimit_s = 120;
-
-using Table = std::vector<std::map<std::string, std::string>>;
-
-/// Fields here hold no quoted commas but in the last column, which is not asked for beyond them.
-Table ReadTable(const std::filesystem::path& path) {
-  std::ifstream file(path);
-  const auto fields = [](const std::string& line) {
-    std::vector<std::string> words;
-    std::stringstream stream(line);
-    for (std::string word; std::getline(stream, word, ',');) {
-      words.push_back(word);
-    }
-    return words;
-  };
-  std::string line;
-  std::getline(file, line);
-  const std::vector<std::string> names = fields(line);
-  Table table;
-  while (std::getline(file, line)) {
-    const std::vector<std::string> words = fields(line);
-    auto& row = table.emplace_back();
-    for (std::size_t i = 0; i < names.size(); ++i) {
-      row[names[i]] = i < words.size() ? words[i] : "";
-    }
-  }
-  return table;
-}
 
 class LogRerun : public Scenario {
  protected:
@@ -64,7 +36,7 @@ TEST_F(LogRerun, DecidesAsInFlightAndWritesEverySiteAndMap) {
   const std::filesystem::path log = Fly();
   const ProcessResult same = Rerun(log, {"--out", "same", "--maps", "every 0.5 s"});
   ASSERT_EQ(same.exit_code, 0) << same.err;
-  const Table decisions = ReadTable(folder_ / "same/decisions.csv");
+  const CsvTable decisions = ReadTable(folder_ / "same/decisions.csv");
   ASSERT_GT(decisions.size(), 10u);
   for (const auto& row : decisions) {
     EXPECT_EQ(row.at("same"), "1") << row.at("time_us");
@@ -87,7 +59,7 @@ TEST_F(LogRerun, DecidesAsInFlightAndWritesEverySiteAndMap) {
     }
   }
   EXPECT_GT(compared, 10u);
-  const Table maps = ReadTable(folder_ / "same/maps.csv");
+  const CsvTable maps = ReadTable(folder_ / "same/maps.csv");
   ASSERT_GT(maps.size(), 2u);
   for (const auto& row : maps) {
     EXPECT_EQ(row.at("rows"), "100");

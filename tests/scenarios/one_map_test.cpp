@@ -1,8 +1,9 @@
 // One pair, one map: an experiment's hover, saved as pictures with their poses, gives the same maps
-// to `evaluate`, to `palacectl analyze`, to the flight's pipeline over the folder, and to a replay
-// of what that recorded.
+// to `evaluate`, to `palacectl analyze`, to the flight's pipeline over the folder, to a replay of
+// what that recorded, and to `palacectl log rerun`.
 #include <cmath>
 #include <cstdio>
+#include <sstream>
 
 #include <nlohmann/json.hpp>
 #include <opencv2/core.hpp>
@@ -15,6 +16,7 @@
 #include "engine/experiments/field_trial.h"
 #include "engine/journal/log_writer.h"
 #include "engine/runtime/engine.h"
+#include "tests/scenarios/csv_table.h"
 #include "tests/scenarios/scenario.h"
 
 namespace palace {
@@ -39,6 +41,11 @@ World Field() {
   World world;
   world.solids = {MakeBox(2.5, -2, 0.5, 0.5, 0.5), MakeBox(-2, 2, 1.0, 2.0, 1.0)};
   return world;
+}
+
+std::string BytesIn(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return (std::stringstream() << file.rdbuf()).str();
 }
 
 std::string Digits(double value) {
@@ -125,6 +132,27 @@ class OneMap : public Scenario {
     return maps;
   }
 
+  /// Hashes of the maps in decisions.csv, one a map, and the stems of the written ones.
+  struct Rerun {
+    std::vector<std::string> maps, stems;
+  };
+  Rerun RerunOf(const std::filesystem::path& log, const std::string& out) {
+    const ProcessResult result =
+        RunProcess(Palacectl({"log", "rerun", log.string(), "--out", out, "--maps", "last"}), 120);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    Rerun rerun;
+    for (const auto& row : ReadTable(folder_ / out / "decisions.csv")) {
+      const std::string& hash = row.at("map_hash");
+      if (!hash.empty() && (rerun.maps.empty() || rerun.maps.back() != hash)) {
+        rerun.maps.push_back(hash);
+      }
+    }
+    for (const auto& row : ReadTable(folder_ / out / "maps.csv")) {
+      rerun.stems.push_back(row.at("stem"));
+    }
+    return rerun;
+  }
+
   std::string MapOfAnalyze(std::vector<std::string> options) {
     options.insert(options.begin(), {"analyze", "--left", "l*.png", "--right", "r*.png"});
     options.insert(options.end(), {"--out", "out"});
@@ -138,7 +166,7 @@ class OneMap : public Scenario {
   std::vector<FieldFrame> frames_;
 };
 
-TEST_F(OneMap, EvaluateAnalyzeImagesAndReplayAgreeToTheBit) {
+TEST_F(OneMap, EvaluateAnalyzeImagesReplayAndRerunAgreeToTheBit) {
   const std::vector<std::uint64_t> evaluated = MapsOfExperiment();
   ASSERT_EQ(evaluated.size(), 3u);
 
@@ -161,6 +189,47 @@ TEST_F(OneMap, EvaluateAnalyzeImagesAndReplayAgreeToTheBit) {
   EXPECT_EQ(MapOfAnalyze({"--rig", "rig.toml", "--poses", "poses.csv"}),
             std::to_string(evaluated.back()));
   EXPECT_EQ(MapOfAnalyze({"--rig", "surveyed.toml"}), std::to_string(evaluated.back()));
+
+  const Rerun rerun = RerunOf(folder_ / "flight" / "flight.lcm", "again");
+  std::vector<std::string> expected;
+  for (const std::uint64_t hash : evaluated) {
+    expected.push_back(std::to_string(hash));
+  }
+  EXPECT_EQ(rerun.maps, expected);
+  // The files of both verbs are the same too, units included.
+  ASSERT_EQ(rerun.stems.size(), 1u);
+  for (const char* layer :
+       {"elevation", "elevation_sigma", "slope", "roughness", "cost", "safe_distance", "hazard"}) {
+    const std::string bytes = BytesIn(folder_ / "out" / (std::string(layer) + ".tif"));
+    EXPECT_GT(bytes.size(), 1000u) << layer;
+    EXPECT_TRUE(bytes == BytesIn(folder_ / "again" / (rerun.stems[0] + "_" + layer + ".tif")))
+        << layer;
+  }
+}
+
+/// Thesis mode fuses nothing, and nobody says that it does.
+TEST_F(OneMap, ThesisModeTakesTheLastPairAndSaysSo) {
+  const std::string all = MapOfAnalyze({"--rig", "surveyed.toml", "--set", "slad.mode=thesis"});
+  std::ifstream file(folder_ / "out" / "site.json");
+  const auto json = nlohmann::json::parse(file, nullptr, false);
+  EXPECT_EQ(json["pairs"], 3);
+  EXPECT_EQ(json["pairs_in_map"], 1);
+  const std::string warnings = json["warnings"].dump();
+  EXPECT_NE(warnings.find("the map is that of the last of 3 pairs"), std::string::npos) << warnings;
+  const std::string page = BytesIn(folder_ / "out" / "report.html");
+  EXPECT_NE(page.find("3 pairs, of which thesis mode takes the last"), std::string::npos);
+  EXPECT_EQ(page.find("pairs fused"), std::string::npos);
+  // The last pair alone, by names that run against time: l1.
+  const ProcessResult alone =
+      RunProcess(Palacectl({"analyze", "--left", "l1.png", "--right", "r1.png", "--rig",
+                            "surveyed.toml", "--set", "slad.mode=thesis", "--out", "alone"}),
+                 120);
+  ASSERT_EQ(alone.exit_code, 0) << alone.err;
+  std::ifstream alone_file(folder_ / "alone" / "site.json");
+  EXPECT_EQ(nlohmann::json::parse(alone_file, nullptr, false)["pairs_in_map"], 1);
+  EXPECT_TRUE(BytesIn(folder_ / "out" / "elevation.tif") ==
+              BytesIn(folder_ / "alone" / "elevation.tif"));
+  EXPECT_FALSE(all.empty());
 }
 
 }  // namespace

@@ -1,0 +1,113 @@
+#include "engine/tools/analyze_files.h"
+
+#include <algorithm>
+#include <string>
+#include <system_error>
+
+#include "engine/core/files.h"
+#include "engine/core/units.h"
+#include "engine/survey/map_files.h"
+#include "engine/survey/map_layers.h"
+#include "engine/survey/map_pictures.h"
+#include "engine/tools/analyze_json.h"
+#include "engine/tools/analyze_report.h"
+
+namespace palace {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kOverlay = "overlay.png";
+
+/// How a layer is shown; its bar ends at twice the limit where there is one.
+MapPicture PictureOf(const std::string& layer, const AnalyzeOutcome& o) {
+  const SladSettings& slad = o.settings.slad;
+  if (layer == "elevation_sigma") {
+    return {"elevation, one sigma, m", ColourTable::kInferno, 1, 0.0, {}};
+  }
+  if (layer == "slope") {
+    return {"slope, deg", ColourTable::kMagma, kDegPerRad, 0.0, 2 * slad.limits.max_slope_deg};
+  }
+  if (layer == "roughness") {
+    return {"roughness, m", ColourTable::kInferno, 1, 0.0, 2 * slad.limits.max_deviation_m};
+  }
+  if (layer == "cost") {
+    return {"cost", ColourTable::kCividis, 1, 0.0, 1.0};
+  }
+  if (layer == "safe_distance") {
+    const double most_m = o.selection().sites.empty() ? slad.lander.clear_radius_m()
+                                                      : o.selection().sites.front().safe_distance_m;
+    return {"safe distance, m", ColourTable::kBlues, 1, 0.0, std::max(most_m, 0.1)};
+  }
+  if (layer == "hazard") {
+    return {"hazard: 0 safe, 1 over a limit", ColourTable::kInferno, 1, 0.0, 1.3};
+  }
+  return {layer + ", m", ColourTable::kViridis, 1, {}, {}};
+}
+
+Status WriteLayers(const AnalyzeOutcome& o, const fs::path& folder) {
+  for (const DecidedLayer& layer : LayersOf(*o.decision)) {
+    const MapLayer file{o.map().geometry, layer.cells, o.input.epsg};
+    if (const Status done = WriteGeoTiff(folder / (layer.name + ".tif"), file); !done) {
+      return done;
+    }
+    const Status drawn =
+        WriteMapPicture(folder / (layer.name + ".png"), layer.cells, PictureOf(layer.name, o));
+    if (!drawn) {
+      return drawn;
+    }
+  }
+  return Ok();
+}
+
+Status WriteAll(const AnalyzeOutcome& o, const fs::path& folder) {
+  if (const Status done = WriteLayers(o, folder); !done) {
+    return done;
+  }
+  if (const Status done =
+          WriteSafeLandingPicture(folder / "safe_landing.png", o.map(), o.hazards(), o.selection());
+      !done) {
+    return done;
+  }
+  if (o.input.pairs > 0) {
+    const Status done = WriteOverlay(folder / kOverlay, *o.input.left, o.selection(),
+                                     *o.input.range, *o.decision->verdict);
+    if (!done) {
+      return done;
+    }
+  }
+  if (const Status report = WriteTextFile(folder / "report.html", AnalyzeReport(o, folder));
+      !report) {
+    return report;
+  }
+  return WriteTextFile(folder / "site.json", AnalyzeJson(o) + "\n");
+}
+
+}  // namespace
+
+Status PublishAnalysis(const AnalyzeOutcome& o, const fs::path& out) {
+  std::error_code error;
+  fs::create_directories(out, error);
+  const fs::path partial = out / ".analyze-partial";
+  fs::remove_all(partial, error);
+  if (!fs::create_directory(partial, error)) {
+    return UnavailableError("cannot create " + partial.string() + ": " + error.message() +
+                            "; choose a writable --out");
+  }
+  Status done = WriteAll(o, partial);
+  if (done) {
+    fs::remove(out / kOverlay, error);  // of an earlier pair; a map has none
+    for (const auto& entry : fs::directory_iterator(partial, error)) {
+      fs::rename(entry.path(), out / entry.path().filename(), error);
+      if (error) {
+        done = UnavailableError("cannot write " + (out / entry.path().filename()).string() + ": " +
+                                error.message());
+        break;
+      }
+    }
+  }
+  fs::remove_all(partial, error);
+  return done;
+}
+
+}  // namespace palace

@@ -1,0 +1,65 @@
+// Point clouds as text and PLY. The many ways to be wrong are rows of survey_clouds_test.cpp,
+// through the program; here that points come out as they stand in the file.
+#include "engine/survey/point_files.h"
+
+#include <filesystem>
+#include <fstream>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/survey_files.h"
+
+namespace palace {
+namespace {
+
+class PointFiles : public testing::Test {
+ protected:
+  ~PointFiles() override {
+    std::error_code ignored;
+    std::filesystem::remove(path_, ignored);
+  }
+  void Write(const std::string& bytes) { std::ofstream(path_, std::ios::binary) << bytes; }
+  const std::filesystem::path path_ = std::filesystem::path(testing::TempDir()) / "cloud.xyz";
+};
+
+TEST_F(PointFiles, EastNorthUpInEverySpelling) {
+  const std::vector<Eigen::Vector3d> expected = {{1.5, -2, 3}, {4, 5, 6.25}, {7, 8, 9}};
+  for (const std::string text :
+       {"1.5 -2 3\n4 5 6.25\n7 8 9\n", "x,y,z\n1.5,-2,3\n4,5,6.25\n7,8,9\n",
+        "# comment\n\n1.5;-2;3;17\n4;5;6.25;18\n7;8;9;19\n",
+        "1.5\t-2\t3\r\n4\t5\t6.25\r\n7\t8\t9\r\n"}) {
+    Write(text);
+    const auto points = ReadPointFile(path_);
+    ASSERT_TRUE(points.ok()) << text << points.error().message;
+    EXPECT_EQ(*points, expected) << text;
+  }
+  Write(PlyBytes({1.5F, -2, 3, 4, 5, 6.25F, 7, 8, 9}, "binary_little_endian", 3));
+  const auto points = ReadPointFile(path_);
+  ASSERT_TRUE(points.ok()) << points.error().message;
+  EXPECT_EQ(*points, expected);
+}
+
+TEST_F(PointFiles, LabelsTellGroundFromObjects) {
+  Write("1 2 3 1\n4 5 6 0\n");
+  const auto points = ReadLabelledPoints(path_);
+  ASSERT_TRUE(points.ok()) << points.error().message;
+  ASSERT_EQ(points->size(), 2u);
+  EXPECT_TRUE((*points)[0].ground);
+  EXPECT_FALSE((*points)[1].ground);
+  EXPECT_EQ((*points)[1].point, Eigen::Vector3d(4, 5, 6));
+}
+
+TEST_F(PointFiles, ErrorsNameFileAndLine) {
+  Write("1 2 3 1\n4 5 6\n");
+  const auto labelled = ReadLabelledPoints(path_);
+  ASSERT_FALSE(labelled.ok());
+  EXPECT_NE(labelled.error().message.find("cloud.xyz:2: "), std::string::npos)
+      << labelled.error().message;
+  Write("1 2 3\n1 2\n4 5 6\n");
+  const auto plain = ReadPointFile(path_);
+  ASSERT_FALSE(plain.ok());
+  EXPECT_NE(plain.error().message.find("cloud.xyz:2: "), std::string::npos);
+}
+
+}  // namespace
+}  // namespace palace
