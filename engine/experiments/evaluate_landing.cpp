@@ -62,15 +62,11 @@ Result<FlightSummary> FlyOne(const LandingOptions& options, const Settings& sett
 
 Result<std::vector<TrialRow>> RunTrial(const LandingOptions& options, std::uint64_t seed,
                                        const SceneCameraFactory& camera) {
-  Settings settings;
-  for (const std::string& assignment : options.set) {
-    const Result<Settings> changed = ApplySettingText(settings, assignment);
-    if (!changed) {
-      return changed.error();
-    }
-    settings = *changed;
+  const Result<Settings> settings = SettingsOfCommandLine(Settings{}, {}, options.set);
+  if (!settings) {
+    return settings.error();
   }
-  const Result<FlightSummary> flown = FlyOne(options, settings, seed, camera);
+  const Result<FlightSummary> flown = FlyOne(options, *settings, seed, camera);
   if (!flown) {
     return flown.error();
   }

@@ -34,15 +34,8 @@ std::string Text(const char* format, Values... values) {
 }
 
 Result<Settings> SettingsFrom(const std::vector<std::string>& assignments) {
-  Settings settings;
-  for (const std::string& assignment : assignments) {
-    const Result<Settings> changed = ApplySettingText(settings, assignment);
-    if (!changed) {
-      return changed.error();
-    }
-    settings = *changed;
-  }
-  if (settings.slad.mode != SladMode::kModern) {
+  Result<Settings> settings = SettingsOfCommandLine(Settings{}, {}, assignments);
+  if (settings && settings->slad.mode != SladMode::kModern) {
     return InvalidError("slad.mode: thesis mode has no probability");
   }
   return settings;
@@ -66,7 +59,10 @@ Result<std::vector<TrialRow>> RunTrial(const std::vector<std::string>& assignmen
   }
   const int kind = trial % static_cast<int>(kGroundKindNames.size());
   const TouchdownField field = MakeTouchdownField(static_cast<GroundKind>(kind), slad, side, seed);
-  const HazardMaps hazards = EvaluateHazards(field.map, slad);
+  Slad judge;
+  judge.Take(field.map);
+  const auto decision = judge.Decide(*settings, Letters::kOfCopy);
+  const HazardMaps& hazards = *decision->hazards;
   RandomStream random(seed, "touchdown places");
   std::vector<TrialRow> rows;
   for (int k = 0; k < kPlaces; ++k) {

@@ -10,4 +10,7 @@ namespace palace {
 /// or at 45 degrees; textures, heights and tilts take turns. Things are put into it one at a time.
 Experiment SiteFlagsExperiment();
 
+/// How the table of all trials is read (site_flags_report.cpp).
+ExperimentReport ReportSiteFlags(const TrialTable& table);
+
 }  // namespace palace

@@ -14,7 +14,6 @@
 #include "engine/report/statistics.h"
 #include "engine/report/svg_plot.h"
 #include "engine/slad/hazards/plane_fit.h"
-#include "engine/slad/hazards/terrain_figures.h"
 #include "engine/slad/slad.h"
 #include "engine/survey/cloud_elevation.h"
 #include "engine/survey/hazard_layer.h"
@@ -163,10 +162,13 @@ Result<std::vector<TrialRow>> RunSample(const LidarOptions& options, int trial) 
   }
   const std::string name = path.stem().string();
   std::vector<TrialRow> rows;
-  const TerrainFigures figures = MeasureTerrain(sample->map, Limits(kSlope_deg, kRough_m));
-  const auto ours = [&](const char* method, double limit, const SladSettings& slad) {
-    const HazardMaps hazards = JudgeTerrain(sample->map.geometry, figures, slad);
-    const GridF layer = HazardLayer(sample->map, hazards, slad.mode);
+  Slad slad;
+  slad.Take(sample->map);
+  const auto ours = [&](const char* method, double limit, const SladSettings& limits) {
+    Settings settings;
+    settings.slad = limits;
+    const auto decision = slad.Decide(settings, Letters::kOfCopy);
+    const GridF layer = HazardLayer(sample->map, *decision->hazards, limits.mode);
     rows.push_back(
         Count(name, *sample, method, limit, [&](std::size_t i) { return layer.cells()[i]; }));
   };
@@ -176,10 +178,10 @@ Result<std::vector<TrialRow>> RunSample(const LidarOptions& options, int trial) 
   }
   for (const double slope_deg : {5.0, 8.0, 11.0, 15.0, 20.0, 25.0, 30.0, 35.0, 45.0, 60.0, 75.0}) {
     const double share = std::tan(Rad(slope_deg)) / std::tan(Rad(kSlope_deg));
-    SladSettings slad = Limits(slope_deg, kRough_m * share);
-    ours(kAllMoved, slope_deg, slad);
-    slad.limits.elevated = ElevatedSurface::kAllow;
-    ours(kAllowed, slope_deg, slad);
+    SladSettings limits = Limits(slope_deg, kRough_m * share);
+    ours(kAllMoved, slope_deg, limits);
+    limits.limits.elevated = ElevatedSurface::kAllow;
+    ours(kAllowed, slope_deg, limits);
   }
   // The plain passes see the raster as it was measured, without filled holes.
   GridF measured = sample->map.height_m;

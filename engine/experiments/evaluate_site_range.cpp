@@ -15,8 +15,8 @@
 #include "engine/core/random.h"
 #include "engine/core/units.h"
 #include "engine/experiments/cone_field.h"
+#include "engine/experiments/field_options.h"
 #include "engine/experiments/site_range_report.h"
-#include "engine/runtime/settings_io.h"
 
 namespace palace {
 namespace {
@@ -24,9 +24,8 @@ namespace {
 struct RangeOptions {
   std::vector<double> altitudes_ft = {10, 20, 30, 40, 50, 60, 70, 100, 150};
   std::vector<double> cones_in = {28, 18};
-  double field_of_view_deg = 60;
   int frames = 10;
-  std::vector<std::string> set;
+  FieldOptions field{};
 };
 
 /// How one decision compares with the truth.
@@ -107,21 +106,18 @@ TrialRow RowOf(double altitude_ft, double cone_in, const char* method, const Con
 }
 
 Result<std::vector<TrialRow>> RunTrial(const RangeOptions& options, std::uint64_t seed) {
-  Settings settings;
-  for (const std::string& assignment : options.set) {
-    const Result<Settings> changed = ApplySettingText(settings, assignment);
-    if (!changed) {
-      return changed.error();
-    }
-    settings = *changed;
+  const Result<Settings> given = SettingsOf(options.field);
+  if (!given) {
+    return given.error();
   }
+  const Settings& settings = *given;
   Settings thesis = settings;
   thesis.slad.mode = SladMode::kThesis;
   std::vector<TrialRow> rows;
   for (const double altitude_ft : options.altitudes_ft) {
     HoverView view;
     view.height_m = altitude_ft * kMetresPerFoot;
-    view.field_of_view_rad = Rad(options.field_of_view_deg);
+    view.field_of_view_rad = Rad(options.field.field_of_view_deg);
     view.frames = options.frames;
     const std::uint64_t field_seed =
         RandomStream(seed, "at " + CsvNumber(altitude_ft) + " ft").NextBits();
@@ -159,11 +155,11 @@ std::string ListText(const std::vector<double>& values) {
 }
 
 std::string SetupText(const RangeOptions& options) {
-  std::string text = "field of view " + CsvNumber(options.field_of_view_deg) + " deg, " +
+  std::string text = "field of view " + CsvNumber(options.field.field_of_view_deg) + " deg, " +
                      std::to_string(options.frames) + " frames, altitudes " +
                      ListText(options.altitudes_ft) + " ft, cones " + ListText(options.cones_in) +
                      " in";
-  for (const std::string& assignment : options.set) {
+  for (const std::string& assignment : options.field.set) {
     text += ", " + assignment;
   }
   return text;
@@ -187,13 +183,10 @@ Experiment SiteRangeExperiment() {
         ->check(FiniteRange(4.0, 60.0))
         ->delimiter(',')
         ->capture_default_str();
-    app.add_option("--fov-deg", options->field_of_view_deg, "Horizontal field of view, degrees")
-        ->check(FiniteRange(20.0, 100.0))
-        ->capture_default_str();
     app.add_option("--frames", options->frames, "Frames fused")
         ->check(CLI::Range(1, 100))
         ->capture_default_str();
-    app.add_option("--set", options->set, "One setting, e.g. slad.nav_error_m=0.3");
+    AddFieldOptions(app, options->field);
   };
   experiment.setup = [options] { return SetupText(*options); };
   experiment.run = [options](int, std::uint64_t seed) { return RunTrial(*options, seed); };

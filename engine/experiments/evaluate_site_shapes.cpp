@@ -13,8 +13,8 @@
 
 #include "engine/core/command_line.h"
 #include "engine/core/units.h"
+#include "engine/experiments/field_options.h"
 #include "engine/experiments/shape_field.h"
-#include "engine/runtime/settings_io.h"
 #include "engine/slad/hazards/explanation.h"
 #include "engine/slad/slad.h"
 
@@ -29,14 +29,23 @@ constexpr std::array kKinds = {ShapeFieldKind::kObjects, ShapeFieldKind::kObject
 
 struct ShapesOptions {
   double height_ft = 50;
-  double fov_deg = 45;
-  std::vector<std::string> set{};
+  FieldOptions field{45, {}};
 };
 
 /// One judged map and the field it shows.
 struct Judged {
+  Judged(const ShapeField& its_field, const HoverView& its_view,
+         std::shared_ptr<const TerrainDecision> its_decision)
+      : field(its_field),
+        view(its_view),
+        decision(std::move(its_decision)),
+        map(*decision->elevation),
+        hazards(*decision->hazards),
+        settings(decision->settings) {}
+
   const ShapeField& field;
   const HoverView& view;
+  std::shared_ptr<const TerrainDecision> decision;
   const ElevationMap& map;
   const HazardMaps& hazards;
   const SladSettings& settings;
@@ -213,8 +222,8 @@ double MeasuredRampSlope(const Judged& judged, const PlacedShape& ramp) {
 
 /// The best site, and the last shape that the lander's circle there holds part of; a raised top
 /// with room for the whole circle holds it.
-void AddSite(const Judged& judged, const SiteContext& context, RowWriter& rows) {
-  const SiteSelection selection = SelectSites(judged.map, judged.hazards, judged.settings, context);
+void AddSite(const Judged& judged, RowWriter& rows) {
+  const SiteSelection& selection = judged.decision->selection;
   RowWriter::Counts n;
   std::string held = "-";
   if (!selection.sites.empty()) {
@@ -233,25 +242,23 @@ void AddSite(const Judged& judged, const SiteContext& context, RowWriter& rows) 
   rows.Add(kChosenSite, judged.settings.limits.max_deviation_m, n, NAN, held);
 }
 
-void AddRows(const ShapeField& field, const HoverView& view, const ElevationMap& map,
-             const SiteContext& context, SladSettings settings, RowWriter& rows) {
-  const TerrainFigures figures = MeasureTerrain(map, settings);
+/// The map that SLAD holds, judged under every limit.
+void AddRows(const ShapeField& field, const HoverView& view, Slad& slad, Settings settings,
+             RowWriter& rows) {
   for (const double limit_m : kLimits_m) {
-    settings.limits.max_deviation_m = limit_m;
-    settings.limits.max_step_m = kStepPerDeviation * limit_m;
-    const HazardMaps hazards = JudgeTerrain(map.geometry, figures, settings);
-    const Judged judged{field, view, map, hazards, settings};
+    settings.slad.limits.max_deviation_m = limit_m;
+    settings.slad.limits.max_step_m = kStepPerDeviation * limit_m;
+    const Judged judged(field, view, slad.Decide(settings, Letters::kOfCopy));
     if (limit_m == kShapesLimit_m) {
-      AddSite(judged, context, rows);
+      AddSite(judged, rows);
     }
     if (field.kind == ShapeFieldKind::kSlope) {
       AddFootprints(judged, limit_m, rows);
     }
     rows.Add(kClearCells, limit_m, CountClearCells(judged));
-    SladSettings allowing = settings;
-    allowing.limits.elevated = ElevatedSurface::kAllow;
-    const HazardMaps allowed_hazards = JudgeTerrain(map.geometry, figures, allowing);
-    const Judged allowed{field, view, map, allowed_hazards, allowing};
+    Settings allowing = settings;
+    allowing.slad.limits.elevated = ElevatedSurface::kAllow;
+    const Judged allowed(field, view, slad.Decide(allowing, Letters::kOfCopy));
     for (const PlacedShape& shape : field.shapes) {
       if (IsTop(shape)) {
         rows.Add(shape.name, limit_m, CountTop(judged, allowed, shape));
@@ -265,7 +272,7 @@ void AddRows(const ShapeField& field, const HoverView& view, const ElevationMap&
       }
     }
     if (field.kind == ShapeFieldKind::kPlatform && limit_m == kShapesLimit_m) {
-      AddSite(allowed, context, rows);
+      AddSite(allowed, rows);
     }
   }
 }
@@ -274,7 +281,7 @@ Result<std::vector<TrialRow>> RunField(const ShapesOptions& options, const Setti
                                        int trial, std::uint64_t seed) {
   HoverView view;
   view.height_m = options.height_ft * kMetresPerFoot;
-  view.field_of_view_rad = Rad(options.fov_deg);
+  view.field_of_view_rad = Rad(options.field.field_of_view_deg);
   const int turn = trial / static_cast<int>(kKinds.size());
   ShapeFieldKind kind = kKinds[static_cast<std::size_t>(trial) % kKinds.size()];
   if (kind == ShapeFieldKind::kHouse && turn % 2 == 1) {
@@ -289,14 +296,9 @@ Result<std::vector<TrialRow>> RunField(const ShapesOptions& options, const Setti
   }
   std::vector<TrialRow> rows;
   for (const int count : kFrames) {
-    const auto decision = DecideOnField(*frames, settings, count);
-    const FieldFrame& last = (*frames)[static_cast<std::size_t>(count) - 1];
-    SiteContext context;
-    context.p_WB = last.input.p_WB;
-    context.X_WC = last.input.view.range->pose->X_WC;
-    context.camera = last.input.view.range->camera;
+    Slad slad = MapOfField(*frames, settings.slad, count);
     RowWriter writer(field, count, rows);
-    AddRows(field, view, *decision->elevation, context, settings.slad, writer);
+    AddRows(field, view, slad, settings, writer);
   }
   return rows;
 }
@@ -314,29 +316,19 @@ Experiment SiteShapesExperiment() {
     app.add_option("--height-ft", options->height_ft, "Camera above the ground, feet")
         ->check(FiniteRange(5.0, 500.0))
         ->capture_default_str();
-    app.add_option("--fov-deg", options->fov_deg, "Horizontal field of view, degrees")
-        ->check(FiniteRange(20.0, 100.0))
-        ->capture_default_str();
-    app.add_option("--set", options->set, "A setting, GROUP.KEY=VALUE; may be repeated");
+    AddFieldOptions(app, options->field);
   };
   experiment.setup = [options] {
     std::string text = "height " + CsvNumber(options->height_ft) + " ft; field of view " +
-                       CsvNumber(options->fov_deg) + " deg; settings";
-    for (const std::string& setting : options->set) {
+                       CsvNumber(options->field.field_of_view_deg) + " deg; settings";
+    for (const std::string& setting : options->field.set) {
       text += " " + setting;
     }
-    return options->set.empty() ? text + " default" : text;
+    return options->field.set.empty() ? text + " default" : text;
   };
   experiment.run = [options](int trial, std::uint64_t seed) -> Result<std::vector<TrialRow>> {
-    Settings settings;
-    for (const std::string& assignment : options->set) {
-      Result<Settings> changed = ApplySettingText(settings, assignment);
-      if (!changed) {
-        return changed.error();
-      }
-      settings = *changed;
-    }
-    return RunField(*options, settings, trial, seed);
+    const Result<Settings> settings = SettingsOf(options->field);
+    return settings ? RunField(*options, *settings, trial, seed) : settings.error();
   };
   experiment.report = ReportSiteShapes;
   return experiment;

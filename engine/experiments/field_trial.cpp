@@ -84,9 +84,11 @@ Result<std::vector<FieldFrame>> LookAtField(const World& world, const HoverView&
     frame.X_WC_true = poses[i];
     const RigidTransform X_WRight = RightOf(poses[i], view.baseline_m);
     const Exposure exposure{view.noise_grey};
+    const double time_s = static_cast<double>(i) * view.frame_interval_s;
+    const World now = WorldAt(world, time_s);
     const auto look = [&](const RigidTransform& X_WCamera) {
       return std::make_shared<const ImageU8>(
-          Expose(DrawGrey(world, camera, X_WCamera, baked), exposure, sensor.NextBits()));
+          Expose(DrawGrey(now, camera, X_WCamera, baked), exposure, sensor.NextBits()));
     };
     SceneView& seen = frame.input.view;
     seen.left = look(poses[i]);
@@ -95,9 +97,8 @@ Result<std::vector<FieldFrame>> LookAtField(const World& world, const HoverView&
     frame.input.p_WB = believed.X_WC.p;
     const DisparityWindow window =
         PredictWindow(camera, view.baseline_m, believed.X_WC, 0, kTallestObject_m, settings);
-    Result<StereoResult> stereo =
-        matcher.Match(*seen.left, *seen.right, camera, view.baseline_m, window, settings,
-                      AddSeconds({}, static_cast<double>(i) * view.frame_interval_s));
+    Result<StereoResult> stereo = matcher.Match(*seen.left, *seen.right, camera, view.baseline_m,
+                                                window, settings, AddSeconds({}, time_s));
     if (!stereo) {
       return stereo.error();
     }
@@ -108,16 +109,20 @@ Result<std::vector<FieldFrame>> LookAtField(const World& world, const HoverView&
   return frames;
 }
 
-std::shared_ptr<const TerrainDecision> DecideOnField(const std::vector<FieldFrame>& frames,
-                                                     const Settings& settings, int count) {
+Slad MapOfField(const std::vector<FieldFrame>& frames, const SladSettings& settings, int count) {
   Slad slad;
   const std::size_t used =
       count > 0 ? std::min(frames.size(), static_cast<std::size_t>(count)) : frames.size();
   PALACE_CHECK(used > 0);
   for (std::size_t i = 0; i < used; ++i) {
-    slad.Add(frames[i].input, settings.slad);
+    slad.Add(frames[i].input, settings);
   }
-  return slad.Decide(settings, Letters::kOfRecord);
+  return slad;
+}
+
+std::shared_ptr<const TerrainDecision> DecideOnField(const std::vector<FieldFrame>& frames,
+                                                     const Settings& settings, int count) {
+  return MapOfField(frames, settings.slad, count).Decide(settings, Letters::kOfRecord);
 }
 
 }  // namespace palace

@@ -1,7 +1,7 @@
 // A field seen from a hover: rendered pairs, stereo, fusion and sites exactly as in flight, beside
 // the truth of the field. What site experiments share.
 //
-//   FieldWorld -> frames of drawn pairs -> StereoMatcher -> Slad -> TerrainDecision
+//   World -> frames of drawn pairs -> StereoMatcher -> Slad -> TerrainDecision
 //
 // The camera hovers with drift and attitude motion. SLAD is given poses with errors, as a vehicle's
 // navigation has them, never the true ones. Same world, view and seed: same bits.
@@ -48,8 +48,9 @@ struct FieldFrame {
   RigidTransform X_WC_true;
 };
 
-/// All frames of one hover. Errors are stereo's refusals. One bake of the ground serves all frames;
-/// `ground` may hold one made for the same world and a wider view, or null.
+/// All frames of one hover; what has a velocity moves from frame to frame. Errors are stereo's
+/// refusals. One bake of the ground serves all frames; `ground` may hold one made for the same
+/// world and a wider view, or null.
 Result<std::vector<FieldFrame>> LookAtField(const World& world, const HoverView& view,
                                             const StereoSettings& settings, std::uint64_t seed,
                                             const BakedGround* ground = nullptr);
@@ -59,7 +60,9 @@ std::vector<RigidTransform> HoverPoses(const HoverView& view, std::uint64_t seed
 BakedGround BakeForHover(const World& world, const HoverView& view,
                          const std::vector<RigidTransform>& X_WCs);
 
-/// The decision after the first `frames` frames (all when 0), by Slad as in flight.
+/// What SLAD holds after the first `count` frames (all when 0), given to it as in flight.
+Slad MapOfField(const std::vector<FieldFrame>& frames, const SladSettings& settings, int count = 0);
+/// Its decision.
 std::shared_ptr<const TerrainDecision> DecideOnField(const std::vector<FieldFrame>& frames,
                                                      const Settings& settings, int count = 0);
 

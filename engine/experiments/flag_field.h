@@ -11,6 +11,8 @@
 
 namespace palace {
 
+inline constexpr double kFlagInterval_s = 0.2;  ///< between frames
+
 struct FlagField {
   World world;
   HoverView view;
@@ -20,11 +22,10 @@ struct FlagField {
 FlagField MakeFlagField(GroundTexture texture, double height_m, double tilt_rad,
                         std::uint64_t seed);
 
-/// The map after `frames` frames, 0.2 s apart, of the field's world or one with things added that
-/// may move. `ground` is the field's own bake.
+/// The map after `frames` frames of the field's world, or of one with things added that may move.
+/// `ground` is the field's own bake.
 Result<std::shared_ptr<const ElevationMap>> FlagsOfField(const FlagField& field, int frames,
                                                          const BakedGround& ground,
                                                          std::uint64_t seed);
-BakedGround BakeFlagField(const FlagField& field, int frames, std::uint64_t seed);
 
 }  // namespace palace

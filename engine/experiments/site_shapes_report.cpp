@@ -167,6 +167,114 @@ class Findings {
   ExperimentReport& report_;
 };
 
+/// Which footprints were refused, by cause and by texture.
+std::string CausesText(const TrialTable& table) {
+  std::string causes = "refused by";
+  for (const char* cause : {kRefusedByHeight, kRefusedByFlags, kRefusedByUnknown, kRefusedByOdds}) {
+    causes += std::string(" ") + (cause + 11) + " " +
+              OrDash("%.0f", At(Of(table, cause, kFused), Chosen()).Sum("tested")) + ";";
+  }
+  for (const char* texture : {"gravel", "grass", "asphalt", "cloud"}) {
+    const TrialTable part = Of(table, kClearFootprints, kFused).Where("texture", texture);
+    causes += std::string(" on ") + texture + " " + Share(At(part, Chosen())).count() + ";";
+  }
+  return causes;
+}
+
+void JudgeFootprints(const TrialTable& table, ExperimentReport& report, Findings& findings) {
+  const Share refused(At(Of(table, kClearFootprints, kFused), Chosen()));
+  findings.Judge(refused.value() <= kMostRefused,
+                 "clear footprints refused: " + refused.count() + " (" + refused.percent() +
+                     " %, 95 % interval " + refused.wilson() + "), at most 1 %");
+  report.lines.push_back(CausesText(table));
+  report.page.Paragraph(report.lines.back());
+}
+
+void JudgeShapes(const TrialTable& table, Findings& findings) {
+  for (const char* name : kWanted) {
+    const Share found(At(Of(table, name, kFused), Chosen()));
+    if (At(Of(table, name, kFused), Chosen()).rows.empty()) {
+      findings.Judge(false,
+                     std::string(name) + ": none among these fields, more trials are needed");
+      continue;
+    }
+    findings.Judge(found.value() >= kLeastFound,
+                   std::string(name) + ": " + found.count() + " found (" + found.percent() +
+                       " %, 95 % interval " + found.wilson() + "), at least 99 %");
+  }
+}
+
+void JudgeSlopes(const TrialTable& table, Findings& findings) {
+  const std::vector<double> slopes = Errors(table, kGroundSlope, kFused);
+  findings.Judge(!slopes.empty() && Percentile(slopes, 1) <= kMostSlopeError_deg,
+                 "slope of footprints: error at most " + OrDash("%.2f", Percentile(slopes, 1)) +
+                     " deg over " + std::to_string(slopes.size()) + " (limit 1.5 deg; thesis 5)");
+}
+
+void ReportSites(const TrialTable& table, ExperimentReport& report) {
+  const Share site(Of(table, kChosenSite, kFused));
+  std::string held;
+  for (const std::string& name : table.Values("held")) {
+    const TrialTable part = Of(table.Where("held", name), kChosenSite, kFused);
+    held += name == "-" ? "" : " " + std::to_string(part.rows.size()) + " " + name + ";";
+  }
+  report.lines.push_back(
+      "chosen sites with an object or an edge in the lander's circle: " + site.count() + held);
+  report.page.Paragraph("False-safe: " + report.lines.back() +
+                        ". On the fields of objects every circle holds some, so a site there is a "
+                        "miss of them all.");
+}
+
+void ReportObjects(const TrialTable& table, ExperimentReport& report) {
+  const Share cells(At(Of(table, kClearCells, kFused), Chosen()));
+  report.lines.push_back("clear cells called hazards: " + cells.count() + " (" + cells.percent() +
+                         " %)");
+  const std::vector<std::vector<std::string>> rows = DetectionRows(table);
+  for (const auto& row : rows) {
+    report.lines.push_back(row[0] + ": " + row[1] + " = " + row[2] + " % (" + row[3] +
+                           "), one frame " + row[4] + " %");
+  }
+  report.page.Heading("Objects").Table({"shape", "found", "%", "95 % interval", "one frame, %",
+                                        "gravel, %", "grass, %", "asphalt, %", "cloud, %"},
+                                       rows);
+  report.page.Figure(LinePlotSvg(PlotByLimit(table)), "Ten fused frames, with 95 % intervals.")
+      .Figure(LinePlotSvg(PlotTrade(table)), "One point a limit, from 12 cm (left) to 3 cm.");
+}
+
+void ReportLimits(const TrialTable& table, HtmlPage& page) {
+  std::vector<std::vector<std::string>> limits;
+  for (const std::string& limit_cm : table.Values("limit_cm")) {
+    const Share footprints(At(Of(table, kClearFootprints, kFused), limit_cm));
+    const Share clear(At(Of(table, kClearCells, kFused), limit_cm));
+    limits.push_back({limit_cm, footprints.count(), footprints.percent(), footprints.wilson(),
+                      OrDash("%.4f", 100 * clear.value())});
+  }
+  page.Heading("False alarm by limit")
+      .Table({"limit, cm", "clear footprints refused", "%", "95 % interval",
+              "clear cells called hazards, %"},
+             limits);
+}
+
+void ReportSlopesAndTops(const TrialTable& table, ExperimentReport& report) {
+  const std::vector<std::vector<std::string>> slopes = SlopeRows(table), tops = TopRows(table);
+  report.page.Heading("Slopes").Table({"of", "frames", "count", "median error, °", "95 %, °",
+                                       "largest, °", "within 1.5°", "95 % interval, %"},
+                                      slopes);
+  report.page.Heading("Raised tops")
+      .Paragraph("Cells well inside the top, away from what stands on it.")
+      .Table({"top", "cells", "called elevated, %", "hazards under avoid, %",
+              "no hazard under allow, %"},
+             tops);
+  for (const auto& row : tops) {
+    report.lines.push_back(row[0] + " top: " + row[2] + " % called elevated, " + row[3] +
+                           " % hazards under avoid, " + row[4] + " % free under allow");
+  }
+  for (const auto& row : slopes) {
+    report.lines.push_back(row[0] + ", " + row[1] + " frames: median " + row[3] + ", 95 % " +
+                           row[4] + ", largest " + row[5] + " deg of " + row[2]);
+  }
+}
+
 }  // namespace
 
 ExperimentReport ReportSiteShapes(const TrialTable& table) {
@@ -182,86 +290,13 @@ ExperimentReport ReportSiteShapes(const TrialTable& table) {
       Chosen() + " cm and that on steps 1.5 times as much.");
   report.page.Heading("Must show");
   Findings findings(report);
-  const Share refused(At(Of(table, kClearFootprints, kFused), Chosen()));
-  findings.Judge(refused.value() <= kMostRefused,
-                 "clear footprints refused: " + refused.count() + " (" + refused.percent() +
-                     " %, 95 % interval " + refused.wilson() + "), at most 1 %");
-  std::string causes = "refused by";
-  for (const char* cause : {kRefusedByHeight, kRefusedByFlags, kRefusedByUnknown, kRefusedByOdds}) {
-    causes += std::string(" ") + (cause + 11) + " " +
-              OrDash("%.0f", At(Of(table, cause, kFused), Chosen()).Sum("tested")) + ";";
-  }
-  for (const char* texture : {"gravel", "grass", "asphalt", "cloud"}) {
-    const TrialTable part = Of(table, kClearFootprints, kFused).Where("texture", texture);
-    causes += std::string(" on ") + texture + " " + Share(At(part, Chosen())).count() + ";";
-  }
-  report.lines.push_back(causes);
-  report.page.Paragraph(causes);
-  for (const char* name : kWanted) {
-    const Share found(At(Of(table, name, kFused), Chosen()));
-    if (At(Of(table, name, kFused), Chosen()).rows.empty()) {
-      findings.Judge(false,
-                     std::string(name) + ": none among these fields, more trials are needed");
-      continue;
-    }
-    findings.Judge(found.value() >= kLeastFound,
-                   std::string(name) + ": " + found.count() + " found (" + found.percent() +
-                       " %, 95 % interval " + found.wilson() + "), at least 99 %");
-  }
-  const std::vector<double> slopes = Errors(table, kGroundSlope, kFused);
-  findings.Judge(!slopes.empty() && Percentile(slopes, 1) <= kMostSlopeError_deg,
-                 "slope of footprints: error at most " + OrDash("%.2f", Percentile(slopes, 1)) +
-                     " deg over " + std::to_string(slopes.size()) + " (limit 1.5 deg; thesis 5)");
-  const Share site(Of(table, kChosenSite, kFused));
-  std::string held;
-  for (const std::string& name : table.Values("held")) {
-    const TrialTable part = Of(table.Where("held", name), kChosenSite, kFused);
-    held += name == "-" ? "" : " " + std::to_string(part.rows.size()) + " " + name + ";";
-  }
-  report.lines.push_back(
-      "chosen sites with an object or an edge in the lander's circle: " + site.count() + held);
-  report.page.Paragraph("False-safe: " + report.lines.back() +
-                        ". On the fields of objects every circle holds some, so a site there is a "
-                        "miss of them all.");
-  const Share cells(At(Of(table, kClearCells, kFused), Chosen()));
-  report.lines.push_back("clear cells called hazards: " + cells.count() + " (" + cells.percent() +
-                         " %)");
-  report.page.Heading("Objects").Table({"shape", "found", "%", "95 % interval", "one frame, %",
-                                        "gravel, %", "grass, %", "asphalt, %", "cloud, %"},
-                                       DetectionRows(table));
-  for (const auto& row : DetectionRows(table)) {
-    report.lines.push_back(row[0] + ": " + row[1] + " = " + row[2] + " % (" + row[3] +
-                           "), one frame " + row[4] + " %");
-  }
-  report.page.Figure(LinePlotSvg(PlotByLimit(table)), "Ten fused frames, with 95 % intervals.")
-      .Figure(LinePlotSvg(PlotTrade(table)), "One point a limit, from 12 cm (left) to 3 cm.");
-  std::vector<std::vector<std::string>> limits;
-  for (const std::string& limit_cm : table.Values("limit_cm")) {
-    const Share footprints(At(Of(table, kClearFootprints, kFused), limit_cm));
-    const Share clear(At(Of(table, kClearCells, kFused), limit_cm));
-    limits.push_back({limit_cm, footprints.count(), footprints.percent(), footprints.wilson(),
-                      OrDash("%.4f", 100 * clear.value())});
-  }
-  report.page.Heading("False alarm by limit")
-      .Table({"limit, cm", "clear footprints refused", "%", "95 % interval",
-              "clear cells called hazards, %"},
-             limits);
-  report.page.Heading("Slopes").Table({"of", "frames", "count", "median error, °", "95 %, °",
-                                       "largest, °", "within 1.5°", "95 % interval, %"},
-                                      SlopeRows(table));
-  report.page.Heading("Raised tops")
-      .Paragraph("Cells well inside the top, away from what stands on it.")
-      .Table({"top", "cells", "called elevated, %", "hazards under avoid, %",
-              "no hazard under allow, %"},
-             TopRows(table));
-  for (const auto& row : TopRows(table)) {
-    report.lines.push_back(row[0] + " top: " + row[2] + " % called elevated, " + row[3] +
-                           " % hazards under avoid, " + row[4] + " % free under allow");
-  }
-  for (const auto& row : SlopeRows(table)) {
-    report.lines.push_back(row[0] + ", " + row[1] + " frames: median " + row[3] + ", 95 % " +
-                           row[4] + ", largest " + row[5] + " deg of " + row[2]);
-  }
+  JudgeFootprints(table, report, findings);
+  JudgeShapes(table, findings);
+  JudgeSlopes(table, findings);
+  ReportSites(table, report);
+  ReportObjects(table, report);
+  ReportLimits(table, report.page);
+  ReportSlopesAndTops(table, report);
   return report;
 }
 

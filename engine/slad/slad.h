@@ -5,8 +5,8 @@
 //   Add      ViewCell::Fit         range map             -> cell with which the map holds the view
 //            TerrainFusion::Add    range map, X_WC       -> elevation map
 //            SceneFlags::Add       pictures, range map   -> its flags
-//   Decide   MeasureTerrain        elevation map         -> planes, deviations, sigmas: no limit
-//   yet
+//   Decide   MeasureTerrain        elevation map         -> planes, deviations, sigmas, before
+//                                                           any limit is asked
 //            JudgeTerrain          those, limits         -> hazard, cost and safe-distance maps
 //            HashOfMaps            maps                  -> what an approval binds
 //            SelectSites           maps, vehicle         -> ranked sites

@@ -22,7 +22,8 @@ struct Solid {
   /// Albedo 0..1 of its own paint; NaN: it looks like the ground. Ray-cast pictures show a painted
   /// solid at that share of 255, under a third of the ground's contrast.
   double albedo = std::numeric_limits<double>::quiet_NaN();
-  Eigen::Vector3d v_WO = Eigen::Vector3d::Zero();  ///< it moves so, m/s
+  /// m/s. Rays, pictures and the simulator meet it where X_WO says; WorldAt moves it there.
+  Eigen::Vector3d v_WO = Eigen::Vector3d::Zero();
 };
 
 /// Upright on a place, turned from north towards east.
