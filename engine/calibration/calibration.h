@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/calibration/bundle_adjustment.h"
+#include "engine/calibration/bundle/bundle_adjustment.h"
 #include "engine/calibration/target_observation.h"
 #include "engine/core/result.h"
 #include "engine/model/calibration_target.h"

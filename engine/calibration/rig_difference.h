@@ -2,7 +2,7 @@
 // another calibration.
 #pragma once
 
-#include "engine/calibration/bundle_adjustment.h"
+#include "engine/calibration/bundle/bundle_adjustment.h"
 #include "engine/model/rig.h"
 
 namespace palace {

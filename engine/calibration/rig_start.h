@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "engine/calibration/bundle_adjustment.h"
+#include "engine/calibration/bundle/bundle_adjustment.h"
 #include "engine/calibration/target_observation.h"
 #include "engine/core/result.h"
 #include "engine/model/calibration_target.h"

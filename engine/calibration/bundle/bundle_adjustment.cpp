@@ -1,9 +1,10 @@
-#include "engine/calibration/bundle_adjustment.h"
+#include "engine/calibration/bundle/bundle_adjustment.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "engine/calibration/bundle/bundle_equations.h"
 #include "engine/core/check.h"
 #include "engine/core/median.h"
 
@@ -17,9 +18,6 @@ constexpr double kRobustScale = 1.5;           // of the median residual: Cauchy
 constexpr double kLeastRobustScale_px = 0.01;  // perfect data still need a scale
 constexpr double kMedianPerSigma = 1.17741;    // median length of a 2-D normal vector of sigma 1
 
-using Pose6 = Eigen::Matrix<double, 6, 1>;
-using Pose66 = Eigen::Matrix<double, 6, 6>;
-using CameraPose = Eigen::Matrix<double, kCameraSize, 6>;
 using PointByPose = Eigen::Matrix<double, 3, 6>;
 
 Eigen::Matrix3d Cross(const Eigen::Vector3d& v) {
@@ -38,21 +36,7 @@ RigidTransform CameraFromTarget(const RigEstimate& estimate, int side, std::size
   return side == 0 ? estimate.X_C0T[view] : estimate.X_C0C1.Inverse() * estimate.X_C0T[view];
 }
 
-/// Normal equations of one linearisation, [U W; W^T V] with V block-diagonal. Everything in px^2.
-struct NormalEquations {
-  CameraMatrix U = CameraMatrix::Zero();
-  CameraVector gradient = CameraVector::Zero();
-  std::vector<CameraPose> W;
-  std::vector<Pose66> V;
-  std::vector<Pose6> pose_gradient;
-};
-
-struct Step {
-  CameraVector camera = CameraVector::Zero();
-  std::vector<Pose6> poses;
-};
-
-RigEstimate Apply(const RigEstimate& estimate, const Step& step) {
+RigEstimate Apply(const RigEstimate& estimate, const BundleStep& step) {
   RigEstimate moved = estimate;
   moved.lens[0] += step.camera.segment<kLensSize>(0);
   moved.lens[1] += step.camera.segment<kLensSize>(kRightLens);
@@ -130,71 +114,6 @@ class Bundle {
     return n;
   }
 
-  /// Schur complement of the poses in the damped equations; nothing when it is not positive.
-  std::optional<Step> Solve(const NormalEquations& n, double damping) const {
-    CameraMatrix S = n.U;
-    S.diagonal() *= 1 + damping;
-    CameraVector g = n.gradient;
-    std::vector<Eigen::LLT<Pose66>> pose_solvers;
-    if (options_.poses_free) {
-      for (std::size_t v = 0; v < views_.size(); ++v) {
-        Pose66 V = n.V[v];
-        V.diagonal() *= 1 + damping;
-        pose_solvers.emplace_back(V);
-        if (pose_solvers.back().info() != Eigen::Success) {
-          return std::nullopt;
-        }
-        S -= n.W[v] * pose_solvers.back().solve(n.W[v].transpose());
-        g -= n.W[v] * pose_solvers.back().solve(n.pose_gradient[v]);
-      }
-    }
-    Fix(S, g);
-    // Parameters differ by orders of magnitude (px, rad, m): scaled to a unit diagonal.
-    const CameraVector scale = S.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
-    const Eigen::LLT<CameraMatrix> solver(scale.asDiagonal() * S * scale.asDiagonal());
-    if (solver.info() != Eigen::Success) {
-      return std::nullopt;
-    }
-    Step step;
-    step.camera = scale.asDiagonal() * solver.solve(scale.asDiagonal() * g);
-    for (std::size_t v = 0; options_.poses_free && v < views_.size(); ++v) {
-      step.poses.push_back(
-          pose_solvers[v].solve(n.pose_gradient[v] - n.W[v].transpose() * step.camera));
-      if (!step.poses.back().allFinite()) {
-        return std::nullopt;
-      }
-    }
-    return step.camera.allFinite() ? std::optional<Step>(step) : std::nullopt;
-  }
-
-  /// sigma^2 times the camera block of the inverse; nothing when it is singular.
-  std::optional<CameraMatrix> Covariance(const NormalEquations& n, double sigma_px) const {
-    CameraMatrix S = n.U;
-    for (std::size_t v = 0; options_.poses_free && v < views_.size(); ++v) {
-      const Eigen::LLT<Pose66> solver(n.V[v]);
-      if (solver.info() != Eigen::Success) {
-        return std::nullopt;
-      }
-      S -= n.W[v] * solver.solve(n.W[v].transpose());
-    }
-    CameraVector unused = CameraVector::Zero();
-    Fix(S, unused);
-    const CameraVector scale = S.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
-    const Eigen::LLT<CameraMatrix> solver(scale.asDiagonal() * S * scale.asDiagonal());
-    if (solver.info() != Eigen::Success) {
-      return std::nullopt;
-    }
-    CameraMatrix covariance = scale.asDiagonal() * solver.solve(CameraMatrix(scale.asDiagonal()));
-    covariance *= sigma_px * sigma_px;
-    for (int i = 0; i < kCameraSize; ++i) {
-      if (!options_.free[static_cast<std::size_t>(i)]) {
-        covariance.row(i).setZero();
-        covariance.col(i).setZero();
-      }
-    }
-    return covariance.allFinite() ? std::optional<CameraMatrix>(covariance) : std::nullopt;
-  }
-
  private:
   /// One camera's points of one view. They touch camera parameters `kFirst` .. `kFirst + kCount`.
   template <int kFirst, int kCount>
@@ -264,18 +183,6 @@ class Bundle {
     });
   }
 
-  /// Parameters that may not move: a unit row, no gradient.
-  void Fix(CameraMatrix& S, CameraVector& gradient) const {
-    for (int i = 0; i < kCameraSize; ++i) {
-      if (!options_.free[static_cast<std::size_t>(i)]) {
-        S.row(i).setZero();
-        S.col(i).setZero();
-        S(i, i) = 1;
-        gradient[i] = 0;
-      }
-    }
-  }
-
   const CalibrationTarget& target_;
   const std::vector<TargetView>& views_;
   const BundleOptions& options_;
@@ -319,7 +226,7 @@ int Minimise(const Bundle& bundle, const BundleOptions& options, double sigma_px
     const NormalEquations n = bundle.Linearise(estimate, sigma_px, scale_px);
     bool solved = false;
     while (damping <= kMostDamping) {
-      const auto step = bundle.Solve(n, damping);
+      const auto step = SolveEquations(n, options, damping);
       if (step) {
         solved = true;
         const RigEstimate moved = Apply(estimate, *step);
@@ -412,8 +319,8 @@ Result<BundleResult> AdjustBundle(const CalibrationTarget& target,
   const double scale_px = std::max(kRobustScale * MedianLength(residuals), kLeastRobustScale_px);
   result.sigma_px = options.robust ? MedianLength(residuals) / kMedianPerSigma
                                    : ResidualSigma(residuals, parameters);
-  const auto covariance = bundle.Covariance(
-      bundle.Linearise(result.estimate, result.sigma_px, scale_px), result.sigma_px);
+  const auto covariance = CameraCovariance(
+      bundle.Linearise(result.estimate, result.sigma_px, scale_px), options, result.sigma_px);
   if (!covariance) {
     return InvalidError("the views do not determine the cameras: singular normal equations");
   }
