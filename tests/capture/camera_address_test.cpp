@@ -86,7 +86,7 @@ TEST_F(CameraFiles, WhatCannotBeACameraIsSaid) {
 
 TEST_F(CameraFiles, WithoutPermissionTheRemedyIsNamed) {
   if (geteuid() == 0) {
-    GTEST_SKIP() << "root may read everything";
+    GTEST_SKIP() << "runs as an ordinary user; root may read everything";
   }
   film::Write(folder_ / "secret.avi");
   std::filesystem::permissions(folder_ / "secret.avi", std::filesystem::perms::none);

@@ -378,7 +378,7 @@ TEST_F(CameraCommand, InfoWarnsOfPixelsWithoutARayAndPrintsNoNegativeZero) {
 
 TEST_F(CameraCommand, AFullDiskBehindStdoutIsAFailure) {
   if (!std::filesystem::exists("/dev/full")) {
-    GTEST_SKIP() << "no /dev/full";
+    GTEST_SKIP() << "runs where there is a /dev/full";
   }
   WriteFile("points.csv", "10,-3,12.5\n");
   for (const char* verb : {"project --points points.csv", "info"}) {

@@ -98,7 +98,7 @@ class KnownFlights : public testing::TestWithParam<KnownFlight> {};
 
 TEST_P(KnownFlights, DecideAsRecorded) {
   if (!HasFusedMultiplyAdd()) {
-    GTEST_SKIP() << "the known hashes are those of an x86-64 processor with AVX2 and FMA";
+    GTEST_SKIP() << "runs on x86-64 with AVX2 and FMA, whose hashes are known";
   }
   const KnownFlight& flight = GetParam();
   const Flown flown = Fly(flight);

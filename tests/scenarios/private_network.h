@@ -18,7 +18,7 @@ class PrivateNetwork {
   /// Empty, with the reason, where the machine does not permit one.
   static std::unique_ptr<PrivateNetwork> Create(std::string& why_not) {
     if (FindProgram("unshare").empty() || FindProgram("ip").empty()) {
-      why_not = "unshare or ip is not installed";
+      why_not = "runs with unshare (util-linux) and ip (iproute2) installed";
       return nullptr;
     }
     auto network = std::unique_ptr<PrivateNetwork>(new PrivateNetwork);
@@ -30,7 +30,7 @@ class PrivateNetwork {
       }
       std::this_thread::sleep_for(std::chrono::milliseconds(50));
     }
-    why_not = "no network namespace may be made here: " + network->holder_->Err();
+    why_not = "runs as root or where user namespaces are allowed: " + network->holder_->Err();
     return nullptr;
   }
 

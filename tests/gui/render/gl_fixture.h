@@ -1,4 +1,4 @@
-// A GL context for one test, or a skip that says why there is none.
+// A GL context for one test. Where there should be one, its absence is a failure, else a skip.
 #pragma once
 
 #include <memory>
@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "gui/platform/egl_context.h"
+#include "tests/support/expected.h"
 
 namespace palace {
 
@@ -14,9 +15,7 @@ class GlTest : public ::testing::Test {
  protected:
   void SetUp() override {
     Result<std::unique_ptr<EglContext>> opened = EglContext::Open();
-    if (!opened) {
-      GTEST_SKIP() << opened.error().message;
-    }
+    PALACE_REQUIRE_GL(opened);
     context_ = std::move(opened).value();
     ASSERT_TRUE(context_->MakeCurrent().ok());
   }

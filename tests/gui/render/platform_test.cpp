@@ -10,21 +10,16 @@
 #include "gui/platform/screenshot.h"
 #include "gui/platform/window.h"
 #include "tests/support/environment.h"
+#include "tests/support/expected.h"
 #include "tests/support/x_server.h"
 
 namespace palace {
 namespace {
 
-std::unique_ptr<Offscreen> OpenScreen() {
-  Result<std::unique_ptr<Offscreen>> screen = Offscreen::Open(320, 200);
-  return screen.ok() ? std::move(screen).value() : nullptr;
-}
-
 TEST(OffscreenTest, ImGuiDrawsWithoutAWindowAndFollowsASize) {
-  const auto screen = OpenScreen();
-  if (screen == nullptr) {
-    GTEST_SKIP() << "no EGL surfaceless context";
-  }
+  Result<std::unique_ptr<Offscreen>> opened = Offscreen::Open(320, 200);
+  PALACE_REQUIRE_GL(opened);
+  const std::unique_ptr<Offscreen> screen = std::move(opened).value();
   auto backend = ImGuiBackend::ForOffscreen(*screen, 1);
   ASSERT_TRUE(backend.ok()) << backend.error().message;
   const auto draw = [&] {
@@ -44,15 +39,15 @@ TEST(OffscreenTest, ImGuiDrawsWithoutAWindowAndFollowsASize) {
 }
 
 TEST(OffscreenTest, FontsScaleAndHoldTheirGlyphs) {
-  const auto screen = OpenScreen();
-  if (screen == nullptr) {
-    GTEST_SKIP() << "no EGL surfaceless context";
-  }
+  Result<std::unique_ptr<Offscreen>> opened = Offscreen::Open(320, 200);
+  PALACE_REQUIRE_GL(opened);
+  const std::unique_ptr<Offscreen> screen = std::move(opened).value();
   auto backend = ImGuiBackend::ForOffscreen(*screen, 2);
   ASSERT_TRUE(backend.ok());
   const Fonts& fonts = (*backend)->fonts();
   if (fonts.fallback) {
-    GTEST_SKIP() << "fonts-roboto-unhinted or fonts-jetbrains-mono is not installed";
+    ASSERT_FALSE(FontsAreExpected()) << "a face was not found where its package puts it";
+    GTEST_SKIP() << "runs with fonts-roboto-unhinted and fonts-jetbrains-mono installed";
   }
   EXPECT_FLOAT_EQ(fonts.caption->FontSize, 30.5F);
   EXPECT_FLOAT_EQ(fonts.wave_off->FontSize, 56.0F);
@@ -90,7 +85,8 @@ TEST(WindowTest, WithoutADisplaySaysHowToRunWithoutOne) {
 
 TEST(WindowTest, HiddenWindowDrawsAndResizes) {
   if (!XServer::IsInstalled()) {
-    GTEST_SKIP() << "xvfb is not installed";
+    ASSERT_FALSE(InCi());
+    GTEST_SKIP() << "runs with xvfb installed";
   }
   const XServer server;
   ASSERT_NE(server.display(), "") << server.Complaint();

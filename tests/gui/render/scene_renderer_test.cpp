@@ -327,9 +327,8 @@ TEST(OffscreenSceneCameraTest, WorksOnAThreadItWasNotMadeOn) {
   const World scene = TileScene();
   auto here = MakeOffscreenSceneCamera(scene);
   auto there = MakeOffscreenSceneCamera(scene);
-  if (!here.ok() || !there.ok()) {
-    GTEST_SKIP() << (here.ok() ? there : here).error().message;
-  }
+  PALACE_REQUIRE_GL(here);
+  PALACE_REQUIRE_GL(there);
   const RigidTransform X_WC = LookDown(0, 0, 12, -90);
   const Result<ImageU8> expected = (*here)->Render(kCamera, X_WC);
   ASSERT_TRUE(expected.ok());
@@ -340,9 +339,7 @@ TEST(OffscreenSceneCameraTest, WorksOnAThreadItWasNotMadeOn) {
 
 TEST(OffscreenSceneCameraTest, RefusesAPictureWithoutPixels) {
   auto camera = MakeOffscreenSceneCamera(World{});
-  if (!camera.ok()) {
-    GTEST_SKIP() << camera.error().message;
-  }
+  PALACE_REQUIRE_GL(camera);
   const Result<ImageU8> picture = (*camera)->Render({0, 480, 700, 700, 0, 0}, RigidTransform{});
   ASSERT_FALSE(picture.ok());
   EXPECT_NE(picture.error().message.find("0x480"), std::string::npos);
