@@ -18,25 +18,7 @@ Settings WithPerceptionOf(const Settings& wanted, const Settings& recorded) {
 }  // namespace
 
 Result<Settings> WantedSettings(const SettingsRequest& request, const Settings& base) {
-  Settings settings = base;
-  if (!request.file.empty()) {
-    Result<Settings> loaded = LoadSettingsFile(request.file, settings);
-    if (!loaded) {
-      return loaded;
-    }
-    settings = *loaded;
-  }
-  for (const std::string& assignment : request.set) {
-    Result<Settings> changed = ApplySettingText(settings, assignment);
-    if (!changed) {
-      return UsageError("--set " + assignment + ": " + changed.error().message);
-    }
-    settings = *changed;
-  }
-  if (const Status good = CheckSettings(settings, "--set"); !good) {
-    return UsageError(good.error().message);
-  }
-  return settings;
+  return SettingsOfCommandLine(base, request.file, request.set);
 }
 
 Result<ReplaySettings> SettingsOfReplay(const SettingsRequest& request,
