@@ -193,10 +193,10 @@ TEST(Decode, AVehicleMayNotKnowTheWindOrItsFuel) {
   bundle.status->wind_speed_mps = bundle.status->wind_from_rad = NAN;
   bundle.status->battery_or_fuel = NAN;
   BundleAssembler assembler;
-  BundleAssembler::Bundles done;
+  std::vector<std::shared_ptr<const FrameBundle>> done;
   for (const WireMessage& message : EncodeBundle(bundle, {})) {
-    for (auto& got : assembler.Push(message)) {
-      done.push_back(std::move(got));
+    for (const auto& got : assembler.Push(message)) {
+      done.push_back(got);
     }
   }
   EXPECT_EQ(assembler.report().undecodable, 0u);
