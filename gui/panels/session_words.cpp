@@ -10,4 +10,19 @@ const char* WhyNoLink(const EngineSnapshot& snap) {
   return *why != '\0' ? why : "No link";
 }
 
+const char* ClockName(const EngineSnapshot& snap) {
+  switch (snap.session->source.kind) {
+    case SourceKind::kSimulation:
+      return "sim";
+    case SourceKind::kReplay:
+      return "log";
+    case SourceKind::kImages:
+      return "set";
+    case SourceKind::kVideo:
+      return "film";
+    default:
+      return "UTC";
+  }
+}
+
 }  // namespace palace

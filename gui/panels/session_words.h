@@ -7,5 +7,7 @@ namespace palace {
 
 /// Why nothing can be sent to a vehicle, "No link in replay"; empty when it can.
 const char* WhyNoLink(const EngineSnapshot& snap);
+/// Whose time it is, "UTC": simulated time starts at an epoch of its own, and so do logs of it.
+const char* ClockName(const EngineSnapshot& snap);
 
 }  // namespace palace

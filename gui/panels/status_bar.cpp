@@ -56,22 +56,6 @@ std::string ReplacedText(const EngineSnapshot& snap) {
              : std::to_string(replaced) + (replaced == 1 ? " pair" : " pairs") + " overtaken";
 }
 
-/// Simulated time starts at an epoch of its own; only live and recorded clocks are UTC.
-const char* ClockName(const EngineSnapshot& snap) {
-  switch (snap.session->source.kind) {
-    case SourceKind::kSimulation:
-      return " sim";
-    case SourceKind::kReplay:
-      return " log";
-    case SourceKind::kImages:
-      return " set";
-    case SourceKind::kVideo:
-      return " film";
-    default:
-      return " UTC";
-  }
-}
-
 std::string RecordingText(const EngineSnapshot& snap, bool narrow) {
   if (!snap.session->recording) {
     return FollowsRecord(snap.session->role) ? "" : "Not recording";
@@ -123,7 +107,7 @@ void DrawStatusBarPanel(const EngineSnapshot& snap, const FrameLayout& layout,
   const float y = bar.centre().y;
   const float gap = s.Px(24);
   float right = bar.right() - s.Px(12);
-  right -= DrawText(ui, s.mono, p.text2, right, y, ClockText(snap.time) + ClockName(snap),
+  right -= DrawText(ui, s.mono, p.text2, right, y, ClockText(snap.time) + " " + ClockName(snap),
                     Align::kRight);
   const std::size_t sites =
       snap.terrain->applied ? snap.terrain->applied->selection.sites.size() : 0;

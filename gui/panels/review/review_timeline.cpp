@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "gui/panels/review/review.h"
+#include "gui/panels/session_words.h"
 #include "gui/widgets/button.h"
 #include "gui/widgets/number_text.h"
 
@@ -201,7 +202,7 @@ void DrawClock(UiFrame& ui, const Rect& row, float x, const EngineSnapshot& snap
         s.body, "Frame " + Fixed(static_cast<double>(snap.session->source.frame_index), 0) +
                     " of " + Fixed(static_cast<double>(snap.session->source.frame_count), 0));
   }
-  facts.emplace_back(s.mono, ClockText(snap.time) + " UTC");
+  facts.emplace_back(s.mono, ClockText(snap.time) + " " + ClockName(snap));
   const std::string name =
       snap.session->source.name.substr(snap.session->source.name.find_last_of('/') + 1);
   const float name_x = row.right() - TextWidth(s.body, name);

@@ -317,6 +317,7 @@ TEST(Review, PlotsAndChangedCellsAreWorkedOutOnceASnapshot) {
     DrawReviewWorkspace(snap, nullptr, BodyOf(1920, 1080), state, f);
   };
   ui.Frame(draw);
+  EXPECT_TRUE(HasText(ui.items, ClockText(snap.time) + " log"));
   EXPECT_FALSE(state.digest.changed_cells.empty());
   state.digest.plots.height.title = "Kept";
   ui.Frame(draw);
