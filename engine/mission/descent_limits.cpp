@@ -74,9 +74,12 @@ LimitRow WindLimit(double wind_mps, EnforcedBy by) {
 
 std::vector<LimitRow> LimitsOfDescent(const DescentFigures& f) {
   const bool descending = f.state == MissionState::kDescending;
-  const bool decided = descending || f.state == MissionState::kApproved;
+  const bool watched = IsFlying(f.state) || f.state == MissionState::kHold;
   const EnforcedBy in_descent = descending ? EnforcedBy::kAlarm : EnforcedBy::kNobody;
-  const EnforcedBy before_and_in = decided ? EnforcedBy::kAlarm : EnforcedBy::kGuard;
+  // Waved off and on the ground there is nothing to approve and nothing to watch.
+  const EnforcedBy before_and_in = f.state <= MissionState::kArmed ? EnforcedBy::kGuard
+                                   : watched                       ? EnforcedBy::kAlarm
+                                                                   : EnforcedBy::kNobody;
   return {Judged(PlaceRow(f, in_descent)),
           Judged({.id = LimitId::kDescentRate,
                   .label = "Descent rate",

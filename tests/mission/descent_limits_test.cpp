@@ -148,6 +148,27 @@ TEST(DescentLimits, NothingIsOverOutsideOfItsTime) {
   }
 }
 
+// Who acts on the tracker and the wind follows the mission: nothing is blocked on the ground.
+TEST(DescentLimits, CoherenceAndWindAreGuardedThenWatchedThenTold) {
+  DescentFigures f;
+  f.tracked = true;
+  f.coherence = f.wind_mps = 1;
+  const std::pair<MissionState, EnforcedBy> rows[] = {
+      {MissionState::kSearch, EnforcedBy::kGuard},
+      {MissionState::kArmed, EnforcedBy::kGuard},
+      {MissionState::kApproved, EnforcedBy::kAlarm},
+      {MissionState::kDescending, EnforcedBy::kAlarm},
+      {MissionState::kHold, EnforcedBy::kAlarm},
+      {MissionState::kAborting, EnforcedBy::kNobody},
+      {MissionState::kLanded, EnforcedBy::kNobody}};
+  for (const auto& [state, by] : rows) {
+    f.state = state;
+    const std::vector<LimitRow> limits = LimitsOfDescent(f);
+    EXPECT_EQ(FindLimit(limits, LimitId::kCoherence)->enforced_by, by) << MissionStateName(state);
+    EXPECT_EQ(FindLimit(limits, LimitId::kWind)->enforced_by, by) << MissionStateName(state);
+  }
+}
+
 TEST(DescentLimits, ThePlaceIsAskedAgainstPathOrCentre) {
   const struct {
     VehicleMode mode;
