@@ -13,6 +13,7 @@
 
 #include <toml++/toml.h>
 
+#include "engine/core/files.h"
 #include "engine/core/text.h"
 #include "engine/core/units.h"
 
@@ -237,20 +238,7 @@ Result<Settings> SettingsOfCommandLine(const Settings& base, const std::filesyst
 }
 
 Status SaveSettingsFile(const std::filesystem::path& path, const Settings& settings) {
-  const std::filesystem::path temporary = path.string() + ".new";
-  std::ofstream file(temporary, std::ios::trunc);
-  file << SettingsToToml(settings);
-  file.close();
-  std::error_code error;
-  if (file) {
-    std::filesystem::rename(temporary, path, error);
-  }
-  if (!file || error) {
-    std::filesystem::remove(temporary, error);
-    return UnavailableError("cannot write settings file " + path.string() +
-                            "; choose a folder you may write to");
-  }
-  return Ok();
+  return WriteTextFile(path, SettingsToToml(settings));
 }
 
 }  // namespace palace

@@ -113,6 +113,7 @@ TEST_F(LogRerun, OtherLimitsSayWhyThereIsNoSite) {
   const ProcessResult steep =
       Rerun(log, {"--out", "steep", "--set", "slad.max_slope_deg=0.5", "--maps", "last"});
   ASSERT_EQ(steep.exit_code, 0) << steep.err;
+  EXPECT_NE(steep.out.find("(settings were changed)"), std::string::npos) << steep.out;
   std::size_t without = 0;
   for (const auto& row : ReadTable(folder_ / "steep/sites.csv")) {
     without += row.at("rank").empty() && row.at("reason") != "" ? 1 : 0;

@@ -9,8 +9,7 @@ namespace palace {
 
 ElevationMap ElevationFromRange(const RangeMap& range, const SladSettings& settings) {
   const TerrainPoints points = PointsFromRange(range);
-  const GridGeometry geometry =
-      LayOutGrid(ChooseBounds(points, settings, &range.camera, range.pose->X_WC), settings);
+  const GridGeometry geometry = LayOutGrid(ChooseBounds(points, settings, &range), settings);
   ElevationMap map =
       AccumulateCells(points, geometry, settings.mode, kCorrelatedPixels, range.time);
   map.attitude_sigma_rad = range.pose->sigmas.attitude_rad;
@@ -30,7 +29,7 @@ ElevationMap ElevationFromPoints(const std::vector<Eigen::Vector3d>& p_W,
       points.push_back({p_W[i].x(), p_W[i].y(), HeightFromDown(p_W[i].z()), sigma * sigma});
     }
   }
-  const GridGeometry geometry = LayOutGrid(ChooseBounds(points, settings, nullptr, {}), settings);
+  const GridGeometry geometry = LayOutGrid(ChooseBounds(points, settings, nullptr), settings);
   ElevationMap map = AccumulateCells(points, geometry, settings.mode, 1, time);
   FillHoles(map, settings.grid.data_size_cells, settings.grid.border_size_cells);
   return map;

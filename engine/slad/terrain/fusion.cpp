@@ -140,8 +140,7 @@ std::shared_ptr<const ElevationMap> TerrainFusion::Add(const RangeMap& range,
   }
   const TerrainPoints points = PointsFromRange(range);
   if (!points.empty() || frames_ == 0) {
-    const GridGeometry wanted =
-        LayOutGrid(ChooseBounds(points, settings, &range.camera, range.pose->X_WC), settings);
+    const GridGeometry wanted = LayOutGrid(ChooseBounds(points, settings, &range), settings);
     // A picture without a point says nothing about where to look: the map stays.
     if (frames_ == 0 || !CentreWithinSlack(wanted, map_.geometry)) {
       MoveTo(wanted);

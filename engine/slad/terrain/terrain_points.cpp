@@ -94,8 +94,9 @@ GroundBounds BoundsOfData(const TerrainPoints& points) {
   return bounds;
 }
 
-GroundBounds BoundsOfView(const TerrainPoints& points, const PinholeCamera& camera,
-                          const RigidTransform& X_WC) {
+GroundBounds BoundsOfView(const TerrainPoints& points, const RangeMap& view) {
+  const PinholeCamera& camera = view.camera;
+  const RigidTransform& X_WC = view.pose->X_WC;
   double range_sum = 0;
   for (const TerrainPoint& p : points) {
     range_sum += (Eigen::Vector3d(p.north_m, p.east_m, -p.height_m) - X_WC.p).norm();
@@ -122,9 +123,9 @@ GroundBounds BoundsOfView(const TerrainPoints& points, const PinholeCamera& came
 }
 
 GroundBounds ChooseBounds(const TerrainPoints& points, const SladSettings& settings,
-                          const PinholeCamera* camera, const RigidTransform& X_WC) {
-  if (settings.grid.bounds == BoundsMode::kFieldOfView && camera != nullptr && !points.empty()) {
-    return BoundsOfView(points, *camera, X_WC);
+                          const RangeMap* view) {
+  if (settings.grid.bounds == BoundsMode::kFieldOfView && view != nullptr && !points.empty()) {
+    return BoundsOfView(points, *view);
   }
   if (settings.grid.bounds != BoundsMode::kGiven) {
     return BoundsOfData(points);

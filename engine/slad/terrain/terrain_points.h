@@ -34,12 +34,11 @@ TerrainPoints PointsFromRange(const RangeMap& range);
 /// 1st to 99th percentile of the points. Zeros when there are none.
 GroundBounds BoundsOfData(const TerrainPoints& points);
 /// Thesis 4.4 with the field of view and the tilt: where the picture's corners meet the level plane
-/// at the median height, no farther than twice the mean range.
-GroundBounds BoundsOfView(const TerrainPoints& points, const PinholeCamera& camera,
-                          const RigidTransform& X_WC);
-/// The bounds the settings ask for. `view`: camera and pose, or null for a cloud.
+/// at the median height, no farther than twice the mean range. `view`: from where, with its pose.
+GroundBounds BoundsOfView(const TerrainPoints& points, const RangeMap& view);
+/// The bounds the settings ask for. `view`: that of the points, with its pose; null for a cloud.
 GroundBounds ChooseBounds(const TerrainPoints& points, const SladSettings& settings,
-                          const PinholeCamera* camera, const RigidTransform& X_WC);
+                          const RangeMap* view);
 /// The grid that settings lay over the bounds.
 GridGeometry LayOutGrid(const GroundBounds& bounds, const SladSettings& settings);
 
