@@ -32,9 +32,9 @@ std::vector<std::filesystem::path> ExpandPattern(const std::filesystem::path& fo
 
 /// The k-th left picture belongs to the k-th right one, and there is one. `poses_csv` empty: pair k
 /// is exposed at kRecordedStart + k / rate_hz of the rig, at [pose] if there is one. Else the pairs
-/// stand in the order of that file's rows, the first at kRecordedStart, each at its row's pose; rows
-/// without a picture count for nothing. Refuses unequal numbers of pictures, two left pictures of
-/// one stem, and a left picture without a row.
+/// stand in the order of that file's rows, the first at kRecordedStart, each at its row's pose;
+/// rows without a picture count for nothing. Refuses unequal numbers of pictures, two left pictures
+/// of one stem, and a left picture without a row.
 Result<ImageSequence> SequenceOf(const std::vector<std::filesystem::path>& left,
                                  const std::vector<std::filesystem::path>& right,
                                  const RigFile& rig, const std::filesystem::path& poses_csv);

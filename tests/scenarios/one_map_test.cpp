@@ -1,6 +1,8 @@
 // One pair, one map: an experiment's hover, saved as pictures with their poses, gives the same maps
 // to `evaluate`, to `palacectl analyze`, to the flight's pipeline over the folder, to a replay of
 // what that recorded, and to `palacectl log rerun`.
+#include <gmock/gmock.h>
+
 #include <cmath>
 #include <cstdio>
 #include <sstream>
@@ -214,6 +216,12 @@ TEST_F(OneMap, ThesisModeTakesTheLastPairAndSaysSo) {
   const auto json = nlohmann::json::parse(file, nullptr, false);
   EXPECT_EQ(json["pairs"], 3);
   EXPECT_EQ(json["pairs_in_map"], 1);
+  std::vector<std::string> stages;  // each once, whatever the number of pairs
+  for (const auto& [stage, ms] : json["timing_ms"].items()) {
+    stages.push_back(stage);
+    EXPECT_GT(ms.get<double>(), 0) << stage;
+  }
+  EXPECT_THAT(stages, testing::UnorderedElementsAre("read", "rectify", "stereo", "fuse", "decide"));
   const std::string warnings = json["warnings"].dump();
   EXPECT_NE(warnings.find("the map is that of the last of 3 pairs"), std::string::npos) << warnings;
   const std::string page = BytesIn(folder_ / "out" / "report.html");

@@ -11,7 +11,8 @@ namespace {
 
 TEST(ShortTaps, AKeyThatWentDownAndUpBetweenTwoFramesIsSeenOnce) {
 #if IMGUI_VERSION_NUM >= 18900
-  GTEST_SKIP() << "runs with Dear ImGui before 1.89 (Debian 12); later ones take events and miss none";
+  GTEST_SKIP()
+      << "runs with Dear ImGui before 1.89 (Debian 12); later ones take events and miss none";
 #endif
   UiHarness ui(200, 100);
   const auto nothing = [](UiFrame&) {};
