@@ -113,18 +113,21 @@ void FollowJump(MissionTurn& turn, const MissionInputs& in) {
   }
 }
 
-void RememberSession(MissionFacts& facts, const MissionInputs::Session& in) {
+void HearSession(MissionFacts& facts, const MissionInputs::Session& in) {
   facts.role = in.role;
   facts.why_no_vehicle = in.why_no_vehicle;
-  facts.can_transmit = in.can_transmit;
-  facts.recorder_ok = in.recorder_ok;
+  facts.can_transmit = facts.can_transmit && in.can_transmit;
+  facts.recorder_ok = facts.recorder_ok && in.recorder_ok;
 }
 
 void RememberFacts(MissionMemory& m, const MissionInputs& in) {
   MissionFacts& facts = m.facts;
   facts.valid = true;
   facts.now = in.session.now;
-  RememberSession(facts, in.session);
+  facts.role = in.session.role;
+  facts.why_no_vehicle = in.session.why_no_vehicle;
+  facts.can_transmit = in.session.can_transmit;
+  facts.recorder_ok = in.session.recorder_ok;
   facts.settings = in.limits.settings;
   facts.settings_hash = in.limits.settings_hash;
   facts.calibration_hash = in.limits.calibration_hash;

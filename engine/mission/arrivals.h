@@ -9,8 +9,9 @@ namespace palace {
 /// Ages across a jump mean nothing: forgets every arrival, waits for three new samples (I18), and
 /// stops what was under way. A record or a folder starts anew.
 void FollowJump(MissionTurn& turn, const MissionInputs& inputs);
-/// What the session is to the mission: commands are judged by it before the first step too.
-void RememberSession(MissionFacts& facts, const MissionInputs::Session& session);
+/// Before a command: what the session is to the mission, before the first step too. What was lost
+/// since the last step forbids at once; what came back allows only when a step has shown it (I3).
+void HearSession(MissionFacts& facts, const MissionInputs::Session& session);
 void RememberFacts(MissionMemory& memory, const MissionInputs& inputs);
 void FollowWinner(MissionMemory& memory, const MissionInputs& inputs);
 void FollowAnswers(MissionTurn& turn, const MissionInputs& inputs);

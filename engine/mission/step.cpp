@@ -32,7 +32,7 @@ MissionStep Step(const MissionOptions& station, MissionMemory memory, const Miss
 MissionAnswer Apply(const MissionOptions& station, MissionMemory memory,
                     const EngineCommand& command, const MissionInputs::Session& session) {
   MissionTurn turn{station, std::move(memory), {}};
-  RememberSession(turn.memory.facts, session);
+  HearSession(turn.memory.facts, session);
   Status status = Obey(turn, command, session.now);
   PublishBetweenSteps(turn.memory, session.now);
   return {std::move(turn.memory), std::move(turn.effects), std::move(status)};

@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/own_path.h"
+
 namespace palace {
 namespace {
 
@@ -19,7 +21,7 @@ class Files : public testing::Test {
     std::ifstream file(path, std::ios::binary);
     return (std::stringstream() << file.rdbuf()).str();
   }
-  const fs::path folder_ = fs::path(testing::TempDir()) / "core_files";
+  const fs::path folder_ = OwnPath();
 };
 
 TEST_F(Files, ATextReplacesTheOneBeforeAndLeavesNothingElse) {
@@ -42,7 +44,7 @@ TEST_F(Files, WhatCannotBeWrittenIsNamedAndKeepsItsOldText) {
   EXPECT_EQ(Text(folder_ / "file"), "old");
   const Status folder = MakeFolder(folder_ / "file");
   ASSERT_FALSE(folder.ok());
-  EXPECT_NE(folder.error().message.find("core_files/file"), std::string::npos);
+  EXPECT_NE(folder.error().message.find((folder_ / "file").string()), std::string::npos);
 }
 
 }  // namespace

@@ -52,12 +52,13 @@ TEST(FlightHistoryPath, EveryHeightIsOfTheSkidsAboveTheSite) {
   truth.X_WB = snap.sensors->pose->X_WB;
   truth.X_WB.p.z() += 0.5;
   snap.sensors.Edit().truth = truth;
+  snap.flight.Edit().mission.height_above_site_m = 11.9;
+  snap.flight.Edit().mission.distance_to_site_m = 3.5;
   const HistorySample sample = SampleOf(snap, FrameBundle{});
-  EXPECT_NEAR(sample.height_above_site_m, 12, 1e-9);  // GPS is in force
+  EXPECT_EQ(sample.height_above_site_m, 11.9);  // the very number that the mission tells
+  EXPECT_EQ(sample.from_site_m, 3.5);
   EXPECT_NEAR(sample.gps_height_m, 12, 1e-9);
   EXPECT_NEAR(sample.truth_height_m, 9.5, 1e-9);
-  snap.flight.Edit().navigation.handover = NavigationStatus::Handover::kVision;
-  EXPECT_NEAR(SampleOf(snap, FrameBundle{}).height_above_site_m, 10, 1e-9);  // pose: no filter runs
 }
 
 TEST(FlightHistoryPath, TheCentreIsLimitedWhileItsRowIsEnforced) {

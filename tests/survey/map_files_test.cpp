@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/own_path.h"
+
 namespace palace {
 namespace {
 
@@ -16,7 +18,7 @@ class GeoTiff : public testing::Test {
     std::error_code ignored;
     std::filesystem::remove(path_, ignored);
   }
-  const std::filesystem::path path_ = std::filesystem::path(testing::TempDir()) / "layer.tif";
+  const std::filesystem::path path_ = OwnPath(".tif");
 };
 
 TEST_F(GeoTiff, ComesBackWithPlaceGapsAndCoordinateSystem) {
@@ -52,7 +54,7 @@ TEST_F(GeoTiff, WhatCannotBeWrittenOrReadIsNamed) {
   EXPECT_NE(written.error().message.find("/no/such/folder/a.tif"), std::string::npos);
   const auto read = ReadGeoTiff(path_);
   ASSERT_FALSE(read.ok());
-  EXPECT_NE(read.error().message.find("layer.tif"), std::string::npos);
+  EXPECT_NE(read.error().message.find(path_.string()), std::string::npos);
 }
 
 }  // namespace

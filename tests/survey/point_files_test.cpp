@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/own_path.h"
 #include "tests/support/survey_files.h"
 
 namespace palace {
@@ -19,7 +20,7 @@ class PointFiles : public testing::Test {
     std::filesystem::remove(path_, ignored);
   }
   void Write(const std::string& bytes) { std::ofstream(path_, std::ios::binary) << bytes; }
-  const std::filesystem::path path_ = std::filesystem::path(testing::TempDir()) / "cloud.xyz";
+  const std::filesystem::path path_ = OwnPath(".xyz");
 };
 
 TEST_F(PointFiles, EastNorthUpInEverySpelling) {
@@ -53,12 +54,12 @@ TEST_F(PointFiles, ErrorsNameFileAndLine) {
   Write("1 2 3 1\n4 5 6\n");
   const auto labelled = ReadLabelledPoints(path_);
   ASSERT_FALSE(labelled.ok());
-  EXPECT_NE(labelled.error().message.find("cloud.xyz:2: "), std::string::npos)
+  EXPECT_NE(labelled.error().message.find(path_.string() + ":2: "), std::string::npos)
       << labelled.error().message;
   Write("1 2 3\n1 2\n4 5 6\n");
   const auto plain = ReadPointFile(path_);
   ASSERT_FALSE(plain.ok());
-  EXPECT_NE(plain.error().message.find("cloud.xyz:2: "), std::string::npos);
+  EXPECT_NE(plain.error().message.find(path_.string() + ":2: "), std::string::npos);
 }
 
 }  // namespace

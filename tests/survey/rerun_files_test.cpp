@@ -10,6 +10,7 @@
 
 #include "engine/slad/slad.h"
 #include "tests/slad/worlds.h"
+#include "tests/support/own_path.h"
 
 namespace palace {
 namespace {
@@ -56,7 +57,7 @@ class Rerun : public ::testing::Test {
     return stems;
   }
 
-  const std::filesystem::path folder_ = std::filesystem::path(::testing::TempDir()) / "rerun";
+  const std::filesystem::path folder_ = OwnPath();
   Slad slad_;
   Settings settings_;
   Timestamp time_;
