@@ -102,7 +102,7 @@ std::vector<LimitRow> LimitsOfDescent(const DescentFigures& f) {
                   .limit = f.max_residual_sigma,
                   .unit = "σ",
                   .decimals = 2,
-                  .enforced_by = EnforcedBy::kAlarm}),
+                  .enforced_by = f.tracked ? EnforcedBy::kAlarm : EnforcedBy::kNobody}),
           WindLimit(f.wind_mps, before_and_in),
           Judged({.id = LimitId::kOffWind,
                   .label = "Approach off wind",
@@ -151,7 +151,15 @@ void PublishLimits(MissionMemory& m, Timestamp now) {
     m.status.limits.insert(m.status.limits.end(), rows.begin(), rows.end());
   };
   if (m.status.armed && (m.newest || !m.site.evaluated())) {
-    add(SiteLimits(m.newest ? *m.newest : *m.status.armed, m.facts.settings.slad));
+    std::vector<LimitRow> site =
+        SiteLimits(m.newest ? *m.newest : *m.status.armed, m.facts.settings.slad);
+    if (!WatchesSite(m)) {  // landed on it, or flies away from it
+      for (LimitRow& row : site) {
+        row.enforced_by = EnforcedBy::kNobody;
+        row = Judged(row);
+      }
+    }
+    add(site);
   }
   add(LimitsOfCameras(m.facts.stereo, m.facts.range_agreement));
 }

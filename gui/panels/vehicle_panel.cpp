@@ -76,11 +76,11 @@ std::vector<Readout> Readouts(const EngineSnapshot& snap, bool narrow) {
           : "m/s";
   const double fuel = snap.sensors->vehicle ? snap.sensors->vehicle->battery_or_fuel * 100 : NAN;
   const double speed = snap.sensors->pose ? snap.sensors->pose->v_WB.head<2>().norm() : NAN;
-  const double down = snap.sensors->pose ? snap.sensors->pose->v_WB.z() : NAN;
   if (IsDescentView(snap)) {
-    const double from_m = snap.flight->history && !snap.flight->history->empty()
-                              ? snap.flight->history->back().from_site_m
-                              : m.distance_to_site_m;
+    // The same figures, by the estimate in force, as the limits and the plots below.
+    const LimitRow* rate = FindLimit(m.limits, LimitId::kDescentRate);
+    const double down = rate != nullptr ? rate->value : NAN;
+    const double from_m = m.distance_to_site_m;
     if (narrow) {
       return {pose("Height", m.height_above_site_m, 1, "m"),
               pose("To go", m.time_to_touchdown_s, 0, "s"), pose("Descent", down, 2, "m/s"),
@@ -93,16 +93,21 @@ std::vector<Readout> Readouts(const EngineSnapshot& snap, bool narrow) {
             status("Wind", wind, 1, wind_unit),
             status("Fuel", fuel, 0, "%")};
   }
-  const double height =
-      snap.sensors->laser && std::isfinite(snap.sensors->laser->range_m)
-          // The laser looks along the camera: only its vertical share is height.
-          ? snap.sensors->laser->range_m * snap.sensors->X_WC.R(2, 2)
-          : snap.sensors->pose ? HeightFromDown(snap.sensors->pose->X_WB.p.z()) : NAN;
+  const Readout height = [&] {
+    if (snap.sensors->laser && std::isfinite(snap.sensors->laser->range_m)) {
+      // The laser looks along the camera: only its vertical share is height.
+      const double height_m = snap.sensors->laser->range_m * snap.sensors->X_WC.R(2, 2);
+      return by(ChannelId::kLaserRange)(narrow ? "Height" : "Height above ground", height_m, 1, "m");
+    }
+    const double height_m =
+        snap.sensors->pose ? HeightFromDown(snap.sensors->pose->X_WB.p.z()) : NAN;
+    return pose(narrow ? "Above origin" : "Height above origin", height_m, 1, "m");
+  }();
   if (narrow) {
-    return {pose("Height", height, 1, "m"), pose("Speed", speed, 1, "m/s"),
-            status("Wind", wind, 1, "m/s"), pose("Error, 3σ", PositionError3s(snap), 2, "m")};
+    return {height, pose("Speed", speed, 1, "m/s"), status("Wind", wind, 1, "m/s"),
+            pose("Error, 3σ", PositionError3s(snap), 2, "m")};
   }
-  return {pose("Height above ground", height, 1, "m"),
+  return {height,
           pose("Ground speed", speed, 1, "m/s"),
           pose("Heading", snap.sensors->pose ? HeadingDeg(*snap.sensors->pose) : NAN, 0, "°"),
           status("Wind", wind, 1, wind_unit),

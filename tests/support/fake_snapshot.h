@@ -125,8 +125,13 @@ inline std::vector<HistorySample> History(bool descending) {
 
 /// What the mission would say of the flight: nothing is over its limit.
 inline std::vector<LimitRow> Limits(const EngineSnapshot& snap) {
-  const bool descending = snap.flight->mission.state == MissionState::kDescending;
-  const EnforcedBy by = descending ? EnforcedBy::kAlarm : EnforcedBy::kNobody;
+  const MissionState state = snap.flight->mission.state;
+  const EnforcedBy by =
+      state == MissionState::kDescending ? EnforcedBy::kAlarm : EnforcedBy::kNobody;
+  const bool over = state == MissionState::kAborting || state == MissionState::kLanded;
+  const EnforcedBy before_and_in = over                            ? EnforcedBy::kNobody
+                                   : state <= MissionState::kArmed ? EnforcedBy::kGuard
+                                                                   : EnforcedBy::kAlarm;
   std::vector<LimitRow> rows = {{.id = LimitId::kOffPath,
                                  .label = "Off the path",
                                  .value = 0.14,
@@ -149,19 +154,19 @@ inline std::vector<LimitRow> Limits(const EngineSnapshot& snap) {
                                  .limit = 0.7,
                                  .is_least = true,
                                  .decimals = 2,
-                                 .enforced_by = EnforcedBy::kGuard},
+                                 .enforced_by = before_and_in},
                                 {.id = LimitId::kResidual,
                                  .label = "Residual",
                                  .value = 0.4,
                                  .limit = 2.15,
                                  .unit = "σ",
-                                 .enforced_by = EnforcedBy::kAlarm},
+                                 .enforced_by = over ? EnforcedBy::kNobody : EnforcedBy::kAlarm},
                                 {.id = LimitId::kWind,
                                  .label = "Wind",
                                  .value = 2.1,
                                  .limit = 8,
                                  .unit = "m/s",
-                                 .enforced_by = EnforcedBy::kGuard},
+                                 .enforced_by = before_and_in},
                                 {.id = LimitId::kOffWind,
                                  .label = "Approach off wind",
                                  .value = Rad(60),
@@ -190,8 +195,10 @@ inline std::vector<LimitRow> Limits(const EngineSnapshot& snap) {
                                  .shown_per_unit = 100,
                                  .enforced_by = EnforcedBy::kAlarm}};
   if (snap.flight->mission.armed) {
-    const auto site = SiteLimits(*snap.flight->mission.armed, snap.session->settings.slad);
-    rows.insert(rows.end(), site.begin(), site.end());
+    for (LimitRow row : SiteLimits(*snap.flight->mission.armed, snap.session->settings.slad)) {
+      row.enforced_by = over ? EnforcedBy::kNobody : row.enforced_by;
+      rows.push_back(Judged(row));
+    }
   }
   return rows;
 }
