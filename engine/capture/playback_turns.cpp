@@ -37,8 +37,9 @@ std::optional<std::int64_t> PlaybackTurns::Wait(std::stop_token stop) {
       steps_ = std::max(0, steps_ - 1);
       const double period = speed_ > 0 ? times_.Gap(next_index_) / speed_ : 0;
       // Keep the beat when in time; start a new one after a pause or when the engine is slower.
-      const double late = now - due_s_;
-      due_s_ = (late < period ? due_s_ : now) + period;
+      const bool starts = due_s_ == 0;
+      const double late = starts ? 0 : now - due_s_;
+      due_s_ = (!starts && late < period ? due_s_ : now) + period;
       speed_reached_ = late < period || period == 0 ? speed_ : period / late * speed_;
       shown_index_ = next_index_++;
       return shown_index_;
@@ -84,6 +85,7 @@ void PlaybackTurns::Control(const PlaybackControl& control) {
   const std::lock_guard lock(mutex_);
   switch (control.kind) {
     case PlaybackControl::Kind::kPlay:
+      due_s_ = paused_ ? 0 : due_s_;
       paused_ = false;
       break;
     case PlaybackControl::Kind::kPause:

@@ -24,9 +24,9 @@ Status WriteTextFile(const std::filesystem::path& path, const std::string& text)
 }
 
 Status MakeFolder(const std::filesystem::path& folder) {
-  std::error_code error;
+  std::error_code error, ignored;
   std::filesystem::create_directories(folder, error);
-  if (!std::filesystem::is_directory(folder, error)) {
+  if (!std::filesystem::is_directory(folder, ignored)) {
     return UnavailableError("cannot make the folder " + folder.string() +
                             (error ? " (" + error.message() + ")" : "") +
                             "; choose one you may write to");

@@ -113,7 +113,8 @@ std::vector<LimitRow> LimitsOfDescent(const DescentFigures& f) {
                   .decimals = 0})};
 }
 
-std::vector<LimitRow> LimitsOfCameras(const StereoQuality& stereo, const RangeAgreement& range) {
+std::vector<LimitRow> LimitsOfCameras(const StereoQuality& stereo, const RangeAgreement& range,
+                                      const PictureFaults& standing, MissionState state) {
   LimitRow scale{.id = LimitId::kRangeScale,
                  .label = "Range against the laser",
                  .value = std::abs(range.ratio - 1),
@@ -124,13 +125,18 @@ std::vector<LimitRow> LimitsOfCameras(const StereoQuality& stereo, const RangeAg
                  .enforced_by = EnforcedBy::kAlarm};
   scale = Judged(scale);
   scale.over = scale.over && scale.value > scale.three_sigma;  // and not by chance
-  return {Judged({.id = LimitId::kRowError,
-                  .label = "Row error",
-                  .value = stereo.row_error_px,
-                  .limit = AlarmLimits::row_error_px,
-                  .unit = "px",
-                  .decimals = 2,
-                  .enforced_by = EnforcedBy::kGuard}),
+  // A single pair may look wrong by chance: beyond the limit once it stands, as guard and alarm
+  // see.
+  LimitRow rows = Judged(
+      {.id = LimitId::kRowError,
+       .label = "Row error",
+       .value = stereo.row_error_px,
+       .limit = AlarmLimits::row_error_px,
+       .unit = "px",
+       .decimals = 2,
+       .enforced_by = state <= MissionState::kArmed ? EnforcedBy::kGuard : EnforcedBy::kAlarm});
+  rows.over = rows.over && standing.rows_apart;
+  return {rows,
           Judged({.id = LimitId::kExposure,
                   .label = "Brighter over darker picture",
                   .value = std::exp(std::abs(std::log(stereo.exposure_ratio))),
@@ -161,7 +167,8 @@ void PublishLimits(MissionMemory& m, Timestamp now) {
     }
     add(site);
   }
-  add(LimitsOfCameras(m.facts.stereo, m.facts.range_agreement));
+  add(LimitsOfCameras(m.facts.stereo, m.facts.range_agreement, m.pictures.standing(),
+                      m.status.state));
 }
 
 }  // namespace palace

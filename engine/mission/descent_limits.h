@@ -52,7 +52,9 @@ struct DescentFigures {
 /// The wind as guard G15 sees it: for information while it is not known.
 LimitRow WindLimit(double wind_mps, EnforcedBy by);
 std::vector<LimitRow> LimitsOfDescent(const DescentFigures& figures);
-std::vector<LimitRow> LimitsOfCameras(const StereoQuality& stereo, const RangeAgreement& range);
+/// `standing`: the faults that three pairs in a row have shown.
+std::vector<LimitRow> LimitsOfCameras(const StereoQuality& stereo, const RangeAgreement& range,
+                                      const PictureFaults& standing, MissionState state);
 
 /// The wind that the vehicle told last; NaN when it told none, or when that is stale.
 double KnownWind(const MissionMemory& memory, Timestamp now);

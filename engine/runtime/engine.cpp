@@ -15,7 +15,7 @@ Engine::Engine(EngineParts parts, bool threaded)
   PALACE_CHECK(source_ != nullptr);
   pipeline_.FollowRecord(std::move(parts.record));
   if (parts.redecide_with) {
-    pipeline_.RedecideWith(*parts.redecide_with);
+    pipeline_.RedecideWith(*parts.redecide_with, parts.held_settings);
   }
   if (parts.sink) {
     recorder_ = std::make_unique<Recorder>(std::move(parts.sink), threaded);

@@ -23,7 +23,8 @@ struct EngineParts {
   std::shared_ptr<VehicleLink> link;  ///< null: nothing can transmit (replay, images)
   std::unique_ptr<RecordSink> sink;   ///< null: not recorded
   Settings settings;
-  std::optional<Settings> redecide_with;  ///< replay: judge under these instead of the recorded
+  std::optional<Settings> redecide_with;     ///< replay: judge under these instead of the recorded
+  std::vector<std::string> held_settings{};  ///< replay: ReplaySettings::held
   std::shared_ptr<const FlightRecord> record;  ///< replay: what the flight decided
   MissionOptions mission;
 };

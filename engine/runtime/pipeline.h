@@ -48,7 +48,9 @@ class Pipeline {
   Pipeline(const Settings& settings, MissionOptions mission);
 
   /// Replay: judge under these limits; what was recorded is judged beside them.
-  void RedecideWith(const Settings& settings) { settings_.Redecide(settings); }
+  void RedecideWith(const Settings& settings, std::vector<std::string> held) {
+    settings_.Redecide(settings, std::move(held));
+  }
 
   /// Replay: what the flight decided, for pictures reached by a jump.
   void FollowRecord(std::shared_ptr<const FlightRecord> record) {

@@ -94,15 +94,11 @@ MissionStatus RecordedMission::StatusAt(Timestamp time, const MissionStatus& wat
   }
   MissionStatus status;
   status.state = sample->state;
-  status.since = sample->time;
-  for (const FlightRecordSample* s = sample;
-       s >= record_->samples.data() && s->state == sample->state; --s) {
-    status.since = s->time;
-  }
+  status.since = First(*sample, &FlightRecordSample::state).time;
   status.why = "As recorded";
   if (const LandingSite* site = ArmedSite(*sample)) {
     status.armed = *site;
-    const Settings* limits = SettingsAt(sample->time);
+    const Settings* limits = SettingsAt(First(*sample, &FlightRecordSample::armed).time);
     status.armed_limits = SiteLimits(*site, (limits ? *limits : record_->settings_at_start).slad);
   }
   status.height_above_site_m = sample->height_above_site_m;

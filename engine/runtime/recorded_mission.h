@@ -32,6 +32,16 @@ class RecordedMission {
   /// The newest sample not after `time`; null without a record.
   const FlightRecordSample* At(Timestamp time) const;
   const LandingSite* ArmedSite(const FlightRecordSample& sample) const;
+  /// The first of the samples in a row, up to this one, in which that field is the same.
+  template <typename T>
+  const FlightRecordSample& First(const FlightRecordSample& sample,
+                                  T FlightRecordSample::*field) const {
+    auto i = static_cast<std::size_t>(&sample - record_->samples.data());
+    while (i > 0 && record_->samples[i - 1].*field == sample.*field) {
+      --i;
+    }
+    return record_->samples[i];
+  }
 
   std::shared_ptr<const FlightRecord> record_;
 };

@@ -1,5 +1,7 @@
 #include "engine/runtime/settings_state.h"
 
+#include <algorithm>
+
 namespace palace {
 
 Status SettingsState::Set(const std::string& name, double value, bool preview_only) {
@@ -11,6 +13,9 @@ Status SettingsState::Set(const std::string& name, double value, bool preview_on
 }
 
 Status SettingsState::SetRecorded(const std::string& name, double value, bool preview_only) {
+  if (std::find(held_.begin(), held_.end(), name) != held_.end()) {
+    return Ok();
+  }
   const bool follows = GetSetting(applied_, name) == GetSetting(recorded_, name);
   const Status done = SetSettingValue(recorded_preview_, name, value);
   if (!done || preview_only) {

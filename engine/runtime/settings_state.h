@@ -2,6 +2,8 @@
 #pragma once
 
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "engine/core/result.h"
 #include "engine/model/settings/settings.h"
@@ -34,14 +36,19 @@ class SettingsState {
   void DiscardRecorded() { recorded_preview_ = recorded_; }
   /// Live and simulated flights: what is applied is what will be on record.
   void FollowApplied() { recorded_ = recorded_preview_ = applied_; }
-  /// Replay: the reviewer's limits, in place of the recorded ones.
-  void Redecide(const Settings& settings) { applied_ = preview_ = settings; }
+  /// Replay: the reviewer's limits, in place of the recorded ones. `held`: settings that keep their
+  /// initial value whatever the record says of them later.
+  void Redecide(const Settings& settings, std::vector<std::string> held = {}) {
+    applied_ = preview_ = settings;
+    held_ = std::move(held);
+  }
 
  private:
   Settings recorded_;
   Settings recorded_preview_ = recorded_;
   Settings applied_;
   Settings preview_;
+  std::vector<std::string> held_;
 };
 
 }  // namespace palace

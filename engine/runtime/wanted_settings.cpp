@@ -24,6 +24,9 @@ Result<Settings> WantedSettings(const SettingsRequest& request, const Settings& 
 Result<ReplaySettings> SettingsOfReplay(const SettingsRequest& request,
                                         const FlightRecord& record) {
   const Settings& recorded = record.settings_at_start;
+  if (request.file.empty() && request.set.empty()) {
+    return ReplaySettings{recorded, std::nullopt};
+  }
   const Result<Settings> wanted = WantedSettings(request, recorded);
   if (!wanted) {
     return wanted.error();
@@ -34,6 +37,11 @@ Result<ReplaySettings> SettingsOfReplay(const SettingsRequest& request,
   ReplaySettings replay{WithPerceptionOf(*wanted, recorded), std::nullopt};
   if (!(*wanted == recorded)) {
     replay.redecide_with = *wanted;
+  }
+  for (const SettingInfo& info : SettingTable()) {
+    if (GetSetting(replay.settings, info.name) != GetSetting(recorded, info.name)) {
+      replay.held.push_back(info.name);
+    }
   }
   return replay;
 }

@@ -28,6 +28,9 @@ Result<Settings> WantedSettings(const SettingsRequest& request, const Settings& 
 struct ReplaySettings {
   Settings settings;                      ///< of the pipeline, from the start
   std::optional<Settings> redecide_with;  ///< judged beside them; empty: nothing else was asked
+  /// Names of what maps are made with and was asked for: what the flight's operator did to them,
+  /// then or before a jump, is not followed.
+  std::vector<std::string> held{};
 };
 /// A log without settings on record began with what is wanted: there is nothing to hold it against.
 Result<ReplaySettings> SettingsOfReplay(const SettingsRequest& request, const FlightRecord& record);

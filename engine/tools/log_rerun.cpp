@@ -82,6 +82,7 @@ Result<int> Rerun(const RerunOptions& options) {
   parts.record = source->recorded();
   parts.settings = settings->settings;
   parts.redecide_with = settings->redecide_with;
+  parts.held_settings = settings->held;
   Engine engine(std::move(parts), /*threaded=*/false);
   std::size_t next = 0;
   while (engine.Step()) {

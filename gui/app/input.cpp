@@ -98,13 +98,9 @@ void FeedShortTaps(const std::vector<KeyEvent>& events, std::vector<ImGuiKey>& h
 
 bool IsKey(const std::string& keys) {
   std::string base = keys;
-  for (bool modified = true; modified;) {
-    modified = false;
-    for (const char* modifier : {"Ctrl+", "Alt+", "Shift+"}) {
-      if (base.rfind(modifier, 0) == 0) {
-        base.erase(0, std::string(modifier).size());
-        modified = true;
-      }
+  for (const char* modifier : {"Ctrl+", "Alt+", "Shift+"}) {  // in the order of KeyName
+    if (base.rfind(modifier, 0) == 0) {
+      base.erase(0, std::string(modifier).size());
     }
   }
   if (base.size() == 1 || NamedKeys().count(base) > 0) {

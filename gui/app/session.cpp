@@ -58,6 +58,7 @@ Status OpenReplay(const AppOptions& options, bool paced, Session& session, Engin
   }
   parts.settings = settings->settings;
   parts.redecide_with = settings->redecide_with;
+  parts.held_settings = settings->held;
   session.source = std::move(*source);
   parts.source = session.source;
   return Ok();

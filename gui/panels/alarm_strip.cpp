@@ -30,7 +30,7 @@ AlarmLook LookOf(const Palette& p, AlarmLevel level) {
 }
 
 bool IsSame(const ShelvedAlarm& shelved, const Alarm& alarm) {
-  return alarm.active && alarm.kind == shelved.kind && alarm.level == shelved.level &&
+  return alarm.active && alarm.kind == shelved.kind && alarm.level <= shelved.level &&
          alarm.since == shelved.since;
 }
 
@@ -106,7 +106,8 @@ float DrawAnswers(const Alarm& alarm, FrameState& state, float right, float y, U
   ButtonLook look;
   look.flat = true;
   const Rect shelve{right - s.Px(28 + 72), y - s.Px(12), s.Px(72), s.Px(24)};
-  if (DrawButton(ui, "shelve", shelve, "Shelve", look)) {
+  // What is over goes by its acknowledgement; there is nothing to put aside.
+  if (alarm.active && DrawButton(ui, "shelve", shelve, "Shelve", look)) {
     state.shelved.push_back({alarm.kind, alarm.level, alarm.since});
   }
   const Rect acknowledge{shelve.x - s.Px(8 + 112), shelve.y, s.Px(112), shelve.h};

@@ -45,6 +45,7 @@ std::vector<const LimitRow*> RowsToShow(const std::vector<LimitRow>& limits, boo
       rows.erase(rows.begin() + static_cast<std::ptrdiff_t>(i));
     }
   }
+  rows.resize(std::min(rows.size(), room));  // the head counts them all
   return rows;
 }
 

@@ -45,6 +45,11 @@ TEST_F(Files, WhatCannotBeWrittenIsNamedAndKeepsItsOldText) {
   const Status folder = MakeFolder(folder_ / "file");
   ASSERT_FALSE(folder.ok());
   EXPECT_NE(folder.error().message.find((folder_ / "file").string()), std::string::npos);
+  // The reason is that of the making: the path names a file, or runs through one.
+  const Status through = MakeFolder(folder_ / "file/deeper");
+  ASSERT_FALSE(through.ok());
+  EXPECT_NE(through.error().message.find("Not a directory"), std::string::npos)
+      << through.error().message;
 }
 
 }  // namespace

@@ -192,20 +192,28 @@ TEST(AlarmTable, AStalePoseIsToldAtTheLimitThatBlocks) {
 TEST(AlarmTable, AStalePoseSaysWhatItDoesInEachState) {
   struct Row {
     MissionState state;
-    bool committed;
+    bool committed, on_vision;
+    AlarmId id;
     const char* end;
   };
-  for (const Row& row :
-       {Row{MissionState::kProposed, false, "Approve is blocked."},
-        Row{MissionState::kArmed, false, "Approve is blocked, the selection ends after 1 s."},
-        Row{MissionState::kApproved, false, "Approval ends after 1 s."},
-        Row{MissionState::kDescending, false, "Descent holds after 1 s."},
-        Row{MissionState::kDescending, true, "So low the descent goes on."}}) {
+  const AlarmId pose = AlarmId::kPose, right = AlarmId::kCameraRight;
+  for (const Row& row : {
+           Row{MissionState::kProposed, false, false, pose, "Approve is blocked."},
+           Row{MissionState::kArmed, false, false, pose,
+               "Approve is blocked, the selection ends after 1 s."},
+           Row{MissionState::kApproved, false, false, pose, "Approval ends after 1 s."},
+           Row{MissionState::kDescending, false, true, pose, "Descent holds after 1 s."},
+           Row{MissionState::kDescending, true, true, pose,
+               "Without vision the vehicle stops, and climbs after 2.0 s."},
+           Row{MissionState::kDescending, true, true, right, "So low the descent goes on."},
+           Row{MissionState::kDescending, true, false, pose, "So low the descent goes on."},
+       }) {
     AlarmFacts facts = AllMeasured();
-    facts.pose_age_s = 0.5;
+    facts.pose_age_s = facts.right_camera_age_s = 0.6;
     facts.state = row.state;
     facts.committed = row.committed;
-    EXPECT_THAT(TextOf(AlarmTable()[static_cast<std::size_t>(AlarmId::kPose)], facts),
+    facts.on_vision = row.on_vision;
+    EXPECT_THAT(TextOf(AlarmTable()[static_cast<std::size_t>(row.id)], facts),
                 testing::EndsWith(row.end));
   }
 }

@@ -191,7 +191,8 @@ TEST(DescentLimits, ThePlaceIsAskedAgainstPathOrCentre) {
 
 TEST(CameraLimits, AreTheOnesThatRaiseTheirAlarms) {
   const auto over = [](const StereoQuality& stereo, const RangeAgreement& range, LimitId id) {
-    return FindLimit(LimitsOfCameras(stereo, range), id)->over;
+    const PictureFaults standing{false, false, stereo.row_error_px > AlarmLimits::row_error_px};
+    return FindLimit(LimitsOfCameras(stereo, range, standing, MissionState::kArmed), id)->over;
   };
   StereoQuality good, rows, dark, bright;
   rows.row_error_px = 0.51;
@@ -206,6 +207,35 @@ TEST(CameraLimits, AreTheOnesThatRaiseTheirAlarms) {
   EXPECT_TRUE(over(good, {0.97, 0.002, 40}, LimitId::kRangeScale));
   EXPECT_FALSE(over(good, {1.03, 0.02, 40}, LimitId::kRangeScale));  // by chance
   EXPECT_FALSE(over(good, {}, LimitId::kRangeScale));                // not known
+
+  // One pair alone is chance; once approved no guard asks any more, the alarm does.
+  const LimitRow once =
+      *FindLimit(LimitsOfCameras(rows, {}, {}, MissionState::kArmed), LimitId::kRowError);
+  EXPECT_FALSE(once.over);
+  EXPECT_EQ(once.enforced_by, EnforcedBy::kGuard);
+  const LimitRow flying =
+      *FindLimit(LimitsOfCameras(rows, {}, {false, false, true}, MissionState::kDescending),
+                 LimitId::kRowError);
+  EXPECT_TRUE(flying.over);
+  EXPECT_EQ(flying.enforced_by, EnforcedBy::kAlarm);
+}
+
+// Landed, or flying away: nothing of the site or of its tracker is watched, and nothing says so.
+TEST(DescentLimits, OnTheGroundNoRowOfTheSiteClaimsAnEnforcer) {
+  MissionRig rig;
+  rig.Arm();
+  ASSERT_TRUE(rig.ApproveNow().ok());
+  ASSERT_TRUE(rig.RunUntil(MissionState::kDescending));
+  EXPECT_EQ(FindLimit(rig.mission.status().limits, LimitId::kSlope)->enforced_by,
+            EnforcedBy::kGuard);
+  ASSERT_TRUE(rig.RunUntil(MissionState::kLanded));
+  rig.Step();
+  for (const LimitId id : {LimitId::kSlope, LimitId::kRoughness, LimitId::kClearRadius,
+                           LimitId::kResidual, LimitId::kCoherence, LimitId::kWind}) {
+    const LimitRow* row = FindLimit(rig.mission.status().limits, id);
+    ASSERT_NE(row, nullptr);
+    EXPECT_EQ(row->enforced_by, EnforcedBy::kNobody) << row->label;
+  }
 }
 
 }  // namespace

@@ -60,5 +60,18 @@ TEST(SettingsState, AJumpRestoresTheRecordAndKeepsWhatTheReviewerMoved) {
   EXPECT_EQ(state.applied().slad.limits.max_step_m, Settings{}.slad.limits.max_step_m);
 }
 
+TEST(SettingsState, WhatTheReviewerHoldsStaysAfterAJumpAndAfterTheRecordMovesIt) {
+  Settings wanted;
+  wanted.slad.fusion.frames_fused = 5;
+  SettingsState state{wanted};
+  state.Redecide(wanted, {"slad.frames_fused"});
+  ASSERT_TRUE(state.SetRecorded("slad.frames_fused", 12, false));
+  state.RestoreRecorded(Settings{});
+  EXPECT_EQ(state.recorded().slad.fusion.frames_fused, 5);
+  EXPECT_EQ(state.applied().slad.fusion.frames_fused, 5);
+  ASSERT_TRUE(state.SetRecorded(kSlope, 8, false));  // limits follow the record
+  EXPECT_EQ(state.applied().slad.limits.max_slope_deg, 8);
+}
+
 }  // namespace
 }  // namespace palace

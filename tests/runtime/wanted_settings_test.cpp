@@ -34,6 +34,7 @@ TEST(SettingsOfReplay, WhatMapsAreMadeWithHoldsFromTheStart) {
   const auto replay = SettingsOfReplay({"", {"slad.frames_fused=5"}}, Recorded());
   ASSERT_TRUE(replay.ok());
   EXPECT_EQ(replay->settings.slad.fusion.frames_fused, 5);
+  EXPECT_EQ(replay->held, std::vector<std::string>{"slad.frames_fused"});
   EXPECT_EQ(replay->settings.slad.limits.max_step_m, 0.12);
 }
 

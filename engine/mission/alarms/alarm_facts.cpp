@@ -76,9 +76,8 @@ void FillFromLimits(const MissionMemory& m, AlarmFacts& f) {
     f.scale_error_percent = 100 * scale->value;
     f.scale_sigma_percent = 100 * scale->three_sigma / 3;
   }
-  // A single pair may look wrong by chance: told once it stands, as the guard sees it.
   const LimitRow* rows = FindLimit(m.status.limits, LimitId::kRowError);
-  f.row_error_px = f.pictures.rows_apart && rows != nullptr ? rows->value : NAN;
+  f.row_error_px = rows != nullptr && rows->over ? rows->value : NAN;
 }
 
 }  // namespace

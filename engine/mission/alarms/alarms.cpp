@@ -11,15 +11,21 @@ namespace {
 
 using Facts = AlarmFacts;
 
-/// What an old picture or pose does to the mission.
-std::string Consequence(const Facts& f) {
+/// What an old picture or pose does to the mission. `for_vision`: without it vision has no fix.
+std::string Consequence(const Facts& f, bool for_vision = true) {
   const std::string after = " after " + LimitWords({StaleLimits::sensor_s, "s", 0}) + ".";
-  return f.pictures_only                        ? "Maps stand still."
-         : f.committed                          ? "So low the descent goes on."
-         : f.state == MissionState::kDescending ? "Descent holds" + after
-         : f.state == MissionState::kApproved   ? "Approval ends" + after
-         : f.state == MissionState::kArmed      ? "Approve is blocked, the selection ends" + after
-                                                : "Approve is blocked.";
+  if (!f.has_vehicle) {
+    return f.pictures_only ? "Maps stand still." : "In the record.";
+  }
+  if (f.committed) {
+    return f.on_vision && for_vision ? "Without vision the vehicle stops, and climbs after " +
+                                           LimitWords({f.max_vision_outage_s, "s"}) + "."
+                                     : "So low the descent goes on.";
+  }
+  return f.state == MissionState::kDescending ? "Descent holds" + after
+         : f.state == MissionState::kApproved ? "Approval ends" + after
+         : f.state == MissionState::kArmed    ? "Approve is blocked, the selection ends" + after
+                                              : "Approve is blocked.";
 }
 
 std::string StaleText(const char* what, double age_s, const std::string& limit) {
@@ -45,7 +51,7 @@ const std::array<AlarmRow, kAlarmCount> kAlarms = {{
                    double limit) { return f.has_source && !(f.right_camera_age_s <= limit); },
      .text =
          [](const Facts& f, const std::string& limit) {
-           return StaleText("Right camera", f.right_camera_age_s, limit) + Consequence(f);
+           return StaleText("Right camera", f.right_camera_age_s, limit) + Consequence(f, false);
          }},
     {.id = AlarmId::kPose,
      .level = AlarmLevel::kCaution,
@@ -130,6 +136,7 @@ const std::array<AlarmRow, kAlarmCount> kAlarms = {{
          }},
     {.id = AlarmId::kRowError,
      .level = AlarmLevel::kCaution,
+     .immediate = true,  // three pairs said so
      .limit = {AlarmLimits::row_error_px, "px", 2},
      .value = &Facts::row_error_px,
      .present = [](const Facts& f, double limit) { return f.row_error_px > limit; },

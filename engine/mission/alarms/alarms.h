@@ -44,7 +44,7 @@ struct AlarmFacts {
   MissionState state = MissionState::kNoLive;
   char letter = '?';
   std::string why{};       ///< the state was entered
-  bool committed = false;  ///< descends below the commit height: no age stops it but the link's
+  bool committed = false;  ///< descends below the commit height: maps and pictures may end
   bool abort_seen = false;
   std::string alternative{};  ///< words for it when the site is lost
   bool site_degraded = false;
