@@ -31,6 +31,10 @@ void JudgeArmedSite(const MissionMemory& m, Timestamp now, GuardInputs& in) {
   in.site_letter = m.status.armed->letter;
   in.site_holds = m.site.evaluated() && m.site.newest().holds();
   in.site_reason = m.site.newest().reason;
+  if (in.site_holds && !m.site.newest().old_ground.empty()) {
+    in.site_holds = false;
+    in.site_reason = m.site.newest().old_ground;
+  }
   if (in.site_holds && !m.site.newest().approach_clear) {
     // What is approved is the straight way from where the vehicle is.
     in.site_holds = false;

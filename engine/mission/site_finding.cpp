@@ -25,9 +25,9 @@ SiteFinding JudgeRecheck(const std::optional<LandingSite>& now,
                          const std::optional<NearestHazard>& nearest,
                          const ApprovedEvidence& approved, const SladSettings& settings) {
   if (!now) {
-    return {Finding::kOver, "The site left the map", false};
+    return {Finding::kOver, "The site left the map", false, ""};
   }
-  SiteFinding found{Finding::kGood, "", now->corridor_clear};
+  SiteFinding found{Finding::kGood, "", now->corridor_clear, ""};
   const auto worse = [&](Finding finding, std::string reason) {
     if (finding > found.finding) {
       found.finding = finding;
@@ -56,8 +56,9 @@ SiteFinding JudgeRecheck(const std::optional<LandingSite>& now,
               where);
   }
   if (now->age_s > kOldGround_s) {
-    worse(Finding::kDoubtful,
-          WithNumbers("Ground last measured %.1f s ago, limit %.1f s", now->age_s, kOldGround_s));
+    found.old_ground =
+        WithNumbers("Ground last measured %.1f s ago, limit %.1f s", now->age_s, kOldGround_s);
+    worse(Finding::kDoubtful, found.old_ground);
   }
   return found;
 }

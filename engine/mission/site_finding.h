@@ -27,6 +27,9 @@ struct SiteFinding {
   Finding finding = Finding::kOver;
   std::string reason;           ///< "Slope 12.0°, max 10°"; empty when good
   bool approach_clear = false;  ///< straight from the vehicle
+  /// "Ground last measured 16.3 s ago, limit 2.0 s"; empty while it is new enough. In the descent
+  /// it is a doubt; before it, no approval is given on it (G8).
+  std::string old_ground{};
   bool holds() const { return finding < Finding::kOver; }
 };
 

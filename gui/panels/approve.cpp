@@ -234,9 +234,13 @@ void DrawApprovePanel(const EngineSnapshot& snap, const Rect& rect, bool narrow,
     DrawText(ui, narrow ? s.medium : s.section, p.text1, x, rect.y + s.Px(narrow ? 42 : 46),
              "Nothing is committed yet.");
     const bool sites = snap.terrain->applied && !snap.terrain->applied->selection.sites.empty();
-    const char* help = !sites         ? "Waiting for a site inside all limits."
-                       : m.may_select ? "Click a site, or press Tab and Enter, to select it."
-                                      : "Sites cannot be selected here.";
+    const std::string help = !sites          ? "Waiting for a site inside all limits."
+                             : !m.may_select ? "Sites cannot be selected here."
+                             : m.state == MissionState::kSearch
+                                 ? "Selectable once one site has led for " +
+                                       Duration(snap.session->settings.mission.propose_after_s) +
+                                       "."
+                                 : "Click a site, or press Tab and Enter, to select it.";
     DrawText(ui, s.body, p.text2, x, rect.y + s.Px(narrow ? 64 : 73), help);
   }
   DrawButtons(snap, rect, narrow, state, ui);

@@ -31,12 +31,22 @@ PlotTrace SeriesOf(const EngineSnapshot& snap, Member member, ImU32 colour, floa
   return series;
 }
 
-/// The estimate in force: thick, with a band of constant three sigma of now.
-PlotTrace Estimate(const EngineSnapshot& snap, Member member, const Palette& p, double band) {
+/// The estimate in force: thick.
+PlotTrace Estimate(const EngineSnapshot& snap, Member member, const Palette& p) {
   PlotTrace series = SeriesOf(snap, member, p.safe, 2.2f);
   series.dot_at_end = true;
-  if (std::isfinite(band) && band > 0) {
-    series.band.assign(series.points.size(), static_cast<float>(band));
+  return series;
+}
+
+/// With a band of three sigma as it was at each instant.
+template <typename Sigma>
+PlotTrace Estimate(const EngineSnapshot& snap, Member member, const Palette& p, Sigma sigma) {
+  PlotTrace series = Estimate(snap, member, p);
+  const std::vector<HistorySample>& history = *snap.flight->history;
+  const std::size_t first = history.size() - series.points.size();
+  for (std::size_t i = first; i < history.size(); ++i) {
+    const double half = 3 * sigma(history[i]);
+    series.band.push_back(std::isfinite(half) ? static_cast<float>(half) : 0.0f);
   }
   return series;
 }
@@ -128,8 +138,8 @@ std::vector<PlotLimit> LimitLine(const EngineSnapshot& snap, LimitId id) {
 PlotView HeightPlot(const EngineSnapshot& snap, const Palette& p, const HistorySample& now) {
   using Stroke = PlotTrace::Stroke;
   PlotView view = Base("height", "Height above site", "m");
-  const double sigma = snap.flight->navigation.InForce().estimate.sigma_p_m.z();
-  view.series = {Estimate(snap, &HistorySample::height_above_site_m, p, 3 * sigma),
+  view.series = {Estimate(snap, &HistorySample::height_above_site_m, p,
+                          [](const HistorySample& h) { return h.estimate_sigma_m.z(); }),
                  SeriesOf(snap, &HistorySample::truth_height_m, p.truth, 1.5f, Stroke::kDotted),
                  SeriesOf(snap, &HistorySample::laser_m, p.laser, 1.5f),
                  SeriesOf(snap, &HistorySample::gps_height_m, p.gps, 1.5f),
@@ -161,9 +171,11 @@ PlotView DistancePlot(const EngineSnapshot& snap, const Palette& p, const Histor
   using Stroke = PlotTrace::Stroke;
   PlotView view = Base("distance", "Distance from site centre", "m");
   const double band = 3 * snap.flight->navigation.InForce().estimate.sigma_p_m.head<2>().norm();
-  view.series = {Estimate(snap, &HistorySample::from_site_m, p, band),
-                 SeriesOf(snap, &HistorySample::from_site_truth_m, p.truth, 1.5f, Stroke::kDotted),
-                 SeriesOf(snap, &HistorySample::from_site_gps_m, p.gps, 1.5f)};
+  view.series = {
+      Estimate(snap, &HistorySample::from_site_m, p,
+               [](const HistorySample& h) { return h.estimate_sigma_m.head<2>().norm(); }),
+      SeriesOf(snap, &HistorySample::from_site_truth_m, p.truth, 1.5f, Stroke::kDotted),
+      SeriesOf(snap, &HistorySample::from_site_gps_m, p.gps, 1.5f)};
   view.limits = LimitLine(snap, LimitId::kFromCentre);
   for (PlotLimit& limit : view.limits) {
     limit.from_x = CentreLimitedSince(snap);
@@ -179,20 +191,22 @@ PlotView DistancePlot(const EngineSnapshot& snap, const Palette& p, const Histor
 PlotView RatePlot(const EngineSnapshot& snap, const Palette& p, const HistorySample& now) {
   using Stroke = PlotTrace::Stroke;
   PlotView view = Base("rate", "Descent rate", "m/s");
-  view.series = {Estimate(snap, &HistorySample::descent_rate_mps, p,
-                          3 * snap.flight->navigation.InForce().estimate.sigma_v_mps.z()),
+  view.series = {Estimate(snap, &HistorySample::descent_rate_mps, p),
                  RateOf(snap, &HistorySample::truth_p_WB, p.truth, Stroke::kDotted),
                  RateOf(snap, &HistorySample::gps_p_WB, p.gps, Stroke::kSolid)};
   view.y_min = -0.25f;
   view.limits = LimitLine(snap, LimitId::kDescentRate);
   view.y_max = RoundUp(1.2f * (view.limits.empty() ? 1.5f : view.limits.front().value), 0.5f);
-  view.current = Fixed(now.descent_rate_mps, 2) + " m/s";
+  // No sample keeps the sigma that its rate had: told for now, not drawn over the past.
+  const double band = 3 * snap.flight->navigation.InForce().estimate.sigma_v_mps.z();
+  view.current = Fixed(now.descent_rate_mps, 2) +
+                 (band >= 0.005 ? " ± " + Fixed(band, 2) : std::string()) + " m/s";
   return view;
 }
 
 PlotView CoherencePlot(const EngineSnapshot& snap, const Palette& p, const HistorySample& now) {
   PlotView view = Base("coherence", "Tracker coherence", "0 to 1");
-  view.series = {Estimate(snap, &HistorySample::coherence, p, NAN)};
+  view.series = {Estimate(snap, &HistorySample::coherence, p)};
   view.y_min = 0.4f;
   view.y_max = 1.0f;
   view.limits = LimitLine(snap, LimitId::kCoherence);
@@ -202,7 +216,7 @@ PlotView CoherencePlot(const EngineSnapshot& snap, const Palette& p, const Histo
 
 PlotView ResidualPlot(const EngineSnapshot& snap, const Palette& p, const HistorySample& now) {
   PlotView view = Base("residual", "Vision residual", "σ");
-  view.series = {Estimate(snap, &HistorySample::residual_sigma, p, NAN)};
+  view.series = {Estimate(snap, &HistorySample::residual_sigma, p)};
   view.y_min = 0;
   view.y_max = 4;
   view.limits = LimitLine(snap, LimitId::kResidual);
@@ -213,7 +227,7 @@ PlotView ResidualPlot(const EngineSnapshot& snap, const Palette& p, const Histor
 PlotView PathPlot(const EngineSnapshot& snap, const Palette& p, const HistorySample& now) {
   PlotView view = Base("path", "Off the planned path", "m");
   view.series = {Estimate(snap, &HistorySample::glide_deviation_m, p,
-                          3 * snap.flight->navigation.InForce().estimate.sigma_p_m.norm())};
+                          [](const HistorySample& h) { return h.estimate_sigma_m.norm(); })};
   view.y_max = 1.6f;
   view.limits = LimitLine(snap, LimitId::kOffPath);
   view.current = Fixed(now.glide_deviation_m, 2) + Unit(now.glide_deviation_m, " m");
@@ -291,21 +305,23 @@ void DrawPlotTabs(const EngineSnapshot& snap, const Rect& rect, PlotTab& tab, Ui
   }
 }
 
+std::array<PlotView, 6> DescentPlots(const EngineSnapshot& snap, const Palette& p) {
+  const HistorySample& now = snap.flight->history->back();
+  return {HeightPlot(snap, p, now),    DistancePlot(snap, p, now), RatePlot(snap, p, now),
+          CoherencePlot(snap, p, now), ResidualPlot(snap, p, now), PathPlot(snap, p, now)};
+}
+
 void DrawDescentPlotsPanel(const EngineSnapshot& snap, const std::array<Rect, 6>& rects,
                            PlotHover& hover, UiFrame& ui) {
   if (!snap.flight->history || snap.flight->history->empty()) {
     DrawPanelFrame(ui, rects[0], "No flight history yet");
     return;
   }
-  const Palette& p = ui.style.palette;
-  const HistorySample& now = snap.flight->history->back();
   BeginPlots(hover);
-  DrawPlot(ui, rects[0], HeightPlot(snap, p, now), hover);
-  DrawPlot(ui, rects[1], DistancePlot(snap, p, now), hover);
-  DrawPlot(ui, rects[2], RatePlot(snap, p, now), hover);
-  DrawPlot(ui, rects[3], CoherencePlot(snap, p, now), hover);
-  DrawPlot(ui, rects[4], ResidualPlot(snap, p, now), hover);
-  DrawPlot(ui, rects[5], PathPlot(snap, p, now), hover);
+  const std::array<PlotView, 6> plots = DescentPlots(snap, ui.style.palette);
+  for (std::size_t i = 0; i < plots.size(); ++i) {
+    DrawPlot(ui, rects[i], plots[i], hover);
+  }
 }
 
 }  // namespace palace

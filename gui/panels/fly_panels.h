@@ -46,6 +46,8 @@ void DrawTrackerPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui)
 void DrawChannelStripPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui);
 /// Tabs "tab/Descent" and "tab/Maps", and six plots.
 void DrawPlotTabs(const EngineSnapshot& snap, const Rect& rect, PlotTab& tab, UiFrame& ui);
+/// What the six plots show. The snapshot has a history.
+std::array<PlotView, 6> DescentPlots(const EngineSnapshot& snap, const Palette& palette);
 void DrawDescentPlotsPanel(const EngineSnapshot& snap, const std::array<Rect, 6>& rects,
                            PlotHover& hover, UiFrame& ui);
 

@@ -1,5 +1,7 @@
 #include "gui/panels/session_words.h"
 
+#include <algorithm>
+
 namespace palace {
 
 const char* WhyNoLink(const EngineSnapshot& snap) {
@@ -8,6 +10,15 @@ const char* WhyNoLink(const EngineSnapshot& snap) {
   }
   const char* why = WhyNoVehicle(snap.session->source.kind);
   return *why != '\0' ? why : "No link";
+}
+
+bool IsHeard(const EngineSnapshot& snap) {
+  const std::vector<ChannelHealth>& channels = snap.sensors->channels;
+  return snap.session->source.kind != SourceKind::kLive ||
+         std::any_of(channels.begin(), channels.end(), [](const ChannelHealth& channel) {
+           return channel.id != ChannelId::kPositionEstimate &&  // our own
+                  channel.state != ChannelHealth::State::kNever;
+         });
 }
 
 const char* ClockName(const EngineSnapshot& snap) {

@@ -1,6 +1,7 @@
 #include <array>
 
 #include "gui/panels/frame_bar.h"
+#include "gui/panels/session_words.h"
 #include "gui/widgets/icons.h"
 #include "gui/widgets/interact.h"
 
@@ -28,7 +29,7 @@ void DrawModeBlock(const EngineSnapshot& snap, const Rect& r, UiFrame& ui) {
     FillRect(dl, {r.x + edge, r.y + edge, r.w - 2 * edge, r.h - 2 * edge}, p.panel);
     DrawIcon(dl, Icon::kSimulation, {icon_x + s.Px(6), y}, s.Px(20), p.text1);
     DrawText(ui, s.mode, p.text1, r.x + s.Px(46), y, word);
-  } else if (snap.session->source.kind == SourceKind::kLive) {
+  } else if (snap.session->source.kind == SourceKind::kLive && IsHeard(snap)) {
     FillRect(dl, r, p.white_mark);
     dl->AddCircleFilled({icon_x, y}, s.Fine(6), p.on_white);
     DrawText(ui, s.mode, p.on_white, word_x, y, word);

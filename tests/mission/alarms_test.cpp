@@ -77,5 +77,19 @@ TEST(Alarms, WorstFirst) {
   EXPECT_EQ(shown[2].kind, AlarmId::kExposure);
 }
 
+// A warning that is over and not acknowledged must not hide a caution that stands.
+TEST(Alarms, WhatStandsComesBeforeWhatIsOver) {
+  AlarmBoard board;
+  for (int i = 0; i < 6; ++i) {
+    board.Update({{AlarmId::kPose, AlarmLevel::kCaution, true, ""},
+                  {AlarmId::kClock, AlarmLevel::kWarning, i < 3, ""}},
+                 {i});
+  }
+  const auto shown = board.Shown();
+  ASSERT_EQ(shown.size(), 2U);
+  EXPECT_EQ(shown[0].kind, AlarmId::kPose);
+  EXPECT_FALSE(shown[1].active);
+}
+
 }  // namespace
 }  // namespace palace

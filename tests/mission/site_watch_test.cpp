@@ -310,5 +310,23 @@ TEST(Recheck, ABlockedStraightApproachCannotBeApproved) {
   EXPECT_TRUE(rig.mission.status().can_approve) << rig.mission.status().cannot_approve_reason;
 }
 
+// Seen again from near the ground it may be something else: nobody approves what is only
+// remembered.
+TEST(Recheck, GroundThatWasNotSeenForTwoSecondsCannotBeApproved) {
+  MissionRig rig;
+  rig.Arm();
+  ASSERT_TRUE(rig.mission.status().can_approve) << rig.mission.status().cannot_approve_reason;
+  rig.Site(101)->age_s = 16.3;
+  rig.Step();
+  EXPECT_EQ(rig.state(), MissionState::kArmed);  // a doubt ends no selection
+  EXPECT_FALSE(FindGuard(rig.mission.status().guards, GuardId::kSite)->pass);
+  EXPECT_EQ(rig.mission.status().cannot_approve_reason,
+            "Ground last measured 16.3 s ago, limit 2.0 s");
+  EXPECT_FALSE(rig.ApproveNow().ok());
+  rig.Site(101)->age_s = 0.1;
+  rig.Step();
+  EXPECT_TRUE(rig.ApproveNow().ok());
+}
+
 }  // namespace
 }  // namespace palace

@@ -92,7 +92,10 @@ std::vector<Alarm> AlarmBoard::Shown() const {
     }
   }
   std::stable_sort(shown.begin(), shown.end(), [](const Alarm& a, const Alarm& b) {
-    return a.level != b.level ? a.level > b.level : a.since < b.since;
+    // What stands comes before what is over and only waits for its acknowledgement.
+    return a.active != b.active ? a.active
+           : a.level != b.level ? a.level > b.level
+                                : a.since < b.since;
   });
   return shown;
 }

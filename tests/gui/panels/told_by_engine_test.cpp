@@ -327,5 +327,38 @@ TEST(Review, PlotsAndChangedCellsAreWorkedOutOnceASnapshot) {
   EXPECT_EQ(ui.items.Find("plot/height")->text.rfind("Height", 0), 0U);
 }
 
+TEST(ModeBlock, IsNoLinkUntilSomethingIsHeardOfTheVehicle) {
+  EngineSnapshot snap = fake::Snapshot(MissionState::kSearch);
+  snap.session.Edit().source.kind = SourceKind::kLive;
+  EXPECT_EQ(FlyWindow(1920, 1080, snap).ui.items.Find("mode")->text, "LIVE");
+  for (ChannelHealth& channel : snap.sensors.Edit().channels) {
+    channel.state = ChannelHealth::State::kNever;
+  }
+  EXPECT_EQ(FlyWindow(1920, 1080, snap).ui.items.Find("mode")->text, "NO LINK");
+}
+
+TEST(DescentPlots, ABandIsOfItsOwnInstant) {
+  // The estimate grows unsure now; what was known before stays as sure as it was.
+  EngineSnapshot snap = fake::Snapshot(MissionState::kDescending);
+  auto history = *snap.flight->history;
+  for (HistorySample& sample : history) {
+    sample.estimate_sigma_m = {0.1, 0.1, 0.1};
+  }
+  history.back().estimate_sigma_m = {9, 9, 9};
+  snap.flight.Edit().history = std::make_shared<const std::vector<HistorySample>>(history);
+  int banded = 0;
+  for (const PlotView& plot : DescentPlots(snap, Palette{})) {
+    const std::vector<float>& band = plot.series.front().band;
+    if (band.empty()) {
+      continue;
+    }
+    ++banded;
+    ASSERT_EQ(band.size(), plot.series.front().points.size());
+    EXPECT_LT(band.front(), 0.6f) << plot.name;
+    EXPECT_GT(band.back(), 20.0f) << plot.name;
+  }
+  EXPECT_EQ(banded, 3);
+}
+
 }  // namespace
 }  // namespace palace
