@@ -46,6 +46,11 @@ ImFont* BuiltIn(ImFontAtlas& atlas, double size) {
 }  // namespace
 
 Fonts LoadFonts(ImFontAtlas& atlas, double scale) {
+  // Whole pixels, rounded down: later versions of Dear ImGui do so by themselves, and a text has
+  // the same width whichever is installed.
+  const auto pixels = [&](const Role& role) {
+    return static_cast<float>(std::floor(role.size * scale));
+  };
   Fonts fonts;
   atlas.Clear();
   for (const Role& role : kRoles) {
@@ -59,12 +64,11 @@ Fonts LoadFonts(ImFontAtlas& atlas, double scale) {
       config.OversampleH = 2;
       config.OversampleV = 1;
       config.PixelSnapH = false;
-      font = atlas.AddFontFromFileTTF(path.c_str(), static_cast<float>(role.size * scale), &config,
-                                      kGlyphs.data());
+      font = atlas.AddFontFromFileTTF(path.c_str(), pixels(role), &config, kGlyphs.data());
     }
     if (font == nullptr) {
       fonts.fallback = true;
-      font = BuiltIn(atlas, role.size * scale);
+      font = BuiltIn(atlas, pixels(role));
     }
     fonts.*role.font = font;
   }

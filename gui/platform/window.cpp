@@ -1,6 +1,7 @@
 #include "gui/platform/window.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <utility>
 
 #include "gui/render/gl.h"
@@ -23,11 +24,21 @@ std::string GlfwReason() {
   return text != nullptr ? text : "unknown reason";
 }
 
+bool IsSet(const char* variable) {
+  const char* value = std::getenv(variable);
+  return value != nullptr && *value != '\0';
+}
+
 }  // namespace
 
 Result<std::unique_ptr<Window>> Window::Open(const std::string& title, int width_px, int height_px,
                                              bool hidden) {
   glfwSetErrorCallback(nullptr);
+  if (!IsSet("DISPLAY") && !IsSet("WAYLAND_DISPLAY")) {
+    return UnavailableError(
+        "no display: neither DISPLAY nor WAYLAND_DISPLAY is set; start from a desktop session, or "
+        "run with --headless");
+  }
   if (glfwInit() == GLFW_FALSE) {
     return UnavailableError("no display: " + GlfwReason() +
                             "; start from a desktop session, or run with --headless");

@@ -85,8 +85,11 @@ EvidenceRow RowOf(const LimitRow& limit) {
     row.limit = EnforcedByWord(limit.enforced_by);
     return row;
   }
-  row.limit = (limit.is_least ? "min " : "max ") +
-              Fixed(most, unit.empty() ? limit.decimals : DecimalsOf(most, 0)) + gap + unit;
+  row.limit =
+      (limit.is_least ? "min " : "max ") +
+      Fixed(most, unit.empty() ? limit.decimals
+                               : std::min(DecimalsOf(most, 0), std::max(limit.decimals, 2))) +
+      gap + unit;
   row.enforcer = EnforcedByWord(limit.enforced_by);
   row.share = ShareUsed(limit);
   row.share_3s = spread / most;

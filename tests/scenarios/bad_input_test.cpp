@@ -336,7 +336,7 @@ INSTANTIATE_TEST_SUITE_P(
                  H({"--script", "idle.script"}),
                  1,
                  {"no OpenGL", "libgl1-mesa-dri"},
-                 {{"LIBGL_DRIVERS_PATH", "/nonexistent"}}},
+                 {{"__EGL_VENDOR_LIBRARY_DIRS", "/nonexistent"}}},
         BadInput{"NoDisplay", true, {"--script", "idle.script"}, 1, {"DISPLAY", "--headless"}},
         BadInput{"SimulateNoOpenGl",
                  false,

@@ -184,7 +184,9 @@ TEST_F(RealWindow, FliesUntilTheWaveOff) {
   Sleep(1);
   EXPECT_EQ(Now(), "ARMED") << "a short press approved";
   bool approved = false;
+  int holds = 0;
   for (const double seconds : {1.2, 2.0, 3.0}) {
+    ++holds;
     Hold(approve.centre().x, approve.centre().y, seconds);
     approved = Reaches({MissionState::kApproved, MissionState::kDescending}, 3);
     if (approved) {
@@ -221,7 +223,10 @@ TEST_F(RealWindow, FliesUntilTheWaveOff) {
     }
   }
   EXPECT_EQ(selected, 1);
-  EXPECT_EQ(approvals, 1);
+  // Where a frame takes long, the picture held on may be too old: that hold is refused (G6).
+  EXPECT_GE(approvals, 1);
+  EXPECT_LE(approvals, holds);
+  EXPECT_EQ(std::count(states.begin(), states.end(), MissionState::kApproved), 1);
   EXPECT_EQ(wave_offs, 1);
   // It was decided on one thread and recorded on another; read back on a third it is the same.
   EXPECT_EQ(Divergences(flights[0] / "flight.lcm"), 0);
