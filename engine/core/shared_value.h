@@ -27,8 +27,6 @@ class SharedValue {
     }
     return *value_;
   }
-  /// Whether both hold the very same value: nothing was renewed between them.
-  bool IsSharedWith(const SharedValue& other) const { return value_ == other.value_; }
 
  private:
   std::shared_ptr<T> value_;

@@ -6,6 +6,7 @@
 #include <system_error>
 
 #include "engine/core/csv_row.h"
+#include "engine/core/files.h"
 #include "engine/journal/log_index.h"
 #include "engine/model/site_columns.h"
 #include "engine/wire/convert.h"
@@ -208,11 +209,8 @@ Result<std::vector<ExportedTable>> ExportCsv(const std::filesystem::path& log,
   if (!index) {
     return index.error();
   }
-  std::error_code failed;
-  std::filesystem::create_directories(folder, failed);
-  if (failed) {
-    return UnavailableError(folder.string() + ": cannot be made (" + failed.message() +
-                            "); choose another folder with --out");
+  if (const Status made = MakeFolder(folder); !made) {
+    return made.error();
   }
   Exporter exporter(channels);
   for (const LogEntry& entry : index->entries) {

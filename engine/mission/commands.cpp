@@ -184,6 +184,7 @@ Status Obeying::operator()(const ApproveSite& action) const {
   m.approved_at = now;
   AddEvent(turn, now, EventKind::kDecision, words::ApprovalGiven(m.status, m.approvals_given));
   const char* who = origin == CommandOrigin::kScript ? "a script" : "the operator";
+  m.status.approved_by = recorded ? "" : who;  // a record does not tell
   Enter(turn, MissionState::kApproved, words::ApprovedBy(who), now);
   SendUntilAnswered(turn, *m.status.approval, now);
   return Ok();

@@ -57,6 +57,7 @@ struct HistorySample {
   bool centre_limited = false;  ///< the distance from the site's centre has its limit now
   double plan_height_m = NAN;
   double descent_rate_mps = NAN;
+  double descent_rate_sigma_mps = NAN;
   double laser_m = NAN;  ///< height of the skids above the laser's spot
   double coherence = NAN;
   double residual_sigma = NAN;
@@ -127,6 +128,10 @@ struct TerrainPart {
   /// Replay: maps still to come after a jump until the map holds as many frames as in flight.
   int maps_to_rebuild = 0;
 
+  /// What the flight decided: in a replay under other limits not what is applied now.
+  const std::shared_ptr<const TerrainDecision>& OfRecord() const {
+    return recorded ? recorded : applied;
+  }
   /// What a screen shows as decided: the preview while there is one.
   const TerrainDecision* Shown() const { return preview ? preview.get() : applied.get(); }
 };

@@ -56,8 +56,7 @@ void Engine::SendStop(const EngineCommand& command) {
   } else if (std::holds_alternative<HoldHere>(command.action)) {
     // Only what the mission will hold too; it refuses a hold where nothing descends.
     const std::shared_ptr<const EngineSnapshot> newest = latest_.Load();
-    if (newest && (newest->flight->mission.state == MissionState::kApproved ||
-                   newest->flight->mission.state == MissionState::kDescending)) {
+    if (newest && IsFlying(newest->flight->mission.state)) {
       stop_->Hold();
     }
   }

@@ -63,6 +63,7 @@ HistorySample SampleOf(const EngineSnapshot& snapshot, const FrameBundle& bundle
     sample.estimate_p_WB = filter.estimate.p_WB;
     sample.estimate_v_WB = filter.estimate.v_WB;
     sample.estimate_sigma_m = filter.estimate.sigma_p_m;
+    sample.descent_rate_sigma_mps = filter.estimate.sigma_v_mps.z();
   }
   if (nav.gps.running) {
     sample.gps_p_WB = nav.gps.estimate.p_WB;

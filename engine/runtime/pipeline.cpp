@@ -237,7 +237,7 @@ void Pipeline::MeasureRange(Pass& pass) {
 void Pipeline::Judge(Pass& pass) {
   TerrainPart& terrain = pass.snapshot->terrain.Edit();
   if (!slad_.has_map() || (!pass.new_map && !pass.settings_moved)) {
-    pass.decision_of_record = terrain.recorded ? terrain.recorded : terrain.applied;
+    pass.decision_of_record = terrain.OfRecord();
     return;
   }
   // Letters follow the limits of record; a preview or a re-decision uses a copy of them.

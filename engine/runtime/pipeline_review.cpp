@@ -9,8 +9,7 @@ namespace palace {
 
 void Pipeline::Review(Pass& pass) {
   EngineSnapshot& snapshot = *pass.snapshot;
-  const TerrainDecision* flown = snapshot.terrain->recorded ? snapshot.terrain->recorded.get()
-                                                            : snapshot.terrain->applied.get();
+  const TerrainDecision* flown = snapshot.terrain->OfRecord().get();
   const MissionStatus& mission = snapshot.flight->mission;
   const LandingSite* site = mission.armed      ? &*mission.armed
                             : flown != nullptr ? mission.BestStanding(flown->selection.sites)

@@ -4,33 +4,9 @@
 #include <cmath>
 #include <iterator>
 
+#include "engine/mission/alarms/alarms.h"
+
 namespace palace {
-namespace {
-
-/// Alarms about the state of the mission, not about what channels and cameras bring.
-bool ComesFromMission(AlarmId id) {
-  switch (id) {
-    case AlarmId::kNoSite:
-    case AlarmId::kWaveOff:
-    case AlarmId::kHold:
-    case AlarmId::kSiteDegraded:
-    case AlarmId::kVisionLost:
-    case AlarmId::kCoherenceLow:
-    case AlarmId::kApprovalUnanswered:
-    case AlarmId::kApprovalRefused:
-    case AlarmId::kForeignDescent:
-    case AlarmId::kOffPath:
-    case AlarmId::kOffCentre:
-    case AlarmId::kDescentRate:
-    case AlarmId::kVisionResidual:
-    case AlarmId::kWind:
-      return true;
-    default:
-      return false;
-  }
-}
-
-}  // namespace
 
 const FlightRecordSample* RecordedMission::At(Timestamp time) const {
   if (!record_ || record_->samples.empty()) {
@@ -107,7 +83,9 @@ MissionStatus RecordedMission::StatusAt(Timestamp time, const MissionStatus& wat
   status.confirm_height_m = watched.confirm_height_m;
   status.cannot_approve_reason = WhyNoVehicle(SourceKind::kReplay);
   std::copy_if(watched.alarms.begin(), watched.alarms.end(), std::back_inserter(status.alarms),
-               [](const Alarm& alarm) { return !ComesFromMission(alarm.kind); });
+               [](const Alarm& alarm) {
+                 return !AlarmTable()[static_cast<std::size_t>(alarm.kind)].of_mission;
+               });
   for (const LimitId id : {LimitId::kRowError, LimitId::kExposure, LimitId::kRangeScale}) {
     if (const LimitRow* row = FindLimit(watched.limits, id)) {
       status.limits.push_back(*row);

@@ -17,17 +17,13 @@ Settings WithPerceptionOf(const Settings& wanted, const Settings& recorded) {
 
 }  // namespace
 
-Result<Settings> WantedSettings(const SettingsRequest& request, const Settings& base) {
-  return SettingsOfCommandLine(base, request.file, request.set);
-}
-
 Result<ReplaySettings> SettingsOfReplay(const SettingsRequest& request,
                                         const FlightRecord& record) {
   const Settings& recorded = record.settings_at_start;
   if (request.file.empty() && request.set.empty()) {
     return ReplaySettings{recorded, std::nullopt};
   }
-  const Result<Settings> wanted = WantedSettings(request, recorded);
+  const Result<Settings> wanted = SettingsOfCommandLine(recorded, request.file, request.set);
   if (!wanted) {
     return wanted.error();
   }

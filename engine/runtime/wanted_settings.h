@@ -1,6 +1,6 @@
-// WantedSettings: what --settings and --set ask for, over what was in force before.
+// ReplaySettings: what --settings and --set ask of a log, over what its flight began with.
 //
-// Over a log, that is what its flight began with. What the ranges, the fused map and the tracker
+// What the ranges, the fused map and the tracker
 // are made with then holds from the start; limits, lander and choice of site stay as recorded, and
 // the wanted ones are judged beside them.
 #pragma once
@@ -19,10 +19,6 @@ struct SettingsRequest {
   std::string file;              ///< TOML; empty: none
   std::vector<std::string> set;  ///< "slad.max_slope_deg=8"
 };
-
-/// `base`, with the file and then the single values over it. A bad value is a usage error; a file
-/// that cannot be read, or holds one, is named with its line.
-Result<Settings> WantedSettings(const SettingsRequest& request, const Settings& base);
 
 /// What a log is decided with.
 struct ReplaySettings {

@@ -86,8 +86,10 @@ Status WriteAll(const AnalyzeOutcome& o, const fs::path& folder) {
 }  // namespace
 
 Status PublishAnalysis(const AnalyzeOutcome& o, const fs::path& out) {
+  if (const Status made = MakeFolder(out); !made) {
+    return made;
+  }
   std::error_code error;
-  fs::create_directories(out, error);
   const fs::path partial = out / ".analyze-partial";
   fs::remove_all(partial, error);
   if (!fs::create_directory(partial, error)) {

@@ -116,7 +116,8 @@ int Finish(const LogOptions& options, const Result<std::uint64_t>& events) {
 }  // namespace
 
 void AddLogCommand(CLI::App& app, int& exit_code) {
-  CLI::App* log = app.add_subcommand("log", "Look into, check, cut, repair and export a log");
+  CLI::App* log =
+      app.add_subcommand("log", "Look into, check, cut, repair, export and rerun a log");
   log->require_subcommand(1);
   const auto options = std::make_shared<LogOptions>();
   const auto verb = [&](const char* name, const char* help) {

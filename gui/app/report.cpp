@@ -1,10 +1,10 @@
 #include "gui/app/report.h"
 
 #include <cstdio>
-#include <fstream>
 #include <utility>
 #include <vector>
 
+#include "engine/core/files.h"
 #include "engine/core/hash.h"
 #include "engine/report/html_page.h"
 #include "engine/report/svg_plot.h"
@@ -89,13 +89,7 @@ Status WriteReport(const std::filesystem::path& file, const ReportInput& input) 
   for (const std::string& shot : input.screenshots) {
     page.Picture(shot, shot);
   }
-  std::ofstream out(file, std::ios::trunc);
-  out << page.Text();
-  out.close();
-  if (!out) {
-    return UnavailableError("cannot write " + file.string() + "; choose a folder you may write to");
-  }
-  return Ok();
+  return WriteTextFile(file, page.Text());
 }
 
 Status WriteFlightReport(const AppOptions& options, const Session& session,
@@ -110,8 +104,9 @@ Status WriteFlightReport(const AppOptions& options, const Session& session,
   report.last = session.engine->Latest();
   report.screenshots = screenshots;
   report.log_name = options.record ? "flight.lcm" : "";
-  std::error_code error;
-  std::filesystem::create_directories(session.output_dir, error);
+  if (const Status made = MakeFolder(session.output_dir); !made) {
+    return made;
+  }
   return WriteReport(session.output_dir / "report.html", report);
 }
 

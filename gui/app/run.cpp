@@ -7,6 +7,7 @@
 
 #include <imgui.h>
 
+#include "engine/core/files.h"
 #include "engine/core/log.h"
 #include "engine/core/time.h"
 #include "engine/runtime/flight_summary.h"
@@ -169,8 +170,9 @@ class StationRun {
   }
 
   Status SaveScreenshots() {
-    std::error_code error;
-    std::filesystem::create_directories(session_.output_dir, error);
+    if (const Status made = MakeFolder(session_.output_dir); !made) {
+      return made;
+    }
     const ImageRgba picture = surface_.ReadPixels();
     for (const std::string& wanted : state_.screenshots_wanted) {
       const std::string name = wanted.empty() ? "screenshot-" + TimeStampName() + ".png" : wanted;

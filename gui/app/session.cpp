@@ -9,6 +9,7 @@
 #include "engine/core/units.h"
 #include "engine/journal/log_writer.h"
 #include "engine/journal/replay_source.h"
+#include "engine/runtime/settings_io.h"
 #include "engine/simulation/session.h"
 #include "engine/wire/lcm_link.h"
 #include "engine/wire/lcm_source.h"
@@ -142,7 +143,8 @@ Result<Session> OpenSession(const AppOptions& options, bool threaded) {
   Session session;
   EngineParts parts;
   if (options.source != SourceChoice::kReplay) {
-    const Result<Settings> settings = WantedSettings(options.settings, Settings{});
+    const Result<Settings> settings =
+        SettingsOfCommandLine(Settings{}, options.settings.file, options.settings.set);
     if (!settings) {
       return settings.error();
     }

@@ -155,7 +155,9 @@ Intents View::Draw(const EngineSnapshot* snapshot, const FlightRecord* record, U
              frame.ui_time_s, state.key_help, layout.wave_off, Explain};
   ui.highlighted_site = state.highlighted_site;
   ui.window_focused = frame.window_focused;
-  state.frame.preset_name = PresetName(state.tune);
+  if (snapshot != nullptr) {
+    state.frame.preset_name = LimitsName(state.tune, snapshot->session->settings);
+  }
   state.frame.frame_ms = frame.frame_ms;
   BeginCanvas(ui);
   if (snapshot == nullptr) {

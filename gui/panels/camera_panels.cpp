@@ -51,9 +51,8 @@ void DrawMissing(UiFrame& ui, const Rect& image) {
 }
 
 bool TrackerShown(const EngineSnapshot& snap) {
-  return snap.flight->mission.state == MissionState::kDescending ||
-         snap.flight->mission.state == MissionState::kHold ||
-         snap.flight->mission.state == MissionState::kApproved;
+  const MissionState state = snap.flight->mission.state;
+  return IsFlying(state) || state == MissionState::kHold;
 }
 
 SiteOverlay OverlayOf(const EngineSnapshot& snap, std::uint64_t highlighted) {
@@ -78,11 +77,18 @@ SiteOverlay OverlayOf(const EngineSnapshot& snap, std::uint64_t highlighted) {
   return overlay;
 }
 
-/// "Depth" switches the tint by the range map; beside it the colours' ends. The chip appears with
-/// the pointer or the focus, so that the picture stays free.
-void DrawDepthChip(UiFrame& ui, const Rect& image, CameraState& state) {
+/// The range map was measured in the picture that is shown.
+bool RangesAreOfPicture(const EngineSnapshot& snap) {
+  return snap.terrain->range && snap.sensors->frame &&
+         snap.terrain->range->time == snap.sensors->frame->time;
+}
+
+/// "Depth" switches the tint by the range map; beside it the colours' ends, or how old the last
+/// ranges are: those are of another picture, and not laid over this one. The chip appears with the
+/// pointer or the focus, so that the picture stays free, above the scale bar.
+void DrawDepthChip(const EngineSnapshot& snap, UiFrame& ui, const Rect& image, CameraState& state) {
   const Style& s = ui.style;
-  const Rect chip{image.x + s.Px(8), image.y + s.Px(42), s.Px(64), s.Px(24)};
+  const Rect chip{image.x + s.Px(8), image.bottom() - s.Px(76), s.Px(64), s.Px(24)};
   ButtonLook look;
   look.active = state.show_depth;
   look.unseen = !state.show_depth && !Interact(ui, "left_camera", image, kPassive).hovered;
@@ -90,6 +96,18 @@ void DrawDepthChip(UiFrame& ui, const Rect& image, CameraState& state) {
     state.show_depth = !state.show_depth;
   }
   if (!state.show_depth || ui.textures.range_tint == nullptr) {
+    return;
+  }
+  if (!RangesAreOfPicture(snap)) {
+    const std::string words =
+        snap.terrain->range
+            ? "Last depth " + AgeText(SecondsBetween(snap.terrain->range->time, snap.time)) + " ago"
+            : "No depth yet";
+    const Rect plate{chip.right() + s.Px(6), chip.y, TextWidth(s.caption, words) + s.Px(16),
+                     chip.h};
+    FillRect(Canvas(), plate, picture::kPlate, s.Fine(3));
+    DrawText(ui, s.caption, picture::kPlateText, plate.centre().x, plate.centre().y, words,
+             Align::kCentre);
     return;
   }
   const std::string near = Fixed(static_cast<double>(ui.textures.range_near_m), 1) + " m";
@@ -135,13 +153,13 @@ void DrawLeftCameraPanel(const EngineSnapshot& snap, const Rect& rect, CameraSta
   ui.items.Add("left_camera", image, true, "");
   if (ui.textures.left_camera == nullptr || !camera) {
     DrawMissing(ui, image);
-    DrawDepthChip(ui, image, state);
+    DrawDepthChip(snap, ui, image, state);
     return;
   }
   ImDrawList* dl = Canvas();
   dl->PushClipRect(image.min(), image.max(), true);
   dl->AddImage(ui.textures.left_camera, image.min(), image.max());
-  if (state.show_depth && ui.textures.range_tint != nullptr) {
+  if (state.show_depth && ui.textures.range_tint != nullptr && RangesAreOfPicture(snap)) {
     dl->AddImage(ui.textures.range_tint, image.min(), image.max());
   }
   const TerrainDecision* shown = snap.terrain->Shown();
@@ -155,7 +173,7 @@ void DrawLeftCameraPanel(const EngineSnapshot& snap, const Rect& rect, CameraSta
   DrawProbeOnPicture(ui, view, shown, probe);
   DrawStale(ui, image, arrival);
   DrawVerdictPlate(ui, image, snap, shown);
-  DrawDepthChip(ui, image, state);
+  DrawDepthChip(snap, ui, image, state);
   if (snap.terrain->preview) {
     PreviewChip(ui, {image.right() - s.Px(92), image.y + s.Px(8)});
   }

@@ -191,16 +191,14 @@ PlotView DistancePlot(const EngineSnapshot& snap, const Palette& p, const Histor
 PlotView RatePlot(const EngineSnapshot& snap, const Palette& p, const HistorySample& now) {
   using Stroke = PlotTrace::Stroke;
   PlotView view = Base("rate", "Descent rate", "m/s");
-  view.series = {Estimate(snap, &HistorySample::descent_rate_mps, p),
+  view.series = {Estimate(snap, &HistorySample::descent_rate_mps, p,
+                          [](const HistorySample& h) { return h.descent_rate_sigma_mps; }),
                  RateOf(snap, &HistorySample::truth_p_WB, p.truth, Stroke::kDotted),
                  RateOf(snap, &HistorySample::gps_p_WB, p.gps, Stroke::kSolid)};
   view.y_min = -0.25f;
   view.limits = LimitLine(snap, LimitId::kDescentRate);
   view.y_max = RoundUp(1.2f * (view.limits.empty() ? 1.5f : view.limits.front().value), 0.5f);
-  // No sample keeps the sigma that its rate had: told for now, not drawn over the past.
-  const double band = 3 * snap.flight->navigation.InForce().estimate.sigma_v_mps.z();
-  view.current = Fixed(now.descent_rate_mps, 2) +
-                 (band >= 0.005 ? " ± " + Fixed(band, 2) : std::string()) + " m/s";
+  view.current = Fixed(now.descent_rate_mps, 2) + " m/s";
   return view;
 }
 

@@ -46,17 +46,18 @@ std::string Record(const EngineSnapshot& snap) {
     std::string text;
     const auto add = [&](const std::optional<double>& miss_m, const char* by) {
       if (miss_m) {
-        text += (text.empty() ? "Off centre: " : ", ") + Fixed(*miss_m, 2) + " m " + by;
+        text += (text.empty() ? "Touched down " : ", ") + Fixed(*miss_m, 2) + " m " + by;
       }
     };
-    add(m.touchdown_miss_m, "by estimate");
-    add(m.touchdown_miss_true_m, "in truth");
+    add(m.touchdown_miss_m, "off centre by estimate");
+    add(m.touchdown_miss_true_m, m.touchdown_miss_m ? "in truth" : "off centre in truth");
     return text.empty() ? text : text + ".";
   }
   if (!m.approval) {
     return "";
   }
-  std::string text = "Approved " + ClockText(m.approval->approved_at) + " by you";
+  std::string text = "Approved " + ClockText(m.approval->approved_at) +
+                     (m.approved_by.empty() ? "" : " by " + m.approved_by);
   if (m.approval_phase == MissionStatus::ApprovalPhase::kAccepted) {
     return text + ", accepted in " + Duration(m.approval_answer_s) + ".";
   }
@@ -116,9 +117,7 @@ void DrawLandingPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui)
   const float x = rect.x + s.Px(12);
   const float width = rect.w - s.Px(24);
   const float head_y = rect.y + s.Px(tall ? 49 : 44);
-  const bool counting =
-      std::isfinite(m.time_to_touchdown_s) &&
-      (m.state == MissionState::kDescending || m.state == MissionState::kApproved);
+  const bool counting = std::isfinite(m.time_to_touchdown_s) && IsFlying(m.state);
   float room = width;
   if (counting) {
     room -= DrawText(ui, s.readout, p.text1, rect.right() - s.Px(12), head_y,
@@ -148,8 +147,7 @@ void DrawLandingPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui)
     }
     return;
   }
-  const bool flying = m.state == MissionState::kApproved || m.state == MissionState::kDescending;
-  look.enabled = flying && snap.session->can_transmit;
+  look.enabled = IsFlying(m.state) && snap.session->can_transmit;
   look.reason = snap.session->can_transmit ? "Nothing to stop" : WhyNoLink(snap);
   if (DrawButton(ui, "hold_here", button, "Hold here", look)) {
     ui.intents.push_back(CommandAction(HoldHere{}));

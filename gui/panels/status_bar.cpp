@@ -111,7 +111,8 @@ void DrawStatusBarPanel(const EngineSnapshot& snap, const FrameLayout& layout,
                     Align::kRight);
   const std::size_t sites =
       snap.terrain->applied ? snap.terrain->applied->selection.sites.size() : 0;
-  std::vector<std::string> group = {snap.session->can_transmit ? "In control: you" : "Watching"};
+  std::vector<std::string> group = {snap.session->can_transmit ? "In control: this station"
+                                                               : "Watching"};
   if (narrow) {
     group.push_back(ChannelsText(snap));
     std::swap(group[0], group[1]);
@@ -132,7 +133,7 @@ void DrawStatusBarPanel(const EngineSnapshot& snap, const FrameLayout& layout,
                                    RecordingText(snap, narrow),
                                    narrow ? limits : "Limits " + limits};
   if (!narrow) {
-    left.push_back("Frame " + Fixed(state.frame_ms, 0) + " ms");
+    left.push_back(state.frame_ms > 0 ? "Frame " + Fixed(state.frame_ms, 0) + " ms" : "");
   }
   float x = bar.x + s.Px(12);
   for (const std::string& item : left) {

@@ -94,10 +94,11 @@ std::vector<Readout> Readouts(const EngineSnapshot& snap, bool narrow) {
             status("Fuel", fuel, 0, "%")};
   }
   const Readout height = [&] {
-    if (snap.sensors->laser && std::isfinite(snap.sensors->laser->range_m)) {
-      // The laser looks along the camera: only its vertical share is height.
-      const double height_m = snap.sensors->laser->range_m * snap.sensors->X_WC.R(2, 2);
-      return by(ChannelId::kLaserRange)(narrow ? "Height" : "Height above ground", height_m, 1, "m");
+    // Of the skids above the laser's spot, as in the plots.
+    const auto& history = snap.flight->history;
+    const double laser_m = history && !history->empty() ? history->back().laser_m : NAN;
+    if (std::isfinite(laser_m)) {
+      return by(ChannelId::kLaserRange)(narrow ? "Height" : "Height above ground", laser_m, 1, "m");
     }
     const double height_m =
         snap.sensors->pose ? HeightFromDown(snap.sensors->pose->X_WB.p.z()) : NAN;

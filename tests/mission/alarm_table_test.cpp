@@ -17,7 +17,7 @@ AlarmFacts AllMeasured() {
   f.left_camera_age_s = f.right_camera_age_s = f.pose_age_s = f.link_age_s = 0;
   f.gps_error_m = f.row_error_px = f.laser_mismatch_m = 0;
   f.exposure_ratio = f.exposure_factor = 1;
-  f.scale_error_percent = f.scale_sigma_percent = 0;
+  f.scale_error_percent = 0;
   f.vision_outage_s = f.waiting_s = 0;
   f.max_vision_outage_s = Settings{}.mission.max_vision_outage_s;
   f.coherence = 1;

@@ -114,6 +114,7 @@ inline std::vector<HistorySample> History(bool descending) {
     h.estimate_p_WB = {0.0, 0.0, -h.height_above_site_m};
     h.estimate_v_WB = {0, 0, h.descent_rate_mps};
     h.estimate_sigma_m = {0.03, 0.03, 0.05};
+    h.descent_rate_sigma_mps = 0.02;
     h.gps_p_WB = {1.1, 1.3, -h.height_above_site_m - 1.5};
     h.truth_p_WB = h.estimate_p_WB;
     h.best_site = 'A';
@@ -237,6 +238,7 @@ inline void FillMission(EngineSnapshot& snap, MissionState state) {
     approval.approved_at = {kNow_us - 55'000'000};
     approval.expires_at = {kNow_us - 25'000'000};
     m.approval = approval;
+    m.approved_by = "the operator";
     m.approval_phase = MissionStatus::ApprovalPhase::kAccepted;
     m.approval_answer_s = 0.3;
   }

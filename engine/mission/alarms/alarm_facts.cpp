@@ -1,5 +1,4 @@
 // What the alarms look at, out of the mission's memory and the inputs of this step.
-#include <algorithm>
 #include <cmath>
 
 #include "engine/mission/alarms/alarms.h"
@@ -72,10 +71,9 @@ void FillFromLimits(const MissionMemory& m, AlarmFacts& f) {
   take(LimitId::kResidual, f.residual_sigma, &f.max_residual_sigma);
   take(LimitId::kWind, f.wind_mps);
   take(LimitId::kExposure, f.exposure_factor);
-  if (const LimitRow* scale = FindLimit(m.status.limits, LimitId::kRangeScale)) {
-    f.scale_error_percent = 100 * scale->value;
-    f.scale_sigma_percent = 100 * scale->three_sigma / 3;
-  }
+  // These two are over only when it is not by chance.
+  const LimitRow* scale = FindLimit(m.status.limits, LimitId::kRangeScale);
+  f.scale_error_percent = scale != nullptr && scale->over ? 100 * scale->value : NAN;
   const LimitRow* rows = FindLimit(m.status.limits, LimitId::kRowError);
   f.row_error_px = rows != nullptr && rows->over ? rows->value : NAN;
 }

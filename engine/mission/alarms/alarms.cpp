@@ -161,12 +161,7 @@ const std::array<AlarmRow, kAlarmCount> kAlarms = {{
      .level = AlarmLevel::kCaution,
      .limit = {AlarmLimits::scale_percent, "%", 0},
      .value = &Facts::scale_error_percent,
-     .present =
-         [](const Facts& f, double limit) {
-           // Beyond the limit, and not by chance.
-           return f.scale_error_percent > limit &&
-                  f.scale_error_percent > 3 * f.scale_sigma_percent;
-         },
+     .present = [](const Facts& f, double limit) { return f.scale_error_percent > limit; },
      .text =
          [](const Facts& f, const std::string& limit) {
            return WithNumbers("Stereo reads %.1f %% ", f.scale_error_percent) +
@@ -200,6 +195,7 @@ const std::array<AlarmRow, kAlarmCount> kAlarms = {{
          }},
     {.id = AlarmId::kNoSite,
      .level = AlarmLevel::kAdvisory,
+     .of_mission = true,
      .present = [](const Facts& f, double) { return f.no_site; },
      .text =
          [](const Facts& f, const std::string&) {
@@ -208,6 +204,7 @@ const std::array<AlarmRow, kAlarmCount> kAlarms = {{
          }},
     {.id = AlarmId::kWaveOff,
      .level = AlarmLevel::kWarning,
+     .of_mission = true,
      .immediate = true,
      .present = [](const Facts& f, double) { return f.state == MissionState::kAborting; },
      .text =
@@ -218,6 +215,7 @@ const std::array<AlarmRow, kAlarmCount> kAlarms = {{
          }},
     {.id = AlarmId::kHold,
      .level = AlarmLevel::kCaution,
+     .of_mission = true,
      .immediate = true,
      .present = [](const Facts& f, double) { return f.state == MissionState::kHold; },
      .text =
@@ -227,6 +225,7 @@ const std::array<AlarmRow, kAlarmCount> kAlarms = {{
          }},
     {.id = AlarmId::kSiteDegraded,
      .level = AlarmLevel::kCaution,
+     .of_mission = true,
      .immediate = true,
      .present = [](const Facts& f, double) { return f.site_degraded; },
      .text =
@@ -236,6 +235,7 @@ const std::array<AlarmRow, kAlarmCount> kAlarms = {{
          }},
     {.id = AlarmId::kVisionLost,
      .level = AlarmLevel::kWarning,
+     .of_mission = true,
      .limit = {AlarmLimits::vision_late_s, "s"},
      .value = &Facts::vision_outage_s,
      .present = [](const Facts& f, double limit) { return f.vision_outage_s > limit; },
@@ -247,6 +247,7 @@ const std::array<AlarmRow, kAlarmCount> kAlarms = {{
          }},
     {.id = AlarmId::kCoherenceLow,
      .level = AlarmLevel::kCaution,
+     .of_mission = true,
      .limit = {NAN, "", 2},
      .limit_from = &Facts::min_coherence,
      .value = &Facts::coherence,
@@ -258,6 +259,7 @@ const std::array<AlarmRow, kAlarmCount> kAlarms = {{
          }},
     {.id = AlarmId::kApprovalUnanswered,
      .level = AlarmLevel::kCaution,
+     .of_mission = true,
      .limit = {AlarmLimits::answer_s, "s", 0},
      .value = &Facts::waiting_s,
      .present = [](const Facts& f, double limit) { return f.waiting_s > limit; },
@@ -269,12 +271,14 @@ const std::array<AlarmRow, kAlarmCount> kAlarms = {{
          }},
     {.id = AlarmId::kApprovalRefused,
      .level = AlarmLevel::kCaution,
+     .of_mission = true,
      .immediate = true,
      .present = [](const Facts& f, double) { return !f.refusal.empty(); },
      .text = [](const Facts& f,
                 const std::string&) { return f.refusal + ". Select a site again."; }},
     {.id = AlarmId::kForeignDescent,
      .level = AlarmLevel::kWarning,
+     .of_mission = true,
      .present = [](const Facts& f, double) { return f.foreign_descent; },
      .text =
          [](const Facts&, const std::string&) {
@@ -327,6 +331,7 @@ const std::array<AlarmRow, kAlarmCount> kAlarms = {{
          }},
     {.id = AlarmId::kOffPath,
      .level = AlarmLevel::kCaution,
+     .of_mission = true,
      .limit = {DescentLimits::off_path_m, "m"},
      .value = &Facts::off_path_m,
      .present = [](const Facts& f, double limit) { return f.off_path_m > limit; },
@@ -337,6 +342,7 @@ const std::array<AlarmRow, kAlarmCount> kAlarms = {{
          }},
     {.id = AlarmId::kOffCentre,
      .level = AlarmLevel::kCaution,
+     .of_mission = true,
      .limit = {NAN, "m", 2},
      .limit_from = &Facts::nav_error_m,
      .value = &Facts::off_centre_m,
@@ -348,6 +354,7 @@ const std::array<AlarmRow, kAlarmCount> kAlarms = {{
          }},
     {.id = AlarmId::kDescentRate,
      .level = AlarmLevel::kCaution,
+     .of_mission = true,
      .limit = {NAN, "m/s", 2},
      .limit_from = &Facts::max_descent_rate_mps,
      .value = &Facts::descent_rate_mps,
@@ -359,6 +366,7 @@ const std::array<AlarmRow, kAlarmCount> kAlarms = {{
          }},
     {.id = AlarmId::kVisionResidual,
      .level = AlarmLevel::kCaution,
+     .of_mission = true,
      .limit = {NAN, "σ", 2},
      .limit_from = &Facts::max_residual_sigma,
      .value = &Facts::residual_sigma,
@@ -370,6 +378,7 @@ const std::array<AlarmRow, kAlarmCount> kAlarms = {{
          }},
     {.id = AlarmId::kWind,
      .level = AlarmLevel::kCaution,
+     .of_mission = true,
      .limit = {DescentLimits::wind_mps, "m/s"},
      .value = &Facts::wind_mps,
      .present = [](const Facts& f, double limit) { return f.wind_mps > limit; },

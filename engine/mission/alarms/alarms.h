@@ -37,7 +37,6 @@ struct AlarmFacts {
   double exposure_ratio = NAN;       ///< right over left brightness
   double exposure_factor = NAN;      ///< how many times as bright the brighter one is
   double scale_error_percent = NAN;  ///< stereo against laser
-  double scale_sigma_percent = NAN;
   bool reads_far = false;
   double laser_mismatch_m = NAN;
 
@@ -76,6 +75,7 @@ AlarmFacts AlarmFactsAt(const MissionMemory& memory, const MissionInputs& inputs
 struct AlarmRow {
   AlarmId id;
   AlarmLevel level;
+  bool of_mission = false;  ///< about the mission's state: a record is asked for that, not seen
   bool immediate = false;
   Limit limit{};                             ///< that raises it; none: NaN
   double AlarmFacts::*limit_from = nullptr;  ///< where the limit is a setting

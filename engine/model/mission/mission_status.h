@@ -135,6 +135,7 @@ struct MissionStatus {
   bool can_approve = false;
   std::string cannot_approve_reason;  ///< first guard that fails
   std::optional<Approval> approval;
+  std::string approved_by;  ///< "the operator" or "a script"; empty where nobody tells
   enum class ApprovalPhase : std::uint8_t { kNone, kSent, kAccepted, kRefused };
   ApprovalPhase approval_phase = ApprovalPhase::kNone;
   std::string approval_answer;   ///< the vehicle's reason when refused

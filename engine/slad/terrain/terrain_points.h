@@ -5,7 +5,6 @@
 
 #include <Eigen/Dense>
 
-#include "engine/core/frames.h"
 #include "engine/model/elevation_map.h"
 #include "engine/model/range_map.h"
 #include "engine/model/settings/settings.h"

@@ -84,8 +84,6 @@ void DrawReviewPlots(const ReviewPlots& plots, const Rect& rect, PlotHover& hove
 Grid<std::uint8_t> ChangedCells(const EngineSnapshot& snap);
 /// Seconds of the whole flight, or of what was replayed of it where nobody knows.
 double DurationOf(const EngineSnapshot& snap, const FlightRecord* record);
-/// What the flight decided: the record's decision, or the replayed one while no limit moved.
-const TerrainDecision* RecordedDecision(const EngineSnapshot& snap);
 /// Three square maps of side `w` from the left of `row`.
 void DrawReviewMaps(const EngineSnapshot& snap, const ReviewDigest& digest, const Rect& row,
                     float w, MapProbe& probe, UiFrame& ui);

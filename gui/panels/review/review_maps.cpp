@@ -94,10 +94,6 @@ void DrawDifference(const EngineSnapshot& snap, const Grid<std::uint8_t>& change
 
 }  // namespace
 
-const TerrainDecision* RecordedDecision(const EngineSnapshot& snap) {
-  return snap.terrain->recorded ? snap.terrain->recorded.get() : snap.terrain->applied.get();
-}
-
 Grid<std::uint8_t> ChangedCells(const EngineSnapshot& snap) {
   const TerrainDecision* before = snap.terrain->recorded.get();
   const TerrainDecision* now = snap.terrain->applied.get();
@@ -119,7 +115,7 @@ Grid<std::uint8_t> ChangedCells(const EngineSnapshot& snap) {
 
 void DrawReviewMaps(const EngineSnapshot& snap, const ReviewDigest& digest, const Rect& row,
                     float w, MapProbe& probe, UiFrame& ui) {
-  const TerrainDecision* recorded = RecordedDecision(snap);
+  const TerrainDecision* recorded = snap.terrain->OfRecord().get();
   const TerrainDecision* now = snap.terrain->applied.get();
   const float step = w + ui.style.Px(8);
   DrawReviewMap(

@@ -86,11 +86,13 @@ Verdict JudgeSite(const EngineSnapshot& snap) {
   if (snap.terrain->maps_to_rebuild > 0) {
     v.reason =
         "After the jump the map is built anew: " + std::to_string(snap.terrain->maps_to_rebuild) +
-        " frames still to come. Play on.";
+        (snap.session->source.ended
+             ? " frames are missing, and the log ends here. Go back and play."
+             : " frames still to come. Play on.");
     return v;
   }
   const MissionStatus& m = snap.flight->mission;
-  const TerrainDecision* recorded = RecordedDecision(snap);
+  const TerrainDecision* recorded = snap.terrain->OfRecord().get();
   const LandingSite* site = m.armed ? &*m.armed : BestSite(snap, recorded);
   if (site == nullptr) {
     v.recorded = "No site";
@@ -118,7 +120,7 @@ void DrawRedecidePanel(const EngineSnapshot& snap, const FlightRecord* record, c
   const Palette& p = s.palette;
   Settings recorded =
       record != nullptr && record->has_settings ? record->settings_at_start : Settings{};
-  if (const TerrainDecision* decision = RecordedDecision(snap)) {
+  if (const TerrainDecision* decision = snap.terrain->OfRecord().get()) {
     recorded.slad = decision->settings;  // in force here, where they were moved in flight
   }
   int changed = 0;
@@ -179,7 +181,7 @@ void DrawDecisionPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui
   const Palette& p = s.palette;
   const Rect content =
       DrawPanelFrame(ui, rect, "Decision at " + TimeLabel(snap.session->source.position_s, true));
-  const TerrainDecision* was = RecordedDecision(snap);
+  const TerrainDecision* was = snap.terrain->OfRecord().get();
   const TerrainDecision* is = snap.terrain->applied.get();
   const LandingSite* a = BestSite(snap, was);
   const LandingSite* b = BestSite(snap, is);
@@ -299,7 +301,7 @@ void DrawReviewWorkspace(const EngineSnapshot& snap, const FlightRecord* record,
   DrawReviewMaps(snap, digest, layout.maps, layout.map_side, state.probe, ui);
   DrawReviewPlots(digest.plots, layout.plots, state.plots, ui);
   const bool recorded = state.probe.ShownMap() == "map/Recorded";
-  DrawProbeWhy(ui, body, recorded ? RecordedDecision(snap) : snap.terrain->applied.get(),
+  DrawProbeWhy(ui, body, recorded ? snap.terrain->OfRecord().get() : snap.terrain->applied.get(),
                state.probe, snap.time);
 }
 

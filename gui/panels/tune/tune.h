@@ -46,6 +46,9 @@ TuneFacts FactsOf(const EngineSnapshot& snap);
 
 /// Name of the preset, as people know it: "r50-field"; "defaults" where none was loaded.
 std::string PresetName(const TuneState& state);
+/// Of the limits in force: the preset's; where none was loaded "defaults", or how many are not:
+/// "2 changed".
+std::string LimitsName(const TuneState& state, const Settings& applied);
 
 void DrawTuneWorkspace(const EngineSnapshot& snap, const Rect& body, TuneState& state, UiFrame& ui);
 

@@ -149,7 +149,8 @@ void DrawCompareStrip(const EngineSnapshot& snap, const Rect& rect, TuneState& s
   const bool narrow = rect.h < s.Px(100);
   const float pad = s.Px(12), chip = s.Px(narrow ? 156 : 168);
   const Rect applied{rect.x + pad, rect.y + pad, chip, rect.h - 2 * pad};
-  const std::string name = PresetName(state) + " · " + ShortHash(snap.session->settings_hash);
+  const std::string name =
+      LimitsName(state, snap.session->settings) + " · " + ShortHash(snap.session->settings_hash);
   DrawChip(
       ui, applied, !facts.previewing, "Applied",
       TextWidth(s.caption, name) < chip - 2 * pad ? name : ShortHash(snap.session->settings_hash),

@@ -126,6 +126,17 @@ std::string PresetName(const TuneState& state) {
                       : (path.extension() == ".toml" ? path.stem() : path.filename()).string();
 }
 
+std::string LimitsName(const TuneState& state, const Settings& applied) {
+  if (!state.preset_path.empty()) {
+    return PresetName(state);
+  }
+  const std::vector<SettingInfo>& table = SettingTable();
+  const auto changed = std::count_if(table.begin(), table.end(), [&](const SettingInfo& info) {
+    return GetSetting(applied, info.name) != info.default_value;
+  });
+  return changed == 0 ? PresetName(state) : std::to_string(changed) + " changed";
+}
+
 void DrawTuneWorkspace(const EngineSnapshot& snap, const Rect& body, TuneState& state,
                        UiFrame& ui) {
   const Style& s = ui.style;

@@ -11,6 +11,10 @@
 #include "tests/gui/golden/workspace_pictures.h"
 
 int main(int argc, char** argv) {
+  if (argc > 2 || (argc == 2 && argv[1][0] == '-')) {
+    std::fprintf(stderr, "renew_golden: usage: renew_golden [FOLDER]\n");
+    return 2;
+  }
   const std::string folder = argc > 1 ? argv[1] : PALACE_SOURCE_DIR "/tests/golden";
   std::filesystem::create_directories(folder);
   for (const palace::golden::Shot& shot : palace::golden::Shots()) {

@@ -343,8 +343,10 @@ TEST(DescentPlots, ABandIsOfItsOwnInstant) {
   auto history = *snap.flight->history;
   for (HistorySample& sample : history) {
     sample.estimate_sigma_m = {0.1, 0.1, 0.1};
+    sample.descent_rate_sigma_mps = 0.1;
   }
   history.back().estimate_sigma_m = {9, 9, 9};
+  history.back().descent_rate_sigma_mps = 9;
   snap.flight.Edit().history = std::make_shared<const std::vector<HistorySample>>(history);
   int banded = 0;
   for (const PlotView& plot : DescentPlots(snap, Palette{})) {
@@ -357,7 +359,23 @@ TEST(DescentPlots, ABandIsOfItsOwnInstant) {
     EXPECT_LT(band.front(), 0.6f) << plot.name;
     EXPECT_GT(band.back(), 20.0f) << plot.name;
   }
-  EXPECT_EQ(banded, 3);
+  EXPECT_EQ(banded, 4);
+}
+
+TEST(DepthTint, LiesOnThePictureItWasMeasuredInAndOnNoOther) {
+  FlyWindow window(1920, 1080, fake::Snapshot(MissionState::kSearch));
+  window.ui.textures.range_tint = &window.ui;
+  window.fly.camera.show_depth = true;
+  auto range = std::make_shared<RangeMap>(*window.snap.terrain->range);
+  range->time = window.snap.sensors->frame->time;
+  window.snap.terrain.Edit().range = range;
+  window.ui.Frame(window.draw);
+  EXPECT_FALSE(HasText(window.ui.items, "Last depth"));
+  auto old = std::make_shared<RangeMap>(*range);
+  old->time = AddSeconds(window.snap.time, -9);
+  window.snap.terrain.Edit().range = old;
+  window.ui.Frame(window.draw);
+  EXPECT_TRUE(HasText(window.ui.items, "Last depth 9.0 s ago"));
 }
 
 }  // namespace

@@ -261,5 +261,16 @@ TEST(TuneWorkspace, PresetAndUndoButtonsAsk) {
   EXPECT_NE(LastUiAction<SavePreset>(ui.intents), nullptr);
 }
 
+TEST(LimitsName, CallsNothingDefaultsThatIsNot) {
+  TuneState state;
+  Settings applied;
+  EXPECT_EQ(LimitsName(state, applied), "defaults");
+  applied.slad.limits.max_slope_deg = 7;
+  applied.slad.limits.max_step_m = 0.1;
+  EXPECT_EQ(LimitsName(state, applied), "2 changed");
+  state.preset_path = "config/r50-field.toml";
+  EXPECT_EQ(LimitsName(state, applied), "r50-field");
+}
+
 }  // namespace
 }  // namespace palace

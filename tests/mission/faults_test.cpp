@@ -1,0 +1,145 @@
+// What goes wrong: what a fault stops in flight, what it drops before, and what blocks approval.
+#include <functional>
+
+#include "tests/mission/mission_rig.h"
+
+namespace palace {
+namespace {
+
+struct Fault {
+  const char* name;
+  std::function<void(MissionRig&)> inject;
+  double within_s;  ///< a descent must hold by then
+};
+
+class DescentFaults : public testing::TestWithParam<Fault> {};
+
+TEST_P(DescentFaults, HoldsInTime) {
+  MissionRig rig;
+  rig.Arm();
+  ASSERT_TRUE(rig.ApproveNow().ok());
+  ASSERT_TRUE(rig.RunUntil(MissionState::kDescending, 5));
+  rig.Run(1);
+  GetParam().inject(rig);
+  ASSERT_TRUE(rig.RunUntil(MissionState::kHold, GetParam().within_s)) << rig.mission.status().why;
+  EXPECT_FALSE(rig.mission.status().approval.has_value());
+  rig.link_up = true;
+  rig.Run(1);
+  EXPECT_GE(rig.SentCount<HoldRequest>(), 1);
+  EXPECT_FALSE(rig.ApproveNow().ok());
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    , DescentFaults,
+    testing::Values(
+        Fault{"SiteOverALimit", [](MissionRig& r) { r.site_slope_rad = Rad(12); }, 0.5},
+        Fault{"SiteOffTheMap", [](MissionRig& r) { r.sites.erase(r.sites.begin()); }, 0.5},
+        Fault{"CamerasStop", [](MissionRig& r) { r.cameras_up = false; }, 1.3},
+        Fault{"PoseStops", [](MissionRig& r) { r.pose_up = false; }, 1.3},
+        Fault{"MapsStop", [](MissionRig& r) { r.maps_up = false; }, 3.3},
+        Fault{"LinkStops", [](MissionRig& r) { r.link_up = false; }, 5.3},
+        Fault{"VehicleRestarts", [](MissionRig& r) { r.vehicle.boot_id = 78; }, 0.3},
+        Fault{"VehicleHolds", [](MissionRig& r) { r.vehicle.Set(VehicleMode::kHold); }, 0.3},
+        Fault{"Operator", [](MissionRig& r) { EXPECT_TRUE(r.Do(HoldHere{}).ok()); }, 0.1}),
+    [](const auto& row) { return row.param.name; });
+
+class ArmedFaults : public testing::TestWithParam<Fault> {};
+
+TEST_P(ArmedFaults, DropsTheSelectionAndTheApproval) {
+  for (const bool approve : {false, true}) {
+    SCOPED_TRACE(approve ? "approved" : "armed");
+    MissionRig rig;
+    rig.Arm();
+    if (approve) {
+      ASSERT_TRUE(rig.ApproveNow().ok());
+    }
+    GetParam().inject(rig);
+    rig.Run(GetParam().within_s);
+    EXPECT_NE(rig.state(), MissionState::kArmed);
+    EXPECT_NE(rig.state(), MissionState::kApproved);
+    EXPECT_NE(rig.state(), MissionState::kDescending);
+    EXPECT_FALSE(rig.mission.status().approval.has_value());
+    EXPECT_FALSE(rig.mission.status().can_approve);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    , ArmedFaults,
+    testing::Values(Fault{"SiteOverALimit", [](MissionRig& r) { r.site_slope_rad = Rad(12); }, 0.5},
+                    Fault{"LimitsChanged", [](MissionRig& r) { r.settings_hash ^= 1; }, 0.1},
+                    Fault{"CalibrationChanged", [](MissionRig& r) { r.calibration_hash ^= 1; },
+                          0.1},
+                    Fault{"VehicleRestarts", [](MissionRig& r) { r.vehicle.boot_id = 78; }, 0.1},
+                    Fault{"ClockSteps", [](MissionRig& r) { r.clock_offset_us += 3'000'000; }, 0.1},
+                    Fault{"SettingsApplied",
+                          [](MissionRig& r) { r.mission.DropApproval("Limits applied"); }, 0.1}),
+    [](const auto& row) { return row.param.name; });
+
+struct Block {
+  const char* name;
+  GuardId guard;
+  std::function<void(MissionRig&)> inject;
+  double run_s;
+};
+
+class Guards : public testing::TestWithParam<Block> {};
+
+TEST_P(Guards, BlockApprovalAndNameTheReason) {
+  MissionRig rig;
+  rig.Arm();
+  ASSERT_TRUE(rig.mission.status().can_approve);
+  GetParam().inject(rig);
+  rig.Run(GetParam().run_s);
+  const auto& status = rig.mission.status();
+  EXPECT_FALSE(status.can_approve);
+  const GuardResult* guard = FindGuard(status.guards, GetParam().guard);
+  ASSERT_NE(guard, nullptr);
+  EXPECT_FALSE(guard->pass) << status.cannot_approve_reason;
+  EXPECT_FALSE(guard->reason.empty());
+  const std::size_t events_before = rig.mission.events().size();
+  const Status answer = rig.ApproveNow();
+  ASSERT_FALSE(answer.ok());
+  EXPECT_FALSE(answer.error().message.empty());
+  EXPECT_GT(rig.mission.events().size(), events_before);
+  EXPECT_EQ(rig.SentCount<Approval>(), 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    , Guards,
+    testing::Values(
+        Block{"Link", GuardId::kLink, [](MissionRig& r) { r.link_up = false; }, 1.2},
+        Block{"Pose", GuardId::kAttitude, [](MissionRig& r) { r.pose_up = false; }, 0.4},
+        Block{"Cameras", GuardId::kCameras, [](MissionRig& r) { r.cameras_up = false; }, 0.7},
+        Block{"FrozenCamera", GuardId::kCameras,
+              [](MissionRig& r) { r.stereo.suspect_frozen = true; }, 0.7},
+        Block{"SwappedCameras", GuardId::kCameras,
+              [](MissionRig& r) { r.stereo.suspect_swapped = true; }, 0.7},
+        Block{"RowsApart", GuardId::kCameras, [](MissionRig& r) { r.stereo.row_error_px = 0.8; },
+              0.7},
+        Block{"LeftChannel", GuardId::kCameras, [](MissionRig& r) { r.channels[0].age_s = 1.8; },
+              0.1},
+        Block{"LeftChannelUnlisted", GuardId::kCameras,
+              [](MissionRig& r) { r.channels.erase(r.channels.begin()); }, 0.1},
+        Block{"RightChannelUnlisted", GuardId::kCameras,
+              [](MissionRig& r) { r.channels.erase(r.channels.begin() + 1); }, 0.1},
+        Block{"PoseChannelUnlisted", GuardId::kAttitude,
+              [](MissionRig& r) { r.channels.pop_back(); }, 0.1},
+        Block{"NoChannelListed", GuardId::kCameras, [](MissionRig& r) { r.channels.clear(); }, 0.1},
+        Block{"RightChannelNever", GuardId::kCameras,
+              [](MissionRig& r) { r.channels[1].state = ChannelHealth::State::kNever; }, 0.1},
+        Block{"Map", GuardId::kMap, [](MissionRig& r) { r.maps_up = false; }, 2.3},
+        Block{"Position", GuardId::kPosition,
+              [](MissionRig& r) { r.navigation.gps.estimate.healthy = false; }, 0.1},
+        Block{"Tracker", GuardId::kPosition, [](MissionRig& r) { r.tracker_locks = false; }, 0.1},
+        Block{"Coherence", GuardId::kPosition, [](MissionRig& r) { r.tracker.coherence = 0.3; },
+              0.1},
+        Block{"CoherenceUnknown", GuardId::kPosition,
+              [](MissionRig& r) { r.tracker.coherence = NAN; }, 0.1},
+        Block{"Site", GuardId::kSite, [](MissionRig& r) { r.site_slope_rad = Rad(12); }, 0.1},
+        Block{"NoLink", GuardId::kAuthority, [](MissionRig& r) { r.can_transmit = false; }, 0.1},
+        Block{"Recorder", GuardId::kRecorder, [](MissionRig& r) { r.recorder_ok = false; }, 0.1},
+        Block{"Unlabelled", GuardId::kSource, [](MissionRig& r) { r.simulated = false; }, 0.1}),
+    [](const auto& row) { return row.param.name; });
+
+}  // namespace
+}  // namespace palace
