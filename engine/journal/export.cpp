@@ -210,7 +210,7 @@ Result<std::vector<ExportedTable>> ExportCsv(const std::filesystem::path& log,
     return index.error();
   }
   if (const Status made = MakeFolder(folder); !made) {
-    return made.error();
+    return UnavailableError("--out: " + made.error().message);
   }
   Exporter exporter(channels);
   for (const LogEntry& entry : index->entries) {

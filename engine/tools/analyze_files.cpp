@@ -87,7 +87,7 @@ Status WriteAll(const AnalyzeOutcome& o, const fs::path& folder) {
 
 Status PublishAnalysis(const AnalyzeOutcome& o, const fs::path& out) {
   if (const Status made = MakeFolder(out); !made) {
-    return made;
+    return UnavailableError("--out: " + made.error().message);
   }
   std::error_code error;
   const fs::path partial = out / ".analyze-partial";
