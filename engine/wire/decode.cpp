@@ -108,6 +108,9 @@ class BoundedReader {
       return;
     }
     text.assign(data_ + at_, data_ + at_ + bytes - 1);
+    if (text.find('\0') != std::string::npos) {  // LCM writes a text up to its first zero only
+      Fail("a text with a zero inside");
+    }
     at_ += bytes;
   }
 

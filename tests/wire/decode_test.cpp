@@ -161,6 +161,19 @@ TEST(Decode, HugeCountsAllocateNothing) {
   }
 }
 
+// LCM's own encoder stops at the first zero: such a text, recorded, would not fit its own length.
+TEST(Decode, ATextWithAZeroInsideIsRefused) {
+  command_ack_t ack{};
+  ack.reason = "not now";
+  std::vector<std::uint8_t> payload = EncodePayload(ack);
+  ASSERT_TRUE(DecodePayload<command_ack_t>(payload).ok());
+  payload[payload.size() - 5] = 0;
+  const auto refused = DecodePayload<command_ack_t>(payload);
+  ASSERT_FALSE(refused.ok());
+  EXPECT_NE(refused.error().message.find("a zero inside"), std::string::npos)
+      << refused.error().message;
+}
+
 TEST(Decode, NotFiniteNumbersAreRefusedWhereDecisionsRestOnThem) {
   RandomStream random(24);
   const auto rig = std::make_shared<const StereoRig>(RandomRig(random));

@@ -1,5 +1,6 @@
 #include "engine/camera/files/text_file.h"
 
+#include <algorithm>
 #include <fstream>
 #include <system_error>
 
@@ -19,12 +20,16 @@ Result<std::string> ReadTextFile(const std::filesystem::path& path, std::size_t 
     return UnavailableError(path.string() + ": no such file; check the name");
   }
   std::ifstream stream(path, std::ios::binary);
-  std::string text(limit + 1, '\0');
-  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+  std::string text;
+  char block[1 << 16];
+  while (stream && text.size() <= limit) {
+    stream.read(block,
+                static_cast<std::streamsize>(std::min(sizeof block, limit + 1 - text.size())));
+    text.append(block, static_cast<std::size_t>(stream.gcount()));
+  }
   if (stream.bad() || (!stream && !stream.eof())) {
     return UnavailableError(path.string() + ": cannot be read; check its permissions");
   }
-  text.resize(static_cast<std::size_t>(stream.gcount()));
   if (text.size() > limit) {
     return InvalidError(path.string() + ": larger than " + std::to_string(limit) +
                         " bytes; is it the right file?");

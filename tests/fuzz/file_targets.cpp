@@ -1,0 +1,97 @@
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+
+#include "engine/journal/export.h"
+#include "engine/journal/log_index.h"
+#include "engine/journal/log_tools.h"
+#include "engine/journal/replay_source.h"
+#include "engine/survey/map_files.h"
+#include "engine/survey/point_files.h"
+#include "tests/fuzz/fuzz_target.h"
+
+namespace palace {
+namespace {
+
+constexpr int kMostBundles = 50;  ///< of a replay
+
+/// The folder of this process, gone with it.
+const std::filesystem::path& ScratchFolder() {
+  struct Folder {
+    Folder() {
+      const std::filesystem::path memory = "/dev/shm";
+      path = (std::filesystem::is_directory(memory) ? memory
+                                                    : std::filesystem::temp_directory_path()) /
+             ("palace_fuzz_" + std::to_string(::getpid()));
+      std::filesystem::create_directories(path);
+    }
+    ~Folder() {
+      std::error_code ignored;
+      std::filesystem::remove_all(path, ignored);
+    }
+    std::filesystem::path path;
+  };
+  static const Folder folder;
+  return folder.path;
+}
+
+void ReadLog(const std::filesystem::path& log) {
+  (void)DescribeLog(log, false);
+  (void)DescribeLog(log, true);
+  (void)RepairLog(log, ScratchFolder() / "repaired.lcm");
+  (void)ExportCsv(log, ScratchFolder() / "tables");
+  ReplayOptions options;
+  options.speed = 0;
+  auto replay = ReplaySource::Open(log, options);
+  for (int i = 0; replay && i < kMostBundles; ++i) {
+    if (!(*replay)->Next({})) {
+      break;
+    }
+  }
+}
+
+/// First two bytes: how much of the rest is the log; what follows is its sidecar.
+void Log(Bytes input) {
+  if (input.size() < 2) {
+    return;
+  }
+  const std::size_t log_bytes =
+      std::min<std::size_t>(input.size() - 2, input[0] * std::size_t{256} + input[1]);
+  const auto log = ScratchFile("log.lcm", input.subspan(2, log_bytes));
+  if (log_bytes + 2 < input.size()) {
+    ScratchFile("log.lcm.idx", input.subspan(2 + log_bytes));
+  } else {
+    std::filesystem::remove(SidecarPath(log));
+  }
+  ReadLog(log);
+}
+
+void Points(Bytes input) {
+  for (const char* name : {"points.xyz", "points.ply"}) {
+    (void)ReadPointFile(ScratchFile(name, input));
+  }
+  (void)ReadLabelledPoints(ScratchFile("labelled.txt", input));
+}
+
+}  // namespace
+
+std::filesystem::path ScratchFile(const char* name, Bytes input) {
+  const std::filesystem::path path = ScratchFolder() / name;
+  std::FILE* file = std::fopen(path.c_str(), "wb");
+  if (file != nullptr) {
+    if (!input.empty()) {
+      (void)std::fwrite(input.data(), 1, input.size(), file);
+    }
+    (void)std::fclose(file);
+  }
+  return path;
+}
+
+std::vector<FuzzTarget> FileTargets() {
+  return {{"log", &Log}, {"points", &Points}, {"geotiff", [](Bytes input) {
+                                                 (void)ReadGeoTiff(ScratchFile("map.tif", input));
+                                               }}};
+}
+
+}  // namespace palace

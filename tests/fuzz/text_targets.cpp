@@ -1,0 +1,32 @@
+#include "engine/calibration/target_file.h"
+#include "engine/camera/files/camera_files.h"
+#include "engine/camera/files/poses_file.h"
+#include "engine/camera/files/rig_file.h"
+#include "engine/capture/camera_address.h"
+#include "engine/runtime/settings_io.h"
+#include "engine/wire/channels.h"
+#include "tests/fuzz/fuzz_target.h"
+
+namespace palace {
+
+std::vector<FuzzTarget> TextTargets() {
+  return {
+      {"settings",
+       [](Bytes input) { (void)ParseSettings(AsText(input), "settings.toml", Settings{}); }},
+      {"setting", [](Bytes input) { (void)ApplySettingText(Settings{}, AsText(input)); }},
+      {"channels", [](Bytes input) { (void)ParseChannels(AsText(input), "channels.toml"); }},
+      {"target", [](Bytes input) { (void)ParseTargetText(AsText(input), "target.toml"); }},
+      {"rig", [](Bytes input) { (void)LoadRigFile(ScratchFile("rig.toml", input)); }},
+      {"poses", [](Bytes input) { (void)LoadPosesFile(ScratchFile("poses.csv", input)); }},
+      {"camera",
+       [](Bytes input) {
+         for (const char* name : {"camera.txt", "camera.yaml", "camera.xml", "camera.IMG"}) {
+           (void)ParseCameraText(AsText(input), name);
+         }
+       }},
+      {"address",
+       [](Bytes input) { (void)ParseCameraAddress(std::string(AsText(input)), "folder"); }},
+  };
+}
+
+}  // namespace palace

@@ -1,0 +1,98 @@
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <utility>
+
+#include "engine/wire/bundle_assembler.h"
+#include "engine/wire/convert.h"
+#include "engine/wire/decode.h"
+#include "tests/fuzz/fuzz_target.h"
+#include "tests/fuzz/wire_types.h"
+
+namespace palace {
+namespace {
+
+/// The fields after the right hash, so that a mutation does not have to guess it.
+template <typename T>
+std::vector<std::uint8_t> WithHash(Bytes fields) {
+  std::vector<std::uint8_t> payload;
+  const auto hash = static_cast<std::uint64_t>(T::getHash());
+  for (int shift = 56; shift >= 0; shift -= 8) {
+    payload.push_back(static_cast<std::uint8_t>(hash >> shift));
+  }
+  payload.insert(payload.end(), fields.begin(), fields.end());
+  return payload;
+}
+
+using Maker = std::vector<std::uint8_t> (*)(Bytes);
+template <std::size_t... I>
+constexpr auto MakersOf(std::index_sequence<I...>) {
+  return std::array<Maker, sizeof...(I)>{&WithHash<std::tuple_element_t<I, WireTypes>>...};
+}
+constexpr auto kMakers = MakersOf(std::make_index_sequence<std::tuple_size_v<WireTypes>>());
+
+/// First byte: the type; the rest: its fields. What decodes must encode to the same bytes.
+template <std::size_t I>
+void DecodeType(Bytes fields) {
+  using T = std::tuple_element_t<I, WireTypes>;
+  const std::vector<std::uint8_t> payload = WithHash<T>(fields);
+  const Result<T> decoded = DecodePayload<T>(payload);
+  if (decoded && EncodePayload(*decoded).size() != payload.size()) {
+    __builtin_trap();
+  }
+}
+template <std::size_t... I>
+void DecodeAny(std::size_t type, Bytes fields, std::index_sequence<I...>) {
+  ((type == I ? DecodeType<I>(fields) : void()), ...);
+}
+
+void Message(Bytes input) {
+  if (!input.empty()) {
+    DecodeAny(input[0] % kMakers.size(), input.subspan(1),
+              std::make_index_sequence<kMakers.size()>());
+  }
+}
+
+/// The channel that carries the type of that number; its conversion is the one fuzzed.
+void Converted(Bytes input) {
+  if (input.empty()) {
+    return;
+  }
+  const ChannelNames channels;
+  for (const std::string& channel : channels.ToVehicle()) {
+    (void)DecodeVehicleMessage({channel, {}, kMakers[input[0] % kMakers.size()](input.subspan(1))},
+                               channels);
+  }
+  const WireMessage message{"ANY", {}, kMakers[input[0] % kMakers.size()](input.subspan(1))};
+  (void)DecodeCommand(message);
+  (void)DecodeEvent(message);
+  (void)DecodeSettings(message);
+  (void)DecodeProposal(message);
+  (void)DecodeTracker(message);
+  (void)DecodeStationStatus(message);
+  (void)DecodeTruth(message);
+}
+
+/// A stream: channel and type, length (16 bits), fields, again and again.
+void Stream(Bytes input) {
+  const ChannelNames names;
+  const std::vector<std::string> channels = names.FromVehicle();
+  BundleAssembler assembler(names, {.pair_window_s = 0.005, .drop_repeated = input.size() % 2 > 0});
+  while (input.size() >= 4) {
+    const std::size_t length =
+        std::min<std::size_t>(input.size() - 4, input[2] * std::size_t{256} + input[3]);
+    (void)assembler.Push({channels[input[0] % channels.size()],
+                          {},
+                          kMakers[input[1] % kMakers.size()](input.subspan(4, length))});
+    input = input.subspan(4 + length);
+  }
+  (void)assembler.TakePending({1});
+}
+
+}  // namespace
+
+std::vector<FuzzTarget> WireTargets() {
+  return {{"message", &Message}, {"conversion", &Converted}, {"stream", &Stream}};
+}
+
+}  // namespace palace
