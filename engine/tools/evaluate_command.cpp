@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 
 #include "engine/experiments/evaluate_calibration.h"
+#include "engine/experiments/evaluate_faults.h"
 #include "engine/experiments/evaluate_landing.h"
 #include "engine/experiments/evaluate_probability.h"
 #include "engine/experiments/evaluate_site_flags.h"
@@ -18,12 +19,12 @@ namespace palace {
 void AddEvaluateCommand(CLI::App& app, int& exit_code, SceneCameraFactory camera) {
   CLI::App* evaluate = app.add_subcommand("evaluate", "Experiments with seeds and intervals");
   evaluate->require_subcommand(1);
-  AddExperiments(
-      *evaluate,
-      {LandingExperiment(std::move(camera)), StereoAccuracyExperiment(), StereoCostExperiment(),
-       CalibrationExperiment(), ProbabilityExperiment(), SiteFlagsExperiment(),
-       SiteLidarExperiment(), SiteRangeExperiment(), SiteShapesExperiment(), SiteViewsExperiment()},
-      exit_code);
+  AddExperiments(*evaluate,
+                 {LandingExperiment(camera), FaultsExperiment(std::move(camera)),
+                  StereoAccuracyExperiment(), StereoCostExperiment(), CalibrationExperiment(),
+                  ProbabilityExperiment(), SiteFlagsExperiment(), SiteLidarExperiment(),
+                  SiteRangeExperiment(), SiteShapesExperiment(), SiteViewsExperiment()},
+                 exit_code);
 }
 
 }  // namespace palace

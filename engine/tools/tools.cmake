@@ -2,7 +2,7 @@
 # rooms; engine-only builds (sanitizers) leave it out.
 palace_room(survey engine/survey palace_slad TIFF::TIFF ${GEOTIFF_LIBRARY})
 target_include_directories(palace_survey SYSTEM PRIVATE ${GEOTIFF_INCLUDE_DIR} ${GEOTIFF_INCLUDE_DIR}/geotiff)
-palace_room(experiments engine/experiments palace_report palace_calibration palace_runtime palace_simulation palace_survey)
+palace_room(experiments engine/experiments palace_report palace_calibration palace_runtime palace_simulation palace_faults palace_survey)
 target_include_directories(palace_experiments SYSTEM PRIVATE ${CLI11_INCLUDE_DIR})
 palace_precompile(survey experiments)
 if(NOT PALACE_ENGINE_ONLY)

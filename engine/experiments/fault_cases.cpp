@@ -1,0 +1,172 @@
+#include "engine/experiments/fault_cases.h"
+
+#include <algorithm>
+#include <array>
+
+namespace palace {
+namespace {
+
+using A = AlarmId;
+using C = ChannelId;
+using K = FaultKind;
+
+constexpr auto kLeft = C::kCameraLeft, kRight = C::kCameraRight;
+
+std::vector<FaultCase> CameraCases() {
+  const std::vector<A> frozen = {A::kCameraFrozen};
+  const std::vector<A> dark = {A::kCameraFrozen, A::kExposure};
+  const auto on = [](K kind, std::optional<C> camera = {}, double value = NAN) {
+    return std::vector<Fault>{{kind, camera, value}};
+  };
+  std::vector<FaultCase> cases = {
+      {"both cameras frozen", "F01", on(K::kCameraFrozen), frozen},
+      {"left camera frozen", "F01", on(K::kCameraFrozen, kLeft), frozen},
+      {"right camera frozen", "F01", on(K::kCameraFrozen, kRight), frozen},
+      {"both frozen but one pixel", "F01", on(K::kCameraFrozenPixel), frozen},
+      {"both frozen, 1 grey level of noise", "F01", on(K::kCameraFrozenNoise), frozen},
+      {"left camera black", "F02", on(K::kCameraBlack, kLeft), dark},
+      {"right camera black", "F02", on(K::kCameraBlack, kRight), dark},
+      {"both cameras black", "F02", on(K::kCameraBlack), dark},
+      {"right camera dark with noise", "F02", on(K::kCameraDark, kRight), dark},
+      {"both cameras overexposed", "F02", on(K::kCameraOverexposed), dark},
+      {"cameras swapped", "F04", on(K::kCamerasSwapped), {A::kCamerasSwapped}},
+      {"left camera missing", "F05", on(K::kMissing, kLeft), {A::kCameraLeft}},
+      {"right camera missing", "F05", on(K::kMissing, kRight), {A::kCameraRight}},
+      {"left camera late by 0.3 s", "F03", on(K::kCameraLate, kLeft, 0.3), {A::kRowError}, 2},
+      {"right camera late by 0.3 s", "F03", on(K::kCameraLate, kRight, 0.3), {A::kRowError}, 2},
+      {"both cameras late by 0.1 s", "F06", on(K::kCameraLate, {}, 0.1), {}, 2},
+      {"both cameras late by 0.3 s", "F06", on(K::kCameraLate, {}, 0.3), {}, 2},
+      {"both cameras late by 0.5 s", "F06", on(K::kCameraLate, {}, 0.5), {}, 2},
+  };
+  for (FaultCase& row : cases) {
+    row.of_cameras = true;
+  }
+  return cases;
+}
+
+std::vector<FaultCase> AttitudeCases() {
+  std::vector<FaultCase> cases = {
+      {"attitude not a number", "F10", {{K::kAttitudeNan}}, {A::kPose, A::kUndecodable}},
+      {"attitude missing", "F10", {{K::kMissing, C::kVehiclePose}}, {A::kPose}, 1.2},
+      {"attitude late by 0.3 s", "F10", {{K::kAttitudeLate, {}, 0.3}}, {A::kPose}},
+  };
+  struct Shift {
+    const char* name;
+    double s;
+  };
+  for (const Shift shift : {Shift{"attitude shifted by -0.05 s", -0.05},
+                            {"attitude shifted by 0.05 s", 0.05},
+                            {"attitude shifted by -0.1 s", -0.1},
+                            {"attitude shifted by 0.1 s", 0.1},
+                            {"attitude shifted by -0.3 s", -0.3},
+                            {"attitude shifted by 0.3 s", 0.3},
+                            {"attitude shifted by 0.5 s", 0.5}}) {
+    cases.push_back({shift.name, "F06", {{K::kAttitudeShifted, {}, shift.s}}, {}, 2});
+  }
+  return cases;
+}
+
+std::vector<FaultCase> SensorCases() {
+  const auto lands = DescentMust::kLand;
+  return {
+      {"laser missing", "F07", {{K::kMissing, C::kLaserRange}}, {}, 1, true, lands},
+      {"laser stuck", "F09", {{K::kLaserStuck}}, {}, 1.5, true, lands},
+      {"laser halved", "F09", {{K::kLaserScaled, {}, 0.5}}, {}, 1, true, lands},
+      {"laser doubled", "F09", {{K::kLaserScaled, {}, 2}}, {}, 1, true, lands},
+      {"laser spikes", "F08", {{K::kLaserSpikes}}, {}, 5, false, lands, false, true},
+      {"GPS jumps by 8 m", "F12", {{K::kGpsJump, {}, 8}}, {}, 1, true, lands},
+      {"GPS drifts at 0.5 m/s", "F12", {{K::kGpsDrift, {}, 0.5}}, {}, 2, true, lands},
+      {"GPS missing", "F13", {{K::kMissing, C::kGps}}, {}, 2.5, true, lands},
+  };
+}
+
+std::vector<FaultCase> VehicleCases() {
+  return {
+      {"status missing", "F18", {{K::kMissing, C::kVehicleStatus}}, {A::kLink}, 1.5},
+      {"silence",
+       "F18",
+       {{K::kMissing}},
+       {A::kLink, A::kPose, A::kCameraLeft, A::kCameraRight},
+       1.5},
+      {"clock steps by 5 s", "F14", {{K::kClockStep, {}, 5}}, {A::kClock}},
+      {"clock steps by -5 s", "F14", {{K::kClockStep, {}, -5}}, {A::kClock}},
+      {"clock steps by a day", "F14", {{K::kClockStep, {}, 86400}}, {A::kClock}},
+      {"clock gains 1 %",
+       "F14",
+       {{K::kClockDrift, {}, 0.01}},
+       {A::kClock},
+       10,
+       false,
+       DescentMust::kEither},
+      {"another boot id", "F16", {{K::kNewBoot}}, {A::kReboot}},
+      {"restart, clock too", "F16", {{K::kRestart}}, {A::kReboot}, 1.5},
+  };
+}
+
+std::vector<FaultCase> LinkCases() {
+  const auto lands = DescentMust::kLand, either = DescentMust::kEither;
+  return {
+      {"1 % of messages lost", "F21", {{K::kLost, {}, 1}}, {}, 5, false, lands, false, true},
+      {"10 % of messages lost", "F21", {{K::kLost, {}, 10}}, {}, 5, false, either},
+      {"30 % of messages lost", "F21", {{K::kLost, {}, 30}}, {}, 5, false, either},
+      {"50 % of messages lost", "F21", {{K::kLost, {}, 50}}, {}, 5, true, either},
+      {"5 % of messages corrupted",
+       "F25",
+       {{K::kCorrupted, {}, 5}},
+       {A::kUndecodable},
+       5,
+       false,
+       either},
+      {"20 % of messages reordered",
+       "F22",
+       {{K::kReordered, {}, 20}},
+       {},
+       5,
+       false,
+       either,
+       false,
+       true},
+      {"20 % of messages twice",
+       "F23",
+       {{K::kDuplicated, {}, 20}},
+       {},
+       5,
+       false,
+       lands,
+       false,
+       true},
+  };
+}
+
+}  // namespace
+
+std::span<const FaultCase> FaultCases() {
+  static const std::vector<FaultCase> kCases = [] {
+    std::vector<FaultCase> all;
+    for (std::vector<FaultCase>& part :
+         std::array{CameraCases(), AttitudeCases(), SensorCases(), VehicleCases(), LinkCases()}) {
+      all.insert(all.end(), part.begin(), part.end());
+    }
+    return all;
+  }();
+  return kCases;
+}
+
+bool IsConsequence(AlarmId id) {
+  constexpr AlarmId kConsequences[] = {A::kHold,
+                                       A::kWaveOff,
+                                       A::kNoSite,
+                                       A::kSiteDegraded,
+                                       A::kVisionLost,
+                                       A::kOffPath,
+                                       A::kOffCentre,
+                                       A::kCoherenceLow,
+                                       A::kVisionResidual,
+                                       A::kDescentRate,
+                                       A::kApprovalUnanswered,
+                                       A::kApprovalRefused};
+  return std::find(std::begin(kConsequences), std::end(kConsequences), id) !=
+         std::end(kConsequences);
+}
+
+}  // namespace palace
