@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <utility>
 
 namespace palace {
@@ -93,6 +94,15 @@ CameraFeed::Outcome CameraFeed::Lose(const Error& why, double now_s) {
 }
 
 CameraFeed::Outcome CameraFeed::Step(double now_s) {
+  try {
+    return TryStep(now_s);
+  } catch (const std::exception& error) {
+    // Of its library, or for want of memory: one camera is lost for now, not the program.
+    return Lose(UnavailableError(counters_.name + ": " + error.what()), now_s);
+  }
+}
+
+CameraFeed::Outcome CameraFeed::TryStep(double now_s) {
   if (first_) {
     Count(*first_);
     return {std::exchange(first_, std::nullopt), 0};

@@ -52,6 +52,7 @@ class CameraFeed {
  private:
   Result<CameraPicture> Open();
   Result<CameraPicture> ReadFitting(CameraDevice& device);
+  Outcome TryStep(double now_s);
   Outcome Lose(const Error& why, double now_s);
   void Count(const CameraPicture& picture);
 

@@ -32,6 +32,9 @@ class EventRecord final : public RecordSink {
  public:
   explicit EventRecord(std::shared_ptr<std::set<std::string>> texts) : texts_(std::move(texts)) {}
   Status Record(const RecordItem& item) override {
+    if (!item.snapshot) {
+      return Ok();
+    }
     for (const WireMessage& message : encoder_.Encode(*item.snapshot)) {
       if (message.channel == ChannelNames{}.event) {
         if (const Result<Event> event = DecodeEvent(message)) {

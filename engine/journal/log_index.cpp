@@ -21,7 +21,8 @@ bool HeaderMatches(const LogFile& file, const LogEntry& entry) {
   }
   const std::uint64_t length = kLogHeaderBytes + GetBig<std::uint32_t>(head + 20) +
                                std::uint64_t{GetBig<std::uint32_t>(head + 24)};
-  return GetBig<std::int64_t>(head + 4) == entry.number && length == entry.length;
+  return GetBig<std::int64_t>(head + 4) == entry.number &&
+         GetBig<std::int64_t>(head + 12) == entry.time.us && length == entry.length;
 }
 
 /// Evenly spread events, and the last, lie where the sidecar says.
@@ -46,12 +47,28 @@ Error NothingReadable(const LogFile& file) {
                             " bytes; it is no LCM event log, choose another file");
 }
 
+/// The event that the sidecar speaks of, but for damage.
+bool IsSame(const LogEntry& known, const LogEntry& found) {
+  return known.number == found.number && known.time == found.time && known.length == found.length;
+}
+
 /// Gives scanned events the checksums the sidecar knows. Numbers tie the two together, so inserted
-/// or removed bytes do not matter.
+/// or removed bytes do not matter. A sidecar that agrees with less than half of what both number is
+/// of another log, and gives nothing.
 void TakeChecksums(const Sidecar& sidecar, LogIndex& index) {
   std::unordered_map<std::int64_t, const LogEntry*> known;
   for (const LogEntry& entry : sidecar.entries) {
     known[entry.number] = &entry;
+  }
+  std::size_t both = 0, same = 0;
+  for (const LogEntry& entry : index.entries) {
+    const auto found = known.find(entry.number);
+    both += found != known.end() ? 1 : 0;
+    same += found != known.end() && IsSame(*found->second, entry) ? 1 : 0;
+  }
+  if (2 * same < both) {
+    index.report.sidecar_problem = "the sidecar is of another log";
+    return;
   }
   std::size_t matched = 0;
   for (LogEntry& entry : index.entries) {
@@ -65,6 +82,61 @@ void TakeChecksums(const Sidecar& sidecar, LogIndex& index) {
   }
   index.report.has_sidecar = true;
   index.report.missing_events = sidecar.entries.size() - matched;
+}
+
+/// Counts what no checksum is known of, and says why. `path`: of the sidecar.
+void TellUnchecked(const std::filesystem::path& path, const Result<Sidecar>& sidecar,
+                   LogIndex& index) {
+  LogReport& report = index.report;
+  for (const LogEntry& entry : index.entries) {
+    report.unchecked += entry.has_crc ? 0 : 1;
+  }
+  if (report.unchecked == 0 || !report.sidecar_problem.empty()) {
+    return;
+  }
+  if (!sidecar) {
+    std::error_code error;
+    report.sidecar_problem = std::filesystem::exists(path, error)
+                                 ? "the sidecar is none, or damaged from its start"
+                                 : "there is no sidecar";
+  } else if (sidecar->unread_bytes > 0) {
+    report.sidecar_problem = "the sidecar is cut or damaged after " +
+                             std::to_string(sidecar->entries.size()) + " events";
+  } else {
+    report.sidecar_problem =
+        "the sidecar ends after " + std::to_string(sidecar->entries.size()) + " events";
+  }
+}
+
+/// Reads every event that a checksum is known of. Where hardly one of many fits, they are the
+/// checksums of another log, and nothing was checked.
+void CompareChecksums(const LogFile& file, std::stop_token stop, LogIndex& index) {
+  constexpr std::uint64_t kMany = 20;
+  LogReport& report = index.report;
+  std::uint64_t compared = 0;
+  std::vector<std::uint8_t> bytes;
+  for (const LogEntry& entry : index.entries) {
+    if (stop.stop_requested()) {
+      report.cancelled = true;
+      return;
+    }
+    if (!entry.has_crc) {
+      continue;
+    }
+    bytes.resize(entry.length);
+    const std::size_t got = file.ReadAt(entry.offset, bytes.data(), bytes.size());
+    ++compared;
+    report.checksum_errors +=
+        got != bytes.size() || Crc32c(0, bytes.data(), got) != entry.crc ? 1 : 0;
+  }
+  if (compared >= kMany && 10 * report.checksum_errors > 9 * compared) {
+    report.checksum_errors = report.missing_events = 0;
+    report.has_sidecar = false;
+    report.sidecar_problem = "the sidecar is of another log";
+    for (LogEntry& entry : index.entries) {
+      entry.has_crc = false;
+    }
+  }
 }
 
 }  // namespace
@@ -88,6 +160,7 @@ Result<LogIndex> BuildIndex(const LogFile& file, std::stop_token stop) {
       index.entries = std::move(entries);
       // What was written after the sidecar's last record: a program that died in between.
       ScanLog(file, index.entries.back().offset + index.entries.back().length, index, stop);
+      TellUnchecked(SidecarPath(file.path()), sidecar, index);
       return index;
     }
   }
@@ -98,6 +171,7 @@ Result<LogIndex> BuildIndex(const LogFile& file, std::stop_token stop) {
   if (sidecar) {
     TakeChecksums(*sidecar, index);
   }
+  TellUnchecked(SidecarPath(file.path()), sidecar, index);
   return index;
 }
 
@@ -108,22 +182,11 @@ Result<LogIndex> VerifyLog(const LogFile& file, std::stop_token stop) {
     return NothingReadable(file);
   }
   const Result<Sidecar> sidecar = ReadSidecar(SidecarPath(file.path()));
-  if (!sidecar) {
-    return index;
+  if (sidecar) {
+    TakeChecksums(*sidecar, index);
   }
-  TakeChecksums(*sidecar, index);
-  std::vector<std::uint8_t> bytes;
-  for (const LogEntry& entry : index.entries) {
-    if (stop.stop_requested()) {
-      index.report.cancelled = true;
-      break;
-    }
-    bytes.resize(entry.length);
-    const std::size_t got = file.ReadAt(entry.offset, bytes.data(), bytes.size());
-    if (entry.has_crc && (got != bytes.size() || Crc32c(0, bytes.data(), got) != entry.crc)) {
-      ++index.report.checksum_errors;
-    }
-  }
+  CompareChecksums(file, stop, index);
+  TellUnchecked(SidecarPath(file.path()), sidecar, index);
   return index;
 }
 

@@ -35,6 +35,16 @@ Result<std::uint64_t> CopyEvents(const LogFile& file, const LogIndex& index,
   return writer->events();
 }
 
+/// Of the first event that has a time; what was sent before anything was heard has none.
+Timestamp StartOf(const LogIndex& index) {
+  for (const LogEntry& entry : index.entries) {
+    if (entry.time != Timestamp{}) {
+      return entry.time;
+    }
+  }
+  return {};
+}
+
 }  // namespace
 
 Result<LogDescription> DescribeLog(const std::filesystem::path& log, bool verify,
@@ -55,14 +65,16 @@ Result<LogDescription> DescribeLog(const std::filesystem::path& log, bool verify
   std::map<std::string, Span> spans;
   LogDescription description;
   description.report = index->report;
-  description.first = description.last = index->entries.front().time;
+  description.first = description.last = StartOf(*index);
   for (const LogEntry& entry : index->entries) {
     Span& span = spans[index->channels[entry.channel]];
     span.first = span.row.events == 0 ? entry.time : std::min(span.first, entry.time);
     span.last = span.row.events == 0 ? entry.time : std::max(span.last, entry.time);
     ++span.row.events;
     span.row.bytes += entry.length;
-    description.first = std::min(description.first, entry.time);
+    if (entry.time != Timestamp{}) {
+      description.first = std::min(description.first, entry.time);
+    }
     description.last = std::max(description.last, entry.time);
   }
   for (auto& [name, span] : spans) {
@@ -103,7 +115,7 @@ Result<std::uint64_t> CutLog(const std::filesystem::path& log, const std::filesy
   if (!index) {
     return index.error();
   }
-  const Timestamp start = index->entries.front().time;
+  const Timestamp start = StartOf(*index);
   return CopyEvents(*file, *index, out, [&](const LogEntry& entry) {
     const double at_s = SecondsBetween(start, entry.time);
     return at_s >= from_s && at_s <= to_s;

@@ -1,39 +1,54 @@
+#include "engine/journal/output_file.h"
+
 #include <fcntl.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
-
-#include "engine/journal/log_writer.h"
+#include <utility>
 
 namespace palace {
 namespace {
 
-constexpr std::size_t kBufferBytes = 1u << 20;
+/// What is wrong, and what helps.
+struct Trouble {
+  std::string problem;
+  std::string remedy;
+};
 
-Error WriteError(const std::filesystem::path& path, const char* doing, int code) {
-  std::string remedy = "check the folder and its permissions";
-  if (code == ENOSPC || code == EDQUOT) {
-    remedy = "the disk is full; free space or record elsewhere with --record DIR";
-  } else if (code == EACCES || code == EPERM || code == EROFS) {
-    remedy = "the folder cannot be written; choose another with --record DIR";
-  } else if (code == EEXIST) {
-    remedy = "it exists already; recordings are never overwritten";
+Trouble TroubleOf(int code) {
+  switch (code) {
+    case ENOSPC:
+    case EDQUOT:
+      return {"the disk is full", "free space or record elsewhere with --record DIR"};
+    case EACCES:
+    case EPERM:
+    case EROFS:
+      return {"the folder cannot be written", "choose another with --record DIR"};
+    case EEXIST:
+      return {"it exists already", "recordings are never overwritten"};
+    default:
+      return {std::strerror(code), "check the folder and its permissions"};
   }
-  return UnavailableError(path.string() + ": cannot " + doing + " (" + std::strerror(code) + "); " +
-                          remedy);
 }
 
 }  // namespace
 
-Result<OutputFile> OutputFile::Create(const std::filesystem::path& path) {
+Error OutputFile::Failed(const char* doing, int code) {
+  const Trouble trouble = TroubleOf(code);
+  problem_ = trouble.problem;
+  return UnavailableError(path_.string() + ": cannot " + doing + " (" + std::strerror(code) +
+                          "); " + trouble.problem + "; " + trouble.remedy);
+}
+
+Result<OutputFile> OutputFile::Create(const std::filesystem::path& path, const Disk& disk) {
   OutputFile file;
   file.path_ = path;
+  file.disk_ = &disk;
   file.descriptor_ = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
   if (file.descriptor_ < 0) {
-    return WriteError(path, "be created", errno);
+    return file.Failed("be created", errno);
   }
-  file.buffer_.reserve(kBufferBytes);
   return Result<OutputFile>(std::move(file));
 }
 
@@ -46,40 +61,43 @@ OutputFile::~OutputFile() {
 
 OutputFile::OutputFile(OutputFile&& other) noexcept
     : path_(std::move(other.path_)),
+      disk_(other.disk_),
       descriptor_(std::exchange(other.descriptor_, -1)),
-      size_(other.size_),
-      buffer_(std::move(other.buffer_)) {}
+      written_(other.written_),
+      buffer_(std::move(other.buffer_)),
+      problem_(std::move(other.problem_)) {}
 
 OutputFile& OutputFile::operator=(OutputFile&& other) noexcept {
   std::swap(path_, other.path_);
+  std::swap(disk_, other.disk_);
   std::swap(descriptor_, other.descriptor_);
-  std::swap(size_, other.size_);
+  std::swap(written_, other.written_);
   std::swap(buffer_, other.buffer_);
+  std::swap(problem_, other.problem_);
   return *this;
 }
 
-Status OutputFile::Append(const void* data, std::size_t size) {
+void OutputFile::Append(const void* data, std::size_t size) {
   const auto* bytes = static_cast<const std::uint8_t*>(data);
   buffer_.insert(buffer_.end(), bytes, bytes + size);
-  size_ += size;
-  return buffer_.size() >= kBufferBytes ? Flush() : Ok();
 }
 
 Status OutputFile::Flush() {
   std::size_t done = 0;
   while (done < buffer_.size()) {
-    const ssize_t written = ::write(descriptor_, buffer_.data() + done, buffer_.size() - done);
+    const ssize_t written = disk_->write(descriptor_, buffer_.data() + done, buffer_.size() - done);
     if (written < 0 && errno == EINTR) {
       continue;
     }
     if (written <= 0) {
       const int code = written < 0 ? errno : ENOSPC;
-      size_ -= buffer_.size() - done;
+      written_ += done;
       buffer_.clear();
-      return WriteError(path_, "be written", code);
+      return Failed("be written", code);
     }
     done += static_cast<std::size_t>(written);
   }
+  written_ += done;
   buffer_.clear();
   return Ok();
 }
@@ -90,8 +108,8 @@ Status OutputFile::Sync() {
     return flushed;
   }
   // A pipe or device that cannot sync is no failure of ours.
-  if (::fdatasync(descriptor_) != 0 && errno != EINVAL && errno != EROFS) {
-    return WriteError(path_, "be brought to the disk", errno);
+  if (disk_->sync(descriptor_) != 0 && errno != EINVAL && errno != EROFS) {
+    return Failed("be brought to the disk", errno);
   }
   return Ok();
 }
@@ -105,15 +123,18 @@ Status OutputFile::Close() {
   if (!synced) {
     return synced;
   }
-  return closed == 0 ? Ok() : Status(WriteError(path_, "be closed", errno));
+  return closed == 0 ? Ok() : Status(Failed("be closed", errno));
 }
 
 void OutputFile::CutBack(std::uint64_t size) {
   buffer_.clear();
-  if (descriptor_ >= 0 && ::ftruncate(descriptor_, static_cast<off_t>(size)) == 0) {
-    ::lseek(descriptor_, 0, SEEK_END);
-    size_ = size;
+  if (descriptor_ < 0 || size >= written_) {
+    return;
   }
+  if (disk_->cut(descriptor_, static_cast<off_t>(size)) == 0) {
+    written_ = size;
+  }
+  ::lseek(descriptor_, static_cast<off_t>(written_), SEEK_SET);
 }
 
 }  // namespace palace

@@ -86,6 +86,7 @@ Result<Sidecar> ReadSidecar(const std::filesystem::path& path) {
       break;
     }
   }
+  sidecar.unread_bytes = bytes.size() - at;
   return sidecar;
 }
 

@@ -25,6 +25,7 @@ void AppendSidecarEvent(std::vector<std::uint8_t>& out, const LogEntry& entry);
 struct Sidecar {
   std::vector<LogEntry> entries;
   std::vector<std::string> channels;
+  std::uint64_t unread_bytes = 0;  ///< at its end: a torn record, or damage
 };
 /// Reads as many whole records as there are: a torn tail is no error. An Error when the file is
 /// missing or is no sidecar.

@@ -9,6 +9,18 @@ constexpr std::size_t kMostEvents = 20000;
 
 }  // namespace
 
+Mission::Mission(MissionOptions options) : options_(std::move(options)) {
+  memory_.approvals_given = options_.approvals_before;
+  memory_.requests_made = options_.requests_before;
+}
+
+MissionOptions Mission::OptionsToGoOn() const {
+  MissionOptions options = options_;
+  options.approvals_before = memory_.approvals_given;
+  options.requests_before = memory_.requests_made;
+  return options;
+}
+
 Status Mission::Apply(const EngineCommand& command, const MissionInputs::Session& session) {
   MissionAnswer answer = palace::Apply(options_, memory_, command, session);
   memory_ = std::move(answer.memory);

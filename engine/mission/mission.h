@@ -17,7 +17,7 @@ namespace palace {
 
 class Mission {
  public:
-  explicit Mission(MissionOptions options) : options_(std::move(options)) {}
+  explicit Mission(MissionOptions options);
 
   /// Refuses with the reason (I22), which is also in the events.
   Status Apply(const EngineCommand& command, const MissionInputs::Session& session);
@@ -25,6 +25,8 @@ class Mission {
   /// Settings were applied while armed or approved (I13).
   void DropApproval(std::string_view why);
 
+  /// For a mission that takes over from this one: the same station, the numbers go on.
+  MissionOptions OptionsToGoOn() const;
   const MissionMemory& memory() const { return memory_; }
   const MissionStatus& status() const { return memory_.status; }
   const std::optional<LandingSite>& alternative() const { return memory_.alternative; }

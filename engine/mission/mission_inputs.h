@@ -15,6 +15,7 @@
 #include "engine/model/landing_site.h"
 #include "engine/model/mission/losses.h"
 #include "engine/model/mission/session_role.h"
+#include "engine/model/recording.h"
 #include "engine/model/snapshot.h"
 #include "engine/trust/approval.h"
 
@@ -25,6 +26,10 @@ struct MissionOptions {
   std::uint64_t session_id = 1;  ///< random per start; from the seed in lockstep simulation
   ApprovalSigner signer = ApprovalSigner::FromSeed(1);
   bool allow_script_approvals = true;  ///< still only on simulated vehicles (DESIGN.md 8)
+  /// Numbers given in this session before this mission began: an engine that was started again
+  /// inherits no approval, and repeats no number (I9, I17).
+  std::uint64_t approvals_before = 0;
+  std::uint64_t requests_before = 0;
 };
 
 struct MissionInputs {
@@ -35,6 +40,8 @@ struct MissionInputs {
     const char* why_no_vehicle = "";
     bool can_transmit = false;
     bool recorder_ok = false;
+    RecordState record{};              ///< how recording stands
+    std::string_view engine_stop{};    ///< what stopped the engine a moment ago
     std::string_view source_damage{};  ///< SourceStatus::damage
     Losses losses{};                   ///< at the doors, since the session began
     /// Of the newest snapshot published; this pass publishes the next number.

@@ -19,6 +19,13 @@ std::size_t Prepend(const std::vector<T>& older, std::vector<T>& newer) {
 
 }  // namespace
 
+FrameBundle WithoutPictures(const FrameBundle& bundle) {
+  FrameBundle slim = bundle;
+  slim.stereo = nullptr;
+  slim.pose_at_exposure.reset();
+  return slim;
+}
+
 JoinedBundle Join(const FrameBundle& older, const FrameBundle& newer) {
   auto joined = std::make_shared<FrameBundle>(newer);
   JoinedBundle result;

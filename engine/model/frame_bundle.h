@@ -47,6 +47,9 @@ struct FrameBundle {
   bool discontinuity = false;
 };
 
+/// The same without its pictures: for a reader that has no room for them.
+FrameBundle WithoutPictures(const FrameBundle& bundle);
+
 /// More samples of one kind than this do not wait in one bundle: 200 s of an IMU.
 inline constexpr std::size_t kMostSamplesInBundle = 20000;
 

@@ -25,6 +25,7 @@
 #include "engine/model/mission/session_role.h"
 #include "engine/model/navigation_status.h"
 #include "engine/model/range_map.h"
+#include "engine/model/recording.h"
 #include "engine/model/settings/settings.h"
 #include "engine/model/source_status.h"
 #include "engine/model/terrain_decision.h"
@@ -87,7 +88,7 @@ struct SessionPart {
   bool can_transmit = false;  ///< a VehicleLink exists
   bool recording = false;
   std::string recording_path;
-  double recording_minutes_left = 0;
+  RecordState record;  ///< thinned, stopped, how long it lasts
 
   Settings settings;          ///< in force
   Settings preview_settings;  ///< equal to settings when nothing is previewed

@@ -1,27 +1,37 @@
 #include "engine/runtime/engine.h"
 
+#include <chrono>
 #include <utility>
 
 #include "engine/core/log.h"
 
 namespace palace {
+namespace {
+constexpr double kWriteFirst_s = 0.1;
+constexpr auto kEndWithin = std::chrono::seconds(3);
+}  // namespace
 
 Engine::Engine(EngineParts parts, bool threaded)
     : source_(std::move(parts.source)),
       link_(std::move(parts.link)),
-      pipeline_(parts.settings, std::move(parts.mission)),
+      redecide_with_(std::move(parts.redecide_with)),
+      held_settings_(std::move(parts.held_settings)),
+      record_(std::move(parts.record)),
+      pipeline_(MakePipeline(parts.settings, std::move(parts.mission))),
       record_wanted_(parts.sink != nullptr),
       threaded_(threaded) {
   PALACE_CHECK(source_ != nullptr);
-  pipeline_.FollowRecord(std::move(parts.record));
-  if (parts.redecide_with) {
-    pipeline_.RedecideWith(*parts.redecide_with, parts.held_settings);
-  }
   if (parts.sink) {
     recorder_ = std::make_unique<Recorder>(std::move(parts.sink), threaded);
   }
   if (link_ && threaded) {
-    stop_ = std::make_unique<StopSender>(link_);
+    stop_ = std::make_unique<StopSender>(link_, [this](const VehicleMessage& message) {
+      if (recorder_) {
+        RecordItem item;
+        item.sent = {message};
+        recorder_->Record(std::move(item), /*may_wait=*/false);
+      }
+    });
   }
 }
 
@@ -29,6 +39,7 @@ Engine::~Engine() { (void)Stop(); }
 
 void Engine::Start() {
   PALACE_CHECK(threaded_);
+  threads_running_ = 2;
   engine_thread_ = std::jthread([this](std::stop_token stop) { RunEngine(stop); });
   source_thread_ = std::jthread([this](std::stop_token stop) { RunSource(stop); });
 }
@@ -37,10 +48,19 @@ Status Engine::Stop() {
   if (source_thread_.joinable()) {
     source_thread_.request_stop();
     engine_thread_.request_stop();
-    source_thread_.join();
-    engine_thread_.join();
+    for (; threads_running_ > 0 && threads_ended_.try_acquire_for(kEndWithin); --threads_running_) {
+    }
+    hung_ = threads_running_ > 0;
+    if (!hung_) {
+      source_thread_.join();
+      engine_thread_.join();
+    }
   }
-  return recorder_ ? recorder_->Close() : Ok();
+  const Status closed = recorder_ ? recorder_->Close() : Ok();
+  return hung_ ? UnavailableError(
+                     "the engine did not end within 3 s; the log is closed without "
+                     "what it was working on")
+               : closed;
 }
 
 void Engine::Post(EngineCommand command) {
@@ -54,11 +74,20 @@ void Engine::SendStop(const EngineCommand& command) {
   if (std::holds_alternative<WaveOff>(command.action)) {
     stop_->WaveOff();
   } else if (std::holds_alternative<HoldHere>(command.action)) {
-    // Only what the mission will hold too; it refuses a hold where nothing descends.
-    const std::shared_ptr<const EngineSnapshot> newest = latest_.Load();
-    if (newest && IsFlying(newest->flight->mission.state)) {
-      stop_->Hold();
-    }
+    HoldDescent();
+  }
+}
+
+/// Only what the mission will hold too; it refuses a hold where nothing descends.
+void Engine::HoldDescent() {
+  const std::shared_ptr<const EngineSnapshot> newest = latest_.Load();
+  if (!link_ || !newest || !IsFlying(newest->flight->mission.state)) {
+    return;
+  }
+  if (stop_) {
+    stop_->Hold();
+  } else {
+    StopSender(link_).Hold();
   }
 }
 
@@ -78,7 +107,7 @@ bool Engine::Step() {
   if (waits || ended_) {
     std::vector<EngineCommand> commands = inbox_.TakeCommands();
     if (!commands.empty()) {
-      Handle({nullptr, std::move(commands)});
+      HandleSafely({nullptr, std::move(commands)}, {});
     }
     return !ended_;
   }
@@ -88,33 +117,19 @@ bool Engine::Step() {
     Fail(next.error());
     return false;
   }
-  Handle({*next, inbox_.TakeCommands()});
-  return true;
-}
-
-void Engine::RunSource(std::stop_token stop) {
-  while (!stop.stop_requested()) {
-    Result<std::shared_ptr<const FrameBundle>> next = source_->Next(stop);
-    if (!next) {
-      if (!stop.stop_requested()) {
-        Fail(next.error());
-      }
-      return;
-    }
-    if (source_->IsLockstep()) {
-      inbox_.PutAndWait(std::move(*next), stop);
-    } else {
-      inbox_.PutNewest(std::move(*next));
-    }
-  }
+  return HandleSafely({*next, inbox_.TakeCommands()}, {});
 }
 
 void Engine::RunEngine(std::stop_token stop) {
   Inbox::Batch batch;
-  while (inbox_.Take(batch, stop)) {
-    Handle(std::exchange(batch, {}));
+  bool alive = true;
+  while (alive && inbox_.Take(batch, stop)) {
+    watch_.Begin(MonotonicSeconds());
+    alive = HandleSafely(std::exchange(batch, {}), stop);
+    watch_.End();
     inbox_.Finished();
   }
+  threads_ended_.release();
 }
 
 void Engine::Handle(Inbox::Batch batch) {
@@ -127,25 +142,58 @@ void Engine::Handle(Inbox::Batch batch) {
     batch.commands.insert(batch.commands.begin(), early_.begin(), early_.end());
     early_.clear();
   }
+  if (batch.bundle && std::exchange(made_anew_, false)) {
+    auto first = std::make_shared<FrameBundle>(*batch.bundle);
+    first->discontinuity = true;  // in a replay too nothing is carried over the restart
+    batch.bundle = std::move(first);
+  }
   const SessionStatus session = Session();
   RecordItem item;
   item.bundle = batch.bundle;
   PipelineOutput output = batch.bundle
-                              ? pipeline_.Process(batch.bundle, std::move(batch.commands), session)
-                              : pipeline_.Refresh(std::move(batch.commands), session);
+                              ? pipeline_->Process(batch.bundle, std::move(batch.commands), session)
+                              : pipeline_->Refresh(std::move(batch.commands), session);
+  item.commands = std::move(output.commands);
+  item.snapshot = std::move(output.snapshot);
+  item.sent = std::move(output.messages);
+  RecordAndSend(std::move(item));
+}
+
+/// I16: what was decided is in the log before it is acted on.
+void Engine::RecordAndSend(RecordItem item) {
+  const std::vector<VehicleMessage> messages = item.sent;
+  const std::shared_ptr<const EngineSnapshot> snapshot = item.snapshot;
+  if (recorder_) {
+    item.notes = std::exchange(notes_, {});
+    const bool first = DecidesSomething(item);
+    recorded_ = true;
+    if (!first) {
+      recorder_->Record(std::move(item), source_->IsLockstep());
+    } else if (!recorder_->RecordFirst(std::move(item), source_->IsLockstep(), kWriteFirst_s)) {
+      notes_.push_back({snapshot->time, EventKind::kAlarm,
+                        "A decision was sent before it was written: the disk takes longer than "
+                        "0.1 s"});
+    }
+  }
   if (link_) {
-    for (const VehicleMessage& message : output.messages) {
+    for (const VehicleMessage& message : messages) {
       link_->Send(message);
     }
-    link_->Announce(*output.snapshot);
+    link_->Announce(*snapshot);
   }
-  latest_.Store(output.snapshot);
-  if (recorder_) {
-    item.commands = std::move(output.commands);
-    item.snapshot = output.snapshot;
-    item.sent = std::move(output.messages);
-    recorder_->Record(std::move(item), source_->IsLockstep());
+  latest_.Store(snapshot);
+}
+
+bool Engine::DecidesSomething(const RecordItem& item) const {
+  bool told = !item.commands.empty();
+  for (const VehicleMessage& message : item.sent) {
+    if (std::holds_alternative<AbortRequest>(message)) {
+      return false;  // waits for nothing
+    }
+    told = told || !std::holds_alternative<PositionEstimate>(message);
   }
+  const auto last = latest_.Load();
+  return told || !last || last->flight->mission.state != item.snapshot->flight->mission.state;
 }
 
 SessionStatus Engine::Session() const {
@@ -156,7 +204,10 @@ SessionStatus Engine::Session() const {
   session.recorder_ok = !record_wanted_ || session.recording;
   if (recorder_) {
     session.recording_path = recorder_->path();
-    session.recording_minutes_left = recorder_->MinutesLeft();
+    session.record = recorder_->state();
+  }
+  if (fault_passes_ > 0) {
+    session.engine_stop = watch_.LastStop();
   }
   session.losses = source_->Lost();
   const Losses overtaken = inbox_.losses();

@@ -1,14 +1,24 @@
 // Engine: the threads around the pipeline. One source thread, one engine thread, one recorder
 // thread, one thread for stops; or none at all, stepped by the caller, with the same results.
+//
+// What was decided is recorded before it is sent: a pass with a command, a change of state or a
+// message other than an estimate waits until it is written, at most 0.1 s, because a hold that
+// waits for a disk would be the greater harm. A wave-off waits for nothing.
+//
+// An exception in any thread ends no program. The pipeline is made anew, three times, at least 5 s
+// apart: with the limits in force, without mission, site or approval; a vehicle that descends is
+// told to hold first.
 #pragma once
 
 #include <atomic>
 #include <memory>
+#include <semaphore>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include "engine/core/latest_value.h"
+#include "engine/runtime/engine_watch.h"
 #include "engine/runtime/inbox.h"
 #include "engine/runtime/pipeline.h"
 #include "engine/runtime/recorder.h"
@@ -38,8 +48,10 @@ class Engine {
 
   /// Starts the threads. Only for a threaded engine.
   void Start();
-  /// Ends the threads and closes the log. The recorder's first error, if any.
+  /// Ends the threads and closes the log. The recorder's error, if any. Threads that do not end
+  /// within 3 s are left alone: an error too, and the Engine must not be destroyed while hung().
   Status Stop();
+  bool hung() const { return hung_; }
 
   /// The newest snapshot; null before the first.
   std::shared_ptr<const EngineSnapshot> Latest() const { return latest_.Load(); }
@@ -53,32 +65,55 @@ class Engine {
   /// then says whether that was a failure.
   bool Step();
 
-  /// Set when the source failed (not when it merely ended).
+  /// Set when the source or the engine failed for good (not when a source merely ended).
   std::string error() const;
   bool ended() const { return ended_.load(); }
+  /// What a person must know of an engine that does not answer; empty while it does. Any thread,
+  /// whatever the engine does.
+  std::string Complaint() const;
 
  private:
   void RunSource(std::stop_token stop);
+  bool Feed(std::stop_token stop);
   void RunEngine(std::stop_token stop);
+  bool HandleSafely(const Inbox::Batch& batch, std::stop_token stop);
   void Handle(Inbox::Batch batch);
+  void RecordAndSend(RecordItem item);
+  bool DecidesSomething(const RecordItem& item) const;
+  bool StartAgain(const Inbox::Batch& failed, const std::string& reason, std::stop_token stop);
+  bool AwaitRestart(double at_s, std::stop_token stop) const;
+  std::unique_ptr<Pipeline> MakePipeline(const Settings& settings, MissionOptions mission) const;
+  void HoldDescent();
   void SendStop(const EngineCommand& command);
   SessionStatus Session() const;
   void Fail(const Error& error);
 
   std::shared_ptr<Source> source_;
   std::shared_ptr<VehicleLink> link_;
-  Pipeline pipeline_;
+  const std::optional<Settings> redecide_with_;
+  const std::vector<std::string> held_settings_;
+  const std::shared_ptr<const FlightRecord> record_;
+  std::unique_ptr<Pipeline> pipeline_;
   std::unique_ptr<Recorder> recorder_;
   const bool record_wanted_;
   const bool threaded_;
   std::unique_ptr<StopSender> stop_;
   Inbox inbox_;
   std::vector<EngineCommand> early_;  ///< given before the first bundle, applied with it
+  std::vector<Event> notes_;          ///< of the engine itself, for the record
+  bool recorded_ = false;             ///< the batch in hand
+  bool made_anew_ = false;            ///< and has seen no bundle since
+  int fault_passes_ = 0;              ///< how many more tell what stopped the engine
   LatestValue<EngineSnapshot> latest_;
+  EngineWatch watch_;
+  EngineWatch source_watch_;
   std::atomic<bool> ended_{false};
   std::atomic<bool> jump_asked_{false};  ///< a paused source still has one bundle to give
+  bool hung_ = false;
   mutable std::mutex error_mutex_;
   std::string error_;
+  std::counting_semaphore<2> threads_ended_{0};
+  int threads_running_ = 0;
   std::jthread source_thread_;
   std::jthread engine_thread_;
 };

@@ -19,6 +19,15 @@ constexpr double kLaserAge_s = 0.1;  // a laser range older than this is of anot
 Pipeline::Pipeline(const Settings& settings, MissionOptions mission)
     : settings_(settings), mission_(std::move(mission)) {}
 
+void Pipeline::GoOnAfter(std::uint64_t sequence, const EngineSnapshot* last) {
+  sequence_ = sequence;
+  if (last != nullptr && last->session->events) {
+    for (const Event& event : *last->session->events) {
+      mission_.AddEvent(event.time, event.kind, event.text);
+    }
+  }
+}
+
 void Pipeline::StartAfterJump(Timestamp now) {
   slad_.Forget();
   tracker_.Reset();
@@ -346,6 +355,8 @@ MissionInputs::Session Pipeline::MissionSession(const Pass& pass, Timestamp now)
           .why_no_vehicle = WhyNoVehicle(session.source.kind),
           .can_transmit = session.can_transmit,
           .recorder_ok = session.recorder_ok,
+          .record = session.record,
+          .engine_stop = session.engine_stop,
           .source_damage = session.source.damage,
           .losses = session.losses,
           .snapshot_sequence = sequence_};
@@ -362,7 +373,7 @@ PipelineOutput Pipeline::Publish(Pass& pass) {
   part.can_transmit = pass.session.can_transmit;
   part.recording = pass.session.recording;
   part.recording_path = pass.session.recording_path;
-  part.recording_minutes_left = pass.session.recording_minutes_left;
+  part.record = pass.session.record;
   part.settings = settings_.applied();
   part.preview_settings = settings_.preview();
   part.settings_hash = HashOf(part.settings);

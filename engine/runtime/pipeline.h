@@ -34,7 +34,8 @@ struct SessionStatus {
   bool recording = false;
   bool recorder_ok = true;  ///< recording as asked, or not asked to record
   std::string recording_path;
-  double recording_minutes_left = 0;
+  RecordState record;
+  std::string engine_stop;  ///< what stopped the engine a moment ago, while it is news
 };
 
 struct PipelineOutput {
@@ -56,6 +57,14 @@ class Pipeline {
   void FollowRecord(std::shared_ptr<const FlightRecord> record) {
     mission_of_record_.Follow(std::move(record));
   }
+
+  /// For a pipeline that takes over from this one.
+  MissionOptions MissionToGoOn() const { return mission_.OptionsToGoOn(); }
+  /// Of the newest snapshot.
+  std::uint64_t sequence() const { return sequence_; }
+  /// Takes over from one whose last number was `sequence` and whose last snapshot, if any, `last`:
+  /// numbers and events go on, nothing else does.
+  void GoOnAfter(std::uint64_t sequence, const EngineSnapshot* last);
 
   PipelineOutput Process(std::shared_ptr<const FrameBundle> bundle,
                          std::vector<EngineCommand> commands, const SessionStatus& session);

@@ -3,6 +3,7 @@
 
 #include <exception>
 #include <memory>
+#include <new>
 #include <string>
 #include <utility>
 #include <vector>
@@ -27,12 +28,15 @@ struct Pipeline::Pass {
   void Note(DiagnosticLevel level, std::string stage, std::string message) {
     snapshot->session.Edit().diagnostics.push_back({level, std::move(stage), std::move(message)});
   }
-  /// Runs one stage; a library's exception becomes a stage fault, never a crash. Times it.
+  /// Runs one stage; a library's exception becomes a stage fault, never a crash. Times it. When
+  /// memory is short no stage can be relied on: that ends the pass.
   template <typename Stage>
   void Run(const char* name, Stage&& stage) {
     const double start_s = MonotonicSeconds();
     try {
       stage();
+    } catch (const std::bad_alloc&) {
+      throw;
     } catch (const std::exception& error) {
       Note(DiagnosticLevel::kError, name, std::string("stage failed: ") + error.what());
     }

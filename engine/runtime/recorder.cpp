@@ -1,43 +1,17 @@
 #include "engine/runtime/recorder.h"
 
-#include <filesystem>
-#include <iterator>
+#include <exception>
 #include <utility>
-#include <vector>
 
 namespace palace {
-namespace {
-
-constexpr std::uint64_t kItemsBetweenSpaceChecks = 50;
-
-template <typename T>
-void Prepend(std::vector<T>& older, std::vector<T>& newer) {
-  older.insert(older.end(), std::make_move_iterator(newer.begin()),
-               std::make_move_iterator(newer.end()));
-  newer = std::move(older);
-}
-
-/// What `older` holds goes before what `newer` holds; of two bundles with pictures the newer's
-/// stay.
-void HandOver(RecordItem older, RecordItem& newer) {
-  Prepend(older.commands, newer.commands);
-  Prepend(older.sent, newer.sent);
-  if (older.bundle && newer.bundle) {
-    newer.bundle = Join(*older.bundle, *newer.bundle).bundle;
-  }
-}
-
-}  // namespace
 
 Recorder::Recorder(std::unique_ptr<RecordSink> sink, bool threaded)
-    : sink_(std::move(sink)), path_(sink_->Path()) {
+    : sink_(std::move(sink)), path_(sink_->Path()), threaded_(threaded) {
   if (threaded) {
     thread_ = std::jthread([this](std::stop_token stop) {
-      while (auto item = queue_.Pop(stop)) {
-        Write(*item);
-      }
-      while (auto item = queue_.TryPop()) {
-        Write(*item);
+      while (auto entry = queue_.Pop(stop)) {
+        Write(entry->item);
+        queue_.Done(entry->ticket);
       }
     });
   }
@@ -46,74 +20,64 @@ Recorder::Recorder(std::unique_ptr<RecordSink> sink, bool threaded)
 Recorder::~Recorder() { (void)Close(); }
 
 void Recorder::Record(RecordItem item, bool may_wait) {
-  HandOver(std::exchange(held_, {}), item);
-  if (!item.bundle) {
-    held_ = std::move(item);
-  } else if (!thread_.joinable()) {
+  if (threaded_ && !closed_) {
+    queue_.Push(std::move(item), may_wait);
+  } else if (!closed_) {
     Write(item);
-  } else if (may_wait) {
-    queue_.Push(std::move(item));
-  } else {
-    dropped_ += queue_.PushOrFold(std::move(item), HandOver);
   }
+}
+
+bool Recorder::RecordFirst(RecordItem item, bool may_wait, double limit_s) {
+  if (threaded_ && !closed_) {
+    return queue_.AwaitDone(queue_.Push(std::move(item), may_wait), limit_s);
+  }
+  Record(std::move(item), may_wait);
+  return true;
 }
 
 void Recorder::Write(const RecordItem& item) {
-  if (!ok_) {
-    return;
+  try {
+    const Status done = sink_->Record(item);
+    RecordState state = sink_->State();
+    if (!done) {
+      Fail(done.error().message, state.problem);
+      return;
+    }
+    ok_ = true;
+    const std::lock_guard lock(state_mutex_);
+    state_ = std::move(state);
+    error_.clear();
+  } catch (const std::exception& error) {
+    Fail(std::string("recording: ") + error.what(), error.what());
   }
-  const Status done = sink_->Record(item);
-  if (!done) {
-    const std::lock_guard lock(error_mutex_);
-    error_ = done.error().message;
-    ok_ = false;
-    return;
-  }
-  EstimateSpace(item);
 }
 
-void Recorder::EstimateSpace(const RecordItem& item) {
-  if (!item.bundle) {
-    return;
-  }
-  if (items_ == 0) {
-    first_ = item.bundle->time;
-  }
-  if (++items_ % kItemsBetweenSpaceChecks != 0) {
-    return;
-  }
-  std::error_code error;
-  const auto written = std::filesystem::file_size(path_, error);
-  const auto space = std::filesystem::space(std::filesystem::path(path_).parent_path(), error);
-  const double seconds = SecondsBetween(first_, item.bundle->time);
-  if (!error && written > 0 && seconds > 0) {
-    minutes_left_ =
-        static_cast<double>(space.available) / static_cast<double>(written) * seconds / 60;
-  }
+void Recorder::Fail(const std::string& message, const std::string& problem) {
+  const std::lock_guard lock(state_mutex_);
+  error_ = message;
+  state_.problem = problem.empty() ? message : problem;
+  ok_ = false;
 }
 
 Status Recorder::Close() {
-  if (closed_) {
+  if (closed_.exchange(true)) {
     return Ok();
   }
-  closed_ = true;
   if (thread_.joinable()) {
     thread_.request_stop();
     thread_.join();
   }
-  if (!held_.commands.empty() || !held_.sent.empty()) {
-    Write(held_);
-  }
   const Status done = sink_->Close();
   if (!ok_) {
-    return UnavailableError(error());
+    const std::lock_guard lock(state_mutex_);
+    return UnavailableError(error_);
   }
   return done;
 }
 
-std::string Recorder::error() const {
-  const std::lock_guard lock(error_mutex_);
-  return error_;
+RecordState Recorder::state() const {
+  const std::lock_guard lock(state_mutex_);
+  return state_;
 }
 
 }  // namespace palace

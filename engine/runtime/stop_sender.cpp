@@ -1,6 +1,9 @@
 #include "engine/runtime/stop_sender.h"
 
+#include <exception>
 #include <utility>
+
+#include "engine/core/log.h"
 
 namespace palace {
 namespace {
@@ -8,11 +11,14 @@ namespace {
 // Numbers of this path lie apart from the engine's own command counter.
 constexpr std::uint64_t kAbortPathId = std::uint64_t{1} << 62;
 constexpr std::uint64_t kHoldPathId = kAbortPathId + 1;
+constexpr int kTries = 3;  // of a send that throws: memory may be short for a moment
 
 }  // namespace
 
-StopSender::StopSender(std::shared_ptr<VehicleLink> link)
+StopSender::StopSender(std::shared_ptr<VehicleLink> link,
+                       std::function<void(const VehicleMessage&)> sent)
     : link_(std::move(link)),
+      sent_(std::move(sent)),
       abort_(AbortRequest{kAbortPathId, "Wave-off by the operator"}),
       hold_(HoldRequest{kHoldPathId, "Held by the operator"}),
       thread_([this](std::stop_token stop) {
@@ -22,12 +28,30 @@ StopSender::StopSender(std::shared_ptr<VehicleLink> link)
           const bool abort = std::exchange(abort_wanted_, false);
           hold_wanted_ = false;
           lock.unlock();
-          link_->Send(abort ? abort_ : hold_);
+          Send(abort ? abort_ : hold_);
           lock.lock();
         }
       }) {}
 
 StopSender::~StopSender() = default;
+
+void StopSender::Send(const VehicleMessage& message) {
+  for (int i = 0; i < kTries; ++i) {
+    try {
+      link_->Send(message);
+      break;
+    } catch (const std::exception& error) {
+      LogError(std::string("a wave-off or hold could not be sent: ") + error.what());
+    }
+  }
+  try {
+    if (sent_) {
+      sent_(message);
+    }
+  } catch (const std::exception& error) {
+    LogError(std::string("a wave-off or hold is not in the record: ") + error.what());
+  }
+}
 
 void StopSender::WaveOff() { Trigger(abort_wanted_); }
 void StopSender::Hold() { Trigger(hold_wanted_); }

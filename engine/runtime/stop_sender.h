@@ -4,6 +4,7 @@
 #pragma once
 
 #include <condition_variable>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <thread>
@@ -14,7 +15,10 @@ namespace palace {
 
 class StopSender {
  public:
-  explicit StopSender(std::shared_ptr<VehicleLink> link);
+  /// `sent` is told of each message after it left, on the thread of the sender: for the record,
+  /// which has it even when the engine is dead.
+  explicit StopSender(std::shared_ptr<VehicleLink> link,
+                      std::function<void(const VehicleMessage&)> sent = {});
   ~StopSender();
   StopSender(const StopSender&) = delete;
   StopSender& operator=(const StopSender&) = delete;
@@ -25,8 +29,10 @@ class StopSender {
 
  private:
   void Trigger(bool& wanted);
+  void Send(const VehicleMessage& message);
 
   std::shared_ptr<VehicleLink> link_;
+  const std::function<void(const VehicleMessage&)> sent_;
   const VehicleMessage abort_;
   const VehicleMessage hold_;
   std::mutex mutex_;

@@ -18,6 +18,7 @@ namespace {
 constexpr int kWhole = 0;
 constexpr int kNothingReadable = 1;
 constexpr int kDamaged = 3;
+constexpr int kNotAllChecked = 4;
 
 struct LogOptions {
   std::string log;
@@ -40,8 +41,11 @@ Result<ChannelNames> Channels(const LogOptions& options) {
 void PrintReport(const LogReport& r) {
   std::printf("%llu events in %llu bytes", static_cast<unsigned long long>(r.events),
               static_cast<unsigned long long>(r.file_bytes));
-  std::printf(r.has_sidecar ? ", checksums in the sidecar\n"
-                            : ", no sidecar: integrity not verifiable\n");
+  const auto known = static_cast<unsigned long long>(r.events - r.unchecked);
+  std::printf(known > 0 ? ", checksums of %llu in the sidecar\n" : ", no checksums\n", known);
+  if (!r.sidecar_problem.empty()) {
+    std::printf("  %s\n", r.sidecar_problem.c_str());
+  }
   const auto line = [](const char* what, std::uint64_t count) {
     if (count > 0) {
       std::printf("  %-42s %llu\n", what, static_cast<unsigned long long>(count));
@@ -58,6 +62,27 @@ void PrintReport(const LogReport& r) {
     std::printf("  gap at byte %llu, %llu bytes\n", static_cast<unsigned long long>(gap.offset),
                 static_cast<unsigned long long>(gap.bytes));
   }
+}
+
+/// What `info` saw, which looks at headers only.
+int Impression(const LogReport& report) {
+  std::printf(report.damaged() ? "damaged, the rest is readable\n"
+                               : "no damage seen; palacectl log verify reads every event\n");
+  return report.damaged() ? kDamaged : kWhole;
+}
+
+/// "whole" only where every event was compared with its checksum.
+int Verdict(const LogReport& report) {
+  if (report.damaged()) {
+    std::printf("damaged, the rest is readable\n");
+  } else if (report.unchecked == 0) {
+    std::printf("whole\n");
+  } else {
+    std::printf("no damage seen, but %llu of %llu events could not be checked\n",
+                static_cast<unsigned long long>(report.unchecked),
+                static_cast<unsigned long long>(report.events));
+  }
+  return report.damaged() ? kDamaged : report.unchecked == 0 ? kWhole : kNotAllChecked;
 }
 
 int Describe(const LogOptions& options, bool verify) {
@@ -80,8 +105,7 @@ int Describe(const LogOptions& options, bool verify) {
                   static_cast<unsigned long long>(row.bytes), row.rate_hz);
     }
   }
-  std::printf(log->report.damaged() ? "damaged, the rest is readable\n" : "whole\n");
-  return log->report.damaged() ? kDamaged : kWhole;
+  return verify ? Verdict(log->report) : Impression(log->report);
 }
 
 /// A readable but damaged log keeps its exit code whatever is made of it.
@@ -133,7 +157,10 @@ void AddLogCommand(CLI::App& app, int& exit_code) {
   info->add_option("--channels", options->channels_file, "Channel names (TOML)");
   info->callback([options, &exit_code] { exit_code = Describe(*options, false); });
 
-  CLI::App* verify = verb("verify", "Check every event, and its checksum where there is a sidecar");
+  CLI::App* verify =
+      verb("verify",
+           "Compare every event with its checksum. Exit 0 whole, 3 damaged but read, "
+           "4 readable but not all could be checked, 1 nothing readable");
   verify->callback([options, &exit_code] { exit_code = Describe(*options, true); });
 
   CLI::App* export_verb = verb("export", "Estimates, truth, decisions, sites, settings as CSV");

@@ -7,7 +7,7 @@
 #include "engine/capture/image_folder_source.h"
 #include "engine/core/log.h"
 #include "engine/core/units.h"
-#include "engine/journal/log_writer.h"
+#include "engine/journal/flight_recorder.h"
 #include "engine/journal/replay_source.h"
 #include "engine/runtime/settings_io.h"
 #include "engine/simulation/session.h"

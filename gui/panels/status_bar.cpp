@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include "engine/core/hash.h"
 #include "gui/panels/frame_bar.h"
@@ -58,13 +59,16 @@ std::string ReplacedText(const EngineSnapshot& snap) {
 
 std::string RecordingText(const EngineSnapshot& snap, bool narrow) {
   if (!snap.session->recording) {
-    return FollowsRecord(snap.session->role) ? "" : "Not recording";
+    const std::string why = snap.session->record.problem;
+    return FollowsRecord(snap.session->role) ? ""
+                                             : "Not recording" + (why.empty() ? "" : ": " + why);
   }
-  // Negative: the recorder does not know its rate yet.
+  // Not finite: the recorder does not know its rate yet.
+  const RecordState& record = snap.session->record;
   const std::string left =
-      snap.session->recording_minutes_left < 0
-          ? std::string()
-          : ", " + Fixed(snap.session->recording_minutes_left, 0) + " min left";
+      (record.pictures_every != 1 ? ", " + ThinningWords(record.pictures_every) : "") +
+      (std::isfinite(record.minutes_left) ? ", " + Fixed(record.minutes_left, 0) + " min left"
+                                          : std::string());
   return narrow ? "Recording" + left
                 : "Recording " + LengthText(snap.session->source.position_s) + left;
 }

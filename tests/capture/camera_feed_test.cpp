@@ -3,7 +3,9 @@
 
 #include <deque>
 #include <memory>
+#include <new>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -22,6 +24,7 @@ Error Damaged() { return InvalidError("/dev/video7: not decodable"); }
 struct ScriptedCamera {
   double now_s = 100;
   bool plugged = true;
+  bool throws = false;
   int width = 8;
   std::deque<Error> errors;  ///< of the next reads
   int opened = 0;
@@ -40,6 +43,9 @@ struct ScriptedCamera {
       CameraDevice device;
       device.rate_hz = kRate_hz;
       device.read = [this, closes]() -> Result<CameraPicture> {
+        if (std::exchange(throws, false)) {
+          throw std::bad_alloc();
+        }
         if (!errors.empty()) {
           const Error error = errors.front();
           errors.pop_front();
@@ -220,6 +226,16 @@ TEST_F(CameraFeedTest, RulesInRandomOrder) {
   camera_.width = 8;
   EXPECT_GE(StepsToPicture(), 0);
   EXPECT_EQ(camera_.open_devices, 1);
+}
+
+TEST_F(CameraFeedTest, AnExceptionLosesTheCameraForNowAndNothingElse) {
+  StepsToPicture();
+  camera_.throws = true;
+  const CameraFeed::Outcome lost = Step();
+  EXPECT_FALSE(lost.picture.has_value());
+  EXPECT_NE(feed_.counters().problem.find("std::bad_alloc"), std::string::npos);
+  StepsToPicture();
+  EXPECT_EQ(feed_.counters().problem, "");
 }
 
 }  // namespace

@@ -11,7 +11,7 @@
 
 #include <gtest/gtest.h>
 
-#include "engine/journal/log_writer.h"
+#include "engine/journal/flight_recorder.h"
 #include "tests/wire/wire_samples.h"
 
 namespace palace {

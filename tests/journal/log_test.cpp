@@ -270,6 +270,65 @@ TEST_F(LogTest, EventsBeyondATornSidecarAreFound) {
   EXPECT_FALSE(index->report.damaged());
 }
 
+TEST_F(LogTest, VerifySaysWhatItCouldNotCheckAndWhy) {
+  RandomStream random(53);
+  const Bytes good = ReadBytes(SidecarPath(path_));
+  Bytes half(good.begin(), good.begin() + static_cast<std::ptrdiff_t>(good.size() / 2));
+  Bytes garbage(good.size());
+  for (std::uint8_t& byte : garbage) {
+    byte = static_cast<std::uint8_t>(random.NextBits());
+  }
+  Bytes torn = good;
+  torn.resize(torn.size() - 3);
+  // Of another flight: as many events of the same lengths at the same places, or quite different.
+  const auto other = [&](int seconds, std::size_t size) {
+    const std::filesystem::path path = folder_ / ("other" + std::to_string(seconds) + ".lcm");
+    auto writer = LogWriter::Create(path);
+    for (const WireMessage& message : messages_) {
+      WireMessage altered = message;
+      altered.time.us += 1'000'000 * seconds;
+      altered.payload[0] ^= 1;
+      altered.payload.resize(size > 0 ? size : altered.payload.size());
+      EXPECT_TRUE(writer->Write(altered).ok());
+    }
+    EXPECT_TRUE(writer->Close().ok());
+    return ReadBytes(SidecarPath(path));
+  };
+  struct Case {
+    const char* name;
+    Bytes sidecar;
+    std::uint64_t unchecked_at_least;
+    const char* says;
+    bool seen_by_info;  ///< which reads headers only
+  };
+  const Case cases[] = {{"good", good, 0, "", true},
+                        {"half", half, 40, "cut or damaged after", true},
+                        {"torn in its last record", torn, 1, "cut or damaged after 99", true},
+                        {"garbage", garbage, 100, "is none, or damaged", true},
+                        {"empty", {}, 100, "is none, or damaged", true},
+                        {"another flight", other(7, 0), 100, "of another log", true},
+                        {"another layout", other(9, 50), 100, "of another log", true},
+                        {"the same times, other bytes", other(0, 0), 100, "of another log", false}};
+  for (const Case& c : cases) {
+    SCOPED_TRACE(c.name);
+    WriteBytes(SidecarPath(path_), c.sidecar);
+    const auto checked = VerifyLog(*LogFile::Open(path_)),
+               looked = BuildIndex(*LogFile::Open(path_));
+    ASSERT_TRUE(checked.ok() && looked.ok());
+    EXPECT_EQ(checked->entries.size(), 100u);
+    EXPECT_FALSE(checked->report.damaged());
+    EXPECT_GE(checked->report.unchecked, c.unchecked_at_least);
+    EXPECT_EQ(checked->report.unchecked == 0, std::string(c.says).empty());
+    EXPECT_NE(checked->report.sidecar_problem.find(c.says), std::string::npos)
+        << checked->report.sidecar_problem;
+    if (c.seen_by_info) {
+      EXPECT_EQ(looked->report.sidecar_problem, checked->report.sidecar_problem);
+    }
+  }
+  std::filesystem::remove(SidecarPath(path_));
+  EXPECT_EQ(VerifyLog(*LogFile::Open(path_))->report.sidecar_problem, "there is no sidecar");
+}
+
 TEST_F(LogTest, RandomDamageNeverCrashesOrHangs) {
   constexpr std::uint64_t kSeed = 52;
   std::printf("seed %d\n", static_cast<int>(kSeed));

@@ -25,7 +25,7 @@ class TapeSink final : public RecordSink {
   TapeSink(std::shared_ptr<Tape> tape, int fail_after)
       : tape_(std::move(tape)), left_(fail_after) {}
   Status Record(const RecordItem& item) override {
-    if (left_-- == 0) {
+    if (left_-- <= 0) {
       return UnavailableError("the disk is full");
     }
     const std::lock_guard lock(tape_->mutex);
@@ -60,7 +60,7 @@ class CountingLink final : public VehicleLink {
   int aborts_ = 0;
 };
 
-EngineParts Parts(double duration_s, std::shared_ptr<Tape> tape, int fail_after = -1) {
+EngineParts Parts(double duration_s, std::shared_ptr<Tape> tape, int fail_after = 1'000'000) {
   SimulatorOptions options;
   options.render = false;
   options.duration_limit_s = duration_s;

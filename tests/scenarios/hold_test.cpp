@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/journal/log_writer.h"
+#include "engine/journal/flight_recorder.h"
 #include "engine/runtime/engine.h"
 #include "engine/runtime/scripted_operator.h"
 #include "engine/simulation/session.h"

@@ -1,7 +1,7 @@
 // A whole mission without a window: it lands, and its log decides the same again.
 #include <optional>
 
-#include "engine/journal/log_writer.h"
+#include "engine/journal/flight_recorder.h"
 #include "engine/runtime/engine.h"
 #include "engine/runtime/flight_summary.h"
 #include "engine/runtime/scripted_operator.h"

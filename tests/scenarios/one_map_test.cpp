@@ -16,7 +16,7 @@
 #include "engine/capture/playback_turns.h"
 #include "engine/core/units.h"
 #include "engine/experiments/field_trial.h"
-#include "engine/journal/log_writer.h"
+#include "engine/journal/flight_recorder.h"
 #include "engine/runtime/engine.h"
 #include "tests/scenarios/csv_table.h"
 #include "tests/scenarios/scenario.h"

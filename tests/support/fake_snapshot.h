@@ -318,7 +318,7 @@ inline EngineSnapshot Snapshot(MissionState state = MissionState::kArmed,
   snap.session.Edit().can_transmit = kind != SourceKind::kReplay;
   snap.session.Edit().recording = kind != SourceKind::kReplay;
   snap.session.Edit().recording_path = "logs/flight.log";
-  snap.session.Edit().recording_minutes_left = 212;
+  snap.session.Edit().record.minutes_left = 212;
   snap.sensors.Edit().channels = Channels();
   StereoRig rig;
   rig.left.pinhole = rig.right.pinhole = Camera();

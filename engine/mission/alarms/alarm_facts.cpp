@@ -87,6 +87,8 @@ AlarmFacts AlarmFactsAt(const MissionMemory& m, const MissionInputs& in) {
   f.pictures_only = HasPicturesOnly(in.session.role);
   f.heard_vehicle = m.watch.heard_vehicle();
   f.recorder_ok = in.session.recorder_ok;
+  f.record = in.session.record;
+  f.engine_stop = in.session.engine_stop;
   f.source_damage = in.session.source_damage;
   f.losses = m.losses.recent();
   f.looked_at_hz = f.losses.replaced_hz > 0 ? f.losses.pairs_hz : NAN;

@@ -182,9 +182,25 @@ const std::array<AlarmRow, kAlarmCount> kAlarms = {{
      .level = AlarmLevel::kCaution,
      .present = [](const Facts& f, double) { return f.has_vehicle && !f.recorder_ok; },
      .text =
-         [](const Facts&, const std::string&) {
-           return std::string("Recording is not running. Acknowledge to fly without a record.");
+         [](const Facts& f, const std::string&) {
+           const std::string why = f.record.problem.empty() ? "" : ": " + f.record.problem;
+           return "Recording is not running" + why + ". Acknowledge to fly without a record.";
          }},
+    {.id = AlarmId::kRecordThinned,
+     .level = AlarmLevel::kCaution,
+     .present = [](const Facts& f,
+                   double) { return f.recorder_ok && f.record.pictures_every != 1; },
+     .text =
+         [](const Facts& f, const std::string&) {
+           return "The disk is nearly full: " + ThinningWords(f.record.pictures_every) +
+                  WithNumbers(", %.0f min are left", f.record.minutes_left) + ". Free space.";
+         }},
+    {.id = AlarmId::kEngineStopped,
+     .level = AlarmLevel::kWarning,
+     .immediate = true,
+     .present = [](const Facts& f, double) { return !f.engine_stop.empty(); },
+     .text = [](const Facts& f,
+                const std::string&) { return f.engine_stop + " Nothing is selected any more."; }},
     {.id = AlarmId::kLogDamaged,
      .level = AlarmLevel::kAdvisory,
      .present = [](const Facts& f, double) { return !f.source_damage.empty(); },

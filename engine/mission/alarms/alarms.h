@@ -25,6 +25,8 @@ struct AlarmFacts {
   bool pictures_only = false;
   bool heard_vehicle = false;
   bool recorder_ok = true;
+  RecordState record{};
+  std::string engine_stop{};
   std::string source_damage{};
 
   double left_camera_age_s = NAN, right_camera_age_s = NAN;

@@ -26,6 +26,8 @@ constexpr std::array<const char*, kAlarmCount> kAlarmNames = {
     "range_scale",
     "height_mismatch",
     "recorder",
+    "record_thinned",
+    "engine_stopped",
     "log_damaged",
     "no_site",
     "wave_off",

@@ -47,6 +47,8 @@ enum class AlarmId : std::uint8_t {
   kRangeScale,
   kHeightMismatch,
   kRecorder,
+  kRecordThinned,
+  kEngineStopped,
   kLogDamaged,
   kNoSite,
   kWaveOff,
@@ -67,7 +69,7 @@ enum class AlarmId : std::uint8_t {
   kVisionResidual,
   kWind,
 };
-inline constexpr std::size_t kAlarmCount = 34;
+inline constexpr std::size_t kAlarmCount = 36;
 /// "gps_error".
 const char* AlarmName(AlarmId id);
 /// Empty for a name that no alarm has.
