@@ -104,6 +104,7 @@ void FollowJump(MissionTurn& turn, const MissionInputs& in) {
   m.shown.clear();
   m.winner = {};
   m.facts.now = m.sent_at = m.status.since = m.vision_good_at = now;
+  m.wave_off_at = m.abort_answered_at = now;
   if (StartsAnewAfterJump(in.session.role)) {
     StartAnew(turn, now);
   } else if (m.status.state == MissionState::kArmed || m.status.state == MissionState::kApproved) {
@@ -180,8 +181,10 @@ void FollowAnswers(MissionTurn& turn, const MissionInputs& in) {
                std::holds_alternative<HoldRequest>(*m.repeating)) {
       m.repeating.reset();
     } else if (IsSameMessage(m, ack.command_id, m.abort_id)) {
-      m.abort_seen = m.abort_seen || ack.result == AckResult::kAccepted ||
-                     (m.watch.vehicle() && m.watch.vehicle()->on_ground);
+      const bool accepted = ack.result == AckResult::kAccepted;
+      m.abort_answered_at = accepted ? in.session.now : m.abort_answered_at;
+      m.abort_seen =
+          m.abort_seen || accepted || (m.watch.vehicle() && m.watch.vehicle()->on_ground);
     }
   }
 }

@@ -6,6 +6,7 @@
 #include "engine/core/check.h"
 #include "engine/mission/geometry.h"
 #include "engine/mission/guards.h"
+#include "engine/mission/wave_off.h"
 #include "engine/mission/wording.h"
 
 namespace palace {
@@ -15,7 +16,7 @@ constexpr double kSnapshotOld_s = 2;
 constexpr std::uint64_t kRefreshes = 60;  ///< at most, between two passes
 
 Status Refuse(MissionTurn& turn, Timestamp now, std::string_view what, std::string why) {
-  AddEvent(turn, now, EventKind::kDecision, std::string(what) + " refused: " + why);
+  AddEvent(turn, now, EventKind::kDecision, std::string(what) + kRefusedMark + why);
   return UsageError(std::move(why));
 }
 
@@ -199,6 +200,9 @@ Status Obeying::operator()(const HoldHere&) const {
 }
 
 Status Obeying::operator()(const WaveOff&) const {
+  if (const std::string why = WhyNoWaveOff(turn.memory, now); !why.empty()) {
+    return Refuse(turn, now, "Wave-off", why);
+  }
   Abort(turn, words::kWavedOff, now);
   return Ok();
 }

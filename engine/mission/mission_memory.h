@@ -108,7 +108,9 @@ struct MissionMemory {
   std::string refusal;  ///< the vehicle's refusal of the last approval, empty when none
 
   bool vehicle_ever_heard = false;
-  bool abort_seen = false;  ///< the vehicle acknowledged or flies the abort
+  bool abort_seen = false;      ///< the vehicle acknowledged or flies the abort
+  Timestamp wave_off_at;        ///< of the newest press
+  Timestamp abort_answered_at;  ///< of the newest acceptance of an abort
   bool wave_off_acknowledged = false;
   bool vision_allowed = false;
   Timestamp vision_good_at;

@@ -4,6 +4,7 @@
 #include "engine/mission/descent_limits.h"
 #include "engine/mission/geometry.h"
 #include "engine/mission/guards.h"
+#include "engine/mission/wave_off.h"
 #include "engine/mission/wording.h"
 
 namespace palace {
@@ -35,6 +36,8 @@ std::string WhyNoApproval(const MissionMemory& m) {
 void PublishFigures(MissionMemory& m, Timestamp now) {
   PublishGeometry(m);
   PublishLimits(m, now);
+  m.status.wave_off = WaveOffNow(m, now);
+  m.status.why_no_wave_off = WhyNoWaveOff(m, now);
   if (m.status.approval_phase == MissionStatus::ApprovalPhase::kSent) {
     m.status.approval_answer_s = SecondsBetween(m.approved_at, now);
   }

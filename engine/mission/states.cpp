@@ -5,13 +5,13 @@
 
 #include "engine/mission/geometry.h"
 #include "engine/mission/limits.h"
+#include "engine/mission/wave_off.h"
 #include "engine/mission/wording.h"
 
 namespace palace {
 namespace {
 
-constexpr double kHoldShown_s = 3;     // a person must be able to read why
-constexpr double kAbortSettles_s = 2;  // a hover reported sooner may be the one before the abort
+constexpr double kHoldShown_s = 3;  // a person must be able to read why
 constexpr double kLandedHeight_m = 0.5;
 constexpr double kLandedSpeed_mps = 0.3;
 
@@ -233,18 +233,12 @@ void StepHold(MissionTurn& turn, const MissionInputs& in) {
 void StepAborting(MissionTurn& turn, Timestamp now) {
   MissionMemory& m = turn.memory;
   const auto& vehicle = m.watch.vehicle();
-  bool over = !m.vehicle_ever_heard;  // nobody there: nothing to wait for
-  if (vehicle) {
-    const bool flies_it = vehicle->mode == VehicleMode::kAbort;
-    m.abort_seen = m.abort_seen || flies_it;
-    const bool hovers =
-        vehicle->mode == VehicleMode::kHover || vehicle->mode == VehicleMode::kLanded;
-    over = m.abort_seen && hovers && SecondsBetween(m.status.since, now) >= kAbortSettles_s;
-  }
+  m.abort_seen = m.abort_seen ||
+                 (vehicle && vehicle->mode == VehicleMode::kAbort && HeardSinceWaveOff(m, now));
   if (m.abort_seen) {
     m.repeating.reset();
   }
-  if (over && m.wave_off_acknowledged) {
+  if (m.wave_off_acknowledged && WaveOffIsOver(m, now)) {
     m.repeating.reset();
     ForgetSite(m);
     Enter(turn, MissionState::kSearch, words::kWaveOffOver, now);

@@ -51,6 +51,7 @@ void Enter(MissionTurn& turn, MissionState state, std::string why, Timestamp now
   MissionMemory& m = turn.memory;
   AddEvent(turn, now, EventKind::kState, std::string(MissionStateName(state)) + ": " + why);
   m.status.state = state;
+  m.status.selection_ended.clear();
   m.status.since = now;
   m.status.why = std::move(why);
   const bool keeps_vision =
@@ -91,12 +92,14 @@ void Drop(MissionTurn& turn, std::string why, Timestamp now) {
   // An approval on its way must be withdrawn; one that the vehicle refused is nowhere.
   const bool withdraw = m.status.state == MissionState::kApproved &&
                         m.status.approval_phase != MissionStatus::ApprovalPhase::kRefused;
+  std::string ended = words::SelectionEnded(words::SiteName(m.status), why);
   Kill(turn, why);
   if (withdraw) {
     AskToHold(turn, words::Withdrawn(why), now);
   }
   ForgetSite(m);
   Enter(turn, MissionState::kProposed, std::move(why), now);
+  m.status.selection_ended = std::move(ended);
 }
 
 void Hold(MissionTurn& turn, std::string why, Timestamp now) {
@@ -109,6 +112,7 @@ void Hold(MissionTurn& turn, std::string why, Timestamp now) {
 void Abort(MissionTurn& turn, std::string why, Timestamp now) {
   MissionMemory& m = turn.memory;
   Kill(turn, why);
+  m.wave_off_at = now;
   m.abort_id = RequestNumber(turn.station.session_id, ++m.requests_made);
   SendUntilAnswered(turn, AbortRequest{m.abort_id, why}, now);
   if (m.status.state == MissionState::kAborting) {

@@ -38,6 +38,10 @@ std::string SiteName(const MissionStatus& status) {
 
 std::string SiteSelected(char letter) { return Site(letter) + " selected"; }
 
+std::string SelectionEnded(std::string_view site, std::string_view why) {
+  return "Selection of " + std::string(site) + " ended: " + std::string(why) + ".";
+}
+
 std::string SiteWon(char letter, int maps) {
   return Site(letter) + " won " + std::to_string(maps) + " maps";
 }
@@ -117,6 +121,29 @@ std::string Descends(std::string_view site) { return "Vehicle descends to " + st
 
 std::string OnTheGround(std::string_view site) {
   return "Vehicle is on the ground at " + std::string(site);
+}
+
+std::string WaveOffTold(const WaveOffReport& report) {
+  using Phase = WaveOffReport::Phase;
+  const bool old = report.age_s > GuardLimits::link_s;
+  const std::string ago = WithNumbers(", %.1f s ago.", report.age_s);
+  switch (report.phase) {
+    case Phase::kNone:
+      return ".";
+    case Phase::kSent:
+      return ". Waiting for the vehicle to confirm.";
+    case Phase::kUnanswered:
+      return WithNumbers(". No answer from the vehicle for %.1f s.", report.age_s);
+    case Phase::kAccepted:
+      return ". The vehicle accepted it" + (old ? ago + " Not heard since." : ".");
+    case Phase::kClimbs:
+      return old ? ". The vehicle climbed when it was heard last" + ago
+                 : ". Vehicle climbs. Acknowledge when it hovers.";
+    case Phase::kDone:
+      break;
+  }
+  return old ? ". The vehicle hovered when it was heard last" + ago
+             : ". Vehicle hovers. Acknowledge to search again.";
 }
 
 std::string VisionLost(double outage_s, double limit_s) {

@@ -62,6 +62,8 @@ std::string Older(const char* what, double age_s, double limit_s);
 /// "site A", or "the site" when none is armed.
 std::string SiteName(const MissionStatus& status);
 std::string SiteSelected(char letter);
+/// "Selection of site A ended: arm window is over ..."
+std::string SelectionEnded(std::string_view site, std::string_view why);
 std::string SiteWon(char letter, int maps);
 std::string SiteLeads(char letter);
 /// "Site A refused".
@@ -87,6 +89,8 @@ std::string VehicleRefusedApproval(std::string_view site, std::string_view why);
 std::string VehicleRefused(std::string_view site, std::string_view why);
 std::string Descends(std::string_view site);
 std::string OnTheGround(std::string_view site);
+/// What became of a wave-off: ". Vehicle climbs. Acknowledge when it hovers."
+std::string WaveOffTold(const WaveOffReport& report);
 std::string VisionLost(double outage_s, double limit_s);
 
 }  // namespace palace::words

@@ -72,7 +72,11 @@ void Engine::Post(EngineCommand command) {
 
 void Engine::SendStop(const EngineCommand& command) {
   if (std::holds_alternative<WaveOff>(command.action)) {
-    stop_->WaveOff();
+    // Only what the mission will do too: it waves off nothing that stands on the ground.
+    const std::shared_ptr<const EngineSnapshot> newest = latest_.Load();
+    if (!newest || newest->flight->mission.why_no_wave_off.empty()) {
+      stop_->WaveOff();
+    }
   } else if (std::holds_alternative<HoldHere>(command.action)) {
     HoldDescent();
   }
@@ -98,6 +102,12 @@ void Engine::Control(const PlaybackControl& control) {
       control.kind == Kind::kStepForward) {
     jump_asked_ = true;
     ended_ = false;
+  }
+  // A paused source gives no bundle that could tell of it.
+  if (threaded_) {
+    inbox_.Wake();
+  } else if (latest_.Load()) {
+    Handle({nullptr, {}});
   }
 }
 

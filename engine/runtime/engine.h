@@ -58,6 +58,7 @@ class Engine {
   /// From any thread. A wave-off, and a hold of a descent, also leave at once by a path of their
   /// own.
   void Post(EngineCommand command);
+  /// Publishes a snapshot that tells of it, also where the source gives nothing more.
   void Control(const PlaybackControl& control);
 
   /// Without threads: takes the next bundle and processes it in the caller's thread; while the

@@ -10,6 +10,12 @@ void Inbox::Post(EngineCommand command) {
   changed_.notify_all();
 }
 
+void Inbox::Wake() {
+  const std::lock_guard lock(mutex_);
+  woken_ = true;
+  changed_.notify_all();
+}
+
 void Inbox::PutNewest(std::shared_ptr<const FrameBundle> bundle) {
   JoinedBundle joined;
   {
@@ -34,11 +40,12 @@ bool Inbox::PutAndWait(std::shared_ptr<const FrameBundle> bundle, std::stop_toke
 
 bool Inbox::Take(Batch& batch, std::stop_token stop) {
   std::unique_lock lock(mutex_);
-  if (!changed_.wait(lock, stop, [&] { return bundle_ || !commands_.empty(); })) {
+  if (!changed_.wait(lock, stop, [&] { return bundle_ || !commands_.empty() || woken_; })) {
     return false;
   }
   batch.bundle = std::exchange(bundle_, nullptr);
   batch.commands = std::exchange(commands_, {});
+  woken_ = false;
   busy_ = true;
   return true;
 }

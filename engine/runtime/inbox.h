@@ -18,11 +18,13 @@ namespace palace {
 class Inbox {
  public:
   struct Batch {
-    std::shared_ptr<const FrameBundle> bundle;  ///< null: commands only
+    std::shared_ptr<const FrameBundle> bundle;  ///< null: commands only, or Wake
     std::vector<EngineCommand> commands;
   };
 
   void Post(EngineCommand command);
+  /// Take returns although nothing came: the session changed, a paused source for one.
+  void Wake();
   /// Live sources, one thread: joins a frame that waits. Never waits itself.
   void PutNewest(std::shared_ptr<const FrameBundle> bundle);
   /// Lockstep sources: waits until the frame was taken and processed. False when stopped.
@@ -43,6 +45,7 @@ class Inbox {
   std::vector<EngineCommand> commands_;
   Losses losses_;
   bool busy_ = false;
+  bool woken_ = false;
 };
 
 }  // namespace palace

@@ -1,6 +1,7 @@
 #include "gui/app/app.h"
 
 #include <optional>
+#include <utility>
 
 #include "engine/core/log.h"
 #include "gui/app/exit_code.h"
@@ -9,6 +10,21 @@
 #include "gui/app/session.h"
 
 namespace palace {
+namespace {
+
+/// The same flight again, or its log.
+AppOptions OptionsOf(AppOptions options, const NextFlight& next) {
+  options.script_file.clear();
+  if (next.kind == NextFlight::Kind::kReview) {
+    options.source = SourceChoice::kReplay;
+    options.source_path = next.log;
+    options.settings = {};  // those of the record
+  }
+  return options;
+}
+
+}  // namespace
+
 int RunApp(const AppOptions& options) {
   InitLogging(options.verbose);
   std::optional<std::vector<ScriptLine>> script;
@@ -27,11 +43,19 @@ int RunApp(const AppOptions& options) {
     PALACE_CHECK(lines.ok(), lines.error().message);
     script = std::move(*lines);
   }
-  Result<Session> session = OpenSession(options, /*threaded=*/!options.headless);
-  if (!session) {
-    return FailWith(session.error());
+  AppOptions now = options;
+  while (true) {
+    Result<Session> session = OpenSession(now, /*threaded=*/!now.headless);
+    if (!session) {
+      return FailWith(session.error());
+    }
+    const StationEnd end =
+        RunStation(now, *session, std::exchange(script, std::nullopt), script_name);
+    if (!end.next || now.headless) {
+      return end.exit_code;
+    }
+    now = OptionsOf(options, *end.next);
   }
-  return RunStation(options, *session, std::move(script), script_name);
 }
 
 }  // namespace palace

@@ -52,11 +52,17 @@ struct ShowKeyHelp {
 /// ui_state).
 struct CloseTop {};
 struct QuitProgram {};
+/// After a flight: what this window does next. The report is written before any of them.
+struct NextFlight {
+  enum class Kind : std::uint8_t { kFlyAgain, kReview, kOpenReport };
+  Kind kind = Kind::kFlyAgain;
+  std::string log;  ///< of the flight that is over; empty: not recorded
+};
 
 /// What changes the window only; reduced into UiState.
 using UiAction = std::variant<ShowWorkspace, HighlightSite, ShowView3dPreset, MoveView3d,
                               SetUiScale, TakeScreenshot, UndoSetting, RedoSetting, LoadPreset,
-                              SavePreset, ShowKeyHelp, CloseTop, QuitProgram>;
+                              SavePreset, ShowKeyHelp, CloseTop, QuitProgram, NextFlight>;
 
 /// Everything a panel can ask for.
 using Intent = std::variant<CommandAction, PlaybackControl, UiAction>;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <utility>
 
 #include <imgui.h>
 
@@ -15,9 +16,11 @@
 #include "gui/app/exit_code.h"
 #include "gui/app/input.h"
 #include "gui/app/keys.h"
+#include "gui/app/refusal_watch.h"
 #include "gui/app/report.h"
 #include "gui/app/surface.h"
 #include "gui/app/view.h"
+#include "gui/platform/open_file.h"
 #include "gui/platform/screenshot.h"
 
 namespace palace {
@@ -45,7 +48,8 @@ class StationRun {
  public:
   StationRun(const AppOptions& options, Session& session, Surface& surface,
              std::unique_ptr<View> view, std::optional<ScriptRunner> script)
-      : session_(session),
+      : options_(options),
+        session_(session),
         surface_(surface),
         view_(std::move(view)),
         script_(std::move(script)),
@@ -73,6 +77,7 @@ class StationRun {
     return surface_.lockstep() && !state_.screenshots_wanted.empty() ? Frame({}) : Ok();
   }
 
+  const std::optional<NextFlight>& next() const { return state_.next; }
   std::string script_error() const { return script_ ? script_->error() : std::string(); }
   const FlightSummary& summary() const { return summarizer_.summary(); }
   const std::vector<std::string>& screenshots() const { return screenshots_; }
@@ -101,6 +106,9 @@ class StationRun {
     const auto snapshot = session_.engine->Latest();
     if (snapshot) {
       summarizer_.Add(*snapshot);
+      if (const std::string refused = refusals_.Newest(*snapshot); !refused.empty()) {
+        ShowMessage(state_, refused, ui_time_s_);
+      }
     }
     // A picture shows the window as it was when it was asked for; the script waits for it.
     const bool photograph = !state_.screenshots_wanted.empty();
@@ -122,7 +130,18 @@ class StationRun {
     AddKeys(window_input, input, snapshot.get(), intents);
     const CommandOrigin origin = script_ ? CommandOrigin::kScript : CommandOrigin::kOperator;
     Dispatch(intents, origin, snapshot.get(), GestureNow(ui_time_s_), *session_.engine, state_);
+    if (std::exchange(state_.report_wanted, false)) {
+      OpenReport();
+    }
     return saved;
+  }
+
+  /// The page as the flight stands now; it is written again at the end.
+  void OpenReport() {
+    const Status written = WriteFlightReport(options_, session_, summary(), screenshots_);
+    const std::filesystem::path page = session_.output_dir / "report.html";
+    const Status opened = written ? OpenFile(page.string()) : written;
+    ShowMessage(state_, opened ? "Report: " + page.string() : opened.error().message, ui_time_s_);
   }
 
   Intents Draw(const EngineSnapshot* snapshot, const ScriptInput& input,
@@ -192,11 +211,13 @@ class StationRun {
     return Ok();
   }
 
+  const AppOptions& options_;
   Session& session_;
   Surface& surface_;
   std::unique_ptr<View> view_;
   std::optional<ScriptRunner> script_;
   FlightSummarizer summarizer_;
+  RefusalWatch refusals_;
   UiState state_;
   double start_s_;
   double ui_time_s_ = 0;
@@ -227,14 +248,15 @@ void Report(const AppOptions& options, const Session& session, const StationRun&
 
 }  // namespace
 
-int RunStation(const AppOptions& options, Session& session,
-               std::optional<std::vector<ScriptLine>> script, const std::string& script_name) {
+StationEnd RunStation(const AppOptions& options, Session& session,
+                      std::optional<std::vector<ScriptLine>> script,
+                      const std::string& script_name) {
   const Result<std::unique_ptr<Surface>> surface = Surface::Open(options);
   Result<std::unique_ptr<View>> view =
       surface ? View::Create(options.theme) : Result<std::unique_ptr<View>>(surface.error());
   if (!view) {
     const Status ignored = session.engine->Stop();
-    return FailWith(view.error());
+    return {FailWith(view.error())};
   }
   std::optional<ScriptRunner> runner;
   if (script) {
@@ -253,10 +275,13 @@ int RunStation(const AppOptions& options, Session& session,
   }
   for (const Status& status : {done, closed}) {
     if (!status) {
-      return FailWith(status.error());
+      return {FailWith(status.error())};
     }
   }
-  return run.script_error().empty() ? 0 : FailWith(UnavailableError(run.script_error()));
+  if (!run.script_error().empty()) {
+    return {FailWith(UnavailableError(run.script_error()))};
+  }
+  return {0, run.next()};
 }
 
 }  // namespace palace

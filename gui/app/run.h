@@ -5,15 +5,23 @@
 #include <string>
 #include <vector>
 
+#include "gui/app/intent.h"
 #include "gui/app/options.h"
 #include "gui/app/script.h"
 #include "gui/app/session.h"
 
 namespace palace {
 
+/// How a session ended.
+struct StationEnd {
+  int exit_code = 0;
+  std::optional<NextFlight> next{};  ///< what the operator asked for after it
+};
+
 /// Input, engine, user interface, commands, frame after frame, until somebody quits or the script
-/// ends. Then the log is closed and the report written. Returns the exit code.
-int RunStation(const AppOptions& options, Session& session,
-               std::optional<std::vector<ScriptLine>> script, const std::string& script_name);
+/// ends. Then the log is closed and the report written.
+StationEnd RunStation(const AppOptions& options, Session& session,
+                      std::optional<std::vector<ScriptLine>> script,
+                      const std::string& script_name);
 
 }  // namespace palace

@@ -101,6 +101,14 @@ struct Reducer {
   void operator()(const ShowKeyHelp& help) { state.key_help = help.shown; }
   void operator()(const CloseTop&) { CloseTopmost(state); }
   void operator()(const QuitProgram&) { state.quit = true; }
+  void operator()(const NextFlight& next) {
+    if (next.kind == NextFlight::Kind::kOpenReport) {
+      state.report_wanted = true;
+      return;
+    }
+    state.next = next;
+    state.quit = true;
+  }
 };
 
 }  // namespace

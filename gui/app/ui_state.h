@@ -30,8 +30,10 @@ struct UiState {
   double scale = 1;
   bool key_help = false;
   bool quit = false;
-  std::string message;                          ///< toast, newest
-  double message_until_s = 0;                   ///< UI clock
+  std::optional<NextFlight> next;  ///< set with quit: the flight after this one, or its review
+  bool report_wanted = false;      ///< to be written and opened
+  std::string message;             ///< toast, newest
+  double message_until_s = 0;      ///< UI clock
   std::vector<std::string> screenshots_wanted;  ///< file names, taken after the next frame
 };
 

@@ -13,7 +13,9 @@ namespace palace {
 
 namespace {
 
-HoldButtonView ButtonOf(const EngineSnapshot& snap) {
+constexpr double kAnswered_s = 2;  // the engine answers within a frame, or refuses
+
+HoldButtonView ButtonOf(const EngineSnapshot& snap, const ApproveState& state, double now_s) {
   const MissionStatus& m = snap.flight->mission;
   HoldButtonView view;
   view.subject = m.armed ? m.armed->id : 0;
@@ -28,6 +30,7 @@ HoldButtonView ButtonOf(const EngineSnapshot& snap) {
     view.reason = WhyNoLink(snap);
   } else if (m.approval_phase == Phase::kSent) {
     view.phase = HoldPhase::kRequested;
+    view.label = "Sent to vehicle";
     view.reason = "Waiting " + Duration(m.approval_answer_s);
   } else if (m.approval_phase == Phase::kAccepted) {
     view.phase = HoldPhase::kAccepted;
@@ -36,6 +39,10 @@ HoldButtonView ButtonOf(const EngineSnapshot& snap) {
   } else if (m.approval_phase == Phase::kRefused) {
     view.phase = HoldPhase::kRefused;
     view.reason = m.approval_answer;
+  } else if (m.armed && state.asked_site == m.armed->id && now_s - state.asked_at_s < kAnswered_s) {
+    view.phase = HoldPhase::kRequested;
+    view.label = "Approving " + letter;
+    view.reason = "Held in full, let go";
   } else if (snap.terrain->preview) {
     view.phase = HoldPhase::kBlocked;
     view.reason = "Maps are a preview";
@@ -193,8 +200,10 @@ void DrawButtons(const EngineSnapshot& snap, const Rect& rect, bool narrow, Appr
   if (DrawButton(ui, "refuse", refuse, "Refuse", look)) {
     ui.intents.push_back(CommandAction(RefuseSite{snap.flight->mission.armed->id}));
   }
-  const HoldButtonView view = ButtonOf(snap);
+  const HoldButtonView view = ButtonOf(snap, state, ui.ui_time_s);
   if (DrawHoldButton(ui, "approve", hold, view, state.hold)) {
+    state.asked_site = view.subject;
+    state.asked_at_s = ui.ui_time_s;
     ui.intents.push_back(CommandAction(ApproveSite{view.subject, snap.sequence}));
   }
 }
@@ -233,6 +242,11 @@ void DrawApprovePanel(const EngineSnapshot& snap, const Rect& rect, bool narrow,
   } else {
     DrawText(ui, narrow ? s.medium : s.section, p.text1, x, rect.y + s.Px(narrow ? 42 : 46),
              "Nothing is committed yet.");
+    float ended_y = rect.y + s.Px(narrow ? 84 : 98);
+    for (const std::string& line : WrapText(s.body, m.selection_ended, width)) {
+      DrawText(ui, s.body, p.text1, x, ended_y, line);
+      ended_y += s.Px(19);
+    }
     const bool sites = snap.terrain->applied && !snap.terrain->applied->selection.sites.empty();
     const std::string help = !sites          ? "Waiting for a site inside all limits."
                              : !m.may_select ? "Sites cannot be selected here."

@@ -39,6 +39,8 @@ void DrawApprovePanel(const EngineSnapshot& snap, const Rect& rect, bool narrow,
                       ApproveState& state, UiFrame& ui);
 /// From APPROVED on: "hold_here", after a wave-off "acknowledge_wave_off".
 void DrawLandingPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui);
+/// From LANDED on: "new_flight", "review_flight", "open_report".
+void DrawLandedPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui);
 void DrawSiteRecheckPanel(const EngineSnapshot& snap, const Rect& rect, bool narrow,
                           MapProbe& probe, UiFrame& ui);
 void DrawLimitsInForcePanel(const EngineSnapshot& snap, const Rect& rect, bool narrow, UiFrame& ui);

@@ -1,6 +1,7 @@
 // Own state of the Fly workspace: scrolling, holds, drags, hover. Nothing here decides anything.
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -29,6 +30,9 @@ struct ApproveState {
   HoldState hold;
   bool show_guards = false;
   std::uint64_t armed = 0;  ///< site that was armed in the last frame
+  /// The approval asked for last, until the engine says what became of it.
+  std::uint64_t asked_site = 0;
+  double asked_at_s = -std::numeric_limits<double>::infinity();  ///< UI clock
 };
 
 enum class PlotTab { kDescent, kMaps };

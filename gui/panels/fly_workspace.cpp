@@ -59,7 +59,11 @@ void DrawDescentColumn(const EngineSnapshot& snap, const FlyLayout& layout, FlyS
   if (layout.tracker.h > 0) {
     DrawTrackerPanel(snap, layout.tracker, ui);
   }
-  DrawLandingPanel(snap, layout.landing, ui);
+  if (snap.flight->mission.state == MissionState::kLanded) {
+    DrawLandedPanel(snap, layout.landing, ui);
+  } else {
+    DrawLandingPanel(snap, layout.landing, ui);
+  }
 }
 
 }  // namespace

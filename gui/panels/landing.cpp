@@ -11,8 +11,25 @@ namespace palace {
 
 namespace {
 
-std::string Headline(const EngineSnapshot& snap) {
-  const MissionStatus& m = snap.flight->mission;
+constexpr float kStopShare = 0.28f;  // of the width; the rest is where approve was
+
+std::string WaveOffHeadline(WaveOffReport::Phase phase) {
+  using Phase = WaveOffReport::Phase;
+  switch (phase) {
+    case Phase::kDone:
+      return "Waved off, hovering";
+    case Phase::kClimbs:
+      return "Wave-off: climbing away";
+    case Phase::kAccepted:
+      return "Wave-off: accepted";
+    case Phase::kUnanswered:
+      return "Wave-off: no answer";
+    default:
+      return "Wave-off: sent";
+  }
+}
+
+std::string Headline(const MissionStatus& m) {
   const std::string site = m.armed ? std::string("site ") + m.armed->letter : std::string("site");
   switch (m.state) {
     case MissionState::kApproved:
@@ -20,11 +37,7 @@ std::string Headline(const EngineSnapshot& snap) {
     case MissionState::kHold:
       return "Holding above " + site;
     case MissionState::kAborting:
-      return snap.sensors->vehicle && snap.sensors->vehicle->mode == VehicleMode::kHover
-                 ? "Waved off, hovering"
-                 : "Wave-off: climbing away";
-    case MissionState::kLanded:
-      return "Landed on " + site;
+      return WaveOffHeadline(m.wave_off.phase);
     default:
       return "Landing on " + site;
   }
@@ -42,17 +55,6 @@ std::string Record(const EngineSnapshot& snap) {
                             : why + " Alternative: site " + other->letter + ", " +
                                   Fixed(other->safe_distance_m, 1) + " m clear, not approved.";
   }
-  if (m.state == MissionState::kLanded) {
-    std::string text;
-    const auto add = [&](const std::optional<double>& miss_m, const char* by) {
-      if (miss_m) {
-        text += (text.empty() ? "Touched down " : ", ") + Fixed(*miss_m, 2) + " m " + by;
-      }
-    };
-    add(m.touchdown_miss_m, "off centre by estimate");
-    add(m.touchdown_miss_true_m, m.touchdown_miss_m ? "in truth" : "off centre in truth");
-    return text.empty() ? text : text + ".";
-  }
   if (!m.approval) {
     return "";
   }
@@ -68,6 +70,36 @@ std::string Record(const EngineSnapshot& snap) {
     text += " Vehicle refused: " + m.approval_answer;
   }
   return text;
+}
+
+/// What stops or ends it, below. The stop stands where Refuse stood: a second press where approve
+/// was does nothing.
+void DrawActions(const EngineSnapshot& snap, const Rect& button, UiFrame& ui) {
+  const Style& s = ui.style;
+  const MissionStatus& m = snap.flight->mission;
+  ButtonLook look;
+  look.font = s.section;
+  look.flat = true;
+  if (m.state == MissionState::kAborting) {
+    look.enabled = snap.session->can_transmit && m.wave_off.over;
+    look.reason =
+        snap.session->can_transmit ? "Not before the vehicle says that it hovers" : WhyNoLink(snap);
+    if (DrawButton(ui, "acknowledge_wave_off", button, "Wave-off complete, search again", look)) {
+      ui.intents.push_back(CommandAction(AcknowledgeWaveOff{}));
+    }
+    return;
+  }
+  if (m.state == MissionState::kHold) {
+    DrawText(ui, s.body, s.palette.text1, button.x, button.centre().y,
+             FitWords(s.body, "Sites can be selected when the vehicle has stopped.", button.w));
+    return;
+  }
+  look.enabled = IsFlying(m.state) && snap.session->can_transmit;
+  look.reason = snap.session->can_transmit ? "Nothing to stop" : WhyNoLink(snap);
+  const Rect left{button.x, button.y, std::round(button.w * kStopShare), button.h};
+  if (DrawButton(ui, "hold_here", left, "Hold here", look)) {
+    ui.intents.push_back(CommandAction(HoldHere{}));
+  }
 }
 
 /// Height flown, with ticks where the evidence is asked again.
@@ -124,7 +156,7 @@ void DrawLandingPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui)
                      Fixed(m.time_to_touchdown_s, 0) + " s", Align::kRight) +
             s.Px(12);
   }
-  const std::string headline = Headline(snap);
+  const std::string headline = Headline(m);
   ImFont* font = TextWidth(s.readout, headline) <= room ? s.readout : s.section;
   DrawText(ui, font, p.text1, x, head_y, headline);
   DrawLadder(snap, {x, rect.y + s.Px(tall ? 75 : 62), width, s.Px(8)}, ui);
@@ -137,21 +169,7 @@ void DrawLandingPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui)
     DrawText(ui, s.body, p.text2, x, y, line);
     y += s.Px(19);
   }
-  ButtonLook look;
-  look.font = s.section;
-  look.flat = true;
-  if (m.state == MissionState::kAborting) {
-    look.enabled = snap.session->can_transmit;
-    if (DrawButton(ui, "acknowledge_wave_off", button, "Wave-off complete, search again", look)) {
-      ui.intents.push_back(CommandAction(AcknowledgeWaveOff{}));
-    }
-    return;
-  }
-  look.enabled = IsFlying(m.state) && snap.session->can_transmit;
-  look.reason = snap.session->can_transmit ? "Nothing to stop" : WhyNoLink(snap);
-  if (DrawButton(ui, "hold_here", button, "Hold here", look)) {
-    ui.intents.push_back(CommandAction(HoldHere{}));
-  }
+  DrawActions(snap, button, ui);
 }
 
 }  // namespace palace

@@ -9,13 +9,24 @@ namespace palace {
 
 namespace {
 
+/// Over the mode block, blinking: time stands still, whatever else the screen shows.
+void DrawPaused(const EngineSnapshot& snap, const Rect& r, UiFrame& ui) {
+  const Style& s = ui.style;
+  const Palette& p = s.palette;
+  const Rect below{r.x, r.bottom() - s.Px(16), r.w, s.Px(16)};
+  FillRect(Canvas(), below, p.white_mark);
+  DrawIcon(Canvas(), Icon::kPause, {below.x + s.Px(12), below.centre().y}, s.Px(12), p.on_white);
+  DrawText(ui, s.caption, p.on_white, below.x + s.Px(24), below.centre().y, "PAUSED · Space");
+  ui.items.Add("paused", below, true, "PAUSED " + snap.session->source.name);
+}
+
 void DrawModeBlock(const EngineSnapshot& snap, const Rect& r, UiFrame& ui) {
   const Style& s = ui.style;
   const Palette& p = s.palette;
   ImDrawList* dl = Canvas();
   const float icon_x = r.x + s.Px(18);
   const float word_x = r.x + s.Px(40);
-  const float y = r.centre().y;
+  const float y = r.centre().y - (snap.session->source.paused ? s.Px(8) : 0.0f);
   const char* word = "LIVE";
   if (snap.session->source.kind == SourceKind::kReplay) {
     word = "REPLAY";
@@ -42,6 +53,9 @@ void DrawModeBlock(const EngineSnapshot& snap, const Rect& r, UiFrame& ui) {
     DrawText(ui, s.mode_replay, p.text1, r.centre().x, y, word, Align::kCentre);
   }
   ui.items.Add("mode", r, true, word);
+  if (snap.session->source.paused) {
+    DrawPaused(snap, r, ui);
+  }
 }
 
 /// Tabs with the underline of the active one. Returns the right edge.
@@ -90,8 +104,8 @@ void DrawStateBox(const Rect& r, std::string_view word, UiFrame& ui) {
   DrawText(ui, s.medium, s.palette.text1, r.centre().x, r.centre().y, word, Align::kCentre);
 }
 
-/// States beside the chain: one box with shape and word.
-void DrawSideState(MissionState state, float x, float y, UiFrame& ui) {
+/// States beside the chain: one box with shape and word. Like the next two: the right edge.
+float DrawSideState(MissionState state, float x, float y, UiFrame& ui) {
   const Style& s = ui.style;
   const Palette& p = s.palette;
   Icon icon = Icon::kOff;
@@ -108,9 +122,10 @@ void DrawSideState(MissionState state, float x, float y, UiFrame& ui) {
   StrokeRect(Canvas(), r, colour, s.Fine(1), s.Fine(4));
   DrawIcon(Canvas(), icon, {r.x + s.Px(18), y}, s.Px(12), colour);
   DrawText(ui, s.medium, p.text1, r.x + s.Px(32), y, word);
+  return r.right();
 }
 
-void DrawChain(int now, float x, float y, UiFrame& ui) {
+float DrawChain(int now, float x, float y, UiFrame& ui) {
   const Style& s = ui.style;
   const Palette& p = s.palette;
   for (int i = 0; i < static_cast<int>(kChain.size()); ++i) {
@@ -129,6 +144,42 @@ void DrawChain(int now, float x, float y, UiFrame& ui) {
     } else {
       x += DrawText(ui, s.body, p.text3, x, y, word);
     }
+  }
+  return x;
+}
+
+float DrawState(MissionState state, bool narrow, float x, float y, UiFrame& ui) {
+  const Style& s = ui.style;
+  const int now = ChainIndex(state);
+  if (!narrow) {
+    x += s.Px(100);
+    return now < 0 ? DrawSideState(state, x, y, ui) : DrawChain(now, x, y, ui);
+  }
+  x += s.Px(41);
+  x += DrawText(ui, s.body, s.palette.text2, x, y, "State") + s.Px(12);
+  if (now < 0) {
+    return DrawSideState(state, x, y, ui);
+  }
+  DrawStateBox({x, y - s.Px(14), s.Px(124), s.Px(28)}, MissionStateWord(state), ui);
+  x += s.Px(136);
+  return x + DrawText(ui, s.body, s.palette.text2, x, y, std::to_string(now + 1) + " of 6");
+}
+
+/// "Keys F1" at the right end, where there is room: nothing else tells of the list.
+void DrawKeysHint(const Rect& bar, float free_from, UiFrame& ui) {
+  const Style& s = ui.style;
+  const float width = TextWidth(s.caption, "Keys") + TextWidth(s.medium, "F1") + s.Px(8);
+  const Rect area{bar.right() - width - s.Px(24), bar.y, width + s.Px(24), bar.h};
+  if (area.x < free_from + s.Px(12)) {
+    return;
+  }
+  const Interaction in = Interact(ui, "keys", area, 0, "Keys F1");
+  const float y = bar.centre().y;
+  float x = area.x + s.Px(12);
+  x += DrawText(ui, s.caption, s.palette.text2, x, y, "Keys") + s.Px(8);
+  DrawText(ui, s.medium, in.hovered ? s.palette.text1 : s.palette.text2, x, y, "F1");
+  if (in.clicked) {
+    ui.intents.push_back(UiAction(ShowKeyHelp{true}));
   }
 }
 
@@ -155,23 +206,9 @@ void DrawTopBarPanel(const EngineSnapshot& snap, const FrameLayout& layout, Fram
     x += s.Px(20);
   }
   const float tabs_end = DrawTabs(x, bar, state.workspace, ui);
-  const int now = ChainIndex(snap.flight->mission.state);
   ui.items.Add("state", bar, true, MissionStateName(snap.flight->mission.state));
-  if (narrow) {
-    x = tabs_end + s.Px(41);
-    x += DrawText(ui, s.body, s.palette.text2, x, y, "State") + s.Px(12);
-    if (now < 0) {
-      DrawSideState(snap.flight->mission.state, x, y, ui);
-      return;
-    }
-    DrawStateBox({x, y - s.Px(14), s.Px(124), s.Px(28)},
-                 MissionStateWord(snap.flight->mission.state), ui);
-    DrawText(ui, s.body, s.palette.text2, x + s.Px(136), y, std::to_string(now + 1) + " of 6");
-  } else if (now < 0) {
-    DrawSideState(snap.flight->mission.state, tabs_end + s.Px(100), y, ui);
-  } else {
-    DrawChain(now, tabs_end + s.Px(100), y, ui);
-  }
+  const float end = DrawState(snap.flight->mission.state, narrow, tabs_end, y, ui);
+  DrawKeysHint(bar, end, ui);
 }
 
 }  // namespace palace

@@ -1,6 +1,7 @@
 #include "gui/panels/frame_bar.h"
 #include "gui/panels/session_words.h"
 #include "gui/widgets/interact.h"
+#include "gui/widgets/number_text.h"
 
 namespace palace {
 
@@ -8,22 +9,43 @@ namespace {
 
 constexpr double kAnswerTime_s = 1.0;
 
+bool JustPressed(const FrameState& state, double now_s) {
+  return now_s - state.wave_off_sent_s < kAnswerTime_s;
+}
+
+/// What the vehicle said since the press, and how long ago; nothing that it said before.
 std::string SecondLine(const EngineSnapshot& snap, const FrameState& state, double now_s) {
+  using Phase = WaveOffReport::Phase;
+  const MissionStatus& m = snap.flight->mission;
   if (!snap.session->can_transmit) {
     return WhyNoLink(snap);
   }
-  const bool aborting = snap.flight->mission.state == MissionState::kAborting;
-  if (aborting && snap.sensors->vehicle && snap.sensors->vehicle->mode == VehicleMode::kAbort) {
-    return "Vehicle confirms";
+  if (!m.why_no_wave_off.empty()) {
+    return m.why_no_wave_off;
   }
-  if (aborting && snap.sensors->vehicle && snap.sensors->vehicle->mode == VehicleMode::kHover &&
-      now_s - state.wave_off_sent_s > kAnswerTime_s) {
-    return "Done, vehicle hovers";
+  const std::string ago = AgeText(m.wave_off.age_s) + " ago";
+  switch (m.wave_off.phase) {
+    case Phase::kNone:
+      break;
+    case Phase::kSent:
+      return "Sent";
+    case Phase::kUnanswered:
+      return "No answer, " + AgeText(m.wave_off.age_s);
+    case Phase::kAccepted:
+      return "Accepted " + ago;
+    case Phase::kClimbs:
+      return "Climbing " + ago;
+    case Phase::kDone:
+      return "Hovering " + ago;
   }
-  if (aborting || now_s - state.wave_off_sent_s < kAnswerTime_s) {
-    return now_s - state.wave_off_sent_s < kAnswerTime_s || !aborting ? "Sent" : "No answer yet";
-  }
-  return "One press · Shift+Esc";
+  return JustPressed(state, now_s) ? "Sent" : "One press · Shift+Esc";
+}
+
+/// Pressed, and the vehicle has not done with it.
+bool IsUnderWay(const EngineSnapshot& snap, const FrameState& state, double now_s) {
+  using Phase = WaveOffReport::Phase;
+  const Phase phase = snap.flight->mission.wave_off.phase;
+  return JustPressed(state, now_s) || (phase != Phase::kNone && phase != Phase::kDone);
 }
 
 }  // namespace
@@ -32,7 +54,7 @@ void DrawWaveOffPanel(const EngineSnapshot& snap, const Rect& rect, FrameState& 
                       UiFrame& ui) {
   const Style& s = ui.style;
   const Palette& p = s.palette;
-  const bool enabled = snap.session->can_transmit;
+  const bool enabled = snap.session->can_transmit && snap.flight->mission.why_no_wave_off.empty();
   ui.items.Add("panel/WAVE OFF", rect, true, "");
   // A popup never stands in its way; from the keyboard it has a key of its own that works anywhere.
   const Interaction in = Interact(
@@ -42,8 +64,7 @@ void DrawWaveOffPanel(const EngineSnapshot& snap, const Rect& rect, FrameState& 
   }
   const std::string second = SecondLine(snap, state, ui.ui_time_s);
   ui.items.Last("wave_off").text = "WAVE OFF | " + second;
-  const bool latched = enabled && (snap.flight->mission.state == MissionState::kAborting ||
-                                   ui.ui_time_s - state.wave_off_sent_s < kAnswerTime_s);
+  const bool latched = enabled && IsUnderWay(snap, state, ui.ui_time_s);
   ImU32 fill = p.wave_off;
   if (latched) {
     fill = p.white_mark;

@@ -23,7 +23,7 @@ Words WordsOf(const HoldButtonView& view, const HoldState& state, double now_s) 
     case HoldPhase::kNoVehicle:
       return {"Cannot approve", view.reason};
     case HoldPhase::kRequested:
-      return {"Sent to vehicle", view.reason};
+      return {view.label, view.reason};
     case HoldPhase::kAccepted:
       return {view.label, view.reason};
     case HoldPhase::kRefused:

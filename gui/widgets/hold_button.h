@@ -46,7 +46,7 @@ double HeldSeconds(const HoldState& state, double now_s);
 enum class HoldPhase { kReady, kBlocked, kRequested, kAccepted, kRefused, kNoVehicle };
 struct HoldButtonView {
   HoldPhase phase = HoldPhase::kReady;
-  std::string label;   ///< "Hold to approve A"
+  std::string label;   ///< "Hold to approve A"; while requested what was asked
   std::string reason;  ///< second line, but for ready
   std::uint64_t subject = 0;
   double duration_s = 1.0;

@@ -92,6 +92,29 @@ TEST(Engine, ThreadsGiveTheSameFlightAsNone) {
   EXPECT_TRUE(threaded->closed);
 }
 
+TEST(Engine, APauseIsPublishedAlthoughNothingMoreComes) {
+  Engine engine(Parts(20, nullptr), false);
+  ASSERT_TRUE(engine.Step());
+  EXPECT_FALSE(engine.Latest()->session->source.paused);
+  for (const bool pause : {true, false, true}) {
+    using Kind = PlaybackControl::Kind;
+    engine.Control({pause ? Kind::kPause : Kind::kPlay, 0});
+    EXPECT_EQ(engine.Latest()->session->source.paused, pause);
+  }
+}
+
+TEST(Inbox, IsWokenOnceByWhatBringsNothing) {
+  Inbox inbox;
+  inbox.Wake();
+  Inbox::Batch batch;
+  ASSERT_TRUE(inbox.Take(batch, {}));
+  EXPECT_EQ(batch.bundle, nullptr);
+  EXPECT_TRUE(batch.commands.empty());
+  std::stop_source stopped;
+  stopped.request_stop();
+  EXPECT_FALSE(inbox.Take(batch, stopped.get_token()));
+}
+
 TEST(Engine, CommandsFromOtherThreadsAreAppliedOnceInOrderAndRecorded) {
   constexpr int kThreads = 3, kEach = 20;
   const auto tape = std::make_shared<Tape>();

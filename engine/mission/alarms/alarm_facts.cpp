@@ -3,6 +3,7 @@
 
 #include "engine/mission/alarms/alarms.h"
 #include "engine/mission/geometry.h"
+#include "engine/mission/wave_off.h"
 #include "engine/mission/wording.h"
 
 namespace palace {
@@ -32,7 +33,7 @@ void FillMission(const MissionMemory& m, const MissionInputs& in, AlarmFacts& f)
   f.letter = m.status.armed ? m.status.armed->letter : '?';
   f.why = m.status.why;
   f.committed = state == MissionState::kDescending && IsCommitted(m);
-  f.abort_seen = m.abort_seen;
+  f.wave_off = WaveOffNow(m, now);
   f.alternative = SiteLost(m, now) ? words::Alternative(m) : "";
   f.site_degraded =
       IsFlying(state) && m.site.VerdictAt(now) == SiteVerdict::kDegraded && !IsCommitted(m);

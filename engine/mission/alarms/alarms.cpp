@@ -216,7 +216,8 @@ const std::array<AlarmRow, kAlarmCount> kAlarms = {{
      .text =
          [](const Facts& f, const std::string&) {
            return "No safe site: " + f.no_site_reason +
-                  (f.pictures_only ? ". Widen a limit." : ". Fly on or widen a limit.");
+                  (f.pictures_only ? ". The maps show which limit decides."
+                                   : ". Fly on; the maps show which limit decides.");
          }},
     {.id = AlarmId::kWaveOff,
      .level = AlarmLevel::kWarning,
@@ -225,9 +226,7 @@ const std::array<AlarmRow, kAlarmCount> kAlarms = {{
      .present = [](const Facts& f, double) { return f.state == MissionState::kAborting; },
      .text =
          [](const Facts& f, const std::string&) {
-           return "Wave-off: " + f.why +
-                  (f.abort_seen ? ". Vehicle climbs. Acknowledge when it hovers."
-                                : ". Waiting for the vehicle to confirm.");
+           return "Wave-off: " + f.why + words::WaveOffTold(f.wave_off);
          }},
     {.id = AlarmId::kHold,
      .level = AlarmLevel::kCaution,
@@ -237,7 +236,8 @@ const std::array<AlarmRow, kAlarmCount> kAlarms = {{
      .text =
          [](const Facts& f, const std::string&) {
            return "Descent on hold: " + f.why + ". " + f.alternative +
-                  (f.alternative.empty() ? "" : " ") + "Select a site again or wave off.";
+                  (f.alternative.empty() ? "" : " ") +
+                  "A site can be selected again when the vehicle has stopped, or wave off.";
          }},
     {.id = AlarmId::kSiteDegraded,
      .level = AlarmLevel::kCaution,

@@ -46,7 +46,7 @@ struct AlarmFacts {
   char letter = '?';
   std::string why{};       ///< the state was entered
   bool committed = false;  ///< descends below the commit height: maps and pictures may end
-  bool abort_seen = false;
+  WaveOffReport wave_off;
   std::string alternative{};  ///< words for it when the site is lost
   bool site_degraded = false;
   std::string site_reason{};

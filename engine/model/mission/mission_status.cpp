@@ -41,6 +41,10 @@ Names NamesOf(MissionState state) {
 const char* MissionStateName(MissionState state) { return NamesOf(state).name; }
 const char* MissionStateWord(MissionState state) { return NamesOf(state).word; }
 
+bool IsRefusal(const Event& event) {
+  return event.kind == EventKind::kDecision && event.text.find(kRefusedMark) != std::string::npos;
+}
+
 bool MissionStatus::IsRefused(std::uint64_t site_id) const {
   return std::find(refused_sites.begin(), refused_sites.end(), site_id) != refused_sites.end();
 }

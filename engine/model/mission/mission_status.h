@@ -70,6 +70,11 @@ struct Event {
   std::string text;
 };
 
+/// Between what was asked for and why it was refused: "Select refused: No site is proposed".
+inline constexpr const char* kRefusedMark = " refused: ";
+/// The event tells of a command that the station refused.
+bool IsRefusal(const Event& event);
+
 /// What the last maps together say of the approved site.
 enum class SiteVerdict : std::uint8_t {
   kHolds,
@@ -110,6 +115,21 @@ struct PathProgress {
   std::vector<Height> ahead;  ///< planned, from now on, until the touchdown or for a minute
 };
 
+/// What became of the newest wave-off, by what the vehicle said after it.
+struct WaveOffReport {
+  enum class Phase : std::uint8_t {
+    kNone,        ///< none under way
+    kSent,        ///< the vehicle was not heard since
+    kUnanswered,  ///< the same, for longer than an answer takes
+    kAccepted,    ///< it answered
+    kClimbs,      ///< it says that it flies it
+    kDone,        ///< it says that it hovers or stands again
+  };
+  Phase phase = Phase::kNone;
+  double age_s = NAN;  ///< of the word that says so; before any, how long it is waited for
+  bool over = false;   ///< acknowledging it searches again
+};
+
 struct MissionStatus {
   MissionState state = MissionState::kNoLive;
   Timestamp since;
@@ -138,6 +158,9 @@ struct MissionStatus {
   std::string approved_by;  ///< "the operator" or "a script"; empty where nobody tells
   enum class ApprovalPhase : std::uint8_t { kNone, kSent, kAccepted, kRefused };
   ApprovalPhase approval_phase = ApprovalPhase::kNone;
+  std::string selection_ended;  ///< PROPOSED: why the site selected last is not any more
+  WaveOffReport wave_off;
+  std::string why_no_wave_off;   ///< "Vehicle on the ground"; empty: it is offered
   std::string approval_answer;   ///< the vehicle's reason when refused
   double approval_answer_s = 0;  ///< time the vehicle took to answer; while SENT, waits so far
   std::vector<SiteRecheck> rechecks;

@@ -1,0 +1,58 @@
+#include "engine/mission/wave_off.h"
+
+#include "engine/core/text.h"
+#include "engine/mission/limits.h"
+
+namespace palace {
+namespace {
+
+constexpr double kAbortSettles_s = 2;  // a hover reported sooner may be the one before the abort
+
+bool IsStill(VehicleMode mode) {
+  return mode == VehicleMode::kHover || mode == VehicleMode::kLanded;
+}
+
+}  // namespace
+
+std::string WhyNoWaveOff(const MissionMemory& m, Timestamp now) {
+  const auto& vehicle = m.watch.vehicle();
+  const double heard_s = m.watch.LinkAge(now);
+  const bool stands = vehicle && vehicle->on_ground && vehicle->mode == VehicleMode::kLanded;
+  return stands && heard_s <= GuardLimits::link_s ? "Vehicle on the ground" : std::string();
+}
+
+bool HeardSinceWaveOff(const MissionMemory& m, Timestamp now) {
+  return m.watch.LinkAge(now) < SecondsBetween(m.wave_off_at, now);
+}
+
+bool WaveOffIsOver(const MissionMemory& m, Timestamp now) {
+  if (!m.vehicle_ever_heard) {
+    return true;  // nobody there: nothing to wait for
+  }
+  const auto& vehicle = m.watch.vehicle();
+  const double settled_s = SecondsBetween(m.status.since, now) - m.watch.LinkAge(now);
+  return m.abort_seen && vehicle && IsStill(vehicle->mode) && HeardSinceWaveOff(m, now) &&
+         settled_s >= kAbortSettles_s;
+}
+
+WaveOffReport WaveOffNow(const MissionMemory& m, Timestamp now) {
+  using Phase = WaveOffReport::Phase;
+  if (m.status.state != MissionState::kAborting) {
+    return {};
+  }
+  const double heard_s = m.watch.LinkAge(now);
+  const bool over = WaveOffIsOver(m, now);
+  if (over && m.vehicle_ever_heard) {
+    return {Phase::kDone, heard_s, over};
+  }
+  if (HeardSinceWaveOff(m, now) && m.watch.vehicle()->mode == VehicleMode::kAbort) {
+    return {Phase::kClimbs, heard_s};
+  }
+  if (m.abort_answered_at > m.wave_off_at) {
+    return {Phase::kAccepted, SecondsBetween(m.abort_answered_at, now)};
+  }
+  const double waited_s = SecondsBetween(m.wave_off_at, now);
+  return {waited_s <= GuardLimits::link_s ? Phase::kSent : Phase::kUnanswered, waited_s, over};
+}
+
+}  // namespace palace

@@ -1,0 +1,91 @@
+// After touchdown: where it landed, where the record is, and what can be done next.
+#include <filesystem>
+
+#include "gui/panels/fly_panels.h"
+#include "gui/widgets/button.h"
+#include "gui/widgets/number_text.h"
+
+namespace palace {
+
+namespace {
+
+/// "Touched down 0.46 m off centre by estimate, 0.55 m in truth."
+std::string Touchdown(const MissionStatus& m) {
+  std::string text;
+  const auto add = [&](const std::optional<double>& miss_m, const char* by) {
+    if (miss_m) {
+      text += (text.empty() ? "Touched down " : ", ") + Fixed(*miss_m, 2) + " m " + by;
+    }
+  };
+  add(m.touchdown_miss_m, "off centre by estimate");
+  add(m.touchdown_miss_true_m, m.touchdown_miss_m ? "in truth" : "off centre in truth");
+  return text.empty() ? "Where it touched down is not known." : text + ".";
+}
+
+/// The log's folder and file; the folder above them is the one that was asked for.
+std::string LogWords(const SessionPart& session) {
+  if (session.recording_path.empty()) {
+    return "This flight is not recorded.";
+  }
+  const std::filesystem::path log(session.recording_path);
+  return "Log " + (log.parent_path().filename() / log.filename()).string();
+}
+
+/// One of the three ways on.
+struct NextStep {
+  const char* item;
+  const char* label;
+  NextFlight::Kind kind;
+  bool needs_log;
+};
+constexpr NextStep kSteps[] = {
+    {"new_flight", "New flight", NextFlight::Kind::kFlyAgain, false},
+    {"review_flight", "Review flight", NextFlight::Kind::kReview, true},
+    {"open_report", "Open report", NextFlight::Kind::kOpenReport, true},
+};
+
+void DrawSteps(const EngineSnapshot& snap, const Rect& row, UiFrame& ui) {
+  const Style& s = ui.style;
+  const float gap = s.Px(8);
+  const float width = std::floor((row.w - 2 * gap) / 3);
+  float x = row.x;
+  for (const NextStep& step : kSteps) {
+    ButtonLook look;
+    look.flat = true;
+    look.enabled = !FollowsRecord(snap.session->role) &&
+                   (!step.needs_log || !snap.session->recording_path.empty());
+    look.reason = FollowsRecord(snap.session->role) ? "This is a record" : "Nothing was recorded";
+    if (DrawButton(ui, step.item, {x, row.y, width, row.h}, step.label, look)) {
+      ui.intents.push_back(UiAction(NextFlight{step.kind, snap.session->recording_path}));
+    }
+    x += width + gap;
+  }
+}
+
+}  // namespace
+
+void DrawLandedPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui) {
+  const Style& s = ui.style;
+  const Palette& p = s.palette;
+  const MissionStatus& m = snap.flight->mission;
+  DrawPanelFrame(ui, rect, "Landed");
+  const float x = rect.x + s.Px(12);
+  const float width = rect.w - s.Px(24);
+  const std::string site = m.armed ? std::string(1, m.armed->letter) : std::string();
+  DrawText(ui, s.readout, p.text1, x, rect.y + s.Px(44),
+           site.empty() ? "Landed" : "Landed on site " + site);
+  const Rect row{x, rect.bottom() - s.Px(52), width, s.Px(40)};
+  float y = rect.y + s.Px(72);
+  for (const std::string& words : {Touchdown(m), LogWords(*snap.session)}) {
+    for (const std::string& line : WrapText(s.body, words, width)) {
+      if (y + s.Px(10) > row.y) {
+        break;
+      }
+      DrawText(ui, s.body, p.text2, x, y, line);
+      y += s.Px(19);
+    }
+  }
+  DrawSteps(snap, row, ui);
+}
+
+}  // namespace palace
