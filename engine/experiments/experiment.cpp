@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <utility>
 
 #include <CLI/CLI.hpp>
 
@@ -11,6 +12,7 @@
 #include "engine/core/check.h"
 #include "engine/core/command_line.h"
 #include "engine/core/files.h"
+#include "engine/core/termination.h"
 
 namespace palace {
 namespace {
@@ -63,7 +65,20 @@ int WriteResults(const Experiment& experiment, const TrialFile& file, const fs::
   return report.passed ? 0 : 1;
 }
 
+/// Of a run that was asked to end, what is done is a whole run of fewer trials: trial i is the same
+/// in both. A shard of it would be one of nothing.
+int WriteEnded(const Experiment& experiment, TrialFile file, int done, const fs::path& out) {
+  if (!file.header.shard.whole() || done == 0) {
+    std::cerr << "palacectl: ended before its last trial, nothing was written\n";
+    return 0;
+  }
+  std::cerr << "palacectl: ended after trial " << done << " of " << file.header.trials << "\n";
+  file.header.trials = done;
+  return WriteResults(experiment, file, out);
+}
+
 int RunExperiment(const Experiment& experiment, const RunOptions& options) {
+  const Termination termination;
   const Result<Shard> shard = ParseShard(options.shard);
   if (!shard) {
     return Fail(shard.error());
@@ -85,6 +100,11 @@ int RunExperiment(const Experiment& experiment, const RunOptions& options) {
   for (int trial = 0; trial < options.trials; ++trial) {
     if (!shard->Holds(trial)) {
       continue;
+    }
+    if (termination.asked()) {
+      std::fputc('\n', stderr);
+      (void)WriteEnded(experiment, std::move(file), trial, options.out);
+      return termination.exit_code();
     }
     const std::uint64_t seed = TrialSeed(options.seed, trial);
     const Result<std::vector<TrialRow>> rows = experiment.run(trial, seed);

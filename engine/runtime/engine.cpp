@@ -107,7 +107,7 @@ void Engine::Control(const PlaybackControl& control) {
   if (threaded_) {
     inbox_.Wake();
   } else if (latest_.Load()) {
-    Handle({nullptr, {}});
+    HandleSafely({nullptr, {}}, {});
   }
 }
 

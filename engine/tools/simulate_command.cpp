@@ -1,7 +1,5 @@
 #include "engine/tools/simulate_command.h"
 
-#include <signal.h>
-
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -15,6 +13,7 @@
 #include <CLI/CLI.hpp>
 
 #include "engine/core/command_line.h"
+#include "engine/core/termination.h"
 #include "engine/journal/log_index.h"
 #include "engine/journal/log_writer.h"
 #include "engine/simulation/session.h"
@@ -78,24 +77,6 @@ Result<SimulatedSession> OpenSession(const SimulateOptions& options, SceneCamera
   return OpenSimulatedSession(spec, std::move(cameras));
 }
 
-/// Ends the flight on Ctrl-C or a termination request, without a handler that could interrupt
-/// anything: the signals are blocked everywhere and waited for here.
-std::jthread WatchSignals(std::stop_source flight) {
-  sigset_t signals;
-  sigemptyset(&signals);
-  sigaddset(&signals, SIGINT);
-  sigaddset(&signals, SIGTERM);
-  pthread_sigmask(SIG_BLOCK, &signals, nullptr);
-  return std::jthread([signals, flight](std::stop_token done) mutable {
-    const timespec tick{0, 100'000'000};
-    while (!done.stop_requested()) {
-      if (sigtimedwait(&signals, nullptr, &tick) > 0) {
-        flight.request_stop();
-      }
-    }
-  });
-}
-
 /// Flies until the end, a signal or an error.
 Result<std::uint64_t> Fly(Simulator& simulator, VehicleServer* server, LogWriter* log,
                           const ChannelNames& channels, std::stop_token stop) {
@@ -140,6 +121,8 @@ void PrintTouchdown(const Simulator& simulator) {
 }
 
 int Simulate(const SimulateOptions& options, const SceneCameraFactory& cameras) {
+  std::stop_source flight;
+  const Termination termination([flight]() mutable { flight.request_stop(); });
   const Result<SimulatedSession> session = OpenSession(options, cameras);
   if (!session) {
     return Fail(session.error());
@@ -178,8 +161,6 @@ int Simulate(const SimulateOptions& options, const SceneCameraFactory& cameras) 
     }
     log.emplace(std::move(*made));
   }
-  std::stop_source flight;
-  const std::jthread signals = WatchSignals(flight);
   const Result<std::uint64_t> bundles =
       Fly(simulator, server.get(), log ? &*log : nullptr, *channels, flight.get_token());
   const Status closed = log ? log->Close() : Ok();
@@ -209,7 +190,9 @@ int Simulate(const SimulateOptions& options, const SceneCameraFactory& cameras) 
 
 void AddSimulateCommand(CLI::App& app, int& exit_code, SceneCameraFactory cameras) {
   CLI::App* command =
-      app.add_subcommand("simulate", "Fly the simulated vehicle on an LCM bus or into a log");
+      app.add_subcommand("simulate",
+                         "Fly the simulated vehicle on an LCM bus or into a log. Ctrl-C, SIGTERM "
+                         "and SIGHUP end it in order, exit 0");
   const auto options = std::make_shared<SimulateOptions>();
   command->add_option("--scenario", options->scenario, "runway, cones, slope or empty")
       ->capture_default_str();

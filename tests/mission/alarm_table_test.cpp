@@ -56,6 +56,26 @@ TEST(AlarmTable, HasEachAlarmOnceInOrder) {
   EXPECT_FALSE(AlarmFromName("none").has_value());
 }
 
+TEST(AlarmTable, TheRecordSaysWhyItStoppedOrWhatItLeavesOutAndForHowLong) {
+  const auto text = [](AlarmId id, const AlarmFacts& facts) {
+    return TextOf(AlarmTable()[static_cast<std::size_t>(id)], facts);
+  };
+  AlarmFacts full = AllMeasured();
+  full.recorder_ok = false;
+  full.record.problem = "the disk is full";
+  EXPECT_EQ(text(AlarmId::kRecorder, full),
+            "Recording is not running: the disk is full. Acknowledge to fly without a record.");
+  AlarmFacts thinned = AllMeasured();
+  thinned.record.pictures_every = 4;
+  thinned.record.minutes_left = 3.2;
+  EXPECT_EQ(text(AlarmId::kRecordThinned, thinned),
+            "The disk is nearly full: every 4th pair of pictures is recorded, 3 min are left. "
+            "Free space.");
+  AlarmFacts stopped = AllMeasured();
+  stopped.engine_stop = "Engine stopped: bad_alloc. Started again, 1 of 3 times.";
+  EXPECT_NE(text(AlarmId::kEngineStopped, stopped).find("Nothing is selected"), std::string::npos);
+}
+
 TEST(AlarmTable, NothingIsRaisedWhenAllIsWell) {
   for (const AlarmCondition& condition : EvaluateAlarms(AllMeasured())) {
     EXPECT_FALSE(condition.present) << AlarmName(condition.id) << ": " << condition.text;

@@ -1,0 +1,89 @@
+// Signals as wishes: taken in order, told once, and the second one does not wait.
+#include "engine/core/termination.h"
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <latch>
+#include <thread>
+
+#include <gtest/gtest.h>
+
+#include "engine/core/address_space.h"
+
+namespace palace {
+namespace {
+
+/// Runs `body` in a child, alone with its signals. Its exit code, or minus the signal that killed
+/// it.
+template <typename Body>
+int InChild(Body&& body) {
+  const pid_t child = fork();
+  if (child == 0) {
+    _exit(body());
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+}
+
+TEST(Termination, EachSignalAsksAndNothingDies) {
+  for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
+    SCOPED_TRACE(number);
+    EXPECT_EQ(InChild([&] {
+                std::latch asked(1);
+                const Termination termination([&] { asked.count_down(); });
+                kill(getpid(), number);
+                asked.wait();
+                return termination.signal() == number ? termination.exit_code() : 1;
+              }),
+              128 + number);
+  }
+}
+
+TEST(Termination, TheSecondSignalEndsAtOnce) {
+  EXPECT_EQ(InChild([] {
+              std::latch asked(1);
+              const Termination termination([&] { asked.count_down(); });
+              kill(getpid(), SIGTERM);
+              asked.wait();
+              kill(getpid(), SIGINT);
+              while (true) {
+                pause();
+              }
+              return 0;
+            }),
+            128 + SIGINT);
+}
+
+TEST(Termination, WhatIsIgnoredStaysIgnored) {
+  EXPECT_EQ(InChild([] {
+              signal(SIGHUP, SIG_IGN);
+              std::latch asked(1);
+              const Termination termination([&] { asked.count_down(); });
+              kill(getpid(), SIGHUP);
+              kill(getpid(), SIGTERM);
+              asked.wait();
+              return termination.signal() == SIGTERM ? 7 : 1;
+            }),
+            7);
+}
+
+TEST(Termination, AfterwardsASignalKillsAsBefore) {
+  EXPECT_EQ(InChild([] {
+              { const Termination termination; }
+              kill(getpid(), SIGTERM);
+              return 0;
+            }),
+            -SIGTERM);
+}
+
+TEST(AddressSpace, MoreThanThereIsIsRefusedWithTheRemedy) {
+  EXPECT_TRUE(EnoughMemory(1));
+  const Status refused = EnoughMemory(std::size_t{1} << 40);
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().message.find("ulimit -v"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace palace
