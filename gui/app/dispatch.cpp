@@ -2,7 +2,6 @@
 
 #include <utility>
 
-#include "engine/mission/leaving.h"
 #include "engine/runtime/settings_io.h"
 
 namespace palace {
@@ -62,12 +61,6 @@ void SavePresetFile(const std::string& wanted, const EngineSnapshot* snapshot, d
   ShowMessage(state, saved ? "Preset saved to " + path : saved.error().message, ui_time_s);
 }
 
-/// Who would leave a vehicle in the air is asked first.
-bool AsksFirst(const UiAction& action, const EngineSnapshot* snapshot) {
-  return std::holds_alternative<QuitProgram>(action) && snapshot != nullptr &&
-         !WhatTheVehicleDoesAlone(*snapshot).empty();
-}
-
 }  // namespace
 
 void ShowMessage(UiState& state, std::string text, double ui_time_s) {
@@ -84,12 +77,7 @@ void Dispatch(const Intents& intents, CommandOrigin origin, const EngineSnapshot
     } else if (const auto* playback = std::get_if<PlaybackControl>(&intent)) {
       engine.Control(*playback);
     } else {
-      const auto& action = std::get<UiAction>(intent);
-      if (AsksFirst(action, snapshot)) {
-        state.leave_asked = true;
-        continue;
-      }
-      const UiRequest request = Reduce(state, action);
+      const UiRequest request = Reduce(state, std::get<UiAction>(intent));
       for (const SetSetting& set : request.settings) {
         engine.Post({origin, set});
       }

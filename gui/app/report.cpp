@@ -1,4 +1,4 @@
-#include "gui/app/report/flight_report.h"
+#include "gui/app/report.h"
 
 #include <cstdio>
 #include <utility>
@@ -9,7 +9,6 @@
 #include "engine/report/html_page.h"
 #include "engine/report/svg_plot.h"
 #include "gui/app/options.h"
-#include "gui/app/report/approvals.h"
 #include "gui/app/session.h"
 
 namespace palace {
@@ -71,12 +70,6 @@ void AddSettings(HtmlPage& page, const EngineSnapshot& last) {
       .Table({"Setting", "Value"}, rows);
 }
 
-/// Of the first picture known, from which the report counts.
-Timestamp StartOf(const EngineSnapshot& last) {
-  const auto& history = last.flight->history;
-  return history && !history->empty() ? history->front().time : last.time;
-}
-
 }  // namespace
 
 Status WriteReport(const std::filesystem::path& file, const ReportInput& input) {
@@ -86,16 +79,13 @@ Status WriteReport(const std::filesystem::path& file, const ReportInput& input) 
     page.Link("Log:", input.log_name);
   }
   if (input.last) {
-    AddApprovals(page, input.approvals, StartOf(*input.last), file.parent_path());
     if (input.last->flight->history) {
       AddPlots(page, *input.last->flight->history);
     }
     AddEvents(page, *input.last);
     AddSettings(page, *input.last);
   }
-  if (!input.screenshots.empty()) {
-    page.Heading("Screenshots");
-  }
+  page.Heading("Screenshots");
   for (const std::string& shot : input.screenshots) {
     page.Picture(shot, shot);
   }
@@ -103,7 +93,7 @@ Status WriteReport(const std::filesystem::path& file, const ReportInput& input) 
 }
 
 Status WriteFlightReport(const AppOptions& options, const Session& session,
-                         const FlightSummary& summary, const std::vector<ApprovalRecord>& approvals,
+                         const FlightSummary& summary,
                          const std::vector<std::string>& screenshots) {
   ReportInput report;
   report.title =
@@ -112,7 +102,6 @@ Status WriteFlightReport(const AppOptions& options, const Session& session,
           : "PALACE: " + options.source_path;
   report.lines = SummaryLines(summary);
   report.last = session.engine->Latest();
-  report.approvals = approvals;
   report.screenshots = screenshots;
   report.log_name = options.record ? "flight.lcm" : "";
   if (const Status made = MakeFolder(session.output_dir); !made) {
