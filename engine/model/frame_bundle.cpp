@@ -33,6 +33,7 @@ JoinedBundle Join(const FrameBundle& older, const FrameBundle& newer) {
   joined->recorded_commands.insert(joined->recorded_commands.begin(),
                                    older.recorded_commands.begin(), older.recorded_commands.end());
   result.samples_dropped += Prepend(older.acks, joined->acks);
+  result.samples_dropped += Prepend(older.refused, joined->refused);
   if (!joined->rig) {
     joined->rig = older.rig;
   }

@@ -9,6 +9,7 @@
 
 #include "engine/model/command.h"
 #include "engine/model/image.h"
+#include "engine/model/refused_datagram.h"
 #include "engine/model/rig.h"
 #include "engine/model/vehicle_state.h"
 
@@ -41,6 +42,7 @@ struct FrameBundle {
   std::optional<VehicleStatus> status;
   std::vector<CommandAck> acks;
   std::vector<Truth> truth;
+  std::vector<RefusedDatagram> refused;  ///< not let in meanwhile: for the record alone
   /// Replay only: what was posted before this bundle when it was recorded.
   std::vector<EngineCommand> recorded_commands;
   /// First bundle after a jump in time (a seek, a step back): filters and maps start afresh.

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/wire/convert.h"
+#include "engine/wire/decode.h"
 #include "engine/wire/sensor_messages.h"
 
 namespace palace {
@@ -48,7 +50,12 @@ BundleAssembler::Bundles BundleAssembler::Push(const WireMessage& message) {
   ++report_.messages;
   Bundles done;
   const ::palace::Status taken = Take(message, done);
+  problem_.clear();
   if (!taken) {
+    problem_ = taken.error().message;
+    if (problem_.find(kTypeHashDiffers) != std::string::npos) {
+      ++report_.other_version_of[message.channel];
+    }
     ++report_.undecodable;
     ++report_.undecodable_of[message.channel];
   }
@@ -121,6 +128,14 @@ Status BundleAssembler::TakeSample(const WireMessage& message) {
     }
     // Two answers may carry one stamp, so a repeated stamp is news here.
     report_.samples_overflowed += Append(pending_.acks, std::move(*ack));
+    return Ok();
+  }
+  if (channel == channels_.refused) {  // of a recording
+    Result<RefusedDatagram> refused = DecodeRefused(message);
+    if (!refused) {
+      return refused.error();
+    }
+    report_.samples_overflowed += Append(pending_.refused, std::move(*refused));
     return Ok();
   }
   ++report_.other_channels;

@@ -19,8 +19,9 @@ namespace palace {
 struct AssemblerReport {
   std::uint64_t messages = 0;
   std::uint64_t undecodable = 0;  ///< of a known channel, refused by the decoder
-  std::map<std::string, std::uint64_t> undecodable_of{};  ///< the same by channel
-  std::uint64_t other_channels = 0;                       ///< not ours; skipped
+  std::map<std::string, std::uint64_t> undecodable_of{};    ///< the same by channel
+  std::map<std::string, std::uint64_t> other_version_of{};  ///< those of another type hash
+  std::uint64_t other_channels = 0;                         ///< not ours; skipped
   std::uint64_t pictures_unpaired = 0;   ///< no partner within the pairing window, or late
   std::uint64_t pairs_without_rig = 0;   ///< foreign stream: dropped because no rig came yet
   std::uint64_t bundles_lost = 0;        ///< gaps in the sequence of closed bundles
@@ -51,6 +52,8 @@ class BundleAssembler {
   void Reset();
 
   const AssemblerReport& report() const { return report_; }
+  /// Why the last message was refused; empty when it was not.
+  const std::string& problem() const { return problem_; }
   /// Null before the first CAMERA_RIG.
   const std::shared_ptr<const StereoRig>& rig() const { return rig_; }
   /// Newest utime of any vehicle message; nothing before the first.
@@ -69,6 +72,7 @@ class BundleAssembler {
   ChannelNames channels_;
   AssemblerOptions options_;
   AssemblerReport report_;
+  std::string problem_;
   std::shared_ptr<const StereoRig> rig_;
   bool closed_stream_ = false;
   std::optional<std::uint64_t> last_sequence_;

@@ -1,28 +1,22 @@
 #include "engine/wire/bus.h"
 
-#include <arpa/inet.h>
-
 #include <cctype>
 #include <cerrno>
 #include <cstdlib>
 #include <fstream>
+#include <iterator>
+#include <map>
+#include <optional>
 #include <utility>
 
 #include <lcm/lcm.h>
 
-#include "engine/core/time.h"
+#include "engine/wire/receiver/bus_receiver.h"
 
 namespace palace {
 namespace {
 
-constexpr long kReceiveBuffer = 4194304;
-constexpr std::uint32_t kLargestMessage = 64u << 20;
-constexpr std::size_t kLongestChannel = 63;
-constexpr const char* kDefaultUrl = "udpm://239.255.76.67:7667";
-
-bool IsMulticast(const std::string& url) { return url.rfind("udpm://", 0) == 0; }
-
-/// Subscriptions are regular expressions; a channel is meant literally.
+/// Subscriptions of liblcm are regular expressions; a channel is meant literally.
 std::string Escaped(const std::string& channel) {
   std::string pattern;
   for (const char c : channel) {
@@ -34,67 +28,29 @@ std::string Escaped(const std::string& channel) {
   return pattern;
 }
 
-/// What is wrong with a URL; liblcm would say it on stderr only.
-std::string UrlProblem(const std::string& url) {
-  const std::size_t scheme_end = url.find("://");
-  const std::string scheme = url.substr(0, scheme_end);
-  if (scheme_end == std::string::npos ||
-      (scheme != "udpm" && scheme != "memq" && scheme != "tcpq" && scheme != "file" &&
-       scheme != "mpudpm")) {
-    return "no such kind of bus; give e.g. udpm://239.255.76.67:7667?ttl=0";
-  }
-  if (!IsMulticast(url)) {
-    return {};
-  }
-  const std::string place = url.substr(scheme_end + 3, url.find('?') - scheme_end - 3);
-  const std::string address = place.substr(0, place.find(':'));
-  in_addr parsed{};
-  if (!place.empty() &&
-      (inet_pton(AF_INET, address.c_str(), &parsed) != 1 || (ntohl(parsed.s_addr) >> 28) != 0xE)) {
-    return "'" + address +
-           "' is no multicast address; give one of 224.0.0.0 to 239.255.255.255, e.g. "
-           "udpm://239.255.76.67:7667?ttl=0";
-  }
-  return {};
-}
-
-std::vector<std::string> CheckReceiveBuffer() {
+std::vector<std::string> CheckReceiveBuffer(int wanted) {
   std::ifstream file("/proc/sys/net/core/rmem_max");
   long largest = 0;
-  if (!(file >> largest) || largest >= kReceiveBuffer) {
+  if (!(file >> largest) || largest >= wanted) {
     return {};
   }
   return {"The kernel allows receive buffers of " + std::to_string(largest) +
           " bytes only, so pictures will be lost. Run: sudo sysctl -w net.core.rmem_max=" +
-          std::to_string(kReceiveBuffer)};
+          std::to_string(wanted)};
+}
+
+Error CannotJoin(const std::string& url, const std::string& reason) {
+  return UnavailableError("cannot join the LCM bus " + url + reason +
+                          ": multicast needs a route; on one machine run: sudo ip link set lo "
+                          "multicast on && sudo ip route add 224.0.0.0/4 dev lo");
 }
 
 }  // namespace
 
-std::string CompleteLcmUrl(const std::string& url) {
-  std::string complete = url.empty() ? kDefaultUrl : url;
-  if (!IsMulticast(complete)) {
-    return complete;
-  }
-  const auto append = [&complete](const std::string& key, const std::string& value) {
-    const std::size_t options = complete.find('?');
-    if (options != std::string::npos) {
-      const std::string rest = "&" + complete.substr(options + 1);
-      if (rest.find("&" + key + "=") != std::string::npos) {
-        return;
-      }
-    }
-    complete += (options == std::string::npos ? "?" : "&") + key + "=" + value;
-  };
-  append("recv_buf_size", std::to_string(kReceiveBuffer));
-  append("ttl", "0");
-  return complete;
-}
-
 struct Bus::Impl {
   struct Listener {
-    Impl* owner = nullptr;
     Handler handler;
+    std::size_t most_bytes = 0;
   };
 
   ~Impl() {
@@ -102,25 +58,21 @@ struct Bus::Impl {
       lcm_destroy(lcm);
     }
   }
-  /// Called by liblcm. A datagram without a terminated channel name arrives with a size near 2^32
-  /// and a name run into old bytes (reference: reliability 1.5); both are refused here.
+  /// Called by liblcm, of memq alone: what comes was published in this process.
   static void OnMessage(const lcm_recv_buf_t* received, const char* channel, void* user) {
-    auto* listener = static_cast<Listener*>(user);
-    const std::string name = channel != nullptr ? channel : "";
-    if (received == nullptr || received->data == nullptr || received->data_size > kLargestMessage ||
-        name.empty() || name.size() > kLongestChannel) {
-      ++listener->owner->dropped;
-      return;
+    const auto* listener = static_cast<Listener*>(user);
+    if (received->data_size <= listener->most_bytes) {
+      const auto* bytes = static_cast<const std::uint8_t*>(received->data);
+      listener->handler({channel, {received->recv_utime}, {bytes, bytes + received->data_size}});
     }
-    const auto* bytes = static_cast<const std::uint8_t*>(received->data);
-    listener->handler({name, {received->recv_utime}, {bytes, bytes + received->data_size}});
   }
 
   lcm_t* lcm = nullptr;
   std::string url;
   std::vector<std::string> warnings;
-  std::vector<std::unique_ptr<Listener>> listeners;
-  std::uint64_t dropped = 0;
+  std::multimap<std::string, std::unique_ptr<Listener>> listeners;
+  std::optional<UdpGroup> group;          ///< of udpm
+  std::unique_ptr<BusReceiver> receiver;  ///< of udpm, from the first subscription
 };
 
 Bus::Bus(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
@@ -130,29 +82,23 @@ Result<std::shared_ptr<Bus>> Bus::Open(const std::string& url) {
   const char* preset = std::getenv("LCM_DEFAULT_URL");
   auto impl = std::make_unique<Impl>();
   impl->url = CompleteLcmUrl(url.empty() && preset != nullptr ? preset : url);
-  const std::string problem = UrlProblem(impl->url);
-  if (!problem.empty()) {
-    return UsageError("LCM URL " + impl->url + ": " + problem);
+  const Result<BusPlace> place = ParseBusUrl(impl->url);
+  if (!place) {
+    return place.error();
   }
   impl->lcm = lcm_create(impl->url.c_str());
   if (impl->lcm == nullptr) {
-    std::string advice = "check the URL, e.g. udpm://239.255.76.67:7667";
-    if (IsMulticast(impl->url)) {
-      advice =
-          "multicast needs a route; on one machine run: sudo ip link set lo multicast on && sudo "
-          "ip route add 224.0.0.0/4 dev lo";
-    }
-    return UnavailableError("cannot join the LCM bus " + impl->url + ": " + advice);
+    return CannotJoin(impl->url, "");
   }
-  if (IsMulticast(impl->url)) {
-    impl->warnings = CheckReceiveBuffer();
+  if (!place->in_memory) {
+    impl->group = place->group;
+    impl->warnings = CheckReceiveBuffer(place->group.receive_buffer_bytes);
   }
   return std::shared_ptr<Bus>(new Bus(std::move(impl)));
 }
 
 const std::string& Bus::url() const { return impl_->url; }
 const std::vector<std::string>& Bus::warnings() const { return impl_->warnings; }
-std::uint64_t Bus::dropped() const { return impl_->dropped; }
 
 Status Bus::Publish(const WireMessage& message) {
   const int published = lcm_publish(impl_->lcm, message.channel.c_str(), message.payload.data(),
@@ -165,25 +111,58 @@ Status Bus::Publish(const WireMessage& message) {
   return Ok();
 }
 
-Status Bus::Subscribe(const std::string& channel, Handler handler, int queue_capacity) {
-  impl_->listeners.push_back(
-      std::make_unique<Impl::Listener>(Impl::Listener{impl_.get(), std::move(handler)}));
-  lcm_subscription_t* subscription = lcm_subscribe(impl_->lcm, Escaped(channel).c_str(),
-                                                   &Impl::OnMessage, impl_->listeners.back().get());
-  if (subscription == nullptr) {
-    impl_->listeners.pop_back();
-    return UnavailableError("cannot subscribe to " + channel + " on " + impl_->url);
+Status Bus::Subscribe(const std::string& channel, Handler handler, ChannelLimits limits) {
+  auto listener =
+      std::make_unique<Impl::Listener>(Impl::Listener{std::move(handler), limits.message_bytes});
+  if (impl_->group) {
+    if (!impl_->receiver) {
+      Result<UdpSocket> socket = UdpSocket::Join(*impl_->group);
+      if (!socket) {
+        return CannotJoin(impl_->url, " (" + socket.error().message + ")");
+      }
+      impl_->receiver = std::make_unique<BusReceiver>(std::move(*socket));
+    }
+    impl_->receiver->Open(channel, limits);
+  } else {
+    lcm_subscription_t* subscription =
+        lcm_subscribe(impl_->lcm, Escaped(channel).c_str(), &Impl::OnMessage, listener.get());
+    if (subscription == nullptr) {
+      return UnavailableError("cannot subscribe to " + channel + " on " + impl_->url);
+    }
+    lcm_subscription_set_queue_capacity(subscription, static_cast<int>(limits.queue_messages));
   }
-  lcm_subscription_set_queue_capacity(subscription, queue_capacity);
+  impl_->listeners.emplace(channel, std::move(listener));
   return Ok();
 }
 
 Result<bool> Bus::Handle(int timeout_ms) {
+  if (impl_->group) {
+    std::optional<QueuedMessage> next =
+        impl_->receiver ? impl_->receiver->Next(timeout_ms) : std::nullopt;
+    if (next) {
+      ReceivedMessage& got = next->message;
+      WireMessage message{got.channel, next->arrived, std::move(got.payload), ToText(got.sender)};
+      const auto [first, last] = impl_->listeners.equal_range(got.channel);
+      for (auto listener = first; std::next(listener) != last; ++listener) {
+        listener->second->handler(message);
+      }
+      std::prev(last)->second->handler(std::move(message));
+    }
+    return next.has_value();
+  }
   const int handled = lcm_handle_timeout(impl_->lcm, timeout_ms);
   if (handled < 0 && errno != EINTR) {
     return UnavailableError("the LCM bus " + impl_->url + " failed; reconnect");
   }
   return handled > 0;
+}
+
+BusTraffic Bus::traffic() const {
+  return impl_->receiver ? impl_->receiver->Traffic() : BusTraffic{};
+}
+
+std::vector<RefusedDatagram> Bus::TakeRefused() {
+  return impl_->receiver ? impl_->receiver->TakeRefused() : std::vector<RefusedDatagram>{};
 }
 
 }  // namespace palace

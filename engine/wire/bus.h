@@ -1,4 +1,7 @@
 // Bus: one LCM bus, owned. The only place that talks to liblcm.
+//
+// Of a multicast bus liblcm only sends: its receiver trusts what datagrams claim. What comes is
+// taken by our own receiver (receiver/bus_receiver.h), bounded by channel, counted by sender.
 #pragma once
 
 #include <cstdint>
@@ -8,20 +11,21 @@
 #include <vector>
 
 #include "engine/core/result.h"
+#include "engine/model/mission/bus_traffic.h"
+#include "engine/model/refused_datagram.h"
+#include "engine/wire/bus_url.h"
+#include "engine/wire/receiver/channel_limits.h"
 #include "engine/wire/wire_message.h"
 
 namespace palace {
-
-/// `url` with recv_buf_size=4194304 and ttl=0 appended where it is udpm and does not say so itself.
-/// An empty url is LCM's default multicast group.
-std::string CompleteLcmUrl(const std::string& url);
 
 /// Publish from any thread. Subscribe and Handle from one thread.
 class Bus {
  public:
   using Handler = std::function<void(WireMessage)>;
 
-  /// kUsage for what is no URL of a bus; kUnavailable when the bus cannot be joined, with the route command that helps.
+  /// kUsage for what is no URL of a bus; kUnavailable when the bus cannot be joined, with the route
+  /// command that helps.
   static Result<std::shared_ptr<Bus>> Open(const std::string& url);
   ~Bus();
   Bus(const Bus&) = delete;
@@ -32,14 +36,16 @@ class Bus {
   const std::vector<std::string>& warnings() const;
 
   Status Publish(const WireMessage& message);
-  /// `channel` literally. The handler must not throw; it runs inside Handle. Messages over 64 MiB
-  /// and channels that are not printable are dropped and counted. The message's time is its arrival
-  /// on the wall clock.
-  /// More than `queue_capacity` waiting messages push out the oldest.
-  Status Subscribe(const std::string& channel, Handler handler, int queue_capacity = 256);
-  /// Handles at most one message. True when one was handled, false after `timeout_ms` without.
+  /// `channel` literally. The handler must not throw; it runs inside Handle. What is over the
+  /// limits is dropped and counted. The message's time is its arrival on the wall clock.
+  Status Subscribe(const std::string& channel, Handler handler, ChannelLimits limits = {});
+  /// Handles at most one message, the oldest. True when one was handled, false after `timeout_ms`
+  /// without.
   Result<bool> Handle(int timeout_ms);
-  std::uint64_t dropped() const;
+  /// What was received and what was not. Empty for memq. Any thread.
+  BusTraffic traffic() const;
+  /// The beginnings of what was refused since the last call. Any thread.
+  std::vector<RefusedDatagram> TakeRefused();
 
  private:
   struct Impl;

@@ -43,6 +43,7 @@ const std::vector<Row>& Rows() {
       {"station_status", &N::station_status},
       {"abort", &N::abort},
       {"event", &N::event},
+      {"refused", &N::refused},
   };
   return rows;
 }

@@ -33,6 +33,7 @@ struct ChannelNames {
   std::string station_status = "STATION_STATUS";
   std::string abort = "ABORT";
   std::string event = "EVENT";
+  std::string refused = "REFUSED";  ///< in recordings only
 
   friend bool operator==(const ChannelNames&, const ChannelNames&) = default;
   /// The channels a station listens to.

@@ -61,6 +61,11 @@ Result<FlightRecordSample> DecodeStationStatus(const WireMessage& message);
 /// MISSION: state, site and approval as the vehicle's crew may show them.
 WireMessage EncodeMission(const EngineSnapshot& snapshot, const ChannelNames& channels);
 
+/// REFUSED: what was not let in, for the record. `now` is the time of its bundle.
+WireMessage EncodeRefused(const RefusedDatagram& refused, Timestamp now,
+                          const ChannelNames& channels);
+Result<RefusedDatagram> DecodeRefused(const WireMessage& message);
+
 /// True position from TRUTH.
 Result<Truth> DecodeTruth(const WireMessage& message);
 

@@ -129,7 +129,7 @@ Result<T> DecodePayload(const std::uint8_t* data, std::size_t size) {
   std::int64_t hash = 0;
   reader(hash);
   if (!reader.ok() || hash != T::getHash()) {
-    return InvalidError("not a " + name + ": the type hash differs; rebuild the sender from " +
+    return InvalidError("not a " + name + ": " + kTypeHashDiffers + "; rebuild the sender from " +
                         "engine/wire/types/" + name + ".lcm");
   }
   T message{};
@@ -168,6 +168,7 @@ PALACE_WIRE_TYPE(laser_range_t)
 PALACE_WIRE_TYPE(mission_t)
 PALACE_WIRE_TYPE(pose_t)
 PALACE_WIRE_TYPE(position_estimate_t)
+PALACE_WIRE_TYPE(refused_t)
 PALACE_WIRE_TYPE(site_decision_t)
 PALACE_WIRE_TYPE(site_proposal_t)
 PALACE_WIRE_TYPE(slad_settings_t)

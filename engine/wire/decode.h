@@ -13,6 +13,9 @@
 
 namespace palace {
 
+/// In the message of every error for another type, or another version of the type.
+inline constexpr const char* kTypeHashDiffers = "the type hash differs";
+
 /// T is a generated type of engine/wire/types; instantiated for all of them in decode.cpp.
 template <typename T>
 Result<T> DecodePayload(const std::uint8_t* data, std::size_t size);

@@ -189,6 +189,9 @@ std::vector<WireMessage> EncodeBundle(const FrameBundle& bundle, const ChannelNa
     messages.push_back(
         MakeMessage(channels.camera_right, now, PictureToWire(bundle.stereo->right, exposed)));
   }
+  for (const RefusedDatagram& refused : bundle.refused) {
+    messages.push_back(EncodeRefused(refused, now, channels));
+  }
   messages.push_back(MakeMessage(channels.camera_rig, now, BundleEnd(bundle)));
   return messages;
 }

@@ -2,9 +2,13 @@
 
 #include <utility>
 
+#include "engine/wire/channel_rules.h"
 #include "engine/wire/convert.h"
 
 namespace palace {
+namespace {
+constexpr int kMostAtOnce = 1000;  ///< a flood must not keep Poll from returning
+}
 
 LcmLink::LcmLink(std::shared_ptr<Bus> bus, ChannelNames channels)
     : bus_(std::move(bus)), channels_(channels), outputs_(channels) {}
@@ -41,8 +45,9 @@ Result<std::unique_ptr<VehicleServer>> VehicleServer::Create(std::shared_ptr<Bus
       new VehicleServer(std::move(bus), vehicle, std::move(channels)));
   VehicleServer* self = server.get();
   for (const std::string& channel : self->channels_.ToVehicle()) {
-    const Status subscribed =
-        self->bus_->Subscribe(channel, [self](const WireMessage& message) { self->Take(message); });
+    const Status subscribed = self->bus_->Subscribe(
+        channel, [self](const WireMessage& message) { self->Take(message); },
+        LimitsOf(self->channels_, channel));
     if (!subscribed) {
       return subscribed.error();
     }
@@ -62,7 +67,7 @@ void VehicleServer::Take(const WireMessage& message) {
 
 Status VehicleServer::Poll(int timeout_ms) {
   Result<bool> handled = bus_->Handle(timeout_ms);
-  while (handled && *handled) {
+  for (int more = kMostAtOnce; handled && *handled && more > 0; --more) {
     handled = bus_->Handle(0);
   }
   if (!handled) {

@@ -45,7 +45,7 @@ class VehicleServer {
   static Result<std::unique_ptr<VehicleServer>> Create(std::shared_ptr<Bus> bus,
                                                        VehicleLink& vehicle,
                                                        ChannelNames channels = {});
-  /// Handles every message that waits; waits up to `timeout_ms` for the first.
+  /// Handles the messages that wait, a thousand at most; waits up to `timeout_ms` for the first.
   Status Poll(int timeout_ms);
   Status Publish(const FrameBundle& bundle);
   std::uint64_t received() const { return received_; }

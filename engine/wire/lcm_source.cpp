@@ -1,19 +1,19 @@
 #include "engine/wire/lcm_source.h"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "engine/core/time.h"
+#include "engine/wire/channel_rules.h"
 
 namespace palace {
 namespace {
 
 constexpr int kPoll_ms = 20;
 constexpr int kMostDrained = 5000;  ///< messages taken at once before a bundle is delivered
-constexpr int kPictureQueue = 16;
-constexpr int kSampleQueue = 512;
-constexpr double kSlip_s = 1;   ///< time running back this little is ironed out
-constexpr double kJump_s = 60;  ///< time running on this much is a jump
+constexpr double kSlip_s = 1;       ///< time running back this little is ironed out
+constexpr double kJump_s = 60;      ///< time running on this much is a jump
 
 }  // namespace
 
@@ -34,11 +34,9 @@ Result<std::unique_ptr<LcmSource>> LcmSource::Create(std::shared_ptr<Bus> bus,
   std::unique_ptr<LcmSource> source(new LcmSource(std::move(bus), std::move(channels), options));
   LcmSource* self = source.get();
   for (const std::string& channel : source->channels_.FromVehicle()) {
-    const bool picture =
-        channel == self->channels_.camera_left || channel == self->channels_.camera_right;
     const ::palace::Status subscribed = self->bus_->Subscribe(
         channel, [self](WireMessage message) { self->Take(std::move(message)); },
-        picture ? kPictureQueue : kSampleQueue);
+        LimitsOf(self->channels_, channel));
     if (!subscribed) {
       return subscribed.error();
     }
@@ -49,6 +47,11 @@ Result<std::unique_ptr<LcmSource>> LcmSource::Create(std::shared_ptr<Bus> bus,
 void LcmSource::Take(WireMessage message) {
   for (auto& bundle : assembler_.Push(message)) {
     ready_.push_back(std::move(bundle));
+  }
+  if (!assembler_.problem().empty()) {
+    refusals_.Add({message.sender, message.channel, assembler_.problem(), message.payload.data(),
+                   message.payload.size()},
+                  message.time, MonotonicSeconds());
   }
   if (assembler_.newest() && anchor_ != assembler_.newest()) {
     anchor_ = assembler_.newest();
@@ -105,6 +108,9 @@ Result<std::shared_ptr<const FrameBundle>> LcmSource::Next(std::stop_token stop)
 std::shared_ptr<const FrameBundle> LcmSource::Deliver(std::shared_ptr<const FrameBundle> bundle) {
   auto delivered = std::make_shared<FrameBundle>(*bundle);
   delivered->sequence = sequence_++;
+  for (std::vector<RefusedDatagram> refused : {bus_->TakeRefused(), refusals_.Take()}) {
+    std::move(refused.begin(), refused.end(), std::back_inserter(delivered->refused));
+  }
   if (last_time_) {
     const double step_s = SecondsBetween(*last_time_, delivered->time);
     delivered->discontinuity |= step_s < -kSlip_s || step_s > kJump_s;
@@ -146,8 +152,10 @@ Losses LcmSource::Count() const {
   losses.bundles_missing = report.bundles_lost;
   losses.samples_missing = report.samples_lost;
   losses.samples_overflowed += report.samples_overflowed;
-  losses.datagrams_refused = bus_->dropped();
   losses.undecodable = report.undecodable_of;
+  losses.other_version = report.other_version_of;
+  losses.bus = bus_->traffic();
+  losses.datagrams_refused = losses.bus.refused;
   return losses;
 }
 

@@ -11,6 +11,7 @@
 #include "engine/runtime/source.h"
 #include "engine/wire/bundle_assembler.h"
 #include "engine/wire/bus.h"
+#include "engine/wire/receiver/refusal_log.h"
 
 namespace palace {
 
@@ -48,6 +49,7 @@ class LcmSource final : public Source {
   ChannelNames channels_;
   LcmSourceOptions options_;
   BundleAssembler assembler_;
+  RefusalLog refusals_;  ///< of messages that could not be decoded
   std::deque<std::shared_ptr<const FrameBundle>> ready_;
   std::optional<Timestamp> anchor_;  ///< newest data time ...
   double anchor_s_ = 0;              ///< ... and the monotonic second it arrived

@@ -13,6 +13,7 @@
 #include <palace/mission_t.hpp>
 #include <palace/pose_t.hpp>
 #include <palace/position_estimate_t.hpp>
+#include <palace/refused_t.hpp>
 #include <palace/site_decision_t.hpp>
 #include <palace/site_proposal_t.hpp>
 #include <palace/slad_settings_t.hpp>
@@ -140,6 +141,11 @@ void VisitFields(Reader& read, station_status_t& m) {
 template <typename Reader>
 void VisitFields(Reader& read, event_t& m) {
   read(m.utime, m.kind, m.text);
+}
+template <typename Reader>
+void VisitFields(Reader& read, refused_t& m) {
+  read(m.utime, m.wall_utime, m.sender, m.channel, m.reason, m.bytes, m.like_it, m.head_size);
+  read.List(m.head_size, m.head);
 }
 template <typename Reader>
 void VisitFields(Reader& read, abort_t& m) {

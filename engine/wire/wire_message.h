@@ -13,6 +13,7 @@ struct WireMessage {
   std::string channel;
   Timestamp time;  ///< data time it was sent or recorded under
   std::vector<std::uint8_t> payload;
+  std::string sender{};  ///< address and port, "10.0.0.2:7667"; empty of logs and memory
 };
 
 }  // namespace palace

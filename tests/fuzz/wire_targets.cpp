@@ -6,6 +6,7 @@
 #include "engine/wire/bundle_assembler.h"
 #include "engine/wire/convert.h"
 #include "engine/wire/decode.h"
+#include "engine/wire/receiver/lcm_reassembler.h"
 #include "tests/fuzz/fuzz_target.h"
 #include "tests/fuzz/wire_types.h"
 
@@ -89,10 +90,38 @@ void Stream(Bytes input) {
   (void)assembler.TakePending({1});
 }
 
+/// Datagrams: sender, length (16 bits), bytes, again and again. Memory stays within its limit, and
+/// no message is larger than its channel's.
+void Datagram(Bytes input) {
+  constexpr ReassemblerLimits kLimits{.waiting_bytes = 8000,
+                                      .waiting_bytes_per_sender = 4000,
+                                      .waiting_per_sender = 3,
+                                      .senders = 4};
+  constexpr std::size_t kMost = 3000;
+  LcmReassembler receiver(kLimits);
+  receiver.Allow("GPS", 100);
+  receiver.Allow("IMU", kMost);
+  double now_s = 0;
+  while (input.size() >= 3) {
+    const std::size_t length =
+        std::min<std::size_t>(input.size() - 3, input[1] * std::size_t{256} + input[2]);
+    now_s += 0.02;
+    const auto taken = receiver.Take({input[0], 1}, input.data() + 3, length, now_s);
+    if (taken.message.payload.size() > kMost || receiver.waiting_bytes() > kLimits.waiting_bytes ||
+        receiver.Senders().size() > kLimits.senders) {
+      __builtin_trap();
+    }
+    input = input.subspan(3 + length);
+  }
+}
+
 }  // namespace
 
 std::vector<FuzzTarget> WireTargets() {
-  return {{"message", &Message}, {"conversion", &Converted}, {"stream", &Stream}};
+  return {{"message", &Message},
+          {"conversion", &Converted},
+          {"stream", &Stream},
+          {"datagram", &Datagram}};
 }
 
 }  // namespace palace

@@ -145,6 +145,43 @@ TEST(Bundle, SurvivesTheWireToTheBit) {
   EXPECT_EQ(assembler.report().pictures_unpaired, 0u);
 }
 
+/// What was refused travels with its bundle into the log and back, and moves nothing.
+TEST(Bundle, WhatWasRefusedIsKeptAsEvidence) {
+  RandomStream random(12);
+  auto sent = RandomBundle(random, 3, std::make_shared<StereoRig>(RandomRig(random)));
+  sent->refused = {{{1700000000000000},
+                    "10.0.0.9:6666",
+                    "VEHICLE_POSE",
+                    "not LCM",
+                    43,
+                    900,
+                    {0x4c, 0x43, 0x30, 0x33, 0x00, 0xff}},
+                   {{1700000000000001}, "", "", "no channel name", 8, 1, {}}};
+  BundleAssembler assembler;
+  const Bundles got = PushAll(assembler, EncodeBundle(*sent, {}));
+  ASSERT_EQ(got.size(), 1u);
+  EXPECT_EQ(got[0]->refused, sent->refused);
+  EXPECT_EQ(assembler.report().other_channels, 0u);
+  ExpectSameBundle(*sent, *got[0]);
+}
+
+TEST(Bundle, AnotherVersionOfATypeIsCountedApart) {
+  RandomStream random(13);
+  BundleAssembler assembler;
+  auto messages =
+      EncodeBundle(*RandomBundle(random, 1, std::make_shared<StereoRig>(RandomRig(random))), {});
+  WireMessage& pose = messages.front();
+  pose.payload[3] ^= 0x40;
+  assembler.Push(pose);
+  EXPECT_NE(assembler.problem().find("type hash differs"), std::string::npos);
+  EXPECT_EQ(assembler.report().other_version_of.at(pose.channel), 1u);
+  assembler.Push({pose.channel, {}, {messages[1].payload.begin(), messages[1].payload.end() - 1}});
+  EXPECT_EQ(assembler.report().undecodable, 2u);
+  EXPECT_EQ(assembler.report().other_version_of.at(pose.channel), 1u);
+  assembler.Push(messages.back());
+  EXPECT_TRUE(assembler.problem().empty());
+}
+
 TEST(Bundle, RigPointerStaysWhileTheRigDoes) {
   RandomStream random(3);
   BundleAssembler assembler;

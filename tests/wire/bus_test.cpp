@@ -155,13 +155,34 @@ TEST(BusUrl, GetsBufferAndTimeToLive) {
 }
 
 TEST(BusUrl, AUrlThatCannotBeOneIsRefusedWithAnExample) {
-  for (const char* url : {"nonsense://", "nonsense", "udpm://host:7667", "udpm://10.0.0.1:7667",
-                          "udpm://239.255.76.67.1"}) {
+  for (const char* url :
+       {"nonsense://", "nonsense", "udpm://host:7667", "udpm://10.0.0.1:7667",
+        "udpm://239.255.76.67.1", "udpm://239.255.76.67:0", "udpm://239.255.76.67:port",
+        "udpm://239.255.76.67:7667?ttl=many", "udpm://239.255.76.67:7667?recv_buf_size=-1",
+        "tcpq://127.0.0.1:7700", "mpudpm://239.255.76.67:7667"}) {
     const auto bus = Bus::Open(url);
     ASSERT_FALSE(bus.ok()) << url;
     EXPECT_EQ(bus.error().code, ErrorCode::kUsage) << url;
     EXPECT_NE(bus.error().message.find("udpm://239.255.76.67:7667"), std::string::npos) << url;
   }
+}
+
+/// Through these liblcm would receive in this process, with none of our bounds.
+TEST(BusUrl, OtherTransportsAreRefusedWithTheReason) {
+  for (const char* url : {"tcpq://127.0.0.1:7700", "mpudpm://239.255.76.67", "file:///tmp/a.lcm"}) {
+    EXPECT_NE(Bus::Open(url).error().message.find("only udpm is received with bounds"),
+              std::string::npos)
+        << url;
+  }
+}
+
+TEST(BusUrl, TellsTheGroup) {
+  const auto place = ParseBusUrl("udpm://239.1.2.3:5000?ttl=1&recv_buf_size=2000");
+  ASSERT_TRUE(place.ok());
+  EXPECT_EQ(place->group.ip, 0xef010203u);
+  EXPECT_EQ(place->group.port, 5000);
+  EXPECT_EQ(place->group.receive_buffer_bytes, 2000);
+  EXPECT_EQ(ParseBusUrl("udpm://")->group.port, 7667);
 }
 
 }  // namespace

@@ -5,6 +5,8 @@
 #include <map>
 #include <string>
 
+#include "engine/model/mission/bus_traffic.h"
+
 namespace palace {
 
 /// Counts since the session began; they only grow.
@@ -16,10 +18,14 @@ struct Losses {
   std::uint64_t bundles_missing = 0;     ///< gaps in the sender's own numbers
   std::uint64_t samples_missing = 0;     ///< announced by the sender, never arrived
   std::uint64_t samples_overflowed = 0;  ///< came while so many waited that the oldest had to go
-  std::uint64_t datagrams_refused = 0;   ///< not even a message: no channel name, too large
+  std::uint64_t datagrams_refused = 0;   ///< before they were a message, or of a second sender
   std::map<std::string, std::uint64_t> undecodable{};  ///< messages refused, by channel on the bus
-  std::uint64_t messages_unsent = 0;                   ///< to the vehicle, refused by the bus
+  /// Those of them that are of another version of their type, by channel.
+  std::map<std::string, std::uint64_t> other_version{};
+  std::uint64_t messages_unsent = 0;  ///< to the vehicle, refused by the bus
   std::uint64_t records_dropped = 0;  ///< frames not written: the disk was too slow
+
+  BusTraffic bus{};  ///< of a bus: by channel and by sender
 
   /// Messages refused, of all channels.
   std::uint64_t undecodable_messages() const {
