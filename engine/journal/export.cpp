@@ -28,6 +28,7 @@ constexpr const char* kHeaders[][2] = {
     {"truth.csv",
      "time_us,north_m,east_m,down_m,north_mps,east_mps,down_mps,roll_rad,pitch_rad,yaw_rad"},
     {"decisions.csv", "time_us,origin,action,name,value,site_id,snapshot_sequence,text"},
+    {"refused.csv", "time_us,received_utc_us,sender,channel,reason,bytes,like_it,first_bytes_hex"},
     {"settings.csv", "time_us,name,value"},
     {"events.csv", "time_us,kind,text"},
     {"status.csv",
@@ -61,6 +62,8 @@ class Exporter {
       TakeEvent(m);
     } else if (m.channel == n.station_status) {
       TakeStatus(m);
+    } else if (m.channel == n.refused) {
+      TakeRefused(m);
     }
   }
 
@@ -100,6 +103,19 @@ class Exporter {
     Add("estimates.csv", Row(e.time)
                              << kSources[static_cast<int>(e.source)] << static_cast<int>(e.healthy)
                              << e.approval_id << e.p_WB << e.v_WB << e.sigma_p_m << e.sigma_v_mps);
+  }
+  void TakeRefused(const WireMessage& m) {
+    const Result<RefusedDatagram> refused = DecodeRefused(m);
+    if (refused) {
+      std::string hex;
+      for (const std::uint8_t byte : refused->head) {
+        hex += "0123456789abcdef"[byte >> 4];
+        hex += "0123456789abcdef"[byte & 15];
+      }
+      Add("refused.csv", Row(m.time) << refused->time.us << refused->sender << refused->channel
+                                     << refused->reason << std::uint64_t{refused->bytes}
+                                     << refused->like_it << hex);
+    }
   }
   void TakeTruth(const WireMessage& m) {
     const Result<Truth> truth = DecodeTruth(m);

@@ -16,8 +16,8 @@ struct ExportedTable {
   std::uint64_t rows = 0;
 };
 
-/// Writes estimates.csv truth.csv decisions.csv sites.csv settings.csv events.csv status.csv into
-/// `folder` (made when missing). Headers carry the unit; doubles have 17 digits; unknown is an
+/// Writes estimates.csv truth.csv decisions.csv sites.csv settings.csv events.csv status.csv
+/// refused.csv into `folder` (made when missing). Headers carry the unit; doubles have 17 digits; unknown is an
 /// empty field. Errors name the file.
 Result<std::vector<ExportedTable>> ExportCsv(const std::filesystem::path& log,
                                              const std::filesystem::path& folder,

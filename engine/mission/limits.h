@@ -37,6 +37,8 @@ struct AlarmLimits {
   static constexpr double row_error_px = 0.5;  ///< a good calibration has 0.2
   static constexpr double exposure = 2;        ///< one picture twice as bright as the other
   static constexpr double scale_percent = 2;   ///< 0.3 m of height at 50 ft
+  static constexpr double refused_hz = 1;      ///< datagrams: F25
+  static constexpr double bus_load = 10;       ///< times what a channel needs: F31
   static constexpr double least_pairs_hz = 5;  ///< half of what maps and tracking are made for
 };
 

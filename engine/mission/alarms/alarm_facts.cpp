@@ -92,6 +92,8 @@ AlarmFacts AlarmFactsAt(const MissionMemory& m, const MissionInputs& in) {
   f.engine_stop = in.session.engine_stop;
   f.source_damage = in.session.source_damage;
   f.losses = m.losses.recent();
+  f.refused_hz = f.losses.refused_hz;
+  f.bus_load = f.losses.bus_load;
   f.looked_at_hz = f.losses.replaced_hz > 0 ? f.losses.pairs_hz : NAN;
   FillSensors(m, in, f);
   FillMission(m, in, f);

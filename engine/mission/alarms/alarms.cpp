@@ -1,6 +1,8 @@
 #include "engine/mission/alarms/alarms.h"
 
+#include <algorithm>
 #include <array>
+#include <vector>
 
 #include "engine/core/text.h"
 #include "engine/mission/descent_limits.h"
@@ -32,7 +34,7 @@ std::string StaleText(const char* what, double age_s, const std::string& limit) 
   return what + (" " + words::Age(age_s)) + ", limit " + limit + ". ";
 }
 
-const std::array<AlarmRow, kAlarmCount> kAlarms = {{
+const std::array<AlarmRow, kAlarmCount - kBusAlarmCount> kAlarms = {{
     {.id = AlarmId::kCameraLeft,
      .level = AlarmLevel::kCaution,
      .limit = {GuardLimits::camera_s, "s"},
@@ -323,7 +325,7 @@ const std::array<AlarmRow, kAlarmCount> kAlarms = {{
          [](const Facts& f, const std::string&) {
            return WithNumbers("%.0f messages of the last %.0f s could not be read: ",
                               f.losses.undecodable, LossWatch::kWindow_s) +
-                  f.losses.channels + " in all. Is the sender of another version?";
+                  f.losses.channels + " in all. The sender errs, or the way to it damages bytes.";
          }},
     {.id = AlarmId::kRecordsDropped,
      .level = AlarmLevel::kCaution,
@@ -407,7 +409,16 @@ const std::array<AlarmRow, kAlarmCount> kAlarms = {{
 
 }  // namespace
 
-std::span<const AlarmRow> AlarmTable() { return kAlarms; }
+std::span<const AlarmRow> AlarmTable() {
+  static const std::vector<AlarmRow> table = [] {
+    std::vector<AlarmRow> rows(kAlarms.begin(), kAlarms.end());
+    rows.insert(rows.end(), BusAlarms().begin(), BusAlarms().end());
+    std::sort(rows.begin(), rows.end(),
+              [](const AlarmRow& a, const AlarmRow& b) { return a.id < b.id; });
+    return rows;
+  }();
+  return table;
+}
 
 Limit LimitOf(const AlarmRow& row, const AlarmFacts& facts) {
   Limit limit = row.limit;
@@ -417,7 +428,7 @@ Limit LimitOf(const AlarmRow& row, const AlarmFacts& facts) {
 
 std::vector<AlarmCondition> EvaluateAlarms(const AlarmFacts& facts) {
   std::vector<AlarmCondition> conditions;
-  for (const AlarmRow& row : kAlarms) {
+  for (const AlarmRow& row : AlarmTable()) {
     const Limit limit = LimitOf(row, facts);
     const bool present = row.present(facts, limit.value);
     const bool grave = row.grave != nullptr && row.grave(facts);

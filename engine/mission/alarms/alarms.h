@@ -70,6 +70,8 @@ struct AlarmFacts {
   double max_residual_sigma = NAN;  ///< of the position filter
   double wind_mps = NAN;
   RecentLosses losses{};
+  double refused_hz = NAN;    ///< datagrams
+  double bus_load = NAN;      ///< of the busiest channel, in times of what it needs
   double looked_at_hz = NAN;  ///< stereo pairs, while some are replaced by newer ones
 };
 AlarmFacts AlarmFactsAt(const MissionMemory& memory, const MissionInputs& inputs);
@@ -88,6 +90,9 @@ struct AlarmRow {
   /// A caution that has become a warning; null: never.
   bool (*grave)(const AlarmFacts& f) = nullptr;
 };
+/// Those of a bus: what is refused, too much, of another version, of a second sender.
+inline constexpr std::size_t kBusAlarmCount = 6;
+std::span<const AlarmRow, kBusAlarmCount> BusAlarms();
 /// All of them, in the order of AlarmId.
 std::span<const AlarmRow> AlarmTable();
 Limit LimitOf(const AlarmRow& row, const AlarmFacts& facts);

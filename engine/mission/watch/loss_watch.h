@@ -19,10 +19,21 @@ namespace palace {
 struct RecentLosses {
   double pairs_hz = NAN;     ///< stereo pairs looked at
   double replaced_hz = NAN;  ///< replaced by newer ones before anybody looked
-  double undecodable = 0;    ///< messages
+  double undecodable = 0;    ///< messages, of the right version
   std::string channels{};    ///< that carried them since the session began, "VEHICLE_POSE 3"
   double unrecorded = 0;     ///< frames
   double unsent = 0;         ///< messages to the vehicle
+  // Of a bus.
+  double refused = 0;         ///< datagrams
+  double refused_hz = NAN;    ///< the same a second
+  std::string refused_why{};  ///< since the session began, "not LCM 3"
+  double bus_load = NAN;  ///< most of any channel, in times of what it needs; of the last second
+  std::string busiest{};  ///< that channel; "all channels"
+  double overrun = 0;     ///< datagrams that this machine had no room for
+  std::string other_version{};  ///< channels whose messages are of another version of their type
+  std::string second_sender{};  ///< "VEHICLE_POSE from 10.0.0.9:6666"
+  /// Of the messages of the senders in use, by the gaps in their numbers; 0 to 1.
+  double lost_share = NAN;
 };
 
 class LossWatch {
@@ -41,9 +52,17 @@ class LossWatch {
     std::uint64_t undecodable = 0;
     std::uint64_t unrecorded = 0;
     std::uint64_t unsent = 0;
+    std::uint64_t other_version = 0;
+    std::uint64_t refused = 0;
+    std::uint64_t overrun = 0;
+    std::uint64_t bus_received = 0;
+    std::uint64_t bus_lost = 0;
   };
+  static Sample SampleOf(const Losses& losses, Timestamp now);
   std::deque<Sample> samples_;  ///< of the window, oldest first; the first is what counts from
   std::string channels_;        ///< that carried what could not be read
+  std::string other_version_;
+  BusTraffic bus_;  ///< newest
 };
 
 }  // namespace palace

@@ -47,6 +47,12 @@ constexpr std::array<const char*, kAlarmCount> kAlarmNames = {
     "descent_rate",
     "vision_residual",
     "wind",
+    "datagrams_refused",
+    "refused_often",
+    "bus_overload",
+    "bus_overrun",
+    "other_version",
+    "second_sender",
 };
 
 }  // namespace

@@ -68,8 +68,14 @@ enum class AlarmId : std::uint8_t {
   kDescentRate,
   kVisionResidual,
   kWind,
+  kDatagramsRefused,
+  kRefusedOften,
+  kBusOverload,
+  kBusOverrun,
+  kOtherVersion,
+  kSecondSender,
 };
-inline constexpr std::size_t kAlarmCount = 36;
+inline constexpr std::size_t kAlarmCount = 42;
 /// "gps_error".
 const char* AlarmName(AlarmId id);
 /// Empty for a name that no alarm has.

@@ -253,12 +253,14 @@ void DrawDiagnoseWorkspace(const EngineSnapshot& snap, const Rect& body, Diagnos
     return std::min(s.Px(wanted), std::round(body.h * most));
   };
   const bool cameras = !snap.session->source.cameras.empty();
+  const bool bus = !snap.session->losses.bus.channels.empty();
   const float channels_h = share(
       62 + 26 * static_cast<float>(std::max<std::size_t>(snap.sensors->channels.size(), 1)), 0.38f);
-  const float stages_h = share(
-      40 + 26 * static_cast<float>(std::max<std::size_t>(snap.session->timings.size(), 1)), 0.23f);
-  // In a low window the cameras' counters take the place of the hashes.
-  const bool hashes = !cameras || body.h > s.Px(760);
+  const float stages_h =
+      share(40 + 26 * static_cast<float>(std::max<std::size_t>(snap.session->timings.size(), 1)),
+            bus ? 0.17f : 0.23f);
+  // In a low window the counters of cameras or bus take the place of the hashes.
+  const bool hashes = (!cameras && !bus) || body.h > s.Px(bus ? 1000 : 760);
   const float hashes_h = share(170, cameras ? 0.18f : 0.23f);
   float y = body.y;
   DrawChannels(snap, {right_x, y, right, channels_h}, ui);
@@ -268,6 +270,11 @@ void DrawDiagnoseWorkspace(const EngineSnapshot& snap, const Rect& body, Diagnos
         share(62 + 26 * static_cast<float>(snap.session->source.cameras.size()), 0.18f);
     DrawCameraTable(snap, {right_x, y, right, cameras_h}, ui);
     y += cameras_h + gap;
+  }
+  if (bus) {
+    const float bus_h = BusTableHeight(snap, s, std::round(body.h * 0.28f));
+    DrawBusTable(snap, {right_x, y, right, bus_h}, ui);
+    y += bus_h + gap;
   }
   DrawTimings(snap, {right_x, y, right, stages_h}, ui);
   y += stages_h + gap;

@@ -23,6 +23,9 @@ void DrawStereoHealth(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui)
 /// What did not get through the doors, and what each means; and the height that it needs.
 void DrawLosses(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui);
 float LossesHeight(const EngineSnapshot& snap, const Style& style, float most);
+/// What came over the bus, by channel and by sender; and the height that it needs.
+void DrawBusTable(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui);
+float BusTableHeight(const EngineSnapshot& snap, const Style& style, float most);
 /// Figures of the candidates of the newest map.
 void DrawSiteTable(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui);
 void DrawDiagnoseWorkspace(const EngineSnapshot& snap, const Rect& body, DiagnoseState& state,

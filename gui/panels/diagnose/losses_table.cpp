@@ -13,10 +13,10 @@ struct LossRow {
   std::string meaning;
 };
 
-std::string ChannelsOf(const Losses& losses) {
+std::string WordsOf(const std::map<std::string, std::uint64_t>& counts) {
   std::string text;
-  for (const auto& [channel, count] : losses.undecodable) {
-    text += (text.empty() ? "" : ", ") + channel + " " + std::to_string(count);
+  for (const auto& [name, count] : counts) {
+    text += (text.empty() ? "" : ", ") + name + " " + std::to_string(count);
   }
   return text;
 }
@@ -29,8 +29,11 @@ std::vector<LossRow> RowsOf(const Losses& losses) {
       {"Bundles missing", losses.bundles_missing, "Gaps in the sender's numbers: lost on the way"},
       {"Samples missing", losses.samples_missing, "Announced by the sender, lost on the way"},
       {"Samples overflowed", losses.samples_overflowed, "Too many waited; the oldest went"},
-      {"Datagrams refused", losses.datagrams_refused, "No message: channel name or size is wrong"},
-      {"Undecodable", losses.undecodable_messages(), "Refused: " + ChannelsOf(losses)},
+      {"Datagrams refused", losses.datagrams_refused,
+       "Refused: " + WordsOf(losses.bus.refused_why)},
+      {"Datagrams overrun", losses.bus.overrun,
+       "This machine had no room: raise net.core.rmem_max"},
+      {"Undecodable", losses.undecodable_messages(), "Refused: " + WordsOf(losses.undecodable)},
       {"Messages unsent", losses.messages_unsent, "The bus did not take them: check the link"},
       {"Frames not recorded", losses.records_dropped, "The disk was too slow; samples are kept"}};
   std::erase_if(rows, [](const LossRow& row) { return row.count == 0; });

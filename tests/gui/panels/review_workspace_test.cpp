@@ -317,6 +317,45 @@ TEST(DiagnoseWorkspace, EveryLossHasItsCountAndItsMeaning) {
   }
 }
 
+TEST(DiagnoseWorkspace, TheBusIsShownBySenderAndByChannel) {
+  EngineSnapshot snap = fake::Snapshot(MissionState::kProposed);
+  BusTraffic& bus = snap.session.Edit().losses.bus;
+  for (const char* name : {"CAMERA_LEFT", "CAMERA_RIGHT", "CAMERA_RIG", "COMMAND_ACK", "GPS", "IMU",
+                           "LASER_RANGE", "TRUTH", "VEHICLE_POSE", "VEHICLE_STATUS"}) {
+    bus.channels.push_back({.channel = name, .received = 40, .sender = "10.0.0.2:7001"});
+  }
+  bus.channels[8].lost = 3;
+  bus.channels[8].overflowed = 4;
+  bus.channels[8].duplicated = 2;
+  bus.channels[8].reordered = 1;
+  bus.channels[8].refused = 9;
+  bus.senders = {{.address = "10.0.0.2:7001", .used = true, .received = 400, .lost = 5},
+                 {.address = "10.0.0.9:6666", .refused = 9},
+                 {.address = "10.0.0.1:5000", .foreign = 70}};
+  for (const WindowSize& size : kWindowSizes) {
+    SCOPED_TRACE(size.name);
+    UiHarness ui(size.width, size.height);
+    DiagnoseState state;
+    const Rect body = BodyOf(size.width, size.height);
+    ui.Frame([&](UiFrame& f) { DrawDiagnoseWorkspace(snap, body, state, f); });
+    ExpectTextsInPanels(ui.items);
+    ExpectPanelsApart(ui.items, body);
+    const auto text = [&](const char* row) {
+      const Item* item = ui.items.Find(row);
+      return item != nullptr ? item->text : std::string();
+    };
+    EXPECT_EQ(text("bus/From 10.0.0.2:7001"),
+              "From 10.0.0.2:7001: Received 400, Lost 5, Twice 0, Late 0, Refused 0");
+    EXPECT_EQ(text("bus/Stranger 10.0.0.9:6666"),
+              "Stranger 10.0.0.9:6666: Received 0, Lost 0, Twice 0, Late 0, Refused 9");
+    EXPECT_EQ(ui.items.Find("bus/Stranger 10.0.0.1:5000"), nullptr) << "nothing of ours";
+    if (size.height >= 1080) {
+      EXPECT_EQ(text("bus/VEHICLE_POSE"),
+                "VEHICLE_POSE: Received 40, Lost 7, Twice 2, Late 1, Refused 9");
+    }
+  }
+}
+
 TEST(DiagnoseWorkspace, StereoHealthNamesWhatIsWrong) {
   EngineSnapshot snap = fake::Snapshot(MissionState::kProposed);
   const auto health = [&](const char* row) {
