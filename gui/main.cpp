@@ -1,5 +1,7 @@
 // palace: the ground station.
+#include <csignal>
 #include <cstdio>
+#include <new>
 
 #include "engine/core/freed_memory.h"
 #include "gui/app/app.h"
@@ -15,5 +17,11 @@ int main(int argc, char** argv) {
     std::fputs(options->print.c_str(), stdout);
     return 0;
   }
-  return palace::RunApp(*options);
+  std::signal(SIGPIPE, SIG_IGN);  // a reader of our output that left ends no flight
+  try {
+    return palace::RunApp(*options);
+  } catch (const std::bad_alloc&) {
+    return palace::FailWith(palace::UnavailableError(
+        "out of memory; raise the limit (ulimit -v) or end other programs"));
+  }
 }

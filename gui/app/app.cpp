@@ -3,6 +3,7 @@
 #include <optional>
 #include <utility>
 
+#include "engine/core/address_space.h"
 #include "engine/core/log.h"
 #include "gui/app/exit_code.h"
 #include "gui/app/run.h"
@@ -11,6 +12,9 @@
 
 namespace palace {
 namespace {
+
+/// What the station maps before its first flight, with software GL; more is asked for later.
+constexpr std::size_t kLeastMemory_MiB = 640;
 
 /// The same flight again, or its log.
 AppOptions OptionsOf(AppOptions options, const NextFlight& next) {
@@ -27,6 +31,10 @@ AppOptions OptionsOf(AppOptions options, const NextFlight& next) {
 
 int RunApp(const AppOptions& options) {
   InitLogging(options.verbose);
+  if (const Status memory = EnoughMemory(kLeastMemory_MiB); !memory) {
+    return FailWith(memory.error());
+  }
+  const Termination termination;  // before the first thread
   std::optional<std::vector<ScriptLine>> script;
   std::string script_name = options.script_file;
   if (!options.script_file.empty()) {
@@ -50,8 +58,8 @@ int RunApp(const AppOptions& options) {
       return FailWith(session.error());
     }
     const StationEnd end =
-        RunStation(now, *session, std::exchange(script, std::nullopt), script_name);
-    if (!end.next || now.headless) {
+        RunStation(now, termination, *session, std::exchange(script, std::nullopt), script_name);
+    if (!end.next || now.headless || termination.asked()) {
       return end.exit_code;
     }
     now = OptionsOf(options, *end.next);

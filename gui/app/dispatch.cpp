@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "engine/mission/leaving.h"
 #include "engine/runtime/settings_io.h"
 
 namespace palace {
@@ -61,6 +62,12 @@ void SavePresetFile(const std::string& wanted, const EngineSnapshot* snapshot, d
   ShowMessage(state, saved ? "Preset saved to " + path : saved.error().message, ui_time_s);
 }
 
+/// Who would leave a vehicle in the air is asked first.
+bool AsksFirst(const UiAction& action, const EngineSnapshot* snapshot) {
+  return std::holds_alternative<QuitProgram>(action) && snapshot != nullptr &&
+         !WhatTheVehicleDoesAlone(*snapshot).empty();
+}
+
 }  // namespace
 
 void ShowMessage(UiState& state, std::string text, double ui_time_s) {
@@ -77,7 +84,12 @@ void Dispatch(const Intents& intents, CommandOrigin origin, const EngineSnapshot
     } else if (const auto* playback = std::get_if<PlaybackControl>(&intent)) {
       engine.Control(*playback);
     } else {
-      const UiRequest request = Reduce(state, std::get<UiAction>(intent));
+      const auto& action = std::get<UiAction>(intent);
+      if (AsksFirst(action, snapshot)) {
+        state.leave_asked = true;
+        continue;
+      }
+      const UiRequest request = Reduce(state, action);
       for (const SetSetting& set : request.settings) {
         engine.Post({origin, set});
       }

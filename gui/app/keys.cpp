@@ -140,7 +140,8 @@ Intents IntentsOfKey(std::string_view keys, const EngineSnapshot* snapshot, cons
     return {};
   }
   if ((text_field_active && !row->binding.works_while_typing) ||
-      (state.key_help && !row->binding.works_in_popup) || state.focus.Owns(keys)) {
+      ((state.key_help || state.leave_asked) && !row->binding.works_in_popup) ||
+      state.focus.Owns(keys)) {
     return {};
   }
   return row->intents({snapshot, state});

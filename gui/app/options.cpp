@@ -78,6 +78,12 @@ Result<AppOptions> ParseCommandLine(int argc, const char* const* argv) {
   bool no_record = false;
   CLI::App app("PALACE ground station: find a safe landing site, approve it, watch the descent",
                "palace");
+  app.footer(
+      "Exit 0 done, 1 failed, 2 bad usage. SIGINT (Ctrl-C), SIGTERM and SIGHUP end the station in "
+      "order: log closed, report written, exit 128 + signal; a second one ends it at once.\n"
+      "A flight log grows by about 6.3 MB a second, 23 GB an hour; each flight has a folder of its "
+      "own below --record, remove what you do not need. When the disk fills, pictures are thinned "
+      "first; telemetry and decisions are recorded to the last.");
   Declare(app, options, sources, no_record);
   try {
     app.parse(argc, argv);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
+#include <exception>
 #include <filesystem>
 #include <utility>
 
@@ -11,13 +13,14 @@
 #include "engine/core/files.h"
 #include "engine/core/log.h"
 #include "engine/core/time.h"
+#include "engine/runtime/engine_watch.h"
 #include "engine/runtime/flight_summary.h"
 #include "gui/app/dispatch.h"
 #include "gui/app/exit_code.h"
 #include "gui/app/input.h"
 #include "gui/app/keys.h"
 #include "gui/app/refusal_watch.h"
-#include "gui/app/report.h"
+#include "gui/app/report/flight_report.h"
 #include "gui/app/surface.h"
 #include "gui/app/view.h"
 #include "gui/platform/open_file.h"
@@ -46,9 +49,10 @@ Gesture GestureNow(double ui_time_s) {
 
 class StationRun {
  public:
-  StationRun(const AppOptions& options, Session& session, Surface& surface,
-             std::unique_ptr<View> view, std::optional<ScriptRunner> script)
+  StationRun(const AppOptions& options, const Termination& termination, Session& session,
+             Surface& surface, std::unique_ptr<View> view, std::optional<ScriptRunner> script)
       : options_(options),
+        termination_(termination),
         session_(session),
         surface_(surface),
         view_(std::move(view)),
@@ -59,17 +63,14 @@ class StationRun {
   }
 
   Status Run() {
-    while (!state_.quit && !(script_ && script_->done())) {
+    while (!state_.quit && !termination_.asked() && !(script_ && script_->done())) {
       const WindowInput input = surface_.Poll(WaitForInput());
-      if (input.close_requested) {
-        break;
-      }
       const bool more = !surface_.lockstep() || session_.engine->Step();
       const bool dead = surface_.lockstep() ? !more : session_.engine->Latest() == nullptr;
       if (dead && !session_.engine->error().empty()) {
         return UnavailableError(session_.engine->error());
       }
-      if (const Status drawn = Frame(input); !drawn) {
+      if (const Status drawn = FrameSafely(input); !drawn) {
         return drawn;
       }
     }
@@ -80,9 +81,55 @@ class StationRun {
   const std::optional<NextFlight>& next() const { return state_.next; }
   std::string script_error() const { return script_ ? script_->error() : std::string(); }
   const FlightSummary& summary() const { return summarizer_.summary(); }
+  const std::vector<ApprovalRecord>& approvals() const { return approvals_.all(); }
   const std::vector<std::string>& screenshots() const { return screenshots_; }
 
  private:
+  /// A frame that throws, or whose graphics are gone, ends nothing: keys are obeyed, a wave-off
+  /// among them, and the window is made anew.
+  Status FrameSafely(const WindowInput& input) {
+    try {
+      if (surface_.ContextLost()) {
+        ObeyKeys(input);
+        return DrawAnew("the graphics were reset");
+      }
+      return Frame(input);
+    } catch (const std::exception& error) {
+      const std::string reason = error.what();
+      ObeyKeys(input);
+      return DrawAnew(reason);
+    }
+  }
+
+  void ObeyKeys(const WindowInput& input) {
+    Intents intents;
+    AddKeys(input, {}, session_.engine->Latest().get(), intents);
+    Dispatch(intents, CommandOrigin::kOperator, session_.engine->Latest().get(), {ui_time_s_, NAN},
+             *session_.engine, state_);
+  }
+
+  /// Three times, as the engine: what fails again and again is not the graphics.
+  Status DrawAnew(const std::string& reason) {
+    LogError("Window stopped: " + reason + ". It is opened anew.");
+    const double now_s = MonotonicSeconds();
+    if (!watch_.Stopped("Window", reason, now_s)) {
+      return UnavailableError(watch_.Complaint(now_s));
+    }
+    watch_.Started(now_s);
+    view_.reset();
+    if (const Status opened = surface_.Reopen(); !opened) {
+      return opened;
+    }
+    Result<std::unique_ptr<View>> view = View::Create(options_.theme);
+    if (!view) {
+      return view.error();
+    }
+    view_ = std::move(*view);
+    keys_down_.clear();
+    ShowMessage(state_, "The window was opened anew: " + reason, ui_time_s_);
+    return Ok();
+  }
+
   /// When drawing is slow (software GL) the engine gets every other moment: the frame rate of the
   /// window yields first. Input ends the wait.
   double WaitForInput() const {
@@ -106,6 +153,7 @@ class StationRun {
     const auto snapshot = session_.engine->Latest();
     if (snapshot) {
       summarizer_.Add(*snapshot);
+      approvals_.Add(*snapshot);
       if (const std::string refused = refusals_.Newest(*snapshot); !refused.empty()) {
         ShowMessage(state_, refused, ui_time_s_);
       }
@@ -138,7 +186,8 @@ class StationRun {
 
   /// The page as the flight stands now; it is written again at the end.
   void OpenReport() {
-    const Status written = WriteFlightReport(options_, session_, summary(), screenshots_);
+    const Status written =
+        WriteFlightReport(options_, session_, summary(), approvals(), screenshots_);
     const std::filesystem::path page = session_.output_dir / "report.html";
     const Status opened = written ? OpenFile(page.string()) : written;
     ShowMessage(state_, opened ? "Report: " + page.string() : opened.error().message, ui_time_s_);
@@ -148,6 +197,7 @@ class StationRun {
                const WindowInput& window_input, double dt_s, bool photograph) {
     ViewFrame frame{surface_.width_px(), surface_.height_px(), ui_time_s_, frame_ms_};
     frame.window_focused = window_input.focused || script_.has_value();
+    frame.complaint = session_.engine->Complaint();
     ImGuiBackend& backend = surface_.backend();
     backend.SetUiScale(View::FittingScale(frame.width_px, frame.height_px, state_.scale));
     const bool pixels = photograph || !surface_.lockstep();
@@ -171,6 +221,9 @@ class StationRun {
   void AddKeys(const WindowInput& window_input, const ScriptInput& input,
                const EngineSnapshot* snapshot, Intents& intents) const {
     const bool typing = ImGui::GetIO().WantTextInput;
+    if (window_input.close_requested) {
+      intents.push_back(UiAction(QuitProgram{}));
+    }
     const auto add = [&](const std::string& keys) {
       const Intents of_key = IntentsOfKey(keys, snapshot, state_, typing);
       intents.insert(intents.end(), of_key.begin(), of_key.end());
@@ -212,18 +265,21 @@ class StationRun {
   }
 
   const AppOptions& options_;
+  const Termination& termination_;
   Session& session_;
   Surface& surface_;
   std::unique_ptr<View> view_;
   std::optional<ScriptRunner> script_;
   FlightSummarizer summarizer_;
   RefusalWatch refusals_;
+  ApprovalRecords approvals_;
   UiState state_;
   double start_s_;
   double ui_time_s_ = 0;
   double frame_ms_ = 0;
   std::vector<ImGuiKey> keys_down_;
   std::vector<std::string> screenshots_;
+  EngineWatch watch_;  ///< of the window
 };
 
 /// Without a window the figures go to the terminal; the report goes beside the log.
@@ -240,7 +296,8 @@ void Report(const AppOptions& options, const Session& session, const StationRun&
   if (!report) {
     return;
   }
-  const Status written = WriteFlightReport(options, session, run.summary(), run.screenshots());
+  const Status written =
+      WriteFlightReport(options, session, run.summary(), run.approvals(), run.screenshots());
   if (!written) {
     LogWarning(written.error().message);
   }
@@ -248,7 +305,7 @@ void Report(const AppOptions& options, const Session& session, const StationRun&
 
 }  // namespace
 
-StationEnd RunStation(const AppOptions& options, Session& session,
+StationEnd RunStation(const AppOptions& options, const Termination& termination, Session& session,
                       std::optional<std::vector<ScriptLine>> script,
                       const std::string& script_name) {
   const Result<std::unique_ptr<Surface>> surface = Surface::Open(options);
@@ -267,21 +324,22 @@ StationEnd RunStation(const AppOptions& options, Session& session,
   } else {
     session.engine->Start();
   }
-  StationRun run(options, session, **surface, std::move(*view), std::move(runner));
+  StationRun run(options, termination, session, **surface, std::move(*view), std::move(runner));
   const Status done = run.Run();
   const Status closed = session.engine->Stop();
-  if (done) {
-    Report(options, session, run);
-  }
+  Report(options, session, run);
+  int code = 0;
   for (const Status& status : {done, closed}) {
-    if (!status) {
-      return {FailWith(status.error())};
-    }
+    code = status ? code : FailWith(status.error());
   }
-  if (!run.script_error().empty()) {
-    return {FailWith(UnavailableError(run.script_error()))};
+  if (code == 0 && !run.script_error().empty()) {
+    code = FailWith(UnavailableError(run.script_error()));
   }
-  return {0, run.next()};
+  if (session.engine->hung()) {
+    std::fflush(nullptr);
+    std::_Exit(code);  // its thread still works on what it has
+  }
+  return {code != 0 ? code : termination.exit_code(), run.next()};
 }
 
 }  // namespace palace

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/core/termination.h"
 #include "gui/app/intent.h"
 #include "gui/app/options.h"
 #include "gui/app/script.h"
@@ -19,8 +20,9 @@ struct StationEnd {
 };
 
 /// Input, engine, user interface, commands, frame after frame, until somebody quits or the script
-/// ends. Then the log is closed and the report written.
-StationEnd RunStation(const AppOptions& options, Session& session,
+/// ends, or a signal asks to: then the exit code is 128 and the signal. The log is closed and the
+/// report written.
+StationEnd RunStation(const AppOptions& options, const Termination& termination, Session& session,
                       std::optional<std::vector<ScriptLine>> script,
                       const std::string& script_name);
 

@@ -42,32 +42,49 @@ std::string TitleOf(const AppOptions& options) {
 
 Result<std::unique_ptr<Surface>> Surface::Open(const AppOptions& options) {
   std::unique_ptr<Surface> surface(new Surface());
+  if (const Status started = surface->Start(options); !started) {
+    return started.error();
+  }
+  return surface;
+}
+
+Status Surface::Start(const AppOptions& options) {
+  options_ = options;
   if (options.headless) {
     auto offscreen = Offscreen::Open(options.width_px, options.height_px);
     if (!offscreen) {
       return offscreen.error();
     }
-    surface->offscreen_ = std::move(*offscreen);
+    offscreen_ = std::move(*offscreen);
   } else {
     auto window = Window::Open(TitleOf(options), options.width_px, options.height_px);
     if (!window) {
       return window.error();
     }
-    surface->window_ = std::move(*window);
+    window_ = std::move(*window);
   }
-  const double scale =
-      FittingScale(surface->width_px(), surface->height_px(),
-                   options.ui_scale > 0 ? options.ui_scale : surface->natural_scale());
-  auto backend = options.headless ? ImGuiBackend::ForOffscreen(*surface->offscreen_, scale)
-                                  : ImGuiBackend::ForWindow(*surface->window_, scale);
+  const double scale = FittingScale(width_px(), height_px(),
+                                    options.ui_scale > 0 ? options.ui_scale : natural_scale());
+  auto backend = options.headless ? ImGuiBackend::ForOffscreen(*offscreen_, scale)
+                                  : ImGuiBackend::ForWindow(*window_, scale);
   if (!backend) {
     return backend.error();
   }
-  surface->backend_ = std::move(*backend);
+  backend_ = std::move(*backend);
   if (options.headless || !options.script_file.empty()) {
     StartFedInput();
   }
-  return surface;
+  return Ok();
+}
+
+Status Surface::Reopen() {
+  AppOptions options = options_;
+  options.width_px = width_px();
+  options.height_px = height_px();
+  backend_.reset();
+  window_.reset();
+  offscreen_.reset();
+  return Start(options);
 }
 
 int Surface::width_px() const { return window_ ? window_->width_px() : offscreen_->width_px(); }

@@ -33,12 +33,19 @@ class Surface {
   ImageRgba ReadPixels() const;
   /// Shows what was drawn.
   void Present();
+  /// The driver lost everything that was uploaded (a reset of the graphics card).
+  bool ContextLost() const { return window_ && window_->ContextLost(); }
+  /// Begins anew with a context, and a window, of the same size. What was made with the old
+  /// context must be gone.
+  Status Reopen();
 
  private:
   Surface() = default;
+  Status Start(const AppOptions& options);
   std::unique_ptr<Window> window_;  // one of the two
   std::unique_ptr<Offscreen> offscreen_;
   std::unique_ptr<ImGuiBackend> backend_;  // goes first
+  AppOptions options_;
 };
 
 }  // namespace palace

@@ -31,7 +31,7 @@ bool SwitchOff(bool& on) {
 }
 
 void CloseTopmost(UiState& state) {
-  if (state.focus.escape_taken() || SwitchOff(state.key_help) ||
+  if (state.focus.escape_taken() || SwitchOff(state.key_help) || SwitchOff(state.leave_asked) ||
       SwitchOff(state.frame.history_open) ||
       (state.frame.workspace == Workspace::kFly && SwitchOff(state.fly.approve.show_guards))) {
     return;

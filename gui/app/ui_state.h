@@ -29,6 +29,7 @@ struct UiState {
   std::uint64_t highlighted_site = 0;
   double scale = 1;
   bool key_help = false;
+  bool leave_asked = false;  ///< the question before leaving a vehicle in the air is open
   bool quit = false;
   std::optional<NextFlight> next;  ///< set with quit: the flight after this one, or its review
   bool report_wanted = false;      ///< to be written and opened
@@ -47,8 +48,9 @@ struct UiRequest {
 /// Applies one action to the state. Pure, so that tests and scripts can drive it.
 ///
 /// CloseTop ends the first of these that is there, and nothing else: a hold under way, the list of
-/// keys, the list of alarms, the list of checks, the pinned probe of the workspace, the focus ring.
-/// (A text field that is typed in has the Escape before any of them.)
+/// keys, the question before leaving, the list of alarms, the list of checks, the pinned probe of
+/// the workspace, the focus ring. (A text field that is typed in has the Escape before any of
+/// them.)
 UiRequest Reduce(UiState& state, const UiAction& action);
 
 }  // namespace palace

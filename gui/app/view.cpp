@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/mission/leaving.h"
 #include "engine/slad/hazards/explanation.h"
 #include "gui/app/key_help.h"
 #include "gui/app/layout.h"
+#include "gui/app/leave_dialog.h"
 #include "gui/app/take_fonts.h"
 #include "gui/app/view3d_input.h"
 #include "gui/panels/fly_panels.h"
@@ -151,8 +153,15 @@ Intents View::Draw(const EngineSnapshot* snapshot, const FlightRecord* record, U
   ids_.scene_3d_preset = PresetOf(state.orbit);
   items_.Clear();
   Intents intents;
-  UiFrame ui{style_,          ids_,           items_,          intents, state.focus,
-             frame.ui_time_s, state.key_help, layout.wave_off, Explain};
+  UiFrame ui{style_,
+             ids_,
+             items_,
+             intents,
+             state.focus,
+             frame.ui_time_s,
+             state.key_help || state.leave_asked,
+             layout.wave_off,
+             Explain};
   ui.highlighted_site = state.highlighted_site;
   ui.window_focused = frame.window_focused;
   if (snapshot != nullptr) {
@@ -167,10 +176,12 @@ Intents View::Draw(const EngineSnapshot* snapshot, const FlightRecord* record, U
     DrawWorkspace(*snapshot, record, layout, frame, state, ui);
     DrawFrameOverlay(*snapshot, layout, state.frame, ui);
   }
+  DrawComplaint(layout, frame.complaint, ui);
   DrawMessage(layout, state, ui);
   if (state.key_help) {
     DrawKeyHelp(layout.body, ui);
   }
+  DrawLeaveQuestion(snapshot, layout, state, ui);
   EndCanvas(ui);
   return intents;
 }
@@ -202,6 +213,34 @@ void View::DrawWaiting(const FrameLayout& layout, UiFrame& ui) {
   FillRect(dl, layout.window, style_.palette.window);
   DrawText(ui, style_.section, style_.palette.text1, layout.window.centre().x,
            layout.window.centre().y, "Waiting for the first pictures", Align::kCentre);
+}
+
+void View::DrawLeaveQuestion(const EngineSnapshot* snapshot, const FrameLayout& layout,
+                             UiState& state, UiFrame& ui) {
+  if (!state.leave_asked || snapshot == nullptr) {
+    return;
+  }
+  const std::string alone = WhatTheVehicleDoesAlone(*snapshot);
+  ui.blocked_by_popup = false;  // the keyboard is for this question alone
+  const LeaveAnswer answer =
+      DrawLeaveDialog(layout.body, alone.empty() ? "Nothing flies any more." : alone, ui);
+  state.leave_asked = answer == LeaveAnswer::kNone;
+  state.quit = state.quit || answer == LeaveAnswer::kLeave;
+}
+
+/// Over the alarm strip: the alarms below it are those of an engine that does not answer.
+void View::DrawComplaint(const FrameLayout& layout, const std::string& complaint, UiFrame& ui) {
+  if (complaint.empty()) {
+    return;
+  }
+  const Style& s = style_;
+  const Rect& strip = layout.alarm_strip;
+  ImDrawList* dl = Canvas();
+  FillRect(dl, strip, s.palette.warning_fill);
+  StrokeRect(dl, strip, s.palette.warning, 2);
+  DrawText(ui, s.medium, s.palette.text1, strip.x + s.Px(12), strip.centre().y,
+           FitWords(s.medium, complaint, strip.w - s.Px(24)));
+  ui.items.Add("engine_complaint", strip, true, complaint);
 }
 
 void View::DrawMessage(const FrameLayout& layout, const UiState& state, UiFrame& ui) {

@@ -23,6 +23,7 @@ struct ViewFrame {
   double ui_time_s = 0;
   double frame_ms = 0;         ///< of the frame before, shown in the status bar
   bool window_focused = true;  ///< the window has the system's keyboard
+  std::string complaint{};     ///< Engine::Complaint
 };
 
 /// Owns GL objects: create, use and destroy with one GL context current.
@@ -50,6 +51,9 @@ class View {
                  const ViewFrame& frame) const;
   void Fit(const UiState& state, const ViewFrame& frame);
   void DrawWaiting(const FrameLayout& layout, UiFrame& ui);
+  void DrawLeaveQuestion(const EngineSnapshot* snapshot, const FrameLayout& layout, UiState& state,
+                         UiFrame& ui);
+  void DrawComplaint(const FrameLayout& layout, const std::string& complaint, UiFrame& ui);
   void DrawMessage(const FrameLayout& layout, const UiState& state, UiFrame& ui);
 
   /// What the 3-D view was drawn for; drawn again only when it changes or the camera moves.

@@ -24,6 +24,10 @@ std::string GlfwReason() {
   return text != nullptr ? text : "unknown reason";
 }
 
+bool IsRobust(GLFWwindow* window) {
+  return glfwGetWindowAttrib(window, GLFW_CONTEXT_ROBUSTNESS) == GLFW_LOSE_CONTEXT_ON_RESET;
+}
+
 bool IsSet(const char* variable) {
   const char* value = std::getenv(variable);
   return value != nullptr && *value != '\0';
@@ -49,6 +53,7 @@ Result<std::unique_ptr<Window>> Window::Open(const std::string& title, int width
   glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
   glfwWindowHint(GLFW_VISIBLE, hidden ? GLFW_FALSE : GLFW_TRUE);
   glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_FALSE);
+  glfwWindowHint(GLFW_CONTEXT_ROBUSTNESS, GLFW_LOSE_CONTEXT_ON_RESET);
   GLFWwindow* handle = glfwCreateWindow(width_px, height_px, title.c_str(), nullptr, nullptr);
   if (handle == nullptr) {
     const std::string reason = GlfwReason();
@@ -66,7 +71,13 @@ Result<std::unique_ptr<Window>> Window::Open(const std::string& title, int width
 }
 
 Window::Window(GLFWwindow* window, std::unique_ptr<Latch> latch)
-    : window_(window), latch_(std::move(latch)) {}
+    : window_(window), latch_(std::move(latch)) {
+  for (const char* name : {"glGetGraphicsResetStatus", "glGetGraphicsResetStatusARB"}) {
+    if (reset_status_ == nullptr && IsRobust(window)) {
+      reset_status_ = reinterpret_cast<unsigned (*)()>(glfwGetProcAddress(name));
+    }
+  }
+}
 
 Window::~Window() {
   glfwDestroyWindow(window_);
@@ -94,6 +105,7 @@ WindowInput Window::PollInput(double wait_s) {
   WindowInput input = std::exchange(latch_->input, {});
   input.focused = glfwGetWindowAttrib(window_, GLFW_FOCUSED) != 0;
   input.close_requested = glfwWindowShouldClose(window_) != 0;
+  glfwSetWindowShouldClose(window_, GLFW_FALSE);  // a wish, told once; the program decides
   return input;
 }
 
@@ -146,6 +158,10 @@ double Window::dots_per_inch() const {
 }
 
 bool Window::minimised() const { return glfwGetWindowAttrib(window_, GLFW_ICONIFIED) != 0; }
+
+bool Window::ContextLost() const {
+  return reset_status_ != nullptr && reset_status_() != GL_NO_ERROR;
+}
 
 void Window::SetSize(int width_px, int height_px) {
   glfwSetWindowSize(window_, width_px, height_px);

@@ -52,6 +52,8 @@ class Window {
   int height_px() const;
   double dots_per_inch() const;  ///< of the monitor; 96 when it does not say
   bool minimised() const;
+  /// The driver lost the context's content; only drivers that can tell do.
+  bool ContextLost() const;
   void SetSize(int width_px, int height_px);
   GLFWwindow* handle() const { return window_; }
 
@@ -61,6 +63,7 @@ class Window {
   static void InstallCallbacks(GLFWwindow* window);
 
   GLFWwindow* window_ = nullptr;
+  unsigned (*reset_status_)() = nullptr;  ///< of GL; null where the driver cannot tell
   std::unique_ptr<Latch> latch_;
 };
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/core/result.h"
+#include "engine/runtime/approval_record.h"
 #include "engine/runtime/flight_summary.h"
 
 namespace palace {
@@ -15,6 +16,7 @@ struct ReportInput {
   std::string title;
   std::vector<std::string> lines;
   std::shared_ptr<const EngineSnapshot> last;
+  std::vector<ApprovalRecord> approvals;
   std::vector<std::string> screenshots;  ///< file names beside the report
   std::string log_name;                  ///< file name beside the report; empty: not recorded
 };
@@ -23,8 +25,9 @@ Status WriteReport(const std::filesystem::path& file, const ReportInput& input);
 
 struct AppOptions;
 struct Session;
-/// report.html in the session's folder.
+/// report.html in the session's folder, and the pictures of the approvals beside it.
 Status WriteFlightReport(const AppOptions& options, const Session& session,
-                         const FlightSummary& summary, const std::vector<std::string>& screenshots);
+                         const FlightSummary& summary, const std::vector<ApprovalRecord>& approvals,
+                         const std::vector<std::string>& screenshots);
 
 }  // namespace palace

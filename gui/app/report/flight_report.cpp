@@ -1,4 +1,4 @@
-#include "gui/app/report.h"
+#include "gui/app/report/flight_report.h"
 
 #include <cstdio>
 #include <utility>
@@ -9,6 +9,7 @@
 #include "engine/report/html_page.h"
 #include "engine/report/svg_plot.h"
 #include "gui/app/options.h"
+#include "gui/app/report/approvals.h"
 #include "gui/app/session.h"
 
 namespace palace {
@@ -70,6 +71,12 @@ void AddSettings(HtmlPage& page, const EngineSnapshot& last) {
       .Table({"Setting", "Value"}, rows);
 }
 
+/// Of the first picture known, from which the report counts.
+Timestamp StartOf(const EngineSnapshot& last) {
+  const auto& history = last.flight->history;
+  return history && !history->empty() ? history->front().time : last.time;
+}
+
 }  // namespace
 
 Status WriteReport(const std::filesystem::path& file, const ReportInput& input) {
@@ -79,13 +86,16 @@ Status WriteReport(const std::filesystem::path& file, const ReportInput& input) 
     page.Link("Log:", input.log_name);
   }
   if (input.last) {
+    AddApprovals(page, input.approvals, StartOf(*input.last), file.parent_path());
     if (input.last->flight->history) {
       AddPlots(page, *input.last->flight->history);
     }
     AddEvents(page, *input.last);
     AddSettings(page, *input.last);
   }
-  page.Heading("Screenshots");
+  if (!input.screenshots.empty()) {
+    page.Heading("Screenshots");
+  }
   for (const std::string& shot : input.screenshots) {
     page.Picture(shot, shot);
   }
@@ -93,7 +103,7 @@ Status WriteReport(const std::filesystem::path& file, const ReportInput& input) 
 }
 
 Status WriteFlightReport(const AppOptions& options, const Session& session,
-                         const FlightSummary& summary,
+                         const FlightSummary& summary, const std::vector<ApprovalRecord>& approvals,
                          const std::vector<std::string>& screenshots) {
   ReportInput report;
   report.title =
@@ -102,6 +112,7 @@ Status WriteFlightReport(const AppOptions& options, const Session& session,
           : "PALACE: " + options.source_path;
   report.lines = SummaryLines(summary);
   report.last = session.engine->Latest();
+  report.approvals = approvals;
   report.screenshots = screenshots;
   report.log_name = options.record ? "flight.lcm" : "";
   if (const Status made = MakeFolder(session.output_dir); !made) {

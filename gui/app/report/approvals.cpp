@@ -1,0 +1,83 @@
+#include "gui/app/report/approvals.h"
+
+#include <string>
+
+#include "engine/core/hash.h"
+#include "engine/core/log.h"
+#include "engine/core/text.h"
+#include "engine/core/units.h"
+#include "engine/survey/map_pictures.h"
+
+namespace palace {
+namespace {
+
+using Rows = std::vector<std::vector<std::string>>;
+
+Rows Figures(const ApprovalRecord& record, Timestamp start) {
+  const Approval& a = record.approval;
+  return {{"Given",
+           WithNumbers("%.1f s after the first picture, by ", SecondsBetween(start, record.given)) +
+               (record.by.empty() ? "the record" : record.by)},
+          {"Site", std::string(1, record.site.letter) +
+                       WithNumbers(": %.2f m north, %.2f m east, %.2f m up", a.p_WS.x(), a.p_WS.y(),
+                                   -a.p_WS.z()) +
+                       (a.provisional ? ", provisional" : ", confirmed")},
+          {"Clear radius", WithNumbers("%.2f m", a.clear_radius_m)},
+          {"Approach",
+           WithNumbers("heading %.0f deg, slope %.0f deg, %.2f m/s down",
+                       Deg(a.approach_heading_rad), Deg(a.glide_slope_rad), a.descent_rate_mps)},
+          {"Valid", WithNumbers("%.0f s, unless the descent began",
+                                SecondsBetween(a.approved_at, a.expires_at))},
+          {"Bound to", "map " + ShortHash(a.map_hash) + ", limits " + ShortHash(a.settings_hash) +
+                           ", calibration " + ShortHash(a.calibration_hash)},
+          {"Vehicle's answer", record.answer},
+          {"Came to", std::string(MissionStateName(record.last_state)) + ": " + record.why}};
+}
+
+Rows Evidence(const ApprovalRecord& record) {
+  Rows rows;
+  for (const LimitRow& row : record.limits) {
+    rows.push_back({row.label, ValueWords(row),
+                    (row.is_least ? "at least " : "at most ") + LimitWords(row),
+                    EnforcedByWord(row.enforced_by)});
+  }
+  return rows;
+}
+
+/// The picture's name when it could be written.
+void AddPicture(HtmlPage& page, const Status& written, const std::string& name,
+                const std::string& caption) {
+  if (written) {
+    page.Picture(name, caption);
+  } else {
+    LogWarning(written.error().message);
+  }
+}
+
+}  // namespace
+
+void AddApprovals(HtmlPage& page, const std::vector<ApprovalRecord>& approvals, Timestamp start,
+                  const std::filesystem::path& folder) {
+  int number = 0;
+  for (const ApprovalRecord& record : approvals) {
+    const std::string name = "approval-" + std::to_string(++number);
+    page.Heading("Approval " + std::to_string(number)).Table({"", ""}, Figures(record, start));
+    page.Table({"Evidence", "Value", "Limit", "Beyond it acts"}, Evidence(record));
+    SiteSelection chosen;
+    chosen.sites = {record.site};
+    if (record.left && record.range && record.map && record.map->verdict) {
+      AddPicture(page,
+                 WriteOverlay(folder / (name + ".png"), *record.left, chosen, *record.range,
+                              *record.map->verdict),
+                 name + ".png", "The left picture when it was approved, with the site");
+    }
+    if (record.map && record.map->elevation && record.map->hazards) {
+      AddPicture(page,
+                 WriteSafeLandingPicture(folder / (name + "-map.png"), *record.map->elevation,
+                                         *record.map->hazards, chosen),
+                 name + "-map.png", "The map that it was bound to, north up");
+    }
+  }
+}
+
+}  // namespace palace

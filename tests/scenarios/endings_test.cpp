@@ -1,0 +1,143 @@
+// However the station ends, the log is whole, the report is there, and the exit code says how.
+#include <signal.h>
+#include <sys/resource.h>
+
+#include "engine/journal/log_index.h"
+#include "tests/scenarios/scenario.h"
+
+namespace palace {
+namespace {
+
+class Endings : public Scenario {
+ protected:
+  std::filesystem::path Flight() const {
+    const auto flights = FlightsIn(folder_ / "rec");
+    return flights.empty() ? std::filesystem::path() : flights[0];
+  }
+  /// Seconds of flight in the log as far as it is written.
+  double Recorded() const {
+    const auto file = LogFile::Open(Flight() / "flight.lcm");
+    const auto index = file ? BuildIndex(*file) : Result<LogIndex>(file.error());
+    return index ? SecondsBetween(index->entries.front().time, index->entries.back().time) : 0;
+  }
+  template <typename Condition>
+  static bool Until(double seconds, Condition&& condition) {
+    for (int i = 0; i < seconds * 20 && !condition(); ++i) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    }
+    return condition();
+  }
+  ProcessResult Verify() const {
+    return RunProcess(Palacectl({"log", "verify", (Flight() / "flight.lcm").string()}), 60);
+  }
+};
+
+TEST_F(Endings, ASignalEndsTheStationInOrder) {
+  WriteFile("hover.script", "wait seconds 500\nquit\n");
+  for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
+    SCOPED_TRACE(strsignal(number));
+    std::filesystem::remove_all(folder_ / "rec");
+    Process station(Palace({"--headless", "--record", "rec", "--script", "hover.script"}));
+    ASSERT_TRUE(Until(60, [&] { return Recorded() > 2; })) << station.Err();
+    station.Signal(number);
+    const ProcessResult ended = station.Wait(30);
+    EXPECT_EQ(ended.signal, 0);
+    EXPECT_EQ(ended.exit_code, 128 + number) << ended.err;
+    EXPECT_TRUE(std::filesystem::exists(Flight() / "report.html"));
+    const ProcessResult verified = Verify();
+    EXPECT_EQ(verified.exit_code, 0) << verified.out;
+    EXPECT_NE(verified.out.find("whole"), std::string::npos);
+  }
+}
+
+TEST_F(Endings, AKillLosesLessThanASecondAndTearsNothing) {
+  WriteFile("hover.script", "wait seconds 500\nquit\n");
+  for (int kill = 0; kill < 3; ++kill) {
+    std::filesystem::remove_all(folder_ / "rec");
+    Process station(Palace({"--headless", "--record", "rec", "--script", "hover.script"}));
+    ASSERT_TRUE(Until(60, [&] { return Recorded() > 1 + kill; })) << station.Err();
+    station.Signal(SIGKILL);
+    EXPECT_EQ(station.Wait(10).signal, SIGKILL);
+    const auto index = VerifyLog(*LogFile::Open(Flight() / "flight.lcm"));
+    ASSERT_TRUE(index.ok());
+    EXPECT_EQ(index->report.checksum_errors, 0u);
+    EXPECT_LE(index->report.skipped_bytes, 700'000u) << "more than the event in hand";
+    EXPECT_TRUE(std::filesystem::directory_iterator(Flight()) !=
+                std::filesystem::directory_iterator());
+    EXPECT_FALSE(std::filesystem::exists(Flight() / "reserve.tmp"));
+  }
+}
+
+TEST_F(Endings, CtrlQInTheAirAsksAndTheWaveOffWorksMeanwhile) {
+  WriteFile("leave.script",
+            "wait state PROPOSED 30\n"
+            "key Ctrl+Q\n"
+            "wait seconds 0.5\n"
+            "expect text leave hovers where it is\n"
+            "key Escape\n"
+            "wait seconds 0.5\n"
+            "click site/best\n"
+            "wait item approve 20\n"
+            "hold approve 1.2\n"
+            "wait state DESCENDING 60\n"
+            "key Ctrl+Q\n"
+            "wait seconds 0.5\n"
+            "expect text leave climbs away by itself after\n"
+            "key Shift+Escape\n"
+            "wait state ABORTING 5\n"
+            "expect item leave/stay\n"
+            "expect text leave climbing away\n"
+            "click leave/leave\n"
+            "wait seconds 60\n");
+  const ProcessResult flown =
+      RunProcess(Palace({"--headless", "--record", "rec", "--script", "leave.script"}), 200);
+  EXPECT_EQ(flown.exit_code, 0) << flown.err;
+  EXPECT_NE(flown.out.find("Final state: ABORTING"), std::string::npos) << flown.out;
+  // The report holds the approval with its pictures, and no heading over nothing.
+  std::ifstream file(Flight() / "report.html");
+  const std::string page{std::istreambuf_iterator<char>(file), {}};
+  for (const char* words : {"Approval 1", "approval-1.png", "approval-1-map.png", "accepted after",
+                            "Evidence", "by a script"}) {
+    EXPECT_NE(page.find(words), std::string::npos) << words;
+  }
+  EXPECT_EQ(page.find("Screenshots"), std::string::npos);
+  EXPECT_TRUE(std::filesystem::exists(Flight() / "approval-1.png"));
+  EXPECT_TRUE(std::filesystem::exists(Flight() / "approval-1-map.png"));
+}
+
+TEST_F(Endings, TooLittleMemoryIsSaidInOneSentence) {
+  for (const std::size_t mebibytes : {400u, 700u}) {
+    SCOPED_TRACE(mebibytes);
+    ProcessOptions station = Palace({"--headless", "--no-record"});
+    station.prepare = [mebibytes] {
+      const rlimit limit{mebibytes << 20, mebibytes << 20};
+      return setrlimit(RLIMIT_AS, &limit) == 0;
+    };
+    const ProcessResult ended = RunProcess(station, 30);
+    EXPECT_EQ(ended.exit_code, 1) << ended.signal;
+    EXPECT_EQ(ended.err.find("palace: out of memory"), 0u) << ended.err;
+    EXPECT_EQ(std::count(ended.err.begin(), ended.err.end(), '\n'), 1) << ended.err;
+  }
+}
+
+TEST_F(Endings, TheVehicleAndExperimentsEndInOrderToo) {
+  Process vehicle(Palacectl({"simulate", "--log", "vehicle.lcm", "--realtime"}));
+  ASSERT_TRUE(Until(30, [&] {
+    std::error_code none;
+    return std::filesystem::file_size(folder_ / "vehicle.lcm", none) > 2'000'000 && !none;
+  })) << vehicle.Err();
+  vehicle.Signal(SIGTERM);
+  EXPECT_EQ(vehicle.Wait(10).exit_code, 0) << vehicle.Err();
+  EXPECT_EQ(RunProcess(Palacectl({"log", "verify", "vehicle.lcm"}), 30).exit_code, 0);
+
+  Process experiment(Palacectl({"evaluate", "probability", "--trials", "100000", "--out", "out"}));
+  ASSERT_TRUE(Until(60, [&] { return experiment.Err().find("trial 2 ") != std::string::npos; }));
+  experiment.Signal(SIGTERM);
+  const ProcessResult ended = experiment.Wait(60);
+  EXPECT_EQ(ended.exit_code, 128 + SIGTERM) << ended.err;
+  EXPECT_NE(ended.err.find("ended after trial"), std::string::npos) << ended.err;
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "out" / "probability.csv"));
+}
+
+}  // namespace
+}  // namespace palace
