@@ -202,7 +202,7 @@ class Exporter {
       Add("status.csv",
           Row(s->time) << s->sequence << MissionStateName(s->state) << s->settings_hash
                        << s->decision_hash
-                       << (s->best_site != 0 ? std::string(1, s->best_site) : std::string())
+                       << s->best_site
                        << s->best_safe_distance_m << s->height_above_site_m << s->distance_to_site_m
                        << s->height_m << s->alarms << static_cast<int>(s->vision_in_force));
     }

@@ -138,7 +138,7 @@ Status Obeying::operator()(const RefuseSite& action) const {
   if (site == nullptr && !armed) {
     return Refuse(turn, now, "Refuse", words::kNotOnMap);
   }
-  const char letter = armed ? m.status.armed->letter : site->letter;
+  const std::string letter = armed ? m.status.armed->letter : site->letter;
   if (!m.status.IsRefused(action.site_id)) {
     m.status.refused_sites.push_back(action.site_id);
   }

@@ -18,7 +18,7 @@ constexpr const char* kCameraProblems[] = {
 };
 
 /// Checks that compare with the moment of selection have nothing to compare without one.
-bool NothingArmed(const GuardInputs& in) { return in.site_letter == '?'; }
+bool NothingArmed(const GuardInputs& in) { return in.site_letter.empty(); }
 
 std::string If(bool fails, const char* why) { return fails ? why : ""; }
 

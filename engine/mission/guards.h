@@ -32,7 +32,7 @@ struct GuardInputs {
   double min_coherence = NAN;
   double shown_for_s = NAN;  ///< evidence of the armed site on screen
   bool hashes_unchanged = false;
-  char site_letter = '?';  ///< '?': nothing is armed
+  std::string site_letter;  ///< empty: nothing is armed
   bool site_holds = false;
   std::string site_reason;
   bool boot_unchanged = false;

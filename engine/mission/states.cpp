@@ -108,7 +108,7 @@ void StepSearching(MissionTurn& turn, Timestamp now) {
   } else if (state == MissionState::kSearch && WinnerStands(m, now)) {
     const LandingSite* site = FindSite(m, m.winner.site_id);
     Enter(turn, MissionState::kProposed,
-          words::SiteWon(site != nullptr ? site->letter : '?', m.winner.maps), now);
+          words::SiteWon(site != nullptr ? site->letter : "?", m.winner.maps), now);
   } else if (state == MissionState::kProposed && !WinnerStands(m, now)) {
     Enter(turn, MissionState::kSearch, WhyNoProposal(m, now), now);
   }

@@ -8,7 +8,7 @@
 namespace palace::words {
 namespace {
 
-std::string Site(char letter) { return std::string("Site ") + letter; }
+std::string Site(const std::string& letter) { return "Site " + letter; }
 
 std::string ConfirmHeight() { return LimitWords({GuardLimits::confirm_height_m, "m", 0}); }
 
@@ -36,21 +36,21 @@ std::string SiteName(const MissionStatus& status) {
   return status.armed ? std::string("site ") + status.armed->letter : std::string("the site");
 }
 
-std::string SiteSelected(char letter) { return Site(letter) + " selected"; }
+std::string SiteSelected(const std::string& letter) { return Site(letter) + " selected"; }
 
 std::string SelectionEnded(std::string_view site, std::string_view why) {
   return "Selection of " + std::string(site) + " ended: " + std::string(why) + ".";
 }
 
-std::string SiteWon(char letter, int maps) {
+std::string SiteWon(const std::string& letter, int maps) {
   return Site(letter) + " won " + std::to_string(maps) + " maps";
 }
 
-std::string SiteLeads(char letter) { return Site(letter) + " leads, not for long enough yet"; }
+std::string SiteLeads(const std::string& letter) { return Site(letter) + " leads, not for long enough yet"; }
 
-std::string SiteRefused(char letter) { return Site(letter) + " refused"; }
+std::string SiteRefused(const std::string& letter) { return Site(letter) + " refused"; }
 
-std::string RefusedAndNext(char letter, const LandingSite* next) {
+std::string RefusedAndNext(const std::string& letter, const LandingSite* next) {
   return SiteRefused(letter) +
          (next != nullptr ? std::string(", next is ") + next->letter : ", no other site");
 }
@@ -76,17 +76,17 @@ std::string Alternative(const MissionMemory& m) {
          WithNumbers(", %.1f m clear.", m.alternative->safe_distance_m);
 }
 
-std::string OffTheMap(char letter) { return Site(letter) + " is not on the newest map"; }
+std::string OffTheMap(const std::string& letter) { return Site(letter) + " is not on the newest map"; }
 
-std::string NotConfirmed(char letter) {
+std::string NotConfirmed(const std::string& letter) {
   return Site(letter) + " is not confirmed by " + ConfirmHeight() + " above it";
 }
 
-std::string ConfirmHigher(char letter) {
+std::string ConfirmHigher(const std::string& letter) {
   return Site(letter) + " is provisional, confirm it above " + ConfirmHeight();
 }
 
-std::string ApproachBlocked(char letter) {
+std::string ApproachBlocked(const std::string& letter) {
   return std::string("Straight approach to site ") + letter + " is blocked";
 }
 

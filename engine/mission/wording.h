@@ -61,24 +61,24 @@ std::string Older(const char* what, double age_s, double limit_s);
 
 /// "site A", or "the site" when none is armed.
 std::string SiteName(const MissionStatus& status);
-std::string SiteSelected(char letter);
+std::string SiteSelected(const std::string& letter);
 /// "Selection of site A ended: arm window is over ..."
 std::string SelectionEnded(std::string_view site, std::string_view why);
-std::string SiteWon(char letter, int maps);
-std::string SiteLeads(char letter);
+std::string SiteWon(const std::string& letter, int maps);
+std::string SiteLeads(const std::string& letter);
 /// "Site A refused".
-std::string SiteRefused(char letter);
+std::string SiteRefused(const std::string& letter);
 /// `next`: the site that is best now, null when there is none.
-std::string RefusedAndNext(char letter, const LandingSite* next);
+std::string RefusedAndNext(const std::string& letter, const LandingSite* next);
 /// A changed verdict over the armed site.
 std::string SiteTold(const MissionMemory& memory, SiteVerdict verdict);
 std::string Alternative(const MissionMemory& memory);
 /// "Site A is not on the newest map".
-std::string OffTheMap(char letter);
-std::string NotConfirmed(char letter);
+std::string OffTheMap(const std::string& letter);
+std::string NotConfirmed(const std::string& letter);
 /// A provisional site so low that it cannot be approved any more.
-std::string ConfirmHigher(char letter);
-std::string ApproachBlocked(char letter);
+std::string ConfirmHigher(const std::string& letter);
+std::string ApproachBlocked(const std::string& letter);
 
 std::string ApprovalGiven(const MissionStatus& status, std::uint64_t counter);
 std::string ApprovedBy(const char* who);

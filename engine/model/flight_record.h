@@ -19,7 +19,7 @@ struct FlightRecordSample {
   MissionState state = MissionState::kNoLive;
   std::uint64_t settings_hash = 0;
   std::uint64_t decision_hash = 0;
-  char best_site = 0;                 ///< letter, 0 none
+  std::string best_site;              ///< letter, empty: none
   double best_safe_distance_m = NAN;  ///< NaN without a site
   double height_above_site_m = NAN;   ///< skid above the site; NaN without a site
   double distance_to_site_m = NAN;    ///< horizontal; NaN without a site

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "engine/model/elevation_map.h"
+#include "engine/model/ground_class.h"
 
 namespace palace {
 
@@ -24,7 +25,7 @@ struct RejectedCells {
   int roughness = 0;  ///< roughness or step
   int unknown = 0;
   int flagged = 0;    ///< thin structure, no texture, motion, elevated surface
-  int footprint = 0;  ///< safe itself, but too near a hazard for the lander
+  int footprint = 0;  ///< no hazard, but too near one, or over a limit under the lander
 };
 
 /// Layers share the elevation map's geometry. NaN where unknown.
@@ -41,15 +42,14 @@ struct HazardMaps {
   GridF safe_probability;
   Grid<std::uint8_t> reasons;  ///< HazardReason bits
   Grid<std::uint8_t> flags;    ///< TerrainFlag bits; empty in thesis mode
-  /// 1 where a lander could be sent: the nearest hazard is at least the clear radius away, and the
-  /// footprint keeps every limit.
-  Grid<std::uint8_t> can_bear;
+  Grid<GroundClass> ground;    ///< what each cell is to a lander
   RejectedCells rejected;
-  int safe_cells = 0;  ///< that can bear the lander
+  GroundCounts counts;
+  int safe_cells = 0;  ///< counts[kLandable]
 };
 
 inline bool CanBearLander(const HazardMaps& hazards, Cell cell) {
-  return hazards.can_bear.at(cell) != 0;
+  return hazards.ground.at(cell) == GroundClass::kLandable;
 }
 
 }  // namespace palace

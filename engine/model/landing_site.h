@@ -28,8 +28,8 @@ struct TouchdownOdds {
 };
 
 struct LandingSite {
-  std::uint64_t id = 0;  ///< stays with the place for the whole mission
-  char letter = 'A';     ///< shown to people; stays with the id
+  std::uint64_t id = 0;      ///< stays with the place for the whole mission
+  std::string letter = "A";  ///< A to Z, then A2 to Z2, ...; stays with the id, never given twice
   Timestamp map_time;
   Cell cell;                                             ///< in the map it was chosen on
   Eigen::Vector3d p_WS = Eigen::Vector3d::Zero();        ///< site centre on the ground, NED metres
@@ -51,7 +51,8 @@ struct LandingSite {
   /// 3 sigma of height below the roughness limit, P at least min_safe_probability, seen in 3 frames
   /// (pictures only), cell no wider than max_rock_size_m, stereo window within 0.735 of it.
   bool confirmed = false;
-  bool corridor_clear = true;  ///< rotor-wide along the glide slope
+  bool newest_confirms = false;  ///< so says the newest map; `confirmed` is steady over maps
+  bool corridor_clear = true;    ///< rotor-wide along the glide slope
   /// Bit k: the same corridor is clear for a vehicle that comes from sector k of eight, from north
   /// clockwise.
   std::uint8_t clear_approaches = 0xFF;

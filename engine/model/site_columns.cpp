@@ -6,7 +6,7 @@
 namespace palace {
 
 void AppendSite(CsvRow& row, int rank, const LandingSite& s) {
-  row << rank << s.id << std::string(1, s.letter) << s.cell.row << s.cell.col;
+  row << rank << s.id << s.letter << s.cell.row << s.cell.col;
   row << s.p_WS.x() << s.p_WS.y() << s.p_WS.z();
   for (const Figure& figure : {s.slope_rad, s.roughness_m, s.step_m, s.height_m}) {
     row << figure.value << figure.three_sigma;

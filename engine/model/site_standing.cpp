@@ -10,6 +10,9 @@ std::string WhyProvisional(const LandingSite& site, const SladSettings& settings
   if (site.confirmed) {
     return {};
   }
+  if (site.newest_confirms) {
+    return "confirmed by the newest map, sure after 5 in a row";
+  }
   if (settings.mode == SladMode::kModern &&
       !(site.safe_probability >= settings.limits.min_safe_probability)) {
     return WithNumbers("safe probability %.3f, sure from %.3f on", site.safe_probability,

@@ -34,7 +34,7 @@ namespace palace {
 
 /// What the limits in force say of the site that the flight chose: the armed one, else the best.
 struct SiteReview {
-  char letter = 0;
+  std::string letter;
   bool kept = false;   ///< a re-check on the newest map holds
   std::string reason;  ///< a sentence with value and limit
 };
@@ -63,7 +63,7 @@ struct HistorySample {
   double coherence = NAN;
   double residual_sigma = NAN;
   double glide_deviation_m = NAN;
-  char best_site = 0;
+  std::string best_site;  ///< letter, empty: none
   double best_safe_distance_m = NAN;
   bool rebuilding = false;  ///< replay: the map holds fewer frames than it held in flight
 };

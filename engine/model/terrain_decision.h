@@ -21,8 +21,8 @@ struct TerrainDecision {
   SladSettings settings;
   std::uint64_t settings_hash = 0;
   std::uint64_t map_hash = 0;
-  /// Verdict per pixel of the left image at quarter size: 0 unknown, 1 safe, 2 over a limit. Null
-  /// for a map that no picture belongs to (a survey).
+  /// GroundClass per pixel of the left image at quarter size. Null for a map that no picture belongs
+  /// to (a survey).
   std::shared_ptr<const ImageU8> verdict;
 };
 

@@ -249,6 +249,8 @@ void Pipeline::Judge(Pass& pass) {
     pass.decision_of_record = terrain.OfRecord();
     return;
   }
+  const auto& armed = mission_.status().armed;
+  slad_.Keep(SeenFromStart(role_) && armed ? armed->id : 0);
   // Letters follow the limits of record; a preview or a re-decision uses a copy of them.
   pass.decision_of_record =
       slad_.Decide(settings_.recorded(), pass.new_map ? Letters::kOfRecord : Letters::kOfCopy);

@@ -83,13 +83,9 @@ std::shared_ptr<const TerrainDecision> Slad::Decide(const Settings& settings, Le
   decision->settings = settings.slad;
   decision->settings_hash = HashOf(settings);
   decision->map_hash = HashOfMaps(*elevation_, *hazards);
-  decision->selection = SelectSites(*elevation_, *hazards, settings.slad, Context(settings));
-  if (letters == Letters::kOfRecord) {
-    registry_.Assign(decision->selection);
-  } else {
-    SiteRegistry copy = registry_;
-    copy.Assign(decision->selection);
-  }
+  SiteRegistry copy = registry_;
+  SiteRegistry& registry = letters == Letters::kOfRecord ? registry_ : copy;
+  decision->selection = registry.Select(*elevation_, *hazards, settings.slad, Context(settings));
   if (input_.view.range) {
     decision->verdict = std::make_shared<ImageU8>(
         VerdictImage(*input_.view.range, *elevation_, *hazards, kVerdictDivisor));

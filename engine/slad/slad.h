@@ -9,8 +9,7 @@
 //                                                           any limit is asked
 //            JudgeTerrain          those, limits         -> hazard, cost and safe-distance maps
 //            HashOfMaps            maps                  -> what an approval binds
-//            SelectSites           maps, vehicle         -> ranked sites
-//            SiteRegistry::Assign  sites                 -> ids and letters
+//            SiteRegistry::Select  maps, vehicle         -> ranked sites, steady over maps
 //            VerdictImage          range map, hazards    -> overlay for the left picture
 //   Recheck  RecheckSite           decision, older site  -> the same place on a newer map
 //
@@ -18,6 +17,7 @@
 // bits).
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -26,7 +26,7 @@
 #include "engine/slad/hazards/hazard_maps.h"
 #include "engine/slad/hazards/terrain_figures.h"
 #include "engine/slad/pictures/scene_flags.h"
-#include "engine/slad/sites/site_selection.h"
+#include "engine/slad/sites/site_registry.h"
 #include "engine/slad/terrain/fusion.h"
 #include "engine/slad/terrain/view_cell.h"
 
@@ -38,8 +38,8 @@ struct SladInput {
   Eigen::Vector3d p_WB = Eigen::Vector3d::Zero();  ///< the vehicle then
 };
 
-/// Whose letters a decision may give out: the flight's own, or a copy of them, so that a preview or
-/// a re-decision never changes them.
+/// Whose memory of sites a decision goes by and adds to: the flight's own, or a copy of it, so that
+/// a preview or a re-decision never changes it.
 enum class Letters { kOfRecord, kOfCopy };
 
 class Slad {
@@ -58,6 +58,8 @@ class Slad {
   /// Null before the first map.
   const std::shared_ptr<const ElevationMap>& elevation() const { return elevation_; }
 
+  /// That site is selected: it stays in the list while it can bear the lander. 0: none.
+  void Keep(std::uint64_t site_id) { registry_.Keep(site_id); }
   /// Judges the newest elevation map, which must be there, under the given settings.
   std::shared_ptr<const TerrainDecision> Decide(const Settings& settings, Letters letters);
   /// The same place on a newer decision; empty when it lies outside that map. `heading_rad`: of the

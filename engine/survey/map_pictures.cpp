@@ -174,20 +174,23 @@ Status Save(const std::filesystem::path& path, const cv::Mat& picture) {
 /// Blue is safe, orange is over a limit, as on the screen (blue, green, red).
 const cv::Vec3d kSafeInk(255, 178, 92), kUnsafeInk(60, 150, 240);
 
-/// Orange tint and hatch where the verdict is over a limit or unknown, blue rim round the safe
-/// area.
+/// Orange tint and hatch on hazards and unknown ground, blue rim round what can be landed on.
 void DrawVerdict(cv::Mat& picture, const ImageU8& verdict) {
-  cv::Mat safe(verdict.height(), verdict.width(), CV_8U);
+  cv::Mat safe(verdict.height(), verdict.width(), CV_8U), hatched = safe.clone();
   for (int y = 0; y < verdict.height(); ++y) {
     for (int x = 0; x < verdict.width(); ++x) {
-      safe.at<std::uint8_t>(y, x) = verdict.at(x, y) == 1 ? 255 : 0;
+      const auto ground = static_cast<GroundClass>(verdict.at(x, y));
+      safe.at<std::uint8_t>(y, x) = ground == GroundClass::kLandable ? 255 : 0;
+      hatched.at<std::uint8_t>(y, x) =
+          ground == GroundClass::kUnknown || ground == GroundClass::kHazard ? 255 : 0;
     }
   }
   cv::resize(safe, safe, picture.size(), 0, 0, cv::INTER_NEAREST);
+  cv::resize(hatched, hatched, picture.size(), 0, 0, cv::INTER_NEAREST);
   constexpr int kHatchPeriod_px = 12, kHatchWidth_px = 2;
   for (int y = 0; y < picture.rows; ++y) {
     for (int x = 0; x < picture.cols; ++x) {
-      if (safe.at<std::uint8_t>(y, x) != 0) {
+      if (hatched.at<std::uint8_t>(y, x) == 0) {
         continue;
       }
       auto& pixel = picture.at<cv::Vec3b>(y, x);
@@ -279,7 +282,7 @@ Status WriteSafeLandingPicture(const std::filesystem::path& path, const Elevatio
     const cv::Scalar ink = i == 0 ? cv::Scalar(255, 255, 255) : cv::Scalar(200, 200, 200);
     cv::circle(large, at, static_cast<int>(site.clear_radius_m / g.cell_m * scale), ink,
                i == 0 ? 2 : 1, cv::LINE_AA);
-    Write(large, std::string(1, site.letter), cv::Point2d(at.x + 6, at.y - 6));
+    Write(large, site.letter, cv::Point2d(at.x + 6, at.y - 6));
     if (i == 0) {
       DrawCross(large, at, 10, ink);
     }
@@ -320,10 +323,10 @@ Status WriteOverlay(const std::filesystem::path& path, const ImageU8& left,
     if (site.pixel.allFinite()) {
       const cv::Point2d at(site.pixel.x(), site.pixel.y());
       DrawCross(picture, at, i == 0 ? 16 : 6, ink);
-      cv::putText(picture, std::string(1, site.letter), at + cv::Point2d(10, -10),
-                  cv::FONT_HERSHEY_SIMPLEX, 0.8, cv::Scalar(0, 0, 0), 5, cv::LINE_AA);
-      cv::putText(picture, std::string(1, site.letter), at + cv::Point2d(10, -10),
-                  cv::FONT_HERSHEY_SIMPLEX, 0.8, ink, 2, cv::LINE_AA);
+      cv::putText(picture, site.letter, at + cv::Point2d(10, -10), cv::FONT_HERSHEY_SIMPLEX, 0.8,
+                  cv::Scalar(0, 0, 0), 5, cv::LINE_AA);
+      cv::putText(picture, site.letter, at + cv::Point2d(10, -10), cv::FONT_HERSHEY_SIMPLEX, 0.8,
+                  ink, 2, cv::LINE_AA);
     }
   }
   return Save(path, picture);

@@ -25,8 +25,6 @@ fs::path PartialName(const fs::path& folder, std::string_view table) {
   return folder / (std::string(table) + ".partial");
 }
 
-std::string LetterOf(char letter) { return letter == 0 ? "" : std::string(1, letter); }
-
 }  // namespace
 
 Result<MapTimes> ParseMapTimes(const std::string& text) {
@@ -98,14 +96,14 @@ void RerunFiles::AddDecision(const EngineSnapshot& snapshot, const FlightRecordS
       << snapshot.flight->mission.why;
   row << (map ? std::to_string(map->map_hash) : "") << snapshot.session->settings_hash
       << snapshot.decision_hash;
-  row << LetterOf(best ? best->letter : 0) << (best ? best->safe_distance_m : NAN);
+  row << (best ? best->letter : "") << (best ? best->safe_distance_m : NAN);
   row << snapshot.flight->mission.height_above_site_m;
   if (recorded) {
     const bool same = recorded->decision_hash == snapshot.decision_hash;
     ++counts_.recorded;
     counts_.equal += same ? 1 : 0;
-    row << MissionStateName(recorded->state) << recorded->decision_hash
-        << LetterOf(recorded->best_site) << int{same};
+    row << MissionStateName(recorded->state) << recorded->decision_hash << recorded->best_site
+        << int{same};
   } else {
     row << ""
         << ""

@@ -44,7 +44,7 @@ Json SiteJson(const LandingSite& site, const SladSettings& slad) {
           {"safe_probability", Number(site.safe_probability)},
           {"confirmed", site.confirmed},
           {"provisional_because", WhyProvisional(site, slad)},
-          {"letter", std::string(1, site.letter)},
+          {"letter", site.letter},
           {"step_m", Number(site.step_m.value)},
           {"safe_distance_m", site.safe_distance_m},
           {"clear_radius_m", site.clear_radius_m},

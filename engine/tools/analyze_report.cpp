@@ -27,7 +27,7 @@ std::vector<std::vector<std::string>> SiteRows(const SiteSelection& selection,
   for (const LandingSite& site : selection.sites) {
     const bool modern = slad.mode == SladMode::kModern;
     rows.push_back(
-        {std::string(1, site.letter),
+        {site.letter,
          WithNumbers("%.2f N, %.2f E, %.2f up", site.p_WS.x(), site.p_WS.y(), site.height_m.value),
          WithNumbers("%.2f m to the nearest hazard, %.2f m needed", site.safe_distance_m,
                      site.clear_radius_m),

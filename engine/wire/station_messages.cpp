@@ -15,7 +15,7 @@ Figure UnpackFigure(const double (&in)[2]) { return {in[0], in[1]}; }
 site_t SiteToWire(const LandingSite& s) {
   site_t m{};
   m.id = WireId(s.id);
-  m.letter = static_cast<std::int8_t>(s.letter);
+  m.letter = s.letter;
   m.map_utime = s.map_time.us;
   m.row = s.cell.row;
   m.col = s.cell.col;
@@ -39,6 +39,7 @@ site_t SiteToWire(const LandingSite& s) {
   m.unknown_cells = s.unknown_cells;
   m.frames_fused = s.frames_fused;
   m.confirmed = s.confirmed;
+  m.newest_confirms = s.newest_confirms;
   m.corridor_clear = s.corridor_clear;
   m.clear_approaches = s.clear_approaches;
   m.age_s = s.age_s;
@@ -50,7 +51,7 @@ site_t SiteToWire(const LandingSite& s) {
 LandingSite SiteFromWire(const site_t& m) {
   LandingSite s;
   s.id = IdFromWire(m.id);
-  s.letter = static_cast<char>(m.letter);
+  s.letter = m.letter;
   s.map_time = {m.map_utime};
   s.cell = {m.row, m.col};
   s.p_WS = Unpack(m.pos);
@@ -71,6 +72,7 @@ LandingSite SiteFromWire(const site_t& m) {
   s.unknown_cells = m.unknown_cells;
   s.frames_fused = m.frames_fused;
   s.confirmed = m.confirmed != 0;
+  s.newest_confirms = m.newest_confirms != 0;
   s.corridor_clear = m.corridor_clear != 0;
   s.clear_approaches = static_cast<std::uint8_t>(m.clear_approaches);
   s.age_s = m.age_s;
@@ -156,7 +158,7 @@ WireMessage EncodeStationStatus(const EngineSnapshot& snapshot, const ChannelNam
   m.best_safe_distance_m = NAN;
   if (snapshot.terrain->applied && !snapshot.terrain->applied->selection.sites.empty()) {
     const LandingSite& best = snapshot.terrain->applied->selection.sites.front();
-    m.best_site = static_cast<std::int8_t>(best.letter);
+    m.best_site = best.letter;
     m.best_safe_distance_m = best.safe_distance_m;
   }
   m.height_above_site_m = snapshot.flight->mission.height_above_site_m;
@@ -181,7 +183,7 @@ Result<FlightRecordSample> DecodeStationStatus(const WireMessage& message) {
         sample.state = static_cast<MissionState>(m.state);
         sample.settings_hash = IdFromWire(m.settings_hash);
         sample.decision_hash = IdFromWire(m.decision_hash);
-        sample.best_site = static_cast<char>(m.best_site);
+        sample.best_site = m.best_site;
         sample.best_safe_distance_m = m.best_safe_distance_m;
         sample.height_above_site_m = m.height_above_site_m;
         sample.distance_to_site_m = m.distance_to_site_m;

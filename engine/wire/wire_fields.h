@@ -102,7 +102,7 @@ void VisitFields(Reader& read, site_t& m) {
   read(m.id, m.letter, m.map_utime, m.row, m.col, m.pos, m.normal, m.pixel, m.slope_rad,
        m.roughness_m, m.step_m, m.height_m, m.safe_distance_m, m.clear_radius_m, m.clearance_m,
        m.cost, m.safe_probability, m.touchdown_worst, m.touchdown_best, m.flags, m.unknown_cells,
-       m.frames_fused, m.confirmed, m.corridor_clear, m.clear_approaches, m.age_s, m.distance_m,
+       m.frames_fused, m.confirmed, m.newest_confirms, m.corridor_clear, m.clear_approaches, m.age_s, m.distance_m,
        m.reason);
 }
 template <typename Reader>

@@ -19,7 +19,7 @@ HoldButtonView ButtonOf(const EngineSnapshot& snap, const ApproveState& state, d
   const MissionStatus& m = snap.flight->mission;
   HoldButtonView view;
   view.subject = m.armed ? m.armed->id : 0;
-  const std::string letter = m.armed ? std::string(1, m.armed->letter) : std::string();
+  const std::string letter = m.armed ? m.armed->letter : std::string();
   view.label = "Hold to approve " + letter;
   if (m.armed && !m.armed->confirmed) {
     view.label += ", provisional";
@@ -56,16 +56,16 @@ HoldButtonView ButtonOf(const EngineSnapshot& snap, const ApproveState& state, d
 }
 
 /// The site that follows when the armed one is refused.
-char NextLetter(const EngineSnapshot& snap) {
+std::string NextLetter(const EngineSnapshot& snap) {
   if (!snap.flight->mission.armed || !snap.terrain->applied) {
-    return 0;
+    return {};
   }
   for (const LandingSite& site : snap.terrain->applied->selection.sites) {
     if (site.id != snap.flight->mission.armed->id && !snap.flight->mission.IsRefused(site.id)) {
       return site.letter;
     }
   }
-  return 0;
+  return {};
 }
 
 /// Distance, height, time and heading, in sentences.
@@ -188,8 +188,8 @@ void DrawButtons(const EngineSnapshot& snap, const Rect& rect, bool narrow, Appr
   const Rect hold{rect.right() - s.Px(12) - width, y, width, height};
   const float gap = narrow ? s.Px(8) : s.Px(12);
   const Rect refuse{rect.x + s.Px(12), y, hold.x - gap - rect.x - s.Px(12), height};
-  const char next = NextLetter(snap);
-  const std::string then = next != 0 ? std::string("then site ") + next : std::string();
+  const std::string next = NextLetter(snap);
+  const std::string then = next.empty() ? next : "then site " + next;
   ButtonLook look;
   look.font = narrow ? s.medium : s.section;
   look.flat = true;

@@ -71,7 +71,7 @@ void DrawLandedPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui) 
   DrawPanelFrame(ui, rect, "Landed");
   const float x = rect.x + s.Px(12);
   const float width = rect.w - s.Px(24);
-  const std::string site = m.armed ? std::string(1, m.armed->letter) : std::string();
+  const std::string site = m.armed ? m.armed->letter : std::string();
   DrawText(ui, s.readout, p.text1, x, rect.y + s.Px(44),
            site.empty() ? "Landed" : "Landed on site " + site);
   const Rect row{x, rect.bottom() - s.Px(52), width, s.Px(40)};

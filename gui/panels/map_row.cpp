@@ -16,7 +16,7 @@ void DrawMapRowPanel(const EngineSnapshot& snap, const std::array<Rect, 5>& rect
   for (std::size_t i = 0; i < rects.size(); ++i) {
     MapView view = MakeMapView(static_cast<MapKind>(i), source, ui.textures);
     view.preview = snap.terrain->preview != nullptr;
-    view.letter = letters ? view.letter : '\0';
+    view.letter = letters ? view.letter : "";
     OfferProbe(view, DrawMapPanel(ui, rects[i], side, view, marks, state.drag), state.probe);
   }
 }

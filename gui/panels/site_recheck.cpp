@@ -71,7 +71,7 @@ void DrawSchedule(const EngineSnapshot& snap, const Rect& column, float y, UiFra
 std::string BesideFlown(const LandingSite& kept, const SiteRecheck& newest,
                         const MissionStatus& mission) {
   const double wider_m = kept.safe_distance_m - newest.safe_distance_m;
-  const std::string flown = mission.armed ? std::string(1, mission.armed->letter) : "the site";
+  const std::string flown = mission.armed ? mission.armed->letter : "the site";
   if (std::isnan(wider_m)) {
     return flown + " is off the map";
   }
@@ -117,7 +117,7 @@ void DrawChecksColumn(const EngineSnapshot& snap, const Rect& column, bool narro
              Fixed(kept.safe_distance_m, 1) + " m clear");
     const std::string beside = BesideFlown(kept, newest, snap.flight->mission);
     ui.items.Add("alternative", {column.x, y - s.Px(8), column.w, s.Px(42)}, true,
-                 std::string(1, kept.letter) + " " + beside);
+                 kept.letter + " " + beside);
     DrawLines(ui, column, y + s.Px(46), beside, p.text2);
   }
 }

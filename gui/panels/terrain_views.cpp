@@ -40,7 +40,7 @@ double SafeArea(const TerrainDecision* decision) {
 }
 
 std::string LetterOf(const LandingSite* site) {
-  return site != nullptr ? std::string(1, site->letter) : std::string("none");
+  return site != nullptr ? site->letter : std::string("none");
 }
 
 double MapAge(const EngineSnapshot& snap, const TerrainDecision* decision) {

@@ -126,7 +126,7 @@ Rect TextPlate(UiFrame& ui, const Rect& within, Corner corner, std::string_view 
   return r;
 }
 
-void LetterPlate(UiFrame& ui, ImVec2 c, char letter, bool selected, float side) {
+void LetterPlate(UiFrame& ui, ImVec2 c, std::string_view letter, bool selected, float side) {
   const Style& s = ui.style;
   const float half = s.Px(side) / 2;
   const Rect r{std::round(c.x - half), std::round(c.y - half), s.Px(side), s.Px(side)};
@@ -134,9 +134,8 @@ void LetterPlate(UiFrame& ui, ImVec2 c, char letter, bool selected, float side) 
   FillRect(dl, r, selected ? picture::kWhite : picture::kLetterDark, s.Fine(2));
   // A rim against whatever lies behind: pictures are dark or light, and so are panels.
   StrokeRect(dl, r, selected ? picture::kLetterDark : picture::kPlateText, s.Fine(1), s.Fine(2));
-  const std::string_view text(&letter, 1);
   DrawText(ui, s.medium, selected ? picture::kLetterDark : picture::kPlateText, r.centre().x,
-           r.centre().y, text, Align::kCentre);
+           r.centre().y, letter, Align::kCentre);
 }
 
 void PreviewChip(UiFrame& ui, ImVec2 pos) {

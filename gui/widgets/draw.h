@@ -58,7 +58,7 @@ Rect PlateAt(const Style& style, ImDrawList* dl, const Rect& within, Corner corn
 /// One line of text on a plate in a corner of a picture, 8 units from its edges.
 Rect TextPlate(UiFrame& ui, const Rect& within, Corner corner, std::string_view text);
 /// Letter of a site on its 20-unit square plate; selected: white with a dark letter.
-void LetterPlate(UiFrame& ui, ImVec2 centre, char letter, bool selected, float side = 20);
+void LetterPlate(UiFrame& ui, ImVec2 centre, std::string_view letter, bool selected, float side = 20);
 /// The white PREVIEW chip, 84 x 24, its top left corner at `pos`.
 void PreviewChip(UiFrame& ui, ImVec2 pos);
 /// White focus ring, 2 px, 2 px outside.

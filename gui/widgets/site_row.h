@@ -1,6 +1,8 @@
 // Site row: cut-out of the picture, letter, clear distance, status and one reason for its rank.
 #pragma once
 
+#include <string_view>
+
 #include "gui/widgets/map/projection.h"
 
 namespace palace {
@@ -10,6 +12,8 @@ struct SiteRowLook {
   bool narrow = false;   ///< 44 units high, reason only
   bool enabled = true;   ///< a click arms
   bool refused = false;  ///< by the operator
+  /// Of a selected site that is no longer among the sites: the engine's word and why.
+  std::string_view verdict{}, why{};
 };
 
 struct SiteRowAnswer {
@@ -18,7 +22,7 @@ struct SiteRowAnswer {
 };
 
 /// "site/A".
-inline std::string SiteItemName(char letter) { return std::string("site/") + letter; }
+inline std::string SiteItemName(const std::string& letter) { return "site/" + letter; }
 
 /// Draws the row (item "site/<letter>"). `view` maps the site into the left camera's texture;
 /// empty: the cut-out is unknown.

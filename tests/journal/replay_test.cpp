@@ -62,7 +62,7 @@ TEST_F(ReplayTest, TellsWhatTheFlightDecided) {
     const EngineSnapshot& snapshot = *flight_.items[i].snapshot;
     EXPECT_EQ(record->samples[i].state, snapshot.flight->mission.state);
     EXPECT_EQ(record->samples[i].decision_hash, snapshot.decision_hash);
-    EXPECT_EQ(record->samples[i].best_site, 'C');
+    EXPECT_EQ(record->samples[i].best_site, "C");
   }
   EXPECT_EQ(record->events.size(), flight_.items.size());
   EXPECT_TRUE(record->has_settings);

@@ -70,7 +70,7 @@ TEST(RecordedMission, TellsTheRecordAndNothingOfAMissionThatWasNotSeen) {
   const MissionStatus status = mission.StatusAt({3'500'000}, watched);
   EXPECT_EQ(status.state, MissionState::kDescending);
   EXPECT_EQ(status.since.us, 2'000'000);
-  EXPECT_EQ(status.armed->letter, 'C');
+  EXPECT_EQ(status.armed->letter, "C");
   EXPECT_EQ(status.height_above_site_m, 3);
   ASSERT_NE(FindLimit(status.armed_limits, LimitId::kSlope), nullptr);
   EXPECT_NEAR(FindLimit(status.armed_limits, LimitId::kSlope)->limit, Rad(6), 1e-12);

@@ -1,59 +1,221 @@
-// Letters and ids that stay with their places.
-#include <algorithm>
+// Sites over the maps of a flight: letters, places and ranks that stand, and what ends them.
+#include "engine/slad/sites/site_registry.h"
+
+#include <map>
+#include <set>
+#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 
-#include "engine/slad/sites/site_selection.h"
+#include "engine/slad/hazards/hazard_maps.h"
+#include "tests/slad/worlds.h"
 
 namespace palace {
 namespace {
 
-TEST(SiteRegistry, LettersStayWithTheirPlaces) {
-  SiteRegistry registry;
-  const auto sites_at = [](std::vector<double> norths) {
+using testing::Flat;
+using testing::Height;
+using testing::MakeMap;
+using testing::WithBox;
+
+constexpr double kPeriod_s = 0.1;
+
+/// A hover above the middle of a map of 15 m by 15 m, a map every 0.1 s.
+class Hover {
+ public:
+  SiteSelection See(const Height& ground, double north_m = 0, double sigma_m = 0) {
+    ElevationMap map = MakeMap(100, 100, 0.15, ground, sigma_m, ++maps_);
+    map.geometry.north_min_m += north_m;
+    map.time = {static_cast<std::int64_t>(maps_ * 100'000)};
+    return Judge(map, registry_);
+  }
+  SiteSelection Judge(const ElevationMap& map, SiteRegistry& registry) {
+    SiteContext context;
+    context.p_WB = {0, 0, -15};
+    context.time = map.time;
+    return registry.Select(map, EvaluateHazards(map, settings), settings, context);
+  }
+  /// What the last of so many maps of the same ground shows.
+  SiteSelection SeeOften(int maps, const Height& ground) {
     SiteSelection selection;
-    for (const double north : norths) {
-      LandingSite site;
-      site.p_WS = {north, 0, 0};
-      selection.sites.push_back(site);
+    for (int i = 0; i < maps; ++i) {
+      selection = See(ground);
     }
     return selection;
-  };
-  SiteSelection first = sites_at({0, 10, 20});
-  registry.Assign(first);
-  EXPECT_EQ(first.sites[0].letter, 'A');
-  EXPECT_EQ(first.sites[2].letter, 'C');
-  SiteSelection second = sites_at({20.6, 30, 0.5});
-  registry.Assign(second);
-  EXPECT_EQ(second.sites[0].letter, 'C');
-  EXPECT_EQ(second.sites[0].id, first.sites[2].id);
-  EXPECT_EQ(second.sites[1].letter, 'D');
-  EXPECT_EQ(second.sites[2].letter, 'A');
-  // Once the alphabet is spent, new places take the letters unused longest, with new ids.
-  std::vector<double> rest;
-  for (int i = 0; i < 22; ++i) {
-    rest.push_back(100 + 10 * i);
   }
-  SiteSelection many = sites_at(rest);
-  registry.Assign(many);
-  SiteSelection next = sites_at({500});
-  registry.Assign(next);
-  EXPECT_EQ(next.sites[0].letter, 'B');
-  EXPECT_GT(next.sites[0].id, many.sites[21].id);
+
+  SladSettings settings;
+  SiteRegistry registry_;
+
+ private:
+  std::uint64_t maps_ = 0;
+};
+
+std::string LettersOf(const SiteSelection& selection) {
+  std::string letters;
+  for (const LandingSite& site : selection.sites) {
+    letters += site.letter;
+  }
+  return letters;
 }
 
-// The best place of a map moves a little with every frame: a letter that followed it would end up
-// on another place than the one the operator was shown.
-TEST(SiteRegistry, ASiteThatCreepsAwayLeavesItsLetterBehind) {
-  SiteRegistry registry;
-  for (const double north : {0.0, 1.0, 2.0, 3.0}) {
-    SiteSelection selection;
-    selection.sites.resize(1);
-    selection.sites[0].p_WS = {north, 0, 0};
-    registry.Assign(selection);
-    EXPECT_EQ(selection.sites[0].letter, north < 1.5 ? 'A' : 'B') << north;
+const LandingSite* Find(const SiteSelection& selection, const std::string& letter) {
+  for (const LandingSite& site : selection.sites) {
+    if (site.letter == letter) {
+      return &site;
+    }
   }
+  return nullptr;
+}
+
+TEST(SiteLetters, GoOnAfterTheAlphabet) {
+  const std::map<std::size_t, std::string> letters = {{0, "A"},   {25, "Z"},  {26, "A2"},
+                                                      {51, "Z2"}, {52, "A3"}, {26 * 9, "A10"}};
+  for (const auto& [n, letter] : letters) {
+    EXPECT_EQ(SiteLetter(n), letter);
+  }
+}
+
+TEST(SiteRegistry, ALetterStaysWithItsPlaceAndIsNeverGivenTwice) {
+  Hover hover;
+  std::map<std::string, Eigen::Vector2d> places;
+  // Out for 300 m in strides as wide as the map, and back: more places than letters.
+  std::set<std::uint64_t> ids;
+  for (int stride = -40; stride <= 40; ++stride) {
+    const double north_m = 7.5 * (40 - std::abs(stride));
+    for (int map = 0; map < 4; ++map) {
+      for (const LandingSite& site : hover.See(Flat(), north_m).sites) {
+        const auto [known, is_new] = places.try_emplace(site.letter, site.p_WS.head<2>());
+        ASSERT_LT((known->second - site.p_WS.head<2>()).norm(), 1e-6) << site.letter;
+        ids.insert(site.id);
+      }
+    }
+  }
+  EXPECT_EQ(ids.size(), places.size());
+  EXPECT_TRUE(places.count("A2"));
+}
+
+// The best point of a map moves a little with every frame.
+TEST(SiteRegistry, OverStillGroundNothingMoves) {
+  Hover hover;
+  const Height ground = WithBox(WithBox(Flat(), 3, 4, 0.8, 0.6), -4, -2, 0.8, 0.6);
+  const SiteSelection first = hover.See(ground, 0, 0.01);
+  for (int i = 0; i < 100; ++i) {
+    const SiteSelection now = hover.See(ground, 0, 0.01);
+    ASSERT_EQ(now.sites.front().letter, "A") << i;
+    for (const LandingSite& site : first.sites) {
+      const LandingSite* same = Find(now, site.letter);
+      ASSERT_TRUE(same == nullptr || same->p_WS.head<2>() == site.p_WS.head<2>()) << site.letter;
+    }
+  }
+}
+
+TEST(SiteRegistry, WhatOneMapCallsUnsafeLeavesWithItAndStandsBehindTheOthersForAWhile) {
+  Hover hover;
+  const SiteSelection before = hover.SeeOften(5, Flat());
+  ASSERT_GE(before.sites.size(), 3u);
+  ASSERT_EQ(before.sites[0].letter, "A");
+  const Eigen::Vector3d p_WS = before.sites[0].p_WS;
+  const Height false_cell = WithBox(Flat(), p_WS.x(), p_WS.y(), 0.2, 0.6);
+  EXPECT_EQ(Find(hover.See(false_cell), "A"), nullptr) << "at once";
+  EXPECT_EQ(Find(hover.SeeOften(2, Flat()), "A"), nullptr);
+  SiteSelection after = hover.See(Flat());
+  ASSERT_NE(Find(after, "A"), nullptr) << "after 3 maps";
+  EXPECT_EQ(Find(after, "A")->id, before.sites[0].id);
+  EXPECT_NE(after.sites[0].letter, "A") << "though it is the widest again";
+  EXPECT_NE(hover.SeeOften(290, Flat()).sites[0].letter, "A");
+  EXPECT_EQ(hover.SeeOften(10, Flat()).sites[0].letter, "A") << "30 s later";
+}
+
+TEST(SiteRegistry, OneFramesBlunderInTheFusedMapChangesNoRank) {
+  Hover hover;
+  const SiteSelection before = hover.SeeOften(30, Flat());
+  const std::string letters = LettersOf(before);
+  // Takes room from the best site, but leaves it its clear radius.
+  const Eigen::Vector3d at = before.sites[0].p_WS + Eigen::Vector3d(0, 2.7, 0);
+  const Height false_cell = WithBox(Flat(), at.x(), at.y(), 0.2, 0.6);
+  for (int map = 0; map < kWorseAfter_maps - 2; ++map) {
+    const SiteSelection now = hover.See(false_cell);
+    ASSERT_EQ(now.sites[0].letter, "A") << map;
+    ASSERT_LT(now.sites[0].safe_distance_m, 3) << "the figure is that of the newest map";
+  }
+  EXPECT_EQ(hover.SeeOften(3, Flat()).sites[0].letter, "A");
+  // What stays counts.
+  EXPECT_NE(hover.SeeOften(kWorseAfter_maps + kBetterAfter_maps, false_cell).sites[0].letter, "A");
+}
+
+TEST(SiteRegistry, ABetterPointReplacesAPlaceUnlessItIsSelected) {
+  for (const bool selected : {false, true}) {
+    Hover hover;
+    // Between two walls the middle is best; then one of them turns out to be none.
+    const Height walls = WithBox(WithBox(Flat(), 9.5, 0, 12, 1), -9.5, 0, 12, 1);
+    const Height one_wall = WithBox(Flat(), -9.5, 0, 12, 1);
+    const LandingSite a = hover.SeeOften(5, walls).sites[0];
+    ASSERT_EQ(a.letter, "A");
+    hover.registry_.Keep(selected ? a.id : 0);
+    EXPECT_NE(Find(hover.SeeOften(kBetterAfter_maps - 1, one_wall), "A"), nullptr);
+    const SiteSelection after = hover.SeeOften(2, one_wall);
+    EXPECT_EQ(Find(after, "A") != nullptr, selected);
+    ASSERT_FALSE(after.sites.empty()) << "the better point is listed at once";
+  }
+}
+
+TEST(SiteRegistry, TheSameMapAgainAndOtherLimitsOnACopyChangeNothing) {
+  Hover hover;
+  const SiteSelection before = hover.SeeOften(5, Flat());
+  ElevationMap map = MakeMap(100, 100, 0.15, Flat());
+  map.time = {1'000'000};
+  SiteRegistry copy = hover.registry_;
+  const SiteSelection once = hover.Judge(map, copy);
+  SiteRegistry again = copy;
+  const SiteSelection twice = hover.Judge(map, again);
+  EXPECT_EQ(LettersOf(once), LettersOf(twice));
+  // Under other limits nothing waits: the preview shows what they would do.
+  SiteRegistry other = hover.registry_;
+  hover.settings.lander.nav_error_m = 2;
+  const SiteSelection preview = hover.Judge(map, other);
+  ASSERT_FALSE(preview.sites.empty());
+  EXPECT_EQ(preview.sites[0].letter, before.sites[0].letter);
+  hover.settings = {};
+  EXPECT_EQ(LettersOf(hover.See(Flat())), LettersOf(before));
+}
+
+/// One letter a map: c confirmed, p provisional.
+TEST(SteadyVerdict, WorseCountsSoonerThanBetter) {
+  const std::pair<const char*, const char*> rows[] = {
+      {"ccccccc", "ccccccc"},           // the first map decides alone
+      {"ppccccc", "ppppppc"},           // five in a row
+      {"ccpccpcc", "cccccccc"},         // single maps change nothing
+      {"cccppccc", "cccccccc"},         // two
+      {"ccpcpcpcccc", "ccccccpppppc"},  // three of five
+  };
+  for (const auto& [maps, said] : rows) {
+    SteadyVerdict verdict;
+    std::string heard;
+    for (const char* map = maps; *map != 0; ++map) {
+      verdict.Add(*map == 'c');
+      heard += verdict.good() ? 'c' : 'p';
+    }
+    EXPECT_EQ(heard, std::string(said).substr(0, heard.size())) << maps;
+  }
+}
+
+TEST(SteadyFigure, FollowsOnlyWhatLasts) {
+  SteadyFigure figure;
+  const auto add = [&](double value, int maps) {
+    for (int i = 0; i < maps; ++i) {
+      figure.Add(value, 0.3);
+    }
+    return figure.value();
+  };
+  EXPECT_EQ(add(4, 1), 4);
+  EXPECT_EQ(add(4.25, 100), 4) << "noise";
+  EXPECT_EQ(add(3, kWorseAfter_maps - 1), 4);
+  EXPECT_EQ(add(4.1, 1), 4);
+  EXPECT_EQ(add(3, kWorseAfter_maps), 3);
+  EXPECT_EQ(add(4, kBetterAfter_maps - 1), 3);
+  EXPECT_EQ(add(4, 1), 4);
 }
 
 }  // namespace

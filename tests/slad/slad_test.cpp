@@ -55,7 +55,7 @@ TEST(Slad, ACopyOfTheLettersGivesNoneAway) {
   const auto decided = slad.Decide(settings, Letters::kOfRecord);
   ASSERT_FALSE(previewed->selection.sites.empty());
   ASSERT_FALSE(decided->selection.sites.empty());
-  EXPECT_EQ(decided->selection.sites[0].letter, 'A');
+  EXPECT_EQ(decided->selection.sites[0].letter, "A");
   EXPECT_EQ(decided->selection.sites[0].id, 1u);
   EXPECT_EQ(previewed->settings, stricter.slad);
   EXPECT_NE(previewed->settings_hash, decided->settings_hash);
@@ -71,7 +71,7 @@ TEST(Slad, ASurveyIsJudgedWithoutPictureAndVehicle) {
   EXPECT_NEAR(site.height_m.value, 3, 1e-6);
   EXPECT_TRUE(std::isnan(site.distance_m));
   EXPECT_EQ(decision->verdict, nullptr);
-  EXPECT_EQ(site.letter, 'A');
+  EXPECT_EQ(site.letter, "A");
 }
 
 /// Sigmas come with the pose: one that is known worse makes slopes less sure, and one whose place

@@ -87,7 +87,7 @@ inline std::shared_ptr<const HazardMaps> Hazards(const ElevationMap& map, double
       h.safe_probability = GridF(kCells, kCells, kUnknownValue);
   h.safe_distance_m = GridF(kCells, kCells, 0);
   h.reasons = Grid<std::uint8_t>(kCells, kCells, kHazardUnknown);
-  h.can_bear = Grid<std::uint8_t>(kCells, kCells);
+  h.ground = Grid<GroundClass>(kCells, kCells);
   for (int r = 1; r + 1 < kCells; ++r) {
     for (int c = 1; c + 1 < kCells; ++c) {
       const double dn = (map.height_m.at(r - 1, c) - map.height_m.at(r + 1, c)) / (2 * kCell_m);
@@ -133,8 +133,14 @@ inline std::shared_ptr<const HazardMaps> Hazards(const ElevationMap& map, double
         }
       }
       h.safe_distance_m.at(r, c) = static_cast<float>(std::sqrt(nearest2) * kCell_m);
-      h.can_bear.at(r, c) = h.safe_distance_m.at(r, c) >= 2.3f;  // the clear radius
-      h.safe_cells += h.can_bear.at(r, c);
+      const bool unknown = h.reasons.at(r, c) == kHazardUnknown;
+      const bool has_room = h.safe_distance_m.at(r, c) >= 2.3f;  // the clear radius
+      h.ground.at(r, c) = unknown                   ? GroundClass::kUnknown
+                          : h.reasons.at(r, c) != 0 ? GroundClass::kHazard
+                          : has_room                ? GroundClass::kLandable
+                                                    : GroundClass::kTooNear;
+      ++h.counts[h.ground.at(r, c)];
+      h.safe_cells += has_room ? 1 : 0;
     }
   }
   return std::make_shared<const HazardMaps>(std::move(h));

@@ -136,7 +136,7 @@ TEST(StationStatus, SurvivesAsARecordSample) {
   ASSERT_TRUE(back.ok());
   EXPECT_EQ(back->state, s.flight->mission.state);
   EXPECT_EQ(back->decision_hash, s.decision_hash);
-  EXPECT_EQ(back->best_site, 'C');
+  EXPECT_EQ(back->best_site, "C");
   EXPECT_EQ(back->best_safe_distance_m, s.terrain->applied->selection.sites[0].safe_distance_m);
   EXPECT_EQ(back->height_above_site_m, s.flight->mission.height_above_site_m);
   EXPECT_TRUE(std::isnan(back->distance_to_site_m));

@@ -133,6 +133,7 @@ inline EngineSnapshot RandomSnapshot(RandomStream& random, const FrameBundle& bu
   site.slope_rad = {random.Uniform(), random.Uniform()};
   site.safe_distance_m = random.Uniform();
   site.confirmed = true;
+  site.newest_confirms = true;
   site.reason = "widest clearance";
   decision->selection.sites = {site, site};
   snapshot.terrain.Edit().applied = decision;

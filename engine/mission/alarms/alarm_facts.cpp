@@ -30,13 +30,13 @@ void FillMission(const MissionMemory& m, const MissionInputs& in, AlarmFacts& f)
   const MissionState state = m.status.state;
   const TerrainDecision* decision = in.terrain.decision;
   f.state = state;
-  f.letter = m.status.armed ? m.status.armed->letter : '?';
+  f.letter = m.status.armed ? m.status.armed->letter : "?";
   f.why = m.status.why;
   f.committed = state == MissionState::kDescending && IsCommitted(m);
   f.wave_off = WaveOffNow(m, now);
   f.alternative = SiteLost(m, now) ? words::Alternative(m) : "";
-  f.site_degraded =
-      IsFlying(state) && m.site.VerdictAt(now) == SiteVerdict::kDegraded && !IsCommitted(m);
+  f.site_degraded = (IsFlying(state) || state == MissionState::kArmed) &&
+                    m.site.VerdictAt(now) == SiteVerdict::kDegraded && !IsCommitted(m);
   f.site_reason = m.site.reason();
   f.no_site =
       decision != nullptr && decision->selection.sites.empty() && state <= MissionState::kProposed;

@@ -43,7 +43,7 @@ struct AlarmFacts {
   double laser_mismatch_m = NAN;
 
   MissionState state = MissionState::kNoLive;
-  char letter = '?';
+  std::string letter = "?";
   std::string why{};       ///< the state was entered
   bool committed = false;  ///< descends below the commit height: maps and pictures may end
   WaveOffReport wave_off;

@@ -22,7 +22,7 @@ CellExplanation ExplainCell(const ElevationMap& map, const HazardMaps& hazards,
 
 /// Fills `reason` of every site, in the units of what decided: metres of clear radius, cost, or the
 /// corridor. The first says what it has over the next, the others what they lack against the best.
-/// "the best" and "the next" become letters in SiteRegistry::Assign.
+/// "the best" and "the next" become letters in SiteRegistry::Select.
 void GiveReasons(SiteRanking ranking, SiteSelection& selection);
 
 }  // namespace palace

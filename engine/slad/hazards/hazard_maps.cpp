@@ -32,13 +32,18 @@ enum CountedAs {
   kAsSafe,
   kCountings
 };
-CountedAs CountingOf(unsigned reasons) {
+constexpr CountedAs CountingOf(unsigned reasons) {
   return (reasons & kHazardSlope) != 0                       ? kAsSlope
          : (reasons & (kHazardRoughness | kHazardStep)) != 0 ? kAsRoughness
          : (reasons & kHazardUnknown) != 0                   ? kAsUnknown
          : (reasons & kHazardFlagged) != 0                   ? kAsFlagged
          : (reasons & kHazardProbability) != 0               ? kAsRoughness
                                                              : kAsSafe;
+}
+
+/// The class of a cell that is counted so, but for kAsSafe: there the room decides.
+constexpr GroundClass ClassOf(CountedAs counted) {
+  return counted == kAsUnknown ? GroundClass::kUnknown : GroundClass::kHazard;
 }
 
 /// Whether the lander's footprint centred on the cell keeps every limit of its mode.
@@ -57,26 +62,43 @@ bool FootprintHolds(const HazardMaps& hazards, const SladSettings& settings, Cel
                                      static_cast<double>(hazards.roughness_sigma_m.at(cell)));
 }
 
-void CountCells(const SladSettings& settings, HazardMaps& hazards) {
-  constexpr unsigned kAllReasons = 63;
+constexpr unsigned kAllReasons = 63;
+/// By reasons.
+constexpr std::array<GroundClass, kAllReasons + 1> kClassOf = [] {
+  std::array<GroundClass, kAllReasons + 1> classes{};
+  for (unsigned reasons = 0; reasons <= kAllReasons; ++reasons) {
+    classes[reasons] = ClassOf(CountingOf(reasons));
+  }
+  return classes;
+}();
+
+/// Gives every cell its class, and counts.
+void ClassifyCells(const SladSettings& settings, HazardMaps& hazards) {
   const float clear_m = static_cast<float>(settings.lander.clear_radius_m());
   struct Counts {
     std::array<int, kAllReasons + 1> with{};  ///< these very reasons
-    int no_room = 0;                          ///< no hazards, but no place for the lander
+    int too_near = 0, footprint = 0;          ///< no hazards, but no place for the lander
   };
-  hazards.can_bear = Grid<std::uint8_t>(hazards.geometry.rows, hazards.geometry.cols);
+  hazards.ground = Grid<GroundClass>(hazards.geometry.rows, hazards.geometry.cols);
   std::vector<Counts> of_row(static_cast<std::size_t>(hazards.geometry.rows));
   cv::parallel_for_(cv::Range(0, hazards.geometry.rows), [&](const cv::Range& rows) {
     for (int r = rows.start; r < rows.end; ++r) {
       Counts& count = of_row[static_cast<std::size_t>(r)];
       const std::uint8_t* reasons = hazards.reasons.row(r);
       const float* distance_m = hazards.safe_distance_m.row(r);
-      std::uint8_t* can_bear = hazards.can_bear.row(r);
+      GroundClass* ground = hazards.ground.row(r);
       for (int c = 0; c < hazards.geometry.cols; ++c) {
         ++count.with[reasons[c] & kAllReasons];
-        if (reasons[c] == kHazardNone) {
-          can_bear[c] = distance_m[c] >= clear_m && FootprintHolds(hazards, settings, {r, c});
-          count.no_room += can_bear[c] != 0 ? 0 : 1;
+        if (reasons[c] != kHazardNone) {
+          ground[c] = kClassOf[reasons[c] & kAllReasons];
+        } else if (!(distance_m[c] >= clear_m)) {
+          ground[c] = GroundClass::kTooNear;
+          ++count.too_near;
+        } else if (!FootprintHolds(hazards, settings, {r, c})) {
+          ground[c] = GroundClass::kFootprint;
+          ++count.footprint;
+        } else {
+          ground[c] = GroundClass::kLandable;
         }
       }
     }
@@ -86,12 +108,16 @@ void CountCells(const SladSettings& settings, HazardMaps& hazards) {
     for (unsigned reasons = 0; reasons <= kAllReasons; ++reasons) {
       count[CountingOf(reasons)] += row.with[reasons];
     }
-    count[kAsSafe] -= row.no_room;
-    count[kAsFootprint] += row.no_room;
+    count[kAsSafe] -= row.too_near + row.footprint;
+    count[kAsFootprint] += row.too_near + row.footprint;
+    hazards.counts[GroundClass::kTooNear] += row.too_near;
+    hazards.counts[GroundClass::kFootprint] += row.footprint;
   }
   hazards.rejected = {count[kAsSlope], count[kAsRoughness], count[kAsUnknown], count[kAsFlagged],
                       count[kAsFootprint]};
-  hazards.safe_cells = count[kAsSafe];
+  hazards.counts[GroundClass::kUnknown] = count[kAsUnknown];
+  hazards.counts[GroundClass::kHazard] = count[kAsSlope] + count[kAsRoughness] + count[kAsFlagged];
+  hazards.counts[GroundClass::kLandable] = hazards.safe_cells = count[kAsSafe];
 }
 
 class Judge {
@@ -287,7 +313,7 @@ HazardMaps JudgeTerrain(const GridGeometry& geometry, const TerrainFigures& figu
   hazards.safe_distance_m =
       SafeDistance(hazards.reasons, geometry.cell_m,
                    settings.mode == SladMode::kThesis ? DistanceTo::kCentre : DistanceTo::kSquare);
-  CountCells(settings, hazards);
+  ClassifyCells(settings, hazards);
   return hazards;
 }
 

@@ -31,6 +31,9 @@ std::string Text(const char* format, double value, const char* against) {
   return text;
 }
 
+/// Of a site that is better on this map than those before it.
+constexpr const char* kNotYet = ", which is noise or too new";
+
 /// What `better` has over `other` in the units of what decided; empty where nothing measurable.
 std::string Difference(SiteRanking ranking, const LandingSite& better, const LandingSite& other,
                        bool of_better, const char* against) {
@@ -39,6 +42,11 @@ std::string Difference(SiteRanking ranking, const LandingSite& better, const Lan
   if (ranking == SiteRanking::kFarthest && wider_m >= 0.05) {
     return Text(of_better ? "%.1f m more clear than %s" : "%.1f m less clear than %s", wider_m,
                 against);
+  }
+  if (ranking == SiteRanking::kFarthest && wider_m <= -0.05) {
+    return Text(of_better ? "stays first, %.1f m less clear than %s" : "%.1f m more clear than %s",
+                -wider_m, against) +
+           kNotYet;
   }
   if (cheaper >= 0.005) {
     return Text(of_better ? "cost %.2f less than %s" : "cost %.2f more than %s", cheaper, against);
@@ -68,7 +76,8 @@ std::string ReasonOfBest(SiteRanking ranking, const SiteSelection& selection) {
   }
   const std::string by = Difference(ranking, best, next, true, "the next");
   const char* criterion = ranking == SiteRanking::kFarthest ? "Widest: " : "Cheapest: ";
-  return by.rfind("as good", 0) == 0 ? Capital(by) : criterion + by;
+  const bool leads = by.rfind("as good", 0) != 0 && by.rfind("stays", 0) != 0;
+  return leads ? criterion + by : Capital(by);
 }
 
 }  // namespace

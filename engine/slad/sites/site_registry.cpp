@@ -1,12 +1,21 @@
-#include <algorithm>
-#include <string>
+#include "engine/slad/sites/site_registry.h"
 
-#include "engine/slad/sites/site_selection.h"
+#include <algorithm>
+#include <utility>
+
+#include <opencv2/core.hpp>
+
+#include "engine/slad/hazards/explanation.h"
+#include "engine/slad/sites/none_reason.h"
+#include "engine/slad/sites/site_evaluation.h"
+#include "engine/slad/terrain/sense_check.h"
 
 namespace palace {
 namespace {
 
-constexpr double kSamePlace_m = 1.5;
+constexpr int kListedAfter_maps = 3;
+constexpr double kShaken_s = 30;
+constexpr std::size_t kTriesPerSite = 3;  // places looked at for each site kept
 constexpr std::size_t kLetters = 26;
 
 void Replace(std::string& text, const std::string& words, const std::string& with) {
@@ -15,64 +24,309 @@ void Replace(std::string& text, const std::string& words, const std::string& wit
   }
 }
 
-}  // namespace
-
-void SiteRegistry::Reset() {
-  places_.clear();
-  turn_ = 0;
-}
-
-SiteRegistry::Place& SiteRegistry::NewPlace() {
-  if (places_.size() < kLetters) {
-    Place fresh;
-    fresh.letter = static_cast<char>('A' + places_.size());
-    places_.push_back(fresh);
-    return places_.back();
-  }
-  return *std::min_element(places_.begin(), places_.end(), [](const Place& a, const Place& b) {
-    return a.last_used < b.last_used;
-  });
-}
-
-void SiteRegistry::Assign(SiteSelection& selection) {
-  ++turn_;
-  // Known places first, so that a new site cannot take the letter of one listed after it.
-  for (LandingSite& site : selection.sites) {
-    site.id = 0;
-    Place* nearest = nullptr;
-    double nearest_m = kSamePlace_m;
-    for (Place& place : places_) {
-      const double distance_m = (place.p_WS - site.p_WS).head<2>().norm();
-      if (place.last_used != turn_ && distance_m <= nearest_m) {
-        nearest = &place;
-        nearest_m = distance_m;
-      }
-    }
-    if (nearest != nullptr) {
-      nearest->last_used = turn_;  // the place stays where it was named: letters must not creep
-      site.id = nearest->id;
-      site.letter = nearest->letter;
-    }
-  }
-  for (LandingSite& site : selection.sites) {
-    if (site.id == 0) {
-      PALACE_CHECK(selection.sites.size() <= kLetters, selection.sites.size());
-      Place& place = NewPlace();
-      place = {next_id_++, place.letter, site.p_WS, turn_};
-      site.id = place.id;
-      site.letter = place.letter;
-    }
-  }
+/// Reasons speak of the best and the next: their letters instead.
+void NameInReasons(SiteSelection& selection) {
   if (selection.sites.empty()) {
     return;
   }
-  // Reasons were written before letters were known.
-  const std::string best(1, selection.sites.front().letter);
-  const std::string next(1, selection.sites.size() > 1 ? selection.sites[1].letter : '?');
+  const std::string best = selection.sites.front().letter;
+  const std::string next = selection.sites.size() > 1 ? selection.sites[1].letter : "?";
   for (LandingSite& site : selection.sites) {
     Replace(site.reason, "the best", best);
     Replace(site.reason, "the next", next);
   }
+}
+
+}  // namespace
+
+/// One map, and how it stands to the one before.
+struct SiteRegistry::Map {
+  const ElevationMap& elevation;
+  const HazardMaps& hazards;
+  const SladSettings& settings;
+  const SiteContext& context;
+  bool first = false;  ///< of a flight, or under other limits: nothing is steady yet
+  bool again = false;  ///< the same map: counts no second time
+
+  std::optional<Cell> CellOf(const Eigen::Vector2d& p_W) const {
+    return elevation.geometry.CellFromPoint(p_W.x(), p_W.y());
+  }
+  std::size_t most_sites() const { return static_cast<std::size_t>(settings.choice.sites_kept); }
+};
+
+std::string SiteLetter(std::size_t n) {
+  const std::size_t round = n / kLetters + 1;
+  return static_cast<char>('A' + n % kLetters) + (round > 1 ? std::to_string(round) : "");
+}
+
+void SiteRegistry::Reset() {
+  const std::uint64_t next_id = next_id_;
+  *this = {};
+  next_id_ = next_id;
+}
+
+SiteSelection SiteRegistry::Select(const ElevationMap& map, const HazardMaps& hazards,
+                                   const SladSettings& settings, const SiteContext& context) {
+  PALACE_CHECK(map.geometry == hazards.geometry);
+  SiteSelection selection;
+  selection.none_reason = ObjectionTo(map, settings);
+  if (!selection.none_reason.empty()) {
+    Lose({map, hazards, settings, context}, {});
+    return selection;
+  }
+  const bool first = !time_ || settings != settings_;
+  const Map now{map, hazards, settings, context, first, !first && *time_ == map.time};
+  StartMap(now);
+  SiteCandidates candidates(map, hazards, settings, context);
+  std::vector<Found> found = Revisit(now, candidates);
+  Explore(now, candidates, found);
+  Lose(now, found);
+  const bool any = !found.empty();
+  for (Found& one : List(Ranked(now, std::move(found), candidates.noise()))) {
+    selection.sites.push_back(std::move(one.site));
+  }
+  std::erase_if(places_, [](const Place& place) { return place.id == 0 && place.run == 0; });
+  GiveReasons(settings.choice.ranking, selection);
+  NameInReasons(selection);
+  if (selection.sites.empty()) {
+    selection.none_reason =
+        any ? "the places found are not on 3 maps in a row yet" : NoneReason(hazards, settings);
+  }
+  return selection;
+}
+
+void SiteRegistry::StartMap(const Map& now) {
+  if (now.first) {
+    for (Place& place : places_) {
+      place = {.id = place.id, .letter = place.letter, .p_W = place.p_W};
+    }
+  }
+  if (!now.again) {
+    replaced_.clear();
+  }
+  time_ = now.elevation.time;
+  settings_ = now.settings;
+}
+
+std::vector<SiteRegistry::Found> SiteRegistry::Revisit(const Map& now, SiteCandidates& candidates) {
+  std::vector<Chosen> listed;
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    const auto cell = now.CellOf(places_[i].p_W);
+    const auto score = cell ? candidates.ScoreAt(*cell) : std::nullopt;
+    if (score && (places_[i].rank >= 0 || IsKept(places_[i]))) {
+      listed.push_back({i, {*cell, *score}});
+    }
+  }
+  // The better ones first: what is better near one of them does not speak against another.
+  std::stable_sort(listed.begin(), listed.end(), [&](const Chosen& a, const Chosen& b) {
+    return std::pair(IsKept(places_[a.place]), a.at.score) >
+           std::pair(IsKept(places_[b.place]), b.at.score);
+  });
+  std::vector<Chosen> chosen;
+  for (const Chosen& one : listed) {
+    Place& place = places_[one.place];
+    if (!candidates.ScoreAt(one.at.cell)) {
+      continue;  // too near another: the spacing was changed
+    }
+    const bool beaten = candidates.BestNear(one.at.cell) > one.at.score + candidates.noise();
+    if (!now.again && place.beaten.Add(beaten, kBetterAfter_maps) && !IsKept(place)) {
+      replaced_.push_back(place.p_W);
+      place.beaten = {};
+      place.rank = -1;
+      continue;
+    }
+    candidates.Take(one.at.cell);
+    chosen.push_back(one);
+  }
+  std::vector<Found> found;
+  Follow(now, chosen, candidates.noise(), found);
+  return found;
+}
+
+void SiteRegistry::Explore(const Map& now, SiteCandidates& candidates, std::vector<Found>& found) {
+  for (const Place& place : places_) {
+    if (const auto cell = now.CellOf(place.p_W)) {
+      candidates.Favour(*cell);
+    }
+  }
+  std::size_t tried = found.size();
+  const std::size_t most = kTriesPerSite * now.most_sites();
+  while (tried < most) {
+    // How a place turns out does not change which come next: as many as are still wanted are looked
+    // at side by side.
+    const std::size_t wanted = Wanted(now, found, candidates);
+    std::vector<Chosen> chosen;
+    while (chosen.size() < std::min(wanted, most - tried)) {
+      const auto best = candidates.TakeBest();
+      if (!best) {
+        break;
+      }
+      chosen.push_back({PlaceAt(now, best->cell), *best});
+    }
+    if (chosen.empty()) {
+      return;
+    }
+    tried += chosen.size();
+    Follow(now, chosen, candidates.noise(), found);
+  }
+}
+
+/// As many as are missing whose straight approach is clear; beyond that one that is better than the
+/// worst of them.
+std::size_t SiteRegistry::Wanted(const Map& now, const std::vector<Found>& found,
+                                 const SiteCandidates& candidates) const {
+  std::size_t clear = 0;
+  double worst = HUGE_VAL;
+  for (const Found& one : found) {
+    const Place& place = places_[one.place];
+    if (place.straight_clear.good()) {
+      ++clear;
+      worst = std::min(worst, place.score.value());
+    }
+  }
+  if (clear < now.most_sites()) {
+    return now.most_sites() - clear;
+  }
+  const auto best = candidates.BestScore();
+  return best && *best > worst + candidates.noise() ? 1 : 0;
+}
+
+std::size_t SiteRegistry::PlaceAt(const Map& now, Cell cell) {
+  const auto known = std::find_if(places_.begin(), places_.end(), [&](const Place& place) {
+    return place.rank < 0 && now.CellOf(place.p_W) == cell;
+  });
+  if (known == places_.end()) {
+    const GridGeometry& g = now.elevation.geometry;
+    Place fresh{.p_W = {g.NorthOfRow(cell.row), g.EastOfCol(cell.col)}};
+    for (const Place& place : places_) {
+      const bool near = (place.p_W - fresh.p_W).norm() < now.settings.choice.spacing_m;
+      if (near && place.shaken_at > fresh.shaken_at) {
+        fresh.shaken_at = place.shaken_at;
+        fresh.losses = place.losses;
+      }
+    }
+    places_.push_back(std::move(fresh));
+    return places_.size() - 1;
+  }
+  return static_cast<std::size_t>(known - places_.begin());
+}
+
+void SiteRegistry::Follow(const Map& now, const std::vector<Chosen>& chosen, double noise,
+                          std::vector<Found>& found) {
+  std::vector<LandingSite> sites(chosen.size());
+  cv::parallel_for_(cv::Range(0, static_cast<int>(chosen.size())), [&](const cv::Range& range) {
+    for (int i = range.start; i < range.end; ++i) {
+      const auto k = static_cast<std::size_t>(i);
+      sites[k] =
+          EvaluateSite(now.elevation, now.hazards, now.settings, now.context, chosen[k].at.cell);
+    }
+  });
+  for (std::size_t k = 0; k < chosen.size(); ++k) {
+    LandingSite& site = sites[k];
+    if (!IsSound(site)) {
+      continue;
+    }
+    Place& place = places_[chosen[k].place];
+    if (!now.again || place.run == 0) {
+      ++place.run;
+      place.score.Add(chosen[k].at.score, noise);
+      place.confirmed.Add(site.confirmed);
+      place.straight_clear.Add(site.corridor_clear);
+      place.some_clear.Add(site.clear_approaches != 0);
+    }
+    site.p_WS.head<2>() = place.p_W;
+    site.newest_confirms = site.confirmed;
+    site.confirmed = place.confirmed.good();
+    found.push_back({chosen[k].place, std::move(site)});
+  }
+}
+
+bool SiteRegistry::IsRipe(const Map& now, const Place& place) const {
+  const double spacing_m = now.settings.choice.spacing_m;
+  return now.first || place.rank >= 0 || place.run >= kListedAfter_maps ||
+         std::any_of(replaced_.begin(), replaced_.end(), [&](const Eigen::Vector2d& p_W) {
+           return (p_W - place.p_W).norm() < spacing_m;
+         });
+}
+
+std::vector<SiteRegistry::Found> SiteRegistry::Ranked(const Map& now, std::vector<Found> found,
+                                                      double noise) const {
+  const auto place_of = [&](const Found& one) -> const Place& { return places_[one.place]; };
+  std::erase_if(found, [&](const Found& one) { return !IsRipe(now, place_of(one)); });
+  std::stable_sort(found.begin(), found.end(), [&](const Found& a, const Found& b) {
+    const Place &p = place_of(a), &q = place_of(b);
+    if (p.rank < 0 && q.rank < 0) {
+      return p.score.value() > q.score.value();
+    }
+    return p.rank >= 0 && (q.rank < 0 || p.rank < q.rank);
+  });
+  const auto passes = [&](const Place& p, const Place& q) {
+    const auto approach = [](const Place& place) {
+      return place.straight_clear.good() ? 0 : place.some_clear.good() ? 1 : 2;
+    };
+    const auto order = [&](const Place& place) {
+      const bool shaken = place.shaken_at && SecondsBetween(*place.shaken_at, now.elevation.time) <
+                                                 kShaken_s * place.losses;
+      return std::pair(approach(place), shaken);
+    };
+    return order(p) != order(q) ? order(p) < order(q) : p.score.value() > q.score.value() + noise;
+  };
+  for (bool moved = true; moved;) {
+    moved = false;
+    for (std::size_t i = 1; i < found.size(); ++i) {
+      if (passes(place_of(found[i]), place_of(found[i - 1]))) {
+        std::swap(found[i - 1], found[i]);
+        moved = true;
+      }
+    }
+  }
+  if (found.size() > now.most_sites()) {
+    // What is selected is always listed.
+    const auto last = found.begin() + static_cast<std::ptrdiff_t>(now.most_sites()) - 1;
+    const auto kept = std::find_if(last + 1, found.end(),
+                                   [&](const Found& one) { return IsKept(place_of(one)); });
+    if (kept != found.end()) {
+      std::swap(*last, *kept);
+    }
+    found.erase(last + 1, found.end());
+  }
+  return found;
+}
+
+/// Places that the map does not show as sites have to begin anew.
+void SiteRegistry::Lose(const Map& now, const std::vector<Found>& found) {
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    const bool is_found =
+        std::any_of(found.begin(), found.end(), [&](const Found& one) { return one.place == i; });
+    if (!is_found) {
+      Place& place = places_[i];
+      const bool unsafe = place.rank >= 0 && now.CellOf(place.p_W);
+      place = {.id = place.id,
+               .letter = place.letter,
+               .p_W = place.p_W,
+               .losses = place.losses + (unsafe ? 1 : 0),
+               .shaken_at = unsafe ? now.elevation.time : place.shaken_at};
+    }
+  }
+}
+
+/// In that order, each with id and letter.
+std::vector<SiteRegistry::Found> SiteRegistry::List(std::vector<Found> ranked) {
+  for (Place& place : places_) {
+    place.rank = -1;
+  }
+  int rank = 0;
+  for (Found& one : ranked) {
+    Place& place = places_[one.place];
+    place.rank = rank++;
+    if (place.id == 0) {
+      place.id = next_id_++;
+      place.letter = SiteLetter(named_++);
+    }
+    one.site.id = place.id;
+    one.site.letter = place.letter;
+  }
+  return ranked;
 }
 
 }  // namespace palace

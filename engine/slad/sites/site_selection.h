@@ -1,7 +1,6 @@
 // Site selection: the best places to land on one map, spaced apart, each with its figures.
 #pragma once
 
-#include <cstdint>
 #include <limits>
 #include <optional>
 #include <vector>
@@ -32,8 +31,9 @@ struct SiteContext {
 /// cost. In modern mode kFarthest takes the middle of the touching cells within 3/4 of a cell of
 /// the best distance. Sites whose straight approach is blocked come after those where it is clear,
 /// and last those that no sector of approach is clear to. Sites lie at least site_spacing_m apart.
-/// Each has the reason for its rank (GiveReasons, explanation.h). Letters and ids are for
-/// SiteRegistry to give. Pixels come from forward projection (erratum E17); NaN behind the camera.
+/// Each has the reason for its rank (GiveReasons, explanation.h) and, in this order, a letter and
+/// an id. Pixels come from forward projection (erratum E17); NaN behind the camera. Of one map;
+/// what the maps of a flight together say is SiteRegistry's.
 SiteSelection SelectSites(const ElevationMap& map, const HazardMaps& hazards,
                           const SladSettings& settings, const SiteContext& context);
 
@@ -42,27 +42,5 @@ SiteSelection SelectSites(const ElevationMap& map, const HazardMaps& hazards,
 std::optional<LandingSite> RecheckSite(const ElevationMap& map, const HazardMaps& hazards,
                                        const SladSettings& settings, const LandingSite& site,
                                        const SiteContext& context);
-
-/// Gives each site an id and a letter that stay with the place while it is proposed. A place is the
-/// same within 1.5 m of where it was first proposed. Of the letters A-Z the one unused longest is
-/// given next; ids are never reused.
-class SiteRegistry {
- public:
-  void Assign(SiteSelection& selection);
-  void Reset();
-
- private:
-  struct Place {
-    std::uint64_t id = 0;
-    char letter = 0;
-    Eigen::Vector3d p_WS = Eigen::Vector3d::Zero();
-    std::uint64_t last_used = 0;
-  };
-  Place& NewPlace();
-
-  std::vector<Place> places_;  ///< at most one a letter
-  std::uint64_t next_id_ = 1;
-  std::uint64_t turn_ = 0;
-};
 
 }  // namespace palace

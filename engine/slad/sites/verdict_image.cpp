@@ -91,10 +91,7 @@ ImageU8 VerdictImage(const RangeMap& range, const ElevationMap& map, const Hazar
       if (!cell) {
         continue;
       }
-      const unsigned reasons = hazards.reasons.at(*cell);
-      const bool over = (reasons & ~unsigned{kHazardUnknown}) != 0;
-      const bool unknown = (reasons & kHazardUnknown) != 0;
-      verdict.at(u, v) = unknown ? 0 : over ? 2 : 1;
+      verdict.at(u, v) = static_cast<std::uint8_t>(hazards.ground.at(*cell));
     }
   }
   return verdict;

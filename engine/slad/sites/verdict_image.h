@@ -8,7 +8,7 @@
 
 namespace palace {
 
-/// 0 unknown, 1 safe, 2 over a limit. Size of the left picture divided by `divisor`, rounded down.
+/// GroundClass of the map's cell. Size of the left picture divided by `divisor`, rounded down.
 /// Each pixel's point (its depth, or that of the nearest measured pixel within two blocks) is
 /// looked up in the maps. Without a depth (the right camera does not see there, texture lacks) it
 /// is the point where the pixel's ray first meets the ground of `map`, which older frames may have

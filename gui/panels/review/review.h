@@ -23,8 +23,8 @@ namespace palace {
 struct ReviewDifference {
   double at_s = 0;
   double to_s = 0;
-  char recorded = 0;  ///< letter, 0 none
-  char now = 0;
+  std::string recorded;  ///< letter, empty: none
+  std::string now;
 };
 
 /// The plots of Review: height, and clear radius of the best site; recorded and re-decided.

@@ -13,7 +13,7 @@ namespace {
 /// Two best sites of one moment whose clear radii agree so closely are one place.
 constexpr double kSameRadius_m = 0.05;
 
-std::string Letter(char letter) { return letter == 0 ? "none" : std::string(1, letter); }
+std::string Letter(const std::string& letter) { return letter.empty() ? "none" : letter; }
 
 /// Extends the last segment while the value stays, else starts the next.
 void Append(std::vector<LaneSegment>& segments, double t, const std::string& text, int shade,
@@ -52,7 +52,7 @@ Lane RecordedLane(const EngineSnapshot& snap, const FlightRecord* record) {
   if (record != nullptr) {
     for (const FlightRecordSample& sample : record->samples) {
       Append(lane.segments, FlightSeconds(snap, record, sample.time), Letter(sample.best_site), 1,
-             sample.best_site == 0);
+             sample.best_site.empty());
     }
   }
   return lane;
@@ -63,7 +63,7 @@ Lane RedecidedLane(const EngineSnapshot& snap, const FlightRecord* record) {
   if (snap.flight->history) {
     for (const HistorySample& sample : *snap.flight->history) {
       Append(lane.segments, FlightSeconds(snap, record, sample.time), Letter(sample.best_site), 1,
-             sample.best_site == 0);
+             sample.best_site.empty());
     }
   }
   return lane;
@@ -248,9 +248,9 @@ std::vector<ReviewDifference> FindDifferences(const EngineSnapshot& snap,
     while (i + 1 < record->samples.size() && record->samples[i + 1].time <= now.time) {
       ++i;
     }
-    const char recorded = record->samples[i].best_site;
+    const std::string& recorded = record->samples[i].best_site;
     const double t = FlightSeconds(snap, record, now.time);
-    const bool both = recorded != 0 && now.best_site != 0;
+    const bool both = !recorded.empty() && !now.best_site.empty();
     // Letters follow sites over time, so a re-decided flight may hand them out in another order.
     const bool same_place = both && std::abs(record->samples[i].best_safe_distance_m -
                                              now.best_safe_distance_m) < kSameRadius_m;

@@ -100,7 +100,7 @@ Verdict JudgeSite(const EngineSnapshot& snap) {
     v.now = now != nullptr ? "Would propose " + LetterOf(now) : "No site";
     return v;
   }
-  const std::string letter(1, site->letter);
+  const std::string letter = site->letter;
   v.recorded =
       (m.approval || m.state >= MissionState::kApproved ? "Approved "
                                                         : (m.armed ? "Armed " : "Proposed ")) +
@@ -249,8 +249,8 @@ void DrawDifferencesPanel(const EngineSnapshot& snap, const FlightRecord* record
     const ReviewDifference& d = found[i];
     const Rect row{content.x, y, content.w, s.Px(30)};
     y = row.bottom();
-    const auto name = [](char letter) {
-      return letter == 0 ? std::string("no site") : "site " + std::string(1, letter);
+    const auto name = [](const std::string& letter) {
+      return letter.empty() ? "no site" : "site " + letter;
     };
     const std::string words = "Best " + name(d.recorded) + ", now " + name(d.now);
     const Interaction in =

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "engine/model/ground_class.h"
 #include "gui/widgets/map/cell_hatch.h"
 #include "gui/widgets/map/contour.h"
 #include "gui/widgets/map/flag_marks.h"
@@ -23,7 +24,10 @@ void DrawVerdict(UiFrame& ui, const Rect& image, std::shared_ptr<const ImageU8> 
   DrawCellHatch(
       dl, image,
       {v.width(), v.height(), picture::kUnsafeTint, picture::kUnsafeLine, s.Fine(1.3f), s.Px(9)},
-      [&](int row, int col) { return v.at(col, row) != 1; });
+      [&](int row, int col) {
+        const auto ground = static_cast<GroundClass>(v.at(col, row));
+        return ground == GroundClass::kUnknown || ground == GroundClass::kHazard;
+      });
   const float kx = image.w / static_cast<float>(v.width());
   const float ky = image.h / static_cast<float>(v.height());
   std::vector<ImVec2> line;
@@ -104,7 +108,7 @@ void DrawSites(UiFrame& ui, const PictureView& view, const SiteOverlay& overlay)
         around.w = right - around.x;
         around.h = bottom - around.y;
       }
-      ui.items.Add("ring", around, true, std::string(1, overlay.selected->letter));
+      ui.items.Add("ring", around, true, overlay.selected->letter);
       const ImVec2 plate{at->x + radius * 0.72f + s.Px(10), at->y - radius * 0.72f - s.Px(10)};
       if (view.rect.Contains(plate)) {
         LetterPlate(ui, plate, overlay.selected->letter, true);

@@ -16,7 +16,7 @@ struct OverlayCache {
   std::vector<std::vector<ImVec2>> contours;
 };
 
-/// Orange tint and hatch where the verdict is over a limit or unknown, safe contour 1.5 px.
+/// Orange tint and hatch on hazards and unknown ground, contour 1.5 px round what can be landed on.
 void DrawVerdict(UiFrame& ui, const Rect& image, std::shared_ptr<const ImageU8> verdict,
                  OverlayCache& cache);
 

@@ -188,10 +188,9 @@ void DrawColourBar(UiFrame& ui, const Rect& bar, const MapView& view, LimitDrag*
 MapAnswer DrawMapPanel(UiFrame& ui, const Rect& panel, float side, const MapView& view,
                        const MapMarks& marks, LimitDrag& drag) {
   const Style& s = ui.style;
-  const std::string letter = view.letter != 0 ? std::string(1, view.letter) : std::string();
   const Rect content = DrawPanelFrame(
       ui, panel, view.title,
-      {{letter, s.palette.text3, false, false}, {view.value, s.palette.text1, true, false}});
+      {{view.letter, s.palette.text3, false, false}, {view.value, s.palette.text1, true, false}});
   const Rect square{std::round(content.x + (content.w - side) / 2), content.y, side, side};
   const MapAnswer answer = DrawMapPicture(ui, square, view, marks);
   const Rect bar{panel.x + s.Px(12), square.bottom() + s.Px(12), panel.w - s.Px(24), s.Px(8)};

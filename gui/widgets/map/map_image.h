@@ -24,10 +24,10 @@ struct LimitTick {
 };
 
 struct MapView {
-  std::string key;    ///< item name: "map/" + key
-  std::string title;  ///< "Slope"
-  char letter = 0;    ///< site the value belongs to; 0 none
-  std::string value;  ///< at the site, or under the cursor
+  std::string key;     ///< item name: "map/" + key
+  std::string title;   ///< "Slope"
+  std::string letter;  ///< site the value belongs to; empty: none
+  std::string value;   ///< at the site, or under the cursor
   ImTextureID texture = nullptr;
   Ramp ramp = Ramp::kElevation;
   GridGeometry geometry;

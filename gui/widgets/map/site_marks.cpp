@@ -60,15 +60,15 @@ void DrawRing(const Style& s, ImDrawList* dl, ImVec2 centre, float radius, RingK
   DrawRing(s, dl, ring, centre, kind);
 }
 
-void DrawLetterDisc(UiFrame& ui, ImVec2 c, char letter, bool highlighted, float radius) {
+void DrawLetterDisc(UiFrame& ui, ImVec2 c, std::string_view letter, bool highlighted,
+                    float radius) {
   const Style& s = ui.style;
   const float r = s.Fine(radius);
   ImDrawList* dl = Canvas();
   dl->AddCircleFilled(c, r, highlighted ? picture::kWhite : picture::kLetterDark);
   dl->AddCircle(c, r, highlighted ? picture::kLetterDark : picture::kWhite, 0, s.Fine(1.5f));
   DrawText(ui, radius < 10 ? s.caption : s.medium,
-           highlighted ? picture::kLetterDark : picture::kWhite, c.x, c.y,
-           std::string_view(&letter, 1), Align::kCentre);
+           highlighted ? picture::kLetterDark : picture::kWhite, c.x, c.y, letter, Align::kCentre);
 }
 
 void DrawBrackets(const Style& s, ImDrawList* dl, ImVec2 c, ImU32 colour) {

@@ -17,7 +17,8 @@ void DrawRing(const Style& style, ImDrawList* dl, const std::vector<ImVec2>& rin
 /// The same for a map seen from above.
 void DrawRing(const Style& style, ImDrawList* dl, ImVec2 centre, float radius, RingKind kind);
 /// Black disc with white rim and letter: a site that is not the selected one.
-void DrawLetterDisc(UiFrame& ui, ImVec2 centre, char letter, bool highlighted, float radius = 11);
+void DrawLetterDisc(UiFrame& ui, ImVec2 centre, std::string_view letter, bool highlighted,
+                    float radius = 11);
 /// Corner brackets of a tracked feature, 20 x 20 units.
 void DrawBrackets(const Style& style, ImDrawList* dl, ImVec2 centre, ImU32 colour);
 /// 1 px white square on 3 px black: a search window.

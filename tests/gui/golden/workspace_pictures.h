@@ -71,7 +71,7 @@ inline FlightRecord Record(const EngineSnapshot& snap) {
                    : t < 180 ? MissionState::kProposed
                    : t < 220 ? MissionState::kArmed
                              : MissionState::kDescending;
-    sample.best_site = t < 20 ? '\0' : (t < 230 ? 'B' : 'A');
+    sample.best_site = t < 20 ? "" : (t < 230 ? "B" : "A");
     sample.best_safe_distance_m = t < 20 ? NAN : 4.6;
     sample.height_above_site_m = t < 220 ? 38 : std::max(0.0, 38 - 0.6 * (t - 220));
     sample.height_m = sample.height_above_site_m;

@@ -48,8 +48,8 @@ TEST(FlySites, ARefusedSiteIsListedAsSuchAndNeverTheBest) {
   EXPECT_EQ(window.ui.items.Find("site/A")->text.rfind("A Refused ", 0), 0u)
       << window.ui.items.Find("site/A")->text;
   EXPECT_EQ(window.ui.items.Find("site/best")->text, "B");
-  EXPECT_EQ(SiteInView(window.snap, 0)->letter, 'B');
-  EXPECT_EQ(MarksOf(window.snap, 0).selected->letter, 'B');
+  EXPECT_EQ(SiteInView(window.snap, 0)->letter, "B");
+  EXPECT_EQ(MarksOf(window.snap, 0).selected->letter, "B");
   EXPECT_EQ(window.ui.items.Find("panel/Evidence for site B") != nullptr,
             window.ui.items.Find("panel/Evidence for site A") == nullptr);
   window.ui.Click("site/best", window.draw);

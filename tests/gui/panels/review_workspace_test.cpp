@@ -27,7 +27,7 @@ FlightRecord Record() {
                    : t < 180 ? MissionState::kProposed
                    : t < 220 ? MissionState::kArmed
                              : MissionState::kDescending;
-    sample.best_site = t < 20 ? 0 : (t < 230 ? 'B' : 'A');
+    sample.best_site = t < 20 ? "" : (t < 230 ? "B" : "A");
     sample.best_safe_distance_m = t < 20 ? NAN : 4.6;
     sample.height_above_site_m = t < 220 ? 38 : std::max(0.0, 38 - 0.6 * (t - 220));
     sample.height_m = sample.height_above_site_m;
@@ -188,8 +188,8 @@ TEST(ReviewWorkspace, FindsWhereTheDecisionsDiffer) {
   const EngineSnapshot snap = Replay(true);  // history says A all the time, from 212 s to 252 s
   const auto found = FindDifferences(snap, &record);
   ASSERT_EQ(found.size(), 1U);
-  EXPECT_EQ(found[0].recorded, 'B');
-  EXPECT_EQ(found[0].now, 'A');
+  EXPECT_EQ(found[0].recorded, "B");
+  EXPECT_EQ(found[0].now, "A");
   EXPECT_NEAR(found[0].at_s, 212, 0.2);
   EXPECT_NEAR(found[0].to_s, 230, 0.6);
   EXPECT_TRUE(FindDifferences(snap, nullptr).empty());

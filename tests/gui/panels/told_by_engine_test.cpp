@@ -265,10 +265,10 @@ TEST(LinkWords, FollowTheSource) {
 
 TEST(BestSite, IsTheBestThatStands) {
   EngineSnapshot snap = fake::Snapshot(MissionState::kProposed);
-  EXPECT_EQ(BestSite(snap, snap.terrain->applied.get())->letter, 'A');
+  EXPECT_EQ(BestSite(snap, snap.terrain->applied.get())->letter, "A");
   snap.flight.Edit().mission.refused_sites = {1};
-  EXPECT_EQ(BestSite(snap, snap.terrain->applied.get())->letter, 'B');
-  EXPECT_EQ(FactsOf(snap).best_shown->letter, 'B');
+  EXPECT_EQ(BestSite(snap, snap.terrain->applied.get())->letter, "B");
+  EXPECT_EQ(FactsOf(snap).best_shown->letter, "B");
   UiHarness ui(1920, 1080);
   TuneState state;
   ui.Frame([&](UiFrame& f) { DrawTuneWorkspace(snap, BodyOf(1920, 1080), state, f); });

@@ -103,9 +103,10 @@ HazardMaps Reasons(double north_min_m, std::initializer_list<std::uint8_t> reaso
   maps.geometry = {1, static_cast<int>(reasons.size()), 1.0, north_min_m, 0};
   maps.reasons = Grid<std::uint8_t>(1, maps.geometry.cols);
   std::copy(reasons.begin(), reasons.end(), maps.reasons.cells().begin());
-  maps.can_bear = Grid<std::uint8_t>(1, maps.geometry.cols);
+  maps.ground = Grid<GroundClass>(1, maps.geometry.cols);
   for (int col = 0; col < maps.geometry.cols; ++col) {
-    maps.can_bear.at(0, col) = maps.reasons.at(0, col) == kHazardNone;
+    maps.ground.at(0, col) =
+        maps.reasons.at(0, col) == kHazardNone ? GroundClass::kLandable : GroundClass::kHazard;
   }
   return maps;
 }

@@ -32,7 +32,8 @@ std::shared_ptr<TerrainDecision> Decision(float safe_distance_m, std::uint8_t re
   }
   hazards->safe_distance_m = GridF(3, 4, safe_distance_m);
   hazards->reasons = Grid<std::uint8_t>(3, 4, reason);
-  hazards->can_bear = Grid<std::uint8_t>(3, 4, std::uint8_t{reason == kHazardNone});
+  hazards->ground = Grid<GroundClass>(
+      3, 4, reason == kHazardNone ? GroundClass::kLandable : GroundClass::kHazard);
   auto decision = std::make_shared<TerrainDecision>();
   decision->elevation = elevation;
   decision->hazards = hazards;

@@ -1,0 +1,45 @@
+#include "engine/slad/sites/none_reason.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "engine/core/text.h"
+
+namespace palace {
+
+std::string NoneReason(const HazardMaps& hazards, const SladSettings& settings) {
+  const RejectedCells& n = hazards.rejected;
+  struct Part {
+    int count;
+    const char* name;
+  };
+  std::vector<Part> parts{{n.slope, "slope"},
+                          {n.roughness, "roughness"},
+                          {n.unknown, "unknown"},
+                          {n.flagged, "flagged"},
+                          {n.footprint, "footprint"}};
+  const int total =
+      n.slope + n.roughness + n.unknown + n.flagged + n.footprint + hazards.safe_cells;
+  if (total == 0) {
+    return "empty map";
+  }
+  std::stable_sort(parts.begin(), parts.end(),
+                   [](const Part& a, const Part& b) { return a.count > b.count; });
+  std::string text;
+  for (const Part& part : parts) {
+    if (part.count > 0) {
+      text += (text.empty() ? "" : ", ") + WithNumbers("%.0f", 100.0 * part.count / total) + " % " +
+              part.name;
+    }
+  }
+  const GridGeometry& g = hazards.geometry;
+  // The best middle of an even number of cells is half a cell off.
+  const double across_m = (std::min(g.rows, g.cols) - 1) / 2 * 2 * g.cell_m + g.cell_m;
+  if (n.footprint > 0 && across_m < 2 * settings.lander.clear_radius_m()) {
+    text += WithNumbers("; the map holds a disc %.3f m across, the lander's clear one is %.3f m",
+                        across_m, 2 * settings.lander.clear_radius_m());
+  }
+  return text;
+}
+
+}  // namespace palace

@@ -1,0 +1,15 @@
+// Why no site was found on a map, in words. Internal to the SLAD room.
+#pragma once
+
+#include <string>
+
+#include "engine/model/hazard_maps.h"
+#include "engine/model/settings/settings.h"
+
+namespace palace {
+
+/// Shares of the cells by what they fell to: "71 % slope, 22 % unknown, 7 % footprint"; and the
+/// sizes where the map is too small for the lander.
+std::string NoneReason(const HazardMaps& hazards, const SladSettings& settings);
+
+}  // namespace palace

@@ -1,0 +1,94 @@
+// SiteRegistry: what the maps of a flight together say of the places to land at.
+//
+// One model. A PLACE is a point of the ground. It gets its letter when it is first listed, keeps it
+// for the flight, and never moves; a letter is never given to another place.
+//
+//   listed     after it could bear the lander on 3 maps in a row (a flight's first map lists at
+//              once); ends with the first map on which it cannot
+//   rank       by the steady score (steadiness.h); one passes another only when it is better by
+//              more than the noise of a score. A place that a map called unsafe, and a new one
+//              within the spacing of it, stands behind the others for 30 s, each time longer by
+//              30 s
+//   replaced   when another point within the spacing is better by more than that on 24 maps in a
+//              row; never the place that is selected
+//   confirmed  as the maps say, 3 of 5 against it, 5 in a row for it again
+//   approach   likewise: blocked ones come after clear ones
+//
+// So a single map with a false cell lists and names nothing and moves no ring, while a place that
+// the newest map calls unsafe is never in the list. Under other limits all but places and letters
+// starts anew. Source: ours.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/slad/sites/site_candidates.h"
+#include "engine/slad/sites/site_selection.h"
+#include "engine/slad/sites/steadiness.h"
+
+namespace palace {
+
+/// "A" to "Z", then "A2" to "Z2", "A3", ...: of the nth place, from 0.
+std::string SiteLetter(std::size_t n);
+
+class SiteRegistry {
+ public:
+  /// The sites of the newest map, best first, with letters. The same map again changes nothing.
+  SiteSelection Select(const ElevationMap& map, const HazardMaps& hazards,
+                       const SladSettings& settings, const SiteContext& context);
+  /// That place is selected: while it can bear the lander it is listed. 0: none.
+  void Keep(std::uint64_t site_id) { kept_ = site_id; }
+  /// A new flight. Ids are not used again, letters are.
+  void Reset();
+
+ private:
+  struct Place {
+    std::uint64_t id = 0;  ///< 0: never listed yet
+    std::string letter{};
+    Eigen::Vector2d p_W = Eigen::Vector2d::Zero();  ///< north, east
+    int rank = -1;                                  ///< in the list; -1: not listed
+    int run = 0;                                    ///< maps in a row that it could bear the lander
+    SteadyFigure score{};
+    SteadyVerdict confirmed{}, straight_clear{}, some_clear{};
+    LastingClaim beaten{};
+    int losses = 0;                        ///< maps that called it unsafe
+    std::optional<Timestamp> shaken_at{};  ///< by the last of them
+  };
+  /// Where a place is looked at on one map.
+  struct Chosen {
+    std::size_t place = 0;
+    ScoredCell at;
+  };
+  /// What was found there.
+  struct Found {
+    std::size_t place = 0;
+    LandingSite site;
+  };
+  struct Map;
+
+  std::vector<Found> Revisit(const Map& now, SiteCandidates& candidates);
+  void Explore(const Map& now, SiteCandidates& candidates, std::vector<Found>& found);
+  std::size_t Wanted(const Map& now, const std::vector<Found>& found,
+                     const SiteCandidates& candidates) const;
+  std::size_t PlaceAt(const Map& now, Cell cell);
+  void Follow(const Map& now, const std::vector<Chosen>& chosen, double noise,
+              std::vector<Found>& found);
+  std::vector<Found> Ranked(const Map& now, std::vector<Found> found, double noise) const;
+  std::vector<Found> List(std::vector<Found> ranked);
+  void StartMap(const Map& now);
+  void Lose(const Map& now, const std::vector<Found>& found);
+  bool IsRipe(const Map& now, const Place& place) const;
+  bool IsKept(const Place& place) const { return place.id != 0 && place.id == kept_; }
+
+  std::vector<Place> places_;
+  std::vector<Eigen::Vector2d> replaced_;  ///< on this map
+  std::uint64_t next_id_ = 1;
+  std::size_t named_ = 0;
+  std::uint64_t kept_ = 0;
+  std::optional<Timestamp> time_;  ///< of the newest map
+  SladSettings settings_;          ///< under which it was judged
+};
+
+}  // namespace palace
