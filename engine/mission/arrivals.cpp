@@ -6,8 +6,6 @@ namespace palace {
 namespace {
 
 constexpr double kShownMemory_s = 5;
-/// A proposed site may miss this many maps before the proposal ends.
-constexpr int kProposalMissing = 2;
 
 /// Another place of a record: nothing of the one before holds there.
 void StartAnew(MissionTurn& turn, Timestamp now) {
@@ -154,20 +152,14 @@ void FollowWinner(MissionMemory& m, const MissionInputs& in) {
     return;
   }
   const LandingSite* best = m.status.BestStanding(m.facts.sites);
+  // A proposal is of every site that is listed: it does not end because another leads.
+  const bool proposed = WinnerStands(m, in.session.now);
   if (best == nullptr) {
     m.winner = {};
-    return;
-  }
-  const bool refused = m.status.IsRefused(m.winner.site_id);
-  const bool listed = FindSite(m, m.winner.site_id) != nullptr && !refused;
-  const bool proposed = m.status.state >= MissionState::kProposed;
-  if (best->id == m.winner.site_id || (proposed && listed)) {
-    ++m.winner.maps;
-    m.winner.missing = 0;
-  } else if (proposed && m.winner.site_id != 0 && !refused && m.winner.missing < kProposalMissing) {
-    ++m.winner.missing;
+  } else if (best->id == m.winner.site_id || proposed) {
+    m.winner = {best->id, m.winner.maps + 1, m.winner.since};
   } else {
-    m.winner = {best->id, 1, 0, in.session.now};
+    m.winner = {best->id, 1, in.session.now};
   }
 }
 

@@ -66,11 +66,10 @@ struct ArmedFacts {
   bool confirmed = false;
 };
 
-/// The best site's run of wins.
+/// The best site's run of wins. Once it is long enough for a proposal it goes on whoever leads.
 struct WinningRun {
   std::uint64_t site_id = 0;
   int maps = 0;
-  int missing = 0;
   Timestamp since;
 };
 
@@ -89,7 +88,7 @@ struct MissionMemory {
   SiteWatch site;
   std::optional<LandingSite> newest;       ///< the armed site on the newest map; empty off it
   SiteVerdict told = SiteVerdict::kHolds;  ///< of the armed site, in the events
-  /// The best other site that shares no ground with the armed one, kept as long as it holds.
+  /// The best other site now that shares no ground with the armed one.
   std::optional<LandingSite> alternative;
   WinningRun winner;
   InputWatch watch;

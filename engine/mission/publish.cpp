@@ -38,6 +38,9 @@ void PublishFigures(MissionMemory& m, Timestamp now) {
   PublishLimits(m, now);
   m.status.wave_off = WaveOffNow(m, now);
   m.status.why_no_wave_off = WhyNoWaveOff(m, now);
+  m.status.armed_now = m.newest;
+  m.status.armed_verdict = m.site.VerdictAt(now);
+  m.status.armed_why = m.site.reason();
   if (m.status.approval_phase == MissionStatus::ApprovalPhase::kSent) {
     m.status.approval_answer_s = SecondsBetween(m.approved_at, now);
   }

@@ -22,19 +22,18 @@ bool IsUsableBeside(const MissionMemory& m, const std::optional<LandingSite>& si
          JudgeRecheck(site, {}, {false, 0}, settings).holds();
 }
 
+/// The best other site there is now. The list is steady (slad/sites/site_registry.h); one that
+/// left it, though it still holds, is kept only where no other is.
 void FollowAlternative(MissionMemory& m, const MissionInputs& in) {
   const SladSettings& settings = in.limits.settings.slad;
-  if (m.alternative && IsUsableBeside(m, in.terrain.alternative, settings)) {
-    m.alternative = in.terrain.alternative;  // the same place on this map
-    return;
-  }
-  m.alternative.reset();
   for (const LandingSite& site : m.facts.sites) {
     if (site.id != m.status.armed->id && IsUsableBeside(m, site, settings)) {
       m.alternative = site;
       return;
     }
   }
+  const bool stands = m.alternative && IsUsableBeside(m, in.terrain.alternative, settings);
+  m.alternative = stands ? in.terrain.alternative : std::nullopt;
 }
 
 /// A re-check is worth a line when it says something new, or after a while.

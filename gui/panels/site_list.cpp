@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <vector>
 
 #include "gui/panels/fly_panels.h"
 #include "gui/widgets/interact.h"
@@ -7,6 +8,22 @@
 namespace palace {
 
 namespace {
+
+/// What is listed: the sites, and after them the armed one where it is no longer among them.
+std::vector<const LandingSite*> RowsOf(const TerrainDecision* shown, const MissionStatus& mission) {
+  std::vector<const LandingSite*> rows;
+  bool armed = false;
+  if (shown != nullptr) {
+    for (const LandingSite& site : shown->selection.sites) {
+      rows.push_back(&site);
+      armed = armed || (mission.armed && mission.armed->id == site.id);
+    }
+  }
+  if (mission.armed && !armed) {
+    rows.push_back(mission.armed_now ? &*mission.armed_now : &*mission.armed);
+  }
+  return rows;
+}
 
 void DrawEmpty(const EngineSnapshot& snap, const Rect& content, UiFrame& ui) {
   const Style& s = ui.style;
@@ -34,10 +51,13 @@ void DrawSiteListPanel(const EngineSnapshot& snap, const FlyLayout& layout, Site
                        UiFrame& ui) {
   const Style& s = ui.style;
   const TerrainDecision* shown = snap.terrain->Shown();
-  const std::size_t count = shown != nullptr ? shown->selection.sites.size() : 0;
+  const MissionStatus& mission = snap.flight->mission;
+  const std::vector<const LandingSite*> rows = RowsOf(shown, mission);
+  const std::size_t count = rows.size();
+  const std::size_t found = shown != nullptr ? shown->selection.sites.size() : 0;
   const Rect content =
       DrawPanelFrame(ui, layout.sites, "Sites",
-                     {{std::to_string(count) + " found"},
+                     {{std::to_string(found) + " found"},
                       {count > 0 && !layout.narrow ? std::string("Tab for next") : std::string()}});
   if (count == 0) {
     DrawEmpty(snap, content, ui);
@@ -46,14 +66,13 @@ void DrawSiteListPanel(const EngineSnapshot& snap, const FlyLayout& layout, Site
     }
     return;
   }
-  const std::vector<LandingSite>& sites = shown->selection.sites;
   const float row = s.Px(static_cast<float>(layout.site_row_units));
   const Rect list{content.x, content.y + s.Px(layout.narrow ? 2 : 4), content.w,
                   row * static_cast<float>(layout.site_rows)};
   const float beyond = std::max(0.0f, row * static_cast<float>(count) - list.h);
   state.scroll -= Interact(ui, "panel/Sites", list, kPassive).wheel * row;
   for (std::size_t i = 0; i < count && ui.focus.shown() != state.followed; ++i) {
-    if (ui.focus.Has(SiteItemName(sites[i].letter))) {  // the keyboard's row comes into sight
+    if (ui.focus.Has(SiteItemName(rows[i]->letter))) {  // the keyboard's row comes into sight
       const float top = row * static_cast<float>(i);
       state.scroll = std::clamp(state.scroll, top + row - list.h, top);
     }
@@ -68,13 +87,14 @@ void DrawSiteListPanel(const EngineSnapshot& snap, const FlyLayout& layout, Site
                     snap.sensors->X_WC,
                     {0, 0, static_cast<float>(camera->width), static_cast<float>(camera->height)}};
   }
-  const std::uint64_t armed = snap.flight->mission.armed ? snap.flight->mission.armed->id : 0;
-  const LandingSite* best = snap.flight->mission.BestStanding(sites);
+  const std::uint64_t armed = mission.armed ? mission.armed->id : 0;
+  const LandingSite* best =
+      shown != nullptr ? mission.BestStanding(shown->selection.sites) : nullptr;
   const auto first = static_cast<std::size_t>(state.scroll / row);
   const std::size_t last = std::min(count, first + static_cast<std::size_t>(layout.site_rows));
   std::uint64_t focused = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    const LandingSite& site = sites[i];
+    const LandingSite& site = *rows[i];
     if (i < first || i >= last) {
       OfferHidden(ui, SiteItemName(site.letter));
       continue;
@@ -82,8 +102,13 @@ void DrawSiteListPanel(const EngineSnapshot& snap, const FlyLayout& layout, Site
     SiteRowLook look;
     look.selected = site.id == armed;
     look.narrow = layout.site_row_units < 60;
-    look.enabled = snap.flight->mission.MaySelect(site.id);
-    look.refused = snap.flight->mission.IsRefused(site.id);
+    look.enabled = mission.MaySelect(site.id);
+    look.refused = mission.IsRefused(site.id);
+    if (i >= found) {
+      look.enabled = false;
+      look.verdict = mission.armed_now ? SiteVerdictWord(mission.armed_verdict) : "Off the map";
+      look.why = mission.armed_why;
+    }
     const Rect rect{list.x, list.y + row * static_cast<float>(i - first), list.w, row};
     const SiteRowAnswer answer = DrawSiteRow(ui, rect, site, view, ui.textures.left_camera, look);
     focused = answer.focused ? site.id : focused;
@@ -92,7 +117,7 @@ void DrawSiteListPanel(const EngineSnapshot& snap, const FlyLayout& layout, Site
     }
     if (&site == best) {
       // Letters stay with places, so scripts need a name for whatever leads.
-      ui.items.Add("site/best", rect, look.enabled, std::string(1, site.letter));
+      ui.items.Add("site/best", rect, look.enabled, site.letter);
     }
   }
   if (focused != ui.highlighted_site) {

@@ -49,11 +49,14 @@ void DrawCutOut(const Style& s, const Rect& box, const LandingSite& site,
 
 struct SiteWord {
   Icon icon;
-  const char* word;
+  std::string_view word;
 };
 
-SiteWord WordOf(const LandingSite& site, bool refused) {
-  if (refused) {
+SiteWord WordOf(const LandingSite& site, const SiteRowLook& look) {
+  if (!look.verdict.empty()) {
+    return {Icon::kWarning, look.verdict};
+  }
+  if (look.refused) {
     return {Icon::kOff, "Refused"};
   }
   if (!site.corridor_clear && site.clear_approaches != 0) {
@@ -74,10 +77,12 @@ SiteRowAnswer DrawSiteRow(UiFrame& ui, const Rect& rect, const LandingSite& site
   const Style& s = ui.style;
   const Palette& p = s.palette;
   ImDrawList* dl = Canvas();
-  const SiteWord status = WordOf(site, look.refused);
+  const SiteWord status = WordOf(site, look);
   // What a refused site has over the others no longer ranks it.
-  const std::string_view why = look.refused ? kRefusedReason : std::string_view(site.reason);
-  const std::string words = site.letter + std::string(" ") + status.word + " " + std::string(why) +
+  const std::string_view why = look.refused           ? kRefusedReason
+                               : look.verdict.empty() ? std::string_view(site.reason)
+                                                      : look.why;
+  const std::string words = site.letter + " " + std::string(status.word) + " " + std::string(why) +
                             (site.flags != 0 ? " " + FlagWords(site.flags) : std::string());
   const Interaction in = Interact(ui, SiteItemName(site.letter), rect,
                                   kKeepsStop | (look.enabled ? 0U : unsigned{kDisabled}), words);

@@ -261,7 +261,7 @@ TEST(Recheck, LossOffersTheAlternativeAndNeverFliesThere) {
   MissionRig rig;
   Descend(rig);
   ASSERT_TRUE(rig.mission.status().rechecks.back().alternative.has_value());
-  EXPECT_EQ(rig.mission.status().rechecks.back().alternative->letter, 'B');
+  EXPECT_EQ(rig.mission.status().rechecks.back().alternative->letter, "B");
   rig.site_slope_rad = Rad(12);
   rig.Run(0.5);
   ASSERT_EQ(rig.state(), MissionState::kHold);
@@ -284,18 +284,18 @@ TEST(Recheck, TheAlternativeSharesNoGroundAndIsRecheckedToo) {
   Descend(rig);
   const auto kept = [&] {
     const auto& site = rig.mission.status().rechecks.back().alternative;
-    return site ? site->letter : '-';
+    return site ? site->letter : "-";
   };
-  EXPECT_EQ(kept(), 'C');
-  std::swap(rig.sites[2], rig.sites[3]);  // D ranks before C now: what holds is kept
+  EXPECT_EQ(kept(), "C");
+  std::swap(rig.sites[2], rig.sites[3]);  // D ranks before C now: it is the best other site
   rig.Run(0.3);
-  EXPECT_EQ(kept(), 'C');
-  rig.Site(103)->safe_distance_m = 1;
-  rig.Run(0.3);
-  EXPECT_EQ(kept(), 'D');
+  EXPECT_EQ(kept(), "D");
   rig.Site(104)->safe_distance_m = 1;
   rig.Run(0.3);
-  EXPECT_EQ(kept(), '-');
+  EXPECT_EQ(kept(), "C");
+  rig.Site(103)->safe_distance_m = 1;
+  rig.Run(0.3);
+  EXPECT_EQ(kept(), "-");
   EXPECT_EQ(rig.state(), MissionState::kDescending);
 }
 

@@ -92,6 +92,43 @@ TEST(Mission, ProposesOnlyAfterThreeMapsAndOneSecond) {
   EXPECT_EQ(rig.state(), MissionState::kSearch);
 }
 
+// A click on a site that is listed is never void because another one leads since a moment ago.
+TEST(Mission, AProposalOutlivesAChangeOfTheBestSite) {
+  MissionRig rig;
+  ASSERT_TRUE(rig.RunUntil(MissionState::kProposed));
+  for (int change = 0; change < 20; ++change) {
+    std::swap(rig.sites[0], rig.sites[1]);
+    rig.Run(change % 2 == 0 ? 0.1 : 0.5);
+    ASSERT_EQ(rig.state(), MissionState::kProposed) << change;
+    ASSERT_TRUE(rig.mission.status().MaySelect(rig.sites[1].id)) << change;
+  }
+  rig.sites.erase(rig.sites.begin());  // the leader is lost, another site stands
+  rig.Run(0.5);
+  EXPECT_EQ(rig.state(), MissionState::kProposed);
+  EXPECT_TRUE(rig.Do(SelectSite{rig.sites[0].id}).ok());
+}
+
+// Its place on the newest map and what the maps say of it stay to be seen though no list has it.
+TEST(Mission, AnArmedSiteIsToldWithItsPresentVerdict) {
+  MissionRig rig;
+  rig.Arm();
+  const auto& status = rig.mission.status();
+  ASSERT_TRUE(status.armed_now.has_value());
+  EXPECT_EQ(status.armed_now->id, status.armed->id);
+  EXPECT_EQ(status.armed_verdict, SiteVerdict::kHolds);
+  rig.Site(101)->corridor_clear = false;
+  rig.Run(0.5);
+  EXPECT_EQ(rig.mission.status().armed_verdict, SiteVerdict::kDegraded);
+  EXPECT_EQ(rig.mission.status().armed_why, "Something stands in the approach");
+  bool told = false;
+  for (const Alarm& alarm : rig.mission.status().alarms) {
+    told = told || alarm.text ==
+                       "Site A degraded: Something stands in the approach. "
+                       "Look again before you approve.";
+  }
+  EXPECT_TRUE(told);
+}
+
 TEST(Mission, ArmWindowEndsAfterSixtySeconds) {
   MissionRig rig;
   rig.Arm();

@@ -115,6 +115,22 @@ TEST(LimitRules, TheWindowComparesNoLimit) {
   EXPECT_GT(files, 50);
 }
 
+// What is unsafe stays so when nobody asks any more.
+TEST(LimitRules, NoTextAdvisesToWidenALimit) {
+  const std::regex advice(
+      R"((widen|loosen|relax|raise|increase|larger|wider) (a |the |your |this |that )?limit)",
+      std::regex::icase);
+  EXPECT_TRUE(std::regex_search("Fly on or widen a limit.", advice));
+  const fs::path root = PALACE_SOURCE_DIR;
+  for (const char* folder : {"engine", "gui"}) {
+    for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
+      if (entry.path().extension() == ".cpp" || entry.path().extension() == ".h") {
+        EXPECT_FALSE(std::regex_search(Flat(entry.path()), advice)) << entry.path();
+      }
+    }
+  }
+}
+
 TEST(LimitRules, TheRuleFindsWhatItIsFor) {
   const char* bad[] = {
       "const bool holds = distance_m >= now->settings.clear_radius_m();",

@@ -218,8 +218,10 @@ const std::array<AlarmRow, kAlarmCount - kBusAlarmCount> kAlarms = {{
      .text =
          [](const Facts& f, const std::string&) {
            return "No safe site: " + f.no_site_reason +
-                  (f.pictures_only ? ". The maps show which limit decides."
-                                   : ". Fly on; the maps show which limit decides.");
+                  (f.pictures_only
+                       ? ". The maps show which limit decides."
+                       : ". Fly on, or look again from another height or heading; the maps show "
+                         "which limit decides.");
          }},
     {.id = AlarmId::kWaveOff,
      .level = AlarmLevel::kWarning,
@@ -249,7 +251,8 @@ const std::array<AlarmRow, kAlarmCount - kBusAlarmCount> kAlarms = {{
      .text =
          [](const Facts& f, const std::string&) {
            return std::string("Site ") + f.letter + " degraded: " + f.site_reason +
-                  ". Watch it, hold or wave off.";
+                  (f.state == MissionState::kArmed ? ". Look again before you approve."
+                                                   : ". Watch it, hold or wave off.");
          }},
     {.id = AlarmId::kVisionLost,
      .level = AlarmLevel::kWarning,

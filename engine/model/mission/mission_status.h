@@ -133,9 +133,12 @@ struct WaveOffReport {
 struct MissionStatus {
   MissionState state = MissionState::kNoLive;
   Timestamp since;
-  std::string why;                     ///< cause of the last transition, in words
-  std::optional<LandingSite> armed;    ///< frozen evidence, from ARMED to LANDED
-  std::vector<LimitRow> armed_limits;  ///< of `armed`, under the limits that it was armed under
+  std::string why;                       ///< cause of the last transition, in words
+  std::optional<LandingSite> armed;      ///< frozen evidence, from ARMED to LANDED
+  std::vector<LimitRow> armed_limits;    ///< of `armed`, under the limits that it was armed under
+  std::optional<LandingSite> armed_now;  ///< the same place on the newest map; empty off it
+  SiteVerdict armed_verdict = SiteVerdict::kHolds;  ///< what the last maps together say of it
+  std::string armed_why;                            ///< with value and limit; empty while it holds
   /// Of the armed site: frozen with it, as soon as the vehicle's place is known.
   std::optional<ApproachPlan> approach;
   Timestamp armed_at;
