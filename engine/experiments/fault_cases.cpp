@@ -14,7 +14,7 @@ constexpr auto kLeft = C::kCameraLeft, kRight = C::kCameraRight;
 
 std::vector<FaultCase> CameraCases() {
   const std::vector<A> frozen = {A::kCameraFrozen};
-  const std::vector<A> dark = {A::kCameraFrozen, A::kExposure};
+  const std::vector<A> dark = {A::kCameraBlank, A::kExposure};
   const auto on = [](K kind, std::optional<C> camera = {}, double value = NAN) {
     return std::vector<Fault>{{kind, camera, value}};
   };
@@ -46,7 +46,10 @@ std::vector<FaultCase> CameraCases() {
 
 std::vector<FaultCase> AttitudeCases() {
   std::vector<FaultCase> cases = {
-      {"attitude not a number", "F10", {{K::kAttitudeNan}}, {A::kPose, A::kUndecodable}},
+      {"attitude not a number",
+       "F10",
+       {{K::kAttitudeNan}},
+       {A::kAttitudeInvalid, A::kPose, A::kUndecodable}},
       {"attitude missing", "F10", {{K::kMissing, C::kVehiclePose}}, {A::kPose}, 1.2},
       {"attitude late by 0.3 s", "F10", {{K::kAttitudeLate, {}, 0.3}}, {A::kPose}},
   };
@@ -107,9 +110,9 @@ std::vector<FaultCase> LinkCases() {
   const auto lands = DescentMust::kLand, either = DescentMust::kEither;
   return {
       {"1 % of messages lost", "F21", {{K::kLost, {}, 1}}, {}, 5, false, lands, false, true},
-      {"10 % of messages lost", "F21", {{K::kLost, {}, 10}}, {}, 5, false, either},
-      {"30 % of messages lost", "F21", {{K::kLost, {}, 30}}, {}, 5, false, either},
-      {"50 % of messages lost", "F21", {{K::kLost, {}, 50}}, {}, 5, true, either},
+      {"10 % of messages lost", "F21", {{K::kLost, {}, 10}}, {A::kMessageLoss}, 5, false, either},
+      {"30 % of messages lost", "F21", {{K::kLost, {}, 30}}, {A::kMessageLoss}, 5, false, either},
+      {"50 % of messages lost", "F21", {{K::kLost, {}, 50}}, {A::kMessageLoss}, 5, true, either},
       {"5 % of messages corrupted",
        "F25",
        {{K::kCorrupted, {}, 5}},

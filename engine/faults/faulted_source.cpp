@@ -9,8 +9,6 @@ namespace {
 
 constexpr double kHeartbeat_s = 0.2;
 constexpr double kSlack_s = 1e-6;
-constexpr double kSlip_s = 1;   ///< time running back this little is ironed out
-constexpr double kJump_s = 60;  ///< time running on this much is a jump
 
 }  // namespace
 
@@ -21,7 +19,7 @@ FaultedSource::FaultedSource(std::shared_ptr<Source> source, std::shared_ptr<Veh
       pictures_(seed),
       vehicle_(seed),
       messages_(seed),
-      assembler_({}, {.pair_window_s = AssemblerOptions{}.pair_window_s, .drop_repeated = true}) {}
+      bundles_({}, /*follow_simulation=*/false) {}
 
 ::palace::Status FaultedSource::Add(const Fault& fault) {
   ::palace::Status sound = CheckFault(fault);
@@ -32,19 +30,17 @@ FaultedSource::FaultedSource(std::shared_ptr<Source> source, std::shared_ptr<Veh
 }
 
 Result<std::shared_ptr<const FrameBundle>> FaultedSource::Next(std::stop_token stop) {
-  while (ready_.empty()) {
+  do {
     Result<std::shared_ptr<const FrameBundle>> next = source_->Next(stop);
     if (!next) {
       return next;
     }
     Take(**next);
-    if (ready_.empty() && now_s_ - delivered_s_ >= kHeartbeat_s - kSlack_s) {
-      return Deliver(assembler_.TakePending(VehicleClock()));
-    }
-  }
-  std::shared_ptr<const FrameBundle> bundle = std::move(ready_.front());
-  ready_.pop_front();
-  return Deliver(std::move(bundle));
+  } while (!bundles_.ready() && now_s_ - delivered_s_ < kHeartbeat_s - kSlack_s);
+  delivered_s_ = now_s_;
+  auto delivered = std::make_shared<FrameBundle>(*bundles_.HandOn(now_s_));
+  ++delivered->sequence;  // a flight counts from 1
+  return std::shared_ptr<const FrameBundle>(std::move(delivered));
 }
 
 void FaultedSource::Take(const FrameBundle& bundle) {
@@ -57,46 +53,11 @@ void FaultedSource::Take(const FrameBundle& bundle) {
   vehicle_.Apply(struck, faults_, now_s_);
   for (const WireMessage& message :
        messages_.Apply(EncodeBundle(struck, ChannelNames{}), faults_, now_s_)) {
-    for (auto& whole : assembler_.Push(message)) {
-      ready_.push_back(std::move(whole));
-    }
+    bundles_.Take(message, now_s_);
   }
-  if (assembler_.newest() && heard_ != assembler_.newest()) {
-    heard_ = assembler_.newest();
-    heard_s_ = now_s_;
-  }
-  const AssemblerReport& report = assembler_.report();
   const std::lock_guard lock(mutex_);
   clock_offset_us_ = vehicle_.clock_offset_us();
-  losses_ = source_->Lost();
-  losses_.pictures_unpaired += report.pictures_unpaired;
-  losses_.pairs_without_rig += report.pairs_without_rig;
-  losses_.bundles_missing += report.bundles_lost;
-  losses_.samples_missing += report.samples_lost;
-  losses_.samples_overflowed += report.samples_overflowed;
-  losses_.undecodable = report.undecodable_of;
-}
-
-Timestamp FaultedSource::VehicleClock() const {
-  return heard_ ? AddSeconds(*heard_, now_s_ - heard_s_) : Timestamp{};
-}
-
-std::shared_ptr<const FrameBundle> FaultedSource::Deliver(
-    std::shared_ptr<const FrameBundle> bundle) {
-  auto delivered = std::make_shared<FrameBundle>(*bundle);
-  delivered->sequence = ++sequence_;
-  if (last_time_) {
-    const double step_s = SecondsBetween(*last_time_, delivered->time);
-    delivered->discontinuity |= step_s < -kSlip_s || step_s > kJump_s;
-    if (step_s < 0 && !delivered->discontinuity) {
-      delivered->time = *last_time_;
-    }
-  }
-  if (heard_) {
-    last_time_ = delivered->time;
-  }
-  delivered_s_ = now_s_;
-  return delivered;
+  losses_ = bundles_.Count();
 }
 
 Losses FaultedSource::Lost() const {

@@ -1,15 +1,15 @@
 // FaultedSource: a source round a source, with faults between.
 //
-//   bundle -> CameraFaults, VehicleFaults -> encoded messages -> LinkFaults -> BundleAssembler
+//   bundle -> CameraFaults, VehicleFaults -> encoded messages -> LinkFaults -> LiveBundles
 //
 // What comes out has gone the whole way of a vehicle on a bus, through the decoders and counters of
 // a live station, and in lockstep: time advances only in Next(), so a seed and a list of faults
 // give one flight to the bit, and what is recorded behind it replays without it. Without faults
 // bundles come out equal to the bit. A bus that has nothing whole for 0.2 s of flight gives a
-// bundle without pictures, as a live source does.
+// bundle without pictures, as a live source does. The station's clock is the true time of flight,
+// so that a step of the vehicle's shows.
 #pragma once
 
-#include <deque>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -21,7 +21,7 @@
 #include "engine/faults/vehicle_faults.h"
 #include "engine/runtime/source.h"
 #include "engine/runtime/vehicle_link.h"
-#include "engine/wire/bundle_assembler.h"
+#include "engine/wire/live_bundles.h"
 
 namespace palace {
 
@@ -48,9 +48,6 @@ class FaultedSource final : public Source, public VehicleLink {
 
  private:
   void Take(const FrameBundle& bundle);
-  std::shared_ptr<const FrameBundle> Deliver(std::shared_ptr<const FrameBundle> bundle);
-  /// The vehicle's clock as a listener carries it on.
-  Timestamp VehicleClock() const;
 
   const std::shared_ptr<Source> source_;
   const std::shared_ptr<VehicleLink> link_;
@@ -58,15 +55,10 @@ class FaultedSource final : public Source, public VehicleLink {
   CameraFaults pictures_;
   VehicleFaults vehicle_;
   LinkFaults messages_;
-  BundleAssembler assembler_;
-  std::deque<std::shared_ptr<const FrameBundle>> ready_;
+  LiveBundles bundles_;
   std::optional<Timestamp> start_;
   double now_s_ = 0;
   double delivered_s_ = 0;
-  std::optional<Timestamp> heard_;  ///< newest stamp of the vehicle ...
-  double heard_s_ = 0;              ///< ... and when it came
-  std::optional<Timestamp> last_time_;
-  std::uint64_t sequence_ = 0;
   mutable std::mutex mutex_;  ///< guards what other threads read
   Losses losses_;
   std::int64_t clock_offset_us_ = 0;

@@ -31,11 +31,13 @@ void RememberNavigation(MissionFacts& facts, const MissionInputs::Navigation& in
   facts.navigation = in.navigation;
   facts.stereo = in.stereo;
   facts.range_agreement = in.range_agreement;
-  facts.skid_centre_W = in.skid_centre_W;
-  facts.p_WB = in.p_WB_estimate;
-  facts.v_WB = filter.estimate.v_WB;
+  const bool unknown = filter.running && filter.IsUnknown();
+  const Eigen::Vector3d nowhere = Eigen::Vector3d::Constant(NAN);
+  facts.skid_centre_W = unknown ? nowhere : in.skid_centre_W;
+  facts.p_WB = unknown ? nowhere : in.p_WB_estimate;
+  facts.v_WB = unknown ? nowhere : filter.estimate.v_WB;
   facts.position_healthy = in.p_WB_estimate.allFinite() && in.skid_centre_W.allFinite() &&
-                           filter.running && filter.estimate.healthy;
+                           filter.running && filter.estimate.healthy && !unknown;
   facts.tracker_locked = in.tracker.locked;
   facts.coherence = in.tracker.coherence;
 }
@@ -98,17 +100,20 @@ void FollowJump(MissionTurn& turn, const MissionInputs& in) {
   if (!m.facts.valid || (!in.vehicle.bundle.discontinuity && now >= m.facts.now)) {
     return;
   }
-  m.watch = {};
+  m.watch = StartsAnewAfterJump(in.session.role) ? InputWatch() : m.watch.AfterJump();
   m.shown.clear();
   m.winner = {};
-  m.facts.now = m.sent_at = m.status.since = m.vision_good_at = now;
+  m.facts.now = m.sent_at = m.status.since = m.vision_good_at = m.ground_seen_at = now;
   m.wave_off_at = m.abort_answered_at = now;
+  const auto& clock = in.vehicle.bundle.arrival.clock;
+  const std::string why =
+      clock && clock->stepped_s != 0 ? words::ClockStepped(clock->stepped_s) : words::kTimeJumped;
   if (StartsAnewAfterJump(in.session.role)) {
     StartAnew(turn, now);
   } else if (m.status.state == MissionState::kArmed || m.status.state == MissionState::kApproved) {
-    Drop(turn, words::kTimeJumped, now);
+    Drop(turn, why, now);
   } else if (m.status.state == MissionState::kDescending) {
-    Hold(turn, words::kTimeJumped, now);
+    Hold(turn, why, now);
   }
 }
 
@@ -144,6 +149,7 @@ void RememberFacts(MissionMemory& m, const MissionInputs& in) {
   if (vision.running && vision.estimate.healthy) {
     m.vision_good_at = in.session.now;
   }
+  m.lost_share = LostShare(in.vehicle.channels);
   RememberShown(m, in.session);
 }
 

@@ -54,7 +54,10 @@ GuardInputs GuardInputsAt(const MissionMemory& m, Timestamp now) {
   in.pose_age_s = m.watch.PoseAge(now);
   in.left_camera_age_s = m.watch.LeftCameraAge(now);
   in.right_camera_age_s = m.watch.RightCameraAge(now);
-  in.camera_problem = m.pictures.problem();
+  in.pair_age_s = m.watch.PairAge(now);
+  in.camera_problem = m.pictures.standing().words();
+  in.attitude_invalid = m.watch.SincePoseInvalid(now) <= GuardLimits::link_s;
+  in.lost_share = m.lost_share;
   in.map_age_s =
       m.facts.map_hash != 0 && now >= m.map_seen_at ? SecondsBetween(m.map_seen_at, now) : NAN;
   in.position_healthy = m.facts.position_healthy;

@@ -10,13 +10,6 @@
 namespace palace {
 namespace {
 
-constexpr const char* kCameraProblems[] = {
-    "",
-    "A camera repeats its picture",
-    "Left and right camera look exchanged",
-    "Calibration does not fit the pictures",
-};
-
 /// Checks that compare with the moment of selection have nothing to compare without one.
 bool NothingArmed(const GuardInputs& in) { return in.site_letter.empty(); }
 
@@ -30,7 +23,8 @@ std::string WhyCamerasBad(const GuardInputs& in, const Limit& limit) {
       return why;
     }
   }
-  return kCameraProblems[static_cast<std::size_t>(in.camera_problem)];
+  std::string why = words::Older("Stereo pair", in.pair_age_s, limit.value);
+  return why.empty() ? in.camera_problem : why;
 }
 
 std::string WhyNotPositioned(const GuardInputs& in, const Limit& limit) {
@@ -108,14 +102,19 @@ const std::array<GuardRow, kGuardCount> kGuards = {{
      .limit = {GuardLimits::link_s, "s"},
      .why =
          [](const GuardInputs& in, const Limit& limit) {
-           return words::Older("Vehicle status", in.link_age_s, limit.value);
+           std::string why = words::Older("Vehicle status", in.link_age_s, limit.value);
+           return why.empty() && 100 * in.lost_share > GuardLimits::lost_percent
+                      ? WithNumbers("%.0f %% of the vehicle's messages are lost, max %.0f %%",
+                                    100 * in.lost_share, GuardLimits::lost_percent)
+                      : why;
          }},
     {.id = GuardId::kAttitude,
      .words = "Attitude fresh",
      .limit = {GuardLimits::pose_s, "s"},
      .why =
          [](const GuardInputs& in, const Limit& limit) {
-           return words::Older("Vehicle pose", in.pose_age_s, limit.value);
+           return in.attitude_invalid ? "Attitude invalid"
+                                      : words::Older("Vehicle pose", in.pose_age_s, limit.value);
          }},
     {.id = GuardId::kCameras,
      .words = "Both cameras fresh and right",

@@ -24,7 +24,10 @@ struct GuardInputs {
   double pose_age_s = NAN;
   double left_camera_age_s = NAN;
   double right_camera_age_s = NAN;
-  CameraProblem camera_problem = CameraProblem::kNone;
+  double pair_age_s = NAN;       ///< since both pictures belonged together
+  std::string camera_problem{};  ///< PictureFaults::words
+  bool attitude_invalid = false;
+  double lost_share = NAN;  ///< of the vehicle's messages; NaN blocks nothing
   double map_age_s = NAN;
   bool position_healthy = false;
   bool tracker_locked = false;

@@ -17,6 +17,7 @@ struct GuardLimits {
   static constexpr double map_s = 2.0;
   static constexpr double shown_s = 1.0;  ///< evidence on screen
   static constexpr double arm_to_approve_s = 0.5;
+  static constexpr double lost_percent = 50;      ///< of the vehicle's messages (F21)
   static constexpr double confirm_height_m = 10;  ///< a provisional site must be confirmed by here
 };
 
@@ -26,6 +27,8 @@ struct StaleLimits {
   static constexpr double link_s = 5;          ///< F19
   static constexpr double sensor_s = 1;        ///< pose and cameras: F01, F10
   static constexpr double map_s = 3;
+  static constexpr double ground_s = 2;  ///< of the site, in the descent above commit height
+  static constexpr double invalid_pose_s = 0.5;  ///< F10: without one whose numbers are numbers
 };
 
 /// Beyond these an alarm is raised, where no guard's limit does it.
@@ -33,6 +36,8 @@ struct AlarmLimits {
   static constexpr double gps_error_m = 2.0;
   static constexpr double vision_late_s = 0.3;
   static constexpr double answer_s = 2.0;
+  static constexpr double lost_percent = 10;  ///< F21
+  static constexpr double told_s = 10;        ///< what is over at once is told for so long
   static constexpr double laser_mismatch_m = 1.0;
   static constexpr double row_error_px = 0.5;  ///< a good calibration has 0.2
   static constexpr double exposure = 2;        ///< one picture twice as bright as the other

@@ -114,6 +114,9 @@ struct MissionMemory {
   bool vision_allowed = false;
   Timestamp vision_good_at;
   Timestamp map_seen_at;
+  /// The ground of the armed site was measured last; at the earliest when the descent began.
+  Timestamp ground_seen_at;
+  double lost_share = NAN;  ///< of the vehicle's messages, lately
 };
 
 /// Requests (hold, abort) have this bit of their number set, approvals do not.

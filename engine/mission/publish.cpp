@@ -1,5 +1,8 @@
 #include "engine/mission/publish.h"
 
+#include <utility>
+#include <vector>
+
 #include "engine/mission/alarms/alarms.h"
 #include "engine/mission/descent_limits.h"
 #include "engine/mission/geometry.h"
@@ -17,6 +20,28 @@ void PublishAlarms(MissionTurn& turn, const MissionInputs& in) {
     AddEvent(turn, in.session.now, EventKind::kAlarm, alarm.text);
   }
   m.status.alarms = m.alarms.Shown();
+}
+
+/// A wave-off and a hold are told with the command that brings them about; all else waits for the
+/// next step.
+void RaiseAtOnce(MissionTurn& turn, Timestamp now) {
+  MissionMemory& m = turn.memory;
+  AlarmFacts facts;
+  facts.state = m.status.state;
+  facts.why = m.status.why;
+  facts.wave_off = WaveOffNow(m, now);
+  facts.alternative = SiteLost(m, now) ? words::Alternative(m) : "";
+  std::vector<AlarmCondition> conditions;
+  for (AlarmCondition& condition : EvaluateAlarms(facts)) {
+    if (condition.present &&
+        (condition.id == AlarmId::kWaveOff || condition.id == AlarmId::kHold)) {
+      conditions.push_back(std::move(condition));
+    }
+  }
+  m.alarms.Update(conditions, now);
+  for (const Alarm& alarm : m.alarms.raised()) {
+    AddEvent(turn, now, EventKind::kAlarm, alarm.text);
+  }
 }
 
 std::string WhyNoApproval(const MissionMemory& m) {
@@ -62,8 +87,10 @@ void Publish(MissionTurn& turn, const MissionInputs& in) {
   PublishGuards(turn.memory, in.session.now);
 }
 
-void PublishBetweenSteps(MissionMemory& m, Timestamp now) {
+void PublishBetweenSteps(MissionTurn& turn, Timestamp now) {
+  MissionMemory& m = turn.memory;
   PublishFigures(m, now);
+  RaiseAtOnce(turn, now);
   m.status.alarms = m.alarms.Shown();
   PublishGuards(m, now);
 }

@@ -8,6 +8,6 @@ namespace palace {
 void Publish(MissionTurn& turn, const MissionInputs& inputs);
 /// After a command: the same figures and guards of the new state, by what the last step knew.
 /// Alarms are judged in steps only; what was acknowledged is told at once.
-void PublishBetweenSteps(MissionMemory& memory, Timestamp now);
+void PublishBetweenSteps(MissionTurn& turn, Timestamp now);
 
 }  // namespace palace

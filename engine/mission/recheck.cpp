@@ -1,5 +1,6 @@
 #include "engine/mission/recheck.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -74,6 +75,9 @@ void FollowSite(MissionTurn& turn, const MissionInputs& in) {
                    {m.armed.confirmed, m.status.armed->clearance_m}, in.limits.settings.slad),
       now);
   m.newest = in.terrain.rechecked;
+  if (in.terrain.rechecked && in.terrain.rechecked->age_s >= 0) {
+    m.ground_seen_at = std::max(m.ground_seen_at, AddSeconds(now, -in.terrain.rechecked->age_s));
+  }
   m.armed.confirmed =
       m.armed.confirmed || (m.site.newest().holds() && in.terrain.rechecked->confirmed);
   FollowAlternative(m, in);

@@ -1,8 +1,10 @@
 #include "engine/mission/states.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "engine/mission/alarms/alarms.h"
 #include "engine/mission/geometry.h"
 #include "engine/mission/limits.h"
 #include "engine/mission/wave_off.h"
@@ -26,28 +28,11 @@ std::string WhyNoProposal(const MissionMemory& m, Timestamp now) {
   return best == nullptr ? words::kEverySiteRefused : words::SiteLeads(best->letter);
 }
 
-std::string WhyStale(const MissionMemory& m, Timestamp now) {
-  using words::Older;
-  for (const std::string& why :
-       {Older("Vehicle status", m.watch.LinkAge(now), StaleLimits::link_s),
-        Older("Vehicle pose", m.watch.PoseAge(now), StaleLimits::sensor_s),
-        Older("Left camera", m.watch.LeftCameraAge(now), StaleLimits::sensor_s),
-        Older("Right camera", m.watch.RightCameraAge(now), StaleLimits::sensor_s),
-        Older("Map", SecondsBetween(m.map_seen_at, now), StaleLimits::map_s)}) {
-    if (!why.empty()) {
-      return why;
-    }
-  }
-  return {};
-}
-
 /// Why what is armed or approved may not stay so; empty when it may.
-std::string WhyDrop(const MissionMemory& m, Timestamp now) {
+std::string WhyDrop(const MissionMemory& m, const MissionInputs& in) {
+  const Timestamp now = in.session.now;
   if (m.watch.rebooted() || m.watch.boot_id() != m.armed.boot_id) {
     return words::kRestarted;
-  }
-  if (m.watch.clock_stepped()) {
-    return words::kClockStepped;
   }
   if (m.facts.settings_hash != m.armed.settings_hash ||
       m.facts.terrain_settings_hash != m.armed.terrain_settings_hash) {
@@ -59,11 +44,14 @@ std::string WhyDrop(const MissionMemory& m, Timestamp now) {
   if (SiteLost(m, now)) {
     return m.site.reason();
   }
-  return WhyStale(m, now);
+  const std::string why = WhyStopped(AlarmFactsAt(m, in));
+  return why.empty() ? words::Older("Map", SecondsBetween(m.map_seen_at, now), StaleLimits::map_s)
+                     : why;
 }
 
 /// Why a descent may not go on; empty when it may.
-std::string WhyHold(const MissionMemory& m, Timestamp now) {
+std::string WhyHold(const MissionMemory& m, const MissionInputs& in) {
+  const Timestamp now = in.session.now;
   const VehicleStatus& vehicle = *m.watch.vehicle();
   if (m.watch.rebooted()) {
     return words::kRestarted;
@@ -88,7 +76,7 @@ std::string WhyHold(const MissionMemory& m, Timestamp now) {
       height_m <= GuardLimits::confirm_height_m) {
     return words::NotConfirmed(m.status.armed->letter);
   }
-  return WhyStale(m, now);
+  return WhyStopped(AlarmFactsAt(m, in));
 }
 
 void StepSearching(MissionTurn& turn, Timestamp now) {
@@ -121,7 +109,7 @@ void StepArmed(MissionTurn& turn, const MissionInputs& in) {
     m.armed.first_sequence = in.session.snapshot_sequence + 1;
     m.armed.shown_since = now;
   }
-  std::string why = WhyDrop(m, now);
+  std::string why = WhyDrop(m, in);
   if (why.empty() && m.status.arm_expires && now >= *m.status.arm_expires) {
     why = words::kArmWindowOver;
   }
@@ -130,9 +118,10 @@ void StepArmed(MissionTurn& turn, const MissionInputs& in) {
   }
 }
 
-void StepApproved(MissionTurn& turn, Timestamp now) {
+void StepApproved(MissionTurn& turn, const MissionInputs& in) {
   using Phase = MissionStatus::ApprovalPhase;
   MissionMemory& m = turn.memory;
+  const Timestamp now = in.session.now;
   const auto& vehicle = m.watch.vehicle();
   const bool executing = Executing(m) && IsOwnApproval(m, vehicle->approval_id);
   if (executing && m.status.approval_phase == Phase::kSent) {
@@ -142,7 +131,7 @@ void StepApproved(MissionTurn& turn, Timestamp now) {
     m.vision_allowed = true;
     m.repeating.reset();
   }
-  std::string why = WhyDrop(m, now);
+  std::string why = WhyDrop(m, in);
   if (!why.empty()) {
     executing ? Hold(turn, std::move(why), now) : Drop(turn, std::move(why), now);
     return;
@@ -152,6 +141,7 @@ void StepApproved(MissionTurn& turn, Timestamp now) {
   } else if (executing && vehicle->mode != VehicleMode::kAlign) {
     Enter(turn, MissionState::kDescending, words::Descends(words::SiteName(m.status)), now);
     m.vision_good_at = now;
+    m.ground_seen_at = std::max(m.ground_seen_at, now);
   } else if (!executing && m.watch.VehicleTime(now) >= m.status.approval->expires_at) {
     Drop(turn, words::kExpired, now);
   }
@@ -204,7 +194,7 @@ void StepDescending(MissionTurn& turn, const MissionInputs& in) {
     IsCommitted(m) ? Abort(turn, why, now) : Hold(turn, why, now);
     return;
   }
-  std::string why = WhyHold(m, now);
+  std::string why = WhyHold(m, in);
   if (!why.empty()) {
     Hold(turn, std::move(why), now);
   }
@@ -258,7 +248,7 @@ void StepState(MissionTurn& turn, const MissionInputs& in) {
       StepArmed(turn, in);
       break;
     case MissionState::kApproved:
-      StepApproved(turn, in.session.now);
+      StepApproved(turn, in);
       break;
     case MissionState::kDescending:
       StepDescending(turn, in);

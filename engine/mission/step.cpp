@@ -34,7 +34,7 @@ MissionAnswer Apply(const MissionOptions& station, MissionMemory memory,
   MissionTurn turn{station, std::move(memory), {}};
   HearSession(turn.memory.facts, session);
   Status status = Obey(turn, command, session.now);
-  PublishBetweenSteps(turn.memory, session.now);
+  PublishBetweenSteps(turn, session.now);
   return {std::move(turn.memory), std::move(turn.effects), std::move(status)};
 }
 
@@ -47,7 +47,7 @@ MissionStep DropApproval(const MissionOptions& station, MissionMemory memory,
   MissionTurn turn{station, std::move(memory), {}};
   if (DropsWithSettings(turn.memory.status)) {
     Drop(turn, std::string(why), turn.memory.facts.now);
-    PublishBetweenSteps(turn.memory, turn.memory.facts.now);
+    PublishBetweenSteps(turn, turn.memory.facts.now);
   }
   return {std::move(turn.memory), std::move(turn.effects)};
 }

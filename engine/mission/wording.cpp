@@ -32,6 +32,10 @@ std::string Older(const char* what, double age_s, double limit_s) {
   return age_s <= limit_s ? std::string() : std::string(what) + " " + Age(age_s);
 }
 
+std::string ClockStepped(double step_s) {
+  return WithNumbers("Vehicle clock stepped by %+.1f s", step_s);
+}
+
 std::string SiteName(const MissionStatus& status) {
   return status.armed ? std::string("site ") + status.armed->letter : std::string("the site");
 }
@@ -144,6 +148,10 @@ std::string WaveOffTold(const WaveOffReport& report) {
   }
   return old ? ". The vehicle hovered when it was heard last" + ago
              : ". Vehicle hovers. Acknowledge to search again.";
+}
+
+std::string GroundNotMeasured(char letter, double age_s) {
+  return std::string("Ground of site ") + letter + WithNumbers(" not measured for %.1f s", age_s);
 }
 
 std::string VisionLost(double outage_s, double limit_s) {

@@ -16,7 +16,6 @@ inline constexpr const char* kNoNewMap = "No new map";
 inline constexpr const char* kNoSiteStands = "No site stands on the newest map";
 inline constexpr const char* kEverySiteRefused = "Every site on the newest map is refused";
 inline constexpr const char* kRestarted = "Vehicle restarted";
-inline constexpr const char* kClockStepped = "Vehicle clock stepped";
 inline constexpr const char* kLimitsChanged = "Limits changed";
 inline constexpr const char* kCalibrationChanged = "Calibration changed";
 inline constexpr const char* kArmWindowOver = "Arm window is over, select the site again";
@@ -56,6 +55,8 @@ std::string NotTheArmedOne(const MissionStatus& status);
 
 /// "stale, 1.8 s" or "never received".
 std::string Age(double age_s);
+/// "Vehicle clock stepped by +5.0 s".
+std::string ClockStepped(double step_s);
 /// "Left camera stale, 1.8 s"; empty when the age is known and within the limit.
 std::string Older(const char* what, double age_s, double limit_s);
 
@@ -91,6 +92,8 @@ std::string Descends(std::string_view site);
 std::string OnTheGround(std::string_view site);
 /// What became of a wave-off: ". Vehicle climbs. Acknowledge when it hovers."
 std::string WaveOffTold(const WaveOffReport& report);
+/// "Ground of site A not measured for 2.1 s".
+std::string GroundNotMeasured(char letter, double age_s);
 std::string VisionLost(double outage_s, double limit_s);
 
 }  // namespace palace::words

@@ -36,6 +36,8 @@ struct ChannelHealth {
   std::uint64_t count = 0;
   std::uint64_t lost = 0;
   std::string note;  ///< e.g. "± 2.6 m"
+  /// Share of the last 5 s that is missing, by the channel's own beat; NaN: not known.
+  double lost_share = NAN;
 };
 
 /// Null when that channel is not listed; then nothing of it is fresh.

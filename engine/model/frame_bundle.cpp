@@ -17,6 +17,23 @@ std::size_t Prepend(const std::vector<T>& older, std::vector<T>& newer) {
   return dropped;
 }
 
+ArrivalNotes Joined(const ArrivalNotes& older, const ArrivalNotes& newer, bool jump_between) {
+  ArrivalNotes joined = newer;
+  if (older.clock) {
+    joined.clock = newer.clock ? newer.clock : older.clock;
+    if (newer.clock) {
+      joined.clock->stepped_s += older.clock->stepped_s;
+      joined.clock->stalled_s += older.clock->stalled_s;
+    }
+  }
+  joined.poses_invalid += older.poses_invalid;
+  if (!jump_between) {
+    joined.left_alone = newer.left_alone ? newer.left_alone : older.left_alone;
+    joined.right_alone = newer.right_alone ? newer.right_alone : older.right_alone;
+  }
+  return joined;
+}
+
 }  // namespace
 
 FrameBundle WithoutPictures(const FrameBundle& bundle) {
@@ -34,6 +51,7 @@ JoinedBundle Join(const FrameBundle& older, const FrameBundle& newer) {
                                    older.recorded_commands.begin(), older.recorded_commands.end());
   result.samples_dropped += Prepend(older.acks, joined->acks);
   result.samples_dropped += Prepend(older.refused, joined->refused);
+  joined->arrival = Joined(older.arrival, newer.arrival, newer.discontinuity);
   if (!joined->rig) {
     joined->rig = older.rig;
   }

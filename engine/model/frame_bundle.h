@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "engine/core/vehicle_clock.h"
 #include "engine/model/command.h"
 #include "engine/model/image.h"
 #include "engine/model/refused_datagram.h"
@@ -28,10 +29,22 @@ struct StereoFrame {
   ImageU8 right;
 };
 
+/// What the station itself noted while the bundle came together. It is recorded with the bundle, so
+/// that a replay decides alike. Sources whose clock is the data's own leave it as it is here.
+struct ArrivalNotes {
+  std::optional<ClockReading> clock;  ///< of a live source
+  /// Stamp of the newest picture that came without its partner: which camera is lost.
+  std::optional<Timestamp> left_alone, right_alone;
+  int poses_invalid = 0;  ///< vehicle poses refused: attitude or place no numbers
+  friend bool operator==(const ArrivalNotes&, const ArrivalNotes&) = default;
+};
+
 /// Immutable once published. Samples are in order of time and lie after the previous bundle's time.
 struct FrameBundle {
   std::uint64_t sequence = 0;
-  Timestamp time;  ///< active clock when complete, for ages; zero while a live source heard nothing
+  /// The active clock when it was complete, for ages. Of a live source the vehicle's clock as the
+  /// station's monotonic one tells it, so that it runs on by itself; zero while nothing was heard.
+  Timestamp time;
   std::shared_ptr<const StereoRig> rig;
   std::shared_ptr<const StereoFrame> stereo;    ///< null: a bundle without pictures
   std::optional<VehiclePose> pose_at_exposure;  ///< autopilot pose at stereo->time
@@ -43,6 +56,7 @@ struct FrameBundle {
   std::vector<CommandAck> acks;
   std::vector<Truth> truth;
   std::vector<RefusedDatagram> refused;  ///< not let in meanwhile: for the record alone
+  ArrivalNotes arrival;
   /// Replay only: what was posted before this bundle when it was recorded.
   std::vector<EngineCommand> recorded_commands;
   /// First bundle after a jump in time (a seek, a step back): filters and maps start afresh.

@@ -47,6 +47,12 @@ struct FilterStatus {
   double residual_sigma = 0;  ///< sqrt(innovation' S^-1 innovation / dof) of the last measurement
   double max_residual_sigma = NAN;  ///< beyond it a measurement is refused
   int rejected_in_row = 0;
+  /// Since the last measurement that it took: so long the estimate is carried on by inertia alone,
+  /// and its sigma grows. NaN: not running.
+  double coasting_s = NAN;
+  /// Carried on for so long that a figure made of it would mislead: it counts as unknown.
+  bool IsUnknown() const { return coasting_s > kUnknownAfter_s; }
+  static constexpr double kUnknownAfter_s = 5;
 };
 
 struct NavigationStatus {

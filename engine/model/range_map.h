@@ -42,7 +42,10 @@ struct StereoQuality {
   double median_sigma_px = 0;
   double median_depth_m = 0;     ///< NaN when nothing matched
   bool suspect_swapped = false;  ///< left and right look exchanged
-  bool suspect_frozen = false;   ///< picture identical to the one before
+  bool left_frozen = false;      ///< the camera repeats its picture: stereo/frozen_check.h
+  bool right_frozen = false;
+  bool left_blank = false;  ///< the camera shows nothing: dark, covered or washed out
+  bool right_blank = false;
   bool suspect_covered = false;  ///< one picture shows nothing while the other does
   bool suspect_same = false;     ///< left and right are one picture
   /// Median row difference, right minus left, and its spread (1.48 MAD); NaN when not measured.

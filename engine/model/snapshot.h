@@ -8,6 +8,7 @@
 //   flight    state of the mission, tracker, navigation, history
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <memory>
@@ -148,6 +149,9 @@ struct FlightPart {
 struct EngineSnapshot {
   std::uint64_t sequence = 0;  ///< strictly increasing
   Timestamp time;              ///< of the bundle it came from
+  /// Live sources: this machine's monotonic second (MonotonicSeconds) at which `time` was now.
+  /// NaN where the session's clock is the data's own. For ages on a screen see AgeNow.
+  double station_s = NAN;
   /// Of maps, sites, state and estimates: equal flights, equal hashes.
   std::uint64_t decision_hash = 0;
 
@@ -156,5 +160,14 @@ struct EngineSnapshot {
   SharedValue<TerrainPart> terrain;
   SharedValue<FlightPart> flight;
 };
+
+/// How old something of `moment` (any stamp in the snapshot: of a map, a status, an estimate, an
+/// event) is for a person who looks at `monotonic_now_s`. On a live source it goes on growing when
+/// nothing more is published; elsewhere time stands with the data. Never below zero.
+inline double AgeNow(const EngineSnapshot& snapshot, Timestamp moment, double monotonic_now_s) {
+  const double since_s =
+      std::isnan(snapshot.station_s) ? 0.0 : std::max(0.0, monotonic_now_s - snapshot.station_s);
+  return std::max(0.0, SecondsBetween(moment, snapshot.time)) + since_s;
+}
 
 }  // namespace palace

@@ -275,6 +275,11 @@ void Navigator::UpdateStatus() {
   status_.gps.residual_sigma = gps_.residual_sigma();
   status_.gps.max_residual_sigma = gps_.max_residual_sigma();
   status_.gps.rejected_in_row = gps_.rejected_in_row();
+  const auto coasting_s = [&](const PositionFilter& filter) {
+    return filter.running() ? SecondsBetween(filter.last_accepted(), now_) : NAN;
+  };
+  status_.gps.coasting_s = coasting_s(gps_);
+  status_.vision.coasting_s = coasting_s(vision_);
   status_.vision.running = vision_.running();
   status_.vision.estimate = vision_.running() ? VisionEstimate(now_) : PositionEstimate{};
   status_.vision.residual_sigma = vision_.residual_sigma();

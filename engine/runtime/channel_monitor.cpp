@@ -12,6 +12,10 @@ constexpr double kFreshPeriods = 2;
 constexpr double kLatePeriods = 5;
 constexpr double kLeastStaleAge_s = 1;
 constexpr double kLostAfterPeriods = 1.5;
+constexpr std::size_t kPeriodsKept = 256;
+constexpr std::size_t kLeastPeriods = 20;  ///< no beat is told from fewer
+constexpr double kBeatQuantile = 0.4;
+constexpr double kLossWindow_s = 5;
 
 }  // namespace
 
@@ -38,6 +42,10 @@ void ChannelMonitor::Saw(ChannelId channel, Timestamp stamp) {
     if (period_s <= 0) {
       return;
     }
+    watch.periods_s.push_back(period_s);
+    if (watch.periods_s.size() > kPeriodsKept) {
+      watch.periods_s.pop_front();
+    }
     watch.mean_period_s +=
         (watch.mean_period_s == 0 ? 1 : kPeriodSmoothing) * (period_s - watch.mean_period_s);
     const double periods = period_s * watch.expected_hz;
@@ -47,6 +55,22 @@ void ChannelMonitor::Saw(ChannelId channel, Timestamp stamp) {
   }
   watch.last = stamp;
   ++watch.count;
+}
+
+double ChannelMonitor::Watch::LostShare() const {
+  if (periods_s.size() < kLeastPeriods) {
+    return NAN;
+  }
+  std::vector<double> sorted(periods_s.begin(), periods_s.end());
+  const auto place = sorted.begin() + static_cast<std::ptrdiff_t>(
+                                          kBeatQuantile * static_cast<double>(sorted.size()));
+  std::nth_element(sorted.begin(), place, sorted.end());
+  double span_s = 0, got = 0;
+  for (auto p = periods_s.rbegin(); p != periods_s.rend() && span_s < kLossWindow_s; ++p) {
+    span_s += *p;
+    ++got;
+  }
+  return std::max(0.0, 1 - got * *place / span_s);
 }
 
 void ChannelMonitor::Add(const FrameBundle& bundle, bool has_vehicle) {
@@ -67,6 +91,12 @@ void ChannelMonitor::Add(const FrameBundle& bundle, bool has_vehicle) {
     if (!bundle.stereo->right.empty()) {
       Saw(ChannelId::kCameraRight, bundle.stereo->time);
     }
+  }
+  if (bundle.arrival.left_alone) {
+    Saw(ChannelId::kCameraLeft, *bundle.arrival.left_alone);
+  }
+  if (bundle.arrival.right_alone) {
+    Saw(ChannelId::kCameraRight, *bundle.arrival.right_alone);
   }
   for (const VehiclePose& pose : bundle.poses) {
     Saw(ChannelId::kVehiclePose, pose.time);
@@ -104,6 +134,7 @@ std::vector<ChannelHealth> ChannelMonitor::Health(Timestamp now) const {
     health.expected_hz = watch.expected_hz;
     health.count = watch.count;
     health.lost = watch.lost;
+    health.lost_share = watch.LostShare();
     health.rate_hz = watch.mean_period_s > 0 ? 1 / watch.mean_period_s : 0;
     health.age_s = watch.count > 0 ? SecondsBetween(watch.last, now) : NAN;
     if (watch.count > 0) {

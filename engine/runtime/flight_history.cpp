@@ -59,7 +59,11 @@ HistorySample SampleOf(const EngineSnapshot& snapshot, const FrameBundle& bundle
     sample.estimate_p_WB = snapshot.sensors->pose->X_WB.p;
     sample.estimate_v_WB = snapshot.sensors->pose->v_WB;
   }
-  if (filter.running) {
+  if (filter.running && filter.IsUnknown()) {
+    sample.estimate_p_WB = sample.estimate_v_WB = Eigen::Vector3d::Constant(NAN);
+    sample.estimate_sigma_m = filter.estimate.sigma_p_m;  // goes on growing
+    sample.descent_rate_sigma_mps = filter.estimate.sigma_v_mps.z();
+  } else if (filter.running) {
     sample.estimate_p_WB = filter.estimate.p_WB;
     sample.estimate_v_WB = filter.estimate.v_WB;
     sample.estimate_sigma_m = filter.estimate.sigma_p_m;

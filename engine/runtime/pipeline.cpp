@@ -47,6 +47,7 @@ void Pipeline::StartAfterJump(Timestamp now) {
   history_.Reset(std::move(before));
   laser_height_m_.reset();
   range_check_.Reset();
+  frozen_check_.Reset();
   stereo_frames_ = 0;
   last_.reset();
 }
@@ -60,6 +61,10 @@ PipelineOutput Pipeline::Process(std::shared_ptr<const FrameBundle> bundle,
   }
   Pass pass{bundle, std::move(commands), session, NextSnapshot()};
   pass.snapshot->time = bundle->time;
+  // A record's monotonic seconds are of another time of the machine.
+  pass.snapshot->station_s = bundle->arrival.clock && session.source.kind == SourceKind::kLive
+                                 ? bundle->arrival.clock->station_s
+                                 : NAN;
   ApplyCommands(pass);
   PrepareRig(pass);
   See(pass);
@@ -186,6 +191,12 @@ double Pipeline::GroundHeight() const {
   return 0;
 }
 
+double Pipeline::DepthOfGround(const RigidTransform& X_WC) const {
+  const double axis_down = X_WC.R(2, 2);
+  const bool known = MissionInForce().armed || laser_height_m_;
+  return known && axis_down > 0.1 ? (HeightFromDown(X_WC.p.z()) - GroundHeight()) / axis_down : NAN;
+}
+
 void Pipeline::MeasureRange(Pass& pass) {
   if (!pass.pair.left || !pass.pair.right) {
     return;
@@ -214,6 +225,15 @@ void Pipeline::MeasureRange(Pass& pass) {
     pass.Note(DiagnosticLevel::kError, "stereo", result.error().message);
     return;
   }
+  const FrozenCameras frozen =
+      frozen_check_.Add({.time = pass.bundle->stereo->time,
+                         .left = pass.pair.left,
+                         .right = pass.pair.right,
+                         .X_WC = pass.snapshot->sensors->X_WC,
+                         .camera = rectifier_->camera(),
+                         .depth_m = pose ? DepthOfGround(pass.snapshot->sensors->X_WC) : NAN});
+  result->quality.left_frozen = frozen.left;
+  result->quality.right_frozen = frozen.right;
   pass.snapshot->terrain.Edit().stereo_quality = result->quality;
   pass.new_stereo = true;
   if (result->quality.suspect_covered) {

@@ -20,6 +20,7 @@
 #include "engine/runtime/recorded_mission.h"
 #include "engine/runtime/settings_state.h"
 #include "engine/slad/slad.h"
+#include "engine/stereo/frozen_check.h"
 #include "engine/stereo/range_check.h"
 #include "engine/stereo/stereo.h"
 #include "engine/tracking/site_tracker.h"
@@ -94,6 +95,9 @@ class Pipeline {
   /// it. After a jump, what the record restored.
   const MissionStatus& MissionInForce() const;
   double GroundHeight() const;
+  /// From the left camera along its axis to the ground; NaN where neither a site nor the laser
+  /// tell.
+  double DepthOfGround(const RigidTransform& X_WC) const;
   /// The laser's spot in the axes of the rectified left camera, when it is as new as the picture.
   std::optional<Eigen::Vector3d> LaserSpot(const EngineSnapshot& snapshot) const;
   /// The site tracked and flown to; after a jump in a replay the recorded one.
@@ -110,6 +114,7 @@ class Pipeline {
   std::string rig_problem_;
   StereoMatcher matcher_;
   RangeCheck range_check_;
+  FrozenCheck frozen_check_;
   Slad slad_;
   SiteTracker tracker_;
   std::uint64_t tracked_site_ = 0;

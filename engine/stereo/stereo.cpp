@@ -100,16 +100,6 @@ ImageF FindWholePixels(const ImageU8& left, const ImageU8& right, const Rectifie
 
 }  // namespace
 
-struct StereoMatcher::Memory {
-  ImageU8 left;
-  ImageU8 right;
-};
-
-StereoMatcher::StereoMatcher() : memory_(std::make_unique<Memory>()) {}
-StereoMatcher::~StereoMatcher() = default;
-StereoMatcher::StereoMatcher(StereoMatcher&&) noexcept = default;
-StereoMatcher& StereoMatcher::operator=(StereoMatcher&&) noexcept = default;
-
 Result<StereoResult> StereoMatcher::Match(const ImageU8& left, const ImageU8& right,
                                           const PinholeCamera& camera, double baseline_m,
                                           const DisparityWindow& window,
@@ -138,13 +128,8 @@ Result<StereoResult> StereoMatcher::Match(const ImageU8& left, const ImageU8& ri
   SummariseRange(result.range, quality);
   MeasureRowError(left, right, result.range.disparity_px, quality);
   SuspectPictures(left, right, quality);
-  // Camera noise never repeats, so one equal picture is enough to suspect its camera.
-  quality.suspect_frozen = (!memory_->left.empty() && memory_->left.pixels() == left.pixels()) ||
-                           (!memory_->right.empty() && memory_->right.pixels() == right.pixels());
   quality.suspect_swapped =
       quality.coverage < kSwapTestCoverage && LooksSwapped(left, right, window, settings);
-  memory_->left = left;
-  memory_->right = right;
   return result;
 }
 

@@ -37,15 +37,10 @@ struct StereoResult {
 
 /// Matches rectified pairs. Whole pixels by semi-global matching (semi_global.h; Hirschmueller
 /// 2008), the fraction by correlation refinement (subpixel.h). Same input, same bits, for any
-/// number of OpenCV threads and with or without AVX2; only suspect_frozen depends on the pair
-/// before.
+/// number of OpenCV threads and with or without AVX2. left_frozen and right_frozen are not filled:
+/// they need the pairs before, see frozen_check.h.
 class StereoMatcher {
  public:
-  StereoMatcher();
-  ~StereoMatcher();
-  StereoMatcher(StereoMatcher&&) noexcept;
-  StereoMatcher& operator=(StereoMatcher&&) noexcept;
-
   /// The range map has no pose: who knows it adds it. Pixels without texture, without a unique
   /// match, hidden from one camera, outside the window or with a sigma over settings.max_sigma_px
   /// are NaN in all layers. Refuses pictures whose sizes differ from the camera's, a baseline that
@@ -55,10 +50,6 @@ class StereoMatcher {
                              double baseline_m, const DisparityWindow& window,
                              const StereoSettings& settings, Timestamp time,
                              const RectifiedPair* filtered = nullptr);
-
- private:
-  struct Memory;  // the last pair
-  std::unique_ptr<Memory> memory_;
 };
 
 }  // namespace palace

@@ -163,6 +163,8 @@ void SuspectPictures(const ImageU8& left, const ImageU8& right, StereoQuality& q
   quality.exposure_ratio = a.mean > 0 ? b.mean / a.mean : kNaN;
   quality.suspect_covered = std::min(a.deviation, b.deviation) < kCoveredDeviation &&
                             std::max(a.deviation, b.deviation) >= kSeeingDeviation;
+  quality.left_blank = a.deviation < kCoveredDeviation;
+  quality.right_blank = b.deviation < kCoveredDeviation;
   quality.suspect_same = !left.empty() && a.deviation > 0 && left.pixels() == right.pixels();
 }
 

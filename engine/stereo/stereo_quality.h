@@ -17,7 +17,7 @@ void MeasureRowError(const ImageU8& left, const ImageU8& right, const ImageF& di
                      StereoQuality& quality);
 
 /// Fills exposure_ratio (mean grey of the right picture over that of the left; NaN when the left
-/// one is black), suspect_covered and suspect_same. Same size pictures.
+/// one is black), left_blank, right_blank, suspect_covered and suspect_same. Same size pictures.
 void SuspectPictures(const ImageU8& left, const ImageU8& right, StereoQuality& quality);
 
 /// True when a band across the picture matches with left and right exchanged, and does not as

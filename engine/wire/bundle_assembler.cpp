@@ -74,6 +74,10 @@ Status BundleAssembler::Take(const WireMessage& message, Bundles& done) {
 }
 
 bool BundleAssembler::IsNews(const std::string& channel, Timestamp time) {
+  if (options_.accepts && !options_.accepts(channel, time)) {
+    ++report_.stamps_refused[channel];
+    return false;
+  }
   if (options_.drop_repeated) {
     const auto seen = newest_of_.find(channel);
     if (seen != newest_of_.end() && time <= seen->second &&
@@ -104,7 +108,9 @@ Status BundleAssembler::TakeSample(const WireMessage& message) {
     report_.samples_overflowed += Append(samples, std::move(sample));
   };
   if (channel == channels_.vehicle_pose) {
-    return take(PoseFromWire(message), [&](VehiclePose p) { keep_in(pending_.poses, p); });
+    auto pose = PoseFromWire(message);
+    pending_.arrival.poses_invalid += !pose && IsPoseMessage(message) ? 1 : 0;
+    return take(std::move(pose), [&](VehiclePose p) { keep_in(pending_.poses, p); });
   }
   if (channel == channels_.imu) {
     return take(ImuFromWire(message), [&](ImuSample s) { keep_in(pending_.imu, s); });
@@ -120,6 +126,14 @@ Status BundleAssembler::TakeSample(const WireMessage& message) {
   }
   if (channel == channels_.truth) {
     return take(DecodeTruth(message), [&](Truth t) { keep_in(pending_.truth, t); });
+  }
+  if (channel == channels_.arrival) {
+    Result<ArrivalNotes> notes = ArrivalFromWire(message);
+    if (!notes) {
+      return notes.error();
+    }
+    pending_.arrival = std::move(*notes);
+    return Ok();
   }
   if (channel == channels_.command_ack) {
     Result<CommandAck> ack = AckFromWire(message);
@@ -158,17 +172,25 @@ Status BundleAssembler::TakePicture(const WireMessage& message, bool is_left, Bu
   }
   std::optional<TimedPicture>& mine = is_left ? left_ : right_;
   std::optional<TimedPicture>& other = is_left ? right_ : left_;
-  report_.pictures_unpaired += mine.has_value() ? 1 : 0;
+  if (mine) {
+    DropAlone(is_left);
+  }
   mine = std::move(*picture);
   if (other && std::abs(SecondsBetween(other->time, mine->time)) > options_.pair_window_s) {
     // Only the newer one can still find a partner.
-    ++report_.pictures_unpaired;
-    (other->time < mine->time ? other : mine).reset();
+    DropAlone(other->time < mine->time ? !is_left : is_left);
   }
   if (!closed_stream_) {
     ClosePair(done);
   }
   return Ok();
+}
+
+void BundleAssembler::DropAlone(bool is_left) {
+  std::optional<TimedPicture>& picture = is_left ? left_ : right_;
+  ++report_.pictures_unpaired;
+  (is_left ? pending_.arrival.left_alone : pending_.arrival.right_alone) = picture->time;
+  picture.reset();
 }
 
 void BundleAssembler::ClosePair(Bundles& done) {
@@ -227,6 +249,12 @@ Status BundleAssembler::TakeRig(const WireMessage& message, Bundles& done) {
         StereoFrame{left_->time, std::move(left_->grey), std::move(right_->grey)});
   } else {
     report_.pictures_unpaired += (left_ ? 1u : 0u) + (right_ ? 1u : 0u);
+    if (left_) {
+      bundle->arrival.left_alone = left_->time;
+    }
+    if (right_) {
+      bundle->arrival.right_alone = right_->time;
+    }
     bundle->pose_at_exposure = rig->has_pictures ? std::nullopt : bundle->pose_at_exposure;
   }
   left_.reset();

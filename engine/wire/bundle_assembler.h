@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -28,11 +29,14 @@ struct AssemblerReport {
   std::uint64_t samples_lost = 0;        ///< announced by CAMERA_RIG, never arrived
   std::uint64_t samples_overflowed = 0;  ///< the oldest, of more than wait in one bundle
   std::uint64_t repeated = 0;            ///< a stamp that did not advance (only when dropped)
+  std::map<std::string, std::uint64_t> stamps_refused{};  ///< by channel: AssemblerOptions::accepts
 };
 
 struct AssemblerOptions {
   double pair_window_s = 0.005;  ///< largest difference of the stamps of a pair
   bool drop_repeated = false;    ///< live: a message whose utime does not advance is not news
+  /// Live: whether a stamp on this channel can be, asked before anything else is; null: any can.
+  std::function<bool(const std::string& channel, Timestamp stamp)> accepts{};
 };
 
 /// Two kinds of stream. Closed: CAMERA_RIG with bundle_end comes last in each bundle; the bundle is
@@ -68,6 +72,8 @@ class BundleAssembler {
   Status TakeSample(const WireMessage& message);
   bool IsNews(const std::string& channel, Timestamp time);
   void ClosePair(Bundles& done);
+  /// Notes that this camera's picture found no partner, and forgets it.
+  void DropAlone(bool is_left);
 
   ChannelNames channels_;
   AssemblerOptions options_;

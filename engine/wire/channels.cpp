@@ -33,6 +33,7 @@ const std::vector<Row>& Rows() {
       {"vehicle_status", &N::vehicle_status},
       {"command_ack", &N::command_ack},
       {"truth", &N::truth},
+      {"arrival", &N::arrival},
       {"mission", &N::mission},
       {"slad_settings", &N::slad_settings},
       {"site_proposal", &N::site_proposal},

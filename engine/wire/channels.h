@@ -22,6 +22,7 @@ struct ChannelNames {
   std::string vehicle_status = "VEHICLE_STATUS";
   std::string command_ack = "COMMAND_ACK";
   std::string truth = "TRUTH";
+  std::string arrival = "ARRIVAL";  ///< in recordings only
   // From the station.
   std::string mission = "MISSION";
   std::string slad_settings = "SLAD_SETTINGS";

@@ -174,6 +174,7 @@ PALACE_WIRE_TYPE(site_proposal_t)
 PALACE_WIRE_TYPE(slad_settings_t)
 PALACE_WIRE_TYPE(station_status_t)
 PALACE_WIRE_TYPE(tracker_status_t)
+PALACE_WIRE_TYPE(arrival_t)
 PALACE_WIRE_TYPE(truth_t)
 PALACE_WIRE_TYPE(vehicle_status_t)
 

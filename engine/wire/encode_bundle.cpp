@@ -118,6 +118,25 @@ camera_rig_t RigToWire(const StereoRig* rig) {
   return m;
 }
 
+arrival_t ArrivalToWire(const ArrivalNotes& notes, Timestamp now) {
+  arrival_t m{};
+  m.utime = now.us;
+  m.has_clock = notes.clock.has_value();
+  const ClockReading clock = notes.clock.value_or(ClockReading{});
+  m.station_s = clock.station_s;
+  m.estimating = clock.estimating;
+  m.drift_ppm = clock.drift_ppm;
+  m.jitter_s = clock.jitter_s;
+  m.stepped_s = clock.stepped_s;
+  m.stalled_s = clock.stalled_s;
+  m.left_alone = notes.left_alone.has_value();
+  m.left_utime = notes.left_alone.value_or(Timestamp{}).us;
+  m.right_alone = notes.right_alone.has_value();
+  m.right_utime = notes.right_alone.value_or(Timestamp{}).us;
+  m.poses_invalid = notes.poses_invalid;
+  return m;
+}
+
 camera_rig_t BundleEnd(const FrameBundle& bundle) {
   camera_rig_t m = RigToWire(bundle.rig.get());
   m.utime = bundle.time.us;
@@ -191,6 +210,9 @@ std::vector<WireMessage> EncodeBundle(const FrameBundle& bundle, const ChannelNa
   }
   for (const RefusedDatagram& refused : bundle.refused) {
     messages.push_back(EncodeRefused(refused, now, channels));
+  }
+  if (!(bundle.arrival == ArrivalNotes{})) {
+    messages.push_back(MakeMessage(channels.arrival, now, ArrivalToWire(bundle.arrival, now)));
   }
   messages.push_back(MakeMessage(channels.camera_rig, now, BundleEnd(bundle)));
   return messages;

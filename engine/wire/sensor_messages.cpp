@@ -97,6 +97,28 @@ Result<CommandAck> AckFromWire(const WireMessage& message) {
   });
 }
 
+bool IsPoseMessage(const WireMessage& message) {
+  return DecodePayload<pose_t>(message.payload).ok();
+}
+
+Result<ArrivalNotes> ArrivalFromWire(const WireMessage& message) {
+  return DecodeAnd<arrival_t>(message, [](const arrival_t& m) -> Result<ArrivalNotes> {
+    ArrivalNotes notes;
+    if (m.has_clock != 0) {
+      notes.clock = ClockReading{m.station_s, m.estimating != 0, m.drift_ppm,
+                                 m.jitter_s,  m.stepped_s,       m.stalled_s};
+    }
+    if (m.left_alone != 0) {
+      notes.left_alone = Timestamp{m.left_utime};
+    }
+    if (m.right_alone != 0) {
+      notes.right_alone = Timestamp{m.right_utime};
+    }
+    notes.poses_invalid = m.poses_invalid;
+    return notes;
+  });
+}
+
 Result<Truth> DecodeTruth(const WireMessage& message) {
   return DecodeAnd<truth_t>(message, [](const truth_t& m) -> Result<Truth> {
     return Truth{{m.utime}, {UnpackRotation(m.rotation), Unpack(m.pos)}, Unpack(m.vel)};

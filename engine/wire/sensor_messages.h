@@ -22,6 +22,11 @@ Result<CommandAck> AckFromWire(const WireMessage& message);
 /// Public in convert.h as well.
 Result<Truth> DecodeTruth(const WireMessage& message);
 
+/// The bytes are a pose message: if PoseFromWire refuses it, a number in it is none.
+bool IsPoseMessage(const WireMessage& message);
+/// ARRIVAL: what the station noted while the bundle came together.
+Result<ArrivalNotes> ArrivalFromWire(const WireMessage& message);
+
 /// GRAY with consistent stride and size, or MJPEG; at most 8192 pixels a side.
 Result<TimedPicture> PictureFromWire(const WireMessage& message);
 

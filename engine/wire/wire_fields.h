@@ -2,6 +2,7 @@
 #pragma once
 
 #include <palace/abort_t.hpp>
+#include <palace/arrival_t.hpp>
 #include <palace/camera_rig_t.hpp>
 #include <palace/command_ack_t.hpp>
 #include <palace/command_t.hpp>
@@ -78,6 +79,11 @@ void VisitFields(Reader& read, vehicle_status_t& m) {
 template <typename Reader>
 void VisitFields(Reader& read, command_ack_t& m) {
   read(m.utime, m.command_id, m.result, m.reason);
+}
+template <typename Reader>
+void VisitFields(Reader& read, arrival_t& m) {
+  read(m.utime, m.has_clock, m.station_s, m.estimating, m.drift_ppm, m.jitter_s, m.stepped_s,
+       m.stalled_s, m.left_alone, m.left_utime, m.right_alone, m.right_utime, m.poses_invalid);
 }
 template <typename Reader>
 void VisitFields(Reader& read, truth_t& m) {

@@ -30,11 +30,11 @@ HealthRow WithLimit(const EngineSnapshot& snap, LimitId id, const char* name, st
 }
 
 std::string PictureWords(const StereoQuality& q) {
-  return q.suspect_swapped   ? "left and right look exchanged"
-         : q.suspect_same    ? "left and right are one picture"
-         : q.suspect_covered ? "one camera shows nothing"
-         : q.suspect_frozen  ? "a camera repeats its picture"
-                             : "two different views";
+  return q.suspect_swapped                 ? "left and right look exchanged"
+         : q.suspect_same                  ? "left and right are one picture"
+         : q.suspect_covered               ? "one camera shows nothing"
+         : q.left_frozen || q.right_frozen ? "a camera repeats its picture"
+                                           : "two different views";
 }
 
 std::string Signed(double value, int decimals) {
@@ -48,8 +48,8 @@ std::string AgreementWords(const RangeAgreement& a) {
 
 std::vector<HealthRow> RowsOf(const EngineSnapshot& snap) {
   const StereoQuality& q = snap.terrain->stereo_quality;
-  const bool pictures_fine =
-      !q.suspect_swapped && !q.suspect_same && !q.suspect_covered && !q.suspect_frozen;
+  const bool pictures_fine = !q.suspect_swapped && !q.suspect_same && !q.suspect_covered &&
+                             !q.left_frozen && !q.right_frozen;
   return {
       {"Pictures", PictureWords(q), "", pictures_fine},
       {"Coverage", Fixed(100 * q.coverage, 0) + " %", ""},

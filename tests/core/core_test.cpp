@@ -1,5 +1,6 @@
 // The vocabulary at the bottom: frames, random streams, queues, results.
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <thread>
 
@@ -133,6 +134,21 @@ TEST(Time, SecondsAddBothWays) {
   EXPECT_EQ(AddSeconds(t, 0.25).us, 1'250'000);
   EXPECT_EQ(AddSeconds(t, -0.25).us, 750'000);
   EXPECT_DOUBLE_EQ(SecondsBetween(t, AddSeconds(t, 1.5)), 1.5);
+}
+
+// Stamps come from strangers: no difference or sum of them wraps (UBSan would tell).
+TEST(Time, HostileStampsSaturate) {
+  using Range = std::numeric_limits<std::int64_t>;
+  const Timestamp least{Range::min()}, most{Range::max()};
+  EXPECT_DOUBLE_EQ(SecondsBetween(least, most), 1e-6 * static_cast<double>(Range::max()));
+  EXPECT_DOUBLE_EQ(SecondsBetween(most, least), 1e-6 * static_cast<double>(Range::min()));
+  EXPECT_EQ(AddSeconds(most, 1), most);
+  EXPECT_EQ(AddSeconds(least, -1), least);
+  EXPECT_EQ(AddSeconds({5}, 1e300), most);
+  EXPECT_EQ(AddSeconds({-5}, -1e300), least);
+  EXPECT_EQ(AddSeconds({5}, NAN), Timestamp{5});
+  EXPECT_EQ(Microseconds(-0.0000004), 0);
+  EXPECT_EQ(Microseconds(-0.0000006), -1);
 }
 
 TEST(Hash, NamesContent) {

@@ -15,6 +15,7 @@ AlarmFacts AllMeasured() {
   AlarmFacts f;
   f.has_source = f.has_vehicle = f.heard_vehicle = f.on_vision = f.tracked = true;
   f.left_camera_age_s = f.right_camera_age_s = f.pose_age_s = f.link_age_s = 0;
+  f.pair_age_s = f.ground_age_s = f.lost_percent = 0;
   f.gps_error_m = f.row_error_px = f.laser_mismatch_m = 0;
   f.exposure_ratio = f.exposure_factor = 1;
   f.scale_error_percent = 0;
@@ -158,7 +159,7 @@ struct Late {
 TEST(GuardTable, AgesTurnAtTheLimitOfTheRow) {
   GuardInputs fine;
   fine.link_age_s = fine.pose_age_s = fine.map_age_s = 0;
-  fine.left_camera_age_s = fine.right_camera_age_s = 0;
+  fine.left_camera_age_s = fine.right_camera_age_s = fine.pair_age_s = 0;
   fine.position_healthy = fine.tracker_locked = true;
   fine.coherence = 1;
   fine.min_coherence = 0.7;
@@ -238,6 +239,82 @@ TEST(AlarmTable, AStalePoseSaysWhatItDoesInEachState) {
   }
 }
 
+// What a text announces is what its row does: above the commit height a row that says "holds" has a
+// stop, that stop comes to speak, and the mission holds with its words.
+TEST(AlarmTable, WhoeverSaysTheDescentHoldsHoldsIt) {
+  struct Worst {
+    AlarmId id;
+    void (*make)(AlarmFacts&);
+  };
+  const Worst kWorst[] = {
+      {AlarmId::kCameraLeft, [](AlarmFacts& f) { f.left_camera_age_s = 1.1; }},
+      {AlarmId::kCameraRight, [](AlarmFacts& f) { f.right_camera_age_s = 1.1; }},
+      {AlarmId::kPose, [](AlarmFacts& f) { f.pose_age_s = 1.1; }},
+      {AlarmId::kLink, [](AlarmFacts& f) { f.link_age_s = 5.1; }},
+      {AlarmId::kClock, [](AlarmFacts& f) { f.clock_stepped = true, f.clock_step_s = 5; }},
+      {AlarmId::kReboot, [](AlarmFacts& f) { f.rebooted = true; }},
+      {AlarmId::kCameraFrozen, [](AlarmFacts& f) { f.pictures.left_frozen = true; }},
+      {AlarmId::kCamerasSwapped, [](AlarmFacts& f) { f.pictures.swapped = true; }},
+      {AlarmId::kCameraBlank, [](AlarmFacts& f) { f.pictures.right_blank = true; }},
+      {AlarmId::kAttitudeInvalid,
+       [](AlarmFacts& f) { f.attitude_invalid = true, f.pose_age_s = 0.6; }},
+      {AlarmId::kPairing, [](AlarmFacts& f) { f.pair_age_s = 1.1; }},
+      {AlarmId::kOldGround, [](AlarmFacts& f) { f.ground_age_s = 2.1; }}};
+  EXPECT_EQ(WhyStopped(AllMeasured()), "");
+  std::set<AlarmId> stops;
+  for (const Worst& worst : kWorst) {
+    SCOPED_TRACE(AlarmName(worst.id));
+    AlarmFacts facts = AllMeasured();
+    worst.make(facts);
+    const AlarmRow& row = AlarmTable()[static_cast<std::size_t>(worst.id)];
+    EXPECT_NE(TextOf(row, facts), "");
+    ASSERT_NE(row.stop, nullptr);
+    EXPECT_NE(row.stop(facts), "");
+    EXPECT_EQ(WhyStopped(facts), row.stop(facts));
+    stops.insert(worst.id);
+  }
+  // Whatever else may be: no text speaks of a hold of ours without a stop.
+  AlarmFacts all = AllMeasured();
+  for (const Worst& worst : kWorst) {
+    worst.make(all);
+  }
+  all.pictures.left_frozen = all.pictures.right_blank = true;
+  for (const AlarmRow& row : AlarmTable()) {
+    if (row.id == AlarmId::kVisionLost) {
+      continue;  // by how low it is the descent holds or climbs: a rule of the state
+    }
+    const bool says = row.text(all, "1").find("escent holds") != std::string::npos;
+    EXPECT_EQ(row.stop != nullptr, stops.count(row.id) == 1) << AlarmName(row.id);
+    EXPECT_TRUE(!says || row.stop != nullptr) << AlarmName(row.id) << ": " << row.text(all, "1");
+  }
+}
+
+// Which camera, and of a silent vehicle the vehicle.
+TEST(AlarmTable, NamesWhatIsMissing) {
+  AlarmFacts facts = AllMeasured();
+  facts.right_camera_age_s = 1.2;
+  EXPECT_EQ(WhyStopped(facts), "Right camera stale, 1.2 s");
+  facts.left_camera_age_s = facts.pose_age_s = 1.2;
+  facts.link_age_s = 1.3;
+  EXPECT_EQ(WhyStopped(facts), "Vehicle silent for 1.3 s");
+  EXPECT_THAT(TextOf(AlarmTable()[static_cast<std::size_t>(AlarmId::kLink)], facts),
+              testing::StartsWith("Vehicle stale, 1.3 s, limit 1.0 s."));
+}
+
+TEST(AlarmTable, AStepOfTheClockIsNotTheForgersAndTellsItsSize) {
+  AlarmFacts facts = AllMeasured();
+  facts.losses.stamps_refused = 4;
+  facts.losses.stamped_channels = "VEHICLE_POSE 4";
+  const AlarmRow& refused = AlarmTable()[static_cast<std::size_t>(AlarmId::kStampsRefused)];
+  EXPECT_NE(TextOf(refused, facts), "");
+  facts.since_clock_step_s = 0.3;
+  EXPECT_EQ(TextOf(refused, facts), "");
+  facts.clock_stepped = true;
+  facts.clock_step_s = -5;
+  EXPECT_THAT(TextOf(AlarmTable()[static_cast<std::size_t>(AlarmId::kClock)], facts),
+              testing::StartsWith("Vehicle clock stepped by -5.0 s."));
+}
+
 // One odd pair is chance, and one good pair is no cure.
 TEST(PictureWatch, AFaultStandsAfterThreePairsAndGoesTheSameWay) {
   StereoQuality bad, good;
@@ -246,22 +323,39 @@ TEST(PictureWatch, AFaultStandsAfterThreePairsAndGoesTheSameWay) {
   PictureWatch watch;
   const auto feed = [&](const StereoQuality& pair) {
     watch.Update(JudgePictures(pair, SessionRole::kLive));
-    return watch.problem();
+    return watch.standing().words();
   };
-  EXPECT_EQ(feed(bad), CameraProblem::kNone);
-  EXPECT_EQ(feed(bad), CameraProblem::kNone);
-  EXPECT_EQ(feed(good), CameraProblem::kNone);
-  for (const CameraProblem expected :
-       {CameraProblem::kNone, CameraProblem::kNone, CameraProblem::kSwapped}) {
+  EXPECT_EQ(feed(bad), "");
+  EXPECT_EQ(feed(bad), "");
+  EXPECT_EQ(feed(good), "");
+  const char* const exchanged = "Left and right camera look exchanged";
+  for (const char* expected : {"", "", exchanged}) {
     EXPECT_EQ(feed(bad), expected);
   }
-  for (const CameraProblem expected :
-       {CameraProblem::kSwapped, CameraProblem::kSwapped, CameraProblem::kNone}) {
+  for (const char* expected : {exchanged, exchanged, ""}) {
     EXPECT_EQ(feed(good), expected);
   }
-  good.suspect_frozen = true;
-  EXPECT_FALSE(JudgePictures(good, SessionRole::kPictures).frozen);
-  EXPECT_TRUE(JudgePictures(good, SessionRole::kSimulated).frozen);
+}
+
+// The camera that fails is named; what a black one shows is not that it repeats itself.
+TEST(PictureWatch, NamesTheCamera) {
+  struct Row {
+    bool left_frozen, right_frozen, left_blank, right_blank;
+    const char* words;
+  };
+  for (const Row& row : {Row{true, false, false, false, "Left camera repeats its picture"},
+                         Row{false, true, false, false, "Right camera repeats its picture"},
+                         Row{true, true, false, false, "Both cameras repeat their pictures"},
+                         Row{false, true, false, true, "Right camera shows nothing"},
+                         Row{true, true, true, true, "Both cameras show nothing"}}) {
+    StereoQuality quality;
+    quality.left_frozen = row.left_frozen;
+    quality.right_frozen = row.right_frozen;
+    quality.left_blank = row.left_blank;
+    quality.right_blank = row.right_blank;
+    EXPECT_EQ(JudgePictures(quality, SessionRole::kSimulated).words(), row.words);
+    EXPECT_FALSE(JudgePictures(quality, SessionRole::kPictures).frozen());
+  }
 }
 
 }  // namespace

@@ -53,6 +53,26 @@ TEST(BetweenSteps, AnAcknowledgedAlarmIsShownSo) {
   EXPECT_TRUE(rig.mission.status().can_approve);
 }
 
+// The state and its alarm agree from the press on, not a step later.
+TEST(BetweenSteps, AWaveOffAndAHoldAreToldAtOnce) {
+  for (const bool wave_off : {true, false}) {
+    MissionRig rig;
+    rig.Arm();
+    ASSERT_TRUE(rig.ApproveNow().ok());
+    ASSERT_TRUE(rig.RunUntil(MissionState::kDescending, 5));
+    ASSERT_TRUE(rig.Do(wave_off ? CommandAction(WaveOff{}) : CommandAction(HoldHere{})).ok());
+    ASSERT_FALSE(rig.mission.status().alarms.empty());
+    EXPECT_EQ(rig.mission.status().alarms[0].kind, wave_off ? AlarmId::kWaveOff : AlarmId::kHold);
+    const auto raised = [&] {
+      return std::count_if(rig.mission.events().begin(), rig.mission.events().end(),
+                           [](const Event& event) { return event.kind == EventKind::kAlarm; });
+    };
+    const auto before = raised();
+    rig.Step();
+    EXPECT_EQ(raised(), before) << "told twice";
+  }
+}
+
 TEST(BetweenSteps, TheAnswerIsWaitedForInSeconds) {
   MissionRig rig;
   rig.vehicle.answers = false;

@@ -191,7 +191,7 @@ TEST(DescentLimits, ThePlaceIsAskedAgainstPathOrCentre) {
 
 TEST(CameraLimits, AreTheOnesThatRaiseTheirAlarms) {
   const auto over = [](const StereoQuality& stereo, const RangeAgreement& range, LimitId id) {
-    const PictureFaults standing{false, false, stereo.row_error_px > AlarmLimits::row_error_px};
+    const PictureFaults standing{.rows_apart = stereo.row_error_px > AlarmLimits::row_error_px};
     return FindLimit(LimitsOfCameras(stereo, range, standing, MissionState::kArmed), id)->over;
   };
   StereoQuality good, rows, dark, bright;
@@ -214,7 +214,7 @@ TEST(CameraLimits, AreTheOnesThatRaiseTheirAlarms) {
   EXPECT_FALSE(once.over);
   EXPECT_EQ(once.enforced_by, EnforcedBy::kGuard);
   const LimitRow flying =
-      *FindLimit(LimitsOfCameras(rows, {}, {false, false, true}, MissionState::kDescending),
+      *FindLimit(LimitsOfCameras(rows, {}, {.rows_apart = true}, MissionState::kDescending),
                  LimitId::kRowError);
   EXPECT_TRUE(flying.over);
   EXPECT_EQ(flying.enforced_by, EnforcedBy::kAlarm);

@@ -36,7 +36,33 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"SiteOffTheMap", [](MissionRig& r) { r.sites.erase(r.sites.begin()); }, 0.5},
         Fault{"CamerasStop", [](MissionRig& r) { r.cameras_up = false; }, 1.3},
         Fault{"PoseStops", [](MissionRig& r) { r.pose_up = false; }, 1.3},
-        Fault{"MapsStop", [](MissionRig& r) { r.maps_up = false; }, 3.3},
+        // Maps may come or not: what counts is ground measured, 2 s above the commit height.
+        Fault{"MapsStop", [](MissionRig& r) { r.maps_up = false; }, 2.3},
+        Fault{"MapsWithoutNewGround", [](MissionRig& r) { r.ground_age_s = 2.4; }, 2.3},
+        Fault{"LeftFrozen", [](MissionRig& r) { r.stereo.left_frozen = true; }, 0.5},
+        Fault{"RightFrozen", [](MissionRig& r) { r.stereo.right_frozen = true; }, 0.5},
+        Fault{"RightBlack", [](MissionRig& r) { r.stereo.right_blank = true; }, 0.5},
+        Fault{"LeftBlack", [](MissionRig& r) { r.stereo.left_blank = true; }, 0.5},
+        Fault{"CamerasSwapped", [](MissionRig& r) { r.stereo.suspect_swapped = true; }, 0.5},
+        Fault{"PicturesDoNotPair",
+              [](MissionRig& r) {
+                r.stereo_up = false;
+                r.arrival.left_alone = r.arrival.right_alone = AddSeconds(r.now, 1000);
+              },
+              1.3},
+        Fault{"AttitudeInvalid",
+              [](MissionRig& r) {
+                r.pose_up = false;
+                r.arrival.poses_invalid = 5;
+              },
+              0.8},
+        Fault{"ClockSteps", [](MissionRig& r) { r.clock_offset_us += 3'000'000; }, 0.3},
+        Fault{"ClockStepsLive",
+              [](MissionRig& r) {
+                r.arrival.clock = ClockReading{.estimating = false, .stepped_s = -5};
+                r.jumped = true;
+              },
+              0.3},
         Fault{"LinkStops", [](MissionRig& r) { r.link_up = false; }, 5.3},
         Fault{"VehicleRestarts", [](MissionRig& r) { r.vehicle.boot_id = 78; }, 0.3},
         Fault{"VehicleHolds", [](MissionRig& r) { r.vehicle.Set(VehicleMode::kHold); }, 0.3},
@@ -110,8 +136,22 @@ INSTANTIATE_TEST_SUITE_P(
         Block{"Link", GuardId::kLink, [](MissionRig& r) { r.link_up = false; }, 1.2},
         Block{"Pose", GuardId::kAttitude, [](MissionRig& r) { r.pose_up = false; }, 0.4},
         Block{"Cameras", GuardId::kCameras, [](MissionRig& r) { r.cameras_up = false; }, 0.7},
+        Block{"BlackCamera", GuardId::kCameras, [](MissionRig& r) { r.stereo.left_blank = true; },
+              0.7},
+        Block{"NoPairs", GuardId::kCameras,
+              [](MissionRig& r) {
+                r.stereo_up = false;
+                r.arrival.left_alone = r.arrival.right_alone = AddSeconds(r.now, 1000);
+              },
+              0.7},
+        Block{"AttitudeInvalid", GuardId::kAttitude,
+              [](MissionRig& r) { r.arrival.poses_invalid = 1; }, 0.1},
+        Block{"HalfIsLost", GuardId::kLink, [](MissionRig& r) { r.channels[2].lost_share = 0.52; },
+              0.1},
+        Block{"ClockUnsure", GuardId::kVehicle,
+              [](MissionRig& r) { r.arrival.clock = ClockReading{.estimating = true}; }, 0.1},
         Block{"FrozenCamera", GuardId::kCameras,
-              [](MissionRig& r) { r.stereo.suspect_frozen = true; }, 0.7},
+              [](MissionRig& r) { r.stereo.right_frozen = true; }, 0.7},
         Block{"SwappedCameras", GuardId::kCameras,
               [](MissionRig& r) { r.stereo.suspect_swapped = true; }, 0.7},
         Block{"RowsApart", GuardId::kCameras, [](MissionRig& r) { r.stereo.row_error_px = 0.8; },

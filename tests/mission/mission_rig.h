@@ -171,6 +171,7 @@ struct MissionRig {
       if (const LandingSite* site = Site(mission.status().armed->id)) {
         in.terrain.rechecked = *site;
         in.terrain.rechecked->slope_rad.value = site_slope_rad;
+        in.terrain.rechecked->age_s = std::max(site->age_s, ground_age_s);
       }
     }
     if (mission.alternative()) {
@@ -223,7 +224,11 @@ struct MissionRig {
     bundle.sequence = sequence;
     bundle.time = now;
     bundle.discontinuity = std::exchange(jumped, false);
-    if (cameras_up) {
+    bundle.arrival = arrival;
+    if (arrival.clock) {
+      arrival.clock->stepped_s = arrival.clock->stalled_s = 0;  // told once
+    }
+    if (cameras_up && stereo_up) {
       bundle.stereo =
           std::make_shared<StereoFrame>(StereoFrame{now, ImageU8(2, 2, 7), ImageU8(2, 2, 7)});
     }
@@ -265,6 +270,9 @@ struct MissionRig {
   NavigationStatus navigation;
   TrackerStatus tracker;
   StereoQuality stereo;
+  ArrivalNotes arrival;     ///< of the next bundles
+  bool stereo_up = true;    ///< pictures come in pairs
+  double ground_age_s = 0;  ///< of the site, at each map
   /// As the station's own watch tells them: nothing wrong.
   std::vector<ChannelHealth> channels = {
       {ChannelId::kCameraLeft, ChannelHealth::State::kFresh, 0, 10, 10, 1, 0, ""},

@@ -231,6 +231,32 @@ TEST(Navigator, LostVisionIsUnhealthyAndGoesOnInertially) {
   }
 }
 
+// Nothing is measured any more: the estimate says for how long, its sigma grows without end, and
+// after 5 s it counts as unknown.
+TEST(Navigator, UncertaintyGrowsWhileItCoasts) {
+  World world(5);
+  Navigator navigator;
+  double sigma_m = 0;
+  for (int n = 1; n <= 250; ++n) {
+    FrameBundle bundle = world.Bundle(n);
+    if (n > 50) {
+      bundle.gps.clear();
+    }
+    if (n > 60) {
+      bundle.imu.clear();
+    }
+    navigator.AddSensors(bundle);
+    const FilterStatus& gps = navigator.status().gps;
+    if (n > 62) {
+      EXPECT_GT(gps.estimate.sigma_p_m.z(), sigma_m) << n;
+      EXPECT_NEAR(gps.coasting_s, 0.1 * (n - 50), 0.35) << n;
+      EXPECT_EQ(gps.IsUnknown(), gps.coasting_s > 5) << n;
+    }
+    sigma_m = gps.estimate.sigma_p_m.z();
+  }
+  EXPECT_GT(sigma_m, 10);
+}
+
 TEST(Navigator, RejectedFixesAreUnhealthy) {
   World world(4);
   Navigator navigator = OnVision(world);

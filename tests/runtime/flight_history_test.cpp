@@ -43,6 +43,22 @@ TEST(FlightHistoryPath, IsTheMissions) {
   EXPECT_EQ(SampleOf(snap, FrameBundle{}).plan_height_m, 9.5);
 }
 
+// Uncertainty grows and never vanishes; a place that nobody measured for long is no place.
+TEST(FlightHistory, AnEstimateThatCoastedForTooLongIsABandWithoutALine) {
+  EngineSnapshot snap = FlyingAt(kPath.BodyAt(10), VehicleMode::kDescend);
+  FilterStatus& gps = snap.flight.Edit().navigation.gps;
+  gps.running = true;
+  gps.estimate.p_WB = {1, 2, -3};
+  gps.estimate.sigma_p_m = {9, 9, 12};
+  gps.coasting_s = 4;
+  EXPECT_EQ(SampleOf(snap, FrameBundle{}).estimate_p_WB.z(), -3);
+  gps.coasting_s = 6;
+  const HistorySample sample = SampleOf(snap, FrameBundle{});
+  EXPECT_TRUE(std::isnan(sample.estimate_p_WB.z()));
+  EXPECT_TRUE(std::isnan(sample.descent_rate_mps));
+  EXPECT_EQ(sample.estimate_sigma_m.z(), 12);
+}
+
 TEST(FlightHistoryPath, EveryHeightIsOfTheSkidsAboveTheSite) {
   EngineSnapshot snap = FlyingAt(kPath.BodyAt(10), VehicleMode::kDescend);
   FilterStatus& gps = snap.flight.Edit().navigation.gps;

@@ -59,6 +59,7 @@ void ExpectSameSamples(const FrameBundle& a, const FrameBundle& b) {
     EXPECT_EQ(a.laser[i].time, b.laser[i].time);
     EXPECT_TRUE(SameBits(a.laser[i].range_m, b.laser[i].range_m));
   }
+  EXPECT_EQ(a.arrival, b.arrival);
   ASSERT_EQ(a.truth.size(), b.truth.size());
   for (std::size_t i = 0; i < a.truth.size(); ++i) {
     EXPECT_EQ(a.truth[i].time, b.truth[i].time);

@@ -16,6 +16,11 @@ class Recorder final : public VehicleLink {
   std::vector<VehicleMessage> got;
 };
 
+/// A station whose clock stands still: what arrives has no delay, so times come as they were sent.
+LcmSourceOptions StoodStill() {
+  return {.heartbeat_s = 60, .now_s = [] { return 50.0; }};
+}
+
 class BusTest : public ::testing::Test {
  protected:
   BusTest() {
@@ -29,7 +34,7 @@ class BusTest : public ::testing::Test {
 TEST_F(BusTest, StationReceivesWhatTheVehicleMeasured) {
   RandomStream random(41);
   const auto rig = std::make_shared<const StereoRig>(RandomRig(random));
-  auto source = LcmSource::Create(bus_, {}, {.heartbeat_s = 60});
+  auto source = LcmSource::Create(bus_, {}, StoodStill());
   ASSERT_TRUE(source.ok());
   Recorder vehicle;
   auto server = VehicleServer::Create(bus_, vehicle);
@@ -53,7 +58,7 @@ TEST_F(BusTest, StationReceivesWhatTheVehicleMeasured) {
 TEST_F(BusTest, NewestPicturesWinAndNoSampleIsLost) {
   RandomStream random(42);
   const auto rig = std::make_shared<const StereoRig>(RandomRig(random));
-  auto source = LcmSource::Create(bus_, {}, {.heartbeat_s = 60});
+  auto source = LcmSource::Create(bus_, {}, StoodStill());
   ASSERT_TRUE(source.ok());
   Recorder vehicle;
   auto server = VehicleServer::Create(bus_, vehicle);

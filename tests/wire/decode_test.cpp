@@ -74,6 +74,7 @@ TEST(Decode, AgreesWithTheGeneratedDecoders) {
       {n.vehicle_status, ExpectLikeGenerated<vehicle_status_t>},
       {n.command_ack, ExpectLikeGenerated<command_ack_t>},
       {n.truth, ExpectLikeGenerated<truth_t>},
+      {n.arrival, ExpectLikeGenerated<arrival_t>},
       {n.mission, ExpectLikeGenerated<mission_t>},
       {n.slad_settings, ExpectLikeGenerated<slad_settings_t>},
       {n.site_proposal, ExpectLikeGenerated<site_proposal_t>},

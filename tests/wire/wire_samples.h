@@ -103,6 +103,11 @@ inline std::shared_ptr<FrameBundle> RandomBundle(RandomStream& random, std::uint
   status.battery_or_fuel = random.Uniform();
   status.simulated = true;
   bundle->status = status;
+  bundle->arrival.clock = ClockReading{random.Uniform(), sequence % 2 == 0, random.Normal(),
+                                       random.Uniform(), random.Normal(),   random.Uniform()};
+  bundle->arrival.left_alone = Timestamp{start_us + 1};
+  bundle->arrival.right_alone = Timestamp{start_us + 2};
+  bundle->arrival.poses_invalid = 3;
   bundle->acks.push_back({{start_us + 8}, random.NextBits(), AckResult::kRefused, "zu spät"});
   bundle->acks.push_back({{start_us + 8}, random.NextBits(), AckResult::kAccepted, ""});
   return bundle;

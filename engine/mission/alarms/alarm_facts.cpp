@@ -15,7 +15,14 @@ void FillSensors(const MissionMemory& m, const MissionInputs& in, AlarmFacts& f)
   f.right_camera_age_s = m.watch.RightCameraAge(now);
   f.pose_age_s = m.watch.PoseAge(now);
   f.link_age_s = m.watch.LinkAge(now);
+  f.pair_age_s = m.watch.PairAge(now);
   f.clock_stepped = m.watch.clock_stepped();
+  f.clock_step_s = m.watch.clock_step_s();
+  f.since_clock_step_s = m.watch.SinceClockStep(now);
+  f.stalled_s = m.watch.SinceStall(now) <= AlarmLimits::told_s ? m.watch.stalled_s() : NAN;
+  f.attitude_invalid = m.watch.SincePoseInvalid(now) <= GuardLimits::link_s;
+  f.lost_percent = 100 * LostShare(in.vehicle.channels);
+  f.lost_channels = LostChannels(in.vehicle.channels);
   f.rebooted = m.watch.rebooted();
   f.gps_error_m = m.watch.gps() ? 3 * m.watch.gps()->sigma_horizontal_m : NAN;
   f.on_vision = in.navigation.navigation.OnVision();
@@ -38,6 +45,9 @@ void FillMission(const MissionMemory& m, const MissionInputs& in, AlarmFacts& f)
   f.site_degraded = (IsFlying(state) || state == MissionState::kArmed) &&
                     m.site.VerdictAt(now) == SiteVerdict::kDegraded && !IsCommitted(m);
   f.site_reason = m.site.reason();
+  f.ground_age_s = state == MissionState::kDescending && !f.committed
+                       ? SecondsBetween(m.ground_seen_at, now)
+                       : NAN;
   f.no_site =
       decision != nullptr && decision->selection.sites.empty() && state <= MissionState::kProposed;
   f.no_site_reason = decision != nullptr ? decision->selection.none_reason : "";

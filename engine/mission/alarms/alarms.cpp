@@ -1,10 +1,11 @@
 #include "engine/mission/alarms/alarms.h"
 
 #include <algorithm>
-#include <array>
+#include <iterator>
 #include <vector>
 
 #include "engine/core/text.h"
+#include "engine/mission/alarms/alarm_words.h"
 #include "engine/mission/descent_limits.h"
 #include "engine/mission/wording.h"
 
@@ -13,28 +14,7 @@ namespace {
 
 using Facts = AlarmFacts;
 
-/// What an old picture or pose does to the mission. `for_vision`: without it vision has no fix.
-std::string Consequence(const Facts& f, bool for_vision = true) {
-  const std::string after = " after " + LimitWords({StaleLimits::sensor_s, "s", 0}) + ".";
-  if (!f.has_vehicle) {
-    return f.pictures_only ? "Maps stand still." : "In the record.";
-  }
-  if (f.committed) {
-    return f.on_vision && for_vision ? "Without vision the vehicle stops, and climbs after " +
-                                           LimitWords({f.max_vision_outage_s, "s"}) + "."
-                                     : "So low the descent goes on.";
-  }
-  return f.state == MissionState::kDescending ? "Descent holds" + after
-         : f.state == MissionState::kApproved ? "Approval ends" + after
-         : f.state == MissionState::kArmed    ? "Approve is blocked, the selection ends" + after
-                                              : "Approve is blocked.";
-}
-
-std::string StaleText(const char* what, double age_s, const std::string& limit) {
-  return what + (" " + words::Age(age_s)) + ", limit " + limit + ". ";
-}
-
-const std::array<AlarmRow, kAlarmCount - kBusAlarmCount> kAlarms = {{
+const AlarmRow kRows[] = {
     {.id = AlarmId::kCameraLeft,
      .level = AlarmLevel::kCaution,
      .limit = {GuardLimits::camera_s, "s"},
@@ -43,7 +23,11 @@ const std::array<AlarmRow, kAlarmCount - kBusAlarmCount> kAlarms = {{
                    double limit) { return f.has_source && !(f.left_camera_age_s <= limit); },
      .text =
          [](const Facts& f, const std::string& limit) {
-           return StaleText("Left camera", f.left_camera_age_s, limit) + Consequence(f);
+           return StaleText("Left camera", f.left_camera_age_s, limit) + StaleConsequence(f);
+         },
+     .stop =
+         [](const Facts& f) {
+           return words::Older("Left camera", f.left_camera_age_s, StaleLimits::sensor_s);
          }},
     {.id = AlarmId::kCameraRight,
      .level = AlarmLevel::kCaution,
@@ -53,7 +37,12 @@ const std::array<AlarmRow, kAlarmCount - kBusAlarmCount> kAlarms = {{
                    double limit) { return f.has_source && !(f.right_camera_age_s <= limit); },
      .text =
          [](const Facts& f, const std::string& limit) {
-           return StaleText("Right camera", f.right_camera_age_s, limit) + Consequence(f, false);
+           return StaleText("Right camera", f.right_camera_age_s, limit) +
+                  StaleConsequence(f, false);
+         },
+     .stop =
+         [](const Facts& f) {
+           return words::Older("Right camera", f.right_camera_age_s, StaleLimits::sensor_s);
          }},
     {.id = AlarmId::kPose,
      .level = AlarmLevel::kCaution,
@@ -65,7 +54,11 @@ const std::array<AlarmRow, kAlarmCount - kBusAlarmCount> kAlarms = {{
          },
      .text =
          [](const Facts& f, const std::string& limit) {
-           return StaleText("Vehicle pose", f.pose_age_s, limit) + Consequence(f);
+           return StaleText("Vehicle pose", f.pose_age_s, limit) + StaleConsequence(f);
+         },
+     .stop =
+         [](const Facts& f) {
+           return words::Older("Vehicle pose", f.pose_age_s, StaleLimits::sensor_s);
          }},
     {.id = AlarmId::kNoPose,
      .level = AlarmLevel::kAdvisory,
@@ -88,24 +81,12 @@ const std::array<AlarmRow, kAlarmCount - kBusAlarmCount> kAlarms = {{
          },
      .text =
          [](const Facts& f, const std::string& limit) {
-           return StaleText("Vehicle status", f.link_age_s, limit) + "The vehicle holds by itself.";
+           return StaleText(LinkWords(f), f.link_age_s, limit) + "The vehicle holds by itself.";
          },
-     .grave = [](const Facts& f) { return f.link_age_s > StaleLimits::link_s; }},
-    {.id = AlarmId::kClock,
-     .level = AlarmLevel::kWarning,
-     .immediate = true,
-     .present = [](const Facts& f, double) { return f.has_vehicle && f.clock_stepped; },
-     .text =
-         [](const Facts&, const std::string&) {
-           return std::string("Vehicle clock stepped. The selection is dropped, select again.");
-         }},
-    {.id = AlarmId::kReboot,
-     .level = AlarmLevel::kWarning,
-     .immediate = true,
-     .present = [](const Facts& f, double) { return f.has_vehicle && f.rebooted; },
-     .text =
-         [](const Facts&, const std::string&) {
-           return std::string("Vehicle restarted. Every approval is void, select again.");
+     .grave = [](const Facts& f) { return f.link_age_s > StaleLimits::link_s; },
+     .stop =
+         [](const Facts& f) {
+           return words::Older("Vehicle status", f.link_age_s, StaleLimits::link_s);
          }},
     {.id = AlarmId::kGpsError,
      .level = AlarmLevel::kCaution,
@@ -121,21 +102,24 @@ const std::array<AlarmRow, kAlarmCount - kBusAlarmCount> kAlarms = {{
     {.id = AlarmId::kCameraFrozen,
      .level = AlarmLevel::kCaution,
      .immediate = true,  // three pairs said so
-     .present = [](const Facts& f, double) { return f.pictures.frozen; },
+     .present = [](const Facts& f, double) { return f.pictures.frozen(); },
      .text =
          [](const Facts& f, const std::string&) {
-           return "A camera repeats its picture to the last grey level. " + Consequence(f);
-         }},
+           return f.pictures.frozen_words() + ": it is frozen. " + StopConsequence(f);
+         },
+     .stop = [](const Facts& f) { return f.pictures.frozen_words(); }},
     {.id = AlarmId::kCamerasSwapped,
      .level = AlarmLevel::kWarning,
      .immediate = true,  // three pairs said so
      .present = [](const Facts& f, double) { return f.pictures.swapped; },
      .text =
-         [](const Facts&, const std::string&) {
-           return std::string(
-               "Left and right camera look exchanged. Exchange the cables or the entries of "
-               "RIG.toml.");
-         }},
+         [](const Facts& f, const std::string&) {
+           return "Left and right camera look exchanged. " + StopConsequence(f) +
+                  " Exchange the cables or the entries of RIG.toml.";
+         },
+     .stop = [](const Facts& f) -> std::string {
+       return f.pictures.swapped ? "Left and right camera look exchanged" : "";
+     }},
     {.id = AlarmId::kRowError,
      .level = AlarmLevel::kCaution,
      .immediate = true,  // three pairs said so
@@ -408,19 +392,36 @@ const std::array<AlarmRow, kAlarmCount - kBusAlarmCount> kAlarms = {{
            return WithNumbers("Wind %.1f m/s, limit ", f.wind_mps) + limit +
                   ". Watch the descent, hold or wave off.";
          }},
-}};
+};
+
+std::vector<AlarmRow> AllRows() {
+  std::vector<AlarmRow> rows(std::begin(kRows), std::end(kRows));
+  const std::span<const AlarmRow> of_bus = BusAlarms(), of_arrival = ArrivalAlarms();
+  rows.insert(rows.end(), of_bus.begin(), of_bus.end());
+  rows.insert(rows.end(), of_arrival.begin(), of_arrival.end());
+  std::sort(rows.begin(), rows.end(),
+            [](const AlarmRow& a, const AlarmRow& b) { return a.id < b.id; });
+  return rows;
+}
 
 }  // namespace
 
 std::span<const AlarmRow> AlarmTable() {
-  static const std::vector<AlarmRow> table = [] {
-    std::vector<AlarmRow> rows(kAlarms.begin(), kAlarms.end());
-    rows.insert(rows.end(), BusAlarms().begin(), BusAlarms().end());
-    std::sort(rows.begin(), rows.end(),
-              [](const AlarmRow& a, const AlarmRow& b) { return a.id < b.id; });
-    return rows;
-  }();
-  return table;
+  static const std::vector<AlarmRow> rows = AllRows();
+  return rows;
+}
+
+std::string WhyStopped(const AlarmFacts& facts) {
+  if (IsSilent(facts)) {
+    return WithNumbers("Vehicle silent for %.1f s", facts.link_age_s);
+  }
+  for (const AlarmRow& row : AlarmTable()) {
+    std::string why = row.stop != nullptr ? row.stop(facts) : std::string();
+    if (!why.empty()) {
+      return why;
+    }
+  }
+  return {};
 }
 
 Limit LimitOf(const AlarmRow& row, const AlarmFacts& facts) {

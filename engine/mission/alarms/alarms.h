@@ -31,8 +31,16 @@ struct AlarmFacts {
 
   double left_camera_age_s = NAN, right_camera_age_s = NAN;
   double pose_age_s = NAN, link_age_s = NAN;
+  double pair_age_s = NAN;  ///< since pictures of both cameras belonged together
   bool clock_stepped = false, rebooted = false;
-  double gps_error_m = NAN;  ///< 3 sigma, horizontal
+  double clock_step_s = NAN;        ///< the last one
+  double since_clock_step_s = NAN;  ///< NaN: there was none
+  double stalled_s = NAN;           ///< this machine, lately; NaN: it was not
+  bool attitude_invalid = false;    ///< a vehicle pose was refused for its numbers, lately
+  double lost_percent = NAN;        ///< of the vehicle's messages of the last 5 s
+  std::string lost_channels{};      ///< "Vehicle pose 31 %, IMU 29 %"
+  double ground_age_s = NAN;        ///< of the site's, in a descent above the commit height
+  double gps_error_m = NAN;         ///< 3 sigma, horizontal
   bool on_vision = false;
   PictureFaults pictures{};
   double row_error_px = NAN;
@@ -89,12 +97,19 @@ struct AlarmRow {
   std::string (*text)(const AlarmFacts& f, const std::string& limit) = nullptr;
   /// A caution that has become a warning; null: never.
   bool (*grave)(const AlarmFacts& f) = nullptr;
+  /// Why it ends a selection or an approval now, and holds a descent above the commit height;
+  /// empty: it does not, or not yet. Null: it never does. What the text announces is what this
+  /// does.
+  std::string (*stop)(const AlarmFacts& f) = nullptr;
 };
 /// Those of a bus: what is refused, too much, of another version, of a second sender.
 inline constexpr std::size_t kBusAlarmCount = 6;
 std::span<const AlarmRow, kBusAlarmCount> BusAlarms();
 /// All of them, in the order of AlarmId.
 std::span<const AlarmRow> AlarmTable();
+/// The first stop of the table; empty: nothing stops. A vehicle of which nothing is heard is named
+/// so and not by the input that is missed first.
+std::string WhyStopped(const AlarmFacts& facts);
 Limit LimitOf(const AlarmRow& row, const AlarmFacts& facts);
 
 /// Each alarm's condition, in the order of the table.

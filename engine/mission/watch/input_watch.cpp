@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 
 namespace palace {
@@ -10,7 +9,7 @@ namespace {
 
 constexpr double kNever = std::numeric_limits<double>::quiet_NaN();
 /// Statuses arrive with some jitter; a larger change of offset is a step of a clock.
-constexpr std::int64_t kClockStep_us = 500'000;
+constexpr double kClockStep_s = 0.5;
 
 /// The older of two ages; NaN when either is unknown.
 double Worse(double a, double b) {
@@ -38,26 +37,79 @@ double InputWatch::PoseAge(Timestamp now) const {
   return Worse(pose_.Age(now), pose_channel_.Age(now));
 }
 double InputWatch::LeftCameraAge(Timestamp now) const {
-  return Worse(stereo_.Age(now), left_channel_.Age(now));
+  return Worse(left_.Age(now), left_channel_.Age(now));
 }
 double InputWatch::RightCameraAge(Timestamp now) const {
-  return Worse(stereo_.Age(now), right_channel_.Age(now));
+  return Worse(right_.Age(now), right_channel_.Age(now));
 }
 
-void InputWatch::Update(const FrameBundle& bundle, const std::vector<ChannelHealth>& channels,
-                        Timestamp now) {
-  clock_stepped_ = rebooted_ = false;
-  if (bundle.stereo && !bundle.stereo->left.empty() && !bundle.stereo->right.empty()) {
-    stereo_.See(bundle.stereo->time, now);
+InputWatch InputWatch::AfterJump() const {
+  InputWatch next;
+  next.boot_before_jump_ = vehicle_ ? std::optional(vehicle_->boot_id) : boot_before_jump_;
+  return next;
+}
+
+void InputWatch::SeeCameras(const FrameBundle& bundle, Timestamp now) {
+  if (bundle.stereo) {
+    const bool left = !bundle.stereo->left.empty(), right = !bundle.stereo->right.empty();
+    if (left) {
+      left_.See(bundle.stereo->time, now);
+    }
+    if (right) {
+      right_.See(bundle.stereo->time, now);
+    }
+    if (left && right) {
+      pair_.See(bundle.stereo->time, now);
+    }
   }
+  if (bundle.arrival.left_alone) {
+    left_.See(*bundle.arrival.left_alone, now);
+  }
+  if (bundle.arrival.right_alone) {
+    right_.See(*bundle.arrival.right_alone, now);
+  }
+}
+
+void InputWatch::SeePoses(const FrameBundle& bundle, Timestamp now) {
+  bool invalid = bundle.arrival.poses_invalid > 0;
   for (const VehiclePose& pose : bundle.poses) {
     if (IsFinite(pose)) {
       pose_.See(pose.time, now);
+    } else {
+      invalid = true;
     }
   }
   if (bundle.pose_at_exposure && IsFinite(*bundle.pose_at_exposure)) {
     pose_.See(bundle.pose_at_exposure->time, now);
   }
+  if (invalid) {
+    pose_invalid_at_ = now;
+  }
+}
+
+void InputWatch::SeeClock(const std::optional<ClockReading>& clock, Timestamp now) {
+  if (!clock) {
+    return;
+  }
+  clock_ = clock;
+  if (clock->stepped_s != 0) {
+    clock_stepped_ = true;
+    clock_step_s_ = clock->stepped_s;
+    stepped_at_ = now;
+    consistent_samples_ = 0;
+  }
+  if (clock->stalled_s > 0) {
+    stalled_s_ = clock->stalled_s;
+    stalled_at_ = now;
+  }
+}
+
+void InputWatch::Update(const FrameBundle& bundle, const std::vector<ChannelHealth>& channels,
+                        Timestamp now) {
+  clock_stepped_ = rebooted_ = false;
+  SeeClock(bundle.arrival.clock, now);
+  SeeCameras(bundle, now);
+  SeePoses(bundle, now);
   if (!bundle.gps.empty()) {
     gps_ = bundle.gps.back();
   }
@@ -79,11 +131,18 @@ void InputWatch::WatchVehicle(const VehicleStatus& status, Timestamp now) {
   if (!is_new) {
     return;  // A duplicate changes nothing (I8).
   }
-  rebooted_ = vehicle_ && vehicle_->boot_id != status.boot_id;
-  const std::int64_t offset_us = status.time.us - now.us;
+  rebooted_ = (vehicle_ && vehicle_->boot_id != status.boot_id) ||
+              (boot_before_jump_ && *boot_before_jump_ != status.boot_id);
+  boot_before_jump_.reset();
+  const std::int64_t offset_us = SaturatedDifference(status.time.us, now.us);
   const bool backwards = link_.stamp && status.time < *link_.stamp;
-  clock_stepped_ =
-      vehicle_ && (backwards || std::llabs(offset_us - offset_us_) > kClockStep_us) && !rebooted_;
+  const double change_s = SecondsBetween({offset_us_}, {offset_us});
+  const bool jumps = backwards || std::abs(change_s) > kClockStep_s;
+  if (!clock_ && vehicle_ && jumps && !rebooted_) {
+    clock_stepped_ = true;
+    clock_step_s_ = change_s;
+    stepped_at_ = now;
+  }
   consistent_samples_ = clock_stepped_ || rebooted_ ? 1 : consistent_samples_ + 1;
   consistent_samples_ = std::min(consistent_samples_, kConsistentSamples);
   if (backwards) {

@@ -53,7 +53,34 @@ void FindBusiest(const BusTraffic& bus, RecentLosses& recent) {
   take(bus.rate_hz, bus.most_hz, "all channels");
 }
 
+bool IsCounted(const ChannelHealth& channel) {
+  const bool sample = channel.id == ChannelId::kVehiclePose || channel.id == ChannelId::kImu ||
+                      channel.id == ChannelId::kGps || channel.id == ChannelId::kLaserRange;
+  return sample && std::isfinite(channel.lost_share);
+}
+
 }  // namespace
+
+double LostShare(const std::vector<ChannelHealth>& channels) {
+  double lost = 0, sent = 0;
+  for (const ChannelHealth& channel : channels) {
+    if (IsCounted(channel)) {
+      sent += channel.rate_hz;
+      lost += channel.rate_hz * channel.lost_share;
+    }
+  }
+  return sent > 0 ? lost / sent : NAN;
+}
+
+std::string LostChannels(const std::vector<ChannelHealth>& channels) {
+  std::vector<std::string> words;
+  for (const ChannelHealth& channel : channels) {
+    if (IsCounted(channel) && channel.lost_share > 0) {
+      words.push_back(ChannelName(channel.id) + WithNumbers(" %.0f %%", 100 * channel.lost_share));
+    }
+  }
+  return Joined(words);
+}
 
 LossWatch::Sample LossWatch::SampleOf(const Losses& losses, Timestamp now) {
   const std::uint64_t other_version = SumOf(losses.other_version);
@@ -66,7 +93,8 @@ LossWatch::Sample LossWatch::SampleOf(const Losses& losses, Timestamp now) {
           .refused = losses.datagrams_refused,
           .overrun = losses.bus.overrun,
           .bus_received = losses.bus.received_of_used,
-          .bus_lost = losses.bus.lost_of_used};
+          .bus_lost = losses.bus.lost_of_used,
+          .stamps_refused = losses.stamps_refused_messages()};
 }
 
 void LossWatch::Update(const Losses& losses, bool pair, Timestamp now) {
@@ -85,6 +113,7 @@ void LossWatch::Update(const Losses& losses, bool pair, Timestamp now) {
   channels_ = WordsOf(losses.undecodable);
   other_version_ = WordsOf(losses.other_version);
   bus_ = losses.bus;
+  stamped_channels_ = WordsOf(losses.stamps_refused);
 }
 
 RecentLosses LossWatch::recent() const {
@@ -112,7 +141,9 @@ RecentLosses LossWatch::recent() const {
       .overrun = came(&Sample::overrun),
       .other_version = came(&Sample::other_version) > 0 ? other_version_ : "",
       .second_sender = SecondSenders(bus_),
-      .lost_share = lost + received >= kLeastMessages ? lost / (lost + received) : NAN};
+      .lost_share = lost + received >= kLeastMessages ? lost / (lost + received) : NAN,
+      .stamps_refused = came(&Sample::stamps_refused),
+      .stamped_channels = stamped_channels_};
   FindBusiest(bus_, recent);
   return recent;
 }

@@ -9,8 +9,10 @@
 #include <cstdint>
 #include <deque>
 #include <string>
+#include <vector>
 
 #include "engine/core/time.h"
+#include "engine/model/channel.h"
 #include "engine/model/mission/losses.h"
 
 namespace palace {
@@ -34,7 +36,15 @@ struct RecentLosses {
   std::string second_sender{};  ///< "VEHICLE_POSE from 10.0.0.9:6666"
   /// Of the messages of the senders in use, by the gaps in their numbers; 0 to 1.
   double lost_share = NAN;
+  double stamps_refused = 0;       ///< messages, by the clock
+  std::string stamped_channels{};  ///< that carried them since the session began
 };
+
+/// Share of the messages of pose, IMU, GPS and laser that is missing lately, of all together; NaN
+/// where none of them is known. Pictures have counts of their own: newer ones replace them.
+double LostShare(const std::vector<ChannelHealth>& channels);
+/// "Vehicle pose 31 %, IMU 29 %".
+std::string LostChannels(const std::vector<ChannelHealth>& channels);
 
 class LossWatch {
  public:
@@ -57,11 +67,12 @@ class LossWatch {
     std::uint64_t overrun = 0;
     std::uint64_t bus_received = 0;
     std::uint64_t bus_lost = 0;
+    std::uint64_t stamps_refused = 0;
   };
   static Sample SampleOf(const Losses& losses, Timestamp now);
   std::deque<Sample> samples_;  ///< of the window, oldest first; the first is what counts from
   std::string channels_;        ///< that carried what could not be read
-  std::string other_version_;
+  std::string other_version_, stamped_channels_;
   BusTraffic bus_;  ///< newest
 };
 

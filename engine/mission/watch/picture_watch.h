@@ -4,7 +4,7 @@
 // same way.
 #pragma once
 
-#include <cstdint>
+#include <string>
 
 #include "engine/mission/watch/persistence.h"
 #include "engine/model/mission/session_role.h"
@@ -14,23 +14,27 @@ namespace palace {
 
 /// What one pair looks like.
 struct PictureFaults {
-  bool frozen = false;      ///< a camera repeats its picture to the last grey level
-  bool swapped = false;     ///< left and right look exchanged
+  bool left_frozen = false, right_frozen = false;  ///< the camera repeats its picture
+  bool left_blank = false, right_blank = false;    ///< dark, covered or washed out
+  bool swapped = false;                            ///< left and right look exchanged
   bool rows_apart = false;  ///< the calibration does not fit: AlarmLimits::row_error_px
+
+  bool frozen() const { return left_frozen || right_frozen; }
+  bool blank() const { return left_blank || right_blank; }
+  /// The first of them in words: "Right camera shows nothing"; empty when there is none.
+  std::string words() const;
+  std::string frozen_words() const;
+  std::string blank_words() const;
 };
 PictureFaults JudgePictures(const StereoQuality& stereo, SessionRole role);
-
-enum class CameraProblem : std::uint8_t { kNone, kFrozen, kSwapped, kRowsApart };
 
 class PictureWatch {
  public:
   void Update(const PictureFaults& faults);
-  PictureFaults standing() const { return {frozen_.on(), swapped_.on(), rows_apart_.on()}; }
-  /// The first that stands, in the order of the enum.
-  CameraProblem problem() const;
+  PictureFaults standing() const;
 
  private:
-  Persistence frozen_, swapped_, rows_apart_;
+  Persistence left_frozen_, right_frozen_, left_blank_, right_blank_, swapped_, rows_apart_;
 };
 
 }  // namespace palace

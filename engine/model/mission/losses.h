@@ -22,20 +22,27 @@ struct Losses {
   std::map<std::string, std::uint64_t> undecodable{};  ///< messages refused, by channel on the bus
   /// Those of them that are of another version of their type, by channel.
   std::map<std::string, std::uint64_t> other_version{};
+  /// Stamped ahead of or far behind the vehicle's clock, by channel on the bus: VehicleClock.
+  std::map<std::string, std::uint64_t> stamps_refused{};
+  std::uint64_t repeated = 0;  ///< messages whose stamp did not advance: copies, or out of order
   std::uint64_t messages_unsent = 0;  ///< to the vehicle, refused by the bus
   std::uint64_t records_dropped = 0;  ///< frames not written: the disk was too slow
 
   BusTraffic bus{};  ///< of a bus: by channel and by sender
 
   /// Messages refused, of all channels.
-  std::uint64_t undecodable_messages() const {
+  std::uint64_t undecodable_messages() const { return Sum(undecodable); }
+  std::uint64_t stamps_refused_messages() const { return Sum(stamps_refused); }
+  friend bool operator==(const Losses&, const Losses&) = default;
+
+ private:
+  static std::uint64_t Sum(const std::map<std::string, std::uint64_t>& counts) {
     std::uint64_t sum = 0;
-    for (const auto& [channel, count] : undecodable) {
+    for (const auto& [channel, count] : counts) {
       sum += count;
     }
     return sum;
   }
-  friend bool operator==(const Losses&, const Losses&) = default;
 };
 
 }  // namespace palace

@@ -53,6 +53,13 @@ constexpr std::array<const char*, kAlarmCount> kAlarmNames = {
     "bus_overrun",
     "other_version",
     "second_sender",
+    "stalled",
+    "stamps_refused",
+    "attitude_invalid",
+    "message_loss",
+    "camera_blank",
+    "pairing",
+    "old_ground",
 };
 
 }  // namespace

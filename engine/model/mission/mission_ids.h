@@ -74,8 +74,15 @@ enum class AlarmId : std::uint8_t {
   kBusOverrun,
   kOtherVersion,
   kSecondSender,
+  kStalled,
+  kStampsRefused,
+  kAttitudeInvalid,
+  kMessageLoss,
+  kCameraBlank,
+  kPairing,
+  kOldGround,
 };
-inline constexpr std::size_t kAlarmCount = 42;
+inline constexpr std::size_t kAlarmCount = 49;
 /// "gps_error".
 const char* AlarmName(AlarmId id);
 /// Empty for a name that no alarm has.

@@ -1,0 +1,25 @@
+// Words that several alarms share, and the rows by what they are about. For this folder only.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "engine/mission/alarms/alarms.h"
+
+namespace palace {
+
+/// What an old picture or pose does to the mission. `for_vision`: without it vision has no fix.
+std::string StaleConsequence(const AlarmFacts& facts, bool for_vision = true);
+/// The same of what stops at once.
+std::string StopConsequence(const AlarmFacts& facts);
+/// "Left camera stale, 1.8 s, limit 0.5 s. ".
+std::string StaleText(const char* what, double age_s, const std::string& limit);
+/// Nothing at all was heard of the vehicle for longer than a sensor may be silent.
+bool IsSilent(const AlarmFacts& facts);
+/// "Vehicle silent" or "Vehicle status".
+const char* LinkWords(const AlarmFacts& facts);
+
+/// What arrives from the vehicle, and when.
+std::span<const AlarmRow> ArrivalAlarms();
+
+}  // namespace palace

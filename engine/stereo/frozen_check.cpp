@@ -1,0 +1,123 @@
+#include "engine/stereo/frozen_check.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+namespace palace {
+namespace {
+
+constexpr int kBlock_px = 8;
+constexpr int kShift_px = 4;
+constexpr int kPointsAcross = 3;
+
+/// Means of the blocks of the picture, whose grid begins at (dx, dy).
+std::vector<float> BlockMeans(const ImageU8& picture, int dx, int dy) {
+  const int across = (picture.width() - kShift_px) / kBlock_px;
+  const int down = (picture.height() - kShift_px) / kBlock_px;
+  std::vector<float> means;
+  if (across <= 0 || down <= 0) {
+    return means;
+  }
+  std::vector<int> sums(static_cast<std::size_t>(across));
+  means.reserve(sums.size() * static_cast<std::size_t>(down));
+  for (int j = 0; j < down; ++j) {
+    std::fill(sums.begin(), sums.end(), 0);
+    for (int y = 0; y < kBlock_px; ++y) {
+      const std::uint8_t* row = picture.row(dy + j * kBlock_px + y) + dx;
+      for (int i = 0; i < across; ++i) {
+        for (int x = 0; x < kBlock_px; ++x) {
+          sums[static_cast<std::size_t>(i)] += row[i * kBlock_px + x];
+        }
+      }
+    }
+    for (const int sum : sums) {
+      means.push_back(static_cast<float>(sum) / (kBlock_px * kBlock_px));
+    }
+  }
+  return means;
+}
+
+double RootMeanSquare(const std::vector<float>& a, const std::vector<float>& b) {
+  double sum = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    const double difference = a[i] - b[i];
+    sum += difference * difference;
+  }
+  return a.empty() ? 0 : std::sqrt(sum / static_cast<double>(a.size()));
+}
+
+bool IsRepeated(const ImageU8& before, const ImageU8& now) {
+  if (before.width() != now.width() || before.height() != now.height() || now.empty()) {
+    return false;
+  }
+  const auto most = static_cast<std::ptrdiff_t>(FrozenCheck::kRepeatedShare *
+                                                static_cast<double>(now.pixels().size()));
+  std::ptrdiff_t changed = 0;
+  for (int y = 0; y < now.height() && changed <= most; ++y) {
+    const std::uint8_t *a = before.row(y), *b = now.row(y);
+    for (int x = 0; x < now.width(); ++x) {
+      changed += a[x] != b[x] ? 1 : 0;
+    }
+  }
+  return changed <= most;
+}
+
+}  // namespace
+
+double MeanShift_px(const PinholeCamera& camera, double depth_m, const RigidTransform& X_WA,
+                    const RigidTransform& X_WB) {
+  const RigidTransform X_BA = X_WB.Inverse() * X_WA;
+  double sum = 0;
+  for (int j = 0; j < kPointsAcross; ++j) {
+    for (int i = 0; i < kPointsAcross; ++i) {
+      const Eigen::Vector2d pixel(camera.width * (i + 0.5) / kPointsAcross,
+                                  camera.height * (j + 0.5) / kPointsAcross);
+      const Eigen::Vector3d p_A(depth_m * (pixel.x() - camera.cx_px) / camera.fx_px,
+                                depth_m * (pixel.y() - camera.cy_px) / camera.fy_px, depth_m);
+      const Eigen::Vector3d p_B = X_BA * p_A;
+      if (p_B.z() < 0.1 * depth_m) {
+        return camera.width;  // turned away from it
+      }
+      const Eigen::Vector2d there(camera.cx_px + camera.fx_px * p_B.x() / p_B.z(),
+                                  camera.cy_px + camera.fy_px * p_B.y() / p_B.z());
+      sum += (there - pixel).norm();
+    }
+  }
+  return sum / (kPointsAcross * kPointsAcross);
+}
+
+bool FrozenCheck::Judge(Eye& eye, const std::shared_ptr<const ImageU8>& picture, bool moved) {
+  const bool repeated = eye.before && IsRepeated(*eye.before, *picture);
+  eye.before = picture;
+  if (eye.reference && eye.reference->change >= kLeastTexture && (moved || eye.unmoved)) {
+    const std::vector<float> means = BlockMeans(*picture, 0, 0);
+    if (means.size() == eye.reference->means.size()) {
+      const double share = RootMeanSquare(means, eye.reference->means) / eye.reference->change;
+      eye.unmoved = share < (eye.unmoved ? kChangedShare : kUnmovedShare);
+    }
+  }
+  return repeated || eye.unmoved;
+}
+
+FrozenCameras FrozenCheck::Add(const SeenPair& pair) {
+  const bool known = std::isfinite(pair.depth_m) && pair.depth_m > 0;
+  const bool moved =
+      known && X_WC_ && MeanShift_px(pair.camera, pair.depth_m, *X_WC_, pair.X_WC) >= kMoved_px;
+  const FrozenCameras frozen{Judge(left_, pair.left, moved), Judge(right_, pair.right, moved)};
+  const bool old = !X_WC_ || SecondsBetween(time_, pair.time) > kReferenceAge_s;
+  if (known && (moved || old) && !left_.unmoved && !right_.unmoved) {
+    X_WC_ = pair.X_WC;
+    time_ = pair.time;
+    for (const auto& [eye, picture] : {std::pair{&left_, pair.left}, {&right_, pair.right}}) {
+      Reference reference{BlockMeans(*picture, 0, 0), 0};
+      reference.change =
+          std::min(RootMeanSquare(reference.means, BlockMeans(*picture, kShift_px, 0)),
+                   RootMeanSquare(reference.means, BlockMeans(*picture, 0, kShift_px)));
+      eye->reference = std::move(reference);
+    }
+  }
+  return frozen;
+}
+
+}  // namespace palace

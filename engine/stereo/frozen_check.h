@@ -1,0 +1,81 @@
+// FrozenCheck: does a camera repeat its picture?
+//
+// Two signs, each apart for the left and the right camera:
+//
+//   repeated   fewer than one pixel in a thousand differs from the picture before. No sensor gives
+//              the same picture twice, and no ray caster does while the camera moves at all.
+//   unmoved    since a reference picture, at most 2 s old, the camera has moved so that the ground
+//              must have shifted by 12 px or more in the mean, and yet the picture is the
+//              reference: the means of its 8x8 blocks differ by less than a quarter of what the
+//              same picture shifted by 4 px would show. Noise of a grey level averages out of the
+//              means (0.15 of a level), so that noise on a frozen picture does not hide it.
+//
+// A camera that hovers over still ground is judged by the first sign alone: without motion a
+// picture that stays like itself is no fault. Too little texture (a shift by 4 px changes the means
+// by less than 1 level) leaves the second sign open. Once unmoved, a picture is so until it is seen
+// to change by half of what the shift would show.
+//
+// The shift is that of the plane ground at the given depth, mean of nine points of the picture.
+// Pure: no clocks, no threads. Any one thread.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "engine/core/frames.h"
+#include "engine/core/time.h"
+#include "engine/model/camera_models.h"
+#include "engine/model/image.h"
+
+namespace palace {
+
+struct FrozenCameras {
+  bool left = false, right = false;
+};
+
+/// One rectified pair, and where the left camera was by the vehicle's own word.
+struct SeenPair {
+  Timestamp time;
+  std::shared_ptr<const ImageU8> left, right;
+  RigidTransform X_WC;
+  PinholeCamera camera;
+  double depth_m = 0;  ///< to the ground along the axis; not finite: no motion is told
+};
+
+class FrozenCheck {
+ public:
+  static constexpr double kRepeatedShare = 1e-3;
+  static constexpr double kMoved_px = 12;
+  static constexpr double kReferenceAge_s = 2;
+  static constexpr double kUnmovedShare = 0.25;
+  static constexpr double kChangedShare = 0.5;
+  static constexpr double kLeastTexture = 1;  ///< grey levels
+
+  /// Call it with each pair once, in order of time.
+  FrozenCameras Add(const SeenPair& pair);
+  void Reset() { *this = FrozenCheck(); }
+
+ private:
+  /// Means of 8x8 blocks, and how much they change when the picture shifts by 4 px.
+  struct Reference {
+    std::vector<float> means;
+    double change = 0;
+  };
+  struct Eye {
+    std::shared_ptr<const ImageU8> before;
+    std::optional<Reference> reference;
+    bool unmoved = false;
+  };
+  bool Judge(Eye& eye, const std::shared_ptr<const ImageU8>& picture, bool moved);
+
+  Eye left_, right_;
+  std::optional<RigidTransform> X_WC_;  ///< of the references
+  Timestamp time_;
+};
+
+/// Mean shift in pixels of plane ground at `depth_m` before the camera at X_WA, seen from X_WB.
+double MeanShift_px(const PinholeCamera& camera, double depth_m, const RigidTransform& X_WA,
+                    const RigidTransform& X_WB);
+
+}  // namespace palace

@@ -1,0 +1,100 @@
+#include "engine/wire/live_bundles.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace palace {
+
+LiveBundles::LiveBundles(ChannelNames channels, bool follow_simulation)
+    : channels_(std::move(channels)),
+      follow_simulation_(follow_simulation),
+      assembler_(channels_, {.drop_repeated = true,
+                             .accepts = [this](const std::string& channel, Timestamp stamp) {
+                               return Accepts(channel, stamp);
+                             }}) {}
+
+bool LiveBundles::Accepts(const std::string& channel, Timestamp stamp) {
+  // These two come often, and a vehicle without them cannot be flown to a site.
+  const bool votes = channel == channels_.vehicle_pose || channel == channels_.vehicle_status;
+  const VehicleClock::Heard heard = clock_.Hear(stamp, taken_s_, votes);
+  stepped_ = heard == VehicleClock::Heard::kStepped;
+  return heard == VehicleClock::Heard::kFits;
+}
+
+void LiveBundles::Take(const WireMessage& message, double now_s) {
+  stepped_ = false;
+  taken_s_ = now_s;
+  for (auto& bundle : assembler_.Push(message)) {
+    ready_.push_back(std::move(bundle));
+  }
+  if (stepped_) {
+    StartAnewAfterStep();
+  }
+}
+
+/// What is pending is of the time before; an empty bundle that begins anew parts it from the rest.
+void LiveBundles::StartAnewAfterStep() {
+  stepped_s_ += clock_.step_s();
+  ready_.push_back(assembler_.TakePending({}));
+  assembler_.Reset();
+  auto first = std::make_shared<FrameBundle>();
+  first->discontinuity = true;
+  first->rig = assembler_.rig();
+  ready_.push_back(std::move(first));
+}
+
+std::shared_ptr<const FrameBundle> LiveBundles::Joined() {
+  if (ready_.empty()) {
+    return assembler_.TakePending({});
+  }
+  std::shared_ptr<const FrameBundle> bundle = std::move(ready_.front());
+  ready_.pop_front();
+  while (!ready_.empty()) {
+    JoinedBundle joined = Join(*bundle, *ready_.front());
+    ready_.pop_front();
+    joined_.pairs_replaced += joined.pair_replaced ? 1 : 0;
+    joined_.samples_overflowed += joined.samples_dropped;
+    bundle = std::move(joined.bundle);
+  }
+  return bundle;
+}
+
+std::shared_ptr<const FrameBundle> LiveBundles::HandOn(double now_s) {
+  auto bundle = std::make_shared<FrameBundle>(*Joined());
+  bundle->sequence = sequence_++;
+  if (bundle->status) {
+    clock_.FollowSimulation(follow_simulation_ && bundle->status->simulated);
+  }
+  // The vehicle's clock is not known before its first message.
+  bundle->time = clock_.known() ? clock_.At(now_s) : Timestamp{};
+  if (last_time_ && !bundle->discontinuity) {
+    bundle->time = std::max(bundle->time, *last_time_);
+  }
+  bundle->arrival.clock = {.station_s = now_s,
+                           .estimating = clock_.estimating(),
+                           .drift_ppm = clock_.drift_ppm(),
+                           .jitter_s = clock_.jitter_s(),
+                           .stepped_s = std::exchange(stepped_s_, 0),
+                           .stalled_s = std::exchange(stalled_s_, 0)};
+  if (clock_.known()) {
+    last_time_ = bundle->time;
+  }
+  return bundle;
+}
+
+Losses LiveBundles::Count() const {
+  const AssemblerReport& report = assembler_.report();
+  Losses losses = joined_;
+  losses.pictures_unpaired = report.pictures_unpaired;
+  losses.pairs_without_rig = report.pairs_without_rig;
+  losses.bundles_missing = report.bundles_lost;
+  losses.samples_missing = report.samples_lost;
+  losses.samples_overflowed += report.samples_overflowed;
+  losses.undecodable = report.undecodable_of;
+  losses.other_version = report.other_version_of;
+  losses.stamps_refused = report.stamps_refused;
+  losses.repeated = report.repeated;
+  return losses;
+}
+
+}  // namespace palace

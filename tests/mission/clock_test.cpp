@@ -1,0 +1,153 @@
+// Clocks in the mission: steps, stalls, restarts, and figures that nobody measured for long.
+#include "engine/mission/alarms/alarms.h"
+#include "tests/mission/mission_rig.h"
+
+namespace palace {
+namespace {
+
+const Alarm* Find(const MissionRig& rig, AlarmId id) {
+  for (const Alarm& alarm : rig.mission.status().alarms) {
+    if (alarm.kind == id) {
+      return &alarm;
+    }
+  }
+  return nullptr;
+}
+
+/// The source found that the vehicle's clock stepped: time jumps with it.
+void StepClock(MissionRig& rig, double step_s) {
+  rig.arrival.clock = ClockReading{.estimating = true, .stepped_s = step_s};
+  rig.jumped = true;
+  rig.now = AddSeconds(rig.now, step_s);
+}
+
+TEST(Clock, AStepIsNamedWithItsSizeAndDropsWhatWasSelected) {
+  for (const double step_s : {5.0, -5.0, 86400.0}) {
+    for (const bool approve : {false, true}) {
+      SCOPED_TRACE(step_s);
+      MissionRig rig;
+      rig.Arm();
+      if (approve) {
+        ASSERT_TRUE(rig.ApproveNow().ok());
+      }
+      StepClock(rig, step_s);
+      rig.Step();
+      EXPECT_FALSE(rig.mission.status().armed);
+      EXPECT_FALSE(rig.mission.status().approval);
+      const Alarm* alarm = Find(rig, AlarmId::kClock);
+      ASSERT_NE(alarm, nullptr);
+      char size[32];
+      std::snprintf(size, sizeof size, "by %+.1f s", step_s);
+      EXPECT_NE(alarm->text.find(size), std::string::npos) << alarm->text;
+      EXPECT_NE(rig.mission.status().why.find(size), std::string::npos);
+    }
+  }
+}
+
+// What our own machine missed is no fault of the vehicle's: named as ours, nothing falls.
+TEST(Clock, AStallOfThisMachineDropsNothing) {
+  MissionRig rig;
+  rig.Arm();
+  ASSERT_TRUE(rig.ApproveNow().ok());
+  ASSERT_TRUE(rig.RunUntil(MissionState::kDescending, 5));
+  rig.arrival.clock = ClockReading{.estimating = false, .stalled_s = 0.8};
+  rig.now = AddSeconds(rig.now, 0.8);  // and all that queued comes with the next bundle
+  rig.Step();
+  EXPECT_EQ(rig.state(), MissionState::kDescending) << rig.mission.status().why;
+  EXPECT_EQ(Find(rig, AlarmId::kClock), nullptr);
+  ASSERT_NE(Find(rig, AlarmId::kStalled), nullptr);
+  EXPECT_EQ(Find(rig, AlarmId::kStalled)->level, AlarmLevel::kAdvisory);
+  EXPECT_NE(Find(rig, AlarmId::kStalled)->text.find("This computer stood still for 0.8 s"),
+            std::string::npos);
+  rig.Run(11);
+  EXPECT_EQ(Find(rig, AlarmId::kStalled), nullptr);
+}
+
+// ... but nothing is kept either that is stale by the true clock: maps of four seconds ago.
+TEST(Clock, WhatIsStaleAfterAStallFalls) {
+  MissionRig rig;
+  rig.Arm();
+  rig.maps_up = false;
+  rig.arrival.clock = ClockReading{.estimating = false, .stalled_s = 4};
+  rig.now = AddSeconds(rig.now, 4);
+  rig.Step();
+  EXPECT_FALSE(rig.mission.status().armed);
+}
+
+// I18: after a step three consistent statuses, and a clock that is known again.
+TEST(Clock, NoApprovalUntilTheClockIsKnownAgain) {
+  MissionRig rig;
+  rig.Arm();
+  StepClock(rig, 5);
+  rig.Step();
+  ASSERT_TRUE(rig.Do(AcknowledgeAlarm{"clock"}).ok());
+  rig.Arm();
+  EXPECT_FALSE(rig.mission.status().can_approve);
+  EXPECT_FALSE(FindGuard(rig.mission.status().guards, GuardId::kVehicle)->pass);
+  rig.arrival.clock->estimating = false;
+  rig.Run(0.2);
+  EXPECT_TRUE(rig.mission.status().can_approve) << rig.mission.status().cannot_approve_reason;
+}
+
+// A real restart takes the clock along: it is named all the same (found-by-attack, defect 15).
+TEST(Clock, ARestartIsNamedThoughTheClockRestartsToo) {
+  MissionRig rig;
+  rig.Arm();
+  StepClock(rig, -900);
+  rig.vehicle.boot_id = 78;
+  rig.Run(0.3);
+  EXPECT_NE(Find(rig, AlarmId::kReboot), nullptr);
+  EXPECT_FALSE(rig.mission.status().armed);
+}
+
+TEST(Clock, TheSameBootAfterAStepIsNoRestart) {
+  MissionRig rig;
+  rig.Arm();
+  StepClock(rig, -5);
+  rig.Run(0.5);
+  EXPECT_EQ(Find(rig, AlarmId::kReboot), nullptr);
+  EXPECT_NE(Find(rig, AlarmId::kClock), nullptr);
+}
+
+// An estimate that inertia alone carried for 5 s is unknown, not wrong: no height, no distance.
+TEST(Estimate, IsUnknownOnceItCoastedForTooLong) {
+  MissionRig rig;
+  rig.Arm();
+  for (const auto& [coasting_s, known] : {std::pair{4.9, true}, std::pair{5.1, false}}) {
+    rig.navigation.gps.coasting_s = coasting_s;
+    rig.Step();
+    EXPECT_EQ(std::isfinite(rig.mission.status().height_above_site_m), known) << coasting_s;
+    EXPECT_EQ(std::isfinite(rig.mission.status().distance_to_site_m), known) << coasting_s;
+    EXPECT_EQ(FindGuard(rig.mission.status().guards, GuardId::kPosition)->pass, known);
+  }
+}
+
+// The armed site that gets worse is an alarm before it is approved, not an event alone.
+TEST(Site, AnArmedSiteThatDegradesIsAnAlarm) {
+  MissionRig rig;
+  rig.Arm();
+  EXPECT_EQ(Find(rig, AlarmId::kSiteDegraded), nullptr);
+  rig.ground_age_s = 2.4;
+  rig.Run(0.6);
+  ASSERT_NE(Find(rig, AlarmId::kSiteDegraded), nullptr);
+  EXPECT_NE(Find(rig, AlarmId::kSiteDegraded)->text.find("before you approve"), std::string::npos);
+}
+
+// 30 % of all messages lost: said with percent and channel (found-by-attack, defect 8).
+TEST(Loss, IsSaidInPercentByChannel) {
+  MissionRig rig;
+  rig.Arm();
+  rig.channels[2].lost_share = 0.31;
+  rig.Run(0.5);
+  const Alarm* alarm = Find(rig, AlarmId::kMessageLoss);
+  ASSERT_NE(alarm, nullptr);
+  EXPECT_EQ(alarm->level, AlarmLevel::kCaution);
+  EXPECT_NE(alarm->text.find("31 % of the vehicle's messages are lost, limit 10 %"),
+            std::string::npos)
+      << alarm->text;
+  EXPECT_NE(alarm->text.find("Vehicle pose 31 %"), std::string::npos) << alarm->text;
+  EXPECT_TRUE(rig.mission.status().can_approve) << "below the limit of the guard";
+}
+
+}  // namespace
+}  // namespace palace
