@@ -42,8 +42,7 @@ class Exporter {
     for (const auto& [file, header] : kHeaders) {
       tables_[file].text = std::string(header) + "\n";
     }
-    tables_["sites.csv"].text =
-        std::string("time_us,map_time_us,map_hash,settings_hash,") + kSiteColumns + "\n";
+    tables_["sites.csv"].text = std::string(kMapColumns) + "," + kSiteColumns + "\n";
   }
 
   void Take(const WireMessage& m) {
@@ -172,11 +171,17 @@ class Exporter {
     if (!proposal) {
       return;
     }
+    const SiteTableMap map{proposal->time, proposal->map_time, proposal->map_hash,
+                           proposal->settings_hash, proposal->grid};
     int rank = 0;
     for (const LandingSite& site : proposal->selection.sites) {
-      CsvRow row = Row(proposal->time);
-      row << proposal->map_time.us << proposal->map_hash << proposal->settings_hash;
+      CsvRow row = BeginSiteRow(map);
       AppendSite(row, ++rank, site);
+      Add("sites.csv", row);
+    }
+    if (rank == 0) {
+      CsvRow row = BeginSiteRow(map);
+      AppendNoSite(row, proposal->selection.none_reason);
       Add("sites.csv", row);
     }
   }

@@ -15,7 +15,17 @@ void AppendSite(CsvRow& row, int rank, const LandingSite& s) {
   row << s.touchdown.worst_probability << s.touchdown.worst_heading_rad;
   row << s.touchdown.best_probability << s.touchdown.best_heading_rad;
   row << int{s.flags} << int{s.confirmed} << int{s.corridor_clear} << int{s.clear_approaches};
-  row << s.age_s << s.distance_m << s.reason;
+  row << s.age_s << s.distance_m << s.frames_fused << s.unknown_cells;
+  row << s.normal_W.x() << s.normal_W.y() << s.normal_W.z() << s.pixel.x() << s.pixel.y();
+  row << s.reason;
+}
+
+CsvRow BeginSiteRow(const SiteTableMap& map) {
+  CsvRow row;
+  row << map.time.us << map.map_time.us << map.map_hash << map.settings_hash;
+  row << map.grid.rows << map.grid.cols << map.grid.cell_m;
+  row << map.grid.north_min_m << map.grid.east_min_m;
+  return row;
 }
 
 void AppendNoSite(CsvRow& row, const std::string& reason) {

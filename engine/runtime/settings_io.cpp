@@ -219,17 +219,14 @@ std::string SettingsToToml(const Settings& settings) {
 Result<Settings> SettingsOfCommandLine(const Settings& base, const std::filesystem::path& file,
                                        const std::vector<std::string>& assignments) {
   Result<Settings> settings = file.empty() ? base : LoadSettingsFile(file, base);
+  if (!settings) {
+    return UsageError("--settings: " + settings.error().message);
+  }
   for (const std::string& assignment : assignments) {
-    if (!settings) {
-      return settings;
-    }
     settings = ApplySettingText(*settings, assignment);
     if (!settings) {
       return UsageError("--set " + assignment + ": " + settings.error().message);
     }
-  }
-  if (!settings) {
-    return settings;
   }
   if (const Status good = CheckSettings(*settings, "--set"); !good) {
     return UsageError(good.error().message);

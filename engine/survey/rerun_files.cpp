@@ -59,7 +59,7 @@ Result<RerunFiles> RerunFiles::Open(const fs::path& folder, const MapTimes& maps
                               ": cannot be written; choose a writable --out");
     }
   }
-  files.sites_ << "time_us,map_time_us,map_hash,settings_hash," << kSiteColumns << '\n';
+  files.sites_ << kMapColumns << ',' << kSiteColumns << '\n';
   files.decisions_ << "time_us,state,why,map_hash,settings_hash,decision_hash,best_site,"
                       "best_safe_distance_m,height_above_site_m,recorded_state,"
                       "recorded_decision_hash,recorded_best_site,same\n";
@@ -69,9 +69,8 @@ Result<RerunFiles> RerunFiles::Open(const fs::path& folder, const MapTimes& maps
 
 void RerunFiles::AddSites(const TerrainDecision& decision, Timestamp time) {
   const auto begin = [&] {
-    CsvRow row;
-    row << time.us << decision.map_time.us << decision.map_hash << decision.settings_hash;
-    return row;
+    return BeginSiteRow({time, decision.map_time, decision.map_hash, decision.settings_hash,
+                         decision.hazards ? decision.hazards->geometry : GridGeometry{}});
   };
   int rank = 0;
   for (const LandingSite& site : decision.selection.sites) {

@@ -123,8 +123,17 @@ int Export(const LogOptions& options) {
   if (!tables) {
     return Fail(tables.error());
   }
+  bool decided = false;
   for (const ExportedTable& table : *tables) {
     std::printf("%s: %llu rows\n", table.file.c_str(), static_cast<unsigned long long>(table.rows));
+    const std::string name = table.file.filename().string();
+    decided = decided || (table.rows > 0 && (name == "sites.csv" || name == "status.csv"));
+  }
+  if (!decided) {
+    std::printf(
+        "No station recorded this log, so it holds no maps, sites or decisions. To decide it now: "
+        "palacectl log rerun %s --out DIR\n",
+        options.log.c_str());
   }
   return HealthOf(options.log);
 }

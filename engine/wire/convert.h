@@ -10,6 +10,7 @@
 #include "engine/core/result.h"
 #include "engine/model/flight_record.h"
 #include "engine/model/frame_bundle.h"
+#include "engine/model/grid.h"
 #include "engine/model/snapshot.h"
 #include "engine/wire/bundle_assembler.h"
 #include "engine/wire/channels.h"
@@ -45,6 +46,7 @@ struct SiteProposal {
   Timestamp map_time;
   std::uint64_t map_hash = 0;
   std::uint64_t settings_hash = 0;
+  GridGeometry grid;  ///< of the map, which `cell` of each site counts in; no rows without a map
   SiteSelection selection;
 };
 WireMessage EncodeProposal(const TerrainDecision& decision, Timestamp now,

@@ -90,6 +90,14 @@ WireMessage EncodeProposal(const TerrainDecision& decision, Timestamp now,
   m.map_utime = decision.map_time.us;
   m.map_hash = WireId(decision.map_hash);
   m.settings_hash = WireId(decision.settings_hash);
+  if (decision.hazards) {
+    const GridGeometry& grid = decision.hazards->geometry;
+    m.grid_rows = grid.rows;
+    m.grid_cols = grid.cols;
+    m.grid_cell_m = grid.cell_m;
+    m.grid_north_min_m = grid.north_min_m;
+    m.grid_east_min_m = grid.east_min_m;
+  }
   for (const LandingSite& site : decision.selection.sites) {
     m.sites.push_back(SiteToWire(site));
   }
@@ -101,7 +109,13 @@ WireMessage EncodeProposal(const TerrainDecision& decision, Timestamp now,
 Result<SiteProposal> DecodeProposal(const WireMessage& message) {
   return DecodeAnd<site_proposal_t>(message, [](const site_proposal_t& m) -> Result<SiteProposal> {
     SiteProposal proposal{
-        {m.utime}, {m.map_utime}, IdFromWire(m.map_hash), IdFromWire(m.settings_hash), {}};
+        {m.utime}, {m.map_utime}, IdFromWire(m.map_hash), IdFromWire(m.settings_hash), {}, {}};
+    proposal.grid = {m.grid_rows, m.grid_cols, m.grid_cell_m, m.grid_north_min_m,
+                     m.grid_east_min_m};
+    if (m.grid_rows < 0 || m.grid_cols < 0 || !std::isfinite(m.grid_cell_m) ||
+        !std::isfinite(m.grid_north_min_m) || !std::isfinite(m.grid_east_min_m)) {
+      return InvalidError("the grid of a proposal is none");
+    }
     for (const site_t& site : m.sites) {
       proposal.selection.sites.push_back(SiteFromWire(site));
       if (!proposal.selection.sites.back().p_WS.allFinite()) {

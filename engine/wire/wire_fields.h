@@ -113,7 +113,8 @@ void VisitFields(Reader& read, site_t& m) {
 }
 template <typename Reader>
 void VisitFields(Reader& read, site_proposal_t& m) {
-  read(m.utime, m.map_utime, m.map_hash, m.settings_hash, m.count);
+  read(m.utime, m.map_utime, m.map_hash, m.settings_hash, m.grid_rows, m.grid_cols, m.grid_cell_m,
+       m.grid_north_min_m, m.grid_east_min_m, m.count);
   read.List(m.count, m.sites);
   read(m.none_reason);
 }

@@ -70,6 +70,22 @@ void Declare(CLI::App& app, AppOptions& options, SourceArguments& sources, bool&
   app.add_flag("--verbose", options.verbose, "Also print messages for developers");
 }
 
+const char* OptionOf(SourceChoice source) {
+  switch (source) {
+    case SourceChoice::kReplay:
+      return "--replay";
+    case SourceChoice::kImages:
+      return "--images";
+    case SourceChoice::kCameras:
+      return "--cameras";
+    case SourceChoice::kConnect:
+      return "--connect";
+    case SourceChoice::kSimulation:
+      break;
+  }
+  return "--scenario";
+}
+
 }  // namespace
 
 Result<AppOptions> ParseCommandLine(int argc, const char* const* argv) {
@@ -114,6 +130,19 @@ Result<AppOptions> ParseCommandLine(int argc, const char* const* argv) {
   }
   if (chosen > 1) {
     return UsageError("--replay, --images, --cameras and --connect exclude each other");
+  }
+  if (chosen > 0) {
+    for (const char* simulated : {"--scenario", "--seed", "--wind"}) {
+      if (app.count(simulated) > 0) {
+        return UsageError(std::string(simulated) +
+                          " is of the built-in simulation; leave it out with " +
+                          OptionOf(options.source));
+      }
+    }
+  }
+  if (!options.channels_file.empty() && options.source != SourceChoice::kConnect &&
+      options.source != SourceChoice::kReplay) {
+    return UsageError("--channels is of --connect and --replay; leave it out here");
   }
   if (options.ui_scale != 0 && (options.ui_scale < 0.75 || options.ui_scale > 2.5)) {
     return UsageError("--ui-scale must lie between 0.75 and 2.5, or be 0");

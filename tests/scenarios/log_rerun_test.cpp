@@ -32,6 +32,17 @@ class LogRerun : public Scenario {
   }
 };
 
+TEST_F(LogRerun, AnExportOfALogWithoutDecisionsSaysSoAndHowToDecide) {
+  const ProcessResult flown = RunProcess(
+      Palacectl({"simulate", "--log", "vehicle.lcm", "--fast", "--duration-s", "2"}), kLimit_s);
+  ASSERT_EQ(flown.exit_code, 0) << flown.err;
+  const ProcessResult exported =
+      RunProcess(Palacectl({"log", "export", "vehicle.lcm", "--out", "csv"}), kLimit_s);
+  EXPECT_EQ(exported.exit_code, 0) << exported.err;
+  EXPECT_NE(exported.out.find("no maps, sites or decisions"), std::string::npos) << exported.out;
+  EXPECT_NE(exported.out.find("palacectl log rerun vehicle.lcm"), std::string::npos);
+}
+
 TEST_F(LogRerun, DecidesAsInFlightAndWritesEverySiteAndMap) {
   const std::filesystem::path log = Fly();
   const ProcessResult same = Rerun(log, {"--out", "same", "--maps", "every 0.5 s"});

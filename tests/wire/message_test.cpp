@@ -126,6 +126,24 @@ TEST(Proposal, SurvivesWithEveryFigure) {
   again.selection = back->selection;
   EXPECT_EQ(EncodeProposal(again, bundle->time, kChannels).payload, message.payload);
   EXPECT_EQ(back->selection.sites[0].reason, "widest clearance");
+  EXPECT_EQ(back->grid.rows, 0) << "no map, no grid";
+}
+
+// With it alone row and column of a site are a place.
+TEST(Proposal, TellsWhereItsGridLies) {
+  TerrainDecision decision;
+  auto hazards = std::make_shared<HazardMaps>();
+  hazards->geometry = {120, 90, 0.15, -3.25, 17.5};
+  decision.hazards = hazards;
+  LandingSite site;
+  site.cell = {10, 20};
+  site.p_WS = {hazards->geometry.NorthOfRow(10), hazards->geometry.EastOfCol(20), 0};
+  decision.selection.sites = {site};
+  const Result<SiteProposal> back = DecodeProposal(EncodeProposal(decision, {5}, kChannels));
+  ASSERT_TRUE(back.ok()) << back.error().message;
+  EXPECT_EQ(back->grid, hazards->geometry);
+  const LandingSite& told = back->selection.sites[0];
+  EXPECT_EQ(back->grid.CellFromPoint(told.p_WS.x(), told.p_WS.y()), told.cell);
 }
 
 TEST(StationStatus, SurvivesAsARecordSample) {
