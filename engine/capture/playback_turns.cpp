@@ -72,10 +72,14 @@ void PlaybackTurns::FillStatus(SourceStatus& status) const {
   status.speed = speed_;
   status.speed_reached = speed_reached_;
   status.start = kRecordedStart;
-  status.frame_index = static_cast<std::uint64_t>(std::max<std::int64_t>(0, shown_index_));
-  status.position_s = times_.At(static_cast<std::int64_t>(status.frame_index));
+  status.position_s = times_.At(std::max<std::int64_t>(0, shown_index_));
+  status.frame_index = static_cast<std::uint64_t>(shown_index_ + 1);
   if (count_ > 0) {
     status.duration_s = times_.At(count_);
+  }
+  if (count_ > 0 && at_end_ == AtEnd::kRunOn) {  // the last picture stays while time goes on
+    status.duration_s = std::max(*status.duration_s, status.position_s);
+    status.frame_index = std::min(status.frame_index, static_cast<std::uint64_t>(count_));
   }
   status.can_seek = true;
   status.frame_count = static_cast<std::uint64_t>(count_);

@@ -16,6 +16,20 @@ namespace {
 using SteadyClock = std::chrono::steady_clock;
 
 constexpr double kCatchUp_s = 0.25;
+constexpr double kGap_s = 1;  // between two bundles; more is told as a gap
+
+/// Seconds after the first.
+std::vector<RecordGap> GapsOf(const std::vector<BundleMark>& bundles) {
+  std::vector<RecordGap> gaps;
+  for (std::size_t i = 1; i < bundles.size(); ++i) {
+    const RecordGap between{SecondsBetween(bundles.front().time, bundles[i - 1].time),
+                            SecondsBetween(bundles.front().time, bundles[i].time)};
+    if (between.to_s - between.from_s > kGap_s) {
+      gaps.push_back(between);
+    }
+  }
+  return gaps;
+}
 
 SteadyClock::time_point TimePoint(double monotonic_s) {
   const double wait_s = monotonic_s - MonotonicSeconds();
@@ -89,6 +103,7 @@ void ReplaySource::ReadTrack() {
   record->path = file_.path().string();
   record->start_s = static_cast<double>(bundles_.front().time.us) * 1e-6;
   record->duration_s = std::max(0.0, SecondsBetween(bundles_.front().time, bundles_.back().time));
+  record->gaps = GapsOf(bundles_);
   TrackReader reader(names, *record);
   for (const LogEntry& entry : index_.entries) {
     if (!reader.Wants(index_.channels[entry.channel])) {
@@ -99,6 +114,8 @@ void ReplaySource::ReadTrack() {
       reader.Add(*message);
     }
   }
+  std::stable_sort(record->events.begin(), record->events.end(),
+                   [](const Event& a, const Event& b) { return a.time < b.time; });
   recorded_ = std::move(record);
 }
 
@@ -132,9 +149,7 @@ std::shared_ptr<const FrameBundle> ReplaySource::ReadBundle() {
 
 bool ReplaySource::WaitForTurn(std::unique_lock<std::mutex>& lock, std::stop_token stop) {
   while (!stop.stop_requested()) {
-    const bool at_end = next_bundle_ >= bundles_.size() && !jump_pending_;
-    if (at_end) {
-      ended_ = true;
+    if (AtEnd()) {
       if (!options_.wait_at_end) {
         return false;
       }
@@ -142,7 +157,6 @@ bool ReplaySource::WaitForTurn(std::unique_lock<std::mutex>& lock, std::stop_tok
       changed_.wait(lock, stop, [&] { return jump_pending_; });
       continue;
     }
-    ended_ = false;
     if (jump_pending_ || steps_ > 0) {
       return true;
     }
@@ -225,7 +239,7 @@ SourceStatus ReplaySource::Status() const {
   status.kind = SourceKind::kReplay;
   status.name = file_.path().string();
   status.paused = paused_;
-  status.ended = ended_;
+  status.ended = AtEnd();
   status.speed = speed_;
   status.speed_reached = speed_reached_;
   status.start = bundles_.front().time;
@@ -261,6 +275,9 @@ void ReplaySource::Control(const PlaybackControl& control) {
     switch (control.kind) {
       case Kind::kPlay:
         paused_ = false;
+        if (AtEnd()) {
+          JumpTo(0);  // played to the end: from the start again
+        }
         break;
       case Kind::kPause:
         paused_ = true;

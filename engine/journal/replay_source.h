@@ -32,7 +32,8 @@ struct ReplayOptions {
 /// Every bundle, in order, bit-equal to what the engine was given, with the commands that were
 /// posted before it in recorded_commands. After a jump (seek, step back) reading simply goes on
 /// from there and the first bundle carries `discontinuity`. A seek while paused delivers one
-/// bundle, so that the screen follows. Damaged stretches are skipped and counted.
+/// bundle, so that the screen follows. Play at the end plays from the start again. Damaged
+/// stretches are skipped and counted.
 class ReplaySource final : public Source {
  public:
   /// Errors name the path and the remedy: missing, a folder, empty, not a log, no bundle in it.
@@ -57,6 +58,8 @@ class ReplaySource final : public Source {
   std::shared_ptr<const FrameBundle> Deliver(std::shared_ptr<const FrameBundle> bundle);
   bool WaitForTurn(std::unique_lock<std::mutex>& lock, std::stop_token stop);
   void JumpTo(std::size_t bundle);
+  /// Nothing is left to deliver. Under the mutex.
+  bool AtEnd() const { return next_bundle_ >= bundles_.size() && !jump_pending_; }
 
   LogFile file_;
   LogIndex index_;
@@ -74,7 +77,6 @@ class ReplaySource final : public Source {
   std::uint64_t generation_ = 0;  ///< counts jumps
   bool jump_pending_ = false;
   int steps_ = 0;  ///< bundles to deliver although paused
-  bool ended_ = false;
   bool paused_ = false;
   double speed_ = 1;
   double speed_reached_ = 1;

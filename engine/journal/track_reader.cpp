@@ -1,5 +1,7 @@
 #include "engine/journal/track_reader.h"
 
+#include <utility>
+
 #include "engine/wire/convert.h"
 
 namespace palace {
@@ -24,7 +26,7 @@ void TrackReader::Add(const WireMessage& message) {
   if (message.channel == channels_.station_status) {
     AddStatus(message);
   } else if (message.channel == channels_.site_proposal) {
-    proposal_ = message;
+    AddProposal(message);
   } else if (message.channel == channels_.site_decision) {
     AddDecision(message);
   } else if (message.channel == channels_.event) {
@@ -42,17 +44,26 @@ void TrackReader::Add(const WireMessage& message) {
   }
 }
 
-void TrackReader::AddDecision(const WireMessage& message) {
-  const Result<EngineCommand> command = DecodeCommand(message);
-  const auto* select = command ? std::get_if<SelectSite>(&command->action) : nullptr;
-  if (select == nullptr || !proposal_) {
-    return;
-  }
-  const Result<SiteProposal> proposal = DecodeProposal(*proposal_);
+void TrackReader::AddProposal(const WireMessage& message) {
+  Result<SiteProposal> proposal = DecodeProposal(message);
   if (!proposal) {
     return;
   }
+  RecordedProposal recorded{proposal->map_time, {}};
   for (const LandingSite& site : proposal->selection.sites) {
+    recorded.places.push_back({site.id, site.letter, site.p_WS.head<2>()});
+  }
+  record_.proposals.push_back(std::move(recorded));
+  newest_sites_ = std::move(proposal->selection.sites);
+}
+
+void TrackReader::AddDecision(const WireMessage& message) {
+  const Result<EngineCommand> command = DecodeCommand(message);
+  const auto* select = command ? std::get_if<SelectSite>(&command->action) : nullptr;
+  if (select == nullptr) {
+    return;
+  }
+  for (const LandingSite& site : newest_sites_) {
     if (site.id == select->site_id) {
       armed_ = static_cast<int>(record_.armed_sites.size());
       record_.armed_sites.push_back(site);

@@ -1,8 +1,8 @@
 // TrackReader: gathers what a flight decided from the station's own messages in its log.
 #pragma once
 
-#include <optional>
 #include <string>
+#include <vector>
 
 #include "engine/model/flight_record.h"
 #include "engine/wire/channels.h"
@@ -20,12 +20,13 @@ class TrackReader {
   void Add(const WireMessage& message);
 
  private:
+  void AddProposal(const WireMessage& message);
   void AddDecision(const WireMessage& message);
   void AddStatus(const WireMessage& message);
 
   const ChannelNames& channels_;
   FlightRecord& record_;
-  std::optional<WireMessage> proposal_;  // decoded only when a site of it is selected
+  std::vector<LandingSite> newest_sites_;
   int armed_ = -1;
 };
 

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include <Eigen/Dense>
+
 #include "engine/core/time.h"
 #include "engine/model/mission/mission_status.h"
 #include "engine/model/settings/settings.h"
@@ -35,16 +37,36 @@ struct SettingsInForce {
   Settings settings;
 };
 
+/// A place that a map proposed.
+struct RecordedPlace {
+  std::uint64_t id = 0;
+  std::string letter;
+  Eigen::Vector2d north_east_m{NAN, NAN};
+};
+/// One SITE_PROPOSAL: the places of one map, best first.
+struct RecordedProposal {
+  Timestamp map_time;
+  std::vector<RecordedPlace> places;
+};
+
+/// A stretch without a bundle, seconds after the first bundle.
+struct RecordGap {
+  double from_s = 0;
+  double to_s = 0;
+};
+
 struct FlightRecord {
   std::string path;
   std::vector<FlightRecordSample> samples;  ///< in order of time; empty for foreign logs
-  std::vector<Event> events;
-  std::vector<LandingSite> armed_sites;   ///< as proposed when the operator selected them
-  std::vector<SettingsInForce> settings;  ///< in order of time; empty: none on record
+  std::vector<Event> events;                ///< in order of time
+  std::vector<RecordedProposal> proposals;  ///< in order of time
+  std::vector<LandingSite> armed_sites;     ///< as proposed when the operator selected them
+  std::vector<SettingsInForce> settings;    ///< in order of time; empty: none on record
   Settings settings_at_start;
   bool has_settings = false;  ///< false: settings_at_start holds the defaults
   double start_s = 0;         ///< of the first bundle, seconds of data time
   double duration_s = 0;
+  std::vector<RecordGap> gaps;  ///< longer than a second, in order of time
 };
 
 }  // namespace palace

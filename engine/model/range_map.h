@@ -36,8 +36,9 @@ struct RangeAgreement {
 
 /// Health of one stereo pass.
 struct StereoQuality {
-  double coverage = 0;        ///< share of pixels with a depth, 0..1
-  double row_error_px = 0;    ///< median |row difference| of matches; NaN when not measured
+  double coverage = 0;  ///< share of pixels with a depth, 0..1
+  /// Median |row difference| of matches; NaN when not measured.
+  double row_error_px = std::numeric_limits<double>::quiet_NaN();
   double exposure_ratio = 1;  ///< mean brightness right / left
   double median_sigma_px = 0;
   double median_depth_m = 0;     ///< NaN when nothing matched

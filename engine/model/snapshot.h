@@ -40,6 +40,16 @@ struct SiteReview {
   std::string reason;  ///< a sentence with value and limit
 };
 
+/// Replay under other limits: the best site of one map, judged by the flight's limits and by the
+/// reviewer's. Both are of the same map, so that only the limits can make a difference.
+struct RedecidedSample {
+  Timestamp time;
+  std::string recorded;               ///< letter under the flight's limits, empty: none
+  std::string best_site;              ///< letter under the reviewer's, empty: none
+  double best_safe_distance_m = NAN;  ///< of the reviewer's; NaN without a site
+  bool differs = false;               ///< another place, or a site on one side only
+};
+
 /// One sample of the descent history, one a frame.
 struct HistorySample {
   Timestamp time;
@@ -91,12 +101,16 @@ struct SessionPart {
   std::string recording_path;
   RecordState record;  ///< thinned, stopped, how long it lasts
 
-  Settings settings;          ///< in force
-  Settings preview_settings;  ///< equal to settings when nothing is previewed
+  Settings settings;           ///< in force
+  Settings preview_settings;   ///< equal to settings when nothing is previewed
+  Settings recorded_settings;  ///< replay: of the flight itself at this time; else as `settings`
   std::uint64_t settings_hash = 0;
   std::uint64_t preview_hash = 0;
   LimitsApply limits_apply = LimitsApply::kAtOnce;
   bool apply_drops = false;  ///< applying drops the site that is armed, or its approval
+
+  /// What maps need and what has not come, for people, "VEHICLE_POSE"; empty: all of it comes.
+  std::string missing_inputs;
 
   std::shared_ptr<const std::vector<Event>> events;
   std::vector<StageTiming> timings;
@@ -127,6 +141,9 @@ struct TerrainPart {
   /// Replay: what the flight decided, when limits moved.
   std::shared_ptr<const TerrainDecision> recorded;
   std::optional<SiteReview> site_review;  ///< empty before the first site
+  /// Replay: what the reviewer's limits decided so far, in order of time; kept over jumps, until a
+  /// limit moves. Null: nothing was decided again.
+  std::shared_ptr<const std::vector<RedecidedSample>> redecided;
   /// Replay: maps still to come after a jump until the map holds as many frames as in flight.
   int maps_to_rebuild = 0;
 

@@ -36,7 +36,7 @@ struct SourceStatus {
   double position_s = 0;             ///< since start
   std::optional<double> duration_s;  ///< known for logs and folders
   bool can_seek = false;
-  std::uint64_t frame_index = 0;
+  std::uint64_t frame_index = 0;          ///< of the frame shown, from 1; 0 before it
   std::uint64_t frame_count = 0;          ///< 0 unknown
   std::vector<CameraCounters> cameras{};  ///< of kCameras and kVideo
   std::string damage{};  ///< of a log: what could not be read, for people; empty when whole

@@ -99,7 +99,7 @@ void Engine::Control(const PlaybackControl& control) {
   source_->Control(control);
   using Kind = PlaybackControl::Kind;
   if (control.kind == Kind::kSeek || control.kind == Kind::kStepBack ||
-      control.kind == Kind::kStepForward) {
+      control.kind == Kind::kStepForward || control.kind == Kind::kPlay) {
     jump_asked_ = true;
     ended_ = false;
   }

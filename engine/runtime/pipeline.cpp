@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "engine/runtime/decision_hash.h"
+#include "engine/runtime/missing_inputs.h"
 #include "engine/runtime/pipeline_pass.h"
 #include "engine/slad/hazards/explanation.h"
 #include "engine/stereo/range_measurement.h"
@@ -43,7 +44,9 @@ void Pipeline::StartAfterJump(Timestamp now) {
   }
   std::vector<HistorySample> before = mission_of_record_.HistoryBefore(now);
   maps_to_rebuild_ =
-      FollowsRecord(role_) && !before.empty() ? settings_.recorded().slad.fusion.frames_fused : 0;
+      FollowsRecord(role_) && (!before.empty() || mission_of_record_.BeginsMidFlight())
+          ? settings_.recorded().slad.fusion.frames_fused
+          : 0;
   history_.Reset(std::move(before));
   laser_height_m_.reset();
   range_check_.Reset();
@@ -56,7 +59,8 @@ PipelineOutput Pipeline::Process(std::shared_ptr<const FrameBundle> bundle,
                                  std::vector<EngineCommand> commands,
                                  const SessionStatus& session) {
   role_ = RoleOf(session.source.kind, !SeenFromStart(role_));
-  if (bundle->discontinuity) {
+  const bool cut = FollowsRecord(role_) && !last_bundle_ && mission_of_record_.BeginsMidFlight();
+  if (bundle->discontinuity || cut) {
     StartAfterJump(bundle->time);
   }
   Pass pass{bundle, std::move(commands), session, NextSnapshot()};
@@ -248,8 +252,9 @@ void Pipeline::MeasureRange(Pass& pass) {
   pass.snapshot->terrain.Edit().range = range;
   if (!pose) {
     pass.Note(DiagnosticLevel::kWarning, "slad",
-              "attitude and height are unknown, so ranges make no map; give a pose ([pose] in "
-              "RIG.toml, or a vehicle)");
+              std::string("attitude and height are unknown, so ranges make no map; ") +
+                  (HasPicturesOnly(role_) ? "add [pose] to RIG.toml"
+                                          : "VEHICLE_POSE did not come within 0.1 s of them"));
     return;
   }
   if (const auto spot = LaserSpot(*pass.snapshot)) {
@@ -273,12 +278,12 @@ void Pipeline::Judge(Pass& pass) {
   slad_.Keep(SeenFromStart(role_) && armed ? armed->id : 0);
   // Letters follow the limits of record; a preview or a re-decision uses a copy of them.
   pass.decision_of_record =
-      slad_.Decide(settings_.recorded(), pass.new_map ? Letters::kOfRecord : Letters::kOfCopy);
-  terrain.applied = settings_.redecided() ? slad_.Decide(settings_.applied(), Letters::kOfCopy)
+      DecisionUnder(settings_.recorded(), pass.new_map ? Letters::kOfRecord : Letters::kOfCopy);
+  terrain.applied = settings_.redecided() ? DecisionUnder(settings_.applied(), Letters::kOfCopy)
                                           : pass.decision_of_record;
   terrain.recorded = settings_.redecided() ? pass.decision_of_record : nullptr;
   terrain.preview =
-      settings_.previewing() ? slad_.Decide(settings_.preview(), Letters::kOfCopy) : nullptr;
+      settings_.previewing() ? DecisionUnder(settings_.preview(), Letters::kOfCopy) : nullptr;
 }
 
 std::optional<LandingSite> Pipeline::TrackedSite(Timestamp now) const {
@@ -391,6 +396,7 @@ PipelineOutput Pipeline::Publish(Pass& pass) {
   snapshot.sequence = ++sequence_;
   part.source = pass.session.source;
   part.losses = pass.session.losses;
+  part.missing_inputs = MissingInputs(snapshot, part.losses);
   snapshot.terrain.Edit().maps_to_rebuild = maps_to_rebuild_;
   part.can_transmit = pass.session.can_transmit;
   part.recording = pass.session.recording;
@@ -402,7 +408,8 @@ PipelineOutput Pipeline::Publish(Pass& pass) {
   part.preview_hash = HashOf(part.preview_settings);
   part.limits_apply = WhenLimitsApply(/*of_record=*/false);
   part.apply_drops = part.limits_apply == LimitsApply::kWhenApplied && mission_.DropsWithSettings();
-  part.events = mission_.SharedEvents();
+  part.recorded_settings = settings_.recorded();
+  part.events = EventsAt(snapshot.time);
   const bool new_time = !last_ || last_->time != snapshot.time;
   if (new_time && pass.bundle) {
     history_.Add(SampleOf(snapshot, *pass.bundle));

@@ -18,6 +18,7 @@
 #include "engine/runtime/channel_monitor.h"
 #include "engine/runtime/flight_history.h"
 #include "engine/runtime/recorded_mission.h"
+#include "engine/runtime/redecisions.h"
 #include "engine/runtime/settings_state.h"
 #include "engine/slad/slad.h"
 #include "engine/stereo/frozen_check.h"
@@ -87,8 +88,13 @@ class Pipeline {
   void Judge(Pass& pass);
   void Track(Pass& pass);
   void Decide(Pass& pass);
+  /// Judges the newest map under `settings`; after a jump, under the names of the record.
+  std::shared_ptr<const TerrainDecision> DecisionUnder(const Settings& settings, Letters letters);
+  std::shared_ptr<const std::vector<Event>> EventsAt(Timestamp time);
   /// What the limits in force say of the site that the flight chose.
   void Review(Pass& pass);
+  /// Notes what other limits than the flight's make of the newest map.
+  void Redecide(Pass& pass);
   PipelineOutput Publish(Pass& pass);
   MissionInputs::Session MissionSession(const Pass& pass, Timestamp now) const;
   /// After this pass's commands: a command decides alike whether it came with the frame or before
@@ -107,6 +113,7 @@ class Pipeline {
   int maps_to_rebuild_ = 0;
   RecordedMission mission_of_record_;
   SettingsState settings_;
+  Redecisions redecisions_;
   Mission mission_;
   std::optional<StereoRectifier> rectifier_;
   std::shared_ptr<const StereoRig> rig_;

@@ -29,7 +29,8 @@ void Pipeline::ApplySettingCommand(Pass& pass, const EngineCommand& command) {
   std::string text;
   if (const auto* set = std::get_if<SetSetting>(&command.action)) {
     const SettingInfo* info = FindSetting(set->name);
-    const double before = info ? GetSetting(settings_.applied(), set->name) : 0;
+    const Settings& moved = of_record ? settings_.recorded() : settings_.applied();
+    const double before = info ? GetSetting(moved, set->name) : 0;
     done = of_record ? settings_.SetRecorded(set->name, set->value, preview_only)
                      : settings_.Set(set->name, set->value, preview_only);
     if (done) {
@@ -55,6 +56,8 @@ void Pipeline::ApplySettingCommand(Pass& pass, const EngineCommand& command) {
   }
   if (!FollowsRecord(role_)) {
     settings_.FollowApplied();
+  } else if (!of_record) {
+    redecisions_.Forget();
   }
   pass.settings_moved = true;
   if (!text.empty()) {

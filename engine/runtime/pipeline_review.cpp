@@ -3,11 +3,37 @@
 
 #include "engine/runtime/pipeline.h"
 #include "engine/runtime/pipeline_pass.h"
+#include "engine/runtime/recorded_names.h"
 #include "engine/runtime/site_review.h"
 
 namespace palace {
 
+std::shared_ptr<const TerrainDecision> Pipeline::DecisionUnder(const Settings& settings,
+                                                               Letters letters) {
+  std::shared_ptr<const TerrainDecision> decision = slad_.Decide(settings, letters);
+  const FlightRecord* record = mission_of_record_.record();
+  return SeenFromStart(role_) || record == nullptr ? decision
+                                                   : NamedByRecord(std::move(decision), *record);
+}
+
+std::shared_ptr<const std::vector<Event>> Pipeline::EventsAt(Timestamp time) {
+  auto recorded = FollowsRecord(role_) ? mission_of_record_.EventsUntil(time) : nullptr;
+  return recorded ? recorded : mission_.SharedEvents();
+}
+
+void Pipeline::Redecide(Pass& pass) {
+  TerrainPart& terrain = pass.snapshot->terrain.Edit();
+  // A map that holds fewer frames than it held in flight says nothing of the flight.
+  if (terrain.recorded && terrain.applied && (pass.new_map || pass.settings_moved) &&
+      maps_to_rebuild_ == 0) {
+    redecisions_.Add(
+        CompareDecisions(terrain.applied->map_time, *terrain.recorded, *terrain.applied));
+  }
+  terrain.redecided = redecisions_.Publish();
+}
+
 void Pipeline::Review(Pass& pass) {
+  Redecide(pass);
   EngineSnapshot& snapshot = *pass.snapshot;
   const TerrainDecision* flown = snapshot.terrain->OfRecord().get();
   const MissionStatus& mission = snapshot.flight->mission;

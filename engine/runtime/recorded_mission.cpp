@@ -30,6 +30,28 @@ const Settings* RecordedMission::SettingsAt(Timestamp time) const {
   return after == all.begin() ? &all.front().settings : &(after - 1)->settings;
 }
 
+bool RecordedMission::BeginsMidFlight() const {
+  if (!record_ || record_->samples.empty()) {
+    return false;
+  }
+  const MissionState first = record_->samples.front().state;
+  return first != MissionState::kNoLive && first != MissionState::kSearch;
+}
+
+std::shared_ptr<const std::vector<Event>> RecordedMission::EventsUntil(Timestamp time) {
+  if (!record_ || record_->events.empty()) {
+    return nullptr;
+  }
+  const auto& all = record_->events;
+  const auto end = std::upper_bound(all.begin(), all.end(), time,
+                                    [](Timestamp t, const Event& event) { return t < event.time; });
+  const auto count = static_cast<std::size_t>(end - all.begin());
+  if (!events_ || events_->size() != count) {
+    events_ = std::make_shared<const std::vector<Event>>(all.begin(), end);
+  }
+  return events_;
+}
+
 const LandingSite* RecordedMission::ArmedSite(const FlightRecordSample& sample) const {
   const bool known =
       sample.armed >= 0 && static_cast<std::size_t>(sample.armed) < record_->armed_sites.size();

@@ -17,6 +17,11 @@ namespace palace {
 class RecordedMission {
  public:
   void Follow(std::shared_ptr<const FlightRecord> record) { record_ = std::move(record); }
+  const FlightRecord* record() const { return record_.get(); }
+  /// A log cut out of a flight: what led to its first state is not in it.
+  bool BeginsMidFlight() const;
+  /// What happened in the flight until `time`, as it was recorded; null without recorded events.
+  std::shared_ptr<const std::vector<Event>> EventsUntil(Timestamp time);
   /// Limits in force at `time`; null where the record tells none.
   const Settings* SettingsAt(Timestamp time) const;
   /// Plots of the flight before `time`, as far as the record tells.
@@ -44,6 +49,7 @@ class RecordedMission {
   }
 
   std::shared_ptr<const FlightRecord> record_;
+  std::shared_ptr<const std::vector<Event>> events_;  // those told last
 };
 
 }  // namespace palace

@@ -1,14 +1,32 @@
 #include "gui/app/dispatch.h"
 
+#include <cstdio>
 #include <utility>
 
 #include "engine/mission/leaving.h"
 #include "engine/runtime/settings_io.h"
+#include "gui/app/presets.h"
+#include "gui/widgets/timeline_strip.h"
 
 namespace palace {
 namespace {
 
 constexpr double kMessageTime_s = 5;
+
+/// A bookmark is named after its time, and confirmed; without a recording there is none.
+void PostBookmark(const AddBookmark& bookmark, CommandOrigin origin, const EngineSnapshot* snapshot,
+                  double ui_time_s, Engine& engine, UiState& state) {
+  if (!snapshot || !snapshot->session->recording) {
+    ShowMessage(state, "No bookmark: nothing is recorded here", ui_time_s);
+    return;
+  }
+  const std::string name =
+      !bookmark.note.empty()
+          ? bookmark.note
+          : "Bookmark at " + TimeLabel(snapshot->session->source.position_s, true);
+  engine.Post({origin, AddBookmark{name}});
+  ShowMessage(state, name + ", in the recording", ui_time_s);
+}
 
 void Post(const CommandAction& action, CommandOrigin origin, const EngineSnapshot* snapshot,
           const Gesture& gesture, Engine& engine, UiState& state) {
@@ -18,12 +36,27 @@ void Post(const CommandAction& action, CommandOrigin origin, const EngineSnapsho
   if (std::holds_alternative<WaveOff>(action)) {
     state.frame.wave_off_sent_s = gesture.ui_time_s;
   }
+  if (const auto* bookmark = std::get_if<AddBookmark>(&action)) {
+    PostBookmark(*bookmark, origin, snapshot, gesture.ui_time_s, engine, state);
+    return;
+  }
   engine.Post({origin, action});
+}
+
+Settings LimitsNow(const EngineSnapshot* snapshot) {
+  return snapshot ? snapshot->session->preview_settings : Settings{};
+}
+
+/// Opens the choice at the path of last time.
+void BeginChoice(const EngineSnapshot* snapshot, PresetState& preset) {
+  const std::string path = preset.path.empty() ? FirstPresetPath().string() : preset.path;
+  std::snprintf(preset.field, sizeof preset.field, "%s", path.c_str());
+  preset.look = LookAt(path, LimitsNow(snapshot));
 }
 
 void LoadPresetFile(const std::string& path, CommandOrigin origin, const EngineSnapshot* snapshot,
                     double ui_time_s, Engine& engine, UiState& state) {
-  const Settings now = snapshot ? snapshot->session->preview_settings : Settings{};
+  const Settings now = LimitsNow(snapshot);
   const Result<Settings> loaded = LoadSettingsFile(path, now);
   if (!loaded) {
     ShowMessage(state, loaded.error().message, ui_time_s);
@@ -42,24 +75,44 @@ void LoadPresetFile(const std::string& path, CommandOrigin origin, const EngineS
   for (const SetSetting& set : sets) {
     engine.Post({origin, set});
   }
-  state.tune.preset_path = path;
+  state.tune.preset.path = path;
+  state.tune.preset.values = *loaded;
+  state.tune.preset.choice = PresetChoice::kNone;
   ShowMessage(state, "Preset loaded, " + std::to_string(sets.size()) + " values changed",
               ui_time_s);
 }
 
-void SavePresetFile(const std::string& wanted, const EngineSnapshot* snapshot, double ui_time_s,
-                    UiState& state) {
+void SaveChosen(const SavePreset& save, const EngineSnapshot* snapshot, double ui_time_s,
+                UiState& state) {
   if (!snapshot) {
     return;
   }
-  const std::string path = !wanted.empty()                   ? wanted
-                           : !state.tune.preset_path.empty() ? state.tune.preset_path
-                                                             : "config/preset.toml";
-  const Status saved = SaveSettingsFile(path, snapshot->session->preview_settings);
+  PresetState& preset = state.tune.preset;
+  const Settings now = LimitsNow(snapshot);
+  const Status saved = SavePresetFile(save.path, now, save.replace);
+  preset.look = LookAt(save.path, now);
   if (saved) {
-    state.tune.preset_path = path;
+    preset.path = save.path;
+    preset.values = now;
+    preset.choice = PresetChoice::kNone;
   }
-  ShowMessage(state, saved ? "Preset saved to " + path : saved.error().message, ui_time_s);
+  ShowMessage(state, saved ? "Preset saved to " + save.path : saved.error().message, ui_time_s);
+}
+
+void DoWithPresets(const UiRequest& request, CommandOrigin origin, const EngineSnapshot* snapshot,
+                   double ui_time_s, Engine& engine, UiState& state) {
+  if (request.choose_preset) {
+    BeginChoice(snapshot, state.tune.preset);
+  }
+  if (request.look_at_preset) {
+    state.tune.preset.look = LookAt(*request.look_at_preset, LimitsNow(snapshot));
+  }
+  if (request.load_preset) {
+    LoadPresetFile(*request.load_preset, origin, snapshot, ui_time_s, engine, state);
+  }
+  if (request.save_preset) {
+    SaveChosen(*request.save_preset, snapshot, ui_time_s, state);
+  }
 }
 
 /// Who would leave a vehicle in the air is asked first.
@@ -93,12 +146,7 @@ void Dispatch(const Intents& intents, CommandOrigin origin, const EngineSnapshot
       for (const SetSetting& set : request.settings) {
         engine.Post({origin, set});
       }
-      if (request.load_preset) {
-        LoadPresetFile(*request.load_preset, origin, snapshot, ui_time_s, engine, state);
-      }
-      if (request.save_preset) {
-        SavePresetFile(*request.save_preset, snapshot, ui_time_s, state);
-      }
+      DoWithPresets(request, origin, snapshot, ui_time_s, engine, state);
     }
   }
 }

@@ -39,11 +39,21 @@ struct TakeScreenshot {
 };
 struct UndoSetting {};
 struct RedoSetting {};
+/// Opens the choice of a preset's file, or closes it.
+enum class PresetChoice : std::uint8_t { kNone, kLoad, kSave };
+struct ChoosePreset {
+  PresetChoice choice = PresetChoice::kLoad;
+};
+/// Reads what would be loaded, or replaced, without touching it.
+struct LookAtPreset {
+  std::string path;
+};
 struct LoadPreset {
   std::string path;
 };
 struct SavePreset {
-  std::string path;  ///< empty: the preset's own file
+  std::string path;
+  bool replace = false;  ///< a file of that name was seen, and is to be replaced
 };
 struct ShowKeyHelp {
   bool shown = false;
@@ -60,9 +70,10 @@ struct NextFlight {
 };
 
 /// What changes the window only; reduced into UiState.
-using UiAction = std::variant<ShowWorkspace, HighlightSite, ShowView3dPreset, MoveView3d,
-                              SetUiScale, TakeScreenshot, UndoSetting, RedoSetting, LoadPreset,
-                              SavePreset, ShowKeyHelp, CloseTop, QuitProgram, NextFlight>;
+using UiAction =
+    std::variant<ShowWorkspace, HighlightSite, ShowView3dPreset, MoveView3d, SetUiScale,
+                 TakeScreenshot, UndoSetting, RedoSetting, ChoosePreset, LookAtPreset, LoadPreset,
+                 SavePreset, ShowKeyHelp, CloseTop, QuitProgram, NextFlight>;
 
 /// Everything a panel can ask for.
 using Intent = std::variant<CommandAction, PlaybackControl, UiAction>;

@@ -93,7 +93,7 @@ std::vector<Row> MakeRows() {
       {{"Ctrl+Z", "Undo the last limit change", true}, always(Ui(UndoSetting{}))},
       {{"Ctrl+Shift+Z", "Redo it", true}, always(Ui(RedoSetting{}))},
       {{"Ctrl+Y", "Redo it", true}, always(Ui(RedoSetting{}))},
-      {{"Ctrl+S", "Save the preset"}, always(Ui(SavePreset{}))},
+      {{"Ctrl+S", "Save the limits as a preset"}, always(Ui(ChoosePreset{PresetChoice::kSave}))},
       {{"F12", "Take a screenshot", false, false, true}, always(Ui(TakeScreenshot{}))},
       {{"Ctrl++", "Larger text", true},
        [](const Context& c) { return Ui(SetUiScale{c.state.scale + kScaleStep}); }},

@@ -142,8 +142,9 @@ class StationRun {
   /// Moves the UI clock on; returns by how much.
   double Tick() {
     const double before_s = ui_time_s_;
-    ui_time_s_ =
-        surface_.lockstep() ? ui_time_s_ + kLockstepFrame_s : MonotonicSeconds() - start_s_;
+    // Without a window, time is that of the passes; a bus, though, keeps its own.
+    const bool by_passes = surface_.lockstep() && session_.source->IsLockstep();
+    ui_time_s_ = by_passes ? ui_time_s_ + kLockstepFrame_s : MonotonicSeconds() - start_s_;
     return ui_time_s_ - before_s;
   }
 
@@ -290,6 +291,10 @@ void Report(const AppOptions& options, const Session& session, const StationRun&
     }
   }
   const bool report = options.headless ? options.report : session.recorded;
+  if (options.headless && options.source == SourceChoice::kReplay) {
+    std::printf("Sites and maps as data: palacectl log rerun %s --out DIR\n",
+                options.source_path.c_str());
+  }
   if (report || (options.headless && !run.screenshots().empty())) {
     std::printf("Files: %s\n", session.output_dir.string().c_str());
   }

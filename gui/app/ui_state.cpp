@@ -36,6 +36,11 @@ void CloseTopmost(UiState& state) {
       (state.frame.workspace == Workspace::kFly && SwitchOff(state.fly.approve.show_guards))) {
     return;
   }
+  if (state.frame.workspace == Workspace::kTune &&
+      state.tune.preset.choice != PresetChoice::kNone) {
+    state.tune.preset.choice = PresetChoice::kNone;
+    return;
+  }
   MapProbe* probe = ProbeOf(state);
   if (probe != nullptr && probe->pinned) {
     probe->pinned.reset();
@@ -96,8 +101,16 @@ struct Reducer {
   }
   void operator()(const UndoSetting&) { request.settings = state.tune.history.Undo(); }
   void operator()(const RedoSetting&) { request.settings = state.tune.history.Redo(); }
+  void operator()(const ChoosePreset& choose) {
+    state.tune.preset.choice = choose.choice;
+    request.choose_preset = choose.choice != PresetChoice::kNone;
+    if (request.choose_preset) {
+      Show(state, Workspace::kTune);
+    }
+  }
+  void operator()(const LookAtPreset& look) { request.look_at_preset = look.path; }
   void operator()(const LoadPreset& load) { request.load_preset = load.path; }
-  void operator()(const SavePreset& save) { request.save_preset = save.path; }
+  void operator()(const SavePreset& save) { request.save_preset = save; }
   void operator()(const ShowKeyHelp& help) { state.key_help = help.shown; }
   void operator()(const CloseTop&) { CloseTopmost(state); }
   void operator()(const QuitProgram&) { state.quit = true; }

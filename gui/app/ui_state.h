@@ -40,17 +40,19 @@ struct UiState {
 
 /// What a UI action asks of the world outside the window state.
 struct UiRequest {
+  bool choose_preset = false;  ///< a path is needed to begin with
+  std::optional<std::string> look_at_preset;
   std::optional<std::string> load_preset;
-  std::optional<std::string> save_preset;
+  std::optional<SavePreset> save_preset;
   std::vector<SetSetting> settings;  ///< from undo and redo
 };
 
 /// Applies one action to the state. Pure, so that tests and scripts can drive it.
 ///
 /// CloseTop ends the first of these that is there, and nothing else: a hold under way, the list of
-/// keys, the question before leaving, the list of alarms, the list of checks, the pinned probe of
-/// the workspace, the focus ring. (A text field that is typed in has the Escape before any of
-/// them.)
+/// keys, the question before leaving, the list of alarms, the list of checks, the choice of a
+/// preset, the pinned probe of the workspace, the focus ring. (A text field that is typed in has
+/// the Escape before any of them.)
 UiRequest Reduce(UiState& state, const UiAction& action);
 
 }  // namespace palace

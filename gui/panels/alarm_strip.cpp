@@ -96,11 +96,12 @@ float DrawRest(const std::vector<const Alarm*>& rest, const char* none, float ri
   return x;
 }
 
-/// Acknowledge and Shelve; returns the left edge.
-float DrawAnswers(const Alarm& alarm, FrameState& state, float right, float y, UiFrame& ui) {
+/// Acknowledge and Shelve; returns the left edge. An alarm of a recorded flight is past answering.
+float DrawAnswers(const Alarm& alarm, bool of_record, FrameState& state, float right, float y,
+                  UiFrame& ui) {
   const Style& s = ui.style;
   const bool advisory = alarm.level == AlarmLevel::kAdvisory;
-  if (advisory) {
+  if (advisory || of_record) {
     return right;
   }
   ButtonLook look;
@@ -117,7 +118,8 @@ float DrawAnswers(const Alarm& alarm, FrameState& state, float right, float y, U
   return alarm.acknowledged ? shelve.x : acknowledge.x;
 }
 
-void DrawFirst(const Alarm& alarm, const Rect& rect, float text_right, UiFrame& ui) {
+void DrawFirst(const Alarm& alarm, bool of_record, const Rect& rect, float text_right,
+               UiFrame& ui) {
   const Style& s = ui.style;
   const Palette& p = s.palette;
   const AlarmLook look = LookOf(p, alarm.level);
@@ -134,7 +136,8 @@ void DrawFirst(const Alarm& alarm, const Rect& rect, float text_right, UiFrame& 
   }
   float x = rect.x + s.Px(40);
   x += DrawText(ui, s.medium, p.text1, x, y, look.word) + s.Px(10);
-  std::string text = (alarm.active ? "" : "Over now: ") + alarm.text;
+  std::string text = of_record ? "In the flight: " : "";
+  text += (alarm.active ? "" : "Over now: ") + alarm.text;
   if (alarm.count > 1) {
     text += " ×" + std::to_string(alarm.count);
   }
@@ -174,8 +177,9 @@ void DrawAlarmStripPanel(const EngineSnapshot& snap, const Rect& rect, FrameStat
       alarms.front()->level == AlarmLevel::kAdvisory && state.shelved.empty() ? "No cautions" : "";
   float right = DrawShelf(state, rect.right(), y, ui);
   right = DrawRest(rest, none, right, y, ui);
-  right = DrawAnswers(*alarms.front(), state, right, y, ui);
-  DrawFirst(*alarms.front(), rect, right, ui);
+  const bool of_record = FollowsRecord(snap.session->role);
+  right = DrawAnswers(*alarms.front(), of_record, state, right, y, ui);
+  DrawFirst(*alarms.front(), of_record, rect, right, ui);
   const Rect words{rect.x, rect.y, right - rect.x, rect.h};
   if (Interact(ui, "alarm", words, 0, alarms.front()->text).clicked) {
     state.history_open = !state.history_open;

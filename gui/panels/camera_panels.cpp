@@ -45,9 +45,9 @@ void DrawStale(UiFrame& ui, const Rect& image, const Arrival& arrival) {
   }
 }
 
-void DrawMissing(UiFrame& ui, const Rect& image) {
+void DrawMissing(UiFrame& ui, const EngineSnapshot& snap, const Rect& image) {
   UnknownFill(ui.style, Canvas(), image);
-  TextPlate(ui, image, Corner::kBottomLeft, "No picture yet");
+  TextPlate(ui, image, Corner::kBottomLeft, NoPictureWords(snap));
 }
 
 bool TrackerShown(const EngineSnapshot& snap) {
@@ -152,7 +152,7 @@ void DrawLeftCameraPanel(const EngineSnapshot& snap, const Rect& rect, CameraSta
   const Rect image = LeftCameraImage(snap, rect, s);
   ui.items.Add("left_camera", image, true, "");
   if (ui.textures.left_camera == nullptr || !camera) {
-    DrawMissing(ui, image);
+    DrawMissing(ui, snap, image);
     DrawDepthChip(snap, ui, image, state);
     return;
   }
@@ -172,6 +172,9 @@ void DrawLeftCameraPanel(const EngineSnapshot& snap, const Rect& rect, CameraSta
   DrawSites(ui, view, OverlayOf(snap, ui.highlighted_site));
   DrawProbeOnPicture(ui, view, shown, probe);
   DrawStale(ui, image, arrival);
+  if (!snap.session->missing_inputs.empty()) {
+    TextPlate(ui, image, Corner::kTopLeft, "For maps is missing: " + snap.session->missing_inputs);
+  }
   DrawVerdictPlate(ui, image, snap, shown);
   DrawDepthChip(snap, ui, image, state);
   if (snap.terrain->preview) {
@@ -196,7 +199,7 @@ void DrawRightCameraPanel(const EngineSnapshot& snap, const Rect& rect, const Ma
   const Rect image = PictureRect(content, aspect);
   ui.items.Add("right_camera", image, true, "");
   if (ui.textures.right_camera == nullptr) {
-    DrawMissing(ui, image);
+    DrawMissing(ui, snap, image);
     return;
   }
   ImDrawList* dl = Canvas();

@@ -76,6 +76,11 @@ void DrawVerdictPlate(UiFrame& ui, const Rect& image, const EngineSnapshot& snap
   }
 }
 
+std::string NoPictureWords(const EngineSnapshot& snap) {
+  return snap.session->missing_inputs.empty() ? "No picture yet"
+                                              : "Missing: " + snap.session->missing_inputs;
+}
+
 void DrawLeftPicture(UiFrame& ui, const Rect& area, const EngineSnapshot& snap,
                      const LeftPicture& look, OverlayCache& cache) {
   const Style& s = ui.style;
@@ -83,7 +88,7 @@ void DrawLeftPicture(UiFrame& ui, const Rect& area, const EngineSnapshot& snap,
   const auto camera = LeftCamera(snap);
   if (ui.textures.left_camera == nullptr || !camera) {
     UnknownFill(s, Canvas(), image);
-    TextPlate(ui, image, Corner::kBottomLeft, "No picture yet");
+    TextPlate(ui, image, Corner::kBottomLeft, NoPictureWords(snap));
     return;
   }
   ImDrawList* dl = Canvas();
@@ -126,7 +131,7 @@ void DrawPlainPicture(UiFrame& ui, const Rect& area, const EngineSnapshot& snap,
   const Rect image = FitPicture(area, snap);
   if (texture == nullptr) {
     UnknownFill(ui.style, Canvas(), image);
-    TextPlate(ui, image, Corner::kBottomLeft, "No picture yet");
+    TextPlate(ui, image, Corner::kBottomLeft, NoPictureWords(snap));
     return;
   }
   Canvas()->AddImage(texture, image.min(), image.max());

@@ -42,6 +42,8 @@ void DrawPlainPicture(UiFrame& ui, const Rect& area, const EngineSnapshot& snap,
                       ImTextureID texture, const std::string& plate,
                       const MapProbe* probe = nullptr);
 
+/// Why there is no picture: what the engine misses.
+std::string NoPictureWords(const EngineSnapshot& snap);
 /// Another place, or the same place under another clear radius: worth two rings.
 bool SitesDiffer(const LandingSite& a, const LandingSite& b);
 /// Best site of a decision that the operator has not refused; null when it has none.

@@ -57,7 +57,15 @@ void DrawSilhouette(const Style& s, const Scale& scale, const std::vector<ImVec2
   }
 }
 
-/// The overview: its grips zoom the lanes, elsewhere it seeks.
+/// Zooms the lanes about a moment; above 1 shows more of the flight.
+void Zoom(const TimelineView& view, double about_s, double factor, TimelineState& state) {
+  state.from_s = std::max(0.0, about_s - (about_s - state.from_s) * factor);
+  state.to_s = std::min(view.duration_s, about_s + (state.to_s - about_s) * factor);
+  state.to_s = std::max(state.to_s, state.from_s + std::min(kLeastWindow_s, view.duration_s));
+  state.zoomed = true;
+}
+
+/// The overview: its grips and the wheel zoom the lanes, elsewhere it seeks.
 void RunOverview(UiFrame& ui, const Scale& scale, const TimelineView& view, TimelineState& state) {
   const Style& s = ui.style;
   const float left = scale.X(state.from_s), right = scale.X(state.to_s);
@@ -82,6 +90,39 @@ void RunOverview(UiFrame& ui, const Scale& scale, const TimelineView& view, Time
   if (strip.held) {
     Seek(ui, view, at(strip), state);
   }
+  const float wheel = from.wheel + to.wheel + strip.wheel;
+  if (wheel != 0) {
+    const ImVec2 pointer = ImGui::GetMousePos();
+    Zoom(view, std::clamp(scale.T(pointer.x), 0.0, view.duration_s),
+         std::pow(kZoomStep, static_cast<double>(wheel)), state);
+  }
+}
+
+/// Stretches without data, hatched; below the overview with their length where there is room.
+void DrawGaps(UiFrame& ui, const Scale& scale, const TimelineView& view, bool named) {
+  const Style& s = ui.style;
+  for (std::size_t i = 0; i < view.gaps_s.size(); ++i) {
+    const auto [from_s, to_s] = view.gaps_s[i];
+    const float left = std::max(scale.X(from_s), scale.area.x);
+    const float right = std::min(scale.X(to_s), scale.area.right());
+    if (right - left < 1) {
+      continue;
+    }
+    const Rect band{left, scale.area.y, right - left, scale.area.h};
+    Hatch(Canvas(), band, WithAlpha(s.palette.text3, 0.5f), s.Fine(1), s.Px(8));
+    if (!named) {
+      continue;
+    }
+    char words[48];
+    std::snprintf(words, sizeof words, "No data, %.1f s", to_s - from_s);
+    ui.items.Add("gap/" + std::to_string(i), band, true, words);
+    const float half = TextWidth(s.caption, words) / 2 + s.Px(6);
+    if (2 * half < band.w) {
+      const ImVec2 at = band.centre();
+      FillRect(Canvas(), {at.x - half, at.y - s.Px(9), 2 * half, s.Px(18)}, s.palette.panel);
+      DrawText(ui, s.caption, s.palette.text2, at.x, at.y, words, Align::kCentre);
+    }
+  }
 }
 
 void DrawOverview(UiFrame& ui, const Rect& rect, const TimelineView& view, TimelineState& state) {
@@ -91,6 +132,7 @@ void DrawOverview(UiFrame& ui, const Rect& rect, const TimelineView& view, Timel
   const Scale scale{rect, 0, std::max(view.duration_s, 1e-3)};
   FillRect(dl, rect, p.plot_floor);
   DrawSilhouette(s, scale, view.height);
+  DrawGaps(ui, scale, view, /*named=*/false);
   for (const double at : view.differences_s) {
     const float x = scale.X(at);
     dl->AddTriangleFilled({x - s.Fine(5), rect.y}, {x + s.Fine(5), rect.y}, {x, rect.y + s.Fine(7)},
@@ -155,12 +197,25 @@ void DrawSegment(UiFrame& ui, const Scale& scale, const Rect& lane, const LaneSe
   } else {
     FillRect(dl, box, greys[std::clamp(segment.shade, 0, 2)], s.Fine(2));
   }
+  // A short stretch has its word in the middle, without the room beside it.
   const float width = TextWidth(s.medium, segment.text);
-  const float text_x = box.x + s.Px(8);
-  const bool touches_cursor = cursor_x > text_x - s.Px(6) && cursor_x < text_x + width + s.Px(6);
-  if (text_x + width + s.Px(6) <= box.right() && !touches_cursor) {
+  const bool roomy = s.Px(8) + width + s.Px(6) <= box.w;
+  const float text_x = roomy ? box.x + s.Px(8) : std::round(box.centre().x - width / 2);
+  const float beside = s.Px(roomy ? 6 : 1);
+  const bool touches_cursor = cursor_x > text_x - beside && cursor_x < text_x + width + beside;
+  if (width + s.Px(2) <= box.w && !touches_cursor) {
     DrawText(ui, s.medium, p.text1, text_x, box.centre().y, segment.text);
   }
+}
+
+/// Word of the stretch at that time; empty between stretches.
+std::string ValueAt(const Lane& lane, double t) {
+  for (const LaneSegment& segment : lane.segments) {
+    if (t >= segment.from_s && t < segment.to_s) {
+      return segment.text;
+    }
+  }
+  return {};
 }
 
 void DrawMarks(UiFrame& ui, const Scale& scale, const Rect& lane,
@@ -186,14 +241,6 @@ void DrawMarks(UiFrame& ui, const Scale& scale, const Rect& lane,
       free_from = end + s.Px(12);
     }
   }
-}
-
-/// Zooms the lanes about a moment; above 1 shows more of the flight.
-void Zoom(const TimelineView& view, double about_s, double factor, TimelineState& state) {
-  state.from_s = std::max(0.0, about_s - (about_s - state.from_s) * factor);
-  state.to_s = std::min(view.duration_s, about_s + (state.to_s - about_s) * factor);
-  state.to_s = std::max(state.to_s, state.from_s + std::min(kLeastWindow_s, view.duration_s));
-  state.zoomed = true;
 }
 
 /// The lanes: press and drag seek, the wheel zooms about the pointer; Left and Right step by 0.1 s
@@ -255,20 +302,29 @@ void DrawTimeline(UiFrame& ui, const Rect& rect, const TimelineView& view, Timel
             view.position_s);
   const float cursor_x = std::round(scale.X(view.position_s));
   float y = ruler_y + s.Px(20);
+  const ImVec2 pointer = ImGui::GetMousePos();
   for (const Lane& lane : view.lanes) {
     const Rect row{overview.x, y, overview.w, s.Px(24)};
     if (row.bottom() > rect.bottom() + 1) {
       break;
     }
-    DrawText(ui, s.caption, p.text2, rect.x, row.centre().y, lane.name);
+    // Under the pointer the lane says its value, however short the stretch is.
+    const std::string value =
+        row.Contains(pointer) ? ValueAt(lane, scale.T(pointer.x)) : std::string();
+    const std::string said = value.empty() ? lane.name : value;
+    DrawText(ui, s.caption, value.empty() ? p.text2 : p.text1, rect.x, row.centre().y,
+             FitWords(s.caption, said, names - s.Px(4)));
     FillRect(Canvas(), {row.x, row.bottom() - s.Px(1), row.w, s.Px(1)}, p.plot_grid);
     for (const LaneSegment& segment : lane.segments) {
       DrawSegment(ui, scale, row, segment, cursor_x);
     }
     DrawMarks(ui, scale, row, lane.marks, cursor_x);
-    ui.items.Add("lane/" + lane.name, row, true, lane.name);
+    ui.items.Add("lane/" + lane.name, row, true, said);
     y = row.bottom();
   }
+  const float lanes_y = ruler_y + s.Px(20);
+  DrawGaps(ui, {{scale.area.x, lanes_y, scale.area.w, y - lanes_y}, scale.from_s, scale.to_s}, view,
+           /*named=*/true);
   if (cursor_x >= scale.area.x && cursor_x <= scale.area.right()) {
     FillRect(Canvas(), {cursor_x - s.Px(1), ruler_y + s.Px(14), s.Px(2), y - ruler_y - s.Px(14)},
              p.white_mark);

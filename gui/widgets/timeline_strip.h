@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "gui/widgets/draw.h"
@@ -38,6 +39,7 @@ struct TimelineView {
   std::vector<Lane> lanes;
   std::vector<ImVec2> height;  ///< seconds, metres: silhouette of the whole flight
   std::vector<double> differences_s;
+  std::vector<std::pair<double, double>> gaps_s;  ///< without data: from, to
   bool can_seek = true;
 };
 
@@ -52,8 +54,9 @@ struct TimelineState {
 /// "03:13.4".
 std::string TimeLabel(double seconds, bool tenths);
 
-/// Overview of 32 units and below it ruler and lanes. Items "overview", "timeline" and
-/// "lane/<name>". Click and drag append PlaybackControl kSeek; the wheel zooms about the pointer.
+/// Overview of 32 units and below it ruler and lanes. Items "overview", "timeline", "gap/<number>"
+/// and "lane/<name>", which reads the lane's value under the pointer. Click and drag append
+/// PlaybackControl kSeek; over either the wheel zooms about the pointer.
 void DrawTimeline(UiFrame& ui, const Rect& rect, const TimelineView& view, TimelineState& state);
 
 }  // namespace palace

@@ -93,6 +93,9 @@ TEST_F(ImageFolderTest, LoopHoldsTheLastPairWhileTimeAdvances) {
     const auto bundle = source->Next({});
     ASSERT_TRUE(bundle.ok());
     EXPECT_EQ(Grey(**bundle), k == 0 ? 10 : 11);
+    // Neither "frame 5 of 2" nor "00:01.0 of 00:00.5" may be read of it.
+    EXPECT_EQ(source->Status().frame_index, k == 0 ? 1u : 2u);
+    EXPECT_LE(source->Status().position_s, source->Status().duration_s);
     EXPECT_EQ((*bundle)->sequence, static_cast<std::uint64_t>(k + 1));
     EXPECT_LT(last, (*bundle)->stereo->time);
     last = (*bundle)->stereo->time;
@@ -169,7 +172,7 @@ TEST_F(ImageFolderTest, ASurveyTellsOrderTimesAndPoses) {
   source->Control({PlaybackControl::Kind::kSeek, 2.5});
   ASSERT_TRUE(source->Next({}).ok());
   EXPECT_EQ(source->Status().position_s, 2.5);
-  EXPECT_EQ(source->Status().frame_index, 1u);
+  EXPECT_EQ(source->Status().frame_index, 2u);
   source->Control({PlaybackControl::Kind::kSeek, 0});
   const struct {
     int grey;

@@ -136,6 +136,35 @@ TEST_F(ReplayTest, PausedNextWaitsUntilToldOrStopped) {
   EXPECT_EQ((*again)->sequence, 3u);
 }
 
+TEST_F(ReplayTest, SaysThatItEndedAndPlaysFromTheStartAgain) {
+  ReplayOptions options = Fast();
+  options.wait_at_end = true;
+  const auto source = Open(options);
+  for (std::size_t i = 0; i < flight_.items.size(); ++i) {
+    EXPECT_FALSE(source->Status().ended);
+    ASSERT_TRUE(source->Next({}).ok());
+  }
+  EXPECT_TRUE(source->Status().ended) << "with the last bundle, not when somebody asks for more";
+  source->Control({PlaybackControl::Kind::kPlay, 0});
+  EXPECT_FALSE(source->Status().ended);
+  const auto first = source->Next({});
+  ASSERT_TRUE(first.ok());
+  EXPECT_EQ((*first)->sequence, 0u);
+}
+
+TEST_F(ReplayTest, TellsGapsAndWhatEachMapProposed) {
+  auto record = Open(Fast())->recorded();
+  EXPECT_TRUE(record->gaps.empty());
+  ASSERT_FALSE(record->proposals.empty());
+  const auto& sites = flight_.items[0].snapshot->terrain->applied->selection.sites;
+  ASSERT_EQ(record->proposals[0].places.size(), sites.size());
+  for (std::size_t i = 0; i < sites.size(); ++i) {
+    EXPECT_EQ(record->proposals[0].places[i].letter, sites[i].letter);
+    EXPECT_EQ(record->proposals[0].places[i].id, sites[i].id);
+    EXPECT_EQ(record->proposals[0].places[i].north_east_m, sites[i].p_WS.head<2>());
+  }
+}
+
 TEST_F(ReplayTest, KeepsTheRecordedPace) {
   ReplayOptions options;
   options.speed = 10;  // 1.1 s of data in 0.11 s
@@ -225,6 +254,27 @@ TEST_F(JournalTest, WhatWasGivenAndSentBetweenFramesIsInTheLog) {
   }
   EXPECT_EQ(order, "frame command sent frame command sent ");
   EXPECT_EQ(holds, (std::vector<std::uint64_t>{1, 2}));
+}
+
+TEST_F(JournalTest, AMapWithoutASiteHasARowWithItsReasonAndItsGrid) {
+  TerrainDecision decision;
+  auto hazards = std::make_shared<HazardMaps>();
+  hazards->geometry = {40, 50, 0.2, -4, 3};
+  decision.hazards = hazards;
+  decision.selection.none_reason = "71 % slope, 29 % unknown";
+  auto writer = LogWriter::Create(folder_ / "map.lcm");
+  ASSERT_TRUE(writer->Write(EncodeProposal(decision, {7}, {})).ok());
+  ASSERT_TRUE(writer->Close().ok());
+  ASSERT_TRUE(ExportCsv(folder_ / "map.lcm", folder_ / "csv", {}).ok());
+  std::ifstream table(folder_ / "csv" / "sites.csv");
+  std::string head, row, more;
+  ASSERT_TRUE(std::getline(table, head) && std::getline(table, row));
+  EXPECT_FALSE(std::getline(table, more));
+  for (const char* column : {"frames_fused", "unknown_cells", "normal_north", "pixel_x"}) {
+    EXPECT_NE(head.find(column), std::string::npos) << column;
+  }
+  EXPECT_NE(row.find(",40,50,0.2,-4,3,"), std::string::npos) << row;
+  EXPECT_NE(row.find("71 % slope, 29 % unknown"), std::string::npos) << row;
 }
 
 TEST_F(JournalTest, UnwritableFolderLeavesNothingBehind) {

@@ -158,6 +158,34 @@ TEST(Engine, CommandsFromOtherThreadsAreAppliedOnceInOrderAndRecorded) {
   }
 }
 
+// The screen asks for Play or Pause by what the snapshot says, and a paused source gives none.
+TEST(Engine, WhatThePlaybackWasToldIsShownThoughNoFrameComes) {
+  using Kind = PlaybackControl::Kind;
+  for (const bool threaded : {false, true}) {
+    SCOPED_TRACE(threaded ? "threads" : "no threads");
+    Engine engine(Parts(threaded ? 1e6 : 20, nullptr), threaded);
+    if (threaded) {
+      engine.Start();
+    } else {
+      ASSERT_TRUE(engine.Step());
+    }
+    while (!engine.Latest()) {
+      std::this_thread::yield();
+    }
+    const auto told = [&](Kind kind, double value, auto is_so) {
+      engine.Control({kind, value});
+      while (threaded && !is_so(engine.Latest()->session->source)) {
+        std::this_thread::yield();  // a defect hangs here, until the test's time is up
+      }
+      return is_so(engine.Latest()->session->source);
+    };
+    EXPECT_TRUE(told(Kind::kPause, 0, [](const SourceStatus& s) { return s.paused; }));
+    EXPECT_TRUE(told(Kind::kSpeed, 4, [](const SourceStatus& s) { return s.speed == 4; }));
+    EXPECT_TRUE(told(Kind::kPlay, 0, [](const SourceStatus& s) { return !s.paused; }));
+    EXPECT_TRUE(engine.Stop());
+  }
+}
+
 TEST(Engine, ARecorderThatFailsIsShownAndReported) {
   const auto tape = std::make_shared<Tape>();
   Engine engine(Parts(3, tape, 5), false);

@@ -30,6 +30,24 @@ TEST(RecordedMission, TellsTheLimitsInForceAtATime) {
   }
 }
 
+TEST(RecordedMission, TellsTheEventsOfTheFlightUntilATimeWhicheverWayItIsReached) {
+  auto record = std::make_shared<FlightRecord>();
+  RecordedMission flight;
+  EXPECT_EQ(flight.EventsUntil({5}), nullptr);
+  for (const int us : {10, 20, 20, 30}) {
+    record->events.push_back({{us}, EventKind::kState, std::to_string(us)});
+  }
+  flight.Follow(record);
+  const struct {
+    std::int64_t at_us;
+    std::size_t count;
+  } table[] = {{5, 0}, {30, 4}, {20, 3}, {10, 1}, {99, 4}};
+  for (const auto& row : table) {
+    ASSERT_NE(flight.EventsUntil({row.at_us}), nullptr);
+    EXPECT_EQ(flight.EventsUntil({row.at_us})->size(), row.count) << row.at_us;
+  }
+}
+
 FlightRecordSample At(std::int64_t us, MissionState state, int armed) {
   FlightRecordSample sample;
   sample.time = {us};
@@ -38,6 +56,25 @@ FlightRecordSample At(std::int64_t us, MissionState state, int armed) {
   sample.distance_to_site_m = 2;
   sample.armed = armed;
   return sample;
+}
+
+TEST(RecordedMission, KnowsALogThatWasCutOutOfAFlight) {
+  const struct {
+    MissionState first;
+    bool cut;
+  } table[] = {{MissionState::kNoLive, false},
+               {MissionState::kSearch, false},
+               {MissionState::kProposed, true},
+               {MissionState::kDescending, true}};
+  for (const auto& row : table) {
+    auto record = std::make_shared<FlightRecord>();
+    RecordedMission flight;
+    EXPECT_FALSE(flight.BeginsMidFlight());
+    flight.Follow(record);
+    EXPECT_FALSE(flight.BeginsMidFlight());
+    record->samples = {At(1, row.first, -1)};
+    EXPECT_EQ(flight.BeginsMidFlight(), row.cut) << MissionStateName(row.first);
+  }
 }
 
 // After a jump the status is the record's; of what this session's mission says, only what needs no

@@ -1,7 +1,9 @@
 // Review: a recorded flight, what it decided, and what other limits would have decided.
 //
-// The recorded lanes come from the log's own decisions; the re-decided ones from the replay so far.
-// Without a record (a foreign log, a flight still running) only the replayed lanes are shown.
+// What the flight decided is read from its record alone. What other limits decide is what the
+// engine judged under them (TerrainPart::redecided): map for map beside the flight's own limits, so
+// that nothing differs where no limit was moved; what was not judged stays empty. Without a record
+// (a foreign log, a flight still running) there is what was seen so far.
 #pragma once
 
 #include <memory>
@@ -12,6 +14,7 @@
 #include "engine/model/flight_record.h"
 #include "engine/model/snapshot.h"
 #include "gui/panels/fly_state.h"
+#include "gui/panels/review/redecide_run.h"
 #include "gui/panels/review/review_layout.h"
 #include "gui/panels/terrain_views.h"
 #include "gui/widgets/slider_row.h"
@@ -37,6 +40,7 @@ struct ReviewDigest {
   struct Key {
     std::uint64_t sequence = 0;
     std::shared_ptr<const std::vector<HistorySample>> history;
+    std::shared_ptr<const std::vector<RedecidedSample>> redecided;
     const FlightRecord* record = nullptr;
     bool all_lanes = false;
     bool operator==(const Key&) const = default;
@@ -56,13 +60,18 @@ struct ReviewState {
   TimelineState timeline;
   PlotHover plots;
   MapProbe probe;
+  RedecideRun redecide;
   ReviewDigest digest;
   ReviewPicture picture = ReviewPicture::kView3d;  ///< narrow windows
 };
 
 /// Seconds since the start of the flight.
 double FlightSeconds(const EngineSnapshot& snap, const FlightRecord* record, Timestamp time);
-/// Where the replay so far and the record disagree on the best site.
+/// Limits that the reviewer set otherwise than the flight had them at this time; 0 outside replays.
+int LimitsMoved(const EngineSnapshot& snap);
+/// "Recorded", or "As opened" for a log that tells no limits.
+const char* FlightWord(const FlightRecord* record);
+/// Where limits moved by the reviewer chose another best site, of what was judged under them.
 std::vector<ReviewDifference> FindDifferences(const EngineSnapshot& snap,
                                               const FlightRecord* record);
 /// Lanes, silhouette and differences of the timeline. `all`: six lanes, else State and Differs.
@@ -89,7 +98,10 @@ void DrawReviewMaps(const EngineSnapshot& snap, const ReviewDigest& digest, cons
                     float w, MapProbe& probe, UiFrame& ui);
 void DrawRedecidePanel(const EngineSnapshot& snap, const FlightRecord* record, const Rect& rect,
                        ReviewState& state, UiFrame& ui);
-void DrawDecisionPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui);
+void DrawDecisionPanel(const EngineSnapshot& snap, const FlightRecord* record, const Rect& rect,
+                       UiFrame& ui);
+/// Why the list of differences is empty, and what to do.
+std::string WhyNoDifference(const EngineSnapshot& snap, const FlightRecord* record);
 void DrawDifferencesPanel(const EngineSnapshot& snap, const FlightRecord* record,
                           const std::vector<ReviewDifference>& found, const Rect& rect,
                           UiFrame& ui);

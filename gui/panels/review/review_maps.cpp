@@ -65,7 +65,7 @@ void DrawDifference(const EngineSnapshot& snap, const Grid<std::uint8_t>& change
   if (!moved) {
     FillRect(Canvas(), square, s.palette.plot_floor);
     DrawText(ui, s.caption, s.palette.text2, square.centre().x, square.centre().y,
-             panel.w > s.Px(160) ? "Limits as recorded" : "Same limits", Align::kCentre);
+             !FollowsRecord(snap.session->role) ? "Only of a log" : "Same limits", Align::kCentre);
     ui.items.Add("map/Difference", square, true, "Difference");
     return;
   }
@@ -118,8 +118,9 @@ void DrawReviewMaps(const EngineSnapshot& snap, const ReviewDigest& digest, cons
   const TerrainDecision* recorded = snap.terrain->OfRecord().get();
   const TerrainDecision* now = snap.terrain->applied.get();
   const float step = w + ui.style.Px(8);
+  const bool log = FollowsRecord(snap.session->role);
   DrawReviewMap(
-      ui, {row.x, row.y, w, row.h}, "Recorded",
+      ui, {row.x, row.y, w, row.h}, log ? "Recorded" : "As decided",
       recorded != nullptr ? LimitWords(recorded->settings) : "", recorded, BestSite(snap, recorded),
       snap.terrain->recorded ? ui.textures.recorded_safe_distance : ui.textures.maps[4], probe);
   DrawReviewMap(ui, {row.x + step, row.y, w, row.h}, "Re-decided",

@@ -42,17 +42,18 @@ float TopOf(const PlotView& view, float at_least) {
   return RoundTop(at_least);
 }
 
-/// Now over then: what is replayed lies on top of what is on record.
-void FillSeries(const EngineSnapshot& snap, const FlightRecord* record,
-                double FlightRecordSample::*then, double HistorySample::*now, const Palette& p,
+/// The axes, and what the flight did: by its record, or as it was seen here.
+void FillFlight(const EngineSnapshot& snap, const FlightRecord* record,
+                double FlightRecordSample::*then, double HistorySample::*seen, const Palette& p,
                 PlotView& view) {
-  static const std::vector<FlightRecordSample> no_record;
   static const std::vector<HistorySample> no_history;
+  const bool recorded = record != nullptr && !record->samples.empty();
   view.series = {
-      TraceOf(snap, record, snap.flight->history ? *snap.flight->history : no_history, now),
-      TraceOf(snap, record, record != nullptr ? record->samples : no_record, then)};
+      recorded
+          ? TraceOf(snap, record, record->samples, then)
+          : TraceOf(snap, record, snap.flight->history ? *snap.flight->history : no_history, seen)};
   view.series[0].width = 2.2f;
-  view.series[1].colour = p.text2;
+  view.series[0].colour = p.text1;
   view.x_min = 0;
   view.x_max = static_cast<float>(std::max(1.0, DurationOf(snap, record)));
   view.time_axis = PlotView::TimeAxis::kClock;
@@ -69,7 +70,7 @@ ReviewPlots MakeReviewPlots(const EngineSnapshot& snap, const FlightRecord* reco
   height.title = "Height";
   height.unit = "m";
   height.current = Fixed(snap.flight->mission.height_above_site_m, 1) + " m";
-  FillSeries(snap, record, &FlightRecordSample::height_above_site_m,
+  FillFlight(snap, record, &FlightRecordSample::height_above_site_m,
              &HistorySample::height_above_site_m, p, height);
   height.series[0].colour = p.safe;
   height.y_max = TopOf(height, 10);
@@ -78,9 +79,16 @@ ReviewPlots MakeReviewPlots(const EngineSnapshot& snap, const FlightRecord* reco
   clear.name = "clear_radius";
   clear.title = "Clear radius of best site";
   clear.unit = "m";
-  FillSeries(snap, record, &FlightRecordSample::best_safe_distance_m,
+  FillFlight(snap, record, &FlightRecordSample::best_safe_distance_m,
              &HistorySample::best_safe_distance_m, p, clear);
-  clear.series[0].colour = p.text1;
+  if (snap.terrain->redecided) {
+    clear.series[0].colour = p.text2;
+    clear.series.insert(clear.series.begin(), TraceOf(snap, record, *snap.terrain->redecided,
+                                                      &RedecidedSample::best_safe_distance_m));
+    clear.series[0].width = 2.2f;
+    clear.series[0].colour = p.text1;
+    clear.series[0].stroke = PlotTrace::Stroke::kDashed;
+  }
   clear.y_max = TopOf(clear, 4);
   const LandingSite* best = BestSite(snap, snap.terrain->applied.get());
   const LandingSite* was = BestSite(snap, snap.terrain->recorded.get());
@@ -88,7 +96,6 @@ ReviewPlots MakeReviewPlots(const EngineSnapshot& snap, const FlightRecord* reco
   if (was != nullptr) {
     clear.current = Fixed(was->safe_distance_m, 1) + " / " + clear.current;
     clear.unit = "m, recorded / re-decided";
-    clear.series[0].stroke = PlotTrace::Stroke::kDashed;
   }
   const double least_m = snap.session->settings.slad.lander.clear_radius_m();
   clear.limits = {

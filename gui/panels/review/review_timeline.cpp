@@ -10,15 +10,15 @@
 namespace palace {
 namespace {
 
-/// Two best sites of one moment whose clear radii agree so closely are one place.
-constexpr double kSameRadius_m = 0.05;
+/// Samples farther apart have something between them that nobody saw or judged.
+constexpr double kGap_s = 1;
 
 std::string Letter(const std::string& letter) { return letter.empty() ? "none" : letter; }
 
 /// Extends the last segment while the value stays, else starts the next.
 void Append(std::vector<LaneSegment>& segments, double t, const std::string& text, int shade,
             bool dashed) {
-  if (!segments.empty()) {
+  if (!segments.empty() && t - segments.back().to_s <= kGap_s) {
     segments.back().to_s = t;
     if (segments.back().text == text) {
       return;
@@ -31,6 +31,16 @@ int ShadeOf(MissionState state) {
   return state >= MissionState::kDescending ? 2 : (state >= MissionState::kArmed ? 1 : 0);
 }
 
+const std::vector<HistorySample>& HistoryOf(const EngineSnapshot& snap) {
+  static const std::vector<HistorySample> none;
+  return snap.flight->history ? *snap.flight->history : none;
+}
+
+const std::vector<RedecidedSample>& RedecidedOf(const EngineSnapshot& snap) {
+  static const std::vector<RedecidedSample> none;
+  return snap.terrain->redecided ? *snap.terrain->redecided : none;
+}
+
 Lane StateLane(const EngineSnapshot& snap, const FlightRecord* record) {
   Lane lane{"State", {}, {}};
   if (record != nullptr && !record->samples.empty()) {
@@ -38,8 +48,8 @@ Lane StateLane(const EngineSnapshot& snap, const FlightRecord* record) {
       Append(lane.segments, FlightSeconds(snap, record, sample.time),
              MissionStateWord(sample.state), ShadeOf(sample.state), false);
     }
-  } else if (snap.flight->history) {
-    for (const HistorySample& sample : *snap.flight->history) {
+  } else {
+    for (const HistorySample& sample : HistoryOf(snap)) {
       Append(lane.segments, FlightSeconds(snap, record, sample.time),
              MissionStateWord(sample.state), ShadeOf(sample.state), false);
     }
@@ -47,26 +57,28 @@ Lane StateLane(const EngineSnapshot& snap, const FlightRecord* record) {
   return lane;
 }
 
-Lane RecordedLane(const EngineSnapshot& snap, const FlightRecord* record) {
-  Lane lane{"Recorded site", {}, {}};
-  if (record != nullptr) {
-    for (const FlightRecordSample& sample : record->samples) {
-      Append(lane.segments, FlightSeconds(snap, record, sample.time), Letter(sample.best_site), 1,
-             sample.best_site.empty());
-    }
+/// Best site of each sample, a stretch a letter.
+template <typename Sample>
+Lane SiteLane(const char* name, const EngineSnapshot& snap, const FlightRecord* record,
+              const std::vector<Sample>& samples, std::string Sample::*letter) {
+  Lane lane{name, {}, {}};
+  for (const Sample& sample : samples) {
+    Append(lane.segments, FlightSeconds(snap, record, sample.time), Letter(sample.*letter), 1,
+           (sample.*letter).empty());
   }
   return lane;
 }
 
-Lane RedecidedLane(const EngineSnapshot& snap, const FlightRecord* record) {
-  Lane lane{record != nullptr ? "Re-decided site" : "Best site", {}, {}};
-  if (snap.flight->history) {
-    for (const HistorySample& sample : *snap.flight->history) {
-      Append(lane.segments, FlightSeconds(snap, record, sample.time), Letter(sample.best_site), 1,
-             sample.best_site.empty());
-    }
+/// What the flight chose: by its record; without one, as it was seen here.
+Lane FlightLane(const EngineSnapshot& snap, const FlightRecord* record) {
+  if (record != nullptr && !record->samples.empty()) {
+    return SiteLane("Recorded site", snap, record, record->samples, &FlightRecordSample::best_site);
   }
-  return lane;
+  if (snap.terrain->redecided) {
+    return SiteLane("Best site", snap, record, *snap.terrain->redecided,
+                    &RedecidedSample::recorded);
+  }
+  return SiteLane("Best site", snap, record, HistoryOf(snap), &HistorySample::best_site);
 }
 
 const std::vector<Event>& EventsOf(const EngineSnapshot& snap, const FlightRecord* record) {
@@ -131,12 +143,12 @@ double NextSpeed(double speed) {
 }
 
 bool IconButton(UiFrame& ui, const char* name, const Rect& rect, Icon icon, bool active,
-                bool enabled) {
+                bool enabled, const char* why_not = "This source cannot jump in time") {
   const Style& s = ui.style;
   ButtonLook look;
   look.active = active;
   look.enabled = enabled;
-  look.reason = "This source cannot jump in time";
+  look.reason = why_not;
   const bool clicked = DrawButton(ui, name, rect, "", look);
   const ImU32 colour = !enabled ? s.palette.text3 : (active ? s.palette.on_white : s.palette.text1);
   DrawIcon(Canvas(), icon, rect.centre(), s.Px(20), colour);
@@ -179,9 +191,9 @@ float DrawTransport(UiFrame& ui, const Rect& row, const EngineSnapshot& snap, do
   if (DrawButton(ui, "speed", next(68), speed, {})) {
     Playback(ui, Kind::kSpeed, NextSpeed(snap.session->source.speed));
   }
-  if (IconButton(ui, "bookmark", next(36), Icon::kFlag, false, true)) {
-    ui.intents.push_back(CommandAction(
-        AddBookmark{"Bookmark at " + TimeLabel(snap.session->source.position_s, true)}));
+  if (IconButton(ui, "bookmark", next(36), Icon::kFlag, false, snap.session->recording,
+                 "Nothing is recorded here that a bookmark could be in")) {
+    ui.intents.push_back(CommandAction(AddBookmark{}));
   }
   return x;
 }
@@ -196,7 +208,9 @@ void DrawClock(UiFrame& ui, const Rect& row, float x, const EngineSnapshot& snap
                 TimeLabel(snap.session->source.position_s, true)) +
        s.Px(20);
   std::vector<std::pair<ImFont*, std::string>> facts;
-  facts.emplace_back(s.body, "of " + TimeLabel(duration_s, true));
+  if (snap.session->source.can_seek && snap.session->source.duration_s) {
+    facts.emplace_back(s.body, "of " + TimeLabel(duration_s, true));
+  }
   if (snap.session->source.frame_count > 0) {
     facts.emplace_back(
         s.body, "Frame " + Fixed(static_cast<double>(snap.session->source.frame_index), 0) +
@@ -229,7 +243,8 @@ double FlightSeconds(const EngineSnapshot& snap, const FlightRecord* record, Tim
 }
 
 double DurationOf(const EngineSnapshot& snap, const FlightRecord* record) {
-  if (snap.session->source.duration_s) {
+  // What cannot jump has no end that is known yet: a simulation's is only its limit.
+  if (snap.session->source.can_seek && snap.session->source.duration_s) {
     return *snap.session->source.duration_s;
   }
   return record != nullptr && record->duration_s > 0 ? record->duration_s
@@ -239,29 +254,17 @@ double DurationOf(const EngineSnapshot& snap, const FlightRecord* record) {
 std::vector<ReviewDifference> FindDifferences(const EngineSnapshot& snap,
                                               const FlightRecord* record) {
   std::vector<ReviewDifference> found;
-  if (record == nullptr || record->samples.empty() || !snap.flight->history) {
-    return found;
-  }
-  std::size_t i = 0;
   bool open = false;
-  for (const HistorySample& now : *snap.flight->history) {
-    while (i + 1 < record->samples.size() && record->samples[i + 1].time <= now.time) {
-      ++i;
-    }
-    const std::string& recorded = record->samples[i].best_site;
-    const double t = FlightSeconds(snap, record, now.time);
-    const bool both = !recorded.empty() && !now.best_site.empty();
-    // Letters follow sites over time, so a re-decided flight may hand them out in another order.
-    const bool same_place = both && std::abs(record->samples[i].best_safe_distance_m -
-                                             now.best_safe_distance_m) < kSameRadius_m;
-    if (now.rebuilding || recorded == now.best_site || same_place) {
+  for (const RedecidedSample& sample : RedecidedOf(snap)) {
+    const double t = FlightSeconds(snap, record, sample.time);
+    open = open && t - found.back().to_s <= kGap_s && found.back().recorded == sample.recorded &&
+           found.back().now == sample.best_site;
+    if (!sample.differs) {
       open = false;
-      continue;
-    }
-    if (open && found.back().recorded == recorded && found.back().now == now.best_site) {
+    } else if (open) {
       found.back().to_s = t;
     } else {
-      found.push_back({t, t, recorded, now.best_site});
+      found.push_back({t, t, sample.recorded, sample.best_site});
       open = true;
     }
   }
@@ -270,7 +273,8 @@ std::vector<ReviewDifference> FindDifferences(const EngineSnapshot& snap,
 
 const ReviewDigest& DigestOf(const EngineSnapshot& snap, const FlightRecord* record,
                              const Palette& palette, bool all, ReviewDigest& kept) {
-  const ReviewDigest::Key key{snap.sequence, snap.flight->history, record, all};
+  const ReviewDigest::Key key{snap.sequence, snap.flight->history, snap.terrain->redecided, record,
+                              all};
   if (kept.key != key) {
     kept.key = key;
     kept.differences = FindDifferences(snap, record);
@@ -293,12 +297,21 @@ TimelineView MakeTimeline(const EngineSnapshot& snap, const FlightRecord* record
     differs.segments.push_back({d.at_s, d.to_s, "", 0, true, false});
     view.differences_s.push_back(d.at_s);
   }
-  view.lanes.push_back(StateLane(snap, record));
-  if (all) {
-    view.lanes.push_back(RecordedLane(snap, record));
-    view.lanes.push_back(RedecidedLane(snap, record));
+  for (const RecordGap& gap : record != nullptr ? record->gaps : std::vector<RecordGap>()) {
+    view.gaps_s.emplace_back(gap.from_s, gap.to_s);
   }
-  view.lanes.push_back(std::move(differs));
+  const bool log = FollowsRecord(snap.session->role);
+  view.lanes.push_back(StateLane(snap, record));
+  if (all || !log) {
+    view.lanes.push_back(FlightLane(snap, record));
+  }
+  if (all && log) {
+    view.lanes.push_back(
+        SiteLane("Re-decided site", snap, record, RedecidedOf(snap), &RedecidedSample::best_site));
+  }
+  if (log) {
+    view.lanes.push_back(std::move(differs));
+  }
   if (all) {
     view.lanes.push_back(AlarmLane(snap, record, palette));
     view.lanes.push_back(MarkLane(snap, record, palette));
@@ -308,8 +321,8 @@ TimelineView MakeTimeline(const EngineSnapshot& snap, const FlightRecord* record
       view.height.push_back({static_cast<float>(FlightSeconds(snap, record, sample.time)),
                              static_cast<float>(sample.height_m)});
     }
-  } else if (snap.flight->history) {
-    for (const HistorySample& sample : *snap.flight->history) {
+  } else {
+    for (const HistorySample& sample : HistoryOf(snap)) {
       view.height.push_back({static_cast<float>(FlightSeconds(snap, record, sample.time)),
                              static_cast<float>(sample.height_above_site_m)});
     }

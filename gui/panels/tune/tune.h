@@ -10,6 +10,7 @@
 
 #include "engine/model/snapshot.h"
 #include "gui/panels/terrain_views.h"
+#include "gui/panels/tune/preset_panel.h"
 #include "gui/panels/tune/setting_history.h"
 #include "gui/widgets/slider_row.h"
 
@@ -29,7 +30,7 @@ struct TuneState {
   SettingHistory history;
   MapProbe probe;
   TuneTab tab = TuneTab::kApply;  ///< narrow windows
-  std::string preset_path;        ///< loaded or saved last; empty: the built-in defaults
+  PresetState preset;
 };
 
 /// What a limit would do, counted once a frame.
@@ -46,8 +47,8 @@ TuneFacts FactsOf(const EngineSnapshot& snap);
 
 /// Name of the preset, as people know it: "r50-field"; "defaults" where none was loaded.
 std::string PresetName(const TuneState& state);
-/// Of the limits in force: the preset's; where none was loaded "defaults", or how many are not:
-/// "2 changed".
+/// Of the limits in force: "r50-field", "r50-field + 2 changes"; where none was loaded "defaults",
+/// or how many are not: "2 changed".
 std::string LimitsName(const TuneState& state, const Settings& applied);
 
 void DrawTuneWorkspace(const EngineSnapshot& snap, const Rect& body, TuneState& state, UiFrame& ui);

@@ -207,7 +207,7 @@ void DrawList(UiFrame& ui, const Rect& area, const EngineSnapshot& snap, TuneSta
   }
 }
 
-void DrawFoot(UiFrame& ui, const Rect& foot, const TuneFacts& facts, TuneState& state) {
+void DrawFoot(UiFrame& ui, const Rect& foot, const EngineSnapshot& snap, TuneState& state) {
   const Style& s = ui.style;
   const Palette& p = s.palette;
   FillRect(Canvas(), {foot.x + s.Px(12), foot.y, foot.w - s.Px(24), s.Px(1)}, p.line);
@@ -215,26 +215,27 @@ void DrawFoot(UiFrame& ui, const Rect& foot, const TuneFacts& facts, TuneState& 
   float x = foot.x + s.Px(12);
   x += DrawText(ui, s.body, p.text2, x, line, "Preset") + s.Px(10);
   x += DrawText(ui, s.medium, p.text1, x, line, PresetName(state)) + s.Px(16);
-  const std::string note = facts.changed == 0   ? "as the defaults"
-                           : facts.changed == 1 ? "+ 1 change"
-                                                : "+ " + std::to_string(facts.changed) + " changes";
+  const int changed = ChangedFromPreset(state.preset, snap.session->preview_settings);
+  const std::string note = changed == 0   ? (state.preset.path.empty() ? "" : "unchanged")
+                           : changed == 1 ? "+ 1 change"
+                                          : "+ " + std::to_string(changed) + " changes";
   if (x + TextWidth(s.body, note) < foot.right() - s.Px(12)) {
     DrawText(ui, s.body, p.text2, x, line, note);
   }
   const float gap = s.Px(8), h = s.Px(32);
   const float w = std::floor((foot.w - s.Px(24) - 3 * gap) / 4);
   const float y = foot.bottom() - s.Px(12) - h;
-  const std::string path = state.preset_path.empty() ? "config/preset.toml" : state.preset_path;
   const struct {
     const char* name;
     const char* label;
     bool enabled;
     UiAction action;
-  } buttons[] = {
-      {"undo", "Undo", state.history.can_undo(), UndoSetting{}},
-      {"redo", "Redo", state.history.can_redo(), RedoSetting{}},
-      {"load_preset", w < s.Px(84) ? "Load" : "Load preset", true, LoadPreset{path}},
-      {"save_preset", w < s.Px(84) ? "Save" : "Save preset", true, SavePreset{state.preset_path}}};
+  } buttons[] = {{"undo", "Undo", state.history.can_undo(), UndoSetting{}},
+                 {"redo", "Redo", state.history.can_redo(), RedoSetting{}},
+                 {"load_preset", w < s.Px(84) ? "Load" : "Load preset", true,
+                  ChoosePreset{PresetChoice::kLoad}},
+                 {"save_preset", w < s.Px(84) ? "Save" : "Save preset", true,
+                  ChoosePreset{PresetChoice::kSave}}};
   for (int i = 0; i < 4; ++i) {
     ButtonLook look;
     look.enabled = buttons[i].enabled;
@@ -249,6 +250,10 @@ void DrawFoot(UiFrame& ui, const Rect& foot, const TuneFacts& facts, TuneState& 
 
 void DrawLimitsPanel(const EngineSnapshot& snap, const Rect& rect, TuneState& state, UiFrame& ui) {
   const Style& s = ui.style;
+  if (state.preset.choice != PresetChoice::kNone) {
+    DrawPresetPanel(rect, state.preset, ui);
+    return;
+  }
   const TuneFacts facts = FactsOf(snap);
   const Rect content = DrawPanelFrame(ui, rect, "Limits");
   const float pad = s.Px(12);
@@ -266,7 +271,7 @@ void DrawLimitsPanel(const EngineSnapshot& snap, const Rect& rect, TuneState& st
   const float foot_h = s.Px(92);
   const float top = search.bottom() + s.Px(8);
   DrawList(ui, {rect.x, top, rect.w, rect.bottom() - foot_h - top}, snap, state);
-  DrawFoot(ui, {rect.x, rect.bottom() - foot_h, rect.w, foot_h}, facts, state);
+  DrawFoot(ui, {rect.x, rect.bottom() - foot_h, rect.w, foot_h}, snap, state);
 }
 
 }  // namespace palace

@@ -121,20 +121,19 @@ TuneFacts FactsOf(const EngineSnapshot& snap) {
 }
 
 std::string PresetName(const TuneState& state) {
-  const std::filesystem::path path(state.preset_path);
+  const std::filesystem::path path(state.preset.path);
   return path.empty() ? "defaults"
                       : (path.extension() == ".toml" ? path.stem() : path.filename()).string();
 }
 
 std::string LimitsName(const TuneState& state, const Settings& applied) {
-  if (!state.preset_path.empty()) {
+  const int changed = ChangedFromPreset(state.preset, applied);
+  if (changed == 0) {
     return PresetName(state);
   }
-  const std::vector<SettingInfo>& table = SettingTable();
-  const auto changed = std::count_if(table.begin(), table.end(), [&](const SettingInfo& info) {
-    return GetSetting(applied, info.name) != info.default_value;
-  });
-  return changed == 0 ? PresetName(state) : std::to_string(changed) + " changed";
+  return state.preset.path.empty() ? std::to_string(changed) + " changed"
+                                   : PresetName(state) + " + " + std::to_string(changed) +
+                                         (changed == 1 ? " change" : " changes");
 }
 
 void DrawTuneWorkspace(const EngineSnapshot& snap, const Rect& body, TuneState& state,

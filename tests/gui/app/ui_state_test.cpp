@@ -57,6 +57,15 @@ TEST(UiStateReduce, EscapeUnpinsTheProbeOfTheWorkspaceShown) {
   EXPECT_FALSE(state.review.probe.pinned.has_value());
 }
 
+TEST(UiStateReduce, EscapeClosesTheChoiceOfAPresetAndCtrlSOpensItOnTune) {
+  UiState state;
+  EXPECT_TRUE(Reduce(state, ChoosePreset{PresetChoice::kSave}).choose_preset);
+  EXPECT_EQ(state.frame.workspace, Workspace::kTune);
+  EXPECT_EQ(state.tune.preset.choice, PresetChoice::kSave);
+  Reduce(state, CloseTop{});
+  EXPECT_EQ(state.tune.preset.choice, PresetChoice::kNone);
+}
+
 TEST(UiStateReduce, TheViewTurnsZoomsAndHasItsPresetsWhereverItIsAskedFrom) {
   for (const Workspace workspace : {Workspace::kFly, Workspace::kReview}) {
     UiState state;

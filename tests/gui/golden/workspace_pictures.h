@@ -51,7 +51,19 @@ inline void MoveLimits(EngineSnapshot& snap) {
   if (snap.session->source.kind == SourceKind::kReplay) {
     snap.terrain.Edit().recorded = snap.terrain->applied;
     snap.terrain.Edit().applied = moved;
+    snap.session.Edit().recorded_settings = snap.session->settings;
     snap.session.Edit().settings = snap.session->preview_settings;
+    auto redecided = std::make_shared<std::vector<RedecidedSample>>();
+    for (int i = 0; i < 400; ++i) {  // A where the flight had B until 230 s
+      RedecidedSample sample;
+      sample.time = AddSeconds(snap.session->source.start, 212 + 0.1 * i);
+      sample.recorded = i < 180 ? "B" : "A";
+      sample.best_site = "A";
+      sample.best_safe_distance_m = 4.3;
+      sample.differs = i < 180;
+      redecided->push_back(sample);
+    }
+    snap.terrain.Edit().redecided = redecided;
   } else {
     snap.terrain.Edit().preview = moved;
   }

@@ -313,14 +313,15 @@ TEST(TuneKeyboard, ApplyAndDiscardArePressedByEnter) {
 TEST(ReviewKeyboard, TransportFieldsTimelineAndViewAreWorkedByKeys) {
   UiHarness ui(1920, 1080);
   EngineSnapshot snap = fake::Snapshot(MissionState::kArmed, SourceKind::kReplay);
+  snap.session.Edit().recorded_settings.slad.limits.max_slope_deg = 7;
   ReviewState state;
   const Draw draw = [&](UiFrame& f) {
     DrawReviewWorkspace(snap, nullptr, BodyOf(1920, 1080), state, f);
   };
   ui.Frame(draw);
   ExpectAll(TabRound(ui, draw), {"to_start", "step_back", "play", "step_forward", "to_end", "speed",
-                                 "bookmark", "timeline", "redecide", "field/slad.max_slope_deg",
-                                 "view_3d", "view/Above", "map/Recorded", "map/Re-decided"});
+                                 "timeline", "redecide", "field/slad.max_slope_deg", "view_3d",
+                                 "view/Above", "map/Recorded", "map/Re-decided"});
   const auto last_playback = [&] {
     const auto* control = std::get_if<PlaybackControl>(&ui.intents.back());
     EXPECT_NE(control, nullptr);

@@ -38,10 +38,30 @@ FlightRecord Record() {
   return record;
 }
 
+/// What other limits chose, 10 maps a second: A in place of B from 100 s to 130 s and from 212 s to
+/// 230 s, A as in the flight until 240 s.
+std::shared_ptr<const std::vector<RedecidedSample>> Redecided() {
+  auto samples = std::make_shared<std::vector<RedecidedSample>>();
+  for (int i = 1000; i <= 2400; ++i) {
+    if (i > 1300 && i < 2120) {
+      continue;  // not judged again
+    }
+    RedecidedSample sample;
+    sample.time = {static_cast<std::int64_t>((kStart_s + 0.1 * i) * 1e6)};
+    sample.recorded = i < 2300 ? "B" : "A";
+    sample.best_site = "A";
+    sample.best_safe_distance_m = 4.1;
+    sample.differs = sample.recorded != sample.best_site;
+    samples->push_back(sample);
+  }
+  return samples;
+}
+
 EngineSnapshot Replay(bool redecided) {
   EngineSnapshot snap = fake::Snapshot(MissionState::kArmed, SourceKind::kReplay);
   if (redecided) {
     snap.terrain.Edit().recorded = snap.terrain->applied;
+    snap.terrain.Edit().redecided = Redecided();
     snap.session.Edit().settings.slad.limits.max_slope_deg =
         snap.session.Edit().preview_settings.slad.limits.max_slope_deg = 6;
     auto applied = std::make_shared<TerrainDecision>(
@@ -171,39 +191,165 @@ TEST(ReviewWorkspace, TransportButtonsAskForTheirControl) {
   }
 }
 
-TEST(ReviewWorkspace, BookmarkCarriesItsTime) {
-  UiHarness ui(1920, 1080);
-  const EngineSnapshot snap = Replay(false);
-  ReviewState state;
-  const auto draw = [&](UiFrame& f) {
-    DrawReviewWorkspace(snap, nullptr, BodyOf(1920, 1080), state, f);
-  };
-  ui.Frame(draw);
-  ui.Click("bookmark", draw);
-  EXPECT_EQ(ui.LastCommand<AddBookmark>().note, "Bookmark at 04:12.0");
+TEST(ReviewWorkspace, ABookmarkIsOfferedWhereSomethingIsRecorded) {
+  for (const SourceKind kind : {SourceKind::kReplay, SourceKind::kSimulation}) {
+    UiHarness ui(1920, 1080);
+    const EngineSnapshot snap = fake::Snapshot(MissionState::kProposed, kind);
+    ReviewState state;
+    const auto draw = [&](UiFrame& f) {
+      DrawReviewWorkspace(snap, nullptr, BodyOf(1920, 1080), state, f);
+    };
+    ui.Frame(draw);
+    ui.Click("bookmark", draw);
+    EXPECT_EQ(ui.CountCommands<AddBookmark>(), kind == SourceKind::kReplay ? 0 : 1);
+  }
 }
 
 TEST(ReviewWorkspace, FindsWhereTheDecisionsDiffer) {
   const FlightRecord record = Record();
-  const EngineSnapshot snap = Replay(true);  // history says A all the time, from 212 s to 252 s
-  const auto found = FindDifferences(snap, &record);
-  ASSERT_EQ(found.size(), 1U);
-  EXPECT_EQ(found[0].recorded, "B");
-  EXPECT_EQ(found[0].now, "A");
-  EXPECT_NEAR(found[0].at_s, 212, 0.2);
-  EXPECT_NEAR(found[0].to_s, 230, 0.6);
-  EXPECT_TRUE(FindDifferences(snap, nullptr).empty());
+  const auto found = FindDifferences(Replay(true), &record);
+  ASSERT_EQ(found.size(), 2U);
+  for (const ReviewDifference& difference : found) {
+    EXPECT_EQ(difference.recorded, "B");
+    EXPECT_EQ(difference.now, "A");
+  }
+  EXPECT_NEAR(found[0].at_s, 100, 0.01);
+  EXPECT_NEAR(found[0].to_s, 130, 0.01);
+  EXPECT_NEAR(found[1].at_s, 212, 0.01);
+  EXPECT_NEAR(found[1].to_s, 229.9, 0.01);
 }
 
-TEST(ReviewWorkspace, AMapBuiltAnewAfterAJumpDecidesNothingDifferently) {
+// The history of the replay names other letters than the record all along; that is no difference.
+TEST(ReviewWorkspace, NothingDiffersWhereNoLimitWasMoved) {
   const FlightRecord record = Record();
-  EngineSnapshot snap = Replay(true);
-  auto history = std::make_shared<std::vector<HistorySample>>(*snap.flight->history);
-  for (HistorySample& sample : *history) {
-    sample.rebuilding = true;
-  }
-  snap.flight.Edit().history = history;
+  const EngineSnapshot snap = Replay(false);
   EXPECT_TRUE(FindDifferences(snap, &record).empty());
+  EXPECT_EQ(LimitsMoved(snap), 0);
+  const TimelineView view = MakeTimeline(snap, &record, {}, MakeDarkPalette(), true);
+  ASSERT_EQ(view.lanes.size(), 6U);
+  EXPECT_EQ(view.lanes[2].name, "Re-decided site");
+  EXPECT_TRUE(view.lanes[2].segments.empty());
+  EXPECT_NE(WhyNoDifference(snap, &record).find("No limit differs"), std::string::npos);
+}
+
+TEST(ReviewWorkspace, WhatWasNotJudgedAgainStaysEmpty) {
+  const FlightRecord record = Record();
+  const TimelineView view = MakeTimeline(Replay(true), &record, {}, MakeDarkPalette(), true);
+  const std::vector<LaneSegment>& now = view.lanes[2].segments;
+  ASSERT_EQ(now.size(), 2U);
+  EXPECT_NEAR(now[0].from_s, 100, 0.01);
+  EXPECT_NEAR(now[0].to_s, 130, 0.01);
+  EXPECT_NEAR(now[1].from_s, 212, 0.01);
+  EXPECT_NEAR(now[1].to_s, 240, 0.01);
+  // The record's own lane is whole.
+  EXPECT_NEAR(view.lanes[1].segments.back().to_s, 337.5, 0.01);
+}
+
+TEST(ReviewWorkspace, TheDecisionIsTheRecordsOwnAndSaysTheStateAsTheChain) {
+  const FlightRecord record = Record();
+  EngineSnapshot snap = fake::Snapshot(MissionState::kSearch, SourceKind::kReplay);
+  const auto read = [&](const char* item) {
+    UiHarness ui(1920, 1080);
+    ReviewState state;
+    ui.Frame([&](UiFrame& f) { DrawReviewWorkspace(snap, &record, BodyOf(1920, 1080), state, f); });
+    return ui.items.Find(item)->text;
+  };
+  EXPECT_EQ(read("decision/recorded"), "A, Search");  // A by the record; the map here may say B
+  snap.terrain.Edit().maps_to_rebuild = 4;
+  EXPECT_EQ(read("decision/recorded"), "A, Search");
+  snap = Replay(true);
+  EXPECT_EQ(read("decision/recorded"), "A, Armed A");
+  snap.terrain.Edit().maps_to_rebuild = 4;
+  EXPECT_EQ(read("decision/now"), "––, ––");
+}
+
+TEST(ReviewWorkspace, AFlightUnderWayHasNothingRecordedBesideIt) {
+  const EngineSnapshot snap = fake::Snapshot(MissionState::kProposed, SourceKind::kSimulation);
+  UiHarness ui(1920, 1080);
+  ReviewState state;
+  ui.Frame([&](UiFrame& f) { DrawReviewWorkspace(snap, nullptr, BodyOf(1920, 1080), state, f); });
+  for (const Item& item : ui.items.items()) {
+    EXPECT_EQ(item.text.find("Recorded"), std::string::npos) << item.name << ": " << item.text;
+    EXPECT_NE(item.text.rfind("of ", 0), 0u) << item.text;
+  }
+  EXPECT_FALSE(ui.items.Find("redecide")->enabled);
+}
+
+TEST(ReviewWorkspace, AGapIsDrawnAndNamedAndEndsALane) {
+  FlightRecord record = Record();
+  record.gaps = {{90, 130}};
+  std::erase_if(record.samples, [](const FlightRecordSample& sample) {
+    const double t = static_cast<double>(sample.time.us) * 1e-6 - kStart_s;
+    return t > 90 && t < 130;
+  });
+  const EngineSnapshot snap = Replay(false);
+  const TimelineView view = MakeTimeline(snap, &record, {}, MakeDarkPalette(), true);
+  ASSERT_EQ(view.lanes[0].segments[1].text, "Proposed");
+  EXPECT_NEAR(view.lanes[0].segments[1].to_s, 90, 0.01);
+  EXPECT_NEAR(view.lanes[0].segments[2].from_s, 130, 0.01);
+  UiHarness ui(1920, 1080);
+  ReviewState state;
+  ui.Frame([&](UiFrame& f) { DrawReviewWorkspace(snap, &record, BodyOf(1920, 1080), state, f); });
+  ASSERT_NE(ui.items.Find("gap/0"), nullptr);
+  EXPECT_EQ(ui.items.Find("gap/0")->text, "No data, 40.0 s");
+}
+
+TEST(ReviewWorkspace, TheWheelZoomsOverTheStripToo) {
+  const FlightRecord record = Record();
+  const EngineSnapshot snap = Replay(false);
+  for (const char* strip : {"overview", "timeline"}) {
+    UiHarness ui(1920, 1080);
+    ReviewState state;
+    const auto draw = [&](UiFrame& f) {
+      DrawReviewWorkspace(snap, &record, BodyOf(1920, 1080), state, f);
+    };
+    ui.Frame(draw);
+    ui.MoveTo(strip);
+    ui.Frame(draw);
+    FeedMouseWheel(2);
+    ui.Frame(draw);
+    ui.Frame(draw);
+    EXPECT_TRUE(state.timeline.zoomed) << strip;
+    EXPECT_LT(state.timeline.to_s - state.timeline.from_s, 300) << strip;
+  }
+}
+
+TEST(RedecideRun, TellsItsProgressAndSetsTheSpeedBack) {
+  using Kind = PlaybackControl::Kind;
+  const auto kinds = [](const Intents& intents) {
+    std::string text;
+    for (const PlaybackControl& control : Playbacks(intents)) {
+      text += control.kind == Kind::kSeek    ? "seek "
+              : control.kind == Kind::kSpeed ? "speed " + Fixed(control.value, 0) + " "
+              : control.kind == Kind::kPlay  ? "play "
+                                             : "pause ";
+    }
+    return text;
+  };
+  SourceStatus source;
+  source.paused = true;
+  source.speed = 2;
+  source.duration_s = 100;
+  source.position_s = 80;
+  RedecideRun run;
+  EXPECT_EQ(kinds(run.Begin(source, 10)), "seek speed 0 play ");
+  EXPECT_EQ(kinds(run.Follow(source, 10.1)), "") << "the old status is no end";
+  EXPECT_TRUE(run.running());
+  source.paused = false;
+  source.speed = 0;
+  source.position_s = 25;
+  EXPECT_EQ(kinds(run.Follow(source, 15)), "");
+  EXPECT_DOUBLE_EQ(run.share(), 0.25);
+  EXPECT_DOUBLE_EQ(run.left_s().value(), 15);
+  RedecideRun stopped = run;
+  EXPECT_EQ(kinds(stopped.Stop()), "pause speed 2 ");
+  EXPECT_FALSE(stopped.running());
+  EXPECT_FALSE(stopped.took_s());
+  source.position_s = 100;
+  source.ended = true;
+  EXPECT_EQ(kinds(run.Follow(source, 30)), "speed 2 ");
+  EXPECT_FALSE(run.running());
+  EXPECT_DOUBLE_EQ(run.took_s().value(), 20);
 }
 
 TEST(ReviewWorkspace, TheRecordIsReadOncePerSnapshot) {
@@ -211,13 +357,16 @@ TEST(ReviewWorkspace, TheRecordIsReadOncePerSnapshot) {
   EngineSnapshot snap = Replay(true);
   ReviewDigest digest;
   const Palette palette = MakeDarkPalette();
-  ASSERT_EQ(DigestOf(snap, &record, palette, true, digest).differences.size(), 1U);
+  const auto site = [&] {
+    return DigestOf(snap, &record, palette, true, digest).timeline.lanes[1].segments.back().text;
+  };
+  ASSERT_EQ(site(), "A");
   for (FlightRecordSample& sample : record.samples) {
-    sample.best_site = 'A';
+    sample.best_site = "C";
   }
-  EXPECT_EQ(DigestOf(snap, &record, palette, true, digest).differences.size(), 1U);  // kept
+  EXPECT_EQ(site(), "A");  // kept
   ++snap.sequence;
-  EXPECT_TRUE(DigestOf(snap, &record, palette, true, digest).differences.empty());
+  EXPECT_EQ(site(), "C");
 }
 
 TEST(ReviewWorkspace, ClickOnADifferenceSeeksToIt) {
@@ -232,7 +381,7 @@ TEST(ReviewWorkspace, ClickOnADifferenceSeeksToIt) {
   ui.Click("difference/0", draw);
   const auto asked = Playbacks(ui.intents);
   ASSERT_EQ(asked.size(), 1U);
-  EXPECT_NEAR(asked[0].value, 212, 0.2);
+  EXPECT_NEAR(asked[0].value, 100, 0.2);
 }
 
 TEST(ReviewWorkspace, LanesHoldTheStatesInOrder) {

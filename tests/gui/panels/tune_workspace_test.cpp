@@ -248,17 +248,67 @@ TEST(TuneWorkspace, PresetAndUndoButtonsAsk) {
   UiHarness ui(1920, 1080);
   const EngineSnapshot snap = fake::Snapshot(MissionState::kSearch);
   TuneState state;
-  state.preset_path = "config/r50-field.toml";
+  state.preset.path = "config/r50-field.toml";
   MoveTwoLimits(state.history);
   const auto draw = [&](UiFrame& f) { DrawTuneWorkspace(snap, Body(), state, f); };
   ui.Frame(draw);
   ui.Click("undo", draw);
   EXPECT_NE(LastUiAction<UndoSetting>(ui.intents), nullptr);
   ui.Click("load_preset", draw);
-  ASSERT_NE(LastUiAction<LoadPreset>(ui.intents), nullptr);
-  EXPECT_EQ(LastUiAction<LoadPreset>(ui.intents)->path, "config/r50-field.toml");
+  ASSERT_NE(LastUiAction<ChoosePreset>(ui.intents), nullptr);
+  EXPECT_EQ(LastUiAction<ChoosePreset>(ui.intents)->choice, PresetChoice::kLoad);
   ui.Click("save_preset", draw);
-  EXPECT_NE(LastUiAction<SavePreset>(ui.intents), nullptr);
+  EXPECT_EQ(LastUiAction<ChoosePreset>(ui.intents)->choice, PresetChoice::kSave);
+  EXPECT_EQ(LastUiAction<LoadPreset>(ui.intents), nullptr) << "nothing is read or written yet";
+  EXPECT_EQ(LastUiAction<SavePreset>(ui.intents), nullptr);
+}
+
+TEST(TuneWorkspace, APresetIsLookedAtBeforeItIsLoadedOrReplaced) {
+  const EngineSnapshot snap = fake::Snapshot(MissionState::kSearch);
+  const struct {
+    const char* what;
+    PresetChoice choice;
+    bool exists;
+    const char* problem;
+    std::vector<SettingChange> differences;
+    const char* button;
+    bool enabled;
+  } table[] = {
+      {"differs",
+       PresetChoice::kLoad,
+       true,
+       "",
+       {{"slad.max_slope_deg", 10, 7}},
+       "preset/load",
+       true},
+      {"as now", PresetChoice::kLoad, true, "", {}, "preset/load", false},
+      {"broken", PresetChoice::kLoad, true, "a.toml:2: unknown key", {}, "preset/load", false},
+      {"new", PresetChoice::kSave, false, "", {}, "preset/save", true},
+      {"there already", PresetChoice::kSave, true, "", {}, "preset/replace", true}};
+  for (const auto& row : table) {
+    SCOPED_TRACE(row.what);
+    for (const WindowSize& size : kWindowSizes) {
+      UiHarness ui(size.width, size.height);
+      TuneState state;
+      state.preset.choice = row.choice;
+      state.preset.look = {"a.toml", row.exists, row.problem, row.differences};
+      const Rect body = BodyOf(size.width, size.height);
+      const auto draw = [&](UiFrame& f) { DrawTuneWorkspace(snap, body, state, f); };
+      ui.Frame(draw);
+      ExpectTextsInPanels(ui.items);
+      ExpectPanelsApart(ui.items, body);
+      ASSERT_NE(ui.items.Find(row.button), nullptr);
+      EXPECT_EQ(ui.items.Find(row.button)->enabled, row.enabled);
+      EXPECT_EQ(ui.items.Find("preset/difference/slad.max_slope_deg") != nullptr,
+                !row.differences.empty());
+      if (row.choice == PresetChoice::kSave) {
+        ui.Click(row.button, draw);
+        ASSERT_NE(LastUiAction<SavePreset>(ui.intents), nullptr);
+        EXPECT_EQ(LastUiAction<SavePreset>(ui.intents)->path, "a.toml");
+        EXPECT_EQ(LastUiAction<SavePreset>(ui.intents)->replace, row.exists);
+      }
+    }
+  }
 }
 
 TEST(LimitsName, CallsNothingDefaultsThatIsNot) {
@@ -268,8 +318,11 @@ TEST(LimitsName, CallsNothingDefaultsThatIsNot) {
   applied.slad.limits.max_slope_deg = 7;
   applied.slad.limits.max_step_m = 0.1;
   EXPECT_EQ(LimitsName(state, applied), "2 changed");
-  state.preset_path = "config/r50-field.toml";
+  state.preset.path = "config/r50-field.toml";
+  state.preset.values = applied;
   EXPECT_EQ(LimitsName(state, applied), "r50-field");
+  applied.slad.limits.max_slope_deg = 6;
+  EXPECT_EQ(LimitsName(state, applied), "r50-field + 1 change");
 }
 
 }  // namespace
