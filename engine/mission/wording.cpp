@@ -150,8 +150,8 @@ std::string WaveOffTold(const WaveOffReport& report) {
              : ". Vehicle hovers. Acknowledge to search again.";
 }
 
-std::string GroundNotMeasured(char letter, double age_s) {
-  return std::string("Ground of site ") + letter + WithNumbers(" not measured for %.1f s", age_s);
+std::string GroundNotMeasured(const std::string& letter, double age_s) {
+  return "Ground of site " + letter + WithNumbers(" not measured for %.1f s", age_s);
 }
 
 std::string VisionLost(double outage_s, double limit_s) {

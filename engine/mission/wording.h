@@ -93,7 +93,7 @@ std::string OnTheGround(std::string_view site);
 /// What became of a wave-off: ". Vehicle climbs. Acknowledge when it hovers."
 std::string WaveOffTold(const WaveOffReport& report);
 /// "Ground of site A not measured for 2.1 s".
-std::string GroundNotMeasured(char letter, double age_s);
+std::string GroundNotMeasured(const std::string& letter, double age_s);
 std::string VisionLost(double outage_s, double limit_s);
 
 }  // namespace palace::words
