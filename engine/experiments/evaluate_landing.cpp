@@ -38,7 +38,6 @@ Result<FlightSummary> FlyOne(const LandingOptions& options, const Settings& sett
   EngineParts parts;
   parts.settings = settings;
   parts.mission.session_id = session->id;
-  parts.mission.signer = session->signer;
   parts.source = session->simulator;
   parts.link = session->simulator;
   Engine engine(std::move(parts), /*threaded=*/false);

@@ -208,7 +208,6 @@ Result<FaultOutcome> FlyUnderFault(const FaultFlight& flight, const FaultCase& f
   EngineParts parts;
   parts.settings = flight.settings;
   parts.mission.session_id = session->id;
-  parts.mission.signer = session->signer;
   parts.source = source;
   parts.link = source;
   parts.sink = std::make_unique<EventRecord>(recorded);

@@ -72,8 +72,20 @@ void FaultedSource::Send(const VehicleMessage& message) {
     offset_us = clock_offset_us_;
   }
   if (link_) {
-    link_->Send(OnClock(message, -offset_us));
+    VehicleMessage mapped = OnClock(message, -offset_us);
+    link_->Seal(mapped);
+    link_->Send(mapped);
   }
+}
+
+void FaultedSource::Hear(const FrameBundle& bundle) {
+  if (link_) {
+    link_->Hear(bundle);
+  }
+}
+
+AuthorityStatus FaultedSource::Authority() const {
+  return link_ ? link_->Authority() : AuthorityStatus{};
 }
 
 void FaultedSource::Announce(const EngineSnapshot& snapshot) {

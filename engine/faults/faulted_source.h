@@ -42,7 +42,10 @@ class FaultedSource final : public Source, public VehicleLink {
   Losses Lost() const override;
   void Control(const PlaybackControl& control) override { source_->Control(control); }
 
+  /// Sealed here: the vehicle seals and checks on its own clock.
   void Send(const VehicleMessage& message) override;
+  void Hear(const FrameBundle& bundle) override;
+  AuthorityStatus Authority() const override;
   void Announce(const EngineSnapshot& snapshot) override;
   std::uint64_t Unsent() const override { return link_ ? link_->Unsent() : 0; }
 

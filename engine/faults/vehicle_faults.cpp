@@ -25,6 +25,9 @@ VehiclePose Carried(VehiclePose pose, Timestamp time) {
 }
 
 void MoveClock(std::int64_t offset_us, FrameBundle& bundle) {
+  if (offset_us != 0) {
+    bundle.authority.reset();  // sealed on the clock that was
+  }
   const auto move = [&](Timestamp& time) { time.us += offset_us; };
   move(bundle.time);
   const auto move_all = [&](auto& samples) {

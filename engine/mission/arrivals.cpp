@@ -92,6 +92,19 @@ void TakeApprovalAnswer(MissionTurn& turn, const CommandAck& ack, Timestamp now)
   }
 }
 
+/// Of an approval that flies: the vehicle gives it up. Of what nobody here waits for: told at most
+/// once a second, for anybody can make a vehicle refuse.
+void TellRefusal(MissionTurn& turn, const CommandAck& ack, Timestamp now) {
+  MissionMemory& m = turn.memory;
+  if (IsOwnApproval(m, ack.command_id)) {
+    m.vehicle_reason = ack.reason;
+    AddEvent(turn, now, EventKind::kVehicle, "Vehicle gives up the approval: " + ack.reason);
+  } else if (SecondsBetween(m.foreign_told_at, now) >= 1) {
+    m.foreign_told_at = now;
+    AddEvent(turn, now, EventKind::kVehicle, "Vehicle refused a command: " + ack.reason);
+  }
+}
+
 }  // namespace
 
 void FollowJump(MissionTurn& turn, const MissionInputs& in) {
@@ -121,6 +134,7 @@ void HearSession(MissionFacts& facts, const MissionInputs::Session& in) {
   facts.role = in.role;
   facts.why_no_vehicle = in.why_no_vehicle;
   facts.can_transmit = facts.can_transmit && in.can_transmit;
+  facts.authority = in.authority;
   facts.recorder_ok = facts.recorder_ok && in.recorder_ok;
 }
 
@@ -131,6 +145,7 @@ void RememberFacts(MissionMemory& m, const MissionInputs& in) {
   facts.role = in.session.role;
   facts.why_no_vehicle = in.session.why_no_vehicle;
   facts.can_transmit = in.session.can_transmit;
+  facts.authority = in.session.authority;
   facts.recorder_ok = in.session.recorder_ok;
   facts.settings = in.limits.settings;
   facts.settings_hash = in.limits.settings_hash;
@@ -169,6 +184,27 @@ void FollowWinner(MissionMemory& m, const MissionInputs& in) {
   }
 }
 
+void FollowAuthority(MissionTurn& turn, const MissionInputs& in) {
+  MissionMemory& m = turn.memory;
+  const AuthorityStatus& authority = in.session.authority;
+  const ForeignTraffic& foreign = authority.foreign;
+  const Timestamp now = in.session.now;
+  if (in.session.role != SessionRole::kLive) {
+    return;
+  }
+  if (authority.standing != m.told_standing) {
+    m.told_standing = authority.standing;
+    AddEvent(turn, now, EventKind::kVehicle,
+             authority.commands() ? words::Commands(authority.fingerprint) : authority.why_not);
+  }
+  // At most one a second: whoever sends may send many.
+  if (foreign.count > m.told_foreign && SecondsBetween(m.told_foreign_at, now) >= 1) {
+    m.told_foreign = foreign.count;
+    m.told_foreign_at = now;
+    AddEvent(turn, now, EventKind::kVehicle, words::ForeignCommand(foreign));
+  }
+}
+
 void FollowAnswers(MissionTurn& turn, const MissionInputs& in) {
   MissionMemory& m = turn.memory;
   for (const CommandAck& ack : in.vehicle.bundle.acks) {
@@ -183,6 +219,8 @@ void FollowAnswers(MissionTurn& turn, const MissionInputs& in) {
       m.abort_answered_at = accepted ? in.session.now : m.abort_answered_at;
       m.abort_seen =
           m.abort_seen || accepted || (m.watch.vehicle() && m.watch.vehicle()->on_ground);
+    } else if (ack.result == AckResult::kRefused) {
+      TellRefusal(turn, ack, in.session.now);
     }
   }
 }

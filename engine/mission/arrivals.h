@@ -14,6 +14,8 @@ void FollowJump(MissionTurn& turn, const MissionInputs& inputs);
 void HearSession(MissionFacts& facts, const MissionInputs::Session& session);
 void RememberFacts(MissionMemory& memory, const MissionInputs& inputs);
 void FollowWinner(MissionMemory& memory, const MissionInputs& inputs);
+/// Events of who commands, and of messages to the vehicle that others sent.
+void FollowAuthority(MissionTurn& turn, const MissionInputs& in);
 void FollowAnswers(MissionTurn& turn, const MissionInputs& inputs);
 /// A vehicle that flies an approval which ended is held again (I14).
 void StopDeadApproval(MissionTurn& turn, const MissionInputs& inputs);

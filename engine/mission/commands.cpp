@@ -24,9 +24,7 @@ Approval MakeApproval(MissionTurn& turn, Timestamp now) {
   MissionMemory& m = turn.memory;
   const LandingSite& site = *m.status.armed;
   Approval a;
-  a.counter = ++m.approvals_given;
-  a.id = ApprovalNumber(turn.station.session_id, a.counter);
-  a.session_id = turn.station.session_id;
+  a.id = ApprovalNumber(turn.station.session_id, ++m.approvals_given);
   a.site_id = site.id;
   a.map_hash = m.armed.map_hash;
   a.settings_hash = m.armed.settings_hash;
@@ -41,9 +39,6 @@ Approval MakeApproval(MissionTurn& turn, Timestamp now) {
   a.glide_slope_rad = m.status.approach->glide_slope_rad;
   a.descent_rate_mps = m.status.approach->descent_rate_mps;
   a.clear_radius_m = site.clear_radius_m;
-  if (MaySign(m.facts.role)) {
-    turn.station.signer.Sign(a);  // unsigned, no vehicle takes it (I7)
-  }
   return a;
 }
 
@@ -73,6 +68,9 @@ struct Obeying {
   Status operator()(const AcknowledgeWaveOff&) const;
   Status operator()(const AcknowledgeAlarm& action) const;
   Status operator()(const AddBookmark& action) const;
+  Status operator()(const AskForCommand& action) const;
+  Status operator()(const ReleaseCommand&) const;
+  Status operator()(const CommandLost& action) const;
   // Limits are kept elsewhere.
   Status operator()(const SetSetting&) const { return Ok(); }
   Status operator()(const ApplySettings&) const { return Ok(); }
@@ -181,6 +179,7 @@ Status Obeying::operator()(const ApproveSite& action) const {
   m.status.approval = MakeApproval(turn, now);
   m.status.approval_phase = MissionStatus::ApprovalPhase::kSent;
   m.status.approval_answer.clear();
+  m.vehicle_reason.clear();
   m.status.arm_expires.reset();
   m.approved_at = now;
   AddEvent(turn, now, EventKind::kDecision, words::ApprovalGiven(m.status, m.approvals_given));
@@ -230,6 +229,46 @@ Status Obeying::operator()(const AddBookmark& action) const {
   return Ok();
 }
 
+Status Obeying::operator()(const AskForCommand& action) const {
+  using Kind = SessionRequest::Kind;
+  const AuthorityStatus& authority = turn.memory.facts.authority;
+  if (!authority.can_ask && origin != CommandOrigin::kReplay) {
+    return Refuse(turn, now, "Ask for command",
+                  authority.commands() ? words::kCommandsAlready : authority.why_not);
+  }
+  AddEvent(turn, now, EventKind::kDecision, words::AskedForCommand(action, authority.holder));
+  SessionRequest request;
+  request.kind = action.take_over ? Kind::kTakeOver : Kind::kAsk;
+  Send(turn, request);
+  return Ok();
+}
+
+Status Obeying::operator()(const ReleaseCommand&) const {
+  MissionMemory& m = turn.memory;
+  if (IsFlying(m.status.state)) {
+    return Refuse(turn, now, "Release command", words::kApprovedHold);
+  }
+  AddEvent(turn, now, EventKind::kDecision, words::kReleased);
+  if (m.status.state == MissionState::kArmed) {
+    Drop(turn, words::kReleased, now);
+  }
+  SessionRequest request;
+  request.kind = SessionRequest::Kind::kRelease;
+  Send(turn, request);
+  return Ok();
+}
+
+Status Obeying::operator()(const CommandLost& action) const {
+  const MissionState state = turn.memory.status.state;
+  AddEvent(turn, now, EventKind::kVehicle, words::CommandLostTo(action.why));
+  if (state == MissionState::kDescending) {
+    Hold(turn, words::CommandLostTo(action.why), now);
+  } else if (state == MissionState::kArmed || state == MissionState::kApproved) {
+    Drop(turn, words::CommandLostTo(action.why), now);
+  }
+  return Ok();
+}
+
 struct ConcernsVehicle {
   template <typename T>
   bool operator()(const T&) const {
@@ -242,6 +281,8 @@ struct ConcernsVehicle {
   bool operator()(const HoldHere&) const { return true; }
   bool operator()(const WaveOff&) const { return true; }
   bool operator()(const AcknowledgeWaveOff&) const { return true; }
+  bool operator()(const AskForCommand&) const { return true; }
+  bool operator()(const ReleaseCommand&) const { return true; }
 };
 
 /// Why this one may not ask for that; empty when it may.
@@ -259,6 +300,10 @@ std::string WhyNotAllowed(const MissionTurn& turn, const EngineCommand& command)
   }
   const bool commits = std::holds_alternative<SelectSite>(command.action) ||
                        std::holds_alternative<ApproveSite>(command.action);
+  const bool decides = commits || std::holds_alternative<RefuseSite>(command.action);
+  if (!recorded && decides && WhyViewOnly(facts) != nullptr) {
+    return WhyViewOnly(facts);
+  }
   const bool script_may = turn.station.allow_script_approvals && facts.simulated_vehicle;
   if (commits && command.origin == CommandOrigin::kScript && !script_may) {
     return words::kNoScript;

@@ -66,6 +66,8 @@ GuardInputs GuardInputsAt(const MissionMemory& m, Timestamp now) {
   in.min_coherence = m.facts.settings.tracking.min_coherence;
   in.clock_continuous = m.watch.clock_continuous();
   in.can_transmit = m.facts.can_transmit;
+  in.commands = m.facts.authority.commands();
+  in.why_not_commanding = m.facts.authority.why_not;
   in.foreign_approval = FliesForeignApproval(m);
   in.unacknowledged_warning = m.alarms.UnacknowledgedWarning();
   in.recorder_ok = m.facts.recorder_ok;

@@ -76,6 +76,10 @@ std::string WhyNotCommanding(const GuardInputs& in, const Limit&) {
   if (!in.can_transmit) {
     return "No link to a vehicle";
   }
+  if (!in.commands) {
+    return in.why_not_commanding.empty() ? "This station does not command the vehicle"
+                                         : in.why_not_commanding;
+  }
   return If(in.foreign_approval, "Vehicle executes an approval that is not ours");
 }
 

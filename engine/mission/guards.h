@@ -41,6 +41,8 @@ struct GuardInputs {
   bool boot_unchanged = false;
   bool clock_continuous = false;
   bool can_transmit = false;
+  bool commands = false;  ///< the vehicle granted this station its command
+  std::string why_not_commanding;
   bool foreign_approval = false;  ///< the vehicle executes an approval that is not ours
   std::string unacknowledged_warning;
   bool recorder_ok = false;

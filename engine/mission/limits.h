@@ -44,6 +44,7 @@ struct AlarmLimits {
   static constexpr double scale_percent = 2;   ///< 0.3 m of height at 50 ft
   static constexpr double refused_hz = 1;      ///< datagrams: F25
   static constexpr double bus_load = 10;       ///< times what a channel needs: F31
+  static constexpr double foreign_s = 10;      ///< a foreign command is told for this long
   static constexpr double least_pairs_hz = 5;  ///< half of what maps and tracking are made for
 };
 

@@ -17,14 +17,12 @@
 #include "engine/model/mission/session_role.h"
 #include "engine/model/recording.h"
 #include "engine/model/snapshot.h"
-#include "engine/trust/approval.h"
 
 namespace palace {
 
 /// What this station is, for as long as it runs.
 struct MissionOptions {
-  std::uint64_t session_id = 1;  ///< random per start; from the seed in lockstep simulation
-  ApprovalSigner signer = ApprovalSigner::FromSeed(1);
+  std::uint64_t session_id = 1;        ///< random per start; from the seed in lockstep simulation
   bool allow_script_approvals = true;  ///< still only on simulated vehicles (DESIGN.md 8)
   /// Numbers given in this session before this mission began: an engine that was started again
   /// inherits no approval, and repeats no number (I9, I17).
@@ -44,6 +42,7 @@ struct MissionInputs {
     std::string_view engine_stop{};    ///< what stopped the engine a moment ago
     std::string_view source_damage{};  ///< SourceStatus::damage
     Losses losses{};                   ///< at the doors, since the session began
+    AuthorityStatus authority{};       ///< whether this station commands the vehicle
     /// Of the newest snapshot published; this pass publishes the next number.
     std::uint64_t snapshot_sequence = 0;
   };

@@ -54,6 +54,14 @@ bool FliesForeignApproval(const MissionMemory& m) {
   return Executing(m) && !IsOwnApproval(m, m.watch.vehicle()->approval_id);
 }
 
+const char* WhyViewOnly(const MissionFacts& facts) {
+  // Without a link that could tell, G10 speaks.
+  const bool told = facts.authority.standing != AuthorityStanding::kNone;
+  return HasVehicle(facts.role) && told && !facts.authority.commands()
+             ? facts.authority.why_not.c_str()
+             : nullptr;
+}
+
 bool WatchesSite(const MissionMemory& m) {
   const MissionState state = m.status.state;
   return m.status.armed.has_value() &&

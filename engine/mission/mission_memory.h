@@ -19,6 +19,7 @@
 #include "engine/mission/watch/loss_watch.h"
 #include "engine/mission/watch/picture_watch.h"
 #include "engine/mission/watch/site_watch.h"
+#include "engine/model/mission/authority_status.h"
 #include "engine/model/mission/mission_status.h"
 #include "engine/model/mission/session_role.h"
 #include "engine/model/navigation_status.h"
@@ -35,6 +36,7 @@ struct MissionFacts {
   std::string why_no_vehicle;
   bool simulated_vehicle = false;
   bool can_transmit = false;
+  AuthorityStatus authority;
   bool recorder_ok = false;
   std::vector<LandingSite> sites;
   SladSettings site_limits;  ///< under which they were chosen
@@ -104,7 +106,12 @@ struct MissionMemory {
   std::optional<VehicleMessage> repeating;  ///< until the vehicle answers
   Timestamp sent_at;                        ///< of the message being repeated
   Timestamp approved_at;                    ///< station time of the approval
-  std::string refusal;  ///< the vehicle's refusal of the last approval, empty when none
+  std::string refusal;         ///< the vehicle's refusal of the last approval, empty when none
+  std::string vehicle_reason;  ///< why it gave up the approval that it flew, by its own word
+  Timestamp foreign_told_at;   ///< newest event about commands of others that it refused
+  AuthorityStanding told_standing = AuthorityStanding::kNone;  ///< in the events
+  std::uint64_t told_foreign = 0;  ///< foreign messages counted in the newest event about them
+  Timestamp told_foreign_at;
 
   bool vehicle_ever_heard = false;
   bool abort_seen = false;      ///< the vehicle acknowledged or flies the abort
@@ -134,6 +141,8 @@ bool IsSameMessage(const MissionMemory& memory, std::uint64_t id, std::uint64_t 
 bool IsOwnApproval(const MissionMemory& memory, std::uint64_t id);
 /// The vehicle flies an approval that is not this station's.
 bool FliesForeignApproval(const MissionMemory& memory);
+/// Why this station may only look, in a session with a vehicle; null when it may command.
+const char* WhyViewOnly(const MissionFacts& facts);
 /// A site is armed and watched: ARMED to HOLD.
 bool WatchesSite(const MissionMemory& memory);
 

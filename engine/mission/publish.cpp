@@ -48,6 +48,9 @@ std::string WhyNoApproval(const MissionMemory& m) {
   if (!MaySelect(m.facts.role)) {
     return FindGuard(m.status.guards, GuardId::kSource)->reason;
   }
+  if (const char* why = WhyViewOnly(m.facts)) {
+    return why;
+  }
   if (IsFlying(m.status.state)) {
     return words::kAlreadyApproved;
   }
@@ -72,7 +75,7 @@ void PublishFigures(MissionMemory& m, Timestamp now) {
 }
 
 void PublishGuards(MissionMemory& m, Timestamp now) {
-  m.status.may_select = MaySelect(m.facts.role);
+  m.status.may_select = MaySelect(m.facts.role) && WhyViewOnly(m.facts) == nullptr;
   m.status.guards = EvaluateGuards(GuardInputsAt(m, now));
   m.status.can_approve =
       m.status.state == MissionState::kArmed && FirstFailure(m.status.guards) == nullptr;

@@ -57,7 +57,7 @@ std::string WhyHold(const MissionMemory& m, const MissionInputs& in) {
     return words::kRestarted;
   }
   if (vehicle.mode == VehicleMode::kHold) {
-    return words::kVehicleHolds;
+    return words::VehicleHolds(m.vehicle_reason);
   }
   if (vehicle.mode == VehicleMode::kHover || !IsOwnApproval(m, vehicle.approval_id)) {
     return words::kLeftDescent;

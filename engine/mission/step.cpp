@@ -21,6 +21,7 @@ MissionStep Step(const MissionOptions& station, MissionMemory memory, const Miss
   PlanApproach(turn.memory);
   FollowWinner(turn.memory, in);
   FollowSite(turn, in);
+  FollowAuthority(turn, in);
   FollowAnswers(turn, in);
   StopDeadApproval(turn, in);
   StepState(turn, in);

@@ -14,6 +14,22 @@ std::string ConfirmHeight() { return LimitWords({GuardLimits::confirm_height_m, 
 
 }  // namespace
 
+std::string Commands(const std::string& fingerprint) {
+  return "This station commands the vehicle, key " + fingerprint;
+}
+std::string ForeignCommand(const ForeignTraffic& foreign) {
+  return "Foreign command from " + (foreign.from.empty() ? "an unknown sender" : foreign.from) +
+         ": " + foreign.what + ", " + std::to_string(foreign.count) + " in all";
+}
+std::string AskedForCommand(const AskForCommand& action, const std::string& holder) {
+  return action.take_over && !holder.empty() ? "Asked to take command over from " + holder
+                                             : "Asked for command of the vehicle";
+}
+std::string CommandLostTo(const std::string& why) { return "Command lost: " + why; }
+std::string VehicleHolds(const std::string& reason) {
+  return reason.empty() ? kVehicleHolds : kVehicleHolds + (": " + reason);
+}
+
 std::string NoAlarm(std::string_view name) { return "No alarm '" + std::string(name) + "'"; }
 
 std::string CannotSelectIn(MissionState state) {

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "engine/mission/mission_memory.h"
+#include "engine/model/command.h"
 
 namespace palace::words {
 
@@ -49,6 +50,15 @@ inline constexpr const char* kAlreadyApproved = "Already approved";
 inline constexpr const char* kApprovedHold = "Already approved, hold or wave off";
 inline constexpr const char* kOtherPicture =
     "The picture on the screen was not that of this selection";
+std::string Commands(const std::string& fingerprint);
+/// "Foreign command from 10.0.0.2:4711: APPROVE on COMMAND, 3 in all".
+std::string ForeignCommand(const ForeignTraffic& foreign);
+inline constexpr const char* kCommandsAlready = "This station commands already";
+inline constexpr const char* kReleased = "Command given back by the operator";
+std::string AskedForCommand(const AskForCommand& action, const std::string& holder);
+std::string CommandLostTo(const std::string& why);
+/// "Vehicle holds by itself: estimate and GPS part", or without a reason.
+std::string VehicleHolds(const std::string& reason);
 std::string NoAlarm(std::string_view name);
 std::string CannotSelectIn(MissionState state);
 std::string NotTheArmedOne(const MissionStatus& status);

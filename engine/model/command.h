@@ -7,8 +7,9 @@
 
 namespace palace {
 
-/// Who asks. Scripts may select and approve only on a simulated vehicle (DESIGN.md 8).
-enum class CommandOrigin : std::uint8_t { kOperator, kScript, kReplay };
+/// Who asks; kStation is the program itself. Scripts may select and approve only on a simulated
+/// vehicle (DESIGN.md 8).
+enum class CommandOrigin : std::uint8_t { kOperator, kScript, kReplay, kStation };
 
 /// Sets one limit by its config name, e.g. "slad.max_slope_deg". SEARCH, PROPOSED: applies at the
 /// next map. ARMED and later: previews on a second evaluation.
@@ -45,10 +46,21 @@ struct AcknowledgeWaveOff {};
 struct AddBookmark {
   std::string note;
 };
+/// Asks the vehicle for command. `take_over`: also from a station that is heard.
+struct AskForCommand {
+  bool take_over = false;
+};
+/// Gives command of the vehicle back.
+struct ReleaseCommand {};
+/// The station's own note of a change of who commands: what is armed or flies is dropped with it.
+struct CommandLost {
+  std::string why;
+};
 
 using CommandAction =
     std::variant<SetSetting, ApplySettings, DiscardSettings, SelectSite, DisarmSite, ApproveSite,
-                 RefuseSite, HoldHere, WaveOff, AcknowledgeAlarm, AcknowledgeWaveOff, AddBookmark>;
+                 RefuseSite, HoldHere, WaveOff, AcknowledgeAlarm, AcknowledgeWaveOff, AddBookmark,
+                 AskForCommand, ReleaseCommand, CommandLost>;
 
 struct EngineCommand {
   CommandOrigin origin = CommandOrigin::kOperator;

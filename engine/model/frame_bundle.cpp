@@ -52,6 +52,9 @@ JoinedBundle Join(const FrameBundle& older, const FrameBundle& newer) {
   result.samples_dropped += Prepend(older.acks, joined->acks);
   result.samples_dropped += Prepend(older.refused, joined->refused);
   joined->arrival = Joined(older.arrival, newer.arrival, newer.discontinuity);
+  if (!joined->authority) {
+    joined->authority = older.authority;
+  }
   if (!joined->rig) {
     joined->rig = older.rig;
   }

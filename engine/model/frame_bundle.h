@@ -54,6 +54,7 @@ struct FrameBundle {
   std::vector<LaserRange> laser;
   std::optional<VehicleStatus> status;
   std::vector<CommandAck> acks;
+  std::optional<AuthorityReport> authority;  ///< who commands, when the vehicle told
   std::vector<Truth> truth;
   std::vector<RefusedDatagram> refused;  ///< not let in meanwhile: for the record alone
   ArrivalNotes arrival;

@@ -21,6 +21,7 @@
 #include "engine/model/channel.h"
 #include "engine/model/frame_bundle.h"
 #include "engine/model/landing_site.h"
+#include "engine/model/mission/authority_status.h"
 #include "engine/model/mission/losses.h"
 #include "engine/model/mission/mission_status.h"
 #include "engine/model/mission/session_role.h"
@@ -97,6 +98,7 @@ struct SessionPart {
   SourceStatus source;
   Losses losses;              ///< of all doors: source, inbox, recorder, link
   bool can_transmit = false;  ///< a VehicleLink exists
+  AuthorityStatus authority;  ///< whether this station commands, and who else tries
   bool recording = false;
   std::string recording_path;
   RecordState record;  ///< thinned, stopped, how long it lasts

@@ -1,6 +1,7 @@
 // What the vehicle tells the station: sensors, state, and answers to commands.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -78,6 +79,26 @@ struct CommandAck {
   std::uint64_t command_id = 0;
   AckResult result = AckResult::kAccepted;
   std::string reason;
+};
+
+/// Who commands the vehicle, by its own word; sent once a second and on every change.
+struct AuthorityReport {
+  Timestamp time;
+  std::uint64_t boot_id = 0;
+  bool checks = true;            ///< false: it takes unsealed commands of anybody
+  std::uint64_t challenge = 0;   ///< what the next request for command must name
+  std::uint64_t session_id = 0;  ///< 0: nobody commands
+  // Of the station that commands:
+  std::uint64_t station_id = 0;
+  std::string station_name;
+  std::uint64_t key_id = 0;
+  std::uint64_t station_nonce = 0;
+  Timestamp since;
+  Timestamp heard_at;  ///< its last sealed message
+  // The newest request that was refused:
+  std::uint64_t refused_station_id = 0;
+  std::string refusal;
+  std::array<std::uint8_t, 32> mac{};  ///< by the pair key of the station that commands
 };
 
 /// True state, from a simulator only; never an input of any decision.

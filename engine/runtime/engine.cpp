@@ -157,7 +157,11 @@ void Engine::Handle(Inbox::Batch batch) {
     first->discontinuity = true;  // in a replay too nothing is carried over the restart
     batch.bundle = std::move(first);
   }
+  if (link_ && batch.bundle) {
+    link_->Hear(*batch.bundle);
+  }
   const SessionStatus session = Session();
+  NoteCommandLost(session.authority, batch.commands);
   RecordItem item;
   item.bundle = batch.bundle;
   PipelineOutput output = batch.bundle
@@ -166,6 +170,11 @@ void Engine::Handle(Inbox::Batch batch) {
   item.commands = std::move(output.commands);
   item.snapshot = std::move(output.snapshot);
   item.sent = std::move(output.messages);
+  if (link_ && MaySign(item.snapshot->session->role)) {
+    for (VehicleMessage& message : item.sent) {
+      link_->Seal(message);
+    }
+  }
   RecordAndSend(std::move(item));
 }
 
@@ -206,10 +215,22 @@ bool Engine::DecidesSomething(const RecordItem& item) const {
   return told || !last || last->flight->mission.state != item.snapshot->flight->mission.state;
 }
 
+void Engine::NoteCommandLost(const AuthorityStatus& authority,
+                             std::vector<EngineCommand>& commands) {
+  using Standing = AuthorityStanding;
+  const bool lost =
+      authority.standing == Standing::kOther || authority.standing == Standing::kReleased;
+  if (std::exchange(commanded_, authority.commands()) && lost) {
+    // As a command it is in the record, so a replay drops what the flight dropped.
+    commands.insert(commands.begin(), {CommandOrigin::kStation, CommandLost{authority.why_not}});
+  }
+}
+
 SessionStatus Engine::Session() const {
   SessionStatus session;
   session.source = source_->Status();
   session.can_transmit = link_ != nullptr;
+  session.authority = link_ ? link_->Authority() : AuthorityStatus{};
   session.recording = recorder_ && recorder_->ok();
   session.recorder_ok = !record_wanted_ || session.recording;
   if (recorder_) {

@@ -87,6 +87,8 @@ class Engine {
   void HoldDescent();
   void SendStop(const EngineCommand& command);
   SessionStatus Session() const;
+  /// Another station commands now, or nobody does: a command of this program's own says so.
+  void NoteCommandLost(const AuthorityStatus& authority, std::vector<EngineCommand>& commands);
   void Fail(const Error& error);
 
   std::shared_ptr<Source> source_;
@@ -100,6 +102,7 @@ class Engine {
   const bool threaded_;
   std::unique_ptr<StopSender> stop_;
   Inbox inbox_;
+  bool commanded_ = false;            ///< at the last pass this station commanded
   std::vector<EngineCommand> early_;  ///< given before the first bundle, applied with it
   std::vector<Event> notes_;          ///< of the engine itself, for the record
   bool recorded_ = false;             ///< the batch in hand

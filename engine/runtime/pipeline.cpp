@@ -386,6 +386,7 @@ MissionInputs::Session Pipeline::MissionSession(const Pass& pass, Timestamp now)
           .engine_stop = session.engine_stop,
           .source_damage = session.source.damage,
           .losses = session.losses,
+          .authority = session.authority,
           .snapshot_sequence = sequence_};
 }
 
@@ -399,6 +400,7 @@ PipelineOutput Pipeline::Publish(Pass& pass) {
   part.missing_inputs = MissingInputs(snapshot, part.losses);
   snapshot.terrain.Edit().maps_to_rebuild = maps_to_rebuild_;
   part.can_transmit = pass.session.can_transmit;
+  part.authority = pass.session.authority;
   part.recording = pass.session.recording;
   part.recording_path = pass.session.recording_path;
   part.record = pass.session.record;

@@ -33,6 +33,7 @@ struct SessionStatus {
   SourceStatus source;
   Losses losses;
   bool can_transmit = false;
+  AuthorityStatus authority;
   bool recording = false;
   bool recorder_ok = true;  ///< recording as asked, or not asked to record
   std::string recording_path;

@@ -28,12 +28,22 @@ StopSender::StopSender(std::shared_ptr<VehicleLink> link,
           const bool abort = std::exchange(abort_wanted_, false);
           hold_wanted_ = false;
           lock.unlock();
-          Send(abort ? abort_ : hold_);
+          abort ? Send(abort_) : SealAndSend();
           lock.lock();
         }
       }) {}
 
 StopSender::~StopSender() = default;
+
+void StopSender::SealAndSend() {
+  try {
+    VehicleMessage hold = hold_;
+    link_->Seal(hold);
+    Send(hold);
+  } catch (const std::exception& error) {
+    LogError(std::string("a hold could not be sealed: ") + error.what());
+  }
+}
 
 void StopSender::Send(const VehicleMessage& message) {
   for (int i = 0; i < kTries; ++i) {

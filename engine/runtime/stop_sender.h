@@ -30,6 +30,8 @@ class StopSender {
  private:
   void Trigger(bool& wanted);
   void Send(const VehicleMessage& message);
+  /// The hold; a wave-off needs no seal, and no memory for it.
+  void SealAndSend();
 
   std::shared_ptr<VehicleLink> link_;
   const std::function<void(const VehicleMessage&)> sent_;

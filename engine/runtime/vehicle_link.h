@@ -12,6 +12,12 @@ class VehicleLink {
   /// Never waits; may be called from the engine thread and, for AbortRequest and
   /// HoldRequest, from any thread.
   virtual void Send(const VehicleMessage& message) = 0;
+  /// Seals what a vehicle takes sealed only, before it is recorded and sent. Any thread.
+  virtual void Seal(VehicleMessage& /*message*/) {}
+  /// What the vehicle said, for links that keep a session with it. Engine thread only.
+  virtual void Hear(const FrameBundle& /*bundle*/) {}
+  /// Whether this station commands. Engine thread only.
+  virtual AuthorityStatus Authority() const { return {}; }
   /// The station's own news after each pass, for links that carry it. Engine thread only.
   virtual void Announce(const EngineSnapshot& /*snapshot*/) {}
   /// Messages that could not be sent, so far. Any thread.

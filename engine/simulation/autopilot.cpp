@@ -32,7 +32,7 @@ Vector3d StoppingPoint(const Vector3d& p, const Vector3d& v) {
 
 Autopilot::Autopilot(const AutopilotOptions& options)
     : options_(options),
-      gate_(options.boot_id, options.station_key),
+      gate_(options.trust),
       hold_p_W_(options.hover_p_WB),
       skid_lever_W_(SkidCentreBody()) {
   reference_.p_W = options.hover_p_WB;
@@ -50,28 +50,49 @@ void Autopilot::Acknowledge(std::uint64_t id, const std::string& refusal, Timest
   acks_.push_back({now, id, refusal.empty() ? AckResult::kAccepted : AckResult::kRefused, refusal});
 }
 
-void Autopilot::Receive(const VehicleMessage& message, Timestamp now) {
+void Autopilot::Receive(const VehicleMessage& message, const VehicleSituation& vehicle) {
+  const Timestamp now = vehicle.now;
   if (const auto* approval = std::get_if<Approval>(&message)) {
-    ReceiveApproval(*approval, now);
+    ReceiveApproval(*approval, vehicle);
   } else if (const auto* estimate = std::get_if<PositionEstimate>(&message)) {
     ReceiveEstimate(*estimate, now);
   } else if (const auto* hold = std::get_if<HoldRequest>(&message)) {
     ReceiveHold(*hold, now);
   } else if (const auto* abort = std::get_if<AbortRequest>(&message)) {
     ReceiveAbort(*abort, now);
+  } else if (const auto* request = std::get_if<SessionRequest>(&message)) {
+    ReceiveRequest(*request, now);
   }
 }
 
-void Autopilot::ReceiveApproval(const Approval& approval, Timestamp now) {
+void Autopilot::ReceiveRequest(const SessionRequest& request, Timestamp now) {
+  using Answer = VehicleAuthority::Answer;
+  const Answer answer = gate_.authority().Take(request, now);
+  if (answer == Answer::kGranted || answer == Answer::kReleased) {
+    GiveUp(answer == Answer::kGranted ? "Command was handed over" : "Command was given back", now);
+  }
+}
+
+void Autopilot::GiveUp(const std::string& why, Timestamp now) {
+  if (approval_ && mode_ != VehicleMode::kLanded) {
+    Acknowledge(approval_->id, why, now);
+    EnterHold();
+  }
+}
+
+void Autopilot::ReceiveApproval(const Approval& approval, const VehicleSituation& vehicle) {
+  const Timestamp now = vehicle.now;
   if (gate_.IsRepeat(approval)) {
     Acknowledge(approval.id, {}, now);
     return;
   }
-  if (mode_ != VehicleMode::kHover && mode_ != VehicleMode::kHold) {
-    Acknowledge(approval.id, "the vehicle is not in hover", now);
-    return;
+  std::string refusal = gate_.WhyRefused(approval, vehicle);
+  if (refusal.empty() && mode_ != VehicleMode::kHover && mode_ != VehicleMode::kHold) {
+    refusal = "the vehicle is not in hover";
   }
-  const std::string refusal = gate_.Admit(approval, now, gps_.p_WB);
+  if (refusal.empty()) {
+    refusal = gate_.Admit(approval, vehicle);
+  }
   Acknowledge(approval.id, refusal, now);
   if (!refusal.empty()) {
     return;
@@ -86,11 +107,21 @@ void Autopilot::ReceiveApproval(const Approval& approval, Timestamp now) {
 }
 
 void Autopilot::ReceiveEstimate(const PositionEstimate& estimate, Timestamp now) {
+  if (!gate_.Admit(estimate, now).empty()) {
+    return;
+  }
   const bool usable = approval_ && estimate.source == EstimateSource::kVision && estimate.healthy &&
                       estimate.approval_id == approval_->id && estimate.p_WB.allFinite() &&
                       estimate.v_WB.allFinite() && estimate.time <= now &&
                       (!last_estimate_ || estimate.time > last_estimate_->time);
-  if (!usable || (vision_ && !vision_->Update(estimate))) {
+  if (!usable) {
+    return;
+  }
+  if (const std::string apart = vision_ ? watch_.Judge(estimate) : ""; !apart.empty()) {
+    GiveUp(apart, now);
+    return;
+  }
+  if (vision_ && !vision_->Update(estimate)) {
     return;
   }
   last_estimate_ = estimate;
@@ -104,8 +135,11 @@ void Autopilot::ReceiveHold(const HoldRequest& request, Timestamp now) {
     Acknowledge(request.command_id, landed ? "on the ground" : "climbing away", now);
     return;
   }
-  EnterHold();
-  Acknowledge(request.command_id, {}, now);
+  const std::string refusal = gate_.Admit(request, now);
+  if (refusal.empty()) {
+    EnterHold();
+  }
+  Acknowledge(request.command_id, refusal, now);
 }
 
 void Autopilot::ReceiveAbort(const AbortRequest& request, Timestamp now) {
@@ -131,6 +165,7 @@ void Autopilot::Propagate(Timestamp now, const Vector3d& a_W) {
 StickCommand Autopilot::Control(Timestamp now, const FlightState& gps, bool on_ground) {
   gps_ = gps;
   flown_ = gps;
+  watch_.Propagate(now, gps.v_WB);
   if (flies_on_vision_) {
     flown_.p_WB = vision_->now().p_WB;
     flown_.v_WB = vision_->now().v_WB;
@@ -200,6 +235,7 @@ void Autopilot::StepAlign(Timestamp now) {
 }
 
 void Autopilot::HandOverToVision() {
+  watch_.Begin();
   const Vector3d shift = vision_->now().p_WB - gps_.p_WB;
   flown_.p_WB = vision_->now().p_WB;
   flown_.v_WB = vision_->now().v_WB;

@@ -10,6 +10,8 @@
 //
 // On vision, no healthy estimate with an advancing stamp for 0.5 s stops the motion (inertial
 // hover); for 2 s climbs away 10 m. Hold, abort, expiry and outage end the approval for good.
+// Estimates that move away from the vehicle's own solution (estimate_watch.h), and another station
+// taking command, end it with a hold; the reason goes out as a refusal of the approval.
 // At the hand-over the reference is shifted by vision minus GPS, so the control error is unchanged;
 // the shift then fades with a time constant of 3 s.
 #pragma once
@@ -18,16 +20,16 @@
 #include <vector>
 
 #include "engine/flight/controllers.h"
+#include "engine/flight/estimate_watch.h"
 #include "engine/flight/flight_path.h"
 #include "engine/flight/waypoints.h"
-#include "engine/simulation/approval_gate.h"
+#include "engine/simulation/command_gate.h"
 #include "engine/simulation/vehicle_navigator.h"
 
 namespace palace {
 
 struct AutopilotOptions {
-  std::uint64_t boot_id = 1;
-  std::optional<PublicKey> station_key{};  ///< whose approvals it obeys; none: unsigned ones too
+  VehicleTrust trust{};  ///< whom it obeys
   Eigen::Vector3d hover_p_WB = Eigen::Vector3d::Zero();
   double hover_yaw_rad = 0;
   Eigen::Vector3d p_BC = Eigen::Vector3d::Zero();  ///< left focal point in B
@@ -39,7 +41,7 @@ class Autopilot {
  public:
   explicit Autopilot(const AutopilotOptions& options);
 
-  void Receive(const VehicleMessage& message, Timestamp now);
+  void Receive(const VehicleMessage& message, const VehicleSituation& vehicle);
   /// The inertial step of the vision solution, 100 Hz; a_W with the bias removed.
   void Propagate(Timestamp now, const Eigen::Vector3d& a_W);
   /// One control step. `gps` carries attitude and rates, and position and velocity on GPS.
@@ -49,9 +51,13 @@ class Autopilot {
   bool flies_on_vision() const { return flies_on_vision_; }
   std::uint64_t approval_id() const { return approval_ ? approval_->id : 0; }
   std::vector<CommandAck> TakeAcks();
+  VehicleAuthority& authority() { return gate_.authority(); }
 
  private:
-  void ReceiveApproval(const Approval& approval, Timestamp now);
+  void ReceiveApproval(const Approval& approval, const VehicleSituation& vehicle);
+  void ReceiveRequest(const SessionRequest& request, Timestamp now);
+  /// Holds, and answers the approval that it flew with the reason.
+  void GiveUp(const std::string& why, Timestamp now);
   void ReceiveEstimate(const PositionEstimate& estimate, Timestamp now);
   void ReceiveHold(const HoldRequest& request, Timestamp now);
   void ReceiveAbort(const AbortRequest& request, Timestamp now);
@@ -71,7 +77,7 @@ class Autopilot {
   void EnterAbort(double target_down_m);
 
   AutopilotOptions options_;
-  ApprovalGate gate_;
+  CommandGate gate_;
   FlightController controller_;
   VehicleMode mode_ = VehicleMode::kHover;
   std::optional<Approval> approval_;
@@ -81,6 +87,7 @@ class Autopilot {
   FlightState flown_;
   bool flies_on_vision_ = false;
   std::optional<VisionNavigator> vision_;
+  EstimateWatch watch_;
   std::optional<PositionEstimate> last_estimate_;
   std::optional<Timestamp> last_arrival_;
   int estimates_seen_ = 0;

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "engine/core/random.h"
+
 namespace palace {
 namespace {
 
@@ -14,7 +16,7 @@ Result<SimulatedSession> OpenSimulatedSession(const SessionSpec& spec, SceneCame
   if (!scene) {
     return scene.error();
   }
-  SimulatedSession session{spec.seed, ApprovalSigner::FromSeed(spec.seed), std::move(*scene), {}};
+  SimulatedSession session{spec.seed, std::move(*scene), {}};
   SimulatorOptions options;
   options.scene = session.scene;
   options.seed = spec.seed;
@@ -23,8 +25,20 @@ Result<SimulatedSession> OpenSimulatedSession(const SessionSpec& spec, SceneCame
   options.speed = spec.speed;
   options.duration_limit_s = spec.duration_limit_s;
   options.render = spec.render;
-  options.station_key =
-      spec.other_station ? spec.other_station->key : std::optional(session.signer.public_key());
+  if (spec.other_stations) {
+    options.boot_id = RandomWord();
+    options.keys = spec.other_stations->keys;
+  } else {
+    // Of the seed, so that a flight repeats to the bit: never a key of a real vehicle.
+    const SecretKey key = SecretKey::FromSeed(spec.seed);
+    auto words = std::make_shared<RandomStream>(spec.seed, "station");
+    options.keys = {key};
+    options.own_station = StationTrust{.station_id = words->NextBits() | 1,
+                                       .station_name = "this station",
+                                       .key = key,
+                                       .key_name = "built in",
+                                       .random_word = [words] { return words->NextBits() | 1; }};
+  }
   session.simulator = std::make_shared<Simulator>(std::move(options), std::move(cameras));
   return session;
 }

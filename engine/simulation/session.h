@@ -1,4 +1,4 @@
-// A simulated session: scene, wind, vehicle and the key it obeys, from one seed. The one way to
+// A simulated session: scene, wind, vehicle and whom it obeys, from one seed. The one way to
 // assemble it, for window, experiments, `palacectl simulate` and tests.
 #pragma once
 
@@ -8,7 +8,7 @@
 
 #include "engine/core/result.h"
 #include "engine/simulation/simulator.h"
-#include "engine/trust/approval.h"
+#include "engine/trust/secret_key.h"
 
 namespace palace {
 
@@ -19,16 +19,16 @@ struct SessionSpec {
   double speed = 0;                 ///< times real time; 0 as fast as possible
   double duration_limit_s = 600;
   bool render = true;  ///< false: bundles carry no pictures
-  /// Where the station is another program: its key, or none to take unsigned approvals.
-  struct OtherStation {
-    std::optional<PublicKey> key{};
+  /// Where stations are other programs: whom the vehicle obeys. Its boot id, session ids and
+  /// challenges are random then.
+  struct OtherStations {
+    std::optional<std::vector<SecretKey>> keys{};  ///< none: whoever speaks is obeyed
   };
-  std::optional<OtherStation> other_station{};  ///< none: the vehicle obeys the session's signer
+  std::optional<OtherStations> other_stations{};  ///< none: the station in this program commands
 };
 
 struct SimulatedSession {
   std::uint64_t id = 1;
-  ApprovalSigner signer;  ///< the same for the same seed: never a key of a real vehicle
   World scene;
   std::shared_ptr<Simulator> simulator;
 };

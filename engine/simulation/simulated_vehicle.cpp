@@ -12,6 +12,7 @@ constexpr int kImuSteps = 2;
 constexpr int kControlSteps = 4;
 constexpr int kLaserSteps = 10;
 constexpr int kGpsSteps = 40;
+constexpr double kAuthorityPeriod_s = 1;
 
 Vector3d StartPosition(const SimulatorOptions& options) {
   const double ground = options.scene.ground.Height(options.start_north_m, options.start_east_m);
@@ -22,8 +23,14 @@ Timestamp LeadInStart() { return AddSeconds(Simulator::kEpoch, -SimulatedVehicle
 
 AutopilotOptions MakeAutopilotOptions(const SimulatorOptions& options, std::uint64_t boot_id) {
   AutopilotOptions result;
-  result.boot_id = boot_id;
-  result.station_key = options.station_key;
+  result.trust.boot_id = boot_id;
+  result.trust.takes_unsealed = !options.keys;
+  result.trust.keys = options.keys.value_or(std::vector<SecretKey>());
+  if (options.boot_id == 0) {
+    // The same flight for the same seed: no bus reaches it.
+    auto words = std::make_shared<RandomStream>(options.seed, "authority");
+    result.trust.random_word = [words] { return words->NextBits() | 1; };
+  }
   result.hover_p_WB = StartPosition(options);
   result.hover_yaw_rad = options.heading_rad;
   result.p_BC = options.rig.position_body_m;
@@ -31,7 +38,9 @@ AutopilotOptions MakeAutopilotOptions(const SimulatorOptions& options, std::uint
 }
 
 /// A number no earlier flight had: an approval for another flight is refused.
-std::uint64_t BootId(std::uint64_t seed) { return RandomStream(seed, "boot").NextBits() | 1; }
+std::uint64_t BootId(const SimulatorOptions& options) {
+  return options.boot_id != 0 ? options.boot_id : RandomStream(options.seed, "boot").NextBits() | 1;
+}
 
 }  // namespace
 
@@ -39,7 +48,7 @@ SimulatedVehicle::SimulatedVehicle(const SimulatorOptions& options)
     : world_(options.scene),
       X_BC_(options.rig.X_BC()),
       now_(LeadInStart()),
-      boot_id_(BootId(options.seed)),
+      boot_id_(BootId(options)),
       rotorcraft_(R50Hover(), StartPosition(options), options.heading_rad),
       wind_(options.wind, options.seed),
       imu_(ImuNoise{}, kImuRate_hz, options.seed),
@@ -53,12 +62,21 @@ SimulatedVehicle::SimulatedVehicle(const SimulatorOptions& options)
   AdvanceTo(Simulator::kEpoch, discarded);
 }
 
+void SimulatedVehicle::Receive(const VehicleMessage& message) {
+  autopilot_.Receive(message, {now_, navigator_.now().p_WB, ground_down_m_});
+}
+
 void SimulatedVehicle::AdvanceTo(Timestamp until, FrameBundle& bundle) {
   while (now_ < until) {
     Step(bundle);
   }
   for (CommandAck& ack : autopilot_.TakeAcks()) {
     bundle.acks.push_back(std::move(ack));
+  }
+  if (autopilot_.authority().TakeNews() ||
+      SecondsBetween(authority_told_, now_) >= kAuthorityPeriod_s) {
+    bundle.authority = autopilot_.authority().Report(now_);
+    authority_told_ = now_;
   }
 }
 
@@ -108,6 +126,8 @@ void SimulatedVehicle::StepSlowSensors(FrameBundle& bundle) {
   }
   if (step_ % kLaserSteps == 0) {
     bundle.laser.push_back(laser_.Measure(now_, world_, X_WB() * X_BC_));
+    const Vector3d p_C(0, 0, bundle.laser.back().range_m);
+    ground_down_m_ = (Pose().X_WB * X_BC_ * p_C).z();
   }
   if (step_ % kControlSteps == 0) {
     bundle.poses.push_back(Pose());

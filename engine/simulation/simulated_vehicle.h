@@ -24,12 +24,13 @@ class SimulatedVehicle {
   static constexpr double kLeadIn_s = 20;
   static constexpr std::int64_t kStep_us = 5'000;
 
-  void Receive(const VehicleMessage& message) { autopilot_.Receive(message, now_); }
+  void Receive(const VehicleMessage& message);
   /// Advances to the first grid point at or after `until`; appends every sample to the bundle.
   void AdvanceTo(Timestamp until, FrameBundle& bundle);
 
   Timestamp now() const { return now_; }
   std::uint64_t boot_id() const { return boot_id_; }
+  VehicleAuthority& authority() { return autopilot_.authority(); }
   RigidTransform X_WB() const { return {rotorcraft_.state().R_WB(), rotorcraft_.state().p_WB()}; }
   const std::optional<Touchdown>& touchdown() const { return touchdown_; }
   /// The navigation solution now.
@@ -59,6 +60,8 @@ class SimulatedVehicle {
   LaserSensor laser_;
   GpsNavigator navigator_;
   Autopilot autopilot_;
+  double ground_down_m_ = NAN;  ///< of the laser's newest spot
+  Timestamp authority_told_;
   StickCommand stick_;       ///< acting now
   StickCommand next_stick_;  ///< acts from the next control step on
   Eigen::Matrix3d attitude_;

@@ -35,9 +35,12 @@ struct Simulator::State {
     status.speed = options.speed;
     status.start = kEpoch;
     status.duration_s = options.duration_limit_s;
+    GrantOwnStation();
   }
 
   bool WaitForTurn(std::stop_token stop);
+  void GrantOwnStation();
+  Timestamp heard_at() const { return AddSeconds(kEpoch, heard_s); }
   Result<std::shared_ptr<const StereoFrame>> Expose();
   void Publish(bool ended);
 
@@ -54,9 +57,24 @@ struct Simulator::State {
   mutable std::mutex mutex;
   std::condition_variable_any changed;
   std::vector<VehicleMessage> inbox;
+  std::optional<StationSession> own_station;
+  double heard_s = 0;  ///< seconds of simulated time that the own station knows of
   SourceStatus status;
   int steps_wanted = 0;  ///< while paused
 };
+
+/// The very exchange of messages that goes over a bus, with both ends here.
+void Simulator::State::GrantOwnStation() {
+  if (!options.own_station) {
+    return;
+  }
+  own_station.emplace(*options.own_station);
+  own_station->Hear(vehicle.authority().Report(vehicle.now()), heard_s);
+  if (const std::optional<SessionRequest> request = own_station->Tick(heard_at(), heard_s)) {
+    vehicle.Receive(*request);
+    own_station->Hear(vehicle.authority().Report(vehicle.now()), heard_s);
+  }
+}
 
 /// Pacing only. False when stopped.
 bool Simulator::State::WaitForTurn(std::stop_token stop) {
@@ -201,6 +219,36 @@ void Simulator::Control(const PlaybackControl& control) {
 void Simulator::Send(const VehicleMessage& message) {
   const std::lock_guard lock(state_->mutex);
   state_->inbox.push_back(message);
+}
+
+void Simulator::Seal(VehicleMessage& message) {
+  const std::lock_guard lock(state_->mutex);
+  if (state_->own_station) {
+    state_->own_station->Seal(message, state_->heard_at(), state_->heard_s);
+  }
+}
+
+void Simulator::Hear(const FrameBundle& bundle) {
+  const std::lock_guard lock(state_->mutex);
+  state_->heard_s = SecondsBetween(kEpoch, bundle.time);
+  if (state_->own_station && bundle.authority) {
+    state_->own_station->Hear(*bundle.authority, state_->heard_s);
+  }
+}
+
+void Simulator::Announce(const EngineSnapshot&) {
+  const std::lock_guard lock(state_->mutex);
+  if (!state_->own_station) {
+    return;
+  }
+  if (auto request = state_->own_station->Tick(state_->heard_at(), state_->heard_s)) {
+    state_->inbox.push_back(std::move(*request));
+  }
+}
+
+AuthorityStatus Simulator::Authority() const {
+  const std::lock_guard lock(state_->mutex);
+  return state_->own_station ? state_->own_station->Status(state_->heard_s) : AuthorityStatus{};
 }
 
 std::uint64_t Simulator::boot_id() const { return state_->vehicle.boot_id(); }

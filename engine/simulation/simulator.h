@@ -16,7 +16,8 @@
 #include "engine/runtime/vehicle_link.h"
 #include "engine/simulation/scene_camera.h"
 #include "engine/simulation/wind.h"
-#include "engine/trust/approval.h"
+#include "engine/trust/station_session.h"
+#include "engine/trust/vehicle_authority.h"
 #include "engine/world/scene_library.h"
 #include "engine/world/world.h"
 
@@ -37,9 +38,14 @@ struct SimulatorOptions {
   double image_noise_grey = 2;       ///< standard deviation of the camera noise, grey levels
   double brightness_gain_right = 1;  ///< exposure of the right camera relative to the left
   double duration_limit_s = 600;
-  double speed = 0;    ///< times real time; 0 as fast as possible
-  bool render = true;  ///< false: bundles carry no pictures and no factory is needed
-  std::optional<PublicKey> station_key{};  ///< as ApprovalVerifier
+  double speed = 0;           ///< times real time; 0 as fast as possible
+  bool render = true;         ///< false: bundles carry no pictures and no factory is needed
+  std::uint64_t boot_id = 0;  ///< 0: of the seed
+  /// Pair keys of the stations that may command; none: whoever speaks is obeyed.
+  std::optional<std::vector<SecretKey>> keys{};
+  /// The station at this end of the link, which no bus reaches: it is granted command before the
+  /// first bundle.
+  std::optional<StationTrust> own_station{};
 };
 
 /// How the vehicle met the ground, by the truth.
@@ -65,6 +71,10 @@ class Simulator final : public Source, public VehicleLink {
   SourceStatus Status() const override;
   void Control(const PlaybackControl& control) override;
   void Send(const VehicleMessage& message) override;
+  void Seal(VehicleMessage& message) override;
+  void Hear(const FrameBundle& bundle) override;
+  void Announce(const EngineSnapshot& snapshot) override;
+  AuthorityStatus Authority() const override;
 
   /// Stamp of the moment simulated time starts at; the first bundle is one camera period later.
   static constexpr Timestamp kEpoch{1'000'000'000'000};

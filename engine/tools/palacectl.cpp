@@ -17,6 +17,7 @@
 #include "engine/tools/evaluate_command.h"
 #include "engine/tools/log_command.h"
 #include "engine/tools/simulate_command.h"
+#include "engine/tools/trust_command.h"
 #include "gui/platform/offscreen_scene_camera.h"
 
 namespace {
@@ -88,7 +89,8 @@ int main(int argc, char** argv) {
   palace::KeepFreedMemory();
   palace::InitLogging(false);
   CLI::App app(
-      "PALACE without a window: simulate, analyze, capture, calibrate, camera, evaluate, log",
+      "PALACE without a window: simulate, analyze, capture, calibrate, camera, evaluate, log, "
+      "trust",
       "palacectl");
   app.set_version_flag("--version", std::string("palacectl ") + palace::kProgramVersion);
   app.require_subcommand(1);
@@ -100,6 +102,7 @@ int main(int argc, char** argv) {
   palace::AddCameraCommand(app, exit_code);
   palace::AddEvaluateCommand(app, exit_code, palace::MakeOffscreenSceneCamera);
   palace::AddLogCommand(app, exit_code);
+  palace::AddTrustCommand(app, exit_code);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& done) {

@@ -9,6 +9,7 @@
 #include <string>
 #include <thread>
 #include <utility>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
@@ -17,6 +18,7 @@
 #include "engine/journal/log_index.h"
 #include "engine/journal/log_writer.h"
 #include "engine/simulation/session.h"
+#include "engine/trust/key_file.h"
 #include "engine/wire/bus.h"
 #include "engine/wire/channels.h"
 #include "engine/wire/convert.h"
@@ -32,7 +34,8 @@ struct SimulateOptions {
   std::optional<std::string> url;
   std::string log;
   std::string channels_file;
-  std::string station_key;
+  std::vector<std::string> keys;
+  bool insecure = false;
   double duration_s = 600;
   double wind_mps = 0;
   std::uint64_t seed = 1;
@@ -46,17 +49,25 @@ int Fail(const Error& error) {
   return error.code == ErrorCode::kUsage ? 2 : 1;
 }
 
-Result<PublicKey> ParseKey(const std::string& hex) {
-  PublicKey key{};
-  const bool digits = hex.find_first_not_of("0123456789abcdefABCDEF") == std::string::npos;
-  if (hex.size() != 2 * key.size() || !digits) {
-    return UsageError("--station-key takes 64 hexadecimal digits, not " +
-                      std::to_string(hex.size()) + " characters; the station shows its key");
+/// With a log and no URL the flight is only recorded, and is the seed's to the bit.
+bool IsOnABus(const SimulateOptions& options) { return options.url || options.log.empty(); }
+
+/// The keys of the stations that may command. --insecure: no seals are asked for.
+Result<SessionSpec::OtherStations> StationsOf(const SimulateOptions& options) {
+  SessionSpec::OtherStations stations;
+  if (!options.insecure) {
+    stations.keys.emplace();
   }
-  for (std::size_t i = 0; i < key.size(); ++i) {
-    key[i] = static_cast<std::uint8_t>(std::stoi(hex.substr(2 * i, 2), nullptr, 16));
+  for (const std::string& wanted : options.keys) {
+    const Result<NamedKey> key = FindKey(wanted, DefaultKeyFolder());
+    if (!key) {
+      return key.error();
+    }
+    stations.keys->push_back(key->key);
+    std::printf("key %s, fingerprint %s\n", key->name.c_str(),
+                FingerprintText(key->key.id()).c_str());
   }
-  return key;
+  return stations;
 }
 
 Result<SimulatedSession> OpenSession(const SimulateOptions& options, SceneCameraFactory cameras) {
@@ -65,16 +76,26 @@ Result<SimulatedSession> OpenSession(const SimulateOptions& options, SceneCamera
                    .wind_mps = options.wind_mps,
                    .speed = options.fast ? 0.0 : 1.0,
                    .duration_limit_s = options.duration_s,
-                   .render = !options.no_pictures,
-                   .other_station = SessionSpec::OtherStation{}};
-  if (!options.station_key.empty()) {
-    const Result<PublicKey> key = ParseKey(options.station_key);
-    if (!key) {
-      return key.error();
+                   .render = !options.no_pictures};
+  if (IsOnABus(options)) {
+    const Result<SessionSpec::OtherStations> stations = StationsOf(options);
+    if (!stations) {
+      return stations.error();
     }
-    spec.other_station->key = *key;
+    spec.other_stations = *stations;
   }
   return OpenSimulatedSession(spec, std::move(cameras));
+}
+
+/// What the vehicle will do with commands, said before it flies.
+void PrintTrust(const SimulateOptions& options) {
+  if (options.insecure) {
+    std::printf("INSECURE: seals are not checked, whoever is on the bus may fly this vehicle\n");
+    std::fprintf(stderr, "palacectl simulate: --insecure: any command on the bus is obeyed\n");
+  } else if (options.keys.empty()) {
+    std::printf("no key: every command but ABORT is refused; give --key NAME or --insecure\n");
+  }
+  std::fflush(stdout);
 }
 
 /// Flies until the end, a signal or an error.
@@ -135,8 +156,7 @@ int Simulate(const SimulateOptions& options, const SceneCameraFactory& cameras) 
     return Fail(channels.error());
   }
   std::unique_ptr<VehicleServer> server;
-  // With a log and no URL the flight is only recorded; otherwise it goes to the bus.
-  if (options.url || options.log.empty()) {
+  if (IsOnABus(options)) {
     Result<std::shared_ptr<Bus>> bus = Bus::Open(options.url.value_or(""));
     if (!bus) {
       return Fail(bus.error());
@@ -149,9 +169,9 @@ int Simulate(const SimulateOptions& options, const SceneCameraFactory& cameras) 
       return Fail(made.error());
     }
     server = std::move(*made);
-    std::printf("%s on %s, seed %llu%s\n", options.scenario.c_str(), (*bus)->url().c_str(),
-                static_cast<unsigned long long>(options.seed),
-                options.station_key.empty() ? "; signatures are not checked" : "");
+    std::printf("%s on %s, seed %llu\n", options.scenario.c_str(), (*bus)->url().c_str(),
+                static_cast<unsigned long long>(options.seed));
+    PrintTrust(options);
   }
   std::optional<LogWriter> log;
   if (!options.log.empty()) {
@@ -177,9 +197,10 @@ int Simulate(const SimulateOptions& options, const SceneCameraFactory& cameras) 
   }
   std::printf("%llu bundles", static_cast<unsigned long long>(*bundles));
   if (server) {
-    std::printf(", %llu messages from the station, %llu refused",
+    std::printf(", %llu messages from stations, %llu could not be read%s%s",
                 static_cast<unsigned long long>(server->received()),
-                static_cast<unsigned long long>(server->refused()));
+                static_cast<unsigned long long>(server->refused()),
+                server->refusal().empty() ? "" : ", the last: ", server->refusal().c_str());
   }
   std::printf("\n");
   PrintTouchdown(simulator);
@@ -207,8 +228,13 @@ void AddSimulateCommand(CLI::App& app, int& exit_code, SceneCameraFactory camera
       ->check(FiniteRange(0, 50));
   command->add_option("--log", options->log, "Record to this LCM log (and its .idx)");
   command->add_option("--channels", options->channels_file, "Channel names (TOML)");
-  command->add_option("--station-key", options->station_key,
-                      "Public key of the station, 64 hex digits; refuses unsigned approvals");
+  CLI::Option* key = command->add_option("--key", options->keys,
+                                         "Key of a station that may command: a name (palacectl "
+                                         "trust list) or a file; may be repeated");
+  command
+      ->add_flag("--insecure", options->insecure,
+                 "Obey unsealed commands of anybody on the bus: for a bench alone")
+      ->excludes(key);
   CLI::Option* realtime =
       command->add_flag("--realtime", options->realtime, "Simulated time is real time (default)");
   command->add_flag("--fast", options->fast, "As fast as possible")->excludes(realtime);

@@ -1,66 +1,143 @@
 #include "engine/trust/approval_verifier.h"
 
-#include <cmath>
+#include <numbers>
 
 namespace palace {
 namespace {
 
-bool IsFinite(const Approval& a) {
-  return a.p_WS.allFinite() && std::isfinite(a.approach_heading_rad) &&
-         std::isfinite(a.glide_slope_rad) && std::isfinite(a.descent_rate_mps) &&
-         std::isfinite(a.clear_radius_m);
+using Limits = ApprovalLimits;
+constexpr double kTurn_rad = 2 * std::numbers::pi;
+constexpr double kUpright_rad = std::numbers::pi / 2 + 1e-5;
+constexpr double kFastest_mps = 5;
+constexpr double kGroundSlack_m = 5;
+constexpr double kGroundRise = 0.6;  ///< per metre of distance: 31 degrees
+
+std::string WhyNoNumber(const Approval& a) {
+  if (!a.p_WS.allFinite()) {
+    return "The site's position is not a number";
+  }
+  const std::pair<double, const char*> values[] = {
+      {a.approach_heading_rad, "The approach heading is not a number"},
+      {a.glide_slope_rad, "The glide slope is not a number"},
+      {a.descent_rate_mps, "The descent rate is not a number"},
+      {a.clear_radius_m, "The clear radius is not a number"}};
+  for (const auto& [value, words] : values) {
+    if (!std::isfinite(value)) {
+      return words;
+    }
+  }
+  return {};
 }
 
-std::vector<std::uint8_t> BytesOf(const Approval& approval) {
-  std::vector<std::uint8_t> bytes = EncodeApproval(approval);
-  bytes.insert(bytes.end(), approval.signature.begin(), approval.signature.end());
-  return bytes;
+std::string WhyNotInTime(const Approval& a, Timestamp now) {
+  // Compared as integers: stamps of an attacker may be any.
+  constexpr auto us = [](double seconds) { return static_cast<std::int64_t>(seconds * 1e6); };
+  constexpr std::int64_t kFar_us = std::int64_t{1} << 60;
+  for (const Timestamp t : {a.approved_at, a.expires_at}) {
+    if (t.us < 0 || t.us > kFar_us) {
+      return "Its times are out of range";
+    }
+  }
+  if (a.expires_at <= a.approved_at || now >= a.expires_at) {
+    return "Expired";
+  }
+  if (a.expires_at.us - a.approved_at.us > us(Limits::kLongest_s)) {
+    return "Valid for longer than 120 s";
+  }
+  return a.approved_at.us - now.us > us(Limits::kAhead_s)
+             ? "Given more than 1 s ahead of the vehicle's clock"
+             : "";
+}
+
+std::string WhyOutOfReach(const Approval& a, const VehicleSituation& vehicle) {
+  const Eigen::Vector3d away = a.p_WS - vehicle.p_WB;
+  const double distance_m = away.head<2>().norm();
+  if (distance_m > Limits::kReach_m) {
+    return "The site is more than 100 m away";
+  }
+  if (away.z() < 0) {
+    return "The site is above the vehicle";
+  }
+  if (away.z() > Limits::kDeepest_m) {
+    return "The site is more than 100 m below the vehicle";
+  }
+  const double off_ground_m = std::abs(a.p_WS.z() - vehicle.ground_down_m);
+  return std::isfinite(vehicle.ground_down_m) &&
+                 off_ground_m > kGroundSlack_m + kGroundRise * distance_m
+             ? "The site is not at the height of the ground"
+             : "";
+}
+
+std::string WhyNotFlyable(const Approval& a) {
+  if (std::abs(a.approach_heading_rad) > kTurn_rad) {
+    return "The approach heading is more than one turn";
+  }
+  if (!(a.glide_slope_rad > 0 && a.glide_slope_rad <= kUpright_rad)) {
+    return "The glide slope is outside 0 to 90 degrees";
+  }
+  if (!(a.descent_rate_mps > 0 && a.descent_rate_mps <= kFastest_mps)) {
+    return "The descent rate is outside 0 to 5 m/s";
+  }
+  return a.clear_radius_m >= Limits::kLeastRadius_m && a.clear_radius_m <= Limits::kMostRadius_m
+             ? ""
+             : "The clear radius is outside 0.5 to 25 m";
+}
+
+std::string WhyUnbound(const Approval& a) {
+  if (a.id == 0) {
+    return "The approval has no id";
+  }
+  if (a.site_id == 0) {
+    return "The approval names no site";
+  }
+  const bool bound = a.map_hash != 0 && a.settings_hash != 0 && a.calibration_hash != 0;
+  return bound ? "" : "The approval names no map, limits or calibration";
+}
+
+/// Its fields as they are sealed, with the seal left out.
+std::vector<std::uint8_t> FieldsOf(Approval approval) {
+  approval.seal = {};
+  return SealedBytes(approval);
 }
 
 }  // namespace
 
-ApprovalVerifier::ApprovalVerifier(std::uint64_t boot_id, std::optional<PublicKey> station_key)
-    : boot_id_(boot_id), station_key_(station_key) {}
-
-std::string ApprovalVerifier::WhyRefused(const Approval& approval, Timestamp vehicle_now) const {
-  if (station_key_ && !IsSignedBy(*station_key_, approval)) {
-    return "Signature does not match";
-  }
-  if (!IsFinite(approval)) {
-    return "A value is not finite";
-  }
-  if (approval.id == 0) {
-    return "The approval has no id";
-  }
-  if (approval.vehicle_boot_id != boot_id_) {
-    return "Given for another start of this vehicle";
-  }
-  const auto last = last_counter_.find(approval.session_id);
-  if (station_key_ && !last_counter_.empty() && last == last_counter_.end()) {
-    return "Given by another session";
-  }
-  if (last != last_counter_.end() && approval.counter <= last->second) {
-    return "Counter " + std::to_string(approval.counter) + " was already used";
-  }
-  if (approval.expires_at <= approval.approved_at || vehicle_now >= approval.expires_at) {
-    return "Expired";
+std::string WhyNoSense(const Approval& a, const VehicleSituation& vehicle) {
+  for (const std::string& why : {WhyNoNumber(a), WhyUnbound(a), WhyNotInTime(a, vehicle.now),
+                                 WhyOutOfReach(a, vehicle), WhyNotFlyable(a)}) {
+    if (!why.empty()) {
+      return why;
+    }
   }
   return {};
 }
 
-std::string ApprovalVerifier::Verify(const Approval& approval, Timestamp vehicle_now) {
-  std::string why = WhyRefused(approval, vehicle_now);
+std::string ApprovalVerifier::WhyRefused(const Approval& approval,
+                                         const VehicleSituation& vehicle) const {
+  std::string why =
+      authority_.WhyRefused(SealedChannel::kCommand, SealedBytes(approval), approval.seal);
   if (!why.empty()) {
-    ++refused_;
     return why;
   }
-  last_counter_[approval.session_id] = approval.counter;
-  last_accepted_ = BytesOf(approval);
-  return {};
+  return approval.vehicle_boot_id != authority_.boot_id()
+             ? "Given for another start of this vehicle"
+             : WhyNoSense(approval, vehicle);
+}
+
+std::string ApprovalVerifier::Verify(const Approval& approval, const VehicleSituation& vehicle) {
+  std::string why = WhyRefused(approval, vehicle);
+  if (why.empty()) {
+    (void)authority_.Check(SealedChannel::kCommand, SealedBytes(approval), approval.seal,
+                           vehicle.now);
+    last_accepted_ = FieldsOf(approval);
+  }
+  return why;
 }
 
 bool ApprovalVerifier::IsRepeat(const Approval& approval) const {
-  return !last_accepted_.empty() && BytesOf(approval) == last_accepted_;
+  return !last_accepted_.empty() && FieldsOf(approval) == last_accepted_ &&
+         (authority_.takes_unsealed() ||
+          authority_.IsOfSession(SealedBytes(approval), approval.seal));
 }
 
 }  // namespace palace

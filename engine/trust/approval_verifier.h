@@ -1,46 +1,65 @@
-// ApprovalVerifier: the vehicle's side of an approval, for every vehicle alike. A station cannot
-// enforce I1, I4, I8 and I9 alone.
+// ApprovalVerifier: what every vehicle demands of an approval before it obeys (I1, I4, I8, I9),
+// besides what it can fly itself. A station cannot enforce these alone.
 //
-//   accepted  signed by the station's key, finite, for this start of the vehicle, of the session
-//             whose approval was accepted first, with a counter above all accepted ones of its
-//             session, and before its expiry: approved_at < expires_at and now < expires_at
-//   repeated  the very approval accepted last, once more: its answer was lost on the way. It is
-//             answered as accepted and nothing else happens (I8), whatever the time
-//   refused   everything else, with the reason; nothing is remembered but the count
+//   accepted  sealed in the session that commands, for this start of the vehicle, every number
+//             finite and of sense (the table below), and before its expiry
+//   repeated  the approval accepted last, once more or sealed anew: its answer was lost on the
+//             way. It is answered as accepted and nothing else happens (I8), whatever the time
+//   refused   everything else, with the reason
+//
+//   expires_at           after approved_at, by at most kLongest_s; the vehicle's now is before it
+//   approved_at          at most kAhead_s ahead of the vehicle's clock
+//   site                 at most kReach_m away horizontally, not above the vehicle, at most
+//                        kDeepest_m below it, and within 5 m + 0.6 of the distance of the ground's
+//                        height below the vehicle, where that is known
+//   approach             heading within one turn, glide slope 0 to 90 degrees, rate up to 5 m/s
+//   clear radius         kLeastRadius_m to kMostRadius_m
+//   id, site and hashes  not 0
 #pragma once
 
+#include <cmath>
 #include <cstdint>
-#include <map>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "engine/core/time.h"
-#include "engine/trust/approval.h"
+#include "engine/trust/vehicle_authority.h"
 
 namespace palace {
 
+struct ApprovalLimits {
+  static constexpr double kLongest_s = 120;
+  static constexpr double kAhead_s = 1;
+  static constexpr double kReach_m = 100;
+  static constexpr double kDeepest_m = 100;
+  static constexpr double kLeastRadius_m = 0.5;
+  static constexpr double kMostRadius_m = 25;
+};
+
+/// Where the vehicle is, by its own solution, when the approval arrives.
+struct VehicleSituation {
+  Timestamp now;
+  Eigen::Vector3d p_WB = Eigen::Vector3d::Zero();
+  double ground_down_m = NAN;  ///< of the ground below it, W's down axis; NaN: not known
+};
+
+/// What speaks against the numbers of an approval; empty when nothing does.
+std::string WhyNoSense(const Approval& approval, const VehicleSituation& vehicle);
+
 class ApprovalVerifier {
  public:
-  /// `boot_id`: of this start of the vehicle. Without a key no signature is asked for, and as
-  /// nothing then tells who speaks, any session may follow any other: for a bench only.
-  ApprovalVerifier(std::uint64_t boot_id, std::optional<PublicKey> station_key);
+  /// `authority` outlives it. Where it takes unsealed messages, seals are not asked for.
+  explicit ApprovalVerifier(VehicleAuthority& authority) : authority_(authority) {}
 
   /// Empty: accepted, and its counter is spent. Otherwise the reason, in words for the operator.
-  std::string Verify(const Approval& approval, Timestamp vehicle_now);
+  std::string Verify(const Approval& approval, const VehicleSituation& vehicle);
   /// What Verify would answer; nothing is remembered.
-  std::string WhyRefused(const Approval& approval, Timestamp vehicle_now) const;
-  /// Another copy of the approval accepted last. Ask before Verify, which refuses it.
+  std::string WhyRefused(const Approval& approval, const VehicleSituation& vehicle) const;
+  /// The approval accepted last, once more. Ask before Verify, which refuses it.
   bool IsRepeat(const Approval& approval) const;
-  std::uint64_t boot_id() const { return boot_id_; }
-  std::uint64_t refused() const { return refused_; }
 
  private:
-  std::uint64_t boot_id_;
-  std::optional<PublicKey> station_key_;
-  std::map<std::uint64_t, std::uint64_t> last_counter_;  ///< accepted, per session
-  std::vector<std::uint8_t> last_accepted_;              ///< its signed bytes and its signature
-  std::uint64_t refused_ = 0;
+  VehicleAuthority& authority_;
+  std::vector<std::uint8_t> last_accepted_;  ///< its fields, without the seal
 };
 
 }  // namespace palace

@@ -7,6 +7,7 @@
 #include "engine/wire/convert.h"
 #include "engine/wire/decode.h"
 #include "engine/wire/sensor_messages.h"
+#include "engine/wire/session_messages.h"
 
 namespace palace {
 namespace {
@@ -123,6 +124,9 @@ Status BundleAssembler::TakeSample(const WireMessage& message) {
   }
   if (channel == channels_.vehicle_status) {
     return take(StatusFromWire(message), [&](VehicleStatus s) { pending_.status = s; });
+  }
+  if (channel == channels_.authority) {
+    return take(AuthorityFromWire(message), [&](AuthorityReport r) { pending_.authority = r; });
   }
   if (channel == channels_.truth) {
     return take(DecodeTruth(message), [&](Truth t) { keep_in(pending_.truth, t); });

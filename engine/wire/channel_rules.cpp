@@ -24,10 +24,12 @@ const std::array kRules = {
     Rule{&ChannelNames::laser_range, {256, 512, 1u << 20, 100, 1}},
     Rule{&ChannelNames::vehicle_status, {1024, 512, 1u << 20, 20, 1}},
     Rule{&ChannelNames::command_ack, {4096, 512, 1u << 20, 20, 0}},
+    Rule{&ChannelNames::authority, {1024, 64, 1u << 18, 20, 0}},
     Rule{&ChannelNames::truth, {256, 512, 1u << 20, 400, 1}},
-    // To the vehicle: any number of stations, of which signatures tell the one that may.
+    // To the vehicle: any number of stations, of which seals tell the one that may.
     Rule{&ChannelNames::command, {4096, 256, 1u << 20, 20, 0}},
     Rule{&ChannelNames::position_estimate, {1024, 256, 1u << 20, 60, 0}},
+    Rule{&ChannelNames::session_request, {1024, 64, 1u << 18, 20, 0}},
     Rule{&ChannelNames::abort, {4096, 256, 1u << 20, 20, 0}},
 };
 

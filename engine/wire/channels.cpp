@@ -32,6 +32,7 @@ const std::vector<Row>& Rows() {
       {"laser_range", &N::laser_range},
       {"vehicle_status", &N::vehicle_status},
       {"command_ack", &N::command_ack},
+      {"authority", &N::authority},
       {"truth", &N::truth},
       {"arrival", &N::arrival},
       {"mission", &N::mission},
@@ -42,6 +43,7 @@ const std::vector<Row>& Rows() {
       {"position_estimate", &N::position_estimate},
       {"tracker_status", &N::tracker_status},
       {"station_status", &N::station_status},
+      {"session_request", &N::session_request},
       {"abort", &N::abort},
       {"event", &N::event},
       {"refused", &N::refused},
@@ -110,12 +112,12 @@ Result<ChannelNames> FromTable(const toml::table& root, const std::string& origi
 }  // namespace
 
 std::vector<std::string> ChannelNames::FromVehicle() const {
-  return {camera_left, camera_right, camera_rig,     vehicle_pose, imu,
-          gps,         laser_range,  vehicle_status, command_ack,  truth};
+  return {camera_left, camera_right,   camera_rig,  vehicle_pose, imu,  gps,
+          laser_range, vehicle_status, command_ack, authority,    truth};
 }
 
 std::vector<std::string> ChannelNames::ToVehicle() const {
-  return {command, position_estimate, abort};
+  return {command, position_estimate, session_request, abort};
 }
 
 Result<ChannelNames> ParseChannels(std::string_view text, const std::string& origin) {

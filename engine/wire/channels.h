@@ -21,6 +21,7 @@ struct ChannelNames {
   std::string laser_range = "LASER_RANGE";
   std::string vehicle_status = "VEHICLE_STATUS";
   std::string command_ack = "COMMAND_ACK";
+  std::string authority = "AUTHORITY";
   std::string truth = "TRUTH";
   std::string arrival = "ARRIVAL";  ///< in recordings only
   // From the station.
@@ -32,6 +33,7 @@ struct ChannelNames {
   std::string position_estimate = "POSITION_ESTIMATE";
   std::string tracker_status = "TRACKER_STATUS";
   std::string station_status = "STATION_STATUS";
+  std::string session_request = "SESSION_REQUEST";
   std::string abort = "ABORT";
   std::string event = "EVENT";
   std::string refused = "REFUSED";  ///< in recordings only
@@ -39,7 +41,7 @@ struct ChannelNames {
   friend bool operator==(const ChannelNames&, const ChannelNames&) = default;
   /// The channels a station listens to.
   std::vector<std::string> FromVehicle() const;
-  /// The channels a vehicle listens to: COMMAND, POSITION_ESTIMATE, ABORT.
+  /// The channels a vehicle listens to: COMMAND, POSITION_ESTIMATE, SESSION_REQUEST, ABORT.
   std::vector<std::string> ToVehicle() const;
 };
 

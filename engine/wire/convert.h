@@ -25,9 +25,13 @@ std::vector<WireMessage> EncodeBundle(const FrameBundle& bundle, const ChannelNa
 
 WireMessage EncodeVehicleMessage(const VehicleMessage& message, Timestamp now,
                                  const ChannelNames& channels);
-/// From COMMAND, POSITION_ESTIMATE or ABORT. Positions must be finite.
+/// From COMMAND, POSITION_ESTIMATE, SESSION_REQUEST or ABORT. A healthy estimate must be finite;
+/// numbers of an approval need not: who checks it says which is not.
 Result<VehicleMessage> DecodeVehicleMessage(const WireMessage& message,
                                             const ChannelNames& channels);
+
+/// The vehicle's answer to a command.
+WireMessage EncodeAck(const CommandAck& ack, const ChannelNames& channels);
 
 WireMessage EncodeCommand(const EngineCommand& command, Timestamp now,
                           const ChannelNames& channels);

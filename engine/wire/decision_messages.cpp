@@ -38,6 +38,14 @@ struct ActionToWire {
     m.kind = site_decision_t::BOOKMARK;
     m.text = a.note;
   }
+  void operator()(const AskForCommand& a) const {
+    m.kind = a.take_over ? site_decision_t::TAKE_OVER : site_decision_t::ASK_FOR_COMMAND;
+  }
+  void operator()(const ReleaseCommand&) const { m.kind = site_decision_t::RELEASE_COMMAND; }
+  void operator()(const CommandLost& a) const {
+    m.kind = site_decision_t::COMMAND_LOST;
+    m.text = a.why;
+  }
 
  private:
   void Site(std::int8_t kind, std::uint64_t id) const {
@@ -73,8 +81,15 @@ Result<CommandAction> ActionFromWire(const site_decision_t& m) {
       return CommandAction(AcknowledgeWaveOff{});
     case site_decision_t::BOOKMARK:
       return CommandAction(AddBookmark{m.text});
+    case site_decision_t::ASK_FOR_COMMAND:
+    case site_decision_t::TAKE_OVER:
+      return CommandAction(AskForCommand{m.kind == site_decision_t::TAKE_OVER});
+    case site_decision_t::RELEASE_COMMAND:
+      return CommandAction(ReleaseCommand{});
+    case site_decision_t::COMMAND_LOST:
+      return CommandAction(CommandLost{m.text});
     default:
-      return InvalidError("decision kind " + std::to_string(m.kind) + " is not one of 0..11");
+      return InvalidError("decision kind " + std::to_string(m.kind) + " is not one of 0..15");
   }
 }
 
@@ -91,8 +106,8 @@ WireMessage EncodeCommand(const EngineCommand& command, Timestamp now,
 
 Result<EngineCommand> DecodeCommand(const WireMessage& message) {
   return DecodeAnd<site_decision_t>(message, [](const site_decision_t& m) -> Result<EngineCommand> {
-    if (m.origin < 0 || m.origin > 2) {
-      return InvalidError("decision origin " + std::to_string(m.origin) + " is not one of 0..2");
+    if (m.origin < 0 || m.origin > 3) {
+      return InvalidError("decision origin " + std::to_string(m.origin) + " is not one of 0..3");
     }
     Result<CommandAction> action = ActionFromWire(m);
     if (!action) {

@@ -157,6 +157,7 @@ std::vector<std::uint8_t> EncodePayload(const T& message) {
   template std::vector<std::uint8_t> EncodePayload<type>(const type&);
 
 PALACE_WIRE_TYPE(abort_t)
+PALACE_WIRE_TYPE(authority_t)
 PALACE_WIRE_TYPE(camera_rig_t)
 PALACE_WIRE_TYPE(command_ack_t)
 PALACE_WIRE_TYPE(command_t)
@@ -169,6 +170,7 @@ PALACE_WIRE_TYPE(mission_t)
 PALACE_WIRE_TYPE(pose_t)
 PALACE_WIRE_TYPE(position_estimate_t)
 PALACE_WIRE_TYPE(refused_t)
+PALACE_WIRE_TYPE(session_request_t)
 PALACE_WIRE_TYPE(site_decision_t)
 PALACE_WIRE_TYPE(site_proposal_t)
 PALACE_WIRE_TYPE(slad_settings_t)

@@ -1,5 +1,6 @@
 #include "engine/model/camera_numbers.h"
 #include "engine/wire/convert.h"
+#include "engine/wire/session_messages.h"
 #include "engine/wire/wire_fields.h"
 #include "engine/wire/wire_pack.h"
 
@@ -169,6 +170,15 @@ camera_rig_t BundleEnd(const FrameBundle& bundle) {
 
 }  // namespace
 
+WireMessage EncodeAck(const CommandAck& ack, const ChannelNames& channels) {
+  command_ack_t m{};
+  m.utime = ack.time.us;
+  m.command_id = WireId(ack.command_id);
+  m.result = static_cast<std::int8_t>(ack.result);
+  m.reason = ack.reason;
+  return MakeMessage(channels.command_ack, ack.time, m);
+}
+
 std::vector<WireMessage> EncodeBundle(const FrameBundle& bundle, const ChannelNames& channels) {
   const Timestamp now = bundle.time;
   std::vector<WireMessage> messages;
@@ -191,12 +201,11 @@ std::vector<WireMessage> EncodeBundle(const FrameBundle& bundle, const ChannelNa
     messages.push_back(MakeMessage(channels.vehicle_status, now, StatusToWire(*bundle.status)));
   }
   for (const CommandAck& ack : bundle.acks) {
-    command_ack_t m{};
-    m.utime = ack.time.us;
-    m.command_id = WireId(ack.command_id);
-    m.result = static_cast<std::int8_t>(ack.result);
-    m.reason = ack.reason;
-    messages.push_back(MakeMessage(channels.command_ack, now, m));
+    messages.push_back(EncodeAck(ack, channels));
+    messages.back().time = now;
+  }
+  if (bundle.authority) {
+    messages.push_back(MakeMessage(channels.authority, now, AuthorityToWire(*bundle.authority)));
   }
   for (const Truth& truth : bundle.truth) {
     messages.push_back(MakeMessage(channels.truth, now, TruthToWire(truth)));

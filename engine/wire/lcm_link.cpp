@@ -1,5 +1,8 @@
 #include "engine/wire/lcm_link.h"
 
+#include <algorithm>
+#include <cmath>
+#include <optional>
 #include <utility>
 
 #include "engine/wire/channel_rules.h"
@@ -7,16 +10,107 @@
 
 namespace palace {
 namespace {
+
+constexpr double kAnswerPeriod_s = 1;
 constexpr int kMostAtOnce = 1000;  ///< a flood must not keep Poll from returning
+
+/// "APPROVE on COMMAND", for people.
+std::string WordsOf(const VehicleMessage& message, const std::string& channel) {
+  const char* what = std::holds_alternative<Approval>(message)           ? "APPROVE"
+                     : std::holds_alternative<HoldRequest>(message)      ? "HOLD"
+                     : std::holds_alternative<PositionEstimate>(message) ? "an estimate"
+                                                                         : "ABORT (open by design)";
+  return what + (" on " + channel);
 }
 
-LcmLink::LcmLink(std::shared_ptr<Bus> bus, ChannelNames channels)
-    : bus_(std::move(bus)), channels_(channels), outputs_(channels) {}
+}  // namespace
+
+LcmLink::LcmLink(std::shared_ptr<Bus> bus, ChannelNames channels, StationTrust trust)
+    : bus_(std::move(bus)), channels_(channels), outputs_(channels), session_(std::move(trust)) {}
+
+LcmLink::~LcmLink() {
+  if (session_.Holds()) {
+    SessionRequest request;
+    request.kind = SessionRequest::Kind::kRelease;
+    VehicleMessage release = request;
+    Seal(release);
+    Send(release);
+  }
+}
+
+void LcmLink::Seal(VehicleMessage& message) {
+  const std::lock_guard lock(mutex_);
+  session_.Seal(message, {newest_us_}, MonotonicSeconds());
+}
+
+void LcmLink::Hear(const FrameBundle& bundle) {
+  const double now_s = MonotonicSeconds();
+  const std::lock_guard lock(mutex_);
+  if (bundle.status) {
+    session_.HearVehicle(now_s);
+  }
+  if (bundle.authority) {
+    session_.Hear(*bundle.authority, now_s);
+  }
+}
+
+AuthorityStatus LcmLink::Authority() const {
+  const double now_s = MonotonicSeconds();
+  const std::lock_guard lock(mutex_);
+  AuthorityStatus status = session_.Status(now_s);
+  status.foreign = foreign_;
+  status.foreign.age_s = foreign_.count > 0 ? now_s - foreign_s_ : NAN;
+  return status;
+}
+
+bool LcmLink::IsOwnAbort(std::uint64_t id) const {
+  return std::find(own_aborts_.begin(), own_aborts_.end(), id) != own_aborts_.end();
+}
+
+void LcmLink::Overhear(const WireMessage& message) {
+  const double now_s = MonotonicSeconds();
+  const Result<VehicleMessage> decoded = DecodeVehicleMessage(message, channels_);
+  if (decoded && std::holds_alternative<SessionRequest>(*decoded)) {
+    return;  // the vehicle's report tells who asked, and what became of it
+  }
+  const std::lock_guard lock(mutex_);
+  if (decoded) {
+    const auto* abort = std::get_if<AbortRequest>(&*decoded);
+    const bool own =
+        abort != nullptr ? IsOwnAbort(abort->command_id) : session_.IsOwn(*decoded, now_s);
+    if (own || session_.IsOfHolder(*decoded)) {
+      return;
+    }
+  }
+  ++foreign_.count;
+  foreign_.what =
+      decoded ? WordsOf(*decoded, message.channel) : "unreadable bytes on " + message.channel;
+  foreign_.from = message.sender;
+  foreign_s_ = now_s;
+}
+
+void LcmLink::KeepSession() {
+  std::optional<SessionRequest> request;
+  {
+    const std::lock_guard lock(mutex_);
+    request = session_.Tick({newest_us_}, MonotonicSeconds());
+  }
+  if (request) {
+    Publish(EncodeVehicleMessage(*request, {newest_us_}, channels_));
+  }
+}
 
 void LcmLink::Send(const VehicleMessage& message) {
+  if (const auto* abort = std::get_if<AbortRequest>(&message)) {
+    const std::lock_guard lock(mutex_);
+    own_aborts_[aborts_sent_++ % own_aborts_.size()] = abort->command_id;
+  }
   // Holds and aborts carry no time of their own: they are stamped with the newest seen.
   if (const auto* estimate = std::get_if<PositionEstimate>(&message)) {
     newest_us_ = estimate->time.us;
+    if (estimate->seal.session_id == 0) {
+      return;  // no vehicle takes it, and whoever commands would hear a stranger
+    }
   } else if (const auto* approval = std::get_if<Approval>(&message)) {
     newest_us_ = approval->approved_at.us;
   }
@@ -28,6 +122,7 @@ void LcmLink::Announce(const EngineSnapshot& snapshot) {
   for (const WireMessage& message : outputs_.Encode(snapshot)) {
     Publish(message);
   }
+  KeepSession();
 }
 
 void LcmLink::Publish(const WireMessage& message) {
@@ -59,10 +154,21 @@ void VehicleServer::Take(const WireMessage& message) {
   const Result<VehicleMessage> decoded = DecodeVehicleMessage(message, channels_);
   if (!decoded) {
     ++refused_;
+    refusal_ = decoded.error().message;
+    AnswerUnread(message);
     return;
   }
   ++received_;
   vehicle_.Send(*decoded);
+}
+
+void VehicleServer::AnswerUnread(const WireMessage& message) {
+  const double now_s = MonotonicSeconds();
+  if (message.channel != channels_.command || now_s - answered_s_ < kAnswerPeriod_s) {
+    return;
+  }
+  answered_s_ = now_s;
+  (void)bus_->Publish(EncodeAck({{newest_us_}, 0, AckResult::kRefused, refusal_}, channels_));
 }
 
 Status VehicleServer::Poll(int timeout_ms) {
@@ -77,6 +183,7 @@ Status VehicleServer::Poll(int timeout_ms) {
 }
 
 Status VehicleServer::Publish(const FrameBundle& bundle) {
+  newest_us_ = bundle.time.us;
   for (const WireMessage& message : EncodeBundle(bundle, channels_)) {
     const Status published = bus_->Publish(message);
     if (!published) {

@@ -1,6 +1,7 @@
 // LcmLink: the way to a vehicle on an LCM bus, and its counterpart on the vehicle's side.
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <cstdint>
 #include <memory>
@@ -9,17 +10,26 @@
 
 #include "engine/model/snapshot.h"
 #include "engine/runtime/vehicle_link.h"
+#include "engine/trust/station_session.h"
 #include "engine/wire/bus.h"
 #include "engine/wire/channels.h"
 #include "engine/wire/output_encoder.h"
 
 namespace palace {
 
-/// Publishes POSITION_ESTIMATE, COMMAND and ABORT. Any thread may send.
+/// Publishes POSITION_ESTIMATE, COMMAND, SESSION_REQUEST and ABORT. Any thread may send. Keeps the
+/// session with the vehicle; estimates leave only while this station commands.
 class LcmLink final : public VehicleLink {
  public:
-  explicit LcmLink(std::shared_ptr<Bus> bus, ChannelNames channels = {});
+  explicit LcmLink(std::shared_ptr<Bus> bus, ChannelNames channels = {}, StationTrust trust = {});
+  /// Gives command back, if this station has it.
+  ~LcmLink() override;
   void Send(const VehicleMessage& message) override;
+  void Seal(VehicleMessage& message) override;
+  void Hear(const FrameBundle& bundle) override;
+  AuthorityStatus Authority() const override;
+  /// A message to the vehicle that was heard on the bus: own ones come back too. Any thread.
+  void Overhear(const WireMessage& message);
   /// The station's own news: MISSION, SLAD_SETTINGS, SITE_PROPOSAL, TRACKER_STATUS, STATION_STATUS,
   /// EVENT. One thread.
   void Announce(const EngineSnapshot& snapshot) override;
@@ -29,10 +39,18 @@ class LcmLink final : public VehicleLink {
 
  private:
   void Publish(const WireMessage& message);
+  void KeepSession();
+  bool IsOwnAbort(std::uint64_t id) const;
 
   std::shared_ptr<Bus> bus_;
   ChannelNames channels_;
   OutputEncoder outputs_;
+  mutable std::mutex mutex_;  ///< guards what follows, for the time of a mac
+  StationSession session_;
+  ForeignTraffic foreign_;
+  double foreign_s_ = 0;
+  std::array<std::uint64_t, 8> own_aborts_{};  ///< the newest, by turns
+  std::size_t aborts_sent_ = 0;
   std::atomic<std::uint64_t> sent_{0};
   std::atomic<std::uint64_t> unsent_{0};
   std::atomic<std::int64_t> newest_us_{0};  ///< data time commands are stamped with
@@ -50,16 +68,23 @@ class VehicleServer {
   Status Publish(const FrameBundle& bundle);
   std::uint64_t received() const { return received_; }
   std::uint64_t refused() const { return refused_; }
+  /// Why the newest message that could not be read was refused; empty when none was. It is answered
+  /// too, with command id 0, at most once a second.
+  const std::string& refusal() const { return refusal_; }
 
  private:
   VehicleServer(std::shared_ptr<Bus> bus, VehicleLink& vehicle, ChannelNames channels);
   void Take(const WireMessage& message);
+  void AnswerUnread(const WireMessage& message);
 
   std::shared_ptr<Bus> bus_;
   VehicleLink& vehicle_;
   ChannelNames channels_;
   std::uint64_t received_ = 0;
   std::uint64_t refused_ = 0;
+  std::string refusal_;
+  double answered_s_ = -1e9;
+  std::atomic<std::int64_t> newest_us_{0};  ///< of what the vehicle measured
 };
 
 }  // namespace palace

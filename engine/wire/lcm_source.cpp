@@ -37,6 +37,17 @@ Result<std::unique_ptr<LcmSource>> LcmSource::Create(std::shared_ptr<Bus> bus,
       return subscribed.error();
     }
   }
+  if (!self->options_.overheard) {
+    return source;
+  }
+  for (const std::string& channel : channels.ToVehicle()) {
+    const ::palace::Status subscribed = self->bus_->Subscribe(
+        channel, [self](const WireMessage& message) { self->options_.overheard(message); },
+        LimitsOf(channels, channel));
+    if (!subscribed) {
+      return subscribed.error();
+    }
+  }
   return source;
 }
 

@@ -21,6 +21,8 @@ struct LcmSourceOptions {
   /// grow and the mission notices silence. Its time is zero while nothing was ever heard.
   double heartbeat_s = 0.2;
   std::function<double()> now_s = MonotonicSeconds;  ///< the station's clock
+  /// Given every message to the vehicle that is heard on the bus, on the thread of Next.
+  std::function<void(const WireMessage&)> overheard{};
 };
 
 /// Next() works the bus itself; no thread of its own. What arrives becomes bundles as LiveBundles

@@ -1,17 +1,18 @@
 #include "engine/wire/convert.h"
+#include "engine/wire/session_messages.h"
 #include "engine/wire/wire_fields.h"
 #include "engine/wire/wire_pack.h"
 
 namespace palace {
 namespace {
 
-command_t ApprovalToWire(const Approval& a, Timestamp now) {
+command_t ApprovalToWire(const Approval& a) {
   command_t m{};
-  m.utime = now.us;
+  m.utime = a.seal.sent_at.us;
   m.kind = command_t::APPROVE;
   m.command_id = WireId(a.id);
-  m.session_id = WireId(a.session_id);
-  m.counter = WireId(a.counter);
+  m.session_id = WireId(a.seal.session_id);
+  m.counter = WireId(a.seal.counter);
   m.site_id = WireId(a.site_id);
   m.map_hash = WireId(a.map_hash);
   m.settings_hash = WireId(a.settings_hash);
@@ -25,16 +26,18 @@ command_t ApprovalToWire(const Approval& a, Timestamp now) {
   m.glide_slope_rad = a.glide_slope_rad;
   m.descent_rate_mps = a.descent_rate_mps;
   m.clear_radius_m = a.clear_radius_m;
-  m.signature = a.signature;
-  m.signature_size = static_cast<std::int32_t>(a.signature.size());
+  PackBytes(a.seal.mac, m.mac);
   return m;
 }
 
+Seal SealFromWire(const command_t& m) {
+  return {IdFromWire(m.session_id), IdFromWire(m.counter), {m.utime}, UnpackBytes(m.mac)};
+}
+
+/// Numbers that are not finite pass: the vehicle refuses them with the reason.
 Result<VehicleMessage> ApprovalFromWire(const command_t& m) {
   Approval a;
   a.id = IdFromWire(m.command_id);
-  a.session_id = IdFromWire(m.session_id);
-  a.counter = IdFromWire(m.counter);
   a.site_id = IdFromWire(m.site_id);
   a.map_hash = IdFromWire(m.map_hash);
   a.settings_hash = IdFromWire(m.settings_hash);
@@ -48,13 +51,20 @@ Result<VehicleMessage> ApprovalFromWire(const command_t& m) {
   a.glide_slope_rad = m.glide_slope_rad;
   a.descent_rate_mps = m.descent_rate_mps;
   a.clear_radius_m = m.clear_radius_m;
-  a.signature = m.signature;
-  if (!a.p_WS.allFinite() || !std::isfinite(a.approach_heading_rad) ||
-      !std::isfinite(a.glide_slope_rad) || !std::isfinite(a.descent_rate_mps) ||
-      !std::isfinite(a.clear_radius_m)) {
-    return InvalidError("an approval holds a number that is not finite");
-  }
+  a.seal = SealFromWire(m);
   return VehicleMessage(std::move(a));
+}
+
+command_t HoldToWire(const HoldRequest& hold) {
+  command_t m{};
+  m.utime = hold.seal.sent_at.us;
+  m.kind = command_t::HOLD;
+  m.command_id = WireId(hold.command_id);
+  m.session_id = WireId(hold.seal.session_id);
+  m.counter = WireId(hold.seal.counter);
+  m.reason = hold.reason;
+  PackBytes(hold.seal.mac, m.mac);
+  return m;
 }
 
 Result<VehicleMessage> CommandFromWire(const command_t& m) {
@@ -62,7 +72,7 @@ Result<VehicleMessage> CommandFromWire(const command_t& m) {
     case command_t::APPROVE:
       return ApprovalFromWire(m);
     case command_t::HOLD:
-      return VehicleMessage(HoldRequest{IdFromWire(m.command_id), m.reason});
+      return VehicleMessage(HoldRequest{IdFromWire(m.command_id), m.reason, SealFromWire(m)});
     case command_t::ABORT:
       return VehicleMessage(AbortRequest{IdFromWire(m.command_id), m.reason});
     default:
@@ -80,6 +90,9 @@ position_estimate_t EstimateToWire(const PositionEstimate& e) {
   Pack(e.v_WB, m.vel);
   Pack(e.sigma_p_m, m.sigma_pos);
   Pack(e.sigma_v_mps, m.sigma_vel);
+  m.session_id = WireId(e.seal.session_id);
+  m.counter = WireId(e.seal.counter);
+  PackBytes(e.seal.mac, m.mac);
   return m;
 }
 
@@ -96,6 +109,7 @@ Result<VehicleMessage> EstimateFromWire(const position_estimate_t& m) {
   e.v_WB = Unpack(m.vel);
   e.sigma_p_m = Unpack(m.sigma_pos);
   e.sigma_v_mps = Unpack(m.sigma_vel);
+  e.seal = {IdFromWire(m.session_id), IdFromWire(m.counter), {}, UnpackBytes(m.mac)};
   // An estimate that claims to be fit for flying must be a number; one that does not may say NaN.
   if (e.healthy && !(e.p_WB.allFinite() && e.v_WB.allFinite() && e.sigma_p_m.allFinite() &&
                      e.sigma_v_mps.allFinite())) {
@@ -109,18 +123,16 @@ Result<VehicleMessage> EstimateFromWire(const position_estimate_t& m) {
 WireMessage EncodeVehicleMessage(const VehicleMessage& message, Timestamp now,
                                  const ChannelNames& channels) {
   if (const auto* approval = std::get_if<Approval>(&message)) {
-    return MakeMessage(channels.command, now, ApprovalToWire(*approval, now));
+    return MakeMessage(channels.command, now, ApprovalToWire(*approval));
   }
   if (const auto* estimate = std::get_if<PositionEstimate>(&message)) {
     return MakeMessage(channels.position_estimate, now, EstimateToWire(*estimate));
   }
   if (const auto* hold = std::get_if<HoldRequest>(&message)) {
-    command_t m{};
-    m.utime = now.us;
-    m.kind = command_t::HOLD;
-    m.command_id = WireId(hold->command_id);
-    m.reason = hold->reason;
-    return MakeMessage(channels.command, now, m);
+    return MakeMessage(channels.command, now, HoldToWire(*hold));
+  }
+  if (const auto* wish = std::get_if<SessionRequest>(&message)) {
+    return MakeMessage(channels.session_request, now, SessionRequestToWire(*wish));
   }
   const auto& request = std::get<AbortRequest>(message);
   abort_t m{};
@@ -130,13 +142,17 @@ WireMessage EncodeVehicleMessage(const VehicleMessage& message, Timestamp now,
   return MakeMessage(channels.abort, now, m);
 }
 
-Result<VehicleMessage> DecodeVehicleMessage(const WireMessage& message,
-                                            const ChannelNames& channels) {
+namespace {
+
+Result<VehicleMessage> Read(const WireMessage& message, const ChannelNames& channels) {
   if (message.channel == channels.command) {
     return DecodeAnd<command_t>(message, CommandFromWire);
   }
   if (message.channel == channels.position_estimate) {
     return DecodeAnd<position_estimate_t>(message, EstimateFromWire);
+  }
+  if (message.channel == channels.session_request) {
+    return DecodeAnd<session_request_t>(message, SessionRequestFromWire);
   }
   if (message.channel == channels.abort) {
     return DecodeAnd<abort_t>(message, [](const abort_t& m) -> Result<VehicleMessage> {
@@ -144,8 +160,22 @@ Result<VehicleMessage> DecodeVehicleMessage(const WireMessage& message,
     });
   }
   return InvalidError(message.channel + " carries no message to a vehicle; they are on " +
-                      channels.command + ", " + channels.position_estimate + " and " +
-                      channels.abort);
+                      channels.command + ", " + channels.position_estimate + ", " +
+                      channels.session_request + " and " + channels.abort);
+}
+
+}  // namespace
+
+Result<VehicleMessage> DecodeVehicleMessage(const WireMessage& message,
+                                            const ChannelNames& channels) {
+  Result<VehicleMessage> read = Read(message, channels);
+  // Seals speak of what was read. Bytes that mean the same (a field that does not concern the kind,
+  // a 2 for true) would be another message under the same seal.
+  const bool sealed = read && !std::holds_alternative<AbortRequest>(*read);
+  if (sealed && EncodeVehicleMessage(*read, message.time, channels).payload != message.payload) {
+    return InvalidError(message.channel + ": a field that must be zero is not");
+  }
+  return read;
 }
 
 }  // namespace palace

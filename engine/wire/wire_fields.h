@@ -3,6 +3,7 @@
 
 #include <palace/abort_t.hpp>
 #include <palace/arrival_t.hpp>
+#include <palace/authority_t.hpp>
 #include <palace/camera_rig_t.hpp>
 #include <palace/command_ack_t.hpp>
 #include <palace/command_t.hpp>
@@ -15,6 +16,7 @@
 #include <palace/pose_t.hpp>
 #include <palace/position_estimate_t.hpp>
 #include <palace/refused_t.hpp>
+#include <palace/session_request_t.hpp>
 #include <palace/site_decision_t.hpp>
 #include <palace/site_proposal_t.hpp>
 #include <palace/slad_settings_t.hpp>
@@ -127,12 +129,12 @@ void VisitFields(Reader& read, command_t& m) {
   read(m.utime, m.kind, m.command_id, m.session_id, m.counter, m.site_id, m.map_hash,
        m.settings_hash, m.calibration_hash, m.vehicle_boot_id, m.approved_utime, m.expires_utime,
        m.provisional, m.site_pos, m.approach_heading_rad, m.glide_slope_rad, m.descent_rate_mps,
-       m.clear_radius_m, m.reason, m.signature_size);
-  read.List(m.signature_size, m.signature);
+       m.clear_radius_m, m.reason, m.mac);
 }
 template <typename Reader>
 void VisitFields(Reader& read, position_estimate_t& m) {
-  read(m.utime, m.source, m.healthy, m.approval_id, m.pos, m.vel, m.sigma_pos, m.sigma_vel);
+  read(m.utime, m.source, m.healthy, m.approval_id, m.pos, m.vel, m.sigma_pos, m.sigma_vel,
+       m.session_id, m.counter, m.mac);
 }
 template <typename Reader>
 void VisitFields(Reader& read, tracker_status_t& m) {
@@ -153,6 +155,17 @@ template <typename Reader>
 void VisitFields(Reader& read, refused_t& m) {
   read(m.utime, m.wall_utime, m.sender, m.channel, m.reason, m.bytes, m.like_it, m.head_size);
   read.List(m.head_size, m.head);
+}
+template <typename Reader>
+void VisitFields(Reader& read, session_request_t& m) {
+  read(m.utime, m.kind, m.station_id, m.station_name, m.key_id, m.vehicle_boot_id, m.challenge,
+       m.nonce, m.session_id, m.counter, m.mac);
+}
+template <typename Reader>
+void VisitFields(Reader& read, authority_t& m) {
+  read(m.utime, m.boot_id, m.checks, m.challenge, m.session_id, m.station_id, m.station_name,
+       m.key_id, m.station_nonce, m.since_utime, m.heard_utime, m.refused_station_id, m.refusal,
+       m.mac);
 }
 template <typename Reader>
 void VisitFields(Reader& read, abort_t& m) {

@@ -1,6 +1,8 @@
 // Small packing shared by the conversions. For .cpp files of this room only.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -28,6 +30,16 @@ template <int N>
 Eigen::Matrix<double, N, 1> Unpack(const double (&in)[N]) {
   return Eigen::Map<const Eigen::Matrix<double, N, 1>>(in);
 }
+template <std::size_t N>
+void PackBytes(const std::array<std::uint8_t, N>& in, std::uint8_t (&out)[N]) {
+  std::copy(in.begin(), in.end(), out);
+}
+template <std::size_t N>
+std::array<std::uint8_t, N> UnpackBytes(const std::uint8_t (&in)[N]) {
+  return std::to_array(in);
+}
+/// A boolean under a seal is 0 or 1: another byte of the same meaning would be another message.
+inline bool IsBoolean(std::int8_t value) { return value == 0 || value == 1; }
 /// Row by row.
 inline void PackRotation(const Eigen::Matrix3d& R, double* out) {
   for (int i = 0; i < 9; ++i) {

@@ -47,6 +47,9 @@ void Declare(CLI::App& app, AppOptions& options, SourceArguments& sources, bool&
       "--channels", options.channels_file,
       "Channel names of --connect or --replay (TOML); without it a vehicle's are those of "
       "config/channels.toml beside this program");
+  app.add_option("--key", options.key,
+                 "Key to command the vehicle of --connect with: a name (palacectl trust list) or a "
+                 "file; without it the only key there is, else the station may only look");
   app.add_option("--set", options.settings.set,
                  "One setting, e.g. slad.max_slope_deg=8; may be repeated");
   app.add_flag("--headless", options.headless,

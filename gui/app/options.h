@@ -21,6 +21,7 @@ struct AppOptions {
   double wind_mps = 0;
   SettingsRequest settings;   ///< read where it is known what they stand over
   std::string channels_file;  ///< empty: see channels_file.h
+  std::string key;            ///< of --connect: a name or a file; empty: see station_key.h
   bool headless = false;
   std::string script_file;
   std::filesystem::path record_dir = "logs";

@@ -11,9 +11,11 @@
 #include "engine/journal/replay_source.h"
 #include "engine/runtime/settings_io.h"
 #include "engine/simulation/session.h"
+#include "engine/trust/key_file.h"
 #include "engine/wire/lcm_link.h"
 #include "engine/wire/lcm_source.h"
 #include "gui/app/channels_file.h"
+#include "gui/app/station_key.h"
 #include "gui/platform/offscreen_scene_camera.h"
 
 namespace palace {
@@ -29,7 +31,6 @@ Status OpenSimulation(const AppOptions& options, bool paced, Session& session, E
     return simulated.error();
   }
   parts.mission.session_id = simulated->id;
-  parts.mission.signer = simulated->signer;
   session.simulator = simulated->simulator;
   session.scene = std::move(simulated->scene);
   session.source = session.simulator;
@@ -99,16 +100,22 @@ Status OpenBus(const AppOptions& options, Session& session, EngineParts& parts) 
   for (const std::string& warning : (*bus)->warnings()) {
     LogWarning(warning);
   }
-  Result<std::unique_ptr<LcmSource>> source = LcmSource::Create(*bus, *channels);
+  Result<StationTrust> trust = StationTrustFor(options.key, DefaultKeyFolder());
+  if (!trust) {
+    return trust.error();
+  }
+  const auto link = std::make_shared<LcmLink>(*bus, *channels, std::move(*trust));
+  LcmSourceOptions live;
+  live.overheard = [link](const WireMessage& message) { link->Overhear(message); };
+  Result<std::unique_ptr<LcmSource>> source = LcmSource::Create(*bus, *channels, std::move(live));
   if (!source) {
     return source.error();
   }
   std::random_device device;
   parts.mission.session_id = (std::uint64_t{device()} << 32) | device();
-  parts.mission.signer = ApprovalSigner::Random();
   session.source = std::move(*source);
   parts.source = session.source;
-  parts.link = std::make_shared<LcmLink>(*bus, *channels);
+  parts.link = link;
   return Ok();
 }
 

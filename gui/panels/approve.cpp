@@ -55,6 +55,13 @@ HoldButtonView ButtonOf(const EngineSnapshot& snap, const ApproveState& state, d
   return view;
 }
 
+/// A person reads it where a site would be selected.
+std::string WhyNotSelectable(const EngineSnapshot& snap) {
+  const AuthorityStatus& authority = snap.session->authority;
+  const bool view_only = authority.standing != AuthorityStanding::kNone && !authority.commands();
+  return view_only ? authority.why_not + "." : "Sites cannot be selected here.";
+}
+
 /// The site that follows when the armed one is refused.
 std::string NextLetter(const EngineSnapshot& snap) {
   if (!snap.flight->mission.armed || !snap.terrain->applied) {
@@ -179,6 +186,53 @@ void DrawExpiry(const EngineSnapshot& snap, const Rect& rect, float y, UiFrame& 
            p.text2, s.Fine(2));
 }
 
+/// In place of Refuse while nothing is armed: who commands a live vehicle changes here. Taking over
+/// from a station that is heard asks for a hold.
+bool DrawCommandButton(const EngineSnapshot& snap, const Rect& rect, ApproveState& state,
+                       UiFrame& ui) {
+  const AuthorityStatus& authority = snap.session->authority;
+  const bool live = snap.session->source.kind == SourceKind::kLive;
+  if (!live || snap.flight->mission.armed || (!authority.can_ask && !authority.commands())) {
+    return false;
+  }
+  ButtonLook look;
+  look.flat = true;
+  if (authority.commands()) {
+    look.enabled = !IsFlying(snap.flight->mission.state);
+    look.sub = "another station may ask";
+    if (DrawButton(ui, "release_command", rect, "Release command", look)) {
+      ui.intents.push_back(CommandAction(ReleaseCommand{}));
+    }
+  } else if (authority.holder.empty() || authority.holder_is_silent) {
+    look.sub = authority.holder.empty() ? "nobody has it" : "who has it is silent";
+    if (DrawButton(ui, "ask_for_command", rect, "Ask for command", look)) {
+      ui.intents.push_back(CommandAction(AskForCommand{}));
+    }
+  } else {
+    HoldButtonView view;
+    view.label = "Hold to take over";
+    if (DrawHoldButton(ui, "take_over", rect, view, state.take_over)) {
+      ui.intents.push_back(CommandAction(AskForCommand{true}));
+    }
+  }
+  return true;
+}
+
+void DrawRefuseButton(const EngineSnapshot& snap, const Rect& rect, bool narrow, UiFrame& ui) {
+  const std::string next = NextLetter(snap);
+  const std::string then = next.empty() ? next : "then site " + next;
+  ButtonLook look;
+  look.font = narrow ? ui.style.medium : ui.style.section;
+  look.flat = true;
+  look.enabled = snap.flight->mission.armed.has_value() && snap.session->can_transmit &&
+                 snap.flight->mission.state == MissionState::kArmed;
+  look.sub = then;
+  look.reason = snap.session->can_transmit ? "Select a site first" : WhyNoLink(snap);
+  if (DrawButton(ui, "refuse", rect, "Refuse", look)) {
+    ui.intents.push_back(CommandAction(RefuseSite{snap.flight->mission.armed->id}));
+  }
+}
+
 void DrawButtons(const EngineSnapshot& snap, const Rect& rect, bool narrow, ApproveState& state,
                  UiFrame& ui) {
   const Style& s = ui.style;
@@ -187,18 +241,9 @@ void DrawButtons(const EngineSnapshot& snap, const Rect& rect, bool narrow, Appr
   const float y = rect.bottom() - s.Px(12) - height;
   const Rect hold{rect.right() - s.Px(12) - width, y, width, height};
   const float gap = narrow ? s.Px(8) : s.Px(12);
-  const Rect refuse{rect.x + s.Px(12), y, hold.x - gap - rect.x - s.Px(12), height};
-  const std::string next = NextLetter(snap);
-  const std::string then = next.empty() ? next : "then site " + next;
-  ButtonLook look;
-  look.font = narrow ? s.medium : s.section;
-  look.flat = true;
-  look.enabled = snap.flight->mission.armed.has_value() && snap.session->can_transmit &&
-                 snap.flight->mission.state == MissionState::kArmed;
-  look.sub = then;
-  look.reason = snap.session->can_transmit ? "Select a site first" : WhyNoLink(snap);
-  if (DrawButton(ui, "refuse", refuse, "Refuse", look)) {
-    ui.intents.push_back(CommandAction(RefuseSite{snap.flight->mission.armed->id}));
+  const Rect left{rect.x + s.Px(12), y, hold.x - gap - rect.x - s.Px(12), height};
+  if (!DrawCommandButton(snap, left, state, ui)) {
+    DrawRefuseButton(snap, left, narrow, ui);
   }
   const HoldButtonView view = ButtonOf(snap, state, ui.ui_time_s);
   if (DrawHoldButton(ui, "approve", hold, view, state.hold)) {
@@ -248,8 +293,8 @@ void DrawApprovePanel(const EngineSnapshot& snap, const Rect& rect, bool narrow,
       ended_y += s.Px(19);
     }
     const bool sites = snap.terrain->applied && !snap.terrain->applied->selection.sites.empty();
-    const std::string help = !sites          ? "Waiting for a site inside all limits."
-                             : !m.may_select ? "Sites cannot be selected here."
+    const std::string help = !sites          ? std::string("Waiting for a site inside all limits.")
+                             : !m.may_select ? WhyNotSelectable(snap)
                              : m.state == MissionState::kSearch
                                  ? "Selectable once one site has led for " +
                                        Duration(snap.session->settings.mission.propose_after_s) +

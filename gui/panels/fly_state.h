@@ -28,6 +28,7 @@ struct SiteListState {
 };
 struct ApproveState {
   HoldState hold;
+  HoldState take_over;  ///< of command, from another station
   bool show_guards = false;
   std::uint64_t armed = 0;  ///< site that was armed in the last frame
   /// The approval asked for last, until the engine says what became of it.

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "gui/widgets/number_text.h"
+
 namespace palace {
 
 const char* WhyNoLink(const EngineSnapshot& snap) {
@@ -10,6 +12,35 @@ const char* WhyNoLink(const EngineSnapshot& snap) {
   }
   const char* why = WhyNoVehicle(snap.session->source.kind);
   return *why != '\0' ? why : "No link";
+}
+
+std::string CommandText(const EngineSnapshot& snap, bool narrow) {
+  using Standing = AuthorityStanding;
+  const AuthorityStatus& authority = snap.session->authority;
+  if (!snap.session->can_transmit) {
+    return "Watching";
+  }
+  const bool live = snap.session->source.kind == SourceKind::kLive;
+  const std::string key =
+      narrow || !live || authority.fingerprint.empty() ? "" : ", key " + authority.fingerprint;
+  switch (authority.standing) {
+    case Standing::kNone:
+    case Standing::kHeld:
+      return "In control: this station" + key;
+    case Standing::kNoKey:
+      return "View only: no key";
+    case Standing::kNoGrant:
+      return "View only: the vehicle grants no command" + key;
+    case Standing::kAsking:
+      return "Asking for command" + key;
+    case Standing::kOther:
+      return "In control: " + authority.holder +
+             (authority.holder_is_silent ? ", silent for " + Duration(authority.holder_silent_s)
+                                         : "");
+    case Standing::kReleased:
+      return "Nobody in control" + key;
+  }
+  return {};
 }
 
 bool IsHeard(const EngineSnapshot& snap) {

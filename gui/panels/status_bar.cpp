@@ -115,8 +115,7 @@ void DrawStatusBarPanel(const EngineSnapshot& snap, const FrameLayout& layout,
                     Align::kRight);
   const std::size_t sites =
       snap.terrain->applied ? snap.terrain->applied->selection.sites.size() : 0;
-  std::vector<std::string> group = {snap.session->can_transmit ? "In control: this station"
-                                                               : "Watching"};
+  std::vector<std::string> group = {CommandText(snap, narrow)};
   if (narrow) {
     group.push_back(ChannelsText(snap));
     std::swap(group[0], group[1]);

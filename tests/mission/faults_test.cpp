@@ -177,6 +177,7 @@ INSTANTIATE_TEST_SUITE_P(
               [](MissionRig& r) { r.tracker.coherence = NAN; }, 0.1},
         Block{"Site", GuardId::kSite, [](MissionRig& r) { r.site_slope_rad = Rad(12); }, 0.1},
         Block{"NoLink", GuardId::kAuthority, [](MissionRig& r) { r.can_transmit = false; }, 0.1},
+        Block{"NoCommand", GuardId::kAuthority, [](MissionRig& r) { r.authority = {}; }, 0.1},
         Block{"Recorder", GuardId::kRecorder, [](MissionRig& r) { r.recorder_ok = false; }, 0.1},
         Block{"Unlabelled", GuardId::kSource, [](MissionRig& r) { r.simulated = false; }, 0.1}),
     [](const auto& row) { return row.param.name; });

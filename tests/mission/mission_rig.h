@@ -13,14 +13,13 @@
 #include "engine/core/units.h"
 #include "engine/mission/guards.h"
 #include "engine/mission/mission.h"
-#include "engine/trust/approval_verifier.h"
 
 namespace palace {
 
-/// Obeys as DESIGN.md 7 asks of a vehicle: verifies approvals, answers, aligns, descends, sinks.
+/// Obeys as DESIGN.md 7 asks of a vehicle: each approval once and in time, answers, aligns,
+/// descends, sinks. Seals are the link's business (tests/trust).
 struct SmallVehicle {
-  PublicKey public_key;
-  std::optional<ApprovalVerifier> verifier;  ///< of this boot, from its first approval on
+  std::uint64_t accepted_id = 0;  ///< newest approval taken; ids rise
   std::uint64_t boot_id = 77;
   VehicleMode mode = VehicleMode::kHover;
   std::uint64_t approval_id = 0;
@@ -38,13 +37,10 @@ struct SmallVehicle {
   void Take(const VehicleMessage& message, Timestamp now) {
     if (const auto* approval = std::get_if<Approval>(&message)) {
       std::string why = refuses ? "Fuel low" : "";
-      if (!verifier || verifier->boot_id() != boot_id) {
-        verifier.emplace(boot_id, public_key);
-      }
-      if (why.empty() && !verifier->IsRepeat(*approval)) {
-        why = verifier->Verify(*approval, now);
+      if (why.empty() && approval->id != accepted_id) {
+        why = WhyRefused(*approval, now);
         if (why.empty()) {
-          approval_id = approval->id;
+          approval_id = accepted_id = approval->id;
           Set(VehicleMode::kAlign);
         }
       }
@@ -87,6 +83,15 @@ struct SmallVehicle {
   }
 
  private:
+  std::string WhyRefused(const Approval& approval, Timestamp now) const {
+    if (approval.vehicle_boot_id != boot_id) {
+      return "Given for another start of this vehicle";
+    }
+    if (approval.id < accepted_id) {
+      return "An older approval";
+    }
+    return now >= approval.expires_at ? "Expired" : "";
+  }
   void Answer(std::uint64_t id, std::string why, Timestamp now) {
     if (answers) {
       acks.push_back(
@@ -95,10 +100,15 @@ struct SmallVehicle {
   }
 };
 
+/// This station commands.
+inline AuthorityStatus Commanding() {
+  AuthorityStatus authority;
+  authority.standing = AuthorityStanding::kHeld;
+  return authority;
+}
+
 struct MissionRig {
-  explicit MissionRig(std::uint64_t session = 5)
-      : options{session, ApprovalSigner::FromSeed(session), true}, mission(options) {
-    vehicle.public_key = ApprovalSigner::FromSeed(session).public_key();
+  explicit MissionRig(std::uint64_t session = 5) : options{session, true}, mission(options) {
     AddSite(101, 'A', {10, 2, 0});
     AddSite(102, 'B', {-6, 8, 0});
     navigation.gps.running = navigation.gps.estimate.healthy = true;
@@ -151,6 +161,7 @@ struct MissionRig {
             .why_no_vehicle = WhyNoVehicle(source),
             .can_transmit = can_transmit,
             .recorder_ok = recorder_ok,
+            .authority = authority,
             .snapshot_sequence = sequence - 1};
   }
   /// What this tenth of a second brought.
@@ -260,6 +271,7 @@ struct MissionRig {
   double east_m = 2;    ///< where the vehicle is
   bool jumped = false;  ///< the next bundle follows a jump in time
   SourceKind source = SourceKind::kSimulation;
+  AuthorityStatus authority = Commanding();
   bool can_transmit = true, recorder_ok = true, simulated = true;
   bool cameras_up = true, pose_up = true, link_up = true, maps_up = true, tracker_locks = true;
   Settings settings;

@@ -34,7 +34,7 @@ void Disturb(MissionRig& rig, RandomStream& random) {
   }
   if (random.Uniform() < 0.0005) {
     ++rig.vehicle.boot_id;
-    rig.vehicle.verifier = {};
+    rig.vehicle.accepted_id = 0;
     rig.vehicle.Set(VehicleMode::kHover);
     rig.vehicle.approval_id = 0;
     rig.vehicle.height_m = 20;
@@ -103,7 +103,7 @@ TEST_P(RandomMission, NeverBreaksAnInvariant) {
   RandomStream random(static_cast<std::uint64_t>(GetParam()), "mission");
   MissionRig rig;
   std::set<std::uint64_t> dead;  // approval ids that were killed
-  std::uint64_t last_counter = 0;
+  std::uint64_t last_id = 0;
   int approvals = 0, wave_offs = 0, holds = 0;
   for (int step = 0; step < 6000; ++step) {
     SCOPED_TRACE("seed " + std::to_string(GetParam()) + " step " + std::to_string(step));
@@ -148,9 +148,9 @@ TEST_P(RandomMission, NeverBreaksAnInvariant) {
         ASSERT_EQ(after.approval->site_id, before.armed->id);         // I1, I2
         ASSERT_EQ(after.approval->settings_hash, rig.settings_hash);  // I1
         ASSERT_EQ(after.approval->vehicle_boot_id, rig.vehicle.boot_id);
-        ASSERT_GT(after.approval->counter, last_counter);  // I9
+        ASSERT_GT(after.approval->id, last_id);  // I9
         ASSERT_EQ(after.approval->expires_at.us - after.approval->approved_at.us, 30'000'000);
-        last_counter = after.approval->counter;
+        last_id = after.approval->id;
       }
     }
     const auto live_before = rig.mission.status().approval;

@@ -97,7 +97,6 @@ TEST(Mission, ReplayFollowsWithoutALinkAndSendsNothing) {
   EXPECT_FALSE(rig.mission.status().can_approve);
   ASSERT_TRUE(rig.ApproveNow(CommandOrigin::kReplay).ok());
   const Approval approval = *rig.mission.status().approval;
-  EXPECT_TRUE(approval.signature.empty());
   // The log's vehicle answers under another session's number.
   rig.vehicle.approval_id = (std::uint64_t{0xabc} << 32) | (approval.id & 0xffffffff);
   rig.vehicle.acks.push_back({rig.now, rig.vehicle.approval_id, AckResult::kAccepted, ""});

@@ -143,14 +143,14 @@ TEST(Mission, ApprovalExpiresUnlessDescentBegan) {
   MissionRig rig;
   rig.Arm();
   rig.vehicle.answers = false;
-  rig.vehicle.public_key = ApprovalSigner::FromSeed(99).public_key();  // it will not take it
+  rig.vehicle.refuses = true;  // it will not take it, nor say so
   ASSERT_TRUE(rig.ApproveNow().ok());
   rig.Run(29.5);
   EXPECT_EQ(rig.state(), MissionState::kApproved);
   EXPECT_GT(rig.SentCount<Approval>(), 10);  // the same message, repeated
   for (const VehicleMessage& message : rig.sent) {
     if (const auto* approval = std::get_if<Approval>(&message)) {
-      EXPECT_EQ(approval->counter, 1U);
+      EXPECT_EQ(approval->id, rig.mission.status().approval->id);
     }
   }
   rig.Run(1);
@@ -267,7 +267,7 @@ TEST(Mission, HoldLeadsToANewProposalNeverToTheOldApproval) {
   ASSERT_TRUE(rig.RunUntil(MissionState::kProposed, 10));
   rig.Arm(102);
   ASSERT_TRUE(rig.ApproveNow().ok());
-  EXPECT_GT(rig.mission.status().approval->counter, old.counter);
+  EXPECT_GT(rig.mission.status().approval->id, old.id);
 }
 
 TEST(Mission, WaveOffNeedsVehicleAndOperator) {

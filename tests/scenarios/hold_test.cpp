@@ -42,6 +42,9 @@ class GatedVehicle final : public Source, public VehicleLink {
     }
     changed_.notify_all();
   }
+  void Seal(VehicleMessage& message) override { simulator_->Seal(message); }
+  void Hear(const FrameBundle& bundle) override { simulator_->Hear(bundle); }
+  AuthorityStatus Authority() const override { return simulator_->Authority(); }
   void Announce(const EngineSnapshot& snapshot) override {
     std::unique_lock lock(mutex_);
     if (flown_.empty() || flown_.back().first != snapshot.time) {
@@ -95,7 +98,6 @@ TEST_F(Hold, LeavesWithoutAFrameOrAPassAndIsReplayedAsFlown) {
   EngineParts parts;
   const SimulatedSession session =
       OpenSimulatedSession({.seed = 1}, MakeOffscreenSceneCamera).value();
-  parts.mission.signer = session.signer;
   const auto vehicle = std::make_shared<GatedVehicle>(session.simulator);
   parts.source = vehicle;
   parts.link = vehicle;

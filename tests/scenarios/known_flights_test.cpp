@@ -59,7 +59,6 @@ Flown Fly(const KnownFlight& flight) {
   const std::shared_ptr<Simulator>& simulator = session.simulator;
   EngineParts parts;
   parts.mission.session_id = session.id;
-  parts.mission.signer = session.signer;
   parts.source = simulator;
   parts.link = simulator;
   Engine engine(std::move(parts), /*threaded=*/false);

@@ -22,7 +22,6 @@ std::unique_ptr<Engine> OpenMission(const std::filesystem::path& folder, std::ui
       OpenSimulatedSession({.seed = seed}, MakeOffscreenSceneCamera).value();
   EngineParts parts;
   parts.mission.session_id = session.id;
-  parts.mission.signer = session.signer;
   simulator = session.simulator;
   parts.source = simulator;
   parts.link = simulator;

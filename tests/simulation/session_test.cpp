@@ -9,12 +9,11 @@ namespace palace {
 namespace {
 
 /// Steps once and asks the vehicle to land ahead of it; its answer.
-CommandAck AnswerTo(Simulator& simulator, const ApprovalSigner* signer) {
+CommandAck AnswerTo(Simulator& simulator, bool sealed) {
   const Bundle first = simulator.Next({}).value();
   Approval approval;
   approval.id = 71;
-  approval.session_id = 5;
-  approval.counter = 1;
+  approval.site_id = approval.map_hash = approval.settings_hash = approval.calibration_hash = 1;
   approval.vehicle_boot_id = first->status->boot_id;
   approval.approved_at = first->time;
   approval.expires_at = AddSeconds(first->time, 30);
@@ -22,36 +21,51 @@ CommandAck AnswerTo(Simulator& simulator, const ApprovalSigner* signer) {
   approval.glide_slope_rad = Rad(45);
   approval.descent_rate_mps = 1;
   approval.clear_radius_m = 2.3;
-  if (signer != nullptr) {
-    signer->Sign(approval);
+  VehicleMessage message = approval;
+  if (sealed) {
+    simulator.Seal(message);
   }
-  simulator.Send(approval);
+  simulator.Send(message);
   return simulator.Next({}).value()->acks.at(0);
 }
 
-TEST(SimulatedSession, ObeysItsOwnSignerUnlessAnotherStationIsNamed) {
-  const ApprovalSigner other = ApprovalSigner::FromSeed(99);
+// The station in this program commands from the first frame on, by the same exchange of messages;
+// with other stations nobody does until one asks.
+TEST(SimulatedSession, ObeysTheStationInThisProgramUnlessOthersAreNamed) {
+  using Others = SessionSpec::OtherStations;
   struct Row {
     const char* name;
-    std::optional<SessionSpec::OtherStation> station;
-    bool takes_own, takes_other, takes_unsigned;
+    std::optional<Others> stations;
+    bool takes_own, takes_unsealed;
   };
-  const Row rows[] = {
-      {"own", {}, true, false, false},
-      {"another's key", SessionSpec::OtherStation{other.public_key()}, false, true, false},
-      {"no key", SessionSpec::OtherStation{}, true, true, true}};
+  const Row rows[] = {{"this program", {}, true, false},
+                      {"another's key", Others{{{SecretKey::FromSeed(99)}}}, false, false},
+                      {"no key", Others{std::vector<SecretKey>()}, false, false},
+                      {"a bench", Others{}, true, true}};
   for (const Row& row : rows) {
-    const auto answer = [&](const ApprovalSigner* signer) {
+    const auto taken = [&](bool sealed) {
       const auto session = OpenSimulatedSession(
-          {.scenario = "empty", .seed = 3, .render = false, .other_station = row.station}, nullptr);
-      return AnswerTo(*session->simulator, signer).result == AckResult::kAccepted;
+          {.scenario = "empty", .seed = 3, .render = false, .other_stations = row.stations},
+          nullptr);
+      EXPECT_EQ(session->simulator->Authority().commands(), !row.stations) << row.name;
+      return AnswerTo(*session->simulator, sealed).result == AckResult::kAccepted;
     };
-    const ApprovalSigner own =
-        OpenSimulatedSession({.scenario = "empty", .seed = 3, .render = false}, nullptr)->signer;
-    EXPECT_EQ(answer(&own), row.takes_own) << row.name;
-    EXPECT_EQ(answer(&other), row.takes_other) << row.name;
-    EXPECT_EQ(answer(nullptr), row.takes_unsigned) << row.name;
+    EXPECT_EQ(taken(true), row.takes_own) << row.name;
+    EXPECT_EQ(taken(false), row.takes_unsealed) << row.name;
   }
+}
+
+// I7: what was recorded on one start is of no use on another.
+TEST(SimulatedSession, OnABusEveryStartHasItsOwnBootId) {
+  const auto boot = [](bool others) {
+    SessionSpec spec{.scenario = "empty", .seed = 3, .render = false};
+    if (others) {
+      spec.other_stations.emplace();
+    }
+    return OpenSimulatedSession(spec, nullptr)->simulator->boot_id();
+  };
+  EXPECT_NE(boot(true), boot(true));
+  EXPECT_EQ(boot(false), boot(false));
 }
 
 TEST(SimulatedSession, WindBringsGusts) {

@@ -16,6 +16,13 @@ namespace palace {
 using Eigen::Vector3d;
 using Bundle = std::shared_ptr<const FrameBundle>;
 
+/// The vehicle obeys the station of this test and no other.
+inline void Key(SimulatorOptions& options) {
+  options.keys = {SecretKey::FromSeed(options.seed)};
+  options.own_station = StationTrust{
+      .station_id = 1, .station_name = "test", .key = options.keys->front(), .key_name = "test"};
+}
+
 inline SimulatorOptions Options(std::uint64_t seed) {
   SimulatorOptions options;
   options.scene = MakeScene("empty", seed).value();
@@ -32,9 +39,14 @@ class Flight {
     Step();
   }
 
+  /// Sealed, where the vehicle asks for it.
+  void Send(VehicleMessage message) {
+    simulator.Seal(message);
+    simulator.Send(message);
+  }
   Bundle Step() {
     if (delayed_) {
-      simulator.Send(*delayed_);
+      Send(*delayed_);
       delayed_.reset();
     }
     last = simulator.Next({}).value();
@@ -50,7 +62,7 @@ class Flight {
       estimate.healthy = true;
       estimate.approval_id = approval_id;
       estimate.p_WB = truth.X_WB.p + vision_offset_W + 0.02 * Noise();
-      estimate.v_WB = truth.v_WB + 0.03 * Noise();
+      estimate.v_WB = truth.v_WB + vision_offset_v_W + 0.03 * Noise();
       delayed_ = pending_;
       pending_ = estimate;
     }
@@ -75,8 +87,7 @@ class Flight {
   Approval MakeApproval(const Vector3d& p_WS, double heading_rad = 0) {
     Approval approval;
     approval.id = approval_id = 70 + ++counter_;
-    approval.session_id = 5;
-    approval.counter = counter_;
+    approval.site_id = approval.map_hash = approval.settings_hash = approval.calibration_hash = 1;
     approval.vehicle_boot_id = last->status->boot_id;
     approval.approved_at = last->time;
     approval.expires_at = AddSeconds(last->time, 30);
@@ -95,6 +106,7 @@ class Flight {
   bool estimates_on = false;
   std::uint64_t approval_id = 0;
   Vector3d vision_offset_W = Vector3d::Zero();
+  Vector3d vision_offset_v_W = Vector3d::Zero();
 
  private:
   Vector3d Noise() {

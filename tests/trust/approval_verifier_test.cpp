@@ -1,150 +1,142 @@
-// The vehicle's check: each approval once, in time, for itself only; with and without a key.
+// The vehicle's check: each approval once, in time, of sense, for itself only.
 #include "engine/trust/approval_verifier.h"
 
 #include <functional>
 #include <limits>
-#include <optional>
-#include <string>
-#include <vector>
 
 #include <gtest/gtest.h>
 
-#include "engine/core/random.h"
+#include "tests/trust/pair.h"
 
 namespace palace {
 namespace {
 
-constexpr std::uint64_t kBoot = 9;
-constexpr Timestamp kInTime{2'000'000};
-
-const ApprovalSigner& Signer() {
-  static const ApprovalSigner signer = ApprovalSigner::FromSeed(1);
-  return signer;
-}
-
-Approval Good(std::uint64_t counter = 1, std::uint64_t session = 5) {
-  Approval a;
-  a.id = 0x500000000 | counter;
-  a.session_id = session;
-  a.counter = counter;
-  a.site_id = 101;
-  a.vehicle_boot_id = kBoot;
-  a.approved_at = {1'000'000};
-  a.expires_at = {31'000'000};
-  a.p_WS = {1, 2, 3};
-  a.approach_heading_rad = 0.5;
-  a.glide_slope_rad = 0.7;
-  a.clear_radius_m = 2.3;
-  Signer().Sign(a);
-  return a;
-}
-
-ApprovalVerifier WithKey() { return {kBoot, Signer().public_key()}; }
-ApprovalVerifier WithoutKey() { return {kBoot, std::nullopt}; }
-
 struct Row {
   const char* name;
-  std::function<void(Approval&)> change;  ///< before it is signed
-  Timestamp now;
+  std::function<void(Approval&)> change;
   const char* why;  ///< empty: accepted
 };
 
-TEST(ApprovalVerifier, TakesWhatIsForThisVehicleNowAndNothingElse) {
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  const std::vector<Row> rows = {
-      {"good", [](Approval&) {}, kInTime, ""},
-      {"a microsecond before the end", [](Approval&) {}, {30'999'999}, ""},
-      {"at the end", [](Approval&) {}, {31'000'000}, "Expired"},
-      {"after the end", [](Approval&) {}, {31'000'001}, "Expired"},
-      {"ends as it begins", [](Approval& a) { a.expires_at = a.approved_at; }, {0}, "Expired"},
-      {"no id", [](Approval& a) { a.id = 0; }, kInTime, "The approval has no id"},
-      {"counter 0", [](Approval& a) { a.counter = 0; }, kInTime, ""},
-      {"another boot", [](Approval& a) { a.vehicle_boot_id += 1; }, kInTime,
+// Signed nonsense is refused with the reason, NaN as well; the limits are met to both sides.
+TEST(ApprovalVerifier, TakesWhatIsOfSenseAndNothingElse) {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  constexpr double inf = std::numeric_limits<double>::infinity();
+  const auto at = [](double s) { return AddSeconds(kNow, s); };
+  const Row rows[] = {
+      {"good", [](Approval&) {}, ""},
+      {"no id", [](Approval& a) { a.id = 0; }, "The approval has no id"},
+      {"no site", [](Approval& a) { a.site_id = 0; }, "The approval names no site"},
+      {"no map", [](Approval& a) { a.map_hash = 0; },
+       "The approval names no map, limits or calibration"},
+      {"no limits", [](Approval& a) { a.settings_hash = 0; },
+       "The approval names no map, limits or calibration"},
+      {"no rig", [](Approval& a) { a.calibration_hash = 0; },
+       "The approval names no map, limits or calibration"},
+      {"another boot", [](Approval& a) { a.vehicle_boot_id += 1; },
        "Given for another start of this vehicle"},
-      {"north", [=](Approval& a) { a.p_WS.x() = nan; }, kInTime, "A value is not finite"},
-      {"heading", [=](Approval& a) { a.approach_heading_rad = nan; }, kInTime,
-       "A value is not finite"},
-      {"glide", [=](Approval& a) { a.glide_slope_rad = 1 / 0.0; }, kInTime,
-       "A value is not finite"},
-      {"radius", [=](Approval& a) { a.clear_radius_m = nan; }, kInTime, "A value is not finite"},
+      {"over now", [&](Approval& a) { a.expires_at = at(1); }, "Expired"},
+      {"over in a microsecond", [&](Approval& a) { a.expires_at = {at(1).us + 1}; }, ""},
+      {"ends as it begins", [&](Approval& a) { a.expires_at = a.approved_at; }, "Expired"},
+      {"120 s", [&](Approval& a) { a.expires_at = at(120); }, ""},
+      {"121 s", [&](Approval& a) { a.expires_at = at(121); }, "Valid for longer than 120 s"},
+      {"100 years", [&](Approval& a) { a.expires_at = at(3.15e9); }, "Valid for longer than 120 s"},
+      {"0.9 s ahead", [&](Approval& a) { a.approved_at = at(1.9); }, ""},
+      {"1.1 s ahead", [&](Approval& a) { a.approved_at = at(2.1); },
+       "Given more than 1 s ahead of the vehicle's clock"},
+      {"before time", [](Approval& a) { a.approved_at = {-1}; }, "Its times are out of range"},
+      {"least stamp", [](Approval& a) { a.approved_at = {INT64_MIN}; },
+       "Its times are out of range"},
+      {"last stamp", [](Approval& a) { a.expires_at = {INT64_MAX}; }, "Its times are out of range"},
+      {"north", [=](Approval& a) { a.p_WS.x() = nan; }, "The site's position is not a number"},
+      {"down", [=](Approval& a) { a.p_WS.z() = -inf; }, "The site's position is not a number"},
+      {"heading", [=](Approval& a) { a.approach_heading_rad = nan; },
+       "The approach heading is not a number"},
+      {"glide", [=](Approval& a) { a.glide_slope_rad = inf; }, "The glide slope is not a number"},
+      {"rate", [=](Approval& a) { a.descent_rate_mps = nan; }, "The descent rate is not a number"},
+      {"radius", [=](Approval& a) { a.clear_radius_m = nan; }, "The clear radius is not a number"},
+      {"99 m away",
+       [](Approval& a) {
+         a.p_WS = {99, 0, 0};
+       },
+       ""},
+      {"101 m away",
+       [](Approval& a) {
+         a.p_WS = {0, 101, 0};
+       },
+       "The site is more than 100 m away"},
+      {"above", [](Approval& a) { a.p_WS.z() = -15.1; }, "The site is above the vehicle"},
+      {"50 m under ground", [](Approval& a) { a.p_WS.z() = 50; },
+       "The site is not at the height of the ground"},
+      {"in a hollow", [](Approval& a) { a.p_WS.z() = 8; }, ""},
+      {"too deep", [](Approval& a) { a.p_WS.z() = 86; },
+       "The site is more than 100 m below the vehicle"},
+      {"many turns", [](Approval& a) { a.approach_heading_rad = 7; },
+       "The approach heading is more than one turn"},
+      {"level", [](Approval& a) { a.glide_slope_rad = 0; },
+       "The glide slope is outside 0 to 90 degrees"},
+      {"overhanging", [](Approval& a) { a.glide_slope_rad = 1.6; },
+       "The glide slope is outside 0 to 90 degrees"},
+      {"rising", [](Approval& a) { a.descent_rate_mps = -1; },
+       "The descent rate is outside 0 to 5 m/s"},
+      {"falling", [](Approval& a) { a.descent_rate_mps = 6; },
+       "The descent rate is outside 0 to 5 m/s"},
+      {"no radius", [](Approval& a) { a.clear_radius_m = 0; },
+       "The clear radius is outside 0.5 to 25 m"},
+      {"wide", [](Approval& a) { a.clear_radius_m = 26; },
+       "The clear radius is outside 0.5 to 25 m"},
   };
   for (const Row& row : rows) {
     SCOPED_TRACE(row.name);
-    Approval a = Good();
-    row.change(a);
-    Signer().Sign(a);
-    for (ApprovalVerifier verifier : {WithKey(), WithoutKey()}) {
-      EXPECT_EQ(verifier.Verify(a, row.now), row.why);
-      EXPECT_EQ(verifier.refused(), row.why[0] == 0 ? 0U : 1U);
-      EXPECT_EQ(verifier.IsRepeat(a), row.why[0] == 0);
-    }
+    Pair pair;
+    ASSERT_TRUE(pair.commands);
+    Approval approval = GoodApproval();
+    row.change(approval);
+    approval = Sealed(pair.station, approval);
+    EXPECT_EQ(pair.verifier.Verify(approval, Hovering()), row.why);
+    EXPECT_EQ(pair.verifier.IsRepeat(approval), row.why[0] == 0);
+    // A refused one spends no counter.
+    EXPECT_EQ(pair.verifier.Verify(Sealed(pair.station, GoodApproval(72)), Hovering()), "");
   }
 }
 
-TEST(ApprovalVerifier, AsksForTheStationsSignatureWhereItHasAKey) {
-  Approval a = Good();
-  a.p_WS.x() += 1e-12;
-  ApprovalVerifier vehicle = WithKey(), stranger(kBoot, ApprovalSigner::FromSeed(2).public_key());
-  EXPECT_EQ(vehicle.Verify(a, kInTime), "Signature does not match");
-  EXPECT_EQ(stranger.Verify(Good(), kInTime), "Signature does not match");
-  EXPECT_EQ(WithoutKey().Verify(a, kInTime), "");
-  // A refused one spends no counter and binds no session.
-  EXPECT_EQ(vehicle.Verify(Good(1, 6), kInTime), "");
+TEST(ApprovalVerifier, WithoutKnownGroundDepthAloneBoundsTheHeight) {
+  Pair pair;
+  VehicleSituation vehicle = Hovering();
+  vehicle.ground_down_m = NAN;
+  Approval approval = GoodApproval();
+  approval.p_WS.z() = 50;
+  EXPECT_EQ(pair.verifier.Verify(Sealed(pair.station, approval), vehicle), "");
 }
 
-TEST(ApprovalVerifier, EveryCounterOnceAndRising) {
-  for (ApprovalVerifier verifier : {WithKey(), WithoutKey()}) {
-    EXPECT_EQ(verifier.Verify(Good(1), kInTime), "");
-    EXPECT_EQ(verifier.Verify(Good(1), kInTime), "Counter 1 was already used");
-    EXPECT_EQ(verifier.Verify(Good(3), kInTime), "");
-    EXPECT_EQ(verifier.Verify(Good(2), kInTime), "Counter 2 was already used");
-    EXPECT_EQ(verifier.refused(), 2U);
-  }
+// I8: the answer was lost. A copy, to the byte or sealed anew, is answered; anything else is none.
+TEST(ApprovalVerifier, KnowsTheLastAcceptedAgain) {
+  Pair pair;
+  const Approval given = Sealed(pair.station, GoodApproval());
+  EXPECT_FALSE(pair.verifier.IsRepeat(given));
+  ASSERT_EQ(pair.verifier.Verify(given, Hovering()), "");
+  EXPECT_TRUE(pair.verifier.IsRepeat(given));
+  EXPECT_EQ(pair.verifier.Verify(given, Hovering()), "Counter 1 was already used");
+  EXPECT_TRUE(pair.verifier.IsRepeat(Sealed(pair.station, GoodApproval())));
+  Approval forged = given;
+  forged.seal.mac[3] ^= 1;
+  EXPECT_FALSE(pair.verifier.IsRepeat(forged));
+  Approval moved = GoodApproval();
+  moved.clear_radius_m += 1;
+  EXPECT_FALSE(pair.verifier.IsRepeat(Sealed(pair.station, moved)));
+  ASSERT_EQ(pair.verifier.Verify(Sealed(pair.station, GoodApproval(72)), Hovering()), "");
+  EXPECT_FALSE(pair.verifier.IsRepeat(given));
 }
 
-TEST(ApprovalVerifier, TheFirstSessionHoldsUntilTheVehicleStartsAnew) {
-  ApprovalVerifier signed_only = WithKey(), bench = WithoutKey();
-  EXPECT_EQ(signed_only.Verify(Good(1, 5), kInTime), "");
-  EXPECT_EQ(signed_only.Verify(Good(2, 6), kInTime), "Given by another session");
-  // Unsigned, nothing tells who speaks; each session still has its own rising counter.
-  EXPECT_EQ(bench.Verify(Good(4, 5), kInTime), "");
-  EXPECT_EQ(bench.Verify(Good(1, 6), kInTime), "");
-  EXPECT_EQ(bench.Verify(Good(4, 5), kInTime), "Counter 4 was already used");
-}
-
-// The acknowledgement was lost: another copy is answered, any other approval is none.
-TEST(ApprovalVerifier, KnowsTheLastAcceptedAgainToTheByte) {
-  ApprovalVerifier verifier = WithKey();
-  EXPECT_FALSE(verifier.IsRepeat(Good(1)));
-  ASSERT_EQ(verifier.Verify(Good(1), kInTime), "");
-  EXPECT_TRUE(verifier.IsRepeat(Good(1)));
-  Approval forged = Good(1);
-  forged.signature[3] ^= 1;
-  EXPECT_FALSE(verifier.IsRepeat(forged));
-  Approval changed = Good(1);
-  changed.clear_radius_m += 1;
-  EXPECT_FALSE(verifier.IsRepeat(changed));
-  ASSERT_NE(verifier.Verify(changed, kInTime), "");
-  EXPECT_TRUE(verifier.IsRepeat(Good(1)));  // a refused one is not remembered
-  ASSERT_EQ(verifier.Verify(Good(2), kInTime), "");
-  EXPECT_FALSE(verifier.IsRepeat(Good(1)));
-}
-
-// I8, I9: of any stream with copies, gaps and reorderings, accepted counters rise and never recur.
-TEST(ApprovalVerifier, AcceptsEachAtMostOnceInAnyOrder) {
-  constexpr std::uint64_t kSeed = 12;
-  SCOPED_TRACE("seed 12");
-  RandomStream random(kSeed, "approvals");
-  for (int trial = 0; trial < 20; ++trial) {
-    ApprovalVerifier verifier = trial % 2 == 0 ? WithKey() : WithoutKey();
-    std::uint64_t highest = 0;
-    for (int i = 0; i < 40; ++i) {
-      const Approval a = Good(static_cast<std::uint64_t>(1 + random.Index(30)));
-      const bool accepted = verifier.Verify(a, kInTime).empty();
-      EXPECT_EQ(accepted, a.counter > highest);
-      highest = accepted ? a.counter : highest;
-    }
-  }
+TEST(ApprovalVerifier, OnABenchSensePassesWithoutASeal) {
+  VehicleTrust trust = VehicleOf({});
+  trust.takes_unsealed = true;
+  VehicleAuthority bench(trust);
+  ApprovalVerifier verifier(bench);
+  EXPECT_EQ(verifier.Verify(GoodApproval(), Hovering()), "");
+  EXPECT_TRUE(verifier.IsRepeat(GoodApproval()));
+  Approval nonsense = GoodApproval(72);
+  nonsense.p_WS.y() = NAN;
+  EXPECT_EQ(verifier.Verify(nonsense, Hovering()), "The site's position is not a number");
 }
 
 }  // namespace

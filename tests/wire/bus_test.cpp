@@ -87,6 +87,8 @@ TEST_F(BusTest, VehicleReceivesWhatTheStationSends) {
   estimate.source = EstimateSource::kVision;
   estimate.healthy = true;
   estimate.p_WB = {1.5, -2.5, 0.1};
+  link.Send(estimate);  // of no session: it stays here
+  estimate.seal.session_id = 5;
   link.Send(estimate);
   Approval approval;
   approval.id = 9;

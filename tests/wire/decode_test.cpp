@@ -20,7 +20,7 @@ namespace {
 bool DecodeAny(const WireMessage& message) {
   const ChannelNames n;
   const std::string& c = message.channel;
-  if (c == n.command || c == n.position_estimate || c == n.abort) {
+  if (c == n.command || c == n.position_estimate || c == n.session_request || c == n.abort) {
     return DecodeVehicleMessage(message, n).ok();
   }
   if (c == n.slad_settings) {
@@ -73,6 +73,8 @@ TEST(Decode, AgreesWithTheGeneratedDecoders) {
       {n.laser_range, ExpectLikeGenerated<laser_range_t>},
       {n.vehicle_status, ExpectLikeGenerated<vehicle_status_t>},
       {n.command_ack, ExpectLikeGenerated<command_ack_t>},
+      {n.authority, ExpectLikeGenerated<authority_t>},
+      {n.session_request, ExpectLikeGenerated<session_request_t>},
       {n.truth, ExpectLikeGenerated<truth_t>},
       {n.arrival, ExpectLikeGenerated<arrival_t>},
       {n.mission, ExpectLikeGenerated<mission_t>},

@@ -23,11 +23,14 @@ TEST(Command, EveryKindSurvives) {
                                               WaveOff{},
                                               AcknowledgeAlarm{"gps_error"},
                                               AcknowledgeWaveOff{},
-                                              AddBookmark{"Böe"}};
+                                              AddBookmark{"Böe"},
+                                              AskForCommand{true},
+                                              ReleaseCommand{},
+                                              CommandLost{"bravo commands"}};
   ASSERT_EQ(actions.size(), std::variant_size_v<CommandAction>);
   for (std::size_t i = 0; i < actions.size(); ++i) {
-    for (const auto origin :
-         {CommandOrigin::kOperator, CommandOrigin::kScript, CommandOrigin::kReplay}) {
+    for (const auto origin : {CommandOrigin::kOperator, CommandOrigin::kScript,
+                              CommandOrigin::kReplay, CommandOrigin::kStation}) {
       const WireMessage message = EncodeCommand({origin, actions[i]}, {42}, kChannels);
       const Result<EngineCommand> back = DecodeCommand(message);
       ASSERT_TRUE(back.ok()) << back.error().message;
@@ -45,8 +48,6 @@ TEST(VehicleMessage, ApprovalSurvivesWithEveryBoundField) {
   RandomStream random(31);
   Approval a;
   a.id = random.NextBits();
-  a.session_id = random.NextBits();
-  a.counter = 3;
   a.site_id = random.NextBits();
   a.map_hash = random.NextBits();
   a.settings_hash = random.NextBits();
@@ -60,13 +61,14 @@ TEST(VehicleMessage, ApprovalSurvivesWithEveryBoundField) {
   a.glide_slope_rad = 0.75;
   a.descent_rate_mps = 0.6;
   a.clear_radius_m = 2.3;
-  a.signature = {1, 2, 3, 255};
+  a.seal = {random.NextBits(), 3, {99}, {1, 2, 3, 255}};
   const auto back = DecodeVehicleMessage(EncodeVehicleMessage(a, {9}, kChannels), kChannels);
   ASSERT_TRUE(back.ok());
   const Approval& b = std::get<Approval>(*back);
   EXPECT_EQ(b.id, a.id);
-  EXPECT_EQ(b.session_id, a.session_id);
-  EXPECT_EQ(b.counter, a.counter);
+  EXPECT_EQ(b.seal.session_id, a.seal.session_id);
+  EXPECT_EQ(b.seal.counter, a.seal.counter);
+  EXPECT_EQ(b.seal.sent_at, a.seal.sent_at);
   EXPECT_EQ(b.site_id, a.site_id);
   EXPECT_EQ(b.map_hash, a.map_hash);
   EXPECT_EQ(b.settings_hash, a.settings_hash);
@@ -80,7 +82,7 @@ TEST(VehicleMessage, ApprovalSurvivesWithEveryBoundField) {
   EXPECT_EQ(b.glide_slope_rad, a.glide_slope_rad);
   EXPECT_EQ(b.descent_rate_mps, a.descent_rate_mps);
   EXPECT_EQ(b.clear_radius_m, a.clear_radius_m);
-  EXPECT_EQ(b.signature, a.signature);
+  EXPECT_EQ(b.seal.mac, a.seal.mac);
 }
 
 TEST(VehicleMessage, HealthyEstimateMustBeFinite) {

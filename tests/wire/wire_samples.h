@@ -110,6 +110,20 @@ inline std::shared_ptr<FrameBundle> RandomBundle(RandomStream& random, std::uint
   bundle->arrival.poses_invalid = 3;
   bundle->acks.push_back({{start_us + 8}, random.NextBits(), AckResult::kRefused, "zu spät"});
   bundle->acks.push_back({{start_us + 8}, random.NextBits(), AckResult::kAccepted, ""});
+  bundle->authority = AuthorityReport{{start_us + 9},
+                                      status.boot_id,
+                                      true,
+                                      random.NextBits(),
+                                      5,
+                                      6,
+                                      "alpha",
+                                      7,
+                                      8,
+                                      {start_us},
+                                      {start_us + 1},
+                                      9,
+                                      "no",
+                                      {1, 2}};
   return bundle;
 }
 
@@ -162,15 +176,16 @@ inline std::vector<WireMessage> OneOfEach(RandomStream& random) {
   Approval approval;
   approval.id = random.NextBits();
   approval.p_WS = RandomVector(random);
-  approval.signature.assign(64, 0xA5);
+  approval.seal.mac.fill(0xA5);
   PositionEstimate estimate;
   estimate.time = bundle->time;
   estimate.source = EstimateSource::kVision;
   estimate.healthy = true;
   estimate.p_WB = RandomVector(random);
-  for (const VehicleMessage& message : {VehicleMessage(approval), VehicleMessage(estimate),
-                                        VehicleMessage(HoldRequest{random.NextBits(), "hold it"}),
-                                        VehicleMessage(AbortRequest{random.NextBits(), "away"})}) {
+  for (const VehicleMessage& message :
+       {VehicleMessage(approval), VehicleMessage(estimate),
+        VehicleMessage(HoldRequest{random.NextBits(), "hold it"}), VehicleMessage(SessionRequest{}),
+        VehicleMessage(AbortRequest{random.NextBits(), "away"})}) {
     messages.push_back(EncodeVehicleMessage(message, bundle->time, channels));
   }
   EngineSnapshot snapshot = RandomSnapshot(random, *bundle);

@@ -61,6 +61,9 @@ void FillMission(const MissionMemory& m, const MissionInputs& in, AlarmFacts& f)
                        m.status.approval_phase == MissionStatus::ApprovalPhase::kSent;
   f.waiting_s = waiting ? SecondsBetween(m.approved_at, now) : NAN;
   f.refusal = m.refusal;
+  f.foreign = in.session.authority.foreign;
+  const bool other = in.session.authority.standing == AuthorityStanding::kOther;
+  f.view_only = other ? in.session.authority.why_not : "";
   f.foreign_descent =
       state < MissionState::kHold && !FollowsRecord(in.session.role) && FliesForeignApproval(m);
 }

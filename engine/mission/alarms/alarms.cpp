@@ -392,6 +392,20 @@ const AlarmRow kRows[] = {
            return WithNumbers("Wind %.1f m/s, limit ", f.wind_mps) + limit +
                   ". Watch the descent, hold or wave off.";
          }},
+    {.id = AlarmId::kForeignCommand,
+     .level = AlarmLevel::kWarning,
+     .immediate = true,
+     .present = [](const Facts& f, double) { return f.foreign.age_s < AlarmLimits::foreign_s; },
+     .text =
+         [](const Facts& f, const std::string&) {
+           return words::ForeignCommand(f.foreign) +
+                  ". This station did not send it: find the sender.";
+         }},
+    {.id = AlarmId::kViewOnly,
+     .level = AlarmLevel::kCaution,
+     .present = [](const Facts& f, double) { return !f.view_only.empty(); },
+     .text = [](const Facts& f,
+                const std::string&) { return f.view_only + ". Wave-off is available."; }},
 };
 
 std::vector<AlarmRow> AllRows() {

@@ -68,6 +68,8 @@ struct AlarmFacts {
   double waiting_s = NAN;      ///< for the answer to an approval
   std::string refusal{};
   bool foreign_descent = false;
+  ForeignTraffic foreign{};  ///< commands on the bus that this station did not send
+  std::string view_only{};   ///< which other station commands
   // Figures of the descent that an alarm guards now; NaN while none does.
   double off_path_m = NAN;
   double off_centre_m = NAN;

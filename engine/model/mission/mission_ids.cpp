@@ -60,6 +60,8 @@ constexpr std::array<const char*, kAlarmCount> kAlarmNames = {
     "camera_blank",
     "pairing",
     "old_ground",
+    "foreign_command",
+    "view_only",
 };
 
 }  // namespace

@@ -81,8 +81,10 @@ enum class AlarmId : std::uint8_t {
   kCameraBlank,
   kPairing,
   kOldGround,
+  kForeignCommand,
+  kViewOnly,
 };
-inline constexpr std::size_t kAlarmCount = 49;
+inline constexpr std::size_t kAlarmCount = 51;
 /// "gps_error".
 const char* AlarmName(AlarmId id);
 /// Empty for a name that no alarm has.

@@ -113,6 +113,10 @@ Status WriteFlightReport(const AppOptions& options, const Session& session,
   report.lines = SummaryLines(summary);
   report.last = session.engine->Latest();
   report.approvals = approvals;
+  if (report.last && !report.last->session->authority.fingerprint.empty()) {
+    const AuthorityStatus& authority = report.last->session->authority;
+    report.lines.push_back("Key " + authority.key_name + ", fingerprint " + authority.fingerprint);
+  }
   report.screenshots = screenshots;
   report.log_name = options.record ? "flight.lcm" : "";
   if (const Status made = MakeFolder(session.output_dir); !made) {

@@ -1,0 +1,359 @@
+// Trust from end to end: forged, altered and replayed commands against a vehicle and a station that
+// talk over a bus in memory, and the stock log player against palacectl simulate.
+#include <signal.h>
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <functional>
+
+#include "engine/runtime/engine.h"
+#include "engine/simulation/session.h"
+#include "engine/trust/key_file.h"
+#include "engine/wire/convert.h"
+#include "engine/wire/lcm_link.h"
+#include "engine/wire/lcm_source.h"
+#include "tests/scenarios/private_network.h"
+#include "tests/scenarios/scenario.h"
+#include "tests/support/expected.h"
+
+namespace palace {
+namespace {
+
+const ChannelNames kNames;
+
+/// One station: its source, link and engine, stepped by the test.
+struct Station {
+  Station(const std::shared_ptr<Bus>& bus, std::string name, std::optional<SecretKey> key) {
+    StationTrust trust{.station_id = RandomWord(),
+                       .station_name = std::move(name),
+                       .key = std::move(key),
+                       .no_key_why = "No key for this vehicle"};
+    link = std::make_shared<LcmLink>(bus, kNames, std::move(trust));
+    LcmSourceOptions live;
+    live.heartbeat_s = 0;
+    live.overheard = [this](const WireMessage& message) { link->Overhear(message); };
+    EngineParts parts;
+    parts.source = LcmSource::Create(bus, kNames, std::move(live)).value();
+    parts.link = link;
+    parts.mission.session_id = RandomWord();
+    engine = std::make_unique<Engine>(std::move(parts), /*threaded=*/false);
+  }
+  const SessionPart& session() const { return *engine->Latest()->session; }
+  const MissionStatus& mission() const { return engine->Latest()->flight->mission; }
+  bool HasAlarm(AlarmId id) const {
+    const auto& alarms = mission().alarms;
+    return std::any_of(alarms.begin(), alarms.end(),
+                       [&](const Alarm& alarm) { return alarm.kind == id; });
+  }
+  bool HasEvent(const std::string& begin) const {
+    const auto& events = *session().events;
+    return std::any_of(events.begin(), events.end(),
+                       [&](const Event& event) { return event.text.find(begin) == 0; });
+  }
+  std::shared_ptr<LcmLink> link;
+  std::unique_ptr<Engine> engine;
+};
+
+/// A vehicle without pictures on a bus in memory.
+class TrustOnTheBus : public testing::Test {
+ protected:
+  void SetUp() override {
+    bus_ = Bus::Open("memq://").value();
+    session_.emplace(OpenSimulatedSession(
+                         {.scenario = "empty",
+                          .seed = 3,
+                          .speed = 1,  // stations judge stamps by their own clock
+                          .render = false,
+                          .other_stations = SessionSpec::OtherStations{{{SecretKey::FromSeed(1),
+                                                                         SecretKey::FromSeed(2)}}}},
+                         nullptr)
+                         .value());
+    server_ = VehicleServer::Create(bus_, *session_->simulator, kNames).value();
+    const auto keep = [this](WireMessage m) { Keep(std::move(m)); };
+    ASSERT_TRUE(bus_->Subscribe(kNames.position_estimate, keep).ok());
+    ASSERT_TRUE(bus_->Subscribe(kNames.command, keep).ok());
+  }
+  void Keep(WireMessage message) { heard_.push_back(std::move(message)); }
+  /// A tenth of a second of flight, told to every station; what they send is heard.
+  void Step() {
+    const auto bundle = session_->simulator->Next({}).value();
+    mode_ = bundle->status->mode;
+    for (const CommandAck& ack : bundle->acks) {
+      acks_.push_back(ack);
+    }
+    ASSERT_TRUE(server_->Publish(*bundle).ok());
+    for (Station* station : stations_) {
+      ASSERT_TRUE(station->engine->Step());
+    }
+    ASSERT_TRUE(server_->Poll(0).ok());
+  }
+  /// True when it came within `steps`.
+  bool Until(const std::function<bool()>& done, int steps = 200) {
+    for (int i = 0; i < steps; ++i) {
+      Step();
+      if (done()) {
+        return true;
+      }
+    }
+    return false;
+  }
+  void Forge(const VehicleMessage& message) {
+    ASSERT_TRUE(bus_->Publish(EncodeVehicleMessage(message, {}, kNames)).ok());
+    Step();
+    Step();
+    Step();
+  }
+  Approval ForgedApproval() const {
+    Approval a;
+    a.id = 71;
+    a.site_id = a.map_hash = a.settings_hash = a.calibration_hash = 1;
+    a.vehicle_boot_id = session_->simulator->boot_id();
+    a.approved_at = Simulator::kEpoch;
+    a.expires_at = AddSeconds(a.approved_at, 110);
+    a.p_WS = {15, 0, 0};
+    a.glide_slope_rad = 0.8;
+    a.descent_rate_mps = 1;
+    a.clear_radius_m = 2;
+    return a;
+  }
+
+  std::shared_ptr<Bus> bus_;
+  std::optional<SimulatedSession> session_;
+  std::unique_ptr<VehicleServer> server_;
+  std::vector<Station*> stations_;
+  std::vector<WireMessage> heard_;
+  std::vector<CommandAck> acks_;
+  VehicleMode mode_ = VehicleMode::kUnknown;
+};
+
+TEST_F(TrustOnTheBus, ForgedAndReplayedCommandsAreRefusedShownAndRecorded) {
+  Station alpha(bus_, "alpha", SecretKey::FromSeed(1));
+  stations_ = {&alpha};
+  ASSERT_TRUE(Until([&] { return alpha.session().authority.commands(); }));
+  EXPECT_TRUE(alpha.HasEvent("This station commands the vehicle, key "));
+  // Estimates of its own come back and are known as such.
+  ASSERT_TRUE(Until([&] { return heard_.size() > 20; }));
+  EXPECT_EQ(alpha.session().authority.foreign.count, 0u);
+  EXPECT_FALSE(alpha.HasAlarm(AlarmId::kForeignCommand));
+
+  struct Row {
+    const char* what;
+    VehicleMessage message;
+    const char* refusal;  ///< null: no answer, as for estimates
+  };
+  Approval sealed_by_another = ForgedApproval();
+  sealed_by_another.seal = {9, 1, {1}, SecretKey::FromSeed(7).Sign(SealedBytes(sealed_by_another))};
+  PositionEstimate estimate;
+  estimate.source = EstimateSource::kVision;
+  estimate.healthy = true;
+  const Row rows[] = {
+      {"APPROVE on COMMAND", ForgedApproval(), "Not sealed"},
+      {"APPROVE on COMMAND", sealed_by_another, "Seal does not match"},
+      {"HOLD on COMMAND", HoldRequest{5, "forged", {}}, "Not sealed"},
+      {"an estimate on POSITION_ESTIMATE", estimate, nullptr},
+  };
+  for (const Row& row : rows) {
+    SCOPED_TRACE(row.what);
+    const std::uint64_t before = alpha.session().authority.foreign.count;
+    acks_.clear();
+    Forge(row.message);
+    EXPECT_EQ(mode_, VehicleMode::kHover);
+    EXPECT_EQ(alpha.session().authority.foreign.count, before + 1);
+    EXPECT_EQ(alpha.session().authority.foreign.what, row.what);
+    EXPECT_TRUE(alpha.HasAlarm(AlarmId::kForeignCommand));
+    ASSERT_EQ(acks_.size(), row.refusal != nullptr ? 1u : 0u);
+    if (row.refusal != nullptr) {
+      EXPECT_EQ(acks_[0].reason, row.refusal);
+    }
+  }
+  EXPECT_TRUE(alpha.HasEvent("Foreign command from "));
+  EXPECT_TRUE(alpha.HasEvent("Vehicle refused a command: Not sealed"));
+  // A command of its own that somebody else plays again, long after.
+  VehicleMessage own = HoldRequest{600, "own", {}};
+  alpha.link->Seal(own);
+  ASSERT_TRUE(bus_->Publish(EncodeVehicleMessage(own, {}, kNames)).ok());
+  ASSERT_TRUE(Until([&] { return mode_ == VehicleMode::kHold; }, 3));
+  acks_.clear();
+  Forge(own);
+  ASSERT_EQ(acks_.size(), 1u);
+  EXPECT_EQ(acks_[0].reason, "Counter 1 was already used");
+  // What cannot be read is answered too.
+  const std::uint64_t before = alpha.session().authority.foreign.count;
+  ASSERT_TRUE(bus_->Publish({kNames.command, {}, {1, 2, 3}}).ok());
+  Step();
+  EXPECT_EQ(server_->refused(), 1u);
+  EXPECT_EQ(alpha.session().authority.foreign.count, before + 1);
+  Step();
+  // Open by design, and told.
+  Forge(AbortRequest{7, "anybody"});
+  EXPECT_EQ(mode_, VehicleMode::kAbort);
+  EXPECT_EQ(alpha.session().authority.foreign.what, "ABORT (open by design) on ABORT");
+}
+
+TEST_F(TrustOnTheBus, ASecondStationSeesWhoCommandsAndMayOnlyLook) {
+  Station alpha(bus_, "alpha", SecretKey::FromSeed(1));
+  stations_ = {&alpha};
+  ASSERT_TRUE(Until([&] { return alpha.session().authority.commands(); }));
+  Station bravo(bus_, "bravo", SecretKey::FromSeed(2)), keyless(bus_, "charlie", std::nullopt);
+  stations_ = {&alpha, &bravo, &keyless};
+  ASSERT_TRUE(Until([&] { return bravo.session().authority.holder.find("alpha ") == 0; }));
+  EXPECT_EQ(bravo.session().authority.why_not, "Station alpha commands this vehicle");
+  EXPECT_FALSE(bravo.mission().may_select);
+  EXPECT_EQ(bravo.mission().cannot_approve_reason, "Station alpha commands this vehicle");
+  EXPECT_TRUE(bravo.HasAlarm(AlarmId::kViewOnly));
+  EXPECT_FALSE(bravo.HasAlarm(AlarmId::kForeignCommand)) << "the holder's messages are no attack";
+  EXPECT_EQ(keyless.mission().cannot_approve_reason, "No key for this vehicle");
+  EXPECT_FALSE(keyless.mission().may_select);
+  EXPECT_TRUE(keyless.session().can_transmit) << "wave-off is offered";
+  // Only a person takes over, and both are told.
+  bravo.engine->Post({CommandOrigin::kOperator, AskForCommand{true}});
+  ASSERT_TRUE(Until([&] { return bravo.session().authority.commands(); }));
+  ASSERT_TRUE(Until([&] { return alpha.HasEvent("Command lost: Station bravo commands"); }));
+  EXPECT_TRUE(bravo.HasEvent("Asked to take command over from alpha"));
+  EXPECT_FALSE(alpha.mission().may_select);
+  EXPECT_TRUE(Until([&] { return !bravo.session().authority.commands(); }, 1) == false);
+  EXPECT_EQ(alpha.session().authority.foreign.count, 0u);
+  // Given back, and left alone by the one that lost it.
+  bravo.engine->Post({CommandOrigin::kOperator, ReleaseCommand{}});
+  ASSERT_TRUE(Until([&] { return alpha.session().authority.holder.empty(); }));
+  EXPECT_FALSE(Until([&] { return alpha.session().authority.commands(); }, 10));
+  alpha.engine->Post({CommandOrigin::kOperator, AskForCommand{}});
+  EXPECT_TRUE(Until([&] { return alpha.session().authority.commands(); }));
+}
+
+// I17: whoever starts anew is somebody else, and what the one before sealed is of no use.
+TEST_F(TrustOnTheBus, ARestartedStationInheritsNothing) {
+  VehicleMessage approval = ForgedApproval();
+  {
+    Station alpha(bus_, "alpha", SecretKey::FromSeed(1));
+    stations_ = {&alpha};
+    ASSERT_TRUE(Until([&] { return alpha.session().authority.commands(); }));
+    alpha.link->Seal(approval);
+    ASSERT_TRUE(bus_->Publish(EncodeVehicleMessage(approval, {}, kNames)).ok());
+    ASSERT_TRUE(Until([&] { return mode_ == VehicleMode::kAlign; }, 3));
+    stations_.clear();
+    // It ends in order: command is given back, and what flew by it is over.
+  }
+  ASSERT_TRUE(server_->Poll(0).ok());
+  Step();
+  EXPECT_EQ(mode_, VehicleMode::kHold);
+}
+
+}  // namespace
+
+namespace {
+
+constexpr const char* kUrl = "udpm://239.255.76.67:7667?ttl=0";
+
+class TrustOnTheNetwork : public Scenario {
+ protected:
+  void SetUp() override {
+    std::string why_not;
+    network_ = PrivateNetwork::Create(why_not);
+    if (!network_) {
+      GTEST_SKIP() << why_not;
+    }
+  }
+  std::string Key(const std::string& name) {
+    return MakeKeyFile(name, folder_ / "keys").value().file.string();
+  }
+  std::unique_ptr<PrivateNetwork> network_;
+};
+
+// F33: a whole approved and landed flight, played into the bus of a vehicle that waits for commands
+// of the very same key: it hovers on.
+TEST_F(TrustOnTheNetwork, ARecordedFlightInTheStockPlayerMovesNothing) {
+  if (FindProgram("lcm-logplayer").empty()) {
+    ASSERT_FALSE(InCi());
+    GTEST_SKIP() << "runs with lcm-logplayer (liblcm-bin) installed";
+  }
+  const ProcessResult flown =
+      RunProcess(Palace({"--headless", "--scenario", "runway", "--record", "rec"}), 300);
+  ASSERT_EQ(flown.exit_code, 0) << flown.err;
+  const auto flights = FlightsIn(folder_ / "rec");
+  ASSERT_EQ(flights.size(), 1u);
+  ProcessOptions player;
+  player.command = {"lcm-logplayer", "--speed=8", std::string("--lcm-url=") + kUrl,
+                    flights[0] / "flight.lcm"};
+  Process vehicle(network_->Inside(
+      Palacectl({"simulate", "--scenario", "runway", "--url", kUrl, "--key", Key("heli-1"),
+                 "--no-pictures", "--log", "vehicle.lcm", "--duration-s", "120"})));
+  const ProcessResult played = RunProcess(network_->Inside(player), 120);
+  EXPECT_EQ(played.exit_code, 0) << played.err;
+  vehicle.Signal(SIGINT);
+  const ProcessResult ended = vehicle.Wait(20);
+  EXPECT_EQ(ended.exit_code, 0) << ended.err;
+  EXPECT_NE(ended.out.find("fingerprint "), std::string::npos) << ended.out;
+  EXPECT_NE(ended.out.find("did not touch down"), std::string::npos) << ended.out;
+  int statuses = 0, refused = 0;
+  const auto log = OpenLog(folder_ / "vehicle.lcm");
+  for (auto bundle = log->Next({}); bundle; bundle = log->Next({})) {
+    if ((*bundle)->status) {
+      ++statuses;
+      ASSERT_EQ((*bundle)->status->mode, VehicleMode::kHover);
+    }
+    for (const CommandAck& ack : (*bundle)->acks) {
+      EXPECT_EQ(ack.result, AckResult::kRefused);
+      ++refused;
+    }
+  }
+  EXPECT_GT(statuses, 20);
+  EXPECT_GT(refused, 0) << "the recorded approval was heard";
+}
+
+// Two processes, one key: the station is granted command and says so with the fingerprint, which
+// the simulator prints as well; without a key it may only look.
+TEST_F(TrustOnTheNetwork, AKeyOnBothSidesGivesCommandAndNoneGivesAView) {
+  const std::string key = Key("heli-1");
+  Process vehicle(
+      network_->Inside(Palacectl({"simulate", "--scenario", "runway", "--url", kUrl, "--key", key,
+                                  "--no-pictures", "--duration-s", "100"})));
+  WriteFile("look.script", "wait seconds 3\nscreenshot a.png\nquit\n");
+  const auto station = [&](std::vector<std::string> more, const std::string& record) {
+    std::vector<std::string> words = {"--headless",  "--connect", kUrl,  "--script",
+                                      "look.script", "--record",  record};
+    words.insert(words.end(), more.begin(), more.end());
+    ProcessOptions options = Palace(words);
+    options.environment = {{"XDG_CONFIG_HOME", (folder_ / "none").string()}};
+    const ProcessResult result = RunProcess(network_->Inside(options), 90);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    std::string events;
+    for (const auto& flight : FlightsIn(folder_ / record)) {
+      std::ifstream report(flight / "report.html");
+      events.append(std::istreambuf_iterator<char>(report), {});
+    }
+    return events;
+  };
+  const std::string with = station({"--key", key}, "with"), without = station({}, "without");
+  const std::string print = FingerprintText(LoadKeyFile(key)->key.id());
+  EXPECT_NE(with.find("This station commands the vehicle, key " + print), std::string::npos);
+  EXPECT_EQ(without.find("This station commands"), std::string::npos);
+  EXPECT_NE(without.find("palacectl trust make NAME"), std::string::npos);
+  vehicle.Signal(SIGINT);
+  EXPECT_NE(vehicle.Wait(20).out.find(print), std::string::npos);
+}
+
+TEST_F(TrustOnTheNetwork, KeysAreMadeShownListedAndRemoved) {
+  const auto trust = [&](std::vector<std::string> words) {
+    words.insert(words.begin(), "trust");
+    words.insert(words.end(), {"--keys", (folder_ / "k").string()});
+    return RunProcess(Palacectl(words), 20);
+  };
+  EXPECT_EQ(trust({"make", "heli-1"}).exit_code, 0);
+  EXPECT_EQ(trust({"make", "heli-1"}).exit_code, 2);
+  const ProcessResult shown = trust({"show", "heli-1"});
+  EXPECT_EQ(shown.exit_code, 0);
+  EXPECT_EQ(trust({"list"}).out, shown.out);
+  std::ifstream file(folder_ / "k" / "heli-1.key");
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  const std::string digits = text.substr(text.find("\nkey ") + 5, 64);
+  EXPECT_EQ(shown.out.find(digits), std::string::npos) << "the key itself is never shown";
+  chmod((folder_ / "k" / "heli-1.key").c_str(), 0644);
+  EXPECT_NE(trust({"show", "heli-1"}).err.find("chmod 600"), std::string::npos);
+  EXPECT_EQ(trust({"list"}).exit_code, 1);
+  EXPECT_EQ(trust({"remove", "heli-1"}).exit_code, 0);
+  EXPECT_EQ(trust({"show", "heli-1"}).exit_code, 1);
+}
+
+}  // namespace
+}  // namespace palace
