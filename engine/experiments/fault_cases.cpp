@@ -32,11 +32,11 @@ std::vector<FaultCase> CameraCases() {
       {"cameras swapped", "F04", on(K::kCamerasSwapped), {A::kCamerasSwapped}},
       {"left camera missing", "F05", on(K::kMissing, kLeft), {A::kCameraLeft}},
       {"right camera missing", "F05", on(K::kMissing, kRight), {A::kCameraRight}},
-      {"left camera late by 0.3 s", "F03", on(K::kCameraLate, kLeft, 0.3), {A::kRowError}, 2},
-      {"right camera late by 0.3 s", "F03", on(K::kCameraLate, kRight, 0.3), {A::kRowError}, 2},
-      {"both cameras late by 0.1 s", "F06", on(K::kCameraLate, {}, 0.1), {}, 2},
-      {"both cameras late by 0.3 s", "F06", on(K::kCameraLate, {}, 0.3), {}, 2},
-      {"both cameras late by 0.5 s", "F06", on(K::kCameraLate, {}, 0.5), {}, 2},
+      {"left camera late by 0.3 s", "F03", on(K::kCameraLate, kLeft, 0.3), {A::kImageTime}, 2},
+      {"right camera late by 0.3 s", "F03", on(K::kCameraLate, kRight, 0.3), {A::kImageTime}, 2},
+      {"both cameras late by 0.1 s", "F06", on(K::kCameraLate, {}, 0.1), {A::kImageTime}, 2},
+      {"both cameras late by 0.3 s", "F06", on(K::kCameraLate, {}, 0.3), {A::kImageTime}, 2},
+      {"both cameras late by 0.5 s", "F06", on(K::kCameraLate, {}, 0.5), {A::kImageTime}, 2},
   };
   for (FaultCase& row : cases) {
     row.of_cameras = true;
@@ -64,7 +64,7 @@ std::vector<FaultCase> AttitudeCases() {
                             {"attitude shifted by -0.3 s", -0.3},
                             {"attitude shifted by 0.3 s", 0.3},
                             {"attitude shifted by 0.5 s", 0.5}}) {
-    cases.push_back({shift.name, "F06", {{K::kAttitudeShifted, {}, shift.s}}, {}, 2});
+    cases.push_back({shift.name, "F06", {{K::kAttitudeShifted, {}, shift.s}}, {A::kImageTime}, 2});
   }
   return cases;
 }
@@ -72,14 +72,14 @@ std::vector<FaultCase> AttitudeCases() {
 std::vector<FaultCase> SensorCases() {
   const auto lands = DescentMust::kLand;
   return {
-      {"laser missing", "F07", {{K::kMissing, C::kLaserRange}}, {}, 1, true, lands},
-      {"laser stuck", "F09", {{K::kLaserStuck}}, {}, 1.5, true, lands},
-      {"laser halved", "F09", {{K::kLaserScaled, {}, 0.5}}, {}, 1, true, lands},
-      {"laser doubled", "F09", {{K::kLaserScaled, {}, 2}}, {}, 1, true, lands},
+      {"laser missing", "F07", {{K::kMissing, C::kLaserRange}}, {A::kLaserLost}, 1, true, lands},
+      {"laser stuck", "F09", {{K::kLaserStuck}}, {A::kLaserStuck}, 1.5, true, lands},
+      {"laser halved", "F09", {{K::kLaserScaled, {}, 0.5}}, {A::kLaserWrong}, 1, true, lands},
+      {"laser doubled", "F09", {{K::kLaserScaled, {}, 2}}, {A::kLaserWrong}, 1, true, lands},
       {"laser spikes", "F08", {{K::kLaserSpikes}}, {}, 5, false, lands, false, true},
-      {"GPS jumps by 8 m", "F12", {{K::kGpsJump, {}, 8}}, {}, 1, true, lands},
-      {"GPS drifts at 0.5 m/s", "F12", {{K::kGpsDrift, {}, 0.5}}, {}, 2, true, lands},
-      {"GPS missing", "F13", {{K::kMissing, C::kGps}}, {}, 2.5, true, lands},
+      {"GPS jumps by 8 m", "F12", {{K::kGpsJump, {}, 8}}, {A::kGpsJump}, 1, true, lands},
+      {"GPS drifts at 0.5 m/s", "F12", {{K::kGpsDrift, {}, 0.5}}, {A::kGpsJump}, 2, true, lands},
+      {"GPS missing", "F13", {{K::kMissing, C::kGps}}, {A::kGpsLost}, 2.5, true, lands},
   };
 }
 
@@ -156,17 +156,10 @@ std::span<const FaultCase> FaultCases() {
 }
 
 bool IsConsequence(AlarmId id) {
-  constexpr AlarmId kConsequences[] = {A::kHold,
-                                       A::kWaveOff,
-                                       A::kNoSite,
-                                       A::kSiteDegraded,
-                                       A::kVisionLost,
-                                       A::kOffPath,
-                                       A::kOffCentre,
-                                       A::kCoherenceLow,
-                                       A::kVisionResidual,
-                                       A::kDescentRate,
-                                       A::kApprovalUnanswered,
+  constexpr AlarmId kConsequences[] = {A::kHold,           A::kWaveOff,     A::kNoSite,
+                                       A::kSiteDegraded,   A::kVisionLost,  A::kOffPath,
+                                       A::kOldGround,      A::kOffCentre,   A::kCoherenceLow,
+                                       A::kVisionResidual, A::kDescentRate, A::kApprovalUnanswered,
                                        A::kApprovalRefused};
   return std::find(std::begin(kConsequences), std::end(kConsequences), id) !=
          std::end(kConsequences);

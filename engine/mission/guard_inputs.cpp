@@ -61,6 +61,10 @@ GuardInputs GuardInputsAt(const MissionMemory& m, Timestamp now) {
   in.map_age_s =
       m.facts.map_hash != 0 && now >= m.map_seen_at ? SecondsBetween(m.map_seen_at, now) : NAN;
   in.position_healthy = m.facts.position_healthy;
+  in.image_time = words::ImageTimeOff(m.facts.navigation);
+  in.gps = words::GpsOff(m.facts.navigation.gps_agreement);
+  in.laser = m.facts.navigation.laser;
+  in.height_m = HeightAboveSite(m);
   in.tracker_locked = m.facts.tracker_locked;
   in.coherence = m.facts.coherence;
   in.min_coherence = m.facts.settings.tracking.min_coherence;

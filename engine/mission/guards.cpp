@@ -27,12 +27,30 @@ std::string WhyCamerasBad(const GuardInputs& in, const Limit& limit) {
   return why.empty() ? in.camera_problem : why;
 }
 
+/// A laser that lies is worse than none: without one stereo's heights do from high enough.
+std::string WhyNoHeight(const GuardInputs& in) {
+  if (in.laser.lies()) {
+    return words::LaserFault(in.laser);
+  }
+  const bool lost = in.laser.state == LaserHealth::State::kLost;
+  return lost && !(in.height_m >= GuardLimits::laser_height_m)
+             ? words::LaserFault(in.laser) + WithNumbers("; height %.1f m, min ", in.height_m) +
+                   LimitWords({GuardLimits::laser_height_m, "m"}) + " without it"
+             : "";
+}
+
 std::string WhyNotPositioned(const GuardInputs& in, const Limit& limit) {
   if (!in.position_healthy) {
     return "Position estimate not healthy";
   }
+  if (!in.gps.empty()) {
+    return in.gps;
+  }
   if (NothingArmed(in)) {
     return words::kSelectFirst;
+  }
+  if (const std::string why = WhyNoHeight(in); !why.empty()) {
+    return why;
   }
   if (!in.tracker_locked) {
     return "Tracker not locked on the site";
@@ -117,8 +135,8 @@ const std::array<GuardRow, kGuardCount> kGuards = {{
      .limit = {GuardLimits::pose_s, "s"},
      .why =
          [](const GuardInputs& in, const Limit& limit) {
-           return in.attitude_invalid ? "Attitude invalid"
-                                      : words::Older("Vehicle pose", in.pose_age_s, limit.value);
+           const std::string old = words::Older("Vehicle pose", in.pose_age_s, limit.value);
+           return in.attitude_invalid ? "Attitude invalid" : old.empty() ? in.image_time : old;
          }},
     {.id = GuardId::kCameras,
      .words = "Both cameras fresh and right",

@@ -30,6 +30,10 @@ struct GuardInputs {
   double lost_share = NAN;  ///< of the vehicle's messages; NaN blocks nothing
   double map_age_s = NAN;
   bool position_healthy = false;
+  std::string image_time{};  ///< words::ImageTimeOff
+  std::string gps{};         ///< words::GpsOff
+  LaserHealth laser{};
+  double height_m = NAN;  ///< above the armed site
   bool tracker_locked = false;
   double coherence = NAN;
   double min_coherence = NAN;

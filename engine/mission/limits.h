@@ -15,7 +15,8 @@ struct GuardLimits {
   static constexpr double pose_s = 0.2;
   static constexpr double camera_s = 0.5;
   static constexpr double map_s = 2.0;
-  static constexpr double shown_s = 1.0;  ///< evidence on screen
+  static constexpr double shown_s = 1.0;        ///< evidence on screen
+  static constexpr double laser_height_m = 15;  ///< lower, heights without a laser are not enough
   static constexpr double arm_to_approve_s = 0.5;
   static constexpr double lost_percent = 50;      ///< of the vehicle's messages (F21)
   static constexpr double confirm_height_m = 10;  ///< a provisional site must be confirmed by here
@@ -34,6 +35,7 @@ struct StaleLimits {
 /// Beyond these an alarm is raised, where no guard's limit does it.
 struct AlarmLimits {
   static constexpr double gps_error_m = 2.0;
+  static constexpr double gps_silence_s = 2.0;
   static constexpr double vision_late_s = 0.3;
   static constexpr double answer_s = 2.0;
   static constexpr double lost_percent = 10;  ///< F21

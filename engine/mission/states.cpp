@@ -69,6 +69,9 @@ std::string WhyHold(const MissionMemory& m, const MissionInputs& in) {
   if (!std::isfinite(height_m)) {
     return words::kHeightUnknown;
   }
+  if (std::string why = words::ImageTimeOff(m.facts.navigation); !why.empty()) {
+    return why;
+  }
   if (SiteLost(m, now)) {
     return m.site.reason();
   }

@@ -52,6 +52,52 @@ std::string ClockStepped(double step_s) {
   return WithNumbers("Vehicle clock stepped by %+.1f s", step_s);
 }
 
+std::string ImageTimeOff(const NavigationStatus& navigation) {
+  const ImageTime* wrong = navigation.WrongImageTime();
+  if (wrong == nullptr) {
+    return {};
+  }
+  const bool both = navigation.image_time_left.off() && navigation.image_time_right.off();
+  const char* camera = both                                   ? "both cameras"
+                       : wrong == &navigation.image_time_left ? "the left camera"
+                                                              : "the right camera";
+  return WithNumbers("Image time off by %.0f ms against attitude: pictures of ",
+                     1000 * std::abs(wrong->offset_s)) +
+         camera + (wrong->offset_s > 0 ? " are late" : " are early");
+}
+
+std::string GpsOff(const GpsAgreement& gps) {
+  if (!gps.off) {
+    return {};
+  }
+  return gps.drifts
+             ? WithNumbers("GPS drifts against its own velocity, %.1f m off the prediction, limit ",
+                           gps.off_m) +
+                   LimitWords({GpsAgreement::kDrift_m, "m in 5 s"})
+             : WithNumbers("GPS is %.1f m off the inertial prediction, limit ", gps.off_m) +
+                   LimitWords({GpsAgreement::kJump_m, "m"});
+}
+
+std::string LaserFault(const LaserHealth& laser) {
+  using State = LaserHealth::State;
+  switch (laser.state) {
+    case State::kLost:
+      return WithNumbers("Laser lost for %.1f s, limit ", laser.since_s) +
+             LimitWords({LaserHealth::kLost_s, "s"});
+    case State::kStuck:
+      return WithNumbers("Laser repeats its range for %.1f s, limit ", laser.since_s) +
+             LimitWords({LaserHealth::kStuck_s, "s"});
+    case State::kWrong:
+      return WithNumbers("Laser reads %.2f of the height that stereo and motion show, limit ",
+                         laser.ratio) +
+             WithNumbers("%.2f to %.2f", 1 - LaserHealth::kWrong, 1 + LaserHealth::kWrong);
+    case State::kNever:
+    case State::kFine:
+      return {};
+  }
+  return {};
+}
+
 std::string SiteName(const MissionStatus& status) {
   return status.armed ? std::string("site ") + status.armed->letter : std::string("the site");
 }
@@ -66,7 +112,9 @@ std::string SiteWon(const std::string& letter, int maps) {
   return Site(letter) + " won " + std::to_string(maps) + " maps";
 }
 
-std::string SiteLeads(const std::string& letter) { return Site(letter) + " leads, not for long enough yet"; }
+std::string SiteLeads(const std::string& letter) {
+  return Site(letter) + " leads, not for long enough yet";
+}
 
 std::string SiteRefused(const std::string& letter) { return Site(letter) + " refused"; }
 
@@ -96,7 +144,9 @@ std::string Alternative(const MissionMemory& m) {
          WithNumbers(", %.1f m clear.", m.alternative->safe_distance_m);
 }
 
-std::string OffTheMap(const std::string& letter) { return Site(letter) + " is not on the newest map"; }
+std::string OffTheMap(const std::string& letter) {
+  return Site(letter) + " is not on the newest map";
+}
 
 std::string NotConfirmed(const std::string& letter) {
   return Site(letter) + " is not confirmed by " + ConfirmHeight() + " above it";

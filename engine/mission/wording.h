@@ -70,6 +70,14 @@ std::string ClockStepped(double step_s);
 /// "Left camera stale, 1.8 s"; empty when the age is known and within the limit.
 std::string Older(const char* what, double age_s, double limit_s);
 
+/// "Image time off by 100 ms against attitude: pictures of both cameras are late"; empty while no
+/// camera's is known to be off.
+std::string ImageTimeOff(const NavigationStatus& navigation);
+/// "GPS is 8.0 m off the inertial prediction, limit 1.0 m"; empty while it is not.
+std::string GpsOff(const GpsAgreement& gps);
+/// "Laser lost for 0.6 s, limit 0.5 s"; empty while nothing is wrong with it.
+std::string LaserFault(const LaserHealth& laser);
+
 /// "site A", or "the site" when none is armed.
 std::string SiteName(const MissionStatus& status);
 std::string SiteSelected(const std::string& letter);

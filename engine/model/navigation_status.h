@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -55,6 +56,51 @@ struct FilterStatus {
   static constexpr double kUnknownAfter_s = 5;
 };
 
+/// Stamps of one camera's pictures against those of the attitude, by the motion of both
+/// (navigation/image_time.h).
+struct ImageTime {
+  enum class State : std::uint8_t {
+    kNotObservable,  ///< too little turning to tell
+    kAgrees,
+    kOff,
+  };
+  State state = State::kNotObservable;
+  double offset_s = NAN;  ///< positive: pictures are late
+  double sigma_s = NAN;
+  static constexpr double kLimit_s = 0.035;  ///< off beyond it
+
+  bool off() const { return state == State::kOff; }
+};
+
+/// GPS against its own velocity and the inertial prediction (navigation/gps_watch.h).
+struct GpsAgreement {
+  bool off = false;
+  bool drifts = false;  ///< against its own velocity, rather than stands elsewhere
+  double off_m = NAN;   ///< of the newest fix from the prediction; NaN before two fixes
+  static constexpr double kJump_m = 1;     ///< off beyond it ...
+  static constexpr double kDrift_m = 0.3;  ///< ... or by so much in five seconds
+};
+
+/// The laser range finder against motion and stereo (navigation/laser_watch.h).
+struct LaserHealth {
+  enum class State : std::uint8_t {
+    kNever,  ///< no return was ever heard
+    kFine,
+    kLost,
+    kStuck,  ///< the same range while noise or motion should change it
+    kWrong,  ///< stepped, and neither motion nor stereo did; or scaled by the same witnesses
+  };
+  State state = State::kNever;
+  double since_s = NAN;  ///< lost, stuck: for so long
+  double ratio = NAN;    ///< wrong: range over what it should be
+  static constexpr double kLost_s = 0.5;
+  static constexpr double kStuck_s = 0.8;
+  static constexpr double kWrong = 0.15;  ///< share of the height
+
+  /// Of no use for heights, whatever it reads.
+  bool lies() const { return state == State::kStuck || state == State::kWrong; }
+};
+
 struct NavigationStatus {
   FilterStatus gps;
   FilterStatus vision;
@@ -67,6 +113,15 @@ struct NavigationStatus {
   const FilterStatus& InForce() const { return OnVision() ? vision : gps; }
   std::string handover_reason;  ///< what it waits for
   double offset_m = 0;          ///< |vision - GPS| at the switch
+  ImageTime image_time_left, image_time_right;
+  /// Of the camera that is off by more; null while none is off.
+  const ImageTime* WrongImageTime() const {
+    const ImageTime &l = image_time_left, &r = image_time_right;
+    const bool right = r.off() && !(l.off() && std::abs(l.offset_s) >= std::abs(r.offset_s));
+    return right ? &r : l.off() ? &l : nullptr;
+  }
+  GpsAgreement gps_agreement;
+  LaserHealth laser;
 };
 
 }  // namespace palace

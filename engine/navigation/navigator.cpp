@@ -43,6 +43,14 @@ PositionMeasurement GpsMeasurement(const GpsFix& fix) {
   return measurement;
 }
 
+/// A fix whose position is not believed: the filter goes on with its velocity.
+PositionMeasurement VelocityOnly(PositionMeasurement measurement, const FilterEstimate& predicted) {
+  constexpr double kNothingKnown_m2 = 1e6;
+  measurement.p_WB = predicted.p_WB;
+  measurement.p_covariance_m2 = kNothingKnown_m2 * Eigen::Matrix3d::Identity();
+  return measurement;
+}
+
 PositionEstimate FromFilter(const PositionFilter& filter, Timestamp now) {
   const FilterEstimate state = filter.EstimateAt(now);
   PositionEstimate estimate;
@@ -123,13 +131,29 @@ void Navigator::AddGps(const GpsFix& fix) {
   if (!fix.p_WB.allFinite()) {
     return;
   }
-  const PositionMeasurement measurement = GpsMeasurement(fix);
-  if (gps_.running()) {
+  const std::optional<FilterEstimate> predicted =
+      gps_.running() ? std::optional(gps_.EstimateAt(fix.time)) : std::nullopt;
+  gps_watch_.Add(fix, predicted);
+  status_.gps_agreement = gps_watch_.status();
+  const bool settled_elsewhere = gps_watch_.SettledElsewhere() && !site_;
+  const PositionMeasurement measurement = status_.gps_agreement.off && predicted
+                                              ? VelocityOnly(GpsMeasurement(fix), *predicted)
+                                              : GpsMeasurement(fix);
+  if (gps_.running() && !settled_elsewhere) {
     gps_.AddFix(measurement);
     if (gps_.rejected_in_row() < kGpsRestartAfter) {
       return;
     }
   }
+  if (settled_elsewhere) {
+    ++frame_moves_;
+    gps_watch_ = {};
+  }
+  RestartGps(fix);
+}
+
+void Navigator::RestartGps(const GpsFix& fix) {
+  const PositionMeasurement measurement = GpsMeasurement(fix);
   FilterSeed seed;
   seed.time = fix.time;
   seed.p_WB = fix.p_WB;

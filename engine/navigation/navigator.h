@@ -23,6 +23,7 @@
 #include "engine/model/rig.h"
 #include "engine/model/settings/settings.h"
 #include "engine/navigation/attitude_history.h"
+#include "engine/navigation/gps_watch.h"
 #include "engine/navigation/handover.h"
 #include "engine/navigation/position_filter.h"
 #include "engine/navigation/vision_fix.h"
@@ -50,6 +51,9 @@ class Navigator {
   /// Approval accepted: vision may take over when it is ready. False withdraws the permission but
   /// does not switch back.
   void AllowVision(bool allowed);
+  /// Grows when GPS has settled elsewhere and the filter was started anew there: maps made before
+  /// lie elsewhere, too. Never while a site is tracked.
+  int frame_moves() const { return frame_moves_; }
   /// As of the last AddSensors or AddVision.
   const NavigationStatus& status() const { return status_; }
   /// Vision after the hand-over, GPS before, propagated to `now`. kNone: only a pose, or nothing.
@@ -70,6 +74,7 @@ class Navigator {
 
   void AddImu(const ImuSample& sample);
   void AddGps(const GpsFix& fix);
+  void RestartGps(const GpsFix& fix);
   /// Starts the filter in the past and replays the IMU since.
   void StartFilter(PositionFilter& filter, const FilterSeed& seed, const ProcessNoise& noise) const;
   Result<VisionFix> MakeFix(const TrackResult& track, const PinholeCamera& camera,
@@ -86,6 +91,8 @@ class Navigator {
   AttitudeHistory poses_;
   std::deque<ImuRecord> imu_;
   PositionFilter gps_;
+  GpsWatch gps_watch_;
+  int frame_moves_ = 0;
   PositionFilter vision_;
   Handover handover_;
   std::optional<LandingSite> site_;

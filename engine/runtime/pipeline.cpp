@@ -11,11 +11,6 @@
 #include "engine/stereo/range_measurement.h"
 
 namespace palace {
-namespace {
-
-constexpr double kLaserAge_s = 0.1;  // a laser range older than this is of another place
-
-}  // namespace
 
 Pipeline::Pipeline(const Settings& settings, MissionOptions mission)
     : settings_(settings), mission_(std::move(mission)) {}
@@ -34,6 +29,10 @@ void Pipeline::StartAfterJump(Timestamp now) {
   tracker_.Reset();
   tracked_site_ = 0;
   navigator_.Reset();
+  frame_moves_ = 0;
+  laser_watch_.Reset();
+  image_time_.Reset();
+  beam_depth_m_ = NAN;
   channels_.Reset();
   if (FollowsRecord(role_)) {
     role_ = SessionRole::kReplayedAfterJump;
@@ -149,6 +148,7 @@ void Pipeline::See(Pass& pass) {
   if (!bundle.truth.empty()) {
     sensors.truth = bundle.truth.back();
   }
+  WatchMotion(pass);
   if (!bundle.stereo || !rectifier_) {
     return;
   }
@@ -166,19 +166,10 @@ void Pipeline::See(Pass& pass) {
     pass.pair = *pair;
     sensors.left_rectified = pair->left;
     sensors.right_rectified = pair->right;
+    if (!HasPicturesOnly(role_)) {
+      image_time_.AddPictures(pair->left.get(), pair->right.get(), bundle.stereo->time);
+    }
   });
-}
-
-std::optional<Eigen::Vector3d> Pipeline::LaserSpot(const EngineSnapshot& snapshot) const {
-  if (!snapshot.sensors->laser || !std::isfinite(snapshot.sensors->laser->range_m) || !rectifier_ ||
-      !snapshot.sensors->frame ||
-      std::abs(SecondsBetween(snapshot.sensors->laser->time, snapshot.sensors->frame->time)) >
-          kLaserAge_s) {
-    return std::nullopt;
-  }
-  // The beam runs along the axis of the raw camera, which is not the rectified one.
-  return rectifier_->R_C_Rect().transpose() *
-         Eigen::Vector3d(0, 0, snapshot.sensors->laser->range_m);
 }
 
 const MissionStatus& Pipeline::MissionInForce() const {
@@ -257,6 +248,7 @@ void Pipeline::MeasureRange(Pass& pass) {
                                           : "VEHICLE_POSE did not come within 0.1 s of them"));
     return;
   }
+  WatchLaserSpot(*range);
   if (const auto spot = LaserSpot(*pass.snapshot)) {
     range_check_.Add(*range, *spot);
     pass.snapshot->terrain.Edit().range_agreement = range_check_.agreement();
@@ -321,7 +313,11 @@ void Pipeline::Track(Pass& pass) {
     navigator_.AddVision(result, rectifier_->camera(), *rig_, *pass.bundle, tracking);
     snapshot.sensors.Edit().X_WC = navigator_.PredictBodyPose(exposure) * rectifier_->X_BC(*rig_);
   }
-  snapshot.flight.Edit().navigation = navigator_.status();
+  NavigationStatus& navigation = snapshot.flight.Edit().navigation;
+  navigation = navigator_.status();
+  navigation.image_time_left = image_time_.left();
+  navigation.image_time_right = image_time_.right();
+  navigation.laser = laser_watch_.status();
 }
 
 void Pipeline::Decide(Pass& pass) {

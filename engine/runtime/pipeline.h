@@ -14,6 +14,8 @@
 #include "engine/mission/mission.h"
 #include "engine/model/mission/session_role.h"
 #include "engine/model/snapshot.h"
+#include "engine/navigation/image_time_watch.h"
+#include "engine/navigation/laser_watch.h"
 #include "engine/navigation/navigator.h"
 #include "engine/runtime/channel_monitor.h"
 #include "engine/runtime/flight_history.h"
@@ -85,6 +87,12 @@ class Pipeline {
   LimitsApply WhenLimitsApply(bool of_record) const;
   void PrepareRig(Pass& pass);
   void See(Pass& pass);
+  /// Laser and image time against the motion of the vehicle.
+  void WatchMotion(Pass& pass);
+  void WatchLaserSpot(const RangeMap& range);
+  BeamPose BeamAt(Timestamp time) const;
+  /// Unit vector in the axes of the rectified left camera.
+  Eigen::Vector3d BeamDirection() const;
   void MeasureRange(Pass& pass);
   void Judge(Pass& pass);
   void Track(Pass& pass);
@@ -127,9 +135,13 @@ class Pipeline {
   SiteTracker tracker_;
   std::uint64_t tracked_site_ = 0;
   Navigator navigator_;
+  int frame_moves_ = 0;  ///< as the newest map knows
+  LaserWatch laser_watch_;
+  ImageTimeWatch image_time_;
   ChannelMonitor channels_;
   FlightHistory history_;
   std::optional<double> laser_height_m_;  // of the laser's spot in W
+  double beam_depth_m_ = NAN;             // by stereo, along the laser's beam; of the newest map
   std::uint64_t stereo_frames_ = 0;
   std::uint64_t sequence_ = 0;
   std::shared_ptr<const FrameBundle> last_bundle_;

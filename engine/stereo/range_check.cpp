@@ -35,12 +35,13 @@ std::optional<double> DepthAround(const RangeMap& range, const Eigen::Vector2d& 
 
 }  // namespace
 
-void RangeCheck::Add(const RangeMap& range, const Eigen::Vector3d& p_CL) {
+std::optional<double> DepthAtSpot(const RangeMap& range, const Eigen::Vector3d& p_CL) {
   const auto pixel = ProjectPinhole(range.camera, p_CL);
-  if (!pixel || !InPicture(range.camera, *pixel)) {
-    return;
-  }
-  const std::optional<double> depth_m = DepthAround(range, *pixel);
+  return pixel && InPicture(range.camera, *pixel) ? DepthAround(range, *pixel) : std::nullopt;
+}
+
+void RangeCheck::Add(const RangeMap& range, const Eigen::Vector3d& p_CL) {
+  const std::optional<double> depth_m = DepthAtSpot(range, p_CL);
   if (!depth_m) {
     return;
   }

@@ -11,12 +11,17 @@
 #pragma once
 
 #include <deque>
+#include <optional>
 
 #include <Eigen/Dense>
 
 #include "engine/model/range_map.h"
 
 namespace palace {
+
+/// Median stereo depth around the pixel that sees `p_CL`; nothing when it lies outside the picture
+/// or half of the pixels around are unknown.
+std::optional<double> DepthAtSpot(const RangeMap& range, const Eigen::Vector3d& p_CL);
 
 class RangeCheck {
  public:

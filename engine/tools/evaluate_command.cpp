@@ -4,6 +4,7 @@
 
 #include "engine/experiments/evaluate_calibration.h"
 #include "engine/experiments/evaluate_faults.h"
+#include "engine/experiments/evaluate_image_time.h"
 #include "engine/experiments/evaluate_landing.h"
 #include "engine/experiments/evaluate_probability.h"
 #include "engine/experiments/evaluate_site_flags.h"

@@ -12,6 +12,14 @@ struct Fault {
   double within_s;  ///< a descent must hold by then
 };
 
+void SetImageTime(MissionRig& rig, double offset_s) {
+  rig.navigation.image_time_right = {ImageTime::State::kOff, offset_s, 0.005};
+}
+
+void SetLaser(MissionRig& rig, LaserHealth::State state) {
+  rig.navigation.laser = {state, 0.9, 0.5};
+}
+
 class DescentFaults : public testing::TestWithParam<Fault> {};
 
 TEST_P(DescentFaults, HoldsInTime) {
@@ -63,6 +71,7 @@ INSTANTIATE_TEST_SUITE_P(
                 r.jumped = true;
               },
               0.3},
+        Fault{"ImageTimeOff", [](MissionRig& r) { SetImageTime(r, 0.1); }, 0.2},
         Fault{"LinkStops", [](MissionRig& r) { r.link_up = false; }, 5.3},
         Fault{"VehicleRestarts", [](MissionRig& r) { r.vehicle.boot_id = 78; }, 0.3},
         Fault{"VehicleHolds", [](MissionRig& r) { r.vehicle.Set(VehicleMode::kHold); }, 0.3},
@@ -167,6 +176,22 @@ INSTANTIATE_TEST_SUITE_P(
         Block{"NoChannelListed", GuardId::kCameras, [](MissionRig& r) { r.channels.clear(); }, 0.1},
         Block{"RightChannelNever", GuardId::kCameras,
               [](MissionRig& r) { r.channels[1].state = ChannelHealth::State::kNever; }, 0.1},
+        Block{"ImageTime", GuardId::kAttitude, [](MissionRig& r) { SetImageTime(r, -0.05); }, 0.1},
+        Block{"GpsJump", GuardId::kPosition,
+              [](MissionRig& r) {
+                r.navigation.gps_agreement = {true, false, 8};
+              },
+              0.1},
+        Block{"LaserStuck", GuardId::kPosition,
+              [](MissionRig& r) { SetLaser(r, LaserHealth::State::kStuck); }, 0.1},
+        Block{"LaserWrong", GuardId::kPosition,
+              [](MissionRig& r) { SetLaser(r, LaserHealth::State::kWrong); }, 0.1},
+        Block{"LaserLostBelow15m", GuardId::kPosition,
+              [](MissionRig& r) {
+                SetLaser(r, LaserHealth::State::kLost);
+                r.vehicle.height_m = 14.9;
+              },
+              0.1},
         Block{"Map", GuardId::kMap, [](MissionRig& r) { r.maps_up = false; }, 2.3},
         Block{"Position", GuardId::kPosition,
               [](MissionRig& r) { r.navigation.gps.estimate.healthy = false; }, 0.1},
@@ -181,6 +206,96 @@ INSTANTIATE_TEST_SUITE_P(
         Block{"Recorder", GuardId::kRecorder, [](MissionRig& r) { r.recorder_ok = false; }, 0.1},
         Block{"Unlabelled", GuardId::kSource, [](MissionRig& r) { r.simulated = false; }, 0.1}),
     [](const auto& row) { return row.param.name; });
+
+struct Sentence {
+  const char* name;
+  AlarmId id;
+  std::function<void(MissionRig&)> inject;
+  const char* words;
+};
+
+class SensorAlarms : public testing::TestWithParam<Sentence> {};
+
+TEST_P(SensorAlarms, NameTheSensorAndTheLimit) {
+  MissionRig rig;
+  rig.Arm();
+  GetParam().inject(rig);
+  rig.Run(0.4);
+  for (const Alarm& alarm : rig.mission.status().alarms) {
+    if (alarm.kind == GetParam().id) {
+      EXPECT_EQ(alarm.text, GetParam().words);
+      return;
+    }
+  }
+  FAIL() << "not raised";
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    , SensorAlarms,
+    testing::Values(
+        Sentence{"ImageTime", AlarmId::kImageTime, [](MissionRig& r) { SetImageTime(r, 0.1); },
+                 "Image time off by 100 ms against attitude: pictures of the right camera are "
+                 "late, limit 35 ms. Approve is blocked."},
+        Sentence{"GpsJump", AlarmId::kGpsJump,
+                 [](MissionRig& r) {
+                   r.navigation.gps_agreement = {true, false, 8};
+                 },
+                 "GPS is 8.0 m off the inertial prediction, limit 1.0 m. The position does not "
+                 "follow it. Approve is blocked."},
+        Sentence{"GpsDrift", AlarmId::kGpsJump,
+                 [](MissionRig& r) {
+                   r.navigation.gps_agreement = {true, true, 0.4};
+                 },
+                 "GPS drifts against its own velocity, 0.4 m off the prediction, limit 0.3 m in 5 "
+                 "s. The position does not follow it. Approve is blocked."},
+        Sentence{"GpsLost", AlarmId::kGpsLost,
+                 [](MissionRig& r) {
+                   r.channels.push_back(
+                       {ChannelId::kGps, ChannelHealth::State::kStale, 2.4, 5, 5, 9, 0, ""});
+                 },
+                 "No GPS for 2.4 s, limit 2.0 s. Approve is blocked without a position."},
+        Sentence{"LaserLost", AlarmId::kLaserLost,
+                 [](MissionRig& r) { SetLaser(r, LaserHealth::State::kLost); },
+                 "Laser lost for 0.9 s, limit 0.5 s. Heights come from stereo and vision. Approve "
+                 "is blocked below 15.0 m."},
+        Sentence{"LaserStuck", AlarmId::kLaserStuck,
+                 [](MissionRig& r) { SetLaser(r, LaserHealth::State::kStuck); },
+                 "Laser repeats its range for 0.9 s, limit 0.8 s. Heights come from stereo and "
+                 "vision. Approve is blocked."},
+        Sentence{"LaserWrong", AlarmId::kLaserWrong,
+                 [](MissionRig& r) { SetLaser(r, LaserHealth::State::kWrong); },
+                 "Laser reads 0.50 of the height that stereo and motion show, limit 0.85 to 1.15. "
+                 "Heights come from stereo and vision. Approve is blocked."}),
+    [](const auto& row) { return row.param.name; });
+
+TEST(LostLaser, BlocksNothingFromHighEnough) {
+  MissionRig rig;
+  rig.Arm();
+  SetLaser(rig, LaserHealth::State::kLost);
+  rig.Run(0.2);
+  EXPECT_TRUE(rig.mission.status().can_approve) << rig.mission.status().cannot_approve_reason;
+}
+
+// Stereo beside a laser that lies is no reason to calibrate.
+TEST(LyingLaser, RaisesNoAlarmOfTheScale) {
+  for (const bool lies : {false, true}) {
+    MissionRig rig;
+    rig.Arm();
+    if (lies) {
+      SetLaser(rig, LaserHealth::State::kWrong);
+    }
+    rig.Wait();
+    MissionInputs in = rig.Inputs();
+    in.navigation.range_agreement = {2, 0.01, 20};
+    for (int i = 0; i < 4; ++i) {
+      rig.mission.Update(in);
+    }
+    const auto& alarms = rig.mission.status().alarms;
+    EXPECT_EQ(std::any_of(alarms.begin(), alarms.end(),
+                          [](const Alarm& a) { return a.kind == AlarmId::kRangeScale; }),
+              !lies);
+  }
+}
 
 }  // namespace
 }  // namespace palace

@@ -9,6 +9,13 @@
 namespace palace {
 namespace {
 
+/// Laser and stereo are compared only while neither is known to be wrong for another reason: that
+/// reason has an alarm of its own.
+bool ComparesRanges(const AlarmFacts& f) {
+  return !f.laser.lies() && !f.pictures.frozen() && !f.pictures.blank() && !f.pictures.swapped &&
+         std::isnan(f.image_time_ms);
+}
+
 void FillSensors(const MissionMemory& m, const MissionInputs& in, AlarmFacts& f) {
   const Timestamp now = in.session.now;
   f.left_camera_age_s = m.watch.LeftCameraAge(now);
@@ -27,9 +34,16 @@ void FillSensors(const MissionMemory& m, const MissionInputs& in, AlarmFacts& f)
   f.gps_error_m = m.watch.gps() ? 3 * m.watch.gps()->sigma_horizontal_m : NAN;
   f.on_vision = in.navigation.navigation.OnVision();
   f.pictures = m.pictures.standing();
+  const ChannelHealth* gps = FindChannel(in.vehicle.channels, ChannelId::kGps);
+  f.gps_age_s = gps != nullptr ? gps->age_s : NAN;
+  f.gps_agreement = in.navigation.navigation.gps_agreement;
+  f.laser = in.navigation.navigation.laser;
+  const ImageTime* wrong_time = in.navigation.navigation.WrongImageTime();
+  f.image_time_ms = wrong_time != nullptr ? 1000 * std::abs(wrong_time->offset_s) : NAN;
+  f.image_time = words::ImageTimeOff(in.navigation.navigation);
   f.exposure_ratio = in.navigation.stereo.exposure_ratio;
   f.reads_far = in.navigation.range_agreement.ratio > 1;
-  f.laser_mismatch_m = LaserMismatch(in);
+  f.laser_mismatch_m = ComparesRanges(f) ? LaserMismatch(in) : NAN;
 }
 
 void FillMission(const MissionMemory& m, const MissionInputs& in, AlarmFacts& f) {
@@ -37,6 +51,7 @@ void FillMission(const MissionMemory& m, const MissionInputs& in, AlarmFacts& f)
   const MissionState state = m.status.state;
   const TerrainDecision* decision = in.terrain.decision;
   f.state = state;
+  f.approve_ahead = state <= MissionState::kArmed;
   f.letter = m.status.armed ? m.status.armed->letter : "?";
   f.why = m.status.why;
   f.committed = state == MissionState::kDescending && IsCommitted(m);
@@ -87,7 +102,8 @@ void FillFromLimits(const MissionMemory& m, AlarmFacts& f) {
   take(LimitId::kExposure, f.exposure_factor);
   // These two are over only when it is not by chance.
   const LimitRow* scale = FindLimit(m.status.limits, LimitId::kRangeScale);
-  f.scale_error_percent = scale != nullptr && scale->over ? 100 * scale->value : NAN;
+  f.scale_error_percent =
+      scale != nullptr && scale->over && ComparesRanges(f) ? 100 * scale->value : NAN;
   const LimitRow* rows = FindLimit(m.status.limits, LimitId::kRowError);
   f.row_error_px = rows != nullptr && rows->over ? rows->value : NAN;
 }

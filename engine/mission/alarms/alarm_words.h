@@ -21,5 +21,6 @@ const char* LinkWords(const AlarmFacts& facts);
 
 /// What arrives from the vehicle, and when.
 std::span<const AlarmRow> ArrivalAlarms();
+std::span<const AlarmRow> SensorAlarms();
 
 }  // namespace palace

@@ -410,9 +410,11 @@ const AlarmRow kRows[] = {
 
 std::vector<AlarmRow> AllRows() {
   std::vector<AlarmRow> rows(std::begin(kRows), std::end(kRows));
-  const std::span<const AlarmRow> of_bus = BusAlarms(), of_arrival = ArrivalAlarms();
+  const std::span<const AlarmRow> of_bus = BusAlarms(), of_arrival = ArrivalAlarms(),
+                                  of_sensors = SensorAlarms();
   rows.insert(rows.end(), of_bus.begin(), of_bus.end());
   rows.insert(rows.end(), of_arrival.begin(), of_arrival.end());
+  rows.insert(rows.end(), of_sensors.begin(), of_sensors.end());
   std::sort(rows.begin(), rows.end(),
             [](const AlarmRow& a, const AlarmRow& b) { return a.id < b.id; });
   return rows;

@@ -41,6 +41,11 @@ struct AlarmFacts {
   std::string lost_channels{};      ///< "Vehicle pose 31 %, IMU 29 %"
   double ground_age_s = NAN;        ///< of the site's, in a descent above the commit height
   double gps_error_m = NAN;         ///< 3 sigma, horizontal
+  double gps_age_s = NAN;
+  GpsAgreement gps_agreement{};
+  LaserHealth laser{};
+  double image_time_ms = NAN;  ///< off by so much; NaN while it is not
+  std::string image_time{};    ///< words for it
   bool on_vision = false;
   PictureFaults pictures{};
   double row_error_px = NAN;
@@ -51,6 +56,7 @@ struct AlarmFacts {
   double laser_mismatch_m = NAN;
 
   MissionState state = MissionState::kNoLive;
+  bool approve_ahead = true;  ///< nothing is approved yet
   std::string letter = "?";
   std::string why{};       ///< the state was entered
   bool committed = false;  ///< descends below the commit height: maps and pictures may end

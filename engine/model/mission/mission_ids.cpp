@@ -62,6 +62,12 @@ constexpr std::array<const char*, kAlarmCount> kAlarmNames = {
     "old_ground",
     "foreign_command",
     "view_only",
+    "image_time",
+    "gps_jump",
+    "gps_lost",
+    "laser_lost",
+    "laser_stuck",
+    "laser_wrong",
 };
 
 }  // namespace

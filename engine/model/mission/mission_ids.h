@@ -83,8 +83,14 @@ enum class AlarmId : std::uint8_t {
   kOldGround,
   kForeignCommand,
   kViewOnly,
+  kImageTime,
+  kGpsJump,
+  kGpsLost,
+  kLaserLost,
+  kLaserStuck,
+  kLaserWrong,
 };
-inline constexpr std::size_t kAlarmCount = 51;
+inline constexpr std::size_t kAlarmCount = 57;
 /// "gps_error".
 const char* AlarmName(AlarmId id);
 /// Empty for a name that no alarm has.

@@ -1,0 +1,82 @@
+// Alarms about sensors that the vehicle's own motion contradicts: image time, GPS, laser.
+#include "engine/core/text.h"
+#include "engine/mission/alarms/alarm_words.h"
+#include "engine/mission/wording.h"
+
+namespace palace {
+namespace {
+
+using Facts = AlarmFacts;
+
+constexpr const char* kHeightsElsewhere = "Heights come from stereo and vision.";
+
+std::string LaserLies(const Facts& f) {
+  return words::LaserFault(f.laser) + ". " + kHeightsElsewhere +
+         (f.approve_ahead ? " Approve is blocked." : "");
+}
+
+const AlarmRow kRows[] = {
+    {.id = AlarmId::kImageTime,
+     .level = AlarmLevel::kWarning,
+     .immediate = true,  // three pictures said so
+     .limit = {1000 * ImageTime::kLimit_s, "ms", 0},
+     .value = &Facts::image_time_ms,
+     .present = [](const Facts& f, double limit) { return f.image_time_ms > limit; },
+     .text =
+         [](const Facts& f, const std::string& limit) {
+           return f.image_time + ", limit " + limit + ". " +
+                  (f.committed                            ? "So low the descent goes on."
+                   : f.state == MissionState::kDescending ? "Descent holds."
+                   : f.state == MissionState::kApproved   ? "Approval ends."
+                   : f.state == MissionState::kArmed ? "Approve is blocked, the selection ends."
+                                                     : "Approve is blocked.");
+         },
+     .stop = [](const Facts& f) { return f.image_time; }},
+    {.id = AlarmId::kGpsJump,
+     .level = AlarmLevel::kCaution,
+     .immediate = true,  // two fixes said so
+     .present = [](const Facts& f, double) { return f.gps_agreement.off; },
+     .text =
+         [](const Facts& f, const std::string&) {
+           return words::GpsOff(f.gps_agreement) + ". The position does not follow it. " +
+                  (f.on_vision ? "Landing on vision goes on." : "Approve is blocked.");
+         }},
+    {.id = AlarmId::kGpsLost,
+     .level = AlarmLevel::kCaution,
+     .limit = {AlarmLimits::gps_silence_s, "s"},
+     .value = &Facts::gps_age_s,
+     .present = [](const Facts& f, double limit) { return f.has_vehicle && f.gps_age_s > limit; },
+     .text =
+         [](const Facts& f, const std::string& limit) {
+           return WithNumbers("No GPS for %.1f s, limit ", f.gps_age_s) + limit + ". " +
+                  (f.on_vision ? "Landing on vision goes on."
+                               : "Approve is blocked without a position.");
+         }},
+    {.id = AlarmId::kLaserLost,
+     .level = AlarmLevel::kCaution,
+     .immediate = true,  // half a second said so
+     .present = [](const Facts& f, double) { return f.laser.state == LaserHealth::State::kLost; },
+     .text =
+         [](const Facts& f, const std::string&) {
+           return words::LaserFault(f.laser) + ". " + kHeightsElsewhere +
+                  (f.approve_ahead ? " Approve is blocked below " +
+                                         LimitWords({GuardLimits::laser_height_m, "m"}) + "."
+                                   : "");
+         }},
+    {.id = AlarmId::kLaserStuck,
+     .level = AlarmLevel::kCaution,
+     .immediate = true,
+     .present = [](const Facts& f, double) { return f.laser.state == LaserHealth::State::kStuck; },
+     .text = [](const Facts& f, const std::string&) { return LaserLies(f); }},
+    {.id = AlarmId::kLaserWrong,
+     .level = AlarmLevel::kCaution,
+     .immediate = true,
+     .present = [](const Facts& f, double) { return f.laser.state == LaserHealth::State::kWrong; },
+     .text = [](const Facts& f, const std::string&) { return LaserLies(f); }},
+};
+
+}  // namespace
+
+std::span<const AlarmRow> SensorAlarms() { return kRows; }
+
+}  // namespace palace

@@ -1,0 +1,230 @@
+#include "engine/navigation/image_time.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+namespace palace {
+namespace {
+
+constexpr double kWindows_s[] = {2.2, 1.4};
+constexpr double kRatesKept_s = 4;
+constexpr double kRateGap_s = 0.15;     // poses further apart tell no turning between them
+constexpr double kPictureGap_s = 0.35;  // nor do pictures
+constexpr int kLeastPairs = 9;
+constexpr double kStep_s = 0.02, kFineStep_s = 0.01;
+constexpr double kSharp_s = 0.05;  // sensitivity is that of an offset of 50 ms
+constexpr double kMostSigma_s = 0.012;
+constexpr double kSigmas = 4;
+constexpr double kExplained = 0.25;  // of the motion's mean square may be left over
+constexpr double kLeastNoise2_px2 = 0.04;
+constexpr int kOffRun = 3, kAgreesRun = 5;
+
+/// Samples of both axes less a straight line each; their mean square, with the line's freedom.
+double SquareWithoutLine(const std::vector<double>& time_s,
+                         const std::vector<Eigen::Vector2d>& values) {
+  const double n = static_cast<double>(values.size());
+  double mean_t = 0;
+  Eigen::Vector2d mean = Eigen::Vector2d::Zero();
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    mean_t += time_s[i] / n;
+    mean += values[i] / n;
+  }
+  double tt = 0;
+  Eigen::Vector2d tv = Eigen::Vector2d::Zero(), vv = Eigen::Vector2d::Zero();
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const double t = time_s[i] - mean_t;
+    const Eigen::Vector2d v = values[i] - mean;
+    tt += t * t;
+    tv += t * v;
+    vv += v.cwiseAbs2();
+  }
+  const Eigen::Vector2d left = tt > 0 ? Eigen::Vector2d(vv - tv.cwiseAbs2() / tt) : vv;
+  return left.cwiseMax(0).sum() / (2 * (n - 2));
+}
+
+}  // namespace
+
+MotionRate PredictMotion(const VehiclePose& pose, const RigidTransform& X_BC, double focal_px,
+                         double depth_m) {
+  const Eigen::Vector3d w_C = X_BC.R.transpose() * pose.angular_rate_B;
+  MotionRate rate{pose.time, focal_px * Eigen::Vector2d(-w_C.y(), w_C.x())};
+  if (depth_m > 0 && std::isfinite(depth_m)) {
+    const Eigen::Vector3d v_C = X_BC.R.transpose() * (pose.X_WB.R.transpose() * pose.v_WB);
+    rate.px_per_s -= focal_px / depth_m * v_C.head<2>();
+  }
+  return rate;
+}
+
+void ImageTimeMonitor::AddRate(const MotionRate& rate) {
+  if (!rate.px_per_s.allFinite() || (!rates_.empty() && rate.time <= rates_.back().time)) {
+    return;
+  }
+  RatePoint point{rate.time, rate.px_per_s, Eigen::Vector2d::Zero()};
+  if (!rates_.empty()) {
+    const RatePoint& last = rates_.back();
+    const double dt = SecondsBetween(last.time, rate.time);
+    if (dt > kRateGap_s) {
+      rates_.clear();
+      motions_.clear();
+    } else {
+      point.travelled_px = last.travelled_px + 0.5 * dt * (last.px_per_s + rate.px_per_s);
+    }
+  }
+  rates_.push_back(point);
+  while (SecondsBetween(rates_.front().time, rates_.back().time) > kRatesKept_s) {
+    rates_.pop_front();
+  }
+}
+
+void ImageTimeMonitor::AddMotion(const MotionSample& motion) {
+  const double between_s = SecondsBetween(motion.from, motion.to);
+  if (!(between_s > 0) || between_s > kPictureGap_s || !motion.shift_px.allFinite() ||
+      (!motions_.empty() && motion.to <= motions_.back().to)) {
+    return;
+  }
+  motions_.push_back(motion);
+  while (SecondsBetween(motions_.front().to, motion.to) > kWindows_s[0]) {
+    motions_.pop_front();
+  }
+  Verdict verdict = JudgeWindow(kWindows_s[0]);
+  if (verdict.state != ImageTime::State::kOff) {
+    const Verdict newest = JudgeWindow(kWindows_s[1]);
+    verdict = newest.state == ImageTime::State::kOff ? newest : verdict;
+  }
+  Tell(verdict);
+}
+
+Eigen::Vector2d ImageTimeMonitor::TravelledAt(double time_s) const {
+  // Seconds from the oldest rate; the caller stays inside.
+  const auto after =
+      std::upper_bound(rates_.begin(), rates_.end(), time_s, [&](double t, const RatePoint& point) {
+        return t < SecondsBetween(rates_.front().time, point.time);
+      });
+  if (after == rates_.end()) {
+    return rates_.back().travelled_px;
+  }
+  const RatePoint& b = *after;
+  const RatePoint& a = *std::prev(after);
+  const double t = time_s - SecondsBetween(rates_.front().time, a.time);
+  const double share = t / SecondsBetween(a.time, b.time);
+  const Eigen::Vector2d mid = a.px_per_s + 0.5 * share * (b.px_per_s - a.px_per_s);
+  return a.travelled_px + t * mid;
+}
+
+std::optional<ImageTimeMonitor::Fit> ImageTimeMonitor::FitAt(double shift_s) const {
+  const double newest_s = SecondsBetween(rates_.front().time, rates_.back().time);
+  std::vector<double> time_s;
+  std::vector<Eigen::Vector2d> left_px;
+  for (std::size_t i = first_; i < motions_.size(); ++i) {
+    const MotionSample& motion = motions_[i];
+    const double from_s = SecondsBetween(rates_.front().time, motion.from) + shift_s;
+    const double to_s = SecondsBetween(rates_.front().time, motion.to) + shift_s;
+    if (from_s >= 0 && to_s <= newest_s) {
+      time_s.push_back(to_s);
+      left_px.push_back(motion.shift_px - (TravelledAt(to_s) - TravelledAt(from_s)));
+    }
+  }
+  if (static_cast<int>(time_s.size()) < kLeastPairs) {
+    return std::nullopt;
+  }
+  return Fit{SquareWithoutLine(time_s, left_px), static_cast<int>(time_s.size())};
+}
+
+double ImageTimeMonitor::DifferenceOf(double shift_a_s, double shift_b_s) const {
+  const double newest_s = SecondsBetween(rates_.front().time, rates_.back().time);
+  std::vector<double> time_s;
+  std::vector<Eigen::Vector2d> px;
+  const auto motion_of = [&](double from_s, double to_s) -> Eigen::Vector2d {
+    return TravelledAt(to_s) - TravelledAt(from_s);
+  };
+  const double least = std::min(shift_a_s, shift_b_s), most = std::max(shift_a_s, shift_b_s);
+  for (std::size_t i = first_; i < motions_.size(); ++i) {
+    const MotionSample& motion = motions_[i];
+    const double from_s = SecondsBetween(rates_.front().time, motion.from);
+    const double to_s = SecondsBetween(rates_.front().time, motion.to);
+    if (from_s + least >= 0 && to_s + most <= newest_s) {
+      time_s.push_back(to_s);
+      px.push_back(motion_of(from_s + shift_a_s, to_s + shift_a_s) -
+                   motion_of(from_s + shift_b_s, to_s + shift_b_s));
+    }
+  }
+  return static_cast<int>(px.size()) < kLeastPairs ? 0 : SquareWithoutLine(time_s, px);
+}
+
+std::optional<ImageTimeMonitor::Fit> ImageTimeMonitor::BestFit(double& shift_s) const {
+  std::optional<Fit> best;
+  const auto consider = [&](double candidate_s) {
+    const std::optional<Fit> fit = FitAt(candidate_s);
+    if (fit && (!best || fit->residual2_px2 < best->residual2_px2)) {
+      best = fit;
+      shift_s = candidate_s;
+    }
+  };
+  const int steps = static_cast<int>(std::lround(kMostSearched_s / kStep_s));
+  for (int i = -steps; i <= steps; ++i) {
+    consider(i * kStep_s);
+  }
+  const double coarse_s = shift_s;
+  consider(coarse_s - kFineStep_s);
+  consider(coarse_s + kFineStep_s);
+  return best;
+}
+
+ImageTimeMonitor::Verdict ImageTimeMonitor::JudgeWindow(double window_s) {
+  first_ = 0;
+  while (first_ < motions_.size() &&
+         SecondsBetween(motions_[first_].to, motions_.back().to) > window_s) {
+    ++first_;
+  }
+  double best_s = 0;
+  const std::optional<Fit> best = rates_.size() < 2 ? std::nullopt : BestFit(best_s);
+  if (!best) {
+    return {};
+  }
+  std::vector<double> time_s;
+  std::vector<Eigen::Vector2d> seen_px;
+  for (std::size_t i = first_; i < motions_.size(); ++i) {
+    time_s.push_back(SecondsBetween(motions_.front().to, motions_[i].to));
+    seen_px.push_back(motions_[i].shift_px);
+  }
+  const double motion2_px2 = SquareWithoutLine(time_s, seen_px);
+  const double noise2_px2 = std::max(best->residual2_px2, kLeastNoise2_px2);
+  // What an offset of 50 ms more would leave; the offset's sigma follows from the slope.
+  const double sharp2_px2 =
+      std::max(DifferenceOf(best_s, best_s - kSharp_s), DifferenceOf(best_s, best_s + kSharp_s));
+  const double sigma_s =
+      sharp2_px2 > 0 ? kSharp_s * std::sqrt(noise2_px2 / (2 * best->count * sharp2_px2)) : INFINITY;
+  if (!(sigma_s <= kMostSigma_s) || best->residual2_px2 > kExplained * motion2_px2) {
+    return {};
+  }
+  const bool off =
+      std::abs(best_s) > ImageTime::kLimit_s + 1e-9 && std::abs(best_s) > kSigmas * sigma_s;
+  return {off ? ImageTime::State::kOff : ImageTime::State::kAgrees, -best_s, sigma_s};
+}
+
+void ImageTimeMonitor::Tell(const Verdict& verdict) {
+  using State = ImageTime::State;
+  // While a fault stands, pictures that cannot tell count for neither side.
+  if (verdict.state == State::kOff) {
+    ++off_run_;
+    agrees_run_ = 0;
+  } else if (verdict.state == State::kAgrees) {
+    ++agrees_run_;
+    off_run_ = 0;
+  } else if (status_.state != State::kOff) {
+    off_run_ = 0;
+  }
+  const bool was_off = status_.state == State::kOff;
+  const bool off = was_off ? agrees_run_ < kAgreesRun : off_run_ >= kOffRun;
+  if (off && verdict.state == State::kOff) {
+    status_ = {State::kOff, verdict.offset_s, verdict.sigma_s};
+  } else if (!off) {
+    status_ = verdict.state == State::kOff
+                  ? ImageTime{}
+                  : ImageTime{verdict.state, verdict.offset_s, verdict.sigma_s};
+  }
+}
+
+}  // namespace palace

@@ -1,0 +1,93 @@
+// Image time against attitude time: do the pictures move when the vehicle turns?
+//
+// Of two pictures d apart in time the middle moves by what the camera turned and travelled:
+//
+//   shift = f * integral over [t0 + s, t1 + s] of (-w_y - v_x / Z, w_x - v_y / Z) dt
+//
+// with rates and velocity in C, Z the depth at the middle. Over the pictures of the last 2.2 s, and
+// of the last 1.4 s for what has just begun, the s is sought at which this agrees best, each axis
+// less a straight line (slow errors of v, Z and the gyro). Stamps that are right need s = 0;
+// pictures that show the past need s < 0. Told is
+//
+//   offset = -s,   positive: pictures are late,   sigma = scatter / sqrt(n) over the slope by s
+//
+// Only turning that changes tells time: in calm air, or in a steady turn, nothing can be observed
+// and nothing is said. Enough is a change by about 2 deg/s within half a second (measured by
+// `palacectl evaluate image-time`). A fault is told after three pictures in a row that say so, and
+// stands until five in a row say that times agree: without motion it is not over.
+// Source: the fault of Ingenuity's sixth flight (NASA status, 27 May 2021).
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <deque>
+#include <limits>
+#include <optional>
+
+#include <Eigen/Dense>
+
+#include "engine/core/frames.h"
+#include "engine/model/navigation_status.h"
+#include "engine/model/vehicle_state.h"
+
+namespace palace {
+
+/// How one camera's picture moved.
+struct MotionSample {
+  Timestamp from, to;
+  Eigen::Vector2d shift_px = Eigen::Vector2d::Zero();
+};
+
+/// The motion that a pose predicts, per second: pixels at the middle of the picture.
+struct MotionRate {
+  Timestamp time;
+  Eigen::Vector2d px_per_s = Eigen::Vector2d::Zero();
+};
+/// `depth_m` along the axis, NaN: unknown, then travel is left out. `focal_px` of square pixels.
+MotionRate PredictMotion(const VehiclePose& pose, const RigidTransform& X_BC, double focal_px,
+                         double depth_m);
+
+/// One camera. Any one thread, no clock.
+class ImageTimeMonitor {
+ public:
+  /// In order of time; older ones are ignored.
+  void AddRate(const MotionRate& rate);
+  /// After the rates that came with the picture.
+  void AddMotion(const MotionSample& motion);
+  const ImageTime& status() const { return status_; }
+  void Reset() { *this = ImageTimeMonitor(); }
+
+  static constexpr double kLimit_s = 0.035;  ///< offsets beyond it are a fault
+  static constexpr double kMostSearched_s = 0.6;
+
+ private:
+  struct Fit {
+    double residual2_px2 = 0;  ///< mean
+    int count = 0;
+  };
+  struct RatePoint {
+    Timestamp time;
+    Eigen::Vector2d px_per_s, travelled_px;
+  };
+  Eigen::Vector2d TravelledAt(double time_s) const;
+  /// What one window of time says.
+  struct Verdict {
+    ImageTime::State state = ImageTime::State::kNotObservable;
+    double offset_s = std::numeric_limits<double>::quiet_NaN();
+    double sigma_s = std::numeric_limits<double>::quiet_NaN();
+  };
+  std::optional<Fit> FitAt(double shift_s) const;
+  std::optional<Fit> BestFit(double& shift_s) const;
+  /// Mean square of what the two predictions differ by, lines removed.
+  double DifferenceOf(double shift_a_s, double shift_b_s) const;
+  Verdict JudgeWindow(double window_s);
+  void Tell(const Verdict& verdict);
+
+  std::size_t first_ = 0;  ///< motion of the window that is judged
+  std::deque<RatePoint> rates_;
+  std::deque<MotionSample> motions_;
+  ImageTime status_;
+  int off_run_ = 0, agrees_run_ = 0;
+};
+
+}  // namespace palace

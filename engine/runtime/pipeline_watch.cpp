@@ -1,0 +1,55 @@
+// What the pipeline holds against the vehicle's own motion: laser, image time, the frame of GPS.
+#include <cmath>
+
+#include "engine/runtime/pipeline_pass.h"
+
+namespace palace {
+namespace {
+
+constexpr double kLaserAge_s = 0.1;  // a laser range older than this is of another place
+
+}  // namespace
+
+BeamPose Pipeline::BeamAt(Timestamp time) const {
+  const RigidTransform X_WC = navigator_.PredictBodyPose(time) * rig_->X_BC();
+  return {HeightFromDown(X_WC.p.z()), X_WC.R(2, 2)};
+}
+
+void Pipeline::WatchMotion(Pass& pass) {
+  if (!rectifier_ || HasPicturesOnly(role_)) {
+    return;
+  }
+  if (navigator_.frame_moves() != frame_moves_) {
+    frame_moves_ = navigator_.frame_moves();
+    slad_.Forget();
+  }
+  for (const LaserRange& range : pass.bundle->laser) {
+    laser_watch_.AddRange(range, BeamAt(range.time));
+  }
+  laser_watch_.Update(pass.bundle->time);
+  image_time_.AddPoses(pass.bundle->poses, rectifier_->camera(), rectifier_->X_BC(*rig_),
+                       beam_depth_m_);
+}
+
+void Pipeline::WatchLaserSpot(const RangeMap& range) {
+  const std::optional<double> depth_m = DepthAtSpot(range, BeamDirection());
+  beam_depth_m_ = depth_m ? *depth_m / BeamDirection().z() : NAN;
+  laser_watch_.AddStereo(range.time, beam_depth_m_, BeamAt(range.time));
+}
+
+std::optional<Eigen::Vector3d> Pipeline::LaserSpot(const EngineSnapshot& snapshot) const {
+  if (!laser_watch_.usable() || !snapshot.sensors->laser ||
+      !std::isfinite(snapshot.sensors->laser->range_m) || !rectifier_ || !snapshot.sensors->frame ||
+      std::abs(SecondsBetween(snapshot.sensors->laser->time, snapshot.sensors->frame->time)) >
+          kLaserAge_s) {
+    return std::nullopt;
+  }
+  return snapshot.sensors->laser->range_m * BeamDirection();
+}
+
+Eigen::Vector3d Pipeline::BeamDirection() const {
+  // The beam runs along the axis of the raw camera, which is not the rectified one.
+  return rectifier_->R_C_Rect().transpose().col(2);
+}
+
+}  // namespace palace

@@ -1,0 +1,152 @@
+#include "engine/navigation/image_time.h"
+
+#include <gtest/gtest.h>
+
+#include "engine/core/random.h"
+#include "engine/core/units.h"
+
+namespace palace {
+namespace {
+
+using State = ImageTime::State;
+constexpr double kFocal_px = 772.548;
+
+/// Gusts turn the camera: three sines an axis with a strength in deg/s, and their integral.
+struct Gusts {
+  explicit Gusts(std::uint64_t seed, double strength_deg_s) {
+    RandomStream random(seed, "gusts");
+    for (int i = 0; i < 6; ++i) {
+      rate[i] = Rad(strength_deg_s) * random.Uniform(0.4, 1);
+      omega[i] = random.Uniform(1.5, 7);
+      phase[i] = random.Uniform(0, 6.28);
+    }
+  }
+  Eigen::Vector2d Sum(double t, bool integral) const {
+    Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+    for (int i = 0; i < 6; ++i) {
+      const double a = omega[i] * t + phase[i];
+      sum[i % 2] += rate[i] * (integral ? -std::cos(a) / omega[i] : std::sin(a));
+    }
+    return kFocal_px * sum;
+  }
+  double rate[6], omega[6], phase[6];
+};
+
+struct Run {
+  double strength_deg_s = 3;
+  double late_s = 0;    ///< of the pictures
+  double from_s = 0;    ///< before they are in time
+  double calm_s = 1e9;  ///< from then on nothing turns
+  double noise_px = 0.2;
+  bool frozen = false;
+  double drift_px_s = 20;  ///< travel that nobody knows
+};
+
+/// When it was found, and what was told at the end.
+struct Found {
+  double at_s = NAN;
+  ImageTime last;
+  int agreed = 0;
+};
+
+Found Fly(const Run& run, std::uint64_t seed, double seconds = 8) {
+  const Gusts gusts(seed, run.strength_deg_s);
+  RandomStream random(seed, "noise");
+  ImageTimeMonitor monitor;
+  Found found;
+  const auto travelled = [&](double t) {
+    return Eigen::Vector2d(gusts.Sum(std::min(t, run.calm_s), true) +
+                           Eigen::Vector2d(run.drift_px_s * t, 0.3 * run.drift_px_s * t));
+  };
+  double before = NAN;
+  for (int n = 1; n <= static_cast<int>(50 * seconds); ++n) {
+    const double t = 0.02 * n;
+    const Eigen::Vector2d rate =
+        t < run.calm_s ? gusts.Sum(t, false) : Eigen::Vector2d(Eigen::Vector2d::Zero());
+    monitor.AddRate({AddSeconds({}, t), rate});
+    if (n % 5 != 0) {
+      continue;
+    }
+    const double shown = t >= run.from_s ? t - run.late_s : t;
+    if (std::isfinite(before)) {
+      Eigen::Vector2d shift = run.frozen ? Eigen::Vector2d::Zero()
+                                         : Eigen::Vector2d(travelled(shown) - travelled(before));
+      const double nx = random.Normal(), ny = random.Normal();
+      shift += run.noise_px * Eigen::Vector2d(nx, ny);
+      monitor.AddMotion({AddSeconds({}, t - 0.1), AddSeconds({}, t), shift});
+      found.agreed += monitor.status().state == State::kAgrees ? 1 : 0;
+      if (monitor.status().state == State::kOff && std::isnan(found.at_s)) {
+        found.at_s = t - run.from_s;
+      }
+    }
+    before = shown;
+  }
+  found.last = monitor.status();
+  return found;
+}
+
+TEST(ImageTimeMonitor, FindsOffsetsWithinTwoSecondsOfMotion) {
+  for (const double late_s : {0.05, -0.05, 0.1, -0.1, 0.2, 0.3, -0.3, 0.5}) {
+    for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+      const Found found = Fly({.late_s = late_s, .from_s = 4}, seed);
+      EXPECT_LE(found.at_s, 2.0) << late_s << " s, seed " << seed;
+      EXPECT_EQ(found.last.state, State::kOff);
+      EXPECT_NEAR(found.last.offset_s, late_s, 0.02) << "seed " << seed;
+    }
+  }
+}
+
+TEST(ImageTimeMonitor, NeverCriesWolf) {
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    for (const double strength : {0.0, 0.1, 0.5, 2.0, 8.0}) {
+      const Found found = Fly({.strength_deg_s = strength, .noise_px = 0.4}, seed, 15);
+      EXPECT_TRUE(std::isnan(found.at_s)) << strength << " deg/s, seed " << seed;
+    }
+  }
+}
+
+TEST(ImageTimeMonitor, SaysNothingInCalmAir) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const Found found = Fly({.strength_deg_s = 0.02, .late_s = 0.3}, seed);
+    EXPECT_EQ(found.last.state, State::kNotObservable);
+    EXPECT_EQ(found.agreed, 0);
+  }
+}
+
+TEST(ImageTimeMonitor, SeesThatTimesAgree) {
+  EXPECT_EQ(Fly({}, 3).last.state, State::kAgrees);
+  EXPECT_GT(Fly({}, 3).agreed, 40);
+}
+
+TEST(ImageTimeMonitor, DoesNotTakeAFrozenPictureForALateOne) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    EXPECT_TRUE(std::isnan(Fly({.frozen = true}, seed).at_s)) << seed;
+  }
+}
+
+TEST(ImageTimeMonitor, AFaultStandsInCalmAirUntilTimesAgree) {
+  EXPECT_EQ(Fly({.late_s = 0.2, .calm_s = 5}, 2, 12).last.state, State::kOff);
+}
+
+TEST(ImageTimeMonitor, ForgetsAcrossAGapAndIgnoresWhatIsNoNumber) {
+  ImageTimeMonitor monitor;
+  monitor.AddRate({{1}, {NAN, 0}});
+  monitor.AddMotion({{0}, {100'000}, {1, 1}});
+  monitor.AddMotion({{100'000}, {100'000}, {1, 1}});
+  EXPECT_EQ(monitor.status().state, State::kNotObservable);
+}
+
+TEST(PredictMotion, ANosePitchedUpMovesThePictureDown) {
+  VehiclePose pose;
+  pose.angular_rate_B = {0, 0.1, 0};
+  const RigidTransform X_BC{CameraRotationFromTilt(Rad(-45)), Eigen::Vector3d::Zero()};
+  const MotionRate turn = PredictMotion(pose, X_BC, kFocal_px, NAN);
+  EXPECT_NEAR(turn.px_per_s.x(), 0, 1e-9);
+  EXPECT_NEAR(turn.px_per_s.y(), 0.1 * kFocal_px, 1e-9);
+  pose.angular_rate_B.setZero();
+  pose.v_WB = {0, 2, 0};  // to the right: the ground goes left
+  EXPECT_NEAR(PredictMotion(pose, X_BC, kFocal_px, 20).px_per_s.x(), -0.1 * kFocal_px, 1e-9);
+}
+
+}  // namespace
+}  // namespace palace

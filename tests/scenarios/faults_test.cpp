@@ -1,0 +1,53 @@
+// The experiment of faults on three of its cases: what the monitors say is what stands on the
+// screen and in the record, and approve is blocked. All cases: palacectl evaluate faults.
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <set>
+#include <span>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "engine/experiments/fault_flight.h"
+#include "tests/support/ray_cast_camera.h"
+
+namespace palace {
+namespace {
+
+class Faults : public testing::TestWithParam<const char*> {};
+
+TEST_P(Faults, OfAnArmedSiteAreNamedRecordedAndBlockApprove) {
+  const std::span<const FaultCase> cases = FaultCases();
+  const auto fault = std::find_if(cases.begin(), cases.end(), [](const FaultCase& row) {
+    return row.name == std::string(GetParam());
+  });
+  ASSERT_NE(fault, cases.end());
+  const Result<FaultOutcome> outcome =
+      FlyUnderFault({.wind_mps = 4, .seed = 3}, *fault, FaultPhase::kArmed, MakeRayCastCamera);
+  ASSERT_TRUE(outcome) << outcome.error().message;
+  EXPECT_THAT(Shortfalls(*fault, FaultPhase::kArmed, *outcome), testing::IsEmpty());
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    , Faults, testing::Values("laser stuck", "GPS jumps by 8 m", "attitude shifted by 0.3 s"),
+    [](const auto& row) {
+      std::string name = row.param;
+      std::replace_if(
+          name.begin(), name.end(), [](char c) { return c == ' ' || c == '.'; }, '_');
+      return name;
+    });
+
+TEST(FaultCases, EachHasANameOfItsOwnAndFaultsThatCanBe) {
+  std::set<std::string> names;
+  for (const FaultCase& row : FaultCases()) {
+    EXPECT_TRUE(names.insert(row.name).second) << row.name;
+    EXPECT_TRUE(row.silent || !row.cause.empty() || std::string(row.row) == "F21") << row.name;
+    for (const Fault& fault : row.faults) {
+      EXPECT_TRUE(CheckFault(fault)) << row.name;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace palace
