@@ -24,12 +24,7 @@ const AlarmRow kRows[] = {
      .present = [](const Facts& f, double limit) { return f.image_time_ms > limit; },
      .text =
          [](const Facts& f, const std::string& limit) {
-           return f.image_time + ", limit " + limit + ". " +
-                  (f.committed                            ? "So low the descent goes on."
-                   : f.state == MissionState::kDescending ? "Descent holds."
-                   : f.state == MissionState::kApproved   ? "Approval ends."
-                   : f.state == MissionState::kArmed ? "Approve is blocked, the selection ends."
-                                                     : "Approve is blocked.");
+           return f.image_time + ", limit " + limit + ". " + StopConsequence(f);
          },
      .stop = [](const Facts& f) { return f.image_time; }},
     {.id = AlarmId::kGpsJump,
