@@ -61,7 +61,6 @@ TEST(StillHover, MovesNoRingAndHardlyChangesTheBestSite) {
           .value();
   EngineParts parts;
   parts.mission.session_id = session.id;
-  parts.mission.signer = session.signer;
   parts.source = session.simulator;
   parts.link = session.simulator;
   Engine engine(std::move(parts), /*threaded=*/false);
