@@ -6,6 +6,8 @@
 namespace palace {
 namespace {
 
+constexpr double kLeastWind_mps = 0.5;  // below it the wind comes from nowhere
+
 /// The vehicle is to be above the site, or is on it.
 bool IsOverSite(const DescentFigures& f) {
   return f.mode == VehicleMode::kSink || f.mode == VehicleMode::kLanded ||
@@ -55,7 +57,7 @@ DescentFigures FiguresOf(const MissionMemory& m, Timestamp now) {
   f.residual_sigma = navigation.vision.residual_sigma;
   f.max_residual_sigma = navigation.vision.max_residual_sigma;
   f.wind_mps = KnownWind(m, now);
-  if (site != nullptr && std::isfinite(f.wind_mps)) {
+  if (site != nullptr && f.wind_mps >= kLeastWind_mps) {
     f.off_wind_rad = std::abs(WrapAngle(PathTo(m, *site).heading_rad - vehicle->wind_from_rad));
   }
   return f;

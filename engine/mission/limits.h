@@ -7,6 +7,8 @@
 #include <cmath>
 #include <string>
 
+#include "engine/model/mission/map_age.h"
+
 namespace palace {
 
 /// Limits of the guards.
@@ -14,7 +16,7 @@ struct GuardLimits {
   static constexpr double link_s = 1.0;
   static constexpr double pose_s = 0.2;
   static constexpr double camera_s = 0.5;
-  static constexpr double map_s = 2.0;
+  static constexpr double map_s = kMapOld_s;
   static constexpr double shown_s = 1.0;        ///< evidence on screen
   static constexpr double laser_height_m = 15;  ///< lower, heights without a laser are not enough
   static constexpr double arm_to_approve_s = 0.5;

@@ -7,6 +7,7 @@
 #include "engine/core/text.h"
 #include "engine/core/units.h"
 #include "engine/model/hazard_maps.h"
+#include "engine/model/size_words.h"
 
 namespace palace {
 namespace {
@@ -45,6 +46,10 @@ std::string Number(double value, int decimals, const char* unit) {
     return "––";
   }
   return WithNumbers(("%." + std::to_string(decimals) + "f").c_str(), value) + unit;
+}
+
+bool IsSize(CellTerm term) {
+  return term == CellTerm::kSlope || term == CellTerm::kRoughness || term == CellTerm::kStep;
 }
 
 struct Bit {
@@ -105,7 +110,9 @@ TermWords WordsOf(const ExplainedTerm& term) {
     return Number(value * look.factor, look.decimals, look.unit);
   };
   TermWords words{look.name, shown(term.figure.value), "", ""};
-  if (std::isfinite(term.figure.value) && term.figure.three_sigma > 0) {
+  if (IsSize(term.term) && !std::isnan(KnownBelow(term.figure))) {
+    words.value = "under " + shown(KnownBelow(term.figure));
+  } else if (std::isfinite(term.figure.value) && term.figure.three_sigma > 0) {
     words.spread = "± " + shown(term.figure.three_sigma);
   }
   const double limit = term.limit * look.factor;

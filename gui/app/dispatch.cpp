@@ -78,7 +78,9 @@ void LoadPresetFile(const std::string& path, CommandOrigin origin, const EngineS
   state.tune.preset.path = path;
   state.tune.preset.values = *loaded;
   state.tune.preset.choice = PresetChoice::kNone;
-  ShowMessage(state, "Preset loaded, " + std::to_string(sets.size()) + " values changed",
+  ShowMessage(state,
+              "Preset loaded, " + std::to_string(sets.size()) +
+                  (sets.size() == 1 ? " limit changed" : " limits changed"),
               ui_time_s);
 }
 

@@ -41,6 +41,10 @@ void CloseTopmost(UiState& state) {
     state.tune.preset.choice = PresetChoice::kNone;
     return;
   }
+  if (state.frame.workspace == Workspace::kFly && state.fly.maps.asked) {
+    state.fly.maps.asked.reset();
+    return;
+  }
   MapProbe* probe = ProbeOf(state);
   if (probe != nullptr && probe->pinned) {
     probe->pinned.reset();

@@ -51,8 +51,8 @@ struct UiRequest {
 ///
 /// CloseTop ends the first of these that is there, and nothing else: a hold under way, the list of
 /// keys, the question before leaving, the list of alarms, the list of checks, the choice of a
-/// preset, the pinned probe of the workspace, the focus ring. (A text field that is typed in has
-/// the Escape before any of them.)
+/// preset, the question of a moved limit, the pinned probe of the workspace, the focus ring. (A
+/// text field that is typed in has the Escape before any of them.)
 UiRequest Reduce(UiState& state, const UiAction& action);
 
 }  // namespace palace

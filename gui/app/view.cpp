@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/core/time.h"
 #include "engine/mission/leaving.h"
 #include "engine/slad/hazards/explanation.h"
 #include "gui/app/key_help.h"
@@ -165,9 +166,15 @@ Intents View::Draw(const EngineSnapshot* snapshot, const FlightRecord* record, U
   ui.highlighted_site = state.highlighted_site;
   ui.window_focused = frame.window_focused;
   if (snapshot != nullptr) {
+    ui.silent_s = AgeNow(*snapshot, snapshot->time, MonotonicSeconds());
     state.frame.preset_name = LimitsName(state.tune, snapshot->session->settings);
   }
   state.frame.frame_ms = frame.frame_ms;
+  const auto percent = [](double scale) { return std::to_string(std::lround(100 * scale)) + " %"; };
+  const double scale = style_.scale;
+  state.frame.text_note = state.scale > scale + 0.01
+                              ? "Text " + percent(scale) + ", no room for " + percent(state.scale)
+                              : "";
   BeginCanvas(ui);
   if (snapshot == nullptr) {
     DrawWaiting(layout, ui);

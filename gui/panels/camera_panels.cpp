@@ -30,12 +30,13 @@ struct Arrival {
   }
 };
 
-Arrival ArrivalOf(const EngineSnapshot& snap, ChannelId channel) {
+Arrival ArrivalOf(const EngineSnapshot& snap, ChannelId channel, double silent_s) {
   const ChannelHealth* health = FindChannel(snap.sensors->channels, channel);
   if (health == nullptr || health->state == ChannelHealth::State::kNever) {
     return {};
   }
-  return {AgeText(health->age_s), Fixed(health->rate_hz, 1) + " Hz", health->age_s, health->state};
+  const double age_s = health->age_s + silent_s;
+  return {AgeText(age_s), Fixed(health->rate_hz, 1) + " Hz", age_s, health->state};
 }
 
 void DrawStale(UiFrame& ui, const Rect& image, const Arrival& arrival) {
@@ -60,6 +61,7 @@ SiteOverlay OverlayOf(const EngineSnapshot& snap, std::uint64_t highlighted) {
   const TerrainDecision* shown = snap.terrain->Shown();
   const bool descent = IsDescentView(snap);
   overlay.sites = shown != nullptr && !descent ? &shown->selection.sites : nullptr;
+  overlay.mission = descent ? nullptr : &snap.flight->mission;
   if (const LandingSite* site = SiteInView(snap, 0)) {
     overlay.selected = *site;
   }
@@ -126,8 +128,11 @@ void DrawDepthChip(const EngineSnapshot& snap, UiFrame& ui, const Rect& image, C
 
 std::string LeftFact(const EngineSnapshot& snap) {
   if (TrackerShown(snap) && snap.flight->tracker.locked) {
+    const std::size_t features = snap.flight->tracker.features.size();
+    const std::string some =
+        features > kFeaturesDrawn ? ", " + std::to_string(kFeaturesDrawn) + " drawn" : "";
     return "Tracking " + std::to_string(snap.flight->tracker.inliers) + " of " +
-           std::to_string(snap.flight->tracker.features.size()) + " features";
+           std::to_string(features) + " features" + some;
   }
   return snap.sensors->laser && std::isfinite(snap.sensors->laser->range_m)
              ? "Laser " + Fixed(snap.sensors->laser->range_m, 1) + " m"
@@ -145,7 +150,7 @@ Rect LeftCameraImage(const EngineSnapshot& snap, const Rect& panel, const Style&
 void DrawLeftCameraPanel(const EngineSnapshot& snap, const Rect& rect, CameraState& state,
                          const MapProbe& probe, UiFrame& ui) {
   const Style& s = ui.style;
-  const Arrival arrival = ArrivalOf(snap, ChannelId::kCameraLeft);
+  const Arrival arrival = ArrivalOf(snap, ChannelId::kCameraLeft, ui.silent_s);
   DrawPanelFrame(ui, rect, "Left camera",
                  {{arrival.age, 0, true, arrival.late()}, {arrival.rate, 0, true, false}});
   const auto camera = LeftCamera(snap);
@@ -190,7 +195,7 @@ void DrawLeftCameraPanel(const EngineSnapshot& snap, const Rect& rect, CameraSta
 
 void DrawRightCameraPanel(const EngineSnapshot& snap, const Rect& rect, const MapProbe& probe,
                           UiFrame& ui) {
-  const Arrival arrival = ArrivalOf(snap, ChannelId::kCameraRight);
+  const Arrival arrival = ArrivalOf(snap, ChannelId::kCameraRight, ui.silent_s);
   const Rect content =
       DrawPanelFrame(ui, rect, "Right camera",
                      {{arrival.age, 0, true, arrival.late()}, {arrival.rate, 0, true, false}});

@@ -39,7 +39,7 @@ void DrawChannelStripPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame
              FitWords(name_font, ChannelName(channel.id), pitch - s.Px(26)));
     std::string facts = "never";
     if (channel.state != State::kNever) {
-      facts = AgeText(channel.age_s) + "   " +
+      facts = AgeText(channel.age_s + ui.silent_s) + "   " +
               Fixed(channel.rate_hz, channel.rate_hz < 100 ? 1 : 0) + " Hz" +
               (channel.note.empty() ? "" : "   " + channel.note);
     }

@@ -38,6 +38,9 @@ PlotTrace Estimate(const EngineSnapshot& snap, Member member, const Palette& p) 
   return series;
 }
 
+/// Half a band of which nothing is known: wider than any plot.
+constexpr float kAnywhere = 1e5f;
+
 /// With a band of three sigma as it was at each instant.
 template <typename Sigma>
 PlotTrace Estimate(const EngineSnapshot& snap, Member member, const Palette& p, Sigma sigma) {
@@ -46,7 +49,7 @@ PlotTrace Estimate(const EngineSnapshot& snap, Member member, const Palette& p, 
   const std::size_t first = history.size() - series.points.size();
   for (std::size_t i = first; i < history.size(); ++i) {
     const double half = 3 * sigma(history[i]);
-    series.band.push_back(std::isfinite(half) ? static_cast<float>(half) : 0.0f);
+    series.band.push_back(std::isfinite(half) ? static_cast<float>(half) : kAnywhere);
   }
   return series;
 }

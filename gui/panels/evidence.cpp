@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "engine/core/units.h"
+#include "engine/model/mission/map_age.h"
 #include "gui/panels/fly_panels.h"
 #include "gui/widgets/evidence_row.h"
 #include "gui/widgets/number_text.h"
@@ -57,8 +58,13 @@ std::vector<EvidenceRow> RowsOf(const EngineSnapshot& snap, const LandingSite& s
       rows.back().spread = "at " + HeadingText(site.touchdown.worst_heading_rad);
     }
   }
-  add(FindLimit(snap.flight->mission.limits, LimitId::kWind));
-  add(FindLimit(snap.flight->mission.limits, LimitId::kOffWind));
+  for (const LimitId id : {LimitId::kWind, LimitId::kOffWind}) {
+    const std::size_t before = rows.size();
+    add(FindLimit(snap.flight->mission.limits, id));
+    if (mission.armed && rows.size() > before) {  // among frozen figures
+      rows.back().name += " now";
+    }
+  }
   return rows;
 }
 
@@ -75,12 +81,15 @@ void DrawEvidencePanel(const EngineSnapshot& snap, const Rect& rect, bool folded
     return;
   }
   const bool frozen = snap.flight->mission.armed.has_value();
+  const bool old = !frozen && IsMapOld(snap, ui.silent_s);
   const std::string age =
-      AgeText(SecondsBetween(frozen ? snap.flight->mission.armed_at : site->map_time, snap.time));
+      AgeText(SecondsBetween(frozen ? snap.flight->mission.armed_at : site->map_time, snap.time) +
+              ui.silent_s);
   const Rect content = DrawPanelFrame(ui, rect, std::string("Evidence for site ") + site->letter,
                                       {{frozen                  ? "Frozen " + age + " ago"
                                         : snap.terrain->preview ? "Preview, map " + age + " ago"
-                                                                : "Map " + age + " ago"}});
+                                                                : "Map " + age + " ago",
+                                        0, old, old}});
   const std::vector<EvidenceRow> rows = RowsOf(snap, *site, folded);
   const Rect area{content.x, content.y + s.Px(4), content.w, content.h - s.Px(4)};
   DrawEvidenceRows(ui, area, rows, narrow);

@@ -29,6 +29,9 @@ void DrawView3dPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui);
 /// Five maps: items "map/elevation", "map/slope", "map/roughness", "map/cost", "map/safe_distance".
 void DrawMapRowPanel(const EngineSnapshot& snap, const std::array<Rect, 5>& rects, float side,
                      bool letters, MapRowState& state, UiFrame& ui);
+/// "tick_set" and "tick_keep", while a tick waits for its answer; call after all panels.
+void DrawTickQuestion(const EngineSnapshot& snap, const Rect& body, MapRowState& state,
+                      UiFrame& ui);
 /// A click or Enter arms ("site/A"): SelectSite. The row with the focus: HighlightSite.
 void DrawSiteListPanel(const EngineSnapshot& snap, const FlyLayout& layout, SiteListState& state,
                        UiFrame& ui);

@@ -20,6 +20,8 @@ struct CameraState {
 };
 struct MapRowState {
   LimitDrag drag;
+  /// On Fly a moved tick is only a question, until somebody answers it.
+  std::optional<TickMove> asked;
   MapProbe probe;
 };
 struct SiteListState {

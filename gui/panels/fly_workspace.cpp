@@ -30,6 +30,9 @@ void DrawLowerLeft(const EngineSnapshot& snap, const FlyLayout& layout, FlyState
     return;
   }
   DrawPlotTabs(snap, layout.plot_tabs, state.tab, ui);
+  if (state.tab != PlotTab::kMaps) {
+    state.maps.asked.reset();  // a question about a map that is not shown
+  }
   if (state.tab == PlotTab::kMaps) {
     DrawMapRowPanel(snap, layout.tabbed_maps, layout.tabbed_map_side, !layout.narrow, state.maps,
                     ui);
@@ -86,6 +89,7 @@ void DrawFlyWorkspace(const EngineSnapshot& snap, const FlyLayout& layout, FlySt
   } else {
     DrawDecisionColumn(snap, layout, state, ui);
   }
+  DrawTickQuestion(snap, layout.frame.body, state.maps, ui);
   DrawProbeWhy(ui, layout.frame.body, snap.terrain->Shown(), state.maps.probe, snap.time);
 }
 

@@ -23,6 +23,7 @@ struct FrameState {
   Workspace workspace = Workspace::kFly;
   std::string preset_name = "defaults";  ///< set by the app
   double frame_ms = 0;                   ///< set by the app
+  std::string text_note;                 ///< set by the app: a text size that does not fit
   bool history_open = false;             ///< alarm list below the strip
   std::vector<ShelvedAlarm> shelved;     ///< as long as they stand as they were shelved
   /// UI clock when a wave-off was asked for last; set by the app, whoever asked.

@@ -151,12 +151,16 @@ MapView MakeMapView(MapKind kind, const MapSource& source, const PanelTextures& 
   view.geometry = decision.hazards     ? decision.hazards->geometry
                   : decision.elevation ? decision.elevation->geometry
                                        : GridGeometry{};
+  if (kind == MapKind::kSafeDistance && decision.hazards) {
+    view.reasons = &decision.hazards->reasons;
+  }
+  view.old = std::isfinite(source.old_s) ? AgeText(source.old_s) + " old" : "";
   view.flags = decision.hazards ? &decision.hazards->flags : nullptr;
   const SladSettings& now = decision.settings;
   FillRange(kind, now, source.applied != nullptr ? *source.applied : now,
             source.wanted != nullptr ? *source.wanted : now, view);
   if (kind == MapKind::kElevation) {
-    view.low = Fixed(static_cast<double>(textures.elevation_low_m), 1) + " m";
+    view.low = "≤" + Fixed(static_cast<double>(textures.elevation_low_m), 1) + " m";
     view.high = Fixed(static_cast<double>(textures.elevation_high_m), 1) + " m+";
   }
   std::optional<Cell> at = source.cursor;
@@ -170,8 +174,11 @@ MapView MakeMapView(MapKind kind, const MapSource& source, const PanelTextures& 
   return view;
 }
 
-MapSource ShownMap(const EngineSnapshot& snap) {
+double ShownMapAge(const EngineSnapshot& snap, double silent_s) { return MapAge(snap) + silent_s; }
+
+MapSource ShownMap(const EngineSnapshot& snap, double silent_s) {
   MapSource source;
+  source.old_s = IsMapOld(snap, silent_s) ? ShownMapAge(snap, silent_s) : NAN;
   source.decision = snap.terrain->Shown();
   source.applied =
       snap.terrain->preview && snap.terrain->applied ? &snap.terrain->applied->settings : nullptr;

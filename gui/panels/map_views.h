@@ -5,8 +5,10 @@
 // degrees, centimetres and metres.
 #pragma once
 
+#include <cmath>
 #include <optional>
 
+#include "engine/model/mission/map_age.h"
 #include "engine/model/snapshot.h"
 #include "gui/widgets/map/map_image.h"
 
@@ -21,12 +23,15 @@ struct MapSource {
   const SladSettings* wanted = nullptr;  ///< what dragging a tick starts from; null: the decision's
   std::optional<Cell> cursor{};          ///< the value shown is the one here,
   const LandingSite* site = nullptr;     ///< else the one at this site
+  double old_s = NAN;                    ///< age of a map that nothing may rest on any more
 };
 
 /// One map with its limit tick. The texture is the one uploaded for the decision shown.
 MapView MakeMapView(MapKind kind, const MapSource& source, const PanelTextures& textures);
 /// The decision that the screen shows: the preview while one exists, else what is applied; the
 /// limits of the other one dashed.
-MapSource ShownMap(const EngineSnapshot& snap);
+MapSource ShownMap(const EngineSnapshot& snap, double silent_s = 0);
+/// Age of that decision's map on the screen; NaN without one.
+double ShownMapAge(const EngineSnapshot& snap, double silent_s);
 
 }  // namespace palace

@@ -63,8 +63,15 @@ const char* ClockName(const EngineSnapshot& snap) {
     case SourceKind::kVideo:
       return "film";
     default:
-      return "UTC";
+      return snap.sensors->vehicle && snap.sensors->vehicle->simulated ? "sim" : "UTC";
   }
+}
+
+const char* LandingWord(MissionState state) {
+  return IsFlying(state)                  ? "Landing on"
+         : state == MissionState::kLanded ? "Landed on"
+         : state >= MissionState::kHold   ? "Was to land on"
+                                          : "Selected";
 }
 
 }  // namespace palace

@@ -17,4 +17,7 @@ bool IsHeard(const EngineSnapshot& snap);
 /// Whose time it is, "UTC": simulated time starts at an epoch of its own, and so do logs of it.
 const char* ClockName(const EngineSnapshot& snap);
 
+/// What the armed site is to the flight: "Selected", "Landing on", "Landed on", "Was to land on".
+const char* LandingWord(MissionState state);
+
 }  // namespace palace

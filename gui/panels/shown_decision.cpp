@@ -35,6 +35,7 @@ MapMarks MarksOf(const EngineSnapshot& snap, std::uint64_t highlighted) {
   MapMarks marks;
   const TerrainDecision* shown = snap.terrain->Shown();
   marks.sites = shown != nullptr ? &shown->selection.sites : nullptr;
+  marks.mission = &snap.flight->mission;
   if (const LandingSite* site = SiteInView(snap, 0)) {
     marks.selected = *site;
   }

@@ -2,7 +2,9 @@
 #include <vector>
 
 #include "gui/panels/fly_panels.h"
+#include "gui/panels/map_views.h"
 #include "gui/widgets/interact.h"
+#include "gui/widgets/number_text.h"
 #include "gui/widgets/site_row.h"
 
 namespace palace {
@@ -55,10 +57,16 @@ void DrawSiteListPanel(const EngineSnapshot& snap, const FlyLayout& layout, Site
   const std::vector<const LandingSite*> rows = RowsOf(shown, mission);
   const std::size_t count = rows.size();
   const std::size_t found = shown != nullptr ? shown->selection.sites.size() : 0;
-  const Rect content =
-      DrawPanelFrame(ui, layout.sites, "Sites",
-                     {{std::to_string(found) + " found"},
-                      {count > 0 && !layout.narrow ? std::string("Tab for next") : std::string()}});
+  const bool old = count > 0 && IsMapOld(snap, ui.silent_s);
+  const auto shown_rows = static_cast<std::size_t>(layout.site_rows);
+  const std::string found_words =
+      std::to_string(found) + " found" +
+      (count > shown_rows ? ", " + std::to_string(shown_rows) + " shown, wheel" : "");
+  const Rect content = DrawPanelFrame(
+      ui, layout.sites, "Sites",
+      {{old ? "Map " + AgeText(ShownMapAge(snap, ui.silent_s)) + " old" : "", 0, true, true},
+       {found_words},
+       {count > 0 && !layout.narrow && !old ? std::string("Tab for next") : std::string()}});
   if (count == 0) {
     DrawEmpty(snap, content, ui);
     if (ui.highlighted_site != 0) {
@@ -104,6 +112,7 @@ void DrawSiteListPanel(const EngineSnapshot& snap, const FlyLayout& layout, Site
     look.narrow = layout.site_row_units < 60;
     look.enabled = mission.MaySelect(site.id);
     look.refused = mission.IsRefused(site.id);
+    look.old_map = old;
     if (i >= found) {
       look.enabled = false;
       look.verdict = mission.armed_now ? SiteVerdictWord(mission.armed_verdict) : "Off the map";

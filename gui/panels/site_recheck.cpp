@@ -138,7 +138,7 @@ void DrawSiteRecheckPanel(const EngineSnapshot& snap, const Rect& rect, bool nar
   const Rect content = DrawPanelFrame(ui, rect, title, {{age}});
   const float side = std::min(s.Px(232), content.h - s.Px(52));
   const Rect square{content.x + s.Px(12), content.y + s.Px(4), side, side};
-  MapView view = MakeMapView(MapKind::kSafeDistance, ShownMap(snap), ui.textures);
+  MapView view = MakeMapView(MapKind::kSafeDistance, ShownMap(snap, ui.silent_s), ui.textures);
   view.key = "recheck";
   MapMarks marks = MarksOf(snap, 0);
   marks.letters = false;

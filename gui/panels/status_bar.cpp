@@ -24,7 +24,7 @@ std::string CamerasText(const std::vector<CameraCounters>& cameras) {
   return text + ", " + std::to_string(lost) + " pictures lost";
 }
 
-std::string LinkText(const EngineSnapshot& snap, bool narrow) {
+std::string LinkText(const EngineSnapshot& snap, bool narrow, double silent_s) {
   std::uint64_t lost = 0;
   for (const ChannelHealth& channel : snap.sensors->channels) {
     lost += channel.lost;
@@ -41,7 +41,7 @@ std::string LinkText(const EngineSnapshot& snap, bool narrow) {
   }
   const char* name =
       snap.session->source.kind == SourceKind::kSimulation ? "Simulated link " : "Link ";
-  std::string text = name + AgeText(pose != nullptr ? pose->age_s : NAN);
+  std::string text = name + AgeText(pose != nullptr ? pose->age_s + silent_s : NAN);
   if (!narrow && snap.session->source.kind != SourceKind::kSimulation) {
     text += ", " + std::to_string(lost) + " lost";
   }
@@ -132,9 +132,9 @@ void DrawStatusBarPanel(const EngineSnapshot& snap, const FrameLayout& layout,
     }
   }
   const std::string limits = state.preset_name + " · " + ShortHash(snap.session->settings_hash);
-  std::vector<std::string> left = {LinkText(snap, narrow), ReplacedText(snap),
+  std::vector<std::string> left = {LinkText(snap, narrow, ui.silent_s), ReplacedText(snap),
                                    RecordingText(snap, narrow),
-                                   narrow ? limits : "Limits " + limits};
+                                   narrow ? limits : "Limits " + limits, state.text_note};
   if (!narrow) {
     left.push_back(state.frame_ms > 0 ? "Frame " + Fixed(state.frame_ms, 0) + " ms" : "");
   }

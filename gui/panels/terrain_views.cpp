@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gui/panels/session_words.h"
 #include "gui/widgets/map/flag_marks.h"
 #include "gui/widgets/number_text.h"
 
@@ -107,6 +108,8 @@ void DrawLeftPicture(UiFrame& ui, const Rect& area, const EngineSnapshot& snap,
       overlay.ghost = *ghost;
       overlay.ghost_words = std::string(look.ghost_word) + " " + ghost->letter;
     }
+    MarkLanding(snap, overlay);
+    overlay.landing_word = LandingWord(snap.flight->mission.state);
     DrawSites(ui, view, overlay);
     if (overlay.selected) {
       DrawScaleBar(ui, image, view.PixelsPerMetre(overlay.selected->p_WS));

@@ -44,6 +44,20 @@ void DrawPlainPicture(UiFrame& ui, const Rect& area, const EngineSnapshot& snap,
 
 /// Why there is no picture: what the engine misses.
 std::string NoPictureWords(const EngineSnapshot& snap);
+/// Marks the site that is selected or flown to, beside the best of what is shown: in every
+/// workspace, whatever the newest map says of it. `Marks`: SiteOverlay or MapMarks.
+template <typename Marks>
+void MarkLanding(const EngineSnapshot& snap, Marks& marks) {
+  const MissionStatus& mission = snap.flight->mission;
+  if (!mission.armed) {
+    return;
+  }
+  marks.landing = mission.armed;
+  marks.landing_commanded = mission.state >= MissionState::kApproved;
+  const bool same = marks.selected && marks.selected->id == mission.armed->id;
+  marks.commanded = marks.commanded || (same && marks.landing_commanded);
+}
+
 /// Another place, or the same place under another clear radius: worth two rings.
 bool SitesDiffer(const LandingSite& a, const LandingSite& b);
 /// Best site of a decision that the operator has not refused; null when it has none.

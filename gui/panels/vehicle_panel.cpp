@@ -58,9 +58,10 @@ double PositionError3s(const EngineSnapshot& snap) {
   return filter.running ? 3 * filter.estimate.sigma_p_m.norm() : NAN;
 }
 
-std::vector<Readout> Readouts(const EngineSnapshot& snap, bool narrow) {
+std::vector<Readout> Readouts(const EngineSnapshot& snap, bool narrow, double silent_s) {
   const auto by = [&](ChannelId channel) {
-    const Freshness fresh = FreshnessOf(snap, channel);
+    Freshness fresh = FreshnessOf(snap, channel);
+    fresh.age_s += silent_s;
     return [fresh](std::string label, double value, int decimals, std::string unit) {
       return Readout{std::move(label), Fixed(value, decimals), std::move(unit), fresh.state,
                      fresh.age_s};
@@ -76,19 +77,30 @@ std::vector<Readout> Readouts(const EngineSnapshot& snap, bool narrow) {
           : "m/s";
   const double fuel = snap.sensors->vehicle ? snap.sensors->vehicle->battery_or_fuel * 100 : NAN;
   const double speed = snap.sensors->pose ? snap.sensors->pose->v_WB.head<2>().norm() : NAN;
+  if (m.state == MissionState::kLanded) {
+    // What was measured at touchdown; the estimate goes on drifting and means nothing more.
+    const double miss_m = m.touchdown_miss_m.value_or(NAN);
+    const double true_m = m.touchdown_miss_true_m.value_or(NAN);
+    return {status(narrow ? "Off centre" : "Off centre, estimate", miss_m, 2, "m"),
+            status(narrow ? "In truth" : "Off centre, in truth", true_m, 2, "m"),
+            status("Wind", wind, 1, wind_unit), status("Fuel", fuel, 0, "%")};
+  }
   if (IsDescentView(snap)) {
     // The same figures, by the estimate in force, as the limits and the plots below.
     const LimitRow* rate = FindLimit(m.limits, LimitId::kDescentRate);
-    const double down = rate != nullptr ? rate->value : NAN;
+    const double rate_mps = rate != nullptr ? rate->value : NAN;
+    const bool climbs = rate_mps < -0.02;  // not by the noise of a hover
+    const double down = climbs ? -rate_mps : rate_mps;
     const double from_m = m.distance_to_site_m;
     if (narrow) {
       return {pose("Height", m.height_above_site_m, 1, "m"),
-              pose("To go", m.time_to_touchdown_s, 0, "s"), pose("Descent", down, 2, "m/s"),
+              pose("To go", m.time_to_touchdown_s, 0, "s"),
+              pose(climbs ? "Climb" : "Descent", down, 2, "m/s"),
               pose("From centre", from_m, 2, "m")};
     }
     return {pose("Height above site", m.height_above_site_m, 1, "m"),
             pose("Time to go", m.time_to_touchdown_s, 0, "s"),
-            pose("Descent rate", down, 2, "m/s"),
+            pose(climbs ? "Climb rate" : "Descent rate", down, 2, "m/s"),
             pose("From site centre", from_m, 2, "m"),
             status("Wind", wind, 1, wind_unit),
             status("Fuel", fuel, 0, "%")};
@@ -123,7 +135,7 @@ void DrawVehiclePanel(const EngineSnapshot& snap, const Rect& rect, bool narrow,
   DrawPanelFrame(ui, rect, "Vehicle", {{ModeWords(snap)}});
   // Two columns where three would not hold the longest label.
   const bool folded = narrow || rect.w < s.Px(380);
-  const std::vector<Readout> readouts = Readouts(snap, folded);
+  const std::vector<Readout> readouts = Readouts(snap, folded, ui.silent_s);
   const int columns = folded ? 2 : 3;
   const float pad = s.Px(12);
   const float width = (rect.w - pad) / static_cast<float>(columns);

@@ -1,5 +1,7 @@
 #include "gui/panels/fly_panels.h"
+#include "gui/panels/map_views.h"
 #include "gui/widgets/button.h"
+#include "gui/widgets/number_text.h"
 
 namespace palace {
 
@@ -44,10 +46,12 @@ Rect View3dScene(const Rect& panel, const Style& style) { return PanelContent(pa
 
 void DrawView3dPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui) {
   const Style& s = ui.style;
-  const Rect scene = DrawPanelFrame(ui, rect, "3-D view",
-                                    {{rect.w < s.Px(300)      ? ""
-                                      : snap.terrain->applied ? "Safe distance over picture"
-                                                              : "No map yet"}});
+  const bool old = snap.terrain->applied && IsMapOld(snap, ui.silent_s);
+  const std::string fact = old ? "Map " + AgeText(ShownMapAge(snap, ui.silent_s)) + " old"
+                           : rect.w < s.Px(300)    ? ""
+                           : snap.terrain->applied ? "Safe distance over picture"
+                                                   : "No map yet";
+  const Rect scene = DrawPanelFrame(ui, rect, "3-D view", {{fact, 0, old, old}});
   ImDrawList* dl = Canvas();
   if (ui.textures.scene_3d != nullptr) {
     dl->AddImageRounded(ui.textures.scene_3d, scene.min(), scene.max(), {0, 0}, {1, 1},

@@ -14,7 +14,7 @@ bool JustPressed(const FrameState& state, double now_s) {
 }
 
 /// What the vehicle said since the press, and how long ago; nothing that it said before.
-std::string SecondLine(const EngineSnapshot& snap, const FrameState& state, double now_s) {
+std::string SecondLine(const EngineSnapshot& snap, const FrameState& state, const UiFrame& ui) {
   using Phase = WaveOffReport::Phase;
   const MissionStatus& m = snap.flight->mission;
   if (!snap.session->can_transmit) {
@@ -23,14 +23,14 @@ std::string SecondLine(const EngineSnapshot& snap, const FrameState& state, doub
   if (!m.why_no_wave_off.empty()) {
     return m.why_no_wave_off;
   }
-  const std::string ago = AgeText(m.wave_off.age_s) + " ago";
+  const std::string ago = AgeText(m.wave_off.age_s + ui.silent_s) + " ago";
   switch (m.wave_off.phase) {
     case Phase::kNone:
       break;
     case Phase::kSent:
       return "Sent";
     case Phase::kUnanswered:
-      return "No answer, " + AgeText(m.wave_off.age_s);
+      return "No answer, " + AgeText(m.wave_off.age_s + ui.silent_s);
     case Phase::kAccepted:
       return "Accepted " + ago;
     case Phase::kClimbs:
@@ -38,7 +38,13 @@ std::string SecondLine(const EngineSnapshot& snap, const FrameState& state, doub
     case Phase::kDone:
       return "Hovering " + ago;
   }
-  return JustPressed(state, now_s) ? "Sent" : "One press · Shift+Esc";
+  if (JustPressed(state, ui.ui_time_s)) {
+    return "Sent";
+  }
+  const ChannelHealth* status = FindChannel(snap.sensors->channels, ChannelId::kVehicleStatus);
+  return status != nullptr && status->state == ChannelHealth::State::kStale
+             ? "Silent for " + AgeText(status->age_s + ui.silent_s)
+             : "One press · Shift+Esc";
 }
 
 /// Pressed, and the vehicle has not done with it.
@@ -62,7 +68,7 @@ void DrawWaveOffPanel(const EngineSnapshot& snap, const Rect& rect, FrameState& 
   if (in.pressed) {
     ui.intents.push_back(CommandAction(WaveOff{}));
   }
-  const std::string second = SecondLine(snap, state, ui.ui_time_s);
+  const std::string second = SecondLine(snap, state, ui);
   ui.items.Last("wave_off").text = "WAVE OFF | " + second;
   const bool latched = enabled && IsUnderWay(snap, state, ui.ui_time_s);
   ImU32 fill = p.wave_off;

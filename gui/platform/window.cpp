@@ -18,6 +18,9 @@ struct Window::Latch {
 
 namespace {
 
+// Below it panels would lie over each other, and over WAVE OFF.
+constexpr int kLeastWidth_px = 960, kLeastHeight_px = 540;
+
 std::string GlfwReason() {
   const char* text = nullptr;
   glfwGetError(&text);
@@ -67,6 +70,10 @@ Result<std::unique_ptr<Window>> Window::Open(const std::string& title, int width
   latch->hidden = hidden;
   glfwSetWindowUserPointer(handle, latch.get());
   InstallCallbacks(handle);
+  if (!hidden) {
+    glfwSetWindowSizeLimits(handle, kLeastWidth_px, kLeastHeight_px, GLFW_DONT_CARE,
+                            GLFW_DONT_CARE);
+  }
   return std::unique_ptr<Window>(new Window(handle, std::move(latch)));
 }
 

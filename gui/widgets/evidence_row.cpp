@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "engine/model/size_words.h"
 #include "gui/widgets/number_text.h"
 
 namespace palace {
@@ -57,6 +58,12 @@ std::string WithUnit(const EvidenceRow& row) {
   return row.value + (row.unit == "°" ? "" : " ") + row.unit;
 }
 
+/// "< 2.0 cm" for "under 2.0 cm", where there is little room.
+std::string Short(const std::string& words) {
+  constexpr std::string_view kUnder = "under ";
+  return words.rfind(kUnder, 0) == 0 ? "< " + words.substr(kUnder.size()) : words;
+}
+
 /// "Wind 2.1 m/s max 8 m/s, guard"; where there is a spread, it carries the unit.
 std::string FullName(const EvidenceRow& row) {
   const std::string figure = row.spread.empty() ? WithUnit(row) : row.value + " " + row.spread;
@@ -78,7 +85,9 @@ EvidenceRow RowOf(const LimitRow& limit) {
   row.value = FixedAgainst(value, most, limit.over, limit.decimals);
   row.unit = unit;
   row.over = limit.over;
-  if (std::isfinite(value) && spread > 0) {
+  if (const double below = KnownBelow(limit) * limit.shown_per_unit; !std::isnan(below)) {
+    row.value = "under " + Fixed(below, limit.decimals);
+  } else if (std::isfinite(value) && spread > 0) {
     row.spread = "± " + Fixed(spread, limit.decimals) + gap + unit;
   }
   if (!enforced) {
@@ -113,7 +122,8 @@ void DrawEvidenceRows(UiFrame& ui, const Rect& rect, const std::vector<EvidenceR
       right -= DrawText(ui, s.body, p.text2, right, middle, row.spread, Align::kRight) + s.Px(4);
       DrawText(ui, s.medium, p.text1, right, middle, row.value, Align::kRight);
     } else {
-      DrawText(ui, s.medium, p.text1, right, middle, WithUnit(row), Align::kRight);
+      DrawText(ui, s.medium, p.text1, right, middle, narrow ? Short(WithUnit(row)) : WithUnit(row),
+               Align::kRight);
     }
     ui.items.Add("evidence/" + row.name, area, true, FullName(row));
     if (row.enforcer.empty()) {

@@ -163,6 +163,23 @@ void DrawBand(const Axes& axes, const PlotTrace& series) {
   }
 }
 
+/// From where the first series ends to now nothing is known: hatched, not left as if it were calm.
+void DrawUnknownEnd(UiFrame& ui, const Axes& axes) {
+  const PlotView& v = axes.view;
+  if (!v.now || v.series.empty() || v.series.front().points.empty()) {
+    return;
+  }
+  const std::vector<ImVec2>& points = v.series.front().points;
+  const auto last = std::find_if(points.rbegin(), points.rend(),
+                                 [](const ImVec2& p) { return std::isfinite(p.x + p.y); });
+  const float from = last == points.rend() ? axes.floor.x : axes.X(std::max(last->x, v.x_min));
+  const Rect gap{from, axes.floor.y, axes.X(*v.now) - from, axes.floor.h};
+  if (gap.w > ui.style.Px(6)) {
+    UnknownFill(ui.style, Canvas(), gap);
+    ui.items.Add("plot_unknown/" + v.name, gap, true, "unknown");
+  }
+}
+
 void StrokeRun(const Style& s, const std::vector<ImVec2>& run, const PlotTrace& series) {
   if (run.size() < 2) {
     return;
@@ -315,6 +332,7 @@ void DrawPlot(UiFrame& ui, const Rect& panel, const PlotView& view, PlotHover& h
   DrawGrid(ui, axes);
   ImDrawList* dl = Canvas();
   dl->PushClipRect(axes.floor.min(), axes.floor.max(), true);
+  DrawUnknownEnd(ui, axes);
   for (const PlotLimit& limit : view.limits) {
     DrawLimitArea(s, axes, limit);
   }

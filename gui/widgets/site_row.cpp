@@ -4,6 +4,7 @@
 
 #include "engine/core/units.h"
 #include "engine/model/cell_explanation.h"
+#include "engine/model/size_words.h"
 #include "gui/widgets/draw.h"
 #include "gui/widgets/icons.h"
 #include "gui/widgets/interact.h"
@@ -58,6 +59,9 @@ SiteWord WordOf(const LandingSite& site, const SiteRowLook& look) {
   }
   if (look.refused) {
     return {Icon::kOff, "Refused"};
+  }
+  if (look.old_map) {
+    return {Icon::kStale, "Old map"};
   }
   if (!site.corridor_clear && site.clear_approaches != 0) {
     return {Icon::kOff, "Other approach"};
@@ -118,8 +122,8 @@ SiteRowAnswer DrawSiteRow(UiFrame& ui, const Rect& rect, const LandingSite& site
     DrawText(ui, s.caption, p.text2, left_x, first_y + s.Px(18),
              FitWords(s.caption, reason, width));
   } else {
-    const std::string figures = "Slope " + Fixed(Deg(site.slope_rad.value), 1) + "°   Rough " +
-                                Fixed(site.roughness_m.value * 100, 0) + " cm   " +
+    const std::string figures = "Slope " + SizeWords(site.slope_rad, kDegPerRad, "°", 1) +
+                                "   Rough " + SizeWords(site.roughness_m, 100, " cm", 1) + "   " +
                                 Fixed(site.distance_m, 1) + " m away" +
                                 (site.flags != 0 ? "   " + FlagWords(site.flags) : std::string());
     DrawText(ui, s.caption, p.text2, left_x, first_y + s.Px(21),

@@ -114,8 +114,11 @@ struct UiFrame {
   CellExplainer explain_cell = nullptr;  ///< null: no answers
   std::uint64_t highlighted_site = 0;    ///< candidate that the keyboard is on; 0: none
   bool window_focused = true;            ///< the window has the system's keyboard
-  TabPlace tab{};                        ///< of the controls drawn now; panels set it
-  std::optional<FocusMark> ring{};       ///< set by Interact, drawn by EndCanvas
+  /// Since the snapshot was true, by the station's clock: what every age on the screen grows by
+  /// when nothing more is published. 0 where the session's clock is the data's own.
+  double silent_s = 0;
+  TabPlace tab{};                   ///< of the controls drawn now; panels set it
+  std::optional<FocusMark> ring{};  ///< set by Interact, drawn by EndCanvas
 };
 
 }  // namespace palace

@@ -32,6 +32,11 @@ std::vector<std::string> VerdictLines(const Style& s, const CellExplanation& why
 /// What is known of the cell beside its terms; ages as at the map when `map_age_s` is 0.
 std::vector<std::string> FactLines(const CellExplanation& why, double map_age_s) {
   std::vector<std::string> lines;
+  const bool of_lander = std::any_of(why.terms.begin(), why.terms.end(),
+                                     [](const auto& term) { return term.term == CellTerm::kStep; });
+  if (of_lander) {  // the picture hatches the cell itself
+    lines.push_back("Roughness and step: anywhere under a lander here");
+  }
   std::string measured = CellStateWord(why.state);
   measured[0] = static_cast<char>(measured[0] - 'a' + 'A');
   if (why.frames > 0) {

@@ -55,6 +55,15 @@ TEST(WindGuard, BlocksApproveBeyondItsLimitOnly) {
   EXPECT_EQ(Row(rig, LimitId::kWind).enforced_by, EnforcedBy::kGuard);
 }
 
+TEST(WindGuard, NoWindComesFromNowhere) {
+  for (const double wind_mps : {0.0, 0.4, 0.6, 5.0}) {
+    MissionRig rig;
+    rig.vehicle.wind_mps = wind_mps;
+    rig.Arm();
+    EXPECT_EQ(std::isfinite(Row(rig, LimitId::kOffWind).value), wind_mps >= 0.5) << wind_mps;
+  }
+}
+
 TEST(WindGuard, AWindThatIsNotKnownIsForInformation) {
   MissionRig unknown;
   unknown.vehicle.wind_mps = NAN;

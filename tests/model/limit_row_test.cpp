@@ -8,6 +8,7 @@
 #include "engine/core/random.h"
 #include "engine/core/units.h"
 #include "engine/model/cell_explanation.h"
+#include "engine/model/size_words.h"
 
 namespace palace {
 namespace {
@@ -53,6 +54,20 @@ TEST(LimitRow, UsesTheWholeLimitAtTheLimit) {
   EXPECT_EQ(ShareUsed(row), 0);
   row.value = 3;
   EXPECT_GT(ShareUsed(row), 1);
+}
+
+TEST(LimitRow, ASizeThatNoiseCouldMakeOfNothingIsOnlyKnownToBeBelow) {
+  EXPECT_EQ(KnownBelow(Figure{0, 0.02}), 0.02);
+  EXPECT_EQ(KnownBelow(Figure{0.01, 0.02}), 0.03);
+  EXPECT_TRUE(std::isnan(KnownBelow(Figure{0.026, 0.007})));
+  EXPECT_TRUE(std::isnan(KnownBelow(Figure{0, 0})));  // no noise is known
+  EXPECT_TRUE(std::isnan(KnownBelow(Figure{0, NAN})));
+  EXPECT_TRUE(std::isnan(KnownBelow(Figure{NAN, 0.02})));
+  EXPECT_EQ(SizeWords({0, 0.02}, 100, " cm", 1), "under 2.0 cm");
+  EXPECT_EQ(SizeWords({0.026, 0.007}, 100, " cm", 1), "2.6 cm");
+  EXPECT_EQ(WordsOf({CellTerm::kRoughness, {0, 0.02}, 0.1}).value, "under 2.0 cm");
+  EXPECT_EQ(WordsOf({CellTerm::kRoughness, {0, 0.02}, 0.1}).spread, "");
+  EXPECT_EQ(WordsOf({CellTerm::kProbability, {0, 0.02}, 0.1}).value, "0.000");
 }
 
 TEST(LimitRow, ReadsWithItsUnit) {

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <iterator>
 
+#include "gui/widgets/button.h"
 #include "gui/widgets/icons.h"
 #include "gui/widgets/interact.h"
 #include "gui/widgets/number_text.h"
@@ -59,6 +60,10 @@ void DrawEvents(const EngineSnapshot& snap, const Rect& rect, DiagnoseState& sta
     const float room = rect.right() - s.Px(12) - x;
     DrawText(ui, s.body, event.kind == EventKind::kAlarm ? p.text1 : p.text2, x, y,
              FitWords(s.body, event.text, room));
+    const bool cut = TextWidth(s.body, event.text) > room;
+    if (cut && in.hovered && std::abs(in.pointer.y - y) < row_h / 2) {
+      DrawTooltip(ui, event.text);
+    }
   }
 }
 
@@ -104,7 +109,7 @@ void DrawChannels(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui) {
              fresh ? p.text3 : (late ? p.caution : p.text1));
     DrawText(ui, fresh ? s.body : s.medium, fresh ? p.text2 : p.text1, content.x + s.Px(34), y,
              ChannelName(c.id));
-    const std::string cells[] = {AgeText(c.age_s), Fixed(c.rate_hz, 1) + " Hz",
+    const std::string cells[] = {AgeText(c.age_s + ui.silent_s), Fixed(c.rate_hz, 1) + " Hz",
                                  Fixed(c.expected_hz, 0) + " Hz",
                                  Fixed(static_cast<double>(c.lost), 0), c.note};
     for (int i = 0; i < columns; ++i) {

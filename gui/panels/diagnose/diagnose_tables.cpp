@@ -2,7 +2,10 @@
 #include <cmath>
 
 #include "engine/core/units.h"
+#include "engine/model/cell_explanation.h"
+#include "engine/model/size_words.h"
 #include "gui/panels/diagnose/diagnose.h"
+#include "gui/panels/session_words.h"
 #include "gui/widgets/icons.h"
 #include "gui/widgets/number_text.h"
 
@@ -143,10 +146,16 @@ void DrawCameraTable(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui) 
 void DrawSiteTable(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui) {
   const Style& s = ui.style;
   const Palette& p = s.palette;
+  const auto& armed_site = snap.flight->mission.armed;
+  const std::string landing =
+      armed_site ? std::string(LandingWord(snap.flight->mission.state)) + " " + armed_site->letter
+                 : std::string();
   const Rect content = DrawPanelFrame(
       ui, rect, "Sites of the newest map",
-      {{snap.terrain->applied
-            ? AgeText(SecondsBetween(snap.terrain->applied->map_time, snap.time)) + " old"
+      {{landing, 0, true, false},
+       {snap.terrain->applied
+            ? AgeText(SecondsBetween(snap.terrain->applied->map_time, snap.time) + ui.silent_s) +
+                  " old"
             : "",
         0, false, false}});
   float y = content.y + s.Px(12);
@@ -171,8 +180,8 @@ void DrawSiteTable(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui) {
     const bool armed = snap.flight->mission.armed && snap.flight->mission.armed->id == site.id;
     LetterPlate(ui, {content.x + s.Px(22), y}, site.letter, armed);
     const std::string cells[] = {Fixed(site.safe_distance_m, 1) + " m",
-                                 Fixed(Deg(site.slope_rad.value), 1) + "°",
-                                 Fixed(site.roughness_m.value * 100, 1) + " cm",
+                                 SizeWords(site.slope_rad, kDegPerRad, "°", 1),
+                                 SizeWords(site.roughness_m, 100, " cm", 1),
                                  Fixed(site.safe_probability, 3),
                                  Fixed(site.p_WS.x(), 1) + " m",
                                  Fixed(site.p_WS.y(), 1) + " m"};

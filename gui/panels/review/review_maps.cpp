@@ -18,7 +18,8 @@ Rect SquareIn(const Rect& panel, const Rect& content, const Style& s) {
   return {std::round(content.centre().x - side / 2), content.y, side, side};
 }
 
-MapMarks MarksAt(const TerrainDecision* decision, const LandingSite* best, const MapProbe& probe) {
+MapMarks MarksAt(const EngineSnapshot& snap, const TerrainDecision* decision,
+                 const LandingSite* best, const MapProbe& probe) {
   MapMarks marks;
   if (decision == nullptr) {
     return marks;
@@ -30,13 +31,14 @@ MapMarks MarksAt(const TerrainDecision* decision, const LandingSite* best, const
   if (decision->hazards) {
     marks.probe = ProbeCell(probe, decision->hazards->geometry);
   }
+  MarkLanding(snap, marks);
   return marks;
 }
 
-void DrawReviewMap(UiFrame& ui, const Rect& rect, const char* title, const std::string& fact,
-                   const TerrainDecision* decision, const LandingSite* best, ImTextureID texture,
-                   MapProbe& probe) {
-  const MapMarks marks = MarksAt(decision, best, probe);
+void DrawReviewMap(UiFrame& ui, const EngineSnapshot& snap, const Rect& rect, const char* title,
+                   const std::string& fact, const TerrainDecision* decision,
+                   const LandingSite* best, ImTextureID texture, MapProbe& probe) {
+  const MapMarks marks = MarksAt(snap, decision, best, probe);
   MapView view =
       MakeMapView(MapKind::kSafeDistance,
                   {.decision = decision, .cursor = marks.probe, .site = best}, ui.textures);
@@ -120,10 +122,10 @@ void DrawReviewMaps(const EngineSnapshot& snap, const ReviewDigest& digest, cons
   const float step = w + ui.style.Px(8);
   const bool log = FollowsRecord(snap.session->role);
   DrawReviewMap(
-      ui, {row.x, row.y, w, row.h}, log ? "Recorded" : "As decided",
+      ui, snap, {row.x, row.y, w, row.h}, log ? "Recorded" : "As decided",
       recorded != nullptr ? LimitWords(recorded->settings) : "", recorded, BestSite(snap, recorded),
       snap.terrain->recorded ? ui.textures.recorded_safe_distance : ui.textures.maps[4], probe);
-  DrawReviewMap(ui, {row.x + step, row.y, w, row.h}, "Re-decided",
+  DrawReviewMap(ui, snap, {row.x + step, row.y, w, row.h}, "Re-decided",
                 now != nullptr ? LimitWords(now->settings) : "", now, BestSite(snap, now),
                 ui.textures.maps[4], probe);
   DrawDifference(snap, digest.changed_cells, {row.x + 2 * step, row.y, w, row.h}, recorded, probe,

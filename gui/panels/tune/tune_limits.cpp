@@ -216,9 +216,9 @@ void DrawFoot(UiFrame& ui, const Rect& foot, const EngineSnapshot& snap, TuneSta
   x += DrawText(ui, s.body, p.text2, x, line, "Preset") + s.Px(10);
   x += DrawText(ui, s.medium, p.text1, x, line, PresetName(state)) + s.Px(16);
   const int changed = ChangedFromPreset(state.preset, snap.session->preview_settings);
-  const std::string note = changed == 0   ? (state.preset.path.empty() ? "" : "unchanged")
-                           : changed == 1 ? "+ 1 change"
-                                          : "+ " + std::to_string(changed) + " changes";
+  const std::string note = changed == 0   ? (state.preset.path.empty() ? "" : "as in the file")
+                           : changed == 1 ? "+ 1 change, not saved"
+                                          : "+ " + std::to_string(changed) + " changes, not saved";
   if (x + TextWidth(s.body, note) < foot.right() - s.Px(12)) {
     DrawText(ui, s.body, p.text2, x, line, note);
   }

@@ -94,7 +94,7 @@ void DrawTuneCamera(const EngineSnapshot& snap, const Rect& rect, TuneState& sta
   const ChannelHealth* channel = FindChannel(snap.sensors->channels, ChannelId::kCameraLeft);
   const Rect content = DrawPanelFrame(
       ui, rect, "Left camera",
-      {{channel != nullptr ? AgeText(channel->age_s) : "", 0, false, false},
+      {{channel != nullptr ? AgeText(channel->age_s + ui.silent_s) : "", 0, false, false},
        {channel != nullptr ? Fixed(channel->rate_hz, 1) + " Hz" : "", 0, false, false}});
   LeftPicture look;
   look.decision = facts.shown;
@@ -114,7 +114,7 @@ void DrawTuneMap(const EngineSnapshot& snap, const Rect& rect, MapKind kind, boo
   const std::optional<Cell> at = facts.shown != nullptr && facts.shown->hazards
                                      ? ProbeCell(state.probe, facts.shown->hazards->geometry)
                                      : std::nullopt;
-  MapSource source = ShownMap(snap);
+  MapSource source = ShownMap(snap, ui.silent_s);
   source.cursor = at;
   source.site = facts.best_shown;
   MapView view = MakeMapView(kind, source, ui.textures);
@@ -124,6 +124,7 @@ void DrawTuneMap(const EngineSnapshot& snap, const Rect& rect, MapKind kind, boo
   if (const LandingSite* best = facts.best_shown) {
     marks.selected = *best;
   }
+  MarkLanding(snap, marks);
   const float below = colour_bar ? s.Px(42) : s.Px(8);
   const float side = std::floor(std::min(rect.w, rect.h - s.Px(28) - below));
   // On a small map the chip would hide what it speaks of; the picture beside it carries one.
@@ -138,6 +139,9 @@ void DrawTuneMap(const EngineSnapshot& snap, const Rect& rect, MapKind kind, boo
         {{view.limit.label, s.palette.text2, false, false}, {view.value, 0, true, false}});
     answer = DrawMapPicture(ui, {std::round(content.centre().x - side / 2), content.y, side, side},
                             view, marks);
+  }
+  if (answer.tick) {  // as a slider does: at once, or as a preview
+    ui.intents.push_back(CommandAction(SetSetting{answer.tick->setting, answer.tick->value}));
   }
   OfferProbe(view, answer, state.probe);
 }
@@ -156,10 +160,12 @@ void DrawCompareStrip(const EngineSnapshot& snap, const Rect& rect, TuneState& s
       TextWidth(s.caption, name) < chip - 2 * pad ? name : ShortHash(snap.session->settings_hash),
       snap.session->settings.slad);
   const Rect preview{applied.right() + s.Px(8), applied.y, chip, applied.h};
-  DrawChip(
-      ui, preview, facts.previewing, "Preview",
-      facts.previewing ? std::to_string(facts.pending) + " changes, not sent" : "same as applied",
-      snap.session->preview_settings.slad);
+  DrawChip(ui, preview, facts.previewing, "Preview",
+           facts.previewing
+               ? std::to_string(facts.pending) +
+                     (facts.pending == 1 ? " change, not applied" : " changes, not applied")
+               : "same as applied",
+           snap.session->preview_settings.slad);
   const std::vector<Comparison> columns = CompareColumns(facts);
   const float left = preview.right() + s.Px(24);
   const float w = (rect.right() - pad - left) / static_cast<float>(columns.size());

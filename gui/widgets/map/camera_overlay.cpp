@@ -8,6 +8,11 @@
 #include "gui/widgets/map/flag_marks.h"
 
 namespace palace {
+namespace {
+
+constexpr float kTooNearSpacing = 18;  // twice that of what breaks a limit itself
+
+}  // namespace
 
 void DrawVerdict(UiFrame& ui, const Rect& image, std::shared_ptr<const ImageU8> verdict,
                  OverlayCache& cache) {
@@ -21,13 +26,17 @@ void DrawVerdict(UiFrame& ui, const Rect& image, std::shared_ptr<const ImageU8> 
   const Style& s = ui.style;
   ImDrawList* dl = Canvas();
   const ImageU8& v = *verdict;
+  const auto ground = [&](int row, int col) { return static_cast<GroundClass>(v.at(col, row)); };
   DrawCellHatch(
       dl, image,
       {v.width(), v.height(), picture::kUnsafeTint, picture::kUnsafeLine, s.Fine(1.3f), s.Px(9)},
       [&](int row, int col) {
-        const auto ground = static_cast<GroundClass>(v.at(col, row));
-        return ground == GroundClass::kUnknown || ground == GroundClass::kHazard;
+        const GroundClass g = ground(row, col);
+        return g != GroundClass::kLandable && g != GroundClass::kTooNear;
       });
+  DrawCellHatch(dl, image,
+                {v.width(), v.height(), 0, picture::kTooNearLine, s.Fine(1), s.Px(kTooNearSpacing)},
+                [&](int row, int col) { return ground(row, col) == GroundClass::kTooNear; });
   const float kx = image.w / static_cast<float>(v.width());
   const float ky = image.h / static_cast<float>(v.height());
   std::vector<ImVec2> line;
@@ -40,6 +49,83 @@ void DrawVerdict(UiFrame& ui, const Rect& image, std::shared_ptr<const ImageU8> 
   }
 }
 
+namespace {
+
+constexpr const char* kMark = "site_mark";  // item of a letter on a picture
+
+/// A site that is not the selected one.
+void DrawOther(UiFrame& ui, const SiteOverlay& overlay, const LandingSite& site, ImVec2 at) {
+  LetterLook look;
+  look.highlighted = site.id == overlay.highlighted;
+  if (overlay.mission != nullptr) {
+    look.refused = overlay.mission->IsRefused(site.id);
+    look.highlighted |= OfferLetter(ui, "picture", at, site, *overlay.mission).hovered;
+  }
+  DrawLetterDisc(ui, at, site.letter, look);
+  const float r = ui.style.Px(look.radius);
+  ui.items.Add(kMark, {at.x - r, at.y - r, 2 * r, 2 * r}, true, site.letter);
+}
+
+/// The ring of a site, recorded under a name. False when it cannot be projected.
+bool DrawSiteRing(UiFrame& ui, const PictureView& view, const LandingSite& site, RingKind kind,
+                  const char* item) {
+  const auto at = view.ScreenFromPoint(site.p_WS);
+  const std::vector<ImVec2> ring = ProjectCircle(view, site, site.clear_radius_m);
+  if (!at || ring.empty()) {
+    return false;
+  }
+  DrawRing(ui.style, Canvas(), ring, *at, kind);
+  ImVec2 low = *at, high = *at;
+  for (const ImVec2& point : ring) {
+    low = {std::min(low.x, point.x), std::min(low.y, point.y)};
+    high = {std::max(high.x, point.x), std::max(high.y, point.y)};
+  }
+  ui.items.Add(item, {low.x, low.y, high.x - low.x, high.y - low.y}, true, site.letter);
+  return true;
+}
+
+/// Beside the best of what is shown: where the vehicle is to land, whatever the maps say now.
+void DrawLanding(UiFrame& ui, const PictureView& view, const SiteOverlay& overlay) {
+  if (!overlay.landing || (overlay.selected && overlay.selected->id == overlay.landing->id)) {
+    return;
+  }
+  const LandingSite& site = *overlay.landing;
+  const RingKind kind = overlay.landing_commanded ? RingKind::kCommanded : RingKind::kProposed;
+  const auto at = view.ScreenFromPoint(site.p_WS);
+  if (!DrawSiteRing(ui, view, site, kind, "landing_ring") || !view.rect.Contains(*at)) {
+    return;
+  }
+  const Style& s = ui.style;
+  const std::string words = overlay.landing_word + " " + site.letter;
+  const float width = TextWidth(s.caption, words) + s.Px(16), height = s.Px(24);
+  const Rect& r = view.rect;
+  const Rect plate{std::clamp(std::round(at->x - width / 2), r.x, std::max(r.x, r.right() - width)),
+                   std::clamp(std::round(at->y + s.Px(16)), r.y, r.bottom() - s.Px(44) - height),
+                   width, height};
+  FillRect(Canvas(), plate, picture::kPlate, s.Fine(3));
+  DrawText(ui, s.caption, picture::kPlateText, plate.centre().x, plate.centre().y, words,
+           Align::kCentre);
+}
+
+/// The letter at the upper right of its ring, kept inside the picture.
+void DrawRingLetter(UiFrame& ui, const PictureView& view, const SiteOverlay& overlay, ImVec2 at,
+                    float radius) {
+  const float edge = ui.style.Px(14);
+  const Rect& r = view.rect;
+  const float x = at.x + radius * 0.72f + ui.style.Px(10);
+  const float y = at.y - radius * 0.72f - ui.style.Px(10);
+  const ImVec2 plate{std::clamp(x, r.x + edge, std::max(r.x + edge, r.right() - edge)),
+                     std::clamp(y, r.y + edge, std::max(r.y + edge, r.bottom() - edge))};
+  if (overlay.mission != nullptr) {
+    OfferLetter(ui, "picture", plate, *overlay.selected, *overlay.mission);
+  }
+  LetterPlate(ui, plate, overlay.selected->letter, true);
+  ui.items.Add(kMark, {plate.x - edge, plate.y - edge, 2 * edge, 2 * edge}, true,
+               overlay.selected->letter);
+}
+
+}  // namespace
+
 void DrawSites(UiFrame& ui, const PictureView& view, const SiteOverlay& overlay) {
   const Style& s = ui.style;
   ImDrawList* dl = Canvas();
@@ -49,7 +135,7 @@ void DrawSites(UiFrame& ui, const PictureView& view, const SiteOverlay& overlay)
     for (const LandingSite& site : *overlay.sites) {
       const auto at = view.ScreenFromPoint(site.p_WS);
       if (site.id != selected && at && view.rect.Contains(*at)) {
-        DrawLetterDisc(ui, *at, site.letter, site.id == overlay.highlighted);
+        DrawOther(ui, overlay, site, *at);
       }
     }
   }
@@ -92,29 +178,15 @@ void DrawSites(UiFrame& ui, const PictureView& view, const SiteOverlay& overlay)
     }
   }
   if (overlay.selected) {
-    const auto at = view.ScreenFromPoint(overlay.selected->p_WS);
-    const std::vector<ImVec2> ring =
-        ProjectCircle(view, *overlay.selected, overlay.selected->clear_radius_m);
-    if (at && !ring.empty()) {
-      DrawRing(s, dl, ring, *at, overlay.commanded ? RingKind::kCommanded : RingKind::kProposed);
-      const float radius = static_cast<float>(overlay.selected->clear_radius_m) *
-                           view.PixelsPerMetre(overlay.selected->p_WS);
-      Rect around{at->x - radius, at->y - radius, 2 * radius, 2 * radius};
-      for (const ImVec2& point : ring) {
-        const float right = std::max(around.right(), point.x);
-        const float bottom = std::max(around.bottom(), point.y);
-        around.x = std::min(around.x, point.x);
-        around.y = std::min(around.y, point.y);
-        around.w = right - around.x;
-        around.h = bottom - around.y;
-      }
-      ui.items.Add("ring", around, true, overlay.selected->letter);
-      const ImVec2 plate{at->x + radius * 0.72f + s.Px(10), at->y - radius * 0.72f - s.Px(10)};
-      if (view.rect.Contains(plate)) {
-        LetterPlate(ui, plate, overlay.selected->letter, true);
-      }
+    const LandingSite& site = *overlay.selected;
+    const RingKind kind = overlay.commanded ? RingKind::kCommanded : RingKind::kProposed;
+    const auto at = view.ScreenFromPoint(site.p_WS);
+    if (DrawSiteRing(ui, view, site, kind, "ring") && view.rect.Contains(*at)) {
+      const float radius = static_cast<float>(site.clear_radius_m) * view.PixelsPerMetre(site.p_WS);
+      DrawRingLetter(ui, view, overlay, *at, radius);
     }
   }
+  DrawLanding(ui, view, overlay);
   dl->PopClipRect();
 }
 
@@ -127,7 +199,7 @@ void DrawTracker(UiFrame& ui, const PictureView& view, const TrackerStatus& trac
   dl->PushClipRect(view.rect.min(), view.rect.max(), true);
   std::size_t shown = 0;
   for (const TrackedFeature& feature : tracker.features) {
-    if (shown++ == 24) {  // more would hide the picture
+    if (shown++ == kFeaturesDrawn) {
       break;
     }
     DrawBrackets(s, dl, view.ScreenFromPixel(feature.pixel),
@@ -140,32 +212,97 @@ void DrawTracker(UiFrame& ui, const PictureView& view, const TrackerStatus& trac
   dl->PopClipRect();
 }
 
+namespace {
+
+/// The first corner in which the plate hides no letter of a site; above what stands in the lower
+/// ones. The top left where every corner does.
+Rect FreePlate(const UiFrame& ui, const Rect& image, float width, float height) {
+  const Style& s = ui.style;
+  const float edge = s.Px(8), foot = s.Px(42);
+  const float right = image.right() - edge - width, low = image.bottom() - foot - height;
+  const Rect places[] = {{image.x + edge, image.y + edge, width, height},
+                         {image.x + edge, low, width, height},
+                         {right, low, width, height},
+                         {right, image.y + edge + s.Px(28), width, height}};
+  const auto hides = [&](const Rect& place) {
+    for (const Item& item : ui.items.items()) {
+      const Rect& r = item.rect;
+      if (item.name == kMark && r.x < place.right() && place.x < r.right() &&
+          r.y < place.bottom() && place.y < r.bottom()) {
+        return true;
+      }
+    }
+    return false;
+  };
+  for (const Rect& place : places) {
+    if (!hides(place)) {
+      return place;
+    }
+  }
+  return places[0];
+}
+
+constexpr float kSwatch = 14;
+
+struct LegendEntry {
+  const char* words;
+  void (*draw)(const Style&, const Rect& swatch);
+};
+
+void SafeSwatch(const Style& s, const Rect& swatch) {
+  StrokeRect(Canvas(), swatch, picture::kSafe, s.Fine(2));
+}
+
+void OverSwatch(const Style& s, const Rect& swatch) {
+  FillRect(Canvas(), swatch, WithAlpha(Rgb(0xF5963C), 0.25f));
+  Hatch(Canvas(), swatch, Rgb(0xF5963C), s.Fine(2), s.Fine(6));
+}
+
+void TooNearSwatch(const Style& s, const Rect& swatch) {
+  StrokeRect(Canvas(), swatch, picture::kTooNearLine, s.Fine(1));
+  Hatch(Canvas(), swatch, Rgb(0xF5963C), s.Fine(1), s.Fine(12));
+}
+
+float EntryWidth(const Style& s, const LegendEntry& entry) {
+  return s.Px(kSwatch + 6) + TextWidth(s.caption, entry.words);
+}
+
+}  // namespace
+
 void DrawVerdictLegend(UiFrame& ui, const Rect& image, unsigned flags) {
   const Style& s = ui.style;
-  const char* safe = "Safe";
-  const char* over = "Over a limit or unknown";
-  const float safe_w = TextWidth(s.caption, safe);
-  const float over_w = TextWidth(s.caption, over);
-  const float width = s.Px(8 + 14 + 6) + safe_w + s.Px(14 + 14 + 6) + over_w + s.Px(12);
-  if (width + s.Px(16) > image.w) {
+  const LegendEntry entries[] = {{GroundClassWord(GroundClass::kLandable), SafeSwatch},
+                                 {"Over a limit or unknown", OverSwatch},
+                                 {GroundClassWord(GroundClass::kTooNear), TooNearSwatch}};
+  const float edge = s.Px(8), line_h = s.Px(20);
+  float in_a_row = edge, widest = 0;
+  for (const LegendEntry& entry : entries) {
+    in_a_row += EntryWidth(s, entry) + s.Px(14);
+    widest = std::max(widest, EntryWidth(s, entry));
+  }
+  const bool row = in_a_row + 2 * edge <= image.w;
+  const float width = row ? in_a_row : widest + 2 * edge + s.Px(4);
+  if (width + 2 * edge > image.w) {
     return;
   }
   ImDrawList* dl = Canvas();
-  const Rect plate = PlateAt(s, dl, image, Corner::kTopLeft, width, s.Px(26));
-  const float y = plate.centre().y;
-  const float half = s.Px(7);
-  float x = plate.x + s.Px(8);
-  StrokeRect(dl, {x, y - half, half * 2, half * 2}, picture::kSafe, s.Fine(2));
-  x += half * 2 + s.Px(6);
-  x += DrawText(ui, s.caption, picture::kPlateText, x, y, safe) + s.Px(14);
-  const Rect swatch{x, y - half, half * 2, half * 2};
-  FillRect(dl, swatch, WithAlpha(Rgb(0xF5963C), 0.25f));
-  Hatch(dl, swatch, Rgb(0xF5963C), s.Fine(2), s.Fine(6));
-  x += half * 2 + s.Px(6);
-  DrawText(ui, s.caption, picture::kPlateText, x, y, over);
+  const float height = s.Px(26) + (row ? 0 : 2 * line_h);
   const float flags_w = FlagLegendWidth(s, flags) + s.Px(12);
-  if (flags != 0 && flags_w + s.Px(16) <= image.w) {
-    const Rect below{plate.x, plate.bottom() + s.Px(4), flags_w, plate.h};
+  const bool has_flags = flags != 0 && flags_w + 2 * edge <= image.w;
+  const Rect both = FreePlate(ui, image, has_flags ? std::max(width, flags_w) : width,
+                              height + s.Px(has_flags ? 30 : 0));
+  const Rect plate{both.x, both.y, width, height};
+  FillRect(dl, plate, picture::kPlate, s.Fine(3));
+  ui.items.Add("legend", both, true, "");
+  ImVec2 at{plate.x + edge, plate.y + s.Px(13)};
+  for (const LegendEntry& entry : entries) {
+    const float side = s.Px(kSwatch);
+    entry.draw(s, {at.x, at.y - side / 2, side, side});
+    DrawText(ui, s.caption, picture::kPlateText, at.x + side + s.Px(6), at.y, entry.words);
+    at = row ? ImVec2{at.x + EntryWidth(s, entry) + s.Px(14), at.y} : ImVec2{at.x, at.y + line_h};
+  }
+  if (has_flags) {
+    const Rect below{plate.x, plate.bottom() + s.Px(4), flags_w, s.Px(26)};
     FillRect(dl, below, picture::kPlate, s.Fine(3));
     DrawFlagLegend(ui, below.x - s.Px(6), below.centre().y, flags);
   }

@@ -16,23 +16,32 @@ struct OverlayCache {
   std::vector<std::vector<ImVec2>> contours;
 };
 
-/// Orange tint and hatch on hazards and unknown ground, contour 1.5 px round what can be landed on.
+/// Orange tint and hatch over a limit and where nothing is known, a sparse hatch where only a
+/// neighbour is a hazard, contour 1.5 px round what can be landed on.
 void DrawVerdict(UiFrame& ui, const Rect& image, std::shared_ptr<const ImageU8> verdict,
                  OverlayCache& cache);
 
 struct SiteOverlay {
   const std::vector<LandingSite>* sites = nullptr;
-  std::optional<LandingSite> selected;  ///< armed, or none
+  /// Letters select by a click, refused ones are struck through; null: they are marks only.
+  const MissionStatus* mission = nullptr;
+  std::optional<LandingSite> selected;  ///< armed, else the best
   std::uint64_t highlighted = 0;
-  bool commanded = false;            ///< approved: filled centre
+  bool commanded = false;              ///< approved: filled centre
+  std::optional<LandingSite> landing;  ///< selected or flown to, where that is another one
+  bool landing_commanded = false;
+  std::string landing_word;          ///< "Landing on"
   std::optional<LandingSite> ghost;  ///< applied or recorded place while previewing
   std::string ghost_words;           ///< "applied A"
 };
 /// Rings, crosses and letters, projected with the pose of the picture.
 void DrawSites(UiFrame& ui, const PictureView& view, const SiteOverlay& overlay);
-/// Brackets, search window.
+/// Brackets, search window. Of many features only the first: more would hide the picture.
+inline constexpr std::size_t kFeaturesDrawn = 24;
 void DrawTracker(UiFrame& ui, const PictureView& view, const TrackerStatus& tracker);
-/// Plate "Safe | Over a limit or unknown" at the top left; under it one of the flags that occur.
+/// Plate "Safe to land on | Over a limit or unknown | Too near a hazard" in a corner where it hides
+/// no letter of a site, the top left if it can; under it one of the flags that occur. Item
+/// "legend". Call after DrawSites.
 void DrawVerdictLegend(UiFrame& ui, const Rect& image, unsigned flags = 0);
 
 }  // namespace palace

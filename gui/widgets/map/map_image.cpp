@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "engine/model/hazard_maps.h"
 #include "engine/model/settings/settings.h"
 #include "gui/widgets/interact.h"
 #include "gui/widgets/map/cell_hatch.h"
@@ -44,15 +45,30 @@ void DrawMapSites(UiFrame& ui, const Rect& square, const MapView& view, const Ma
     for (const LandingSite& site : *marks.sites) {
       const ImVec2 at = ScreenFromGround(square, view.geometry, site.p_WS.x(), site.p_WS.y());
       if (site.id != selected && square.Contains(at)) {
-        DrawLetterDisc(ui, at, site.letter, site.id == marks.highlighted, 9);
+        LetterLook look{site.id == marks.highlighted, false, 9};
+        if (marks.mission != nullptr) {
+          look.refused = marks.mission->IsRefused(site.id);
+          look.highlighted |= OfferLetter(ui, "map/" + view.key, at, site, *marks.mission).hovered;
+        }
+        DrawLetterDisc(ui, at, site.letter, look);
       }
     }
   }
+  const auto ring = [&](const LandingSite& site, bool commanded) {
+    const ImVec2 at = ScreenFromGround(square, view.geometry, site.p_WS.x(), site.p_WS.y());
+    DrawRing(s, Canvas(), at, static_cast<float>(site.clear_radius_m) * px_per_m,
+             commanded ? RingKind::kCommanded : RingKind::kProposed);
+    return at;
+  };
   if (marks.selected) {
-    const Eigen::Vector3d& p_WS = marks.selected->p_WS;
-    const ImVec2 at = ScreenFromGround(square, view.geometry, p_WS.x(), p_WS.y());
-    DrawRing(s, Canvas(), at, static_cast<float>(marks.selected->clear_radius_m) * px_per_m,
-             marks.commanded ? RingKind::kCommanded : RingKind::kProposed);
+    ring(*marks.selected, marks.commanded);
+  }
+  if (marks.landing && marks.landing->id != selected) {
+    const ImVec2 at = ring(*marks.landing, marks.landing_commanded);
+    if (square.Contains(at)) {
+      LetterPlate(ui, {at.x + s.Px(16), at.y - s.Px(14)}, marks.landing->letter, true, 16);
+      ui.items.Add("landing_on_map/" + view.key, {at.x, at.y, 1, 1}, true, marks.landing->letter);
+    }
   }
 }
 
@@ -63,8 +79,9 @@ void DrawProbe(const Style& s, const Rect& square, const MapView& view, Cell cel
   FillRect(Canvas(), {square.x, std::round(at.y), square.w, s.Px(1)}, picture::kWhite);
 }
 
-/// Mouse and keyboard on the tick: asks for the new value.
-void RunTick(UiFrame& ui, const Rect& bar, float tick_x, const LimitTick& limit, LimitDrag& drag) {
+/// Mouse and keyboard on the tick: where it is moved to.
+std::optional<TickMove> RunTick(UiFrame& ui, const Rect& bar, float tick_x, const LimitTick& limit,
+                                LimitDrag& drag) {
   const Style& s = ui.style;
   const Rect grab{tick_x - s.Px(10), bar.y - s.Px(10), s.Px(20), s.Px(24)};
   const Interaction in = Interact(ui, "tick/" + limit.setting, grab, kSideSteps, limit.label);
@@ -73,13 +90,14 @@ void RunTick(UiFrame& ui, const Rect& bar, float tick_x, const LimitTick& limit,
   }
   const SettingInfo* info = FindSetting(limit.setting);
   if (info == nullptr) {
-    return;
+    return std::nullopt;
   }
+  const double from = limit.asked.value_or(limit.value);
   if (in.pressed) {
-    drag = {in.pointer.x, limit.value, limit.per_bar / static_cast<double>(bar.w), limit.value};
+    drag = {in.pointer.x, from, limit.per_bar / static_cast<double>(bar.w), from};
   }
   const double step = std::pow(10.0, -info->decimals) / info->shown_per_unit;
-  double wanted = limit.value + in.step_right * step, last = limit.value;
+  double wanted = from + in.step_right * step, last = from;
   if (in.held) {
     wanted = drag.start_value + static_cast<double>(in.pointer.x - drag.start_x) * drag.per_px;
     last = drag.last_value;
@@ -87,8 +105,9 @@ void RunTick(UiFrame& ui, const Rect& bar, float tick_x, const LimitTick& limit,
   const double value = ClampSetting(*info, std::round(wanted / step) * step);
   if ((in.held || in.step_right != 0) && std::abs(value - last) > step * 1e-3) {
     drag.last_value = value;
-    ui.intents.push_back(CommandAction(SetSetting{limit.setting, value}));
+    return TickMove{limit.setting, value, grab};
   }
+  return std::nullopt;
 }
 
 void DrawTick(const Style& s, const Rect& bar, float x) {
@@ -115,10 +134,16 @@ MapAnswer DrawMapPicture(UiFrame& ui, const Rect& square, const MapView& view,
       dl->AddImage(view.texture, square.min(), square.max());
     }
     const GridF& values = *view.values;
+    const bool has_reasons = view.reasons != nullptr && view.reasons->rows() == values.rows() &&
+                             view.reasons->cols() == values.cols();
+    const auto unknown = [&](int row, int col) {
+      return !std::isfinite(values.at(row, col)) ||
+             (has_reasons && (view.reasons->at(row, col) & kHazardUnknown) != 0);
+    };
     DrawCellHatch(dl, square,
                   {values.cols(), values.rows(), picture::kUnknown, picture::kUnknownLine,
                    s.Fine(1), s.Px(6)},
-                  [&](int row, int col) { return !std::isfinite(values.at(row, col)); });
+                  unknown);
     if (view.flags != nullptr) {
       DrawFlagsOnMap(s, square, *view.flags);
     }
@@ -127,6 +152,11 @@ MapAnswer DrawMapPicture(UiFrame& ui, const Rect& square, const MapView& view,
     if (marks.probe && view.geometry.Contains(*marks.probe)) {
       DrawProbe(s, square, view, *marks.probe);
     }
+  }
+  if (known && !view.old.empty()) {
+    StaleVeil(s, dl, square);
+    TextPlate(ui, square, Corner::kBottomLeft, view.old);
+    ui.items.Add("old/" + view.key, square, true, view.old);
   }
   dl->PopClipRect();
   if (view.preview) {
@@ -151,27 +181,35 @@ MapAnswer DrawMapPicture(UiFrame& ui, const Rect& square, const MapView& view,
   return answer;
 }
 
-void DrawColourBar(UiFrame& ui, const Rect& bar, const MapView& view, LimitDrag* drag) {
+std::optional<TickMove> DrawColourBar(UiFrame& ui, const Rect& bar, const MapView& view,
+                                      LimitDrag* drag) {
   const Style& s = ui.style;
+  std::optional<TickMove> move;
   DrawRampBar(Canvas(), bar, view.ramp);
   const float label_y = bar.bottom() + s.Px(12);
   const bool has_limit = std::isfinite(view.limit.at);
   float limit_from = 0;
   float limit_to = 0;
   if (has_limit) {
-    if (std::isfinite(view.limit.applied_at)) {
-      const float x = bar.x + std::clamp(view.limit.applied_at, 0.0f, 1.0f) * bar.w;
+    const float dashed_at = view.limit.asked ? view.limit.at : view.limit.applied_at;
+    const float asked_at =
+        view.limit.asked
+            ? view.limit.at +
+                  static_cast<float>((*view.limit.asked - view.limit.value) / view.limit.per_bar)
+            : view.limit.at;
+    if (std::isfinite(dashed_at)) {
+      const float x = bar.x + std::clamp(dashed_at, 0.0f, 1.0f) * bar.w;
       DashedLine(Canvas(), {x, bar.y - s.Px(6)}, {x, bar.bottom() + s.Px(4)}, s.palette.white_mark,
                  s.Fine(1), s.Fine(3), s.Fine(2));
     }
-    const float x = std::round(bar.x + std::clamp(view.limit.at, 0.0f, 1.0f) * bar.w);
+    const float x = std::round(bar.x + std::clamp(asked_at, 0.0f, 1.0f) * bar.w);
     DrawTick(s, bar, x);
     const float width = TextWidth(s.medium, view.limit.label);
     limit_from = std::clamp(x - width / 2, bar.x, bar.right() - width);
     limit_to = limit_from + width;
     DrawText(ui, s.medium, s.palette.text1, limit_from, label_y, view.limit.label);
     if (drag != nullptr && !view.limit.setting.empty()) {
-      RunTick(ui, bar, x, view.limit, *drag);
+      move = RunTick(ui, bar, x, view.limit, *drag);
     }
   }
   const float keep = s.Px(8);
@@ -183,6 +221,7 @@ void DrawColourBar(UiFrame& ui, const Rect& bar, const MapView& view, LimitDrag*
   if (!has_limit || high_from - keep > limit_to) {
     DrawText(ui, s.caption, s.palette.text2, bar.right(), label_y, view.high, Align::kRight);
   }
+  return move;
 }
 
 MapAnswer DrawMapPanel(UiFrame& ui, const Rect& panel, float side, const MapView& view,
@@ -192,9 +231,9 @@ MapAnswer DrawMapPanel(UiFrame& ui, const Rect& panel, float side, const MapView
       ui, panel, view.title,
       {{view.letter, s.palette.text3, false, false}, {view.value, s.palette.text1, true, false}});
   const Rect square{std::round(content.x + (content.w - side) / 2), content.y, side, side};
-  const MapAnswer answer = DrawMapPicture(ui, square, view, marks);
+  MapAnswer answer = DrawMapPicture(ui, square, view, marks);
   const Rect bar{panel.x + s.Px(12), square.bottom() + s.Px(12), panel.w - s.Px(24), s.Px(8)};
-  DrawColourBar(ui, bar, view, &drag);
+  answer.tick = DrawColourBar(ui, bar, view, &drag);
   return answer;
 }
 

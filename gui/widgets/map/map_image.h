@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/model/landing_site.h"
+#include "engine/model/mission/mission_status.h"
 #include "gui/widgets/map/colour_ramp.h"
 #include "gui/widgets/panel_frame.h"
 
@@ -20,7 +20,9 @@ struct LimitTick {
   float applied_at = NAN;  ///< while previewing: where the applied limit is
   std::string setting;     ///< "slad.max_slope_deg"; empty: cannot be dragged
   double value = 0;        ///< of the setting
-  double per_bar = 0;      ///< setting units over the whole bar
+  /// A move that waits for its answer: the tick stands there, dashed where the limit is.
+  std::optional<double> asked;
+  double per_bar = 0;  ///< setting units over the whole bar
 };
 
 struct MapView {
@@ -32,18 +34,25 @@ struct MapView {
   Ramp ramp = Ramp::kElevation;
   GridGeometry geometry;
   const GridF* values = nullptr;  ///< NaN cells are hatched; null: the whole map is unknown
+  /// HazardReason bits, hatched where unknown: a distance of 0 there is none that was measured.
+  const Grid<std::uint8_t>* reasons = nullptr;
   const Grid<std::uint8_t>* flags = nullptr;  ///< TerrainFlag bits; null or empty: none
   std::string low, high;                      ///< labels of the ends
   LimitTick limit;
   bool preview = false;
+  std::string old;  ///< "11.2 s old", veiled; empty: as good as new
 };
 
 /// Marks shared by all maps.
 struct MapMarks {
   const std::vector<LandingSite>* sites = nullptr;
+  /// Letters select by a click, refused ones are struck through; null: they are marks only.
+  const MissionStatus* mission = nullptr;
   std::optional<LandingSite> selected;
   std::uint64_t highlighted = 0;
   bool commanded = false;
+  std::optional<LandingSite> landing;  ///< selected or flown to, where that is another one
+  bool landing_commanded = false;
   bool letters = true;                     ///< letters of the other sites
   std::vector<Eigen::Vector2d> footprint;  ///< north, east
   std::optional<Cell> probe;
@@ -57,23 +66,32 @@ struct LimitDrag {
   double last_value = 0;
 };
 
+/// A limit that a tick was moved to.
+struct TickMove {
+  std::string setting;
+  double value = 0;
+  Rect tick;  ///< where it stands now
+};
+
 /// What was done to a map.
 struct MapAnswer {
   Rect square;
+  std::optional<TickMove> tick;  ///< of DrawMapPanel: the tick was dragged or stepped
   std::optional<Cell> under_pointer;
   bool clicked = false;
   bool key_pressed = false;         ///< Enter or Space with the focus
   int rows_up = 0, cols_right = 0;  ///< arrow keys, in cells
 };
 
-/// Draws the panel (items "map/<key>" and "tick/<setting>"); appends SetSetting while the tick is
-/// dragged or stepped.
+/// Draws the panel (items "map/<key>" and "tick/<setting>").
 MapAnswer DrawMapPanel(UiFrame& ui, const Rect& panel, float side, const MapView& view,
                        const MapMarks& marks, LimitDrag& drag);
 /// The square picture alone with all its marks.
 MapAnswer DrawMapPicture(UiFrame& ui, const Rect& square, const MapView& view,
                          const MapMarks& marks);
-/// Colour bar with end labels and limit; `bar` is the 8-unit strip itself. `drag` may be null.
-void DrawColourBar(UiFrame& ui, const Rect& bar, const MapView& view, LimitDrag* drag);
+/// Colour bar with end labels and limit; `bar` is the 8-unit strip itself. `drag` may be null: the
+/// tick stands still. Returns where it was moved to.
+std::optional<TickMove> DrawColourBar(UiFrame& ui, const Rect& bar, const MapView& view,
+                                      LimitDrag* drag);
 
 }  // namespace palace

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "gui/widgets/button.h"
+#include "gui/widgets/interact.h"
 #include "gui/widgets/number_text.h"
 
 namespace palace {
@@ -60,15 +62,40 @@ void DrawRing(const Style& s, ImDrawList* dl, ImVec2 centre, float radius, RingK
   DrawRing(s, dl, ring, centre, kind);
 }
 
-void DrawLetterDisc(UiFrame& ui, ImVec2 c, std::string_view letter, bool highlighted,
-                    float radius) {
+void DrawLetterDisc(UiFrame& ui, ImVec2 c, std::string_view letter, const LetterLook& look) {
   const Style& s = ui.style;
-  const float r = s.Fine(radius);
+  const float r = s.Fine(look.radius);
   ImDrawList* dl = Canvas();
-  dl->AddCircleFilled(c, r, highlighted ? picture::kWhite : picture::kLetterDark);
-  dl->AddCircle(c, r, highlighted ? picture::kLetterDark : picture::kWhite, 0, s.Fine(1.5f));
-  DrawText(ui, radius < 10 ? s.caption : s.medium,
-           highlighted ? picture::kLetterDark : picture::kWhite, c.x, c.y, letter, Align::kCentre);
+  const ImU32 ink = look.highlighted ? picture::kLetterDark : picture::kWhite;
+  dl->AddCircleFilled(c, r, look.highlighted ? picture::kWhite : picture::kLetterDark);
+  dl->AddCircle(c, r, ink, 0, s.Fine(1.5f));
+  DrawText(ui, look.radius < 10 ? s.caption : s.medium, ink, c.x, c.y, letter, Align::kCentre);
+  if (look.refused) {
+    const float reach = r * 0.7f;
+    dl->AddLine({c.x - reach, c.y + reach}, {c.x + reach, c.y - reach}, ink, s.Fine(2));
+  }
+}
+
+LetterAnswer OfferLetter(UiFrame& ui, std::string_view where, ImVec2 centre,
+                         const LandingSite& site, const MissionStatus& mission) {
+  const float half = ui.style.Px(11);
+  const Rect area{centre.x - half, centre.y - half, 2 * half, 2 * half};
+  const std::string& letter = site.letter;
+  const bool may = mission.MaySelect(site.id);
+  const Interaction in = Interact(ui, "letter/" + std::string(where) + "/" + letter, area,
+                                  kNoTab | (may ? 0U : unsigned{kDisabled}), letter);
+  if (in.hovered) {
+    DrawTooltip(
+        ui, mission.armed && mission.armed->id == site.id ? "Site " + letter + " is selected"
+            : may                                         ? "Select site " + letter
+            : mission.may_select
+                ? std::string("No site can be selected in state ") + MissionStateWord(mission.state)
+                : "Sites cannot be selected here");
+  }
+  if (in.clicked) {
+    ui.intents.push_back(CommandAction(SelectSite{site.id}));
+  }
+  return {in.hovered, in.clicked};
 }
 
 void DrawBrackets(const Style& s, ImDrawList* dl, ImVec2 c, ImU32 colour) {

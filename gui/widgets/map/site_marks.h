@@ -4,11 +4,19 @@
 #include <string_view>
 #include <vector>
 
+#include "engine/model/mission/mission_status.h"
 #include "gui/widgets/draw.h"
 
 namespace palace {
 
 enum class RingKind { kProposed, kCommanded, kGhost };
+
+/// How the letter of a site that is not the selected one looks.
+struct LetterLook {
+  bool highlighted = false;
+  bool refused = false;  ///< struck through
+  float radius = 11;
+};
 
 /// Ring along projected points (white 2 px on black 4 px) with a cross at its centre. A ghost is
 /// dashed and has no cross.
@@ -17,8 +25,15 @@ void DrawRing(const Style& style, ImDrawList* dl, const std::vector<ImVec2>& rin
 /// The same for a map seen from above.
 void DrawRing(const Style& style, ImDrawList* dl, ImVec2 centre, float radius, RingKind kind);
 /// Black disc with white rim and letter: a site that is not the selected one.
-void DrawLetterDisc(UiFrame& ui, ImVec2 centre, std::string_view letter, bool highlighted,
-                    float radius = 11);
+void DrawLetterDisc(UiFrame& ui, ImVec2 centre, std::string_view letter, const LetterLook& look);
+/// The letter of a site as a control, before what lies below it: true when it is clicked. Hovered
+/// it says what a click does, or why it does nothing. `where`: "picture", "map/slope".
+struct LetterAnswer {
+  bool hovered = false;
+  bool clicked = false;
+};
+LetterAnswer OfferLetter(UiFrame& ui, std::string_view where, ImVec2 centre,
+                         const LandingSite& site, const MissionStatus& mission);
 /// Corner brackets of a tracked feature, 20 x 20 units.
 void DrawBrackets(const Style& style, ImDrawList* dl, ImVec2 centre, ImU32 colour);
 /// 1 px white square on 3 px black: a search window.

@@ -41,6 +41,13 @@ TEST(UiStateReduce, EscapeClosesOneThingAtATimeFromTheTop) {
   EXPECT_EQ(Open(state), 0);
 }
 
+TEST(UiStateReduce, EscapeKeepsALimitThatWasOnlyAskedFor) {
+  UiState state;
+  state.fly.maps.asked = TickMove{"slad.max_slope_deg", 8, {}};
+  Reduce(state, CloseTop{});
+  EXPECT_FALSE(state.fly.maps.asked.has_value());
+}
+
 TEST(UiStateReduce, AnEscapeThatCancelledAHoldClosesNothing) {
   UiState state = AllOpen();
   state.focus.TakeEscape();

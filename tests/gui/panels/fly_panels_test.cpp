@@ -138,7 +138,7 @@ TEST(FlyFrame, AcknowledgeRefuseAndHoldHereAskForWhatTheySay) {
   EXPECT_EQ(descending.ui.CountCommands<HoldHere>(), 1);
 }
 
-TEST(FlyMaps, DraggingTheLimitTickSetsTheLimit) {
+TEST(FlyMaps, DraggingTheLimitTickSetsTheLimitOnceItIsAnswered) {
   FlyWindow window(1920, 1080, fake::Snapshot(MissionState::kProposed));
   window.ui.MoveTo("tick/slad.max_slope_deg");
   window.Run(0.05);
@@ -149,6 +149,7 @@ TEST(FlyMaps, DraggingTheLimitTickSetsTheLimit) {
   window.Run(0.05);
   window.ui.Button(false);
   window.Run(0.05);
+  window.ui.Click("tick_set", window.draw);
   EXPECT_EQ(window.ui.LastCommand<SetSetting>().name, "slad.max_slope_deg");
   EXPECT_NEAR(window.ui.LastCommand<SetSetting>().value, 8.0, 0.11);
 }

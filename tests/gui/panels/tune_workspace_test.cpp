@@ -323,6 +323,8 @@ TEST(LimitsName, CallsNothingDefaultsThatIsNot) {
   EXPECT_EQ(LimitsName(state, applied), "r50-field");
   applied.slad.limits.max_slope_deg = 6;
   EXPECT_EQ(LimitsName(state, applied), "r50-field + 1 change");
+  applied.slad.limits.max_step_m = 0.12;
+  EXPECT_EQ(LimitsName(state, applied), "r50-field + 2 changes");
 }
 
 }  // namespace
