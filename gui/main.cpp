@@ -22,6 +22,6 @@ int main(int argc, char** argv) {
     return palace::RunApp(*options);
   } catch (const std::bad_alloc&) {
     return palace::FailWith(palace::UnavailableError(
-        "out of memory; raise the limit (ulimit -v) or end other programs"));
+        "out of memory; allow this program more (ulimit -v) or end other programs"));
   }
 }

@@ -11,7 +11,7 @@ Status EnoughMemory(std::size_t mebibytes) {
   void* room = mmap(nullptr, bytes, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
   if (room == MAP_FAILED) {
     return UnavailableError("out of memory: no room for " + std::to_string(mebibytes) +
-                            " MiB more; raise the limit (ulimit -v) or end other programs");
+                            " MiB more; allow this program more (ulimit -v) or end other programs");
   }
   munmap(room, bytes);
   return Ok();

@@ -12,10 +12,10 @@
 //   offset = -s,   positive: pictures are late,   sigma = scatter / sqrt(n) over the slope by s
 //
 // Only turning that changes tells time: in calm air, or in a steady turn, nothing can be observed
-// and nothing is said. Enough is a change by about 2 deg/s within half a second (measured by
-// `palacectl evaluate image-time`). A fault is told after three pictures in a row that say so, and
-// stands until five in a row say that times agree: without motion it is not over.
-// Source: the fault of Ingenuity's sixth flight (NASA status, 27 May 2021).
+// and nothing is said. Enough is meant to be a change by about 2 deg/s within half a second
+// (`palacectl evaluate image-time` measures it; no figure stands yet). A fault is told after three
+// pictures in a row that say so, and stands until five in a row say that times agree: without
+// motion it is not over. Source: the fault of Ingenuity's sixth flight (NASA status, 27 May 2021).
 #pragma once
 
 #include <array>

@@ -259,7 +259,7 @@ TEST_F(JournalTest, WhatWasGivenAndSentBetweenFramesIsInTheLog) {
 TEST_F(JournalTest, AMapWithoutASiteHasARowWithItsReasonAndItsGrid) {
   TerrainDecision decision;
   auto hazards = std::make_shared<HazardMaps>();
-  hazards->geometry = {40, 50, 0.2, -4, 3};
+  hazards->geometry = {40, 50, 0.25, -4, 3};
   decision.hazards = hazards;
   decision.selection.none_reason = "71 % slope, 29 % unknown";
   auto writer = LogWriter::Create(folder_ / "map.lcm");
@@ -273,7 +273,7 @@ TEST_F(JournalTest, AMapWithoutASiteHasARowWithItsReasonAndItsGrid) {
   for (const char* column : {"frames_fused", "unknown_cells", "normal_north", "pixel_x"}) {
     EXPECT_NE(head.find(column), std::string::npos) << column;
   }
-  EXPECT_NE(row.find(",40,50,0.2,-4,3,"), std::string::npos) << row;
+  EXPECT_NE(row.find(",40,50,0.25,-4,3,"), std::string::npos) << row;
   EXPECT_NE(row.find("71 % slope, 29 % unknown"), std::string::npos) << row;
 }
 

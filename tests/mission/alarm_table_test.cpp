@@ -259,7 +259,11 @@ TEST(AlarmTable, WhoeverSaysTheDescentHoldsHoldsIt) {
       {AlarmId::kAttitudeInvalid,
        [](AlarmFacts& f) { f.attitude_invalid = true, f.pose_age_s = 0.6; }},
       {AlarmId::kPairing, [](AlarmFacts& f) { f.pair_age_s = 1.1; }},
-      {AlarmId::kOldGround, [](AlarmFacts& f) { f.ground_age_s = 2.1; }}};
+      {AlarmId::kOldGround, [](AlarmFacts& f) { f.ground_age_s = 2.1; }},
+      {AlarmId::kImageTime, [](AlarmFacts& f) {
+         f.image_time = "Image time off by 300 ms";
+         f.image_time_ms = 300;
+       }}};
   EXPECT_EQ(WhyStopped(AllMeasured()), "");
   std::set<AlarmId> stops;
   for (const Worst& worst : kWorst) {

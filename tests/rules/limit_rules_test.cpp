@@ -45,6 +45,8 @@ const std::set<std::pair<std::string, std::string>> kAllowed = {
     {"gui/panels/descent_plots.cpp", "kFuture_s"},
     // Two names of one place in a record and its replay.
     {"gui/panels/review/review_timeline.cpp", "kSameRadius_m"},
+    // How long a silence is drawn as a gap.
+    {"gui/panels/review/review_timeline.cpp", "kGap_s"},
     // How long the window waits, or says something.
     {"gui/panels/wave_off.cpp", "kAnswerTime_s"},
     {"gui/panels/approve.cpp", "kAnswered_s"},

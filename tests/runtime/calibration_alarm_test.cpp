@@ -1,5 +1,6 @@
 // The thesis's failure: a focal length computed with the arctangent, as equation 3.1 prints it
 // (E1). The cameras are the thesis's (640 px, 45 degrees, 1 m), the ground is 50 ft below.
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <string>
@@ -21,6 +22,14 @@ constexpr double kNadir_rad = -1.5707963267948966;
 /// What the thesis prints: (W/2) / arctan(FoV/2), in radians.
 double FocalAsPrinted(double width_px) { return width_px / 2 / std::atan(kFov_rad / 2); }
 
+/// A camera never sees the same picture twice: equal ones would be a frozen camera.
+ImageU8 WithNoise(ImageU8 image, RandomStream& random) {
+  for (std::uint8_t& pixel : image.pixels()) {
+    pixel = static_cast<std::uint8_t>(std::clamp(pixel + random.Normal(), 0.0, 255.0));
+  }
+  return image;
+}
+
 /// Hovers over level ground, seen by true cameras, with a rig file that claims `focal_px`.
 std::shared_ptr<const EngineSnapshot> HoverWith(double focal_px, int frames) {
   const synthetic::Pair pair = synthetic::MakePair(synthetic::World{}, kHeight_m, kNadir_rad);
@@ -35,14 +44,14 @@ std::shared_ptr<const EngineSnapshot> HoverWith(double focal_px, int frames) {
   SessionStatus session;
   session.source.kind = SourceKind::kLive;
   std::shared_ptr<const EngineSnapshot> last;
-  RandomStream random(3, "laser");
+  RandomStream random(3, "laser"), noise(3, "noise");
   for (int i = 0; i < frames; ++i) {
     auto bundle = std::make_shared<FrameBundle>();
     bundle->sequence = static_cast<std::uint64_t>(i) + 1;
     bundle->time = AddSeconds(Timestamp{1'000'000}, 0.1 * i);
     bundle->rig = rig;
-    bundle->stereo =
-        std::make_shared<StereoFrame>(StereoFrame{bundle->time, pair.left, pair.right});
+    bundle->stereo = std::make_shared<StereoFrame>(
+        StereoFrame{bundle->time, WithNoise(pair.left, noise), WithNoise(pair.right, noise)});
     VehiclePose pose;
     pose.time = bundle->time;
     pose.X_WB.p = {0, 0, -kHeight_m};

@@ -18,7 +18,7 @@ Rows Figures(const ApprovalRecord& record, Timestamp start) {
   return {{"Given",
            WithNumbers("%.1f s after the first picture, by ", SecondsBetween(start, record.given)) +
                (record.by.empty() ? "the record" : record.by)},
-          {"Site", std::string(1, record.site.letter) +
+          {"Site", record.site.letter +
                        WithNumbers(": %.2f m north, %.2f m east, %.2f m up", a.p_WS.x(), a.p_WS.y(),
                                    -a.p_WS.z()) +
                        (a.provisional ? ", provisional" : ", confirmed")},

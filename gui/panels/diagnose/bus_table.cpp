@@ -50,7 +50,7 @@ void DrawBusTable(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui) {
   const Palette& p = s.palette;
   const Rect content = DrawPanelFrame(ui, rect, "Bus", {{"since the start", 0, false, false}});
   const std::vector<BusRow> rows = RowsOf(snap.session->losses.bus);
-  const float left = content.x + s.Px(190);
+  const float left = content.x + s.Px(140);
   const float step = (content.right() - s.Px(12) - left) / static_cast<float>(kHeads.size());
   const auto column = [&](std::size_t i) { return left + step * static_cast<float>(i + 1); };
   float y = content.y + s.Px(12);
@@ -65,7 +65,7 @@ void DrawBusTable(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui) {
       break;
     }
     DrawText(ui, row.strange ? s.medium : s.body, row.strange ? p.caution : p.text2,
-             content.x + s.Px(12), y, FitWords(s.body, row.name, s.Px(174)));
+             content.x + s.Px(12), y, FitWords(s.body, row.name, s.Px(126)));
     std::string told = row.name;
     for (std::size_t i = 0; i < kHeads.size(); ++i) {
       const std::string count = Fixed(static_cast<double>(row.counts[i]), 0);
