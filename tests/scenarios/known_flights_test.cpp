@@ -37,8 +37,8 @@ void PrintTo(const KnownFlight& flight, std::ostream* out) {
 }
 
 constexpr KnownFlight kKnownFlights[] = {
-    {"runway", 101, 0, MissionState::kLanded, 0x2d337251fa23c455},
-    {"slope", 7, 3, MissionState::kDescending, 0x51bfd769c0f2bafa},
+    {"runway", 101, 0, MissionState::kLanded, 0x2a9307d903c5616a},
+    {"slope", 7, 3, MissionState::kDescending, 0x1473416db46f6d48},
 };
 constexpr double kLimit_s = 120;
 
