@@ -48,9 +48,11 @@ void LcmLink::Hear(const FrameBundle& bundle) {
   const std::lock_guard lock(mutex_);
   if (bundle.status) {
     session_.HearVehicle(now_s);
+    vehicle_since_s_ = vehicle_since_s_.value_or(now_s);
   }
   if (bundle.authority) {
     session_.Hear(*bundle.authority, now_s);
+    knows_authority_ = true;
   }
 }
 
@@ -78,7 +80,9 @@ void LcmLink::Overhear(const WireMessage& message) {
     const auto* abort = std::get_if<AbortRequest>(&*decoded);
     const bool own =
         abort != nullptr ? IsOwnAbort(abort->command_id) : session_.IsOwn(*decoded, now_s);
-    if (own || session_.IsOfHolder(*decoded)) {
+    const bool judges = abort != nullptr || knows_authority_ ||
+                        (vehicle_since_s_ && now_s - *vehicle_since_s_ > kAuthorityWait_s);
+    if (own || session_.IsOfHolder(*decoded) || !judges) {
       return;
     }
   }

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 
 #include "engine/model/snapshot.h"
@@ -47,6 +48,10 @@ class LcmLink final : public VehicleLink {
   OutputEncoder outputs_;
   mutable std::mutex mutex_;  ///< guards what follows, for the time of a mac
   StationSession session_;
+  /// Who has just come does not know yet who commands, so nobody is a stranger to him.
+  static constexpr double kAuthorityWait_s = 2;
+  bool knows_authority_ = false;
+  std::optional<double> vehicle_since_s_;
   ForeignTraffic foreign_;
   double foreign_s_ = 0;
   std::array<std::uint64_t, 8> own_aborts_{};  ///< the newest, by turns

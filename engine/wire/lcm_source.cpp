@@ -29,9 +29,15 @@ Result<std::unique_ptr<LcmSource>> LcmSource::Create(std::shared_ptr<Bus> bus,
                                                      LcmSourceOptions options) {
   std::unique_ptr<LcmSource> source(new LcmSource(std::move(bus), channels, std::move(options)));
   LcmSource* self = source.get();
+  const std::weak_ptr<const bool> alive = source->alive_;  // the bus may outlive the source
   for (const std::string& channel : channels.FromVehicle()) {
     const ::palace::Status subscribed = self->bus_->Subscribe(
-        channel, [self](const WireMessage& message) { self->Take(message); },
+        channel,
+        [self, alive](const WireMessage& message) {
+          if (!alive.expired()) {
+            self->Take(message);
+          }
+        },
         LimitsOf(channels, channel));
     if (!subscribed) {
       return subscribed.error();
@@ -42,7 +48,12 @@ Result<std::unique_ptr<LcmSource>> LcmSource::Create(std::shared_ptr<Bus> bus,
   }
   for (const std::string& channel : channels.ToVehicle()) {
     const ::palace::Status subscribed = self->bus_->Subscribe(
-        channel, [self](const WireMessage& message) { self->options_.overheard(message); },
+        channel,
+        [self, alive](const WireMessage& message) {
+          if (!alive.expired()) {
+            self->options_.overheard(message);
+          }
+        },
         LimitsOf(channels, channel));
     if (!subscribed) {
       return subscribed.error();

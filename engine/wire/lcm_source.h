@@ -47,6 +47,7 @@ class LcmSource final : public Source {
   std::shared_ptr<const FrameBundle> Deliver();
 
   std::shared_ptr<Bus> bus_;
+  std::shared_ptr<const bool> alive_ = std::make_shared<bool>(true);
   LcmSourceOptions options_;
   LiveBundles bundles_;
   RefusalLog refusals_;  ///< of messages that could not be decoded

@@ -200,7 +200,7 @@ TEST_F(TrustOnTheBus, ASecondStationSeesWhoCommandsAndMayOnlyLook) {
   EXPECT_EQ(bravo.session().authority.why_not, "Station alpha commands this vehicle");
   EXPECT_FALSE(bravo.mission().may_select);
   EXPECT_EQ(bravo.mission().cannot_approve_reason, "Station alpha commands this vehicle");
-  EXPECT_TRUE(bravo.HasAlarm(AlarmId::kViewOnly));
+  EXPECT_TRUE(Until([&] { return bravo.HasAlarm(AlarmId::kViewOnly); }, 10));
   EXPECT_FALSE(bravo.HasAlarm(AlarmId::kForeignCommand)) << "the holder's messages are no attack";
   EXPECT_EQ(keyless.mission().cannot_approve_reason, "No key for this vehicle");
   EXPECT_FALSE(keyless.mission().may_select);
