@@ -251,7 +251,9 @@ TEST_F(FullDiskFlight, GoesOnWhenThereIsRoomAndWritesWhatWasDecidedMeanwhile) {
   EXPECT_EQ(Count("COMMAND"), commands_) << "a message is missing";
   EXPECT_TRUE(Mentions(Told(), "goes on after"));
   // A replay begins afresh behind the gap.
-  const auto source = ReplaySource::Open(Log(), {.speed = 0});
+  ReplayOptions options;
+  options.speed = 0;
+  const auto source = ReplaySource::Open(Log(), options);
   ASSERT_TRUE(source.ok());
   int jumps = 0;
   while (const auto bundle = (*source)->Next({})) {

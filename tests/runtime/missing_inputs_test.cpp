@@ -26,7 +26,7 @@ TEST(MissingInputs, NamesWhatAnIntegratorHasToSend) {
     const auto add = [&](ChannelId id, bool came) {
       using State = ChannelHealth::State;
       snap.sensors.Edit().channels.push_back(
-          {.id = id, .state = came ? State::kFresh : State::kNever});
+          {.id = id, .state = came ? State::kFresh : State::kNever, .note = {}});
     };
     add(ChannelId::kCameraLeft, row.pictures);
     add(ChannelId::kVehiclePose, row.pose);
