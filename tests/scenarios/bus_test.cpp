@@ -67,7 +67,8 @@ TEST_F(LiveBus, TheSimulatedVehicleAppearsLive) {
   vehicle.Signal(SIGINT);
   const ProcessResult flown = vehicle.Wait(10);
   EXPECT_EQ(flown.exit_code, 0) << flown.err;
-  EXPECT_EQ(flown.out.find(" 0 messages from the station"), std::string::npos) << flown.out;
+  // It has no key, so it only looks.
+  EXPECT_NE(flown.out.find(" 0 messages from stations"), std::string::npos) << flown.out;
 
   const auto flights = FlightsIn(folder_ / "rec");
   ASSERT_EQ(flights.size(), 1u) << station.err << vehicle.Out();
