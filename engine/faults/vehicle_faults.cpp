@@ -4,25 +4,14 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/wire/bundle_assembler.h"
+
 namespace palace {
 namespace {
 
 constexpr double kNearestPose_s = 0.1;
 constexpr double kSpikeShare = 0.05;
 constexpr std::uint64_t kOtherBoot = 0x5bd1e995a5a5a5a5;
-
-/// The pose carried to `time` at constant velocity and turn rate.
-VehiclePose Carried(VehiclePose pose, Timestamp time) {
-  const double dt = SecondsBetween(pose.time, time);
-  pose.time = time;
-  pose.X_WB.p += pose.v_WB * dt;
-  const double angle = pose.angular_rate_B.norm() * dt;
-  if (angle != 0) {
-    pose.X_WB.R =
-        pose.X_WB.R * Eigen::AngleAxisd(angle, pose.angular_rate_B.normalized()).toRotationMatrix();
-  }
-  return pose;
-}
 
 void MoveClock(std::int64_t offset_us, FrameBundle& bundle) {
   if (offset_us != 0) {
@@ -156,7 +145,7 @@ void VehicleFaults::ReleasePoses(FrameBundle& bundle) {
     nearest = nearest == nullptr || away_s(pose) < away_s(*nearest) ? &pose : nearest;
   }
   if (nearest != nullptr && away_s(*nearest) <= kNearestPose_s) {
-    bundle.pose_at_exposure = Carried(*nearest, bundle.stereo->time);
+    bundle.pose_at_exposure = CarryPose(*nearest, bundle.stereo->time);
   }
 }
 

@@ -24,7 +24,13 @@ std::size_t Append(std::vector<T>& samples, T sample) {
   return excess;
 }
 
-/// The pose carried to `time` at constant velocity and turn rate.
+std::uint64_t Missing(int announced, std::size_t got) {
+  const auto wanted = static_cast<std::uint64_t>(std::max(announced, 0));
+  return wanted > got ? wanted - got : 0;
+}
+
+}  // namespace
+
 VehiclePose CarryPose(VehiclePose pose, Timestamp time) {
   const double dt = SecondsBetween(pose.time, time);
   pose.time = time;
@@ -36,13 +42,6 @@ VehiclePose CarryPose(VehiclePose pose, Timestamp time) {
   }
   return pose;
 }
-
-std::uint64_t Missing(int announced, std::size_t got) {
-  const auto wanted = static_cast<std::uint64_t>(std::max(announced, 0));
-  return wanted > got ? wanted - got : 0;
-}
-
-}  // namespace
 
 BundleAssembler::BundleAssembler(ChannelNames channels, AssemblerOptions options)
     : channels_(std::move(channels)), options_(options) {}

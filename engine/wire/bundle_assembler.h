@@ -39,6 +39,9 @@ struct AssemblerOptions {
   std::function<bool(const std::string& channel, Timestamp stamp)> accepts{};
 };
 
+/// The pose carried to `time` at constant velocity and turn rate.
+VehiclePose CarryPose(VehiclePose pose, Timestamp time);
+
 /// Two kinds of stream. Closed: CAMERA_RIG with bundle_end comes last in each bundle; the bundle is
 /// rebuilt to the bit. Open (foreign senders): the pair of pictures closes the bundle, its time is
 /// the newest stamp seen, and the pose at exposure is the nearest pose within 0.1 s, carried over

@@ -11,7 +11,8 @@ namespace palace {
 
 namespace {
 
-/// What is listed: the sites, and after them the armed one where it is no longer among them.
+/// What is listed: the sites, and before them the armed one where it is no longer among them: what
+/// is about to be approved is never out of sight.
 std::vector<const LandingSite*> RowsOf(const TerrainDecision* shown, const MissionStatus& mission) {
   std::vector<const LandingSite*> rows;
   bool armed = false;
@@ -22,7 +23,7 @@ std::vector<const LandingSite*> RowsOf(const TerrainDecision* shown, const Missi
     }
   }
   if (mission.armed && !armed) {
-    rows.push_back(mission.armed_now ? &*mission.armed_now : &*mission.armed);
+    rows.insert(rows.begin(), mission.armed_now ? &*mission.armed_now : &*mission.armed);
   }
   return rows;
 }
@@ -32,7 +33,9 @@ void DrawEmpty(const EngineSnapshot& snap, const Rect& content, UiFrame& ui) {
   const TerrainDecision* shown = snap.terrain->Shown();
   std::string text = "No map yet. Sites appear with the first stereo pairs.";
   if (shown == nullptr && snap.terrain->range && !snap.sensors->pose) {
-    text = "Attitude and height are unknown: ranges make no map. Add [pose] to RIG.toml.";
+    text = std::string("Attitude and height are unknown: ranges make no map. ") +
+           (HasPicturesOnly(snap.session->role) ? "Add [pose] to RIG.toml."
+                                                : "No vehicle pose came yet.");
   } else if (shown != nullptr && HasPicturesOnly(snap.session->role)) {
     text = "No site inside the limits: " + shown->selection.none_reason +
            ". Look at the maps to see which limit decides.";
