@@ -9,6 +9,7 @@
 #include "engine/journal/replay_source.h"
 #include "engine/survey/map_files.h"
 #include "engine/survey/point_files.h"
+#include "engine/trust/key_file.h"
 #include "tests/fuzz/fuzz_target.h"
 
 namespace palace {
@@ -38,8 +39,13 @@ const std::filesystem::path& ScratchFolder() {
 
 void ReadLog(const std::filesystem::path& log) {
   (void)DescribeLog(log, false);
-  (void)DescribeLog(log, true);
-  (void)RepairLog(log, ScratchFolder() / "repaired.lcm");
+  const bool whole = DescribeLog(log, true).ok();
+  const std::filesystem::path repaired = ScratchFolder() / "repaired.lcm";
+  std::filesystem::remove(repaired);
+  std::filesystem::remove(SidecarPath(repaired));
+  if (RepairLog(log, repaired).ok() != whole) {  // what can be read through can be repaired
+    __builtin_trap();
+  }
   (void)ExportCsv(log, ScratchFolder() / "tables");
   ReplayOptions options;
   options.speed = 0;
@@ -74,6 +80,13 @@ void Points(Bytes input) {
   (void)ReadLabelledPoints(ScratchFile("labelled.txt", input));
 }
 
+void Key(Bytes input) {
+  using std::filesystem::perms;
+  const auto file = ScratchFile("heli-1.key", input);
+  std::filesystem::permissions(file, perms::owner_read | perms::owner_write);
+  (void)LoadKeyFile(file);
+}
+
 }  // namespace
 
 std::filesystem::path ScratchFile(const char* name, Bytes input) {
@@ -89,9 +102,10 @@ std::filesystem::path ScratchFile(const char* name, Bytes input) {
 }
 
 std::vector<FuzzTarget> FileTargets() {
-  return {{"log", &Log}, {"points", &Points}, {"geotiff", [](Bytes input) {
-                                                 (void)ReadGeoTiff(ScratchFile("map.tif", input));
-                                               }}};
+  return {{"log", &Log},
+          {"points", &Points},
+          {"geotiff", [](Bytes input) { (void)ReadGeoTiff(ScratchFile("map.tif", input)); }},
+          {"key", &Key}};
 }
 
 }  // namespace palace

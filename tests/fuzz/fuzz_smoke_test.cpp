@@ -1,9 +1,13 @@
 // Each fuzz target on its corpus and on mutations of it. libFuzzer looks deeper (./test --full);
 // this keeps the targets alive and finds in seconds what breaks at once.
+#include <gmock/gmock.h>
+
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
+#include <map>
 #include <ostream>
+#include <set>
 
 #include <gtest/gtest.h>
 
@@ -93,6 +97,50 @@ TEST_P(EveryTarget, LivesThroughItsCorpusAndMutationsOfIt) {
     input.resize(std::min(input.size(), kLongest));
     GetParam().run(input);
   }
+}
+
+/// The definitions by name, with the text of each.
+std::map<std::string, std::string> WireDefinitions() {
+  std::map<std::string, std::string> definitions;
+  for (const auto& entry : std::filesystem::directory_iterator(
+           std::filesystem::path(PALACE_SOURCE_DIR) / "engine/wire/types")) {
+    std::ifstream file(entry.path());
+    definitions[entry.path().stem().string()] = {std::istreambuf_iterator<char>(file), {}};
+  }
+  return definitions;
+}
+
+TEST(FuzzedTypes, AreAllThatAreDefined) {
+  const auto definitions = WireDefinitions();
+  ASSERT_GT(definitions.size(), 20u);
+  const auto is_part = [&](const std::string& name) {
+    return std::any_of(definitions.begin(), definitions.end(), [&](const auto& other) {
+      return other.second.find("\n  " + name + " ") != std::string::npos;
+    });
+  };
+  std::vector<std::string> messages;
+  for (const auto& [name, text] : definitions) {
+    if (!is_part(name)) {
+      messages.push_back(name);
+    }
+  }
+  EXPECT_THAT(FuzzedTypes(), testing::UnorderedElementsAreArray(messages));
+}
+
+/// A file of the corpus whose first byte tells another type was mistaken for it.
+TEST(FuzzedTypes, HaveASampleEach) {
+  const std::vector<FuzzTarget> targets = WireTargets();
+  const auto message = std::find_if(targets.begin(), targets.end(), [](const FuzzTarget& target) {
+    return std::string(target.name) == "message";
+  });
+  ASSERT_NE(message, targets.end());
+  std::set<std::string> seen;
+  for (const Input& input : CorpusOf(*message)) {
+    ASSERT_FALSE(input.empty());
+    ASSERT_LT(input[0], FuzzedTypes().size());
+    seen.insert(FuzzedTypes()[input[0]]);
+  }
+  EXPECT_EQ(seen.size(), FuzzedTypes().size());
 }
 
 INSTANTIATE_TEST_SUITE_P(Fuzz, EveryTarget, testing::ValuesIn(FuzzTargets()),

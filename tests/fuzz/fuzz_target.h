@@ -27,6 +27,8 @@ std::vector<FuzzTarget> TextTargets();
 FuzzTarget ScriptTarget();
 /// What comes from a bus.
 std::vector<FuzzTarget> WireTargets();
+/// The names of the message types that they fuzz.
+std::vector<std::string> FuzzedTypes();
 /// What lies on a disk: logs with their sidecar, point clouds, elevation maps.
 std::vector<FuzzTarget> FileTargets();
 

@@ -4,9 +4,11 @@
 #include <utility>
 
 #include "engine/camera/files/camera_files.h"
+#include "engine/core/check.h"
 #include "engine/core/random.h"
 #include "engine/journal/log_index.h"
 #include "engine/journal/log_writer.h"
+#include "engine/trust/secret_key.h"
 #include "tests/camera/sample_cameras.h"
 #include "tests/fuzz/fuzz_target.h"
 #include "tests/fuzz/wire_types.h"
@@ -15,18 +17,19 @@
 namespace palace {
 namespace {
 
-/// The number of the type whose hash the payload begins with.
+/// The number of the type whose hash the payload begins with; there must be one.
 template <std::size_t... I>
 std::uint8_t TypeOf(const std::vector<std::uint8_t>& payload, std::index_sequence<I...>) {
   std::uint64_t hash = 0;
   for (std::size_t i = 0; i < 8; ++i) {
     hash = hash << 8 | payload[i];
   }
-  std::size_t type = 0;
+  std::size_t type = sizeof...(I);
   ((static_cast<std::uint64_t>(std::tuple_element_t<I, WireTypes>::getHash()) == hash
         ? void(type = I)
         : void()),
    ...);
+  PALACE_CHECK(type < sizeof...(I), "a sample's type is not in WireTypes");
   return static_cast<std::uint8_t>(type);
 }
 
@@ -43,7 +46,7 @@ std::vector<std::uint8_t> Read(const std::filesystem::path& path) {
 }
 
 void WriteMessages(const std::filesystem::path& folder, const std::vector<WireMessage>& messages) {
-  const std::vector<std::string> channels = ChannelNames{}.FromVehicle();
+  const std::vector<std::string> channels = StreamChannels(ChannelNames{});
   std::vector<std::uint8_t> stream;
   for (const WireMessage& message : messages) {
     const std::uint8_t type =
@@ -108,12 +111,21 @@ void WriteCameras(const std::filesystem::path& folder, RandomStream& random) {
   }
 }
 
+void WriteKey(const std::filesystem::path& folder) {
+  const std::string digits = "00112233445566778899aabbccddeeff00112233445566778899aabbccddeeff";
+  const std::string text = "PALACE-KEY 1\n# of the first\nmade 2026-11-23T01:20:00Z\nfingerprint " +
+                           FingerprintText(SecretKey::FromHex(digits).id()) + "\nkey " + digits +
+                           "\n";
+  Write(folder / "key" / "whole.key", {text.begin(), text.end()});
+}
+
 void WriteCorpus(const std::filesystem::path& folder) {
   RandomStream random(7);
   const std::vector<WireMessage> messages = OneOfEach(random);
   WriteMessages(folder, messages);
   WriteLogs(folder, messages);
   WriteCameras(folder, random);
+  WriteKey(folder);
 }
 
 }  // namespace

@@ -7,6 +7,8 @@
 #include "engine/wire/convert.h"
 #include "engine/wire/decode.h"
 #include "engine/wire/receiver/lcm_reassembler.h"
+#include "engine/wire/sensor_messages.h"
+#include "engine/wire/session_messages.h"
 #include "tests/fuzz/fuzz_target.h"
 #include "tests/fuzz/wire_types.h"
 
@@ -72,12 +74,15 @@ void Converted(Bytes input) {
   (void)DecodeTracker(message);
   (void)DecodeStationStatus(message);
   (void)DecodeTruth(message);
+  (void)DecodeRefused(message);
+  (void)ArrivalFromWire(message);
+  (void)AuthorityFromWire(message);
 }
 
 /// A stream: channel and type, length (16 bits), fields, again and again.
 void Stream(Bytes input) {
   const ChannelNames names;
-  const std::vector<std::string> channels = names.FromVehicle();
+  const std::vector<std::string> channels = StreamChannels(names);
   BundleAssembler assembler(names, {.pair_window_s = 0.005, .drop_repeated = input.size() % 2 > 0});
   while (input.size() >= 4) {
     const std::size_t length =
@@ -115,7 +120,16 @@ void Datagram(Bytes input) {
   }
 }
 
+template <std::size_t... I>
+std::vector<std::string> NamesOf(std::index_sequence<I...>) {
+  return {std::tuple_element_t<I, WireTypes>::getTypeName()...};
+}
+
 }  // namespace
+
+std::vector<std::string> FuzzedTypes() {
+  return NamesOf(std::make_index_sequence<std::tuple_size_v<WireTypes>>());
+}
 
 std::vector<FuzzTarget> WireTargets() {
   return {{"message", &Message},

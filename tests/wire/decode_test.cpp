@@ -86,6 +86,7 @@ TEST(Decode, AgreesWithTheGeneratedDecoders) {
       {n.tracker_status, ExpectLikeGenerated<tracker_status_t>},
       {n.station_status, ExpectLikeGenerated<station_status_t>},
       {n.abort, ExpectLikeGenerated<abort_t>},
+      {n.refused, ExpectLikeGenerated<refused_t>},
       {n.event, ExpectLikeGenerated<event_t>},
   };
   std::set<std::string> seen;

@@ -194,6 +194,13 @@ inline std::vector<WireMessage> OneOfEach(RandomStream& random) {
   for (WireMessage& message : OutputEncoder(channels).Encode(snapshot)) {
     messages.push_back(std::move(message));
   }
+  messages.push_back(EncodeRefused({.time = bundle->time,
+                                    .sender = "10.0.0.2:7667",
+                                    .channel = channels.gps,
+                                    .reason = "not finite",
+                                    .bytes = 3,
+                                    .head = {1, 2, 3}},
+                                   bundle->time, channels));
   messages.push_back(EncodeCommand({CommandOrigin::kScript, SetSetting{"slad.max_slope_deg", 8}},
                                    bundle->time, channels));
   return messages;
