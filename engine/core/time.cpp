@@ -1,6 +1,7 @@
 #include "engine/core/time.h"
 
 #include <chrono>
+#include <ctime>
 
 namespace palace {
 
@@ -10,8 +11,10 @@ Timestamp WallTime() {
 }
 
 double MonotonicSeconds() {
-  using namespace std::chrono;
-  return duration<double>(steady_clock::now().time_since_epoch()).count();
+  // Linux: it goes on while the machine sleeps, as the vehicle does.
+  timespec now{};
+  clock_gettime(CLOCK_BOOTTIME, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
 }  // namespace palace

@@ -23,7 +23,8 @@ std::vector<FaultCase> CameraCases() {
       {"left camera frozen", "F01", on(K::kCameraFrozen, kLeft), frozen},
       {"right camera frozen", "F01", on(K::kCameraFrozen, kRight), frozen},
       {"both frozen but one pixel", "F01", on(K::kCameraFrozenPixel), frozen},
-      {"both frozen, 1 grey level of noise", "F01", on(K::kCameraFrozenNoise), frozen},
+      // Behind noise only motion tells: the ground must shift by 8 px.
+      {"both frozen with 1 grey level of noise", "F01", on(K::kCameraFrozenNoise), frozen, 4},
       {"left camera black", "F02", on(K::kCameraBlack, kLeft), dark},
       {"right camera black", "F02", on(K::kCameraBlack, kRight), dark},
       {"both cameras black", "F02", on(K::kCameraBlack), dark},
@@ -53,6 +54,7 @@ std::vector<FaultCase> AttitudeCases() {
       {"attitude missing", "F10", {{K::kMissing, C::kVehiclePose}}, {A::kPose}, 1.2},
       {"attitude late by 0.3 s", "F10", {{K::kAttitudeLate, {}, 0.3}}, {A::kPose}},
   };
+  constexpr double kOld_s = 0.2, kAhead_s = 0.5;
   struct Shift {
     const char* name;
     double s;
@@ -64,7 +66,11 @@ std::vector<FaultCase> AttitudeCases() {
                             {"attitude shifted by -0.3 s", -0.3},
                             {"attitude shifted by 0.3 s", 0.3},
                             {"attitude shifted by 0.5 s", 0.5}}) {
-    cases.push_back({shift.name, "F06", {{K::kAttitudeShifted, {}, shift.s}}, {A::kImageTime}, 2});
+    // Stamped long ago they are old; stamped ahead of the vehicle's clock they are refused.
+    const std::vector<A> cause = shift.s <= -kOld_s    ? std::vector<A>{A::kImageTime, A::kPose}
+                                 : shift.s >= kAhead_s ? std::vector<A>{A::kStampsRefused, A::kPose}
+                                                       : std::vector<A>{A::kImageTime};
+    cases.push_back({shift.name, "F06", {{K::kAttitudeShifted, {}, shift.s}}, cause, 2});
   }
   return cases;
 }
@@ -94,36 +100,43 @@ std::vector<FaultCase> VehicleCases() {
       {"clock steps by 5 s", "F14", {{K::kClockStep, {}, 5}}, {A::kClock}},
       {"clock steps by -5 s", "F14", {{K::kClockStep, {}, -5}}, {A::kClock}},
       {"clock steps by a day", "F14", {{K::kClockStep, {}, 86400}}, {A::kClock}},
-      {"clock gains 1 %",
+      {"clock gains 1 %",  // the station's clock follows it: ages stay true
        "F14",
        {{K::kClockDrift, {}, 0.01}},
        {A::kClock},
        10,
        false,
-       DescentMust::kEither},
+       DescentMust::kLand,
+       false,
+       true},
       {"another boot id", "F16", {{K::kNewBoot}}, {A::kReboot}},
-      {"restart, clock too", "F16", {{K::kRestart}}, {A::kReboot}, 1.5},
+      {"restart of vehicle and clock", "F16", {{K::kRestart}}, {A::kReboot, A::kClock}, 1.5},
   };
 }
 
 std::vector<FaultCase> LinkCases() {
+  // A pair wants both of its pictures, so that losses are seen there, too.
+  const std::vector<A> of_loss = {A::kMessageLoss, A::kPairing, A::kCameraLeft, A::kCameraRight};
   const auto lands = DescentMust::kLand, either = DescentMust::kEither;
   return {
       {"1 % of messages lost", "F21", {{K::kLost, {}, 1}}, {}, 5, false, lands, false, true},
-      {"10 % of messages lost", "F21", {{K::kLost, {}, 10}}, {A::kMessageLoss}, 5, false, either},
-      {"30 % of messages lost", "F21", {{K::kLost, {}, 30}}, {A::kMessageLoss}, 5, false, either},
-      {"50 % of messages lost", "F21", {{K::kLost, {}, 50}}, {A::kMessageLoss}, 5, true, either},
+      {"10 % of messages lost", "F21", {{K::kLost, {}, 10}}, of_loss, 5, false, either},
+      {"30 % of messages lost", "F21", {{K::kLost, {}, 30}}, of_loss, 5, false, either},
+      {"50 % of messages lost", "F21", {{K::kLost, {}, 50}}, of_loss, 5, true, either},
       {"5 % of messages corrupted",
        "F25",
        {{K::kCorrupted, {}, 5}},
        {A::kUndecodable},
        5,
        false,
-       either},
+       either,
+       false,
+       false,
+       true},
       {"20 % of messages reordered",
        "F22",
        {{K::kReordered, {}, 20}},
-       {},
+       {A::kMessageLoss},  // what comes after newer ones is not used
        5,
        false,
        either,
@@ -156,11 +169,20 @@ std::span<const FaultCase> FaultCases() {
 }
 
 bool IsConsequence(AlarmId id) {
-  constexpr AlarmId kConsequences[] = {A::kHold,           A::kWaveOff,     A::kNoSite,
-                                       A::kSiteDegraded,   A::kVisionLost,  A::kOffPath,
-                                       A::kOldGround,      A::kOffCentre,   A::kCoherenceLow,
-                                       A::kVisionResidual, A::kDescentRate, A::kApprovalUnanswered,
-                                       A::kApprovalRefused};
+  constexpr AlarmId kConsequences[] = {A::kHold,
+                                       A::kWaveOff,
+                                       A::kNoSite,
+                                       A::kSiteDegraded,
+                                       A::kVisionLost,
+                                       A::kOffPath,
+                                       A::kOldGround,
+                                       A::kOffCentre,
+                                       A::kCoherenceLow,
+                                       A::kVisionResidual,
+                                       A::kDescentRate,
+                                       A::kApprovalUnanswered,
+                                       A::kApprovalRefused,
+                                       A::kRowError};
   return std::find(std::begin(kConsequences), std::end(kConsequences), id) !=
          std::end(kConsequences);
 }

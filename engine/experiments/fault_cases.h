@@ -29,6 +29,7 @@ struct FaultCase {
   DescentMust descent = DescentMust::kStop;
   bool of_cameras = false;  ///< a row of the table of cameras
   bool silent = false;      ///< nobody needs to be told: nothing is wrong with what is used
+  bool garbled = false;     ///< what comes may look like any other fault, too
 };
 
 std::span<const FaultCase> FaultCases();

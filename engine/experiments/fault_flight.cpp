@@ -284,7 +284,7 @@ std::vector<std::string> Shortfalls(const FaultCase& fault, FaultPhase phase,
     falls.push_back("named late");
   }
   for (const RaisedAlarm& alarm : outcome.raised) {
-    if (!names(alarm) && !IsConsequence(alarm.id)) {
+    if (!names(alarm) && !IsConsequence(alarm.id) && !fault.garbled) {
       falls.push_back(std::string("wrong cause: ") + AlarmName(alarm.id));
     }
   }

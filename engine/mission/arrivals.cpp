@@ -92,16 +92,18 @@ void TakeApprovalAnswer(MissionTurn& turn, const CommandAck& ack, Timestamp now)
   }
 }
 
-/// Of an approval that flies: the vehicle gives it up. Of what nobody here waits for: told at most
-/// once a second, for anybody can make a vehicle refuse.
+/// Of an approval that flies: the vehicle gives it up. Of a hold, which is repeated, and of what
+/// nobody here waits for: told at most once a second, for anybody can make a vehicle refuse.
 void TellRefusal(MissionTurn& turn, const CommandAck& ack, Timestamp now) {
   MissionMemory& m = turn.memory;
+  const bool hold = IsSameMessage(m, ack.command_id, m.hold_id);
   if (IsOwnApproval(m, ack.command_id)) {
     m.vehicle_reason = ack.reason;
     AddEvent(turn, now, EventKind::kVehicle, "Vehicle gives up the approval: " + ack.reason);
   } else if (SecondsBetween(m.foreign_told_at, now) >= 1) {
     m.foreign_told_at = now;
-    AddEvent(turn, now, EventKind::kVehicle, "Vehicle refused a command: " + ack.reason);
+    AddEvent(turn, now, EventKind::kVehicle,
+             (hold ? "Vehicle refused the hold: " : "Vehicle refused a command: ") + ack.reason);
   }
 }
 
@@ -117,7 +119,7 @@ void FollowJump(MissionTurn& turn, const MissionInputs& in) {
   m.shown.clear();
   m.winner = {};
   m.facts.now = m.sent_at = m.status.since = m.vision_good_at = m.ground_seen_at = now;
-  m.wave_off_at = m.abort_answered_at = now;
+  m.wave_off_at = m.abort_answered_at = m.foreign_told_at = m.told_foreign_at = now;
   const auto& clock = in.vehicle.bundle.arrival.clock;
   const std::string why =
       clock && clock->stepped_s != 0 ? words::ClockStepped(clock->stepped_s) : words::kTimeJumped;
@@ -169,6 +171,9 @@ void RememberFacts(MissionMemory& m, const MissionInputs& in) {
 }
 
 void FollowWinner(MissionMemory& m, const MissionInputs& in) {
+  if (in.terrain.forgotten) {
+    m.winner = {};
+  }
   if (!in.terrain.new_map || in.terrain.decision == nullptr) {
     return;
   }
@@ -211,7 +216,8 @@ void FollowAnswers(MissionTurn& turn, const MissionInputs& in) {
     if (IsOwnApproval(m, ack.command_id) &&
         m.status.approval_phase == MissionStatus::ApprovalPhase::kSent) {
       TakeApprovalAnswer(turn, ack, in.session.now);
-    } else if (IsSameMessage(m, ack.command_id, m.hold_id) && m.repeating &&
+    } else if (ack.result == AckResult::kAccepted && m.repeating &&
+               IsSameMessage(m, ack.command_id, m.hold_id) &&
                std::holds_alternative<HoldRequest>(*m.repeating)) {
       m.repeating.reset();
     } else if (IsSameMessage(m, ack.command_id, m.abort_id)) {

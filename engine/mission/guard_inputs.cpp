@@ -56,7 +56,7 @@ GuardInputs GuardInputsAt(const MissionMemory& m, Timestamp now) {
   in.right_camera_age_s = m.watch.RightCameraAge(now);
   in.pair_age_s = m.watch.PairAge(now);
   in.camera_problem = m.pictures.standing().words();
-  in.attitude_invalid = m.watch.SincePoseInvalid(now) <= GuardLimits::link_s;
+  in.attitude_invalid = std::isfinite(m.watch.PosesInvalidFor(now));
   in.lost_share = m.lost_share;
   in.map_age_s =
       m.facts.map_hash != 0 && now >= m.map_seen_at ? SecondsBetween(m.map_seen_at, now) : NAN;

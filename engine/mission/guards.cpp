@@ -32,7 +32,8 @@ std::string WhyNoHeight(const GuardInputs& in) {
   if (in.laser.lies()) {
     return words::LaserFault(in.laser);
   }
-  const bool lost = in.laser.state == LaserHealth::State::kLost;
+  const bool lost =
+      in.laser.state == LaserHealth::State::kLost || in.laser.state == LaserHealth::State::kNever;
   return lost && !(in.height_m >= GuardLimits::laser_height_m)
              ? words::LaserFault(in.laser) + WithNumbers("; height %.1f m, min ", in.height_m) +
                    LimitWords({GuardLimits::laser_height_m, "m"}) + " without it"

@@ -31,7 +31,7 @@ struct StaleLimits {
   static constexpr double sensor_s = 1;        ///< pose and cameras: F01, F10
   static constexpr double map_s = 3;
   static constexpr double ground_s = 2;  ///< of the site, in the descent above commit height
-  static constexpr double invalid_pose_s = 0.5;  ///< F10: without one whose numbers are numbers
+  static constexpr double invalid_pose_s = 0.5;  ///< F10: for so long what comes is no number
 };
 
 /// Beyond these an alarm is raised, where no guard's limit does it.

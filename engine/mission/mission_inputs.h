@@ -54,6 +54,7 @@ struct MissionInputs {
   struct Terrain {
     const TerrainDecision* decision = nullptr;  ///< of record; may be null
     bool new_map = false;                       ///< `decision` was made from this bundle
+    bool forgotten = false;                     ///< all maps before this bundle are void
     std::optional<LandingSite> rechecked{};     ///< the armed site evaluated on the newest map
     std::optional<NearestHazard> nearest{};     ///< to it there, when it is no hazard itself
     std::optional<LandingSite> alternative{};   ///< the alternative kept for it, likewise

@@ -82,8 +82,9 @@ std::string WhyHold(const MissionMemory& m, const MissionInputs& in) {
   return WhyStopped(AlarmFactsAt(m, in));
 }
 
-void StepSearching(MissionTurn& turn, Timestamp now) {
+void StepSearching(MissionTurn& turn, const MissionInputs& in) {
   MissionMemory& m = turn.memory;
+  const Timestamp now = in.session.now;
   const double age_s = m.watch.LeftCameraAge(now);
   const bool live = HasSource(m.facts.role) && age_s <= StaleLimits::cameras_live_s;
   const MissionState state = m.status.state;
@@ -94,14 +95,19 @@ void StepSearching(MissionTurn& turn, Timestamp now) {
     }
     return;
   }
+  const std::string stopped = state == MissionState::kNoLive ? "" : WhyStopped(AlarmFactsAt(m, in));
+  if (!stopped.empty()) {
+    m.winner = {};  // a proposal is won while nothing stops
+  }
   if (state == MissionState::kNoLive) {
     Enter(turn, MissionState::kSearch, words::kCamerasLive, now);
-  } else if (state == MissionState::kSearch && WinnerStands(m, now)) {
+  } else if (state == MissionState::kSearch && stopped.empty() && WinnerStands(m, now)) {
     const LandingSite* site = FindSite(m, m.winner.site_id);
     Enter(turn, MissionState::kProposed,
           words::SiteWon(site != nullptr ? site->letter : "?", m.winner.maps), now);
-  } else if (state == MissionState::kProposed && !WinnerStands(m, now)) {
-    Enter(turn, MissionState::kSearch, WhyNoProposal(m, now), now);
+  } else if (state == MissionState::kProposed && !(stopped.empty() && WinnerStands(m, now))) {
+    Enter(turn, MissionState::kSearch, stopped.empty() ? WhyNoProposal(m, now) : stopped, now);
+    m.winner = {};
   }
 }
 
@@ -217,7 +223,8 @@ void StepHold(MissionTurn& turn, const MissionInputs& in) {
   if (stopped && m.repeating && held_s >= GuardLimits::link_s) {
     m.repeating.reset();
   }
-  if (stopped && held_s >= kHoldShown_s && WinnerStands(m, now)) {
+  if (stopped && held_s >= kHoldShown_s && WinnerStands(m, now) &&
+      WhyStopped(AlarmFactsAt(m, in)).empty()) {
     ForgetSite(m);
     Enter(turn, MissionState::kProposed, words::kReevaluated, now);
   }
@@ -245,7 +252,7 @@ void StepState(MissionTurn& turn, const MissionInputs& in) {
     case MissionState::kNoLive:
     case MissionState::kSearch:
     case MissionState::kProposed:
-      StepSearching(turn, in.session.now);
+      StepSearching(turn, in);
       break;
     case MissionState::kArmed:
       StepArmed(turn, in);

@@ -92,6 +92,7 @@ std::string LaserFault(const LaserHealth& laser) {
                          laser.ratio) +
              WithNumbers("%.2f to %.2f", 1 - LaserHealth::kWrong, 1 + LaserHealth::kWrong);
     case State::kNever:
+      return "Laser not heard";
     case State::kFine:
       return {};
   }

@@ -65,6 +65,7 @@ struct LandingSite {
 struct SiteSelection {
   std::vector<LandingSite> sites;  ///< best first
   std::string none_reason;         ///< set when empty: "71 % slope, 22 % unknown, 7 % footprint"
+  std::uint64_t named = 0;         ///< places that had a letter by then, listed now or not
 };
 
 }  // namespace palace

@@ -9,18 +9,24 @@ namespace {
 constexpr double kWindow_s = 5;
 constexpr double kGap_s = 1;  // velocities further apart tell no way between them
 constexpr double kSigmas = 6;
+constexpr double kGate = 19.8;  // the filter's, of six degrees of freedom
 constexpr double kSettled_s = 10;
+constexpr double kLeastVariance_m2 = 1e-6;
 constexpr int kOffRun = 2, kFineRun = 5;
 
-Eigen::Vector3d SigmaOf(const GpsFix& fix) {
-  return {fix.sigma_horizontal_m, fix.sigma_horizontal_m, fix.sigma_vertical_m};
+/// A sigma that is not known counts as 0.
+Eigen::Vector3d KnownSigmaOf(const GpsFix& fix) {
+  const auto known = [](double sigma_m) {
+    return std::isfinite(sigma_m) ? std::max(0.0, sigma_m) : 0.0;
+  };
+  const double horizontal_m = known(fix.sigma_horizontal_m);
+  return {horizontal_m, horizontal_m, known(fix.sigma_vertical_m)};
 }
 
-/// Any axis beyond the limit and beyond chance. A sigma that is not known counts as 0.
+/// Any axis beyond the limit and beyond chance.
 bool Beyond(const Eigen::Vector3d& difference_m, const Eigen::Vector3d& sigma_m, double limit_m) {
   for (int axis = 0; axis < 3; ++axis) {
-    const double sigma = std::isfinite(sigma_m[axis]) ? std::max(0.0, sigma_m[axis]) : 0;
-    if (std::abs(difference_m[axis]) > std::max(limit_m, kSigmas * sigma)) {
+    if (std::abs(difference_m[axis]) > std::max(limit_m, kSigmas * sigma_m[axis])) {
       return true;
     }
   }
@@ -51,7 +57,7 @@ bool GpsWatch::DriftsAt(const GpsFix& fix) {
   const Point& first = recent_.front();
   const Eigen::Vector3d unexplained =
       (fix.p_WB - first.fix.p_WB) - (point.travelled_m - first.travelled_m);
-  return Beyond(unexplained, std::sqrt(2.0) * SigmaOf(fix), GpsAgreement::kDrift_m);
+  return Beyond(unexplained, std::sqrt(2.0) * KnownSigmaOf(fix), GpsAgreement::kDrift_m);
 }
 
 void GpsWatch::Add(const GpsFix& fix, const std::optional<FilterEstimate>& predicted) {
@@ -64,10 +70,12 @@ void GpsWatch::Add(const GpsFix& fix, const std::optional<FilterEstimate>& predi
   status_.off_m = NAN;
   if (predicted) {
     const Eigen::Vector3d innovation = fix.p_WB - predicted->p_WB;
+    const Eigen::Vector3d variance =
+        (KnownSigmaOf(fix).cwiseAbs2() + predicted->sigma_p_m.cwiseAbs2())
+            .cwiseMax(kLeastVariance_m2);
     status_.off_m = innovation.norm();
-    jumped = Beyond(innovation,
-                    (SigmaOf(fix).cwiseAbs2() + predicted->sigma_p_m.cwiseAbs2()).cwiseSqrt(),
-                    GpsAgreement::kJump_m);
+    jumped = status_.off_m > GpsAgreement::kJump_m &&
+             innovation.cwiseAbs2().cwiseQuotient(variance).sum() > kGate;
   }
   const bool off = drifts || jumped;
   off_run_ = off ? off_run_ + 1 : 0;

@@ -1,6 +1,8 @@
 // GpsWatch: does GPS jump or drift against its own velocity and the inertial prediction?
 //
-//   innovation   fix - filter's prediction at its stamp: off beyond 1 m and 6 sigma of both
+//   innovation   d = fix - filter's prediction at its stamp: off where |d| > 1 m and, with the
+//                covariances P of both, d' P^-1 d > 19.8: what the filter itself refuses for its
+//                position (position_filter.h). A jump that the filter does not follow is told
 //   consistency  way between the fixes of the last 5 s less the integral of their velocities: off
 //                beyond 0.3 m and 6 sigma of two fixes; 0.5 m/s of drift shows after 0.6 s, and
 //                less than 0.06 m/s never does

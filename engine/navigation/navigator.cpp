@@ -16,6 +16,7 @@ constexpr double kGpsVelocitySigma_mps = 0.1;
 constexpr double kGpsDefaultSigma_m = 2.5;
 constexpr double kGpsSilence_s = 1.5;
 constexpr double kPoseSilence_s = 0.5;
+constexpr double kPoseOfFix_s = 0.2;  // no position is made with an attitude older than this
 constexpr int kGpsRestartAfter = 15;
 constexpr int kVisionRestartAfter = 5;
 constexpr double kLaserAge_s = 0.3;
@@ -133,19 +134,21 @@ void Navigator::AddGps(const GpsFix& fix) {
   }
   const std::optional<FilterEstimate> predicted =
       gps_.running() ? std::optional(gps_.EstimateAt(fix.time)) : std::nullopt;
-  gps_watch_.Add(fix, predicted);
+  // A prediction through an attitude that is gone speaks against nobody.
+  gps_watch_.Add(fix, AttitudeKnown(fix.time) ? predicted : std::nullopt);
   status_.gps_agreement = gps_watch_.status();
   const bool settled_elsewhere = gps_watch_.SettledElsewhere() && !site_;
   const PositionMeasurement measurement = status_.gps_agreement.off && predicted
                                               ? VelocityOnly(GpsMeasurement(fix), *predicted)
                                               : GpsMeasurement(fix);
-  if (gps_.running() && !settled_elsewhere) {
-    gps_.AddFix(measurement);
-    if (gps_.rejected_in_row() < kGpsRestartAfter) {
-      return;
+  if (gps_.running()) {
+    if (!settled_elsewhere) {
+      gps_.AddFix(measurement);
+      // Under a site that is watched, or while GPS is doubted, the position never moves.
+      if (gps_.rejected_in_row() < kGpsRestartAfter || site_ || status_.gps_agreement.off) {
+        return;
+      }
     }
-  }
-  if (settled_elsewhere) {
     ++frame_moves_;
     gps_watch_ = {};
   }
@@ -198,10 +201,14 @@ void Navigator::StopVision() {
 
 void Navigator::AllowVision(bool allowed) { handover_.Allow(allowed); }
 
+bool Navigator::AttitudeKnown(Timestamp time) const {
+  return !poses_.empty() && SecondsBetween(poses_.newest().time, time) <= kPoseOfFix_s;
+}
+
 Result<VisionFix> Navigator::MakeFix(const TrackResult& track, const PinholeCamera& camera,
                                      const StereoRig& rig, const FrameBundle& bundle) const {
   std::optional<VehiclePose> pose = bundle.pose_at_exposure;
-  if (!pose) {
+  if (!pose && AttitudeKnown(track.time)) {
     pose = poses_.At(track.time);
   }
   if (!pose) {

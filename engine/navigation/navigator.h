@@ -51,8 +51,8 @@ class Navigator {
   /// Approval accepted: vision may take over when it is ready. False withdraws the permission but
   /// does not switch back.
   void AllowVision(bool allowed);
-  /// Grows when GPS has settled elsewhere and the filter was started anew there: maps made before
-  /// lie elsewhere, too. Never while a site is tracked.
+  /// Grows when the GPS filter was started anew elsewhere, for GPS has settled there or the filter
+  /// had refused it for 3 s: maps made before lie elsewhere, too. Never while a site is tracked.
   int frame_moves() const { return frame_moves_; }
   /// As of the last AddSensors or AddVision.
   const NavigationStatus& status() const { return status_; }
@@ -77,6 +77,7 @@ class Navigator {
   void RestartGps(const GpsFix& fix);
   /// Starts the filter in the past and replays the IMU since.
   void StartFilter(PositionFilter& filter, const FilterSeed& seed, const ProcessNoise& noise) const;
+  bool AttitudeKnown(Timestamp time) const;
   Result<VisionFix> MakeFix(const TrackResult& track, const PinholeCamera& camera,
                             const StereoRig& rig, const FrameBundle& bundle) const;
   void AddVisionFix(const PositionMeasurement& fix, double accel_noise_mps2);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/mission/watch/picture_watch.h"
 #include "engine/runtime/decision_hash.h"
 #include "engine/runtime/missing_inputs.h"
 #include "engine/runtime/pipeline_pass.h"
@@ -11,12 +12,20 @@
 #include "engine/stereo/range_measurement.h"
 
 namespace palace {
+namespace {
+
+constexpr double kPoseAge_s = 0.2;  // of the pose to a pair; an older one makes no map
+
+}  // namespace
 
 Pipeline::Pipeline(const Settings& settings, MissionOptions mission)
     : settings_(settings), mission_(std::move(mission)) {}
 
 void Pipeline::GoOnAfter(std::uint64_t sequence, const EngineSnapshot* last) {
   sequence_ = sequence;
+  if (last != nullptr && last->terrain->OfRecord()) {
+    slad_.GoOnNaming(last->terrain->OfRecord()->selection.named);
+  }
   if (last != nullptr && last->session->events) {
     for (const Event& event : *last->session->events) {
       mission_.AddEvent(event.time, event.kind, event.text);
@@ -25,7 +34,7 @@ void Pipeline::GoOnAfter(std::uint64_t sequence, const EngineSnapshot* last) {
 }
 
 void Pipeline::StartAfterJump(Timestamp now) {
-  slad_.Forget();
+  slad_.Forget(StartsAnewAfterJump(role_) ? SiteNames::kAnew : SiteNames::kGoOn);
   tracker_.Reset();
   tracked_site_ = 0;
   navigator_.Reset();
@@ -73,8 +82,8 @@ PipelineOutput Pipeline::Process(std::shared_ptr<const FrameBundle> bundle,
   See(pass);
   pass.Run("stereo", [&] { MeasureRange(pass); });
   pass.Run("slad", [&] { Judge(pass); });
-  pass.Run("track", [&] { Track(pass); });
-  pass.Run("mission", [&] { Decide(pass); });
+  pass.Must("track", [&] { Track(pass); });
+  pass.Must("mission", [&] { Decide(pass); });
   pass.Run("review", [&] { Review(pass); });
   last_bundle_ = std::move(bundle);
   return Publish(pass);
@@ -192,6 +201,14 @@ double Pipeline::DepthOfGround(const RigidTransform& X_WC) const {
   return known && axis_down > 0.1 ? (HeightFromDown(X_WC.p.z()) - GroundHeight()) / axis_down : NAN;
 }
 
+std::optional<ViewPose> Pipeline::PoseOfPair(const Pass& pass) const {
+  const auto& pose = pass.snapshot->sensors->pose;
+  if (!pose || std::abs(SecondsBetween(pose->time, pass.bundle->stereo->time)) > kPoseAge_s) {
+    return std::nullopt;
+  }
+  return ViewPose{pass.snapshot->sensors->X_WC, pose->sigmas};
+}
+
 void Pipeline::MeasureRange(Pass& pass) {
   if (!pass.pair.left || !pass.pair.right) {
     return;
@@ -205,10 +222,7 @@ void Pipeline::MeasureRange(Pass& pass) {
   if (committed || !due || mission.state == MissionState::kLanded) {
     return;
   }
-  std::optional<ViewPose> pose;
-  if (pass.snapshot->sensors->pose) {
-    pose = ViewPose{pass.snapshot->sensors->X_WC, pass.snapshot->sensors->pose->sigmas};
-  }
+  const std::optional<ViewPose> pose = PoseOfPair(pass);
   Result<StereoResult> result = MeasureRanges({.raw = *pass.bundle->stereo,
                                                .pair = pass.pair,
                                                .rig = *rig_,
@@ -245,8 +259,12 @@ void Pipeline::MeasureRange(Pass& pass) {
     pass.Note(DiagnosticLevel::kWarning, "slad",
               std::string("attitude and height are unknown, so ranges make no map; ") +
                   (HasPicturesOnly(role_) ? "add [pose] to RIG.toml"
-                                          : "VEHICLE_POSE did not come within 0.1 s of them"));
+                                          : "no VEHICLE_POSE is within 0.2 s of them"));
     return;
+  }
+  const PictureFaults faults = JudgePictures(pass.snapshot->terrain->stereo_quality, role_);
+  if (faults.frozen() || faults.blank() || faults.swapped) {
+    return;  // what it shows is no ground of now
   }
   WatchLaserSpot(*range);
   if (const auto spot = LaserSpot(*pass.snapshot)) {
@@ -352,6 +370,7 @@ void Pipeline::Decide(Pass& pass) {
                   .simulated = snapshot.sensors->vehicle && snapshot.sensors->vehicle->simulated},
       .terrain = {.decision = pass.decision_of_record.get(),
                   .new_map = pass.new_map,
+                  .forgotten = pass.forgotten,
                   .rechecked = rechecked,
                   .nearest = nearest,
                   .alternative = alternative},

@@ -23,23 +23,32 @@ struct Pipeline::Pass {
   std::shared_ptr<const TerrainDecision> decision_of_record{};
   bool new_map = false;
   bool new_stereo = false;  // a range map was measured; without a pose it makes no map
+  bool forgotten = false;   // the frame of the position moved: the maps began anew
   bool settings_moved = false;
 
   void Note(DiagnosticLevel level, std::string stage, std::string message) {
     snapshot->session.Edit().diagnostics.push_back({level, std::move(stage), std::move(message)});
   }
-  /// Runs one stage; a library's exception becomes a stage fault, never a crash. Times it. When
-  /// memory is short no stage can be relied on: that ends the pass.
+  /// Runs and times a stage that the pass can do without: a library's exception becomes a stage
+  /// fault. When memory is short no stage can be relied on: that ends the pass.
   template <typename Stage>
   void Run(const char* name, Stage&& stage) {
+    Must(name, [&] {
+      try {
+        stage();
+      } catch (const std::bad_alloc&) {
+        throw;
+      } catch (const std::exception& error) {
+        Note(DiagnosticLevel::kError, name, std::string("stage failed: ") + error.what());
+      }
+    });
+  }
+  /// Runs and times a stage that watches the descent. What it throws ends the pass: the engine then
+  /// holds the vehicle and begins anew, rather than fly on with what stood before.
+  template <typename Stage>
+  void Must(const char* name, Stage&& stage) {
     const double start_s = MonotonicSeconds();
-    try {
-      stage();
-    } catch (const std::bad_alloc&) {
-      throw;
-    } catch (const std::exception& error) {
-      Note(DiagnosticLevel::kError, name, std::string("stage failed: ") + error.what());
-    }
+    stage();
     snapshot->session.Edit().timings.push_back({name, (MonotonicSeconds() - start_s) * 1e3});
   }
 };

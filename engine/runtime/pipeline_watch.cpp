@@ -21,7 +21,8 @@ void Pipeline::WatchMotion(Pass& pass) {
   }
   if (navigator_.frame_moves() != frame_moves_) {
     frame_moves_ = navigator_.frame_moves();
-    slad_.Forget();
+    slad_.Forget(SiteNames::kGoOn);
+    pass.forgotten = true;
   }
   for (const LaserRange& range : pass.bundle->laser) {
     laser_watch_.AddRange(range, BeamAt(range.time));

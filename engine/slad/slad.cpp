@@ -16,11 +16,11 @@ constexpr std::size_t kFiguresKept = 2;
 
 }  // namespace
 
-void Slad::Forget() {
+void Slad::Forget(SiteNames names) {
   view_cell_ = {};
   fusion_.Reset();
   scene_flags_.Reset();
-  registry_.Reset();
+  registry_.Reset(names);
   input_ = {};
   elevation_.reset();
   figures_.clear();
@@ -38,7 +38,7 @@ void Slad::Add(const SladInput& input, const SladSettings& settings) {
 
 void Slad::Take(ElevationMap map) {
   constexpr double kNowhere = std::numeric_limits<double>::quiet_NaN();
-  Forget();
+  Forget(SiteNames::kAnew);
   input_.p_WB.setConstant(kNowhere);
   elevation_ = std::make_shared<const ElevationMap>(std::move(map));
 }

@@ -45,7 +45,9 @@ enum class Letters { kOfRecord, kOfCopy };
 class Slad {
  public:
   /// Starts afresh; ids of sites are not used again.
-  void Forget();
+  void Forget(SiteNames names);
+  /// So many places had names before this one began.
+  void GoOnNaming(std::uint64_t named) { registry_.GoOnNaming(named); }
 
   /// Fuses a new range map and flags it from its pictures; Decide then judges the map. Thesis mode
   /// fuses nothing and flags nothing: its map is that of the newest frame.

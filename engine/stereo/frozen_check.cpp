@@ -87,35 +87,45 @@ double MeanShift_px(const PinholeCamera& camera, double depth_m, const RigidTran
   return sum / (kPointsAcross * kPointsAcross);
 }
 
-bool FrozenCheck::Judge(Eye& eye, const std::shared_ptr<const ImageU8>& picture, bool moved) {
+FrozenCheck::Reference FrozenCheck::Keep(const ImageU8& picture) {
+  Reference reference{BlockMeans(picture, 0, 0), 0};
+  reference.change = std::min(RootMeanSquare(reference.means, BlockMeans(picture, kShift_px, 0)),
+                              RootMeanSquare(reference.means, BlockMeans(picture, 0, kShift_px)));
+  return reference;
+}
+
+bool FrozenCheck::Judge(Eye& eye, const std::shared_ptr<const ImageU8>& picture,
+                        const Reference* moved_from) {
   const bool repeated = eye.before && IsRepeated(*eye.before, *picture);
   eye.before = picture;
-  if (eye.reference && eye.reference->change >= kLeastTexture && (moved || eye.unmoved)) {
+  const Reference* asked = eye.unmoved ? &*eye.unmoved : moved_from;
+  if (asked != nullptr && asked->change >= kLeastTexture) {
     const std::vector<float> means = BlockMeans(*picture, 0, 0);
-    if (means.size() == eye.reference->means.size()) {
-      const double share = RootMeanSquare(means, eye.reference->means) / eye.reference->change;
-      eye.unmoved = share < (eye.unmoved ? kChangedShare : kUnmovedShare);
+    if (means.size() == asked->means.size()) {
+      const double share = RootMeanSquare(means, asked->means) / asked->change;
+      if (share >= (eye.unmoved ? kChangedShare : kUnmovedShare)) {
+        eye.unmoved.reset();
+      } else if (!eye.unmoved) {
+        eye.unmoved = *asked;
+      }
     }
   }
   return repeated || eye.unmoved;
 }
 
 FrozenCameras FrozenCheck::Add(const SeenPair& pair) {
+  while (!looks_.empty() && SecondsBetween(looks_.front().time, pair.time) > kOldest_s) {
+    looks_.pop_front();
+  }
   const bool known = std::isfinite(pair.depth_m) && pair.depth_m > 0;
-  const bool moved =
-      known && X_WC_ && MeanShift_px(pair.camera, pair.depth_m, *X_WC_, pair.X_WC) >= kMoved_px;
-  const FrozenCameras frozen{Judge(left_, pair.left, moved), Judge(right_, pair.right, moved)};
-  const bool old = !X_WC_ || SecondsBetween(time_, pair.time) > kReferenceAge_s;
-  if (known && (moved || old) && !left_.unmoved && !right_.unmoved) {
-    X_WC_ = pair.X_WC;
-    time_ = pair.time;
-    for (const auto& [eye, picture] : {std::pair{&left_, pair.left}, {&right_, pair.right}}) {
-      Reference reference{BlockMeans(*picture, 0, 0), 0};
-      reference.change =
-          std::min(RootMeanSquare(reference.means, BlockMeans(*picture, kShift_px, 0)),
-                   RootMeanSquare(reference.means, BlockMeans(*picture, 0, kShift_px)));
-      eye->reference = std::move(reference);
-    }
+  const auto moved_from = std::find_if(looks_.rbegin(), looks_.rend(), [&](const Look& look) {
+    return known && MeanShift_px(pair.camera, pair.depth_m, look.X_WC, pair.X_WC) >= kMoved_px;
+  });
+  const Look* from = moved_from == looks_.rend() ? nullptr : &*moved_from;
+  const FrozenCameras frozen{Judge(left_, pair.left, from ? &from->left : nullptr),
+                             Judge(right_, pair.right, from ? &from->right : nullptr)};
+  if (known && (looks_.empty() || SecondsBetween(looks_.back().time, pair.time) >= kEvery_s)) {
+    looks_.push_back({pair.time, pair.X_WC, Keep(*pair.left), Keep(*pair.right)});
   }
   return frozen;
 }

@@ -4,21 +4,24 @@
 //
 //   repeated   fewer than one pixel in a thousand differs from the picture before. No sensor gives
 //              the same picture twice, and no ray caster does while the camera moves at all.
-//   unmoved    since a reference picture, at most 2 s old, the camera has moved so that the ground
-//              must have shifted by 12 px or more in the mean, and yet the picture is the
-//              reference: the means of its 8x8 blocks differ by less than a quarter of what the
-//              same picture shifted by 4 px would show. Noise of a grey level averages out of the
-//              means (0.15 of a level), so that noise on a frozen picture does not hide it.
+//   unmoved    since an earlier picture, at most 4 s old, the camera has moved so that the ground
+//              must have shifted by 8 px or more in the mean, and yet the picture is that one: the
+//              means of its 8x8 blocks differ by less than a quarter of what the same picture
+//              shifted by 4 px would show. Noise of a grey level averages out of the means (0.15 of
+//              a level), so that noise on a frozen picture does not hide it.
 //
-// A camera that hovers over still ground is judged by the first sign alone: without motion a
-// picture that stays like itself is no fault. Too little texture (a shift by 4 px changes the means
-// by less than 1 level) leaves the second sign open. Once unmoved, a picture is so until it is seen
-// to change by half of what the shift would show.
+// Pictures are kept every half second; the newest that the camera has moved from is asked. A camera
+// over still ground that does not move is judged by the first sign alone: without motion a picture
+// that stays like itself is no fault (a hover in 3 m/s of wind moves by 8 px in about 2 s). Too
+// little texture (a shift by 4 px changes the means by less than 1 level) leaves the second sign
+// open. Once unmoved, a picture is so until it is seen to change by half of what the shift would
+// show.
 //
 // The shift is that of the plane ground at the given depth, mean of nine points of the picture.
 // Pure: no clocks, no threads. Any one thread.
 #pragma once
 
+#include <deque>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -46,8 +49,9 @@ struct SeenPair {
 class FrozenCheck {
  public:
   static constexpr double kRepeatedShare = 1e-3;
-  static constexpr double kMoved_px = 12;
-  static constexpr double kReferenceAge_s = 2;
+  static constexpr double kMoved_px = 8;
+  static constexpr double kOldest_s = 4;
+  static constexpr double kEvery_s = 0.5;
   static constexpr double kUnmovedShare = 0.25;
   static constexpr double kChangedShare = 0.5;
   static constexpr double kLeastTexture = 1;  ///< grey levels
@@ -62,16 +66,23 @@ class FrozenCheck {
     std::vector<float> means;
     double change = 0;
   };
+  /// What both cameras saw, and from where.
+  struct Look {
+    Timestamp time;
+    RigidTransform X_WC;
+    Reference left, right;
+  };
   struct Eye {
     std::shared_ptr<const ImageU8> before;
-    std::optional<Reference> reference;
-    bool unmoved = false;
+    std::optional<Reference> unmoved;  ///< the picture that it repeats
   };
-  bool Judge(Eye& eye, const std::shared_ptr<const ImageU8>& picture, bool moved);
+  static Reference Keep(const ImageU8& picture);
+  /// `moved_from`: what it showed where the camera no longer is; null: it has not moved.
+  static bool Judge(Eye& eye, const std::shared_ptr<const ImageU8>& picture,
+                    const Reference* moved_from);
 
   Eye left_, right_;
-  std::optional<RigidTransform> X_WC_;  ///< of the references
-  Timestamp time_;
+  std::deque<Look> looks_;
 };
 
 /// Mean shift in pixels of plane ground at `depth_m` before the camera at X_WA, seen from X_WB.

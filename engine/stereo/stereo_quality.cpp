@@ -20,6 +20,8 @@ constexpr std::size_t kLeastPoints = 20;
 constexpr double kLeastRowContrast = 8;  // mean squared vertical difference, grey levels squared
 constexpr double kCoveredDeviation = 3;  // grey levels: camera noise and nothing else
 constexpr double kSeeingDeviation = 8;
+constexpr double kClippedShare = 0.5;
+constexpr std::uint8_t kBlack = 1, kWhite = 254;
 constexpr std::size_t kMedianSamples = 20000;  // known well enough from so many
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
@@ -76,20 +78,24 @@ double BestRowShift(const ImageU8& left, const ImageU8& right, int x, int y, dou
          (*(best - 1) - *(best + 1)) / (2 * curvature);
 }
 
-/// Mean and standard deviation of every second pixel of every second row.
+/// Mean and standard deviation of every second pixel of every second row, and the share of them
+/// that is black or white to the end of the scale.
 struct Grey {
   double mean = 0;
   double deviation = 0;
+  double clipped = 0;
+  bool ShowsNothing() const { return deviation < kCoveredDeviation || clipped > kClippedShare; }
 };
 
 Grey GreyOf(const ImageU8& image) {
-  std::int64_t count = 0, sum = 0, square = 0;
+  std::int64_t count = 0, sum = 0, square = 0, clipped = 0;
   for (int y = 0; y < image.height(); y += 2) {
     const std::uint8_t* row = image.row(y);
     for (int x = 0; x < image.width(); x += 2) {
       ++count;
       sum += row[x];
       square += row[x] * row[x];
+      clipped += row[x] <= kBlack || row[x] >= kWhite ? 1 : 0;
     }
   }
   if (count == 0) {
@@ -97,7 +103,8 @@ Grey GreyOf(const ImageU8& image) {
   }
   const double n = static_cast<double>(count);
   const double mean = static_cast<double>(sum) / n;
-  return {mean, std::sqrt(std::max(0.0, static_cast<double>(square) / n - mean * mean))};
+  return {mean, std::sqrt(std::max(0.0, static_cast<double>(square) / n - mean * mean)),
+          static_cast<double>(clipped) / n};
 }
 
 ImageU8 Band(const ImageU8& image, int first, int rows) {
@@ -163,8 +170,8 @@ void SuspectPictures(const ImageU8& left, const ImageU8& right, StereoQuality& q
   quality.exposure_ratio = a.mean > 0 ? b.mean / a.mean : kNaN;
   quality.suspect_covered = std::min(a.deviation, b.deviation) < kCoveredDeviation &&
                             std::max(a.deviation, b.deviation) >= kSeeingDeviation;
-  quality.left_blank = a.deviation < kCoveredDeviation;
-  quality.right_blank = b.deviation < kCoveredDeviation;
+  quality.left_blank = a.ShowsNothing();
+  quality.right_blank = b.ShowsNothing();
   quality.suspect_same = !left.empty() && a.deviation > 0 && left.pixels() == right.pixels();
 }
 

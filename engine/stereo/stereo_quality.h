@@ -18,6 +18,8 @@ void MeasureRowError(const ImageU8& left, const ImageU8& right, const ImageF& di
 
 /// Fills exposure_ratio (mean grey of the right picture over that of the left; NaN when the left
 /// one is black), left_blank, right_blank, suspect_covered and suspect_same. Same size pictures.
+/// Blank: less contrast than the camera's noise (3 grey levels), or more than half of the pixels
+/// black or white to the end of the scale.
 void SuspectPictures(const ImageU8& left, const ImageU8& right, StereoQuality& quality);
 
 /// True when a band across the picture matches with left and right exchanged, and does not as

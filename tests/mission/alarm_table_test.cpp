@@ -161,6 +161,7 @@ TEST(GuardTable, AgesTurnAtTheLimitOfTheRow) {
   fine.link_age_s = fine.pose_age_s = fine.map_age_s = 0;
   fine.left_camera_age_s = fine.right_camera_age_s = fine.pair_age_s = 0;
   fine.position_healthy = fine.tracker_locked = true;
+  fine.laser.state = LaserHealth::State::kFine;
   fine.coherence = 1;
   fine.min_coherence = 0.7;
   fine.shown_for_s = fine.armed_for_s = 10;
@@ -226,7 +227,8 @@ TEST(AlarmTable, AStalePoseSaysWhatItDoesInEachState) {
            Row{MissionState::kDescending, false, true, pose, "Descent holds after 1 s."},
            Row{MissionState::kDescending, true, true, pose,
                "Without vision the vehicle stops, and climbs after 2.0 s."},
-           Row{MissionState::kDescending, true, true, right, "So low the descent goes on."},
+           Row{MissionState::kDescending, true, true, right,
+               "Without vision the vehicle stops, and climbs after 2.0 s."},
            Row{MissionState::kDescending, true, false, pose, "So low the descent goes on."},
        }) {
     AlarmFacts facts = AllMeasured();
@@ -256,8 +258,7 @@ TEST(AlarmTable, WhoeverSaysTheDescentHoldsHoldsIt) {
       {AlarmId::kCameraFrozen, [](AlarmFacts& f) { f.pictures.left_frozen = true; }},
       {AlarmId::kCamerasSwapped, [](AlarmFacts& f) { f.pictures.swapped = true; }},
       {AlarmId::kCameraBlank, [](AlarmFacts& f) { f.pictures.right_blank = true; }},
-      {AlarmId::kAttitudeInvalid,
-       [](AlarmFacts& f) { f.attitude_invalid = true, f.pose_age_s = 0.6; }},
+      {AlarmId::kAttitudeInvalid, [](AlarmFacts& f) { f.attitude_invalid_s = 0.6; }},
       {AlarmId::kPairing, [](AlarmFacts& f) { f.pair_age_s = 1.1; }},
       {AlarmId::kOldGround, [](AlarmFacts& f) { f.ground_age_s = 2.1; }},
       {AlarmId::kImageTime, [](AlarmFacts& f) {

@@ -138,6 +138,22 @@ TEST(Site, AnArmedSiteThatDegradesIsAnAlarm) {
 }
 
 // 30 % of all messages lost: said with percent and channel (found-by-attack, defect 8).
+// A channel that loses most of its messages weighs by what was sent on it, not by what came.
+TEST(Loss, WeighsByWhatWasSent) {
+  const auto channel = [](ChannelId id, double rate_hz, double lost_share) {
+    ChannelHealth health;
+    health.id = id;
+    health.rate_hz = rate_hz;
+    health.lost_share = lost_share;
+    return health;
+  };
+  EXPECT_NEAR(
+      LostShare({channel(ChannelId::kVehiclePose, 20, 0.6), channel(ChannelId::kImu, 100, 0),
+                 channel(ChannelId::kGps, 5, 0), channel(ChannelId::kLaserRange, 20, 0)}),
+      30.0 / 175, 1e-9);
+  EXPECT_NEAR(LostShare({channel(ChannelId::kVehiclePose, 35, 0.3)}), 0.3, 1e-9);
+}
+
 TEST(Loss, IsSaidInPercentByChannel) {
   MissionRig rig;
   rig.Arm();

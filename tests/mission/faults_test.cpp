@@ -64,6 +64,8 @@ INSTANTIATE_TEST_SUITE_P(
                 r.arrival.poses_invalid = 5;
               },
               0.8},
+        Fault{"EverySecondAttitudeInvalid", [](MissionRig& r) { r.arrival.poses_invalid = 1; },
+              0.8},
         Fault{"ClockSteps", [](MissionRig& r) { r.clock_offset_us += 3'000'000; }, 0.3},
         Fault{"ClockStepsLive",
               [](MissionRig& r) {
@@ -105,6 +107,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Fault{"CalibrationChanged", [](MissionRig& r) { r.calibration_hash ^= 1; },
                           0.1},
                     Fault{"VehicleRestarts", [](MissionRig& r) { r.vehicle.boot_id = 78; }, 0.1},
+                    Fault{"EverySecondAttitudeInvalid",
+                          [](MissionRig& r) { r.arrival.poses_invalid = 1; }, 0.8},
                     Fault{"ClockSteps", [](MissionRig& r) { r.clock_offset_us += 3'000'000; }, 0.1},
                     Fault{"SettingsApplied",
                           [](MissionRig& r) { r.mission.DropApproval("Limits applied"); }, 0.1}),
@@ -116,6 +120,53 @@ struct Block {
   std::function<void(MissionRig&)> inject;
   double run_s;
 };
+
+// What stops a descent proposes nothing either: not in the search, not after a hold.
+TEST(Faults, NothingIsProposedWhileAStopStands) {
+  MissionRig rig;
+  ASSERT_TRUE(rig.RunUntil(MissionState::kProposed));
+  rig.stereo.left_frozen = rig.stereo.right_frozen = true;
+  ASSERT_TRUE(rig.RunUntil(MissionState::kSearch, 1));
+  EXPECT_EQ(rig.mission.status().why, "Both cameras repeat their pictures");
+  rig.Run(5);
+  EXPECT_EQ(rig.state(), MissionState::kSearch);
+  rig.stereo = {};
+  rig.Run(0.8);
+  EXPECT_EQ(rig.state(), MissionState::kSearch) << "a proposal is won anew";
+  EXPECT_TRUE(rig.RunUntil(MissionState::kProposed, 2));
+}
+
+TEST(Faults, AHoldIsNotLeftWhileItsReasonStands) {
+  MissionRig rig;
+  rig.Arm();
+  ASSERT_TRUE(rig.ApproveNow().ok());
+  ASSERT_TRUE(rig.RunUntil(MissionState::kDescending, 5));
+  rig.stereo.left_frozen = true;
+  ASSERT_TRUE(rig.RunUntil(MissionState::kHold, 1));
+  rig.Run(10);
+  EXPECT_EQ(rig.state(), MissionState::kHold);
+  rig.stereo = {};
+  EXPECT_TRUE(rig.RunUntil(MissionState::kProposed, 3));
+}
+
+TEST(Faults, ARefusedHoldGoesOnAndSaysWhy) {
+  MissionRig rig;
+  rig.Arm();
+  ASSERT_TRUE(rig.ApproveNow().ok());
+  ASSERT_TRUE(rig.RunUntil(MissionState::kDescending, 5));
+  rig.vehicle.refuses_holds = true;
+  ASSERT_TRUE(rig.Do(HoldHere{}).ok());
+  rig.Run(2);
+  const int sent = rig.SentCount<HoldRequest>();
+  EXPECT_GE(sent, 3);
+  const auto& events = rig.mission.events();
+  EXPECT_TRUE(std::any_of(events.begin(), events.end(), [](const Event& event) {
+    return event.text == "Vehicle refused the hold: Of another session";
+  }));
+  rig.vehicle.refuses_holds = false;
+  rig.Run(2);
+  EXPECT_EQ(rig.vehicle.mode, VehicleMode::kHold);
+}
 
 class Guards : public testing::TestWithParam<Block> {};
 
@@ -189,6 +240,12 @@ INSTANTIATE_TEST_SUITE_P(
         Block{"LaserLostBelow15m", GuardId::kPosition,
               [](MissionRig& r) {
                 SetLaser(r, LaserHealth::State::kLost);
+                r.vehicle.height_m = 14.9;
+              },
+              0.1},
+        Block{"LaserNeverHeardBelow15m", GuardId::kPosition,
+              [](MissionRig& r) {
+                SetLaser(r, LaserHealth::State::kNever);
                 r.vehicle.height_m = 14.9;
               },
               0.1},

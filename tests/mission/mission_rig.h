@@ -28,6 +28,7 @@ struct SmallVehicle {
   double mode_for_s = 0;
   bool answers = true;
   bool refuses = false;
+  bool refuses_holds = false;
   std::vector<CommandAck> acks;
 
   void Set(VehicleMode next) {
@@ -46,6 +47,9 @@ struct SmallVehicle {
       }
       Answer(approval->id, why, now);
     } else if (const auto* hold = std::get_if<HoldRequest>(&message)) {
+      if (refuses_holds) {
+        return Answer(hold->command_id, "Of another session", now);
+      }
       if (mode != VehicleMode::kHover && mode != VehicleMode::kAbort &&
           mode != VehicleMode::kLanded) {
         Set(VehicleMode::kHold);
@@ -112,6 +116,7 @@ struct MissionRig {
     AddSite(101, 'A', {10, 2, 0});
     AddSite(102, 'B', {-6, 8, 0});
     navigation.gps.running = navigation.gps.estimate.healthy = true;
+    navigation.laser.state = LaserHealth::State::kFine;
     tracker.coherence = 0.95;
     settings.mission.glide_slope_deg = 90;  // the small vehicle comes straight down
   }
@@ -168,7 +173,9 @@ struct MissionRig {
   MissionInputs Inputs() {
     MissionInputs in{.session = Session(),
                      .vehicle = {.bundle = bundle, .channels = channels, .simulated = simulated},
-                     .terrain = {.decision = &decision, .new_map = maps_up && cameras_up},
+                     .terrain = {.decision = &decision,
+                                 .new_map = maps_up && cameras_up,
+                                 .forgotten = std::exchange(forgotten, false)},
                      .navigation = {.navigation = navigation,
                                     .tracker = tracker,
                                     .stereo = stereo,
@@ -268,8 +275,9 @@ struct MissionRig {
   Timestamp now{1'000'000'000};
   std::uint64_t sequence = 0;
   std::int64_t clock_offset_us = 0;
-  double east_m = 2;    ///< where the vehicle is
-  bool jumped = false;  ///< the next bundle follows a jump in time
+  double east_m = 2;       ///< where the vehicle is
+  bool forgotten = false;  ///< the maps before the next bundle are void
+  bool jumped = false;     ///< the next bundle follows a jump in time
   SourceKind source = SourceKind::kSimulation;
   AuthorityStatus authority = Commanding();
   bool can_transmit = true, recorder_ok = true, simulated = true;

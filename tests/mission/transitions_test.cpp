@@ -92,6 +92,18 @@ TEST(Mission, ProposesOnlyAfterThreeMapsAndOneSecond) {
   EXPECT_EQ(rig.state(), MissionState::kSearch);
 }
 
+// Another frame of positions: what won there won nothing here.
+TEST(Mission, AProposalIsWonAnewWhenTheMapsBegunAnew) {
+  MissionRig rig;
+  ASSERT_TRUE(rig.RunUntil(MissionState::kProposed));
+  rig.forgotten = true;
+  rig.Step();
+  EXPECT_EQ(rig.state(), MissionState::kSearch);
+  rig.Run(0.8);
+  EXPECT_EQ(rig.state(), MissionState::kSearch);
+  EXPECT_TRUE(rig.RunUntil(MissionState::kProposed, 1));
+}
+
 // A click on a site that is listed is never void because another one leads since a moment ago.
 TEST(Mission, AProposalOutlivesAChangeOfTheBestSite) {
   MissionRig rig;

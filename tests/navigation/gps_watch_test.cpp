@@ -62,6 +62,7 @@ TEST(GpsWatch, FindsJumpsAndDriftsWithinASecond) {
     EXPECT_LE(FoundAfter({.jump_m = 8}, seed), 0.5) << seed;
     EXPECT_LE(FoundAfter({.jump_m = -1.5}, seed), 0.5) << seed;
     EXPECT_LE(FoundAfter({.jump_m = 8, .has_velocity = false}, seed), 0.5) << seed;
+    EXPECT_LE(FoundAfter({.sigma_m = 0.6, .jump_m = 4}, seed), 1.05) << "6.7 sigma " << seed;
     EXPECT_LE(FoundAfter({.drift_mps = 0.5}, seed), 1.05) << seed;
     EXPECT_LE(FoundAfter({.drift_mps = 2}, seed), 0.65) << seed;
     EXPECT_LE(FoundAfter({.drift_mps = 2, .velocity_follows = true}, seed), 1.05) << seed;
@@ -137,6 +138,14 @@ TEST(Navigator, TakesAGpsThatHasSettledElsewhereOnlyWithoutASite) {
   const Flown without = FlyWith({.jump_m = 10}, false, 25);
   EXPECT_EQ(without.frame_moves, 1) << "who keeps maps must know";
   EXPECT_NEAR(without.error_m, 10, 0.3);
+}
+
+TEST(Navigator, AJumpThatTheFilterRefusesNeverMovesATrackedSite) {
+  for (const double jump_m : {2.5, 3.0, 4.0}) {
+    const Flown flown = FlyWith({.sigma_m = 0.6, .jump_m = jump_m}, true, 25);
+    EXPECT_EQ(flown.frame_moves, 0) << jump_m;
+  }
+  EXPECT_LT(FlyWith({.sigma_m = 0.6, .jump_m = 4}, true, 25).error_m, 1.0);
 }
 
 }  // namespace

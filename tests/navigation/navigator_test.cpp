@@ -231,6 +231,22 @@ TEST(Navigator, LostVisionIsUnhealthyAndGoesOnInertially) {
   }
 }
 
+// Without attitude a pixel is no direction: however good the tracking, there is no fix.
+TEST(Navigator, VisionIsLostWithTheAttitude) {
+  World world(3);
+  Navigator navigator = OnVision(world);
+  ASSERT_EQ(navigator.status().handover, State::kVision);
+  for (int n = 61; n <= 75; ++n) {
+    FrameBundle bundle = world.Bundle(n);
+    bundle.poses.clear();
+    bundle.pose_at_exposure.reset();
+    navigator.AddSensors(bundle);
+    navigator.AddVision(world.Track(n), kCamera, world.rig(), bundle, {});
+    EXPECT_EQ(navigator.status().vision_measured, n <= 62) << n;
+    EXPECT_TRUE(n < 69 || !navigator.EstimateInForce(bundle.time).healthy) << n;
+  }
+}
+
 // Nothing is measured any more: the estimate says for how long, its sigma grows without end, and
 // after 5 s it counts as unknown.
 TEST(Navigator, UncertaintyGrowsWhileItCoasts) {

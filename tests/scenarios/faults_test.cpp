@@ -42,6 +42,8 @@ TEST(FaultCases, EachHasANameOfItsOwnAndFaultsThatCanBe) {
   std::set<std::string> names;
   for (const FaultCase& row : FaultCases()) {
     EXPECT_TRUE(names.insert(row.name).second) << row.name;
+    EXPECT_EQ(std::string(row.name).find_first_of(",\r\n"), std::string::npos)
+        << row.name << ": it is a cell of a CSV";
     EXPECT_TRUE(row.silent || !row.cause.empty() || std::string(row.row) == "F21") << row.name;
     for (const Fault& fault : row.faults) {
       EXPECT_TRUE(CheckFault(fault)) << row.name;

@@ -96,6 +96,25 @@ TEST(SiteRegistry, ALetterStaysWithItsPlaceAndIsNeverGivenTwice) {
   EXPECT_TRUE(places.count("A2"));
 }
 
+// Another frame of positions is no new flight: what A was no other place becomes.
+TEST(SiteRegistry, LettersGoOnAfterTheMapsBegunAnewAndStartAgainInAnotherFlight) {
+  Hover hover;
+  const SiteSelection before = hover.SeeOften(4, Flat());
+  const std::string last = SiteLetter(static_cast<std::size_t>(before.named));
+  hover.registry_.Reset(SiteNames::kGoOn);
+  EXPECT_EQ(hover.See(Flat()).sites.front().letter, last);
+  SiteRegistry restarted;
+  restarted.GoOnNaming(before.named);
+  std::swap(restarted, hover.registry_);
+  const SiteSelection after = hover.See(Flat());
+  EXPECT_EQ(after.sites.front().letter, last);
+  for (const LandingSite& site : before.sites) {
+    EXPECT_NE(after.sites.front().id, site.id);
+  }
+  hover.registry_.Reset(SiteNames::kAnew);
+  EXPECT_EQ(hover.See(Flat()).sites.front().letter, "A");
+}
+
 // The best point of a map moves a little with every frame.
 TEST(SiteRegistry, OverStillGroundNothingMoves) {
   Hover hover;

@@ -38,7 +38,7 @@ TEST(Slad, TheSameViewsGiveTheSameMapsAndForgettingIsStartingAfresh) {
   EXPECT_EQ(maps(other), first);
   EXPECT_NE(maps(one), first) << "views are fused";
   const std::uint64_t last_id = one.Decide(settings, Letters::kOfCopy)->selection.sites[0].id;
-  one.Forget();
+  one.Forget(SiteNames::kAnew);
   EXPECT_FALSE(one.has_map());
   EXPECT_EQ(maps(one), first);
   EXPECT_GT(one.Decide(settings, Letters::kOfCopy)->selection.sites[0].id, last_id)

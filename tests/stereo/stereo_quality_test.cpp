@@ -67,13 +67,22 @@ TEST(StereoQuality, TellsWhichCameraShowsNothing) {
   const Pair& pair = NadirPair();
   const ImageU8 black(pair.left.width(), pair.left.height(), std::uint8_t{0});
   const ImageU8 white(pair.left.width(), pair.left.height(), std::uint8_t{255});
+  const auto brighter = [&](double factor) {
+    ImageU8 picture = pair.left;
+    for (std::uint8_t& grey : picture.pixels()) {
+      grey = static_cast<std::uint8_t>(std::min(255.0, factor * grey));
+    }
+    return picture;
+  };
+  const ImageU8 dim = brighter(0.5), washed_out = brighter(20);
   struct Row {
     const ImageU8 &left, &right;
     bool left_blank, right_blank;
   };
   for (const Row& row :
        {Row{pair.left, pair.right, false, false}, Row{pair.left, black, false, true},
-        Row{white, pair.right, true, false}, Row{black, black, true, true}}) {
+        Row{white, pair.right, true, false}, Row{black, black, true, true},
+        Row{washed_out, pair.right, true, false}, Row{dim, pair.right, false, false}}) {
     StereoQuality quality;
     SuspectPictures(row.left, row.right, quality);
     EXPECT_EQ(quality.left_blank, row.left_blank);

@@ -23,11 +23,13 @@ void FillSensors(const MissionMemory& m, const MissionInputs& in, AlarmFacts& f)
   f.pose_age_s = m.watch.PoseAge(now);
   f.link_age_s = m.watch.LinkAge(now);
   f.pair_age_s = m.watch.PairAge(now);
+  f.silence_s = std::fmin(std::fmin(f.link_age_s, f.pose_age_s),
+                          std::fmin(f.left_camera_age_s, f.right_camera_age_s));
   f.clock_stepped = m.watch.clock_stepped();
   f.clock_step_s = m.watch.clock_step_s();
   f.since_clock_step_s = m.watch.SinceClockStep(now);
   f.stalled_s = m.watch.SinceStall(now) <= AlarmLimits::told_s ? m.watch.stalled_s() : NAN;
-  f.attitude_invalid = m.watch.SincePoseInvalid(now) <= GuardLimits::link_s;
+  f.attitude_invalid_s = m.watch.PosesInvalidFor(now);
   f.lost_percent = 100 * LostShare(in.vehicle.channels);
   f.lost_channels = LostChannels(in.vehicle.channels);
   f.rebooted = m.watch.rebooted();

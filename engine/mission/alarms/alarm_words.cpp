@@ -8,20 +8,20 @@ namespace {
 bool IsOld(double age_s) { return !(age_s <= StaleLimits::sensor_s); }
 
 /// Nothing of it where no vehicle can be stopped, or so low that nothing is.
-std::string Outside(const AlarmFacts& f, bool for_vision) {
+std::string Outside(const AlarmFacts& f) {
   if (!f.has_vehicle) {
     return f.pictures_only ? "Maps stand still." : "In the record.";
   }
   if (!f.committed) {
     return {};
   }
-  return f.on_vision && for_vision ? "Without vision the vehicle stops, and climbs after " +
-                                         LimitWords({f.max_vision_outage_s, "s"}) + "."
-                                   : "So low the descent goes on.";
+  return f.on_vision ? "Without vision the vehicle stops, and climbs after " +
+                           LimitWords({f.max_vision_outage_s, "s"}) + "."
+                     : "So low the descent goes on.";
 }
 
-std::string Consequence(const AlarmFacts& f, bool for_vision, const std::string& after) {
-  const std::string outside = Outside(f, for_vision);
+std::string Consequence(const AlarmFacts& f, const std::string& after) {
+  const std::string outside = Outside(f);
   return !outside.empty()                       ? outside
          : f.state == MissionState::kDescending ? "Descent holds" + after
          : f.state == MissionState::kApproved   ? "Approval ends" + after
@@ -31,11 +31,15 @@ std::string Consequence(const AlarmFacts& f, bool for_vision, const std::string&
 
 }  // namespace
 
-std::string StaleConsequence(const AlarmFacts& f, bool for_vision) {
-  return Consequence(f, for_vision, " after " + LimitWords({StaleLimits::sensor_s, "s", 0}) + ".");
+std::string StaleConsequence(const AlarmFacts& f) {
+  return Consequence(f, " after " + LimitWords({StaleLimits::sensor_s, "s", 0}) + ".");
 }
 
-std::string StopConsequence(const AlarmFacts& f) { return Consequence(f, true, "."); }
+std::string StopConsequence(const AlarmFacts& f, double after_s) {
+  return Consequence(f, " after " + LimitWords({after_s, "s"}) + ".");
+}
+
+std::string StopConsequence(const AlarmFacts& f) { return Consequence(f, "."); }
 
 std::string StaleText(const char* what, double age_s, const std::string& limit) {
   return what + (" " + words::Age(age_s)) + ", limit " + limit + ". ";

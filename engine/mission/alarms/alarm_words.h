@@ -8,10 +8,11 @@
 
 namespace palace {
 
-/// What an old picture or pose does to the mission. `for_vision`: without it vision has no fix.
-std::string StaleConsequence(const AlarmFacts& facts, bool for_vision = true);
+/// What an old picture or pose does to the mission.
+std::string StaleConsequence(const AlarmFacts& facts);
 /// The same of what stops at once.
 std::string StopConsequence(const AlarmFacts& facts);
+std::string StopConsequence(const AlarmFacts& facts, double after_s);
 /// "Left camera stale, 1.8 s, limit 0.5 s. ".
 std::string StaleText(const char* what, double age_s, const std::string& limit);
 /// Nothing at all was heard of the vehicle for longer than a sensor may be silent.

@@ -37,8 +37,7 @@ const AlarmRow kRows[] = {
                    double limit) { return f.has_source && !(f.right_camera_age_s <= limit); },
      .text =
          [](const Facts& f, const std::string& limit) {
-           return StaleText("Right camera", f.right_camera_age_s, limit) +
-                  StaleConsequence(f, false);
+           return StaleText("Right camera", f.right_camera_age_s, limit) + StaleConsequence(f);
          },
      .stop =
          [](const Facts& f) {
@@ -130,7 +129,7 @@ const AlarmRow kRows[] = {
          [](const Facts& f, const std::string& limit) {
            return WithNumbers("Rows of the two pictures are %.2f px apart, limit ",
                               f.row_error_px) +
-                  limit + ": calibrate.";
+                  limit + ": not calibrated, or not exposed together.";
          }},
     {.id = AlarmId::kExposure,
      .level = AlarmLevel::kAdvisory,

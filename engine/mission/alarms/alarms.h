@@ -36,7 +36,8 @@ struct AlarmFacts {
   double clock_step_s = NAN;        ///< the last one
   double since_clock_step_s = NAN;  ///< NaN: there was none
   double stalled_s = NAN;           ///< this machine, lately; NaN: it was not
-  bool attitude_invalid = false;    ///< a vehicle pose was refused for its numbers, lately
+  double attitude_invalid_s = NAN;  ///< vehicle poses are refused for their numbers, for so long
+  double silence_s = NAN;           ///< since anything came from the vehicle
   double lost_percent = NAN;        ///< of the vehicle's messages of the last 5 s
   std::string lost_channels{};      ///< "Vehicle pose 31 %, IMU 29 %"
   double ground_age_s = NAN;        ///< of the site's, in a descent above the commit height

@@ -1,4 +1,6 @@
 // Alarms about what arrives from the vehicle, and when: clock, stalls, losses, what is no number.
+#include <cmath>
+
 #include "engine/core/text.h"
 #include "engine/mission/alarms/alarm_words.h"
 #include "engine/mission/wording.h"
@@ -44,7 +46,6 @@ const AlarmRow kRows[] = {
          }},
     {.id = AlarmId::kStampsRefused,
      .level = AlarmLevel::kCaution,
-     .immediate = true,
      // While the clock itself steps, the messages that show it are refused too: that is no news.
      .present =
          [](const Facts& f, double) {
@@ -62,15 +63,15 @@ const AlarmRow kRows[] = {
     {.id = AlarmId::kAttitudeInvalid,
      .level = AlarmLevel::kWarning,
      .immediate = true,
-     .present = [](const Facts& f, double) { return f.has_vehicle && f.attitude_invalid; },
+     .present = [](const Facts& f,
+                   double) { return f.has_vehicle && std::isfinite(f.attitude_invalid_s); },
      .text =
          [](const Facts& f, const std::string&) {
            return "Attitude invalid: the vehicle's pose holds what is no number. It is not used. " +
-                  StaleConsequence(f);
+                  StopConsequence(f, StaleLimits::invalid_pose_s);
          },
      .stop = [](const Facts& f) -> std::string {
-       return f.attitude_invalid && f.pose_age_s > StaleLimits::invalid_pose_s ? "Attitude invalid"
-                                                                               : "";
+       return f.attitude_invalid_s > StaleLimits::invalid_pose_s ? "Attitude invalid" : "";
      }},
     {.id = AlarmId::kMessageLoss,
      .level = AlarmLevel::kCaution,
@@ -109,7 +110,7 @@ const AlarmRow kRows[] = {
          [](const Facts& f, const std::string& limit) {
            return WithNumbers("Pictures of both cameras come but do not pair for %.1f s, limit ",
                               f.pair_age_s) +
-                  limit + ": their stamps differ. " + StaleConsequence(f);
+                  limit + ": partners are lost, or their stamps differ. " + StaleConsequence(f);
          },
      .stop =
          [](const Facts& f) {

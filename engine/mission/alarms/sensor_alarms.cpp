@@ -10,6 +10,11 @@ using Facts = AlarmFacts;
 
 constexpr const char* kHeightsElsewhere = "Heights come from stereo and vision.";
 
+constexpr double kSilence_s = 0.3;
+
+/// Nothing comes at all: the link's own alarms speak of that.
+bool IsSilence(const Facts& f) { return f.silence_s > kSilence_s; }
+
 std::string LaserLies(const Facts& f) {
   return words::LaserFault(f.laser) + ". " + kHeightsElsewhere +
          (f.approve_ahead ? " Approve is blocked." : "");
@@ -40,7 +45,8 @@ const AlarmRow kRows[] = {
      .level = AlarmLevel::kCaution,
      .limit = {AlarmLimits::gps_silence_s, "s"},
      .value = &Facts::gps_age_s,
-     .present = [](const Facts& f, double limit) { return f.has_vehicle && f.gps_age_s > limit; },
+     .present = [](const Facts& f,
+                   double limit) { return f.has_vehicle && f.gps_age_s > limit && !IsSilence(f); },
      .text =
          [](const Facts& f, const std::string& limit) {
            return WithNumbers("No GPS for %.1f s, limit ", f.gps_age_s) + limit + ". " +
@@ -50,7 +56,8 @@ const AlarmRow kRows[] = {
     {.id = AlarmId::kLaserLost,
      .level = AlarmLevel::kCaution,
      .immediate = true,  // half a second said so
-     .present = [](const Facts& f, double) { return f.laser.state == LaserHealth::State::kLost; },
+     .present = [](const Facts& f,
+                   double) { return f.laser.state == LaserHealth::State::kLost && !IsSilence(f); },
      .text =
          [](const Facts& f, const std::string&) {
            return words::LaserFault(f.laser) + ". " + kHeightsElsewhere +

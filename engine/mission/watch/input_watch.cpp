@@ -83,6 +83,9 @@ void InputWatch::SeePoses(const FrameBundle& bundle, Timestamp now) {
     pose_.See(bundle.pose_at_exposure->time, now);
   }
   if (invalid) {
+    if (std::isnan(PosesInvalidFor(now))) {
+      poses_invalid_from_ = now;
+    }
     pose_invalid_at_ = now;
   }
 }

@@ -39,6 +39,10 @@ class InputWatch {
   double SinceClockStep(Timestamp now) const { return Since(stepped_at_, now); }
   double SinceStall(Timestamp now) const { return Since(stalled_at_, now); }
   double SincePoseInvalid(Timestamp now) const { return Since(pose_invalid_at_, now); }
+  /// Seconds for which poses have been refused so, with gaps of less than 1 s; NaN: they are not.
+  double PosesInvalidFor(Timestamp now) const {
+    return SincePoseInvalid(now) <= kInvalidGap_s ? Since(poses_invalid_from_, now) : NAN;
+  }
   double stalled_s() const { return stalled_s_; }  ///< length of the last stall
   bool rebooted() const { return rebooted_; }      ///< in the last Update
   const std::optional<VehicleStatus>& vehicle() const { return vehicle_; }
@@ -53,6 +57,7 @@ class InputWatch {
 
  private:
   static constexpr int kConsistentSamples = 3;
+  static constexpr double kInvalidGap_s = 1;
   /// Stamp of the newest message and when it arrived.
   struct Arrival {
     std::optional<Timestamp> stamp;
@@ -80,7 +85,7 @@ class InputWatch {
   std::optional<std::uint64_t> boot_before_jump_;
   std::optional<GpsFix> gps_;
   std::optional<ClockReading> clock_;
-  std::optional<Timestamp> stepped_at_, stalled_at_, pose_invalid_at_;
+  std::optional<Timestamp> stepped_at_, stalled_at_, pose_invalid_at_, poses_invalid_from_;
   double clock_step_s_ = NAN, stalled_s_ = NAN;
   std::int64_t offset_us_ = 0;
   int consistent_samples_ = 0;

@@ -9,6 +9,7 @@ namespace palace {
 namespace {
 
 constexpr double kLeastWindow_s = 2;   ///< no rate is told from less
+constexpr double kLeastShare = 0.01;   ///< of messages that came, to tell a rate from
 constexpr double kLeastMessages = 50;  ///< no share either
 
 using Counts = std::map<std::string, std::uint64_t>;
@@ -65,8 +66,10 @@ double LostShare(const std::vector<ChannelHealth>& channels) {
   double lost = 0, sent = 0;
   for (const ChannelHealth& channel : channels) {
     if (IsCounted(channel)) {
-      sent += channel.rate_hz;
-      lost += channel.rate_hz * channel.lost_share;
+      // What comes is what was sent, less what was lost.
+      const double sent_hz = channel.rate_hz / std::max(1 - channel.lost_share, kLeastShare);
+      sent += sent_hz;
+      lost += sent_hz - channel.rate_hz;
     }
   }
   return sent > 0 ? lost / sent : NAN;

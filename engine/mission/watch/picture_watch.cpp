@@ -28,7 +28,7 @@ std::string PictureFaults::words() const {
   return blank()      ? blank_words()
          : frozen()   ? frozen_words()
          : swapped    ? "Left and right camera look exchanged"
-         : rows_apart ? "Calibration does not fit the pictures"
+         : rows_apart ? "Rows of the pictures do not fit: not calibrated, or not exposed together"
                       : "";
 }
 

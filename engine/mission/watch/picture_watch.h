@@ -17,7 +17,7 @@ struct PictureFaults {
   bool left_frozen = false, right_frozen = false;  ///< the camera repeats its picture
   bool left_blank = false, right_blank = false;    ///< dark, covered or washed out
   bool swapped = false;                            ///< left and right look exchanged
-  bool rows_apart = false;  ///< the calibration does not fit: AlarmLimits::row_error_px
+  bool rows_apart = false;                         ///< not calibrated, or not exposed together
 
   bool frozen() const { return left_frozen || right_frozen; }
   bool blank() const { return left_blank || right_blank; }

@@ -59,10 +59,16 @@ std::string SiteLetter(std::size_t n) {
   return static_cast<char>('A' + n % kLetters) + (round > 1 ? std::to_string(round) : "");
 }
 
-void SiteRegistry::Reset() {
-  const std::uint64_t next_id = next_id_;
-  *this = {};
-  next_id_ = next_id;
+void SiteRegistry::Reset(SiteNames names) {
+  SiteRegistry anew;
+  anew.next_id_ = next_id_;
+  anew.named_ = names == SiteNames::kGoOn ? named_ : 0;
+  *this = std::move(anew);
+}
+
+void SiteRegistry::GoOnNaming(std::uint64_t named) {
+  named_ = std::max(named_, named);
+  next_id_ = std::max(next_id_, named + 1);
 }
 
 SiteSelection SiteRegistry::Select(const ElevationMap& map, const HazardMaps& hazards,
@@ -88,6 +94,7 @@ SiteSelection SiteRegistry::Select(const ElevationMap& map, const HazardMaps& ha
   std::erase_if(places_, [](const Place& place) { return place.id == 0 && place.run == 0; });
   GiveReasons(settings.choice.ranking, selection);
   NameInReasons(selection);
+  selection.named = named_;
   if (selection.sites.empty()) {
     selection.none_reason =
         any ? "the places found are not on 3 maps in a row yet" : NoneReason(hazards, settings);
@@ -321,7 +328,7 @@ std::vector<SiteRegistry::Found> SiteRegistry::List(std::vector<Found> ranked) {
     place.rank = rank++;
     if (place.id == 0) {
       place.id = next_id_++;
-      place.letter = SiteLetter(named_++);
+      place.letter = SiteLetter(static_cast<std::size_t>(named_++));
     }
     one.site.id = place.id;
     one.site.letter = place.letter;

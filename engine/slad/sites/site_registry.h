@@ -33,6 +33,10 @@ namespace palace {
 /// "A" to "Z", then "A2" to "Z2", "A3", ...: of the nth place, from 0.
 std::string SiteLetter(std::size_t n);
 
+/// Letters after a Reset: within a flight none is given twice; another flight begins at A. Ids are
+/// never used again.
+enum class SiteNames { kGoOn, kAnew };
+
 class SiteRegistry {
  public:
   /// The sites of the newest map, best first, with letters. The same map again changes nothing.
@@ -40,8 +44,10 @@ class SiteRegistry {
                        const SladSettings& settings, const SiteContext& context);
   /// That place is selected: while it can bear the lander it is listed. 0: none.
   void Keep(std::uint64_t site_id) { kept_ = site_id; }
-  /// A new flight. Ids are not used again, letters are.
-  void Reset();
+  /// Nothing of the ground holds any more: another frame, another clock, another flight.
+  void Reset(SiteNames names);
+  /// A flight goes on in which so many places were named already.
+  void GoOnNaming(std::uint64_t named);
 
  private:
   struct Place {
@@ -85,7 +91,7 @@ class SiteRegistry {
   std::vector<Place> places_;
   std::vector<Eigen::Vector2d> replaced_;  ///< on this map
   std::uint64_t next_id_ = 1;
-  std::size_t named_ = 0;
+  std::uint64_t named_ = 0;
   std::uint64_t kept_ = 0;
   std::optional<Timestamp> time_;  ///< of the newest map
   SladSettings settings_;          ///< under which it was judged

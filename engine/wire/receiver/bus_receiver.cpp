@@ -90,7 +90,9 @@ BusTraffic BusInbox::Traffic(double now_s) {
 }
 
 void BusInbox::CountSenders(BusTraffic& traffic, double now_s) const {
-  for (const auto& [address, sender] : reassembler_.Senders()) {
+  for (const auto& known : reassembler_.Senders()) {
+    const auto& address = known.first;
+    const auto& sender = known.second;
     const bool used = std::any_of(channels_.begin(), channels_.end(), [&](const auto& entry) {
       return entry.second.sender.in_use() == address;
     });
