@@ -217,10 +217,7 @@ bool Engine::DecidesSomething(const RecordItem& item) const {
 
 void Engine::NoteCommandLost(const AuthorityStatus& authority,
                              std::vector<EngineCommand>& commands) {
-  using Standing = AuthorityStanding;
-  const bool lost =
-      authority.standing == Standing::kOther || authority.standing == Standing::kReleased;
-  if (std::exchange(commanded_, authority.commands()) && lost) {
+  if (std::exchange(commanded_, authority.commands()) && !authority.commands()) {
     // As a command it is in the record, so a replay drops what the flight dropped.
     commands.insert(commands.begin(), {CommandOrigin::kStation, CommandLost{authority.why_not}});
   }

@@ -86,13 +86,9 @@ void Autopilot::ReceiveApproval(const Approval& approval, const VehicleSituation
     Acknowledge(approval.id, {}, now);
     return;
   }
-  std::string refusal = gate_.WhyRefused(approval, vehicle);
-  if (refusal.empty() && mode_ != VehicleMode::kHover && mode_ != VehicleMode::kHold) {
-    refusal = "the vehicle is not in hover";
-  }
-  if (refusal.empty()) {
-    refusal = gate_.Admit(approval, vehicle);
-  }
+  const bool hovers = mode_ == VehicleMode::kHover || mode_ == VehicleMode::kHold;
+  const std::string refusal =
+      gate_.Admit(approval, vehicle, hovers ? "" : "the vehicle is not in hover");
   Acknowledge(approval.id, refusal, now);
   if (!refusal.empty()) {
     return;
@@ -130,12 +126,12 @@ void Autopilot::ReceiveEstimate(const PositionEstimate& estimate, Timestamp now)
 }
 
 void Autopilot::ReceiveHold(const HoldRequest& request, Timestamp now) {
-  if (mode_ == VehicleMode::kLanded || mode_ == VehicleMode::kAbort) {
-    const bool landed = mode_ == VehicleMode::kLanded;
-    Acknowledge(request.command_id, landed ? "on the ground" : "climbing away", now);
-    return;
+  std::string refusal = gate_.Admit(request, now);
+  if (refusal.empty() && mode_ == VehicleMode::kLanded) {
+    refusal = "on the ground";
+  } else if (refusal.empty() && mode_ == VehicleMode::kAbort) {
+    refusal = "climbing away";
   }
-  const std::string refusal = gate_.Admit(request, now);
   if (refusal.empty()) {
     EnterHold();
   }

@@ -21,16 +21,11 @@ std::string WhyNotFlown(const Approval& approval) {
 
 }  // namespace
 
-std::string CommandGate::WhyRefused(const Approval& approval,
-                                    const VehicleSituation& vehicle) const {
+std::string CommandGate::Admit(const Approval& approval, const VehicleSituation& vehicle,
+                               const std::string& busy) {
   // Nobody but the station itself is told what this vehicle can fly.
-  const std::string why = verifier_.WhyRefused(approval, vehicle);
-  return why.empty() ? WhyNotFlown(approval) : why;
-}
-
-std::string CommandGate::Admit(const Approval& approval, const VehicleSituation& vehicle) {
-  std::string why = WhyRefused(approval, vehicle);
-  return why.empty() ? verifier_.Verify(approval, vehicle) : why;
+  const std::string why = WhyNotFlown(approval);
+  return verifier_.Verify(approval, vehicle, why.empty() ? busy : why);
 }
 
 std::string CommandGate::Admit(const HoldRequest& hold, Timestamp now) {

@@ -13,12 +13,11 @@ class CommandGate {
   CommandGate(const CommandGate&) = delete;
   CommandGate& operator=(const CommandGate&) = delete;
 
-  /// Empty: it may be admitted. Otherwise the reason of the refusal. Demands all that
-  /// ApprovalVerifier does, and what this vehicle can fly: a glide slope of 15 to 90 degrees and a
-  /// descent rate of 0.1 to 1.5 m/s.
-  std::string WhyRefused(const Approval& approval, const VehicleSituation& vehicle) const;
-  /// The same, and an approval without a reason against it is spent.
-  std::string Admit(const Approval& approval, const VehicleSituation& vehicle);
+  /// Empty: admitted. Otherwise the reason of the refusal. Demands all that ApprovalVerifier does,
+  /// and what this vehicle can fly: a glide slope of 15 to 90 degrees and a descent rate of 0.1 to
+  /// 1.5 m/s. `busy`: why it cannot now; empty: it can.
+  std::string Admit(const Approval& approval, const VehicleSituation& vehicle,
+                    const std::string& busy = {});
   std::string Admit(const HoldRequest& hold, Timestamp now);
   std::string Admit(const PositionEstimate& estimate, Timestamp now);
   /// The answer to the approval admitted last was lost: to be answered as accepted, no more.

@@ -1,10 +1,9 @@
 // The vehicle's own navigation: inertial propagation corrected by measurements that arrive late.
 //
-//   InertialTrack   v' = R_WB f_B + g - b, p' = v at 100 Hz, with one second of history, so that a
-//                   correction made for a past moment is carried to the present.
-//   GpsNavigator    InertialTrack + Kalman filter (p, v, b per axis), fixes corrected at their
-//   stamp VisionNavigator InertialTrack + fixed gains on the station's POSITION_ESTIMATE at its
-//   stamp
+//   InertialTrack    v' = R_WB f_B + g - b, p' = v at 100 Hz, with one second of history, so that
+//                    a correction made for a past moment is carried to the present.
+//   GpsNavigator     InertialTrack and a Kalman filter (p, v, b per axis), of fixes at their stamps
+//   VisionNavigator  InertialTrack and fixed gains, of POSITION_ESTIMATE at its stamps
 //
 // Both run side by side; the GPS solution never sees vision, so the way back is always open.
 #pragma once

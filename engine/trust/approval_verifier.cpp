@@ -112,32 +112,37 @@ std::string WhyNoSense(const Approval& a, const VehicleSituation& vehicle) {
   return {};
 }
 
-std::string ApprovalVerifier::WhyRefused(const Approval& approval,
-                                         const VehicleSituation& vehicle) const {
-  std::string why =
-      authority_.WhyRefused(SealedChannel::kCommand, SealedBytes(approval), approval.seal);
-  if (!why.empty()) {
-    return why;
+std::string ApprovalVerifier::Judge(const Approval& approval, const VehicleSituation& vehicle,
+                                    const std::string& own) const {
+  if (approval.vehicle_boot_id != authority_.boot_id()) {
+    return "Given for another start of this vehicle";
   }
-  return approval.vehicle_boot_id != authority_.boot_id()
-             ? "Given for another start of this vehicle"
-             : WhyNoSense(approval, vehicle);
+  std::string why = WhyNoSense(approval, vehicle);
+  return why.empty() ? own : why;
 }
 
-std::string ApprovalVerifier::Verify(const Approval& approval, const VehicleSituation& vehicle) {
-  std::string why = WhyRefused(approval, vehicle);
-  if (why.empty()) {
-    (void)authority_.Check(SealedChannel::kCommand, SealedBytes(approval), approval.seal,
-                           vehicle.now);
-    last_accepted_ = FieldsOf(approval);
+std::string ApprovalVerifier::Verify(const Approval& approval, const VehicleSituation& vehicle,
+                                     const std::string& own) {
+  std::string why =
+      authority_.Check(SealedChannel::kCommand, SealedBytes(approval), approval.seal, vehicle.now);
+  if (!why.empty()) {
+    return IsLike(last_refused_, approval) ? refusal_ : why;
   }
+  why = Judge(approval, vehicle, own);
+  (why.empty() ? last_accepted_ : last_refused_) = FieldsOf(approval);
+  refusal_ = why.empty() ? refusal_ : why;
   return why;
 }
 
-bool ApprovalVerifier::IsRepeat(const Approval& approval) const {
-  return !last_accepted_.empty() && FieldsOf(approval) == last_accepted_ &&
+bool ApprovalVerifier::IsLike(const std::vector<std::uint8_t>& fields,
+                              const Approval& approval) const {
+  return !fields.empty() && FieldsOf(approval) == fields &&
          (authority_.takes_unsealed() ||
           authority_.IsOfSession(SealedBytes(approval), approval.seal));
+}
+
+bool ApprovalVerifier::IsRepeat(const Approval& approval) const {
+  return IsLike(last_accepted_, approval);
 }
 
 }  // namespace palace

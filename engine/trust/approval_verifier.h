@@ -5,7 +5,10 @@
 //             finite and of sense (the table below), and before its expiry
 //   repeated  the approval accepted last, once more or sealed anew: its answer was lost on the
 //             way. It is answered as accepted and nothing else happens (I8), whatever the time
-//   refused   everything else, with the reason
+//   refused   everything else, with the reason; a copy of it is refused for the same
+//
+// What is sealed is judged once: its counter is spent whatever the answer, so nobody can play a
+// refused approval again when what spoke against it is over.
 //
 //   expires_at           after approved_at, by at most kLongest_s; the vehicle's now is before it
 //   approved_at          at most kAhead_s ahead of the vehicle's clock
@@ -50,16 +53,23 @@ class ApprovalVerifier {
   /// `authority` outlives it. Where it takes unsealed messages, seals are not asked for.
   explicit ApprovalVerifier(VehicleAuthority& authority) : authority_(authority) {}
 
-  /// Empty: accepted, and its counter is spent. Otherwise the reason, in words for the operator.
-  std::string Verify(const Approval& approval, const VehicleSituation& vehicle);
-  /// What Verify would answer; nothing is remembered.
-  std::string WhyRefused(const Approval& approval, const VehicleSituation& vehicle) const;
+  /// Empty: accepted. Otherwise the reason, in words for the operator. `own` is what the vehicle
+  /// itself has against it, told to nobody but who commands; empty: nothing.
+  std::string Verify(const Approval& approval, const VehicleSituation& vehicle,
+                     const std::string& own = {});
   /// The approval accepted last, once more. Ask before Verify, which refuses it.
   bool IsRepeat(const Approval& approval) const;
 
  private:
+  std::string Judge(const Approval& approval, const VehicleSituation& vehicle,
+                    const std::string& own) const;
+  /// Sealed in the session that commands, and with the fields of that one.
+  bool IsLike(const std::vector<std::uint8_t>& fields, const Approval& approval) const;
+
   VehicleAuthority& authority_;
   std::vector<std::uint8_t> last_accepted_;  ///< its fields, without the seal
+  std::vector<std::uint8_t> last_refused_;
+  std::string refusal_;  ///< of last_refused_
 };
 
 }  // namespace palace

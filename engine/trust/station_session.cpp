@@ -13,13 +13,15 @@ constexpr double kPeriod_s = 0.5;
 constexpr double kCopies_s = 1;
 /// A vehicle that reports nobody for this long grants no sessions.
 constexpr double kNoGrant_s = 3;
+/// An answer comes within a second or two; a request goes out twice a second at most.
+constexpr std::size_t kMostAsked = 4;
 
 }  // namespace
 
 StationSession::StationSession(StationTrust trust) : trust_(std::move(trust)) {}
 
 bool StationSession::Holds() const {
-  return granted_ && report_ && report_->boot_id == granted_->boot_id &&
+  return granted_ && report_ && report_proven_ && report_->boot_id == granted_->boot_id &&
          report_->session_id == granted_->session_id && report_->station_id == trust_.station_id;
 }
 
@@ -34,19 +36,20 @@ void StationSession::Hear(const AuthorityReport& report, double now_s) {
   if (proven && !trust_.key->Verify(SealedBytes(report), report.mac)) {
     return;
   }
-  // What anybody could have sent may not make deaf to what only the vehicle can have sent.
-  HeardUpTo& newest = proven ? proven_to_ : unproven_to_;
-  if (newest.boot_id == report.boot_id && report.time <= newest.time) {
+  if (IsDoubtful(report, proven, now_s) || !IsNews(report, proven)) {
     return;
   }
-  newest = {report.boot_id, report.time};
   const bool restarted = report_ && report_->boot_id != report.boot_id;
   wants_ = wants_ || (restarted && Holds());
   report_ = report;
+  report_proven_ = proven;
   report_s_ = now_s;
   const bool is_ours = report.session_id != 0 && report.station_id == trust_.station_id;
-  if (is_ours && proven && asked_ && report.station_nonce == asked_->nonce) {
-    TakeGrant(report, now_s);
+  const auto granted = std::find_if(asked_.begin(), asked_.end(), [&](const SessionRequest& asked) {
+    return asked.nonce == report.station_nonce;
+  });
+  if (is_ours && proven && granted != asked_.end()) {
+    TakeGrant(report, *granted, now_s);
   } else if (report.session_id != 0 && !is_ours) {
     // Who sees another command asks no more unless a person says so; one refusal is enough.
     wants_ = take_over_ && report.refused_station_id != trust_.station_id;
@@ -54,15 +57,37 @@ void StationSession::Hear(const AuthorityReport& report, double now_s) {
   }
 }
 
-void StationSession::TakeGrant(const AuthorityReport& report, double now_s) {
-  const SessionFacts facts{report.boot_id, report.session_id, trust_.station_id, asked_->nonce,
-                           asked_->challenge};
+bool StationSession::IsDoubtful(const AuthorityReport& report, bool proven, double now_s) const {
+  // Who gave command back waits to hear it from a vehicle that then seals nothing.
+  const bool sure = Holds() && wants_ && now_s - report_s_ <= kSure_s;
+  return sure && !(proven && report.boot_id == granted_->boot_id);
+}
+
+bool StationSession::IsNews(const AuthorityReport& report, bool proven) {
+  // What anybody could have sent may not make deaf to what only the vehicle can have sent.
+  if (proven) {
+    const auto [newest, first] = proven_to_.try_emplace(report.boot_id, report.time);
+    const bool news = first || report.time > newest->second;
+    newest->second = std::max(newest->second, report.time);
+    return news;
+  }
+  if (unproven_to_.boot_id == report.boot_id && report.time <= unproven_to_.time) {
+    return false;
+  }
+  unproven_to_ = {report.boot_id, report.time};
+  return true;
+}
+
+void StationSession::TakeGrant(const AuthorityReport& report, const SessionRequest& asked,
+                               double now_s) {
+  const SessionFacts facts{report.boot_id, report.session_id, trust_.station_id, asked.nonce,
+                           asked.challenge};
   before_ = std::exchange(granted_, std::nullopt);
   granted_s_ = now_s;
   granted_ = Granted{SessionKey(*trust_.key, facts), report.boot_id, report.session_id, {}};
   heard_.clear();
   heard_to_ = {};
-  asked_.reset();
+  asked_.clear();
   wants_ = true;
   take_over_ = false;
 }
@@ -75,14 +100,24 @@ void StationSession::MakeRequest(SessionRequest& request) {
   request.vehicle_boot_id = report_ ? report_->boot_id : 0;
   if (request.kind == Kind::kAsk || request.kind == Kind::kTakeOver) {
     request.challenge = report_ ? report_->challenge : 0;
-    // Asked again before the answer came: the same request, so that whichever copy is granted counts.
-    const bool again = asked_ && asked_->challenge == request.challenge &&
-                       asked_->vehicle_boot_id == request.vehicle_boot_id;
-    request.nonce = again ? asked_->nonce : trust_.random_word();
+    // Asked again before the answer came: the same request, so that whichever copy is granted
+    // counts.
+    const auto before =
+        std::find_if(asked_.begin(), asked_.end(), [&](const SessionRequest& asked) {
+          return asked.challenge == request.challenge &&
+                 asked.vehicle_boot_id == request.vehicle_boot_id;
+        });
+    const bool again = before != asked_.end();
+    request.nonce = again ? before->nonce : trust_.random_word();
     if (trust_.key) {
       request.seal.mac = trust_.key->Sign(SealedBytes(request));
     }
-    asked_ = request;
+    if (!again) {
+      asked_.push_back(request);
+    }
+    if (asked_.size() > kMostAsked) {
+      asked_.pop_front();
+    }
   }
 }
 
@@ -93,7 +128,7 @@ std::optional<SessionRequest> StationSession::Tick(Timestamp vehicle_now, double
   }
   SessionRequest request;
   if (Holds()) {
-    request.kind = Kind::kKeep;
+    request.kind = wants_ ? Kind::kKeep : Kind::kRelease;  // given back, and not yet heard so
   } else if (wants_ &&
              (take_over_ || report_->session_id == 0 || report_->station_id == trust_.station_id)) {
     request.kind = take_over_ ? Kind::kTakeOver : Kind::kAsk;

@@ -6,13 +6,18 @@
 //   asks when told to   by a person: after another station commanded, or after a release
 //
 // A grant is the vehicle's AUTHORITY report that names this station and the nonce of its request,
-// sealed with the pair key. No clock, no threads: seconds are any monotonic clock of the station.
+// sealed with the pair key. Only such a report gives command, and while one is younger than
+// kSure_s nothing that anybody could have sent takes it: what a vehicle that started anew, or one
+// that obeys another key, says of itself counts that much later.
+//
+// No clock, no threads: seconds are any monotonic clock of the station.
 // A restarted station is another station: it inherits neither command nor approval (I17).
 #pragma once
 
 #include <array>
 #include <deque>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -34,10 +39,14 @@ struct StationTrust {
 
 class StationSession {
  public:
+  /// A sealed word of the vehicle stands alone for so long; it reports once a second.
+  static constexpr double kSure_s = 3;
+
   explicit StationSession(StationTrust trust);
 
   /// What the vehicle said of itself. A report that is no newer than the last, of the same boot, or
-  /// that is not sealed where it should be, changes nothing.
+  /// that is not sealed where it should be, changes nothing; nor does an unsealed one, or one of
+  /// another boot, while a sealed one that names this session is younger than kSure_s.
   void Hear(const AuthorityReport& report, double now_s);
   /// A vehicle is there; it may be one that grants nothing.
   void HearVehicle(double now_s);
@@ -53,7 +62,7 @@ class StationSession {
   /// prove.
   bool IsOfHolder(const VehicleMessage& message) const;
 
-  /// This station commands, by the vehicle's newest word.
+  /// This station commands, by the vehicle's newest word, which is sealed.
   bool Holds() const;
   AuthorityStatus Status(double now_s) const;
 
@@ -73,7 +82,10 @@ class StationSession {
     std::uint64_t boot_id = 0;
     Timestamp time;
   };
-  void TakeGrant(const AuthorityReport& report, double now_s);
+  /// It may have been sent by anybody, or at another time, and something surer is known.
+  bool IsDoubtful(const AuthorityReport& report, bool proven, double now_s) const;
+  bool IsNews(const AuthorityReport& report, bool proven);
+  void TakeGrant(const AuthorityReport& report, const SessionRequest& asked, double now_s);
   template <typename Message>
   void SealOne(SealedChannel channel, Message& message, Timestamp vehicle_now);
   template <typename Message>
@@ -87,10 +99,12 @@ class StationSession {
   bool wants_ = true;
   bool take_over_ = false;  ///< as a person asked, until it is answered
   std::optional<AuthorityReport> report_;
+  bool report_proven_ = false;  ///< sealed with the pair key
   double report_s_ = 0;
-  HeardUpTo proven_to_, unproven_to_;
+  std::map<std::uint64_t, Timestamp> proven_to_;  ///< by boot
+  HeardUpTo unproven_to_;
   std::optional<double> vehicle_since_s_;
-  std::optional<SessionRequest> asked_;
+  std::deque<SessionRequest> asked_;  ///< not answered yet, the newest last
   std::optional<Granted> granted_;
   std::optional<Granted> before_;  ///< the grant before it: its last messages are still heard
   double granted_s_ = 0;

@@ -58,7 +58,7 @@ std::string VehicleAuthority::Grant(const SessionRequest& request, Timestamp now
     return "The station has no name";
   }
   const bool take_over = request.kind == SessionRequest::Kind::kTakeOver;
-  if (session_ && session_->told.station_id != request.station_id && !take_over) {
+  if (session_ && !take_over) {
     const double silent_s = SecondsBetween(session_->told.heard_at, now);
     if (silent_s <= kSilent_s) {
       return session_->told.station_name + " commands, heard " + Seconds(silent_s) + " ago";

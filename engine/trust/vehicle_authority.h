@@ -1,11 +1,11 @@
 // VehicleAuthority: the vehicle's side of a session. Who commands, and whether a message is theirs.
 //
-//   nobody commands          whoever asks with a pair key that this vehicle holds is granted a
-//   session a station commands       others are refused, with the reason; unless the vehicle has
-//   not heard a
-//                            sealed message of it for kSilent_s, or the request is to take over
-//   granted                  a random session id; the session before it is dead at once
-//   released                 nobody commands
+//   nobody commands      whoever asks with a pair key of this vehicle is granted a session
+//   a station commands   who asks is refused, with the reason, be it that station itself; but not
+//                        when no sealed message of it was heard for kSilent_s, or when the request
+//                        is to take over
+//   granted              a random session id; the session before it is dead at once
+//   released             nobody commands
 //
 // A request names the vehicle's newest challenge, which changes with every grant and release: one
 // that was recorded grants nothing again. Seals: constant-time mac, then session, then a counter

@@ -29,7 +29,12 @@ TEST(CommandGate, ASealComesBeforeEverythingAndFlightAfterSense) {
             "The descent rate is outside 0.1 to 1.5 m/s");
   EXPECT_EQ(gate.Admit(Sealed(station, with(0.7, 1, 500)), Hovering()),
             "The site is more than 100 m away");
-  // The refusals spent no counter, and a copy of what was refused is no repeat.
+  // What was refused is spent, whatever spoke against it.
+  const Approval late = Sealed(station, with(0.7, 1));
+  EXPECT_EQ(gate.Admit(late, Hovering(), "the vehicle is not in hover"),
+            "the vehicle is not in hover");
+  EXPECT_EQ(gate.Admit(late, Hovering()), "the vehicle is not in hover");
+  EXPECT_FALSE(gate.IsRepeat(late));
   const Approval good = Sealed(station, with(0.7, 1));
   EXPECT_FALSE(gate.IsRepeat(good));
   EXPECT_EQ(gate.Admit(good, Hovering()), "");

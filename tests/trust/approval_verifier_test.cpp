@@ -94,7 +94,7 @@ TEST(ApprovalVerifier, TakesWhatIsOfSenseAndNothingElse) {
     approval = Sealed(pair.station, approval);
     EXPECT_EQ(pair.verifier.Verify(approval, Hovering()), row.why);
     EXPECT_EQ(pair.verifier.IsRepeat(approval), row.why[0] == 0);
-    // A refused one spends no counter.
+    // The next has a counter of its own.
     EXPECT_EQ(pair.verifier.Verify(Sealed(pair.station, GoodApproval(72)), Hovering()), "");
   }
 }
@@ -125,6 +125,28 @@ TEST(ApprovalVerifier, KnowsTheLastAcceptedAgain) {
   EXPECT_FALSE(pair.verifier.IsRepeat(Sealed(pair.station, moved)));
   ASSERT_EQ(pair.verifier.Verify(Sealed(pair.station, GoodApproval(72)), Hovering()), "");
   EXPECT_FALSE(pair.verifier.IsRepeat(given));
+}
+
+// Refused while the vehicle could not fly it, played again when it could: recorded, it is worth
+// nothing. A copy is refused with the words of the first answer, which may have been lost.
+TEST(ApprovalVerifier, WhatWasRefusedIsRefusedForEver) {
+  Pair pair;
+  const Approval refused = Sealed(pair.station, GoodApproval());
+  EXPECT_EQ(pair.verifier.Verify(refused, Hovering(), "climbing"), "climbing");
+  EXPECT_EQ(pair.verifier.Verify(refused, Hovering()), "climbing");
+  Approval forged = refused;
+  forged.seal.mac[3] ^= 1;
+  EXPECT_EQ(pair.verifier.Verify(forged, Hovering()), "Seal does not match");
+  EXPECT_FALSE(pair.verifier.IsRepeat(refused));
+  // Out of reach now, in reach later.
+  VehicleSituation far = Hovering();
+  far.p_WB.x() = 500;
+  const Approval early = Sealed(pair.station, GoodApproval(72));
+  EXPECT_EQ(pair.verifier.Verify(early, far), "The site is more than 100 m away");
+  EXPECT_EQ(pair.verifier.Verify(early, Hovering()), "The site is more than 100 m away");
+  EXPECT_EQ(pair.verifier.Verify(refused, Hovering()), "Counter 1 was already used");
+  // The operator gives it anew: a counter of its own.
+  EXPECT_EQ(pair.verifier.Verify(Sealed(pair.station, GoodApproval(72)), Hovering()), "");
 }
 
 TEST(ApprovalVerifier, OnABenchSensePassesWithoutASeal) {
