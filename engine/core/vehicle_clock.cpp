@@ -1,6 +1,7 @@
 #include "engine/core/vehicle_clock.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "engine/core/check.h"
 
@@ -46,28 +47,48 @@ Timestamp VehicleClock::At(double station_s) const {
   return {SaturatedSum(offset_us_, Microseconds(station_s))};
 }
 
+VehicleClock::Heard VehicleClock::Judge(std::int64_t offset_us, double arrival_s) const {
+  const double lead_s = Seconds(SaturatedDifference(offset_us, offset_us_));
+  const double ahead_s = estimating() || simulated_ ? kAheadUnsure_s : kAheadLimit_s;
+  if (lead_s > ahead_s + kDriftLimit * (arrival_s - fitted_s_)) {
+    return Heard::kAhead;
+  }
+  return lead_s < -kBehindLimit_s ? Heard::kBehind : Heard::kFits;
+}
+
+bool VehicleClock::CanBe(Timestamp stamp, double arrival_s) const {
+  return !known_ ||
+         Judge(SaturatedDifference(stamp.us, Microseconds(arrival_s)), arrival_s) == Heard::kFits;
+}
+
 VehicleClock::Heard VehicleClock::Hear(Timestamp stamp, double arrival_s, bool votes) {
   const std::int64_t offset_us = SaturatedDifference(stamp.us, Microseconds(arrival_s));
   if (!known_) {
     Begin(offset_us, arrival_s);
+    voted_ = votes;
     return Heard::kFits;
   }
-  const double lead_s = Seconds(SaturatedDifference(offset_us, offset_us_));
-  const double ahead_s = estimating() || simulated_ ? kAheadUnsure_s : kAheadLimit_s;
-  if (lead_s > ahead_s + kDriftLimit * (arrival_s - fitted_s_)) {
-    return Doubt(offset_us, arrival_s, votes, Heard::kAhead);
+  if (const Heard verdict = Judge(offset_us, arrival_s); verdict != Heard::kFits) {
+    return Doubt(offset_us, arrival_s, votes, verdict);
   }
-  if (lead_s < -kBehindLimit_s) {
-    return Doubt(offset_us, arrival_s, votes, Heard::kBehind);
+  if (!votes) {
+    return Heard::kFits;
   }
-  if (votes && (SecondsBetween(stamp, newest_vote_) > kBackLimit_s || IsNearerSuspect(offset_us))) {
+  if (!std::exchange(voted_, true)) {
+    // What began it was of anybody.
+    const bool far = Apart_s(offset_us, offset_us_) >= kLate_s;
+    if (far) {
+      return Step(offset_us, arrival_s);
+    }
+    Begin(offset_us, arrival_s);
+    return Heard::kFits;
+  }
+  if ((SecondsBetween(stamp, newest_vote_) > kBackLimit_s || IsNearerSuspect(offset_us))) {
     // Late and out of order, or the first of a clock that went back: believed, but not followed.
     return Doubt(offset_us, arrival_s, votes, Heard::kFits);
   }
-  if (votes) {
-    suspect_.reset();
-    newest_vote_ = std::max(newest_vote_, stamp);
-  }
+  suspect_.reset();
+  newest_vote_ = std::max(newest_vote_, stamp);
   const double before_s = step_s_;
   step_s_ = 0;
   Follow(offset_us, arrival_s);

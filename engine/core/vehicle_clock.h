@@ -7,9 +7,13 @@
 //
 //   offset(t) = max(u - t, offset(t0) - drift_limit (t - t0))
 //
+// Only the channels that vote (pose, status) are followed: a stamp that fits may still be ahead by
+// the limit, and again and again. The others are measured against them; they are asked only before
+// the first vote and where nobody votes any more. Hear no stamps of senders that are no clock.
+//
 // A stamp that cannot be is refused and changes nothing: ahead of the estimate by more than the
 // limit (a message cannot arrive before it was sent), or more than 10 s behind it. Only when
-// several messages in a row of the channels that vote (pose, status) agree on another offset over
+// several messages in a row of the channels that vote agree on another offset over
 // 0.2 s, with none between them that fits the present one, has the clock stepped. A clock that
 // went back is seen by stamps that do. A delay that stays the same for 10 s is taken for a step
 // too: it can no longer be told from one.
@@ -63,6 +67,9 @@ class VehicleClock {
   };
   /// `votes`: a message of a channel that may move the clock.
   Heard Hear(Timestamp stamp, double arrival_s, bool votes);
+  /// Whether a stamp can be, nothing else: nothing is learned from it. Before the clock is known
+  /// any can.
+  bool CanBe(Timestamp stamp, double arrival_s) const;
   /// A simulation labelled so: its clock may run slow, see above.
   void FollowSimulation(bool simulated) { simulated_ = simulated; }
 
@@ -86,6 +93,7 @@ class VehicleClock {
     double start_s = 0;
     std::int64_t offset_us = 0;
   };
+  Heard Judge(std::int64_t offset_us, double arrival_s) const;
   void Begin(std::int64_t offset_us, double arrival_s);
   bool IsNearerSuspect(std::int64_t offset_us) const;
   Heard Doubt(std::int64_t offset_us, double arrival_s, bool votes, Heard verdict);
@@ -95,6 +103,7 @@ class VehicleClock {
   std::int64_t StandingDelay_us(const Window& done);
 
   bool known_ = false;
+  bool voted_ = false;
   bool simulated_ = false;
   std::int64_t offset_us_ = 0;
   double began_s_ = 0;

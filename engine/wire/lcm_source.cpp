@@ -11,7 +11,10 @@ namespace palace {
 namespace {
 
 constexpr int kPoll_ms = 20;
-constexpr int kMostDrained = 5000;  ///< messages taken at once before a bundle is delivered
+/// What waits is taken at once, but a bundle goes on after so long, whatever still comes ...
+constexpr double kDrain_s = 0.05;
+/// ... and after a stall only when what queued, which is bounded, was read: it is not silence.
+constexpr double kDrainAfterStall_s = 0.5;
 
 }  // namespace
 
@@ -72,8 +75,9 @@ void LcmSource::Take(const WireMessage& message) {
   }
 }
 
-void LcmSource::Drain() {
-  for (int i = 0; i < kMostDrained; ++i) {
+void LcmSource::Drain(const std::stop_token& stop, double limit_s) {
+  const double end_s = options_.now_s() + limit_s;
+  while (!stop.stop_requested() && options_.now_s() < end_s) {
     const Result<bool> handled = bus_->Handle(0);
     if (!handled || !*handled) {
       return;
@@ -83,13 +87,14 @@ void LcmSource::Drain() {
 
 Result<std::shared_ptr<const FrameBundle>> LcmSource::Next(std::stop_token stop) {
   while (!stop.stop_requested()) {
-    bundles_.Stalled(stall_watch_.Turn(options_.now_s()));
+    const double stalled_s = stall_watch_.Turn(options_.now_s());
+    bundles_.Stalled(stalled_s);
     const Result<bool> handled = bus_->Handle(bundles_.ready() ? 0 : kPoll_ms);
     if (!handled) {
       return handled.error();
     }
     if (*handled) {
-      Drain();  // all that waited, before silence is told
+      Drain(stop, stalled_s > 0 ? kDrainAfterStall_s : kDrain_s);
     }
     if (bundles_.ready() || options_.now_s() - last_delivery_s_ >= options_.heartbeat_s) {
       return Deliver();

@@ -43,7 +43,7 @@ class LcmSource final : public Source {
  private:
   LcmSource(std::shared_ptr<Bus> bus, ChannelNames channels, LcmSourceOptions options);
   void Take(const WireMessage& message);
-  void Drain();
+  void Drain(const std::stop_token& stop, double limit_s);
   std::shared_ptr<const FrameBundle> Deliver();
 
   std::shared_ptr<Bus> bus_;

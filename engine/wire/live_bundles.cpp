@@ -14,6 +14,9 @@ LiveBundles::LiveBundles(ChannelNames channels, bool follow_simulation)
                              }}) {}
 
 bool LiveBundles::Accepts(const std::string& channel, Timestamp stamp) {
+  if (channel == channels_.authority || channel == channels_.truth) {
+    return clock_.CanBe(stamp, taken_s_);  // no measurements: no word in what time it is
+  }
   // These two come often, and a vehicle without them cannot be flown to a site.
   const bool votes = channel == channels_.vehicle_pose || channel == channels_.vehicle_status;
   const VehicleClock::Heard heard = clock_.Hear(stamp, taken_s_, votes);
@@ -25,7 +28,7 @@ void LiveBundles::Take(const WireMessage& message, double now_s) {
   stepped_ = false;
   taken_s_ = now_s;
   for (auto& bundle : assembler_.Push(message)) {
-    ready_.push_back(std::move(bundle));
+    MakeReady(std::move(bundle));
   }
   if (stepped_) {
     StartAnewAfterStep();
@@ -35,32 +38,27 @@ void LiveBundles::Take(const WireMessage& message, double now_s) {
 /// What is pending is of the time before; an empty bundle that begins anew parts it from the rest.
 void LiveBundles::StartAnewAfterStep() {
   stepped_s_ += clock_.step_s();
-  ready_.push_back(assembler_.TakePending({}));
+  MakeReady(assembler_.TakePending({}));
   assembler_.Reset();
   auto first = std::make_shared<FrameBundle>();
   first->discontinuity = true;
   first->rig = assembler_.rig();
-  ready_.push_back(std::move(first));
+  MakeReady(std::move(first));
 }
 
-std::shared_ptr<const FrameBundle> LiveBundles::Joined() {
-  if (ready_.empty()) {
-    return assembler_.TakePending({});
-  }
-  std::shared_ptr<const FrameBundle> bundle = std::move(ready_.front());
-  ready_.pop_front();
-  while (!ready_.empty()) {
-    JoinedBundle joined = Join(*bundle, *ready_.front());
-    ready_.pop_front();
+void LiveBundles::MakeReady(std::shared_ptr<const FrameBundle> bundle) {
+  if (ready_) {
+    JoinedBundle joined = Join(*ready_, *bundle);
     joined_.pairs_replaced += joined.pair_replaced ? 1 : 0;
     joined_.samples_overflowed += joined.samples_dropped;
     bundle = std::move(joined.bundle);
   }
-  return bundle;
+  ready_ = std::move(bundle);
 }
 
 std::shared_ptr<const FrameBundle> LiveBundles::HandOn(double now_s) {
-  auto bundle = std::make_shared<FrameBundle>(*Joined());
+  auto bundle = std::make_shared<FrameBundle>(ready_ ? *std::exchange(ready_, nullptr)
+                                                     : *assembler_.TakePending({}));
   bundle->sequence = sequence_++;
   if (bundle->status) {
     clock_.FollowSimulation(follow_simulation_ && bundle->status->simulated);

@@ -9,7 +9,6 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
 #include <memory>
 #include <optional>
 
@@ -34,7 +33,7 @@ class LiveBundles {
   const std::string& problem() const { return assembler_.problem(); }
   /// This machine did not run for so long; told with the next bundle.
   void Stalled(double seconds) { stalled_s_ += seconds; }
-  bool ready() const { return !ready_.empty(); }
+  bool ready() const { return ready_ != nullptr; }
   /// What is ready, as one bundle; without anything ready what is pending, without pictures.
   std::shared_ptr<const FrameBundle> HandOn(double now_s);
   Losses Count() const;
@@ -42,13 +41,14 @@ class LiveBundles {
  private:
   bool Accepts(const std::string& channel, Timestamp stamp);
   void StartAnewAfterStep();
-  std::shared_ptr<const FrameBundle> Joined();
+  /// Joins it to what is ready: of pictures only the newest pair is kept.
+  void MakeReady(std::shared_ptr<const FrameBundle> bundle);
 
   ChannelNames channels_;
   bool follow_simulation_;
   VehicleClock clock_;
   BundleAssembler assembler_;
-  std::deque<std::shared_ptr<const FrameBundle>> ready_;
+  std::shared_ptr<const FrameBundle> ready_;
   double taken_s_ = 0;                    ///< of the message at hand
   bool stepped_ = false;                  ///< the clock, by the message at hand
   double stalled_s_ = 0, stepped_s_ = 0;  ///< since the last bundle

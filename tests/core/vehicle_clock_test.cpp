@@ -163,6 +163,46 @@ TEST(VehicleClock, OnlyPoseAndStatusMoveTheClock) {
   }
 }
 
+// A stamp just inside of the limit fits. Followed, the next one may be as far ahead of it, and so
+// on.
+TEST(VehicleClock, StampsThatFitDoNotWalkTheClock) {
+  for (const bool simulated : {false, true}) {
+    SCOPED_TRACE(simulated);
+    RandomStream random(13);
+    const Link link;
+    VehicleClock clock;
+    clock.FollowSimulation(simulated);
+    Feed(clock, Send(link, random, 0, 5));
+    const double ahead_s = simulated ? 0.49 : 0.049;
+    for (const Message& m : Send(link, random, 5, 30)) {
+      EXPECT_EQ(clock.Hear(m.stamp, m.arrival_s, true), Heard::kFits);
+      for (int i = 0; i < 3; ++i) {
+        const Timestamp walked = AddSeconds(clock.At(m.arrival_s), ahead_s);
+        EXPECT_EQ(clock.Hear(walked, m.arrival_s, false), Heard::kFits);
+        EXPECT_TRUE(clock.CanBe(walked, m.arrival_s));
+      }
+    }
+    EXPECT_NEAR(ErrorAt(clock, link, 30), 0, 0.01);
+  }
+}
+
+// Whoever spoke first may have said anything: the first vote decides.
+TEST(VehicleClock, TheFirstVoteBeginsAnew) {
+  for (const double ahead_s : {0.2, 0.45, -0.2, -5.0, 3600.0}) {
+    SCOPED_TRACE(ahead_s);
+    RandomStream random(14);
+    const Link link;
+    VehicleClock clock;
+    clock.Hear(AddSeconds(link.Stamp(0), ahead_s), 0, false);
+    int steps = 0;
+    for (const Message& m : Send(link, random, 0, 2)) {
+      steps += clock.Hear(m.stamp, m.arrival_s, true) == Heard::kStepped ? 1 : 0;
+    }
+    EXPECT_EQ(steps, std::abs(ahead_s) > 0.25 ? 1 : 0);
+    EXPECT_NEAR(ErrorAt(clock, link, 2), 0, 0.01);
+  }
+}
+
 // What queued while this machine stood still comes in one burst: late, and nothing else.
 TEST(VehicleClock, ABurstAfterAStallIsNoStep) {
   for (const double stall_s : {0.4, 0.8, 3.0, 9.0}) {

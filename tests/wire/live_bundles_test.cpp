@@ -191,6 +191,22 @@ TEST(LiveBundles, ForgedStampsBlindNothing) {
   }
 }
 
+// However many pairs come before one is asked for, only the newest is held.
+TEST(LiveBundles, OfPairsThatWaitOnlyTheNewestIsHeld) {
+  LiveBundles bundles({}, true);
+  Vehicle vehicle;
+  for (int tick = 0; tick < 200; ++tick) {
+    for (const WireMessage& message : vehicle.Send(tick)) {
+      bundles.Take(message, 100 + 0.02 * tick);
+    }
+  }
+  EXPECT_EQ(bundles.Count().pairs_replaced, 39u) << "let go as they came";
+  const auto bundle = bundles.HandOn(104);
+  EXPECT_EQ(bundle->stereo->time.us, kVehicle_us + 195 * 20'000);
+  EXPECT_GE(bundle->poses.size(), 195u);
+  EXPECT_FALSE(bundles.ready());
+}
+
 TEST(LiveBundles, OneLostCameraIsToldByTheOther) {
   Station station;
   Vehicle vehicle;
@@ -212,6 +228,53 @@ TEST(LiveBundles, APoseWhoseNumbersAreNoneIsCounted) {
   Fly(station, vehicle, 50, 61);
   EXPECT_TRUE(station.got.back()->poses.empty());
   EXPECT_GE(station.got.back()->arrival.poses_invalid, 4);
+}
+
+/// A source whose clock runs on by a millisecond each time that it is asked.
+struct BusySource {
+  std::shared_ptr<Bus> bus = *Bus::Open("memq://");
+  double now_s = 100;
+  std::unique_ptr<LcmSource> source =
+      *LcmSource::Create(bus, {}, {.now_s = [this] { return now_s += 0.001; }});
+};
+
+// A flood must not keep what is ready from the reader.
+TEST(LcmSource, GivesABundleOnInAFlood) {
+  BusySource busy;
+  Vehicle vehicle;
+  for (int tick = 0; tick < 1500; ++tick) {
+    for (const WireMessage& message : vehicle.Send(tick)) {
+      ASSERT_TRUE(busy.bus->Publish(message).ok());
+    }
+  }
+  ASSERT_TRUE(busy.source->Next({}).ok());
+  EXPECT_LT(busy.now_s, 100.3) << "not all of it was read";
+}
+
+TEST(LcmSource, StopsInTheMidstOfAFlood) {
+  BusySource busy;
+  Vehicle vehicle;
+  std::stop_source stop;
+  const std::string channel = ChannelNames{}.vehicle_pose;
+  int heard = 0;
+  ASSERT_TRUE(busy.bus
+                  ->Subscribe(channel,
+                              [&](const WireMessage&) {
+                                if (++heard == 5) {
+                                  stop.request_stop();
+                                }
+                              },
+                              {})
+                  .ok());
+  for (int tick = 0; tick < 1000; ++tick) {
+    for (const WireMessage& message : vehicle.Send(tick)) {
+      if (message.channel == channel) {
+        ASSERT_TRUE(busy.bus->Publish(message).ok());
+      }
+    }
+  }
+  (void)busy.source->Next(stop.get_token());
+  EXPECT_EQ(heard, 5);
 }
 
 // The source on a bus in memory, with times of our own: a stall of its loop is named, and what
