@@ -11,6 +11,7 @@
 
 #include "engine/camera/alignment.h"
 #include "engine/camera/cahvor.h"
+#include "engine/model/rig_limits.h"
 
 namespace palace {
 
@@ -33,17 +34,11 @@ bool HasDistortion(const RigCamera& camera) {
                      [](double k) { return k != 0; });
 }
 
-Status CheckPinhole(const PinholeCamera& camera, const char* side) {
-  const bool good = camera.width > 0 && camera.height > 0 && camera.fx_px > 0 && camera.fy_px > 0 &&
-                    std::isfinite(camera.fx_px + camera.fy_px) &&
-                    std::isfinite(camera.cx_px + camera.cy_px);
-  if (good) {
-    return Ok();
-  }
-  return InvalidError(std::string("rig: the ") + side + " camera (" +
-                      SizeText(camera.width, camera.height) + " px, focal length " +
-                      std::to_string(camera.fx_px) + " x " + std::to_string(camera.fy_px) +
-                      " px) must have a positive size and focal length; check RIG.toml");
+/// Also of aligned cameras, whose focal length and distance no rig file tells.
+Status Check(const std::string& why, const char* what) {
+  return why.empty() ? Ok()
+                     : Status(InvalidError(std::string("rig: ") + what + " has " + why +
+                                           "; check RIG.toml"));
 }
 
 void PlumbBobMaps(const RigCamera& raw, const PinholeCamera& rectified, cv::Mat& x, cv::Mat& y) {
@@ -122,6 +117,14 @@ Result<StereoRectifier> StereoRectifier::Make(const StereoRig& rig) {
     }
     rectifier.camera_ = pinhole.camera;
     rectifier.baseline_m_ = (CentreOf(*right) - CentreOf(*left)).norm();
+    for (const Status& status :
+         {Check(WhyNoPinhole(pinhole.camera), "the aligned pair"),
+          Check(WhyNoPictureSize(aligned->right.width, aligned->right.height), "the aligned pair"),
+          Check(WhyNoBaseline(rectifier.baseline_m_), "the pair of models")}) {
+      if (!status) {
+        return status.error();
+      }
+    }
     rectifier.R_C_Rect_ = RotationOf(*left) * pinhole.R_CF.transpose();
     rectifier.left_width_ = WidthOf(*left);
     rectifier.left_height_ = HeightOf(*left);
@@ -133,15 +136,12 @@ Result<StereoRectifier> StereoRectifier::Make(const StereoRig& rig) {
     rectifier.maps_ = std::move(maps);
     return rectifier;
   }
-  for (const Status& status :
-       {CheckPinhole(rig.left.pinhole, "left"), CheckPinhole(rig.right.pinhole, "right")}) {
+  for (const Status& status : {Check(WhyNoPinhole(rig.left.pinhole), "the left camera"),
+                               Check(WhyNoPinhole(rig.right.pinhole), "the right camera"),
+                               Check(WhyNoBaseline(rig.baseline_m), "the pair")}) {
     if (!status) {
       return status.error();
     }
-  }
-  if (!(rig.baseline_m > 0) || !std::isfinite(rig.baseline_m)) {
-    return InvalidError("rig: baseline_m = " + std::to_string(rig.baseline_m) +
-                        " must be positive; check RIG.toml");
   }
   rectifier.camera_ = rig.left.pinhole;
   rectifier.baseline_m_ = rig.baseline_m;

@@ -230,10 +230,16 @@ Status BundleAssembler::TakeRig(const WireMessage& message, Bundles& done) {
   if (!rig) {
     return rig.error();
   }
+  const bool differs = rig->rig && !(rig_ && SameRig(*rig_, *rig->rig));
+  if (differs && rig_ && message.sender != rig_sender_) {
+    return InvalidError(
+        "another rig than the one in use, of another sender; connect anew to take it");
+  }
   if (!IsNews(message.channel, rig->time)) {
     return Ok();
   }
-  if (rig->rig && !(rig_ && SameRig(*rig_, *rig->rig))) {
+  if (differs) {
+    rig_sender_ = message.sender;
     rig_ = std::make_shared<const StereoRig>(*rig->rig);
   }
   closed_stream_ = rig->bundle_end;

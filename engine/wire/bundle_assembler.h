@@ -45,7 +45,7 @@ VehiclePose CarryPose(VehiclePose pose, Timestamp time);
 /// Two kinds of stream. Closed: CAMERA_RIG with bundle_end comes last in each bundle; the bundle is
 /// rebuilt to the bit. Open (foreign senders): the pair of pictures closes the bundle, its time is
 /// the newest stamp seen, and the pose at exposure is the nearest pose within 0.1 s, carried over
-/// the difference at constant rate.
+/// the difference at constant rate. Once a rig is known, only its sender may bring another.
 class BundleAssembler {
  public:
   explicit BundleAssembler(ChannelNames channels = {}, AssemblerOptions options = {});
@@ -83,6 +83,7 @@ class BundleAssembler {
   AssemblerReport report_;
   std::string problem_;
   std::shared_ptr<const StereoRig> rig_;
+  std::string rig_sender_{};
   bool closed_stream_ = false;
   std::optional<std::uint64_t> last_sequence_;
   std::uint64_t next_sequence_ = 0;

@@ -1,6 +1,7 @@
 #include <cstring>
 
 #include "engine/model/camera_numbers.h"
+#include "engine/model/rig_limits.h"
 #include "engine/wire/sensor_messages.h"
 #include "engine/wire/wire_fields.h"
 #include "engine/wire/wire_pack.h"
@@ -71,9 +72,8 @@ Result<StereoRig> RigBody(const camera_rig_t& m) {
       return InvalidError("the rig holds a number that is not finite");
     }
   }
-  if (!(rig.baseline_m > 0)) {
-    return InvalidError("the rig's baseline is " + std::to_string(rig.baseline_m) +
-                        " m; it must be positive");
+  if (std::string why = WhyNoRig(rig); !why.empty()) {
+    return InvalidError(std::move(why));
   }
   return rig;
 }

@@ -69,6 +69,22 @@ TEST(Rectification, ImpossibleRigsAreRefused) {
   rig = PlainRig();
   rig.right.pinhole.fx_px = -1;
   EXPECT_FALSE(StereoRectifier::Make(rig).ok());
+  // Sizes that ask for more memory than there is, or that no stereo can look at.
+  const std::pair<int, int> sizes[] = {
+      {30000, 30000}, {60000, 64}, {64, 1}, {8192, 8192}, {16, 64}};
+  for (const auto& [width, height] : sizes) {
+    rig = PlainRig();
+    for (RigCamera* camera : {&rig.left, &rig.right}) {
+      camera->pinhole.width = width;
+      camera->pinhole.height = height;
+      camera->distortion[0] = 0.1;
+    }
+    EXPECT_FALSE(StereoRectifier::Make(rig).ok()) << width << " x " << height;
+  }
+  rig = PlainRig();
+  rig.left.pinhole.fx_px = rig.right.pinhole.fx_px = 1e-200;
+  rig.baseline_m = 1e-200;
+  EXPECT_FALSE(StereoRectifier::Make(rig).ok()) << "their product is 0";
   rig = PlainRig();
   rig.left.model = CameraModel{CahvorModel{}};
   EXPECT_FALSE(StereoRectifier::Make(rig).ok());

@@ -31,13 +31,13 @@ inline VehiclePose RandomPose(RandomStream& random, Timestamp time) {
 inline StereoRig RandomRig(RandomStream& random) {
   StereoRig rig;
   for (RigCamera* camera : {&rig.left, &rig.right}) {
-    camera->pinhole = {32, 24, random.Uniform(20, 30), random.Uniform(20, 30), 15.5, 11.5};
+    camera->pinhole = {32, 36, random.Uniform(20, 30), random.Uniform(20, 30), 15.5, 17.5};
     for (double& k : camera->distortion) {
       k = random.Normal() * 0.01;
     }
   }
   CahvorModel model{32,
-                    24,
+                    36,
                     RandomVector(random),
                     RandomVector(random),
                     RandomVector(random),

@@ -11,29 +11,35 @@
 #include "engine/camera/files/toml_table.h"
 #include "engine/core/text.h"
 #include "engine/core/units.h"
+#include "engine/model/rig_limits.h"
 
 namespace palace {
 namespace {
 
-constexpr double kLargestSide_px = 16384;
-constexpr double kLargest = 1e6;
+using Limits = RigLimits;
 constexpr double kBaselineMismatch = 0.01;  // share by which baseline_m may differ from the models
 
-constexpr NumberLimits kSide{1, kLargestSide_px, "give the size of the pictures in pixels", true};
-constexpr NumberLimits kFocal{1e-3, kLargest, "give the focal length in pixels"};
-constexpr NumberLimits kCentre{-kLargest, kLargest, "give the principal point in pixels"};
-constexpr NumberLimits kDistortion{-100, 100, "give k1 k2 p1 p2 k3 as OpenCV does"};
-constexpr NumberLimits kBaseline{1e-3, 1000, "give the distance of the cameras in metres"};
+constexpr NumberLimits kSide{Limits::kLeastSide_px, Limits::kMostSide_px,
+                             "give the size of the pictures in pixels", true};
+constexpr NumberLimits kFocal{Limits::kLeastFocal_px, Limits::kMostFocal_px,
+                              "give the focal length in pixels"};
+constexpr NumberLimits kCentre{-Limits::kMostCentre_px, Limits::kMostCentre_px,
+                               "give the principal point in pixels"};
+constexpr NumberLimits kDistortion{-Limits::kMostDistortion, Limits::kMostDistortion,
+                                   "give k1 k2 p1 p2 k3 as OpenCV does"};
+constexpr NumberLimits kBaseline{Limits::kLeastBaseline_m, Limits::kMostBaseline_m,
+                                 "give the distance of the cameras in metres"};
 constexpr NumberLimits kTilt{-90, 0, "the tilt is negative downwards: 0 horizon, -90 nadir"};
-constexpr NumberLimits kPosition{-100, 100,
+constexpr NumberLimits kPosition{-Limits::kMostPosition_m, Limits::kMostPosition_m,
                                  "give metres forward, right, down of the reference point"};
-constexpr NumberLimits kMinDisparity{0, kLargestSide_px, "give the least disparity in whole pixels",
-                                     true};
-constexpr NumberLimits kCount{0, 1024, "give a multiple of 16, or 0 to follow the pose", true};
+constexpr NumberLimits kMinDisparity{0, Limits::kMostSide_px,
+                                     "give the least disparity in whole pixels", true};
+constexpr NumberLimits kCount{0, Limits::kMostDisparities,
+                              "give a multiple of 16, or 0 to follow the pose", true};
 constexpr NumberLimits kAngle{-360, 360, "give degrees"};
 constexpr NumberLimits kPitch{-90, 90, "give degrees"};
 constexpr NumberLimits kPoseHeight{1e-3, 1e5, "give metres above the ground"};
-constexpr NumberLimits kRate{1e-3, 1000, "give pairs per second"};
+constexpr NumberLimits kRate{Limits::kLeastRate_hz, Limits::kMostRate_hz, "give pairs per second"};
 constexpr NumberLimits kTolerance{0.01, 10000,
                                   "give the largest time between the pictures of a pair"};
 
