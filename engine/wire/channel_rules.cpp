@@ -8,6 +8,7 @@ namespace {
 struct Rule {
   std::string ChannelNames::*channel;
   ChannelLimits limits;
+  std::string ChannelNames::*with_sender_of = nullptr;
 };
 
 constexpr std::size_t kPicture = (8u << 20) + 4096;  ///< 8 megapixels, 4 kB for the rest
@@ -23,8 +24,8 @@ const std::array kRules = {
     Rule{&ChannelNames::gps, {256, 512, 1u << 20, 10, 3}},
     Rule{&ChannelNames::laser_range, {256, 512, 1u << 20, 100, 1}},
     Rule{&ChannelNames::vehicle_status, {1024, 512, 1u << 20, 20, 1}},
-    Rule{&ChannelNames::command_ack, {4096, 512, 1u << 20, 20, 0}},
-    Rule{&ChannelNames::authority, {1024, 64, 1u << 18, 20, 0}},
+    Rule{&ChannelNames::command_ack, {4096, 512, 1u << 20, 20, 0}, &ChannelNames::vehicle_status},
+    Rule{&ChannelNames::authority, {1024, 64, 1u << 18, 20, 3}},
     Rule{&ChannelNames::truth, {256, 512, 1u << 20, 400, 1}},
     // To the vehicle: any number of stations, of which seals tell the one that may.
     Rule{&ChannelNames::command, {4096, 256, 1u << 20, 20, 0}},
@@ -38,7 +39,11 @@ const std::array kRules = {
 ChannelLimits LimitsOf(const ChannelNames& names, const std::string& channel) {
   for (const Rule& rule : kRules) {
     if (names.*(rule.channel) == channel) {
-      return rule.limits;
+      ChannelLimits limits = rule.limits;
+      if (rule.with_sender_of != nullptr) {
+        limits.with_sender_of = names.*(rule.with_sender_of);
+      }
+      return limits;
     }
   }
   return {};

@@ -310,6 +310,53 @@ TEST(ReassemblerProperty, ASenderOfOursIsNotForgottenForStrangers) {
   EXPECT_EQ(receiver.Senders().at(kSender).count.messages, 2u);
 }
 
+/// A stranger needs only bytes that look like ours to count as one of ours. Sending more of them
+/// than the first sender did must not push that one out.
+TEST(ReassemblerProperty, StrangersThatSendMuchDoNotPushOutTheFirst) {
+  LcmReassembler receiver({.senders = 8});
+  receiver.Allow("PICTURE", 250000);
+  const Bytes first = ShortDatagram(1, "PICTURE", Bytes(8, 1));
+  receiver.Take(kSender, first.data(), first.size(), 0);
+  for (std::uint32_t number = 1; number <= 20; ++number) {
+    for (std::uint16_t port = 1; port <= 65; ++port) {
+      const Bytes forged = ShortDatagram(number, "PICTURE", Bytes(8, 2));
+      receiver.Take({7, port}, forged.data(), forged.size(), 0.1 + 0.01 * number);
+    }
+  }
+  EXPECT_EQ(receiver.Senders().count(kSender), 1u);
+}
+
+/// Strangers that were there before it, in all places: who is used stays none the less.
+TEST(ReassemblerProperty, WhoIsUsedIsNotForgotten) {
+  LcmReassembler receiver({.senders = 8});
+  receiver.Allow("PICTURE", 250000);
+  double now_s = 0;
+  const auto flood = [&] {
+    for (std::uint16_t port = 1; port <= 65; ++port) {
+      const Bytes forged = ShortDatagram(port, "PICTURE", Bytes(8, 2));
+      receiver.Take({7, port}, forged.data(), forged.size(), now_s += 0.001);
+    }
+  };
+  flood();
+  std::size_t messages = 0;
+  for (std::uint32_t number = 1; number <= 5; ++number) {
+    const Bytes pose = ShortDatagram(10 * number, "PICTURE", Bytes(8, 1));
+    receiver.Take(kSender, pose.data(), pose.size(), now_s);
+    receiver.Keep(kSender, now_s);
+    for (const Bytes& part :
+         FragmentDatagrams(10 * number + 1, "PICTURE", Numbered(100000), 30000)) {
+      flood();
+      messages +=
+          receiver.Take(kSender, part.data(), part.size(), now_s).outcome == Outcome::kMessage;
+    }
+  }
+  EXPECT_EQ(messages, 5u);
+  for (int i = 0; i < 200; ++i) {  // silent: it gives way
+    flood();
+  }
+  EXPECT_EQ(receiver.Senders().count(kSender), 0u);
+}
+
 /// An integrator takes the two files into his vehicle: they must need nothing else.
 TEST(ReassemblerFiles, NeedTheStandardLibraryOnly) {
   const std::string base = std::string(PALACE_SOURCE_DIR) + "/engine/wire/receiver/lcm_reassembler";

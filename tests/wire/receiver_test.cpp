@@ -21,7 +21,7 @@ class Inbox : public ::testing::Test {
   }
   void Send(SenderAddress from, const std::string& channel, std::size_t bytes, double now_s) {
     const Bytes datagram = ShortDatagram(number_[from]++, channel, Bytes(bytes, 7));
-    inbox_.Take({from, datagram.data(), datagram.size()}, {1000}, now_s);
+    inbox_.Take({{from, datagram.data(), datagram.size()}}, {1000}, now_s);
   }
   std::vector<std::string> Channels() {
     std::vector<std::string> channels;
@@ -92,6 +92,20 @@ TEST_F(Inbox, ARestartedSenderTakesOverWithoutAnAlarm) {
   EXPECT_GT(Of("POSE", 3).received, 9u);
 }
 
+// A forged answer would end the repeats of what it answers.
+TEST_F(Inbox, AChannelMayBelongToTheSenderOfAnother) {
+  inbox_.Open("ANSWER", {.message_bytes = 1001, .with_sender_of = "POSE"});
+  Send(kStranger, "ANSWER", 100, 1.0);
+  EXPECT_EQ(Channels().size(), 1u) << "nobody is known yet";
+  Send(kVehicle, "POSE", 100, 1.0);
+  EXPECT_EQ(Channels().size(), 1u);
+  Send(kStranger, "ANSWER", 100, 1.1);
+  EXPECT_TRUE(Channels().empty());
+  EXPECT_EQ(Of("ANSWER", 1.1).refused, 1u);
+  Send(kVehicle, "ANSWER", 100, 1.2);
+  EXPECT_EQ(Channels().size(), 1u);
+}
+
 TEST_F(Inbox, ShareLostIsOfTheSendersInUse) {
   for (const std::uint32_t number : {1u, 2u, 5u, 6u, 10u}) {
     number_[kVehicle] = number;
@@ -127,6 +141,15 @@ TEST_F(Inbox, RefusalsAreKeptAtAFewASecond) {
   EXPECT_TRUE(inbox_.TakeRefused().empty());
   EXPECT_EQ(inbox_.Traffic(4).refused, 3000u);
   EXPECT_EQ(inbox_.Traffic(4).refused_why.at("over the channel's size limit"), 3000u);
+}
+
+TEST(ChannelRules, WhatAVehicleSaysOfItselfHasOneSender) {
+  const ChannelNames names;
+  for (const std::string& channel : names.FromVehicle()) {
+    const ChannelLimits limits = LimitsOf(names, channel);
+    EXPECT_TRUE(limits.one_sender_s > 0 || limits.with_sender_of == names.vehicle_status)
+        << channel;
+  }
 }
 
 TEST(ChannelRules, EveryChannelThatIsListenedToHasItsOwn) {

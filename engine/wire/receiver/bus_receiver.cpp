@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <exception>
 #include <utility>
 
 #include "engine/core/time.h"
@@ -10,6 +11,7 @@ namespace palace {
 namespace {
 
 constexpr const char* kOtherSender = "another sender has the channel";
+constexpr const char* kMemoryShort = "memory was short";
 constexpr std::size_t kSendersShown = 16;
 
 }  // namespace
@@ -40,8 +42,20 @@ void BusInbox::Take(const UdpSocket::Datagram& datagram, Timestamp wall, double 
   }
 }
 
+bool BusInbox::IsListenedTo(Channel& channel, SenderAddress from, double now_s) const {
+  const auto partner = channels_.find(channel.limits.with_sender_of);
+  if (partner == channels_.end()) {
+    return channel.sender.Admit(from, now_s);
+  }
+  const auto known = partner->second.sender.in_use();
+  return !known || *known == from;
+}
+
 void BusInbox::Accept(Channel& channel, ReceivedMessage message, Timestamp wall, double now_s) {
-  if (channel.sender.Admit(message.sender, now_s)) {
+  if (IsListenedTo(channel, message.sender, now_s)) {
+    if (channel.sender.in_use()) {
+      reassembler_.Keep(message.sender, now_s);
+    }
     queues_.Push({std::move(message), wall});
     return;
   }
@@ -50,6 +64,19 @@ void BusInbox::Accept(Channel& channel, ReceivedMessage message, Timestamp wall,
   refusals_.Add({ToText(message.sender), message.channel, kOtherSender, message.payload.data(),
                  message.payload.size()},
                 wall, now_s);
+}
+
+void BusInbox::Take(const std::vector<UdpSocket::Datagram>& datagrams, Timestamp wall,
+                    double now_s) {
+  try {
+    for (const UdpSocket::Datagram& datagram : datagrams) {
+      Take(datagram, wall, now_s);
+    }
+    reassembler_.Age(now_s);
+  } catch (const std::exception&) {
+    // The thread that receives has nobody above it. Memory may be short for a moment.
+    dropped_ += datagrams.size();
+  }
 }
 
 BusTraffic BusInbox::Traffic(double now_s) {
@@ -74,7 +101,7 @@ BusTraffic BusInbox::Traffic(double now_s) {
   }
   const TrafficCount& total = reassembler_.total();
   traffic.datagrams = reassembler_.datagrams();
-  traffic.refused = total.refused + of_other_senders_;
+  traffic.refused = total.refused + of_other_senders_ + dropped_;
   for (std::size_t i = 0; i < kRefusalCount; ++i) {
     if (reassembler_.refusals()[i] > 0) {
       traffic.refused_why[RefusalWords(static_cast<Refusal>(i))] = reassembler_.refusals()[i];
@@ -82,6 +109,9 @@ BusTraffic BusInbox::Traffic(double now_s) {
   }
   if (of_other_senders_ > 0) {
     traffic.refused_why[kOtherSender] = of_other_senders_;
+  }
+  if (dropped_ > 0) {
+    traffic.refused_why[kMemoryShort] = dropped_;
   }
   traffic.foreign = total.foreign;
   traffic.rate_hz = rate_.Rate_hz(now_s);
@@ -137,10 +167,7 @@ void BusReceiver::Run(std::stop_token stop) {
     const double now_s = MonotonicSeconds();
     const Timestamp wall = WallTime();
     const std::lock_guard lock(mutex_);
-    for (const UdpSocket::Datagram& datagram : datagrams) {
-      inbox_.Take(datagram, wall, now_s);
-    }
-    inbox_.Age(now_s);
+    inbox_.Take(datagrams, wall, now_s);
     overrun_ = socket_.overrun();
     if (!inbox_.empty()) {
       arrived_.notify_one();

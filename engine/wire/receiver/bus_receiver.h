@@ -31,8 +31,8 @@ namespace palace {
 class BusInbox {
  public:
   void Open(const std::string& channel, const ChannelLimits& limits);
-  void Take(const UdpSocket::Datagram& datagram, Timestamp wall, double now_s);
-  void Age(double now_s) { reassembler_.Age(now_s); }
+  /// Throws nothing: where memory is short the batch is dropped and counted.
+  void Take(const std::vector<UdpSocket::Datagram>& datagrams, Timestamp wall, double now_s);
   bool empty() const { return queues_.empty(); }
   std::optional<QueuedMessage> Pop() { return queues_.Pop(); }
   /// All but `overrun`.
@@ -46,6 +46,8 @@ class BusInbox {
     RateMeter rate{};
     std::uint64_t of_other_senders = 0;
   };
+  void Take(const UdpSocket::Datagram& datagram, Timestamp wall, double now_s);
+  bool IsListenedTo(Channel& channel, SenderAddress from, double now_s) const;
   void Accept(Channel& channel, ReceivedMessage message, Timestamp wall, double now_s);
   void CountSenders(BusTraffic& traffic, double now_s) const;
 
@@ -55,6 +57,7 @@ class BusInbox {
   std::map<std::string, Channel, std::less<>> channels_;
   RateMeter rate_;
   std::uint64_t of_other_senders_ = 0;
+  std::uint64_t dropped_ = 0;  ///< datagrams of batches for which memory was short
 };
 
 /// Open and Next from one thread, Traffic and TakeRefused from any.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 
 namespace palace {
 
@@ -12,6 +13,8 @@ struct ChannelLimits {
   double most_hz = 100;                   ///< the fastest that a sender needs
   /// One sender is listened to until it is silent for this long; 0: whoever sends.
   double one_sender_s = 0;
+  /// Who is listened to on that channel may speak on this one, nobody else; empty: see above.
+  std::string with_sender_of{};
 };
 
 }  // namespace palace

@@ -277,7 +277,7 @@ LcmReassembler::Taken LcmReassembler::Finish(Source& source, SenderAddress from,
 }
 
 LcmReassembler::Taken LcmReassembler::Deliver(Source& source, ReceivedMessage message, bool late) {
-  source.proven = true;
+  source.proven_s = std::min(source.proven_s, source.known.heard_s);
   const auto channel = counts_.find(message.channel);
   for (TrafficCount* count : {&source.known.count, &channel->second, &total_}) {
     ++count->messages;
@@ -342,6 +342,29 @@ LcmReassembler::Seen& LcmReassembler::Follow(Source& source, std::uint32_t numbe
   return seen;
 }
 
+void LcmReassembler::Keep(SenderAddress sender, double now_s) {
+  if (const auto found = sources_.find(sender); found != sources_.end()) {
+    found->second.kept_s = now_s;
+  }
+}
+
+void LcmReassembler::ForgetOne(double now_s) {
+  const auto worth = [&](const auto& entry) {
+    const Source& s = entry.second;
+    const bool speaks = now_s - s.known.heard_s < kProven_s;
+    const bool kept = speaks && now_s - s.kept_s < kProven_s;
+    return std::tuple(kept, speaks ? -s.proven_s : -std::numeric_limits<double>::infinity(),
+                      s.known.heard_s);
+  };
+  const auto least =
+      std::min_element(sources_.begin(), sources_.end(),
+                       [&](const auto& a, const auto& b) { return worth(a) < worth(b); });
+  while (!least->second.waiting.empty()) {
+    GiveUp(least->second, least->second.waiting.begin());
+  }
+  sources_.erase(least);
+}
+
 LcmReassembler::Source& LcmReassembler::FindSource(SenderAddress from, double now_s) {
   const auto found = sources_.find(from);
   if (found != sources_.end()) {
@@ -349,19 +372,7 @@ LcmReassembler::Source& LcmReassembler::FindSource(SenderAddress from, double no
     return found->second;
   }
   if (sources_.size() >= limits_.senders) {
-    // Who brought nothing of ours, or nothing for long, goes first; then who brought least.
-    const auto worth = [&](const auto& entry) {
-      const Source& s = entry.second;
-      const bool stays = s.proven && now_s - s.known.heard_s < kProven_s;
-      return std::tuple(stays ? s.known.count.messages : 0, s.known.heard_s);
-    };
-    const auto least =
-        std::min_element(sources_.begin(), sources_.end(),
-                         [&](const auto& a, const auto& b) { return worth(a) < worth(b); });
-    while (!least->second.waiting.empty()) {
-      GiveUp(least->second, least->second.waiting.begin());
-    }
-    sources_.erase(least);
+    ForgetOne(now_s);
   }
   Source& source = sources_[from];
   source.known.heard_s = now_s;

@@ -27,6 +27,7 @@
 #include <compare>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <string>
 #include <string_view>
@@ -108,6 +109,9 @@ class LcmReassembler {
   };
   /// One datagram. `now_s` is any clock that does not run back.
   Taken Take(SenderAddress from, const std::uint8_t* data, std::size_t size, double now_s);
+  /// What this sender brought is used by the reader: it stays remembered, whoever else comes, until
+  /// it is silent or unused for ten seconds.
+  void Keep(SenderAddress sender, double now_s);
   /// Gives up what waits for too long; Take does so too.
   void Age(double now_s);
 
@@ -115,7 +119,8 @@ class LcmReassembler {
     TrafficCount count{};
     double heard_s = 0;  ///< last
   };
-  /// The senders remembered: those that brought a whole message of ours stay longest.
+  /// The senders remembered. Kept ones stay longest, then those whose first whole message of ours
+  /// came earliest: nobody gets ahead of an old sender by sending much.
   std::map<SenderAddress, Sender> Senders() const;
   const std::map<std::string, TrafficCount, std::less<>>& channels() const { return counts_; }
   /// Of all senders and channels, forgotten ones too.
@@ -153,7 +158,8 @@ class LcmReassembler {
   struct Source {
     Sender known{};
     bool begun = false;
-    bool proven = false;  ///< brought a whole message of ours
+    double proven_s = std::numeric_limits<double>::infinity();  ///< first whole message of ours
+    double kept_s = -std::numeric_limits<double>::infinity();
     std::uint32_t highest = 0;
     std::array<Seen, kWindow> seen{};
     WaitingList waiting;
@@ -161,6 +167,7 @@ class LcmReassembler {
   };
 
   Source& FindSource(SenderAddress from, double now_s);
+  void ForgetOne(double now_s);
   /// Counts gaps and latecomers. The slot of the number, emptied when it is new; `late` when it
   /// came after a higher one.
   Seen& Follow(Source& source, std::uint32_t number, bool& late);

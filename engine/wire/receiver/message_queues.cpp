@@ -26,8 +26,8 @@ void MessageQueues::Push(QueuedMessage message) {
     DropOldest(queue);
     ++queue.overflowed;
   }
+  queue.entries.push_back({next_order_++, std::move(message)});  // counted only once it is in
   queue.bytes += bytes;
-  queue.entries.push_back({next_order_++, std::move(message)});
   ++waiting_;
 }
 

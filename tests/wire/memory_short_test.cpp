@@ -1,0 +1,82 @@
+// The receiver when memory is short: at whichever allocation it fails, the batch is dropped and
+// counted, nothing escapes, and what comes after is received.
+#include <cstdlib>
+#include <new>
+#include <numeric>
+
+#include <gtest/gtest.h>
+
+#include "engine/wire/receiver/bus_receiver.h"
+#include "tests/support/lcm_datagrams.h"
+
+namespace {
+thread_local int allocations_left = -1;  ///< then the next fails; negative: none does
+}
+
+void* operator new(std::size_t size) {
+  if (allocations_left == 0) {
+    throw std::bad_alloc();
+  }
+  allocations_left -= allocations_left > 0 ? 1 : 0;
+  if (void* memory = std::malloc(size == 0 ? 1 : size)) {
+    return memory;
+  }
+  throw std::bad_alloc();
+}
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+
+namespace palace {
+namespace {
+
+constexpr SenderAddress kVehicle{0x0a000002, 7001};
+
+std::vector<Bytes> Sent(std::uint32_t number) {
+  std::vector<Bytes> sent = {ShortDatagram(number, "POSE", Bytes(100, 7))};
+  for (const Bytes& part : FragmentDatagrams(number + 1, "PICTURE", Bytes(5000, 8), 2000)) {
+    sent.push_back(part);
+  }
+  return sent;
+}
+
+std::vector<UdpSocket::Datagram> BatchOf(const std::vector<Bytes>& sent) {
+  std::vector<UdpSocket::Datagram> batch;
+  for (const Bytes& datagram : sent) {
+    batch.push_back({kVehicle, datagram.data(), datagram.size()});
+  }
+  return batch;
+}
+
+TEST(MemoryShort, DropsABatchAndGoesOn) {
+  int failed = 0;
+  for (bool fails = true; fails; failed += fails) {
+    SCOPED_TRACE("allocation " + std::to_string(failed));
+    BusInbox inbox;
+    inbox.Open("POSE", {.message_bytes = 256, .queue_messages = 4, .queue_bytes = 1000});
+    inbox.Open("PICTURE", {.message_bytes = 6000, .queue_messages = 4, .queue_bytes = 12000});
+    const std::vector<Bytes> sent = Sent(1);
+    const std::vector<UdpSocket::Datagram> batch = BatchOf(sent);
+    allocations_left = failed;
+    inbox.Take(batch, {1000}, 1);
+    fails = allocations_left == 0;
+    allocations_left = -1;
+    while (inbox.Pop()) {
+    }
+    const std::uint64_t dropped = inbox.Traffic(1).refused;
+    EXPECT_EQ(dropped, fails ? batch.size() : 0);
+    EXPECT_EQ(inbox.Traffic(1).refused_why.count("memory was short"), fails ? 1u : 0u);
+    for (std::uint32_t number = 11; number < 31; number += 10) {
+      const std::vector<Bytes> next = Sent(number);
+      inbox.Take(BatchOf(next), {2000}, 2);
+    }
+    int got = 0;
+    while (inbox.Pop()) {
+      ++got;
+    }
+    EXPECT_EQ(got, 4) << "two of each, as the queues have room for";
+  }
+  EXPECT_GT(failed, 5);
+}
+
+}  // namespace
+}  // namespace palace
