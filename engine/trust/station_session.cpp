@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "engine/core/plain_text.h"
 #include "engine/trust/vehicle_authority.h"
 
 namespace palace {
@@ -240,10 +241,10 @@ std::string StationSession::WhyNot() const {
   }
   if (report_->refused_station_id == trust_.station_id && !report_->refusal.empty() &&
       report_->session_id == 0) {
-    return "The vehicle refuses this station: " + report_->refusal;
+    return "The vehicle refuses this station: " + QuotedText(report_->refusal, kLongestReason);
   }
   if (report_->session_id != 0 && report_->station_id != trust_.station_id) {
-    return "Station " + report_->station_name + " commands this vehicle";
+    return "Station " + QuotedText(report_->station_name, kLongestName) + " commands this vehicle";
   }
   return wants_ ? "Command was asked for, the vehicle has not answered"
                 : "This station gave command back: ask for it again";
@@ -257,13 +258,14 @@ AuthorityStatus StationSession::Status(double now_s) const {
   status.fingerprint = trust_.key ? FingerprintText(trust_.key->id()) : "";
   const bool commanded = report_ && report_->session_id != 0;
   if (commanded) {
-    status.holder = report_->station_name + " " + FingerprintText(report_->key_id);
+    status.holder =
+        PlainText(report_->station_name, kLongestName) + " " + FingerprintText(report_->key_id);
     status.holder_silent_s = SecondsBetween(report_->heard_at, report_->time) + (now_s - report_s_);
     status.holder_is_silent =
         SecondsBetween(report_->heard_at, report_->time) > VehicleAuthority::kSilent_s;
   }
   const bool refused = report_ && report_->refused_station_id == trust_.station_id;
-  status.refusal = refused ? report_->refusal : "";
+  status.refusal = refused ? PlainText(report_->refusal, kLongestReason) : "";
   const bool other = commanded && report_->station_id != trust_.station_id;
   const bool silent = !report_ && vehicle_since_s_ && now_s - *vehicle_since_s_ > kNoGrant_s;
   status.standing = Holds()       ? Standing::kHeld

@@ -3,10 +3,10 @@
 #include <cstdio>
 #include <utility>
 
+#include "engine/core/plain_text.h"
+
 namespace palace {
 namespace {
-
-constexpr std::size_t kLongestName = 60;
 
 std::string Seconds(double seconds) {
   char text[32];
@@ -15,15 +15,7 @@ std::string Seconds(double seconds) {
 }
 
 bool IsPlain(const std::string& name) {
-  if (name.empty() || name.size() > kLongestName) {
-    return false;
-  }
-  for (const char c : name) {
-    if (c < ' ' || c > '~') {
-      return false;
-    }
-  }
-  return true;
+  return !name.empty() && PlainText(name, kLongestName) == name;
 }
 
 }  // namespace

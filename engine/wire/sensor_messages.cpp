@@ -1,5 +1,6 @@
 #include "engine/wire/sensor_messages.h"
 
+#include "engine/core/plain_text.h"
 #include "engine/wire/wire_fields.h"
 #include "engine/wire/wire_pack.h"
 
@@ -92,8 +93,10 @@ Result<CommandAck> AckFromWire(const WireMessage& message) {
     if (m.result != 0 && m.result != 1) {
       return InvalidError("answer " + std::to_string(m.result) + " is neither 0 nor 1");
     }
-    return CommandAck{
-        {m.utime}, IdFromWire(m.command_id), static_cast<AckResult>(m.result), m.reason};
+    return CommandAck{{m.utime},
+                      IdFromWire(m.command_id),
+                      static_cast<AckResult>(m.result),
+                      PlainText(m.reason, kLongestReason)};
   });
 }
 
