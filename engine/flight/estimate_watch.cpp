@@ -12,7 +12,16 @@ constexpr double kOwnMemory_s = 1;
 
 }  // namespace
 
-void EstimateWatch::Begin() { difference_.clear(); }
+std::string EstimateWatch::Begin(const Eigen::Vector3d& p_vision_WB,
+                                 const Eigen::Vector3d& p_own_WB) {
+  difference_.clear();
+  first_.reset();
+  const double apart_m = (p_vision_WB - p_own_WB).norm();
+  return apart_m <= kApart_m
+             ? ""
+             : WithNumbers("The position estimate is %.1f m from the vehicle's own, limit %.0f m",
+                           apart_m, kApart_m);
+}
 
 void EstimateWatch::Propagate(Timestamp now, const Eigen::Vector3d& v_WB) {
   const double dt = own_.empty() ? 0 : SecondsBetween(own_.back().time, now);
@@ -49,6 +58,14 @@ std::string EstimateWatch::Judge(const PositionEstimate& estimate) {
     difference_.pop_front();
   }
   difference_.push_back(now);
+  first_ = first_.value_or(now);
+  const double sum_m = (now.p_W - first_->p_W).norm();
+  if (sum_m > kSum_m) {
+    return WithNumbers(
+        "The position estimate moved %.2f m against the vehicle's own solution since it took over, "
+        "limit %.2f m",
+        sum_m, kSum_m);
+  }
   for (const Point& then : difference_) {
     const double span_s = SecondsBetween(then.time, now.time);
     const double apart_m = (now.p_W - then.p_W).norm();

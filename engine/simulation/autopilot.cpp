@@ -224,14 +224,18 @@ void Autopilot::StepAlign(Timestamp now) {
   const bool vision_ready = estimates_seen_ >= kEstimatesBeforeUse &&
                             VisionAge(now) < kHoldAfter_s &&
                             (last_estimate_->v_WB - gps_.v_WB).norm() < kHandOverSpeed_mps;
-  if (aligned && vision_ready) {
+  if (!aligned || !vision_ready) {
+    return;
+  }
+  if (const std::string apart = watch_.Begin(last_estimate_->p_WB, gps_.p_WB); !apart.empty()) {
+    GiveUp(apart, now);
+  } else {
     vision_.emplace(now, *last_estimate_, InertialTrack::Point{now, gps_.p_WB, gps_.v_WB});
     HandOverToVision();
   }
 }
 
 void Autopilot::HandOverToVision() {
-  watch_.Begin();
   const Vector3d shift = vision_->now().p_WB - gps_.p_WB;
   flown_.p_WB = vision_->now().p_WB;
   flown_.v_WB = vision_->now().v_WB;

@@ -29,7 +29,7 @@ Flown Fly(std::uint64_t seed, double seconds, const Astray& astray) {
     return Vector3d(sigma * x, sigma * y, sigma * z);
   };
   EstimateWatch watch;
-  watch.Begin();
+  EXPECT_EQ(watch.Begin(Vector3d::Zero(), Vector3d::Zero()), "");
   const Vector3d v_W(1, 0, 1);
   Vector3d v_error = Vector3d::Zero();  // of the own velocity: 3 cm/s, correlated over 2 s
   for (int i = 0; i < static_cast<int>(seconds / kControl_s); ++i) {
@@ -84,8 +84,35 @@ TEST(EstimateWatch, BeginsAnewWithEachHandOver) {
   estimate.p_WB.x() = 5;
   estimate.time = {1'000'000};
   watch.Propagate({1'000'000}, Vector3d::Zero());
-  watch.Begin();
+  EXPECT_EQ(watch.Begin(estimate.p_WB, Vector3d::Zero()), "");
   EXPECT_EQ(watch.Judge(estimate), "");
+}
+
+// Slower than any span shows, for as long as a descent takes: the sum shows it.
+TEST(EstimateWatch, BoundsWhatASlowDriftAddsUpTo) {
+  for (const double rate_mps : {0.085, 0.06, 0.04}) {
+    for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+      SCOPED_TRACE(rate_mps);
+      const Flown flown = Fly(seed, 120, [&](double t) { return Vector3d(0, rate_mps * t, 0); });
+      EXPECT_LE(flown.astray_m, EstimateWatch::kSum_m + 1);
+      EXPECT_FALSE(std::isnan(flown.spoke_s));
+    }
+  }
+}
+
+TEST(EstimateWatch, IsSilentInAGoodFlightOfTwoMinutes) {
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    const Flown flown = Fly(seed, 120, [](double) { return Vector3d::Zero().eval(); });
+    EXPECT_TRUE(std::isnan(flown.spoke_s)) << "seed " << seed << ": " << flown.words;
+  }
+}
+
+TEST(EstimateWatch, VisionMayNotTakeOverFarFromTheOwnSolution) {
+  EstimateWatch watch;
+  EXPECT_EQ(watch.Begin({9.9, 0, -15}, {0, 0, -15}), "");
+  EXPECT_EQ(watch.Begin({0, 10.1, -15}, {0, 0, -15}),
+            "The position estimate is 10.1 m from the vehicle's own, limit 10 m");
+  EXPECT_NE(watch.Begin({NAN, 0, -15}, {0, 0, -15}), "");
 }
 
 }  // namespace

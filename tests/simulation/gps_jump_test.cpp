@@ -15,7 +15,7 @@ TEST(GpsJump, DoesNotMakeTheEstimatesLookAstray) {
     SCOPED_TRACE(jump_m);
     GpsNavigator navigator({{0}, Vector3d::Zero(), Vector3d::Zero()});
     EstimateWatch watch;
-    watch.Begin();
+    ASSERT_EQ(watch.Begin(Vector3d::Zero(), Vector3d::Zero()), "");
     double own_moved_m = 0;
     for (int step = 1; step <= 60 * 100; ++step) {
       const Timestamp now{step * 10'000};
