@@ -14,6 +14,7 @@
 
 #include "engine/camera/files/text_file.h"
 #include "engine/core/text.h"
+#include "engine/core/toml_text.h"
 
 namespace palace {
 namespace {
@@ -236,6 +237,9 @@ CalibrationTarget ReadTarget(TargetTable& table) {
 }  // namespace
 
 Result<CalibrationTarget> ParseTargetText(std::string_view text, const std::string& name) {
+  if (Status letters = CheckTomlLetters(text, name); !letters) {
+    return letters.error();
+  }
   const toml::parse_result parsed = toml::parse(text);
   if (!parsed) {
     return InvalidError(name + ":" + std::to_string(parsed.error().source().begin.line) + ": " +

@@ -15,6 +15,7 @@
 
 #include "engine/core/files.h"
 #include "engine/core/text.h"
+#include "engine/core/toml_text.h"
 #include "engine/core/units.h"
 
 namespace palace {
@@ -123,6 +124,9 @@ Status CheckSettings(const Settings& settings, const std::string& name) {
 
 Result<Settings> ParseSettings(std::string_view text, const std::string& name,
                                const Settings& base) {
+  if (Status letters = CheckTomlLetters(text, name); !letters) {
+    return letters.error();
+  }
   const toml::parse_result parsed = toml::parse(text, std::string_view(name));
   if (!parsed) {
     return InvalidError(name + ":" + std::to_string(parsed.error().source().begin.line) + ": " +

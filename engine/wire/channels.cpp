@@ -10,6 +10,8 @@
 
 #include <toml++/toml.h>
 
+#include "engine/core/toml_text.h"
+
 namespace palace {
 namespace {
 
@@ -121,6 +123,9 @@ std::vector<std::string> ChannelNames::ToVehicle() const {
 }
 
 Result<ChannelNames> ParseChannels(std::string_view text, const std::string& origin) {
+  if (::palace::Status letters = CheckTomlLetters(text, origin); !letters) {
+    return letters.error();
+  }
   const toml::parse_result parsed = toml::parse(text, origin);
   if (!parsed) {
     return InvalidError(origin + ":" + std::to_string(parsed.error().source().begin.line) + ": " +

@@ -205,6 +205,7 @@ TEST(Channels, MistakesNameFileLineAndKey) {
         Case{"[channels]\nimu = 3", "c.toml:2: channels.imu must be a text"},
         Case{"[channels]\nimu = \"GPS\"", "'GPS' is used twice"},
         Case{"[channels]\nimu = \"A B\"", "c.toml:2: channels.imu holds a blank"},
+        Case{"[channels]\nm\xc3\xa4 = \"A\"", "c.toml:2: a letter outside ASCII"},
         Case{"[channels\n", "c.toml:1"}, Case{"[other]\n", "unknown key 'other'"}}) {
     const auto names = ParseChannels(c.text, "c.toml");
     ASSERT_FALSE(names.ok()) << c.text;

@@ -10,6 +10,7 @@
 #include "engine/camera/files/text_file.h"
 #include "engine/camera/files/toml_table.h"
 #include "engine/core/text.h"
+#include "engine/core/toml_text.h"
 #include "engine/core/units.h"
 #include "engine/model/rig_limits.h"
 
@@ -327,6 +328,9 @@ Result<RigFile> LoadRigFile(const std::filesystem::path& path) {
     return text.error();
   }
   const std::string name = path.string();
+  if (Status letters = CheckTomlLetters(*text, name); !letters) {
+    return letters.error();
+  }
   const toml::parse_result parsed = toml::parse(*text);
   if (!parsed) {
     return InvalidError(name + ":" + std::to_string(parsed.error().source().begin.line) + ": " +

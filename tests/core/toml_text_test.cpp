@@ -1,0 +1,49 @@
+// Letters that toml++ cannot look at are refused before it sees them.
+#include "engine/core/toml_text.h"
+
+#include <gtest/gtest.h>
+
+namespace palace {
+namespace {
+
+TEST(TomlText, LettersOutsideAsciiAreRefusedWhereKeysStand) {
+  struct Row {
+    const char* text;
+    const char* line;  ///< null: fine
+  };
+  const Row rows[] = {
+      {"", nullptr},
+      {"a = 1\n[b]\nc = \"d\"\n", nullptr},
+      {"k\xc3\xa4y = 1", "1"},
+      {"a = 1\n[s\xc3\xa4]\n", "2"},
+      {"a = 1\n\na = {\xc3\xa4 = 1}", "3"},
+      {"a = \xc3\xa4", "1"},
+      {"\xff", "1"},
+      {"\xef\xbb\xbf"
+       "a = 1",
+       nullptr},
+      {"a = 1 # \xc3\xa4", nullptr},
+      {"# \xc3\xa4\n\xc3\xa4 = 1", "2"},
+      {"a = \"\xc3\xa4\"", nullptr},
+      {"a = '\xc3\xa4'", nullptr},
+      {"\"\xc3\xa4\" = 1", nullptr},
+      {"a = \"\\\"\xc3\xa4\" # \xc3\xa4\nb\xc3\xa4 = 1", "2"},
+      {"a = '\\'\xc3\xa4 = 1", "1"},
+      {"a = \"\"\"\n\xc3\xa4 \"\" \n\"\"\"\"\"\nb\xc3\xa4 = 1", "4"},
+      {"a = '''\xc3\xa4\n'''\nb\xc3\xa4 = 1", "3"},
+      {"a = \"\"\n\xc3\xa4 = 1", "2"},
+      {"a = \"open\n\xc3\xa4 = 1", nullptr},  // the parser stops at the string
+  };
+  for (const Row& row : rows) {
+    SCOPED_TRACE(row.text);
+    const Status status = CheckTomlLetters(row.text, "x.toml");
+    EXPECT_EQ(status.ok(), row.line == nullptr);
+    if (row.line != nullptr && !status.ok()) {
+      EXPECT_EQ(status.error().message.find(std::string("x.toml:") + row.line + ": a letter"), 0u)
+          << status.error().message;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace palace
