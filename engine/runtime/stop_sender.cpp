@@ -1,6 +1,7 @@
 #include "engine/runtime/stop_sender.h"
 
 #include <exception>
+#include <random>
 #include <utility>
 
 #include "engine/core/log.h"
@@ -8,9 +9,14 @@
 namespace palace {
 namespace {
 
-// Numbers of this path lie apart from the engine's own command counter.
-constexpr std::uint64_t kAbortPathId = std::uint64_t{1} << 62;
-constexpr std::uint64_t kHoldPathId = kAbortPathId + 1;
+/// Numbers of this path lie apart from the engine's own command counter, and nobody knows them
+/// before they are sent: what comes back on the bus is told from a stranger's by its number.
+std::uint64_t RandomPathId() {
+  constexpr std::uint64_t kApart = std::uint64_t{1} << 62;
+  std::random_device words;
+  return kApart | ((std::uint64_t{words()} << 32 | words()) & (kApart - 1) & ~std::uint64_t{1});
+}
+
 constexpr int kTries = 3;  // of a send that throws: memory may be short for a moment
 
 }  // namespace
@@ -19,8 +25,8 @@ StopSender::StopSender(std::shared_ptr<VehicleLink> link,
                        std::function<void(const VehicleMessage&)> sent)
     : link_(std::move(link)),
       sent_(std::move(sent)),
-      abort_(AbortRequest{kAbortPathId, "Wave-off by the operator"}),
-      hold_(HoldRequest{kHoldPathId, "Held by the operator"}),
+      abort_(AbortRequest{RandomPathId(), "Wave-off by the operator"}),
+      hold_(HoldRequest{std::get<AbortRequest>(abort_).command_id + 1, "Held by the operator"}),
       thread_([this](std::stop_token stop) {
         std::unique_lock lock(mutex_);
         while (wake_.wait(lock, stop, [&] { return abort_wanted_ || hold_wanted_; })) {

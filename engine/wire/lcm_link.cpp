@@ -12,6 +12,7 @@ namespace palace {
 namespace {
 
 constexpr double kAnswerPeriod_s = 1;
+constexpr double kOwnAbort_s = 1;  ///< an own wave-off that comes back later was played by somebody
 constexpr int kMostAtOnce = 1000;  ///< a flood must not keep Poll from returning
 
 /// "APPROVE on COMMAND", for people.
@@ -65,8 +66,10 @@ AuthorityStatus LcmLink::Authority() const {
   return status;
 }
 
-bool LcmLink::IsOwnAbort(std::uint64_t id) const {
-  return std::find(own_aborts_.begin(), own_aborts_.end(), id) != own_aborts_.end();
+bool LcmLink::IsOwnAbort(std::uint64_t id, double now_s) const {
+  return std::any_of(own_aborts_.begin(), own_aborts_.end(), [&](const SentAbort& sent) {
+    return sent.id == id && now_s - sent.at_s <= kOwnAbort_s;
+  });
 }
 
 void LcmLink::Overhear(const WireMessage& message) {
@@ -79,7 +82,7 @@ void LcmLink::Overhear(const WireMessage& message) {
   if (decoded) {
     const auto* abort = std::get_if<AbortRequest>(&*decoded);
     const bool own =
-        abort != nullptr ? IsOwnAbort(abort->command_id) : session_.IsOwn(*decoded, now_s);
+        abort != nullptr ? IsOwnAbort(abort->command_id, now_s) : session_.IsOwn(*decoded, now_s);
     const bool judges = abort != nullptr || knows_authority_ ||
                         (vehicle_since_s_ && now_s - *vehicle_since_s_ > kAuthorityWait_s);
     if (own || session_.IsOfHolder(*decoded) || !judges) {
@@ -107,7 +110,7 @@ void LcmLink::KeepSession() {
 void LcmLink::Send(const VehicleMessage& message) {
   if (const auto* abort = std::get_if<AbortRequest>(&message)) {
     const std::lock_guard lock(mutex_);
-    own_aborts_[aborts_sent_++ % own_aborts_.size()] = abort->command_id;
+    own_aborts_[aborts_sent_++ % own_aborts_.size()] = {abort->command_id, MonotonicSeconds()};
   }
   // Holds and aborts carry no time of their own: they are stamped with the newest seen.
   if (const auto* estimate = std::get_if<PositionEstimate>(&message)) {

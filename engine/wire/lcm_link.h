@@ -41,7 +41,7 @@ class LcmLink final : public VehicleLink {
  private:
   void Publish(const WireMessage& message);
   void KeepSession();
-  bool IsOwnAbort(std::uint64_t id) const;
+  bool IsOwnAbort(std::uint64_t id, double now_s) const;
 
   std::shared_ptr<Bus> bus_;
   ChannelNames channels_;
@@ -54,7 +54,11 @@ class LcmLink final : public VehicleLink {
   std::optional<double> vehicle_since_s_;
   ForeignTraffic foreign_;
   double foreign_s_ = 0;
-  std::array<std::uint64_t, 8> own_aborts_{};  ///< the newest, by turns
+  struct SentAbort {
+    std::uint64_t id = 0;
+    double at_s = -1e9;
+  };
+  std::array<SentAbort, 8> own_aborts_{};  ///< the newest, by turns
   std::size_t aborts_sent_ = 0;
   std::atomic<std::uint64_t> sent_{0};
   std::atomic<std::uint64_t> unsent_{0};
