@@ -1,6 +1,7 @@
 #include "engine/trust/secret_key.h"
 
 #include <cstdio>
+#include <new>
 
 #include <sodium.h>
 
@@ -24,7 +25,9 @@ SecretKey::SecretKey() {
   PALACE_CHECK(sodium_init() >= 0);
   // Pages of its own, locked, left out of core dumps; sodium_free wipes them.
   auto* bytes = static_cast<std::uint8_t*>(sodium_malloc(kBytes));
-  PALACE_CHECK(bytes != nullptr);
+  if (bytes == nullptr) {
+    throw std::bad_alloc();  // as any allocation that fails; whoever survives those survives this
+  }
   bytes_ = std::shared_ptr<std::uint8_t>(bytes, [](std::uint8_t* p) { sodium_free(p); });
 }
 
