@@ -190,6 +190,67 @@ TEST_F(TrustOnTheBus, ForgedAndReplayedCommandsAreRefusedShownAndRecorded) {
   EXPECT_EQ(alpha.session().authority.foreign.what, "ABORT (open by design) on ABORT");
 }
 
+/// Sealed in a session of the same station with a vehicle of that key and start.
+Approval SealedFor(Approval approval, const SecretKey& key, std::uint64_t boot_id) {
+  VehicleAuthority vehicle({.boot_id = boot_id, .keys = {key}});
+  StationSession station({.station_id = 1, .station_name = "alpha", .key = key});
+  const Timestamp now{Simulator::kEpoch.us};
+  station.Hear(vehicle.Report(now), 0);
+  (void)vehicle.Take(*station.Tick(now, 1), now);
+  station.Hear(vehicle.Report(AddSeconds(now, 1)), 1);
+  VehicleMessage message = approval;
+  station.Seal(message, now, 1);
+  return std::get<Approval>(message);
+}
+
+// I1, I4: approvals that were good once, or elsewhere, played to this vehicle while it hovers.
+TEST_F(TrustOnTheBus, ApprovalsOfAnotherTimeStartOrVehicleAreRefusedShownAndRecorded) {
+  Station alpha(bus_, "alpha", SecretKey::FromSeed(1));
+  stations_ = {&alpha};
+  ASSERT_TRUE(Until([&] { return alpha.session().authority.commands(); }));
+  const std::uint64_t boot_id = session_->simulator->boot_id();
+  const auto of_this_session = [&](Approval approval) {
+    VehicleMessage message = approval;
+    alpha.link->Seal(message);
+    return std::get<Approval>(message);
+  };
+  Approval expired = ForgedApproval(), other_start = ForgedApproval();
+  expired.expires_at = AddSeconds(expired.approved_at, 0.1);
+  other_start.vehicle_boot_id = boot_id - 1;
+  const struct {
+    const char* what;
+    Approval approval;
+    const char* refusal;
+  } rows[] = {
+      {"expired", of_this_session(expired), "Expired"},
+      {"of another start, sealed now", of_this_session(other_start),
+       "Given for another start of this vehicle"},
+      {"recorded on an earlier start", SealedFor(other_start, SecretKey::FromSeed(1), boot_id - 1),
+       "Seal does not match"},
+      {"recorded with another vehicle",
+       SealedFor(ForgedApproval(), SecretKey::FromSeed(9), boot_id), "Seal does not match"},
+  };
+  for (const auto& row : rows) {
+    SCOPED_TRACE(row.what);
+    acks_.clear();
+    Forge(row.approval);
+    ASSERT_EQ(acks_.size(), 1u);
+    EXPECT_EQ(acks_[0].result, AckResult::kRefused);
+    EXPECT_EQ(acks_[0].reason, row.refusal);
+    EXPECT_EQ(mode_, VehicleMode::kHover);
+    // Events are what people see and what is recorded.
+    EXPECT_TRUE(alpha.HasEvent(std::string("Vehicle refused a command: ") + row.refusal));
+  }
+  EXPECT_TRUE(alpha.HasEvent("Foreign command from ")) << "those of no session of this station";
+  EXPECT_EQ(alpha.session().authority.foreign.count, 2u);
+  // A refused one stays refused, and what is good is obeyed.
+  acks_.clear();
+  Forge(rows[0].approval);
+  EXPECT_EQ(acks_.at(0).result, AckResult::kRefused);
+  Forge(of_this_session(ForgedApproval()));
+  EXPECT_EQ(mode_, VehicleMode::kAlign);
+}
+
 TEST_F(TrustOnTheBus, ASecondStationSeesWhoCommandsAndMayOnlyLook) {
   Station alpha(bus_, "alpha", SecretKey::FromSeed(1));
   stations_ = {&alpha};
@@ -197,9 +258,9 @@ TEST_F(TrustOnTheBus, ASecondStationSeesWhoCommandsAndMayOnlyLook) {
   Station bravo(bus_, "bravo", SecretKey::FromSeed(2)), keyless(bus_, "charlie", std::nullopt);
   stations_ = {&alpha, &bravo, &keyless};
   ASSERT_TRUE(Until([&] { return bravo.session().authority.holder.find("alpha ") == 0; }));
-  EXPECT_EQ(bravo.session().authority.why_not, "Station alpha commands this vehicle");
+  EXPECT_EQ(bravo.session().authority.why_not, "Station \"alpha\" commands this vehicle");
   EXPECT_FALSE(bravo.mission().may_select);
-  EXPECT_EQ(bravo.mission().cannot_approve_reason, "Station alpha commands this vehicle");
+  EXPECT_EQ(bravo.mission().cannot_approve_reason, "Station \"alpha\" commands this vehicle");
   EXPECT_TRUE(Until([&] { return bravo.HasAlarm(AlarmId::kViewOnly); }, 10));
   EXPECT_FALSE(bravo.HasAlarm(AlarmId::kForeignCommand)) << "the holder's messages are no attack";
   EXPECT_EQ(keyless.mission().cannot_approve_reason, "No key for this vehicle");
@@ -208,11 +269,13 @@ TEST_F(TrustOnTheBus, ASecondStationSeesWhoCommandsAndMayOnlyLook) {
   // Only a person takes over, and both are told.
   bravo.engine->Post({CommandOrigin::kOperator, AskForCommand{true}});
   ASSERT_TRUE(Until([&] { return bravo.session().authority.commands(); }));
-  ASSERT_TRUE(Until([&] { return alpha.HasEvent("Command lost: Station bravo commands"); }));
+  // What another's key seals alpha cannot check: its own session stands for 3 s, and meanwhile what
+  // bravo sends is a stranger's.
+  ASSERT_TRUE(Until([&] { return alpha.HasEvent("Command lost: Station \"bravo\" commands"); }));
+  EXPECT_GT(alpha.session().authority.foreign.count, 0u);
   EXPECT_TRUE(bravo.HasEvent("Asked to take command over from alpha"));
   EXPECT_FALSE(alpha.mission().may_select);
   EXPECT_TRUE(Until([&] { return !bravo.session().authority.commands(); }, 1) == false);
-  EXPECT_EQ(alpha.session().authority.foreign.count, 0u);
   // Given back, and left alone by the one that lost it.
   bravo.engine->Post({CommandOrigin::kOperator, ReleaseCommand{}});
   ASSERT_TRUE(Until([&] { return alpha.session().authority.holder.empty(); }));
