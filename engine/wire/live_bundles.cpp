@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "engine/core/plain_text.h"
+
 namespace palace {
 
 LiveBundles::LiveBundles(ChannelNames channels, bool follow_simulation)
@@ -60,6 +62,9 @@ std::shared_ptr<const FrameBundle> LiveBundles::HandOn(double now_s) {
   auto bundle = std::make_shared<FrameBundle>(ready_ ? *std::exchange(ready_, nullptr)
                                                      : *assembler_.TakePending({}));
   bundle->sequence = sequence_++;
+  for (CommandAck& ack : bundle->acks) {
+    ack.reason = PlainText(ack.reason, kLongestReason);  // anybody's words, to be read by people
+  }
   if (bundle->status) {
     clock_.FollowSimulation(follow_simulation_ && bundle->status->simulated);
   }

@@ -1,6 +1,5 @@
 #include "engine/wire/sensor_messages.h"
 
-#include "engine/core/plain_text.h"
 #include "engine/wire/wire_fields.h"
 #include "engine/wire/wire_pack.h"
 
@@ -96,7 +95,7 @@ Result<CommandAck> AckFromWire(const WireMessage& message) {
     return CommandAck{{m.utime},
                       IdFromWire(m.command_id),
                       static_cast<AckResult>(m.result),
-                      PlainText(m.reason, kLongestReason)};
+                      m.reason};
   });
 }
 

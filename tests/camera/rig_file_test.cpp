@@ -120,7 +120,7 @@ struct WrongRow {
 
 TEST_F(RigFileTest, ErrorsNameFileLineKeyAndLimit) {
   const WrongRow rows[] = {
-      {"size", "width = 640", "width = 0", "rig.toml:2: left.width = 0 is outside 1"},
+      {"size", "width = 640", "width = 0", "rig.toml:2: left.width = 0 is outside 32 .. 8192"},
       {"fraction", "width = 640", "width = 640.5", "must be a whole number"},
       {"missing", "cy_px = 239.5\n[right]", "[right]", "left.cy_px is missing"},
       {"unknown key", "fx_px = 772.5", "fx_px = 772.5\nfz_px = 1",

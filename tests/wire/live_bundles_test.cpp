@@ -207,6 +207,16 @@ TEST(LiveBundles, OfPairsThatWaitOnlyTheNewestIsHeld) {
   EXPECT_FALSE(bundles.ready());
 }
 
+TEST(LiveBundles, ReasonsOfAnswersArePlainAndBounded) {
+  LiveBundles bundles({}, true);
+  bundles.Take(EncodeAck({{5}, 1, AckResult::kRefused, "no\n\x1b[2J" + std::string(3000, 'x')}, {}),
+               100);
+  const auto bundle = bundles.HandOn(100);
+  ASSERT_EQ(bundle->acks.size(), 1u);
+  EXPECT_EQ(bundle->acks[0].reason.substr(0, 8), "no??[2Jx");
+  EXPECT_EQ(bundle->acks[0].reason.size(), 200u);
+}
+
 TEST(LiveBundles, OneLostCameraIsToldByTheOther) {
   Station station;
   Vehicle vehicle;

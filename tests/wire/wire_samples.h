@@ -58,7 +58,7 @@ inline StereoRig RandomRig(RandomStream& random) {
   rig.min_disparity_px = 3;
   rig.num_disparities = 48;
   rig.tilt_rad = -random.Uniform(0.5, 1.5);
-  rig.position_body_m = RandomVector(random);
+  rig.position_body_m = 0.1 * RandomVector(random);
   rig.rate_hz = 9.7;
   return rig;
 }
@@ -93,7 +93,7 @@ inline std::shared_ptr<FrameBundle> RandomBundle(RandomStream& random, std::uint
   }
   bundle->gps.push_back({{start_us + 7}, RandomVector(random), RandomVector(random), 1.5, 2.5});
   VehicleStatus status;
-  status.time = {start_us + 9};
+  status.time = bundle->time;
   status.boot_id = random.NextBits();
   status.mode = static_cast<VehicleMode>(random.Index(9));
   status.flies_on_vision = true;
