@@ -2,8 +2,10 @@
 
 #include <cmath>
 #include <fstream>
+#include <iterator>
 #include <map>
 #include <system_error>
+#include <variant>
 
 #include "engine/core/csv_row.h"
 #include "engine/core/files.h"
@@ -35,6 +37,32 @@ constexpr const char* kHeaders[][2] = {
      "time_us,sequence,state,settings_hash,decision_hash,best_site,best_safe_distance_m,"
      "height_above_site_m,distance_to_site_m,height_m,alarms,vision_in_force"},
 };
+
+constexpr const char* kOrigins[] = {"operator", "script", "replay", "station"};
+static_assert(std::size(kOrigins) == static_cast<std::size_t>(CommandOrigin::kStation) + 1);
+
+/// As CommandAction lists them.
+constexpr const char* kActions[] = {"set_setting",
+                                    "apply",
+                                    "discard",
+                                    "select",
+                                    "disarm",
+                                    "approve",
+                                    "refuse",
+                                    "hold",
+                                    "wave_off",
+                                    "acknowledge_alarm",
+                                    "acknowledge_wave_off",
+                                    "bookmark",
+                                    "ask_for_command",
+                                    "release_command",
+                                    "command_lost"};
+static_assert(std::size(kActions) == std::variant_size_v<CommandAction>);
+
+const char* NameOf(const CommandAction& action) {
+  const auto* ask = std::get_if<AskForCommand>(&action);
+  return ask != nullptr && ask->take_over ? "take_over" : kActions[action.index()];
+}
 
 class Exporter {
  public:
@@ -82,6 +110,9 @@ class Exporter {
     return written;
   }
 
+  /// Messages whose bytes no table could be made of.
+  std::uint64_t undecodable() const { return undecodable_; }
+
  private:
   struct Table {
     std::string text;
@@ -92,9 +123,14 @@ class Exporter {
     tables_[table].text += row.line();
     ++tables_[table].rows;
   }
+  template <typename T>
+  bool Refuses(const Result<T>& decoded) {
+    undecodable_ += decoded ? 0 : 1;
+    return !decoded;
+  }
   void TakeEstimate(const WireMessage& m) {
     const Result<VehicleMessage> message = DecodeVehicleMessage(m, channels_);
-    if (!message) {
+    if (Refuses(message)) {
       return;
     }
     static constexpr const char* kSources[] = {"none", "gps", "vision"};
@@ -105,7 +141,7 @@ class Exporter {
   }
   void TakeRefused(const WireMessage& m) {
     const Result<RefusedDatagram> refused = DecodeRefused(m);
-    if (refused) {
+    if (!Refuses(refused)) {
       std::string hex;
       for (const std::uint8_t byte : refused->head) {
         hex += "0123456789abcdef"[byte >> 4];
@@ -118,7 +154,7 @@ class Exporter {
   }
   void TakeTruth(const WireMessage& m) {
     const Result<Truth> truth = DecodeTruth(m);
-    if (truth) {
+    if (!Refuses(truth)) {
       const EulerAngles a = EulerFromRotation(truth->X_WB.R);
       Add("truth.csv", Row(truth->time) << truth->X_WB.p << truth->v_WB << a.roll_rad << a.pitch_rad
                                         << a.yaw_rad);
@@ -126,22 +162,9 @@ class Exporter {
   }
   void TakeDecision(const WireMessage& m) {
     const Result<EngineCommand> command = DecodeCommand(m);
-    if (!command) {
+    if (Refuses(command)) {
       return;
     }
-    static constexpr const char* kOrigins[] = {"operator", "script", "replay"};
-    static constexpr const char* kActions[] = {"set_setting",
-                                               "apply",
-                                               "discard",
-                                               "select",
-                                               "disarm",
-                                               "approve",
-                                               "refuse",
-                                               "hold",
-                                               "wave_off",
-                                               "acknowledge_alarm",
-                                               "acknowledge_wave_off",
-                                               "bookmark"};
     std::string name;
     std::string text;
     double value = NAN;
@@ -161,14 +184,16 @@ class Exporter {
       name = alarm->alarm;
     } else if (const auto* bookmark = std::get_if<AddBookmark>(&command->action)) {
       text = bookmark->note;
+    } else if (const auto* lost = std::get_if<CommandLost>(&command->action)) {
+      text = lost->why;
     }
     Add("decisions.csv", Row(m.time) << kOrigins[static_cast<int>(command->origin)]
-                                     << kActions[command->action.index()] << name << value << site
-                                     << sequence << text);
+                                     << NameOf(command->action) << name << value << site << sequence
+                                     << text);
   }
   void TakeProposal(const WireMessage& m) {
     const Result<SiteProposal> proposal = DecodeProposal(m);
-    if (!proposal) {
+    if (Refuses(proposal)) {
       return;
     }
     const SiteTableMap map{proposal->time, proposal->map_time, proposal->map_hash,
@@ -187,7 +212,7 @@ class Exporter {
   }
   void TakeSettings(const WireMessage& m) {
     const Result<Settings> settings = DecodeSettings(m);
-    if (settings) {
+    if (!Refuses(settings)) {
       for (const SettingInfo& info : SettingTable()) {
         Add("settings.csv", Row(m.time) << info.name << GetSetting(*settings, info.name));
       }
@@ -197,31 +222,30 @@ class Exporter {
     static constexpr const char* kKinds[] = {"state", "site",     "decision", "setting",
                                              "alarm", "bookmark", "vehicle"};
     const Result<Event> event = DecodeEvent(m);
-    if (event) {
+    if (!Refuses(event)) {
       Add("events.csv", Row(event->time) << kKinds[static_cast<int>(event->kind)] << event->text);
     }
   }
   void TakeStatus(const WireMessage& m) {
     const Result<FlightRecordSample> s = DecodeStationStatus(m);
-    if (s) {
-      Add("status.csv",
-          Row(s->time) << s->sequence << MissionStateName(s->state) << s->settings_hash
-                       << s->decision_hash
-                       << s->best_site
-                       << s->best_safe_distance_m << s->height_above_site_m << s->distance_to_site_m
-                       << s->height_m << s->alarms << static_cast<int>(s->vision_in_force));
+    if (!Refuses(s)) {
+      Add("status.csv", Row(s->time)
+                            << s->sequence << MissionStateName(s->state) << s->settings_hash
+                            << s->decision_hash << s->best_site << s->best_safe_distance_m
+                            << s->height_above_site_m << s->distance_to_site_m << s->height_m
+                            << s->alarms << static_cast<int>(s->vision_in_force));
     }
   }
 
   ChannelNames channels_;
   std::map<std::string, Table> tables_;
+  std::uint64_t undecodable_ = 0;
 };
 
 }  // namespace
 
-Result<std::vector<ExportedTable>> ExportCsv(const std::filesystem::path& log,
-                                             const std::filesystem::path& folder,
-                                             const ChannelNames& channels) {
+Result<ExportedLog> ExportCsv(const std::filesystem::path& log, const std::filesystem::path& folder,
+                              const ChannelNames& channels) {
   const Result<LogFile> file = LogFile::Open(log);
   if (!file) {
     return file.error();
@@ -234,6 +258,7 @@ Result<std::vector<ExportedTable>> ExportCsv(const std::filesystem::path& log,
     return UnavailableError("--out: " + made.error().message);
   }
   Exporter exporter(channels);
+  ExportedLog exported;
   for (const LogEntry& entry : index->entries) {
     const std::string& channel = index->channels[entry.channel];
     if (channel == channels.camera_left || channel == channels.camera_right) {
@@ -242,9 +267,17 @@ Result<std::vector<ExportedTable>> ExportCsv(const std::filesystem::path& log,
     const Result<WireMessage> message = ReadEvent(*file, entry, index->channels);
     if (message) {
       exporter.Take(*message);
+    } else {
+      ++exported.left_out;
     }
   }
-  return exporter.Write(folder);
+  auto tables = exporter.Write(folder);
+  if (!tables) {
+    return tables.error();
+  }
+  exported.left_out += exporter.undecodable();
+  exported.tables = std::move(*tables);
+  return exported;
 }
 
 }  // namespace palace

@@ -11,18 +11,20 @@ namespace palace {
 namespace {
 
 /// Copies the readable events that `keep` wants.
-Result<std::uint64_t> CopyEvents(const LogFile& file, const LogIndex& index,
-                                 const std::filesystem::path& out,
-                                 const std::function<bool(const LogEntry&)>& keep) {
+Result<CopiedLog> CopyEvents(const LogFile& file, const LogIndex& index,
+                             const std::filesystem::path& out,
+                             const std::function<bool(const LogEntry&)>& keep) {
   Result<LogWriter> writer = LogWriter::Create(out);
   if (!writer) {
     return writer.error();
   }
+  CopiedLog copied;
   for (const LogEntry& entry : index.entries) {
     if (!keep(entry)) {
       continue;
     }
     const Result<WireMessage> message = ReadEvent(file, entry, index.channels);
+    copied.left_out += message ? 0 : 1;
     const Status written = message ? writer->Write(*message) : Ok();
     if (!written) {
       return written.error();
@@ -32,7 +34,8 @@ Result<std::uint64_t> CopyEvents(const LogFile& file, const LogIndex& index,
   if (!closed) {
     return closed.error();
   }
-  return writer->events();
+  copied.events = writer->events();
+  return copied;
 }
 
 /// Of the first event that has a time; what was sent before anything was heard has none.
@@ -88,8 +91,7 @@ Result<LogDescription> DescribeLog(const std::filesystem::path& log, bool verify
   return description;
 }
 
-Result<std::uint64_t> RepairLog(const std::filesystem::path& log,
-                                const std::filesystem::path& out) {
+Result<CopiedLog> RepairLog(const std::filesystem::path& log, const std::filesystem::path& out) {
   const Result<LogFile> file = LogFile::Open(log);
   if (!file) {
     return file.error();
@@ -101,8 +103,8 @@ Result<std::uint64_t> RepairLog(const std::filesystem::path& log,
   return CopyEvents(*file, *index, out, [](const LogEntry&) { return true; });
 }
 
-Result<std::uint64_t> CutLog(const std::filesystem::path& log, const std::filesystem::path& out,
-                             double from_s, double to_s) {
+Result<CopiedLog> CutLog(const std::filesystem::path& log, const std::filesystem::path& out,
+                         double from_s, double to_s) {
   if (!(from_s <= to_s)) {
     return UsageError("the cut runs from " + std::to_string(from_s) + " s to " +
                       std::to_string(to_s) + " s; give --from-s below --to-s");

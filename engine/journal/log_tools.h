@@ -32,12 +32,17 @@ struct LogDescription {
 Result<LogDescription> DescribeLog(const std::filesystem::path& log, bool verify,
                                    const ChannelNames& channels = {});
 
-/// Writes every readable event to a new log with a fresh sidecar. Returns how many.
-Result<std::uint64_t> RepairLog(const std::filesystem::path& log, const std::filesystem::path& out);
+struct CopiedLog {
+  std::uint64_t events = 0;
+  std::uint64_t left_out = 0;  ///< wanted, but the bytes differ from their checksum
+};
+
+/// Writes every readable event to a new log with a fresh sidecar.
+Result<CopiedLog> RepairLog(const std::filesystem::path& log, const std::filesystem::path& out);
 
 /// Writes the events from `from_s` to `to_s`, seconds after the first event, to a new log: whole
-/// passes of the engine where times are those of bundles. Returns how many.
-Result<std::uint64_t> CutLog(const std::filesystem::path& log, const std::filesystem::path& out,
-                             double from_s, double to_s);
+/// passes of the engine where times are those of bundles.
+Result<CopiedLog> CutLog(const std::filesystem::path& log, const std::filesystem::path& out,
+                         double from_s, double to_s);
 
 }  // namespace palace

@@ -108,8 +108,16 @@ int Describe(const LogOptions& options, bool verify) {
   return verify ? Verdict(log->report) : Impression(log->report);
 }
 
-/// A readable but damaged log keeps its exit code whatever is made of it.
-int HealthOf(const std::string& log) {
+/// A readable but damaged log keeps its exit code whatever is made of it; so does one of which
+/// something had to be left out.
+int HealthOf(const std::string& log, std::uint64_t left_out) {
+  if (left_out > 0) {
+    std::printf(
+        "%llu events are damaged or of another version, and left out; see palacectl log verify "
+        "%s\n",
+        static_cast<unsigned long long>(left_out), log.c_str());
+    return kDamaged;
+  }
   const Result<LogDescription> description = DescribeLog(log, false);
   return description && description->report.damaged() ? kDamaged : kWhole;
 }
@@ -119,12 +127,12 @@ int Export(const LogOptions& options) {
   if (!channels) {
     return Fail(channels.error());
   }
-  const auto tables = ExportCsv(options.log, options.out, *channels);
-  if (!tables) {
-    return Fail(tables.error());
+  const Result<ExportedLog> exported = ExportCsv(options.log, options.out, *channels);
+  if (!exported) {
+    return Fail(exported.error());
   }
   bool decided = false;
-  for (const ExportedTable& table : *tables) {
+  for (const ExportedTable& table : exported->tables) {
     std::printf("%s: %llu rows\n", table.file.c_str(), static_cast<unsigned long long>(table.rows));
     const std::string name = table.file.filename().string();
     decided = decided || (table.rows > 0 && (name == "sites.csv" || name == "status.csv"));
@@ -135,15 +143,16 @@ int Export(const LogOptions& options) {
         "palacectl log rerun %s --out DIR\n",
         options.log.c_str());
   }
-  return HealthOf(options.log);
+  return HealthOf(options.log, exported->left_out);
 }
 
-int Finish(const LogOptions& options, const Result<std::uint64_t>& events) {
-  if (!events) {
-    return Fail(events.error());
+int Finish(const LogOptions& options, const Result<CopiedLog>& copied) {
+  if (!copied) {
+    return Fail(copied.error());
   }
-  std::printf("%s: %llu events\n", options.out.c_str(), static_cast<unsigned long long>(*events));
-  return HealthOf(options.log);
+  std::printf("%s: %llu events\n", options.out.c_str(),
+              static_cast<unsigned long long>(copied->events));
+  return HealthOf(options.log, copied->left_out);
 }
 
 }  // namespace

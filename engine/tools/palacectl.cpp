@@ -1,6 +1,7 @@
 // palacectl: the engine's verbs for scripts and analysts.
 #include <algorithm>
 #include <cstdio>
+#include <exception>
 #include <iostream>
 #include <string>
 #include <vector>
@@ -110,6 +111,9 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     std::cerr << "palacectl: " << MistakeText(app, error) << "\n";
     return 2;
+  } catch (const std::exception& error) {  // memory or the file system, wherever it was
+    std::cerr << "palacectl: " << error.what() << "\n";
+    return ExitCode(1);
   }
   return ExitCode(exit_code);
 }
