@@ -12,12 +12,14 @@ constexpr std::size_t kMostEvents = 20000;
 Mission::Mission(MissionOptions options) : options_(std::move(options)) {
   memory_.approvals_given = options_.approvals_before;
   memory_.requests_made = options_.requests_before;
+  events_told_ = options_.events_before;
 }
 
 MissionOptions Mission::OptionsToGoOn() const {
   MissionOptions options = options_;
   options.approvals_before = memory_.approvals_given;
   options.requests_before = memory_.requests_made;
+  options.events_before = events_told_;
   return options;
 }
 
@@ -45,7 +47,7 @@ void Mission::AddEvent(Timestamp time, EventKind kind, std::string text) {
   if (events.size() >= kMostEvents) {
     events.erase(events.begin(), events.begin() + kMostEvents / 2);
   }
-  events.push_back({time, kind, std::move(text)});
+  events.push_back({time, kind, std::move(text), ++events_told_});
 }
 
 std::vector<VehicleMessage> Mission::TakeMessages() { return std::exchange(outbox_, {}); }

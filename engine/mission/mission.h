@@ -40,6 +40,8 @@ class Mission {
   /// The same, to keep: never changes.
   std::shared_ptr<const std::vector<Event>> SharedEvents() const { return events_.Share(); }
   void AddEvent(Timestamp time, EventKind kind, std::string text);
+  /// Those of a mission before this one, with their numbers.
+  void GoOnAfter(const std::vector<Event>& events) { events_.Edit() = events; }
   /// Messages for the vehicle since the last call, oldest first. Always empty in replay.
   std::vector<VehicleMessage> TakeMessages();
 
@@ -49,6 +51,7 @@ class Mission {
   MissionOptions options_;
   MissionMemory memory_;
   SharedValue<std::vector<Event>> events_;
+  std::uint64_t events_told_ = 0;  ///< also those that are not kept any more
   std::vector<VehicleMessage> outbox_;
 };
 

@@ -28,6 +28,7 @@ struct MissionOptions {
   /// inherits no approval, and repeats no number (I9, I17).
   std::uint64_t approvals_before = 0;
   std::uint64_t requests_before = 0;
+  std::uint64_t events_before = 0;
 };
 
 struct MissionInputs {

@@ -27,9 +27,7 @@ void Pipeline::GoOnAfter(std::uint64_t sequence, const EngineSnapshot* last) {
     slad_.GoOnNaming(last->terrain->OfRecord()->selection.named);
   }
   if (last != nullptr && last->session->events) {
-    for (const Event& event : *last->session->events) {
-      mission_.AddEvent(event.time, event.kind, event.text);
-    }
+    mission_.GoOnAfter(*last->session->events);
   }
 }
 

@@ -1,5 +1,7 @@
 #include "engine/wire/output_encoder.h"
 
+#include <algorithm>
+
 #include "engine/wire/convert.h"
 
 namespace palace {
@@ -26,12 +28,14 @@ std::vector<WireMessage> OutputEncoder::Encode(const EngineSnapshot& snapshot) {
     messages.back().time = snapshot.time;
   }
   if (snapshot.session->events) {
-    // A shorter list is a new flight's.
+    // The list may have lost its oldest, or go on where an engine that stopped had come to.
     const std::vector<Event>& events = *snapshot.session->events;
-    events_ = events.size() < events_ ? 0 : events_;
-    for (; events_ < events.size(); ++events_) {
-      messages.push_back(EncodeEvent(events[events_], channels_));
+    const auto is_told = [&](const Event& event) { return event.number <= newest_event_; };
+    for (auto event = std::partition_point(events.begin(), events.end(), is_told);
+         event != events.end(); ++event) {
+      messages.push_back(EncodeEvent(*event, channels_));
       messages.back().time = snapshot.time;
+      newest_event_ = event->number;
     }
   }
   const bool due = !mission_time_ || state_ != snapshot.flight->mission.state ||

@@ -1,7 +1,6 @@
 // OutputEncoder: what is new in each snapshot, as messages for a bus or a log.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -13,8 +12,8 @@
 namespace palace {
 
 /// Settings at the start and when their hash changed, sites with each new map, the tracker with
-/// each picture it saw, events once each, MISSION on a change of state and once a second, and
-/// always STATION_STATUS, last.
+/// each picture it saw, events once each by their number, MISSION on a change of state and once a
+/// second, and always STATION_STATUS, last.
 class OutputEncoder {
  public:
   explicit OutputEncoder(ChannelNames channels = {}) : channels_(std::move(channels)) {}
@@ -28,7 +27,7 @@ class OutputEncoder {
   std::optional<Timestamp> tracker_time_;
   std::optional<Timestamp> mission_time_;
   MissionState state_ = MissionState::kNoLive;
-  std::size_t events_ = 0;
+  std::uint64_t newest_event_ = 0;
 };
 
 }  // namespace palace

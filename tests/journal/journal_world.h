@@ -70,7 +70,8 @@ inline RecordedFlight RecordFlight(const std::filesystem::path& folder, int bund
       item.commands.push_back({CommandOrigin::kScript, ApproveSite{random.NextBits(), 4}});
     }
     auto snapshot = std::make_shared<EngineSnapshot>(RandomSnapshot(random, *item.bundle));
-    events->push_back({item.bundle->time, EventKind::kState, "event " + std::to_string(i)});
+    events->push_back({item.bundle->time, EventKind::kState, "event " + std::to_string(i),
+                       static_cast<std::uint64_t>(i + 1)});
     snapshot->session.Edit().events = std::make_shared<const std::vector<Event>>(*events);
     item.snapshot = snapshot;
     PositionEstimate estimate;

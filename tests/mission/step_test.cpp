@@ -152,5 +152,21 @@ TEST(Step, ARefusedCommandChangesOnlyTheEvents) {
   }
 }
 
+/// A list that forgets its oldest half is no new list.
+TEST(MissionEvents, KeepTheirNumbersWhenTheOldestAreForgotten) {
+  Mission mission({.events_before = 5});
+  for (int i = 0; i < 20'001; ++i) {
+    mission.AddEvent({i}, EventKind::kState, "x");
+  }
+  EXPECT_EQ(mission.events().size(), 10'001u);
+  EXPECT_EQ(mission.events().back().number, 20'006u);
+  EXPECT_EQ(mission.events().front().number, 10'006u);
+  EXPECT_EQ(mission.OptionsToGoOn().events_before, 20'006u);
+  Mission next(mission.OptionsToGoOn());
+  next.GoOnAfter(mission.events());
+  next.AddEvent({7}, EventKind::kState, "y");
+  EXPECT_EQ(next.events().back().number, 20'007u);
+}
+
 }  // namespace
 }  // namespace palace

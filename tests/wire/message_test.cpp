@@ -167,7 +167,7 @@ TEST(OutputEncoder, SendsOnlyNews) {
   const auto bundle = RandomBundle(random, 1, nullptr);
   EngineSnapshot s = RandomSnapshot(random, *bundle);
   s.session.Edit().events = std::make_shared<const std::vector<Event>>(
-      std::vector<Event>{{s.time, EventKind::kState, "one"}});
+      std::vector<Event>{{s.time, EventKind::kState, "one", 1}});
   OutputEncoder encoder;
   const auto channels = [&] {
     std::vector<std::string> names;
@@ -183,9 +183,36 @@ TEST(OutputEncoder, SendsOnlyNews) {
   s.session.Edit().settings.slad.limits.max_slope_deg = 9;
   s.session.Edit().settings_hash = HashOf(s.session->settings);
   EXPECT_EQ(channels(), (Names{"SLAD_SETTINGS", "STATION_STATUS"}));
-  s.session.Edit().events = std::make_shared<const std::vector<Event>>(
-      std::vector<Event>{{s.time, EventKind::kState, "one"}, {s.time, EventKind::kState, "two"}});
+  s.session.Edit().events = std::make_shared<const std::vector<Event>>(std::vector<Event>{
+      {s.time, EventKind::kState, "one", 1}, {s.time, EventKind::kState, "two", 2}});
   EXPECT_EQ(channels(), (Names{"EVENT", "STATION_STATUS"}));
+}
+
+TEST(OutputEncoder, WritesEachEventOnceThoughTheListForgetsAndGoesBack) {
+  RandomStream random(35);
+  const auto bundle = RandomBundle(random, 1, nullptr);
+  EngineSnapshot s = RandomSnapshot(random, *bundle);
+  OutputEncoder encoder;
+  // The numbers of the list, and what is news of it.
+  const auto news = [&](const std::vector<std::uint64_t>& numbers) {
+    std::vector<Event> events;
+    for (const std::uint64_t number : numbers) {
+      events.push_back({s.time, EventKind::kState, std::to_string(number), number});
+    }
+    s.session.Edit().events = std::make_shared<const std::vector<Event>>(std::move(events));
+    std::vector<std::uint64_t> told;
+    for (const WireMessage& m : encoder.Encode(s)) {
+      if (m.channel == ChannelNames{}.event) {
+        told.push_back(std::stoull(DecodeEvent(m)->text));
+      }
+    }
+    return told;
+  };
+  using Numbers = std::vector<std::uint64_t>;
+  EXPECT_EQ(news({1, 2, 3, 4}), (Numbers{1, 2, 3, 4}));
+  EXPECT_EQ(news({3, 4, 5}), Numbers{5}) << "the mission forgot the oldest";
+  EXPECT_EQ(news({3, 4}), Numbers{}) << "an engine that began anew, from the snapshot before";
+  EXPECT_EQ(news({3, 4, 6}), Numbers{6});
 }
 
 TEST(Channels, FileIsTheDefaults) {

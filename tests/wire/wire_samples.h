@@ -190,7 +190,7 @@ inline std::vector<WireMessage> OneOfEach(RandomStream& random) {
   }
   EngineSnapshot snapshot = RandomSnapshot(random, *bundle);
   snapshot.session.Edit().events = std::make_shared<const std::vector<Event>>(
-      std::vector<Event>{{bundle->time, EventKind::kBookmark, "here"}});
+      std::vector<Event>{{bundle->time, EventKind::kBookmark, "here", 1}});
   for (WireMessage& message : OutputEncoder(channels).Encode(snapshot)) {
     messages.push_back(std::move(message));
   }

@@ -68,6 +68,8 @@ struct Event {
   Timestamp time;
   EventKind kind = EventKind::kState;
   std::string text;
+  std::uint64_t number =
+      0;  ///< rises in a flight, over a restart of the engine too; 0: not counted
 };
 
 /// Between what was asked for and why it was refused: "Select refused: No site is proposed".
