@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <iterator>
 #include <system_error>
 #include <utility>
@@ -16,6 +17,7 @@ namespace {
 constexpr std::uint64_t kReserveBytes = 48u << 20;  // five minutes without pictures
 constexpr std::uint64_t kRoomToGoOn = 8u << 20;
 constexpr std::size_t kMostMissed = 5000;  // decisions kept in memory while nothing can be written
+constexpr std::size_t kMostWaiting = 64;   // commands before anything was heard; it may grow
 constexpr double kTryEvery_s = 1;
 constexpr double kTellSlowEvery_s = 1;
 
@@ -24,13 +26,7 @@ void Append(std::vector<WireMessage>& to, std::vector<WireMessage> messages) {
             std::make_move_iterator(messages.end()));
 }
 
-std::uint64_t BytesOf(const std::vector<WireMessage>& messages) {
-  std::uint64_t bytes = 0;
-  for (const WireMessage& message : messages) {
-    bytes += message.payload.size() + 2 * kLogHeaderBytes + message.channel.size();
-  }
-  return bytes;
-}
+std::uint64_t BytesOf(const LogMark& mark) { return mark.log_bytes + mark.index_bytes; }
 
 std::uint64_t PictureBytes(const FrameBundle& bundle) {
   return bundle.stereo ? bundle.stereo->left.pixels().size() + bundle.stereo->right.pixels().size()
@@ -51,7 +47,11 @@ FlightRecorder::FlightRecorder(LogWriter writer, ChannelNames channels, const Di
       channels_(channels),
       disk_(disk),
       outputs_(channels),
-      reserve_(ReserveBeside(writer_.path(), disk)) {}
+      reserve_(ReserveBeside(writer_.path(), disk)) {
+  // What may have to be kept when memory is short finds its place.
+  missed_.reserve(kMostMissed);
+  waiting_.reserve(kMostWaiting);
+}
 
 Result<std::unique_ptr<FlightRecorder>> FlightRecorder::Open(const std::filesystem::path& folder,
                                                              const std::string& stamp,
@@ -86,16 +86,13 @@ void FlightRecorder::Hear(const RecordItem& item) {
     return;
   }
   const bool first = !std::exchange(any_, true);
-  if (!first) {
-    const std::uint64_t slim = BytesOf(EncodeBundle(WithoutPictures(*item.bundle), channels_));
-    space_.Add(SecondsBetween(last_, item.bundle->time), slim + PictureBytes(*item.bundle), slim);
-  }
+  step_s_ = first ? 0 : SecondsBetween(last_, item.bundle->time);
   last_ = item.bundle->time;
 }
 
-FlightRecorder::Messages FlightRecorder::Before(const RecordItem& item) {
-  Messages messages;
-  for (const EngineCommand& command : std::exchange(waiting_, {})) {
+/// Commands wait until all of this is made.
+void FlightRecorder::Before(const RecordItem& item, Messages& messages) {
+  for (const EngineCommand& command : waiting_) {
     messages.push_back(EncodeCommand(command, last_, channels_));
   }
   pairs_too_slow_ += item.pairs_left_out;
@@ -104,11 +101,10 @@ FlightRecorder::Messages FlightRecorder::Before(const RecordItem& item) {
     messages.push_back(Told(std::to_string(std::exchange(pairs_too_slow_, 0)) +
                             " pairs of pictures were not written, the disk is too slow"));
   }
-  return messages;
+  waiting_.clear();
 }
 
-FlightRecorder::Messages FlightRecorder::After(const RecordItem& item) {
-  Messages messages;
+void FlightRecorder::After(const RecordItem& item, Messages& messages) {
   for (const VehicleMessage& message : item.sent) {
     messages.push_back(EncodeVehicleMessage(message, last_, channels_));
   }
@@ -121,34 +117,54 @@ FlightRecorder::Messages FlightRecorder::After(const RecordItem& item) {
       messages.pop_back();  // STATION_STATUS is of a bundle
     }
   }
-  return messages;
 }
 
+/// What throws is memory: what was decided then is written with the next pass.
 ::palace::Status FlightRecorder::Record(const RecordItem& item) {
+  Messages before, after;
+  const auto miss = [&](const char* problem) {
+    if (!waiting_.empty()) {
+      before.clear();
+    }
+    Stop(problem);
+    Miss(before, after);
+  };
+  try {
+    return TryRecord(item, before, after);
+  } catch (const std::exception& error) {
+    miss(error.what());
+    throw;
+  } catch (...) {
+    miss("unknown exception");
+    throw;
+  }
+}
+
+::palace::Status FlightRecorder::TryRecord(const RecordItem& item, Messages& before,
+                                           Messages& after) {
   Hear(item);
   waiting_.insert(waiting_.end(), item.commands.begin(), item.commands.end());
   if (!any_ && item.sent.empty() && item.notes.empty()) {
     return Ok();
   }
-  Messages before = any_ ? Before(item) : Messages();
-  Messages after = After(item);
+  if (any_) {
+    Before(item, before);
+  }
+  After(item, after);
   if (!problem_.empty() && !MayTryAgain()) {
     pairs_left_out_ += item.bundle && item.bundle->stereo ? 1 : 0;
-    Miss(std::move(before), std::move(after));
+    Miss(before, after);
     return UnavailableError(Path() + ": " + problem_);
   }
   const ::palace::Status written = WritePass(item, before, after);
   if (!written) {
-    if (problem_.empty()) {
-      stopped_at_ = last_;
-    }
-    problem_ = writer_.problem().empty() ? "a message is too large" : writer_.problem();
-    Miss(std::move(before), std::move(after));
+    Stop(writer_.problem().empty() ? "a message is too large" : writer_.problem());
+    Miss(before, after);
     return written;
   }
   problem_.clear();
   missed_.clear();
-  passes_missed_ = 0;
+  passes_missed_ = missed_dropped_ = 0;
   return Ok();
 }
 
@@ -168,10 +184,11 @@ FlightRecorder::Messages FlightRecorder::After(const RecordItem& item) {
     }
   }
   Thin(before);
-  const bool pictures = bundle != nullptr && KeepsPictures(*bundle);
+  bool pictures = bundle != nullptr && KeepsPictures(*bundle);
   ::palace::Status done = WriteAll(before, bundle, pictures, after);
   if (!done && pictures) {
     ++pairs_left_out_;
+    pictures = false;
     done = WriteAll(before, bundle, false, after);
   }
   if (!done && reserve_.bytes() > 0) {
@@ -179,12 +196,40 @@ FlightRecorder::Messages FlightRecorder::After(const RecordItem& item) {
     before.push_back(Told("the disk is full, the last minutes are of the space set aside"));
     done = WriteAll(before, bundle, false, after);
   }
+  if (done && bundle != nullptr) {
+    Count(*bundle, pictures);
+  }
   return done;
+}
+
+/// What a pass takes on the disk: everything since the bundle before, the sidecar too.
+void FlightRecorder::Count(const FrameBundle& bundle, bool pictures) {
+  const std::uint64_t now = BytesOf(writer_.mark());
+  const std::uint64_t of_pictures = PictureBytes(bundle);
+  const std::uint64_t slim = now - bytes_before_ - (pictures ? of_pictures : 0);
+  bytes_before_ = now;
+  if (problem_.empty()) {  // else it holds what was missed meanwhile
+    space_.Add(step_s_, slim + of_pictures, slim);
+  }
 }
 
 ::palace::Status FlightRecorder::WriteAll(const Messages& before, const FrameBundle* bundle,
                                           bool pictures, const Messages& after) {
   const LogMark start = writer_.mark();
+  try {
+    ::palace::Status written = WriteEach(before, bundle, pictures, after);
+    if (!written) {
+      writer_.CutBackTo(start);
+    }
+    return written;
+  } catch (...) {
+    writer_.CutBackTo(start);
+    throw;
+  }
+}
+
+::palace::Status FlightRecorder::WriteEach(const Messages& before, const FrameBundle* bundle,
+                                           bool pictures, const Messages& after) {
   Messages seen;
   if (bundle != nullptr) {
     seen = EncodeBundle(pictures ? *bundle : WithoutPictures(*bundle), channels_);
@@ -192,16 +237,11 @@ FlightRecorder::Messages FlightRecorder::After(const RecordItem& item) {
   for (const Messages* part : {&before, static_cast<const Messages*>(&seen), &after}) {
     for (const WireMessage& message : *part) {
       if (::palace::Status written = writer_.Write(message); !written) {
-        writer_.CutBackTo(start);
         return written;
       }
     }
   }
-  ::palace::Status flushed = writer_.Flush();
-  if (!flushed) {
-    writer_.CutBackTo(start);
-  }
-  return flushed;
+  return writer_.Flush();
 }
 
 /// How many pictures the disk has room for now; a change is told in the log.
@@ -240,27 +280,56 @@ bool FlightRecorder::MayTryAgain() {
   return disk_.free_bytes(writer_.path().parent_path()).value_or(kRoomToGoOn) >= kRoomToGoOn;
 }
 
-/// Keeps what was decided in a pass that cannot be written.
-void FlightRecorder::Miss(Messages before, Messages after) {
+void FlightRecorder::Stop(const std::string& problem) {
+  if (problem_.empty()) {
+    stopped_at_ = last_;
+  }
+  problem_ = problem;
+}
+
+/// Keeps what was decided in a pass that cannot be written, and empties both.
+void FlightRecorder::Miss(Messages& before, Messages& after) {
   ++passes_missed_;
-  Append(before, std::move(after));
-  const auto is_decision = [&](const WireMessage& message) {
-    return message.channel == channels_.site_decision || message.channel == channels_.command ||
-           message.channel == channels_.abort || message.channel == channels_.event ||
-           message.channel == channels_.slad_settings;
-  };
-  for (WireMessage& message : before) {
-    if (is_decision(message) && missed_.size() < kMostMissed) {
-      missed_.push_back(std::move(message));
+  for (Messages* part : {&before, &after}) {
+    for (WireMessage& message : *part) {
+      if (RankOf(message) > 0) {
+        Keep(std::move(message));
+      }
     }
+    part->clear();
   }
 }
 
+/// What is kept longer while nothing can be written; 0: not kept.
+int FlightRecorder::RankOf(const WireMessage& message) const {
+  const std::string& channel = message.channel;
+  const bool decides = channel == channels_.site_decision || channel == channels_.command ||
+                       channel == channels_.abort;
+  return decides ? 3 : channel == channels_.slad_settings ? 2 : channel == channels_.event ? 1 : 0;
+}
+
+void FlightRecorder::Keep(WireMessage message) {
+  if (missed_.size() >= kMostMissed) {
+    ++missed_dropped_;
+    const auto least = std::min_element(
+        missed_.begin(), missed_.end(),
+        [&](const WireMessage& a, const WireMessage& b) { return RankOf(a) < RankOf(b); });
+    if (RankOf(*least) > RankOf(message)) {
+      return;
+    }
+    missed_.erase(least);
+  }
+  missed_.push_back(std::move(message));
+}
+
 FlightRecorder::Messages FlightRecorder::TakeMissed() {
-  Messages messages = {
-      Told(WithNumbers("goes on after %.1f s; %.0f passes are missing, what was "
-                       "decided in them follows",
-                       SecondsBetween(stopped_at_, last_), static_cast<double>(passes_missed_)))};
+  std::string text =
+      WithNumbers("goes on after %.1f s; %.0f passes are missing, what was decided in them follows",
+                  SecondsBetween(stopped_at_, last_), static_cast<double>(passes_missed_));
+  if (missed_dropped_ > 0) {
+    text += ", but for " + std::to_string(missed_dropped_) + " messages that memory did not hold";
+  }
+  Messages messages = {Told(text)};
   Append(messages, missed_);
   return messages;
 }
@@ -270,7 +339,7 @@ FlightRecorder::Messages FlightRecorder::TakeMissed() {
   if (any_ || writer_.events() > 0) {
     reserve_.Release();
     Messages last = problem_.empty() ? Messages() : TakeMissed();
-    Append(last, Before({}));
+    Before({}, last);
     if (pairs_left_out_ > 0) {
       last.push_back(Told(std::to_string(pairs_left_out_) + " pairs of pictures are left out"));
     }

@@ -8,7 +8,8 @@
 // every 6 MiB, about once a second, it is brought to the disk, for the loss of power. A pass is
 // written whole or not at all. While the disk fills, RecordSpace says which pictures stay; what it
 // set aside at the start is given back when the disk is full, for telemetry and decisions. When
-// nothing can be written, decisions wait in memory, and it is tried again every second.
+// nothing can be written, decisions wait in memory, and it is tried again every second; when there
+// are more than it holds, notes of events go before settings, and settings before commands.
 #pragma once
 
 #include <cstdint>
@@ -43,12 +44,19 @@ class FlightRecorder final : public RecordSink {
   using Messages = std::vector<WireMessage>;
   FlightRecorder(LogWriter writer, ChannelNames channels, const Disk& disk);
   void Hear(const RecordItem& item);
-  Messages Before(const RecordItem& item);
-  Messages After(const RecordItem& item);
+  void Before(const RecordItem& item, Messages& messages);
+  void After(const RecordItem& item, Messages& messages);
+  ::palace::Status TryRecord(const RecordItem& item, Messages& before, Messages& after);
   ::palace::Status WritePass(const RecordItem& item, Messages before, const Messages& after);
   ::palace::Status WriteAll(const Messages& before, const FrameBundle* bundle, bool pictures,
                             const Messages& after);
-  void Miss(Messages before, Messages after);
+  ::palace::Status WriteEach(const Messages& before, const FrameBundle* bundle, bool pictures,
+                             const Messages& after);
+  void Count(const FrameBundle& bundle, bool pictures);
+  void Stop(const std::string& problem);
+  void Miss(Messages& before, Messages& after);
+  void Keep(WireMessage message);
+  int RankOf(const WireMessage& message) const;
   bool MayTryAgain();
   Messages TakeMissed();
   bool KeepsPictures(const FrameBundle& bundle);
@@ -63,6 +71,8 @@ class FlightRecorder final : public RecordSink {
   bool any_ = false;                    ///< something was heard: there is a time
   std::vector<EngineCommand> waiting_;  ///< given before that: they go before the first bundle
 
+  double step_s_ = 0;               ///< from bundle to bundle
+  std::uint64_t bytes_before_ = 0;  ///< of log and sidecar, when the rate was counted last
   RecordSpace space_;
   SpaceReserve reserve_;
   std::uint64_t pairs_ = 0;
@@ -73,7 +83,8 @@ class FlightRecorder final : public RecordSink {
   std::string problem_;  ///< why nothing is written
   Timestamp stopped_at_;
   Timestamp tried_at_;
-  Messages missed_;  ///< decisions, until they can be written
+  Messages missed_;                   ///< decisions, until they can be written
+  std::uint64_t missed_dropped_ = 0;  ///< more than memory holds
   std::uint64_t passes_missed_ = 0;
 };
 

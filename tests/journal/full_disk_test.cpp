@@ -279,6 +279,56 @@ TEST_F(FullDiskFlight, EveryRoomLeavesAWholeLog) {
   }
 }
 
+/// Bookmarks of hours without room: notes of events go, what was commanded stays.
+TEST_F(FullDiskFlight, WhatMemoryCannotHoldIsEventsBeforeCommandsAndIsTold) {
+  Open(3'000'000);
+  while (Pass()) {
+  }
+  const int commands = commands_;
+  RecordItem notes;
+  for (int i = 0; i < 6000; ++i) {
+    notes.notes.push_back({{}, EventKind::kAlarm, "note " + std::to_string(i)});
+  }
+  EXPECT_FALSE(recorder_->Record(notes).ok());
+  RecordItem wave_off;
+  wave_off.commands = {{CommandOrigin::kOperator, WaveOff{}}};
+  wave_off.sent = {AbortRequest{7, "test"}};
+  EXPECT_FALSE(recorder_->Record(wave_off).ok());
+  EXPECT_FALSE(recorder_->Record(notes).ok());
+  small_->AddRoom(500'000'000);
+  while (!Pass()) {
+  }
+  ASSERT_TRUE(recorder_->Close());
+  EXPECT_EQ(Count("ABORT"), 1);
+  EXPECT_EQ(Count("SITE_DECISION"), 1 + commands_) << "of " << commands;
+  EXPECT_TRUE(Mentions(Told(), "note 5999"));
+  EXPECT_TRUE(Mentions(Told(), "messages that memory did not hold"));
+  EXPECT_FALSE(Read().report.damaged());
+}
+
+/// What the station sends and tells is on the disk too, and the sidecar.
+TEST_F(FullDiskFlight, TheCountdownCountsEverythingThatIsWritten) {
+  Open(std::uint64_t{10} << 30);
+  const auto bytes = [&] {
+    return static_cast<double>(std::filesystem::file_size(Log()) +
+                               std::filesystem::file_size(SidecarPath(Log())));
+  };
+  const auto fly = [&](int passes) {
+    for (int i = 0; i < passes; ++i) {
+      RecordItem told;
+      told.notes.assign(20, {{}, EventKind::kAlarm, std::string(5000, 'x')});
+      ASSERT_TRUE(recorder_->Record(told));
+      ASSERT_TRUE(Pass());
+    }
+  };
+  fly(10);
+  const double before = bytes();
+  fly(50);
+  const double rate_per_s = (bytes() - before) / 5;
+  const double room = static_cast<double>(small_->room() + (48u << 20));
+  EXPECT_NEAR(60 * recorder_->State().minutes_left * rate_per_s / room, 1, 0.05);
+}
+
 TEST_F(FullDiskFlight, APlentifulDiskLeavesNothingOutAndNothingBehind) {
   Open(std::uint64_t{100} << 30);
   for (int i = 0; i < 100; ++i) {
