@@ -65,17 +65,18 @@ Losses FaultedSource::Lost() const {
   return losses_;
 }
 
-void FaultedSource::Send(const VehicleMessage& message) {
+bool FaultedSource::Send(const VehicleMessage& message) {
   std::int64_t offset_us = 0;
   {
     const std::lock_guard lock(mutex_);
     offset_us = clock_offset_us_;
   }
-  if (link_) {
-    VehicleMessage mapped = OnClock(message, -offset_us);
-    link_->Seal(mapped);
-    link_->Send(mapped);
+  if (!link_) {
+    return false;
   }
+  VehicleMessage mapped = OnClock(message, -offset_us);
+  link_->Seal(mapped);
+  return link_->Send(mapped);
 }
 
 void FaultedSource::Hear(const FrameBundle& bundle) {

@@ -43,7 +43,7 @@ class FaultedSource final : public Source, public VehicleLink {
   void Control(const PlaybackControl& control) override { source_->Control(control); }
 
   /// Sealed here: the vehicle seals and checks on its own clock.
-  void Send(const VehicleMessage& message) override;
+  bool Send(const VehicleMessage& message) override;
   void Hear(const FrameBundle& bundle) override;
   AuthorityStatus Authority() const override;
   void Announce(const EngineSnapshot& snapshot) override;

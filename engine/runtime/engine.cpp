@@ -9,6 +9,16 @@ namespace palace {
 namespace {
 constexpr double kWriteFirst_s = 0.1;
 constexpr auto kEndWithin = std::chrono::seconds(3);
+constexpr auto kEndHurriedWithin = std::chrono::seconds(1);
+
+/// For the record: what was to go to the vehicle and did not leave.
+Event NotSent(const VehicleMessage& message, Timestamp time) {
+  const char* what = std::holds_alternative<AbortRequest>(message)  ? "A wave-off"
+                     : std::holds_alternative<HoldRequest>(message) ? "A hold"
+                     : std::holds_alternative<Approval>(message)    ? "An approval"
+                                                                    : "A message to the vehicle";
+  return {time, EventKind::kAlarm, what + std::string(" could not be sent")};
+}
 }  // namespace
 
 Engine::Engine(EngineParts parts, bool threaded)
@@ -25,10 +35,14 @@ Engine::Engine(EngineParts parts, bool threaded)
     recorder_ = std::make_unique<Recorder>(std::move(parts.sink), threaded);
   }
   if (link_ && threaded) {
-    stop_ = std::make_unique<StopSender>(link_, [this](const VehicleMessage& message) {
+    stop_ = std::make_unique<StopSender>(link_, [this](const VehicleMessage& message, bool left) {
       if (recorder_) {
         RecordItem item;
-        item.sent = {message};
+        if (left) {
+          item.sent = {message};
+        } else {
+          item.notes = {NotSent(message, {})};
+        }
         recorder_->Record(std::move(item), /*may_wait=*/false);
       }
     });
@@ -45,22 +59,37 @@ void Engine::Start() {
 }
 
 Status Engine::Stop() {
+  hung_ = false;
   if (source_thread_.joinable()) {
     source_thread_.request_stop();
     engine_thread_.request_stop();
-    for (; threads_running_ > 0 && threads_ended_.try_acquire_for(kEndWithin); --threads_running_) {
-    }
-    hung_ = threads_running_ > 0;
+    hung_ = !AwaitThreads();
     if (!hung_) {
       source_thread_.join();
       engine_thread_.join();
     }
   }
   const Status closed = recorder_ ? recorder_->Close() : Ok();
+  if (!hung_ && recorder_ && recorder_->hung()) {
+    hung_ = true;
+    return closed;
+  }
   return hung_ ? UnavailableError(
                      "the engine did not end within 3 s; the log is closed without "
                      "what it was working on")
                : closed;
+}
+
+bool Engine::AwaitThreads() {
+  for (; threads_running_ > 0 && threads_ended_.try_acquire_for(kEndWithin); --threads_running_) {
+  }
+  if (threads_running_ > 0 && recorder_) {
+    recorder_->HurryUp();  // it may be the disk that the engine waits for
+    for (; threads_running_ > 0 && threads_ended_.try_acquire_for(kEndHurriedWithin);
+         --threads_running_) {
+    }
+  }
+  return threads_running_ == 0;
 }
 
 void Engine::Post(EngineCommand command) {
@@ -183,24 +212,39 @@ void Engine::RecordAndSend(RecordItem item) {
   const std::vector<VehicleMessage> messages = item.sent;
   const std::shared_ptr<const EngineSnapshot> snapshot = item.snapshot;
   if (recorder_) {
-    item.notes = std::exchange(notes_, {});
-    const bool first = DecidesSomething(item);
-    recorded_ = true;
-    if (!first) {
-      recorder_->Record(std::move(item), source_->IsLockstep());
-    } else if (!recorder_->RecordFirst(std::move(item), source_->IsLockstep(), kWriteFirst_s)) {
-      notes_.push_back({snapshot->time, EventKind::kAlarm,
-                        "A decision was sent before it was written: the disk takes longer than "
-                        "0.1 s"});
-    }
+    Record(std::move(item));
   }
   if (link_) {
     for (const VehicleMessage& message : messages) {
-      link_->Send(message);
+      // An estimate that is lost is soon replaced; losses.messages_unsent counts it.
+      if (!link_->Send(message) && !std::holds_alternative<PositionEstimate>(message)) {
+        notes_.push_back(NotSent(message, snapshot->time));
+      }
     }
     link_->Announce(*snapshot);
   }
   latest_.Store(snapshot);
+}
+
+void Engine::Record(RecordItem item) {
+  item.notes = std::exchange(notes_, {});
+  const Timestamp time = item.snapshot->time;
+  recorded_ = true;
+  if (!DecidesSomething(item)) {
+    recorder_->Record(std::move(item), source_->IsLockstep());
+    return;
+  }
+  const Written written =
+      recorder_->RecordFirst(std::move(item), source_->IsLockstep(), kWriteFirst_s);
+  if (written == Written::kLate) {
+    notes_.push_back({time, EventKind::kAlarm,
+                      "A decision was sent before it was written: the disk takes longer than "
+                      "0.1 s"});
+  } else if (written == Written::kNo) {
+    notes_.push_back(
+        {time, EventKind::kAlarm,
+         "A decision was sent that could not be written before: " + recorder_->state().problem});
+  }
 }
 
 bool Engine::DecidesSomething(const RecordItem& item) const {
@@ -236,6 +280,8 @@ SessionStatus Engine::Session() const {
   }
   if (fault_passes_ > 0) {
     session.engine_stop = watch_.LastStop();
+  } else if (source_fault_passes_ > 0) {
+    session.engine_stop = source_watch_.LastStop();
   }
   session.losses = source_->Lost();
   const Losses overtaken = inbox_.losses();

@@ -49,7 +49,8 @@ class Engine {
   /// Starts the threads. Only for a threaded engine.
   void Start();
   /// Ends the threads and closes the log. The recorder's error, if any. Threads that do not end
-  /// within 3 s are left alone: an error too, and the Engine must not be destroyed while hung().
+  /// within 3 s, and a disk that stands still for 5 s, are left alone: an error too, and the Engine
+  /// must not be destroyed while hung().
   Status Stop();
   bool hung() const { return hung_; }
 
@@ -80,8 +81,11 @@ class Engine {
   bool HandleSafely(const Inbox::Batch& batch, std::stop_token stop);
   void Handle(Inbox::Batch batch);
   void RecordAndSend(RecordItem item);
+  void Record(RecordItem item);
   bool DecidesSomething(const RecordItem& item) const;
   bool StartAgain(const Inbox::Batch& failed, const std::string& reason, std::stop_token stop);
+  bool SourceStopped(const std::string& reason, std::stop_token stop);
+  bool AwaitThreads();
   bool AwaitRestart(double at_s, std::stop_token stop) const;
   std::unique_ptr<Pipeline> MakePipeline(const Settings& settings, MissionOptions mission) const;
   void HoldDescent();
@@ -102,12 +106,15 @@ class Engine {
   const bool threaded_;
   std::unique_ptr<StopSender> stop_;
   Inbox inbox_;
-  bool commanded_ = false;            ///< at the last pass this station commanded
-  std::vector<EngineCommand> early_;  ///< given before the first bundle, applied with it
-  std::vector<Event> notes_;          ///< of the engine itself, for the record
-  bool recorded_ = false;             ///< the batch in hand
-  bool made_anew_ = false;            ///< and has seen no bundle since
-  int fault_passes_ = 0;              ///< how many more tell what stopped the engine
+  bool commanded_ = false;             ///< at the last pass this station commanded
+  std::vector<EngineCommand> early_;   ///< given before the first bundle, applied with it
+  std::vector<Event> notes_;           ///< of the engine itself, for the record
+  std::atomic<int> source_faults_{0};  ///< stops of the source, so far
+  int source_faults_told_ = 0;
+  bool recorded_ = false;        ///< the batch in hand
+  bool made_anew_ = false;       ///< and has seen no bundle since
+  int fault_passes_ = 0;         ///< how many more tell what stopped the engine
+  int source_fault_passes_ = 0;  ///< or the source
   LatestValue<EngineSnapshot> latest_;
   EngineWatch watch_;
   EngineWatch source_watch_;

@@ -24,6 +24,10 @@ std::unique_ptr<Pipeline> Engine::MakePipeline(const Settings& settings,
 bool Engine::HandleSafely(const Inbox::Batch& batch, std::stop_token stop) {
   recorded_ = false;
   fault_passes_ -= fault_passes_ > 0 ? 1 : 0;
+  source_fault_passes_ -= source_fault_passes_ > 0 ? 1 : 0;
+  if (const int faults = source_faults_; faults != std::exchange(source_faults_told_, faults)) {
+    source_fault_passes_ = kTellPasses;
+  }
   try {
     Handle(batch);
     return true;
@@ -63,6 +67,9 @@ bool Engine::StartAgain(const Inbox::Batch& failed, const std::string& reason,
   } catch (const std::exception& error) {
     Fail(UnavailableError(text + "; it cannot be started again: " + error.what()));
     return false;
+  } catch (...) {
+    Fail(UnavailableError(text + "; it cannot be started again"));
+    return false;
   }
   made_anew_ = true;
   fault_passes_ = kTellPasses;
@@ -87,17 +94,35 @@ void Engine::RunSource(std::stop_token stop) {
         break;
       }
     } catch (const std::exception& error) {
-      const std::string reason = error.what();
-      const auto at_s = source_watch_.Stopped("Source", reason, MonotonicSeconds());
-      LogError("Source stopped: " + reason);
-      if (!at_s || !AwaitRestart(*at_s, stop)) {
-        Fail(UnavailableError("Source stopped: " + reason));
+      if (!SourceStopped(error.what(), stop)) {
         break;
       }
-      source_watch_.Started(MonotonicSeconds());
+    } catch (...) {
+      if (!SourceStopped("unknown exception", stop)) {
+        break;
+      }
     }
   }
   threads_ended_.release();
+}
+
+/// Tells and records it. False when it is not started again.
+bool Engine::SourceStopped(const std::string& reason, std::stop_token stop) {
+  const std::string text = "Source stopped: " + reason;
+  LogError(text);
+  if (recorder_) {
+    RecordItem item;
+    item.notes = {{{}, EventKind::kAlarm, text}};
+    recorder_->Record(std::move(item), /*may_wait=*/false);
+  }
+  const auto at_s = source_watch_.Stopped("Source", reason, MonotonicSeconds());
+  if (!at_s || !AwaitRestart(*at_s, stop)) {
+    Fail(UnavailableError(text));
+    return false;
+  }
+  source_watch_.Started(MonotonicSeconds());
+  ++source_faults_;
+  return true;
 }
 
 /// Takes one bundle to the inbox. False when there will be no other.

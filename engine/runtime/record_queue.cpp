@@ -41,7 +41,7 @@ void HandOver(RecordItem older, RecordItem& newer) {
 std::uint64_t RecordQueue::Push(RecordItem item, bool may_wait) {
   std::unique_lock lock(mutex_);
   if (may_wait) {
-    changed_.wait(lock, [&] { return entries_.size() < kMostWhole; });
+    changed_.wait(lock, [&] { return hurries_ || entries_.size() < kMostWhole; });
   }
   const std::uint64_t ticket = ++last_ticket_;
   entries_.push_back({ticket, std::move(item)});
@@ -78,16 +78,31 @@ std::optional<RecordQueue::Entry> RecordQueue::Pop(std::stop_token stop) {
   return entry;
 }
 
-void RecordQueue::Done(std::uint64_t ticket) {
+void RecordQueue::Done(std::uint64_t ticket, bool written) {
   const std::lock_guard lock(mutex_);
+  // Those in between were joined to this one.
+  const std::uint64_t first =
+      done_ticket_ + kRemembered < ticket ? ticket - kRemembered + 1 : done_ticket_ + 1;
+  for (std::uint64_t i = first; i <= ticket; ++i) {
+    written_[i % kRemembered] = written;
+  }
   done_ticket_ = ticket;
   changed_.notify_all();
 }
 
-bool RecordQueue::AwaitDone(std::uint64_t ticket, double seconds) {
+Written RecordQueue::AwaitDone(std::uint64_t ticket, double seconds) {
   std::unique_lock lock(mutex_);
-  return changed_.wait_for(lock, std::chrono::duration<double>(seconds),
-                           [&] { return done_ticket_ >= ticket; });
+  if (!changed_.wait_for(lock, std::chrono::duration<double>(seconds),
+                         [&] { return done_ticket_ >= ticket; })) {
+    return Written::kLate;
+  }
+  return written_[ticket % kRemembered] ? Written::kYes : Written::kNo;
+}
+
+void RecordQueue::HurryUp() {
+  const std::lock_guard lock(mutex_);
+  hurries_ = true;
+  changed_.notify_all();
 }
 
 std::uint64_t RecordQueue::pairs_left_out() const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <condition_variable>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -24,11 +25,16 @@ class Recorder {
 
   /// Any thread. A lockstep flight waits for room in the queue; a live one never waits.
   void Record(RecordItem item, bool may_wait);
-  /// The same, and returns when it is written, or when the disk has taken `limit_s` over it: false
-  /// then, and it is written later.
-  bool RecordFirst(RecordItem item, bool may_wait, double limit_s);
+  /// The same, and returns when the disk has taken or refused it, or when it has taken `limit_s`
+  /// over it: kLate then, and it is written later.
+  Written RecordFirst(RecordItem item, bool may_wait, double limit_s);
+  /// Nobody waits for room any more: for the end of a flight whose disk stands still.
+  void HurryUp() { queue_.HurryUp(); }
   /// Writes what waits and closes the log. What stood against recording at the end, if anything.
-  Status Close();
+  /// When the disk does not move for `patience_s` it is left alone: an error too, and the Recorder
+  /// must not be destroyed while hung().
+  Status Close(double patience_s = kPatience_s);
+  bool hung() const { return hung_; }
   bool ok() const { return ok_.load(); }
   RecordState state() const;
   const std::string& path() const { return path_; }
@@ -36,7 +42,11 @@ class Recorder {
   std::uint64_t dropped() const { return queue_.pairs_left_out(); }
 
  private:
-  void Write(const RecordItem& item);
+  static constexpr double kPatience_s = 5;
+  void Run(std::stop_token stop);
+  bool Write(const RecordItem& item);
+  Status CloseSink();
+  bool AwaitEnd(double patience_s);
   void Fail(const std::string& message, const std::string& problem);
 
   std::unique_ptr<RecordSink> sink_;
@@ -46,6 +56,11 @@ class Recorder {
   mutable std::mutex state_mutex_;
   RecordState state_;
   std::string error_;
+  std::condition_variable moved_;
+  std::uint64_t moves_ = 0;  ///< of the disk
+  bool ended_ = false;       ///< the thread, with sink_ closed
+  Status closing_ = Ok();
+  bool hung_ = false;
   const bool threaded_;
   std::atomic<bool> closed_{false};
   std::jthread thread_;  // last: joined before the rest goes

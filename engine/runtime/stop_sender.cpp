@@ -21,10 +21,9 @@ constexpr int kTries = 3;  // of a send that throws: memory may be short for a m
 
 }  // namespace
 
-StopSender::StopSender(std::shared_ptr<VehicleLink> link,
-                       std::function<void(const VehicleMessage&)> sent)
+StopSender::StopSender(std::shared_ptr<VehicleLink> link, Tried tried)
     : link_(std::move(link)),
-      sent_(std::move(sent)),
+      tried_(std::move(tried)),
       abort_(AbortRequest{RandomPathId(), "Wave-off by the operator"}),
       hold_(HoldRequest{std::get<AbortRequest>(abort_).command_id + 1, "Held by the operator"}),
       thread_([this](std::stop_token stop) {
@@ -46,26 +45,47 @@ void StopSender::SealAndSend() {
     VehicleMessage hold = hold_;
     link_->Seal(hold);
     Send(hold);
+    return;
   } catch (const std::exception& error) {
     LogError(std::string("a hold could not be sealed: ") + error.what());
+  } catch (...) {
+    LogError("a hold could not be sealed: unknown exception");
   }
+  Tell(hold_, false);
 }
 
 void StopSender::Send(const VehicleMessage& message) {
-  for (int i = 0; i < kTries; ++i) {
-    try {
-      link_->Send(message);
-      break;
-    } catch (const std::exception& error) {
-      LogError(std::string("a wave-off or hold could not be sent: ") + error.what());
-    }
+  bool left = false;
+  for (int i = 0; i < kTries && !left; ++i) {
+    left = TrySend(message);
   }
+  Tell(message, left);
+}
+
+bool StopSender::TrySend(const VehicleMessage& message) {
   try {
-    if (sent_) {
-      sent_(message);
+    const bool left = link_->Send(message);
+    if (!left) {
+      LogError("a wave-off or hold could not be sent");
+    }
+    return left;
+  } catch (const std::exception& error) {
+    LogError(std::string("a wave-off or hold could not be sent: ") + error.what());
+  } catch (...) {
+    LogError("a wave-off or hold could not be sent: unknown exception");
+  }
+  return false;
+}
+
+void StopSender::Tell(const VehicleMessage& message, bool left) {
+  try {
+    if (tried_) {
+      tried_(message, left);
     }
   } catch (const std::exception& error) {
     LogError(std::string("a wave-off or hold is not in the record: ") + error.what());
+  } catch (...) {
+    LogError("a wave-off or hold is not in the record: unknown exception");
   }
 }
 

@@ -15,10 +15,10 @@ namespace palace {
 
 class StopSender {
  public:
-  /// `sent` is told of each message after it left, on the thread of the sender: for the record,
-  /// which has it even when the engine is dead.
-  explicit StopSender(std::shared_ptr<VehicleLink> link,
-                      std::function<void(const VehicleMessage&)> sent = {});
+  /// `tried` is told of each message, and whether it left, on the thread of the sender: for the
+  /// record, which has it even when the engine is dead.
+  using Tried = std::function<void(const VehicleMessage&, bool left)>;
+  explicit StopSender(std::shared_ptr<VehicleLink> link, Tried tried = {});
   ~StopSender();
   StopSender(const StopSender&) = delete;
   StopSender& operator=(const StopSender&) = delete;
@@ -30,11 +30,13 @@ class StopSender {
  private:
   void Trigger(bool& wanted);
   void Send(const VehicleMessage& message);
+  bool TrySend(const VehicleMessage& message);
+  void Tell(const VehicleMessage& message, bool left);
   /// The hold; a wave-off needs no seal, and no memory for it.
   void SealAndSend();
 
   std::shared_ptr<VehicleLink> link_;
-  const std::function<void(const VehicleMessage&)> sent_;
+  const Tried tried_;
   const VehicleMessage abort_;
   const VehicleMessage hold_;
   std::mutex mutex_;

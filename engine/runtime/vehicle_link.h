@@ -10,8 +10,8 @@ class VehicleLink {
  public:
   virtual ~VehicleLink() = default;
   /// Never waits; may be called from the engine thread and, for AbortRequest and
-  /// HoldRequest, from any thread.
-  virtual void Send(const VehicleMessage& message) = 0;
+  /// HoldRequest, from any thread. False when it did not leave.
+  virtual bool Send(const VehicleMessage& message) = 0;
   /// Seals what a vehicle takes sealed only, before it is recorded and sent. Any thread.
   virtual void Seal(VehicleMessage& /*message*/) {}
   /// What the vehicle said, for links that keep a session with it. Engine thread only.

@@ -216,9 +216,10 @@ void Simulator::Control(const PlaybackControl& control) {
   state_->changed.notify_all();
 }
 
-void Simulator::Send(const VehicleMessage& message) {
+bool Simulator::Send(const VehicleMessage& message) {
   const std::lock_guard lock(state_->mutex);
   state_->inbox.push_back(message);
+  return true;
 }
 
 void Simulator::Seal(VehicleMessage& message) {

@@ -70,7 +70,7 @@ class Simulator final : public Source, public VehicleLink {
   bool IsLockstep() const override { return true; }
   SourceStatus Status() const override;
   void Control(const PlaybackControl& control) override;
-  void Send(const VehicleMessage& message) override;
+  bool Send(const VehicleMessage& message) override;
   void Seal(VehicleMessage& message) override;
   void Hear(const FrameBundle& bundle) override;
   void Announce(const EngineSnapshot& snapshot) override;

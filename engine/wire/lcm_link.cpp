@@ -107,7 +107,7 @@ void LcmLink::KeepSession() {
   }
 }
 
-void LcmLink::Send(const VehicleMessage& message) {
+bool LcmLink::Send(const VehicleMessage& message) {
   if (const auto* abort = std::get_if<AbortRequest>(&message)) {
     const std::lock_guard lock(mutex_);
     own_aborts_[aborts_sent_++ % own_aborts_.size()] = {abort->command_id, MonotonicSeconds()};
@@ -116,12 +116,12 @@ void LcmLink::Send(const VehicleMessage& message) {
   if (const auto* estimate = std::get_if<PositionEstimate>(&message)) {
     newest_us_ = estimate->time.us;
     if (estimate->seal.session_id == 0) {
-      return;  // no vehicle takes it, and whoever commands would hear a stranger
+      return true;  // no vehicle takes it, and whoever commands would hear a stranger
     }
   } else if (const auto* approval = std::get_if<Approval>(&message)) {
     newest_us_ = approval->approved_at.us;
   }
-  Publish(EncodeVehicleMessage(message, {newest_us_}, channels_));
+  return Publish(EncodeVehicleMessage(message, {newest_us_}, channels_));
 }
 
 void LcmLink::Announce(const EngineSnapshot& snapshot) {
@@ -132,9 +132,10 @@ void LcmLink::Announce(const EngineSnapshot& snapshot) {
   KeepSession();
 }
 
-void LcmLink::Publish(const WireMessage& message) {
-  const Status published = bus_->Publish(message);
+bool LcmLink::Publish(const WireMessage& message) {
+  const bool published = bus_->Publish(message).ok();
   ++(published ? sent_ : unsent_);
+  return published;
 }
 
 VehicleServer::VehicleServer(std::shared_ptr<Bus> bus, VehicleLink& vehicle, ChannelNames channels)

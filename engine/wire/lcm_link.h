@@ -25,7 +25,7 @@ class LcmLink final : public VehicleLink {
   explicit LcmLink(std::shared_ptr<Bus> bus, ChannelNames channels = {}, StationTrust trust = {});
   /// Gives command back, if this station has it.
   ~LcmLink() override;
-  void Send(const VehicleMessage& message) override;
+  bool Send(const VehicleMessage& message) override;
   void Seal(VehicleMessage& message) override;
   void Hear(const FrameBundle& bundle) override;
   AuthorityStatus Authority() const override;
@@ -39,7 +39,7 @@ class LcmLink final : public VehicleLink {
   std::uint64_t Unsent() const override { return unsent_; }
 
  private:
-  void Publish(const WireMessage& message);
+  bool Publish(const WireMessage& message);
   void KeepSession();
   bool IsOwnAbort(std::uint64_t id, double now_s) const;
 

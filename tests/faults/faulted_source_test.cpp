@@ -109,7 +109,10 @@ TEST(FaultedSource, RefusesWhatCheckFaultRefuses) {
 
 struct Kept final : VehicleLink {
   std::vector<VehicleMessage> sent;
-  void Send(const VehicleMessage& message) override { sent.push_back(message); }
+  bool Send(const VehicleMessage& message) override {
+    sent.push_back(message);
+    return true;
+  }
 };
 
 TEST(FaultedSource, SendsEstimatesOnTheVehiclesOwnClock) {

@@ -113,9 +113,10 @@ class Link final : public VehicleLink {
  public:
   explicit Link(std::function<void(const EngineSnapshot&)> announced = nullptr)
       : announced_(std::move(announced)) {}
-  void Send(const VehicleMessage& message) override {
+  bool Send(const VehicleMessage& message) override {
     const std::lock_guard lock(mutex_);
     sent_.push_back(message);
+    return true;
   }
   void Announce(const EngineSnapshot& snapshot) override {
     if (announced_) {

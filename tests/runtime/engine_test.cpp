@@ -46,9 +46,10 @@ class TapeSink final : public RecordSink {
 
 class CountingLink final : public VehicleLink {
  public:
-  void Send(const VehicleMessage& message) override {
+  bool Send(const VehicleMessage& message) override {
     const std::lock_guard lock(mutex_);
     aborts_ += std::holds_alternative<AbortRequest>(message) ? 1 : 0;
+    return true;
   }
   int aborts() const {
     const std::lock_guard lock(mutex_);

@@ -12,10 +12,11 @@ namespace {
 
 class KeptLink final : public VehicleLink {
  public:
-  void Send(const VehicleMessage& message) override {
+  bool Send(const VehicleMessage& message) override {
     const std::lock_guard lock(mutex_);
     sent_.push_back(message);
     arrived_.notify_all();
+    return true;
   }
   VehicleMessage Next() {
     std::unique_lock lock(mutex_);

@@ -99,11 +99,16 @@ class Link final : public VehicleLink {
  public:
   explicit Link(std::function<void(const EngineSnapshot&)> announced = nullptr)
       : announced_(std::move(announced)) {}
-  void Send(const VehicleMessage& message) override {
+  bool Send(const VehicleMessage& message) override {
+    if (on_send) {
+      return on_send();
+    }
     const std::lock_guard lock(mutex_);
     aborts_ += std::holds_alternative<AbortRequest>(message) ? 1 : 0;
     last_send_s_ = MonotonicSeconds();
+    return true;
   }
+  std::function<bool()> on_send;  ///< set before the engine starts
   void Announce(const EngineSnapshot& snapshot) override {
     if (announced_) {
       announced_(snapshot);
@@ -233,6 +238,129 @@ TEST(Supervision, ASourceThatThrowsIsAskedAgain) {
   again.wait();
   EXPECT_TRUE(engine.Stop());
   EXPECT_EQ(engine.error(), "");
+}
+
+TEST(Supervision, ASourceThatThrowsAnythingIsToldShownAndRecorded) {
+  bool thrown = false;
+  const auto tape = std::make_shared<Tape>();
+  std::latch shown(1);
+  bool once = false;
+  EngineParts parts;
+  parts.source = std::make_shared<EndlessSource>([&](std::uint64_t number) {
+    if (number == 3 && !std::exchange(thrown, true)) {
+      throw 42;  // no std::exception
+    }
+  });
+  parts.sink = std::make_unique<TapeSink>(tape);
+  parts.link = std::make_shared<Link>([&](const EngineSnapshot& snapshot) {
+    if (Shows(snapshot, AlarmId::kEngineStopped) && !std::exchange(once, true)) {
+      shown.count_down();
+    }
+  });
+  Engine engine(std::move(parts), /*threaded=*/true);
+  engine.Start();
+  shown.wait();
+  EXPECT_TRUE(engine.Stop());
+  EXPECT_EQ(engine.error(), "");
+  ASSERT_GE(tape->Notes().size(), 1u);
+  EXPECT_EQ(tape->Notes()[0], "Source stopped: unknown exception");
+}
+
+/// What did not leave is no message that was sent.
+TEST(Supervision, AWaveOffThatCouldNotBeSentIsRecordedAsThat) {
+  for (const int throws : {0, 1, 2}) {
+    SCOPED_TRACE(throws);
+    const auto link = std::make_shared<Link>();
+    link->on_send = [&]() -> bool {
+      if (throws == 1) {
+        throw std::bad_alloc();
+      }
+      if (throws == 2) {
+        throw 42;
+      }
+      return false;
+    };
+    std::vector<std::pair<bool, bool>> told;  // a wave-off, left
+    std::latch done(1);
+    {
+      StopSender sender(link, [&](const VehicleMessage& message, bool left) {
+        told.emplace_back(std::holds_alternative<AbortRequest>(message), left);
+        done.count_down();
+      });
+      sender.WaveOff();
+      done.wait();
+    }
+    EXPECT_EQ(told, (std::vector<std::pair<bool, bool>>{{true, false}}));
+  }
+  const auto tape = std::make_shared<Tape>();
+  const auto link = std::make_shared<Link>();
+  link->on_send = [] { return false; };
+  EngineParts parts;
+  parts.source = std::make_shared<EndlessSource>(nullptr);
+  parts.sink = std::make_unique<TapeSink>(tape);
+  parts.link = link;
+  Engine engine(std::move(parts), /*threaded=*/true);
+  engine.Start();
+  engine.Post({CommandOrigin::kOperator, WaveOff{}});
+  const auto says = [&] {
+    for (const std::string& note : tape->Notes()) {
+      if (note == "A wave-off could not be sent") {
+        return true;
+      }
+    }
+    return false;
+  };
+  WaitFor(says);
+  EXPECT_TRUE(engine.Stop());
+}
+
+/// I16: a refusing disk is no slow disk, and neither is passed over.
+TEST(Supervision, ADecisionThatTheDiskRefusedIsToldInTheRecord) {
+  const auto tape = std::make_shared<Tape>();
+  bool refuses = false;
+  EngineParts parts;
+  parts.source = std::make_shared<EndlessSource>(nullptr);
+  parts.sink = std::make_unique<TapeSink>(tape, [&] {
+    if (refuses) {
+      throw std::runtime_error("the disk is full");
+    }
+  });
+  Engine engine(std::move(parts), /*threaded=*/false);
+  ASSERT_TRUE(engine.Step());
+  refuses = true;
+  engine.Post({CommandOrigin::kOperator, AddBookmark{"now"}});
+  ASSERT_TRUE(engine.Step());
+  refuses = false;
+  ASSERT_TRUE(engine.Step());
+  const auto notes = tape->Notes();
+  ASSERT_EQ(notes.size(), 1u);
+  EXPECT_EQ(notes[0], "A decision was sent that could not be written before: the disk is full");
+}
+
+/// Events that a stopped engine told keep their numbers; those it told last are not told anew.
+TEST(Supervision, EventsAreNumberedOnOverARestart) {
+  std::vector<std::uint64_t> newest;
+  EngineParts parts;
+  parts.source = std::make_shared<EndlessSource>(nullptr);
+  parts.link = std::make_shared<Link>([&](const EngineSnapshot& snapshot) {
+    newest.push_back(snapshot.session->events->back().number);
+    if (newest.size() == 2) {
+      throw std::bad_alloc();  // its snapshot, with the second bookmark, is never published
+    }
+  });
+  Engine engine(std::move(parts), /*threaded=*/false);
+  for (const char* note : {"one", "two", "three"}) {
+    engine.Post({CommandOrigin::kOperator, AddBookmark{note}});
+    ASSERT_TRUE(engine.Step());
+  }
+  ASSERT_EQ(newest.size(), 3u);
+  EXPECT_GT(newest[1], newest[0]);
+  EXPECT_GT(newest[2], newest[1]);
+  const auto& events = *engine.Latest()->session->events;
+  for (std::size_t i = 1; i < events.size(); ++i) {
+    EXPECT_GT(events[i].number, events[i - 1].number);
+  }
+  EXPECT_EQ(events.front().number, 1u);
 }
 
 TEST(Supervision, ARecorderThatThrowsIsToldAndTriedAgain) {

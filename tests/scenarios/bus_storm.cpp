@@ -113,12 +113,12 @@ int Listen(UdpSocket socket, double seconds) {
 class NotedLink final : public VehicleLink {
  public:
   explicit NotedLink(std::shared_ptr<LcmLink> link) : link_(std::move(link)) {}
-  void Send(const VehicleMessage& message) override {
+  bool Send(const VehicleMessage& message) override {
     if (const auto* abort = std::get_if<AbortRequest>(&message)) {
       const std::lock_guard lock(mutex_);
       sent_.insert(abort->command_id);
     }
-    link_->Send(message);
+    return link_->Send(message);
   }
   void Seal(VehicleMessage& message) override { link_->Seal(message); }
   void Hear(const FrameBundle& bundle) override { link_->Hear(bundle); }

@@ -34,13 +34,14 @@ class GatedVehicle final : public Source, public VehicleLink {
   bool IsLockstep() const override { return true; }
   SourceStatus Status() const override { return simulator_->Status(); }
   void Control(const PlaybackControl&) override {}
-  void Send(const VehicleMessage& message) override {
+  bool Send(const VehicleMessage& message) override {
     simulator_->Send(message);
     const std::lock_guard lock(mutex_);
     if (const auto* hold = std::get_if<HoldRequest>(&message)) {
       holds_.push_back(hold->command_id);
     }
     changed_.notify_all();
+    return true;
   }
   void Seal(VehicleMessage& message) override { simulator_->Seal(message); }
   void Hear(const FrameBundle& bundle) override { simulator_->Hear(bundle); }

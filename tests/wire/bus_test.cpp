@@ -12,7 +12,10 @@ namespace {
 
 class Recorder final : public VehicleLink {
  public:
-  void Send(const VehicleMessage& message) override { got.push_back(message); }
+  bool Send(const VehicleMessage& message) override {
+    got.push_back(message);
+    return true;
+  }
   std::vector<VehicleMessage> got;
 };
 
