@@ -221,10 +221,9 @@ void FollowAnswers(MissionTurn& turn, const MissionInputs& in) {
                std::holds_alternative<HoldRequest>(*m.repeating)) {
       m.repeating.reset();
     } else if (IsSameMessage(m, ack.command_id, m.abort_id)) {
+      // Told, no more: the repeats end by what the vehicle's status shows.
       const bool accepted = ack.result == AckResult::kAccepted;
       m.abort_answered_at = accepted ? in.session.now : m.abort_answered_at;
-      m.abort_seen =
-          m.abort_seen || accepted || (m.watch.vehicle() && m.watch.vehicle()->on_ground);
     } else if (ack.result == AckResult::kRefused) {
       TellRefusal(turn, ack, in.session.now);
     }

@@ -114,7 +114,7 @@ struct MissionMemory {
   Timestamp told_foreign_at;
 
   bool vehicle_ever_heard = false;
-  bool abort_seen = false;      ///< the vehicle acknowledged or flies the abort
+  bool abort_seen = false;      ///< the vehicle's status shows it, or the ground
   Timestamp wave_off_at;        ///< of the newest press
   Timestamp abort_answered_at;  ///< of the newest acceptance of an abort
   bool wave_off_acknowledged = false;

@@ -233,8 +233,8 @@ void StepHold(MissionTurn& turn, const MissionInputs& in) {
 void StepAborting(MissionTurn& turn, Timestamp now) {
   MissionMemory& m = turn.memory;
   const auto& vehicle = m.watch.vehicle();
-  m.abort_seen = m.abort_seen ||
-                 (vehicle && vehicle->mode == VehicleMode::kAbort && HeardSinceWaveOff(m, now));
+  m.abort_seen = m.abort_seen || (vehicle && HeardSinceWaveOff(m, now) &&
+                                  (vehicle->mode == VehicleMode::kAbort || vehicle->on_ground));
   if (m.abort_seen) {
     m.repeating.reset();
   }

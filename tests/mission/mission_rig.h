@@ -29,6 +29,7 @@ struct SmallVehicle {
   bool answers = true;
   bool refuses = false;
   bool refuses_holds = false;
+  bool hears_aborts = true;  ///< false: it flies on, and somebody answers in its place
   std::vector<CommandAck> acks;
 
   void Set(VehicleMode next) {
@@ -57,10 +58,10 @@ struct SmallVehicle {
       approval_id = 0;
       Answer(hold->command_id, "", now);
     } else if (const auto* abort = std::get_if<AbortRequest>(&message)) {
-      if (mode != VehicleMode::kAbort) {
+      if (hears_aborts && mode != VehicleMode::kAbort) {
         Set(VehicleMode::kAbort);
       }
-      approval_id = 0;
+      approval_id = hears_aborts ? 0 : approval_id;
       Answer(abort->command_id, "", now);
     }
   }

@@ -68,6 +68,25 @@ TEST(WaveOffTold, AVehicleThatFallsSilentOnTheClimbIsQuotedWithTheAgeOfItsWord) 
       << rig.AlarmText();
 }
 
+// Answers can be forged; what the vehicle does shows in its status.
+TEST(WaveOffTold, AnAnswerAloneDoesNotEndTheRepeats) {
+  WaveOffRig rig;
+  rig.vehicle.hears_aborts = false;
+  ASSERT_TRUE(rig.Do(WaveOff{}).ok());
+  rig.Run(1);
+  EXPECT_EQ(rig.report().phase, Phase::kAccepted);
+  const int sent = rig.SentCount<AbortRequest>();
+  rig.Run(2);
+  EXPECT_GE(rig.SentCount<AbortRequest>(), sent + 2);
+  rig.vehicle.hears_aborts = true;
+  rig.Run(2);
+  EXPECT_EQ(rig.report().phase, Phase::kClimbs);
+  const int heard = rig.SentCount<AbortRequest>();
+  rig.Run(6);
+  EXPECT_EQ(rig.SentCount<AbortRequest>(), heard);
+  EXPECT_EQ(rig.report().phase, Phase::kDone);
+}
+
 TEST(WaveOffTold, APressAgainWaitsForAWordOfItsOwn) {
   WaveOffRig rig;
   ASSERT_TRUE(rig.Do(WaveOff{}).ok());
