@@ -13,7 +13,6 @@
 #include "engine/core/files.h"
 #include "engine/core/log.h"
 #include "engine/core/time.h"
-#include "engine/runtime/engine_watch.h"
 #include "engine/runtime/flight_summary.h"
 #include "gui/app/dispatch.h"
 #include "gui/app/exit_code.h"
@@ -23,6 +22,7 @@
 #include "gui/app/report/flight_report.h"
 #include "gui/app/surface.h"
 #include "gui/app/view.h"
+#include "gui/app/window_restarts.h"
 #include "gui/platform/open_file.h"
 #include "gui/platform/screenshot.h"
 
@@ -88,17 +88,27 @@ class StationRun {
   /// A frame that throws, or whose graphics are gone, ends nothing: keys are obeyed, a wave-off
   /// among them, and the window is made anew.
   Status FrameSafely(const WindowInput& input) {
+    std::string stopped;
     try {
-      if (surface_.ContextLost()) {
-        ObeyKeys(input);
-        return DrawAnew("the graphics were reset");
+      if (!restarts_.waiting() && !surface_.ContextLost()) {
+        return Frame(input);
       }
-      return Frame(input);
+      stopped = restarts_.waiting() ? "" : "the graphics were reset";
     } catch (const std::exception& error) {
-      const std::string reason = error.what();
-      ObeyKeys(input);
-      return DrawAnew(reason);
+      stopped = error.what();
+    } catch (...) {
+      stopped = "unknown exception";
     }
+    ObeyKeys(input);
+    if (!restarts_.waiting()) {
+      LogError("Window stopped: " + stopped + ". It is opened anew.");
+      if (const Status goes_on = restarts_.Stopped(stopped, MonotonicSeconds()); !goes_on) {
+        return goes_on;
+      }
+    }
+    // Without a window nobody waits, and the time of a flight is not that of a clock.
+    const double now_s = surface_.lockstep() ? INFINITY : MonotonicSeconds();
+    return restarts_.TakeTurn(now_s) ? DrawAnew() : Ok();
   }
 
   void ObeyKeys(const WindowInput& input) {
@@ -108,14 +118,7 @@ class StationRun {
              *session_.engine, state_);
   }
 
-  /// Three times, as the engine: what fails again and again is not the graphics.
-  Status DrawAnew(const std::string& reason) {
-    LogError("Window stopped: " + reason + ". It is opened anew.");
-    const double now_s = MonotonicSeconds();
-    if (!watch_.Stopped("Window", reason, now_s)) {
-      return UnavailableError(watch_.Complaint(now_s));
-    }
-    watch_.Started(now_s);
+  Status DrawAnew() {
     view_.reset();
     if (const Status opened = surface_.Reopen(); !opened) {
       return opened;
@@ -126,14 +129,14 @@ class StationRun {
     }
     view_ = std::move(*view);
     keys_down_.clear();
-    ShowMessage(state_, "The window was opened anew: " + reason, ui_time_s_);
+    ShowMessage(state_, "The window was opened anew: " + restarts_.reason(), ui_time_s_);
     return Ok();
   }
 
   /// When drawing is slow (software GL) the engine gets every other moment: the frame rate of the
   /// window yields first. Input ends the wait.
   double WaitForInput() const {
-    if (surface_.minimised()) {
+    if (surface_.minimised() || restarts_.waiting()) {
       return kMinimisedWait_s;
     }
     return frame_ms_ > kSlowFrame_ms ? std::min(frame_ms_ * 1e-3, kMinimisedWait_s) : 0;
@@ -280,7 +283,7 @@ class StationRun {
   double frame_ms_ = 0;
   std::vector<ImGuiKey> keys_down_;
   std::vector<std::string> screenshots_;
-  EngineWatch watch_;  ///< of the window
+  WindowRestarts restarts_;
 };
 
 /// Without a window the figures go to the terminal; the report goes beside the log.
