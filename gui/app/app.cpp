@@ -21,6 +21,7 @@ AppOptions OptionsOf(AppOptions options, const NextFlight& next) {
   options.script_file.clear();
   if (next.kind == NextFlight::Kind::kReview) {
     options.source = SourceChoice::kReplay;
+    options.channels_file.clear();  // our logs have our own names, whatever the bus calls them
     options.source_path = next.log;
     options.settings = {};  // those of the record
   }
