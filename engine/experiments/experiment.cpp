@@ -68,8 +68,13 @@ int WriteResults(const Experiment& experiment, const TrialFile& file, const fs::
 /// Of a run that was asked to end, what is done is a whole run of fewer trials: trial i is the same
 /// in both. A shard of it would be one of nothing.
 int WriteEnded(const Experiment& experiment, TrialFile file, int done, const fs::path& out) {
-  if (!file.header.shard.whole() || done == 0) {
-    std::cerr << "palacectl: ended before its last trial, nothing was written\n";
+  if (!file.header.shard.whole()) {
+    std::cerr << "palacectl: ended before its last trial; a part of a shard cannot be merged, "
+                 "nothing was written\n";
+    return 0;
+  }
+  if (done == 0) {
+    std::cerr << "palacectl: ended before its first trial was done, nothing was written\n";
     return 0;
   }
   std::cerr << "palacectl: ended after trial " << done << " of " << file.header.trials << "\n";

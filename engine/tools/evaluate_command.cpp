@@ -18,10 +18,12 @@
 namespace palace {
 
 void AddEvaluateCommand(CLI::App& app, int& exit_code, SceneCameraFactory camera) {
-  CLI::App* evaluate =
-      app.add_subcommand("evaluate",
-                         "Experiments with seeds and intervals. Ctrl-C, SIGTERM and SIGHUP end "
-                         "one after the trial in hand, which is written: exit 128 + signal");
+  CLI::App* evaluate = app.add_subcommand(
+      "evaluate",
+      "Experiments with seeds and intervals. Ctrl-C, SIGTERM and SIGHUP end "
+      "one after the trial in hand: the trials done are reported and, with --out, "
+      "written; those of a shard are not, only whole ones can be merged. Exit "
+      "128 + signal");
   evaluate->require_subcommand(1);
   AddExperiments(*evaluate,
                  {LandingExperiment(camera), FaultsExperiment(std::move(camera)),

@@ -142,6 +142,9 @@ void PrintTouchdown(const Simulator& simulator) {
 }
 
 int Simulate(const SimulateOptions& options, const SceneCameraFactory& cameras) {
+  if (!options.keys.empty() && !IsOnABus(options)) {
+    return Fail(UsageError("--key is for stations on a bus; give --url too, or leave it out"));
+  }
   std::stop_source flight;
   const Termination termination([flight]() mutable { flight.request_stop(); });
   const Result<SimulatedSession> session = OpenSession(options, cameras);

@@ -147,6 +147,9 @@ Result<AppOptions> ParseCommandLine(int argc, const char* const* argv) {
       options.source != SourceChoice::kReplay) {
     return UsageError("--channels is of --connect and --replay; leave it out here");
   }
+  if (!options.key.empty() && options.source != SourceChoice::kConnect) {
+    return UsageError("--key is of --connect; leave it out here");
+  }
   if (options.ui_scale != 0 && (options.ui_scale < 0.75 || options.ui_scale > 2.5)) {
     return UsageError("--ui-scale must lie between 0.75 and 2.5, or be 0");
   }

@@ -1,6 +1,9 @@
 // A vehicle on an LCM bus: palacectl simulate, or a log in the stock player, into palace --connect.
 #include <signal.h>
 
+#include <thread>
+
+#include "engine/journal/log_index.h"
 #include "tests/scenarios/private_network.h"
 #include "tests/scenarios/scenario.h"
 #include "tests/support/expected.h"
@@ -51,6 +54,41 @@ bool Reaches(const FlightRecord& record, MissionState state) {
     }
   }
   return false;
+}
+
+/// Of the last event of a log as far as it is written; 0 while there is none.
+Timestamp EndOf(const std::filesystem::path& log) {
+  const auto file = LogFile::Open(log);
+  const auto index = file ? BuildIndex(*file) : Result<LogIndex>(file.error());
+  return index ? index->entries.back().time : Timestamp{};
+}
+
+/// The vehicle's own log says what there was to hear at the moment of the kill.
+TEST_F(LiveBus, AKilledStationLosesLessThanASecond) {
+  WriteFile("look.script", "wait seconds 500\nquit\n");
+  const std::filesystem::path vehicle_log = folder_ / "vehicle.lcm";
+  Process vehicle(network_->Inside(Palacectl(
+      {"simulate", "--url", kUrl, "--realtime", "--no-pictures", "--log", vehicle_log.string()})));
+  Process station(network_->Inside(
+      Palace({"--headless", "--connect", kUrl, "--script", "look.script", "--record", "rec"})));
+  const auto recorded = [&] {
+    const auto flights = FlightsIn(folder_ / "rec");
+    return flights.empty() ? Timestamp{} : EndOf(flights[0] / "flight.lcm");
+  };
+  Timestamp first;
+  for (int i = 0; i < 1200 && SecondsBetween(first, recorded()) < 3; ++i) {
+    first = first == Timestamp{} ? recorded() : first;
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
+  const Timestamp heard = EndOf(vehicle_log);
+  station.Signal(SIGKILL);
+  EXPECT_EQ(station.Wait(10).signal, SIGKILL);
+  vehicle.Signal(SIGINT);
+  (void)vehicle.Wait(10);
+  ASSERT_NE(first, Timestamp{}) << station.Err() << vehicle.Err();
+  const double lost_s = SecondsBetween(recorded(), heard);
+  std::printf("the log of the killed station ends %.2f s before the kill\n", lost_s);
+  EXPECT_LT(lost_s, 1);
 }
 
 TEST_F(LiveBus, TheSimulatedVehicleAppearsLive) {
