@@ -2,11 +2,10 @@
 
 #include "engine/mission/geometry.h"
 #include "engine/mission/limits.h"
+#include "engine/model/wind.h"
 
 namespace palace {
 namespace {
-
-constexpr double kLeastWind_mps = 0.5;  // below it the wind comes from nowhere
 
 /// The vehicle is to be above the site, or is on it.
 bool IsOverSite(const DescentFigures& f) {
@@ -44,8 +43,10 @@ DescentFigures FiguresOf(const MissionMemory& m, Timestamp now) {
   f.state = m.status.state;
   f.mode = vehicle ? vehicle->mode : VehicleMode::kUnknown;
   f.off_path_m = m.status.path.off_path_m;
-  f.from_centre_m = m.status.distance_to_site_m;
-  f.horizontal_3s_m = 3 * estimate.sigma_p_m.head<2>().norm();
+  // On the ground as it was measured at touchdown: the estimate drifts on and means nothing more.
+  const bool landed = m.status.state == MissionState::kLanded;
+  f.from_centre_m = landed ? m.status.touchdown_miss_m.value_or(NAN) : m.status.distance_to_site_m;
+  f.horizontal_3s_m = landed ? NAN : 3 * estimate.sigma_p_m.head<2>().norm();
   f.descent_rate_mps = m.facts.v_WB.z();
   f.descent_rate_3s_mps = 3 * estimate.sigma_v_mps.z();
   f.approved_rate_mps = m.status.approach ? m.status.approach->descent_rate_mps
@@ -57,7 +58,7 @@ DescentFigures FiguresOf(const MissionMemory& m, Timestamp now) {
   f.residual_sigma = navigation.vision.residual_sigma;
   f.max_residual_sigma = navigation.vision.max_residual_sigma;
   f.wind_mps = KnownWind(m, now);
-  if (site != nullptr && f.wind_mps >= kLeastWind_mps) {
+  if (site != nullptr && WindHasDirection(f.wind_mps)) {
     f.off_wind_rad = std::abs(WrapAngle(PathTo(m, *site).heading_rad - vehicle->wind_from_rad));
   }
   return f;

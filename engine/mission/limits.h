@@ -8,12 +8,13 @@
 #include <string>
 
 #include "engine/model/mission/map_age.h"
+#include "engine/model/mission/wave_off_offer.h"
 
 namespace palace {
 
 /// Limits of the guards.
 struct GuardLimits {
-  static constexpr double link_s = 1.0;
+  static constexpr double link_s = kLinkSilent_s;
   static constexpr double pose_s = 0.2;
   static constexpr double camera_s = 0.5;
   static constexpr double map_s = kMapOld_s;

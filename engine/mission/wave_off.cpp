@@ -12,6 +12,14 @@ bool IsStill(VehicleMode mode) {
   return mode == VehicleMode::kHover || mode == VehicleMode::kLanded;
 }
 
+/// It said so, however long ago.
+bool SaidThatItIsDone(const MissionMemory& m, Timestamp now) {
+  const auto& vehicle = m.watch.vehicle();
+  const double settled_s = SecondsBetween(m.status.since, now) - m.watch.LinkAge(now);
+  return m.abort_seen && vehicle && IsStill(vehicle->mode) && HeardSinceWaveOff(m, now) &&
+         settled_s >= kAbortSettles_s;
+}
+
 }  // namespace
 
 std::string WhyNoWaveOff(const MissionMemory& m, Timestamp now) {
@@ -26,13 +34,8 @@ bool HeardSinceWaveOff(const MissionMemory& m, Timestamp now) {
 }
 
 bool WaveOffIsOver(const MissionMemory& m, Timestamp now) {
-  if (!m.vehicle_ever_heard) {
-    return true;  // nobody there: nothing to wait for
-  }
-  const auto& vehicle = m.watch.vehicle();
-  const double settled_s = SecondsBetween(m.status.since, now) - m.watch.LinkAge(now);
-  return m.abort_seen && vehicle && IsStill(vehicle->mode) && HeardSinceWaveOff(m, now) &&
-         settled_s >= kAbortSettles_s;
+  return !m.vehicle_ever_heard ||  // nobody there: nothing to wait for
+         (SaidThatItIsDone(m, now) && m.watch.LinkAge(now) <= GuardLimits::link_s);
 }
 
 WaveOffReport WaveOffNow(const MissionMemory& m, Timestamp now) {
@@ -42,7 +45,7 @@ WaveOffReport WaveOffNow(const MissionMemory& m, Timestamp now) {
   }
   const double heard_s = m.watch.LinkAge(now);
   const bool over = WaveOffIsOver(m, now);
-  if (over && m.vehicle_ever_heard) {
+  if (SaidThatItIsDone(m, now)) {
     return {Phase::kDone, heard_s, over};
   }
   if (HeardSinceWaveOff(m, now) && m.watch.vehicle()->mode == VehicleMode::kAbort) {

@@ -13,7 +13,8 @@ std::string WhyNoWaveOff(const MissionMemory& memory, Timestamp now);
 
 /// The vehicle's newest status was heard after the newest press of wave-off.
 bool HeardSinceWaveOff(const MissionMemory& memory, Timestamp now);
-/// Over: it answered, hovers or stands, and said so when the climb had time to begin.
+/// Over: it answered, hovers or stands, said so when the climb had time to begin, and is still
+/// heard: what it said long ago ends nothing.
 bool WaveOffIsOver(const MissionMemory& memory, Timestamp now);
 /// Of the newest press; kNone in every state but ABORTING.
 WaveOffReport WaveOffNow(const MissionMemory& memory, Timestamp now);

@@ -4,13 +4,12 @@
 #include <cmath>
 #include <cstdio>
 
+#include "engine/model/channel_age.h"
+
 namespace palace {
 namespace {
 
 constexpr double kPeriodSmoothing = 0.1;
-constexpr double kFreshPeriods = 2;
-constexpr double kLatePeriods = 5;
-constexpr double kLeastStaleAge_s = 1;
 constexpr double kLostAfterPeriods = 1.5;
 constexpr std::size_t kPeriodsKept = 256;
 constexpr std::size_t kLeastPeriods = 20;  ///< no beat is told from fewer
@@ -116,8 +115,12 @@ void ChannelMonitor::Add(const FrameBundle& bundle, bool has_vehicle) {
   }
 }
 
-void ChannelMonitor::AddEstimate(Timestamp estimate_time) {
-  Saw(ChannelId::kPositionEstimate, estimate_time);
+void ChannelMonitor::AddEstimate(Timestamp last_measured, EstimateSource source) {
+  const bool vision = source == EstimateSource::kVision;
+  Watch& watch = Of(ChannelId::kPositionEstimate);
+  watch.expected_hz = Of(vision ? ChannelId::kCameraLeft : ChannelId::kGps).expected_hz;
+  Saw(ChannelId::kPositionEstimate, last_measured);
+  watch.lost = 0;  // it is made here: a measurement that it refused is none that was lost
 }
 
 std::vector<ChannelHealth> ChannelMonitor::Health(Timestamp now) const {
@@ -135,16 +138,11 @@ std::vector<ChannelHealth> ChannelMonitor::Health(Timestamp now) const {
     health.count = watch.count;
     health.lost = watch.lost;
     health.lost_share = watch.LostShare();
-    health.rate_hz = watch.mean_period_s > 0 ? 1 / watch.mean_period_s : 0;
     health.age_s = watch.count > 0 ? SecondsBetween(watch.last, now) : NAN;
+    health.rate_hz = RateAt(health.age_s, watch.mean_period_s);
     if (watch.count > 0) {
-      const double period_s = 1 / watch.expected_hz;
       // The bundle itself adds up to one camera period to the age of what it carries.
-      const double age_s = std::max(0.0, health.age_s);
-      health.state =
-          age_s > std::max(kLatePeriods * period_s, kLeastStaleAge_s) ? ChannelHealth::State::kStale
-          : age_s > std::max(kFreshPeriods * period_s, 0.25)          ? ChannelHealth::State::kLate
-                                                             : ChannelHealth::State::kFresh;
+      health.state = StateAt(std::max(0.0, health.age_s), watch.expected_hz);
     }
     if (id == ChannelId::kGps && gps_sigma_m_ > 0) {
       char note[32];

@@ -11,9 +11,9 @@
 
 namespace palace {
 
-/// Fresh up to 2 expected periods, late up to 5, stale beyond 5 periods or 1 s, whichever is
-/// larger. Ages are measured between an input's own stamp and the bundle's time, both data time; a
-/// stamp that does not advance ages (a frozen sender looks stale).
+/// Fresh, late and stale as channel_age.h tells them. Ages are measured between an input's own
+/// stamp and the bundle's time, both data time; a stamp that does not advance ages (a frozen sender
+/// looks stale). Once two periods are missing, the rate is one message in the time since the last.
 ///
 /// What is missing lately is told by the channel's own beat, the 0.4 quantile of its last 256
 /// periods: up to six tenths of the messages may be lost and it still is the sender's period.
@@ -23,8 +23,9 @@ class ChannelMonitor {
   void Reset();
   /// Without a vehicle (pictures alone) what only a vehicle sends is not expected, nor listed.
   void Add(const FrameBundle& bundle, bool has_vehicle);
-  /// The station's own position estimate is watched like an input.
-  void AddEstimate(Timestamp estimate_time);
+  /// The station's own position estimate is watched like an input, by what it took in last: the
+  /// filter itself goes on for ever. One that lands by GPS cannot be newer than the fixes.
+  void AddEstimate(Timestamp last_measured, EstimateSource source);
   std::vector<ChannelHealth> Health(Timestamp now) const;
 
  private:

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "engine/core/log.h"
+#include "engine/model/mission/wave_off_offer.h"
 
 namespace palace {
 namespace {
@@ -103,7 +104,8 @@ void Engine::SendStop(const EngineCommand& command) {
   if (std::holds_alternative<WaveOff>(command.action)) {
     // Only what the mission will do too: it waves off nothing that stands on the ground.
     const std::shared_ptr<const EngineSnapshot> newest = latest_.Load();
-    if (!newest || newest->flight->mission.why_no_wave_off.empty()) {
+    if (!newest ||
+        WhyNoWaveOff(*newest, AgeNow(*newest, newest->time, MonotonicSeconds())).empty()) {
       stop_->WaveOff();
     }
   } else if (std::holds_alternative<HoldHere>(command.action)) {

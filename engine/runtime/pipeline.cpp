@@ -336,11 +336,20 @@ void Pipeline::Track(Pass& pass) {
   navigation.laser = laser_watch_.status();
 }
 
+/// Of the estimate in force: its own time is now as long as inertia carries it on.
+Timestamp Pipeline::LastMeasured(const EngineSnapshot& snapshot) const {
+  const FilterStatus& filter = navigator_.status().InForce();
+  if (filter.running) {
+    return AddSeconds(snapshot.time, -filter.coasting_s);
+  }
+  return snapshot.sensors->pose ? snapshot.sensors->pose->time : snapshot.time;
+}
+
 void Pipeline::Decide(Pass& pass) {
   EngineSnapshot& snapshot = *pass.snapshot;
   PositionEstimate estimate = navigator_.EstimateInForce(pass.bundle->time);
   if (estimate.source != EstimateSource::kNone) {
-    channels_.AddEstimate(estimate.time);
+    channels_.AddEstimate(LastMeasured(snapshot), estimate.source);
   }
   snapshot.sensors.Edit().channels = channels_.Health(pass.bundle->time);
   const Eigen::Matrix3d R_WB =

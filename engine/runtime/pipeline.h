@@ -97,6 +97,7 @@ class Pipeline {
   void MeasureRange(Pass& pass);
   void Judge(Pass& pass);
   void Track(Pass& pass);
+  Timestamp LastMeasured(const EngineSnapshot& snapshot) const;
   void Decide(Pass& pass);
   /// Judges the newest map under `settings`; after a jump, under the names of the record.
   std::shared_ptr<const TerrainDecision> DecisionUnder(const Settings& settings, Letters letters);

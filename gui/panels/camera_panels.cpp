@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gui/panels/arrival.h"
 #include "gui/panels/fly_panels.h"
 #include "gui/panels/terrain_views.h"
 #include "gui/widgets/button.h"
@@ -19,31 +20,6 @@ Rect PictureRect(const Rect& content, double aspect) {
   }
   const float w = std::round(content.h * static_cast<float>(aspect));
   return {std::round(content.x + (content.w - w) / 2), content.y, w, content.h};
-}
-
-struct Arrival {
-  std::string age = "never", rate;
-  double age_s = NAN;
-  ChannelHealth::State state = ChannelHealth::State::kNever;
-  bool late() const {
-    return state == ChannelHealth::State::kLate || state == ChannelHealth::State::kStale;
-  }
-};
-
-Arrival ArrivalOf(const EngineSnapshot& snap, ChannelId channel, double silent_s) {
-  const ChannelHealth* health = FindChannel(snap.sensors->channels, channel);
-  if (health == nullptr || health->state == ChannelHealth::State::kNever) {
-    return {};
-  }
-  const double age_s = health->age_s + silent_s;
-  return {AgeText(age_s), Fixed(health->rate_hz, 1) + " Hz", age_s, health->state};
-}
-
-void DrawStale(UiFrame& ui, const Rect& image, const Arrival& arrival) {
-  if (arrival.state == ChannelHealth::State::kStale) {
-    StaleVeil(ui.style, Canvas(), image);
-    TextPlate(ui, image, Corner::kTopRight, Fixed(arrival.age_s, 1) + " s old");
-  }
 }
 
 void DrawMissing(UiFrame& ui, const EngineSnapshot& snap, const Rect& image) {
@@ -126,7 +102,7 @@ void DrawDepthChip(const EngineSnapshot& snap, UiFrame& ui, const Rect& image, C
   DrawText(ui, s.caption, picture::kPlateText, bar.right() + s.Px(8), chip.centre().y, far);
 }
 
-std::string LeftFact(const EngineSnapshot& snap) {
+std::string LeftFact(const EngineSnapshot& snap, double silent_s) {
   if (TrackerShown(snap) && snap.flight->tracker.locked) {
     const std::size_t features = snap.flight->tracker.features.size();
     const std::string some =
@@ -134,9 +110,7 @@ std::string LeftFact(const EngineSnapshot& snap) {
     return "Tracking " + std::to_string(snap.flight->tracker.inliers) + " of " +
            std::to_string(features) + " features" + some;
   }
-  return snap.sensors->laser && std::isfinite(snap.sensors->laser->range_m)
-             ? "Laser " + Fixed(snap.sensors->laser->range_m, 1) + " m"
-             : std::string();
+  return LaserPlate(snap, silent_s);
 }
 
 }  // namespace
@@ -189,7 +163,7 @@ void DrawLeftCameraPanel(const EngineSnapshot& snap, const Rect& rect, CameraSta
   if (site != nullptr) {
     DrawScaleBar(ui, image, view.PixelsPerMetre(site->p_WS));
   }
-  TextPlate(ui, image, Corner::kBottomRight, LeftFact(snap));
+  TextPlate(ui, image, Corner::kBottomRight, LeftFact(snap, ui.silent_s));
   dl->PopClipRect();
 }
 

@@ -1,3 +1,4 @@
+#include "engine/model/channel_age.h"
 #include "gui/panels/fly_panels.h"
 #include "gui/widgets/icons.h"
 #include "gui/widgets/number_text.h"
@@ -14,7 +15,8 @@ void DrawChannelStripPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame
   }
   const float pitch = (rect.w - s.Px(24)) / static_cast<float>(snap.sensors->channels.size());
   float x = rect.x + s.Px(10);
-  for (const ChannelHealth& channel : snap.sensors->channels) {
+  for (const ChannelHealth& published : snap.sensors->channels) {
+    const ChannelHealth channel = After(published, ui.silent_s);
     using State = ChannelHealth::State;
     const bool fine = channel.state == State::kFresh;
     Icon icon = Icon::kNormal;
@@ -39,7 +41,7 @@ void DrawChannelStripPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame
              FitWords(name_font, ChannelName(channel.id), pitch - s.Px(26)));
     std::string facts = "never";
     if (channel.state != State::kNever) {
-      facts = AgeText(channel.age_s + ui.silent_s) + "   " +
+      facts = AgeText(channel.age_s) + "   " +
               Fixed(channel.rate_hz, channel.rate_hz < 100 ? 1 : 0) + " Hz" +
               (channel.note.empty() ? "" : "   " + channel.note);
     }

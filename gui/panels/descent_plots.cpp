@@ -308,8 +308,15 @@ void DrawPlotTabs(const EngineSnapshot& snap, const Rect& rect, PlotTab& tab, Ui
 
 std::array<PlotView, 6> DescentPlots(const EngineSnapshot& snap, const Palette& p) {
   const HistorySample& now = snap.flight->history->back();
-  return {HeightPlot(snap, p, now),    DistancePlot(snap, p, now), RatePlot(snap, p, now),
-          CoherencePlot(snap, p, now), ResidualPlot(snap, p, now), PathPlot(snap, p, now)};
+  std::array plots = {HeightPlot(snap, p, now),   DistancePlot(snap, p, now),
+                      RatePlot(snap, p, now),     CoherencePlot(snap, p, now),
+                      ResidualPlot(snap, p, now), PathPlot(snap, p, now)};
+  if (snap.flight->mission.state == MissionState::kLanded) {
+    for (PlotView& plot : plots) {  // what drifts on after the touchdown is no figure of it
+      plot.current = "landed";
+    }
+  }
+  return plots;
 }
 
 void DrawDescentPlotsPanel(const EngineSnapshot& snap, const std::array<Rect, 6>& rects,

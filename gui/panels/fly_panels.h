@@ -26,9 +26,10 @@ void DrawVehiclePanel(const EngineSnapshot& snap, const Rect& rect, bool narrow,
 Rect View3dScene(const Rect& panel, const Style& style);
 /// Items "view_3d", "view/Orbit", "view/Above", "view/Behind": MoveView3d, ShowView3dPreset.
 void DrawView3dPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui);
-/// Five maps: items "map/elevation", "map/slope", "map/roughness", "map/cost", "map/safe_distance".
+/// Five maps: items "map/elevation", "map/slope", "map/roughness", "map/cost", "map/safe_distance";
+/// `named`: their heads name the site whose values they show.
 void DrawMapRowPanel(const EngineSnapshot& snap, const std::array<Rect, 5>& rects, float side,
-                     bool letters, MapRowState& state, UiFrame& ui);
+                     bool named, MapRowState& state, UiFrame& ui);
 /// "tick_set" and "tick_keep", while a tick waits for its answer; call after all panels.
 void DrawTickQuestion(const EngineSnapshot& snap, const Rect& body, MapRowState& state,
                       UiFrame& ui);

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/model/mission/mission_status.h"
 #include "gui/panels/map_probe.h"
 #include "gui/widgets/hold_button.h"
 #include "gui/widgets/map/camera_overlay.h"
@@ -45,6 +46,7 @@ struct FlyState {
   ApproveState approve;
   CameraState camera;
   MapRowState maps;
+  std::optional<MissionState> shown_state;  ///< of the last frame
   PlotTab tab = PlotTab::kDescent;
   PlotHover plots;
 };

@@ -71,11 +71,26 @@ void DrawDescentColumn(const EngineSnapshot& snap, const FlyLayout& layout, FlyS
 
 }  // namespace
 
+namespace {
+
+/// A pin lies where other panels come up with the next state.
+void ForgetPin(const EngineSnapshot& snap, FlyState& state) {
+  const MissionState now = snap.flight->mission.state;
+  if (now != state.shown_state) {
+    state.maps.probe.pinned.reset();
+    state.maps.asked.reset();
+  }
+  state.shown_state = now;
+}
+
+}  // namespace
+
 bool ShowsDescent(const EngineSnapshot& snap) { return IsDescentView(snap); }
 
 void DrawFlyWorkspace(const EngineSnapshot& snap, const FlyLayout& layout, FlyState& state,
                       UiFrame& ui) {
   FollowArming(snap, state.approve, ui);
+  ForgetPin(snap, state);
   BeginProbe(state.maps.probe);
   ui.tab.group = kViewTabs;
   DrawLeftCameraPanel(snap, layout.left_camera, state.camera, state.maps.probe, ui);

@@ -13,15 +13,17 @@ namespace {
 
 constexpr float kStopShare = 0.28f;  // of the width; the rest is where approve was
 
-std::string WaveOffHeadline(WaveOffReport::Phase phase) {
+/// With the age of the word that it rests on: a vehicle that falls silent goes on being quoted.
+std::string WaveOffHeadline(const WaveOffReport& report, double silent_s) {
   using Phase = WaveOffReport::Phase;
-  switch (phase) {
+  const std::string ago = " " + AgeText(report.age_s + silent_s) + " ago";
+  switch (report.phase) {
     case Phase::kDone:
-      return "Waved off, hovering";
+      return "Waved off, hovering" + ago;
     case Phase::kClimbs:
-      return "Wave-off: climbing away";
+      return "Waved off, climbing" + ago;
     case Phase::kAccepted:
-      return "Wave-off: accepted";
+      return "Wave-off: accepted" + ago;
     case Phase::kUnanswered:
       return "Wave-off: no answer";
     default:
@@ -29,7 +31,7 @@ std::string WaveOffHeadline(WaveOffReport::Phase phase) {
   }
 }
 
-std::string Headline(const MissionStatus& m) {
+std::string Headline(const MissionStatus& m, double silent_s) {
   const std::string site = m.armed ? std::string("site ") + m.armed->letter : std::string("site");
   switch (m.state) {
     case MissionState::kApproved:
@@ -37,7 +39,7 @@ std::string Headline(const MissionStatus& m) {
     case MissionState::kHold:
       return "Holding above " + site;
     case MissionState::kAborting:
-      return WaveOffHeadline(m.wave_off.phase);
+      return WaveOffHeadline(m.wave_off, silent_s);
     default:
       return "Landing on " + site;
   }
@@ -83,7 +85,7 @@ void DrawActions(const EngineSnapshot& snap, const Rect& button, UiFrame& ui) {
   if (m.state == MissionState::kAborting) {
     look.enabled = snap.session->can_transmit && m.wave_off.over;
     look.reason =
-        snap.session->can_transmit ? "Not before the vehicle says that it hovers" : WhyNoLink(snap);
+        snap.session->can_transmit ? "Not before the vehicle is heard to hover" : WhyNoLink(snap);
     if (DrawButton(ui, "acknowledge_wave_off", button, "Wave-off complete, search again", look)) {
       ui.intents.push_back(CommandAction(AcknowledgeWaveOff{}));
     }
@@ -156,7 +158,7 @@ void DrawLandingPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui)
                      Fixed(m.time_to_touchdown_s, 0) + " s", Align::kRight) +
             s.Px(12);
   }
-  const std::string headline = Headline(m);
+  const std::string headline = Headline(m, ui.silent_s);
   ImFont* font = TextWidth(s.readout, headline) <= room ? s.readout : s.section;
   DrawText(ui, font, p.text1, x, head_y, headline);
   DrawLadder(snap, {x, rect.y + s.Px(tall ? 75 : 62), width, s.Px(8)}, ui);

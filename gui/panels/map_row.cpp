@@ -9,9 +9,8 @@
 namespace palace {
 
 void DrawMapRowPanel(const EngineSnapshot& snap, const std::array<Rect, 5>& rects, float side,
-                     bool letters, MapRowState& state, UiFrame& ui) {
+                     bool named, MapRowState& state, UiFrame& ui) {
   MapMarks marks = MarksOf(snap, ui.highlighted_site);
-  marks.letters = letters;
   MapSource source = ShownMap(snap, ui.silent_s);
   if (source.decision != nullptr && source.decision->hazards) {
     marks.probe = ProbeCell(state.probe, source.decision->hazards->geometry);
@@ -21,7 +20,7 @@ void DrawMapRowPanel(const EngineSnapshot& snap, const std::array<Rect, 5>& rect
   for (std::size_t i = 0; i < rects.size(); ++i) {
     MapView view = MakeMapView(static_cast<MapKind>(i), source, ui.textures);
     view.preview = snap.terrain->preview != nullptr;
-    view.letter = letters ? view.letter : "";
+    view.letter = named ? view.letter : "";
     if (state.asked && state.asked->setting == view.limit.setting) {
       view.limit.asked = state.asked->value;
       view.limit.label = FormatSetting(*FindSetting(view.limit.setting), state.asked->value) + "?";
@@ -42,8 +41,10 @@ void DrawTickQuestion(const EngineSnapshot& snap, const Rect& body, MapRowState&
   const double now = GetSetting(snap.session->preview_settings, info->name);
   const std::string words = info->label + ": " + FormatSetting(*info, now) + " to " +
                             FormatSetting(*info, state.asked->value) + "?";
-  const char* when = snap.session->limits_apply == LimitsApply::kAtOnce
-                         ? "Applies at once, to every map from now on."
+  const LimitsApply apply = snap.session->limits_apply;
+  const char* when = apply == LimitsApply::kAtOnce ? "Applies at once, to every map from now on."
+                     : apply == LimitsApply::kNotNow
+                         ? "Only a preview: the descent keeps its limits."
                          : "A preview, until it is applied on Tune.";
   const float width =
       std::max({TextWidth(s.medium, words), TextWidth(s.caption, when), s.Px(200)}) + s.Px(24);

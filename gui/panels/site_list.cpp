@@ -13,19 +13,41 @@ namespace {
 
 /// What is listed: the sites, and before them the armed one where it is no longer among them: what
 /// is about to be approved is never out of sight.
-std::vector<const LandingSite*> RowsOf(const TerrainDecision* shown, const MissionStatus& mission) {
-  std::vector<const LandingSite*> rows;
+struct Rows {
+  std::vector<const LandingSite*> sites;
+  bool first_is_unlisted = false;  ///< the armed site, which the newest map does not offer
+};
+
+Rows RowsOf(const TerrainDecision* shown, const MissionStatus& mission) {
+  Rows rows;
   bool armed = false;
   if (shown != nullptr) {
     for (const LandingSite& site : shown->selection.sites) {
-      rows.push_back(&site);
+      rows.sites.push_back(&site);
       armed = armed || (mission.armed && mission.armed->id == site.id);
     }
   }
-  if (mission.armed && !armed) {
-    rows.insert(rows.begin(), mission.armed_now ? &*mission.armed_now : &*mission.armed);
+  rows.first_is_unlisted = mission.armed && !armed;
+  if (rows.first_is_unlisted) {
+    rows.sites.insert(rows.sites.begin(),
+                      mission.armed_now ? &*mission.armed_now : &*mission.armed);
   }
   return rows;
+}
+
+SiteRowLook LookOf(const LandingSite& site, bool unlisted, const MissionStatus& mission) {
+  SiteRowLook look;
+  look.selected = mission.armed && site.id == mission.armed->id;
+  look.enabled = !unlisted && mission.MaySelect(site.id);
+  look.refused = mission.IsRefused(site.id);
+  if (look.selected && mission.armed_verdict != SiteVerdict::kHolds) {
+    look.verdict = SiteVerdictWord(mission.armed_verdict);
+    look.why = mission.armed_why;
+  }
+  if (unlisted && !mission.armed_now) {
+    look.verdict = "Off the map";
+  }
+  return look;
 }
 
 void DrawEmpty(const EngineSnapshot& snap, const Rect& content, UiFrame& ui) {
@@ -57,7 +79,8 @@ void DrawSiteListPanel(const EngineSnapshot& snap, const FlyLayout& layout, Site
   const Style& s = ui.style;
   const TerrainDecision* shown = snap.terrain->Shown();
   const MissionStatus& mission = snap.flight->mission;
-  const std::vector<const LandingSite*> rows = RowsOf(shown, mission);
+  const Rows listed = RowsOf(shown, mission);
+  const std::vector<const LandingSite*>& rows = listed.sites;
   const std::size_t count = rows.size();
   const std::size_t found = shown != nullptr ? shown->selection.sites.size() : 0;
   const bool old = count > 0 && IsMapOld(snap, ui.silent_s);
@@ -98,7 +121,6 @@ void DrawSiteListPanel(const EngineSnapshot& snap, const FlyLayout& layout, Site
                     snap.sensors->X_WC,
                     {0, 0, static_cast<float>(camera->width), static_cast<float>(camera->height)}};
   }
-  const std::uint64_t armed = mission.armed ? mission.armed->id : 0;
   const LandingSite* best =
       shown != nullptr ? mission.BestStanding(shown->selection.sites) : nullptr;
   const auto first = static_cast<std::size_t>(state.scroll / row);
@@ -110,17 +132,9 @@ void DrawSiteListPanel(const EngineSnapshot& snap, const FlyLayout& layout, Site
       OfferHidden(ui, SiteItemName(site.letter));
       continue;
     }
-    SiteRowLook look;
-    look.selected = site.id == armed;
+    SiteRowLook look = LookOf(site, i == 0 && listed.first_is_unlisted, mission);
     look.narrow = layout.site_row_units < 60;
-    look.enabled = mission.MaySelect(site.id);
-    look.refused = mission.IsRefused(site.id);
     look.old_map = old;
-    if (i >= found) {
-      look.enabled = false;
-      look.verdict = mission.armed_now ? SiteVerdictWord(mission.armed_verdict) : "Off the map";
-      look.why = mission.armed_why;
-    }
     const Rect rect{list.x, list.y + row * static_cast<float>(i - first), list.w, row};
     const SiteRowAnswer answer = DrawSiteRow(ui, rect, site, view, ui.textures.left_camera, look);
     focused = answer.focused ? site.id : focused;

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "engine/core/hash.h"
+#include "engine/model/channel_age.h"
 #include "gui/panels/frame_bar.h"
 #include "gui/panels/session_words.h"
 #include "gui/widgets/number_text.h"
@@ -73,11 +74,11 @@ std::string RecordingText(const EngineSnapshot& snap, bool narrow) {
                 : "Recording " + LengthText(snap.session->source.position_s) + left;
 }
 
-std::string ChannelsText(const EngineSnapshot& snap) {
+std::string ChannelsText(const EngineSnapshot& snap, double silent_s) {
   using State = ChannelHealth::State;
   const auto count = [&](State state) {
     return std::count_if(snap.sensors->channels.begin(), snap.sensors->channels.end(),
-                         [&](const ChannelHealth& c) { return c.state == state; });
+                         [&](const ChannelHealth& c) { return After(c, silent_s).state == state; });
   };
   std::string text = "Channels: " + std::to_string(count(State::kFresh)) + " fresh";
   const auto late = count(State::kLate) + count(State::kStale), never = count(State::kNever);
@@ -117,7 +118,7 @@ void DrawStatusBarPanel(const EngineSnapshot& snap, const FrameLayout& layout,
       snap.terrain->applied ? snap.terrain->applied->selection.sites.size() : 0;
   std::vector<std::string> group = {CommandText(snap, narrow)};
   if (narrow) {
-    group.push_back(ChannelsText(snap));
+    group.push_back(ChannelsText(snap, ui.silent_s));
     std::swap(group[0], group[1]);
   } else {
     group.push_back(sites == 1 ? "1 site" : std::to_string(sites) + " sites");

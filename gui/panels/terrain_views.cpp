@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gui/panels/arrival.h"
 #include "gui/panels/session_words.h"
 #include "gui/widgets/map/flag_marks.h"
 #include "gui/widgets/number_text.h"
@@ -118,6 +119,7 @@ void DrawLeftPicture(UiFrame& ui, const Rect& area, const EngineSnapshot& snap,
   if (look.probe != nullptr) {
     DrawProbeOnPicture(ui, view, look.decision, *look.probe);
   }
+  DrawStale(ui, image, ArrivalOf(snap, ChannelId::kCameraLeft, ui.silent_s));
   dl->PopClipRect();
   DrawVerdictPlate(ui, image, snap, look.decision);
   if (look.preview) {
@@ -144,6 +146,7 @@ void DrawPlainPicture(UiFrame& ui, const Rect& area, const EngineSnapshot& snap,
       DrawProbeOnPicture(ui, *view, snap.terrain->Shown(), *probe);
     }
   }
+  DrawStale(ui, image, ArrivalOf(snap, ChannelId::kCameraRight, ui.silent_s));
   if (!plate.empty()) {
     TextPlate(ui, image, Corner::kBottomRight, plate);
   }

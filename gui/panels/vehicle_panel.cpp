@@ -2,6 +2,8 @@
 #include <cmath>
 
 #include "engine/core/units.h"
+#include "engine/model/wind.h"
+#include "gui/panels/arrival.h"
 #include "gui/panels/fly_panels.h"
 #include "gui/widgets/number_text.h"
 #include "gui/widgets/readout.h"
@@ -42,17 +44,6 @@ double HeadingDeg(const VehiclePose& pose) {
   return deg < -0.5 ? deg + 360 : deg;
 }
 
-/// How old is what that channel brought last.
-struct Freshness {
-  Readout::State state = Readout::State::kNever;
-  double age_s = NAN;
-};
-
-Freshness FreshnessOf(const EngineSnapshot& snap, ChannelId id) {
-  const ChannelHealth* channel = FindChannel(snap.sensors->channels, id);
-  return channel != nullptr ? Freshness{channel->state, channel->age_s} : Freshness{};
-}
-
 double PositionError3s(const EngineSnapshot& snap) {
   const FilterStatus& filter = snap.flight->navigation.InForce();
   return filter.running ? 3 * filter.estimate.sigma_p_m.norm() : NAN;
@@ -60,8 +51,7 @@ double PositionError3s(const EngineSnapshot& snap) {
 
 std::vector<Readout> Readouts(const EngineSnapshot& snap, bool narrow, double silent_s) {
   const auto by = [&](ChannelId channel) {
-    Freshness fresh = FreshnessOf(snap, channel);
-    fresh.age_s += silent_s;
+    const Arrival fresh = ArrivalOf(snap, channel, silent_s);
     return [fresh](std::string label, double value, int decimals, std::string unit) {
       return Readout{std::move(label), Fixed(value, decimals), std::move(unit), fresh.state,
                      fresh.age_s};
@@ -71,10 +61,10 @@ std::vector<Readout> Readouts(const EngineSnapshot& snap, bool narrow, double si
   const auto status = by(ChannelId::kVehicleStatus);
   const MissionStatus& m = snap.flight->mission;
   const double wind = snap.sensors->vehicle ? snap.sensors->vehicle->wind_speed_mps : NAN;
-  const std::string wind_unit =
-      std::isfinite(wind) && !narrow
-          ? "m/s, " + Fixed(Deg(snap.sensors->vehicle->wind_from_rad), 0) + "°"
-          : "m/s";
+  const double wind_from = snap.sensors->vehicle ? snap.sensors->vehicle->wind_from_rad : NAN;
+  const std::string wind_unit = WindHasDirection(wind) && std::isfinite(wind_from) && !narrow
+                                    ? "m/s, " + Fixed(Deg(wind_from), 0) + "°"
+                                    : "m/s";
   const double fuel = snap.sensors->vehicle ? snap.sensors->vehicle->battery_or_fuel * 100 : NAN;
   const double speed = snap.sensors->pose ? snap.sensors->pose->v_WB.head<2>().norm() : NAN;
   if (m.state == MissionState::kLanded) {

@@ -1,3 +1,5 @@
+#include "engine/model/mission/wave_off_offer.h"
+#include "gui/panels/arrival.h"
 #include "gui/panels/frame_bar.h"
 #include "gui/panels/session_words.h"
 #include "gui/widgets/interact.h"
@@ -20,8 +22,8 @@ std::string SecondLine(const EngineSnapshot& snap, const FrameState& state, cons
   if (!snap.session->can_transmit) {
     return WhyNoLink(snap);
   }
-  if (!m.why_no_wave_off.empty()) {
-    return m.why_no_wave_off;
+  if (const std::string why = WhyNoWaveOff(snap, ui.silent_s); !why.empty()) {
+    return why;
   }
   const std::string ago = AgeText(m.wave_off.age_s + ui.silent_s) + " ago";
   switch (m.wave_off.phase) {
@@ -41,10 +43,9 @@ std::string SecondLine(const EngineSnapshot& snap, const FrameState& state, cons
   if (JustPressed(state, ui.ui_time_s)) {
     return "Sent";
   }
-  const ChannelHealth* status = FindChannel(snap.sensors->channels, ChannelId::kVehicleStatus);
-  return status != nullptr && status->state == ChannelHealth::State::kStale
-             ? "Silent for " + AgeText(status->age_s + ui.silent_s)
-             : "One press · Shift+Esc";
+  const Arrival status = ArrivalOf(snap, ChannelId::kVehicleStatus, ui.silent_s);
+  return status.state == ChannelHealth::State::kStale ? "Silent for " + status.age
+                                                      : "One press · Shift+Esc";
 }
 
 /// Pressed, and the vehicle has not done with it.
@@ -60,7 +61,7 @@ void DrawWaveOffPanel(const EngineSnapshot& snap, const Rect& rect, FrameState& 
                       UiFrame& ui) {
   const Style& s = ui.style;
   const Palette& p = s.palette;
-  const bool enabled = snap.session->can_transmit && snap.flight->mission.why_no_wave_off.empty();
+  const bool enabled = snap.session->can_transmit && WhyNoWaveOff(snap, ui.silent_s).empty();
   ui.items.Add("panel/WAVE OFF", rect, true, "");
   // A popup never stands in its way; from the keyboard it has a key of its own that works anywhere.
   const Interaction in = Interact(
@@ -86,7 +87,9 @@ void DrawWaveOffPanel(const EngineSnapshot& snap, const Rect& rect, FrameState& 
   const ImU32 text = latched ? p.on_white : (enabled ? p.text1 : p.text3);
   const float x = rect.x + s.Px(34);
   DrawText(ui, s.wave_off, text, x, rect.y + s.Px(28), "WAVE OFF");
-  DrawText(ui, s.body, text, x, rect.y + s.Px(56), second);
+  const float room = rect.right() - s.Px(8) - x;
+  ImFont* font = TextWidth(s.body, second) <= room ? s.body : s.caption;
+  DrawText(ui, font, text, x, rect.y + s.Px(56), FitClauses(font, second, room));
 }
 
 }  // namespace palace

@@ -13,7 +13,7 @@ struct SiteRowLook {
   bool enabled = true;   ///< a click arms
   bool refused = false;  ///< by the operator
   bool old_map = false;  ///< nothing may rest on its map any more: it is confirmed no longer
-  /// Of a selected site that is no longer among the sites: the engine's word and why.
+  /// Of a selected site that holds no longer, or not surely: the engine's word and why.
   std::string_view verdict{}, why{};
 };
 

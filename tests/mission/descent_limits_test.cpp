@@ -247,5 +247,19 @@ TEST(DescentLimits, OnTheGroundNoRowOfTheSiteClaimsAnEnforcer) {
   }
 }
 
+TEST(PlaceLimit, OnTheGroundIsThatOfTheTouchdownWhateverTheEstimateDoes) {
+  MissionRig rig;
+  Descend(rig);
+  ASSERT_TRUE(rig.RunUntil(MissionState::kLanded, 60));
+  rig.Step();
+  ASSERT_TRUE(rig.mission.status().touchdown_miss_m.has_value());
+  const double miss_m = *rig.mission.status().touchdown_miss_m;
+  EXPECT_EQ(Row(rig, LimitId::kFromCentre).value, miss_m);
+  EXPECT_TRUE(std::isnan(Row(rig, LimitId::kFromCentre).three_sigma));
+  rig.link_up = false;  // the estimate drifts
+  rig.Run(10);
+  EXPECT_EQ(Row(rig, LimitId::kFromCentre).value, miss_m);
+}
+
 }  // namespace
 }  // namespace palace

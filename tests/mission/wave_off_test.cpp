@@ -87,6 +87,24 @@ TEST(WaveOffTold, AnAnswerAloneDoesNotEndTheRepeats) {
   EXPECT_EQ(rig.report().phase, Phase::kDone);
 }
 
+TEST(WaveOffTold, AHoverHeardLongAgoEndsNothing) {
+  WaveOffRig rig;
+  ASSERT_TRUE(rig.Do(WaveOff{}).ok());
+  rig.Run(5);
+  ASSERT_TRUE(rig.report().over);
+  rig.link_up = false;
+  rig.Run(37);
+  EXPECT_EQ(rig.report().phase, Phase::kDone);
+  EXPECT_NEAR(rig.report().age_s, 37, 0.2);
+  EXPECT_FALSE(rig.report().over);
+  ASSERT_TRUE(rig.Do(AcknowledgeWaveOff{}).ok());
+  rig.Run(0.2);
+  EXPECT_EQ(rig.state(), MissionState::kAborting);
+  rig.link_up = true;
+  rig.Run(0.5);
+  EXPECT_NE(rig.state(), MissionState::kAborting);
+}
+
 TEST(WaveOffTold, APressAgainWaitsForAWordOfItsOwn) {
   WaveOffRig rig;
   ASSERT_TRUE(rig.Do(WaveOff{}).ok());

@@ -1,6 +1,7 @@
 // The doors of the engine: what comes while it is busy is joined, not lost; commands wake it at
 // once; a disk that is too slow costs pictures only. Sources and links wait for each other, never
 // for a clock.
+#include <algorithm>
 #include <functional>
 #include <latch>
 #include <mutex>
@@ -226,6 +227,52 @@ TEST(Doors, ACommandBetweenFramesReachesTheWireAtOnce) {
   EXPECT_NE(aborts[0], aborts[1]);
   EXPECT_EQ(engine.Latest()->time, MakeBundle(0)->time);
   ASSERT_TRUE(engine.Stop());
+}
+
+// "Vehicle on the ground" keeps a wave-off back only as long as the word is new: an engine that
+// publishes nothing more knows nothing of what took off since.
+TEST(Doors, AWaveOffIsNotKeptBackByAnOldWordOfTheGround) {
+  for (const double said_s : {1e6, -5.0}) {  // from now: just now, and five seconds ago
+    SCOPED_TRACE(said_s);
+    std::latch done(1);
+    const auto link = std::make_shared<Link>([](const EngineSnapshot&) {});
+    const auto bundle = MakeBundle(0);
+    bundle->status = VehicleStatus{};
+    bundle->status->time = bundle->time;
+    bundle->status->mode = VehicleMode::kLanded;
+    bundle->status->on_ground = true;
+    bundle->arrival.clock.emplace();
+    bundle->arrival.clock->station_s = MonotonicSeconds() + said_s;
+    EngineParts parts;
+    parts.link = link;
+    parts.source = std::make_shared<LiveSource>(std::vector{bundle}, [&](std::size_t number) {
+      if (number == 1) {
+        done.wait();
+      }
+    });
+    Engine engine(std::move(parts), /*threaded=*/true);
+    engine.Start();
+    while (!engine.Latest()) {
+      std::this_thread::yield();
+    }
+    ASSERT_EQ(engine.Latest()->flight->mission.why_no_wave_off, "Vehicle on the ground");
+    engine.Post({CommandOrigin::kOperator, WaveOff{}});
+    const auto refused = [&] {
+      const auto& events = engine.Latest()->session->events;
+      return events && std::any_of(events->begin(), events->end(), IsRefusal);
+    };
+    while (!refused()) {  // by the mission itself, whose time stands still
+      std::this_thread::yield();
+    }
+    done.count_down();
+    ASSERT_TRUE(engine.Stop());
+    const auto sent = link->sent();
+    EXPECT_EQ(std::count_if(sent.begin(), sent.end(),
+                            [](const VehicleMessage& message) {
+                              return std::holds_alternative<AbortRequest>(message);
+                            }),
+              said_s > 0 ? 0 : 1);
+  }
 }
 
 TEST(Doors, CommandsBeforeTheFirstFrameAreAppliedWithIt) {

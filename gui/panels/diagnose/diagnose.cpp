@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <iterator>
 
+#include "engine/model/channel_age.h"
 #include "gui/widgets/button.h"
 #include "gui/widgets/icons.h"
 #include "gui/widgets/interact.h"
@@ -99,7 +100,8 @@ void DrawChannels(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui) {
   if (snap.sensors->channels.empty()) {
     DrawText(ui, s.body, p.text2, content.x + s.Px(12), y, "Nothing has arrived yet.");
   }
-  for (const ChannelHealth& c : snap.sensors->channels) {
+  for (const ChannelHealth& published : snap.sensors->channels) {
+    const ChannelHealth c = After(published, ui.silent_s);
     if (y + s.Px(10) > rect.bottom()) {
       break;
     }
@@ -109,7 +111,7 @@ void DrawChannels(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui) {
              fresh ? p.text3 : (late ? p.caution : p.text1));
     DrawText(ui, fresh ? s.body : s.medium, fresh ? p.text2 : p.text1, content.x + s.Px(34), y,
              ChannelName(c.id));
-    const std::string cells[] = {AgeText(c.age_s + ui.silent_s), Fixed(c.rate_hz, 1) + " Hz",
+    const std::string cells[] = {AgeText(c.age_s), Fixed(c.rate_hz, 1) + " Hz",
                                  Fixed(c.expected_hz, 0) + " Hz",
                                  Fixed(static_cast<double>(c.lost), 0), c.note};
     for (int i = 0; i < columns; ++i) {

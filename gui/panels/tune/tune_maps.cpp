@@ -3,6 +3,7 @@
 
 #include "engine/core/hash.h"
 #include "engine/core/units.h"
+#include "gui/panels/arrival.h"
 #include "gui/panels/fly_panels.h"
 #include "gui/panels/tune/tune.h"
 #include "gui/widgets/icons.h"
@@ -91,19 +92,16 @@ void DrawChip(UiFrame& ui, const Rect& box, bool on, const char* title, const st
 
 void DrawTuneCamera(const EngineSnapshot& snap, const Rect& rect, TuneState& state, UiFrame& ui) {
   const TuneFacts facts = FactsOf(snap);
-  const ChannelHealth* channel = FindChannel(snap.sensors->channels, ChannelId::kCameraLeft);
-  const Rect content = DrawPanelFrame(
-      ui, rect, "Left camera",
-      {{channel != nullptr ? AgeText(channel->age_s + ui.silent_s) : "", 0, false, false},
-       {channel != nullptr ? Fixed(channel->rate_hz, 1) + " Hz" : "", 0, false, false}});
+  const Arrival arrival = ArrivalOf(snap, ChannelId::kCameraLeft, ui.silent_s);
+  const Rect content =
+      DrawPanelFrame(ui, rect, "Left camera",
+                     {{arrival.age, 0, true, arrival.late()}, {arrival.rate, 0, true, false}});
   LeftPicture look;
   look.decision = facts.shown;
   look.ghost = facts.previewing ? facts.applied : nullptr;
   look.preview = facts.previewing;
   look.probe = &state.probe;
-  look.plate = snap.sensors->laser && std::isfinite(snap.sensors->laser->range_m)
-                   ? "Laser " + Fixed(snap.sensors->laser->range_m, 1) + " m"
-                   : "";
+  look.plate = LaserPlate(snap, ui.silent_s);
   DrawLeftPicture(ui, content, snap, look, state.overlay);
 }
 

@@ -61,7 +61,14 @@ void DrawMapSites(UiFrame& ui, const Rect& square, const MapView& view, const Ma
     return at;
   };
   if (marks.selected) {
-    ring(*marks.selected, marks.commanded);
+    const ImVec2 at = ring(*marks.selected, marks.commanded);
+    if (marks.letters && square.Contains(at)) {  // beside the ring's cross, clear of it
+      const ImVec2 plate{at.x + s.Px(16), at.y - s.Px(14)};
+      if (marks.mission != nullptr) {
+        OfferLetter(ui, "map/" + view.key, plate, *marks.selected, *marks.mission);
+      }
+      LetterPlate(ui, plate, marks.selected->letter, true, 16);
+    }
   }
   if (marks.landing && marks.landing->id != selected) {
     const ImVec2 at = ring(*marks.landing, marks.landing_commanded);

@@ -1,0 +1,32 @@
+#include "gui/panels/arrival.h"
+
+#include "engine/model/channel_age.h"
+#include "gui/widgets/number_text.h"
+
+namespace palace {
+
+Arrival ArrivalOf(const EngineSnapshot& snap, ChannelId channel, double silent_s) {
+  const ChannelHealth* health = FindChannel(snap.sensors->channels, channel);
+  if (health == nullptr || health->state == ChannelHealth::State::kNever) {
+    return {};
+  }
+  const ChannelHealth now = After(*health, silent_s);
+  return {AgeText(now.age_s), Fixed(now.rate_hz, 1) + " Hz", now.age_s, now.state};
+}
+
+void DrawStale(UiFrame& ui, const Rect& image, const Arrival& arrival) {
+  if (arrival.state == ChannelHealth::State::kStale) {
+    StaleVeil(ui.style, Canvas(), image);
+    TextPlate(ui, image, Corner::kTopRight, Fixed(arrival.age_s, 1) + " s old");
+  }
+}
+
+std::string LaserPlate(const EngineSnapshot& snap, double silent_s) {
+  const bool fresh =
+      ArrivalOf(snap, ChannelId::kLaserRange, silent_s).state == ChannelHealth::State::kFresh;
+  return fresh && snap.sensors->laser && std::isfinite(snap.sensors->laser->range_m)
+             ? "Laser " + Fixed(snap.sensors->laser->range_m, 1) + " m"
+             : std::string();
+}
+
+}  // namespace palace

@@ -1,0 +1,27 @@
+// Arrival: how old is what a channel brought last, as pictures and plates say it.
+#pragma once
+
+#include <cmath>
+#include <string>
+
+#include "engine/model/snapshot.h"
+#include "gui/widgets/draw.h"
+
+namespace palace {
+
+struct Arrival {
+  std::string age = "never", rate;
+  double age_s = NAN;
+  ChannelHealth::State state = ChannelHealth::State::kNever;
+  bool late() const {
+    return state == ChannelHealth::State::kLate || state == ChannelHealth::State::kStale;
+  }
+};
+Arrival ArrivalOf(const EngineSnapshot& snap, ChannelId channel, double silent_s);
+
+/// Veils what is stale, "1.8 s old" at the top right.
+void DrawStale(UiFrame& ui, const Rect& image, const Arrival& arrival);
+/// "Laser 21.2 m"; empty while no fresh range is known.
+std::string LaserPlate(const EngineSnapshot& snap, double silent_s);
+
+}  // namespace palace

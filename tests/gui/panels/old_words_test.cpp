@@ -1,0 +1,136 @@
+// What was true once and is no more: a site off the map, a vehicle that fell silent, old pictures.
+#include "gui/panels/tune/tune.h"
+#include "tests/gui/panels/fly_window.h"
+#include "tests/gui/panels/panel_checks.h"
+
+namespace palace {
+namespace {
+
+bool HasText(const ItemRecord& items, const std::string& part) {
+  for (const Item& item : items.items()) {
+    if (item.name == "text" && item.text.find(part) != std::string::npos) {
+      return true;
+    }
+  }
+  return false;
+}
+
+TEST(SiteList, TheRowThatLeftTheMapIsTheOneThatSaysSo) {
+  const struct {
+    bool now;  ///< the place is still on the newest map
+    SiteVerdict verdict;
+    const char* word;
+  } table[] = {{false, SiteVerdict::kLost, "Z Off the map Cells unknown"},
+               {true, SiteVerdict::kLost, "Z Lost Cells unknown"},
+               {true, SiteVerdict::kHolds, "Z Confirmed"}};
+  for (const auto& row : table) {
+    SCOPED_TRACE(row.word);
+    EngineSnapshot snap = fake::Snapshot(MissionState::kArmed);
+    MissionStatus& m = snap.flight.Edit().mission;
+    m.armed->id = 99;
+    m.armed->letter = 'Z';
+    m.armed_now = row.now ? m.armed : std::nullopt;
+    m.armed_verdict = row.verdict;
+    m.armed_why = row.verdict == SiteVerdict::kHolds ? "" : "Cells unknown";
+    FlyWindow window(1920, 1080, snap);
+    EXPECT_EQ(window.ui.items.Find("site/Z")->text.rfind(row.word, 0), 0U)
+        << window.ui.items.Find("site/Z")->text;
+    EXPECT_FALSE(window.ui.items.Find("site/Z")->enabled);
+    EXPECT_EQ(window.ui.items.Find("site/A")->text.rfind("A Confirmed", 0), 0U);
+    window.fly.sites.scroll = 1e6f;  // to the last
+    window.ui.Frame(window.draw);
+    const Item* last = window.ui.items.Find("site/D");
+    EXPECT_TRUE(last->enabled);
+    EXPECT_EQ(last->text.rfind("D Provisional", 0), 0U) << last->text;
+  }
+}
+
+TEST(SiteList, AListedSiteThatIsSelectedSaysWhenItHoldsNoLonger) {
+  EngineSnapshot snap = fake::Snapshot(MissionState::kArmed);
+  MissionStatus& m = snap.flight.Edit().mission;
+  m.armed_verdict = SiteVerdict::kDegraded;
+  m.armed_why = "Room 0.1 m, armed with 2.2 m";
+  FlyWindow window(1920, 1080, snap);
+  EXPECT_EQ(window.ui.items.Find("site/A")->text.rfind(
+                std::string("A ") + SiteVerdictWord(SiteVerdict::kDegraded) + " Room 0.1 m", 0),
+            0U);
+  EXPECT_TRUE(HasText(window.ui.items, "Room 0.1 m"));
+}
+
+TEST(WaveOffPanel, IsOfferedAgainWhenTheWordOfTheGroundIsOld) {
+  EngineSnapshot snap = fake::Snapshot(MissionState::kLanded);
+  snap.flight.Edit().mission.why_no_wave_off = "Vehicle on the ground";
+  FlyWindow window(1920, 1080, snap);
+  EXPECT_FALSE(window.ui.items.Find("wave_off")->enabled);
+  const auto drawn = window.draw;
+  window.draw = [&](UiFrame& frame) {  // the engine publishes nothing more
+    frame.silent_s = 1.5;
+    drawn(frame);
+  };
+  window.ui.Frame(window.draw);
+  EXPECT_TRUE(window.ui.items.Find("wave_off")->enabled);
+  window.ui.Click("wave_off", window.draw);
+  EXPECT_EQ(window.ui.CountCommands<WaveOff>(), 1);
+}
+
+TEST(Landing, AWaveOffIsToldWithTheAgeOfTheVehiclesWord) {
+  const struct {
+    WaveOffReport report;
+    const char* headline;
+  } table[] = {{{WaveOffReport::Phase::kDone, 37, false}, "Waved off, hovering 37.0 s ago"},
+               {{WaveOffReport::Phase::kClimbs, 2.5, false}, "Waved off, climbing 2.5 s ago"}};
+  for (const auto& row : table) {
+    for (const ImVec2 size : {ImVec2(1920, 1080), ImVec2(1280, 720)}) {
+      SCOPED_TRACE(row.headline);
+      EngineSnapshot snap = fake::Snapshot(MissionState::kAborting);
+      snap.flight.Edit().mission.wave_off = row.report;
+      FlyWindow window(size.x, size.y, snap);
+      EXPECT_TRUE(HasText(window.ui.items, row.headline));
+      EXPECT_FALSE(window.ui.items.Find("acknowledge_wave_off")->enabled);
+      ExpectTextsInPanels(window.ui.items);
+    }
+  }
+}
+
+TEST(StalePicture, IsVeiledOnTuneTooAndNoOldRangeIsTold) {
+  EngineSnapshot snap = fake::Snapshot(MissionState::kProposed);
+  const auto tune = [&](double silent_s) {
+    UiHarness ui(1920, 1080);
+    ui.textures.left_camera = &ui;
+    TuneState state;
+    ui.Frame([&](UiFrame& f) {
+      f.silent_s = silent_s;
+      DrawTuneWorkspace(snap, BodyOf(1920, 1080), state, f);
+    });
+    return ui.items;
+  };
+  const ItemRecord fresh = tune(0);
+  EXPECT_TRUE(HasText(fresh, "Laser 38.2 m"));
+  EXPECT_TRUE(HasText(fresh, "Confirmed"));
+  EXPECT_FALSE(HasText(fresh, "s old"));
+  const ItemRecord silent = tune(11);  // nothing is published any more
+  EXPECT_FALSE(HasText(silent, "Laser"));
+  EXPECT_FALSE(HasText(silent, "Confirmed"));
+  EXPECT_TRUE(HasText(silent, "Old map"));
+  EXPECT_TRUE(HasText(silent, "11.0 s old"));
+  for (ChannelHealth& channel : snap.sensors.Edit().channels) {
+    channel.state = ChannelHealth::State::kStale;  // the engine goes on, the vehicle is silent
+    channel.age_s = 9;
+  }
+  EXPECT_FALSE(HasText(tune(0), "Laser"));
+  EXPECT_TRUE(HasText(tune(0), "9.0 s old"));
+  EXPECT_FALSE(HasText(FlyWindow(1920, 1080, snap).ui.items, "Laser 38.2 m"));
+}
+
+TEST(Pins, GoWithTheStateInWhichTheyWereSet) {
+  FlyWindow window(1920, 1080, fake::Snapshot(MissionState::kProposed));
+  window.fly.maps.probe.pinned = Eigen::Vector2d(1, 2);
+  window.ui.Frame(window.draw);
+  EXPECT_TRUE(window.fly.maps.probe.pinned.has_value());
+  window.snap = fake::Snapshot(MissionState::kArmed);
+  window.ui.Frame(window.draw);
+  EXPECT_FALSE(window.fly.maps.probe.pinned.has_value());
+}
+
+}  // namespace
+}  // namespace palace
