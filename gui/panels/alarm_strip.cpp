@@ -1,21 +1,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gui/panels/frame_bar.h"
+#include "gui/panels/alarm_look.h"
 #include "gui/widgets/button.h"
-#include "gui/widgets/icons.h"
 #include "gui/widgets/interact.h"
 
 namespace palace {
-
-namespace {
-
-struct AlarmLook {
-  Icon icon;
-  ImU32 colour, fill;
-  const char* word;
-  const char* plural;
-};
 
 AlarmLook LookOf(const Palette& p, AlarmLevel level) {
   switch (level) {
@@ -29,15 +19,30 @@ AlarmLook LookOf(const Palette& p, AlarmLevel level) {
   return {Icon::kAdvisory, p.advisory, p.advisory_fill, "ADVISORY", "advisory"};
 }
 
+namespace {
+
 bool IsSame(const ShelvedAlarm& shelved, const Alarm& alarm) {
   return alarm.active && alarm.kind == shelved.kind && alarm.level <= shelved.level &&
          alarm.since == shelved.since;
 }
 
+}  // namespace
+
 bool IsShelved(const FrameState& state, const Alarm& alarm) {
   return std::any_of(state.shelved.begin(), state.shelved.end(),
                      [&](const ShelvedAlarm& shelved) { return IsSame(shelved, alarm); });
 }
+
+bool WaitsForAnswer(const Alarm& alarm) {
+  return !alarm.acknowledged && alarm.level != AlarmLevel::kAdvisory;
+}
+
+std::string AlarmWords(const Alarm& alarm, bool of_record) {
+  return (of_record ? "In the flight: " : "") + std::string(alarm.active ? "" : "Over now: ") +
+         alarm.text + (alarm.count > 1 ? " ×" + std::to_string(alarm.count) : "");
+}
+
+namespace {
 
 /// What ended, worsened or was raised anew is not what was shelved.
 void ForgetEnded(const std::vector<Alarm>& alarms, FrameState& state) {
@@ -96,29 +101,54 @@ float DrawRest(const std::vector<const Alarm*>& rest, const char* none, float ri
   return x;
 }
 
-/// Acknowledge and Shelve; returns the left edge. An alarm of a recorded flight is past answering.
-float DrawAnswers(const Alarm& alarm, bool of_record, FrameState& state, float right, float y,
-                  UiFrame& ui) {
-  const Style& s = ui.style;
-  const bool advisory = alarm.level == AlarmLevel::kAdvisory;
-  if (advisory || of_record) {
-    return right;
+/// What an alarm is about, "GPS horizontal error 2.6 m".
+std::string Subject(const std::string& text) {
+  std::size_t stop = text.size();
+  for (const char* end : {", ", ". ", ": "}) {
+    stop = std::min(stop, text.find(end));
   }
-  ButtonLook look;
-  look.flat = true;
-  const Rect shelve{right - s.Px(28 + 72), y - s.Px(12), s.Px(72), s.Px(24)};
-  // What is over goes by its acknowledgement; there is nothing to put aside.
-  if (alarm.active && DrawButton(ui, "shelve", shelve, "Shelve", look)) {
-    state.shelved.push_back({alarm.kind, alarm.level, alarm.since});
-  }
-  const Rect acknowledge{shelve.x - s.Px(8 + 112), shelve.y, s.Px(112), shelve.h};
-  if (!alarm.acknowledged && DrawButton(ui, "acknowledge", acknowledge, "Acknowledge", look)) {
-    ui.intents.push_back(CommandAction(AcknowledgeAlarm{alarm.id}));
-  }
-  return alarm.acknowledged ? shelve.x : acknowledge.x;
+  return text.substr(0, stop);
 }
 
-void DrawFirst(const Alarm& alarm, bool of_record, const Rect& rect, float text_right,
+/// Shelve of the first alarm, and Acknowledge of the first that waits for an answer: that may stand
+/// behind one that needs none, and is named then. Returns the left edge. An alarm of a recorded
+/// flight is past answering.
+float DrawAnswers(const std::vector<const Alarm*>& alarms, FrameState& state, float right, float y,
+                  UiFrame& ui) {
+  const Style& s = ui.style;
+  const Alarm& first = *alarms.front();
+  ButtonLook look;
+  look.flat = true;
+  // What is over goes by its acknowledgement; there is nothing to put aside.
+  const bool shelves = first.active && first.level != AlarmLevel::kAdvisory;
+  if (shelves || WaitsForAnswer(first)) {
+    const Rect shelve{right - s.Px(28 + 72), y - s.Px(12), s.Px(72), s.Px(24)};
+    if (shelves && DrawButton(ui, "shelve", shelve, "Shelve", look)) {
+      state.shelved.push_back({first.kind, first.level, first.since});
+    }
+    right = shelve.x;
+  }
+  const auto waits = std::find_if(alarms.begin(), alarms.end(),
+                                  [](const Alarm* alarm) { return WaitsForAnswer(*alarm); });
+  if (waits == alarms.end()) {
+    return right;
+  }
+  const Alarm& asked = **waits;
+  constexpr float kMostNamed = 300;
+  std::string words = "Acknowledge";
+  if (&asked != &first) {
+    words += ": " + std::string(FitWords(s.body, Subject(asked.text), s.Px(kMostNamed)));
+  }
+  const float width = std::max(s.Px(112), TextWidth(s.body, words) + s.Px(24));
+  const Rect acknowledge{right - s.Px(8) - width, y - s.Px(12), width, s.Px(24)};
+  if (DrawButton(ui, "acknowledge", acknowledge, words, look)) {
+    ui.intents.push_back(CommandAction(AcknowledgeAlarm{asked.id}));
+  }
+  return acknowledge.x;
+}
+
+/// True when the words had no room: what to do stands last in them.
+bool DrawFirst(const Alarm& alarm, bool of_record, const Rect& rect, float text_right,
                UiFrame& ui) {
   const Style& s = ui.style;
   const Palette& p = s.palette;
@@ -136,12 +166,10 @@ void DrawFirst(const Alarm& alarm, bool of_record, const Rect& rect, float text_
   }
   float x = rect.x + s.Px(40);
   x += DrawText(ui, s.medium, p.text1, x, y, look.word) + s.Px(10);
-  std::string text = of_record ? "In the flight: " : "";
-  text += (alarm.active ? "" : "Over now: ") + alarm.text;
-  if (alarm.count > 1) {
-    text += " ×" + std::to_string(alarm.count);
-  }
-  DrawText(ui, s.body, p.text1, x, y, FitWords(s.body, text, text_right - x - s.Px(16)));
+  const std::string text = AlarmWords(alarm, of_record);
+  const std::string_view shown = FitWords(s.body, text, text_right - x - s.Px(16));
+  DrawText(ui, s.body, p.text1, x, y, shown);
+  return shown.size() < text.size();
 }
 
 }  // namespace
@@ -178,11 +206,15 @@ void DrawAlarmStripPanel(const EngineSnapshot& snap, const Rect& rect, FrameStat
   float right = DrawShelf(state, rect.right(), y, ui);
   right = DrawRest(rest, none, right, y, ui);
   const bool of_record = FollowsRecord(snap.session->role);
-  right = DrawAnswers(*alarms.front(), of_record, state, right, y, ui);
-  DrawFirst(*alarms.front(), of_record, rect, right, ui);
+  right = of_record ? right : DrawAnswers(alarms, state, right, y, ui);
+  const bool cut = DrawFirst(*alarms.front(), of_record, rect, right, ui);
   const Rect words{rect.x, rect.y, right - rect.x, rect.h};
-  if (Interact(ui, "alarm", words, 0, alarms.front()->text).clicked) {
+  const Interaction in = Interact(ui, "alarm", words, 0, alarms.front()->text);
+  if (in.clicked) {
     state.history_open = !state.history_open;
+  }
+  if (in.hovered && cut && !state.history_open) {
+    DrawTooltip(ui, AlarmWords(*alarms.front(), of_record));
   }
 }
 
@@ -193,37 +225,7 @@ void DrawFrameOverlay(const EngineSnapshot& snap, const FrameLayout& layout, Fra
   if (FollowsRecord(snap.session->role)) {
     StrokeRect(Canvas(), layout.window, p.replay, s.Fine(4));
   }
-  if (!state.history_open || snap.flight->mission.alarms.empty()) {
-    return;
-  }
-  const float row = s.Px(28);
-  const auto count = static_cast<float>(snap.flight->mission.alarms.size());
-  const Rect list{layout.alarm_strip.x, layout.alarm_strip.bottom(), layout.alarm_strip.w,
-                  std::min(row * count + s.Px(16), layout.body.h / 2)};
-  BeginOverlay("##alarm_history", list);
-  const bool on_list = Interact(ui, "alarm_history", list, kNoTab).hovered;
-  FillRect(Canvas(), list, p.control);
-  StrokeRect(Canvas(), list, p.strong_line, s.Fine(1));
-  float y = list.y + s.Px(8) + row / 2;
-  for (const Alarm& alarm : snap.flight->mission.alarms) {
-    if (y + row / 2 > list.bottom()) {
-      break;
-    }
-    const AlarmLook look = LookOf(p, alarm.level);
-    DrawIcon(Canvas(), look.icon, {list.x + s.Px(25), y}, s.Px(12), look.colour);
-    DrawText(ui, s.body, p.text1, list.x + s.Px(40), y,
-             FitWords(s.body, alarm.text, list.w - s.Px(240)));
-    const std::string status = IsShelved(state, alarm) ? "Shelved"
-                               : alarm.acknowledged    ? "Acknowledged"
-                                                       : "";
-    DrawText(ui, s.caption, p.text2, list.right() - s.Px(27), y, status, Align::kRight);
-    y += row;
-  }
-  EndOverlay();
-  const bool on_strip = Interact(ui, "alarm", layout.alarm_strip, kPassive).hovered;
-  if (ImGui::IsMouseClicked(0) && !on_list && !on_strip) {
-    state.history_open = false;
-  }
+  DrawAlarmList(snap, layout, state, ui);
 }
 
 }  // namespace palace

@@ -33,9 +33,10 @@ struct FrameState {
 /// Mode block, name, workspace tabs ("tab/Fly" ...), state chain.
 void DrawTopBarPanel(const EngineSnapshot& snap, const FrameLayout& layout, FrameState& state,
                      UiFrame& ui);
-/// Worst alarm, Acknowledge ("acknowledge"), Shelve ("shelve"), count of the rest. "unshelve" says
-/// how many are shelved and brings them back; one that ends, worsens or is raised anew comes back
-/// by itself.
+/// The first alarm: of those that stand the worst, else of those that are over. Shelve ("shelve"),
+/// count of the rest. "acknowledge" answers the first that waits for an answer, and names it where
+/// it is another. "unshelve" says how many are shelved and brings them back; one that ends, worsens
+/// or is raised anew comes back by itself.
 void DrawAlarmStripPanel(const EngineSnapshot& snap, const Rect& rect, FrameState& state,
                          UiFrame& ui);
 /// Fires WaveOff on press ("wave_off"); stays pressed until the mission left ABORTING.
@@ -45,7 +46,8 @@ void DrawStatusBarPanel(const EngineSnapshot& snap, const FrameLayout& layout,
 /// All of the above, the window's background, and the violet frame of a replay.
 void DrawFrameBar(const EngineSnapshot& snap, const FrameLayout& layout, FrameState& state,
                   UiFrame& ui);
-/// Call after the workspace: the violet frame and the list of alarms lie over it.
+/// Call after the workspace: the violet frame and the list of alarms ("acknowledge/gps_error") lie
+/// over it.
 void DrawFrameOverlay(const EngineSnapshot& snap, const FrameLayout& layout, FrameState& state,
                       UiFrame& ui);
 

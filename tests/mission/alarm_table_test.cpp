@@ -77,6 +77,29 @@ TEST(AlarmTable, TheRecordSaysWhyItStoppedOrWhatItLeavesOutAndForHowLong) {
   EXPECT_NE(text(AlarmId::kEngineStopped, stopped).find("Nothing is selected"), std::string::npos);
 }
 
+TEST(AlarmTable, InARecordNoSensorBlocksAnApproval) {
+  for (const bool live : {true, false}) {
+    AlarmFacts f = AllMeasured();
+    f.state = MissionState::kSearch;
+    f.on_vision = false;
+    f.has_vehicle = live;
+    f.gps_agreement.off = true;
+    int told = 0;
+    for (const LaserHealth::State state :
+         {LaserHealth::State::kLost, LaserHealth::State::kStuck, LaserHealth::State::kWrong}) {
+      f.laser.state = state;
+      for (const AlarmCondition& condition : EvaluateAlarms(f)) {
+        if (condition.present) {
+          ++told;
+          EXPECT_EQ(condition.text.find("Approve is blocked") != std::string::npos, live)
+              << condition.text;
+        }
+      }
+    }
+    EXPECT_GE(told, 6);
+  }
+}
+
 TEST(AlarmTable, NothingIsRaisedWhenAllIsWell) {
   for (const AlarmCondition& condition : EvaluateAlarms(AllMeasured())) {
     EXPECT_FALSE(condition.present) << AlarmName(condition.id) << ": " << condition.text;

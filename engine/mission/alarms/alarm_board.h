@@ -32,7 +32,7 @@ class AlarmBoard {
   bool IsAcknowledged(AlarmId id) const;
   /// Text of the worst warning nobody acknowledged, empty when there is none.
   std::string UnacknowledgedWarning() const;
-  /// Worst first, then oldest first.
+  /// What stands before what is over, then worst first, then oldest first.
   std::vector<Alarm> Shown() const;
   /// Alarms that came on in the last Update.
   const std::vector<Alarm>& raised() const { return raised_; }

@@ -15,9 +15,13 @@ constexpr double kSilence_s = 0.3;
 /// Nothing comes at all: the link's own alarms speak of that.
 bool IsSilence(const Facts& f) { return f.silence_s > kSilence_s; }
 
+/// Nothing in a record, where nobody approves, and once something is approved.
+std::string Blocks(const Facts& f, const std::string& when = "") {
+  return f.has_vehicle && f.approve_ahead ? " Approve is blocked" + when + "." : "";
+}
+
 std::string LaserLies(const Facts& f) {
-  return words::LaserFault(f.laser) + ". " + kHeightsElsewhere +
-         (f.approve_ahead ? " Approve is blocked." : "");
+  return words::LaserFault(f.laser) + ". " + kHeightsElsewhere + Blocks(f);
 }
 
 const AlarmRow kRows[] = {
@@ -38,8 +42,8 @@ const AlarmRow kRows[] = {
      .present = [](const Facts& f, double) { return f.gps_agreement.off; },
      .text =
          [](const Facts& f, const std::string&) {
-           return words::GpsOff(f.gps_agreement) + ". The position does not follow it. " +
-                  (f.on_vision ? "Landing on vision goes on." : "Approve is blocked.");
+           return words::GpsOff(f.gps_agreement) + ". The position does not follow it." +
+                  (f.on_vision ? " Landing on vision goes on." : Blocks(f));
          }},
     {.id = AlarmId::kGpsLost,
      .level = AlarmLevel::kCaution,
@@ -49,9 +53,8 @@ const AlarmRow kRows[] = {
                    double limit) { return f.has_vehicle && f.gps_age_s > limit && !IsSilence(f); },
      .text =
          [](const Facts& f, const std::string& limit) {
-           return WithNumbers("No GPS for %.1f s, limit ", f.gps_age_s) + limit + ". " +
-                  (f.on_vision ? "Landing on vision goes on."
-                               : "Approve is blocked without a position.");
+           return WithNumbers("No GPS for %.1f s, limit ", f.gps_age_s) + limit + "." +
+                  (f.on_vision ? " Landing on vision goes on." : Blocks(f, " without a position"));
          }},
     {.id = AlarmId::kLaserLost,
      .level = AlarmLevel::kCaution,
@@ -61,9 +64,7 @@ const AlarmRow kRows[] = {
      .text =
          [](const Facts& f, const std::string&) {
            return words::LaserFault(f.laser) + ". " + kHeightsElsewhere +
-                  (f.approve_ahead ? " Approve is blocked below " +
-                                         LimitWords({GuardLimits::laser_height_m, "m"}) + "."
-                                   : "");
+                  Blocks(f, " below " + LimitWords({GuardLimits::laser_height_m, "m"}));
          }},
     {.id = AlarmId::kLaserStuck,
      .level = AlarmLevel::kCaution,

@@ -97,9 +97,15 @@ void DrawAlarmTable(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui) {
                                                    : "Stands";
     const float right = content.right() - s.Px(12);
     const float state_w = DrawText(ui, s.caption, p.text2, right, y, state, Align::kRight);
-    DrawText(ui, s.body, p.text1, x + time_w, y,
-             FitWords(s.body, alarm.text, right - state_w - s.Px(12) - x - time_w));
-    y += s.Px(26);
+    for (const std::string& line :
+         WrapText(s.body, alarm.text, right - state_w - s.Px(12) - x - time_w)) {
+      if (y + s.Px(10) > rect.bottom()) {
+        return;
+      }
+      DrawText(ui, s.body, p.text1, x + time_w, y, line);
+      y += s.Px(20);
+    }
+    y += s.Px(6);
   }
 }
 

@@ -155,5 +155,28 @@ TEST(DiagnoseWorkspace, TextsStayInTheirPanels) {
   }
 }
 
+TEST(DiagnoseWorkspace, AnAlarmIsToldToItsEnd) {
+  for (const WindowSize& size : kWindowSizes) {
+    EngineSnapshot snap = fake::Snapshot(MissionState::kArmed);
+    snap.flight.Edit().mission.alarms.resize(1);
+    snap.flight.Edit().mission.alarms[0].text =
+        "GPS horizontal error 2.6 m, limit 2.0 m, for 12 s and rising; the fixes are of six "
+        "satellites only. Landing on vision, not GPS: watch the coherence.";
+    UiHarness ui(size.width, size.height);
+    DiagnoseState state;
+    const Rect body = BodyOf(size.width, size.height);
+    ui.Frame([&](UiFrame& f) { DrawDiagnoseWorkspace(snap, body, state, f); });
+    if (ui.items.Find("panel/Alarms") == nullptr) {
+      continue;  // a low window has no room for them; the strip's list tells them
+    }
+    bool end = false;
+    for (const Item& item : ui.items.items()) {
+      end = end || (item.name == "text" && item.text.find("coherence.") != std::string::npos);
+    }
+    EXPECT_TRUE(end) << size.name;
+    ExpectTextsInPanels(ui.items);
+  }
+}
+
 }  // namespace
 }  // namespace palace

@@ -241,7 +241,7 @@ TEST(LinkWords, FollowTheSource) {
     SourceKind kind;
     const char* words;
   } table[] = {{SourceKind::kReplay, "No link in replay"},
-               {SourceKind::kImages, "No vehicle in a picture folder"},
+               {SourceKind::kImages, "No vehicle, pictures only"},
                {SourceKind::kCameras, "No vehicle, cameras only"},
                {SourceKind::kVideo, "No vehicle in a video"},
                {SourceKind::kLive, "No link"}};
