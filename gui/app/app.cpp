@@ -16,19 +16,19 @@ namespace {
 /// What the station maps before its first flight, with software GL; more is asked for later.
 constexpr std::size_t kLeastMemory_MiB = 640;
 
-/// The same flight again, or its log.
-AppOptions OptionsOf(AppOptions options, const NextFlight& next) {
+}  // namespace
+
+AppOptions OptionsOfNext(AppOptions options, const NextFlight& next) {
   options.script_file.clear();
   if (next.kind == NextFlight::Kind::kReview) {
     options.source = SourceChoice::kReplay;
     options.channels_file.clear();  // our logs have our own names, whatever the bus calls them
     options.source_path = next.log;
     options.settings = {};  // those of the record
+    options.record = false;
   }
   return options;
 }
-
-}  // namespace
 
 int RunApp(const AppOptions& options) {
   InitLogging(options.verbose);
@@ -63,7 +63,7 @@ int RunApp(const AppOptions& options) {
     if (!end.next || now.headless || termination.asked()) {
       return end.exit_code;
     }
-    now = OptionsOf(options, *end.next);
+    now = OptionsOfNext(options, *end.next);
   }
 }
 

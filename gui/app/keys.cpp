@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <functional>
 
+#include "gui/panels/session_words.h"
+
 namespace palace {
 namespace {
 
@@ -37,7 +39,7 @@ Intents SeekBy(const Context& c, double seconds) {
 }
 
 Intents ScaleSpeed(const Context& c, double factor) {
-  if (!c.snapshot) {
+  if (!c.snapshot || !CanBePaused(*c.snapshot)) {
     return {};
   }
   const double speed = c.snapshot->session->source.speed;
@@ -45,17 +47,22 @@ Intents ScaleSpeed(const Context& c, double factor) {
               std::clamp((speed > 0 ? speed : 1) * factor, kMinSpeed, kMaxSpeed));
 }
 
+/// What the keys of the transport ask of a source that obeys them; of one that is alive, nothing.
+Intents Play(const Context& c, PlaybackControl::Kind kind, double value = 0) {
+  return c.snapshot && CanBePaused(*c.snapshot) ? Play(kind, value) : Intents{};
+}
+
 Intents PlayOrPause(const Context& c) {
-  if (!c.snapshot) {
-    return {};
-  }
-  return Play(c.snapshot->session->source.paused ? PlaybackControl::Kind::kPlay
-                                                 : PlaybackControl::Kind::kPause);
+  return Play(c, c.snapshot && IsPlaying(*c.snapshot) ? PlaybackControl::Kind::kPause
+                                                      : PlaybackControl::Kind::kPlay);
 }
 
 std::vector<Row> MakeRows() {
   using K = PlaybackControl::Kind;
   const auto always = [](Intents intents) { return [intents](const Context&) { return intents; }; };
+  const auto play = [](K kind, double value = 0) {
+    return [=](const Context& c) { return Play(c, kind, value); };
+  };
   return {
       {{"Shift+Escape", "Wave off", false, true, true}, always({CommandAction(WaveOff{})})},
       {{"F2", "Show Fly", false, false, true}, always(Ui(ShowWorkspace{Workspace::kFly}))},
@@ -75,11 +82,11 @@ std::vector<Row> MakeRows() {
        [](const Context& c) { return SeekBy(c, -kLargeStep_s); }},
       {{"Shift+Right", "Step forward 1 s", true},
        [](const Context& c) { return SeekBy(c, kLargeStep_s); }},
-      {{"Ctrl+Left", "Previous frame", true}, always(Play(K::kStepBack))},
-      {{"Ctrl+Right", "Next frame", true}, always(Play(K::kStepForward))},
-      {{",", "Previous frame", true}, always(Play(K::kStepBack))},
-      {{".", "Next frame", true}, always(Play(K::kStepForward))},
-      {{"Home", "Go to the start"}, always(Play(K::kSeek, 0))},
+      {{"Ctrl+Left", "Previous frame", true}, play(K::kStepBack)},
+      {{"Ctrl+Right", "Next frame", true}, play(K::kStepForward)},
+      {{",", "Previous frame", true}, play(K::kStepBack)},
+      {{".", "Next frame", true}, play(K::kStepForward)},
+      {{"Home", "Go to the start"}, play(K::kSeek)},
       {{"End", "Go to the end"},
        [](const Context& c) {
          return c.snapshot && c.snapshot->session->source.duration_s
@@ -88,7 +95,12 @@ std::vector<Row> MakeRows() {
        }},
       {{"[", "Half speed", true}, [](const Context& c) { return ScaleSpeed(c, 0.5); }},
       {{"]", "Double speed", true}, [](const Context& c) { return ScaleSpeed(c, 2); }},
-      {{"\\", "Normal speed"}, always(Play(K::kSpeed, 1))},
+      {{"\\", "Normal speed"}, play(K::kSpeed, 1)},
+      {{"D", "Deselect the site"},
+       [](const Context& c) {
+         const bool armed = c.snapshot && c.snapshot->flight->mission.state == MissionState::kArmed;
+         return armed ? Intents{CommandAction(DisarmSite{})} : Intents{};
+       }},
       {{"B", "Bookmark now"}, always({CommandAction(AddBookmark{})})},
       {{"Ctrl+Z", "Undo the last limit change", true}, always(Ui(UndoSetting{}))},
       {{"Ctrl+Shift+Z", "Redo it", true}, always(Ui(RedoSetting{}))},

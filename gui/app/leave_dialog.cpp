@@ -32,10 +32,11 @@ LeaveAnswer DrawLeaveDialog(const Rect& body, const std::string& what_the_vehicl
   };
   ButtonLook first;
   first.active = true;
-  if (DrawButton(ui, "leave/wave_off", button(0), "Wave off, then stay", first)) {
+  const bool waves_off = DrawButton(ui, "leave/wave_off", button(0), "Wave off, then stay", first);
+  if (waves_off) {
     ui.intents.push_back(CommandAction(WaveOff{}));
   }
-  const bool stays = DrawButton(ui, "leave/stay", button(1), "Stay");
+  const bool stays = DrawButton(ui, "leave/stay", button(1), "Stay") || waves_off;
   const bool leaves = DrawButton(ui, "leave/leave", button(2), "Leave all the same");
   EndOverlay();
   ui.items.Add("leave", box, true, what_the_vehicle_does);

@@ -14,7 +14,7 @@ std::string RefusalWatch::Newest(const EngineSnapshot& snapshot) {
   for (; seen_ < events.size(); ++seen_) {
     newest = IsRefusal(events[seen_]) ? events[seen_].text : newest;
   }
-  return newest;
+  return FollowsRecord(snapshot.session->role) ? std::string() : newest;
 }
 
 }  // namespace palace

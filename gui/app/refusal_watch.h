@@ -9,7 +9,8 @@ namespace palace {
 
 class RefusalWatch {
  public:
-  /// The newest refusal among the events that came since the last call; empty: none.
+  /// The newest refusal among the events that came since the last call; empty: none, or it was
+  /// refused in a recorded flight and answers nobody here.
   std::string Newest(const EngineSnapshot& snapshot);
 
  private:

@@ -60,6 +60,9 @@ class StationRun {
         summarizer_(session.scene),
         start_s_(MonotonicSeconds()) {
     state_.scale = options.ui_scale > 0 ? options.ui_scale : surface.natural_scale();
+    if (!script_) {  // a script says where it goes
+      state_.frame.workspace = FirstWorkspace(options.source);
+    }
   }
 
   Status Run() {

@@ -54,6 +54,11 @@ void CloseTopmost(UiState& state) {
 }
 
 void Show(UiState& state, Workspace workspace) {
+  if (workspace != state.frame.workspace) {
+    state.fly.maps.probe.pinned.reset();  // what was looked at there
+    state.tune.probe.pinned.reset();
+    state.review.probe.pinned.reset();
+  }
   state.frame.workspace = workspace;
   state.highlighted_site = 0;
   if (state.focus.shown().substr(0, 4) != "tab/") {  // the tabs are in every workspace

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "gui/app/intent.h"
+#include "gui/app/options.h"
 #include "gui/panels/diagnose/diagnose.h"
 #include "gui/panels/fly_state.h"
 #include "gui/panels/frame_bar.h"
@@ -37,6 +38,11 @@ struct UiState {
   double message_until_s = 0;      ///< UI clock
   std::vector<std::string> screenshots_wanted;  ///< file names, taken after the next frame
 };
+
+/// What a person came for: a log is looked at in Review, where the transport is.
+constexpr Workspace FirstWorkspace(SourceChoice source) {
+  return source == SourceChoice::kReplay ? Workspace::kReview : Workspace::kFly;
+}
 
 /// What a UI action asks of the world outside the window state.
 struct UiRequest {

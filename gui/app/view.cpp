@@ -227,7 +227,7 @@ void View::DrawLeaveQuestion(const EngineSnapshot* snapshot, const FrameLayout& 
   if (!state.leave_asked || snapshot == nullptr) {
     return;
   }
-  const std::string alone = WhatTheVehicleDoesAlone(*snapshot);
+  const std::string alone = WhatTheVehicleDoesAlone(*snapshot, ui.silent_s);
   ui.blocked_by_popup = false;  // the keyboard is for this question alone
   const LeaveAnswer answer =
       DrawLeaveDialog(layout.body, alone.empty() ? "Nothing flies any more." : alone, ui);

@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/fake_snapshot.h"
+
 namespace palace {
 namespace {
 
@@ -70,6 +72,49 @@ TEST(Keys, WaveOffWorksOverAPopup) {
   state.key_help = true;
   EXPECT_EQ(IntentsOfKey("Shift+Escape", nullptr, state, false).size(), 1u);
   EXPECT_TRUE(IntentsOfKey("F3", nullptr, state, false).empty());
+}
+
+TEST(Keys, SpacePlaysWhateverStandsStill) {
+  using Kind = PlaybackControl::Kind;
+  const struct {
+    bool paused, ended;
+    Kind asks;
+  } table[] = {{false, false, Kind::kPause},
+               {true, false, Kind::kPlay},
+               {false, true, Kind::kPlay},
+               {true, true, Kind::kPlay}};
+  for (const auto& row : table) {
+    EngineSnapshot snapshot = fake::Snapshot(MissionState::kSearch, SourceKind::kReplay);
+    snapshot.session.Edit().source.paused = row.paused;
+    snapshot.session.Edit().source.ended = row.ended;
+    const Intents intents = IntentsOfKey("Space", &snapshot, UiState{}, false);
+    ASSERT_EQ(intents.size(), 1u);
+    EXPECT_EQ(std::get<PlaybackControl>(intents[0]).kind, row.asks) << row.paused << row.ended;
+  }
+}
+
+TEST(Keys, DTakesTheSelectionBackAndNothingElse) {
+  for (const MissionState state : {MissionState::kProposed, MissionState::kArmed,
+                                   MissionState::kApproved, MissionState::kDescending}) {
+    const EngineSnapshot snapshot = fake::Snapshot(state);
+    const Intents intents = IntentsOfKey("D", &snapshot, UiState{}, false);
+    ASSERT_EQ(intents.size(), state == MissionState::kArmed ? 1u : 0u) << MissionStateName(state);
+    if (!intents.empty()) {
+      EXPECT_TRUE(std::holds_alternative<DisarmSite>(std::get<CommandAction>(intents[0])));
+    }
+  }
+}
+
+TEST(Keys, WhatIsAliveIsNotAskedToWait) {
+  for (const auto& [kind, obeys] :
+       {std::pair(SourceKind::kLive, false), std::pair(SourceKind::kCameras, false),
+        std::pair(SourceKind::kSimulation, true), std::pair(SourceKind::kReplay, true),
+        std::pair(SourceKind::kImages, true), std::pair(SourceKind::kVideo, true)}) {
+    const EngineSnapshot snapshot = fake::Snapshot(MissionState::kSearch, kind);
+    for (const char* keys : {"Space", ".", "Ctrl+Right", "]", "[", "\\"}) {
+      EXPECT_EQ(!IntentsOfKey(keys, &snapshot, UiState{}, false).empty(), obeys) << keys;
+    }
+  }
 }
 
 }  // namespace

@@ -38,6 +38,24 @@ TEST(Leaving, TheWordsFollowWhatTheVehicleWillDo) {
             "");
 }
 
+TEST(Leaving, OnlyWhoCommandsIsAsked) {
+  for (const auto& [standing, asked] :
+       {std::pair(AuthorityStanding::kNone, true), std::pair(AuthorityStanding::kHeld, true),
+        std::pair(AuthorityStanding::kOther, false), std::pair(AuthorityStanding::kNoKey, false),
+        std::pair(AuthorityStanding::kReleased, false)}) {
+    EngineSnapshot snapshot = Flying(MissionState::kDescending);
+    snapshot.session.Edit().authority.standing = standing;
+    EXPECT_EQ(!WhatTheVehicleDoesAlone(snapshot).empty(), asked) << static_cast<int>(standing);
+  }
+}
+
+TEST(Leaving, AnOldWordIsToldWithItsAge) {
+  EngineSnapshot snapshot = Flying(MissionState::kSearch);
+  EXPECT_EQ(WhatTheVehicleDoesAlone(snapshot).rfind("The vehicle is in the air.", 0), 0U);
+  const std::string later = WhatTheVehicleDoesAlone(snapshot, /*silent_s=*/36.6);
+  EXPECT_EQ(later.rfind("The vehicle was heard last 37.0 s ago.", 0), 0U) << later;
+}
+
 TEST(Leaving, EachButtonDoesItsOwn) {
   struct Case {
     const char* button;
@@ -45,7 +63,7 @@ TEST(Leaving, EachButtonDoesItsOwn) {
     int wave_offs;
   };
   for (const Case& c :
-       {Case{"leave/wave_off", LeaveAnswer::kNone, 1}, Case{"leave/stay", LeaveAnswer::kStay, 0},
+       {Case{"leave/wave_off", LeaveAnswer::kStay, 1}, Case{"leave/stay", LeaveAnswer::kStay, 0},
         Case{"leave/leave", LeaveAnswer::kLeave, 0}}) {
     SCOPED_TRACE(c.button);
     UiHarness ui(1280, 720);

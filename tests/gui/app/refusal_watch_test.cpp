@@ -27,5 +27,14 @@ TEST(RefusalWatch, TellsEachRefusalOnce) {
   EXPECT_EQ(look(watch), "Hold refused: No descent to hold");
 }
 
+TEST(RefusalWatch, ARecordedRefusalAnswersNobody) {
+  EngineSnapshot snap = fake::Snapshot(MissionState::kSearch, SourceKind::kReplay);
+  std::vector<Event> events = *snap.session->events;
+  events.push_back({snap.time, EventKind::kDecision, "Select refused: No site is proposed"});
+  snap.session.Edit().events = std::make_shared<const std::vector<Event>>(events);
+  RefusalWatch watch;
+  EXPECT_EQ(watch.Newest(snap), "");
+}
+
 }  // namespace
 }  // namespace palace

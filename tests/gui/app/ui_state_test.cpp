@@ -119,5 +119,22 @@ TEST(UiStateReduce, UndoAndRedoAskForTheValuesOfTheHistory) {
   EXPECT_TRUE(Reduce(state, RedoSetting{}).settings.empty());
 }
 
+TEST(UiState, ALogOpensWhereItIsLookedAt) {
+  EXPECT_EQ(FirstWorkspace(SourceChoice::kReplay), Workspace::kReview);
+  for (const SourceChoice source : {SourceChoice::kSimulation, SourceChoice::kConnect,
+                                    SourceChoice::kImages, SourceChoice::kCameras}) {
+    EXPECT_EQ(FirstWorkspace(source), Workspace::kFly);
+  }
+}
+
+TEST(UiState, APinStaysInNoWorkspaceThatWasLeft) {
+  UiState state;
+  state.fly.maps.probe.pinned = Eigen::Vector2d(1, 2);
+  Reduce(state, ShowWorkspace{Workspace::kFly});  // no change
+  EXPECT_TRUE(state.fly.maps.probe.pinned.has_value());
+  Reduce(state, ShowWorkspace{Workspace::kTune});
+  EXPECT_FALSE(state.fly.maps.probe.pinned.has_value());
+}
+
 }  // namespace
 }  // namespace palace
