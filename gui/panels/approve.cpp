@@ -186,15 +186,17 @@ void DrawExpiry(const EngineSnapshot& snap, const Rect& rect, float y, UiFrame& 
            p.text2, s.Fine(2));
 }
 
-/// In place of Refuse while nothing is armed: who commands a live vehicle changes here. Taking over
-/// from a station that is heard asks for a hold.
-bool DrawCommandButton(const EngineSnapshot& snap, const Rect& rect, ApproveState& state,
+/// While nothing is armed who commands a live vehicle may change.
+bool OffersCommand(const EngineSnapshot& snap) {
+  const AuthorityStatus& authority = snap.session->authority;
+  return snap.session->source.kind == SourceKind::kLive && !snap.flight->mission.armed &&
+         (authority.can_ask || authority.commands());
+}
+
+/// In place of Refuse. Taking over from a station that is heard asks for a hold.
+void DrawCommandButton(const EngineSnapshot& snap, const Rect& rect, ApproveState& state,
                        UiFrame& ui) {
   const AuthorityStatus& authority = snap.session->authority;
-  const bool live = snap.session->source.kind == SourceKind::kLive;
-  if (!live || snap.flight->mission.armed || (!authority.can_ask && !authority.commands())) {
-    return false;
-  }
   ButtonLook look;
   look.flat = true;
   if (authority.commands()) {
@@ -215,7 +217,6 @@ bool DrawCommandButton(const EngineSnapshot& snap, const Rect& rect, ApproveStat
       ui.intents.push_back(CommandAction(AskForCommand{true}));
     }
   }
-  return true;
 }
 
 void DrawRefuseButton(const EngineSnapshot& snap, const Rect& rect, bool narrow, UiFrame& ui) {
@@ -233,16 +234,101 @@ void DrawRefuseButton(const EngineSnapshot& snap, const Rect& rect, bool narrow,
   }
 }
 
+/// Takes the selection back, in the panel's head: away from the buttons that commit.
+void DrawDeselect(const LandingSite& site, const Rect& panel, UiFrame& ui) {
+  const Style& s = ui.style;
+  const std::string words = "Deselect site " + std::string(site.letter);
+  const float width = TextWidth(s.caption, words) + s.Px(20);
+  ButtonLook look;
+  look.flat = true;
+  look.font = s.caption;
+  if (DrawButton(ui, "deselect",
+                 {panel.right() - s.Px(8) - width, panel.y + s.Px(3), width, s.Px(22)}, words,
+                 look)) {
+    ui.intents.push_back(CommandAction(DisarmSite{}));
+  }
+}
+
+/// What a person may do, and why not: while nothing is armed.
+std::string WhatNow(const EngineSnapshot& snap) {
+  const MissionStatus& m = snap.flight->mission;
+  const bool sites = snap.terrain->applied && !snap.terrain->applied->selection.sites.empty();
+  if (!m.may_select && sites) {
+    return WhyNotSelectable(snap);
+  }
+  if (m.state == MissionState::kNoLive && !m.why.empty()) {
+    return m.why + ".";
+  }
+  if (!sites) {
+    return "Waiting for a site inside all limits.";
+  }
+  switch (m.state) {
+    case MissionState::kProposed:
+      return "Click a site, or press Tab and Enter, to select it.";
+    case MissionState::kSearch:
+      return "Selectable once one site has led for " +
+             Duration(snap.session->settings.mission.propose_after_s) + ".";
+    default:
+      return "No site can be selected now.";
+  }
+}
+
+/// Why the last selection ended, and what now; above the buttons, in small letters where it is
+/// long.
+void DrawWhatNow(const EngineSnapshot& snap, const Rect& from, float bottom, UiFrame& ui) {
+  const Style& s = ui.style;
+  const std::string& ended = snap.flight->mission.selection_ended;
+  const std::string now = WhatNow(snap);
+  const auto lines_of = [&](const ImFont* font) {
+    std::vector<std::pair<std::string, bool>> lines;
+    for (const std::string& line : WrapText(font, ended, from.w)) {
+      lines.emplace_back(line, true);
+    }
+    for (const std::string& line : WrapText(font, now, from.w)) {
+      lines.emplace_back(line, false);
+    }
+    return lines;
+  };
+  ImFont* font = s.body;
+  float pitch = s.Px(20);
+  auto lines = lines_of(font);
+  if (from.y + pitch * static_cast<float>(lines.size()) > bottom) {
+    font = s.caption;
+    pitch = s.Px(17);
+    lines = lines_of(font);
+  }
+  float y = from.y;
+  for (const auto& [line, strong] : lines) {
+    if (y + pitch > bottom) {
+      if (Interact(ui, "what_now", {from.x, from.y, from.w, bottom - from.y}, kPassive).hovered) {
+        DrawTooltip(ui, ended + (ended.empty() ? "" : " ") + now);
+      }
+      break;
+    }
+    DrawText(ui, font, strong ? s.palette.text1 : s.palette.text2, from.x, y + pitch / 2, line);
+    y += pitch;
+  }
+}
+
+float ButtonHeight(bool narrow, const Style& s) { return s.Px(narrow ? 52 : 68); }
+float ButtonsTop(const Rect& rect, bool narrow, const Style& s) {
+  return rect.bottom() - s.Px(12) - ButtonHeight(narrow, s);
+}
+
 void DrawButtons(const EngineSnapshot& snap, const Rect& rect, bool narrow, ApproveState& state,
                  UiFrame& ui) {
   const Style& s = ui.style;
-  const float height = s.Px(narrow ? 52 : 68);
-  const float width = s.Px(narrow ? 228 : 268);
-  const float y = rect.bottom() - s.Px(12) - height;
-  const Rect hold{rect.right() - s.Px(12) - width, y, width, height};
+  const float height = ButtonHeight(narrow, s), y = ButtonsTop(rect, narrow, s);
   const float gap = narrow ? s.Px(8) : s.Px(12);
+  const bool command = OffersCommand(snap);
+  // While nothing can be approved, who commands is as much of a question.
+  const float width =
+      command ? std::round((rect.w - s.Px(24) - gap) / 2) : s.Px(narrow ? 228 : 268);
+  const Rect hold{rect.right() - s.Px(12) - width, y, width, height};
   const Rect left{rect.x + s.Px(12), y, hold.x - gap - rect.x - s.Px(12), height};
-  if (!DrawCommandButton(snap, left, state, ui)) {
+  if (command) {
+    DrawCommandButton(snap, left, state, ui);
+  } else {
     DrawRefuseButton(snap, left, narrow, ui);
   }
   const HoldButtonView view = ButtonOf(snap, state, ui.ui_time_s);
@@ -261,7 +347,11 @@ void DrawApprovePanel(const EngineSnapshot& snap, const Rect& rect, bool narrow,
   const Palette& p = s.palette;
   const MissionStatus& m = snap.flight->mission;
   const std::string fact = m.armed ? std::string("Site ") + m.armed->letter + " selected" : "";
-  DrawPanelFrame(ui, rect, "Approve", {{narrow ? std::string() : fact}});
+  const bool armed = m.state == MissionState::kArmed && m.armed && m.may_select;
+  DrawPanelFrame(ui, rect, "Approve", {{narrow || armed ? std::string() : fact}});
+  if (armed) {
+    DrawDeselect(*m.armed, rect, ui);
+  }
   const float x = rect.x + s.Px(12);
   const float width = rect.w - s.Px(24);
   if (m.armed) {
@@ -287,20 +377,8 @@ void DrawApprovePanel(const EngineSnapshot& snap, const Rect& rect, bool narrow,
   } else {
     DrawText(ui, narrow ? s.medium : s.section, p.text1, x, rect.y + s.Px(narrow ? 42 : 46),
              "Nothing is committed yet.");
-    float ended_y = rect.y + s.Px(narrow ? 84 : 98);
-    for (const std::string& line : WrapText(s.body, m.selection_ended, width)) {
-      DrawText(ui, s.body, p.text1, x, ended_y, line);
-      ended_y += s.Px(19);
-    }
-    const bool sites = snap.terrain->applied && !snap.terrain->applied->selection.sites.empty();
-    const std::string help = !sites          ? std::string("Waiting for a site inside all limits.")
-                             : !m.may_select ? WhyNotSelectable(snap)
-                             : m.state == MissionState::kSearch
-                                 ? "Selectable once one site has led for " +
-                                       Duration(snap.session->settings.mission.propose_after_s) +
-                                       "."
-                                 : "Click a site, or press Tab and Enter, to select it.";
-    DrawText(ui, s.body, p.text2, x, rect.y + s.Px(narrow ? 64 : 73), help);
+    DrawWhatNow(snap, {x, rect.y + s.Px(narrow ? 54 : 63), width, 0}, ButtonsTop(rect, narrow, s),
+                ui);
   }
   DrawButtons(snap, rect, narrow, state, ui);
   if (state.show_guards && !m.guards.empty()) {

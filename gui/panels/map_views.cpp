@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "engine/core/units.h"
+#include "engine/model/size_words.h"
 #include "gui/render/map_scale.h"
 #include "gui/widgets/number_text.h"
 
@@ -50,7 +51,20 @@ const GridF* ValuesOf(MapKind kind, const TerrainDecision& d) {
   }
 }
 
-std::string ValueText(MapKind kind, double value) {
+/// A size that noise alone could make of nothing is told by what it is below: "< 2.0 cm".
+std::string Size(const Figure& size, double factor, const char* unit) {
+  const double below = KnownBelow(size);
+  return std::isnan(below) ? Fixed(size.value * factor, 1) + unit
+                           : "< " + Fixed(below * factor, 1) + unit;
+}
+
+Figure FigureAt(const GridF& values, const GridF& sigmas, Cell cell) {
+  const double sigma = sigmas.rows() == values.rows() ? static_cast<double>(sigmas.at(cell)) : NAN;
+  return {static_cast<double>(values.at(cell)), 3 * sigma};
+}
+
+std::string ValueText(MapKind kind, const TerrainDecision& d, const GridF& values, Cell cell) {
+  const auto value = static_cast<double>(values.at(cell));
   if (!std::isfinite(value)) {
     return "––";
   }
@@ -58,9 +72,9 @@ std::string ValueText(MapKind kind, double value) {
     case MapKind::kElevation:
       return Fixed(value, 2) + " m";
     case MapKind::kSlope:
-      return Fixed(Deg(value), 1) + "°";
+      return Size(FigureAt(values, d.hazards->slope_sigma_rad, cell), kDegPerRad, "°");
     case MapKind::kRoughness:
-      return Fixed(value * 100, 1) + " cm";
+      return Size(FigureAt(values, d.hazards->roughness_sigma_m, cell), 100, " cm");
     case MapKind::kCost:
       return Fixed(value, 2);
     case MapKind::kSafeDistance:
@@ -169,7 +183,7 @@ MapView MakeMapView(MapKind kind, const MapSource& source, const PanelTextures& 
     view.letter = source.site->letter;
   }
   if (at && view.values != nullptr && view.geometry.Contains(*at)) {
-    view.value = ValueText(kind, static_cast<double>(view.values->at(*at)));
+    view.value = ValueText(kind, decision, *view.values, *at);
   }
   return view;
 }

@@ -52,6 +52,15 @@ bool IsHeard(const EngineSnapshot& snap) {
          });
 }
 
+bool CanBePaused(const EngineSnapshot& snap) {
+  const SourceKind kind = snap.session->source.kind;
+  return kind != SourceKind::kLive && kind != SourceKind::kCameras;
+}
+
+bool IsPlaying(const EngineSnapshot& snap) {
+  return !snap.session->source.paused && !snap.session->source.ended;
+}
+
 const char* ClockName(const EngineSnapshot& snap) {
   switch (snap.session->source.kind) {
     case SourceKind::kSimulation:

@@ -14,6 +14,10 @@ const char* WhyNoLink(const EngineSnapshot& snap);
 std::string CommandText(const EngineSnapshot& snap, bool narrow);
 /// Something came from the vehicle, whether or not it still does; sources on disk always speak.
 bool IsHeard(const EngineSnapshot& snap);
+/// The source obeys play, pause, steps and speed: what is alive does not wait.
+bool CanBePaused(const EngineSnapshot& snap);
+/// It plays: neither paused nor at its end.
+bool IsPlaying(const EngineSnapshot& snap);
 /// Whose time it is, "UTC": simulated time starts at an epoch of its own, and so do logs of it.
 const char* ClockName(const EngineSnapshot& snap);
 

@@ -38,7 +38,7 @@ bool DrawButton(UiFrame& ui, std::string_view name, const Rect& rect, std::strin
   } else {
     DrawText(ui, font, text, rect.centre().x, middle - s.Px(9), label, Align::kCentre);
     DrawText(ui, s.caption, look.enabled ? p.text2 : p.text3, rect.centre().x, middle + s.Px(11),
-             look.sub, Align::kCentre);
+             FitClauses(s.caption, look.sub, rect.w - s.Px(6)), Align::kCentre);
   }
   if (in.hovered && !look.enabled && !look.reason.empty()) {
     DrawTooltip(ui, look.reason);

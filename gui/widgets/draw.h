@@ -32,6 +32,8 @@ float DrawValueUnit(UiFrame& ui, ImFont* value_font, float x, float centre_y,
 std::vector<std::string> WrapText(const ImFont* font, std::string_view text, float width);
 /// The longest start of `text` made of whole words that fits; the text is never cut inside a word.
 std::string_view FitWords(const ImFont* font, std::string_view text, float width);
+/// The same, cut after a whole clause where one fits: half a sentence misleads.
+std::string_view FitClauses(const ImFont* font, std::string_view text, float width);
 
 // ---- shapes -----------------------------------------------------------------------------------
 void FillRect(ImDrawList* dl, const Rect& rect, ImU32 colour, float rounding = 0);
@@ -58,7 +60,8 @@ Rect PlateAt(const Style& style, ImDrawList* dl, const Rect& within, Corner corn
 /// One line of text on a plate in a corner of a picture, 8 units from its edges.
 Rect TextPlate(UiFrame& ui, const Rect& within, Corner corner, std::string_view text);
 /// Letter of a site on its 20-unit square plate; selected: white with a dark letter.
-void LetterPlate(UiFrame& ui, ImVec2 centre, std::string_view letter, bool selected, float side = 20);
+void LetterPlate(UiFrame& ui, ImVec2 centre, std::string_view letter, bool selected,
+                 float side = 20);
 /// The white PREVIEW chip, 84 x 24, its top left corner at `pos`.
 void PreviewChip(UiFrame& ui, ImVec2 pos);
 /// White focus ring, 2 px, 2 px outside.

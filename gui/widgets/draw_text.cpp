@@ -62,6 +62,21 @@ std::string_view FitWords(const ImFont* font, std::string_view text, float width
   return text;
 }
 
+std::string_view FitClauses(const ImFont* font, std::string_view text, float width) {
+  if (TextWidth(font, text) <= width) {
+    return text;
+  }
+  std::size_t best = 0;
+  for (std::size_t at = 0; at + 1 < text.size(); ++at) {
+    const bool ends =
+        text[at + 1] == ' ' && std::string_view(".,:;").find(text[at]) != std::string_view::npos;
+    if (ends && TextWidth(font, text.substr(0, at)) <= width) {
+      best = at;
+    }
+  }
+  return best > 0 ? text.substr(0, best) : FitWords(font, text, width);
+}
+
 std::vector<std::string> WrapText(const ImFont* font, std::string_view text, float width) {
   std::vector<std::string> lines;
   std::string line;

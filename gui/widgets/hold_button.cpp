@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "gui/widgets/button.h"
 #include "gui/widgets/icons.h"
 #include "gui/widgets/interact.h"
 #include "gui/widgets/number_text.h"
@@ -154,11 +155,16 @@ bool DrawHoldButton(UiFrame& ui, std::string_view name, const Rect& rect,
   const float x = rect.centre().x;
   const float y = rect.centre().y;
   const bool has_second = !words.second.empty();
-  ImFont* font = TextWidth(s.button, words.title) < rect.w - s.Px(20) ? s.button : s.section;
+  ImFont* font = TextWidth(s.button, words.title) < rect.w - s.Px(20)    ? s.button
+                 : TextWidth(s.section, words.title) < rect.w - s.Px(12) ? s.section
+                                                                         : s.medium;
   DrawText(ui, font, title, x, has_second ? y - s.Px(rect.h > s.Px(60) ? 10 : 9) : y, words.title,
            Align::kCentre);
-  const std::string_view shown = FitWords(s.caption, words.second, rect.w - s.Px(12));
+  const std::string_view shown = FitClauses(s.caption, words.second, rect.w - s.Px(12));
   DrawText(ui, s.caption, second, x, y + s.Px(12), shown, Align::kCentre);
+  if (in.hovered && shown.size() < words.second.size()) {
+    DrawTooltip(ui, words.second);
+  }
   if (view.phase == HoldPhase::kAccepted || view.phase == HoldPhase::kRefused) {
     DrawIcon(Canvas(), view.phase == HoldPhase::kAccepted ? Icon::kDone : Icon::kCaution,
              {rect.x + s.Px(24), y}, s.Px(14),

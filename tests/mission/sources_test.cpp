@@ -61,7 +61,7 @@ TEST(Mission, AJumpInTimeStopsALiveFlight) {
 
 TEST(Mission, SourcesThatCannotBeApprovedOn) {
   const std::pair<SourceKind, const char*> pictures[] = {
-      {SourceKind::kImages, "No vehicle in a picture folder"},
+      {SourceKind::kImages, "No vehicle, pictures only"},
       {SourceKind::kCameras, "No vehicle, cameras only"},
       {SourceKind::kVideo, "No vehicle in a video"}};
   for (const auto& [kind, why] : pictures) {

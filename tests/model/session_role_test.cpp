@@ -23,7 +23,7 @@ TEST(SessionRole, AnswersForEverySource) {
       {SourceKind::kSimulation, false, "sgS--", "", false},
       {SourceKind::kReplay, false, "---ra", "No link in replay", false},
       {SourceKind::kReplay, true, "---ra", "No link in replay", false},
-      {SourceKind::kImages, false, "----a", "No vehicle in a picture folder", true},
+      {SourceKind::kImages, false, "----a", "No vehicle, pictures only", true},
       {SourceKind::kCameras, false, "----a", "No vehicle, cameras only", true},
       {SourceKind::kVideo, false, "----a", "No vehicle in a video", true},
   };

@@ -98,9 +98,9 @@ std::vector<BadMap> BadMaps() {
       {"one_cell", size(1, 1), "100 % unknown", "100 % unknown"},
       {"one_row", size(1, 90), "100 % unknown", "100 % unknown"},
       {"one_col", size(90, 1), "100 % unknown", "100 % unknown"},
-      {"two_by_two", size(2, 2), "any", "100 % footprint"},
-      {"three_by_three", size(3, 3), "100 % footprint", "100 % footprint"},
-      {"two_rows", size(2, 300), "100 % footprint", "100 % footprint"},
+      {"two_by_two", size(2, 2), "any", "100 % too near a hazard"},
+      {"three_by_three", size(3, 3), "100 % too near a hazard", "100 % footprint"},
+      {"two_rows", size(2, 300), "100 % too near a hazard", "100 % footprint"},
       {"unknown", [=] { return MakeMap(60, 60, 0.15, nothing); }, "100 % unknown", "100 % unknown"},
       {"unknown_one", [=] { return MakeMap(1, 1, 0.15, nothing); }, "100 % unknown",
        "100 % unknown"},
@@ -147,8 +147,8 @@ std::vector<BadMap> BadMaps() {
       {"widest_cells", [] { return FlatMap(30, 30, 1e9); },
        "cells of 1e+09 m, limits 0.001 m to one lander, 3.6 m",
        "cells of 1e+09 m, limits 0.001 m to one lander, 3.6 m"},
-      {"millimetre_cells", [] { return FlatMap(60, 60, 1e-3); }, "100 % footprint",
-       "100 % footprint"},
+      {"millimetre_cells", [] { return FlatMap(60, 60, 1e-3); }, "100 % too near a hazard",
+       "100 % too near a hazard"},
       {"nanometre_cells", [] { return FlatMap(60, 60, 1e-9); },
        "cells of 1e-09 m, limits 0.001 m to one lander, 3.6 m",
        "cells of 1e-09 m, limits 0.001 m to one lander, 3.6 m"},
@@ -228,7 +228,7 @@ TEST(BadSettings, LanderLargerThanTheMapHasNoRoom) {
     for (const double size_m : {9.5, 20.0, 1e4, 1e9, 1e30}) {
       SladSettings settings = WithMode(mode);
       settings.lander.base_size_m = size_m;
-      EXPECT_EQ(Answer(FlatMap(), settings), "100 % footprint") << size_m;
+      EXPECT_EQ(Answer(FlatMap(), settings), "100 % too near a hazard") << size_m;
     }
   }
 }

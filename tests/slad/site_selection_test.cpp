@@ -230,9 +230,9 @@ TEST(SiteSelection, NoPlaceGivesTheSharesOfTheCauses) {
   EXPECT_EQ(Select(MakeMap(30, 30, 0.15, nothing)).none_reason, "100 % unknown");
   EXPECT_EQ(Select(MakeMap(1, 1, 0.15, nothing)).none_reason, "100 % unknown");
   EXPECT_EQ(Select(MakeMap(60, 60, 0.15, testing::Slope(Rad(15), 0))).none_reason, "100 % slope");
-  EXPECT_EQ(
-      Select(MakeMap(20, 20, 0.15, Flat())).none_reason,
-      "100 % footprint; the map holds a disc 2.850 m across, the lander's clear one is 4.600 m");
+  EXPECT_EQ(Select(MakeMap(20, 20, 0.15, Flat())).none_reason,
+            "100 % too near a hazard; the map holds a disc 2.850 m across, the lander's clear one "
+            "is 4.600 m");
 }
 
 TEST(SiteSelection, TallWallTowardsTheVehicleBlocksTheCorridor) {

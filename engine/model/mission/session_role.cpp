@@ -12,7 +12,7 @@ const char* WhyNoVehicle(SourceKind kind) {
     case SourceKind::kReplay:
       return "No link in replay";
     case SourceKind::kImages:
-      return "No vehicle in a picture folder";
+      return "No vehicle, pictures only";
     case SourceKind::kCameras:
       return "No vehicle, cameras only";
     case SourceKind::kVideo:

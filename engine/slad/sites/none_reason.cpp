@@ -13,11 +13,13 @@ std::string NoneReason(const HazardMaps& hazards, const SladSettings& settings) 
     int count;
     const char* name;
   };
-  std::vector<Part> parts{{n.slope, "slope"},
-                          {n.roughness, "roughness"},
-                          {n.unknown, "unknown"},
-                          {n.flagged, "flagged"},
-                          {n.footprint, "footprint"}};
+  std::vector<Part> parts{
+      {n.slope, "slope"},
+      {n.roughness, "roughness"},
+      {n.unknown, "unknown"},
+      {n.flagged, "flagged"},
+      {hazards.counts[GroundClass::kTooNear], "too near a hazard"},
+      {hazards.counts[GroundClass::kFootprint], "over a limit under the lander"}};
   const int total =
       n.slope + n.roughness + n.unknown + n.flagged + n.footprint + hazards.safe_cells;
   if (total == 0) {

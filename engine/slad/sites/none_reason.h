@@ -8,8 +8,8 @@
 
 namespace palace {
 
-/// Shares of the cells by what they fell to: "71 % slope, 22 % unknown, 7 % footprint"; and the
-/// sizes where the map is too small for the lander.
+/// Shares of the cells by what they fell to: "71 % slope, 22 % unknown, 7 % too near a hazard"; and
+/// the sizes where the map is too small for the lander.
 std::string NoneReason(const HazardMaps& hazards, const SladSettings& settings);
 
 }  // namespace palace

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "engine/core/units.h"
+#include "engine/model/size_words.h"
 #include "gui/panels/review/review.h"
 #include "gui/widgets/number_text.h"
 
@@ -33,8 +34,8 @@ void FillFigures(const EngineSnapshot& snap, const TerrainDecision* decision, Co
   column.best = LetterOf(site);
   if (site != nullptr) {
     column.clear = Fixed(site->safe_distance_m, 1) + " m";
-    column.slope = Fixed(Deg(site->slope_rad.value), 1) + "°";
-    column.rough = Fixed(site->roughness_m.value * 100, 1) + " cm";
+    column.slope = SizeWords(site->slope_rad, kDegPerRad, "°", 1);
+    column.rough = SizeWords(site->roughness_m, 100, " cm", 1);
   }
 }
 

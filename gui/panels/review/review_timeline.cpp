@@ -173,11 +173,13 @@ float DrawTransport(UiFrame& ui, const Rect& row, const EngineSnapshot& snap, do
   if (IconButton(ui, "step_back", next(36), Icon::kFrameBack, false, seek)) {
     Playback(ui, Kind::kStepBack);
   }
-  const bool playing = !snap.session->source.paused && !snap.session->source.ended;
-  if (IconButton(ui, "play", next(36), playing ? Icon::kPause : Icon::kPlay, playing, true)) {
+  const bool can_pause = CanBePaused(snap), playing = IsPlaying(snap);
+  constexpr const char* kAlive = "A live source cannot be paused";
+  if (IconButton(ui, "play", next(36), playing ? Icon::kPause : Icon::kPlay, playing && can_pause,
+                 can_pause, kAlive)) {
     Playback(ui, playing ? Kind::kPause : Kind::kPlay);
   }
-  if (IconButton(ui, "step_forward", next(36), Icon::kFrameForward, false, true)) {
+  if (IconButton(ui, "step_forward", next(36), Icon::kFrameForward, false, can_pause, kAlive)) {
     Playback(ui, Kind::kStepForward);
   }
   if (IconButton(ui, "to_end", next(36), Icon::kStepForward, false, seek)) {
@@ -188,7 +190,10 @@ float DrawTransport(UiFrame& ui, const Rect& row, const EngineSnapshot& snap, do
       snap.session->source.speed > 0
           ? Fixed(snap.session->source.speed, snap.session->source.speed < 1 ? 2 : 1) + "×"
           : std::string("Fastest");
-  if (DrawButton(ui, "speed", next(68), speed, {})) {
+  ButtonLook speed_look;
+  speed_look.enabled = can_pause;
+  speed_look.reason = kAlive;
+  if (DrawButton(ui, "speed", next(68), speed, speed_look)) {
     Playback(ui, Kind::kSpeed, NextSpeed(snap.session->source.speed));
   }
   if (IconButton(ui, "bookmark", next(36), Icon::kFlag, false, snap.session->recording,

@@ -197,7 +197,9 @@ void DrawList(UiFrame& ui, const Rect& area, const EngineSnapshot& snap, TuneSta
   ui.tab.list = {};
   if (rows.empty()) {
     DrawText(ui, s.body, s.palette.text2, area.x + s.Px(16), area.y + s.Px(18),
-             state.changed_only ? "No limit differs from its default." : "No limit has that name.");
+             state.search[0] == '\0' ? "No limit differs from its default."
+             : state.changed_only    ? "No changed limit has that name."
+                                     : "No limit has that name.");
   } else if (shown < rows.size()) {
     const auto total = static_cast<float>(rows.size());
     const float tall = area.h * static_cast<float>(shown) / total;

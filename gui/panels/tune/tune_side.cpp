@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "engine/core/hash.h"
+#include "engine/model/mission/map_age.h"
 #include "gui/panels/tune/tune.h"
 #include "gui/widgets/button.h"
 #include "gui/widgets/interact.h"
@@ -19,18 +20,34 @@ struct CellCount {
   ImU32 hatch = 0;
 };
 
-std::vector<CellCount> CountCells(const Style& s, const TuneFacts& f) {
+/// The classes of the ground, as maps and pictures draw them; `split`: hazards by what they are.
+std::vector<CellCount> CountCells(const Style& s, const TuneFacts& f, bool split) {
+  using Ground = GroundClass;
   const HazardMaps none;
   const HazardMaps& now = f.shown != nullptr && f.shown->hazards ? *f.shown->hazards : none;
   const HazardMaps& was = f.applied != nullptr && f.applied->hazards ? *f.applied->hazards : now;
   const Palette& p = s.palette;
-  return {{"Safe", now.safe_cells, was.safe_cells, p.bar, 0},
-          {"Over slope", now.rejected.slope, was.rejected.slope, 0, p.unsafe},
-          {"Over roughness", now.rejected.roughness, was.rejected.roughness,
-           WithAlpha(p.unsafe, 0.35f), p.unsafe},
-          {"Too near a hazard", now.rejected.footprint, was.rejected.footprint, p.hover, 0},
-          {"Unknown", now.rejected.unknown, was.rejected.unknown, picture::kUnknown,
-           picture::kUnknownLine}};
+  std::vector<CellCount> cells;
+  const auto add = [&](Ground ground, const char* name, ImU32 fill, ImU32 hatch) {
+    cells.push_back({name, now.counts[ground], was.counts[ground], fill, hatch});
+  };
+  add(Ground::kLandable, GroundClassWord(Ground::kLandable), p.bar, 0);
+  if (split) {
+    const auto flagged = [](const HazardMaps& maps) {
+      return maps.counts[Ground::kHazard] - maps.rejected.slope - maps.rejected.roughness;
+    };
+    cells.push_back({"Over slope", now.rejected.slope, was.rejected.slope, 0, p.unsafe});
+    cells.push_back({"Over roughness", now.rejected.roughness, was.rejected.roughness,
+                     WithAlpha(p.unsafe, 0.35f), p.unsafe});
+    cells.push_back({"Flagged", flagged(now), flagged(was), WithAlpha(p.unsafe, 0.7f), 0});
+  } else {
+    add(Ground::kHazard, GroundClassWord(Ground::kHazard), 0, p.unsafe);
+  }
+  add(Ground::kTooNear, GroundClassWord(Ground::kTooNear), p.hover, 0);
+  add(Ground::kFootprint, GroundClassWord(Ground::kFootprint), p.hover, p.line);
+  add(Ground::kUnknown, GroundClassWord(Ground::kUnknown), picture::kUnknown,
+      picture::kUnknownLine);
+  return cells;
 }
 
 void DrawSwatch(const Style& s, const Rect& box, const CellCount& c) {
@@ -145,7 +162,8 @@ void DrawCellsPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui) {
   const Style& s = ui.style;
   const Palette& p = s.palette;
   const TuneFacts facts = FactsOf(snap);
-  const std::vector<CellCount> counts = CountCells(s, facts);
+  constexpr float kHead = 28 + 4 + 14 + 8, kRow = 19;
+  const std::vector<CellCount> counts = CountCells(s, facts, rect.h >= s.Px(kHead + 7 * kRow));
   int total = 0;
   for (const CellCount& c : counts) {
     total += c.now;
@@ -167,14 +185,16 @@ void DrawCellsPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui) {
     }
     x += w;
   }
-  const float row = std::min(s.Px(25), (rect.bottom() - bar.bottom() - s.Px(8)) / 5);
+  const float row = std::min(
+      s.Px(25), (rect.bottom() - bar.bottom() - s.Px(8)) / static_cast<float>(counts.size()));
   float y = bar.bottom() + s.Px(4);
   for (const CellCount& c : counts) {
     const float middle = y + row / 2;
     DrawSwatch(s, {bar.x, std::round(middle - s.Px(6)), s.Px(12), s.Px(12)}, c);
     DrawText(ui, s.body, p.text2, bar.x + s.Px(22), middle, c.name);
-    DrawText(ui, s.medium, p.text1, bar.x + bar.w * 0.64f, middle,
+    DrawText(ui, s.medium, p.text1, bar.x + bar.w * 0.74f, middle,
              total > 0 ? Fixed(c.now, 0) : "––", Align::kRight);
+    ui.items.Add(std::string("cells/") + c.name, {bar.x, y, bar.w, row}, true, Fixed(c.now, 0));
     if (facts.previewing) {
       DrawText(ui, s.body, p.text2, bar.right(), middle, Signed(c.now - c.before) + " cells",
                Align::kRight);
@@ -206,7 +226,10 @@ void DrawChosenPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui) 
   DrawText(ui, s.medium, p.text1, x + s.Px(30), middle,
            Fixed(best->safe_distance_m, 1) + " m clear");
   DrawText(ui, s.caption, p.text2, content.right() - s.Px(12), middle,
-           best->confirmed ? "Confirmed" : "Provisional", Align::kRight);
+           IsMapOld(snap, ui.silent_s) ? "Old map"
+           : best->confirmed           ? "Confirmed"
+                                       : "Provisional",
+           Align::kRight);
   float y = content.y + s.Px(42);
   const std::string reason = best->reason.empty() ? "Best of the newest map." : best->reason + ".";
   for (const std::string& line : WrapText(s.body, reason, content.w - s.Px(24))) {

@@ -95,6 +95,21 @@ TEST(Landing, ASecondPressWhereApproveWasDoesNotStopTheDescent) {
   }
 }
 
+TEST(Approve, ASelectionIsTakenBackByItsButton) {
+  for (const ImVec2 size : {ImVec2(1920, 1080), ImVec2(1280, 720)}) {
+    FlyWindow window(size.x, size.y, fake::Snapshot(MissionState::kArmed));
+    window.snap.flight.Edit().mission.may_select = true;
+    window.ui.Frame(window.draw);
+    ASSERT_NE(window.ui.items.Find("deselect"), nullptr);
+    ExpectTextsInPanels(window.ui.items);
+    window.ui.Click("deselect", window.draw);
+    EXPECT_EQ(window.ui.CountCommands<DisarmSite>(), 1);
+    window.snap = fake::Snapshot(MissionState::kProposed);
+    window.ui.Frame(window.draw);
+    EXPECT_EQ(window.ui.items.Find("deselect"), nullptr);
+  }
+}
+
 TEST(Approve, AFullHoldIsAnsweredAtOnce) {
   FlyWindow window(1920, 1080, fake::Snapshot(MissionState::kArmed));
   window.ui.MoveTo("approve");

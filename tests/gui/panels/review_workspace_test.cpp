@@ -190,6 +190,18 @@ TEST(ReviewWorkspace, TransportButtonsAskForTheirControl) {
   }
 }
 
+TEST(ReviewWorkspace, WhatIsAliveIsNotOfferedToWait) {
+  for (const SourceKind kind : {SourceKind::kLive, SourceKind::kCameras, SourceKind::kSimulation}) {
+    const EngineSnapshot snap = fake::Snapshot(MissionState::kProposed, kind);
+    UiHarness ui(1920, 1080);
+    ReviewState state;
+    ui.Frame([&](UiFrame& f) { DrawReviewWorkspace(snap, nullptr, BodyOf(1920, 1080), state, f); });
+    for (const char* button : {"play", "step_forward", "speed"}) {
+      EXPECT_EQ(ui.items.Find(button)->enabled, kind == SourceKind::kSimulation) << button;
+    }
+  }
+}
+
 TEST(ReviewWorkspace, ABookmarkIsOfferedWhereSomethingIsRecorded) {
   for (const SourceKind kind : {SourceKind::kReplay, SourceKind::kSimulation}) {
     UiHarness ui(1920, 1080);

@@ -242,6 +242,16 @@ TEST(TuneWorkspace, SearchAndGroupsChooseTheRows) {
   ui.Frame(draw);
   EXPECT_NE(ui.items.Find("field/slad.cell_m"), nullptr);
   EXPECT_EQ(ui.items.Find("field/slad.max_rock_size_m"), nullptr);
+  const auto says = [&](const char* words) {
+    ui.Frame(draw);
+    return std::any_of(ui.items.items().begin(), ui.items.items().end(),
+                       [&](const Item& item) { return item.name == "text" && item.text == words; });
+  };
+  std::snprintf(state.search, sizeof state.search, "coherence");
+  EXPECT_TRUE(says("No changed limit has that name."));
+  state.changed_only = false;
+  std::snprintf(state.search, sizeof state.search, "zzz");
+  EXPECT_TRUE(says("No limit has that name."));
 }
 
 TEST(TuneWorkspace, PresetAndUndoButtonsAsk) {

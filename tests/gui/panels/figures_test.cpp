@@ -1,0 +1,111 @@
+// Figures on the screen claim what was measured, and no more.
+#include "gui/panels/fly_panels.h"
+#include "gui/panels/tune/tune.h"
+#include "gui/widgets/number_text.h"
+#include "tests/gui/panels/fly_window.h"
+#include "tests/gui/panels/panel_checks.h"
+
+namespace palace {
+namespace {
+
+bool HasText(const ItemRecord& items, const std::string& part) {
+  for (const Item& item : items.items()) {
+    if (item.name == "text" && item.text.find(part) != std::string::npos) {
+      return true;
+    }
+  }
+  return false;
+}
+
+TEST(Maps, ASizeLostInItsNoiseIsToldByWhatItIsBelow) {
+  EngineSnapshot snap = fake::Snapshot(MissionState::kProposed);
+  auto decision = std::make_shared<TerrainDecision>(*snap.terrain->applied);
+  auto hazards = std::make_shared<HazardMaps>(*decision->hazards);
+  const Cell cell = decision->selection.sites[0].cell;
+  hazards->roughness_m.at(cell) = 0.0f;
+  hazards->roughness_sigma_m.at(cell) = 0.02f / 3;
+  hazards->slope_rad.at(cell) = static_cast<float>(Rad(2.1));
+  hazards->slope_sigma_rad.at(cell) = static_cast<float>(Rad(0.1));
+  decision->hazards = hazards;
+  decision->selection.sites[0].roughness_m = {0, 0.02};
+  snap.terrain.Edit().applied = decision;
+  for (const ImVec2 size : {ImVec2(1920, 1080), ImVec2(1280, 720)}) {
+    FlyWindow window(size.x, size.y, snap);
+    EXPECT_TRUE(HasText(window.ui.items, "< 2.0 cm"));
+    EXPECT_TRUE(HasText(window.ui.items, "2.1°"));
+    EXPECT_FALSE(HasText(window.ui.items, "0.0 cm"));
+    ExpectTextsInPanels(window.ui.items);
+  }
+}
+
+TEST(VehiclePanel, AWindTooWeakToComeFromAnywhereHasNoDirection) {
+  const struct {
+    double wind_mps, from_rad;
+    const char* words;
+  } table[] = {{2.1, Rad(240), "2.1 m/s, 240°"}, {0.3, Rad(240), "0.3 m/s"}, {2.1, NAN, "2.1 m/s"}};
+  for (const auto& row : table) {
+    EngineSnapshot snap = fake::Snapshot(MissionState::kProposed);
+    snap.sensors.Edit().vehicle->wind_speed_mps = row.wind_mps;
+    snap.sensors.Edit().vehicle->wind_from_rad = row.from_rad;
+    EXPECT_EQ(FlyWindow(1920, 1080, snap).ui.items.Find("readout/Wind")->text, row.words);
+  }
+}
+
+TEST(TuneCells, AreTheClassesOfTheGround) {
+  EngineSnapshot snap = fake::Snapshot(MissionState::kProposed);
+  auto decision = std::make_shared<TerrainDecision>(*snap.terrain->applied);
+  auto hazards = std::make_shared<HazardMaps>(*decision->hazards);
+  hazards->counts = {};
+  hazards->counts[GroundClass::kLandable] = 2527;
+  hazards->counts[GroundClass::kHazard] = 600;
+  hazards->counts[GroundClass::kTooNear] = 400;
+  hazards->counts[GroundClass::kFootprint] = 73;
+  hazards->counts[GroundClass::kUnknown] = 6400;
+  hazards->rejected = {
+      .slope = 404, .roughness = 96, .unknown = 6400, .flagged = 100, .footprint = 473};
+  decision->hazards = hazards;
+  snap.terrain.Edit().applied = decision;
+  const auto cells = [&](const Rect& rect, const char* name) {
+    UiHarness ui(1920, 1080);
+    ui.Frame([&](UiFrame& f) { DrawCellsPanel(snap, rect, f); });
+    const Item* item = ui.items.Find(std::string("cells/") + name);
+    return item != nullptr ? item->text : std::string("none");
+  };
+  const Rect tall{0, 0, 400, 190}, low{0, 0, 400, 136};
+  for (const Rect& rect : {tall, low}) {
+    EXPECT_EQ(cells(rect, "Safe to land on"), Fixed(2527, 0));
+    EXPECT_EQ(cells(rect, "Too near a hazard"), "400");
+    EXPECT_EQ(cells(rect, "Over a limit under the lander"), "73");
+    EXPECT_EQ(cells(rect, "Unknown"), Fixed(6400, 0));
+  }
+  EXPECT_EQ(cells(tall, "Over slope"), "404");
+  EXPECT_EQ(cells(tall, "Over roughness"), "96");
+  EXPECT_EQ(cells(tall, "Flagged"), "100");
+  EXPECT_EQ(cells(low, "Hazard"), "600");
+}
+
+TEST(Plots, AfterTheLandingNoFigureDriftsOn) {
+  const EngineSnapshot landed = fake::Snapshot(MissionState::kLanded);
+  for (const PlotView& plot : DescentPlots(landed, Palette{})) {
+    EXPECT_EQ(plot.current, "landed") << plot.name;
+  }
+}
+
+TEST(Evidence, ASizeLostInItsNoiseIsToldByWhatItIsBelow) {
+  EngineSnapshot snap = fake::Snapshot(MissionState::kArmed);
+  MissionStatus& m = snap.flight.Edit().mission;
+  m.armed->roughness_m = {0, 0.02};
+  m.armed->step_m = {0.026, 0.007};
+  m.armed_limits = SiteLimits(*m.armed, snap.session->settings.slad);
+  for (const ImVec2 size : {ImVec2(1920, 1080), ImVec2(1280, 720)}) {
+    FlyWindow window(size.x, size.y, snap);
+    EXPECT_EQ(window.ui.items.Find("evidence/Roughness")->text,
+              "Roughness under 2.0 cm max 10 cm, guard");
+    ExpectTextsInPanels(window.ui.items);
+  }
+  EXPECT_EQ(FlyWindow(1920, 1080, snap).ui.items.Find("evidence/Largest step")->text,
+            "Largest step 2.6 ± 0.7 cm max 15 cm, guard");
+}
+
+}  // namespace
+}  // namespace palace
