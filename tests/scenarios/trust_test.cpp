@@ -232,6 +232,7 @@ TEST_F(TrustOnTheBus, ApprovalsOfAnotherTimeStartOrVehicleAreRefusedShownAndReco
   };
   for (const auto& row : rows) {
     SCOPED_TRACE(row.what);
+    EXPECT_FALSE(Until([] { return false; }, 11)) << "refusals are told once a second";
     acks_.clear();
     Forge(row.approval);
     ASSERT_EQ(acks_.size(), 1u);
