@@ -11,6 +11,7 @@ constexpr double kSlowestSink_mps = 0.1;
 constexpr double kArrived_m = 0.05;
 constexpr double kStep_s = 0.1;
 constexpr double kLongest_s = 3600;
+constexpr double kLastWait_s = 0.5;  // at least so long, while the vehicle still waits
 constexpr double kAhead_s = 60;
 constexpr int kStepsShown = 5;  ///< one planned height each half second
 
@@ -94,13 +95,30 @@ double TimeToAlign(const FlightPath& path, const Eigen::Vector3d& p_WB, double y
 }
 
 TimedDescent::TimedDescent(const FlightPath& path, const Eigen::Vector3d& p_WB,
-                           const Eigen::Vector3d& v_WB)
+                           const Eigen::Vector3d& v_WB, const std::optional<LegFlown>& flown)
     : path_(path) {
   const PathPoint start = path.Nearest(p_WB);
-  leg_ = start.leg;
-  skid_height_m_ = start.skid_height_m;
+  leg_ = flown ? flown->leg : start.leg;
+  skid_height_m_ = leg_ == start.leg ? start.skid_height_m : path.SkidHeight(p_WB);
   sink_mps_ = std::max(0.0, v_WB.z());
-  level_.p_W = leg_ == PathLeg::kLevel ? start.p_WB : path.BodyAt(kSettleHeight_m);
+  if (flown && leg_ == PathLeg::kLevel) {
+    // By the clock since it began, up to the last moment of the wait: in gusts it takes longer.
+    sink_mps_ = path.speeds.SinkRateAt(kSettleHeight_m);
+    StartLevel(path.BodyAt(kSettleHeight_m), -sink_mps_ * path.BodyPerMetre());
+    for (double t_s = 0; t_s < flown->for_s && settled_s_ < path.speeds.settle_s - kLastWait_s;
+         t_s += kStep_s) {
+      Step(kStep_s);
+    }
+    return;
+  }
+  StartLevel(leg_ == PathLeg::kLevel ? start.p_WB : path.BodyAt(kSettleHeight_m), v_WB);
+}
+
+void TimedDescent::StartLevel(const Eigen::Vector3d& from_W, const Eigen::Vector3d& v_WB) {
+  if (leg_ == PathLeg::kLevel) {
+    skid_height_m_ = kSettleHeight_m;
+  }
+  level_.p_W = from_W;
   level_.v_W = {v_WB.x(), v_WB.y(), 0};
 }
 
@@ -133,12 +151,12 @@ void TimedDescent::Step(double dt_s) {
 }
 
 double TimeToTouchdown(const FlightPath& path, const Eigen::Vector3d& p_WB,
-                       const Eigen::Vector3d& v_WB) {
+                       const Eigen::Vector3d& v_WB, const std::optional<LegFlown>& flown) {
   if (!p_WB.allFinite() || !v_WB.allFinite() || !path.p_WS.allFinite() ||
       !std::isfinite(path.heading_rad) || !std::isfinite(path.slope_rad)) {
     return std::numeric_limits<double>::quiet_NaN();
   }
-  TimedDescent descent(path, p_WB, v_WB);
+  TimedDescent descent(path, p_WB, v_WB, flown);
   for (int step = 0; step * kStep_s < kLongest_s; ++step) {
     if (descent.touched()) {
       return step * kStep_s;
@@ -149,10 +167,10 @@ double TimeToTouchdown(const FlightPath& path, const Eigen::Vector3d& p_WB,
 }
 
 PathProgress ProgressOn(const FlightPath& path, const Eigen::Vector3d& p_WB,
-                        const Eigen::Vector3d& v_WB) {
+                        const Eigen::Vector3d& v_WB, const std::optional<LegFlown>& flown) {
   const PathPoint planned = path.Nearest(p_WB);
   PathProgress progress{planned.skid_height_m, (p_WB - planned.p_WB).norm(), {}};
-  TimedDescent descent(path, p_WB, v_WB);
+  TimedDescent descent(path, p_WB, v_WB, flown);
   for (int step = 0; step * kStep_s <= kAhead_s && !descent.touched(); ++step) {
     if (step % kStepsShown == 0) {
       progress.ahead.push_back({step * kStep_s, descent.skid_height_m()});

@@ -12,6 +12,8 @@
 // `skid height` is the height of the skid centre above the site, metres, up-positive.
 #pragma once
 
+#include <optional>
+
 #include "engine/core/frames.h"
 #include "engine/core/units.h"
 #include "engine/flight/waypoints.h"
@@ -82,17 +84,27 @@ double StraightHeading(const Eigen::Vector3d& p_W_skid, const Eigen::Vector3d& p
 /// Seconds from hovering at p_WB with this yaw to the first metre down the slope.
 double TimeToAlign(const FlightPath& path, const Eigen::Vector3d& p_WB, double yaw_rad);
 
-/// The rest of the descent on time: starts at the nearest point of the path, with the velocity that
-/// the vehicle has, and is stepped from there. Perfect control, calm air.
+/// The leg that the vehicle says it flies, and since when: where legs meet, the place alone does
+/// not tell which one it is on, nor how long it has been waiting above the site.
+struct LegFlown {
+  PathLeg leg = PathLeg::kSlope;  ///< kLevel: to above the site, and waiting there
+  double for_s = 0;
+};
+
+/// The rest of the descent on time: starts at the nearest point of the path, or of the leg flown,
+/// with the velocity that the vehicle has, and is stepped from there. The level leg runs by its own
+/// clock. Perfect control, calm air.
 class TimedDescent {
  public:
-  TimedDescent(const FlightPath& path, const Eigen::Vector3d& p_WB, const Eigen::Vector3d& v_WB);
+  TimedDescent(const FlightPath& path, const Eigen::Vector3d& p_WB, const Eigen::Vector3d& v_WB,
+               const std::optional<LegFlown>& flown = {});
 
   void Step(double dt_s);
   double skid_height_m() const { return skid_height_m_; }
   bool touched() const { return skid_height_m_ <= 0; }
 
  private:
+  void StartLevel(const Eigen::Vector3d& from_W, const Eigen::Vector3d& v_WB);
   void Sink(double wanted_mps, double dt_s);
 
   FlightPath path_;
@@ -106,10 +118,10 @@ class TimedDescent {
 /// Seconds from p_WB on the path to the touchdown; NaN where a number is not finite, or where the
 /// way takes longer than an hour.
 double TimeToTouchdown(const FlightPath& path, const Eigen::Vector3d& p_WB,
-                       const Eigen::Vector3d& v_WB);
+                       const Eigen::Vector3d& v_WB, const std::optional<LegFlown>& flown = {});
 
 /// Where p_WB is on the path, and the heights of the next minute.
 PathProgress ProgressOn(const FlightPath& path, const Eigen::Vector3d& p_WB,
-                        const Eigen::Vector3d& v_WB);
+                        const Eigen::Vector3d& v_WB, const std::optional<LegFlown>& flown = {});
 
 }  // namespace palace

@@ -156,6 +156,11 @@ void RememberFacts(MissionMemory& m, const MissionInputs& in) {
   RememberNavigation(facts, in.navigation);
   RememberVehicle(facts, in.vehicle);
   m.vehicle_ever_heard = m.vehicle_ever_heard || m.watch.heard_vehicle();
+  const VehicleMode mode = m.watch.vehicle() ? m.watch.vehicle()->mode : VehicleMode::kUnknown;
+  if (mode != m.flown_mode) {
+    m.flown_mode = mode;
+    m.flown_since = in.session.now;
+  }
   if (in.navigation.new_stereo) {
     m.pictures.Update(JudgePictures(in.navigation.stereo, in.session.role));
   }

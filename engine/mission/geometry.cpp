@@ -7,6 +7,21 @@
 namespace palace {
 namespace {
 
+/// The leg that the vehicle says it flies; empty where its word names none.
+std::optional<LegFlown> LegOf(const MissionMemory& m) {
+  const double for_s = SecondsBetween(m.flown_since, m.facts.now);
+  switch (m.flown_mode) {
+    case VehicleMode::kDescend:
+      return LegFlown{PathLeg::kSlope, for_s};
+    case VehicleMode::kSettle:
+      return LegFlown{PathLeg::kLevel, for_s};
+    case VehicleMode::kSink:
+      return LegFlown{PathLeg::kSink, for_s};
+    default:
+      return std::nullopt;
+  }
+}
+
 double TimeLeft(const MissionMemory& m, const FlightPath& path) {
   const MissionFacts& facts = m.facts;
   switch (m.status.state) {
@@ -16,7 +31,7 @@ double TimeLeft(const MissionMemory& m, const FlightPath& path) {
     case MissionState::kHold:
       return NAN;
     case MissionState::kDescending:
-      return TimeToTouchdown(path, facts.p_WB, facts.v_WB);
+      return TimeToTouchdown(path, facts.p_WB, facts.v_WB, LegOf(m));
     default:
       return TimeToAlign(path, facts.p_WB, facts.yaw_rad) +
              TimeToTouchdown(path, path.Start(facts.p_WB), Eigen::Vector3d::Zero());
@@ -84,7 +99,7 @@ void PublishGeometry(MissionMemory& m) {
   const FlightPath path = PathTo(m, *site);
   m.status.time_to_touchdown_s = TimeLeft(m, path);
   if (FliesPath(m) && m.facts.p_WB.allFinite() && m.facts.v_WB.allFinite()) {
-    m.status.path = ProgressOn(path, m.facts.p_WB, m.facts.v_WB);
+    m.status.path = ProgressOn(path, m.facts.p_WB, m.facts.v_WB, LegOf(m));
   }
 }
 

@@ -113,6 +113,8 @@ struct MissionMemory {
   std::uint64_t told_foreign = 0;  ///< foreign messages counted in the newest event about them
   Timestamp told_foreign_at;
 
+  VehicleMode flown_mode = VehicleMode::kUnknown;  ///< the vehicle's newest, heard first at
+  Timestamp flown_since;
   bool vehicle_ever_heard = false;
   bool abort_seen = false;      ///< the vehicle's status shows it, or the ground
   Timestamp wave_off_at;        ///< of the newest press

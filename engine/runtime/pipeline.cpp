@@ -4,20 +4,12 @@
 #include <cmath>
 #include <utility>
 
-#include "engine/mission/watch/picture_watch.h"
 #include "engine/runtime/decision_hash.h"
 #include "engine/runtime/missing_inputs.h"
 #include "engine/runtime/pipeline_pass.h"
 #include "engine/slad/hazards/explanation.h"
-#include "engine/stereo/range_measurement.h"
 
 namespace palace {
-namespace {
-
-constexpr double kPoseAge_s = 0.2;  // of the pose to a pair; an older one makes no map
-
-}  // namespace
-
 Pipeline::Pipeline(const Settings& settings, MissionOptions mission)
     : settings_(settings), mission_(std::move(mission)) {}
 
@@ -110,170 +102,8 @@ std::shared_ptr<EngineSnapshot> Pipeline::NextSnapshot() const {
   return next;
 }
 
-void Pipeline::PrepareRig(Pass& pass) {
-  const auto& rig = pass.bundle->rig;
-  if (rig && rig != rig_) {
-    const std::uint64_t hash = HashOf(*rig);
-    if (!rig_ || hash != calibration_hash_) {
-      Result<StereoRectifier> made = StereoRectifier::Make(*rig);
-      rig_problem_ = made ? std::string() : made.error().message;
-      rectifier_.reset();
-      if (made) {
-        rectifier_.emplace(std::move(*made));
-      }
-      calibration_hash_ = hash;
-    }
-    rig_ = rig;
-  }
-  pass.snapshot->sensors.Edit().rig = rig_;
-  if (!rig_problem_.empty()) {
-    pass.Note(DiagnosticLevel::kError, "camera", rig_problem_);
-  }
-}
-
-void Pipeline::See(Pass& pass) {
-  SensorsPart& sensors = pass.snapshot->sensors.Edit();
-  const FrameBundle& bundle = *pass.bundle;
-  for (const CameraCounters& camera : pass.session.source.cameras) {
-    if (!camera.problem.empty()) {
-      pass.Note(DiagnosticLevel::kError, "camera", camera.problem);
-    }
-  }
-  channels_.Add(bundle, !HasPicturesOnly(role_));
-  navigator_.AddSensors(bundle);
-  if (bundle.pose_at_exposure) {
-    sensors.pose = bundle.pose_at_exposure;
-  } else if (!bundle.poses.empty()) {
-    sensors.pose = bundle.poses.back();
-  }
-  if (bundle.status) {
-    sensors.vehicle = bundle.status;
-  }
-  if (!bundle.laser.empty()) {
-    sensors.laser = bundle.laser.back();
-  }
-  if (!bundle.truth.empty()) {
-    sensors.truth = bundle.truth.back();
-  }
-  WatchMotion(pass);
-  if (!bundle.stereo || !rectifier_) {
-    return;
-  }
-  sensors.frame = bundle.stereo;
-  sensors.X_WC = navigator_.PredictBodyPose(bundle.stereo->time) * rectifier_->X_BC(*rig_);
-  if (const auto spot = LaserSpot(*pass.snapshot)) {
-    laser_height_m_ = HeightFromDown((sensors.X_WC * *spot).z());
-  }
-  pass.Run("rectify", [&] {
-    Result<RectifiedPair> pair = rectifier_->Rectify(*bundle.stereo);
-    if (!pair) {
-      pass.Note(DiagnosticLevel::kError, "camera", pair.error().message);
-      return;
-    }
-    pass.pair = *pair;
-    sensors.left_rectified = pair->left;
-    sensors.right_rectified = pair->right;
-    if (!HasPicturesOnly(role_)) {
-      image_time_.AddPictures(pair->left.get(), pair->right.get(), bundle.stereo->time);
-    }
-  });
-}
-
 const MissionStatus& Pipeline::MissionInForce() const {
   return !SeenFromStart(role_) && last_ ? last_->flight->mission : mission_.status();
-}
-
-double Pipeline::GroundHeight() const {
-  if (const auto& armed = MissionInForce().armed) {
-    return HeightFromDown(armed->p_WS.z());
-  }
-  if (laser_height_m_) {
-    return *laser_height_m_;
-  }
-  return 0;
-}
-
-double Pipeline::DepthOfGround(const RigidTransform& X_WC) const {
-  const double axis_down = X_WC.R(2, 2);
-  const bool known = MissionInForce().armed || laser_height_m_;
-  return known && axis_down > 0.1 ? (HeightFromDown(X_WC.p.z()) - GroundHeight()) / axis_down : NAN;
-}
-
-std::optional<ViewPose> Pipeline::PoseOfPair(const Pass& pass) const {
-  const auto& pose = pass.snapshot->sensors->pose;
-  if (!pose || std::abs(SecondsBetween(pose->time, pass.bundle->stereo->time)) > kPoseAge_s) {
-    return std::nullopt;
-  }
-  return ViewPose{pass.snapshot->sensors->X_WC, pose->sigmas};
-}
-
-void Pipeline::MeasureRange(Pass& pass) {
-  if (!pass.pair.left || !pass.pair.right) {
-    return;
-  }
-  const Settings& settings = settings_.recorded();
-  const MissionStatus& mission = MissionInForce();
-  const bool committed = mission.state == MissionState::kDescending &&
-                         mission.height_above_site_m < settings.slad.fusion.commit_height_m;
-  const bool due =
-      stereo_frames_++ % static_cast<std::uint64_t>(settings.stereo.map_every_frames) == 0;
-  if (committed || !due || mission.state == MissionState::kLanded) {
-    return;
-  }
-  const std::optional<ViewPose> pose = PoseOfPair(pass);
-  Result<StereoResult> result = MeasureRanges({.raw = *pass.bundle->stereo,
-                                               .pair = pass.pair,
-                                               .rig = *rig_,
-                                               .rectifier = *rectifier_,
-                                               .pose = pose,
-                                               .ground_height_m = GroundHeight()},
-                                              settings.stereo, matcher_);
-  if (!result) {
-    pass.Note(DiagnosticLevel::kError, "stereo", result.error().message);
-    return;
-  }
-  const FrozenCameras frozen =
-      frozen_check_.Add({.time = pass.bundle->stereo->time,
-                         .left = pass.pair.left,
-                         .right = pass.pair.right,
-                         .X_WC = pass.snapshot->sensors->X_WC,
-                         .camera = rectifier_->camera(),
-                         .depth_m = pose ? DepthOfGround(pass.snapshot->sensors->X_WC) : NAN});
-  result->quality.left_frozen = frozen.left;
-  result->quality.right_frozen = frozen.right;
-  pass.snapshot->terrain.Edit().stereo_quality = result->quality;
-  pass.new_stereo = true;
-  if (result->quality.suspect_covered) {
-    pass.Note(DiagnosticLevel::kWarning, "stereo",
-              "one camera shows nothing while the other does; it may be covered");
-  }
-  if (result->quality.suspect_same) {
-    pass.Note(DiagnosticLevel::kWarning, "stereo",
-              "left and right are the same picture; check the capture devices");
-  }
-  auto range = std::make_shared<const RangeMap>(std::move(result->range));
-  pass.snapshot->terrain.Edit().range = range;
-  if (!pose) {
-    pass.Note(DiagnosticLevel::kWarning, "slad",
-              std::string("attitude and height are unknown, so ranges make no map; ") +
-                  (HasPicturesOnly(role_) ? "add [pose] to RIG.toml"
-                                          : "no VEHICLE_POSE is within 0.2 s of them"));
-    return;
-  }
-  const PictureFaults faults = JudgePictures(pass.snapshot->terrain->stereo_quality, role_);
-  if (faults.frozen() || faults.blank() || faults.swapped) {
-    return;  // what it shows is no ground of now
-  }
-  WatchLaserSpot(*range);
-  if (const auto spot = LaserSpot(*pass.snapshot)) {
-    range_check_.Add(*range, *spot);
-    pass.snapshot->terrain.Edit().range_agreement = range_check_.agreement();
-  }
-  slad_.Add({.view = {pass.pair.left, pass.pair.right, range},
-             .p_WB = navigator_.PredictBodyPose(range->time).p},
-            settings.slad);
-  pass.new_map = true;
-  maps_to_rebuild_ = std::max(0, maps_to_rebuild_ - 1);
 }
 
 void Pipeline::Judge(Pass& pass) {
