@@ -1,37 +1,19 @@
 // Memory that is short at any one allocation of a pass: the log is whole, the pass is in it wholly
 // or not at all, and what was decided in it is not lost. This program's allocations can be made to
 // fail on purpose, one thread's at a time.
+#include "tests/support/short_memory.h"
+
 #include <unistd.h>
 
-#include <cstdlib>
 #include <new>
 
 #include "engine/journal/log_index.h"
 #include "tests/journal/journal_world.h"
 
-namespace {
-thread_local long allocations_left = -1;  // negative: as many as there are
-}
-
-__attribute__((noinline)) void* operator new(std::size_t size) {
-  if (allocations_left == 0) {
-    allocations_left = -1;
-    throw std::bad_alloc();
-  }
-  allocations_left -= allocations_left > 0 ? 1 : 0;
-  void* memory = std::malloc(size == 0 ? 1 : size);
-  if (memory == nullptr) {
-    throw std::bad_alloc();
-  }
-  return memory;
-}
-__attribute__((noinline)) void operator delete(void* memory) noexcept { std::free(memory); }
-__attribute__((noinline)) void operator delete(void* memory, std::size_t) noexcept {
-  std::free(memory);
-}
-
 namespace palace {
 namespace {
+
+using short_memory::allocations_left;
 
 class ShortMemory : public JournalTest {
  protected:

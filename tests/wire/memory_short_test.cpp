@@ -1,35 +1,17 @@
 // The receiver when memory is short: at whichever allocation it fails, the batch is dropped and
 // counted, nothing escapes, and what comes after is received.
-#include <cstdlib>
-#include <new>
 #include <numeric>
 
 #include <gtest/gtest.h>
 
 #include "engine/wire/receiver/bus_receiver.h"
 #include "tests/support/lcm_datagrams.h"
-
-namespace {
-thread_local int allocations_left = -1;  ///< then the next fails; negative: none does
-thread_local bool failed = false;
-}  // namespace
-
-void* operator new(std::size_t size) {
-  if (allocations_left == 0) {
-    failed = true;
-    throw std::bad_alloc();
-  }
-  allocations_left -= allocations_left > 0 ? 1 : 0;
-  if (void* memory = std::malloc(size == 0 ? 1 : size)) {
-    return memory;
-  }
-  throw std::bad_alloc();
-}
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+#include "tests/support/short_memory.h"
 
 namespace palace {
 namespace {
+
+using short_memory::allocations_left, short_memory::failed;
 
 constexpr SenderAddress kVehicle{0x0a000002, 7001};
 
