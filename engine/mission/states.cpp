@@ -95,7 +95,9 @@ void StepSearching(MissionTurn& turn, const MissionInputs& in) {
     }
     return;
   }
-  const std::string stopped = state == MissionState::kNoLive ? "" : WhyStopped(AlarmFactsAt(m, in));
+  // Pictures without a vehicle stop nobody: what they show is proposed as it is.
+  const bool flies = HasVehicle(in.session.role) && state != MissionState::kNoLive;
+  const std::string stopped = flies ? WhyStopped(AlarmFactsAt(m, in)) : "";
   if (!stopped.empty()) {
     m.winner = {};  // a proposal is won while nothing stops
   }

@@ -79,7 +79,7 @@ std::string WhyNoPictureSize(int width, int height) {
     return {};
   }
   return WithNumbers(
-      "pictures of %.0f x %.0f px; sides of 32 to 8192 px and at most 16.7 megapixels are taken",
+      "pictures of %.0f x %.0f px; sides of 32 to 8192 px and at most 33.5 megapixels are taken",
       width, height);
 }
 

@@ -11,7 +11,7 @@ namespace palace {
 struct RigLimits {
   static constexpr int kLeastSide_px = 32;  ///< the columns that stereo must see in both pictures
   static constexpr int kMostSide_px = 8192;
-  static constexpr int kMostPixels = 1 << 24;  ///< rectification keeps 16 bytes for each
+  static constexpr int kMostPixels = 1 << 25;  ///< rectification keeps 16 bytes for each
   static constexpr double kLeastFocal_px = 1e-3;
   static constexpr double kMostFocal_px = 1e6;
   static constexpr double kMostCentre_px = 1e6;

@@ -30,14 +30,14 @@ class ImageFolderTest : public testing::Test {
     std::string text;
     for (const char* side : {"left", "right"}) {
       text += "[" + std::string(side) +
-              "]\nwidth = 32\nheight = 24\nfx_px = 40\nfy_px = 40\ncx_px = 15.5\ncy_px = 11.5\n";
+              "]\nwidth = 32\nheight = 32\nfx_px = 40\nfy_px = 40\ncx_px = 15.5\ncy_px = 15.5\n";
     }
     text += "[rig]\nbaseline_m = 1\n[mount]\ntilt_deg = -90\n";
     text += "[pose]\nroll_deg = 0\npitch_deg = 0\nheading_deg = 0\nheight_m = 12\n";
     std::ofstream(folder_ / "rig.toml") << text << images;
   }
   /// The grey value of a picture tells which one it is.
-  void WritePicture(const std::string& name, int grey, int width = 32, int height = 24) {
+  void WritePicture(const std::string& name, int grey, int width = 32, int height = 32) {
     cv::imwrite((folder_ / "pictures" / name).string(),
                 cv::Mat(height, width, CV_8UC1, cv::Scalar(grey)));
   }
