@@ -76,8 +76,12 @@ TEST_F(LiveBus, AKilledStationLosesLessThanASecond) {
     return flights.empty() ? Timestamp{} : EndOf(flights[0] / "flight.lcm");
   };
   Timestamp first;
-  for (int i = 0; i < 1200 && SecondsBetween(first, recorded()) < 3; ++i) {
-    first = first == Timestamp{} ? recorded() : first;
+  for (int i = 0; i < 1200; ++i) {
+    const Timestamp now = recorded();
+    first = first == Timestamp{} ? now : first;
+    if (SecondsBetween(first, now) >= 3) {
+      break;
+    }
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
   }
   const Timestamp heard = EndOf(vehicle_log);
