@@ -48,7 +48,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Row{"both cameras black", AlarmId::kCameraBlank, 2.5},
                     Row{"right camera frozen", AlarmId::kCameraFrozen, 2.5},
                     Row{"both frozen but one pixel", AlarmId::kCameraFrozen, 2.5},
-                    Row{"both frozen, 1 grey level of noise", AlarmId::kCameraFrozen, 2.5},
+                    Row{"both frozen with 1 grey level of noise", AlarmId::kCameraFrozen, 2.5},
                     Row{"right camera missing", AlarmId::kCameraRight, 2.5},
                     Row{"cameras swapped", AlarmId::kCamerasSwapped, 2.5}),
     [](const auto& row) {
