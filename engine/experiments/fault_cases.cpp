@@ -23,7 +23,7 @@ std::vector<FaultCase> CameraCases() {
       {"left camera frozen", "F01", on(K::kCameraFrozen, kLeft), frozen},
       {"right camera frozen", "F01", on(K::kCameraFrozen, kRight), frozen},
       {"both frozen but one pixel", "F01", on(K::kCameraFrozenPixel), frozen},
-      // Behind noise only motion tells: the ground must shift by 8 px.
+      // Behind noise only motion tells: the ground must shift by 12 px.
       {"both frozen with 1 grey level of noise", "F01", on(K::kCameraFrozenNoise), frozen, 4},
       {"left camera black", "F02", on(K::kCameraBlack, kLeft), dark},
       {"right camera black", "F02", on(K::kCameraBlack, kRight), dark},

@@ -69,7 +69,7 @@ HistorySample SampleOf(const EngineSnapshot& snapshot, const FrameBundle& bundle
     sample.estimate_sigma_m = filter.estimate.sigma_p_m;
     sample.descent_rate_sigma_mps = filter.estimate.sigma_v_mps.z();
   }
-  if (nav.gps.running) {
+  if (nav.gps.running && !nav.gps.IsUnknown()) {
     sample.gps_p_WB = nav.gps.estimate.p_WB;
   }
   if (snapshot.sensors->truth) {

@@ -93,6 +93,7 @@ class Pipeline {
   BeamPose BeamAt(Timestamp time) const;
   /// Unit vector in the axes of the rectified left camera.
   Eigen::Vector3d BeamDirection() const;
+  double SigmaOfPosition() const;
   std::optional<ViewPose> PoseOfPair(const Pass& pass) const;
   void MeasureRange(Pass& pass);
   void Judge(Pass& pass);

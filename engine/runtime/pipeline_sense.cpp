@@ -100,6 +100,11 @@ double Pipeline::DepthOfGround(const RigidTransform& X_WC) const {
   return known && axis_down > 0.1 ? (HeightFromDown(X_WC.p.z()) - GroundHeight()) / axis_down : NAN;
 }
 
+double Pipeline::SigmaOfPosition() const {
+  const FilterStatus& filter = navigator_.status().InForce();
+  return filter.running ? filter.estimate.sigma_p_m.maxCoeff() : NAN;
+}
+
 std::optional<ViewPose> Pipeline::PoseOfPair(const Pass& pass) const {
   const auto& pose = pass.snapshot->sensors->pose;
   if (!pose || std::abs(SecondsBetween(pose->time, pass.bundle->stereo->time)) > kPoseAge_s) {
@@ -139,7 +144,8 @@ void Pipeline::MeasureRange(Pass& pass) {
                          .right = pass.pair.right,
                          .X_WC = pass.snapshot->sensors->X_WC,
                          .camera = rectifier_->camera(),
-                         .depth_m = pose ? DepthOfGround(pass.snapshot->sensors->X_WC) : NAN});
+                         .depth_m = pose ? DepthOfGround(pass.snapshot->sensors->X_WC) : NAN,
+                         .sigma_p_m = SigmaOfPosition()});
   result->quality.left_frozen = frozen.left;
   result->quality.right_frozen = frozen.right;
   pass.snapshot->terrain.Edit().stereo_quality = result->quality;

@@ -113,13 +113,23 @@ bool FrozenCheck::Judge(Eye& eye, const std::shared_ptr<const ImageU8>& picture,
   return repeated || eye.unmoved;
 }
 
+double FrozenCheck::SureShift_px(const SeenPair& pair, const RigidTransform& X_WBefore) {
+  constexpr double kSigmas = 3;
+  const Eigen::Vector3d way = pair.X_WC.p - X_WBefore.p;
+  const double unsure_m = std::isfinite(pair.sigma_p_m) ? kSigmas * pair.sigma_p_m : HUGE_VAL;
+  const double length_m = way.norm();
+  const double sure = length_m > unsure_m ? 1 - unsure_m / length_m : 0;
+  return MeanShift_px(pair.camera, pair.depth_m, {X_WBefore.R, pair.X_WC.p - sure * way},
+                      pair.X_WC);
+}
+
 FrozenCameras FrozenCheck::Add(const SeenPair& pair) {
   while (!looks_.empty() && SecondsBetween(looks_.front().time, pair.time) > kOldest_s) {
     looks_.pop_front();
   }
   const bool known = std::isfinite(pair.depth_m) && pair.depth_m > 0;
   const auto moved_from = std::find_if(looks_.rbegin(), looks_.rend(), [&](const Look& look) {
-    return known && MeanShift_px(pair.camera, pair.depth_m, look.X_WC, pair.X_WC) >= kMoved_px;
+    return known && SureShift_px(pair, look.X_WC) >= kMoved_px;
   });
   const Look* from = moved_from == looks_.rend() ? nullptr : &*moved_from;
   const FrozenCameras frozen{Judge(left_, pair.left, from ? &from->left : nullptr),

@@ -5,19 +5,21 @@
 //   repeated   fewer than one pixel in a thousand differs from the picture before. No sensor gives
 //              the same picture twice, and no ray caster does while the camera moves at all.
 //   unmoved    since an earlier picture, at most 4 s old, the camera has moved so that the ground
-//              must have shifted by 8 px or more in the mean, and yet the picture is that one: the
+//              must have shifted by 12 px or more in the mean, and yet the picture is that one: the
 //              means of its 8x8 blocks differ by less than a quarter of what the same picture
 //              shifted by 4 px would show. Noise of a grey level averages out of the means (0.15 of
 //              a level), so that noise on a frozen picture does not hide it.
 //
 // Pictures are kept every half second; the newest that the camera has moved from is asked. A camera
 // over still ground that does not move is judged by the first sign alone: without motion a picture
-// that stays like itself is no fault (a hover in 3 m/s of wind moves by 8 px in about 2 s). Too
-// little texture (a shift by 4 px changes the means by less than 1 level) leaves the second sign
-// open. Once unmoved, a picture is so until it is seen to change by half of what the shift would
-// show.
+// that stays like itself is no fault (a hover in 3 m/s of wind moves by 8 px in about 2 s, by 15 in
+// 4). Too little texture (a shift by 4 px changes the means by less than 1 level) leaves the second
+// sign open. Once unmoved, a picture is so until it is seen to change by half of what the shift
+// would show.
 //
-// The shift is that of the plane ground at the given depth, mean of nine points of the picture.
+// The shift is that of the plane ground at the given depth, mean of nine points of the picture, for
+// the turn and for what of the way is beyond 3 sigma of the position: an estimate that wanders over
+// still ground has not moved.
 // Pure: no clocks, no threads. Any one thread.
 #pragma once
 
@@ -43,13 +45,14 @@ struct SeenPair {
   std::shared_ptr<const ImageU8> left, right;
   RigidTransform X_WC;
   PinholeCamera camera;
-  double depth_m = 0;  ///< to the ground along the axis; not finite: no motion is told
+  double depth_m = 0;    ///< to the ground along the axis; not finite: no motion is told
+  double sigma_p_m = 0;  ///< of the camera's position; not finite: only turns count
 };
 
 class FrozenCheck {
  public:
   static constexpr double kRepeatedShare = 1e-3;
-  static constexpr double kMoved_px = 8;
+  static constexpr double kMoved_px = 12;
   static constexpr double kOldest_s = 4;
   static constexpr double kEvery_s = 0.5;
   static constexpr double kUnmovedShare = 0.25;
@@ -76,6 +79,7 @@ class FrozenCheck {
     std::shared_ptr<const ImageU8> before;
     std::optional<Reference> unmoved;  ///< the picture that it repeats
   };
+  static double SureShift_px(const SeenPair& pair, const RigidTransform& X_WBefore);
   static Reference Keep(const ImageU8& picture);
   /// `moved_from`: what it showed where the camera no longer is; null: it has not moved.
   static bool Judge(Eye& eye, const std::shared_ptr<const ImageU8>& picture,
