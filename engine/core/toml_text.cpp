@@ -5,8 +5,16 @@
 namespace palace {
 namespace {
 
-/// Behind the string that begins with the quote at `at`; npos where it does not end in its line, or
-/// at all: the parser stops there too.
+/// A string may begin there: nothing stands before it but what a key or a value follows. A quote
+/// amid a bare word is one of its letters to the parser.
+bool MayBeginString(std::string_view text, std::size_t at) {
+  const std::size_t before = at == 0 ? at : text.find_last_not_of(" \t", at - 1);
+  return at == 0 || before == std::string_view::npos ||
+         std::string_view("=[,{.\n\r").find(text[before]) != std::string_view::npos;
+}
+
+/// Behind the string that begins with the quote at `at`; behind the quote alone where the string
+/// does not end in its line, or at all: what follows may be read as bare words.
 std::size_t EndOfString(std::string_view text, std::size_t at) {
   const char quote = text[at];
   const bool long_one = text.substr(at, 3) == std::string(3, quote);
@@ -25,14 +33,15 @@ std::size_t EndOfString(std::string_view text, std::size_t at) {
       break;
     }
   }
-  return std::string_view::npos;
+  return at + 1;
 }
 
 }  // namespace
 
 Status CheckTomlLetters(std::string_view text, const std::string& name) {
   constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
-  std::size_t i = text.substr(0, 3) == kByteOrderMark ? 3 : 0;
+  text.remove_prefix(text.starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0);
+  std::size_t i = 0;
   while (i < text.size()) {
     const char c = text[i];
     if (static_cast<unsigned char>(c) > 127) {
@@ -41,7 +50,8 @@ Status CheckTomlLetters(std::string_view text, const std::string& name) {
                           ": a letter outside ASCII; keys and numbers have none, texts stand in "
                           "quotes");
     }
-    i = c == '#' ? text.find('\n', i) : c == '"' || c == '\'' ? EndOfString(text, i) : i + 1;
+    const bool begins = (c == '"' || c == '\'') && MayBeginString(text, i);
+    i = c == '#' ? text.find('\n', i) : begins ? EndOfString(text, i) : i + 1;
   }
   return Ok();
 }

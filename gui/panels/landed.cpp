@@ -24,11 +24,13 @@ std::string Touchdown(const MissionStatus& m) {
 
 /// The log's folder and file; the folder above them is the one that was asked for.
 std::string LogWords(const SessionPart& session) {
-  if (session.recording_path.empty()) {
-    return "This flight is not recorded.";
+  const bool record = FollowsRecord(session.role);
+  const std::filesystem::path log(record ? session.source.name : session.recording_path);
+  if (log.empty()) {
+    return record ? "This is a record." : "This flight is not recorded.";
   }
-  const std::filesystem::path log(session.recording_path);
-  return "Log " + (log.parent_path().filename() / log.filename()).string();
+  return (record ? "This is the record " : "Log ") +
+         (log.parent_path().filename() / log.filename()).string();
 }
 
 /// One of the three ways on.

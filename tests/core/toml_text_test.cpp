@@ -32,7 +32,11 @@ TEST(TomlText, LettersOutsideAsciiAreRefusedWhereKeysStand) {
       {"a = \"\"\"\n\xc3\xa4 \"\" \n\"\"\"\"\"\nb\xc3\xa4 = 1", "4"},
       {"a = '''\xc3\xa4\n'''\nb\xc3\xa4 = 1", "3"},
       {"a = \"\"\n\xc3\xa4 = 1", "2"},
-      {"a = \"open\n\xc3\xa4 = 1", nullptr},  // the parser stops at the string
+      {"a = \"open\n\xc3\xa4 = 1", "2"},
+      {"a = 0\"\xc3\xa4\"", "1"},  // amid a bare word a quote begins nothing
+      {"a = [\"\xc3\xa4\", '\xc3\xa4']", nullptr},
+      {"a.\"\xc3\xa4\" = { \"\xc3\xa4\" = \"\xc3\xa4\" }", nullptr},
+      {"\xef\xbb\xbf\"\xc3\xa4\" = 1", nullptr},
   };
   for (const Row& row : rows) {
     SCOPED_TRACE(row.text);

@@ -57,6 +57,18 @@ TEST(SiteList, AListedSiteThatIsSelectedSaysWhenItHoldsNoLonger) {
   EXPECT_TRUE(HasText(window.ui.items, "Room 0.1 m"));
 }
 
+// A landing that is played back was recorded: the panel says where.
+TEST(LandedPanel, OfARecordSaysThatItIsOne) {
+  EngineSnapshot snap = fake::Snapshot(MissionState::kLanded);
+  SessionPart& session = snap.session.Edit();
+  session.role = SessionRole::kReplayed;
+  session.recording_path.clear();
+  session.source.name = "logs/2026-11-23_06-13-31/flight.lcm";
+  const FlyWindow window(1920, 1080, snap);
+  EXPECT_TRUE(HasText(window.ui.items, "This is the record 2026-11-23_06-13-31/flight.lcm"));
+  EXPECT_FALSE(HasText(window.ui.items, "not recorded"));
+}
+
 TEST(WaveOffPanel, IsOfferedAgainWhenTheWordOfTheGroundIsOld) {
   EngineSnapshot snap = fake::Snapshot(MissionState::kLanded);
   snap.flight.Edit().mission.why_no_wave_off = "Vehicle on the ground";
