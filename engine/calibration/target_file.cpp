@@ -13,8 +13,8 @@
 #include <toml++/toml.h>
 
 #include "engine/camera/files/text_file.h"
-#include "engine/core/text.h"
 #include "engine/core/toml_text.h"
+#include "engine/core/text.h"
 
 namespace palace {
 namespace {
@@ -237,15 +237,11 @@ CalibrationTarget ReadTarget(TargetTable& table) {
 }  // namespace
 
 Result<CalibrationTarget> ParseTargetText(std::string_view text, const std::string& name) {
-  if (Status letters = CheckTomlLetters(text, name); !letters) {
-    return letters.error();
-  }
-  const toml::parse_result parsed = toml::parse(text);
+  const Result<toml::table> parsed = ParseToml(text, name);
   if (!parsed) {
-    return InvalidError(name + ":" + std::to_string(parsed.error().source().begin.line) + ": " +
-                        std::string(parsed.error().description()));
+    return parsed.error();
   }
-  const toml::table& root = parsed.table();
+  const toml::table& root = *parsed;
   for (const auto& [key, node] : root) {
     if (key.str() != "target") {
       return InvalidError(name + ":" + std::to_string(node.source().begin.line) + ": unknown key " +

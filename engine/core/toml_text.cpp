@@ -1,20 +1,14 @@
 #include "engine/core/toml_text.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace palace {
 namespace {
 
-/// A string may begin there: nothing stands before it but what a key or a value follows. A quote
-/// amid a bare word is one of its letters to the parser.
-bool MayBeginString(std::string_view text, std::size_t at) {
-  const std::size_t before = at == 0 ? at : text.find_last_not_of(" \t", at - 1);
-  return at == 0 || before == std::string_view::npos ||
-         std::string_view("=[,{.\n\r").find(text[before]) != std::string_view::npos;
-}
+bool IsAscii(char c) { return static_cast<unsigned char>(c) < 128; }
 
-/// Behind the string that begins with the quote at `at`; behind the quote alone where the string
-/// does not end in its line, or at all: what follows may be read as bare words.
+/// Behind the string that begins with the quote at `at`, of a text that is TOML.
 std::size_t EndOfString(std::string_view text, std::size_t at) {
   const char quote = text[at];
   const bool long_one = text.substr(at, 3) == std::string(3, quote);
@@ -29,31 +23,51 @@ std::size_t EndOfString(std::string_view text, std::size_t at) {
         ++i;
       }
       return i;
-    } else if (text[i] == '\n' && !long_one) {
-      break;
     }
   }
-  return at + 1;
+  return text.size();
 }
 
-}  // namespace
-
-Status CheckTomlLetters(std::string_view text, const std::string& name) {
-  constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
-  text.remove_prefix(text.starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0);
+/// Of a text that is TOML.
+Status CheckLetters(std::string_view text, const std::string& name) {
   std::size_t i = 0;
   while (i < text.size()) {
     const char c = text[i];
-    if (static_cast<unsigned char>(c) > 127) {
+    if (!IsAscii(c)) {
       const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<long>(i), '\n');
       return InvalidError(name + ":" + std::to_string(line) +
                           ": a letter outside ASCII; keys and numbers have none, texts stand in "
                           "quotes");
     }
-    const bool begins = (c == '"' || c == '\'') && MayBeginString(text, i);
-    i = c == '#' ? text.find('\n', i) : begins ? EndOfString(text, i) : i + 1;
+    i = c == '#' ? text.find('\n', i) : c == '"' || c == '\'' ? EndOfString(text, i) : i + 1;
   }
   return Ok();
+}
+
+Result<toml::table> Parse(std::string_view text, const std::string& name) {
+  toml::parse_result parsed = toml::parse(text);
+  if (!parsed) {
+    return InvalidError(name + ":" + std::to_string(parsed.error().source().begin.line) + ": " +
+                        std::string(parsed.error().description()));
+  }
+  return std::move(parsed).table();
+}
+
+}  // namespace
+
+Result<toml::table> ParseToml(std::string_view text, const std::string& name) {
+  constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+  text.remove_prefix(text.starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0);
+  std::string ascii(text);
+  std::replace_if(
+      ascii.begin(), ascii.end(), [](char c) { return !IsAscii(c); }, 'x');
+  if (Result<toml::table> form = Parse(ascii, name); !form) {
+    return form;
+  }
+  if (const Status letters = CheckLetters(text, name); !letters) {
+    return letters.error();
+  }
+  return Parse(text, name);
 }
 
 }  // namespace palace

@@ -13,9 +13,9 @@
 
 #include <toml++/toml.h>
 
+#include "engine/core/toml_text.h"
 #include "engine/core/files.h"
 #include "engine/core/text.h"
-#include "engine/core/toml_text.h"
 #include "engine/core/units.h"
 
 namespace palace {
@@ -124,15 +124,11 @@ Status CheckSettings(const Settings& settings, const std::string& name) {
 
 Result<Settings> ParseSettings(std::string_view text, const std::string& name,
                                const Settings& base) {
-  if (Status letters = CheckTomlLetters(text, name); !letters) {
-    return letters.error();
-  }
-  const toml::parse_result parsed = toml::parse(text, std::string_view(name));
+  const Result<toml::table> parsed = ParseToml(text, name);
   if (!parsed) {
-    return InvalidError(name + ":" + std::to_string(parsed.error().source().begin.line) + ": " +
-                        std::string(parsed.error().description()));
+    return parsed.error();
   }
-  const toml::table& root = parsed.table();
+  const toml::table& root = *parsed;
   Settings settings = base;
   for (const auto& [section, content] : root) {
     const toml::table* table = content.as_table();

@@ -123,15 +123,11 @@ std::vector<std::string> ChannelNames::ToVehicle() const {
 }
 
 Result<ChannelNames> ParseChannels(std::string_view text, const std::string& origin) {
-  if (::palace::Status letters = CheckTomlLetters(text, origin); !letters) {
-    return letters.error();
-  }
-  const toml::parse_result parsed = toml::parse(text, origin);
+  const Result<toml::table> parsed = ParseToml(text, origin);
   if (!parsed) {
-    return InvalidError(origin + ":" + std::to_string(parsed.error().source().begin.line) + ": " +
-                        std::string(parsed.error().description()));
+    return parsed.error();
   }
-  return FromTable(parsed.table(), origin);
+  return FromTable(*parsed, origin);
 }
 
 Result<ChannelNames> LoadChannels(const std::filesystem::path& file) {

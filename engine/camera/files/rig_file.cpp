@@ -9,8 +9,8 @@
 #include "engine/camera/files/camera_files.h"
 #include "engine/camera/files/text_file.h"
 #include "engine/camera/files/toml_table.h"
-#include "engine/core/text.h"
 #include "engine/core/toml_text.h"
+#include "engine/core/text.h"
 #include "engine/core/units.h"
 #include "engine/model/rig_limits.h"
 
@@ -328,15 +328,11 @@ Result<RigFile> LoadRigFile(const std::filesystem::path& path) {
     return text.error();
   }
   const std::string name = path.string();
-  if (Status letters = CheckTomlLetters(*text, name); !letters) {
-    return letters.error();
-  }
-  const toml::parse_result parsed = toml::parse(*text);
+  const Result<toml::table> parsed = ParseToml(*text, name);
   if (!parsed) {
-    return InvalidError(name + ":" + std::to_string(parsed.error().source().begin.line) + ": " +
-                        std::string(parsed.error().description()));
+    return parsed.error();
   }
-  const toml::table& root = parsed.table();
+  const toml::table& root = *parsed;
   RigFile file;
   file.folder = path.parent_path();
   Status status = CheckTables(root, name);

@@ -4,11 +4,6 @@
 // asked for are errors too. Included by .cpp files only: it brings toml++.
 #pragma once
 
-#define TOML_EXCEPTIONS 0
-// toml++ 3.3 asserts that a table header starts with a key ("[?]" in a damaged file aborts), but
-// reports the same as an error two lines later. Files are input: never abort on them.
-#define TOML_ASSERT(expr) static_assert(true)
-
 #include <cstddef>
 #include <optional>
 #include <set>
@@ -16,9 +11,8 @@
 #include <string_view>
 #include <vector>
 
-#include <toml++/toml.h>
-
 #include "engine/core/result.h"
+#include "engine/core/toml_text.h"
 
 namespace palace {
 
