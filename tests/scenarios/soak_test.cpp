@@ -101,7 +101,7 @@ TEST_F(Soak, AHoverKeepsNoMemory) {
 
 TEST_F(Soak, FlightsInOneProcessKeepNoMemory) {
   if (!Full()) {
-    GTEST_SKIP() << "PALACE_FULL_SOAK=1 flies ten missions";
+    GTEST_SKIP() << "runs with PALACE_FULL_SOAK=1: ten missions take many minutes";
   }
   Slope slope;
   double flown_s = 0;

@@ -5,15 +5,6 @@
 namespace palace {
 namespace {
 
-bool HasText(const ItemRecord& items, const std::string& part) {
-  for (const Item& item : items.items()) {
-    if (item.name == "text" && item.text.find(part) != std::string::npos) {
-      return true;
-    }
-  }
-  return false;
-}
-
 EngineSnapshot WavedOff(WaveOffReport report) {
   EngineSnapshot snap = fake::Snapshot(MissionState::kAborting);
   snap.flight.Edit().mission.wave_off = report;

@@ -8,15 +8,6 @@
 namespace palace {
 namespace {
 
-bool HasText(const ItemRecord& items, const std::string& part) {
-  for (const Item& item : items.items()) {
-    if (item.name == "text" && item.text.find(part) != std::string::npos) {
-      return true;
-    }
-  }
-  return false;
-}
-
 TEST(Maps, ASizeLostInItsNoiseIsToldByWhatItIsBelow) {
   EngineSnapshot snap = fake::Snapshot(MissionState::kProposed);
   auto decision = std::make_shared<TerrainDecision>(*snap.terrain->applied);

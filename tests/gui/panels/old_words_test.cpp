@@ -6,15 +6,6 @@
 namespace palace {
 namespace {
 
-bool HasText(const ItemRecord& items, const std::string& part) {
-  for (const Item& item : items.items()) {
-    if (item.name == "text" && item.text.find(part) != std::string::npos) {
-      return true;
-    }
-  }
-  return false;
-}
-
 TEST(SiteList, TheRowThatLeftTheMapIsTheOneThatSaysSo) {
   const struct {
     bool now;  ///< the place is still on the newest map

@@ -1,6 +1,7 @@
 // Checks that every workspace passes: no text leaves its panel, no two texts touch.
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,13 @@ inline bool Inside(const Rect& inner, const Rect& outer, float slack = 0.5f) {
 
 inline bool Touch(const Rect& a, const Rect& b) {
   return a.x < b.right() && b.x < a.right() && a.y + 3 < b.bottom() - 3 && b.y + 3 < a.bottom() - 3;
+}
+
+/// Some text on the screen has this in it.
+inline bool HasText(const ItemRecord& items, const std::string& part) {
+  return std::any_of(items.items().begin(), items.items().end(), [&](const Item& item) {
+    return item.name == "text" && item.text.find(part) != std::string::npos;
+  });
 }
 
 /// Every text lies in some panel, and in no two texts' way.

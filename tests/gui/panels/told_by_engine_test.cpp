@@ -14,12 +14,6 @@
 namespace palace {
 namespace {
 
-bool HasText(const ItemRecord& items, const std::string& part) {
-  return std::any_of(items.items().begin(), items.items().end(), [&](const Item& item) {
-    return item.name == "text" && item.text.find(part) != std::string::npos;
-  });
-}
-
 LimitRow& Row(EngineSnapshot& snap, LimitId id) {
   auto& rows = snap.flight.Edit().mission.limits;
   const auto found =

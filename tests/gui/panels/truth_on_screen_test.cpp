@@ -10,15 +10,6 @@
 namespace palace {
 namespace {
 
-bool HasText(const ItemRecord& items, const std::string& part) {
-  for (const Item& item : items.items()) {
-    if (item.name == "text" && item.text.find(part) != std::string::npos) {
-      return true;
-    }
-  }
-  return false;
-}
-
 /// A flight to C while the newest map ranks A first.
 EngineSnapshot FliesToC(MissionState state) {
   EngineSnapshot snap = fake::Snapshot(state);
