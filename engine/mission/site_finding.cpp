@@ -51,7 +51,7 @@ SiteFinding JudgeRecheck(const std::optional<LandingSite>& now,
   if (nearest && nearest->IsSeen() && now->clearance_m < kLeastRoomShare * approved.clearance_m &&
       now->clearance_m < approved.clearance_m - kNoticedRoom_m) {
     worse(Finding::kDoubtful,
-          WithNumbers("Room beyond the clear radius %.1f m, approved with %.1f m", now->clearance_m,
+          WithNumbers("Room beyond the clear radius %.1f m, selected with %.1f m", now->clearance_m,
                       approved.clearance_m) +
               where);
   }

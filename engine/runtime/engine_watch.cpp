@@ -6,7 +6,7 @@
 
 namespace palace {
 namespace {
-constexpr const char* kLastResort = " WAVE OFF works; the vehicle holds by itself.";
+constexpr const char* kLastResort = " WAVE OFF works; the vehicle should hold by itself.";
 }  // namespace
 
 void EngineWatch::Begin(double now_s) {

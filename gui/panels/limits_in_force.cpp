@@ -60,7 +60,10 @@ void DrawLimitsInForcePanel(const EngineSnapshot& snap, const Rect& rect, bool n
   const auto unknown = std::count_if(limits.begin(), limits.end(), [](const LimitRow& limit) {
     return limit.enforced_by != EnforcedBy::kNobody && std::isnan(limit.value);
   });
-  std::string fact = "All inside";
+  const bool measured = std::any_of(limits.begin(), limits.end(), [](const LimitRow& limit) {
+    return limit.enforced_by != EnforcedBy::kNobody && std::isfinite(limit.value);
+  });
+  std::string fact = measured ? "All inside" : "Nothing measured";
   if (over > 0) {
     fact = std::to_string(over) + " over a limit";
   } else if (snap.flight->mission.state == MissionState::kLanded) {

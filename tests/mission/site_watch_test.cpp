@@ -174,7 +174,7 @@ INSTANTIATE_TEST_SUITE_P(
         Change{"NoRoom", [](LandingSite& s) { s.safe_distance_m = 2.1; }, Finding::kOver,
                "Clear radius 2.1 m, min 2.3 m; roughness, 3.2 m south"},
         Change{"LessRoom", [](LandingSite& s) { s.clearance_m = 0.9; }, Finding::kDoubtful,
-               "Room beyond the clear radius 0.9 m, approved with 2.0 m; roughness, 3.2 m south"},
+               "Room beyond the clear radius 0.9 m, selected with 2.0 m; roughness, 3.2 m south"},
         Change{"Old", [](LandingSite& s) { s.age_s = 2.6; }, Finding::kDoubtful,
                "Ground last measured 2.6 s ago, limit 2.0 s"},
         Change{"Approach", [](LandingSite& s) { s.corridor_clear = false; }, Finding::kDoubtful,

@@ -80,7 +80,7 @@ const AlarmRow kRows[] = {
          },
      .text =
          [](const Facts& f, const std::string& limit) {
-           return StaleText(LinkWords(f), f.link_age_s, limit) + "The vehicle holds by itself.";
+           return StaleText(LinkWords(f), f.link_age_s, limit) + "It should hold by itself.";
          },
      .grave = [](const Facts& f) { return f.link_age_s > StaleLimits::link_s; },
      .stop =

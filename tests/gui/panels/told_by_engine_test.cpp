@@ -68,6 +68,18 @@ TEST(Evidence, OfAnArmedSiteStandsUnderTheLimitsItWasArmedUnder) {
   EXPECT_EQ(window.ui.items.Find("evidence/Slope")->text, "Slope 1.9 ± 0.3° max 10°, guard");
 }
 
+// Where nothing that is enforced is known, nothing is inside.
+TEST(LimitsInForce, ClaimNothingOfWhatIsNotMeasured) {
+  EngineSnapshot snap = fake::Snapshot(MissionState::kDescending);
+  for (LimitRow& row : snap.flight.Edit().mission.limits) {
+    row.value = NAN;
+    row.enforced_by = EnforcedBy::kNobody;
+  }
+  const FlyWindow window(1920, 1080, snap);
+  EXPECT_TRUE(HasText(window.ui.items, "Nothing measured"));
+  EXPECT_FALSE(HasText(window.ui.items, "All inside"));
+}
+
 TEST(LimitsInForce, CountAndShowWhateverIsOver) {
   EngineSnapshot snap = fake::Snapshot(MissionState::kDescending);
   Row(snap, LimitId::kExposure).over = true;  // stands in no list of the panel
