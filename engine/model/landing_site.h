@@ -58,7 +58,10 @@ struct LandingSite {
   std::uint8_t clear_approaches = 0xFF;
   double age_s = 0;       ///< since the ground inside the clear radius was measured, mean
   double distance_m = 0;  ///< horizontal, from the vehicle at map_time
-  std::string reason;     ///< one reason for its rank, in words
+  /// Since a map called it, or the ground beside it, unsafe: for that it stands behind the others.
+  /// NaN: for no such reason.
+  double called_unsafe_s = std::numeric_limits<double>::quiet_NaN();
+  std::string reason;  ///< one reason for its rank, in words
 };
 
 /// Outcome of one site selection.

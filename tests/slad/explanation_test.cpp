@@ -239,6 +239,11 @@ LandingSite SiteOf(double safe_distance_m, double cost, bool straight = true,
   return site;
 }
 
+LandingSite CalledUnsafe(double since_s, LandingSite site) {
+  site.called_unsafe_s = since_s;
+  return site;
+}
+
 TEST(RankReasons, SayWhatDecidedAndByHowMuch) {
   struct Case {
     SiteRanking choice;
@@ -266,6 +271,10 @@ TEST(RankReasons, SayWhatDecidedAndByHowMuch) {
        {SiteOf(4.0, 0.2), SiteOf(4.8, 0.2, false, 0b00100000), SiteOf(5, 0.2, false, 0)},
        {"The only straight approach that is clear",
         "Straight approach blocked; clear from south-west", "Every approach blocked"}},
+      {kFarthest,
+       {SiteOf(4.0, 0.2), SiteOf(3.8, 0.2), CalledUnsafe(12.4, SiteOf(4.8, 0.2))},
+       {"Leads: 0.2 m more clear than the next", "0.2 m less clear than the best",
+        "A map called it unsafe 12 s ago"}},
       {kFarthest,
        {SiteOf(4.0, 0.2, false, 0b10000011)},
        {"Straight approach blocked; clear from north, north-east and 1 more"}}};

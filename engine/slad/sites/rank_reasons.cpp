@@ -1,4 +1,6 @@
 // Why each site has its rank, in words.
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <numbers>
 #include <string>
@@ -31,6 +33,9 @@ std::string Text(const char* format, double value, const char* against) {
   return text;
 }
 
+// Less than this is no difference that is told.
+constexpr double kWider_m = 0.05, kCheaper = 0.005;
+
 /// Of a site that is better on this map than those before it.
 constexpr const char* kNotYet = ", which is noise or too new";
 
@@ -39,16 +44,16 @@ std::string Difference(SiteRanking ranking, const LandingSite& better, const Lan
                        bool of_better, const char* against) {
   const double wider_m = better.safe_distance_m - other.safe_distance_m;
   const double cheaper = other.cost - better.cost;
-  if (ranking == SiteRanking::kFarthest && wider_m >= 0.05) {
+  if (ranking == SiteRanking::kFarthest && wider_m >= kWider_m) {
     return Text(of_better ? "%.1f m more clear than %s" : "%.1f m less clear than %s", wider_m,
                 against);
   }
-  if (ranking == SiteRanking::kFarthest && wider_m <= -0.05) {
+  if (ranking == SiteRanking::kFarthest && wider_m <= -kWider_m) {
     return Text(of_better ? "stays first, %.1f m less clear than %s" : "%.1f m more clear than %s",
                 -wider_m, against) +
            kNotYet;
   }
-  if (cheaper >= 0.005) {
+  if (cheaper >= kCheaper) {
     return Text(of_better ? "cost %.2f less than %s" : "cost %.2f more than %s", cheaper, against);
   }
   return of_better ? std::string("as good as ") + against + ", nearer to the middle"
@@ -75,7 +80,16 @@ std::string ReasonOfBest(SiteRanking ranking, const SiteSelection& selection) {
     return "The only straight approach that is clear";
   }
   const std::string by = Difference(ranking, best, next, true, "the next");
-  const char* criterion = ranking == SiteRanking::kFarthest ? "Widest: " : "Cheapest: ";
+  // One that a map called unsafe a moment ago may be wider, and does not lead.
+  const bool outdone =
+      std::any_of(selection.sites.begin(), selection.sites.end(), [&](const LandingSite& other) {
+        return ranking == SiteRanking::kFarthest
+                   ? other.safe_distance_m > best.safe_distance_m + kWider_m
+                   : other.cost < best.cost - kCheaper;
+      });
+  const char* criterion = outdone                             ? "Leads: "
+                          : ranking == SiteRanking::kFarthest ? "Widest: "
+                                                              : "Cheapest: ";
   const bool leads = by.rfind("as good", 0) != 0 && by.rfind("stays", 0) != 0;
   return leads ? criterion + by : Capital(by);
 }
@@ -86,9 +100,10 @@ void GiveReasons(SiteRanking ranking, SiteSelection& selection) {
   for (std::size_t i = 0; i < selection.sites.size(); ++i) {
     LandingSite& site = selection.sites[i];
     site.reason =
-        i == 0 ? ReasonOfBest(ranking, selection)
-        : !site.corridor_clear
-            ? ApproachWords(site)
+        i == 0                 ? ReasonOfBest(ranking, selection)
+        : !site.corridor_clear ? ApproachWords(site)
+        : std::isfinite(site.called_unsafe_s)
+            ? Text("A map called it unsafe %.0f s ago%s", site.called_unsafe_s, "")
             : Capital(Difference(ranking, selection.sites.front(), site, false, "the best"));
   }
 }

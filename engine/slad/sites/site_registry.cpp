@@ -1,6 +1,7 @@
 #include "engine/slad/sites/site_registry.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include <opencv2/core.hpp>
@@ -244,6 +245,7 @@ void SiteRegistry::Follow(const Map& now, const std::vector<Chosen>& chosen, dou
     site.p_WS.head<2>() = place.p_W;
     site.newest_confirms = site.confirmed;
     site.confirmed = place.confirmed.good();
+    site.called_unsafe_s = ShakenFor(place, now.elevation.time);
     found.push_back({chosen[k].place, std::move(site)});
   }
 }
@@ -254,6 +256,11 @@ bool SiteRegistry::IsRipe(const Map& now, const Place& place) const {
          std::any_of(replaced_.begin(), replaced_.end(), [&](const Eigen::Vector2d& p_W) {
            return (p_W - place.p_W).norm() < spacing_m;
          });
+}
+
+double SiteRegistry::ShakenFor(const Place& place, Timestamp now) {
+  const double since_s = place.shaken_at ? SecondsBetween(*place.shaken_at, now) : NAN;
+  return since_s < kShaken_s * place.losses ? since_s : NAN;
 }
 
 std::vector<SiteRegistry::Found> SiteRegistry::Ranked(const Map& now, std::vector<Found> found,
@@ -272,9 +279,7 @@ std::vector<SiteRegistry::Found> SiteRegistry::Ranked(const Map& now, std::vecto
       return place.straight_clear.good() ? 0 : place.some_clear.good() ? 1 : 2;
     };
     const auto order = [&](const Place& place) {
-      const bool shaken = place.shaken_at && SecondsBetween(*place.shaken_at, now.elevation.time) <
-                                                 kShaken_s * place.losses;
-      return std::pair(approach(place), shaken);
+      return std::pair(approach(place), std::isfinite(ShakenFor(place, now.elevation.time)));
     };
     return order(p) != order(q) ? order(p) < order(q) : p.score.value() > q.score.value() + noise;
   };

@@ -86,6 +86,9 @@ class SiteRegistry {
   void StartMap(const Map& now);
   void Lose(const Map& now, const std::vector<Found>& found);
   bool IsRipe(const Map& now, const Place& place) const;
+  /// Seconds since a map called the place unsafe, while it stands behind the others for it; else
+  /// NaN.
+  static double ShakenFor(const Place& place, Timestamp now);
   bool IsKept(const Place& place) const { return place.id != 0 && place.id == kept_; }
 
   std::vector<Place> places_;
