@@ -1,4 +1,4 @@
-// EglContext: an OpenGL 3.3 core context without any window or display (EGL surfaceless).
+// EglContext: an OpenGL 3.3 core context without any window or screen (EGL).
 #pragma once
 
 #include <memory>
