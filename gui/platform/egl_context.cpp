@@ -1,8 +1,5 @@
 #include "gui/platform/egl_context.h"
 
-#include <array>
-#include <cstddef>
-
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
 
@@ -14,42 +11,18 @@ Error NoOpenGl(const char* what) {
                           "; install libegl1 and libgl1-mesa-dri (software rendering)");
 }
 
-/// Mesa's display without a surface; where there is no Mesa, as beside a maker's own driver, the
-/// first graphics card that starts. Displays are shared by all contexts of the process and never
-/// terminated: another context may still live on them.
-EGLDisplay StartedDisplay() {
-  const auto starts = [](EGLDisplay display) {
-    return display != EGL_NO_DISPLAY && eglInitialize(display, nullptr, nullptr) == EGL_TRUE;
-  };
-  const EGLDisplay surfaceless =
-      eglGetPlatformDisplay(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
-  if (starts(surfaceless)) {
-    return surfaceless;
-  }
-  const auto query_devices =
-      reinterpret_cast<PFNEGLQUERYDEVICESEXTPROC>(eglGetProcAddress("eglQueryDevicesEXT"));
-  std::array<EGLDeviceEXT, 16> devices{};
-  EGLint count = 0;
-  if (query_devices == nullptr ||
-      query_devices(static_cast<EGLint>(devices.size()), devices.data(), &count) == EGL_FALSE) {
-    return EGL_NO_DISPLAY;
-  }
-  for (EGLint i = 0; i < count; ++i) {
-    const EGLDisplay display = eglGetPlatformDisplay(EGL_PLATFORM_DEVICE_EXT,
-                                                     devices[static_cast<std::size_t>(i)], nullptr);
-    if (starts(display)) {
-      return display;
-    }
-  }
-  return EGL_NO_DISPLAY;
-}
-
 }  // namespace
 
 Result<std::unique_ptr<EglContext>> EglContext::Open() {
-  const EGLDisplay display = StartedDisplay();
+  EGLDisplay display =
+      eglGetPlatformDisplay(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
   if (display == EGL_NO_DISPLAY) {
-    return NoOpenGl("EGL has no display that needs no screen");
+    return NoOpenGl("EGL has no surfaceless platform");
+  }
+  // The display is shared by all contexts of the process and never terminated: another context may
+  // still live on it.
+  if (eglInitialize(display, nullptr, nullptr) == EGL_FALSE) {
+    return NoOpenGl("EGL does not start");
   }
   if (eglBindAPI(EGL_OPENGL_API) == EGL_FALSE) {
     return NoOpenGl("EGL offers no desktop OpenGL");

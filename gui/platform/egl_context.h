@@ -1,4 +1,4 @@
-// EglContext: an OpenGL 3.3 core context without any window or screen (EGL).
+// EglContext: an OpenGL 3.3 core context without any window or display (EGL surfaceless).
 #pragma once
 
 #include <memory>
