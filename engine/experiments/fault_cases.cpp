@@ -66,10 +66,14 @@ std::vector<FaultCase> AttitudeCases() {
                             {"attitude shifted by -0.3 s", -0.3},
                             {"attitude shifted by 0.3 s", 0.3},
                             {"attitude shifted by 0.5 s", 0.5}}) {
-    // Stamped long ago they are old; stamped ahead of the vehicle's clock they are refused.
-    const std::vector<A> cause = shift.s <= -kOld_s    ? std::vector<A>{A::kImageTime, A::kPose}
-                                 : shift.s >= kAhead_s ? std::vector<A>{A::kStampsRefused, A::kPose}
-                                                       : std::vector<A>{A::kImageTime};
+    // Stamped long ago they are old, too; stamped ahead of the vehicle's clock they are refused.
+    std::vector<A> cause = {A::kImageTime};
+    if (shift.s <= -kOld_s || shift.s >= kAhead_s) {
+      cause.push_back(A::kPose);
+    }
+    if (shift.s >= kAhead_s) {
+      cause.push_back(A::kStampsRefused);
+    }
     cases.push_back({shift.name, "F06", {{K::kAttitudeShifted, {}, shift.s}}, cause, 2});
   }
   return cases;
@@ -122,7 +126,9 @@ std::vector<FaultCase> LinkCases() {
       {"1 % of messages lost", "F21", {{K::kLost, {}, 1}}, {}, 5, false, lands, false, true},
       {"10 % of messages lost", "F21", {{K::kLost, {}, 10}}, of_loss, 5, false, either},
       {"30 % of messages lost", "F21", {{K::kLost, {}, 30}}, of_loss, 5, false, either},
-      {"50 % of messages lost", "F21", {{K::kLost, {}, 50}}, of_loss, 5, true, either},
+      // The limit is 50 %: half may or may not be beyond it.
+      {"50 % of messages lost", "F21", {{K::kLost, {}, 50}}, of_loss, 5, false, either},
+      {"60 % of messages lost", "F21", {{K::kLost, {}, 60}}, of_loss, 5, true, either},
       {"5 % of messages corrupted",
        "F25",
        {{K::kCorrupted, {}, 5}},

@@ -283,8 +283,12 @@ std::vector<std::string> Shortfalls(const FaultCase& fault, FaultPhase phase,
   } else if (named->after_s > fault.within_s + 0.05) {
     falls.push_back("named late");
   }
+  // That laser and map disagree says: check the cameras.
+  const auto blames_cameras = [&](const RaisedAlarm& alarm) {
+    return fault.of_cameras && alarm.id == AlarmId::kHeightMismatch;
+  };
   for (const RaisedAlarm& alarm : outcome.raised) {
-    if (!names(alarm) && !IsConsequence(alarm.id) && !fault.garbled) {
+    if (!names(alarm) && !IsConsequence(alarm.id) && !blames_cameras(alarm) && !fault.garbled) {
       falls.push_back(std::string("wrong cause: ") + AlarmName(alarm.id));
     }
   }

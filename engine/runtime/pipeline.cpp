@@ -31,7 +31,7 @@ void Pipeline::StartAfterJump(Timestamp now) {
   frame_moves_ = 0;
   laser_watch_.Reset();
   image_time_.Reset();
-  beam_depth_m_ = NAN;
+  beam_ground_m_ = NAN;
   channels_.Reset();
   if (FollowsRecord(role_)) {
     role_ = SessionRole::kReplayedAfterJump;

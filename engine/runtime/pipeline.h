@@ -144,7 +144,7 @@ class Pipeline {
   ChannelMonitor channels_;
   FlightHistory history_;
   std::optional<double> laser_height_m_;  // of the laser's spot in W
-  double beam_depth_m_ = NAN;             // by stereo, along the laser's beam; of the newest map
+  double beam_ground_m_ = NAN;            // height where the laser's beam meets what stereo saw last
   std::uint64_t stereo_frames_ = 0;
   std::uint64_t sequence_ = 0;
   std::shared_ptr<const FrameBundle> last_bundle_;

@@ -28,14 +28,20 @@ void Pipeline::WatchMotion(Pass& pass) {
     laser_watch_.AddRange(range, BeamAt(range.time));
   }
   laser_watch_.Update(pass.bundle->time);
+  // Too near for stereo the depth is still known, by the ground that it saw last.
+  const BeamPose beam = BeamAt(pass.bundle->time);
   image_time_.AddPoses(pass.bundle->poses, rectifier_->camera(), rectifier_->X_BC(*rig_),
-                       beam_depth_m_);
+                       (beam.camera_height_m - beam_ground_m_) / beam.beam_down);
 }
 
 void Pipeline::WatchLaserSpot(const RangeMap& range) {
   const std::optional<double> depth_m = DepthAtSpot(range, BeamDirection());
-  beam_depth_m_ = depth_m ? *depth_m / BeamDirection().z() : NAN;
-  laser_watch_.AddStereo(range.time, beam_depth_m_, BeamAt(range.time));
+  const double along_beam_m = depth_m ? *depth_m / BeamDirection().z() : NAN;
+  const BeamPose beam = BeamAt(range.time);
+  laser_watch_.AddStereo(range.time, along_beam_m, beam);
+  if (depth_m) {
+    beam_ground_m_ = beam.camera_height_m - along_beam_m * beam.beam_down;
+  }
 }
 
 std::optional<Eigen::Vector3d> Pipeline::LaserSpot(const EngineSnapshot& snapshot) const {
