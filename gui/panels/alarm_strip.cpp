@@ -204,7 +204,13 @@ void DrawAlarmStripPanel(const EngineSnapshot& snap, const Rect& rect, FrameStat
   const char* none =
       alarms.front()->level == AlarmLevel::kAdvisory && state.shelved.empty() ? "No cautions" : "";
   float right = DrawShelf(state, rect.right(), y, ui);
+  const float count_right = right;
   right = DrawRest(rest, none, right, y, ui);
+  if (!rest.empty() && Interact(ui, "alarm_count", {right, rect.y, count_right - right, rect.h},
+                                kNoTab, std::to_string(alarms.size()) + " alarms")
+                           .clicked) {
+    state.history_open = !state.history_open;
+  }
   const bool of_record = FollowsRecord(snap.session->role);
   right = of_record ? right : DrawAnswers(alarms, state, right, y, ui);
   const bool cut = DrawFirst(*alarms.front(), of_record, rect, right, ui);

@@ -13,9 +13,17 @@ namespace palace {
 
 namespace {
 
-constexpr double kAnswered_s = 2;  // the engine answers within a frame, or refuses
+constexpr double kAnswered_s = 2;     // the engine answers within a frame, or refuses
+constexpr double kScreenOld_s = 0.5;  // what is approved must be what is seen
 
-HoldButtonView ButtonOf(const EngineSnapshot& snap, const ApproveState& state, double now_s) {
+/// Empty unless the figures on the screen are older than those that the checks passed on.
+std::string WhyScreenOld(double silent_s) {
+  return silent_s > kScreenOld_s
+             ? "Screen " + AgeText(silent_s) + " behind, limit " + Fixed(kScreenOld_s, 1) + " s"
+             : std::string();
+}
+
+HoldButtonView ButtonOf(const EngineSnapshot& snap, const ApproveState& state, const UiFrame& ui) {
   const MissionStatus& m = snap.flight->mission;
   HoldButtonView view;
   view.subject = m.armed ? m.armed->id : 0;
@@ -39,7 +47,8 @@ HoldButtonView ButtonOf(const EngineSnapshot& snap, const ApproveState& state, d
   } else if (m.approval_phase == Phase::kRefused) {
     view.phase = HoldPhase::kRefused;
     view.reason = m.approval_answer;
-  } else if (m.armed && state.asked_site == m.armed->id && now_s - state.asked_at_s < kAnswered_s) {
+  } else if (m.armed && state.asked_site == m.armed->id &&
+             ui.ui_time_s - state.asked_at_s < kAnswered_s) {
     view.phase = HoldPhase::kRequested;
     view.label = "Approving " + letter;
     view.reason = "Held in full, let go";
@@ -51,6 +60,9 @@ HoldButtonView ButtonOf(const EngineSnapshot& snap, const ApproveState& state, d
     view.reason = m.cannot_approve_reason.empty()
                       ? (m.armed ? std::string("A check fails") : "Select a site first")
                       : m.cannot_approve_reason;
+  } else if (const std::string why = WhyScreenOld(ui.silent_s); !why.empty()) {
+    view.phase = HoldPhase::kBlocked;
+    view.reason = why;
   }
   return view;
 }
@@ -331,7 +343,7 @@ void DrawButtons(const EngineSnapshot& snap, const Rect& rect, bool narrow, Appr
   } else {
     DrawRefuseButton(snap, left, narrow, ui);
   }
-  const HoldButtonView view = ButtonOf(snap, state, ui.ui_time_s);
+  const HoldButtonView view = ButtonOf(snap, state, ui);
   if (DrawHoldButton(ui, "approve", hold, view, state.hold)) {
     state.asked_site = view.subject;
     state.asked_at_s = ui.ui_time_s;

@@ -1,6 +1,7 @@
 #include "gui/panels/arrival.h"
 
 #include "engine/model/channel_age.h"
+#include "engine/model/mission/wave_off_offer.h"
 #include "gui/widgets/number_text.h"
 
 namespace palace {
@@ -12,6 +13,10 @@ Arrival ArrivalOf(const EngineSnapshot& snap, ChannelId channel, double silent_s
   }
   const ChannelHealth now = After(*health, silent_s);
   return {AgeText(now.age_s), Fixed(now.rate_hz, 1) + " Hz", now.age_s, now.state};
+}
+
+std::string Heard(const std::string& words, double age_s) {
+  return age_s > kLinkSilent_s ? words + ", heard " + AgeText(age_s) + " ago" : words;
 }
 
 void DrawStale(UiFrame& ui, const Rect& image, const Arrival& arrival) {

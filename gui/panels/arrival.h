@@ -19,6 +19,8 @@ struct Arrival {
 };
 Arrival ArrivalOf(const EngineSnapshot& snap, ChannelId channel, double silent_s);
 
+/// "climbing"; "climbing, heard 2.5 s ago" of a vehicle whose word is older than the link may be.
+std::string Heard(const std::string& words, double age_s);
 /// Veils what is stale, "1.8 s old" at the top right.
 void DrawStale(UiFrame& ui, const Rect& image, const Arrival& arrival);
 /// "Laser 21.2 m"; empty while no fresh range is known.

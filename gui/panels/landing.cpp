@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gui/panels/arrival.h"
 #include "gui/panels/fly_panels.h"
 #include "gui/panels/session_words.h"
 #include "gui/widgets/button.h"
@@ -16,14 +17,14 @@ constexpr float kStopShare = 0.28f;  // of the width; the rest is where approve 
 /// With the age of the word that it rests on: a vehicle that falls silent goes on being quoted.
 std::string WaveOffHeadline(const WaveOffReport& report, double silent_s) {
   using Phase = WaveOffReport::Phase;
-  const std::string ago = " " + AgeText(report.age_s + silent_s) + " ago";
+  const double age_s = report.age_s + silent_s;
   switch (report.phase) {
     case Phase::kDone:
-      return "Waved off, hovering" + ago;
+      return Heard("Waved off, hovering", age_s);
     case Phase::kClimbs:
-      return "Waved off, climbing" + ago;
+      return Heard("Waved off, climbing", age_s);
     case Phase::kAccepted:
-      return "Wave-off: accepted" + ago;
+      return "Wave-off: accepted " + AgeText(age_s) + " ago";
     case Phase::kUnanswered:
       return "Wave-off: no answer";
     default:

@@ -25,20 +25,20 @@ std::string SecondLine(const EngineSnapshot& snap, const FrameState& state, cons
   if (const std::string why = WhyNoWaveOff(snap, ui.silent_s); !why.empty()) {
     return why;
   }
-  const std::string ago = AgeText(m.wave_off.age_s + ui.silent_s) + " ago";
+  const double age_s = m.wave_off.age_s + ui.silent_s;
   switch (m.wave_off.phase) {
     case Phase::kNone:
       break;
     case Phase::kSent:
       return "Sent";
     case Phase::kUnanswered:
-      return "No answer, " + AgeText(m.wave_off.age_s + ui.silent_s);
+      return "No answer, " + AgeText(age_s);
     case Phase::kAccepted:
-      return "Accepted " + ago;
+      return "Accepted " + AgeText(age_s) + " ago";
     case Phase::kClimbs:
-      return "Climbing " + ago;
+      return Heard("Climbing", age_s);
     case Phase::kDone:
-      return "Hovering " + ago;
+      return Heard("Hovering", age_s);
   }
   if (JustPressed(state, ui.ui_time_s)) {
     return "Sent";

@@ -8,12 +8,35 @@
 
 namespace palace {
 
+namespace {
+
+/// Its age where that matters; empty of what is fresh.
+std::string NoteOf(const Readout& r) {
+  switch (r.state) {
+    case Readout::State::kFresh:
+      return {};
+    case Readout::State::kNever:
+      return "never";
+    case Readout::State::kStale:
+      return Fixed(r.age_s, 1) + " s old";
+    default:
+      return Fixed(r.age_s, r.age_s < 1 ? 2 : 1) + " s";
+  }
+}
+
+}  // namespace
+
 void DrawReadout(UiFrame& ui, const Rect& cell, const Readout& r) {
   const Style& s = ui.style;
   const Palette& p = s.palette;
   const bool never = r.state == Readout::State::kNever;
   const bool stale = r.state == Readout::State::kStale;
-  DrawText(ui, s.caption, p.text2, cell.x, cell.y + s.Px(8), FitWords(s.caption, r.label, cell.w));
+  const std::string note = NoteOf(r);
+  // Without a line of its own the note stands behind the label.
+  const bool beside = cell.h < s.Px(60);
+  const float note_w = beside && !note.empty() ? TextWidth(s.caption, note) + s.Px(22) : 0;
+  const float label_y = cell.y + s.Px(8);
+  DrawText(ui, s.caption, p.text2, cell.x, label_y, FitWords(s.caption, r.label, cell.w - note_w));
   const std::string value = never ? "––" : r.value;
   const float value_y = cell.y + s.Px(31);
   std::string_view unit = r.unit;
@@ -33,19 +56,11 @@ void DrawReadout(UiFrame& ui, const Rect& cell, const Readout& r) {
     FillRect(Canvas(), veil, WithAlpha(p.panel, 0.22f));
     Hatch(Canvas(), veil, WithAlpha(p.text3, 0.5f), s.Fine(1), s.Px(10));
   }
-  Icon icon = Icon::kStale;
-  ImU32 colour = p.caution;
-  std::string note = Fixed(r.age_s, r.age_s < 1 ? 2 : 1) + " s";
-  if (never) {
-    icon = Icon::kOff;
-    colour = p.text2;
-    note = "never";
-  } else if (stale) {
-    note = Fixed(r.age_s, 1) + " s old";
-  }
-  const float note_y = cell.y + s.Px(52);
-  DrawIcon(Canvas(), icon, {cell.x + s.Px(6), note_y}, s.Px(12), colour);
-  DrawText(ui, s.caption, p.text1, cell.x + s.Px(18), note_y, note);
+  const float note_x = beside ? cell.right() - s.Px(4) - note_w : cell.x;
+  const float note_y = beside ? label_y : cell.y + s.Px(52);
+  DrawIcon(Canvas(), never ? Icon::kOff : Icon::kStale, {note_x + s.Px(6), note_y}, s.Px(12),
+           never ? p.text2 : p.caution);
+  DrawText(ui, s.caption, p.text1, note_x + s.Px(18), note_y, note);
 }
 
 }  // namespace palace

@@ -21,8 +21,8 @@ TEST(WaveOffPanel, TellsWhatTheVehicleSaidAfterThePressAndItsAge) {
       {{Phase::kSent, 0.4}, "Sent", false},
       {{Phase::kUnanswered, 37}, "No answer, 37.0 s", false},
       {{Phase::kAccepted, 0.2}, "Accepted 200 ms ago", false},
-      {{Phase::kClimbs, 0.3}, "Climbing 0.3 s ago", false},
-      {{Phase::kDone, 0.3, true}, "Hovering 0.3 s ago", true},
+      {{Phase::kClimbs, 0.3}, "Climbing", false},
+      {{Phase::kDone, 0.3, true}, "Hovering", true},
   };
   for (const auto& row : table) {
     for (const ImVec2 size : {ImVec2(1920, 1080), ImVec2(1280, 720)}) {

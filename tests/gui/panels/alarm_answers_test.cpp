@@ -28,6 +28,13 @@ TEST(AlarmStrip, TheWarningThatBlocksApproveCanBeAnsweredWhereverItStands) {
   }
 }
 
+TEST(AlarmStrip, TheCountOfTheOthersOpensTheListToo) {
+  FlyWindow window(1280, 720, WarningBehindAnAdvisory());
+  EXPECT_FALSE(window.bar.history_open);
+  window.ui.Click("alarm_count", window.draw);
+  EXPECT_TRUE(window.bar.history_open);
+}
+
 TEST(AlarmList, TellsEachAlarmInFullAndAnswersItThere) {
   for (const ImVec2 size : {ImVec2(1920, 1080), ImVec2(1280, 720)}) {
     EngineSnapshot snap = WarningBehindAnAdvisory();

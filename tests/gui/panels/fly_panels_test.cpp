@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/gui/panels/fly_window.h"
+#include "tests/gui/panels/panel_checks.h"
 
 namespace palace {
 namespace {
@@ -109,6 +110,21 @@ TEST(FlyApprove, NeverFiresWhenBlockedUnarmedPreviewingOrInReplay) {
   }
 }
 
+TEST(FlyApprove, IsBlockedWhileTheScreenIsBehindTheEngine) {
+  for (const double silent_s : {0.4, 0.6}) {
+    FlyWindow window(1280, 720, fake::Snapshot(MissionState::kArmed));
+    window.silent_s = silent_s;
+    window.Run(0.05);
+    window.ui.MoveTo("approve");
+    window.ui.Button(true);
+    window.Run(1.3);
+    const bool behind = silent_s > 0.5;
+    EXPECT_EQ(window.ui.CountCommands<ApproveSite>(), behind ? 0 : 1) << silent_s;
+    EXPECT_EQ(HasText(window.ui.items, "Screen 0.6 s behind, limit 0.5 s"), behind)
+        << window.ui.items.Find("approve")->text;
+  }
+}
+
 TEST(FlyFrame, WaveOffFiresOnPressAlsoUnderAPopupButNotInReplay) {
   FlyWindow live(1280, 720, fake::Snapshot(MissionState::kDescending));
   live.ui.popup = true;
@@ -152,25 +168,6 @@ TEST(FlyMaps, DraggingTheLimitTickSetsTheLimitOnceItIsAnswered) {
   window.ui.Click("tick_set", window.draw);
   EXPECT_EQ(window.ui.LastCommand<SetSetting>().name, "slad.max_slope_deg");
   EXPECT_NEAR(window.ui.LastCommand<SetSetting>().value, 8.0, 0.11);
-}
-
-bool Inside(const Rect& inner, const Rect& outer) {
-  return inner.x >= outer.x - 1 && inner.right() <= outer.right() + 1 && inner.y >= outer.y - 3 &&
-         inner.bottom() <= outer.bottom() + 3;
-}
-/// Letters and digits fill the middle of the line box only.
-Rect Ink(const Rect& box) { return {box.x, box.y + box.h * 0.2f, box.w, box.h * 0.6f}; }
-bool Touch(const Rect& a, const Rect& b) {
-  return a.x < b.right() && b.x < a.right() && a.y < b.bottom() && b.y < a.bottom();
-}
-
-bool HasText(const ItemRecord& items, const std::string& start) {
-  for (const Item& item : items.items()) {
-    if (item.name == "text" && item.text.rfind(start, 0) == 0) {
-      return true;
-    }
-  }
-  return false;
 }
 
 TEST(FlyApprove, RefuseNamesTheNextSiteThatIsNotRefused) {
@@ -287,37 +284,16 @@ struct TextCase {
   float width, height, scale;
   MissionState state;
   SourceKind kind;
+  double silent_s = 0;
 };
 class FlyText : public testing::TestWithParam<TextCase> {};
 
 TEST_P(FlyText, StaysInItsPanelAndTouchesNoOther) {
   const TextCase& c = GetParam();
   FlyWindow window(c.width, c.height, fake::Snapshot(c.state, c.kind), c.scale);
+  window.silent_s = c.silent_s;
   window.Run(0.05);
-  std::vector<Item> texts;
-  std::vector<Item> panels;
-  for (const Item& item : window.ui.items.items()) {
-    if (item.name == "text") {
-      texts.push_back(item);
-    } else if (item.name.rfind("panel/", 0) == 0) {
-      panels.push_back(item);
-    }
-  }
-  ASSERT_GT(texts.size(), 60u);
-  for (std::size_t i = 0; i < texts.size(); ++i) {
-    const Rect& box = texts[i].rect;
-    bool held = false;
-    for (const Item& panel : panels) {
-      held = held || (panel.rect.Contains(box.centre()) && Inside(Ink(box), panel.rect));
-    }
-    EXPECT_TRUE(held) << "\"" << texts[i].text << "\" leaves its panel at " << box.x << "," << box.y
-                      << " w " << box.w;
-    for (std::size_t j = 0; j < i; ++j) {
-      EXPECT_FALSE(Touch(Ink(box), Ink(texts[j].rect)))
-          << "\"" << texts[i].text << "\" touches \"" << texts[j].text << "\" at " << box.x << ","
-          << box.y;
-    }
-  }
+  ExpectTextsInPanels(window.ui.items);
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -330,6 +306,7 @@ INSTANTIATE_TEST_SUITE_P(
         TextCase{"proposedReplay", 1280, 720, 1, MissionState::kProposed, SourceKind::kReplay},
         TextCase{"descent1920", 1920, 1080, 1, MissionState::kDescending, SourceKind::kSimulation},
         TextCase{"descent1280", 1280, 720, 1, MissionState::kDescending, SourceKind::kSimulation},
+        TextCase{"silent1280", 1280, 720, 1, MissionState::kArmed, SourceKind::kLive, 12.3},
         TextCase{"landed1920", 1920, 1080, 1, MissionState::kLanded, SourceKind::kSimulation},
         TextCase{"aborting1920", 1920, 1080, 1, MissionState::kAborting, SourceKind::kLive}),
     [](const auto& test) { return std::string(test.param.name); });

@@ -19,6 +19,7 @@ struct FlyWindow {
       *id = &ui;  // any non-null name: nothing is rendered
     }
     draw = [this](UiFrame& frame) {
+      frame.silent_s = silent_s;
       const FlyLayout layout =
           ComputeFlyLayout(static_cast<double>(size.x), static_cast<double>(size.y),
                            static_cast<double>(scale_), ShowsDescent(snap));
@@ -38,6 +39,7 @@ struct FlyWindow {
   EngineSnapshot snap;
   ImVec2 size;
   float scale_;
+  double silent_s = 0;  ///< the engine published nothing for so long
   FrameState bar;
   FlyState fly;
   std::function<void(UiFrame&)> draw;

@@ -65,11 +65,7 @@ TEST(WaveOffPanel, IsOfferedAgainWhenTheWordOfTheGroundIsOld) {
   snap.flight.Edit().mission.why_no_wave_off = "Vehicle on the ground";
   FlyWindow window(1920, 1080, snap);
   EXPECT_FALSE(window.ui.items.Find("wave_off")->enabled);
-  const auto drawn = window.draw;
-  window.draw = [&](UiFrame& frame) {  // the engine publishes nothing more
-    frame.silent_s = 1.5;
-    drawn(frame);
-  };
+  window.silent_s = 1.5;  // the engine publishes nothing more
   window.ui.Frame(window.draw);
   EXPECT_TRUE(window.ui.items.Find("wave_off")->enabled);
   window.ui.Click("wave_off", window.draw);
@@ -80,8 +76,9 @@ TEST(Landing, AWaveOffIsToldWithTheAgeOfTheVehiclesWord) {
   const struct {
     WaveOffReport report;
     const char* headline;
-  } table[] = {{{WaveOffReport::Phase::kDone, 37, false}, "Waved off, hovering 37.0 s ago"},
-               {{WaveOffReport::Phase::kClimbs, 2.5, false}, "Waved off, climbing 2.5 s ago"}};
+  } table[] = {
+      {{WaveOffReport::Phase::kDone, 37, false}, "Waved off, hovering, heard 37.0 s ago"},
+      {{WaveOffReport::Phase::kClimbs, 2.5, false}, "Waved off, climbing, heard 2.5 s ago"}};
   for (const auto& row : table) {
     for (const ImVec2 size : {ImVec2(1920, 1080), ImVec2(1280, 720)}) {
       SCOPED_TRACE(row.headline);
