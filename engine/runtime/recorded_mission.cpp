@@ -104,6 +104,7 @@ MissionStatus RecordedMission::StatusAt(Timestamp time, const MissionStatus& wat
   status.time_to_touchdown_s = sample->state == MissionState::kLanded ? 0 : NAN;
   status.confirm_height_m = watched.confirm_height_m;
   status.cannot_approve_reason = WhyNoVehicle(SourceKind::kReplay);
+  status.alarms_in_record = sample->alarms;
   std::copy_if(watched.alarms.begin(), watched.alarms.end(), std::back_inserter(status.alarms),
                [](const Alarm& alarm) {
                  return !AlarmTable()[static_cast<std::size_t>(alarm.kind)].of_mission;

@@ -192,7 +192,12 @@ void DrawAlarmStripPanel(const EngineSnapshot& snap, const Rect& rect, FrameStat
   const float y = rect.centre().y;
   if (quiet) {
     const bool shelved = !state.shelved.empty();
-    const char* words = shelved ? "No alarm but what is shelved" : "No alarms";
+    const int stood = snap.flight->mission.alarms_in_record;
+    const std::string words = shelved ? "No alarm but what is shelved"
+                              : stood > 0
+                                  ? "In the flight: " + std::to_string(stood) +
+                                        (stood == 1 ? " alarm" : " alarms") + ", told in its events"
+                                  : "No alarms";
     DrawShelf(state, rect.right(), y, ui);
     DrawIcon(Canvas(), shelved ? Icon::kOff : Icon::kNormal, {rect.x + s.Px(25), y}, s.Px(14),
              p.text3);

@@ -88,6 +88,7 @@ TEST(RecordedMission, TellsTheRecordAndNothingOfAMissionThatWasNotSeen) {
   record->samples = {
       At(1'000'000, MissionState::kProposed, -1), At(2'000'000, MissionState::kDescending, 0),
       At(3'000'000, MissionState::kDescending, 0), At(4'000'000, MissionState::kLanded, 0)};
+  record->samples[2].alarms = 2;
   RecordedMission mission;
   MissionStatus watched;
   watched.state = MissionState::kProposed;
@@ -116,6 +117,7 @@ TEST(RecordedMission, TellsTheRecordAndNothingOfAMissionThatWasNotSeen) {
   EXPECT_EQ(status.cannot_approve_reason, WhyNoVehicle(SourceKind::kReplay));
   EXPECT_FALSE(status.approval.has_value());
   EXPECT_TRUE(status.rechecks.empty() && status.guards.empty());
+  EXPECT_EQ(status.alarms_in_record, 2);
   ASSERT_EQ(status.alarms.size(), 1U);
   EXPECT_EQ(status.alarms[0].kind, AlarmId::kRowError);
   ASSERT_EQ(status.limits.size(), 1U);

@@ -21,7 +21,7 @@ namespace {
 
 constexpr double kAllowed_MBph = 1;
 constexpr double kShortGrowth_MB = 16;  ///< of ten seconds, while buffers fill
-constexpr double kSettles_s = 120;      ///< buffers and caches fill
+constexpr double kSettles_s = 660;      ///< the plots keep ten minutes
 
 bool Full() { return std::getenv("PALACE_FULL_SOAK") != nullptr; }
 

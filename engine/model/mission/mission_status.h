@@ -170,6 +170,7 @@ struct MissionStatus {
   double approval_answer_s = 0;  ///< time the vehicle took to answer; while SENT, waits so far
   std::vector<SiteRecheck> rechecks;
   std::vector<Alarm> alarms;       ///< those that stand first; among them, worst first
+  int alarms_in_record = 0;        ///< that stood now in the recorded flight, judged again or not
   double height_above_site_m = 0;  ///< skid above the site; NaN when no site
   double distance_to_site_m = 0;   ///< horizontal; NaN when no site
   double time_to_touchdown_s = 0;  ///< NaN when unknown

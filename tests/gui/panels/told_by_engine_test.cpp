@@ -176,6 +176,8 @@ TEST(AlarmShelf, HoldsTheAlarmThatStoodAndNoOther) {
     EXPECT_EQ(cleared.Strip(), alarm.text);
     cleared.snap.flight.Edit().mission.alarms.clear();
     EXPECT_EQ(cleared.Strip(), "No alarms");
+    cleared.snap.flight.Edit().mission.alarms_in_record = 2;  // not judged again
+    EXPECT_EQ(cleared.Strip(), "In the flight: 2 alarms, told in its events");
     cleared.snap.flight.Edit().mission.alarms = {alarm};
     EXPECT_EQ(cleared.Strip(), alarm.text);
   }
