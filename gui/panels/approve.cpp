@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "engine/core/units.h"
+#include "engine/model/mission/approve_offer.h"
 #include "engine/model/site_standing.h"
 #include "gui/panels/fly_panels.h"
 #include "gui/panels/session_words.h"
@@ -13,15 +14,7 @@ namespace palace {
 
 namespace {
 
-constexpr double kAnswered_s = 2;     // the engine answers within a frame, or refuses
-constexpr double kScreenOld_s = 0.5;  // what is approved must be what is seen
-
-/// Empty unless the figures on the screen are older than those that the checks passed on.
-std::string WhyScreenOld(double silent_s) {
-  return silent_s > kScreenOld_s
-             ? "Screen " + AgeText(silent_s) + " behind, limit " + Fixed(kScreenOld_s, 1) + " s"
-             : std::string();
-}
+constexpr double kAnswered_s = 2;  // the engine answers within a frame, or refuses
 
 HoldButtonView ButtonOf(const EngineSnapshot& snap, const ApproveState& state, const UiFrame& ui) {
   const MissionStatus& m = snap.flight->mission;

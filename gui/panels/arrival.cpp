@@ -16,7 +16,7 @@ Arrival ArrivalOf(const EngineSnapshot& snap, ChannelId channel, double silent_s
 }
 
 std::string Heard(const std::string& words, double age_s) {
-  return age_s > kLinkSilent_s ? words + ", heard " + AgeText(age_s) + " ago" : words;
+  return IsWordOld(age_s) ? words + ", heard " + AgeText(age_s) + " ago" : words;
 }
 
 void DrawStale(UiFrame& ui, const Rect& image, const Arrival& arrival) {

@@ -1,0 +1,16 @@
+#include "engine/model/mission/approve_offer.h"
+
+#include <cstdio>
+
+namespace palace {
+
+std::string WhyScreenOld(double silent_s) {
+  if (silent_s <= kScreenOld_s) {
+    return {};
+  }
+  char text[64];
+  std::snprintf(text, sizeof text, "Screen %.1f s behind, limit %.1f s", silent_s, kScreenOld_s);
+  return text;
+}
+
+}  // namespace palace
