@@ -1,4 +1,6 @@
 // The real window under Xvfb, flown with a real mouse and real keys.
+#include <signal.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -28,16 +30,27 @@ class RealWindow : public Scenario {
     ASSERT_NE(server_->display(), "") << server_->Complaint();
     ProcessOptions station = Palace({"--record", "rec", "--width", std::to_string(kWidth),
                                      "--height", std::to_string(kHeight), "--ui-scale", "1"});
-    station.environment = {{"DISPLAY", server_->display()}};
+    station.environment = Environment();
+    station.environment.push_back({"DISPLAY", server_->display()});
     station_ = std::make_unique<Process>(station);
-    ASSERT_TRUE(Until(30, [&] {
-      window_ = Tool({"search", "--onlyvisible", "--name", "PALACE"});
-      return !window_.empty();
-    })) << station_->Err();
+    ASSERT_TRUE(FindWindow()) << station_->Err();
+  }
+  /// Of the station, beside the display.
+  virtual decltype(ProcessOptions::environment) Environment() const { return {}; }
+
+  bool FindWindow() {
+    window_.clear();
+    if (!Until(30, [&] {
+          window_ = Tool({"search", "--onlyvisible", "--name", "PALACE"});
+          return !window_.empty();
+        })) {
+      return false;
+    }
     window_ = window_.substr(0, window_.find('\n'));
     // No window manager runs here: the window is told where it is and that it has the focus.
     Tool({"windowmove", window_, "0", "0"});
     Tool({"windowfocus", window_});
+    return true;
   }
 
   template <typename Condition>
@@ -235,6 +248,50 @@ TEST_F(RealWindow, FliesUntilTheWaveOff) {
   EXPECT_EQ(wave_offs, 1);
   // It was decided on one thread and recorded on another; read back on a third it is the same.
   EXPECT_EQ(Divergences(flights[0] / "flight.lcm"), 0);
+}
+
+class LostGraphics : public RealWindow {
+ protected:
+  decltype(ProcessOptions::environment) Environment() const override {
+    return {{"LD_PRELOAD", GRAPHICS_RESET_LIBRARY}, {"PALACE_TEST_GRAPHICS_LOST", Lost().string()}};
+  }
+  std::filesystem::path Lost() const { return folder_ / "lost"; }
+  /// How often the station said that its window stopped.
+  int Stops() const {
+    const std::string said = station_->Err();
+    int count = 0;
+    for (auto at = said.find(kStopped); at != std::string::npos; at = said.find(kStopped, at + 1)) {
+      ++count;
+    }
+    return count;
+  }
+  static constexpr const char* kStopped = "Window stopped: the graphics were reset";
+};
+
+TEST_F(LostGraphics, TheWaveOffKeyIsObeyedAndTheWindowComesBack) {
+  ASSERT_TRUE(Reaches({MissionState::kProposed}, 60)) << Now() << station_->Err();
+  WriteFile("lost", "");
+  // Opened anew at once, lost again, and then nothing is drawn for five seconds.
+  ASSERT_TRUE(Until(20, [&] { return Stops() == 2; })) << station_->Err();
+  ASSERT_TRUE(FindWindow());
+  Key("shift+Escape");
+  ASSERT_TRUE(Reaches({MissionState::kAborting}, 4)) << Now();
+  EXPECT_EQ(Stops(), 2) << "it was to be pressed while nothing is drawn";
+  std::filesystem::remove(Lost());
+  Sleep(6);
+  ASSERT_TRUE(FindWindow());
+  EXPECT_EQ(Photograph().cols, kWidth) << station_->Err();
+  EXPECT_EQ(Stops(), 2);
+  station_->Signal(SIGTERM);
+  EXPECT_EQ(station_->Wait(20).exit_code, 128 + SIGTERM);
+  const auto source = OpenLog(FlightsIn(folder_ / "rec").at(0) / "flight.lcm");
+  int wave_offs = 0;
+  for (auto bundle = source->Next({}); bundle; bundle = source->Next({})) {
+    for (const EngineCommand& command : (*bundle)->recorded_commands) {
+      wave_offs += std::holds_alternative<WaveOff>(command.action) ? 1 : 0;
+    }
+  }
+  EXPECT_EQ(wave_offs, 1);
 }
 
 }  // namespace
