@@ -25,12 +25,13 @@ void AddEvaluateCommand(CLI::App& app, int& exit_code, SceneCameraFactory camera
       "written; those of a shard are not, only whole ones can be merged. Exit "
       "128 + signal");
   evaluate->require_subcommand(1);
-  AddExperiments(*evaluate,
-                 {LandingExperiment(camera), FaultsExperiment(std::move(camera)),
-                  StereoAccuracyExperiment(), StereoCostExperiment(), CalibrationExperiment(),
-                  ProbabilityExperiment(), SiteFlagsExperiment(), SiteLidarExperiment(),
-                  SiteRangeExperiment(), SiteShapesExperiment(), SiteViewsExperiment()},
-                 exit_code);
+  AddExperiments(
+      *evaluate,
+      {LandingExperiment(camera), FaultsExperiment(camera), ImageTimeExperiment(std::move(camera)),
+       StereoAccuracyExperiment(), StereoCostExperiment(), CalibrationExperiment(),
+       ProbabilityExperiment(), SiteFlagsExperiment(), SiteLidarExperiment(), SiteRangeExperiment(),
+       SiteShapesExperiment(), SiteViewsExperiment()},
+      exit_code);
 }
 
 }  // namespace palace

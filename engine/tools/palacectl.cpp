@@ -55,15 +55,14 @@ std::string MistakeText(const CLI::App& app, const CLI::ParseError& error) {
   if (!names_a_lack || unknown.empty()) {
     return error.what() + (names_a_lack && !verbs.empty() ? ": choose one of " + verbs : "") + help;
   }
-  const auto option = std::find_if(unknown.begin(), unknown.end(), [](const std::string& word) {
-    return word.size() > 1 && word[0] == '-';
-  });
-  if (option != unknown.end()) {
-    return name + " has no option " + *option + help;
-  }
-  if (!verbs.empty()) {
+  const auto is_option = [](const std::string& word) { return word.size() > 1 && word[0] == '-'; };
+  if (!verbs.empty() && !is_option(unknown.front())) {  // its options are unknown with it
     return (&verb == &app ? "" : name + ": ") + "there is no command '" + unknown.front() +
            "'; choose one of " + verbs;
+  }
+  const auto option = std::find_if(unknown.begin(), unknown.end(), is_option);
+  if (option != unknown.end()) {
+    return name + " has no option " + *option + help;
   }
   return name + ": nothing is known to do with '" + unknown.front() +
          "'; files and values follow an option" + help;

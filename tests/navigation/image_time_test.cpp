@@ -96,6 +96,23 @@ TEST(ImageTimeMonitor, FindsOffsetsWithinTwoSecondsOfMotion) {
   }
 }
 
+TEST(ImageTimeMonitor, FindsItTheLaterTheCalmerTheAir) {
+  const struct {
+    double strength_deg_s;
+    int least_percent, most_percent;
+  } table[] = {{3, 99, 100}, {2, 93, 100}, {1, 75, 95}, {0.5, 10, 40}};
+  for (const auto& row : table) {
+    int found = 0;
+    for (std::uint64_t seed = 1001; seed <= 1100; ++seed) {
+      const Found late =
+          Fly({.strength_deg_s = row.strength_deg_s, .late_s = 0.05, .from_s = 4}, seed);
+      found += late.at_s <= 2.0 ? 1 : 0;
+    }
+    EXPECT_GE(found, row.least_percent) << row.strength_deg_s << " deg/s";
+    EXPECT_LE(found, row.most_percent) << row.strength_deg_s << " deg/s";
+  }
+}
+
 TEST(ImageTimeMonitor, NeverCriesWolf) {
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
     for (const double strength : {0.0, 0.1, 0.5, 2.0, 8.0}) {

@@ -33,6 +33,7 @@ TEST_F(CameraCommand, MistakesAreNamedWithTheRemedy) {
        2,
        "palacectl camera: there is no command 'foo'; choose one of project, backproject, convert, "
        "info, align"},
+      {"no such command", {"inof", "--mode", "a.yml"}, 2, "camera: there is no command 'inof'"},
       {"no such option", {"info", "--mode", "a.yml"}, 2, "camera info has no option --mode"},
       {"no option", {"info", "a.yml"}, 2, "with 'a.yml'; files and values follow an option"},
       {"side of one",
