@@ -7,6 +7,9 @@ namespace palace {
 namespace {
 
 constexpr double kLaserAge_s = 0.1;  // a laser range older than this is of another place
+// Nearer, a decimetre of depth is a twentieth of the travel, and the ground stops the vehicle.
+// Below the commit height nothing rests on image time.
+constexpr double kImageTimeDepth_m = 2;
 
 }  // namespace
 
@@ -30,8 +33,12 @@ void Pipeline::WatchMotion(Pass& pass) {
   laser_watch_.Update(pass.bundle->time);
   // Too near for stereo the depth is still known, by the ground that it saw last.
   const BeamPose beam = BeamAt(pass.bundle->time);
-  image_time_.AddPoses(pass.bundle->poses, rectifier_->camera(), rectifier_->X_BC(*rig_),
-                       (beam.camera_height_m - beam_ground_m_) / beam.beam_down);
+  const double depth_m = (beam.camera_height_m - beam_ground_m_) / beam.beam_down;
+  if (depth_m < kImageTimeDepth_m) {
+    image_time_.Reset();
+    return;
+  }
+  image_time_.AddPoses(pass.bundle->poses, rectifier_->camera(), rectifier_->X_BC(*rig_), depth_m);
 }
 
 void Pipeline::WatchLaserSpot(const RangeMap& range) {
