@@ -103,13 +103,21 @@ std::string Consequence(const EngineSnapshot& snap, bool narrow) {
   return text + ".";
 }
 
-std::string CheckLine(const MissionStatus& m) {
+constexpr double kToldCut_s = 5;
+
+/// The first reason against approve: of the screen, of a check; else what cut the last hold short.
+std::string CheckLine(const MissionStatus& m, const ApproveState& state, const UiFrame& ui) {
+  if (const std::string why = WhyScreenOld(ui.silent_s); !why.empty()) {
+    return why;
+  }
   for (const GuardResult& guard : m.guards) {
     if (!guard.pass) {
       return guard.reason.empty() ? guard.name : guard.reason;
     }
   }
-  return "All " + std::to_string(m.guards.size()) + " checks pass";
+  return ui.ui_time_s < state.hold_cut_told_until_s
+             ? "Hold cut: " + state.hold_cut_by
+             : "All " + std::to_string(m.guards.size()) + " checks pass";
 }
 
 void DrawGuardList(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui) {
@@ -150,13 +158,15 @@ void DrawChecks(const EngineSnapshot& snap, const Rect& rect, float y, bool narr
   if (m.guards.empty()) {
     return;
   }
-  const bool pass = std::all_of(m.guards.begin(), m.guards.end(),
+  const std::string words = CheckLine(m, state, ui);
+  const bool pass = WhyScreenOld(ui.silent_s).empty() &&
+                    std::all_of(m.guards.begin(), m.guards.end(),
                                 [](const GuardResult& guard) { return guard.pass; });
   DrawIcon(Canvas(), pass ? Icon::kDone : Icon::kCaution, {rect.x + s.Px(18), y}, s.Px(12),
            pass ? p.text1 : p.caution);
   const float text_x = rect.x + s.Px(32);
   const float room = rect.w - s.Px(110);
-  DrawText(ui, s.body, p.text1, text_x, y, FitWords(s.body, CheckLine(m), room));
+  DrawText(ui, s.body, p.text1, text_x, y, FitWords(s.body, words, room));
   const Rect line{rect.x + s.Px(8), y - s.Px(10), rect.w - s.Px(16), s.Px(20)};
   const float right = rect.right() - s.Px(12);
   if (narrow) {
@@ -167,7 +177,7 @@ void DrawChecks(const EngineSnapshot& snap, const Rect& rect, float y, bool narr
   } else {
     DrawText(ui, s.body, p.text2, right, y, state.show_guards ? "Hide" : "Show", Align::kRight);
   }
-  if (Interact(ui, "show_checks", line, 0, CheckLine(m)).clicked) {
+  if (Interact(ui, "show_checks", line, 0, words).clicked) {
     state.show_guards = !state.show_guards;
   }
 }
@@ -337,7 +347,13 @@ void DrawButtons(const EngineSnapshot& snap, const Rect& rect, bool narrow, Appr
     DrawRefuseButton(snap, left, narrow, ui);
   }
   const HoldButtonView view = ButtonOf(snap, state, ui);
-  if (DrawHoldButton(ui, "approve", hold, view, state.hold)) {
+  const bool was_held = state.hold.holding;
+  const bool approved = DrawHoldButton(ui, "approve", hold, view, state.hold);
+  if (was_held && !state.hold.holding && view.phase == HoldPhase::kBlocked) {
+    state.hold_cut_by = view.reason;
+    state.hold_cut_told_until_s = ui.ui_time_s + kToldCut_s;
+  }
+  if (approved) {
     state.asked_site = view.subject;
     state.asked_at_s = ui.ui_time_s;
     ui.intents.push_back(CommandAction(ApproveSite{view.subject, snap.sequence}));

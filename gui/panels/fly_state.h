@@ -37,6 +37,9 @@ struct ApproveState {
   /// The approval asked for last, until the engine says what became of it.
   std::uint64_t asked_site = 0;
   double asked_at_s = -std::numeric_limits<double>::infinity();  ///< UI clock
+  /// What broke the last hold when it was not the person.
+  std::string hold_cut_by;
+  double hold_cut_told_until_s = -std::numeric_limits<double>::infinity();  ///< UI clock
 };
 
 enum class PlotTab { kDescent, kMaps };

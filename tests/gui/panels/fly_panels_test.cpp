@@ -122,7 +122,23 @@ TEST(FlyApprove, IsBlockedWhileTheScreenIsBehindTheEngine) {
     EXPECT_EQ(window.ui.CountCommands<ApproveSite>(), behind ? 0 : 1) << silent_s;
     EXPECT_EQ(HasText(window.ui.items, "Screen 0.6 s behind, limit 0.5 s"), behind)
         << window.ui.items.Find("approve")->text;
+    EXPECT_EQ(HasText(window.ui.items, "checks pass"), !behind);
   }
+}
+
+TEST(FlyApprove, AHoldThatTheScreenCutShortSaysSo) {
+  FlyWindow window(1280, 720, fake::Snapshot(MissionState::kArmed));
+  window.ui.MoveTo("approve");
+  window.ui.Button(true);
+  window.Run(0.5);
+  window.silent_s = 0.7;
+  window.Run(0.1);
+  window.silent_s = 0;
+  window.Run(1.5);  // still pressed
+  EXPECT_EQ(window.ui.CountCommands<ApproveSite>(), 0);
+  EXPECT_TRUE(HasText(window.ui.items, "Hold cut: Screen 0.7 s behind"));
+  window.Run(5);
+  EXPECT_FALSE(HasText(window.ui.items, "Hold cut"));
 }
 
 TEST(FlyFrame, WaveOffFiresOnPressAlsoUnderAPopupButNotInReplay) {
