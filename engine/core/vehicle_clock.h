@@ -19,7 +19,8 @@
 // too: it can no longer be told from one.
 //
 // The drift comes from the envelope over the last minute. The clock of a simulation keeps the pace
-// of its processor: it may fall behind by almost any rate, and is followed.
+// of its processor: it may fall behind by almost any rate, and is followed. While this machine
+// stood still nothing was heard, and the envelope does not fall: what queued is late by our fault.
 //
 // No clocks, no threads: every time is passed in. Source: Moon, Skelly and Towsley 1999 (envelope
 // of one-way delays); limits ours.
@@ -67,6 +68,8 @@ class VehicleClock {
   };
   /// `votes`: a message of a channel that may move the clock.
   Heard Hear(Timestamp stamp, double arrival_s, bool votes);
+  /// This machine did not run for so long; what queued meanwhile is heard next.
+  void Stalled(double seconds) { fitted_s_ += seconds; }
   /// Whether a stamp can be, nothing else: nothing is learned from it. Before the clock is known
   /// any can.
   bool CanBe(Timestamp stamp, double arrival_s) const;

@@ -32,7 +32,10 @@ class LiveBundles {
   /// Why the last message was not decoded; empty when it was.
   const std::string& problem() const { return assembler_.problem(); }
   /// This machine did not run for so long; told with the next bundle.
-  void Stalled(double seconds) { stalled_s_ += seconds; }
+  void Stalled(double seconds) {
+    stalled_s_ += seconds;
+    clock_.Stalled(seconds);
+  }
   bool ready() const { return ready_ != nullptr; }
   /// What is ready, as one bundle; without anything ready what is pending, without pictures.
   std::shared_ptr<const FrameBundle> HandOn(double now_s);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -220,6 +221,31 @@ TEST(VehicleClock, ABurstAfterAStallIsNoStep) {
     }
     EXPECT_NEAR(stalled_s, stall_s, 0.1);
     EXPECT_NEAR(ErrorAt(clock, link, 60), 0, 0.01);
+  }
+}
+
+// Of a queue that is too short the newest is lost, and a simulation's clock may fall behind: still
+// nothing stepped.
+TEST(VehicleClock, AShortQueueAfterAStallIsNoStepEvenOfASimulation) {
+  for (const double stall_s : {0.4, 1.0, 3.0, 9.0}) {
+    SCOPED_TRACE(stall_s);
+    RandomStream random(13);
+    const Link link{.jitter_s = 0.005};
+    VehicleClock clock;
+    clock.FollowSimulation(true);
+    bool stood = false;
+    for (const Message& m : Send(link, random, 0, 60)) {
+      const bool during = m.arrival_s > 30 && m.arrival_s < 30 + stall_s;
+      if (during && m.arrival_s > 30 + 0.4 * stall_s) {
+        continue;
+      }
+      if (during && !std::exchange(stood, true)) {
+        clock.Stalled(stall_s);
+      }
+      EXPECT_NE(clock.Hear(m.stamp, during ? 30 + stall_s : m.arrival_s, true), Heard::kStepped)
+          << m.arrival_s;
+    }
+    EXPECT_NEAR(ErrorAt(clock, link, 60), 0, 0.1);
   }
 }
 
