@@ -14,9 +14,9 @@
 // Only turning that changes tells time: in calm air, or in a steady turn, nothing can be observed
 // and nothing is said. Behind gusts of three sines an axis (0.2 to 1.1 Hz, each of 0.4 to 1 times a
 // strength) an offset of 50 ms is told within 2 s in all of 200 runs at 3 deg/s, 98 % at 2, 85 % at
-// 1, 23 % at 0.5 (tests/navigation/image_time_test.cpp). A fault is told after three
-// pictures in a row that say so, and stands until five in a row say that times agree: without
-// motion it is not over. Source: the fault of Ingenuity's sixth flight (NASA status, 27 May 2021).
+// 1, 23 % at 0.5 (tests/navigation/image_time_test.cpp). A fault is told after three pictures in a
+// row that say so, and stands until five in a row say that times agree: without motion it is not
+// over. Source: the fault of Ingenuity's sixth flight (NASA status, 27 May 2021).
 #pragma once
 
 #include <array>

@@ -89,6 +89,7 @@ class Pipeline {
   void See(Pass& pass);
   /// Laser and image time against the motion of the vehicle.
   void WatchMotion(Pass& pass);
+  void WatchImageTime(const Pass& pass);
   void WatchLaserSpot(const RangeMap& range);
   BeamPose BeamAt(Timestamp time) const;
   /// Unit vector in the axes of the rectified left camera.
@@ -144,7 +145,7 @@ class Pipeline {
   ChannelMonitor channels_;
   FlightHistory history_;
   std::optional<double> laser_height_m_;  // of the laser's spot in W
-  double beam_ground_m_ = NAN;            // height where the laser's beam meets what stereo saw last
+  double beam_ground_m_ = NAN;  // height where the laser's beam meets what stereo saw last
   std::uint64_t stereo_frames_ = 0;
   std::uint64_t sequence_ = 0;
   std::shared_ptr<const FrameBundle> last_bundle_;

@@ -8,7 +8,6 @@ namespace {
 
 constexpr double kLaserAge_s = 0.1;  // a laser range older than this is of another place
 // Nearer, a decimetre of depth is a twentieth of the travel, and the ground stops the vehicle.
-// Below the commit height nothing rests on image time.
 constexpr double kImageTimeDepth_m = 2;
 
 }  // namespace
@@ -24,15 +23,27 @@ void Pipeline::WatchMotion(Pass& pass) {
   }
   if (navigator_.frame_moves() != frame_moves_) {
     frame_moves_ = navigator_.frame_moves();
+    beam_ground_m_ = NAN;
     slad_.Forget(SiteNames::kGoOn);
     pass.forgotten = true;
   }
   for (const LaserRange& range : pass.bundle->laser) {
-    laser_watch_.AddRange(range, BeamAt(range.time));
+    const BeamPose beam = BeamAt(range.time);
+    laser_watch_.AddRange(range, beam);
+    if (std::isnan(beam_ground_m_) && laser_watch_.usable()) {
+      beam_ground_m_ = beam.camera_height_m - range.range_m * beam.beam_down;
+    }
   }
   laser_watch_.Update(pass.bundle->time);
-  // Too near for stereo the depth is still known, by the ground that it saw last.
+  WatchImageTime(pass);
+}
+
+void Pipeline::WatchImageTime(const Pass& pass) {
+  // By the ground that stereo saw last, also where it is too near to be seen.
   const BeamPose beam = BeamAt(pass.bundle->time);
+  if (std::isnan(beam_ground_m_) || !(beam.beam_down > 0)) {
+    return;  // travel cannot be told from turning
+  }
   const double depth_m = (beam.camera_height_m - beam_ground_m_) / beam.beam_down;
   if (depth_m < kImageTimeDepth_m) {
     image_time_.Reset();
