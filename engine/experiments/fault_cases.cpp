@@ -41,6 +41,7 @@ std::vector<FaultCase> CameraCases() {
   };
   for (FaultCase& row : cases) {
     row.of_cameras = true;
+    row.besides = {A::kHeightMismatch};  // "check the cameras"
   }
   return cases;
 }

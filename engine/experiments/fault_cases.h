@@ -27,9 +27,10 @@ struct FaultCase {
   double within_s = 1;           ///< from the fault to such an alarm
   bool blocks = true;            ///< approval
   DescentMust descent = DescentMust::kStop;
-  bool of_cameras = false;  ///< a row of the table of cameras
-  bool silent = false;      ///< nobody needs to be told: nothing is wrong with what is used
-  bool garbled = false;     ///< what comes may look like any other fault, too
+  bool of_cameras = false;         ///< a row of the table of cameras
+  bool silent = false;             ///< nobody needs to be told: nothing is wrong with what is used
+  bool garbled = false;            ///< what comes may look like any other fault, too
+  std::vector<AlarmId> besides{};  ///< right as well, but they do not name it
 };
 
 std::span<const FaultCase> FaultCases();

@@ -272,9 +272,10 @@ std::vector<std::string> Shortfalls(const FaultCase& fault, FaultPhase phase,
     return {"the flight did not come to the fault"};
   }
   std::vector<std::string> falls;
-  const auto names = [&](const RaisedAlarm& alarm) {
-    return std::find(fault.cause.begin(), fault.cause.end(), alarm.id) != fault.cause.end();
+  const auto is_one_of = [](const std::vector<AlarmId>& ids, const RaisedAlarm& alarm) {
+    return std::find(ids.begin(), ids.end(), alarm.id) != ids.end();
   };
+  const auto names = [&](const RaisedAlarm& alarm) { return is_one_of(fault.cause, alarm); };
   const auto named = std::find_if(outcome.raised.begin(), outcome.raised.end(), names);
   if (named == outcome.raised.end()) {
     if (!fault.silent) {
@@ -283,12 +284,9 @@ std::vector<std::string> Shortfalls(const FaultCase& fault, FaultPhase phase,
   } else if (named->after_s > fault.within_s + 0.05) {
     falls.push_back("named late");
   }
-  // That laser and map disagree says: check the cameras.
-  const auto blames_cameras = [&](const RaisedAlarm& alarm) {
-    return fault.of_cameras && alarm.id == AlarmId::kHeightMismatch;
-  };
   for (const RaisedAlarm& alarm : outcome.raised) {
-    if (!names(alarm) && !IsConsequence(alarm.id) && !blames_cameras(alarm) && !fault.garbled) {
+    if (!names(alarm) && !is_one_of(fault.besides, alarm) && !IsConsequence(alarm.id) &&
+        !fault.garbled) {
       falls.push_back(std::string("wrong cause: ") + AlarmName(alarm.id));
     }
   }

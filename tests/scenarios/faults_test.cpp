@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <ostream>
 #include <set>
 #include <span>
 #include <string>
@@ -20,6 +21,7 @@ struct Row {
   FaultPhase phase = FaultPhase::kArmed;
   FaultFlight flight{.wind_mps = 4, .seed = 3};
 };
+void PrintTo(const Row& row, std::ostream* out) { *out << row.fault; }
 class Faults : public testing::TestWithParam<Row> {};
 
 TEST_P(Faults, AreNamedAndRecordedAndStopWhatTheyMust) {

@@ -67,6 +67,13 @@ class BusStormTest : public Scenario {
   static void Sleep(double seconds) {
     std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
   }
+  static constexpr std::string_view kReady = "ready\n";  // it hears a vehicle and may order
+  static bool SaysReady(Process& station) {
+    for (const double start_s = Now_s(); station.Out().empty() && Now_s() - start_s < 40;) {
+      Sleep(0.02);
+    }
+    return station.Out() == kReady;
+  }
   std::unique_ptr<PrivateNetwork> network_;
 };
 
@@ -134,15 +141,12 @@ TEST_F(BusStormTest, AWaveOffIsOnTheWireWithin50ms) {
         network_->Inside(Palacectl({"simulate", "--scenario", "runway", "--url", kUrl, "--realtime",
                                     "--no-pictures", "--duration-s", "300"})));
     Process station(StormProgram({"wave-off", Full() ? "100" : "10", "2"}));
-    for (const double start_s = Now_s(); station.Out().empty() && Now_s() - start_s < 40;) {
-      Sleep(0.1);
-    }
-    ASSERT_EQ(station.Out(), "ready\n") << station.Err() << vehicle.Err();
+    ASSERT_TRUE(SaysReady(station)) << station.Err() << vehicle.Err();
     Process storm(StormProgram({"flood", kind, "1", "1000000", "1000"}));
     const ProcessResult result = station.Wait(90);
     EXPECT_TRUE(storm.Running());
     ASSERT_EQ(result.exit_code, 0) << result.err;
-    const std::string slowest_ms = result.out.substr(std::string("ready\n").size());
+    const std::string slowest_ms = result.out.substr(kReady.size());
     std::printf("%s: slowest %.2f ms\n", kind, std::stod(slowest_ms));
     EXPECT_LE(std::stod(slowest_ms), 50);
   }
@@ -153,16 +157,13 @@ TEST_F(BusStormTest, AStationThatWasStartedAnewWavesOffWithin50ms) {
       network_->Inside(Palacectl({"simulate", "--scenario", "runway", "--url", kUrl, "--realtime",
                                   "--no-pictures", "--duration-s", "120"})));
   for (int start = 1; start <= 3; ++start) {
-    Process station(StormProgram({"wave-off", "500", "0"}));  // it hears a vehicle and orders
-    for (const double start_s = Now_s(); station.Out().empty() && Now_s() - start_s < 40;) {
-      Sleep(0.02);
-    }
-    ASSERT_EQ(station.Out(), "ready\n") << station.Err() << vehicle.Err();
+    Process station(StormProgram({"wave-off", "500", "0"}));
+    ASSERT_TRUE(SaysReady(station)) << station.Err() << vehicle.Err();
     station.Signal(SIGKILL);
     station.Wait(10);
     const ProcessResult anew = RunProcess(StormProgram({"wave-off", "1", "0"}), 60);
     ASSERT_EQ(anew.exit_code, 0) << anew.err;
-    const std::string first_ms = anew.out.substr(std::string("ready\n").size());
+    const std::string first_ms = anew.out.substr(kReady.size());
     std::printf("restart %d: %.2f ms\n", start, std::stod(first_ms));
     EXPECT_LE(std::stod(first_ms), 50);
   }
