@@ -257,4 +257,19 @@ std::vector<BundleMark> FindBundles(const LogFile& file, const LogIndex& index,
   return bundles;
 }
 
+std::vector<LogPart> FindParts(const std::vector<BundleMark>& bundles) {
+  constexpr double kBack_s = 1;
+  std::vector<LogPart> parts;
+  for (std::size_t i = 0; i < bundles.size(); ++i) {
+    if (i == 0 || SecondsBetween(bundles[i - 1].time, bundles[i].time) < -kBack_s) {
+      parts.push_back({i, i, 0});
+    }
+    LogPart& part = parts.back();
+    part.end = i + 1;
+    part.duration_s =
+        std::max(part.duration_s, SecondsBetween(bundles[part.first].time, bundles[i].time));
+  }
+  return parts;
+}
+
 }  // namespace palace

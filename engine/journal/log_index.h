@@ -35,4 +35,14 @@ struct BundleMark {
 std::vector<BundleMark> FindBundles(const LogFile& file, const LogIndex& index,
                                     const ChannelNames& channels);
 
+/// Bundles [first, end) between which the clock of the vehicle never went back.
+struct LogPart {
+  std::size_t first = 0;
+  std::size_t end = 0;
+  double duration_s = 0;
+};
+
+/// In order; one, but where the vehicle restarted or its clock was put back by more than a second.
+std::vector<LogPart> FindParts(const std::vector<BundleMark>& bundles);
+
 }  // namespace palace

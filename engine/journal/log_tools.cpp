@@ -86,7 +86,9 @@ Result<LogDescription> DescribeLog(const std::filesystem::path& log, bool verify
     span.row.rate_hz = span_s > 0 ? static_cast<double>(span.row.events - 1) / span_s : 0;
     description.channels.push_back(span.row);
   }
-  description.bundles = FindBundles(*file, *index, channels).size();
+  const std::vector<BundleMark> bundles = FindBundles(*file, *index, channels);
+  description.bundles = bundles.size();
+  description.parts = FindParts(bundles);
   description.duration_s = SecondsBetween(description.first, description.last);
   return description;
 }

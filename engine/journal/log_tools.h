@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "engine/core/result.h"
-#include "engine/journal/log_reader.h"
+#include "engine/journal/log_index.h"
 #include "engine/wire/channels.h"
 
 namespace palace {
@@ -23,6 +23,7 @@ struct LogDescription {
   LogReport report;
   std::vector<ChannelSummary> channels;  ///< by name
   std::uint64_t bundles = 0;
+  std::vector<LogPart> parts;
   Timestamp first;
   Timestamp last;
   double duration_s = 0;

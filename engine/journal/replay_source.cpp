@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "engine/core/text.h"
@@ -80,6 +81,9 @@ Result<std::unique_ptr<ReplaySource>> ReplaySource::Open(const std::filesystem::
                         " and " + options_.channels.camera_right +
                         " (other names: config/channels.toml)");
   }
+  if (const ::palace::Status chosen = ChoosePart(path); !chosen) {
+    return chosen;
+  }
   ReadTrack();
   // A foreign log may tell its rig once, anywhere: know it before the first pair and after seeks.
   for (const LogEntry& entry : index_.entries) {
@@ -97,6 +101,29 @@ Result<std::unique_ptr<ReplaySource>> ReplaySource::Open(const std::filesystem::
   return Ok();
 }
 
+::palace::Status ReplaySource::ChoosePart(const std::filesystem::path& path) {
+  const std::vector<LogPart> parts = FindParts(bundles_);
+  parts_ = static_cast<int>(parts.size());
+  if (options_.part < 0 || options_.part > parts_) {
+    return UsageError("--part " + std::to_string(options_.part) + ": " + path.string() + " holds " +
+                      (parts_ == 1 ? "one part" : "parts 1 to " + std::to_string(parts_)));
+  }
+  const auto longest = std::max_element(
+      parts.begin(), parts.end(),
+      [](const LogPart& a, const LogPart& b) { return a.duration_s < b.duration_s; });
+  part_ = options_.part > 0 ? options_.part : static_cast<int>(longest - parts.begin()) + 1;
+  const LogPart& part = parts[static_cast<std::size_t>(part_ - 1)];
+  next_event_ = bundles_[part.first].first;
+  const bool last = part.end == bundles_.size();
+  end_event_ = last ? index_.entries.size() : bundles_[part.end].first;
+  // What the station made of a bundle follows it.
+  first_told_ = part.first == 0 ? 0 : bundles_[part.first].end;
+  end_told_ = last ? index_.entries.size() : bundles_[part.end].end;
+  bundles_ = {bundles_.begin() + static_cast<std::ptrdiff_t>(part.first),
+              bundles_.begin() + static_cast<std::ptrdiff_t>(part.end)};
+  return Ok();
+}
+
 void ReplaySource::ReadTrack() {
   auto record = std::make_shared<FlightRecord>();
   const ChannelNames& names = options_.channels;
@@ -105,12 +132,22 @@ void ReplaySource::ReadTrack() {
   record->duration_s = std::max(0.0, SecondsBetween(bundles_.front().time, bundles_.back().time));
   record->gaps = GapsOf(bundles_);
   TrackReader reader(names, *record);
-  for (const LogEntry& entry : index_.entries) {
-    if (!reader.Wants(index_.channels[entry.channel])) {
+  std::optional<WireMessage> settings;  // in force when the part began
+  for (std::size_t i = 0; i < end_told_; ++i) {
+    const LogEntry& entry = index_.entries[i];
+    const std::string& channel = index_.channels[entry.channel];
+    const bool before = i < first_told_;
+    if (before ? channel != names.slad_settings : !reader.Wants(channel)) {
       continue;
     }
-    const Result<WireMessage> message = ReadEvent(file_, entry, index_.channels);
-    if (message) {
+    Result<WireMessage> message = ReadEvent(file_, entry, index_.channels);
+    if (message && before) {
+      settings = std::move(*message);
+      settings->time = bundles_.front().time;
+    } else if (message) {
+      if (settings) {
+        reader.Add(*std::exchange(settings, std::nullopt));
+      }
       reader.Add(*message);
     }
   }
@@ -121,7 +158,7 @@ void ReplaySource::ReadTrack() {
 
 std::shared_ptr<const FrameBundle> ReplaySource::ReadBundle() {
   std::vector<EngineCommand> commands;
-  while (next_event_ < index_.entries.size()) {
+  while (next_event_ < end_event_) {
     const Result<WireMessage> message =
         ReadEvent(file_, index_.entries[next_event_++], index_.channels);
     if (!message) {
@@ -248,6 +285,8 @@ SourceStatus ReplaySource::Status() const {
   status.can_seek = true;
   status.frame_index = next_bundle_;
   status.frame_count = bundles_.size();
+  status.part = part_;
+  status.parts = parts_;
   std::vector<std::string> damage;
   if (const LogReport& report = index_.report; report.damaged()) {
     damage.push_back(WithNumbers("%.0f bytes unreadable, %.0f events damaged, %.0f missing",

@@ -26,6 +26,7 @@ struct ReplayOptions {
   double speed = 1;          ///< times real time; 0 as fast as possible
   bool wait_at_end = false;  ///< true (screens): Next waits at the end for a seek; false: kEnd
   double longest_gap_s = 5;  ///< a gap in the log is not waited for longer
+  int part = 0;              ///< of a log in which the vehicle restarted, from 1; 0: the longest
   ChannelNames channels;
 };
 
@@ -33,10 +34,12 @@ struct ReplayOptions {
 /// posted before it in recorded_commands. After a jump (seek, step back) reading simply goes on
 /// from there and the first bundle carries `discontinuity`. A seek while paused delivers one
 /// bundle, so that the screen follows. Play at the end plays from the start again. Damaged
-/// stretches are skipped and counted.
+/// stretches are skipped and counted. Of a log in which the vehicle's clock began anew one part is
+/// played: seconds of two clocks have no common timeline.
 class ReplaySource final : public Source {
  public:
-  /// Errors name the path and the remedy: missing, a folder, empty, not a log, no bundle in it.
+  /// Errors name the path and the remedy: missing, a folder, empty, not a log, no bundle, not
+  /// so many parts in it.
   static Result<std::unique_ptr<ReplaySource>> Open(const std::filesystem::path& path);
   static Result<std::unique_ptr<ReplaySource>> Open(const std::filesystem::path& path,
                                                     const ReplayOptions& options);
@@ -53,6 +56,7 @@ class ReplaySource final : public Source {
  private:
   ReplaySource(LogFile file, LogIndex index, const ReplayOptions& options);
   ::palace::Status Prepare(const std::filesystem::path& path);
+  ::palace::Status ChoosePart(const std::filesystem::path& path);
   void ReadTrack();
   std::shared_ptr<const FrameBundle> ReadBundle();
   std::shared_ptr<const FrameBundle> Deliver(std::shared_ptr<const FrameBundle> bundle);
@@ -64,7 +68,10 @@ class ReplaySource final : public Source {
   LogFile file_;
   LogIndex index_;
   ReplayOptions options_;
-  std::vector<BundleMark> bundles_;
+  std::vector<BundleMark> bundles_;            ///< of the part
+  std::size_t end_event_ = 0;                  ///< of the part
+  std::size_t first_told_ = 0, end_told_ = 0;  ///< of the part, what the station told
+  int part_ = 1, parts_ = 1;
   std::shared_ptr<const RecordedTrack> recorded_;
   BundleAssembler assembler_;
   std::size_t next_event_ = 0;                    ///< reader's position; Next's thread only

@@ -39,6 +39,7 @@ struct SourceStatus {
   std::uint64_t frame_index = 0;          ///< of the frame shown, from 1; 0 before it
   std::uint64_t frame_count = 0;          ///< 0 unknown
   std::vector<CameraCounters> cameras{};  ///< of kCameras and kVideo
+  int part = 1, parts = 1;                ///< of a log: the one that is played, of how many
   std::string damage{};  ///< of a log: what could not be read, for people; empty when whole
 };
 

@@ -98,6 +98,13 @@ int Describe(const LogOptions& options, bool verify) {
   if (!verify) {
     std::printf("%.3f s, %llu bundles\n", log->duration_s,
                 static_cast<unsigned long long>(log->bundles));
+    if (log->parts.size() > 1) {
+      std::printf("the vehicle's clock began anew; parts (--part N):");
+      for (std::size_t i = 0; i < log->parts.size(); ++i) {
+        std::printf("%s %zu: %.1f s", i > 0 ? "," : "", i + 1, log->parts[i].duration_s);
+      }
+      std::printf("\n");
+    }
     std::printf("%-24s %10s %14s %9s\n", "channel", "events", "bytes", "Hz");
     for (const ChannelSummary& row : log->channels) {
       std::printf("%-24s %10llu %14llu %9.2f\n", row.name.c_str(),

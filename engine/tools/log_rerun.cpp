@@ -18,6 +18,7 @@ namespace {
 
 struct RerunOptions {
   std::string log, out, maps, channels_file;
+  int part = 0;
   SettingsRequest settings;
 };
 
@@ -56,6 +57,7 @@ Result<int> Rerun(const RerunOptions& options) {
   }
   ReplayOptions replay;
   replay.speed = 0;
+  replay.part = options.part;
   if (!options.channels_file.empty()) {
     const Result<ChannelNames> channels = LoadChannels(options.channels_file);
     if (!channels) {
@@ -120,6 +122,9 @@ void AddLogRerun(CLI::App& log, int& exit_code) {
   verb->add_option("--maps", options->maps,
                    "Fused maps as GeoTIFF: last, or \"every N s\" of the flight's time; metres, "
                    "slope in radians, NaN unknown");
+  verb->add_option("--part", options->part,
+                   "Of a log in which the vehicle restarted, the part; else the longest")
+      ->check(CLI::PositiveNumber);
   verb->add_option("--channels", options->channels_file, "Channel names (TOML)");
   verb->callback([options, &exit_code] {
     const Result<int> done = Rerun(*options);

@@ -21,10 +21,13 @@ constexpr std::size_t kLeastMemory_MiB = 640;
 AppOptions OptionsOfNext(AppOptions options, const NextFlight& next) {
   options.script_file.clear();
   if (next.kind == NextFlight::Kind::kReview) {
-    options.source = SourceChoice::kReplay;
-    options.channels_file.clear();  // our logs have our own names, whatever the bus calls them
+    if (options.source != SourceChoice::kReplay) {
+      options.source = SourceChoice::kReplay;
+      options.channels_file.clear();  // our logs have our own names, whatever the bus calls them
+      options.settings = {};          // those of the record
+    }
     options.source_path = next.log;
-    options.settings = {};  // those of the record
+    options.replay_part = next.part;
     options.record = false;
   }
   return options;

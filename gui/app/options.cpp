@@ -27,6 +27,9 @@ void Declare(CLI::App& app, AppOptions& options, SourceArguments& sources, bool&
   source->add_option("--scenario", options.scenario, "Simulated scene: runway, cones, slope, empty")
       ->capture_default_str();
   source->add_option("--replay", sources.replay, "Play a recorded flight (LCM event log)");
+  app.add_option("--part", options.replay_part,
+                 "Of a log in which the vehicle restarted, the part to play; else the longest")
+      ->check(CLI::PositiveNumber);
   source->add_option("--images", sources.images, "A folder of stereo pairs, by its RIG.toml");
   source->add_option("--cameras", sources.cameras,
                      "Stereo cameras without a vehicle, by [capture] of their RIG.toml: V4L2 "
@@ -146,6 +149,9 @@ Result<AppOptions> ParseCommandLine(int argc, const char* const* argv) {
   if (!options.channels_file.empty() && options.source != SourceChoice::kConnect &&
       options.source != SourceChoice::kReplay) {
     return UsageError("--channels is of --connect and --replay; leave it out here");
+  }
+  if (options.replay_part != 0 && options.source != SourceChoice::kReplay) {
+    return UsageError("--part is of --replay; leave it out here");
   }
   if (!options.key.empty() && options.source != SourceChoice::kConnect) {
     return UsageError("--key is of --connect; leave it out here");

@@ -16,6 +16,7 @@ enum class SourceChoice { kSimulation, kReplay, kImages, kCameras, kConnect };
 struct AppOptions {
   SourceChoice source = SourceChoice::kSimulation;
   std::string source_path;  ///< log, RIG.toml or LCM URL
+  int replay_part = 0;      ///< of the log; 0: the longest
   std::string scenario = "runway";
   std::uint64_t seed = 1;
   double wind_mps = 0;

@@ -43,6 +43,7 @@ Status OpenReplay(const AppOptions& options, bool paced, Session& session, Engin
   ReplayOptions replay;
   replay.speed = paced ? 1 : 0;
   replay.wait_at_end = paced;
+  replay.part = options.replay_part;
   const Result<ChannelNames> channels = ChannelsFor(options);
   if (!channels) {
     return channels.error();

@@ -40,8 +40,9 @@ bool DrawButton(UiFrame& ui, std::string_view name, const Rect& rect, std::strin
     DrawText(ui, s.caption, look.enabled ? p.text2 : p.text3, rect.centre().x, middle + s.Px(11),
              FitClauses(s.caption, look.sub, rect.w - s.Px(6)), Align::kCentre);
   }
-  if (in.hovered && !look.enabled && !look.reason.empty()) {
-    DrawTooltip(ui, look.reason);
+  const std::string_view told = look.enabled ? look.hint : look.reason;
+  if (in.hovered && !told.empty()) {
+    DrawTooltip(ui, told);
   }
   return in.clicked;
 }

@@ -16,6 +16,7 @@ struct ButtonLook {
   bool unseen = false;        ///< drawn only with the pointer or the focus on it
   std::string_view sub{};     ///< second line in caption, "then site B"
   std::string_view reason{};  ///< why it is disabled, shown as tooltip
+  std::string_view hint{};    ///< what it does, where its label does not say; a tooltip
 };
 
 /// True in the frame in which the button is released after being pressed on it, or Enter or Space

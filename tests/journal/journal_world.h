@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <climits>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -53,8 +54,9 @@ struct RecordedFlight {
   std::filesystem::path log;
 };
 
+/// From bundle `restart` on the vehicle's clock runs anew.
 inline RecordedFlight RecordFlight(const std::filesystem::path& folder, int bundles,
-                                   std::uint64_t seed) {
+                                   std::uint64_t seed, int restart = INT_MAX) {
   RandomStream random(seed);
   RecordedFlight flight;
   const auto rig = std::make_shared<const StereoRig>(RandomRig(random));
@@ -63,7 +65,8 @@ inline RecordedFlight RecordFlight(const std::filesystem::path& folder, int bund
   auto events = std::make_shared<std::vector<Event>>();
   for (int i = 0; i < bundles; ++i) {
     RecordItem item;
-    item.bundle = RandomBundle(random, static_cast<std::uint64_t>(i), rig);
+    item.bundle =
+        RandomBundle(random, static_cast<std::uint64_t>(i < restart ? i : i - restart), rig);
     if (i % 3 == 1) {
       item.commands.push_back(
           {CommandOrigin::kOperator, SetSetting{"slad.max_slope_deg", 5.0 + i}});

@@ -205,6 +205,52 @@ TEST_F(ReplayTest, SkipsADamagedPictureAndGoesOn) {
   EXPECT_EQ(source->Status().damage, "1 not decoded so far");
 }
 
+// Seconds of two clocks have no common timeline.
+TEST_F(JournalTest, OfALogInWhichTheVehicleRestartedEachPartIsPlayedByItself) {
+  const RecordedFlight flight = RecordFlight(folder_, 30, 65, /*restart=*/18);
+  struct Case {
+    int part;
+    int played;
+    std::size_t first, bundles;
+  };
+  for (const Case& c : {Case{0, 1, 0, 18}, Case{1, 1, 0, 18}, Case{2, 2, 18, 12}}) {
+    SCOPED_TRACE(c.part);
+    ReplayOptions options;
+    options.speed = 0;
+    options.part = c.part;
+    const auto source = ReplaySource::Open(flight.log, options);
+    ASSERT_TRUE(source.ok()) << source.error().message;
+    const SourceStatus status = (*source)->Status();
+    EXPECT_EQ(status.part, c.played);
+    EXPECT_EQ(status.parts, 2);
+    EXPECT_EQ(status.frame_count, c.bundles);
+    EXPECT_NEAR(*status.duration_s, 0.1 * static_cast<double>(c.bundles - 1), 1e-9);
+    const auto record = (*source)->recorded();
+    EXPECT_EQ(record->samples.size(), c.bundles);
+    EXPECT_TRUE(record->has_settings);  // those of the first part go on
+    EXPECT_EQ(record->settings_at_start, flight.items[0].snapshot->session->settings);
+    EXPECT_EQ(record->settings.front().from, (*source)->bundles().front().time);
+    for (std::size_t i = 0; i < c.bundles; ++i) {
+      const auto got = (*source)->Next({});
+      ASSERT_TRUE(got.ok()) << got.error().message;
+      EXPECT_EQ(Payloads(**got), Payloads(*flight.items[c.first + i].bundle));
+    }
+    EXPECT_EQ((*source)->Next({}).error().code, ErrorCode::kEnd);
+    (*source)->Control({PlaybackControl::Kind::kSeek, 0.5});
+    EXPECT_EQ((*(*source)->Next({}))->time, flight.items[c.first + 5].bundle->time);
+  }
+  ReplayOptions none;
+  none.part = 3;
+  const auto refused = ReplaySource::Open(flight.log, none);
+  ASSERT_FALSE(refused.ok());
+  EXPECT_NE(refused.error().message.find("parts 1 to 2"), std::string::npos)
+      << refused.error().message;
+  const auto described = DescribeLog(flight.log, false);
+  ASSERT_TRUE(described.ok());
+  ASSERT_EQ(described->parts.size(), 2u);
+  EXPECT_NEAR(described->parts[1].duration_s, 1.1, 1e-9);
+}
+
 TEST_F(ReplayTest, LogWithoutBundlesSaysWhatItNeeds) {
   auto writer = LogWriter::Create(folder_ / "imu.lcm");
   ASSERT_TRUE(writer->Write({"IMU", {5}, {1, 2, 3}}).ok());

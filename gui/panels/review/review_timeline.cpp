@@ -155,6 +155,23 @@ bool IconButton(UiFrame& ui, const char* name, const Rect& rect, Icon icon, bool
   return clicked;
 }
 
+/// Of a log in which the vehicle restarted the part, and the way to the next; returns where it
+/// ends.
+float DrawPart(UiFrame& ui, const Rect& box, const SourceStatus& source) {
+  if (source.parts <= 1) {
+    return box.x;
+  }
+  const std::string words =
+      "Part " + std::to_string(source.part) + " of " + std::to_string(source.parts);
+  ButtonLook look;
+  look.hint = "The vehicle's clock began anew, and with it a part of the log: opens the next";
+  if (DrawButton(ui, "part", box, words, look)) {
+    ui.intents.push_back(UiAction(
+        NextFlight{NextFlight::Kind::kReview, source.name, source.part % source.parts + 1}));
+  }
+  return box.right() + ui.style.Px(8);
+}
+
 /// Draws the buttons; returns where they end.
 float DrawTransport(UiFrame& ui, const Rect& row, const EngineSnapshot& snap, double duration_s) {
   using Kind = PlaybackControl::Kind;
@@ -200,7 +217,7 @@ float DrawTransport(UiFrame& ui, const Rect& row, const EngineSnapshot& snap, do
                  "Nothing is recorded here that a bookmark could be in")) {
     ui.intents.push_back(CommandAction(AddBookmark{}));
   }
-  return x;
+  return DrawPart(ui, {x, y, s.Px(104), s.Px(32)}, snap.session->source);
 }
 
 void DrawClock(UiFrame& ui, const Rect& row, float x, const EngineSnapshot& snap,

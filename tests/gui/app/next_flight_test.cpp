@@ -22,6 +22,17 @@ TEST(NextFlight, AReviewShowsTheLogAndRecordsNoFlight) {
   EXPECT_EQ(next.script_file, "");
 }
 
+TEST(NextFlight, AnotherPartOfALogIsReadAsTheFirst) {
+  AppOptions options;
+  options.source = SourceChoice::kReplay;
+  options.source_path = "theirs.lcm";
+  options.channels_file = "theirs.toml";
+  const AppOptions next = OptionsOfNext(options, {NextFlight::Kind::kReview, "theirs.lcm", 2});
+  EXPECT_EQ(next.source_path, "theirs.lcm");
+  EXPECT_EQ(next.replay_part, 2);
+  EXPECT_EQ(next.channels_file, "theirs.toml");
+}
+
 TEST(NextFlight, AnotherFlightIsFlownAndRecordedAsTheFirst) {
   const AppOptions next = OptionsOfNext(Flown(), {NextFlight::Kind::kFlyAgain, ""});
   EXPECT_EQ(next.source, SourceChoice::kSimulation);

@@ -190,6 +190,32 @@ TEST(ReviewWorkspace, TransportButtonsAskForTheirControl) {
   }
 }
 
+TEST(ReviewWorkspace, OfALogInPartsTheNextIsOffered) {
+  const FlightRecord record = Record();
+  EngineSnapshot snap = Replay(false);
+  const float wide = 1920, high = 1080;
+  ReviewState state;
+  const auto draw = [&](UiFrame& f) {
+    DrawReviewWorkspace(snap, &record, BodyOf(wide, high), state, f);
+  };
+  UiHarness whole(wide, high);
+  whole.Frame(draw);
+  EXPECT_EQ(whole.items.Find("part"), nullptr);
+  snap.session.Edit().source.parts = 2;
+  for (const int part : {1, 2}) {
+    snap.session.Edit().source.part = part;
+    UiHarness ui(wide, high);
+    ui.Frame(draw);
+    EXPECT_EQ(ui.items.Find("part")->text, "Part " + std::to_string(part) + " of 2");
+    ui.Click("part", draw);
+    ASSERT_EQ(ui.intents.size(), 1U);
+    const auto& next = std::get<NextFlight>(std::get<UiAction>(ui.intents[0]));
+    EXPECT_EQ(next.kind, NextFlight::Kind::kReview);
+    EXPECT_EQ(next.log, snap.session->source.name);
+    EXPECT_EQ(next.part, part % 2 + 1);
+  }
+}
+
 TEST(ReviewWorkspace, WhatIsAliveIsNotOfferedToWait) {
   for (const SourceKind kind : {SourceKind::kLive, SourceKind::kCameras, SourceKind::kSimulation}) {
     const EngineSnapshot snap = fake::Snapshot(MissionState::kProposed, kind);
