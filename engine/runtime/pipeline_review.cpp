@@ -12,8 +12,12 @@ std::shared_ptr<const TerrainDecision> Pipeline::DecisionUnder(const Settings& s
                                                                Letters letters) {
   std::shared_ptr<const TerrainDecision> decision = slad_.Decide(settings, letters);
   const FlightRecord* record = mission_of_record_.record();
-  return SeenFromStart(role_) || record == nullptr ? decision
-                                                   : NamedByRecord(std::move(decision), *record);
+  if (SeenFromStart(role_) || record == nullptr) {
+    return decision;
+  }
+  const Settings* of_flight = mission_of_record_.SettingsAt(decision->map_time);
+  return NamedByRecord(std::move(decision), *record,
+                       of_flight != nullptr && settings.slad == of_flight->slad);
 }
 
 std::shared_ptr<const std::vector<Event>> Pipeline::EventsAt(Timestamp time) {

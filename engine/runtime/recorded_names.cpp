@@ -69,7 +69,8 @@ std::vector<Pairing> PairingsOf(SiteSelection& selection, const RecordedProposal
 }  // namespace
 
 std::shared_ptr<const TerrainDecision> NamedByRecord(
-    std::shared_ptr<const TerrainDecision> decision, const FlightRecord& record) {
+    std::shared_ptr<const TerrainDecision> decision, const FlightRecord& record,
+    bool limits_of_flight) {
   const RecordedProposal* proposal = ProposalAt(record, decision->map_time);
   if (proposal == nullptr) {
     return decision;
@@ -92,6 +93,14 @@ std::shared_ptr<const TerrainDecision> NamedByRecord(
   for (LandingSite& site : named->selection.sites) {
     site.letter = renamed[site.letter];
     site.reason = WithNewLetters(site.reason, renamed);
+  }
+  if (limits_of_flight) {
+    const auto rank = [&](const LandingSite& site) {
+      return std::find_if(proposal->places.begin(), proposal->places.end(),
+                          [&](const RecordedPlace& place) { return place.id == site.id; });
+    };
+    std::stable_sort(named->selection.sites.begin(), named->selection.sites.end(),
+                     [&](const LandingSite& a, const LandingSite& b) { return rank(a) < rank(b); });
   }
   return named;
 }
