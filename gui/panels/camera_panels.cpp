@@ -43,9 +43,10 @@ SiteOverlay OverlayOf(const EngineSnapshot& snap, std::uint64_t highlighted) {
   }
   overlay.highlighted = highlighted;
   overlay.commanded = snap.flight->mission.state >= MissionState::kApproved;
-  // The applied winner, where the preview moves it from the ring already drawn.
+  // The applied winner, where the preview moves it from the ring already drawn. Beside a site that
+  // somebody selected, a second ring would only be mistaken for it.
   const LandingSite* applied =
-      snap.terrain->preview && snap.terrain->applied
+      snap.terrain->preview && snap.terrain->applied && !snap.flight->mission.armed
           ? snap.flight->mission.BestStanding(snap.terrain->applied->selection.sites)
           : nullptr;
   if (applied != nullptr && (!overlay.selected || SitesDiffer(*overlay.selected, *applied))) {

@@ -195,6 +195,28 @@ TEST(LimitTickOnFly, SaysInTheDescentThatNothingIsApplied) {
   EXPECT_FALSE(HasText(window.ui.items, "applied on Tune"));
 }
 
+// While limits are only a preview, the best site under those applied has a dashed ring of its own;
+// beside the site that the vehicle lands on it would be mistaken for it.
+TEST(Preview, DrawsNoOtherRingBesideTheSelectedSite) {
+  for (const MissionState state : {MissionState::kProposed, MissionState::kArmed,
+                                   MissionState::kDescending, MissionState::kLanded}) {
+    SCOPED_TRACE(MissionStateWord(state));
+    EngineSnapshot snap = fake::Snapshot(state);
+    TerrainDecision preview = *snap.terrain->applied;
+    TerrainDecision applied = preview;
+    std::rotate(applied.selection.sites.begin(), applied.selection.sites.begin() + 1,
+                applied.selection.sites.end());
+    snap.terrain.Edit().preview = std::make_shared<const TerrainDecision>(preview);
+    snap.terrain.Edit().applied = std::make_shared<const TerrainDecision>(applied);
+    FlyWindow window(1920, 1080, snap);
+    int rings = 0;
+    for (const Item& item : window.ui.items.items()) {
+      rings += item.name == "text" && item.text.rfind("applied ", 0) == 0 ? 1 : 0;
+    }
+    EXPECT_EQ(rings, state == MissionState::kProposed ? 1 : 0);
+  }
+}
+
 TEST(OldMap, IsVeiledAndConfirmsNothing) {
   EngineSnapshot snap = fake::Snapshot(MissionState::kProposed);
   {
