@@ -12,16 +12,35 @@ namespace {
 
 constexpr double kShownEvery_m = 3;
 
-/// The newest checks, spaced so that a list of few covers the descent; oldest first.
+bool IsWorse(const SiteRecheck& a, const SiteRecheck& b) {
+  return a.verdict != b.verdict ? a.verdict > b.verdict : a.safe_distance_m < b.safe_distance_m;
+}
+
+/// The newest check, before it the worst of each stretch of height, and of the whole descent the
+/// worst in any case; oldest first. Of a stretch that is over the row stays.
 std::vector<const SiteRecheck*> Spaced(const std::vector<SiteRecheck>& rechecks, std::size_t most) {
   std::vector<const SiteRecheck*> picked;
-  for (auto it = rechecks.rbegin(); it != rechecks.rend() && picked.size() < most; ++it) {
-    if (picked.empty() ||
-        it->height_above_site_m >= picked.back()->height_above_site_m + kShownEvery_m ||
-        it->verdict != picked.back()->verdict) {
+  if (rechecks.empty()) {
+    return picked;
+  }
+  const auto stretch = [](const SiteRecheck& check) {
+    return std::floor(check.height_above_site_m / kShownEvery_m);
+  };
+  for (auto it = rechecks.rbegin() + 1; it != rechecks.rend(); ++it) {
+    if (picked.empty() || stretch(*it) > stretch(*picked.back())) {
       picked.push_back(&*it);
+    } else if (IsWorse(*it, *picked.back())) {
+      picked.back() = &*it;
     }
   }
+  if (picked.size() > most - 1) {
+    const auto worst = std::min_element(
+        picked.begin() + static_cast<std::ptrdiff_t>(most - 2), picked.end(),
+        [](const SiteRecheck* a, const SiteRecheck* b) { return IsWorse(*a, *b); });
+    picked[most - 2] = *worst;
+    picked.resize(most - 1);
+  }
+  picked.insert(picked.begin(), &rechecks.back());
   std::reverse(picked.begin(), picked.end());
   return picked;
 }

@@ -42,6 +42,7 @@ const std::set<std::pair<std::string, std::string>> kAllowed = {
     {"gui/panels/review/review_workspace.cpp", "kOldMap_s"},
     // Which checks of many are listed; how far a plot reaches.
     {"gui/panels/site_recheck.cpp", "height_above_site_m"},
+    {"gui/panels/site_recheck.cpp", "safe_distance_m"},
     {"gui/panels/descent_plots.cpp", "kFuture_s"},
     // Two names of one place in a record and its replay.
     {"gui/panels/review/review_timeline.cpp", "kSameRadius_m"},

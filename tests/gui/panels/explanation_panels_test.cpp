@@ -112,6 +112,28 @@ TEST(FlyDescent, TheKeptAlternativeIsComparedWithTheSiteFlownAndALossHasItsReaso
   }
 }
 
+TEST(FlyDescent, TheListOfChecksKeepsTheLeastClearOfTheDescent) {
+  for (const WindowSize& size : kWindowSizes) {
+    SCOPED_TRACE(size.name);
+    EngineSnapshot snap = fake::Snapshot(MissionState::kDescending);
+    auto& rechecks = snap.flight.Edit().mission.rechecks;
+    SiteRecheck check = rechecks.back();
+    rechecks.clear();
+    check.verdict = SiteVerdict::kHolds;
+    for (double height_m = 22; height_m > 4; height_m -= 0.25) {
+      check.height_above_site_m = height_m;
+      check.safe_distance_m = height_m == 18.5 ? 0.3 : 0.9;
+      rechecks.push_back(check);
+    }
+    FlyWindow window(size.width, size.height, snap);
+    int least = 0;
+    for (const Item& item : window.ui.items.items()) {
+      least += item.name == "text" && item.text.rfind("0.3 m", 0) == 0 ? 1 : 0;
+    }
+    EXPECT_EQ(least, 1);
+  }
+}
+
 TEST(FlyDescent, TheRecheckedMapAnswersToo) {
   FlyWindow window(1920, 1080, fake::Snapshot(MissionState::kDescending));
   window.ui.explain = RoughCell;
