@@ -206,7 +206,7 @@ std::string WaveOffTold(const WaveOffReport& report) {
     case Phase::kUnanswered:
       return WithNumbers(". No answer from the vehicle for %.1f s.", report.age_s);
     case Phase::kAccepted:
-      return ". The vehicle accepted it" + (old ? ago + " Not heard since." : ".");
+      return ". The vehicle accepted it" + (old ? ago + " Its state does not show it." : ".");
     case Phase::kClimbs:
       return old ? ". The vehicle climbed when it was heard last" + ago
                  : ". Vehicle climbs. Acknowledge when it hovers.";
@@ -214,7 +214,7 @@ std::string WaveOffTold(const WaveOffReport& report) {
       break;
   }
   return old ? ". The vehicle hovered when it was heard last" + ago
-             : ". Vehicle hovers. Acknowledge to search again.";
+             : ". Vehicle hovers. Confirm \"Wave-off complete\" to search again.";
 }
 
 std::string GroundNotMeasured(const std::string& letter, double age_s) {

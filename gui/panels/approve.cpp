@@ -105,19 +105,14 @@ std::string Consequence(const EngineSnapshot& snap, bool narrow) {
 
 constexpr double kToldCut_s = 5;
 
-/// The first reason against approve: of the screen, of a check; else what cut the last hold short.
-std::string CheckLine(const MissionStatus& m, const ApproveState& state, const UiFrame& ui) {
-  if (const std::string why = WhyScreenOld(ui.silent_s); !why.empty()) {
-    return why;
-  }
+/// The first reason against approve, as the button gives it: of a check, then of the screen.
+std::string WhyNotNow(const MissionStatus& m, const UiFrame& ui) {
   for (const GuardResult& guard : m.guards) {
     if (!guard.pass) {
       return guard.reason.empty() ? guard.name : guard.reason;
     }
   }
-  return ui.ui_time_s < state.hold_cut_told_until_s
-             ? "Hold cut: " + state.hold_cut_by
-             : "All " + std::to_string(m.guards.size()) + " checks pass";
+  return WhyScreenOld(ui.silent_s);
 }
 
 void DrawGuardList(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui) {
@@ -158,10 +153,12 @@ void DrawChecks(const EngineSnapshot& snap, const Rect& rect, float y, bool narr
   if (m.guards.empty()) {
     return;
   }
-  const std::string words = CheckLine(m, state, ui);
-  const bool pass = WhyScreenOld(ui.silent_s).empty() &&
-                    std::all_of(m.guards.begin(), m.guards.end(),
-                                [](const GuardResult& guard) { return guard.pass; });
+  const std::string why_not = WhyNotNow(m, ui);
+  const bool pass = why_not.empty();
+  const std::string words = !pass ? why_not
+                            : ui.ui_time_s < state.hold_cut_told_until_s
+                                ? "Hold cut: " + state.hold_cut_by
+                                : "All " + std::to_string(m.guards.size()) + " checks pass";
   DrawIcon(Canvas(), pass ? Icon::kDone : Icon::kCaution, {rect.x + s.Px(18), y}, s.Px(12),
            pass ? p.text1 : p.caution);
   const float text_x = rect.x + s.Px(32);

@@ -32,13 +32,14 @@ std::string WaveOffHeadline(const WaveOffReport& report, double silent_s) {
   }
 }
 
-std::string Headline(const MissionStatus& m, double silent_s) {
+/// `heard_s`: since the vehicle was heard, whose deed a hold is.
+std::string Headline(const MissionStatus& m, double silent_s, double heard_s) {
   const std::string site = m.armed ? std::string("site ") + m.armed->letter : std::string("site");
   switch (m.state) {
     case MissionState::kApproved:
       return "Approved: " + site;
     case MissionState::kHold:
-      return "Holding above " + site;
+      return Heard("Holding above " + site, heard_s);
     case MissionState::kAborting:
       return WaveOffHeadline(m.wave_off, silent_s);
     default:
@@ -159,7 +160,8 @@ void DrawLandingPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui)
                      Fixed(m.time_to_touchdown_s, 0) + " s", Align::kRight) +
             s.Px(12);
   }
-  const std::string headline = Headline(m, ui.silent_s);
+  const std::string headline =
+      Headline(m, ui.silent_s, ArrivalOf(snap, ChannelId::kVehiclePose, ui.silent_s).age_s);
   ImFont* font = TextWidth(s.readout, headline) <= room ? s.readout : s.section;
   DrawText(ui, font, p.text1, x, head_y, headline);
   DrawLadder(snap, {x, rect.y + s.Px(tall ? 75 : 62), width, s.Px(8)}, ui);

@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 
+#include "gui/panels/arrival.h"
 #include "gui/panels/fly_panels.h"
 #include "gui/widgets/evidence_row.h"
 
@@ -63,15 +64,23 @@ void DrawLimitsInForcePanel(const EngineSnapshot& snap, const Rect& rect, bool n
   const bool measured = std::any_of(limits.begin(), limits.end(), [](const LimitRow& limit) {
     return limit.enforced_by != EnforcedBy::kNobody && std::isfinite(limit.value);
   });
+  // Of the vehicle's own place: without it nothing here says what is.
+  const Arrival pose = ArrivalOf(snap, ChannelId::kVehiclePose, ui.silent_s);
+  const bool old = pose.state == ChannelHealth::State::kStale;
   std::string fact = measured ? "All inside" : "Nothing measured";
-  if (over > 0) {
-    fact = std::to_string(over) + " over a limit";
-  } else if (snap.flight->mission.state == MissionState::kLanded) {
+  if (snap.flight->mission.state == MissionState::kLanded) {
     fact = "On the ground";
+  } else if (snap.flight->mission.state == MissionState::kAborting) {
+    fact = "Waved off";
+  } else if (old) {
+    fact = "As of " + pose.age + " ago";
+  } else if (over > 0) {
+    fact = std::to_string(over) + " over a limit";
   } else if (unknown > 0) {
     fact = std::to_string(unknown) + " unknown";
   }
-  const Rect content = DrawPanelFrame(ui, rect, "Limits in force", {{fact, 0, false, over > 0}});
+  const Rect content =
+      DrawPanelFrame(ui, rect, "Limits in force", {{fact, 0, old, old || over > 0}});
   const Rect area{content.x, content.y + s.Px(4), content.w, content.h - s.Px(4)};
   const auto room = static_cast<std::size_t>(std::max(area.h, 0.0f) / EvidenceRowHeight(s, narrow));
   std::vector<EvidenceRow> rows;
@@ -79,6 +88,9 @@ void DrawLimitsInForcePanel(const EngineSnapshot& snap, const Rect& rect, bool n
     rows.push_back(RowOf(*limit));
   }
   DrawEvidenceRows(ui, area, rows, narrow);
+  if (old) {
+    StaleVeil(s, Canvas(), area);
+  }
 }
 
 }  // namespace palace

@@ -31,14 +31,12 @@ void DrawReadout(UiFrame& ui, const Rect& cell, const Readout& r) {
   const Palette& p = s.palette;
   const bool never = r.state == Readout::State::kNever;
   const bool stale = r.state == Readout::State::kStale;
-  const std::string note = NoteOf(r);
-  // Without a line of its own the note stands behind the label.
-  const bool beside = cell.h < s.Px(60);
-  const float note_w = beside && !note.empty() ? TextWidth(s.caption, note) + s.Px(22) : 0;
-  const float label_y = cell.y + s.Px(8);
-  DrawText(ui, s.caption, p.text2, cell.x, label_y, FitWords(s.caption, r.label, cell.w - note_w));
+  const bool fresh = r.state == Readout::State::kFresh;
+  const bool tight = cell.h < s.Px(60) && !fresh;  // the note takes a line of its own
+  DrawText(ui, s.caption, p.text2, cell.x, cell.y + s.Px(tight ? 4 : 8),
+           FitWords(s.caption, r.label, cell.w));
   const std::string value = never ? "––" : r.value;
-  const float value_y = cell.y + s.Px(31);
+  const float value_y = cell.y + s.Px(tight ? 21 : 31);
   std::string_view unit = r.unit;
   if (TextWidth(s.readout, value) + TextWidth(s.caption, unit) + s.Px(10) > cell.w) {
     unit = FitWords(s.caption, unit, cell.w - TextWidth(s.readout, value) - s.Px(10));
@@ -48,7 +46,7 @@ void DrawReadout(UiFrame& ui, const Rect& cell, const Readout& r) {
   } else {
     DrawValueUnit(ui, s.readout, cell.x, value_y, value, unit);
   }
-  if (r.state == Readout::State::kFresh) {
+  if (fresh) {
     return;
   }
   if (stale) {
@@ -56,11 +54,10 @@ void DrawReadout(UiFrame& ui, const Rect& cell, const Readout& r) {
     FillRect(Canvas(), veil, WithAlpha(p.panel, 0.22f));
     Hatch(Canvas(), veil, WithAlpha(p.text3, 0.5f), s.Fine(1), s.Px(10));
   }
-  const float note_x = beside ? cell.right() - s.Px(4) - note_w : cell.x;
-  const float note_y = beside ? label_y : cell.y + s.Px(52);
-  DrawIcon(Canvas(), never ? Icon::kOff : Icon::kStale, {note_x + s.Px(6), note_y}, s.Px(12),
+  const float note_y = cell.y + s.Px(tight ? 40 : 52);
+  DrawIcon(Canvas(), never ? Icon::kOff : Icon::kStale, {cell.x + s.Px(6), note_y}, s.Px(12),
            never ? p.text2 : p.caution);
-  DrawText(ui, s.caption, p.text1, note_x + s.Px(18), note_y, note);
+  DrawText(ui, s.caption, p.text1, cell.x + s.Px(18), note_y, NoteOf(r));
 }
 
 }  // namespace palace

@@ -324,7 +324,7 @@ TEST(AlarmTable, NamesWhatIsMissing) {
   EXPECT_EQ(WhyStopped(facts), "Right camera stale, 1.2 s");
   facts.left_camera_age_s = facts.pose_age_s = 1.2;
   facts.link_age_s = 1.3;
-  EXPECT_EQ(WhyStopped(facts), "Vehicle silent for 1.3 s");
+  EXPECT_EQ(WhyStopped(facts), "Vehicle fell silent");
   EXPECT_THAT(TextOf(AlarmTable()[static_cast<std::size_t>(AlarmId::kLink)], facts),
               testing::StartsWith("Vehicle stale, 1.3 s, limit 1.0 s."));
 }

@@ -296,9 +296,12 @@ const AlarmRow kRows[] = {
                    double limit) { return f.has_vehicle && f.looked_at_hz < limit; },
      .text =
          [](const Facts& f, const std::string& limit) {
-           return WithNumbers("Stereo pairs are looked at %.1f times a second, limit ",
-                              f.looked_at_hz) +
-                  limit +
+           const std::string seen =
+               f.looked_at_hz < 0.05
+                   ? "No stereo pair is looked at, limit "
+                   : WithNumbers("Stereo pairs are looked at %.1f times a second, limit ",
+                                 f.looked_at_hz);
+           return seen + limit +
                   WithNumbers(
                       "; %.1f a second are missed. Close other programs or make "
                       "fewer maps.",
@@ -428,7 +431,7 @@ std::span<const AlarmRow> AlarmTable() {
 
 std::string WhyStopped(const AlarmFacts& facts) {
   if (IsSilent(facts)) {
-    return WithNumbers("Vehicle silent for %.1f s", facts.link_age_s);
+    return "Vehicle fell silent";
   }
   for (const AlarmRow& row : AlarmTable()) {
     std::string why = row.stop != nullptr ? row.stop(facts) : std::string();

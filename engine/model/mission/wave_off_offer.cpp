@@ -3,7 +3,7 @@
 namespace palace {
 
 std::string WhyNoWaveOff(const EngineSnapshot& snapshot, double silent_s) {
-  return silent_s <= kLinkSilent_s ? snapshot.flight->mission.why_no_wave_off : std::string();
+  return IsWordOld(silent_s) ? std::string() : snapshot.flight->mission.why_no_wave_off;
 }
 
 }  // namespace palace
