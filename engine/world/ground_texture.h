@@ -1,7 +1,7 @@
 // Ground seen from above: grey as an exact function of place, for pictures made by ray casting.
 //
 // Nothing here is made for a matcher: edges are sharp (the pictures are smoothed by super-sampling,
-// as an eye and a lens do) and the three kinds of ground differ in what they offer.
+// as an eye and a lens do) and the kinds of ground differ in what they offer.
 #pragma once
 
 #include <array>
@@ -10,13 +10,21 @@
 namespace palace {
 
 enum class GroundTexture {
-  kCloud,    ///< smooth noise in five octaves from 0.8 m to 5 cm
-  kGravel,   ///< stones of some 3 cm, each of its own grey, dark gaps
-  kGrass,    ///< streaks 1 cm wide and 10 cm long in patches of two directions
-  kAsphalt,  ///< nearly even, with fine grain, a chip in every second 6 cm cell, stains, a few
-             ///< cracks
+  kCloud,     ///< smooth noise in five octaves from 0.8 m to 5 cm
+  kGravel,    ///< stones of some 3 cm, each of its own grey, dark gaps
+  kGrass,     ///< streaks 1 cm wide and 10 cm long in patches of two directions
+  kAsphalt,   ///< nearly even, with fine grain, a chip in every second 6 cm cell, stains, a few
+              ///< cracks
+  kSoil,      ///< clods of some 5 cm, dark gaps, patches of wet and dry
+  kSand,      ///< ripples, grain, hardly any tone
+  kSnow,      ///< bright, with broad weak tones
+  kConcrete,  ///< slabs of 3 m with joints, pores, stains
+  kWater,     ///< dark and even
+  kPaint,     ///< bright and even, worn through in small places
 };
 
+/// All of them, in order.
+inline constexpr int kGroundTextures = 10;
 /// Lower-case English: "gravel".
 const char* NameOf(GroundTexture texture);
 

@@ -136,6 +136,10 @@ double EnterShape(const Polyhedron& polyhedron, const Vector3d& p, const Vector3
   return enter;
 }
 
+double EnterShape(const Mesh& mesh, const Vector3d& p, const Vector3d& r) {
+  return mesh.triangles->Cast(p, r).s;
+}
+
 double TopOf(const Box& box, double x_m, double y_m) {
   return TopOfExtent(ExtentOf(box), x_m, y_m);
 }
@@ -152,6 +156,11 @@ double TopOf(const Cylinder& cylinder, double x_m, double y_m) {
 double TopOf(const Polyhedron& polyhedron, double x_m, double y_m) {
   constexpr double kAbove_m = 1000;
   return kAbove_m - EnterShape(polyhedron, {x_m, y_m, -kAbove_m}, Vector3d::UnitZ());
+}
+
+double TopOf(const Mesh& mesh, double x_m, double y_m) {
+  constexpr double kAbove_m = 1000;
+  return kAbove_m - EnterShape(mesh, {x_m, y_m, -kAbove_m}, Vector3d::UnitZ());
 }
 
 double DistanceTo(const Box& box, double x_m, double y_m) {
@@ -197,9 +206,8 @@ std::vector<Vector2d> OutlineFromAbove(const Polyhedron& polyhedron) {
   return outline;
 }
 
-double DistanceTo(const Polyhedron& polyhedron, double x_m, double y_m) {
-  const std::vector<Vector2d> outline = OutlineFromAbove(polyhedron);
-  const Vector2d p(x_m, y_m);
+/// To a convex outline, corners in order; 0 inside.
+double DistanceToOutline(const std::vector<Vector2d>& outline, const Vector2d& p) {
   double nearest = kInfinity;
   bool inside = true;
   for (std::size_t i = 0; i < outline.size(); ++i) {
@@ -207,10 +215,31 @@ double DistanceTo(const Polyhedron& polyhedron, double x_m, double y_m) {
     const Vector2d along = outline[(i + 1) % outline.size()] - a;
     const Vector2d off = p - a;
     inside = inside && along.x() * off.y() - along.y() * off.x() >= 0;
-    const double s = std::clamp(off.dot(along) / along.squaredNorm(), 0.0, 1.0);
+    const double length2 = std::max(along.squaredNorm(), 1e-18);
+    const double s = std::clamp(off.dot(along) / length2, 0.0, 1.0);
     nearest = std::min(nearest, (off - s * along).norm());
   }
   return inside && outline.size() > 2 ? 0 : nearest;
+}
+
+double DistanceTo(const Polyhedron& polyhedron, double x_m, double y_m) {
+  return DistanceToOutline(OutlineFromAbove(polyhedron), {x_m, y_m});
+}
+double DistanceTo(const Mesh& mesh, double x_m, double y_m) {
+  const std::vector<Vector3d>& vertices = mesh.triangles->vertices();
+  double nearest = kInfinity;
+  for (const TriangleMesh::Corners& corners : mesh.triangles->triangles()) {
+    std::vector<Vector2d> outline;
+    for (const std::uint32_t corner : corners) {
+      outline.emplace_back(vertices[corner].head<2>());
+    }
+    const Vector2d ab = outline[1] - outline[0], ac = outline[2] - outline[0];
+    if (ab.x() * ac.y() - ab.y() * ac.x() < 0) {
+      std::swap(outline[1], outline[2]);
+    }
+    nearest = std::min(nearest, DistanceToOutline(outline, {x_m, y_m}));
+  }
+  return nearest;
 }
 
 double RadiusOf(const Box& box) { return std::hypot(box.size_x_m, box.size_y_m) / 2; }
@@ -224,6 +253,13 @@ double RadiusOf(const Polyhedron& polyhedron) {
   }
   return radius_m;
 }
+double RadiusOf(const Mesh& mesh) {
+  double radius_m = 0;
+  for (const Vector3d& vertex : mesh.triangles->vertices()) {
+    radius_m = std::max(radius_m, vertex.head<2>().norm());
+  }
+  return radius_m;
+}
 
 std::vector<Vector3d> BoundsOf(const Box& box) { return CornersOfExtent(ExtentOf(box)); }
 std::vector<Vector3d> BoundsOf(const Table& table) { return CornersOfExtent(ExtentOf(table)); }
@@ -234,6 +270,7 @@ std::vector<Vector3d> BoundsOf(const Cylinder& cylinder) {
   return CornersOfExtent({cylinder.diameter_m, cylinder.diameter_m, cylinder.height_m});
 }
 std::vector<Vector3d> BoundsOf(const Polyhedron& polyhedron) { return polyhedron.corners; }
+std::vector<Vector3d> BoundsOf(const Mesh& mesh) { return mesh.triangles->vertices(); }
 
 }  // namespace
 

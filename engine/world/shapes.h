@@ -5,12 +5,14 @@
 // compiler names the functions that it lacks: no other file asks which shape it has.
 #pragma once
 
+#include <memory>
 #include <variant>
 #include <vector>
 
 #include <Eigen/Dense>
 
 #include "engine/world/polyhedron.h"
+#include "engine/world/triangle_mesh.h"
 
 namespace palace {
 
@@ -33,10 +35,13 @@ struct Cylinder {
   double diameter_m = 0;
   double height_m = 0;
 };
-using Shape = std::variant<Box, Table, Cone, Cylinder, Polyhedron>;
+struct Mesh {
+  std::shared_ptr<const TriangleMesh> triangles;
+};
+using Shape = std::variant<Box, Table, Cone, Cylinder, Polyhedron, Mesh>;
 
 /// Where the ray p + s r enters the shape, the least s >= 0; infinity when it misses.
-/// From inside: 0, but of cones and cylinders, which have no inside, the wall ahead.
+/// From inside: 0, but of cones, cylinders and meshes, which have no inside, the wall ahead.
 double Enter(const Shape& shape, const Eigen::Vector3d& p_O, const Eigen::Vector3d& r_O);
 /// Height of the top over a place, up-positive above the foot; -infinity beside the shape.
 double TopHeight(const Shape& shape, double x_m, double y_m);

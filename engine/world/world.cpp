@@ -4,12 +4,31 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/core/check.h"
+
 namespace palace {
 
 using Eigen::Vector3d;
 
 double Ground::Height(double north_m, double east_m) const {
-  return rise_north * north_m + rise_east * east_m;
+  const double plane = rise_north * north_m + rise_east * east_m;
+  return relief ? plane + relief->Height(north_m, east_m) : plane;
+}
+
+Vector3d Ground::NormalAt(double north_m, double east_m) const {
+  if (!relief) {
+    return Normal();
+  }
+  const Vector3d own = relief->Normal(north_m, east_m);
+  return Vector3d(own.x() / -own.z() - rise_north, own.y() / -own.z() - rise_east, -1).normalized();
+}
+
+const Material& Ground::MaterialAt(double north_m, double east_m) const {
+  PALACE_CHECK(material.has_value(), north_m, east_m);
+  const auto top = std::find_if(patches.rbegin(), patches.rend(), [&](const GroundPatch& patch) {
+    return patch.Contains(north_m, east_m);
+  });
+  return top != patches.rend() ? top->material : *material;
 }
 
 Vector3d Ground::Normal() const { return Vector3d(-rise_north, -rise_east, -1).normalized(); }
@@ -32,6 +51,13 @@ Solid StandingOn(const Ground& ground, Shape shape, double north_m, double east_
 }
 
 Hit CastGround(const Ground& ground, const Vector3d& p_W, const Vector3d& r_W) {
+  if (ground.relief) {
+    // Heights above the plane: a shear, in which the ray stays straight.
+    const auto above = [&](const Vector3d& v) {
+      return Vector3d(v.x(), v.y(), v.z() + ground.rise_north * v.x() + ground.rise_east * v.y());
+    };
+    return {ground.relief->Cast(above(p_W), above(r_W))};
+  }
   // Height above the plane falls from `above` by `fall` a unit of s.
   const double fall = r_W.z() + ground.rise_north * r_W.x() + ground.rise_east * r_W.y();
   const double above = -(p_W.z() + ground.rise_north * p_W.x() + ground.rise_east * p_W.y());

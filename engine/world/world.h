@@ -7,18 +7,22 @@
 
 #include <cstdint>
 #include <limits>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <Eigen/Dense>
 
 #include "engine/world/ground_texture.h"
+#include "engine/world/height_field.h"
+#include "engine/world/material.h"
 #include "engine/world/painted_things.h"
 #include "engine/world/solids.h"
 
 namespace palace {
 
-/// A plane through the origin of W.
+/// A plane through the origin of W, with the relief on it where there is one.
 struct Ground {
   double rise_north = 0;  ///< metres up per metre north
   double rise_east = 0;
@@ -26,16 +30,28 @@ struct Ground {
   std::uint64_t texture_seed = 7;
   double contrast = 1;           ///< of a ray-cast texture about mid grey; 0: none
   bool runway_markings = false;  ///< GL only
+  /// Rocks that grew in, holes, ditches, dunes: heights added to the plane's. Null: none.
+  std::shared_ptr<const HeightField> relief{};
+  /// What the ground is made of, and what lies on it. With it both renderers show the ground by
+  /// its lit picture (ground_picture.h); without, as `texture` says.
+  std::optional<Material> material{};
+  std::vector<GroundPatch> patches{};  ///< read with a material only
 
   double Height(double north_m, double east_m) const;
-  /// Unit normal in W, pointing up.
+  /// Unit normal of the plane in W, pointing up.
   Eigen::Vector3d Normal() const;
+  /// The same of the ground at a place, relief and all.
+  Eigen::Vector3d NormalAt(double north_m, double east_m) const;
+  /// What lies on top there; only with a material.
+  const Material& MaterialAt(double north_m, double east_m) const;
 };
 
-/// Where light comes from; ray-cast pictures are shadowless.
+/// Where light comes from; RenderGrey and DrawGrey show no shadows.
 struct Sun {
   double azimuth_rad = 2.4;
   double elevation_rad = 0.9;
+  double direct = 0.7;   ///< on a surface square to it, of what makes grey 255 of albedo 1
+  double diffuse = 0.5;  ///< from the sky, on every surface
 
   /// Unit vector to the sun in W.
   Eigen::Vector3d Direction() const;

@@ -172,6 +172,18 @@ void AddShape(const Polyhedron& polyhedron, MeshBuilder& builder) {
   }
 }
 
+void AddShape(const Mesh& mesh, MeshBuilder& builder) {
+  const auto up = [](const Eigen::Vector3d& v) { return Eigen::Vector3d(v.x(), v.y(), -v.z()); };
+  const TriangleMesh& triangles = *mesh.triangles;
+  for (std::uint32_t i = 0; i < triangles.triangles().size(); ++i) {
+    std::vector<Eigen::Vector3d> corners;
+    for (const std::uint32_t corner : triangles.triangles()[i]) {
+      corners.push_back(up(triangles.vertices()[corner]));
+    }
+    builder.Polygon(corners, up(triangles.Normal(i)), builder.albedo());
+  }
+}
+
 }  // namespace
 
 std::vector<MeshVertex> SolidTriangles(const World& world, float ground_albedo) {
