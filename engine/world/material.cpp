@@ -11,7 +11,7 @@ double MeanGrey(GroundTexture texture) {
     case GroundTexture::kCloud:
       return 128;
     case GroundTexture::kGravel:
-      return 118;
+      return 114.5;
     case GroundTexture::kGrass:
       return 100;
     case GroundTexture::kAsphalt:

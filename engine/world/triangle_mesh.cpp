@@ -23,8 +23,9 @@ TriangleMesh::TriangleMesh(std::vector<Vector3d> vertices, std::vector<Corners> 
   tree_ = BoxTree(boxes);
 }
 
-TriangleMesh::Meeting TriangleMesh::Cast(const Vector3d& p_O, const Vector3d& r_O) const {
-  Meeting first;
+TriangleMesh::Meeting TriangleMesh::Cast(const Vector3d& p_O, const Vector3d& r_O,
+                                         double nearest) const {
+  Meeting first{nearest, 0};
   tree_.Walk(p_O, r_O, first.s, [&](std::uint32_t triangle) {
     const Corners& corners = triangles_[triangle];
     const Vector3d& a = vertices_[corners[0]];
@@ -44,7 +45,7 @@ TriangleMesh::Meeting TriangleMesh::Cast(const Vector3d& p_O, const Vector3d& r_
     }
     return first.s;
   });
-  return first;
+  return first.s < nearest ? first : Meeting{};
 }
 
 Vector3d TriangleMesh::Normal(std::uint32_t triangle) const {

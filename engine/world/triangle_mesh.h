@@ -25,8 +25,9 @@ class TriangleMesh {
     double s = std::numeric_limits<double>::infinity();
     std::uint32_t triangle = 0;
   };
-  /// The first triangle on the ray p + s r, s >= 0 (Moeller and Trumbore 1997).
-  Meeting Cast(const Eigen::Vector3d& p_O, const Eigen::Vector3d& r_O) const;
+  /// The first triangle on the ray p + s r, 0 <= s < nearest (Moeller and Trumbore 1997).
+  Meeting Cast(const Eigen::Vector3d& p_O, const Eigen::Vector3d& r_O,
+               double nearest = std::numeric_limits<double>::infinity()) const;
   /// Unit normal of a triangle, by the right-hand rule of its corners.
   Eigen::Vector3d Normal(std::uint32_t triangle) const;
 

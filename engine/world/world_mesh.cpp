@@ -20,6 +20,24 @@ double FarthestCorner(const Shape& shape) {
   return farthest_m;
 }
 
+/// How far the relief about a solid falls below that under its middle.
+double ReliefUnder(const Ground& ground, const Solid& solid) {
+  if (!ground.relief) {
+    return 0;
+  }
+  const Eigen::Vector3d& p = solid.X_WO.p;
+  const double middle_m = ground.relief->Height(p.x(), p.y());
+  const double reach_m = FarthestCorner(solid.shape);
+  double deepest_m = 0;
+  for (int i = 0; i < 24; ++i) {
+    const double angle = 2 * std::numbers::pi * i / 24;
+    const double there_m =
+        ground.relief->Height(p.x() + reach_m * std::cos(angle), p.y() + reach_m * std::sin(angle));
+    deepest_m = std::max(deepest_m, middle_m - there_m);
+  }
+  return deepest_m;
+}
+
 /// One solid's own frame, but with z up: x, y along its sides, origin in the middle of its foot.
 class MeshBuilder {
  public:
@@ -31,7 +49,8 @@ class MeshBuilder {
         shift_m_(static_cast<float>(3.7 * solid.X_WO.p.x() + 11.3),
                  static_cast<float>(5.1 * solid.X_WO.p.y() + 7.9)),
         sunk_m_(std::hypot(world.ground.rise_north, world.ground.rise_east) *
-                FarthestCorner(solid.shape)) {}
+                    FarthestCorner(solid.shape) +
+                ReliefUnder(world.ground, solid)) {}
   float albedo() const { return albedo_; }
   double sunk_m() const { return sunk_m_; }
 
