@@ -11,9 +11,11 @@ namespace palace {
 class SceneCamera {
  public:
   virtual ~SceneCamera() = default;
-  /// Renders what an ideal pinhole camera at X_WC sees of the world it was made for. Grey, without
-  /// sensor noise. Called from the simulator's thread only.
-  virtual Result<ImageU8> Render(const PinholeCamera& camera, const RigidTransform& X_WC) = 0;
+  /// Renders what an ideal pinhole camera at X_WC sees of the world it was made for, at a time
+  /// after the start, for what moves. Grey, without sensor noise. Called from the simulator's
+  /// thread only.
+  virtual Result<ImageU8> Render(const PinholeCamera& camera, const RigidTransform& X_WC,
+                                 double time_s = 0) = 0;
 };
 
 }  // namespace palace

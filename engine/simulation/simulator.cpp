@@ -115,13 +115,14 @@ Result<std::shared_ptr<const StereoFrame>> Simulator::State::Expose() {
     }
     camera = std::move(made).value();
   }
+  const double time_s = SecondsBetween(kEpoch, vehicle.now());
   const RigidTransform X_WC0 = vehicle.X_WB() * rig->X_BC();
   const RigidTransform X_C0C1{Eigen::Matrix3d::Identity(), {rig->baseline_m, 0, 0}};
-  Result<ImageU8> left = camera->Render(rig->left.pinhole, X_WC0);
+  Result<ImageU8> left = camera->Render(rig->left.pinhole, X_WC0, time_s);
   if (!left) {
     return left.error();
   }
-  Result<ImageU8> right = camera->Render(rig->right.pinhole, X_WC0 * X_C0C1);
+  Result<ImageU8> right = camera->Render(rig->right.pinhole, X_WC0 * X_C0C1, time_s);
   if (!right) {
     return right.error();
   }

@@ -14,8 +14,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Without relief there is a square all the same: as far as pictures from 30 m reach sharply.
-constexpr double kNorth_m = -16, kEast_m = -32, kSize_m = 64;
 constexpr double kAboveGround_m = 0.004;
 
 /// Painters of the ground and of every patch, each remembering its last place.
@@ -61,24 +59,28 @@ double LightOn(const Sun& sun, const Vector3d& normal_W, bool lit) {
   return sun.diffuse + (lit ? sun.direct * std::max(0.0, normal_W.dot(sun.Direction())) : 0.0);
 }
 
+GroundSquare SquareOf(const Ground& ground) {
+  if (!ground.relief) {
+    return {-16, -32, 64};
+  }
+  const HeightField::Place& place = ground.relief->place();
+  return {place.north_m, place.east_m, place.size_m};
+}
+
 GroundPicture::GroundPicture(const World& world, double texel_m,
                              const std::function<bool(const Vector3d&)>& lit)
-    : ground_(world.ground),
-      sun_(world.sun),
-      north_m_(world.ground.relief ? world.ground.relief->place().north_m : kNorth_m),
-      east_m_(world.ground.relief ? world.ground.relief->place().east_m : kEast_m),
-      size_m_(world.ground.relief ? world.ground.relief->place().size_m : kSize_m) {
+    : ground_(world.ground), sun_(world.sun), square_(SquareOf(world.ground)) {
   PALACE_CHECK(ground_.material.has_value() && texel_m > 0, texel_m);
-  const int side = static_cast<int>(std::ceil(size_m_ / texel_m));
-  per_texel_ = side / size_m_;
+  const int side = static_cast<int>(std::ceil(square_.size_m / texel_m));
+  per_texel_ = side / square_.size_m;
   texels_ = ImageU8(side, side);
   const bool sun_is_up = sun_.Direction().z() < 0;
   cv::parallel_for_(cv::Range(0, side), [&](const cv::Range& rows) {
     Albedos albedos(ground_);
     for (int y = rows.start; y < rows.end; ++y) {
-      const double north_m = north_m_ + (y + 0.5) / per_texel_;
+      const double north_m = square_.north_m + (y + 0.5) / per_texel_;
       for (int x = 0; x < side; ++x) {
-        const double east_m = east_m_ + (x + 0.5) / per_texel_;
+        const double east_m = square_.east_m + (x + 0.5) / per_texel_;
         const Vector3d normal = ground_.NormalAt(north_m, east_m);
         const Vector3d p(north_m, east_m, -ground_.Height(north_m, east_m));
         const bool reached =
@@ -91,8 +93,8 @@ GroundPicture::GroundPicture(const World& world, double texel_m,
 }
 
 double GroundPicture::Grey(double north_m, double east_m) const {
-  const double y = (north_m - north_m_) * per_texel_ - 0.5;
-  const double x = (east_m - east_m_) * per_texel_ - 0.5;
+  const double y = (north_m - square_.north_m) * per_texel_ - 0.5;
+  const double x = (east_m - square_.east_m) * per_texel_ - 0.5;
   const double fy = FastFloor(y), fx = FastFloor(x);
   const auto i = static_cast<std::int64_t>(fy), j = static_cast<std::int64_t>(fx);
   const double a = y - fy, b = x - fx;

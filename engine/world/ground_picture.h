@@ -17,6 +17,14 @@
 
 namespace palace {
 
+/// Where a ground's picture, and its relief, repeat mirrored.
+struct GroundSquare {
+  double north_m = 0, east_m = 0;  ///< south-west corner
+  double size_m = 0;
+};
+/// The relief's; without relief one as large as pictures from 30 m need.
+GroundSquare SquareOf(const Ground& ground);
+
 class GroundPicture {
  public:
   /// `lit`: whether the sun reaches a point a little above the ground; points of W. Rows at once on
@@ -29,16 +37,14 @@ class GroundPicture {
   /// The share of that level which the sky alone would give: what is left in a shadow.
   double ShareInShadow(double north_m, double east_m) const;
 
-  double north_m() const { return north_m_; }  ///< south-west corner
-  double east_m() const { return east_m_; }
-  double size_m() const { return size_m_; }
+  const GroundSquare& square() const { return square_; }
   /// Texel (x, y): y * texel to the north, x * texel to the east.
   const ImageU8& texels() const { return texels_; }
 
  private:
   Ground ground_;
   Sun sun_;
-  double north_m_, east_m_, size_m_;
+  GroundSquare square_;
   double per_texel_;  ///< texels a metre
   ImageU8 texels_;
 };

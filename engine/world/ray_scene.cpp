@@ -21,7 +21,7 @@ Vector3d RayOf(const PinholeCamera& camera, double x_px, double y_px) {
 
 RayScene::Surfaces RayScene::SurfacesOf(const World& world) {
   Surfaces surfaces;
-  surfaces.corners = SolidTriangles(world, 0.42F);
+  surfaces.corners = SolidTriangles(world, kGroundAlbedo);
   std::vector<Vector3d> vertices;
   std::vector<TriangleMesh::Corners> triangles;
   vertices.reserve(surfaces.corners.size());
@@ -50,10 +50,8 @@ RayScene::RayScene(const World& world, double texel_m)
     movers_.back().v_W = solid.v_WO;
   }
   still_ = SurfacesOf(standing);
-  ground_ = std::make_unique<GroundPicture>(world_, texel_m, [&](const Vector3d& p_W) {
-    return std::isinf(still_.mesh->Cast(p_W, sun_W_).s) &&
-           std::isinf(CastGround(world_.ground, p_W, sun_W_).s);
-  });
+  ground_ = std::make_unique<GroundPicture>(world_, texel_m,
+                                            [&](const Vector3d& p_W) { return StillSees(p_W); });
 }
 
 RayScene::Meeting RayScene::Cast(const Vector3d& p_W, const Vector3d& r_W, double time_s) const {
@@ -73,14 +71,16 @@ RayScene::Meeting RayScene::Cast(const Vector3d& p_W, const Vector3d& r_W, doubl
   return first;
 }
 
+bool RayScene::StillSees(const Vector3d& p_W) const {
+  return std::isinf(still_.mesh->Cast(p_W, sun_W_).s) &&
+         std::isinf(CastGround(world_.ground, p_W, sun_W_).s);
+}
+
 bool RayScene::Sees(const Vector3d& p_W, double time_s, bool movers_only) const {
   const auto hides = [&](const Surfaces& surfaces) {
     return std::isfinite(surfaces.mesh->Cast(p_W - time_s * surfaces.v_W, sun_W_).s);
   };
-  if (std::any_of(movers_.begin(), movers_.end(), hides)) {
-    return false;
-  }
-  return movers_only || (!hides(still_) && std::isinf(CastGround(world_.ground, p_W, sun_W_).s));
+  return std::none_of(movers_.begin(), movers_.end(), hides) && (movers_only || StillSees(p_W));
 }
 
 double RayScene::GreyAt(const Vector3d& p_W, const Vector3d& r_W, const Meeting& meeting,
@@ -91,8 +91,10 @@ double RayScene::GreyAt(const Vector3d& p_W, const Vector3d& r_W, const Meeting&
   const Vector3d at = p_W + meeting.s * r_W;
   if (meeting.ground) {
     const double grey = ground_->Grey(at.x(), at.y());
-    const bool seen = movers_.empty() || Sees(at - Vector3d(0, 0, kOffSurface_m), time_s, true);
-    return seen ? grey : grey * ground_->ShareInShadow(at.x(), at.y());
+    const Vector3d above = at - Vector3d(0, 0, kOffSurface_m);
+    // What stands still has thrown its shadow already.
+    const bool darkened = !movers_.empty() && !Sees(above, time_s, true) && StillSees(above);
+    return darkened ? grey * ground_->ShareInShadow(at.x(), at.y()) : grey;
   }
   const Surfaces& surfaces =
       meeting.mover < 0 ? still_ : movers_[static_cast<std::size_t>(meeting.mover)];

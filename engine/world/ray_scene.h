@@ -56,6 +56,8 @@ class RayScene {
     Eigen::Vector3d v_W = Eigen::Vector3d::Zero();
   };
   static Surfaces SurfacesOf(const World& world);
+  /// Whether the sun reaches a place just above a surface; past what stands still, past all.
+  bool StillSees(const Eigen::Vector3d& p_W) const;
   bool Sees(const Eigen::Vector3d& p_W, double time_s, bool movers_only) const;
   double GreyAt(const Eigen::Vector3d& p_W, const Eigen::Vector3d& r_W, const Meeting& meeting,
                 double time_s) const;

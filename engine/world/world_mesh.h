@@ -17,6 +17,9 @@ struct MeshVertex {
   float albedo = 0;
 };
 
+/// Of solids without paint, in renderers of material ground.
+inline constexpr float kGroundAlbedo = 0.42F;
+
 /// Triangles, three vertices each. A solid reaches below its foot as far as the slope of the ground
 /// needs; a polyhedron does not, it has no foot. A table is a top on a darker body set in by a
 /// tenth. Solids without paint have the albedo given.

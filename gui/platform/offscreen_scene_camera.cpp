@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "gui/platform/egl_context.h"
+#include "gui/render/lit_scene_renderer.h"
 #include "gui/render/scene_renderer.h"
 
 namespace palace {
@@ -18,25 +19,34 @@ class OffscreenSceneCamera final : public SceneCamera {
     renderer_.reset();
   }
 
-  Result<ImageU8> Render(const PinholeCamera& camera, const RigidTransform& X_WC) override {
+  Result<ImageU8> Render(const PinholeCamera& camera, const RigidTransform& X_WC,
+                         double time_s = 0) override {
     const EglScope scope(*context_);
     if (!scope.status()) {
       return scope.status().error();
     }
     if (renderer_ == nullptr) {
-      Result<std::unique_ptr<SceneRenderer>> created = SceneRenderer::Create(scene_);
-      if (!created) {
-        return created.error();
+      const Status made = scene_.ground.material ? Make<LitSceneRenderer>() : Make<SceneRenderer>();
+      if (!made) {
+        return made.error();
       }
-      renderer_ = std::move(created).value();
     }
-    return renderer_->Render(camera, X_WC);
+    return renderer_->Render(camera, X_WC, time_s);
   }
 
  private:
+  template <typename Renderer>
+  Status Make() {
+    Result<std::unique_ptr<Renderer>> created = Renderer::Create(scene_);
+    if (!created) {
+      return created.error();
+    }
+    renderer_ = std::move(created).value();
+    return Ok();
+  }
   std::unique_ptr<EglContext> context_;
   World scene_;
-  std::unique_ptr<SceneRenderer> renderer_;
+  std::unique_ptr<SceneCamera> renderer_;
 };
 
 }  // namespace

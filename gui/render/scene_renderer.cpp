@@ -7,8 +7,10 @@
 #include <vector>
 
 #include "engine/world/world_mesh.h"
+#include "gui/render/camera_clip.h"
 #include "gui/render/framebuffer.h"
 #include "gui/render/gl_handle.h"
+#include "gui/render/mesh_buffer.h"
 #include "gui/render/noise_texture.h"
 #include "gui/render/shader.h"
 #include "shader_text.h"
@@ -17,8 +19,6 @@ namespace palace {
 namespace {
 
 constexpr int kSamples = 4;
-constexpr double kNear_m = 0.05;
-constexpr double kFar_m = 600;
 constexpr float kGroundReach_m = 200;
 constexpr float kAmbient = 0.50F;
 constexpr float kSun = 0.70F;
@@ -95,46 +95,6 @@ GlTexture BendTile(std::uint64_t seed) {
   return texture;
 }
 
-struct Mesh {
-  GlVertexArray array;
-  GlBuffer buffer;
-  GLsizei count = 0;
-
-  void Start(const void* data, std::size_t bytes, std::size_t vertices) {
-    array = GlVertexArray::Create();
-    buffer = GlBuffer::Create();
-    count = static_cast<GLsizei>(vertices);
-    glBindVertexArray(array.name());
-    glBindBuffer(GL_ARRAY_BUFFER, buffer.name());
-    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(bytes), data, GL_STATIC_DRAW);
-  }
-  void Attribute(GLuint location, int floats, std::size_t stride, std::size_t offset) {
-    glEnableVertexAttribArray(location);
-    glVertexAttribPointer(location, floats, GL_FLOAT, GL_FALSE, static_cast<GLsizei>(stride),
-                          reinterpret_cast<const void*>(offset));
-  }
-  void Draw() const {
-    if (count > 0) {
-      glBindVertexArray(array.name());
-      glDrawArrays(GL_TRIANGLES, 0, count);
-    }
-  }
-};
-
-/// Clip space with y downwards: row 0 of GL's memory becomes the top row of the picture. Pixel
-/// (x, y) is GL's window coordinate (x + 0.5, y + 0.5).
-Eigen::Matrix4d ClipFromCamera(const PinholeCamera& camera) {
-  Eigen::Matrix4d clip = Eigen::Matrix4d::Zero();
-  clip(0, 0) = 2 * camera.fx_px / camera.width;
-  clip(0, 2) = (2 * camera.cx_px + 1) / camera.width - 1;
-  clip(1, 1) = 2 * camera.fy_px / camera.height;
-  clip(1, 2) = (2 * camera.cy_px + 1) / camera.height - 1;
-  clip(2, 2) = (kFar_m + kNear_m) / (kFar_m - kNear_m);
-  clip(2, 3) = -2 * kFar_m * kNear_m / (kFar_m - kNear_m);
-  clip(3, 2) = 1;
-  return clip;
-}
-
 /// Takes positions in W where `clip_from_world` takes positions relative to the camera.
 Eigen::Matrix4f FromAbsolute(const Eigen::Matrix4f& clip_from_world, const Eigen::Vector3d& p_WC) {
   Eigen::Matrix4f clip_from_absolute = clip_from_world;
@@ -151,7 +111,7 @@ struct SceneRenderer::Parts {
   Eigen::Vector3d sun_W;
   ShaderProgram ground_shader, near_ground_shader, object_shader, shadow_shader;
   GlTexture coarse, medium, fine, bend;
-  Mesh objects, shadows, ground;
+  MeshBuffer objects, shadows, ground;
   Framebuffer target;
 
   void MakeMeshes();
@@ -323,17 +283,14 @@ Result<std::unique_ptr<SceneRenderer>> SceneRenderer::Create(const World& scene,
   return std::unique_ptr<SceneRenderer>(new SceneRenderer(std::move(parts)));
 }
 
-Result<ImageU8> SceneRenderer::Render(const PinholeCamera& camera, const RigidTransform& X_WC) {
+Result<ImageU8> SceneRenderer::Render(const PinholeCamera& camera, const RigidTransform& X_WC,
+                                      double /*time_s*/) {
   Parts& parts = *parts_;
   const Status sized = parts.target.Resize(camera.width, camera.height, PixelKind::kGrey, kSamples);
   if (!sized) {
     return sized.error();
   }
-  // Relative to the camera: only small numbers go to single precision.
-  Eigen::Matrix4d camera_from_world = Eigen::Matrix4d::Identity();
-  camera_from_world.topLeftCorner<3, 3>() = X_WC.R.transpose();
-  const Eigen::Matrix4f clip_from_world =
-      (ClipFromCamera(camera) * camera_from_world).cast<float>();
+  const Eigen::Matrix4f clip_from_world = ClipFromRelative(camera, X_WC);
 
   parts.target.Bind();
   glDisable(GL_CULL_FACE);

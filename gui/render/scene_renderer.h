@@ -33,7 +33,8 @@ class SceneRenderer final : public SceneCamera {
                                                        const SceneLook& look = {});
   ~SceneRenderer() override;
 
-  Result<ImageU8> Render(const PinholeCamera& camera, const RigidTransform& X_WC) override;
+  Result<ImageU8> Render(const PinholeCamera& camera, const RigidTransform& X_WC,
+                         double time_s = 0) override;
 
  private:
   struct Parts;

@@ -15,8 +15,9 @@ namespace palace {
 class RayCastCamera final : public SceneCamera {
  public:
   explicit RayCastCamera(World world) : world_(std::move(world)) {}
-  Result<ImageU8> Render(const PinholeCamera& camera, const RigidTransform& X_WC) override {
-    const ImageF grey = RenderGrey(world_, camera, X_WC, 1);
+  Result<ImageU8> Render(const PinholeCamera& camera, const RigidTransform& X_WC,
+                         double time_s = 0) override {
+    const ImageF grey = RenderGrey(WorldAt(world_, time_s), camera, X_WC, 1);
     ImageU8 picture(grey.width(), grey.height());
     std::transform(
         grey.pixels().begin(), grey.pixels().end(), picture.pixels().begin(),

@@ -1,0 +1,304 @@
+#include "gui/render/lit_scene_renderer.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "engine/world/ground_mesh.h"
+#include "engine/world/ray_scene.h"
+#include "gui/render/camera_clip.h"
+#include "gui/render/framebuffer.h"
+#include "gui/render/mesh_buffer.h"
+#include "gui/render/shader.h"
+#include "gui/render/sun_map.h"
+#include "shader_text.h"
+
+namespace palace {
+namespace {
+
+constexpr int kSamples = 4;
+constexpr float kSkyGrey = 200.0F / 255;
+constexpr double kTexel_m = 0.02;
+constexpr double kFine_m = 0.005, kCoarse_m = 0.05;
+/// The coarse ground below the fine one: what shows through gaps between blocks of two sizes.
+constexpr float kUnderlay_m = 0.12F;
+
+/// Whole levels in the red channel, with mipmaps.
+GlTexture GreyTexture(int width, int height, const std::uint8_t* levels, GLint wrap) {
+  GlTexture texture = GlTexture::Create();
+  glBindTexture(GL_TEXTURE_2D, texture.name());
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_R8, width, height, 0, GL_RED, GL_UNSIGNED_BYTE, levels);
+  glGenerateMipmap(GL_TEXTURE_2D);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, wrap);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, wrap);
+  return texture;
+}
+
+MeshBuffer SolidBuffer(const World& world) {
+  constexpr std::size_t kStride = sizeof(MeshVertex);
+  const std::vector<MeshVertex> corners = SolidTriangles(world, kGroundAlbedo);
+  MeshBuffer buffer;
+  buffer.Start(corners.data(), corners.size() * kStride, corners.size());
+  buffer.Attribute(0, 3, kStride, 0);
+  buffer.Attribute(1, 3, kStride, 3 * sizeof(float));
+  buffer.Attribute(2, 2, kStride, 6 * sizeof(float));
+  buffer.Attribute(3, 1, kStride, 8 * sizeof(float));
+  return buffer;
+}
+
+MeshBuffer GroundBuffer(const Ground& ground, double tolerance_m) {
+  const std::vector<Eigen::Vector3f> corners = GroundTriangles(ground, tolerance_m);
+  MeshBuffer buffer;
+  buffer.Start(corners.data(), corners.size() * sizeof(Eigen::Vector3f), corners.size());
+  buffer.Attribute(0, 3, sizeof(Eigen::Vector3f), 0);
+  return buffer;
+}
+
+Eigen::Vector3f Single(const Eigen::Vector3d& v) { return v.cast<float>(); }
+
+/// The square itself, k = 0, or its neighbour that way: north = x * north + y.
+std::pair<float, float> Mirror(int k, double low_m, double size_m) {
+  if (k == 0) {
+    return {1.0F, 0.0F};
+  }
+  return {-1.0F, static_cast<float>(2 * (k > 0 ? low_m + size_m : low_m))};
+}
+
+}  // namespace
+
+struct LitSceneRenderer::Parts {
+  struct Mover {
+    MeshBuffer buffer;
+    Eigen::Vector3d v_W;
+  };
+  World world;
+  GroundSquare square;
+  Eigen::Matrix4f sun_from_world;
+  ShaderProgram ground_shader, object_shader, ground_depth_shader, object_depth_shader;
+  GlTexture lit, grain;
+  MeshBuffer fine, coarse, solids;
+  std::vector<Mover> movers;
+  SunMap still_map, moving_map;
+  Framebuffer target;
+
+  Status Build();
+  Status BuildShaders();
+  void DrawGround(const ShaderProgram& shader, bool neighbours) const;
+  void DrawSolids(const ShaderProgram& shader) const;
+  void DrawMovers(const ShaderProgram& shader, double time_s) const;
+  void UseShadows(const ShaderProgram& shader) const;
+  void MapMovers(double time_s) const;
+  void View(const ShaderProgram& shader, const Eigen::Matrix4f& clip,
+            const Eigen::Vector3d& p_W) const;
+};
+
+Status LitSceneRenderer::Parts::BuildShaders() {
+  constexpr std::string_view kVersion = "#version 330 core\n";
+  const std::initializer_list<std::string_view> ground = {kVersion, shader_text::sun_shadow,
+                                                          shader_text::lit_ground_fragment};
+  const std::initializer_list<std::string_view> object = {kVersion, shader_text::sun_shadow,
+                                                          shader_text::lit_object_fragment};
+  const std::initializer_list<std::string_view> depth = {shader_text::shadow_fragment};
+  struct Wanted {
+    const char* name;
+    ShaderProgram* program;
+    const char* vertex;
+    std::initializer_list<std::string_view> fragment;
+  };
+  for (const Wanted& wanted :
+       {Wanted{"lit ground", &ground_shader, shader_text::lit_ground_vertex, ground},
+        Wanted{"lit object", &object_shader, shader_text::lit_object_vertex, object},
+        Wanted{"ground depth", &ground_depth_shader, shader_text::lit_ground_vertex, depth},
+        Wanted{"object depth", &object_depth_shader, shader_text::lit_object_vertex, depth}}) {
+    Result<ShaderProgram> built =
+        ShaderProgram::Build(wanted.name, {wanted.vertex}, wanted.fragment);
+    if (!built) {
+      return built.error();
+    }
+    *wanted.program = std::move(built).value();
+  }
+  return Ok();
+}
+
+Status LitSceneRenderer::Parts::Build() {
+  {
+    const RayScene scene(world, kTexel_m);
+    const ImageU8& texels = scene.ground().texels();
+    lit = GreyTexture(texels.width(), texels.height(), texels.pixels().data(), GL_MIRRORED_REPEAT);
+    grain = GreyTexture(SurfaceGrain::kTexels, SurfaceGrain::kTexels, scene.grain().texels().data(),
+                        GL_REPEAT);
+  }
+  square = SquareOf(world.ground);
+  World standing = world;
+  standing.solids.clear();
+  for (const Solid& solid : world.solids) {
+    if (solid.v_WO.isZero()) {
+      standing.solids.push_back(solid);
+      continue;
+    }
+    World alone = world;
+    alone.solids = {solid};
+    movers.push_back({SolidBuffer(alone), solid.v_WO});
+  }
+  solids = SolidBuffer(standing);
+  fine = GroundBuffer(world.ground, kFine_m);
+  coarse = GroundBuffer(world.ground, kCoarse_m);
+  if (const Status built = BuildShaders(); !built) {
+    return built;
+  }
+  // Of what may stand within the square; things are lower than 12 m.
+  const double lift_m =
+      std::abs(world.ground.rise_north) * (std::abs(square.north_m) + square.size_m) +
+      std::abs(world.ground.rise_east) * (std::abs(square.east_m) + square.size_m);
+  const double high_m = (world.ground.relief ? world.ground.relief->highest_m() : 0) + lift_m + 12;
+  const double low_m = (world.ground.relief ? world.ground.relief->lowest_m() : 0) - lift_m - 1;
+  sun_from_world =
+      SunFromWorld(world.sun.Direction(), {square.north_m, square.east_m, -high_m},
+                   {square.north_m + square.size_m, square.east_m + square.size_m, -low_m});
+  for (SunMap* map : {&still_map, &moving_map}) {
+    if (const Status created = map->Create(); !created) {
+      return created;
+    }
+  }
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(GL_LESS);
+  glDepthMask(GL_TRUE);
+  still_map.Begin();
+  View(ground_depth_shader, sun_from_world, Eigen::Vector3d::Zero());
+  DrawGround(ground_depth_shader, /*neighbours=*/false);
+  View(object_depth_shader, sun_from_world, Eigen::Vector3d::Zero());
+  DrawSolids(object_depth_shader);
+  return Ok();
+}
+
+void LitSceneRenderer::Parts::View(const ShaderProgram& shader, const Eigen::Matrix4f& clip,
+                                   const Eigen::Vector3d& p_W) const {
+  shader.Use();
+  shader.Set("clip_from_world", clip);
+  shader.Set("camera_W", Single(p_W));
+}
+
+void LitSceneRenderer::Parts::DrawGround(const ShaderProgram& shader, bool neighbours) const {
+  shader.Set("rise", Eigen::Vector2f(static_cast<float>(world.ground.rise_north),
+                                     static_cast<float>(world.ground.rise_east)));
+  const int reach = neighbours ? 1 : 0;
+  for (int i = -reach; i <= reach; ++i) {
+    for (int j = -reach; j <= reach; ++j) {
+      const auto [north, north_off] = Mirror(i, square.north_m, square.size_m);
+      const auto [east, east_off] = Mirror(j, square.east_m, square.size_m);
+      shader.Set("mirror", Eigen::Vector4f(north, north_off, east, east_off));
+      const bool middle = i == 0 && j == 0;
+      if (middle) {
+        shader.Set("lower_m", 0.0F);
+        fine.Draw();
+      }
+      if (neighbours) {
+        shader.Set("lower_m", middle ? kUnderlay_m : 0.0F);
+        coarse.Draw();
+      }
+    }
+  }
+}
+
+void LitSceneRenderer::Parts::DrawSolids(const ShaderProgram& shader) const {
+  shader.Set("moved_W", Eigen::Vector3f(0, 0, 0));
+  solids.Draw();
+}
+
+void LitSceneRenderer::Parts::DrawMovers(const ShaderProgram& shader, double time_s) const {
+  for (const Mover& mover : movers) {
+    shader.Set("moved_W", Single(time_s * mover.v_W));
+    mover.buffer.Draw();
+  }
+}
+
+void LitSceneRenderer::Parts::MapMovers(double time_s) const {
+  moving_map.Begin();
+  View(object_depth_shader, sun_from_world, Eigen::Vector3d::Zero());
+  DrawMovers(object_depth_shader, time_s);
+}
+
+void LitSceneRenderer::Parts::UseShadows(const ShaderProgram& shader) const {
+  const std::array<std::pair<const char*, GLuint>, 2> maps = {
+      {{"still_map", still_map.texture()}, {"moving_map", moving_map.texture()}}};
+  for (std::size_t i = 0; i < maps.size(); ++i) {
+    glActiveTexture(GL_TEXTURE1 + static_cast<GLenum>(i));
+    glBindTexture(GL_TEXTURE_2D, maps[i].second);
+    shader.Set(maps[i].first, static_cast<int>(i) + 1);
+  }
+  glActiveTexture(GL_TEXTURE0);
+  shader.Set("sun_from_world", sun_from_world);
+  shader.Set("has_movers", movers.empty() ? 0.0F : 1.0F);
+}
+
+LitSceneRenderer::LitSceneRenderer(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
+LitSceneRenderer::~LitSceneRenderer() = default;
+
+Result<std::unique_ptr<LitSceneRenderer>> LitSceneRenderer::Create(const World& world) {
+  auto parts = std::make_unique<Parts>();
+  parts->world = world;
+  if (const Status built = parts->Build(); !built) {
+    return built.error();
+  }
+  return std::unique_ptr<LitSceneRenderer>(new LitSceneRenderer(std::move(parts)));
+}
+
+Result<ImageU8> LitSceneRenderer::Render(const PinholeCamera& camera, const RigidTransform& X_WC,
+                                         double time_s) {
+  Parts& parts = *parts_;
+  const Status sized = parts.target.Resize(camera.width, camera.height, PixelKind::kGrey, kSamples);
+  if (!sized) {
+    return sized.error();
+  }
+  glDisable(GL_CULL_FACE);
+  glDisable(GL_BLEND);
+  glDisable(GL_SCISSOR_TEST);
+  glDisable(GL_STENCIL_TEST);
+  glEnable(GL_DEPTH_TEST);
+  glEnable(GL_MULTISAMPLE);
+  glDepthFunc(GL_LESS);
+  glDepthMask(GL_TRUE);
+  if (!parts.movers.empty()) {
+    parts.MapMovers(time_s);
+  }
+  parts.target.Bind();
+  glClearColor(kSkyGrey, kSkyGrey, kSkyGrey, 1);
+  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  const Eigen::Matrix4f clip_from_world = ClipFromRelative(camera, X_WC);
+  const Sun& sun = parts.world.sun;
+  const Eigen::Vector3d normal = parts.world.ground.Normal();
+
+  parts.View(parts.object_shader, clip_from_world, X_WC.p);
+  parts.UseShadows(parts.object_shader);
+  glBindTexture(GL_TEXTURE_2D, parts.grain.name());
+  parts.object_shader.Set("grain", 0);
+  parts.object_shader.Set("grain_size_m",
+                          static_cast<float>(SurfaceGrain::kTexels * SurfaceGrain::kTexel_m));
+  parts.object_shader.Set("grain_contrast", static_cast<float>(SurfaceGrain::kContrast));
+  parts.object_shader.Set("sun_W", Single(sun.Direction()));
+  parts.object_shader.Set("direct", static_cast<float>(sun.direct));
+  parts.object_shader.Set("diffuse", static_cast<float>(sun.diffuse));
+  parts.DrawSolids(parts.object_shader);
+  parts.DrawMovers(parts.object_shader, time_s);
+
+  parts.View(parts.ground_shader, clip_from_world, X_WC.p);
+  parts.UseShadows(parts.ground_shader);
+  glBindTexture(GL_TEXTURE_2D, parts.lit.name());
+  parts.ground_shader.Set("lit", 0);
+  parts.ground_shader.Set("square", Eigen::Vector3f(static_cast<float>(parts.square.north_m),
+                                                    static_cast<float>(parts.square.east_m),
+                                                    static_cast<float>(parts.square.size_m)));
+  parts.ground_shader.Set("shade",
+                          static_cast<float>(sun.diffuse / LightOn(sun, normal, /*lit=*/true)));
+  parts.DrawGround(parts.ground_shader, /*neighbours=*/true);
+  parts.target.Resolve();
+  return parts.target.ReadGrey();
+}
+
+}  // namespace palace

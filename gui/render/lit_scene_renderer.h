@@ -1,0 +1,34 @@
+// LitSceneRenderer: pictures of a world with material ground, drawn by OpenGL 3.3 core: what
+// RayScene casts, quickly enough to fly by.
+#pragma once
+
+#include <memory>
+
+#include "engine/core/result.h"
+#include "engine/simulation/scene_camera.h"
+#include "engine/world/world.h"
+
+namespace palace {
+
+/// The triangles of relief and solids that RayScene meets (the relief's to within 5 mm), the same
+/// lit picture of the ground, Lambert light on solids with shadow maps of the sun for what stands
+/// still and for what moves. Edges are multisampled 4x. Projection as SceneRenderer's.
+/// One GL 3.3 core context must be current on the calling thread for every call, and for the
+/// destructor.
+class LitSceneRenderer final : public SceneCamera {
+ public:
+  /// Works out the ground's light (seconds for large grounds), compiles shaders. The world's ground
+  /// has a material.
+  static Result<std::unique_ptr<LitSceneRenderer>> Create(const World& world);
+  ~LitSceneRenderer() override;
+
+  Result<ImageU8> Render(const PinholeCamera& camera, const RigidTransform& X_WC,
+                         double time_s = 0) override;
+
+ private:
+  struct Parts;
+  explicit LitSceneRenderer(std::unique_ptr<Parts> parts);
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace palace
