@@ -1,6 +1,30 @@
 #include "engine/camera/camera_pair.h"
 
+#include "engine/camera/cahvor.h"
+
 namespace palace {
+namespace {
+
+/// The pinhole that the camera is, if it is one without distortion.
+std::optional<PinholeCamera> IdealPinhole(const CameraModel& model) {
+  const auto* m = std::get_if<OpenCvModel>(&model.lens);
+  const bool ideal = m != nullptr && m->lens == OpenCvLens::kPolynomial && m->coefficients == 0;
+  return ideal ? std::optional(m->pinhole) : std::nullopt;
+}
+
+bool IsRectified(const CameraPair& pair) {
+  constexpr double kSame = 1e-9;  // of axes; of the baseline
+  const auto left = IdealPinhole(pair.left), right = IdealPinhole(pair.right);
+  if (!left || left != right) {
+    return false;
+  }
+  const Eigen::Matrix3d R = RotationOf(pair.left);
+  const Eigen::Vector3d offset = R * (CentreOf(pair.right) - CentreOf(pair.left));
+  return (R - RotationOf(pair.right)).cwiseAbs().maxCoeff() < kSame && offset.x() > 0 &&
+         offset.tail<2>().norm() < kSame * offset.x();
+}
+
+}  // namespace
 
 Result<CameraPair> PlacePair(const CameraModel& left, const CameraModel& right,
                              std::optional<double> baseline_m, const std::string& left_name,
@@ -26,6 +50,24 @@ Result<CameraPair> PlacePair(const CameraModel& left, const CameraModel& right,
   }
   pair.right = MovedCamera(pair.right, Eigen::Matrix3d::Identity(), {*baseline_m, 0, 0});
   return pair;
+}
+
+RigCamera RigCameraOf(const CameraModel& model) {
+  RigCamera camera;
+  camera.model = model;
+  camera.pinhole = PinholeFromCahv(LinearPartOf(model)).camera;
+  return camera;
+}
+
+void SetCameras(StereoRig& rig, const CameraPair& pair) {
+  rig.rectified = IsRectified(pair);
+  if (rig.rectified) {
+    rig.left = rig.right = RigCamera{*IdealPinhole(pair.left)};
+  } else {
+    rig.left = RigCameraOf(pair.left);
+    rig.right = RigCameraOf(pair.right);
+  }
+  rig.baseline_m = (CentreOf(pair.right) - CentreOf(pair.left)).norm();
 }
 
 }  // namespace palace

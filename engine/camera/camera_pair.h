@@ -6,6 +6,7 @@
 
 #include "engine/camera/camera_model.h"
 #include "engine/core/result.h"
+#include "engine/model/rig.h"
 
 namespace palace {
 
@@ -22,5 +23,12 @@ struct CameraPair {
 Result<CameraPair> PlacePair(const CameraModel& left, const CameraModel& right,
                              std::optional<double> baseline_m, const std::string& left_name,
                              const std::string& right_name);
+
+/// The cameras and the baseline of a rig with these two, in metres. A pair that is one ideal
+/// pinhole twice, with parallel axes, the right one to the right along x, needs no models: it is
+/// rectified.
+void SetCameras(StereoRig& rig, const CameraPair& pair);
+/// The camera of a rig that has this model, in metres.
+RigCamera RigCameraOf(const CameraModel& model);
 
 }  // namespace palace

@@ -131,8 +131,8 @@ void AddCameraCommand(CLI::App& app, int& exit_code) {
   camera->footer(
       "Model files: JPL .cahv/.cahvor/.cahvore, PDS labels, Willson .cpcc, OpenCV YAML and XML, "
       "ROS\n"
-      "camera_info, mrcal .cameramodel; the content tells which. Points are in the frame and unit "
-      "of\n"
+      "camera_info, mrcal .cameramodel, EuRoC sensor.yaml and Kalibr camchain.yaml (pinhole with\n"
+      "radtan, equidistant or none); the content tells which. Points are in the frame and unit of\n"
       "the file: metres, millimetres for .cpcc. Pixel (0,0) is the centre of the top-left pixel.");
   auto options = std::make_shared<CameraOptions>();
   CLI::App* project = camera->add_subcommand(

@@ -130,11 +130,42 @@ inline const std::string kMrcalText =
     "    'optimization_inputs': b'~~ {[ #',\n"
     "    'imagersize': [640, 480],\n}\n";
 
+/// The left camera of the EuRoC data sets, in the layout of its file.
+inline const std::string kEurocText =
+    "# General sensor definitions.\nsensor_type: camera\ncomment: VI-Sensor cam0 (MT9M034)\n\n"
+    "T_BS:\n  cols: 4\n  rows: 4\n"
+    "  data: [0.0148655429818, -0.999880929698, 0.00414029679422, -0.0216401454975,\n"
+    "         0.999557249008, 0.0149672133247, 0.025715529948, -0.064676986768,\n"
+    "        -0.0257744366974, 0.00375618835797, 0.999660727178, 0.00981073058949,\n"
+    "         0.0, 0.0, 0.0, 1.0]\n"
+    "rate_hz: 20\nresolution: [752, 480]\ncamera_model: pinhole\n"
+    "intrinsics: [458.654, 457.296, 367.215, 248.375] #fu, fv, cu, cv\n"
+    "distortion_model: radial-tangential\n"
+    "distortion_coefficients: [-0.28340811, 0.07395907, 0.00019359, 1.76187114e-05]\n";
+
+/// Long rows of a matrix go on in the next line, as PyYAML writes them.
+inline const std::string kKalibrText =
+    "cam0:\n  cam_overlaps: [1]\n  camera_model: pinhole\n"
+    "  distortion_coeffs: [-0.2834, 0.0739, 0.00019, 1.76e-05]\n  distortion_model: radtan\n"
+    "  intrinsics: [461.6, 460.3, 363.0, 248.1]\n  resolution: [752, 480]\n"
+    "  rostopic: /cam0/image_raw\n"
+    "cam1:\n  T_cn_cnm1:\n"
+    "  - [0.9999971853038866, 0.0023160844433331, 0.0005247918332000,\n    -0.11]\n"
+    "  - [-0.0023229380218, 0.9998990446, 0.0140187127,\n    0.0004]\n"
+    "  - [-0.0004922700286, -0.0140198951, 0.9999015899, -0.0008]\n"
+    "  - [0.0, 0.0, 0.0, 1.0]\n"
+    "  cam_overlaps: [0]\n  camera_model: pinhole\n"
+    "  distortion_coeffs:\n  - -0.013\n  - 0.021\n  - -0.022\n  - 0.0092\n"
+    "  distortion_model: equidistant\n"
+    "  intrinsics: [460.2, 458.6, 378.5, 254.9]\n  resolution: [752, 480]\n"
+    "  rostopic: /cam1/image_raw\n";
+
 /// The format of each is told by its content; the names are what people call such files.
 inline std::vector<CameraText> GoodCameraTexts() {
   return {{"a.cahvor", kCahvorText}, {"a.cahvore", kCahvoreText}, {"a.lbl", kPdsText},
           {"a.vic", kVicarText},     {"a.cpcc", kWillsonText},    {"a.yml", kOpenCvYamlText},
-          {"a.xml", kOpenCvXmlText}, {"a.yaml", kRosText},        {"a.cameramodel", kMrcalText}};
+          {"a.xml", kOpenCvXmlText}, {"a.yaml", kRosText},        {"a.cameramodel", kMrcalText},
+          {"e.yaml", kEurocText},    {"k.yaml", kKalibrText}};
 }
 
 /// `text` with the first `from` exchanged.

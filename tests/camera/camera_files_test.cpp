@@ -27,9 +27,10 @@ CameraModel Parsed(const std::string& text, const std::string& name,
 
 TEST(CameraFiles, ContentTellsTheFormat) {
   const CameraFormat formats[] = {
-      CameraFormat::kJplText,   CameraFormat::kJplText, CameraFormat::kPdsLabel,
-      CameraFormat::kPdsLabel,  CameraFormat::kWillson, CameraFormat::kOpenCvYaml,
-      CameraFormat::kOpenCvXml, CameraFormat::kRosYaml, CameraFormat::kMrcal};
+      CameraFormat::kJplText,     CameraFormat::kJplText,    CameraFormat::kPdsLabel,
+      CameraFormat::kPdsLabel,    CameraFormat::kWillson,    CameraFormat::kOpenCvYaml,
+      CameraFormat::kOpenCvXml,   CameraFormat::kRosYaml,    CameraFormat::kMrcal,
+      CameraFormat::kEurocSensor, CameraFormat::kKalibrChain};
   std::size_t i = 0;
   for (const CameraText& row : GoodCameraTexts()) {
     SCOPED_TRACE(row.name);

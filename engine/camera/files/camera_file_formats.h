@@ -18,6 +18,8 @@ std::string OpenCvToXml(const CameraModel& model);
 Result<CameraModel> ReadRos(const KeyedText& text);
 std::string RosToYaml(const CameraModel& model);
 Result<CameraModel> ReadMrcal(const KeyedText& text);
+Result<CameraModel> ReadEurocSensor(const KeyedText& text);
+Result<CameraModel> ReadKalibrChain(const KeyedText& text, const CameraFileOptions& options);
 
 constexpr int kLargestSide_px = 65536;
 
@@ -26,6 +28,9 @@ Result<PictureSize> ReadSize(const KeyedText& text, const std::string& width_key
                              const std::string& height_key);
 /// Width and height from one list of two whole numbers.
 Result<PictureSize> ReadSides(const KeyedText& text, const std::string& key);
+/// Makes of the numbers of `key`, which may hold few digits, the rotation they stand for. Refuses
+/// what is none.
+Status TakeRotation(const KeyedText& text, const std::string& key, Eigen::Matrix3d& R);
 /// The rotation about the axis `turn` by its length (Rodrigues).
 Eigen::Matrix3d RotationFromVector(const Eigen::Vector3d& turn);
 /// A number with 17 digits, which reads back to the same bits.

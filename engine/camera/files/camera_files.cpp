@@ -63,6 +63,8 @@ KeyedText KeyedAs(CameraFormat format, std::string_view text, const std::string&
       return ParsePythonDict(text, name);
     case CameraFormat::kOpenCvYaml:
     case CameraFormat::kRosYaml:
+    case CameraFormat::kEurocSensor:
+    case CameraFormat::kKalibrChain:
       break;
   }
   return ParseYaml(text, name);
@@ -85,6 +87,10 @@ Result<CameraModel> ParseAs(CameraFormat format, std::string_view text, const st
       return ReadRos(keyed);
     case CameraFormat::kMrcal:
       return ReadMrcal(keyed);
+    case CameraFormat::kEurocSensor:
+      return ReadEurocSensor(keyed);
+    case CameraFormat::kKalibrChain:
+      return ReadKalibrChain(keyed, options);
     case CameraFormat::kOpenCvYaml:
     case CameraFormat::kOpenCvXml:
       break;
@@ -100,9 +106,9 @@ Error CannotHold(const CameraModel& model, CameraFormat format) {
 }  // namespace
 
 const char* CameraFormatName(CameraFormat format) {
-  static constexpr std::array<const char*, 7> kNames = {
-      "JPL text",   "PDS label",       "Willson .cpcc", "OpenCV YAML",
-      "OpenCV XML", "ROS camera_info", "mrcal"};
+  static constexpr std::array<const char*, 9> kNames = {
+      "JPL text",        "PDS label", "Willson .cpcc",     "OpenCV YAML",    "OpenCV XML",
+      "ROS camera_info", "mrcal",     "EuRoC sensor.yaml", "Kalibr camchain"};
   return kNames[static_cast<std::size_t>(format)];
 }
 
@@ -125,10 +131,16 @@ Result<CameraFormat> CameraFormatOf(std::string_view text, const std::string& na
   if (is_jpl) {
     return CameraFormat::kJplText;
   }
+  const KeyedText yaml = ParseYaml(text, name);
+  if (yaml.Has("cam0") || yaml.Has("cam1")) {
+    return CameraFormat::kKalibrChain;
+  }
+  if (yaml.Has("T_BS") || yaml.Has("sensor_type")) {
+    return CameraFormat::kEurocSensor;
+  }
   if (start.substr(0, 5) == "%YAML" || Contains(text, "!!opencv-matrix")) {
     return CameraFormat::kOpenCvYaml;
   }
-  const KeyedText yaml = ParseYaml(text, name);
   if (yaml.Has("distortion_model") || yaml.Has("projection_matrix.data") || yaml.Has("P")) {
     return CameraFormat::kRosYaml;
   }
@@ -152,7 +164,7 @@ Result<CameraFormat> CameraFormatOf(std::string_view text, const std::string& na
   return InvalidError(name +
                       ": no camera model that PALACE reads: JPL .cahv/.cahvor/.cahvore, PDS label "
                       "with GEOMETRIC_CAMERA_MODEL, Willson .cpcc, OpenCV YAML or XML, ROS "
-                      "camera_info, mrcal .cameramodel");
+                      "camera_info, mrcal .cameramodel, EuRoC sensor.yaml, Kalibr camchain.yaml");
 }
 
 Result<CameraModel> ParseCameraText(std::string_view text, const std::string& name,
@@ -212,6 +224,8 @@ Result<std::string> CameraToText(const CameraModel& model, CameraFormat format) 
       break;
     case CameraFormat::kPdsLabel:
     case CameraFormat::kMrcal:
+    case CameraFormat::kEurocSensor:
+    case CameraFormat::kKalibrChain:
       return UsageError(std::string("files of format ") + CameraFormatName(format) +
                         " are read, not written");
   }

@@ -8,6 +8,11 @@
 //   ROS camera_info   yes   yes    plumb_bob, rational_polynomial, equidistant; F is the rectified
 //                                  frame of the left camera (P tells the right one's place)
 //   mrcal             yes   -      PINHOLE, OPENCV4/5/8/12, CAHVOR, CAHVORE
+//   EuRoC sensor.yaml yes   (yes)  pinhole with radial-tangential, equidistant or no distortion; F
+//                                  is the body (T_BS)
+//   Kalibr camchain   yes   -      the same lenses; F is cam0. Left cam0, right cam1 (T_cn_cnm1);
+//                                  further cameras and the IMU's place (T_cam_imu) are not read
+//   (yes): by EurocSensorText, as it asks for a rate
 //
 // The content tells the format; the name's extension counts only where content fits two. Everything
 // is read by our own bounded parsers (keyed_text.h). Errors name file, line, key, value and limit.
@@ -33,7 +38,9 @@ enum class CameraFormat {
   kOpenCvYaml,
   kOpenCvXml,
   kRosYaml,
-  kMrcal
+  kMrcal,
+  kEurocSensor,
+  kKalibrChain
 };
 
 /// "JPL text", "PDS label", ...
@@ -42,7 +49,7 @@ const char* CameraFormatName(CameraFormat format);
 enum class StereoSide { kLeft, kRight };
 
 struct CameraFileOptions {
-  std::optional<StereoSide> side;  ///< which camera of a file that holds two (OpenCV M1 and M2)
+  std::optional<StereoSide> side;  ///< which camera of a file of two (OpenCV, Kalibr)
   PictureSize size;                ///< for files that do not tell; refused if the file contradicts
 };
 
@@ -55,8 +62,13 @@ Result<CameraModel> ParseCameraText(std::string_view text, const std::string& na
 Result<CameraModel> ReadCameraFile(const std::filesystem::path& path,
                                    const CameraFileOptions& options = {});
 /// The text of a file; numbers with 17 digits, so that reading gives the same camera to the bit.
-/// Refuses formats that cannot hold the model's family, and PDS and mrcal.
+/// Refuses formats that cannot hold the model's family, and those that are only read.
 Result<std::string> CameraToText(const CameraModel& model, CameraFormat format);
+
+/// EuRoC's sensor.yaml of a camera whose frame F is the body, in metres. Refuses what those lenses
+/// do not hold exactly: more than k1 k2 p1 p2, other families, an unknown size.
+Result<std::string> EurocSensorText(const CameraModel& camera, double rate_hz,
+                                    const std::string& comment);
 
 /// JPL text that must be CAHV or CAHVOR with Dimensions, as rigs and calibration use it.
 Result<CahvorModel> ParseCahvorText(std::string_view text, const std::string& name);

@@ -73,8 +73,7 @@ class YamlReader {
         while (item.substr(0, 2) == "- ") {  // lists of lists are read as one
           item = Trimmed(item.substr(1));
         }
-        items_ += " " + std::string(item == "-" ? std::string_view{} : item);
-        items_are_cut_ = is_last_cut_;
+        ReadItem(item == "-" ? std::string_view{} : item);
         continue;
       }
       FlushItems();
@@ -125,6 +124,16 @@ class YamlReader {
     if (!awaits_items_) {
       out_.Add(Path(), key_line_, value, is_cut);
     }
+  }
+  /// One that is a [list] may go on over several lines.
+  void ReadItem(std::string_view item) {
+    items_ += " " + std::string(item);
+    int depth = item.substr(0, 1) == "[" ? Balance(item) : 0;
+    while (depth > 0 && NextLine()) {
+      depth += Balance(content_);
+      items_ += " " + std::string(Trimmed(content_));
+    }
+    items_are_cut_ = is_last_cut_ || depth > 0;
   }
   void FlushItems() {
     if ((awaits_items_ || !items_.empty()) && !open_.empty()) {

@@ -54,6 +54,14 @@ std::string KeyedText::FirstOf(const std::vector<std::string>& keys) const {
   return {};
 }
 
+std::vector<std::string> KeyedText::Keys() const {
+  std::vector<std::string> keys;
+  for (const auto& [key, value] : values_) {
+    keys.push_back(key);
+  }
+  return keys;
+}
+
 std::string KeyedText::Word(std::string_view key) const {
   const KeyedValue* value = Find(key);
   if (value == nullptr) {

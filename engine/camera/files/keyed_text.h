@@ -42,6 +42,7 @@ class KeyedText {
   const KeyedValue* Find(std::string_view key) const;
   /// The first of `keys` that the file has; empty if none.
   std::string FirstOf(const std::vector<std::string>& keys) const;
+  std::vector<std::string> Keys() const;
   /// The text without quotes and blanks around it; empty without the key.
   std::string Word(std::string_view key) const;
 
@@ -82,7 +83,8 @@ KeyedText ParseLabel(std::string_view text, const std::string& file);
 /// lines count by key.
 KeyedText ParseNumberLines(std::string_view text, const std::string& file);
 /// YAML: nested maps as "outer.inner", [lists] over several lines, "- item" lists. Tags are
-/// skipped. Keys without a value, those of maps too, have an empty one.
+/// skipped, aliases (*name) stay words and stand for nothing. Keys without a value, those of maps
+/// too, have an empty one.
 KeyedText ParseYaml(std::string_view text, const std::string& file);
 /// XML: elements as "outer.inner" without the root; attributes are skipped. Elements without text,
 /// those around others too, have an empty one.

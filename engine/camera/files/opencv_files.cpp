@@ -115,15 +115,7 @@ Status ReadRotation(const KeyedText& text, const std::string& key, Eigen::Matrix
     return text.Wrong(key, "a rotation has 9 numbers, or 3 as a vector");
   }
   R = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(values->data());
-  if (!((R * R.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() <
-        kRotationTolerance) ||
-      !(R.determinant() > 0)) {
-    return text.Wrong(key, "is no rotation: R R^T must be the identity within 0.001, det R = 1");
-  }
-  if (!((R * R.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() < 1e-14)) {
-    R = Eigen::Quaterniond(R).normalized().toRotationMatrix();
-  }
-  return Ok();
+  return TakeRotation(text, key, R);
 }
 
 Status ReadPose(const KeyedText& text, OpenCvModel& model, bool& known) {
@@ -163,6 +155,17 @@ Result<PictureSize> ReadOpenCvSize(const KeyedText& text) {
 }
 
 }  // namespace
+
+Status TakeRotation(const KeyedText& text, const std::string& key, Eigen::Matrix3d& R) {
+  const double error = (R * R.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
+  if (!(error < kRotationTolerance) || !(R.determinant() > 0)) {
+    return text.Wrong(key, "is no rotation: R R^T must be the identity within 0.001, det R = 1");
+  }
+  if (!(error < 1e-14)) {
+    R = Eigen::Quaterniond(R).normalized().toRotationMatrix();
+  }
+  return Ok();
+}
 
 Result<CameraModel> ReadOpenCv(const KeyedText& text, const CameraFileOptions& options) {
   const std::string single = DataKey(

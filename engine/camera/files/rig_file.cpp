@@ -4,7 +4,6 @@
 #include <set>
 #include <vector>
 
-#include "engine/camera/cahvor.h"
 #include "engine/camera/camera_pair.h"
 #include "engine/camera/files/camera_files.h"
 #include "engine/camera/files/text_file.h"
@@ -113,11 +112,6 @@ bool Distorted(const RigCamera& camera) {
   return camera.model || camera.distortion != std::array<double, 5>{};
 }
 
-void SetModel(RigCamera& camera, const CameraModel& model) {
-  camera.model = model;
-  camera.pinhole = PinholeFromCahv(LinearPartOf(model)).camera;
-}
-
 /// The baseline, and the cameras of model files placed by it.
 Status ReadBaseline(TomlTable& table, const ModelFiles& models, StereoRig& rig) {
   if (!models.left || !models.right) {
@@ -134,8 +128,8 @@ Status ReadBaseline(TomlTable& table, const ModelFiles& models, StereoRig& rig) 
   if (!pair) {
     return pair.error();
   }
-  SetModel(rig.left, pair->left);
-  SetModel(rig.right, pair->right);
+  rig.left = RigCameraOf(pair->left);
+  rig.right = RigCameraOf(pair->right);
   const double of_models = (CentreOf(pair->right) - CentreOf(pair->left)).norm();
   rig.baseline_m = told.value_or(of_models);
   if (!(std::abs(rig.baseline_m - of_models) <= kBaselineMismatch * of_models)) {
