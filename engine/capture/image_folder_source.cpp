@@ -1,10 +1,13 @@
 #include "engine/capture/image_folder_source.h"
 
 #include <algorithm>
+#include <system_error>
 #include <utility>
 
+#include "engine/capture/euroc/euroc_folder.h"
 #include "engine/capture/pair_bundle.h"
 #include "engine/capture/picture_size.h"
+#include "engine/core/log.h"
 
 namespace palace {
 namespace {
@@ -23,10 +26,12 @@ std::vector<double> TimesOf(const std::vector<ImagePair>& pairs) {
   return times_s;
 }
 
-}  // namespace
+struct PictureFolder {
+  RigFile file;
+  ImageSequence sequence;
+};
 
-Result<std::unique_ptr<ImageFolderSource>> ImageFolderSource::Open(
-    const std::filesystem::path& rig_toml, bool loop) {
+Result<PictureFolder> OpenRigToml(const std::filesystem::path& rig_toml) {
   auto file = LoadRigFile(rig_toml);
   if (!file) {
     return file.error();
@@ -50,8 +55,32 @@ Result<std::unique_ptr<ImageFolderSource>> ImageFolderSource::Open(
     return sequence.error();
   }
   file->rig.rate_hz = sequence->rate_hz;
+  return PictureFolder{std::move(file).value(), std::move(sequence).value()};
+}
+
+Result<PictureFolder> OpenEuroc(const std::filesystem::path& folder) {
+  auto euroc = LoadEurocFolder(folder);
+  if (!euroc) {
+    return euroc.error();
+  }
+  if (!euroc->left_out.empty()) {
+    LogWarning(folder.string() + ": " + euroc->left_out);
+  }
+  return PictureFolder{std::move(euroc->rig), std::move(euroc->sequence)};
+}
+
+}  // namespace
+
+Result<std::unique_ptr<ImageFolderSource>> ImageFolderSource::Open(
+    const std::filesystem::path& pictures, bool loop) {
+  std::error_code code;
+  auto found =
+      std::filesystem::is_directory(pictures, code) ? OpenEuroc(pictures) : OpenRigToml(pictures);
+  if (!found) {
+    return found.error();
+  }
   std::unique_ptr<ImageFolderSource> source(new ImageFolderSource(
-      std::move(file).value(), std::move(sequence->pairs), rig_toml.string(), loop));
+      std::move(found->file), std::move(found->sequence.pairs), pictures.string(), loop));
   if (const auto first = source->LoadPair(0); !first) {
     return first.error();
   }

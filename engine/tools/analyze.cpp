@@ -19,7 +19,7 @@ namespace palace {
 namespace {
 
 struct Options {
-  std::string left, right, rig, poses, settings_file, out, elevation, points;
+  std::string left, right, rig, poses, euroc, settings_file, out, elevation, points;
   std::vector<std::string> set;
   std::optional<double> cell_m;
   std::vector<std::string> explain;
@@ -27,9 +27,11 @@ struct Options {
 
 Status CheckOptions(const Options& options) {
   const bool pair = !options.left.empty() || !options.right.empty() || !options.rig.empty();
-  const int inputs = int{pair} + int{!options.elevation.empty()} + int{!options.points.empty()};
+  const int inputs = int{pair} + int{!options.euroc.empty()} + int{!options.elevation.empty()} +
+                     int{!options.points.empty()};
   if (inputs != 1) {
-    return UsageError("give one input: --left, --right and --rig, or --elevation, or --points");
+    return UsageError(
+        "give one input: --left, --right and --rig, or --euroc, or --elevation, or --points");
   }
   if (pair && (options.left.empty() || options.right.empty() || options.rig.empty())) {
     return UsageError("a pair needs all of --left, --right and --rig");
@@ -63,7 +65,8 @@ Result<AnalyzeInput> LoadInput(const Options& options, const Settings& settings)
   if (!options.points.empty()) {
     return ElevationOfCloud(options.points, options.cell_m, settings);
   }
-  return ElevationOfPairs({options.left, options.right, options.rig, options.poses}, settings);
+  return ElevationOfPairs({options.left, options.right, options.rig, options.poses, options.euroc},
+                          settings);
 }
 
 void WarnOfCell(const SladSettings& slad, std::vector<std::string>& warnings) {
@@ -89,7 +92,7 @@ Status Analyze(const Options& options) {
   }
   AnalyzeOutcome o{{}, options.settings_file, std::move(input).value(), *settings};
   for (const std::string* file : {&options.left, &options.right, &options.rig, &options.poses,
-                                  &options.elevation, &options.points}) {
+                                  &options.euroc, &options.elevation, &options.points}) {
     if (!file->empty()) {
       o.files.push_back(*file);
     }
@@ -137,6 +140,9 @@ void AddAnalyzeCommand(CLI::App& app, int& exit_code) {
       "--poses", options->poses,
       "POSES.csv of several pairs (file,time,north,east,down,roll,pitch,heading), "
       "which modern mode fuses in order of time; without it [images] poses of RIG.toml");
+  verb->add_option("--euroc", options->euroc,
+                   "a folder in EuRoC's layout (mav0 with cam0, cam1, "
+                   "state_groundtruth_estimate0) instead: its pairs with its poses");
   verb->add_option("--elevation", options->elevation, "GeoTIFF elevation model instead of a pair");
   verb->add_option("--points", options->points, "xyz or ply cloud instead of a pair");
   verb->add_option("--cell-m", options->cell_m, "cell size for --elevation and --points, metres");

@@ -23,6 +23,7 @@ struct PairFiles {
   std::string right;
   std::filesystem::path rig;
   std::filesystem::path poses;  ///< POSES.csv; empty: that of RIG.toml, if it names one
+  std::filesystem::path euroc;  ///< an EuRoC folder, in place of all others
 };
 
 struct AnalyzeInput {

@@ -6,6 +6,7 @@
 
 #include "engine/camera/files/rig_file.h"
 #include "engine/camera/rectification.h"
+#include "engine/capture/euroc/euroc_folder.h"
 #include "engine/capture/image_sequence.h"
 #include "engine/core/text.h"
 #include "engine/slad/terrain/terrain_points.h"
@@ -26,6 +27,14 @@ std::vector<fs::path> Matching(const std::string& pattern) {
   return ExpandPattern("", pattern);
 }
 
+/// The rig, the pairs, and by which file or folder messages call them.
+struct Pictures {
+  RigFile rig;
+  ImageSequence sequence;
+  std::string name;
+  std::string left_out{};
+};
+
 Result<ImageSequence> FindPairs(const PairFiles& files, const RigFile& rig) {
   const auto left = Matching(files.left), right = Matching(files.right);
   for (const auto& [found, pattern] :
@@ -39,6 +48,26 @@ Result<ImageSequence> FindPairs(const PairFiles& files, const RigFile& rig) {
     return UsageError(std::to_string(left.size()) + " left pictures need --poses POSES.csv");
   }
   return SequenceOf(left, right, rig, poses);
+}
+
+Result<Pictures> FindPictures(const PairFiles& files) {
+  if (!files.euroc.empty()) {
+    auto euroc = LoadEurocFolder(files.euroc);
+    if (!euroc) {
+      return euroc.error();
+    }
+    return Pictures{std::move(euroc->rig), std::move(euroc->sequence), files.euroc.string(),
+                    std::move(euroc->left_out)};
+  }
+  auto rig = LoadRigFile(files.rig);
+  if (!rig) {
+    return rig.error();
+  }
+  auto sequence = FindPairs(files, *rig);
+  if (!sequence) {
+    return sequence.error();
+  }
+  return Pictures{std::move(rig).value(), std::move(sequence).value(), files.rig.string()};
 }
 
 /// What fusion goes through, pair by pair.
@@ -141,31 +170,34 @@ void WarnOfMap(const GroundBounds& seen, const SladSettings& slad, AnalyzeInput&
 }  // namespace
 
 Result<AnalyzeInput> ElevationOfPairs(const PairFiles& files, const Settings& settings) {
-  const auto rig = LoadRigFile(files.rig);
-  if (!rig) {
-    return rig.error();
+  const auto pictures = FindPictures(files);
+  if (!pictures) {
+    return pictures.error();
   }
-  const auto sequence = FindPairs(files, *rig);
-  if (!sequence) {
-    return sequence.error();
+  const auto& [rig, sequence, name, left_out] = *pictures;
+  const bool posed = sequence.pairs.front().pose.has_value();
+  if (!posed && rig.rig.num_disparities == 0) {
+    return InvalidError(
+        name + (files.euroc.empty()
+                    ? ": needs [pose] height_m, or [rig] min_disparity_px and num_disparities, to "
+                      "know where to search"
+                    : ": has no state_groundtruth_estimate0; without poses give its pictures by "
+                      "--left, --right and a RIG.toml"));
   }
-  const bool posed = sequence->pairs.front().pose.has_value();
-  if (!posed && rig->rig.num_disparities == 0) {
-    return InvalidError(files.rig.string() +
-                        ": needs [pose] height_m, or [rig] min_disparity_px and num_disparities, "
-                        "to know where to search");
-  }
-  const auto rectifier = StereoRectifier::Make(rig->rig);
+  const auto rectifier = StereoRectifier::Make(rig.rig);
   if (!rectifier) {
-    return InvalidError(files.rig.string() + ": " + rectifier.error().message);
+    return InvalidError(name + ": " + rectifier.error().message);
   }
   AnalyzeInput input;
+  if (!left_out.empty()) {
+    input.warnings.push_back(name + ": " + left_out);
+  }
   if (!posed) {
-    input.warnings.push_back(files.rig.string() +
+    input.warnings.push_back(name +
                              " has no [pose]: attitude taken as level, heights from the camera");
   }
-  Work work{*rig, *rectifier, settings, sequence->pairs.size() > 1};
-  for (const ImagePair& pair : sequence->pairs) {
+  Work work{rig, *rectifier, settings, sequence.pairs.size() > 1};
+  for (const ImagePair& pair : sequence.pairs) {
     if (const Status done = AddPair(pair, work, input); !done) {
       return done.error();
     }

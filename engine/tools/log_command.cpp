@@ -9,6 +9,7 @@
 
 #include "engine/journal/export.h"
 #include "engine/journal/log_tools.h"
+#include "engine/tools/log_import.h"
 #include "engine/tools/log_rerun.h"
 #include "engine/wire/channels.h"
 
@@ -166,7 +167,7 @@ int Finish(const LogOptions& options, const Result<CopiedLog>& copied) {
 
 void AddLogCommand(CLI::App& app, int& exit_code) {
   CLI::App* log =
-      app.add_subcommand("log", "Look into, check, cut, repair, export and rerun a log");
+      app.add_subcommand("log", "Look into, check, cut, repair, export, rerun and import a log");
   log->require_subcommand(1);
   const auto options = std::make_shared<LogOptions>();
   const auto verb = [&](const char* name, const char* help) {
@@ -194,6 +195,7 @@ void AddLogCommand(CLI::App& app, int& exit_code) {
   export_verb->callback([options, &exit_code] { exit_code = Export(*options); });
 
   AddLogRerun(*log, exit_code);
+  AddLogImport(*log, exit_code);
 
   CLI::App* repair = verb("repair", "Write every readable event to a new log");
   with_out(repair, "The new log");

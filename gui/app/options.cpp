@@ -30,7 +30,10 @@ void Declare(CLI::App& app, AppOptions& options, SourceArguments& sources, bool&
   app.add_option("--part", options.replay_part,
                  "Of a log in which the vehicle restarted, the part to play; else the longest")
       ->check(CLI::PositiveNumber);
-  source->add_option("--images", sources.images, "A folder of stereo pairs, by its RIG.toml");
+  source->add_option(
+      "--images", sources.images,
+      "Stereo pairs from disk: their RIG.toml, or a folder in EuRoC's layout (mav0 with "
+      "cam0 and cam1), with its poses");
   source->add_option("--cameras", sources.cameras,
                      "Stereo cameras without a vehicle, by [capture] of their RIG.toml: V4L2 "
                      "devices, RTSP or HTTP streams, video files");

@@ -3,6 +3,7 @@
 #include "engine/camera/files/poses_file.h"
 #include "engine/camera/files/rig_file.h"
 #include "engine/capture/camera_address.h"
+#include "engine/capture/euroc/euroc_tables.h"
 #include "engine/runtime/settings_io.h"
 #include "engine/wire/channels.h"
 #include "tests/fuzz/fuzz_target.h"
@@ -18,10 +19,20 @@ std::vector<FuzzTarget> TextTargets() {
       {"target", [](Bytes input) { (void)ParseTargetText(AsText(input), "target.toml"); }},
       {"rig", [](Bytes input) { (void)LoadRigFile(ScratchFile("rig.toml", input)); }},
       {"poses", [](Bytes input) { (void)LoadPosesFile(ScratchFile("poses.csv", input)); }},
+      {"euroc",
+       [](Bytes input) {
+         const auto file = ScratchFile("data.csv", input);
+         (void)ReadEurocPictures(file);
+         (void)ReadEurocInertials(file);
+         if (const auto states = ReadEurocStates(file)) {
+           (void)StateAt(*states, states->front().time_ns / 2 + states->back().time_ns / 2);
+         }
+       }},
       {"camera",
        [](Bytes input) {
          for (const char* name : {"camera.txt", "camera.yaml", "camera.xml", "camera.IMG"}) {
            (void)ParseCameraText(AsText(input), name);
+           (void)ParseCameraText(AsText(input), name, {StereoSide::kRight, {}});
          }
        }},
       {"address",
