@@ -45,6 +45,8 @@ class ImuSensor {
   ImuSensor(const ImuNoise& noise, double rate_hz, std::uint64_t seed);
   ImuSample Measure(Timestamp now, const Eigen::Vector3d& specific_force_B,
                     const Eigen::Vector3d& angular_rate_B);
+  const Eigen::Vector3d& gyro_bias() const { return gyro_bias_; }    ///< rad/s
+  const Eigen::Vector3d& accel_bias() const { return accel_bias_; }  ///< m/s^2
 
  private:
   RandomStream random_;

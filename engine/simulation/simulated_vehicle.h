@@ -33,6 +33,7 @@ class SimulatedVehicle {
   VehicleAuthority& authority() { return autopilot_.authority(); }
   RigidTransform X_WB() const { return {rotorcraft_.state().R_WB(), rotorcraft_.state().p_WB()}; }
   const std::optional<Touchdown>& touchdown() const { return touchdown_; }
+  const ImuSensor& imu() const { return imu_; }
   /// The navigation solution now.
   VehiclePose Pose() const;
   VehicleStatus Status() const;

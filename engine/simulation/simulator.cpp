@@ -255,6 +255,13 @@ AuthorityStatus Simulator::Authority() const {
 
 std::uint64_t Simulator::boot_id() const { return state_->vehicle.boot_id(); }
 
+const StereoRig& Simulator::rig() const { return *state_->rig; }
+
+ImuBiases Simulator::imu_biases() const {
+  const ImuSensor& imu = state_->vehicle.imu();
+  return {imu.gyro_bias(), imu.accel_bias()};
+}
+
 const Touchdown* Simulator::touchdown() const {
   const std::optional<Touchdown>& touchdown = state_->vehicle.touchdown();
   return touchdown ? &*touchdown : nullptr;

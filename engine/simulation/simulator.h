@@ -48,6 +48,12 @@ struct SimulatorOptions {
   std::optional<StationTrust> own_station{};
 };
 
+/// What the IMU adds to what it measures, in B; it stands still.
+struct ImuBiases {
+  Eigen::Vector3d gyro_rad_s = Eigen::Vector3d::Zero();
+  Eigen::Vector3d accel_mps2 = Eigen::Vector3d::Zero();
+};
+
 /// How the vehicle met the ground, by the truth.
 struct Touchdown {
   Timestamp time;
@@ -79,6 +85,8 @@ class Simulator final : public Source, public VehicleLink {
   /// Stamp of the moment simulated time starts at; the first bundle is one camera period later.
   static constexpr Timestamp kEpoch{1'000'000'000'000};
   std::uint64_t boot_id() const;
+  const StereoRig& rig() const;
+  ImuBiases imu_biases() const;  ///< the truth
   /// Set once the skids have met the ground. Call from the thread that calls Next().
   const Touchdown* touchdown() const;
 

@@ -18,6 +18,7 @@
 #include "engine/journal/log_index.h"
 #include "engine/journal/log_writer.h"
 #include "engine/simulation/session.h"
+#include "engine/tools/simulate_export.h"
 #include "engine/trust/key_file.h"
 #include "engine/wire/bus.h"
 #include "engine/wire/channels.h"
@@ -33,6 +34,8 @@ struct SimulateOptions {
   std::string scenario = "runway";
   std::optional<std::string> url;
   std::string log;
+  std::string export_folder;
+  bool land = false;
   std::string channels_file;
   std::vector<std::string> keys;
   bool insecure = false;
@@ -49,8 +52,33 @@ int Fail(const Error& error) {
   return error.code == ErrorCode::kUsage ? 2 : 1;
 }
 
-/// With a log and no URL the flight is only recorded, and is the seed's to the bit.
-bool IsOnABus(const SimulateOptions& options) { return options.url || options.log.empty(); }
+constexpr double kExported_s = 10;  // of a hover, unless the duration is given
+
+/// With a log or an export and no URL the flight is only recorded, and is the seed's to the bit.
+bool IsOnABus(const SimulateOptions& options) {
+  return options.url || (options.log.empty() && options.export_folder.empty());
+}
+
+/// A flight that is exported is watched by nobody, unless a station takes part.
+bool IsPaced(const SimulateOptions& options) {
+  return !options.fast && (IsOnABus(options) || options.export_folder.empty());
+}
+
+Status CheckOptions(const SimulateOptions& options) {
+  if (!options.keys.empty() && !IsOnABus(options)) {
+    return UsageError("--key is for stations on a bus; give --url too, or leave it out");
+  }
+  if (!options.export_folder.empty() && options.no_pictures) {
+    return UsageError("--export writes pictures; leave --no-pictures out");
+  }
+  if (options.land &&
+      (options.export_folder.empty() || IsOnABus(options) || !options.log.empty())) {
+    return UsageError(
+        "--land goes with --export alone: on a bus a station lands the vehicle, and palace "
+        "records its missions itself");
+  }
+  return Ok();
+}
 
 /// The keys of the stations that may command. --insecure: no seals are asked for.
 Result<SessionSpec::OtherStations> StationsOf(const SimulateOptions& options) {
@@ -74,7 +102,7 @@ Result<SimulatedSession> OpenSession(const SimulateOptions& options, SceneCamera
   SessionSpec spec{.scenario = options.scenario,
                    .seed = options.seed,
                    .wind_mps = options.wind_mps,
-                   .speed = options.fast ? 0.0 : 1.0,
+                   .speed = IsPaced(options) ? 1.0 : 0.0,
                    .duration_limit_s = options.duration_s,
                    .render = !options.no_pictures};
   if (IsOnABus(options)) {
@@ -99,7 +127,7 @@ void PrintTrust(const SimulateOptions& options) {
 }
 
 /// Flies until the end, a signal or an error.
-Result<std::uint64_t> Fly(Simulator& simulator, VehicleServer* server, LogWriter* log,
+Result<std::uint64_t> Fly(Source& source, VehicleServer* server, LogWriter* log,
                           const ChannelNames& channels, std::stop_token stop) {
   std::jthread receiver;
   if (server != nullptr) {
@@ -110,7 +138,7 @@ Result<std::uint64_t> Fly(Simulator& simulator, VehicleServer* server, LogWriter
   }
   std::uint64_t bundles = 0;
   while (true) {
-    const auto bundle = simulator.Next(stop);
+    const auto bundle = source.Next(stop);
     if (!bundle) {
       return bundle.error().code == ErrorCode::kEnd ? Result<std::uint64_t>(bundles)
                                                     : Result<std::uint64_t>(bundle.error());
@@ -141,9 +169,63 @@ void PrintTouchdown(const Simulator& simulator) {
       t->tilt_rad * 57.29577951308232, t->on_object ? ", ON AN OBJECT" : "");
 }
 
+int EndExport(ExportingSource& exporter, const Simulator& simulator, const Status& flown) {
+  const Result<std::uint64_t> pairs = exporter.Close();
+  if (!flown || !pairs) {
+    return Fail(flown ? pairs.error() : flown.error());
+  }
+  std::printf("%llu pairs exported\n", static_cast<unsigned long long>(*pairs));
+  PrintTouchdown(simulator);
+  return 0;
+}
+
+/// The vehicle's end of the bus; null where none is asked for.
+Result<std::unique_ptr<VehicleServer>> OpenServer(const SimulateOptions& options,
+                                                  Simulator& simulator,
+                                                  const ChannelNames& channels) {
+  if (!IsOnABus(options)) {
+    return std::unique_ptr<VehicleServer>();
+  }
+  Result<std::shared_ptr<Bus>> bus = Bus::Open(options.url.value_or(""));
+  if (!bus) {
+    return bus.error();
+  }
+  for (const std::string& warning : (*bus)->warnings()) {
+    std::cerr << "palacectl simulate: " << warning << "\n";
+  }
+  auto server = VehicleServer::Create(*bus, simulator, channels);
+  if (server) {
+    std::printf("%s on %s, seed %llu\n", options.scenario.c_str(), (*bus)->url().c_str(),
+                static_cast<unsigned long long>(options.seed));
+    PrintTrust(options);
+  }
+  return server;
+}
+
+/// Flies into the log, if one is asked for.
+Result<std::uint64_t> FlyIntoLog(const SimulateOptions& options, Source& source,
+                                 VehicleServer* server, const ChannelNames& channels,
+                                 std::stop_token stop) {
+  if (options.log.empty()) {
+    return Fly(source, server, nullptr, channels, stop);
+  }
+  Result<LogWriter> log = LogWriter::Create(options.log);
+  if (!log) {
+    return log.error();
+  }
+  Result<std::uint64_t> bundles = Fly(source, server, &*log, channels, stop);
+  const Status closed = log->Close();
+  if (!bundles && log->events() == 0) {  // no empty log stays behind
+    std::error_code ignored;
+    std::filesystem::remove(SidecarPath(options.log), ignored);
+    std::filesystem::remove(options.log, ignored);
+  }
+  return bundles && !closed ? Result<std::uint64_t>(closed.error()) : bundles;
+}
+
 int Simulate(const SimulateOptions& options, const SceneCameraFactory& cameras) {
-  if (!options.keys.empty() && !IsOnABus(options)) {
-    return Fail(UsageError("--key is for stations on a bus; give --url too, or leave it out"));
+  if (const Status good = CheckOptions(options); !good) {
+    return Fail(good.error());
   }
   std::stop_source flight;
   const Termination termination([flight]() mutable { flight.request_stop(); });
@@ -158,54 +240,39 @@ int Simulate(const SimulateOptions& options, const SceneCameraFactory& cameras) 
   if (!channels) {
     return Fail(channels.error());
   }
-  std::unique_ptr<VehicleServer> server;
-  if (IsOnABus(options)) {
-    Result<std::shared_ptr<Bus>> bus = Bus::Open(options.url.value_or(""));
-    if (!bus) {
-      return Fail(bus.error());
-    }
-    for (const std::string& warning : (*bus)->warnings()) {
-      std::cerr << "palacectl simulate: " << warning << "\n";
-    }
-    Result<std::unique_ptr<VehicleServer>> made = VehicleServer::Create(*bus, simulator, *channels);
-    if (!made) {
-      return Fail(made.error());
-    }
-    server = std::move(*made);
-    std::printf("%s on %s, seed %llu\n", options.scenario.c_str(), (*bus)->url().c_str(),
-                static_cast<unsigned long long>(options.seed));
-    PrintTrust(options);
+  const Result<std::unique_ptr<VehicleServer>> server = OpenServer(options, simulator, *channels);
+  if (!server) {
+    return Fail(server.error());
   }
-  std::optional<LogWriter> log;
-  if (!options.log.empty()) {
-    Result<LogWriter> made = LogWriter::Create(options.log);
+  std::shared_ptr<Source> source = session->simulator;
+  std::shared_ptr<ExportingSource> exporter;
+  if (!options.export_folder.empty()) {
+    auto made = ExportingSource::Create(*session, options.export_folder);
     if (!made) {
       return Fail(made.error());
     }
-    log.emplace(std::move(*made));
+    source = exporter = std::move(made).value();
+  }
+  if (options.land) {
+    return EndExport(*exporter, simulator, FlyMission(*session, source, flight.get_token()));
   }
   const Result<std::uint64_t> bundles =
-      Fly(simulator, server.get(), log ? &*log : nullptr, *channels, flight.get_token());
-  const Status closed = log ? log->Close() : Ok();
+      FlyIntoLog(options, *source, server->get(), *channels, flight.get_token());
   if (!bundles) {
-    if (log && log->events() == 0) {  // no empty log stays behind
-      std::error_code ignored;
-      std::filesystem::remove(SidecarPath(options.log), ignored);
-      std::filesystem::remove(options.log, ignored);
-    }
     return Fail(bundles.error());
   }
-  if (!closed) {
-    return Fail(closed.error());
-  }
   std::printf("%llu bundles", static_cast<unsigned long long>(*bundles));
-  if (server) {
+  if (*server) {
+    const VehicleServer& bus = **server;
     std::printf(", %llu messages from stations, %llu could not be read%s%s",
-                static_cast<unsigned long long>(server->received()),
-                static_cast<unsigned long long>(server->refused()),
-                server->refusal().empty() ? "" : ", the last: ", server->refusal().c_str());
+                static_cast<unsigned long long>(bus.received()),
+                static_cast<unsigned long long>(bus.refused()),
+                bus.refusal().empty() ? "" : ", the last: ", bus.refusal().c_str());
   }
   std::printf("\n");
+  if (exporter) {
+    return EndExport(*exporter, simulator, Ok());
+  }
   PrintTouchdown(simulator);
   return 0;
 }
@@ -215,12 +282,19 @@ int Simulate(const SimulateOptions& options, const SceneCameraFactory& cameras) 
 void AddSimulateCommand(CLI::App& app, int& exit_code, SceneCameraFactory cameras) {
   CLI::App* command =
       app.add_subcommand("simulate",
-                         "Fly the simulated vehicle on an LCM bus or into a log. Ctrl-C, SIGTERM "
+                         "Fly the simulated vehicle on an LCM bus, into a log or into a folder "
+                         "of EuRoC's layout. Ctrl-C, SIGTERM "
                          "and SIGHUP end it in order, exit 0");
   const auto options = std::make_shared<SimulateOptions>();
   command->add_option("--scenario", options->scenario, "runway, cones, slope or empty")
       ->capture_default_str();
-  command->add_option("--url", options->url, "LCM URL; without --log the default bus");
+  command->add_option("--url", options->url, "LCM URL; without --log or --export the default bus");
+  command->add_option("--export", options->export_folder,
+                      "Write a folder in EuRoC's layout: synchronous stereo, true depth, IMU, "
+                      "truth, navigation. Without --url a hover of 10 s (--duration-s), as fast as "
+                      "possible");
+  command->add_flag("--land", options->land,
+                    "With --export: the whole mission, a scripted operator in command");
   command->add_option("--duration-s", options->duration_s, "Longest simulated time")
       ->check(FiniteRange(0.001, 1e6))
       ->capture_default_str();
@@ -242,7 +316,11 @@ void AddSimulateCommand(CLI::App& app, int& exit_code, SceneCameraFactory camera
       command->add_flag("--realtime", options->realtime, "Simulated time is real time (default)");
   command->add_flag("--fast", options->fast, "As fast as possible")->excludes(realtime);
   command->add_flag("--no-pictures", options->no_pictures, "Sensors only, no cameras");
-  command->callback([options, &exit_code, cameras = std::move(cameras)] {
+  command->callback([options, command, &exit_code, cameras = std::move(cameras)] {
+    if (!IsOnABus(*options) && !options->export_folder.empty() && !options->land &&
+        command->count("--duration-s") == 0) {
+      options->duration_s = kExported_s;
+    }
     exit_code = Simulate(*options, cameras);
   });
 }
