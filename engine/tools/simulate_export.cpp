@@ -49,7 +49,8 @@ Result<std::shared_ptr<const FrameBundle>> ExportingSource::Next(std::stop_token
   ImageF depth_m;
   const Truth* truth = b.stereo ? TruthAt(b, b.stereo->time) : nullptr;
   if (truth != nullptr) {
-    depth_m = RenderDepth(scene_, b.rig->left.pinhole, truth->X_WB * b.rig->X_BC());
+    const World scene = WorldAt(scene_, SecondsBetween(Simulator::kEpoch, b.stereo->time));
+    depth_m = RenderDepth(scene, b.rig->left.pinhole, truth->X_WB * b.rig->X_BC());
   }
   if (const palace::Status written = writer_->Add(b, truth != nullptr ? &depth_m : nullptr);
       !written) {

@@ -114,7 +114,8 @@ TEST(Simulator, BundlesCarryEverySensorAtItsRate) {
 /// An even grey that tells the left camera from the right one.
 class ConstantCamera final : public SceneCamera {
  public:
-  Result<ImageU8> Render(const PinholeCamera& camera, const RigidTransform& X_WC) override {
+  Result<ImageU8> Render(const PinholeCamera& camera, const RigidTransform& X_WC,
+                         double /*time_s*/) override {
     return ImageU8(camera.width, camera.height,
                    X_WC.p.y() < 0 ? std::uint8_t{100} : std::uint8_t{120});
   }

@@ -121,6 +121,34 @@ VehiclePose PoseOf(const EurocMount& mount, const EurocState& state, Timestamp t
   return pose;
 }
 
+/// The pairs that have a pose, if there is a ground truth, in our frames.
+void KeepPosed(const Pairs& pairs, const std::vector<EurocState>& states,
+               const RigidTransform& X_IC, EurocFolder& found) {
+  std::vector<std::optional<EurocState>> poses;
+  for (const std::int64_t time_ns : pairs.times_ns) {
+    poses.push_back(StateAt(states, time_ns));
+  }
+  const auto first =
+      std::find_if(poses.begin(), poses.end(), [](const auto& pose) { return pose.has_value(); });
+  found.mount = MountOf(
+      X_IC, first == poses.end() ? std::nullopt : std::optional<RigidTransform>((*first)->X_RI));
+  std::vector<ImagePair>& kept = found.sequence.pairs;
+  int unposed = 0;
+  for (std::size_t k = 0; k < pairs.pairs.size(); ++k) {
+    if (!states.empty() && !poses[k]) {
+      ++unposed;
+      continue;
+    }
+    found.first_ns = kept.empty() ? pairs.times_ns[k] : found.first_ns;
+    kept.push_back(pairs.pairs[k]);
+    kept.back().time = DataTime(pairs.times_ns[k], found.first_ns);
+    if (poses[k]) {
+      kept.back().pose = PoseOf(found.mount, *poses[k], kept.back().time);
+    }
+  }
+  found.left_out = LeftOutText(pairs, unposed);
+}
+
 double MeanRate(const std::vector<ImagePair>& pairs, double otherwise) {
   const double span_s = SecondsBetween(pairs.front().time, pairs.back().time);
   return span_s > 0 ? static_cast<double>(pairs.size() - 1) / span_s : otherwise;
@@ -133,8 +161,10 @@ Result<EurocFolder> LoadEurocFolder(const fs::path& folder) {
   found.folder = Exists(folder / "mav0") ? folder / "mav0" : folder;
   if (!Exists(found.folder / "cam0")) {
     return UnavailableError(folder.string() +
-                            ": no folder mav0 with cam0 and cam1 in it, as EuRoC data have; give "
-                            "such a folder, or the RIG.toml of the pictures");
+                            (Exists(folder) ? ": is a folder without mav0/cam0, as EuRoC data have "
+                                              "it; give such a folder, or the RIG.toml of the "
+                                              "pictures"
+                                            : ": no such folder; check the name"));
   }
   const auto X_IC = ReadRig(found.folder, found.rig.rig);
   if (!X_IC) {
@@ -153,37 +183,16 @@ Result<EurocFolder> LoadEurocFolder(const fs::path& folder) {
     return states.error();
   }
   const Pairs pairs = PairsOf(found.folder, *left, *right);
-  std::vector<std::optional<EurocState>> poses;
-  std::optional<RigidTransform> first;
-  for (const std::int64_t time_ns : pairs.times_ns) {
-    poses.push_back(StateAt(*states, time_ns));
-    if (!first && poses.back()) {
-      first = poses.back()->X_RI;
-    }
-  }
-  found.mount = MountOf(*X_IC, first);
-  int unposed = 0;
-  for (std::size_t k = 0; k < pairs.pairs.size(); ++k) {
-    if (!states->empty() && !poses[k]) {
-      ++unposed;
-      continue;
-    }
-    std::vector<ImagePair>& kept = found.sequence.pairs;
-    found.first_ns = kept.empty() ? pairs.times_ns[k] : found.first_ns;
-    kept.push_back(pairs.pairs[k]);
-    kept.back().time = DataTime(pairs.times_ns[k], found.first_ns);
-    if (poses[k]) {
-      kept.back().pose = PoseOf(found.mount, *poses[k], kept.back().time);
-    }
-  }
-  found.left_out = LeftOutText(pairs, unposed);
+  KeepPosed(pairs, *states, *X_IC, found);
   if (found.sequence.pairs.empty()) {
     return InvalidError(found.folder.string() + ": no pair of pictures; " + found.left_out);
   }
   StereoRig& rig = found.rig.rig;
+  found.sequence.rate_hz = MeanRate(found.sequence.pairs, rig.rate_hz);
+  rig.rate_hz =
+      std::clamp(found.sequence.rate_hz, RigLimits::kLeastRate_hz, RigLimits::kMostRate_hz);
   rig.tilt_rad = found.mount.tilt_rad;
   rig.position_body_m = found.mount.position_body_m;
-  rig.rate_hz = found.sequence.rate_hz = MeanRate(found.sequence.pairs, rig.rate_hz);
   found.rig.folder = found.folder;
   return found;
 }

@@ -15,6 +15,7 @@ namespace palace {
 namespace {
 
 constexpr std::size_t kLargestFile = std::size_t{256} << 20;
+constexpr std::int64_t kLeastStep_ns = 1000;  // our stamps are microseconds
 constexpr double kMostPlace_m = 1e6;
 constexpr double kMostSpeed_mps = 1e4;
 constexpr double kMostForce_mps2 = 1e4;
@@ -115,10 +116,11 @@ Result<std::vector<T>> ReadRows(const std::filesystem::path& path, const Read& r
     if (!time_ns) {
       return time_ns.error();
     }
-    if (!rows.empty() && *time_ns <= rows.back().time_ns) {
+    if (!rows.empty() && *time_ns - rows.back().time_ns < kLeastStep_ns) {
       return row.Wrong("timestamp = " + std::to_string(*time_ns) + " does not come after the " +
                        std::to_string(rows.back().time_ns) + " of line " +
-                       std::to_string(last_line) + "; rows stand in order of time");
+                       std::to_string(last_line) +
+                       "; rows stand in order of time, at least 1000 ns apart");
     }
     Result<T> value = read(row);
     if (!value) {

@@ -1,7 +1,7 @@
 // The tables of an EuRoC folder: data.csv of its cameras, IMU and ground truth.
 //
-// A row is a stamp in whole nanoseconds of any clock, which grows from row to row, and its values,
-// with commas between; text from '#' on, the header row with it, is a comment. Files hold at most
+// A row is a stamp in whole nanoseconds of any clock, which grows by a microsecond at least from row
+// to row, and its values, with commas between; text from '#' on, the header with it, is a comment. Files hold at most
 // 256 MiB. Errors name file, line, column, value and limit.
 // Source: Burri et al. 2016 (euroc_frames.h, for the frames R and I); the data sets' own headers.
 #pragma once
