@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "engine/core/random.h"
+#include "engine/world/world_file.h"
 
 namespace palace {
 namespace {
@@ -12,7 +13,7 @@ constexpr double kGustPerMean = 1.5;  // W20 of the turbulence beside the mean w
 }  // namespace
 
 Result<SimulatedSession> OpenSimulatedSession(const SessionSpec& spec, SceneCameraFactory cameras) {
-  Result<World> scene = MakeScene(spec.scenario, spec.seed);
+  Result<World> scene = OpenWorld(spec.scenario, spec.seed);
   if (!scene) {
     return scene.error();
   }

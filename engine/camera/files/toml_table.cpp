@@ -26,6 +26,13 @@ TomlTable::TomlTable(const toml::table& root, std::string file, std::string name
   }
 }
 
+TomlTable::TomlTable(std::string file, std::string name, const toml::table& table)
+    : file_(std::move(file)), name_(std::move(name)), line_(LineOf(table)), table_(&table) {}
+
+TomlTable TomlTable::OfList(const toml::table& table, std::string file, std::string name) {
+  return TomlTable(std::move(file), std::move(name), table);
+}
+
 double TomlTable::Number(const char* key, const NumberLimits& limits) {
   const toml::node* node = Required(key);
   return node == nullptr ? 0 : ReadNumber(*node, key, limits);

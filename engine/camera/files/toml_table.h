@@ -29,6 +29,8 @@ class TomlTable {
   /// `name` in `root`, which must outlive this. A missing table is an error once a key is asked
   /// for.
   TomlTable(const toml::table& root, std::string file, std::string name);
+  /// One of a list, [[name]], which must outlive this.
+  static TomlTable OfList(const toml::table& table, std::string file, std::string name);
 
   bool present() const { return table_ != nullptr; }
   bool Has(const char* key) const { return table_ != nullptr && table_->contains(key); }
@@ -51,6 +53,7 @@ class TomlTable {
   Status Finish();
 
  private:
+  TomlTable(std::string file, std::string name, const toml::table& table);
   std::string Name(std::string_view key) const { return name_ + "." + std::string(key); }
   std::string Asked() const;
   const toml::node* Required(const char* key);

@@ -1,0 +1,38 @@
+// World files: a simulated world that a person writes (TOML).
+//
+//   name = "yard"
+//   [ground]   material = "grass"  seed  albedo  contrast  scale  turn_deg  rise_north_deg
+//   rise_east_deg [relief]   rms_m  longest_m  shortest_m  hurst  seed  size_m: gentle or rough
+//   ground, fractal [sun]      azimuth_deg  elevation_deg
+//   [[hole]]   at = [north, east]  diameter_m  depth_m
+//   [[ditch]]  from  to  width_m  depth_m
+//   [[mound]]  at  diameter_m  height_m: a cosine bell
+//   [[line]]   from  to  width_m  material ...: flat paint
+//   [[patch]]  outline = [n1, e1, n2, e2, ...]  material ...
+//   [[pool]]   at  diameter_m
+//   [[box]]    at  size_m = [north, east, height]  turn_deg  albedo  moves_mps = [north, east]
+//   [[cylinder]] [[cone]]   at  diameter_m  height_m  albedo  moves_mps
+//   [[rod]]    from = [north, east, height]  to = [...]  diameter_m: a pole, wire or rail
+//
+// Lengths in metres of W: north and east of where the vehicle starts, which looks north; heights
+// above the ground there. Every key is checked; an error names file, line, key, value and limit,
+// and nothing is half loaded.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+#include "engine/core/result.h"
+#include "engine/world/world.h"
+
+namespace palace {
+
+Result<World> LoadWorld(const std::filesystem::path& path);
+/// `name` for messages.
+Result<World> ParseWorld(const std::string& text, const std::string& name);
+
+/// A name of SceneNames(), drawn by the seed, or the path of a world file (*.toml).
+Result<World> OpenWorld(const std::string& name_or_path, std::uint64_t seed);
+
+}  // namespace palace
