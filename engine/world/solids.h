@@ -24,6 +24,7 @@ struct Solid {
   double albedo = std::numeric_limits<double>::quiet_NaN();
   /// m/s. Rays, pictures and the simulator meet it where X_WO says; WorldAt moves it there.
   Eigen::Vector3d v_WO = Eigen::Vector3d::Zero();
+  bool soft = false;  ///< leaves and twigs, which give way; known to the truth alone
 };
 
 /// Upright on a place, turned from north towards east.

@@ -1,0 +1,33 @@
+// Hazards so close to each other that no disc fits between them: the ground of `nowhere` and `one`.
+#pragma once
+
+#include "engine/core/random.h"
+#include "engine/world/families/drawing.h"
+
+namespace palace {
+
+/// Places on a turned, jittered square lattice over the whole relief: from any place the nearest is
+/// at most kLatticeGap_m away, so that every disc of that radius holds one.
+std::vector<Eigen::Vector2d> HazardLattice(RandomStream& random);
+inline constexpr double kLatticeGap_m = 1.45;
+
+/// Mounds and holes of the relief, each too high or too deep for a step.
+struct Mound {
+  Blob outline;
+  double up_m;    ///< negative: a hole
+  double bank_m;  ///< width of its side
+};
+Mound DrawMound(RandomStream& random, const Eigen::Vector2d& place_m);
+
+/// Height of all mounds at a place, found quickly among many.
+class MoundField {
+ public:
+  explicit MoundField(std::vector<Mound> mounds);
+  double Height(double north_m, double east_m) const;
+
+ private:
+  std::vector<Mound> mounds_;
+  std::vector<std::vector<std::uint32_t>> near_;  ///< by squares of kSquare_m
+};
+
+}  // namespace palace
