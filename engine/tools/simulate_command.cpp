@@ -24,6 +24,7 @@
 #include "engine/wire/channels.h"
 #include "engine/wire/convert.h"
 #include "engine/wire/lcm_link.h"
+#include "engine/world/scene_library.h"
 
 namespace palace {
 namespace {
@@ -286,7 +287,9 @@ void AddSimulateCommand(CLI::App& app, int& exit_code, SceneCameraFactory camera
                          "of EuRoC's layout. Ctrl-C, SIGTERM "
                          "and SIGHUP end it in order, exit 0");
   const auto options = std::make_shared<SimulateOptions>();
-  command->add_option("--scenario", options->scenario, "runway, cones, slope or empty")
+  command
+      ->add_option("--scenario", options->scenario,
+                   SceneList() + "; what each is: palacectl worlds")
       ->capture_default_str();
   command->add_option("--url", options->url, "LCM URL; without --log or --export the default bus");
   command->add_option("--export", options->export_folder,

@@ -6,6 +6,7 @@
 
 #include "engine/core/random.h"
 #include "engine/core/units.h"
+#include "engine/world/families/families.h"
 
 namespace palace {
 namespace {
@@ -86,7 +87,22 @@ void Scatter(World& scene, const ScatterPlan& plan, RandomStream& random) {
 
 }  // namespace
 
-std::vector<std::string_view> SceneNames() { return {"runway", "cones", "slope", "empty"}; }
+std::vector<std::string_view> PlainSceneNames() { return {"runway", "cones", "slope", "empty"}; }
+
+std::vector<std::string_view> SceneNames() {
+  std::vector<std::string_view> names = PlainSceneNames();
+  const std::vector<std::string_view> families = FamilyNames();
+  names.insert(names.end(), families.begin(), families.end());
+  return names;
+}
+
+std::string SceneList() {
+  std::string list;
+  for (const std::string_view each : SceneNames()) {
+    list += (list.empty() ? "" : ", ") + std::string(each);
+  }
+  return list;
+}
 
 StereoRig DefaultRig() {
   StereoRig rig;
@@ -105,6 +121,9 @@ StereoRig DefaultRig() {
 }
 
 Result<World> MakeScene(std::string_view name, std::uint64_t seed) {
+  if (IsFamily(name)) {
+    return MakeFamily(name, seed);
+  }
   RandomStream random(seed, name);
   World scene;
   scene.name = std::string(name);
@@ -119,11 +138,8 @@ Result<World> MakeScene(std::string_view name, std::uint64_t seed) {
     scene.ground.rise_north = std::tan(Rad(5));
     Scatter(scene, {4, 4}, random);
   } else if (name != "empty") {
-    std::string known;
-    for (const std::string_view each : SceneNames()) {
-      known += (known.empty() ? "" : ", ") + std::string(each);
-    }
-    return UsageError("there is no scene \"" + std::string(name) + "\"; choose one of " + known);
+    return UsageError("there is no scene \"" + std::string(name) + "\"; choose one of " +
+                      SceneList());
   }
   return scene;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -11,16 +12,22 @@
 
 namespace palace {
 
-/// "runway" (tables and cones), "cones", "slope" (5 degrees, rising north), "empty".
+/// "runway" (tables and cones), "cones", "slope" (5 degrees, rising north), "empty": on flat ground
+/// of one texture, with a clear disc for certain.
+std::vector<std::string_view> PlainSceneNames();
+/// These, and the families of families/families.h.
 std::vector<std::string_view> SceneNames();
+/// All of them, for a help text: "runway, cones, ...".
+std::string SceneList();
 
 /// The named scene. `seed` scatters its solids and draws its texture; the same seed gives the same
 /// scene. From the default hover pose (origin of W, 50 ft, heading north) both cameras of
-/// DefaultRig() see at least one disc of kClearDiscRadius_m that no solid reaches into.
-/// An unknown name is a usage error that lists the names.
+/// DefaultRig() see at least one disc of kClearDiscRadius_m of a plain scene that no solid reaches
+/// into; a family promises nothing of the kind. An unknown name is a usage error that lists the
+/// names.
 Result<World> MakeScene(std::string_view name, std::uint64_t seed);
 
-/// Radius of the clear disc every scene guarantees.
+/// Radius of the clear disc every plain scene guarantees.
 inline constexpr double kClearDiscRadius_m = 3.0;
 
 /// The stereo rig of the R-50 flights (thesis 3.3): 640 x 480, 45 degrees wide, 1 m baseline along

@@ -8,6 +8,7 @@
 #include "engine/core/text.h"
 #include "engine/core/version.h"
 #include "engine/mission/descent_limits.h"
+#include "engine/world/scene_library.h"
 
 namespace palace {
 namespace {
@@ -24,7 +25,7 @@ void Declare(CLI::App& app, AppOptions& options, SourceArguments& sources, bool&
   app.set_version_flag("--version", std::string("palace ") + kProgramVersion);
   auto* source = app.add_option_group(
       "source", "Where the pictures come from; nothing: the built-in simulated mission");
-  source->add_option("--scenario", options.scenario, "Simulated scene: runway, cones, slope, empty")
+  source->add_option("--scenario", options.scenario, "Simulated scene: " + SceneList())
       ->capture_default_str();
   source->add_option("--replay", sources.replay, "Play a recorded flight (LCM event log)");
   app.add_option("--part", options.replay_part,

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "engine/core/frames.h"
+#include "engine/model/image.h"
 #include "engine/model/rig.h"
 #include "engine/world/ray_pictures.h"
 
@@ -28,6 +29,10 @@ struct ViewPlan {
   /// Pose of the left camera over a ground of that height.
   RigidTransform X_WC(double ground_m) const;
 };
+
+/// What the plan's camera makes of the grey that falls on it; noise of the seed, which the two
+/// cameras do not share.
+ImageU8 ExposeAs(const ViewPlan& view, const ImageF& grey, bool right, std::uint64_t seed);
 
 ViewPlan DrawViewPlan(std::string_view family, std::uint64_t seed);
 
