@@ -32,7 +32,7 @@ constexpr std::array kFamilies = {
     Family{"obstacles", DrawObstacles, "rectangles, squares, cylinders and wedges of 4 to 24 in"},
     Family{"city", DrawCity, "a street with cars, poles, wires and people"},
     Family{"snow", DrawSnow, "drifted snow with tracks and what sticks out of it"},
-    Family{"rmax", DrawRmax, "a dry field seen from 150 ft, with boxes, nets and a tree line"},
+    Family{"rmax", DrawRmax, "a dry field seen from 150 ft, with boxes, rocks and a tree line"},
     Family{"nowhere", DrawNowhere, "no safe place at all"},
     Family{"one", DrawOne, "exactly one safe place"},
 };

@@ -1,5 +1,5 @@
 // A dry field as an RMAX sees it from 150 ft with the camera 35 degrees down: 40 to 130 m ahead,
-// with boxes, nets, vehicles and a tree line. Wider and coarser than the other families.
+// with boxes, rocks, vehicles and a tree line. Wider and coarser than the other families.
 #include <cmath>
 
 #include "engine/world/families/family.h"
