@@ -129,7 +129,7 @@ VehicleClock::Heard VehicleClock::Step(std::int64_t offset_us, double arrival_s)
 }
 
 void VehicleClock::Follow(std::int64_t offset_us, double arrival_s) {
-  const double passed_s = std::max(0.0, arrival_s - fitted_s_);
+  const double passed_s = arrival_s < queue_until_s_ ? 0 : std::max(0.0, arrival_s - fitted_s_);
   fitted_s_ = arrival_s;
   ++fitted_;
   const double pace = simulated_ ? 1 - kSlowestPace : kDriftLimit;

@@ -29,6 +29,7 @@
 #include <cmath>
 #include <cstdint>
 #include <deque>
+#include <limits>
 #include <optional>
 
 #include "engine/core/time.h"
@@ -57,6 +58,7 @@ class VehicleClock {
   static constexpr int kVotes = 3;
   static constexpr double kVoteSpan_s = 0.2;
   static constexpr double kDeaf_s = 2;      ///< nothing fitted for so long: anybody votes
+  static constexpr double kQueue_s = 3;     ///< after a stall: what queued may be read so long
   static constexpr double kLateFor_s = 10;  ///< a delay that stays is a step
   static constexpr double kLate_s = 0.25;
 
@@ -68,8 +70,12 @@ class VehicleClock {
   };
   /// `votes`: a message of a channel that may move the clock.
   Heard Hear(Timestamp stamp, double arrival_s, bool votes);
-  /// This machine did not run for so long; what queued meanwhile is heard next.
-  void Stalled(double seconds) { fitted_s_ += seconds; }
+  /// This machine did not run for so long until now; what queued meanwhile is heard next, and says
+  /// nothing of how late the vehicle's clock is.
+  void Stalled(double seconds, double now_s) {
+    fitted_s_ += seconds;
+    queue_until_s_ = now_s + kQueue_s;
+  }
   /// Whether a stamp can be, nothing else: nothing is learned from it. Before the clock is known
   /// any can.
   bool CanBe(Timestamp stamp, double arrival_s) const;
@@ -105,6 +111,7 @@ class VehicleClock {
   /// Size of a delay that stayed the same for long enough; 0: none did.
   std::int64_t StandingDelay_us(const Window& done);
 
+  double queue_until_s_ = -std::numeric_limits<double>::infinity();
   bool known_ = false;
   bool voted_ = false;
   bool simulated_ = false;

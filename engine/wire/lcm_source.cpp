@@ -65,8 +65,17 @@ Result<std::unique_ptr<LcmSource>> LcmSource::Create(std::shared_ptr<Bus> bus,
   return source;
 }
 
+void LcmSource::NoticeStall(double now_s) {
+  const double stalled_s = stall_watch_.Turn(now_s);
+  if (stalled_s > 0) {
+    bundles_.Stalled(stalled_s, now_s);
+    last_stall_s_ = now_s;
+  }
+}
+
 void LcmSource::Take(const WireMessage& message) {
   const double now_s = options_.now_s();
+  NoticeStall(now_s);  // most often this machine stops while it waits for a message
   bundles_.Take(message, now_s);
   if (!bundles_.problem().empty()) {
     refusals_.Add({message.sender, message.channel, bundles_.problem(), message.payload.data(),
@@ -87,14 +96,14 @@ void LcmSource::Drain(const std::stop_token& stop, double limit_s) {
 
 Result<std::shared_ptr<const FrameBundle>> LcmSource::Next(std::stop_token stop) {
   while (!stop.stop_requested()) {
-    const double stalled_s = stall_watch_.Turn(options_.now_s());
-    bundles_.Stalled(stalled_s);
+    NoticeStall(options_.now_s());
     const Result<bool> handled = bus_->Handle(bundles_.ready() ? 0 : kPoll_ms);
     if (!handled) {
       return handled.error();
     }
     if (*handled) {
-      Drain(stop, stalled_s > 0 ? kDrainAfterStall_s : kDrain_s);
+      const bool queued = options_.now_s() - last_stall_s_ < kDrainAfterStall_s;
+      Drain(stop, queued ? kDrainAfterStall_s : kDrain_s);
     }
     if (bundles_.ready() || options_.now_s() - last_delivery_s_ >= options_.heartbeat_s) {
       return Deliver();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -42,6 +43,7 @@ class LcmSource final : public Source {
 
  private:
   LcmSource(std::shared_ptr<Bus> bus, ChannelNames channels, LcmSourceOptions options);
+  void NoticeStall(double now_s);
   void Take(const WireMessage& message);
   void Drain(const std::stop_token& stop, double limit_s);
   std::shared_ptr<const FrameBundle> Deliver();
@@ -52,6 +54,7 @@ class LcmSource final : public Source {
   LiveBundles bundles_;
   RefusalLog refusals_;  ///< of messages that could not be decoded
   StallWatch stall_watch_;
+  double last_stall_s_ = -std::numeric_limits<double>::infinity();
   double last_delivery_s_ = 0;
   std::optional<Timestamp> start_;
   mutable std::mutex mutex_;  ///< guards what Status and Lost read

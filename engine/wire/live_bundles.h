@@ -31,10 +31,10 @@ class LiveBundles {
   void Take(const WireMessage& message, double now_s);
   /// Why the last message was not decoded; empty when it was.
   const std::string& problem() const { return assembler_.problem(); }
-  /// This machine did not run for so long; told with the next bundle.
-  void Stalled(double seconds) {
+  /// This machine did not run for so long until now; told with the next bundle.
+  void Stalled(double seconds, double now_s) {
     stalled_s_ += seconds;
-    clock_.Stalled(seconds);
+    clock_.Stalled(seconds, now_s);
   }
   bool ready() const { return ready_ != nullptr; }
   /// What is ready, as one bundle; without anything ready what is pending, without pictures.

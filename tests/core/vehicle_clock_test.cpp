@@ -240,7 +240,7 @@ TEST(VehicleClock, AShortQueueAfterAStallIsNoStepEvenOfASimulation) {
         continue;
       }
       if (during && !std::exchange(stood, true)) {
-        clock.Stalled(stall_s);
+        clock.Stalled(stall_s, 30 + stall_s);
       }
       EXPECT_NE(clock.Hear(m.stamp, during ? 30 + stall_s : m.arrival_s, true), Heard::kStepped)
           << m.arrival_s;

@@ -1,6 +1,9 @@
 // Bundles of a live vehicle: what steps, stalls, silence, loss and forgery do to their time.
 #include "engine/wire/live_bundles.h"
 
+#include <cmath>
+#include <utility>
+
 #include <gtest/gtest.h>
 
 #include "engine/wire/lcm_source.h"
@@ -144,7 +147,7 @@ TEST(LiveBundles, AStallOfThisMachineIsNoStep) {
   Fly(station, vehicle, 0, 200);
   const std::size_t before = station.got.size();
   station.now_s = 100 + 0.02 * 240;  // 0.8 s later
-  station.bundles.Stalled(0.8);
+  station.bundles.Stalled(0.8, station.now_s);
   for (int tick = 200; tick <= 240; ++tick) {
     station.Take(vehicle.Send(tick));
   }
@@ -319,6 +322,50 @@ TEST(LcmSource, NamesAStallOfItsOwnLoop) {
   EXPECT_EQ((*got)->arrival.clock->stepped_s, 0);
   EXPECT_FALSE((*got)->discontinuity);
   EXPECT_LE(SecondsBetween((*got)->poses.back().time, (*got)->time), 0.1);
+}
+
+// A process is stopped most often while it waits for a message: the first that it reads then comes
+// before the loop turns, and all that queued is seconds late.
+TEST(LcmSource, AStallWhileItWaitsIsNoStepOfTheVehiclesClock) {
+  for (const double stall_s : {1.0, 3.0, 6.0}) {
+    SCOPED_TRACE(stall_s);
+    const auto bus = Bus::Open("memq://");
+    ASSERT_TRUE(bus.ok());
+    double now_s = 100, before_s = 0;
+    bool stops = false;
+    const auto clock = [&] { return std::exchange(stops, false) ? before_s : now_s; };
+    auto source = LcmSource::Create(*bus, {}, {.now_s = clock});
+    ASSERT_TRUE(source.ok());
+    Vehicle vehicle;
+    int tick = 0;
+    double stalled_s = 0, stepped_s = 0;
+    const auto fly = [&](int ticks, bool queued) {
+      for (const int end = tick + ticks; tick < end; ++tick) {
+        // Of what comes meanwhile the receiver keeps the oldest third.
+        for (const WireMessage& message : vehicle.Send(tick)) {
+          if (!queued || end - tick > 2 * ticks / 3) {
+            ASSERT_TRUE((*bus)->Publish(message).ok());
+          }
+        }
+      }
+      before_s = std::exchange(now_s, 100 + 0.02 * (tick - 1));
+      stops = queued;
+      const auto got = (*source)->Next({});
+      ASSERT_TRUE(got.ok());
+      stalled_s += (*got)->arrival.clock->stalled_s;
+      stepped_s += std::abs((*got)->arrival.clock->stepped_s);
+      EXPECT_FALSE((*got)->discontinuity && tick > 20);
+    };
+    for (int i = 0; i < 60; ++i) {
+      fly(5, false);
+    }
+    fly(static_cast<int>(stall_s / 0.02), true);
+    for (int i = 0; i < 60; ++i) {
+      fly(5, false);
+    }
+    EXPECT_NEAR(stalled_s, stall_s, 0.15);
+    EXPECT_EQ(stepped_s, 0);
+  }
 }
 
 }  // namespace
