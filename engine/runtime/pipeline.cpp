@@ -113,7 +113,7 @@ void Pipeline::Judge(Pass& pass) {
     return;
   }
   const auto& armed = mission_.status().armed;
-  slad_.Keep(SeenFromStart(role_) && armed ? armed->id : 0);
+  slad_.Keep(SeenFromStart(role_) && armed ? &*armed : nullptr);
   // Letters follow the limits of record; a preview or a re-decision uses a copy of them.
   pass.decision_of_record =
       DecisionUnder(settings_.recorded(), pass.new_map ? Letters::kOfRecord : Letters::kOfCopy);

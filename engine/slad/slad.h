@@ -60,8 +60,12 @@ class Slad {
   /// Null before the first map.
   const std::shared_ptr<const ElevationMap>& elevation() const { return elevation_; }
 
-  /// That site is selected: it stays in the list while it can bear the lander. 0: none.
-  void Keep(std::uint64_t site_id) { registry_.Keep(site_id); }
+  /// That site is selected: it stays in the list while it can bear the lander, and the map about
+  /// it. Null: none.
+  void Keep(const LandingSite* site) {
+    registry_.Keep(site != nullptr ? site->id : 0);
+    kept_ = site != nullptr ? std::optional<Eigen::Vector2d>(site->p_WS.head<2>()) : std::nullopt;
+  }
   /// Judges the newest elevation map, which must be there, under the given settings.
   std::shared_ptr<const TerrainDecision> Decide(const Settings& settings, Letters letters);
   /// The same place on a newer decision; empty when it lies outside that map. `heading_rad`: of the
@@ -78,7 +82,8 @@ class Slad {
   TerrainFusion fusion_;
   SceneFlags scene_flags_;
   SiteRegistry registry_;
-  SladInput input_;  ///< the newest; without a range map for a survey
+  std::optional<Eigen::Vector2d> kept_;  ///< where the selected site lies
+  SladInput input_;                      ///< the newest; without a range map for a survey
   std::shared_ptr<const ElevationMap> elevation_;
   // Of the newest map: for the settings in force and the previewed ones, newest last.
   std::vector<TerrainFigures> figures_;

@@ -274,7 +274,7 @@ TEST(RankReasons, SayWhatDecidedAndByHowMuch) {
       {kFarthest,
        {SiteOf(4.0, 0.2), SiteOf(3.8, 0.2), CalledUnsafe(12.4, SiteOf(4.8, 0.2))},
        {"Leads: 0.2 m more clear than the next", "0.2 m less clear than the best",
-        "A map called it unsafe 12 s ago"}},
+        "Called unsafe by a map 12 s ago"}},
       {kFarthest,
        {SiteOf(4.0, 0.2, false, 0b10000011)},
        {"Straight approach blocked; clear from north, north-east and 1 more"}}};

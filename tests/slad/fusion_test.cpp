@@ -56,6 +56,23 @@ TEST(TerrainFusion, TenFramesLowerTheNoise) {
   EXPECT_GT(last.predicted_m, 0.5 * last.rms_m);
 }
 
+// The edge of the map is no hazard of the ground: about a place that matters it keeps away.
+TEST(TerrainFusion, TheMapStaysAroundAPlaceWhereverTheViewGoes) {
+  TerrainFusion fusion;
+  const Eigen::Vector2d place(14, 1);
+  for (int frame = 0; frame < 8; ++frame) {
+    RigidTransform X_WC = CameraPose(15.24, Rad(45));
+    X_WC.p.x() += 1.5 * frame;
+    const auto map =
+        fusion.Add(SeeWorld(Flat(), X_WC, 0.05, std::uint64_t(frame) + 1), SladSettings{}, place);
+    const GridGeometry& g = map->geometry;
+    const double side_m = g.rows * g.cell_m;
+    const double off_m = std::abs(place.x() - (g.north_min_m + side_m / 2));
+    EXPECT_LE(off_m, side_m / 4 + g.cell_m) << frame;
+    EXPECT_EQ(map->state.at(*g.CellFromPoint(place.x(), place.y())), CellState::kMeasured);
+  }
+}
+
 TEST(TerrainFusion, FrameTiltsAreRegistered) {
   TerrainFusion fusion;
   RandomStream random(3, "attitude");

@@ -103,7 +103,7 @@ void GiveReasons(SiteRanking ranking, SiteSelection& selection) {
         i == 0                 ? ReasonOfBest(ranking, selection)
         : !site.corridor_clear ? ApproachWords(site)
         : std::isfinite(site.called_unsafe_s)
-            ? Text("A map called it unsafe %.0f s ago%s", site.called_unsafe_s, "")
+            ? Text("Called unsafe by a map %.0f s ago%s", site.called_unsafe_s, "")
             : Capital(Difference(ranking, selection.sites.front(), site, false, "the best"));
   }
 }

@@ -40,6 +40,19 @@ bool CentreWithinSlack(const GridGeometry& a, const GridGeometry& b) {
          std::abs(a.east_min_m - b.east_min_m) <= kSlack * a.cols * a.cell_m;
 }
 
+/// Shifted by whole cells until the place lies within a quarter of the side from the centre.
+GridGeometry KeptAround(GridGeometry grid, const Eigen::Vector2d& place) {
+  const auto shift = [&](double min_m, int cells, double at_m) {
+    const double side_m = cells * grid.cell_m;
+    const double off_m = at_m - (min_m + side_m / 2);
+    const double over_m = off_m - std::clamp(off_m, -side_m / 4, side_m / 4);
+    return grid.cell_m * std::copysign(std::ceil(std::abs(over_m) / grid.cell_m), over_m);
+  };
+  grid.north_min_m += shift(grid.north_min_m, grid.rows, place.x());
+  grid.east_min_m += shift(grid.east_min_m, grid.cols, place.y());
+  return grid;
+}
+
 /// Of a cell's height over two cells, by the neighbours that are measured; 0 without a pair.
 double SquaredGradient(const ElevationMap& frame, int r, int c) {
   const auto slope = [&](Cell a, Cell b) {
@@ -128,8 +141,9 @@ void TerrainFusion::Reset() {
   frames_ = 0;
 }
 
-std::shared_ptr<const ElevationMap> TerrainFusion::Add(const RangeMap& range,
-                                                       const SladSettings& settings) {
+std::shared_ptr<const ElevationMap> TerrainFusion::Add(
+    const RangeMap& range, const SladSettings& settings,
+    const std::optional<Eigen::Vector2d>& around) {
   PALACE_CHECK(range.pose.has_value() && range.FocalTimesBaseline() > 0, range.baseline_m);
   if (!SameLayout(settings, layout_)) {
     Reset();
@@ -140,9 +154,12 @@ std::shared_ptr<const ElevationMap> TerrainFusion::Add(const RangeMap& range,
   }
   const TerrainPoints points = PointsFromRange(range);
   if (!points.empty() || frames_ == 0) {
-    const GridGeometry wanted = LayOutGrid(ChooseBounds(points, settings, &range), settings);
+    const GridGeometry seen = LayOutGrid(ChooseBounds(points, settings, &range), settings);
+    const GridGeometry wanted = around ? KeptAround(seen, *around) : seen;
     // A picture without a point says nothing about where to look: the map stays.
-    if (frames_ == 0 || !CentreWithinSlack(wanted, map_.geometry)) {
+    const bool strayed =
+        frames_ > 0 && around && KeptAround(map_.geometry, *around) != map_.geometry;
+    if (frames_ == 0 || strayed || !CentreWithinSlack(wanted, map_.geometry)) {
       MoveTo(wanted);
     }
   }

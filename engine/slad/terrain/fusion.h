@@ -27,6 +27,9 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
+
+#include <Eigen/Dense>
 
 #include "engine/model/elevation_map.h"
 #include "engine/model/range_map.h"
@@ -41,8 +44,10 @@ class TerrainFusion {
   /// Forgets all frames.
   void Reset();
   /// Fuses one range map, which has a pose and a baseline, and returns the new map. A change of
-  /// mode, cell size, grid size or bounds starts afresh.
-  std::shared_ptr<const ElevationMap> Add(const RangeMap& range, const SladSettings& settings);
+  /// mode, cell size, grid size or bounds starts afresh. `around`: a place (north, east) that the
+  /// map keeps in its middle half wherever the view goes, so that its edge comes not near it.
+  std::shared_ptr<const ElevationMap> Add(const RangeMap& range, const SladSettings& settings,
+                                          const std::optional<Eigen::Vector2d>& around = {});
 
  private:
   void MoveTo(const GridGeometry& geometry);
