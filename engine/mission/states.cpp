@@ -211,12 +211,21 @@ void StepDescending(MissionTurn& turn, const MissionInputs& in) {
   }
 }
 
+/// A vehicle that restarted has another frame: what was selected in the one before lies nowhere.
+void ForgetSiteOfBefore(MissionMemory& m) {
+  if (m.status.armed && m.watch.boot_id() != m.armed.boot_id) {
+    ForgetSite(m);
+    m.status.rechecks.clear();
+  }
+}
+
 void StepHold(MissionTurn& turn, const MissionInputs& in) {
   MissionMemory& m = turn.memory;
   const Timestamp now = in.session.now;
   if (LandedOrAborting(turn, in)) {
     return;
   }
+  ForgetSiteOfBefore(m);
   const auto& vehicle = m.watch.vehicle();
   const double held_s = SecondsBetween(m.status.since, now);
   const bool stopped =
@@ -234,6 +243,7 @@ void StepHold(MissionTurn& turn, const MissionInputs& in) {
 
 void StepAborting(MissionTurn& turn, Timestamp now) {
   MissionMemory& m = turn.memory;
+  ForgetSiteOfBefore(m);
   const auto& vehicle = m.watch.vehicle();
   m.abort_seen = m.abort_seen || (vehicle && HeardSinceWaveOff(m, now) &&
                                   (vehicle->mode == VehicleMode::kAbort || vehicle->on_ground));

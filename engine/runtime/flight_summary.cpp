@@ -24,7 +24,13 @@ void FlightSummarizer::Add(const EngineSnapshot& snapshot) {
   if (!start_ || *start_ == Timestamp{}) {  // zero: a live source has heard nothing yet
     start_ = snapshot.time;
   }
-  summary_.duration_s = SecondsBetween(*start_, snapshot.time);
+  // The clock of a vehicle that restarts begins anew.
+  if (!FollowsRecord(snapshot.session->role) && snapshot.time < newest_) {
+    before_s_ += SecondsBetween(*start_, newest_);
+    start_ = snapshot.time;
+  }
+  newest_ = snapshot.time;
+  summary_.duration_s = before_s_ + SecondsBetween(*start_, snapshot.time);
   summary_.final_state = snapshot.flight->mission.state;
   summary_.lander_radius_m = snapshot.session->settings.slad.lander.radius_m();
   const bool flying = snapshot.flight->mission.state != MissionState::kLanded;

@@ -41,7 +41,9 @@ class FlightSummarizer {
  private:
   std::optional<World> scene_;
   FlightSummary summary_;
-  std::optional<Timestamp> start_;
+  std::optional<Timestamp> start_;  ///< of the vehicle's clock as it runs now
+  Timestamp newest_;
+  double before_s_ = 0;  ///< by clocks before
   std::uint64_t last_sequence_ = 0;
 };
 

@@ -106,7 +106,11 @@ std::string Consequence(const EngineSnapshot& snap, bool narrow) {
 constexpr double kToldCut_s = 5;
 
 /// The first reason against approve, as the button gives it: of a check, then of the screen.
-std::string WhyNotNow(const MissionStatus& m, const UiFrame& ui) {
+std::string WhyNotNow(const EngineSnapshot& snap, const UiFrame& ui) {
+  const MissionStatus& m = snap.flight->mission;
+  if (snap.terrain->preview) {
+    return "Maps are a preview";
+  }
   for (const GuardResult& guard : m.guards) {
     if (!guard.pass) {
       return guard.reason.empty() ? guard.name : guard.reason;
@@ -153,7 +157,7 @@ void DrawChecks(const EngineSnapshot& snap, const Rect& rect, float y, bool narr
   if (m.guards.empty()) {
     return;
   }
-  const std::string why_not = WhyNotNow(m, ui);
+  const std::string why_not = WhyNotNow(snap, ui);
   const bool pass = why_not.empty();
   const std::string words = !pass ? why_not
                             : ui.ui_time_s < state.hold_cut_told_until_s

@@ -75,6 +75,12 @@ std::vector<Readout> Readouts(const EngineSnapshot& snap, bool narrow, double si
             status(narrow ? "In truth" : "Off centre, in truth", true_m, 2, "m"),
             status("Wind", wind, 1, wind_unit), status("Fuel", fuel, 0, "%")};
   }
+  // Without the vehicle's word the estimate coasts: no figure of any time.
+  const bool coasts =
+      ArrivalOf(snap, ChannelId::kVehiclePose, silent_s).state == ChannelHealth::State::kStale;
+  const auto estimated = [&](std::string label, double value, int decimals, std::string unit) {
+    return pose(std::move(label), coasts ? NAN : value, decimals, std::move(unit));
+  };
   if (IsDescentView(snap)) {
     // The same figures, by the estimate in force, as the limits and the plots below.
     const LimitRow* rate = FindLimit(m.limits, LimitId::kDescentRate);
@@ -83,15 +89,15 @@ std::vector<Readout> Readouts(const EngineSnapshot& snap, bool narrow, double si
     const double down = climbs ? -rate_mps : rate_mps;
     const double from_m = m.distance_to_site_m;
     if (narrow) {
-      return {pose("Height", m.height_above_site_m, 1, "m"),
-              pose("To go", m.time_to_touchdown_s, 0, "s"),
-              pose(climbs ? "Climb" : "Descent", down, 2, "m/s"),
-              pose("From centre", from_m, 2, "m")};
+      return {estimated("Height", m.height_above_site_m, 1, "m"),
+              estimated("To go", m.time_to_touchdown_s, 0, "s"),
+              estimated(climbs ? "Climb" : "Descent", down, 2, "m/s"),
+              estimated("From centre", from_m, 2, "m")};
     }
-    return {pose("Height above site", m.height_above_site_m, 1, "m"),
-            pose("Time to go", m.time_to_touchdown_s, 0, "s"),
-            pose(climbs ? "Climb rate" : "Descent rate", down, 2, "m/s"),
-            pose("From site centre", from_m, 2, "m"),
+    return {estimated("Height above site", m.height_above_site_m, 1, "m"),
+            estimated("Time to go", m.time_to_touchdown_s, 0, "s"),
+            estimated(climbs ? "Climb rate" : "Descent rate", down, 2, "m/s"),
+            estimated("From site centre", from_m, 2, "m"),
             status("Wind", wind, 1, wind_unit),
             status("Fuel", fuel, 0, "%")};
   }
@@ -108,13 +114,13 @@ std::vector<Readout> Readouts(const EngineSnapshot& snap, bool narrow, double si
   }();
   if (narrow) {
     return {height, pose("Speed", speed, 1, "m/s"), status("Wind", wind, 1, "m/s"),
-            pose("Error, 3σ", PositionError3s(snap), 2, "m")};
+            estimated("Error, 3σ", PositionError3s(snap), 2, "m")};
   }
   return {height,
           pose("Ground speed", speed, 1, "m/s"),
           pose("Heading", snap.sensors->pose ? HeadingDeg(*snap.sensors->pose) : NAN, 0, "°"),
           status("Wind", wind, 1, wind_unit),
-          pose("Position error", PositionError3s(snap), 2, "m, 3σ"),
+          estimated("Position error", PositionError3s(snap), 2, "m, 3σ"),
           status("Fuel", fuel, 0, "%")};
 }
 

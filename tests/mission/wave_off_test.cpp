@@ -139,6 +139,19 @@ TEST(WaveOffTold, AVehicleLastHeardOnTheGroundLongAgoMayBeWavedOff) {
   EXPECT_TRUE(rig.Do(WaveOff{}).ok());
 }
 
+// The frame of the vehicle that started anew is another: the old site lies nowhere in it.
+TEST(WaveOffTold, AfterARestartOfTheVehicleNoOldSiteIsTold) {
+  WaveOffRig rig;
+  ASSERT_TRUE(rig.Do(WaveOff{}).ok());
+  rig.Run(0.3);
+  EXPECT_TRUE(rig.mission.status().armed.has_value());
+  ++rig.vehicle.boot_id;
+  rig.Run(0.3);
+  EXPECT_EQ(rig.state(), MissionState::kAborting);
+  EXPECT_FALSE(rig.mission.status().armed.has_value());
+  EXPECT_TRUE(rig.mission.status().rechecks.empty());
+}
+
 TEST(SelectionEnded, IsToldUntilAnotherSiteIsSelected) {
   MissionRig rig;
   rig.Arm();

@@ -7,31 +7,31 @@
 #include "engine/core/text.h"
 #include "engine/core/units.h"
 #include "engine/survey/map_pictures.h"
+#include "gui/widgets/number_text.h"
 
 namespace palace {
 namespace {
 
 using Rows = std::vector<std::vector<std::string>>;
 
-Rows Figures(const ApprovalRecord& record, Timestamp start) {
+Rows Figures(const ApprovalRecord& record) {
   const Approval& a = record.approval;
-  return {{"Given",
-           WithNumbers("%.1f s after the first picture, by ", SecondsBetween(start, record.given)) +
-               (record.by.empty() ? "the record" : record.by)},
-          {"Site", record.site.letter +
-                       WithNumbers(": %.2f m north, %.2f m east, %.2f m up", a.p_WS.x(), a.p_WS.y(),
-                                   -a.p_WS.z()) +
-                       (a.provisional ? ", provisional" : ", confirmed")},
-          {"Clear radius", WithNumbers("%.2f m", a.clear_radius_m)},
-          {"Approach",
-           WithNumbers("heading %.0f deg, slope %.0f deg, %.2f m/s down",
-                       Deg(a.approach_heading_rad), Deg(a.glide_slope_rad), a.descent_rate_mps)},
-          {"Valid", WithNumbers("%.0f s, unless the descent began",
-                                SecondsBetween(a.approved_at, a.expires_at))},
-          {"Bound to", "map " + ShortHash(a.map_hash) + ", limits " + ShortHash(a.settings_hash) +
-                           ", calibration " + ShortHash(a.calibration_hash)},
-          {"Vehicle's answer", record.answer},
-          {"Came to", std::string(MissionStateName(record.last_state)) + ": " + record.why}};
+  return {
+      {"Given", ClockText(record.given) + " by " + (record.by.empty() ? "the record" : record.by)},
+      {"Site", record.site.letter +
+                   WithNumbers(": %.2f m north, %.2f m east, %.2f m up", a.p_WS.x(), a.p_WS.y(),
+                               -a.p_WS.z()) +
+                   (a.provisional ? ", provisional" : ", confirmed")},
+      {"Radius to keep clear", WithNumbers("%.2f m", a.clear_radius_m)},
+      {"Approach",
+       WithNumbers("heading %.0f deg, slope %.0f deg, %.2f m/s down", Deg(a.approach_heading_rad),
+                   Deg(a.glide_slope_rad), a.descent_rate_mps)},
+      {"Valid", WithNumbers("%.0f s, unless the descent began",
+                            SecondsBetween(a.approved_at, a.expires_at))},
+      {"Bound to", "map " + ShortHash(a.map_hash) + ", limits " + ShortHash(a.settings_hash) +
+                       ", calibration " + ShortHash(a.calibration_hash)},
+      {"Vehicle's answer", record.answer},
+      {"Came to", std::string(MissionStateName(record.last_state)) + ": " + record.why}};
 }
 
 Rows Evidence(const ApprovalRecord& record) {
@@ -56,12 +56,12 @@ void AddPicture(HtmlPage& page, const Status& written, const std::string& name,
 
 }  // namespace
 
-void AddApprovals(HtmlPage& page, const std::vector<ApprovalRecord>& approvals, Timestamp start,
+void AddApprovals(HtmlPage& page, const std::vector<ApprovalRecord>& approvals,
                   const std::filesystem::path& folder) {
   int number = 0;
   for (const ApprovalRecord& record : approvals) {
     const std::string name = "approval-" + std::to_string(++number);
-    page.Heading("Approval " + std::to_string(number)).Table({"", ""}, Figures(record, start));
+    page.Heading("Approval " + std::to_string(number)).Table({"", ""}, Figures(record));
     page.Table({"Evidence", "Value", "Limit", "Beyond it acts"}, Evidence(record));
     SiteSelection chosen;
     chosen.sites = {record.site};

@@ -11,7 +11,7 @@ namespace palace {
 
 /// A heading an approval, with its figures against their limits, and pictures beside the page:
 /// approval-1.png, the left picture with the site, and approval-1-map.png. Nothing without one.
-void AddApprovals(HtmlPage& page, const std::vector<ApprovalRecord>& approvals, Timestamp start,
+void AddApprovals(HtmlPage& page, const std::vector<ApprovalRecord>& approvals,
                   const std::filesystem::path& folder);
 
 }  // namespace palace

@@ -11,6 +11,7 @@
 #include "gui/app/options.h"
 #include "gui/app/report/approvals.h"
 #include "gui/app/session.h"
+#include "gui/widgets/number_text.h"
 
 namespace palace {
 namespace {
@@ -54,10 +55,7 @@ void AddEvents(HtmlPage& page, const EngineSnapshot& last) {
   }
   std::vector<std::vector<std::string>> rows;
   for (const Event& event : *last.session->events) {
-    char time[32];
-    std::snprintf(time, sizeof time, "%.1f s",
-                  SecondsBetween(last.session->events->front().time, event.time));
-    rows.push_back({time, event.text});
+    rows.push_back({ClockText(event.time), event.text});
   }
   page.Heading("Events").Table({"Time", "Event"}, rows);
 }
@@ -71,12 +69,6 @@ void AddSettings(HtmlPage& page, const EngineSnapshot& last) {
       .Table({"Setting", "Value"}, rows);
 }
 
-/// Of the first picture known, from which the report counts.
-Timestamp StartOf(const EngineSnapshot& last) {
-  const auto& history = last.flight->history;
-  return history && !history->empty() ? history->front().time : last.time;
-}
-
 }  // namespace
 
 Status WriteReport(const std::filesystem::path& file, const ReportInput& input) {
@@ -86,7 +78,7 @@ Status WriteReport(const std::filesystem::path& file, const ReportInput& input) 
     page.Link("Log:", input.log_name);
   }
   if (input.last) {
-    AddApprovals(page, input.approvals, StartOf(*input.last), file.parent_path());
+    AddApprovals(page, input.approvals, file.parent_path());
     if (input.last->flight->history) {
       AddPlots(page, *input.last->flight->history);
     }

@@ -298,7 +298,7 @@ void DrawApplyPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui) {
   ButtonLook discard;
   discard.enabled = words.can_discard;
   discard.font = s.medium;
-  discard.reason = words.can_discard ? "" : words.why_not;
+  discard.reason = words.why_not;  // read only where it is disabled
   if (DrawButton(ui, "discard", {left, row_y, discard_w, h}, "Discard", discard)) {
     ui.intents.push_back(CommandAction(DiscardSettings{}));
   }
