@@ -37,7 +37,7 @@ void PrintTo(const KnownFlight& flight, std::ostream* out) {
 }
 
 constexpr KnownFlight kKnownFlights[] = {
-    {"runway", 101, 0, MissionState::kLanded, 0x2a9307d903c5616a},
+    {"runway", 101, 0, MissionState::kLanded, 0xb069388b113b5943},
     {"slope", 7, 3, MissionState::kDescending, 0x1473416db46f6d48},
 };
 constexpr double kLimit_s = 120;

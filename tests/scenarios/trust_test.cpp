@@ -4,7 +4,9 @@
 #include <sys/stat.h>
 
 #include <algorithm>
+#include <chrono>
 #include <functional>
+#include <thread>
 
 #include "engine/runtime/engine.h"
 #include "engine/simulation/session.h"
@@ -342,6 +344,11 @@ TEST_F(TrustOnTheNetwork, ARecordedFlightInTheStockPlayerMovesNothing) {
   Process vehicle(network_->Inside(
       Palacectl({"simulate", "--scenario", "runway", "--url", kUrl, "--key", Key("heli-1"),
                  "--no-pictures", "--log", "vehicle.lcm", "--duration-s", "120"})));
+  // What is played before it listens proves nothing.
+  for (int turn = 0; turn < 1000 && vehicle.Out().find("fingerprint ") == std::string::npos;
+       ++turn) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
   const ProcessResult played = RunProcess(network_->Inside(player), 120);
   EXPECT_EQ(played.exit_code, 0) << played.err;
   vehicle.Signal(SIGINT);
