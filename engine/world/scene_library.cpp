@@ -99,9 +99,9 @@ std::vector<std::string_view> SceneNames() {
 std::string SceneList() {
   std::string list;
   for (const std::string_view each : SceneNames()) {
-    list += (list.empty() ? "" : ", ") + std::string(each);
+    list += std::string(each) + ", ";
   }
-  return list;
+  return list + "or a world file (*.toml)";
 }
 
 StereoRig DefaultRig() {

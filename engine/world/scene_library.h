@@ -17,7 +17,7 @@ namespace palace {
 std::vector<std::string_view> PlainSceneNames();
 /// These, and the families of families/families.h.
 std::vector<std::string_view> SceneNames();
-/// All of them, for a help text: "runway, cones, ...".
+/// All that may be named, for a help text: "runway, cones, ... or a world file (*.toml)".
 std::string SceneList();
 
 /// The named scene. `seed` scatters its solids and draws its texture; the same seed gives the same
