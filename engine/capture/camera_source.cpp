@@ -153,6 +153,7 @@ void CameraSource::Grab(const std::shared_ptr<Shared>& shared, CameraFeed& feed,
 Result<std::shared_ptr<const FrameBundle>> CameraSource::Next(std::stop_token stop) {
   std::optional<PicturePair> pair;
   Timestamp now;
+  int overtaken = 0;
   {
     std::unique_lock lock(shared_->mutex);
     shared_->changed.wait_for(lock, stop, std::chrono::duration<double>(options_.heartbeat_s),
@@ -161,6 +162,8 @@ Result<std::shared_ptr<const FrameBundle>> CameraSource::Next(std::stop_token st
       return Error{ErrorCode::kEnd, shared_->cameras.rig_toml + ": stopped"};
     }
     pair = std::exchange(shared_->newest, std::nullopt);
+    overtaken = static_cast<int>(shared_->pairs_replaced - overtaken_told_);
+    overtaken_told_ = shared_->pairs_replaced;
     now = shared_->TimeOf(shared_->now_s());
     shared_->last_time = now;
   }
@@ -176,6 +179,9 @@ Result<std::shared_ptr<const FrameBundle>> CameraSource::Next(std::stop_token st
   }
   bundle->sequence = ++sequence_;
   bundle->time = now;
+  for (const ChannelId camera : {ChannelId::kCameraLeft, ChannelId::kCameraRight}) {
+    bundle->arrival.overtaken[static_cast<std::size_t>(camera)] = overtaken;
+  }
   return std::shared_ptr<const FrameBundle>(std::move(bundle));
 }
 

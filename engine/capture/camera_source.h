@@ -58,6 +58,7 @@ class CameraSource final : public Source {
   const CameraSourceOptions options_;
   std::vector<std::thread> threads_;
   std::uint64_t sequence_ = 0;
+  std::uint64_t overtaken_told_ = 0;  ///< pairs, with a bundle
 };
 
 }  // namespace palace

@@ -8,6 +8,8 @@
 #include <CLI/CLI.hpp>
 
 #include "engine/core/command_line.h"
+#include "engine/core/text.h"
+#include "engine/core/units.h"
 #include "engine/report/statistics.h"
 #include "engine/report/svg_plot.h"
 #include "engine/runtime/engine.h"
@@ -15,6 +17,7 @@
 #include "engine/runtime/scripted_operator.h"
 #include "engine/runtime/settings_io.h"
 #include "engine/simulation/session.h"
+#include "engine/simulation/vehicle_file.h"
 
 namespace palace {
 namespace {
@@ -24,14 +27,25 @@ constexpr double kWanted_m = 0.5;  // touchdown beside the site
 
 struct LandingOptions {
   std::string scenario = "runway";
+  std::string vehicle = kDefaultVehicle;
   double wind_mps = 0;
   std::vector<std::string> set;
 };
 
-Result<FlightSummary> FlyOne(const LandingOptions& options, const Settings& settings,
-                             std::uint64_t seed, const SceneCameraFactory& camera) {
-  Result<SimulatedSession> session = OpenSimulatedSession(
-      {.scenario = options.scenario, .seed = seed, .wind_mps = options.wind_mps}, camera);
+/// What the mission says of a flight, and how it met the ground.
+struct Flown {
+  FlightSummary summary;
+  std::optional<Touchdown> touchdown{};
+};
+
+Result<Flown> FlyOne(const LandingOptions& options, const VehicleDescription& vehicle,
+                     const Settings& settings, std::uint64_t seed,
+                     const SceneCameraFactory& camera) {
+  Result<SimulatedSession> session = OpenSimulatedSession({.scenario = options.scenario,
+                                                           .seed = seed,
+                                                           .vehicle = vehicle,
+                                                           .wind_mps = options.wind_mps},
+                                                          camera);
   if (!session) {
     return session.error();
   }
@@ -41,6 +55,11 @@ Result<FlightSummary> FlyOne(const LandingOptions& options, const Settings& sett
   parts.source = session->simulator;
   parts.link = session->simulator;
   Engine engine(std::move(parts), /*threaded=*/false);
+  const std::shared_ptr<Simulator> simulator = session->simulator;
+  const auto flown = [&](const FlightSummarizer& summarizer) {
+    const Touchdown* touchdown = simulator->touchdown();
+    return Flown{summarizer.summary(), touchdown ? std::optional(*touchdown) : std::nullopt};
+  };
   FlightSummarizer summarizer(std::move(session->scene));
   ScriptedOperator pilot;
   while (engine.Step()) {
@@ -50,36 +69,46 @@ Result<FlightSummary> FlyOne(const LandingOptions& options, const Settings& sett
       engine.Post(command);
     }
     if (pilot.finished() || summarizer.summary().duration_s > kMissionLimit_s) {
-      return summarizer.summary();
+      return flown(summarizer);
     }
   }
   if (!engine.error().empty()) {
     return UnavailableError(engine.error());
   }
-  return summarizer.summary();
+  return flown(summarizer);
 }
 
 Result<std::vector<TrialRow>> RunTrial(const LandingOptions& options, std::uint64_t seed,
                                        const SceneCameraFactory& camera) {
-  const Result<Settings> settings = SettingsOfCommandLine(Settings{}, {}, options.set);
+  const Result<VehicleDescription> vehicle = LoadVehicle(options.vehicle);
+  if (!vehicle) {
+    return vehicle.error();
+  }
+  const Result<Settings> settings = SettingsOfCommandLine(SettingsFor(*vehicle), {}, options.set);
   if (!settings) {
     return settings.error();
   }
-  const Result<FlightSummary> flown = FlyOne(options, *settings, seed, camera);
-  if (!flown) {
-    return flown.error();
+  const Result<Flown> done = FlyOne(options, *vehicle, *settings, seed, camera);
+  if (!done) {
+    return done.error();
   }
+  const FlightSummary* flown = &done->summary;
+  const std::optional<Touchdown>& touchdown = done->touchdown;
+  const auto of_touchdown = [&](double value) { return CsvNumber(touchdown ? value : NAN); };
+  const Touchdown t = touchdown.value_or(Touchdown{});
   const auto or_nan = [](const std::optional<double>& value) { return value.value_or(NAN); };
   const auto series = [](const SeriesStats& stats, double value) {
     return CsvNumber(stats.count > 0 ? value : NAN);
   };
-  return std::vector<TrialRow>{{MissionStateName(flown->final_state), CsvNumber(flown->duration_s),
-                                CsvNumber(or_nan(flown->touchdown_miss_m)),
-                                CsvNumber(or_nan(flown->site_obstacle_distance_m)),
-                                CsvNumber(flown->lander_radius_m),
-                                series(flown->estimate_error_m, flown->estimate_error_m.mean),
-                                series(flown->estimate_error_m, flown->estimate_error_m.max),
-                                series(flown->gps_error_m, flown->gps_error_m.mean)}};
+  return std::vector<TrialRow>{
+      {MissionStateName(flown->final_state), CsvNumber(flown->duration_s),
+       CsvNumber(or_nan(flown->touchdown_miss_m)),
+       CsvNumber(or_nan(flown->site_obstacle_distance_m)), CsvNumber(flown->lander_radius_m),
+       series(flown->estimate_error_m, flown->estimate_error_m.mean),
+       series(flown->estimate_error_m, flown->estimate_error_m.max),
+       series(flown->gps_error_m, flown->gps_error_m.mean), of_touchdown(t.vertical_speed_mps),
+       of_touchdown(t.horizontal_speed_mps), of_touchdown(Deg(t.tilt_rad)),
+       of_touchdown(t.hard() ? 1 : 0)}};
 }
 
 std::string ShareLine(const std::string& what, int hits, int trials) {
@@ -98,6 +127,18 @@ std::string SpreadLine(const std::string& what, const std::vector<double>& mean,
   return text;
 }
 
+std::string SpeedLine(const TrialTable& table) {
+  char text[160];
+  const Spread down = SpreadOf(table.Numbers("sink_mps"));
+  const Spread across = SpreadOf(table.Numbers("across_mps"));
+  const Spread tilt = SpreadOf(table.Numbers("tilt_deg"));
+  std::snprintf(text, sizeof text,
+                "Touchdown: down %.2f m/s (max %.2f), across %.2f m/s (max %.2f), tilt %.1f deg "
+                "(max %.1f)",
+                down.mean, down.max, across.mean, across.max, tilt.mean, tilt.max);
+  return text;
+}
+
 ExperimentReport Report(const TrialTable& table) {
   const int trials = static_cast<int>(table.rows.size());
   const int landed = static_cast<int>(
@@ -106,18 +147,23 @@ ExperimentReport Report(const TrialTable& table) {
   const std::vector<double> obstacle = table.Numbers("site_obstacle_distance_m");
   const std::vector<double> radius = table.Numbers("lander_radius_m");
   const std::size_t state = table.Index("final_state");
-  int within = 0, clear = 0;
+  const std::vector<double> hard = table.Numbers("hard");
+  int within = 0, clear = 0, soft = 0;
   for (std::size_t i = 0; i < table.rows.size(); ++i) {
     const bool down = table.rows[i][state] == MissionStateName(MissionState::kLanded);
     within += down && miss[i] <= kWanted_m ? 1 : 0;
     clear += obstacle[i] >= radius[i] ? 1 : 0;
+    soft += down && hard[i] == 0 ? 1 : 0;
   }
   ExperimentReport report{HtmlPage("PALACE: landing missions")};
   report.passed = landed == trials;
   report.lines = {
-      ShareLine("Landed", landed, trials), ShareLine("Touchdown within 0.5 m", within, trials),
+      ShareLine("Landed", landed, trials),
+      ShareLine("Touchdown within 0.5 m", within, trials),
       ShareLine("Site clear of every true obstacle by the lander radius", clear, trials),
+      ShareLine("Touchdown as soft as the gear is made for", soft, trials),
       SpreadLine("Touchdown miss", miss, miss),
+      SpeedLine(table),
       SpreadLine("Vision estimate against truth", table.Numbers("vision_error_mean_m"),
                  table.Numbers("vision_error_max_m"))};
   LinePlot plot{"Touchdown miss and vision error by mission", "seed", "distance, m", {}};
@@ -161,12 +207,16 @@ Experiment LandingExperiment(SceneCameraFactory camera) {
   experiment.purpose = "Whole missions, one a seed, flown by a scripted operator";
   experiment.columns = {
       "final_state",     "duration_s",          "touchdown_miss_m",   "site_obstacle_distance_m",
-      "lander_radius_m", "vision_error_mean_m", "vision_error_max_m", "gps_error_mean_m"};
+      "lander_radius_m", "vision_error_mean_m", "vision_error_max_m", "gps_error_mean_m",
+      "sink_mps",        "across_mps",          "tilt_deg",           "hard"};
   experiment.add_options = [options](CLI::App& verb) {
     verb.add_option("--scenario", options->scenario, "Scene")->capture_default_str();
+    verb.add_option("--vehicle", options->vehicle,
+                    "A vehicle by name (" + Joined(VehicleNames()) + ") or by its file")
+        ->capture_default_str();
     verb.add_option("--wind", options->wind_mps,
-                    "Mean wind 6 m above ground, m/s; with more than 8 at the vehicle nothing can "
-                    "be approved")
+                    "Mean wind 6 m above ground, m/s; with more at the vehicle than its limit (8 "
+                    "for the R-50) nothing can be approved")
         ->check(FiniteRange(0.0, 15.0))
         ->capture_default_str();
     verb.add_option("--set", options->set, "One setting, e.g. slad.max_slope_deg=8");
@@ -174,6 +224,7 @@ Experiment LandingExperiment(SceneCameraFactory camera) {
   experiment.setup = [options] {
     std::string text =
         "scene " + options->scenario + ", wind " + CsvNumber(options->wind_mps) + " m/s";
+    text += options->vehicle == kDefaultVehicle ? "" : ", vehicle " + options->vehicle;
     for (const std::string& assignment : options->set) {
       text += ", " + assignment;
     }

@@ -94,7 +94,7 @@ class Witness {
     const RigidTransform& X_WB = snapshot.sensors->truth->X_WB;
     if (MeasuresGround(*range, world_, X_WB * X_BC_)) {
       outcome_.ground_s = after_s;
-      const Eigen::Vector3d skids = X_WB * SkidCentreBody();
+      const Eigen::Vector3d skids = X_WB * snapshot.session->settings.slad.lander.skid_centre_B();
       seen_from_m_ = -skids.z() - SurfaceHeight(world_, skids.x(), skids.y());
     }
   }
@@ -212,7 +212,7 @@ Result<FaultOutcome> FlyUnderFault(const FaultFlight& flight, const FaultCase& f
   parts.link = source;
   parts.sink = std::make_unique<EventRecord>(recorded);
   Engine engine(std::move(parts), /*threaded=*/false);
-  Witness witness(session->scene, DefaultRig());
+  Witness witness(session->scene, DefaultVehicle().rig);
   FlightSummarizer summarizer(session->scene);
   ScriptedOperator pilot;
   double struck_s = NAN;

@@ -8,8 +8,6 @@
 namespace palace {
 namespace {
 
-constexpr double kMaxCollective = 0.4;
-
 Eigen::Vector2d LimitNorm(const Eigen::Vector2d& v, double limit) {
   const double norm = v.norm();
   return norm > limit ? Eigen::Vector2d(v * (limit / norm)) : v;
@@ -71,7 +69,7 @@ double FlightController::Collective(const FlightSetpoint& setpoint, const Flight
   const double error = v_c - state.v_WB.z();
   const double wanted =
       -(gains_.climb_s_per_m * error + gains_.climb_integral_per_m * climb_integral_m_);
-  const double limited = std::clamp(wanted, -kMaxCollective, kMaxCollective);
+  const double limited = std::clamp(wanted, -gains_.max_collective, gains_.max_collective);
   if (limited == wanted) {
     climb_integral_m_ += error * dt_s;
   }
@@ -81,7 +79,8 @@ double FlightController::Collective(const FlightSetpoint& setpoint, const Flight
 double FlightController::Pedal(double yaw_error_rad, double dt_s) {
   const double error =
       std::clamp(yaw_error_rad, -gains_.max_yaw_error_rad, gains_.max_yaw_error_rad);
-  const double wanted = gains_.yaw_per_rad * error + gains_.yaw_integral * yaw_integral_rad_s_;
+  const double wanted =
+      gains_.yaw_per_rad * error + gains_.yaw_integral_per_rad_s * yaw_integral_rad_s_;
   const double limited = LimitStick(wanted);
   // A turn would charge the integral with an error that the turn itself removes.
   if (limited == wanted && std::abs(yaw_error_rad) < Rad(10)) {

@@ -1,17 +1,15 @@
-// The cascade that flies the R-50: position -> velocity -> attitude -> stick, run at 50 Hz.
+// The cascade that flies the built-in vehicles: position -> velocity -> attitude -> stick, run at
+// 50 Hz. Its gains and limits are the vehicle's own (config/vehicles).
 //
-//   horizontal  v_c = Kpos e_p + v_ff            |v_c| <= 4 m/s
-//               a_c = Kv e_v + Ki int e_v + a_ff |a_c| <= 2.5 m/s^2, integral frozen while limited
-//               theta_c = -a_x / g, phi_c = a_y / g in the heading frame, +-15 deg
+//   horizontal  v_c = Kpos e_p + v_ff            |v_c| <= max_speed
+//               a_c = Kv e_v + Ki int e_v + a_ff |a_c| <= max_acceleration, integral frozen
+//               while limited; theta_c = -a_x / g, phi_c = a_y / g in the heading frame
 //   attitude    lat = Kphi (phi_c - phi) - Kp p,   lon = -(Kth (theta_c - theta) - Kq q)
-//   vertical    vz_c = Kz e_z + vz_ff, +-1.5 m/s,  col = -(Kw e_vz + Kwi int e_vz)
-//   yaw         ped = Kpsi e_psi + Kpsii int e_psi, e_psi clipped to 30 deg
+//   vertical    vz_c = Kz e_z + vz_ff, +-max_climb,  col = -(Kw e_vz + Kwi int e_vz)
+//   yaw         ped = Kpsi e_psi + Kpsii int e_psi, e_psi clipped
 //
-// Stick signs: +lat right, +lon nose down, +ped nose right, +col up; +-1 is full travel.
-// The gains keep every pole of the linear loop below -0.21 1/s and tolerate +-20 % on every
-// derivative of the model (our own analysis); the collective has 31 dB to spare and is twice as
-// stiff here, which keeps the touchdown under 0.7 m/s in 15 kt of gusts. The horizontal integral
-// lives in W, so a turn of the heading does not turn the wind it has learnt.
+// Stick signs: +lat right, +lon nose down, +ped nose right, +col up; +-1 is full travel. The
+// horizontal integral lives in W, so a turn of the heading does not turn the wind it has learnt.
 #pragma once
 
 #include "engine/core/frames.h"
@@ -43,30 +41,32 @@ struct FlightSetpoint {
   Eigen::Vector3d a_WB = Eigen::Vector3d::Zero();  ///< feed-forward, horizontal part used
 };
 
+/// All 0: a cascade that moves no stick. The values of a vehicle stand in its file.
 struct CascadeGains {
-  double roll_per_rad = 1.6;
-  double roll_rate_s = 0.10;
-  double pitch_per_rad = 1.9;
-  double pitch_rate_s = 0.14;
-  double velocity_per_s = 0.9;
-  double velocity_integral_per_s2 = 0.25;
-  double position_per_s = 0.35;
-  double tilt_lag_s = 0.5;  ///< from commanded tilt to acceleration
-  double climb_s_per_m = 0.20;
-  double climb_integral_per_m = 0.08;
-  double height_per_s = 0.7;
-  double yaw_per_rad = 0.55;
-  double yaw_integral = 0.10;
-  double max_speed_mps = 4.0;
-  double max_acceleration_mps2 = 2.5;
-  double max_tilt_rad = Rad(15);
-  double max_climb_mps = 1.5;
-  double max_yaw_error_rad = Rad(30);
+  double roll_per_rad = 0;
+  double roll_rate_s = 0;
+  double pitch_per_rad = 0;
+  double pitch_rate_s = 0;
+  double velocity_per_s = 0;
+  double velocity_integral_per_s2 = 0;
+  double position_per_s = 0;
+  double tilt_lag_s = 0;  ///< from commanded tilt to acceleration
+  double climb_s_per_m = 0;
+  double climb_integral_per_m = 0;
+  double height_per_s = 0;
+  double yaw_per_rad = 0;
+  double yaw_integral_per_rad_s = 0;
+  double max_speed_mps = 0;
+  double max_acceleration_mps2 = 0;
+  double max_tilt_rad = 0;
+  double max_climb_mps = 0;
+  double max_collective = 0;
+  double max_yaw_error_rad = 0;
 };
 
 class FlightController {
  public:
-  explicit FlightController(const CascadeGains& gains = {}) : gains_(gains) {}
+  explicit FlightController(const CascadeGains& gains) : gains_(gains) {}
   /// One control step of dt_s. Both arguments must be finite.
   StickCommand Update(const FlightSetpoint& setpoint, const FlightState& state, double dt_s);
 

@@ -41,16 +41,16 @@ Eigen::Vector3d FlightPath::BodyPerMetre() const {
 }
 
 Eigen::Vector3d FlightPath::BodyAt(double skid_height_m) const {
-  const double camera_height_m = skid_height_m + SkidCentreBody().z() - p_BC.z();
+  const double camera_height_m = skid_height_m + skid_centre_B.z() - p_BC.z();
   return p_WS + camera_height_m * BodyPerMetre() - LevelRotation() * p_BC;
 }
 
 Eigen::Vector3d FlightPath::BodyAboveSite(double skid_height_m) const {
-  return p_WS - skid_height_m * Eigen::Vector3d::UnitZ() - LevelRotation() * SkidCentreBody();
+  return p_WS - skid_height_m * Eigen::Vector3d::UnitZ() - LevelRotation() * skid_centre_B;
 }
 
 double FlightPath::SkidHeight(const Eigen::Vector3d& p_WB) const {
-  return p_WS.z() - (p_WB.z() + SkidCentreBody().z());
+  return p_WS.z() - (p_WB.z() + skid_centre_B.z());
 }
 
 Eigen::Vector3d FlightPath::Start(const Eigen::Vector3d& p_WB) const {
@@ -72,12 +72,20 @@ PathPoint FlightPath::Nearest(const Eigen::Vector3d& p_WB) const {
   return nearest;
 }
 
-FlightPath PathOf(const Approval& approval, const Eigen::Vector3d& p_BC) {
-  return {approval.p_WS,
-          approval.approach_heading_rad,
-          approval.glide_slope_rad,
-          p_BC,
-          {.sink_mps = approval.descent_rate_mps}};
+FlightPath PathOf(const ApproachPlan& plan, const Eigen::Vector3d& p_WS,
+                  const PathVehicle& vehicle) {
+  return {.p_WS = p_WS,
+          .heading_rad = plan.heading_rad,
+          .slope_rad = plan.glide_slope_rad,
+          .p_BC = vehicle.p_BC,
+          .skid_centre_B = vehicle.skid_centre_B,
+          .speeds = {.sink_mps = plan.descent_rate_mps, .settle_s = vehicle.settle_s}};
+}
+
+FlightPath PathOf(const Approval& approval, const PathVehicle& vehicle) {
+  return PathOf(
+      {approval.approach_heading_rad, approval.glide_slope_rad, approval.descent_rate_mps},
+      approval.p_WS, vehicle);
 }
 
 double StraightHeading(const Eigen::Vector3d& p_W_skid, const Eigen::Vector3d& p_WS) {

@@ -33,7 +33,7 @@ struct DescentSpeeds {
   double touch_mps = 0.35;  ///< straight down onto the site
   double acceleration_mps2 = 0.3;
   TravelLimits level{0.9, 0.5};
-  double settle_s = 3.8;         ///< from the level leg's end to the sink, by landings in calm air
+  double settle_s = 0;           ///< from the level leg's end to the sink: the vehicle's own
   TravelLimits align{2.0, 0.4};  ///< to where the slope begins, at the present height
   double turn_rate_rad_s = Rad(15);
   double hand_over_s = 1.0;  ///< from there to the first metre down, likewise
@@ -57,6 +57,7 @@ struct FlightPath {
   double heading_rad = 0;                          ///< of the approach, from north over east
   double slope_rad = 0;                            ///< below the horizon, (0, pi/2]
   Eigen::Vector3d p_BC = Eigen::Vector3d::Zero();  ///< left focal point in B
+  Eigen::Vector3d skid_centre_B = Eigen::Vector3d::Zero();  ///< the touchdown point
   DescentSpeeds speeds{};
 
   /// Body to world at the approach heading, level.
@@ -75,8 +76,17 @@ struct FlightPath {
   PathPoint Nearest(const Eigen::Vector3d& p_WB) const;
 };
 
-/// What an approval asks a vehicle to fly whose left focal point is at p_BC.
-FlightPath PathOf(const Approval& approval, const Eigen::Vector3d& p_BC);
+/// What of a vehicle its path depends on; points in B.
+struct PathVehicle {
+  Eigen::Vector3d p_BC = Eigen::Vector3d::Zero();  ///< left focal point
+  Eigen::Vector3d skid_centre_B = Eigen::Vector3d::Zero();
+  double settle_s = 0;
+};
+
+/// The path of an approach plan, or of what an approval asks for, for such a vehicle.
+FlightPath PathOf(const ApproachPlan& plan, const Eigen::Vector3d& p_WS,
+                  const PathVehicle& vehicle);
+FlightPath PathOf(const Approval& approval, const PathVehicle& vehicle);
 
 /// The straight approach: course from the skid centre to the site, from north over east.
 double StraightHeading(const Eigen::Vector3d& p_W_skid, const Eigen::Vector3d& p_WS);

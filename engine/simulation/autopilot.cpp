@@ -21,23 +21,24 @@ constexpr double kSettleError_m = 0.15;
 constexpr double kSettleSpeed_mps = 0.15;
 // Long enough for the station to see the mode, also when there is nothing left to climb.
 constexpr double kShortestAbort_s = 1.0;
-constexpr TravelLimits kStopTravel{4.0, 0.8};
-
-/// The reference stops after braking from its present velocity.
-Vector3d StoppingPoint(const Vector3d& p, const Vector3d& v) {
-  return p + v * (v.norm() / (2 * kStopTravel.acceleration_mps2));
-}
+constexpr double kBraking_mps2 = 0.8;
 
 }  // namespace
 
 Autopilot::Autopilot(const AutopilotOptions& options)
     : options_(options),
-      gate_(options.trust),
+      stop_{options.gains.max_speed_mps, kBraking_mps2},
+      gate_(options.trust, options.limits),
+      controller_(options.gains),
       hold_p_W_(options.hover_p_WB),
-      skid_lever_W_(SkidCentreBody()) {
+      skid_lever_W_(options.vehicle.skid_centre_B) {
   reference_.p_W = options.hover_p_WB;
   yaw_reference_rad_ = options.hover_yaw_rad;
   gps_.p_WB = flown_.p_WB = options.hover_p_WB;
+}
+
+Vector3d Autopilot::StoppingPoint(const Vector3d& p, const Vector3d& v) const {
+  return p + v * (v.norm() / (2 * stop_.acceleration_mps2));
 }
 
 std::vector<CommandAck> Autopilot::TakeAcks() {
@@ -94,7 +95,7 @@ void Autopilot::ReceiveApproval(const Approval& approval, const VehicleSituation
     return;
   }
   approval_ = approval;
-  path_ = PathOf(approval, options_.p_BC);
+  path_ = PathOf(approval, options_.vehicle);
   path_height_m_ = std::max(path_.SkidHeight(reference_.p_W), kSettleHeight_m);
   last_estimate_.reset();
   last_arrival_.reset();
@@ -166,8 +167,8 @@ StickCommand Autopilot::Control(Timestamp now, const FlightState& gps, bool on_g
     flown_.p_WB = vision_->now().p_WB;
     flown_.v_WB = vision_->now().v_WB;
   }
-  skid_lever_W_ +=
-      options_.control_period_s / kLeverAverage_s * (gps.R_WB * SkidCentreBody() - skid_lever_W_);
+  skid_lever_W_ += options_.control_period_s / kLeverAverage_s *
+                   (gps.R_WB * options_.vehicle.skid_centre_B - skid_lever_W_);
   if (on_ground) {
     mode_ = VehicleMode::kLanded;
     flies_on_vision_ = false;
@@ -203,7 +204,7 @@ void Autopilot::StepMode(Timestamp now) {
       StepAbort();
       break;
     default:
-      reference_.MoveTowards(hold_p_W_, kStopTravel, options_.control_period_s);
+      reference_.MoveTowards(hold_p_W_, stop_, options_.control_period_s);
       break;
   }
 }
@@ -301,7 +302,7 @@ void Autopilot::StepSink(bool fresh) {
 void Autopilot::StepAbort() {
   const double dt = options_.control_period_s;
   const Vector3d target(hold_p_W_.x(), hold_p_W_.y(), climb_to_down_m_);
-  const TravelLimits travel{options_.climb_rate_mps, 1.0};
+  const TravelLimits travel{options_.limits.climb_rate_mps, 1.0};
   reference_.MoveTowards(target, travel, dt);
   abort_time_s_ += dt;
   if (abort_time_s_ >= kShortestAbort_s && (gps_.p_WB - target).norm() < 0.5 &&

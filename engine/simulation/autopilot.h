@@ -6,7 +6,8 @@
 //           approval arrive; too late for the expiry means kHold.
 //   kDescend, kSettle, kSink  fly on vision: down the slope, level until the skids are above the
 //           site, then straight down until they touch. Geometry and speeds: flight_path.h.
-//   kLanded stays. kHold hovers where it is on GPS. kAbort climbs at 1.5 m/s, then kHover.
+//   kLanded stays. kHold hovers where it is on GPS. kAbort climbs at the climb rate of its limits,
+//   then kHover.
 //
 // On vision, no healthy estimate with an advancing stamp for 0.5 s stops the motion (inertial
 // hover); for 2 s climbs away 10 m. Hold, abort, expiry and outage end the approval for good.
@@ -32,9 +33,10 @@ struct AutopilotOptions {
   VehicleTrust trust{};  ///< whom it obeys
   Eigen::Vector3d hover_p_WB = Eigen::Vector3d::Zero();
   double hover_yaw_rad = 0;
-  Eigen::Vector3d p_BC = Eigen::Vector3d::Zero();  ///< left focal point in B
+  PathVehicle vehicle{};
+  FlightLimits limits{};
+  CascadeGains gains{};
   double control_period_s = 0.02;
-  double climb_rate_mps = 1.5;
 };
 
 class Autopilot {
@@ -65,6 +67,8 @@ class Autopilot {
   /// Seconds without a usable estimate; infinite before the first.
   double VisionAge(Timestamp now) const;
 
+  /// The reference stops after braking from this velocity.
+  Eigen::Vector3d StoppingPoint(const Eigen::Vector3d& p, const Eigen::Vector3d& v) const;
   void StepMode(Timestamp now);
   void StepAlign(Timestamp now);
   void StepDescend(bool fresh);
@@ -77,6 +81,7 @@ class Autopilot {
   void EnterAbort(double target_down_m);
 
   AutopilotOptions options_;
+  TravelLimits stop_;
   CommandGate gate_;
   FlightController controller_;
   VehicleMode mode_ = VehicleMode::kHover;

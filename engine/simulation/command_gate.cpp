@@ -1,21 +1,20 @@
 #include "engine/simulation/command_gate.h"
 
+#include "engine/core/text.h"
 #include "engine/core/units.h"
 
 namespace palace {
 namespace {
 
-constexpr double kMinSlope_rad = Rad(15);
-constexpr double kMinSink_mps = 0.1;
-constexpr double kMaxSink_mps = 1.5;  // what the cascade's height loop holds
-
-std::string WhyNotFlown(const Approval& approval) {
-  if (approval.glide_slope_rad < kMinSlope_rad) {
-    return "The glide slope is outside 15 to 90 degrees";
+std::string WhyNotFlown(const Approval& approval, const FlightLimits& limits) {
+  if (approval.glide_slope_rad < limits.min_glide_slope_rad) {
+    return WithNumbers("The glide slope is outside %.3g to 90 degrees",
+                       Deg(limits.min_glide_slope_rad));
   }
   const double rate_mps = approval.descent_rate_mps;
-  return rate_mps < kMinSink_mps || rate_mps > kMaxSink_mps
-             ? "The descent rate is outside 0.1 to 1.5 m/s"
+  return rate_mps < limits.min_descent_rate_mps || rate_mps > limits.max_descent_rate_mps
+             ? WithNumbers("The descent rate is outside %.3g to %.3g m/s",
+                           limits.min_descent_rate_mps, limits.max_descent_rate_mps)
              : "";
 }
 
@@ -24,7 +23,7 @@ std::string WhyNotFlown(const Approval& approval) {
 std::string CommandGate::Admit(const Approval& approval, const VehicleSituation& vehicle,
                                const std::string& busy) {
   // Nobody but the station itself is told what this vehicle can fly.
-  const std::string why = WhyNotFlown(approval);
+  const std::string why = WhyNotFlown(approval, limits_);
   return verifier_.Verify(approval, vehicle, why.empty() ? busy : why);
 }
 

@@ -3,19 +3,20 @@
 
 #include <string>
 
+#include "engine/simulation/vehicle_description.h"
 #include "engine/trust/approval_verifier.h"
 
 namespace palace {
 
 class CommandGate {
  public:
-  explicit CommandGate(VehicleTrust trust) : authority_(std::move(trust)), verifier_(authority_) {}
+  CommandGate(VehicleTrust trust, const FlightLimits& limits)
+      : limits_(limits), authority_(std::move(trust)), verifier_(authority_) {}
   CommandGate(const CommandGate&) = delete;
   CommandGate& operator=(const CommandGate&) = delete;
 
   /// Empty: admitted. Otherwise the reason of the refusal. Demands all that ApprovalVerifier does,
-  /// and what this vehicle can fly: a glide slope of 15 to 90 degrees and a descent rate of 0.1 to
-  /// 1.5 m/s. `busy`: why it cannot now; empty: it can.
+  /// and what this vehicle can fly by its limits. `busy`: why it cannot now; empty: it can.
   std::string Admit(const Approval& approval, const VehicleSituation& vehicle,
                     const std::string& busy = {});
   std::string Admit(const HoldRequest& hold, Timestamp now);
@@ -26,6 +27,7 @@ class CommandGate {
   VehicleAuthority& authority() { return authority_; }
 
  private:
+  FlightLimits limits_;
   VehicleAuthority authority_;
   ApprovalVerifier verifier_;
 };

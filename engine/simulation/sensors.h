@@ -1,6 +1,6 @@
 // The simulated sensors. Each draws from a random stream of its own, named after it, so that one
-// sensor's noise never depends on another's. Figures: carrier-differential GPS of research
-// helicopters about 2003; Xsens MTi-1 class inertial unit; small laser altimeter (our model).
+// sensor's noise never depends on another's. Their figures stand in the vehicle's file; all 0 here:
+// exact sensors.
 #pragma once
 
 #include <deque>
@@ -13,10 +13,10 @@
 namespace palace {
 
 struct GpsNoise {
-  double horizontal_m = 0.02;
-  double vertical_m = 0.02;
-  double velocity_mps = 0.03;
-  double latency_s = 0.1;
+  double horizontal_m = 0;
+  double vertical_m = 0;
+  double velocity_mps = 0;
+  double latency_s = 0;
 };
 
 /// Measures B (the antenna's lever arm is taken to be compensated).
@@ -34,10 +34,10 @@ class GpsSensor {
 };
 
 struct ImuNoise {
-  double gyro_rad_s_sqrt_hz = 1.2e-4;
-  double accel_mps2_sqrt_hz = 1.2e-3;
-  double gyro_bias_rad_s = 5e-5;  ///< turn-on, standard deviation per axis
-  double accel_bias_mps2 = 0.02;  ///< turn-on, standard deviation per axis
+  double gyro_rad_s_sqrt_hz = 0;
+  double accel_mps2_sqrt_hz = 0;
+  double gyro_bias_rad_s = 0;  ///< turn-on, standard deviation per axis
+  double accel_bias_mps2 = 0;  ///< turn-on, standard deviation per axis
 };
 
 class ImuSensor {
@@ -57,8 +57,8 @@ class ImuSensor {
 };
 
 struct AhrsNoise {
-  double white_rad = 0.1 * 0.017453292519943295;
-  double bias_rad = 0.15 * 0.017453292519943295;  ///< first-order Gauss-Markov
+  double white_rad = 0;
+  double bias_rad = 0;  ///< first-order Gauss-Markov
   double bias_time_s = 300;
 };
 
@@ -76,10 +76,10 @@ class AhrsSensor {
 };
 
 struct LaserNoise {
-  double sigma_m = 0.03;
-  double sigma_per_m = 0.001;
+  double sigma_m = 0;
+  double sigma_per_m = 0;
   double quantum_m = 0.01;
-  double dropout = 0.02;  ///< probability of no return
+  double dropout = 0;  ///< probability of no return
   double max_range_m = 60;
 };
 

@@ -17,10 +17,11 @@ Result<SimulatedSession> OpenSimulatedSession(const SessionSpec& spec, SceneCame
   if (!scene) {
     return scene.error();
   }
-  SimulatedSession session{spec.seed, std::move(*scene), {}};
+  SimulatedSession session{spec.seed, std::move(*scene), spec.vehicle, {}};
   SimulatorOptions options;
   options.scene = session.scene;
   options.seed = spec.seed;
+  options.vehicle = spec.vehicle;
   options.wind.mean_mps = spec.wind_mps;
   options.wind.gust_w20_mps = kGustPerMean * spec.wind_mps;
   options.speed = spec.speed;

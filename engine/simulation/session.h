@@ -15,8 +15,9 @@ namespace palace {
 struct SessionSpec {
   std::string scenario = "runway";  ///< of SceneNames()
   std::uint64_t seed = 1;           ///< of scene, noise, wind and session; one seed, one flight
-  double wind_mps = 0;              ///< mean at 20 ft; its gusts have a W20 of 1.5 times as much
-  double speed = 0;                 ///< times real time; 0 as fast as possible
+  VehicleDescription vehicle = DefaultVehicle();
+  double wind_mps = 0;  ///< mean at 20 ft; its gusts have a W20 of 1.5 times as much
+  double speed = 0;     ///< times real time; 0 as fast as possible
   double duration_limit_s = 600;
   bool render = true;  ///< false: bundles carry no pictures
   /// Where stations are other programs: whom the vehicle obeys. Its boot id, session ids and
@@ -30,6 +31,7 @@ struct SessionSpec {
 struct SimulatedSession {
   std::uint64_t id = 1;
   World scene;
+  VehicleDescription vehicle;  ///< what a station reckons with: SettingsFor
   std::shared_ptr<Simulator> simulator;
 };
 

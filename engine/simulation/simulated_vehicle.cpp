@@ -7,12 +7,10 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kImuRate_hz = 100;
-constexpr int kImuSteps = 2;
-constexpr int kControlSteps = 4;
-constexpr int kLaserSteps = 10;
-constexpr int kGpsSteps = 40;
 constexpr double kAuthorityPeriod_s = 1;
+
+/// Steps of physics between two samples of a rate that divides them (vehicle_file.h).
+std::int64_t StepsOf(double rate_hz) { return std::llround(1 / (Aircraft::kStep_s * rate_hz)); }
 
 Vector3d StartPosition(const SimulatorOptions& options) {
   const double ground = options.scene.ground.Height(options.start_north_m, options.start_east_m);
@@ -33,7 +31,12 @@ AutopilotOptions MakeAutopilotOptions(const SimulatorOptions& options, std::uint
   }
   result.hover_p_WB = StartPosition(options);
   result.hover_yaw_rad = options.heading_rad;
-  result.p_BC = options.rig.position_body_m;
+  const VehicleDescription& vehicle = options.vehicle;
+  result.vehicle = {vehicle.rig.position_body_m, vehicle.lander.skid_centre_B(),
+                    vehicle.limits.settle_s};
+  result.limits = vehicle.limits;
+  result.gains = vehicle.gains;
+  result.control_period_s = 1 / vehicle.actuators.control_rate_hz;
   return result;
 }
 
@@ -46,18 +49,21 @@ std::uint64_t BootId(const SimulatorOptions& options) {
 
 SimulatedVehicle::SimulatedVehicle(const SimulatorOptions& options)
     : world_(options.scene),
-      X_BC_(options.rig.X_BC()),
+      vehicle_(options.vehicle),
+      X_BC_(vehicle_.rig.X_BC()),
       now_(LeadInStart()),
       boot_id_(BootId(options)),
-      rotorcraft_(R50Hover(), StartPosition(options), options.heading_rad),
+      aircraft_(vehicle_, StartPosition(options), options.heading_rad),
+      actuators_(vehicle_.actuators, Aircraft::kStep_s),
       wind_(options.wind, options.seed),
-      imu_(ImuNoise{}, kImuRate_hz, options.seed),
-      ahrs_(AhrsNoise{}, kImuRate_hz, options.seed),
-      gps_(GpsNoise{}, options.seed),
-      laser_(LaserNoise{}, options.seed),
-      navigator_({LeadInStart(), StartPosition(options), Vector3d::Zero()}),
+      imu_(vehicle_.sensors.imu, vehicle_.sensors.imu_rate_hz, options.seed),
+      ahrs_(vehicle_.sensors.attitude, vehicle_.sensors.imu_rate_hz, options.seed),
+      gps_(vehicle_.sensors.gps, options.seed),
+      laser_(vehicle_.sensors.laser, options.seed),
+      navigator_({LeadInStart(), StartPosition(options), Vector3d::Zero()},
+                 vehicle_.sensors.gps.velocity_mps),
       autopilot_(MakeAutopilotOptions(options, boot_id_)),
-      attitude_(rotorcraft_.state().R_WB()) {
+      attitude_(aircraft_.body().R_WB) {
   FrameBundle discarded;
   AdvanceTo(Simulator::kEpoch, discarded);
 }
@@ -81,17 +87,16 @@ void SimulatedVehicle::AdvanceTo(Timestamp until, FrameBundle& bundle) {
 }
 
 void SimulatedVehicle::Step(FrameBundle& bundle) {
-  if (step_ % kControlSteps == 0) {
+  if (step_ % StepsOf(vehicle_.actuators.control_rate_hz) == 0) {
     StepControl();
   }
-  const RotorcraftState& state = rotorcraft_.state();
-  wind_W_ =
-      wind_.Advance(Rotorcraft::kStep_s, HeightAboveGround(), (state.v_WB() - wind_W_).norm());
-  rotorcraft_.Step(stick_, wind_W_);
+  const double height_m = HeightAboveGround();
+  wind_W_ = wind_.Advance(Aircraft::kStep_s, height_m, (aircraft_.body().v_WB() - wind_W_).norm());
+  aircraft_.Step(actuators_.Act(), wind_W_, height_m);
   ++step_;
   now_.us += kStep_us;
   CheckGround();
-  if (step_ % kImuSteps == 0) {
+  if (step_ % StepsOf(vehicle_.sensors.imu_rate_hz) == 0) {
     StepInertial(bundle);
   }
   StepSlowSensors(bundle);
@@ -99,15 +104,14 @@ void SimulatedVehicle::Step(FrameBundle& bundle) {
 
 void SimulatedVehicle::StepControl() {
   const InertialTrack::Point& nav = navigator_.now();
-  stick_ = next_stick_;
-  next_stick_ = autopilot_.Control(now_, {nav.p_WB, nav.v_WB, attitude_, angular_rate_B_},
-                                   rotorcraft_.frozen());
+  actuators_.Command(autopilot_.Control(now_, {nav.p_WB, nav.v_WB, attitude_, angular_rate_B_},
+                                        aircraft_.frozen()));
 }
 
 void SimulatedVehicle::StepInertial(FrameBundle& bundle) {
-  const RotorcraftState& state = rotorcraft_.state();
-  const ImuSample sample = imu_.Measure(now_, rotorcraft_.SpecificForce(), state.angular_rate_B());
-  attitude_ = ahrs_.Measure(state.R_WB());
+  const BodyState body = aircraft_.body();
+  const ImuSample sample = imu_.Measure(now_, aircraft_.SpecificForce(), body.angular_rate_B);
+  attitude_ = ahrs_.Measure(body.R_WB);
   angular_rate_B_ = sample.angular_rate_B;
   const Vector3d a_W = AccelerationInWorld(sample, attitude_);
   navigator_.Propagate(now_, a_W);
@@ -116,35 +120,35 @@ void SimulatedVehicle::StepInertial(FrameBundle& bundle) {
 }
 
 void SimulatedVehicle::StepSlowSensors(FrameBundle& bundle) {
-  const RotorcraftState& state = rotorcraft_.state();
-  if (step_ % kGpsSteps == 0) {
-    gps_.Measure(now_, state.p_WB(), state.v_WB());
+  const BodyState body = aircraft_.body();
+  if (step_ % StepsOf(vehicle_.sensors.gps_rate_hz) == 0) {
+    gps_.Measure(now_, body.p_WB, body.v_WB());
   }
   if (const std::optional<GpsFix> fix = gps_.Deliver(now_)) {
     navigator_.Update(*fix);
     bundle.gps.push_back(*fix);
   }
-  if (step_ % kLaserSteps == 0) {
+  if (step_ % StepsOf(vehicle_.sensors.laser_rate_hz) == 0) {
     bundle.laser.push_back(laser_.Measure(now_, world_, X_WB() * X_BC_));
     const Vector3d p_C(0, 0, bundle.laser.back().range_m);
     ground_down_m_ = (Pose().X_WB * X_BC_ * p_C).z();
   }
-  if (step_ % kControlSteps == 0) {
+  if (step_ % StepsOf(vehicle_.actuators.control_rate_hz) == 0) {
     bundle.poses.push_back(Pose());
     Truth truth;
     truth.time = now_;
     truth.X_WB = X_WB();
-    truth.v_WB = state.v_WB();
+    truth.v_WB = body.v_WB();
     bundle.truth.push_back(truth);
   }
 }
 
 void SimulatedVehicle::CheckGround() {
-  if (rotorcraft_.frozen()) {
+  if (aircraft_.frozen()) {
     return;
   }
   const RigidTransform X = X_WB();
-  for (const Vector3d& p_B : airframe_.SkidPoints()) {
+  for (const Vector3d& p_B : GearPoints(vehicle_.lander)) {
     const Vector3d p_W = X * p_B;
     const double surface = SurfaceHeight(world_, p_W.x(), p_W.y());
     if (HeightFromDown(p_W.z()) > surface) {
@@ -152,20 +156,35 @@ void SimulatedVehicle::CheckGround() {
     }
     Touchdown touchdown;
     touchdown.time = now_;
-    touchdown.p_W_skid = X * airframe_.skid_centre_B;
-    const Vector3d v = rotorcraft_.state().v_WB();
+    touchdown.p_W_skid = X * vehicle_.lander.skid_centre_B();
+    const Vector3d v = aircraft_.body().v_WB();
     touchdown.vertical_speed_mps = v.z();
     touchdown.horizontal_speed_mps = v.head<2>().norm();
     touchdown.tilt_rad = std::acos(std::min(1.0, X.R(2, 2)));
     touchdown.on_object = surface > world_.ground.Height(p_W.x(), p_W.y()) + 1e-6;
+    touchdown.ground_tilt_rad = GroundTilt(X);
+    touchdown.limits = vehicle_.gear;
     touchdown_ = touchdown;
-    rotorcraft_.Freeze();
+    aircraft_.Freeze();
     return;
   }
 }
 
+double SimulatedVehicle::GroundTilt(const RigidTransform& X_WB) const {
+  const auto ends = GearPoints(vehicle_.lander);  // the centre, then the four ends
+  std::array<Vector3d, 4> on_ground;
+  for (std::size_t i = 0; i < 4; ++i) {
+    on_ground[i] = X_WB * ends[i + 1];
+    on_ground[i].z() = -SurfaceHeight(world_, on_ground[i].x(), on_ground[i].y());
+  }
+  // Fore right, fore left, aft right, aft left: the diagonals span the mean plane.
+  const Vector3d normal =
+      (on_ground[0] - on_ground[3]).cross(on_ground[1] - on_ground[2]).normalized();
+  return std::acos(std::min(1.0, std::abs(normal.z())));
+}
+
 double SimulatedVehicle::HeightAboveGround() const {
-  const Vector3d p = rotorcraft_.state().p_WB();
+  const Vector3d p = aircraft_.body().p_WB;
   return HeightFromDown(p.z()) - world_.ground.Height(p.x(), p.y());
 }
 
@@ -183,14 +202,14 @@ VehicleStatus SimulatedVehicle::Status() const {
   status.time = now_;
   status.boot_id = boot_id_;
   status.mode = autopilot_.mode();
-  status.on_ground = rotorcraft_.frozen();
+  status.on_ground = aircraft_.frozen();
   status.flies_on_vision = autopilot_.flies_on_vision();
   status.approval_id = autopilot_.approval_id();
   const Vector3d mean = wind_.Mean(HeightAboveGround());
   status.wind_speed_mps = mean.norm();
   status.wind_from_rad = mean.norm() > 0 ? std::atan2(-mean.y(), -mean.x()) : 0;
-  // about half an hour of fuel.
-  status.battery_or_fuel = std::max(0.0, 1 - SecondsBetween(Simulator::kEpoch, now_) / 1800.0);
+  status.battery_or_fuel =
+      std::max(0.0, 1 - SecondsBetween(Simulator::kEpoch, now_) / vehicle_.limits.endurance_s);
   status.simulated = true;
   return status;
 }

@@ -1,15 +1,16 @@
 // SimulatedVehicle: airframe, wind, sensors, navigation and autopilot advanced together on one
 // 5 ms grid. No threads, no clock: the same options and messages give the same bits.
 //
-//   physics 200 Hz, inertial unit and attitude 100 Hz, control, pose and truth 50 Hz, laser 20 Hz,
-//   GPS 5 Hz. Sticks computed at one control step act from the next one on (20 ms).
+// Physics runs at 200 Hz; inertial unit, control, laser and GPS at the rates of the vehicle's file,
+// attitude as the inertial unit, pose and truth as control. Between a stick computed and the stick
+// that acts lie its actuators.
 #pragma once
 
 #include <optional>
 #include <vector>
 
+#include "engine/simulation/aircraft.h"
 #include "engine/simulation/autopilot.h"
-#include "engine/simulation/rotorcraft.h"
 #include "engine/simulation/sensors.h"
 #include "engine/simulation/simulator.h"
 
@@ -31,7 +32,7 @@ class SimulatedVehicle {
   Timestamp now() const { return now_; }
   std::uint64_t boot_id() const { return boot_id_; }
   VehicleAuthority& authority() { return autopilot_.authority(); }
-  RigidTransform X_WB() const { return {rotorcraft_.state().R_WB(), rotorcraft_.state().p_WB()}; }
+  RigidTransform X_WB() const { return {aircraft_.body().R_WB, aircraft_.body().p_WB}; }
   const std::optional<Touchdown>& touchdown() const { return touchdown_; }
   const ImuSensor& imu() const { return imu_; }
   /// The navigation solution now.
@@ -44,15 +45,18 @@ class SimulatedVehicle {
   void StepInertial(FrameBundle& bundle);
   void StepSlowSensors(FrameBundle& bundle);
   void CheckGround();
+  /// Angle to the vertical of the plane through the ground below the gear's ends.
+  double GroundTilt(const RigidTransform& X_WB) const;
   double HeightAboveGround() const;
 
   World world_;
-  Airframe airframe_;
+  VehicleDescription vehicle_;
   RigidTransform X_BC_;
   Timestamp now_;
   std::int64_t step_ = 0;
   std::uint64_t boot_id_;
-  Rotorcraft rotorcraft_;
+  Aircraft aircraft_;
+  Actuators actuators_;
   WindModel wind_;
   Eigen::Vector3d wind_W_ = Eigen::Vector3d::Zero();
   ImuSensor imu_;
@@ -63,8 +67,6 @@ class SimulatedVehicle {
   Autopilot autopilot_;
   double ground_down_m_ = NAN;  ///< of the laser's newest spot
   Timestamp authority_told_;
-  StickCommand stick_;       ///< acting now
-  StickCommand next_stick_;  ///< acts from the next control step on
   Eigen::Matrix3d attitude_;
   Eigen::Vector3d angular_rate_B_ = Eigen::Vector3d::Zero();
   std::optional<Touchdown> touchdown_;

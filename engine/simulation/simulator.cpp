@@ -25,13 +25,16 @@ struct Simulator::State {
   State(SimulatorOptions given, SceneCameraFactory factory)
       : options(std::move(given)),
         camera_factory(std::move(factory)),
-        rig(std::make_shared<const StereoRig>(options.rig)),
-        left_noise(options.image_noise_grey, 1, options.seed, "camera left"),
-        right_noise(options.image_noise_grey, options.brightness_gain_right, options.seed,
+        rig(std::make_shared<const StereoRig>(options.vehicle.rig)),
+        left_noise(options.vehicle.sensors.camera.noise_grey, 1, options.seed, "camera left"),
+        right_noise(options.vehicle.sensors.camera.noise_grey,
+                    options.vehicle.sensors.camera.brightness_gain_right, options.seed,
                     "camera right"),
         vehicle(options) {
     status.kind = SourceKind::kSimulation;
-    status.name = options.scene.name;
+    const std::string& flown = options.vehicle.name;
+    status.name =
+        options.scene.name + (flown == DefaultVehicle().name ? std::string() : ", " + flown);
     status.speed = options.speed;
     status.start = kEpoch;
     status.duration_s = options.duration_limit_s;
@@ -89,7 +92,7 @@ bool Simulator::State::WaitForTurn(std::stop_token stop) {
   }
   const double begin_s = MonotonicSeconds();
   if (status.speed > 0 && last_turn_s) {
-    const double due_s = *last_turn_s + 1 / (options.rig.rate_hz * status.speed);
+    const double due_s = *last_turn_s + 1 / (options.vehicle.rig.rate_hz * status.speed);
     const double speed = status.speed;
     // A change of speed or a pause ends the wait early; this bundle still comes.
     changed.wait_for(lock, stop, std::chrono::duration<double>(std::max(0.0, due_s - begin_s)),
@@ -97,7 +100,7 @@ bool Simulator::State::WaitForTurn(std::stop_token stop) {
   }
   const double now_s = MonotonicSeconds();
   if (last_turn_s && now_s > *last_turn_s) {
-    const double reached = 1 / (options.rig.rate_hz * (now_s - *last_turn_s));
+    const double reached = 1 / (options.vehicle.rig.rate_hz * (now_s - *last_turn_s));
     status.speed_reached += kSpeedSmoothing * (reached - status.speed_reached);
   }
   last_turn_s = now_s;
@@ -167,8 +170,8 @@ Result<std::shared_ptr<const FrameBundle>> Simulator::Next(std::stop_token stop)
   auto bundle = std::make_shared<FrameBundle>();
   bundle->sequence = ++s.sequence;
   // From the epoch each time, so that a rate that is no multiple of the grid does not drift.
-  s.vehicle.AdvanceTo(AddSeconds(kEpoch, static_cast<double>(s.sequence) / s.options.rig.rate_hz),
-                      *bundle);
+  s.vehicle.AdvanceTo(
+      AddSeconds(kEpoch, static_cast<double>(s.sequence) / s.options.vehicle.rig.rate_hz), *bundle);
   bundle->time = s.vehicle.now();
   bundle->rig = s.rig;
   bundle->pose_at_exposure = s.vehicle.Pose();

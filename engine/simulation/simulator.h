@@ -10,11 +10,10 @@
 #include <memory>
 #include <optional>
 
-#include "engine/model/rig.h"
-#include "engine/model/vehicle.h"
 #include "engine/runtime/source.h"
 #include "engine/runtime/vehicle_link.h"
 #include "engine/simulation/scene_camera.h"
+#include "engine/simulation/vehicle_description.h"
 #include "engine/simulation/wind.h"
 #include "engine/trust/station_session.h"
 #include "engine/trust/vehicle_authority.h"
@@ -28,15 +27,13 @@ using SceneCameraFactory = std::function<Result<std::unique_ptr<SceneCamera>>(co
 
 struct SimulatorOptions {
   World scene;
-  StereoRig rig = DefaultRig();
+  VehicleDescription vehicle = DefaultVehicle();
   std::uint64_t seed = 1;
   double hover_height_m = 15.24;  ///< of B above the bare ground at the start
   double heading_rad = 0;
   double start_north_m = 0;
   double start_east_m = 0;
   WindOptions wind;
-  double image_noise_grey = 2;       ///< standard deviation of the camera noise, grey levels
-  double brightness_gain_right = 1;  ///< exposure of the right camera relative to the left
   double duration_limit_s = 600;
   double speed = 0;           ///< times real time; 0 as fast as possible
   bool render = true;         ///< false: bundles carry no pictures and no factory is needed
@@ -61,7 +58,15 @@ struct Touchdown {
   double vertical_speed_mps = 0;  ///< positive down
   double horizontal_speed_mps = 0;
   double tilt_rad = 0;
-  bool on_object = false;
+  bool on_object = false;      ///< else on the bare ground
+  double ground_tilt_rad = 0;  ///< of what the four ends of the gear stand above
+  GearLimits limits;           ///< of the vehicle that landed
+
+  /// Harder than the gear is made for.
+  bool hard() const {
+    return vertical_speed_mps > limits.sink_mps || horizontal_speed_mps > limits.across_mps ||
+           tilt_rad > limits.tilt_rad;
+  }
 };
 
 class Simulator final : public Source, public VehicleLink {

@@ -11,7 +11,6 @@ using Eigen::Vector3d;
 constexpr double kHistory_s = 1.0;
 constexpr double kAccelNoise = 0.01;  // m/s^2 per sqrt(Hz), attitude noise included
 constexpr double kBiasWalk = 0.004;   // m/s^2 per sqrt(s)
-constexpr double kGpsVelocitySigma_mps = 0.03;
 constexpr double kVisionPositionGain = 0.5;
 // Low, so that the velocity cross-fades to the station's filter over about a second.
 constexpr double kVisionVelocityGain = 0.2;
@@ -55,8 +54,10 @@ Vector3d AccelerationInWorld(const ImuSample& imu, const Matrix3d& R_WB) {
   return R_WB * imu.specific_force_B + Vector3d(0, 0, kStandardGravity_mps2);
 }
 
-GpsNavigator::GpsNavigator(const InertialTrack::Point& start)
-    : track_(start), P_(Vector3d(0.01, 0.01, 0.01).asDiagonal()) {}
+GpsNavigator::GpsNavigator(const InertialTrack::Point& start, double velocity_sigma_mps)
+    : track_(start),
+      velocity_sigma_mps_(velocity_sigma_mps),
+      P_(Vector3d(0.01, 0.01, 0.01).asDiagonal()) {}
 
 void GpsNavigator::Propagate(Timestamp now, const Vector3d& a_W) {
   const double dt = SecondsBetween(track_.now().time, now);
@@ -85,7 +86,7 @@ void GpsNavigator::Update(const GpsFix& fix) {
     return;
   }
   Fuse(fix.time, 0, fix.p_WB - then->p_WB, fix.sigma_horizontal_m);
-  Fuse(fix.time, 1, fix.v_WB - track_.At(fix.time)->v_WB, kGpsVelocitySigma_mps);
+  Fuse(fix.time, 1, fix.v_WB - track_.At(fix.time)->v_WB, velocity_sigma_mps_);
 }
 
 VisionNavigator::VisionNavigator(Timestamp now, const PositionEstimate& first,

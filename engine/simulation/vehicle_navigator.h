@@ -42,7 +42,8 @@ Eigen::Vector3d AccelerationInWorld(const ImuSample& imu, const Eigen::Matrix3d&
 
 class GpsNavigator {
  public:
-  explicit GpsNavigator(const InertialTrack::Point& start);
+  /// `velocity_sigma_mps`: of the GPS's velocities, which no fix tells.
+  GpsNavigator(const InertialTrack::Point& start, double velocity_sigma_mps);
   void Propagate(Timestamp now, const Eigen::Vector3d& a_W);
   void Update(const GpsFix& fix);
   const InertialTrack::Point& now() const { return track_.now(); }
@@ -53,6 +54,7 @@ class GpsNavigator {
   void Fuse(Timestamp time, int row, const Eigen::Vector3d& residual, double sigma);
 
   InertialTrack track_;
+  double velocity_sigma_mps_;
   Eigen::Vector3d bias_W_ = Eigen::Vector3d::Zero();
   Eigen::Matrix3d P_;  ///< of (p, v, b); the three axes share it
 };

@@ -19,6 +19,7 @@
 #include "engine/tools/log_command.h"
 #include "engine/tools/simulate_command.h"
 #include "engine/tools/trust_command.h"
+#include "engine/tools/vehicle_command.h"
 #include "engine/tools/worlds_command.h"
 #include "gui/platform/offscreen_scene_camera.h"
 
@@ -91,7 +92,7 @@ int main(int argc, char** argv) {
   palace::InitLogging(false);
   CLI::App app(
       "PALACE without a window: simulate, analyze, capture, calibrate, camera, evaluate, log, "
-      "trust, worlds",
+      "trust, vehicle, worlds",
       "palacectl");
   app.set_version_flag("--version", std::string("palacectl ") + palace::kProgramVersion);
   app.require_subcommand(1);
@@ -104,6 +105,7 @@ int main(int argc, char** argv) {
   palace::AddEvaluateCommand(app, exit_code, palace::MakeOffscreenSceneCamera);
   palace::AddLogCommand(app, exit_code);
   palace::AddTrustCommand(app, exit_code);
+  palace::AddVehicleCommand(app, exit_code);
   palace::AddWorldsCommand(app, exit_code);
   try {
     app.parse(argc, argv);

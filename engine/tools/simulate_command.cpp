@@ -15,9 +15,12 @@
 
 #include "engine/core/command_line.h"
 #include "engine/core/termination.h"
+#include "engine/core/text.h"
+#include "engine/core/units.h"
 #include "engine/journal/log_index.h"
 #include "engine/journal/log_writer.h"
 #include "engine/simulation/session.h"
+#include "engine/simulation/vehicle_file.h"
 #include "engine/tools/simulate_export.h"
 #include "engine/trust/key_file.h"
 #include "engine/wire/bus.h"
@@ -33,6 +36,7 @@ constexpr int kPoll_ms = 20;
 
 struct SimulateOptions {
   std::string scenario = "runway";
+  std::string vehicle = kDefaultVehicle;
   std::optional<std::string> url;
   std::string log;
   std::string export_folder;
@@ -100,8 +104,13 @@ Result<SessionSpec::OtherStations> StationsOf(const SimulateOptions& options) {
 }
 
 Result<SimulatedSession> OpenSession(const SimulateOptions& options, SceneCameraFactory cameras) {
+  Result<VehicleDescription> vehicle = LoadVehicle(options.vehicle);
+  if (!vehicle) {
+    return vehicle.error();
+  }
   SessionSpec spec{.scenario = options.scenario,
                    .seed = options.seed,
+                   .vehicle = std::move(*vehicle),
                    .wind_mps = options.wind_mps,
                    .speed = IsPaced(options) ? 1.0 : 0.0,
                    .duration_limit_s = options.duration_s,
@@ -165,9 +174,11 @@ void PrintTouchdown(const Simulator& simulator) {
     return;
   }
   std::printf(
-      "touched down %.2f m north, %.2f m east; %.2f m/s down, %.2f m/s across, tilt %.1f deg%s\n",
+      "touched down %.2f m north, %.2f m east; %.2f m/s down, %.2f m/s across, tilt %.1f deg on %s "
+      "of %.1f deg%s\n",
       t->p_W_skid.x(), t->p_W_skid.y(), t->vertical_speed_mps, t->horizontal_speed_mps,
-      t->tilt_rad * 57.29577951308232, t->on_object ? ", ON AN OBJECT" : "");
+      Deg(t->tilt_rad), t->on_object ? "AN OBJECT, a slope" : "the ground, a slope",
+      Deg(t->ground_tilt_rad), t->hard() ? ", HARDER THAN THE GEAR IS MADE FOR" : "");
 }
 
 int EndExport(ExportingSource& exporter, const Simulator& simulator, const Status& flown) {
@@ -290,6 +301,10 @@ void AddSimulateCommand(CLI::App& app, int& exit_code, SceneCameraFactory camera
   command
       ->add_option("--scenario", options->scenario,
                    SceneList() + "; what each is: palacectl worlds")
+      ->capture_default_str();
+  command
+      ->add_option("--vehicle", options->vehicle,
+                   "A vehicle by name (" + Joined(VehicleNames()) + ") or by its file")
       ->capture_default_str();
   command->add_option("--url", options->url, "LCM URL; without --log or --export the default bus");
   command->add_option("--export", options->export_folder,

@@ -24,7 +24,7 @@ const Truth* TruthAt(const FrameBundle& bundle, Timestamp time) {
 
 Result<std::unique_ptr<ExportingSource>> ExportingSource::Create(
     const SimulatedSession& session, const std::filesystem::path& folder) {
-  const ImuNoise noise;
+  const ImuNoise& noise = session.vehicle.sensors.imu;
   const ImuBiases biases = session.simulator->imu_biases();
   EurocImu imu;
   imu.gyro_noise_rad_s_sqrt_hz = noise.gyro_rad_s_sqrt_hz;
@@ -67,6 +67,7 @@ Result<std::uint64_t> ExportingSource::Close() {
 Status FlyMission(const SimulatedSession& session, std::shared_ptr<Source> source,
                   std::stop_token stop) {
   EngineParts parts;
+  parts.settings = SettingsFor(session.vehicle);
   parts.mission.session_id = session.id;
   parts.source = std::move(source);
   parts.link = session.simulator;

@@ -30,7 +30,8 @@ Result<World> MakeScene(std::string_view name, std::uint64_t seed);
 /// Radius of the clear disc every plain scene guarantees.
 inline constexpr double kClearDiscRadius_m = 3.0;
 
-/// The stereo rig of the R-50 flights (thesis 3.3): 640 x 480, 45 degrees wide, 1 m baseline along
+/// The view that scenes are laid out for, whichever vehicle flies, and the one of the thesis (3.3);
+/// the default vehicle's file says the same. 640 x 480, 45 degrees wide, 1 m baseline along
 /// body y, 45 degrees down, 10 Hz; left focal point at (0.8, -0.5, 0.3) m in B.
 StereoRig DefaultRig();
 

@@ -10,6 +10,27 @@
 namespace palace {
 namespace {
 
+/// Of an airframe that follows at once; what is right for real ones is shown in tests/simulation.
+constexpr CascadeGains kGains{.roll_per_rad = 1.6,
+                              .roll_rate_s = 0.1,
+                              .pitch_per_rad = 1.9,
+                              .pitch_rate_s = 0.14,
+                              .velocity_per_s = 0.9,
+                              .velocity_integral_per_s2 = 0.25,
+                              .position_per_s = 0.35,
+                              .tilt_lag_s = 0.5,
+                              .climb_s_per_m = 0.2,
+                              .climb_integral_per_m = 0.08,
+                              .height_per_s = 0.7,
+                              .yaw_per_rad = 0.55,
+                              .yaw_integral_per_rad_s = 0.1,
+                              .max_speed_mps = 4,
+                              .max_acceleration_mps2 = 2.5,
+                              .max_tilt_rad = Rad(15),
+                              .max_climb_mps = 1.5,
+                              .max_collective = 0.4,
+                              .max_yaw_error_rad = Rad(30)};
+
 struct SignCase {
   const char* name;
   Eigen::Vector3d p_W;   ///< set-point, the vehicle is at the origin
@@ -31,7 +52,7 @@ TEST(FlightController, LeansTowardsTheSetpoint) {
       {"down: less collective", {0, 0, 1}, 0, 0, 0, -1},
   };
   for (const SignCase& c : cases) {
-    FlightController controller;
+    FlightController controller(kGains);
     FlightState state;
     state.R_WB = RotationFromEuler({0, 0, c.yaw_rad});
     const StickCommand stick =
@@ -44,7 +65,7 @@ TEST(FlightController, LeansTowardsTheSetpoint) {
 }
 
 TEST(FlightController, TurnsTheShortWayRound) {
-  FlightController controller;
+  FlightController controller(kGains);
   FlightState state;
   state.R_WB = RotationFromEuler({0, 0, Rad(170)});
   FlightSetpoint setpoint;
@@ -54,7 +75,7 @@ TEST(FlightController, TurnsTheShortWayRound) {
 
 TEST(FlightController, SticksStayInReachHoweverFarTheSetpoint) {
   RandomStream random(31);
-  FlightController controller;
+  FlightController controller(kGains);
   for (int i = 0; i < 5000; ++i) {
     FlightState state;
     state.R_WB = RotationFromEuler(

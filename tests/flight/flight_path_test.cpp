@@ -12,7 +12,8 @@
 namespace palace {
 namespace {
 
-const FlightPath kPath{{12, -3, 0.4}, Rad(30), Rad(45), {0.9, 0, 0.3}};
+const Eigen::Vector3d kSkids(0.1, 0, 0.9);  // in B
+const FlightPath kPath{{12, -3, 0.4}, Rad(30), Rad(45), {0.9, 0, 0.3}, kSkids, {.settle_s = 3.8}};
 
 FlightPath RandomPath(RandomStream& random) {
   FlightPath path;
@@ -20,6 +21,7 @@ FlightPath RandomPath(RandomStream& random) {
   path.heading_rad = random.Uniform(-3, 3);
   path.slope_rad = random.Uniform(Rad(25), Rad(90));
   path.p_BC = {0.8, -0.5, 0.3};
+  path.skid_centre_B = kSkids;
   path.speeds.sink_mps = random.Uniform(0.2, 1.5);
   return path;
 }
@@ -44,9 +46,10 @@ TEST(FlightPath, AboveSiteMeansSkidsAboveSite) {
   FlightPath path;
   path.p_WS = {3, 4, -1};
   path.heading_rad = 1.1;
+  path.skid_centre_B = kSkids;
   path.slope_rad = Rad(45);
   const RigidTransform X_WB{path.LevelRotation(), path.BodyAboveSite(2)};
-  EXPECT_TRUE((X_WB * SkidCentreBody()).isApprox(Eigen::Vector3d(3, 4, -3), 1e-12));
+  EXPECT_TRUE((X_WB * kSkids).isApprox(Eigen::Vector3d(3, 4, -3), 1e-12));
 }
 
 TEST(FlightPath, DistanceOffItIsFromTheWholePath) {

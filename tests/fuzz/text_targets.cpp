@@ -5,6 +5,7 @@
 #include "engine/capture/camera_address.h"
 #include "engine/capture/euroc/euroc_tables.h"
 #include "engine/runtime/settings_io.h"
+#include "engine/simulation/vehicle_file.h"
 #include "engine/wire/channels.h"
 #include "tests/fuzz/fuzz_target.h"
 
@@ -18,6 +19,7 @@ std::vector<FuzzTarget> TextTargets() {
       {"channels", [](Bytes input) { (void)ParseChannels(AsText(input), "channels.toml"); }},
       {"target", [](Bytes input) { (void)ParseTargetText(AsText(input), "target.toml"); }},
       {"rig", [](Bytes input) { (void)LoadRigFile(ScratchFile("rig.toml", input)); }},
+      {"vehicle", [](Bytes input) { (void)ParseVehicle(AsText(input), "vehicle.toml"); }},
       {"poses", [](Bytes input) { (void)LoadPosesFile(ScratchFile("poses.csv", input)); }},
       {"euroc",
        [](Bytes input) {

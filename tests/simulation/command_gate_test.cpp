@@ -11,7 +11,7 @@ namespace {
 
 TEST(CommandGate, ASealComesBeforeEverythingAndFlightAfterSense) {
   const SecretKey key = SecretKey::FromSeed(1);
-  CommandGate gate(VehicleOf({key}));
+  CommandGate gate(VehicleOf({key}), DefaultVehicle().limits);
   StationSession station(StationOf(key, "alpha", 1));
   Timestamp now = kNow;
   ASSERT_TRUE(Ask(station, gate.authority(), now));

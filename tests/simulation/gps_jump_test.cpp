@@ -13,7 +13,7 @@ using Eigen::Vector3d;
 TEST(GpsJump, DoesNotMakeTheEstimatesLookAstray) {
   for (const double jump_m : {0.0, 3.0, 10.0, -10.0}) {
     SCOPED_TRACE(jump_m);
-    GpsNavigator navigator({{0}, Vector3d::Zero(), Vector3d::Zero()});
+    GpsNavigator navigator({{0}, Vector3d::Zero(), Vector3d::Zero()}, 0.03);
     EstimateWatch watch;
     ASSERT_EQ(watch.Begin(Vector3d::Zero(), Vector3d::Zero()), "");
     double own_moved_m = 0;

@@ -124,7 +124,7 @@ class ConstantCamera final : public SceneCamera {
 TEST(Simulator, PicturesCarryNoiseAndGain) {
   SimulatorOptions options = Options(16);
   options.render = true;
-  options.brightness_gain_right = 1.25;
+  options.vehicle.sensors.camera.brightness_gain_right = 1.25;
   Simulator simulator(options, [](const World&) -> Result<std::unique_ptr<SceneCamera>> {
     return std::unique_ptr<SceneCamera>(std::make_unique<ConstantCamera>());
   });
