@@ -25,6 +25,11 @@ inline Eigen::Matrix4d ClipFromCamera(const PinholeCamera& camera) {
   return clip;
 }
 
+/// Distance along the optical axis, metres, of a window depth 0 .. 1 of that projection.
+inline double DepthOfWindow(double window) {
+  return kFar_m * kNear_m / (kFar_m - window * (kFar_m - kNear_m));
+}
+
 /// Of positions relative to the camera, so that only small numbers go to single precision.
 inline Eigen::Matrix4f ClipFromRelative(const PinholeCamera& camera, const RigidTransform& X_WC) {
   Eigen::Matrix4d camera_from_world = Eigen::Matrix4d::Identity();

@@ -71,6 +71,19 @@ void Framebuffer::Bind() const {
   glViewport(0, 0, width_, height_);
 }
 
+void Framebuffer::Begin(float grey) const {
+  Bind();
+  for (const GLenum off : {GL_CULL_FACE, GL_BLEND, GL_SCISSOR_TEST, GL_STENCIL_TEST}) {
+    glDisable(off);
+  }
+  glEnable(GL_DEPTH_TEST);
+  glEnable(GL_MULTISAMPLE);
+  glDepthFunc(GL_LESS);
+  glDepthMask(GL_TRUE);
+  glClearColor(grey, grey, grey, 1);
+  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
+}
+
 void Framebuffer::Resolve() const {
   if (!multisampled_) {
     return;
@@ -86,6 +99,14 @@ ImageU8 Framebuffer::ReadGrey() const {
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
   glReadPixels(0, 0, width_, height_, GL_RED, GL_UNSIGNED_BYTE, picture.pixels().data());
   return picture;
+}
+
+ImageF Framebuffer::ReadDepth() const {
+  ImageF depth(width_, height_);
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, resolved_.name());
+  glPixelStorei(GL_PACK_ALIGNMENT, 4);
+  glReadPixels(0, 0, width_, height_, GL_DEPTH_COMPONENT, GL_FLOAT, depth.pixels().data());
+  return depth;
 }
 
 ImageRgba Framebuffer::ReadRgba() const {

@@ -18,10 +18,16 @@ class Framebuffer {
   Status Resize(int width, int height, PixelKind kind, int samples);
   /// Binds for drawing and sets the viewport to the whole target.
   void Bind() const;
+  /// Binds, sets the state in which the scene renderers start a picture (depth by GL_LESS, nothing
+  /// culled, blended or cut out) and clears colour to that grey level, depth and stencil.
+  void Begin(float grey) const;
   /// Multisampled content into the texture. Call after drawing, before texture() or a read.
   void Resolve() const;
   /// Rows in memory order. kGrey and kRgba targets respectively.
   ImageU8 ReadGrey() const;
+  /// Of a target without multisampling: window depth 0 .. 1, as GL stores it; 1 where nothing was
+  /// drawn.
+  ImageF ReadDepth() const;
   ImageRgba ReadRgba() const;
 
   GLuint texture() const { return texture_.name(); }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -87,8 +88,9 @@ struct LitSceneRenderer::Parts {
   SunMap still_map, moving_map;
   Framebuffer target;
 
-  Status Build();
+  Status Build(const RayScene& scene);
   Status BuildShaders();
+  Status Draw(const PinholeCamera& camera, const RigidTransform& X_WC, double time_s, int samples);
   void DrawGround(const ShaderProgram& shader, bool neighbours) const;
   void DrawSolids(const ShaderProgram& shader) const;
   void DrawMovers(const ShaderProgram& shader, double time_s) const;
@@ -126,14 +128,12 @@ Status LitSceneRenderer::Parts::BuildShaders() {
   return Ok();
 }
 
-Status LitSceneRenderer::Parts::Build() {
-  {
-    const RayScene scene(world, kTexel_m);
-    const ImageU8& texels = scene.ground().texels();
-    lit = GreyTexture(texels.width(), texels.height(), texels.pixels().data(), GL_MIRRORED_REPEAT);
-    grain = GreyTexture(SurfaceGrain::kTexels, SurfaceGrain::kTexels, scene.grain().texels().data(),
-                        GL_REPEAT);
-  }
+Status LitSceneRenderer::Parts::Build(const RayScene& scene) {
+  const ImageU8& texels = scene.ground().texels();
+  lit = GreyTexture(texels.width(), texels.height(), texels.pixels().data(), GL_MIRRORED_REPEAT);
+  grain = GreyTexture(SurfaceGrain::kTexels, SurfaceGrain::kTexels, scene.grain().texels().data(),
+                      GL_REPEAT);
+  world = scene.world();
   square = SquareOf(world.ground);
   World standing = world;
   standing.solids.clear();
@@ -241,64 +241,76 @@ LitSceneRenderer::LitSceneRenderer(std::unique_ptr<Parts> parts) : parts_(std::m
 LitSceneRenderer::~LitSceneRenderer() = default;
 
 Result<std::unique_ptr<LitSceneRenderer>> LitSceneRenderer::Create(const World& world) {
+  return Create(RayScene(world, kTexel_m));
+}
+
+Result<std::unique_ptr<LitSceneRenderer>> LitSceneRenderer::Create(const RayScene& scene) {
   auto parts = std::make_unique<Parts>();
-  parts->world = world;
-  if (const Status built = parts->Build(); !built) {
+  if (const Status built = parts->Build(scene); !built) {
     return built.error();
   }
   return std::unique_ptr<LitSceneRenderer>(new LitSceneRenderer(std::move(parts)));
 }
 
+Status LitSceneRenderer::Parts::Draw(const PinholeCamera& camera, const RigidTransform& X_WC,
+                                     double time_s, int samples) {
+  const Status sized = target.Resize(camera.width, camera.height, PixelKind::kGrey, samples);
+  if (!sized) {
+    return sized;
+  }
+  target.Begin(kSkyGrey);
+  if (!movers.empty()) {
+    MapMovers(time_s);
+    target.Bind();
+  }
+  const Eigen::Matrix4f clip_from_world = ClipFromRelative(camera, X_WC);
+  const Sun& sun = world.sun;
+
+  View(object_shader, clip_from_world, X_WC.p);
+  UseShadows(object_shader);
+  glBindTexture(GL_TEXTURE_2D, grain.name());
+  object_shader.Set("grain", 0);
+  object_shader.Set("grain_size_m",
+                    static_cast<float>(SurfaceGrain::kTexels * SurfaceGrain::kTexel_m));
+  object_shader.Set("grain_contrast", static_cast<float>(SurfaceGrain::kContrast));
+  object_shader.Set("sun_W", Single(sun.Direction()));
+  object_shader.Set("direct", static_cast<float>(sun.direct));
+  object_shader.Set("diffuse", static_cast<float>(sun.diffuse));
+  DrawSolids(object_shader);
+  DrawMovers(object_shader, time_s);
+
+  View(ground_shader, clip_from_world, X_WC.p);
+  UseShadows(ground_shader);
+  glBindTexture(GL_TEXTURE_2D, lit.name());
+  ground_shader.Set("lit", 0);
+  ground_shader.Set("square", Eigen::Vector3f(static_cast<float>(square.north_m),
+                                              static_cast<float>(square.east_m),
+                                              static_cast<float>(square.size_m)));
+  ground_shader.Set(
+      "shade", static_cast<float>(sun.diffuse / LightOn(sun, world.ground.Normal(), /*lit=*/true)));
+  DrawGround(ground_shader, /*neighbours=*/true);
+  return Ok();
+}
+
 Result<ImageU8> LitSceneRenderer::Render(const PinholeCamera& camera, const RigidTransform& X_WC,
                                          double time_s) {
-  Parts& parts = *parts_;
-  const Status sized = parts.target.Resize(camera.width, camera.height, PixelKind::kGrey, kSamples);
-  if (!sized) {
-    return sized.error();
+  if (const Status drawn = parts_->Draw(camera, X_WC, time_s, kSamples); !drawn) {
+    return drawn.error();
   }
-  glDisable(GL_CULL_FACE);
-  glDisable(GL_BLEND);
-  glDisable(GL_SCISSOR_TEST);
-  glDisable(GL_STENCIL_TEST);
-  glEnable(GL_DEPTH_TEST);
-  glEnable(GL_MULTISAMPLE);
-  glDepthFunc(GL_LESS);
-  glDepthMask(GL_TRUE);
-  if (!parts.movers.empty()) {
-    parts.MapMovers(time_s);
+  parts_->target.Resolve();
+  return parts_->target.ReadGrey();
+}
+
+Result<ImageF> LitSceneRenderer::Depth(const PinholeCamera& camera, const RigidTransform& X_WC,
+                                       double time_s) {
+  if (const Status drawn = parts_->Draw(camera, X_WC, time_s, /*samples=*/1); !drawn) {
+    return drawn.error();
   }
-  parts.target.Bind();
-  glClearColor(kSkyGrey, kSkyGrey, kSkyGrey, 1);
-  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-  const Eigen::Matrix4f clip_from_world = ClipFromRelative(camera, X_WC);
-  const Sun& sun = parts.world.sun;
-  const Eigen::Vector3d normal = parts.world.ground.Normal();
-
-  parts.View(parts.object_shader, clip_from_world, X_WC.p);
-  parts.UseShadows(parts.object_shader);
-  glBindTexture(GL_TEXTURE_2D, parts.grain.name());
-  parts.object_shader.Set("grain", 0);
-  parts.object_shader.Set("grain_size_m",
-                          static_cast<float>(SurfaceGrain::kTexels * SurfaceGrain::kTexel_m));
-  parts.object_shader.Set("grain_contrast", static_cast<float>(SurfaceGrain::kContrast));
-  parts.object_shader.Set("sun_W", Single(sun.Direction()));
-  parts.object_shader.Set("direct", static_cast<float>(sun.direct));
-  parts.object_shader.Set("diffuse", static_cast<float>(sun.diffuse));
-  parts.DrawSolids(parts.object_shader);
-  parts.DrawMovers(parts.object_shader, time_s);
-
-  parts.View(parts.ground_shader, clip_from_world, X_WC.p);
-  parts.UseShadows(parts.ground_shader);
-  glBindTexture(GL_TEXTURE_2D, parts.lit.name());
-  parts.ground_shader.Set("lit", 0);
-  parts.ground_shader.Set("square", Eigen::Vector3f(static_cast<float>(parts.square.north_m),
-                                                    static_cast<float>(parts.square.east_m),
-                                                    static_cast<float>(parts.square.size_m)));
-  parts.ground_shader.Set("shade",
-                          static_cast<float>(sun.diffuse / LightOn(sun, normal, /*lit=*/true)));
-  parts.DrawGround(parts.ground_shader, /*neighbours=*/true);
-  parts.target.Resolve();
-  return parts.target.ReadGrey();
+  ImageF depth = parts_->target.ReadDepth();
+  for (float& d : depth.pixels()) {
+    d = d < 1 ? static_cast<float>(DepthOfWindow(d)) : std::numeric_limits<float>::infinity();
+  }
+  return depth;
 }
 
 }  // namespace palace

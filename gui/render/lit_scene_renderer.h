@@ -6,6 +6,7 @@
 
 #include "engine/core/result.h"
 #include "engine/simulation/scene_camera.h"
+#include "engine/world/ray_scene.h"
 #include "engine/world/world.h"
 
 namespace palace {
@@ -20,10 +21,14 @@ class LitSceneRenderer final : public SceneCamera {
   /// Works out the ground's light (seconds for large grounds), compiles shaders. The world's ground
   /// has a material.
   static Result<std::unique_ptr<LitSceneRenderer>> Create(const World& world);
+  /// With the light that was worked out for that scene, which is not needed afterwards.
+  static Result<std::unique_ptr<LitSceneRenderer>> Create(const RayScene& scene);
   ~LitSceneRenderer() override;
 
   Result<ImageU8> Render(const PinholeCamera& camera, const RigidTransform& X_WC,
                          double time_s = 0) override;
+  /// Distance along the optical axis through the pixels' centres, metres; infinity: sky.
+  Result<ImageF> Depth(const PinholeCamera& camera, const RigidTransform& X_WC, double time_s = 0);
 
  private:
   struct Parts;

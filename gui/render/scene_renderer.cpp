@@ -292,16 +292,7 @@ Result<ImageU8> SceneRenderer::Render(const PinholeCamera& camera, const RigidTr
   }
   const Eigen::Matrix4f clip_from_world = ClipFromRelative(camera, X_WC);
 
-  parts.target.Bind();
-  glDisable(GL_CULL_FACE);
-  glDisable(GL_BLEND);
-  glDisable(GL_SCISSOR_TEST);
-  glDisable(GL_STENCIL_TEST);
-  glEnable(GL_DEPTH_TEST);
-  glEnable(GL_MULTISAMPLE);
-  glDepthFunc(GL_LESS);
-  glClearColor(kSkyGrey, kSkyGrey, kSkyGrey, 1);
-  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
+  parts.target.Begin(kSkyGrey);
   parts.DrawObjects(clip_from_world, X_WC.p);
   const bool shaded = parts.shadows.count > 0;
   if (shaded) {

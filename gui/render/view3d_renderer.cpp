@@ -19,19 +19,22 @@ constexpr int kSamples = 4;
 constexpr double kSmallestRotor_px = 48;
 constexpr double kMostEnlarged = 2;
 
-/// The model grows up to double size while its rotor is under 48 px.
-double VehicleSize(const LineBatch& batch, const RigidTransform& X_WB, double ui_scale) {
+/// In times of the model's own: as wide as the vehicle, up to double that while it is under 48 px.
+double VehicleSize(const LineBatch& batch, const RigidTransform& X_WB, double rotor_diameter_m,
+                   double ui_scale) {
+  const double true_size = rotor_diameter_m / (2 * kRotorRadius_m);
   const Eigen::Vector3d hub = batch.PixelFromPoint(X_WB.p);
   if (hub.z() == 0) {
-    return 1;
+    return true_size;
   }
   double rotor_px = 0;
   for (const Eigen::Vector3d& rim :
        {Eigen::Vector3d(kRotorRadius_m, 0, 0), Eigen::Vector3d(0, kRotorRadius_m, 0)}) {
-    const Eigen::Vector3d pixel = batch.PixelFromPoint(X_WB * rim);
+    const Eigen::Vector3d pixel = batch.PixelFromPoint(X_WB * (true_size * rim));
     rotor_px = std::max(rotor_px, 2 * (pixel - hub).head<2>().norm());
   }
-  return std::clamp(kSmallestRotor_px * ui_scale / std::max(rotor_px, 1.0), 1.0, kMostEnlarged);
+  return true_size *
+         std::clamp(kSmallestRotor_px * ui_scale / std::max(rotor_px, 1.0), 1.0, kMostEnlarged);
 }
 
 }  // namespace
@@ -114,7 +117,8 @@ Result<View3dLabels> View3dRenderer::Render(const View3dInput& input, const Orbi
   glDisable(GL_BLEND);
   parts.terrain.Draw(clip_from_world, input.ui_scale);
 
-  const double size = input.X_WB ? VehicleSize(batch, *input.X_WB, input.ui_scale) : 1;
+  const double size =
+      input.X_WB ? VehicleSize(batch, *input.X_WB, input.rotor_diameter_m, input.ui_scale) : 1;
   View3dLabels labels;
   AddFrustum(batch, input, ground_m);
   AddSites(batch, input);

@@ -37,6 +37,7 @@ struct View3dInput {
   RigidTransform picture_X_WC;
 
   std::optional<RigidTransform> X_WB;  ///< vehicle
+  double rotor_diameter_m = 3.1;       ///< how wide it is drawn
   std::optional<RigidTransform> X_WC;  ///< left camera now
   PinholeCamera camera;                ///< for the frustum; width 0: no frustum
 

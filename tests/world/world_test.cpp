@@ -68,7 +68,8 @@ TEST(SceneRay, SlopingGroundAndSurface) {
 
 TEST(Laser, MeasuresTheSlantRangeWithItsStatedNoise) {
   const World scene = MakeScene("empty", 1).value();
-  LaserSensor laser(LaserNoise{}, 3);
+  const LaserNoise noise{.sigma_m = 0.03, .sigma_per_m = 0.001, .dropout = 0.02};
+  LaserSensor laser(noise, 3);
   const RigidTransform X_WC{CameraRotationFromTilt(-Rad(45)), {0, 0, -15}};
   const double truth = 15 * std::sqrt(2.0), sigma = 0.03 + 0.001 * truth;
   double sum = 0, squares = 0;
@@ -86,8 +87,7 @@ TEST(Laser, MeasuresTheSlantRangeWithItsStatedNoise) {
   EXPECT_NEAR(sum / count, 0, 4 * sigma / std::sqrt(count));
   EXPECT_NEAR(std::sqrt(squares / count) / sigma, 1, 0.05);
   EXPECT_NEAR(lost / 4000.0, 0.02, 0.01);
-  const RigidTransform too_high{CameraRotationFromTilt(-Rad(90)),
-                                {0, 0, -LaserNoise{}.max_range_m - 1}};
+  const RigidTransform too_high{CameraRotationFromTilt(-Rad(90)), {0, 0, -noise.max_range_m - 1}};
   EXPECT_TRUE(std::isnan(laser.Measure({}, scene, too_high).range_m));
 }
 

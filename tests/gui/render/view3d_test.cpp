@@ -148,6 +148,19 @@ TEST_F(View3dTest, SiteRingAndVehicleAreDrawn) {
   EXPECT_GT(lit, 200);
 }
 
+TEST_F(View3dTest, TheVehicleIsDrawnAsWideAsItIs) {
+  View3dInput input;
+  input.X_WB = RigidTransform{Eigen::Matrix3d::Identity(), {0, 0, -15}};
+  const auto grey = [&](double rotor_diameter_m) {
+    input.rotor_diameter_m = rotor_diameter_m;
+    Draw(input);
+    return Count(renderer_->Read(), [](Rgba8 p) { return p.g > 110; });
+  };
+  Draw({});
+  const int grid = Count(renderer_->Read(), [](Rgba8 p) { return p.g > 110; });
+  EXPECT_GT(grey(20) - grid, 2 * (grey(10) - grid)) << "wide enough not to be enlarged";
+}
+
 TEST_F(View3dTest, TheSamePictureTwice) {
   View3dInput input = FlatMap();
   input.X_WB = RigidTransform{Eigen::Matrix3d::Identity(), {-3, 1, -15}};
