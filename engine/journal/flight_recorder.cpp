@@ -109,7 +109,8 @@ void FlightRecorder::After(const RecordItem& item, Messages& messages) {
     messages.push_back(EncodeVehicleMessage(message, last_, channels_));
   }
   for (const Event& note : item.notes) {
-    messages.push_back(EncodeEvent({last_, note.kind, note.text}, channels_));
+    messages.push_back(EncodeEvent(
+        {.time = last_, .kind = note.kind, .text = note.text, .level = note.level}, channels_));
   }
   if (item.snapshot && any_) {
     Append(messages, outputs_.Encode(*item.snapshot));

@@ -8,6 +8,7 @@
 
 #include "engine/core/text.h"
 #include "engine/core/time.h"
+#include "engine/journal/heard_channels.h"
 #include "engine/journal/track_reader.h"
 #include "engine/wire/convert.h"
 
@@ -17,19 +18,21 @@ namespace {
 using SteadyClock = std::chrono::steady_clock;
 
 constexpr double kCatchUp_s = 0.25;
-constexpr double kGap_s = 1;  // between two bundles; more is told as a gap
 
-/// Seconds after the first.
-std::vector<RecordGap> GapsOf(const std::vector<BundleMark>& bundles) {
-  std::vector<RecordGap> gaps;
-  for (std::size_t i = 1; i < bundles.size(); ++i) {
-    const RecordGap between{SecondsBetween(bundles.front().time, bundles[i - 1].time),
-                            SecondsBetween(bundles.front().time, bundles[i].time)};
-    if (between.to_s - between.from_s > kGap_s) {
-      gaps.push_back(between);
-    }
+/// Its events are stamped with the time of their bundle, not of whoever logged a bus.
+bool IsStationsOwn(const FlightRecord& record, const std::vector<BundleMark>& bundles) {
+  return !record.samples.empty() &&
+         std::any_of(bundles.begin(), bundles.end(), [&](const BundleMark& bundle) {
+           return bundle.time == record.samples.front().time;
+         });
+}
+
+const Settings& SettingsAt(const FlightRecord& record, Timestamp time) {
+  const Settings* newest = &record.settings_at_start;
+  for (const SettingsInForce& each : record.settings) {
+    newest = each.from <= time ? &each.settings : newest;
   }
-  return gaps;
+  return *newest;
 }
 
 SteadyClock::time_point TimePoint(double monotonic_s) {
@@ -130,7 +133,6 @@ void ReplaySource::ReadTrack() {
   record->path = file_.path().string();
   record->start_s = static_cast<double>(bundles_.front().time.us) * 1e-6;
   record->duration_s = std::max(0.0, SecondsBetween(bundles_.front().time, bundles_.back().time));
-  record->gaps = GapsOf(bundles_);
   TrackReader reader(names, *record);
   std::optional<WireMessage> settings;  // in force when the part began
   for (std::size_t i = 0; i < end_told_; ++i) {
@@ -151,9 +153,39 @@ void ReplaySource::ReadTrack() {
       reader.Add(*message);
     }
   }
+  AddTruth(*record);
   std::stable_sort(record->events.begin(), record->events.end(),
                    [](const Event& a, const Event& b) { return a.time < b.time; });
+  const auto heard = FindHeard(index_, bundles_, names);
+  record->gaps = FindGaps(heard, bundles_);
+  if (IsStationsOwn(*record, bundles_)) {
+    record->heard = heard;
+  }
   recorded_ = std::move(record);
+}
+
+void ReplaySource::AddTruth(FlightRecord& record) const {
+  for (RecordedTouchdown& touchdown : record.touchdowns) {
+    const auto bundle = std::find_if(bundles_.begin(), bundles_.end(), [&](const BundleMark& mark) {
+      return mark.time == touchdown.time;
+    });
+    if (bundle == bundles_.end()) {
+      continue;
+    }
+    for (std::size_t i = bundle->end; i-- > bundle->first;) {
+      if (index_.channels[index_.entries[i].channel] == options_.channels.truth) {
+        const Result<WireMessage> message = ReadEvent(file_, index_.entries[i], index_.channels);
+        const Result<Truth> truth =
+            message ? DecodeTruth(*message) : Result<Truth>(message.error());
+        if (truth) {
+          const Eigen::Vector3d skid_W =
+              truth->X_WB * SettingsAt(record, touchdown.time).slad.lander.skid_centre_B();
+          touchdown.true_miss_m = (skid_W - touchdown.p_WS).head<2>().norm();
+        }
+        break;
+      }
+    }
+  }
 }
 
 std::shared_ptr<const FrameBundle> ReplaySource::ReadBundle() {

@@ -58,6 +58,8 @@ class ReplaySource final : public Source {
   ::palace::Status Prepare(const std::filesystem::path& path);
   ::palace::Status ChoosePart(const std::filesystem::path& path);
   void ReadTrack();
+  /// To each touchdown what the last TRUTH of its bundle says.
+  void AddTruth(FlightRecord& record) const;
   std::shared_ptr<const FrameBundle> ReadBundle();
   std::shared_ptr<const FrameBundle> Deliver(std::shared_ptr<const FrameBundle> bundle);
   bool WaitForTurn(std::unique_lock<std::mutex>& lock, std::stop_token stop);

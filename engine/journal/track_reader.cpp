@@ -30,10 +30,7 @@ void TrackReader::Add(const WireMessage& message) {
   } else if (message.channel == channels_.site_decision) {
     AddDecision(message);
   } else if (message.channel == channels_.event) {
-    const Result<Event> event = DecodeEvent(message);
-    if (event) {
-      record_.events.push_back(*event);
-    }
+    AddEvent(message);
   } else {
     const Result<Settings> settings = DecodeSettings(message);
     if (settings) {
@@ -53,13 +50,24 @@ void TrackReader::AddProposal(const WireMessage& message) {
   for (const LandingSite& site : proposal->selection.sites) {
     recorded.places.push_back({site.id, site.letter, site.p_WS.head<2>()});
   }
+  // A limit that moved judges the same map again.
+  const bool first = record_.proposals.empty();
+  new_map_ = new_map_ || first || record_.proposals.back().map_time < recorded.map_time;
   record_.proposals.push_back(std::move(recorded));
   newest_sites_ = std::move(proposal->selection.sites);
 }
 
 void TrackReader::AddDecision(const WireMessage& message) {
   const Result<EngineCommand> command = DecodeCommand(message);
-  const auto* select = command ? std::get_if<SelectSite>(&command->action) : nullptr;
+  if (!command) {
+    return;
+  }
+  if (const auto* refuse = std::get_if<RefuseSite>(&command->action)) {
+    decision_ = {refuse->site_id, true};
+  } else if (const auto* approve = std::get_if<ApproveSite>(&command->action)) {
+    decision_ = {approve->site_id, false};
+  }
+  const auto* select = std::get_if<SelectSite>(&command->action);
   if (select == nullptr) {
     return;
   }
@@ -71,13 +79,53 @@ void TrackReader::AddDecision(const WireMessage& message) {
   }
 }
 
+void TrackReader::AddEvent(const WireMessage& message) {
+  const Result<Event> event = DecodeEvent(message);
+  if (!event) {
+    return;
+  }
+  if (event->kind == EventKind::kDecision && decision_) {
+    const Answerable answered = *std::exchange(decision_, std::nullopt);
+    if (!IsRefusal(*event)) {
+      SetRefused(answered.site_id, answered.refused, event->time);
+    }
+  }
+  record_.events.push_back(*event);
+}
+
+void TrackReader::SetRefused(std::uint64_t site_id, bool refused, Timestamp time) {
+  std::vector<std::uint64_t> ids;
+  if (!record_.refusals.empty()) {
+    ids = record_.refusals.back().site_ids;
+  }
+  const bool was = std::erase(ids, site_id) > 0;
+  if (refused) {
+    ids.push_back(site_id);
+  }
+  if (was != refused) {
+    record_.refusals.push_back({time, std::move(ids)});
+  }
+}
+
 void TrackReader::AddStatus(const WireMessage& message) {
-  const Result<FlightRecordSample> sample = DecodeStationStatus(message);
+  Result<FlightRecordSample> sample = DecodeStationStatus(message);
   if (!sample) {
     return;
   }
+  sample->armed = IsBound(sample->state) ? armed_ : -1;
+  sample->new_map = std::exchange(new_map_, false);
+  NoteTouchdown(*sample);
   record_.samples.push_back(*sample);
-  record_.samples.back().armed = IsBound(sample->state) ? armed_ : -1;
+}
+
+void TrackReader::NoteTouchdown(const FlightRecordSample& sample) {
+  // A log that begins on the ground does not tell how the vehicle came there.
+  const bool flew =
+      !record_.samples.empty() && record_.samples.back().state != MissionState::kLanded;
+  const LandingSite* site = record_.ArmedAt(sample);
+  if (flew && sample.state == MissionState::kLanded && site != nullptr) {
+    record_.touchdowns.push_back({sample.time, site->p_WS, sample.distance_to_site_m});
+  }
 }
 
 }  // namespace palace

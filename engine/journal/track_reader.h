@@ -1,6 +1,7 @@
 // TrackReader: gathers what a flight decided from the station's own messages in its log.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,7 +12,8 @@
 namespace palace {
 
 /// Messages in log order. Damaged ones are passed over. A selected site is the one of that id in
-/// the newest proposal before the selection.
+/// the newest proposal before the selection. A refusal or an approval counts when the station's
+/// next word on a decision does not take it back.
 class TrackReader {
  public:
   TrackReader(const ChannelNames& channels, FlightRecord& record)
@@ -23,11 +25,21 @@ class TrackReader {
   void AddProposal(const WireMessage& message);
   void AddDecision(const WireMessage& message);
   void AddStatus(const WireMessage& message);
+  void AddEvent(const WireMessage& message);
+  void NoteTouchdown(const FlightRecordSample& sample);
+  void SetRefused(std::uint64_t site_id, bool refused, Timestamp time);
 
   const ChannelNames& channels_;
   FlightRecord& record_;
   std::vector<LandingSite> newest_sites_;
   int armed_ = -1;
+  /// Given, and not answered yet: RefuseSite or ApproveSite.
+  struct Answerable {
+    std::uint64_t site_id = 0;
+    bool refused = false;
+  };
+  std::optional<Answerable> decision_;
+  bool new_map_ = false;  // since the last status
 };
 
 }  // namespace palace

@@ -115,7 +115,10 @@ void FollowJump(MissionTurn& turn, const MissionInputs& in) {
   if (!m.facts.valid || (!in.vehicle.bundle.discontinuity && now >= m.facts.now)) {
     return;
   }
-  m.watch = StartsAnewAfterJump(in.session.role) ? InputWatch() : m.watch.AfterJump();
+  m.watch = FollowsRecord(in.session.role)
+                ? InputWatch::AsHeard(in.vehicle.channels, in.vehicle.bundle, now)
+            : StartsAnewAfterJump(in.session.role) ? InputWatch()
+                                                   : m.watch.AfterJump();
   m.shown.clear();
   m.winner = {};
   m.facts.now = m.sent_at = m.status.since = m.vision_good_at = m.ground_seen_at = now;

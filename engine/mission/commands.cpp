@@ -81,6 +81,9 @@ Status Obeying::operator()(const SelectSite& action) const {
   MissionMemory& m = turn.memory;
   const MissionState state = m.status.state;
   const LandingSite* site = FindSite(m, action.site_id);
+  if (!IsNamedSite(action.site_id)) {
+    return Refuse(turn, now, "Select", words::kPreviewOnly);
+  }
   // A refused site is never proposed again: a second look must not wait for that. It stays refused
   // until it is approved.
   if (!m.status.TakesSelection(action.site_id)) {
@@ -129,6 +132,9 @@ Status Obeying::operator()(const RefuseSite& action) const {
   const MissionState state = m.status.state;
   const LandingSite* site = FindSite(m, action.site_id);
   const bool armed = state == MissionState::kArmed && m.status.armed->id == action.site_id;
+  if (!IsNamedSite(action.site_id)) {
+    return Refuse(turn, now, "Refuse", words::kPreviewOnly);
+  }
   if (state != MissionState::kProposed && state != MissionState::kArmed) {
     return Refuse(turn, now, "Refuse",
                   IsFlying(state) ? words::kApprovedHold : words::kNoneProposed);
@@ -216,11 +222,13 @@ Status Obeying::operator()(const AcknowledgeWaveOff&) const {
 }
 
 Status Obeying::operator()(const AcknowledgeAlarm& action) const {
+  AlarmBoard& board = turn.memory.alarms;
   const std::optional<AlarmId> id = AlarmFromName(action.alarm);
-  if (!id || !turn.memory.alarms.Acknowledge(*id)) {
-    return Refuse(turn, now, "Acknowledge", words::NoAlarm(action.alarm));
+  const std::string told = id ? board.LastText(*id) : std::string();
+  if (!id || !board.Acknowledge(*id)) {
+    return Refuse(turn, now, "Acknowledge", words::NotStanding(told));
   }
-  AddEvent(turn, now, EventKind::kAlarm, "Acknowledged: " + action.alarm);
+  AddEvent(turn, now, EventKind::kAlarm, words::Acknowledged(told));
   return Ok();
 }
 

@@ -1,5 +1,7 @@
 #include "engine/mission/descent_limits.h"
 
+#include "engine/core/text.h"
+#include "engine/mission/alarms/alarms.h"
 #include "engine/mission/geometry.h"
 #include "engine/mission/limits.h"
 #include "engine/model/wind.h"
@@ -58,19 +60,37 @@ DescentFigures FiguresOf(const MissionMemory& m, Timestamp now) {
   f.residual_sigma = navigation.vision.residual_sigma;
   f.max_residual_sigma = navigation.vision.max_residual_sigma;
   f.wind_mps = KnownWind(m, now);
+  f.max_wind_mps = m.facts.settings.mission.max_wind_mps;
   if (site != nullptr && WindHasDirection(f.wind_mps)) {
     f.off_wind_rad = std::abs(WrapAngle(PathTo(m, *site).heading_rad - vehicle->wind_from_rad));
   }
   return f;
 }
 
+/// A figure of the site as its newest map shows it: who acts on it now.
+void Enforce(const MissionMemory& m, LimitRow& row) {
+  const bool descends = m.status.state == MissionState::kDescending;
+  if (row.enforced_by == EnforcedBy::kNobody) {
+    return;
+  }
+  // Landed on it, or flies away from it, or so low that the last verdict stands.
+  if (!WatchesSite(m) || (descends && IsCommitted(m))) {
+    row.enforced_by = EnforcedBy::kNobody;
+    row.over = false;
+  } else if (IsFlying(m.status.state)) {
+    row.enforced_by = EnforcedBy::kHold;
+    row.lasts = WithNumbers("%.1f s, or ", SiteWatch::kLostAfter_s) +
+                WithNumbers("%.0f of %.0f maps", SiteWatch::kLostMaps, SiteWatch::kMapsKept);
+  }
+}
+
 }  // namespace
 
-LimitRow WindLimit(double wind_mps, EnforcedBy by) {
+LimitRow WindLimit(double wind_mps, double max_wind_mps, EnforcedBy by) {
   return Judged({.id = LimitId::kWind,
                  .label = "Wind",
                  .value = wind_mps,
-                 .limit = DescentLimits::wind_mps,
+                 .limit = max_wind_mps,
                  .unit = "m/s",
                  .enforced_by = std::isfinite(wind_mps) ? by : EnforcedBy::kNobody});
 }
@@ -106,7 +126,7 @@ std::vector<LimitRow> LimitsOfDescent(const DescentFigures& f) {
                   .unit = "σ",
                   .decimals = 2,
                   .enforced_by = f.tracked ? EnforcedBy::kAlarm : EnforcedBy::kNobody}),
-          WindLimit(f.wind_mps, before_and_in),
+          WindLimit(f.wind_mps, f.max_wind_mps, before_and_in),
           Judged({.id = LimitId::kOffWind,
                   .label = "Approach off wind",
                   .value = f.off_wind_rad,
@@ -162,14 +182,12 @@ void PublishLimits(MissionMemory& m, Timestamp now) {
   if (m.status.armed && (m.newest || !m.site.evaluated())) {
     std::vector<LimitRow> site =
         SiteLimits(m.newest ? *m.newest : *m.status.armed, m.facts.settings.slad);
-    if (!WatchesSite(m)) {  // landed on it, or flies away from it
-      for (LimitRow& row : site) {
-        row.enforced_by = EnforcedBy::kNobody;
-        row = Judged(row);
-      }
+    for (LimitRow& row : site) {
+      Enforce(m, row);
     }
     add(site);
   }
+  add(LimitsOfHolds(HoldFactsAt(m, now)));
   add(LimitsOfCameras(m.facts.stereo, m.facts.range_agreement, m.pictures.standing(),
                       m.status.state));
 }

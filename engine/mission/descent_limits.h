@@ -10,6 +10,8 @@
 //   residual       alarm; the position filter refuses such a measurement
 //   off wind       for information: no landing was tried that would tell what matters
 //   cameras        alarms, at the AlarmLimits; rows apart also block approve (G3)
+//   holds          ages and times of the alarm table that hold a descent (LimitsOfHolds), and the
+//                  site's figures while it is flown to
 #pragma once
 
 #include <cmath>
@@ -23,7 +25,6 @@
 namespace palace {
 
 struct DescentLimits {
-  static constexpr double wind_mps = 8;      ///< the R-50's controllers hold a hover in it
   static constexpr double off_path_m = 1.2;  ///< of B from the path
   static constexpr double rate_share = 1.5;  ///< of the approved descent rate
   static constexpr double off_wind_rad = Rad(60);
@@ -46,11 +47,12 @@ struct DescentFigures {
   double residual_sigma = NAN;
   double max_residual_sigma = NAN;
   double wind_mps = NAN;  ///< NaN: unknown or stale
+  double max_wind_mps = NAN;
   double off_wind_rad = NAN;
 };
 
 /// The wind as guard G15 sees it: for information while it is not known.
-LimitRow WindLimit(double wind_mps, EnforcedBy by);
+LimitRow WindLimit(double wind_mps, double max_wind_mps, EnforcedBy by);
 std::vector<LimitRow> LimitsOfDescent(const DescentFigures& figures);
 /// `standing`: the faults that three pairs in a row have shown.
 std::vector<LimitRow> LimitsOfCameras(const StereoQuality& stereo, const RangeAgreement& range,

@@ -70,15 +70,13 @@ void PlanApproach(MissionMemory& m) {
 }
 
 FlightPath PathTo(const MissionMemory& m, const LandingSite& site) {
+  const PathVehicle vehicle{m.facts.p_BC, m.facts.settings.slad.lander.skid_centre_B(),
+                            m.facts.settings.mission.settle_s};
   if (m.status.approval) {
-    return PathOf(*m.status.approval, m.facts.p_BC);
+    return PathOf(*m.status.approval, vehicle);
   }
-  const ApproachPlan plan = m.status.approach ? *m.status.approach : StraightPlan(m, site.p_WS);
-  return {site.p_WS,
-          plan.heading_rad,
-          plan.glide_slope_rad,
-          m.facts.p_BC,
-          {.sink_mps = plan.descent_rate_mps}};
+  return PathOf(m.status.approach ? *m.status.approach : StraightPlan(m, site.p_WS), site.p_WS,
+                vehicle);
 }
 
 const LandingSite* SiteInQuestion(const MissionMemory& m) {
@@ -132,7 +130,7 @@ std::optional<double> TrueTouchdownMiss(const MissionMemory& m, const MissionInp
   if (truth.empty()) {
     return std::nullopt;
   }
-  const Eigen::Vector3d skid_W = truth.back().X_WB * SkidCentreBody();
+  const Eigen::Vector3d skid_W = truth.back().X_WB * m.facts.settings.slad.lander.skid_centre_B();
   return (skid_W - m.status.armed->p_WS).head<2>().norm();
 }
 

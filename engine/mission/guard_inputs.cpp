@@ -79,6 +79,7 @@ GuardInputs GuardInputsAt(const MissionMemory& m, Timestamp now) {
   in.source_reason = WhyNotThisSource(m.facts);
   in.arm_window_s = m.facts.settings.mission.arm_window_s;
   in.wind_mps = KnownWind(m, now);
+  in.max_wind_mps = m.facts.settings.mission.max_wind_mps;
   if (m.status.armed) {
     JudgeArmedSite(m, now, in);
   }

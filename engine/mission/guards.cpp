@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "engine/core/rounding.h"
 #include "engine/core/text.h"
 #include "engine/mission/descent_limits.h"
 #include "engine/mission/wording.h"
@@ -67,7 +68,7 @@ std::string WhyNotShown(const GuardInputs& in, const Limit& limit) {
   }
   return in.shown_for_s >= limit.value
              ? ""
-             : WithNumbers("Evidence on screen for %.1f s, min ", in.shown_for_s) +
+             : WithNumbers("Evidence on screen for %.1f s, min ", TenthsDown(in.shown_for_s)) +
                    LimitWords(limit);
 }
 
@@ -113,7 +114,7 @@ std::string WhyNotInTime(const GuardInputs& in, const Limit& limit) {
 }
 
 std::string WhyWindy(const GuardInputs& in, const Limit& limit) {
-  return WindLimit(in.wind_mps, EnforcedBy::kGuard).over
+  return WindLimit(in.wind_mps, limit.value, EnforcedBy::kGuard).over
              ? WithNumbers("Wind %.1f m/s, max ", in.wind_mps) + LimitWords(limit)
              : "";
 }
@@ -198,7 +199,8 @@ const std::array<GuardRow, kGuardCount> kGuards = {{
     {.id = GuardId::kWind,
      .words = "Wind inside limit",
      .of_station = true,
-     .limit = {DescentLimits::wind_mps, "m/s"},
+     .limit = {NAN, "m/s"},
+     .limit_from = &GuardInputs::max_wind_mps,
      .why = WhyWindy},
 }};
 

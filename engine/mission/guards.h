@@ -55,6 +55,7 @@ struct GuardInputs {
   double armed_for_s = NAN;
   double arm_window_s = NAN;
   double wind_mps = NAN;  ///< NaN: not known, or stale; then it blocks nothing
+  double max_wind_mps = NAN;
 };
 GuardInputs GuardInputsAt(const MissionMemory& memory, Timestamp now);
 

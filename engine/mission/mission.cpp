@@ -43,18 +43,23 @@ void Mission::DropApproval(std::string_view why) {
 }
 
 void Mission::AddEvent(Timestamp time, EventKind kind, std::string text) {
+  Tell({time, kind, std::move(text)});
+}
+
+void Mission::Tell(Event event) {
   std::vector<Event>& events = events_.Edit();
   if (events.size() >= kMostEvents) {
     events.erase(events.begin(), events.begin() + kMostEvents / 2);
   }
-  events.push_back({time, kind, std::move(text), ++events_told_});
+  event.number = ++events_told_;
+  events.push_back(std::move(event));
 }
 
 std::vector<VehicleMessage> Mission::TakeMessages() { return std::exchange(outbox_, {}); }
 
 void Mission::Take(MissionEffects effects) {
   for (Event& event : effects.events) {
-    AddEvent(event.time, event.kind, std::move(event.text));
+    Tell(std::move(event));
   }
   for (VehicleMessage& message : effects.messages) {
     outbox_.push_back(std::move(message));

@@ -47,6 +47,7 @@ class Mission {
 
  private:
   void Take(MissionEffects effects);
+  void Tell(Event event);
 
   MissionOptions options_;
   MissionMemory memory_;

@@ -17,7 +17,7 @@ void PublishAlarms(MissionTurn& turn, const MissionInputs& in) {
   MissionMemory& m = turn.memory;
   m.alarms.Update(EvaluateAlarms(AlarmFactsAt(m, in)), in.session.now);
   for (const Alarm& alarm : m.alarms.raised()) {
-    AddEvent(turn, in.session.now, EventKind::kAlarm, alarm.text);
+    AddEvent(turn, in.session.now, alarm);
   }
   m.status.alarms = m.alarms.Shown();
 }
@@ -40,7 +40,7 @@ void RaiseAtOnce(MissionTurn& turn, Timestamp now) {
   }
   m.alarms.Update(conditions, now);
   for (const Alarm& alarm : m.alarms.raised()) {
-    AddEvent(turn, now, EventKind::kAlarm, alarm.text);
+    AddEvent(turn, now, alarm);
   }
 }
 

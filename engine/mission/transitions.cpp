@@ -27,6 +27,11 @@ void AddEvent(MissionTurn& turn, Timestamp time, EventKind kind, std::string tex
   turn.effects.events.push_back({time, kind, std::move(text)});
 }
 
+void AddEvent(MissionTurn& turn, Timestamp time, const Alarm& alarm) {
+  turn.effects.events.push_back(
+      {.time = time, .kind = EventKind::kAlarm, .text = alarm.text, .level = alarm.level});
+}
+
 void Send(MissionTurn& turn, VehicleMessage message) {
   if (MaySend(turn.memory.facts.role)) {
     turn.effects.messages.push_back(std::move(message));

@@ -16,6 +16,8 @@ struct MissionTurn {
 };
 
 void AddEvent(MissionTurn& turn, Timestamp time, EventKind kind, std::string text);
+/// An alarm rose, or grew worse.
+void AddEvent(MissionTurn& turn, Timestamp time, const Alarm& alarm);
 /// Queues a message, unless the session's role forbids it.
 void Send(MissionTurn& turn, VehicleMessage message);
 /// Sends it now, and by Repeat until the vehicle answers it.

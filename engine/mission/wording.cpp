@@ -4,6 +4,7 @@
 
 #include "engine/core/text.h"
 #include "engine/mission/limits.h"
+#include "engine/model/mission/alarm_text.h"
 
 namespace palace::words {
 namespace {
@@ -30,7 +31,11 @@ std::string VehicleHolds(const std::string& reason) {
   return reason.empty() ? kVehicleHolds : kVehicleHolds + (": " + reason);
 }
 
-std::string NoAlarm(std::string_view name) { return "No alarm '" + std::string(name) + "'"; }
+std::string Acknowledged(const std::string& text) { return "Acknowledged: " + AlarmSubject(text); }
+std::string NotStanding(const std::string& text) {
+  return text.empty() ? "No such alarm stands"
+                      : "\"" + AlarmSubject(text) + "\" does not stand any more";
+}
 
 std::string CannotSelectIn(MissionState state) {
   return std::string("No site can be selected in state ") + MissionStateWord(state);

@@ -42,6 +42,7 @@ inline constexpr const char* kNoScript =
 inline constexpr const char* kNoDescent = "No descent to hold";
 inline constexpr const char* kNoWaveOff = "No wave-off to acknowledge";
 inline constexpr const char* kNotOnMap = "That site is not on the newest map";
+inline constexpr const char* kPreviewOnly = "That place has no letter: only a preview shows it";
 inline constexpr const char* kPlaceUnknown = "The place of that site is not known";
 inline constexpr const char* kNoneSelected = "No site is selected";
 inline constexpr const char* kNoneProposed = "No site is proposed";
@@ -59,7 +60,9 @@ std::string AskedForCommand(const AskForCommand& action, const std::string& hold
 std::string CommandLostTo(const std::string& why);
 /// "Vehicle holds by itself: estimate and GPS part", or without a reason.
 std::string VehicleHolds(const std::string& reason);
-std::string NoAlarm(std::string_view name);
+/// `text`: of the alarm, in whose words the event names it; empty: it was never told.
+std::string Acknowledged(const std::string& text);
+std::string NotStanding(const std::string& text);
 std::string CannotSelectIn(MissionState state);
 std::string NotTheArmedOne(const MissionStatus& status);
 

@@ -31,11 +31,11 @@ struct ChannelHealth {
   ChannelId id = ChannelId::kCameraLeft;
   State state = State::kNever;
   double age_s = NAN;  ///< NaN when never
-  double rate_hz = 0;
+  double rate_hz = 0;  ///< of messages, by their stamps: channel_age.h
   double expected_hz = 0;
-  std::uint64_t count = 0;
-  std::uint64_t lost = 0;
-  std::string note;  ///< e.g. "± 2.6 m"
+  std::uint64_t count = 0;  ///< that came, overtaken ones too
+  std::uint64_t lost = 0;   ///< missing between those that came
+  std::string note;         ///< e.g. "± 2.6 m"
   /// Share of the last 5 s that is missing, by the channel's own beat; NaN: not known.
   double lost_share = NAN;
 };

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "engine/model/mission/approve_offer.h"
+
 namespace palace {
 namespace {
 
@@ -20,16 +22,21 @@ ChannelHealth::State StateAt(double age_s, double expected_hz) {
              : ChannelHealth::State::kFresh;
 }
 
-double RateAt(double age_s, double mean_period_s) {
-  return !(mean_period_s > 0) ? 0
-                              : 1 / (age_s > kFreshPeriods * mean_period_s ? age_s : mean_period_s);
+double RateAt(double age_s, double stamped_hz, double expected_hz) {
+  if (StateAt(age_s, expected_hz) != ChannelHealth::State::kStale) {
+    return stamped_hz;
+  }
+  const double came = std::max(1.0, stamped_hz * (kRateWindow_s - age_s));
+  return std::min(stamped_hz, came / std::max(kRateWindow_s, age_s));
 }
 
 ChannelHealth After(ChannelHealth channel, double silent_s) {
   if (channel.state != ChannelHealth::State::kNever && silent_s > 0) {
     channel.age_s += silent_s;
-    channel.state = std::max(channel.state, StateAt(channel.age_s, channel.expected_hz));
-    channel.rate_hz = RateAt(channel.age_s, 1 / channel.rate_hz);
+    if (silent_s > kScreenOld_s) {
+      channel.rate_hz = NAN;
+      channel.state = std::max(channel.state, StateAt(channel.age_s, channel.expected_hz));
+    }
   }
   return channel;
 }

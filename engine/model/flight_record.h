@@ -1,6 +1,7 @@
 // FlightRecord: what a recorded flight decided at the time, for the Review timeline.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <string>
@@ -9,6 +10,7 @@
 #include <Eigen/Dense>
 
 #include "engine/core/time.h"
+#include "engine/model/channel.h"
 #include "engine/model/mission/mission_status.h"
 #include "engine/model/settings/settings.h"
 
@@ -28,7 +30,8 @@ struct FlightRecordSample {
   double height_m = NAN;              ///< body above the origin of W, up-positive
   int alarms = 0;                     ///< active
   bool vision_in_force = false;
-  int armed = -1;  ///< index into FlightRecord::armed_sites; -1: none armed
+  int armed = -1;        ///< index into FlightRecord::armed_sites; -1: none armed
+  bool new_map = false;  ///< a map came with it: the figures of the best site were measured now
 };
 
 /// Limits in force from a time on.
@@ -49,7 +52,21 @@ struct RecordedProposal {
   std::vector<RecordedPlace> places;
 };
 
-/// A stretch without a bundle, seconds after the first bundle.
+/// Ids of the places that stood refused from a time on.
+struct RecordedRefusals {
+  Timestamp from;
+  std::vector<std::uint64_t> site_ids;
+};
+
+/// Skid centre to the site at touchdown, horizontal.
+struct RecordedTouchdown {
+  Timestamp time;
+  Eigen::Vector3d p_WS{NAN, NAN, NAN};
+  double miss_m = NAN;       ///< by the estimate
+  double true_miss_m = NAN;  ///< by TRUTH; NaN where none is recorded
+};
+
+/// A stretch in which nothing was heard of vehicle or cameras, seconds after the first bundle.
 struct RecordGap {
   double from_s = 0;
   double to_s = 0;
@@ -57,16 +74,27 @@ struct RecordGap {
 
 struct FlightRecord {
   std::string path;
-  std::vector<FlightRecordSample> samples;  ///< in order of time; empty for foreign logs
-  std::vector<Event> events;                ///< in order of time
-  std::vector<RecordedProposal> proposals;  ///< in order of time
-  std::vector<LandingSite> armed_sites;     ///< as proposed when the operator selected them
-  std::vector<SettingsInForce> settings;    ///< in order of time; empty: none on record
+  std::vector<FlightRecordSample> samples;    ///< in order of time; empty for foreign logs
+  std::vector<Event> events;                  ///< in order of time
+  std::vector<RecordedProposal> proposals;    ///< in order of time
+  std::vector<LandingSite> armed_sites;       ///< as proposed when the operator selected them
+  std::vector<RecordedRefusals> refusals;     ///< in order of time
+  std::vector<RecordedTouchdown> touchdowns;  ///< in order of time
+  /// Times of the bundles with which each channel came, by ChannelId, in order.
+  std::array<std::vector<Timestamp>, kChannelCount> heard;
+  std::vector<SettingsInForce> settings;  ///< in order of time; empty: none on record
   Settings settings_at_start;
   bool has_settings = false;  ///< false: settings_at_start holds the defaults
   double start_s = 0;         ///< of the first bundle, seconds of data time
   double duration_s = 0;
   std::vector<RecordGap> gaps;  ///< longer than a second, in order of time
+
+  /// The site that was selected or flown to then; null without one.
+  const LandingSite* ArmedAt(const FlightRecordSample& sample) const {
+    const bool known =
+        sample.armed >= 0 && static_cast<std::size_t>(sample.armed) < armed_sites.size();
+    return known ? &armed_sites[static_cast<std::size_t>(sample.armed)] : nullptr;
+  }
 };
 
 }  // namespace palace

@@ -28,6 +28,9 @@ ArrivalNotes Joined(const ArrivalNotes& older, const ArrivalNotes& newer, bool j
   }
   joined.poses_invalid += older.poses_invalid;
   if (!jump_between) {
+    for (std::size_t i = 0; i < kChannelCount; ++i) {
+      joined.overtaken[i] += older.overtaken[i];
+    }
     joined.left_alone = newer.left_alone ? newer.left_alone : older.left_alone;
     joined.right_alone = newer.right_alone ? newer.right_alone : older.right_alone;
   }
@@ -46,6 +49,14 @@ FrameBundle WithoutPictures(const FrameBundle& bundle) {
 JoinedBundle Join(const FrameBundle& older, const FrameBundle& newer) {
   auto joined = std::make_shared<FrameBundle>(newer);
   JoinedBundle result;
+  const auto overtake = [&](ChannelId channel, std::size_t messages) {
+    joined->arrival.overtaken[static_cast<std::size_t>(channel)] += static_cast<int>(messages);
+  };
+  const auto prepend = [&](ChannelId channel, const auto& before, auto& samples) {
+    const std::size_t dropped = Prepend(before, samples);
+    result.samples_dropped += dropped;
+    overtake(channel, dropped);
+  };
   // Orders and answers are not of a moment: they outlive a jump in time.
   joined->recorded_commands.insert(joined->recorded_commands.begin(),
                                    older.recorded_commands.begin(), older.recorded_commands.end());
@@ -61,15 +72,20 @@ JoinedBundle Join(const FrameBundle& older, const FrameBundle& newer) {
   result.pair_replaced = older.stereo && (newer.stereo || newer.discontinuity);
   if (!newer.discontinuity) {
     joined->discontinuity = older.discontinuity;
-    result.samples_dropped += Prepend(older.poses, joined->poses);
-    result.samples_dropped += Prepend(older.imu, joined->imu);
-    result.samples_dropped += Prepend(older.gps, joined->gps);
-    result.samples_dropped += Prepend(older.laser, joined->laser);
+    prepend(ChannelId::kVehiclePose, older.poses, joined->poses);
+    prepend(ChannelId::kImu, older.imu, joined->imu);
+    prepend(ChannelId::kGps, older.gps, joined->gps);
+    prepend(ChannelId::kLaserRange, older.laser, joined->laser);
     result.samples_dropped += Prepend(older.truth, joined->truth);
     if (!joined->status) {
       joined->status = older.status;
+    } else {
+      overtake(ChannelId::kVehicleStatus, older.status ? 1 : 0);
     }
-    if (!joined->stereo && older.stereo) {
+    if (result.pair_replaced) {
+      overtake(ChannelId::kCameraLeft, 1);
+      overtake(ChannelId::kCameraRight, 1);
+    } else if (older.stereo) {
       joined->stereo = older.stereo;
       joined->pose_at_exposure = older.pose_at_exposure;
     }

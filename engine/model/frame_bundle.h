@@ -1,6 +1,7 @@
 // FrameBundle: one door into the engine. A stereo pair and all that arrived since the one before.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -8,6 +9,7 @@
 #include <vector>
 
 #include "engine/core/vehicle_clock.h"
+#include "engine/model/channel.h"
 #include "engine/model/command.h"
 #include "engine/model/image.h"
 #include "engine/model/refused_datagram.h"
@@ -36,6 +38,9 @@ struct ArrivalNotes {
   /// Stamp of the newest picture that came without its partner: which camera is lost.
   std::optional<Timestamp> left_alone, right_alone;
   int poses_invalid = 0;  ///< vehicle poses refused: attitude or place no numbers
+  /// Messages by ChannelId that came whole and that newer ones overtook here before anybody looked:
+  /// none of them was lost on the way.
+  std::array<int, kChannelCount> overtaken{};
   friend bool operator==(const ArrivalNotes&, const ArrivalNotes&) = default;
 };
 

@@ -13,6 +13,13 @@
 
 namespace palace {
 
+/// Ids from here on are of places that no list of the flight holds, only one under other limits (a
+/// preview, a re-decision). Their letters are "+1", "+2", of that one list, and no command takes
+/// them.
+inline constexpr std::uint64_t kFirstUnnamedSite = std::uint64_t{1} << 63;
+/// The place has a letter of the flight.
+constexpr bool IsNamedSite(std::uint64_t site_id) { return site_id < kFirstUnnamedSite; }
+
 /// A figure with three standard deviations, as every band on screen is.
 struct Figure {
   double value = 0;
@@ -28,8 +35,9 @@ struct TouchdownOdds {
 };
 
 struct LandingSite {
-  std::uint64_t id = 0;      ///< stays with the place for the whole mission
-  std::string letter = "A";  ///< A to Z, then A2 to Z2, ...; stays with the id, never given twice
+  std::uint64_t id = 0;  ///< stays with the place for the whole mission
+  /// A to Z, then A2 to Z2, ...; stays with the id, never given twice. "+1": IsNamedSite.
+  std::string letter = "A";
   Timestamp map_time;
   Cell cell;                                             ///< in the map it was chosen on
   Eigen::Vector3d p_WS = Eigen::Vector3d::Zero();        ///< site centre on the ground, NED metres

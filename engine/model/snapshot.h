@@ -77,6 +77,7 @@ struct HistorySample {
   double glide_deviation_m = NAN;
   std::string best_site;  ///< letter, empty: none
   double best_safe_distance_m = NAN;
+  bool new_map = false;     ///< a map came with it: the figures of the best site are of now
   bool rebuilding = false;  ///< replay: the map holds fewer frames than it held in flight
 };
 
@@ -148,6 +149,9 @@ struct TerrainPart {
   std::shared_ptr<const std::vector<RedecidedSample>> redecided;
   /// Replay: maps still to come after a jump until the map holds as many frames as in flight.
   int maps_to_rebuild = 0;
+  /// Why no map is made now though pictures come, for people, "On the ground no map is made";
+  /// empty: they are made.
+  std::string why_no_map;
 
   /// What the flight decided: in a replay under other limits not what is applied now.
   const std::shared_ptr<const TerrainDecision>& OfRecord() const {

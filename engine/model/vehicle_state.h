@@ -10,7 +10,6 @@
 
 #include "engine/core/frames.h"
 #include "engine/core/time.h"
-#include "engine/model/vehicle.h"
 #include "engine/model/view_pose.h"
 
 namespace palace {
@@ -35,9 +34,6 @@ struct LaserRange {
   Timestamp time;
   double range_m = 0;  ///< NaN when no return
 };
-
-/// The touchdown point of the default airframe in B, metres.
-inline Eigen::Vector3d SkidCentreBody() { return Airframe{}.skid_centre_B; }
 
 /// The autopilot's own navigation solution (GPS, IMU, AHRS).
 struct VehiclePose {

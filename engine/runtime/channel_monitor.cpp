@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 #include "engine/model/channel_age.h"
 
 namespace palace {
 namespace {
 
-constexpr double kPeriodSmoothing = 0.1;
 constexpr double kLostAfterPeriods = 1.5;
 constexpr std::size_t kPeriodsKept = 256;
 constexpr std::size_t kLeastPeriods = 20;  ///< no beat is told from fewer
@@ -34,6 +34,13 @@ void ChannelMonitor::Reset() {
   gps_sigma_m_ = 0;
 }
 
+void ChannelMonitor::RestoreHeard(
+    const std::array<std::optional<Timestamp>, kChannelCount>& heard) {
+  for (std::size_t i = 0; i < kChannelCount; ++i) {
+    watches_[i].heard_before = heard[i];
+  }
+}
+
 void ChannelMonitor::Saw(ChannelId channel, Timestamp stamp) {
   Watch& watch = Of(channel);
   if (watch.count > 0) {
@@ -41,19 +48,30 @@ void ChannelMonitor::Saw(ChannelId channel, Timestamp stamp) {
     if (period_s <= 0) {
       return;
     }
-    watch.periods_s.push_back(period_s);
-    if (watch.periods_s.size() > kPeriodsKept) {
+    const int came = 1 + watch.overtaken;
+    for (int i = 0; i < std::min<int>(came, kPeriodsKept); ++i) {
+      watch.periods_s.push_back(period_s / came);
+    }
+    while (watch.periods_s.size() > kPeriodsKept) {
       watch.periods_s.pop_front();
     }
-    watch.mean_period_s +=
-        (watch.mean_period_s == 0 ? 1 : kPeriodSmoothing) * (period_s - watch.mean_period_s);
     const double periods = period_s * watch.expected_hz;
-    if (periods > kLostAfterPeriods) {
-      watch.lost += static_cast<std::uint64_t>(std::lround(periods)) - 1;
+    if (periods > watch.overtaken + kLostAfterPeriods) {
+      watch.lost += static_cast<std::uint64_t>(std::lround(periods) - came);
     }
   }
   watch.last = stamp;
-  ++watch.count;
+  watch.count += 1 + static_cast<std::uint64_t>(std::exchange(watch.overtaken, 0));
+}
+
+double ChannelMonitor::Watch::Rate_hz() const {
+  double span_s = 0, got = 0;
+  for (auto p = periods_s.rbegin(); p != periods_s.rend() && span_s < kRateWindow_s; ++p) {
+    const double part = std::min(1.0, (kRateWindow_s - span_s) / *p);
+    span_s += part * *p;
+    got += part;
+  }
+  return span_s > 0 ? got / span_s : 0;
 }
 
 double ChannelMonitor::Watch::LostShare() const {
@@ -74,6 +92,9 @@ double ChannelMonitor::Watch::LostShare() const {
 
 void ChannelMonitor::Add(const FrameBundle& bundle, bool has_vehicle) {
   has_vehicle_ = has_vehicle;
+  for (std::size_t i = 0; i < kChannelCount; ++i) {
+    watches_[i].overtaken += bundle.arrival.overtaken[i];
+  }
   if (bundle.rig) {
     for (const ChannelId channel :
          {ChannelId::kCameraLeft, ChannelId::kCameraRight, ChannelId::kPositionEstimate}) {
@@ -138,9 +159,11 @@ std::vector<ChannelHealth> ChannelMonitor::Health(Timestamp now) const {
     health.count = watch.count;
     health.lost = watch.lost;
     health.lost_share = watch.LostShare();
-    health.age_s = watch.count > 0 ? SecondsBetween(watch.last, now) : NAN;
-    health.rate_hz = RateAt(health.age_s, watch.mean_period_s);
-    if (watch.count > 0) {
+    const std::optional<Timestamp> last =
+        watch.count > 0 ? std::optional(watch.last) : watch.heard_before;
+    health.age_s = last ? SecondsBetween(*last, now) : NAN;
+    health.rate_hz = RateAt(health.age_s, watch.Rate_hz(), watch.expected_hz);
+    if (last) {
       // The bundle itself adds up to one camera period to the age of what it carries.
       health.state = StateAt(std::max(0.0, health.age_s), watch.expected_hz);
     }

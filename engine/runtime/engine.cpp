@@ -18,7 +18,10 @@ Event NotSent(const VehicleMessage& message, Timestamp time) {
                      : std::holds_alternative<HoldRequest>(message) ? "A hold"
                      : std::holds_alternative<Approval>(message)    ? "An approval"
                                                                     : "A message to the vehicle";
-  return {time, EventKind::kAlarm, what + std::string(" could not be sent")};
+  return {.time = time,
+          .kind = EventKind::kAlarm,
+          .text = what + std::string(" could not be sent"),
+          .level = AlarmLevel::kWarning};
 }
 }  // namespace
 
@@ -239,13 +242,17 @@ void Engine::Record(RecordItem item) {
   const Written written =
       recorder_->RecordFirst(std::move(item), source_->IsLockstep(), kWriteFirst_s);
   if (written == Written::kLate) {
-    notes_.push_back({time, EventKind::kAlarm,
-                      "A decision was sent before it was written: the disk takes longer than "
-                      "0.1 s"});
-  } else if (written == Written::kNo) {
     notes_.push_back(
-        {time, EventKind::kAlarm,
-         "A decision was sent that could not be written before: " + recorder_->state().problem});
+        {.time = time,
+         .kind = EventKind::kAlarm,
+         .text = "A decision was sent before it was written: the disk takes longer than 0.1 s",
+         .level = AlarmLevel::kCaution});
+  } else if (written == Written::kNo) {
+    notes_.push_back({.time = time,
+                      .kind = EventKind::kAlarm,
+                      .text = "A decision was sent that could not be written before: " +
+                              recorder_->state().problem,
+                      .level = AlarmLevel::kCaution});
   }
 }
 

@@ -1,5 +1,9 @@
 #include "engine/runtime/flight_history.h"
 
+#include <cmath>
+
+#include "engine/model/mission/wave_off_offer.h"
+
 namespace palace {
 namespace {
 
@@ -9,8 +13,22 @@ double Horizontal(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
   return (from - to).head<2>().norm();
 }
 
-Eigen::Vector3d SkidOf(const Eigen::Vector3d& p_WB, const Eigen::Matrix3d& R_WB) {
-  return p_WB + R_WB * SkidCentreBody();
+Eigen::Vector3d SkidOf(const EngineSnapshot& snapshot, const Eigen::Vector3d& p_WB,
+                       const Eigen::Matrix3d& R_WB) {
+  return p_WB + R_WB * snapshot.session->settings.slad.lander.skid_centre_B();
+}
+
+/// Nothing of the vehicle's own motion was heard for so long. A session without a vehicle, whose
+/// channels never spoke, is not silent.
+bool IsVehicleSilent(const std::vector<ChannelHealth>& channels) {
+  double newest_s = NAN;
+  for (const ChannelId id :
+       {ChannelId::kVehiclePose, ChannelId::kImu, ChannelId::kGps, ChannelId::kVehicleStatus}) {
+    const ChannelHealth* channel = FindChannel(channels, id);
+    const bool heard = channel != nullptr && channel->state != ChannelHealth::State::kNever;
+    newest_s = heard ? std::fmin(newest_s, channel->age_s) : newest_s;
+  }
+  return newest_s > kLinkSilent_s;
 }
 
 void AddSiteFigures(HistorySample& sample, const EngineSnapshot& snapshot,
@@ -19,11 +37,12 @@ void AddSiteFigures(HistorySample& sample, const EngineSnapshot& snapshot,
   const LandingSite& site = *mission.armed;
   sample.height_above_site_m = mission.height_above_site_m;
   sample.from_site_m = mission.distance_to_site_m;
-  const Eigen::Vector3d by_gps = SkidOf(sample.gps_p_WB, R_WB);
+  const Eigen::Vector3d by_gps = SkidOf(snapshot, sample.gps_p_WB, R_WB);
   sample.gps_height_m = site.p_WS.z() - by_gps.z();
   sample.from_site_gps_m = Horizontal(by_gps, site.p_WS);
   if (snapshot.sensors->truth) {
-    const Eigen::Vector3d in_truth = SkidOf(sample.truth_p_WB, snapshot.sensors->truth->X_WB.R);
+    const Eigen::Vector3d in_truth =
+        SkidOf(snapshot, sample.truth_p_WB, snapshot.sensors->truth->X_WB.R);
     sample.truth_height_m = site.p_WS.z() - in_truth.z();
     sample.from_site_truth_m = Horizontal(in_truth, site.p_WS);
   }
@@ -59,17 +78,20 @@ HistorySample SampleOf(const EngineSnapshot& snapshot, const FrameBundle& bundle
     sample.estimate_p_WB = snapshot.sensors->pose->X_WB.p;
     sample.estimate_v_WB = snapshot.sensors->pose->v_WB;
   }
-  if (filter.running && filter.IsUnknown()) {
+  const bool silent = IsVehicleSilent(snapshot.sensors->channels);
+  if (silent || (filter.running && filter.IsUnknown())) {
     sample.estimate_p_WB = sample.estimate_v_WB = Eigen::Vector3d::Constant(NAN);
-    sample.estimate_sigma_m = filter.estimate.sigma_p_m;  // goes on growing
-    sample.descent_rate_sigma_mps = filter.estimate.sigma_v_mps.z();
+    if (filter.running) {
+      sample.estimate_sigma_m = filter.estimate.sigma_p_m;  // goes on growing
+      sample.descent_rate_sigma_mps = filter.estimate.sigma_v_mps.z();
+    }
   } else if (filter.running) {
     sample.estimate_p_WB = filter.estimate.p_WB;
     sample.estimate_v_WB = filter.estimate.v_WB;
     sample.estimate_sigma_m = filter.estimate.sigma_p_m;
     sample.descent_rate_sigma_mps = filter.estimate.sigma_v_mps.z();
   }
-  if (nav.gps.running && !nav.gps.IsUnknown()) {
+  if (nav.gps.running && !silent && !nav.gps.IsUnknown()) {
     sample.gps_p_WB = nav.gps.estimate.p_WB;
   }
   if (snapshot.sensors->truth) {
@@ -79,20 +101,25 @@ HistorySample SampleOf(const EngineSnapshot& snapshot, const FrameBundle& bundle
   if (!bundle.laser.empty()) {
     // The beam runs along the optical axis: the height of the skids above its spot.
     const double skid_below_m =
-        SkidOf(sample.estimate_p_WB, R_WB).z() - snapshot.sensors->X_WC.p.z();
+        SkidOf(snapshot, sample.estimate_p_WB, R_WB).z() - snapshot.sensors->X_WC.p.z();
     sample.laser_m = bundle.laser.back().range_m * snapshot.sensors->X_WC.R(2, 2) - skid_below_m;
   }
   if (snapshot.flight->tracker.locked) {
     sample.coherence = snapshot.flight->tracker.coherence;
     sample.residual_sigma = nav.vision.residual_sigma;
   }
-  if (snapshot.terrain->applied && !snapshot.terrain->applied->selection.sites.empty()) {
-    sample.best_site = snapshot.terrain->applied->selection.sites.front().letter;
-    sample.best_safe_distance_m =
-        snapshot.terrain->applied->selection.sites.front().safe_distance_m;
+  const TerrainDecision* map = snapshot.terrain->applied.get();
+  const LandingSite* best =
+      map != nullptr ? snapshot.flight->mission.BestStanding(map->selection.sites) : nullptr;
+  if (best != nullptr) {
+    sample.best_site = best->letter;
+    sample.best_safe_distance_m = best->safe_distance_m;
   }
   if (snapshot.flight->mission.armed) {
     AddSiteFigures(sample, snapshot, R_WB);
+  }
+  if (silent) {
+    sample.height_above_site_m = sample.from_site_m = sample.glide_deviation_m = NAN;
   }
   return sample;
 }

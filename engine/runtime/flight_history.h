@@ -20,7 +20,9 @@ class FlightHistory {
   std::vector<HistorySample> samples_;
 };
 
-/// The history sample of a snapshot that is complete but for its history.
+/// The history sample of a snapshot that is complete but for its history. While the vehicle is
+/// silent for longer than the link may be (kLinkSilent_s), nothing of it is measured: no line goes
+/// on, the band of the filter still grows.
 HistorySample SampleOf(const EngineSnapshot& snapshot, const FrameBundle& bundle);
 
 }  // namespace palace

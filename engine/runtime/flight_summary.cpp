@@ -55,7 +55,8 @@ void FlightSummarizer::Add(const EngineSnapshot& snapshot) {
     }
   }
   if (!flying && snapshot.sensors->truth && summary_.site && !summary_.touchdown_miss_m) {
-    const Eigen::Vector3d skid = snapshot.sensors->truth->X_WB * SkidCentreBody();
+    const Eigen::Vector3d skid =
+        snapshot.sensors->truth->X_WB * snapshot.session->settings.slad.lander.skid_centre_B();
     summary_.touchdown_miss_m = (skid - summary_.site->p_WS).head<2>().norm();
   }
 }

@@ -35,6 +35,8 @@ void Pipeline::StartAfterJump(Timestamp now) {
   channels_.Reset();
   if (FollowsRecord(role_)) {
     role_ = SessionRole::kReplayedAfterJump;
+    channels_.RestoreHeard(mission_of_record_.HeardBefore(now));
+    restored_ = mission_of_record_.StatusAt(now, mission_.status());
   }
   if (const Settings* settings =
           FollowsRecord(role_) ? mission_of_record_.SettingsAt(now) : nullptr) {
@@ -103,7 +105,7 @@ std::shared_ptr<EngineSnapshot> Pipeline::NextSnapshot() const {
 }
 
 const MissionStatus& Pipeline::MissionInForce() const {
-  return !SeenFromStart(role_) && last_ ? last_->flight->mission : mission_.status();
+  return SeenFromStart(role_) ? mission_.status() : last_ ? last_->flight->mission : restored_;
 }
 
 void Pipeline::Judge(Pass& pass) {
@@ -217,7 +219,7 @@ void Pipeline::Decide(Pass& pass) {
                      .new_stereo = pass.new_stereo,
                      .range_agreement = snapshot.terrain->range_agreement,
                      .p_WB_estimate = estimate.p_WB,
-                     .skid_centre_W = estimate.p_WB + R_WB * SkidCentreBody()},
+                     .skid_centre_W = estimate.p_WB + R_WB * in_force.slad.lander.skid_centre_B()},
       .limits = {.settings = in_force,
                  .settings_hash = HashOf(in_force),
                  .calibration_hash = calibration_hash_},
@@ -266,7 +268,9 @@ PipelineOutput Pipeline::Publish(Pass& pass) {
   part.events = EventsAt(snapshot.time);
   const bool new_time = !last_ || last_->time != snapshot.time;
   if (new_time && pass.bundle) {
-    history_.Add(SampleOf(snapshot, *pass.bundle));
+    HistorySample sample = SampleOf(snapshot, *pass.bundle);
+    sample.new_map = pass.new_map;
+    history_.Add(std::move(sample));
   }
   snapshot.flight.Edit().history = history_.Publish();
   snapshot.decision_hash = DecisionHash(snapshot);

@@ -125,6 +125,7 @@ class Pipeline {
   SessionRole role_ = SessionRole::kNone;
   int maps_to_rebuild_ = 0;
   RecordedMission mission_of_record_;
+  MissionStatus restored_;  ///< by the record, where the last jump led
   SettingsState settings_;
   Redecisions redecisions_;
   Mission mission_;

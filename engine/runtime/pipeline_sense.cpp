@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/core/text.h"
 #include "engine/mission/watch/picture_watch.h"
 #include "engine/runtime/decision_hash.h"
 #include "engine/runtime/pipeline_pass.h"
@@ -12,6 +13,17 @@ namespace palace {
 namespace {
 
 constexpr double kPoseAge_s = 0.2;  // of the pose to a pair; an older one makes no map
+
+std::string WhyNoMap(const MissionStatus& mission, double commit_height_m) {
+  if (mission.state == MissionState::kLanded) {
+    return "On the ground no map is made";
+  }
+  const bool committed =
+      mission.state == MissionState::kDescending && mission.height_above_site_m < commit_height_m;
+  return committed
+             ? WithNumbers("Below %.1f m no map is made, the last verdict stands", commit_height_m)
+             : std::string();
+}
 
 }  // namespace
 
@@ -118,12 +130,13 @@ void Pipeline::MeasureRange(Pass& pass) {
     return;
   }
   const Settings& settings = settings_.recorded();
-  const MissionStatus& mission = MissionInForce();
-  const bool committed = mission.state == MissionState::kDescending &&
-                         mission.height_above_site_m < settings.slad.fusion.commit_height_m;
+  const std::string why_not = WhyNoMap(MissionInForce(), settings.slad.fusion.commit_height_m);
+  if (pass.snapshot->terrain->why_no_map != why_not) {
+    pass.snapshot->terrain.Edit().why_no_map = why_not;
+  }
   const bool due =
       stereo_frames_++ % static_cast<std::uint64_t>(settings.stereo.map_every_frames) == 0;
-  if (committed || !due || mission.state == MissionState::kLanded) {
+  if (!why_not.empty() || !due) {
     return;
   }
   const std::optional<ViewPose> pose = PoseOfPair(pass);

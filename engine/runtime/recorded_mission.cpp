@@ -7,27 +7,37 @@
 #include "engine/mission/alarms/alarms.h"
 
 namespace palace {
+namespace {
+
+std::optional<double> Known(double value) {
+  return std::isnan(value) ? std::nullopt : std::optional(value);
+}
+
+/// The last of `all`, in order of `time_of`, that is not after `time`; null without one.
+template <typename T>
+const T* NewestAt(const std::vector<T>& all, Timestamp T::*time_of, Timestamp time) {
+  const auto after =
+      std::upper_bound(all.begin(), all.end(), time,
+                       [&](Timestamp t, const T& entry) { return t < entry.*time_of; });
+  return after == all.begin() ? nullptr : &*(after - 1);
+}
+
+}  // namespace
 
 const FlightRecordSample* RecordedMission::At(Timestamp time) const {
   if (!record_ || record_->samples.empty()) {
     return nullptr;
   }
-  const auto& samples = record_->samples;
-  const auto after = std::upper_bound(
-      samples.begin(), samples.end(), time,
-      [](Timestamp t, const FlightRecordSample& sample) { return t < sample.time; });
-  return after == samples.begin() ? &samples.front() : &*(after - 1);
+  const FlightRecordSample* newest = NewestAt(record_->samples, &FlightRecordSample::time, time);
+  return newest != nullptr ? newest : &record_->samples.front();
 }
 
 const Settings* RecordedMission::SettingsAt(Timestamp time) const {
   if (!record_ || record_->settings.empty()) {
     return nullptr;
   }
-  const auto& all = record_->settings;
-  const auto after =
-      std::upper_bound(all.begin(), all.end(), time,
-                       [](Timestamp t, const SettingsInForce& entry) { return t < entry.from; });
-  return after == all.begin() ? &all.front().settings : &(after - 1)->settings;
+  const SettingsInForce* newest = NewestAt(record_->settings, &SettingsInForce::from, time);
+  return newest != nullptr ? &newest->settings : &record_->settings.front().settings;
 }
 
 bool RecordedMission::BeginsMidFlight() const {
@@ -52,12 +62,6 @@ std::shared_ptr<const std::vector<Event>> RecordedMission::EventsUntil(Timestamp
   return events_;
 }
 
-const LandingSite* RecordedMission::ArmedSite(const FlightRecordSample& sample) const {
-  const bool known =
-      sample.armed >= 0 && static_cast<std::size_t>(sample.armed) < record_->armed_sites.size();
-  return known ? &record_->armed_sites[static_cast<std::size_t>(sample.armed)] : nullptr;
-}
-
 std::vector<HistorySample> RecordedMission::HistoryBefore(Timestamp time) const {
   std::vector<HistorySample> history;
   if (!record_) {
@@ -74,14 +78,28 @@ std::vector<HistorySample> RecordedMission::HistoryBefore(Timestamp time) const 
     sample.from_site_m = recorded.distance_to_site_m;
     sample.best_site = recorded.best_site;
     sample.best_safe_distance_m = recorded.best_safe_distance_m;
+    sample.new_map = recorded.new_map;
     history.push_back(sample);
   }
   return history;
 }
 
+std::array<std::optional<Timestamp>, kChannelCount> RecordedMission::HeardBefore(
+    Timestamp time) const {
+  std::array<std::optional<Timestamp>, kChannelCount> heard;
+  for (std::size_t i = 0; record_ && i < kChannelCount; ++i) {
+    const std::vector<Timestamp>& times = record_->heard[i];
+    const auto from = std::lower_bound(times.begin(), times.end(), time);
+    if (from != times.begin()) {
+      heard[i] = *(from - 1);
+    }
+  }
+  return heard;
+}
+
 std::optional<LandingSite> RecordedMission::TrackedSite(Timestamp time) const {
   const FlightRecordSample* sample = At(time);
-  const LandingSite* site = sample ? ArmedSite(*sample) : nullptr;
+  const LandingSite* site = sample ? record_->ArmedAt(*sample) : nullptr;
   return site && sample->state != MissionState::kLanded ? std::optional(*site) : std::nullopt;
 }
 
@@ -94,10 +112,18 @@ MissionStatus RecordedMission::StatusAt(Timestamp time, const MissionStatus& wat
   status.state = sample->state;
   status.since = First(*sample, &FlightRecordSample::state).time;
   status.why = "As recorded";
-  if (const LandingSite* site = ArmedSite(*sample)) {
+  if (const LandingSite* site = record_->ArmedAt(*sample)) {
     status.armed = *site;
     const Settings* limits = SettingsAt(First(*sample, &FlightRecordSample::armed).time);
     status.armed_limits = SiteLimits(*site, (limits ? *limits : record_->settings_at_start).slad);
+  }
+  if (const auto* refused = NewestAt(record_->refusals, &RecordedRefusals::from, time)) {
+    status.refused_sites = refused->site_ids;
+  }
+  const auto* touchdown = NewestAt(record_->touchdowns, &RecordedTouchdown::time, sample->time);
+  if (touchdown != nullptr && sample->state == MissionState::kLanded) {
+    status.touchdown_miss_m = Known(touchdown->miss_m);
+    status.touchdown_miss_true_m = Known(touchdown->true_miss_m);
   }
   status.height_above_site_m = sample->height_above_site_m;
   status.distance_to_site_m = sample->distance_to_site_m;

@@ -5,6 +5,7 @@
 // Beside Mission, and asked instead of it where SeenFromStart(role) is false.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -26,9 +27,13 @@ class RecordedMission {
   const Settings* SettingsAt(Timestamp time) const;
   /// Plots of the flight before `time`, as far as the record tells.
   std::vector<HistorySample> HistoryBefore(Timestamp time) const;
+  /// When each channel was heard last before `time`; empty where the record does not tell, or it
+  /// never was.
+  std::array<std::optional<Timestamp>, kChannelCount> HeardBefore(Timestamp time) const;
   /// The site that was tracked and flown to; empty before it was armed and after the landing.
   std::optional<LandingSite> TrackedSite(Timestamp time) const;
-  /// The whole status by the record: state and since when, armed site, height, distance. Of
+  /// The whole status by the record: state and since when, armed site, refused sites, height,
+  /// distance, touchdown. Of
   /// `watched`, which Mission says of the pictures played, it takes what needs no past: the alarms
   /// of channels and cameras, and the limits of the cameras. Without a sample: `watched`.
   MissionStatus StatusAt(Timestamp time, const MissionStatus& watched) const;
@@ -36,7 +41,6 @@ class RecordedMission {
  private:
   /// The newest sample not after `time`; null without a record.
   const FlightRecordSample* At(Timestamp time) const;
-  const LandingSite* ArmedSite(const FlightRecordSample& sample) const;
   /// The first of the samples in a row, up to this one, in which that field is the same.
   template <typename T>
   const FlightRecordSample& First(const FlightRecordSample& sample,

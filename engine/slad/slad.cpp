@@ -84,6 +84,7 @@ std::shared_ptr<const TerrainDecision> Slad::Decide(const Settings& settings, Le
   decision->settings_hash = HashOf(settings);
   decision->map_hash = HashOfMaps(*elevation_, *hazards);
   SiteRegistry copy = registry_;
+  copy.GiveNoLetters();
   SiteRegistry& registry = letters == Letters::kOfRecord ? registry_ : copy;
   decision->selection = registry.Select(*elevation_, *hazards, settings.slad, Context(settings));
   if (input_.view.range) {

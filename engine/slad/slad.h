@@ -39,7 +39,8 @@ struct SladInput {
 };
 
 /// Whose memory of sites a decision goes by and adds to: the flight's own, or a copy of it, so that
-/// a preview or a re-decision never changes it.
+/// a preview or a re-decision never changes it. A copy gives no letter: what it lists and the
+/// flight never listed is "+1", "+2" (IsNamedSite).
 enum class Letters { kOfRecord, kOfCopy };
 
 class Slad {

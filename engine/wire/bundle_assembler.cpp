@@ -122,7 +122,11 @@ Status BundleAssembler::TakeSample(const WireMessage& message) {
     return take(LaserFromWire(message), [&](LaserRange r) { keep_in(pending_.laser, r); });
   }
   if (channel == channels_.vehicle_status) {
-    return take(StatusFromWire(message), [&](VehicleStatus s) { pending_.status = s; });
+    return take(StatusFromWire(message), [&](const VehicleStatus& s) {
+      constexpr auto kIndex = static_cast<std::size_t>(ChannelId::kVehicleStatus);
+      pending_.arrival.overtaken[kIndex] += pending_.status ? 1 : 0;
+      pending_.status = s;
+    });
   }
   if (channel == channels_.authority) {
     return take(AuthorityFromWire(message), [&](AuthorityReport r) { pending_.authority = r; });

@@ -7,6 +7,10 @@
 namespace palace {
 namespace {
 
+/// Beyond the kinds of EventKind: alarms with their level, lowest first.
+constexpr int kFirstAlarmLevel = static_cast<int>(EventKind::kVehicle) + 1;
+constexpr int kLastKind = kFirstAlarmLevel + static_cast<int>(AlarmLevel::kWarning);
+
 /// Puts an action's fields into the message; one overload an action.
 struct ActionToWire {
   site_decision_t& m;
@@ -120,17 +124,24 @@ Result<EngineCommand> DecodeCommand(const WireMessage& message) {
 WireMessage EncodeEvent(const Event& event, const ChannelNames& channels) {
   event_t m{};
   m.utime = event.time.us;
-  m.kind = static_cast<std::int8_t>(event.kind);
+  m.kind = static_cast<std::int8_t>(event.level ? kFirstAlarmLevel + static_cast<int>(*event.level)
+                                                : static_cast<int>(event.kind));
   m.text = event.text;
   return MakeMessage(channels.event, event.time, m);
 }
 
 Result<Event> DecodeEvent(const WireMessage& message) {
   return DecodeAnd<event_t>(message, [](const event_t& m) -> Result<Event> {
-    if (m.kind < 0 || m.kind > static_cast<int>(EventKind::kVehicle)) {
-      return InvalidError("event kind " + std::to_string(m.kind) + " is not one of 0..6");
+    if (m.kind < 0 || m.kind > kLastKind) {
+      return InvalidError("event kind " + std::to_string(m.kind) + " is not one of 0.." +
+                          std::to_string(kLastKind));
     }
-    return Event{{m.utime}, static_cast<EventKind>(m.kind), m.text};
+    Event event{{m.utime}, static_cast<EventKind>(m.kind), m.text};
+    if (m.kind >= kFirstAlarmLevel) {
+      event.kind = EventKind::kAlarm;
+      event.level = static_cast<AlarmLevel>(m.kind - kFirstAlarmLevel);
+    }
+    return event;
   });
 }
 

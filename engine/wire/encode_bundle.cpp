@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "engine/model/camera_numbers.h"
 #include "engine/wire/convert.h"
 #include "engine/wire/session_messages.h"
@@ -135,6 +137,7 @@ arrival_t ArrivalToWire(const ArrivalNotes& notes, Timestamp now) {
   m.right_alone = notes.right_alone.has_value();
   m.right_utime = notes.right_alone.value_or(Timestamp{}).us;
   m.poses_invalid = notes.poses_invalid;
+  std::copy(notes.overtaken.begin(), notes.overtaken.end(), m.overtaken);
   return m;
 }
 

@@ -114,12 +114,14 @@ Result<std::shared_ptr<const FrameBundle>> LcmSource::Next(std::stop_token stop)
 
 std::shared_ptr<const FrameBundle> LcmSource::Deliver() {
   last_delivery_s_ = options_.now_s();
+  const BusTraffic traffic = bus_->traffic();
+  bundles_.NoteOverflow(traffic);
   auto bundle = std::make_shared<FrameBundle>(*bundles_.HandOn(last_delivery_s_));
   for (std::vector<RefusedDatagram> refused : {bus_->TakeRefused(), refusals_.Take()}) {
     std::move(refused.begin(), refused.end(), std::back_inserter(bundle->refused));
   }
   Losses losses = bundles_.Count();
-  losses.bus = bus_->traffic();
+  losses.bus = traffic;
   losses.datagrams_refused = losses.bus.refused;
   const bool begins = !start_ || bundle->discontinuity;
   const std::lock_guard lock(mutex_);

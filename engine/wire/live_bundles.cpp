@@ -6,6 +6,21 @@
 #include "engine/core/plain_text.h"
 
 namespace palace {
+namespace {
+
+constexpr std::pair<std::string ChannelNames::*, ChannelId> kWatched[] = {
+    {&ChannelNames::camera_left, ChannelId::kCameraLeft},
+    {&ChannelNames::camera_right, ChannelId::kCameraRight},
+    {&ChannelNames::vehicle_pose, ChannelId::kVehiclePose},
+    {&ChannelNames::imu, ChannelId::kImu},
+    {&ChannelNames::gps, ChannelId::kGps},
+    {&ChannelNames::laser_range, ChannelId::kLaserRange},
+    {&ChannelNames::vehicle_status, ChannelId::kVehicleStatus}};
+
+constexpr auto kLeft = static_cast<std::size_t>(ChannelId::kCameraLeft);
+constexpr auto kRight = static_cast<std::size_t>(ChannelId::kCameraRight);
+
+}  // namespace
 
 LiveBundles::LiveBundles(ChannelNames channels, bool follow_simulation)
     : channels_(std::move(channels)),
@@ -58,6 +73,16 @@ void LiveBundles::MakeReady(std::shared_ptr<const FrameBundle> bundle) {
   ready_ = std::move(bundle);
 }
 
+void LiveBundles::NoteOverflow(const BusTraffic& traffic) {
+  for (const ChannelTraffic& channel : traffic.channels) {
+    for (const auto& [name, id] : kWatched) {
+      if (channels_.*name == channel.channel) {
+        overflowed_[static_cast<std::size_t>(id)] = channel.overflowed;
+      }
+    }
+  }
+}
+
 std::shared_ptr<const FrameBundle> LiveBundles::HandOn(double now_s) {
   auto bundle = std::make_shared<FrameBundle>(ready_ ? *std::exchange(ready_, nullptr)
                                                      : *assembler_.TakePending({}));
@@ -65,6 +90,10 @@ std::shared_ptr<const FrameBundle> LiveBundles::HandOn(double now_s) {
   for (CommandAck& ack : bundle->acks) {
     ack.reason = PlainText(ack.reason, kLongestReason);  // anybody's words, to be read by people
   }
+  for (std::size_t i = 0; i < kChannelCount; ++i) {
+    bundle->arrival.overtaken[i] += static_cast<int>(overflowed_[i] - overflow_told_[i]);
+  }
+  overflow_told_ = overflowed_;
   if (bundle->status) {
     clock_.FollowSimulation(follow_simulation_ && bundle->status->simulated);
   }
@@ -93,6 +122,10 @@ Losses LiveBundles::Count() const {
   losses.bundles_missing = report.bundles_lost;
   losses.samples_missing = report.samples_lost;
   losses.samples_overflowed += report.samples_overflowed;
+  for (std::size_t i = 0; i < kChannelCount; ++i) {
+    losses.samples_overflowed += i == kLeft || i == kRight ? 0 : overflowed_[i];
+  }
+  losses.pairs_replaced += std::max(overflowed_[kLeft], overflowed_[kRight]);
   losses.undecodable = report.undecodable_of;
   losses.other_version = report.other_version_of;
   losses.stamps_refused = report.stamps_refused;

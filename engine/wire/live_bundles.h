@@ -8,6 +8,7 @@
 // joined to the newest. Sequence numbers are its own.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -31,6 +32,8 @@ class LiveBundles {
   void Take(const WireMessage& message, double now_s);
   /// Why the last message was not decoded; empty when it was.
   const std::string& problem() const { return assembler_.problem(); }
+  /// What the receiver counts: messages of ours that waited until newer ones pushed them out.
+  void NoteOverflow(const BusTraffic& traffic);
   /// This machine did not run for so long until now; told with the next bundle.
   void Stalled(double seconds, double now_s) {
     stalled_s_ += seconds;
@@ -58,6 +61,8 @@ class LiveBundles {
   std::optional<Timestamp> last_time_;
   std::uint64_t sequence_ = 0;
   Losses joined_;  ///< what joining bundles that waited here left out
+  /// Messages pushed out in the receiver: since the session began, and told with a bundle.
+  std::array<std::uint64_t, kChannelCount> overflowed_{}, overflow_told_{};
 };
 
 }  // namespace palace

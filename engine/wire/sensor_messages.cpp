@@ -1,5 +1,8 @@
 #include "engine/wire/sensor_messages.h"
 
+#include <algorithm>
+#include <iterator>
+
 #include "engine/wire/wire_fields.h"
 #include "engine/wire/wire_pack.h"
 
@@ -92,10 +95,8 @@ Result<CommandAck> AckFromWire(const WireMessage& message) {
     if (m.result != 0 && m.result != 1) {
       return InvalidError("answer " + std::to_string(m.result) + " is neither 0 nor 1");
     }
-    return CommandAck{{m.utime},
-                      IdFromWire(m.command_id),
-                      static_cast<AckResult>(m.result),
-                      m.reason};
+    return CommandAck{
+        {m.utime}, IdFromWire(m.command_id), static_cast<AckResult>(m.result), m.reason};
   });
 }
 
@@ -117,6 +118,11 @@ Result<ArrivalNotes> ArrivalFromWire(const WireMessage& message) {
       notes.right_alone = Timestamp{m.right_utime};
     }
     notes.poses_invalid = m.poses_invalid;
+    static_assert(sizeof(m.overtaken) / sizeof(m.overtaken[0]) == kChannelCount);
+    std::copy(std::begin(m.overtaken), std::end(m.overtaken), notes.overtaken.begin());
+    if (*std::min_element(notes.overtaken.begin(), notes.overtaken.end()) < 0) {
+      return InvalidError("a count of overtaken messages is negative");
+    }
     return notes;
   });
 }

@@ -170,10 +170,12 @@ WireMessage EncodeStationStatus(const EngineSnapshot& snapshot, const ChannelNam
   m.settings_hash = WireId(snapshot.session->settings_hash);
   m.decision_hash = WireId(snapshot.decision_hash);
   m.best_safe_distance_m = NAN;
-  if (snapshot.terrain->applied && !snapshot.terrain->applied->selection.sites.empty()) {
-    const LandingSite& best = snapshot.terrain->applied->selection.sites.front();
-    m.best_site = best.letter;
-    m.best_safe_distance_m = best.safe_distance_m;
+  const TerrainDecision* map = snapshot.terrain->applied.get();
+  const LandingSite* best =
+      map != nullptr ? snapshot.flight->mission.BestStanding(map->selection.sites) : nullptr;
+  if (best != nullptr) {
+    m.best_site = best->letter;
+    m.best_safe_distance_m = best->safe_distance_m;
   }
   m.height_above_site_m = snapshot.flight->mission.height_above_site_m;
   m.distance_to_site_m = snapshot.flight->mission.distance_to_site_m;

@@ -85,7 +85,8 @@ void VisitFields(Reader& read, command_ack_t& m) {
 template <typename Reader>
 void VisitFields(Reader& read, arrival_t& m) {
   read(m.utime, m.has_clock, m.station_s, m.estimating, m.drift_ppm, m.jitter_s, m.stepped_s,
-       m.stalled_s, m.left_alone, m.left_utime, m.right_alone, m.right_utime, m.poses_invalid);
+       m.stalled_s, m.left_alone, m.left_utime, m.right_alone, m.right_utime, m.poses_invalid,
+       m.overtaken);
 }
 template <typename Reader>
 void VisitFields(Reader& read, truth_t& m) {
@@ -110,8 +111,8 @@ void VisitFields(Reader& read, site_t& m) {
   read(m.id, m.letter, m.map_utime, m.row, m.col, m.pos, m.normal, m.pixel, m.slope_rad,
        m.roughness_m, m.step_m, m.height_m, m.safe_distance_m, m.clear_radius_m, m.clearance_m,
        m.cost, m.safe_probability, m.touchdown_worst, m.touchdown_best, m.flags, m.unknown_cells,
-       m.frames_fused, m.confirmed, m.newest_confirms, m.corridor_clear, m.clear_approaches, m.age_s, m.distance_m,
-       m.reason);
+       m.frames_fused, m.confirmed, m.newest_confirms, m.corridor_clear, m.clear_approaches,
+       m.age_s, m.distance_m, m.reason);
 }
 template <typename Reader>
 void VisitFields(Reader& read, site_proposal_t& m) {

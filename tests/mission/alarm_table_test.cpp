@@ -5,32 +5,11 @@
 #include <set>
 
 #include "engine/mission/alarms/alarms.h"
+#include "tests/mission/measured_facts.h"
 #include "tests/mission/mission_rig.h"
 
 namespace palace {
 namespace {
-
-/// A descent on vision where every figure is measured and nothing is wrong yet.
-AlarmFacts AllMeasured() {
-  AlarmFacts f;
-  f.has_source = f.has_vehicle = f.heard_vehicle = f.on_vision = f.tracked = true;
-  f.left_camera_age_s = f.right_camera_age_s = f.pose_age_s = f.link_age_s = 0;
-  f.pair_age_s = f.ground_age_s = f.lost_percent = 0;
-  f.gps_error_m = f.row_error_px = f.laser_mismatch_m = 0;
-  f.exposure_ratio = f.exposure_factor = 1;
-  f.scale_error_percent = 0;
-  f.vision_outage_s = f.waiting_s = 0;
-  f.max_vision_outage_s = Settings{}.mission.max_vision_outage_s;
-  f.coherence = 1;
-  f.min_coherence = Settings{}.tracking.min_coherence;
-  f.off_path_m = f.off_centre_m = f.descent_rate_mps = f.residual_sigma = f.wind_mps = 0;
-  f.nav_error_m = 0.5;
-  f.max_descent_rate_mps = 1.5;
-  f.max_residual_sigma = 2;
-  f.state = MissionState::kDescending;
-  f.letter = 'A';
-  return f;
-}
 
 /// The text of this alarm under these facts; empty when it is not raised.
 std::string TextOf(const AlarmRow& row, const AlarmFacts& facts) {
@@ -121,6 +100,7 @@ TEST(AlarmTable, EachTextNamesTheLimitThatRaisesIt) {
     above.*row.value = 1.001 * limit.value;
     const std::string text = TextOf(row, below) + TextOf(row, above);
     EXPECT_NE(TextOf(row, below).empty(), TextOf(row, above).empty());
+    EXPECT_EQ(TextOf(row, above).empty(), row.less_is_worse);
     const std::string named = LimitWords(limit);
     EXPECT_NE(text.find(named), std::string::npos) << text << " / " << named;
     EXPECT_NEAR(std::stod(named), limit.value, 1e-9) << "rounded until it is another limit";
@@ -189,6 +169,7 @@ TEST(GuardTable, AgesTurnAtTheLimitOfTheRow) {
   fine.min_coherence = 0.7;
   fine.shown_for_s = fine.armed_for_s = 10;
   fine.arm_window_s = 60;
+  fine.max_wind_mps = 8;
   fine.site_letter = 'A';
   for (const Late& late : {Late{GuardId::kLink, &GuardInputs::link_age_s, false},
                            Late{GuardId::kAttitude, &GuardInputs::pose_age_s, false},

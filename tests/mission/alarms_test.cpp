@@ -1,6 +1,9 @@
 // Alarms: three samples to come and to go; a cause must end before an alarm disappears (I15).
+#include <cmath>
+
 #include <gtest/gtest.h>
 
+#include "engine/core/text.h"
 #include "engine/mission/alarms/alarm_board.h"
 
 namespace palace {
@@ -45,6 +48,37 @@ TEST(Alarms, ClearedButNotAcknowledgedStays) {
   EXPECT_FALSE(board.Shown()[0].active);
   EXPECT_TRUE(board.Acknowledge(AlarmId::kLink));
   EXPECT_TRUE(board.Shown().empty());
+}
+
+/// Off the path by so much; NaN: not beyond the limit.
+void FeedFigures(AlarmBoard& board, std::initializer_list<double> figures, bool less = false) {
+  for (const double figure : figures) {
+    const std::string words = WithNumbers("%.2f m", figure);
+    board.Update({{AlarmId::kOffPath, AlarmLevel::kCaution, std::isfinite(figure),
+                   "Off by " + words + ", limit 0.30 m.", false, figure, less, words}},
+                 {});
+  }
+}
+
+TEST(Alarms, KeepTheirWorstFigureAndWhenTheyAreOverTheWordsOfThatSample) {
+  for (const bool less : {false, true}) {
+    SCOPED_TRACE(less);
+    AlarmBoard board;
+    const double worst = less ? 0.31 : 0.62;
+    FeedFigures(board, {0.4, 0.4, 0.4, 0.45, worst, 0.35}, less);
+    ASSERT_EQ(board.Shown().size(), 1U);
+    EXPECT_EQ(board.Shown()[0].text, "Off by 0.35 m, limit 0.30 m.") << "while it stands, what is";
+    EXPECT_EQ(board.Shown()[0].worst, WithNumbers("%.2f m", worst));
+    FeedFigures(board, {NAN, NAN, NAN, NAN}, less);
+    EXPECT_EQ(board.Shown()[0].text, "Off by " + board.Shown()[0].worst + ", limit 0.30 m.");
+    // It comes again before anybody answered: the worst of both.
+    FeedFigures(board, {0.4, 0.4, 0.4, NAN, NAN, NAN}, less);
+    EXPECT_EQ(board.Shown()[0].count, 2);
+    EXPECT_EQ(board.Shown()[0].worst, WithNumbers("%.2f m", worst));
+    EXPECT_TRUE(board.Acknowledge(AlarmId::kOffPath));
+    FeedFigures(board, {0.4, 0.4, 0.4}, less);
+    EXPECT_EQ(board.Shown()[0].worst, "0.40 m") << "begun anew";
+  }
 }
 
 TEST(Alarms, AdvisoriesGoWithTheirCause) {

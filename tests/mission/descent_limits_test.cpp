@@ -229,6 +229,24 @@ TEST(CameraLimits, AreTheOnesThatRaiseTheirAlarms) {
   EXPECT_EQ(flying.enforced_by, EnforcedBy::kAlarm);
 }
 
+// What held the descent stands in the list, with value, limit and how long it must last.
+TEST(DescentLimits, TheFigureThatHeldTheDescentHasItsRow) {
+  MissionRig rig;
+  Descend(rig);
+  EXPECT_EQ(Row(rig, LimitId::kProbability).enforced_by, EnforcedBy::kHold);
+  EXPECT_EQ(Row(rig, LimitId::kProbability).lasts, "0.4 s, or 3 of 5 maps");
+  for (const LimitId id : {LimitId::kLeftCameraAge, LimitId::kPoseAge, LimitId::kGroundAge}) {
+    EXPECT_EQ(Row(rig, id).enforced_by, EnforcedBy::kHold);
+    EXPECT_FALSE(Row(rig, id).over);
+  }
+  rig.Site(101)->safe_probability = 0.308;
+  ASSERT_TRUE(rig.RunUntil(MissionState::kHold, 1));
+  EXPECT_NE(rig.mission.status().why.find("Safe probability 0.308"), std::string::npos)
+      << rig.mission.status().why;
+  EXPECT_EQ(Row(rig, LimitId::kProbability).value, 0.308);
+  EXPECT_TRUE(Row(rig, LimitId::kProbability).over);
+}
+
 // Landed, or flying away: nothing of the site or of its tracker is watched, and nothing says so.
 TEST(DescentLimits, OnTheGroundNoRowOfTheSiteClaimsAnEnforcer) {
   MissionRig rig;
@@ -236,7 +254,7 @@ TEST(DescentLimits, OnTheGroundNoRowOfTheSiteClaimsAnEnforcer) {
   ASSERT_TRUE(rig.ApproveNow().ok());
   ASSERT_TRUE(rig.RunUntil(MissionState::kDescending));
   EXPECT_EQ(FindLimit(rig.mission.status().limits, LimitId::kSlope)->enforced_by,
-            EnforcedBy::kGuard);
+            EnforcedBy::kHold);
   ASSERT_TRUE(rig.RunUntil(MissionState::kLanded));
   rig.Step();
   for (const LimitId id : {LimitId::kSlope, LimitId::kRoughness, LimitId::kClearRadius,

@@ -68,6 +68,10 @@ FrameBundle RandomBundle(RandomStream& random, std::uint64_t number) {
   return bundle;
 }
 
+int OvertakenOf(const FrameBundle& bundle, ChannelId channel) {
+  return bundle.arrival.overtaken[static_cast<std::size_t>(channel)];
+}
+
 TEST(Join, EverySampleOfEveryBundleIsKeptInOrder) {
   for (std::uint64_t seed = 0; seed < kTrials; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
@@ -81,10 +85,12 @@ TEST(Join, EverySampleOfEveryBundleIsKeptInOrder) {
     auto status = first.status;
     auto rig = first.rig;
     std::uint64_t pairs = first.stereo ? 1 : 0, replaced = 0;
+    int statuses = first.status ? 1 : 0;
     for (std::uint64_t number = 2; number < 6; ++number) {
       const FrameBundle next = RandomBundle(random, number);
       AddTo(sent, next);
       pairs += next.stereo ? 1 : 0;
+      statuses += next.status ? 1 : 0;
       stereo = next.stereo ? next.stereo : stereo;
       exposure = next.stereo ? next.pose_at_exposure : exposure;
       status = next.status ? next.status : status;
@@ -111,6 +117,10 @@ TEST(Join, EverySampleOfEveryBundleIsKeptInOrder) {
     }
     EXPECT_EQ(joined->rig, rig);
     EXPECT_EQ(replaced + (stereo ? 1 : 0), pairs);
+    EXPECT_EQ(OvertakenOf(*joined, ChannelId::kCameraLeft), static_cast<int>(replaced));
+    EXPECT_EQ(OvertakenOf(*joined, ChannelId::kCameraRight), static_cast<int>(replaced));
+    EXPECT_EQ(OvertakenOf(*joined, ChannelId::kVehicleStatus), std::max(statuses - 1, 0));
+    EXPECT_EQ(OvertakenOf(*joined, ChannelId::kImu), 0);
   }
 }
 
@@ -144,6 +154,8 @@ TEST(Join, AfterAJumpOnlyAnswersAndCommandsOfTheOldTimeCount) {
   EXPECT_FALSE(joined.bundle->status.has_value());
   EXPECT_EQ(joined.bundle->stereo, nullptr);
   EXPECT_TRUE(joined.pair_replaced);
+  EXPECT_EQ(OvertakenOf(*joined.bundle, ChannelId::kCameraLeft), 0)
+      << "of a time that is forgotten";
   EXPECT_EQ(joined.bundle->acks.size(), 1u);
   EXPECT_EQ(joined.bundle->recorded_commands.size(), 1u);
   EXPECT_EQ(joined.bundle->rig, older.rig);
@@ -158,6 +170,7 @@ TEST(Join, AStallIsBoundedAndCounted) {
   const JoinedBundle joined = Join(older, newer);
   EXPECT_EQ(joined.bundle->imu.size(), kMostSamplesInBundle);
   EXPECT_EQ(joined.samples_dropped, 3u);
+  EXPECT_EQ(OvertakenOf(*joined.bundle, ChannelId::kImu), 3);
   EXPECT_NE(joined.bundle->imu.front().time, Timestamp{1});
   EXPECT_EQ(joined.bundle->imu[kMostSamplesInBundle - 4].time, Timestamp{2});
 }

@@ -55,6 +55,17 @@ TEST(Settings, HashFollowsEveryValue) {
   }
 }
 
+// Flights recorded before a row existed keep the hash of their settings.
+TEST(Settings, ARowLaterThanTheRecordsCountsOnlyWhenChanged) {
+  EXPECT_EQ(HashOf(Settings{}), 0x3bf81316ed8497d8u);
+  Settings other;
+  other.slad.lander.gear_below_m = 0.3;
+  EXPECT_NE(HashOf(other), HashOf(Settings{}));
+  other.slad.lander.gear_below_m = 0.9;
+  other.mission.max_wind_mps = 9;
+  EXPECT_NE(HashOf(other), HashOf(Settings{}));
+}
+
 TEST(Settings, ShownWithTheirUnit) {
   EXPECT_EQ(FormatSetting(*FindSetting("slad.max_slope_deg"), 10), "10.0°");
   EXPECT_EQ(FormatSetting(*FindSetting("slad.max_deviation_m"), 0.08), "8.0 cm");

@@ -33,6 +33,7 @@ const std::set<std::pair<std::string, std::string>> kAllowed = {
     // How a number is written.
     {"gui/widgets/number_text.cpp", "age_s"},
     {"gui/widgets/readout.cpp", "age_s"},
+    {"gui/panels/review/review_plots.cpp", "age_s"},
     // Two rings that cover each other are drawn as one.
     {"gui/panels/terrain_views.cpp", "kSamePlace_m"},
     {"gui/widgets/map/camera_overlay.cpp", "clear_radius_m"},
@@ -48,6 +49,7 @@ const std::set<std::pair<std::string, std::string>> kAllowed = {
     {"gui/panels/review/review_timeline.cpp", "kSameRadius_m"},
     // How long a silence is drawn as a gap.
     {"gui/panels/review/review_timeline.cpp", "kGap_s"},
+    {"gui/panels/review/review_plots.cpp", "kMapGap_s"},
     // How long the window waits, or says something.
     {"gui/panels/wave_off.cpp", "kAnswerTime_s"},
     {"gui/panels/approve.cpp", "kAnswered_s"},

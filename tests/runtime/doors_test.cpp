@@ -179,6 +179,11 @@ TEST(Doors, ASlowEngineLosesPicturesOnlyAndCountsThem) {
   ASSERT_TRUE(engine.Stop());
 
   EXPECT_EQ(engine.Latest()->session->losses.pairs_replaced, 3u);
+  for (const ChannelId camera : {ChannelId::kCameraLeft, ChannelId::kCameraRight}) {
+    const ChannelHealth* channel = FindChannel(engine.Latest()->sensors->channels, camera);
+    EXPECT_EQ(channel->count, 5u);
+    EXPECT_EQ(channel->lost, 0u) << "overtaken is not lost";
+  }
   EXPECT_EQ(engine.Latest()->session->losses.samples_overflowed, 0u);
   EXPECT_EQ(tape->imu(), samples);
   EXPECT_EQ(tape->notes(), (std::vector<std::string>{"1", "2", "3", "4", "5"}));

@@ -9,7 +9,7 @@
 namespace palace {
 namespace {
 
-const FlightPath kPath{{12, -3, 0.4}, Rad(30), Rad(45), {0.9, 0, 0.3}};
+const FlightPath kPath{{12, -3, 0.4}, Rad(30), Rad(45), {0.9, 0, 0.3}, Lander{}.skid_centre_B()};
 
 EngineSnapshot FlyingAt(const Eigen::Vector3d& p_WB, VehicleMode mode) {
   EngineSnapshot snap;
@@ -57,6 +57,34 @@ TEST(FlightHistory, AnEstimateThatCoastedForTooLongIsABandWithoutALine) {
   EXPECT_TRUE(std::isnan(sample.estimate_p_WB.z()));
   EXPECT_TRUE(std::isnan(sample.descent_rate_mps));
   EXPECT_EQ(sample.estimate_sigma_m.z(), 12);
+}
+
+// Silence: what the last word said of the motion is no measurement of what came after.
+TEST(FlightHistory, WhileTheVehicleIsSilentNoLineGoesOn) {
+  EngineSnapshot snap = FlyingAt(kPath.BodyAt(10), VehicleMode::kDescend);
+  FilterStatus& gps = snap.flight.Edit().navigation.gps;
+  gps.running = true;
+  gps.estimate.p_WB = {1, 2, -3};
+  gps.estimate.sigma_p_m = {1, 1, 2};
+  gps.coasting_s = 1.2;
+  snap.flight.Edit().mission.height_above_site_m = 9;
+  const auto heard = [&](double age_s) {
+    snap.sensors.Edit().channels = {
+        {ChannelId::kVehiclePose, ChannelHealth::State::kStale, age_s, 0, 50, 1, 0, ""},
+        {ChannelId::kImu, ChannelHealth::State::kStale, age_s, 0, 200, 1, 0, ""},
+        {ChannelId::kLaserRange, ChannelHealth::State::kNever, NAN, 0, 20, 0, 0, ""}};
+    return SampleOf(snap, FrameBundle{});
+  };
+  EXPECT_EQ(heard(0.9).height_above_site_m, 9);
+  EXPECT_EQ(heard(0.9).estimate_p_WB.z(), -3);
+  const HistorySample silent = heard(1.1);
+  for (const double value : {silent.estimate_p_WB.z(), silent.descent_rate_mps,
+                             silent.height_above_site_m, silent.from_site_m, silent.gps_p_WB.z()}) {
+    EXPECT_TRUE(std::isnan(value));
+  }
+  EXPECT_EQ(silent.estimate_sigma_m.z(), 2) << "the band goes on";
+  snap.sensors.Edit().channels.clear();  // pictures alone: nobody is silent
+  EXPECT_EQ(SampleOf(snap, FrameBundle{}).estimate_p_WB.z(), -3);
 }
 
 TEST(FlightHistoryPath, EveryHeightIsOfTheSkidsAboveTheSite) {

@@ -129,5 +129,44 @@ TEST(RecordedMission, TellsTheRecordAndNothingOfAMissionThatWasNotSeen) {
   EXPECT_FALSE(mission.TrackedSite({4'000'000}).has_value());
 }
 
+TEST(RecordedMission, TellsTouchdownAndRefusedPlacesWhereverOneJumps) {
+  auto record = std::make_shared<FlightRecord>();
+  LandingSite site;
+  site.id = 7;
+  record->armed_sites = {site};
+  record->samples = {
+      At(1'000'000, MissionState::kProposed, -1), At(2'000'000, MissionState::kDescending, 0),
+      At(3'000'000, MissionState::kLanded, 0), At(9'000'000, MissionState::kLanded, 0)};
+  record->refusals = {{{1'500'000}, {4}}, {{2'500'000}, {}}};
+  record->touchdowns = {{{3'000'000}, site.p_WS, 0.46, NAN}};
+  RecordedMission mission;
+  mission.Follow(record);
+  const auto at = [&](std::int64_t us) { return mission.StatusAt({us}, {}); };
+  EXPECT_TRUE(at(1'000'000).refused_sites.empty());
+  EXPECT_EQ(at(2'000'000).refused_sites, std::vector<std::uint64_t>{4});
+  EXPECT_TRUE(at(3'000'000).refused_sites.empty());
+  EXPECT_FALSE(at(2'900'000).touchdown_miss_m.has_value());
+  for (const std::int64_t us : {3'000'000, 9'500'000}) {
+    EXPECT_EQ(at(us).touchdown_miss_m, 0.46) << us;
+    EXPECT_FALSE(at(us).touchdown_miss_true_m.has_value()) << us;
+  }
+}
+
+TEST(RecordedMission, TellsWhenEachChannelWasHeardLast) {
+  auto record = std::make_shared<FlightRecord>();
+  RecordedMission mission;
+  const auto left_before = [&](std::int64_t us) {
+    return mission.HeardBefore({us})[static_cast<std::size_t>(ChannelId::kCameraLeft)];
+  };
+  EXPECT_FALSE(left_before(5).has_value());
+  mission.Follow(record);
+  EXPECT_FALSE(left_before(5).has_value());
+  record->heard[static_cast<std::size_t>(ChannelId::kCameraLeft)] = {{10}, {20}, {30}};
+  EXPECT_FALSE(left_before(10).has_value());
+  EXPECT_EQ(left_before(20)->us, 10);
+  EXPECT_EQ(left_before(99)->us, 30);
+  EXPECT_FALSE(mission.HeardBefore({99})[1].has_value());
+}
+
 }  // namespace
 }  // namespace palace

@@ -207,6 +207,37 @@ TEST(SiteRegistry, TheSameMapAgainAndOtherLimitsOnACopyChangeNothing) {
   EXPECT_EQ(LettersOf(hover.See(Flat())), LettersOf(before));
 }
 
+// A preview lists places that the flight never listed: it must not call them by letters that the
+// flight gives to others.
+TEST(SiteRegistry, ACopyThatGivesNoLettersNamesNothingTheFlightDidNot) {
+  Hover hover;
+  const SiteSelection before = hover.SeeOften(5, Flat());
+  ElevationMap moved = MakeMap(100, 100, 0.15, Flat());
+  moved.geometry.north_min_m += 7.5;
+  moved.time = {1'000'000};
+  SiteRegistry copy = hover.registry_;
+  copy.GiveNoLetters();
+  hover.settings.lander.nav_error_m = 0.4;
+  const SiteSelection preview = hover.Judge(moved, copy);
+  hover.settings = {};
+  int known = 0, unnamed = 0;
+  for (const LandingSite& site : preview.sites) {
+    const LandingSite* same = Find(before, site.letter);
+    if (!IsNamedSite(site.id)) {
+      EXPECT_EQ(site.letter, "+" + std::to_string(++unnamed));
+      EXPECT_EQ(same, nullptr);
+    } else {
+      ++known;
+      ASSERT_NE(same, nullptr) << site.letter;
+      EXPECT_EQ(same->id, site.id);
+      EXPECT_EQ(same->p_WS.head<2>(), site.p_WS.head<2>()) << site.letter;
+    }
+  }
+  EXPECT_GT(unnamed, 0);
+  EXPECT_EQ(preview.named, before.named) << "no letter is spent";
+  EXPECT_EQ(hover.See(Flat(), 7.5).named >= before.named, true);
+}
+
 /// One letter a map: c confirmed, p provisional.
 TEST(SteadyVerdict, WorseCountsSoonerThanBetter) {
   const std::pair<const char*, const char*> rows[] = {

@@ -206,8 +206,28 @@ TEST(LiveBundles, OfPairsThatWaitOnlyTheNewestIsHeld) {
   EXPECT_EQ(bundles.Count().pairs_replaced, 39u) << "let go as they came";
   const auto bundle = bundles.HandOn(104);
   EXPECT_EQ(bundle->stereo->time.us, kVehicle_us + 195 * 20'000);
+  EXPECT_EQ(bundle->arrival.overtaken[0], 39) << "left";
+  EXPECT_EQ(bundle->arrival.overtaken[1], 39) << "right";
   EXPECT_GE(bundle->poses.size(), 195u);
   EXPECT_FALSE(bundles.ready());
+}
+
+// What the receiver's queues had no room for came whole: it is told once, and none of it is lost.
+TEST(LiveBundles, WhatWaitedInTheReceiverTooLongIsOvertaken) {
+  LiveBundles bundles({}, true);
+  BusTraffic traffic;
+  traffic.channels = {{.channel = "CAMERA_LEFT", .overflowed = 7},
+                      {.channel = "CAMERA_RIGHT", .overflowed = 6},
+                      {.channel = "IMU", .overflowed = 40},
+                      {.channel = "COMMAND", .overflowed = 9}};
+  bundles.NoteOverflow(traffic);
+  const ArrivalNotes first = bundles.HandOn(100)->arrival;
+  EXPECT_EQ(first.overtaken, (std::array{7, 6, 0, 40, 0, 0, 0, 0}));
+  traffic.channels[2].overflowed = 41;
+  bundles.NoteOverflow(traffic);
+  EXPECT_EQ(bundles.HandOn(100.1)->arrival.overtaken, (std::array{0, 0, 0, 1, 0, 0, 0, 0}));
+  EXPECT_EQ(bundles.Count().pairs_replaced, 7u) << "a pair is counted once";
+  EXPECT_EQ(bundles.Count().samples_overflowed, 41u);
 }
 
 TEST(LiveBundles, ReasonsOfAnswersArePlainAndBounded) {

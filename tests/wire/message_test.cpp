@@ -162,6 +162,35 @@ TEST(StationStatus, SurvivesAsARecordSample) {
   EXPECT_TRUE(std::isnan(back->distance_to_site_m));
 }
 
+TEST(Event, AnAlarmKeepsItsLevelAndOneWithoutHasNone) {
+  using Level = std::optional<AlarmLevel>;
+  for (const Level level : {Level(), Level(AlarmLevel::kAdvisory), Level(AlarmLevel::kCaution),
+                            Level(AlarmLevel::kWarning)}) {
+    const Event event{.time = {5}, .kind = EventKind::kAlarm, .text = "GPS lost", .level = level};
+    const auto back = DecodeEvent(EncodeEvent(event, kChannels));
+    ASSERT_TRUE(back.ok());
+    EXPECT_EQ(back->kind, EventKind::kAlarm);
+    EXPECT_EQ(back->text, "GPS lost");
+    EXPECT_EQ(back->level, level);
+  }
+  const auto other = DecodeEvent(EncodeEvent({{5}, EventKind::kVehicle, "Climbs"}, kChannels));
+  EXPECT_EQ(other->kind, EventKind::kVehicle);
+  EXPECT_FALSE(other->level.has_value());
+}
+
+TEST(StationStatus, NamesTheBestSiteThatIsNotRefused) {
+  RandomStream random(36);
+  const auto bundle = RandomBundle(random, 1, nullptr);
+  EngineSnapshot s = RandomSnapshot(random, *bundle);
+  auto decision = std::make_shared<TerrainDecision>(*s.terrain->applied);
+  decision->selection.sites[0].letter = "A";
+  decision->selection.sites[0].id = 1;
+  decision->selection.sites[1].id = 2;
+  s.terrain.Edit().applied = decision;
+  s.flight.Edit().mission.refused_sites = {1};
+  EXPECT_EQ(DecodeStationStatus(EncodeStationStatus(s, kChannels))->best_site, "C");
+}
+
 TEST(OutputEncoder, SendsOnlyNews) {
   RandomStream random(34);
   const auto bundle = RandomBundle(random, 1, nullptr);

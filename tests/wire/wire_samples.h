@@ -108,6 +108,7 @@ inline std::shared_ptr<FrameBundle> RandomBundle(RandomStream& random, std::uint
   bundle->arrival.left_alone = Timestamp{start_us + 1};
   bundle->arrival.right_alone = Timestamp{start_us + 2};
   bundle->arrival.poses_invalid = 3;
+  bundle->arrival.overtaken = {1, 2, 3, 4, 5, 6, 7, 0};
   bundle->acks.push_back({{start_us + 8}, random.NextBits(), AckResult::kRefused, "zu spät"});
   bundle->acks.push_back({{start_us + 8}, random.NextBits(), AckResult::kAccepted, ""});
   bundle->authority = AuthorityReport{{start_us + 9},

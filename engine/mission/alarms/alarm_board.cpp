@@ -18,6 +18,15 @@ AlarmBoard::Entry& AlarmBoard::Find(const AlarmCondition& condition) {
   return entries_.back();
 }
 
+void AlarmBoard::Entry::TakeWorst(const AlarmCondition& condition) {
+  const bool worse = condition.less_is_worse ? condition.figure < worst : condition.figure > worst;
+  if (worse || (std::isnan(worst) && std::isfinite(condition.figure))) {
+    worst = condition.figure;
+    worst_text = condition.text;
+    alarm.worst = condition.figure_words;
+  }
+}
+
 void AlarmBoard::Update(const std::vector<AlarmCondition>& conditions, Timestamp now) {
   raised_.clear();
   for (const AlarmCondition& condition : conditions) {
@@ -35,12 +44,21 @@ void AlarmBoard::Update(const std::vector<AlarmCondition>& conditions, Timestamp
     }
     if (condition.present && alarm.active) {
       alarm.level = condition.level;
+      entry.TakeWorst(condition);
     }
     if (!changed) {
       continue;
     }
     alarm.active = condition.present;
+    if (!alarm.active && std::isfinite(entry.worst)) {
+      alarm.text = entry.worst_text;
+    }
     if (alarm.active) {
+      if (!entry.shown) {  // else it comes again while it still waits: the worst of them all stays
+        entry.worst = NAN;
+        alarm.worst.clear();
+      }
+      entry.TakeWorst(condition);
       alarm.level = condition.level;
       alarm.text = condition.text;
       alarm.since = now;
@@ -73,6 +91,12 @@ bool AlarmBoard::IsAcknowledged(AlarmId id) const {
   return std::any_of(entries_.begin(), entries_.end(), [&](const Entry& entry) {
     return entry.shown && entry.alarm.active && entry.alarm.acknowledged && entry.alarm.kind == id;
   });
+}
+
+std::string AlarmBoard::LastText(AlarmId id) const {
+  const auto entry = std::find_if(entries_.begin(), entries_.end(),
+                                  [&](const Entry& e) { return e.alarm.kind == id; });
+  return entry == entries_.end() ? std::string() : entry->alarm.text;
 }
 
 std::string AlarmBoard::UnacknowledgedWarning() const {

@@ -2,10 +2,12 @@
 //
 // An alarm comes on, and goes off, only after three samples in a row. It disappears only when its
 // cause is gone; acknowledging only silences (I15). A cleared warning or caution that nobody
-// acknowledged stays, marked not active. Advisories go with their cause.
+// acknowledged stays, marked not active, in the words of its worst sample. Advisories go with their
+// cause.
 // Source: reference/station-gui.md 3.2, look.md 10.
 #pragma once
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -21,6 +23,9 @@ struct AlarmCondition {
   bool present = false;
   std::string text;
   bool immediate = false;  ///< events need no persistence: the vehicle's refusal, a wave-off
+  double figure = NAN;     ///< that is held against the limit; NaN: there is none
+  bool less_is_worse = false;
+  std::string figure_words{};  ///< with its unit
 };
 
 class AlarmBoard {
@@ -30,6 +35,8 @@ class AlarmBoard {
   /// False when that alarm is not on the board.
   bool Acknowledge(AlarmId id);
   bool IsAcknowledged(AlarmId id) const;
+  /// What it said last, on the board or not; empty: it was never told.
+  std::string LastText(AlarmId id) const;
   /// Text of the worst warning nobody acknowledged, empty when there is none.
   std::string UnacknowledgedWarning() const;
   /// What stands before what is over, then worst first, then oldest first.
@@ -42,6 +49,10 @@ class AlarmBoard {
     Alarm alarm;
     Persistence standing;
     bool shown = false;
+    double worst = NAN;  ///< figure, and the text that told it
+    std::string worst_text;
+
+    void TakeWorst(const AlarmCondition& condition);
   };
   Entry& Find(const AlarmCondition& condition);
   std::vector<Entry> entries_;

@@ -16,25 +16,24 @@ bool ComparesRanges(const AlarmFacts& f) {
          std::isnan(f.image_time_ms);
 }
 
+/// Of the camera that is off by more; NaN while the motion shows neither.
+double ImageOffset(const NavigationStatus& navigation) {
+  return std::fmax(std::abs(navigation.image_time_left.offset_s),
+                   std::abs(navigation.image_time_right.offset_s));
+}
+
 void FillSensors(const MissionMemory& m, const MissionInputs& in, AlarmFacts& f) {
   const Timestamp now = in.session.now;
-  f.left_camera_age_s = m.watch.LeftCameraAge(now);
-  f.right_camera_age_s = m.watch.RightCameraAge(now);
-  f.pose_age_s = m.watch.PoseAge(now);
-  f.link_age_s = m.watch.LinkAge(now);
-  f.pair_age_s = m.watch.PairAge(now);
   f.silence_s = std::fmin(std::fmin(f.link_age_s, f.pose_age_s),
                           std::fmin(f.left_camera_age_s, f.right_camera_age_s));
   f.clock_stepped = m.watch.clock_stepped();
   f.clock_step_s = m.watch.clock_step_s();
   f.since_clock_step_s = m.watch.SinceClockStep(now);
   f.stalled_s = m.watch.SinceStall(now) <= AlarmLimits::told_s ? m.watch.stalled_s() : NAN;
-  f.attitude_invalid_s = m.watch.PosesInvalidFor(now);
   f.lost_percent = 100 * LostShare(in.vehicle.channels);
   f.lost_channels = LostChannels(in.vehicle.channels);
   f.rebooted = m.watch.rebooted();
   f.gps_error_m = m.watch.gps() ? 3 * m.watch.gps()->sigma_horizontal_m : NAN;
-  f.on_vision = in.navigation.navigation.OnVision();
   f.pictures = m.pictures.standing();
   const ChannelHealth* gps = FindChannel(in.vehicle.channels, ChannelId::kGps);
   f.gps_age_s = gps != nullptr ? gps->age_s : NAN;
@@ -52,25 +51,17 @@ void FillMission(const MissionMemory& m, const MissionInputs& in, AlarmFacts& f)
   const Timestamp now = in.session.now;
   const MissionState state = m.status.state;
   const TerrainDecision* decision = in.terrain.decision;
-  f.state = state;
   f.approve_ahead = state <= MissionState::kArmed;
   f.letter = m.status.armed ? m.status.armed->letter : "?";
   f.why = m.status.why;
-  f.committed = state == MissionState::kDescending && IsCommitted(m);
   f.wave_off = WaveOffNow(m, now);
   f.alternative = SiteLost(m, now) ? words::Alternative(m) : "";
   f.site_degraded = (IsFlying(state) || state == MissionState::kArmed) &&
                     m.site.VerdictAt(now) == SiteVerdict::kDegraded && !IsCommitted(m);
   f.site_reason = m.site.reason();
-  f.ground_age_s = state == MissionState::kDescending && !f.committed
-                       ? SecondsBetween(m.ground_seen_at, now)
-                       : NAN;
   f.no_site =
       decision != nullptr && decision->selection.sites.empty() && state <= MissionState::kProposed;
   f.no_site_reason = decision != nullptr ? decision->selection.none_reason : "";
-  const bool descends_on_vision = state == MissionState::kDescending && f.on_vision;
-  f.vision_outage_s = descends_on_vision ? SecondsBetween(m.vision_good_at, now) : NAN;
-  f.max_vision_outage_s = m.facts.settings.mission.max_vision_outage_s;
   f.tracked = WatchesSite(m) && m.facts.tracker_locked;
   f.coherence = m.facts.coherence;
   f.min_coherence = m.facts.settings.tracking.min_coherence;
@@ -100,7 +91,7 @@ void FillFromLimits(const MissionMemory& m, AlarmFacts& f) {
   take(LimitId::kFromCentre, f.off_centre_m, &f.nav_error_m);
   take(LimitId::kDescentRate, f.descent_rate_mps, &f.max_descent_rate_mps);
   take(LimitId::kResidual, f.residual_sigma, &f.max_residual_sigma);
-  take(LimitId::kWind, f.wind_mps);
+  take(LimitId::kWind, f.wind_mps, &f.max_wind_mps);
   take(LimitId::kExposure, f.exposure_factor);
   // These two are over only when it is not by chance.
   const LimitRow* scale = FindLimit(m.status.limits, LimitId::kRangeScale);
@@ -112,8 +103,31 @@ void FillFromLimits(const MissionMemory& m, AlarmFacts& f) {
 
 }  // namespace
 
-AlarmFacts AlarmFactsAt(const MissionMemory& m, const MissionInputs& in) {
+AlarmFacts HoldFactsAt(const MissionMemory& m, Timestamp now) {
   AlarmFacts f;
+  f.state = m.status.state;
+  const bool descends = f.state == MissionState::kDescending;
+  f.committed = descends && IsCommitted(m);
+  f.left_camera_age_s = m.watch.LeftCameraAge(now);
+  f.right_camera_age_s = m.watch.RightCameraAge(now);
+  f.pose_age_s = m.watch.PoseAge(now);
+  f.link_age_s = m.watch.LinkAge(now);
+  f.pair_age_s = m.watch.PairAge(now);
+  f.attitude_invalid_s = m.watch.PosesInvalidFor(now);
+  f.invalid_for_s = std::isnan(f.attitude_invalid_s) ? 0 : f.attitude_invalid_s;
+  f.ground_age_s = descends && !f.committed ? SecondsBetween(m.ground_seen_at, now) : NAN;
+  f.image_offset_ms = 1000 * ImageOffset(m.facts.navigation);
+  f.on_vision = m.facts.navigation.OnVision();
+  f.vision_outage_s = descends && f.on_vision ? SecondsBetween(m.vision_good_at, now) : NAN;
+  f.max_vision_outage_s = m.facts.settings.mission.max_vision_outage_s;
+  const bool unconfirmed =
+      m.status.approval && m.status.approval->provisional && !m.armed.confirmed;
+  f.unconfirmed_height_m = descends && unconfirmed ? HeightAboveSite(m) : NAN;
+  return f;
+}
+
+AlarmFacts AlarmFactsAt(const MissionMemory& m, const MissionInputs& in) {
+  AlarmFacts f = HoldFactsAt(m, in.session.now);
   f.has_source = HasSource(in.session.role);
   f.has_vehicle = HasVehicle(in.session.role);
   f.pictures_only = HasPicturesOnly(in.session.role);

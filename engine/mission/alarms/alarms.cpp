@@ -4,6 +4,7 @@
 #include <iterator>
 #include <vector>
 
+#include "engine/core/rounding.h"
 #include "engine/core/text.h"
 #include "engine/mission/alarms/alarm_words.h"
 #include "engine/mission/descent_limits.h"
@@ -28,7 +29,9 @@ const AlarmRow kRows[] = {
      .stop =
          [](const Facts& f) {
            return words::Older("Left camera", f.left_camera_age_s, StaleLimits::sensor_s);
-         }},
+         },
+     .hold = {LimitId::kLeftCameraAge, "Left camera age", &Facts::left_camera_age_s,
+              StaleLimits::sensor_s}},
     {.id = AlarmId::kCameraRight,
      .level = AlarmLevel::kCaution,
      .limit = {GuardLimits::camera_s, "s"},
@@ -42,7 +45,9 @@ const AlarmRow kRows[] = {
      .stop =
          [](const Facts& f) {
            return words::Older("Right camera", f.right_camera_age_s, StaleLimits::sensor_s);
-         }},
+         },
+     .hold = {LimitId::kRightCameraAge, "Right camera age", &Facts::right_camera_age_s,
+              StaleLimits::sensor_s}},
     {.id = AlarmId::kPose,
      .level = AlarmLevel::kCaution,
      .limit = {GuardLimits::pose_s, "s"},
@@ -58,7 +63,8 @@ const AlarmRow kRows[] = {
      .stop =
          [](const Facts& f) {
            return words::Older("Vehicle pose", f.pose_age_s, StaleLimits::sensor_s);
-         }},
+         },
+     .hold = {LimitId::kPoseAge, "Vehicle pose age", &Facts::pose_age_s, StaleLimits::sensor_s}},
     {.id = AlarmId::kNoPose,
      .level = AlarmLevel::kAdvisory,
      .present =
@@ -86,7 +92,12 @@ const AlarmRow kRows[] = {
      .stop =
          [](const Facts& f) {
            return words::Older("Vehicle status", f.link_age_s, StaleLimits::link_s);
-         }},
+         },
+     .hold = {.id = LimitId::kStatusAge,
+              .label = "Vehicle status age",
+              .value = &Facts::link_age_s,
+              .limit = StaleLimits::link_s,
+              .committed = true}},
     {.id = AlarmId::kGpsError,
      .level = AlarmLevel::kCaution,
      .limit = {AlarmLimits::gps_error_m, "m"},
@@ -248,13 +259,19 @@ const AlarmRow kRows[] = {
            return WithNumbers("Vision lost for %.1f s, limit ", f.vision_outage_s) + limit +
                   ". The descent holds or climbs after " +
                   LimitWords({f.max_vision_outage_s, "s"}) + ".";
-         }},
+         },
+     .hold = {.id = LimitId::kVisionOutage,
+              .label = "Vision outage",
+              .value = &Facts::vision_outage_s,
+              .limit_from = &Facts::max_vision_outage_s,
+              .committed = true}},
     {.id = AlarmId::kCoherenceLow,
      .level = AlarmLevel::kCaution,
      .of_mission = true,
      .limit = {NAN, "", 2},
      .limit_from = &Facts::min_coherence,
      .value = &Facts::coherence,
+     .less_is_worse = true,
      .present = [](const Facts& f, double limit) { return f.tracked && !(f.coherence >= limit); },
      .text =
          [](const Facts& f, const std::string& limit) {
@@ -292,18 +309,21 @@ const AlarmRow kRows[] = {
      .level = AlarmLevel::kCaution,
      .limit = {AlarmLimits::least_pairs_hz, "Hz"},
      .value = &Facts::looked_at_hz,
+     .less_is_worse = true,
      .present = [](const Facts& f,
                    double limit) { return f.has_vehicle && f.looked_at_hz < limit; },
      .text =
          [](const Facts& f, const std::string& limit) {
            const std::string seen =
                f.looked_at_hz < 0.05
-                   ? "No stereo pair is looked at, limit "
-                   : WithNumbers("Stereo pairs are looked at %.1f times a second, limit ",
-                                 f.looked_at_hz);
+                   ? "This station is slow: no stereo pair is looked at, limit "
+                   : WithNumbers(
+                         "This station is slow: %.1f stereo pairs a second are looked at, "
+                         "limit ",
+                         TenthsDown(f.looked_at_hz));
            return seen + limit +
                   WithNumbers(
-                      "; %.1f a second are missed. Close other programs or make "
+                      "; newer ones overtook %.1f a second. Close other programs or make "
                       "fewer maps.",
                       f.losses.replaced_hz);
          }},
@@ -386,7 +406,8 @@ const AlarmRow kRows[] = {
     {.id = AlarmId::kWind,
      .level = AlarmLevel::kCaution,
      .of_mission = true,
-     .limit = {DescentLimits::wind_mps, "m/s"},
+     .limit = {NAN, "m/s"},
+     .limit_from = &Facts::max_wind_mps,
      .value = &Facts::wind_mps,
      .present = [](const Facts& f, double limit) { return f.wind_mps > limit; },
      .text =
@@ -457,6 +478,12 @@ std::vector<AlarmCondition> EvaluateAlarms(const AlarmFacts& facts) {
     conditions.push_back({row.id, grave ? AlarmLevel::kWarning : row.level, present,
                           present ? row.text(facts, LimitWords(limit)) : std::string(),
                           row.immediate});
+    if (present && row.value != nullptr) {
+      AlarmCondition& condition = conditions.back();
+      condition.figure = facts.*row.value;
+      condition.less_is_worse = row.less_is_worse;
+      condition.figure_words = LimitWords({condition.figure, limit.unit, limit.decimals});
+    }
   }
   return conditions;
 }

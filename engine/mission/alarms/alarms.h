@@ -15,6 +15,7 @@
 #include "engine/mission/mission_inputs.h"
 #include "engine/mission/mission_memory.h"
 #include "engine/mission/watch/loss_watch.h"
+#include "engine/model/mission/limit_row.h"
 
 namespace palace {
 
@@ -37,6 +38,7 @@ struct AlarmFacts {
   double since_clock_step_s = NAN;  ///< NaN: there was none
   double stalled_s = NAN;           ///< this machine, lately; NaN: it was not
   double attitude_invalid_s = NAN;  ///< vehicle poses are refused for their numbers, for so long
+  double invalid_for_s = NAN;       ///< the same; 0 while they are used
   double silence_s = NAN;           ///< since anything came from the vehicle
   double lost_percent = NAN;        ///< of the vehicle's messages of the last 5 s
   std::string lost_channels{};      ///< "Vehicle pose 31 %, IMU 29 %"
@@ -45,8 +47,9 @@ struct AlarmFacts {
   double gps_age_s = NAN;
   GpsAgreement gps_agreement{};
   LaserHealth laser{};
-  double image_time_ms = NAN;  ///< off by so much; NaN while it is not
-  std::string image_time{};    ///< words for it
+  double image_time_ms = NAN;    ///< off by so much; NaN while it is not
+  double image_offset_ms = NAN;  ///< as measured, of the camera that is off by more
+  std::string image_time{};      ///< words for it
   bool on_vision = false;
   PictureFaults pictures{};
   double row_error_px = NAN;
@@ -67,8 +70,9 @@ struct AlarmFacts {
   std::string site_reason{};
   bool no_site = false;
   std::string no_site_reason{};
-  double vision_outage_s = NAN;      ///< of a descent on vision
-  double max_vision_outage_s = NAN;  ///< setting
+  double vision_outage_s = NAN;       ///< of a descent on vision
+  double max_vision_outage_s = NAN;   ///< setting
+  double unconfirmed_height_m = NAN;  ///< above a site that is approved and not confirmed yet
   bool tracked = false;
   double coherence = NAN;
   double min_coherence = NAN;  ///< setting
@@ -86,12 +90,29 @@ struct AlarmFacts {
   double residual_sigma = NAN;
   double max_residual_sigma = NAN;  ///< of the position filter
   double wind_mps = NAN;
+  double max_wind_mps = NAN;  ///< setting
   RecentLosses losses{};
   double refused_hz = NAN;    ///< datagrams
   double bus_load = NAN;      ///< of the busiest channel, in times of what it needs
   double looked_at_hz = NAN;  ///< stereo pairs, while some are replaced by newer ones
 };
 AlarmFacts AlarmFactsAt(const MissionMemory& memory, const MissionInputs& inputs);
+/// Of these, what a descent can hold by: ages, the ground's and the pictures' time.
+AlarmFacts HoldFactsAt(const MissionMemory& memory, Timestamp now);
+
+/// The figure by which a row's `stop` holds a descent, and the limit beyond which it does: a row of
+/// "Limits in force".
+struct HoldLimit {
+  LimitId id = LimitId::kLeftCameraAge;
+  const char* label = nullptr;  ///< null: it holds by no figure
+  double AlarmFacts::*value = nullptr;
+  double limit = NAN;
+  double AlarmFacts::*limit_from = nullptr;  ///< where the limit is a setting
+  const char* unit = "s";
+  int decimals = 1;
+  const char* lasts = "";  ///< LimitRow
+  bool committed = false;  ///< also below the commit height
+};
 
 struct AlarmRow {
   AlarmId id;
@@ -101,6 +122,7 @@ struct AlarmRow {
   Limit limit{};                             ///< that raises it; none: NaN
   double AlarmFacts::*limit_from = nullptr;  ///< where the limit is a setting
   double AlarmFacts::*value = nullptr;       ///< what is held against it
+  bool less_is_worse = false;                ///< of the value; the limit is a least one
   bool (*present)(const AlarmFacts& f, double limit) = nullptr;
   /// What, number, limit, then what to do.
   std::string (*text)(const AlarmFacts& f, const std::string& limit) = nullptr;
@@ -110,6 +132,7 @@ struct AlarmRow {
   /// empty: it does not, or not yet. Null: it never does. What the text announces is what this
   /// does.
   std::string (*stop)(const AlarmFacts& f) = nullptr;
+  HoldLimit hold{};
 };
 /// Those of a bus: what is refused, too much, of another version, of a second sender.
 inline constexpr std::size_t kBusAlarmCount = 6;
@@ -120,6 +143,11 @@ std::span<const AlarmRow> AlarmTable();
 /// so and not by the input that is missed first.
 std::string WhyStopped(const AlarmFacts& facts);
 Limit LimitOf(const AlarmRow& row, const AlarmFacts& facts);
+
+/// What a descent holds by now, in the order of the table, then the height by which the site must
+/// be confirmed. Beside it the site's own limits hold (SiteLimits). Rows only from APPROVED to
+/// HOLD.
+std::vector<LimitRow> LimitsOfHolds(const AlarmFacts& facts);
 
 /// Each alarm's condition, in the order of the table.
 std::vector<AlarmCondition> EvaluateAlarms(const AlarmFacts& facts);

@@ -72,7 +72,9 @@ const AlarmRow kRows[] = {
          },
      .stop = [](const Facts& f) -> std::string {
        return f.attitude_invalid_s > StaleLimits::invalid_pose_s ? "Attitude invalid" : "";
-     }},
+     },
+     .hold = {LimitId::kInvalidPose, "Attitude invalid for", &Facts::invalid_for_s,
+              StaleLimits::invalid_pose_s}},
     {.id = AlarmId::kMessageLoss,
      .level = AlarmLevel::kCaution,
      .limit = {AlarmLimits::lost_percent, "%", 0},
@@ -115,7 +117,8 @@ const AlarmRow kRows[] = {
      .stop =
          [](const Facts& f) {
            return words::Older("Stereo pair", f.pair_age_s, StaleLimits::sensor_s);
-         }},
+         },
+     .hold = {LimitId::kPairAge, "Stereo pair age", &Facts::pair_age_s, StaleLimits::sensor_s}},
     {.id = AlarmId::kOldGround,
      .level = AlarmLevel::kCaution,
      .of_mission = true,
@@ -133,7 +136,9 @@ const AlarmRow kRows[] = {
            return f.ground_age_s > StaleLimits::ground_s
                       ? words::GroundNotMeasured(f.letter, f.ground_age_s)
                       : std::string();
-         }},
+         },
+     .hold = {LimitId::kGroundAge, "Ground age at the site", &Facts::ground_age_s,
+              StaleLimits::ground_s}},
 };
 
 }  // namespace

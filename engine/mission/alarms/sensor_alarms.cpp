@@ -35,7 +35,14 @@ const AlarmRow kRows[] = {
          [](const Facts& f, const std::string& limit) {
            return f.image_time + ", limit " + limit + ". " + StopConsequence(f);
          },
-     .stop = [](const Facts& f) { return f.image_time; }},
+     .stop = [](const Facts& f) { return f.image_time; },
+     .hold = {.id = LimitId::kImageTime,
+              .label = "Image time off",
+              .value = &Facts::image_offset_ms,
+              .limit = 1000 * ImageTime::kLimit_s,
+              .unit = "ms",
+              .decimals = 0,
+              .lasts = "3 pictures"}},
     {.id = AlarmId::kGpsJump,
      .level = AlarmLevel::kCaution,
      .immediate = true,  // two fixes said so

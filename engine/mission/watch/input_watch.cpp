@@ -49,6 +49,28 @@ InputWatch InputWatch::AfterJump() const {
   return next;
 }
 
+InputWatch InputWatch::AsHeard(const std::vector<ChannelHealth>& channels,
+                               const FrameBundle& bundle, Timestamp now) {
+  InputWatch watch;
+  const auto restore = [&](Arrival& arrival, ChannelId id) {
+    const ChannelHealth* channel = FindChannel(channels, id);
+    if (channel != nullptr && channel->state != ChannelHealth::State::kNever) {
+      arrival.See(AddSeconds(now, -channel->age_s), AddSeconds(now, -channel->age_s));
+    }
+  };
+  restore(watch.left_, ChannelId::kCameraLeft);
+  restore(watch.right_, ChannelId::kCameraRight);
+  restore(watch.pose_, ChannelId::kVehiclePose);
+  if (!bundle.status) {  // the one that came with it is new
+    restore(watch.link_, ChannelId::kVehicleStatus);
+  }
+  // Which pictures paired is not told; both came until one of them was lost.
+  if (watch.left_.stamp && watch.right_.stamp) {
+    watch.pair_ = watch.left_.seen < watch.right_.seen ? watch.left_ : watch.right_;
+  }
+  return watch;
+}
+
 void InputWatch::SeeCameras(const FrameBundle& bundle, Timestamp now) {
   if (bundle.stereo) {
     const bool left = !bundle.stereo->left.empty(), right = !bundle.stereo->right.empty();

@@ -53,6 +53,9 @@ class InputWatch {
   }
   /// A jump in time: nothing is known any more but which boot of the vehicle was heard.
   InputWatch AfterJump() const;
+  /// Another place of a record: what was heard, and when, is what the record's channels say.
+  static InputWatch AsHeard(const std::vector<ChannelHealth>& channels, const FrameBundle& bundle,
+                            Timestamp now);
   const std::optional<GpsFix>& gps() const { return gps_; }
 
  private:

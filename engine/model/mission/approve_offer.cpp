@@ -2,6 +2,8 @@
 
 #include <cstdio>
 
+#include "engine/core/rounding.h"
+
 namespace palace {
 
 std::string WhyScreenOld(double silent_s) {
@@ -9,7 +11,8 @@ std::string WhyScreenOld(double silent_s) {
     return {};
   }
   char text[64];
-  std::snprintf(text, sizeof text, "Screen %.1f s behind, limit %.1f s", silent_s, kScreenOld_s);
+  std::snprintf(text, sizeof text, "Screen %.1f s behind, limit %.1f s", -TenthsDown(-silent_s),
+                kScreenOld_s);
   return text;
 }
 

@@ -50,6 +50,8 @@ const char* EnforcedByWord(EnforcedBy by) {
       return "for information";
     case EnforcedBy::kGuard:
       return "guard";
+    case EnforcedBy::kHold:
+      return "hold";
     case EnforcedBy::kAlarm:
       return "alarm";
     case EnforcedBy::kVehicle:

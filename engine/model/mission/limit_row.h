@@ -35,11 +35,23 @@ enum class LimitId : std::uint8_t {
   kRowError,
   kExposure,
   kRangeScale,
+  // what a descent holds by, beside the site's own
+  kLeftCameraAge,
+  kRightCameraAge,
+  kPairAge,
+  kPoseAge,
+  kInvalidPose,
+  kStatusAge,
+  kGroundAge,
+  kImageTime,
+  kVisionOutage,
+  kConfirmHeight,
 };
 
 enum class EnforcedBy : std::uint8_t {
   kNobody,
-  kGuard,    ///< approve is blocked; what guards a site also stops the descent to it
+  kGuard,    ///< approve is blocked, a selection ends
+  kHold,     ///< the descent holds; so low that nobody should hover, it aborts
   kAlarm,    ///< an alarm asks the operator to act
   kVehicle,  ///< the vehicle refuses by itself
 };
@@ -59,6 +71,8 @@ struct LimitRow {
   int decimals = 1;  ///< of the shown value
   EnforcedBy enforced_by = EnforcedBy::kNobody;
   bool over = false;  ///< beyond the limit, as the rule that enforces it sees it
+  /// For how long it must be over before it is acted upon: "0.4 s, or 3 of 5 maps"; empty: at once.
+  std::string lasts{};
 };
 
 /// The row with `over` set: a known value on the wrong side, unless nobody enforces the limit.

@@ -56,8 +56,9 @@ const LandingSite* MissionStatus::BestStanding(const std::vector<LandingSite>& s
 }
 
 bool MissionStatus::TakesSelection(std::uint64_t site_id) const {
-  return state == MissionState::kProposed || state == MissionState::kArmed ||
-         (state == MissionState::kSearch && IsRefused(site_id));
+  return IsNamedSite(site_id) &&
+         (state == MissionState::kProposed || state == MissionState::kArmed ||
+          (state == MissionState::kSearch && IsRefused(site_id)));
 }
 
 const char* SiteVerdictWord(SiteVerdict verdict) {

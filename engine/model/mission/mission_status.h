@@ -53,6 +53,8 @@ struct Alarm {
   bool acknowledged = false;
   bool active = true;                ///< false: cleared but not acknowledged
   std::string id = AlarmName(kind);  ///< as the wire and AcknowledgeAlarm spell it: "gps_error"
+  /// The worst that its figure was while it was told, with the unit: "0.62 m"; empty: it has none.
+  std::string worst{};
 };
 
 enum class EventKind : std::uint8_t {
@@ -70,6 +72,8 @@ struct Event {
   std::string text;
   std::uint64_t number =
       0;  ///< rises in a flight, over a restart of the engine too; 0: not counted
+  /// Of an alarm that rose; empty: of something else, or nobody told.
+  std::optional<AlarmLevel> level{};
 };
 
 /// Between what was asked for and why it was refused: "Select refused: No site is proposed".
@@ -151,7 +155,7 @@ struct MissionStatus {
   /// The first of `sites`, best first, that is not refused; null when there is none.
   const LandingSite* BestStanding(const std::vector<LandingSite>& sites) const;
   /// The state is one in which that site can be selected: any that is proposed; while searching
-  /// only a refused one, for a second look.
+  /// only a refused one, for a second look. Never one without a letter of the flight.
   bool TakesSelection(std::uint64_t site_id) const;
   bool may_select = false;  ///< a person may select in this session (session_role.h)
   /// That person may select that site now.

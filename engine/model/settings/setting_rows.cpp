@@ -329,18 +329,53 @@ std::vector<Row> MissionRows() {
   };
 }
 
+/// What the station reckons with of a vehicle and its file tells; last, as they are set but once.
+std::vector<Row> VehicleRows() {
+  return {
+      Row("slad.gear_forward_m", "Gear forward", kLander, &Lander::gear_forward_m)
+          .Says(
+              "Middle of the gear, the touchdown point, forward of the vehicle's reference point.")
+          .Shown("m", 2)
+          .Within(-10, 10)
+          .Usually(-0.5, 0.5)
+          .HashedWhenChanged(),
+      Row("slad.gear_right_m", "Gear right", kLander, &Lander::gear_right_m)
+          .Says("Middle of the gear to the right of the vehicle's reference point.")
+          .Shown("m", 2)
+          .Within(-10, 10)
+          .Usually(-0.5, 0.5)
+          .HashedWhenChanged(),
+      Row("slad.gear_below_m", "Gear below", kLander, &Lander::gear_below_m)
+          .Says("Sole of the gear below the vehicle's reference point.")
+          .Shown("m", 2)
+          .Within(-10, 10)
+          .Usually(0.1, 2)
+          .HashedWhenChanged(),
+      Row("mission.max_wind_mps", "Max wind", kMission, &MissionSettings::max_wind_mps)
+          .Says("With more wind at the vehicle nothing can be approved.")
+          .Shown("m/s", 1)
+          .Within(1, 30)
+          .Usually(4, 15)
+          .HashedWhenChanged(),
+      Row("mission.settle_s", "Settling", kMission, &MissionSettings::settle_s)
+          .Says("How long the vehicle takes in calm air to be still above the site: part of the "
+                "time to touchdown.")
+          .Shown("s", 1)
+          .Within(0, 60)
+          .Usually(1, 10)
+          .HashedWhenChanged(),
+  };
+}
+
 std::vector<SettingRow> MakeRows() {
   struct Section {
     const char* group;
     std::vector<Row> rows;
   };
-  const Section sections[] = {{"Hazard limits", HazardRows()},
-                              {"Lander", LanderRows()},
-                              {"Grid", GridRows()},
-                              {"Fusion and ranking", FusionRows()},
-                              {"Stereo", StereoRows()},
-                              {"Tracker", TrackerRows()},
-                              {"Mission", MissionRows()}};
+  const Section sections[] = {
+      {"Hazard limits", HazardRows()},      {"Lander", LanderRows()},  {"Grid", GridRows()},
+      {"Fusion and ranking", FusionRows()}, {"Stereo", StereoRows()},  {"Tracker", TrackerRows()},
+      {"Mission", MissionRows()},           {"Vehicle", VehicleRows()}};
   std::vector<SettingRow> all;
   for (const Section& section : sections) {
     for (const Row& row : section.rows) {

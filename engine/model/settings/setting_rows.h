@@ -16,6 +16,9 @@ struct SettingRow {
   SettingInfo info;
   std::function<double(const Settings&)> get;
   std::function<void(Settings&, double)> set;
+  /// At its default it adds nothing to the hash of settings: a row that came after flights had been
+  /// recorded, so that they keep their hashes.
+  bool hashed_when_changed = false;
 };
 
 /// Builds a row for one member. Default and whole numbers follow from the member; a usual range
@@ -50,6 +53,10 @@ class RowBuilder {
   RowBuilder& Usually(double min, double max) {
     row_.info.soft_min = min;
     row_.info.soft_max = max;
+    return *this;
+  }
+  RowBuilder& HashedWhenChanged() {
+    row_.hashed_when_changed = true;
     return *this;
   }
   /// A choice: values 0, 1, ... as files write them.

@@ -101,8 +101,12 @@ double ClampSetting(const SettingInfo& info, double value) {
 std::uint64_t HashOf(const Settings& settings) {
   ContentHash hash;
   for (const SettingRow& row : SettingRows()) {
+    const double value = row.get(settings);
+    if (row.hashed_when_changed && value == row.info.default_value) {
+      continue;
+    }
     hash.Add(std::string_view(row.info.name));
-    hash.Add(row.get(settings));
+    hash.Add(value);
   }
   return hash.value();
 }

@@ -51,8 +51,11 @@ struct HazardLimits {
 struct Lander {
   double base_size_m = 3.6;  ///< diameter
   LandingGear gear = LandingGear::kSkids;
-  double gear_length_m = 1.2;       ///< of the skids, or between fore and aft pads
-  double gear_width_m = 0.9;        ///< between the skids' or pads' middles
+  double gear_length_m = 1.2;  ///< of the skids, or between fore and aft pads
+  double gear_width_m = 0.9;   ///< between the skids' or pads' middles
+  double gear_forward_m = 0;   ///< middle of the gear in B: the touchdown point
+  double gear_right_m = 0;
+  double gear_below_m = 0.9;
   double belly_clearance_m = 0.35;  ///< of the airframe above the plane the gear rests on
   double rotor_diameter_m = 3.1;
   double max_rock_size_m = 0.40;  ///< spacing of samples in the plane fit
@@ -62,6 +65,8 @@ struct Lander {
 
   double radius_m() const { return base_size_m / 2; }
   double clear_radius_m() const { return radius_m() + nav_error_m; }
+  /// The touchdown point in B, metres.
+  Eigen::Vector3d skid_centre_B() const { return {gear_forward_m, gear_right_m, gear_below_m}; }
   /// Unit up vector in W (north, east, down).
   Eigen::Vector3d up_W() const;
   friend bool operator==(const Lander&, const Lander&) = default;
@@ -131,6 +136,8 @@ struct MissionSettings {
   double propose_after_s = 1;
   int propose_after_maps = 3;
   double max_vision_outage_s = 2;
+  double max_wind_mps = 8;  ///< in which the vehicle's controllers hold a hover
+  double settle_s = 3.8;    ///< until the vehicle is still above the site, by landings in calm air
   friend bool operator==(const MissionSettings&, const MissionSettings&) = default;
 };
 

@@ -67,6 +67,30 @@ std::string Capital(std::string text) {
   return text;
 }
 
+/// Better on this map by a difference that is told.
+bool Beats(SiteRanking ranking, const LandingSite& a, const LandingSite& b) {
+  return ranking == SiteRanking::kFarthest ? a.safe_distance_m >= b.safe_distance_m + kWider_m
+                                           : a.cost <= b.cost - kCheaper;
+}
+
+/// Of one that the best goes before. Where the order is not what figures and standing suggest, the
+/// reason says so: places are ranked by room or cost over many maps, not by how surely they are
+/// known.
+std::string ReasonBelow(SiteRanking ranking, const SiteSelection& selection, std::size_t i) {
+  const LandingSite& best = selection.sites.front();
+  const LandingSite& above = selection.sites[i - 1];
+  const LandingSite& site = selection.sites[i];
+  std::string reason = Capital(Difference(ranking, best, site, false, "the best"));
+  if (site.confirmed && !best.confirmed) {
+    reason += ", though confirmed";
+  }
+  if (i > 1 && above.corridor_clear && Beats(ranking, site, above)) {
+    reason += std::string("; ") + (ranking == SiteRanking::kFarthest ? "wider" : "cheaper") +
+              " than " + above.letter + " by noise or too newly";
+  }
+  return reason;
+}
+
 std::string ReasonOfBest(SiteRanking ranking, const SiteSelection& selection) {
   const LandingSite& best = selection.sites.front();
   if (!best.corridor_clear) {
@@ -76,7 +100,8 @@ std::string ReasonOfBest(SiteRanking ranking, const SiteSelection& selection) {
     return "The only site";
   }
   const LandingSite& next = selection.sites[1];
-  if (!next.corridor_clear) {
+  if (std::none_of(selection.sites.begin() + 1, selection.sites.end(),
+                   [](const LandingSite& other) { return other.corridor_clear; })) {
     return "The only straight approach that is clear";
   }
   const std::string by = Difference(ranking, best, next, true, "the next");
@@ -99,12 +124,11 @@ std::string ReasonOfBest(SiteRanking ranking, const SiteSelection& selection) {
 void GiveReasons(SiteRanking ranking, SiteSelection& selection) {
   for (std::size_t i = 0; i < selection.sites.size(); ++i) {
     LandingSite& site = selection.sites[i];
-    site.reason =
-        i == 0                 ? ReasonOfBest(ranking, selection)
-        : !site.corridor_clear ? ApproachWords(site)
-        : std::isfinite(site.called_unsafe_s)
-            ? Text("Called unsafe by a map %.0f s ago%s", site.called_unsafe_s, "")
-            : Capital(Difference(ranking, selection.sites.front(), site, false, "the best"));
+    site.reason = i == 0                 ? ReasonOfBest(ranking, selection)
+                  : !site.corridor_clear ? ApproachWords(site)
+                  : std::isfinite(site.called_unsafe_s)
+                      ? Text("Called unsafe by a map %.0f s ago%s", site.called_unsafe_s, "")
+                      : ReasonBelow(ranking, selection, i);
   }
 }
 

@@ -328,9 +328,15 @@ std::vector<SiteRegistry::Found> SiteRegistry::List(std::vector<Found> ranked) {
     place.rank = -1;
   }
   int rank = 0;
+  std::uint64_t unnamed = 0;
   for (Found& one : ranked) {
     Place& place = places_[one.place];
     place.rank = rank++;
+    if (place.id == 0 && !gives_letters_) {
+      one.site.id = kFirstUnnamedSite + ++unnamed;
+      one.site.letter = "+" + std::to_string(unnamed);
+      continue;
+    }
     if (place.id == 0) {
       place.id = next_id_++;
       place.letter = SiteLetter(static_cast<std::size_t>(named_++));

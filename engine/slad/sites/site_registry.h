@@ -48,6 +48,9 @@ class SiteRegistry {
   void Reset(SiteNames names);
   /// A flight goes on in which so many places were named already.
   void GoOnNaming(std::uint64_t named);
+  /// From here on no letter is given: a place that has none is "+1", "+2", ... of its one list (a
+  /// preview, a re-decision). The flight would give the same letter to another place.
+  void GiveNoLetters() { gives_letters_ = false; }
 
  private:
   struct Place {
@@ -95,6 +98,7 @@ class SiteRegistry {
   std::vector<Eigen::Vector2d> replaced_;  ///< on this map
   std::uint64_t next_id_ = 1;
   std::uint64_t named_ = 0;
+  bool gives_letters_ = true;
   std::uint64_t kept_ = 0;
   std::optional<Timestamp> time_;  ///< of the newest map
   SladSettings settings_;          ///< under which it was judged

@@ -1,0 +1,42 @@
+// Commands and the words in which they are told.
+#include <gtest/gtest.h>
+
+#include "tests/mission/mission_rig.h"
+
+namespace palace {
+namespace {
+
+// What only a preview shows has no letter, and no command takes it.
+TEST(UnnamedPlaces, AreNeitherSelectedNorRefused) {
+  MissionRig rig;
+  rig.AddSite(kFirstUnnamedSite + 1, '+', {0, 0, 0});
+  ASSERT_TRUE(rig.RunUntil(MissionState::kProposed));
+  EXPECT_FALSE(rig.mission.status().MaySelect(kFirstUnnamedSite + 1));
+  EXPECT_TRUE(rig.mission.status().MaySelect(101));
+  EXPECT_FALSE(rig.Do(SelectSite{kFirstUnnamedSite + 1}).ok());
+  EXPECT_FALSE(rig.Do(RefuseSite{kFirstUnnamedSite + 1}).ok());
+  EXPECT_EQ(rig.state(), MissionState::kProposed);
+  EXPECT_FALSE(rig.mission.status().armed.has_value());
+}
+
+// The words of the screen, never the name that the wire has.
+TEST(Acknowledging, IsToldInTheWordsOfTheAlarm) {
+  MissionRig rig;
+  rig.Arm();
+  rig.recorder_ok = false;
+  rig.Run(1);
+  ASSERT_TRUE(rig.Do(AcknowledgeAlarm{AlarmName(AlarmId::kRecorder)}).ok());
+  EXPECT_EQ(rig.mission.events().back().text, "Acknowledged: Recording is not running");
+  rig.recorder_ok = true;
+  rig.Run(1);
+  EXPECT_EQ(rig.Do(AcknowledgeAlarm{AlarmName(AlarmId::kRecorder)}).error().message,
+            "\"Recording is not running\" does not stand any more");
+  EXPECT_EQ(rig.Do(AcknowledgeAlarm{AlarmName(AlarmId::kClock)}).error().message,
+            "No such alarm stands");
+  for (const Event& event : rig.mission.events()) {
+    EXPECT_EQ(event.text.find(AlarmName(AlarmId::kRecorder) + std::string("'")), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace palace
