@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "engine/core/address_space.h"
+#include "engine/core/check.h"
 #include "engine/core/log.h"
 #include "gui/app/exit_code.h"
 #include "gui/app/run.h"
@@ -29,8 +30,32 @@ AppOptions OptionsOfNext(AppOptions options, const NextFlight& next) {
     options.source_path = next.log;
     options.replay_part = next.part;
     options.record = false;
+  } else if (options.source == SourceChoice::kReplay) {
+    options.source = SourceChoice::kSimulation;
+    options.source_path.clear();
+    options.replay_part = 0;
+    options.channels_file.clear();
+    options.settings = {};  // those were to judge the record by
+    options.record = options.report;
   }
   return options;
+}
+
+WayOut WayOutOfReview(const AppOptions& options) {
+  const std::string ends = "Ends the review (Ctrl+N) and ";
+  switch (options.source) {
+    case SourceChoice::kSimulation:
+      return {"New flight", ends + "starts the simulation anew"};
+    case SourceChoice::kReplay:
+      return {"New flight", ends + "flies the built-in simulation"};
+    case SourceChoice::kConnect:
+      return {"Back to live", ends + "listens to " + options.source_path + " again"};
+    case SourceChoice::kCameras:
+      return {"Back to cameras", ends + "opens " + options.source_path + " again"};
+    case SourceChoice::kImages:
+      return {"Back to images", ends + "opens " + options.source_path + " again"};
+  }
+  PALACE_CHECK(false);
 }
 
 int RunApp(const AppOptions& options) {
@@ -61,8 +86,8 @@ int RunApp(const AppOptions& options) {
     if (!session) {
       return FailWith(session.error());
     }
-    const StationEnd end =
-        RunStation(now, termination, *session, std::exchange(script, std::nullopt), script_name);
+    const StationEnd end = RunStation(now, termination, *session, WayOutOfReview(options),
+                                      std::exchange(script, std::nullopt), script_name);
     if (!end.next || now.headless || termination.asked()) {
       return end.exit_code;
     }

@@ -3,6 +3,7 @@
 
 #include "gui/app/intent.h"
 #include "gui/app/options.h"
+#include "gui/widgets/ui_frame.h"
 
 namespace palace {
 
@@ -10,7 +11,11 @@ namespace palace {
 int RunApp(const AppOptions& options);
 
 /// Of the station that follows one started with `options`: the same flight again, or a look at its
-/// log, which is no new flight and records nothing.
+/// log, which is no new flight and records nothing. After a log that the program was started with,
+/// a flight is the built-in simulation, as without arguments: the log is no vehicle.
 AppOptions OptionsOfNext(AppOptions options, const NextFlight& next);
+
+/// What ends a review in a program started with `options`, and what then comes.
+WayOut WayOutOfReview(const AppOptions& options);
 
 }  // namespace palace

@@ -101,6 +101,11 @@ std::vector<Row> MakeRows() {
          const bool armed = c.snapshot && c.snapshot->flight->mission.state == MissionState::kArmed;
          return armed ? Intents{CommandAction(DisarmSite{})} : Intents{};
        }},
+      {{"Ctrl+N", "End a review: back to flying"},
+       [](const Context& c) {
+         const bool record = c.snapshot && FollowsRecord(c.snapshot->session->role);
+         return record ? Ui(NextFlight{NextFlight::Kind::kFlyAgain}) : Intents{};
+       }},
       {{"B", "Bookmark now"}, always({CommandAction(AddBookmark{})})},
       {{"Ctrl+Z", "Undo the last limit change", true}, always(Ui(UndoSetting{}))},
       {{"Ctrl+Shift+Z", "Redo it", true}, always(Ui(RedoSetting{}))},

@@ -7,7 +7,8 @@
 #include "engine/core/command_line.h"
 #include "engine/core/text.h"
 #include "engine/core/version.h"
-#include "engine/mission/descent_limits.h"
+#include "engine/model/settings/settings.h"
+#include "engine/simulation/vehicle_file.h"
 #include "engine/world/scene_library.h"
 
 namespace palace {
@@ -40,13 +41,17 @@ void Declare(CLI::App& app, AppOptions& options, SourceArguments& sources, bool&
                      "devices, RTSP or HTTP streams, video files");
   source->add_option("--connect", sources.connect,
                      "A live vehicle on an LCM bus, e.g. udpm://239.255.76.67:7667?ttl=0");
+  app.add_option("--vehicle", options.vehicle,
+                 "The vehicle simulated, or the one that --connect or pictures speak of: " +
+                     Joined(VehicleNames()) + ", or its file (default " + kDefaultVehicle + ")");
   app.add_option("--seed", options.seed, "One seed decides everything in the simulation")
       ->check(Seed())
       ->capture_default_str();
   app.add_option("--wind", options.wind_mps,
-                 WithNumbers("Mean wind of the simulation 6 m above ground, m/s; with more than "
-                             "%.0f at the vehicle nothing can be approved",
-                             DescentLimits::wind_mps, 0))
+                 WithNumbers("Mean wind of the simulation 6 m above ground, m/s; with more at the "
+                             "vehicle than its limit (%.0f for the default one) nothing can be "
+                             "approved",
+                             MissionSettings{}.max_wind_mps, 0))
       ->check(FiniteRange(0.0, 15.0))
       ->capture_default_str();
   app.add_option("--settings", options.settings.file, "Settings file (TOML)");
@@ -149,6 +154,9 @@ Result<AppOptions> ParseCommandLine(int argc, const char* const* argv) {
                           OptionOf(options.source));
       }
     }
+  }
+  if (!options.vehicle.empty() && options.source == SourceChoice::kReplay) {
+    return UsageError("--vehicle is not of --replay: a record tells its own; leave it out here");
   }
   if (!options.channels_file.empty() && options.source != SourceChoice::kConnect &&
       options.source != SourceChoice::kReplay) {

@@ -20,6 +20,7 @@ struct AppOptions {
   std::string scenario = "runway";
   std::uint64_t seed = 1;
   double wind_mps = 0;
+  std::string vehicle;        ///< a name or a file; empty: the default one
   SettingsRequest settings;   ///< read where it is known what they stand over
   std::string channels_file;  ///< empty: see channels_file.h
   std::string key;            ///< of --connect: a name or a file; empty: see station_key.h

@@ -50,7 +50,8 @@ Gesture GestureNow(double ui_time_s) {
 class StationRun {
  public:
   StationRun(const AppOptions& options, const Termination& termination, Session& session,
-             Surface& surface, std::unique_ptr<View> view, std::optional<ScriptRunner> script)
+             Surface& surface, std::unique_ptr<View> view, const WayOut& after_review,
+             std::optional<ScriptRunner> script)
       : options_(options),
         termination_(termination),
         session_(session),
@@ -59,6 +60,7 @@ class StationRun {
         script_(std::move(script)),
         summarizer_(session.scene),
         start_s_(MonotonicSeconds()) {
+    state_.after_review = after_review;
     state_.scale = options.ui_scale > 0 ? options.ui_scale : surface.natural_scale();
     if (!script_) {  // a script says where it goes
       state_.frame.workspace = FirstWorkspace(options.source);
@@ -317,7 +319,7 @@ void Report(const AppOptions& options, const Session& session, const StationRun&
 }  // namespace
 
 StationEnd RunStation(const AppOptions& options, const Termination& termination, Session& session,
-                      std::optional<std::vector<ScriptLine>> script,
+                      const WayOut& after_review, std::optional<std::vector<ScriptLine>> script,
                       const std::string& script_name) {
   const Result<std::unique_ptr<Surface>> surface = Surface::Open(options);
   Result<std::unique_ptr<View>> view =
@@ -335,7 +337,8 @@ StationEnd RunStation(const AppOptions& options, const Termination& termination,
   } else {
     session.engine->Start();
   }
-  StationRun run(options, termination, session, **surface, std::move(*view), std::move(runner));
+  StationRun run(options, termination, session, **surface, std::move(*view), after_review,
+                 std::move(runner));
   const Status done = run.Run();
   const Status closed = session.engine->Stop();
   Report(options, session, run);

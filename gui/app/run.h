@@ -10,6 +10,7 @@
 #include "gui/app/options.h"
 #include "gui/app/script.h"
 #include "gui/app/session.h"
+#include "gui/widgets/ui_frame.h"
 
 namespace palace {
 
@@ -21,9 +22,9 @@ struct StationEnd {
 
 /// Input, engine, user interface, commands, frame after frame, until somebody quits or the script
 /// ends, or a signal asks to: then the exit code is 128 and the signal. The log is closed and the
-/// report written.
+/// report written. `after_review` is offered while the session shows a record.
 StationEnd RunStation(const AppOptions& options, const Termination& termination, Session& session,
-                      std::optional<std::vector<ScriptLine>> script,
+                      const WayOut& after_review, std::optional<std::vector<ScriptLine>> script,
                       const std::string& script_name);
 
 }  // namespace palace

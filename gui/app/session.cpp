@@ -11,6 +11,7 @@
 #include "engine/journal/replay_source.h"
 #include "engine/runtime/settings_io.h"
 #include "engine/simulation/session.h"
+#include "engine/simulation/vehicle_file.h"
 #include "engine/trust/key_file.h"
 #include "engine/wire/lcm_link.h"
 #include "engine/wire/lcm_source.h"
@@ -21,9 +22,11 @@
 namespace palace {
 namespace {
 
-Status OpenSimulation(const AppOptions& options, bool paced, Session& session, EngineParts& parts) {
+Status OpenSimulation(const AppOptions& options, const VehicleDescription& vehicle, bool paced,
+                      Session& session, EngineParts& parts) {
   Result<SimulatedSession> simulated = OpenSimulatedSession({.scenario = options.scenario,
                                                              .seed = options.seed,
+                                                             .vehicle = vehicle,
                                                              .wind_mps = options.wind_mps,
                                                              .speed = paced ? 1.0 : 0.0},
                                                             MakeOffscreenSceneCamera);
@@ -120,10 +123,11 @@ Status OpenBus(const AppOptions& options, Session& session, EngineParts& parts) 
   return Ok();
 }
 
-Status OpenSource(const AppOptions& options, bool paced, Session& session, EngineParts& parts) {
+Status OpenSource(const AppOptions& options, const VehicleDescription& vehicle, bool paced,
+                  Session& session, EngineParts& parts) {
   switch (options.source) {
     case SourceChoice::kSimulation:
-      return OpenSimulation(options, paced, session, parts);
+      return OpenSimulation(options, vehicle, paced, session, parts);
     case SourceChoice::kReplay:
       return OpenReplay(options, paced, session, parts);
     case SourceChoice::kImages:
@@ -150,15 +154,20 @@ std::string TimeStampName() {
 Result<Session> OpenSession(const AppOptions& options, bool threaded) {
   Session session;
   EngineParts parts;
+  const Result<VehicleDescription> vehicle =
+      LoadVehicle(options.vehicle.empty() ? kDefaultVehicle : options.vehicle);
+  if (!vehicle) {
+    return vehicle.error();
+  }
   if (options.source != SourceChoice::kReplay) {
     const Result<Settings> settings =
-        SettingsOfCommandLine(Settings{}, options.settings.file, options.settings.set);
+        SettingsOfCommandLine(SettingsFor(*vehicle), options.settings.file, options.settings.set);
     if (!settings) {
       return settings.error();
     }
     parts.settings = *settings;
   }
-  const Status source = OpenSource(options, threaded, session, parts);
+  const Status source = OpenSource(options, *vehicle, threaded, session, parts);
   if (!source) {
     return source.error();
   }

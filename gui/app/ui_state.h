@@ -33,6 +33,7 @@ struct UiState {
   bool leave_asked = false;  ///< the question before leaving a vehicle in the air is open
   bool quit = false;
   std::optional<NextFlight> next;  ///< set with quit: the flight after this one, or its review
+  WayOut after_review;             ///< offered while a record is shown
   bool report_wanted = false;      ///< to be written and opened
   std::string message;             ///< toast, newest
   double message_until_s = 0;      ///< UI clock

@@ -13,6 +13,7 @@
 #include "gui/app/view3d_input.h"
 #include "gui/panels/fly_panels.h"
 #include "gui/panels/fly_workspace.h"
+#include "gui/widgets/button.h"
 #include "gui/widgets/draw.h"
 #include "gui/widgets/interact.h"
 
@@ -165,6 +166,7 @@ Intents View::Draw(const EngineSnapshot* snapshot, const FlightRecord* record, U
              Explain};
   ui.highlighted_site = state.highlighted_site;
   ui.window_focused = frame.window_focused;
+  ui.after_review = state.after_review;
   if (snapshot != nullptr) {
     ui.silent_s = AgeNow(*snapshot, snapshot->time, MonotonicSeconds());
     state.frame.preset_name = LimitsName(state.tune, snapshot->session->settings);
@@ -245,8 +247,12 @@ void View::DrawComplaint(const FrameLayout& layout, const std::string& complaint
   ImDrawList* dl = Canvas();
   FillRect(dl, strip, s.palette.warning_fill);
   StrokeRect(dl, strip, s.palette.warning, 2);
-  DrawText(ui, s.medium, s.palette.text1, strip.x + s.Px(12), strip.centre().y,
-           FitWords(s.medium, complaint, strip.w - s.Px(24)));
+  const std::string_view shown = FitClauses(s.medium, complaint, strip.w - s.Px(24));
+  DrawText(ui, s.medium, s.palette.text1, strip.x + s.Px(12), strip.centre().y, shown);
+  if (shown.size() < complaint.size() &&
+      Interact(ui, "engine_complaint", strip, kPassive).hovered) {
+    DrawTooltip(ui, complaint);
+  }
   ui.items.Add("engine_complaint", strip, true, complaint);
 }
 

@@ -50,18 +50,20 @@ View3dInput MakeView3dInput(const EngineSnapshot& snapshot, std::uint64_t highli
       X_WB.p = nav.InForce().estimate.p_WB;
     }
     input.X_WB = X_WB;
+    input.rotor_diameter_m = snapshot.session->settings.slad.lander.rotor_diameter_m;
   }
   const LandingSite* shown = SiteInView(snapshot, highlighted);
   if (shown) {
     input.site = View3dSite{shown->p_WS, shown->clear_radius_m};
     input.ground_height_m = HeightFromDown(shown->p_WS.z());
-    input.site_commanded = snapshot.flight->mission.approval.has_value();
+    input.site_commanded = IsCommanded(snapshot.flight->mission);
     if (input.X_WB) {
       input.path = {input.X_WB->p.cast<float>(), shown->p_WS.cast<float>()};
     }
   }
-  if (decision && !snapshot.flight->mission.armed) {
-    for (const LandingSite& site : decision->selection.sites) {
+  const TerrainDecision* known = SitesInForce(snapshot);
+  if (known && !snapshot.flight->mission.armed) {
+    for (const LandingSite& site : known->selection.sites) {
       if (!shown || site.id != shown->id) {
         input.other_sites.push_back({site.p_WS, site.clear_radius_m});
       }

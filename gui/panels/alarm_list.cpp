@@ -83,7 +83,7 @@ void DrawAlarmList(const EngineSnapshot& snap, const FrameLayout& layout, FrameS
   }
   if (more) {
     DrawText(ui, s.body, s.palette.text2, list.x + s.Px(40), y + s.Px(kRow / 2),
-             "And " + std::to_string(rows.size() - shown) + " more, on Diagnose");
+             "And " + std::to_string(rows.size() - shown) + " more alarms, on Diagnose");
   }
   const bool on_list = Interact(ui, "alarm_history", list, kPassive).hovered;
   Interact(ui, "alarm_history", list, kNoTab);  // nothing below it is clicked

@@ -12,7 +12,6 @@ struct AlarmLook {
   Icon icon;
   ImU32 colour, fill;
   const char* word;
-  const char* plural;
 };
 AlarmLook LookOf(const Palette& palette, AlarmLevel level);
 
@@ -20,7 +19,7 @@ AlarmLook LookOf(const Palette& palette, AlarmLevel level);
 bool IsShelved(const FrameState& state, const Alarm& alarm);
 /// A warning or caution that nobody acknowledged yet, whether it stands or is over.
 bool WaitsForAnswer(const Alarm& alarm);
-/// "Over now: ", "In the flight: " and the text, with how often it came.
+/// "Ended, worst 0.62 m: ", "In the flight: " and the text, with how often it came.
 std::string AlarmWords(const Alarm& alarm, bool of_record);
 
 /// The list below the strip: every alarm in full, with its own "acknowledge/gps_error".

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/model/mission/alarm_text.h"
 #include "gui/panels/alarm_look.h"
 #include "gui/widgets/button.h"
 #include "gui/widgets/interact.h"
@@ -10,13 +11,13 @@ namespace palace {
 AlarmLook LookOf(const Palette& p, AlarmLevel level) {
   switch (level) {
     case AlarmLevel::kWarning:
-      return {Icon::kWarning, p.warning, p.warning_fill, "WARNING", "warning"};
+      return {Icon::kWarning, p.warning, p.warning_fill, "WARNING"};
     case AlarmLevel::kCaution:
-      return {Icon::kCaution, p.caution, p.caution_fill, "CAUTION", "caution"};
+      return {Icon::kCaution, p.caution, p.caution_fill, "CAUTION"};
     case AlarmLevel::kAdvisory:
       break;
   }
-  return {Icon::kAdvisory, p.advisory, p.advisory_fill, "ADVISORY", "advisory"};
+  return {Icon::kAdvisory, p.advisory, p.advisory_fill, "ADVISORY"};
 }
 
 namespace {
@@ -38,8 +39,15 @@ bool WaitsForAnswer(const Alarm& alarm) {
 }
 
 std::string AlarmWords(const Alarm& alarm, bool of_record) {
-  return (of_record ? "In the flight: " : "") + std::string(alarm.active ? "" : "Over now: ") +
-         alarm.text + (alarm.count > 1 ? " ×" + std::to_string(alarm.count) : "");
+  const std::string worst = alarm.worst.empty() ? "" : "worst " + alarm.worst;
+  const std::string ended = worst.empty() ? "Ended: " : "Ended, " + worst + ": ";
+  // While it stands the worst is worth words only where it is not the figure that is told.
+  const bool had_worse = alarm.active && !worst.empty() &&
+                         AlarmSubject(alarm.text).find(alarm.worst) == std::string::npos;
+  return (of_record ? "In the flight: " : "") +
+         (alarm.active ? alarm.text : ended + AlarmFinding(alarm.text)) +
+         (had_worse ? " At " + worst + "." : "") +
+         (alarm.count > 1 ? " ×" + std::to_string(alarm.count) : "");
 }
 
 namespace {
@@ -69,45 +77,22 @@ float DrawShelf(FrameState& state, float right, float y, UiFrame& ui) {
   return button.x + s.Px(12);
 }
 
-/// "2 advisories" and the worst shape among them; drawn right-aligned. Returns the left edge.
-float DrawRest(const std::vector<const Alarm*>& rest, const char* none, float right, float y,
-               UiFrame& ui) {
+/// How many alarms there are, with the shape of the worst that stands; where the sentence beside it
+/// is the only one, `alone` in its place. Drawn right-aligned. Returns the left edge.
+float DrawCount(const std::vector<Alarm>& all, const char* alone, float right, float y,
+                UiFrame& ui) {
   const Style& s = ui.style;
-  std::string words;
-  std::optional<AlarmLook> look;
-  if (rest.empty()) {
-    words = none;
-  } else {
-    const AlarmLevel worst = rest.front()->level;
-    const auto count = std::count_if(rest.begin(), rest.end(),
-                                     [&](const Alarm* alarm) { return alarm->level == worst; });
-    look = LookOf(s.palette, worst);
-    words = std::to_string(count) + " " +
-            (count == 1 ? look->plural
-                        : (worst == AlarmLevel::kAdvisory ? std::string("advisories")
-                                                          : std::string(look->plural) + "s"));
-    const std::size_t others = rest.size() - static_cast<std::size_t>(count);
-    if (others > 0) {
-      words += ", " + std::to_string(others) + " more";
-    }
-  }
+  const bool counts = all.size() > 1;
   float x = right - s.Px(27);
-  x -= DrawText(ui, s.body, s.palette.text2, x, y, words, Align::kRight);
-  if (look) {
+  x -= DrawText(ui, s.body, s.palette.text2, x, y, counts ? AlarmCountWords(all) : alone,
+                Align::kRight);
+  if (counts) {
+    const AlarmLook look = LookOf(s.palette, all.front().level);  // what stands, worst, is first
     x -= s.Px(16);
-    DrawIcon(Canvas(), look->icon, {x, y}, s.Px(14), look->colour);
+    DrawIcon(Canvas(), look.icon, {x, y}, s.Px(14), look.colour);
     x -= s.Px(6);
   }
   return x;
-}
-
-/// What an alarm is about, "GPS horizontal error 2.6 m".
-std::string Subject(const std::string& text) {
-  std::size_t stop = text.size();
-  for (const char* end : {", ", ". ", ": "}) {
-    stop = std::min(stop, text.find(end));
-  }
-  return text.substr(0, stop);
 }
 
 /// Shelve of the first alarm, and Acknowledge of the first that waits for an answer: that may stand
@@ -137,12 +122,15 @@ float DrawAnswers(const std::vector<const Alarm*>& alarms, FrameState& state, fl
   constexpr float kMostNamed = 300;
   std::string words = "Acknowledge";
   if (&asked != &first) {
-    words += ": " + std::string(FitWords(s.body, Subject(asked.text), s.Px(kMostNamed)));
+    words += ": " + std::string(FitWords(s.body, AlarmSubject(asked.text), s.Px(kMostNamed)));
   }
   const float width = std::max(s.Px(112), TextWidth(s.body, words) + s.Px(24));
   const Rect acknowledge{right - s.Px(8) - width, y - s.Px(12), width, s.Px(24)};
   if (DrawButton(ui, "acknowledge", acknowledge, words, look)) {
     ui.intents.push_back(CommandAction(AcknowledgeAlarm{asked.id}));
+  }
+  if (&asked != &first && Interact(ui, "acknowledge", acknowledge, kPassive).hovered) {
+    DrawTooltip(ui, asked.text);  // the button names it in a few words
   }
   return acknowledge.x;
 }
@@ -167,7 +155,7 @@ bool DrawFirst(const Alarm& alarm, bool of_record, const Rect& rect, float text_
   float x = rect.x + s.Px(40);
   x += DrawText(ui, s.medium, p.text1, x, y, look.word) + s.Px(10);
   const std::string text = AlarmWords(alarm, of_record);
-  const std::string_view shown = FitWords(s.body, text, text_right - x - s.Px(16));
+  const std::string_view shown = FitClauses(s.body, text, text_right - x - s.Px(16));
   DrawText(ui, s.body, p.text1, x, y, shown);
   return shown.size() < text.size();
 }
@@ -205,15 +193,15 @@ void DrawAlarmStripPanel(const EngineSnapshot& snap, const Rect& rect, FrameStat
     ui.items.Add("alarm", rect, true, words);
     return;
   }
-  const std::vector<const Alarm*> rest(alarms.begin() + 1, alarms.end());
+  const std::vector<Alarm>& all = snap.flight->mission.alarms;
   const char* none =
       alarms.front()->level == AlarmLevel::kAdvisory && state.shelved.empty() ? "No cautions" : "";
   float right = DrawShelf(state, rect.right(), y, ui);
   const float count_right = right;
-  right = DrawRest(rest, none, right, y, ui);
-  if (!rest.empty() && Interact(ui, "alarm_count", {right, rect.y, count_right - right, rect.h},
-                                kNoTab, std::to_string(alarms.size()) + " alarms")
-                           .clicked) {
+  right = DrawCount(all, none, right, y, ui);
+  if (all.size() > 1 && Interact(ui, "alarm_count", {right, rect.y, count_right - right, rect.h},
+                                 kNoTab, AlarmCountWords(all))
+                            .clicked) {
     state.history_open = !state.history_open;
   }
   const bool of_record = FollowsRecord(snap.session->role);

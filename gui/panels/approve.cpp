@@ -8,6 +8,7 @@
 #include "gui/panels/session_words.h"
 #include "gui/widgets/button.h"
 #include "gui/widgets/icons.h"
+#include "gui/widgets/interact.h"
 #include "gui/widgets/number_text.h"
 
 namespace palace {
@@ -73,11 +74,34 @@ std::string NextLetter(const EngineSnapshot& snap) {
     return {};
   }
   for (const LandingSite& site : snap.terrain->applied->selection.sites) {
-    if (site.id != snap.flight->mission.armed->id && !snap.flight->mission.IsRefused(site.id)) {
+    if (site.id != snap.flight->mission.armed->id && IsNamedSite(site.id) &&
+        !snap.flight->mission.IsRefused(site.id)) {
       return site.letter;
     }
   }
   return {};
+}
+
+/// The armed site on the newest map; null where it is not listed.
+const LandingSite* ArmedNow(const EngineSnapshot& snap) {
+  const TerrainDecision* map = snap.terrain->applied.get();
+  if (map == nullptr || !snap.flight->mission.armed) {
+    return nullptr;
+  }
+  for (const LandingSite& site : map->selection.sites) {
+    if (site.id == snap.flight->mission.armed->id) {
+      return &site;
+    }
+  }
+  return nullptr;
+}
+
+/// What the list says of the armed site is said where it is approved, too.
+std::string WhyShaken(const EngineSnapshot& snap) {
+  const LandingSite* now = ArmedNow(snap);
+  return now != nullptr && std::isfinite(now->called_unsafe_s)
+             ? "A map called it unsafe " + Fixed(now->called_unsafe_s, 0) + " s ago"
+             : std::string();
 }
 
 /// Distance, height, time and heading, in sentences.
@@ -88,6 +112,10 @@ std::string Consequence(const EngineSnapshot& snap, bool narrow) {
   if (std::isfinite(m.time_to_touchdown_s)) {
     text += (narrow ? ", touchdown in about " : ". Touchdown in about ") +
             Fixed(m.time_to_touchdown_s, 0) + " s";
+  }
+  const std::string shaken = WhyShaken(snap);
+  if (!shaken.empty()) {
+    return narrow ? shaken + "." : shaken + ". " + text + ".";
   }
   const std::string doubt =
       m.armed ? WhyProvisional(*m.armed, snap.session->settings.slad) : std::string();
@@ -167,7 +195,8 @@ void DrawChecks(const EngineSnapshot& snap, const Rect& rect, float y, bool narr
            pass ? p.text1 : p.caution);
   const float text_x = rect.x + s.Px(32);
   const float room = rect.w - s.Px(110);
-  DrawText(ui, s.body, p.text1, text_x, y, FitWords(s.body, words, room));
+  const std::string_view shown = FitClauses(s.body, words, room);
+  DrawText(ui, s.body, p.text1, text_x, y, shown);
   const Rect line{rect.x + s.Px(8), y - s.Px(10), rect.w - s.Px(16), s.Px(20)};
   const float right = rect.right() - s.Px(12);
   if (narrow) {
@@ -178,8 +207,12 @@ void DrawChecks(const EngineSnapshot& snap, const Rect& rect, float y, bool narr
   } else {
     DrawText(ui, s.body, p.text2, right, y, state.show_guards ? "Hide" : "Show", Align::kRight);
   }
-  if (Interact(ui, "show_checks", line, 0, words).clicked) {
+  const Interaction in = Interact(ui, "show_checks", line, 0, words);
+  if (in.clicked) {
     state.show_guards = !state.show_guards;
+  }
+  if (in.hovered && shown.size() < words.size() && !state.show_guards) {
+    DrawTooltip(ui, words);
   }
 }
 
@@ -378,7 +411,7 @@ void DrawApprovePanel(const EngineSnapshot& snap, const Rect& rect, bool narrow,
   const float width = rect.w - s.Px(24);
   if (m.armed) {
     DrawText(ui, narrow ? s.medium : s.section, p.text1, x, rect.y + s.Px(narrow ? 42 : 46),
-             std::string("Commits the helicopter to land on site ") + m.armed->letter + ".");
+             std::string("Commits the vehicle to land on site ") + m.armed->letter + ".");
     float y = rect.y + s.Px(narrow ? 64 : 73);
     const std::string words = Consequence(snap, narrow);
     std::vector<std::string> lines = WrapText(s.body, words, width);

@@ -34,25 +34,15 @@ bool TrackerShown(const EngineSnapshot& snap) {
 
 SiteOverlay OverlayOf(const EngineSnapshot& snap, std::uint64_t highlighted) {
   SiteOverlay overlay;
-  const TerrainDecision* shown = snap.terrain->Shown();
+  const TerrainDecision* known = SitesInForce(snap);
   const bool descent = IsDescentView(snap);
-  overlay.sites = shown != nullptr && !descent ? &shown->selection.sites : nullptr;
+  overlay.sites = known != nullptr && !descent ? &known->selection.sites : nullptr;
   overlay.mission = descent ? nullptr : &snap.flight->mission;
   if (const LandingSite* site = SiteInView(snap, 0)) {
     overlay.selected = *site;
   }
   overlay.highlighted = highlighted;
-  overlay.commanded = snap.flight->mission.state >= MissionState::kApproved;
-  // The applied winner, where the preview moves it from the ring already drawn. Beside a site that
-  // somebody selected, a second ring would only be mistaken for it.
-  const LandingSite* applied =
-      snap.terrain->preview && snap.terrain->applied && !snap.flight->mission.armed
-          ? snap.flight->mission.BestStanding(snap.terrain->applied->selection.sites)
-          : nullptr;
-  if (applied != nullptr && (!overlay.selected || SitesDiffer(*overlay.selected, *applied))) {
-    overlay.ghost = *applied;
-    overlay.ghost_words = std::string("applied ") + overlay.ghost->letter;
-  }
+  overlay.commanded = IsCommanded(snap.flight->mission);
   return overlay;
 }
 

@@ -81,6 +81,20 @@ float Largest(const std::vector<PlotTrace>& all, float at_least) {
   return at_least;
 }
 
+/// Widens the axis, by whole steps, until everything plotted lies on it: what climbs, or goes
+/// wrong, leaves no plot.
+void HoldAll(PlotView& view, float step) {
+  for (const PlotTrace& series : view.series) {
+    for (const ImVec2& point : series.points) {
+      if (std::isfinite(point.y) && point.y > view.y_max) {
+        view.y_max = RoundUp(point.y, step);
+      } else if (std::isfinite(point.y) && point.y < view.y_min) {
+        view.y_min = -RoundUp(-point.y, step);
+      }
+    }
+  }
+}
+
 /// A series whose values are worked out from each sample.
 template <typename Get>
 PlotTrace Derived(const EngineSnapshot& snap, ImU32 colour, PlotTrace::Stroke stroke, Get get) {
@@ -152,6 +166,7 @@ PlotView HeightPlot(const EngineSnapshot& snap, const Palette& p, const HistoryS
   }
   const float top = Largest(view.series, 4);
   view.y_max = RoundUp(top * 1.05f, top > 20 ? 10 : (top > 8 ? 5 : 2));
+  HoldAll(view, 1);
   view.current = Fixed(now.height_above_site_m, 1) + " m";
   return view;
 }
@@ -201,6 +216,7 @@ PlotView RatePlot(const EngineSnapshot& snap, const Palette& p, const HistorySam
   view.y_min = -0.25f;
   view.limits = LimitLine(snap, LimitId::kDescentRate);
   view.y_max = RoundUp(1.2f * (view.limits.empty() ? 1.5f : view.limits.front().value), 0.5f);
+  HoldAll(view, 0.5f);
   view.current = Fixed(now.descent_rate_mps, 2) + " m/s";
   return view;
 }
@@ -210,6 +226,7 @@ PlotView CoherencePlot(const EngineSnapshot& snap, const Palette& p, const Histo
   view.series = {Estimate(snap, &HistorySample::coherence, p)};
   view.y_min = 0.4f;
   view.y_max = 1.0f;
+  HoldAll(view, 0.2f);
   view.limits = LimitLine(snap, LimitId::kCoherence);
   view.current = Fixed(now.coherence, 2);
   return view;
@@ -220,6 +237,7 @@ PlotView ResidualPlot(const EngineSnapshot& snap, const Palette& p, const Histor
   view.series = {Estimate(snap, &HistorySample::residual_sigma, p)};
   view.y_min = 0;
   view.y_max = 4;
+  HoldAll(view, 2);
   view.limits = LimitLine(snap, LimitId::kResidual);
   view.current = Fixed(now.residual_sigma, 1) + Unit(now.residual_sigma, " σ");
   return view;
@@ -230,6 +248,7 @@ PlotView PathPlot(const EngineSnapshot& snap, const Palette& p, const HistorySam
   view.series = {Estimate(snap, &HistorySample::glide_deviation_m, p,
                           [](const HistorySample& h) { return h.estimate_sigma_m.norm(); })};
   view.y_max = 1.6f;
+  HoldAll(view, 0.4f);
   view.limits = LimitLine(snap, LimitId::kOffPath);
   view.current = Fixed(now.glide_deviation_m, 2) + Unit(now.glide_deviation_m, " m");
   return view;

@@ -1,5 +1,6 @@
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "engine/core/units.h"
 #include "engine/model/mission/map_age.h"
@@ -28,50 +29,51 @@ std::string GearWords(const LandingSite& site) {
          Fixed(odds.best_probability, 3) + ".";
 }
 
-/// The site's figures from the top, then what the mission says of the air; folded: the first of
-/// them only.
+/// The site's figures from the top, then what the mission says of the air; folded: what the folded
+/// panel shows first, and the rest below.
 std::vector<EvidenceRow> RowsOf(const EngineSnapshot& snap, const LandingSite& site, bool folded) {
   constexpr std::array kSite = {
       LimitId::kSlope,        LimitId::kRoughness,   LimitId::kStep,       LimitId::kClearRadius,
       LimitId::kUnknownCells, LimitId::kProbability, LimitId::kHeightNoise};
-  const auto in_folded = [](LimitId id) {
-    return id != LimitId::kStep && id != LimitId::kUnknownCells && id != LimitId::kOffWind;
+  const auto in_folded = [](const LimitRow& limit) {
+    return limit.over || (limit.id != LimitId::kStep && limit.id != LimitId::kUnknownCells &&
+                          limit.id != LimitId::kOffWind);
   };
   const MissionStatus& mission = snap.flight->mission;
-  const TerrainDecision* shown = snap.terrain->Shown();
-  // What is frozen stands under the limits that it was frozen with, whatever is previewed.
+  const TerrainDecision* known = SitesInForce(snap);
+  // What is frozen stands under the limits that it was frozen with; nothing under a preview's.
   const std::vector<LimitRow> limits = mission.armed      ? mission.armed_limits
-                                       : shown != nullptr ? SiteLimits(site, shown->settings)
+                                       : known != nullptr ? SiteLimits(site, known->settings)
                                                           : std::vector<LimitRow>{};
-  std::vector<EvidenceRow> rows;
-  const auto add = [&](const LimitRow* limit) {
-    if (limit != nullptr && (!folded || in_folded(limit->id))) {
-      rows.push_back(RowOf(*limit));
+  std::vector<EvidenceRow> rows, below;
+  const auto add = [&](const LimitRow* limit, const auto& change) {
+    if (limit != nullptr) {
+      EvidenceRow row = RowOf(*limit);
+      change(row);
+      (folded && !in_folded(*limit) ? below : rows).push_back(std::move(row));
     }
   };
   for (const LimitId id : kSite) {
-    const std::size_t before = rows.size();
-    add(FindLimit(limits, id));
-    // At the worst heading of the lander, where the gear is known.
-    if (id == LimitId::kProbability && rows.size() > before &&
-        std::isfinite(site.touchdown.worst_heading_rad)) {
-      rows.back().spread = "at " + HeadingText(site.touchdown.worst_heading_rad);
-    }
+    add(FindLimit(limits, id), [&](EvidenceRow& row) {
+      // At the worst heading of the lander, where the gear is known.
+      if (id == LimitId::kProbability && std::isfinite(site.touchdown.worst_heading_rad)) {
+        row.spread = "at " + HeadingText(site.touchdown.worst_heading_rad);
+      }
+    });
   }
   for (const LimitId id : {LimitId::kWind, LimitId::kOffWind}) {
-    const std::size_t before = rows.size();
-    add(FindLimit(snap.flight->mission.limits, id));
-    if (mission.armed && rows.size() > before) {  // among frozen figures
-      rows.back().name += " now";
-    }
+    add(FindLimit(snap.flight->mission.limits, id), [&](EvidenceRow& row) {
+      row.name += mission.armed ? " now" : "";  // among frozen figures
+    });
   }
+  rows.insert(rows.end(), below.begin(), below.end());
   return rows;
 }
 
 }  // namespace
 
 void DrawEvidencePanel(const EngineSnapshot& snap, const Rect& rect, bool folded, bool narrow,
-                       std::uint64_t highlighted, UiFrame& ui) {
+                       std::uint64_t highlighted, RowScroll& scroll, UiFrame& ui) {
   const Style& s = ui.style;
   const LandingSite* site = SiteInView(snap, highlighted);
   if (site == nullptr) {
@@ -85,15 +87,16 @@ void DrawEvidencePanel(const EngineSnapshot& snap, const Rect& rect, bool folded
   const std::string age =
       AgeText(SecondsBetween(frozen ? snap.flight->mission.armed_at : site->map_time, snap.time) +
               ui.silent_s);
-  const Rect content = DrawPanelFrame(ui, rect, std::string("Evidence for site ") + site->letter,
-                                      {{frozen                  ? "Frozen " + age + " ago"
-                                        : snap.terrain->preview ? "Preview, map " + age + " ago"
-                                                                : "Map " + age + " ago",
-                                        0, old, old}});
   const std::vector<EvidenceRow> rows = RowsOf(snap, *site, folded);
-  const Rect area{content.x, content.y + s.Px(4), content.w, content.h - s.Px(4)};
-  DrawEvidenceRows(ui, area, rows, narrow);
-  const float foot = area.y + EvidenceRowHeight(s, narrow) * static_cast<float>(rows.size());
+  const Rect below_head = PanelContent(rect, s);
+  const Rect area{below_head.x, below_head.y + s.Px(4), below_head.w, below_head.h - s.Px(4)};
+  const std::size_t beyond = RowsBeyond(area, rows.size(), s, narrow);
+  DrawPanelFrame(ui, rect, std::string("Evidence for site ") + site->letter,
+                 {{RowsBeyondWords(beyond), s.palette.text1, true, false},
+                  {(frozen ? "Frozen " : "Map ") + age + " ago", 0, old, old}});
+  DrawScrolledRows(ui, "evidence_rows", area, rows, narrow, scroll);
+  const float foot =
+      area.y + EvidenceRowHeight(s, narrow) * static_cast<float>(rows.size() - beyond);
   if (rect.bottom() - foot > s.Px(28)) {
     DrawText(ui, s.caption, s.palette.text2, rect.x + s.Px(12), foot + s.Px(14),
              "Share of limit used; whisker 3σ; white line: the limit; who acts.");

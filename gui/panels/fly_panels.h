@@ -8,10 +8,16 @@
 
 namespace palace {
 
-/// The armed site, else the highlighted candidate, else the best one not refused; null without any.
+/// Fly lists, marks and names the sites of the limits in force alone, whatever is previewed: what a
+/// command names is what the mission knows. Null before the first map.
+const TerrainDecision* SitesInForce(const EngineSnapshot& snap);
+/// The armed site, else the highlighted candidate, else the best one not refused; null without any,
+/// and during a wave-off, when no site is proposed.
 const LandingSite* SiteInView(const EngineSnapshot& snap, std::uint64_t highlighted);
 /// The mission is past APPROVED: the descent panels are shown.
 bool IsDescentView(const EngineSnapshot& snap);
+/// The armed site was approved: the vehicle lands on it, or turned away from it.
+bool IsCommanded(const MissionStatus& mission);
 /// Marks that all maps share.
 MapMarks MarksOf(const EngineSnapshot& snap, std::uint64_t highlighted);
 
@@ -36,18 +42,22 @@ void DrawTickQuestion(const EngineSnapshot& snap, const Rect& body, MapRowState&
 /// A click or Enter arms ("site/A"): SelectSite. The row with the focus: HighlightSite.
 void DrawSiteListPanel(const EngineSnapshot& snap, const FlyLayout& layout, SiteListState& state,
                        UiFrame& ui);
+/// Rows that have no room are counted in its head; item "evidence_rows" brings them into sight.
 void DrawEvidencePanel(const EngineSnapshot& snap, const Rect& rect, bool folded, bool narrow,
-                       std::uint64_t highlighted, UiFrame& ui);
+                       std::uint64_t highlighted, RowScroll& scroll, UiFrame& ui);
 /// Hold button "approve", button "refuse", list of guards behind "show_checks".
 void DrawApprovePanel(const EngineSnapshot& snap, const Rect& rect, bool narrow,
                       ApproveState& state, UiFrame& ui);
 /// From APPROVED on: "hold_here", after a wave-off "acknowledge_wave_off".
 void DrawLandingPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui);
-/// From LANDED on: "new_flight", "review_flight", "open_report".
+/// From LANDED on: "new_flight" (of a record: the way out of the review), "review_flight",
+/// "open_report".
 void DrawLandedPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui);
 void DrawSiteRecheckPanel(const EngineSnapshot& snap, const Rect& rect, bool narrow,
                           MapProbe& probe, UiFrame& ui);
-void DrawLimitsInForcePanel(const EngineSnapshot& snap, const Rect& rect, bool narrow, UiFrame& ui);
+/// Every limit that acts now; what is over stands first. "limit_rows" as "evidence_rows".
+void DrawLimitsInForcePanel(const EngineSnapshot& snap, const Rect& rect, bool narrow,
+                            RowScroll& scroll, UiFrame& ui);
 void DrawTrackerPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui);
 void DrawChannelStripPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui);
 /// Tabs "tab/Descent" and "tab/Maps", and six plots.

@@ -8,6 +8,7 @@
 
 #include "engine/model/mission/mission_status.h"
 #include "gui/panels/map_probe.h"
+#include "gui/widgets/evidence_row.h"
 #include "gui/widgets/hold_button.h"
 #include "gui/widgets/map/camera_overlay.h"
 #include "gui/widgets/map/map_image.h"
@@ -49,6 +50,7 @@ struct FlyState {
   ApproveState approve;
   CameraState camera;
   MapRowState maps;
+  RowScroll evidence, limits;
   std::optional<MissionState> shown_state;  ///< of the last frame
   PlotTab tab = PlotTab::kDescent;
   PlotHover plots;

@@ -46,7 +46,7 @@ void DrawDecisionColumn(const EngineSnapshot& snap, const FlyLayout& layout, Fly
                         UiFrame& ui) {
   DrawSiteListPanel(snap, layout, state.sites, ui);
   DrawEvidencePanel(snap, layout.evidence, layout.folded_evidence, layout.narrow,
-                    ui.highlighted_site, ui);
+                    ui.highlighted_site, state.evidence, ui);
   const MissionState mission = snap.flight->mission.state;
   if (mission == MissionState::kApproved || mission == MissionState::kAborting ||
       mission == MissionState::kHold) {
@@ -59,7 +59,7 @@ void DrawDecisionColumn(const EngineSnapshot& snap, const FlyLayout& layout, Fly
 void DrawDescentColumn(const EngineSnapshot& snap, const FlyLayout& layout, FlyState& state,
                        UiFrame& ui) {
   DrawSiteRecheckPanel(snap, layout.recheck, layout.narrow, state.maps.probe, ui);
-  DrawLimitsInForcePanel(snap, layout.limits, layout.narrow, ui);
+  DrawLimitsInForcePanel(snap, layout.limits, layout.narrow, state.limits, ui);
   if (layout.tracker.h > 0) {
     DrawTrackerPanel(snap, layout.tracker, ui);
   }

@@ -52,12 +52,16 @@ void DrawSteps(const EngineSnapshot& snap, const Rect& row, UiFrame& ui) {
   const float width = std::floor((row.w - 2 * gap) / 3);
   float x = row.x;
   for (const NextStep& step : kSteps) {
+    const bool record = FollowsRecord(snap.session->role);
+    const bool way_out = record && !step.needs_log && !ui.after_review.label.empty();
     ButtonLook look;
     look.flat = true;
-    look.enabled = !FollowsRecord(snap.session->role) &&
-                   (!step.needs_log || !snap.session->recording_path.empty());
-    look.reason = FollowsRecord(snap.session->role) ? "This is a record" : "Nothing was recorded";
-    if (DrawButton(ui, step.item, {x, row.y, width, row.h}, step.label, look)) {
+    look.enabled =
+        way_out || (!record && (!step.needs_log || !snap.session->recording_path.empty()));
+    look.reason = record ? "This is a record" : "Nothing was recorded";
+    look.hint = way_out ? std::string_view(ui.after_review.hint) : std::string_view();
+    const std::string_view label = way_out ? std::string_view(ui.after_review.label) : step.label;
+    if (DrawButton(ui, step.item, {x, row.y, width, row.h}, label, look)) {
       ui.intents.push_back(UiAction(NextFlight{step.kind, snap.session->recording_path}));
     }
     x += width + gap;

@@ -6,6 +6,7 @@
 #include "gui/panels/session_words.h"
 #include "gui/widgets/button.h"
 #include "gui/widgets/icons.h"
+#include "gui/widgets/interact.h"
 #include "gui/widgets/number_text.h"
 
 namespace palace {
@@ -95,7 +96,7 @@ void DrawActions(const EngineSnapshot& snap, const Rect& button, UiFrame& ui) {
   }
   if (m.state == MissionState::kHold) {
     DrawText(ui, s.body, s.palette.text1, button.x, button.centre().y,
-             FitWords(s.body, "Sites can be selected when the vehicle has stopped.", button.w));
+             FitWords(s.body, "Select a site once the vehicle has stopped.", button.w));
     return;
   }
   look.enabled = IsFlying(m.state) && snap.session->can_transmit;
@@ -167,8 +168,13 @@ void DrawLandingPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui)
   DrawLadder(snap, {x, rect.y + s.Px(tall ? 75 : 62), width, s.Px(8)}, ui);
   const Rect button{x, rect.bottom() - s.Px(52), width, s.Px(40)};
   float y = rect.y + s.Px(tall ? 119 : 102);
-  for (const std::string& line : WrapText(s.body, Record(snap), width)) {
+  const std::string record = Record(snap);
+  for (const std::string& line : WrapText(s.body, record, width)) {
     if (y + s.Px(10) > button.y) {
+      const Rect told{x, rect.y, width, button.y - rect.y};
+      if (Interact(ui, "landing_record", told, kPassive).hovered) {
+        DrawTooltip(ui, record);
+      }
       break;
     }
     DrawText(ui, s.body, p.text2, x, y, line);

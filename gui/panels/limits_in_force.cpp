@@ -10,50 +10,40 @@ namespace palace {
 
 namespace {
 
-struct ShownLimit {
-  LimitId id;
-  bool wide_only = false;
-};
-/// From the top. The engine gives the place as one of the first two.
-constexpr std::array kShown = {ShownLimit{LimitId::kOffPath},
-                               ShownLimit{LimitId::kFromCentre},
-                               ShownLimit{LimitId::kDescentRate},
-                               ShownLimit{LimitId::kCoherence},
-                               ShownLimit{LimitId::kResidual},
-                               ShownLimit{LimitId::kSlope, true},
-                               ShownLimit{LimitId::kRoughness, true},
-                               ShownLimit{LimitId::kClearRadius},
-                               ShownLimit{LimitId::kWind}};
+/// From the top, whoever acts on them. The engine gives the place as one of the first two.
+constexpr std::array kFirst = {LimitId::kOffPath,     LimitId::kFromCentre, LimitId::kDescentRate,
+                               LimitId::kCoherence,   LimitId::kResidual,   LimitId::kClearRadius,
+                               LimitId::kProbability, LimitId::kSlope,      LimitId::kWind,
+                               LimitId::kRoughness,   LimitId::kStep,       LimitId::kGroundAge,
+                               LimitId::kVisionOutage};
 
-/// The rows of the list, then whatever else is over its limit. Short of room, what is inside its
-/// limit goes first, from the bottom.
-std::vector<const LimitRow*> RowsToShow(const std::vector<LimitRow>& limits, bool narrow,
-                                        std::size_t room) {
-  std::vector<const LimitRow*> rows;
-  for (const ShownLimit& shown : kShown) {
-    const LimitRow* limit = FindLimit(limits, shown.id);
-    if (limit != nullptr && (limit->over || !narrow || !shown.wide_only)) {
-      rows.push_back(limit);
+/// What is over its limit, then the list above, then every other limit that somebody enforces.
+std::vector<EvidenceRow> RowsToShow(const std::vector<LimitRow>& limits) {
+  std::vector<const LimitRow*> order;
+  const auto add = [&](const LimitRow* limit) {
+    if (limit != nullptr && std::find(order.begin(), order.end(), limit) == order.end()) {
+      order.push_back(limit);
     }
+  };
+  for (const LimitId id : kFirst) {
+    add(FindLimit(limits, id));
   }
   for (const LimitRow& limit : limits) {
-    if (limit.over && std::find(rows.begin(), rows.end(), &limit) == rows.end()) {
-      rows.push_back(&limit);
-    }
+    add(limit.enforced_by != EnforcedBy::kNobody ? &limit : nullptr);
   }
-  for (std::size_t i = rows.size(); i-- > 0 && rows.size() > room;) {
-    if (!rows[i]->over) {
-      rows.erase(rows.begin() + static_cast<std::ptrdiff_t>(i));
-    }
+  std::stable_partition(order.begin(), order.end(),
+                        [](const LimitRow* limit) { return limit->over; });
+  std::vector<EvidenceRow> rows;
+  for (const LimitRow* limit : order) {
+    rows.push_back(RowOf(*limit));
   }
-  rows.resize(std::min(rows.size(), room));  // the head counts them all
   return rows;
 }
 
 }  // namespace
 
 void DrawLimitsInForcePanel(const EngineSnapshot& snap, const Rect& rect, bool narrow,
-                            UiFrame& ui) {
+                            RowScroll& scroll, UiFrame& ui) {
   const Style& s = ui.style;
   const std::vector<LimitRow>& limits = snap.flight->mission.limits;
   const auto over =
@@ -79,15 +69,12 @@ void DrawLimitsInForcePanel(const EngineSnapshot& snap, const Rect& rect, bool n
   } else if (unknown > 0) {
     fact = std::to_string(unknown) + " unknown";
   }
-  const Rect content =
-      DrawPanelFrame(ui, rect, "Limits in force", {{fact, 0, old, old || over > 0}});
-  const Rect area{content.x, content.y + s.Px(4), content.w, content.h - s.Px(4)};
-  const auto room = static_cast<std::size_t>(std::max(area.h, 0.0f) / EvidenceRowHeight(s, narrow));
-  std::vector<EvidenceRow> rows;
-  for (const LimitRow* limit : RowsToShow(limits, narrow, room)) {
-    rows.push_back(RowOf(*limit));
-  }
-  DrawEvidenceRows(ui, area, rows, narrow);
+  const std::vector<EvidenceRow> rows = RowsToShow(limits);
+  const Rect below_head = PanelContent(rect, s);
+  const Rect area{below_head.x, below_head.y + s.Px(4), below_head.w, below_head.h - s.Px(4)};
+  const std::string beyond = RowsBeyondWords(RowsBeyond(area, rows.size(), s, narrow));
+  DrawPanelFrame(ui, rect, "Limits in force", {{beyond}, {fact, 0, old, old || over > 0}});
+  DrawScrolledRows(ui, "limit_rows", area, rows, narrow, scroll);
   if (old) {
     StaleVeil(s, Canvas(), area);
   }

@@ -2,20 +2,26 @@
 
 namespace palace {
 
+const TerrainDecision* SitesInForce(const EngineSnapshot& snap) {
+  return snap.terrain->applied.get();
+}
+
 const LandingSite* SiteInView(const EngineSnapshot& snap, std::uint64_t highlighted) {
   if (snap.flight->mission.armed) {
     return &*snap.flight->mission.armed;
   }
-  const TerrainDecision* shown = snap.terrain->Shown();
-  if (shown == nullptr || shown->selection.sites.empty()) {
+  const TerrainDecision* known = SitesInForce(snap);
+  if (known == nullptr || known->selection.sites.empty()) {
     return nullptr;
   }
-  for (const LandingSite& site : shown->selection.sites) {
+  for (const LandingSite& site : known->selection.sites) {
     if (site.id == highlighted) {
       return &site;
     }
   }
-  return snap.flight->mission.BestStanding(shown->selection.sites);
+  return snap.flight->mission.state == MissionState::kAborting
+             ? nullptr
+             : snap.flight->mission.BestStanding(known->selection.sites);
 }
 
 bool IsDescentView(const EngineSnapshot& snap) {
@@ -31,16 +37,20 @@ bool IsDescentView(const EngineSnapshot& snap) {
   }
 }
 
+bool IsCommanded(const MissionStatus& mission) {
+  return mission.armed && mission.state >= MissionState::kApproved;
+}
+
 MapMarks MarksOf(const EngineSnapshot& snap, std::uint64_t highlighted) {
   MapMarks marks;
-  const TerrainDecision* shown = snap.terrain->Shown();
-  marks.sites = shown != nullptr ? &shown->selection.sites : nullptr;
+  const TerrainDecision* known = SitesInForce(snap);
+  marks.sites = known != nullptr ? &known->selection.sites : nullptr;
   marks.mission = &snap.flight->mission;
   if (const LandingSite* site = SiteInView(snap, 0)) {
     marks.selected = *site;
   }
   marks.highlighted = highlighted;
-  marks.commanded = snap.flight->mission.state >= MissionState::kApproved;
+  marks.commanded = IsCommanded(snap.flight->mission);
   const auto camera = LeftCamera(snap);
   if (camera && marks.selected) {
     marks.footprint = GroundFootprint(*camera, snap.sensors->X_WC, marks.selected->height_m.value);

@@ -3,6 +3,7 @@
 
 #include "gui/panels/fly_panels.h"
 #include "gui/panels/map_views.h"
+#include "gui/panels/terrain_views.h"
 #include "gui/widgets/interact.h"
 #include "gui/widgets/number_text.h"
 #include "gui/widgets/site_row.h"
@@ -18,11 +19,11 @@ struct Rows {
   bool first_is_unlisted = false;  ///< the armed site, which the newest map does not offer
 };
 
-Rows RowsOf(const TerrainDecision* shown, const MissionStatus& mission) {
+Rows RowsOf(const TerrainDecision* known, const MissionStatus& mission) {
   Rows rows;
   bool armed = false;
-  if (shown != nullptr) {
-    for (const LandingSite& site : shown->selection.sites) {
+  if (known != nullptr) {
+    for (const LandingSite& site : known->selection.sites) {
       rows.sites.push_back(&site);
       armed = armed || (mission.armed && mission.armed->id == site.id);
     }
@@ -52,17 +53,19 @@ SiteRowLook LookOf(const LandingSite& site, bool unlisted, const MissionStatus& 
 
 void DrawEmpty(const EngineSnapshot& snap, const Rect& content, UiFrame& ui) {
   const Style& s = ui.style;
-  const TerrainDecision* shown = snap.terrain->Shown();
-  std::string text = "No map yet. Sites appear with the first stereo pairs.";
-  if (shown == nullptr && snap.terrain->range && !snap.sensors->pose) {
+  const TerrainDecision* known = SitesInForce(snap);
+  std::string text =
+      NoMapWords(snap) +
+      (snap.terrain->why_no_map.empty() ? ". Sites appear with the first stereo pairs." : ".");
+  if (known == nullptr && snap.terrain->range && !snap.sensors->pose) {
     text = std::string("Attitude and height are unknown: ranges make no map. ") +
            (HasPicturesOnly(snap.session->role) ? "Add [pose] to RIG.toml."
                                                 : "No vehicle pose came yet.");
-  } else if (shown != nullptr && HasPicturesOnly(snap.session->role)) {
-    text = "No site inside the limits: " + shown->selection.none_reason +
+  } else if (known != nullptr && HasPicturesOnly(snap.session->role)) {
+    text = "No site inside the limits: " + known->selection.none_reason +
            ". Look at the maps to see which limit decides.";
-  } else if (shown != nullptr) {
-    text = "No site inside the limits: " + shown->selection.none_reason +
+  } else if (known != nullptr) {
+    text = "No site inside the limits: " + known->selection.none_reason +
            ". Fly on, or look at the maps to see which limit decides.";
   }
   float y = content.y + s.Px(20);
@@ -77,22 +80,24 @@ void DrawEmpty(const EngineSnapshot& snap, const Rect& content, UiFrame& ui) {
 void DrawSiteListPanel(const EngineSnapshot& snap, const FlyLayout& layout, SiteListState& state,
                        UiFrame& ui) {
   const Style& s = ui.style;
-  const TerrainDecision* shown = snap.terrain->Shown();
+  const TerrainDecision* known = SitesInForce(snap);
   const MissionStatus& mission = snap.flight->mission;
-  const Rows listed = RowsOf(shown, mission);
+  const Rows listed = RowsOf(known, mission);
   const std::vector<const LandingSite*>& rows = listed.sites;
   const std::size_t count = rows.size();
-  const std::size_t found = shown != nullptr ? shown->selection.sites.size() : 0;
+  const std::size_t found = known != nullptr ? known->selection.sites.size() : 0;
   const bool old = count > 0 && IsMapOld(snap, ui.silent_s);
   const auto shown_rows = static_cast<std::size_t>(layout.site_rows);
+  const bool preview = snap.terrain->preview != nullptr;
   const std::string found_words =
       std::to_string(found) + " found" +
       (count > shown_rows ? ", " + std::to_string(shown_rows) + " shown, wheel" : "");
   const Rect content = DrawPanelFrame(
       ui, layout.sites, "Sites",
       {{old ? "Map " + AgeText(ShownMapAge(snap, ui.silent_s)) + " old" : "", 0, true, true},
+       {preview ? "Applied, not the preview" : "", ui.style.palette.text1, true, false},
        {found_words},
-       {count > 0 && !layout.narrow && !old ? std::string("Tab for next") : std::string()}});
+       {count > 0 && !layout.narrow && !old && !preview ? "Tab for next" : ""}});
   if (count == 0) {
     DrawEmpty(snap, content, ui);
     if (ui.highlighted_site != 0) {
@@ -122,7 +127,7 @@ void DrawSiteListPanel(const EngineSnapshot& snap, const FlyLayout& layout, Site
                     {0, 0, static_cast<float>(camera->width), static_cast<float>(camera->height)}};
   }
   const LandingSite* best =
-      shown != nullptr ? mission.BestStanding(shown->selection.sites) : nullptr;
+      known != nullptr ? mission.BestStanding(known->selection.sites) : nullptr;
   const auto first = static_cast<std::size_t>(state.scroll / row);
   const std::size_t last = std::min(count, first + static_cast<std::size_t>(layout.site_rows));
   std::uint64_t focused = 0;

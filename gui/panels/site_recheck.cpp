@@ -151,14 +151,17 @@ void DrawSiteRecheckPanel(const EngineSnapshot& snap, const Rect& rect, bool nar
   if (m.armed) {
     title = std::string("Site ") + m.armed->letter + " re-checked";
   }
-  const std::string age =
-      m.rechecks.empty() ? "not yet"
-                         : Duration(SecondsBetween(m.rechecks.back().time, snap.time)) + " ago";
+  const bool told = SeenFromStart(snap.session->role);  // a record holds none of them
+  const std::string age = !m.rechecks.empty()
+                              ? Duration(SecondsBetween(m.rechecks.back().time, snap.time)) + " ago"
+                          : told ? "not yet"
+                                 : "not told after a jump";
   const Rect content = DrawPanelFrame(ui, rect, title, {{age}});
   const float side = std::min(s.Px(232), content.h - s.Px(52));
   const Rect square{content.x + s.Px(12), content.y + s.Px(4), side, side};
   MapView view = MakeMapView(MapKind::kSafeDistance, ShownMap(snap, ui.silent_s), ui.textures);
   view.key = "recheck";
+  view.preview = snap.terrain->preview != nullptr;
   MapMarks marks = MarksOf(snap, 0);
   marks.letters = false;
   marks.footprint.clear();

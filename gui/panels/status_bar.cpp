@@ -3,6 +3,8 @@
 
 #include "engine/core/hash.h"
 #include "engine/model/channel_age.h"
+#include "engine/model/mission/alarm_text.h"
+#include "engine/model/mission/approve_offer.h"
 #include "gui/panels/frame_bar.h"
 #include "gui/panels/session_words.h"
 #include "gui/widgets/number_text.h"
@@ -86,19 +88,6 @@ std::string ChannelsText(const EngineSnapshot& snap, double silent_s) {
   return text + (never > 0 ? ", " + std::to_string(never) + " never heard" : "");
 }
 
-std::string AlarmText(const EngineSnapshot& snap) {
-  const auto count = [&](AlarmLevel level) {
-    return std::count_if(snap.flight->mission.alarms.begin(), snap.flight->mission.alarms.end(),
-                         [&](const Alarm& a) { return a.level == level && a.active; });
-  };
-  const auto warnings = count(AlarmLevel::kWarning);
-  const auto cautions = count(AlarmLevel::kCaution);
-  if (warnings > 0) {
-    return std::to_string(warnings) + (warnings == 1 ? " warning" : " warnings");
-  }
-  return cautions == 0 ? "" : std::to_string(cautions) + (cautions == 1 ? " caution" : " cautions");
-}
-
 }  // namespace
 
 void DrawStatusBarPanel(const EngineSnapshot& snap, const FrameLayout& layout,
@@ -122,7 +111,7 @@ void DrawStatusBarPanel(const EngineSnapshot& snap, const FrameLayout& layout,
     std::swap(group[0], group[1]);
   } else {
     group.push_back(sites == 1 ? "1 site" : std::to_string(sites) + " sites");
-    group.push_back(AlarmText(snap));
+    group.push_back(AlarmCountWords(snap.flight->mission.alarms));
     if (snap.session->source.kind == SourceKind::kSimulation) {
       group.push_back(Fixed(snap.session->source.speed_reached, 1) + "× real time");
     }
@@ -133,9 +122,9 @@ void DrawStatusBarPanel(const EngineSnapshot& snap, const FrameLayout& layout,
     }
   }
   const std::string limits = state.preset_name + " · " + ShortHash(snap.session->settings_hash);
-  std::vector<std::string> left = {LinkText(snap, narrow, ui.silent_s), ReplacedText(snap),
-                                   RecordingText(snap, narrow),
-                                   narrow ? limits : "Limits " + limits, state.text_note};
+  std::vector<std::string> left = {
+      WhyScreenOld(ui.silent_s),   LinkText(snap, narrow, ui.silent_s),  ReplacedText(snap),
+      RecordingText(snap, narrow), narrow ? limits : "Limits " + limits, state.text_note};
   if (!narrow) {
     left.push_back(state.frame_ms > 0 ? "Frame " + Fixed(state.frame_ms, 0) + " ms" : "");
   }

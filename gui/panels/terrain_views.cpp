@@ -70,7 +70,7 @@ void DrawVerdictPlate(UiFrame& ui, const Rect& image, const EngineSnapshot& snap
                       const TerrainDecision* decision) {
   const double age_s = MapAge(snap, decision);
   if (decision == nullptr) {
-    TextPlate(ui, image, Corner::kTopLeft, "No map yet");
+    TextPlate(ui, image, Corner::kTopLeft, NoMapWords(snap));
   } else if (age_s > kOldMap_s) {
     TextPlate(ui, image, Corner::kTopLeft, "Last map " + Duration(age_s) + " old");
   } else {
@@ -78,7 +78,16 @@ void DrawVerdictPlate(UiFrame& ui, const Rect& image, const EngineSnapshot& snap
   }
 }
 
+std::string NoMapWords(const EngineSnapshot& snap) {
+  return snap.terrain->why_no_map.empty() ? "No map yet" : snap.terrain->why_no_map;
+}
+
 std::string NoPictureWords(const EngineSnapshot& snap) {
+  const ChannelHealth* left = FindChannel(snap.sensors->channels, ChannelId::kCameraLeft);
+  if (FollowsRecord(snap.session->role) && left != nullptr &&
+      left->state != ChannelHealth::State::kNever) {
+    return "No picture here, the last came " + AgeText(left->age_s) + " before";
+  }
   return snap.session->missing_inputs.empty() ? "No picture yet"
                                               : "Missing: " + snap.session->missing_inputs;
 }

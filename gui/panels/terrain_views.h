@@ -42,6 +42,8 @@ void DrawPlainPicture(UiFrame& ui, const Rect& area, const EngineSnapshot& snap,
                       ImTextureID texture, const std::string& plate,
                       const MapProbe* probe = nullptr);
 
+/// Why there is no map: "No map yet", or why none is made here.
+std::string NoMapWords(const EngineSnapshot& snap);
 /// Why there is no picture: what the engine misses.
 std::string NoPictureWords(const EngineSnapshot& snap);
 /// Marks the site that is selected or flown to, beside the best of what is shown: in every

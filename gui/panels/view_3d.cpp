@@ -48,10 +48,13 @@ void DrawView3dPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui) 
   const Style& s = ui.style;
   const bool old = snap.terrain->applied && IsMapOld(snap, ui.silent_s);
   const std::string fact = old ? "Map " + AgeText(ShownMapAge(snap, ui.silent_s)) + " old"
-                           : rect.w < s.Px(300)    ? ""
-                           : snap.terrain->applied ? "Safe distance over picture"
-                                                   : "No map yet";
-  const Rect scene = DrawPanelFrame(ui, rect, "3-D view", {{fact, 0, old, old}});
+                           : snap.terrain->preview            ? "Preview"
+                           : rect.w < s.Px(300)               ? ""
+                           : snap.terrain->applied            ? "Safe distance over picture"
+                           : snap.terrain->why_no_map.empty() ? "No map yet"
+                                                              : "No map";
+  const Rect scene =
+      DrawPanelFrame(ui, rect, "3-D view", {{fact, 0, old || snap.terrain->preview, old}});
   ImDrawList* dl = Canvas();
   if (ui.textures.scene_3d != nullptr) {
     dl->AddImageRounded(ui.textures.scene_3d, scene.min(), scene.max(), {0, 0}, {1, 1},

@@ -1,3 +1,4 @@
+#include "engine/model/mission/approve_offer.h"
 #include "engine/model/mission/wave_off_offer.h"
 #include "gui/panels/arrival.h"
 #include "gui/panels/frame_bar.h"
@@ -42,6 +43,9 @@ std::string SecondLine(const EngineSnapshot& snap, const FrameState& state, cons
   }
   if (JustPressed(state, ui.ui_time_s)) {
     return "Sent";
+  }
+  if (const std::string why = WhyScreenOld(ui.silent_s); !why.empty()) {
+    return why;  // nobody knows whether the vehicle is silent
   }
   const Arrival status = ArrivalOf(snap, ChannelId::kVehicleStatus, ui.silent_s);
   return status.state == ChannelHealth::State::kStale ? "Silent for " + status.age

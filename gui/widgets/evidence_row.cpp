@@ -1,8 +1,13 @@
 #include "gui/widgets/evidence_row.h"
 
 #include <algorithm>
+#include <cmath>
+#include <span>
+#include <utility>
 
 #include "engine/model/size_words.h"
+#include "gui/widgets/button.h"
+#include "gui/widgets/interact.h"
 #include "gui/widgets/number_text.h"
 
 namespace palace {
@@ -11,11 +16,21 @@ namespace {
 
 struct Metrics {
   float bar, wall, value_right, limit_right;
+  float actor;  ///< who enforces the limit, right of the bar
 };
 
-Metrics MetricsOf(const Style& s, bool narrow) {
-  return narrow ? Metrics{s.Px(34), s.Px(27), s.Px(178), s.Px(98)}
-                : Metrics{s.Px(60), s.Px(50), s.Px(212), s.Px(128)};
+/// `lasting`: some row says how long it must be over; its bars are shorter for it.
+Metrics MetricsOf(const Style& s, bool narrow, bool lasting) {
+  return narrow    ? Metrics{s.Px(34), s.Px(27), s.Px(178), s.Px(98), s.Px(52)}
+         : lasting ? Metrics{s.Px(36), s.Px(30), s.Px(212), s.Px(128), s.Px(82)}
+                   : Metrics{s.Px(60), s.Px(50), s.Px(212), s.Px(128), s.Px(56)};
+}
+
+/// "hold 0.4 s" of "hold" and "0.4 s, or 3 of 5 maps".
+std::string ActorWords(const EvidenceRow& row, bool narrow) {
+  return narrow || row.lasts.empty()
+             ? row.enforcer
+             : row.enforcer + " " + row.lasts.substr(0, row.lasts.find(','));
 }
 
 void DrawBar(UiFrame& ui, const Rect& track, float wall, const EvidenceRow& row) {
@@ -45,11 +60,6 @@ void DrawBar(UiFrame& ui, const Rect& track, float wall, const EvidenceRow& row)
   }
 }
 
-/// Where bars begin, from the right edge: behind them who enforces the limit has its place.
-float BarsFromRight(const Style& s, const Metrics& m, bool narrow) {
-  return s.Px(narrow ? 52 : 56) + m.bar;
-}
-
 /// "0.58 m/s"; unknown stands without its unit.
 std::string WithUnit(const EvidenceRow& row) {
   if (row.value == "––" || row.unit.empty()) {
@@ -68,7 +78,8 @@ std::string Short(const std::string& words) {
 std::string FullName(const EvidenceRow& row) {
   const std::string figure = row.spread.empty() ? WithUnit(row) : row.value + " " + row.spread;
   return row.name + " " + figure + " " + row.limit +
-         (row.enforcer.empty() ? "" : ", " + row.enforcer);
+         (row.enforcer.empty() ? "" : ", " + row.enforcer) +
+         (row.enforcer.empty() || row.lasts.empty() ? "" : " after " + row.lasts);
 }
 
 }  // namespace
@@ -100,43 +111,97 @@ EvidenceRow RowOf(const LimitRow& limit) {
                                : std::min(DecimalsOf(most, 0), std::max(limit.decimals, 2))) +
       gap + unit;
   row.enforcer = EnforcedByWord(limit.enforced_by);
+  row.lasts = limit.lasts;
   row.share = ShareUsed(limit);
   row.share_3s = spread / most;
   return row;
 }
 
-void DrawEvidenceRows(UiFrame& ui, const Rect& rect, const std::vector<EvidenceRow>& rows,
-                      bool narrow) {
+namespace {
+
+void DrawRows(UiFrame& ui, const Rect& rect, std::span<const EvidenceRow> rows, bool narrow,
+              const Metrics& m) {
   const Style& s = ui.style;
   const Palette& p = s.palette;
-  const Metrics m = MetricsOf(s, narrow);
   const float height = EvidenceRowHeight(s, narrow);
   float y = rect.y;
   for (std::size_t i = 0; i < rows.size(); ++i, y += height) {
     const EvidenceRow& row = rows[i];
     const Rect area{rect.x, y, rect.w, height};
     const float middle = y + height / 2;
-    DrawText(ui, s.body, p.text2, rect.x + s.Px(12), middle, row.name);
     float right = rect.right() - m.value_right;
     if (!row.spread.empty() && !narrow) {
       right -= DrawText(ui, s.body, p.text2, right, middle, row.spread, Align::kRight) + s.Px(4);
-      DrawText(ui, s.medium, p.text1, right, middle, row.value, Align::kRight);
+      right -= DrawText(ui, s.medium, p.text1, right, middle, row.value, Align::kRight);
     } else {
-      DrawText(ui, s.medium, p.text1, right, middle, narrow ? Short(WithUnit(row)) : WithUnit(row),
-               Align::kRight);
+      right -= DrawText(ui, s.medium, p.text1, right, middle,
+                        narrow ? Short(WithUnit(row)) : WithUnit(row), Align::kRight);
     }
+    const float name_x = rect.x + s.Px(12);
+    const std::string_view name = FitWords(s.body, row.name, right - s.Px(6) - name_x);
+    DrawText(ui, s.body, p.text2, name_x, middle, name);
     ui.items.Add("evidence/" + row.name, area, true, FullName(row));
+    if ((name.size() < row.name.size() || !row.lasts.empty()) &&
+        Interact(ui, "evidence/" + row.name, area, kPassive).hovered) {
+      DrawTooltip(ui, FullName(row));
+    }
     if (row.enforcer.empty()) {
       DrawText(ui, s.caption, p.text3, rect.right() - s.Px(12), middle, row.limit, Align::kRight);
       continue;
     }
     DrawText(ui, s.caption, p.text3, rect.right() - m.limit_right, middle, row.limit,
              Align::kRight);
-    const float bar_x = rect.right() - BarsFromRight(s, m, narrow);
+    const float bar_x = rect.right() - m.actor - m.bar;
     DrawBar(ui, {bar_x, std::round(middle - s.Px(8) / 2), m.bar, s.Px(8)}, m.wall, row);
     FillRect(Canvas(), {bar_x + m.wall - s.Px(1), y + s.Px(2), s.Px(2), height - s.Px(4)},
              p.white_mark);
-    DrawText(ui, s.caption, p.text3, rect.right() - s.Px(12), middle, row.enforcer, Align::kRight);
+    DrawText(ui, s.caption, p.text3, rect.right() - s.Px(12), middle, ActorWords(row, narrow),
+             Align::kRight);
+  }
+}
+
+Metrics MetricsFor(const std::vector<EvidenceRow>& rows, const Style& s, bool narrow) {
+  return MetricsOf(s, narrow, std::any_of(rows.begin(), rows.end(), [](const EvidenceRow& row) {
+                     return !row.lasts.empty();
+                   }));
+}
+
+}  // namespace
+
+void DrawEvidenceRows(UiFrame& ui, const Rect& rect, const std::vector<EvidenceRow>& rows,
+                      bool narrow) {
+  DrawRows(ui, rect, rows, narrow, MetricsFor(rows, ui.style, narrow));
+}
+
+std::size_t RowsBeyond(const Rect& area, std::size_t rows, const Style& style, bool narrow) {
+  const float fit = std::floor(std::max(area.h, 0.0f) / EvidenceRowHeight(style, narrow));
+  return rows - std::min(rows, static_cast<std::size_t>(std::max(fit, 1.0f)));
+}
+
+std::string RowsBeyondWords(std::size_t beyond) {
+  return beyond == 0 ? "" : "+" + std::to_string(beyond) + (beyond == 1 ? " row" : " rows");
+}
+
+void DrawScrolledRows(UiFrame& ui, std::string_view name, const Rect& area,
+                      const std::vector<EvidenceRow>& rows, bool narrow, RowScroll& scroll) {
+  const Style& s = ui.style;
+  const std::size_t beyond = RowsBeyond(area, rows.size(), s, narrow);
+  if (beyond > 0) {
+    const TabGroup group = std::exchange(ui.tab.group, kViewTabs);  // no step on the way to approve
+    const Interaction in = Interact(ui, name, area, kAllSteps);
+    ui.tab.group = group;
+    scroll.first -= static_cast<int>(in.wheel) + in.step_up;
+  }
+  scroll.first = std::clamp(scroll.first, 0, static_cast<int>(beyond));
+  const std::size_t shown = rows.size() - beyond;
+  DrawRows(ui, area, std::span(rows).subspan(static_cast<std::size_t>(scroll.first), shown), narrow,
+           MetricsFor(rows, s, narrow));
+  if (beyond > 0) {
+    const float unit = area.h / static_cast<float>(rows.size());
+    FillRect(Canvas(),
+             {area.right() - s.Px(6), area.y + unit * static_cast<float>(scroll.first), s.Px(4),
+              unit * static_cast<float>(shown)},
+             s.palette.strong_line, s.Fine(2));
   }
 }
 

@@ -21,6 +21,7 @@ struct EvidenceRow {
   double share = NAN;      ///< of the limit used: 1 is at the wall. NaN: unknown, or no limit
   double share_3s = NAN;   ///< three sigma of the share; NaN: no whisker
   bool over = false;       ///< as the engine says
+  std::string lasts{};     ///< LimitRow: how long it must be over; behind the enforcer where wide
 };
 
 /// The row as the screen shows it.
@@ -30,5 +31,18 @@ EvidenceRow RowOf(const LimitRow& limit);
 void DrawEvidenceRows(UiFrame& ui, const Rect& rect, const std::vector<EvidenceRow>& rows,
                       bool narrow);
 inline float EvidenceRowHeight(const Style& s, bool narrow) { return s.Px(narrow ? 26 : 28); }
+
+/// Which row stands at the top of rows that have more than their room.
+struct RowScroll {
+  int first = 0;
+};
+/// How many rows more than `area` holds; at least one is held.
+std::size_t RowsBeyond(const Rect& area, std::size_t rows, const Style& style, bool narrow);
+/// "+3 rows"; empty where all have room.
+std::string RowsBeyondWords(std::size_t beyond);
+/// As many rows as `area` holds whole. Where there are more, the wheel over them, or Up and Down on
+/// item `name`, bring the others into sight.
+void DrawScrolledRows(UiFrame& ui, std::string_view name, const Rect& area,
+                      const std::vector<EvidenceRow>& rows, bool narrow, RowScroll& scroll);
 
 }  // namespace palace

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "gui/widgets/button.h"
 #include "gui/widgets/interact.h"
 
 namespace palace {
@@ -45,7 +46,11 @@ void DrawSilhouette(const Style& s, const Scale& scale, const std::vector<ImVec2
   float last_x = -1;
   for (const ImVec2& h : height) {
     const float x = std::floor(scale.X(static_cast<double>(h.x)));
-    if (x == last_x || !std::isfinite(h.y)) {
+    if (!std::isfinite(h.y)) {
+      last_x = -1;
+      continue;
+    }
+    if (x == last_x) {
       continue;
     }
     const float left = last_x < 0 ? x : last_x;
@@ -98,23 +103,34 @@ void RunOverview(UiFrame& ui, const Scale& scale, const TimelineView& view, Time
   }
 }
 
-/// Stretches without data, hatched; below the overview with their length where there is room.
-void DrawGaps(UiFrame& ui, const Scale& scale, const TimelineView& view, bool named) {
+/// The band of a gap on the scale; empty where it is not seen.
+Rect GapBand(const Scale& scale, const std::pair<double, double>& gap_s) {
+  const float left = std::max(scale.X(gap_s.first), scale.area.x);
+  const float right = std::min(scale.X(gap_s.second), scale.area.right());
+  return right - left < 1 ? Rect{} : Rect{left, scale.area.y, right - left, scale.area.h};
+}
+
+/// Stretches without data, hatched; what is drawn later lies over them.
+void HatchGaps(const Style& s, const Scale& scale, const TimelineView& view) {
+  for (const auto& gap_s : view.gaps_s) {
+    const Rect band = GapBand(scale, gap_s);
+    if (band.w > 0) {
+      Hatch(Canvas(), band, WithAlpha(s.palette.text3, 0.5f), s.Fine(1), s.Px(8));
+    }
+  }
+}
+
+/// Their lengths, where there is room.
+void NameGaps(UiFrame& ui, const Scale& scale, const TimelineView& view) {
   const Style& s = ui.style;
   for (std::size_t i = 0; i < view.gaps_s.size(); ++i) {
-    const auto [from_s, to_s] = view.gaps_s[i];
-    const float left = std::max(scale.X(from_s), scale.area.x);
-    const float right = std::min(scale.X(to_s), scale.area.right());
-    if (right - left < 1) {
-      continue;
-    }
-    const Rect band{left, scale.area.y, right - left, scale.area.h};
-    Hatch(Canvas(), band, WithAlpha(s.palette.text3, 0.5f), s.Fine(1), s.Px(8));
-    if (!named) {
+    const Rect band = GapBand(scale, view.gaps_s[i]);
+    if (band.w <= 0) {
       continue;
     }
     char words[48];
-    std::snprintf(words, sizeof words, "No data, %.1f s", to_s - from_s);
+    std::snprintf(words, sizeof words, "No data, %.1f s",
+                  view.gaps_s[i].second - view.gaps_s[i].first);
     ui.items.Add("gap/" + std::to_string(i), band, true, words);
     const float half = TextWidth(s.caption, words) / 2 + s.Px(6);
     if (2 * half < band.w) {
@@ -132,7 +148,7 @@ void DrawOverview(UiFrame& ui, const Rect& rect, const TimelineView& view, Timel
   const Scale scale{rect, 0, std::max(view.duration_s, 1e-3)};
   FillRect(dl, rect, p.plot_floor);
   DrawSilhouette(s, scale, view.height);
-  DrawGaps(ui, scale, view, /*named=*/false);
+  HatchGaps(s, scale, view);
   for (const double at : view.differences_s) {
     const float x = scale.X(at);
     dl->AddTriangleFilled({x - s.Fine(5), rect.y}, {x + s.Fine(5), rect.y}, {x, rect.y + s.Fine(7)},
@@ -218,29 +234,58 @@ std::string ValueAt(const Lane& lane, double t) {
   return {};
 }
 
-void DrawMarks(UiFrame& ui, const Scale& scale, const Rect& lane,
-               const std::vector<LaneMark>& marks, float cursor_x) {
-  const Style& s = ui.style;
-  float free_from = lane.x;
+/// The marks that are shown, in order of time: none lies on a heavier one.
+std::vector<std::size_t> ShownMarks(const Style& s, const Scale& scale,
+                                    const std::vector<LaneMark>& marks) {
+  std::vector<std::size_t> by_weight;
   for (std::size_t i = 0; i < marks.size(); ++i) {
-    const LaneMark& mark = marks[i];
-    const float x = scale.X(mark.at_s);
-    if (x < scale.area.x + s.Px(6) || x > scale.area.right() - s.Px(6) || x < free_from) {
-      continue;
-    }
-    DrawIcon(Canvas(), mark.icon, {x, lane.centre().y}, s.Px(12),
-             mark.colour != 0 ? mark.colour : s.palette.text1);
-    free_from = x + s.Px(12);
-    const float text_x = x + s.Px(12);
-    const float end = text_x + TextWidth(s.caption, mark.text);
-    const float next =
-        i + 1 < marks.size() ? scale.X(marks[i + 1].at_s) - s.Px(12) : scale.area.right();
-    const bool touches_cursor = cursor_x > text_x - s.Px(6) && cursor_x < end + s.Px(6);
-    if (!mark.text.empty() && end <= std::min(next, scale.area.right()) && !touches_cursor) {
-      DrawText(ui, s.caption, s.palette.text2, text_x, lane.centre().y, mark.text);
-      free_from = end + s.Px(12);
+    const float x = scale.X(marks[i].at_s);
+    if (x >= scale.area.x + s.Px(6) && x <= scale.area.right() - s.Px(6)) {
+      by_weight.push_back(i);
     }
   }
+  std::stable_sort(by_weight.begin(), by_weight.end(),
+                   [&](std::size_t a, std::size_t b) { return marks[a].weight > marks[b].weight; });
+  std::vector<std::size_t> shown;
+  for (const std::size_t i : by_weight) {
+    const bool covers = std::any_of(shown.begin(), shown.end(), [&](std::size_t other) {
+      return std::abs(scale.X(marks[i].at_s) - scale.X(marks[other].at_s)) < s.Px(12);
+    });
+    if (!covers) {
+      shown.push_back(i);
+    }
+  }
+  std::stable_sort(shown.begin(), shown.end(),
+                   [&](std::size_t a, std::size_t b) { return marks[a].at_s < marks[b].at_s; });
+  return shown;
+}
+
+/// Returns what the mark under the pointer says; empty without one.
+std::string DrawMarks(UiFrame& ui, const Scale& scale, const Rect& row, const Lane& lane,
+                      float cursor_x) {
+  const Style& s = ui.style;
+  const std::vector<std::size_t> shown = ShownMarks(s, scale, lane.marks);
+  std::string pointed;
+  for (std::size_t n = 0; n < shown.size(); ++n) {
+    const LaneMark& mark = lane.marks[shown[n]];
+    const float x = scale.X(mark.at_s);
+    const Rect box{x - s.Px(6), row.y, s.Px(12), row.h};
+    DrawIcon(Canvas(), mark.icon, {x, row.centre().y}, s.Px(12),
+             mark.colour != 0 ? mark.colour : s.palette.text1);
+    ui.items.Add("mark/" + lane.name + "/" + std::to_string(shown[n]), box, true, mark.hint);
+    if (box.Contains(ImGui::GetMousePos())) {
+      pointed = mark.hint;
+    }
+    const float text_x = x + s.Px(12);
+    const float end = text_x + TextWidth(s.caption, mark.text);
+    const float next = n + 1 < shown.size() ? scale.X(lane.marks[shown[n + 1]].at_s) - s.Px(12)
+                                            : scale.area.right();
+    const bool touches_cursor = cursor_x > text_x - s.Px(6) && cursor_x < end + s.Px(6);
+    if (!mark.text.empty() && end <= std::min(next, scale.area.right()) && !touches_cursor) {
+      DrawText(ui, s.caption, s.palette.text2, text_x, row.centre().y, mark.text);
+    }
+  }
+  return pointed;
 }
 
 /// The lanes: press and drag seek, the wheel zooms about the pointer; Left and Right step by 0.1 s
@@ -301,7 +346,13 @@ void DrawTimeline(UiFrame& ui, const Rect& rect, const TimelineView& view, Timel
   DrawRuler(ui, {{overview.x, ruler_y, overview.w, s.Px(20)}, state.from_s, state.to_s},
             view.position_s);
   const float cursor_x = std::round(scale.X(view.position_s));
-  float y = ruler_y + s.Px(20);
+  const float lanes_y = ruler_y + s.Px(20);
+  const auto room = static_cast<std::size_t>((rect.bottom() + 1 - lanes_y) / s.Px(24));
+  const auto lanes_h = s.Px(24) * static_cast<float>(std::min(room, view.lanes.size()));
+  const Scale lanes{{scale.area.x, lanes_y, scale.area.w, lanes_h}, scale.from_s, scale.to_s};
+  HatchGaps(s, lanes, view);
+  float y = lanes_y;
+  std::string pointed;
   const ImVec2 pointer = ImGui::GetMousePos();
   for (const Lane& lane : view.lanes) {
     const Rect row{overview.x, y, overview.w, s.Px(24)};
@@ -318,13 +369,11 @@ void DrawTimeline(UiFrame& ui, const Rect& rect, const TimelineView& view, Timel
     for (const LaneSegment& segment : lane.segments) {
       DrawSegment(ui, scale, row, segment, cursor_x);
     }
-    DrawMarks(ui, scale, row, lane.marks, cursor_x);
+    pointed += DrawMarks(ui, scale, row, lane, cursor_x);
     ui.items.Add("lane/" + lane.name, row, true, said);
     y = row.bottom();
   }
-  const float lanes_y = ruler_y + s.Px(20);
-  DrawGaps(ui, {{scale.area.x, lanes_y, scale.area.w, y - lanes_y}, scale.from_s, scale.to_s}, view,
-           /*named=*/true);
+  NameGaps(ui, lanes, view);
   if (cursor_x >= scale.area.x && cursor_x <= scale.area.right()) {
     FillRect(Canvas(), {cursor_x - s.Px(1), ruler_y + s.Px(14), s.Px(2), y - ruler_y - s.Px(14)},
              p.white_mark);
@@ -335,6 +384,9 @@ void DrawTimeline(UiFrame& ui, const Rect& rect, const TimelineView& view, Timel
   RunLanes(ui,
            {{scale.area.x, scale.area.y, scale.area.w, y - scale.area.y}, scale.from_s, scale.to_s},
            view, state);
+  if (!pointed.empty() && !ImGui::IsMouseDown(0)) {
+    DrawTooltip(ui, pointed);
+  }
 }
 
 }  // namespace palace

@@ -26,6 +26,8 @@ struct LaneMark {
   Icon icon = Icon::kFlag;
   ImU32 colour = 0;
   std::string text;
+  std::string hint{};  ///< under the pointer: the whole of it
+  int weight = 0;      ///< of marks that would cover one another the heaviest is shown
 };
 struct Lane {
   std::string name;
@@ -37,7 +39,7 @@ struct TimelineView {
   double duration_s = 0;
   double position_s = 0;
   std::vector<Lane> lanes;
-  std::vector<ImVec2> height;  ///< seconds, metres: silhouette of the whole flight
+  std::vector<ImVec2> height;  ///< seconds, metres: silhouette of the flight; a NaN breaks it
   std::vector<double> differences_s;
   std::vector<std::pair<double, double>> gaps_s;  ///< without data: from, to
   bool can_seek = true;
@@ -54,9 +56,9 @@ struct TimelineState {
 /// "03:13.4".
 std::string TimeLabel(double seconds, bool tenths);
 
-/// Overview of 32 units and below it ruler and lanes. Items "overview", "timeline", "gap/<number>"
-/// and "lane/<name>", which reads the lane's value under the pointer. Click and drag append
-/// PlaybackControl kSeek; over either the wheel zooms about the pointer.
+/// Overview of 32 units and below it ruler and lanes. Items "overview", "timeline", "gap/<number>",
+/// "lane/<name>", which reads the lane's value under the pointer, and "mark/<lane>/<number>". Click
+/// and drag append PlaybackControl kSeek; over either the wheel zooms about the pointer.
 void DrawTimeline(UiFrame& ui, const Rect& rect, const TimelineView& view, TimelineState& state);
 
 }  // namespace palace

@@ -95,6 +95,13 @@ struct Cell;
 /// Why a cell of a decision is as it is. The app lends the engine's answer to the panels.
 using CellExplainer = CellExplanation (*)(const TerrainDecision& decision, Cell cell);
 
+/// The way out of a review, back to what the station was started with; without a label there is
+/// none.
+struct WayOut {
+  std::string label;  ///< of its button, "New flight"
+  std::string hint;
+};
+
 /// Where the focus ring of this frame goes.
 struct FocusMark {
   Rect rect;
@@ -117,6 +124,7 @@ struct UiFrame {
   /// Since the snapshot was true, by the station's clock: what every age on the screen grows by
   /// when nothing more is published. 0 where the session's clock is the data's own.
   double silent_s = 0;
+  WayOut after_review{};
   TabPlace tab{};                   ///< of the controls drawn now; panels set it
   std::optional<FocusMark> ring{};  ///< set by Interact, drawn by EndCanvas
 };

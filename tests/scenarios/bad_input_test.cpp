@@ -7,6 +7,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/videoio.hpp>
 
+#include "engine/simulation/vehicle_file.h"
 #include "tests/scenarios/scenario.h"
 
 namespace palace {
@@ -35,6 +36,13 @@ std::string Rig() {
          "[rig]\nbaseline_m = 0.5\n[mount]\ntilt_deg = -90\n"
          "[pose]\nroll_deg = 0\npitch_deg = 0\nheading_deg = 0\nheight_m = 10\n"
          "[images]\nleft = \"l.png\"\nright = \"r.png\"\n";
+}
+
+/// Line 13 tells a mass that no vehicle has.
+std::string HeavyVehicle() {
+  std::string text(VehicleText(kDefaultVehicle));
+  const std::string_view mass = "value = 68";
+  return text.replace(text.find(mass), mass.size(), "value = 9e9");
 }
 
 class BadInputs : public Scenario, public testing::WithParamInterface<BadInput> {
@@ -76,6 +84,7 @@ class BadInputs : public Scenario, public testing::WithParamInterface<BadInput> 
     WriteRig("both_sizes", "\"l.png\"\nright = \"r.png\"", "\"large.png\"\nright = \"large.png\"");
     WriteRig("cut", "\"l.png\"", "\"cut.png\"");
     WriteRig("none", "\"l.png\"", "\"q*.png\"");
+    WriteFile("heavy.toml", HeavyVehicle());
     WriteFile("text.avi", "this is no film\n");
     WriteFile("empty.avi", "");
     WriteFile("noise.avi", std::string("\1\2\3", 3) + std::string(3000, '\7'));
@@ -353,6 +362,12 @@ INSTANTIATE_TEST_SUITE_P(
                  1,
                  {"no OpenGL", "libgl1-mesa-dri"},
                  {{"__EGL_VENDOR_LIBRARY_DIRS", "/nonexistent"}}},
+        BadInput{"NoVehicle", true, H({"--vehicle", "heavy.toml"}), 1, {"heavy.toml:13:"}},
+        BadInput{"VehicleOfARecord",
+                 true,
+                 {"--replay", "empty.lcm", "--vehicle", "r50"},
+                 2,
+                 {"--vehicle", "--replay"}},
         BadInput{"NoDisplay", true, {"--script", "idle.script"}, 1, {"DISPLAY", "--headless"}},
         BadInput{"SimulateNoOpenGl",
                  false,
@@ -367,6 +382,21 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         BadInput{"NoCommand", false, {}, 2, {"subcommand", "--help"}},
         BadInput{"UnknownCommand", false, {"fly"}, 2, {"'fly'", "simulate, analyze"}},
+        BadInput{"NoVehicle",
+                 false,
+                 {"vehicle", "zeppelin"},
+                 2,
+                 {"zeppelin", "name a file, or one of multirotor, r50"}},
+        BadInput{"HeavyVehicle",
+                 false,
+                 {"simulate", "--log", "x.lcm", "--vehicle", "heavy.toml"},
+                 1,
+                 {"heavy.toml:13: mass_kg.value = 9000000000 is outside 0.1 .. 2000"}},
+        BadInput{"VehicleOfAnExperiment",
+                 false,
+                 {"evaluate", "landing", "--trials", "1", "--vehicle", "zeppelin"},
+                 2,
+                 {"zeppelin", "multirotor, r50"}},
         BadInput{"KeyOfALog",
                  false,
                  {"simulate", "--log", "out", "--key", "heli-1"},

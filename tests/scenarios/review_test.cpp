@@ -1,5 +1,7 @@
 // Review of a recorded flight, by the engine itself: what the record says, and what other limits
 // decide, over jumps and moved limits.
+#include <algorithm>
+
 #include "engine/runtime/engine.h"
 #include "tests/scenarios/scenario.h"
 
@@ -8,13 +10,16 @@ namespace {
 
 constexpr double kLimit_s = 240;
 
-class ReviewOfALog : public Scenario {
+/// Flies by the script, headless, and opens the log.
+class Review : public Scenario {
  protected:
-  void SetUp() override {
-    WriteFile("look.script", "wait state PROPOSED 20\nset slad.max_slope_deg 9\nwait seconds 4\n");
-    const ProcessResult flight = RunProcess(
-        Palace({"--headless", "--seed", "3", "--record", "records", "--script", "look.script"}),
-        kLimit_s);
+  void Fly(const std::string& script) {
+    std::vector<std::string> arguments = {"--headless", "--seed", "3", "--record", "records"};
+    if (!script.empty()) {
+      WriteFile("look.script", script);
+      arguments.insert(arguments.end(), {"--script", "look.script"});
+    }
+    const ProcessResult flight = RunProcess(Palace(arguments), kLimit_s);
     ASSERT_EQ(flight.exit_code, 0) << flight.err;
     const auto flights = FlightsIn(folder_ / "records");
     ASSERT_EQ(flights.size(), 1u);
@@ -35,11 +40,19 @@ class ReviewOfALog : public Scenario {
     ASSERT_TRUE(engine_->Step());
   }
   const TerrainPart& terrain() const { return *engine_->Latest()->terrain; }
+  const MissionStatus& mission() const { return engine_->Latest()->flight->mission; }
   double position_s() const { return engine_->Latest()->session->source.position_s; }
 
   std::shared_ptr<ReplaySource> source_;
   std::shared_ptr<const FlightRecord> record_;
   std::unique_ptr<Engine> engine_;
+};
+
+class ReviewOfALog : public Review {
+ protected:
+  void SetUp() override {
+    Fly("wait state PROPOSED 20\nset slad.max_slope_deg 9\nwait seconds 4\n");
+  }
 };
 
 TEST_F(ReviewOfALog, InventsNothingBetweenJumps) {
@@ -126,6 +139,64 @@ TEST_F(ReviewOfALog, LettersAndEventsAreTheFlightsAfterAJump) {
     EXPECT_EQ(events[i].text.find("0.5"), std::string::npos) << events[i].text;
   }
   EXPECT_EQ(moved, 1);
+}
+
+/// From the start of the flight to the first of its samples for which that is so.
+template <typename Condition>
+double SecondsTo(const FlightRecord& record, Condition condition) {
+  const auto found = std::find_if(record.samples.begin(), record.samples.end(), condition);
+  EXPECT_NE(found, record.samples.end());
+  return SecondsBetween(record.samples.front().time, found->time);
+}
+
+// A whole landing; the first site is refused before, so that another is flown to.
+TEST_F(Review, OfALandingTellsBelowTheMapsAndOnTheGroundWhatTheRecordSays) {
+  Fly("wait state PROPOSED 60\nwait seconds 2\nclick site/best\nwait state ARMED 5\n"
+      "click refuse\nwait state PROPOSED 20\nwait seconds 1\nclick site/best\n"
+      "wait state ARMED 5\nwait item approve 20\nwait seconds 1.2\nhold approve 1.2\n"
+      "wait state LANDED 200\nwait seconds 2\n");
+  ASSERT_EQ(record_->touchdowns.size(), 1u);
+  ASSERT_EQ(record_->armed_sites.size(), 2u);
+  const LandingSite refused = record_->armed_sites[0], flown = record_->armed_sites[1];
+  ASSERT_NE(refused.id, flown.id);
+
+  const auto lands = [](const FlightRecordSample& s) { return s.state == MissionState::kLanded; };
+  const auto low = [](const FlightRecordSample& s) {
+    return s.state == MissionState::kDescending && s.height_above_site_m < 2.5;
+  };
+  // Below the commit height no map comes any more, and it says so from the first frame on.
+  Seek(SecondsTo(*record_, low));
+  EXPECT_GT(terrain().maps_to_rebuild, 0);
+  EXPECT_NE(terrain().why_no_map.find("Below 3.0 m no map is made"), std::string::npos);
+  EXPECT_EQ(terrain().applied, nullptr);
+  EXPECT_TRUE(mission().IsRefused(refused.id));
+  EXPECT_EQ(mission().armed->letter, flown.letter);
+
+  Seek(record_->duration_s);
+  EXPECT_EQ(terrain().why_no_map, "On the ground no map is made");
+  EXPECT_EQ(terrain().applied, nullptr) << "no map is made of the ground it stands on";
+  ASSERT_TRUE(mission().touchdown_miss_m.has_value());
+  ASSERT_TRUE(mission().touchdown_miss_true_m.has_value());
+  const double miss_m = *mission().touchdown_miss_m;
+  const double true_miss_m = *mission().touchdown_miss_true_m;
+  EXPECT_LT(miss_m, 1.0);
+  for (const ChannelId camera : {ChannelId::kCameraLeft, ChannelId::kCameraRight}) {
+    EXPECT_NE(FindChannel(engine_->Latest()->sensors->channels, camera)->state,
+              ChannelHealth::State::kNever);
+  }
+
+  // Back above: maps again, the refused place is marked by the record.
+  Seek(SecondsTo(*record_, low) - 15);
+  EXPECT_EQ(terrain().why_no_map, "");
+  const int missing = terrain().maps_to_rebuild;
+  Play(2);
+  EXPECT_LT(terrain().maps_to_rebuild, missing);
+
+  // Played over the touchdown it says the same of its touchdown.
+  Seek(SecondsTo(*record_, lands) - 0.5);
+  Play(12);
+  EXPECT_EQ(mission().touchdown_miss_m, miss_m);
+  EXPECT_EQ(mission().touchdown_miss_true_m, true_miss_m);
 }
 
 }  // namespace

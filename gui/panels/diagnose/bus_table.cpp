@@ -33,7 +33,7 @@ std::vector<BusRow> RowsOf(const BusTraffic& bus) {
   for (const ChannelTraffic& c : bus.channels) {
     rows.push_back({c.channel,
                     c.refused > 0 || !c.second_sender.empty(),
-                    {c.received, c.lost + c.overflowed, c.duplicated, c.reordered, c.refused}});
+                    {c.received, c.lost, c.duplicated, c.reordered, c.refused}});
   }
   return rows;
 }

@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "engine/model/channel_age.h"
+#include "engine/model/mission/approve_offer.h"
 #include "gui/widgets/button.h"
 #include "gui/widgets/icons.h"
 #include "gui/widgets/interact.h"
@@ -82,7 +83,8 @@ Icon IconOf(ChannelHealth::State state) {
 void DrawChannels(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui) {
   const Style& s = ui.style;
   const Palette& p = s.palette;
-  const Rect content = DrawPanelFrame(ui, rect, "Channels");
+  const Rect content =
+      DrawPanelFrame(ui, rect, "Channels", {{WhyScreenOld(ui.silent_s), 0, false, true}});
   const bool wide = rect.w > s.Px(500);
   const char* heads[] = {"Age", "Rate", "Expected", "Lost", "Note"};
   const int columns = wide ? 5 : 3;

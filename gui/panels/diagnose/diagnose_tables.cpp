@@ -3,9 +3,12 @@
 
 #include "engine/core/units.h"
 #include "engine/model/cell_explanation.h"
+#include "engine/model/mission/alarm_text.h"
 #include "engine/model/size_words.h"
+#include "gui/panels/alarm_look.h"
 #include "gui/panels/diagnose/diagnose.h"
 #include "gui/panels/session_words.h"
+#include "gui/panels/terrain_views.h"
 #include "gui/widgets/icons.h"
 #include "gui/widgets/number_text.h"
 
@@ -70,7 +73,7 @@ void DrawAlarmTable(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui) {
   const Style& s = ui.style;
   const Palette& p = s.palette;
   const std::vector<Alarm>& alarms = snap.flight->mission.alarms;
-  const Rect content = DrawPanelFrame(ui, rect, "Alarms");
+  const Rect content = DrawPanelFrame(ui, rect, "Alarms", {{AlarmCountWords(alarms)}});
   float y = content.y + s.Px(12);
   if (alarms.empty()) {
     DrawText(ui, s.body, p.text2, content.x + s.Px(12), y,
@@ -98,7 +101,8 @@ void DrawAlarmTable(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui) {
     const float right = content.right() - s.Px(12);
     const float state_w = DrawText(ui, s.caption, p.text2, right, y, state, Align::kRight);
     for (const std::string& line :
-         WrapText(s.body, alarm.text, right - state_w - s.Px(12) - x - time_w)) {
+         WrapText(s.body, AlarmWords(alarm, FollowsRecord(snap.session->role)),
+                  right - state_w - s.Px(12) - x - time_w)) {
       if (y + s.Px(10) > rect.bottom()) {
         return;
       }
@@ -167,7 +171,8 @@ void DrawSiteTable(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui) {
   float y = content.y + s.Px(12);
   if (!snap.terrain->applied || snap.terrain->applied->selection.sites.empty()) {
     DrawText(ui, s.body, p.text2, content.x + s.Px(12), y,
-             snap.terrain->applied ? "No cell is far enough from every hazard." : "No map yet.");
+             snap.terrain->applied ? std::string("No cell is far enough from every hazard.")
+                                   : NoMapWords(snap) + ".");
     return;
   }
   const char* heads[] = {"Clear", "Slope", "Rough", "Probability", "North", "East"};

@@ -23,7 +23,8 @@ std::string WordsOf(const std::map<std::string, std::uint64_t>& counts) {
 
 std::vector<LossRow> RowsOf(const Losses& losses) {
   std::vector<LossRow> rows = {
-      {"Pairs overtaken", losses.pairs_replaced, "Newer pictures came before these were looked at"},
+      {"Pairs overtaken", losses.pairs_replaced,
+       "Came; newer ones came before they were looked at"},
       {"Pictures unpaired", losses.pictures_unpaired, "The other camera gave none of that time"},
       {"Pairs without rig", losses.pairs_without_rig, "Came before the cameras were described"},
       {"Bundles missing", losses.bundles_missing, "Gaps in the sender's numbers: lost on the way"},

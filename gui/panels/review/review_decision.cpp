@@ -1,9 +1,12 @@
 // Review: what was decided at the time shown, by the record and by the reviewer's limits.
 #include <algorithm>
+#include <optional>
 
 #include "engine/core/units.h"
 #include "engine/model/size_words.h"
 #include "gui/panels/review/review.h"
+#include "gui/widgets/button.h"
+#include "gui/widgets/interact.h"
 #include "gui/widgets/number_text.h"
 
 namespace palace {
@@ -28,15 +31,33 @@ const FlightRecordSample* SampleAt(const FlightRecord* record, Timestamp time) {
   return after == record->samples.begin() ? nullptr : &*(after - 1);
 }
 
-void FillFigures(const EngineSnapshot& snap, const TerrainDecision* decision, Column& column) {
-  column.area = Fixed(SafeArea(decision), 0) + " m²";
-  const LandingSite* site = BestSite(snap, decision);
-  column.best = LetterOf(site);
+void FillFigures(const LandingSite* site, Column& column) {
   if (site != nullptr) {
+    column.best = site->letter;
     column.clear = Fixed(site->safe_distance_m, 1) + " m";
     column.slope = SizeWords(site->slope_rad, kDegPerRad, "°", 1);
     column.rough = SizeWords(site->roughness_m, 100, " cm", 1);
   }
+}
+
+/// That place among the sites of a decision, which has the ids of the record; null where it is not
+/// listed.
+const LandingSite* SamePlace(const TerrainDecision* decision, const LandingSite& site) {
+  if (decision != nullptr) {
+    for (const LandingSite& other : decision->selection.sites) {
+      if (other.id == site.id) {
+        return &other;
+      }
+    }
+  }
+  return nullptr;
+}
+
+/// What the figures are of: the site that was selected or flown to, before that the best.
+const char* SubjectWord(const MissionStatus& m) {
+  return !m.armed                                                ? "Best site"
+         : IsFlying(m.state) || m.state == MissionState::kLanded ? "Landing site"
+                                                                 : "Selected site";
 }
 
 /// "Armed A": state and site of the mission, as the chain at the top says it.
@@ -48,26 +69,46 @@ std::string StateOf(const MissionStatus& m) {
   return words;
 }
 
+/// The selected site on the newest map, as it was re-checked or listed.
+const LandingSite* ArmedOnMap(const EngineSnapshot& snap, const LandingSite& armed) {
+  const auto& now = snap.flight->mission.armed_now;
+  return now ? &*now : SamePlace(snap.terrain->OfRecord().get(), armed);
+}
+
 Column InTheFlight(const EngineSnapshot& snap, const FlightRecord* record, bool rebuilding) {
+  const MissionStatus& m = snap.flight->mission;
+  const TerrainDecision* map = snap.terrain->OfRecord().get();
   Column column;
   column.head = FollowsRecord(snap.session->role) ? FlightWord(record) : "Now";
+  column.decision = StateOf(m);
   if (!rebuilding) {
-    FillFigures(snap, snap.terrain->OfRecord().get(), column);
+    column.area = Fixed(SafeArea(map), 0) + " m²";
+    column.best = LetterOf(BestSite(snap, map));
+    FillFigures(m.armed ? ArmedOnMap(snap, *m.armed) : BestSite(snap, map), column);
   }
-  if (const FlightRecordSample* sample = SampleAt(record, snap.time)) {
+  const FlightRecordSample* sample = SampleAt(record, snap.time);
+  if (m.armed) {
+    column.best = m.armed->letter;
+  } else if (sample != nullptr) {
     column.best = !sample->best_site.empty() ? sample->best_site : "none";
     column.clear = !sample->best_site.empty() ? Fixed(sample->best_safe_distance_m, 1) + " m"
                                               : std::string(kUnknown);
   }
-  column.decision = StateOf(snap.flight->mission);
   return column;
 }
 
 Column UnderOtherLimits(const EngineSnapshot& snap, std::string& reason) {
+  const auto& armed = snap.flight->mission.armed;
+  const TerrainDecision* map = snap.terrain->applied.get();
+  const LandingSite* best = BestSite(snap, map);
   Column column;
   column.head = "Re-decided";
-  FillFigures(snap, snap.terrain->applied.get(), column);
-  const LandingSite* best = BestSite(snap, snap.terrain->applied.get());
+  column.area = Fixed(SafeArea(map), 0) + " m²";
+  column.best = LetterOf(best);
+  FillFigures(armed ? SamePlace(map, *armed) : best, column);
+  if (armed) {
+    column.best = armed->letter;
+  }
   const auto& review = snap.terrain->site_review;
   if (review) {
     column.decision = (review->kept ? "Keeps " : "Refuses ") + review->letter;
@@ -78,11 +119,47 @@ Column UnderOtherLimits(const EngineSnapshot& snap, std::string& reason) {
   return column;
 }
 
-std::string WhyRebuilding(const EngineSnapshot& snap) {
-  return "After the jump the map is built anew: " + std::to_string(snap.terrain->maps_to_rebuild) +
-         (snap.session->source.ended
-              ? " frames are missing, and the log ends here. Go back and play."
-              : " frames still to come. Play on.");
+/// Maps that the record holds after that time; empty where it tells of none.
+std::optional<int> MapsAhead(const FlightRecord* record, Timestamp time) {
+  if (record == nullptr || record->proposals.empty()) {
+    return std::nullopt;
+  }
+  return static_cast<int>(
+      std::count_if(record->proposals.begin(), record->proposals.end(),
+                    [&](const RecordedProposal& proposal) { return proposal.map_time > time; }));
+}
+
+std::string WhyRebuilding(const EngineSnapshot& snap, const FlightRecord* record) {
+  const int missing = snap.terrain->maps_to_rebuild;
+  if (!snap.terrain->why_no_map.empty()) {
+    return snap.terrain->why_no_map + "; after a jump none is here to show. Go back and play.";
+  }
+  const int ahead = snap.session->source.ended ? 0 : MapsAhead(record, snap.time).value_or(missing);
+  if (ahead < missing) {
+    return "After the jump the map lacks " + std::to_string(missing) + " frames, and " +
+           (ahead == 0 ? std::string("none follows") : std::to_string(ahead) + " follow") +
+           " in this log. Go back and play.";
+  }
+  return "After the jump the map is built anew: " + std::to_string(missing) +
+         " frames still to come. Play on.";
+}
+
+/// Whole lines, as many as fit; the pointer reads the rest.
+void DrawReason(UiFrame& ui, const std::string& reason, const Rect& area) {
+  const Style& s = ui.style;
+  float y = area.y;
+  bool cut = false;
+  for (const std::string& line : WrapText(s.body, reason, area.w)) {
+    cut = cut || y + s.Px(8) > area.bottom();
+    if (!cut) {
+      DrawText(ui, s.body, s.palette.text2, area.x, y, line);
+      y += s.Px(20);
+    }
+  }
+  ui.items.Add("decision/reason", area, true, reason);
+  if (cut && Interact(ui, "decision/reason", area, kPassive).hovered) {
+    DrawTooltip(ui, reason);
+  }
 }
 
 }  // namespace
@@ -95,7 +172,7 @@ void DrawDecisionPanel(const EngineSnapshot& snap, const FlightRecord* record, c
       DrawPanelFrame(ui, rect, "Decision at " + TimeLabel(snap.session->source.position_s, true));
   const bool rebuilding = snap.terrain->maps_to_rebuild > 0;
   const bool redecided = LimitsMoved(snap) > 0;
-  std::string reason = rebuilding ? WhyRebuilding(snap) : std::string();
+  std::string reason = rebuilding ? WhyRebuilding(snap, record) : std::string();
   const Column was = InTheFlight(snap, record, rebuilding);
   Column is;
   if (redecided && !rebuilding) {
@@ -105,7 +182,7 @@ void DrawDecisionPanel(const EngineSnapshot& snap, const FlightRecord* record, c
     const char* name;
     const std::string &was, &is;
   } rows[] = {{"", was.head, is.head},
-              {"Best site", was.best, is.best},
+              {SubjectWord(snap.flight->mission), was.best, is.best},
               {"Clear radius", was.clear, is.clear},
               {"Slope", was.slope, is.slope},
               {"Roughness", was.rough, is.rough},
@@ -129,13 +206,7 @@ void DrawDecisionPanel(const EngineSnapshot& snap, const FlightRecord* record, c
   }
   ui.items.Add("decision/recorded", rect, true, was.best + ", " + was.decision);
   ui.items.Add("decision/now", rect, redecided, is.best + ", " + is.decision);
-  for (const std::string& line : WrapText(s.body, reason, content.w - 2 * pad)) {
-    if (y + s.Px(8) > rect.bottom()) {
-      break;
-    }
-    DrawText(ui, s.body, p.text2, content.x + pad, y, line);
-    y += s.Px(20);
-  }
+  DrawReason(ui, reason, {content.x + pad, y, content.w - 2 * pad, rect.bottom() - y});
 }
 
 }  // namespace palace

@@ -21,16 +21,54 @@ float RoundTop(float top) {
   return top;
 }
 
-/// A figure of each sample against the seconds of the flight.
-template <typename Sample>
+// Farther apart, what lies between two points was not measured.
+constexpr double kGap_s = 1;
+constexpr double kMapGap_s = 2;
+
+/// A figure of the samples against the seconds of the flight, broken where they are farther apart.
+template <typename Sample, typename Keep>
 PlotTrace TraceOf(const EngineSnapshot& snap, const FlightRecord* record,
-                  const std::vector<Sample>& samples, double Sample::*figure) {
+                  const std::vector<Sample>& samples, double Sample::*figure, double gap_s,
+                  Keep keep) {
   PlotTrace trace;
   for (const Sample& sample : samples) {
-    trace.points.push_back({static_cast<float>(FlightSeconds(snap, record, sample.time)),
-                            static_cast<float>(sample.*figure)});
+    if (!keep(sample)) {
+      continue;
+    }
+    const auto t = static_cast<float>(FlightSeconds(snap, record, sample.time));
+    if (!trace.points.empty() && static_cast<double>(t - trace.points.back().x) > gap_s) {
+      trace.points.push_back({trace.points.back().x, NAN});
+    }
+    trace.points.push_back({t, static_cast<float>(sample.*figure)});
   }
   return trace;
+}
+
+/// A figure of every sample.
+template <typename Sample>
+PlotTrace TraceOfAll(const EngineSnapshot& snap, const FlightRecord* record,
+                     const std::vector<Sample>& samples, double Sample::*figure) {
+  return TraceOf(snap, record, samples, figure, kGap_s, [](const Sample&) { return true; });
+}
+
+/// A figure that only a map measures: of the samples with which one came, where they tell it.
+template <typename Sample>
+PlotTrace TraceOfMaps(const EngineSnapshot& snap, const FlightRecord* record,
+                      const std::vector<Sample>& samples, double Sample::*figure) {
+  const bool told = std::any_of(samples.begin(), samples.end(),
+                                [](const Sample& sample) { return sample.new_map; });
+  return told ? TraceOf(snap, record, samples, figure, kMapGap_s,
+                        [](const Sample& sample) { return sample.new_map; })
+              : TraceOfAll(snap, record, samples, figure);
+}
+
+const std::vector<HistorySample>& HistoryOf(const EngineSnapshot& snap) {
+  static const std::vector<HistorySample> none;
+  return snap.flight->history ? *snap.flight->history : none;
+}
+
+bool IsRecorded(const FlightRecord* record) {
+  return record != nullptr && !record->samples.empty();
 }
 
 float TopOf(const PlotView& view, float at_least) {
@@ -42,22 +80,35 @@ float TopOf(const PlotView& view, float at_least) {
   return RoundTop(at_least);
 }
 
-/// The axes, and what the flight did: by its record, or as it was seen here.
-void FillFlight(const EngineSnapshot& snap, const FlightRecord* record,
-                double FlightRecordSample::*then, double HistorySample::*seen, const Palette& p,
-                PlotView& view) {
-  static const std::vector<HistorySample> no_history;
-  const bool recorded = record != nullptr && !record->samples.empty();
-  view.series = {
-      recorded
-          ? TraceOf(snap, record, record->samples, then)
-          : TraceOf(snap, record, snap.flight->history ? *snap.flight->history : no_history, seen)};
+/// The axes, and what the flight did.
+void FillFlight(const EngineSnapshot& snap, const FlightRecord* record, PlotTrace flown,
+                const Palette& p, PlotView& view) {
+  view.series = {std::move(flown)};
   view.series[0].width = 2.2f;
   view.series[0].colour = p.text1;
   view.x_min = 0;
   view.x_max = static_cast<float>(std::max(1.0, DurationOf(snap, record)));
   view.time_axis = PlotView::TimeAxis::kClock;
   view.now = std::min(view.x_max, static_cast<float>(snap.session->source.position_s));
+}
+
+/// By the record, or as it was seen here.
+PlotTrace HeightFlown(const EngineSnapshot& snap, const FlightRecord* record) {
+  return IsRecorded(record)
+             ? TraceOfAll(snap, record, record->samples, &FlightRecordSample::height_above_site_m)
+             : TraceOfAll(snap, record, HistoryOf(snap), &HistorySample::height_above_site_m);
+}
+PlotTrace ClearRadiusFlown(const EngineSnapshot& snap, const FlightRecord* record) {
+  return IsRecorded(record)
+             ? TraceOfMaps(snap, record, record->samples, &FlightRecordSample::best_safe_distance_m)
+             : TraceOfMaps(snap, record, HistoryOf(snap), &HistorySample::best_safe_distance_m);
+}
+
+/// ", 12 s old": no map was made since.
+std::string AgeWords(const EngineSnapshot& snap) {
+  const auto& map = snap.terrain->applied;
+  const double age_s = map ? SecondsBetween(map->map_time, snap.time) : NAN;
+  return age_s > kMapGap_s ? ", " + Duration(age_s) + " old" : std::string();
 }
 
 }  // namespace
@@ -70,8 +121,7 @@ ReviewPlots MakeReviewPlots(const EngineSnapshot& snap, const FlightRecord* reco
   height.title = "Height";
   height.unit = "m";
   height.current = Fixed(snap.flight->mission.height_above_site_m, 1) + " m";
-  FillFlight(snap, record, &FlightRecordSample::height_above_site_m,
-             &HistorySample::height_above_site_m, p, height);
+  FillFlight(snap, record, HeightFlown(snap, record), p, height);
   height.series[0].colour = p.safe;
   height.y_max = TopOf(height, 10);
 
@@ -79,12 +129,13 @@ ReviewPlots MakeReviewPlots(const EngineSnapshot& snap, const FlightRecord* reco
   clear.name = "clear_radius";
   clear.title = "Clear radius of best site";
   clear.unit = "m";
-  FillFlight(snap, record, &FlightRecordSample::best_safe_distance_m,
-             &HistorySample::best_safe_distance_m, p, clear);
+  FillFlight(snap, record, ClearRadiusFlown(snap, record), p, clear);
   if (snap.terrain->redecided) {
     clear.series[0].colour = p.text2;
-    clear.series.insert(clear.series.begin(), TraceOf(snap, record, *snap.terrain->redecided,
-                                                      &RedecidedSample::best_safe_distance_m));
+    clear.series.insert(
+        clear.series.begin(),
+        TraceOf(snap, record, *snap.terrain->redecided, &RedecidedSample::best_safe_distance_m,
+                kMapGap_s, [](const RedecidedSample&) { return true; }));
     clear.series[0].width = 2.2f;
     clear.series[0].colour = p.text1;
     clear.series[0].stroke = PlotTrace::Stroke::kDashed;
@@ -96,6 +147,9 @@ ReviewPlots MakeReviewPlots(const EngineSnapshot& snap, const FlightRecord* reco
   if (was != nullptr) {
     clear.current = Fixed(was->safe_distance_m, 1) + " / " + clear.current;
     clear.unit = "m, recorded / re-decided";
+  }
+  if (best != nullptr) {
+    clear.current += AgeWords(snap);
   }
   const double least_m = snap.session->settings.slad.lander.clear_radius_m();
   clear.limits = {

@@ -1,11 +1,9 @@
-// Timeline of Review: what the lanes hold, transport buttons.
+// Timeline of Review: what the lanes hold.
 #include <algorithm>
 #include <cmath>
 
+#include "gui/panels/alarm_look.h"
 #include "gui/panels/review/review.h"
-#include "gui/panels/session_words.h"
-#include "gui/widgets/button.h"
-#include "gui/widgets/number_text.h"
 
 namespace palace {
 namespace {
@@ -69,16 +67,43 @@ Lane SiteLane(const char* name, const EngineSnapshot& snap, const FlightRecord* 
   return lane;
 }
 
+/// The site of each moment of the flight: the one selected or flown to, before that the best.
+Lane RecordedLane(const EngineSnapshot& snap, const FlightRecord& record) {
+  Lane lane{"Recorded site", {}, {}};
+  for (const FlightRecordSample& sample : record.samples) {
+    const LandingSite* chosen = record.ArmedAt(sample);
+    const std::string& letter = chosen != nullptr ? chosen->letter : sample.best_site;
+    Append(lane.segments, FlightSeconds(snap, &record, sample.time), Letter(letter),
+           chosen != nullptr ? 2 : 1, letter.empty());
+  }
+  return lane;
+}
+
 /// What the flight chose: by its record; without one, as it was seen here.
 Lane FlightLane(const EngineSnapshot& snap, const FlightRecord* record) {
   if (record != nullptr && !record->samples.empty()) {
-    return SiteLane("Recorded site", snap, record, record->samples, &FlightRecordSample::best_site);
+    return RecordedLane(snap, *record);
   }
   if (snap.terrain->redecided) {
     return SiteLane("Best site", snap, record, *snap.terrain->redecided,
                     &RedecidedSample::recorded);
   }
   return SiteLane("Best site", snap, record, HistoryOf(snap), &HistorySample::best_site);
+}
+
+/// Broken where nothing was sampled.
+template <typename Sample>
+std::vector<ImVec2> SilhouetteOf(const EngineSnapshot& snap, const FlightRecord* record,
+                                 const std::vector<Sample>& samples, double Sample::*height) {
+  std::vector<ImVec2> points;
+  for (const Sample& sample : samples) {
+    const auto t = static_cast<float>(FlightSeconds(snap, record, sample.time));
+    if (!points.empty() && static_cast<double>(t - points.back().x) > kGap_s) {
+      points.push_back({t, NAN});
+    }
+    points.push_back({t, static_cast<float>(sample.*height)});
+  }
+  return points;
 }
 
 const std::vector<Event>& EventsOf(const EngineSnapshot& snap, const FlightRecord* record) {
@@ -105,10 +130,20 @@ std::string MarkWords(const std::string& text) {
 Lane AlarmLane(const EngineSnapshot& snap, const FlightRecord* record, const Palette& p) {
   Lane lane{"Alarms", {}, {}};
   for (const Event& event : EventsOf(snap, record)) {
-    if (event.kind == EventKind::kAlarm) {
-      lane.marks.push_back({FlightSeconds(snap, record, event.time), Icon::kCaution, p.caution,
-                            MarkWords(event.text)});
+    if (event.kind != EventKind::kAlarm) {
+      continue;
     }
+    // Without a level: an answer to an alarm, or a note on the record.
+    LaneMark mark{FlightSeconds(snap, record, event.time), Icon::kNormal, p.text2,
+                  MarkWords(event.text), event.text};
+    if (event.level) {
+      const AlarmLook look = LookOf(p, *event.level);
+      mark.icon = look.icon;
+      mark.colour = look.colour;
+      mark.hint = std::string(look.word) + " " + event.text;
+      mark.weight = 1 + static_cast<int>(*event.level);
+    }
+    lane.marks.push_back(std::move(mark));
   }
   return lane;
 }
@@ -118,141 +153,14 @@ Lane MarkLane(const EngineSnapshot& snap, const FlightRecord* record, const Pale
   for (const Event& event : EventsOf(snap, record)) {
     const double t = FlightSeconds(snap, record, event.time);
     if (event.kind == EventKind::kSetting) {
-      lane.marks.push_back({t, Icon::kScreen, p.text2, MarkWords(event.text)});
+      lane.marks.push_back({t, Icon::kScreen, p.text2, MarkWords(event.text), event.text});
     } else if (event.kind == EventKind::kBookmark) {
-      lane.marks.push_back({t, Icon::kFlag, p.text1, MarkWords(event.text)});
+      lane.marks.push_back({t, Icon::kFlag, p.text1, MarkWords(event.text), event.text});
     } else if (event.kind == EventKind::kDecision) {
-      lane.marks.push_back({t, Icon::kDone, p.text1, MarkWords(event.text)});
+      lane.marks.push_back({t, Icon::kDone, p.text1, MarkWords(event.text), event.text});
     }
   }
   return lane;
-}
-
-void Playback(UiFrame& ui, PlaybackControl::Kind kind, double value = 0) {
-  ui.intents.push_back(PlaybackControl{kind, value});
-}
-
-double NextSpeed(double speed) {
-  const double steps[] = {0.25, 0.5, 1, 2, 5, 20};
-  for (const double step : steps) {
-    if (speed > 0 && step > speed * 1.01) {
-      return step;
-    }
-  }
-  return speed > 0 ? 0 : steps[0];
-}
-
-bool IconButton(UiFrame& ui, const char* name, const Rect& rect, Icon icon, bool active,
-                bool enabled, const char* why_not = "This source cannot jump in time") {
-  const Style& s = ui.style;
-  ButtonLook look;
-  look.active = active;
-  look.enabled = enabled;
-  look.reason = why_not;
-  const bool clicked = DrawButton(ui, name, rect, "", look);
-  const ImU32 colour = !enabled ? s.palette.text3 : (active ? s.palette.on_white : s.palette.text1);
-  DrawIcon(Canvas(), icon, rect.centre(), s.Px(20), colour);
-  return clicked;
-}
-
-/// Of a log in which the vehicle restarted the part, and the way to the next; returns where it
-/// ends.
-float DrawPart(UiFrame& ui, const Rect& box, const SourceStatus& source) {
-  if (source.parts <= 1) {
-    return box.x;
-  }
-  const std::string words =
-      "Part " + std::to_string(source.part) + " of " + std::to_string(source.parts);
-  ButtonLook look;
-  look.hint = "The vehicle's clock began anew, and with it a part of the log: opens the next";
-  if (DrawButton(ui, "part", box, words, look)) {
-    ui.intents.push_back(UiAction(
-        NextFlight{NextFlight::Kind::kReview, source.name, source.part % source.parts + 1}));
-  }
-  return box.right() + ui.style.Px(8);
-}
-
-/// Draws the buttons; returns where they end.
-float DrawTransport(UiFrame& ui, const Rect& row, const EngineSnapshot& snap, double duration_s) {
-  using Kind = PlaybackControl::Kind;
-  const Style& s = ui.style;
-  const bool seek = snap.session->source.can_seek;
-  const float y = std::round(row.centre().y - s.Px(16));
-  float x = row.x;
-  const auto next = [&](float width) {
-    const Rect box{x, y, s.Px(width), s.Px(32)};
-    x = box.right() + s.Px(8);
-    return box;
-  };
-  if (IconButton(ui, "to_start", next(36), Icon::kStepBack, false, seek)) {
-    Playback(ui, Kind::kSeek, 0);
-  }
-  if (IconButton(ui, "step_back", next(36), Icon::kFrameBack, false, seek)) {
-    Playback(ui, Kind::kStepBack);
-  }
-  const bool can_pause = CanBePaused(snap), playing = IsPlaying(snap);
-  constexpr const char* kAlive = "A live source cannot be paused";
-  if (IconButton(ui, "play", next(36), playing ? Icon::kPause : Icon::kPlay, playing && can_pause,
-                 can_pause, kAlive)) {
-    Playback(ui, playing ? Kind::kPause : Kind::kPlay);
-  }
-  if (IconButton(ui, "step_forward", next(36), Icon::kFrameForward, false, can_pause, kAlive)) {
-    Playback(ui, Kind::kStepForward);
-  }
-  if (IconButton(ui, "to_end", next(36), Icon::kStepForward, false, seek)) {
-    Playback(ui, Kind::kSeek, duration_s);
-  }
-  x += s.Px(4);
-  const std::string speed =
-      snap.session->source.speed > 0
-          ? Fixed(snap.session->source.speed, snap.session->source.speed < 1 ? 2 : 1) + "×"
-          : std::string("Fastest");
-  ButtonLook speed_look;
-  speed_look.enabled = can_pause;
-  speed_look.reason = kAlive;
-  if (DrawButton(ui, "speed", next(68), speed, speed_look)) {
-    Playback(ui, Kind::kSpeed, NextSpeed(snap.session->source.speed));
-  }
-  if (IconButton(ui, "bookmark", next(36), Icon::kFlag, false, snap.session->recording,
-                 "Nothing is recorded here that a bookmark could be in")) {
-    ui.intents.push_back(CommandAction(AddBookmark{}));
-  }
-  return DrawPart(ui, {x, y, s.Px(104), s.Px(32)}, snap.session->source);
-}
-
-void DrawClock(UiFrame& ui, const Rect& row, float x, const EngineSnapshot& snap,
-               double duration_s) {
-  const Style& s = ui.style;
-  const Palette& p = s.palette;
-  const float middle = row.centre().y;
-  x += s.Px(8);
-  x += DrawText(ui, s.replay_time, p.text1, x, middle,
-                TimeLabel(snap.session->source.position_s, true)) +
-       s.Px(20);
-  std::vector<std::pair<ImFont*, std::string>> facts;
-  if (snap.session->source.can_seek && snap.session->source.duration_s) {
-    facts.emplace_back(s.body, "of " + TimeLabel(duration_s, true));
-  }
-  if (snap.session->source.frame_count > 0) {
-    facts.emplace_back(
-        s.body, "Frame " + Fixed(static_cast<double>(snap.session->source.frame_index), 0) +
-                    " of " + Fixed(static_cast<double>(snap.session->source.frame_count), 0));
-  }
-  facts.emplace_back(s.mono, ClockText(snap.time) + " " + ClockName(snap));
-  const std::string name =
-      snap.session->source.name.substr(snap.session->source.name.find_last_of('/') + 1);
-  const float name_x = row.right() - TextWidth(s.body, name);
-  for (const auto& [font, text] : facts) {
-    const float width = TextWidth(font, text);
-    if (x + width > row.right()) {
-      return;
-    }
-    DrawText(ui, font, p.text2, x, middle, text);
-    x += width + s.Px(28);
-  }
-  if (name_x > x) {
-    DrawText(ui, s.body, p.text2, row.right(), middle, name, Align::kRight);
-  }
 }
 
 }  // namespace
@@ -338,30 +246,11 @@ TimelineView MakeTimeline(const EngineSnapshot& snap, const FlightRecord* record
     view.lanes.push_back(AlarmLane(snap, record, palette));
     view.lanes.push_back(MarkLane(snap, record, palette));
   }
-  if (record != nullptr && !record->samples.empty()) {
-    for (const FlightRecordSample& sample : record->samples) {
-      view.height.push_back({static_cast<float>(FlightSeconds(snap, record, sample.time)),
-                             static_cast<float>(sample.height_m)});
-    }
-  } else {
-    for (const HistorySample& sample : HistoryOf(snap)) {
-      view.height.push_back({static_cast<float>(FlightSeconds(snap, record, sample.time)),
-                             static_cast<float>(sample.height_above_site_m)});
-    }
-  }
+  view.height =
+      record != nullptr && !record->samples.empty()
+          ? SilhouetteOf(snap, record, record->samples, &FlightRecordSample::height_m)
+          : SilhouetteOf(snap, record, HistoryOf(snap), &HistorySample::height_above_site_m);
   return view;
-}
-
-void DrawReviewTimeline(const EngineSnapshot& snap, const TimelineView& view, const Rect& rect,
-                        ReviewState& state, UiFrame& ui) {
-  const Style& s = ui.style;
-  DrawPanelBackground(ui, rect, "Timeline");
-  const float pad = s.Px(12);
-  const Rect row{rect.x + pad, rect.y, rect.w - 2 * pad, s.Px(48)};
-  const float x = DrawTransport(ui, row, snap, view.duration_s);
-  DrawClock(ui, row, x, snap, view.duration_s);
-  DrawTimeline(ui, {row.x, row.bottom(), row.w, rect.bottom() - s.Px(6) - row.bottom()}, view,
-               state.timeline);
 }
 
 }  // namespace palace

@@ -71,6 +71,11 @@ struct ApplyWords {
   std::string why_not;
 };
 
+/// "site A"; of a place that the flight has not named "a new place, +1".
+std::string PlaceName(const LandingSite& site) {
+  return IsNamedSite(site.id) ? "site " + site.letter : "a new place, " + site.letter;
+}
+
 std::string RankEffect(const TuneFacts& f) {
   const LandingSite* was = f.best_applied;
   const LandingSite* is = f.best_shown;
@@ -81,10 +86,10 @@ std::string RankEffect(const TuneFacts& f) {
     return std::string("Site ") + was->letter + " is lost, no site remains. ";
   }
   if (was == nullptr) {
-    return std::string("Site ") + is->letter + " is found. ";
+    return "Found: " + PlaceName(*is) + ". ";
   }
   if (was->id != is->id) {
-    return std::string("Site ") + was->letter + " loses its rank to " + is->letter + ". ";
+    return std::string("Site ") + was->letter + " loses its rank to " + PlaceName(*is) + ". ";
   }
   return std::string("Site ") + is->letter + " stays first. ";
 }
@@ -208,7 +213,8 @@ void DrawChosenPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui) 
   const Palette& p = s.palette;
   const TuneFacts facts = FactsOf(snap);
   const LandingSite* best = facts.best_shown;
-  const Rect content = DrawPanelFrame(ui, rect, "Site chosen");
+  const Rect content =
+      DrawPanelFrame(ui, rect, facts.previewing ? "Site chosen in preview" : "Site chosen");
   const float x = content.x + s.Px(12);
   if (best == nullptr) {
     const std::string why = facts.shown != nullptr && !facts.shown->selection.none_reason.empty()

@@ -117,5 +117,18 @@ TEST(Keys, WhatIsAliveIsNotAskedToWait) {
   }
 }
 
+TEST(Keys, CtrlNEndsAReviewAndNothingElse) {
+  EngineSnapshot snapshot;
+  snapshot.session.Edit().role = SessionRole::kReplayedAfterJump;
+  const Intents ends = IntentsOfKey("Ctrl+N", &snapshot, UiState{}, false);
+  ASSERT_EQ(ends.size(), 1U);
+  EXPECT_EQ(std::get<NextFlight>(std::get<UiAction>(ends[0])).kind, NextFlight::Kind::kFlyAgain);
+  for (const SessionRole role :
+       {SessionRole::kLive, SessionRole::kSimulated, SessionRole::kPictures, SessionRole::kNone}) {
+    snapshot.session.Edit().role = role;
+    EXPECT_TRUE(IntentsOfKey("Ctrl+N", &snapshot, UiState{}, false).empty());
+  }
+}
+
 }  // namespace
 }  // namespace palace

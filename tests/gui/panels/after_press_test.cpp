@@ -74,6 +74,22 @@ TEST(Landed, OffersTheNextFlightItsReviewAndTheReport) {
   }
 }
 
+TEST(Landed, InAReviewItOffersTheWayBackToFlying) {
+  FlyWindow window(1280, 720, fake::Snapshot(MissionState::kLanded, SourceKind::kReplay));
+  const auto draw = [&](UiFrame& frame) {
+    frame.after_review = {"Back to live", "Ends the review and listens again"};
+    window.draw(frame);
+  };
+  window.ui.Frame(draw);
+  ExpectTextsInPanels(window.ui.items);
+  EXPECT_EQ(window.ui.items.Find("new_flight")->text, "Back to live");
+  EXPECT_FALSE(window.ui.items.Find("review_flight")->enabled);
+  window.ui.Click("new_flight", draw);
+  ASSERT_EQ(window.ui.intents.size(), 1U);
+  EXPECT_EQ(std::get<NextFlight>(std::get<UiAction>(window.ui.intents[0])).kind,
+            NextFlight::Kind::kFlyAgain);
+}
+
 TEST(Landing, ASecondPressWhereApproveWasDoesNotStopTheDescent) {
   for (const ImVec2 size : {ImVec2(1920, 1080), ImVec2(1280, 720)}) {
     FlyWindow armed(size.x, size.y, fake::Snapshot(MissionState::kArmed));

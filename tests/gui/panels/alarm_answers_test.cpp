@@ -35,6 +35,56 @@ TEST(AlarmStrip, TheCountOfTheOthersOpensTheListToo) {
   EXPECT_TRUE(window.bar.history_open);
 }
 
+// One count, in the same words, in the strip and in the status bar.
+TEST(AlarmStrip, CountsAsTheStatusBarDoes) {
+  EngineSnapshot snap = WarningBehindAnAdvisory();
+  auto& alarms = snap.flight.Edit().mission.alarms;
+  alarms.insert(alarms.begin(), {AlarmId::kWind, AlarmLevel::kCaution, "Wind 9.0 m/s."});
+  alarms.front().acknowledged = true;
+  FlyWindow window(1920, 1080, snap);
+  const std::string words = "1 caution, 1 advisory stand, 1 ended";
+  EXPECT_EQ(window.ui.items.Find("alarm_count")->text, words);
+  int told = 0;
+  for (const Item& item : window.ui.items.items()) {
+    told += item.name == "text" && item.text == words ? 1 : 0;
+  }
+  EXPECT_EQ(told, 2);
+}
+
+TEST(AlarmList, KeepsTheWorstOfWhatIsOver) {
+  EngineSnapshot snap = WarningBehindAnAdvisory();
+  auto& alarms = snap.flight.Edit().mission.alarms;
+  alarms[1].worst = "62 ms";
+  FlyWindow window(1920, 1080, snap);
+  window.ui.Click("alarm", window.draw);
+  window.ui.Frame(window.draw);
+  EXPECT_TRUE(HasText(window.ui.items, "Ended, worst 62 ms: Pictures 62 ms late"));
+  alarms = {{AlarmId::kGpsError, AlarmLevel::kCaution, "GPS horizontal error 2.1 m, limit 2.0 m."}};
+  alarms[0].worst = "2.6 m";
+  window.snap = snap;
+  window.ui.Frame(window.draw);
+  EXPECT_TRUE(HasText(window.ui.items, "GPS horizontal error 2.1 m, limit 2.0 m. At worst 2.6 m."));
+}
+
+// Where the words have no room whole clauses stand, and the pointer tells the rest.
+TEST(AlarmStrip, CutsNoClauseInTwo) {
+  EngineSnapshot snap = WarningBehindAnAdvisory();
+  auto& alarms = snap.flight.Edit().mission.alarms;
+  alarms[0].text =
+      "Ground of site A not measured for 2.4 s, limit 2.0 s. Descent holds and the vehicle waits "
+      "for the operator, who looks at both pictures and then decides again what is to be done.";
+  FlyWindow window(1280, 720, snap);
+  EXPECT_TRUE(HasText(window.ui.items, "not measured for 2.4 s"));
+  for (const Item& item : window.ui.items.items()) {
+    EXPECT_FALSE(item.name == "text" && item.text.find("Descent holds and") != std::string::npos)
+        << item.text;
+  }
+  window.ui.MoveTo("alarm");
+  window.Run(1.5);
+  ASSERT_NE(window.ui.items.Find("tooltip"), nullptr);
+  EXPECT_NE(window.ui.items.Find("tooltip")->text.find("Descent holds and"), std::string::npos);
+}
+
 TEST(AlarmList, TellsEachAlarmInFullAndAnswersItThere) {
   for (const ImVec2 size : {ImVec2(1920, 1080), ImVec2(1280, 720)}) {
     EngineSnapshot snap = WarningBehindAnAdvisory();
@@ -51,7 +101,7 @@ TEST(AlarmList, TellsEachAlarmInFullAndAnswersItThere) {
       all += item.name == "text" ? item.text + " " : "";
     }
     EXPECT_NE(all.find("wave off when they do not agree."), std::string::npos);
-    EXPECT_NE(all.find("Over now: Pictures 62 ms late"), std::string::npos);
+    EXPECT_NE(all.find("Ended: Pictures 62 ms late"), std::string::npos);
     const std::string answer = std::string("acknowledge/") + AlarmName(AlarmId::kImageTime);
     ASSERT_NE(window.ui.items.Find(answer), nullptr);
     window.ui.Click(answer, window.draw);

@@ -270,6 +270,19 @@ TEST(FlyLimits, AfterLandingAnUnlockedTrackerIsUnknownNotOverALimit) {
   EXPECT_FALSE(HasText(window.ui.items, "1 over a limit"));
 }
 
+TEST(FlyApprove, SaysWhereASiteIsApprovedThatAMapCalledItUnsafe) {
+  for (const int width : {1280, 1920}) {
+    SCOPED_TRACE(width);
+    EngineSnapshot snap = fake::Snapshot(MissionState::kArmed);  // A is armed
+    TerrainDecision map = *snap.terrain->applied;
+    ASSERT_EQ(map.selection.sites.front().id, snap.flight->mission.armed->id);
+    map.selection.sites.front().called_unsafe_s = 28;
+    snap.terrain.Edit().applied = std::make_shared<const TerrainDecision>(map);
+    FlyWindow window(width, width * 9 / 16, snap);
+    EXPECT_TRUE(HasText(window.ui.items, "A map called it unsafe 28 s ago"));
+  }
+}
+
 TEST(FlyApprove, TellsTheHeadingThatWillBeSigned) {
   EngineSnapshot snap = fake::Snapshot(MissionState::kArmed);
   snap.flight.Edit().mission.approach = ApproachPlan{Rad(-20), Rad(45), 0.8};
@@ -332,6 +345,22 @@ TEST(FlyEmpty, ASnapshotWithNothingInItIsDrawnWithoutValues) {
   window.Run(0.1);
   EXPECT_TRUE(window.ui.intents.empty());
   EXPECT_FALSE(window.ui.items.Find("approve")->enabled);
+}
+
+TEST(ChannelStrip, TellsTheVehiclesRatesHoweverSeldomThisStationLooks) {
+  FlyWindow window(1920, 1080, fake::Snapshot(MissionState::kProposed));
+  for (const double silent_s : {0.0, 0.22, 0.45, 0.8}) {
+    SCOPED_TRACE(silent_s);
+    window.silent_s = silent_s;
+    window.Run(0.05);
+    const Item* imu = window.ui.items.Find("channel/IMU");
+    ASSERT_NE(imu, nullptr);
+    EXPECT_EQ(imu->text.find("200 Hz") != std::string::npos, silent_s <= 0.5) << imu->text;
+    const bool behind = std::any_of(
+        window.ui.items.items().begin(), window.ui.items.items().end(),
+        [](const Item& item) { return item.text.rfind("Screen 0.8 s behind", 0) == 0; });
+    EXPECT_EQ(behind, silent_s > 0.5);
+  }
 }
 
 TEST(StatusBar, CountsPicturesThatWereOvertaken) {

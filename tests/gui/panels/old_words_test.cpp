@@ -72,6 +72,16 @@ TEST(WaveOffPanel, IsOfferedAgainWhenTheWordOfTheGroundIsOld) {
   EXPECT_EQ(window.ui.CountCommands<WaveOff>(), 1);
 }
 
+TEST(WaveOffPanel, AnOldScreenIsNotASilentVehicle) {
+  FlyWindow window(1280, 720, fake::Snapshot(MissionState::kProposed));
+  window.silent_s = 2.2;
+  window.ui.Frame(window.draw);
+  const Item* wave_off = window.ui.items.Find("wave_off");
+  EXPECT_EQ(wave_off->text, "WAVE OFF | Screen 2.2 s behind, limit 0.5 s");
+  EXPECT_TRUE(wave_off->enabled);
+  ExpectTextsInPanels(window.ui.items);
+}
+
 TEST(Landing, AWaveOffIsToldWithTheAgeOfTheVehiclesWord) {
   const struct {
     WaveOffReport report;

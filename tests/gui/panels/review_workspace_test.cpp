@@ -442,5 +442,184 @@ TEST(TimelineStrip, LabelsRoundAsClocksDo) {
   EXPECT_EQ(TimeLabel(NAN, true), "00:00.0");
 }
 
+/// What the decision panel says in a replay that was entered by a jump.
+std::string ReasonAfterJump(const FlightRecord& record, int missing,
+                            const std::string& why_no_map) {
+  EngineSnapshot snap = Replay(false);
+  snap.terrain.Edit().maps_to_rebuild = missing;
+  snap.terrain.Edit().why_no_map = why_no_map;
+  UiHarness ui(1920, 1080);
+  ReviewState state;
+  ui.Frame([&](UiFrame& f) { DrawReviewWorkspace(snap, &record, BodyOf(1920, 1080), state, f); });
+  ExpectTextsInPanels(ui.items);
+  return ui.items.Find("decision/reason")->text;
+}
+
+TEST(ReviewWorkspace, AfterAJumpItPromisesOnlyMapsThatCome) {
+  FlightRecord record = Record();
+  EXPECT_EQ(ReasonAfterJump(record, 4, ""),
+            "After the jump the map is built anew: 4 frames still to come. Play on.");
+  EXPECT_EQ(ReasonAfterJump(record, 4, "On the ground no map is made"),
+            "On the ground no map is made; after a jump none is here to show. Go back and play.");
+  for (const double ahead_s : {-1.0, 1.0, 2.0}) {
+    record.proposals.push_back({AddSeconds({fake::kNow_us}, ahead_s), {}});
+  }
+  EXPECT_EQ(ReasonAfterJump(record, 2, ""),
+            "After the jump the map is built anew: 2 frames still to come. Play on.");
+  EXPECT_EQ(ReasonAfterJump(record, 4, ""),
+            "After the jump the map lacks 4 frames, and 2 follow in this log. Go back and play.");
+  record.proposals.resize(1);
+  EXPECT_EQ(
+      ReasonAfterJump(record, 4, ""),
+      "After the jump the map lacks 4 frames, and none follows in this log. Go back and play.");
+}
+
+TEST(ReviewWorkspace, AlarmMarksHaveTheirLevelAndTheHeaviestIsOnTop) {
+  FlightRecord record = Record();
+  const auto at = [&](double s) { return AddSeconds({0}, kStart_s + s); };
+  const auto alarm = [&](double s, std::optional<AlarmLevel> level, const char* text) {
+    return Event{.time = at(s), .kind = EventKind::kAlarm, .text = text, .level = level};
+  };
+  record.events = {alarm(20, AlarmLevel::kAdvisory, "No cautions, 2.6 m"),
+                   alarm(100, AlarmLevel::kCaution, "GPS lost"),
+                   alarm(180, AlarmLevel::kWarning, "Left camera stale. Wave off"),
+                   alarm(180.5, AlarmLevel::kCaution, "Laser lost"),
+                   alarm(300, std::nullopt, "Acknowledged: gps_lost")};
+  const Palette p = MakeDarkPalette();
+  const EngineSnapshot snap = Replay(false);
+  const Lane alarms = MakeTimeline(snap, &record, {}, p, true).lanes[4];
+  ASSERT_EQ(alarms.name, "Alarms");
+  const struct {
+    Icon icon;
+    ImU32 colour;
+    const char* hint;
+  } table[] = {{Icon::kAdvisory, p.advisory, "ADVISORY No cautions, 2.6 m"},
+               {Icon::kCaution, p.caution, "CAUTION GPS lost"},
+               {Icon::kWarning, p.warning, "WARNING Left camera stale. Wave off"},
+               {Icon::kCaution, p.caution, "CAUTION Laser lost"},
+               {Icon::kNormal, p.text2, "Acknowledged: gps_lost"}};
+  ASSERT_EQ(alarms.marks.size(), std::size(table));
+  for (std::size_t i = 0; i < std::size(table); ++i) {
+    EXPECT_EQ(alarms.marks[i].icon, table[i].icon) << i;
+    EXPECT_EQ(alarms.marks[i].colour, table[i].colour) << i;
+    EXPECT_EQ(alarms.marks[i].hint, table[i].hint) << i;
+  }
+  UiHarness ui(1920, 1080);
+  ReviewState state;
+  const auto draw = [&](UiFrame& f) {
+    DrawReviewWorkspace(snap, &record, BodyOf(1920, 1080), state, f);
+  };
+  ui.Frame(draw);
+  EXPECT_NE(ui.items.Find("mark/Alarms/2"), nullptr);
+  EXPECT_EQ(ui.items.Find("mark/Alarms/3"), nullptr) << "it lies under the warning";
+  EXPECT_EQ(ui.items.Find("tooltip"), nullptr);
+  ui.MoveTo("mark/Alarms/2");
+  ui.Frame(draw);
+  ui.Frame(draw);
+  ASSERT_NE(ui.items.Find("tooltip"), nullptr);
+  EXPECT_EQ(ui.items.Find("tooltip")->text, "WARNING Left camera stale. Wave off");
+}
+
+/// Where the line of a trace is broken: x of the last point before each break.
+std::vector<float> BreaksOf(const PlotTrace& trace) {
+  std::vector<float> at;
+  for (const ImVec2& point : trace.points) {
+    if (std::isnan(point.y)) {
+      at.push_back(point.x);
+    }
+  }
+  return at;
+}
+
+TEST(ReviewWorkspace, LinesBreakWhereNothingWasMeasured) {
+  FlightRecord record = Record();
+  for (FlightRecordSample& sample : record.samples) {
+    const double t = static_cast<double>(sample.time.us) * 1e-6 - kStart_s;
+    sample.best_site = "A";
+    sample.best_safe_distance_m = 4.6;
+    sample.new_map = t <= 100 || (t >= 140 && t < 300);  // bundles come all the time
+  }
+  const EngineSnapshot snap = Replay(false);
+  ReviewPlots plots = MakeReviewPlots(snap, &record, MakeDarkPalette());
+  const PlotTrace& clear = plots.clear_radius.series.back();
+  ASSERT_EQ(BreaksOf(clear).size(), 1U);
+  EXPECT_NEAR(BreaksOf(clear)[0], 100, 0.1);
+  EXPECT_NEAR(clear.points.back().x, 299.5, 0.1) << "no map was made after that";
+  EXPECT_TRUE(BreaksOf(plots.height.series[0]).empty());
+  EXPECT_TRUE(std::isnan(SeriesValueAt(clear, 120)));
+  // No bundle at all: nothing was measured of the height either.
+  std::erase_if(record.samples, [](const FlightRecordSample& sample) {
+    const double t = static_cast<double>(sample.time.us) * 1e-6 - kStart_s;
+    return t > 200 && t < 210;
+  });
+  plots = MakeReviewPlots(snap, &record, MakeDarkPalette());
+  EXPECT_EQ(BreaksOf(plots.height.series[0]).size(), 1U);
+  const TimelineView view = MakeTimeline(snap, &record, {}, MakeDarkPalette(), true);
+  EXPECT_EQ(std::count_if(view.height.begin(), view.height.end(),
+                          [](const ImVec2& point) { return std::isnan(point.y); }),
+            1);
+}
+
+TEST(ReviewWorkspace, TheRecordedSiteIsTheOneFlownTo) {
+  FlightRecord record = Record();
+  LandingSite flown;
+  flown.letter = "H";
+  record.armed_sites = {flown};
+  for (FlightRecordSample& sample : record.samples) {
+    sample.armed = sample.state >= MissionState::kArmed ? 0 : -1;
+  }
+  EngineSnapshot snap = Replay(false);
+  const Lane lane = MakeTimeline(snap, &record, {}, MakeDarkPalette(), true).lanes[1];
+  std::string letters;
+  for (const LaneSegment& segment : lane.segments) {
+    letters += segment.text + " ";
+  }
+  EXPECT_EQ(letters, "none B H ");
+  EXPECT_NEAR(lane.segments.back().from_s, 180, 0.01);
+
+  snap.flight.Edit().mission.state = MissionState::kLanded;
+  snap.flight.Edit().mission.armed->letter = "H";
+  UiHarness ui(1920, 1080);
+  ReviewState state;
+  ui.Frame([&](UiFrame& f) { DrawReviewWorkspace(snap, &record, BodyOf(1920, 1080), state, f); });
+  EXPECT_TRUE(HasText(ui.items, "Landing site"));
+  EXPECT_EQ(ui.items.Find("decision/recorded")->text, "H, Landed H");
+}
+
+TEST(ReviewWorkspace, AfterAJumpThePictureOfTheRecordIsNotCalledMissing) {
+  EngineSnapshot snap = Replay(false);
+  snap.sensors.Edit().channels[0].state = ChannelHealth::State::kStale;
+  snap.sensors.Edit().channels[0].age_s = 3.2;
+  EXPECT_EQ(NoPictureWords(snap), "No picture here, the last came 3.2 s before");
+  snap.sensors.Edit().channels[0].state = ChannelHealth::State::kNever;
+  EXPECT_EQ(NoPictureWords(snap), "No picture yet");
+}
+
+TEST(ReviewWorkspace, TheWayBackToFlyingIsBesideTheTransport) {
+  const FlightRecord record = Record();
+  EngineSnapshot snap = Replay(false);
+  for (const WindowSize& size : kWindowSizes) {
+    SCOPED_TRACE(size.name);
+    UiHarness ui(size.width, size.height);
+    ReviewState state;
+    WayOut way_out{"Back to cameras", "Ends the review and opens them again"};
+    const auto draw = [&](UiFrame& f) {
+      f.after_review = way_out;
+      DrawReviewWorkspace(snap, &record, BodyOf(size.width, size.height), state, f);
+    };
+    snap = Replay(false);
+    snap.session.Edit().source.parts = 2;
+    ui.Frame(draw);
+    ExpectTextsInPanels(ui.items);
+    ui.Click("end_review", draw);
+    ASSERT_EQ(ui.intents.size(), 1U);
+    EXPECT_EQ(std::get<NextFlight>(std::get<UiAction>(ui.intents[0])).kind,
+              NextFlight::Kind::kFlyAgain);
+    snap = fake::Snapshot(MissionState::kProposed, SourceKind::kSimulation);
+    ui.Frame(draw);
+    EXPECT_EQ(ui.items.Find("end_review"), nullptr) << "a flight is no review";
+  }
+}
+
 }  // namespace
 }  // namespace palace

@@ -195,28 +195,6 @@ TEST(LimitTickOnFly, SaysInTheDescentThatNothingIsApplied) {
   EXPECT_FALSE(HasText(window.ui.items, "applied on Tune"));
 }
 
-// While limits are only a preview, the best site under those applied has a dashed ring of its own;
-// beside the site that the vehicle lands on it would be mistaken for it.
-TEST(Preview, DrawsNoOtherRingBesideTheSelectedSite) {
-  for (const MissionState state : {MissionState::kProposed, MissionState::kArmed,
-                                   MissionState::kDescending, MissionState::kLanded}) {
-    SCOPED_TRACE(MissionStateWord(state));
-    EngineSnapshot snap = fake::Snapshot(state);
-    TerrainDecision preview = *snap.terrain->applied;
-    TerrainDecision applied = preview;
-    std::rotate(applied.selection.sites.begin(), applied.selection.sites.begin() + 1,
-                applied.selection.sites.end());
-    snap.terrain.Edit().preview = std::make_shared<const TerrainDecision>(preview);
-    snap.terrain.Edit().applied = std::make_shared<const TerrainDecision>(applied);
-    FlyWindow window(1920, 1080, snap);
-    int rings = 0;
-    for (const Item& item : window.ui.items.items()) {
-      rings += item.name == "text" && item.text.rfind("applied ", 0) == 0 ? 1 : 0;
-    }
-    EXPECT_EQ(rings, state == MissionState::kProposed ? 1 : 0);
-  }
-}
-
 TEST(OldMap, IsVeiledAndConfirmsNothing) {
   EngineSnapshot snap = fake::Snapshot(MissionState::kProposed);
   {
@@ -266,7 +244,7 @@ TEST(Ages, GrowWhileNothingIsPublished) {
   draw(0);
   EXPECT_EQ(ui.items.Find("channel/IMU")->text, "4 ms   200 Hz");
   draw(7);
-  EXPECT_EQ(ui.items.Find("channel/IMU")->text, "7.0 s   0.1 Hz");
+  EXPECT_EQ(ui.items.Find("channel/IMU")->text, "7.0 s   –– Hz");
   EXPECT_TRUE(HasText(ui.items, "Frozen 10.2 s ago"));
   EXPECT_TRUE(HasText(ui.items, "Link 7.0 s"));
 }
@@ -312,6 +290,22 @@ TEST(SiteList, SaysThatMoreSitesAreBelow) {
   }
   snap.terrain.Edit().applied = decision;
   EXPECT_TRUE(HasText(FlyWindow(1280, 720, snap).ui.items, "10 found, "));
+}
+
+TEST(AfterAJump, NothingIsPromisedThatTheRecordDoesNotHold) {
+  EngineSnapshot snap = fake::Snapshot(MissionState::kDescending, SourceKind::kReplay);
+  snap.flight.Edit().mission.rechecks.clear();
+  snap.session.Edit().role = SessionRole::kReplayed;
+  EXPECT_TRUE(HasText(FlyWindow(1920, 1080, snap).ui.items, "not yet"));
+  snap.session.Edit().role = SessionRole::kReplayedAfterJump;
+  EXPECT_TRUE(HasText(FlyWindow(1920, 1080, snap).ui.items, "not told after a jump"));
+
+  EXPECT_EQ(NoMapWords(snap), "No map yet");
+  snap.terrain.Edit().why_no_map = "On the ground no map is made";
+  EXPECT_EQ(NoMapWords(snap), "On the ground no map is made");
+  snap.terrain.Edit().applied.reset();
+  FlyWindow window(1920, 1080, snap);
+  EXPECT_FALSE(HasText(window.ui.items, "No map yet"));
 }
 
 }  // namespace

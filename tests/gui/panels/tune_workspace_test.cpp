@@ -200,6 +200,21 @@ TEST(TuneWorkspace, ResetAppearsOnlyWhenChangedAndSetsTheDefault) {
   EXPECT_EQ(ui.LastCommand<SetSetting>().value, 10);
 }
 
+// The same place has one name before and after; one that the flight has not named is called new.
+TEST(TuneWorkspace, NamesAPlaceThatOnlyThePreviewHasAsNew) {
+  EngineSnapshot snap = Previewing(MissionState::kArmed);
+  TerrainDecision preview = *snap.terrain->preview;
+  preview.selection.sites.front().id = kFirstUnnamedSite + 1;
+  preview.selection.sites.front().letter = "+1";
+  snap.terrain.Edit().preview = std::make_shared<const TerrainDecision>(preview);
+  UiHarness ui(1920, 1080);
+  TuneState state;
+  ui.Frame([&](UiFrame& f) { DrawTuneWorkspace(snap, Body(), state, f); });
+  EXPECT_TRUE(HasText(ui.items, "Site A loses its rank to a new place, +1."));
+  EXPECT_TRUE(HasText(ui.items, "Site chosen in preview"));
+  ExpectTextsInPanels(ui.items);
+}
+
 TEST(TuneWorkspace, ApplyIsOfferedOnlyForAPreviewThatMayApply) {
   const struct {
     MissionState state;

@@ -1,0 +1,169 @@
+// Timeline of Review: transport buttons, the way out, the clock, and the strip below them.
+#include <cmath>
+
+#include "gui/panels/review/review.h"
+#include "gui/panels/session_words.h"
+#include "gui/widgets/button.h"
+#include "gui/widgets/number_text.h"
+
+namespace palace {
+namespace {
+
+void Playback(UiFrame& ui, PlaybackControl::Kind kind, double value = 0) {
+  ui.intents.push_back(PlaybackControl{kind, value});
+}
+
+double NextSpeed(double speed) {
+  const double steps[] = {0.25, 0.5, 1, 2, 5, 20};
+  for (const double step : steps) {
+    if (speed > 0 && step > speed * 1.01) {
+      return step;
+    }
+  }
+  return speed > 0 ? 0 : steps[0];
+}
+
+bool IconButton(UiFrame& ui, const char* name, const Rect& rect, Icon icon, bool active,
+                bool enabled, const char* why_not = "This source cannot jump in time") {
+  const Style& s = ui.style;
+  ButtonLook look;
+  look.active = active;
+  look.enabled = enabled;
+  look.reason = why_not;
+  const bool clicked = DrawButton(ui, name, rect, "", look);
+  const ImU32 colour = !enabled ? s.palette.text3 : (active ? s.palette.on_white : s.palette.text1);
+  DrawIcon(Canvas(), icon, rect.centre(), s.Px(20), colour);
+  return clicked;
+}
+
+/// Of a log in which the vehicle restarted the part, and the way to the next; returns where it
+/// ends.
+float DrawPart(UiFrame& ui, const Rect& box, const SourceStatus& source) {
+  if (source.parts <= 1) {
+    return box.x;
+  }
+  const std::string words =
+      "Part " + std::to_string(source.part) + " of " + std::to_string(source.parts);
+  ButtonLook look;
+  look.hint = "The vehicle's clock began anew, and with it a part of the log: opens the next";
+  if (DrawButton(ui, "part", box, words, look)) {
+    ui.intents.push_back(UiAction(
+        NextFlight{NextFlight::Kind::kReview, source.name, source.part % source.parts + 1}));
+  }
+  return box.right() + ui.style.Px(8);
+}
+
+/// Out of the review; returns where it ends.
+float DrawWayOut(UiFrame& ui, float x, float y, const EngineSnapshot& snap) {
+  if (!FollowsRecord(snap.session->role) || ui.after_review.label.empty()) {
+    return x;
+  }
+  const Style& s = ui.style;
+  const Rect box{x, y, TextWidth(s.body, ui.after_review.label) + s.Px(32), s.Px(32)};
+  ButtonLook look;
+  look.hint = ui.after_review.hint;
+  if (DrawButton(ui, "end_review", box, ui.after_review.label, look)) {
+    ui.intents.push_back(UiAction(NextFlight{NextFlight::Kind::kFlyAgain}));
+  }
+  return box.right() + s.Px(8);
+}
+
+/// Draws the buttons; returns where they end.
+float DrawTransport(UiFrame& ui, const Rect& row, const EngineSnapshot& snap, double duration_s) {
+  using Kind = PlaybackControl::Kind;
+  const Style& s = ui.style;
+  const bool seek = snap.session->source.can_seek;
+  const float y = std::round(row.centre().y - s.Px(16));
+  float x = row.x;
+  const auto next = [&](float width) {
+    const Rect box{x, y, s.Px(width), s.Px(32)};
+    x = box.right() + s.Px(8);
+    return box;
+  };
+  if (IconButton(ui, "to_start", next(36), Icon::kStepBack, false, seek)) {
+    Playback(ui, Kind::kSeek, 0);
+  }
+  if (IconButton(ui, "step_back", next(36), Icon::kFrameBack, false, seek)) {
+    Playback(ui, Kind::kStepBack);
+  }
+  const bool can_pause = CanBePaused(snap), playing = IsPlaying(snap);
+  constexpr const char* kAlive = "A live source cannot be paused";
+  if (IconButton(ui, "play", next(36), playing ? Icon::kPause : Icon::kPlay, playing && can_pause,
+                 can_pause, kAlive)) {
+    Playback(ui, playing ? Kind::kPause : Kind::kPlay);
+  }
+  if (IconButton(ui, "step_forward", next(36), Icon::kFrameForward, false, can_pause, kAlive)) {
+    Playback(ui, Kind::kStepForward);
+  }
+  if (IconButton(ui, "to_end", next(36), Icon::kStepForward, false, seek)) {
+    Playback(ui, Kind::kSeek, duration_s);
+  }
+  x += s.Px(4);
+  const std::string speed =
+      snap.session->source.speed > 0
+          ? Fixed(snap.session->source.speed, snap.session->source.speed < 1 ? 2 : 1) + "×"
+          : std::string("Fastest");
+  ButtonLook speed_look;
+  speed_look.enabled = can_pause;
+  speed_look.reason = kAlive;
+  if (DrawButton(ui, "speed", next(68), speed, speed_look)) {
+    Playback(ui, Kind::kSpeed, NextSpeed(snap.session->source.speed));
+  }
+  if (IconButton(ui, "bookmark", next(36), Icon::kFlag, false, snap.session->recording,
+                 "Nothing is recorded here that a bookmark could be in")) {
+    ui.intents.push_back(CommandAction(AddBookmark{}));
+  }
+  x = DrawPart(ui, {x, y, s.Px(104), s.Px(32)}, snap.session->source);
+  return DrawWayOut(ui, x, y, snap);
+}
+
+void DrawClock(UiFrame& ui, const Rect& row, float x, const EngineSnapshot& snap,
+               double duration_s) {
+  const Style& s = ui.style;
+  const Palette& p = s.palette;
+  const float middle = row.centre().y;
+  x += s.Px(8);
+  x += DrawText(ui, s.replay_time, p.text1, x, middle,
+                TimeLabel(snap.session->source.position_s, true)) +
+       s.Px(20);
+  std::vector<std::pair<ImFont*, std::string>> facts;
+  if (snap.session->source.can_seek && snap.session->source.duration_s) {
+    facts.emplace_back(s.body, "of " + TimeLabel(duration_s, true));
+  }
+  if (snap.session->source.frame_count > 0) {
+    facts.emplace_back(
+        s.body, "Frame " + Fixed(static_cast<double>(snap.session->source.frame_index), 0) +
+                    " of " + Fixed(static_cast<double>(snap.session->source.frame_count), 0));
+  }
+  facts.emplace_back(s.mono, ClockText(snap.time) + " " + ClockName(snap));
+  const std::string name =
+      snap.session->source.name.substr(snap.session->source.name.find_last_of('/') + 1);
+  const float name_x = row.right() - TextWidth(s.body, name);
+  for (const auto& [font, text] : facts) {
+    const float width = TextWidth(font, text);
+    if (x + width > row.right()) {
+      return;
+    }
+    DrawText(ui, font, p.text2, x, middle, text);
+    x += width + s.Px(28);
+  }
+  if (name_x > x) {
+    DrawText(ui, s.body, p.text2, row.right(), middle, name, Align::kRight);
+  }
+}
+
+}  // namespace
+
+void DrawReviewTimeline(const EngineSnapshot& snap, const TimelineView& view, const Rect& rect,
+                        ReviewState& state, UiFrame& ui) {
+  const Style& s = ui.style;
+  DrawPanelBackground(ui, rect, "Timeline");
+  const float pad = s.Px(12);
+  const Rect row{rect.x + pad, rect.y, rect.w - 2 * pad, s.Px(48)};
+  const float x = DrawTransport(ui, row, snap, view.duration_s);
+  DrawClock(ui, row, x, snap, view.duration_s);
+  DrawTimeline(ui, {row.x, row.bottom(), row.w, rect.bottom() - s.Px(6) - row.bottom()}, view,
+               state.timeline);
+}
+
+}  // namespace palace
