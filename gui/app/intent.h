@@ -66,8 +66,8 @@ struct QuitProgram {};
 struct NextFlight {
   enum class Kind : std::uint8_t { kFlyAgain, kReview, kOpenReport };
   Kind kind = Kind::kFlyAgain;
-  std::string log;  ///< of the flight that is over; empty: not recorded
-  int part = 0;     ///< of the log, to review; 0: the longest
+  std::string log{};  ///< of the flight that is over; empty: not recorded
+  int part = 0;       ///< of the log, to review; 0: the longest
 };
 
 /// What changes the window only; reduced into UiState.
