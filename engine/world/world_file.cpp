@@ -13,6 +13,7 @@
 #include "engine/core/units.h"
 #include "engine/world/lattice_noise.h"
 #include "engine/world/scene_library.h"
+#include "engine/world/sun_position.h"
 
 namespace palace {
 namespace {
@@ -37,6 +38,8 @@ constexpr NumberLimits kSquare{16, 128, "metres a side; it goes on mirrored"};
 constexpr NumberLimits kSeed{0, 1e9, "a whole number", true};
 constexpr NumberLimits kAzimuth{0, 360, "degrees from north, eastwards"};
 constexpr NumberLimits kElevation{-10, 90, "degrees above the horizon"};
+constexpr NumberLimits kLatitude{-90, 90, "degrees, north positive"};
+constexpr NumberLimits kLongitude{-180, 180, "degrees, east positive"};
 constexpr NumberLimits kSpeed{-20, 20, "metres a second"};
 
 /// A cut or rise of the ground: metres up at a place.
@@ -157,11 +160,43 @@ class WorldReader {
 
   Status ReadSun() {
     TomlTable table(root_, name_, "sun");
-    if (table.present()) {
+    if (table.Has("utc")) {
+      ReadSunByDate(table);
+    } else if (table.present()) {
+      for (const char* key : {"utc", "latitude_deg", "longitude_deg"}) {
+        table.Allow(key);
+      }
       world_.sun.azimuth_rad = Rad(table.Number("azimuth_deg", kAzimuth));
       world_.sun.elevation_rad = Rad(table.Number("elevation_deg", kElevation));
     }
     return table.Finish();
+  }
+
+  void ReadSunByDate(TomlTable& table) {
+    for (const char* key : {"azimuth_deg", "elevation_deg"}) {
+      table.Allow(key);
+      if (table.Has(key)) {
+        table.FailKey(key, " contradicts sun.utc; give one of them");
+      }
+    }
+    const std::string text = table.Text("utc");
+    const std::optional<UtcMoment> utc = ParseUtc(text);
+    if (!utc) {
+      table.FailKey(
+          "utc", " = \"" + text + "\"; write a moment of 1901 to 2099 as \"2004-06-21 19:09:00\"");
+      return;
+    }
+    const double latitude_rad = Rad(table.Number("latitude_deg", kLatitude));
+    const double longitude_rad = Rad(table.Number("longitude_deg", kLongitude));
+    const SunPosition sun = SunPositionAt(*utc, latitude_rad, longitude_rad);
+    if (const double down_deg = -Deg(sun.elevation_rad); down_deg > -kElevation.least) {
+      table.FailKey("utc", " = \"" + text + "\": the sun stands " + WithNumbers("%.1f", down_deg) +
+                               " degrees below the horizon there, the limit is " +
+                               NumberText(-kElevation.least));
+      return;
+    }
+    world_.sun.azimuth_rad = sun.azimuth_rad;
+    world_.sun.elevation_rad = sun.elevation_rad;
   }
 
   Status ReadForms() {

@@ -2,8 +2,10 @@
 //
 //   name = "yard"
 //   [ground]   material = "grass"  seed  albedo  contrast  scale  turn_deg  rise_north_deg
-//   rise_east_deg [relief]   rms_m  longest_m  shortest_m  hurst  seed  size_m: gentle or rough
-//   ground, fractal [sun]      azimuth_deg  elevation_deg
+//              rise_east_deg
+//   [relief]   rms_m  longest_m  shortest_m  hurst  seed  size_m: gentle or rough ground, fractal
+//   [sun]      azimuth_deg  elevation_deg; or by date and place (sun_position.h):
+//              utc = "2004-06-21 19:09:00"  latitude_deg  longitude_deg
 //   [[hole]]   at = [north, east]  diameter_m  depth_m
 //   [[ditch]]  from  to  width_m  depth_m
 //   [[mound]]  at  diameter_m  height_m: a cosine bell
