@@ -40,6 +40,11 @@ AutopilotOptions MakeAutopilotOptions(const SimulatorOptions& options, std::uint
   return result;
 }
 
+/// What a clock shows that was right at kEpoch and gains `drift`.
+Timestamp Reading(Timestamp true_time, double drift) {
+  return AddSeconds(true_time, drift * SecondsBetween(Simulator::kEpoch, true_time));
+}
+
 /// A number no earlier flight had: an approval for another flight is refused.
 std::uint64_t BootId(const SimulatorOptions& options) {
   return options.boot_id != 0 ? options.boot_id : RandomStream(options.seed, "boot").NextBits() | 1;
@@ -51,7 +56,8 @@ SimulatedVehicle::SimulatedVehicle(const SimulatorOptions& options)
     : world_(options.scene),
       vehicle_(options.vehicle),
       X_BC_(vehicle_.rig.X_BC()),
-      now_(LeadInStart()),
+      true_now_(LeadInStart()),
+      now_(Reading(true_now_, vehicle_.clock_drift)),
       boot_id_(BootId(options)),
       aircraft_(vehicle_, StartPosition(options), options.heading_rad),
       actuators_(vehicle_.actuators, Aircraft::kStep_s),
@@ -60,7 +66,7 @@ SimulatedVehicle::SimulatedVehicle(const SimulatorOptions& options)
       ahrs_(vehicle_.sensors.attitude, vehicle_.sensors.imu_rate_hz, options.seed),
       gps_(vehicle_.sensors.gps, options.seed),
       laser_(vehicle_.sensors.laser, options.seed),
-      navigator_({LeadInStart(), StartPosition(options), Vector3d::Zero()},
+      navigator_({now_, StartPosition(options), Vector3d::Zero()},
                  vehicle_.sensors.gps.velocity_mps),
       autopilot_(MakeAutopilotOptions(options, boot_id_)),
       attitude_(aircraft_.body().R_WB) {
@@ -73,7 +79,7 @@ void SimulatedVehicle::Receive(const VehicleMessage& message) {
 }
 
 void SimulatedVehicle::AdvanceTo(Timestamp until, FrameBundle& bundle) {
-  while (now_ < until) {
+  while (true_now_ < until) {
     Step(bundle);
   }
   for (CommandAck& ack : autopilot_.TakeAcks()) {
@@ -94,12 +100,14 @@ void SimulatedVehicle::Step(FrameBundle& bundle) {
   wind_W_ = wind_.Advance(Aircraft::kStep_s, height_m, (aircraft_.body().v_WB() - wind_W_).norm());
   aircraft_.Step(actuators_.Act(), wind_W_, height_m);
   ++step_;
-  now_.us += kStep_us;
+  true_now_.us += kStep_us;
+  now_ = Reading(true_now_, vehicle_.clock_drift);
   CheckGround();
   if (step_ % StepsOf(vehicle_.sensors.imu_rate_hz) == 0) {
     StepInertial(bundle);
   }
   StepSlowSensors(bundle);
+  history_.Add(X_WB(), Pose());
 }
 
 void SimulatedVehicle::StepControl() {
@@ -134,12 +142,21 @@ void SimulatedVehicle::StepSlowSensors(FrameBundle& bundle) {
     ground_down_m_ = (Pose().X_WB * X_BC_ * p_C).z();
   }
   if (step_ % StepsOf(vehicle_.actuators.control_rate_hz) == 0) {
-    bundle.poses.push_back(Pose());
+    untold_.push_back(Pose());
     Truth truth;
     truth.time = now_;
     truth.X_WB = X_WB();
     truth.v_WB = body.v_WB();
     bundle.truth.push_back(truth);
+  }
+  TellPoses(bundle);
+}
+
+void SimulatedVehicle::TellPoses(FrameBundle& bundle) {
+  const Timestamp told = AddSeconds(now_, -vehicle_.sensors.attitude.delay_s);
+  while (!untold_.empty() && untold_.front().time <= told) {
+    bundle.poses.push_back(untold_.front());
+    untold_.pop_front();
   }
 }
 

@@ -6,12 +6,13 @@
 // that acts lie its actuators.
 #pragma once
 
+#include <deque>
 #include <optional>
 #include <vector>
 
 #include "engine/simulation/aircraft.h"
 #include "engine/simulation/autopilot.h"
-#include "engine/simulation/sensors.h"
+#include "engine/simulation/pose_history.h"
 #include "engine/simulation/simulator.h"
 
 namespace palace {
@@ -26,15 +27,19 @@ class SimulatedVehicle {
   static constexpr std::int64_t kStep_us = 5'000;
 
   void Receive(const VehicleMessage& message);
-  /// Advances to the first grid point at or after `until`; appends every sample to the bundle.
+  /// Advances to the first grid point at or after `until`, a true time; appends every sample to the
+  /// bundle.
   void AdvanceTo(Timestamp until, FrameBundle& bundle);
 
+  /// By the vehicle's clock, which shows kEpoch at that true time and gains clock_drift.
   Timestamp now() const { return now_; }
   std::uint64_t boot_id() const { return boot_id_; }
   VehicleAuthority& authority() { return autopilot_.authority(); }
   RigidTransform X_WB() const { return {aircraft_.body().R_WB, aircraft_.body().p_WB}; }
   const std::optional<Touchdown>& touchdown() const { return touchdown_; }
   const ImuSensor& imu() const { return imu_; }
+  /// Up to now.
+  const PoseHistory& history() const { return history_; }
   /// The navigation solution now.
   VehiclePose Pose() const;
   VehicleStatus Status() const;
@@ -44,6 +49,7 @@ class SimulatedVehicle {
   void StepControl();
   void StepInertial(FrameBundle& bundle);
   void StepSlowSensors(FrameBundle& bundle);
+  void TellPoses(FrameBundle& bundle);
   void CheckGround();
   /// Angle to the vertical of the plane through the ground below the gear's ends.
   double GroundTilt(const RigidTransform& X_WB) const;
@@ -52,6 +58,7 @@ class SimulatedVehicle {
   World world_;
   VehicleDescription vehicle_;
   RigidTransform X_BC_;
+  Timestamp true_now_;
   Timestamp now_;
   std::int64_t step_ = 0;
   std::uint64_t boot_id_;
@@ -70,6 +77,8 @@ class SimulatedVehicle {
   Eigen::Matrix3d attitude_;
   Eigen::Vector3d angular_rate_B_ = Eigen::Vector3d::Zero();
   std::optional<Touchdown> touchdown_;
+  PoseHistory history_;
+  std::deque<VehiclePose> untold_;  ///< poses that the station is still to hear
 };
 
 }  // namespace palace

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "engine/simulation/camera_noise.h"
 #include "engine/simulation/simulated_vehicle.h"
+#include "engine/simulation/stereo_cameras.h"
 
 namespace palace {
 namespace {
@@ -26,10 +26,7 @@ struct Simulator::State {
       : options(std::move(given)),
         camera_factory(std::move(factory)),
         rig(std::make_shared<const StereoRig>(options.vehicle.rig)),
-        left_noise(options.vehicle.sensors.camera.noise_grey, 1, options.seed, "camera left"),
-        right_noise(options.vehicle.sensors.camera.noise_grey,
-                    options.vehicle.sensors.camera.brightness_gain_right, options.seed,
-                    "camera right"),
+        cameras(options.vehicle, kEpoch, options.seed),
         vehicle(options) {
     status.kind = SourceKind::kSimulation;
     const std::string& flown = options.vehicle.name;
@@ -44,14 +41,13 @@ struct Simulator::State {
   bool WaitForTurn(std::stop_token stop);
   void GrantOwnStation();
   Timestamp heard_at() const { return AddSeconds(kEpoch, heard_s); }
-  Result<std::shared_ptr<const StereoFrame>> Expose();
+  Result<std::shared_ptr<const StereoFrame>> Deliver();
   void Publish(bool ended);
 
   const SimulatorOptions options;
   const SceneCameraFactory camera_factory;
   const std::shared_ptr<const StereoRig> rig;
-  CameraNoise left_noise;
-  CameraNoise right_noise;
+  StereoCameras cameras;
   SimulatedVehicle vehicle;
   std::unique_ptr<SceneCamera> camera;
   std::uint64_t sequence = 0;
@@ -107,7 +103,7 @@ bool Simulator::State::WaitForTurn(std::stop_token stop) {
   return !stop.stop_requested();
 }
 
-Result<std::shared_ptr<const StereoFrame>> Simulator::State::Expose() {
+Result<std::shared_ptr<const StereoFrame>> Simulator::State::Deliver() {
   if (!camera) {
     if (!camera_factory) {
       return UsageError("the simulator was asked for pictures without a scene camera");
@@ -118,24 +114,7 @@ Result<std::shared_ptr<const StereoFrame>> Simulator::State::Expose() {
     }
     camera = std::move(made).value();
   }
-  const double time_s = SecondsBetween(kEpoch, vehicle.now());
-  const RigidTransform X_WC0 = vehicle.X_WB() * rig->X_BC();
-  const RigidTransform X_C0C1{Eigen::Matrix3d::Identity(), {rig->baseline_m, 0, 0}};
-  Result<ImageU8> left = camera->Render(rig->left.pinhole, X_WC0, time_s);
-  if (!left) {
-    return left.error();
-  }
-  Result<ImageU8> right = camera->Render(rig->right.pinhole, X_WC0 * X_C0C1, time_s);
-  if (!right) {
-    return right.error();
-  }
-  auto frame = std::make_shared<StereoFrame>();
-  frame->time = vehicle.now();
-  frame->left = std::move(left).value();
-  frame->right = std::move(right).value();
-  left_noise.Apply(frame->left);
-  right_noise.Apply(frame->right);
-  return std::shared_ptr<const StereoFrame>(std::move(frame));
+  return cameras.Deliver(*camera, vehicle.history(), vehicle.now());
 }
 
 void Simulator::State::Publish(bool ended) {
@@ -174,15 +153,19 @@ Result<std::shared_ptr<const FrameBundle>> Simulator::Next(std::stop_token stop)
       AddSeconds(kEpoch, static_cast<double>(s.sequence) / s.options.vehicle.rig.rate_hz), *bundle);
   bundle->time = s.vehicle.now();
   bundle->rig = s.rig;
-  bundle->pose_at_exposure = s.vehicle.Pose();
+  bundle->pose_at_exposure = s.vehicle.history().ToldAt(
+      AddSeconds(s.vehicle.now(), -s.cameras.age_s()), s.options.vehicle.sensors.attitude.delay_s);
   bundle->status = s.vehicle.Status();
   if (s.options.render) {
-    Result<std::shared_ptr<const StereoFrame>> frame = s.Expose();
+    Result<std::shared_ptr<const StereoFrame>> frame = s.Deliver();
     if (!frame) {
       s.Publish(true);
       return frame.error();
     }
     bundle->stereo = std::move(frame).value();
+    if (!bundle->stereo) {
+      bundle->pose_at_exposure.reset();  // a pair that never came
+    }
   }
   s.Publish(false);
   return std::shared_ptr<const FrameBundle>(std::move(bundle));

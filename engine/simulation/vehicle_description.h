@@ -11,10 +11,14 @@
 #include "engine/model/rig.h"
 #include "engine/model/settings/settings.h"
 #include "engine/simulation/actuators.h"
+#include "engine/simulation/attitude_sensor.h"
+#include "engine/simulation/camera_figures.h"
+#include "engine/simulation/gps_sensor.h"
 #include "engine/simulation/ground_effect.h"
+#include "engine/simulation/imu_sensor.h"
+#include "engine/simulation/laser_sensor.h"
 #include "engine/simulation/multirotor.h"
 #include "engine/simulation/rotorcraft.h"
-#include "engine/simulation/sensors.h"
 
 namespace palace {
 
@@ -52,9 +56,11 @@ struct GearLimits {
   double tilt_rad = 0;
 };
 
-struct CameraFigures {
-  double noise_grey = 0;             ///< standard deviation, grey levels
-  double brightness_gain_right = 1;  ///< of the right camera relative to the left
+/// A figure of a sensor as the file tells it, for showing; its name has the unit.
+struct SensorValue {
+  std::string name;  ///< "camera.exposure_ms"
+  double value = 0;
+  bool given = false;  ///< else left out: the default
 };
 
 struct SensorFigures {
@@ -81,7 +87,9 @@ struct VehicleDescription {
   ActuatorFigures actuators;
   CascadeGains gains;
   SensorFigures sensors;
-  std::vector<MarkedValue> marked;  ///< in the order of the file
+  double clock_drift = 0;                  ///< seconds that its clock gains a second
+  std::vector<MarkedValue> marked;         ///< in the order of the file
+  std::vector<SensorValue> sensor_values;  ///< table by table
 };
 
 /// Where the gear can meet the ground, in B: its centre and the four ends.

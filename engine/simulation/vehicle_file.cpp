@@ -10,15 +10,13 @@
 #include "engine/core/check.h"
 #include "engine/core/text.h"
 #include "engine/core/units.h"
-#include "engine/model/rig_limits.h"
+#include "engine/simulation/sensor_tables.h"
 #include "engine/simulation/vehicle_tables.h"
 #include "vehicle_text.h"
 
 namespace palace {
 namespace {
 
-constexpr NumberLimits kShare{0, 1, "give a share"};
-constexpr NumberLimits kMetres{0, 10, "give metres"};
 constexpr NumberLimits kSpeed{0.01, 50, "give metres a second"};
 constexpr NumberLimits kSeconds{0, 10, "give seconds"};
 constexpr NumberLimits kGain{0, 100, "0 switches the term off"};
@@ -76,38 +74,6 @@ Status ReadTouchdown(const toml::table& root, const std::string& file, VehicleDe
   ReadNumbers(table, {{"max_sink_mps", &v.gear.sink_mps, kSpeed},
                       {"max_across_mps", &v.gear.across_mps, kSpeed},
                       {"max_tilt_deg", &v.gear.tilt_rad, kTilt, kRadPerDeg}});
-  return table.Finish();
-}
-
-Status ReadCamera(const toml::table& root, const std::string& file, VehicleDescription& v) {
-  TomlTable table(root, file, "camera");
-  StereoRig& rig = v.rig;
-  const std::vector<double> place = table.Numbers(
-      "position_body_m", 3, 3, {-10, 10, "give the left focal point forward, right and down"});
-  if (place.size() == 3) {
-    rig.position_body_m = {place[0], place[1], place[2]};
-  }
-  PinholeCamera camera;
-  double view_rad = 1;
-  const NumberLimits side{RigLimits::kLeastSide_px, RigLimits::kMostSide_px, "give pixels", true};
-  camera.width = static_cast<int>(table.Number("width", side));
-  camera.height = static_cast<int>(table.Number("height", side));
-  CameraFigures& figures = v.sensors.camera;
-  ReadNumbers(
-      table, {{"tilt_deg", &rig.tilt_rad, {-90, 0, "-90 looks straight down, 0 ahead"}, kRadPerDeg},
-              {"baseline_m", &rig.baseline_m, {0.02, 10, "give metres between the focal points"}},
-              {"view_deg", &view_rad, {5, 120, "give the horizontal angle of view"}, kRadPerDeg},
-              {"rate_hz", &rig.rate_hz, {0.5, 120, "give pairs a second"}},
-              {"noise_grey", &figures.noise_grey, {0, 50, "give grey levels of 255"}},
-              {"brightness_gain_right", &figures.brightness_gain_right, {0.1, 10, "1 is alike"}}});
-  if (const std::string why = WhyNoPictureSize(camera.width, camera.height);
-      table.Finish() && !why.empty()) {
-    table.FailKey("height", ": " + why);
-  }
-  camera.fx_px = camera.fy_px = camera.width / 2.0 / std::tan(view_rad / 2);
-  camera.cx_px = (camera.width - 1) / 2.0;
-  camera.cy_px = (camera.height - 1) / 2.0;
-  rig.left.pinhole = rig.right.pinhole = camera;
   return table.Finish();
 }
 
@@ -185,52 +151,12 @@ Status ReadGains(const toml::table& root, const std::string& file, VehicleDescri
   return table.Finish();
 }
 
-Status ReadGps(const toml::table& root, const std::string& file, SensorFigures& s) {
-  TomlTable table(root, file, "gps");
-  s.gps_rate_hz = ReadRate(table, "rate_hz");
-  const NumberLimits sigma{0.001, 50, "give metres, one standard deviation"};
-  ReadNumbers(table, {{"horizontal_m", &s.gps.horizontal_m, sigma},
-                      {"vertical_m", &s.gps.vertical_m, sigma},
-                      {"velocity_mps", &s.gps.velocity_mps, {0.001, 10, "give m/s"}},
-                      {"latency_s", &s.gps.latency_s, {0, 0.9, "give seconds"}}});
-  return table.Finish();
-}
-
-Status ReadImu(const toml::table& root, const std::string& file, SensorFigures& s) {
-  TomlTable table(root, file, "imu");
-  s.imu_rate_hz = ReadRate(table, "rate_hz");
-  ReadNumbers(table, {{"gyro_rad_s_sqrt_hz", &s.imu.gyro_rad_s_sqrt_hz, kShare},
-                      {"accel_mps2_sqrt_hz", &s.imu.accel_mps2_sqrt_hz, kShare},
-                      {"gyro_bias_rad_s", &s.imu.gyro_bias_rad_s, kShare},
-                      {"accel_bias_mps2", &s.imu.accel_bias_mps2, kShare}});
-  return table.Finish();
-}
-
-Status ReadAttitude(const toml::table& root, const std::string& file, SensorFigures& s) {
-  TomlTable table(root, file, "attitude");
-  const NumberLimits angle{0, 10, "give degrees"};
-  ReadNumbers(table, {{"white_deg", &s.attitude.white_rad, angle, kRadPerDeg},
-                      {"bias_deg", &s.attitude.bias_rad, angle, kRadPerDeg},
-                      {"bias_time_s", &s.attitude.bias_time_s, {0.1, 1e6, "give seconds"}}});
-  return table.Finish();
-}
-
-Status ReadLaser(const toml::table& root, const std::string& file, SensorFigures& s) {
-  TomlTable table(root, file, "laser");
-  s.laser_rate_hz = ReadRate(table, "rate_hz");
-  ReadNumbers(table, {{"sigma_m", &s.laser.sigma_m, kMetres},
-                      {"sigma_per_m", &s.laser.sigma_per_m, kShare},
-                      {"quantum_m", &s.laser.quantum_m, {1e-4, 1, "give metres"}},
-                      {"dropout", &s.laser.dropout, kShare},
-                      {"max_range_m", &s.laser.max_range_m, {1, 2000, "give metres"}}});
-  return table.Finish();
-}
-
 Status CheckTables(const toml::table& root, const std::string& file, bool multirotor) {
   const std::string model = multirotor ? "multirotor" : "derivatives";
   const std::set<std::string, std::less<>> known = {
       "vehicle",   "airframe", "touchdown", "camera", "limits",   model,  "ground_effect",
-      "actuators", "gains",    "gps",       "imu",    "attitude", "laser"};
+      "actuators", "gains",    "gps",       "imu",    "attitude", "laser",
+      "clock"};
   for (const auto& [key, node] : root) {
     if (!known.contains(key.str())) {
       return InvalidError(file + ":" + std::to_string(node.source().begin.line) +
@@ -243,7 +169,8 @@ Status CheckTables(const toml::table& root, const std::string& file, bool multir
 
 }  // namespace
 
-Result<VehicleDescription> ParseVehicle(std::string_view text, const std::string& name) {
+Result<VehicleDescription> ParseVehicle(std::string_view text, const std::string& name,
+                                        const std::optional<std::filesystem::path>& folder) {
   const Result<toml::table> parsed = ParseToml(text, name);
   if (!parsed) {
     return parsed.error();
@@ -257,16 +184,12 @@ Result<VehicleDescription> ParseVehicle(std::string_view text, const std::string
   then([&] { return CheckTables(root, name, multirotor); });
   then([&] { return ReadAirframe(root, name, v); });
   then([&] { return ReadTouchdown(root, name, v); });
-  then([&] { return ReadCamera(root, name, v); });
   then([&] { return ReadLimits(root, name, v); });
   then([&] { return multirotor ? ReadMultirotor(root, name, v) : ReadDerivatives(root, name, v); });
   then([&] { return ReadGroundEffect(root, name, v); });
   then([&] { return ReadActuators(root, name, v); });
   then([&] { return ReadGains(root, name, v); });
-  then([&] { return ReadGps(root, name, v.sensors); });
-  then([&] { return ReadImu(root, name, v.sensors); });
-  then([&] { return ReadAttitude(root, name, v.sensors); });
-  then([&] { return ReadLaser(root, name, v.sensors); });
+  then([&] { return ReadSensors(root, name, folder, v); });
   if (!status) {
     return status.error();
   }
@@ -300,7 +223,9 @@ Result<VehicleDescription> LoadVehicle(const std::string& name_or_file) {
                       Joined(VehicleNames()));
   }
   const Result<std::string> text = ReadTextFile(name_or_file);
-  return text ? ParseVehicle(*text, name_or_file) : Result<VehicleDescription>(text.error());
+  return text ? ParseVehicle(*text, name_or_file,
+                             std::filesystem::path(name_or_file).parent_path())
+              : Result<VehicleDescription>(text.error());
 }
 
 }  // namespace palace

@@ -4,7 +4,6 @@
 
 #include "engine/runtime/engine.h"
 #include "engine/runtime/scripted_operator.h"
-#include "engine/simulation/sensors.h"
 #include "engine/world/ray_pictures.h"
 
 namespace palace {

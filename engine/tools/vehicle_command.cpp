@@ -8,6 +8,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "engine/camera/camera_model.h"
 #include "engine/core/files.h"
 #include "engine/core/text.h"
 #include "engine/core/units.h"
@@ -62,6 +63,27 @@ void Print(const VehicleDescription& v) {
   }
 }
 
+/// What the file says of its sensors; what it leaves out is off.
+void PrintSensors(const VehicleDescription& v) {
+  for (const auto& [name, camera] :
+       {std::pair("left", &v.rig.left), std::pair("right", &v.rig.right)}) {
+    if (camera->model) {
+      std::printf("%s camera: %s\n", name, FamilyOf(*camera->model).c_str());
+    }
+  }
+  std::string left_out;
+  std::printf("sensors\n");
+  for (const SensorValue& value : v.sensor_values) {
+    if (value.given) {
+      std::printf("  %-34s %12s\n", value.name.c_str(), NumberText(value.value).c_str());
+    } else {
+      left_out += (left_out.empty() ? "" : ", ") + value.name;
+    }
+  }
+  std::printf("left out, so off or as usual: %s\n",
+              left_out.empty() ? "nothing" : left_out.c_str());
+}
+
 int ShowVehicle(const VehicleOptions& options) {
   if (options.vehicle.empty()) {
     for (const std::string& name : VehicleNames()) {
@@ -75,6 +97,7 @@ int ShowVehicle(const VehicleOptions& options) {
   }
   if (options.write.empty()) {
     Print(*vehicle);
+    PrintSensors(*vehicle);
     return 0;
   }
   const std::string_view text = VehicleText(options.vehicle);

@@ -8,7 +8,7 @@
 
 #include "engine/core/random.h"
 #include "engine/core/units.h"
-#include "engine/simulation/sensors.h"
+#include "engine/simulation/laser_sensor.h"
 #include "engine/world/scene_library.h"
 #include "engine/world/world_mesh.h"
 

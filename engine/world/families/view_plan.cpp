@@ -4,10 +4,9 @@
 #include <numbers>
 #include <string>
 
-#include <opencv2/imgproc.hpp>
-
 #include "engine/core/units.h"
 #include "engine/world/families/drawing.h"
+#include "engine/world/optics.h"
 
 namespace palace {
 namespace {
@@ -30,18 +29,8 @@ RigidTransform ViewPlan::X_WC(double ground_m) const {
 
 ImageU8 ExposeAs(const ViewPlan& view, const ImageF& grey, bool right, std::uint64_t seed) {
   ImageF seen = grey;
-  if (view.blur_px > 0) {
-    cv::Mat pixels(seen.height(), seen.width(), CV_32F, seen.row(0));
-    cv::GaussianBlur(pixels.clone(), pixels, {}, view.blur_px);
-  }
-  const double x0 = (seen.width() - 1) / 2.0, y0 = (seen.height() - 1) / 2.0;
-  const double corner2 = x0 * x0 + y0 * y0;
-  for (int y = 0; view.vignetting > 0 && y < seen.height(); ++y) {
-    for (int x = 0; x < seen.width(); ++x) {
-      const double out2 = ((x - x0) * (x - x0) + (y - y0) * (y - y0)) / corner2;
-      seen.at(x, y) *= static_cast<float>(1 - view.vignetting * out2);
-    }
-  }
+  Blur(seen, view.blur_px);
+  Vignette(seen, view.vignetting);
   Exposure exposure = view.exposure;
   exposure.gain *= right ? view.right_gain : 1;
   return Expose(seen, exposure, 2 * seed + (right ? 1 : 0));
