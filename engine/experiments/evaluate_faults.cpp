@@ -41,14 +41,6 @@ std::string Metres(double value) {
   return std::isfinite(value) ? text : "";
 }
 
-/// A text without what would end its cell of a CSV.
-std::string Cell(std::string text) {
-  for (char& c : text) {
-    c = c == ',' || c == '\n' || c == '"' ? ';' : c;
-  }
-  return text;
-}
-
 TrialRow RowOfOutcome(const FaultCase& row, FaultPhase phase, const FaultOutcome& outcome) {
   std::vector<std::string> seen;
   for (const RaisedAlarm& alarm : outcome.raised) {
@@ -82,8 +74,8 @@ TrialRow RowOfOutcome(const FaultCase& row, FaultPhase phase, const FaultOutcome
           all.empty() ? "nothing" : all,
           named != nullptr ? AlarmName(named->id) : "none",
           named != nullptr ? CsvNumber(named->after_s) : CsvNumber(NAN),
-          named != nullptr ? Cell(named->text) : "none",
-          Cell(does),
+          named != nullptr ? CsvText(named->text) : "none",
+          CsvText(does),
           CsvNumber(outcome.end_s),
           CsvNumber(outcome.miss_m),
           CsvNumber(outcome.ground_s),

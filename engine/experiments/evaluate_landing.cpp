@@ -10,19 +10,15 @@
 #include "engine/core/command_line.h"
 #include "engine/core/text.h"
 #include "engine/core/units.h"
+#include "engine/experiments/mission_flight.h"
 #include "engine/report/statistics.h"
 #include "engine/report/svg_plot.h"
-#include "engine/runtime/engine.h"
-#include "engine/runtime/flight_summary.h"
-#include "engine/runtime/scripted_operator.h"
 #include "engine/runtime/settings_io.h"
-#include "engine/simulation/session.h"
 #include "engine/simulation/vehicle_file.h"
 
 namespace palace {
 namespace {
 
-constexpr double kMissionLimit_s = 180;
 constexpr double kWanted_m = 0.5;  // touchdown beside the site
 
 struct LandingOptions {
@@ -31,52 +27,6 @@ struct LandingOptions {
   double wind_mps = 0;
   std::vector<std::string> set;
 };
-
-/// What the mission says of a flight, and how it met the ground.
-struct Flown {
-  FlightSummary summary;
-  std::optional<Touchdown> touchdown{};
-};
-
-Result<Flown> FlyOne(const LandingOptions& options, const VehicleDescription& vehicle,
-                     const Settings& settings, std::uint64_t seed,
-                     const SceneCameraFactory& camera) {
-  Result<SimulatedSession> session = OpenSimulatedSession({.scenario = options.scenario,
-                                                           .seed = seed,
-                                                           .vehicle = vehicle,
-                                                           .wind_mps = options.wind_mps},
-                                                          camera);
-  if (!session) {
-    return session.error();
-  }
-  EngineParts parts;
-  parts.settings = settings;
-  parts.mission.session_id = session->id;
-  parts.source = session->simulator;
-  parts.link = session->simulator;
-  Engine engine(std::move(parts), /*threaded=*/false);
-  const std::shared_ptr<Simulator> simulator = session->simulator;
-  const auto flown = [&](const FlightSummarizer& summarizer) {
-    const Touchdown* touchdown = simulator->touchdown();
-    return Flown{summarizer.summary(), touchdown ? std::optional(*touchdown) : std::nullopt};
-  };
-  FlightSummarizer summarizer(std::move(session->scene));
-  ScriptedOperator pilot;
-  while (engine.Step()) {
-    const auto snapshot = engine.Latest();
-    summarizer.Add(*snapshot);
-    for (const EngineCommand& command : pilot.Decide(*snapshot)) {
-      engine.Post(command);
-    }
-    if (pilot.finished() || summarizer.summary().duration_s > kMissionLimit_s) {
-      return flown(summarizer);
-    }
-  }
-  if (!engine.error().empty()) {
-    return UnavailableError(engine.error());
-  }
-  return flown(summarizer);
-}
 
 Result<std::vector<TrialRow>> RunTrial(const LandingOptions& options, std::uint64_t seed,
                                        const SceneCameraFactory& camera) {
@@ -88,7 +38,12 @@ Result<std::vector<TrialRow>> RunTrial(const LandingOptions& options, std::uint6
   if (!settings) {
     return settings.error();
   }
-  const Result<Flown> done = FlyOne(options, *vehicle, *settings, seed, camera);
+  const Result<FlownMission> done = FlyMission({.scenario = options.scenario,
+                                                .seed = seed,
+                                                .vehicle = *vehicle,
+                                                .settings = *settings,
+                                                .wind_mps = options.wind_mps},
+                                               camera);
   if (!done) {
     return done.error();
   }

@@ -136,6 +136,13 @@ std::vector<std::string> TrialTable::Values(std::string_view column) const {
   return values;
 }
 
+std::string CsvText(std::string text) {
+  for (char& c : text) {
+    c = c == ',' || c == '\n' || c == '"' ? ';' : c;
+  }
+  return text;
+}
+
 std::string CsvNumber(double value) {
   if (!std::isfinite(value)) {
     return std::isnan(value) ? "nan" : value > 0 ? "inf" : "-inf";

@@ -29,6 +29,8 @@ struct TrialTable {
 
 /// Ten significant digits, "nan" for NaN: the form of every number in the CSV.
 std::string CsvNumber(double value);
+/// A text without what would end its cell: commas, quotes and line ends become semicolons.
+std::string CsvText(std::string text);
 
 /// The part of the trials one run does: those with trial % count == index - 1.
 struct Shard {

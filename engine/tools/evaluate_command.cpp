@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 
 #include "engine/experiments/evaluate_calibration.h"
+#include "engine/experiments/evaluate_families.h"
 #include "engine/experiments/evaluate_faults.h"
 #include "engine/experiments/evaluate_image_time.h"
 #include "engine/experiments/evaluate_landing.h"
@@ -27,10 +28,10 @@ void AddEvaluateCommand(CLI::App& app, int& exit_code, SceneCameraFactory camera
   evaluate->require_subcommand(1);
   AddExperiments(
       *evaluate,
-      {LandingExperiment(camera), FaultsExperiment(camera), ImageTimeExperiment(std::move(camera)),
-       StereoAccuracyExperiment(), StereoCostExperiment(), CalibrationExperiment(),
-       ProbabilityExperiment(), SiteFlagsExperiment(), SiteLidarExperiment(), SiteRangeExperiment(),
-       SiteShapesExperiment(), SiteViewsExperiment()},
+      {LandingExperiment(camera), FamiliesExperiment(camera), FaultsExperiment(camera),
+       ImageTimeExperiment(std::move(camera)), StereoAccuracyExperiment(), StereoCostExperiment(),
+       CalibrationExperiment(), ProbabilityExperiment(), SiteFlagsExperiment(),
+       SiteLidarExperiment(), SiteRangeExperiment(), SiteShapesExperiment(), SiteViewsExperiment()},
       exit_code);
 }
 

@@ -1,0 +1,273 @@
+#include "engine/experiments/evaluate_families.h"
+
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <utility>
+
+#include <CLI/CLI.hpp>
+
+#include "engine/core/command_line.h"
+#include "engine/core/text.h"
+#include "engine/experiments/mission_flight.h"
+#include "engine/report/statistics.h"
+#include "engine/runtime/settings_io.h"
+#include "engine/simulation/vehicle_file.h"
+#include "engine/world/families/families.h"
+#include "engine/world/ground_truth.h"
+
+namespace palace {
+namespace {
+
+constexpr double kGrace = 1.2;              // of the limits: see MissionOutcome
+constexpr double kUnapprovedLimit_s = 45;   // of hovering in one place
+constexpr double kStoppedLimit_s = 15;      // of a hold or a climb
+constexpr double kTruthBeyondDisc_m = 1.5;  // so that slopes and steps at its rim are known
+/// Where a hover over the origin with a tilted camera can see ground at all.
+constexpr TruthArea kInView{.north_min_m = 4, .north_max_m = 40, .cell_m = 0.1};
+
+struct FamiliesOptions {
+  std::vector<std::string> only;
+  std::string vehicle = kDefaultVehicle;
+  double wind_mps = 0;
+  std::vector<std::string> set;
+
+  std::vector<std::string> Families() const {
+    const std::vector<std::string_view> all = FamilyNames();
+    return only.empty() ? std::vector<std::string>(all.begin(), all.end()) : only;
+  }
+};
+
+TruthLimits LimitsOf(const Settings& settings) {
+  const HazardLimits& limits = settings.slad.limits;
+  return {limits.max_slope_deg, limits.max_deviation_m, limits.max_step_m};
+}
+
+/// Of the ground about one place at one moment.
+DiscTruth DiscAt(const World& world, const Eigen::Vector2d& place_m, double radius_m,
+                 double time_s) {
+  const double reach = radius_m + kTruthBeyondDisc_m;
+  const GroundTruth truth = TruthOf(world,
+                                    {.north_min_m = place_m.x() - reach,
+                                     .north_max_m = place_m.x() + reach,
+                                     .east_min_m = place_m.y() - reach,
+                                     .east_max_m = place_m.y() + reach},
+                                    time_s);
+  return TruthOfDisc(truth, place_m, radius_m);
+}
+
+const char* VerdictName(const DiscTruth& disc, const TruthLimits& limits) {
+  return WithinLimits(disc, limits)                  ? "within"
+         : WithinLimits(disc, limits.Scaled(kGrace)) ? "over"
+                                                     : "far_over";
+}
+
+TrialRow RowOf(const std::string& family, const World& world, const FlownMission& flown,
+               const Settings& settings) {
+  const Lander& lander = settings.slad.lander;
+  const TruthLimits limits = LimitsOf(settings);
+  std::optional<DiscTruth> under, site;
+  if (flown.touchdown) {
+    under = DiscAt(world, flown.touchdown->p_W_skid.head<2>(), lander.radius_m(),
+                   SecondsBetween(Simulator::kEpoch, flown.touchdown->time));
+  }
+  if (flown.summary.site) {
+    site = DiscAt(world, flown.summary.site->p_WS.head<2>(), lander.clear_radius_m(), 0);
+  }
+  const SafePlaces places =
+      FindSafePlaces(TruthOf(world, kInView), lander.clear_radius_m(), limits, 0.5);
+  const auto of_disc = [](const std::optional<DiscTruth>& disc, double DiscTruth::*value) {
+    return CsvNumber(disc ? (*disc).*value : NAN);
+  };
+  return {family,
+          MissionOutcomeName(
+              OutcomeOf(flown.summary.final_state, flown.summary.site.has_value(), under, limits)),
+          CsvNumber(flown.summary.duration_s),
+          CsvNumber(flown.summary.touchdown_miss_m.value_or(NAN)),
+          of_disc(under, &DiscTruth::slope_deg),
+          of_disc(under, &DiscTruth::deviation_m),
+          of_disc(under, &DiscTruth::step_m),
+          of_disc(under, &DiscTruth::water_share),
+          of_disc(under, &DiscTruth::moving_share),
+          under ? VerdictName(*under, limits) : "none",
+          site ? VerdictName(*site, limits) : "none",
+          CsvNumber(flown.touchdown ? flown.touchdown->hard() : NAN),
+          CsvNumber(places.Count()),
+          flown.why.empty() ? "none" : CsvText(flown.why)};
+}
+
+Result<std::vector<TrialRow>> RunTrial(const FamiliesOptions& options, std::uint64_t seed,
+                                       const SceneCameraFactory& camera) {
+  const Result<VehicleDescription> vehicle = LoadVehicle(options.vehicle);
+  if (!vehicle) {
+    return vehicle.error();
+  }
+  const Result<Settings> settings = SettingsOfCommandLine(SettingsFor(*vehicle), {}, options.set);
+  if (!settings) {
+    return settings.error();
+  }
+  std::vector<TrialRow> rows;
+  for (const std::string& family : options.Families()) {
+    const Result<World> world = MakeFamily(family, seed);
+    if (!world) {
+      return world.error();
+    }
+    const Result<FlownMission> flown = FlyMission({.scenario = family,
+                                                   .seed = seed,
+                                                   .vehicle = *vehicle,
+                                                   .settings = *settings,
+                                                   .wind_mps = options.wind_mps,
+                                                   .unapproved_limit_s = kUnapprovedLimit_s,
+                                                   .stopped_limit_s = kStoppedLimit_s},
+                                                  camera);
+    if (!flown) {
+      return flown.error();
+    }
+    rows.push_back(RowOf(family, *world, *flown, *settings));
+    std::fprintf(stderr, "seed %llu, %s: %s\n", static_cast<unsigned long long>(seed),
+                 family.c_str(), rows.back()[1].c_str());
+  }
+  return rows;
+}
+
+int CountOf(const TrialTable& table, MissionOutcome outcome) {
+  return static_cast<int>(table.Where("outcome", MissionOutcomeName(outcome)).rows.size());
+}
+
+std::string ShareText(int hits, int trials) {
+  const Interval share = WilsonInterval(hits, trials);
+  return WithNumbers("%.0f of %.0f", hits, trials) +
+         WithNumbers(" (%.0f to %.0f %%)", 100 * share.low, 100 * share.high);
+}
+
+/// A row of the page: how the missions of one family, or all of them, ended.
+std::vector<std::string> OutcomeRow(const std::string& name, const TrialTable& table) {
+  const int trials = static_cast<int>(table.rows.size());
+  std::vector<std::string> row = {name};
+  for (int i = 0; i < kMissionOutcomeCount; ++i) {
+    row.push_back(ShareText(CountOf(table, static_cast<MissionOutcome>(i)), trials));
+  }
+  int with_place = 0;
+  for (const double places : table.Numbers("safe_places")) {
+    with_place += places > 0 ? 1 : 0;
+  }
+  row.push_back(WithNumbers("%.0f", with_place));
+  return row;
+}
+
+ExperimentReport Report(const TrialTable& table) {
+  ExperimentReport report{HtmlPage("PALACE: missions on every family of worlds")};
+  const int trials = static_cast<int>(table.rows.size());
+  std::vector<std::vector<std::string>> rows;
+  for (const std::string& family : table.Values("family")) {
+    const TrialTable of_family = table.Where("family", family);
+    rows.push_back(OutcomeRow(family, of_family));
+    std::string line = family + ":";
+    for (int i = 0; i < kMissionOutcomeCount; ++i) {
+      const auto outcome = static_cast<MissionOutcome>(i);
+      const int count = CountOf(of_family, outcome);
+      line += count == 0
+                  ? ""
+                  : std::string(" ") + MissionOutcomeName(outcome) + WithNumbers(" %.0f", count);
+    }
+    report.lines.push_back(line);
+  }
+  rows.push_back(OutcomeRow("all", table));
+  const int landed = CountOf(table, MissionOutcome::kLandedRight) +
+                     CountOf(table, MissionOutcome::kLandedOnHazard);
+  const int on_hazard = CountOf(table, MissionOutcome::kLandedOnHazard);
+  const TrialTable approved_over = table.Where("site_truth", "far_over");
+  report.passed = on_hazard == 0;
+  report.lines.push_back("Landed right, of all missions: " +
+                         ShareText(CountOf(table, MissionOutcome::kLandedRight), trials));
+  report.lines.push_back("On a hazard (over 1.2 times a limit), of all landings: " +
+                         ShareText(on_hazard, landed));
+  report.lines.push_back(
+      "Approved a site with a touchdown over 1.2 times a limit within the navigation error: " +
+      ShareText(static_cast<int>(approved_over.rows.size()), trials));
+  report.page.List({report.lines.end() - 3, report.lines.end()})
+      .Paragraph(
+          "Shares with 95 % intervals (Wilson). A landing is right when the ground under the "
+          "vehicle at the true touchdown is within 1.2 times the limits of slope, deviation and "
+          "step and holds neither water nor anything that moves. The last column counts the worlds "
+          "that have a safe place at all where the camera can look from the start.")
+      .Table({"Family", "Landed right", "Landed on a hazard", "Held", "Climbed away", "Refused",
+              "Unfinished", "Worlds with a safe place"},
+             rows);
+  std::vector<std::vector<std::string>> missions;
+  for (const std::vector<std::string>& row : table.rows) {
+    missions.push_back({row.begin() + 1, row.end()});
+  }
+  report.page.Heading("Missions")
+      .Table({"Seed", "Family", "Outcome", "Flown, s", "Miss, m", "Slope, deg", "Deviation, m",
+              "Step, m", "Water", "Moving", "Touchdown", "Site", "Hard", "Safe places",
+              "Why not landed"},
+             missions);
+  return report;
+}
+
+}  // namespace
+
+const char* MissionOutcomeName(MissionOutcome outcome) {
+  static constexpr const char* kNames[kMissionOutcomeCount] = {
+      "landed_right", "landed_on_hazard", "held", "aborted", "refused", "unfinished"};
+  return kNames[static_cast<int>(outcome)];
+}
+
+MissionOutcome OutcomeOf(MissionState last, bool approved, const std::optional<DiscTruth>& under,
+                         const TruthLimits& limits) {
+  switch (last) {
+    case MissionState::kHold:
+      return MissionOutcome::kHeld;
+    case MissionState::kAborting:
+      return MissionOutcome::kAborted;
+    case MissionState::kLanded:
+      return under && WithinLimits(*under, limits.Scaled(kGrace)) ? MissionOutcome::kLandedRight
+                                                                  : MissionOutcome::kLandedOnHazard;
+    default:
+      return approved ? MissionOutcome::kUnfinished : MissionOutcome::kRefused;
+  }
+}
+
+Experiment FamiliesExperiment(SceneCameraFactory camera) {
+  auto options = std::make_shared<FamiliesOptions>();
+  Experiment experiment;
+  experiment.name = "families";
+  experiment.purpose = "Whole missions on every family of worlds, held against their truth";
+  experiment.default_trials = 8;
+  experiment.columns = {
+      "family",      "outcome",     "duration_s",   "touchdown_miss_m", "slope_deg",  "deviation_m",
+      "step_m",      "water_share", "moving_share", "touchdown_truth",  "site_truth", "hard",
+      "safe_places", "why"};
+  experiment.add_options = [options](CLI::App& verb) {
+    verb.add_option("--family", options->only,
+                    "Only this family; may be given again. Default: all of palacectl worlds")
+        ->check([](const std::string& name) {
+          return IsFamily(name) ? std::string()
+                                : "no family is called \"" + name +
+                                      "\"; known: " + Joined(FamiliesOptions{}.Families());
+        });
+    verb.add_option("--vehicle", options->vehicle,
+                    "A vehicle by name (" + Joined(VehicleNames()) + ") or by its file")
+        ->capture_default_str();
+    verb.add_option("--wind", options->wind_mps, "Mean wind 6 m above ground, m/s")
+        ->check(FiniteRange(0.0, 15.0))
+        ->capture_default_str();
+    verb.add_option("--set", options->set, "One setting, e.g. slad.max_slope_deg=8");
+  };
+  experiment.setup = [options] {
+    std::string text = "families " + Joined(options->Families()) + ", vehicle " + options->vehicle +
+                       ", wind " + CsvNumber(options->wind_mps) + " m/s";
+    for (const std::string& assignment : options->set) {
+      text += ", " + assignment;
+    }
+    return text;
+  };
+  experiment.run = [options, camera = std::move(camera)](int, std::uint64_t seed) {
+    return RunTrial(*options, seed, camera);
+  };
+  experiment.report = Report;
+  return experiment;
+}
+
+}  // namespace palace

@@ -1,0 +1,95 @@
+#include "engine/experiments/mission_flight.h"
+
+#include <memory>
+#include <utility>
+
+#include "engine/runtime/engine.h"
+#include "engine/runtime/scripted_operator.h"
+#include "engine/simulation/session.h"
+
+namespace palace {
+namespace {
+
+/// How long the mission has been in its present state, and when that is long enough.
+class Patience {
+ public:
+  explicit Patience(const MissionFlight& flight) : flight_(flight) {}
+
+  bool IsOver(const EngineSnapshot& snapshot, const FlightSummary& flown) {
+    const MissionState state = snapshot.flight->mission.state;
+    if (state != state_) {
+      state_ = state;
+      since_s_ = flown.duration_s;
+    }
+    const bool stopped = state == MissionState::kHold || state == MissionState::kAborting;
+    return flown.duration_s > flight_.limit_s ||
+           (!flown.site && flown.duration_s > flight_.unapproved_limit_s) ||
+           (stopped && flown.duration_s - since_s_ > flight_.stopped_limit_s);
+  }
+
+ private:
+  const MissionFlight& flight_;
+  MissionState state_ = MissionState::kNoLive;
+  double since_s_ = 0;
+};
+
+std::string WhyNotLanded(const EngineSnapshot& snapshot) {
+  const MissionStatus& mission = snapshot.flight->mission;
+  switch (mission.state) {
+    case MissionState::kLanded:
+      return "";
+    case MissionState::kArmed:
+      return mission.cannot_approve_reason;
+    case MissionState::kSearch:
+      if (snapshot.terrain->applied && snapshot.terrain->applied->selection.sites.empty()) {
+        return "no site: " + snapshot.terrain->applied->selection.none_reason;
+      }
+      return mission.why;
+    default:
+      return mission.why;
+  }
+}
+
+}  // namespace
+
+Result<FlownMission> FlyMission(const MissionFlight& flight, const SceneCameraFactory& camera) {
+  Result<SimulatedSession> session = OpenSimulatedSession({.scenario = flight.scenario,
+                                                           .seed = flight.seed,
+                                                           .vehicle = flight.vehicle,
+                                                           .wind_mps = flight.wind_mps},
+                                                          camera);
+  if (!session) {
+    return session.error();
+  }
+  const std::shared_ptr<Simulator> simulator = session->simulator;
+  EngineParts parts;
+  parts.settings = flight.settings;
+  parts.mission.session_id = session->id;
+  parts.source = simulator;
+  parts.link = simulator;
+  Engine engine(std::move(parts), /*threaded=*/false);
+  FlightSummarizer summarizer(std::move(session->scene));
+  ScriptedOperator pilot;
+  Patience patience(flight);
+  FlownMission flown;
+  while (engine.Step()) {
+    const auto snapshot = engine.Latest();
+    summarizer.Add(*snapshot);
+    for (const EngineCommand& command : pilot.Decide(*snapshot)) {
+      engine.Post(command);
+    }
+    flown.why = WhyNotLanded(*snapshot);
+    if (pilot.finished() || patience.IsOver(*snapshot, summarizer.summary())) {
+      break;
+    }
+  }
+  if (!engine.error().empty()) {
+    return UnavailableError(engine.error());
+  }
+  flown.summary = summarizer.summary();
+  const Touchdown* touchdown = simulator->touchdown();
+  flown.touchdown = touchdown ? std::optional(*touchdown) : std::nullopt;
+  return flown;
+}
+
+}  // namespace palace

@@ -1,0 +1,39 @@
+// One whole mission flown by the scripted operator, engine and simulator in lockstep: what the
+// mission says of it, how it met the ground, and why it ended where it did.
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <string>
+
+#include "engine/core/result.h"
+#include "engine/model/settings/settings.h"
+#include "engine/runtime/flight_summary.h"
+#include "engine/simulation/simulator.h"
+
+namespace palace {
+
+struct MissionFlight {
+  std::string scenario = "runway";
+  std::uint64_t seed = 1;
+  VehicleDescription vehicle = DefaultVehicle();
+  Settings settings{};
+  double wind_mps = 0;
+  double limit_s = 180;  ///< of flown time
+  /// It also ends when nothing was approved for that long, or when it holds or climbs away that
+  /// long without going on.
+  double unapproved_limit_s = std::numeric_limits<double>::infinity();
+  double stopped_limit_s = std::numeric_limits<double>::infinity();
+};
+
+struct FlownMission {
+  FlightSummary summary;
+  std::optional<Touchdown> touchdown{};
+  /// Of a mission that did not land: what the station says of its last state.
+  std::string why{};
+};
+
+/// An unknown scenario is a usage error; a camera that cannot draw, its own.
+Result<FlownMission> FlyMission(const MissionFlight& flight, const SceneCameraFactory& camera);
+
+}  // namespace palace
