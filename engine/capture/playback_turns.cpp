@@ -121,6 +121,8 @@ void PlaybackTurns::Control(const PlaybackControl& control) {
         due_s_ = 0;
       }
       break;
+    case PlaybackControl::Kind::kRunTo:  // of a simulation
+      break;
   }
   changed_.notify_all();
 }

@@ -41,6 +41,9 @@ class FaultedSource final : public Source, public VehicleLink {
   SourceStatus Status() const override { return source_->Status(); }
   Losses Lost() const override;
   void Control(const PlaybackControl& control) override { source_->Control(control); }
+  ::palace::Status Change(const SimulationChange& change) override {
+    return source_->Change(change);
+  }
 
   /// Sealed here: the vehicle seals and checks on its own clock.
   bool Send(const VehicleMessage& message) override;

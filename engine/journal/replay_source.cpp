@@ -377,6 +377,8 @@ void ReplaySource::Control(const PlaybackControl& control) {
           speed_ = control.value;
         }
         break;
+      case Kind::kRunTo:  // of a simulation
+        break;
     }
   }
   changed_.notify_all();

@@ -69,10 +69,12 @@ struct EngineCommand {
 
 /// Control of time, for sources that can: the simulator, a log, a folder of images.
 struct PlaybackControl {
-  enum class Kind : std::uint8_t { kPlay, kPause, kStepForward, kStepBack, kSeek, kSpeed };
+  enum class Kind : std::uint8_t { kPlay, kPause, kStepForward, kStepBack, kSeek, kSpeed, kRunTo };
   Kind kind = Kind::kPlay;
-  double value =
-      0;  ///< kSeek: seconds from the start; kSpeed: times real time, 0 as fast as possible
+  /// kSeek: seconds from the start; kSpeed: times real time, 0 as fast as possible; kRunTo, of a
+  /// simulation: plays to the first bundle at or after so many seconds from the start and pauses,
+  /// at once where that is past.
+  double value = 0;
 };
 
 }  // namespace palace

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/core/time.h"
+#include "engine/model/simulation_setup.h"
 #include "engine/model/source_kind.h"
 
 namespace palace {
@@ -36,10 +37,11 @@ struct SourceStatus {
   double position_s = 0;             ///< since start
   std::optional<double> duration_s;  ///< known for logs and folders
   bool can_seek = false;
-  std::uint64_t frame_index = 0;          ///< of the frame shown, from 1; 0 before it
-  std::uint64_t frame_count = 0;          ///< 0 unknown
-  std::vector<CameraCounters> cameras{};  ///< of kCameras and kVideo
-  int part = 1, parts = 1;                ///< of a log: the one that is played, of how many
+  std::uint64_t frame_index = 0;                 ///< of the frame shown, from 1; 0 before it
+  std::uint64_t frame_count = 0;                 ///< 0 unknown
+  std::vector<CameraCounters> cameras{};         ///< of kCameras and kVideo
+  int part = 1, parts = 1;                       ///< of a log: the one that is played, of how many
+  std::optional<SimulationStatus> simulation{};  ///< of the built-in one
   std::string damage{};  ///< of a log: what could not be read, for people; empty when whole
 };
 

@@ -137,7 +137,26 @@ void Engine::Control(const PlaybackControl& control) {
     jump_asked_ = true;
     ended_ = false;
   }
-  // A paused source gives no bundle that could tell of it.
+  TellOfSource();
+}
+
+Status Engine::Change(const SimulationChange& change) {
+  if (const Status fit = CheckChange(change); !fit) {
+    return fit;
+  }
+  const std::shared_ptr<const EngineSnapshot> newest = latest_.Load();
+  if (newest && FindSimulationRow(change.name)->of_rig) {
+    if (std::string why = WhyRigStays(newest->flight->mission.state); !why.empty()) {
+      return UnavailableError(std::move(why));
+    }
+  }
+  const Status changed = source_->Change(change);
+  TellOfSource();
+  return changed;
+}
+
+/// A paused source gives no bundle that could tell of it.
+void Engine::TellOfSource() {
   if (threaded_) {
     inbox_.Wake();
   } else if (latest_.Load()) {

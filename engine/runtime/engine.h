@@ -61,6 +61,9 @@ class Engine {
   void Post(EngineCommand command);
   /// Publishes a snapshot that tells of it, also where the source gives nothing more.
   void Control(const PlaybackControl& control);
+  /// Changes what is simulated. Refused: what CheckChange says, another source than the built-in
+  /// simulation, and another rig while a site is armed or flown to (WhyRigStays).
+  Status Change(const SimulationChange& change);
 
   /// Without threads: takes the next bundle and processes it in the caller's thread; while the
   /// source is paused or ended only commands are handled. False when the source has ended; error()
@@ -76,6 +79,7 @@ class Engine {
 
  private:
   void RunSource(std::stop_token stop);
+  void TellOfSource();
   bool Feed(std::stop_token stop);
   void RunEngine(std::stop_token stop);
   bool HandleSafely(const Inbox::Batch& batch, std::stop_token stop);

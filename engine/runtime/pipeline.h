@@ -113,6 +113,7 @@ class Pipeline {
   /// After this pass's commands: a command decides alike whether it came with the frame or before
   /// it. After a jump, what the record restored.
   const MissionStatus& MissionInForce() const;
+  void ForgetOldRig(Pass& pass);
   double GroundHeight() const;
   /// From the left camera along its axis to the ground; NaN where neither a site nor the laser
   /// tell.

@@ -23,7 +23,7 @@ struct Pipeline::Pass {
   std::shared_ptr<const TerrainDecision> decision_of_record{};
   bool new_map = false;
   bool new_stereo = false;  // a range map was measured; without a pose it makes no map
-  bool forgotten = false;   // the frame of the position moved: the maps began anew
+  bool forgotten = false;   // another frame of the position, or another rig: maps began anew
   bool settings_moved = false;
 
   void Note(DiagnosticLevel level, std::string stage, std::string message) {

@@ -32,6 +32,9 @@ void Pipeline::PrepareRig(Pass& pass) {
   if (rig && rig != rig_) {
     const std::uint64_t hash = HashOf(*rig);
     if (!rig_ || hash != calibration_hash_) {
+      if (rig_) {
+        ForgetOldRig(pass);
+      }
       Result<StereoRectifier> made = StereoRectifier::Make(*rig);
       rig_problem_ = made ? std::string() : made.error().message;
       rectifier_.reset();
@@ -46,6 +49,24 @@ void Pipeline::PrepareRig(Pass& pass) {
   if (!rig_problem_.empty()) {
     pass.Note(DiagnosticLevel::kError, "camera", rig_problem_);
   }
+}
+
+/// Other cameras: what the old ones measured is not fused with what these measure, nor tracked on.
+/// What was armed is dropped by the mission, which holds the calibration against it.
+void Pipeline::ForgetOldRig(Pass& pass) {
+  slad_.Forget(SiteNames::kGoOn);
+  pass.forgotten = true;
+  tracker_.Reset();
+  laser_watch_.Reset();
+  image_time_.Reset();
+  range_check_.Reset();
+  frozen_check_.Reset();
+  laser_height_m_.reset();
+  beam_ground_m_ = NAN;
+  TerrainPart& terrain = pass.snapshot->terrain.Edit();
+  terrain.range = nullptr;
+  terrain.applied = terrain.preview = terrain.recorded = nullptr;
+  terrain.site_review.reset();
 }
 
 void Pipeline::See(Pass& pass) {

@@ -12,7 +12,7 @@
 
 namespace palace {
 
-/// Called from one thread, except Control, Status and Lost, which any thread may call.
+/// Called from one thread, except Control, Change, Status and Lost, which any thread may call.
 class Source {
  public:
   virtual ~Source() = default;
@@ -26,6 +26,11 @@ class Source {
   virtual Losses Lost() const { return {}; }
   /// Play, pause, step, seek, speed; ignored by sources that cannot.
   virtual void Control(const PlaybackControl& control) = 0;
+  /// Changes what is simulated, from the next bundle on; a checked change (CheckChange). Refused by
+  /// all but a simulation in this program.
+  virtual ::palace::Status Change(const SimulationChange&) {
+    return UnavailableError("only the built-in simulation can be changed while it runs");
+  }
 };
 
 }  // namespace palace

@@ -6,12 +6,6 @@
 #include "engine/world/world_file.h"
 
 namespace palace {
-namespace {
-
-constexpr double kGustPerMean = 1.5;  // W20 of the turbulence beside the mean wind
-
-}  // namespace
-
 Result<SimulatedSession> OpenSimulatedSession(const SessionSpec& spec, SceneCameraFactory cameras) {
   Result<World> scene = OpenWorld(spec.scenario, spec.seed);
   if (!scene) {
@@ -22,8 +16,7 @@ Result<SimulatedSession> OpenSimulatedSession(const SessionSpec& spec, SceneCame
   options.scene = session.scene;
   options.seed = spec.seed;
   options.vehicle = spec.vehicle;
-  options.wind.mean_mps = spec.wind_mps;
-  options.wind.gust_w20_mps = kGustPerMean * spec.wind_mps;
+  options.wind = GustyWind(spec.wind_mps, 0);
   options.speed = spec.speed;
   options.duration_limit_s = spec.duration_limit_s;
   options.render = spec.render;

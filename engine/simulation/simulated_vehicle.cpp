@@ -78,6 +78,11 @@ void SimulatedVehicle::Receive(const VehicleMessage& message) {
   autopilot_.Receive(message, {now_, navigator_.now().p_WB, ground_down_m_});
 }
 
+void SimulatedVehicle::SetRig(const StereoRig& rig) {
+  vehicle_.rig = rig;
+  X_BC_ = rig.X_BC();
+}
+
 void SimulatedVehicle::AdvanceTo(Timestamp until, FrameBundle& bundle) {
   while (true_now_ < until) {
     Step(bundle);

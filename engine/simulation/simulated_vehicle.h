@@ -27,6 +27,9 @@ class SimulatedVehicle {
   static constexpr std::int64_t kStep_us = 5'000;
 
   void Receive(const VehicleMessage& message);
+  /// From now on: another wind; cameras, and the laser beside them, looking another way.
+  void SetWind(const WindOptions& wind) { wind_.Set(wind); }
+  void SetRig(const StereoRig& rig);
   /// Advances to the first grid point at or after `until`, a true time; appends every sample to the
   /// bundle.
   void AdvanceTo(Timestamp until, FrameBundle& bundle);

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/core/units.h"
 #include "engine/simulation/simulated_vehicle.h"
 #include "engine/simulation/stereo_cameras.h"
 
@@ -15,6 +16,7 @@ namespace palace {
 namespace {
 
 constexpr double kSpeedSmoothing = 0.1;
+constexpr double kSameMoment_s = 1e-6;
 
 Error Ended(const char* why) { return {ErrorCode::kEnd, why}; }
 
@@ -35,22 +37,34 @@ struct Simulator::State {
     status.speed = options.speed;
     status.start = kEpoch;
     status.duration_s = options.duration_limit_s;
+    SimulationStatus& simulation = status.simulation.emplace();
+    simulation.began.wind_mps = options.wind.mean_mps;
+    simulation.began.wind_from_deg = Deg(options.wind.from_rad);
+    ReadRig(*rig, simulation.began);
+    simulation.in_force = simulation.asked = simulation.began;
     GrantOwnStation();
   }
 
   bool WaitForTurn(std::stop_token stop);
+  void TakeChanges();
+  double period_s() const { return 1 / rig->rate_hz; }
   void GrantOwnStation();
   Timestamp heard_at() const { return AddSeconds(kEpoch, heard_s); }
   Result<std::shared_ptr<const StereoFrame>> Deliver();
   void Publish(bool ended);
+  void PauseWhereAsked();
 
   const SimulatorOptions options;
   const SceneCameraFactory camera_factory;
-  const std::shared_ptr<const StereoRig> rig;
+  std::shared_ptr<const StereoRig> rig;
   StereoCameras cameras;
   SimulatedVehicle vehicle;
   std::unique_ptr<SceneCamera> camera;
   std::uint64_t sequence = 0;
+  /// Bundles of one rate are counted from where it came into force, so that a rate that is no
+  /// multiple of the grid does not drift.
+  double rate_since_s = 0;
+  std::uint64_t rate_since = 0;
   std::optional<double> last_turn_s;  ///< monotonic; when the last bundle was due or begun
 
   mutable std::mutex mutex;
@@ -59,7 +73,8 @@ struct Simulator::State {
   std::optional<StationSession> own_station;
   double heard_s = 0;  ///< seconds of simulated time that the own station knows of
   SourceStatus status;
-  int steps_wanted = 0;  ///< while paused
+  int steps_wanted = 0;   ///< while paused
+  bool pace_anew = true;  ///< the speed reached so far is of another speed
 };
 
 /// The very exchange of messages that goes over a bus, with both ends here.
@@ -78,6 +93,9 @@ void Simulator::State::GrantOwnStation() {
 /// Pacing only. False when stopped.
 bool Simulator::State::WaitForTurn(std::stop_token stop) {
   std::unique_lock lock(mutex);
+  if (status.paused) {
+    last_turn_s.reset();  // what is waited now is no slowness
+  }
   if (!changed.wait(lock, stop, [&] { return !status.paused || steps_wanted > 0; })) {
     return false;
   }
@@ -88,7 +106,7 @@ bool Simulator::State::WaitForTurn(std::stop_token stop) {
   }
   const double begin_s = MonotonicSeconds();
   if (status.speed > 0 && last_turn_s) {
-    const double due_s = *last_turn_s + 1 / (options.vehicle.rig.rate_hz * status.speed);
+    const double due_s = *last_turn_s + period_s() / status.speed;
     const double speed = status.speed;
     // A change of speed or a pause ends the wait early; this bundle still comes.
     changed.wait_for(lock, stop, std::chrono::duration<double>(std::max(0.0, due_s - begin_s)),
@@ -96,8 +114,9 @@ bool Simulator::State::WaitForTurn(std::stop_token stop) {
   }
   const double now_s = MonotonicSeconds();
   if (last_turn_s && now_s > *last_turn_s) {
-    const double reached = 1 / (options.vehicle.rig.rate_hz * (now_s - *last_turn_s));
-    status.speed_reached += kSpeedSmoothing * (reached - status.speed_reached);
+    const double reached = period_s() / (now_s - *last_turn_s);
+    const double share = std::exchange(pace_anew, false) ? 1 : kSpeedSmoothing;
+    status.speed_reached += share * (reached - status.speed_reached);
   }
   last_turn_s = now_s;
   return !stop.stop_requested();
@@ -117,11 +136,45 @@ Result<std::shared_ptr<const StereoFrame>> Simulator::State::Deliver() {
   return cameras.Deliver(*camera, vehicle.history(), vehicle.now());
 }
 
+/// Of the thread of Next(), which alone reads the rig.
+void Simulator::State::TakeChanges() {
+  SimulationSetup was, becomes;
+  {
+    const std::lock_guard lock(mutex);
+    was = std::exchange(status.simulation->in_force, status.simulation->asked);
+    becomes = status.simulation->asked;
+  }
+  if (was.wind_mps != becomes.wind_mps || was.wind_from_deg != becomes.wind_from_deg) {
+    vehicle.SetWind(GustyWind(becomes.wind_mps, Rad(becomes.wind_from_deg)));
+  }
+  const bool other_rate = was.rate_hz != becomes.rate_hz;
+  if (other_rate) {
+    rate_since_s += static_cast<double>(sequence - rate_since) * period_s();
+    rate_since = sequence;
+  }
+  if (other_rate || was.field_of_view_deg != becomes.field_of_view_deg ||
+      was.baseline_m != becomes.baseline_m || was.tilt_deg != becomes.tilt_deg) {
+    rig = std::make_shared<const StereoRig>(RigAfter(*rig, was, becomes));
+    vehicle.SetRig(*rig);
+    cameras.SetRig(*rig);
+  }
+}
+
 void Simulator::State::Publish(bool ended) {
   const std::lock_guard lock(mutex);
   status.ended = ended;
   status.position_s = SecondsBetween(kEpoch, vehicle.now());
   status.frame_index = sequence;
+  PauseWhereAsked();
+}
+
+/// Under the mutex.
+void Simulator::State::PauseWhereAsked() {
+  std::optional<double>& run_to_s = status.simulation->run_to_s;
+  if (run_to_s && status.position_s >= *run_to_s - kSameMoment_s) {
+    run_to_s.reset();
+    status.paused = true;
+  }
 }
 
 Simulator::Simulator(SimulatorOptions options, SceneCameraFactory camera_factory)
@@ -146,11 +199,11 @@ Result<std::shared_ptr<const FrameBundle>> Simulator::Next(std::stop_token stop)
   for (const VehicleMessage& message : messages) {
     s.vehicle.Receive(message);
   }
+  s.TakeChanges();
   auto bundle = std::make_shared<FrameBundle>();
   bundle->sequence = ++s.sequence;
-  // From the epoch each time, so that a rate that is no multiple of the grid does not drift.
-  s.vehicle.AdvanceTo(
-      AddSeconds(kEpoch, static_cast<double>(s.sequence) / s.options.vehicle.rig.rate_hz), *bundle);
+  const double periods = static_cast<double>(s.sequence - s.rate_since);
+  s.vehicle.AdvanceTo(AddSeconds(kEpoch, s.rate_since_s + periods / s.rig->rate_hz), *bundle);
   bundle->time = s.vehicle.now();
   bundle->rig = s.rig;
   bundle->pose_at_exposure = s.vehicle.history().ToldAt(
@@ -178,7 +231,20 @@ SourceStatus Simulator::Status() const {
 
 void Simulator::Control(const PlaybackControl& control) {
   const std::lock_guard lock(state_->mutex);
+  std::optional<double>& run_to_s = state_->status.simulation->run_to_s;
+  if (control.kind != PlaybackControl::Kind::kSpeed) {
+    run_to_s.reset();
+  }
   switch (control.kind) {
+    case PlaybackControl::Kind::kRunTo:
+      if (!std::isfinite(control.value)) {
+        break;
+      }
+      run_to_s = control.value;
+      state_->status.paused = false;
+      state_->steps_wanted = 0;
+      state_->PauseWhereAsked();
+      break;
     case PlaybackControl::Kind::kPlay:
       state_->status.paused = false;
       state_->steps_wanted = 0;
@@ -193,6 +259,7 @@ void Simulator::Control(const PlaybackControl& control) {
       break;
     case PlaybackControl::Kind::kSpeed:
       if (std::isfinite(control.value) && control.value >= 0) {
+        state_->pace_anew = state_->pace_anew || state_->status.speed != control.value;
         state_->status.speed = control.value;
       }
       break;
@@ -201,6 +268,18 @@ void Simulator::Control(const PlaybackControl& control) {
       break;
   }
   state_->changed.notify_all();
+}
+
+::palace::Status Simulator::Change(const SimulationChange& change) {
+  if (const ::palace::Status fit = CheckChange(change); !fit) {
+    return fit;
+  }
+  if (std::string why = WhyLensStays(state_->options.vehicle.rig, change.name); !why.empty()) {
+    return UnavailableError(std::move(why));
+  }
+  const std::lock_guard lock(state_->mutex);
+  state_->status.simulation->asked.*FindSimulationRow(change.name)->field = change.value;
+  return Ok();
 }
 
 bool Simulator::Send(const VehicleMessage& message) {

@@ -1,8 +1,9 @@
 // Simulator: the simulated helicopter over a simulated scene, as a source and a vehicle link.
 //
 // Lockstep: simulated time moves only inside Next(), by exactly one camera period. Messages given
-// to Send() take effect at the start of the following Next(), in the order they came. One seed and
-// one sequence of messages give one flight to the bit; pacing, pause and speed change nothing.
+// to Send() and changes given to Change() take effect at the start of the following Next(), in the
+// order they came. One seed and one sequence of messages and changes give one flight to the bit;
+// pacing, pause and speed change nothing.
 #pragma once
 
 #include <cstdint>
@@ -81,6 +82,7 @@ class Simulator final : public Source, public VehicleLink {
   bool IsLockstep() const override { return true; }
   SourceStatus Status() const override;
   void Control(const PlaybackControl& control) override;
+  ::palace::Status Change(const SimulationChange& change) override;
   bool Send(const VehicleMessage& message) override;
   void Seal(VehicleMessage& message) override;
   void Hear(const FrameBundle& bundle) override;
@@ -90,7 +92,7 @@ class Simulator final : public Source, public VehicleLink {
   /// Stamp of the moment simulated time starts at; the first bundle is one camera period later.
   static constexpr Timestamp kEpoch{1'000'000'000'000};
   std::uint64_t boot_id() const;
-  const StereoRig& rig() const;
+  const StereoRig& rig() const;  ///< of the newest bundle, until the next
   ImuBiases imu_biases() const;  ///< the truth
   /// Set once the skids have met the ground. Call from the thread that calls Next().
   const Touchdown* touchdown() const;

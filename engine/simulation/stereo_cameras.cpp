@@ -49,6 +49,15 @@ StereoCameras::StereoCameras(const VehicleDescription& vehicle, Timestamp start,
              RandomStream(seed, "camera right repeats")},
       drops_(seed, "camera drops") {}
 
+void StereoCameras::SetRig(const StereoRig& rig) {
+  X_BC0_ = rig.X_BC();
+  left_.camera = rig.left;
+  right_.camera = rig.right;
+  right_.X_C0C = PlaceOfRight(rig);
+  left_.tiles.clear();
+  right_.tiles.clear();
+}
+
 double StereoCameras::window_s() const {
   return figures_.exposure_s + figures_.line_delay_s * (rows_ - 1);
 }

@@ -25,6 +25,8 @@ class StereoCameras {
   /// `start`: when what moves in the scene begins to.
   StereoCameras(const VehicleDescription& vehicle, Timestamp start, std::uint64_t seed);
 
+  /// Other cameras from the next pair on, with the errors of those before.
+  void SetRig(const StereoRig& rig);
   /// Of the stamp of a pair when it comes.
   double age_s() const;
   /// The pair that comes at `now`; null when it was dropped. The scene camera's error.

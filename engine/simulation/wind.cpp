@@ -11,6 +11,7 @@ namespace {
 constexpr double kReferenceHeight_ft = 20;
 constexpr double kRoughnessLength_ft = 0.15;  // MIL-F-8785C, category C
 constexpr double kSlowestAir_mps = 3;
+constexpr double kGustPerMean = 1.5;
 
 /// The model is stated in feet and holds from 10 ft to 1000 ft.
 double ModelHeight_ft(double height_m) {
@@ -35,6 +36,10 @@ Eigen::Vector3d DrydenSigma(double gust_w20_mps, double height_above_ground_m) {
   const double vertical = 0.1 * gust_w20_mps;
   const double horizontal = vertical / std::pow(0.177 + 0.000823 * h, 0.4);
   return {horizontal, horizontal, vertical};
+}
+
+WindOptions GustyWind(double mean_mps, double from_rad) {
+  return {mean_mps, from_rad, kGustPerMean * mean_mps};
 }
 
 WindModel::WindModel(const WindOptions& options, std::uint64_t seed)

@@ -20,11 +20,16 @@ struct WindOptions {
   double gust_w20_mps = 0;  ///< W20 of the turbulence: light 7.7, moderate 15.4, severe 23.2
 };
 
+/// A mean wind with the gusts that go with it: their W20 is 1.5 times as much.
+WindOptions GustyWind(double mean_mps, double from_rad);
+
 class WindModel {
  public:
   WindModel(const WindOptions& options, std::uint64_t seed);
   /// Advances by dt_s and returns the velocity of the air in W (m/s).
   Eigen::Vector3d Advance(double dt_s, double height_above_ground_m, double airspeed_mps);
+  /// Another wind from now on; the gusts under way grow or fade into the new ones.
+  void Set(const WindOptions& options) { options_ = options; }
   /// The mean wind alone at that height, in W.
   Eigen::Vector3d Mean(double height_above_ground_m) const;
 
