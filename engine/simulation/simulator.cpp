@@ -327,6 +327,10 @@ ImuBiases Simulator::imu_biases() const {
   return {imu.gyro_bias(), imu.accel_bias()};
 }
 
+RigidTransform Simulator::TruePoseAt(Timestamp time) const {
+  return state_->vehicle.history().TrueAt(time);
+}
+
 const Touchdown* Simulator::touchdown() const {
   const std::optional<Touchdown>& touchdown = state_->vehicle.touchdown();
   return touchdown ? &*touchdown : nullptr;

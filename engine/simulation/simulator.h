@@ -46,7 +46,7 @@ struct SimulatorOptions {
   std::optional<StationTrust> own_station{};
 };
 
-/// What the IMU adds to what it measures, in B; it stands still.
+/// What the IMU adds to what it measures, in B.
 struct ImuBiases {
   Eigen::Vector3d gyro_rad_s = Eigen::Vector3d::Zero();
   Eigen::Vector3d accel_mps2 = Eigen::Vector3d::Zero();
@@ -93,7 +93,10 @@ class Simulator final : public Source, public VehicleLink {
   static constexpr Timestamp kEpoch{1'000'000'000'000};
   std::uint64_t boot_id() const;
   const StereoRig& rig() const;  ///< of the newest bundle, until the next
-  ImuBiases imu_biases() const;  ///< the truth
+  /// The truth now. From the thread that calls Next().
+  ImuBiases imu_biases() const;
+  /// True X_WB at a time of the last three seconds. From the thread that calls Next().
+  RigidTransform TruePoseAt(Timestamp time) const;
   /// Set once the skids have met the ground. Call from the thread that calls Next().
   const Touchdown* touchdown() const;
 

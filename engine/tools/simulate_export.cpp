@@ -7,25 +7,15 @@
 #include "engine/world/ray_pictures.h"
 
 namespace palace {
-namespace {
-
-/// The true pose at a moment, of the truth that came with the bundle.
-const Truth* TruthAt(const FrameBundle& bundle, Timestamp time) {
-  for (const Truth& truth : bundle.truth) {
-    if (truth.time == time) {
-      return &truth;
-    }
-  }
-  return nullptr;
-}
-
-}  // namespace
 
 Result<std::unique_ptr<ExportingSource>> ExportingSource::Create(
     const SimulatedSession& session, const std::filesystem::path& folder) {
   const ImuNoise& noise = session.vehicle.sensors.imu;
   const ImuBiases biases = session.simulator->imu_biases();
   EurocImu imu;
+  imu.rate_hz = session.vehicle.sensors.imu_rate_hz;
+  imu.gyro_walk_rad_s2_sqrt_hz = noise.gyro_walk_rad_s2_sqrt_hz;
+  imu.accel_walk_mps3_sqrt_hz = noise.accel_walk_mps3_sqrt_hz;
   imu.gyro_noise_rad_s_sqrt_hz = noise.gyro_rad_s_sqrt_hz;
   imu.accel_noise_mps2_sqrt_hz = noise.accel_mps2_sqrt_hz;
   imu.gyro_bias_rad_s = biases.gyro_rad_s;
@@ -46,13 +36,14 @@ Result<std::shared_ptr<const FrameBundle>> ExportingSource::Next(std::stop_token
   }
   const FrameBundle& b = **bundle;
   ImageF depth_m;
-  const Truth* truth = b.stereo ? TruthAt(b, b.stereo->time) : nullptr;
-  if (truth != nullptr) {
-    const World scene = WorldAt(scene_, SecondsBetween(Simulator::kEpoch, b.stereo->time));
-    depth_m = RenderDepth(scene, b.rig->left.pinhole, truth->X_WB * b.rig->X_BC());
+  if (b.stereo) {
+    const Timestamp time = b.stereo->time;
+    const World scene = WorldAt(scene_, SecondsBetween(Simulator::kEpoch, time));
+    depth_m = RenderDepth(scene, b.rig->left, simulator_->TruePoseAt(time) * b.rig->X_BC());
   }
-  if (const palace::Status written = writer_->Add(b, truth != nullptr ? &depth_m : nullptr);
-      !written) {
+  const ImuBiases biases = simulator_->imu_biases();
+  writer_->SetBiases(biases.gyro_rad_s, biases.accel_mps2);
+  if (const palace::Status written = writer_->Add(b, b.stereo ? &depth_m : nullptr); !written) {
     return written.error();
   }
   return bundle;

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numeric>
 
+#include "engine/camera/camera_model.h"
 #include "engine/camera/pinhole.h"
 #include "engine/core/random.h"
 
@@ -338,6 +339,27 @@ ImageF RenderDepth(const World& world, const PinholeCamera& camera, const RigidT
     for (int x = 0; x < camera.width; ++x) {
       const Vector3d ray = RayFromPixel(camera, {static_cast<double>(x), static_cast<double>(y)});
       depth_m.at(x, y) = static_cast<float>(CastRay(world, X_WC.p, X_WC.R * ray).s);
+    }
+  }
+  return depth_m;
+}
+
+ImageF RenderDepth(const World& world, const RigCamera& camera, const RigidTransform& X_WC) {
+  if (!camera.model) {
+    return RenderDepth(world, camera.pinhole, X_WC);
+  }
+  const Eigen::Matrix3d R_CF = RotationOf(*camera.model);
+  ImageF depth_m(WidthOf(*camera.model), HeightOf(*camera.model),
+                 std::numeric_limits<float>::quiet_NaN());
+  for (int y = 0; y < depth_m.height(); ++y) {
+    for (int x = 0; x < depth_m.width(); ++x) {
+      if (const auto ray = RayFromPixelCamera(*camera.model, {x, y})) {
+        const Vector3d ray_C = R_CF * ray->direction;
+        if (ray_C.z() > 0) {
+          depth_m.at(x, y) =
+              static_cast<float>(CastRay(world, X_WC.p, X_WC.R * (ray_C / ray_C.z())).s);
+        }
+      }
     }
   }
   return depth_m;

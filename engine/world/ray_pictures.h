@@ -34,6 +34,10 @@ BakedGround BakeFor(const World& world, const PinholeCamera& camera,
 /// Through the pixels' centres.
 ImageF RenderDepth(const World& world, const PinholeCamera& camera, const RigidTransform& X_WC);
 
+/// The same of a camera with any lens, along its own optical axis; NaN where a pixel has no ray or
+/// one at right angles to the axis or more.
+ImageF RenderDepth(const World& world, const RigCamera& camera, const RigidTransform& X_WC);
+
 /// What a sensor makes of it: gain * grey + offset, normal noise, whole levels 0..255.
 struct Exposure {
   double noise_grey = 2;

@@ -11,6 +11,7 @@
 #include "engine/core/units.h"
 #include "engine/simulation/picture_tiles.h"
 #include "engine/simulation/stereo_cameras.h"
+#include "engine/world/ray_pictures.h"
 #include "tests/camera/sample_cameras.h"
 
 namespace palace {
@@ -122,6 +123,17 @@ TEST(LensPictures, APinholeIsDrawnAsItself) {
     rows += band.height;
   }
   EXPECT_EQ(rows, 50);
+}
+
+// Straight down on a plane 15 m below, every pixel that has a ray sees 15 m along the axis.
+TEST(LensPictures, DepthThroughALensIsAlongItsAxis) {
+  const RigidTransform X_WC{CameraRotationFromTilt(-Rad(90)), {0, 0, -15}};
+  const ImageF depth_m = RenderDepth(World{}, RigCameraOf(Fisheye(150)), X_WC);
+  ASSERT_EQ(depth_m.width(), 640);
+  for (const float depth : depth_m.pixels()) {
+    ASSERT_TRUE(std::isnan(depth) || std::abs(depth - 15) < 1e-4) << depth;
+  }
+  EXPECT_NEAR(depth_m.at(322, 236), 15, 1e-4);
 }
 
 // The whole way: two lenses that are turned against each other, pictures through them, and the

@@ -109,13 +109,14 @@ std::string BodySensorText(const std::string& type, const std::string& comment,
 }
 
 std::string ImuText(const EurocImu& imu, const std::string& comment) {
-  char rest[400];
+  char rest[500];
   std::snprintf(rest, sizeof rest,
                 "rate_hz: %.17g\ngyroscope_noise_density: %.17g     # rad/s/sqrt(Hz)\n"
-                "gyroscope_random_walk: 0     # the biases stand still\n"
+                "gyroscope_random_walk: %.17g     # rad/s^2/sqrt(Hz)\n"
                 "accelerometer_noise_density: %.17g     # m/s^2/sqrt(Hz)\n"
-                "accelerometer_random_walk: 0\n",
-                imu.rate_hz, imu.gyro_noise_rad_s_sqrt_hz, imu.accel_noise_mps2_sqrt_hz);
+                "accelerometer_random_walk: %.17g     # m/s^3/sqrt(Hz)\n",
+                imu.rate_hz, imu.gyro_noise_rad_s_sqrt_hz, imu.gyro_walk_rad_s2_sqrt_hz,
+                imu.accel_noise_mps2_sqrt_hz, imu.accel_walk_mps3_sqrt_hz);
   return BodySensorText("imu", comment, rest);
 }
 

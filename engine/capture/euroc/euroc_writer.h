@@ -31,6 +31,8 @@ struct EurocImu {
   double rate_hz = 100;
   double gyro_noise_rad_s_sqrt_hz = 0;
   double accel_noise_mps2_sqrt_hz = 0;
+  double gyro_walk_rad_s2_sqrt_hz = 0;
+  double accel_walk_mps3_sqrt_hz = 0;
   Eigen::Vector3d gyro_bias_rad_s = Eigen::Vector3d::Zero();
   Eigen::Vector3d accel_bias_mps2 = Eigen::Vector3d::Zero();
 };
@@ -59,6 +61,11 @@ class EurocWriter {
   /// Pictures, truth, IMU samples and poses of the bundle. `depth_m` may be null; it has the size
   /// of the left picture, NaN for nothing.
   Status Add(const FrameBundle& bundle, const ImageF* depth_m);
+  /// Of the truth that is added from now on; those of EurocImu until then.
+  void SetBiases(const Eigen::Vector3d& gyro_rad_s, const Eigen::Vector3d& accel_mps2) {
+    imu_.gyro_bias_rad_s = gyro_rad_s;
+    imu_.accel_bias_mps2 = accel_mps2;
+  }
   /// After it the folder is whole.
   Status Close();
 
@@ -71,7 +78,7 @@ class EurocWriter {
   Status AddPictures(const StereoFrame& frame, const ImageF* depth_m);
 
   const std::filesystem::path mav0_;
-  const EurocImu imu_;
+  EurocImu imu_;
   EurocTable left_, right_, inertial_, truth_, navigation_;
   std::uint64_t pairs_ = 0;
 };
