@@ -17,7 +17,7 @@
 #include "engine/slad/slad.h"
 #include "engine/survey/cloud_elevation.h"
 #include "engine/survey/hazard_layer.h"
-#include "engine/survey/point_files.h"
+#include "engine/geodata/point_files.h"
 
 namespace palace {
 namespace {

@@ -10,7 +10,7 @@
 #include "engine/core/csv_row.h"
 #include "engine/core/files.h"
 #include "engine/model/site_columns.h"
-#include "engine/survey/map_files.h"
+#include "engine/geodata/geo_tiff.h"
 #include "engine/survey/map_layers.h"
 
 namespace palace {

@@ -6,7 +6,7 @@
 
 #include "engine/core/files.h"
 #include "engine/core/units.h"
-#include "engine/survey/map_files.h"
+#include "engine/geodata/geo_tiff.h"
 #include "engine/survey/map_layers.h"
 #include "engine/survey/map_pictures.h"
 #include "engine/tools/analyze_json.h"

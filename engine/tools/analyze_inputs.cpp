@@ -6,8 +6,8 @@
 #include "engine/core/text.h"
 #include "engine/slad/terrain/hole_filling.h"
 #include "engine/survey/cloud_elevation.h"
-#include "engine/survey/map_files.h"
-#include "engine/survey/point_files.h"
+#include "engine/geodata/geo_tiff.h"
+#include "engine/geodata/point_files.h"
 
 namespace palace {
 namespace {

@@ -11,6 +11,7 @@
 #include "engine/camera/files/toml_table.h"
 #include "engine/core/text.h"
 #include "engine/core/units.h"
+#include "engine/world/imported.h"
 #include "engine/world/lattice_noise.h"
 #include "engine/world/scene_library.h"
 #include "engine/world/sun_position.h"
@@ -40,6 +41,7 @@ constexpr NumberLimits kAzimuth{0, 360, "degrees from north, eastwards"};
 constexpr NumberLimits kElevation{-10, 90, "degrees above the horizon"};
 constexpr NumberLimits kLatitude{-90, 90, "degrees, north positive"};
 constexpr NumberLimits kLongitude{-180, 180, "degrees, east positive"};
+constexpr NumberLimits kMeshScale{0.0001, 1000, "metres for each unit of the mesh's file"};
 constexpr NumberLimits kSpeed{-20, 20, "metres a second"};
 
 /// A cut or rise of the ground: metres up at a place.
@@ -88,12 +90,13 @@ Vector2d ReadPlace(TomlTable& table, const char* key) {
 
 class WorldReader {
  public:
-  WorldReader(const toml::table& root, std::string name) : root_(root), name_(std::move(name)) {}
+  WorldReader(const toml::table& root, std::string name, std::filesystem::path folder)
+      : root_(root), name_(std::move(name)), folder_(std::move(folder)) {}
 
   Result<World> Read() {
     const std::set<std::string> known = {"name",  "ground",   "relief", "sun",   "hole",
                                          "ditch", "mound",    "line",   "patch", "pool",
-                                         "box",   "cylinder", "cone",   "rod"};
+                                         "box",   "cylinder", "cone",   "rod",   "mesh"};
     for (const auto& [key, node] : root_) {
       if (!known.count(std::string(key.str()))) {
         return InvalidError(name_ + ":" + std::to_string(node.source().begin.line) +
@@ -235,20 +238,43 @@ class WorldReader {
     });
   }
 
+  /// Most of it ahead of the vehicle, where its cameras look.
+  static HeightField::Place SquareAhead(double size_m) {
+    return {-size_m / 4, -size_m / 2, size_m, 10};
+  }
+
+  void ReadHeights(TomlTable& table, const HeightField::Place& square) {
+    const std::string file = table.Text("file");
+    const Vector2d middle(square.north_m + square.size_m / 2, square.east_m + square.size_m / 2);
+    const Vector2d at = table.Has("at") ? ReadPlace(table, "at") : middle;
+    Result<HeightFunction> heights = ImportHeights(folder_ / file, at, square);
+    if (!heights) {
+      table.FailKey("file", ": " + heights.error().message);
+      return;
+    }
+    forms_.push_back({std::move(*heights)});
+  }
+
   Status ReadRelief() {
     TomlTable table(root_, name_, "relief");
     double rms_m = 0, longest_m = 8, shortest_m = 0.5, hurst = 0.8, size_m = 64;
     std::uint64_t seed = 1;
     if (table.present()) {
-      for (const char* key : {"longest_m", "shortest_m", "hurst", "seed", "size_m"}) {
+      for (const char* key : {"longest_m", "shortest_m", "hurst", "seed", "size_m", "file", "at"}) {
         table.Allow(key);
       }
-      rms_m = table.Number("rms_m", kRough);
+      const bool from_file = table.Has("file");
+      rms_m = from_file ? table.NumberOr("rms_m", kRough, 0) : table.Number("rms_m", kRough);
       longest_m = table.NumberOr("longest_m", kWave, longest_m);
       shortest_m = table.NumberOr("shortest_m", kWave, shortest_m);
       hurst = table.NumberOr("hurst", kHurst, hurst);
       size_m = table.NumberOr("size_m", kSquare, size_m);
       seed = static_cast<std::uint64_t>(table.NumberOr("seed", kSeed, 1));
+      if (from_file) {
+        ReadHeights(table, SquareAhead(size_m));
+      } else if (table.Has("at")) {
+        table.FailKey("at", " is where the middle of relief.file lies; there is no file");
+      }
       if (shortest_m > longest_m) {
         table.FailKey("shortest_m", " = " + NumberText(shortest_m) +
                                         " is longer than longest_m = " + NumberText(longest_m));
@@ -258,9 +284,8 @@ class WorldReader {
       return finished;
     }
     if (rms_m > 0 || !forms_.empty()) {
-      // Most of it ahead of the vehicle, where its cameras look.
-      world_.ground.relief = std::make_shared<const HeightField>(
-          HeightField::Place{-size_m / 4, -size_m / 2, size_m, 10}, [&](double n, double e) {
+      world_.ground.relief =
+          std::make_shared<const HeightField>(SquareAhead(size_m), [&](double n, double e) {
             double height_m = rms_m * FractalNoise(n, e, seed, longest_m, shortest_m, hurst);
             for (const Form& form : forms_) {
               height_m += form.height(n, e);
@@ -347,6 +372,27 @@ class WorldReader {
     if (!read) {
       return read;
     }
+    read = Each("mesh", [&](TomlTable& table) {
+      for (const char* key : {"scale", "y_up", "open", "turn_deg", "albedo", "moves_mps"}) {
+        table.Allow(key);
+      }
+      const std::string file = table.Text("file");
+      const MeshImport import{.scale = table.NumberOr("scale", kMeshScale, 1),
+                              .y_up = table.BoolOr("y_up", false),
+                              .may_be_open = table.BoolOr("open", false)};
+      if (file.empty()) {
+        return;
+      }
+      Result<Shape> mesh = ImportMesh(folder_ / file, import);
+      if (!mesh) {
+        table.FailKey("file", ": " + mesh.error().message);
+        return;
+      }
+      solids.push_back(Standing(table, std::move(*mesh)));
+    });
+    if (!read) {
+      return read;
+    }
     return Each("rod", [&](TomlTable& table) {
       table.Allow("albedo");
       Eigen::Vector3d ends[2];
@@ -369,6 +415,7 @@ class WorldReader {
 
   const toml::table& root_;
   std::string name_;
+  std::filesystem::path folder_;
   World world_;
   std::vector<Form> forms_;
   std::size_t things_ = 0;
@@ -376,12 +423,13 @@ class WorldReader {
 
 }  // namespace
 
-Result<World> ParseWorld(const std::string& text, const std::string& name) {
+Result<World> ParseWorld(const std::string& text, const std::string& name,
+                         const std::filesystem::path& folder) {
   const Result<toml::table> root = ParseToml(text, name);
   if (!root) {
     return root.error();
   }
-  return WorldReader(*root, name).Read();
+  return WorldReader(*root, name, folder).Read();
 }
 
 Result<World> LoadWorld(const std::filesystem::path& path) {
@@ -389,7 +437,7 @@ Result<World> LoadWorld(const std::filesystem::path& path) {
   if (!text) {
     return text.error();
   }
-  Result<World> world = ParseWorld(*text, path.string());
+  Result<World> world = ParseWorld(*text, path.string(), path.parent_path());
   if (world && world->name.empty()) {
     world->name = path.stem().string();
   }

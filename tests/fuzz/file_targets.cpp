@@ -3,12 +3,13 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "engine/geodata/geo_tiff.h"
+#include "engine/geodata/mesh_file.h"
+#include "engine/geodata/point_files.h"
 #include "engine/journal/export.h"
 #include "engine/journal/log_index.h"
 #include "engine/journal/log_tools.h"
 #include "engine/journal/replay_source.h"
-#include "engine/survey/map_files.h"
-#include "engine/survey/point_files.h"
 #include "engine/trust/key_file.h"
 #include "tests/fuzz/fuzz_target.h"
 
@@ -80,6 +81,12 @@ void Points(Bytes input) {
   (void)ReadLabelledPoints(ScratchFile("labelled.txt", input));
 }
 
+void Meshes(Bytes input) {
+  if (const auto mesh = ReadMeshFile(ScratchFile("mesh.obj", input))) {
+    (void)FindOpenEdges(*mesh);
+  }
+}
+
 void Key(Bytes input) {
   using std::filesystem::perms;
   const auto file = ScratchFile("heli-1.key", input);
@@ -105,6 +112,7 @@ std::vector<FuzzTarget> FileTargets() {
   return {{"log", &Log},
           {"points", &Points},
           {"geotiff", [](Bytes input) { (void)ReadGeoTiff(ScratchFile("map.tif", input)); }},
+          {"mesh", &Meshes},
           {"key", &Key}};
 }
 

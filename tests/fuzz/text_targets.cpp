@@ -7,6 +7,7 @@
 #include "engine/runtime/settings_io.h"
 #include "engine/simulation/vehicle_file.h"
 #include "engine/wire/channels.h"
+#include "engine/world/world_file.h"
 #include "tests/fuzz/fuzz_target.h"
 
 namespace palace {
@@ -20,6 +21,7 @@ std::vector<FuzzTarget> TextTargets() {
       {"target", [](Bytes input) { (void)ParseTargetText(AsText(input), "target.toml"); }},
       {"rig", [](Bytes input) { (void)LoadRigFile(ScratchFile("rig.toml", input)); }},
       {"vehicle", [](Bytes input) { (void)ParseVehicle(AsText(input), "vehicle.toml"); }},
+      {"world", [](Bytes input) { (void)ParseWorld(std::string(AsText(input)), "world.toml"); }},
       {"poses", [](Bytes input) { (void)LoadPosesFile(ScratchFile("poses.csv", input)); }},
       {"euroc",
        [](Bytes input) {

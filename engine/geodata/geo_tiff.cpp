@@ -1,4 +1,4 @@
-#include "engine/survey/map_files.h"
+#include "engine/geodata/geo_tiff.h"
 
 #include <geo_normalize.h>
 #include <geotiffio.h>

@@ -1,6 +1,6 @@
 // GeoTIFF: what is written is read back, place and gaps included. What other programs write, and
 // what is refused, the scenarios show (survey_models_test.cpp).
-#include "engine/survey/map_files.h"
+#include "engine/geodata/geo_tiff.h"
 
 #include <cmath>
 #include <filesystem>

@@ -1,6 +1,6 @@
 // Point clouds as text and PLY. The many ways to be wrong are rows of survey_clouds_test.cpp,
 // through the program; here that points come out as they stand in the file.
-#include "engine/survey/point_files.h"
+#include "engine/geodata/point_files.h"
 
 #include <filesystem>
 #include <fstream>

@@ -1,0 +1,165 @@
+#include "engine/geodata/point_files.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <fstream>
+#include <string>
+
+#include "engine/geodata/text_lines.h"
+#include "engine/geodata/ply_file.h"
+
+namespace palace {
+namespace {
+
+using Points = std::vector<Eigen::Vector3d>;
+
+/// "0,100 0,000 100,002": a comma within a word, where blanks part the words.
+bool HasDecimalCommas(const std::string& line) {
+  const auto last = line.find_last_not_of(" \t\r");
+  const auto blank = line.find_first_of(" \t", line.find_first_not_of(" \t"));
+  if (blank == std::string::npos || blank > last) {
+    return false;
+  }
+  for (std::size_t at = line.find(','); at != std::string::npos; at = line.find(',', at + 1)) {
+    const auto digit = [&](std::size_t i) {
+      return i < line.size() && line[i] >= '0' && line[i] <= '9';
+    };
+    if (at > 0 && digit(at - 1) && digit(at + 1)) {
+      return true;
+    }
+  }
+  return false;
+}
+
+/// Calls take(numbers) for every line of at least `least` numbers. Comments, empty lines and
+/// headings before the first point are passed over.
+template <typename Take>
+Status ReadLines(const std::filesystem::path& path, std::ifstream& file, std::size_t least,
+                 Take take) {
+  constexpr std::size_t kMostColumns = 16;
+  std::vector<double> numbers;
+  std::size_t columns = 0;
+  std::string line;
+  for (std::size_t n = 1; std::getline(file, line); ++n) {
+    if (n == 1 && line.rfind("\xEF\xBB\xBF", 0) == 0) {
+      line.erase(0, 3);
+    }
+    const auto first = line.find_first_not_of(" \t\r");
+    if (first == std::string::npos || std::strchr("#/%!", line[first]) != nullptr) {
+      continue;
+    }
+    if (line.find(';') != std::string::npos && line.find(',') != std::string::npos) {
+      return ErrorAtLine(path, n,
+                    "both ; and , in " + QuotedLine(line) + "; write decimals with a point");
+    }
+    if (HasDecimalCommas(line)) {
+      return ErrorAtLine(path, n,
+                    "both blanks and , between numbers in " + QuotedLine(line) +
+                        "; write decimals with a point");
+    }
+    if (ParseNumbers(line, kMostColumns, numbers) < least) {
+      if (columns == 0 && numbers.empty()) {
+        continue;  // a heading
+      }
+      return ErrorAtLine(path, n,
+                    "expected " + std::string(least > 3 ? "x y z label" : "x y z") + ", found " +
+                        QuotedLine(line));
+    }
+    if (file.eof() && numbers.size() < columns) {
+      return ErrorAtLine(path, n, "the last line is cut off: " + QuotedLine(line));
+    }
+    columns = columns == 0 ? numbers.size() : columns;
+    take(numbers);
+  }
+  return Ok();
+}
+
+Result<Points> ReadText(const std::filesystem::path& path, std::ifstream& file) {
+  Points points;
+  const Status read = ReadLines(path, file, 3, [&](const std::vector<double>& numbers) {
+    points.emplace_back(numbers[0], numbers[1], numbers[2]);
+  });
+  if (!read) {
+    return read.error();
+  }
+  return points;
+}
+
+Result<Points> ReadPly(const std::filesystem::path& path, std::ifstream& file) {
+  const auto header = ReadPlyHeader(path, file);
+  if (!header) {
+    return header.error();
+  }
+  const auto vertex =
+      std::find_if(header->elements.begin(), header->elements.end(),
+                   [](const PlyElement& element) { return element.name == "vertex"; });
+  if (vertex == header->elements.end()) {
+    return InvalidError(path.string() + ": has no element vertex; it is no cloud of points");
+  }
+  if (vertex != header->elements.begin() && header->elements.front().count > 0) {
+    return ErrorAtLine(path, vertex->line,
+                  "the vertices must come first; save the cloud without other data");
+  }
+  std::array<std::size_t, 3> column{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    constexpr const char* kNames[3] = {"x", "y", "z"};
+    column[axis] = vertex->IndexOf(kNames[axis]);
+    if (column[axis] == vertex->properties.size()) {
+      return InvalidError(path.string() + ": needs vertex properties x, y, z");
+    }
+  }
+  Points points;
+  PlyRows rows(path, file, header->binary, *vertex, "point");
+  for (std::size_t n = 0; n < vertex->count; ++n) {
+    if (const Status read = rows.Next(); !read) {
+      return read.error();
+    }
+    points.emplace_back(rows.Value(column[0]), rows.Value(column[1]), rows.Value(column[2]));
+  }
+  return points;
+}
+
+}  // namespace
+
+Result<std::vector<Eigen::Vector3d>> ReadPointFile(const std::filesystem::path& path) {
+  std::error_code error;
+  if (std::filesystem::is_directory(path, error)) {
+    return InvalidError(path.string() + " is a folder; give the file of points");
+  }
+  std::ifstream file(path, std::ios::binary);
+  if (!file) {
+    return UnavailableError("cannot read " + path.string() + ": does the file exist?");
+  }
+  std::string start(4, '\0');
+  file.read(start.data(), 4);
+  const bool ply = start.rfind("ply", 0) == 0;
+  if (start == "LASF") {
+    return InvalidError(path.string() + " is a LAS file; convert it to text of x y z, or to PLY");
+  }
+  file.clear();
+  file.seekg(0);
+  auto points = ply ? ReadPly(path, file) : ReadText(path, file);
+  if (points && points->size() < 3) {
+    return InvalidError(path.string() + ": " + std::to_string(points->size()) +
+                        " points; expected lines of x y z or a PLY cloud");
+  }
+  return points;
+}
+
+Result<std::vector<LabelledPoint>> ReadLabelledPoints(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) {
+    return UnavailableError("cannot read " + path.string() + ": does the file exist?");
+  }
+  std::vector<LabelledPoint> points;
+  const Status read = ReadLines(path, file, 4, [&](const std::vector<double>& numbers) {
+    points.push_back({{numbers[0], numbers[1], numbers[2]}, numbers[3] == 1});
+  });
+  if (!read) {
+    return read.error();
+  }
+  return points;
+}
+
+}  // namespace palace
