@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "engine/core/vehicle_clock.h"
@@ -65,6 +66,9 @@ struct FrameBundle {
   ArrivalNotes arrival;
   /// Replay only: what was posted before this bundle when it was recorded.
   std::vector<EngineCommand> recorded_commands;
+  /// Simulation only: the faults that act, in words, oldest first ("GPS jump 3 m"). On no wire; the
+  /// station makes events of what begins and ends.
+  std::vector<std::string> injected_faults;
   /// First bundle after a jump in time (a seek, a step back): filters and maps start afresh.
   bool discontinuity = false;
 };

@@ -116,6 +116,8 @@ struct SessionPart {
   std::string missing_inputs;
 
   std::shared_ptr<const std::vector<Event>> events;
+  /// Simulated or recorded flights: the faults that act now, in words, oldest first.
+  std::vector<std::string> injected_faults;
   std::vector<StageTiming> timings;
   Diagnostics diagnostics;
 };

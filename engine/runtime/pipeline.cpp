@@ -21,6 +21,9 @@ void Pipeline::GoOnAfter(std::uint64_t sequence, const EngineSnapshot* last) {
   if (last != nullptr && last->session->events) {
     mission_.GoOnAfter(*last->session->events);
   }
+  if (last != nullptr) {
+    injected_faults_ = last->session->injected_faults;
+  }
 }
 
 void Pipeline::StartAfterJump(Timestamp now) {
@@ -69,6 +72,7 @@ PipelineOutput Pipeline::Process(std::shared_ptr<const FrameBundle> bundle,
   pass.snapshot->station_s = bundle->arrival.clock && session.source.kind == SourceKind::kLive
                                  ? bundle->arrival.clock->station_s
                                  : NAN;
+  NoteFaults(pass);
   ApplyCommands(pass);
   PrepareRig(pass);
   See(pass);
@@ -266,6 +270,7 @@ PipelineOutput Pipeline::Publish(Pass& pass) {
   part.apply_drops = part.limits_apply == LimitsApply::kWhenApplied && mission_.DropsWithSettings();
   part.recorded_settings = settings_.recorded();
   part.events = EventsAt(snapshot.time);
+  part.injected_faults = FollowsRecord(role_) ? ActingFaults(*part.events) : injected_faults_;
   const bool new_time = !last_ || last_->time != snapshot.time;
   if (new_time && pass.bundle) {
     HistorySample sample = SampleOf(snapshot, *pass.bundle);

@@ -104,6 +104,8 @@ class Pipeline {
   /// Judges the newest map under `settings`; after a jump, under the names of the record.
   std::shared_ptr<const TerrainDecision> DecisionUnder(const Settings& settings, Letters letters);
   std::shared_ptr<const std::vector<Event>> EventsAt(Timestamp time);
+  /// Of a simulated flight: what begins and ends to act becomes an event.
+  void NoteFaults(const Pass& pass);
   /// What the limits in force say of the site that the flight chose.
   void Review(Pass& pass);
   /// Notes what other limits than the flight's make of the newest map.
@@ -146,7 +148,8 @@ class Pipeline {
   ImageTimeWatch image_time_;
   ChannelMonitor channels_;
   FlightHistory history_;
-  std::optional<double> laser_height_m_;  // of the laser's spot in W
+  std::vector<std::string> injected_faults_;  ///< of the newest bundle
+  std::optional<double> laser_height_m_;      // of the laser's spot in W
   double beam_ground_m_ = NAN;  // height where the laser's beam meets what stereo saw last
   std::uint64_t stereo_frames_ = 0;
   std::uint64_t sequence_ = 0;

@@ -1,6 +1,7 @@
 // Review: the site that the flight chose, under the limits in force.
 #include <cmath>
 
+#include "engine/model/mission/fault_events.h"
 #include "engine/runtime/pipeline.h"
 #include "engine/runtime/pipeline_pass.h"
 #include "engine/runtime/recorded_names.h"
@@ -23,6 +24,14 @@ std::shared_ptr<const TerrainDecision> Pipeline::DecisionUnder(const Settings& s
 std::shared_ptr<const std::vector<Event>> Pipeline::EventsAt(Timestamp time) {
   auto recorded = FollowsRecord(role_) ? mission_of_record_.EventsUntil(time) : nullptr;
   return recorded ? recorded : mission_.SharedEvents();
+}
+
+void Pipeline::NoteFaults(const Pass& pass) {
+  const FrameBundle& bundle = *pass.bundle;
+  for (const Event& event : FaultEvents(injected_faults_, bundle.injected_faults, bundle.time)) {
+    mission_.AddEvent(event.time, event.kind, event.text);
+  }
+  injected_faults_ = bundle.injected_faults;
 }
 
 void Pipeline::Redecide(Pass& pass) {

@@ -7,9 +7,18 @@
 namespace palace {
 namespace {
 
-/// Beyond the kinds of EventKind: alarms with their level, lowest first.
+/// Kinds of EventKind up to kVehicle are themselves; then alarms with their level, lowest first;
+/// then kinds that came later, so that no number of an old log changes its meaning.
 constexpr int kFirstAlarmLevel = static_cast<int>(EventKind::kVehicle) + 1;
-constexpr int kLastKind = kFirstAlarmLevel + static_cast<int>(AlarmLevel::kWarning);
+constexpr int kFaultOnWire = kFirstAlarmLevel + static_cast<int>(AlarmLevel::kWarning) + 1;
+constexpr int kLastKind = kFaultOnWire;
+
+int WireKind(const Event& event) {
+  if (event.level) {
+    return kFirstAlarmLevel + static_cast<int>(*event.level);
+  }
+  return event.kind == EventKind::kFault ? kFaultOnWire : static_cast<int>(event.kind);
+}
 
 /// Puts an action's fields into the message; one overload an action.
 struct ActionToWire {
@@ -124,8 +133,7 @@ Result<EngineCommand> DecodeCommand(const WireMessage& message) {
 WireMessage EncodeEvent(const Event& event, const ChannelNames& channels) {
   event_t m{};
   m.utime = event.time.us;
-  m.kind = static_cast<std::int8_t>(event.level ? kFirstAlarmLevel + static_cast<int>(*event.level)
-                                                : static_cast<int>(event.kind));
+  m.kind = static_cast<std::int8_t>(WireKind(event));
   m.text = event.text;
   return MakeMessage(channels.event, event.time, m);
 }
@@ -137,7 +145,9 @@ Result<Event> DecodeEvent(const WireMessage& message) {
                           std::to_string(kLastKind));
     }
     Event event{{m.utime}, static_cast<EventKind>(m.kind), m.text};
-    if (m.kind >= kFirstAlarmLevel) {
+    if (m.kind == kFaultOnWire) {
+      event.kind = EventKind::kFault;
+    } else if (m.kind >= kFirstAlarmLevel) {
       event.kind = EventKind::kAlarm;
       event.level = static_cast<AlarmLevel>(m.kind - kFirstAlarmLevel);
     }

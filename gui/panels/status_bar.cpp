@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "engine/core/hash.h"
+#include "engine/core/text.h"
 #include "engine/model/channel_age.h"
 #include "engine/model/mission/alarm_text.h"
 #include "engine/model/mission/approve_offer.h"
@@ -88,6 +89,25 @@ std::string ChannelsText(const EngineSnapshot& snap, double silent_s) {
   return text + (never > 0 ? ", " + std::to_string(never) + " never heard" : "");
 }
 
+/// "2 faults injected: GPS jump 3 m, laser stuck"; empty while none acts.
+std::string FaultsText(const std::vector<std::string>& faults) {
+  return faults.empty() ? ""
+                        : std::to_string(faults.size()) +
+                              (faults.size() == 1 ? " fault injected: " : " faults injected: ") +
+                              Joined(faults);
+}
+
+/// A person who flies a simulated fault must not take it for one of the station's own. Its width.
+float DrawFaultChip(UiFrame& ui, const std::string& text, float x, float y, float room) {
+  const Style& s = ui.style;
+  const std::string words(FitWords(s.caption, text, room - s.Px(16)));
+  const Rect chip{x, y - s.Px(10), TextWidth(s.caption, words) + s.Px(16), s.Px(20)};
+  FillRect(Canvas(), chip, s.palette.hover, s.Fine(3));
+  DrawText(ui, s.caption, s.palette.text1, x + s.Px(8), y, words);
+  ui.items.Add("status/Faults", chip, true, text);
+  return chip.w;
+}
+
 }  // namespace
 
 void DrawStatusBarPanel(const EngineSnapshot& snap, const FrameLayout& layout,
@@ -129,6 +149,9 @@ void DrawStatusBarPanel(const EngineSnapshot& snap, const FrameLayout& layout,
     left.push_back(state.frame_ms > 0 ? "Frame " + Fixed(state.frame_ms, 0) + " ms" : "");
   }
   float x = bar.x + s.Px(12);
+  if (const std::string faults = FaultsText(snap.session->injected_faults); !faults.empty()) {
+    x += DrawFaultChip(ui, faults, x, y, (right - gap - x) / 2) + gap;
+  }
   for (const std::string& item : left) {
     if (!item.empty() && x + TextWidth(s.caption, item) < right - gap) {
       x += DrawText(ui, s.caption, p.text2, x, y, item) + gap;

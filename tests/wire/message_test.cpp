@@ -173,9 +173,11 @@ TEST(Event, AnAlarmKeepsItsLevelAndOneWithoutHasNone) {
     EXPECT_EQ(back->text, "GPS lost");
     EXPECT_EQ(back->level, level);
   }
-  const auto other = DecodeEvent(EncodeEvent({{5}, EventKind::kVehicle, "Climbs"}, kChannels));
-  EXPECT_EQ(other->kind, EventKind::kVehicle);
-  EXPECT_FALSE(other->level.has_value());
+  for (const EventKind kind : {EventKind::kState, EventKind::kVehicle, EventKind::kFault}) {
+    const auto other = DecodeEvent(EncodeEvent({{5}, kind, "Climbs"}, kChannels));
+    EXPECT_EQ(other->kind, kind);
+    EXPECT_FALSE(other->level.has_value());
+  }
 }
 
 TEST(StationStatus, NamesTheBestSiteThatIsNotRefused) {

@@ -1,6 +1,7 @@
 #include "engine/model/mission/mission_status.h"
 
 #include <algorithm>
+#include <string_view>
 
 #include "engine/core/check.h"
 
@@ -43,6 +44,21 @@ const char* MissionStateWord(MissionState state) { return NamesOf(state).word; }
 
 bool IsRefusal(const Event& event) {
   return event.kind == EventKind::kDecision && event.text.find(kRefusedMark) != std::string::npos;
+}
+
+std::vector<std::string> ActingFaults(const std::vector<Event>& events) {
+  std::vector<std::string> acting;
+  for (const Event& event : events) {
+    if (event.kind != EventKind::kFault) {
+      continue;
+    }
+    if (event.text.starts_with(kFaultBegan)) {
+      acting.push_back(event.text.substr(std::string_view(kFaultBegan).size()));
+    } else if (event.text.starts_with(kFaultEnded)) {
+      std::erase(acting, event.text.substr(std::string_view(kFaultEnded).size()));
+    }
+  }
+  return acting;
 }
 
 bool MissionStatus::IsRefused(std::uint64_t site_id) const {

@@ -64,7 +64,8 @@ enum class EventKind : std::uint8_t {
   kSetting,
   kAlarm,
   kBookmark,
-  kVehicle
+  kVehicle,
+  kFault,  ///< of a simulated flight: one was injected, or ended
 };
 struct Event {
   Timestamp time;
@@ -80,6 +81,12 @@ struct Event {
 inline constexpr const char* kRefusedMark = " refused: ";
 /// The event tells of a command that the station refused.
 bool IsRefusal(const Event& event);
+
+/// What an event of a fault begins with; the fault in words follows: "GPS jump 3 m".
+inline constexpr const char* kFaultBegan = "Fault injected: ";
+inline constexpr const char* kFaultEnded = "Fault ended: ";
+/// Faults in words that were injected and have not ended, oldest first.
+std::vector<std::string> ActingFaults(const std::vector<Event>& events);
 
 /// What the last maps together say of the approved site.
 enum class SiteVerdict : std::uint8_t {

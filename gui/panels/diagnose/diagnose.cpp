@@ -31,6 +31,8 @@ const char* KindWord(EventKind kind) {
       return "Bookmark";
     case EventKind::kVehicle:
       return "Vehicle";
+    case EventKind::kFault:
+      return "Fault";
   }
   return "";
 }

@@ -1,6 +1,7 @@
 // Timeline of Review: what the lanes hold.
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 #include "gui/panels/alarm_look.h"
 #include "gui/panels/review/review.h"
@@ -148,6 +149,15 @@ Lane AlarmLane(const EngineSnapshot& snap, const FlightRecord* record, const Pal
   return lane;
 }
 
+/// "GPS jump 3 m ended": what a mark says of a fault.
+std::string FaultWords(const std::string& text) {
+  const std::string_view began = kFaultBegan, ended = kFaultEnded;
+  if (text.starts_with(began)) {
+    return MarkWords(text.substr(began.size()));
+  }
+  return text.starts_with(ended) ? MarkWords(text.substr(ended.size())) + " ended" : text;
+}
+
 Lane MarkLane(const EngineSnapshot& snap, const FlightRecord* record, const Palette& p) {
   Lane lane{"Limits and marks", {}, {}};
   for (const Event& event : EventsOf(snap, record)) {
@@ -156,6 +166,8 @@ Lane MarkLane(const EngineSnapshot& snap, const FlightRecord* record, const Pale
       lane.marks.push_back({t, Icon::kScreen, p.text2, MarkWords(event.text), event.text});
     } else if (event.kind == EventKind::kBookmark) {
       lane.marks.push_back({t, Icon::kFlag, p.text1, MarkWords(event.text), event.text});
+    } else if (event.kind == EventKind::kFault) {
+      lane.marks.push_back({t, Icon::kFlag, p.text1, FaultWords(event.text), event.text});
     } else if (event.kind == EventKind::kDecision) {
       lane.marks.push_back({t, Icon::kDone, p.text1, MarkWords(event.text), event.text});
     }

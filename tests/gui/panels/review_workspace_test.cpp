@@ -520,6 +520,19 @@ TEST(ReviewWorkspace, AlarmMarksHaveTheirLevelAndTheHeaviestIsOnTop) {
   EXPECT_EQ(ui.items.Find("tooltip")->text, "WARNING Left camera stale. Wave off");
 }
 
+TEST(ReviewWorkspace, MarksWhereFaultsWereInjectedAndEnded) {
+  FlightRecord record = Record();
+  const auto at = [&](double s) { return AddSeconds({0}, kStart_s + s); };
+  record.events = {{at(20), EventKind::kFault, "Fault injected: GPS jump 3 m"},
+                   {at(40), EventKind::kFault, "Fault ended: GPS jump 3 m"}};
+  const Lane marks = MakeTimeline(Replay(false), &record, {}, MakeDarkPalette(), true).lanes[5];
+  ASSERT_EQ(marks.marks.size(), 2u);
+  EXPECT_EQ(marks.marks[0].text, "GPS jump 3 m");
+  EXPECT_EQ(marks.marks[0].hint, "Fault injected: GPS jump 3 m");
+  EXPECT_EQ(marks.marks[1].text, "GPS jump 3 m ended");
+  EXPECT_NEAR(marks.marks[1].at_s, 40, 1e-3);
+}
+
 /// Where the line of a trace is broken: x of the last point before each break.
 std::vector<float> BreaksOf(const PlotTrace& trace) {
   std::vector<float> at;

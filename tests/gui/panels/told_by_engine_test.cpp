@@ -59,6 +59,23 @@ TEST(PlotLimits, TheDistanceFromTheCentreHasALimitWhileTheEngineSaysSo) {
   EXPECT_NEAR(limit->rect.x, plot.x + 52 + (plot.w - 66) * (40 - 4.9f) / 64, 2);
 }
 
+TEST(StatusBar, TellsWhatIsInjectedIntoTheFlightAndNothingWhileNothingIs) {
+  EngineSnapshot snap = fake::Snapshot(MissionState::kProposed);
+  EXPECT_EQ(FlyWindow(1920, 1080, snap).ui.items.Find("status/Faults"), nullptr);
+  snap.session.Edit().injected_faults = {"GPS jump 3 m"};
+  FlyWindow one(1920, 1080, snap);
+  EXPECT_EQ(one.ui.items.Find("status/Faults")->text, "1 fault injected: GPS jump 3 m");
+  snap.session.Edit().injected_faults.emplace_back("laser stuck");
+  for (const int width_px : {1920, 1280}) {
+    FlyWindow two(width_px, 1080, snap);
+    const Item* chip = two.ui.items.Find("status/Faults");
+    EXPECT_EQ(chip->text, "2 faults injected: GPS jump 3 m, laser stuck");
+    const Rect bar = two.ui.items.Find("panel/Status bar")->rect;
+    EXPECT_GE(chip->rect.y, bar.y);
+    EXPECT_LE(chip->rect.bottom(), bar.bottom());
+  }
+}
+
 TEST(Evidence, OfAnArmedSiteStandsUnderTheLimitsItWasArmedUnder) {
   EngineSnapshot snap = fake::Snapshot(MissionState::kArmed);
   snap.session.Edit().preview_settings.slad.limits.max_slope_deg = 1;
