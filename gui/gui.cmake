@@ -31,7 +31,7 @@ palace_room(panels gui/panels palace_widgets)
 # The layout alone, for tests that need no engine.
 add_library(palace_layout STATIC gui/app/layout.cpp)
 target_link_libraries(palace_layout PUBLIC palace_flags palace_panels)
-palace_room(app gui/app palace_report palace_panels palace_render palace_platform palace_runtime palace_simulation palace_journal palace_capture palace_survey)
+palace_room(app gui/app palace_report palace_panels palace_render palace_platform palace_runtime palace_simulation palace_faults palace_journal palace_capture palace_survey)
 palace_precompile(render platform widgets panels app)
 foreach(room render app)
   get_target_property(kind palace_${room} TYPE)

@@ -43,7 +43,7 @@ Result<Hover> FlyHover(double wind_mps, double offset_s, std::uint64_t seed,
   FaultedSource source(session->simulator, nullptr, seed);
   if (offset_s != 0) {
     // Stamps of poses that are early make pictures late.
-    const Status added =
+    const Result<int> added =
         source.Add({.kind = FaultKind::kAttitudeShifted, .value = -offset_s, .from_s = kBefore_s});
     if (!added) {
       return added.error();

@@ -11,6 +11,7 @@
 #include "engine/core/text.h"
 #include "engine/core/units.h"
 #include "engine/experiments/mission_flight.h"
+#include "engine/faults/fault_plan.h"
 #include "engine/report/statistics.h"
 #include "engine/report/svg_plot.h"
 #include "engine/runtime/settings_io.h"
@@ -26,6 +27,8 @@ struct LandingOptions {
   std::string vehicle = kDefaultVehicle;
   double wind_mps = 0;
   std::vector<std::string> set;
+  std::vector<std::string> faults;
+  std::string faults_file;
 };
 
 Result<std::vector<TrialRow>> RunTrial(const LandingOptions& options, std::uint64_t seed,
@@ -38,11 +41,16 @@ Result<std::vector<TrialRow>> RunTrial(const LandingOptions& options, std::uint6
   if (!settings) {
     return settings.error();
   }
+  const Result<FaultPlan> plan = ReadFaultPlan(options.faults_file, options.faults);
+  if (!plan) {
+    return plan.error();
+  }
   const Result<FlownMission> done = FlyMission({.scenario = options.scenario,
                                                 .seed = seed,
                                                 .vehicle = *vehicle,
                                                 .settings = *settings,
-                                                .wind_mps = options.wind_mps},
+                                                .wind_mps = options.wind_mps,
+                                                .faults = *plan},
                                                camera);
   if (!done) {
     return done.error();
@@ -175,6 +183,8 @@ Experiment LandingExperiment(SceneCameraFactory camera) {
         ->check(FiniteRange(0.0, 15.0))
         ->capture_default_str();
     verb.add_option("--set", options->set, "One setting, e.g. slad.max_slope_deg=8");
+    verb.add_option("--fault", options->faults, kFaultHelp);
+    verb.add_option("--faults", options->faults_file, kFaultsHelp);
   };
   experiment.setup = [options] {
     std::string text =
@@ -182,6 +192,10 @@ Experiment LandingExperiment(SceneCameraFactory camera) {
     text += options->vehicle == kDefaultVehicle ? "" : ", vehicle " + options->vehicle;
     for (const std::string& assignment : options->set) {
       text += ", " + assignment;
+    }
+    text += options->faults_file.empty() ? "" : ", faults " + options->faults_file;
+    for (const std::string& fault : options->faults) {
+      text += ", fault " + fault;
     }
     return text;
   };

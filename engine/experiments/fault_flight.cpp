@@ -182,7 +182,7 @@ bool Begins(FaultPhase phase, const MissionStatus& mission, Timestamp now) {
 Status Strike(FaultedSource& source, const FaultCase& fault) {
   for (Fault part : fault.faults) {
     part.from_s = source.now_s() + 1e-3;  // from the next bundle on
-    if (const Status added = source.Add(part); !added) {
+    if (const Result<int> added = source.Add(part); !added) {
       return added.error();
     }
   }

@@ -3,6 +3,7 @@
 #include <memory>
 #include <utility>
 
+#include "engine/faults/faulted_source.h"
 #include "engine/runtime/engine.h"
 #include "engine/runtime/scripted_operator.h"
 #include "engine/simulation/session.h"
@@ -62,11 +63,15 @@ Result<FlownMission> FlyMission(const MissionFlight& flight, const SceneCameraFa
     return session.error();
   }
   const std::shared_ptr<Simulator> simulator = session->simulator;
+  const auto source = std::make_shared<FaultedSource>(simulator, simulator, flight.seed);
+  if (const Status planned = source->faults().Add(flight.faults); !planned) {
+    return planned.error();
+  }
   EngineParts parts;
   parts.settings = flight.settings;
   parts.mission.session_id = session->id;
-  parts.source = simulator;
-  parts.link = simulator;
+  parts.source = source;
+  parts.link = source;
   Engine engine(std::move(parts), /*threaded=*/false);
   FlightSummarizer summarizer(std::move(session->scene));
   ScriptedOperator pilot;

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "engine/core/result.h"
+#include "engine/faults/fault_plan.h"
 #include "engine/model/settings/settings.h"
 #include "engine/runtime/flight_summary.h"
 #include "engine/simulation/simulator.h"
@@ -19,6 +20,7 @@ struct MissionFlight {
   VehicleDescription vehicle = DefaultVehicle();
   Settings settings{};
   double wind_mps = 0;
+  FaultPlan faults{};
   double limit_s = 180;  ///< of flown time
   /// It also ends when nothing was approved for that long, or when it holds or climbs away that
   /// long without going on.

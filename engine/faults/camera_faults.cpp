@@ -10,6 +10,8 @@ namespace {
 constexpr double kMemory_s = 2;
 constexpr double kStampSlack_s = 1e-4;
 constexpr int kDarkNoise_grey = 2;
+constexpr double kThroughDirt = 1.0 / 3;
+constexpr double kLeastBlotch = 0.02, kMostBlotch = 0.08;  // radius, of the picture's width
 
 bool IsFreeze(FaultKind kind) {
   return kind == FaultKind::kCameraFrozen || kind == FaultKind::kCameraFrozenPixel ||
@@ -24,6 +26,39 @@ void Scale(double factor, ImageU8& picture) {
   for (std::uint8_t& grey : picture.pixels()) {
     grey = Grey(factor * grey);
   }
+}
+
+void AddGlare(double grey, ImageU8& picture) {
+  const int last = std::max(1, picture.width() - 1);
+  for (int y = 0; y < picture.height(); ++y) {
+    for (int x = 0; x < picture.width(); ++x) {
+      picture.at(x, y) = Grey(picture.at(x, y) + grey * x / last);
+    }
+  }
+}
+
+/// Round blotches anywhere, until exactly `count` pixels are covered.
+std::vector<std::uint8_t> Blotches(RandomStream& random, std::size_t count, int width, int height) {
+  std::vector<std::uint8_t> covered(static_cast<std::size_t>(width) *
+                                    static_cast<std::size_t>(height));
+  std::size_t done = 0;
+  while (done < std::min(count, covered.size())) {
+    const double cx = random.Uniform(0, width), cy = random.Uniform(0, height);
+    const double r = width * random.Uniform(kLeastBlotch, kMostBlotch) + 1;
+    for (int y = std::max(0, static_cast<int>(cy - r)); y < std::min<double>(height, cy + r); ++y) {
+      for (int x = std::max(0, static_cast<int>(cx - r)); x < std::min<double>(width, cx + r);
+           ++x) {
+        std::uint8_t& pixel =
+            covered[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+                    static_cast<std::size_t>(x)];
+        if (pixel == 0 && done < count && std::hypot(x - cx, y - cy) <= r) {
+          pixel = 1;
+          ++done;
+        }
+      }
+    }
+  }
+  return covered;
 }
 
 }  // namespace
@@ -42,6 +77,14 @@ std::shared_ptr<const StereoFrame> CameraFaults::Apply(std::shared_ptr<const Ste
   };
   frozen_left_ = freezes(ChannelId::kCameraLeft) ? std::move(frozen_left_) : ImageU8{};
   frozen_right_ = freezes(ChannelId::kCameraRight) ? std::move(frozen_right_) : ImageU8{};
+  const auto repeats = [&](ChannelId camera) {
+    return std::any_of(faults.begin(), faults.end(), [&](const Fault& fault) {
+      return fault.kind == FaultKind::kCameraRepeated && fault.ActsAt(now_s) &&
+             fault.Strikes(camera);
+    });
+  };
+  shown_left_ = repeats(ChannelId::kCameraLeft) ? std::move(shown_left_) : frame;
+  shown_right_ = repeats(ChannelId::kCameraRight) ? std::move(shown_right_) : frame;
   std::shared_ptr<StereoFrame> struck;
   for (const Fault& fault : faults) {
     if (fault.kind > FaultKind::kCamerasSwapped || !fault.ActsAt(now_s)) {
@@ -98,8 +141,42 @@ void CameraFaults::Strike(const Fault& fault, ChannelId camera, ImageU8 StereoFr
       picture = found->*side;
       break;
     }
+    case FaultKind::kCameraRepeated:
+      Repeat(value, camera, side, picture);
+      break;
+    case FaultKind::kCameraDirt:
+      AddDirt(value, camera, picture);
+      break;
+    case FaultKind::kCameraGlare:
+      AddGlare(value, picture);
+      break;
     default:
       break;
+  }
+}
+
+void CameraFaults::Repeat(double percent, ChannelId camera, ImageU8 StereoFrame::*side,
+                          ImageU8& picture) {
+  auto& shown = camera == ChannelId::kCameraLeft ? shown_left_ : shown_right_;
+  if (shown && 100 * random_.Uniform() < percent) {
+    picture = (*shown).*side;
+  } else {
+    shown = recent_.back();
+  }
+}
+
+void CameraFaults::AddDirt(double percent, ChannelId camera, ImageU8& picture) {
+  const bool left = camera == ChannelId::kCameraLeft;
+  Dirt& dirt = left ? dirt_left_ : dirt_right_;
+  const auto count = static_cast<std::size_t>(
+      std::llround(percent / 100 * static_cast<double>(picture.pixels().size())));
+  if (dirt.count != count || dirt.covered.size() != picture.pixels().size()) {
+    RandomStream where(seed_, left ? "dirt on the left lens" : "dirt on the right lens");
+    dirt = {count, Blotches(where, count, picture.width(), picture.height())};
+  }
+  for (std::size_t i = 0; i < dirt.covered.size(); ++i) {
+    std::uint8_t& grey = picture.pixels()[i];
+    grey = dirt.covered[i] != 0 ? Grey(kThroughDirt * grey) : grey;
   }
 }
 

@@ -1,5 +1,7 @@
 #include "engine/faults/fault.h"
 
+#include <algorithm>
+
 #include "engine/core/check.h"
 #include "engine/core/text.h"
 
@@ -8,22 +10,22 @@ namespace {
 
 constexpr double kDay_s = 86400;
 
-bool IsCamera(ChannelId id) {
-  return id == ChannelId::kCameraLeft || id == ChannelId::kCameraRight;
-}
-
-/// Channels that a kind strikes when none is given; kinds of the link strike any of the vehicle's.
 bool CanStrike(FaultKind kind, ChannelId id) {
-  if (kind >= FaultKind::kMissing) {
-    return id != ChannelId::kPositionEstimate;
-  }
-  if (kind < FaultKind::kCamerasSwapped) {
-    return IsCamera(id);
-  }
-  return false;  // the kind says itself what it strikes
+  const std::vector<ChannelId> channels = ChannelsOf(kind);
+  return std::find(channels.begin(), channels.end(), id) != channels.end();
 }
 
 }  // namespace
+
+std::vector<ChannelId> ChannelsOf(FaultKind kind) {
+  using C = ChannelId;
+  if (kind >= FaultKind::kMissing) {  // of the link: any of the vehicle's
+    return {C::kCameraLeft, C::kCameraRight, C::kVehiclePose,  C::kImu,
+            C::kGps,        C::kLaserRange,  C::kVehicleStatus};
+  }
+  return kind < FaultKind::kCamerasSwapped ? std::vector{C::kCameraLeft, C::kCameraRight}
+                                           : std::vector<C>{};
+}
 
 const char* FaultVerbName(FaultVerb verb) {
   constexpr const char* kNames[] = {"off",  "stuck",   "garbage",     "wrong",
@@ -47,7 +49,13 @@ const std::vector<FaultKindRow>& FaultKindTable() {
       {K::kCameraOverexposed, V::kWrong, "camera_overexposed", "times as bright", 6, 1, 100,
        "Too much light: most pixels saturate"},
       {K::kCameraLate, V::kDelayed, "camera_late", "s", 0.3, 0, 2,
-       "The content is this old; stamps are of now"},
+       "The content is this old, in whole pictures; stamps are of now"},
+      {K::kCameraRepeated, V::kStuck, "camera_repeated", "%", 30, 0, 100,
+       "This share of pictures is the one before once more, each camera by itself"},
+      {K::kCameraDirt, V::kWrong, "camera_dirt", "%", 10, 0, 100,
+       "Blotches on the lens: this share of the picture gets a third of its light"},
+      {K::kCameraGlare, V::kWrong, "camera_glare", "grey levels", 120, 0, 255,
+       "Veiling glare: light added, from none at the left edge to this much at the right"},
       {K::kCamerasSwapped, V::kWrong, "cameras_swapped", "", NAN, 0, 0,
        "Left and right are exchanged"},
       {K::kAttitudeNan, V::kGarbage, "attitude_nan", "", NAN, 0, 0,
@@ -56,15 +64,25 @@ const std::vector<FaultKindRow>& FaultKindTable() {
        "Poses come this much later, with the right stamps"},
       {K::kAttitudeShifted, V::kWrong, "attitude_shifted", "s", 0.1, -1, 1,
        "Stamps of poses are off by this much against pictures and other sensors"},
+      {K::kAttitudeBias, V::kWrong, "attitude_bias", "deg", 3, -30, 30,
+       "Every pose is rolled right by this much; places and rates are right"},
+      {K::kImuGyroBias, V::kWrong, "imu_gyro_bias", "deg/s", 2, -90, 90,
+       "The inertial unit's rate of roll is off by this much; poses are right"},
+      {K::kImuAccelBias, V::kWrong, "imu_accel_bias", "m/s2", 0.5, -20, 20,
+       "The inertial unit's forward acceleration is off by this much; poses are right"},
       {K::kLaserStuck, V::kStuck, "laser_stuck", "", NAN, 0, 0, "The last range for ever"},
       {K::kLaserScaled, V::kWrong, "laser_scaled", "times the range", 0.5, 0.01, 100,
        "Every range times this"},
       {K::kLaserSpikes, V::kIntermittent, "laser_spikes", "m", 20, -60, 60,
        "One range in twenty is off by this much"},
+      {K::kLaserNoReturn, V::kOff, "laser_no_return", "", NAN, 0, 0,
+       "The laser answers, but no echo comes back to it"},
       {K::kGpsJump, V::kWrong, "gps_jump", "m", 8, -1e5, 1e5,
        "Fixes lie this far north of the truth; their velocities are right"},
       {K::kGpsDrift, V::kWrong, "gps_drift", "m/s", 0.5, -100, 100,
        "Fixes move north at this rate; their velocities are right"},
+      {K::kGpsCanyon, V::kIntermittent, "gps_canyon", "m", 3, 0, 100,
+       "Multipath: each axis wanders with this sigma and 5 s correlation, half the fixes are lost"},
       {K::kClockStep, V::kWrong, "clock_step", "s", 5, -100 * kDay_s, 100 * kDay_s,
        "The vehicle's clock steps by this much"},
       {K::kClockDrift, V::kWrong, "clock_drift", "s/s", 0.01, -0.5, 0.5,

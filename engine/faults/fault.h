@@ -41,16 +41,24 @@ enum class FaultKind : std::uint8_t {
   kCameraDark,
   kCameraOverexposed,
   kCameraLate,
+  kCameraRepeated,
+  kCameraDirt,
+  kCameraGlare,
   kCamerasSwapped,
-  // The autopilot's own solution.
+  // The autopilot's own solution, and what it is made of.
   kAttitudeNan,
   kAttitudeLate,
   kAttitudeShifted,
+  kAttitudeBias,
+  kImuGyroBias,
+  kImuAccelBias,
   kLaserStuck,
   kLaserScaled,
   kLaserSpikes,
+  kLaserNoReturn,
   kGpsJump,
   kGpsDrift,
+  kGpsCanyon,
   // The vehicle itself.
   kClockStep,
   kClockDrift,
@@ -63,7 +71,7 @@ enum class FaultKind : std::uint8_t {
   kReordered,
   kDuplicated,
 };
-inline constexpr std::size_t kFaultKindCount = 25;
+inline constexpr std::size_t kFaultKindCount = 33;
 
 struct FaultKindRow {
   FaultKind kind;
@@ -74,6 +82,9 @@ struct FaultKindRow {
   double least, most;    ///< values that mean something
   const char* what;      ///< a sentence
 };
+/// Channels that a kind strikes where none is given and that one may be chosen of; empty: the kind
+/// says itself what it strikes.
+std::vector<ChannelId> ChannelsOf(FaultKind kind);
 /// All of them, in the order of FaultKind.
 const std::vector<FaultKindRow>& FaultKindTable();
 const FaultKindRow& RowOf(FaultKind kind);
@@ -88,6 +99,12 @@ struct Fault {
   bool ActsAt(double now_s) const { return now_s >= from_s && now_s < to_s; }
   double ValueOrDefault() const;
   bool Strikes(ChannelId id) const { return !channel || *channel == id; }
+  /// To the bit; values and times that were left out are alike.
+  friend bool operator==(const Fault& a, const Fault& b) {
+    const bool same_value = a.value == b.value || (std::isnan(a.value) && std::isnan(b.value));
+    return a.kind == b.kind && a.channel == b.channel && same_value && a.from_s == b.from_s &&
+           a.to_s == b.to_s;
+  }
 };
 
 /// Refuses a value outside of the table, a channel that the kind cannot strike and an interval that

@@ -2,8 +2,6 @@
 
 #include <utility>
 
-#include "engine/wire/convert.h"
-
 namespace palace {
 namespace {
 
@@ -16,18 +14,8 @@ FaultedSource::FaultedSource(std::shared_ptr<Source> source, std::shared_ptr<Veh
                              std::uint64_t seed)
     : source_(std::move(source)),
       link_(std::move(link)),
-      pictures_(seed),
-      vehicle_(seed),
-      messages_(seed),
+      injector_(seed),
       bundles_({}, /*follow_simulation=*/false) {}
-
-::palace::Status FaultedSource::Add(const Fault& fault) {
-  ::palace::Status sound = CheckFault(fault);
-  if (sound) {
-    faults_.push_back(fault);
-  }
-  return sound;
-}
 
 Result<std::shared_ptr<const FrameBundle>> FaultedSource::Next(std::stop_token stop) {
   do {
@@ -35,29 +23,37 @@ Result<std::shared_ptr<const FrameBundle>> FaultedSource::Next(std::stop_token s
     if (!next) {
       return next;
     }
+    struck_ = struck_ || injector_.touched();
     Take(**next);
-  } while (!bundles_.ready() && now_s_ - delivered_s_ < kHeartbeat_s - kSlack_s);
-  delivered_s_ = now_s_;
-  auto delivered = std::make_shared<FrameBundle>(*bundles_.HandOn(now_s_));
-  ++delivered->sequence;  // a flight counts from 1
+    if (!struck_) {
+      HandOnUntouched(**next);
+      return next;
+    }
+  } while (!bundles_.ready() && injector_.now_s() - delivered_s_ < kHeartbeat_s - kSlack_s);
+  delivered_s_ = injector_.now_s();
+  auto delivered = std::make_shared<FrameBundle>(*bundles_.HandOn(delivered_s_));
+  delivered->injected_faults = injector_.TakeActing();
+  delivered->sequence = ++sequence_;
   return std::shared_ptr<const FrameBundle>(std::move(delivered));
 }
 
-void FaultedSource::Take(const FrameBundle& bundle) {
-  start_ = start_.value_or(bundle.time);
-  now_s_ = SecondsBetween(*start_, bundle.time);
-  FrameBundle struck = bundle;
-  if (struck.stereo) {
-    struck.stereo = pictures_.Apply(struck.stereo, faults_, now_s_);
+/// Clocks and counters of the way over the messages know what a fault later finds them at.
+void FaultedSource::HandOnUntouched(const FrameBundle& bundle) {
+  delivered_s_ = injector_.now_s();
+  if (bundles_.ready()) {
+    (void)bundles_.HandOn(delivered_s_);
   }
-  vehicle_.Apply(struck, faults_, now_s_);
-  for (const WireMessage& message :
-       messages_.Apply(EncodeBundle(struck, ChannelNames{}), faults_, now_s_)) {
-    bundles_.Take(message, now_s_);
+  sequence_ = bundle.sequence;
+}
+
+void FaultedSource::Take(const FrameBundle& bundle) {
+  const std::vector<WireMessage> arrived = injector_.Strike(bundle);
+  for (const WireMessage& message : arrived) {
+    bundles_.Take(message, injector_.now_s());
   }
   const std::lock_guard lock(mutex_);
-  clock_offset_us_ = vehicle_.clock_offset_us();
-  losses_ = bundles_.Count();
+  clock_offset_us_ = injector_.clock_offset_us();
+  losses_ = struck_ ? bundles_.Count() : source_->Lost();
 }
 
 Losses FaultedSource::Lost() const {
@@ -65,18 +61,30 @@ Losses FaultedSource::Lost() const {
   return losses_;
 }
 
+bool FaultedSource::MovesClock(const VehicleMessage& message, std::int64_t& offset_us) const {
+  const std::lock_guard lock(mutex_);
+  offset_us = clock_offset_us_;
+  return offset_us != 0 && std::holds_alternative<PositionEstimate>(message);
+}
+
 bool FaultedSource::Send(const VehicleMessage& message) {
-  std::int64_t offset_us = 0;
-  {
-    const std::lock_guard lock(mutex_);
-    offset_us = clock_offset_us_;
-  }
   if (!link_) {
     return false;
+  }
+  std::int64_t offset_us = 0;
+  if (!MovesClock(message, offset_us)) {
+    return link_->Send(message);
   }
   VehicleMessage mapped = OnClock(message, -offset_us);
   link_->Seal(mapped);
   return link_->Send(mapped);
+}
+
+void FaultedSource::Seal(VehicleMessage& message) {
+  std::int64_t offset_us = 0;
+  if (link_ && !MovesClock(message, offset_us)) {
+    link_->Seal(message);
+  }
 }
 
 void FaultedSource::Hear(const FrameBundle& bundle) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/core/units.h"
 #include "engine/wire/bundle_assembler.h"
 
 namespace palace {
@@ -11,7 +12,20 @@ namespace {
 
 constexpr double kNearestPose_s = 0.1;
 constexpr double kSpikeShare = 0.05;
+constexpr double kMultipath_s = 5;      // correlation in time
+constexpr double kFixesInCanyon = 0.5;  // of those under an open sky
 constexpr std::uint64_t kOtherBoot = 0x5bd1e995a5a5a5a5;
+
+void RollPoses(double angle_rad, FrameBundle& bundle) {
+  const Eigen::Matrix3d R_BF =
+      Eigen::AngleAxisd(angle_rad, Eigen::Vector3d::UnitX()).toRotationMatrix();
+  for (VehiclePose& pose : bundle.poses) {
+    pose.X_WB.R = pose.X_WB.R * R_BF;
+  }
+  if (bundle.pose_at_exposure) {
+    bundle.pose_at_exposure->X_WB.R = bundle.pose_at_exposure->X_WB.R * R_BF;
+  }
+}
 
 void MoveClock(std::int64_t offset_us, FrameBundle& bundle) {
   if (offset_us != 0) {
@@ -48,7 +62,7 @@ void MoveClock(std::int64_t offset_us, FrameBundle& bundle) {
 void VehicleFaults::Apply(FrameBundle& bundle, const std::vector<Fault>& faults, double now_s) {
   double stamp_off_s = 0, late_s = 0;
   bool poses_moved = !waiting_.empty();
-  bool laser_stuck = false;
+  bool laser_stuck = false, in_canyon = false;
   clock_offset_us_ = 0;
   const Timestamp true_time = bundle.time;
   for (const Fault& fault : faults) {
@@ -68,12 +82,26 @@ void VehicleFaults::Apply(FrameBundle& bundle, const std::vector<Fault>& faults,
         stamp_off_s += value;
         poses_moved = true;
         break;
+      case FaultKind::kAttitudeBias:
+        RollPoses(Rad(value), bundle);
+        break;
+      case FaultKind::kImuGyroBias:
+      case FaultKind::kImuAccelBias:
+        for (ImuSample& sample : bundle.imu) {
+          if (fault.kind == FaultKind::kImuGyroBias) {
+            sample.angular_rate_B.x() += Rad(value);
+          } else {
+            sample.specific_force_B.x() += value;
+          }
+        }
+        break;
       case FaultKind::kLaserStuck:
         laser_stuck = true;
         StrikeLaser(fault, bundle);
         break;
       case FaultKind::kLaserScaled:
       case FaultKind::kLaserSpikes:
+      case FaultKind::kLaserNoReturn:
         StrikeLaser(fault, bundle);
         break;
       case FaultKind::kGpsJump:
@@ -84,6 +112,10 @@ void VehicleFaults::Apply(FrameBundle& bundle, const std::vector<Fault>& faults,
           const bool drifts = fault.kind == FaultKind::kGpsDrift;
           fix.p_WB.x() += drifts ? value * std::max(0.0, since_s) : value;
         }
+        break;
+      case FaultKind::kGpsCanyon:
+        in_canyon = true;
+        ScatterFixes(value, bundle);
         break;
       case FaultKind::kClockStep:
         clock_offset_us_ += std::llround(1e6 * value);
@@ -106,6 +138,9 @@ void VehicleFaults::Apply(FrameBundle& bundle, const std::vector<Fault>& faults,
   }
   if (!laser_stuck) {
     stuck_range_m_.reset();
+  }
+  if (!in_canyon) {
+    multipath_time_.reset();
   }
   if (poses_moved) {
     DelayPoses(stamp_off_s, late_s, bundle);
@@ -156,6 +191,8 @@ void VehicleFaults::StrikeLaser(const Fault& fault, FrameBundle& bundle) {
       range.range_m *= value;
     } else if (fault.kind == FaultKind::kLaserSpikes) {
       range.range_m += random_.Uniform() < kSpikeShare ? value : 0;
+    } else if (fault.kind == FaultKind::kLaserNoReturn) {
+      range.range_m = NAN;
     } else {
       if (!stuck_range_m_ && std::isfinite(range.range_m)) {
         stuck_range_m_ = range.range_m;
@@ -163,6 +200,23 @@ void VehicleFaults::StrikeLaser(const Fault& fault, FrameBundle& bundle) {
       range.range_m = stuck_range_m_.value_or(range.range_m);
     }
   }
+}
+
+void VehicleFaults::ScatterFixes(double sigma_m, FrameBundle& bundle) {
+  std::vector<GpsFix> received;
+  for (GpsFix& fix : bundle.gps) {
+    const double kept =
+        multipath_time_ ? std::exp(-SecondsBetween(*multipath_time_, fix.time) / kMultipath_s) : 0;
+    for (double& axis : multipath_) {
+      axis = kept * axis + std::sqrt(1 - kept * kept) * random_.Normal();
+    }
+    multipath_time_ = fix.time;
+    fix.p_WB += sigma_m * multipath_;
+    if (random_.Uniform() < kFixesInCanyon) {
+      received.push_back(fix);
+    }
+  }
+  bundle.gps = std::move(received);
 }
 
 void VehicleFaults::Restart(const Fault& fault, FrameBundle& bundle) {

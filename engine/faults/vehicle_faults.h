@@ -35,13 +35,16 @@ class VehicleFaults {
   void DelayPoses(double stamp_off_s, double late_s, FrameBundle& bundle);
   void ReleasePoses(FrameBundle& bundle);
   void StrikeLaser(const Fault& fault, FrameBundle& bundle);
+  /// Multipath: a first-order Gauss-Markov error an axis.
+  void ScatterFixes(double sigma_m, FrameBundle& bundle);
   void Restart(const Fault& fault, FrameBundle& bundle);
 
   RandomStream random_;
   std::deque<WaitingPose> waiting_;
   std::optional<VehiclePose> last_pose_;
   std::optional<double> stuck_range_m_;
-  std::optional<double> last_range_m_;
+  Eigen::Vector3d multipath_ = Eigen::Vector3d::Zero();  ///< in sigmas
+  std::optional<Timestamp> multipath_time_;              ///< of the newest fix in the canyon
   std::int64_t clock_offset_us_ = 0;
 };
 

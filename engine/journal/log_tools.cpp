@@ -4,11 +4,15 @@
 #include <functional>
 #include <map>
 
+#include "engine/core/plain_text.h"
 #include "engine/journal/log_index.h"
 #include "engine/journal/log_writer.h"
+#include "engine/wire/convert.h"
 
 namespace palace {
 namespace {
+
+constexpr std::size_t kMostFaultEvents = 1000;  // told of one log
 
 /// Copies the readable events that `keep` wants.
 Result<CopiedLog> CopyEvents(const LogFile& file, const LogIndex& index,
@@ -46,6 +50,24 @@ Timestamp StartOf(const LogIndex& index) {
     }
   }
   return {};
+}
+
+/// What the log says was injected into a simulated flight. Its words may be anybody's.
+std::vector<Event> FaultsOf(const LogFile& file, const LogIndex& index,
+                            const ChannelNames& channels) {
+  std::vector<Event> faults;
+  for (const LogEntry& entry : index.entries) {
+    if (index.channels[entry.channel] != channels.event || faults.size() == kMostFaultEvents) {
+      continue;
+    }
+    const Result<WireMessage> message = ReadEvent(file, entry, index.channels);
+    const Result<Event> event = message ? DecodeEvent(*message) : Result<Event>(message.error());
+    if (event && event->kind == EventKind::kFault) {
+      faults.push_back(*event);
+      faults.back().text = PlainText(event->text, kLongestReason);
+    }
+  }
+  return faults;
 }
 
 }  // namespace
@@ -90,6 +112,7 @@ Result<LogDescription> DescribeLog(const std::filesystem::path& log, bool verify
   description.bundles = bundles.size();
   description.parts = FindParts(bundles);
   description.duration_s = SecondsBetween(description.first, description.last);
+  description.faults = FaultsOf(*file, *index, channels);
   return description;
 }
 

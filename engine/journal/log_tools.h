@@ -8,6 +8,7 @@
 
 #include "engine/core/result.h"
 #include "engine/journal/log_index.h"
+#include "engine/model/mission/mission_status.h"
 #include "engine/wire/channels.h"
 
 namespace palace {
@@ -27,6 +28,7 @@ struct LogDescription {
   Timestamp first;
   Timestamp last;
   double duration_s = 0;
+  std::vector<Event> faults;  ///< of a simulated flight: injected, and ended
 };
 
 /// `verify`: scans every byte and checks sums; else trusts a fitting sidecar.

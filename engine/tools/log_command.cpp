@@ -106,6 +106,9 @@ int Describe(const LogOptions& options, bool verify) {
       }
       std::printf("\n");
     }
+    for (const Event& fault : log->faults) {
+      std::printf("%9.1f s  %s\n", SecondsBetween(log->first, fault.time), fault.text.c_str());
+    }
     std::printf("%-24s %10s %14s %9s\n", "channel", "events", "bytes", "Hz");
     for (const ChannelSummary& row : log->channels) {
       std::printf("%-24s %10llu %14llu %9.2f\n", row.name.c_str(),

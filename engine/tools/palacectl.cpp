@@ -16,6 +16,7 @@
 #include "engine/tools/camera_command.h"
 #include "engine/tools/capture_command.h"
 #include "engine/tools/evaluate_command.h"
+#include "engine/tools/faults_command.h"
 #include "engine/tools/log_command.h"
 #include "engine/tools/simulate_command.h"
 #include "engine/tools/trust_command.h"
@@ -91,8 +92,8 @@ int main(int argc, char** argv) {
   palace::KeepFreedMemory();
   palace::InitLogging(false);
   CLI::App app(
-      "PALACE without a window: simulate, analyze, capture, calibrate, camera, evaluate, log, "
-      "trust, vehicle, worlds",
+      "PALACE without a window: simulate, analyze, capture, calibrate, camera, evaluate, "
+      "faults, log, trust, vehicle, worlds",
       "palacectl");
   app.set_version_flag("--version", std::string("palacectl ") + palace::kProgramVersion);
   app.require_subcommand(1);
@@ -106,6 +107,7 @@ int main(int argc, char** argv) {
   palace::AddLogCommand(app, exit_code);
   palace::AddTrustCommand(app, exit_code);
   palace::AddVehicleCommand(app, exit_code);
+  palace::AddFaultsCommand(app, exit_code);
   palace::AddWorldsCommand(app, exit_code);
   try {
     app.parse(argc, argv);

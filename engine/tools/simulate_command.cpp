@@ -17,8 +17,11 @@
 #include "engine/core/termination.h"
 #include "engine/core/text.h"
 #include "engine/core/units.h"
+#include "engine/faults/fault_injector.h"
+#include "engine/faults/fault_plan.h"
 #include "engine/journal/log_index.h"
 #include "engine/journal/log_writer.h"
+#include "engine/model/mission/fault_events.h"
 #include "engine/simulation/session.h"
 #include "engine/simulation/vehicle_file.h"
 #include "engine/tools/simulate_export.h"
@@ -50,6 +53,8 @@ struct SimulateOptions {
   bool fast = false;
   bool realtime = false;
   bool no_pictures = false;
+  std::vector<std::string> faults;
+  std::string faults_file;
 };
 
 int Fail(const Error& error) {
@@ -81,6 +86,23 @@ Status CheckOptions(const SimulateOptions& options) {
     return UsageError(
         "--land goes with --export alone: on a bus a station lands the vehicle, and palace "
         "records its missions itself");
+  }
+  if (!options.export_folder.empty() && (!options.faults.empty() || !options.faults_file.empty())) {
+    return UsageError("--export writes what the sensors truly measured; leave the faults out");
+  }
+  return Ok();
+}
+
+/// A station seals what it sends for the vehicle's clock, and this vehicle keeps its own.
+Status CheckPlan(const SimulateOptions& options, const FaultPlan& plan) {
+  for (const Fault& fault : plan.faults) {
+    const bool of_clock = fault.kind == FaultKind::kClockStep ||
+                          fault.kind == FaultKind::kClockDrift || fault.kind == FaultKind::kRestart;
+    if (of_clock && IsOnABus(options)) {
+      return UsageError(std::string("fault ") + RowOf(fault.kind).name +
+                        " is not for a bus: seals are checked on the vehicle's own clock; fly it "
+                        "with palace, or into a log without --url");
+    }
   }
   return Ok();
 }
@@ -136,9 +158,30 @@ void PrintTrust(const SimulateOptions& options) {
   std::fflush(stdout);
 }
 
+/// What begins and ends to act, told on the terminal and in the log, never on the bus: a station
+/// must find out by itself.
+class FaultTeller {
+ public:
+  std::vector<WireMessage> Tell(FaultInjector& faults, Timestamp now,
+                                const ChannelNames& channels) {
+    const std::vector<std::string> before = std::exchange(acting_, faults.TakeActing());
+    std::vector<WireMessage> told;
+    for (const Event& event : FaultEvents(before, acting_, now)) {
+      std::printf("%8.1f s  %s\n", faults.now_s(), event.text.c_str());
+      std::fflush(stdout);
+      told.push_back(EncodeEvent(event, channels));
+    }
+    return told;
+  }
+
+ private:
+  std::vector<std::string> acting_;
+};
+
 /// Flies until the end, a signal or an error.
-Result<std::uint64_t> Fly(Source& source, VehicleServer* server, LogWriter* log,
-                          const ChannelNames& channels, std::stop_token stop) {
+Result<std::uint64_t> Fly(Source& source, FaultInjector& faults, VehicleServer* server,
+                          LogWriter* log, const ChannelNames& channels, std::stop_token stop) {
+  FaultTeller teller;
   std::jthread receiver;
   if (server != nullptr) {
     receiver = std::jthread([server](std::stop_token done) {
@@ -154,9 +197,14 @@ Result<std::uint64_t> Fly(Source& source, VehicleServer* server, LogWriter* log,
                                                     : Result<std::uint64_t>(bundle.error());
     }
     ++bundles;
-    Status done = server != nullptr ? server->Publish(**bundle) : Ok();
+    std::vector<WireMessage> sent =
+        faults.touched() ? faults.Strike(**bundle) : EncodeBundle(**bundle, channels);
+    Status done = server != nullptr ? server->Publish(sent, (*bundle)->time) : Ok();
+    for (WireMessage& message : teller.Tell(faults, (*bundle)->time, channels)) {
+      sent.push_back(std::move(message));
+    }
     if (log != nullptr) {
-      for (const WireMessage& message : EncodeBundle(**bundle, channels)) {
+      for (const WireMessage& message : sent) {
         done = done ? log->Write(message) : done;
       }
       done = done ? log->Flush() : done;
@@ -216,16 +264,16 @@ Result<std::unique_ptr<VehicleServer>> OpenServer(const SimulateOptions& options
 
 /// Flies into the log, if one is asked for.
 Result<std::uint64_t> FlyIntoLog(const SimulateOptions& options, Source& source,
-                                 VehicleServer* server, const ChannelNames& channels,
-                                 std::stop_token stop) {
+                                 FaultInjector& faults, VehicleServer* server,
+                                 const ChannelNames& channels, std::stop_token stop) {
   if (options.log.empty()) {
-    return Fly(source, server, nullptr, channels, stop);
+    return Fly(source, faults, server, nullptr, channels, stop);
   }
   Result<LogWriter> log = LogWriter::Create(options.log);
   if (!log) {
     return log.error();
   }
-  Result<std::uint64_t> bundles = Fly(source, server, &*log, channels, stop);
+  Result<std::uint64_t> bundles = Fly(source, faults, server, &*log, channels, stop);
   const Status closed = log->Close();
   if (!bundles && log->events() == 0) {  // no empty log stays behind
     std::error_code ignored;
@@ -238,6 +286,13 @@ Result<std::uint64_t> FlyIntoLog(const SimulateOptions& options, Source& source,
 int Simulate(const SimulateOptions& options, const SceneCameraFactory& cameras) {
   if (const Status good = CheckOptions(options); !good) {
     return Fail(good.error());
+  }
+  const Result<FaultPlan> plan = ReadFaultPlan(options.faults_file, options.faults);
+  if (!plan) {
+    return Fail(plan.error());
+  }
+  if (const Status fits = CheckPlan(options, *plan); !fits) {
+    return Fail(fits.error());
   }
   std::stop_source flight;
   const Termination termination([flight]() mutable { flight.request_stop(); });
@@ -268,8 +323,12 @@ int Simulate(const SimulateOptions& options, const SceneCameraFactory& cameras) 
   if (options.land) {
     return EndExport(*exporter, simulator, FlyMission(*session, source, flight.get_token()));
   }
+  FaultInjector faults(options.seed, *channels);
+  if (const Status planned = faults.Add(*plan); !planned) {
+    return Fail(planned.error());
+  }
   const Result<std::uint64_t> bundles =
-      FlyIntoLog(options, *source, server->get(), *channels, flight.get_token());
+      FlyIntoLog(options, *source, faults, server->get(), *channels, flight.get_token());
   if (!bundles) {
     return Fail(bundles.error());
   }
@@ -321,6 +380,8 @@ void AddSimulateCommand(CLI::App& app, int& exit_code, SceneCameraFactory camera
       ->capture_default_str();
   command->add_option("--wind-mps", options->wind_mps, "Mean wind at 20 ft")
       ->check(FiniteRange(0, 50));
+  command->add_option("--fault", options->faults, kFaultHelp);
+  command->add_option("--faults", options->faults_file, kFaultsHelp);
   command->add_option("--log", options->log, "Record to this LCM log (and its .idx)");
   command->add_option("--channels", options->channels_file, "Channel names (TOML)");
   CLI::Option* key = command->add_option("--key", options->keys,

@@ -191,8 +191,12 @@ Status VehicleServer::Poll(int timeout_ms) {
 }
 
 Status VehicleServer::Publish(const FrameBundle& bundle) {
-  newest_us_ = bundle.time.us;
-  for (const WireMessage& message : EncodeBundle(bundle, channels_)) {
+  return Publish(EncodeBundle(bundle, channels_), bundle.time);
+}
+
+Status VehicleServer::Publish(const std::vector<WireMessage>& messages, Timestamp time) {
+  newest_us_ = time.us;
+  for (const WireMessage& message : messages) {
     const Status published = bus_->Publish(message);
     if (!published) {
       return published;

@@ -75,6 +75,8 @@ class VehicleServer {
   /// Handles the messages that wait, a thousand at most; waits up to `timeout_ms` for the first.
   Status Poll(int timeout_ms);
   Status Publish(const FrameBundle& bundle);
+  /// The same already encoded, of that moment.
+  Status Publish(const std::vector<WireMessage>& messages, Timestamp time);
   std::uint64_t received() const { return received_; }
   std::uint64_t refused() const { return refused_; }
   /// Why the newest message that could not be read was refused; empty when none was. It is answered

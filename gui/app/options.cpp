@@ -7,6 +7,7 @@
 #include "engine/core/command_line.h"
 #include "engine/core/text.h"
 #include "engine/core/version.h"
+#include "engine/faults/fault_plan.h"
 #include "engine/model/settings/settings.h"
 #include "engine/simulation/vehicle_file.h"
 #include "engine/world/scene_library.h"
@@ -54,6 +55,8 @@ void Declare(CLI::App& app, AppOptions& options, SourceArguments& sources, bool&
                              MissionSettings{}.max_wind_mps, 0))
       ->check(FiniteRange(0.0, 15.0))
       ->capture_default_str();
+  app.add_option("--fault", options.faults, kFaultHelp);
+  app.add_option("--faults", options.faults_file, kFaultsHelp);
   app.add_option("--settings", options.settings.file, "Settings file (TOML)");
   app.add_option(
       "--channels", options.channels_file,
@@ -147,7 +150,7 @@ Result<AppOptions> ParseCommandLine(int argc, const char* const* argv) {
     return UsageError("--replay, --images, --cameras and --connect exclude each other");
   }
   if (chosen > 0) {
-    for (const char* simulated : {"--scenario", "--seed", "--wind"}) {
+    for (const char* simulated : {"--scenario", "--seed", "--wind", "--fault", "--faults"}) {
       if (app.count(simulated) > 0) {
         return UsageError(std::string(simulated) +
                           " is of the built-in simulation; leave it out with " +

@@ -20,10 +20,12 @@ struct AppOptions {
   std::string scenario = "runway";
   std::uint64_t seed = 1;
   double wind_mps = 0;
-  std::string vehicle;        ///< a name or a file; empty: the default one
-  SettingsRequest settings;   ///< read where it is known what they stand over
-  std::string channels_file;  ///< empty: see channels_file.h
-  std::string key;            ///< of --connect: a name or a file; empty: see station_key.h
+  std::vector<std::string> faults;  ///< of the simulation, as fault_text.h has them
+  std::string faults_file;          ///< more of them; empty: none
+  std::string vehicle;              ///< a name or a file; empty: the default one
+  SettingsRequest settings;         ///< read where it is known what they stand over
+  std::string channels_file;        ///< empty: see channels_file.h
+  std::string key;                  ///< of --connect: a name or a file; empty: see station_key.h
   bool headless = false;
   std::string script_file;
   std::filesystem::path record_dir = "logs";

@@ -7,6 +7,7 @@
 #include "engine/capture/image_folder_source.h"
 #include "engine/core/log.h"
 #include "engine/core/units.h"
+#include "engine/faults/fault_plan.h"
 #include "engine/journal/flight_recorder.h"
 #include "engine/journal/replay_source.h"
 #include "engine/runtime/settings_io.h"
@@ -24,6 +25,10 @@ namespace {
 
 Status OpenSimulation(const AppOptions& options, const VehicleDescription& vehicle, bool paced,
                       Session& session, EngineParts& parts) {
+  const Result<FaultPlan> plan = ReadFaultPlan(options.faults_file, options.faults);
+  if (!plan) {
+    return plan.error();
+  }
   Result<SimulatedSession> simulated = OpenSimulatedSession({.scenario = options.scenario,
                                                              .seed = options.seed,
                                                              .vehicle = vehicle,
@@ -36,10 +41,12 @@ Status OpenSimulation(const AppOptions& options, const VehicleDescription& vehic
   parts.mission.session_id = simulated->id;
   session.simulator = simulated->simulator;
   session.scene = std::move(simulated->scene);
-  session.source = session.simulator;
-  parts.source = session.simulator;
-  parts.link = session.simulator;
-  return Ok();
+  session.faulted =
+      std::make_shared<FaultedSource>(session.simulator, session.simulator, options.seed);
+  session.source = session.faulted;
+  parts.source = session.faulted;
+  parts.link = session.faulted;
+  return session.faulted->faults().Add(*plan);
 }
 
 Status OpenReplay(const AppOptions& options, bool paced, Session& session, EngineParts& parts) {

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "engine/core/result.h"
+#include "engine/faults/faulted_source.h"
 #include "engine/model/flight_record.h"
 #include "engine/runtime/engine.h"
 #include "engine/simulation/simulator.h"
@@ -20,6 +21,7 @@ struct Session {
   std::filesystem::path
       output_dir;  ///< log, screenshots and report of this session; may not exist yet
   std::shared_ptr<Simulator> simulator;        ///< simulation only
+  std::shared_ptr<FaultedSource> faulted;      ///< simulation only: round the simulator
   std::optional<World> scene;                  ///< simulation only
   std::shared_ptr<const FlightRecord> record;  ///< replay only
   std::shared_ptr<Source> source;

@@ -1,7 +1,9 @@
 #include "engine/faults/camera_faults.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -90,6 +92,60 @@ TEST(CameraFaults, BlackDarkAndBrightAreThat) {
   EXPECT_LT(mean(dark), 5);
   EXPECT_GT(Different(dark, ImageU8(dark.width(), dark.height())), 300) << "noise stays";
   EXPECT_GT(mean(Struck(FaultKind::kCameraOverexposed)[8]->left), 190);
+}
+
+TEST(CameraFaults, ARepeatedPictureIsTheOneShownBefore) {
+  CameraFaults faults(7);
+  const std::vector<Fault> third = {
+      {.kind = FaultKind::kCameraRepeated, .channel = ChannelId::kCameraLeft, .value = 30}};
+  constexpr int kFrames = 1000;
+  int repeated = 0;
+  ImageU8 shown;
+  for (int i = 0; i < kFrames; ++i) {
+    const auto frame = faults.Apply(BundleOfEverything(i).stereo, third, 0.1 * i);
+    EXPECT_EQ(frame->right.pixels(), Right(i).pixels());
+    EXPECT_EQ(frame->time, BundleOfEverything(i).stereo->time) << "stamps advance";
+    if (frame->left.pixels() == Left(i).pixels()) {
+      shown = frame->left;
+    } else {
+      EXPECT_EQ(frame->left.pixels(), shown.pixels()) << i;
+      ++repeated;
+    }
+  }
+  EXPECT_NEAR(repeated, 0.3 * kFrames, 4 * std::sqrt(0.3 * 0.7 * kFrames));
+}
+
+TEST(CameraFaults, DirtStaysWhereItIsAndTakesTwoThirdsOfTheLightFromItsShare) {
+  for (const double percent : {0.0, 10.0, 37.5, 100.0}) {
+    const auto frames = Struck(FaultKind::kCameraDirt, ChannelId::kCameraLeft, percent);
+    std::vector<bool> covered;
+    for (const int i : {6, 9}) {
+      const ImageU8& dirty = frames[static_cast<std::size_t>(i)]->left;
+      std::vector<bool> now;
+      for (std::size_t p = 0; p < dirty.pixels().size(); ++p) {
+        now.push_back(dirty.pixels()[p] != Left(i).pixels()[p]);
+        if (now.back()) {
+          EXPECT_EQ(dirty.pixels()[p], std::lround(Left(i).pixels()[p] / 3.0));
+        }
+      }
+      EXPECT_EQ(std::count(now.begin(), now.end(), true),
+                std::lround(percent / 100 * static_cast<double>(now.size())));
+      EXPECT_TRUE(covered.empty() || covered == now);
+      covered = now;
+    }
+    EXPECT_EQ(frames[9]->right.pixels(), Right(9).pixels());
+  }
+}
+
+TEST(CameraFaults, GlareGrowsEvenlyToTheRightEdge) {
+  const ImageU8 glaring = Struck(FaultKind::kCameraGlare, ChannelId::kCameraLeft, 93)[9]->left;
+  for (int y = 0; y < glaring.height(); ++y) {
+    for (int x = 0; x < glaring.width(); ++x) {
+      EXPECT_EQ(glaring.at(x, y), Left(9).at(x, y) + 3 * x) << "93 grey levels over 31 steps";
+    }
+  }
+  const ImageU8 blinding = Struck(FaultKind::kCameraGlare, {}, 255)[9]->right;
+  EXPECT_EQ(blinding.at(blinding.width() - 1, 0), 255);
 }
 
 TEST(CameraFaults, LateContentKeepsItsStampAndSwappedCamerasChangePlaces) {

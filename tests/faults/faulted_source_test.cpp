@@ -63,6 +63,66 @@ TEST(FaultedSource, WithoutFaultsGivesTheBundlesOfTheSourceToTheBit) {
   EXPECT_EQ(pictures.Next({}).error().code, ErrorCode::kEnd);
 }
 
+TEST(FaultedSource, UntilAFaultIsAddedTheSourcesOwnBundlesComeOut) {
+  struct Kept final : Source {
+    BundlesOfEverything source{10};
+    std::shared_ptr<const FrameBundle> newest;
+    Result<std::shared_ptr<const FrameBundle>> Next(std::stop_token stop) override {
+      auto next = source.Next(stop);
+      newest = next ? *next : nullptr;
+      return next;
+    }
+    bool IsLockstep() const override { return true; }
+    ::palace::SourceStatus Status() const override { return {}; }
+    void Control(const PlaybackControl&) override {}
+  };
+  const auto kept = std::make_shared<Kept>();
+  FaultedSource source(kept, nullptr, 1);
+  for (int i = 0; i < 5; ++i) {
+    EXPECT_EQ(source.Next({}).value(), kept->newest) << "not even a copy";
+  }
+  ASSERT_TRUE(source.Add({.kind = FaultKind::kGpsJump}));
+  const auto struck = source.Next({}).value();
+  EXPECT_EQ(struck->sequence, 6u);
+  EXPECT_FALSE(struck->discontinuity);
+  EXPECT_NEAR(struck->gps[0].p_WB.x(), BundleOfEverything(5).gps[0].p_WB.x() + 8, 1e-9);
+}
+
+TEST(FaultedSource, TellsWhatActsFromItsFirstBundleToItsLast) {
+  FaultedSource source(std::make_shared<BundlesOfEverything>(10), nullptr, 1);
+  ASSERT_TRUE(source.Add({.kind = FaultKind::kGpsJump, .value = 3, .from_s = 0.25, .to_s = 0.55}));
+  for (int i = 0; i < 10; ++i) {
+    const auto acting = source.Next({}).value()->injected_faults;
+    EXPECT_EQ(acting, i >= 3 && i <= 5 ? std::vector<std::string>{"GPS jump 3 m"}
+                                       : std::vector<std::string>{})
+        << i;
+  }
+}
+
+TEST(FaultedSource, FaultsAreAddedFromNowAndEndedWhileItFlies) {
+  FaultedSource source(std::make_shared<BundlesOfEverything>(20), nullptr, 1);
+  for (int i = 0; i < 5; ++i) {
+    ASSERT_TRUE(source.Next({}));
+  }
+  const int jump = source.faults().AddFromNow({.kind = FaultKind::kGpsJump, .value = 3}).value();
+  const int later =
+      source.faults().AddFromNow({.kind = FaultKind::kLaserStuck, .from_s = 60}).value();
+  const auto jumped = source.Next({}).value();
+  EXPECT_NEAR(jumped->gps[0].p_WB.x(), BundleOfEverything(5).gps[0].p_WB.x() + 3, 1e-9);
+  EXPECT_EQ(jumped->injected_faults, std::vector<std::string>{"GPS jump 3 m"});
+  EXPECT_TRUE(source.faults().Faults()[0].acts);
+  EXPECT_NEAR(source.faults().Faults()[1].fault.from_s, 60.4, 1e-9);
+  source.faults().End(jump);
+  source.faults().End(later);
+  source.faults().End(99);  // there is none
+  const auto after = source.Next({}).value();
+  EXPECT_EQ(after->gps[0].p_WB, BundleOfEverything(6).gps[0].p_WB);
+  EXPECT_TRUE(after->injected_faults.empty());
+  for (const InjectedFault& fault : source.faults().Faults()) {
+    EXPECT_TRUE(fault.over) << fault.number;
+  }
+}
+
 TEST(FaultedSource, OneSeedAndOneListOfFaultsAreOneFlight) {
   const std::vector<Fault> faults = {
       {.kind = FaultKind::kLost, .value = 30, .from_s = 0.5},

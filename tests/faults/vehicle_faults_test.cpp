@@ -1,7 +1,12 @@
 #include "engine/faults/vehicle_faults.h"
 
+#include <cmath>
+#include <optional>
+#include <vector>
+
 #include <gtest/gtest.h>
 
+#include "engine/core/units.h"
 #include "tests/faults/fault_rig.h"
 
 namespace palace {
@@ -91,6 +96,80 @@ TEST(VehicleFaults, GpsJumpsAndDrifts) {
   EXPECT_EQ(jumped.v_WB, whole.v_WB);
   const GpsFix drifted = Struck(FaultKind::kGpsDrift, 2)[15].gps[0];
   EXPECT_NEAR((drifted.p_WB - whole.p_WB).x(), 2 * (1.45 - kFrom_s), 1e-6);
+}
+
+TEST(VehicleFaults, ABiasOfAttitudeRollsEveryPoseAndNothingElse) {
+  const FrameBundle rolled = Struck(FaultKind::kAttitudeBias, 3)[10],
+                    whole = BundleOfEverything(10);
+  const auto roll_deg = [](const VehiclePose& biased, const VehiclePose& truth) {
+    const Eigen::AngleAxisd turn(Eigen::Matrix3d(truth.X_WB.R.transpose() * biased.X_WB.R));
+    EXPECT_NEAR((turn.axis() - Eigen::Vector3d::UnitX()).norm(), 0, 1e-9) << "about B forward";
+    return Deg(turn.angle());
+  };
+  for (std::size_t i = 0; i < whole.poses.size(); ++i) {
+    EXPECT_NEAR(roll_deg(rolled.poses[i], whole.poses[i]), 3, 1e-9);
+    EXPECT_EQ(rolled.poses[i].X_WB.p, whole.poses[i].X_WB.p);
+  }
+  EXPECT_NEAR(roll_deg(*rolled.pose_at_exposure, *whole.pose_at_exposure), 3, 1e-9);
+  EXPECT_EQ(rolled.imu[2].angular_rate_B, whole.imu[2].angular_rate_B);
+}
+
+TEST(VehicleFaults, BiasesOfTheInertialUnitAreSteps) {
+  const FrameBundle whole = BundleOfEverything(10);
+  const FrameBundle turned = Struck(FaultKind::kImuGyroBias, 2)[10];
+  const FrameBundle pushed = Struck(FaultKind::kImuAccelBias, 0.5)[10];
+  for (std::size_t i = 0; i < whole.imu.size(); ++i) {
+    EXPECT_EQ(turned.imu[i].angular_rate_B - whole.imu[i].angular_rate_B,
+              Eigen::Vector3d(Rad(2), 0, 0));
+    EXPECT_EQ(turned.imu[i].specific_force_B, whole.imu[i].specific_force_B);
+    EXPECT_EQ(pushed.imu[i].specific_force_B - whole.imu[i].specific_force_B,
+              Eigen::Vector3d(0.5, 0, 0));
+    EXPECT_EQ(pushed.imu[i].angular_rate_B, whole.imu[i].angular_rate_B);
+  }
+  EXPECT_EQ(pushed.poses[2].X_WB.R, whole.poses[2].X_WB.R);
+}
+
+TEST(VehicleFaults, ALaserWithoutReturnAnswersWithNone) {
+  const FrameBundle bundle = Struck(FaultKind::kLaserNoReturn)[10];
+  ASSERT_EQ(bundle.laser.size(), 2u);
+  EXPECT_TRUE(std::isnan(bundle.laser[1].range_m));
+  EXPECT_EQ(bundle.laser[1].time, BundleOfEverything(10).laser[1].time);
+}
+
+// A Gauss-Markov error: its sigma, its correlation exp(-t/5 s), and half of the fixes.
+TEST(VehicleFaults, InACanyonFixesWanderAndHalfAreLost) {
+  VehicleFaults faults(3);
+  constexpr int kFixes = 60000;
+  constexpr double kSigma_m = 4, kTime_s = 5, kStep_s = 0.1;
+  std::vector<std::optional<double>> error(kFixes);
+  int received = 0;
+  for (int i = 0; i < kFixes; ++i) {
+    FrameBundle bundle = BundleOfEverything(i);
+    const Eigen::Vector3d truth = bundle.gps[0].p_WB;
+    faults.Apply(bundle, {{.kind = FaultKind::kGpsCanyon, .value = kSigma_m}}, 0.1 * i);
+    if (!bundle.gps.empty()) {
+      error[static_cast<std::size_t>(i)] = (bundle.gps[0].p_WB - truth).y();
+      ++received;
+    }
+  }
+  EXPECT_NEAR(received, 0.5 * kFixes, 4 * std::sqrt(0.25 * kFixes));
+  const auto mean_product = [&](std::size_t lag) {
+    double sum = 0;
+    int count = 0;
+    for (std::size_t i = lag; i < error.size(); ++i) {
+      if (error[i] && error[i - lag]) {
+        sum += *error[i] * *error[i - lag];
+        ++count;
+      }
+    }
+    return sum / count;
+  };
+  // 6,000 s of it are 600 independent stretches of twice its time: 6 % of the variance, twice.
+  for (const std::size_t lag : {0u, 10u, 50u}) {
+    const double expected =
+        kSigma_m * kSigma_m * std::exp(-static_cast<double>(lag) * kStep_s / kTime_s);
+    EXPECT_NEAR(mean_product(lag), expected, 0.12 * kSigma_m * kSigma_m) << lag;
+  }
 }
 
 TEST(VehicleFaults, ClockMovesEveryStampOfTheVehicle) {

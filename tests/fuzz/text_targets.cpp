@@ -4,6 +4,8 @@
 #include "engine/camera/files/rig_file.h"
 #include "engine/capture/camera_address.h"
 #include "engine/capture/euroc/euroc_tables.h"
+#include "engine/faults/fault_plan.h"
+#include "engine/faults/fault_text.h"
 #include "engine/runtime/settings_io.h"
 #include "engine/simulation/vehicle_file.h"
 #include "engine/wire/channels.h"
@@ -22,6 +24,22 @@ std::vector<FuzzTarget> TextTargets() {
       {"rig", [](Bytes input) { (void)LoadRigFile(ScratchFile("rig.toml", input)); }},
       {"vehicle", [](Bytes input) { (void)ParseVehicle(AsText(input), "vehicle.toml"); }},
       {"world", [](Bytes input) { (void)ParseWorld(std::string(AsText(input)), "world.toml"); }},
+      {"faults",
+       [](Bytes input) {
+         if (const auto plan = ParseFaultPlan(AsText(input), "faults.toml")) {
+           const auto again = ParseFaultPlan(FaultPlanText(*plan), "again.toml");
+           if (!again || again->faults != plan->faults) {
+             __builtin_trap();
+           }
+         }
+         if (const auto fault = ParseFault(AsText(input))) {
+           const auto again = ParseFault(FaultText(*fault));
+           if (!again || !(*again == *fault)) {
+             __builtin_trap();
+           }
+           (void)FaultWords(*fault);
+         }
+       }},
       {"poses", [](Bytes input) { (void)LoadPosesFile(ScratchFile("poses.csv", input)); }},
       {"euroc",
        [](Bytes input) {

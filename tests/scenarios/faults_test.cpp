@@ -61,5 +61,17 @@ TEST(FaultCases, EachHasANameOfItsOwnAndFaultsThatCanBe) {
   }
 }
 
+TEST(FaultCases, EveryKindIsFlown) {
+  std::set<FaultKind> flown;
+  for (const FaultCase& row : FaultCases()) {
+    for (const Fault& fault : row.faults) {
+      flown.insert(fault.kind);
+    }
+  }
+  for (const FaultKindRow& row : FaultKindTable()) {
+    EXPECT_TRUE(flown.contains(row.kind)) << row.name << " has no case in fault_cases.cpp";
+  }
+}
+
 }  // namespace
 }  // namespace palace

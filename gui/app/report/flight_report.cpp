@@ -1,11 +1,13 @@
 #include "gui/app/report/flight_report.h"
 
+#include <cmath>
 #include <cstdio>
 #include <utility>
 #include <vector>
 
 #include "engine/core/files.h"
 #include "engine/core/hash.h"
+#include "engine/faults/fault_text.h"
 #include "engine/report/html_page.h"
 #include "engine/report/svg_plot.h"
 #include "gui/app/options.h"
@@ -49,6 +51,23 @@ void AddPlots(HtmlPage& page, const std::vector<HistorySample>& samples) {
   page.Figure(LinePlotSvg(distance), "Horizontal distance.");
 }
 
+/// What was to fail; when it did stands among the events.
+void AddFaults(HtmlPage& page, const std::vector<InjectedFault>& faults) {
+  if (faults.empty()) {
+    return;
+  }
+  std::vector<std::vector<std::string>> rows;
+  for (const InjectedFault& each : faults) {
+    const Fault& fault = each.fault;
+    rows.push_back(
+        {FaultWords(fault), Fixed(fault.from_s, 1) + " s",
+         std::isfinite(fault.to_s) ? Fixed(fault.to_s, 1) + " s" : "the end of the flight",
+         RowOf(fault.kind).what, FaultText(fault)});
+  }
+  page.Heading("Faults injected into this simulated flight")
+      .Table({"Fault", "From", "To", "What it is", "As text"}, rows);
+}
+
 void AddEvents(HtmlPage& page, const EngineSnapshot& last) {
   if (!last.session->events || last.session->events->empty()) {
     return;
@@ -82,6 +101,7 @@ Status WriteReport(const std::filesystem::path& file, const ReportInput& input) 
     if (input.last->flight->history) {
       AddPlots(page, *input.last->flight->history);
     }
+    AddFaults(page, input.faults);
     AddEvents(page, *input.last);
     AddSettings(page, *input.last);
   }
@@ -105,6 +125,7 @@ Status WriteFlightReport(const AppOptions& options, const Session& session,
   report.lines = SummaryLines(summary);
   report.last = session.engine->Latest();
   report.approvals = approvals;
+  report.faults = session.faulted ? session.faulted->faults().Faults() : report.faults;
   if (report.last && !report.last->session->authority.fingerprint.empty()) {
     const AuthorityStatus& authority = report.last->session->authority;
     report.lines.push_back("Key " + authority.key_name + ", fingerprint " + authority.fingerprint);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/core/result.h"
+#include "engine/faults/fault_injector.h"
 #include "engine/runtime/approval_record.h"
 #include "engine/runtime/flight_summary.h"
 
@@ -18,6 +19,7 @@ struct ReportInput {
   std::shared_ptr<const EngineSnapshot> last;
   std::vector<ApprovalRecord> approvals;
   std::vector<std::string> screenshots;  ///< file names beside the report
+  std::vector<InjectedFault> faults{};   ///< of a simulated flight
   std::string log_name;                  ///< file name beside the report; empty: not recorded
 };
 
