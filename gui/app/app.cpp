@@ -1,11 +1,14 @@
 #include "gui/app/app.h"
 
+#include <algorithm>
 #include <optional>
 #include <utility>
 
 #include "engine/core/address_space.h"
 #include "engine/core/check.h"
 #include "engine/core/log.h"
+#include "engine/simulation/vehicle_file.h"
+#include "engine/world/scene_library.h"
 #include "gui/app/exit_code.h"
 #include "gui/app/run.h"
 #include "gui/app/script.h"
@@ -21,6 +24,11 @@ constexpr std::size_t kLeastMemory_MiB = 640;
 
 AppOptions OptionsOfNext(AppOptions options, const NextFlight& next) {
   options.script_file.clear();
+  if (next.choice) {
+    options.scenario = next.choice->scenario;
+    options.seed = next.choice->seed;
+    options.vehicle = next.choice->vehicle;
+  }
   if (next.kind == NextFlight::Kind::kReview) {
     if (options.source != SourceChoice::kReplay) {
       options.source = SourceChoice::kReplay;
@@ -39,6 +47,27 @@ AppOptions OptionsOfNext(AppOptions options, const NextFlight& next) {
     options.record = options.report;
   }
   return options;
+}
+
+FlightChoice ChoiceOf(const AppOptions& options) {
+  return {options.scenario, options.seed,
+          options.vehicle.empty() ? kDefaultVehicle : options.vehicle};
+}
+
+OfferedFlights FlightsOffered(const AppOptions& options) {
+  OfferedFlights offered;
+  for (const std::string_view name : SceneNames()) {
+    offered.scenarios.emplace_back(name);
+  }
+  offered.vehicles = VehicleNames();
+  const FlightChoice now = ChoiceOf(options);
+  for (const auto& [names, own] :
+       {std::pair(&offered.scenarios, &now.scenario), std::pair(&offered.vehicles, &now.vehicle)}) {
+    if (std::find(names->begin(), names->end(), *own) == names->end()) {
+      names->push_back(*own);
+    }
+  }
+  return offered;
 }
 
 WayOut WayOutOfReview(const AppOptions& options) {

@@ -138,6 +138,10 @@ void Dispatch(const Intents& intents, CommandOrigin origin, const EngineSnapshot
       Post(*command, origin, snapshot, gesture, engine, state);
     } else if (const auto* playback = std::get_if<PlaybackControl>(&intent)) {
       engine.Control(*playback);
+    } else if (const auto* change = std::get_if<SimulationChange>(&intent)) {
+      if (const Status changed = engine.Change(*change); !changed) {
+        ShowMessage(state, changed.error().message, ui_time_s);
+      }
     } else {
       const auto& action = std::get<UiAction>(intent);
       if (AsksFirst(action, snapshot)) {

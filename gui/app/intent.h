@@ -2,15 +2,17 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
 #include "engine/model/command.h"
+#include "engine/model/simulation_setup.h"
 
 namespace palace {
 
-enum class Workspace : std::uint8_t { kFly, kTune, kReview, kDiagnose };
+enum class Workspace : std::uint8_t { kFly, kTune, kReview, kDiagnose, kSimulate };
 
 struct ShowWorkspace {
   Workspace workspace = Workspace::kFly;
@@ -30,6 +32,13 @@ struct MoveView3d {
   float pan_x = 0, pan_y = 0;
   float zoom = 0;            ///< wheel steps; positive comes closer
   float view_height_px = 1;  ///< of the picture that is moved
+};
+/// Views of a simulated world, in the order of their keys.
+enum class WorldEye : std::uint8_t { kLeft, kRight, kChase, kBirdsEye, kAbove, kOrbit };
+inline constexpr std::size_t kWorldEyes = 6;
+/// Fills the main area of Simulate with it.
+struct ShowWorldView {
+  WorldEye eye = WorldEye::kBirdsEye;
 };
 struct SetUiScale {
   double scale = 1;
@@ -62,22 +71,29 @@ struct ShowKeyHelp {
 /// ui_state).
 struct CloseTop {};
 struct QuitProgram {};
+/// Where a simulated flight goes, and in what.
+struct FlightChoice {
+  std::string scenario;  ///< a name or a file, as the command line takes it
+  std::uint64_t seed = 1;
+  std::string vehicle;
+};
 /// After a flight: what this window does next. The report is written before any of them.
 struct NextFlight {
   enum class Kind : std::uint8_t { kFlyAgain, kReview, kOpenReport };
   Kind kind = Kind::kFlyAgain;
-  std::string log{};  ///< of the flight that is over; empty: not recorded
-  int part = 0;       ///< of the log, to review; 0: the longest
+  std::string log{};                     ///< of the flight that is over; empty: not recorded
+  int part = 0;                          ///< of the log, to review; 0: the longest
+  std::optional<FlightChoice> choice{};  ///< of a simulation; empty: as before
 };
 
 /// What changes the window only; reduced into UiState.
 using UiAction =
-    std::variant<ShowWorkspace, HighlightSite, ShowView3dPreset, MoveView3d, SetUiScale,
-                 TakeScreenshot, UndoSetting, RedoSetting, ChoosePreset, LookAtPreset, LoadPreset,
-                 SavePreset, ShowKeyHelp, CloseTop, QuitProgram, NextFlight>;
+    std::variant<ShowWorkspace, HighlightSite, ShowView3dPreset, ShowWorldView, MoveView3d,
+                 SetUiScale, TakeScreenshot, UndoSetting, RedoSetting, ChoosePreset, LookAtPreset,
+                 LoadPreset, SavePreset, ShowKeyHelp, CloseTop, QuitProgram, NextFlight>;
 
 /// Everything a panel can ask for.
-using Intent = std::variant<CommandAction, PlaybackControl, UiAction>;
+using Intent = std::variant<CommandAction, PlaybackControl, SimulationChange, UiAction>;
 using Intents = std::vector<Intent>;
 
 }  // namespace palace

@@ -1,5 +1,8 @@
 #include "gui/app/key_help.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "gui/app/keys.h"
 #include "gui/widgets/interact.h"
 
@@ -9,7 +12,8 @@ void DrawKeyHelp(const Rect& body, UiFrame& ui) {
   const Style& s = ui.style;
   const auto& keys = KeyTable();
   const int rows = (static_cast<int>(keys.size()) + 1) / 2;
-  const float row = s.Px(22), width = s.Px(840), height = s.Px(72) + row * static_cast<float>(rows);
+  const float row = std::min(s.Px(22), std::floor((body.h - s.Px(72)) / static_cast<float>(rows)));
+  const float width = s.Px(840), height = s.Px(72) + row * static_cast<float>(rows);
   const Rect box{body.centre().x - width / 2, body.centre().y - height / 2, width, height};
   BeginOverlay("##key_help", box);
   ImDrawList* dl = Canvas();

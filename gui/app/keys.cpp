@@ -11,8 +11,8 @@ namespace {
 constexpr double kSmallStep_s = 0.1;
 constexpr double kLargeStep_s = 1;
 constexpr double kScaleStep = 0.25;
-constexpr double kMinSpeed = 0.05;
-constexpr double kMaxSpeed = 20;
+constexpr double kMinSpeed = 0.05, kMaxSpeed = 20;
+constexpr double kMinSimulated = 0.1, kMaxSimulated = 50;
 
 struct Context {
   const EngineSnapshot* snapshot;
@@ -43,8 +43,10 @@ Intents ScaleSpeed(const Context& c, double factor) {
     return {};
   }
   const double speed = c.snapshot->session->source.speed;
+  const bool simulated = IsSimulation(*c.snapshot);
   return Play(PlaybackControl::Kind::kSpeed,
-              std::clamp((speed > 0 ? speed : 1) * factor, kMinSpeed, kMaxSpeed));
+              std::clamp((speed > 0 ? speed : 1) * factor, simulated ? kMinSimulated : kMinSpeed,
+                         simulated ? kMaxSimulated : kMaxSpeed));
 }
 
 /// What the keys of the transport ask of a source that obeys them; of one that is alive, nothing.
@@ -55,6 +57,21 @@ Intents Play(const Context& c, PlaybackControl::Kind kind, double value = 0) {
 Intents PlayOrPause(const Context& c) {
   return Play(c, c.snapshot && IsPlaying(*c.snapshot) ? PlaybackControl::Kind::kPause
                                                       : PlaybackControl::Kind::kPlay);
+}
+
+/// Keys of the views of Simulate; elsewhere they do nothing.
+std::vector<Row> WorldViewRows() {
+  std::vector<Row> rows;
+  for (std::size_t i = 0; i < kWorldEyes; ++i) {
+    const auto eye = static_cast<WorldEye>(i);
+    rows.push_back({{std::to_string(i + 1), std::string("In Simulate: ") + EyeWords(eye)},
+                    [eye](const Context& c) {
+                      return c.state.frame.workspace == Workspace::kSimulate
+                                 ? Ui(ShowWorldView{eye})
+                                 : Intents{};
+                    }});
+  }
+  return rows;
 }
 
 std::vector<Row> MakeRows() {
@@ -70,6 +87,11 @@ std::vector<Row> MakeRows() {
       {{"F4", "Show Review", false, false, true}, always(Ui(ShowWorkspace{Workspace::kReview}))},
       {{"F5", "Show Diagnose", false, false, true},
        always(Ui(ShowWorkspace{Workspace::kDiagnose}))},
+      {{"F6", "Show Simulate", false, false, true},
+       [](const Context& c) {
+         return c.snapshot && IsSimulation(*c.snapshot) ? Ui(ShowWorkspace{Workspace::kSimulate})
+                                                        : Intents{};
+       }},
       {{"F1", "Show or close this list", false, true, true},
        [](const Context& c) { return Ui(ShowKeyHelp{!c.state.key_help}); }},
       {{"Escape", "Cancel a hold, close what is open", false, true}, always(Ui(CloseTop{}))},
@@ -122,7 +144,12 @@ std::vector<Row> MakeRows() {
 }
 
 const std::vector<Row>& Rows() {
-  static const std::vector<Row> rows = MakeRows();
+  static const std::vector<Row> rows = [] {
+    std::vector<Row> all = MakeRows();
+    const std::vector<Row> views = WorldViewRows();
+    all.insert(all.end(), views.begin(), views.end());
+    return all;
+  }();
   return rows;
 }
 

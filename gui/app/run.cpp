@@ -14,6 +14,7 @@
 #include "engine/core/log.h"
 #include "engine/core/time.h"
 #include "engine/runtime/flight_summary.h"
+#include "gui/app/app.h"
 #include "gui/app/dispatch.h"
 #include "gui/app/exit_code.h"
 #include "gui/app/input.h"
@@ -47,6 +48,9 @@ Gesture GestureNow(double ui_time_s) {
   return {ui_time_s, held ? ImGui::GetIO().MouseClickedTime[0] : NAN};
 }
 
+/// The world that is simulated here; null: none.
+const World* WorldOf(const Session& session) { return session.scene ? &*session.scene : nullptr; }
+
 class StationRun {
  public:
   StationRun(const AppOptions& options, const Termination& termination, Session& session,
@@ -61,6 +65,8 @@ class StationRun {
         summarizer_(session.scene),
         start_s_(MonotonicSeconds()) {
     state_.after_review = after_review;
+    state_.simulate.offered = FlightsOffered(options);
+    state_.simulate.choice = ChoiceOf(options);
     state_.scale = options.ui_scale > 0 ? options.ui_scale : surface.natural_scale();
     if (!script_) {  // a script says where it goes
       state_.frame.workspace = FirstWorkspace(options.source);
@@ -128,7 +134,7 @@ class StationRun {
     if (const Status opened = surface_.Reopen(); !opened) {
       return opened;
     }
-    Result<std::unique_ptr<View>> view = View::Create(options_.theme);
+    Result<std::unique_ptr<View>> view = View::Create(options_.theme, WorldOf(session_));
     if (!view) {
       return view.error();
     }
@@ -322,8 +328,8 @@ StationEnd RunStation(const AppOptions& options, const Termination& termination,
                       const WayOut& after_review, std::optional<std::vector<ScriptLine>> script,
                       const std::string& script_name) {
   const Result<std::unique_ptr<Surface>> surface = Surface::Open(options);
-  Result<std::unique_ptr<View>> view =
-      surface ? View::Create(options.theme) : Result<std::unique_ptr<View>>(surface.error());
+  Result<std::unique_ptr<View>> view = surface ? View::Create(options.theme, WorldOf(session))
+                                               : Result<std::unique_ptr<View>>(surface.error());
   if (!view) {
     const Status ignored = session.engine->Stop();
     return {FailWith(view.error())};

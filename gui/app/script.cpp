@@ -107,6 +107,8 @@ void ScriptRunner::Begin(const ScriptLine& line, const ItemRecord& items,
       input.hold_key = line.words[0];
       pending_.push_back({input, line.NumberAt(1)});
       input.hold_key.reset();
+    } else if (line.verb == "set" && FindSimulationRow(line.words[0]) != nullptr) {
+      input.intents.emplace_back(SimulationChange{line.words[0], line.NumberAt(1)});
     } else if (line.verb == "set") {
       input.intents.emplace_back(CommandAction(SetSetting{line.words[0], line.NumberAt(1)}));
     } else if (line.verb == "screenshot") {
@@ -114,8 +116,9 @@ void ScriptRunner::Begin(const ScriptLine& line, const ItemRecord& items,
     } else if (line.verb == "resize") {
       input.resize = {static_cast<int>(line.NumberAt(0)), static_cast<int>(line.NumberAt(1))};
     } else {
-      const auto kind =
-          line.verb == "seek" ? PlaybackControl::Kind::kSeek : PlaybackControl::Kind::kSpeed;
+      const auto kind = line.verb == "seek"     ? PlaybackControl::Kind::kSeek
+                        : line.verb == "run_to" ? PlaybackControl::Kind::kRunTo
+                                                : PlaybackControl::Kind::kSpeed;
       input.intents.emplace_back(PlaybackControl{kind, line.NumberAt(0)});
     }
     pending_.push_back({input});
@@ -157,6 +160,10 @@ void ScriptRunner::Wait(const ScriptLine& line, const ItemRecord& items,
   } else if (what == "height") {
     found = HeightWords(snapshot);
     met = HeightOf(snapshot) <= line.NumberAt(1);
+  } else if (what == "time") {
+    const double time_s = snapshot ? snapshot->session->source.position_s : 0;
+    found = WithNumbers("the time is %.1f s", time_s);
+    met = time_s >= line.NumberAt(1) - 1e-6;
   } else {
     const Item* item = items.Find(line.words[1]);
     found = item ? "it is disabled: " + item->text : "nothing of that name is on the screen";

@@ -37,7 +37,7 @@ struct ScriptInput {
   bool mouse_down = false;
   std::optional<std::string> key;       ///< pressed this frame, e.g. "Space", "Shift+Escape"
   std::optional<std::string> hold_key;  ///< kept down this frame
-  Intents intents;                      ///< of `set`, `seek`, `speed` and `screenshot`
+  Intents intents;                      ///< of `set`, `seek`, `run_to`, `speed` and `screenshot`
   std::optional<std::pair<int, int>> resize;
 };
 

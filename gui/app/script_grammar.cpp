@@ -45,6 +45,7 @@ const std::vector<Action>& Actions() {
       {"wait", "seconds", {Number("SECONDS", 0, 3600, "s")}},
       {"wait", "item", {kItem, kWithin}},
       {"wait", "height", {Number("HEIGHT", -100, 1000, "m"), kWithin}},
+      {"wait", "time", {Number("SECONDS", 0, 86400, "s"), kWithin}},
       {"expect", "state", {kState}},
       {"expect", "item", {kItem}},
       {"expect", "text", {kItem, kWords}},
@@ -61,6 +62,7 @@ const std::vector<Action>& Actions() {
       {"screenshot", "", {kFile}},
       {"resize", "", {Number("WIDTH", 640, 7680, "px"), Number("HEIGHT", 480, 4320, "px")}},
       {"speed", "", {Number("SPEED", 0, 100, "times real time")}},
+      {"run_to", "", {Number("SECONDS", 0, 86400, "s")}},
       {"seek", "", {Number("SECONDS", 0, 86400, "s")}},
       {"quit", "", {}},
   };
@@ -178,6 +180,10 @@ std::string Problem(const ScriptLine& line) {
   if (at < line.words.size() && !open_end) {
     return "'" + line.verb + "' takes " + Usage(*action) + ", nothing after it: '" +
            line.words[at] + "'";
+  }
+  if (line.verb == "set" && line.words[0].rfind("simulation.", 0) == 0) {
+    const Status possible = CheckChange({line.words[0], line.NumberAt(1)});
+    return possible ? std::string() : possible.error().message;
   }
   if (line.verb == "set") {
     Settings trial;

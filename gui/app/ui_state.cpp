@@ -18,6 +18,7 @@ MapProbe* ProbeOf(UiState& state) {
     case Workspace::kReview:
       return &state.review.probe;
     case Workspace::kDiagnose:
+    case Workspace::kSimulate:
       break;
   }
   return nullptr;
@@ -67,14 +68,16 @@ void Show(UiState& state, Workspace workspace) {
 }
 
 void Move(UiState& state, const MoveView3d& move) {
+  OrbitCamera& orbit =
+      state.frame.workspace == Workspace::kSimulate ? state.world_orbit : state.orbit;
   if (move.turn_x != 0 || move.turn_y != 0) {
-    state.orbit.Drag(move.turn_x, move.turn_y);
+    orbit.Drag(move.turn_x, move.turn_y);
   }
   if (move.pan_x != 0 || move.pan_y != 0) {
-    state.orbit.Pan(move.pan_x, move.pan_y, move.view_height_px);
+    orbit.Pan(move.pan_x, move.pan_y, move.view_height_px);
   }
   if (move.zoom != 0) {
-    state.orbit.Zoom(move.zoom);
+    orbit.Zoom(move.zoom);
   }
   ++state.orbit_moves;
 }
@@ -101,6 +104,7 @@ struct Reducer {
     state.orbit.SetPreset(PresetOf(show.preset));
     ++state.orbit_moves;
   }
+  void operator()(const ShowWorldView& show) { ShowEye(show.eye, state.simulate); }
   void operator()(const MoveView3d& move) { Move(state, move); }
   void operator()(const SetUiScale& to) {
     state.scale = std::clamp(to.scale, kMinScale, kMaxScale);

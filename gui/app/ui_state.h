@@ -12,6 +12,7 @@
 #include "gui/panels/fly_state.h"
 #include "gui/panels/frame_bar.h"
 #include "gui/panels/review/review.h"
+#include "gui/panels/simulate/simulate.h"
 #include "gui/panels/tune/tune.h"
 #include "gui/render/orbit_camera.h"
 #include "gui/widgets/focus.h"
@@ -24,9 +25,11 @@ struct UiState {
   TuneState tune;  ///< holds the history of the limits and the preset's path
   ReviewState review;
   DiagnoseState diagnose;
+  SimulateState simulate;
   Focus focus;
   OrbitCamera orbit;              ///< of the 3-D view, wherever it is shown
   std::uint64_t orbit_moves = 0;  ///< counts the operator's turns of it
+  OrbitCamera world_orbit;        ///< of the free view in Simulate
   std::uint64_t highlighted_site = 0;
   double scale = 1;
   bool key_help = false;

@@ -48,6 +48,7 @@ std::optional<ViewPreset> PresetOf(const OrbitCamera& orbit) {
     case View3dPreset::kAbove:
       return ViewPreset::kAbove;
     case View3dPreset::kBehind:
+    case View3dPreset::kOblique:
       break;
   }
   return ViewPreset::kBehind;
@@ -55,13 +56,16 @@ std::optional<ViewPreset> PresetOf(const OrbitCamera& orbit) {
 
 }  // namespace
 
-Result<std::unique_ptr<View>> View::Create(const std::string& theme) {
+Result<std::unique_ptr<View>> View::Create(const std::string& theme, const World* world) {
   Result<std::unique_ptr<View3dRenderer>> view3d = View3dRenderer::Create();
   if (!view3d) {
     return view3d.error();
   }
   std::unique_ptr<View> view(new View(std::move(*view3d)));
   view->style_.palette = PaletteOf(theme);
+  if (world != nullptr) {
+    view->world_ = std::make_unique<WorldViews>(*world);
+  }
   return view;
 }
 
@@ -116,10 +120,26 @@ void View::UploadPictures(const EngineSnapshot& snapshot, const UiState& state,
   ids_.range_far_m = names.range_tint_m.high;
 }
 
+void View::UploadWorld(const EngineSnapshot& snapshot, const ViewFrame& frame, UiState& state,
+                       double dt_s) {
+  if (!world_ || state.frame.workspace != Workspace::kSimulate) {
+    return;
+  }
+  const Rect body = ComputeFrameLayout(frame.width_px, frame.height_px, style_.scale).body;
+  state.world_orbit.Advance(dt_s);
+  world_->Update(snapshot, LaySimulate(body, style_), style_, state.simulate, state.world_orbit,
+                 state.orbit_moves, /*all=*/std::isinf(dt_s));
+  for (std::size_t i = 0; i < kWorldEyes; ++i) {
+    ids_.world[i] = Id(world_->texture(static_cast<WorldEye>(i)));
+  }
+  ids_.world_waits_for = world_->waits_for();
+}
+
 void View::Upload(const EngineSnapshot& snapshot, const ViewFrame& frame, UiState& state,
                   double dt_s) {
   Fit(state, frame);
   UploadPictures(snapshot, state, frame);
+  UploadWorld(snapshot, frame, state, dt_s);
   const Rect scene = SceneRect(snapshot, state, frame);
   if (scene.w < 16 || scene.h < 16) {
     return;
@@ -213,6 +233,9 @@ void View::DrawWorkspace(const EngineSnapshot& snapshot, const FlightRecord* rec
       break;
     case Workspace::kDiagnose:
       DrawDiagnoseWorkspace(snapshot, layout.body, state.diagnose, ui);
+      break;
+    case Workspace::kSimulate:
+      DrawSimulateWorkspace(snapshot, layout.body, state.simulate, ui);
       break;
   }
 }

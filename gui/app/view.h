@@ -8,6 +8,7 @@
 #include "engine/model/flight_record.h"
 #include "engine/model/snapshot.h"
 #include "gui/app/ui_state.h"
+#include "gui/app/world_views.h"
 #include "gui/panels/fly_layout.h"
 #include "gui/platform/fonts.h"
 #include "gui/render/texture_set.h"
@@ -29,7 +30,8 @@ struct ViewFrame {
 /// Owns GL objects: create, use and destroy with one GL context current.
 class View {
  public:
-  static Result<std::unique_ptr<View>> Create(const std::string& theme);
+  /// `world`: the one that is simulated here; null: none.
+  static Result<std::unique_ptr<View>> Create(const std::string& theme, const World* world);
   /// Uploads what the snapshot shows and renders the 3-D view. Only needed when pixels are made.
   void Upload(const EngineSnapshot& snapshot, const ViewFrame& frame, UiState& state, double dt_s);
   /// Draws into the current ImGui frame. `snapshot` null: nothing has arrived yet.
@@ -45,6 +47,8 @@ class View {
   void DrawWorkspace(const EngineSnapshot& snapshot, const FlightRecord* record,
                      const FrameLayout& layout, const ViewFrame& frame, UiState& state,
                      UiFrame& ui);
+  void UploadWorld(const EngineSnapshot& snapshot, const ViewFrame& frame, UiState& state,
+                   double dt_s);
   void UploadPictures(const EngineSnapshot& snapshot, const UiState& state, const ViewFrame& frame);
   /// Where the 3-D picture lies in the workspace shown; empty where there is none.
   Rect SceneRect(const EngineSnapshot& snapshot, const UiState& state,
@@ -70,6 +74,7 @@ class View {
   TextureSet textures_;
   std::unique_ptr<View3dRenderer> view3d_;
   View3dKey drawn_3d_;
+  std::unique_ptr<WorldViews> world_;  ///< of a simulation
   double settle_s_ = 0;
   PanelTextures ids_;
   ItemRecord items_;

@@ -12,16 +12,6 @@ namespace palace {
 
 namespace {
 
-/// Largest rectangle of the picture's shape at the top of the content.
-Rect PictureRect(const Rect& content, double aspect) {
-  const float by_width = std::round(content.w / static_cast<float>(aspect));
-  if (by_width <= content.h + 1) {
-    return {content.x, content.y, content.w, std::min(by_width, content.h)};
-  }
-  const float w = std::round(content.h * static_cast<float>(aspect));
-  return {std::round(content.x + (content.w - w) / 2), content.y, w, content.h};
-}
-
 void DrawMissing(UiFrame& ui, const EngineSnapshot& snap, const Rect& image) {
   UnknownFill(ui.style, Canvas(), image);
   TextPlate(ui, image, Corner::kBottomLeft, NoPictureWords(snap));
@@ -105,6 +95,15 @@ std::string LeftFact(const EngineSnapshot& snap, double silent_s) {
 }
 
 }  // namespace
+
+Rect PictureRect(const Rect& content, double aspect) {
+  const float by_width = std::round(content.w / static_cast<float>(aspect));
+  if (by_width <= content.h + 1) {
+    return {content.x, content.y, content.w, std::min(by_width, content.h)};
+  }
+  const float w = std::round(content.h * static_cast<float>(aspect));
+  return {std::round(content.x + (content.w - w) / 2), content.y, w, content.h};
+}
 
 Rect LeftCameraImage(const EngineSnapshot& snap, const Rect& panel, const Style& style) {
   const auto camera = LeftCamera(snap);

@@ -21,6 +21,8 @@ bool IsCommanded(const MissionStatus& mission);
 /// Marks that all maps share.
 MapMarks MarksOf(const EngineSnapshot& snap, std::uint64_t highlighted);
 
+/// Largest rectangle of the picture's shape at the top of the content.
+Rect PictureRect(const Rect& content, double aspect);
 /// Where the picture lies in its panel.
 Rect LeftCameraImage(const EngineSnapshot& snap, const Rect& panel, const Style& style);
 void DrawLeftCameraPanel(const EngineSnapshot& snap, const Rect& rect, CameraState& state,
@@ -30,6 +32,8 @@ void DrawRightCameraPanel(const EngineSnapshot& snap, const Rect& rect, const Ma
 void DrawVehiclePanel(const EngineSnapshot& snap, const Rect& rect, bool narrow, UiFrame& ui);
 /// Where the 3-D picture lies in its panel: it is rendered at this size.
 Rect View3dScene(const Rect& panel, const Style& style);
+/// A picture of the 3-D scene that is turned by hand: MoveView3d.
+void RunOrbit(UiFrame& ui, std::string_view name, const Rect& scene);
 /// Items "view_3d", "view/Orbit", "view/Above", "view/Behind": MoveView3d, ShowView3dPreset.
 void DrawView3dPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui);
 /// Five maps: items "map/elevation", "map/slope", "map/roughness", "map/cost", "map/safe_distance";

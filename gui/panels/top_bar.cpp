@@ -2,6 +2,7 @@
 
 #include "gui/panels/frame_bar.h"
 #include "gui/panels/session_words.h"
+#include "gui/panels/simulate/simulate.h"
 #include "gui/widgets/icons.h"
 #include "gui/widgets/interact.h"
 
@@ -15,8 +16,8 @@ void DrawPaused(const EngineSnapshot& snap, const Rect& r, UiFrame& ui) {
   const Palette& p = s.palette;
   const Rect below{r.x, r.bottom() - s.Px(16), r.w, s.Px(16)};
   FillRect(Canvas(), below, p.white_mark);
-  DrawIcon(Canvas(), Icon::kPause, {below.x + s.Px(12), below.centre().y}, s.Px(12), p.on_white);
-  DrawText(ui, s.caption, p.on_white, below.x + s.Px(24), below.centre().y, "PAUSED · Space");
+  DrawIcon(Canvas(), Icon::kPause, {below.x + s.Px(8), below.centre().y}, s.Px(12), p.on_white);
+  DrawText(ui, s.caption, p.on_white, below.x + s.Px(16), below.centre().y, "PAUSED · Space");
   ui.items.Add("paused", below, true, "PAUSED " + snap.session->source.name);
 }
 
@@ -59,11 +60,12 @@ void DrawModeBlock(const EngineSnapshot& snap, const Rect& r, UiFrame& ui) {
 }
 
 /// Tabs with the underline of the active one. Returns the right edge.
-float DrawTabs(float x, const Rect& bar, Workspace active, UiFrame& ui) {
+float DrawTabs(float x, const Rect& bar, Workspace active, bool simulation, UiFrame& ui) {
   const Style& s = ui.style;
   const Palette& p = s.palette;
-  constexpr std::array<const char*, 4> kNames = {"Fly", "Tune", "Review", "Diagnose"};
-  for (std::size_t i = 0; i < kNames.size(); ++i) {
+  constexpr std::array<const char*, 5> kNames = {"Fly", "Tune", "Review", "Diagnose", "Simulate"};
+  const std::size_t count = simulation ? kNames.size() : kNames.size() - 1;
+  for (std::size_t i = 0; i < count; ++i) {
     const bool on = static_cast<std::size_t>(active) == i;
     ImFont* font = on ? s.medium : s.body;
     const float width = TextWidth(font, kNames[i]);
@@ -148,11 +150,11 @@ float DrawChain(int now, float x, float y, UiFrame& ui) {
   return x;
 }
 
-float DrawState(MissionState state, bool narrow, float x, float y, UiFrame& ui) {
+float DrawState(MissionState state, bool narrow, bool wide, float x, float y, UiFrame& ui) {
   const Style& s = ui.style;
   const int now = ChainIndex(state);
   if (!narrow) {
-    x += s.Px(100);
+    x += s.Px(wide ? 100 : 48);
     return now < 0 ? DrawSideState(state, x, y, ui) : DrawChain(now, x, y, ui);
   }
   x += s.Px(41);
@@ -205,9 +207,10 @@ void DrawTopBarPanel(const EngineSnapshot& snap, const FrameLayout& layout, Fram
   } else {
     x += s.Px(20);
   }
-  const float tabs_end = DrawTabs(x, bar, state.workspace, ui);
+  const float tabs_end = DrawTabs(x, bar, state.workspace, IsSimulation(snap), ui);
   ui.items.Add("state", bar, true, MissionStateName(snap.flight->mission.state));
-  const float end = DrawState(snap.flight->mission.state, narrow, tabs_end, y, ui);
+  const float end =
+      DrawState(snap.flight->mission.state, narrow, layout.window.w > s.Px(1800), tabs_end, y, ui);
   DrawKeysHint(bar, end, ui);
 }
 

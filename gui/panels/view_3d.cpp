@@ -9,24 +9,6 @@ namespace {
 
 constexpr float kKeyTurn_px = 8;  // one arrow key turns as far as this drag
 
-/// Drags turn it, with Shift they move it, the wheel zooms; so do the arrow keys and, zooming,
-/// Enter and Backspace.
-void RunScene(const Rect& scene, UiFrame& ui) {
-  const Interaction in = Interact(ui, "view_3d", scene, kAllSteps | kClears);
-  MoveView3d move;
-  move.view_height_px = scene.h;
-  (in.shift ? move.pan_x : move.turn_x) += in.drag.x;
-  (in.shift ? move.pan_y : move.turn_y) += in.drag.y;
-  move.turn_x += kKeyTurn_px * static_cast<float>(in.step_right);
-  move.turn_y -= kKeyTurn_px * static_cast<float>(in.step_up);
-  move.zoom = in.wheel + (in.key_pressed ? 1.0f : 0.0f) - (in.cleared ? 1.0f : 0.0f);
-  const bool moved =
-      move.turn_x != 0 || move.turn_y != 0 || move.pan_x != 0 || move.pan_y != 0 || move.zoom != 0;
-  if (moved) {
-    ui.intents.push_back(UiAction(move));
-  }
-}
-
 void DrawTicks(const Rect& scene, UiFrame& ui) {
   const Style& s = ui.style;
   for (const View3dTick& tick : ui.textures.scene_3d_ticks) {
@@ -41,6 +23,24 @@ void DrawTicks(const Rect& scene, UiFrame& ui) {
 }
 
 }  // namespace
+
+/// Drags turn it, with Shift they move it, the wheel zooms; so do the arrow keys and, zooming,
+/// Enter and Backspace.
+void RunOrbit(UiFrame& ui, std::string_view name, const Rect& scene) {
+  const Interaction in = Interact(ui, name, scene, kAllSteps | kClears);
+  MoveView3d move;
+  move.view_height_px = scene.h;
+  (in.shift ? move.pan_x : move.turn_x) += in.drag.x;
+  (in.shift ? move.pan_y : move.turn_y) += in.drag.y;
+  move.turn_x += kKeyTurn_px * static_cast<float>(in.step_right);
+  move.turn_y -= kKeyTurn_px * static_cast<float>(in.step_up);
+  move.zoom = in.wheel + (in.key_pressed ? 1.0f : 0.0f) - (in.cleared ? 1.0f : 0.0f);
+  const bool moved =
+      move.turn_x != 0 || move.turn_y != 0 || move.pan_x != 0 || move.pan_y != 0 || move.zoom != 0;
+  if (moved) {
+    ui.intents.push_back(UiAction(move));
+  }
+}
 
 Rect View3dScene(const Rect& panel, const Style& style) { return PanelContent(panel, style); }
 
@@ -79,7 +79,7 @@ void DrawView3dPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui) 
     }
     x += button.w + s.Px(6);
   }
-  RunScene(scene, ui);
+  RunOrbit(ui, "view_3d", scene);
 }
 
 }  // namespace palace

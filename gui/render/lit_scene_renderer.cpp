@@ -91,6 +91,8 @@ struct LitSceneRenderer::Parts {
   Status Build(const RayScene& scene);
   Status BuildShaders();
   Status Draw(const PinholeCamera& camera, const RigidTransform& X_WC, double time_s, int samples);
+  void DrawInto(const Framebuffer& into, const PinholeCamera& camera, const RigidTransform& X_WC,
+                double time_s);
   void DrawGround(const ShaderProgram& shader, bool neighbours) const;
   void DrawSolids(const ShaderProgram& shader) const;
   void DrawMovers(const ShaderProgram& shader, double time_s) const;
@@ -258,10 +260,21 @@ Status LitSceneRenderer::Parts::Draw(const PinholeCamera& camera, const RigidTra
   if (!sized) {
     return sized;
   }
-  target.Begin(kSkyGrey);
+  DrawInto(target, camera, X_WC, time_s);
+  return Ok();
+}
+
+void LitSceneRenderer::DrawInto(const Framebuffer& target, const PinholeCamera& camera,
+                                const RigidTransform& X_WC, double time_s) {
+  parts_->DrawInto(target, camera, X_WC, time_s);
+}
+
+void LitSceneRenderer::Parts::DrawInto(const Framebuffer& into, const PinholeCamera& camera,
+                                       const RigidTransform& X_WC, double time_s) {
+  into.Begin(kSkyGrey);
   if (!movers.empty()) {
     MapMovers(time_s);
-    target.Bind();
+    into.Bind();
   }
   const Eigen::Matrix4f clip_from_world = ClipFromRelative(camera, X_WC);
   const Sun& sun = world.sun;
@@ -289,7 +302,6 @@ Status LitSceneRenderer::Parts::Draw(const PinholeCamera& camera, const RigidTra
   ground_shader.Set(
       "shade", static_cast<float>(sun.diffuse / LightOn(sun, world.ground.Normal(), /*lit=*/true)));
   DrawGround(ground_shader, /*neighbours=*/true);
-  return Ok();
 }
 
 Result<ImageU8> LitSceneRenderer::Render(const PinholeCamera& camera, const RigidTransform& X_WC,

@@ -8,6 +8,7 @@
 #include "engine/simulation/scene_camera.h"
 #include "engine/world/ray_scene.h"
 #include "engine/world/world.h"
+#include "gui/render/framebuffer.h"
 
 namespace palace {
 
@@ -27,6 +28,10 @@ class LitSceneRenderer final : public SceneCamera {
 
   Result<ImageU8> Render(const PinholeCamera& camera, const RigidTransform& X_WC,
                          double time_s = 0) override;
+  /// The same into a target of the camera's size, before it is resolved: with its depth, for what
+  /// is drawn after it.
+  void DrawInto(const Framebuffer& target, const PinholeCamera& camera, const RigidTransform& X_WC,
+                double time_s);
   /// Distance along the optical axis through the pixels' centres, metres; infinity: sky.
   Result<ImageF> Depth(const PinholeCamera& camera, const RigidTransform& X_WC, double time_s = 0);
 

@@ -22,12 +22,13 @@ void OrbitCamera::SetPreset(View3dPreset preset) {
   preset_ = preset;
   zoom_ = 1;
   pan_W_.setZero();
-  wanted_azimuth_rad_ = preset == View3dPreset::kOrbit   ? 0.62
-                        : preset == View3dPreset::kAbove ? 0.0
-                                                         : heading_rad_;
-  wanted_elevation_rad_ = preset == View3dPreset::kOrbit   ? 0.42
-                          : preset == View3dPreset::kAbove ? kHighest_rad
-                                                           : 0.35;
+  wanted_azimuth_rad_ = preset == View3dPreset::kAbove    ? 0.0
+                        : preset == View3dPreset::kBehind ? heading_rad_
+                                                          : 0.62;
+  wanted_elevation_rad_ = preset == View3dPreset::kOrbit     ? 0.42
+                          : preset == View3dPreset::kAbove   ? kHighest_rad
+                          : preset == View3dPreset::kOblique ? 0.7
+                                                             : 0.35;
 }
 
 void OrbitCamera::Drag(double dx_px, double dy_px) {
@@ -111,13 +112,17 @@ Eigen::Vector3d OrbitCamera::eye_W() const {
          EyeRotation(azimuth_rad_, elevation_rad_).col(2) * DistanceFor(1);
 }
 
+RigidTransform OrbitCamera::X_WE(double aspect) const {
+  const Eigen::Matrix3d R_WE = EyeRotation(azimuth_rad_, elevation_rad_);
+  return {R_WE, (top_W_ + ground_W_) / 2 + pan_W_ - R_WE.col(2) * DistanceFor(aspect)};
+}
+
 Eigen::Matrix4d OrbitCamera::ClipFromWorld(double width_px, double height_px) const {
   const double aspect = width_px / height_px;
-  const Eigen::Matrix3d R_WE = EyeRotation(azimuth_rad_, elevation_rad_);
-  const Eigen::Vector3d eye = (top_W_ + ground_W_) / 2 + pan_W_ - R_WE.col(2) * DistanceFor(aspect);
+  const RigidTransform eye = X_WE(aspect);
   Eigen::Matrix4d eye_from_world = Eigen::Matrix4d::Identity();
-  eye_from_world.topLeftCorner<3, 3>() = R_WE.transpose();
-  eye_from_world.topRightCorner<3, 1>() = -(R_WE.transpose() * eye);
+  eye_from_world.topLeftCorner<3, 3>() = eye.R.transpose();
+  eye_from_world.topRightCorner<3, 1>() = -(eye.R.transpose() * eye.p);
   const double ty = std::tan(field_of_view_rad() / 2);
   // y stays down: row 0 of the texture is the top of the picture.
   Eigen::Matrix4d clip = Eigen::Matrix4d::Zero();

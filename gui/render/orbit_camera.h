@@ -5,10 +5,11 @@
 
 #include <Eigen/Dense>
 
+#include "engine/core/frames.h"
+
 namespace palace {
 
-enum class View3dPreset { kOrbit, kAbove, kBehind };
-/// "Orbit", "Bird's eye", "Behind": as the screen shows it.
+enum class View3dPreset { kOrbit, kAbove, kBehind, kOblique };
 
 /// World frame W (north, east, down). azimuth 0: the eye lies south of the target and looks north;
 /// elevation is the angle of the eye above the horizon as seen from the target.
@@ -32,6 +33,8 @@ class OrbitCamera {
   void Advance(double dt_s);
 
   Eigen::Vector3d eye_W() const;
+  /// Of the eye of a picture so many times as wide as high: right, down, forward.
+  RigidTransform X_WE(double aspect) const;
   Eigen::Matrix4d ClipFromWorld(double width_px, double height_px) const;
   double field_of_view_rad() const { return 0.66; }
 

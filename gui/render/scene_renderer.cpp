@@ -290,9 +290,17 @@ Result<ImageU8> SceneRenderer::Render(const PinholeCamera& camera, const RigidTr
   if (!sized) {
     return sized.error();
   }
+  DrawInto(parts.target, camera, X_WC);
+  parts.target.Resolve();
+  return parts.target.ReadGrey();
+}
+
+void SceneRenderer::DrawInto(const Framebuffer& target, const PinholeCamera& camera,
+                             const RigidTransform& X_WC) {
+  const Parts& parts = *parts_;
   const Eigen::Matrix4f clip_from_world = ClipFromRelative(camera, X_WC);
 
-  parts.target.Begin(kSkyGrey);
+  target.Begin(kSkyGrey);
   parts.DrawObjects(clip_from_world, X_WC.p);
   const bool shaded = parts.shadows.count > 0;
   if (shaded) {
@@ -302,8 +310,6 @@ Result<ImageU8> SceneRenderer::Render(const PinholeCamera& camera, const RigidTr
   if (shaded) {
     parts.DarkenShadows(clip_from_world, X_WC.p);
   }
-  parts.target.Resolve();
-  return parts.target.ReadGrey();
 }
 
 }  // namespace palace

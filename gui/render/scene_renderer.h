@@ -6,6 +6,7 @@
 #include "engine/core/result.h"
 #include "engine/simulation/scene_camera.h"
 #include "engine/world/world.h"
+#include "gui/render/framebuffer.h"
 
 namespace palace {
 
@@ -35,6 +36,10 @@ class SceneRenderer final : public SceneCamera {
 
   Result<ImageU8> Render(const PinholeCamera& camera, const RigidTransform& X_WC,
                          double time_s = 0) override;
+  /// The same into a target of the camera's size, before it is resolved: with its depth, for what
+  /// is drawn after it.
+  void DrawInto(const Framebuffer& target, const PinholeCamera& camera,
+                const RigidTransform& X_WC);
 
  private:
   struct Parts;

@@ -30,8 +30,12 @@ bool IsChanged(const SliderRow& row) {
   return std::abs(row.value - row.info->default_value) > step * 1e-3;
 }
 
-void Ask(UiFrame& ui, const SettingInfo& info, double value) {
-  ui.intents.push_back(CommandAction(SetSetting{info.name, value}));
+void Ask(UiFrame& ui, const SliderRow& row, double value) {
+  if (row.ask) {
+    row.ask(value);
+  } else {
+    ui.intents.push_back(CommandAction(SetSetting{row.info->name, value}));
+  }
 }
 
 void StartTyping(const SliderRow& row, SliderState& state) {
@@ -97,11 +101,11 @@ void RunSettingKeys(UiFrame& ui, const SliderRow& row, const Interaction& in, Sl
   if (in.step_right != 0) {
     const double value = SteppedValue(info, row.value, in.step_right);
     if (value != row.value) {
-      Ask(ui, info, value);
+      Ask(ui, row, value);
     }
   }
   if (in.cleared && IsChanged(row)) {
-    Ask(ui, info, info.default_value);
+    Ask(ui, row, info.default_value);
   }
   if (in.key_pressed && info.words.empty()) {
     StartTyping(row, state);
@@ -132,7 +136,7 @@ Interaction RunTrack(UiFrame& ui, const Rect& track, const SliderRow& row, Slide
     const double value = DraggedValue(info, (at - track.x) / track.w);
     if (value != state.last_value && std::abs(at - x) >= 0.5f) {
       state.last_value = value;
-      Ask(ui, info, value);
+      Ask(ui, row, value);
     }
   }
   return in;
@@ -165,7 +169,7 @@ void DrawWords(UiFrame& ui, const Rect& area, const SliderRow& row, SliderState&
     DrawText(ui, s.caption, on ? p.on_white : p.text2, box.centre().x, box.centre().y, words[i],
              Align::kCentre);
     if (!on && in.clicked) {
-      Ask(ui, info, static_cast<double>(i));
+      Ask(ui, row, static_cast<double>(i));
     }
   }
 }
@@ -204,7 +208,7 @@ bool RunTyping(UiFrame& ui, const Rect& field, const SliderRow& row, const Setti
     double value = 0;
     std::string refusal;
     if (ParseTyped(info, settings, state.text, value, refusal)) {
-      Ask(ui, info, value);
+      Ask(ui, row, value);
     } else {
       state.refused = info.name;
       state.refusal = refusal;
@@ -225,7 +229,7 @@ void DrawReset(UiFrame& ui, const Rect& box, const SliderRow& row) {
   DrawIcon(Canvas(), Icon::kReset, box.centre(), s.Px(14),
            in.hovered ? s.palette.text1 : s.palette.text2);
   if (in.clicked) {
-    Ask(ui, *row.info, row.info->default_value);
+    Ask(ui, row, row.info->default_value);
   }
 }
 
@@ -277,6 +281,9 @@ bool ParseTyped(const SettingInfo& info, const Settings& settings, const std::st
                   ? FormatSetting(info, value) + " refused, min " + FormatSetting(info, info.min)
                   : FormatSetting(info, value) + " refused, max " + FormatSetting(info, info.max);
     return false;
+  }
+  if (FindSetting(info.name) == nullptr) {
+    return true;  // its range is all there is to check
   }
   Settings trial = settings;
   const Status set = SetSettingValue(trial, info.name, value);
@@ -330,8 +337,10 @@ void DrawSliderRow(UiFrame& ui, const Rect& rect, const SliderRow& row, const Se
   if (changed) {
     FillRect(Canvas(), {rect.x, std::round(middle - s.Px(12)), s.Px(4), s.Px(24)}, p.white_mark);
   }
-  DrawText(ui, changed ? s.medium : s.body, changed ? p.text1 : p.text2, rect.x + s.Px(16), middle,
-           info.label);
+  const float up = row.note.empty() ? 0 : s.Px(8);
+  DrawText(ui, changed ? s.medium : s.body, changed ? p.text1 : p.text2, rect.x + s.Px(16),
+           middle - up, info.label);
+  DrawText(ui, s.caption, p.text2, rect.x + s.Px(16), middle + s.Px(9), row.note);
   const bool narrow = rect.w < s.Px(380);
   const Rect field{rect.right() - s.Px(narrow ? 106 : 112), std::round(middle - s.Px(13)),
                    s.Px(narrow ? 76 : 80), s.Px(26)};

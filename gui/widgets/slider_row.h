@@ -7,6 +7,7 @@
 // [min, soft min] 12 %, [soft min, soft max] the rest, [soft max, max] 20 %, each linear.
 #pragma once
 
+#include <functional>
 #include <string>
 
 #include "engine/model/settings/settings.h"
@@ -32,6 +33,9 @@ struct SliderRow {
   const SettingInfo* info = nullptr;
   double value = 0;      ///< shown and edited
   bool pending = false;  ///< not in force yet: the field's border is the strong line
+  std::string note{};    ///< small, below the name: "now 45°"
+  /// What takes a new value; empty: a SetSetting asks for it.
+  std::function<void(double)> ask{};
 };
 
 /// Share of the track for a value, and back. Both are clamped to the hard limits.

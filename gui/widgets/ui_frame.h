@@ -83,9 +83,11 @@ struct PanelTextures {
   ImTextureID anchor_patch = nullptr;
   ImTextureID current_patch = nullptr;
   ImTextureID difference_patch = nullptr;
-  ImTextureID range_tint = nullptr;  ///< left camera's depth, to be drawn over its picture
-  float range_near_m = 0;            ///< depth of the first colour of range_tint
-  float range_far_m = 0;             ///< and of the last
+  ImTextureID range_tint = nullptr;    ///< left camera's depth, to be drawn over its picture
+  ImTextureID world[kWorldEyes] = {};  ///< views of a simulated world, by WorldEye
+  std::string world_waits_for{};       ///< why there are none yet
+  float range_near_m = 0;              ///< depth of the first colour of range_tint
+  float range_far_m = 0;               ///< and of the last
 };
 
 struct Style;  // palette, fonts and scale: gui/widgets/style.h

@@ -59,6 +59,9 @@ const std::set<std::pair<std::string, std::string>> kAllowed = {
     {"gui/render/scene_renderer.cpp", "kNoFineFootprint_m"},
     {"gui/render/terrain_renderer.cpp", "kFlat_m"},
     {"gui/render/terrain_renderer.cpp", "kTallest_m"},
+    {"gui/render/view_frustum.cpp", "kReach_m"},
+    {"gui/app/world_views.cpp", "kSlow_s"},
+    {"gui/app/world_views.cpp", "kQuick_s"},
 };
 
 struct Finding {

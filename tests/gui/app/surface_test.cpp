@@ -14,7 +14,7 @@ namespace palace {
 namespace {
 
 ImageRgba Drawn(Surface& surface, const EngineSnapshot& snapshot, const std::string& complaint) {
-  const std::unique_ptr<View> view = View::Create("dark").value();
+  const std::unique_ptr<View> view = View::Create("dark", nullptr).value();
   UiState state;
   ViewFrame frame{surface.width_px(), surface.height_px(), 1, 0};
   frame.complaint = complaint;

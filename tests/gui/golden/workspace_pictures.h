@@ -16,6 +16,7 @@
 #include "gui/panels/fly_workspace.h"
 #include "gui/panels/frame_bar.h"
 #include "gui/panels/review/review.h"
+#include "gui/panels/simulate/simulate.h"
 #include "gui/panels/tune/tune.h"
 #include "gui/platform/imgui_backend.h"
 #include "gui/platform/offscreen.h"
@@ -67,6 +68,19 @@ inline void MoveLimits(EngineSnapshot& snap) {
   } else {
     snap.terrain.Edit().preview = moved;
   }
+}
+
+/// What the Simulate workspace is offered for, in the middle of a flight.
+inline void Simulate(EngineSnapshot& snap, SimulateState& state) {
+  SourceStatus& source = snap.session.Edit().source;
+  SimulationStatus& simulation = source.simulation.emplace();
+  ReadRig(*snap.sensors->rig, simulation.began);
+  simulation.in_force = simulation.asked = simulation.began;
+  simulation.in_force.wind_mps = simulation.asked.wind_mps = 4;
+  simulation.asked.wind_from_deg = 230;
+  state.offered = {{"runway", "rocks", "rough", "ditches", "config/worlds/yard.toml"},
+                   {"multirotor", "r50"}};
+  state.choice = {"rocks", 7, "r50"};
 }
 
 inline FlightRecord Record(const EngineSnapshot& snap) {
@@ -137,6 +151,10 @@ inline ImageRgba Draw(const Shot& shot, std::string& why) {
   tune.history.Remember(CommandAction(SetSetting{"slad.max_deviation_m", 0.06}), before, {});
   ReviewState review;
   DiagnoseState diagnose;
+  SimulateState simulate;
+  if (shot.workspace == Workspace::kSimulate) {
+    Simulate(snap, simulate);
+  }
   FrameState frame;
   frame.preset_name = "r50-field";
   frame.workspace = shot.workspace;
@@ -162,6 +180,9 @@ inline ImageRgba Draw(const Shot& shot, std::string& why) {
         break;
       case Workspace::kDiagnose:
         DrawDiagnoseWorkspace(snap, layout.frame.body, diagnose, ui);
+        break;
+      case Workspace::kSimulate:
+        DrawSimulateWorkspace(snap, layout.frame.body, simulate, ui);
         break;
     }
     DrawFrameOverlay(snap, layout.frame, frame, ui);
@@ -192,7 +213,9 @@ inline std::vector<Shot> Shots() {
       {"tune-proposed", MissionState::kProposed, SourceKind::kSimulation, Workspace::kTune},
       {"tune-armed", MissionState::kArmed, SourceKind::kSimulation, Workspace::kTune},
       {"review-replay", MissionState::kArmed, SourceKind::kReplay, Workspace::kReview},
-      {"diagnose-live", MissionState::kDescending, SourceKind::kLive, Workspace::kDiagnose}};
+      {"diagnose-live", MissionState::kDescending, SourceKind::kLive, Workspace::kDiagnose},
+      {"simulate-proposed", MissionState::kProposed, SourceKind::kSimulation,
+       Workspace::kSimulate}};
   std::vector<Shot> shots;
   for (const State& s : states) {
     shots.push_back({s.name, 1280, 720, 1, s.state, s.kind, s.workspace});

@@ -1,0 +1,200 @@
+// Simulate: texts stay in their panels; time, changes, views and the next flight ask for the right
+// thing; what is shown is what is in force.
+#include "gui/panels/frame_bar.h"
+#include "gui/panels/simulate/simulate.h"
+#include "tests/gui/panels/panel_checks.h"
+#include "tests/support/fake_snapshot.h"
+#include "tests/support/ui_harness.h"
+
+namespace palace {
+namespace {
+
+EngineSnapshot Simulated(MissionState state) {
+  EngineSnapshot snap = fake::Snapshot(state, SourceKind::kSimulation);
+  SourceStatus& source = snap.session.Edit().source;
+  source.simulation.emplace();
+  ReadRig(*snap.sensors->rig, source.simulation->began);
+  source.simulation->in_force = source.simulation->asked = source.simulation->began;
+  source.position_s = 12.3;
+  source.duration_s = 600;
+  source.speed = 1;
+  source.speed_reached = 0.98;
+  source.paused = false;
+  return snap;
+}
+
+SimulateState State() {
+  SimulateState state;
+  state.offered.scenarios = {"runway", "rocks", "obstacles", "ditches", "config/worlds/yard.toml"};
+  state.offered.vehicles = {"r50", "multirotor"};
+  state.choice = {"runway", 1, "r50"};
+  return state;
+}
+
+struct Window {
+  explicit Window(EngineSnapshot snapshot, float width = 1920, float height = 1080)
+      : ui(width, height), snap(std::move(snapshot)), body(BodyOf(width, height)) {
+    ui.Frame(draw);
+  }
+  std::string TextOf(const char* item) const {
+    const Item* found = ui.items.Find(item);
+    return found == nullptr ? "not drawn" : found->text;
+  }
+  template <typename T>
+  std::vector<T> Asked() const {
+    std::vector<T> asked;
+    for (const Intent& intent : ui.intents) {
+      if (const T* one = std::get_if<T>(&intent)) {
+        asked.push_back(*one);
+      }
+    }
+    return asked;
+  }
+  template <typename T>
+  std::optional<T> LastAction() const {
+    std::optional<T> last;
+    for (const UiAction& action : Asked<UiAction>()) {
+      if (const T* one = std::get_if<T>(&action)) {
+        last = *one;
+      }
+    }
+    return last;
+  }
+  UiHarness ui;
+  EngineSnapshot snap;
+  Rect body;
+  SimulateState state = State();
+  std::function<void(UiFrame&)> draw = [this](UiFrame& f) {
+    DrawSimulateWorkspace(snap, body, state, f);
+  };
+};
+
+TEST(SimulateWorkspace, TextsStayInTheirPanels) {
+  for (const WindowSize& size : kWindowSizes) {
+    for (const bool choosing : {false, true}) {
+      for (const MissionState mission : {MissionState::kProposed, MissionState::kDescending}) {
+        for (const bool waits : {false, true}) {
+          SCOPED_TRACE(std::string(size.name) + " " + MissionStateName(mission));
+          EngineSnapshot snap = Simulated(mission);
+          if (waits) {
+            SimulationSetup& asked = snap.session.Edit().source.simulation->asked;
+            asked.wind_mps = 12.5;
+            asked.field_of_view_deg = 100;
+          }
+          Window window(std::move(snap), size.width, size.height);
+          window.state.choosing = choosing;
+          // 22 families and a file, as the program offers them.
+          window.state.offered.scenarios.assign(23, "obstacles");
+          window.ui.Frame(window.draw);
+          ExpectTextsInPanels(window.ui.items);
+          ExpectPanelsApart(window.ui.items, window.body);
+        }
+      }
+    }
+  }
+}
+
+TEST(SimulateWorkspace, OfAnotherSourceItSaysWhyNot) {
+  EngineSnapshot live = fake::Snapshot(MissionState::kSearch, SourceKind::kLive);
+  Window window(live);
+  EXPECT_TRUE(HasText(window.ui.items, "Only the built-in simulation"));
+  EXPECT_EQ(window.ui.items.Find("sim/play"), nullptr);
+}
+
+TEST(SimulateWorkspace, TimeAsksForWhatItsButtonsSay) {
+  using Kind = PlaybackControl::Kind;
+  Window window(Simulated(MissionState::kProposed));
+  EXPECT_EQ(window.TextOf("sim/time"), "12.3 s");
+  EXPECT_EQ(window.TextOf("sim/state"), "Runs");
+  EXPECT_EQ(window.TextOf("sim/reached"), "reached 0.98× real time");
+  for (const char* item : {"sim/play", "sim/step", "sim/run_to", "sim/speed/50", "sim/speed/0.1",
+                           "sim/speed/fastest"}) {
+    window.ui.Click(item, window.draw);
+  }
+  const std::vector<PlaybackControl> asked = window.Asked<PlaybackControl>();
+  ASSERT_EQ(asked.size(), 6U);
+  EXPECT_EQ(asked[0].kind, Kind::kPause);
+  EXPECT_EQ(asked[1].kind, Kind::kStepForward);
+  EXPECT_EQ(asked[2].kind, Kind::kRunTo);
+  EXPECT_EQ(asked[2].value, 20) << "the next whole ten seconds are offered";
+  EXPECT_EQ(asked[3].value, 50);
+  EXPECT_EQ(asked[4].value, 0.1);
+  EXPECT_EQ(asked[5].value, 0);
+
+  SourceStatus& source = window.snap.session.Edit().source;
+  source.simulation->run_to_s = 20;
+  window.ui.Frame(window.draw);
+  EXPECT_EQ(window.TextOf("sim/state"), "Runs to 20.0 s");
+  source.paused = true;
+  source.simulation->run_to_s.reset();
+  window.ui.Frame(window.draw);
+  EXPECT_EQ(window.TextOf("sim/state"), "Paused");
+  EXPECT_EQ(window.TextOf("sim/reached"), "reached ––") << "nothing runs";
+}
+
+TEST(SimulateWorkspace, AChangeIsShownAsAskedAndInForce) {
+  Window window(Simulated(MissionState::kProposed));
+  window.ui.MoveTo("limit/simulation.wind_mps");
+  window.ui.Frame(window.draw);
+  window.ui.Button(true);
+  window.ui.Frame(window.draw);
+  window.ui.MoveTo(ImVec2(window.ui.items.Find("limit/simulation.wind_mps")->rect.centre().x + 40,
+                          window.ui.items.Find("limit/simulation.wind_mps")->rect.centre().y));
+  window.ui.Frame(window.draw);
+  window.ui.Button(false);
+  window.ui.Frame(window.draw);
+  const std::vector<SimulationChange> asked = window.Asked<SimulationChange>();
+  ASSERT_FALSE(asked.empty());
+  EXPECT_EQ(asked.back().name, "simulation.wind_mps");
+  EXPECT_GT(asked.back().value, 1);
+  EXPECT_LE(asked.back().value, 20);
+
+  EXPECT_EQ(window.TextOf("in_force/simulation.wind_mps"), "0.0 m/s");
+  EXPECT_FALSE(HasText(window.ui.items, "now 0.0 m/s"));
+  window.snap.session.Edit().source.simulation->asked.wind_mps = 8;
+  window.ui.Frame(window.draw);
+  EXPECT_EQ(window.TextOf("in_force/simulation.wind_mps"), "0.0 m/s");
+  EXPECT_TRUE(HasText(window.ui.items, "now 0.0 m/s"));
+  EXPECT_TRUE(HasText(window.ui.items, "From the next pictures on"));
+}
+
+TEST(SimulateWorkspace, TheRigIsHeldWhileASiteIsFlownToAndWindIsNot) {
+  Window window(Simulated(MissionState::kDescending));
+  for (const SimulationRow& row : SimulationTable()) {
+    const Item* item = window.ui.items.Find("limit/" + row.info.name);
+    ASSERT_NE(item, nullptr) << row.info.name;
+    EXPECT_EQ(item->enabled, !row.of_rig) << row.info.name;
+  }
+  EXPECT_TRUE(HasText(window.ui.items, "until the landing is over"));
+}
+
+TEST(SimulateWorkspace, ASmallViewChangesPlacesWithTheMainOne) {
+  Window window(Simulated(MissionState::kProposed));
+  window.ui.Click("swap/chase", window.draw);
+  ASSERT_TRUE(window.LastAction<ShowWorldView>());
+  EXPECT_EQ(window.LastAction<ShowWorldView>()->eye, WorldEye::kChase);
+  window.ui.Click("world_view/orbit", window.draw);
+  EXPECT_EQ(window.LastAction<ShowWorldView>()->eye, WorldEye::kOrbit);
+
+  SimulateState state;
+  ShowEye(WorldEye::kChase, state);
+  EXPECT_EQ(state.eyes[0], WorldEye::kChase);
+  EXPECT_EQ(state.eyes[2], WorldEye::kBirdsEye) << "where the chase was";
+  ShowEye(WorldEye::kOrbit, state);
+  EXPECT_EQ(state.eyes[0], WorldEye::kOrbit) << "from outside the column: it takes the main place";
+}
+
+TEST(SimulateWorkspace, AnotherWorldIsANewFlight) {
+  Window window(Simulated(MissionState::kProposed));
+  window.ui.Click("scenario/yard", window.draw);
+  window.ui.Click("vehicle/multirotor", window.draw);
+  window.ui.Click("fly_world", window.draw);
+  const auto next = window.LastAction<NextFlight>();
+  ASSERT_TRUE(next && next->choice);
+  EXPECT_EQ(next->kind, NextFlight::Kind::kFlyAgain);
+  EXPECT_EQ(next->choice->scenario, "config/worlds/yard.toml");
+  EXPECT_EQ(next->choice->vehicle, "multirotor");
+}
+
+}  // namespace
+}  // namespace palace

@@ -1,0 +1,71 @@
+// The Simulate workspace by a script, without a window: time, views and changes; and what was flown
+// so replays.
+#include "tests/scenarios/scenario.h"
+
+namespace palace {
+namespace {
+
+class Simulate : public Scenario {};
+
+TEST_F(Simulate, AScriptRunsStepsChangesAndLooks) {
+  const auto script = WriteFile("look.txt", R"(
+wait state PROPOSED 60
+click tab/Simulate
+wait seconds 0.2
+expect text sim/state Runs
+run_to 4
+wait time 4
+expect text sim/time 4.0 s
+expect text sim/state Paused
+click sim/step
+wait seconds 0.2
+expect text sim/time 4.1 s
+set simulation.wind_mps 6
+set simulation.field_of_view_deg 60
+wait seconds 0.2
+expect text in_force/simulation.field_of_view_deg 45
+key .
+wait seconds 0.2
+expect text in_force/simulation.field_of_view_deg 60
+expect text in_force/simulation.wind_mps 6.0 m/s
+key 3
+wait seconds 0.2
+expect item swap/birds_eye
+screenshot chase.png
+click world_view/above
+wait seconds 0.2
+expect item swap/chase
+run_to 6
+wait time 6
+expect item paused
+click tab/Fly
+click tab/Simulate
+wait seconds 0.2
+click sim/play
+click tab/Fly
+wait state PROPOSED 60
+click site/best
+wait state ARMED 10
+click tab/Simulate
+wait seconds 0.2
+set simulation.tilt_deg -60
+wait seconds 0.2
+expect text toast deselect it
+set simulation.wind_mps 2
+wait seconds 0.3
+expect text in_force/simulation.wind_mps 2.0 m/s
+expect state ARMED
+)");
+  const ProcessResult run = RunProcess(Palace({"--headless", "--script", script, "--seed", "3"}), 120);
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+}
+
+TEST_F(Simulate, AValueOutOfRangeIsRefusedBeforeAnythingRuns) {
+  const auto script = WriteFile("bad.txt", "set simulation.baseline_m 9\n");
+  const ProcessResult run = RunProcess(Palace({"--headless", "--script", script}), 60);
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_NE(run.err.find("must lie between 0.1 and 3 m"), std::string::npos) << run.err;
+}
+
+}  // namespace
+}  // namespace palace
