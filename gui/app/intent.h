@@ -77,6 +77,13 @@ struct FlightChoice {
   std::uint64_t seed = 1;
   std::string vehicle;
 };
+/// Into the built-in simulation, as faults/fault_text.h writes one; its times count from now.
+struct InjectFault {
+  std::string text;
+};
+struct EndFault {
+  int number = 0;  ///< that it was given
+};
 /// After a flight: what this window does next. The report is written before any of them.
 struct NextFlight {
   enum class Kind : std::uint8_t { kFlyAgain, kReview, kOpenReport };
@@ -87,10 +94,10 @@ struct NextFlight {
 };
 
 /// What changes the window only; reduced into UiState.
-using UiAction =
-    std::variant<ShowWorkspace, HighlightSite, ShowView3dPreset, ShowWorldView, MoveView3d,
-                 SetUiScale, TakeScreenshot, UndoSetting, RedoSetting, ChoosePreset, LookAtPreset,
-                 LoadPreset, SavePreset, ShowKeyHelp, CloseTop, QuitProgram, NextFlight>;
+using UiAction = std::variant<ShowWorkspace, HighlightSite, ShowView3dPreset, ShowWorldView,
+                              MoveView3d, SetUiScale, TakeScreenshot, UndoSetting, RedoSetting,
+                              ChoosePreset, LookAtPreset, LoadPreset, SavePreset, ShowKeyHelp,
+                              CloseTop, QuitProgram, NextFlight, InjectFault, EndFault>;
 
 /// Everything a panel can ask for.
 using Intent = std::variant<CommandAction, PlaybackControl, SimulationChange, UiAction>;

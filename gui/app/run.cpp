@@ -17,6 +17,7 @@
 #include "gui/app/app.h"
 #include "gui/app/dispatch.h"
 #include "gui/app/exit_code.h"
+#include "gui/app/fault_offers.h"
 #include "gui/app/input.h"
 #include "gui/app/keys.h"
 #include "gui/app/refusal_watch.h"
@@ -66,6 +67,7 @@ class StationRun {
         start_s_(MonotonicSeconds()) {
     state_.after_review = after_review;
     state_.simulate.offered = FlightsOffered(options);
+    state_.simulate.offered.faults = FaultsOffered();
     state_.simulate.choice = ChoiceOf(options);
     state_.scale = options.ui_scale > 0 ? options.ui_scale : surface.natural_scale();
     if (!script_) {  // a script says where it goes
@@ -193,10 +195,29 @@ class StationRun {
     AddKeys(window_input, input, snapshot.get(), intents);
     const CommandOrigin origin = script_ ? CommandOrigin::kScript : CommandOrigin::kOperator;
     Dispatch(intents, origin, snapshot.get(), GestureNow(ui_time_s_), *session_.engine, state_);
+    RunFaults();
     if (std::exchange(state_.report_wanted, false)) {
       OpenReport();
     }
     return saved;
+  }
+
+  /// Injects and ends what was asked for, and lists what there is for the next frame.
+  void RunFaults() {
+    const std::vector<std::string> wanted = std::exchange(state_.faults_wanted, {});
+    const std::vector<int> ended = std::exchange(state_.faults_ended, {});
+    if (!session_.faulted) {
+      return;
+    }
+    for (const std::string& text : wanted) {
+      if (const Status injected = Inject(session_.faulted->faults(), text); !injected) {
+        ShowMessage(state_, injected.error().message, ui_time_s_);
+      }
+    }
+    for (const int number : ended) {
+      session_.faulted->faults().End(number);
+    }
+    state_.simulate.faults = ListFaults(session_.faulted->faults());
   }
 
   /// The page as the flight stands now; it is written again at the end.

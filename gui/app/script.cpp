@@ -111,6 +111,10 @@ void ScriptRunner::Begin(const ScriptLine& line, const ItemRecord& items,
       input.intents.emplace_back(SimulationChange{line.words[0], line.NumberAt(1)});
     } else if (line.verb == "set") {
       input.intents.emplace_back(CommandAction(SetSetting{line.words[0], line.NumberAt(1)}));
+    } else if (line.verb == "fault") {
+      input.intents.emplace_back(UiAction(InjectFault{line.words[0]}));
+    } else if (line.verb == "end_fault") {
+      input.intents.emplace_back(UiAction(EndFault{static_cast<int>(line.NumberAt(0))}));
     } else if (line.verb == "screenshot") {
       input.intents.emplace_back(UiAction(TakeScreenshot{line.words[0]}));
     } else if (line.verb == "resize") {

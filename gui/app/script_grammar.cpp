@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "engine/core/text.h"
+#include "engine/faults/fault_text.h"
 #include "gui/app/input.h"
 #include "gui/app/script.h"
 
@@ -62,6 +63,8 @@ const std::vector<Action>& Actions() {
       {"screenshot", "", {kFile}},
       {"resize", "", {Number("WIDTH", 640, 7680, "px"), Number("HEIGHT", 480, 4320, "px")}},
       {"speed", "", {Number("SPEED", 0, 100, "times real time")}},
+      {"fault", "", {Argument{"FAULT"}}},
+      {"end_fault", "", {Number("NUMBER", 1, 1000, "")}},
       {"run_to", "", {Number("SECONDS", 0, 86400, "s")}},
       {"seek", "", {Number("SECONDS", 0, 86400, "s")}},
       {"quit", "", {}},
@@ -180,6 +183,10 @@ std::string Problem(const ScriptLine& line) {
   if (at < line.words.size() && !open_end) {
     return "'" + line.verb + "' takes " + Usage(*action) + ", nothing after it: '" +
            line.words[at] + "'";
+  }
+  if (line.verb == "fault") {
+    const Result<Fault> fault = ParseFault(line.words[0]);
+    return fault ? std::string() : fault.error().message;
   }
   if (line.verb == "set" && line.words[0].rfind("simulation.", 0) == 0) {
     const Status possible = CheckChange({line.words[0], line.NumberAt(1)});

@@ -127,6 +127,8 @@ struct Reducer {
   void operator()(const ShowKeyHelp& help) { state.key_help = help.shown; }
   void operator()(const CloseTop&) { CloseTopmost(state); }
   void operator()(const QuitProgram&) { state.quit = true; }
+  void operator()(const InjectFault& fault) { state.faults_wanted.push_back(fault.text); }
+  void operator()(const EndFault& fault) { state.faults_ended.push_back(fault.number); }
   void operator()(const NextFlight& next) {
     if (next.kind == NextFlight::Kind::kOpenReport) {
       state.report_wanted = true;

@@ -38,8 +38,10 @@ struct UiState {
   std::optional<NextFlight> next;  ///< set with quit: the flight after this one, or its review
   WayOut after_review;             ///< offered while a record is shown
   bool report_wanted = false;      ///< to be written and opened
-  std::string message;             ///< toast, newest
-  double message_until_s = 0;      ///< UI clock
+  std::vector<std::string> faults_wanted;       ///< to be injected from now on
+  std::vector<int> faults_ended;                ///< numbers of those to be ended
+  std::string message;                          ///< toast, newest
+  double message_until_s = 0;                   ///< UI clock
   std::vector<std::string> screenshots_wanted;  ///< file names, taken after the next frame
 };
 

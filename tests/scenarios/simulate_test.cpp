@@ -55,9 +55,19 @@ set simulation.wind_mps 2
 wait seconds 0.3
 expect text in_force/simulation.wind_mps 2.0 m/s
 expect state ARMED
+fault gps_jump=3
+wait seconds 0.3
+expect text fault/1 GPS jump 3 m, until ended
+end_fault 1
+wait seconds 0.3
 )");
   const ProcessResult run = RunProcess(Palace({"--headless", "--script", script, "--seed", "3"}), 120);
   EXPECT_EQ(run.exit_code, 0) << run.err;
+}
+
+TEST_F(Simulate, AnUnknownFaultIsRefusedBeforeAnythingRuns) {
+  const auto script = WriteFile("bad.txt", "fault gps_jumps=3\n");
+  EXPECT_EQ(RunProcess(Palace({"--headless", "--script", script}), 60).exit_code, 2);
 }
 
 TEST_F(Simulate, AValueOutOfRangeIsRefusedBeforeAnythingRuns) {

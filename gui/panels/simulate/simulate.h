@@ -3,6 +3,8 @@
 #pragma once
 
 #include <array>
+#include <cmath>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -12,10 +14,40 @@
 
 namespace palace {
 
-/// What another flight may be flown in; the app sets it.
+/// A kind of fault; the app knows them.
+struct FaultOffer {
+  std::string name, words;  ///< "gps_jump", "GPS jump"
+  std::string what;         ///< a sentence
+  bool has_value = false;
+  std::string unit{};
+  double default_value = NAN, least = 0, most = 0;
+  struct Channel {
+    std::string name, words;  ///< "CAMERA_LEFT", "Camera left"
+  };
+  std::vector<Channel> channels{};  ///< one may be chosen of; empty: the kind says itself
+};
+/// One of the flight's, as it stands now.
+struct ListedFault {
+  int number = 0;
+  std::string words;  ///< "GPS jump 3 m"
+  std::string kind;   ///< "GPS jump", where there is no room
+  double from_s = 0, to_s = 0;  ///< of the flight; infinite: until it is ended
+  bool acts = false, over = false;
+};
+/// What a fault to come is made of.
+struct FaultForm {
+  std::size_t kind = 0;
+  std::size_t channel = 0;  ///< 0: all, else the kind's nth
+  double value = NAN;       ///< NaN: the default
+  double for_s = 10;        ///< 0: until it is ended
+};
+
+/// What another flight may be flown in, and what may fail in this one; the app sets it.
 struct OfferedFlights {
   std::vector<std::string> scenarios, vehicles;
+  std::vector<FaultOffer> faults{};
 };
+enum class SimulateTab : std::uint8_t { kChanges, kFlight, kFaults };
 
 struct SimulateState {
   /// The view that fills the main area, then the small ones beside it.
@@ -24,8 +56,11 @@ struct SimulateState {
   SliderState sliders;
   double run_to_s = 0;  ///< offered
   OfferedFlights offered;
-  FlightChoice choice;    ///< of the next flight
-  bool choosing = false;  ///< in a low window: the next flight is shown in place of the changes
+  FlightChoice choice;                      ///< of the next flight
+  SimulateTab tab = SimulateTab::kChanges;  ///< in a low window: what of the three is shown
+  FaultForm fault;
+  bool choosing_fault = false;      ///< the list of kinds is open
+  std::vector<ListedFault> faults;  ///< set by the app, every frame
 };
 
 /// A built-in simulation is looked at.
@@ -38,9 +73,9 @@ const char* EyeWords(WorldEye eye);
 void ShowEye(WorldEye eye, SimulateState& state);
 
 struct SimulateLayout {
-  bool folded = false;         ///< changes and next flight share one place, behind tabs
-  Rect time, changes, flight;  ///< folded: the last two are the same
-  std::array<Rect, 4> eyes;    ///< panels, the main one first
+  bool folded = false;  ///< changes, next flight and faults share one place, behind tabs
+  Rect time, changes, flight, faults;  ///< folded: the last three are the same
+  std::array<Rect, 4> eyes;            ///< panels, the main one first
 };
 SimulateLayout LaySimulate(const Rect& body, const Style& style);
 
@@ -53,6 +88,11 @@ void DrawSimulationChanges(const EngineSnapshot& snap, const Rect& rect, Simulat
 /// Items "scenario/rocks", "vehicle/r50", "field/simulation.seed", "fly_world".
 void DrawNextFlight(const EngineSnapshot& snap, const Rect& rect, SimulateState& state,
                     UiFrame& ui);
+/// Items "fault/kind", "fault/channel/next", "fault/inject"; "fault/3" and "fault/end/3" of those
+/// that act or are to come.
+void DrawFaults(const EngineSnapshot& snap, const Rect& rect, SimulateState& state, UiFrame& ui);
+/// Items "fault/kind/gps_jump" of all kinds.
+void DrawFaultChoice(const Rect& rect, SimulateState& state, UiFrame& ui);
 /// Items "world_view/chase" for each, "swap/chase" for the small ones shown.
 void DrawWorldViews(const EngineSnapshot& snap, const SimulateLayout& layout, SimulateState& state,
                     UiFrame& ui);

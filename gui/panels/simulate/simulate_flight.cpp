@@ -30,7 +30,7 @@ float DrawChoice(const Rect& area, const char* kind, const std::vector<std::stri
     look.font = s.caption;
     look.active = chosen == names[i];
     const std::string label = ShortName(names[i]);
-    const bool fits = TextWidth(s.caption, label) <= w - s.Px(6);
+    const bool fits = TextWidth(s.caption, label) <= w - s.Px(2);
     look.hint = fits ? std::string_view() : std::string_view(names[i]);
     const Rect box{area.x + column * (w + gap), area.y + row * (h + gap), w, h};
     if (DrawButton(ui, std::string(kind) + "/" + label, box, fits ? label : "Own file", look)) {
@@ -52,10 +52,10 @@ void DrawSeed(const Rect& row, const EngineSnapshot& snap, SimulateState& state,
   info.max = info.soft_max = kMostSeed;
   const auto seed = static_cast<double>(state.choice.seed);
   info.default_value = seed;
-  DrawText(ui, s.body, s.palette.text2, row.x, row.centre().y, "Seed, 0 to 999 999");
+  DrawText(ui, s.body, s.palette.text2, row.x, row.centre().y, "Seed");
   SliderRow value{&info, seed};
   value.ask = [&](double to) { state.choice.seed = static_cast<std::uint64_t>(std::llround(to)); };
-  const Rect field{row.right() - s.Px(104), row.y, s.Px(104), row.h};
+  const Rect field{row.right() - s.Px(96), row.y, s.Px(96), row.h};
   DrawValueField(ui, field, value, snap.session->settings, state.sliders, FieldKeys::kOwn);
 }
 
@@ -68,15 +68,21 @@ void DrawNextFlight(const EngineSnapshot& snap, const Rect& rect, SimulateState&
       DrawPanelFrame(ui, rect, "New flight", {{"Now: " + ShortName(snap.session->source.name), 0}});
   const float pad = s.Px(12), x = content.x + pad, w = content.w - 2 * pad;
   float y = content.y + s.Px(2);
-  const int columns = w < s.Px(360) ? 3 : 4;
+  const bool narrow = w < s.Px(360);
+  const int columns = narrow ? 3 : 4;
   y = DrawChoice({x, y, w, 0}, "scenario", state.offered.scenarios, columns, state.choice.scenario,
                  ui) +
       s.Px(6);
-  DrawSeed({x, y, w, s.Px(26)}, snap, state, ui);
-  y += s.Px(34);
-  y = DrawChoice({x, y, w, 0}, "vehicle", state.offered.vehicles, 3, state.choice.vehicle, ui) +
+  // Beside each other where there is room.
+  const float seed_w = narrow ? w : s.Px(150);
+  DrawSeed({x, y, seed_w, s.Px(24)}, snap, state, ui);
+  const float vehicle_x = narrow ? x : x + seed_w + s.Px(12);
+  y += narrow ? s.Px(32) : 0;
+  y = DrawChoice({vehicle_x, y, x + w - vehicle_x, 0}, "vehicle", state.offered.vehicles,
+                 narrow ? 3 : std::max(2, static_cast<int>(state.offered.vehicles.size())),
+                 state.choice.vehicle, ui) +
       s.Px(6);
-  const Rect button{x, y, w, s.Px(36)};
+  const Rect button{x, y, w, s.Px(34)};
   ButtonLook look;
   look.font = s.medium;
   look.hint = "Ends this flight and begins one there, with the vehicle's own cameras";

@@ -81,6 +81,15 @@ inline void Simulate(EngineSnapshot& snap, SimulateState& state) {
   state.offered = {{"runway", "rocks", "rough", "ditches", "config/worlds/yard.toml"},
                    {"multirotor", "r50"}};
   state.choice = {"rocks", 7, "r50"};
+  state.offered.faults = {{.name = "gps_jump",
+                           .words = "GPS jump",
+                           .what = "Every fix is off by this",
+                           .has_value = true,
+                           .unit = "m",
+                           .default_value = 3,
+                           .least = 0,
+                           .most = 100}};
+  state.faults = {{1, "GPS jump 3 m", "GPS jump", 4, 20, true, false}};
 }
 
 inline FlightRecord Record(const EngineSnapshot& snap) {

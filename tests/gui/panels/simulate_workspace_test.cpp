@@ -28,6 +28,20 @@ SimulateState State() {
   state.offered.scenarios = {"runway", "rocks", "obstacles", "ditches", "config/worlds/yard.toml"};
   state.offered.vehicles = {"r50", "multirotor"};
   state.choice = {"runway", 1, "r50"};
+  const FaultOffer jump{.name = "gps_jump",
+                        .words = "GPS jump",
+                        .what = "Every fix is off by this",
+                        .has_value = true,
+                        .unit = "m",
+                        .default_value = 3,
+                        .least = 0,
+                        .most = 100};
+  const FaultOffer missing{.name = "missing",
+                           .words = "Missing",
+                           .what = "Nothing comes",
+                           .channels = {{"GPS", "GPS"}, {"IMU", "IMU"}}};
+  state.offered.faults.assign(32, jump);
+  state.offered.faults.push_back(missing);
   return state;
 }
 
@@ -71,7 +85,8 @@ struct Window {
 
 TEST(SimulateWorkspace, TextsStayInTheirPanels) {
   for (const WindowSize& size : kWindowSizes) {
-    for (const bool choosing : {false, true}) {
+    for (const SimulateTab tab :
+         {SimulateTab::kChanges, SimulateTab::kFlight, SimulateTab::kFaults}) {
       for (const MissionState mission : {MissionState::kProposed, MissionState::kDescending}) {
         for (const bool waits : {false, true}) {
           SCOPED_TRACE(std::string(size.name) + " " + MissionStateName(mission));
@@ -82,7 +97,12 @@ TEST(SimulateWorkspace, TextsStayInTheirPanels) {
             asked.field_of_view_deg = 100;
           }
           Window window(std::move(snap), size.width, size.height);
-          window.state.choosing = choosing;
+          window.state.tab = tab;
+          window.state.choosing_fault = waits;
+          for (int i = 1; i <= 12; ++i) {
+            window.state.faults.push_back({i, "Camera overexposed 4 times on both cameras",
+                                           "Camera overexposed", 10, i > 6 ? INFINITY : 20, i < 9});
+          }
           // 22 families and a file, as the program offers them.
           window.state.offered.scenarios.assign(23, "obstacles");
           window.ui.Frame(window.draw);
@@ -182,6 +202,31 @@ TEST(SimulateWorkspace, ASmallViewChangesPlacesWithTheMainOne) {
   EXPECT_EQ(state.eyes[2], WorldEye::kBirdsEye) << "where the chase was";
   ShowEye(WorldEye::kOrbit, state);
   EXPECT_EQ(state.eyes[0], WorldEye::kOrbit) << "from outside the column: it takes the main place";
+}
+
+TEST(SimulateWorkspace, AFaultIsInjectedFromNowAndEnded) {
+  Window window(Simulated(MissionState::kProposed));
+  window.ui.Click("fault/inject", window.draw);
+  ASSERT_TRUE(window.LastAction<InjectFault>());
+  EXPECT_EQ(window.LastAction<InjectFault>()->text, "gps_jump=3.000000:0-10.000000");
+  window.ui.Click("fault/kind", window.draw);
+  window.ui.Frame(window.draw);  // the list of kinds
+  window.ui.Click("fault/kind/missing", window.draw);
+  window.ui.Frame(window.draw);
+  window.ui.Click("fault/channel/next", window.draw);
+  window.ui.Click("fault/channel/next", window.draw);
+  window.state.fault.for_s = 0;
+  window.ui.Click("fault/inject", window.draw);
+  EXPECT_EQ(window.LastAction<InjectFault>()->text, "missing@IMU:0-");
+
+  window.state.faults = {{1, "GPS jump 3 m", "GPS jump", 2, 12, false, true},
+                         {2, "Missing on IMU", "Missing", 12.3, INFINITY, true, false}};
+  window.ui.Frame(window.draw);
+  EXPECT_EQ(window.ui.items.Find("fault/1"), nullptr) << "it is over";
+  EXPECT_EQ(window.TextOf("fault/2"), "Missing on IMU, until ended");
+  window.ui.Click("fault/end/2", window.draw);
+  ASSERT_TRUE(window.LastAction<EndFault>());
+  EXPECT_EQ(window.LastAction<EndFault>()->number, 2);
 }
 
 TEST(SimulateWorkspace, AnotherWorldIsANewFlight) {

@@ -1,0 +1,62 @@
+#include "gui/app/fault_offers.h"
+
+#include <algorithm>
+#include <cctype>
+
+#include "engine/faults/fault_text.h"
+
+namespace palace {
+namespace {
+
+/// With a capital.
+std::string Sentence(std::string words, std::ptrdiff_t capitals = 1) {
+  std::transform(words.begin(), words.begin() + capitals, words.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  return words;
+}
+
+/// "GPS jump" of "gps_jump".
+std::string WordsOf(std::string name) {
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return Sentence(name, name.starts_with("gps ") || name.starts_with("imu ") ? 3 : 1);
+}
+
+}  // namespace
+
+std::vector<FaultOffer> FaultsOffered() {
+  std::vector<FaultOffer> offers;
+  for (const FaultKindRow& row : FaultKindTable()) {
+    FaultOffer offer{.name = row.name, .words = WordsOf(row.name), .what = row.what};
+    offer.has_value = !std::isnan(row.default_value);
+    offer.unit = row.unit;
+    offer.default_value = row.default_value;
+    offer.least = row.least;
+    offer.most = row.most;
+    for (const ChannelId id : ChannelsOf(row.kind)) {
+      offer.channels.push_back({FaultChannelName(id), ChannelName(id)});
+    }
+    offers.push_back(std::move(offer));
+  }
+  return offers;
+}
+
+std::vector<ListedFault> ListFaults(const FaultInjector& injector) {
+  std::vector<ListedFault> listed;
+  for (const InjectedFault& each : injector.Faults()) {
+    listed.push_back({each.number, Sentence(FaultWords(each.fault)),
+                      WordsOf(RowOf(each.fault.kind).name), each.fault.from_s, each.fault.to_s,
+                      each.acts, each.over});
+  }
+  return listed;
+}
+
+Status Inject(FaultInjector& injector, const std::string& text) {
+  const Result<Fault> fault = ParseFault(text);
+  if (!fault) {
+    return fault.error();
+  }
+  const Result<int> number = injector.AddFromNow(*fault);
+  return number ? Ok() : Status(number.error());
+}
+
+}  // namespace palace
