@@ -1,6 +1,8 @@
 // The render room draws through a driver of another kind: the same library, linked to OSMesa.
 #include <vector>
 
+// osmesa.h brings GL/gl.h, whose functions of OpenGL 1.5 and later are declared on demand.
+#define GL_GLEXT_PROTOTYPES
 #include <GL/osmesa.h>
 #include <gtest/gtest.h>
 
