@@ -86,7 +86,7 @@ std::size_t PlyElement::IndexOf(std::string_view property) const {
 Result<PlyHeader> ReadPlyHeader(const std::filesystem::path& path, std::istream& file) {
   PlyHeader header;
   std::string line;
-  for (std::size_t n = 1; std::getline(file, line); ++n) {
+  for (std::size_t n = 1; std::getline(file, line) && !file.eof(); ++n) {
     std::istringstream words(line);
     std::string word;
     words >> word;

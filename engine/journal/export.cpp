@@ -41,6 +41,11 @@ constexpr const char* kHeaders[][2] = {
 constexpr const char* kOrigins[] = {"operator", "script", "replay", "station"};
 static_assert(std::size(kOrigins) == static_cast<std::size_t>(CommandOrigin::kStation) + 1);
 
+/// As EventKind lists them.
+constexpr const char* kKinds[] = {"state", "site",     "decision", "setting",
+                                  "alarm", "bookmark", "vehicle",  "fault"};
+static_assert(std::size(kKinds) == static_cast<std::size_t>(EventKind::kFault) + 1);
+
 /// As CommandAction lists them.
 constexpr const char* kActions[] = {"set_setting",
                                     "apply",
@@ -219,11 +224,10 @@ class Exporter {
     }
   }
   void TakeEvent(const WireMessage& m) {
-    static constexpr const char* kKinds[] = {"state", "site",     "decision", "setting",
-                                             "alarm", "bookmark", "vehicle"};
     const Result<Event> event = DecodeEvent(m);
     if (!Refuses(event)) {
-      Add("events.csv", Row(event->time) << kKinds[static_cast<int>(event->kind)] << event->text);
+      Add("events.csv", Row(event->time)
+                            << kKinds[static_cast<std::size_t>(event->kind)] << event->text);
     }
   }
   void TakeStatus(const WireMessage& m) {

@@ -75,12 +75,10 @@ std::string GpsOff(const GpsAgreement& gps) {
   if (!gps.off) {
     return {};
   }
-  return gps.drifts
-             ? WithNumbers("GPS drifts against its own velocity, %.1f m off the prediction, limit ",
-                           gps.off_m) +
-                   LimitWords({GpsAgreement::kDrift_m, "m in 5 s"})
-             : WithNumbers("GPS is %.1f m off the inertial prediction, limit ", gps.off_m) +
-                   LimitWords({GpsAgreement::kJump_m, "m"});
+  return gps.drifts ? "GPS drifts against its own velocity by more than " +
+                          LimitWords({GpsAgreement::kDrift_m, "m in 5 s"})
+                    : WithNumbers("GPS is %.1f m off the inertial prediction, limit ", gps.off_m) +
+                          LimitWords({GpsAgreement::kJump_m, "m"});
 }
 
 std::string LaserFault(const LaserHealth& laser) {

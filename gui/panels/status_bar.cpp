@@ -100,7 +100,9 @@ std::string FaultsText(const std::vector<std::string>& faults) {
 /// A person who flies a simulated fault must not take it for one of the station's own. Its width.
 float DrawFaultChip(UiFrame& ui, const std::string& text, float x, float y, float room) {
   const Style& s = ui.style;
-  const std::string words(FitWords(s.caption, text, room - s.Px(16)));
+  // Half a name misleads: where not all fit, their number alone.
+  const bool fits = TextWidth(s.caption, text) <= room - s.Px(16);
+  const std::string words = fits ? text : text.substr(0, text.find(':'));
   const Rect chip{x, y - s.Px(10), TextWidth(s.caption, words) + s.Px(16), s.Px(20)};
   FillRect(Canvas(), chip, s.palette.hover, s.Fine(3));
   DrawText(ui, s.caption, s.palette.text1, x + s.Px(8), y, words);
@@ -132,7 +134,7 @@ void DrawStatusBarPanel(const EngineSnapshot& snap, const FrameLayout& layout,
   } else {
     group.push_back(sites == 1 ? "1 site" : std::to_string(sites) + " sites");
     group.push_back(AlarmCountWords(snap.flight->mission.alarms));
-    if (snap.session->source.kind == SourceKind::kSimulation) {
+    if (snap.session->source.kind == SourceKind::kSimulation && IsPlaying(snap)) {
       group.push_back(Fixed(snap.session->source.speed_reached, 1) + "× real time");
     }
   }

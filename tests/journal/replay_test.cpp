@@ -368,6 +368,25 @@ TEST_F(JournalTest, EveryActionOfEveryOriginIsExportedByItsName) {
   EXPECT_FALSE(std::getline(table, row));
 }
 
+TEST_F(JournalTest, EveryKindOfEventIsExportedByItsName) {
+  const char* const names[] = {"state", "site",     "decision", "setting",
+                               "alarm", "bookmark", "vehicle",  "fault"};
+  auto writer = LogWriter::Create(folder_ / "events.lcm");
+  for (std::size_t kind = 0; kind < std::size(names); ++kind) {
+    ASSERT_TRUE(writer->Write(EncodeEvent({{7}, static_cast<EventKind>(kind), "x"}, {})).ok());
+  }
+  ASSERT_TRUE(writer->Close().ok());
+  const auto exported = ExportCsv(folder_ / "events.lcm", folder_ / "csv");
+  ASSERT_TRUE(exported.ok()) << exported.error().message;
+  std::ifstream table(folder_ / "csv" / "events.csv");
+  std::string row;
+  std::getline(table, row);
+  for (const char* name : names) {
+    ASSERT_TRUE(std::getline(table, row)) << name;
+    EXPECT_EQ(row, std::string("7,") + name + ",x");
+  }
+}
+
 /// One byte of a message differs under a sidecar that fits: nothing but the checksum tells.
 TEST_F(JournalTest, WhatDiffersFromItsChecksumIsCountedByWhoeverLeavesItOut) {
   const std::filesystem::path log = folder_ / "bit.lcm";

@@ -303,8 +303,8 @@ INSTANTIATE_TEST_SUITE_P(
                  [](MissionRig& r) {
                    r.navigation.gps_agreement = {true, true, 0.4};
                  },
-                 "GPS drifts against its own velocity, 0.4 m off the prediction, limit 0.3 m in 5 "
-                 "s. The position does not follow it. Approve is blocked."},
+                 "GPS drifts against its own velocity by more than 0.3 m in 5 s. The position does "
+                 "not follow it. Approve is blocked."},
         Sentence{"GpsLost", AlarmId::kGpsLost,
                  [](MissionRig& r) {
                    r.channels.push_back(

@@ -41,6 +41,9 @@ const std::set<std::pair<std::string, std::string>> kAllowed = {
     {"gui/panels/terrain_views.cpp", "kOldMap_s"},
     {"gui/panels/terrain_views.cpp", "age_s"},
     {"gui/panels/review/review_workspace.cpp", "kOldMap_s"},
+    // From when on a view of the truth says its age.
+    {"gui/panels/simulate/world_views.cpp", "age_s"},
+    {"gui/panels/simulate/world_views.cpp", "kNewTruth_s"},
     // Which checks of many are listed; how far a plot reaches.
     {"gui/panels/site_recheck.cpp", "height_above_site_m"},
     {"gui/panels/site_recheck.cpp", "safe_distance_m"},

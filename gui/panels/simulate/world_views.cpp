@@ -3,6 +3,7 @@
 #include "gui/panels/simulate/simulate.h"
 #include "gui/widgets/button.h"
 #include "gui/widgets/interact.h"
+#include "gui/widgets/number_text.h"
 
 namespace palace {
 namespace {
@@ -58,6 +59,13 @@ void DrawPicture(const Rect& content, WorldEye eye, const EngineSnapshot& snap, 
   }
 }
 
+constexpr double kNewTruth_s = 0.5;  // bundles without pictures come every 0.2 s
+
+/// Of what the outside views show, by the vehicle's clock.
+double TruthAge(const EngineSnapshot& snap) {
+  return snap.sensors->truth ? SecondsBetween(snap.sensors->truth->time, snap.time) : 0.0;
+}
+
 /// The choice of the main view, at the right end of its header.
 void DrawEyeChips(const Rect& panel, WorldEye main, UiFrame& ui) {
   const Style& s = ui.style;
@@ -84,7 +92,11 @@ void DrawMain(const EngineSnapshot& snap, const Rect& panel, WorldEye eye, UiFra
   DrawEyeChips(panel, eye, ui);
   DrawPicture(content, eye, snap, ui);
   if (!IsCamera(eye)) {
-    TextPlate(ui, content, Corner::kBottomLeft, "Truth: the world as it is, not as it is measured");
+    const double age_s = TruthAge(snap);
+    TextPlate(ui, content, Corner::kBottomLeft,
+              age_s > kNewTruth_s
+                  ? "Truth of " + Fixed(age_s, 1) + " s ago: no newer one has come"
+                  : std::string("Truth: the world as it is, not as it is measured"));
   }
   if (eye == WorldEye::kOrbit) {
     RunOrbit(ui, "orbit", content);
