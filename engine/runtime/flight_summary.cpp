@@ -71,8 +71,10 @@ std::vector<std::string> SummaryLines(const FlightSummary& s) {
                                 s.site->p_WS.x(), s.site->p_WS.y(), s.site->safe_distance_m));
   }
   if (s.site_obstacle_distance_m) {
-    lines.push_back(WithNumbers("Nearest true obstacle to the site: %.2f m (lander radius %.2f m)",
-                                *s.site_obstacle_distance_m, s.lander_radius_m));
+    lines.push_back(
+        WithNumbers("Nearest thing that truly stands there, however low: %.2f m from the site "
+                    "(lander radius %.2f m)",
+                    *s.site_obstacle_distance_m, s.lander_radius_m));
   }
   if (s.touchdown_miss_m) {
     lines.push_back(
