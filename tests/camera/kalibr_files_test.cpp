@@ -13,6 +13,7 @@
 #include "engine/camera/rectification.h"
 #include "engine/core/random.h"
 #include "tests/camera/camera_file_texts.h"
+#include "tests/support/own_path.h"
 
 namespace palace {
 namespace {
@@ -109,9 +110,7 @@ TEST(KalibrLenses, NoneIsAPinhole) {
 class RigOfForeignFiles : public testing::Test {
  protected:
   void SetUp() override {
-    folder_ =
-        std::filesystem::path(testing::TempDir()) /
-        ("kalibr_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+    folder_ = OwnPath();
     std::filesystem::create_directories(folder_);
   }
   void TearDown() override { std::filesystem::remove_all(folder_); }

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/core/units.h"
+#include "tests/support/own_path.h"
 
 namespace palace {
 namespace {
@@ -22,9 +23,7 @@ class PosesFileTest : public testing::Test {
     std::ofstream(path_, std::ios::binary) << text;
     return LoadPosesFile(path_);
   }
-  const std::filesystem::path path_ =
-      std::filesystem::path(testing::TempDir()) /
-      (std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) + ".csv");
+  const std::filesystem::path path_ = OwnPath(".csv");
 };
 
 TEST_F(PosesFileTest, ReadsRowsInAnyOrderOfColumnsWithCommentsAndBlanks) {

@@ -11,6 +11,7 @@
 #include "engine/core/random.h"
 #include "engine/core/units.h"
 #include "tests/camera/camera_file_texts.h"
+#include "tests/support/own_path.h"
 
 namespace palace {
 namespace {
@@ -60,8 +61,7 @@ loop = true
 class RigFileTest : public testing::Test {
  protected:
   void SetUp() override {
-    folder_ = std::filesystem::path(testing::TempDir()) /
-              ("rig_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+    folder_ = OwnPath();
     std::filesystem::create_directories(folder_);
   }
   void TearDown() override { std::filesystem::remove_all(folder_); }

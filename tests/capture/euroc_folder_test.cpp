@@ -316,7 +316,7 @@ TEST_F(BadEuroc, TablesAreRefusedByFileLineColumnAndLimit) {
 TEST_F(BadEuroc, FoldersThatAreNoneAreSaidToBe) {
   EXPECT_NE(LoadEurocFolder("/nowhere").error().message.find("/nowhere: no such folder"),
             std::string::npos);
-  const auto source = ImageFolderSource::Open(std::filesystem::temp_directory_path() / "..", false);
+  const auto source = ImageFolderSource::Open(sample_.folder().parent_path() / "..", false);
   ASSERT_FALSE(source.ok());
   EXPECT_NE(source.error().message.find("or the RIG.toml of the pictures"), std::string::npos);
   std::filesystem::remove(sample_.folder() / "mav0/cam1/sensor.yaml");

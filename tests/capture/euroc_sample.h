@@ -13,6 +13,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "engine/core/frames.h"
+#include "tests/support/own_path.h"
 
 namespace palace {
 
@@ -21,10 +22,7 @@ class EurocSample {
  public:
   static constexpr std::int64_t kStart_ns = 1403636579763555584;
 
-  EurocSample()
-      : folder_(std::filesystem::path(testing::TempDir()) /
-                ("euroc_" +
-                 std::string(testing::UnitTest::GetInstance()->current_test_info()->name()))) {
+  EurocSample() : folder_(OwnPath()) {
     std::filesystem::remove_all(folder_);
     for (const char* part : {"cam0/data", "cam1/data", "imu0", "state_groundtruth_estimate0"}) {
       std::filesystem::create_directories(folder_ / "mav0" / part);

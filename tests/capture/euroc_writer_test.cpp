@@ -13,6 +13,7 @@
 #include "engine/capture/image_folder_source.h"
 #include "engine/core/random.h"
 #include "engine/core/units.h"
+#include "tests/support/own_path.h"
 
 namespace palace {
 namespace {
@@ -96,8 +97,7 @@ class EurocWriterTest : public testing::TestWithParam<bool> {
     EXPECT_EQ((*writer)->pairs(), std::uint64_t{kPairs});
     return bundles;
   }
-  const std::filesystem::path folder_ =
-      std::filesystem::path(testing::TempDir()) / "euroc_writer_test";
+  const std::filesystem::path folder_ = OwnPath();
 };
 
 TEST_P(EurocWriterTest, WhatWasWrittenReadsBack) {

@@ -10,6 +10,8 @@
 #include <opencv2/core.hpp>
 #include <opencv2/videoio.hpp>
 
+#include "tests/support/own_path.h"
+
 namespace palace::film {
 
 inline constexpr int kWidth = 64;
@@ -60,9 +62,7 @@ inline std::string RigText(const std::string& capture, bool pose = true) {
 class FilmTest : public testing::Test {
  protected:
   void SetUp() override {
-    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = std::filesystem::path(testing::TempDir()) /
-              (std::string(info->test_suite_name()) + "_" + info->name());
+    folder_ = OwnPath();
     std::filesystem::remove_all(folder_);
     std::filesystem::create_directories(folder_);
   }

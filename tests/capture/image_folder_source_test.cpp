@@ -10,6 +10,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "engine/capture/playback_turns.h"
+#include "tests/support/own_path.h"
 
 namespace palace {
 namespace {
@@ -17,9 +18,7 @@ namespace {
 class ImageFolderTest : public testing::Test {
  protected:
   void SetUp() override {
-    folder_ =
-        std::filesystem::path(testing::TempDir()) /
-        ("images_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+    folder_ = OwnPath();
     std::filesystem::remove_all(folder_);
     std::filesystem::create_directories(folder_ / "pictures");
     WriteRig("[images]\nleft = \"pictures/l*.png\"\nright = \"pictures/r*.png\"\nrate_hz = 4\n");

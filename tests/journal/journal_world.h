@@ -4,15 +4,16 @@
 #include <unistd.h>
 
 #include <atomic>
-#include <climits>
 #include <filesystem>
 #include <fstream>
 #include <string>
 #include <vector>
 
+#include <climits>
 #include <gtest/gtest.h>
 
 #include "engine/journal/flight_recorder.h"
+#include "tests/support/own_path.h"
 #include "tests/wire/wire_samples.h"
 
 namespace palace {
@@ -21,13 +22,7 @@ namespace palace {
 class JournalTest : public ::testing::Test {
  protected:
   JournalTest() {
-    const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
-    std::string name = std::string(info->test_suite_name()) + "." + info->name();
-    for (char& c : name) {
-      c = c == '/' ? '_' : c;
-    }
-    folder_ = std::filesystem::temp_directory_path() /
-              ("palace_" + std::to_string(::getpid()) + "_" + name);
+    folder_ = OwnPath();
     std::filesystem::create_directories(folder_);
   }
   ~JournalTest() override {

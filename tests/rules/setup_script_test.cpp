@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/own_path.h"
 #include "tests/support/process.h"
 
 namespace palace {
@@ -17,9 +18,7 @@ namespace fs = std::filesystem;
 class SetupScript : public testing::Test {
  protected:
   SetupScript() {
-    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = fs::temp_directory_path() /
-              ("palace_setup_" + std::to_string(getpid()) + "_" + test->name());
+    folder_ = OwnPath();
     fs::create_directories(folder_ / "bin");
     Write("bin/cmake",
           "#!/bin/sh\n"

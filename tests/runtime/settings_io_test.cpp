@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/own_path.h"
+
 namespace palace {
 namespace {
 
@@ -83,8 +85,7 @@ TEST(SettingsIo, AssignmentsAsOnTheCommandLine) {
 }
 
 TEST(SettingsIo, ACommandLineIsAFileUnderAssignmentsUnderTheRules) {
-  const std::filesystem::path file =
-      std::filesystem::path(testing::TempDir()) / "command_line.toml";
+  const std::filesystem::path file = OwnPath(".toml");
   std::ofstream(file) << "[slad]\nmax_slope_deg = 5\nmax_deviation_m = 0.04\n";
   Settings base;
   base.slad.lander.nav_error_m = 0.7;

@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/journal/replay_source.h"
+#include "tests/support/own_path.h"
 #include "tests/support/process.h"
 
 namespace palace {
@@ -19,13 +20,7 @@ namespace palace {
 class Scenario : public testing::Test {
  protected:
   Scenario() {
-    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-    std::string name = std::string(info->test_suite_name()) + "." + info->name();
-    for (char& c : name) {
-      c = c == '/' ? '_' : c;
-    }
-    folder_ = std::filesystem::temp_directory_path() /
-              ("palace_" + std::to_string(getpid()) + "_" + name);
+    folder_ = OwnPath();
     std::filesystem::create_directories(folder_);
   }
   ~Scenario() override {

@@ -12,6 +12,7 @@
 #include "engine/camera/rectification.h"
 #include "engine/core/units.h"
 #include "engine/simulation/vehicle_file.h"
+#include "tests/support/own_path.h"
 
 namespace palace {
 namespace {
@@ -162,8 +163,7 @@ class SensorKeysOfLenses : public testing::Test {
     return LoadVehicle(file.string());
   }
 
-  const std::filesystem::path folder =
-      std::filesystem::path(testing::TempDir()) / "vehicle with lenses";
+  const std::filesystem::path folder = OwnPath(" with a blank");
 };
 
 TEST_F(SensorKeysOfLenses, TheRigGoesOutWithTheirModels) {

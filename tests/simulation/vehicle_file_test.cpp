@@ -11,6 +11,7 @@
 
 #include "engine/core/units.h"
 #include "engine/world/scene_library.h"
+#include "tests/support/own_path.h"
 
 namespace palace {
 namespace {
@@ -139,7 +140,8 @@ TEST(VehicleFile, MistakesAreNamed) {
        "Ma.mark = \"guessed\" must be sourced, recalled, computed or chosen"},
       {"a derivative is missing", "Ma = { value = 82.6, mark = \"recalled\" }", "",
        "derivatives.Ma is missing; give { value = ..., mark = \"...\" }", "r50", "[derivatives]\n"},
-      {"impossible derivative", "value = 82.6", "value = 1e9", "Ma.value = 1000000000 is outside -1000 .. 1000"},
+      {"impossible derivative", "value = 82.6", "value = 1e9",
+       "Ma.value = 1000000000 is outside -1000 .. 1000"},
       {"a lag shorter than a step", "tau_f = { value = 0.046", "tau_f = { value = 0.001",
        "tau_f.value = 0.001 is outside 0.005 .. 5"},
       {"delay off the grid", "delay_s = 0.02", "delay_s = 0.021",
@@ -188,7 +190,7 @@ TEST(VehicleFile, ANameOrAFile) {
   EXPECT_EQ(unknown.error().code, ErrorCode::kUsage);
   EXPECT_EQ(unknown.error().message,
             "there is no vehicle \"zeppelin\"; name a file, or one of multirotor, r50");
-  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "vehicles";
+  const std::filesystem::path folder = OwnPath();
   std::filesystem::create_directories(folder);
   const std::filesystem::path file = folder / "mine.toml";
   std::ofstream(file) << Replaced(Text(), "Yamaha R-50\"", "My own\"");

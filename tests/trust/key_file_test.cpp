@@ -9,6 +9,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/own_path.h"
+
 namespace palace {
 namespace {
 
@@ -20,12 +22,7 @@ constexpr const char* kDigits = "00112233445566778899aabbccddeeff001122334455667
 
 class KeyFile : public testing::Test {
  protected:
-  KeyFile()
-      : folder_(fs::temp_directory_path() /
-                ("palace_keys_" + std::to_string(getpid()) + "_" +
-                 testing::UnitTest::GetInstance()->current_test_info()->name())) {
-    fs::remove_all(folder_);
-  }
+  KeyFile() : folder_(OwnPath()) { fs::remove_all(folder_); }
   ~KeyFile() override {
     std::error_code none;
     fs::remove_all(folder_, none);

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "gui/app/session.h"
+#include "tests/support/own_path.h"
 
 namespace palace {
 namespace {
@@ -15,9 +16,7 @@ namespace fs = std::filesystem;
 class ChannelsFile : public testing::Test {
  protected:
   ChannelsFile() {
-    folder_ =
-        fs::temp_directory_path() / ("palace_channels_" + std::to_string(getpid()) + "_" +
-                                     testing::UnitTest::GetInstance()->current_test_info()->name());
+    folder_ = OwnPath();
     fs::create_directories(folder_);
   }
   ~ChannelsFile() override {

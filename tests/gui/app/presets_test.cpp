@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/own_path.h"
+
 namespace palace {
 namespace {
 
@@ -14,7 +16,7 @@ namespace fs = std::filesystem;
 
 class Presets : public testing::Test {
  protected:
-  Presets() : folder_(fs::temp_directory_path() / ("palace_presets_" + std::to_string(getpid()))) {}
+  Presets() : folder_(OwnPath()) {}
   ~Presets() override {
     std::error_code ignored;
     fs::remove_all(folder_, ignored);

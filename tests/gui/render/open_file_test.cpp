@@ -11,6 +11,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/own_path.h"
+
 namespace palace {
 namespace {
 
@@ -19,9 +21,7 @@ namespace fs = std::filesystem;
 /// An xdg-open that writes into the file it is given how it was started.
 class OpenFileTest : public ::testing::Test {
  protected:
-  OpenFileTest()
-      : folder_(fs::temp_directory_path() / ("palace_open_" + std::to_string(getpid()))),
-        path_(std::getenv("PATH")) {
+  OpenFileTest() : folder_(OwnPath()), path_(std::getenv("PATH")) {
     fs::create_directories(folder_);
     const fs::path program = folder_ / "xdg-open";
     std::ofstream(program) << "#!/bin/sh\ngrep ^Sig /proc/self/status > \"$1.part\"\n"

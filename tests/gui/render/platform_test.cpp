@@ -11,6 +11,7 @@
 #include "gui/platform/window.h"
 #include "tests/support/environment.h"
 #include "tests/support/expected.h"
+#include "tests/support/own_path.h"
 #include "tests/support/x_server.h"
 
 namespace palace {
@@ -62,8 +63,7 @@ TEST(OffscreenTest, FontsScaleAndHoldTheirGlyphs) {
 }
 
 TEST(ScreenshotTest, WritesWhatWasGivenAndNamesWhatItCannotWrite) {
-  const std::string path =
-      (std::filesystem::temp_directory_path() / "palace_screenshot_test.png").string();
+  const std::string path = OwnPath(".png").string();
   ImageRgba picture(3, 2, RgbaFromHex(0x102030));
   picture.at(2, 1) = RgbaFromHex(0xFF8001);
   ASSERT_TRUE(SavePng(picture, path).ok());
