@@ -62,6 +62,7 @@ GuardInputs GuardInputsAt(const MissionMemory& m, Timestamp now) {
       m.facts.map_hash != 0 && now >= m.map_seen_at ? SecondsBetween(m.map_seen_at, now) : NAN;
   in.position_healthy = m.facts.position_healthy;
   in.image_time = words::ImageTimeOff(m.facts.navigation);
+  in.gravity = words::GravityOff(m.facts.navigation.gravity);
   in.gps = words::GpsOff(m.facts.navigation.gps_agreement);
   in.laser = m.facts.navigation.laser;
   in.height_m = HeightAboveSite(m);

@@ -138,7 +138,10 @@ const std::array<GuardRow, kGuardCount> kGuards = {{
      .why =
          [](const GuardInputs& in, const Limit& limit) {
            const std::string old = words::Older("Vehicle pose", in.pose_age_s, limit.value);
-           return in.attitude_invalid ? "Attitude invalid" : old.empty() ? in.image_time : old;
+           return in.attitude_invalid      ? "Attitude invalid"
+                  : !old.empty()           ? old
+                  : !in.image_time.empty() ? in.image_time
+                                           : in.gravity;
          }},
     {.id = GuardId::kCameras,
      .words = "Both cameras fresh and right",

@@ -31,6 +31,7 @@ struct GuardInputs {
   double map_age_s = NAN;
   bool position_healthy = false;
   std::string image_time{};  ///< words::ImageTimeOff
+  std::string gravity{};     ///< words::GravityOff
   std::string gps{};         ///< words::GpsOff
   LaserHealth laser{};
   double height_m = NAN;  ///< above the armed site

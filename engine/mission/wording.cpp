@@ -71,6 +71,16 @@ std::string ImageTimeOff(const NavigationStatus& navigation) {
          camera + (wrong->offset_s > 0 ? " are late" : " are early");
 }
 
+std::string GravityOff(const GravityAgreement& gravity) {
+  if (!gravity.off) {
+    return {};
+  }
+  const std::string by =
+      std::isfinite(gravity.tilt_deg) ? WithNumbers("%.1f deg ", gravity.tilt_deg) : "";
+  return "Attitude is " + by + "off gravity, limit " +
+         LimitWords({GravityAgreement::kLimit_deg, "deg"}) + " (or the accelerometer errs)";
+}
+
 std::string GpsOff(const GpsAgreement& gps) {
   if (!gps.off) {
     return {};

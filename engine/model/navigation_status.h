@@ -81,6 +81,13 @@ struct GpsAgreement {
   static constexpr double kDrift_m = 0.3;  ///< ... or by so much in five seconds
 };
 
+/// Attitude and accelerometer against GPS velocities (navigation/gravity_watch.h).
+struct GravityAgreement {
+  bool off = false;
+  double tilt_deg = NAN;                     ///< by which they part; NaN: not known now
+  static constexpr double kLimit_deg = 1.5;  ///< off beyond it
+};
+
 /// The laser range finder against motion and stereo (navigation/laser_watch.h).
 struct LaserHealth {
   enum class State : std::uint8_t {
@@ -121,6 +128,7 @@ struct NavigationStatus {
     return right ? &r : l.off() ? &l : nullptr;
   }
   GpsAgreement gps_agreement;
+  GravityAgreement gravity;
   LaserHealth laser;
 };
 

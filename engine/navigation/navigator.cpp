@@ -118,6 +118,9 @@ void Navigator::AddImu(const ImuSample& sample) {
   }
   record.R_WB = pose->X_WB.R;
   imu_.push_back(record);
+  if (AttitudeKnown(record.time)) {
+    gravity_watch_.AddImu(record.time, record.mean_force_B, record.R_WB);
+  }
   while (SecondsBetween(imu_.front().time, imu_.back().time) > kImuMemory_s) {
     imu_.pop_front();
   }
@@ -137,6 +140,11 @@ void Navigator::AddGps(const GpsFix& fix) {
   // A prediction through an attitude that is gone speaks against nobody.
   gps_watch_.Add(fix, AttitudeKnown(fix.time) ? predicted : std::nullopt);
   status_.gps_agreement = gps_watch_.status();
+  if (status_.gps_agreement.off) {
+    gravity_watch_.Interrupt();
+  } else {
+    gravity_watch_.AddGps(fix);
+  }
   const bool settled_elsewhere = gps_watch_.SettledElsewhere() && !site_;
   const PositionMeasurement measurement = status_.gps_agreement.off && predicted
                                               ? VelocityOnly(GpsMeasurement(fix), *predicted)
@@ -301,6 +309,7 @@ void Navigator::UpdateHandover(Timestamp time) {
 }
 
 void Navigator::UpdateStatus() {
+  status_.gravity = gravity_watch_.status();
   status_.gps.running = gps_.running();
   status_.gps.estimate = GpsEstimate(now_);
   status_.gps.residual_sigma = gps_.residual_sigma();

@@ -24,6 +24,7 @@
 #include "engine/model/settings/settings.h"
 #include "engine/navigation/attitude_history.h"
 #include "engine/navigation/gps_watch.h"
+#include "engine/navigation/gravity_watch.h"
 #include "engine/navigation/handover.h"
 #include "engine/navigation/position_filter.h"
 #include "engine/navigation/vision_fix.h"
@@ -93,6 +94,7 @@ class Navigator {
   std::deque<ImuRecord> imu_;
   PositionFilter gps_;
   GpsWatch gps_watch_;
+  GravityWatch gravity_watch_;
   int frame_moves_ = 0;
   PositionFilter vision_;
   Handover handover_;

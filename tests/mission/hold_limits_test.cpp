@@ -30,6 +30,7 @@ TEST(HoldLimits, EachStopThatHasAFigureHasARowWithTheLimitThatStops) {
       facts.*row.hold.value = share * limit;
       facts.attitude_invalid_s = facts.invalid_for_s > 0 ? facts.invalid_for_s : NAN;
       facts.image_time = facts.image_offset_ms > row.hold.limit ? "Image time off" : "";
+      facts.gravity = {facts.tilt_deg > GravityAgreement::kLimit_deg, facts.tilt_deg};
       const std::vector<LimitRow> rows = LimitsOfHolds(facts);
       ASSERT_NE(HoldRow(row, rows), nullptr);
       EXPECT_EQ(HoldRow(row, rows)->enforced_by, EnforcedBy::kHold);
@@ -41,7 +42,7 @@ TEST(HoldLimits, EachStopThatHasAFigureHasARowWithTheLimitThatStops) {
     }
     ++checked;
   }
-  EXPECT_EQ(checked, 9);
+  EXPECT_EQ(checked, 10);
 }
 
 TEST(HoldLimits, NameWhoActsInEachState) {

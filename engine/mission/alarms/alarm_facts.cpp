@@ -117,6 +117,8 @@ AlarmFacts HoldFactsAt(const MissionMemory& m, Timestamp now) {
   f.invalid_for_s = std::isnan(f.attitude_invalid_s) ? 0 : f.attitude_invalid_s;
   f.ground_age_s = descends && !f.committed ? SecondsBetween(m.ground_seen_at, now) : NAN;
   f.image_offset_ms = 1000 * ImageOffset(m.facts.navigation);
+  f.gravity = m.facts.navigation.gravity;
+  f.tilt_deg = f.gravity.tilt_deg;
   f.on_vision = m.facts.navigation.OnVision();
   f.vision_outage_s = descends && f.on_vision ? SecondsBetween(m.vision_good_at, now) : NAN;
   f.max_vision_outage_s = m.facts.settings.mission.max_vision_outage_s;

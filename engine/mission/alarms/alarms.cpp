@@ -115,7 +115,7 @@ const AlarmRow kRows[] = {
      .present = [](const Facts& f, double) { return f.pictures.frozen(); },
      .text =
          [](const Facts& f, const std::string&) {
-           return f.pictures.frozen_words() + ": it is frozen. " + StopConsequence(f);
+           return f.pictures.frozen_words() + ". " + StopConsequence(f);
          },
      .stop = [](const Facts& f) { return f.pictures.frozen_words(); }},
     {.id = AlarmId::kCamerasSwapped,

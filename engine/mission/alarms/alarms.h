@@ -46,6 +46,8 @@ struct AlarmFacts {
   double gps_error_m = NAN;         ///< 3 sigma, horizontal
   double gps_age_s = NAN;
   GpsAgreement gps_agreement{};
+  GravityAgreement gravity{};
+  double tilt_deg = NAN;  ///< as measured
   LaserHealth laser{};
   double image_time_ms = NAN;    ///< off by so much; NaN while it is not
   double image_offset_ms = NAN;  ///< as measured, of the camera that is off by more

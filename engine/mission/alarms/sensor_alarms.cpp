@@ -1,4 +1,4 @@
-// Alarms about sensors that the vehicle's own motion contradicts: image time, GPS, laser.
+// Alarms about sensors that the vehicle's own motion contradicts: image time, attitude, GPS, laser.
 #include "engine/core/text.h"
 #include "engine/mission/alarms/alarm_words.h"
 #include "engine/mission/wording.h"
@@ -43,6 +43,22 @@ const AlarmRow kRows[] = {
               .unit = "ms",
               .decimals = 0,
               .lasts = "3 pictures"}},
+    {.id = AlarmId::kGravity,
+     .level = AlarmLevel::kWarning,
+     .immediate = true,  // seconds of fixes said so
+     .present = [](const Facts& f, double) { return f.gravity.off; },
+     .text =
+         [](const Facts& f, const std::string&) {
+           return words::GravityOff(f.gravity) + ". " + StopConsequence(f);
+         },
+     .stop = [](const Facts& f) { return words::GravityOff(f.gravity); },
+     .hold = {.id = LimitId::kTilt,
+              .label = "Attitude off gravity",
+              .value = &Facts::tilt_deg,
+              .limit = GravityAgreement::kLimit_deg,
+              .unit = "deg",
+              .decimals = 1,
+              .lasts = "2 fixes"}},
     {.id = AlarmId::kGpsJump,
      .level = AlarmLevel::kCaution,
      .immediate = true,  // two fixes said so

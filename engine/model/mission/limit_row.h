@@ -44,6 +44,7 @@ enum class LimitId : std::uint8_t {
   kStatusAge,
   kGroundAge,
   kImageTime,
+  kTilt,
   kVisionOutage,
   kConfirmHeight,
 };

@@ -63,6 +63,7 @@ constexpr std::array<const char*, kAlarmCount> kAlarmNames = {
     "foreign_command",
     "view_only",
     "image_time",
+    "gravity",
     "gps_jump",
     "gps_lost",
     "laser_lost",

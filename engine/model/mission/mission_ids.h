@@ -84,13 +84,14 @@ enum class AlarmId : std::uint8_t {
   kForeignCommand,
   kViewOnly,
   kImageTime,
+  kGravity,
   kGpsJump,
   kGpsLost,
   kLaserLost,
   kLaserStuck,
   kLaserWrong,
 };
-inline constexpr std::size_t kAlarmCount = 57;
+inline constexpr std::size_t kAlarmCount = 58;
 /// "gps_error".
 const char* AlarmName(AlarmId id);
 /// Empty for a name that no alarm has.
