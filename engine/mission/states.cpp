@@ -148,7 +148,7 @@ void StepApproved(MissionTurn& turn, const MissionInputs& in) {
     return;
   }
   if (vehicle && vehicle->mode == VehicleMode::kAbort) {
-    Abort(turn, words::kVehicleAborts, now);
+    Abort(turn, words::VehicleAborts(m.vehicle_reason), now);
   } else if (executing && vehicle->mode != VehicleMode::kAlign) {
     Enter(turn, MissionState::kDescending, words::Descends(words::SiteName(m.status)), now);
     m.vision_good_at = now;
@@ -178,13 +178,14 @@ void Land(MissionTurn& turn, const MissionInputs& in) {
 
 /// True when the vehicle has landed, or aborts: the state was left.
 bool LandedOrAborting(MissionTurn& turn, const MissionInputs& in) {
-  if (HasLanded(turn.memory)) {
+  const MissionMemory& m = turn.memory;
+  if (HasLanded(m)) {
     Land(turn, in);
     return true;
   }
-  const auto& vehicle = turn.memory.watch.vehicle();
+  const auto& vehicle = m.watch.vehicle();
   if (vehicle && vehicle->mode == VehicleMode::kAbort) {
-    Abort(turn, words::kVehicleAborts, in.session.now);
+    Abort(turn, words::VehicleAborts(m.vehicle_reason), in.session.now);
     return true;
   }
   return false;

@@ -27,6 +27,10 @@ std::string AskedForCommand(const AskForCommand& action, const std::string& hold
                                              : "Asked for command of the vehicle";
 }
 std::string CommandLostTo(const std::string& why) { return "Command lost: " + why; }
+std::string VehicleAborts(const std::string& reason) {
+  return reason.empty() ? kVehicleAborts : kVehicleAborts + (": " + reason);
+}
+
 std::string VehicleHolds(const std::string& reason) {
   return reason.empty() ? kVehicleHolds : kVehicleHolds + (": " + reason);
 }

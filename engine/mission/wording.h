@@ -58,6 +58,8 @@ inline constexpr const char* kCommandsAlready = "This station commands already";
 inline constexpr const char* kReleased = "Command given back by the operator";
 std::string AskedForCommand(const AskForCommand& action, const std::string& holder);
 std::string CommandLostTo(const std::string& why);
+/// "Vehicle aborts by itself: no position estimate for 2.0 s, limit 2.0 s", or without a reason.
+std::string VehicleAborts(const std::string& reason);
 /// "Vehicle holds by itself: estimate and GPS part", or without a reason.
 std::string VehicleHolds(const std::string& reason);
 /// `text`: of the alarm, in whose words the event names it; empty: it was never told.

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/core/text.h"
+
 namespace palace {
 namespace {
 
@@ -183,6 +185,12 @@ StickCommand Autopilot::Control(Timestamp now, const FlightState& gps, bool on_g
 void Autopilot::StepMode(Timestamp now) {
   const bool fresh = VisionAge(now) <= kHoldAfter_s;
   if (flies_on_vision_ && VisionAge(now) > kAbortAfter_s) {
+    if (approval_) {
+      Acknowledge(approval_->id,
+                  WithNumbers("no position estimate for %.1f s, limit %.1f s", VisionAge(now),
+                              kAbortAfter_s),
+                  now);
+    }
     // Never above the hover height the flight came from, never downwards.
     const double down = gps_.p_WB.z();
     EnterAbort(std::min(down, std::max(down - kOutageClimb_m, options_.hover_p_WB.z())));
@@ -212,7 +220,7 @@ void Autopilot::StepMode(Timestamp now) {
 void Autopilot::StepAlign(Timestamp now) {
   const double dt = options_.control_period_s;
   if (now >= approval_->expires_at) {
-    EnterHold();
+    GiveUp("the approval expired before the descent began", now);
     return;
   }
   const Vector3d start = path_.BodyAt(path_height_m_);

@@ -110,6 +110,13 @@ INSTANTIATE_TEST_SUITE_P(
         Row{"DescendingOnAbort", S::kDescending,
             [](MissionRig& r) { r.vehicle.Set(VehicleMode::kAbort); }, S::kAborting,
             "Vehicle aborts by itself", kAbort},
+        Row{"DescendingOnAbortWithAReason", S::kDescending,
+            [](MissionRig& r) {
+              r.vehicle.acks.push_back({r.now, r.vehicle.approval_id, AckResult::kRefused,
+                                        "no position estimate for 2.0 s"});
+              r.vehicle.Set(VehicleMode::kAbort);
+            },
+            S::kAborting, "Vehicle aborts by itself: no position estimate for 2.0 s", kAbort},
         Row{"DescendingOnNoHeight", S::kDescending, [](MissionRig& r) { r.vehicle.height_m = NAN; },
             S::kHold, "Height above the site is unknown", kHold},
         Row{"DescendingOnGround", S::kDescending,

@@ -341,6 +341,10 @@ TEST(Autopilot, AFrozenSenderIsStaleToo) {
     aborted = flight.Step()->status->mode == VehicleMode::kAbort;
   }
   EXPECT_TRUE(aborted);
+  EXPECT_EQ(flight.acks.back().command_id, flight.approval_id);
+  EXPECT_EQ(flight.acks.back().result, AckResult::kRefused);
+  EXPECT_EQ(flight.acks.back().reason.find("no position estimate for 2.0"), 0u)
+      << flight.acks.back().reason;
 }
 
 TEST(Autopilot, AbortClimbsBackFromTheDescent) {
