@@ -96,7 +96,7 @@ void StepSearching(MissionTurn& turn, const MissionInputs& in) {
     return;
   }
   // Pictures without a vehicle stop nobody: what they show is proposed as it is.
-  const bool flies = HasVehicle(in.session.role) && state != MissionState::kNoLive;
+  const bool flies = !HasPicturesOnly(in.session.role) && state != MissionState::kNoLive;
   const std::string stopped = flies ? WhyStopped(AlarmFactsAt(m, in)) : "";
   if (!stopped.empty()) {
     m.winner = {};  // a proposal is won while nothing stops

@@ -136,6 +136,16 @@ TEST(Faults, NothingIsProposedWhileAStopStands) {
   EXPECT_TRUE(rig.RunUntil(MissionState::kProposed, 2));
 }
 
+// A record is re-lived as it was flown; mere pictures have no vehicle that could be stopped.
+TEST(Faults, AReplayProposesNothingWhereTheFlightDidNot) {
+  for (const SourceKind source : {SourceKind::kReplay, SourceKind::kImages}) {
+    MissionRig rig;
+    rig.source = source;
+    rig.stereo.suspect_swapped = true;
+    EXPECT_EQ(rig.RunUntil(MissionState::kProposed, 5), source == SourceKind::kImages);
+  }
+}
+
 TEST(Faults, AHoldIsNotLeftWhileItsReasonStands) {
   MissionRig rig;
   rig.Arm();
