@@ -89,14 +89,15 @@ Result<FaultPlan> ParseFaultPlan(std::string_view text, const std::string& name)
   if (rows->size() > kMostFaults) {
     return TooMany(name + ": ", rows->size());
   }
+  std::string wrong;  // of each fault its first mistake
   for (const toml::node& row : *rows) {
-    const Result<Fault> fault = ReadFault(*row.as_table(), name);
-    if (!fault) {
-      return fault.error();
+    if (const Result<Fault> fault = ReadFault(*row.as_table(), name)) {
+      plan.faults.push_back(*fault);
+    } else {
+      wrong += (wrong.empty() ? "" : "\n") + fault.error().message;
     }
-    plan.faults.push_back(*fault);
   }
-  return plan;
+  return wrong.empty() ? Result<FaultPlan>(plan) : InvalidError(wrong);
 }
 
 std::string FaultPlanText(const FaultPlan& plan) {
@@ -112,13 +113,17 @@ std::string FaultPlanText(const FaultPlan& plan) {
   return text;
 }
 
+Result<FaultPlan> LoadFaultPlan(const std::string& file) {
+  const Result<std::string> text = ReadTextFile(file);
+  return text ? ParseFaultPlan(*text, file) : UsageError(text.error().message);
+}
+
 Result<FaultPlan> ReadFaultPlan(const std::string& file, const std::vector<std::string>& texts) {
   FaultPlan plan;
   if (!file.empty()) {
-    const Result<std::string> text = ReadTextFile(file);
-    Result<FaultPlan> read = text ? ParseFaultPlan(*text, file) : Result<FaultPlan>(text.error());
+    Result<FaultPlan> read = LoadFaultPlan(file);
     if (!read) {
-      return read;
+      return UsageError("--faults: " + read.error().message);
     }
     plan = std::move(*read);
   }

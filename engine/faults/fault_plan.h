@@ -2,7 +2,7 @@
 //
 // A file is TOML, one [[fault]] a fault: kind, and if wanted value, channel, from_s, to_s, as
 // fault_text.h has them. Anything else in it, and more than kMostFaults, is refused; errors name
-// file, line, key, value and limit.
+// file, line, key, value and limit, of every fault that is wrong its first one.
 #pragma once
 
 #include <string>
@@ -32,7 +32,10 @@ inline constexpr const char* kFaultsHelp =
 Result<FaultPlan> ParseFaultPlan(std::string_view text, const std::string& name);
 /// The text of such a file; numbers to the bit.
 std::string FaultPlanText(const FaultPlan& plan);
-/// Of a command line: the file's faults, if one is named, then those given as text.
+/// Its text cannot be read: a usage error.
+Result<FaultPlan> LoadFaultPlan(const std::string& file);
+/// Of a command line, where every error is one of usage, as with settings: the file's faults, if
+/// one is named, then those given as text.
 Result<FaultPlan> ReadFaultPlan(const std::string& file, const std::vector<std::string>& texts);
 
 }  // namespace palace

@@ -153,9 +153,11 @@ std::string FaultText(const Fault& fault) {
   return text;
 }
 
-std::string FaultWords(const Fault& fault) {
-  const FaultKindRow& row = RowOf(fault.kind);
-  std::string words = row.name;
+std::string FaultKindWords(FaultKind kind) {
+  if (kind == FaultKind::kAttitudeNan) {
+    return "attitude not known";  // what its name says to a programmer alone
+  }
+  std::string words = RowOf(kind).name;
   for (char& c : words) {
     c = c == '_' ? ' ' : c;
   }
@@ -166,6 +168,12 @@ std::string FaultWords(const Fault& fault) {
       words.replace(0, small.size(), acronym);
     }
   }
+  return words;
+}
+
+std::string FaultWords(const Fault& fault) {
+  const FaultKindRow& row = RowOf(fault.kind);
+  std::string words = FaultKindWords(fault.kind);
   if (!std::isnan(row.default_value)) {
     words += " " + NumberText(fault.ValueOrDefault()) + " " + row.unit;
   }

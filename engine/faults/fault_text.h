@@ -22,7 +22,9 @@ namespace palace {
 Result<Fault> ParseFault(std::string_view text);
 std::string FaultText(const Fault& fault);
 
-/// For people, without its times: "GPS jump 3 m", "camera black on camera left".
+/// For people: "GPS jump", "camera black".
+std::string FaultKindWords(FaultKind kind);
+/// Of one fault, without its times: "GPS jump 3 m", "camera black on camera left".
 std::string FaultWords(const Fault& fault);
 
 /// As few digits as give the number back to the bit.

@@ -50,7 +50,7 @@ void PrintKinds() {
 }
 
 int ShowPlan(const std::string& file) {
-  const Result<FaultPlan> plan = ReadFaultPlan(file, {});
+  const Result<FaultPlan> plan = LoadFaultPlan(file);
   if (!plan) {
     std::cerr << "palacectl faults: " << plan.error().message << "\n";
     return plan.error().code == ErrorCode::kUsage ? 2 : 1;

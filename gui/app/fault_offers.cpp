@@ -1,6 +1,5 @@
 #include "gui/app/fault_offers.h"
 
-#include <algorithm>
 #include <cctype>
 
 #include "engine/faults/fault_text.h"
@@ -9,16 +8,9 @@ namespace palace {
 namespace {
 
 /// With a capital.
-std::string Sentence(std::string words, std::ptrdiff_t capitals = 1) {
-  std::transform(words.begin(), words.begin() + capitals, words.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+std::string Sentence(std::string words) {
+  words[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(words[0])));
   return words;
-}
-
-/// "GPS jump" of "gps_jump".
-std::string WordsOf(std::string name) {
-  std::replace(name.begin(), name.end(), '_', ' ');
-  return Sentence(name, name.starts_with("gps ") || name.starts_with("imu ") ? 3 : 1);
 }
 
 }  // namespace
@@ -26,7 +18,8 @@ std::string WordsOf(std::string name) {
 std::vector<FaultOffer> FaultsOffered() {
   std::vector<FaultOffer> offers;
   for (const FaultKindRow& row : FaultKindTable()) {
-    FaultOffer offer{.name = row.name, .words = WordsOf(row.name), .what = row.what};
+    FaultOffer offer{
+        .name = row.name, .words = Sentence(FaultKindWords(row.kind)), .what = row.what};
     offer.has_value = !std::isnan(row.default_value);
     offer.unit = row.unit;
     offer.default_value = row.default_value;
@@ -44,7 +37,7 @@ std::vector<ListedFault> ListFaults(const FaultInjector& injector) {
   std::vector<ListedFault> listed;
   for (const InjectedFault& each : injector.Faults()) {
     listed.push_back({each.number, Sentence(FaultWords(each.fault)),
-                      WordsOf(RowOf(each.fault.kind).name), each.fault.from_s, each.fault.to_s,
+                      Sentence(FaultKindWords(each.fault.kind)), each.fault.from_s, each.fault.to_s,
                       each.acts, each.over});
   }
   return listed;

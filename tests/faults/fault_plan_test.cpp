@@ -40,6 +40,25 @@ TEST(FaultPlan, HasAHundredFaultsAtMost) {
   EXPECT_THAT(refused.error().message, HasSubstr("101 faults; a flight has 100 at most"));
 }
 
+TEST(FaultPlan, NamesEveryFaultThatIsWrong) {
+  const Result<FaultPlan> plan = ParseFaultPlan(
+      "[[fault]]\nkind = \"gps\"\n[[fault]]\nkind = \"missing\"\n"
+      "[[fault]]\nkind = \"gps_jump\"\nvalue = 1e9",
+      "plan.toml");
+  ASSERT_FALSE(plan);
+  EXPECT_THAT(plan.error().message, HasSubstr("plan.toml:2: fault.kind"));
+  EXPECT_THAT(plan.error().message, HasSubstr("\nplan.toml:7: fault.value"));
+}
+
+TEST(FaultPlan, OfACommandLineIsAMatterOfUsage) {
+  EXPECT_EQ(ReadFaultPlan("missing.toml", {}).error().code, ErrorCode::kUsage);
+  EXPECT_EQ(ReadFaultPlan("", {"gps"}).error().code, ErrorCode::kUsage);
+  const std::string other = PALACE_SOURCE_DIR "/config/vehicles/r50.toml";
+  EXPECT_EQ(ReadFaultPlan(other, {}).error().code, ErrorCode::kUsage);
+  // A file to be checked is what is wrong itself.
+  EXPECT_EQ(LoadFaultPlan(other).error().code, ErrorCode::kInvalid);
+}
+
 struct Bad {
   const char* text;
   const char* says;

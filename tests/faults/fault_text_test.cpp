@@ -38,6 +38,7 @@ INSTANTIATE_TEST_SUITE_P(
         Form{"camera_black@CAMERA_LEFT:5-8",
              {K::kCameraBlack, C::kCameraLeft, NAN, 5, 8},
              "camera black on camera left"},
+        Form{"attitude_nan", {K::kAttitudeNan}, "attitude not known"},
         Form{"camera_dirt", {K::kCameraDirt}, "camera dirt 10 % on both cameras"},
         Form{"missing", {K::kMissing}, "missing on every channel"},
         Form{"laser_spikes=-1e-05", {K::kLaserSpikes, {}, -1e-5}, "laser spikes -1e-05 m"},

@@ -298,7 +298,7 @@ INSTANTIATE_TEST_SUITE_P(
                  {"slad.colour", "slad.max_slope_deg"}},
         BadInput{
             "UnknownFault", true, H({"--fault", "gps_jmp=3"}), 2, {"gps_jmp", "palacectl faults"}},
-        BadInput{"NoFaultsFile", true, H({"--faults", "no.toml"}), 1, {"no.toml"}},
+        BadInput{"NoFaultsFile", true, H({"--faults", "no.toml"}), 2, {"--faults: no.toml"}},
         BadInput{"FaultOfALiveVehicle",
                  true,
                  H({"--connect", "memq://", "--fault", "gps_jump=3"}),
