@@ -74,13 +74,17 @@ TEST(LimitRow, ReadsWithItsUnit) {
   EXPECT_EQ(ValueWords(Wind(9.24, EnforcedBy::kGuard)), "9.2 m/s");
   EXPECT_EQ(LimitWords(Wind(9.24, EnforcedBy::kGuard)), "8.0 m/s");
   EXPECT_EQ(ValueWords(Wind(NAN, EnforcedBy::kGuard)), "––");
-  const LimitRow slope{.id = LimitId::kSlope,
-                       .label = "Slope",
-                       .value = Rad(2.5),
-                       .limit = Rad(10),
-                       .unit = "°",
-                       .shown_per_unit = kDegPerRad};
+  LimitRow slope{.id = LimitId::kSlope,
+                 .label = "Slope",
+                 .value = Rad(2.5),
+                 .limit = Rad(10),
+                 .unit = "°",
+                 .shown_per_unit = kDegPerRad};
   EXPECT_EQ(ValueWords(slope), "2.5°");
+  slope.three_sigma = Rad(0.4);
+  EXPECT_EQ(ValueWords(slope), "2.5 ± 0.4°");
+  slope.value = Rad(0.1);  // noise alone could make it: only what it is below is known
+  EXPECT_EQ(ValueWords(slope), "under 0.5°");
 }
 
 TEST(SiteLimits, SayWhatTheVerdictOfTheSiteSays) {

@@ -6,6 +6,7 @@
 #include "engine/core/check.h"
 #include "engine/core/units.h"
 #include "engine/model/cell_explanation.h"
+#include "engine/model/size_words.h"
 
 namespace palace {
 namespace {
@@ -32,14 +33,18 @@ LimitRow RowFor(CellTerm term) {
   PALACE_CHECK(false);
 }
 
-std::string Words(double value, const LimitRow& row) {
+std::string NumberOf(double value, const LimitRow& row) {
   if (!std::isfinite(value)) {
     return "––";
   }
   char text[48];
   std::snprintf(text, sizeof text, "%.*f", row.decimals, value * row.shown_per_unit);
-  const std::string unit = row.unit;
-  return text + (unit.empty() || unit == "°" ? unit : " " + unit);
+  return text;
+}
+
+std::string Words(double value, const LimitRow& row) {
+  const std::string unit = std::isfinite(value) ? row.unit : "";
+  return NumberOf(value, row) + (unit.empty() || unit == "°" ? unit : " " + unit);
 }
 
 }  // namespace
@@ -78,7 +83,14 @@ double ShareUsed(const LimitRow& row) {
   return whole > 0 ? std::min(used / whole, kFull) : used > 0 ? kFull : 0;
 }
 
-std::string ValueWords(const LimitRow& row) { return Words(row.value, row); }
+std::string ValueWords(const LimitRow& row) {
+  if (const double below = KnownBelow(row); !std::isnan(below)) {
+    return "under " + Words(below, row);
+  }
+  return std::isfinite(row.value) && row.three_sigma > 0
+             ? NumberOf(row.value, row) + " ± " + Words(row.three_sigma, row)
+             : Words(row.value, row);
+}
 std::string LimitWords(const LimitRow& row) { return Words(row.limit, row); }
 
 const LimitRow* FindLimit(const std::vector<LimitRow>& rows, LimitId id) {
