@@ -49,7 +49,14 @@ bool DrawButton(UiFrame& ui, std::string_view name, const Rect& rect, std::strin
 
 void DrawTooltip(UiFrame& ui, std::string_view text) {
   const Style& s = ui.style;
-  const std::vector<std::string> lines = WrapText(s.body, text, s.Px(244));
+  std::vector<std::string> lines;
+  for (std::size_t from = 0; from <= text.size();) {
+    const std::size_t to = std::min(text.size(), text.find('\n', from));
+    const std::vector<std::string> wrapped =
+        WrapText(s.body, text.substr(from, to - from), s.Px(244));
+    lines.insert(lines.end(), wrapped.begin(), wrapped.end());
+    from = to + 1;
+  }
   float width = 0;
   for (const std::string& line : lines) {
     width = std::max(width, TextWidth(s.body, line));

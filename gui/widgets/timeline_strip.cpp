@@ -234,9 +234,32 @@ std::string ValueAt(const Lane& lane, double t) {
   return {};
 }
 
+/// A mark and those that lie under it, which speak through it; in order of time.
+struct MarkGroup {
+  std::size_t shown = 0;
+  std::vector<std::size_t> all{};
+};
+
+/// What the marks of a group say, a line each in order of time; of very many the first.
+std::string HintOf(const MarkGroup& group, const std::vector<LaneMark>& marks) {
+  constexpr std::size_t kMost = 6;
+  if (group.all.size() == 1) {
+    return marks[group.shown].hint;
+  }
+  std::string hint;
+  for (std::size_t n = 0; n < group.all.size(); ++n) {
+    if (n == kMost) {
+      return hint + "\nand " + std::to_string(group.all.size() - n) + " more: zoom in";
+    }
+    const LaneMark& mark = marks[group.all[n]];
+    hint += (n == 0 ? "" : "\n") + TimeLabel(mark.at_s, true) + "  " + mark.hint;
+  }
+  return hint;
+}
+
 /// The marks that are shown, in order of time: none lies on a heavier one.
-std::vector<std::size_t> ShownMarks(const Style& s, const Scale& scale,
-                                    const std::vector<LaneMark>& marks) {
+std::vector<MarkGroup> ShownMarks(const Style& s, const Scale& scale,
+                                  const std::vector<LaneMark>& marks) {
   std::vector<std::size_t> by_weight;
   for (std::size_t i = 0; i < marks.size(); ++i) {
     const float x = scale.X(marks[i].at_s);
@@ -246,43 +269,62 @@ std::vector<std::size_t> ShownMarks(const Style& s, const Scale& scale,
   }
   std::stable_sort(by_weight.begin(), by_weight.end(),
                    [&](std::size_t a, std::size_t b) { return marks[a].weight > marks[b].weight; });
-  std::vector<std::size_t> shown;
+  const auto earlier = [&](std::size_t a, std::size_t b) { return marks[a].at_s < marks[b].at_s; };
+  std::vector<MarkGroup> groups;
   for (const std::size_t i : by_weight) {
-    const bool covers = std::any_of(shown.begin(), shown.end(), [&](std::size_t other) {
-      return std::abs(scale.X(marks[i].at_s) - scale.X(marks[other].at_s)) < s.Px(12);
-    });
-    if (!covers) {
-      shown.push_back(i);
+    const auto distance = [&](const MarkGroup& group) {
+      return std::abs(scale.X(marks[i].at_s) - scale.X(marks[group.shown].at_s));
+    };
+    const auto nearest = std::min_element(
+        groups.begin(), groups.end(),
+        [&](const MarkGroup& a, const MarkGroup& b) { return distance(a) < distance(b); });
+    if (nearest == groups.end() || distance(*nearest) >= s.Px(12)) {
+      groups.push_back({i, {i}});
+    } else {
+      nearest->all.push_back(i);
     }
   }
-  std::stable_sort(shown.begin(), shown.end(),
-                   [&](std::size_t a, std::size_t b) { return marks[a].at_s < marks[b].at_s; });
-  return shown;
+  for (MarkGroup& group : groups) {
+    std::stable_sort(group.all.begin(), group.all.end(), earlier);
+  }
+  std::stable_sort(groups.begin(), groups.end(), [&](const MarkGroup& a, const MarkGroup& b) {
+    return earlier(a.shown, b.shown);
+  });
+  return groups;
 }
 
 /// Returns what the mark under the pointer says; empty without one.
 std::string DrawMarks(UiFrame& ui, const Scale& scale, const Rect& row, const Lane& lane,
                       float cursor_x) {
   const Style& s = ui.style;
-  const std::vector<std::size_t> shown = ShownMarks(s, scale, lane.marks);
+  const std::vector<MarkGroup> groups = ShownMarks(s, scale, lane.marks);
   std::string pointed;
-  for (std::size_t n = 0; n < shown.size(); ++n) {
-    const LaneMark& mark = lane.marks[shown[n]];
+  for (std::size_t n = 0; n < groups.size(); ++n) {
+    const MarkGroup& group = groups[n];
+    const LaneMark& mark = lane.marks[group.shown];
+    const std::string hint = HintOf(group, lane.marks);
     const float x = scale.X(mark.at_s);
     const Rect box{x - s.Px(6), row.y, s.Px(12), row.h};
     DrawIcon(Canvas(), mark.icon, {x, row.centre().y}, s.Px(12),
              mark.colour != 0 ? mark.colour : s.palette.text1);
-    ui.items.Add("mark/" + lane.name + "/" + std::to_string(shown[n]), box, true, mark.hint);
+    ui.items.Add("mark/" + lane.name + "/" + std::to_string(group.shown), box, true, hint);
     if (box.Contains(ImGui::GetMousePos())) {
-      pointed = mark.hint;
+      pointed = hint;
     }
     const float text_x = x + s.Px(12);
-    const float end = text_x + TextWidth(s.caption, mark.text);
-    const float next = n + 1 < shown.size() ? scale.X(lane.marks[shown[n + 1]].at_s) - s.Px(12)
-                                            : scale.area.right();
-    const bool touches_cursor = cursor_x > text_x - s.Px(6) && cursor_x < end + s.Px(6);
-    if (!mark.text.empty() && end <= std::min(next, scale.area.right()) && !touches_cursor) {
-      DrawText(ui, s.caption, s.palette.text2, text_x, row.centre().y, mark.text);
+    const float next = n + 1 < groups.size()
+                           ? scale.X(lane.marks[groups[n + 1].shown].at_s) - s.Px(12)
+                           : scale.area.right();
+    // How many lie under it is told before what it says.
+    const std::string more =
+        group.all.size() > 1 ? "+" + std::to_string(group.all.size() - 1) : std::string();
+    for (const std::string& words : {mark.text + (more.empty() ? "" : " " + more), more}) {
+      const float end = text_x + TextWidth(s.caption, words);
+      const bool touches_cursor = cursor_x > text_x - s.Px(6) && cursor_x < end + s.Px(6);
+      if (!words.empty() && end <= std::min(next, scale.area.right()) && !touches_cursor) {
+        DrawText(ui, s.caption, s.palette.text2, text_x, row.centre().y, words);
+        break;
+      }
     }
   }
   return pointed;

@@ -27,7 +27,8 @@ struct LaneMark {
   ImU32 colour = 0;
   std::string text;
   std::string hint{};  ///< under the pointer: the whole of it
-  int weight = 0;      ///< of marks that would cover one another the heaviest is shown
+  /// Of marks that would cover one another the heaviest is shown and says what all of them say.
+  int weight = 0;
 };
 struct Lane {
   std::string name;

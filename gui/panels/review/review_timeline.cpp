@@ -158,6 +158,14 @@ std::string FaultWords(const std::string& text) {
   return text.starts_with(ended) ? MarkWords(text.substr(ended.size())) + " ended" : text;
 }
 
+/// Why it began; empty of any other event.
+std::string WhyWavedOff(const Event& event) {
+  const std::string entered = std::string(MissionStateName(MissionState::kAborting)) + ": ";
+  return event.kind == EventKind::kState && event.text.starts_with(entered)
+             ? event.text.substr(entered.size())
+             : std::string();
+}
+
 Lane MarkLane(const EngineSnapshot& snap, const FlightRecord* record, const Palette& p) {
   Lane lane{"Limits and marks", {}, {}};
   for (const Event& event : EventsOf(snap, record)) {
@@ -170,6 +178,8 @@ Lane MarkLane(const EngineSnapshot& snap, const FlightRecord* record, const Pale
       lane.marks.push_back({t, Icon::kFlag, p.text1, FaultWords(event.text), event.text});
     } else if (event.kind == EventKind::kDecision) {
       lane.marks.push_back({t, Icon::kDone, p.text1, MarkWords(event.text), event.text});
+    } else if (const std::string why = WhyWavedOff(event); !why.empty()) {
+      lane.marks.push_back({t, Icon::kFlag, p.text1, "Wave-off", "Wave-off: " + why, 1});
     }
   }
   return lane;

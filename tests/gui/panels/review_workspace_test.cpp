@@ -517,7 +517,21 @@ TEST(ReviewWorkspace, AlarmMarksHaveTheirLevelAndTheHeaviestIsOnTop) {
   ui.Frame(draw);
   ui.Frame(draw);
   ASSERT_NE(ui.items.Find("tooltip"), nullptr);
-  EXPECT_EQ(ui.items.Find("tooltip")->text, "WARNING Left camera stale. Wave off");
+  EXPECT_EQ(ui.items.Find("tooltip")->text,
+            "03:00.0  WARNING Left camera stale. Wave off\n03:00.5  CAUTION Laser lost")
+      << "what lies under it speaks with it";
+}
+
+TEST(ReviewWorkspace, MarksTheWaveOffAndWhy) {
+  FlightRecord record = Record();
+  const auto at = [&](double s) { return AddSeconds({0}, kStart_s + s); };
+  record.events = {{at(20), EventKind::kState, "DESCENDING: Aligned"},
+                   {at(40), EventKind::kState, "ABORTING: Waved off by the operator"}};
+  const Lane marks = MakeTimeline(Replay(false), &record, {}, MakeDarkPalette(), true).lanes[5];
+  ASSERT_EQ(marks.marks.size(), 1u);
+  EXPECT_EQ(marks.marks[0].text, "Wave-off");
+  EXPECT_EQ(marks.marks[0].hint, "Wave-off: Waved off by the operator");
+  EXPECT_NEAR(marks.marks[0].at_s, 40, 1e-3);
 }
 
 TEST(ReviewWorkspace, MarksWhereFaultsWereInjectedAndEnded) {
