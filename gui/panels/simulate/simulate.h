@@ -29,8 +29,8 @@ struct FaultOffer {
 /// One of the flight's, as it stands now.
 struct ListedFault {
   int number = 0;
-  std::string words;  ///< "GPS jump 3 m"
-  std::string kind;   ///< "GPS jump", where there is no room
+  std::string words;            ///< "GPS jump 3 m"
+  std::string kind;             ///< "GPS jump", where there is no room
   double from_s = 0, to_s = 0;  ///< of the flight; infinite: until it is ended
   bool acts = false, over = false;
 };
@@ -54,13 +54,16 @@ struct SimulateState {
   std::array<WorldEye, 4> eyes = {WorldEye::kBirdsEye, WorldEye::kLeft, WorldEye::kChase,
                                   WorldEye::kAbove};
   SliderState sliders;
-  double run_to_s = 0;  ///< offered
+  double run_to_s = 0;        ///< offered
+  bool run_to_typed = false;  ///< by the operator, and not run to yet: it is never replaced
   OfferedFlights offered;
   FlightChoice choice;                      ///< of the next flight
   SimulateTab tab = SimulateTab::kChanges;  ///< in a low window: what of the three is shown
   FaultForm fault;
   bool choosing_fault = false;      ///< the list of kinds is open
   std::vector<ListedFault> faults;  ///< set by the app, every frame
+  int first_fault = 0;              ///< of the list, in sight
+  std::string followed_fault;       ///< focus that the list has scrolled after
 };
 
 /// A built-in simulation is looked at.
@@ -89,7 +92,7 @@ void DrawSimulationChanges(const EngineSnapshot& snap, const Rect& rect, Simulat
 void DrawNextFlight(const EngineSnapshot& snap, const Rect& rect, SimulateState& state,
                     UiFrame& ui);
 /// Items "fault/kind", "fault/channel/next", "fault/inject"; "fault/3" and "fault/end/3" of those
-/// that act or are to come.
+/// that act or are to come, by rows that the wheel and the focus bring into sight.
 void DrawFaults(const EngineSnapshot& snap, const Rect& rect, SimulateState& state, UiFrame& ui);
 /// Items "fault/kind/gps_jump" of all kinds.
 void DrawFaultChoice(const Rect& rect, SimulateState& state, UiFrame& ui);

@@ -119,50 +119,85 @@ void DrawInject(const Rect& row, const EngineSnapshot& snap, SimulateState& stat
 }
 
 /// Those that act first, then those to come; what is over is in Events.
-void DrawFaultList(const Rect& area, SimulateState& state, UiFrame& ui) {
-  const Style& s = ui.style;
-  std::vector<const ListedFault*> shown;
+std::vector<const ListedFault*> Standing(const std::vector<ListedFault>& faults) {
+  std::vector<const ListedFault*> standing;
   for (const bool acts : {true, false}) {
-    for (const ListedFault& fault : state.faults) {
+    for (const ListedFault& fault : faults) {
       if (fault.acts == acts && !fault.over) {
-        shown.push_back(&fault);
+        standing.push_back(&fault);
       }
     }
   }
+  return standing;
+}
+
+std::string EndName(const ListedFault& fault) {
+  return "fault/end/" + std::to_string(fault.number);
+}
+
+void DrawFaultRow(const Rect& row, const ListedFault& fault, UiFrame& ui) {
+  const Style& s = ui.style;
+  const std::string until =
+      std::isfinite(fault.to_s) ? "to " + Fixed(fault.to_s, 1) + " s" : "until ended";
+  const std::string when = fault.acts ? until : "from " + Fixed(fault.from_s, 1) + " s";
+  const Rect end{row.right() - s.Px(52), row.y + s.Px(2), s.Px(52), s.Px(22)};
+  const float when_x = end.x - s.Px(10);
+  DrawText(ui, s.caption, s.palette.text2, when_x, row.centre().y, when, Align::kRight);
+  const float room = when_x - TextWidth(s.caption, when) - s.Px(10) - row.x;
+  ImFont* font = fault.acts ? s.medium : s.body;
+  const bool fits = TextWidth(font, fault.words) <= room;
+  DrawText(ui, font, fault.acts ? s.palette.text1 : s.palette.text2, row.x, row.centre().y,
+           fits ? fault.words : fault.kind);
+  const std::string name = "fault/" + std::to_string(fault.number);
+  const std::string whole = fault.words + ", " + when;
+  if (Interact(ui, name, row, kPassive).hovered && !fits) {
+    DrawTooltip(ui, whole);
+  }
+  ui.items.Add(name, row, true, whole);
+  if (DrawButton(ui, EndName(fault), end, "End")) {
+    ui.intents.push_back(UiAction(EndFault{fault.number}));
+  }
+}
+
+/// Scrolls by whole rows, by the wheel or after the keyboard's focus.
+void DrawFaultList(const Rect& area, SimulateState& state, UiFrame& ui) {
+  const Style& s = ui.style;
+  const std::vector<const ListedFault*> rows = Standing(state.faults);
   const float row_h = s.Px(26);
   const auto fit = static_cast<std::size_t>(std::max(0.0f, area.h / row_h));
-  for (std::size_t i = 0; i < std::min(fit, shown.size()); ++i) {
-    const ListedFault& fault = *shown[i];
-    const Rect row{area.x, area.y + row_h * static_cast<float>(i), area.w, row_h};
-    if (i + 1 == fit && shown.size() > fit) {
-      DrawText(ui, s.caption, s.palette.text2, row.x, row.centre().y,
-               "and " + std::to_string(shown.size() - i) + " more");
-      return;
-    }
-    const std::string until =
-        std::isfinite(fault.to_s) ? "to " + Fixed(fault.to_s, 1) + " s" : "until ended";
-    const std::string when = fault.acts ? until : "from " + Fixed(fault.from_s, 1) + " s";
-    const Rect end{row.right() - s.Px(52), row.y + s.Px(2), s.Px(52), s.Px(22)};
-    const float when_x = end.x - s.Px(10);
-    DrawText(ui, s.caption, s.palette.text2, when_x, row.centre().y, when, Align::kRight);
-    const float room = when_x - TextWidth(s.caption, when) - s.Px(10) - row.x;
-    ImFont* font = fault.acts ? s.medium : s.body;
-    const bool fits = TextWidth(font, fault.words) <= room;
-    DrawText(ui, font, fault.acts ? s.palette.text1 : s.palette.text2, row.x, row.centre().y,
-             fits ? fault.words : fault.kind);
-    const std::string number = std::to_string(fault.number);
-    const std::string whole = fault.words + ", " + when;
-    if (Interact(ui, "fault/" + number, row, kPassive).hovered && !fits) {
-      DrawTooltip(ui, whole);
-    }
-    ui.items.Add("fault/" + number, row, true, whole);
-    if (DrawButton(ui, "fault/end/" + number, end, "End")) {
-      ui.intents.push_back(UiAction(EndFault{fault.number}));
-    }
-  }
-  if (shown.empty() && fit > 0) {
+  if (rows.empty() && fit > 0) {
     DrawText(ui, s.caption, s.palette.text3, area.x, area.y + row_h / 2,
              "No fault acts, none is to come");
+  }
+  const auto beyond = static_cast<int>(rows.size()) - static_cast<int>(fit);
+  const float wheel = Interact(ui, "panel/Faults", area, kPassive).wheel;
+  state.first_fault -= static_cast<int>(std::lround(wheel));
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (fit > 0 && ui.focus.shown() != state.followed_fault && ui.focus.Has(EndName(*rows[i]))) {
+      const auto at = static_cast<int>(i);  // the keyboard's row comes into sight
+      state.first_fault = std::clamp(state.first_fault, at + 1 - static_cast<int>(fit), at);
+    }
+  }
+  state.followed_fault = ui.focus.shown();
+  state.first_fault = std::clamp(state.first_fault, 0, std::max(0, beyond));
+  const auto first = static_cast<std::size_t>(state.first_fault);
+  const float bar = beyond > 0 ? s.Px(10) : 0;
+  ui.tab.list = "faults";
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (i < first || i >= first + fit) {
+      OfferHidden(ui, EndName(*rows[i]));
+      continue;
+    }
+    const float y = area.y + row_h * static_cast<float>(i - first);
+    DrawFaultRow({area.x, y, area.w - bar, row_h}, *rows[i], ui);
+  }
+  ui.tab.list = {};
+  if (beyond > 0 && fit > 0) {
+    const float h = row_h * static_cast<float>(fit), unit = h / static_cast<float>(rows.size());
+    FillRect(Canvas(),
+             {area.right() - s.Px(4), area.y + unit * static_cast<float>(first), s.Px(4),
+              unit * static_cast<float>(fit)},
+             s.palette.strong_line, s.Fine(2));
   }
 }
 

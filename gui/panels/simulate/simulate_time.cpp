@@ -67,6 +67,16 @@ void DrawTransport(const EngineSnapshot& snap, const Rect& row, UiFrame& ui) {
   ui.items.Add("sim/time", row, true, now + " s");
 }
 
+/// "max 600.0 s" of "700.0 s is over the limit, max 600.0 s"; empty where nothing was refused.
+std::string RefusalOf(const UiFrame& ui, const std::string& item) {
+  const Item* refused = ui.items.Find(item);
+  if (refused == nullptr) {
+    return {};
+  }
+  const std::size_t comma = refused->text.find(", ");
+  return comma == std::string::npos ? refused->text : refused->text.substr(comma + 2);
+}
+
 void DrawRunTo(const EngineSnapshot& snap, const Rect& row, SimulateState& state, UiFrame& ui) {
   const Style& s = ui.style;
   const SourceStatus& source = snap.session->source;
@@ -74,25 +84,36 @@ void DrawRunTo(const EngineSnapshot& snap, const Rect& row, SimulateState& state
   info.name = "simulation.run_to_s";
   info.label = "Run to";
   info.unit = "s";
-  info.min = info.soft_min = source.position_s;
   info.max = info.soft_max = source.duration_s.value_or(source.position_s);
-  if (state.run_to_s <= source.position_s) {
+  const bool past = state.run_to_s <= source.position_s;
+  if (past && !state.run_to_typed) {
     state.run_to_s = std::min(info.max, kAhead_s * (std::floor(source.position_s / kAhead_s) + 1));
   }
   info.default_value = state.run_to_s;
-  const float y = row.centre().y;
-  DrawText(ui, s.body, s.palette.text2, row.x, y, "Run to");
   const Rect button{row.right() - s.Px(96), row.y, s.Px(96), row.h};
   const Rect field{button.x - s.Px(8) - s.Px(96), row.y, s.Px(96), row.h};
   SliderRow value{&info, state.run_to_s};
-  value.ask = [&](double to_s) { state.run_to_s = to_s; };
+  value.ask = [&](double to_s) {
+    state.run_to_s = to_s;
+    state.run_to_typed = true;
+  };
   DrawValueField(ui, field, value, snap.session->settings, state.sliders, FieldKeys::kOwn);
+  const bool passed = past && state.run_to_typed;
+  const std::string why = passed ? "has passed" : RefusalOf(ui, "refused/" + info.name);
+  const float y = row.centre().y, up = why.empty() ? 0 : s.Px(8);
+  DrawText(ui, s.body, s.palette.text2, row.x, y - up, "Run to");
+  DrawText(ui, s.caption, s.palette.caution, row.x, y + s.Px(9), why);
+  if (!why.empty()) {
+    ui.items.Add("sim/run_to_refused", row, true, why);
+  }
+  const std::string it_is = "That moment has passed: it is " + Fixed(source.position_s, 1) + " s";
   ButtonLook look;
-  look.enabled = !source.ended;
-  look.reason = "The flight is over: begin a new one";
+  look.enabled = !source.ended && !passed;
+  look.reason = source.ended ? "The flight is over: begin a new one" : std::string_view(it_is);
   look.hint = "Runs to the first pictures at or after that moment, and pauses there";
   if (DrawButton(ui, "sim/run_to", button, "Run to it", look)) {
     Ask(ui, Kind::kRunTo, state.run_to_s);
+    state.run_to_typed = false;
   }
 }
 

@@ -152,6 +152,29 @@ TEST(SimulateWorkspace, TimeAsksForWhatItsButtonsSay) {
   EXPECT_EQ(window.TextOf("sim/reached"), "reached ––") << "nothing runs";
 }
 
+TEST(SimulateWorkspace, AMomentThatHasPassedIsRefusedWithTheReasonAndKept) {
+  Window window(Simulated(MissionState::kProposed));
+  window.state.run_to_s = 12;
+  window.state.run_to_typed = true;
+  window.ui.Frame(window.draw);
+  EXPECT_EQ(window.TextOf("field/simulation.run_to_s"), "12.0 s") << "as it was typed";
+  EXPECT_EQ(window.TextOf("sim/run_to_refused"), "has passed");
+  window.ui.Click("sim/run_to", window.draw);
+  EXPECT_TRUE(window.Asked<PlaybackControl>().empty());
+  window.ui.Frame(window.draw);
+  EXPECT_EQ(window.state.run_to_s, 12);
+
+  window.state.run_to_s = 15;
+  window.ui.Frame(window.draw);
+  EXPECT_EQ(window.ui.items.Find("sim/run_to_refused"), nullptr);
+  window.ui.Click("sim/run_to", window.draw);
+  ASSERT_EQ(window.Asked<PlaybackControl>().size(), 1U);
+  EXPECT_EQ(window.Asked<PlaybackControl>()[0].value, 15);
+  window.snap.session.Edit().source.position_s = 15;
+  window.ui.Frame(window.draw);
+  EXPECT_EQ(window.TextOf("field/simulation.run_to_s"), "20.0 s") << "it was run to: the next one";
+}
+
 TEST(SimulateWorkspace, AChangeIsShownAsAskedAndInForce) {
   Window window(Simulated(MissionState::kProposed));
   window.ui.MoveTo("limit/simulation.wind_mps");
@@ -227,6 +250,30 @@ TEST(SimulateWorkspace, AFaultIsInjectedFromNowAndEnded) {
   window.ui.Click("fault/end/2", window.draw);
   ASSERT_TRUE(window.LastAction<EndFault>());
   EXPECT_EQ(window.LastAction<EndFault>()->number, 2);
+}
+
+TEST(SimulateWorkspace, EveryFaultThatActsCanBeEnded) {
+  for (const auto& [width, height] : {std::pair(1920.0F, 1080.0F), std::pair(1280.0F, 800.0F)}) {
+    Window window(Simulated(MissionState::kProposed), width, height);
+    window.state.tab = SimulateTab::kFaults;
+    for (int i = 1; i <= 40; ++i) {
+      window.state.faults.push_back({i, "GPS jump 3 m", "GPS jump", 2, INFINITY, true, false});
+    }
+    window.ui.Frame(window.draw);
+    EXPECT_EQ(window.ui.items.Find("fault/end/40"), nullptr);
+    const ImVec2 list = window.ui.items.Find("fault/1")->rect.centre();
+    for (int n = 1; n <= 40; ++n) {
+      const std::string end = "fault/end/" + std::to_string(n);
+      for (int turn = 0; turn < 40 && window.ui.items.Find(end) == nullptr; ++turn) {
+        window.ui.MoveTo(list);
+        FeedMouseWheel(-1);
+        window.ui.Frame(window.draw);
+      }
+      window.ui.Click(end, window.draw);
+      ASSERT_TRUE(window.LastAction<EndFault>()) << n;
+      EXPECT_EQ(window.LastAction<EndFault>()->number, n);
+    }
+  }
 }
 
 TEST(SimulateWorkspace, AnotherWorldIsANewFlight) {
