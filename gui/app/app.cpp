@@ -24,7 +24,9 @@ constexpr std::size_t kLeastMemory_MiB = 640;
 
 AppOptions OptionsOfNext(AppOptions options, const NextFlight& next) {
   options.script_file.clear();
+  options.workspace.reset();
   if (next.choice) {
+    options.workspace = Workspace::kSimulate;  // where such a choice is made
     options.scenario = next.choice->scenario;
     options.seed = next.choice->seed;
     options.vehicle = next.choice->vehicle;
@@ -117,7 +119,12 @@ int RunApp(const AppOptions& options) {
     }
     const StationEnd end = RunStation(now, termination, *session, WayOutOfReview(options),
                                       std::exchange(script, std::nullopt), script_name);
-    if (!end.next || now.headless || termination.asked()) {
+    if (!end.script_left.empty()) {
+      script = end.script_left;
+    }
+    // Without a window nobody but a script flies on.
+    const bool goes_on = script ? end.exit_code == 0 : !now.headless;
+    if (!end.next || !goes_on || termination.asked()) {
       return end.exit_code;
     }
     now = OptionsOfNext(options, *end.next);

@@ -3,11 +3,13 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "engine/core/result.h"
 #include "engine/runtime/wanted_settings.h"
+#include "gui/app/intent.h"
 
 namespace palace {
 
@@ -26,6 +28,9 @@ struct AppOptions {
   SettingsRequest settings;         ///< read where it is known what they stand over
   std::string channels_file;        ///< empty: see channels_file.h
   std::string key;                  ///< of --connect: a name or a file; empty: see station_key.h
+  /// Shown first; empty: what a person comes for with such a source (FirstWorkspace). Not of the
+  /// command line: a flight begun in Simulate is looked at there.
+  std::optional<Workspace> workspace{};
   bool headless = false;
   std::string script_file;
   std::filesystem::path record_dir = "logs";

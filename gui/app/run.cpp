@@ -70,9 +70,9 @@ class StationRun {
     state_.simulate.offered.faults = FaultsOffered();
     state_.simulate.choice = ChoiceOf(options);
     state_.scale = options.ui_scale > 0 ? options.ui_scale : surface.natural_scale();
-    if (!script_) {  // a script says where it goes
-      state_.frame.workspace = FirstWorkspace(options.source);
-    }
+    // A script says where it goes.
+    const Workspace first = script_ ? Workspace::kFly : FirstWorkspace(options.source);
+    state_.frame.workspace = options.workspace.value_or(first);
   }
 
   Status Run() {
@@ -92,6 +92,9 @@ class StationRun {
   }
 
   const std::optional<NextFlight>& next() const { return state_.next; }
+  std::vector<ScriptLine> script_left() const {
+    return script_ && state_.next ? script_->Left() : std::vector<ScriptLine>();
+  }
   std::string script_error() const { return script_ ? script_->error() : std::string(); }
   const FlightSummary& summary() const { return summarizer_.summary(); }
   const std::vector<ApprovalRecord>& approvals() const { return approvals_.all(); }
@@ -380,7 +383,7 @@ StationEnd RunStation(const AppOptions& options, const Termination& termination,
     std::fflush(nullptr);
     std::_Exit(code);  // its thread still works on what it has
   }
-  return {code != 0 ? code : termination.exit_code(), run.next()};
+  return {code != 0 ? code : termination.exit_code(), run.next(), run.script_left()};
 }
 
 }  // namespace palace

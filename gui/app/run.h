@@ -17,7 +17,8 @@ namespace palace {
 /// How a session ended.
 struct StationEnd {
   int exit_code = 0;
-  std::optional<NextFlight> next{};  ///< what the operator asked for after it
+  std::optional<NextFlight> next{};       ///< what the operator asked for after it
+  std::vector<ScriptLine> script_left{};  ///< lines that are for what comes next
 };
 
 /// Input, engine, user interface, commands, frame after frame, until somebody quits or the script

@@ -1,9 +1,11 @@
 #include "gui/app/script.h"
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
 #include "engine/core/text.h"
+#include "engine/simulation/vehicle_file.h"
 
 namespace palace {
 namespace {
@@ -72,6 +74,11 @@ ScriptInput ScriptRunner::Tick(const ItemRecord& items, const EngineSnapshot* sn
   return current_->input;
 }
 
+std::vector<ScriptLine> ScriptRunner::Left() const {
+  return {lines_.begin() + static_cast<std::ptrdiff_t>(std::min(next_, lines_.size())),
+          lines_.end()};
+}
+
 ScriptInput ScriptRunner::Rest() const {
   ScriptInput rest;
   rest.mouse = mouse_;
@@ -115,6 +122,11 @@ void ScriptRunner::Begin(const ScriptLine& line, const ItemRecord& items,
       input.intents.emplace_back(UiAction(InjectFault{line.words[0]}));
     } else if (line.verb == "end_fault") {
       input.intents.emplace_back(UiAction(EndFault{static_cast<int>(line.NumberAt(0))}));
+    } else if (line.verb == "new_flight") {
+      const FlightChoice choice{line.words[0], static_cast<std::uint64_t>(line.NumberAt(1, 1)),
+                                line.words.size() > 2 ? line.words[2] : kDefaultVehicle};
+      input.intents.emplace_back(
+          UiAction(NextFlight{.kind = NextFlight::Kind::kFlyAgain, .choice = choice}));
     } else if (line.verb == "screenshot") {
       input.intents.emplace_back(UiAction(TakeScreenshot{line.words[0]}));
     } else if (line.verb == "resize") {

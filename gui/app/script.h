@@ -51,6 +51,8 @@ class ScriptRunner {
   /// What to feed while a picture is being taken: the mouse stays, nothing else happens.
   ScriptInput Rest() const;
   bool done() const { return done_; }
+  /// The lines that were not begun: another flight goes on with them.
+  std::vector<ScriptLine> Left() const;
   /// Set when a line failed: file, line, text and what was found instead.
   const std::string& error() const { return error_; }
 

@@ -1,4 +1,5 @@
 // What a script may say: a table of actions and their arguments, each with its limits.
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <filesystem>
@@ -7,6 +8,8 @@
 
 #include "engine/core/text.h"
 #include "engine/faults/fault_text.h"
+#include "engine/simulation/vehicle_file.h"
+#include "engine/world/scene_library.h"
 #include "gui/app/input.h"
 #include "gui/app/script.h"
 
@@ -67,6 +70,11 @@ const std::vector<Action>& Actions() {
       {"end_fault", "", {Number("NUMBER", 1, 1000, "")}},
       {"run_to", "", {Number("SECONDS", 0, 86400, "s")}},
       {"seek", "", {Number("SECONDS", 0, 86400, "s")}},
+      {"new_flight",
+       "",
+       {Argument{"SCENARIO"},
+        {"SEED", Argument::Kind::kNumber, 0, 999'999, "", true},
+        {"VEHICLE", Argument::Kind::kName, 0, 0, "", true}}},
       {"quit", "", {}},
   };
   return actions;
@@ -159,6 +167,24 @@ const Action* FindAction(const ScriptLine& line, std::string& problem) {
   return nullptr;
 }
 
+bool IsNamed(const std::string& name, const auto& names) {
+  std::error_code none;
+  return std::find(names.begin(), names.end(), name) != names.end() ||
+         std::filesystem::is_regular_file(name, none);
+}
+
+/// Why there is no such world or vehicle; empty when there is.
+std::string UnknownFlight(const ScriptLine& line) {
+  if (!IsNamed(line.words[0], SceneNames())) {
+    return "new_flight: there is no scenario '" + line.words[0] + "'; choose one of " + SceneList();
+  }
+  if (line.words.size() > 2 && !IsNamed(line.words[2], VehicleNames())) {
+    return "new_flight: there is no vehicle '" + line.words[2] + "'; name a file, or one of " +
+           Joined(VehicleNames());
+  }
+  return {};
+}
+
 std::string Problem(const ScriptLine& line) {
   std::string problem;
   const Action* action = FindAction(line, problem);
@@ -183,6 +209,9 @@ std::string Problem(const ScriptLine& line) {
   if (at < line.words.size() && !open_end) {
     return "'" + line.verb + "' takes " + Usage(*action) + ", nothing after it: '" +
            line.words[at] + "'";
+  }
+  if (line.verb == "new_flight") {
+    return UnknownFlight(line);
   }
   if (line.verb == "fault") {
     const Result<Fault> fault = ParseFault(line.words[0]);

@@ -39,6 +39,15 @@ TEST(NextFlight, AnotherFlightIsFlownAndRecordedAsTheFirst) {
   EXPECT_TRUE(next.record);
 }
 
+TEST(NextFlight, OneBegunInSimulateIsLookedAtThere) {
+  NextFlight next;
+  next.choice = FlightChoice{"rocks", 3, "multirotor"};
+  const AppOptions chosen = OptionsOfNext(Flown(), next);
+  EXPECT_EQ(chosen.workspace, Workspace::kSimulate);
+  EXPECT_EQ(chosen.scenario, "rocks");
+  EXPECT_FALSE(OptionsOfNext(chosen, {NextFlight::Kind::kReview, "a.lcm"}).workspace);
+}
+
 TEST(NextFlight, AfterTheReviewOfAFlightTheProgramIsWhatItWasStartedAs) {
   AppOptions bus;
   bus.source = SourceChoice::kConnect;

@@ -88,6 +88,23 @@ TEST(Script, ClickMovesThenPressesThenReleasesAtTheItemsCentre) {
   EXPECT_FALSE(release.mouse_down);
 }
 
+TEST(Script, ANewFlightGoesOnWithTheLinesThatAreLeft) {
+  Runner run("new_flight rocks 3 multirotor\nexpect item go\n");
+  const ScriptInput input = run.Tick();
+  ASSERT_EQ(input.intents.size(), 1u);
+  const auto next = std::get<NextFlight>(std::get<UiAction>(input.intents[0]));
+  ASSERT_TRUE(next.choice);
+  EXPECT_EQ(next.choice->scenario, "rocks");
+  EXPECT_EQ(next.choice->seed, 3u);
+  EXPECT_EQ(next.choice->vehicle, "multirotor");
+  ASSERT_EQ(run.script_.Left().size(), 1u);
+  EXPECT_EQ(run.script_.Left()[0].number, 2) << "messages name the line of the file";
+  for (const char* bad :
+       {"new_flight", "new_flight atlantis", "new_flight rocks -1", "new_flight rocks 1 balloon"}) {
+    EXPECT_FALSE(ParseScript(bad, "s.txt")) << bad;
+  }
+}
+
 TEST(Script, HoldKeepsTheButtonDownForItsTime) {
   Runner run("hold go 1.2\n");
   int down = 0;
