@@ -139,7 +139,8 @@ class StationRun {
     if (const Status opened = surface_.Reopen(); !opened) {
       return opened;
     }
-    Result<std::unique_ptr<View>> view = View::Create(options_.theme, WorldOf(session_));
+    Result<std::unique_ptr<View>> view =
+        View::Create(options_.theme, WorldOf(session_), session_.body);
     if (!view) {
       return view.error();
     }
@@ -352,8 +353,9 @@ StationEnd RunStation(const AppOptions& options, const Termination& termination,
                       const WayOut& after_review, std::optional<std::vector<ScriptLine>> script,
                       const std::string& script_name) {
   const Result<std::unique_ptr<Surface>> surface = Surface::Open(options);
-  Result<std::unique_ptr<View>> view = surface ? View::Create(options.theme, WorldOf(session))
-                                               : Result<std::unique_ptr<View>>(surface.error());
+  Result<std::unique_ptr<View>> view =
+      surface ? View::Create(options.theme, WorldOf(session), session.body)
+              : Result<std::unique_ptr<View>>(surface.error());
   if (!view) {
     const Status ignored = session.engine->Stop();
     return {FailWith(view.error())};

@@ -166,6 +166,9 @@ Result<Session> OpenSession(const AppOptions& options, bool threaded) {
   if (!vehicle) {
     return vehicle.error();
   }
+  if (std::holds_alternative<MultirotorParameters>(vehicle->model)) {
+    session.body = VehicleBody::kMultirotor;
+  }
   if (options.source != SourceChoice::kReplay) {
     const Result<Settings> settings =
         SettingsOfCommandLine(SettingsFor(*vehicle), options.settings.file, options.settings.set);

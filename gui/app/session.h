@@ -13,6 +13,7 @@
 #include "engine/simulation/simulator.h"
 #include "engine/world/world.h"
 #include "gui/app/options.h"
+#include "gui/render/vehicle_body.h"
 
 namespace palace {
 
@@ -20,10 +21,11 @@ struct Session {
   std::unique_ptr<Engine> engine;
   std::filesystem::path
       output_dir;  ///< log, screenshots and report of this session; may not exist yet
-  std::shared_ptr<Simulator> simulator;        ///< simulation only
-  std::shared_ptr<FaultedSource> faulted;      ///< simulation only: round the simulator
-  std::optional<World> scene;                  ///< simulation only
-  std::shared_ptr<const FlightRecord> record;  ///< replay only
+  std::shared_ptr<Simulator> simulator;         ///< simulation only
+  std::shared_ptr<FaultedSource> faulted;       ///< simulation only: round the simulator
+  std::optional<World> scene;                   ///< simulation only
+  VehicleBody body = VehicleBody::kHelicopter;  ///< of the vehicle that the command line names
+  std::shared_ptr<const FlightRecord> record;   ///< replay only
   std::shared_ptr<Source> source;
   bool recorded = false;  ///< by this session, into output_dir
 };

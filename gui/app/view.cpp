@@ -56,15 +56,17 @@ std::optional<ViewPreset> PresetOf(const OrbitCamera& orbit) {
 
 }  // namespace
 
-Result<std::unique_ptr<View>> View::Create(const std::string& theme, const World* world) {
+Result<std::unique_ptr<View>> View::Create(const std::string& theme, const World* world,
+                                           VehicleBody body) {
   Result<std::unique_ptr<View3dRenderer>> view3d = View3dRenderer::Create();
   if (!view3d) {
     return view3d.error();
   }
   std::unique_ptr<View> view(new View(std::move(*view3d)));
   view->style_.palette = PaletteOf(theme);
+  view->body_ = body;
   if (world != nullptr) {
-    view->world_ = std::make_unique<WorldViews>(*world);
+    view->world_ = std::make_unique<WorldViews>(*world, body);
   }
   return view;
 }
@@ -151,8 +153,9 @@ void View::Upload(const EngineSnapshot& snapshot, const ViewFrame& frame, UiStat
     return;
   }
   drawn_3d_ = key;
-  const View3dInput input =
+  View3dInput input =
       MakeView3dInput(snapshot, state.highlighted_site, static_cast<double>(style_.scale));
+  input.body = body_;
   FrameView3d(input, state.orbit);
   state.orbit.Advance(dt_s);
   const Result<View3dLabels> labels =

@@ -30,8 +30,9 @@ struct ViewFrame {
 /// Owns GL objects: create, use and destroy with one GL context current.
 class View {
  public:
-  /// `world`: the one that is simulated here; null: none.
-  static Result<std::unique_ptr<View>> Create(const std::string& theme, const World* world);
+  /// `world`: the one that is simulated here; null: none. `body`: what flies there.
+  static Result<std::unique_ptr<View>> Create(const std::string& theme, const World* world,
+                                              VehicleBody body = VehicleBody::kHelicopter);
   /// Uploads what the snapshot shows and renders the 3-D view. Only needed when pixels are made.
   void Upload(const EngineSnapshot& snapshot, const ViewFrame& frame, UiState& state, double dt_s);
   /// Draws into the current ImGui frame. `snapshot` null: nothing has arrived yet.
@@ -73,6 +74,7 @@ class View {
   Style style_;
   TextureSet textures_;
   std::unique_ptr<View3dRenderer> view3d_;
+  VehicleBody body_ = VehicleBody::kHelicopter;
   View3dKey drawn_3d_;
   std::unique_ptr<WorldViews> world_;  ///< of a simulation
   double settle_s_ = 0;

@@ -127,6 +127,7 @@ bool WorldViews::Draw(const EngineSnapshot& snapshot, WorldEye eye, const Rect& 
                        .X_WE = pose.X_WE,
                        .time_s = SecondsBetween(snapshot.session->source.start, snapshot.time),
                        .X_WB = X_WB,
+                       .body = body_,
                        .rotor_diameter_m = rotor_m,
                        .frustum = &frustum_,
                        .ui_scale = ui_scale};

@@ -36,7 +36,7 @@ WorldEyePose EyePoseOf(WorldEye eye, const World& world, const RigidTransform& X
 /// Needs one GL context current for every call and for the destructor.
 class WorldViews {
  public:
-  explicit WorldViews(World world) : world_(std::move(world)) {}
+  WorldViews(World world, VehicleBody body) : world_(std::move(world)), body_(body) {}
   /// Brings the views of the layout up to date. `all`: every one of them, however long it takes,
   /// for a picture of the window.
   void Update(const EngineSnapshot& snapshot, const SimulateLayout& layout, const Style& style,
@@ -59,6 +59,7 @@ class WorldViews {
             double ui_scale, OrbitCamera& free);
 
   World world_;
+  VehicleBody body_;
   std::future<std::unique_ptr<RayScene>> light_;  ///< worked out beside, seconds for large grounds
   std::unique_ptr<WorldViewRenderer> renderer_;
   std::string waits_for_;

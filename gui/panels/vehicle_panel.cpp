@@ -65,7 +65,8 @@ std::vector<Readout> Readouts(const EngineSnapshot& snap, bool narrow, double si
   const std::string wind_unit = WindHasDirection(wind) && std::isfinite(wind_from) && !narrow
                                     ? "m/s, " + Fixed(Deg(wind_from), 0) + "°"
                                     : "m/s";
-  const double fuel = snap.sensors->vehicle ? snap.sensors->vehicle->battery_or_fuel * 100 : NAN;
+  // Fuel or a battery: the vehicle does not say which.
+  const double energy = snap.sensors->vehicle ? snap.sensors->vehicle->battery_or_fuel * 100 : NAN;
   const double speed = snap.sensors->pose ? snap.sensors->pose->v_WB.head<2>().norm() : NAN;
   if (m.state == MissionState::kLanded) {
     // What was measured at touchdown; the estimate goes on drifting and means nothing more.
@@ -73,7 +74,7 @@ std::vector<Readout> Readouts(const EngineSnapshot& snap, bool narrow, double si
     const double true_m = m.touchdown_miss_true_m.value_or(NAN);
     return {status(narrow ? "Off centre" : "Off centre, estimate", miss_m, 2, "m"),
             status(narrow ? "In truth" : "Off centre, in truth", true_m, 2, "m"),
-            status("Wind", wind, 1, wind_unit), status("Fuel", fuel, 0, "%")};
+            status("Wind", wind, 1, wind_unit), status("Energy", energy, 0, "%")};
   }
   // Without the vehicle's word the estimate coasts: no figure of any time.
   const bool coasts =
@@ -99,7 +100,7 @@ std::vector<Readout> Readouts(const EngineSnapshot& snap, bool narrow, double si
             estimated(climbs ? "Climb rate" : "Descent rate", down, 2, "m/s"),
             estimated("From site centre", from_m, 2, "m"),
             status("Wind", wind, 1, wind_unit),
-            status("Fuel", fuel, 0, "%")};
+            status("Energy", energy, 0, "%")};
   }
   const Readout height = [&] {
     // Of the skids above the laser's spot, as in the plots.
@@ -121,7 +122,7 @@ std::vector<Readout> Readouts(const EngineSnapshot& snap, bool narrow, double si
           pose("Heading", snap.sensors->pose ? HeadingDeg(*snap.sensors->pose) : NAN, 0, "°"),
           status("Wind", wind, 1, wind_unit),
           estimated("Position error", PositionError3s(snap), 2, "m, 3σ"),
-          status("Fuel", fuel, 0, "%")};
+          status("Energy", energy, 0, "%")};
 }
 
 }  // namespace

@@ -76,10 +76,38 @@ class ModelBuilder {
   std::vector<VehicleVertex> out_;
 };
 
-}  // namespace
+constexpr float kPaint = 0.92F, kGlass = 0.30F, kMetal = 0.62F, kDark = 0.42F;
 
-std::vector<VehicleVertex> VehicleTriangles() {
-  constexpr float kPaint = 0.92F, kGlass = 0.30F, kMetal = 0.62F, kDark = 0.42F;
+// In shares of the 1.3 m that a quadrotor with 0.9 m between opposite 15-inch propellers is wide.
+constexpr double kArm = kRotorRadius_m * 0.45 / 0.65, kPropeller = kRotorRadius_m * 0.19 / 0.65;
+
+/// Of a propeller, front right first, clockwise.
+Eigen::Vector3d PropellerHub(int i) {
+  const double angle = kTurn * (i + 0.5) / 4;
+  return {kArm * std::cos(angle), kArm * std::sin(angle), -0.16};
+}
+
+std::vector<VehicleVertex> MultirotorTriangles() {
+  ModelBuilder model;
+  model.Ellipsoid({0, 0, 0}, {0.44, 0.30, 0.16}, kPaint, kGlass);
+  for (int i = 0; i < 4; ++i) {
+    const Eigen::Vector3d hub = PropellerHub(i), foot(hub.x(), hub.y(), 0);
+    model.Tube({0, 0, 0}, foot, 0.07, 0.05, kMetal);
+    model.Tube(foot + Eigen::Vector3d(0, 0, 0.05), hub, 0.09, 0.07, kDark);
+  }
+  for (const double side : {-1.0, 1.0}) {
+    const double y = 0.55 * side;
+    model.Tube({-0.60, y, 0.62}, {0.60, y, 0.62}, 0.032, 0.032, kMetal);
+    for (const double x : {-0.25, 0.25}) {
+      model.Tube({x, 0.20 * side, 0.08}, {x, y, 0.62}, 0.026, 0.026, kMetal);
+    }
+  }
+  // The camera bar under the nose.
+  model.Tube({0.42, -0.7, 0.20}, {0.42, 0.7, 0.20}, 0.035, 0.035, kDark);
+  return model.Take();
+}
+
+std::vector<VehicleVertex> HelicopterTriangles() {
   ModelBuilder model;
   model.Ellipsoid({0.25, 0, 0}, {0.82, 0.34, 0.38}, kPaint, kGlass);
   model.Ellipsoid({0.0, 0, -0.28}, {0.50, 0.22, 0.20}, kMetal, kMetal);
@@ -103,6 +131,12 @@ std::vector<VehicleVertex> VehicleTriangles() {
   return model.Take();
 }
 
+}  // namespace
+
+std::vector<VehicleVertex> VehicleTriangles(VehicleBody body) {
+  return body == VehicleBody::kMultirotor ? MultirotorTriangles() : HelicopterTriangles();
+}
+
 Status VehiclePainter::Start() {
   Result<ShaderProgram> built = ShaderProgram::Build("vehicle", {shader_text::vehicle_vertex},
                                                      {shader_text::vehicle_fragment});
@@ -110,8 +144,14 @@ Status VehiclePainter::Start() {
     return built.error();
   }
   shader_ = std::move(built).value();
-  const std::vector<VehicleVertex> model = VehicleTriangles();
-  count_ = static_cast<GLsizei>(model.size());
+  std::vector<VehicleVertex> model;
+  for (const VehicleBody body : {VehicleBody::kHelicopter, VehicleBody::kMultirotor}) {
+    const std::vector<VehicleVertex> triangles = VehicleTriangles(body);
+    const auto i = static_cast<std::size_t>(body);
+    first_[i] = static_cast<GLint>(model.size());
+    count_[i] = static_cast<GLsizei>(triangles.size());
+    model.insert(model.end(), triangles.begin(), triangles.end());
+  }
   array_ = GlVertexArray::Create();
   buffer_ = GlBuffer::Create();
   glBindVertexArray(array_.name());
@@ -129,8 +169,9 @@ Status VehiclePainter::Start() {
   return Ok();
 }
 
-void VehiclePainter::Draw(const Eigen::Matrix4d& clip_from_world, const RigidTransform& X_WB,
-                          double size, const Eigen::Vector3d& eye_W) const {
+void VehiclePainter::Draw(VehicleBody body, const Eigen::Matrix4d& clip_from_world,
+                          const RigidTransform& X_WB, double size,
+                          const Eigen::Vector3d& eye_W) const {
   Eigen::Matrix4d world_from_body = Eigen::Matrix4d::Identity();
   world_from_body.topLeftCorner<3, 3>() = size * X_WB.R;
   world_from_body.topRightCorner<3, 1>() = X_WB.p;
@@ -140,38 +181,66 @@ void VehiclePainter::Draw(const Eigen::Matrix4d& clip_from_world, const RigidTra
   shader_.Set("eye_direction_W", Eigen::Vector3f((eye_W - X_WB.p).normalized().cast<float>()));
   glEnable(GL_DEPTH_TEST);
   glBindVertexArray(array_.name());
-  glDrawArrays(GL_TRIANGLES, 0, count_);
+  const auto i = static_cast<std::size_t>(body);
+  glDrawArrays(GL_TRIANGLES, first_[i], count_[i]);
 }
 
-void AddRotor(LineBatch& batch, const RigidTransform& X_WB, double size, double ui_scale) {
-  constexpr int kRim = 48;
+namespace {
+
+constexpr int kRim = 48;
+
+/// From the body's axes at the model's own size.
+struct Placed {
+  RigidTransform X_WB;
+  double size;
+  Eigen::Vector3d operator()(const Eigen::Vector3d& p_B) const { return X_WB * (size * p_B); }
+};
+
+void AddRotor(LineBatch& batch, const Placed& at, const Eigen::Vector3d& hub_B, double radius,
+              double ui_scale) {
   const Rgba8 disc = RgbaFromHex(0xE8ECF1, 34), rim = RgbaFromHex(0xE8ECF1, 215);
-  const auto at = [&](double radius, double angle, const Eigen::Vector3d& hub) {
-    return Eigen::Vector3d(X_WB * (size * (hub + Eigen::Vector3d(radius * std::cos(angle),
-                                                                 radius * std::sin(angle), 0))));
+  const auto on_disc = [&](double r, double angle) {
+    return at(hub_B + Eigen::Vector3d(r * std::cos(angle), r * std::sin(angle), 0));
   };
   std::vector<Eigen::Vector3d> circle;
   for (int i = 0; i <= kRim; ++i) {
-    circle.push_back(at(kRotorRadius_m, kTurn * i / kRim, kRotorHub_B));
+    circle.push_back(on_disc(radius, kTurn * i / kRim));
   }
-  const Eigen::Vector3d hub = X_WB * (size * kRotorHub_B);
+  const Eigen::Vector3d hub = at(hub_B);
   for (int i = 0; i < kRim; ++i) {
     batch.Triangle(hub, circle[static_cast<std::size_t>(i)],
                    circle[static_cast<std::size_t>(i) + 1], disc);
   }
   batch.Polyline(circle, {rim, 1.3 * ui_scale});
   constexpr double kBladeAngle = 0.5;
-  batch.Line(at(kRotorRadius_m, kBladeAngle, kRotorHub_B),
-             at(-kRotorRadius_m, kBladeAngle, kRotorHub_B),
+  batch.Line(on_disc(radius, kBladeAngle), on_disc(-radius, kBladeAngle),
              {RgbaFromHex(0xD5DBE2, 235), 1.8 * ui_scale});
-  // The tail rotor stands upright on the left of the fin.
+}
+
+/// It stands upright on the left of the fin.
+void AddTailRotor(LineBatch& batch, const Placed& at, double ui_scale) {
   std::vector<Eigen::Vector3d> tail;
   for (int i = 0; i <= kRim / 2; ++i) {
     const double angle = kTurn * i / (kRim / 2);
-    tail.push_back(X_WB * (size * Eigen::Vector3d(-2.0 + 0.26 * std::cos(angle), -0.06,
-                                                  -0.34 + 0.26 * std::sin(angle))));
+    tail.push_back(
+        at(Eigen::Vector3d(-2.0 + 0.26 * std::cos(angle), -0.06, -0.34 + 0.26 * std::sin(angle))));
   }
-  batch.Polyline(tail, {rim, 1.0 * ui_scale});
+  batch.Polyline(tail, {RgbaFromHex(0xE8ECF1, 215), 1.0 * ui_scale});
+}
+
+}  // namespace
+
+void AddRotors(LineBatch& batch, VehicleBody body, const RigidTransform& X_WB, double size,
+               double ui_scale) {
+  const Placed at{X_WB, size};
+  if (body == VehicleBody::kMultirotor) {
+    for (int i = 0; i < 4; ++i) {
+      AddRotor(batch, at, PropellerHub(i), kPropeller, ui_scale);
+    }
+    return;
+  }
+  AddRotor(batch, at, kRotorHub_B, kRotorRadius_m, ui_scale);
+  AddTailRotor(batch, at, ui_scale);
 }
 
 }  // namespace palace

@@ -133,8 +133,8 @@ Result<View3dLabels> View3dRenderer::Render(const View3dInput& input, const Orbi
     // Always in front: the operator must never lose the vehicle behind the terrain.
     glDisable(GL_BLEND);
     glClear(GL_DEPTH_BUFFER_BIT);
-    parts.vehicle.Draw(clip_from_world, *input.X_WB, size, camera.eye_W());
-    AddRotor(batch, *input.X_WB, size, input.ui_scale);
+    parts.vehicle.Draw(input.body, clip_from_world, *input.X_WB, size, camera.eye_W());
+    AddRotors(batch, input.body, *input.X_WB, size, input.ui_scale);
     glDisable(GL_DEPTH_TEST);
     glEnable(GL_BLEND);
     parts.lines.Draw(batch);

@@ -17,6 +17,7 @@
 #include "gui/render/gl.h"
 #include "gui/render/orbit_camera.h"
 #include "gui/render/picture.h"
+#include "gui/render/vehicle_body.h"
 
 namespace palace {
 
@@ -37,6 +38,7 @@ struct View3dInput {
   RigidTransform picture_X_WC;
 
   std::optional<RigidTransform> X_WB;  ///< vehicle
+  VehicleBody body = VehicleBody::kHelicopter;
   double rotor_diameter_m = 3.1;       ///< how wide it is drawn
   std::optional<RigidTransform> X_WC;  ///< left camera now
   PinholeCamera camera;                ///< for the frustum; width 0: no frustum

@@ -62,14 +62,14 @@ Status WorldViewRenderer::Render(const WorldView& view, Framebuffer& target, int
   LineBatch batch(clip_from_world, eye.width, eye.height);
   const double size = view.rotor_diameter_m / (2 * kRotorRadius_m);
   if (view.X_WB) {
-    parts_->vehicle.Draw(clip_from_world, *view.X_WB, size, view.X_WE.p);
+    parts_->vehicle.Draw(view.body, clip_from_world, *view.X_WB, size, view.X_WE.p);
   }
   if (view.frustum != nullptr) {
     AddSeenGround(batch, *view.frustum, view.X_WE.p, view.ui_scale);
     AddFrustumBody(batch, *view.frustum, view.ui_scale);
   }
   if (view.X_WB) {
-    AddRotor(batch, *view.X_WB, size, view.ui_scale);
+    AddRotors(batch, view.body, *view.X_WB, size, view.ui_scale);
   }
   // Hidden by what stands before it, hiding nothing. Alpha stays 1: ImGui draws it over the window.
   glEnable(GL_BLEND);

@@ -11,6 +11,7 @@
 #include "engine/world/ray_scene.h"
 #include "engine/world/world.h"
 #include "gui/render/framebuffer.h"
+#include "gui/render/vehicle_body.h"
 #include "gui/render/view_frustum.h"
 
 namespace palace {
@@ -21,6 +22,7 @@ struct WorldView {
   RigidTransform X_WE;                 ///< of the eye: right, down, forward
   double time_s = 0;                   ///< of what moves
   std::optional<RigidTransform> X_WB;  ///< the vehicle, at its own size
+  VehicleBody body = VehicleBody::kHelicopter;
   double rotor_diameter_m = 3.1;
   const ViewFrustum* frustum = nullptr;
   double ui_scale = 1;  ///< widths of lines

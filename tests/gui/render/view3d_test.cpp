@@ -4,6 +4,7 @@
 #include "engine/core/random.h"
 #include "engine/core/units.h"
 #include "gui/render/frustum_renderer.h"
+#include "gui/render/vehicle_model.h"
 #include "gui/render/view3d_renderer.h"
 #include "tests/gui/render/gl_fixture.h"
 
@@ -159,6 +160,30 @@ TEST_F(View3dTest, TheVehicleIsDrawnAsWideAsItIs) {
   Draw({});
   const int grid = Count(renderer_->Read(), [](Rgba8 p) { return p.g > 110; });
   EXPECT_GT(grey(20) - grid, 2 * (grey(10) - grid)) << "wide enough not to be enlarged";
+}
+
+TEST(VehicleModel, AMultirotorIsSymmetricAsWideAsItsPropellersAndHasNoTail) {
+  double left = 0, right = 0, front = 0, back = 0, low = 0;
+  for (const VehicleVertex& vertex : VehicleTriangles(VehicleBody::kMultirotor)) {
+    const Eigen::Vector3d p = vertex.position_B.cast<double>();
+    EXPECT_LT(p.head<2>().norm(), kRotorRadius_m);
+    left = std::min(left, p.y()), right = std::max(right, p.y());
+    back = std::min(back, p.x()), front = std::max(front, p.x());
+    low = std::max(low, p.z());
+  }
+  EXPECT_NEAR(-left, right, 1e-3);
+  EXPECT_NEAR(-back, front, 0.05);
+  EXPECT_NEAR(low, kSkidCentre_B.z(), 0.05) << "the drop line begins there";
+}
+
+TEST_F(View3dTest, AMultirotorIsDrawnAsOne) {
+  View3dInput input;
+  input.X_WB = RigidTransform{Eigen::Matrix3d::Identity(), {0, 0, -15}};
+  Draw(input);
+  const ImageRgba helicopter = renderer_->Read();
+  input.body = VehicleBody::kMultirotor;
+  Draw(input);
+  EXPECT_FALSE(helicopter.pixels() == renderer_->Read().pixels());
 }
 
 TEST_F(View3dTest, TheSamePictureTwice) {
