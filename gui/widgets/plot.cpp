@@ -117,6 +117,20 @@ void DrawLimitArea(const Style& s, const Axes& axes, const PlotLimit& limit) {
   }
 }
 
+/// The lowest place at or above text_y where words do not lie on a trace.
+float ClearOfTraces(const Axes& axes, float left, float right, float text_y, float half) {
+  float clear_y = text_y;
+  for (const PlotTrace& trace : axes.view.series) {
+    for (const ImVec2& point : trace.points) {
+      const ImVec2 at = axes.At(point);
+      if (at.x >= left && at.x <= right && std::abs(at.y - text_y) < half) {
+        clear_y = std::min(clear_y, at.y - half);
+      }
+    }
+  }
+  return clear_y;
+}
+
 void DrawLimitLine(UiFrame& ui, const Axes& axes, const PlotLimit& limit) {
   const Style& s = ui.style;
   const float y = std::round(axes.Y(limit.value));
@@ -127,8 +141,6 @@ void DrawLimitLine(UiFrame& ui, const Axes& axes, const PlotLimit& limit) {
   const ImU32 colour = forbids ? s.palette.unsafe : s.palette.text3;
   DashedLine(Canvas(), {LeftOf(axes, limit), y}, {axes.floor.right(), y}, colour, s.Fine(1.5f),
              s.Fine(8), s.Fine(4));
-  const bool room_above = y - axes.floor.y > s.Px(20);
-  const float text_y = room_above ? y - s.Px(9) : y + s.Px(10);
   // The words stand where nothing is measured yet; short of room they lose their second half.
   const float room = axes.floor.right() - s.Px(8) -
                      (axes.view.now ? axes.X(*axes.view.now) + s.Px(4) : axes.floor.x);
@@ -136,7 +148,12 @@ void DrawLimitLine(UiFrame& ui, const Axes& axes, const PlotLimit& limit) {
   if (TextWidth(s.caption, words) > room) {
     words = words.substr(0, words.find(':'));
   }
-  if (TextWidth(s.caption, words) <= room && axes.floor.h > s.Px(40)) {
+  const float width = TextWidth(s.caption, words);
+  if (width <= room && axes.floor.h > s.Px(40)) {
+    // Above the line, and above what is known of the traces further on; else below.
+    const float half = s.Px(9), right = axes.floor.right() - s.Px(6);
+    const float above = ClearOfTraces(axes, right - width, right, y - half, half);
+    const float text_y = above - axes.floor.y > s.Px(11) ? above : y + s.Px(10);
     DrawText(ui, s.caption, colour, axes.floor.right() - s.Px(6), text_y, words, Align::kRight);
   }
   ui.items.Add("plot_limit/" + axes.view.name,

@@ -1,5 +1,6 @@
 // Review: what was decided at the time shown, by the record and by the reviewer's limits.
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "engine/core/units.h"
@@ -38,6 +39,11 @@ void FillFigures(const LandingSite* site, Column& column) {
     column.slope = SizeWords(site->slope_rad, kDegPerRad, "°", 1);
     column.rough = SizeWords(site->roughness_m, 100, " cm", 1);
   }
+}
+
+/// "68 m²"; unknown stands without its unit.
+std::string AreaWords(double area_m2) {
+  return std::isfinite(area_m2) ? Fixed(area_m2, 0) + " m²" : std::string(kUnknown);
 }
 
 /// That place among the sites of a decision, which has the ids of the record; null where it is not
@@ -82,7 +88,7 @@ Column InTheFlight(const EngineSnapshot& snap, const FlightRecord* record, bool 
   column.head = FollowsRecord(snap.session->role) ? FlightWord(record) : "Now";
   column.decision = StateOf(m);
   if (!rebuilding) {
-    column.area = Fixed(SafeArea(map), 0) + " m²";
+    column.area = AreaWords(SafeArea(map));
     column.best = LetterOf(BestSite(snap, map));
     FillFigures(m.armed ? ArmedOnMap(snap, *m.armed) : BestSite(snap, map), column);
   }
@@ -103,7 +109,7 @@ Column UnderOtherLimits(const EngineSnapshot& snap, std::string& reason) {
   const LandingSite* best = BestSite(snap, map);
   Column column;
   column.head = "Re-decided";
-  column.area = Fixed(SafeArea(map), 0) + " m²";
+  column.area = AreaWords(SafeArea(map));
   column.best = LetterOf(best);
   FillFigures(armed ? SamePlace(map, *armed) : best, column);
   if (armed) {

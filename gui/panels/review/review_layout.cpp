@@ -47,7 +47,11 @@ ReviewLayout LayReview(const Rect& body, const Style& s, ReviewPicture picture) 
   layout.narrow = IsNarrowBody(body, s);
   const bool narrow = layout.narrow;
   const float gap = s.Px(8);
-  const float timeline_h = s.Px(narrow ? 164 : 260), right_w = s.Px(narrow ? 344 : 416);
+  // Two lanes in a narrow window; a third, of alarms and marks, where it is not low too.
+  const float timeline_h = s.Px(!narrow               ? 260
+                                : body.h >= s.Px(660) ? 188
+                                                      : 164),
+              right_w = s.Px(narrow ? 344 : 416);
   layout.timeline = {body.x, body.bottom() - timeline_h, body.w, timeline_h};
   const Rect upper{body.x, body.y, body.w - right_w - gap, body.h - timeline_h - gap};
   if (narrow) {

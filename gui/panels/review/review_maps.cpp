@@ -8,9 +8,11 @@
 namespace palace {
 namespace {
 
+/// "10°, 7.5 cm": in as few digits as tell it, for a title beside it in a narrow window.
 std::string LimitWords(const SladSettings& slad) {
-  return Fixed(slad.limits.max_slope_deg, 1) + "°, " + Fixed(slad.limits.max_deviation_m * 100, 1) +
-         " cm";
+  const double slope_deg = slad.limits.max_slope_deg, rough_cm = slad.limits.max_deviation_m * 100;
+  return Fixed(slope_deg, DecimalsOf(slope_deg, 0)) + "°, " +
+         Fixed(rough_cm, DecimalsOf(rough_cm, 0)) + " cm";
 }
 
 Rect SquareIn(const Rect& panel, const Rect& content, const Style& s) {
@@ -67,7 +69,10 @@ void DrawDifference(const EngineSnapshot& snap, const Grid<std::uint8_t>& change
   if (!moved) {
     FillRect(Canvas(), square, s.palette.plot_floor);
     DrawText(ui, s.caption, s.palette.text2, square.centre().x, square.centre().y,
-             !FollowsRecord(snap.session->role) ? "Only of a log" : "Same limits", Align::kCentre);
+             !FollowsRecord(snap.session->role) ? "Only of a log"
+             : LimitsMoved(snap) == 0           ? "Same limits"
+                                                : "No map yet",
+             Align::kCentre);
     ui.items.Add("map/Difference", square, true, "Difference");
     return;
   }

@@ -264,9 +264,15 @@ TimelineView MakeTimeline(const EngineSnapshot& snap, const FlightRecord* record
   if (log) {
     view.lanes.push_back(std::move(differs));
   }
+  Lane alarms = AlarmLane(snap, record, palette), marks = MarkLane(snap, record, palette);
   if (all) {
-    view.lanes.push_back(AlarmLane(snap, record, palette));
-    view.lanes.push_back(MarkLane(snap, record, palette));
+    view.lanes.push_back(std::move(alarms));
+    view.lanes.push_back(std::move(marks));
+  } else {
+    // One lane for both, the last: a low window drops it.
+    alarms.name = "Alarms and marks";
+    alarms.marks.insert(alarms.marks.end(), marks.marks.begin(), marks.marks.end());
+    view.lanes.push_back(std::move(alarms));
   }
   view.height =
       record != nullptr && !record->samples.empty()

@@ -522,6 +522,21 @@ TEST(ReviewWorkspace, AlarmMarksHaveTheirLevelAndTheHeaviestIsOnTop) {
       << "what lies under it speaks with it";
 }
 
+TEST(ReviewWorkspace, ANarrowWindowHasOneLaneForAlarmsAndMarks) {
+  FlightRecord record = Record();
+  const auto at = [&](double s) { return AddSeconds({0}, kStart_s + s); };
+  record.events = {{at(20), EventKind::kFault, "Fault injected: GPS jump 3 m"},
+                   {at(90), EventKind::kAlarm, "GPS lost", 0, AlarmLevel::kCaution}};
+  const EngineSnapshot snap = Replay(false);
+  UiHarness ui(1280, 800);
+  ReviewState state;
+  ui.Frame([&](UiFrame& f) { DrawReviewWorkspace(snap, &record, BodyOf(1280, 800), state, f); });
+  ASSERT_NE(ui.items.Find("mark/Alarms and marks/0"), nullptr);
+  EXPECT_EQ(ui.items.Find("mark/Alarms and marks/0")->text, "CAUTION GPS lost");
+  ASSERT_NE(ui.items.Find("mark/Alarms and marks/1"), nullptr);
+  EXPECT_EQ(ui.items.Find("mark/Alarms and marks/1")->text, "Fault injected: GPS jump 3 m");
+}
+
 TEST(ReviewWorkspace, MarksTheWaveOffAndWhy) {
   FlightRecord record = Record();
   const auto at = [&](double s) { return AddSeconds({0}, kStart_s + s); };
