@@ -67,36 +67,25 @@ BakedGround BakeForHover(const World& world, const HoverView& view,
   return BakeFor(world, CameraOf(view), both);
 }
 
-Result<std::vector<FieldFrame>> LookAtField(const World& world, const HoverView& view,
-                                            const StereoSettings& settings, std::uint64_t seed,
-                                            const BakedGround* ground) {
-  const PinholeCamera camera = CameraOf(view);
+Result<std::vector<FieldFrame>> LookFromHover(const HoverView& view, const PinholeCamera& camera,
+                                              const TakePicture& take,
+                                              const StereoSettings& settings, std::uint64_t seed) {
   const std::vector<RigidTransform> poses = HoverPoses(view, seed);
-  const BakedGround own =
-      ground == nullptr ? BakeForHover(world, view, poses) : BakedGround({}, 0, {}, 1);
-  const BakedGround& baked = ground == nullptr ? own : *ground;
   RandomStream navigation(seed, "pose errors");
-  RandomStream sensor(seed, "sensor seeds");
   StereoMatcher matcher;
   std::vector<FieldFrame> frames;
   for (std::size_t i = 0; i < poses.size(); ++i) {
     FieldFrame frame;
     frame.X_WC_true = poses[i];
-    const RigidTransform X_WRight = RightOf(poses[i], view.baseline_m);
-    const Exposure exposure{view.noise_grey};
     const double time_s = static_cast<double>(i) * view.frame_interval_s;
-    const World now = WorldAt(world, time_s);
-    const auto look = [&](const RigidTransform& X_WCamera) {
-      return std::make_shared<const ImageU8>(
-          Expose(DrawGrey(now, camera, X_WCamera, baked), exposure, sensor.NextBits()));
-    };
     SceneView& seen = frame.input.view;
-    seen.left = look(poses[i]);
-    seen.right = look(X_WRight);
+    seen.left = std::make_shared<const ImageU8>(take(poses[i], false, time_s));
+    seen.right =
+        std::make_shared<const ImageU8>(take(RightOf(poses[i], view.baseline_m), true, time_s));
     const ViewPose believed{BelievedPose(poses[i], view, navigation)};
     frame.input.p_WB = believed.X_WC.p;
-    const DisparityWindow window =
-        PredictWindow(camera, view.baseline_m, believed.X_WC, 0, kTallestObject_m, settings);
+    const DisparityWindow window = PredictWindow(camera, view.baseline_m, believed.X_WC,
+                                                 view.ground_height_m, kTallestObject_m, settings);
     Result<StereoResult> stereo = matcher.Match(*seen.left, *seen.right, camera, view.baseline_m,
                                                 window, settings, AddSeconds({}, time_s));
     if (!stereo) {
@@ -107,6 +96,25 @@ Result<std::vector<FieldFrame>> LookAtField(const World& world, const HoverView&
     frames.push_back(std::move(frame));
   }
   return frames;
+}
+
+Result<std::vector<FieldFrame>> LookAtField(const World& world, const HoverView& view,
+                                            const StereoSettings& settings, std::uint64_t seed,
+                                            const BakedGround* ground) {
+  const PinholeCamera camera = CameraOf(view);
+  const BakedGround own = ground == nullptr ? BakeForHover(world, view, HoverPoses(view, seed))
+                                            : BakedGround({}, 0, {}, 1);
+  const BakedGround& baked = ground == nullptr ? own : *ground;
+  RandomStream sensor(seed, "sensor seeds");
+  World now = world;
+  const auto take = [&](const RigidTransform& X_WCamera, bool right, double time_s) {
+    if (!right) {
+      now = WorldAt(world, time_s);
+    }
+    return Expose(DrawGrey(now, camera, X_WCamera, baked), Exposure{view.noise_grey},
+                  sensor.NextBits());
+  };
+  return LookFromHover(view, camera, take, settings, seed);
 }
 
 Slad MapOfField(const std::vector<FieldFrame>& frames, const SladSettings& settings, int count) {

@@ -8,6 +8,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -26,6 +27,7 @@ struct HoverView {
   double north_m = 0;  ///< of the left camera's mean place
   double east_m = 0;
   double heading_rad = 0;
+  double ground_height_m = 0;             ///< above the origin of W: about where stereo is to look
   double tilt_rad = -1.5707963267948966;  ///< of the camera, negative down
   double field_of_view_rad = 1.0471975511965976;
   int width_px = 640;
@@ -48,9 +50,16 @@ struct FieldFrame {
   RigidTransform X_WC_true;
 };
 
-/// All frames of one hover; what has a velocity moves from frame to frame. Errors are stereo's
-/// refusals. One bake of the ground serves all frames; `ground` may hold one made for the same
-/// world and a wider view, or null.
+/// The picture that a camera takes there, at so many seconds.
+using TakePicture =
+    std::function<ImageU8(const RigidTransform& X_WCamera, bool right, double time_s)>;
+/// All frames of one hover, left picture before right. Errors are stereo's refusals.
+Result<std::vector<FieldFrame>> LookFromHover(const HoverView& view, const PinholeCamera& camera,
+                                              const TakePicture& take,
+                                              const StereoSettings& settings, std::uint64_t seed);
+/// The same of a plain world by its own exposure; what has a velocity moves from frame to frame.
+/// One bake of the ground serves all frames; `ground` may hold one made for the same world and a
+/// wider view, or null.
 Result<std::vector<FieldFrame>> LookAtField(const World& world, const HoverView& view,
                                             const StereoSettings& settings, std::uint64_t seed,
                                             const BakedGround* ground = nullptr);

@@ -123,11 +123,7 @@ class GalleryWriter {
     // The nearest ground is at the picture's lower edge.
     const double sample_m = height_m / plan.camera.fx_px;
     const RayScene scene(world, std::max(0.01, sample_m));
-    // Over what it looks at, too: from the street a roof's picture would be of its wall.
-    const double aim_north_m = height_m / std::tan(-plan.tilt_rad);
-    const double ground_m =
-        std::max(SurfaceHeight(world, 0, 0), SurfaceHeight(world, aim_north_m, 0));
-    const ImageF grey = scene.Grey(plan.camera, plan.X_WC(ground_m), 3);
+    const ImageF grey = scene.Grey(plan.camera, plan.X_WC(GroundSeen(world, plan)), 3);
     const ImageU8 picture = ExposeAs(plan, grey, false, gallery_.seed);
     const std::string file = FileName(world, Text("%02.0fm", height_m));
     page_.Picture(file, Text("%.1f m over the ground", height_m) +

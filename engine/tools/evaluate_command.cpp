@@ -5,6 +5,7 @@
 #include "engine/experiments/evaluate_calibration.h"
 #include "engine/experiments/evaluate_families.h"
 #include "engine/experiments/evaluate_faults.h"
+#include "engine/experiments/evaluate_ground.h"
 #include "engine/experiments/evaluate_image_time.h"
 #include "engine/experiments/evaluate_landing.h"
 #include "engine/experiments/evaluate_probability.h"
@@ -30,7 +31,7 @@ void AddEvaluateCommand(CLI::App& app, int& exit_code, SceneCameraFactory camera
       *evaluate,
       {LandingExperiment(camera), FamiliesExperiment(camera), FaultsExperiment(camera),
        ImageTimeExperiment(std::move(camera)), StereoAccuracyExperiment(), StereoCostExperiment(),
-       CalibrationExperiment(), ProbabilityExperiment(), SiteFlagsExperiment(),
+       CalibrationExperiment(), GroundExperiment(), ProbabilityExperiment(), SiteFlagsExperiment(),
        SiteLidarExperiment(), SiteRangeExperiment(), SiteShapesExperiment(), SiteViewsExperiment()},
       exit_code);
 }

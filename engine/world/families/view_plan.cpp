@@ -1,5 +1,6 @@
 #include "engine/world/families/view_plan.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -25,6 +26,11 @@ PinholeCamera CameraOf(double hfov_rad) {
 
 RigidTransform ViewPlan::X_WC(double ground_m) const {
   return {CameraRotationFromTilt(tilt_rad), {0, 0, -ground_m - height_m}};
+}
+
+double GroundSeen(const World& world, const ViewPlan& view) {
+  const double ahead_m = view.height_m / std::tan(-view.tilt_rad);
+  return std::max(SurfaceHeight(world, 0, 0), SurfaceHeight(world, ahead_m, 0));
 }
 
 ImageU8 ExposeAs(const ViewPlan& view, const ImageF& grey, bool right, std::uint64_t seed) {

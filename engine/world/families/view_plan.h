@@ -11,6 +11,7 @@
 #include "engine/model/image.h"
 #include "engine/model/rig.h"
 #include "engine/world/ray_pictures.h"
+#include "engine/world/world.h"
 
 namespace palace {
 
@@ -29,6 +30,10 @@ struct ViewPlan {
   /// Pose of the left camera over a ground of that height.
   RigidTransform X_WC(double ground_m) const;
 };
+
+/// Height of the ground that a view looks at, above the origin of W: the higher one of its foot and
+/// of where its axis meets level ground, for over the street before a roof nobody looks at a roof.
+double GroundSeen(const World& world, const ViewPlan& view);
 
 /// What the plan's camera makes of the grey that falls on it; noise of the seed, which the two
 /// cameras do not share.
