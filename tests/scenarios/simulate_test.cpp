@@ -65,6 +65,32 @@ wait seconds 0.3
   EXPECT_EQ(run.exit_code, 0) << run.err;
 }
 
+TEST_F(Simulate, AScriptGoesOnInTheFlightThatItBegins) {
+  const auto script = WriteFile("next.txt", R"(
+wait time 2
+click tab/Simulate
+new_flight empty 5 multirotor
+wait time 1
+expect item sim/play
+click tab/Fly
+wait seconds 0.3
+expect text readout/Energy %
+click tab/Simulate
+wait seconds 0.2
+click scenario/slope
+wait seconds 0.2
+click fly_world
+wait time 1
+expect item sim/play
+expect item nothing_of_that_name
+)");
+  const ProcessResult run = RunProcess(Palace({"--headless", "--script", script}), 120);
+  EXPECT_EQ(run.exit_code, 1) << "the last line fails";
+  EXPECT_NE(run.err.find("next.txt:17: 'expect item nothing_of_that_name'"), std::string::npos)
+      << run.err;
+  EXPECT_EQ(FlightsIn(folder_ / "logs").size(), 3u);
+}
+
 TEST_F(Simulate, AnUnknownFaultIsRefusedBeforeAnythingRuns) {
   const auto script = WriteFile("bad.txt", "fault gps_jumps=3\n");
   EXPECT_EQ(RunProcess(Palace({"--headless", "--script", script}), 60).exit_code, 2);
