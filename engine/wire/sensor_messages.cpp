@@ -1,8 +1,11 @@
 #include "engine/wire/sensor_messages.h"
 
 #include <algorithm>
+#include <initializer_list>
 #include <iterator>
+#include <optional>
 
+#include "engine/core/text.h"
 #include "engine/wire/wire_fields.h"
 #include "engine/wire/wire_pack.h"
 
@@ -13,6 +16,38 @@ Error NotFinite(const char* what) {
   return InvalidError(std::string(what) + " holds a number that is not finite");
 }
 
+/// What no vehicle here can be: a flipped bit of an exponent, or another unit.
+struct Quantity {
+  const char* name;
+  double most;
+  const char* unit;
+};
+constexpr Quantity kPosition{"position", 1e6, "m"};
+constexpr Quantity kVelocity{"velocity", 1e3, "m/s"};
+constexpr Quantity kRate{"angular rate", 1e3, "rad/s"};
+constexpr Quantity kForce{"specific force", 1e4, "m/s^2"};
+constexpr Quantity kSigma{"sigma", 1e6, "m"};
+constexpr Quantity kRange{"range", 1e5, "m"};
+
+struct Value {
+  Quantity quantity;
+  Eigen::Vector3d v;
+};
+/// The first value that is not finite or larger than can be.
+std::optional<Error> Refused(const char* what, std::initializer_list<Value> values) {
+  for (const Value& value : values) {
+    if (!value.v.allFinite()) {
+      return NotFinite(what);
+    }
+    if (value.v.cwiseAbs().maxCoeff() > value.quantity.most) {
+      const Quantity& q = value.quantity;
+      return InvalidError(what + WithNumbers(": %.3g ", value.v.cwiseAbs().maxCoeff()) + q.unit +
+                          " of " + q.name + WithNumbers(", at most %.3g ", q.most) + q.unit);
+    }
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 Result<VehiclePose> PoseFromWire(const WireMessage& message) {
@@ -20,8 +55,12 @@ Result<VehiclePose> PoseFromWire(const WireMessage& message) {
     const Eigen::Vector4d q = Unpack(m.orientation);
     VehiclePose pose{
         {m.utime}, {Eigen::Matrix3d(), Unpack(m.pos)}, Unpack(m.vel), Unpack(m.rotation_rate)};
-    if (!q.allFinite() || !pose.X_WB.p.allFinite() || !pose.v_WB.allFinite() ||
-        !pose.angular_rate_B.allFinite()) {
+    if (const auto refused = Refused(
+            "pose",
+            {{kPosition, pose.X_WB.p}, {kVelocity, pose.v_WB}, {kRate, pose.angular_rate_B}})) {
+      return *refused;
+    }
+    if (!q.allFinite()) {
       return NotFinite("pose");
     }
     if (std::abs(q.norm() - 1) > 0.01) {
@@ -36,8 +75,9 @@ Result<VehiclePose> PoseFromWire(const WireMessage& message) {
 Result<ImuSample> ImuFromWire(const WireMessage& message) {
   return DecodeAnd<imu_t>(message, [](const imu_t& m) -> Result<ImuSample> {
     const ImuSample sample{{m.utime}, Unpack(m.specific_force), Unpack(m.angular_rate)};
-    if (!sample.specific_force_B.allFinite() || !sample.angular_rate_B.allFinite()) {
-      return NotFinite("inertial sample");
+    if (const auto refused = Refused("inertial sample", {{kForce, sample.specific_force_B},
+                                                         {kRate, sample.angular_rate_B}})) {
+      return *refused;
     }
     return sample;
   });
@@ -47,9 +87,11 @@ Result<GpsFix> GpsFromWire(const WireMessage& message) {
   return DecodeAnd<gps_t>(message, [](const gps_t& m) -> Result<GpsFix> {
     const GpsFix fix{
         {m.utime}, Unpack(m.pos), Unpack(m.vel), m.sigma_horizontal_m, m.sigma_vertical_m};
-    if (!fix.p_WB.allFinite() || !fix.v_WB.allFinite() || !std::isfinite(fix.sigma_horizontal_m) ||
-        !std::isfinite(fix.sigma_vertical_m)) {
-      return NotFinite("GPS fix");
+    if (const auto refused =
+            Refused("GPS fix", {{kPosition, fix.p_WB},
+                                {kVelocity, fix.v_WB},
+                                {kSigma, {fix.sigma_horizontal_m, fix.sigma_vertical_m, 0}}})) {
+      return *refused;
     }
     return fix;
   });
@@ -57,8 +99,10 @@ Result<GpsFix> GpsFromWire(const WireMessage& message) {
 
 Result<LaserRange> LaserFromWire(const WireMessage& message) {
   return DecodeAnd<laser_range_t>(message, [](const laser_range_t& m) -> Result<LaserRange> {
-    if (std::isinf(m.range_m)) {
-      return NotFinite("laser range");
+    if (!std::isnan(m.range_m)) {  // NaN: no return
+      if (const auto refused = Refused("laser", {{kRange, {m.range_m, 0, 0}}})) {
+        return *refused;
+      }
     }
     return LaserRange{{m.utime}, m.range_m};
   });

@@ -202,6 +202,43 @@ TEST(Decode, NotFiniteNumbersAreRefusedWhereDecisionsRestOnThem) {
   }
 }
 
+// One flipped bit of an exponent: finite, and nowhere on Earth.
+TEST(Decode, NumbersThatNoVehicleCanHaveAreRefusedWithTheirLimit) {
+  RandomStream random(26);
+  const auto rig = std::make_shared<const StereoRig>(RandomRig(random));
+  const auto good = RandomBundle(random, 1, rig);
+  const struct {
+    const char* says;
+    std::function<void(FrameBundle&)> damage;
+  } breaks[] = {
+      {"GPS fix: 4.6e+36 m of position, at most 1e+06 m",
+       [](FrameBundle& b) { b.gps[0].p_WB.y() = -4.6e36; }},
+      {"GPS fix: 2e+03 m/s of velocity, at most 1e+03 m/s",
+       [](FrameBundle& b) { b.gps[0].v_WB.x() = 2000; }},
+      {"pose: 1.1e+06 m of position", [](FrameBundle& b) { b.poses[0].X_WB.p.z() = 1.1e6; }},
+      {"pose: 1.01e+03 rad/s of angular rate",
+       [](FrameBundle& b) { b.poses[0].angular_rate_B.z() = 1010; }},
+      {"inertial sample: 2e+04 m/s^2 of specific force",
+       [](FrameBundle& b) { b.imu[0].specific_force_B.x() = 2e4; }},
+      {"laser: 1e+300 m of range", [](FrameBundle& b) { b.laser[0].range_m = 1e300; }},
+  };
+  for (const auto& row : breaks) {
+    SCOPED_TRACE(row.says);
+    FrameBundle bad = *good;
+    row.damage(bad);
+    BundleAssembler assembler;
+    std::string said;
+    const auto words = [](const auto& result) { return result ? "" : result.error().message; };
+    for (const WireMessage& message : EncodeBundle(bad, {})) {
+      assembler.Push(message);
+      said += words(PoseFromWire(message)) + words(ImuFromWire(message)) +
+              words(GpsFromWire(message)) + words(LaserFromWire(message));
+    }
+    EXPECT_EQ(assembler.report().undecodable, 1u);
+    EXPECT_NE(said.find(row.says), std::string::npos) << said;
+  }
+}
+
 // Many vehicles measure no wind: NaN says so, and the status counts all the same.
 TEST(Decode, AVehicleMayNotKnowTheWindOrItsFuel) {
   RandomStream random(25);
