@@ -117,7 +117,7 @@ double LaserMismatch(const MissionInputs& in) {
       map.state.at(*cell) != CellState::kMeasured) {
     return NAN;
   }
-  return std::abs(HeightFromDown(p_WL.z()) - map.height_m.at(*cell));
+  return std::abs(HeightFromDown(p_WL.z()) - map.Measured().at(*cell));
 }
 
 std::optional<double> TouchdownMiss(const MissionMemory& m) {

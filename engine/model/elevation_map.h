@@ -27,17 +27,25 @@ enum TerrainFlag : std::uint8_t {
 };
 
 /// Heights are metres above the origin of W, up-positive. NaN where state is kUnknown.
+///
+/// Two heights a cell: the ground as measured, and over it the top of what stands or may stand
+/// there by the evidence (relief inside a cell, between frames, narrower than stereo's window).
+/// What is shown, exported, flown to or held against the laser is Measured(); hazards, planes and
+/// the corridor are asked of the top.
 struct ElevationMap {
   Timestamp time;
   GridGeometry geometry;
-  GridF height_m;
+  GridF height_m;  ///< top; never below what was measured
   GridF variance_m2;
   Grid<std::uint16_t> frame_count;  ///< frames fused into the cell
   Grid<CellState> state;
+  GridF measured_m{};          ///< ground as measured; empty: the same as height_m
   GridF age_s{};               ///< since the cell was last measured; empty: all of one frame
   Grid<std::uint8_t> flags{};  ///< TerrainFlag bits; empty: none
   /// Of the newest pose the heights were taken from: the slope of everything is off by this much.
   double attitude_sigma_rad = PoseSigmas{}.attitude_rad;
+
+  const GridF& Measured() const { return measured_m.empty() ? height_m : measured_m; }
 };
 
 }  // namespace palace

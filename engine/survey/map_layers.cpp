@@ -21,7 +21,7 @@ std::vector<DecidedLayer> LayersOf(const TerrainDecision& decision) {
   const ElevationMap& map = *decision.elevation;
   const HazardMaps& hazards = *decision.hazards;
   return {
-      {"elevation", map.height_m},
+      {"elevation", map.Measured()},
       {"elevation_sigma", RootOf(map.variance_m2)},
       {"slope", hazards.slope_rad},
       {"roughness", hazards.roughness_m},

@@ -118,7 +118,7 @@ Grid<std::uint8_t> Relief(const ElevationMap& map) {
   constexpr double kExaggeration = 3, kMiddle = 150;
   const auto gradient = [&](Cell behind, Cell here, Cell ahead) {
     const auto at = [&](Cell cell) {
-      return g.Contains(cell) ? static_cast<double>(map.height_m.at(cell)) : std::nan("");
+      return g.Contains(cell) ? static_cast<double>(map.Measured().at(cell)) : std::nan("");
     };
     const double low = std::isnan(at(behind)) ? at(here) : at(behind);
     const double high = std::isnan(at(ahead)) ? at(here) : at(ahead);
@@ -128,7 +128,7 @@ Grid<std::uint8_t> Relief(const ElevationMap& map) {
   Grid<std::uint8_t> relief(g.rows, g.cols, 0);
   for (int r = 0; r < g.rows; ++r) {
     for (int c = 0; c < g.cols; ++c) {
-      if (std::isnan(map.height_m.at(r, c))) {
+      if (std::isnan(map.Measured().at(r, c))) {
         continue;
       }
       const double north = gradient({r + 1, c}, {r, c}, {r - 1, c});
@@ -262,7 +262,7 @@ Status WriteSafeLandingPicture(const std::filesystem::path& path, const Elevatio
   cv::Mat colours(g.rows, g.cols, CV_8UC3, cv::Scalar(40, 36, 34));
   for (int r = 0; r < g.rows; ++r) {
     for (int c = 0; c < g.cols; ++c) {
-      const double height = static_cast<double>(map.height_m.at(r, c));
+      const double height = static_cast<double>(map.Measured().at(r, c));
       const unsigned reasons = hazards.reasons.at(r, c);
       if (!std::isfinite(height) || reasons == kHazardUnknown) {
         continue;

@@ -120,7 +120,7 @@ void DrawProbeOnPicture(UiFrame& ui, const PictureView& view, const TerrainDecis
   if (!cell) {
     return;
   }
-  const double height_m = static_cast<double>(decision->elevation->height_m.at(*cell));
+  const double height_m = static_cast<double>(decision->elevation->Measured().at(*cell));
   if (!std::isfinite(height_m)) {
     return;
   }

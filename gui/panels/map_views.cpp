@@ -34,7 +34,7 @@ Layer LayerOf(MapKind kind) {
 
 const GridF* ValuesOf(MapKind kind, const TerrainDecision& d) {
   if (kind == MapKind::kElevation) {
-    return d.elevation ? &d.elevation->height_m : nullptr;
+    return d.elevation ? &d.elevation->Measured() : nullptr;
   }
   if (!d.hazards) {
     return nullptr;

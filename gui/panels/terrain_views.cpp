@@ -60,7 +60,7 @@ void DrawCurrentVerdict(UiFrame& ui, const Rect& image, const EngineSnapshot& sn
     const auto camera = LeftCamera(snap);
     if (camera && decision->hazards && decision->elevation) {
       DrawFlagsOnPicture(ui.style, {*camera, snap.sensors->X_WC, image},
-                         decision->hazards->geometry, decision->elevation->height_m,
+                         decision->hazards->geometry, decision->elevation->Measured(),
                          decision->hazards->flags);
     }
   }

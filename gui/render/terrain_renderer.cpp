@@ -17,7 +17,7 @@ constexpr int kBlock = 4;            ///< cells merged where the ground is flat
 
 std::optional<double> MedianHeight(const ElevationMap& map) {
   std::vector<float> known;
-  for (const float height : map.height_m.cells()) {
+  for (const float height : map.Measured().cells()) {
     if (!std::isnan(height)) {
       known.push_back(height);
     }
@@ -82,7 +82,7 @@ void AddCell(std::vector<GLuint>& indices, const GridF& height_m, int row, int c
 
 /// Flat blocks become two triangles: software rendering pays by the triangle.
 std::vector<GLuint> SurfaceIndices(const ElevationMap& elevation, float tall_m) {
-  const GridF& height_m = elevation.height_m;
+  const GridF& height_m = elevation.Measured();
   std::vector<GLuint> indices;
   for (int row = 0; row + 1 < height_m.rows(); row += kBlock) {
     for (int col = 0; col + 1 < height_m.cols(); col += kBlock) {
@@ -154,11 +154,11 @@ void TerrainRenderer::BuildMesh(const ElevationMap& elevation) {
   const GridGeometry& geometry = elevation.geometry;
   const float tall_m = static_cast<float>(ground_height_m_.value_or(0)) + kTallest_m;
   std::vector<Eigen::Vector3f> vertices;
-  vertices.reserve(elevation.height_m.cells().size());
+  vertices.reserve(elevation.Measured().cells().size());
   std::vector<Eigen::Vector3f> points;
   for (int row = 0; row < geometry.rows; ++row) {
     for (int col = 0; col < geometry.cols; ++col) {
-      const float height = elevation.height_m.at(row, col);
+      const float height = elevation.Measured().at(row, col);
       vertices.emplace_back(static_cast<float>(geometry.NorthOfRow(row)),
                             static_cast<float>(geometry.EastOfCol(col)),
                             std::isnan(height) ? 0.0F : -height);

@@ -94,7 +94,7 @@ void TextureSet::UpdateMaps(const EngineSnapshot& snapshot) {
     return;
   }
   if (!elevation_range_m_) {
-    elevation_range_m_ = ElevationRangeFor(decision->elevation->height_m);
+    elevation_range_m_ = ElevationRangeFor(decision->elevation->Measured());
   }
   ranges_ = RangesFor(decision->settings, *elevation_range_m_);
   const HazardMaps& hazards = *decision->hazards;
@@ -104,7 +104,7 @@ void TextureSet::UpdateMaps(const EngineSnapshot& snapshot) {
     ColourMap colours;
   };
   const Layer layers[] = {
-      {decision->elevation->height_m, ranges_.elevation_m, ColourMap::kViridis},
+      {decision->elevation->Measured(), ranges_.elevation_m, ColourMap::kViridis},
       {hazards.slope_rad, ranges_.slope_rad, ColourMap::kCividis},
       {hazards.roughness_m, ranges_.roughness_m, ColourMap::kMagma},
       {hazards.cost, ranges_.cost, ColourMap::kInferno},

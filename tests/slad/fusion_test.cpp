@@ -279,7 +279,38 @@ TEST(TerrainFusion, AFootWhoseSidesWereRefusedStands) {
     const auto cell = map->geometry.CellFromPoint(0.05, 0.05);
     ASSERT_TRUE(cell);
     EXPECT_NEAR(double(map->height_m.at(*cell)), refused ? 0.2 : 0.05, 0.03);
+    EXPECT_NEAR(double(map->Measured().at(*cell)), 0.05, 0.03) << "what was measured is no guess";
   }
+}
+
+// No evidence writes into the measured ground: it is the mean of what was seen, and never above the
+// top; where nothing stands the two are one.
+TEST(TerrainFusion, MeasuredGroundLiesUnderTheTopAndIsNotRaised) {
+  const auto rocks = WithBox(WithBox(Flat(), 9.08, 0.08, 0.12, 0.3), 7, 1, 0.3, 0.2);
+  TerrainFusion fusion;
+  std::shared_ptr<const ElevationMap> map;
+  for (std::uint64_t i = 1; i <= 10; ++i) {
+    const RigidTransform X_WC = CameraPose(15.24, Rad(60), 0.3 * static_cast<double>(i));
+    map = fusion.Add(SeeWorld(rocks, X_WC, 0.03, i), SladSettings{});
+  }
+  ASSERT_TRUE(map->measured_m.rows() == map->height_m.rows());
+  double raised_m = 0, highest_m = 0;
+  int same = 0, cells = 0;
+  for (std::size_t i = 0; i < map->state.cells().size(); ++i) {
+    ASSERT_EQ(std::isnan(map->measured_m.cells()[i]), std::isnan(map->height_m.cells()[i]));
+    if (map->state.cells()[i] == CellState::kMeasured) {
+      const double top_m = double(map->height_m.cells()[i]),
+                   measured_m = double(map->measured_m.cells()[i]);
+      EXPECT_GE(top_m, measured_m - 1e-5);
+      raised_m = std::max(raised_m, top_m - measured_m);
+      highest_m = std::max(highest_m, measured_m);
+      same += top_m - measured_m < 1e-4 ? 1 : 0;
+      ++cells;
+    }
+  }
+  EXPECT_GT(raised_m, 0.05) << "the narrow rock stands in the top";
+  EXPECT_LT(highest_m, 0.33) << "nothing is measured higher than it is";
+  EXPECT_GT(same, cells / 2);
 }
 
 TEST(TerrainFusion, APictureWithoutRangesLeavesTheNoise) {

@@ -173,6 +173,7 @@ struct Turn {
                         (*this)(map.variance_m2),
                         (*this)(map.frame_count),
                         (*this)(map.state)};
+    turned.measured_m = (*this)(map.measured_m);
     GridGeometry& g = turned.geometry;
     g.rows = turned.height_m.rows();
     g.cols = turned.height_m.cols();

@@ -148,7 +148,7 @@ CellExplanation ExplainCell(const ElevationMap& map, const HazardMaps& hazards,
     return e;
   }
   e.state = map.state.at(cell);
-  e.height_m = {static_cast<double>(map.height_m.at(cell)),
+  e.height_m = {static_cast<double>(map.Measured().at(cell)),
                 3 * std::sqrt(static_cast<double>(map.variance_m2.at(cell)))};
   e.frames = map.frame_count.at(cell);
   e.age_s = AgeOf(map, cell);

@@ -54,7 +54,7 @@ SitePlane FitSitePlane(const ElevationMap& map, const SladSettings& settings, Ce
         return;
       }
       const double variance = static_cast<double>(map.variance_m2.at(cell));
-      const double z = static_cast<double>(map.height_m.at(cell));
+      const double z = static_cast<double>(map.Measured().at(cell));
       const Eigen::Vector3d basis(1, (centre.row - cell.row) * g.cell_m,
                                   (cell.col - centre.col) * g.cell_m);
       const double limit = settings.limits.max_deviation_m + kSigmas * std::sqrt(variance);

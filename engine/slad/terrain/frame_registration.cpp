@@ -102,8 +102,12 @@ void ApplyCorrection(const PlaneCorrection& correction, double gain, ElevationMa
   for (int r = 0; r < map.geometry.rows; ++r) {
     const double north_m = map.geometry.NorthOfRow(r);
     for (int c = 0; c < map.geometry.cols; ++c) {
-      map.height_m.at(r, c) +=
+      const auto by_m =
           static_cast<float>(gain * correction.At(north_m, map.geometry.EastOfCol(c)));
+      map.height_m.at(r, c) += by_m;
+      if (!map.measured_m.empty()) {
+        map.measured_m.at(r, c) += by_m;
+      }
     }
   }
 }

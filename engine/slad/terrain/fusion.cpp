@@ -194,6 +194,7 @@ void TerrainFusion::MoveTo(const GridGeometry& geometry) {
                      GridF(rows, cols, kUnknownValue),
                      Grid<std::uint16_t>(rows, cols, 0),
                      Grid<CellState>(rows, cols, CellState::kUnknown),
+                     GridF(rows, cols, kUnknownValue),
                      GridF(rows, cols, kUnknownValue)};
   Grid<std::int8_t> disagreement(rows, cols, 0);
   Grid<FrameSpread> spread(rows, cols);
@@ -211,6 +212,7 @@ void TerrainFusion::MoveTo(const GridGeometry& geometry) {
           continue;
         }
         moved.height_m.at(r, c) = map_.height_m.at(from);
+        moved.measured_m.at(r, c) = map_.measured_m.at(from);
         moved.variance_m2.at(r, c) = map_.variance_m2.at(from);
         moved.frame_count.at(r, c) = map_.frame_count.at(from);
         moved.state.at(r, c) = map_.state.at(from);
@@ -266,6 +268,7 @@ void TerrainFusion::Fuse(const ElevationMap& frame, const GridF& misplaced_m2, i
   const int memory = std::max(1, frames_fused);
   for (std::size_t i = 0; i < frame.state.cells().size(); ++i) {
     float& mean = map_.height_m.cells()[i];
+    float& measured = map_.measured_m.cells()[i];
     float& variance = map_.variance_m2.cells()[i];
     std::uint16_t& count = map_.frame_count.cells()[i];
     CellState& state = map_.state.cells()[i];
@@ -276,7 +279,7 @@ void TerrainFusion::Fuse(const ElevationMap& frame, const GridF& misplaced_m2, i
     if (frame.state.cells()[i] != CellState::kMeasured) {
       variance = static_cast<float>(p + kUnseenGrowth_m2);
       if (state == CellState::kMeasured && p > kForgotten_m2) {
-        mean = variance = age_s = kUnknownValue;
+        mean = measured = variance = age_s = kUnknownValue;
         count = 0;
         state = CellState::kUnknown;
       }
@@ -284,6 +287,7 @@ void TerrainFusion::Fuse(const ElevationMap& frame, const GridF& misplaced_m2, i
     }
     age_s = 0;
     const double z = static_cast<double>(frame.height_m.cells()[i]);
+    const double measured_z = static_cast<double>(frame.measured_m.cells()[i]);
     const double noise = static_cast<double>(frame.variance_m2.cells()[i]);
     const double m = static_cast<double>(mean);
     const double off = z - m;
@@ -299,6 +303,7 @@ void TerrainFusion::Fuse(const ElevationMap& frame, const GridF& misplaced_m2, i
     disagreement = 0;
     if (!agrees) {
       mean = static_cast<float>(z);
+      measured = static_cast<float>(measured_z);
       variance = static_cast<float>(noise);
       count = 1;
       state = CellState::kMeasured;
@@ -315,6 +320,8 @@ void TerrainFusion::Fuse(const ElevationMap& frame, const GridF& misplaced_m2, i
     const double remember = count < memory ? 1 : 1 - 1.0 / memory;
     const double fused = 1 / (remember / p + 1 / noise);
     mean = static_cast<float>(fused * (remember * m / p + z / noise));
+    measured = static_cast<float>(
+        fused * (remember * static_cast<double>(measured) / p + measured_z / noise));
     spread.Add(off, noise, memory);
     spread.Follow(static_cast<double>(mean) - m);
     variance = static_cast<float>(std::max(fused, kVarianceFloor_m2));

@@ -9,9 +9,11 @@
 // lambda is 1 for the first frames_fused frames of a cell, so that their order does not matter, and
 // 1 - 1/frames_fused from then on: the weight of frames_fused frames is kept.
 //
-// What frames disagree about by more than noise is relief (frame_spread.h): it is added to the
-// published height. So is what stands too narrow for stereo's window, or so steep that stereo
-// refuses its sides (narrow_relief.h).
+// Of a cell's points the mean is fused as the measured ground, and by the same weights the mean
+// with the relief inside the cell as its top. What frames disagree about by more than noise is
+// relief (frame_spread.h): it is added to the published top. So is what stands too narrow for
+// stereo's window, or so steep that stereo refuses its sides (narrow_relief.h). None of them touches
+// the measured ground.
 //
 // A cell that disagrees by more than the gate, three sigmas of
 //

@@ -32,7 +32,7 @@ void MarkRuns(const ElevationMap& map, int longest, bool along_rows, Grid<char>&
 }
 
 void FillCell(ElevationMap& map, int r, int c, int reach) {
-  double weight = 0, height = 0, square = 0, variance = 0;
+  double weight = 0, height = 0, measured = 0, square = 0, variance = 0;
   for (int dr = -reach; dr <= reach; ++dr) {
     for (int dc = -reach; dc <= reach; ++dc) {
       if (!IsMeasured(map, r + dr, c + dc)) {
@@ -42,12 +42,16 @@ void FillCell(ElevationMap& map, int r, int c, int reach) {
       const double z = static_cast<double>(map.height_m.at(r + dr, c + dc));
       weight += w;
       height += w * z;
+      measured += w * static_cast<double>(map.Measured().at(r + dr, c + dc));
       square += w * z * z;
       variance += w * static_cast<double>(map.variance_m2.at(r + dr, c + dc));
     }
   }
   const double mean = height / weight;
   map.height_m.at(r, c) = static_cast<float>(mean);
+  if (!map.measured_m.empty()) {
+    map.measured_m.at(r, c) = static_cast<float>(measured / weight);
+  }
   map.variance_m2.at(r, c) =
       static_cast<float>(variance / weight + std::max(0.0, square / weight - mean * mean));
 }
@@ -86,6 +90,7 @@ Grid<char> OutsideRegion(const ElevationMap& map) {
 struct RimCell {
   Cell cell;
   float height_m;
+  float measured_m;
   float variance_m2;
 };
 
@@ -97,24 +102,30 @@ void FillRing(ElevationMap& map, const Grid<char>& outside) {
       if (outside.at(r, c) == 0 || map.state.at(r, c) != CellState::kUnknown) {
         continue;
       }
-      double height = 0, variance = 0;
+      double height = 0, measured = 0, variance = 0;
       int count = 0;
       for (int k = 0; k < 9; ++k) {
         const Cell near{r + k / 3 - 1, c + k % 3 - 1};
         if (map.geometry.Contains(near) && map.state.at(near) != CellState::kUnknown) {
           height += static_cast<double>(map.height_m.at(near));
+          measured += static_cast<double>(map.Measured().at(near));
           variance += static_cast<double>(map.variance_m2.at(near));
           ++count;
         }
       }
       if (count > 0) {
-        ring.push_back(
-            {{r, c}, static_cast<float>(height / count), static_cast<float>(variance / count)});
+        ring.push_back({{r, c},
+                        static_cast<float>(height / count),
+                        static_cast<float>(measured / count),
+                        static_cast<float>(variance / count)});
       }
     }
   }
   for (const RimCell& rim : ring) {
     map.height_m.at(rim.cell) = rim.height_m;
+    if (!map.measured_m.empty()) {
+      map.measured_m.at(rim.cell) = rim.measured_m;
+    }
     map.variance_m2.at(rim.cell) = rim.variance_m2;
     map.state.at(rim.cell) = CellState::kBorder;
   }

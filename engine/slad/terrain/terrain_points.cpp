@@ -180,6 +180,9 @@ ElevationMap AccumulateCells(const TerrainPoints& points, const GridGeometry& ge
                    GridF(rows, cols, kUnknownValue),
                    Grid<std::uint16_t>(rows, cols, 0),
                    Grid<CellState>(rows, cols, CellState::kUnknown)};
+  if (mode != SladMode::kThesis) {
+    map.measured_m = GridF(rows, cols, kUnknownValue);
+  }
   const double reference_m = MedianHeight(points);
   Grid<CellSums> sums(rows, cols);
   for (const TerrainPoint& p : points) {
@@ -217,6 +220,9 @@ ElevationMap AccumulateCells(const TerrainPoints& points, const GridGeometry& ge
                              kLeastPointVariance_m2})
                  : std::max(spread - slope_spread_m2, kLeastPointVariance_m2);
       map.height_m.at(r, c) = static_cast<float>(mean + relief_m + reference_m);
+      if (!map.measured_m.empty()) {
+        map.measured_m.at(r, c) = static_cast<float>(mean + reference_m);
+      }
       map.variance_m2.at(r, c) =
           static_cast<float>(one_point / std::max(1.0, s.count / correlated_points));
       map.frame_count.at(r, c) = 1;
