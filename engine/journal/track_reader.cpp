@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "engine/model/find_site.h"
 #include "engine/wire/convert.h"
 
 namespace palace {
@@ -71,11 +72,9 @@ void TrackReader::AddDecision(const WireMessage& message) {
   if (select == nullptr) {
     return;
   }
-  for (const LandingSite& site : newest_sites_) {
-    if (site.id == select->site_id) {
-      armed_ = static_cast<int>(record_.armed_sites.size());
-      record_.armed_sites.push_back(site);
-    }
+  if (const LandingSite* site = FindSite(newest_sites_, select->site_id)) {
+    armed_ = static_cast<int>(record_.armed_sites.size());
+    record_.armed_sites.push_back(*site);
   }
 }
 

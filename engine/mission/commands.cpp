@@ -8,6 +8,7 @@
 #include "engine/mission/guards.h"
 #include "engine/mission/wave_off.h"
 #include "engine/mission/wording.h"
+#include "engine/model/find_site.h"
 
 namespace palace {
 namespace {
@@ -80,7 +81,7 @@ struct Obeying {
 Status Obeying::operator()(const SelectSite& action) const {
   MissionMemory& m = turn.memory;
   const MissionState state = m.status.state;
-  const LandingSite* site = FindSite(m, action.site_id);
+  const LandingSite* site = FindSite(m.facts.sites, action.site_id);
   if (!IsNamedSite(action.site_id)) {
     return Refuse(turn, now, "Select", words::kPreviewOnly);
   }
@@ -130,7 +131,7 @@ Status Obeying::operator()(const DisarmSite&) const {
 Status Obeying::operator()(const RefuseSite& action) const {
   MissionMemory& m = turn.memory;
   const MissionState state = m.status.state;
-  const LandingSite* site = FindSite(m, action.site_id);
+  const LandingSite* site = FindSite(m.facts.sites, action.site_id);
   const bool armed = state == MissionState::kArmed && m.status.armed->id == action.site_id;
   if (!IsNamedSite(action.site_id)) {
     return Refuse(turn, now, "Refuse", words::kPreviewOnly);

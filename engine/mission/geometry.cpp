@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "engine/core/units.h"
+#include "engine/model/find_site.h"
 
 namespace palace {
 namespace {
@@ -80,7 +81,7 @@ FlightPath PathTo(const MissionMemory& m, const LandingSite& site) {
 }
 
 const LandingSite* SiteInQuestion(const MissionMemory& m) {
-  const LandingSite* site = m.status.armed ? &*m.status.armed : FindSite(m, m.winner.site_id);
+  const LandingSite* site = m.status.armed ? &*m.status.armed : FindSite(m.facts.sites, m.winner.site_id);
   return site != nullptr ? site : m.status.BestStanding(m.facts.sites);
 }
 

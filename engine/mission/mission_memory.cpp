@@ -10,15 +10,6 @@ MissionMemory::MissionMemory() {
   status.height_above_site_m = status.distance_to_site_m = status.time_to_touchdown_s = NAN;
 }
 
-const LandingSite* FindSite(const MissionMemory& m, std::uint64_t site_id) {
-  for (const LandingSite& site : m.facts.sites) {
-    if (site.id == site_id) {
-      return &site;
-    }
-  }
-  return nullptr;
-}
-
 bool WinnerStands(const MissionMemory& m, Timestamp now) {
   return m.winner.site_id != 0 && m.winner.maps >= m.facts.settings.mission.propose_after_maps &&
          SecondsBetween(m.winner.since, now) >= m.facts.settings.mission.propose_after_s &&

@@ -131,8 +131,6 @@ struct MissionMemory {
 /// Requests (hold, abort) have this bit of their number set, approvals do not.
 inline constexpr std::uint64_t kRequestBit = 0x80000000U;
 
-/// Site of that id on the newest map; null when there is none.
-const LandingSite* FindSite(const MissionMemory& memory, std::uint64_t site_id);
 /// A site has won enough maps for long enough, and the maps are new.
 bool WinnerStands(const MissionMemory& memory, Timestamp now);
 bool SiteLost(const MissionMemory& memory, Timestamp now);

@@ -9,6 +9,7 @@
 #include "engine/mission/limits.h"
 #include "engine/mission/wave_off.h"
 #include "engine/mission/wording.h"
+#include "engine/model/find_site.h"
 
 namespace palace {
 namespace {
@@ -104,7 +105,7 @@ void StepSearching(MissionTurn& turn, const MissionInputs& in) {
   if (state == MissionState::kNoLive) {
     Enter(turn, MissionState::kSearch, words::kCamerasLive, now);
   } else if (state == MissionState::kSearch && stopped.empty() && WinnerStands(m, now)) {
-    const LandingSite* site = FindSite(m, m.winner.site_id);
+    const LandingSite* site = FindSite(m.facts.sites, m.winner.site_id);
     Enter(turn, MissionState::kProposed,
           words::SiteWon(site != nullptr ? site->letter : "?", m.winner.maps), now);
   } else if (state == MissionState::kProposed && !(stopped.empty() && WinnerStands(m, now))) {

@@ -1,3 +1,4 @@
+#include "engine/model/find_site.h"
 #include "gui/panels/fly_panels.h"
 
 namespace palace {
@@ -14,10 +15,8 @@ const LandingSite* SiteInView(const EngineSnapshot& snap, std::uint64_t highligh
   if (known == nullptr || known->selection.sites.empty()) {
     return nullptr;
   }
-  for (const LandingSite& site : known->selection.sites) {
-    if (site.id == highlighted) {
-      return &site;
-    }
+  if (const LandingSite* site = FindSite(known, highlighted)) {
+    return site;
   }
   return snap.flight->mission.state == MissionState::kAborting
              ? nullptr

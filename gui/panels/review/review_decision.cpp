@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "engine/core/units.h"
+#include "engine/model/find_site.h"
 #include "engine/model/size_words.h"
 #include "gui/panels/review/review.h"
 #include "gui/widgets/button.h"
@@ -46,19 +47,6 @@ std::string AreaWords(double area_m2) {
   return std::isfinite(area_m2) ? Fixed(area_m2, 0) + " m²" : std::string(kUnknown);
 }
 
-/// That place among the sites of a decision, which has the ids of the record; null where it is not
-/// listed.
-const LandingSite* SamePlace(const TerrainDecision* decision, const LandingSite& site) {
-  if (decision != nullptr) {
-    for (const LandingSite& other : decision->selection.sites) {
-      if (other.id == site.id) {
-        return &other;
-      }
-    }
-  }
-  return nullptr;
-}
-
 /// What the figures are of: the site that was selected or flown to, before that the best.
 const char* SubjectWord(const MissionStatus& m) {
   return !m.armed                                                ? "Best site"
@@ -78,7 +66,7 @@ std::string StateOf(const MissionStatus& m) {
 /// The selected site on the newest map, as it was re-checked or listed.
 const LandingSite* ArmedOnMap(const EngineSnapshot& snap, const LandingSite& armed) {
   const auto& now = snap.flight->mission.armed_now;
-  return now ? &*now : SamePlace(snap.terrain->OfRecord().get(), armed);
+  return now ? &*now : FindSite(snap.terrain->OfRecord().get(), armed.id);
 }
 
 Column InTheFlight(const EngineSnapshot& snap, const FlightRecord* record, bool rebuilding) {
@@ -111,7 +99,8 @@ Column UnderOtherLimits(const EngineSnapshot& snap, std::string& reason) {
   column.head = "Re-decided";
   column.area = AreaWords(SafeArea(map));
   column.best = LetterOf(best);
-  FillFigures(armed ? SamePlace(map, *armed) : best, column);
+  // Decisions under other limits have the ids of the record.
+  FillFigures(armed ? FindSite(map, armed->id) : best, column);
   if (armed) {
     column.best = armed->letter;
   }
