@@ -1,9 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/core/units.h"
-#include "engine/model/mission/approve_offer.h"
-#include "engine/model/site_standing.h"
+#include "gui/panels/approve_words.h"
 #include "gui/panels/fly_panels.h"
 #include "gui/panels/session_words.h"
 #include "gui/widgets/button.h"
@@ -15,137 +13,7 @@ namespace palace {
 
 namespace {
 
-constexpr double kAnswered_s = 2;  // the engine answers within a frame, or refuses
-
-HoldButtonView ButtonOf(const EngineSnapshot& snap, const ApproveState& state, const UiFrame& ui) {
-  const MissionStatus& m = snap.flight->mission;
-  HoldButtonView view;
-  view.subject = m.armed ? m.armed->id : 0;
-  const std::string letter = m.armed ? m.armed->letter : std::string();
-  view.label = "Hold to approve " + letter;
-  if (m.armed && !m.armed->confirmed) {
-    view.label += ", provisional";
-  }
-  using Phase = MissionStatus::ApprovalPhase;
-  if (FollowsRecord(snap.session->role) || HasPicturesOnly(snap.session->role)) {
-    view.phase = HoldPhase::kNoVehicle;
-    view.reason = WhyNoLink(snap);
-  } else if (m.approval_phase == Phase::kSent) {
-    view.phase = HoldPhase::kRequested;
-    view.label = "Sent to vehicle";
-    view.reason = "Waiting " + Duration(m.approval_answer_s);
-  } else if (m.approval_phase == Phase::kAccepted) {
-    view.phase = HoldPhase::kAccepted;
-    view.label = "Approved " + letter;
-    view.reason = "Vehicle accepted in " + Duration(m.approval_answer_s);
-  } else if (m.approval_phase == Phase::kRefused) {
-    view.phase = HoldPhase::kRefused;
-    view.reason = m.approval_answer;
-  } else if (m.armed && state.asked_site == m.armed->id &&
-             ui.ui_time_s - state.asked_at_s < kAnswered_s) {
-    view.phase = HoldPhase::kRequested;
-    view.label = "Approving " + letter;
-    view.reason = "Held in full, let go";
-  } else if (snap.terrain->preview) {
-    view.phase = HoldPhase::kBlocked;
-    view.reason = "Maps are a preview";
-  } else if (!m.can_approve) {
-    view.phase = HoldPhase::kBlocked;
-    view.reason = m.cannot_approve_reason.empty()
-                      ? (m.armed ? std::string("A check fails") : "Select a site first")
-                      : m.cannot_approve_reason;
-  } else if (const std::string why = WhyScreenOld(ui.silent_s); !why.empty()) {
-    view.phase = HoldPhase::kBlocked;
-    view.reason = why;
-  }
-  return view;
-}
-
-/// A person reads it where a site would be selected.
-std::string WhyNotSelectable(const EngineSnapshot& snap) {
-  const AuthorityStatus& authority = snap.session->authority;
-  const bool view_only = authority.standing != AuthorityStanding::kNone && !authority.commands();
-  return view_only ? authority.why_not + "." : "Sites cannot be selected here.";
-}
-
-/// The site that follows when the armed one is refused.
-std::string NextLetter(const EngineSnapshot& snap) {
-  if (!snap.flight->mission.armed || !snap.terrain->applied) {
-    return {};
-  }
-  for (const LandingSite& site : snap.terrain->applied->selection.sites) {
-    if (site.id != snap.flight->mission.armed->id && IsNamedSite(site.id) &&
-        !snap.flight->mission.IsRefused(site.id)) {
-      return site.letter;
-    }
-  }
-  return {};
-}
-
-/// The armed site on the newest map; null where it is not listed.
-const LandingSite* ArmedNow(const EngineSnapshot& snap) {
-  const TerrainDecision* map = snap.terrain->applied.get();
-  if (map == nullptr || !snap.flight->mission.armed) {
-    return nullptr;
-  }
-  for (const LandingSite& site : map->selection.sites) {
-    if (site.id == snap.flight->mission.armed->id) {
-      return &site;
-    }
-  }
-  return nullptr;
-}
-
-/// What the list says of the armed site is said where it is approved, too.
-std::string WhyShaken(const EngineSnapshot& snap) {
-  const LandingSite* now = ArmedNow(snap);
-  return now != nullptr && std::isfinite(now->called_unsafe_s)
-             ? "A map called it unsafe " + Fixed(now->called_unsafe_s, 0) + " s ago"
-             : std::string();
-}
-
-/// Distance, height, time and heading, in sentences.
-std::string Consequence(const EngineSnapshot& snap, bool narrow) {
-  const MissionStatus& m = snap.flight->mission;
-  std::string text =
-      Fixed(m.distance_to_site_m, 1) + " m away, " + Fixed(m.height_above_site_m, 1) + " m down";
-  if (std::isfinite(m.time_to_touchdown_s)) {
-    text += (narrow ? ", touchdown in about " : ". Touchdown in about ") +
-            Fixed(m.time_to_touchdown_s, 0) + " s";
-  }
-  const std::string shaken = WhyShaken(snap);
-  if (!shaken.empty()) {
-    return narrow ? shaken + "." : shaken + ". " + text + ".";
-  }
-  const std::string doubt =
-      m.armed ? WhyProvisional(*m.armed, snap.session->settings.slad) : std::string();
-  if (!narrow && !doubt.empty()) {
-    return text + ". Provisional: " + doubt + ".";
-  }
-  if (!narrow && m.approach) {
-    double heading = Deg(m.approach->heading_rad);
-    heading += heading < -0.5 ? 360 : 0;
-    text += ", heading " + Fixed(heading, 0) + "° at " + Fixed(m.approach->descent_rate_mps, 1) +
-            " m/s. Vision steers; wave-off stays available";
-  }
-  return text + ".";
-}
-
 constexpr double kToldCut_s = 5;
-
-/// The first reason against approve, as the button gives it: of a check, then of the screen.
-std::string WhyNotNow(const EngineSnapshot& snap, const UiFrame& ui) {
-  const MissionStatus& m = snap.flight->mission;
-  if (snap.terrain->preview) {
-    return "Maps are a preview";
-  }
-  for (const GuardResult& guard : m.guards) {
-    if (!guard.pass) {
-      return guard.reason.empty() ? guard.name : guard.reason;
-    }
-  }
-  return WhyScreenOld(ui.silent_s);
-}
 
 void DrawGuardList(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui) {
   const Style& s = ui.style;
@@ -170,7 +38,7 @@ void DrawGuardList(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui) {
   EndOverlay();
 }
 
-/// "26 s" until the arm window closes; empty when nothing runs.
+/// Until the arm window closes; NaN when nothing runs.
 double SecondsLeft(const EngineSnapshot& snap) {
   return snap.flight->mission.arm_expires
              ? SecondsBetween(snap.time, *snap.flight->mission.arm_expires)
@@ -185,7 +53,7 @@ void DrawChecks(const EngineSnapshot& snap, const Rect& rect, float y, bool narr
   if (m.guards.empty()) {
     return;
   }
-  const std::string why_not = WhyNotNow(snap, ui);
+  const std::string why_not = WhyNotApprove(snap, ui.silent_s);
   const bool pass = why_not.empty();
   const std::string words = !pass ? why_not
                             : ui.ui_time_s < state.hold_cut_told_until_s
@@ -269,7 +137,7 @@ void DrawCommandButton(const EngineSnapshot& snap, const Rect& rect, ApproveStat
 }
 
 void DrawRefuseButton(const EngineSnapshot& snap, const Rect& rect, bool narrow, UiFrame& ui) {
-  const std::string next = NextLetter(snap);
+  const std::string next = NextSiteLetter(snap);
   const std::string then = next.empty() ? next : "then site " + next;
   ButtonLook look;
   look.font = narrow ? ui.style.medium : ui.style.section;
@@ -298,36 +166,12 @@ void DrawDeselect(const LandingSite& site, const Rect& panel, UiFrame& ui) {
   }
 }
 
-/// What a person may do, and why not: while nothing is armed.
-std::string WhatNow(const EngineSnapshot& snap) {
-  const MissionStatus& m = snap.flight->mission;
-  const bool sites = snap.terrain->applied && !snap.terrain->applied->selection.sites.empty();
-  if (!m.may_select && sites) {
-    return WhyNotSelectable(snap);
-  }
-  if (m.state == MissionState::kNoLive && !m.why.empty()) {
-    return m.why + ".";
-  }
-  if (!sites) {
-    return "Waiting for a site inside all limits.";
-  }
-  switch (m.state) {
-    case MissionState::kProposed:
-      return "Click a site, or press Tab and Enter, to select it.";
-    case MissionState::kSearch:
-      return "Selectable once one site has led for " +
-             Duration(snap.session->settings.mission.propose_after_s) + ".";
-    default:
-      return "No site can be selected now.";
-  }
-}
-
 /// Why the last selection ended, and what now; above the buttons, in small letters where it is
 /// long.
 void DrawWhatNow(const EngineSnapshot& snap, const Rect& from, float bottom, UiFrame& ui) {
   const Style& s = ui.style;
   const std::string& ended = snap.flight->mission.selection_ended;
-  const std::string now = WhatNow(snap);
+  const std::string now = WhatToDoUnarmed(snap);
   const auto lines_of = [&](const ImFont* font) {
     std::vector<std::pair<std::string, bool>> lines;
     for (const std::string& line : WrapText(font, ended, from.w)) {
@@ -380,7 +224,7 @@ void DrawButtons(const EngineSnapshot& snap, const Rect& rect, bool narrow, Appr
   } else {
     DrawRefuseButton(snap, left, narrow, ui);
   }
-  const HoldButtonView view = ButtonOf(snap, state, ui);
+  const HoldButtonView view = ApproveButton(snap, state, ui.ui_time_s, ui.silent_s);
   const bool was_held = state.hold.holding;
   const bool approved = DrawHoldButton(ui, "approve", hold, view, state.hold);
   if (was_held && !state.hold.holding && view.phase == HoldPhase::kBlocked) {
@@ -413,7 +257,7 @@ void DrawApprovePanel(const EngineSnapshot& snap, const Rect& rect, bool narrow,
     DrawText(ui, narrow ? s.medium : s.section, p.text1, x, rect.y + s.Px(narrow ? 42 : 46),
              std::string("Commits the vehicle to land on site ") + m.armed->letter + ".");
     float y = rect.y + s.Px(narrow ? 64 : 73);
-    const std::string words = Consequence(snap, narrow);
+    const std::string words = ApprovalConsequence(snap, narrow);
     std::vector<std::string> lines = WrapText(s.body, words, width);
     ImFont* font = s.body;
     if (narrow) {

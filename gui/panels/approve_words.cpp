@@ -1,0 +1,155 @@
+#include "gui/panels/approve_words.h"
+
+#include <cmath>
+
+#include "engine/core/units.h"
+#include "engine/model/find_site.h"
+#include "engine/model/mission/approve_offer.h"
+#include "engine/model/site_standing.h"
+#include "gui/panels/session_words.h"
+#include "gui/widgets/number_text.h"
+
+namespace palace {
+namespace {
+
+constexpr double kAnswered_s = 2;  // the engine answers within a frame, or refuses
+
+/// A person reads it where a site would be selected.
+std::string WhyNotSelectable(const EngineSnapshot& snap) {
+  const AuthorityStatus& authority = snap.session->authority;
+  const bool view_only = authority.standing != AuthorityStanding::kNone && !authority.commands();
+  return view_only ? authority.why_not + "." : "Sites cannot be selected here.";
+}
+
+/// What the list says of the armed site is said where it is approved, too.
+std::string WhyShaken(const EngineSnapshot& snap) {
+  const auto& armed = snap.flight->mission.armed;
+  const LandingSite* now = armed ? FindSite(snap.terrain->applied.get(), armed->id) : nullptr;
+  return now != nullptr && std::isfinite(now->called_unsafe_s)
+             ? "A map called it unsafe " + Fixed(now->called_unsafe_s, 0) + " s ago"
+             : std::string();
+}
+
+}  // namespace
+
+std::string WhyNotApprove(const EngineSnapshot& snap, double silent_s) {
+  const MissionStatus& m = snap.flight->mission;
+  if (snap.terrain->preview) {
+    return "Maps are a preview";
+  }
+  for (const GuardResult& guard : m.guards) {
+    if (!guard.pass) {
+      return guard.reason.empty() ? guard.name : guard.reason;
+    }
+  }
+  return WhyScreenOld(silent_s);
+}
+
+HoldButtonView ApproveButton(const EngineSnapshot& snap, const ApproveState& state,
+                             double ui_time_s, double silent_s) {
+  const MissionStatus& m = snap.flight->mission;
+  HoldButtonView view;
+  view.subject = m.armed ? m.armed->id : 0;
+  const std::string letter = m.armed ? m.armed->letter : std::string();
+  view.label = "Hold to approve " + letter;
+  if (m.armed && !m.armed->confirmed) {
+    view.label += ", provisional";
+  }
+  using Phase = MissionStatus::ApprovalPhase;
+  if (FollowsRecord(snap.session->role) || HasPicturesOnly(snap.session->role)) {
+    view.phase = HoldPhase::kNoVehicle;
+    view.reason = WhyNoLink(snap);
+  } else if (m.approval_phase == Phase::kSent) {
+    view.phase = HoldPhase::kRequested;
+    view.label = "Sent to vehicle";
+    view.reason = "Waiting " + Duration(m.approval_answer_s);
+  } else if (m.approval_phase == Phase::kAccepted) {
+    view.phase = HoldPhase::kAccepted;
+    view.label = "Approved " + letter;
+    view.reason = "Vehicle accepted in " + Duration(m.approval_answer_s);
+  } else if (m.approval_phase == Phase::kRefused) {
+    view.phase = HoldPhase::kRefused;
+    view.reason = m.approval_answer;
+  } else if (m.armed && state.asked_site == m.armed->id &&
+             ui_time_s - state.asked_at_s < kAnswered_s) {
+    view.phase = HoldPhase::kRequested;
+    view.label = "Approving " + letter;
+    view.reason = "Held in full, let go";
+  } else if (snap.terrain->preview) {
+    view.phase = HoldPhase::kBlocked;
+    view.reason = "Maps are a preview";
+  } else if (!m.can_approve) {
+    view.phase = HoldPhase::kBlocked;
+    view.reason = m.cannot_approve_reason.empty()
+                      ? (m.armed ? std::string("A check fails") : "Select a site first")
+                      : m.cannot_approve_reason;
+  } else if (const std::string why = WhyScreenOld(silent_s); !why.empty()) {
+    view.phase = HoldPhase::kBlocked;
+    view.reason = why;
+  }
+  return view;
+}
+
+std::string ApprovalConsequence(const EngineSnapshot& snap, bool narrow) {
+  const MissionStatus& m = snap.flight->mission;
+  std::string text =
+      Fixed(m.distance_to_site_m, 1) + " m away, " + Fixed(m.height_above_site_m, 1) + " m down";
+  if (std::isfinite(m.time_to_touchdown_s)) {
+    text += (narrow ? ", touchdown in about " : ". Touchdown in about ") +
+            Fixed(m.time_to_touchdown_s, 0) + " s";
+  }
+  const std::string shaken = WhyShaken(snap);
+  if (!shaken.empty()) {
+    return narrow ? shaken + "." : shaken + ". " + text + ".";
+  }
+  const std::string doubt =
+      m.armed ? WhyProvisional(*m.armed, snap.session->settings.slad) : std::string();
+  if (!narrow && !doubt.empty()) {
+    return text + ". Provisional: " + doubt + ".";
+  }
+  if (!narrow && m.approach) {
+    double heading = Deg(m.approach->heading_rad);
+    heading += heading < -0.5 ? 360 : 0;
+    text += ", heading " + Fixed(heading, 0) + "° at " + Fixed(m.approach->descent_rate_mps, 1) +
+            " m/s. Vision steers; wave-off stays available";
+  }
+  return text + ".";
+}
+
+std::string WhatToDoUnarmed(const EngineSnapshot& snap) {
+  const MissionStatus& m = snap.flight->mission;
+  const bool sites = snap.terrain->applied && !snap.terrain->applied->selection.sites.empty();
+  if (!m.may_select && sites) {
+    return WhyNotSelectable(snap);
+  }
+  if (m.state == MissionState::kNoLive && !m.why.empty()) {
+    return m.why + ".";
+  }
+  if (!sites) {
+    return "Waiting for a site inside all limits.";
+  }
+  switch (m.state) {
+    case MissionState::kProposed:
+      return "Click a site, or press Tab and Enter, to select it.";
+    case MissionState::kSearch:
+      return "Selectable once one site has led for " +
+             Duration(snap.session->settings.mission.propose_after_s) + ".";
+    default:
+      return "No site can be selected now.";
+  }
+}
+
+std::string NextSiteLetter(const EngineSnapshot& snap) {
+  if (!snap.flight->mission.armed || !snap.terrain->applied) {
+    return {};
+  }
+  for (const LandingSite& site : snap.terrain->applied->selection.sites) {
+    if (site.id != snap.flight->mission.armed->id && IsNamedSite(site.id) &&
+        !snap.flight->mission.IsRefused(site.id)) {
+      return site.letter;
+    }
+  }
+  return {};
+}
+
+}  // namespace palace

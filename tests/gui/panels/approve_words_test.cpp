@@ -1,0 +1,148 @@
+// What the approve panel says: every phase of its button, what an approval leads to, what to do
+// first.
+#include "gui/panels/approve_words.h"
+
+#include <functional>
+
+#include "tests/support/fake_snapshot.h"
+
+namespace palace {
+namespace {
+
+using Phase = MissionStatus::ApprovalPhase;
+
+HoldButtonView Button(const EngineSnapshot& snap, double silent_s = 0) {
+  return ApproveButton(snap, {}, 0, silent_s);
+}
+
+TEST(ApproveWords, TheButtonTellsWhatAHoldDoesOrWhyItDoesNothing) {
+  const auto mission = [](EngineSnapshot& snap) -> MissionStatus& {
+    return snap.flight.Edit().mission;
+  };
+  const struct {
+    const char* name;
+    std::function<void(EngineSnapshot&)> change;
+    HoldPhase phase;
+    const char *label, *reason;
+  } table[] = {
+      {"armed", [](EngineSnapshot&) {}, HoldPhase::kReady, "Hold to approve A", ""},
+      {"provisional", [&](EngineSnapshot& s) { mission(s).armed->confirmed = false; },
+       HoldPhase::kReady, "Hold to approve A, provisional", ""},
+      {"sent",
+       [&](EngineSnapshot& s) {
+         mission(s).approval_phase = Phase::kSent;
+         mission(s).approval_answer_s = 0.4;
+       },
+       HoldPhase::kRequested, "Sent to vehicle", "Waiting 0.4 s"},
+      {"accepted",
+       [&](EngineSnapshot& s) {
+         mission(s).approval_phase = Phase::kAccepted;
+         mission(s).approval_answer_s = 0.3;
+       },
+       HoldPhase::kAccepted, "Approved A", "Vehicle accepted in 0.3 s"},
+      {"refused",
+       [&](EngineSnapshot& s) {
+         mission(s).approval_phase = Phase::kRefused;
+         mission(s).approval_answer = "Too low";
+       },
+       HoldPhase::kRefused, "Hold to approve A", "Too low"},
+      {"preview", [](EngineSnapshot& s) { s.terrain.Edit().preview = s.terrain->applied; },
+       HoldPhase::kBlocked, "Hold to approve A", "Maps are a preview"},
+      {"blocked",
+       [&](EngineSnapshot& s) {
+         mission(s).can_approve = false;
+         mission(s).cannot_approve_reason = "GPS lost";
+       },
+       HoldPhase::kBlocked, "Hold to approve A", "GPS lost"},
+      {"blocked by what nobody told", [&](EngineSnapshot& s) { mission(s).can_approve = false; },
+       HoldPhase::kBlocked, "Hold to approve A", "A check fails"}};
+  for (const auto& row : table) {
+    SCOPED_TRACE(row.name);
+    EngineSnapshot snap = fake::Snapshot(MissionState::kArmed);
+    snap.flight.Edit().mission.armed->confirmed = true;
+    row.change(snap);
+    const HoldButtonView view = Button(snap);
+    EXPECT_EQ(view.phase, row.phase);
+    EXPECT_EQ(view.label, row.label);
+    EXPECT_EQ(view.reason, row.reason);
+    EXPECT_EQ(view.subject, 1u);
+  }
+  const HoldButtonView none = Button(fake::Snapshot(MissionState::kProposed));
+  EXPECT_EQ(none.reason, "Select a site first");
+  EXPECT_EQ(none.subject, 0u);
+  const HoldButtonView replay = Button(fake::Snapshot(MissionState::kArmed, SourceKind::kReplay));
+  EXPECT_EQ(replay.phase, HoldPhase::kNoVehicle);
+  EXPECT_EQ(replay.reason, "No link in replay");
+}
+
+TEST(ApproveWords, WhatWasAskedIsSaidForTwoSecondsWhileNobodyAnswers) {
+  const EngineSnapshot snap = fake::Snapshot(MissionState::kArmed);
+  ApproveState state;
+  state.asked_site = 1;
+  state.asked_at_s = 10;
+  EXPECT_EQ(ApproveButton(snap, state, 11.9, 0).label, "Approving A");
+  EXPECT_EQ(ApproveButton(snap, state, 12.1, 0).phase, HoldPhase::kReady);
+  state.asked_site = 2;
+  EXPECT_EQ(ApproveButton(snap, state, 11.9, 0).phase, HoldPhase::kReady);
+}
+
+TEST(ApproveWords, AScreenBehindTheEngineApprovesNothing) {
+  const EngineSnapshot snap = fake::Snapshot(MissionState::kArmed);
+  EXPECT_EQ(WhyNotApprove(snap, 0), "");
+  EXPECT_NE(WhyNotApprove(snap, 3), "");
+  EXPECT_EQ(Button(snap, 3).phase, HoldPhase::kBlocked);
+  EXPECT_EQ(Button(snap, 3).reason, WhyNotApprove(snap, 3));
+}
+
+TEST(ApproveWords, TheFirstCheckThatFailsIsSaidByItsReasonElseByItsName) {
+  EngineSnapshot snap = fake::Snapshot(MissionState::kArmed);
+  GuardResult& second = snap.flight.Edit().mission.guards[1];
+  second.pass = false;
+  second.reason = "";
+  EXPECT_EQ(WhyNotApprove(snap, 0), second.name);
+  second.reason = "Wind 9.1 m/s, limit 8.0 m/s";
+  EXPECT_EQ(WhyNotApprove(snap, 0), second.reason);
+  snap.flight.Edit().mission.guards[2].pass = false;
+  EXPECT_EQ(WhyNotApprove(snap, 0), "Wind 9.1 m/s, limit 8.0 m/s");
+  snap.terrain.Edit().preview = snap.terrain->applied;
+  EXPECT_EQ(WhyNotApprove(snap, 0), "Maps are a preview");
+}
+
+TEST(ApproveWords, AnApprovalLeadsToADescentUnlessSomethingSpeaksAgainstTheSite) {
+  EngineSnapshot snap = fake::Snapshot(MissionState::kArmed);
+  MissionStatus& m = snap.flight.Edit().mission;
+  m.armed->confirmed = true;
+  EXPECT_EQ(ApprovalConsequence(snap, false),
+            "5.9 m away, 38.2 m down. Touchdown in about 72 s, heading 40° at 1.0 m/s. Vision "
+            "steers; wave-off stays available.");
+  EXPECT_EQ(ApprovalConsequence(snap, true), "5.9 m away, 38.2 m down, touchdown in about 72 s.");
+  m.armed->confirmed = false;
+  m.armed->frames_fused = 1;
+  EXPECT_NE(ApprovalConsequence(snap, false).find("Provisional: "), std::string::npos);
+  auto shaken = std::make_shared<TerrainDecision>(*snap.terrain->applied);
+  shaken->selection.sites[0].called_unsafe_s = 28;
+  snap.terrain.Edit().applied = shaken;
+  EXPECT_EQ(ApprovalConsequence(snap, true), "A map called it unsafe 28 s ago.");
+  EXPECT_EQ(ApprovalConsequence(snap, false).find("A map called it unsafe 28 s ago. 5.9 m"), 0u);
+}
+
+TEST(ApproveWords, WithoutASelectionItSaysWhatToDo) {
+  EXPECT_EQ(WhatToDoUnarmed(fake::Snapshot(MissionState::kProposed)),
+            "Click a site, or press Tab and Enter, to select it.");
+  EngineSnapshot snap = fake::Snapshot(MissionState::kSearch);
+  EXPECT_EQ(WhatToDoUnarmed(snap).rfind("Selectable once one site has led for ", 0), 0u);
+  snap.terrain.Edit().applied = nullptr;
+  EXPECT_EQ(WhatToDoUnarmed(snap), "Waiting for a site inside all limits.");
+  EXPECT_EQ(NextSiteLetter(snap), "");
+}
+
+TEST(ApproveWords, ARefusalLeadsToTheNextSiteThatWasNotRefused) {
+  EngineSnapshot snap = fake::Snapshot(MissionState::kArmed);
+  EXPECT_EQ(NextSiteLetter(snap), "B");
+  snap.flight.Edit().mission.refused_sites = {2};
+  EXPECT_EQ(NextSiteLetter(snap), "C");
+  EXPECT_EQ(NextSiteLetter(fake::Snapshot(MissionState::kProposed)), "");
+}
+
+}  // namespace
+}  // namespace palace
