@@ -7,12 +7,9 @@
 
 #include <CLI/CLI.hpp>
 
-#include "engine/core/command_line.h"
 #include "engine/core/text.h"
-#include "engine/experiments/mission_flight.h"
+#include "engine/experiments/flight_options.h"
 #include "engine/report/statistics.h"
-#include "engine/runtime/settings_io.h"
-#include "engine/simulation/vehicle_file.h"
 #include "engine/world/families/families.h"
 #include "engine/world/ground_truth.h"
 
@@ -27,10 +24,8 @@ constexpr double kTruthBeyondDisc_m = 1.5;  // so that slopes and steps at its r
 constexpr TruthArea kInView{.north_min_m = 4, .north_max_m = 40, .cell_m = 0.1};
 
 struct FamiliesOptions {
+  FlightOptions mission;
   std::vector<std::string> only;
-  std::string vehicle = kDefaultVehicle;
-  double wind_mps = 0;
-  std::vector<std::string> set;
 
   std::vector<std::string> Families() const {
     const std::vector<std::string_view> all = FamilyNames();
@@ -98,32 +93,24 @@ TrialRow RowOf(const std::string& family, const World& world, const FlownMission
 
 Result<std::vector<TrialRow>> RunTrial(const FamiliesOptions& options, std::uint64_t seed,
                                        const SceneCameraFactory& camera) {
-  const Result<VehicleDescription> vehicle = LoadVehicle(options.vehicle);
-  if (!vehicle) {
-    return vehicle.error();
+  Result<MissionFlight> flight = options.mission.Flight(seed);
+  if (!flight) {
+    return flight.error();
   }
-  const Result<Settings> settings = SettingsOfCommandLine(SettingsFor(*vehicle), {}, options.set);
-  if (!settings) {
-    return settings.error();
-  }
+  flight->unapproved_limit_s = kUnapprovedLimit_s;
+  flight->stopped_limit_s = kStoppedLimit_s;
   std::vector<TrialRow> rows;
   for (const std::string& family : options.Families()) {
     const Result<World> world = MakeFamily(family, seed);
     if (!world) {
       return world.error();
     }
-    const Result<FlownMission> flown = FlyMission({.scenario = family,
-                                                   .seed = seed,
-                                                   .vehicle = *vehicle,
-                                                   .settings = *settings,
-                                                   .wind_mps = options.wind_mps,
-                                                   .unapproved_limit_s = kUnapprovedLimit_s,
-                                                   .stopped_limit_s = kStoppedLimit_s},
-                                                  camera);
+    flight->scenario = family;
+    const Result<FlownMission> flown = FlyMission(*flight, camera);
     if (!flown) {
       return flown.error();
     }
-    rows.push_back(RowOf(family, *world, *flown, *settings));
+    rows.push_back(RowOf(family, *world, *flown, flight->settings));
     std::fprintf(stderr, "seed %llu, %s: %s\n", static_cast<unsigned long long>(seed),
                  family.c_str(), rows.back()[1].c_str());
   }
@@ -247,21 +234,13 @@ Experiment FamiliesExperiment(SceneCameraFactory camera) {
                                 : "no family is called \"" + name +
                                       "\"; known: " + Joined(FamiliesOptions{}.Families());
         });
-    verb.add_option("--vehicle", options->vehicle,
-                    "A vehicle by name (" + Joined(VehicleNames()) + ") or by its file")
-        ->capture_default_str();
-    verb.add_option("--wind", options->wind_mps, "Mean wind 6 m above ground, m/s")
-        ->check(FiniteRange(0.0, 15.0))
-        ->capture_default_str();
-    verb.add_option("--set", options->set, "One setting, e.g. slad.max_slope_deg=8");
+    options->mission.AddVehicle(verb);
+    options->mission.AddWind(verb, 15);
+    options->mission.AddSet(verb);
   };
   experiment.setup = [options] {
-    std::string text = "families " + Joined(options->Families()) + ", vehicle " + options->vehicle +
-                       ", wind " + CsvNumber(options->wind_mps) + " m/s";
-    for (const std::string& assignment : options->set) {
-      text += ", " + assignment;
-    }
-    return text;
+    return "families " + Joined(options->Families()) + ", vehicle " + options->mission.vehicle +
+           ", " + options->mission.WindText() + options->mission.SetText();
   };
   experiment.run = [options, camera = std::move(camera)](int, std::uint64_t seed) {
     return RunTrial(*options, seed, camera);

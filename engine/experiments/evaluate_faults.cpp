@@ -6,22 +6,19 @@
 
 #include <CLI/CLI.hpp>
 
-#include "engine/core/command_line.h"
 #include "engine/core/text.h"
 #include "engine/experiments/fault_flight.h"
+#include "engine/experiments/flight_options.h"
 #include "engine/report/statistics.h"
-#include "engine/runtime/settings_io.h"
 
 namespace palace {
 namespace {
 
 struct FaultOptions {
-  std::string scenario = "runway";
-  double wind_mps = 3;
+  FlightOptions mission{.wind_mps = 3};
   bool cameras = false;
   std::string phase = "both";
   std::string only;
-  std::vector<std::string> set;
 };
 
 bool Wanted(const FaultOptions& options, const FaultCase& row) {
@@ -85,11 +82,11 @@ TrialRow RowOfOutcome(const FaultCase& row, FaultPhase phase, const FaultOutcome
 
 Result<std::vector<TrialRow>> RunTrial(const FaultOptions& options, std::uint64_t seed,
                                        const SceneCameraFactory& camera) {
-  const Result<Settings> settings = SettingsOfCommandLine(Settings{}, {}, options.set);
-  if (!settings) {
-    return settings.error();
+  const Result<MissionFlight> asked = options.mission.Flight(seed);
+  if (!asked) {
+    return asked.error();
   }
-  const FaultFlight flight{options.scenario, options.wind_mps, seed, *settings};
+  const FaultFlight flight{asked->scenario, asked->wind_mps, asked->seed, asked->settings};
   std::vector<TrialRow> rows;
   for (const FaultCase& row : FaultCases()) {
     for (const FaultPhase phase : {FaultPhase::kArmed, FaultPhase::kDescent}) {
@@ -198,25 +195,19 @@ Experiment FaultsExperiment(SceneCameraFactory camera) {
   experiment.columns = {"fault", "row",   "phase",  "seen",     "named_by", "named_s", "said",
                         "does",  "end_s", "miss_m", "ground_s", "recorded", "wanting"};
   experiment.add_options = [options](CLI::App& verb) {
-    verb.add_option("--scenario", options->scenario, "Scene")->capture_default_str();
-    verb.add_option("--wind", options->wind_mps, "Mean wind 6 m above ground, m/s")
-        ->check(FiniteRange(0.0, 8.0))
-        ->capture_default_str();
+    options->mission.AddScenario(verb);
+    options->mission.AddWind(verb, 8);
     verb.add_flag("--cameras", options->cameras, "Faults of cameras only");
     verb.add_option("--phase", options->phase, "armed, descent or both")
         ->check(CLI::IsMember({"armed", "descent", "both"}))
         ->capture_default_str();
     verb.add_option("--only", options->only, "Faults whose name contains this");
-    verb.add_option("--set", options->set, "One setting, e.g. slad.max_slope_deg=8");
+    options->mission.AddSet(verb);
   };
   experiment.setup = [options] {
-    std::string text = "scene " + options->scenario + ", wind " + CsvNumber(options->wind_mps) +
-                       " m/s, phase " + options->phase + (options->cameras ? ", cameras" : "") +
-                       (options->only.empty() ? "" : ", only " + options->only);
-    for (const std::string& assignment : options->set) {
-      text += ", " + assignment;
-    }
-    return text;
+    return options->mission.SceneText() + ", " + options->mission.WindText() + ", phase " +
+           options->phase + (options->cameras ? ", cameras" : "") +
+           (options->only.empty() ? "" : ", only " + options->only) + options->mission.SetText();
   };
   experiment.run = [options, camera = std::move(camera)](int, std::uint64_t seed) {
     return RunTrial(*options, seed, camera);

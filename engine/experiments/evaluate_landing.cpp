@@ -7,15 +7,11 @@
 
 #include <CLI/CLI.hpp>
 
-#include "engine/core/command_line.h"
-#include "engine/core/text.h"
 #include "engine/core/units.h"
-#include "engine/experiments/mission_flight.h"
+#include "engine/experiments/flight_options.h"
 #include "engine/faults/fault_plan.h"
 #include "engine/report/statistics.h"
 #include "engine/report/svg_plot.h"
-#include "engine/runtime/settings_io.h"
-#include "engine/simulation/vehicle_file.h"
 
 namespace palace {
 namespace {
@@ -23,35 +19,23 @@ namespace {
 constexpr double kWanted_m = 0.5;  // touchdown beside the site
 
 struct LandingOptions {
-  std::string scenario = "runway";
-  std::string vehicle = kDefaultVehicle;
-  double wind_mps = 0;
-  std::vector<std::string> set;
+  FlightOptions mission;
   std::vector<std::string> faults;
   std::string faults_file;
 };
 
 Result<std::vector<TrialRow>> RunTrial(const LandingOptions& options, std::uint64_t seed,
                                        const SceneCameraFactory& camera) {
-  const Result<VehicleDescription> vehicle = LoadVehicle(options.vehicle);
-  if (!vehicle) {
-    return vehicle.error();
-  }
-  const Result<Settings> settings = SettingsOfCommandLine(SettingsFor(*vehicle), {}, options.set);
-  if (!settings) {
-    return settings.error();
+  Result<MissionFlight> flight = options.mission.Flight(seed);
+  if (!flight) {
+    return flight.error();
   }
   const Result<FaultPlan> plan = ReadFaultPlan(options.faults_file, options.faults);
   if (!plan) {
     return plan.error();
   }
-  const Result<FlownMission> done = FlyMission({.scenario = options.scenario,
-                                                .seed = seed,
-                                                .vehicle = *vehicle,
-                                                .settings = *settings,
-                                                .wind_mps = options.wind_mps,
-                                                .faults = *plan},
-                                               camera);
+  flight->faults = *plan;
+  const Result<FlownMission> done = FlyMission(*flight, camera);
   if (!done) {
     return done.error();
   }
@@ -173,26 +157,20 @@ Experiment LandingExperiment(SceneCameraFactory camera) {
       "lander_radius_m", "vision_error_mean_m", "vision_error_max_m", "gps_error_mean_m",
       "sink_mps",        "across_mps",          "tilt_deg",           "hard"};
   experiment.add_options = [options](CLI::App& verb) {
-    verb.add_option("--scenario", options->scenario, "Scene")->capture_default_str();
-    verb.add_option("--vehicle", options->vehicle,
-                    "A vehicle by name (" + Joined(VehicleNames()) + ") or by its file")
-        ->capture_default_str();
-    verb.add_option("--wind", options->wind_mps,
-                    "Mean wind 6 m above ground, m/s; with more at the vehicle than its limit (8 "
-                    "for the R-50) nothing can be approved")
-        ->check(FiniteRange(0.0, 15.0))
-        ->capture_default_str();
-    verb.add_option("--set", options->set, "One setting, e.g. slad.max_slope_deg=8");
+    options->mission.AddScenario(verb);
+    options->mission.AddVehicle(verb);
+    options->mission.AddWind(
+        verb, 15,
+        "; with more at the vehicle than its limit (8 for the R-50) nothing can be approved");
+    options->mission.AddSet(verb);
     verb.add_option("--fault", options->faults, kFaultHelp);
     verb.add_option("--faults", options->faults_file, kFaultsHelp);
   };
   experiment.setup = [options] {
-    std::string text =
-        "scene " + options->scenario + ", wind " + CsvNumber(options->wind_mps) + " m/s";
-    text += options->vehicle == kDefaultVehicle ? "" : ", vehicle " + options->vehicle;
-    for (const std::string& assignment : options->set) {
-      text += ", " + assignment;
-    }
+    std::string text = options->mission.SceneText() + ", " + options->mission.WindText();
+    text +=
+        options->mission.vehicle == kDefaultVehicle ? "" : ", vehicle " + options->mission.vehicle;
+    text += options->mission.SetText();
     text += options->faults_file.empty() ? "" : ", faults " + options->faults_file;
     for (const std::string& fault : options->faults) {
       text += ", fault " + fault;
