@@ -1,0 +1,75 @@
+// A log is cut, repaired and described; what is left out is counted.
+#include "engine/journal/log_tools.h"
+
+#include "engine/journal/export.h"
+#include "tests/journal/replay_flight.h"
+
+namespace palace {
+namespace {
+
+TEST_F(ReplayTest, CutKeepsWholeBundlesAndReplays) {
+  const auto cut = CutLog(flight_.log, folder_ / "cut.lcm", 0.35, 0.75);
+  ASSERT_TRUE(cut.ok()) << cut.error().message;
+  auto source = ReplaySource::Open(folder_ / "cut.lcm", Fast());
+  ASSERT_TRUE(source.ok()) << source.error().message;
+  ASSERT_EQ((*source)->bundles().size(), 4u);
+  for (std::size_t i = 4; i < 8; ++i) {
+    const auto got = (*source)->Next({});
+    EXPECT_EQ(Payloads(**got), Payloads(*flight_.items[i].bundle));
+  }
+}
+
+TEST_F(ReplayTest, RepairKeepsEveryReadableEvent) {
+  auto bytes = ReadBytes(flight_.log);
+  const std::size_t events = BuildIndex(*LogFile::Open(flight_.log))->entries.size();
+  bytes.resize(bytes.size() - 5);
+  bytes.insert(bytes.begin(), 50, 0x11);
+  WriteBytes(folder_ / "broken.lcm", bytes);
+  const auto written = RepairLog(folder_ / "broken.lcm", folder_ / "whole.lcm");
+  ASSERT_TRUE(written.ok()) << written.error().message;
+  EXPECT_EQ(written->events, events - 1);
+  EXPECT_EQ(written->left_out, 0u) << "what is no event any more is said by the check of the log";
+  const auto index = VerifyLog(*LogFile::Open(folder_ / "whole.lcm"));
+  EXPECT_EQ(index->entries.size(), events - 1);
+  EXPECT_FALSE(index->report.damaged());
+}
+
+TEST_F(ReplayTest, DescribesALogAndItsHealth) {
+  const auto whole = DescribeLog(flight_.log, true);
+  ASSERT_TRUE(whole.ok());
+  EXPECT_FALSE(whole->report.damaged());
+  EXPECT_EQ(whole->bundles, 12u);
+  EXPECT_NEAR(whole->duration_s, 1.1, 1e-9);
+  bool found = false;
+  for (const ChannelSummary& row : whole->channels) {
+    found = found || (row.name == "CAMERA_LEFT" && row.events == 12);
+  }
+  EXPECT_TRUE(found);
+}
+
+/// One byte of a message differs under a sidecar that fits: nothing but the checksum tells.
+TEST_F(JournalTest, WhatDiffersFromItsChecksumIsCountedByWhoeverLeavesItOut) {
+  const std::filesystem::path log = folder_ / "bit.lcm";
+  auto writer = LogWriter::Create(log);
+  for (int i = 0; i < 30; ++i) {
+    ASSERT_TRUE(writer->Write(EncodeEvent({{1'000'000 * (i + 1)}, EventKind::kState, "x"}, {})));
+  }
+  ASSERT_TRUE(writer->Close().ok());
+  auto bytes = ReadBytes(log);
+  bytes[bytes.size() - 2] ^= 1;  // the text of the last
+  WriteBytes(log, bytes);
+  const auto exported = ExportCsv(log, folder_ / "csv");
+  ASSERT_TRUE(exported.ok()) << exported.error().message;
+  EXPECT_EQ(exported->left_out, 1u);
+  const auto repaired = RepairLog(log, folder_ / "repaired.lcm");
+  ASSERT_TRUE(repaired.ok()) << repaired.error().message;
+  EXPECT_EQ(repaired->events, 29u);
+  EXPECT_EQ(repaired->left_out, 1u);
+  const auto end = CutLog(log, folder_ / "end.lcm", 20, 100);
+  EXPECT_EQ(end->left_out, 1u);
+  const auto start = CutLog(log, folder_ / "start.lcm", 0, 10);
+  EXPECT_EQ(start->left_out, 0u) << "only what was asked for";
+}
+
+}  // namespace
+}  // namespace palace
