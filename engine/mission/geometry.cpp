@@ -81,7 +81,8 @@ FlightPath PathTo(const MissionMemory& m, const LandingSite& site) {
 }
 
 const LandingSite* SiteInQuestion(const MissionMemory& m) {
-  const LandingSite* site = m.status.armed ? &*m.status.armed : FindSite(m.facts.sites, m.winner.site_id);
+  const LandingSite* site =
+      m.status.armed ? &*m.status.armed : FindSite(m.facts.sites, m.winner.site_id);
   return site != nullptr ? site : m.status.BestStanding(m.facts.sites);
 }
 
