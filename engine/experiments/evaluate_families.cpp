@@ -8,6 +8,7 @@
 #include <CLI/CLI.hpp>
 
 #include "engine/core/text.h"
+#include "engine/experiments/family_options.h"
 #include "engine/experiments/flight_options.h"
 #include "engine/report/statistics.h"
 #include "engine/world/families/families.h"
@@ -25,12 +26,7 @@ constexpr TruthArea kInView{.north_min_m = 4, .north_max_m = 40, .cell_m = 0.1};
 
 struct FamiliesOptions {
   FlightOptions mission;
-  std::vector<std::string> only;
-
-  std::vector<std::string> Families() const {
-    const std::vector<std::string_view> all = FamilyNames();
-    return only.empty() ? std::vector<std::string>(all.begin(), all.end()) : only;
-  }
+  FamilyOptions worlds;
 };
 
 TruthLimits LimitsOf(const Settings& settings) {
@@ -100,7 +96,7 @@ Result<std::vector<TrialRow>> RunTrial(const FamiliesOptions& options, std::uint
   flight->unapproved_limit_s = kUnapprovedLimit_s;
   flight->stopped_limit_s = kStoppedLimit_s;
   std::vector<TrialRow> rows;
-  for (const std::string& family : options.Families()) {
+  for (const std::string& family : options.worlds.Families()) {
     const Result<World> world = MakeFamily(family, seed);
     if (!world) {
       return world.error();
@@ -227,20 +223,14 @@ Experiment FamiliesExperiment(SceneCameraFactory camera) {
       "step_m",      "water_share", "moving_share", "touchdown_truth",  "site_truth", "hard",
       "safe_places", "why"};
   experiment.add_options = [options](CLI::App& verb) {
-    verb.add_option("--family", options->only,
-                    "Only this family; may be given again. Default: all of palacectl worlds")
-        ->check([](const std::string& name) {
-          return IsFamily(name) ? std::string()
-                                : "no family is called \"" + name +
-                                      "\"; known: " + Joined(FamiliesOptions{}.Families());
-        });
+    options->worlds.Add(verb);
     options->mission.AddVehicle(verb);
     options->mission.AddWind(verb, 15);
     options->mission.AddSet(verb);
   };
   experiment.setup = [options] {
-    return "families " + Joined(options->Families()) + ", vehicle " + options->mission.vehicle +
-           ", " + options->mission.WindText() + options->mission.SetText();
+    return options->worlds.Text() + ", vehicle " + options->mission.vehicle + ", " +
+           options->mission.WindText() + options->mission.SetText();
   };
   experiment.run = [options, camera = std::move(camera)](int, std::uint64_t seed) {
     return RunTrial(*options, seed, camera);

@@ -10,6 +10,7 @@
 #include "engine/core/command_line.h"
 #include "engine/core/text.h"
 #include "engine/core/units.h"
+#include "engine/experiments/family_options.h"
 #include "engine/experiments/ground_field.h"
 #include "engine/report/statistics.h"
 #include "engine/runtime/settings_io.h"
@@ -24,17 +25,12 @@ constexpr double kEasy = 0.6;          // of all limits
 constexpr double kHoverEnd_s = 1;
 
 struct GroundOptions {
-  std::vector<std::string> only;
+  FamilyOptions worlds;
   std::vector<double> heights_m = {8, 15, 20, 30};
   double pose_errors = 1;
   std::vector<std::string> set;
-
-  std::vector<std::string> Families() const {
-    const std::vector<std::string_view> all = FamilyNames();
-    return only.empty() ? std::vector<std::string>(all.begin(), all.end()) : only;
-  }
   std::string Setup() const {
-    std::string text = "families " + Joined(Families()) + ", heights";
+    std::string text = worlds.Text() + ", heights";
     for (const double height_m : heights_m) {
       text += " " + CsvNumber(height_m);
     }
@@ -115,7 +111,7 @@ Result<std::vector<TrialRow>> RunTrial(const GroundOptions& options, int trial,
     return settings.error();
   }
   std::vector<TrialRow> rows;
-  for (const std::string& family : options.Families()) {
+  for (const std::string& family : options.worlds.Families()) {
     const auto of_field = RunField(options, family, trial, seed, *settings);
     if (!of_field) {
       return of_field.error();
@@ -225,13 +221,7 @@ Experiment GroundExperiment() {
                         "verdict",         "of_limit",     "limit",    "probability",
                         "safe_distance_m", "north_m",      "east_m",   "why"};
   experiment.add_options = [options](CLI::App& verb) {
-    verb.add_option("--family", options->only,
-                    "Only this family; may be given again. Default: all of palacectl worlds")
-        ->check([](const std::string& name) {
-          return IsFamily(name) ? std::string()
-                                : "no family is called \"" + name +
-                                      "\"; known: " + Joined(GroundOptions{}.Families());
-        });
+    options->worlds.Add(verb);
     verb.add_option("--heights", options->heights_m,
                     "Heights over the ground, m, one a trial in turn (rmax has its own)")
         ->delimiter(',')
