@@ -133,7 +133,7 @@ const std::array<GuardRow, kGuardCount> kGuards = {{
                       : why;
          }},
     {.id = GuardId::kAttitude,
-     .words = "Attitude fresh",
+     .words = "Attitude fresh and right",
      .limit = {GuardLimits::pose_s, "s"},
      .why =
          [](const GuardInputs& in, const Limit& limit) {

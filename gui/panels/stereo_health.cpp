@@ -69,9 +69,14 @@ std::vector<HealthRow> RowsOf(const EngineSnapshot& snap) {
 void DrawStereoHealth(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui) {
   const Style& s = ui.style;
   const Palette& p = s.palette;
-  const Rect content = DrawPanelFrame(ui, rect, "Stereo health");
+  const std::shared_ptr<const RangeMap>& range = snap.terrain->range;
+  // On the ground no pair is matched any more: what stands here is of the last one.
+  const std::string age =
+      range ? AgeText(SecondsBetween(range->time, snap.time) + ui.silent_s) + " old" : "";
+  const Rect content = DrawPanelFrame(ui, rect, "Stereo health", {{age}});
+  ui.items.Add("health/age", {rect.x, rect.y, rect.w, content.y - rect.y}, true, age);
   float y = content.y + s.Px(12);
-  if (!snap.terrain->range) {
+  if (!range) {
     DrawText(ui, s.body, p.text2, content.x + s.Px(12), y, "No pair has been matched yet.");
     return;
   }

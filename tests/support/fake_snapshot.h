@@ -345,6 +345,7 @@ inline EngineSnapshot Snapshot(MissionState state = MissionState::kArmed,
   snap.terrain.Edit().range_agreement = {1.004, 0.0011, 40};
   auto range = std::make_shared<RangeMap>();
   range->camera = Camera();
+  range->time = {kNow_us - 100'000};
   snap.terrain.Edit().range = range;
   snap.session.Edit().settings_hash = snap.session.Edit().preview_hash = 0x4f2a9c;
   snap.terrain.Edit().applied =

@@ -154,6 +154,23 @@ TEST(DiagnoseWorkspace, StereoHealthNamesWhatIsWrong) {
   EXPECT_EQ(health("Range against the laser"), "fine: Range against the laser ––");
 }
 
+// On the ground no pair is matched any more.
+TEST(DiagnoseWorkspace, StereoHealthSaysHowOldItsPairIs) {
+  EngineSnapshot snap = fake::Snapshot(MissionState::kLanded);
+  for (const auto& [age_us, words] :
+       {std::pair{100'000, "100 ms old"}, {19'600'000, "19.6 s old"}}) {
+    auto range = std::make_shared<RangeMap>(*snap.terrain->range);
+    range->time = {snap.time.us - age_us};
+    snap.terrain.Edit().range = range;
+    UiHarness ui(1920, 1080);
+    DiagnoseState state;
+    ui.Frame([&](UiFrame& f) { DrawDiagnoseWorkspace(snap, BodyOf(1920, 1080), state, f); });
+    const Item* age = ui.items.Find("health/age");
+    ASSERT_NE(age, nullptr);
+    EXPECT_EQ(age->text, words);
+  }
+}
+
 TEST(DiagnoseWorkspace, TextsStayInTheirPanels) {
   for (const WindowSize& size : kWindowSizes) {
     SCOPED_TRACE(size.name);
