@@ -28,7 +28,13 @@ struct GroundOptions {
   FamilyOptions worlds;
   std::vector<double> heights_m = {8, 15, 20, 30};
   double pose_errors = 1;
+  std::string pictures{};  ///< where drawn pairs are kept; empty: nowhere
   std::vector<std::string> set;
+  KeptPictures Kept(const std::string& family, std::uint64_t seed, double height_m) const {
+    return pictures.empty() ? KeptPictures{}
+                            : KeptPictures(pictures, family + "-" + std::to_string(seed) + "-" +
+                                                         CsvNumber(height_m) + "m");
+  }
   std::string Setup() const {
     std::string text = worlds.Text() + ", heights";
     for (const double height_m : heights_m) {
@@ -87,7 +93,8 @@ Result<std::vector<TrialRow>> RunField(const GroundOptions& options, const std::
   field.safe_in_view = SeesSafeDisc(*world, field.plan, radius_m, limits, 1);
   field.easy_in_view =
       field.safe_in_view && SeesSafeDisc(*world, field.plan, radius_m, limits, kEasy);
-  const auto frames = LookAtGround(*world, field.plan, options.pose_errors, settings.stereo, seed);
+  const auto frames = LookAtGround(*world, field.plan, options.pose_errors, settings.stereo, seed,
+                                   options.Kept(family, seed, field.plan.height_m));
   if (!frames) {
     return frames.error();
   }
@@ -230,6 +237,9 @@ Experiment GroundExperiment() {
     verb.add_option("--pose-errors", options->pose_errors, "Times the pose errors of the draw")
         ->check(FiniteRange(0.0, 10.0))
         ->capture_default_str();
+    verb.add_option("--pictures", options->pictures,
+                    "Keep the drawn pairs in this folder and take those that are there, "
+                    "for the next run of another version of SLAD on the same ground");
     verb.add_option("--set", options->set, "One setting, e.g. slad.max_slope_deg=8");
   };
   experiment.setup = [options] { return options->Setup(); };

@@ -79,9 +79,15 @@ Result<std::vector<FieldFrame>> LookFromHover(const HoverView& view, const Pinho
     frame.X_WC_true = poses[i];
     const double time_s = static_cast<double>(i) * view.frame_interval_s;
     SceneView& seen = frame.input.view;
-    seen.left = std::make_shared<const ImageU8>(take(poses[i], false, time_s));
-    seen.right =
-        std::make_shared<const ImageU8>(take(RightOf(poses[i], view.baseline_m), true, time_s));
+    for (const bool right : {false, true}) {
+      Result<ImageU8> picture =
+          take(right ? RightOf(poses[i], view.baseline_m) : poses[i], right, time_s);
+      if (!picture) {
+        return picture.error();
+      }
+      (right ? seen.right : seen.left) =
+          std::make_shared<const ImageU8>(std::move(picture).value());
+    }
     const ViewPose believed{BelievedPose(poses[i], view, navigation)};
     frame.input.p_WB = believed.X_WC.p;
     const DisparityWindow window = PredictWindow(camera, view.baseline_m, believed.X_WC,

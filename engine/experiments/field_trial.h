@@ -52,8 +52,9 @@ struct FieldFrame {
 
 /// The picture that a camera takes there, at so many seconds.
 using TakePicture =
-    std::function<ImageU8(const RigidTransform& X_WCamera, bool right, double time_s)>;
-/// All frames of one hover, left picture before right. Errors are stereo's refusals.
+    std::function<Result<ImageU8>(const RigidTransform& X_WCamera, bool right, double time_s)>;
+/// All frames of one hover, left picture before right. Errors are stereo's refusals and the
+/// pictures' own.
 Result<std::vector<FieldFrame>> LookFromHover(const HoverView& view, const PinholeCamera& camera,
                                               const TakePicture& take,
                                               const StereoSettings& settings, std::uint64_t seed);

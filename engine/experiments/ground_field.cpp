@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
+#include <utility>
 
 #include "engine/camera/pinhole.h"
 #include "engine/world/ray_scene.h"
@@ -109,14 +111,19 @@ TruthArea AreaInView(const ViewPlan& plan, double ground_m) {
 
 Result<std::vector<FieldFrame>> LookAtGround(const World& world, const ViewPlan& plan,
                                              double pose_errors, const StereoSettings& settings,
-                                             std::uint64_t seed) {
-  const RayScene scene(world, std::max(kFinest_m, plan.height_m / plan.camera.fx_px));
+                                             std::uint64_t seed, KeptPictures kept) {
+  std::optional<RayScene> scene;  // dear; kept pictures need none
   std::uint64_t exposures = 0;
   const auto take = [&](const RigidTransform& X_WCamera, bool right, double time_s) {
     // Noise of its own for each pair.
     exposures += right ? 0 : 1;
-    return ExposeAs(plan, scene.Grey(plan.camera, X_WCamera, kSamples, time_s), right,
-                    1000 * seed + exposures);
+    return kept.Next(plan.camera.width, plan.camera.height, [&] {
+      if (!scene) {
+        scene.emplace(world, std::max(kFinest_m, plan.height_m / plan.camera.fx_px));
+      }
+      return ExposeAs(plan, scene->Grey(plan.camera, X_WCamera, kSamples, time_s), right,
+                      1000 * seed + exposures);
+    });
   };
   return LookFromHover(HoverOf(world, plan, pose_errors), plan.camera, take, settings, seed);
 }

@@ -14,6 +14,7 @@
 
 #include "engine/core/result.h"
 #include "engine/experiments/field_trial.h"
+#include "engine/experiments/kept_pictures.h"
 #include "engine/model/settings/settings.h"
 #include "engine/world/families/view_plan.h"
 #include "engine/world/ground_truth.h"
@@ -21,10 +22,10 @@
 namespace palace {
 
 /// Ten frames of the world as the plan looks at it: its lens, exposure, blur and vignetting; pose
-/// errors `pose_errors` times the plan's. Errors are stereo's refusals.
+/// errors `pose_errors` times the plan's. Errors are stereo's refusals and those of `kept`.
 Result<std::vector<FieldFrame>> LookAtGround(const World& world, const ViewPlan& plan,
                                              double pose_errors, const StereoSettings& settings,
-                                             std::uint64_t seed);
+                                             std::uint64_t seed, KeptPictures kept = {});
 
 /// By how much the worst touchdown breaks the limits.
 struct SiteTruth {
