@@ -158,6 +158,11 @@ SiteTruth TruthOfSite(const World& world, const Eigen::Vector2d& place_m, const 
   return worst;
 }
 
+bool SeenWhole(const World& world, const ViewPlan& plan, const Eigen::Vector2d& place_m,
+               double radius_m) {
+  return InBothPictures(world, plan, plan.X_WC(GroundSeen(world, plan)), place_m, radius_m);
+}
+
 bool SeesSafeDisc(const World& world, const ViewPlan& plan, double radius_m,
                   const TruthLimits& limits, double share) {
   const double ground_m = GroundSeen(world, plan);

@@ -50,6 +50,11 @@ const char* SiteVerdictName(SiteTruth::Verdict verdict);
 SiteTruth TruthOfSite(const World& world, const Eigen::Vector2d& place_m, const Lander& lander,
                       const TruthLimits& limits, double time_s);
 
+/// Whether both cameras see a disc about a place whole from the middle of the hover. Things that hide
+/// it are not asked.
+bool SeenWhole(const World& world, const ViewPlan& plan, const Eigen::Vector2d& place_m,
+               double radius_m);
+
 /// Whether the camera at the middle of the hover sees, whole and in both pictures, a disc of that
 /// radius on which every limit is kept to `share`. Things that hide it are not asked.
 bool SeesSafeDisc(const World& world, const ViewPlan& plan, double radius_m,

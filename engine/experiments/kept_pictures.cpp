@@ -18,9 +18,9 @@ Result<ImageU8> KeptPictures::Next(int width, int height, const std::function<Im
     Result<ImageU8> kept = ReadGreyPicture(path);
     if (kept && (kept->width() != width || kept->height() != height)) {
       return InvalidError(path.string() + ": " + std::to_string(kept->width()) + "x" +
-                               std::to_string(kept->height()) + " pixels, the field has " +
-                               std::to_string(width) + "x" + std::to_string(height) +
-                               "; delete the kept pictures");
+                          std::to_string(kept->height()) + " pixels, the field has " +
+                          std::to_string(width) + "x" + std::to_string(height) +
+                          "; delete the kept pictures");
     }
     return kept;
   }

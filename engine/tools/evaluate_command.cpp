@@ -15,6 +15,7 @@
 #include "engine/experiments/evaluate_site_shapes.h"
 #include "engine/experiments/evaluate_site_views.h"
 #include "engine/experiments/evaluate_stereo.h"
+#include "engine/experiments/evaluate_things.h"
 #include "engine/experiments/experiment.h"
 
 namespace palace {
@@ -31,8 +32,9 @@ void AddEvaluateCommand(CLI::App& app, int& exit_code, SceneCameraFactory camera
       *evaluate,
       {LandingExperiment(camera), FamiliesExperiment(camera), FaultsExperiment(camera),
        ImageTimeExperiment(std::move(camera)), StereoAccuracyExperiment(), StereoCostExperiment(),
-       CalibrationExperiment(), GroundExperiment(), ProbabilityExperiment(), SiteFlagsExperiment(),
-       SiteLidarExperiment(), SiteRangeExperiment(), SiteShapesExperiment(), SiteViewsExperiment()},
+       CalibrationExperiment(), GroundExperiment(), ProbabilityExperiment(), ThingsExperiment(),
+       SiteFlagsExperiment(), SiteLidarExperiment(), SiteRangeExperiment(), SiteShapesExperiment(),
+       SiteViewsExperiment()},
       exit_code);
 }
 
