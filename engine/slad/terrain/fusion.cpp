@@ -23,6 +23,8 @@ constexpr int kLongestMemory_frames = 50;
 /// Stereo errs on the same ground by this much in every frame: texture under the window, steps of
 /// whole pixels. It does not average away.
 constexpr double kRepeated_px = 0.012;
+/// What is left of a frame's place sideways, once its picture told the rest.
+constexpr double kRegistered_m = 0.015;
 constexpr double kNarrow_m = 0.08;  // the upper half of a small cone, a post
 /// The map follows the view once its centre is off by this share of its size.
 constexpr double kSlack = 0.08;
@@ -138,12 +140,14 @@ void TerrainFusion::Reset() {
   disagreement_ = {};
   spread_ = {};
   pixels_ = {};
+  sideways_.Reset();
   frames_ = 0;
 }
 
-std::shared_ptr<const ElevationMap> TerrainFusion::Add(
-    const RangeMap& range, const SladSettings& settings,
-    const std::optional<Eigen::Vector2d>& around) {
+std::shared_ptr<const ElevationMap> TerrainFusion::Add(const RangeMap& range,
+                                                       const SladSettings& settings,
+                                                       const std::optional<Eigen::Vector2d>& around,
+                                                       const ImageU8* left) {
   PALACE_CHECK(range.pose.has_value() && range.FocalTimesBaseline() > 0, range.baseline_m);
   if (!SameLayout(settings, layout_)) {
     Reset();
@@ -163,15 +167,22 @@ std::shared_ptr<const ElevationMap> TerrainFusion::Add(
       MoveTo(wanted);
     }
   }
-  ElevationMap frame =
-      AccumulateCells(points, map_.geometry, settings.mode, kCorrelatedPixels, range.time);
   Age(range.time);
   const std::uint64_t ranges = SampledHash(range);
   // The very same ranges from the same place again, as of a still picture, say nothing new.
   if (frames_ == 0 || points.empty() || ranges != last_ranges_) {
-    Register(frame);
-    Fuse(frame, MisplacedVariance(*range.pose, frame), settings.fusion.frames_fused);
-    AddPixels(range, settings.fusion.frames_fused);
+    SidewaysRegistration::Shift shift;
+    if (left != nullptr) {
+      shift = sideways_.Add(range, *left, map_.geometry, settings.fusion.frames_fused);
+    }
+    if (shift.told) {
+      RangeMap moved = range;
+      moved.pose->X_WC.p.head<2>() += shift.by_m;
+      moved.pose->sigmas.position_m = kRegistered_m;
+      FuseFrame(moved, PointsFromRange(moved), settings);
+    } else {
+      FuseFrame(range, points, settings);
+    }
   }
   last_ranges_ = ranges;
   // Frames without a point do not count: the first real one lays out the grid.
@@ -180,10 +191,21 @@ std::shared_ptr<const ElevationMap> TerrainFusion::Add(
   auto published = std::make_shared<ElevationMap>(map_);
   AddReliefBetweenFrames(spread_, *published);
   const GridF repeated_m2 = RepeatedVariance(range, *published);
+  published->narrow =
+      MeasureNarrowRelief(range.camera, range.pose->X_WC.p, kNarrow_m, repeated_m2, *published);
   RaiseNarrowRelief(range.camera, range.pose->X_WC.p, kNarrow_m, pixels_, repeated_m2, *published);
   AddVariance(repeated_m2, *published);
   FillHoles(*published, settings.grid.data_size_cells, settings.grid.border_size_cells);
   return published;
+}
+
+void TerrainFusion::FuseFrame(const RangeMap& range, const TerrainPoints& points,
+                              const SladSettings& settings) {
+  ElevationMap frame =
+      AccumulateCells(points, map_.geometry, settings.mode, kCorrelatedPixels, range.time);
+  Register(frame);
+  Fuse(frame, MisplacedVariance(*range.pose, frame), settings.fusion.frames_fused);
+  AddPixels(range, settings.fusion.frames_fused);
 }
 
 void TerrainFusion::MoveTo(const GridGeometry& geometry) {

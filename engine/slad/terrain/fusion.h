@@ -2,7 +2,8 @@
 //
 // Each cell keeps a mean m, its variance P and a count. A frame's cell mean z with variance R is
 // first corrected by a plane (offset, north tilt, east tilt) fitted robustly to z - m, because the
-// noise of attitude and position moves a frame as a whole, then fused as
+// noise of attitude and position moves a frame as a whole, then fused as (sideways it is moved
+// before, by its picture: sideways_registration.h)
 //
 //   1/P' = lambda/P + 1/R,   m' = P' (lambda m / P + z / R)
 //
@@ -12,8 +13,8 @@
 // Of a cell's points the mean is fused as the measured ground, and by the same weights the mean
 // with the relief inside the cell as its top. What frames disagree about by more than noise is
 // relief (frame_spread.h): it is added to the published top. So is what stands too narrow for
-// stereo's window, or so steep that stereo refuses its sides (narrow_relief.h). None of them touches
-// the measured ground.
+// stereo's window, or so steep that stereo refuses its sides (narrow_relief.h). None of them
+// touches the measured ground.
 //
 // A cell that disagrees by more than the gate, three sigmas of
 //
@@ -38,6 +39,8 @@
 #include "engine/model/settings/settings.h"
 #include "engine/slad/terrain/frame_spread.h"
 #include "engine/slad/terrain/refused_pixels.h"
+#include "engine/slad/terrain/sideways_registration.h"
+#include "engine/slad/terrain/terrain_points.h"
 
 namespace palace {
 
@@ -48,12 +51,16 @@ class TerrainFusion {
   /// Fuses one range map, which has a pose and a baseline, and returns the new map. A change of
   /// mode, cell size, grid size or bounds starts afresh. `around`: a place (north, east) that the
   /// map keeps in its middle half wherever the view goes, so that its edge comes not near it.
+  /// `left`: the picture that belongs to it, null without one: then nothing tells what the pose
+  /// lays aside.
   std::shared_ptr<const ElevationMap> Add(const RangeMap& range, const SladSettings& settings,
-                                          const std::optional<Eigen::Vector2d>& around = {});
+                                          const std::optional<Eigen::Vector2d>& around = {},
+                                          const ImageU8* left = nullptr);
 
  private:
   void MoveTo(const GridGeometry& geometry);
   void Register(ElevationMap& frame);
+  void FuseFrame(const RangeMap& range, const TerrainPoints& points, const SladSettings& settings);
   void Age(Timestamp now);
   void AddPixels(const RangeMap& range, int frames_fused);
   void Fuse(const ElevationMap& frame, const GridF& misplaced_m2, int frames_fused);
@@ -62,6 +69,7 @@ class TerrainFusion {
   Grid<std::int8_t> disagreement_;  ///< sign of the last frame that failed the gate, 0 none
   Grid<FrameSpread> spread_;
   Grid<PixelCount> pixels_;
+  SidewaysRegistration sideways_;
   SladSettings layout_;  ///< settings the grid was laid out with
   int frames_ = 0;
   std::uint64_t last_ranges_ = 0;  ///< sampled hash of the last range map and its pose
