@@ -26,6 +26,14 @@ enum TerrainFlag : std::uint8_t {
   kFlagElevated = 16,      ///< flat top raised above its surroundings: roof, table, vehicle
 };
 
+/// What a thing too narrow for stereo's window would have shown in each cell, against what shows.
+/// NaN where nothing can be said. hidden_things.h draws the conclusion.
+struct NarrowFigures {
+  GridF prominence_m;  ///< of the measured ground above the ring around it
+  GridF sigma_m;       ///< its noise, what stereo repeats included
+  GridF share;         ///< of its height that a thing 18 cm across shows, smeared
+};
+
 /// Heights are metres above the origin of W, up-positive. NaN where state is kUnknown.
 ///
 /// Two heights a cell: the ground as measured, and over it the top of what stands or may stand
@@ -42,6 +50,7 @@ struct ElevationMap {
   GridF measured_m{};          ///< ground as measured; empty: the same as height_m
   GridF age_s{};               ///< since the cell was last measured; empty: all of one frame
   Grid<std::uint8_t> flags{};  ///< TerrainFlag bits; empty: none
+  NarrowFigures narrow{};              ///< empty: not asked (a survey, thesis mode)
   /// Of the newest pose the heights were taken from: the slope of everything is off by this much.
   double attitude_sigma_rad = PoseSigmas{}.attitude_rad;
 

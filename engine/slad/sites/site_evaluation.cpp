@@ -9,7 +9,7 @@
 #include "engine/model/site_standing.h"
 #include "engine/slad/hazards/hazard_layers.h"
 #include "engine/slad/hazards/touchdown.h"
-#include "engine/slad/terrain/narrow_relief.h"
+#include "engine/slad/sites/hidden_things.h"
 
 namespace palace {
 namespace {
@@ -127,21 +127,12 @@ int FramesOfMost(std::vector<std::uint16_t>& counts) {
   return *tenth;
 }
 
-/// Of a rock: 18.1 m with the standard rig (640 px, 60 degrees). Beyond, cones of 18 in begin to
-/// pass for ground: no site chosen from 20 to 50 ft had one inside its clear radius, 4 of 125 from
-/// 60 ft, one in five from 70 ft.
-constexpr double kSeenWith = 0.735;
-
-/// Whether rocks are larger than what they are seen with, stereo's window and the map's cell: what
-/// is smaller may pass for ground, however little noise there is.
-bool RocksAreSeen(const ElevationMap& map, const Lander& lander, const SiteContext& context,
-                  const LandingSite& site) {
-  if (map.geometry.cell_m > lander.max_rock_size_m) {
-    return false;
-  }
-  const double depth_m = (context.X_WC.Inverse() * site.p_WS).z();
-  return context.camera.width == 0 ||
-         kStereoWindow_px * depth_m / context.camera.fx_px <= kSeenWith * lander.max_rock_size_m;
+/// Whether hardly anything too high or too deep can be hidden within the clear radius: what was not
+/// seen is not safe, however little noise there is.
+bool NothingHides(const ElevationMap& map, const SladSettings& settings, Cell centre,
+                  double radius_m) {
+  return map.geometry.cell_m <= settings.lander.max_rock_size_m &&
+         HiddenThings(map, settings.limits.max_deviation_m, centre, radius_m) <= kMostHidden;
 }
 
 /// Surveys and thesis mode have no frames to wait for.
@@ -198,7 +189,7 @@ LandingSite EvaluateSite(const ElevationMap& map, const HazardMaps& hazards,
                       site.safe_probability >= settings.limits.min_safe_probability;
   site.confirmed = likely && site.height_m.three_sigma < settings.limits.max_deviation_m &&
                    FramesAgree(settings, context, site) &&
-                   RocksAreSeen(map, settings.lander, context, site);
+                   NothingHides(map, settings, cell, site.clear_radius_m);
   site.distance_m = (context.p_WB - site.p_WS).head<2>().norm();
   const std::optional<Approach> straight = StraightApproach(settings, context, site);
   site.corridor_clear = !straight || IsClear(*straight, map, settings, site);

@@ -30,6 +30,8 @@ constexpr double kMostFactor = 6;
 constexpr double kSteepFactor = 4;
 constexpr double kTallest_m = 1;
 constexpr double kMostRefused = 0.15;  // share of a cell's pixels
+constexpr double kThing_m = 0.18;      // half as wide again as it is high, at 1.2 times the limit
+constexpr double kPeakOfThing = 0.8;   // of its height, once smeared: it is no box
 
 /// The ground around a cell: the plane through its ring.
 struct Ring {
@@ -60,9 +62,9 @@ bool IsMeasured(const ElevationMap& map, Cell cell) {
 
 /// Places count in pairs that face each other, so that a slope's mean is the cell's own height
 /// where part of the ring is unknown. Without a plane: no place.
-Ring RingAround(const ElevationMap& map, const HalfCircle& directions, Cell cell,
-                double radius_cells) {
-  const double own_m = static_cast<double>(map.height_m.at(cell));
+Ring RingAround(const ElevationMap& map, const GridF& heights_m, const HalfCircle& directions,
+                Cell cell, double radius_cells) {
+  const double own_m = static_cast<double>(heights_m.at(cell));
   Ring ring;
   double sum = 0, square = 0;
   double rr = 0, rc = 0, cc = 0, rz = 0, cz = 0;  // sums of products: row, column, height
@@ -73,8 +75,8 @@ Ring RingAround(const ElevationMap& map, const HalfCircle& directions, Cell cell
     if (!IsMeasured(map, ahead) || !IsMeasured(map, behind)) {
       continue;
     }
-    const double a = static_cast<double>(map.height_m.at(ahead)) - own_m;
-    const double b = static_cast<double>(map.height_m.at(behind)) - own_m;
+    const double a = static_cast<double>(heights_m.at(ahead)) - own_m;
+    const double b = static_cast<double>(heights_m.at(behind)) - own_m;
     sum += a + b;
     square += a * a + b * b;
     rr += 2.0 * dr * dr;
@@ -109,13 +111,14 @@ double SigmasProminent(const ElevationMap& map, const Ring& ring, Cell cell, int
                                   kLeastVariance_m2);
 }
 
-/// The same of the highest of the four cells beside; 0 where none is known. Noise seldom stands
-/// twice; a thing as wide as the window lies in more than one cell.
-double SigmasBeside(const ElevationMap& map, const Ring& ring, Cell cell) {
+/// The same, times `side`, of the one of the four cells beside that is farthest on that side; 0
+/// where none is known. Noise seldom stands twice; a thing as wide as the window lies in more than
+/// one cell.
+double SigmasBeside(const ElevationMap& map, const Ring& ring, Cell cell, double side) {
   double most = 0;
   for (const auto& [dr, dc] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}}) {
     if (IsMeasured(map, {cell.row + dr, cell.col + dc})) {
-      most = std::max(most, SigmasProminent(map, ring, cell, dr, dc));
+      most = std::max(most, side * SigmasProminent(map, ring, cell, dr, dc));
     }
   }
   return most;
@@ -144,9 +147,9 @@ class MatchingWindow {
     return per_m_ * (p_WQ - p_WC_).norm();
   }
 
-  Ring RingAt(const ElevationMap& map, Cell cell) const {
+  Ring RingAt(const ElevationMap& map, const GridF& heights_m, Cell cell) const {
     const double radius_m = kRingWindows * Width_m(map, cell) + narrow_m_ / 2;
-    return RingAround(map, directions_, cell,
+    return RingAround(map, heights_m, directions_, cell,
                       std::max(kLeastRing_cells, radius_m / map.geometry.cell_m));
   }
 
@@ -157,23 +160,55 @@ class MatchingWindow {
 };
 
 /// What measured cells stand above their rings by, m; NaN without a ring.
-GridF ProminenceMap(const ElevationMap& map, const MatchingWindow& window) {
-  GridF prominence_m(map.geometry.rows, map.geometry.cols, kUnknownValue);
-  cv::parallel_for_(cv::Range(0, prominence_m.rows()), [&](const cv::Range& rows) {
+struct Prominences {
+  GridF height_m;
+  GridF sigma_m;  ///< of it, without what stereo repeats
+};
+
+Prominences ProminencesOf(const ElevationMap& map, const GridF& heights_m,
+                          const MatchingWindow& window) {
+  const GridF unknown(map.geometry.rows, map.geometry.cols, kUnknownValue);
+  Prominences prominence{unknown, unknown};
+  cv::parallel_for_(cv::Range(0, unknown.rows()), [&](const cv::Range& rows) {
     for (int r = rows.start; r < rows.end; ++r) {
-      for (int c = 0; c < prominence_m.cols(); ++c) {
+      for (int c = 0; c < unknown.cols(); ++c) {
         if (!IsMeasured(map, {r, c})) {
           continue;
         }
-        const Ring ring = window.RingAt(map, {r, c});
+        const Ring ring = window.RingAt(map, heights_m, {r, c});
         if (ring.places >= kLeastPlaces) {
-          prominence_m.at(r, c) =
-              static_cast<float>(static_cast<double>(map.height_m.at(r, c)) - ring.mean_m);
+          prominence.height_m.at(r, c) =
+              static_cast<float>(static_cast<double>(heights_m.at(r, c)) - ring.mean_m);
+          prominence.sigma_m.at(r, c) = static_cast<float>(
+              std::sqrt(static_cast<double>(map.variance_m2.at(r, c)) + ring.variance_m2));
         }
       }
     }
   });
-  return prominence_m;
+  return prominence;
+}
+
+/// What a thing kThing_m wide would show against what the measured ground shows.
+NarrowFigures FiguresOf(const ElevationMap& map, const MatchingWindow& window,
+                        const GridF& repeated_m2) {
+  const GridGeometry& g = map.geometry;
+  const GridF unknown(g.rows, g.cols, kUnknownValue);
+  Prominences prominence = ProminencesOf(map, map.Measured(), window);
+  NarrowFigures figures{std::move(prominence.height_m), std::move(prominence.sigma_m), unknown};
+  for (int r = 0; r < g.rows; ++r) {
+    for (int c = 0; c < g.cols; ++c) {
+      float& sigma_m = figures.sigma_m.at(r, c);
+      if (std::isnan(sigma_m)) {
+        continue;
+      }
+      const float repeated = repeated_m2.empty() ? 0.0F : repeated_m2.at(r, c);
+      sigma_m = std::sqrt(sigma_m * sigma_m + repeated);
+      const double spread_m2 = std::pow(window.Width_m(map, {r, c}), 2) + g.cell_m * g.cell_m;
+      figures.share.at(r, c) =
+          static_cast<float>(kPeakOfThing / (1 + spread_m2 / (kThing_m * kThing_m)));
+    }
+  }
+  return figures;
 }
 
 /// Whether the window is wider than a narrow thing anywhere.
@@ -188,8 +223,8 @@ bool SmearsAnywhere(const ElevationMap& map, const MatchingWindow& window, doubl
   return false;
 }
 
-/// Whether a cell that stands `prominence_m` above its ring is a thing on its own: not noise, not
-/// rough ground, not the edge of something wide.
+/// Whether a cell that stands `prominence_m` above its ring, or below where that is negative, is a
+/// thing or a hole on its own: not noise, not rough ground, not the edge of something wide.
 bool IsProminent(const ElevationMap& map, const Ring& ring, Cell cell, double prominence_m,
                  double ground_rough_m, double repeated_m2) {
   const double noise_m2 = static_cast<double>(map.variance_m2.at(cell)) + ring.variance_m2 +
@@ -201,12 +236,19 @@ bool IsProminent(const ElevationMap& map, const Ring& ring, Cell cell, double pr
   if (prominence_m * prominence_m <= needed_m2) {
     return false;
   }
-  const double sigmas = SigmasProminent(map, ring, cell, 0, 0);
+  const double side = prominence_m < 0 ? -1 : 1;
+  const double sigmas = side * SigmasProminent(map, ring, cell, 0, 0);
   const double beside = sigmas > kClearSigmas ? kBesideClearSigmas : kBesideSigmas;
-  return sigmas > kSigmas && SigmasBeside(map, ring, cell) > beside;
+  return sigmas > kSigmas && SigmasBeside(map, ring, cell, side) > beside;
 }
 
 }  // namespace
+
+NarrowFigures MeasureNarrowRelief(const PinholeCamera& camera, const Eigen::Vector3d& p_WC,
+                                  double narrow_m, const GridF& repeated_m2,
+                                  const ElevationMap& map) {
+  return FiguresOf(map, MatchingWindow(camera, p_WC, narrow_m), repeated_m2);
+}
 
 void RaiseNarrowRelief(const PinholeCamera& camera, const Eigen::Vector3d& p_WC, double narrow_m,
                        const Grid<PixelCount>& pixels, const GridF& repeated_m2,
@@ -219,25 +261,25 @@ void RaiseNarrowRelief(const PinholeCamera& camera, const Eigen::Vector3d& p_WC,
   if (pixels.empty() && !SmearsAnywhere(map, window, narrow_m)) {
     return;
   }
-  const GridF prominence = ProminenceMap(map, window);
+  const GridF prominence = ProminencesOf(map, map.height_m, window).height_m;
   const GroundRoughness roughness(prominence, g.cell_m);
   GridF raised = map.height_m;
   for (int r = 0; r < g.rows; ++r) {
     for (int c = 0; c < g.cols; ++c) {
       const double prominence_m = static_cast<double>(prominence.at(r, c));
       const double sigma_m = std::sqrt(static_cast<double>(map.variance_m2.at(r, c)));
-      if (!(prominence_m > kSigmas * sigma_m)) {
+      const double off_m = std::abs(prominence_m);
+      if (!(off_m > kSigmas * sigma_m)) {
         continue;
       }
       const double widths = window.Width_m(map, {r, c}) / narrow_m;
       const double factor = std::clamp(
           widths * widths, ManyRefused(pixels, g, r, c) ? kSteepFactor : 1.0, kMostFactor);
       const double repeated = repeated_m2.empty() ? 0.0 : static_cast<double>(repeated_m2.at(r, c));
-      if (factor > 1 && IsProminent(map, window.RingAt(map, {r, c}), {r, c}, prominence_m,
-                                    roughness.At(r, c), repeated)) {
-        const double must_be_m =
-            std::max(prominence_m, std::min(factor * prominence_m, kTallest_m));
-        raised.at(r, c) += static_cast<float>(must_be_m - prominence_m);
+      if (factor > 1 && IsProminent(map, window.RingAt(map, map.height_m, {r, c}), {r, c},
+                                    prominence_m, roughness.At(r, c), repeated)) {
+        const double must_be_m = std::max(off_m, std::min(factor * off_m, kTallest_m));
+        raised.at(r, c) += static_cast<float>(std::copysign(must_be_m - off_m, prominence_m));
       }
     }
   }
