@@ -13,7 +13,7 @@ void main() {
     vec2 at = vec2(i % 2 == 0 ? -0.25 : 0.25, i < 2 ? -0.25 : 0.25);
     grey += 0.25 * textureGrad(lit, uv + at.x * dx + at.y * dy, 0.35 * dx, 0.35 * dy).r;
   }
-  if (has_movers > 0.5) {
+  if (has_movers) {
     vec3 above = place_W - vec3(0.0, 0.0, 0.02);
     float hidden = (1.0 - SeenPastMovers(above)) * Seen(still_map, above);
     grey *= mix(1.0, shade, hidden);

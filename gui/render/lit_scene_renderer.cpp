@@ -8,10 +8,10 @@
 #include <utility>
 #include <vector>
 
-#include "engine/world/ground_mesh.h"
 #include "engine/world/ray_scene.h"
 #include "gui/render/camera_clip.h"
 #include "gui/render/framebuffer.h"
+#include "gui/render/ground_buffer.h"
 #include "gui/render/mesh_buffer.h"
 #include "gui/render/shader.h"
 #include "gui/render/sun_map.h"
@@ -53,14 +53,6 @@ MeshBuffer SolidBuffer(const World& world) {
   return buffer;
 }
 
-MeshBuffer GroundBuffer(const Ground& ground, double tolerance_m) {
-  const std::vector<Eigen::Vector3f> corners = GroundTriangles(ground, tolerance_m);
-  MeshBuffer buffer;
-  buffer.Start(corners.data(), corners.size() * sizeof(Eigen::Vector3f), corners.size());
-  buffer.Attribute(0, 3, sizeof(Eigen::Vector3f), 0);
-  return buffer;
-}
-
 Eigen::Vector3f Single(const Eigen::Vector3d& v) { return v.cast<float>(); }
 
 /// The square itself, k = 0, or its neighbour that way: north = x * north + y.
@@ -83,17 +75,21 @@ struct LitSceneRenderer::Parts {
   Eigen::Matrix4f sun_from_world;
   ShaderProgram ground_shader, object_shader, ground_depth_shader, object_depth_shader;
   GlTexture lit, grain;
-  MeshBuffer fine, coarse, solids;
+  GroundBuffer fine, coarse;
+  MeshBuffer solids;
   std::vector<Mover> movers;
   SunMap still_map, moving_map;
   Framebuffer target;
+  bool cull = true;
 
   Status Build(const RayScene& scene);
   Status BuildShaders();
   Status Draw(const PinholeCamera& camera, const RigidTransform& X_WC, double time_s, int samples);
   void DrawInto(const Framebuffer& into, const PinholeCamera& camera, const RigidTransform& X_WC,
                 double time_s);
-  void DrawGround(const ShaderProgram& shader, bool neighbours) const;
+  GroundPlacing Place(const ShaderProgram& shader, int i, int j, float lower_m) const;
+  void DrawGround(const ShaderProgram& shader, const Eigen::Matrix4f& clip,
+                  const Eigen::Vector3d& p_W) const;
   void DrawSolids(const ShaderProgram& shader) const;
   void DrawMovers(const ShaderProgram& shader, double time_s) const;
   void UseShadows(const ShaderProgram& shader) const;
@@ -104,9 +100,11 @@ struct LitSceneRenderer::Parts {
 
 Status LitSceneRenderer::Parts::BuildShaders() {
   constexpr std::string_view kVersion = "#version 330 core\n";
-  const std::initializer_list<std::string_view> ground = {kVersion, shader_text::sun_shadow,
+  const std::string_view moves =
+      movers.empty() ? "const bool has_movers = false;\n" : "const bool has_movers = true;\n";
+  const std::initializer_list<std::string_view> ground = {kVersion, moves, shader_text::sun_shadow,
                                                           shader_text::lit_ground_fragment};
-  const std::initializer_list<std::string_view> object = {kVersion, shader_text::sun_shadow,
+  const std::initializer_list<std::string_view> object = {kVersion, moves, shader_text::sun_shadow,
                                                           shader_text::lit_object_fragment};
   const std::initializer_list<std::string_view> depth = {shader_text::shadow_fragment};
   struct Wanted {
@@ -149,8 +147,8 @@ Status LitSceneRenderer::Parts::Build(const RayScene& scene) {
     movers.push_back({SolidBuffer(alone), solid.v_WO});
   }
   solids = SolidBuffer(standing);
-  fine = GroundBuffer(world.ground, kFine_m);
-  coarse = GroundBuffer(world.ground, kCoarse_m);
+  fine.Start(MeshGround(world.ground, kFine_m));
+  coarse.Start(MeshGround(world.ground, kCoarse_m));
   if (const Status built = BuildShaders(); !built) {
     return built;
   }
@@ -173,7 +171,8 @@ Status LitSceneRenderer::Parts::Build(const RayScene& scene) {
   glDepthMask(GL_TRUE);
   still_map.Begin();
   View(ground_depth_shader, sun_from_world, Eigen::Vector3d::Zero());
-  DrawGround(ground_depth_shader, /*neighbours=*/false);
+  Place(ground_depth_shader, 0, 0, 0);
+  fine.Draw();
   View(object_depth_shader, sun_from_world, Eigen::Vector3d::Zero());
   DrawSolids(object_depth_shader);
   return Ok();
@@ -186,23 +185,31 @@ void LitSceneRenderer::Parts::View(const ShaderProgram& shader, const Eigen::Mat
   shader.Set("camera_W", Single(p_W));
 }
 
-void LitSceneRenderer::Parts::DrawGround(const ShaderProgram& shader, bool neighbours) const {
-  shader.Set("rise", Eigen::Vector2f(static_cast<float>(world.ground.rise_north),
-                                     static_cast<float>(world.ground.rise_east)));
-  const int reach = neighbours ? 1 : 0;
-  for (int i = -reach; i <= reach; ++i) {
-    for (int j = -reach; j <= reach; ++j) {
-      const auto [north, north_off] = Mirror(i, square.north_m, square.size_m);
-      const auto [east, east_off] = Mirror(j, square.east_m, square.size_m);
-      shader.Set("mirror", Eigen::Vector4f(north, north_off, east, east_off));
+GroundPlacing LitSceneRenderer::Parts::Place(const ShaderProgram& shader, int i, int j,
+                                             float lower_m) const {
+  const auto [north, north_off] = Mirror(i, square.north_m, square.size_m);
+  const auto [east, east_off] = Mirror(j, square.east_m, square.size_m);
+  const GroundPlacing placing{
+      {north, north_off, east, east_off},
+      {static_cast<float>(world.ground.rise_north), static_cast<float>(world.ground.rise_east)},
+      lower_m};
+  shader.Set("mirror", placing.mirror);
+  shader.Set("rise", placing.rise);
+  shader.Set("lower_m", placing.lower_m);
+  return placing;
+}
+
+void LitSceneRenderer::Parts::DrawGround(const ShaderProgram& shader, const Eigen::Matrix4f& clip,
+                                         const Eigen::Vector3d& p_W) const {
+  const auto draw = [&](const GroundBuffer& mesh, const GroundPlacing& placing) {
+    mesh.DrawNearFirst(placing, p_W, cull ? &clip : nullptr);
+  };
+  draw(fine, Place(shader, 0, 0, 0));
+  for (int i = -1; i <= 1; ++i) {
+    for (int j = -1; j <= 1; ++j) {
       const bool middle = i == 0 && j == 0;
-      if (middle) {
-        shader.Set("lower_m", 0.0F);
-        fine.Draw();
-      }
-      if (neighbours) {
-        shader.Set("lower_m", middle ? kUnderlay_m : 0.0F);
-        coarse.Draw();
+      if (!middle || world.ground.relief) {
+        draw(coarse, Place(shader, i, j, middle ? kUnderlay_m : 0.0F));
       }
     }
   }
@@ -236,7 +243,6 @@ void LitSceneRenderer::Parts::UseShadows(const ShaderProgram& shader) const {
   }
   glActiveTexture(GL_TEXTURE0);
   shader.Set("sun_from_world", sun_from_world);
-  shader.Set("has_movers", movers.empty() ? 0.0F : 1.0F);
 }
 
 LitSceneRenderer::LitSceneRenderer(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
@@ -263,6 +269,8 @@ Status LitSceneRenderer::Parts::Draw(const PinholeCamera& camera, const RigidTra
   DrawInto(target, camera, X_WC, time_s);
   return Ok();
 }
+
+void LitSceneRenderer::CullGround(bool on) { parts_->cull = on; }
 
 void LitSceneRenderer::DrawInto(const Framebuffer& target, const PinholeCamera& camera,
                                 const RigidTransform& X_WC, double time_s) {
@@ -301,7 +309,7 @@ void LitSceneRenderer::Parts::DrawInto(const Framebuffer& into, const PinholeCam
                                               static_cast<float>(square.size_m)));
   ground_shader.Set(
       "shade", static_cast<float>(sun.diffuse / LightOn(sun, world.ground.Normal(), /*lit=*/true)));
-  DrawGround(ground_shader, /*neighbours=*/true);
+  DrawGround(ground_shader, clip_from_world, X_WC.p);
 }
 
 Result<ImageU8> LitSceneRenderer::Render(const PinholeCamera& camera, const RigidTransform& X_WC,

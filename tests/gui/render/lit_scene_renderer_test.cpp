@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "engine/core/random.h"
 #include "engine/core/units.h"
 #include "engine/world/lattice_noise.h"
 #include "engine/world/ray_scene.h"
@@ -64,6 +65,41 @@ TEST_F(LitScene, IsWhatRaysMeet) {
                 view.tilt_deg, median, most);
     EXPECT_LE(median, 2);
     EXPECT_LE(most, 25);
+  }
+}
+
+TEST_F(LitScene, GroundThatIsNotDrawnIsNotSeen) {
+  // Cameras inside and outside of the square (north -8 .. 24, east -16 .. 16), at its edge and over
+  // the middle of its mirrored neighbours; down, slanting, along the horizon and above it; rolled.
+  auto renderer = LitSceneRenderer::Create(Yard());
+  ASSERT_TRUE(renderer.ok()) << renderer.error().message;
+  constexpr std::uint64_t kSeed = 11;
+  RandomStream random(kSeed, "cameras over a yard");
+  for (int i = 0; i < 60; ++i) {
+    PinholeCamera camera = kCamera;
+    camera.fx_px = camera.fy_px = random.Uniform(120, 900);
+    camera.cx_px += random.Uniform(-60, 60);
+    const double tilt_deg = i % 4 == 0 ? -90 : i % 4 == 1 ? 0 : random.Uniform(-90, 15);
+    const Eigen::Matrix3d heading =
+        Eigen::AngleAxisd(random.Uniform(-3.1, 3.1), Eigen::Vector3d::UnitZ()).toRotationMatrix();
+    const Eigen::Matrix3d roll =
+        Eigen::AngleAxisd(random.Uniform(-0.6, 0.6), Eigen::Vector3d::UnitZ()).toRotationMatrix();
+    RigidTransform X_WC{heading * CameraRotationFromTilt(Rad(tilt_deg)) * roll,
+                        {random.Uniform(-45, 60), random.Uniform(-50, 50), 0}};
+    if (i % 3 == 0) {
+      X_WC.p.x() = -8;
+    }
+    X_WC.p.z() = -0.03 * X_WC.p.x() - (i % 5 == 0 ? 0.7 : random.Uniform(1.5, 40));
+    SCOPED_TRACE("seed " + std::to_string(kSeed) + ", camera " + std::to_string(i));
+    const Result<ImageU8> culled = (*renderer)->Render(camera, X_WC);
+    const Result<ImageF> culled_m = (*renderer)->Depth(camera, X_WC);
+    (*renderer)->CullGround(false);
+    const Result<ImageU8> whole = (*renderer)->Render(camera, X_WC);
+    const Result<ImageF> whole_m = (*renderer)->Depth(camera, X_WC);
+    (*renderer)->CullGround(true);
+    ASSERT_TRUE(culled.ok() && culled_m.ok() && whole.ok() && whole_m.ok());
+    EXPECT_TRUE(culled->pixels() == whole->pixels());
+    EXPECT_TRUE(culled_m->pixels() == whole_m->pixels());
   }
 }
 
