@@ -16,5 +16,6 @@ void main() {
   float seen = Seen(still_map, off) * SeenPastMovers(off);
   float detail = (255.0 * texture(grain, grain_at / grain_size_m).r - 128.0) / 127.0;
   float light = diffuse + direct * towards * seen;
-  colour = vec4(vec3(albedo * (1.0 + grain_contrast * detail) * light), 1.0);
+  // Never quite black: that is ground which is not lit yet (ground_flag_fragment.glsl).
+  colour = vec4(vec3(max(albedo * (1.0 + grain_contrast * detail) * light, 1.0 / 255.0)), 1.0);
 }

@@ -1,6 +1,7 @@
 #include "gui/render/framebuffer.h"
 
 #include <algorithm>
+#include <limits>
 #include <string>
 
 namespace palace {
@@ -11,11 +12,16 @@ bool Complete() { return glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUF
 }  // namespace
 
 Status Framebuffer::Resize(int width, int height, PixelKind kind, int samples) {
-  GLint most_samples = 1;
+  GLint most_samples = std::numeric_limits<GLint>::max();
   GLint most_pixels = 1;
-  glGetIntegerv(GL_MAX_SAMPLES, &most_samples);
+  for (const GLenum limit :
+       {GL_MAX_SAMPLES, GL_MAX_COLOR_TEXTURE_SAMPLES, GL_MAX_DEPTH_TEXTURE_SAMPLES}) {
+    GLint most = 1;
+    glGetIntegerv(limit, &most);
+    most_samples = std::min(most_samples, most);
+  }
   glGetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &most_pixels);
-  samples = std::clamp(samples, 1, std::max(1, static_cast<int>(most_samples)));
+  samples = std::clamp(samples, 1, std::max<int>(1, most_samples));
   if (width < 1 || height < 1 || width > most_pixels || height > most_pixels) {
     return UnavailableError("picture of " + std::to_string(width) + "x" + std::to_string(height) +
                             " pixels: this OpenGL driver draws 1 to " +
@@ -43,6 +49,9 @@ Status Framebuffer::Resize(int width, int height, PixelKind kind, int samples) {
   glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture_.name(), 0);
   resolved_depth_.Reset();
   multisampled_.Reset();
+  sample_at_.clear();
+  colour_samples_.Reset();
+  depth_samples_.Reset();
   if (samples == 1) {
     resolved_depth_ = GlRenderbuffer::Create();
     glBindRenderbuffer(GL_RENDERBUFFER, resolved_depth_.name());
@@ -52,18 +61,32 @@ Status Framebuffer::Resize(int width, int height, PixelKind kind, int samples) {
     return Complete() ? Ok() : UnavailableError("this OpenGL driver refuses our render target");
   }
   multisampled_ = GlFramebuffer::Create();
-  colour_samples_ = GlRenderbuffer::Create();
-  depth_samples_ = GlRenderbuffer::Create();
+  colour_samples_ = GlTexture::Create();
+  depth_samples_ = GlTexture::Create();
+  struct Attachment {
+    GLuint samples;
+    GLenum format, point;
+  };
   glBindFramebuffer(GL_FRAMEBUFFER, multisampled_.name());
-  glBindRenderbuffer(GL_RENDERBUFFER, colour_samples_.name());
-  glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples, format, width, height);
-  glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER,
-                            colour_samples_.name());
-  glBindRenderbuffer(GL_RENDERBUFFER, depth_samples_.name());
-  glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples, GL_DEPTH24_STENCIL8, width, height);
-  glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_STENCIL_ATTACHMENT, GL_RENDERBUFFER,
-                            depth_samples_.name());
-  return Complete() ? Ok() : UnavailableError("this OpenGL driver refuses our render target");
+  for (const Attachment& attached :
+       {Attachment{colour_samples_.name(), format, GL_COLOR_ATTACHMENT0},
+        Attachment{depth_samples_.name(), GL_DEPTH24_STENCIL8, GL_DEPTH_STENCIL_ATTACHMENT}}) {
+    glBindTexture(GL_TEXTURE_2D_MULTISAMPLE, attached.samples);
+    glTexImage2DMultisample(GL_TEXTURE_2D_MULTISAMPLE, samples, attached.format, width, height,
+                            GL_TRUE);
+    glFramebufferTexture2D(GL_FRAMEBUFFER, attached.point, GL_TEXTURE_2D_MULTISAMPLE,
+                           attached.samples, 0);
+  }
+  if (!Complete()) {
+    return UnavailableError("this OpenGL driver refuses our render target");
+  }
+  GLint given = 0;
+  glGetIntegerv(GL_SAMPLES, &given);
+  sample_at_.assign(static_cast<std::size_t>(given), {0.5F, 0.5F});
+  for (std::size_t i = 0; i < sample_at_.size(); ++i) {
+    glGetMultisamplefv(GL_SAMPLE_POSITION, static_cast<GLuint>(i), sample_at_[i].data());
+  }
+  return Ok();
 }
 
 void Framebuffer::Bind() const {
@@ -91,6 +114,12 @@ void Framebuffer::Resolve() const {
   glBindFramebuffer(GL_READ_FRAMEBUFFER, multisampled_.name());
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, resolved_.name());
   glBlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+}
+
+void Framebuffer::BeginResolve() const {
+  glBindFramebuffer(GL_FRAMEBUFFER, resolved_.name());
+  glViewport(0, 0, width_, height_);
+  glDisable(GL_DEPTH_TEST);
 }
 
 ImageU8 Framebuffer::ReadGrey() const {

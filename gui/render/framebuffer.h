@@ -1,6 +1,10 @@
 // Framebuffer: a multisampled render target that resolves into a texture, with read-back.
 #pragma once
 
+#include <vector>
+
+#include <Eigen/Dense>
+
 #include "engine/core/result.h"
 #include "gui/render/gl_handle.h"
 #include "gui/render/picture.h"
@@ -30,6 +34,15 @@ class Framebuffer {
   ImageF ReadDepth() const;
   ImageRgba ReadRgba() const;
 
+  /// Instead of Resolve: binds the picture without its samples, for a shader that makes one of the
+  /// other. Nothing is cleared, depth is neither asked nor written.
+  void BeginResolve() const;
+  /// The samples, GL_TEXTURE_2D_MULTISAMPLE; 0 in a target without them.
+  GLuint colour_samples() const { return colour_samples_.name(); }
+  GLuint depth_samples() const { return depth_samples_.name(); }
+  /// Where they lie in their pixel, 0 .. 1 as GL's window coordinates count.
+  const std::vector<Eigen::Vector2f>& sample_at() const { return sample_at_; }
+
   GLuint texture() const { return texture_.name(); }
   GLuint name() const { return resolved_.name(); }
   int width() const { return width_; }
@@ -40,8 +53,9 @@ class Framebuffer {
   GlTexture texture_;
   GlRenderbuffer resolved_depth_;  ///< without multisampling only
   GlFramebuffer multisampled_;
-  GlRenderbuffer colour_samples_;
-  GlRenderbuffer depth_samples_;
+  GlTexture colour_samples_;
+  GlTexture depth_samples_;
+  std::vector<Eigen::Vector2f> sample_at_;
   int width_ = 0;
   int height_ = 0;
   int samples_ = 0;

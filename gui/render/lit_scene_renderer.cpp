@@ -12,6 +12,7 @@
 #include "gui/render/camera_clip.h"
 #include "gui/render/framebuffer.h"
 #include "gui/render/ground_buffer.h"
+#include "gui/render/lit_resolve.h"
 #include "gui/render/mesh_buffer.h"
 #include "gui/render/shader.h"
 #include "gui/render/sun_map.h"
@@ -20,7 +21,7 @@
 namespace palace {
 namespace {
 
-constexpr int kSamples = 4;
+constexpr int kSamples = LitResolve::kSamples;
 constexpr float kSkyGrey = 200.0F / 255;
 constexpr double kTexel_m = 0.02;
 constexpr double kFine_m = 0.005, kCoarse_m = 0.05;
@@ -72,8 +73,11 @@ struct LitSceneRenderer::Parts {
   };
   World world;
   GroundSquare square;
+  double texel_m = 0;  ///< of the light
   Eigen::Matrix4f sun_from_world;
-  ShaderProgram ground_shader, object_shader, ground_depth_shader, object_depth_shader;
+  ShaderProgram ground_shader, ground_flag_shader, object_shader;
+  ShaderProgram ground_depth_shader, object_depth_shader;
+  LitResolve resolve;
   GlTexture lit, grain;
   GroundBuffer fine, coarse;
   MeshBuffer solids;
@@ -84,9 +88,13 @@ struct LitSceneRenderer::Parts {
 
   Status Build(const RayScene& scene);
   Status BuildShaders();
-  Status Draw(const PinholeCamera& camera, const RigidTransform& X_WC, double time_s, int samples);
+  void DrawSolidsInto(const Framebuffer& into, const Eigen::Matrix4f& clip,
+                      const Eigen::Vector3d& p_W, double time_s) const;
   void DrawInto(const Framebuffer& into, const PinholeCamera& camera, const RigidTransform& X_WC,
-                double time_s);
+                double time_s) const;
+  void DrawUnlitInto(const Framebuffer& into, const PinholeCamera& camera,
+                     const RigidTransform& X_WC, double time_s) const;
+  void UseLight(const ShaderProgram& shader) const;
   GroundPlacing Place(const ShaderProgram& shader, int i, int j, float lower_m) const;
   void DrawGround(const ShaderProgram& shader, const Eigen::Matrix4f& clip,
                   const Eigen::Vector3d& p_W) const;
@@ -103,7 +111,9 @@ Status LitSceneRenderer::Parts::BuildShaders() {
   const std::string_view moves =
       movers.empty() ? "const bool has_movers = false;\n" : "const bool has_movers = true;\n";
   const std::initializer_list<std::string_view> ground = {kVersion, moves, shader_text::sun_shadow,
+                                                          shader_text::ground_light,
                                                           shader_text::lit_ground_fragment};
+  const std::initializer_list<std::string_view> flag = {shader_text::ground_flag_fragment};
   const std::initializer_list<std::string_view> object = {kVersion, moves, shader_text::sun_shadow,
                                                           shader_text::lit_object_fragment};
   const std::initializer_list<std::string_view> depth = {shader_text::shadow_fragment};
@@ -115,6 +125,7 @@ Status LitSceneRenderer::Parts::BuildShaders() {
   };
   for (const Wanted& wanted :
        {Wanted{"lit ground", &ground_shader, shader_text::lit_ground_vertex, ground},
+        Wanted{"ground flag", &ground_flag_shader, shader_text::lit_ground_vertex, flag},
         Wanted{"lit object", &object_shader, shader_text::lit_object_vertex, object},
         Wanted{"ground depth", &ground_depth_shader, shader_text::lit_ground_vertex, depth},
         Wanted{"object depth", &object_depth_shader, shader_text::lit_object_vertex, depth}}) {
@@ -125,16 +136,21 @@ Status LitSceneRenderer::Parts::BuildShaders() {
     }
     *wanted.program = std::move(built).value();
   }
-  return Ok();
+  const double lowest_m = world.ground.relief ? world.ground.relief->lowest_m() : 0;
+  return resolve.Build({kVersion, moves, shader_text::sun_shadow, shader_text::ground_light},
+                       {texel_m,
+                        {0, 0, static_cast<double>(kUnderlay_m) - lowest_m},
+                        {-world.ground.rise_north, -world.ground.rise_east, -1}});
 }
 
 Status LitSceneRenderer::Parts::Build(const RayScene& scene) {
-  const ImageU8& texels = scene.ground().texels();
-  lit = GreyTexture(texels.width(), texels.height(), texels.pixels().data(), GL_MIRRORED_REPEAT);
+  const ImageU8& light = scene.ground().texels();
+  lit = GreyTexture(light.width(), light.height(), light.pixels().data(), GL_MIRRORED_REPEAT);
   grain = GreyTexture(SurfaceGrain::kTexels, SurfaceGrain::kTexels, scene.grain().texels().data(),
                       GL_REPEAT);
   world = scene.world();
   square = SquareOf(world.ground);
+  texel_m = square.size_m / light.width();
   World standing = world;
   standing.solids.clear();
   for (const Solid& solid : world.solids) {
@@ -260,16 +276,6 @@ Result<std::unique_ptr<LitSceneRenderer>> LitSceneRenderer::Create(const RayScen
   return std::unique_ptr<LitSceneRenderer>(new LitSceneRenderer(std::move(parts)));
 }
 
-Status LitSceneRenderer::Parts::Draw(const PinholeCamera& camera, const RigidTransform& X_WC,
-                                     double time_s, int samples) {
-  const Status sized = target.Resize(camera.width, camera.height, PixelKind::kGrey, samples);
-  if (!sized) {
-    return sized;
-  }
-  DrawInto(target, camera, X_WC, time_s);
-  return Ok();
-}
-
 void LitSceneRenderer::CullGround(bool on) { parts_->cull = on; }
 
 void LitSceneRenderer::DrawInto(const Framebuffer& target, const PinholeCamera& camera,
@@ -277,55 +283,85 @@ void LitSceneRenderer::DrawInto(const Framebuffer& target, const PinholeCamera& 
   parts_->DrawInto(target, camera, X_WC, time_s);
 }
 
-void LitSceneRenderer::Parts::DrawInto(const Framebuffer& into, const PinholeCamera& camera,
-                                       const RigidTransform& X_WC, double time_s) {
+void LitSceneRenderer::Parts::DrawSolidsInto(const Framebuffer& into, const Eigen::Matrix4f& clip,
+                                             const Eigen::Vector3d& p_W, double time_s) const {
   into.Begin(kSkyGrey);
   if (!movers.empty()) {
     MapMovers(time_s);
     into.Bind();
   }
-  const Eigen::Matrix4f clip_from_world = ClipFromRelative(camera, X_WC);
-  const Sun& sun = world.sun;
-
-  View(object_shader, clip_from_world, X_WC.p);
+  View(object_shader, clip, p_W);
   UseShadows(object_shader);
   glBindTexture(GL_TEXTURE_2D, grain.name());
   object_shader.Set("grain", 0);
   object_shader.Set("grain_size_m",
                     static_cast<float>(SurfaceGrain::kTexels * SurfaceGrain::kTexel_m));
   object_shader.Set("grain_contrast", static_cast<float>(SurfaceGrain::kContrast));
-  object_shader.Set("sun_W", Single(sun.Direction()));
-  object_shader.Set("direct", static_cast<float>(sun.direct));
-  object_shader.Set("diffuse", static_cast<float>(sun.diffuse));
+  object_shader.Set("sun_W", Single(world.sun.Direction()));
+  object_shader.Set("direct", static_cast<float>(world.sun.direct));
+  object_shader.Set("diffuse", static_cast<float>(world.sun.diffuse));
   DrawSolids(object_shader);
   DrawMovers(object_shader, time_s);
+}
 
-  View(ground_shader, clip_from_world, X_WC.p);
-  UseShadows(ground_shader);
+void LitSceneRenderer::Parts::UseLight(const ShaderProgram& shader) const {
+  UseShadows(shader);
   glBindTexture(GL_TEXTURE_2D, lit.name());
-  ground_shader.Set("lit", 0);
-  ground_shader.Set("square", Eigen::Vector3f(static_cast<float>(square.north_m),
-                                              static_cast<float>(square.east_m),
-                                              static_cast<float>(square.size_m)));
-  ground_shader.Set(
-      "shade", static_cast<float>(sun.diffuse / LightOn(sun, world.ground.Normal(), /*lit=*/true)));
-  DrawGround(ground_shader, clip_from_world, X_WC.p);
+  shader.Set("lit", 0);
+  shader.Set("square",
+             Eigen::Vector3f(static_cast<float>(square.north_m), static_cast<float>(square.east_m),
+                             static_cast<float>(square.size_m)));
+  shader.Set("shade",
+             static_cast<float>(world.sun.diffuse / LightOn(world.sun, world.ground.Normal(),
+                                                            /*lit=*/true)));
+}
+
+void LitSceneRenderer::Parts::DrawInto(const Framebuffer& into, const PinholeCamera& camera,
+                                       const RigidTransform& X_WC, double time_s) const {
+  const Eigen::Matrix4f clip = ClipFromRelative(camera, X_WC);
+  DrawSolidsInto(into, clip, X_WC.p, time_s);
+  View(ground_shader, clip, X_WC.p);
+  UseLight(ground_shader);
+  DrawGround(ground_shader, clip, X_WC.p);
+}
+
+void LitSceneRenderer::Parts::DrawUnlitInto(const Framebuffer& into, const PinholeCamera& camera,
+                                            const RigidTransform& X_WC, double time_s) const {
+  const Eigen::Matrix4f clip = ClipFromRelative(camera, X_WC);
+  DrawSolidsInto(into, clip, X_WC.p, time_s);
+  View(ground_flag_shader, clip, X_WC.p);
+  DrawGround(ground_flag_shader, clip, X_WC.p);
 }
 
 Result<ImageU8> LitSceneRenderer::Render(const PinholeCamera& camera, const RigidTransform& X_WC,
                                          double time_s) {
-  if (const Status drawn = parts_->Draw(camera, X_WC, time_s, kSamples); !drawn) {
-    return drawn.error();
+  Framebuffer& target = parts_->target;
+  if (const Status sized = target.Resize(camera.width, camera.height, PixelKind::kGrey, kSamples);
+      !sized) {
+    return sized.error();
   }
-  parts_->target.Resolve();
-  return parts_->target.ReadGrey();
+  if (target.sample_at().size() == kSamples) {
+    parts_->DrawUnlitInto(target, camera, X_WC, time_s);
+    for (const ShaderProgram& program : parts_->resolve.programs()) {
+      program.Use();
+      parts_->UseLight(program);
+    }
+    parts_->resolve.Draw(target, camera, X_WC);
+  } else {  // a driver of fewer
+    parts_->DrawInto(target, camera, X_WC, time_s);
+    target.Resolve();
+  }
+  return target.ReadGrey();
 }
 
 Result<ImageF> LitSceneRenderer::Depth(const PinholeCamera& camera, const RigidTransform& X_WC,
                                        double time_s) {
-  if (const Status drawn = parts_->Draw(camera, X_WC, time_s, /*samples=*/1); !drawn) {
-    return drawn.error();
+  if (const Status sized = parts_->target.Resize(camera.width, camera.height, PixelKind::kGrey,
+                                                 /*samples=*/1);
+      !sized) {
+    return sized.error();
   }
+  parts_->DrawUnlitInto(parts_->target, camera, X_WC, time_s);
   ImageF depth = parts_->target.ReadDepth();
   for (float& d : depth.pixels()) {
     d = d < 1 ? static_cast<float>(DepthOfWindow(d)) : std::numeric_limits<float>::infinity();

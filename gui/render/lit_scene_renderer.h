@@ -14,7 +14,8 @@ namespace palace {
 
 /// The triangles of relief and solids that RayScene meets (the relief's to within 5 mm), the same
 /// lit picture of the ground, Lambert light on solids with shadow maps of the sun for what stands
-/// still and for what moves. Edges are multisampled 4x. Projection as SceneRenderer's.
+/// still and for what moves. Edges are multisampled 4x; Render lights the ground afterwards, once a
+/// sample (LitResolve), DrawInto as it is drawn. Projection as SceneRenderer's.
 /// One GL 3.3 core context must be current on the calling thread for every call, and for the
 /// destructor.
 class LitSceneRenderer final : public SceneCamera {
