@@ -21,8 +21,8 @@ struct GuardLimits {
   static constexpr double shown_s = 1.0;        ///< evidence on screen
   static constexpr double laser_height_m = 15;  ///< lower, heights without a laser are not enough
   static constexpr double arm_to_approve_s = 0.5;
-  static constexpr double lost_percent = 50;      ///< of the vehicle's messages (F21)
-  static constexpr double confirm_height_m = 10;  ///< a provisional site must be confirmed by here
+  static constexpr double lost_percent = 50;     ///< of the vehicle's messages (F21)
+  static constexpr double confirm_height_m = 6;  ///< a provisional site must be confirmed by here
 };
 
 /// An age beyond which a selection, an approval or a descent ends.

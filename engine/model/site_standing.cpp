@@ -26,7 +26,7 @@ std::string WhyProvisional(const LandingSite& site, const SladSettings& settings
   if (settings.mode == SladMode::kModern && site.frames_fused < enough && !site.pixel.hasNaN()) {
     return WithNumbers("seen in %.0f of the %.0f frames that it takes", site.frames_fused, enough);
   }
-  return WithNumbers("rocks or holes over %.0f cm may be hidden: not seen well enough from here",
+  return WithNumbers("rocks or holes over %.0f cm may be hidden",
                      100 * settings.limits.max_deviation_m);
 }
 

@@ -47,7 +47,7 @@ TEST(HoldLimits, EachStopThatHasAFigureHasARowWithTheLimitThatStops) {
 
 TEST(HoldLimits, NameWhoActsInEachState) {
   AlarmFacts facts = AllMeasured();
-  facts.unconfirmed_height_m = 8;
+  facts.unconfirmed_height_m = 5;
   const auto by = [&](MissionState state, bool committed, LimitId id) {
     facts.state = state;
     facts.committed = committed;
@@ -65,7 +65,7 @@ TEST(HoldLimits, NameWhoActsInEachState) {
   EXPECT_STREQ(by(State::kLanded, false, LimitId::kLeftCameraAge), "no row");
   facts.state = State::kDescending;
   const std::vector<LimitRow> rows = LimitsOfHolds(facts);
-  EXPECT_TRUE(FindLimit(rows, LimitId::kConfirmHeight)->over) << "8 m, confirmed by 10 m";
+  EXPECT_TRUE(FindLimit(rows, LimitId::kConfirmHeight)->over) << "5 m, confirmed by 6 m";
 }
 
 }  // namespace

@@ -212,7 +212,7 @@ TEST(Mission, EvidenceMustHaveBeenOnScreen) {
   EXPECT_FALSE(rig.Do(ApproveSite{101, rig.sequence}).ok());  // once only (I8)
 }
 
-TEST(Mission, ProvisionalMustBeConfirmedByTenMetres) {
+TEST(Mission, ProvisionalMustBeConfirmedBySixMetres) {
   for (const bool confirm : {false, true}) {
     MissionRig rig;
     rig.sites[0].confirmed = false;
@@ -224,7 +224,7 @@ TEST(Mission, ProvisionalMustBeConfirmedByTenMetres) {
     const MissionState end = confirm ? MissionState::kLanded : MissionState::kHold;
     ASSERT_TRUE(rig.RunUntil(end, 30)) << rig.mission.status().why;
     if (!confirm) {
-      EXPECT_NEAR(rig.mission.status().height_above_site_m, 10, 0.5);
+      EXPECT_NEAR(rig.mission.status().height_above_site_m, 6, 0.5);
     }
   }
 }

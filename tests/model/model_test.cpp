@@ -83,10 +83,10 @@ TEST(SiteStanding, AProvisionalSiteSaysWhy) {
   site.frames_fused = 1;
   EXPECT_EQ(WhyProvisional(site, settings.slad), "seen in 1 of the 3 frames that it takes");
   site.frames_fused = 3;
-  EXPECT_EQ(WhyProvisional(site, settings.slad), "rocks or holes over 10 cm may be hidden: not seen well enough from here");
+  EXPECT_EQ(WhyProvisional(site, settings.slad), "rocks or holes over 10 cm may be hidden");
   site.pixel.setConstant(std::nan(""));  // a survey
   site.frames_fused = 1;
-  EXPECT_EQ(WhyProvisional(site, settings.slad), "rocks or holes over 10 cm may be hidden: not seen well enough from here");
+  EXPECT_EQ(WhyProvisional(site, settings.slad), "rocks or holes over 10 cm may be hidden");
   site.height_m.three_sigma = 0.12;
   EXPECT_EQ(WhyProvisional(site, settings.slad),
             "height noise 12.0 cm (3 sigma), sure below 10.0 cm");

@@ -245,7 +245,7 @@ inline void FillMission(EngineSnapshot& snap, MissionState state) {
   m.height_above_site_m = descending ? 21.4 : 38.2;
   m.distance_to_site_m = descending ? 0.12 : 5.9;
   m.time_to_touchdown_s = descending ? 41 : 72;
-  m.confirm_height_m = 10;
+  m.confirm_height_m = 6;
   if (state == MissionState::kDescending) {
     for (int i = 0; i <= 82; ++i) {
       m.path.ahead.push_back({0.5 * i, 21.4 * (1 - i / 82.0)});
