@@ -65,5 +65,20 @@ TEST(HiddenThings, GrowsWithNoiseWithWhatShowsAndWithDistance) {
   EXPECT_GT(Hidden(one), kMostHidden) << "one cell is enough";
 }
 
+TEST(HiddenThings, GroundIsSeenWhereAThingIsRuledOutFiftyToOne) {
+  // At r / sigma = k a cell that shows nothing has the ratio exp(-k^2 / 2): 1/50 at 2.797.
+  const double share = 0.3, r = 1.2 * kLimit_m * share;
+  for (const double k : {2.75, 2.85}) {
+    const ElevationMap map = MapThatShows(0, r / k, share);
+    EXPECT_EQ(IsSeen(map, kLimit_m, kMiddle), k > 2.8) << k;
+  }
+  EXPECT_FALSE(IsSeen(MapThatShows(0.7 * r, r / 4, share), kLimit_m, kMiddle));
+  EXPECT_FALSE(IsSeen(MapThatShows(-0.7 * r, r / 4, share), kLimit_m, kMiddle));
+  EXPECT_FALSE(IsSeen(MapThatShows(NAN, NAN, NAN), kLimit_m, kMiddle));
+  EXPECT_TRUE(IsSeen(MakeMap(41, 41, 0.15, Flat()), kLimit_m, kMiddle)) << "a survey";
+  // A disc seen everywhere is confirmed.
+  EXPECT_LT(Hidden(MapThatShows(0, r / 2.85, share)), kMostHidden + 0.005);
+}
+
 }  // namespace
 }  // namespace palace

@@ -45,5 +45,16 @@ TEST(RankReasons, TheOnlyClearApproachIsTheOnlyOneOfTheList) {
             "The only straight approach that is clear");
 }
 
+TEST(RankReasons, WideGroundThatIsNotSeenGoesBelowAndSaysSo) {
+  std::vector<LandingSite> sites = {Of("A", 4.8), Of("B", 9.0, false), Of("C", 4.0)};
+  sites[0].room_seen_m = 4.1;
+  sites[1].room_seen_m = 2.2;
+  const SiteSelection list = Reasoned(sites);
+  EXPECT_EQ(list.sites[0].reason, "Leads: 1.9 m more seen than the next");
+  EXPECT_EQ(list.sites[1].reason, "1.9 m less seen than the best");
+  EXPECT_EQ(list.sites[2].reason.rfind("0.1 m less seen than the best", 0), 0U)
+      << list.sites[2].reason;
+}
+
 }  // namespace
 }  // namespace palace

@@ -126,6 +126,22 @@ TEST(SiteSelection, ASiteIsConfirmedOnlyWhereNothingCanHide) {
   }
 }
 
+TEST(SiteSelection, SeenGroundGoesBeforeWideAndBlindGround) {
+  // The west is wide and blind; the east seen, with a box that leaves less room.
+  ElevationMap map = MakeMap(101, 101, 0.15, WithBox(Flat(), 3.5, 3.5, 0.5, 0.6));
+  EXPECT_LT(Select(map).sites.at(0).p_WS.y(), 0.5);
+  map.narrow = {GridF(101, 101, 0.0F), GridF(101, 101, 0.003F), GridF(101, 101, 0.3F)};
+  EXPECT_LT(Select(map).sites.at(0).p_WS.y(), 0.5);
+  for (int r = 0; r < 101; ++r) {
+    for (int c = 0; c < 50; ++c) {
+      map.narrow.sigma_m.at(r, c) = 0.05F;
+    }
+  }
+  const LandingSite best = Select(map).sites.at(0);
+  EXPECT_GT(best.p_WS.y(), 2.0);
+  EXPECT_TRUE(best.confirmed);
+}
+
 TEST(SiteSelection, ASiteOfPicturesIsConfirmedByThreeFrames) {
   for (const int frames : {1, 2, 3, 10}) {
     ElevationMap map = MakeMap(101, 101, 0.15, Flat());

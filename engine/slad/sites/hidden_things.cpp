@@ -9,11 +9,20 @@ namespace {
 constexpr double kThingsPer_m2 = 0.04;  // rocks and holes together
 constexpr double kOverLimit = 1.2;      // of the limit: what counts as unsafe
 constexpr double kMostLogRatio = 30;
+constexpr double kRuledOut = -3.912;  // the logarithm of one in fifty
 
-double Hides(double prior, double shown_m, double expected_m, double sigma_m) {
-  const double log_ratio = expected_m * (2 * shown_m - expected_m) / (2 * sigma_m * sigma_m);
+double LogRatio(double shown_m, double expected_m, double sigma_m) {
+  return expected_m * (2 * shown_m - expected_m) / (2 * sigma_m * sigma_m);
+}
+
+double Hides(double prior, double log_ratio) {
   const double odds = prior * std::exp(std::min(log_ratio, kMostLogRatio));
   return odds / (1 + odds);
+}
+
+/// What a thing would show in the cell.
+double Expected(const ElevationMap& map, double max_deviation_m, Cell cell) {
+  return kOverLimit * max_deviation_m * static_cast<double>(map.narrow.share.at(cell));
 }
 
 }  // namespace
@@ -39,13 +48,22 @@ double HiddenThings(const ElevationMap& map, double max_deviation_m, Cell centre
         continue;
       }
       const double sigma_m = static_cast<double>(map.narrow.sigma_m.at(cell));
-      const double shows_m =
-          kOverLimit * max_deviation_m * static_cast<double>(map.narrow.share.at(cell));
-      expected +=
-          Hides(prior, shown_m, shows_m, sigma_m) + Hides(prior, -shown_m, shows_m, sigma_m);
+      const double expected_m = Expected(map, max_deviation_m, cell);
+      expected += Hides(prior, LogRatio(shown_m, expected_m, sigma_m)) +
+                  Hides(prior, LogRatio(-shown_m, expected_m, sigma_m));
     }
   }
   return expected;
+}
+
+bool IsSeen(const ElevationMap& map, double max_deviation_m, Cell cell) {
+  if (map.narrow.share.empty()) {
+    return true;
+  }
+  const double shown_m = std::abs(static_cast<double>(map.narrow.prominence_m.at(cell)));
+  const double sigma_m = static_cast<double>(map.narrow.sigma_m.at(cell));
+  // False of NaN: nothing is known.
+  return LogRatio(shown_m, Expected(map, max_deviation_m, cell), sigma_m) <= kRuledOut;
 }
 
 }  // namespace palace

@@ -25,6 +25,10 @@ namespace palace {
 /// the prior says. 0 where the map has no such figures (a survey).
 double HiddenThings(const ElevationMap& map, double max_deviation_m, Cell centre, double radius_m);
 
+/// Whether what shows in a cell rules such a thing out, fifty to one: ground that is seen. All seen
+/// is where no figures are.
+bool IsSeen(const ElevationMap& map, double max_deviation_m, Cell cell);
+
 /// So many at most under a confirmed site.
 inline constexpr double kMostHidden = 0.01;
 

@@ -27,7 +27,7 @@ std::string ApproachWords(const LandingSite& site) {
   return "Straight approach blocked; clear from " + from + more;
 }
 
-std::string Text(const char* format, double value, const char* against) {
+std::string Text(const char* format, double value, const char* against = "") {
   char text[96];
   std::snprintf(text, sizeof text, format, value, against);
   return text;
@@ -39,19 +39,28 @@ constexpr double kWider_m = 0.05, kCheaper = 0.005;
 /// Of a site that is better on this map than those before it.
 constexpr const char* kNotYet = ", which is noise or too new";
 
+/// What sites are ranked by where room ranks.
+double Room(const LandingSite& site) {
+  return std::isfinite(site.room_seen_m) ? site.room_seen_m : site.safe_distance_m;
+}
+
+/// Whether it is by what is seen that one has more room, not by what is clear.
+bool BySeen(const LandingSite& a, const LandingSite& b) {
+  return std::isfinite(a.room_seen_m) || std::isfinite(b.room_seen_m);
+}
+
 /// What `better` has over `other` in the units of what decided; empty where nothing measurable.
 std::string Difference(SiteRanking ranking, const LandingSite& better, const LandingSite& other,
                        bool of_better, const char* against) {
-  const double wider_m = better.safe_distance_m - other.safe_distance_m;
+  const double wider_m = Room(better) - Room(other);
+  const char* clear = BySeen(better, other) ? "seen" : "clear";
   const double cheaper = other.cost - better.cost;
   if (ranking == SiteRanking::kFarthest && wider_m >= kWider_m) {
-    return Text(of_better ? "%.1f m more clear than %s" : "%.1f m less clear than %s", wider_m,
-                against);
+    return Text(of_better ? "%.1f m more " : "%.1f m less ", wider_m) + clear + " than " + against;
   }
   if (ranking == SiteRanking::kFarthest && wider_m <= -kWider_m) {
-    return Text(of_better ? "stays first, %.1f m less clear than %s" : "%.1f m more clear than %s",
-                -wider_m, against) +
-           kNotYet;
+    return Text(of_better ? "stays first, %.1f m less " : "%.1f m more ", -wider_m) + clear +
+           " than " + against + kNotYet;
   }
   if (cheaper >= kCheaper) {
     return Text(of_better ? "cost %.2f less than %s" : "cost %.2f more than %s", cheaper, against);
@@ -69,7 +78,7 @@ std::string Capital(std::string text) {
 
 /// Better on this map by a difference that is told.
 bool Beats(SiteRanking ranking, const LandingSite& a, const LandingSite& b) {
-  return ranking == SiteRanking::kFarthest ? a.safe_distance_m >= b.safe_distance_m + kWider_m
+  return ranking == SiteRanking::kFarthest ? Room(a) >= Room(b) + kWider_m
                                            : a.cost <= b.cost - kCheaper;
 }
 
@@ -108,11 +117,10 @@ std::string ReasonOfBest(SiteRanking ranking, const SiteSelection& selection) {
   // One that a map called unsafe a moment ago may be wider, and does not lead.
   const bool outdone =
       std::any_of(selection.sites.begin(), selection.sites.end(), [&](const LandingSite& other) {
-        return ranking == SiteRanking::kFarthest
-                   ? other.safe_distance_m > best.safe_distance_m + kWider_m
-                   : other.cost < best.cost - kCheaper;
+        return ranking == SiteRanking::kFarthest ? Room(other) > Room(best) + kWider_m
+                                                 : other.cost < best.cost - kCheaper;
       });
-  const char* criterion = outdone                             ? "Leads: "
+  const char* criterion = outdone || BySeen(best, next)       ? "Leads: "
                           : ranking == SiteRanking::kFarthest ? "Widest: "
                                                               : "Cheapest: ";
   const bool leads = by.rfind("as good", 0) != 0 && by.rfind("stays", 0) != 0;

@@ -7,6 +7,9 @@
 
 #include <opencv2/core.hpp>
 
+#include "engine/slad/hazards/safe_distance.h"
+#include "engine/slad/sites/hidden_things.h"
+
 namespace palace {
 namespace {
 
@@ -62,11 +65,38 @@ class OffCentre {
   const RigidTransform X_CW_;
 };
 
+/// Of a place whose surroundings are not seen, as a share of its safe distance.
+constexpr float kBlindRoom = 0.25F;
+
+/// Room by which places are ranked (site_candidates.h).
+GridF RoomSeen(const ElevationMap& map, const HazardMaps& hazards, const SladSettings& settings) {
+  if (map.narrow.share.empty() || settings.mode == SladMode::kThesis) {
+    return hazards.safe_distance_m;
+  }
+  Grid<std::uint8_t> blind = hazards.reasons;
+  cv::parallel_for_(cv::Range(0, blind.rows()), [&](const cv::Range& rows) {
+    for (int r = rows.start; r < rows.end; ++r) {
+      for (int c = 0; c < blind.cols(); ++c) {
+        const bool seen = IsSeen(map, settings.limits.max_deviation_m, {r, c});
+        blind.at(r, c) |= seen ? std::uint8_t{kHazardNone} : std::uint8_t{kHazardUnknown};
+      }
+    }
+  });
+  GridF room_m = SafeDistance(blind, map.geometry.cell_m, DistanceTo::kSquare);
+  const auto clear_m = static_cast<float>(settings.lander.clear_radius_m());
+  for (std::size_t i = 0; i < room_m.cells().size(); ++i) {
+    const float blind_m = std::min(kBlindRoom * hazards.safe_distance_m.cells()[i], clear_m);
+    room_m.cells()[i] = std::max(room_m.cells()[i], blind_m);
+  }
+  return room_m;
+}
+
 }  // namespace
 
 SiteCandidates::SiteCandidates(const ElevationMap& map, const HazardMaps& hazards,
                                const SladSettings& settings, const SiteContext& context)
     : rows_(static_cast<std::size_t>(map.geometry.rows)),
+      room_m_(RoomSeen(map, hazards, settings)),
       spacing_cells_(settings.choice.spacing_m / std::max(map.geometry.cell_m, 1e-9)) {
   const OffCentre off_centre(context);
   const double cell_m = map.geometry.cell_m;
@@ -76,7 +106,7 @@ SiteCandidates::SiteCandidates(const ElevationMap& map, const HazardMaps& hazard
   cv::parallel_for_(cv::Range(0, map.geometry.rows), [&](const cv::Range& rows) {
     for (int r = rows.start; r < rows.end; ++r) {
       Row& row = rows_[static_cast<std::size_t>(r)];
-      const float* distances_m = hazards.safe_distance_m.row(r);
+      const float* distances_m = room_m_.row(r);
       for (int c = 0; c < map.geometry.cols; ++c) {
         const Cell cell{r, c};
         if (!CanBearLander(hazards, cell)) {

@@ -1,7 +1,10 @@
 // The cells of one map that could be a site, by score. Internal to the SLAD room.
 //
-// kFarthest scores metres: the safe distance, and, within one cell's worth of it, the cost and the
-// nearness to the middle of the picture. kCost scores the smoothed cost, less is better.
+// kFarthest scores metres: the room seen, and, within one cell's worth of it, the cost and the
+// nearness to the middle of the picture. Room is wide only over ground where a thing over the limit
+// would show (IsSeen, hidden_things.h): the distance to the nearest hazard or cell that is not
+// seen. Where that is little, a quarter of the safe distance, at most the clear radius: seen ground
+// goes before wide and blind ground. kCost scores the smoothed cost, less is better.
 #pragma once
 
 #include <optional>
@@ -23,6 +26,8 @@ class SiteCandidates {
   SiteCandidates(const ElevationMap& map, const HazardMaps& hazards, const SladSettings& settings,
                  const SiteContext& context);
 
+  /// What a place is ranked by; its safe distance where all is seen.
+  double RoomAt(Cell cell) const { return static_cast<double>(room_m_.at(cell)); }
   /// Less than this between two scores of one place is noise of its own figure.
   double noise() const { return noise_; }
   /// Nothing where no lander can stand, and where a place that was taken is too near.
@@ -58,6 +63,7 @@ class SiteCandidates {
   static void FindBest(Row& row);
 
   std::vector<Row> rows_;
+  GridF room_m_;
   double spacing_cells_ = 0;
   double as_good_ = 0;  ///< scores that differ by less are equal; metres
   double noise_ = 0;

@@ -147,7 +147,7 @@ std::vector<SiteRegistry::Found> SiteRegistry::Revisit(const Map& now, SiteCandi
     chosen.push_back(one);
   }
   std::vector<Found> found;
-  Follow(now, chosen, candidates.noise(), found);
+  Follow(now, chosen, candidates, found);
   return found;
 }
 
@@ -175,7 +175,7 @@ void SiteRegistry::Explore(const Map& now, SiteCandidates& candidates, std::vect
       return;
     }
     tried += chosen.size();
-    Follow(now, chosen, candidates.noise(), found);
+    Follow(now, chosen, candidates, found);
   }
 }
 
@@ -219,8 +219,8 @@ std::size_t SiteRegistry::PlaceAt(const Map& now, Cell cell) {
   return static_cast<std::size_t>(known - places_.begin());
 }
 
-void SiteRegistry::Follow(const Map& now, const std::vector<Chosen>& chosen, double noise,
-                          std::vector<Found>& found) {
+void SiteRegistry::Follow(const Map& now, const std::vector<Chosen>& chosen,
+                          const SiteCandidates& candidates, std::vector<Found>& found) {
   std::vector<LandingSite> sites(chosen.size());
   cv::parallel_for_(cv::Range(0, static_cast<int>(chosen.size())), [&](const cv::Range& range) {
     for (int i = range.start; i < range.end; ++i) {
@@ -237,10 +237,13 @@ void SiteRegistry::Follow(const Map& now, const std::vector<Chosen>& chosen, dou
     Place& place = places_[chosen[k].place];
     if (!now.again || place.run == 0) {
       ++place.run;
-      place.score.Add(chosen[k].at.score, noise);
+      place.score.Add(chosen[k].at.score, candidates.noise());
       place.confirmed.Add(site.confirmed);
       place.straight_clear.Add(site.corridor_clear);
       place.some_clear.Add(site.clear_approaches != 0);
+    }
+    if (const double room_m = candidates.RoomAt(site.cell); room_m < site.safe_distance_m) {
+      site.room_seen_m = room_m;
     }
     site.p_WS.head<2>() = place.p_W;
     site.newest_confirms = site.confirmed;

@@ -82,7 +82,7 @@ class SiteRegistry {
   std::size_t Wanted(const Map& now, const std::vector<Found>& found,
                      const SiteCandidates& candidates) const;
   std::size_t PlaceAt(const Map& now, Cell cell);
-  void Follow(const Map& now, const std::vector<Chosen>& chosen, double noise,
+  void Follow(const Map& now, const std::vector<Chosen>& chosen, const SiteCandidates& candidates,
               std::vector<Found>& found);
   std::vector<Found> Ranked(const Map& now, std::vector<Found> found, double noise) const;
   std::vector<Found> List(std::vector<Found> ranked);
