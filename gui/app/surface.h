@@ -33,6 +33,9 @@ class Surface {
   ImageRgba ReadPixels() const;
   /// Shows what was drawn.
   void Present();
+  /// The processor draws: what a frame costs is spent only while it is shown, and the engine waits
+  /// for it.
+  bool DrawsInSoftware() const { return window_ && window_->DrawsInSoftware(); }
   /// The driver lost everything that was uploaded (a reset of the graphics card).
   bool ContextLost() const { return window_ && window_->ContextLost(); }
   /// Begins anew with a context, and a window, of the same size. What was made with the old

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <string_view>
 #include <utility>
 
 #include "gui/render/gl.h"
@@ -114,6 +115,12 @@ WindowInput Window::PollInput(double wait_s) {
   input.close_requested = glfwWindowShouldClose(window_) != 0;
   glfwSetWindowShouldClose(window_, GLFW_FALSE);  // a wish, told once; the program decides
   return input;
+}
+
+bool Window::DrawsInSoftware() const {
+  const auto* renderer = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+  const std::string_view name = renderer != nullptr ? renderer : "";
+  return name.find("llvmpipe") != name.npos || name.find("softpipe") != name.npos;
 }
 
 void Window::SwapBuffers() { glfwSwapBuffers(window_); }

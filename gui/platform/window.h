@@ -52,6 +52,8 @@ class Window {
   int height_px() const;
   double dots_per_inch() const;  ///< of the monitor; 96 when it does not say
   bool minimised() const;
+  /// The processor draws (Mesa's software drivers), not a graphics card.
+  bool DrawsInSoftware() const;
   /// The driver lost the context's content; only drivers that can tell do.
   bool ContextLost() const;
   void SetSize(int width_px, int height_px);
