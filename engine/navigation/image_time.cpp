@@ -13,6 +13,9 @@ constexpr double kRatesKept_s = 4;
 constexpr double kRateGap_s = 0.15;     // poses further apart tell no turning between them
 constexpr double kPictureGap_s = 0.35;  // nor do pictures
 constexpr int kLeastPairs = 9;
+constexpr double kLeastSpan_s = 0.95;  // of the pairs: slow motion fits any lag over less
+// An offset as long as a gust is believed where times that agree explain this much less.
+constexpr double kLong_s = 0.2, kBetterThanNone = 4;
 constexpr double kStep_s = 0.02, kFineStep_s = 0.01;
 constexpr double kSharp_s = 0.05;  // sensitivity is that of an offset of 50 ms
 constexpr double kMostSigma_s = 0.012;
@@ -126,7 +129,8 @@ std::optional<ImageTimeMonitor::Fit> ImageTimeMonitor::FitAt(double shift_s) con
       left_px.push_back(motion.shift_px - (TravelledAt(to_s) - TravelledAt(from_s)));
     }
   }
-  if (static_cast<int>(time_s.size()) < kLeastPairs) {
+  if (static_cast<int>(time_s.size()) < kLeastPairs ||
+      time_s.back() - time_s.front() < kLeastSpan_s) {
     return std::nullopt;
   }
   return Fit{SquareWithoutLine(time_s, left_px), static_cast<int>(time_s.size())};
@@ -197,6 +201,10 @@ ImageTimeMonitor::Verdict ImageTimeMonitor::JudgeWindow(double window_s) {
   const double sigma_s =
       sharp2_px2 > 0 ? kSharp_s * std::sqrt(noise2_px2 / (2 * best->count * sharp2_px2)) : INFINITY;
   if (!(sigma_s <= kMostSigma_s) || best->residual2_px2 > kExplained * motion2_px2) {
+    return {};
+  }
+  const std::optional<Fit> none = FitAt(0);
+  if (std::abs(best_s) > kLong_s && !(none && none->residual2_px2 > kBetterThanNone * noise2_px2)) {
     return {};
   }
   const bool off =

@@ -7,7 +7,8 @@
 // with rates and velocity in C, Z the depth at the middle. Over the pictures of the last 2.2 s, and
 // of the last 1.4 s for what has just begun, the s is sought at which this agrees best, each axis
 // less a straight line (slow errors of v, Z and the gyro). Stamps that are right need s = 0;
-// pictures that show the past need s < 0. Told is
+// pictures that show the past need s < 0. Slow motion fits many an s by chance: the pairs must span
+// 0.95 s, and an |s| over 0.2 s leave a quarter of what s = 0 leaves. Told is
 //
 //   offset = -s,   positive: pictures are late,   sigma = scatter / sqrt(n) over the slope by s
 //
