@@ -3,7 +3,9 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
 #include <memory>
+#include <utility>
 
 #include <CLI/CLI.hpp>
 
@@ -12,8 +14,10 @@
 #include "engine/core/units.h"
 #include "engine/experiments/family_options.h"
 #include "engine/experiments/ground_field.h"
+#include "engine/experiments/hidden_fit.h"
 #include "engine/report/statistics.h"
 #include "engine/runtime/settings_io.h"
+#include "engine/slad/hazards/hidden_things.h"
 #include "engine/slad/slad.h"
 #include "engine/world/families/families.h"
 
@@ -48,6 +52,10 @@ struct GroundOptions {
   }
 };
 
+/// Columns of one site, or of none.
+constexpr std::size_t kSiteColumns = 12 + std::size(kHiddenDensities);
+std::string HiddenColumn(double density) { return "hidden_" + CsvNumber(density); }
+
 /// What a field's rows share.
 struct Field {
   std::string family;
@@ -66,14 +74,42 @@ struct Field {
   }
 };
 
+/// What a field's sites hide, for each of kHiddenDensities.
+std::vector<GridF> HiddenOn(const TerrainDecision& decision) {
+  const ElevationMap& map = *decision.elevation;
+  std::vector<GridF> hidden;
+  if (!map.narrow.share.empty()) {
+    const NarrowView view{map.narrow, map.geometry.cell_m, decision.settings.limits.max_deviation_m,
+                          &decision.hazards->safe_distance_m};
+    for (const double density : kHiddenDensities) {
+      hidden.push_back(HiddenThings(view, decision.settings.lander.clear_radius_m(), density));
+    }
+  }
+  return hidden;
+}
+
 TrialRow RowOfSite(const Field& field, const World& world, const LandingSite& site, int rank,
-                   const Settings& settings, const TruthLimits& limits) {
+                   const Settings& settings, const TruthLimits& limits,
+                   const std::vector<GridF>& hidden_on) {
   const Eigen::Vector2d place_m = site.p_WS.head<2>();
   const SiteTruth truth = TruthOfSite(world, place_m, settings.slad.lander, limits, kHoverEnd_s);
-  return field.Row({CsvNumber(rank), site.confirmed ? "confirmed" : "provisional",
-                    SiteVerdictName(truth.verdict()), CsvNumber(truth.worst_of_limit), truth.what,
-                    CsvNumber(site.safe_probability), CsvNumber(site.safe_distance_m),
-                    CsvNumber(place_m.x()), CsvNumber(place_m.y()), "none"});
+  TrialRow row = {CsvNumber(rank),
+                  site.confirmed ? "confirmed" : "provisional",
+                  SiteVerdictName(truth.verdict()),
+                  CsvNumber(truth.worst_of_limit),
+                  truth.what,
+                  CsvNumber(site.safe_probability),
+                  CsvNumber(site.safe_distance_m),
+                  CsvNumber(place_m.x()),
+                  CsvNumber(place_m.y()),
+                  "none",
+                  CsvNumber(site.hidden_things),
+                  CsvNumber(site.roughness_m.three_sigma / 3)};
+  for (const GridF& hidden : hidden_on) {
+    row.push_back(CsvNumber(static_cast<double>(hidden.at(site.cell))));
+  }
+  row.resize(kSiteColumns, "nan");  // maps without such figures
+  return field.Row(std::move(row));
 }
 
 Result<std::vector<TrialRow>> RunField(const GroundOptions& options, const std::string& family,
@@ -98,15 +134,19 @@ Result<std::vector<TrialRow>> RunField(const GroundOptions& options, const std::
   if (!frames) {
     return frames.error();
   }
-  const SiteSelection selection = DecideOnField(*frames, settings)->selection;
+  const auto decision = DecideOnField(*frames, settings);
+  const SiteSelection& selection = decision->selection;
+  const std::vector<GridF> hidden = HiddenOn(*decision);
   std::vector<TrialRow> rows;
   for (const LandingSite& site : selection.sites) {
-    rows.push_back(
-        RowOfSite(field, *world, site, static_cast<int>(rows.size()) + 1, settings, limits));
+    rows.push_back(RowOfSite(field, *world, site, static_cast<int>(rows.size()) + 1, settings,
+                             limits, hidden));
   }
   if (rows.empty()) {
-    rows.push_back(field.Row({"0", "none", "none", "nan", "none", "nan", "nan", "nan", "nan",
-                              CsvText(selection.none_reason)}));
+    TrialRow row = {"0",   "none", "none", "nan", "none",
+                    "nan", "nan",  "nan",  "nan", CsvText(selection.none_reason)};
+    row.resize(kSiteColumns, "nan");
+    rows.push_back(field.Row(std::move(row)));
   }
   return rows;
 }
@@ -181,6 +221,78 @@ std::vector<std::string> RowOfReport(const std::string& name, const TrialTable& 
           Share(easy[1], easy[0])};
 }
 
+std::vector<JudgedSite> JudgedSites(const TrialTable& table) {
+  std::vector<JudgedSite> sites;
+  const std::size_t family = table.Index("family"), verdict = table.Index("verdict");
+  std::vector<std::vector<double>> hidden;
+  for (const double density : kHiddenDensities) {
+    hidden.push_back(table.Numbers(HiddenColumn(density)));
+  }
+  for (std::size_t i = 0; i < table.rows.size(); ++i) {
+    JudgedSite site{table.rows[i][family], {}, false};
+    for (const std::vector<double>& of_density : hidden) {
+      site.hidden.push_back(of_density[i]);
+    }
+    const std::string& is = table.rows[i][verdict];
+    site.unsafe = is == SiteVerdictName(SiteTruth::Verdict::kUnsafe) ||
+                  is == SiteVerdictName(SiteTruth::Verdict::kGrosslyUnsafe);
+    if (!std::isnan(site.hidden.front())) {
+      sites.push_back(std::move(site));
+    }
+  }
+  return sites;
+}
+
+/// Probabilities said against the sites that were safe, by tenths of the chance of being unsafe.
+void AddCalibration(const TrialTable& table, HtmlPage& page) {
+  constexpr double kEdges[] = {0, 0.5, 0.7, 0.8, 0.9, 0.95, 0.98, 1.0001};
+  const std::vector<double> said = table.Numbers("probability");
+  const std::size_t verdict = table.Index("verdict");
+  std::vector<std::vector<std::string>> rows;
+  for (std::size_t k = 0; k + 1 < std::size(kEdges); ++k) {
+    double sum = 0;
+    int count = 0, safe = 0;
+    for (std::size_t i = 0; i < said.size(); ++i) {
+      if (said[i] >= kEdges[k] && said[i] < kEdges[k + 1]) {
+        const std::string& is = table.rows[i][verdict];
+        sum += said[i];
+        ++count;
+        safe += is == SiteVerdictName(SiteTruth::Verdict::kWithin) ||
+                        is == SiteVerdictName(SiteTruth::Verdict::kOver)
+                    ? 1
+                    : 0;
+      }
+    }
+    if (count > 0) {
+      rows.push_back({WithNumbers("%.2f to ", kEdges[k]) + WithNumbers("%.2f", kEdges[k + 1]),
+                      WithNumbers("%.3f", sum / count), Share(safe, count)});
+    }
+  }
+  page.Heading("Probability said and found").Table({"Said", "Mean", "Safe up to 1.2 x"}, rows);
+}
+
+void AddLeaveOneOut(const TrialTable& table, ExperimentReport& report) {
+  const std::vector<JudgedSite> sites = JudgedSites(table);
+  const std::vector<LeftOut> left_out = LeaveOneOut(sites);
+  if (left_out.empty()) {
+    return;
+  }
+  std::vector<std::vector<std::string>> rows;
+  for (const LeftOut& one : left_out) {
+    rows.push_back({one.family, WithNumbers("%.4f", one.things_per_m2),
+                    WithNumbers("%.1f %%", 100 * one.said_unsafe), Share(one.unsafe, one.sites)});
+  }
+  report.lines.push_back("Hidden rocks and holes a square metre, fitted on all these sites: " +
+                         WithNumbers("%.4f, in force %.4f", FitDensity(sites), kThingsPer_m2));
+  report.page.Heading("Leave one family out")
+      .Paragraph(
+          "Rocks and holes hidden a square metre, fitted on the sites of all other families; by it "
+          "the mean chance that something over 1.2 times a limit hides under a site of this "
+          "family, "
+          "and the share of its sites that were so. Nothing else is fitted.")
+      .Table({"Family left out", "Fitted, 1/m2", "Said unsafe", "Unsafe"}, rows);
+}
+
 ExperimentReport Report(const TrialTable& table) {
   ExperimentReport report{HtmlPage("PALACE: sites on every family of worlds")};
   std::vector<std::vector<std::string>> rows;
@@ -212,6 +324,8 @@ ExperimentReport Report(const TrialTable& table) {
               "Confirmed: over 1.5 x", "Provisional: over 1.2 x", "Safe disc in view: offered",
               "Easy disc in view: offered"},
              rows);
+  AddCalibration(table, report.page);
+  AddLeaveOneOut(table, report);
   return report;
 }
 
@@ -223,10 +337,13 @@ Experiment GroundExperiment() {
   experiment.name = "ground";
   experiment.purpose = "Sites on every family of worlds, held against their truth";
   experiment.default_trials = 8;
-  experiment.columns = {"family",          "height_m",     "tilt_deg", "fov_deg",
-                        "safe_in_view",    "easy_in_view", "rank",     "kind",
-                        "verdict",         "of_limit",     "limit",    "probability",
-                        "safe_distance_m", "north_m",      "east_m",   "why"};
+  experiment.columns = {
+      "family", "height_m", "tilt_deg", "fov_deg", "safe_in_view", "easy_in_view",    "rank",
+      "kind",   "verdict",  "of_limit", "limit",   "probability",  "safe_distance_m", "north_m",
+      "east_m", "why",      "hidden",   "sigma_m"};
+  for (const double density : kHiddenDensities) {
+    experiment.columns.push_back(HiddenColumn(density));
+  }
   experiment.add_options = [options](CLI::App& verb) {
     options->worlds.Add(verb);
     verb.add_option("--heights", options->heights_m,

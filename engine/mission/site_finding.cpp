@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "engine/core/text.h"
+#include "engine/model/site_standing.h"
 
 namespace palace {
 namespace {

@@ -41,7 +41,6 @@ struct ApprovedEvidence {
 
 constexpr double kLeastRoomShare = 0.5;  ///< of the approved clearance
 constexpr double kNoticedRoom_m = 0.3;   ///< a smaller loss of room is noise of two cells
-constexpr double kOldGround_s = 2;       ///< as old as a map may be
 
 /// `now`: the site evaluated on the newest map, empty when it lies outside. `nearest`: the hazard
 /// nearest to it, when known. Room that shrinks because the map ends or was not seen is no doubt by

@@ -70,12 +70,13 @@ std::string WordsOfBits(const Bit (&bits)[N], unsigned set) {
 
 }  // namespace
 
-double RequiredSafeProbability(const SladSettings& settings, double sigma_m) {
+double RequiredSafeProbability(const SladSettings& settings, double sigma_m, double hidden_things) {
   const double noise = sigma_m / kProvisionalSigma_m;
+  const double whole = settings.limits.min_safe_probability;
+  const double nothing_hides = std::isnan(hidden_things) ? 1 : std::exp(-hidden_things);
   // Below nothing, so that a limit of 0 stays one; unknown noise asks for the whole.
-  return noise >= 0
-             ? std::max(0.0, std::min(settings.limits.min_safe_probability, 1 - noise * noise))
-             : settings.limits.min_safe_probability;
+  return (noise >= 0 ? std::max(0.0, std::min(whole, 1 - noise * noise)) : whole) *
+         std::max(nothing_hides, kOffered);
 }
 
 std::vector<ExplainedTerm> TermsOf(const LandingSite& site, const SladSettings& settings) {
@@ -92,7 +93,7 @@ std::vector<ExplainedTerm> TermsOf(const LandingSite& site, const SladSettings& 
   if (modern) {
     add(CellTerm::kStep, site.step_m, settings.limits.max_step_m);
     add(CellTerm::kProbability, {site.safe_probability, 0},
-        RequiredSafeProbability(settings, site.roughness_m.three_sigma / 3));
+        RequiredSafeProbability(settings, site.roughness_m.three_sigma / 3, site.hidden_things));
   }
   add(CellTerm::kHazardDistance, {site.safe_distance_m, 0}, settings.lander.clear_radius_m());
   return terms;

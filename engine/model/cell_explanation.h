@@ -57,15 +57,19 @@ struct CellExplanation {
 };
 
 /// What the probability of a safe touchdown must reach where heights are known to `sigma_m`, a
-/// rock's size averaged:
-///   min(min_safe_probability, 1 - (sigma / 5 cm)^2)
+/// rock's size averaged, and `hidden_things` rocks and holes are expected unseen (NaN: none):
+///   min(min_safe_probability, 1 - (sigma / 5 cm)^2) max(exp(-hidden_things), kOffered)
 /// The worse the ground is seen, the less certain can even level ground be: among simulated
 /// touchdowns its chance of being unsafe grew with the square of sigma. A place may be a few times
-/// worse than that; what passes below min_safe_probability is provisional until the noise has
-/// fallen. In metres, not in shares of a limit: a stricter limit must never ask for less.
-double RequiredSafeProbability(const SladSettings& settings, double sigma_m);
+/// worse than that, and hide as much as ground of which nothing is known; what passes so is
+/// provisional until it has been seen. In metres, not in shares of a limit: a stricter limit must
+/// never ask for less.
+double RequiredSafeProbability(const SladSettings& settings, double sigma_m, double hidden_things);
 /// Sigma at which any probability would do.
 inline constexpr double kProvisionalSigma_m = 0.05;
+/// Ground of which nothing is known hides a rock or hole with 0.15 (hidden_things.h). Where
+/// something stands out that may be one, more hides, and the place is not offered.
+inline constexpr double kOffered = 0.8;
 
 /// The terms of a site against the limits, in the order of CellTerm. Thesis mode has no step and no
 /// probability. None is marked as the one that decided.

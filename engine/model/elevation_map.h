@@ -30,7 +30,7 @@ enum TerrainFlag : std::uint8_t {
 /// NaN where nothing can be said. hidden_things.h draws the conclusion.
 struct NarrowFigures {
   GridF prominence_m;  ///< of the measured ground above the ring around it
-  GridF sigma_m;       ///< its noise, what stereo repeats included
+  GridF sigma_m;       ///< its noise: of the map, of stereo, or of bumps around
   GridF share;         ///< of its height that a thing 18 cm across shows, smeared
 };
 

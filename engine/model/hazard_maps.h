@@ -38,8 +38,12 @@ struct HazardMaps {
   GridF step_m;           ///< largest height difference inside the footprint; NaN in thesis mode
   GridF cost;             ///< 0 best .. 1 forbidden
   GridF safe_distance_m;  ///< to the nearest cell that is not safe; 0 on such a cell
-  /// Of a safe touchdown of the lander's gear at its worst heading; NaN in thesis mode.
+  /// Of a safe touchdown of the lander's gear at its worst heading, and that nothing over the
+  /// limits hides within the clear radius; NaN in thesis mode.
   GridF safe_probability;
+  /// Rocks and holes over the limit expected unseen within the clear radius (hidden_things.h);
+  /// empty: nothing is known of any (a survey, thesis mode).
+  GridF hidden_things;
   Grid<std::uint8_t> reasons;  ///< HazardReason bits
   Grid<std::uint8_t> flags;    ///< TerrainFlag bits; empty in thesis mode
   Grid<GroundClass> ground;    ///< what each cell is to a lander

@@ -56,6 +56,9 @@ struct LandingSite {
   double cost = 0;
   double safe_probability = 1;
   TouchdownOdds touchdown;
+  /// Rocks and holes over the roughness limit expected unseen within the clear radius; NaN: not
+  /// known (a survey, a record). It is part of the probabilities.
+  double hidden_things = std::numeric_limits<double>::quiet_NaN();
   std::uint8_t flags = 0;  ///< TerrainFlag bits of the cells inside the clear radius
   int unknown_cells = 0;   ///< inside the clear radius
   int frames_fused = 0;    ///< that nine tenths of the clear radius's cells have at least

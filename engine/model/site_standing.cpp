@@ -13,6 +13,11 @@ std::string WhyProvisional(const LandingSite& site, const SladSettings& settings
   if (site.newest_confirms) {
     return "confirmed by the newest map, sure after 5 in a row";
   }
+  const std::string over = WithNumbers("over %.0f cm", 100 * settings.limits.max_deviation_m);
+  if (site.hidden_things > kMostHidden) {
+    return WithNumbers("%.2f rocks or holes ", site.hidden_things) + over +
+           WithNumbers(" expected unseen, sure up to %.2f", kMostHidden);
+  }
   if (settings.mode == SladMode::kModern &&
       !(site.safe_probability >= settings.limits.min_safe_probability)) {
     return WithNumbers("safe probability %.3f, sure from %.3f on", site.safe_probability,
@@ -26,8 +31,7 @@ std::string WhyProvisional(const LandingSite& site, const SladSettings& settings
   if (settings.mode == SladMode::kModern && site.frames_fused < enough && !site.pixel.hasNaN()) {
     return WithNumbers("seen in %.0f of the %.0f frames that it takes", site.frames_fused, enough);
   }
-  return WithNumbers("rocks or holes over %.0f cm may be hidden",
-                     100 * settings.limits.max_deviation_m);
+  return "rocks or holes " + over + " may be hidden";
 }
 
 }  // namespace palace

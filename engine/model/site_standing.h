@@ -11,8 +11,16 @@ namespace palace {
 /// One frame's gaps and blunders are not told from the ground; fewer where frames_fused is less.
 inline constexpr int kFramesToConfirm = 3;
 
-/// The first that holds: too little probability, too much noise of height, too few frames, rocks
-/// that may not be seen from there (landing_site.h, confirmed). Empty when the site is confirmed.
+/// Nothing is approved on ground measured longer ago, as old as a map may be.
+inline constexpr double kOldGround_s = 2;
+
+/// Rocks and holes over the limit expected unseen (LandingSite::hidden_things) under a confirmed
+/// site, at most.
+inline constexpr double kMostHidden = 0.01;
+
+/// The first that holds: too much that may hide, too little probability, too much noise of height,
+/// too few frames, cells wider than a rock (landing_site.h, confirmed). Empty when the site is
+/// confirmed.
 std::string WhyProvisional(const LandingSite& site, const SladSettings& settings);
 
 }  // namespace palace

@@ -1,10 +1,12 @@
 // How many things may hide under a touchdown, against the closed form of one cell.
-#include "engine/slad/sites/hidden_things.h"
+#include "engine/slad/hazards/hidden_things.h"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
+#include "engine/model/site_standing.h"
+#include "engine/slad/hazards/hazard_maps.h"
 #include "tests/slad/worlds.h"
 
 namespace palace {
@@ -13,7 +15,7 @@ namespace {
 using testing::Flat;
 using testing::MakeMap;
 
-constexpr double kLimit_m = 0.10, kRadius_m = 2.3, kThingsPer_m2 = 0.04;
+constexpr double kLimit_m = 0.10, kRadius_m = 2.3;
 constexpr Cell kMiddle{20, 20};
 
 /// Every cell shows `shown_m` with that sigma, where a thing would show `share` of its height.
@@ -24,7 +26,11 @@ ElevationMap MapThatShows(double shown_m, double sigma_m, double share) {
   return map;
 }
 
-double Hidden(const ElevationMap& map) { return HiddenThings(map, kLimit_m, kMiddle, kRadius_m); }
+NarrowView ViewOf(const ElevationMap& map) { return {map.narrow, 0.15, kLimit_m}; }
+
+double Hidden(const ElevationMap& map, Cell cell = kMiddle, double radius_m = kRadius_m) {
+  return static_cast<double>(HiddenThings(ViewOf(map), radius_m).at(cell));
+}
 
 TEST(HiddenThings, OneCellIsTheClosedForm) {
   // A radius below a cell's side leaves the middle alone.
@@ -36,8 +42,8 @@ TEST(HiddenThings, OneCellIsTheClosedForm) {
       const double odds = prior * std::exp((2 * r * p - r * r) / (2 * sigma_m * sigma_m));
       expected += odds / (1 + odds);
     }
-    EXPECT_NEAR(HiddenThings(MapThatShows(shown_m, sigma_m, share), kLimit_m, kMiddle, 0.1),
-                expected, 1e-6 * expected);
+    EXPECT_NEAR(Hidden(MapThatShows(shown_m, sigma_m, share), kMiddle, 0.1), expected,
+                1e-4 * expected);
   }
 }
 
@@ -47,10 +53,8 @@ TEST(HiddenThings, BlindGroundHidesWhatThePriorSaysAndClearGroundNothing) {
   EXPECT_LT(Hidden(MapThatShows(0, 0.003, 0.35)), 1e-9);
   ElevationMap unknown = MapThatShows(NAN, NAN, NAN);
   EXPECT_NEAR(Hidden(unknown), prior, 0.03 * prior);
-  EXPECT_NEAR(HiddenThings(MapThatShows(0, 0.003, 0.35), kLimit_m, {0, 0}, kRadius_m), 0.75 * prior,
-              0.1 * prior)
+  EXPECT_NEAR(Hidden(MapThatShows(0, 0.003, 0.35), {0, 0}), 0.75 * prior, 0.1 * prior)
       << "three quarters of a disc at the map's corner are not known";
-  EXPECT_EQ(Hidden(MakeMap(41, 41, 0.15, Flat())), 0) << "a survey";
 }
 
 TEST(HiddenThings, GrowsWithNoiseWithWhatShowsAndWithDistance) {
@@ -65,19 +69,62 @@ TEST(HiddenThings, GrowsWithNoiseWithWhatShowsAndWithDistance) {
   EXPECT_GT(Hidden(one), kMostHidden) << "one cell is enough";
 }
 
+TEST(HiddenThings, DiscsAreTheSumsOfTheirCells) {
+  // The fast sums along rows against the plain ones over every cell.
+  ElevationMap map = MapThatShows(0, 0.01, 0.3);
+  RandomStream random(7, "what shows");
+  for (float& shown_m : map.narrow.prominence_m.cells()) {
+    shown_m = static_cast<float>(0.01 * random.Normal());
+  }
+  for (const double radius_m : {0.1, 0.5, 2.3, 30.0}) {
+    const GridF cells = HiddenThings(ViewOf(map), 0.1);  // each alone
+    const GridF discs = HiddenThings(ViewOf(map), radius_m);
+    for (const Cell centre : {Cell{20, 20}, Cell{0, 3}, Cell{40, 40}}) {
+      const double r2 = std::pow(std::min(radius_m / 0.15, 41.0), 2);
+      double sum = 0;
+      for (int r = -100; r <= 140; ++r) {
+        for (int c = -100; c <= 140; ++c) {
+          const bool inside = map.geometry.Contains({r, c});
+          if (std::pow(r - centre.row, 2) + std::pow(c - centre.col, 2) <= r2) {
+            sum += inside ? static_cast<double>(cells.at(r, c)) : kThingsPer_m2 * 0.15 * 0.15;
+          }
+        }
+      }
+      EXPECT_NEAR(static_cast<double>(discs.at(centre)), sum, 1e-3 * sum + 1e-6) << radius_m;
+    }
+  }
+}
+
+TEST(HiddenThings, ArePartOfTheProbabilityOfASafeTouchdown) {
+  const SladSettings settings;
+  const ElevationMap clear = MapThatShows(0, 0.003, 0.35);
+  const HazardMaps seen = EvaluateHazards(clear, settings);
+  const HazardMaps blind = EvaluateHazards(MapThatShows(0, 1, 0.01), settings);
+  const double gear = static_cast<double>(seen.safe_probability.at(kMiddle));
+  const double hidden = static_cast<double>(blind.hidden_things.at(kMiddle));
+  EXPECT_NEAR(static_cast<double>(blind.safe_probability.at(kMiddle)), gear * std::exp(-hidden),
+              1e-5);
+  EXPECT_EQ(blind.ground.at(kMiddle), GroundClass::kLandable) << "offered, to be looked at";
+  ElevationMap marked = clear;
+  marked.narrow.prominence_m.at(kMiddle) = 0.042F;  // as a thing of the limit's size would show
+  EXPECT_NE(EvaluateHazards(marked, settings).ground.at(kMiddle), GroundClass::kLandable)
+      << "not offered";
+  EXPECT_TRUE(EvaluateHazards(MakeMap(41, 41, 0.15, Flat()), settings).hidden_things.empty())
+      << "a survey";
+}
+
 TEST(HiddenThings, GroundIsSeenWhereAThingIsRuledOutFiftyToOne) {
   // At r / sigma = k a cell that shows nothing has the ratio exp(-k^2 / 2): 1/50 at 2.797.
   const double share = 0.3, r = 1.2 * kLimit_m * share;
   for (const double k : {2.75, 2.85}) {
     const ElevationMap map = MapThatShows(0, r / k, share);
-    EXPECT_EQ(IsSeen(map, kLimit_m, kMiddle), k > 2.8) << k;
+    EXPECT_EQ(IsSeen(ViewOf(map), kMiddle), k > 2.8) << k;
   }
-  EXPECT_FALSE(IsSeen(MapThatShows(0.7 * r, r / 4, share), kLimit_m, kMiddle));
-  EXPECT_FALSE(IsSeen(MapThatShows(-0.7 * r, r / 4, share), kLimit_m, kMiddle));
-  EXPECT_FALSE(IsSeen(MapThatShows(NAN, NAN, NAN), kLimit_m, kMiddle));
-  EXPECT_TRUE(IsSeen(MakeMap(41, 41, 0.15, Flat()), kLimit_m, kMiddle)) << "a survey";
-  // A disc seen everywhere is confirmed.
-  EXPECT_LT(Hidden(MapThatShows(0, r / 2.85, share)), kMostHidden + 0.005);
+  const auto seen = [&](const ElevationMap& map) { return IsSeen(ViewOf(map), kMiddle); };
+  EXPECT_FALSE(seen(MapThatShows(0.7 * r, r / 4, share)));
+  EXPECT_FALSE(seen(MapThatShows(-0.7 * r, r / 4, share)));
+  EXPECT_FALSE(seen(MapThatShows(NAN, NAN, NAN)));
+  EXPECT_LT(Hidden(MapThatShows(0, r / 2.85, share)), kMostHidden) << "then confirmed";
 }
 
 }  // namespace

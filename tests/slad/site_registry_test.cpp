@@ -1,6 +1,7 @@
 // Sites over the maps of a flight: letters, places and ranks that stand, and what ends them.
 #include "engine/slad/sites/site_registry.h"
 
+#include <cmath>
 #include <map>
 #include <set>
 #include <string>
@@ -147,6 +148,34 @@ TEST(SiteRegistry, WhatOneMapCallsUnsafeLeavesWithItAndStandsBehindTheOthersForA
   EXPECT_EQ(after.sites[0].reason.find("Widest"), std::string::npos) << after.sites[0].reason;
   EXPECT_NE(hover.SeeOften(290, Flat()).sites[0].letter, "A");
   EXPECT_EQ(hover.SeeOften(10, Flat()).sites[0].letter, "A") << "30 s later";
+}
+
+TEST(SiteRegistry, GroundThatIsOutOfViewStandsBehindWhatIsSeen) {
+  // Two clear halves; what was best is not seen any more.
+  Hover hover;
+  const Height ground = WithBox(WithBox(Flat(), 0, 0, 0.6, 0.8), -6.9, 0, 0.6, 0.8);
+  const std::string best = hover.SeeOften(30, ground).sites.at(0).letter;
+  const auto seen = [&](double unseen_s) {
+    ElevationMap map = MakeMap(100, 100, 0.15, ground);
+    map.time = {static_cast<std::int64_t>(4'000'000 + unseen_s * 1e6)};
+    const LandingSite* site = nullptr;
+    const SiteSelection before = hover.See(ground);
+    site = Find(before, best);
+    map.age_s = GridF(100, 100, 0.0F);
+    for (int r = 0; r < 100; ++r) {
+      for (int c = 0; c < 100; ++c) {
+        const double off_m = std::hypot(map.geometry.NorthOfRow(r) - site->p_WS.x(),
+                                        map.geometry.EastOfCol(c) - site->p_WS.y());
+        map.age_s.at(r, c) = off_m < 2.5 ? static_cast<float>(unseen_s) : 0.0F;
+      }
+    }
+    return hover.Judge(map, hover.registry_);
+  };
+  EXPECT_EQ(seen(1.5).sites.at(0).letter, best) << "younger than an approval asks for";
+  const SiteSelection old = seen(30);
+  EXPECT_NE(old.sites.at(0).letter, best);
+  ASSERT_NE(Find(old, best), nullptr) << "it is listed all the same";
+  EXPECT_EQ(Find(old, best)->reason, "Ground last measured 30 s ago");
 }
 
 TEST(SiteRegistry, OneFramesBlunderInTheFusedMapChangesNoRank) {

@@ -13,6 +13,7 @@
 #include "engine/core/units.h"
 #include "engine/model/cell_explanation.h"
 #include "engine/slad/hazards/hazard_layers.h"
+#include "engine/slad/hazards/hidden_things.h"
 #include "engine/slad/hazards/loops/slad_loops.h"
 #include "engine/slad/hazards/safe_distance.h"
 
@@ -59,7 +60,10 @@ bool FootprintHolds(const HazardMaps& hazards, const SladSettings& settings, Cel
          hazards.step_m.at(cell) <= static_cast<float>(settings.limits.max_step_m) &&
          static_cast<double>(hazards.safe_probability.at(cell)) >=
              RequiredSafeProbability(settings,
-                                     static_cast<double>(hazards.roughness_sigma_m.at(cell)));
+                                     static_cast<double>(hazards.roughness_sigma_m.at(cell)),
+                                     hazards.hidden_things.empty()
+                                         ? 0
+                                         : static_cast<double>(hazards.hidden_things.at(cell)));
 }
 
 constexpr unsigned kAllReasons = 63;
@@ -243,6 +247,21 @@ void GrowByHysteresis(const TerrainFigures& figures, const SladSettings& setting
   GrowFrom(std::move(stepped), kHazardStep, reach, least_m, figures, hazards);
 }
 
+/// A touchdown is safe when the gear finds what was measured safe and nothing hides.
+void CountWhatHides(const NarrowFigures& narrow, const SladSettings& settings,
+                    HazardMaps& hazards) {
+  const NarrowView view{narrow, hazards.geometry.cell_m, settings.limits.max_deviation_m,
+                        &hazards.safe_distance_m};
+  hazards.hidden_things = HiddenThings(view, settings.lander.clear_radius_m());
+  cv::parallel_for_(cv::Range(0, hazards.geometry.rows), [&](const cv::Range& rows) {
+    for (int r = rows.start; r < rows.end; ++r) {
+      for (int c = 0; c < hazards.geometry.cols; ++c) {
+        hazards.safe_probability.at(r, c) *= std::exp(-hazards.hidden_things.at(r, c));
+      }
+    }
+  });
+}
+
 HazardMaps LayersFor(const GridGeometry& geometry, const TerrainFigures& figures) {
   const bool modern = figures.mode == SladMode::kModern;
   HazardMaps hazards;
@@ -313,6 +332,9 @@ HazardMaps JudgeTerrain(const GridGeometry& geometry, const TerrainFigures& figu
   hazards.safe_distance_m =
       SafeDistance(hazards.reasons, geometry.cell_m,
                    settings.mode == SladMode::kThesis ? DistanceTo::kCentre : DistanceTo::kSquare);
+  if (settings.mode == SladMode::kModern && !figures.narrow.share.empty()) {
+    CountWhatHides(figures.narrow, settings, hazards);
+  }
   ClassifyCells(settings, hazards);
   return hazards;
 }

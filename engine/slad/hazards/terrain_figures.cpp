@@ -64,6 +64,7 @@ TerrainFigures MeasureTerrain(const ElevationMap& map, const SladSettings& setti
     MeasureThesis(map, lander, figures);
   } else {
     figures.flags = FlagsOf(map);
+    figures.narrow = map.narrow;
     MeasureModern(map, lander, figures);
   }
   return figures;

@@ -31,6 +31,7 @@ struct TerrainFigures {
   GridF gear_tilt_rad;          ///< of the gear on the denoised heights, at its worst heading
   GridF belly_rise_m;           ///< of denoised heights under the belly above the gear's plane
   Grid<std::uint8_t> measured;  ///< 1 where the cell itself was measured
+  NarrowFigures narrow;         ///< of the map
 
   /// Whether measuring again under these settings would give the same figures.
   bool HoldFor(const SladSettings& settings) const;

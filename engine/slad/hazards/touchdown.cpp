@@ -271,6 +271,10 @@ TouchdownOdds OddsOfTouchdown(const ElevationMap& map, const HazardMaps& hazards
   const float deviation = hazards.roughness_m.at(site.cell), step = hazards.step_m.at(site.cell);
   const float sigma = hazards.roughness_sigma_m.at(site.cell), none = 0;
   const unsigned char measured = 1;
+  const double nothing_hides =
+      hazards.hidden_things.empty()
+          ? 1
+          : std::exp(-static_cast<double>(hazards.hidden_things.at(site.cell)));
   odds.worst_probability = 2;
   odds.best_probability = -1;
   for (int h = 0; h < gear.headings(); ++h) {
@@ -282,7 +286,7 @@ TouchdownOdds OddsOfTouchdown(const ElevationMap& map, const HazardMaps& hazards
         {&slope, &slope_sigma, &deviation, &step, &sigma, &place.deviation_m, &rest.tilt_rad,
          &rest.rise_m, &none, &none, &sigma, &measured},
         1, {&share, &cost, &reasons});
-    const double probability = static_cast<double>(share);
+    const double probability = nothing_hides * static_cast<double>(share);
     if (probability < odds.worst_probability) {
       odds.worst_probability = probability;
       odds.worst_heading_rad = gear.heading_rad(h);

@@ -7,8 +7,8 @@
 
 #include <opencv2/core.hpp>
 
+#include "engine/slad/hazards/hidden_things.h"
 #include "engine/slad/hazards/safe_distance.h"
-#include "engine/slad/sites/hidden_things.h"
 
 namespace palace {
 namespace {
@@ -73,11 +73,12 @@ GridF RoomSeen(const ElevationMap& map, const HazardMaps& hazards, const SladSet
   if (map.narrow.share.empty() || settings.mode == SladMode::kThesis) {
     return hazards.safe_distance_m;
   }
+  const NarrowView view{map.narrow, map.geometry.cell_m, settings.limits.max_deviation_m};
   Grid<std::uint8_t> blind = hazards.reasons;
   cv::parallel_for_(cv::Range(0, blind.rows()), [&](const cv::Range& rows) {
     for (int r = rows.start; r < rows.end; ++r) {
       for (int c = 0; c < blind.cols(); ++c) {
-        const bool seen = IsSeen(map, settings.limits.max_deviation_m, {r, c});
+        const bool seen = IsSeen(view, {r, c});
         blind.at(r, c) |= seen ? std::uint8_t{kHazardNone} : std::uint8_t{kHazardUnknown};
       }
     }

@@ -8,8 +8,8 @@
 
 #include "engine/model/site_standing.h"
 #include "engine/slad/hazards/hazard_layers.h"
+#include "engine/slad/hazards/hidden_things.h"
 #include "engine/slad/hazards/touchdown.h"
-#include "engine/slad/sites/hidden_things.h"
 
 namespace palace {
 namespace {
@@ -129,10 +129,9 @@ int FramesOfMost(std::vector<std::uint16_t>& counts) {
 
 /// Whether hardly anything too high or too deep can be hidden within the clear radius: what was not
 /// seen is not safe, however little noise there is.
-bool NothingHides(const ElevationMap& map, const SladSettings& settings, Cell centre,
-                  double radius_m) {
+bool NothingHides(const ElevationMap& map, const SladSettings& settings, const LandingSite& site) {
   return map.geometry.cell_m <= settings.lander.max_rock_size_m &&
-         HiddenThings(map, settings.limits.max_deviation_m, centre, radius_m) <= kMostHidden;
+         !(site.hidden_things > kMostHidden);
 }
 
 /// Surveys and thesis mode have no frames to wait for.
@@ -154,6 +153,9 @@ void TakeFigures(const HazardMaps& hazards, Cell cell, LandingSite& site) {
   site.safe_distance_m = Known(hazards.safe_distance_m.at(cell));
   site.cost = Known(hazards.cost.at(cell));
   site.safe_probability = Known(hazards.safe_probability.at(cell));
+  if (!hazards.hidden_things.empty()) {
+    site.hidden_things = Known(hazards.hidden_things.at(cell));
+  }
 }
 
 LandingSite EvaluateSite(const ElevationMap& map, const HazardMaps& hazards,
@@ -188,8 +190,7 @@ LandingSite EvaluateSite(const ElevationMap& map, const HazardMaps& hazards,
   const bool likely = settings.mode == SladMode::kThesis ||
                       site.safe_probability >= settings.limits.min_safe_probability;
   site.confirmed = likely && site.height_m.three_sigma < settings.limits.max_deviation_m &&
-                   FramesAgree(settings, context, site) &&
-                   NothingHides(map, settings, cell, site.clear_radius_m);
+                   FramesAgree(settings, context, site) && NothingHides(map, settings, site);
   site.distance_m = (context.p_WB - site.p_WS).head<2>().norm();
   const std::optional<Approach> straight = StraightApproach(settings, context, site);
   site.corridor_clear = !straight || IsClear(*straight, map, settings, site);

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 #include <utility>
 
 #include <opencv2/core.hpp>
 
+#include "engine/model/site_standing.h"
 #include "engine/slad/hazards/explanation.h"
 #include "engine/slad/sites/none_reason.h"
 #include "engine/slad/sites/site_evaluation.h"
@@ -277,19 +279,22 @@ std::vector<SiteRegistry::Found> SiteRegistry::Ranked(const Map& now, std::vecto
     }
     return p.rank >= 0 && (q.rank < 0 || p.rank < q.rank);
   });
-  const auto passes = [&](const Place& p, const Place& q) {
+  const auto passes = [&](const Found& a, const Found& b) {
     const auto approach = [](const Place& place) {
       return place.straight_clear.good() ? 0 : place.some_clear.good() ? 1 : 2;
     };
-    const auto order = [&](const Place& place) {
-      return std::pair(approach(place), std::isfinite(ShakenFor(place, now.elevation.time)));
+    const auto order = [&](const Found& one) {
+      const Place& place = place_of(one);
+      return std::tuple(one.site.age_s > kOldGround_s, approach(place),
+                        std::isfinite(ShakenFor(place, now.elevation.time)));
     };
-    return order(p) != order(q) ? order(p) < order(q) : p.score.value() > q.score.value() + noise;
+    const double ahead = place_of(a).score.value() - place_of(b).score.value();
+    return order(a) != order(b) ? order(a) < order(b) : ahead > noise;
   };
   for (bool moved = true; moved;) {
     moved = false;
     for (std::size_t i = 1; i < found.size(); ++i) {
-      if (passes(place_of(found[i]), place_of(found[i - 1]))) {
+      if (passes(found[i], found[i - 1])) {
         std::swap(found[i - 1], found[i]);
         moved = true;
       }

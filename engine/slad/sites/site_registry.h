@@ -13,6 +13,8 @@
 //              row; never the place that is selected
 //   confirmed  as the maps say, 3 of 5 against it, 5 in a row for it again
 //   approach   likewise: blocked ones come after clear ones
+//   old        ground last measured longer ago than an approval allows (2 s) comes after all that
+//              is still in view
 //
 // So a single map with a false cell lists and names nothing and moves no ring, while a place that
 // the newest map calls unsafe is never in the list. Under other limits all but places and letters

@@ -24,14 +24,11 @@ constexpr double kLeastVariance_m2 = 1e-12;  // of maps that state none
 constexpr double kRingRoughs = 3.5, kGroundRoughs = 4;
 constexpr double kClearRingRoughs = 10;  // of many things on even ground
 constexpr double kRepeats = 2.5;         // what stereo repeats at worst, over its usual sigma
-constexpr double kRingWindows = 1.25;    // nearer, the window smears the thing onto the ring
 constexpr double kLeastRing_cells = 2;
 constexpr double kMostFactor = 6;
 constexpr double kSteepFactor = 4;
 constexpr double kTallest_m = 1;
 constexpr double kMostRefused = 0.15;  // share of a cell's pixels
-constexpr double kThing_m = 0.18;      // half as wide again as it is high, at 1.2 times the limit
-constexpr double kPeakOfThing = 0.8;   // of its height, once smeared: it is no box
 
 /// The ground around a cell: the plane through its ring.
 struct Ring {
@@ -194,6 +191,7 @@ NarrowFigures FiguresOf(const ElevationMap& map, const MatchingWindow& window,
   const GridGeometry& g = map.geometry;
   const GridF unknown(g.rows, g.cols, kUnknownValue);
   Prominences prominence = ProminencesOf(map, map.Measured(), window);
+  const GroundRoughness roughness(prominence.height_m, g.cell_m);
   NarrowFigures figures{std::move(prominence.height_m), std::move(prominence.sigma_m), unknown};
   for (int r = 0; r < g.rows; ++r) {
     for (int c = 0; c < g.cols; ++c) {
@@ -202,7 +200,9 @@ NarrowFigures FiguresOf(const ElevationMap& map, const MatchingWindow& window,
         continue;
       }
       const float repeated = repeated_m2.empty() ? 0.0F : repeated_m2.at(r, c);
-      sigma_m = std::sqrt(sigma_m * sigma_m + repeated);
+      // Among bumps a bump says nothing: what cells around stand off their rings by is noise too.
+      sigma_m = std::max(std::sqrt(sigma_m * sigma_m + repeated),
+                         static_cast<float>(roughness.At(r, c)));
       const double spread_m2 = std::pow(window.Width_m(map, {r, c}), 2) + g.cell_m * g.cell_m;
       figures.share.at(r, c) =
           static_cast<float>(kPeakOfThing / (1 + spread_m2 / (kThing_m * kThing_m)));

@@ -11,6 +11,10 @@
 namespace palace {
 
 inline constexpr double kStereoWindow_px = 9;  ///< of stereo's refinement
+inline constexpr double kRingWindows = 1.25;   ///< nearer, the window smears a thing onto its ring
+/// Width of the thing that must not hide: half as wide again as it is high, at 1.2 times the default
+/// limit; and the share of its height that it shows unsmeared: it is no box.
+inline constexpr double kThing_m = 0.18, kPeakOfThing = 0.8;
 
 /// A matching window w metres wide reads a thing s < w wide as lower, by about (s / w)^2, because
 /// it averages it with the ground around, and a hole as shallower. Cells that stand above a ring
@@ -48,7 +52,9 @@ void RaiseNarrowRelief(const PinholeCamera& camera, const Eigen::Vector3d& p_WC,
 ///
 ///   0.8 / (1 + (w^2 + c^2) / a^2)
 ///
-/// 0.8 for it is no box. Measured on drawn rocks of 15 cm: 0.27 to 0.35 at 15 to 20 m, as this
+/// Its noise is that of the map, with what stereo repeats, or what the cells around stand off their
+/// rings by (GroundRoughness), whichever is more: among bumps a bump says nothing. 0.8 for it is no
+/// box. Measured on drawn rocks of 15 cm: 0.27 to 0.35 at 15 to 20 m, as this
 /// says.
 NarrowFigures MeasureNarrowRelief(const PinholeCamera& camera, const Eigen::Vector3d& p_WC,
                                   double narrow_m, const GridF& repeated_m2,

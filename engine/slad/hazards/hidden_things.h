@@ -1,0 +1,49 @@
+// Hidden things: how many rocks or holes over the limit may lie unseen under a touchdown.
+//
+// Stereo smears what is narrower than its window, so a thing over the limit may show a few
+// centimetres only, and noise may hide these. Of each cell the map says by how much it stands above
+// its surroundings (p), with which sigma (s), and which share of its height a thing 18 cm across
+// would show there. Such a thing of 1.2 times the limit shows r. Against bare ground it is more
+// likely, by what shows, by
+//
+//   L = exp((2 r p - r^2) / (2 s^2))          (a hole: -p for p)
+//
+// and with n things a square metre, half of them holes, a cell of area A hides one with
+//
+//   q = (n A / 2) L / (1 + (n A / 2) L)
+//
+// Their sum H over the disc is the expected number, exp(-H) the chance that there is none. Ground
+// that is smooth, near and textured hides none (1e-10); ground too far away to tell hides n A; a
+// cell that stands out by half of r counts as much as one in which nothing could be seen, one that
+// stands out by more hides nearly a whole thing. Monotone in each figure.
+//
+// n is one number for all ground (CALIBRATION.md): among drawn worlds neither the things that a map
+// shows elsewhere nor the ground searched for them told it better.
+#pragma once
+
+#include "engine/model/elevation_map.h"
+#include "engine/model/grid.h"
+
+namespace palace {
+
+/// What is known of a map's narrow things, and how large the thing is that must not be missed.
+struct NarrowView {
+  const NarrowFigures& narrow;  ///< not empty
+  double cell_m = 0;
+  double max_deviation_m = 0;  ///< the limit of roughness
+  /// To the nearest hazard: beside one its own foot lies on the ring, and what shows there is no
+  /// second thing (L is 1 at most). Null: nothing is explained so.
+  const GridF* safe_distance_m = nullptr;
+};
+
+/// Rocks and holes over the limit where none was found, per square metre.
+inline constexpr double kThingsPer_m2 = 0.01;
+
+/// H of the disc around each cell. Cells of which nothing is known, and those outside the map, hide
+/// what n says. Rows are shared among OpenCV's threads; their number changes no bit.
+GridF HiddenThings(const NarrowView& view, double radius_m, double things_per_m2 = kThingsPer_m2);
+
+/// Whether what shows in a cell rules such a thing out, fifty to one: ground that is seen.
+bool IsSeen(const NarrowView& view, Cell cell);
+
+}  // namespace palace
