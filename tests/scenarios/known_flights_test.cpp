@@ -37,7 +37,7 @@ void PrintTo(const KnownFlight& flight, std::ostream* out) {
 }
 
 constexpr KnownFlight kKnownFlights[] = {
-    {"runway", 101, 0, MissionState::kLanded, 0x2404ef4000fa26e1},
+    {"runway", 101, 0, MissionState::kLanded, 0x067f55e1e06df5c4},
     {"slope", 7, 3, MissionState::kDescending, 0x85f1f25ee6f43a08},
 };
 constexpr double kLimit_s = 120;
