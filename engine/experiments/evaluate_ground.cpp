@@ -243,7 +243,7 @@ std::vector<JudgedSite> JudgedSites(const TrialTable& table) {
   return sites;
 }
 
-/// Probabilities said against the sites that were safe, by tenths of the chance of being unsafe.
+/// Probabilities said against the share of sites that were safe, in bins.
 void AddCalibration(const TrialTable& table, HtmlPage& page) {
   constexpr double kEdges[] = {0, 0.5, 0.7, 0.8, 0.9, 0.95, 0.98, 1.0001};
   const std::vector<double> said = table.Numbers("probability");
@@ -288,8 +288,7 @@ void AddLeaveOneOut(const TrialTable& table, ExperimentReport& report) {
       .Paragraph(
           "Rocks and holes hidden a square metre, fitted on the sites of all other families; by it "
           "the mean chance that something over 1.2 times a limit hides under a site of this "
-          "family, "
-          "and the share of its sites that were so. Nothing else is fitted.")
+          "family, and the share of its sites that were so. Nothing else is fitted.")
       .Table({"Family left out", "Fitted, 1/m2", "Said unsafe", "Unsafe"}, rows);
 }
 

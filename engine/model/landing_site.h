@@ -63,7 +63,7 @@ struct LandingSite {
   int unknown_cells = 0;   ///< inside the clear radius
   int frames_fused = 0;    ///< that nine tenths of the clear radius's cells have at least
   /// 3 sigma of height below the roughness limit, P at least min_safe_probability, seen in 3 frames
-  /// (pictures only), cell no wider than max_rock_size_m, stereo window within 0.735 of it.
+  /// (pictures only), cell no wider than max_rock_size_m, hidden_things at most kMostHidden.
   bool confirmed = false;
   bool newest_confirms = false;  ///< so says the newest map; `confirmed` is steady over maps
   bool corridor_clear = true;    ///< rotor-wide along the glide slope
