@@ -15,8 +15,9 @@ std::string WhyProvisional(const LandingSite& site, const SladSettings& settings
   }
   const std::string over = WithNumbers("over %.0f cm", 100 * settings.limits.max_deviation_m);
   if (site.hidden_things > kMostHidden) {
-    return WithNumbers("%.2f rocks or holes ", site.hidden_things) + over +
-           WithNumbers(" expected unseen, sure up to %.2f", kMostHidden);
+    // One line of the narrowest approve panel.
+    return WithNumbers("%.2f rocks or holes may be hidden, max %.2f", site.hidden_things,
+                       kMostHidden);
   }
   if (settings.mode == SladMode::kModern &&
       !(site.safe_probability >= settings.limits.min_safe_probability)) {
