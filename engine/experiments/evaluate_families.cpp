@@ -199,16 +199,21 @@ const char* MissionOutcomeName(MissionOutcome outcome) {
 
 MissionOutcome OutcomeOf(MissionState last, bool approved, const std::optional<DiscTruth>& under,
                          const TruthLimits& limits) {
+  if (under && !WithinLimits(*under, limits.Scaled(kGrace))) {
+    return MissionOutcome::kLandedOnHazard;
+  }
   switch (last) {
     case MissionState::kHold:
       return MissionOutcome::kHeld;
     case MissionState::kAborting:
       return MissionOutcome::kAborted;
     case MissionState::kLanded:
-      return under && WithinLimits(*under, limits.Scaled(kGrace)) ? MissionOutcome::kLandedRight
-                                                                  : MissionOutcome::kLandedOnHazard;
+      return under ? MissionOutcome::kLandedRight : MissionOutcome::kLandedOnHazard;
+    case MissionState::kApproved:
+    case MissionState::kDescending:
+      return MissionOutcome::kUnfinished;
     default:
-      return approved ? MissionOutcome::kUnfinished : MissionOutcome::kRefused;
+      return approved ? MissionOutcome::kHeld : MissionOutcome::kRefused;
   }
 }
 
@@ -227,6 +232,7 @@ Experiment FamiliesExperiment(SceneCameraFactory camera) {
     options->mission.AddVehicle(verb);
     options->mission.AddWind(verb, 15);
     options->mission.AddSet(verb);
+    options->mission.AddRecord(verb);
   };
   experiment.setup = [options] {
     return options->worlds.Text() + ", vehicle " + options->mission.vehicle + ", " +

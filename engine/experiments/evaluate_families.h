@@ -21,15 +21,16 @@ namespace palace {
 enum class MissionOutcome : std::uint8_t {
   kLandedRight,
   kLandedOnHazard,
-  kHeld,        ///< in the descent, and stayed so
+  kHeld,        ///< in a descent, and nothing could be approved again
   kAborted,     ///< climbed away
   kRefused,     ///< nothing could be approved
   kUnfinished,  ///< time was up in the descent
 };
 inline constexpr int kMissionOutcomeCount = 6;
 const char* MissionOutcomeName(MissionOutcome outcome);
-/// Of a mission that ended in `last`: `approved` a site was, `under` the vehicle the ground is so;
-/// ground that nobody knows is a hazard.
+/// Of a mission that ended in `last`: `approved` a site was; `under` the vehicle the ground is so,
+/// where it touched down, whether or not the station knows. A landing on ground that nobody knows is
+/// one on a hazard.
 MissionOutcome OutcomeOf(MissionState last, bool approved, const std::optional<DiscTruth>& under,
                          const TruthLimits& limits);
 

@@ -163,6 +163,7 @@ Experiment LandingExperiment(SceneCameraFactory camera) {
         verb, 15,
         "; with more at the vehicle than its limit (8 for the R-50) nothing can be approved");
     options->mission.AddSet(verb);
+    options->mission.AddRecord(verb);
     verb.add_option("--fault", options->faults, kFaultHelp);
     verb.add_option("--faults", options->faults_file, kFaultsHelp);
   };

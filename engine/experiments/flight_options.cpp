@@ -29,6 +29,11 @@ void FlightOptions::AddSet(CLI::App& app) {
   app.add_option("--set", set, "One setting, e.g. slad.max_slope_deg=8");
 }
 
+void FlightOptions::AddRecord(CLI::App& app) {
+  app.add_option("--record", record,
+                 "Folder for the log of every flight, SCENARIO-SEED/flight.lcm; about 6.3 MB a second of flight");
+}
+
 Result<MissionFlight> FlightOptions::Flight(std::uint64_t seed) const {
   const Result<VehicleDescription> described = LoadVehicle(vehicle);
   if (!described) {
@@ -42,7 +47,8 @@ Result<MissionFlight> FlightOptions::Flight(std::uint64_t seed) const {
                        .seed = seed,
                        .vehicle = *described,
                        .settings = *settings,
-                       .wind_mps = wind_mps};
+                       .wind_mps = wind_mps,
+                       .record_in = record};
 }
 
 std::string FlightOptions::WindText() const { return "wind " + CsvNumber(wind_mps) + " m/s"; }

@@ -19,12 +19,14 @@ struct FlightOptions {
   std::string vehicle = kDefaultVehicle;  ///< a name or a file
   double wind_mps = 0;
   std::vector<std::string> set{};
+  std::string record{};  ///< a folder for the logs of the flights; empty: none
 
   /// Each adds the option of its name.
   void AddScenario(CLI::App& app);
   void AddVehicle(CLI::App& app);
   void AddWind(CLI::App& app, double most_mps, const std::string& note = "");
   void AddSet(CLI::App& app);
+  void AddRecord(CLI::App& app);
 
   /// The flight they ask for, settings those of the vehicle under --set. Errors: those of the
   /// vehicle's file, and of --set.

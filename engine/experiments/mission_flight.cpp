@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "engine/faults/faulted_source.h"
+#include "engine/journal/flight_recorder.h"
 #include "engine/runtime/engine.h"
 #include "engine/runtime/scripted_operator.h"
 #include "engine/simulation/session.h"
@@ -22,9 +23,12 @@ class Patience {
       state_ = state;
       since_s_ = flown.duration_s;
     }
+    if (state == MissionState::kApproved || state == MissionState::kDescending) {
+      approved_s_ = flown.duration_s;
+    }
     const bool stopped = state == MissionState::kHold || state == MissionState::kAborting;
     return flown.duration_s > flight_.limit_s ||
-           (!flown.site && flown.duration_s > flight_.unapproved_limit_s) ||
+           flown.duration_s - approved_s_ > flight_.unapproved_limit_s ||
            (stopped && flown.duration_s - since_s_ > flight_.stopped_limit_s);
   }
 
@@ -32,6 +36,7 @@ class Patience {
   const MissionFlight& flight_;
   MissionState state_ = MissionState::kNoLive;
   double since_s_ = 0;
+  double approved_s_ = 0;  ///< an approval stood last
 };
 
 std::string WhyNotLanded(const EngineSnapshot& snapshot) {
@@ -72,6 +77,15 @@ Result<FlownMission> FlyMission(const MissionFlight& flight, const SceneCameraFa
   parts.mission.session_id = session->id;
   parts.source = source;
   parts.link = source;
+  if (!flight.record_in.empty()) {
+    Result<std::unique_ptr<FlightRecorder>> recorder = FlightRecorder::Open(
+        flight.record_in, std::filesystem::path(flight.scenario).stem().string() + "-" +
+                              std::to_string(flight.seed));
+    if (!recorder) {
+      return recorder.error();
+    }
+    parts.sink = std::move(*recorder);
+  }
   Engine engine(std::move(parts), /*threaded=*/false);
   FlightSummarizer summarizer(std::move(session->scene));
   ScriptedOperator pilot;
@@ -90,6 +104,9 @@ Result<FlownMission> FlyMission(const MissionFlight& flight, const SceneCameraFa
   }
   if (!engine.error().empty()) {
     return UnavailableError(engine.error());
+  }
+  if (const Status closed = engine.Stop(); !closed) {
+    return closed.error();
   }
   flown.summary = summarizer.summary();
   const Touchdown* touchdown = simulator->touchdown();

@@ -2,6 +2,7 @@
 // mission says of it, how it met the ground, and why it ended where it did.
 #pragma once
 
+#include <filesystem>
 #include <limits>
 #include <optional>
 #include <string>
@@ -22,10 +23,11 @@ struct MissionFlight {
   double wind_mps = 0;
   FaultPlan faults{};
   double limit_s = 180;  ///< of flown time
-  /// It also ends when nothing was approved for that long, or when it holds or climbs away that
-  /// long without going on.
+  /// It also ends when no approval stood for that long, or when it holds or climbs away that long
+  /// without going on.
   double unapproved_limit_s = std::numeric_limits<double>::infinity();
   double stopped_limit_s = std::numeric_limits<double>::infinity();
+  std::filesystem::path record_in{};  ///< its log: <record_in>/<scenario>-<seed>; empty: none
 };
 
 struct FlownMission {
@@ -35,7 +37,8 @@ struct FlownMission {
   std::string why{};
 };
 
-/// An unknown scenario is a usage error; a camera that cannot draw, its own.
+/// Errors: an unknown scenario is one of usage; those of a camera that cannot draw and of a log that
+/// cannot be written.
 Result<FlownMission> FlyMission(const MissionFlight& flight, const SceneCameraFactory& camera);
 
 }  // namespace palace

@@ -55,6 +55,16 @@ TEST(MissionOutcomes, WithoutALandingTheLastStateTells) {
   EXPECT_EQ(outcome(MissionState::kProposed, false), MissionOutcome::kRefused);
   EXPECT_EQ(outcome(MissionState::kArmed, false), MissionOutcome::kRefused);
   EXPECT_EQ(outcome(MissionState::kDescending, true), MissionOutcome::kUnfinished);
+  EXPECT_EQ(outcome(MissionState::kProposed, true), MissionOutcome::kHeld);
+  EXPECT_EQ(outcome(MissionState::kArmed, true), MissionOutcome::kHeld);
+}
+
+TEST(MissionOutcomes, AVehicleThatStruckSomethingDidWhateverTheStationSays) {
+  for (const MissionState last :
+       {MissionState::kSearch, MissionState::kDescending, MissionState::kHold}) {
+    EXPECT_EQ(OutcomeOf(last, true, Ground(0, 0, 6.4), kLimits), MissionOutcome::kLandedOnHazard);
+    EXPECT_NE(OutcomeOf(last, true, Ground(0, 0, 0), kLimits), MissionOutcome::kLandedOnHazard);
+  }
 }
 
 TEST(FamiliesReport, CountsByFamilyAndFailsOnAHazard) {
