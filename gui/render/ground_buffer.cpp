@@ -1,48 +1,11 @@
 #include "gui/render/ground_buffer.h"
 
-#include <algorithm>
-#include <cstdint>
-#include <optional>
-#include <utility>
+#include "gui/render/near_first.h"
 
 namespace palace {
-namespace {
 
 using Eigen::AlignedBox3d;
 using Eigen::Vector3d;
-
-/// More than single precision moves a corner on its way to the picture.
-constexpr double kSlack_m = 0.01;
-
-/// The six half-spaces of a view, v . (p, 1) >= 0 of positions relative to the camera.
-class View {
- public:
-  explicit View(const Eigen::Matrix4f& clip) {
-    const Eigen::Matrix4d rows = clip.cast<double>();
-    for (int axis = 0; axis < 3; ++axis) {
-      bounds_.row(2 * axis) = rows.row(3) + rows.row(axis);
-      bounds_.row(2 * axis + 1) = rows.row(3) - rows.row(axis);
-    }
-  }
-  /// False only where the box is outside of one of them as a whole.
-  bool Reaches(const AlignedBox3d& box) const {
-    for (int k = 0; k < 6; ++k) {
-      const Vector3d inward = bounds_.block<1, 3>(k, 0).transpose();
-      const double most =
-          inward.cwiseProduct(box.min()).cwiseMax(inward.cwiseProduct(box.max())).sum() +
-          bounds_(k, 3) + kSlack_m * inward.norm();
-      if (most < 0) {
-        return false;
-      }
-    }
-    return true;
-  }
-
- private:
-  Eigen::Matrix<double, 6, 4> bounds_;
-};
-
-}  // namespace
 
 AlignedBox3d GroundPlacing::Around(const Eigen::AlignedBox3f& box) const {
   AlignedBox3d around;
@@ -65,26 +28,11 @@ void GroundBuffer::Start(const GroundMesh& mesh) {
 
 void GroundBuffer::DrawNearFirst(const GroundPlacing& placing, const Vector3d& p_W,
                                  const Eigen::Matrix4f* clip) const {
-  std::optional<View> view;
-  if (clip != nullptr) {
-    view.emplace(*clip);
-  }
-  std::vector<std::pair<double, const GroundMesh::Chunk*>> seen;
+  std::vector<MeshRun> runs;
   for (const GroundMesh::Chunk& chunk : chunks_) {
-    AlignedBox3d box = placing.Around(chunk.box);
-    box.translate(-p_W);
-    if (!view || view->Reaches(box)) {
-      seen.emplace_back(box.squaredExteriorDistance(Vector3d::Zero()), &chunk);
-    }
+    runs.push_back({chunk.first_index, chunk.indices, placing.Around(chunk.box).translate(-p_W)});
   }
-  std::sort(seen.begin(), seen.end());
-  std::vector<GLsizei> counts;
-  std::vector<std::size_t> firsts;
-  for (const auto& [distance, chunk] : seen) {
-    counts.push_back(static_cast<GLsizei>(chunk->indices));
-    firsts.push_back(chunk->first_index);
-  }
-  mesh_.DrawRuns(counts, firsts);
+  palace::DrawNearFirst(mesh_, runs, clip);
 }
 
 }  // namespace palace

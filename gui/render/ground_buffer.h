@@ -25,9 +25,7 @@ class GroundBuffer {
   void Start(const GroundMesh& mesh);
   /// Of the program in use, whose uniforms the caller has set to the placing.
   void Draw() const { mesh_.Draw(); }
-  /// The chunks near the camera at p_W first: what they hide is not shaded. With the clip of
-  /// positions relative to that camera, only those that reach into its view: the picture is the
-  /// same to the bit.
+  /// As near_first.h says, of the camera at p_W.
   void DrawNearFirst(const GroundPlacing& placing, const Eigen::Vector3d& p_W,
                      const Eigen::Matrix4f* clip) const;
 

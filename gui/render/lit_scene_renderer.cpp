@@ -13,8 +13,8 @@
 #include "gui/render/framebuffer.h"
 #include "gui/render/ground_buffer.h"
 #include "gui/render/lit_resolve.h"
-#include "gui/render/mesh_buffer.h"
 #include "gui/render/shader.h"
+#include "gui/render/solid_buffer.h"
 #include "gui/render/sun_map.h"
 #include "shader_text.h"
 
@@ -42,18 +42,6 @@ GlTexture GreyTexture(int width, int height, const std::uint8_t* levels, GLint w
   return texture;
 }
 
-MeshBuffer SolidBuffer(const World& world) {
-  constexpr std::size_t kStride = sizeof(MeshVertex);
-  const std::vector<MeshVertex> corners = SolidTriangles(world, kGroundAlbedo);
-  MeshBuffer buffer;
-  buffer.Start(corners.data(), corners.size() * kStride, corners.size());
-  buffer.Attribute(0, 3, kStride, 0);
-  buffer.Attribute(1, 3, kStride, 3 * sizeof(float));
-  buffer.Attribute(2, 2, kStride, 6 * sizeof(float));
-  buffer.Attribute(3, 1, kStride, 8 * sizeof(float));
-  return buffer;
-}
-
 Eigen::Vector3f Single(const Eigen::Vector3d& v) { return v.cast<float>(); }
 
 /// The square itself, k = 0, or its neighbour that way: north = x * north + y.
@@ -68,7 +56,7 @@ std::pair<float, float> Mirror(int k, double low_m, double size_m) {
 
 struct LitSceneRenderer::Parts {
   struct Mover {
-    MeshBuffer buffer;
+    SolidBuffer buffer;
     Eigen::Vector3d v_W;
   };
   World world;
@@ -80,28 +68,27 @@ struct LitSceneRenderer::Parts {
   LitResolve resolve;
   GlTexture lit, grain;
   GroundBuffer fine, coarse;
-  MeshBuffer solids;
+  SolidBuffer solids;
   std::vector<Mover> movers;
   SunMap still_map, moving_map;
   Framebuffer target;
   bool cull = true;
+  double movers_mapped_s = std::numeric_limits<double>::quiet_NaN();  ///< the time of moving_map
 
   Status Build(const RayScene& scene);
   Status BuildShaders();
   void DrawSolidsInto(const Framebuffer& into, const Eigen::Matrix4f& clip,
-                      const Eigen::Vector3d& p_W, double time_s) const;
+                      const Eigen::Vector3d& p_W, double time_s);
   void DrawInto(const Framebuffer& into, const PinholeCamera& camera, const RigidTransform& X_WC,
-                double time_s) const;
+                double time_s);
   void DrawUnlitInto(const Framebuffer& into, const PinholeCamera& camera,
-                     const RigidTransform& X_WC, double time_s) const;
+                     const RigidTransform& X_WC, double time_s);
   void UseLight(const ShaderProgram& shader) const;
   GroundPlacing Place(const ShaderProgram& shader, int i, int j, float lower_m) const;
   void DrawGround(const ShaderProgram& shader, const Eigen::Matrix4f& clip,
                   const Eigen::Vector3d& p_W) const;
-  void DrawSolids(const ShaderProgram& shader) const;
-  void DrawMovers(const ShaderProgram& shader, double time_s) const;
   void UseShadows(const ShaderProgram& shader) const;
-  void MapMovers(double time_s) const;
+  void MapMovers(double time_s);
   void View(const ShaderProgram& shader, const Eigen::Matrix4f& clip,
             const Eigen::Vector3d& p_W) const;
 };
@@ -151,18 +138,16 @@ Status LitSceneRenderer::Parts::Build(const RayScene& scene) {
   world = scene.world();
   square = SquareOf(world.ground);
   texel_m = square.size_m / light.width();
-  World standing = world;
-  standing.solids.clear();
+  std::vector<Solid> standing;
   for (const Solid& solid : world.solids) {
     if (solid.v_WO.isZero()) {
-      standing.solids.push_back(solid);
-      continue;
+      standing.push_back(solid);
+    } else {
+      movers.emplace_back().v_W = solid.v_WO;
+      movers.back().buffer.Start(world, {solid});
     }
-    World alone = world;
-    alone.solids = {solid};
-    movers.push_back({SolidBuffer(alone), solid.v_WO});
   }
-  solids = SolidBuffer(standing);
+  solids.Start(world, standing);
   fine.Start(MeshGround(world.ground, kFine_m));
   coarse.Start(MeshGround(world.ground, kCoarse_m));
   if (const Status built = BuildShaders(); !built) {
@@ -190,7 +175,8 @@ Status LitSceneRenderer::Parts::Build(const RayScene& scene) {
   Place(ground_depth_shader, 0, 0, 0);
   fine.Draw();
   View(object_depth_shader, sun_from_world, Eigen::Vector3d::Zero());
-  DrawSolids(object_depth_shader);
+  object_depth_shader.Set("moved_W", Single(Eigen::Vector3d::Zero()));
+  solids.Draw();
   return Ok();
 }
 
@@ -231,22 +217,17 @@ void LitSceneRenderer::Parts::DrawGround(const ShaderProgram& shader, const Eige
   }
 }
 
-void LitSceneRenderer::Parts::DrawSolids(const ShaderProgram& shader) const {
-  shader.Set("moved_W", Eigen::Vector3f(0, 0, 0));
-  solids.Draw();
-}
-
-void LitSceneRenderer::Parts::DrawMovers(const ShaderProgram& shader, double time_s) const {
-  for (const Mover& mover : movers) {
-    shader.Set("moved_W", Single(time_s * mover.v_W));
-    mover.buffer.Draw();
+void LitSceneRenderer::Parts::MapMovers(double time_s) {
+  if (movers.empty() || time_s == movers_mapped_s) {  // for the other camera of the pair
+    return;
   }
-}
-
-void LitSceneRenderer::Parts::MapMovers(double time_s) const {
+  movers_mapped_s = time_s;
   moving_map.Begin();
   View(object_depth_shader, sun_from_world, Eigen::Vector3d::Zero());
-  DrawMovers(object_depth_shader, time_s);
+  for (const Mover& mover : movers) {
+    object_depth_shader.Set("moved_W", Single(time_s * mover.v_W));
+    mover.buffer.Draw();
+  }
 }
 
 void LitSceneRenderer::Parts::UseShadows(const ShaderProgram& shader) const {
@@ -284,12 +265,10 @@ void LitSceneRenderer::DrawInto(const Framebuffer& target, const PinholeCamera& 
 }
 
 void LitSceneRenderer::Parts::DrawSolidsInto(const Framebuffer& into, const Eigen::Matrix4f& clip,
-                                             const Eigen::Vector3d& p_W, double time_s) const {
+                                             const Eigen::Vector3d& p_W, double time_s) {
   into.Begin(kSkyGrey);
-  if (!movers.empty()) {
-    MapMovers(time_s);
-    into.Bind();
-  }
+  MapMovers(time_s);
+  into.Bind();
   View(object_shader, clip, p_W);
   UseShadows(object_shader);
   glBindTexture(GL_TEXTURE_2D, grain.name());
@@ -300,8 +279,14 @@ void LitSceneRenderer::Parts::DrawSolidsInto(const Framebuffer& into, const Eige
   object_shader.Set("sun_W", Single(world.sun.Direction()));
   object_shader.Set("direct", static_cast<float>(world.sun.direct));
   object_shader.Set("diffuse", static_cast<float>(world.sun.diffuse));
-  DrawSolids(object_shader);
-  DrawMovers(object_shader, time_s);
+  const auto draw = [&](const SolidBuffer& drawn, const Eigen::Vector3d& moved_W) {
+    object_shader.Set("moved_W", Single(moved_W));
+    drawn.DrawNearFirst(moved_W, p_W, cull ? &clip : nullptr);
+  };
+  draw(solids, Eigen::Vector3d::Zero());
+  for (const Mover& mover : movers) {
+    draw(mover.buffer, time_s * mover.v_W);
+  }
 }
 
 void LitSceneRenderer::Parts::UseLight(const ShaderProgram& shader) const {
@@ -317,7 +302,7 @@ void LitSceneRenderer::Parts::UseLight(const ShaderProgram& shader) const {
 }
 
 void LitSceneRenderer::Parts::DrawInto(const Framebuffer& into, const PinholeCamera& camera,
-                                       const RigidTransform& X_WC, double time_s) const {
+                                       const RigidTransform& X_WC, double time_s) {
   const Eigen::Matrix4f clip = ClipFromRelative(camera, X_WC);
   DrawSolidsInto(into, clip, X_WC.p, time_s);
   View(ground_shader, clip, X_WC.p);
@@ -326,7 +311,7 @@ void LitSceneRenderer::Parts::DrawInto(const Framebuffer& into, const PinholeCam
 }
 
 void LitSceneRenderer::Parts::DrawUnlitInto(const Framebuffer& into, const PinholeCamera& camera,
-                                            const RigidTransform& X_WC, double time_s) const {
+                                            const RigidTransform& X_WC, double time_s) {
   const Eigen::Matrix4f clip = ClipFromRelative(camera, X_WC);
   DrawSolidsInto(into, clip, X_WC.p, time_s);
   View(ground_flag_shader, clip, X_WC.p);
