@@ -46,6 +46,7 @@ World FieldWithObstacles(GroundTexture texture) {
 }
 
 using Paint = std::function<void(const PinholeCamera&, const RigidTransform&, ImageF&)>;
+using Poses = std::function<RigidTransform(int)>;
 
 struct Seen {
   std::shared_ptr<const ElevationMap> map;
@@ -61,12 +62,13 @@ struct Seen {
 };
 
 /// The map after some frames of a world, which may differ from frame to frame.
-Seen Look(int frames, const std::function<World(int)>& world, const Paint& paint = {}) {
+Seen Look(int frames, const std::function<World(int)>& world, const Paint& paint = {},
+          const Poses& pose_of = PoseOf) {
   Slad slad;
   const PinholeCamera camera = Camera();
-  const BakedGround ground = BakeFor(world(0), camera, {PoseOf(0), RightOf(PoseOf(5))});
+  const BakedGround ground = BakeFor(world(0), camera, {pose_of(0), RightOf(pose_of(5))});
   for (int k = 0; k < frames; ++k) {
-    const RigidTransform X_WC = PoseOf(k);
+    const RigidTransform X_WC = pose_of(k);
     std::array<std::shared_ptr<const ImageU8>, 2> pictures;
     for (const bool right : {false, true}) {
       const RigidTransform& X = right ? RightOf(X_WC) : X_WC;
@@ -98,6 +100,28 @@ TEST_P(SceneFlagsOn, NothingIsFlaggedWhereThereIsNothing) {
   const World world = FieldWithObstacles(GetParam());
   const Seen seen = Look(4, [&](int) { return world; });
   EXPECT_EQ(seen.Count(kFlagThinStructure | kFlagNoTexture | kFlagMotion), 0);
+}
+
+/// Soil from 4 m: patches of a decimetre, 3 grey levels, over many pixels. Stereo measures them, but
+/// for the picture's rim.
+TEST(SceneFlags, FaintTextureSeenFromCloseByIsTextureUpToTheRimOfThePicture) {
+  const auto soil = [](const PinholeCamera& camera, const RigidTransform& X_WC, ImageF& picture) {
+    for (int y = 0; y < picture.height(); ++y) {
+      for (int x = 0; x < picture.width(); ++x) {
+        const Eigen::Vector3d ray =
+            X_WC.R * RayFromPixel(camera, {static_cast<double>(x), static_cast<double>(y)});
+        const Eigen::Vector3d p = X_WC.p - X_WC.p.z() / ray.z() * ray;
+        const double wave = std::sin(47 * p.x() + 11 * p.y()) + std::sin(53 * p.y() - 7 * p.x()) +
+                            std::sin(29 * p.x() - 31 * p.y()) + std::sin(17 * p.x() + 23 * p.y());
+        picture.at(x, y) = static_cast<float>(80 + 2.2 * wave);
+      }
+    }
+  };
+  const auto low = [](int frame) {
+    return RigidTransform{CameraRotationFromTilt(-Rad(45)), {0.05 * frame, 0, -4.2}};
+  };
+  const Seen seen = Look(4, [](int) { return World{}; }, soil, low);
+  EXPECT_EQ(seen.Count(kFlagNoTexture), 0);
 }
 
 /// A wire 2 cm thick, 3 m above the ground, and a line of the same width painted beside it.

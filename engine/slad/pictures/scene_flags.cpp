@@ -23,8 +23,8 @@ Grid<CellCount> CountBlocks(const SceneView& view, const SceneGround& ground, co
                             const GridGeometry& geometry) {
   constexpr double kMiddle_px = (kBlock_px - 1) / 2.0;
   Grid<CellCount> counts(geometry.rows, geometry.cols);
-  for (int j = 0; j < ground.rows(); ++j) {
-    for (int i = 0; i < ground.cols(); ++i) {
+  for (int j = kRim_blocks; j < ground.rows() - kRim_blocks; ++j) {
+    for (int i = kRim_blocks; i < ground.cols() - kRim_blocks; ++i) {
       const Eigen::Vector3d p_W =
           PointAt(view, kBlock_px * i + kMiddle_px, kBlock_px * j + kMiddle_px,
                   static_cast<double>(ground.disparity_px.at(i, j)));

@@ -23,6 +23,9 @@ struct SceneView {
 };
 
 inline constexpr int kBlock_px = 4;
+/// Blocks at the picture's rim of which nothing is said: the windows of five blocks, and stereo's,
+/// are cut there.
+inline constexpr int kRim_blocks = 2;
 
 /// Block (i, j) covers pixels 4i..4i+3, 4j..4j+3; pixels beyond the last whole block have none.
 struct SceneGround {

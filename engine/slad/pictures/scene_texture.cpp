@@ -10,7 +10,7 @@
 namespace palace {
 namespace {
 
-constexpr int kReach_blocks = 2;            // of the window
+constexpr int kReach_blocks = kRim_blocks;  // of the window
 constexpr float kLeastCorrelation = 0.25F;  // chance alone: 0.05
 constexpr float kMostKnown = 0.35F;         // share of the window stereo measured
 constexpr float kMostNoise_grey = 5;        // contrast that may be noise
@@ -157,7 +157,7 @@ void FlagTextureAndShadow(const SceneView& view, const SceneGround& ground, Imag
   const int steps = std::clamp(static_cast<int>(std::lround(kLeastSize_m / 2 / block_m)), 1, 8);
 
   ImageU8 bare(ground.cols(), ground.rows(), 0), dark = bare;
-  for (int j = 0; j < ground.rows(); ++j) {
+  for (int j = kRim_blocks; j < ground.rows() - kRim_blocks; ++j) {
     const Enclosed row = MeasuredOnBothSides(ground, j);
     for (int i = row.first; i < row.end; ++i) {
       const float usable = sums.usable.at(i, j);

@@ -5,7 +5,8 @@
 // in the two, so faint texture counts while noise does not, and no noise figure is needed. Without
 // texture: the correlation does not stand out of chance, the contrast is no more than noise can be,
 // stereo has next to nothing though it has something on both sides of the row, and all this over
-// some 0.3 m. Water, glass, snow, burnt-out ground.
+// some 0.3 m. Water, glass, snow, burnt-out ground. Not at the rim of the picture, where stereo
+// measures little whatever is there.
 //
 // Deep shadow: less than half as bright as the picture's median, with no more than usual contrast.
 #pragma once
