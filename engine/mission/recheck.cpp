@@ -20,7 +20,7 @@ bool IsUsableBeside(const MissionMemory& m, const std::optional<LandingSite>& si
                     const SladSettings& settings) {
   return site && !m.status.IsRefused(site->id) && site->corridor_clear &&
          !SharesGround(*site, *m.status.armed) &&
-         JudgeRecheck(site, {}, {false, 0}, settings).holds();
+         JudgeRecheck(site, {}, {}, settings).holds();
 }
 
 /// The best other site there is now. The list is steady (slad/sites/site_registry.h); one that
@@ -70,10 +70,12 @@ void FollowSite(MissionTurn& turn, const MissionInputs& in) {
     return;
   }
   const Timestamp now = in.session.now;
+  const MissionState state = m.status.state;
+  const ApprovedEvidence known{
+      m.armed.confirmed, m.status.armed->clearance_m,
+      state == MissionState::kApproved || state == MissionState::kDescending};
   m.site.Add(
-      JudgeRecheck(in.terrain.rechecked, in.terrain.nearest,
-                   {m.armed.confirmed, m.status.armed->clearance_m}, in.limits.settings.slad),
-      now);
+      JudgeRecheck(in.terrain.rechecked, in.terrain.nearest, known, in.limits.settings.slad), now);
   m.newest = in.terrain.rechecked;
   if (in.terrain.rechecked && in.terrain.rechecked->age_s >= 0) {
     m.ground_seen_at = std::max(m.ground_seen_at, AddSeconds(now, -in.terrain.rechecked->age_s));
@@ -86,7 +88,7 @@ void FollowSite(MissionTurn& turn, const MissionInputs& in) {
     AddEvent(turn, now, EventKind::kSite, words::SiteTold(m, verdict));
     m.told = verdict;
   }
-  if (m.status.state == MissionState::kDescending || m.status.state == MissionState::kHold) {
+  if (state == MissionState::kDescending || state == MissionState::kHold) {
     RecordRecheck(m, in, verdict);
   }
 }

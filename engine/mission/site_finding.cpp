@@ -47,7 +47,8 @@ SiteFinding JudgeRecheck(const std::optional<LandingSite>& now,
     }
   }
   if (!now->corridor_clear) {
-    worse(Finding::kDoubtful, "Something stands in the approach");
+    worse(approved.flown_to ? Finding::kOver : Finding::kDoubtful,
+          "Something stands in the approach");
   }
   if (nearest && nearest->IsSeen() && now->clearance_m < kLeastRoomShare * approved.clearance_m &&
       now->clearance_m < approved.clearance_m - kNoticedRoom_m) {

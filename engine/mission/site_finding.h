@@ -1,10 +1,12 @@
 // What one map says of the site that was approved.
 //
 //   gross      an obstacle under the lander, beyond twice its limit and beyond 3 sigma of it
-//   over       some figure is over its limit, unknown, or the site is off the map
+//   over       some figure is over its limit, unknown, or the site is off the map; or the vehicle is
+//              on its way and something stands in it
 //   doubtful   inside every limit, but: the limit lies within the 3 sigma of a figure although the
-//              site was confirmed before, the approach is blocked, a hazard leaves less than half
-//              the room that was approved, or the ground was last measured too long ago
+//              site was confirmed before, the approach is blocked before any approval, a hazard
+//              leaves less than half the room that was approved, or the ground was last measured too
+//              long ago
 //   good       none of these
 //
 // The vehicle's limits are fixed; what distance changes is the sigma. A provisional site is one
@@ -37,6 +39,7 @@ struct SiteFinding {
 struct ApprovedEvidence {
   bool confirmed = false;
   double clearance_m = 0;  ///< room beyond the clear radius
+  bool flown_to = false;   ///< approved: the vehicle is on its way, or about to be
 };
 
 constexpr double kLeastRoomShare = 0.5;  ///< of the approved clearance
