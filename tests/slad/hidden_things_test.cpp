@@ -34,13 +34,16 @@ double Hidden(const ElevationMap& map, Cell cell = kMiddle, double radius_m = kR
 
 TEST(HiddenThings, OneCellIsTheClosedForm) {
   // A radius below a cell's side leaves the middle alone.
-  for (const double shown_m : {0.0, 0.01, -0.02, 0.03}) {
+  for (const double shown_m : {0.0, 0.01, -0.02, 0.03, 0.036, -0.05}) {
     const double sigma_m = 0.01, share = 0.3, r = 1.2 * kLimit_m * share;
     const double prior = kThingsPer_m2 / 2 * 0.15 * 0.15;
     double expected = 0;
     for (const double p : {shown_m, -shown_m}) {
-      const double odds = prior * std::exp((2 * r * p - r * r) / (2 * sigma_m * sigma_m));
-      expected += odds / (1 + odds);
+      const double s2 = 2 * sigma_m * sigma_m;
+      const double limit = std::exp((2 * r * p - r * r) / s2);
+      const double best = p > 0 ? std::exp(p * p / s2) : 1;
+      const double larger = p < r ? limit : best, smaller = p < r ? best : limit;
+      expected += prior * larger / (1 + prior * (larger + smaller));
     }
     EXPECT_NEAR(Hidden(MapThatShows(shown_m, sigma_m, share), kMiddle, 0.1), expected,
                 1e-4 * expected);
@@ -67,6 +70,18 @@ TEST(HiddenThings, GrowsWithNoiseWithWhatShowsAndWithDistance) {
   ElevationMap one = MapThatShows(0, 0.003, 0.35);
   one.narrow.prominence_m.at(kMiddle) = 0.035F;
   EXPECT_GT(Hidden(one), kMostHidden) << "one cell is enough";
+}
+
+TEST(HiddenThings, ALowThingSeenWellIsALowThing) {
+  // Half as high as the limit's, from near by: six sigmas above the ground, six below the limit.
+  const double share = 0.6, r = 1.2 * kLimit_m * share;
+  ElevationMap map = MapThatShows(0, r / 12, share);
+  map.narrow.prominence_m.at(kMiddle) = static_cast<float>(r / 2);
+  EXPECT_LT(Hidden(map), 1e-3);
+  map.narrow.prominence_m.at(kMiddle) = static_cast<float>(r);
+  EXPECT_NEAR(Hidden(map), 0.5, 0.01);
+  map.narrow.prominence_m.at(kMiddle) = static_cast<float>(1.5 * r);
+  EXPECT_NEAR(Hidden(map), 1, 0.01);
 }
 
 TEST(HiddenThings, DiscsAreTheSumsOfTheirCells) {

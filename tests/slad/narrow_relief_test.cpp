@@ -246,5 +246,28 @@ TEST(NarrowRelief, FiguresSayWhatAThingWouldShow) {
               0.8 / (1 + (window_m * window_m + 0.15 * 0.15) / (0.18 * 0.18)), 0.01);
 }
 
+// Two false matches beside each other at the rim of a picture, metres below the ground.
+TEST(NarrowRelief, AFalseMatchIsNoRingOfThings) {
+  const double camera_m = 4;
+  const ElevationMap clean = MakeMap(40, 40, 0.15, Slope(Rad(3), 1), 0.005, 9);
+  ElevationMap map = clean;
+  for (const Cell wild : {Cell{20, 20}, Cell{21, 20}}) {
+    map.height_m.at(wild) -= 2.6F;
+  }
+  const NarrowFigures before = MeasureNarrowRelief(kCamera, {0, 0, -camera_m}, 0.08, {}, clean);
+  const NarrowFigures after = MeasureNarrowRelief(kCamera, {0, 0, -camera_m}, 0.08, {}, map);
+  for (int r = 10; r < 30; ++r) {
+    for (int c = 10; c < 30; ++c) {
+      if (std::isnan(after.prominence_m.at(r, c))) {
+        EXPECT_TRUE(c == 20 && (r == 20 || r == 21)) << r << ' ' << c;
+      } else {
+        EXPECT_NEAR(after.prominence_m.at(r, c), before.prominence_m.at(r, c), 0.012)
+            << r << ' ' << c;
+      }
+    }
+  }
+  EXPECT_TRUE(std::isnan(after.prominence_m.at(20, 20)));
+}
+
 }  // namespace
 }  // namespace palace

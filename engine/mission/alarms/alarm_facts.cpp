@@ -57,7 +57,8 @@ void FillMission(const MissionMemory& m, const MissionInputs& in, AlarmFacts& f)
   f.wave_off = WaveOffNow(m, now);
   f.alternative = SiteLost(m, now) ? words::Alternative(m) : "";
   f.site_degraded = (IsFlying(state) || state == MissionState::kArmed) &&
-                    m.site.VerdictAt(now) == SiteVerdict::kDegraded && !IsCommitted(m);
+                    m.site.VerdictAt(now) == SiteVerdict::kDegraded &&
+                    !(state == MissionState::kDescending && IsCommitted(m));
   f.site_reason = m.site.reason();
   f.no_site =
       decision != nullptr && decision->selection.sites.empty() && state <= MissionState::kProposed;

@@ -12,7 +12,6 @@ namespace palace {
 namespace {
 
 constexpr double kOverLimit = 1.2;  // of the limit: what counts as unsafe
-constexpr double kMostLogRatio = 30;
 constexpr double kRuledOut = -3.912;  // the logarithm of one in fifty
 constexpr double kNothing = -25;      // logarithm below which a cell hides nothing
 
@@ -22,12 +21,18 @@ double LogRatio(double shown_m, double expected_m, double sigma_m) {
   return expected_m * (2 * shown_m - expected_m) / (2 * sigma_m * sigma_m);
 }
 
-double Hides(double prior, double log_ratio) {
-  if (log_ratio < kNothing) {
+/// q of things on one side, where `shown_m` counts towards it.
+double Hides(double prior, double shown_m, double expected_m, double sigma_m, bool beside_hazard) {
+  const double as_limit = LogRatio(shown_m, expected_m, sigma_m);
+  if (as_limit < kNothing) {
     return 0;
   }
-  const double odds = prior * std::exp(log_ratio);
-  return odds / (1 + odds);
+  // The best of the larger ones, and of the smaller ones, shows just what is there.
+  const double at_best = shown_m > 0 ? shown_m * shown_m / (2 * sigma_m * sigma_m) : 0;
+  const double larger = shown_m < expected_m ? as_limit : at_best;
+  const double smaller = shown_m < expected_m ? at_best : as_limit;
+  const double most = beside_hazard ? std::min(larger, 0.0) : larger;
+  return 1 / (1 + std::exp(-most) / prior + std::exp(smaller - larger));
 }
 
 /// What a thing would show in the cell.
@@ -53,9 +58,9 @@ double HidesInCell(const NarrowView& view, Cell cell, double prior) {
     return 2 * prior;
   }
   const double sigma_m = Figure(view.narrow.sigma_m, cell), expected_m = Expected(view, cell);
-  const double most = IsBesideHazard(view, cell) ? 0 : kMostLogRatio;
-  return Hides(prior, std::min(most, LogRatio(shown_m, expected_m, sigma_m))) +
-         Hides(prior, std::min(most, LogRatio(-shown_m, expected_m, sigma_m)));
+  const bool beside = IsBesideHazard(view, cell);
+  return Hides(prior, shown_m, expected_m, sigma_m, beside) +
+         Hides(prior, -shown_m, expected_m, sigma_m, beside);
 }
 
 /// Sums from a row's beginning, `reach` cells wider than it on both sides, where every cell hides

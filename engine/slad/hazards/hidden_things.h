@@ -3,19 +3,22 @@
 // Stereo smears what is narrower than its window, so a thing over the limit may show a few
 // centimetres only, and noise may hide these. Of each cell the map says by how much it stands above
 // its surroundings (p), with which sigma (s), and which share of its height a thing 18 cm across
-// would show there. Such a thing of 1.2 times the limit shows r. Against bare ground it is more
-// likely, by what shows, by
+// would show there. Such a thing of 1.2 times the limit shows r. Against bare ground things as large
+// and larger are more likely, by what shows, by L, smaller ones by l (each as the best of its kind;
+// a hole: -p for p):
 //
-//   L = exp((2 r p - r^2) / (2 s^2))          (a hole: -p for p)
+//   L = exp((2 r p - r^2) / (2 s^2)),  l = exp(max(0, p)^2 / (2 s^2))   where p < r
+//   L = exp(p^2 / (2 s^2)),            l = exp((2 r p - r^2) / (2 s^2)) beyond
 //
-// and with n things a square metre, half of them holes, a cell of area A hides one with
+// With n things a square metre over the limit, half of them holes, and no fewer smaller ones, a
+// cell of area A hides one with
 //
-//   q = (n A / 2) L / (1 + (n A / 2) L)
+//   q = (n A / 2) L / (1 + (n A / 2) (L + l))
 //
 // Their sum H over the disc is the expected number, exp(-H) the chance that there is none. Ground
 // that is smooth, near and textured hides none (1e-10); ground too far away to tell hides n A; a
 // cell that stands out by half of r counts as much as one in which nothing could be seen, one that
-// stands out by more hides nearly a whole thing. Monotone in each figure.
+// stands out by r is half a thing, and a lower one seen well a low one. Monotone in what shows.
 //
 // n is one number for all ground (CALIBRATION.md): among drawn worlds neither the things that a map
 // shows elsewhere nor the ground searched for them told it better.

@@ -32,11 +32,21 @@ constexpr double kMostRefused = 0.15;  // share of a cell's pixels
 
 /// The ground around a cell: the plane through its ring.
 struct Ring {
+  double own_m = 0;   ///< the cell
   double mean_m = 0;  ///< at the cell
   double per_row_m = 0, per_col_m = 0;
   double variance_m2 = 0;  ///< of the mean, neighbours taken as independent
   double rough_m2 = 0;     ///< mean square off the plane
   int places = 0;
+  std::array<double, kPlaces / 2> pairs_m{};  ///< means of places that face each other, off own_m
+
+  /// At the cell, whatever fewer than half of the pairs say.
+  double Median_m() const {
+    std::array<double, kPlaces / 2> sorted = pairs_m;
+    const auto count = static_cast<std::size_t>(places / 2);
+    std::sort(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(count));
+    return own_m + (sorted[(count - 1) / 2] + sorted[count / 2]) / 2;
+  }
 };
 
 struct Place {
@@ -63,6 +73,7 @@ Ring RingAround(const ElevationMap& map, const GridF& heights_m, const HalfCircl
                 Cell cell, double radius_cells) {
   const double own_m = static_cast<double>(heights_m.at(cell));
   Ring ring;
+  ring.own_m = own_m;
   double sum = 0, square = 0;
   double rr = 0, rc = 0, cc = 0, rz = 0, cz = 0;  // sums of products: row, column, height
   for (const auto& [south, east] : directions) {
@@ -75,6 +86,7 @@ Ring RingAround(const ElevationMap& map, const GridF& heights_m, const HalfCircl
     const double a = static_cast<double>(heights_m.at(ahead)) - own_m;
     const double b = static_cast<double>(heights_m.at(behind)) - own_m;
     sum += a + b;
+    ring.pairs_m[static_cast<std::size_t>(ring.places / 2)] = (a + b) / 2;
     square += a * a + b * b;
     rr += 2.0 * dr * dr;
     rc += 2.0 * dr * dc;
@@ -163,7 +175,7 @@ struct Prominences {
 };
 
 Prominences ProminencesOf(const ElevationMap& map, const GridF& heights_m,
-                          const MatchingWindow& window) {
+                          const MatchingWindow& window, double (*level_m)(const Ring&)) {
   const GridF unknown(map.geometry.rows, map.geometry.cols, kUnknownValue);
   Prominences prominence{unknown, unknown};
   cv::parallel_for_(cv::Range(0, unknown.rows()), [&](const cv::Range& rows) {
@@ -175,7 +187,7 @@ Prominences ProminencesOf(const ElevationMap& map, const GridF& heights_m,
         const Ring ring = window.RingAt(map, heights_m, {r, c});
         if (ring.places >= kLeastPlaces) {
           prominence.height_m.at(r, c) =
-              static_cast<float>(static_cast<double>(heights_m.at(r, c)) - ring.mean_m);
+              static_cast<float>(static_cast<double>(heights_m.at(r, c)) - level_m(ring));
           prominence.sigma_m.at(r, c) = static_cast<float>(
               std::sqrt(static_cast<double>(map.variance_m2.at(r, c)) + ring.variance_m2));
         }
@@ -190,13 +202,19 @@ NarrowFigures FiguresOf(const ElevationMap& map, const MatchingWindow& window,
                         const GridF& repeated_m2) {
   const GridGeometry& g = map.geometry;
   const GridF unknown(g.rows, g.cols, kUnknownValue);
-  Prominences prominence = ProminencesOf(map, map.Measured(), window);
+  Prominences prominence = ProminencesOf(map, map.Measured(), window,
+                                         [](const Ring& ring) { return ring.Median_m(); });
+  // No thing that narrow stands so far off its ring: a wide edge does, or a false match.
+  for (float& off_m : prominence.height_m.cells()) {
+    off_m = std::abs(off_m) > static_cast<float>(kTallest_m) ? kUnknownValue : off_m;
+  }
   const GroundRoughness roughness(prominence.height_m, g.cell_m);
   NarrowFigures figures{std::move(prominence.height_m), std::move(prominence.sigma_m), unknown};
   for (int r = 0; r < g.rows; ++r) {
     for (int c = 0; c < g.cols; ++c) {
       float& sigma_m = figures.sigma_m.at(r, c);
-      if (std::isnan(sigma_m)) {
+      if (std::isnan(figures.prominence_m.at(r, c))) {
+        sigma_m = kUnknownValue;
         continue;
       }
       const float repeated = repeated_m2.empty() ? 0.0F : repeated_m2.at(r, c);
@@ -261,7 +279,9 @@ void RaiseNarrowRelief(const PinholeCamera& camera, const Eigen::Vector3d& p_WC,
   if (pixels.empty() && !SmearsAnywhere(map, window, narrow_m)) {
     return;
   }
-  const GridF prominence = ProminencesOf(map, map.height_m, window).height_m;
+  const GridF prominence = ProminencesOf(map, map.height_m, window, [](const Ring& ring) {
+                              return ring.mean_m;
+                            }).height_m;
   const GroundRoughness roughness(prominence, g.cell_m);
   GridF raised = map.height_m;
   for (int r = 0; r < g.rows; ++r) {

@@ -46,7 +46,9 @@ inline constexpr double kThing_m = 0.18, kPeakOfThing = 0.8;
 void RaiseNarrowRelief(const PinholeCamera& camera, const Eigen::Vector3d& p_WC, double narrow_m,
                        const Grid<PixelCount>& pixels, const GridF& repeated_m2, ElevationMap& map);
 
-/// What the measured ground shows of narrow things, and what one would show. Rings as above. A
+/// What the measured ground shows of narrow things, and what one would show. Rings as above, but
+/// their medians: one false match is no ring of things. What stands over 1 m off is not narrow and
+/// unknown here: hazards judge it. A
 /// thing a = 18 cm across is smeared by window w and map cell c; of its height it then shows the
 /// share
 ///
