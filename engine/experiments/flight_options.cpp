@@ -31,7 +31,8 @@ void FlightOptions::AddSet(CLI::App& app) {
 
 void FlightOptions::AddRecord(CLI::App& app) {
   app.add_option("--record", record,
-                 "Folder for the log of every flight, SCENARIO-SEED/flight.lcm; about 6.3 MB a second of flight");
+                 "Folder for the log of every flight, SCENARIO-SEED/flight.lcm; about 6.3 MB a second "
+                 "of flight");
 }
 
 Result<MissionFlight> FlightOptions::Flight(std::uint64_t seed) const {

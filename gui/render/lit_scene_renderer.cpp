@@ -257,7 +257,7 @@ Result<std::unique_ptr<LitSceneRenderer>> LitSceneRenderer::Create(const RayScen
   return std::unique_ptr<LitSceneRenderer>(new LitSceneRenderer(std::move(parts)));
 }
 
-void LitSceneRenderer::CullGround(bool on) { parts_->cull = on; }
+void LitSceneRenderer::Cull(bool on) { parts_->cull = on; }
 
 void LitSceneRenderer::DrawInto(const Framebuffer& target, const PinholeCamera& camera,
                                 const RigidTransform& X_WC, double time_s) {

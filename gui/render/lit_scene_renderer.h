@@ -35,9 +35,9 @@ class LitSceneRenderer final : public SceneCamera {
                 double time_s);
   /// Distance along the optical axis through the pixels' centres, metres; infinity: sky.
   Result<ImageF> Depth(const PinholeCamera& camera, const RigidTransform& X_WC, double time_s = 0);
-  /// On: ground that the camera cannot see is not sent to the device, which changes no bit of any
-  /// picture (a test asks). Off: for that test.
-  void CullGround(bool on);
+  /// On: what the camera cannot see is not sent to the device, which changes no bit of any picture
+  /// (a test asks). Off: for that test.
+  void Cull(bool on);
 
  private:
   struct Parts;

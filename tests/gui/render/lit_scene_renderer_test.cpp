@@ -93,10 +93,10 @@ TEST_F(LitScene, GroundThatIsNotDrawnIsNotSeen) {
     SCOPED_TRACE("seed " + std::to_string(kSeed) + ", camera " + std::to_string(i));
     const Result<ImageU8> culled = (*renderer)->Render(camera, X_WC);
     const Result<ImageF> culled_m = (*renderer)->Depth(camera, X_WC);
-    (*renderer)->CullGround(false);
+    (*renderer)->Cull(false);
     const Result<ImageU8> whole = (*renderer)->Render(camera, X_WC);
     const Result<ImageF> whole_m = (*renderer)->Depth(camera, X_WC);
-    (*renderer)->CullGround(true);
+    (*renderer)->Cull(true);
     ASSERT_TRUE(culled.ok() && culled_m.ok() && whole.ok() && whole_m.ok());
     EXPECT_TRUE(culled->pixels() == whole->pixels());
     EXPECT_TRUE(culled_m->pixels() == whole_m->pixels());
