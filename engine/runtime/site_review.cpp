@@ -17,7 +17,7 @@ SiteReview ReviewSite(const LandingSite& site, const std::optional<LandingSite>&
     review.reason += " is not on this map.";
     return review;
   }
-  const SiteFinding found = JudgeRecheck(now, {}, {site.confirmed, site.clearance_m, false}, settings);
+  const SiteFinding found = JudgeRecheck(now, {}, {site.confirmed, site.clearance_m}, settings);
   review.kept = found.holds();
   if (found.finding == Finding::kGood) {
     review.reason += WithNumbers(" has %.1f m to the nearest hazard, min %.1f m.",

@@ -1,6 +1,5 @@
 #include "gui/render/solid_buffer.h"
 
-#include <cstdint>
 #include <numeric>
 
 #include "engine/world/world_mesh.h"

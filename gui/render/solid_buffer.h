@@ -1,6 +1,7 @@
 // SolidBuffer: the solids of a world on the graphics device, drawn as far as a camera sees them.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include <Eigen/Dense>

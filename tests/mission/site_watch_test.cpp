@@ -136,7 +136,7 @@ class Findings : public testing::TestWithParam<Change> {};
 TEST_P(Findings, AreNamedWithValueAndLimit) {
   LandingSite site = GoodSite();
   GetParam().change(site);
-  const SiteFinding found = JudgeRecheck(site, Rock(), {true, 2.0, false}, SladSettings{});
+  const SiteFinding found = JudgeRecheck(site, Rock(), {true, 2.0}, SladSettings{});
   EXPECT_EQ(found.finding, GetParam().finding);
   EXPECT_EQ(found.reason, GetParam().reason);
 }
@@ -184,9 +184,9 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(JudgeRecheck, BandsOfAProvisionalSiteAreNoDoubt) {
   LandingSite site = GoodSite();
   site.roughness_m = {0.05, 0.2};
-  EXPECT_EQ(JudgeRecheck(site, {}, {false, 2.0, false}, SladSettings{}).finding, Finding::kGood);
-  EXPECT_EQ(JudgeRecheck(site, {}, {true, 2.0, false}, SladSettings{}).finding, Finding::kDoubtful);
-  EXPECT_EQ(JudgeRecheck(std::nullopt, {}, {true, 2.0, false}, SladSettings{}).finding, Finding::kOver);
+  EXPECT_EQ(JudgeRecheck(site, {}, {false, 2.0}, SladSettings{}).finding, Finding::kGood);
+  EXPECT_EQ(JudgeRecheck(site, {}, {true, 2.0}, SladSettings{}).finding, Finding::kDoubtful);
+  EXPECT_EQ(JudgeRecheck(std::nullopt, {}, {true, 2.0}, SladSettings{}).finding, Finding::kOver);
 }
 
 TEST(JudgeRecheck, WhatStandsInTheApproachOfAVehicleOnItsWayEndsTheApproval) {
@@ -201,7 +201,7 @@ TEST(JudgeRecheck, RoomLostToWhatIsNotSeenIsNoDoubt) {
   LandingSite site = GoodSite();
   site.clearance_m = 0.4;
   const auto finding = [&](std::optional<NearestHazard> nearest) {
-    return JudgeRecheck(site, nearest, {true, 2.0, false}, SladSettings{}).finding;
+    return JudgeRecheck(site, nearest, {true, 2.0}, SladSettings{}).finding;
   };
   EXPECT_EQ(finding(Rock()), Finding::kDoubtful);
   EXPECT_EQ(finding(NearestHazard{std::nullopt, 2.7, 0, kHazardUnknown, 0}), Finding::kGood);
