@@ -15,7 +15,7 @@ constexpr std::array kFirst = {LimitId::kOffPath,     LimitId::kFromCentre, Limi
                                LimitId::kCoherence,   LimitId::kResidual,   LimitId::kClearRadius,
                                LimitId::kProbability, LimitId::kSlope,      LimitId::kWind,
                                LimitId::kRoughness,   LimitId::kStep,       LimitId::kGroundAge,
-                               LimitId::kVisionOutage};
+                               LimitId::kApproach,    LimitId::kVisionOutage};
 
 /// What is over its limit, then the list above, then every other limit that somebody enforces.
 std::vector<EvidenceRow> RowsToShow(const std::vector<LimitRow>& limits) {

@@ -247,6 +247,17 @@ TEST(DescentLimits, TheFigureThatHeldTheDescentHasItsRow) {
   EXPECT_TRUE(Row(rig, LimitId::kProbability).over);
 }
 
+TEST(DescentLimits, ABlockedApproachHoldsAndHasItsRow) {
+  MissionRig rig;
+  Descend(rig);
+  EXPECT_EQ(Row(rig, LimitId::kApproach).enforced_by, EnforcedBy::kHold);
+  EXPECT_FALSE(Row(rig, LimitId::kApproach).over);
+  rig.Site(101)->corridor_clear = false;
+  ASSERT_TRUE(rig.RunUntil(MissionState::kHold, 1));
+  EXPECT_EQ(rig.mission.status().why, "Something stands in the approach");
+  EXPECT_TRUE(Row(rig, LimitId::kApproach).over);
+}
+
 // Landed, or flying away: nothing of the site or of its tracker is watched, and nothing says so.
 TEST(DescentLimits, OnTheGroundNoRowOfTheSiteClaimsAnEnforcer) {
   MissionRig rig;

@@ -118,6 +118,12 @@ std::vector<LimitRow> SiteLimits(const LandingSite& site, const SladSettings& se
                          .limit = 0,
                          .decimals = 0,
                          .enforced_by = modern ? EnforcedBy::kGuard : EnforcedBy::kNobody}));
+  rows.push_back(Judged({.id = LimitId::kApproach,
+                         .label = "Approach blocked",
+                         .value = site.corridor_clear ? 0.0 : 1.0,
+                         .limit = 0,
+                         .decimals = 0,
+                         .enforced_by = EnforcedBy::kGuard}));
   // Beyond it the site is provisional; what is enforced then is its confirmation (G8), not this.
   rows.push_back(Judged({.id = LimitId::kHeightNoise,
                          .label = "Height noise, 3σ",
