@@ -2,8 +2,8 @@
 #include <cmath>
 #include <limits>
 
-#include "engine/camera/pinhole.h"
 #include "engine/core/check.h"
+#include "engine/stereo/ground_disparity.h"
 #include "engine/stereo/stereo.h"
 
 namespace palace {
@@ -12,25 +12,8 @@ namespace {
 constexpr int kWidest = 256;
 constexpr int kStep = 16;               // SGBM searches multiples of 16
 constexpr int kPointsPerSide = 8;       // border rays on each side of the picture
-constexpr double kLeastHeight_m = 0.3;  // a camera standing on its skids
-constexpr double kFarShare = 0.92;      // ground may fall away by a twelfth of the range
 constexpr double kNearShare = 1.04;
 constexpr double kMargin_px = 2;
-
-/// Least and greatest of Z_ground's inverse over the picture's border, 1/m; 0 at the horizon.
-struct InverseDepths {
-  double least = std::numeric_limits<double>::infinity();
-  double greatest = 0;
-};
-
-void AddRay(const PinholeCamera& camera, const RigidTransform& X_WC, double height_m, double x,
-            double y, InverseDepths& range) {
-  // The ray has unit depth, so its down component is (height of camera over ground) / depth.
-  const double down = (X_WC.R * RayFromPixel(camera, {x, y})).z();
-  const double inverse = std::max(0.0, down / height_m);
-  range.least = std::min(range.least, inverse);
-  range.greatest = std::max(range.greatest, inverse);
-}
 
 }  // namespace
 
@@ -39,23 +22,29 @@ DisparityWindow PredictWindow(const PinholeCamera& camera, double baseline_m,
                               const StereoSettings& settings) {
   PALACE_CHECK(camera.width > 1 && camera.height > 1 && camera.fx_px > 0 && baseline_m > 0,
                camera.width, camera.height, camera.fx_px, baseline_m);
-  const double height_m = std::max(kLeastHeight_m, HeightFromDown(X_WC.p.z()) - ground_height_m);
-  InverseDepths range;
+  const GroundDisparity ground(camera, baseline_m, X_WC, ground_height_m);
+  double least_px = std::numeric_limits<double>::infinity();
+  double greatest_px = 0;
+  const auto add = [&](double x, double y) {
+    const double d = ground.At(x, y);
+    least_px = std::min(least_px, d);
+    greatest_px = std::max(greatest_px, d);
+  };
   for (int i = 0; i <= kPointsPerSide; ++i) {
     const double x = i * (camera.width - 1.0) / kPointsPerSide;
     const double y = i * (camera.height - 1.0) / kPointsPerSide;
-    AddRay(camera, X_WC, height_m, x, 0, range);
-    AddRay(camera, X_WC, height_m, x, camera.height - 1.0, range);
-    AddRay(camera, X_WC, height_m, 0, y, range);
-    AddRay(camera, X_WC, height_m, camera.width - 1.0, y, range);
+    add(x, 0);
+    add(x, camera.height - 1.0);
+    add(0, y);
+    add(camera.width - 1.0, y);
   }
-  const double fb = camera.fx_px * baseline_m;
-  const double far_px = std::max(0.0, fb * range.least * kFarShare - kMargin_px);
-  const double ground_px = fb * range.greatest * kNearShare + kMargin_px;
+  const double far_px = std::max(0.0, least_px * kFallsAway - kMargin_px);
+  const double ground_px = greatest_px * kNearShare + kMargin_px;
   // An object's top is nearer by height / (height - tallest); half the height at the most, so that
   // a low flight does not ask for an endless window.
+  const double height_m = ground.height_m();
   const double reach_m = std::clamp(tallest_m, 0.0, height_m / 2);
-  const double top_px = fb * range.greatest * height_m / (height_m - reach_m) + kMargin_px;
+  const double top_px = greatest_px * height_m / (height_m - reach_m) + kMargin_px;
 
   const double wanted = std::max(ground_px, top_px);
   int first = static_cast<int>(std::floor(far_px));

@@ -1,15 +1,22 @@
 #include "engine/stereo/range_measurement.h"
 
+#include "engine/stereo/beyond_right_picture.h"
 #include "engine/stereo/prefilter.h"
+#include "engine/stereo/stereo_quality.h"
 
 namespace palace {
 namespace {
+
+/// Whether pose and ground are known, and asked.
+bool IsPredicted(const RigExposure& exposure) {
+  return exposure.pose && exposure.rig.num_disparities <= 0;
+}
 
 DisparityWindow WindowOf(const RigExposure& exposure, const StereoSettings& settings) {
   if (exposure.rig.num_disparities > 0) {
     return {exposure.rig.min_disparity_px, exposure.rig.num_disparities};
   }
-  if (!exposure.pose) {
+  if (!IsPredicted(exposure)) {
     return {0, settings.num_disparities};
   }
   return PredictWindow(exposure.rectifier.camera(), exposure.rectifier.baseline_m(),
@@ -25,8 +32,13 @@ Result<StereoResult> MeasureRanges(const RigExposure& exposure, const StereoSett
   Result<StereoResult> result = matcher.Match(
       *exposure.pair.left, *exposure.pair.right, rectifier.camera(), rectifier.baseline_m(),
       WindowOf(exposure, settings), settings, exposure.raw.time, filtered ? &*filtered : nullptr);
-  if (result) {
-    result->range.pose = exposure.pose;
+  if (!result) {
+    return result;
+  }
+  result->range.pose = exposure.pose;
+  if (IsPredicted(exposure)) {
+    RefuseBeyondRightPicture(exposure.pose->X_WC, exposure.ground_height_m, result->range);
+    SummariseRange(result->range, result->quality);
   }
   return result;
 }

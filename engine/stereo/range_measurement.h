@@ -3,6 +3,7 @@
 //
 //   window: the rig's own; else by pose and ground; without a pose from infinity on
 //   FilterThenRectify (where the settings ask for it) -> StereoMatcher::Match -> pose
+//     -> RefuseBeyondRightPicture (where the window was predicted)
 #pragma once
 
 #include <optional>
