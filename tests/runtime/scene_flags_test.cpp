@@ -6,6 +6,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -190,6 +191,40 @@ TEST(SceneFlags, AWireAlongTheBaselineIsFlaggedWithoutItsHeight) {
         PaintWire({{0.2, -12, -2}, {0.2, 12, -2}, 0.02, 30}, camera, X_WC, picture);
       });
   EXPECT_TRUE(seen.At(0.2, 0.0, kFlagThinStructure));
+}
+
+/// At any angle to the baseline, high and higher: the ground under it is flagged along most of it. A
+/// line painted at the same angle is not, unless it runs along the baseline, where nothing tells the
+/// two apart.
+TEST(SceneFlags, AWireIsFoundAtEveryAngleToTheBaseline) {
+  const World world = FieldWithObstacles(GroundTexture::kAsphalt);
+  constexpr double kToldFromPaint_deg = 5;
+  for (const double angle_deg : {2.0, 4.0, 6.0, 9.0, 13.0, 20.0, 30.0, 60.0, 90.0}) {
+    for (const double up_m : {0.001, 3.0, 6.0}) {
+      SCOPED_TRACE(std::to_string(angle_deg) + " degrees, " + std::to_string(up_m) + " m up");
+      const Eigen::Vector2d along{std::sin(Rad(angle_deg)), std::cos(Rad(angle_deg))};
+      const Eigen::Vector2d middle{0.3, 0};
+      const auto point = [&](double s) {
+        const Eigen::Vector2d p = middle + s * along;
+        return Eigen::Vector3d(p.x(), p.y(), -up_m);
+      };
+      const Seen seen = Look(
+          2, [&](int) { return world; },
+          [&](const PinholeCamera& camera, const RigidTransform& X_WC, ImageF& picture) {
+            PaintWire({point(-12), point(12), 0.02, 30}, camera, X_WC, picture);
+          });
+      int under = 0, flagged = 0;
+      for (double s = -2.5; s <= 2.5; s += 0.1) {
+        ++under;
+        flagged += seen.At(point(s).x(), point(s).y(), kFlagThinStructure) ? 1 : 0;
+      }
+      if (up_m > 1) {
+        EXPECT_GE(flagged, 0.8 * under);
+      } else if (angle_deg > kToldFromPaint_deg) {
+        EXPECT_EQ(seen.Count(kFlagThinStructure), 0);
+      }
+    }
+  }
 }
 
 TEST(SceneFlags, SameBitsForAnyNumberOfThreads) {

@@ -1,6 +1,8 @@
 // How long flags take to come and to go, as tables of what each map found.
 #include "engine/slad/pictures/flag_memory.h"
 
+#include <cmath>
+#include <limits>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -68,6 +70,49 @@ TEST(FlagMemory, MovesWithTheMapByWholeCellsAndForgetsWhatLeaves) {
   memory.MoveTo({4, 4, 0.5, 10, 0});
   memory.MoveTo(kGeometry);
   EXPECT_EQ(memory.Flags().at(1, 2), kFlagNone);
+}
+
+/// One map that finds a wire over one cell (top 6.3 m, running east), or looks in vain.
+void LookForWire(FlagMemory& memory, bool is_found, double baseline_bearing_rad) {
+  Grid<std::uint8_t> seen(4, 4, kFlagThinStructure), found(4, 4, kFlagNone);
+  ThinSights thin{Grid<ThinSight>(4, 4), baseline_bearing_rad};
+  if (is_found) {
+    found.at(1, 2) = kFlagThinStructure;
+    thin.cells.at(1, 2) = {6.3F, static_cast<float>(M_PI / 2)};
+  }
+  memory.Add(seen, found, thin);
+}
+
+// Cameras side by side along the wire see nothing of it: 200 such maps forget nothing. Turned by 30
+// degrees they would see it: 20 maps and it is gone, its height too.
+TEST(FlagMemory, AWireAlongTheBaselineIsNotForgottenForBeingUnseen) {
+  FlagMemory memory;
+  memory.MoveTo(kGeometry);
+  LookForWire(memory, true, 1.0);
+  LookForWire(memory, true, 1.0);
+  EXPECT_EQ(memory.ThinTops().at(1, 2), 6.3F);
+  EXPECT_TRUE(std::isnan(memory.ThinTops().at(1, 1)));
+  for (int map = 0; map < 200; ++map) {
+    LookForWire(memory, false, map % 2 == 0 ? M_PI / 2 + 0.1 : -M_PI / 2 - 0.1);
+  }
+  EXPECT_EQ(memory.ThinTops().at(1, 2), 6.3F);
+  for (int map = 0; map < 20; ++map) {
+    LookForWire(memory, false, M_PI / 2 + 0.5);
+  }
+  EXPECT_TRUE(memory.ThinTops().empty());
+  EXPECT_EQ(memory.Flags().at(1, 2), kFlagNone);
+}
+
+TEST(FlagMemory, AKnownHeightIsNotGivenUpForAnUnknownOne) {
+  FlagMemory memory;
+  memory.MoveTo(kGeometry);
+  LookForWire(memory, true, 1.0);
+  const Grid<std::uint8_t> all(4, 4, kFlagThinStructure);
+  ThinSights thin{Grid<ThinSight>(4, 4, {std::numeric_limits<float>::infinity(), 0}), 1.0};
+  memory.Add(all, all, thin);
+  memory.Add(all, all, thin);
+  EXPECT_EQ(memory.ThinTops().at(1, 2), 6.3F);
+  EXPECT_TRUE(std::isinf(memory.ThinTops().at(0, 0)));
 }
 
 TEST(FlagMemory, AnotherCellSizeStartsAfresh) {

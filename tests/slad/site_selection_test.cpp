@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include <gtest/gtest.h>
@@ -291,6 +292,37 @@ TEST(SiteSelection, SectorsOfApproachThatFaceAWallAreBlocked) {
     ASSERT_TRUE(site);
     EXPECT_EQ(site->clear_approaches, 0xFF & ~(1U << side)) << side;
     EXPECT_EQ(site->corridor_clear, side != 4) << side;  // the vehicle stands in the south
+  }
+}
+
+struct WireRow {
+  const char* name;
+  float top_m;
+  bool clear;
+};
+
+// A wire across the approach, 7 m south of the middle, over flat ground: in the way when it hangs as
+// high as the way down or higher, or at nobody knows what height; a low one is flown over.
+TEST(SiteSelection, AWireAcrossTheApproachBlocksIt) {
+  for (const WireRow& row :
+       {WireRow{"at the height of the way", 7, false}, WireRow{"above it", 12, false},
+        WireRow{"of unknown height", std::numeric_limits<float>::infinity(), false},
+        WireRow{"a low rope", 0.8F, true}}) {
+    SCOPED_TRACE(row.name);
+    ElevationMap map = MakeMap(121, 121, 0.15, Flat());
+    map.thin_top_m = GridF(121, 121, kUnknownValue);
+    for (int r = 0; r < 121; ++r) {
+      for (int c = 0; c < 121; ++c) {
+        if (std::abs(map.geometry.NorthOfRow(r) + 7) < 0.2) {
+          map.thin_top_m.at(r, c) = row.top_m;
+        }
+      }
+    }
+    const SladSettings settings;
+    const auto site =
+        RecheckSite(map, EvaluateHazards(map, settings), settings, LandingSite{}, Context());
+    ASSERT_TRUE(site);
+    EXPECT_EQ(site->corridor_clear, row.clear);
   }
 }
 

@@ -11,6 +11,12 @@ namespace {
 /// Maps a raised flag stays without being found, in the order of kKinds.
 constexpr std::array<std::uint8_t, 4> kStays = {20, 5, 3, 20};
 constexpr unsigned kLastThree = 7;
+constexpr double kHardlySeen_rad = 0.26;  // from the baseline
+
+/// Whether lines of these bearings run alike, either way.
+bool RunAlike(double a_rad, double b_rad) {
+  return std::abs(std::sin(a_rad - b_rad)) < std::sin(kHardlySeen_rad);
+}
 
 }  // namespace
 
@@ -42,15 +48,19 @@ void FlagMemory::MoveTo(const GridGeometry& geometry) {
   tracks_ = std::move(moved);
 }
 
-void FlagMemory::Add(const Grid<std::uint8_t>& seen, const Grid<std::uint8_t>& found) {
+void FlagMemory::Add(const Grid<std::uint8_t>& seen, const Grid<std::uint8_t>& found,
+                     const ThinSights& thin) {
   PALACE_CHECK(seen.rows() == geometry_.rows && found.rows() == geometry_.rows &&
                    seen.cols() == geometry_.cols && found.cols() == geometry_.cols,
                seen.rows(), found.rows(), geometry_.rows);
   for (std::size_t cell = 0; cell < tracks_.cells().size(); ++cell) {
+    ThinSight& known = tracks_.cells()[cell].thin;
     for (std::size_t k = 0; k < kKinds.size(); ++k) {
-      Track& track = tracks_.cells()[cell][k];
+      Track& track = tracks_.cells()[cell].kinds[k];
       const bool is_found = (found.cells()[cell] & kKinds[k]) != 0;
-      if ((seen.cells()[cell] & kKinds[k]) == 0) {
+      const bool is_blind = k == kThin && !is_found && !std::isnan(known.top_m) &&
+                            RunAlike(double{known.bearing_rad}, thin.baseline_bearing_rad);
+      if ((seen.cells()[cell] & kKinds[k]) == 0 || is_blind) {
         const bool fades = kKinds[k] == kFlagMotion;
         track.maps_left -= fades && track.maps_left > 0 ? 1 : 0;
         track.recent = fades ? std::uint8_t{0} : track.recent;
@@ -66,21 +76,49 @@ void FlagMemory::Add(const Grid<std::uint8_t>& seen, const Grid<std::uint8_t>& f
         --track.maps_left;
       }
     }
+    if (thin.cells.empty()) {
+      continue;
+    }
+    const ThinSight& now = thin.cells.cells()[cell];
+    // A height once known is not given up for one that is not.
+    if (!std::isnan(now.top_m) && !(std::isinf(now.top_m) && std::isfinite(known.top_m))) {
+      known = now;
+    } else if (std::isnan(now.top_m) && !InForce(tracks_.cells()[cell], kThin)) {
+      known = {};
+    }
   }
+}
+
+bool FlagMemory::InForce(const CellTracks& cell, std::size_t kind) {
+  const Track& track = cell.kinds[kind];
+  const bool first_look = kKinds[kind] != kFlagMotion && track.looks == 1 && track.recent == 1;
+  return track.maps_left > 0 || first_look;
 }
 
 Grid<std::uint8_t> FlagMemory::Flags() const {
   Grid<std::uint8_t> flags(geometry_.rows, geometry_.cols, kFlagNone);
   for (std::size_t cell = 0; cell < tracks_.cells().size(); ++cell) {
     for (std::size_t k = 0; k < kKinds.size(); ++k) {
-      const Track& track = tracks_.cells()[cell][k];
-      const bool first_look = kKinds[k] != kFlagMotion && track.looks == 1 && track.recent == 1;
-      if (track.maps_left > 0 || first_look) {
+      if (InForce(tracks_.cells()[cell], k)) {
         flags.cells()[cell] |= kKinds[k];
       }
     }
   }
   return flags;
+}
+
+GridF FlagMemory::ThinTops() const {
+  GridF tops;
+  for (std::size_t cell = 0; cell < tracks_.cells().size(); ++cell) {
+    if (!InForce(tracks_.cells()[cell], kThin)) {
+      continue;
+    }
+    if (tops.empty()) {
+      tops = GridF(geometry_.rows, geometry_.cols, std::numeric_limits<float>::quiet_NaN());
+    }
+    tops.cells()[cell] = tracks_.cells()[cell].thin.top_m;
+  }
+  return tops;
 }
 
 }  // namespace palace

@@ -3,15 +3,29 @@
 // A flag is raised when two of the last three maps that saw the cell have it; on a cell seen once
 // so far, by that one map (not for motion, which always needs two). Raised by two, it stays for a
 // number of maps that see the cell without it: thin structures and motion 20, no texture 5, shadow
-// 3. Cells out of view keep their flags, but motion there fades at the same rate.
+// 3. Cells out of view keep their flags, but motion there fades at the same rate. A thin structure
+// that runs within 15 degrees of the baseline is hardly seen: not to find it is no look at the cell.
 #pragma once
 
 #include <array>
 #include <cstdint>
+#include <limits>
 
 #include "engine/model/elevation_map.h"
 
 namespace palace {
+
+/// A thin structure above a cell.
+struct ThinSight {
+  float top_m = std::numeric_limits<float>::quiet_NaN();  ///< up-positive in W; infinite: unknown
+  float bearing_rad = 0;                                  ///< it runs to, clockwise from north
+};
+
+/// What one map tells of them.
+struct ThinSights {
+  Grid<ThinSight> cells;          ///< of the cells where one was found; empty: nothing is told
+  double baseline_bearing_rad = 0;  ///< of the pair of cameras that looked
+};
 
 class FlagMemory {
  public:
@@ -21,9 +35,12 @@ class FlagMemory {
   void MoveTo(const GridGeometry& geometry);
   /// One map's findings: bits of `seen` say which flags were looked for in the cell, bits of
   /// `found` which were there. Both have the geometry's size.
-  void Add(const Grid<std::uint8_t>& seen, const Grid<std::uint8_t>& found);
+  void Add(const Grid<std::uint8_t>& seen, const Grid<std::uint8_t>& found,
+           const ThinSights& thin = {});
   /// The flags in force.
   Grid<std::uint8_t> Flags() const;
+  /// Tops of the thin structures in force, NaN elsewhere; empty: none.
+  GridF ThinTops() const;
 
  private:
   struct Track {
@@ -33,7 +50,12 @@ class FlagMemory {
   };
   static constexpr std::array<TerrainFlag, 4> kKinds = {kFlagThinStructure, kFlagNoTexture,
                                                         kFlagShadow, kFlagMotion};
-  using CellTracks = std::array<Track, kKinds.size()>;
+  static constexpr std::size_t kThin = 0;  ///< of kKinds
+  struct CellTracks {
+    std::array<Track, kKinds.size()> kinds;
+    ThinSight thin;
+  };
+  static bool InForce(const CellTracks& cell, std::size_t kind);
 
   GridGeometry geometry_;
   Grid<CellTracks> tracks_;

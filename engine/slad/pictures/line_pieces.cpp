@@ -55,7 +55,8 @@ std::vector<LinePiece> FindPieces(const MarkStrips& strips, int strip, int least
   return kept;
 }
 
-std::vector<LinePiece> InChains(const std::vector<LinePiece>& pieces, int least) {
+std::vector<std::vector<LinePiece>> Chains(const std::vector<LinePiece>& pieces,
+                                           std::size_t least) {
   std::vector<int> root(pieces.size());
   std::iota(root.begin(), root.end(), 0);
   const auto find = [&](int k) {
@@ -72,17 +73,18 @@ std::vector<LinePiece> InChains(const std::vector<LinePiece>& pieces, int least)
       }
     }
   }
-  std::vector<int> size(pieces.size(), 0);
+  std::vector<std::vector<LinePiece>> chains;
+  std::vector<int> chain_of(pieces.size(), -1);
   for (std::size_t k = 0; k < pieces.size(); ++k) {
-    ++size[std::size_t(find(int(k)))];
-  }
-  std::vector<LinePiece> kept;
-  for (std::size_t k = 0; k < pieces.size(); ++k) {
-    if (size[std::size_t(find(int(k)))] >= least) {
-      kept.push_back(pieces[k]);
+    int& chain = chain_of[std::size_t(find(int(k)))];
+    if (chain < 0) {
+      chain = static_cast<int>(chains.size());
+      chains.emplace_back();
     }
+    chains[std::size_t(chain)].push_back(pieces[k]);
   }
-  return kept;
+  std::erase_if(chains, [&](const auto& chain) { return chain.size() < least; });
+  return chains;
 }
 
 }  // namespace palace

@@ -33,8 +33,10 @@ struct MarkStrips {
 /// six pixels apart on average.
 std::vector<LinePiece> FindPieces(const MarkStrips& strips, int strip, int least_sum,
                                   LineSums& lines);
-/// The pieces that continue each other, over at most one missing strip, in chains of at least
-/// `least`; where a chain goes on it may bend a little and climb a few pixels of disparity.
-std::vector<LinePiece> InChains(const std::vector<LinePiece>& pieces, int least);
+/// Chains of at least `least` pieces that continue each other, over at most one missing strip; where
+/// a chain goes on it may bend a little and climb a few pixels of disparity. In the order of their
+/// first pieces, which keep theirs.
+std::vector<std::vector<LinePiece>> Chains(const std::vector<LinePiece>& pieces,
+                                           std::size_t least);
 
 }  // namespace palace

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "engine/slad/pictures/scene_texture.h"
@@ -42,13 +43,20 @@ Grid<CellCount> CountBlocks(const SceneView& view, const SceneGround& ground, co
   return counts;
 }
 
-/// The cells below a piece, and their neighbours.
-void FlagBelow(const ThinPiece& piece, const GridGeometry& geometry, Grid<std::uint8_t>& found) {
+/// The cells below a piece, and their neighbours; the highest piece over a cell counts.
+void FlagBelow(const ThinPiece& piece, const GridGeometry& geometry, Grid<std::uint8_t>& found,
+               Grid<ThinSight>& thin) {
   const Eigen::Vector2d from = piece.from_W.head<2>(), to = piece.to_W.head<2>();
   const double length_m = (to - from).norm();
   if (!(length_m < 1e4)) {
     return;
   }
+  const double top_m =
+      piece.height_known
+          ? std::max(HeightFromDown(piece.from_W.z()), HeightFromDown(piece.to_W.z()))
+          : std::numeric_limits<double>::infinity();
+  const ThinSight sight{static_cast<float>(top_m),
+                        static_cast<float>(std::atan2(to.y() - from.y(), to.x() - from.x()))};
   const int steps = 1 + static_cast<int>(2 * length_m / geometry.cell_m);
   for (int k = 0; k <= steps; ++k) {
     const Eigen::Vector2d p = from + (to - from) * k / steps;
@@ -60,6 +68,8 @@ void FlagBelow(const ThinPiece& piece, const GridGeometry& geometry, Grid<std::u
       for (int c = cell->col - 1; c <= cell->col + 1; ++c) {
         if (geometry.Contains({r, c})) {
           found.at(r, c) |= kFlagThinStructure;
+          ThinSight& above = thin.at(r, c);
+          above = above.top_m >= sight.top_m ? above : sight;
         }
       }
     }
@@ -98,13 +108,16 @@ Grid<std::uint8_t> SceneFlags::Add(const SceneView& view, const GridGeometry& ge
       }
     }
   }
+  const Eigen::Vector3d baseline_W = view.range->pose->X_WC.R.col(0);
+  ThinSights thin{Grid<ThinSight>(geometry.rows, geometry.cols),
+                  std::atan2(baseline_W.y(), baseline_W.x())};
   for (const ThinPiece& piece : FindThinStructures(view, ground)) {
-    FlagBelow(piece, geometry, found);
+    FlagBelow(piece, geometry, found, thin.cells);
   }
   for (std::size_t cell = 0; cell < seen.cells().size(); ++cell) {
     seen.cells()[cell] |= found.cells()[cell] & kFlagThinStructure;  // the wire may be outside
   }
-  memory_.Add(seen, found);
+  memory_.Add(seen, found, thin);
   return memory_.Flags();
 }
 

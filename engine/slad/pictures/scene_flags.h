@@ -25,6 +25,8 @@ class SceneFlags {
   /// structure flags the cells straight below it and their neighbours; one of unknown height those
   /// of the ground seen behind it. Without pictures the flags stay as they are.
   Grid<std::uint8_t> Add(const SceneView& view, const GridGeometry& geometry);
+  /// Of the cells that are flagged for a thin structure (ElevationMap::thin_top_m); empty: none is.
+  GridF ThinTops() const { return memory_.ThinTops(); }
 
  private:
   SceneMotion motion_;

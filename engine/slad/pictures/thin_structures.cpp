@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "engine/core/median.h"
+#include "engine/slad/pictures/along_baseline.h"
 #include "engine/slad/pictures/line_marks.h"
 #include "engine/slad/pictures/line_pieces.h"
 
@@ -17,17 +18,13 @@ constexpr double kMostAbove_px = 96;
 constexpr double kStep_px = 0.5;
 constexpr double kAside_px = 4;
 constexpr float kMostDifference_grey = 40;
-constexpr int kLeastPieces = 3;
+constexpr std::size_t kLeastPieces = 3;
 constexpr std::size_t kLeastSamples = kStrip_px / 2;
 // What a piece's own pixels may differ by, as a share of the difference on the ground, of the
 // lowest quarter of all disparities, and of the disparities kAside_px to both sides.
 constexpr float kOfGround = 0.56F;
 constexpr float kOfQuarter = 0.64F;
 constexpr float kOfAside = 0.68F;
-// Lines along the baseline.
-constexpr int kLeastRidgeSum = 185;
-constexpr double kMostRidgeAside_px = 2;  // over a strip: 3.7 degrees
-constexpr double kLeastRidgeShare = 0.6;  // of the picture's width
 
 /// How well a piece's own pixels are found again at disparities beyond the ground's.
 class PieceMatcher {
@@ -101,22 +98,6 @@ class PieceMatcher {
   std::vector<float> errors_;
 };
 
-/// Ends in W of the pieces, at the disparity beyond the ground's.
-void AddPieces(const SceneView& view, const SceneGround& ground, const MarkStrips& strips,
-               const std::vector<LinePiece>& pieces, bool height_known,
-               std::vector<ThinPiece>& found) {
-  for (const LinePiece& piece : pieces) {
-    const auto end = [&](double share) {
-      const Eigen::Vector2d p = strips.Pixel(piece, share);
-      const int i = std::clamp(static_cast<int>(p.x()) / kBlock_px, 0, ground.cols() - 1);
-      const int j = std::clamp(static_cast<int>(p.y()) / kBlock_px, 0, ground.rows() - 1);
-      return PointAt(view, p.x(), p.y(),
-                     static_cast<double>(ground.disparity_px.at(i, j)) + piece.above_px);
-    };
-    found.push_back({end(0), end(1), height_known});
-  }
-}
-
 }  // namespace
 
 bool CanTellThinStructures(const SceneView& view, const SceneGround& ground) {
@@ -147,20 +128,12 @@ std::vector<ThinPiece> FindThinStructures(const SceneView& view, const SceneGrou
         }
       }
     }
-    AddPieces(view, ground, *strips, InChains(matched, kLeastPieces), true, found);
-  }
-
-  const MarkStrips ridges{Transposed(MarkRidges(*view.left)), true};
-  std::vector<LinePiece> level;
-  for (int strip = 0; strip < ridges.count(); ++strip) {
-    for (const LinePiece& piece : FindPieces(ridges, strip, kLeastRidgeSum, lines)) {
-      if (std::abs(piece.to - piece.from) <= kMostRidgeAside_px) {
-        level.push_back(piece);
-      }
+    for (const auto& chain : Chains(matched, kLeastPieces)) {
+      AddPieces(view, ground, *strips, chain, true, found);
     }
   }
-  const int least = static_cast<int>(std::ceil(kLeastRidgeShare * ridges.count()));
-  AddPieces(view, ground, ridges, InChains(level, std::max(least, kLeastPieces)), false, found);
+  const std::vector<ThinPiece> along = FindAlongBaseline(view, ground, lines);
+  found.insert(found.end(), along.begin(), along.end());
   return found;
 }
 

@@ -7,26 +7,15 @@
 // clearly better than on the ground and than at other disparities. Three pieces in a row, which may
 // bend a little, are a thin structure.
 //
-// A line within some 3 degrees of the baseline shows no disparity: moved along itself it looks the
-// same. Such a line is taken from the left picture alone, and only when it is thin, spans most of
-// the picture and stands out clearly from the ground; its height is unknown.
+// Lines within 30 degrees of the baseline hardly move along it: along_baseline.h finds them.
 #pragma once
 
 #include <vector>
 
-#include <Eigen/Dense>
-
 #include "engine/slad/pictures/scene_ground.h"
+#include "engine/slad/pictures/thin_piece.h"
 
 namespace palace {
-
-/// A straight piece of one, ends in W. Without a known height the ends lie on the ground seen
-/// behind it.
-struct ThinPiece {
-  Eigen::Vector3d from_W = Eigen::Vector3d::Zero();
-  Eigen::Vector3d to_W = Eigen::Vector3d::Zero();
-  bool height_known = true;
-};
 
 /// Nearer than this the ground's disparity changes too much within a block for paint to cancel, and
 /// lines above it leave the right picture: what was found from farther away stands (flag_memory.h).

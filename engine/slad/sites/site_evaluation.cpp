@@ -246,18 +246,26 @@ bool IsClear(const Approach& approach, const ElevationMap& map, const SladSettin
     const double north_m = g.NorthOfRow(r) - site.p_WS.x();
     const ColumnRange columns = CorridorInRow(g, site, along, north_m, length_m, half_width_m);
     const float* height_m = map.height_m.row(r);
+    const float* thin_top_m = map.thin_top_m.empty() ? nullptr : map.thin_top_m.row(r);
     for (int c = columns.first; c <= columns.last; ++c) {
       const double east_m = g.EastOfCol(c) - site.p_WS.y();
       const double s = north_m * along.x() + east_m * along.y();
       const double rise_m = static_cast<double>(height_m[c]) - site.height_m.value;
       const double free_m = (s - lander_radius_m) * tangent + settings.limits.max_deviation_m;
+      const bool is_thin =
+          thin_top_m && static_cast<double>(thin_top_m[c]) - site.height_m.value > free_m;
       // Asked first, for few cells rise so far.
-      if (!(rise_m > free_m)) {
+      if (!(rise_m > free_m) && !is_thin) {
         continue;
       }
       const double aside = std::abs(north_m * along.y() - east_m * along.x());
-      if (s <= site.clear_radius_m || s > length_m || aside > half_width_m ||
-          map.state.at(r, c) == CellState::kUnknown) {
+      if (s <= site.clear_radius_m || s > length_m || aside > half_width_m) {
+        continue;
+      }
+      if (is_thin) {
+        return false;  // nobody flies under a wire, either
+      }
+      if (map.state.at(r, c) == CellState::kUnknown) {
         continue;
       }
       const double noise_m = kSigmas * std::sqrt(static_cast<double>(map.variance_m2.at(r, c)));

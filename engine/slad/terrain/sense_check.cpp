@@ -56,7 +56,8 @@ bool LayersFit(const ElevationMap& map) {
   const GridGeometry& g = map.geometry;
   return Fits(g, map.height_m) && Fits(g, map.variance_m2) && Fits(g, map.frame_count) &&
          Fits(g, map.state) && FitsOrIsLeftOut(g, map.measured_m) &&
-         FitsOrIsLeftOut(g, map.age_s) && FitsOrIsLeftOut(g, map.flags);
+         FitsOrIsLeftOut(g, map.age_s) && FitsOrIsLeftOut(g, map.flags) &&
+         FitsOrIsLeftOut(g, map.thin_top_m);
 }
 
 Lander WithinReason(const Lander& lander, const GridGeometry& geometry) {
