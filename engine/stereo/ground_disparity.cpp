@@ -19,8 +19,4 @@ GroundDisparity::GroundDisparity(const PinholeCamera& camera, double baseline_m,
   of_pixel_ = {per_x, per_y, down_C.z() - per_x * camera.cx_px - per_y * camera.cy_px};
 }
 
-double GroundDisparity::At(double x_px, double y_px) const {
-  return std::max(0.0, of_pixel_.dot(Eigen::Vector3d(x_px, y_px, 1)));
-}
-
 }  // namespace palace

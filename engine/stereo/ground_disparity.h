@@ -4,6 +4,8 @@
 //                                                 h = the camera's height over the ground, metres
 #pragma once
 
+#include <algorithm>
+
 #include <Eigen/Dense>
 
 #include "engine/core/frames.h"
@@ -22,7 +24,9 @@ class GroundDisparity {
   GroundDisparity(const PinholeCamera& camera, double baseline_m, const RigidTransform& X_WC,
                   double ground_height_m);
   /// Pixels; 0 at and above the horizon.
-  double At(double x_px, double y_px) const;
+  double At(double x_px, double y_px) const {
+    return std::max(0.0, of_pixel_.x() * x_px + of_pixel_.y() * y_px + of_pixel_.z());
+  }
   double height_m() const { return height_m_; }
 
  private:

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
+#include <iterator>
 #include <optional>
 
 #include "engine/slad/pictures/line_marks.h"
@@ -144,25 +144,26 @@ bool IsClearAndLevel(const LinePiece& piece) {
 std::vector<ThinPiece> FindAlongBaseline(const SceneView& view, const SceneGround& ground,
                                          LineSums& lines) {
   const MarkStrips strips{Transposed(MarkRidges(*view.left)), true};
-  Chain all, clear;
+  Chain all;
   for (int strip = 0; strip < strips.count(); ++strip) {
     for (const LinePiece& piece : FindPieces(strips, strip, kLeastSum, lines)) {
       if (std::abs(piece.to - piece.from) <= kMostClimb * (kStrip_px - 1)) {
         all.push_back(piece);
       }
-      if (IsClearAndLevel(piece)) {
-        clear.push_back(piece);
-      }
     }
   }
   std::vector<ThinPiece> found;
+  Chain clear;  // of lines whose height nothing tells
   for (Chain& chain : Chains(all, kLeastPieces)) {
-    if (const auto above_px = AboveGround(*view.left, ground, strips, chain)) {
-      for (LinePiece& piece : chain) {
-        piece.above_px = *above_px;
-      }
-      AddPieces(view, ground, strips, chain, true, found);
+    const auto above_px = AboveGround(*view.left, ground, strips, chain);
+    if (!above_px) {
+      std::copy_if(chain.begin(), chain.end(), std::back_inserter(clear), IsClearAndLevel);
+      continue;
     }
+    for (LinePiece& piece : chain) {
+      piece.above_px = *above_px;
+    }
+    AddPieces(view, ground, strips, chain, true, found);
   }
   const auto least = static_cast<std::size_t>(std::ceil(kLeastShare * strips.count()));
   for (const Chain& chain : Chains(clear, std::max(least, kLeastPieces))) {

@@ -16,6 +16,7 @@ namespace {
 
 /// Noise that a height may owe: of the site's plane, of what stands in the corridor.
 constexpr double kSigmas = 3;
+constexpr double kThinMargin_m = 1;  // a wire's height is told to some 0.6 m
 constexpr std::size_t kNewCellsOneIn = 10;  // of the clear radius: new ground at the rim
 
 /// Visits the cells of the map whose centre lies within `radius_m` of the cell's.
@@ -253,7 +254,8 @@ bool IsClear(const Approach& approach, const ElevationMap& map, const SladSettin
       const double rise_m = static_cast<double>(height_m[c]) - site.height_m.value;
       const double free_m = (s - lander_radius_m) * tangent + settings.limits.max_deviation_m;
       const bool is_thin =
-          thin_top_m && static_cast<double>(thin_top_m[c]) - site.height_m.value > free_m;
+          thin_top_m &&
+          static_cast<double>(thin_top_m[c]) + kThinMargin_m - site.height_m.value > free_m;
       // Asked first, for few cells rise so far.
       if (!(rise_m > free_m) && !is_thin) {
         continue;
