@@ -5,6 +5,7 @@
 #include "engine/core/text.h"
 #include "engine/mission/limits.h"
 #include "engine/model/mission/alarm_text.h"
+#include "engine/model/site_standing.h"
 
 namespace palace::words {
 namespace {
@@ -158,8 +159,8 @@ std::string Alternative(const MissionMemory& m) {
   if (!m.alternative) {
     return "No alternative is kept.";
   }
-  return std::string("Alternative: site ") + m.alternative->letter +
-         WithNumbers(", %.1f m clear.", m.alternative->safe_distance_m);
+  return std::string("Alternative: site ") + m.alternative->letter + ", " +
+         ClearWords(*m.alternative) + ".";
 }
 
 std::string OffTheMap(const std::string& letter) {

@@ -6,6 +6,11 @@
 
 namespace palace {
 
+std::string ClearWords(const LandingSite& site) {
+  return WithNumbers("%.1f m clear", site.safe_distance_m) +
+         (site.age_s > kOldGround_s ? ", not in view" : "");
+}
+
 std::string WhyProvisional(const LandingSite& site, const SladSettings& settings) {
   if (site.confirmed) {
     return {};

@@ -14,6 +14,9 @@ inline constexpr int kFramesToConfirm = 3;
 /// Nothing is approved on ground measured longer ago, as old as a map may be.
 inline constexpr double kOldGround_s = 2;
 
+/// "3.1 m clear", with ", not in view" where the ground is older than that.
+std::string ClearWords(const LandingSite& site);
+
 /// Rocks and holes over the limit expected unseen (LandingSite::hidden_things) under a confirmed
 /// site, at most.
 inline constexpr double kMostHidden = 0.01;

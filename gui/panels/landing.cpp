@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/model/site_standing.h"
 #include "gui/panels/arrival.h"
 #include "gui/panels/fly_panels.h"
 #include "gui/panels/session_words.h"
@@ -58,7 +59,7 @@ std::string Record(const EngineSnapshot& snap) {
         lost && m.rechecks.back().alternative ? &*m.rechecks.back().alternative : nullptr;
     return other == nullptr ? why
                             : why + " Alternative: site " + other->letter + ", " +
-                                  Fixed(other->safe_distance_m, 1) + " m clear, not approved.";
+                                  ClearWords(*other) + ", not approved.";
   }
   if (!m.approval) {
     return "";

@@ -284,6 +284,22 @@ TEST(Recheck, LossOffersTheAlternativeAndNeverFliesThere) {
   EXPECT_TRUE(rig.state() == MissionState::kProposed || rig.state() == MissionState::kSearch);
 }
 
+// A place remembered from higher up is named as what it is: nobody can approve it from here.
+TEST(Recheck, AnAlternativeThatHasLeftTheViewIsSaidToHave) {
+  MissionRig rig;
+  Descend(rig);
+  rig.Site(102)->age_s = 12;
+  rig.site_slope_rad = Rad(12);
+  rig.Run(0.5);
+  ASSERT_EQ(rig.state(), MissionState::kHold);
+  bool said = false;
+  for (const Alarm& alarm : rig.mission.status().alarms) {
+    said = said || alarm.text.find("Alternative: site B, 4.0 m clear, not in view.") !=
+                       std::string::npos;
+  }
+  EXPECT_TRUE(said);
+}
+
 TEST(Recheck, TheAlternativeSharesNoGroundAndIsRecheckedToo) {
   MissionRig rig;
   rig.sites[1].p_WS = rig.sites[0].p_WS + Eigen::Vector3d(4.5, 0, 0);  // discs of 2.3 m overlap
