@@ -29,12 +29,12 @@ constexpr double kAlone = 0.6;               // of it, what is found elsewhere
 constexpr double kNotAtGround = 0.8;   // of its contrast where it is found again
 // Without.
 constexpr int kLeastClearSum = 185;
-constexpr double kMostLevelClimb = 2.0 / (kStrip_px - 1);
+constexpr double kMostLevel_px = 2;  // over a strip
 constexpr double kLeastShare = 0.6;  // of the picture's width
 
 /// Mean grey across a chain, row by row from kReach above the line to kReach below it.
 struct Profile {
-  static constexpr int kReach = kMostAside_px + kRidge_px;
+  static constexpr int kReach = kMostAside_px + 1 + kRidge_px;  // and a row for the parabola
   std::array<double, 2 * kReach + 1> grey{};
 
   double At(int row) const { return grey[static_cast<std::size_t>(row + kReach)]; }
@@ -136,7 +136,7 @@ std::optional<double> AboveGround(const ImageU8& left, const SceneGround& ground
 
 bool IsClearAndLevel(const LinePiece& piece) {
   return piece.sum >= kLeastClearSum &&
-         std::abs(piece.to - piece.from) <= kMostLevelClimb * (kStrip_px - 1);
+         std::abs(piece.to - piece.from) <= kMostLevel_px;
 }
 
 }  // namespace
