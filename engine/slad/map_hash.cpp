@@ -14,6 +14,7 @@ std::uint64_t HashOfMaps(const ElevationMap& map, const HazardMaps& hazards) {
   hash.Add(map.geometry.east_min_m);
   hash.Add(map.height_m.cells());
   hash.Add(map.measured_m.cells());
+  hash.Add(map.thin_top_m.cells());
   hash.Add(hazards.reasons.cells());
   hash.Add(hazards.cost.cells());
   hash.Add(hazards.safe_distance_m.cells());

@@ -7,7 +7,8 @@
 namespace palace {
 namespace {
 
-/// Whether pose and ground are known, and asked.
+/// Whether the window is predicted: the rig has none, and a pose is known. Where nobody knows the
+/// ground, its height is that of the origin, for the window as for what is refused.
 bool IsPredicted(const RigExposure& exposure) {
   return exposure.pose && exposure.rig.num_disparities <= 0;
 }

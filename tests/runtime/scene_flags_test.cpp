@@ -199,7 +199,7 @@ TEST(SceneFlags, AWireAlongTheBaselineIsFlaggedWithoutItsHeight) {
 TEST(SceneFlags, AWireIsFoundAtEveryAngleToTheBaseline) {
   const World world = FieldWithObstacles(GroundTexture::kAsphalt);
   constexpr double kToldFromPaint_deg = 5;
-  for (const double angle_deg : {2.0, 4.0, 6.0, 9.0, 13.0, 20.0, 30.0, 60.0, 90.0}) {
+  for (const double angle_deg : {2.0, 4.0, 6.0, 9.0, -9.0, 13.0, 20.0, -20.0, 30.0, 60.0, 90.0}) {
     for (const double up_m : {0.001, 3.0, 6.0}) {
       SCOPED_TRACE(std::to_string(angle_deg) + " degrees, " + std::to_string(up_m) + " m up");
       const Eigen::Vector2d along{std::sin(Rad(angle_deg)), std::cos(Rad(angle_deg))};
@@ -213,14 +213,21 @@ TEST(SceneFlags, AWireIsFoundAtEveryAngleToTheBaseline) {
           [&](const PinholeCamera& camera, const RigidTransform& X_WC, ImageF& picture) {
             PaintWire({point(-12), point(12), 0.02, 30}, camera, X_WC, picture);
           });
-      int under = 0, flagged = 0;
+      int under = 0, flagged = 0, high = 0;
       for (double s = -2.5; s <= 2.5; s += 0.1) {
+        const Eigen::Vector3d p = point(s);
         ++under;
-        flagged += seen.At(point(s).x(), point(s).y(), kFlagThinStructure) ? 1 : 0;
+        if (seen.At(p.x(), p.y(), kFlagThinStructure)) {
+          ++flagged;
+          const auto cell = seen.map->geometry.CellFromPoint(p.x(), p.y());
+          high += std::abs(seen.map->thin_top_m.at(*cell) - up_m) < 1 ? 1 : 0;
+        }
       }
+      const bool has_height = std::abs(angle_deg) > kToldFromPaint_deg;
       if (up_m > 1) {
         EXPECT_GE(flagged, 0.8 * under);
-      } else if (angle_deg > kToldFromPaint_deg) {
+        EXPECT_GE(high, has_height ? 0.8 * flagged : 0) << flagged;
+      } else if (has_height) {
         EXPECT_EQ(seen.Count(kFlagThinStructure), 0);
       }
     }

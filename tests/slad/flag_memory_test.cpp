@@ -103,16 +103,46 @@ TEST(FlagMemory, AWireAlongTheBaselineIsNotForgottenForBeingUnseen) {
   EXPECT_EQ(memory.Flags().at(1, 2), kFlagNone);
 }
 
-TEST(FlagMemory, AKnownHeightIsNotGivenUpForAnUnknownOne) {
+// Found by one map alone it is a flicker, from wherever one looks.
+TEST(FlagMemory, AWireThatOneMapAloneSawIsForgottenByTheNext) {
+  for (const double baseline_bearing_rad : {M_PI / 2, 0.0}) {
+    FlagMemory memory;
+    memory.MoveTo(kGeometry);
+    LookForWire(memory, true, baseline_bearing_rad);
+    EXPECT_EQ(memory.Flags().at(1, 2), kFlagThinStructure);
+    LookForWire(memory, false, baseline_bearing_rad);
+    EXPECT_EQ(memory.Flags().at(1, 2), kFlagNone);
+    EXPECT_TRUE(memory.ThinTops().empty());
+  }
+}
+
+// Without a height it lies on the ground behind, which moves with the view: it fades as ever.
+TEST(FlagMemory, AWireOfUnknownHeightFadesAlongTheBaselineToo) {
+  FlagMemory memory;
+  memory.MoveTo(kGeometry);
+  const Grid<std::uint8_t> all(4, 4, kFlagThinStructure), none(4, 4, kFlagNone);
+  const ThinSights found{Grid<ThinSight>(4, 4, {std::numeric_limits<float>::infinity(), 0}), 0};
+  memory.Add(all, all, found);
+  memory.Add(all, all, found);
+  for (int map = 0; map < 20; ++map) {
+    EXPECT_TRUE(std::isinf(memory.ThinTops().at(0, 0))) << map;
+    memory.Add(all, none, {Grid<ThinSight>(4, 4), 0});
+  }
+  EXPECT_TRUE(memory.ThinTops().empty());
+}
+
+TEST(FlagMemory, TheHighestTopCountsWhileItIsInForce) {
   FlagMemory memory;
   memory.MoveTo(kGeometry);
   LookForWire(memory, true, 1.0);
   const Grid<std::uint8_t> all(4, 4, kFlagThinStructure);
-  ThinSights thin{Grid<ThinSight>(4, 4, {std::numeric_limits<float>::infinity(), 0}), 1.0};
-  memory.Add(all, all, thin);
-  memory.Add(all, all, thin);
-  EXPECT_EQ(memory.ThinTops().at(1, 2), 6.3F);
-  EXPECT_TRUE(std::isinf(memory.ThinTops().at(0, 0)));
+  const auto find = [&](float top_m) {
+    memory.Add(all, all, {Grid<ThinSight>(4, 4, {top_m, 0}), 1.0});
+    return memory.ThinTops().at(1, 2);
+  };
+  EXPECT_EQ(find(0.4F), 6.3F);
+  EXPECT_EQ(find(8.0F), 8.0F);
+  EXPECT_EQ(find(0.4F), 8.0F);
 }
 
 TEST(FlagMemory, AnotherCellSizeStartsAfresh) {

@@ -53,12 +53,16 @@ void FlagMemory::Add(const Grid<std::uint8_t>& seen, const Grid<std::uint8_t>& f
   PALACE_CHECK(seen.rows() == geometry_.rows && found.rows() == geometry_.rows &&
                    seen.cols() == geometry_.cols && found.cols() == geometry_.cols,
                seen.rows(), found.rows(), geometry_.rows);
+  PALACE_CHECK(thin.cells.empty() ||
+                   (thin.cells.rows() == geometry_.rows && thin.cells.cols() == geometry_.cols),
+               thin.cells.rows(), geometry_.rows);
   for (std::size_t cell = 0; cell < tracks_.cells().size(); ++cell) {
     ThinSight& known = tracks_.cells()[cell].thin;
     for (std::size_t k = 0; k < kKinds.size(); ++k) {
       Track& track = tracks_.cells()[cell].kinds[k];
       const bool is_found = (found.cells()[cell] & kKinds[k]) != 0;
-      const bool is_blind = k == kThin && !is_found && !std::isnan(known.top_m) &&
+      const bool is_blind = k == kThin && !is_found && track.maps_left > 0 &&
+                            std::isfinite(known.top_m) &&
                             RunAlike(double{known.bearing_rad}, thin.baseline_bearing_rad);
       if ((seen.cells()[cell] & kKinds[k]) == 0 || is_blind) {
         const bool fades = kKinds[k] == kFlagMotion;
@@ -80,10 +84,10 @@ void FlagMemory::Add(const Grid<std::uint8_t>& seen, const Grid<std::uint8_t>& f
       continue;
     }
     const ThinSight& now = thin.cells.cells()[cell];
-    // A height once known is not given up for one that is not.
-    if (!std::isnan(now.top_m) && !(std::isinf(now.top_m) && std::isfinite(known.top_m))) {
-      known = now;
-    } else if (std::isnan(now.top_m) && !InForce(tracks_.cells()[cell], kThin)) {
+    const bool is_kept = InForce(tracks_.cells()[cell], kThin) && known.top_m >= now.top_m;
+    if (!std::isnan(now.top_m)) {
+      known = is_kept ? known : now;
+    } else if (!InForce(tracks_.cells()[cell], kThin)) {
       known = {};
     }
   }

@@ -4,7 +4,8 @@
 // so far, by that one map (not for motion, which always needs two). Raised by two, it stays for a
 // number of maps that see the cell without it: thin structures and motion 20, no texture 5, shadow
 // 3. Cells out of view keep their flags, but motion there fades at the same rate. A thin structure
-// that runs within 15 degrees of the baseline is hardly seen: not to find it is no look at the cell.
+// of known height that runs within 15 degrees of the baseline is hardly seen: once it is raised, not
+// to find it is no look at the cell. While it is in force its highest top counts.
 #pragma once
 
 #include <array>
