@@ -20,8 +20,15 @@ bool IsSilent(const AlarmFacts& facts);
 /// "Vehicle silent" or "Vehicle status".
 const char* LinkWords(const AlarmFacts& facts);
 
+/// Pictures, pose and link: their age, and whether the pair is right.
+std::span<const AlarmRow> CaptureAlarms();
+/// Sites, approvals, the descent, who commands.
+std::span<const AlarmRow> MissionAlarms();
+/// The station's record and engine, what it cannot read or send.
+std::span<const AlarmRow> StationAlarms();
 /// What arrives from the vehicle, and when.
 std::span<const AlarmRow> ArrivalAlarms();
+/// What the vehicle's own motion contradicts.
 std::span<const AlarmRow> SensorAlarms();
 
 }  // namespace palace
