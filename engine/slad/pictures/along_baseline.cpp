@@ -18,15 +18,13 @@ constexpr double kMostClimb = 0.58;  // rows a column: 30 degrees
 constexpr int kLeastSum = 110;       // of 224
 constexpr std::size_t kLeastPieces = 4;
 // With its height.
-constexpr double kMostAbove_px = 96;  // disparity beyond the ground's
 constexpr double kLeastAside_px = 1;
 constexpr int kMostAside_px = 40;
-constexpr int kRidge_px = 3;
 constexpr double kLeastContrast_grey = 2.5;  // sensor noise
 constexpr double kFoundAgain = 0.5;          // of the line's contrast in the left picture, at least
 constexpr double kNoStronger = 1.5;          // and at most
 constexpr double kAlone = 0.6;               // of it, what is found elsewhere
-constexpr double kNotAtGround = 0.8;   // of its contrast where it is found again
+constexpr double kNotAtGround = 0.8;         // of its contrast where it is found again
 // Without.
 constexpr int kLeastClearSum = 185;
 constexpr double kMostLevel_px = 2;  // over a strip
@@ -39,9 +37,7 @@ struct Profile {
 
   double At(int row) const { return grey[static_cast<std::size_t>(row + kReach)]; }
   /// How much darker the row is than those beside it.
-  double Darker(int row) const {
-    return (At(row - kRidge_px) + At(row + kRidge_px)) / 2 - At(row);
-  }
+  double Darker(int row) const { return (At(row - kRidge_px) + At(row + kRidge_px)) / 2 - At(row); }
 };
 
 /// Rows a column, through the middles of the pieces.
@@ -135,8 +131,7 @@ std::optional<double> AboveGround(const ImageU8& left, const SceneGround& ground
 }
 
 bool IsClearAndLevel(const LinePiece& piece) {
-  return piece.sum >= kLeastClearSum &&
-         std::abs(piece.to - piece.from) <= kMostLevel_px;
+  return piece.sum >= kLeastClearSum && std::abs(piece.to - piece.from) <= kMostLevel_px;
 }
 
 }  // namespace

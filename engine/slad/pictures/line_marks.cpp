@@ -14,7 +14,6 @@ namespace {
 constexpr int kTile_px = 32;
 constexpr float kMarksPerMean = 2.0F;    // marks of a difference as large as the tile's mean
 constexpr float kLeastMean_grey = 2.5F;  // sensor noise
-constexpr int kRidge_px = 3;
 
 struct Tiles {
   ImageF mean;       ///< of left minus right over left
@@ -79,8 +78,6 @@ ImageU8 MarkDifferences(const ImageU8& left, const SceneGround& ground) {
   return marks;
 }
 
-/// Marks of thin lines along the rows: what is darker, or brighter, than three rows above and
-/// below.
 ImageU8 MarkRidges(const ImageU8& left) {
   const int width = left.width(), picture_rows = left.height();
   ImageU8 marks(width, picture_rows, 0);

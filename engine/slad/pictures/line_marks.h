@@ -10,8 +10,10 @@ namespace palace {
 /// |left - right laid over left| beyond the tile's mean difference. 0 where the ground is not
 /// usable.
 ImageU8 MarkDifferences(const ImageU8& left, const SceneGround& ground);
-/// Thin lines along the rows: how much a pixel is darker, or brighter, than those three rows above
-/// and below.
+/// Half width of a ridge: what a thin line is darker, or brighter, than.
+inline constexpr int kRidge_px = 3;
+/// Thin lines along the rows: how much a pixel is darker, or brighter, than those kRidge_px rows
+/// above and below.
 ImageU8 MarkRidges(const ImageU8& left);
 /// Rows become columns.
 ImageU8 Transposed(const ImageU8& picture);

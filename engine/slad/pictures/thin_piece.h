@@ -10,6 +10,9 @@
 
 namespace palace {
 
+/// A thin structure is looked for up to this disparity beyond the ground's.
+inline constexpr double kMostAbove_px = 96;
+
 /// Ends in W. Without a known height they lie on the ground seen behind it.
 struct ThinPiece {
   Eigen::Vector3d from_W = Eigen::Vector3d::Zero();

@@ -14,7 +14,6 @@ namespace {
 
 constexpr int kLeastSum = 130;          // of 224
 constexpr double kLeastAbove_px = 1.5;  // disparity beyond the ground's
-constexpr double kMostAbove_px = 96;
 constexpr double kStep_px = 0.5;
 constexpr double kAside_px = 4;
 constexpr float kMostDifference_grey = 40;
