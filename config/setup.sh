@@ -95,9 +95,9 @@ say_skipped() {
   local name reason without=0 folder
   while IFS=$'\t' read -r name reason; do
     case "$reason" in
-      'no reference data in '*)
+      'runs with reference data in '*)
         without=$((without + 1))
-        folder=$(dirname "${reason#no reference data in }")
+        folder=$(dirname "${reason#runs with reference data in }")
         ;;
       *) say "skipped $name: $reason" ;;
     esac

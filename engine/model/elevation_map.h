@@ -51,9 +51,10 @@ struct ElevationMap {
   GridF age_s{};               ///< since the cell was last measured; empty: all of one frame
   Grid<std::uint8_t> flags{};  ///< TerrainFlag bits; empty: none
   /// Of the thin structure above the cell, which its flag tells of; infinite where its height is
-  /// unknown, NaN where there is none. Empty: none. No part of height_m: nothing stands below a wire.
+  /// unknown, NaN where there is none. Empty: none. No part of height_m: nothing stands below a
+  /// wire.
   GridF thin_top_m{};
-  NarrowFigures narrow{};              ///< empty: not asked (a survey, thesis mode)
+  NarrowFigures narrow{};  ///< empty: not asked (a survey, thesis mode)
   /// Of the newest pose the heights were taken from: the slope of everything is off by this much.
   double attitude_sigma_rad = PoseSigmas{}.attitude_rad;
 

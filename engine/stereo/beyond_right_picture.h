@@ -13,8 +13,8 @@ namespace palace {
 
 /// Pixels with x < d and a disparity below kFallsAway d become NaN in all layers: all of those with
 /// x < kFallsAway d. d is of level ground `ground_height_m` above the origin of W (metres,
-/// up-positive), seen from X_WC, the pose of the rectified left camera. Rays at or above the horizon
-/// have d = 0: they stay. Ground that falls away more steeply at the rim is given up.
+/// up-positive), seen from X_WC, the pose of the rectified left camera. Rays at or above the
+/// horizon have d = 0: they stay. Ground that falls away more steeply at the rim is given up.
 void RefuseBeyondRightPicture(const RigidTransform& X_WC, double ground_height_m, RangeMap& range);
 
 }  // namespace palace

@@ -10,8 +10,8 @@ namespace palace {
 namespace {
 
 constexpr int kWidest = 256;
-constexpr int kStep = 16;               // SGBM searches multiples of 16
-constexpr int kPointsPerSide = 8;       // border rays on each side of the picture
+constexpr int kStep = 16;          // SGBM searches multiples of 16
+constexpr int kPointsPerSide = 8;  // border rays on each side of the picture
 constexpr double kNearShare = 1.04;
 constexpr double kMargin_px = 2;
 

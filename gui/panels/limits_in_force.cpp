@@ -11,10 +11,10 @@ namespace palace {
 namespace {
 
 /// From the top, whoever acts on them. The engine gives the place as one of the first two.
-constexpr std::array kFirst = {LimitId::kOffPath,     LimitId::kFromCentre, LimitId::kDescentRate,
-                               LimitId::kCoherence,   LimitId::kResidual,   LimitId::kClearRadius,
-                               LimitId::kProbability, LimitId::kSlope,      LimitId::kWind,
-                               LimitId::kRoughness,   LimitId::kStep,       LimitId::kGroundAge,
+constexpr std::array kFirst = {LimitId::kOffPath,     LimitId::kFromCentre,  LimitId::kDescentRate,
+                               LimitId::kCoherence,   LimitId::kResidual,    LimitId::kClearRadius,
+                               LimitId::kProbability, LimitId::kSlope,       LimitId::kWind,
+                               LimitId::kRoughness,   LimitId::kStep,        LimitId::kGroundAge,
                                LimitId::kApproach,    LimitId::kVisionOutage};
 
 /// What is over its limit, then the list above, then every other limit that somebody enforces.

@@ -103,8 +103,8 @@ TEST_P(SceneFlagsOn, NothingIsFlaggedWhereThereIsNothing) {
   EXPECT_EQ(seen.Count(kFlagThinStructure | kFlagNoTexture | kFlagMotion), 0);
 }
 
-/// Soil from 4 m: patches of a decimetre, 3 grey levels, over many pixels. Stereo measures them, but
-/// for the picture's rim.
+/// Soil from 4 m: patches of a decimetre, 3 grey levels, over many pixels. Stereo measures them,
+/// but for the picture's rim.
 TEST(SceneFlags, FaintTextureSeenFromCloseByIsTextureUpToTheRimOfThePicture) {
   const auto soil = [](const PinholeCamera& camera, const RigidTransform& X_WC, ImageF& picture) {
     for (int y = 0; y < picture.height(); ++y) {
@@ -121,7 +121,8 @@ TEST(SceneFlags, FaintTextureSeenFromCloseByIsTextureUpToTheRimOfThePicture) {
   const auto low = [](int frame) {
     return RigidTransform{CameraRotationFromTilt(-Rad(45)), {0.05 * frame, 0, -4.2}};
   };
-  const Seen seen = Look(4, [](int) { return World{}; }, soil, low);
+  const Seen seen = Look(
+      4, [](int) { return World{}; }, soil, low);
   EXPECT_EQ(seen.Count(kFlagNoTexture), 0);
 }
 
@@ -193,9 +194,9 @@ TEST(SceneFlags, AWireAlongTheBaselineIsFlaggedWithoutItsHeight) {
   EXPECT_TRUE(seen.At(0.2, 0.0, kFlagThinStructure));
 }
 
-/// At any angle to the baseline, high and higher: the ground under it is flagged along most of it. A
-/// line painted at the same angle is not, unless it runs along the baseline, where nothing tells the
-/// two apart.
+/// At any angle to the baseline, high and higher: the ground under it is flagged along most of it.
+/// A line painted at the same angle is not, unless it runs along the baseline, where nothing tells
+/// the two apart.
 TEST(SceneFlags, AWireIsFoundAtEveryAngleToTheBaseline) {
   const World world = FieldWithObstacles(GroundTexture::kAsphalt);
   constexpr double kToldFromPaint_deg = 5;

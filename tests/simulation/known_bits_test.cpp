@@ -70,7 +70,7 @@ void Add(ContentHash& hash, const FrameBundle& b) {
 
 TEST(KnownBits, TheR50FliesMeasuresAndSeesAsItAlwaysDid) {
   if (!HasFusedMultiplyAdd()) {
-    GTEST_SKIP() << "the hash is known for x86-64 with AVX2 and FMA";
+    GTEST_SKIP() << "runs on x86-64 with AVX2 and FMA, whose hash is known";
   }
   SimulatorOptions options = Options(21);
   options.wind = {3, 1, 5};

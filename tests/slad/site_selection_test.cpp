@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include <gtest/gtest.h>
@@ -12,32 +11,21 @@
 #include "engine/slad/sites/verdict_image.h"
 #include "engine/slad/slad.h"
 #include "engine/slad/terrain/narrow_relief.h"
+#include "tests/slad/seen_from_the_south.h"
 #include "tests/slad/worlds.h"
 
 namespace palace {
 namespace {
 
 using testing::CameraPose;
+using testing::Context;
 using testing::Flat;
 using testing::MakeMap;
 using testing::SeeWorld;
+using testing::Select;
 using testing::ThesisCamera;
 using testing::WithBox;
 using testing::WithMode;
-
-/// Vehicle south of the map, on a 45 degree slope to its middle.
-SiteContext Context() {
-  SiteContext context;
-  context.p_WB = {-15, 0, -15};
-  context.X_WC = {CameraRotationFromTilt(Rad(-45)), context.p_WB};
-  context.camera = ThesisCamera();
-  return context;
-}
-
-SiteSelection Select(const ElevationMap& map, const SladSettings& settings = {},
-                     const SiteContext& context = Context()) {
-  return SelectSites(map, EvaluateHazards(map, settings), settings, context);
-}
 
 TEST(SiteSelection, FlatFieldIsWonByItsMiddle) {
   for (const SladMode mode : {SladMode::kThesis, SladMode::kModern}) {
@@ -254,99 +242,6 @@ TEST(SiteSelection, NoPlaceGivesTheSharesOfTheCauses) {
   EXPECT_EQ(Select(MakeMap(20, 20, 0.15, Flat())).none_reason,
             "100 % too near a hazard; the map holds a disc 2.850 m across, the lander's clear one "
             "is 4.600 m");
-}
-
-TEST(SiteSelection, TallWallTowardsTheVehicleBlocksTheCorridor) {
-  // A wall 8 m high across the approach, 4.5 m south of the middle.
-  const auto wall = [](double n, double) { return std::abs(n + 4.5) < 0.4 ? 8.0 : 0.0; };
-  SiteContext context = Context();
-  const SiteSelection blocked = Select(MakeMap(120, 120, 0.15, wall), {}, context);
-  ASSERT_FALSE(blocked.sites.empty());
-  for (const LandingSite& site : blocked.sites) {
-    if (site.p_WS.x() > -4 && site.p_WS.x() < 2) {
-      EXPECT_FALSE(site.corridor_clear) << site.p_WS.transpose();
-    }
-  }
-  context.p_WB = {15, 0, -15};
-  context.X_WC.p = context.p_WB;
-  for (const LandingSite& site : Select(MakeMap(120, 120, 0.15, wall), {}, context).sites) {
-    EXPECT_TRUE(site.corridor_clear || site.p_WS.x() < -4.5) << site.p_WS.transpose();
-  }
-}
-
-// A wall as high as a house beside the middle, from each of eight sides: exactly the sectors that
-// face it are blocked, and they turn with the world.
-TEST(SiteSelection, SectorsOfApproachThatFaceAWallAreBlocked) {
-  for (unsigned side = 0; side < 8; ++side) {
-    const double bearing_rad = side * Rad(45);
-    const auto wall = [=](double n, double e) {
-      const double along = n * std::cos(bearing_rad) + e * std::sin(bearing_rad);
-      const double across = n * std::sin(bearing_rad) - e * std::cos(bearing_rad);
-      return std::abs(along - 5) < 0.3 && std::abs(across) < 1.5 ? 8.0 : 0.0;
-    };
-    const ElevationMap map = MakeMap(121, 121, 0.15, wall);
-    const SladSettings settings;
-    const HazardMaps hazards = EvaluateHazards(map, settings);
-    LandingSite middle;
-    const auto site = RecheckSite(map, hazards, settings, middle, Context());
-    ASSERT_TRUE(site);
-    EXPECT_EQ(site->clear_approaches, 0xFF & ~(1U << side)) << side;
-    EXPECT_EQ(site->corridor_clear, side != 4) << side;  // the vehicle stands in the south
-  }
-}
-
-struct WireRow {
-  const char* name;
-  float top_m;
-  bool clear;
-};
-
-// A wire across the approach, 7 m south of the middle, over flat ground: in the way when it hangs as
-// high as the way down or higher, or at nobody knows what height; a low one is flown over.
-TEST(SiteSelection, AWireAcrossTheApproachBlocksIt) {
-  for (const WireRow& row :
-       {WireRow{"at the height of the way", 7, false}, WireRow{"above it", 12, false},
-        WireRow{"of unknown height", std::numeric_limits<float>::infinity(), false},
-        WireRow{"a low rope", 0.8F, true}}) {
-    SCOPED_TRACE(row.name);
-    ElevationMap map = MakeMap(121, 121, 0.15, Flat());
-    map.thin_top_m = GridF(121, 121, kUnknownValue);
-    for (int r = 0; r < 121; ++r) {
-      for (int c = 0; c < 121; ++c) {
-        if (std::abs(map.geometry.NorthOfRow(r) + 7) < 0.2) {
-          map.thin_top_m.at(r, c) = row.top_m;
-        }
-      }
-    }
-    const SladSettings settings;
-    const auto site =
-        RecheckSite(map, EvaluateHazards(map, settings), settings, LandingSite{}, Context());
-    ASSERT_TRUE(site);
-    EXPECT_EQ(site->corridor_clear, row.clear);
-  }
-}
-
-// Of two places the wider has its straight approach blocked: it comes second and says from where it
-// can be reached; one that is walled in comes last.
-TEST(SiteSelection, ABlockedStraightApproachNamesAnother) {
-  const auto wall = [](double n, double e) {
-    return std::abs(n + 1) < 0.3 && e < 2 ? 9.0 : 0.0;  // north of it is the wide ground
-  };
-  SladSettings settings;
-  settings.choice.sites_kept = 26;
-  const SiteSelection selection = Select(MakeMap(141, 141, 0.15, wall), settings);
-  bool found = false;
-  bool blocked_before = false;
-  for (const LandingSite& site : selection.sites) {
-    EXPECT_FALSE(blocked_before && site.corridor_clear) << "a clear one after a blocked one";
-    blocked_before = blocked_before || !site.corridor_clear;
-    if (!site.corridor_clear && site.clear_approaches != 0) {
-      found = true;
-      EXPECT_EQ(site.reason.rfind("Straight approach blocked; clear from north", 0), 0u)
-          << site.reason;
-    }
-  }
-  EXPECT_TRUE(found);
 }
 
 TEST(SiteSelection, NoiseOverTheLimitLeavesTheSiteProvisional) {

@@ -1,4 +1,5 @@
-// Ground that only the left camera sees: a pattern that repeats makes pits there, which are refused.
+// Ground that only the left camera sees: a pattern that repeats makes pits there, which are
+// refused.
 #include "engine/stereo/beyond_right_picture.h"
 
 #include <cmath>
@@ -7,8 +8,8 @@
 #include <gtest/gtest.h>
 
 #include "engine/camera/pinhole.h"
-#include "engine/core/units.h"
 #include "engine/core/random.h"
+#include "engine/core/units.h"
 #include "engine/stereo/stereo.h"
 
 namespace palace {
@@ -33,16 +34,15 @@ struct PoseRow {
 // Against the plain way: the ray of each pixel, cut with the ground.
 TEST(BeyondRightPicture, KeepsWhatTheRightCameraCanSee) {
   RandomStream random(7, "ranges");
-  for (const PoseRow& row :
-       {PoseRow{"down", -90, 0}, PoseRow{"slant", -45, 0}, PoseRow{"rolled", -45, 12},
-        PoseRow{"over the horizon", -10, -5}}) {
+  for (const PoseRow& row : {PoseRow{"down", -90, 0}, PoseRow{"slant", -45, 0},
+                             PoseRow{"rolled", -45, 12}, PoseRow{"over the horizon", -10, -5}}) {
     SCOPED_TRACE(row.name);
     const RigidTransform X_WC = Pose(row.tilt_deg, row.roll_deg, 2);
     RangeMap range;
     range.camera = PinholeFromFov(160, 120, Rad(45));
     range.baseline_m = kBaseline_m;
-    for (ImageF* layer : {&range.disparity_px, &range.disparity_sigma_px, &range.depth_m,
-                          &range.depth_sigma_m}) {
+    for (ImageF* layer :
+         {&range.disparity_px, &range.disparity_sigma_px, &range.depth_m, &range.depth_sigma_m}) {
       *layer = ImageF(160, 120);
       for (float& value : layer->pixels()) {
         value = static_cast<float>(random.Uniform(0, 60));
@@ -55,8 +55,7 @@ TEST(BeyondRightPicture, KeepsWhatTheRightCameraCanSee) {
       for (int x = 0; x < 160; ++x) {
         const double down = (X_WC.R * RayFromPixel(range.camera, {1.0 * x, 1.0 * y})).z();
         const double ground_px = std::max(0.0, range.FocalTimesBaseline() * down / kHeight_m);
-        const bool shared =
-            x >= ground_px || before.disparity_px.at(x, y) >= 0.92 * ground_px;
+        const bool shared = x >= ground_px || before.disparity_px.at(x, y) >= 0.92 * ground_px;
         refused += shared ? 0 : 1;
         for (const ImageF* layer : {&range.disparity_px, &range.disparity_sigma_px, &range.depth_m,
                                     &range.depth_sigma_m}) {
@@ -87,8 +86,8 @@ TEST(BeyondRightPicture, APatternThatRepeatsMakesNoPit) {
     std::vector<std::uint8_t> ground(kWidth + kGround_px);
     for (std::size_t x = 0; x < ground.size(); ++x) {
       // It repeats at the left rim alone, or nothing in the picture could be matched.
-      ground[x] = x < 160 ? texture[x % kPeriod_px]
-                          : static_cast<std::uint8_t>(random.Uniform(20, 235));
+      ground[x] =
+          x < 160 ? texture[x % kPeriod_px] : static_cast<std::uint8_t>(random.Uniform(20, 235));
     }
     for (int x = 0; x < kWidth; ++x) {
       left.at(x, y) = ground[static_cast<std::size_t>(x)];

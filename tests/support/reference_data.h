@@ -15,7 +15,7 @@ inline bool HasReferenceData(const std::string& set) {
 }
 /// For GTEST_SKIP(). config/setup.sh knows these words.
 inline std::string NoReferenceData(const std::string& set) {
-  return "no reference data in " + ReferenceData(set).string();
+  return "runs with reference data in " + ReferenceData(set).string();
 }
 
 }  // namespace palace

@@ -9,10 +9,10 @@
 //
 // Thin lines of the left picture (line_marks.h, ridges) are chained over strips of 32 columns; the
 // grey across a chain is averaged along its whole length in both pictures, where the line of the
-// left one must be found again v rows aside and not at 0. A line of v below one row is not told from
-// paint: one that climbs less than a sixteenth (3.7 degrees), spans most of the picture and stands
-// out clearly is taken without its height; others are not found (2 m above ground that is 15 m away:
-// between 4 and 7 degrees, 1 m: to 15).
+// left one must be found again v rows aside and not at 0. A line of v below one row is not told
+// from paint: one that climbs less than a sixteenth (3.7 degrees), spans most of the picture and
+// stands out clearly is taken without its height; others are not found (2 m above ground that is 15
+// m away: between 4 and 7 degrees, 1 m: to 15).
 #pragma once
 
 #include <vector>

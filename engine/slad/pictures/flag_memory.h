@@ -4,8 +4,8 @@
 // so far, by that one map (not for motion, which always needs two). Raised by two, it stays for a
 // number of maps that see the cell without it: thin structures and motion 20, no texture 5, shadow
 // 3. Cells out of view keep their flags, but motion there fades at the same rate. A thin structure
-// of known height that runs within 15 degrees of the baseline is hardly seen: once it is raised, not
-// to find it is no look at the cell. While it is in force its highest top counts.
+// of known height that runs within 15 degrees of the baseline is hardly seen: once it is raised,
+// not to find it is no look at the cell. While it is in force its highest top counts.
 #pragma once
 
 #include <array>
@@ -24,7 +24,7 @@ struct ThinSight {
 
 /// What one map tells of them.
 struct ThinSights {
-  Grid<ThinSight> cells;          ///< of the cells where one was found; empty: nothing is told
+  Grid<ThinSight> cells;            ///< of the cells where one was found; empty: nothing is told
   double baseline_bearing_rad = 0;  ///< of the pair of cameras that looked
 };
 

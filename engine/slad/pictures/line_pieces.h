@@ -33,10 +33,9 @@ struct MarkStrips {
 /// six pixels apart on average.
 std::vector<LinePiece> FindPieces(const MarkStrips& strips, int strip, int least_sum,
                                   LineSums& lines);
-/// Chains of at least `least` pieces that continue each other, over at most one missing strip; where
-/// a chain goes on it may bend a little and climb a few pixels of disparity. In the order of their
-/// first pieces, which keep theirs.
-std::vector<std::vector<LinePiece>> Chains(const std::vector<LinePiece>& pieces,
-                                           std::size_t least);
+/// Chains of at least `least` pieces that continue each other, over at most one missing strip;
+/// where a chain goes on it may bend a little and climb a few pixels of disparity. In the order of
+/// their first pieces, which keep theirs.
+std::vector<std::vector<LinePiece>> Chains(const std::vector<LinePiece>& pieces, std::size_t least);
 
 }  // namespace palace

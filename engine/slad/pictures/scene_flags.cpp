@@ -51,10 +51,9 @@ void FlagBelow(const ThinPiece& piece, const GridGeometry& geometry, Grid<std::u
   if (!(length_m < 1e4)) {
     return;
   }
-  const double top_m =
-      piece.height_known
-          ? std::max(HeightFromDown(piece.from_W.z()), HeightFromDown(piece.to_W.z()))
-          : std::numeric_limits<double>::infinity();
+  const double top_m = piece.height_known ? std::max(HeightFromDown(piece.from_W.z()),
+                                                     HeightFromDown(piece.to_W.z()))
+                                          : std::numeric_limits<double>::infinity();
   const ThinSight sight{static_cast<float>(top_m),
                         static_cast<float>(std::atan2(to.y() - from.y(), to.x() - from.x()))};
   const int steps = 1 + static_cast<int>(2 * length_m / geometry.cell_m);

@@ -16,7 +16,7 @@ namespace {
 
 /// Noise that a height may owe: of the site's plane, of what stands in the corridor.
 constexpr double kSigmas = 3;
-constexpr double kThinMargin_m = 1;  // a wire's height is told to some 0.6 m
+constexpr double kThinMargin_m = 1;         // a wire's height is told to some 0.6 m
 constexpr std::size_t kNewCellsOneIn = 10;  // of the clear radius: new ground at the rim
 
 /// Visits the cells of the map whose centre lies within `radius_m` of the cell's.

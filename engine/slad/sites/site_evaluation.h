@@ -24,8 +24,9 @@ struct Approach {
 
 /// True when nothing known stands in the corridor that rises from the site along the approach. An
 /// object at distance s along it is met by the rim of a lander whose centre is one lander radius
-/// nearer, so it may rise to (s - radius) tan(slope) above the site, plus the roughness limit. A thin
-/// structure counts as a metre higher; one whose height is unknown stands in the way of every corridor it crosses.
+/// nearer, so it may rise to (s - radius) tan(slope) above the site, plus the roughness limit. A
+/// thin structure counts as a metre higher; one whose height is unknown stands in the way of every
+/// corridor it crosses.
 bool IsClear(const Approach& approach, const ElevationMap& map, const SladSettings& settings,
              const LandingSite& site);
 
