@@ -23,7 +23,7 @@ class Patience {
       state_ = state;
       since_s_ = flown.duration_s;
     }
-    if (state == MissionState::kApproved || state == MissionState::kDescending) {
+    if (IsFlying(state) || state == MissionState::kAborting) {
       approved_s_ = flown.duration_s;
     }
     const bool stopped = state == MissionState::kHold || state == MissionState::kAborting;
@@ -36,7 +36,7 @@ class Patience {
   const MissionFlight& flight_;
   MissionState state_ = MissionState::kNoLive;
   double since_s_ = 0;
-  double approved_s_ = 0;  ///< an approval stood last
+  double approved_s_ = 0;  ///< an approval stood last, or it climbed away
 };
 
 std::string WhyNotLanded(const EngineSnapshot& snapshot) {
@@ -79,8 +79,8 @@ Result<FlownMission> FlyMission(const MissionFlight& flight, const SceneCameraFa
   parts.link = source;
   if (!flight.record_in.empty()) {
     Result<std::unique_ptr<FlightRecorder>> recorder = FlightRecorder::Open(
-        flight.record_in, std::filesystem::path(flight.scenario).stem().string() + "-" +
-                              std::to_string(flight.seed));
+        flight.record_in,
+        std::filesystem::path(flight.scenario).stem().string() + "-" + std::to_string(flight.seed));
     if (!recorder) {
       return recorder.error();
     }
@@ -88,7 +88,7 @@ Result<FlownMission> FlyMission(const MissionFlight& flight, const SceneCameraFa
   }
   Engine engine(std::move(parts), /*threaded=*/false);
   FlightSummarizer summarizer(std::move(session->scene));
-  ScriptedOperator pilot;
+  ScriptedOperator pilot(flight.looks_again);
   Patience patience(flight);
   FlownMission flown;
   while (engine.Step()) {

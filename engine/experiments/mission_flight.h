@@ -23,10 +23,12 @@ struct MissionFlight {
   double wind_mps = 0;
   FaultPlan faults{};
   double limit_s = 180;  ///< of flown time
-  /// It also ends when no approval stood for that long, or when it holds or climbs away that long
-  /// without going on.
+  /// It also ends when no approval stood for that long, climbs away not counted, or when it holds
+  /// or climbs away that long without going on.
   double unapproved_limit_s = std::numeric_limits<double>::infinity();
   double stopped_limit_s = std::numeric_limits<double>::infinity();
+  /// How often the operator waves off and looks again where a descent was stopped for good.
+  int looks_again = 0;
   std::filesystem::path record_in{};  ///< its log: <record_in>/<scenario>-<seed>; empty: none
 };
 
@@ -37,8 +39,8 @@ struct FlownMission {
   std::string why{};
 };
 
-/// Errors: an unknown scenario is one of usage; those of a camera that cannot draw and of a log that
-/// cannot be written.
+/// Errors: an unknown scenario is one of usage; those of a camera that cannot draw and of a log
+/// that cannot be written.
 Result<FlownMission> FlyMission(const MissionFlight& flight, const SceneCameraFactory& camera);
 
 }  // namespace palace

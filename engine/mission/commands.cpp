@@ -1,5 +1,6 @@
 #include "engine/mission/commands.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -14,6 +15,7 @@ namespace palace {
 namespace {
 
 constexpr double kSnapshotOld_s = 2;
+constexpr double kLongestExpiry_s = 120;  ///< that a vehicle takes (engine/wire/README.md)
 constexpr std::uint64_t kRefreshes = 60;  ///< at most, between two passes
 
 Status Refuse(MissionTurn& turn, Timestamp now, std::string_view what, std::string why) {
@@ -21,9 +23,19 @@ Status Refuse(MissionTurn& turn, Timestamp now, std::string_view what, std::stri
   return UsageError(std::move(why));
 }
 
+/// How long the descent may take to begin. The way round of a turned approach is not the operator's
+/// delay.
+double TimeToBegin(const MissionMemory& m) {
+  const double way_s = m.status.approach->turned
+                           ? TimeToAlign(PathTo(m, *m.status.armed), m.facts.p_WB, m.facts.yaw_rad)
+                           : 0;
+  return std::min(m.facts.settings.mission.approval_expiry_s + way_s, kLongestExpiry_s);
+}
+
 Approval MakeApproval(MissionTurn& turn, Timestamp now) {
   MissionMemory& m = turn.memory;
   const LandingSite& site = *m.status.armed;
+  PALACE_CHECK(m.status.approach.has_value());
   Approval a;
   a.id = ApprovalNumber(turn.station.session_id, ++m.approvals_given);
   a.site_id = site.id;
@@ -32,10 +44,9 @@ Approval MakeApproval(MissionTurn& turn, Timestamp now) {
   a.calibration_hash = m.armed.calibration_hash;
   a.vehicle_boot_id = m.armed.boot_id;
   a.approved_at = m.watch.VehicleTime(now);
-  a.expires_at = AddSeconds(a.approved_at, m.facts.settings.mission.approval_expiry_s);
+  a.expires_at = AddSeconds(a.approved_at, TimeToBegin(m));
   a.provisional = !m.armed.confirmed;
   a.p_WS = site.p_WS;
-  PALACE_CHECK(m.status.approach.has_value());
   a.approach_heading_rad = m.status.approach->heading_rad;
   a.glide_slope_rad = m.status.approach->glide_slope_rad;
   a.descent_rate_mps = m.status.approach->descent_rate_mps;
@@ -115,7 +126,8 @@ Status Obeying::operator()(const SelectSite& action) const {
   m.armed.boot_id = m.watch.boot_id();
   m.armed.confirmed = site->confirmed;
   PlanApproach(m);
-  Enter(turn, MissionState::kArmed, words::SiteSelected(site->letter), now);
+  Enter(turn, MissionState::kArmed,
+        words::SiteSelected(site->letter) + words::ApproachTurned(m.status.approach), now);
   return Ok();
 }
 

@@ -3,10 +3,16 @@
 #include <cmath>
 
 #include "engine/core/units.h"
+#include "engine/flight/approach_plan.h"
 #include "engine/model/find_site.h"
 
 namespace palace {
 namespace {
+
+// Nearer to where a turned approach begins, and turned so far, the site is in the middle half of
+// the picture.
+constexpr double kRound_m = 2;
+const double kRound_rad = Rad(10);
 
 /// The leg that the vehicle says it flies; empty where its word names none.
 std::optional<LegFlown> LegOf(const MissionMemory& m) {
@@ -39,9 +45,11 @@ double TimeLeft(const MissionMemory& m, const FlightPath& path) {
   }
 }
 
-ApproachPlan StraightPlan(const MissionMemory& m, const Eigen::Vector3d& p_WS) {
-  return {StraightHeading(m.facts.skid_centre_W, p_WS),
-          Rad(m.facts.settings.mission.glide_slope_deg), m.facts.settings.mission.descent_rate_mps};
+ApproachPlan PlanFor(const MissionMemory& m, const LandingSite& site) {
+  const ApproachCourse course =
+      ChooseCourse(site, StraightHeading(m.facts.skid_centre_W, site.p_WS));
+  return {course.heading_rad, Rad(m.facts.settings.mission.glide_slope_deg),
+          m.facts.settings.mission.descent_rate_mps, course.turned};
 }
 
 /// Turning towards the start of the path is no deviation from it.
@@ -66,8 +74,22 @@ bool IsCommitted(const MissionMemory& m) {
 
 void PlanApproach(MissionMemory& m) {
   if (m.status.armed && !m.status.approach && m.facts.skid_centre_W.allFinite()) {
-    m.status.approach = StraightPlan(m, m.status.armed->p_WS);
+    m.status.approach = PlanFor(m, *m.status.armed);
+    // From now on the corridor is that of the plan; the maps to come judge it again.
+    m.status.armed->corridor_clear |= m.status.approach->turned;
+    m.status.armed_limits = SiteLimits(*m.status.armed, m.facts.site_limits);
   }
+}
+
+bool GoesRound(const MissionMemory& m) {
+  if (m.status.state != MissionState::kApproved || !m.status.approach ||
+      !m.status.approach->turned) {
+    return false;
+  }
+  const FlightPath path = PathTo(m, *m.status.armed);
+  const double way_m = (path.Start(m.facts.p_WB) - m.facts.p_WB).norm();
+  const double turn_rad = std::abs(WrapAngle(path.heading_rad - m.facts.yaw_rad));
+  return !(way_m <= kRound_m && turn_rad <= kRound_rad);
 }
 
 FlightPath PathTo(const MissionMemory& m, const LandingSite& site) {
@@ -76,8 +98,7 @@ FlightPath PathTo(const MissionMemory& m, const LandingSite& site) {
   if (m.status.approval) {
     return PathOf(*m.status.approval, vehicle);
   }
-  return PathOf(m.status.approach ? *m.status.approach : StraightPlan(m, site.p_WS), site.p_WS,
-                vehicle);
+  return PathOf(m.status.approach ? *m.status.approach : PlanFor(m, site), site.p_WS, vehicle);
 }
 
 const LandingSite* SiteInQuestion(const MissionMemory& m) {

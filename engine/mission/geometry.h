@@ -19,6 +19,10 @@ bool IsCommitted(const MissionMemory& memory);
 /// Freezes the approach of the armed site, once, as soon as the vehicle's place is known.
 void PlanApproach(MissionMemory& memory);
 
+/// The vehicle flies round to where a turned approach begins, away from the site or past it: until
+/// it is there and looks at the site nothing is tracked, and vision does not take over.
+bool GoesRound(const MissionMemory& memory);
+
 /// The way to the site: the approved one, else the one that would be approved.
 FlightPath PathTo(const MissionMemory& memory, const LandingSite& site);
 

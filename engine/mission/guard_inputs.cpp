@@ -36,7 +36,7 @@ void JudgeArmedSite(const MissionMemory& m, Timestamp now, GuardInputs& in) {
     in.site_reason = m.site.newest().old_ground;
   }
   if (in.site_holds && !m.site.newest().approach_clear) {
-    // What is approved is the straight way from where the vehicle is.
+    // What is approved is the way that was planned when the site was armed.
     in.site_holds = false;
     in.site_reason = words::ApproachBlocked(in.site_letter);
   }

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "engine/core/shared_value.h"
+#include "engine/mission/geometry.h"
 #include "engine/mission/step.h"
 
 namespace palace {
@@ -30,8 +31,8 @@ class Mission {
   const MissionMemory& memory() const { return memory_; }
   const MissionStatus& status() const { return memory_.status; }
   const std::optional<LandingSite>& alternative() const { return memory_.alternative; }
-  bool WantsTracking() const { return WatchesSite(memory_); }
-  bool VisionAllowed() const { return memory_.vision_allowed; }
+  bool WantsTracking() const { return WatchesSite(memory_) && !GoesRound(memory_); }
+  bool VisionAllowed() const { return memory_.vision_allowed && !GoesRound(memory_); }
   /// ARMED and later: moved limits preview only.
   bool SettingsFrozen() const { return memory_.status.state >= MissionState::kArmed; }
   bool DropsWithSettings() const { return palace::DropsWithSettings(memory_.status); }

@@ -1,9 +1,11 @@
 #include "engine/mission/wording.h"
 
 #include <cmath>
+#include <numbers>
 
 #include "engine/core/text.h"
 #include "engine/mission/limits.h"
+#include "engine/model/cell_explanation.h"
 #include "engine/model/mission/alarm_text.h"
 #include "engine/model/site_standing.h"
 
@@ -176,7 +178,15 @@ std::string ConfirmHigher(const std::string& letter) {
 }
 
 std::string ApproachBlocked(const std::string& letter) {
-  return std::string("Straight approach to site ") + letter + " is blocked";
+  return std::string("Approach to site ") + letter + " is blocked";
+}
+
+std::string ApproachTurned(const std::optional<ApproachPlan>& plan) {
+  if (!plan || !plan->turned) {
+    return {};
+  }
+  return std::string(", approached from the ") +
+         DirectionWord(plan->heading_rad + std::numbers::pi) + ": the straight way is blocked";
 }
 
 std::string ApprovalGiven(const MissionStatus& status, std::uint64_t counter) {

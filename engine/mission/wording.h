@@ -2,6 +2,7 @@
 // armed site. The rules decide; these say it. Sentences of guards and alarms stand in their tables.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -105,6 +106,8 @@ std::string NotConfirmed(const std::string& letter);
 /// A provisional site so low that it cannot be approved any more.
 std::string ConfirmHigher(const std::string& letter);
 std::string ApproachBlocked(const std::string& letter);
+/// After what is told of a selection; empty for a straight approach, or none yet.
+std::string ApproachTurned(const std::optional<ApproachPlan>& plan);
 
 std::string ApprovalGiven(const MissionStatus& status, std::uint64_t counter);
 std::string ApprovedBy(const char* who);

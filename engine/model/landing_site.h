@@ -66,9 +66,10 @@ struct LandingSite {
   /// (pictures only), cell no wider than max_rock_size_m, hidden_things at most kMostHidden.
   bool confirmed = false;
   bool newest_confirms = false;  ///< so says the newest map; `confirmed` is steady over maps
-  bool corridor_clear = true;    ///< rotor-wide along the glide slope
-  /// Bit k: the same corridor is clear for a vehicle that comes from sector k of eight, from north
-  /// clockwise.
+  /// Rotor-wide along the glide slope: of the straight approach, or of the one that is planned.
+  bool corridor_clear = true;
+  /// Bit k: such a corridor is clear from sector k of eight, from north clockwise, and so is the
+  /// level way from the vehicle to where it begins.
   std::uint8_t clear_approaches = 0xFF;
   double age_s = 0;       ///< since the ground inside the clear radius was measured, mean
   double distance_m = 0;  ///< horizontal, from the vehicle at map_time

@@ -1,11 +1,76 @@
 #include "engine/runtime/scripted_operator.h"
 
+#include <utility>
+
+#include "engine/model/site_standing.h"
+
 namespace palace {
 namespace {
 
 constexpr double kLooksFor_s = 2;
+constexpr double kBlockedFor_s = 10;  // then another site
+constexpr double kStoppedFor_s = 15;  // then a look from higher up
+
+std::vector<EngineCommand> Command(CommandAction action) {
+  return {{CommandOrigin::kScript, std::move(action)}};
+}
 
 }  // namespace
+
+const LandingSite* ScriptedOperator::Choice(const EngineSnapshot& snapshot) const {
+  if (!snapshot.terrain->applied) {
+    return nullptr;
+  }
+  const MissionStatus& mission = snapshot.flight->mission;
+  const std::vector<LandingSite>& sites = snapshot.terrain->applied->selection.sites;
+  if (!insists_) {
+    return mission.BestStanding(sites);
+  }
+  const auto failures = [&](const LandingSite& site) {
+    const auto found = failures_.find(site.id);
+    return found == failures_.end() ? 0 : found->second;
+  };
+  const LandingSite* best = nullptr;
+  for (const LandingSite& site : sites) {
+    const bool in_view = site.age_s <= kOldGround_s;
+    if (in_view && !mission.IsRefused(site.id) &&
+        (best == nullptr || failures(site) < failures(*best))) {
+      best = &site;
+    }
+  }
+  return best;
+}
+
+std::vector<EngineCommand> ScriptedOperator::Insist(const EngineSnapshot& snapshot,
+                                                    double in_state_s) {
+  const MissionStatus& mission = snapshot.flight->mission;
+  if (IsFlying(mission.state)) {
+    flown_at_ = snapshot.time;
+    flown_site_ = mission.armed ? mission.armed->id : 0;
+    return {};
+  }
+  if (mission.state == MissionState::kLanded) {
+    return {};
+  }
+  if (flown_site_ != 0) {
+    ++failures_[std::exchange(flown_site_, 0)];
+  }
+  if (mission.state == MissionState::kAborting) {
+    flown_at_.reset();
+    return mission.wave_off.over ? Command(AcknowledgeWaveOff{}) : std::vector<EngineCommand>();
+  }
+  const bool stuck = flown_at_ && SecondsBetween(*flown_at_, snapshot.time) >= kStoppedFor_s;
+  if (stuck && looks_again_ > 0 && mission.why_no_wave_off.empty()) {
+    --looks_again_;
+    flown_at_.reset();
+    return Command(WaveOff{});
+  }
+  if (mission.state == MissionState::kArmed && !mission.can_approve && in_state_s > kBlockedFor_s) {
+    ++failures_[mission.armed->id];
+    return Command(DisarmSite{});
+  }
+  return {};
+}
 
 std::vector<EngineCommand> ScriptedOperator::Decide(const EngineSnapshot& snapshot) {
   const MissionStatus& mission = snapshot.flight->mission;
@@ -13,21 +78,24 @@ std::vector<EngineCommand> ScriptedOperator::Decide(const EngineSnapshot& snapsh
     last_ = mission.state;
     seen_since_ = snapshot.time;
   }
-  if (SecondsBetween(*seen_since_, snapshot.time) < kLooksFor_s) {
+  const double in_state_s = SecondsBetween(*seen_since_, snapshot.time);
+  if (insists_) {
+    if (std::vector<EngineCommand> commands = Insist(snapshot, in_state_s); !commands.empty()) {
+      return commands;
+    }
+  }
+  if (in_state_s < kLooksFor_s) {
     return {};
   }
   switch (mission.state) {
     case MissionState::kProposed:
-      if (snapshot.terrain->applied) {
-        if (const LandingSite* site =
-                mission.BestStanding(snapshot.terrain->applied->selection.sites)) {
-          return {{CommandOrigin::kScript, SelectSite{site->id}}};
-        }
+      if (const LandingSite* site = Choice(snapshot)) {
+        return Command(SelectSite{site->id});
       }
       return {};
     case MissionState::kArmed:
       if (mission.can_approve && mission.armed) {
-        return {{CommandOrigin::kScript, ApproveSite{mission.armed->id, snapshot.sequence}}};
+        return Command(ApproveSite{mission.armed->id, snapshot.sequence});
       }
       return {};
     case MissionState::kLanded:

@@ -2,6 +2,9 @@
 // simulated vehicles only, as every script does (DESIGN.md 8).
 #pragma once
 
+#include <cstdint>
+#include <map>
+#include <optional>
 #include <vector>
 
 #include "engine/model/snapshot.h"
@@ -9,15 +12,30 @@
 namespace palace {
 
 /// Waits for a proposal, looks at it, arms the best site, approves when all guards pass.
+///
+/// One that looks again, at most so many times: where a descent was stopped and nothing could be
+/// approved for a while, it waves off, and goes on from the hover. It then takes the best site in
+/// view that failed it least, and deselects what stays blocked.
 class ScriptedOperator {
  public:
+  explicit ScriptedOperator(int looks_again = 0)
+      : looks_again_(looks_again), insists_(looks_again > 0) {}
+
   std::vector<EngineCommand> Decide(const EngineSnapshot& snapshot);
   /// Landed, and looked at it for a second.
   bool finished() const { return finished_; }
 
  private:
+  std::vector<EngineCommand> Insist(const EngineSnapshot& snapshot, double in_state_s);
+  const LandingSite* Choice(const EngineSnapshot& snapshot) const;
+
+  int looks_again_;
+  bool insists_;
   std::optional<Timestamp> seen_since_;
   MissionState last_ = MissionState::kNoLive;
+  std::optional<Timestamp> flown_at_;  ///< an approval stood last, since the last wave-off
+  std::uint64_t flown_site_ = 0;       ///< the site of it, until it was counted
+  std::map<std::uint64_t, int> failures_;
   bool finished_ = false;
 };
 

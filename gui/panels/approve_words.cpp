@@ -1,8 +1,10 @@
 #include "gui/panels/approve_words.h"
 
 #include <cmath>
+#include <numbers>
 
 #include "engine/core/units.h"
+#include "engine/model/cell_explanation.h"
 #include "engine/model/find_site.h"
 #include "engine/model/mission/approve_offer.h"
 #include "engine/model/site_standing.h"
@@ -94,6 +96,9 @@ std::string ApprovalConsequence(const EngineSnapshot& snap, bool narrow) {
   const MissionStatus& m = snap.flight->mission;
   std::string text =
       Fixed(m.distance_to_site_m, 1) + " m away, " + Fixed(m.height_above_site_m, 1) + " m down";
+  if (m.approach && m.approach->turned) {
+    text += std::string(", from the ") + DirectionWord(m.approach->heading_rad + std::numbers::pi);
+  }
   if (std::isfinite(m.time_to_touchdown_s)) {
     text += (narrow ? ", touchdown in about " : ". Touchdown in about ") +
             Fixed(m.time_to_touchdown_s, 0) + " s";

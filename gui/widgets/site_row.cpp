@@ -63,10 +63,7 @@ SiteWord WordOf(const LandingSite& site, const SiteRowLook& look) {
   if (look.old_map) {
     return {Icon::kStale, "Old map"};
   }
-  if (!site.corridor_clear && site.clear_approaches != 0) {
-    return {Icon::kOff, "Other approach"};
-  }
-  if (!site.corridor_clear) {
+  if (!site.corridor_clear && site.clear_approaches == 0) {
     return {Icon::kWarning, "Rejected"};
   }
   return site.confirmed ? SiteWord{Icon::kNormal, "Confirmed"}

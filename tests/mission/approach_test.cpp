@@ -51,6 +51,103 @@ TEST(Approach, IsPlannedOnceTheVehiclesPlaceIsKnown) {
   EXPECT_TRUE(rig.ApproveNow().ok());
 }
 
+// Site A, 10 m north and 2 m east; the vehicle 20 m above and 9 m south of it, looking north. The
+// small vehicle flies where the test puts it.
+class TurnedApproach : public ::testing::Test {
+ protected:
+  TurnedApproach() {
+    rig.settings.mission.glide_slope_deg = 45;
+    rig.north_m = 1;
+    rig.Site(101)->corridor_clear = false;
+    rig.Site(101)->clear_approaches = 1U << 2;  // who comes from the east flies west
+  }
+  void Arm() {
+    ASSERT_TRUE(rig.RunUntil(MissionState::kProposed));
+    ASSERT_TRUE(rig.Do(SelectSite{101}).ok());
+    rig.Site(101)->corridor_clear = true;  // so the maps judge the planned corridor
+    rig.Run(1.5);
+  }
+  void Approve() {
+    Arm();
+    ASSERT_TRUE(rig.ApproveNow().ok()) << rig.mission.status().cannot_approve_reason;
+    ASSERT_TRUE(rig.RunUntil(MissionState::kApproved, 1));
+    StayOnTheWay();
+  }
+  void StayOnTheWay() {
+    rig.Step();
+    rig.vehicle.mode_for_s = -100;
+    rig.Step();
+  }
+  MissionRig rig;
+};
+
+TEST_F(TurnedApproach, IsPlannedShownAndSigned) {
+  ASSERT_NO_FATAL_FAILURE(Arm());
+  const MissionStatus& status = rig.mission.status();
+  ASSERT_TRUE(status.approach.has_value());
+  EXPECT_TRUE(status.approach->turned);
+  EXPECT_NEAR(std::abs(WrapAngle(status.approach->heading_rad - Rad(-90))), 0, 1e-9);
+  EXPECT_EQ(FindLimit(status.armed_limits, LimitId::kApproach)->value, 0);
+  bool told = false;
+  for (const Event& event : rig.mission.events()) {
+    told = told || event.text ==
+                       "ARMED: Site A selected, approached from the east: the straight way is "
+                       "blocked";
+  }
+  EXPECT_TRUE(told);
+  ASSERT_TRUE(rig.ApproveNow().ok()) << status.cannot_approve_reason;
+  EXPECT_EQ(status.approval->approach_heading_rad, status.approach->heading_rad);
+  const double lasts_s = SecondsBetween(status.approval->approved_at, status.approval->expires_at);
+  EXPECT_GT(lasts_s, rig.settings.mission.approval_expiry_s + 10);  // some 22 m of way
+  EXPECT_LE(lasts_s, 120);
+}
+
+TEST_F(TurnedApproach, BlockedOnThePlannedCourseIsNotApproved) {
+  ASSERT_NO_FATAL_FAILURE(Arm());
+  rig.Site(101)->corridor_clear = false;
+  rig.Run(0.3);
+  EXPECT_FALSE(rig.mission.status().can_approve);
+  EXPECT_EQ(rig.mission.status().cannot_approve_reason, "Approach to site A is blocked");
+}
+
+TEST_F(TurnedApproach, VisionWaitsUntilTheVehicleLooksAtTheSiteFromThere) {
+  ASSERT_NO_FATAL_FAILURE(Approve());
+  EXPECT_FALSE(rig.mission.WantsTracking());
+  EXPECT_FALSE(rig.mission.VisionAllowed());
+  EXPECT_EQ(rig.state(), MissionState::kApproved);
+  const FlightPath path = PathTo(rig.mission.memory(), *rig.mission.status().armed);
+  const Eigen::Vector3d start = path.Start(rig.p_WB());
+  rig.north_m = start.x();
+  rig.east_m = start.y();
+  StayOnTheWay();
+  EXPECT_FALSE(rig.mission.WantsTracking()) << "it is there, and looks elsewhere";
+  rig.yaw_rad = path.heading_rad;
+  StayOnTheWay();
+  EXPECT_TRUE(rig.mission.WantsTracking());
+  EXPECT_TRUE(rig.mission.VisionAllowed());
+}
+
+// Seen from where it begins the corridor may be another matter.
+TEST_F(TurnedApproach, WhatStandsInItEndsTheApproval) {
+  ASSERT_NO_FATAL_FAILURE(Approve());
+  rig.Site(101)->corridor_clear = false;
+  for (int i = 0; i < 5; ++i) {
+    StayOnTheWay();
+  }
+  EXPECT_EQ(rig.state(), MissionState::kHold);
+  EXPECT_EQ(rig.mission.status().why, "Something stands in the approach");
+}
+
+TEST(Approach, AStraightOneIsTrackedAllTheWay) {
+  MissionRig rig;
+  rig.Arm();
+  ASSERT_TRUE(rig.ApproveNow().ok());
+  rig.yaw_rad = Rad(120);
+  rig.Step();
+  ASSERT_EQ(rig.state(), MissionState::kApproved);
+  EXPECT_TRUE(rig.mission.WantsTracking());
+}
+
 TEST(PathProgress, IsPublishedWhileThePathIsFlown) {
   MissionRig rig;
   Descend(rig);

@@ -229,7 +229,7 @@ struct MissionRig {
     return Do(ApproveSite{armed ? armed->id : 101, sequence}, origin);
   }
   Timestamp VehicleNow() const { return {now.us + clock_offset_us}; }
-  Eigen::Vector3d p_WB() const { return {9.5, east_m, -vehicle.height_m}; }
+  Eigen::Vector3d p_WB() const { return {north_m, east_m, -vehicle.height_m}; }
   MissionState state() const { return mission.status().state; }
   template <typename T>
   int SentCount() const {
@@ -254,6 +254,7 @@ struct MissionRig {
     if (pose_up) {
       VehiclePose pose;
       pose.time = now;
+      pose.X_WB.R = RotationFromEuler({0, 0, yaw_rad});
       bundle.poses.push_back(pose);
     }
     if (link_up) {
@@ -276,7 +277,9 @@ struct MissionRig {
   Timestamp now{1'000'000'000};
   std::uint64_t sequence = 0;
   std::int64_t clock_offset_us = 0;
-  double east_m = 2;       ///< where the vehicle is
+  double east_m = 2;  ///< where the vehicle is
+  double north_m = 9.5;
+  double yaw_rad = 0;
   bool forgotten = false;  ///< the maps before the next bundle are void
   bool jumped = false;     ///< the next bundle follows a jump in time
   SourceKind source = SourceKind::kSimulation;

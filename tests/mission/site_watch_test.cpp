@@ -323,12 +323,13 @@ TEST(Recheck, TheAlternativeSharesNoGroundAndIsRecheckedToo) {
   EXPECT_EQ(rig.state(), MissionState::kDescending);
 }
 
-TEST(Recheck, ABlockedStraightApproachCannotBeApproved) {
+TEST(Recheck, WhereEveryApproachIsBlockedNothingIsApproved) {
   MissionRig rig;
   rig.Site(101)->corridor_clear = false;
+  rig.Site(101)->clear_approaches = 0;
   rig.Arm();
   EXPECT_FALSE(rig.mission.status().can_approve);
-  EXPECT_EQ(rig.mission.status().cannot_approve_reason, "Straight approach to site A is blocked");
+  EXPECT_EQ(rig.mission.status().cannot_approve_reason, "Approach to site A is blocked");
   rig.Site(101)->corridor_clear = true;
   rig.Run(0.3);
   EXPECT_TRUE(rig.mission.status().can_approve) << rig.mission.status().cannot_approve_reason;

@@ -55,6 +55,51 @@ TEST(Approach, SectorsOfApproachThatFaceAWallAreBlocked) {
   }
 }
 
+// The way round is flown level: what is higher than the vehicle on the way to a sector blocks that
+// sector, though its corridor is clear; what is lower does not.
+TEST(Approach, TheWayRoundToASectorIsClearToo) {
+  struct Row {
+    const char* name;
+    double top_m;
+    unsigned blocked;
+  };
+  // The vehicle 9 m high in the south; a mast in the south-west, beside every corridor.
+  for (const Row& row : {Row{"a mast above the vehicle", 12, 0x40}, Row{"a low one", 4, 0}}) {
+    SCOPED_TRACE(row.name);
+    const auto mast = [&](double n, double e) {
+      return std::hypot(n + 4.5, e + 4.5) < 0.3 ? row.top_m : 0.0;
+    };
+    SiteContext context = Context();
+    context.p_WB = context.X_WC.p = {-9, 0, -9};
+    const ElevationMap map = MakeMap(121, 121, 0.15, mast);
+    SladSettings settings;
+    settings.lander.rotor_diameter_m = 2;
+    const auto site =
+        RecheckSite(map, EvaluateHazards(map, settings), settings, LandingSite{}, context);
+    ASSERT_TRUE(site);
+    const unsigned south_west = 0x20;  // the mast stands in that corridor itself
+    EXPECT_EQ(site->clear_approaches | south_west, 0xFF & ~row.blocked);
+  }
+}
+
+// The corridor that is judged is the planned one, from its own beginning, wherever the vehicle is
+// on its way there.
+TEST(Approach, APlannedCourseIsJudgedFromWhereItBegins) {
+  const auto wall = [](double n, double) { return std::abs(n - 5) < 0.3 ? 9.0 : 0.0; };
+  const ElevationMap map = MakeMap(121, 121, 0.15, wall);
+  const SladSettings settings;
+  const HazardMaps hazards = EvaluateHazards(map, settings);
+  for (const double vehicle_north_m : {-15.0, -3.0, 0.5, 15.0}) {
+    SiteContext context = Context();
+    context.p_WB = {vehicle_north_m, 0, -15};
+    context.approach_heading_rad = 0;  // northwards: from the south
+    EXPECT_TRUE(RecheckSite(map, hazards, settings, LandingSite{}, context)->corridor_clear);
+    context.approach_heading_rad = Rad(180);
+    EXPECT_FALSE(RecheckSite(map, hazards, settings, LandingSite{}, context)->corridor_clear)
+        << vehicle_north_m;
+  }
+}
+
 struct WireRow {
   const char* name;
   float top_m;

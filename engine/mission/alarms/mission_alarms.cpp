@@ -40,7 +40,9 @@ const AlarmRow kRows[] = {
          [](const Facts& f, const std::string&) {
            return "Descent on hold: " + f.why + ". " + f.alternative +
                   (f.alternative.empty() ? "" : " ") +
-                  "A site can be selected again when the vehicle has stopped, or wave off.";
+                  "A site can be selected again when the vehicle has stopped. Where none is, wave "
+                  "off: it "
+                  "climbs and looks again.";
          }},
     {.id = AlarmId::kSiteDegraded,
      .level = AlarmLevel::kCaution,

@@ -115,6 +115,7 @@ struct ApproachPlan {
   double heading_rad = NAN;       ///< course over ground, from north over east
   double glide_slope_rad = NAN;   ///< down from the horizon
   double descent_rate_mps = NAN;  ///< down the slope, the vertical part
+  bool turned = false;  ///< round to another side, because the straight approach is blocked
 };
 
 /// Where the vehicle is on the path that was approved; NaN and empty while it does not fly it.

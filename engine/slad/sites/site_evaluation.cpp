@@ -92,10 +92,10 @@ struct ColumnRange {
   int first, last;
 };
 
-/// Columns of a row that the corridor may touch, a cell too many rather than one too few.
-ColumnRange CorridorInRow(const GridGeometry& g, const LandingSite& site,
-                          const Eigen::Vector2d& along, double north_m, double length_m,
-                          double half_width_m) {
+/// Columns of a row that the corridor may touch, a cell too many rather than one too few. It begins
+/// at `origin_east_m`, from where `north_m` counts.
+ColumnRange CorridorInRow(const GridGeometry& g, double origin_east_m, const Eigen::Vector2d& along,
+                          double north_m, double length_m, double half_width_m) {
   double west_m = -HUGE_VAL, east_m = HUGE_VAL;
   // low <= north * a + east * b <= high
   const auto limit = [&](double a, double b, double low, double high) {
@@ -109,11 +109,50 @@ ColumnRange CorridorInRow(const GridGeometry& g, const LandingSite& site,
   };
   limit(along.x(), along.y(), 0, length_m);
   limit(along.y(), -along.x(), -half_width_m, half_width_m);
-  const double origin_m = g.EastOfCol(0) - site.p_WS.y();
+  const double origin_m = g.EastOfCol(0) - origin_east_m;
   const double first = std::floor((west_m - origin_m) / g.cell_m) - 1;
   const double last = std::ceil((east_m - origin_m) / g.cell_m) + 1;
   return {static_cast<int>(std::clamp(first, 0.0, g.cols - 1.0)),
           last < 0 ? -1 : static_cast<int>(std::min(last, g.cols - 1.0))};
+}
+
+/// How far out the slope from the site is at the vehicle's height; NaN for a vehicle nobody knows.
+double SlopeLength(const SiteContext& context, const LandingSite& site) {
+  const double tangent = std::tan(std::clamp(context.glide_slope_rad, 0.02, 1.55));
+  const double height_m = site.p_WS.z() - context.p_WB.z();
+  return std::isnan(height_m) ? height_m : std::max(0.0, height_m / tangent);
+}
+
+/// Nothing known reaches the skids of a vehicle that flies level at its present height, as wide as
+/// its rotor, to where an approach begins.
+bool LevelWayIsClear(const Approach& approach, const ElevationMap& map,
+                     const SladSettings& settings, const SiteContext& context,
+                     const LandingSite& site) {
+  const GridGeometry& g = map.geometry;
+  const Eigen::Vector2d from = context.p_WB.head<2>();
+  const Eigen::Vector2d way = site.p_WS.head<2>() + approach.length_m * approach.from - from;
+  const double length_m = way.norm();
+  const double free_m =
+      HeightFromDown(context.p_WB.z() + settings.lander.skid_centre_B().z()) - kThinMargin_m;
+  if (!(length_m > g.cell_m) || std::isnan(free_m)) {
+    return true;
+  }
+  const Eigen::Vector2d along = way / length_m;
+  const double half_width_m = settings.lander.rotor_diameter_m / 2;
+  for (int r = 0; r < g.rows; ++r) {
+    const ColumnRange columns =
+        CorridorInRow(g, from.y(), along, g.NorthOfRow(r) - from.x(), length_m, half_width_m);
+    for (int c = columns.first; c <= columns.last; ++c) {
+      const bool stands = map.state.at(r, c) != CellState::kUnknown &&
+                          static_cast<double>(map.height_m.at(r, c)) > free_m;
+      const bool hangs =
+          !map.thin_top_m.empty() && static_cast<double>(map.thin_top_m.at(r, c)) > free_m;
+      if (stands || hangs) {
+        return false;
+      }
+    }
+  }
+  return true;
 }
 
 double Known(float value) { return static_cast<double>(value); }
@@ -193,41 +232,43 @@ LandingSite EvaluateSite(const ElevationMap& map, const HazardMaps& hazards,
   site.confirmed = likely && site.height_m.three_sigma < settings.limits.max_deviation_m &&
                    FramesAgree(settings, context, site) && NothingHides(map, settings, site);
   site.distance_m = (context.p_WB - site.p_WS).head<2>().norm();
-  const std::optional<Approach> straight = StraightApproach(settings, context, site);
-  site.corridor_clear = !straight || IsClear(*straight, map, settings, site);
+  const std::optional<Approach> flown = ApproachFlown(settings, context, site);
+  site.corridor_clear = !flown || IsClear(*flown, map, settings, site);
   site.clear_approaches = ClearApproaches(map, settings, context, site);
   return site;
 }
 
-std::optional<Approach> StraightApproach(const SladSettings& settings, const SiteContext& context,
-                                         const LandingSite& site) {
+std::optional<Approach> ApproachFlown(const SladSettings& settings, const SiteContext& context,
+                                      const LandingSite& site) {
   const Eigen::Vector2d to_vehicle = (context.p_WB - site.p_WS).head<2>();
-  const double length_m = to_vehicle.norm();
+  const double heading_rad = context.approach_heading_rad;
+  double length_m = to_vehicle.norm();
+  Eigen::Vector2d from = to_vehicle / length_m;
+  if (!std::isnan(heading_rad)) {
+    // A vehicle on its way to where it begins may be anywhere beside it.
+    length_m = std::max(length_m, SlopeLength(context, site));
+    from = {-std::cos(heading_rad), -std::sin(heading_rad)};
+  }
   if (!(length_m > settings.lander.radius_m())) {
     return std::nullopt;  // straight above: the descent is vertical
   }
-  const double heading_rad = context.approach_heading_rad;
-  const Eigen::Vector2d from =
-      std::isnan(heading_rad) ? Eigen::Vector2d(to_vehicle / length_m)
-                              : Eigen::Vector2d(-std::cos(heading_rad), -std::sin(heading_rad));
   return Approach{from, length_m, context.glide_slope_rad};
 }
 
 std::uint8_t ClearApproaches(const ElevationMap& map, const SladSettings& settings,
                              const SiteContext& context, const LandingSite& site) {
-  // As far out as the slope is below the vehicle's present height; to the end of the map for a
-  // vehicle nobody knows.
-  const double tangent = std::tan(std::clamp(context.glide_slope_rad, 0.02, 1.55));
+  // To the end of the map for a vehicle nobody knows.
   const GridGeometry& g = map.geometry;
-  const double height_m = site.p_WS.z() - context.p_WB.z();
-  const double length_m = std::isnan(height_m) ? g.cell_m * std::hypot(g.rows, g.cols)
-                                               : std::max(0.0, height_m / tangent);
+  const double slope_m = SlopeLength(context, site);
+  const double length_m = std::isnan(slope_m) ? g.cell_m * std::hypot(g.rows, g.cols) : slope_m;
   unsigned clear = 0;
   for (unsigned sector = 0; sector < 8; ++sector) {
     const double bearing_rad = sector * std::numbers::pi / 4;
     const Approach approach{
         {std::cos(bearing_rad), std::sin(bearing_rad)}, length_m, context.glide_slope_rad};
-    clear |= IsClear(approach, map, settings, site) ? 1U << sector : 0U;
+    const bool reached = IsClear(approach, map, settings, site) &&
+                         LevelWayIsClear(approach, map, settings, context, site);
+    clear |= reached ? 1U << sector : 0U;
   }
   return static_cast<std::uint8_t>(clear);
 }
@@ -245,7 +286,8 @@ bool IsClear(const Approach& approach, const ElevationMap& map, const SladSettin
   const double lander_radius_m = settings.lander.radius_m();
   for (int r = 0; r < g.rows; ++r) {
     const double north_m = g.NorthOfRow(r) - site.p_WS.x();
-    const ColumnRange columns = CorridorInRow(g, site, along, north_m, length_m, half_width_m);
+    const ColumnRange columns =
+        CorridorInRow(g, site.p_WS.y(), along, north_m, length_m, half_width_m);
     const float* height_m = map.height_m.row(r);
     const float* thin_top_m = map.thin_top_m.empty() ? nullptr : map.thin_top_m.row(r);
     for (int c = columns.first; c <= columns.last; ++c) {

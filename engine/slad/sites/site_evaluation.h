@@ -30,12 +30,13 @@ struct Approach {
 bool IsClear(const Approach& approach, const ElevationMap& map, const SladSettings& settings,
              const LandingSite& site);
 
-/// The approach straight from the vehicle, or on the planned course as far out as the vehicle is;
-/// nothing when it hovers above the site.
-std::optional<Approach> StraightApproach(const SladSettings& settings, const SiteContext& context,
-                                         const LandingSite& site);
+/// The approach straight from the vehicle, or on the planned course from where its slope is as high
+/// as the vehicle, or farther out; nothing when it hovers above the site.
+std::optional<Approach> ApproachFlown(const SladSettings& settings, const SiteContext& context,
+                                      const LandingSite& site);
 
-/// Bit k: clear from sector k of eight (north, north-east, ...), as far out as the vehicle is.
+/// Bit k: clear from sector k of eight (north, north-east, ...), from where the slope is as high as
+/// the vehicle, and so is the level way there.
 std::uint8_t ClearApproaches(const ElevationMap& map, const SladSettings& settings,
                              const SiteContext& context, const LandingSite& site);
 

@@ -1,0 +1,74 @@
+// Which course an approach is flown on: a table of what is clear.
+#include "engine/flight/approach_plan.h"
+
+#include <bit>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "engine/core/frames.h"
+#include "engine/core/random.h"
+#include "engine/core/units.h"
+
+namespace palace {
+namespace {
+
+enum Sector : unsigned { kN = 1, kNE = 2, kE = 4, kSE = 8, kS = 16, kSW = 32, kW = 64, kNW = 128 };
+
+struct Row {
+  const char* name;
+  bool straight_clear;
+  unsigned clear;
+  double straight_deg;
+  double heading_deg;
+  bool turned;
+};
+
+TEST(ChooseCourse, StraightWhereClearElseTheLeastTurn) {
+  for (const Row& row : {
+           Row{"straight is clear", true, 0, 31, 31, false},
+           Row{"straight is clear, others too", true, 0xFF, 31, 31, false},
+           Row{"nothing is clear", false, 0, 31, 31, false},
+           Row{"from the south only", false, kS, 31, 0, true},
+           Row{"from the north only, all the way round", false, kN, 0, 180, true},
+           Row{"of two the nearer", false, kW | kNE, 31, 90, true},
+           Row{"over the south", false, kE | kNE, 175, -135, true},
+           Row{"the sector it is in", false, kS | kSW | kSE, 10, 0, true},
+       }) {
+    SCOPED_TRACE(row.name);
+    LandingSite site;
+    site.corridor_clear = row.straight_clear;
+    site.clear_approaches = static_cast<std::uint8_t>(row.clear);
+    const ApproachCourse course = ChooseCourse(site, Rad(row.straight_deg));
+    EXPECT_NEAR(WrapAngle(course.heading_rad - Rad(row.heading_deg)), 0, 1e-9)
+        << Deg(course.heading_rad);
+    EXPECT_EQ(course.turned, row.turned);
+  }
+}
+
+// Never from a blocked sector, never farther round than another that is clear.
+TEST(ChooseCourse, NoBlockedSectorIsEverFlown) {
+  constexpr std::uint64_t kSeed = 41;
+  RandomStream random(kSeed);
+  for (int trial = 0; trial < 2000; ++trial) {
+    LandingSite site;
+    site.corridor_clear = false;
+    site.clear_approaches = static_cast<std::uint8_t>(random.Uniform(0, 256));
+    const double straight_rad = random.Uniform(-3.14, 3.14);
+    const ApproachCourse course = ChooseCourse(site, straight_rad);
+    ASSERT_EQ(course.turned, site.clear_approaches != 0) << "seed " << kSeed << ", " << trial;
+    if (!course.turned) {
+      continue;
+    }
+    const double from = WrapAngle(course.heading_rad + Rad(180)) / Rad(45);
+    const unsigned sector = static_cast<unsigned>(std::lround(from) + 8) % 8;
+    ASSERT_NEAR(from, std::lround(from), 1e-9);
+    ASSERT_NE(site.clear_approaches >> sector & 1U, 0u) << "seed " << kSeed << ", " << trial;
+    if (std::popcount(site.clear_approaches) == 8) {
+      ASSERT_LE(std::abs(WrapAngle(course.heading_rad - straight_rad)), Rad(22.5) + 1e-9);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace palace

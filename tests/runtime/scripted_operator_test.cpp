@@ -1,0 +1,111 @@
+// The operator of experiments: what it does where a descent was stopped, snapshot by snapshot.
+#include "engine/runtime/scripted_operator.h"
+
+#include <memory>
+#include <utility>
+
+#include <gtest/gtest.h>
+
+namespace palace {
+namespace {
+
+/// A station's screen, made by hand.
+class Desk {
+ public:
+  explicit Desk(int looks_again) : pilot(looks_again) {
+    auto seen = std::make_shared<TerrainDecision>();
+    for (const std::uint64_t id : {1, 2}) {
+      LandingSite site;
+      site.id = id;
+      seen->selection.sites.push_back(site);
+    }
+    map = std::move(seen);
+  }
+  /// Half a second in a state; what the operator did in it.
+  std::vector<EngineCommand> See(MissionState state) {
+    MissionStatus& mission = snapshot.flight.Edit().mission;
+    mission.state = state;
+    mission.can_approve = state == MissionState::kArmed && approvable;
+    snapshot.terrain.Edit().applied = map;
+    snapshot.time = AddSeconds(snapshot.time, 0.5);
+    ++snapshot.sequence;
+    return pilot.Decide(snapshot);
+  }
+  template <typename T>
+  const T* Watch(MissionState state, double seconds) {
+    for (double t_s = 0; t_s < seconds; t_s += 0.5) {
+      done = See(state);
+      for (const EngineCommand& command : done) {
+        if (const T* found = std::get_if<T>(&command.action)) {
+          return found;
+        }
+      }
+    }
+    return nullptr;
+  }
+  void Arm(std::uint64_t id) {
+    LandingSite site;
+    site.id = id;
+    snapshot.flight.Edit().mission.armed = site;
+  }
+
+  ScriptedOperator pilot;
+  EngineSnapshot snapshot;
+  std::shared_ptr<TerrainDecision> map;
+  std::vector<EngineCommand> done;
+  bool approvable = true;
+};
+
+TEST(ScriptedOperator, OneThatDoesNotLookAgainWaitsOnHold) {
+  Desk desk(0);
+  desk.Arm(1);
+  desk.See(MissionState::kDescending);
+  EXPECT_EQ(desk.Watch<WaveOff>(MissionState::kHold, 120), nullptr);
+}
+
+TEST(ScriptedOperator, WavesOffWhereNothingCanBeApprovedAndGoesOnElsewhere) {
+  Desk desk(1);
+  ASSERT_NE(desk.Watch<SelectSite>(MissionState::kProposed, 5), nullptr);
+  desk.Arm(1);
+  ASSERT_NE(desk.Watch<ApproveSite>(MissionState::kArmed, 5), nullptr);
+  desk.See(MissionState::kDescending);
+  EXPECT_EQ(desk.Watch<WaveOff>(MissionState::kHold, 14), nullptr);
+  ASSERT_NE(desk.Watch<WaveOff>(MissionState::kHold, 3), nullptr);
+  EXPECT_EQ(desk.Watch<AcknowledgeWaveOff>(MissionState::kAborting, 20), nullptr);
+  desk.snapshot.flight.Edit().mission.wave_off.over = true;
+  ASSERT_NE(desk.Watch<AcknowledgeWaveOff>(MissionState::kAborting, 1), nullptr);
+  const SelectSite* second = desk.Watch<SelectSite>(MissionState::kProposed, 5);
+  ASSERT_NE(second, nullptr);
+  EXPECT_EQ(second->site_id, 2u) << "the first failed it";
+  desk.Arm(2);
+  desk.See(MissionState::kDescending);
+  EXPECT_EQ(desk.Watch<WaveOff>(MissionState::kHold, 60), nullptr) << "once was all";
+}
+
+TEST(ScriptedOperator, NothingIsWavedOffOnTheGroundOrBeforeADescent) {
+  Desk desk(3);
+  EXPECT_EQ(desk.Watch<WaveOff>(MissionState::kSearch, 60), nullptr);
+  desk.Arm(1);
+  desk.See(MissionState::kDescending);
+  desk.snapshot.flight.Edit().mission.why_no_wave_off = "Vehicle on the ground";
+  EXPECT_EQ(desk.Watch<WaveOff>(MissionState::kHold, 60), nullptr);
+  desk.snapshot.flight.Edit().mission.why_no_wave_off.clear();
+  EXPECT_EQ(desk.Watch<WaveOff>(MissionState::kLanded, 60), nullptr);
+}
+
+TEST(ScriptedOperator, WhatStaysBlockedOrLeftTheViewIsNotInsistedOn) {
+  Desk desk(1);
+  desk.approvable = false;
+  desk.Arm(1);
+  ASSERT_NE(desk.Watch<DisarmSite>(MissionState::kArmed, 12), nullptr);
+  const SelectSite* next = desk.Watch<SelectSite>(MissionState::kProposed, 5);
+  ASSERT_NE(next, nullptr);
+  EXPECT_EQ(next->site_id, 2u);
+  for (LandingSite& site : desk.map->selection.sites) {
+    site.age_s = 30;
+  }
+  EXPECT_EQ(desk.Watch<SelectSite>(MissionState::kProposed, 20), nullptr);
+}
+
+}  // namespace
+}  // namespace palace
