@@ -169,9 +169,10 @@ class Band {
       const int back = match >= 0 ? reverse_[static_cast<std::size_t>(match)] : 0;
       const bool known =
           match >= 0 && d < window_.count && choice.unique[x] != 0 && std::abs(back - d) <= reach;
-      const float bend = static_cast<float>(choice.below[x] + choice.above[x] - 2 * choice.cost[x]);
+      const float steep =
+          static_cast<float>(std::max(choice.below[x], choice.above[x]) - choice.cost[x]);
       const float shift =
-          bend > 0 ? static_cast<float>(choice.below[x] - choice.above[x]) / (2 * bend) : 0.0F;
+          steep > 0 ? static_cast<float>(choice.below[x] - choice.above[x]) / (2 * steep) : 0.0F;
       disparity[window_.min_px + x] =
           known ? static_cast<float>(window_.min_px + d) + shift : kUnknown;
     }

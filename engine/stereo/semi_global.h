@@ -28,9 +28,11 @@ struct SemiGlobalOptions {
   double max_left_right_px = 1;    ///< largest disagreement of the two matching directions
 };
 
-/// Disparity of the left picture, NaN unknown; the fraction is a parabola through S and only a
-/// start for RefineDisparity. Same size pictures, at least 16 x 1; window.count <= 256 and
-/// window.min_px + 16 < width. Columns left of the window's end are kept.
+/// Disparity of the left picture, NaN unknown; the fraction is where two lines of equal and
+/// opposite slope through S at the best disparity and its neighbours meet (census costs fall
+/// linearly, and a parabola pulls twice as far towards whole pixels). It is only a start for
+/// RefineDisparity. Same size pictures, at least 16 x 1; window.count <= 256 and window.min_px + 16
+/// < width. Columns left of the window's end are kept.
 ImageF MatchSemiGlobal(const ImageU8& left, const ImageU8& right, const DisparityWindow& window,
                        const SemiGlobalOptions& options, const StereoLoops& loops = FastestLoops());
 

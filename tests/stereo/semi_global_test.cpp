@@ -95,9 +95,9 @@ void PlainChoice(const Volume& sum, const DisparityWindow& window, const SemiGlo
     const auto near = [&](int k) {
       return k >= 0 && k < static_cast<int>(s.size()) ? s[static_cast<std::size_t>(k)] : cost;
     };
-    const int below = near(d - 1), above = near(d + 1), bend = below + above - 2 * cost;
+    const int below = near(d - 1), above = near(d + 1), steep = std::max(below, above) - cost;
     const float shift =
-        bend > 0 ? static_cast<float>(below - above) / (2 * static_cast<float>(bend)) : 0.0F;
+        steep > 0 ? static_cast<float>(below - above) / (2 * static_cast<float>(steep)) : 0.0F;
     disparity[window.min_px + x] = known ? static_cast<float>(window.min_px + d) + shift
                                          : std::numeric_limits<float>::quiet_NaN();
   }

@@ -16,6 +16,11 @@ double MostByNoise(int degrees) {
   return root * root * root;
 }
 
+constexpr double kLeastFrames = 1.5;  // on the upper level: one alone is a false match
+
+/// Of two levels the upper of which this share of the frames sees.
+double SkewnessOfFew(double share) { return (1 - 2 * share) / std::sqrt(share * (1 - share)); }
+
 }  // namespace
 
 void FrameSpread::Add(double off_m, double frame_noise_m2, int memory) {
@@ -41,7 +46,11 @@ double FrameSpread::Relief_m() const {
   if (!(s > by_noise)) {
     return 0;
   }
-  const double t = static_cast<double>(cube_m3) / (2 * s * std::sqrt(s));
+  const double skewness = static_cast<double>(cube_m3) / (s * std::sqrt(s));
+  if (skewness > SkewnessOfFew(kLeastFrames / frames)) {
+    return 0;
+  }
+  const double t = skewness / 2;
   const double upper = std::min(1.0, t + std::sqrt(1 + t * t));
   return std::max(0.0, static_cast<double>(mean_m) + upper * std::sqrt(s - by_noise));
 }

@@ -11,7 +11,9 @@
 // upper side counts, as it does for the spread of points inside a cell. The factor is the place of
 // the upper of two levels that have this skewness, in parts of their spread: 1 for levels seen
 // equally often, less where a few frames lie below all others, no more than 1 where few see the
-// top. Means run over the frames remembered; what is gone fades with them. Frames outside fusion's
+// top. What fewer than 1.5 of n frames see is a false match and no relief: then 2 t is more than
+// (1 - 2 p) / sqrt(p (1 - p)) with p = 1.5 / n. Means run over the frames remembered; what is gone
+// fades with them. Frames outside fusion's
 // gate count here. Their order does not matter while all are remembered.
 #pragma once
 
