@@ -20,7 +20,7 @@ namespace {
 constexpr double kGrace = 1.2;             // of the limits: see MissionOutcome
 constexpr double kUnapprovedLimit_s = 45;  // of hovering in one place
 constexpr double kStoppedLimit_s = 25;     // of a hold or a climb
-constexpr int kLooksAgain = 2;
+constexpr int kLooksAgain = 4;
 constexpr double kLimit_s = 300;            // so that there is time for them
 constexpr double kTruthBeyondDisc_m = 1.5;  // so that slopes and steps at its rim are known
 /// Where a hover over the origin with a tilted camera can see ground at all.

@@ -10,6 +10,7 @@ namespace {
 constexpr double kLooksFor_s = 2;
 constexpr double kBlockedFor_s = 10;  // then another site
 constexpr double kStoppedFor_s = 15;  // then a look from higher up
+constexpr double kLow_m = 10;         // above the site: there at once
 
 std::vector<EngineCommand> Command(CommandAction action) {
   return {{CommandOrigin::kScript, std::move(action)}};
@@ -18,7 +19,7 @@ std::vector<EngineCommand> Command(CommandAction action) {
 }  // namespace
 
 const LandingSite* ScriptedOperator::Choice(const EngineSnapshot& snapshot) const {
-  if (!snapshot.terrain->applied) {
+  if (!snapshot.terrain->applied || low_) {
     return nullptr;
   }
   const MissionStatus& mission = snapshot.flight->mission;
@@ -57,10 +58,19 @@ std::vector<EngineCommand> ScriptedOperator::Insist(const EngineSnapshot& snapsh
   }
   if (mission.state == MissionState::kAborting) {
     flown_at_.reset();
+    low_ = false;
     return mission.wave_off.over ? Command(AcknowledgeWaveOff{}) : std::vector<EngineCommand>();
   }
-  const bool stuck = flown_at_ && SecondsBetween(*flown_at_, snapshot.time) >= kStoppedFor_s;
-  if (stuck && looks_again_ > 0 && mission.why_no_wave_off.empty()) {
+  for (const Alarm& alarm : mission.alarms) {
+    if (alarm.level == AlarmLevel::kWarning && !alarm.active && !alarm.acknowledged) {
+      return Command(AcknowledgeAlarm{alarm.id});
+    }
+  }
+  const double stopped_s = flown_at_ ? SecondsBetween(*flown_at_, snapshot.time) : 0;
+  // What hangs over the ground is not seen from below it.
+  low_ = low_ || (mission.state == MissionState::kHold && mission.height_above_site_m < kLow_m);
+  if (stopped_s >= (low_ ? kLooksFor_s : kStoppedFor_s) && looks_again_ > 0 &&
+      mission.why_no_wave_off.empty()) {
     --looks_again_;
     flown_at_.reset();
     return Command(WaveOff{});

@@ -13,9 +13,10 @@ namespace palace {
 
 /// Waits for a proposal, looks at it, arms the best site, approves when all guards pass.
 ///
-/// One that looks again, at most so many times: where a descent was stopped and nothing could be
-/// approved for a while, it waves off, and goes on from the hover. It then takes the best site in
-/// view that failed it least, and deselects what stays blocked.
+/// One that looks again, at most so many times: where a descent was stopped below 10 m above its
+/// site, or nothing could be approved for a while, it waves off, and goes on from the hover. It
+/// then takes the best site in view that failed it least, deselects what stays blocked, and
+/// acknowledges warnings that are over.
 class ScriptedOperator {
  public:
   explicit ScriptedOperator(int looks_again = 0)
@@ -35,6 +36,7 @@ class ScriptedOperator {
   MissionState last_ = MissionState::kNoLive;
   std::optional<Timestamp> flown_at_;  ///< an approval stood last, since the last wave-off
   std::uint64_t flown_site_ = 0;       ///< the site of it, until it was counted
+  bool low_ = false;                   ///< it was stopped near the ground, and has not climbed
   std::map<std::uint64_t, int> failures_;
   bool finished_ = false;
 };

@@ -78,6 +78,17 @@ std::string Record(const EngineSnapshot& snap) {
   return text;
 }
 
+/// Nothing is approved on ground that was not seen lately, and from near the ground little is.
+const char* WhatToDoOnHold(const EngineSnapshot& snap) {
+  const TerrainDecision* map = snap.terrain->applied.get();
+  const bool in_view =
+      map != nullptr &&
+      std::any_of(map->selection.sites.begin(), map->selection.sites.end(),
+                  [](const LandingSite& site) { return site.age_s <= kOldGround_s; });
+  return in_view ? "Select a site once the vehicle has stopped."
+                 : "No site in view: wave off to look from above.";
+}
+
 /// What stops or ends it, below. The stop stands where Refuse stood: a second press where approve
 /// was does nothing.
 void DrawActions(const EngineSnapshot& snap, const Rect& button, UiFrame& ui) {
@@ -97,7 +108,7 @@ void DrawActions(const EngineSnapshot& snap, const Rect& button, UiFrame& ui) {
   }
   if (m.state == MissionState::kHold) {
     DrawText(ui, s.body, s.palette.text1, button.x, button.centre().y,
-             FitWords(s.body, "Select a site once the vehicle has stopped.", button.w));
+             FitWords(s.body, WhatToDoOnHold(snap), button.w));
     return;
   }
   look.enabled = IsFlying(m.state) && snap.session->can_transmit;

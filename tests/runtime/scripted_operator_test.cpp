@@ -13,6 +13,7 @@ namespace {
 class Desk {
  public:
   explicit Desk(int looks_again) : pilot(looks_again) {
+    snapshot.flight.Edit().mission.height_above_site_m = 15;
     auto seen = std::make_shared<TerrainDecision>();
     for (const std::uint64_t id : {1, 2}) {
       LandingSite site;
@@ -91,6 +92,37 @@ TEST(ScriptedOperator, NothingIsWavedOffOnTheGroundOrBeforeADescent) {
   EXPECT_EQ(desk.Watch<WaveOff>(MissionState::kHold, 60), nullptr);
   desk.snapshot.flight.Edit().mission.why_no_wave_off.clear();
   EXPECT_EQ(desk.Watch<WaveOff>(MissionState::kLanded, 60), nullptr);
+}
+
+// From there neither what hangs above nor much else is seen: nothing is selected before a climb.
+TEST(ScriptedOperator, StoppedNearTheGroundItWavesOffAtOnce) {
+  Desk desk(1);
+  desk.Arm(1);
+  desk.snapshot.flight.Edit().mission.height_above_site_m = 6;
+  desk.See(MissionState::kDescending);
+  ASSERT_NE(desk.Watch<WaveOff>(MissionState::kHold, 4), nullptr);
+  Desk tired(1);
+  tired.Arm(1);
+  for (int descent = 0; descent < 2; ++descent) {
+    tired.snapshot.flight.Edit().mission.height_above_site_m = 6;
+    tired.See(MissionState::kDescending);
+    tired.Watch<WaveOff>(MissionState::kHold, 4);
+    if (descent == 0) {
+      tired.See(MissionState::kAborting);
+    }
+  }
+  EXPECT_EQ(tired.Watch<SelectSite>(MissionState::kProposed, 20), nullptr);
+}
+
+TEST(ScriptedOperator, AWarningThatIsOverIsAcknowledged) {
+  Desk desk(1);
+  Alarm alarm{.kind = AlarmId::kVisionLost, .level = AlarmLevel::kWarning};
+  desk.snapshot.flight.Edit().mission.alarms = {alarm};
+  EXPECT_EQ(desk.Watch<AcknowledgeAlarm>(MissionState::kHold, 5), nullptr) << "it stands";
+  desk.snapshot.flight.Edit().mission.alarms[0].active = false;
+  const AcknowledgeAlarm* done = desk.Watch<AcknowledgeAlarm>(MissionState::kHold, 1);
+  ASSERT_NE(done, nullptr);
+  EXPECT_EQ(done->alarm, alarm.id);
 }
 
 TEST(ScriptedOperator, WhatStaysBlockedOrLeftTheViewIsNotInsistedOn) {

@@ -170,6 +170,21 @@ TEST(FlyFrame, AcknowledgeRefuseAndHoldHereAskForWhatTheySay) {
   EXPECT_EQ(descending.ui.CountCommands<HoldHere>(), 1);
 }
 
+TEST(FlyFrame, OnHoldItSaysWhetherThereIsAnythingToSelect) {
+  EngineSnapshot snap = fake::Snapshot(MissionState::kHold);
+  for (const double age_s : {0.5, 30.0}) {
+    auto map = std::make_shared<TerrainDecision>(*snap.terrain->applied);
+    for (LandingSite& site : map->selection.sites) {
+      site.age_s = age_s;
+    }
+    snap.terrain.Edit().applied = map;
+    FlyWindow window(1920, 1080, snap);
+    EXPECT_TRUE(HasText(window.ui.items, age_s < 2
+                                             ? "Select a site once the vehicle has stopped."
+                                             : "No site in view: wave off to look from above."));
+  }
+}
+
 TEST(FlyMaps, DraggingTheLimitTickSetsTheLimitOnceItIsAnswered) {
   FlyWindow window(1920, 1080, fake::Snapshot(MissionState::kProposed));
   window.ui.MoveTo("tick/slad.max_slope_deg");
