@@ -66,7 +66,7 @@ struct LandingSite {
   /// (pictures only), cell no wider than max_rock_size_m, hidden_things at most kMostHidden.
   bool confirmed = false;
   bool newest_confirms = false;  ///< so says the newest map; `confirmed` is steady over maps
-  /// Rotor-wide along the glide slope: of the straight approach, or of the one that is planned.
+  /// The corridor, rotor-wide, and the level way to where it begins: straight, or as it is planned.
   bool corridor_clear = true;
   /// Bit k: such a corridor is clear from sector k of eight, from north clockwise, and so is the
   /// level way from the vehicle to where it begins.

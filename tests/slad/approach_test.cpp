@@ -100,6 +100,30 @@ TEST(Approach, APlannedCourseIsJudgedFromWhereItBegins) {
   }
 }
 
+// A vehicle that is nearer than where its slope begins backs away to there, at its height: what
+// stands behind it is in the way, what stands behind that beginning is not.
+TEST(Approach, AVehicleTooNearBacksAway) {
+  struct Row {
+    double wall_north_m, vehicle_north_m;
+    bool clear;
+  };
+  // 15 m high; the wall as high as a house, south of the middle: 15 m is where the slope begins.
+  for (const Row& row : {Row{-6, -3, false}, Row{-6, 3, true}, Row{-8.5, -3, false}}) {
+    SCOPED_TRACE(row.wall_north_m);
+    const auto wall = [&](double n, double) {
+      return std::abs(n - row.wall_north_m) < 0.3 ? 20.0 : 0.0;
+    };
+    SiteContext context = Context();
+    context.p_WB = {row.vehicle_north_m, 0, -15};
+    const ElevationMap map = MakeMap(121, 121, 0.15, wall);
+    const SladSettings settings;
+    const auto site =
+        RecheckSite(map, EvaluateHazards(map, settings), settings, LandingSite{}, context);
+    ASSERT_TRUE(site);
+    EXPECT_EQ(site->corridor_clear, row.clear);
+  }
+}
+
 struct WireRow {
   const char* name;
   float top_m;

@@ -155,6 +155,13 @@ bool LevelWayIsClear(const Approach& approach, const ElevationMap& map,
   return true;
 }
 
+/// The corridor is clear, and the level way to where it begins.
+bool IsReachable(const Approach& approach, const ElevationMap& map, const SladSettings& settings,
+                 const SiteContext& context, const LandingSite& site) {
+  return IsClear(approach, map, settings, site) &&
+         LevelWayIsClear(approach, map, settings, context, site);
+}
+
 double Known(float value) { return static_cast<double>(value); }
 
 /// What nine tenths of the cells have been seen in; new ground at the rim must not pass for old.
@@ -233,26 +240,24 @@ LandingSite EvaluateSite(const ElevationMap& map, const HazardMaps& hazards,
                    FramesAgree(settings, context, site) && NothingHides(map, settings, site);
   site.distance_m = (context.p_WB - site.p_WS).head<2>().norm();
   const std::optional<Approach> flown = ApproachFlown(settings, context, site);
-  site.corridor_clear = !flown || IsClear(*flown, map, settings, site);
+  site.corridor_clear = !flown || IsReachable(*flown, map, settings, context, site);
   site.clear_approaches = ClearApproaches(map, settings, context, site);
   return site;
 }
 
 std::optional<Approach> ApproachFlown(const SladSettings& settings, const SiteContext& context,
                                       const LandingSite& site) {
-  const Eigen::Vector2d to_vehicle = (context.p_WB - site.p_WS).head<2>();
-  const double heading_rad = context.approach_heading_rad;
-  double length_m = to_vehicle.norm();
-  Eigen::Vector2d from = to_vehicle / length_m;
-  if (!std::isnan(heading_rad)) {
-    // A vehicle on its way to where it begins may be anywhere beside it.
-    length_m = std::max(length_m, SlopeLength(context, site));
-    from = {-std::cos(heading_rad), -std::sin(heading_rad)};
-  }
+  const Eigen::Vector2d to_site = (site.p_WS - context.p_WB).head<2>();
+  // One that is nearer than where the slope begins at its height backs away to there.
+  const double length_m = std::max(to_site.norm(), SlopeLength(context, site));
   if (!(length_m > settings.lander.radius_m())) {
-    return std::nullopt;  // straight above: the descent is vertical
+    return std::nullopt;  // nobody knows the vehicle, or it is on the ground
   }
-  return Approach{from, length_m, context.glide_slope_rad};
+  const double heading_rad = std::isnan(context.approach_heading_rad)
+                                 ? std::atan2(to_site.y(), to_site.x())
+                                 : context.approach_heading_rad;
+  return Approach{
+      {-std::cos(heading_rad), -std::sin(heading_rad)}, length_m, context.glide_slope_rad};
 }
 
 std::uint8_t ClearApproaches(const ElevationMap& map, const SladSettings& settings,
@@ -266,9 +271,7 @@ std::uint8_t ClearApproaches(const ElevationMap& map, const SladSettings& settin
     const double bearing_rad = sector * std::numbers::pi / 4;
     const Approach approach{
         {std::cos(bearing_rad), std::sin(bearing_rad)}, length_m, context.glide_slope_rad};
-    const bool reached = IsClear(approach, map, settings, site) &&
-                         LevelWayIsClear(approach, map, settings, context, site);
-    clear |= reached ? 1U << sector : 0U;
+    clear |= IsReachable(approach, map, settings, context, site) ? 1U << sector : 0U;
   }
   return static_cast<std::uint8_t>(clear);
 }

@@ -30,8 +30,9 @@ struct Approach {
 bool IsClear(const Approach& approach, const ElevationMap& map, const SladSettings& settings,
              const LandingSite& site);
 
-/// The approach straight from the vehicle, or on the planned course from where its slope is as high
-/// as the vehicle, or farther out; nothing when it hovers above the site.
+/// The approach straight from the vehicle, or on the planned course: from where its slope is as
+/// high as the vehicle, or from the vehicle where that is farther out. Nothing where nobody knows
+/// the vehicle, or it is at the site.
 std::optional<Approach> ApproachFlown(const SladSettings& settings, const SiteContext& context,
                                       const LandingSite& site);
 
