@@ -17,11 +17,11 @@
 namespace palace {
 namespace {
 
-constexpr double kGrace = 1.2;             // of the limits: see MissionOutcome
-constexpr double kUnapprovedLimit_s = 45;  // of hovering in one place
-constexpr double kStoppedLimit_s = 25;     // of a hold or a climb
-constexpr int kLooksAgain = 4;
-constexpr double kLimit_s = 300;            // so that there is time for them
+constexpr double kGrace = 1.2;              // of the limits: see MissionOutcome
+constexpr double kUnapprovedLimit_s = 45;   // of hovering in one place
+constexpr double kStoppedLimit_s = 25;      // of a hold or a climb
+constexpr int kLooksAgain = 4;              // of the operator
+constexpr double kLimit_s = 300;            // time for them
 constexpr double kTruthBeyondDisc_m = 1.5;  // so that slopes and steps at its rim are known
 /// Where a hover over the origin with a tilted camera can see ground at all.
 constexpr TruthArea kInView{.north_min_m = 4, .north_max_m = 40, .cell_m = 0.1};

@@ -79,8 +79,8 @@ Result<FlownMission> FlyMission(const MissionFlight& flight, const SceneCameraFa
   parts.link = source;
   if (!flight.record_in.empty()) {
     Result<std::unique_ptr<FlightRecorder>> recorder = FlightRecorder::Open(
-        flight.record_in,
-        std::filesystem::path(flight.scenario).stem().string() + "-" + std::to_string(flight.seed));
+        flight.record_in, std::filesystem::path(flight.scenario).stem().string() + "-" +
+                              std::to_string(flight.seed));
     if (!recorder) {
       return recorder.error();
     }

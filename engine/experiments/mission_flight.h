@@ -39,8 +39,8 @@ struct FlownMission {
   std::string why{};
 };
 
-/// Errors: an unknown scenario is one of usage; those of a camera that cannot draw and of a log
-/// that cannot be written.
+/// Errors: an unknown scenario is one of usage; those of a camera that cannot draw and of a log that
+/// cannot be written.
 Result<FlownMission> FlyMission(const MissionFlight& flight, const SceneCameraFactory& camera);
 
 }  // namespace palace

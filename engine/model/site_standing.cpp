@@ -6,9 +6,15 @@
 
 namespace palace {
 
+bool IsInView(const LandingSite& site) { return !(site.age_s > kOldGround_s); }
+
+bool IsAnyInView(const std::vector<LandingSite>& sites) {
+  return std::any_of(sites.begin(), sites.end(), IsInView);
+}
+
 std::string ClearWords(const LandingSite& site) {
   return WithNumbers("%.1f m clear", site.safe_distance_m) +
-         (site.age_s > kOldGround_s ? ", not in view" : "");
+         (IsInView(site) ? "" : ", not in view");
 }
 
 std::string WhyProvisional(const LandingSite& site, const SladSettings& settings) {

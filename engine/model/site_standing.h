@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "engine/model/landing_site.h"
 #include "engine/model/settings/settings.h"
@@ -13,6 +14,10 @@ inline constexpr int kFramesToConfirm = 3;
 
 /// Nothing is approved on ground measured longer ago, as old as a map may be.
 inline constexpr double kOldGround_s = 2;
+
+/// Its ground was measured no longer ago.
+bool IsInView(const LandingSite& site);
+bool IsAnyInView(const std::vector<LandingSite>& sites);
 
 /// "3.1 m clear", with ", not in view" where the ground is older than that.
 std::string ClearWords(const LandingSite& site);

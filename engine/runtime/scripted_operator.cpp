@@ -33,8 +33,7 @@ const LandingSite* ScriptedOperator::Choice(const EngineSnapshot& snapshot) cons
   };
   const LandingSite* best = nullptr;
   for (const LandingSite& site : sites) {
-    const bool in_view = site.age_s <= kOldGround_s;
-    if (in_view && !mission.IsRefused(site.id) &&
+    if (IsInView(site) && !mission.IsRefused(site.id) &&
         (best == nullptr || failures(site) < failures(*best))) {
       best = &site;
     }

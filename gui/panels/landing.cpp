@@ -81,12 +81,9 @@ std::string Record(const EngineSnapshot& snap) {
 /// Nothing is approved on ground that was not seen lately, and from near the ground little is.
 const char* WhatToDoOnHold(const EngineSnapshot& snap) {
   const TerrainDecision* map = snap.terrain->applied.get();
-  const bool in_view =
-      map != nullptr &&
-      std::any_of(map->selection.sites.begin(), map->selection.sites.end(),
-                  [](const LandingSite& site) { return site.age_s <= kOldGround_s; });
-  return in_view ? "Select a site once the vehicle has stopped."
-                 : "No site in view: wave off to look from above.";
+  return map != nullptr && IsAnyInView(map->selection.sites)
+             ? "Select a site once the vehicle has stopped."
+             : "No site in view: wave off to look from above.";
 }
 
 /// What stops or ends it, below. The stop stands where Refuse stood: a second press where approve

@@ -124,6 +124,21 @@ TEST(Approach, AVehicleTooNearBacksAway) {
   }
 }
 
+// Over the site and nearly down the ground itself is as high as the level way to nowhere.
+TEST(Approach, OnTheLastMetresNothingStandsInTheWay) {
+  const ElevationMap map = MakeMap(121, 121, 0.15, [](double n, double) { return 0.15 * n; });
+  const SladSettings settings;
+  const HazardMaps hazards = EvaluateHazards(map, settings);
+  for (const double height_m : {3.0, 2.0, 1.7, 1.0, 0.3}) {
+    SiteContext context = Context();
+    context.p_WB = {0, 0, -height_m - settings.lander.skid_centre_B().z()};
+    context.approach_heading_rad = Rad(180);  // from the north, uphill
+    const auto site = RecheckSite(map, hazards, settings, LandingSite{}, context);
+    ASSERT_TRUE(site);
+    EXPECT_TRUE(site->corridor_clear) << height_m;
+  }
+}
+
 struct WireRow {
   const char* name;
   float top_m;

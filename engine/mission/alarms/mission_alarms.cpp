@@ -40,9 +40,8 @@ const AlarmRow kRows[] = {
          [](const Facts& f, const std::string&) {
            return "Descent on hold: " + f.why + ". " + f.alternative +
                   (f.alternative.empty() ? "" : " ") +
-                  "A site can be selected again when the vehicle has stopped. Where none is, wave "
-                  "off: it "
-                  "climbs and looks again.";
+                  "A site can be selected again when the vehicle has stopped. Where none is, "
+                  "wave off: it climbs and looks again.";
          }},
     {.id = AlarmId::kSiteDegraded,
      .level = AlarmLevel::kCaution,

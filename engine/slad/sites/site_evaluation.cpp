@@ -134,8 +134,8 @@ bool LevelWayIsClear(const Approach& approach, const ElevationMap& map,
   const double length_m = way.norm();
   const double free_m =
       HeightFromDown(context.p_WB.z() + settings.lander.skid_centre_B().z()) - kThinMargin_m;
-  if (!(length_m > g.cell_m) || std::isnan(free_m)) {
-    return true;
+  if (!(length_m > settings.lander.radius_m()) || std::isnan(free_m)) {
+    return true;  // it is there, and soon on the ground
   }
   const Eigen::Vector2d along = way / length_m;
   const double half_width_m = settings.lander.rotor_diameter_m / 2;
