@@ -124,30 +124,31 @@ double SlopeLength(const SiteContext& context, const LandingSite& site) {
 }
 
 /// Nothing known reaches the skids of a vehicle that flies level at its present height, as wide as
-/// its rotor, to where an approach begins.
+/// its rotor, to where an approach begins. What stands within the clear radius is a hazard anyway.
 bool LevelWayIsClear(const Approach& approach, const ElevationMap& map,
                      const SladSettings& settings, const SiteContext& context,
                      const LandingSite& site) {
   const GridGeometry& g = map.geometry;
-  const Eigen::Vector2d from = context.p_WB.head<2>();
-  const Eigen::Vector2d way = site.p_WS.head<2>() + approach.length_m * approach.from - from;
+  const Eigen::Vector2d from = context.p_WB.head<2>(), p_WS = site.p_WS.head<2>();
+  const Eigen::Vector2d way = p_WS + approach.length_m * approach.from - from;
   const double length_m = way.norm();
-  const double free_m =
-      HeightFromDown(context.p_WB.z() + settings.lander.skid_centre_B().z()) - kThinMargin_m;
-  if (!(length_m > settings.lander.radius_m()) || std::isnan(free_m)) {
-    return true;  // it is there, and soon on the ground
+  const double skids_m = HeightFromDown(context.p_WB.z() + settings.lander.skid_centre_B().z());
+  if (!(length_m > g.cell_m) || std::isnan(skids_m)) {
+    return true;
   }
   const Eigen::Vector2d along = way / length_m;
   const double half_width_m = settings.lander.rotor_diameter_m / 2;
   for (int r = 0; r < g.rows; ++r) {
+    const double north_m = g.NorthOfRow(r);
     const ColumnRange columns =
-        CorridorInRow(g, from.y(), along, g.NorthOfRow(r) - from.x(), length_m, half_width_m);
+        CorridorInRow(g, from.y(), along, north_m - from.x(), length_m, half_width_m);
     for (int c = columns.first; c <= columns.last; ++c) {
       const bool stands = map.state.at(r, c) != CellState::kUnknown &&
-                          static_cast<double>(map.height_m.at(r, c)) > free_m;
-      const bool hangs =
-          !map.thin_top_m.empty() && static_cast<double>(map.thin_top_m.at(r, c)) > free_m;
-      if (stands || hangs) {
+                          static_cast<double>(map.height_m.at(r, c)) > skids_m;
+      const bool hangs = !map.thin_top_m.empty() &&
+                         static_cast<double>(map.thin_top_m.at(r, c)) + kThinMargin_m > skids_m;
+      if ((stands || hangs) &&
+          (Eigen::Vector2d(north_m, g.EastOfCol(c)) - p_WS).norm() > site.clear_radius_m) {
         return false;
       }
     }
