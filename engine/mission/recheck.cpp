@@ -74,8 +74,13 @@ void FollowSite(MissionTurn& turn, const MissionInputs& in) {
   const ApprovedEvidence known{
       m.armed.confirmed, m.status.armed->clearance_m,
       state == MissionState::kApproved || state == MissionState::kDescending};
-  m.site.Add(
-      JudgeRecheck(in.terrain.rechecked, in.terrain.nearest, known, in.limits.settings.slad), now);
+  SiteFinding finding =
+      JudgeRecheck(in.terrain.rechecked, in.terrain.nearest, known, in.limits.settings.slad);
+  if (GoesRound(m) && finding.finding == Finding::kDoubtful &&
+      finding.reason == finding.old_ground) {
+    finding = {Finding::kGood, "", finding.approach_clear, ""};  // it looks away on purpose
+  }
+  m.site.Add(std::move(finding), now);
   m.newest = in.terrain.rechecked;
   if (in.terrain.rechecked && in.terrain.rechecked->age_s >= 0) {
     m.ground_seen_at = std::max(m.ground_seen_at, AddSeconds(now, -in.terrain.rechecked->age_s));

@@ -129,6 +129,10 @@ std::string SelectionEnded(std::string_view site, std::string_view why) {
   return "Selection of " + std::string(site) + " ended: " + std::string(why) + ".";
 }
 
+std::string DescentStopped(std::string_view site, std::string_view why) {
+  return "Descent to " + std::string(site) + " stopped: " + std::string(why) + ".";
+}
+
 std::string SiteWon(const std::string& letter, int maps) {
   return Site(letter) + " won " + std::to_string(maps) + " maps";
 }

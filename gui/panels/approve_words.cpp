@@ -92,13 +92,18 @@ HoldButtonView ApproveButton(const EngineSnapshot& snap, const ApproveState& sta
   return view;
 }
 
+std::string SideWords(const MissionStatus& m) {
+  return m.approach && m.approach->turned
+             ? std::string(", from the ") +
+                   DirectionWord(m.approach->heading_rad + std::numbers::pi)
+             : std::string();
+}
+
 std::string ApprovalConsequence(const EngineSnapshot& snap, bool narrow) {
   const MissionStatus& m = snap.flight->mission;
   std::string text =
       Fixed(m.distance_to_site_m, 1) + " m away, " + Fixed(m.height_above_site_m, 1) + " m down";
-  if (m.approach && m.approach->turned) {
-    text += std::string(", from the ") + DirectionWord(m.approach->heading_rad + std::numbers::pi);
-  }
+  text += SideWords(m);
   if (std::isfinite(m.time_to_touchdown_s)) {
     text += (narrow ? ", touchdown in about " : ". Touchdown in about ") +
             Fixed(m.time_to_touchdown_s, 0) + " s";

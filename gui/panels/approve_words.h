@@ -16,6 +16,9 @@ HoldButtonView ApproveButton(const EngineSnapshot& snap, const ApproveState& sta
                              double ui_time_s, double silent_s);
 /// What an approval leads to, in sentences: distance and height, time, heading; before that what
 /// speaks against the armed site. `narrow`: half of it.
+/// ", from the north-east" where the approach goes round to there; empty where it is straight.
+std::string SideWords(const MissionStatus& mission);
+
 std::string ApprovalConsequence(const EngineSnapshot& snap, bool narrow);
 /// What a person may do, and why not: while nothing is armed.
 std::string WhatToDoUnarmed(const EngineSnapshot& snap);

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "engine/model/site_standing.h"
+#include "gui/panels/approve_words.h"
 #include "gui/panels/arrival.h"
 #include "gui/panels/fly_panels.h"
 #include "gui/panels/session_words.h"
@@ -39,9 +40,9 @@ std::string Headline(const MissionStatus& m, double silent_s, double heard_s) {
   const std::string site = m.armed ? std::string("site ") + m.armed->letter : std::string("site");
   switch (m.state) {
     case MissionState::kApproved:
-      return "Approved: " + site;
+      return "Approved: " + site + SideWords(m);
     case MissionState::kHold:
-      return Heard("Holding above " + site, heard_s);
+      return Heard("Holding on the way to " + site, heard_s);
     case MissionState::kAborting:
       return WaveOffHeadline(m.wave_off, silent_s);
     default:

@@ -127,6 +127,35 @@ TEST_F(TurnedApproach, VisionWaitsUntilTheVehicleLooksAtTheSiteFromThere) {
   EXPECT_TRUE(rig.mission.VisionAllowed());
 }
 
+// It looks away on purpose: that its ground was not seen meanwhile is no alarm; at the end it is.
+TEST_F(TurnedApproach, NotToSeeTheSiteOnTheWayRoundIsNoDoubt) {
+  ASSERT_NO_FATAL_FAILURE(Approve());
+  rig.ground_age_s = 7;
+  for (int i = 0; i < 5; ++i) {
+    StayOnTheWay();
+  }
+  EXPECT_EQ(rig.mission.status().armed_verdict, SiteVerdict::kHolds);
+  const FlightPath path = PathTo(rig.mission.memory(), *rig.mission.status().armed);
+  rig.yaw_rad = path.heading_rad;
+  rig.north_m = path.Start(rig.p_WB()).x();
+  rig.east_m = path.Start(rig.p_WB()).y();
+  for (int i = 0; i < 5; ++i) {
+    StayOnTheWay();
+  }
+  EXPECT_EQ(rig.mission.status().armed_verdict, SiteVerdict::kDegraded);
+}
+
+// Why a descent was stopped stays to be read while another site is looked for.
+TEST(Approach, TheReasonOfAHoldOutlivesIt) {
+  MissionRig rig;
+  Descend(rig);
+  rig.Site(101)->corridor_clear = false;
+  ASSERT_TRUE(rig.RunUntil(MissionState::kHold, 2));
+  ASSERT_TRUE(rig.RunUntil(MissionState::kProposed, 10));
+  EXPECT_EQ(rig.mission.status().selection_ended,
+            "Descent to site A stopped: Something stands in the approach.");
+}
+
 // Seen from where it begins the corridor may be another matter.
 TEST_F(TurnedApproach, WhatStandsInItEndsTheApproval) {
   ASSERT_NO_FATAL_FAILURE(Approve());

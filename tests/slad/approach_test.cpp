@@ -186,7 +186,7 @@ TEST(Approach, ABlockedStraightApproachNamesAnother) {
     blocked_before = blocked_before || !site.corridor_clear;
     if (!site.corridor_clear && site.clear_approaches != 0) {
       found = true;
-      EXPECT_EQ(site.reason.rfind("Straight approach blocked; clear from north", 0), 0u)
+      EXPECT_EQ(site.reason.rfind("Straight approach blocked; clear from ", 0), 0u)
           << site.reason;
     }
   }

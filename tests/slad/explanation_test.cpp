@@ -277,7 +277,7 @@ TEST(RankReasons, SayWhatDecidedAndByHowMuch) {
         "Called unsafe by a map 12 s ago"}},
       {kFarthest,
        {SiteOf(4.0, 0.2, false, 0b10000011)},
-       {"Straight approach blocked; clear from north, north-east and 1 more"}}};
+       {"Straight approach blocked; clear from 3 of 8 sides"}}};
   for (const Case& c : cases) {
     SiteSelection selection{c.sites, ""};
     GiveReasons(c.choice, selection);

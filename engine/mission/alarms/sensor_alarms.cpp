@@ -24,6 +24,8 @@ std::string LaserLies(const Facts& f) {
   return words::LaserFault(f.laser) + ". " + kHeightsElsewhere + Blocks(f);
 }
 
+bool GoesOnVision(const Facts& f) { return f.on_vision && f.state != MissionState::kHold; }
+
 const AlarmRow kRows[] = {
     {.id = AlarmId::kImageTime,
      .level = AlarmLevel::kWarning,
@@ -66,7 +68,7 @@ const AlarmRow kRows[] = {
      .text =
          [](const Facts& f, const std::string&) {
            return words::GpsOff(f.gps_agreement) + ". The position does not follow it." +
-                  (f.on_vision ? " Landing on vision goes on." : Blocks(f));
+                  (GoesOnVision(f) ? " Landing on vision goes on." : Blocks(f));
          }},
     {.id = AlarmId::kGpsLost,
      .level = AlarmLevel::kCaution,
@@ -77,7 +79,8 @@ const AlarmRow kRows[] = {
      .text =
          [](const Facts& f, const std::string& limit) {
            return WithNumbers("No GPS for %.1f s, limit ", f.gps_age_s) + limit + "." +
-                  (f.on_vision ? " Landing on vision goes on." : Blocks(f, " without a position"));
+                  (GoesOnVision(f) ? " Landing on vision goes on."
+                                   : Blocks(f, " without a position"));
          }},
     {.id = AlarmId::kLaserLost,
      .level = AlarmLevel::kCaution,

@@ -11,7 +11,7 @@
 namespace palace {
 namespace {
 
-/// Away from the straight line: "from the south-west clear", "from north to east clear".
+/// "Straight approach blocked; clear from south-west", "... from 3 of 8 sides".
 std::string ApproachWords(const LandingSite& site) {
   if (site.clear_approaches == 0) {
     return "Every approach blocked";
@@ -24,8 +24,9 @@ std::string ApproachWords(const LandingSite& site) {
       from += (from.empty() ? "" : ", ") + std::string(DirectionWord(k * std::numbers::pi / 4));
     }
   }
-  const std::string more = count > 2 ? " and " + std::to_string(count - 2) + " more" : "";
-  return "Straight approach blocked; clear from " + from + more;
+  // Which of many is flown is planned when the site is selected.
+  return "Straight approach blocked; clear from " +
+         (count > 2 ? std::to_string(count) + " of 8 sides" : from);
 }
 
 std::string Text(const char* format, double value, const char* against = "") {
