@@ -41,7 +41,7 @@ Words WordsOf(const HoldButtonView& view, const HoldState& state, double now_s) 
     return {view.label,
             "Released at " + Fixed(state.released_after_s, 1) + " s. Hold the full " + full + "."};
   }
-  return {view.label, full + " · mouse or Enter"};
+  return {view.label, view.reason.empty() ? full + " · mouse or Enter" : view.reason};
 }
 
 void DrawBody(UiFrame& ui, const Rect& rect, const HoldButtonView& view, float progress) {

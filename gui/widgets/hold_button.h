@@ -47,7 +47,7 @@ enum class HoldPhase { kReady, kBlocked, kRequested, kAccepted, kRefused, kNoVeh
 struct HoldButtonView {
   HoldPhase phase = HoldPhase::kReady;
   std::string label;   ///< "Hold to approve A"; while requested what was asked
-  std::string reason;  ///< second line, but for ready
+  std::string reason;  ///< second line; when ready only where something is to be told
   std::uint64_t subject = 0;
   double duration_s = 1.0;
 };

@@ -46,6 +46,20 @@ TEST(ApproveWords, TheButtonTellsWhatAHoldDoesOrWhyItDoesNothing) {
          mission(s).approval_answer = "Too low";
        },
        HoldPhase::kRefused, "Hold to approve A", "Too low"},
+      {"refused by a check at the moment of the press",
+       [](EngineSnapshot& s) {
+         s.session.Edit().events = std::make_shared<const std::vector<Event>>(
+             std::vector<Event>{{AddSeconds(s.time, -2), EventKind::kDecision,
+                                 "Approve refused: Safe probability 0.657, min 0.720"},
+                                {AddSeconds(s.time, -1), EventKind::kAlarm, "Something else"}});
+       },
+       HoldPhase::kReady, "Hold to approve A", "Not approved: Safe probability 0.657, min 0.720"},
+      {"refused long ago",
+       [](EngineSnapshot& s) {
+         s.session.Edit().events = std::make_shared<const std::vector<Event>>(std::vector<Event>{
+             {AddSeconds(s.time, -20), EventKind::kDecision, "Approve refused: Link lost"}});
+       },
+       HoldPhase::kReady, "Hold to approve A", ""},
       {"preview", [](EngineSnapshot& s) { s.terrain.Edit().preview = s.terrain->applied; },
        HoldPhase::kBlocked, "Hold to approve A", "Maps are a preview"},
       {"blocked",
