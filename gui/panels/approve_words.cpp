@@ -7,6 +7,7 @@
 #include "engine/model/cell_explanation.h"
 #include "engine/model/find_site.h"
 #include "engine/model/mission/approve_offer.h"
+#include "engine/model/mission/refused_lately.h"
 #include "engine/model/site_standing.h"
 #include "gui/panels/session_words.h"
 #include "gui/widgets/number_text.h"
@@ -14,7 +15,6 @@
 namespace palace {
 namespace {
 
-constexpr double kRefusalShown_s = 6;
 constexpr double kAnswered_s = 2;  // the engine answers within a frame, or refuses
 
 /// A person reads it where a site would be selected.
@@ -31,24 +31,6 @@ std::string WhyShaken(const EngineSnapshot& snap) {
   return now != nullptr && std::isfinite(now->called_unsafe_s)
              ? "A map called it unsafe " + Fixed(now->called_unsafe_s, 0) + " s ago"
              : std::string();
-}
-
-/// A check may fail at the moment of the press, and pass again in the next picture.
-std::string WhyNotApprovedJustNow(const EngineSnapshot& snap) {
-  const auto& events = snap.session->events;
-  if (!events) {
-    return {};
-  }
-  const std::string refused = std::string("Approve") + kRefusedMark;
-  for (auto event = events->rbegin(); event != events->rend(); ++event) {
-    if (SecondsBetween(event->time, snap.time) > kRefusalShown_s) {
-      break;
-    }
-    if (event->text.rfind(refused, 0) == 0) {
-      return "Not approved: " + event->text.substr(refused.size());
-    }
-  }
-  return {};
 }
 
 }  // namespace
@@ -107,8 +89,9 @@ HoldButtonView ApproveButton(const EngineSnapshot& snap, const ApproveState& sta
   } else if (const std::string why = WhyScreenOld(silent_s); !why.empty()) {
     view.phase = HoldPhase::kBlocked;
     view.reason = why;
-  } else {
-    view.reason = WhyNotApprovedJustNow(snap);
+  } else if (snap.session->events) {
+    const std::string why = WhyRefusedLately(*snap.session->events, "Approve", snap.time);
+    view.reason = why.empty() ? "" : "Not approved: " + why;
   }
   return view;
 }

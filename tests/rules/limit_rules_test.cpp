@@ -56,7 +56,6 @@ const std::set<std::pair<std::string, std::string>> kAllowed = {
     // How long the window waits, or says something.
     {"gui/panels/wave_off.cpp", "kAnswerTime_s"},
     {"gui/panels/approve_words.cpp", "kAnswered_s"},
-    {"gui/panels/approve_words.cpp", "kRefusalShown_s"},
     {"gui/panels/tune/setting_history.cpp", "kGesture_s"},
     {"gui/widgets/hold_button.cpp", "kReleaseMessage_s"},
     // How a scene is drawn.
