@@ -90,8 +90,8 @@ HoldButtonView ApproveButton(const EngineSnapshot& snap, const ApproveState& sta
     view.phase = HoldPhase::kBlocked;
     view.reason = why;
   } else if (snap.session->events) {
-    const std::string why = WhyRefusedLately(*snap.session->events, "Approve", snap.time);
-    view.reason = why.empty() ? "" : "Not approved: " + why;
+    const std::string refused = WhyRefusedLately(*snap.session->events, "Approve", snap.time);
+    view.reason = refused.empty() ? "" : "Not approved: " + refused;
   }
   return view;
 }
