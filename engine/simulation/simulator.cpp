@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/core/pace.h"
 #include "engine/core/units.h"
 #include "engine/simulation/simulated_vehicle.h"
 #include "engine/simulation/stereo_cameras.h"
@@ -15,7 +16,6 @@
 namespace palace {
 namespace {
 
-constexpr double kSpeedSmoothing = 0.1;
 constexpr double kSameMoment_s = 1e-6;
 
 Error Ended(const char* why) { return {ErrorCode::kEnd, why}; }
@@ -65,7 +65,7 @@ struct Simulator::State {
   /// multiple of the grid does not drift.
   double rate_since_s = 0;
   std::uint64_t rate_since = 0;
-  std::optional<double> last_turn_s;  ///< monotonic; when the last bundle was due or begun
+  Pace pace;
 
   mutable std::mutex mutex;
   std::condition_variable_any changed;
@@ -94,31 +94,27 @@ void Simulator::State::GrantOwnStation() {
 bool Simulator::State::WaitForTurn(std::stop_token stop) {
   std::unique_lock lock(mutex);
   if (status.paused) {
-    last_turn_s.reset();  // what is waited now is no slowness
+    pace.Pause();
   }
   if (!changed.wait(lock, stop, [&] { return !status.paused || steps_wanted > 0; })) {
     return false;
   }
   if (steps_wanted > 0) {
     --steps_wanted;
-    last_turn_s.reset();
+    pace.Pause();
     return !stop.stop_requested();
   }
+  if (std::exchange(pace_anew, false)) {
+    pace.Restart();
+  }
   const double begin_s = MonotonicSeconds();
-  if (status.speed > 0 && last_turn_s) {
-    const double due_s = *last_turn_s + period_s() / status.speed;
-    const double speed = status.speed;
-    // A change of speed or a pause ends the wait early; this bundle still comes.
-    changed.wait_for(lock, stop, std::chrono::duration<double>(std::max(0.0, due_s - begin_s)),
-                     [&] { return status.paused || status.speed != speed; });
-  }
-  const double now_s = MonotonicSeconds();
-  if (last_turn_s && now_s > *last_turn_s) {
-    const double reached = period_s() / (now_s - *last_turn_s);
-    const double share = std::exchange(pace_anew, false) ? 1 : kSpeedSmoothing;
-    status.speed_reached += share * (reached - status.speed_reached);
-  }
-  last_turn_s = now_s;
+  const double speed = status.speed;
+  const double due_s = pace.DueAt(begin_s, period_s(), speed);
+  // A change of speed or a pause ends the wait early; this bundle still comes.
+  changed.wait_for(lock, stop, std::chrono::duration<double>(std::max(0.0, due_s - begin_s)),
+                   [&] { return status.paused || status.speed != speed; });
+  pace.Begin(MonotonicSeconds(), due_s, period_s());
+  status.speed_reached = pace.reached().value_or(status.speed_reached);
   return !stop.stop_requested();
 }
 

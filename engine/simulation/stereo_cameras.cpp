@@ -1,6 +1,7 @@
 #include "engine/simulation/stereo_cameras.h"
 
 #include <algorithm>
+#include <future>
 #include <utility>
 
 #include "engine/camera/camera_model.h"
@@ -88,8 +89,8 @@ Result<ImageF> StereoCameras::Light(const Side& side, const PictureTile& tile, S
   return ThroughLens(tile, std::move(light));
 }
 
-Result<ImageU8> StereoCameras::Expose(Side& side, SceneCamera& scene, const PoseHistory& history,
-                                      Timestamp stamp) {
+Result<ImageF> StereoCameras::Expose(Side& side, SceneCamera& scene, const PoseHistory& history,
+                                     Timestamp stamp) const {
   if (side.tiles.empty()) {
     side.tiles = TilesOf(side.camera, figures_.line_delay_s > 0 ? figures_.shutter_bands : 1);
   }
@@ -106,6 +107,10 @@ Result<ImageU8> StereoCameras::Expose(Side& side, SceneCamera& scene, const Pose
       std::copy_n(part->row(y), tile.width, &light.at(tile.x, tile.y + y));
     }
   }
+  return light;
+}
+
+ImageU8 StereoCameras::ReadOut(Side& side, ImageF light) const {
   Blur(light, figures_.blur_px);
   Vignette(light, figures_.vignetting);
   ImageU8 picture = side.noise.Apply(light);
@@ -121,14 +126,18 @@ Result<std::shared_ptr<const StereoFrame>> StereoCameras::Deliver(SceneCamera& s
                                                                   Timestamp now) {
   auto frame = std::make_shared<StereoFrame>();
   frame->time = AddSeconds(now, -age_s());
-  for (const auto& [side, picture] :
-       {std::pair(&left_, &frame->left), std::pair(&right_, &frame->right)}) {
-    Result<ImageU8> exposed = Expose(*side, scene, history, frame->time);
-    if (!exposed) {
-      return exposed.error();
-    }
-    *picture = std::move(exposed).value();
+  Result<ImageF> left = Expose(left_, scene, history, frame->time);
+  if (!left) {
+    return left.error();
   }
+  std::future<ImageU8> left_read =
+      std::async(std::launch::async, [&] { return ReadOut(left_, std::move(left).value()); });
+  Result<ImageF> right = Expose(right_, scene, history, frame->time);
+  if (!right) {
+    return right.error();  // the future waits
+  }
+  frame->right = ReadOut(right_, std::move(right).value());
+  frame->left = left_read.get();
   if (drops_.Uniform() < figures_.dropped) {
     return std::shared_ptr<const StereoFrame>();
   }

@@ -3,7 +3,7 @@
 // A pair that comes now was exposed before: its stamp, the middle of what the left camera exposed,
 // lies age_s() ago. It is drawn when it comes, at the poses of the history. Reads no clock; each
 // error draws from a stream of its own, also for pairs that are dropped, so that switching one on
-// changes no other.
+// changes no other. The left picture is read out while the right one is drawn.
 #pragma once
 
 #include <memory>
@@ -45,8 +45,11 @@ class StereoCameras {
   };
   /// From the first moment of a camera's first row to the last one of its last row.
   double window_s() const;
-  Result<ImageU8> Expose(Side& side, SceneCamera& scene, const PoseHistory& history,
-                         Timestamp stamp);
+  /// Light on the whole sensor; of the scene camera's thread.
+  Result<ImageF> Expose(Side& side, SceneCamera& scene, const PoseHistory& history,
+                        Timestamp stamp) const;
+  /// What lens and sensor make of it. Touches nothing but this side.
+  ImageU8 ReadOut(Side& side, ImageF light) const;
   /// Light on a tile, in the mean of its exposure about `middle`.
   Result<ImageF> Light(const Side& side, const PictureTile& tile, SceneCamera& scene,
                        const PoseHistory& history, Timestamp middle) const;

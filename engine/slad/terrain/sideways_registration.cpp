@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include <opencv2/core.hpp>
+
 #include "engine/core/check.h"
 
 namespace palace {
@@ -151,19 +153,22 @@ struct Peak {
   double correlation = -1;
 };
 
+/// The first of the best in the order of rows and columns, however many threads look.
 Peak BestAround(const Detail& frame, const Detail& mosaic, const CellShift& middle, int reach,
                 int least_common) {
-  Peak best;
-  for (int r = -reach; r <= reach; ++r) {
-    for (int c = -reach; c <= reach; ++c) {
-      const CellShift shift{middle.rows + r, middle.cols + c};
-      const double correlation = Correlation(frame, mosaic, shift, least_common);
-      if (correlation > best.correlation) {
-        best = {shift, correlation};
-      }
+  const int side = 2 * reach + 1;
+  const auto shift_of = [&](int i) {
+    return CellShift{middle.rows + i / side - reach, middle.cols + i % side - reach};
+  };
+  std::vector<double> correlations(static_cast<std::size_t>(side) * side);
+  cv::parallel_for_(cv::Range(0, side * side), [&](const cv::Range& range) {
+    for (int i = range.start; i < range.end; ++i) {
+      correlations[static_cast<std::size_t>(i)] =
+          Correlation(frame, mosaic, shift_of(i), least_common);
     }
-  }
-  return best;
+  });
+  const auto best = std::max_element(correlations.begin(), correlations.end());
+  return *best > -1 ? Peak{shift_of(static_cast<int>(best - correlations.begin())), *best} : Peak{};
 }
 
 /// Vertex of the parabola through the peak and the values beside it, in cells.
@@ -226,7 +231,12 @@ SidewaysRegistration::Shift SidewaysRegistration::Add(const RangeMap& range, con
   CellShift whole;
   Eigen::Vector2d follow_m = Eigen::Vector2d::Zero();
   if (!first) {
-    const Detail frame = DetailOf(seen), mosaic = DetailOf(grey_);
+    Detail frame, mosaic;
+    cv::parallel_for_(cv::Range(0, 2), [&](const cv::Range& of) {
+      for (int i = of.start; i < of.end; ++i) {
+        (i == 0 ? frame : mosaic) = DetailOf(i == 0 ? seen : grey_);
+      }
+    });
     const int reach = static_cast<int>(std::ceil(kFarthest_m / (2 * geometry_.cell_m)));
     const Peak coarse =
         BestAround(Coarser(frame), Coarser(mosaic), {}, reach, kLeastCommon_cells / 4);
