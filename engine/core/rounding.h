@@ -9,4 +9,14 @@ namespace palace {
 /// limit: -TenthsDown(-value).
 inline double TenthsDown(double value) { return std::floor(value * 10) / 10; }
 
+/// A value that breaks its limit, as it is shown with so many decimals: where rounding would tell
+/// it as the limit itself, the next step beyond.
+inline double ShownBeyond(double value, double limit, int decimals) {
+  const double steps = std::pow(10.0, decimals);
+  if (std::round(value * steps) != std::round(limit * steps)) {
+    return value;
+  }
+  return (value < limit ? std::round(limit * steps) - 1 : std::round(limit * steps) + 1) / steps;
+}
+
 }  // namespace palace

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "engine/core/check.h"
+#include "engine/core/rounding.h"
 #include "engine/core/text.h"
 #include "engine/core/units.h"
 #include "engine/model/hazard_maps.h"
@@ -110,13 +111,16 @@ TermWords WordsOf(const ExplainedTerm& term) {
   const auto shown = [&](double value) {
     return Number(value * look.factor, look.decimals, look.unit);
   };
-  TermWords words{look.name, shown(term.figure.value), "", ""};
+  const double limit = term.limit * look.factor, value = term.figure.value * look.factor;
+  TermWords words{look.name,
+                  Number(term.over ? ShownBeyond(value, limit, look.decimals) : value,
+                         look.decimals, look.unit),
+                  "", ""};
   if (IsSize(term.term) && !std::isnan(KnownBelow(term.figure))) {
     words.value = "under " + shown(KnownBelow(term.figure));
   } else if (std::isfinite(term.figure.value) && term.figure.three_sigma > 0) {
     words.spread = "± " + shown(term.figure.three_sigma);
   }
-  const double limit = term.limit * look.factor;
   const int decimals = std::abs(limit - std::round(limit)) < 1e-6 ? 0 : look.decimals;
   words.limit = (IsLeast(term.term) ? "min " : "max ") + Number(limit, decimals, look.unit);
   return words;

@@ -207,6 +207,25 @@ TEST(CellExplanation, BadPlacesAreNeverSafe) {
   }
 }
 
+TEST(TermWords, WhatBreaksItsLimitIsNeverToldAsThatLimit) {
+  const struct {
+    CellTerm term;
+    double value, limit;
+    const char *words, *limit_words;
+  } table[] = {{CellTerm::kHazardDistance, 2.279, 2.286, "2.2 m", "min 2.3 m"},
+               {CellTerm::kHazardDistance, 1.9, 2.286, "1.9 m", "min 2.3 m"},
+               {CellTerm::kSlope, Rad(10.004), Rad(10), "10.1°", "max 10°"},
+               {CellTerm::kSlope, Rad(12), Rad(10), "12.0°", "max 10°"},
+               {CellTerm::kRoughness, 0.1002, 0.1, "10.1 cm", "max 10 cm"},
+               {CellTerm::kProbability, 0.8999, 0.9, "0.899", "min 0.900"}};
+  for (const auto& row : table) {
+    const TermWords over = WordsOf({row.term, {row.value, 0}, row.limit, true, false});
+    EXPECT_EQ(over.value, row.words);
+    EXPECT_EQ(over.limit, row.limit_words);
+  }
+  EXPECT_EQ(WordsOf({CellTerm::kSlope, {Rad(9.996), 0}, Rad(10), false, false}).value, "10.0°");
+}
+
 TEST(TermWords, EveryNumberHasItsUnit) {
   const auto words = [](CellTerm term, double value, double three_sigma, double limit) {
     const TermWords w = WordsOf({term, {value, three_sigma}, limit, false, false});

@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "engine/core/check.h"
+#include "engine/core/rounding.h"
 #include "engine/core/units.h"
 #include "engine/model/cell_explanation.h"
 #include "engine/model/size_words.h"
@@ -87,9 +88,13 @@ std::string ValueWords(const LimitRow& row) {
   if (const double below = KnownBelow(row); !std::isnan(below)) {
     return "under " + Words(below, row);
   }
-  return std::isfinite(row.value) && row.three_sigma > 0
-             ? NumberOf(row.value, row) + " ± " + Words(row.three_sigma, row)
-             : Words(row.value, row);
+  const double value = row.over ? ShownBeyond(row.value * row.shown_per_unit,
+                                              row.limit * row.shown_per_unit, row.decimals) /
+                                      row.shown_per_unit
+                                : row.value;
+  return std::isfinite(value) && row.three_sigma > 0
+             ? NumberOf(value, row) + " ± " + Words(row.three_sigma, row)
+             : Words(value, row);
 }
 std::string LimitWords(const LimitRow& row) { return Words(row.limit, row); }
 
