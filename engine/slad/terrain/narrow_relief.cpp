@@ -202,8 +202,8 @@ NarrowFigures FiguresOf(const ElevationMap& map, const MatchingWindow& window,
                         const GridF& repeated_m2) {
   const GridGeometry& g = map.geometry;
   const GridF unknown(g.rows, g.cols, kUnknownValue);
-  Prominences prominence = ProminencesOf(map, map.Measured(), window,
-                                         [](const Ring& ring) { return ring.Median_m(); });
+  Prominences prominence =
+      ProminencesOf(map, map.Measured(), window, [](const Ring& ring) { return ring.Median_m(); });
   // No thing that narrow stands so far off its ring: a wide edge does, or a false match.
   for (float& off_m : prominence.height_m.cells()) {
     off_m = std::abs(off_m) > static_cast<float>(kTallest_m) ? kUnknownValue : off_m;
@@ -219,8 +219,8 @@ NarrowFigures FiguresOf(const ElevationMap& map, const MatchingWindow& window,
       }
       const float repeated = repeated_m2.empty() ? 0.0F : repeated_m2.at(r, c);
       // Among bumps a bump says nothing: what cells around stand off their rings by is noise too.
-      sigma_m = std::max(std::sqrt(sigma_m * sigma_m + repeated),
-                         static_cast<float>(roughness.At(r, c)));
+      sigma_m =
+          std::max(std::sqrt(sigma_m * sigma_m + repeated), static_cast<float>(roughness.At(r, c)));
       const double spread_m2 = std::pow(window.Width_m(map, {r, c}), 2) + g.cell_m * g.cell_m;
       figures.share.at(r, c) =
           static_cast<float>(kPeakOfThing / (1 + spread_m2 / (kThing_m * kThing_m)));
@@ -260,6 +260,33 @@ bool IsProminent(const ElevationMap& map, const Ring& ring, Cell cell, double pr
   return sigmas > kSigmas && SigmasBeside(map, ring, cell, side) > beside;
 }
 
+/// Raises the ground between the cell and the camera to the rays that saw the cell, as far as they
+/// take to rise by `missing_m`; a cell that they end in, by its part of it.
+void RaiseTowardsCamera(const ElevationMap& map, Cell cell, const Eigen::Vector3d& p_WC,
+                        double missing_m, GridF& raised) {
+  const GridGeometry& g = map.geometry;
+  const double own_m = static_cast<double>(map.height_m.at(cell));
+  const Eigen::Vector2d place(g.NorthOfRow(cell.row), g.EastOfCol(cell.col));
+  const Eigen::Vector2d way = p_WC.head<2>() - place;
+  const double distance_m = way.norm(), above_m = HeightFromDown(p_WC.z()) - own_m;
+  if (!(distance_m > g.cell_m && above_m > 0)) {
+    return;  // seen from above: what is read as too low stands where it is read
+  }
+  const double rise = above_m / distance_m, length_m = missing_m / rise;
+  for (double along_m = g.cell_m; along_m < length_m + g.cell_m / 2; along_m += g.cell_m) {
+    const Eigen::Vector2d at = place + along_m / distance_m * way;
+    const auto to = g.CellFromPoint(at.x(), at.y());
+    if (!to || !IsMeasured(map, *to)) {
+      return;
+    }
+    const double part = std::min(1.0, (length_m - along_m) / g.cell_m + 0.5);
+    const double ground_m = static_cast<double>(map.height_m.at(*to));
+    const double ray_m = own_m + std::min(along_m, length_m) * rise;
+    raised.at(*to) =
+        std::max(raised.at(*to), static_cast<float>(ground_m + part * (ray_m - ground_m)));
+  }
+}
+
 }  // namespace
 
 NarrowFigures MeasureNarrowRelief(const PinholeCamera& camera, const Eigen::Vector3d& p_WC,
@@ -280,8 +307,8 @@ void RaiseNarrowRelief(const PinholeCamera& camera, const Eigen::Vector3d& p_WC,
     return;
   }
   const GridF prominence = ProminencesOf(map, map.height_m, window, [](const Ring& ring) {
-                              return ring.mean_m;
-                            }).height_m;
+                             return ring.mean_m;
+                           }).height_m;
   const GroundRoughness roughness(prominence, g.cell_m);
   GridF raised = map.height_m;
   for (int r = 0; r < g.rows; ++r) {
@@ -298,8 +325,16 @@ void RaiseNarrowRelief(const PinholeCamera& camera, const Eigen::Vector3d& p_WC,
       const double repeated = repeated_m2.empty() ? 0.0 : static_cast<double>(repeated_m2.at(r, c));
       if (factor > 1 && IsProminent(map, window.RingAt(map, map.height_m, {r, c}), {r, c},
                                     prominence_m, roughness.At(r, c), repeated)) {
-        const double must_be_m = std::max(off_m, std::min(factor * off_m, kTallest_m));
-        raised.at(r, c) += static_cast<float>(std::copysign(must_be_m - off_m, prominence_m));
+        const double missing_m = std::max(0.0, std::min(factor * off_m, kTallest_m) - off_m);
+        const auto own_m = static_cast<double>(map.height_m.at(r, c));
+        if (prominence_m < 0) {
+          raised.at(r, c) = static_cast<float>(own_m - missing_m);
+        } else {
+          raised.at(r, c) = std::max(raised.at(r, c), static_cast<float>(own_m + missing_m));
+          if (off_m > kClearSigmas * sigma_m) {
+            RaiseTowardsCamera(map, {r, c}, p_WC, missing_m, raised);
+          }
+        }
       }
     }
   }

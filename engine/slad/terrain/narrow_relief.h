@@ -24,7 +24,13 @@ inline constexpr double kThing_m = 0.18, kPeakOfThing = 0.8;
 ///   h := ring + k (h - ring),   k = (w / narrow_m)^2, from 1 to 6,   w = 9 px * range / f
 ///   rough = 4 ground, within 3.5 and 10 times the ring's own
 ///
-/// but to no more than 1 m off the ring. The ring is rough by what it is off its own plane: edges
+/// but to no more than 1 m off the ring. A thing that is read as too low is read as too far away,
+/// too: it stands somewhere on the rays that saw it, nearer to the camera where they are higher. So
+/// where a cell that stands eight sigmas is raised by d, those between it and the camera are raised
+/// to its rays, until these have risen by d: d / tan(elevation) of ground. (A hole's rim is where
+/// its cells are seen.)
+///
+/// The ring is rough by what it is off its own plane: edges
 /// of wide things are no narrow things and stay. The ground is rough by what its cells stand off
 /// their rings (`GroundRoughness`), less the variance of cell and ring and 2.5 times the sigma of
 /// what stereo repeats (`repeated_m2`, m^2), as on its worst textures: bumps among bumps stay, many
