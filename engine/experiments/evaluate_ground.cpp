@@ -15,6 +15,7 @@
 #include "engine/experiments/family_options.h"
 #include "engine/experiments/ground_field.h"
 #include "engine/experiments/hidden_fit.h"
+#include "engine/model/site_standing.h"
 #include "engine/report/statistics.h"
 #include "engine/runtime/settings_io.h"
 #include "engine/slad/hazards/hidden_things.h"
@@ -56,6 +57,18 @@ struct GroundOptions {
 constexpr std::size_t kSiteColumns = 12 + std::size(kHiddenDensities);
 std::string HiddenColumn(double density) { return "hidden_" + CsvNumber(density); }
 
+const char* KindOf(SiteStanding standing) {
+  switch (standing) {
+    case SiteStanding::kConfirmed:
+      return "confirmed";
+    case SiteStanding::kProvisional:
+      return "provisional";
+    case SiteStanding::kToLookAt:
+      return "look";
+  }
+  PALACE_CHECK(false);
+}
+
 /// What a field's rows share.
 struct Field {
   std::string family;
@@ -94,7 +107,7 @@ TrialRow RowOfSite(const Field& field, const World& world, const LandingSite& si
   const Eigen::Vector2d place_m = site.p_WS.head<2>();
   const SiteTruth truth = TruthOfSite(world, place_m, settings.slad.lander, limits, kHoverEnd_s);
   TrialRow row = {CsvNumber(rank),
-                  site.confirmed ? "confirmed" : "provisional",
+                  KindOf(StandingOf(site, settings.slad)),
                   SiteVerdictName(truth.verdict()),
                   CsvNumber(truth.worst_of_limit),
                   truth.what,
@@ -208,8 +221,10 @@ std::array<int, 2> Offered(const TrialTable& table, const char* column) {
 
 std::vector<std::string> RowOfReport(const std::string& name, const TrialTable& table) {
   const TrialTable confirmed = table.Where("kind", "confirmed"),
-                   provisional = table.Where("kind", "provisional");
-  const int n = Count(table, "confirmed"), m = Count(table, "provisional");
+                   provisional = table.Where("kind", "provisional"),
+                   looks = table.Where("kind", "look");
+  const int n = Count(table, "confirmed"), m = Count(table, "provisional"),
+            k = Count(table, "look");
   const auto safe = Offered(table, "safe_in_view"), easy = Offered(table, "easy_in_view");
   using V = SiteTruth::Verdict;
   return {name,
@@ -217,6 +232,7 @@ std::vector<std::string> RowOfReport(const std::string& name, const TrialTable& 
           Share(AtLeast(confirmed, V::kUnsafe), n),
           Share(AtLeast(confirmed, V::kGrosslyUnsafe), n),
           Share(AtLeast(provisional, V::kUnsafe), m),
+          Share(AtLeast(looks, V::kUnsafe), k),
           Share(safe[1], safe[0]),
           Share(easy[1], easy[0])};
 }
@@ -304,15 +320,17 @@ ExperimentReport Report(const TrialTable& table) {
   rows.push_back(RowOfReport("all", table));
   const std::vector<std::string>& all = rows.back();
   const TrialTable nowhere = table.Where("family", "nowhere");
-  const int offered = Count(nowhere, "confirmed") + Count(nowhere, "provisional");
+  const int offered =
+      Count(nowhere, "confirmed") + Count(nowhere, "provisional") + Count(nowhere, "look");
   const int gross = AtLeast(table.Where("kind", "confirmed"), SiteTruth::Verdict::kGrosslyUnsafe);
   report.passed = gross == 0 && offered == 0;
   report.lines = {"Confirmed sites over a limit: " + all[1],
                   "Confirmed sites over 1.2 times a limit (unsafe): " + all[2],
                   "Confirmed sites over 1.5 times a limit (grossly unsafe): " + all[3],
                   "Provisional sites over 1.2 times a limit: " + all[4],
-                  "Fields with a safe disc in view that are offered a site: " + all[5],
-                  "Fields with an easy disc in view that are offered a site: " + all[6],
+                  "Places to look at first over 1.2 times a limit: " + all[5],
+                  "Fields with a safe disc in view that are offered a site: " + all[6],
+                  "Fields with an easy disc in view that are offered a site: " + all[7],
                   "Sites offered where nothing is safe (nowhere): " + WithNumbers("%.0f", offered)};
   report.page.List(report.lines)
       .Paragraph(
@@ -320,8 +338,8 @@ ExperimentReport Report(const TrialTable& table) {
           "navigation error of its middle; limits as set. Water and what moves count as grossly "
           "unsafe. An easy disc keeps six tenths of every limit. Sites of one field are related.")
       .Table({"Family or height", "Confirmed: over a limit", "Confirmed: over 1.2 x",
-              "Confirmed: over 1.5 x", "Provisional: over 1.2 x", "Safe disc in view: offered",
-              "Easy disc in view: offered"},
+              "Confirmed: over 1.5 x", "Provisional: over 1.2 x", "Look first: over 1.2 x",
+              "Safe disc in view: offered", "Easy disc in view: offered"},
              rows);
   AddCalibration(table, report.page);
   AddLeaveOneOut(table, report);

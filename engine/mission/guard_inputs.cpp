@@ -35,6 +35,11 @@ void JudgeArmedSite(const MissionMemory& m, Timestamp now, GuardInputs& in) {
     in.site_holds = false;
     in.site_reason = m.site.newest().old_ground;
   }
+  if (in.site_holds && !m.site.newest().low_air.empty() &&
+      HeightAboveSite(m) < GuardLimits::look_height_m) {
+    in.site_holds = false;
+    in.site_reason = words::LookFromAbove(m.site.newest().low_air);
+  }
   if (in.site_holds && !m.site.newest().approach_clear) {
     // What is approved is the way that was planned when the site was armed.
     in.site_holds = false;

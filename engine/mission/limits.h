@@ -23,6 +23,7 @@ struct GuardLimits {
   static constexpr double arm_to_approve_s = 0.5;
   static constexpr double lost_percent = 50;     ///< of the vehicle's messages (F21)
   static constexpr double confirm_height_m = 6;  ///< a provisional site must be confirmed by here
+  static constexpr double look_height_m = 10;    ///< lower, the air over a site must have been seen
 };
 
 /// An age beyond which a selection, an approval or a descent ends.

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "engine/core/rounding.h"
 #include "engine/core/text.h"
 #include "engine/model/site_standing.h"
 
@@ -61,6 +62,10 @@ SiteFinding JudgeRecheck(const std::optional<LandingSite>& now,
     found.old_ground =
         WithNumbers("Ground last measured %.1f s ago, limit %.1f s", now->age_s, kOldGround_s);
     worse(Finding::kDoubtful, found.old_ground);
+  }
+  if (now->air_seen_m < kLeastAirSeen_m) {
+    found.low_air = WithNumbers("Air over the site seen up to %.1f m, min %.1f m",
+                                TenthsDown(now->air_seen_m), kLeastAirSeen_m);
   }
   return found;
 }

@@ -54,6 +54,9 @@ struct ElevationMap {
   /// unknown, NaN where there is none. Empty: none. No part of height_m: nothing stands below a
   /// wire.
   GridF thin_top_m{};
+  /// How far up over the cell the cameras have looked, above the origin of W; NaN: never. Empty: not
+  /// asked (a survey, thesis mode).
+  GridF air_seen_to_m{};
   NarrowFigures narrow{};  ///< empty: not asked (a survey, thesis mode)
   /// Of the newest pose the heights were taken from: the slope of everything is off by this much.
   double attitude_sigma_rad = PoseSigmas{}.attitude_rad;

@@ -64,14 +64,17 @@ struct LandingSite {
   int frames_fused = 0;    ///< that nine tenths of the clear radius's cells have at least
   /// 3 sigma of height below the roughness limit, P at least min_safe_probability, seen in 3 frames
   /// (pictures only), cell no wider than max_rock_size_m, hidden_things at most kMostHidden.
-  bool confirmed = false;
+  bool confirmed = false;        ///< and air_seen_m at least kLeastAirSeen_m, where that is asked
   bool newest_confirms = false;  ///< so says the newest map; `confirmed` is steady over maps
   /// The corridor, rotor-wide, and the level way to where it begins: straight, or as it is planned.
   bool corridor_clear = true;
   /// Bit k: such a corridor is clear from sector k of eight, from north clockwise, and so is the
   /// level way from the vehicle to where it begins.
   std::uint8_t clear_approaches = 0xFF;
-  double age_s = 0;       ///< since the ground inside the clear radius was measured, mean
+  double age_s = 0;  ///< since the ground inside the clear radius was measured, mean
+  /// How far up over nine tenths of the clear radius the cameras have looked, above the site: what
+  /// hangs higher was not seen. NaN: nobody asked (a survey, thesis mode, a record).
+  double air_seen_m = std::numeric_limits<double>::quiet_NaN();
   double distance_m = 0;  ///< horizontal, from the vehicle at map_time
   /// Since a map called it, or the ground beside it, unsafe: for that it stands behind the others.
   /// NaN: for no such reason.

@@ -2,9 +2,37 @@
 
 #include <algorithm>
 
+#include "engine/core/check.h"
+#include "engine/core/rounding.h"
 #include "engine/core/text.h"
 
 namespace palace {
+namespace {
+
+/// Unknown noise hides everything.
+bool StandsInNoise(const LandingSite& site, const SladSettings& settings) {
+  return !(site.height_m.three_sigma < settings.limits.max_deviation_m);
+}
+
+}  // namespace
+
+SiteStanding StandingOf(const LandingSite& site, const SladSettings& settings) {
+  return site.confirmed                  ? SiteStanding::kConfirmed
+         : StandsInNoise(site, settings) ? SiteStanding::kToLookAt
+                                         : SiteStanding::kProvisional;
+}
+
+const char* StandingWord(SiteStanding standing) {
+  switch (standing) {
+    case SiteStanding::kConfirmed:
+      return "Confirmed";
+    case SiteStanding::kProvisional:
+      return "Provisional";
+    case SiteStanding::kToLookAt:
+      return "Look first";
+  }
+  PALACE_CHECK(false);
+}
 
 bool IsInView(const LandingSite& site) { return !(site.age_s > kOldGround_s); }
 
@@ -24,6 +52,10 @@ std::string WhyProvisional(const LandingSite& site, const SladSettings& settings
   if (site.newest_confirms) {
     return "confirmed by the newest map, sure after 5 in a row";
   }
+  if (StandsInNoise(site, settings)) {
+    return WithNumbers("height noise %.1f cm (3 sigma), sure below %.1f cm",
+                       100 * site.height_m.three_sigma, 100 * settings.limits.max_deviation_m);
+  }
   const std::string over = WithNumbers("over %.0f cm", 100 * settings.limits.max_deviation_m);
   if (site.hidden_things > kMostHidden) {
     // One line of the narrowest approve panel.
@@ -35,9 +67,9 @@ std::string WhyProvisional(const LandingSite& site, const SladSettings& settings
     return WithNumbers("safe probability %.3f, sure from %.3f on", site.safe_probability,
                        settings.limits.min_safe_probability);
   }
-  if (!(site.height_m.three_sigma < settings.limits.max_deviation_m)) {
-    return WithNumbers("height noise %.1f cm (3 sigma), sure below %.1f cm",
-                       100 * site.height_m.three_sigma, 100 * settings.limits.max_deviation_m);
+  if (site.air_seen_m < kLeastAirSeen_m) {
+    return WithNumbers("air over it seen up to %.1f m, sure from %.0f m",
+                       TenthsDown(site.air_seen_m), kLeastAirSeen_m);
   }
   const int enough = std::min(kFramesToConfirm, settings.fusion.frames_fused);
   if (settings.mode == SladMode::kModern && site.frames_fused < enough && !site.pixel.hasNaN()) {

@@ -1,6 +1,7 @@
-// Why a site is only provisional, in words for people.
+// How much is known of a site, and why it is no more, in words for people.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -26,8 +27,24 @@ std::string ClearWords(const LandingSite& site);
 /// site, at most.
 inline constexpr double kMostHidden = 0.01;
 
-/// The first that holds: too much that may hide, too little probability, too much noise of height,
-/// too few frames, cells wider than a rock (landing_site.h, confirmed). Empty when the site is
+/// Of the air over a site (LandingSite::air_seen_m), asked of a confirmed one, and of any that is
+/// approved from below GuardLimits::look_height_m: from there on the way down shows less than this
+/// over ground that nobody looked at from higher up. A wire or a branch hangs there unseen.
+inline constexpr double kLeastAirSeen_m = 5;
+
+enum class SiteStanding : std::uint8_t {
+  kConfirmed,    ///< LandingSite::confirmed
+  kProvisional,  ///< all but confirmed: it holds every limit that may be asked at its noise
+  /// 3 sigma of its heights reach the roughness limit: a thing as high as that would not stand out
+  /// of the noise. The place is offered to be looked at from nearer and no more is said of it.
+  kToLookAt,
+};
+SiteStanding StandingOf(const LandingSite& site, const SladSettings& settings);
+/// "Confirmed", "Provisional", "Look first".
+const char* StandingWord(SiteStanding standing);
+
+/// The first that holds: too much noise of height, too much that may hide, too little probability,
+/// too little of the air seen, too few frames, cells wider than a rock (landing_site.h, confirmed). Empty when the site is
 /// confirmed.
 std::string WhyProvisional(const LandingSite& site, const SladSettings& settings);
 

@@ -121,7 +121,11 @@ Status Analyze(const Options& options) {
         "landing site at row %d, column %d, %.2f m north, %.2f m east, %.2f m clear, %.2f m "
         "needed%s\n",
         site.cell.row, site.cell.col, site.p_WS.x(), site.p_WS.y(), site.safe_distance_m,
-        site.clear_radius_m, doubt.empty() ? "" : (", provisional: " + doubt).c_str());
+        site.clear_radius_m,
+        doubt.empty()
+            ? ""
+            : (std::string(", ") + StandingWord(StandingOf(site, o.settings.slad)) + ": " + doubt)
+                  .c_str());
   }
   return Ok();
 }

@@ -43,6 +43,7 @@ Json SiteJson(const LandingSite& site, const SladSettings& slad) {
           {"cost", Number(site.cost)},
           {"safe_probability", Number(site.safe_probability)},
           {"confirmed", site.confirmed},
+          {"standing", StandingWord(StandingOf(site, slad))},
           {"provisional_because", WhyProvisional(site, slad)},
           {"letter", site.letter},
           {"step_m", Number(site.step_m.value)},

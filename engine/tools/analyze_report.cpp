@@ -38,7 +38,9 @@ std::vector<std::vector<std::string>> SiteRows(const SiteSelection& selection,
                               slad.limits.min_safe_probability)
                 : "not in thesis mode",
          site.flags == 0 ? "none" : FlagWords(site.flags),
-         site.confirmed ? "confirmed" : "provisional: " + WhyProvisional(site, slad), site.reason});
+         StandingWord(StandingOf(site, slad)) +
+             (site.confirmed ? "" : ": " + WhyProvisional(site, slad)),
+         site.reason});
   }
   return rows;
 }

@@ -55,8 +55,11 @@ HoldButtonView ApproveButton(const EngineSnapshot& snap, const ApproveState& sta
   view.subject = m.armed ? m.armed->id : 0;
   const std::string letter = m.armed ? m.armed->letter : std::string();
   view.label = "Hold to approve " + letter;
-  if (m.armed && !m.armed->confirmed) {
-    view.label += ", provisional";
+  if (m.armed) {
+    const SiteStanding standing = StandingOf(*m.armed, snap.session->settings.slad);
+    view.label += standing == SiteStanding::kProvisional ? ", provisional"
+                  : standing == SiteStanding::kToLookAt  ? ", look first"
+                                                         : "";
   }
   using Phase = MissionStatus::ApprovalPhase;
   if (FollowsRecord(snap.session->role) || HasPicturesOnly(snap.session->role)) {
@@ -119,7 +122,8 @@ std::string ApprovalConsequence(const EngineSnapshot& snap, bool narrow) {
   const std::string doubt =
       m.armed ? WhyProvisional(*m.armed, snap.session->settings.slad) : std::string();
   if (!narrow && !doubt.empty()) {
-    return text + ". Provisional: " + doubt + ".";
+    return text + ". " + StandingWord(StandingOf(*m.armed, snap.session->settings.slad)) + ": " +
+           doubt + ".";
   }
   if (!narrow && m.approach) {
     double heading = Deg(m.approach->heading_rad);

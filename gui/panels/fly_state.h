@@ -29,6 +29,9 @@ struct MapRowState {
 struct SiteListState {
   float scroll = 0;      ///< pixels
   std::string followed;  ///< row with the focus that the list has scrolled to
+  /// Ids in the order of the last frame, while the pointer is on the list: a place does not slip
+  /// away from under a press. Empty: as the engine ranks them.
+  std::vector<std::uint64_t> held_order;
 };
 struct ApproveState {
   HoldState hold;

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <optional>
 #include <vector>
 
 #include "gui/panels/fly_panels.h"
@@ -16,7 +17,7 @@ namespace {
 /// is about to be approved is never out of sight.
 struct Rows {
   std::vector<const LandingSite*> sites;
-  bool first_is_unlisted = false;  ///< the armed site, which the newest map does not offer
+  std::optional<std::uint64_t> unlisted;  ///< the armed site, which the newest map does not offer
 };
 
 Rows RowsOf(const TerrainDecision* known, const MissionStatus& mission) {
@@ -28,12 +29,25 @@ Rows RowsOf(const TerrainDecision* known, const MissionStatus& mission) {
       armed = armed || (mission.armed && mission.armed->id == site.id);
     }
   }
-  rows.first_is_unlisted = mission.armed && !armed;
-  if (rows.first_is_unlisted) {
+  if (mission.armed && !armed) {
+    rows.unlisted = mission.armed->id;
     rows.sites.insert(rows.sites.begin(),
                       mission.armed_now ? &*mission.armed_now : &*mission.armed);
   }
   return rows;
+}
+
+/// Keeps the rows where they lay, but for an unlisted one; what is new comes after them. True where
+/// the engine's order is another.
+bool KeepOrder(const std::vector<std::uint64_t>& held, Rows& rows) {
+  const auto place = [&](const LandingSite* site) {
+    return site->id == rows.unlisted ? -1
+                                     : std::find(held.begin(), held.end(), site->id) - held.begin();
+  };
+  const std::vector<const LandingSite*> ranked = rows.sites;
+  std::stable_sort(rows.sites.begin(), rows.sites.end(),
+                   [&](const LandingSite* a, const LandingSite* b) { return place(a) < place(b); });
+  return rows.sites != ranked;
 }
 
 SiteRowLook LookOf(const LandingSite& site, bool unlisted, const MissionStatus& mission) {
@@ -82,8 +96,9 @@ void DrawSiteListPanel(const EngineSnapshot& snap, const FlyLayout& layout, Site
   const Style& s = ui.style;
   const TerrainDecision* known = SitesInForce(snap);
   const MissionStatus& mission = snap.flight->mission;
-  const Rows listed = RowsOf(known, mission);
+  Rows listed = RowsOf(known, mission);
   const std::vector<const LandingSite*>& rows = listed.sites;
+  const bool order_held = KeepOrder(state.held_order, listed);
   const std::size_t count = rows.size();
   const std::size_t found = known != nullptr ? known->selection.sites.size() : 0;
   const bool old = count > 0 && IsMapOld(snap, ui.silent_s);
@@ -96,8 +111,10 @@ void DrawSiteListPanel(const EngineSnapshot& snap, const FlyLayout& layout, Site
       ui, layout.sites, "Sites",
       {{old ? "Map " + AgeText(ShownMapAge(snap, ui.silent_s)) + " old" : "", 0, true, true},
        {preview ? "Applied, not the preview" : "", ui.style.palette.text1, true, false},
+       {order_held ? "Order held under the pointer" : "", ui.style.palette.text1, true, false},
        {found_words},
        {count > 0 && !layout.narrow && !old && !preview ? "Tab for next" : ""}});
+  state.held_order.clear();
   if (count == 0) {
     DrawEmpty(snap, content, ui);
     if (ui.highlighted_site != 0) {
@@ -109,7 +126,13 @@ void DrawSiteListPanel(const EngineSnapshot& snap, const FlyLayout& layout, Site
   const Rect list{content.x, content.y + s.Px(layout.narrow ? 2 : 4), content.w,
                   row * static_cast<float>(layout.site_rows)};
   const float beyond = std::max(0.0f, row * static_cast<float>(count) - list.h);
-  state.scroll -= Interact(ui, "panel/Sites", list, kPassive).wheel * row;
+  const Interaction pointer = Interact(ui, "panel/Sites", list, kPassive);
+  state.scroll -= pointer.wheel * row;
+  if (pointer.hovered) {
+    for (const LandingSite* site : rows) {
+      state.held_order.push_back(site->id);
+    }
+  }
   for (std::size_t i = 0; i < count && ui.focus.shown() != state.followed; ++i) {
     if (ui.focus.Has(SiteItemName(rows[i]->letter))) {  // the keyboard's row comes into sight
       const float top = row * static_cast<float>(i);
@@ -137,9 +160,10 @@ void DrawSiteListPanel(const EngineSnapshot& snap, const FlyLayout& layout, Site
       OfferHidden(ui, SiteItemName(site.letter));
       continue;
     }
-    SiteRowLook look = LookOf(site, i == 0 && listed.first_is_unlisted, mission);
+    SiteRowLook look = LookOf(site, site.id == listed.unlisted, mission);
     look.narrow = layout.site_row_units < 60;
     look.old_map = old;
+    look.standing = StandingOf(site, snap.session->settings.slad);
     const Rect rect{list.x, list.y + row * static_cast<float>(i - first), list.w, row};
     const SiteRowAnswer answer = DrawSiteRow(ui, rect, site, view, ui.textures.left_camera, look);
     focused = answer.focused ? site.id : focused;

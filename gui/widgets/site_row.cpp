@@ -66,8 +66,10 @@ SiteWord WordOf(const LandingSite& site, const SiteRowLook& look) {
   if (!site.corridor_clear && site.clear_approaches == 0) {
     return {Icon::kWarning, "Rejected"};
   }
-  return site.confirmed ? SiteWord{Icon::kNormal, "Confirmed"}
-                        : SiteWord{Icon::kProvisional, "Provisional"};
+  const Icon icon = look.standing == SiteStanding::kConfirmed     ? Icon::kNormal
+                    : look.standing == SiteStanding::kProvisional ? Icon::kProvisional
+                                                                  : Icon::kSearch;
+  return {icon, StandingWord(look.standing)};
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <string_view>
 
+#include "engine/model/site_standing.h"
 #include "gui/widgets/map/projection.h"
 
 namespace palace {
@@ -12,6 +13,7 @@ struct SiteRowLook {
   bool narrow = false;   ///< 44 units high, reason only
   bool enabled = true;   ///< a click arms
   bool refused = false;  ///< by the operator
+  SiteStanding standing = SiteStanding::kProvisional;
   bool old_map = false;  ///< nothing may rest on its map any more: it is confirmed no longer
   /// Of a selected site that holds no longer, or not surely: the engine's word and why.
   std::string_view verdict{}, why{};

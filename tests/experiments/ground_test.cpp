@@ -84,6 +84,8 @@ TEST(GroundReport, CountsConfirmedAndProvisionalApartAndFailsOnAGrossOne) {
   add("rocks", "2", "confirmed", "over");
   add("rocks", "3", "confirmed", "unsafe");
   add("rocks", "4", "provisional", "gross");
+  add("rocks", "5", "look", "gross");
+  add("rocks", "6", "look", "within");
   add("dunes", "0", "none", "none");
   ExperimentReport report = experiment.report(table);
   EXPECT_TRUE(report.passed);
@@ -93,12 +95,18 @@ TEST(GroundReport, CountsConfirmedAndProvisionalApartAndFailsOnAGrossOne) {
   EXPECT_THAT(report.lines,
               Contains(HasSubstr("Provisional sites over 1.2 times a limit: 1 of 1")));
   EXPECT_THAT(report.lines,
+              Contains(HasSubstr("Places to look at first over 1.2 times a limit: 1 of 2")));
+  EXPECT_THAT(report.lines,
               Contains(HasSubstr("safe disc in view that are offered a site: 1 of 2")));
   add("rocks", "1", "confirmed", "gross");
   EXPECT_FALSE(experiment.report(table).passed);
   table.rows.pop_back();
-  add("nowhere", "1", "provisional", "within");
-  EXPECT_FALSE(experiment.report(table).passed);
+  for (const char* kind : {"confirmed", "provisional", "look"}) {
+    add("nowhere", "1", kind, "within");
+    EXPECT_FALSE(experiment.report(table).passed) << kind;
+    table.rows.pop_back();
+  }
+  EXPECT_TRUE(experiment.report(table).passed);
 }
 
 }  // namespace

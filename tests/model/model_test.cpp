@@ -87,14 +87,34 @@ TEST(SiteStanding, AProvisionalSiteSaysWhy) {
   site.pixel.setConstant(std::nan(""));  // a survey
   site.frames_fused = 1;
   EXPECT_EQ(WhyProvisional(site, settings.slad), "rocks or holes over 10 cm may be hidden");
-  site.height_m.three_sigma = 0.12;
-  EXPECT_EQ(WhyProvisional(site, settings.slad),
-            "height noise 12.0 cm (3 sigma), sure below 10.0 cm");
   site.safe_probability = 0.8;
   EXPECT_EQ(WhyProvisional(site, settings.slad), "safe probability 0.800, sure from 0.900 on");
-  settings.slad.mode = SladMode::kThesis;  // knows no probability
-  EXPECT_EQ(WhyProvisional(site, settings.slad),
-            "height noise 12.0 cm (3 sigma), sure below 10.0 cm");
+  // What heights do not tell comes first: nothing else is known then.
+  site.height_m.three_sigma = 0.12;
+  for (const SladMode mode : {SladMode::kModern, SladMode::kThesis}) {
+    settings.slad.mode = mode;
+    EXPECT_EQ(WhyProvisional(site, settings.slad),
+              "height noise 12.0 cm (3 sigma), sure below 10.0 cm");
+  }
+}
+
+TEST(SiteStanding, APlaceInWhoseNoiseAThingCouldHideIsOnlyLookedAt) {
+  const SladSettings settings;  // roughness 10 cm
+  const struct {
+    double three_sigma_m;
+    bool confirmed;
+    const char* word;
+  } table[] = {{0.03, true, "Confirmed"},
+               {0.03, false, "Provisional"},
+               {0.099, false, "Provisional"},
+               {0.10, false, "Look first"},
+               {NAN, false, "Look first"}};
+  for (const auto& row : table) {
+    LandingSite site;
+    site.height_m.three_sigma = row.three_sigma_m;
+    site.confirmed = row.confirmed;
+    EXPECT_STREQ(StandingWord(StandingOf(site, settings)), row.word) << row.three_sigma_m;
+  }
 }
 
 }  // namespace

@@ -165,13 +165,14 @@ bool IsReachable(const Approach& approach, const ElevationMap& map, const SladSe
 
 double Known(float value) { return static_cast<double>(value); }
 
-/// What nine tenths of the cells have been seen in; new ground at the rim must not pass for old.
-int FramesOfMost(std::vector<std::uint16_t>& counts) {
-  if (counts.empty()) {
-    return 0;
+/// What nine tenths of the cells reach; new ground at the rim must not pass for old.
+template <typename Value>
+Value OfMost(std::vector<Value>& values, Value without) {
+  if (values.empty()) {
+    return without;
   }
-  const auto tenth = counts.begin() + static_cast<std::ptrdiff_t>(counts.size() / kNewCellsOneIn);
-  std::nth_element(counts.begin(), tenth, counts.end());
+  const auto tenth = values.begin() + static_cast<std::ptrdiff_t>(values.size() / kNewCellsOneIn);
+  std::nth_element(values.begin(), tenth, values.end());
   return *tenth;
 }
 
@@ -223,22 +224,30 @@ LandingSite EvaluateSite(const ElevationMap& map, const HazardMaps& hazards,
   site.clearance_m = site.safe_distance_m - site.clear_radius_m;
   double age_sum_s = 0;
   std::vector<std::uint16_t> frames;  // of the measured cells
+  std::vector<float> air_m;
   ForDisc(g, cell, site.clear_radius_m, [&](Cell near) {
     if (!g.Contains(near) || map.state.at(near) != CellState::kMeasured) {
       ++site.unknown_cells;
       return;
     }
     frames.push_back(map.frame_count.at(near));
+    if (!map.air_seen_to_m.empty()) {
+      const float top_m = map.air_seen_to_m.at(near);
+      air_m.push_back(std::isnan(top_m) ? -HUGE_VALF : top_m);
+    }
     age_sum_s += map.age_s.empty() ? 0 : Known(map.age_s.at(near));
     site.flags |= hazards.flags.empty() ? std::uint8_t{0} : hazards.flags.at(near);
   });
   site.age_s = frames.empty() ? std::numeric_limits<double>::quiet_NaN()
                               : age_sum_s / static_cast<double>(frames.size());
-  site.frames_fused = FramesOfMost(frames);
+  site.frames_fused = OfMost<std::uint16_t>(frames, 0);
+  const double air_seen_m = Known(OfMost(air_m, kUnknownValue)) - plane.height_m;
+  site.air_seen_m = air_seen_m < 0 ? 0 : air_seen_m;  // NaN stays NaN
   const bool likely = settings.mode == SladMode::kThesis ||
                       site.safe_probability >= settings.limits.min_safe_probability;
   site.confirmed = likely && site.height_m.three_sigma < settings.limits.max_deviation_m &&
-                   FramesAgree(settings, context, site) && NothingHides(map, settings, site);
+                   FramesAgree(settings, context, site) && NothingHides(map, settings, site) &&
+                   !(site.air_seen_m < kLeastAirSeen_m);
   site.distance_m = (context.p_WB - site.p_WS).head<2>().norm();
   const std::optional<Approach> flown = ApproachFlown(settings, context, site);
   site.corridor_clear = !flown || IsReachable(*flown, map, settings, context, site);

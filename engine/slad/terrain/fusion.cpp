@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "engine/core/hash.h"
+#include "engine/slad/terrain/air_seen.h"
 #include "engine/slad/terrain/elevation_map_builder.h"
 #include "engine/slad/terrain/frame_registration.h"
 #include "engine/slad/terrain/hole_filling.h"
@@ -204,6 +205,7 @@ void TerrainFusion::FuseFrame(const RangeMap& range, const TerrainPoints& points
   ElevationMap frame =
       AccumulateCells(points, map_.geometry, settings.mode, kCorrelatedPixels, range.time);
   Register(frame);
+  AddAirSeen(range.camera, range.pose->X_WC, frame, map_.air_seen_to_m);
   Fuse(frame, MisplacedVariance(*range.pose, frame), settings.fusion.frames_fused);
   AddPixels(range, settings.fusion.frames_fused);
 }
@@ -218,6 +220,7 @@ void TerrainFusion::MoveTo(const GridGeometry& geometry) {
                      Grid<CellState>(rows, cols, CellState::kUnknown),
                      GridF(rows, cols, kUnknownValue),
                      GridF(rows, cols, kUnknownValue)};
+  moved.air_seen_to_m = GridF(rows, cols, kUnknownValue);
   Grid<std::int8_t> disagreement(rows, cols, 0);
   Grid<FrameSpread> spread(rows, cols);
   Grid<PixelCount> pixels(rows, cols);
@@ -239,6 +242,7 @@ void TerrainFusion::MoveTo(const GridGeometry& geometry) {
         moved.frame_count.at(r, c) = map_.frame_count.at(from);
         moved.state.at(r, c) = map_.state.at(from);
         moved.age_s.at(r, c) = map_.age_s.at(from);
+        moved.air_seen_to_m.at(r, c) = map_.air_seen_to_m.at(from);
         disagreement.at(r, c) = disagreement_.at(from);
         spread.at(r, c) = spread_.at(from);
         pixels.at(r, c) = pixels_.at(from);
@@ -302,6 +306,7 @@ void TerrainFusion::Fuse(const ElevationMap& frame, const GridF& misplaced_m2, i
       variance = static_cast<float>(p + kUnseenGrowth_m2);
       if (state == CellState::kMeasured && p > kForgotten_m2) {
         mean = measured = variance = age_s = kUnknownValue;
+        map_.air_seen_to_m.cells()[i] = kUnknownValue;
         count = 0;
         state = CellState::kUnknown;
       }

@@ -3,6 +3,7 @@
 
 #include "engine/core/hash.h"
 #include "engine/model/mission/map_age.h"
+#include "engine/model/site_standing.h"
 #include "gui/panels/tune/tune.h"
 #include "gui/widgets/button.h"
 #include "gui/widgets/interact.h"
@@ -233,8 +234,7 @@ void DrawChosenPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui) 
            Fixed(best->safe_distance_m, 1) + " m clear");
   DrawText(ui, s.caption, p.text2, content.right() - s.Px(12), middle,
            IsMapOld(snap, ui.silent_s) ? "Old map"
-           : best->confirmed           ? "Confirmed"
-                                       : "Provisional",
+                                       : StandingWord(StandingOf(*best, facts.shown->settings)),
            Align::kRight);
   float y = content.y + s.Px(42);
   const std::string reason = best->reason.empty() ? "Best of the newest map." : best->reason + ".";

@@ -28,6 +28,12 @@ TEST(ApproveWords, TheButtonTellsWhatAHoldDoesOrWhyItDoesNothing) {
       {"armed", [](EngineSnapshot&) {}, HoldPhase::kReady, "Hold to approve A", ""},
       {"provisional", [&](EngineSnapshot& s) { mission(s).armed->confirmed = false; },
        HoldPhase::kReady, "Hold to approve A, provisional", ""},
+      {"look first",
+       [&](EngineSnapshot& s) {
+         mission(s).armed->confirmed = false;
+         mission(s).armed->height_m.three_sigma = 0.2;
+       },
+       HoldPhase::kReady, "Hold to approve A, look first", ""},
       {"sent",
        [&](EngineSnapshot& s) {
          mission(s).approval_phase = Phase::kSent;
@@ -133,6 +139,10 @@ TEST(ApproveWords, AnApprovalLeadsToADescentUnlessSomethingSpeaksAgainstTheSite)
   m.armed->confirmed = false;
   m.armed->frames_fused = 1;
   EXPECT_NE(ApprovalConsequence(snap, false).find("Provisional: "), std::string::npos);
+  m.armed->height_m.three_sigma = 0.2;
+  EXPECT_NE(ApprovalConsequence(snap, false).find("Look first: height noise 20.0 cm"),
+            std::string::npos);
+  m.armed->height_m.three_sigma = 0.03;
   auto shaken = std::make_shared<TerrainDecision>(*snap.terrain->applied);
   shaken->selection.sites[0].called_unsafe_s = 28;
   snap.terrain.Edit().applied = shaken;
