@@ -34,11 +34,15 @@ void JudgeArmedSite(const MissionMemory& m, Timestamp now, GuardInputs& in) {
   if (in.site_holds && !m.site.newest().old_ground.empty()) {
     in.site_holds = false;
     in.site_reason = m.site.newest().old_ground;
+    if (HeightAboveSite(m) < GuardLimits::look_height_m) {
+      in.site_reason = words::LookFromAbove(in.site_reason);  // it has left the view for good
+    }
   }
   if (in.site_holds && !m.site.newest().low_air.empty() &&
       HeightAboveSite(m) < GuardLimits::look_height_m) {
     in.site_holds = false;
-    in.site_reason = words::LookFromAbove(m.site.newest().low_air);
+    in.site_reason = words::LookFromAbove(m.site.newest().low_air + " from below " +
+                                          LimitWords({GuardLimits::look_height_m, "m", 0}));
   }
   if (in.site_holds && !m.site.newest().approach_clear) {
     // What is approved is the way that was planned when the site was armed.

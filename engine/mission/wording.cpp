@@ -181,10 +181,7 @@ std::string ConfirmHigher(const std::string& letter) {
   return Site(letter) + " is provisional, confirm it above " + ConfirmHeight();
 }
 
-std::string LookFromAbove(const std::string& low_air) {
-  return low_air + " from below " + LimitWords({GuardLimits::look_height_m, "m", 0}) +
-         ": wave off to look from above";
-}
+std::string LookFromAbove(const std::string& why) { return why + ": wave off to look from above"; }
 
 std::string ApproachBlocked(const std::string& letter) {
   return std::string("Approach to site ") + letter + " is blocked";

@@ -106,8 +106,8 @@ std::string OffTheMap(const std::string& letter);
 std::string NotConfirmed(const std::string& letter);
 /// A provisional site so low that it cannot be approved any more.
 std::string ConfirmHigher(const std::string& letter);
-/// Low air (site_finding.h), and what to do.
-std::string LookFromAbove(const std::string& low_air);
+/// Why a site cannot be approved from so low, and what to do.
+std::string LookFromAbove(const std::string& why);
 std::string ApproachBlocked(const std::string& letter);
 /// After what is told of a selection; empty for a straight approach, or none yet.
 std::string ApproachTurned(const std::optional<ApproachPlan>& plan);

@@ -59,7 +59,7 @@ std::string WhyProvisional(const LandingSite& site, const SladSettings& settings
   const std::string over = WithNumbers("over %.0f cm", 100 * settings.limits.max_deviation_m);
   if (site.hidden_things > kMostHidden) {
     // One line of the narrowest approve panel.
-    return WithNumbers("%.2f rocks or holes may be hidden, max %.2f", site.hidden_things,
+    return WithNumbers("%.2f rocks or holes may be hidden, sure to %.2f", site.hidden_things,
                        kMostHidden);
   }
   if (settings.mode == SladMode::kModern &&

@@ -42,12 +42,17 @@ void DrawChannelStripPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame
     std::string facts = "never";
     if (channel.state != State::kNever) {
       facts = AgeText(channel.age_s) + "   " +
-              Fixed(channel.rate_hz, channel.rate_hz < 100 ? 1 : 0) + " Hz" +
-              (channel.note.empty() ? "" : "   " + channel.note);
+              Fixed(channel.rate_hz, channel.rate_hz < 100 ? 1 : 0) + " Hz";
     }
-    DrawText(ui, fact_font, ink, text_x, second, FitWords(fact_font, facts, pitch - s.Px(26)));
+    // A note that does not fit goes whole: half of "± 0.06 m" says nothing.
+    const bool noted = channel.state != State::kNever && !channel.note.empty();
+    const std::string noted_facts = noted ? facts + "   " + channel.note : facts;
+    const float room = pitch - s.Px(26);
+    const bool fits = FitWords(fact_font, noted_facts, room) == noted_facts;
+    DrawText(ui, fact_font, ink, text_x, second,
+             fits ? noted_facts : FitWords(fact_font, facts, room));
     ui.items.Add(std::string("channel/") + ChannelName(channel.id), {x, rect.y, pitch, rect.h},
-                 true, facts);
+                 true, noted_facts);
     x += pitch;
   }
 }

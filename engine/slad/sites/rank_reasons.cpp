@@ -39,7 +39,7 @@ std::string Text(const char* format, double value, const char* against = "") {
 constexpr double kWider_m = 0.05, kCheaper = 0.005;
 
 /// Of a site that is better on this map than those before it.
-constexpr const char* kNotYet = ", which is noise or too new";
+constexpr const char* kNotYet = " (noise, or new)";
 
 /// What sites are ranked by where room ranks.
 double Room(const LandingSite& site) {
@@ -97,7 +97,7 @@ std::string ReasonBelow(SiteRanking ranking, const SiteSelection& selection, std
   }
   if (i > 1 && above.corridor_clear && Beats(ranking, site, above)) {
     reason += std::string("; ") + (ranking == SiteRanking::kFarthest ? "wider" : "cheaper") +
-              " than " + above.letter + " by noise or too newly";
+              " than " + above.letter + " (noise, or new)";
   }
   return reason;
 }
