@@ -1,6 +1,5 @@
 #include "engine/experiments/evaluate_ground.h"
 
-#include <array>
 #include <cmath>
 #include <cstdio>
 #include <iterator>
@@ -14,9 +13,10 @@
 #include "engine/core/units.h"
 #include "engine/experiments/family_options.h"
 #include "engine/experiments/ground_field.h"
+#include "engine/experiments/ground_report.h"
 #include "engine/experiments/hidden_fit.h"
+#include "engine/experiments/landing_peers.h"
 #include "engine/model/site_standing.h"
-#include "engine/report/statistics.h"
 #include "engine/runtime/settings_io.h"
 #include "engine/slad/hazards/hidden_things.h"
 #include "engine/slad/slad.h"
@@ -55,8 +55,6 @@ struct GroundOptions {
 
 /// Columns of one site, or of none.
 constexpr std::size_t kSiteColumns = 12 + std::size(kHiddenDensities);
-std::string HiddenColumn(double density) { return "hidden_" + CsvNumber(density); }
-
 const char* KindOf(SiteStanding standing) {
   switch (standing) {
     case SiteStanding::kConfirmed:
@@ -75,8 +73,9 @@ struct Field {
   ViewPlan plan;
   bool safe_in_view = false, easy_in_view = false;
 
-  TrialRow Row(std::vector<std::string> site) const {
-    TrialRow row = {family,
+  TrialRow Row(std::vector<std::string> site, const char* by = kByPalace) const {
+    TrialRow row = {by,
+                    family,
                     CsvNumber(plan.height_m),
                     CsvNumber(Deg(plan.tilt_rad)),
                     CsvNumber(Deg(2 * std::atan(plan.camera.width / 2.0 / plan.camera.fx_px))),
@@ -125,6 +124,42 @@ TrialRow RowOfSite(const Field& field, const World& world, const LandingSite& si
   return field.Row(std::move(row));
 }
 
+TrialRow RowOfNone(const Field& field, const char* by, const std::string& why) {
+  TrialRow row = {"0", "none", "none", "nan", "none", "nan", "nan", "nan", "nan", CsvText(why)};
+  row.resize(kSiteColumns, "nan");
+  return field.Row(std::move(row), by);
+}
+
+/// The thesis's best site, then those of the rules of others.
+std::vector<PeerPlace> OthersPlaces(const std::vector<FieldFrame>& frames,
+                                    const TerrainDecision& decision, const Settings& settings) {
+  Settings of_thesis = settings;
+  of_thesis.slad.mode = SladMode::kThesis;
+  const auto thesis = DecideOnField(frames, of_thesis);
+  const std::vector<LandingSite>& sites = thesis->selection.sites;
+  std::vector<PeerPlace> places = {{"thesis", std::nullopt}};
+  if (!sites.empty()) {
+    places.front().place_m = sites.front().p_WS.head<2>();
+  }
+  for (PeerPlace& place : PlacesOfPeers(frames, *decision.elevation, settings.slad)) {
+    places.push_back(std::move(place));
+  }
+  return places;
+}
+
+TrialRow RowOfOther(const Field& field, const World& world, const PeerPlace& other,
+                    const Lander& lander, const TruthLimits& limits) {
+  if (!other.place_m) {
+    return RowOfNone(field, other.rule, "none");
+  }
+  const SiteTruth truth = TruthOfSite(world, *other.place_m, lander, limits, kHoverEnd_s);
+  TrialRow row = {
+      "1",   "place", SiteVerdictName(truth.verdict()), CsvNumber(truth.worst_of_limit), truth.what,
+      "nan", "nan",   CsvNumber(other.place_m->x()),    CsvNumber(other.place_m->y()),   "none"};
+  row.resize(kSiteColumns, "nan");
+  return field.Row(std::move(row), other.rule);
+}
+
 Result<std::vector<TrialRow>> RunField(const GroundOptions& options, const std::string& family,
                                        int trial, std::uint64_t seed, const Settings& settings) {
   const Result<World> world = MakeFamily(family, seed);
@@ -156,10 +191,10 @@ Result<std::vector<TrialRow>> RunField(const GroundOptions& options, const std::
                              limits, hidden));
   }
   if (rows.empty()) {
-    TrialRow row = {"0",   "none", "none", "nan", "none",
-                    "nan", "nan",  "nan",  "nan", CsvText(selection.none_reason)};
-    row.resize(kSiteColumns, "nan");
-    rows.push_back(field.Row(std::move(row)));
+    rows.push_back(RowOfNone(field, kByPalace, selection.none_reason));
+  }
+  for (const PeerPlace& other : OthersPlaces(*frames, *decision, settings)) {
+    rows.push_back(RowOfOther(field, *world, other, settings.slad.lander, limits));
   }
   return rows;
 }
@@ -178,172 +213,9 @@ Result<std::vector<TrialRow>> RunTrial(const GroundOptions& options, int trial,
     }
     rows.insert(rows.end(), of_field->begin(), of_field->end());
     std::fprintf(stderr, "seed %llu, %s: %s\n", static_cast<unsigned long long>(seed),
-                 family.c_str(), of_field->front()[7].c_str());
+                 family.c_str(), of_field->front()[8].c_str());
   }
   return rows;
-}
-
-int Count(const TrialTable& table, const char* kind) {
-  return static_cast<int>(table.Where("kind", kind).rows.size());
-}
-
-/// Those whose verdict is that or worse.
-int AtLeast(const TrialTable& table, SiteTruth::Verdict verdict) {
-  int count = 0;
-  for (int i = static_cast<int>(verdict); i < kSiteVerdictCount; ++i) {
-    count += static_cast<int>(
-        table.Where("verdict", SiteVerdictName(static_cast<SiteTruth::Verdict>(i))).rows.size());
-  }
-  return count;
-}
-
-std::string Share(int hits, int trials) {
-  if (trials == 0) {
-    return "-";
-  }
-  const Interval share = WilsonInterval(hits, trials);
-  return WithNumbers("%.0f of %.0f", hits, trials) +
-         WithNumbers(" (%.1f to %.1f %%)", 100 * share.low, 100 * share.high);
-}
-
-/// Fields, by their first row, of which `column` reads 1, and those of them with a site.
-std::array<int, 2> Offered(const TrialTable& table, const char* column) {
-  std::array<int, 2> counts{};
-  const std::vector<double> rank = table.Numbers("rank"), in_view = table.Numbers(column);
-  for (std::size_t i = 0; i < rank.size(); ++i) {
-    if (rank[i] <= 1 && in_view[i] > 0.5) {
-      ++counts[0];
-      counts[1] += rank[i] > 0.5 ? 1 : 0;
-    }
-  }
-  return counts;
-}
-
-std::vector<std::string> RowOfReport(const std::string& name, const TrialTable& table) {
-  const TrialTable confirmed = table.Where("kind", "confirmed"),
-                   provisional = table.Where("kind", "provisional"),
-                   looks = table.Where("kind", "look");
-  const int n = Count(table, "confirmed"), m = Count(table, "provisional"),
-            k = Count(table, "look");
-  const auto safe = Offered(table, "safe_in_view"), easy = Offered(table, "easy_in_view");
-  using V = SiteTruth::Verdict;
-  return {name,
-          Share(AtLeast(confirmed, V::kOver), n),
-          Share(AtLeast(confirmed, V::kUnsafe), n),
-          Share(AtLeast(confirmed, V::kGrosslyUnsafe), n),
-          Share(AtLeast(provisional, V::kUnsafe), m),
-          Share(AtLeast(looks, V::kUnsafe), k),
-          Share(safe[1], safe[0]),
-          Share(easy[1], easy[0])};
-}
-
-std::vector<JudgedSite> JudgedSites(const TrialTable& table) {
-  std::vector<JudgedSite> sites;
-  const std::size_t family = table.Index("family"), verdict = table.Index("verdict");
-  std::vector<std::vector<double>> hidden;
-  for (const double density : kHiddenDensities) {
-    hidden.push_back(table.Numbers(HiddenColumn(density)));
-  }
-  for (std::size_t i = 0; i < table.rows.size(); ++i) {
-    JudgedSite site{table.rows[i][family], {}, false};
-    for (const std::vector<double>& of_density : hidden) {
-      site.hidden.push_back(of_density[i]);
-    }
-    const std::string& is = table.rows[i][verdict];
-    site.unsafe = is == SiteVerdictName(SiteTruth::Verdict::kUnsafe) ||
-                  is == SiteVerdictName(SiteTruth::Verdict::kGrosslyUnsafe);
-    if (!std::isnan(site.hidden.front())) {
-      sites.push_back(std::move(site));
-    }
-  }
-  return sites;
-}
-
-/// Probabilities said against the share of sites that were safe, in bins.
-void AddCalibration(const TrialTable& table, HtmlPage& page) {
-  constexpr double kEdges[] = {0, 0.5, 0.7, 0.8, 0.9, 0.95, 0.98, 1.0001};
-  const std::vector<double> said = table.Numbers("probability");
-  const std::size_t verdict = table.Index("verdict");
-  std::vector<std::vector<std::string>> rows;
-  for (std::size_t k = 0; k + 1 < std::size(kEdges); ++k) {
-    double sum = 0;
-    int count = 0, safe = 0;
-    for (std::size_t i = 0; i < said.size(); ++i) {
-      if (said[i] >= kEdges[k] && said[i] < kEdges[k + 1]) {
-        const std::string& is = table.rows[i][verdict];
-        sum += said[i];
-        ++count;
-        safe += is == SiteVerdictName(SiteTruth::Verdict::kWithin) ||
-                        is == SiteVerdictName(SiteTruth::Verdict::kOver)
-                    ? 1
-                    : 0;
-      }
-    }
-    if (count > 0) {
-      rows.push_back({WithNumbers("%.2f to ", kEdges[k]) + WithNumbers("%.2f", kEdges[k + 1]),
-                      WithNumbers("%.3f", sum / count), Share(safe, count)});
-    }
-  }
-  page.Heading("Probability said and found").Table({"Said", "Mean", "Safe up to 1.2 x"}, rows);
-}
-
-void AddLeaveOneOut(const TrialTable& table, ExperimentReport& report) {
-  const std::vector<JudgedSite> sites = JudgedSites(table);
-  const std::vector<LeftOut> left_out = LeaveOneOut(sites);
-  if (left_out.empty()) {
-    return;
-  }
-  std::vector<std::vector<std::string>> rows;
-  for (const LeftOut& one : left_out) {
-    rows.push_back({one.family, WithNumbers("%.4f", one.things_per_m2),
-                    WithNumbers("%.1f %%", 100 * one.said_unsafe), Share(one.unsafe, one.sites)});
-  }
-  report.lines.push_back("Hidden rocks and holes a square metre, fitted on all these sites: " +
-                         WithNumbers("%.4f, in force %.4f", FitDensity(sites), kThingsPer_m2));
-  report.page.Heading("Leave one family out")
-      .Paragraph(
-          "Rocks and holes hidden a square metre, fitted on the sites of all other families; by it "
-          "the mean chance that something over 1.2 times a limit hides under a site of this "
-          "family, and the share of its sites that were so. Nothing else is fitted.")
-      .Table({"Family left out", "Fitted, 1/m2", "Said unsafe", "Unsafe"}, rows);
-}
-
-ExperimentReport Report(const TrialTable& table) {
-  ExperimentReport report{HtmlPage("PALACE: sites on every family of worlds")};
-  std::vector<std::vector<std::string>> rows;
-  for (const std::string& family : table.Values("family")) {
-    rows.push_back(RowOfReport(family, table.Where("family", family)));
-  }
-  for (const std::string& height : table.Values("height_m")) {
-    rows.push_back(RowOfReport(height + " m", table.Where("height_m", height)));
-  }
-  rows.push_back(RowOfReport("all", table));
-  const std::vector<std::string>& all = rows.back();
-  const TrialTable nowhere = table.Where("family", "nowhere");
-  const int offered =
-      Count(nowhere, "confirmed") + Count(nowhere, "provisional") + Count(nowhere, "look");
-  const int gross = AtLeast(table.Where("kind", "confirmed"), SiteTruth::Verdict::kGrosslyUnsafe);
-  report.passed = gross == 0 && offered == 0;
-  report.lines = {"Confirmed sites over a limit: " + all[1],
-                  "Confirmed sites over 1.2 times a limit (unsafe): " + all[2],
-                  "Confirmed sites over 1.5 times a limit (grossly unsafe): " + all[3],
-                  "Provisional sites over 1.2 times a limit: " + all[4],
-                  "Places to look at first over 1.2 times a limit: " + all[5],
-                  "Fields with a safe disc in view that are offered a site: " + all[6],
-                  "Fields with an easy disc in view that are offered a site: " + all[7],
-                  "Sites offered where nothing is safe (nowhere): " + WithNumbers("%.0f", offered)};
-  report.page.List(report.lines)
-      .Paragraph(
-          "Shares with 95 % intervals (Wilson). A site is judged by the worst touchdown within the "
-          "navigation error of its middle; limits as set. Water and what moves count as grossly "
-          "unsafe. An easy disc keeps six tenths of every limit. Sites of one field are related.")
-      .Table({"Family or height", "Confirmed: over a limit", "Confirmed: over 1.2 x",
-              "Confirmed: over 1.5 x", "Provisional: over 1.2 x", "Look first: over 1.2 x",
-              "Safe disc in view: offered", "Easy disc in view: offered"},
-             rows);
-  AddCalibration(table, report.page);
-  AddLeaveOneOut(table, report);
-  return report;
 }
 
 }  // namespace
@@ -355,9 +227,9 @@ Experiment GroundExperiment() {
   experiment.purpose = "Sites on every family of worlds, held against their truth";
   experiment.default_trials = 8;
   experiment.columns = {
-      "family", "height_m", "tilt_deg", "fov_deg", "safe_in_view", "easy_in_view",    "rank",
-      "kind",   "verdict",  "of_limit", "limit",   "probability",  "safe_distance_m", "north_m",
-      "east_m", "why",      "hidden",   "sigma_m"};
+      "by",      "family", "height_m", "tilt_deg", "fov_deg", "safe_in_view", "easy_in_view",
+      "rank",    "kind",   "verdict",  "of_limit", "limit",   "probability",  "safe_distance_m",
+      "north_m", "east_m", "why",      "hidden",   "sigma_m"};
   for (const double density : kHiddenDensities) {
     experiment.columns.push_back(HiddenColumn(density));
   }
@@ -380,7 +252,7 @@ Experiment GroundExperiment() {
   experiment.run = [options](int trial, std::uint64_t seed) {
     return RunTrial(*options, trial, seed);
   };
-  experiment.report = Report;
+  experiment.report = ReportOfGround;
   return experiment;
 }
 

@@ -9,6 +9,7 @@
 #include "engine/core/units.h"
 #include "engine/experiments/evaluate_ground.h"
 #include "engine/experiments/ground_field.h"
+#include "engine/experiments/ground_report.h"
 #include "engine/report/trial_table.h"
 
 namespace palace {
@@ -69,9 +70,10 @@ TEST(GroundReport, CountsConfirmedAndProvisionalApartAndFailsOnAGrossOne) {
   const Experiment experiment = GroundExperiment();
   TrialTable table{.columns = {"trial", "seed"}, .rows = {}};
   table.columns.insert(table.columns.end(), experiment.columns.begin(), experiment.columns.end());
-  const auto add = [&](const char* family, const char* rank, const char* kind,
-                       const char* verdict) {
+  const auto add = [&](const char* family, const char* rank, const char* kind, const char* verdict,
+                       const char* by = kByPalace) {
     std::vector<std::string> row(table.columns.size(), "nan");
+    row[table.Index("by")] = by;
     row[table.Index("family")] = family;
     row[table.Index("height_m")] = "15";
     row[table.Index("safe_in_view")] = row[table.Index("easy_in_view")] = "1";
@@ -86,7 +88,9 @@ TEST(GroundReport, CountsConfirmedAndProvisionalApartAndFailsOnAGrossOne) {
   add("rocks", "4", "provisional", "gross");
   add("rocks", "5", "look", "gross");
   add("rocks", "6", "look", "within");
+  add("rocks", "1", "place", "gross", "raster");
   add("dunes", "0", "none", "none");
+  add("dunes", "1", "place", "within", "raster");
   ExperimentReport report = experiment.report(table);
   EXPECT_TRUE(report.passed);
   EXPECT_THAT(report.lines, Contains(HasSubstr("over a limit: 2 of 3")));
@@ -98,6 +102,11 @@ TEST(GroundReport, CountsConfirmedAndProvisionalApartAndFailsOnAGrossOne) {
               Contains(HasSubstr("Places to look at first over 1.2 times a limit: 1 of 2")));
   EXPECT_THAT(report.lines,
               Contains(HasSubstr("safe disc in view that are offered a site: 1 of 2")));
+  EXPECT_THAT(report.lines,
+              Contains(HasSubstr("Best place by raster: over 1.2 times a limit 1 of 2")))
+      << "a place of others' counts for nobody else";
+  EXPECT_THAT(report.lines,
+              Contains(HasSubstr("Best place by palace: over 1.2 times a limit 0 of 1")));
   add("rocks", "1", "confirmed", "gross");
   EXPECT_FALSE(experiment.report(table).passed);
   table.rows.pop_back();
