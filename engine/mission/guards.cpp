@@ -59,7 +59,8 @@ std::string WhyNotPositioned(const GuardInputs& in, const Limit& limit) {
   }
   return in.coherence >= limit.value
              ? ""
-             : WithNumbers("Coherence %.2f, min ", in.coherence) + LimitWords(limit);
+             : WithNumbers("Coherence %.2f, min ", ShownBeyond(in.coherence, limit.value, 2)) +
+                   LimitWords(limit);
 }
 
 std::string WhyNotShown(const GuardInputs& in, const Limit& limit) {
@@ -115,7 +116,8 @@ std::string WhyNotInTime(const GuardInputs& in, const Limit& limit) {
 
 std::string WhyWindy(const GuardInputs& in, const Limit& limit) {
   return WindLimit(in.wind_mps, limit.value, EnforcedBy::kGuard).over
-             ? WithNumbers("Wind %.1f m/s, max ", in.wind_mps) + LimitWords(limit)
+             ? WithNumbers("Wind %.1f m/s, max ", ShownBeyond(in.wind_mps, limit.value, 1)) +
+                   LimitWords(limit)
              : "";
 }
 

@@ -54,11 +54,13 @@ std::string WhyNoApproval(const MissionMemory& m) {
   if (IsFlying(m.status.state)) {
     return words::kAlreadyApproved;
   }
-  const GuardResult* failed = FirstFailure(m.status.guards);
-  if (m.status.state != MissionState::kArmed || failed == nullptr) {
-    return words::kSelectFirst;
+  // What would stop it with a site, too, is worth more than that none is selected.
+  for (const GuardResult& guard : m.status.guards) {
+    if (!guard.pass && guard.reason != words::kSelectFirst) {
+      return guard.reason;
+    }
   }
-  return failed->reason;
+  return words::kSelectFirst;
 }
 
 void PublishFigures(MissionMemory& m, Timestamp now) {

@@ -85,8 +85,11 @@ void FollowSite(MissionTurn& turn, const MissionInputs& in) {
   if (in.terrain.rechecked && in.terrain.rechecked->age_s >= 0) {
     m.ground_seen_at = std::max(m.ground_seen_at, AddSeconds(now, -in.terrain.rechecked->age_s));
   }
-  m.armed.confirmed =
-      m.armed.confirmed || (m.site.newest().holds() && in.terrain.rechecked->confirmed);
+  if (!m.armed.confirmed && m.site.newest().holds() && in.terrain.rechecked->confirmed) {
+    m.armed.confirmed = true;
+    AddEvent(turn, now, EventKind::kSite,
+             words::SiteConfirmed(m.status.armed->letter, HeightAboveSite(m)));
+  }
   FollowAlternative(m, in);
   const SiteVerdict verdict = m.site.VerdictAt(now);
   if (verdict != m.told) {

@@ -92,7 +92,7 @@ void StepSearching(MissionTurn& turn, const MissionInputs& in) {
   if (!live) {
     if (state != MissionState::kNoLive) {
       m.winner = {};
-      Enter(turn, MissionState::kNoLive, words::Older("Cameras", age_s, 0), now);
+      Enter(turn, MissionState::kNoLive, words::Older("Left camera", age_s, 0), now);
     }
     return;
   }

@@ -161,6 +161,11 @@ std::string SiteTold(const MissionMemory& m, SiteVerdict verdict) {
   return name + " lost: " + m.site.reason() + ". " + Alternative(m);
 }
 
+std::string SiteConfirmed(const std::string& letter, double height_m) {
+  return Site(letter) + " confirmed" +
+         (std::isnan(height_m) ? "" : WithNumbers(", %.1f m above it", height_m));
+}
+
 std::string Alternative(const MissionMemory& m) {
   if (!m.alternative) {
     return "No alternative is kept.";

@@ -100,6 +100,8 @@ std::string SiteRefused(const std::string& letter);
 std::string RefusedAndNext(const std::string& letter, const LandingSite* next);
 /// A changed verdict over the armed site.
 std::string SiteTold(const MissionMemory& memory, SiteVerdict verdict);
+/// "Site A confirmed, 9.8 m above it".
+std::string SiteConfirmed(const std::string& letter, double height_m);
 std::string Alternative(const MissionMemory& memory);
 /// "Site A is not on the newest map".
 std::string OffTheMap(const std::string& letter);

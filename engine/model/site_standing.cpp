@@ -1,6 +1,7 @@
 #include "engine/model/site_standing.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "engine/core/check.h"
 #include "engine/core/rounding.h"
@@ -12,6 +13,14 @@ namespace {
 /// Unknown noise hides everything.
 bool StandsInNoise(const LandingSite& site, const SladSettings& settings) {
   return !(site.height_m.three_sigma < settings.limits.max_deviation_m);
+}
+
+/// "sure from 8 m above it", and where no look from nearer is known to settle it "sure below 10
+/// cm".
+std::string SureFrom(const LandingSite& site, const std::string& limit) {
+  return "sure " + (std::isnan(site.look_height_m)
+                        ? limit
+                        : WithNumbers("from %.0f m above it", std::floor(site.look_height_m)));
 }
 
 }  // namespace
@@ -53,14 +62,14 @@ std::string WhyProvisional(const LandingSite& site, const SladSettings& settings
     return "confirmed by the newest map, sure after 5 in a row";
   }
   if (StandsInNoise(site, settings)) {
-    return WithNumbers("height noise %.1f cm (3 sigma), sure below %.1f cm",
-                       100 * site.height_m.three_sigma, 100 * settings.limits.max_deviation_m);
+    return WithNumbers("height noise %.1f cm (3 sigma), ", 100 * site.height_m.three_sigma) +
+           SureFrom(site, WithNumbers("below %.1f cm", 100 * settings.limits.max_deviation_m));
   }
   const std::string over = WithNumbers("over %.0f cm", 100 * settings.limits.max_deviation_m);
   if (site.hidden_things > kMostHidden) {
     // One line of the narrowest approve panel.
-    return WithNumbers("%.2f rocks or holes may be hidden, sure to %.2f", site.hidden_things,
-                       kMostHidden);
+    return WithNumbers("%.2f rocks or holes may be hidden, ", site.hidden_things) +
+           SureFrom(site, WithNumbers("to %.2f", kMostHidden));
   }
   if (settings.mode == SladMode::kModern &&
       !(site.safe_probability >= settings.limits.min_safe_probability)) {

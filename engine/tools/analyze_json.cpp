@@ -45,6 +45,7 @@ Json SiteJson(const LandingSite& site, const SladSettings& slad) {
           {"confirmed", site.confirmed},
           {"standing", StandingWord(StandingOf(site, slad))},
           {"provisional_because", WhyProvisional(site, slad)},
+          {"look_height_m", Number(site.look_height_m)},
           {"letter", site.letter},
           {"step_m", Number(site.step_m.value)},
           {"safe_distance_m", site.safe_distance_m},

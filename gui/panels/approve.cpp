@@ -264,7 +264,7 @@ void DrawApprovePanel(const EngineSnapshot& snap, const Rect& rect, bool narrow,
       font = TextWidth(s.body, words) <= width + s.Px(4) ? s.body : s.caption;
       lines = {words};
     }
-    lines.resize(std::min<std::size_t>(lines.size(), 2));
+    lines.resize(std::min<std::size_t>(lines.size(), 3));
     for (const std::string& line : lines) {
       DrawText(ui, font, p.text2, x, y, line);
       y += s.Px(19);

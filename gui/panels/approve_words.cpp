@@ -116,14 +116,17 @@ std::string ApprovalConsequence(const EngineSnapshot& snap, bool narrow) {
             Fixed(m.time_to_touchdown_s, 0) + " s";
   }
   const std::string shaken = WhyShaken(snap);
-  if (!shaken.empty()) {
-    return narrow ? shaken + "." : shaken + ". " + text + ".";
-  }
-  const std::string doubt =
+  std::string doubt =
       m.armed ? WhyProvisional(*m.armed, snap.session->settings.slad) : std::string();
+  if (!doubt.empty()) {
+    doubt = StandingWord(StandingOf(*m.armed, snap.session->settings.slad)) + (": " + doubt) + ".";
+  }
+  if (!shaken.empty()) {
+    // Two lines: that a map called it unsafe goes before how far away it is.
+    return narrow ? shaken + "." : shaken + ". " + (doubt.empty() ? text + "." : doubt);
+  }
   if (!narrow && !doubt.empty()) {
-    return text + ". " + StandingWord(StandingOf(*m.armed, snap.session->settings.slad)) + ": " +
-           doubt + ".";
+    return text + ". " + doubt;
   }
   if (!narrow && m.approach) {
     double heading = Deg(m.approach->heading_rad);

@@ -53,7 +53,12 @@ std::string Headline(const MissionStatus& m, double silent_s, double heard_s) {
 std::string Record(const EngineSnapshot& snap) {
   const MissionStatus& m = snap.flight->mission;
   if (m.state == MissionState::kHold || m.state == MissionState::kAborting) {
-    const std::string why = m.why.empty() ? std::string("The approval is over.") : m.why + ".";
+    // What caused a hold may be over since; that it was told is so.
+    const std::string when = m.state == MissionState::kHold && snap.time >= m.since
+                                 ? "Held " + AgeText(SecondsBetween(m.since, snap.time)) + " ago: "
+                                 : "";
+    const std::string why =
+        m.why.empty() ? std::string("The approval is over.") : when + m.why + ".";
     const bool lost = m.state == MissionState::kHold && !m.rechecks.empty() &&
                       m.rechecks.back().verdict == SiteVerdict::kLost;
     const LandingSite* other =

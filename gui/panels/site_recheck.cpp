@@ -111,7 +111,7 @@ void DrawChecksColumn(const EngineSnapshot& snap, const Rect& column, bool narro
     const VerdictLook look = LookOf(check->verdict, p);
     DrawIcon(Canvas(), look.icon, {column.x + s.Px(6), y}, s.Px(12), look.colour);
     DrawText(ui, s.body, p.text2, column.x + s.Px(20), y,
-             Fixed(check->height_above_site_m, 0) + " m");
+             Fixed(check->height_above_site_m, 1) + " m");
     const std::string clear = Fixed(check->safe_distance_m, 1) + (roomy ? " m clear" : " m");
     DrawText(ui, s.medium, p.text1, column.right(), y, clear, Align::kRight);
     y += pitch;

@@ -128,8 +128,10 @@ Rect TextPlate(UiFrame& ui, const Rect& within, Corner corner, std::string_view 
 
 void LetterPlate(UiFrame& ui, ImVec2 c, std::string_view letter, bool selected, float side) {
   const Style& s = ui.style;
-  const float half = s.Px(side) / 2;
-  const Rect r{std::round(c.x - half), std::round(c.y - half), s.Px(side), s.Px(side)};
+  const float height = s.Px(side);
+  // "A2" is wider than its square.
+  const float width = std::max(height, TextWidth(s.medium, letter) + s.Px(6));
+  const Rect r{std::round(c.x - width / 2), std::round(c.y - height / 2), width, height};
   ImDrawList* dl = Canvas();
   FillRect(dl, r, selected ? picture::kWhite : picture::kLetterDark, s.Fine(2));
   // A rim against whatever lies behind: pictures are dark or light, and so are panels.

@@ -86,10 +86,13 @@ void DrawGrid(UiFrame& ui, const Axes& axes) {
     DrawText(ui, s.caption, p.text2, axes.floor.x - s.Px(8), at,
              Fixed(static_cast<double>(y), decimals), Align::kRight);
   }
+  // The unit once: beside every figure it would touch the next.
+  std::string unit = v.time_axis == PlotView::TimeAxis::kRelative ? " s" : "";
   for (const float x : TimeTicks(s, axes)) {
     const float at = std::round(axes.X(x));
     FillRect(dl, {at, axes.floor.y, s.Px(1), axes.floor.h}, p.plot_grid);
-    const std::string label = TimeText(v, x);
+    const std::string label = TimeText(v, x) + unit;
+    unit.clear();
     // The last label would stick out of the panel.
     if (at + s.Px(16) < axes.floor.right() + s.Px(10)) {
       DrawText(ui, s.caption, p.text2, at, axes.floor.bottom() + s.Px(12), label, Align::kCentre);

@@ -1,6 +1,7 @@
 #include "gui/widgets/site_row.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "engine/core/units.h"
 #include "engine/model/cell_explanation.h"
@@ -50,12 +51,12 @@ void DrawCutOut(const Style& s, const Rect& box, const LandingSite& site,
 
 struct SiteWord {
   Icon icon;
-  std::string_view word;
+  std::string word;
 };
 
 SiteWord WordOf(const LandingSite& site, const SiteRowLook& look) {
   if (!look.verdict.empty()) {
-    return {Icon::kWarning, look.verdict};
+    return {Icon::kWarning, std::string(look.verdict)};
   }
   if (look.refused) {
     return {Icon::kOff, "Refused"};
@@ -69,7 +70,9 @@ SiteWord WordOf(const LandingSite& site, const SiteRowLook& look) {
   const Icon icon = look.standing == SiteStanding::kConfirmed     ? Icon::kNormal
                     : look.standing == SiteStanding::kProvisional ? Icon::kProvisional
                                                                   : Icon::kSearch;
-  return {icon, StandingWord(look.standing)};
+  return {icon, look.standing == SiteStanding::kToLookAt && std::isfinite(site.look_height_m)
+                    ? "Look from " + Fixed(std::floor(site.look_height_m), 0) + " m"
+                    : StandingWord(look.standing)};
 }
 
 }  // namespace
@@ -85,7 +88,7 @@ SiteRowAnswer DrawSiteRow(UiFrame& ui, const Rect& rect, const LandingSite& site
   const std::string_view why = look.refused           ? kRefusedReason
                                : look.verdict.empty() ? std::string_view(site.reason)
                                                       : look.why;
-  const std::string words = site.letter + " " + std::string(status.word) + " " + std::string(why) +
+  const std::string words = site.letter + " " + status.word + " " + std::string(why) +
                             (site.flags != 0 ? " " + FlagWords(site.flags) : std::string());
   const Interaction in = Interact(ui, SiteItemName(site.letter), rect,
                                   kKeepsStop | (look.enabled ? 0U : unsigned{kDisabled}), words);

@@ -1,4 +1,7 @@
 // Alarms: three samples to come and to go; a cause must end before an alarm disappears (I15).
+#include "engine/mission/alarms/alarms.h"
+
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -79,6 +82,28 @@ TEST(Alarms, KeepTheirWorstFigureAndWhenTheyAreOverTheWordsOfThatSample) {
     FeedFigures(board, {0.4, 0.4, 0.4}, less);
     EXPECT_EQ(board.Shown()[0].worst, "0.40 m") << "begun anew";
   }
+}
+
+// A jump that goes back ends in a sample of a few centimetres, which explains nothing.
+TEST(Alarms, WhatNoLimitRaisesIsOverInTheWordsOfItsWorst) {
+  AlarmFacts facts;
+  facts.has_vehicle = true;
+  AlarmBoard board;
+  for (const double off_m : {3.1, 3.4, 0.2}) {
+    facts.gps_agreement = {.off = true, .drifts = false, .off_m = off_m};
+    board.Update(EvaluateAlarms(facts), {});
+  }
+  facts.gps_agreement.off = false;
+  for (int i = 0; i < 4; ++i) {
+    board.Update(EvaluateAlarms(facts), {});
+  }
+  const std::vector<Alarm> shown = board.Shown();
+  const auto jump = std::find_if(shown.begin(), shown.end(), [](const Alarm& alarm) {
+    return alarm.kind == AlarmId::kGpsJump;
+  });
+  ASSERT_NE(jump, shown.end());
+  EXPECT_FALSE(jump->active);
+  EXPECT_EQ(jump->text.rfind("GPS is 3.4 m off", 0), 0U) << jump->text;
 }
 
 TEST(Alarms, AdvisoriesGoWithTheirCause) {

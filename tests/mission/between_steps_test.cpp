@@ -33,6 +33,19 @@ TEST(BetweenSteps, AfterADisarmNothingMayBeApproved) {
   EXPECT_EQ(FindLimit(rig.mission.status().limits, LimitId::kSlope), nullptr);
 }
 
+// What stands against any site is said before that none is selected.
+TEST(BetweenSteps, WithoutASelectionApproveSaysWhatWouldStopItWithOne) {
+  MissionRig rig;
+  rig.Run(3);
+  ASSERT_EQ(rig.state(), MissionState::kProposed);
+  EXPECT_EQ(rig.mission.status().cannot_approve_reason, words::kSelectFirst);
+  rig.cameras_up = false;
+  rig.Run(1.5);
+  ASSERT_FALSE(rig.mission.status().armed);
+  EXPECT_EQ(rig.mission.status().cannot_approve_reason.rfind("Left camera ", 0), 0U)
+      << rig.mission.status().cannot_approve_reason;
+}
+
 TEST(BetweenSteps, AppliedLimitsEndTheSelectionAtOnce) {
   MissionRig rig;
   rig.Arm();

@@ -73,7 +73,7 @@ INSTANTIATE_TEST_SUITE_P(
               r.cameras_up = false;
               r.now = AddSeconds(r.now, 6);
             },
-            S::kNoLive, "Cameras stale, 6.1 s", kNothing},
+            S::kNoLive, "Left camera stale, 6.1 s", kNothing},
         Row{"ProposedOnNoSite", S::kProposed, [](MissionRig& r) { r.sites.clear(); }, S::kSearch,
             "No site stands on the newest map", kNothing},
         Row{"ArmedOnLimits", S::kArmed, [](MissionRig& r) { r.settings_hash ^= 1; }, S::kProposed,

@@ -96,6 +96,15 @@ TEST(SiteStanding, AProvisionalSiteSaysWhy) {
     EXPECT_EQ(WhyProvisional(site, settings.slad),
               "height noise 12.0 cm (3 sigma), sure below 10.0 cm");
   }
+  site.look_height_m = 8.97;
+  EXPECT_EQ(WhyProvisional(site, settings.slad),
+            "height noise 12.0 cm (3 sigma), sure from 8 m above it");
+  site.height_m.three_sigma = 0.03;
+  site.hidden_things = 0.154;
+  EXPECT_EQ(WhyProvisional(site, settings.slad),
+            "0.15 rocks or holes may be hidden, sure from 8 m above it");
+  site.look_height_m = std::nan("");
+  EXPECT_EQ(WhyProvisional(site, settings.slad), "0.15 rocks or holes may be hidden, sure to 0.01");
 }
 
 TEST(SiteStanding, APlaceInWhoseNoiseAThingCouldHideIsOnlyLookedAt) {

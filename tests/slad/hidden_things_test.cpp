@@ -142,5 +142,43 @@ TEST(HiddenThings, GroundIsSeenWhereAThingIsRuledOutFiftyToOne) {
   EXPECT_LT(Hidden(MapThatShows(0, r / 2.85, share)), kMostHidden) << "then confirmed";
 }
 
+/// The share that a window of `window_m` leaves (narrow_relief.h), of a cell of 15 cm.
+double ShareOf(double window_m) {
+  return 0.8 / (1 + (window_m * window_m + 0.15 * 0.15) / (0.18 * 0.18));
+}
+
+TEST(HiddenThings, FromNearerAreThoseOfBareGroundWithLessNoiseAndANarrowerWindow) {
+  const auto from = [](const ElevationMap& map, double nearer) {
+    return HiddenFromNearer(ViewOf(map), map.variance_m2, kMiddle, kRadius_m, nearer);
+  };
+  const auto with_noise = [](double sigma_m, double share, double stereo_m) {
+    ElevationMap map = MapThatShows(0, sigma_m, share);
+    map.variance_m2 = GridF(41, 41, static_cast<float>(stereo_m * stereo_m));
+    return map;
+  };
+  const double sigma_m = 0.02;
+  for (const double nearer : {1.0, 0.7, 0.5, 0.3}) {
+    SCOPED_TRACE(nearer);
+    const double then_m = nearer * nearer * sigma_m;
+    const double all = from(with_noise(sigma_m, ShareOf(0.3), sigma_m), nearer);
+    const double expected = Hidden(MapThatShows(0, then_m, ShareOf(nearer * 0.3)));
+    EXPECT_NEAR(all, expected, 1e-3 * expected + 1e-12);
+    // Half of its variance is the ground's own.
+    const double half_m = sigma_m / std::sqrt(2 * 1.5);
+    const double rough_m = std::sqrt((sigma_m * sigma_m + then_m * then_m) / 2);
+    const double rough = Hidden(MapThatShows(0, rough_m, ShareOf(nearer * 0.3)));
+    EXPECT_NEAR(from(with_noise(sigma_m, ShareOf(0.3), half_m), nearer), rough,
+                2e-3 * rough + 1e-12);
+  }
+  // What shows now says nothing of then; what is unknown is as the rest.
+  ElevationMap marked = with_noise(sigma_m, ShareOf(0.3), sigma_m);
+  const double bare = from(marked, 0.5);
+  marked.narrow.prominence_m.at(kMiddle) = 0.03F;
+  EXPECT_DOUBLE_EQ(from(marked, 0.5), bare);
+  marked.narrow.prominence_m.at(kMiddle) = std::nanf("");
+  EXPECT_NEAR(from(marked, 0.5), bare, 1e-9);
+  EXPECT_TRUE(std::isinf(from(MapThatShows(NAN, NAN, NAN), 0.5)));
+}
+
 }  // namespace
 }  // namespace palace

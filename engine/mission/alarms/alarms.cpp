@@ -55,6 +55,9 @@ std::vector<AlarmCondition> EvaluateAlarms(const AlarmFacts& facts) {
     conditions.push_back({row.id, grave ? AlarmLevel::kWarning : row.level, present,
                           present ? row.text(facts, LimitWords(limit)) : std::string(),
                           row.immediate});
+    if (present && row.badness != nullptr) {
+      conditions.back().figure = row.badness(facts);
+    }
     if (present && row.value != nullptr) {
       AlarmCondition& condition = conditions.back();
       condition.figure = facts.*row.value;

@@ -125,6 +125,8 @@ struct AlarmRow {
   double AlarmFacts::*limit_from = nullptr;  ///< where the limit is a setting
   double AlarmFacts::*value = nullptr;       ///< what is held against it
   bool less_is_worse = false;                ///< of the value; the limit is a least one
+  /// Where no limit raises it: how bad it is. What is over is told in the words of its worst.
+  double (*badness)(const AlarmFacts& f) = nullptr;
   bool (*present)(const AlarmFacts& f, double limit) = nullptr;
   /// What, number, limit, then what to do.
   std::string (*text)(const AlarmFacts& f, const std::string& limit) = nullptr;

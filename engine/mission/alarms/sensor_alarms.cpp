@@ -1,4 +1,6 @@
 // Alarms about sensors that the vehicle's own motion contradicts: image time, attitude, GPS, laser.
+#include <cmath>
+
 #include "engine/core/text.h"
 #include "engine/mission/alarms/alarm_words.h"
 #include "engine/mission/wording.h"
@@ -48,6 +50,7 @@ const AlarmRow kRows[] = {
     {.id = AlarmId::kGravity,
      .level = AlarmLevel::kWarning,
      .immediate = true,  // seconds of fixes said so
+     .badness = [](const Facts& f) { return f.gravity.tilt_deg; },
      .present = [](const Facts& f, double) { return f.gravity.off; },
      .text =
          [](const Facts& f, const std::string&) {
@@ -64,6 +67,7 @@ const AlarmRow kRows[] = {
     {.id = AlarmId::kGpsJump,
      .level = AlarmLevel::kCaution,
      .immediate = true,  // two fixes said so
+     .badness = [](const Facts& f) { return f.gps_agreement.off_m; },
      .present = [](const Facts& f, double) { return f.gps_agreement.off; },
      .text =
          [](const Facts& f, const std::string&) {
@@ -100,6 +104,7 @@ const AlarmRow kRows[] = {
     {.id = AlarmId::kLaserWrong,
      .level = AlarmLevel::kCaution,
      .immediate = true,
+     .badness = [](const Facts& f) { return std::abs(f.laser.ratio - 1); },
      .present = [](const Facts& f, double) { return f.laser.state == LaserHealth::State::kWrong; },
      .text = [](const Facts& f, const std::string&) { return LaserLies(f); }},
 };

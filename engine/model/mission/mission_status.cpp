@@ -16,7 +16,7 @@ struct Names {
 Names NamesOf(MissionState state) {
   switch (state) {
     case MissionState::kNoLive:
-      return {"NO_LIVE", "No live data"};
+      return {"NO_LIVE", "No live pictures"};
     case MissionState::kSearch:
       return {"SEARCH", "Search"};
     case MissionState::kProposed:

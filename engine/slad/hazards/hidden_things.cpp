@@ -11,7 +11,7 @@
 namespace palace {
 namespace {
 
-constexpr double kOverLimit = 1.2;  // of the limit: what counts as unsafe
+constexpr double kOverLimit = 1.2;    // of the limit: what counts as unsafe
 constexpr double kRuledOut = -3.912;  // the logarithm of one in fifty
 constexpr double kNothing = -25;      // logarithm below which a cell hides nothing
 
@@ -113,6 +113,42 @@ GridF HiddenThings(const NarrowView& view, double radius_m, double things_per_m2
     }
   });
   return in_disc;
+}
+
+double HiddenFromNearer(const NarrowView& view, const GridF& variance_m2, Cell centre,
+                        double radius_m, double nearer) {
+  constexpr double kOfBareGround = 1.5;  // of narrow relief, over the variance of its cell
+  const double prior = kThingsPer_m2 / 2 * view.cell_m * view.cell_m;
+  const double cell_m2 = view.cell_m * view.cell_m, thing_m2 = kThing_m * kThing_m;
+  const double squared = nearer * nearer;
+  const int reach = static_cast<int>(radius_m / view.cell_m);
+  double hidden = 0;
+  int cells = 0, known = 0;
+  for (int dr = -reach; dr <= reach; ++dr) {
+    for (int dc = -reach; dc <= reach; ++dc) {
+      if ((dr * dr + dc * dc) * cell_m2 > radius_m * radius_m) {
+        continue;
+      }
+      ++cells;
+      const Cell cell{centre.row + dr, centre.col + dc};
+      const bool inside = cell.row >= 0 && cell.col >= 0 && cell.row < view.narrow.share.rows() &&
+                          cell.col < view.narrow.share.cols();
+      if (!inside || std::isnan(view.narrow.prominence_m.at(cell))) {
+        continue;
+      }
+      ++known;
+      const double sigma_m2 = std::pow(Figure(view.narrow.sigma_m, cell), 2);
+      const double noise_m2 = std::min(sigma_m2, kOfBareGround * Figure(variance_m2, cell));
+      const double smeared_m2 = thing_m2 * (kPeakOfThing / Figure(view.narrow.share, cell) - 1);
+      const double window_m2 = std::max(0.0, smeared_m2 - cell_m2);
+      const double share = kPeakOfThing / (1 + (squared * window_m2 + cell_m2) / thing_m2);
+      const double then_m2 = sigma_m2 - noise_m2 + squared * squared * noise_m2;
+      const double shows_m = kOverLimit * view.max_deviation_m * share;
+      // q of a rock and of a hole, both far smaller than 1.
+      hidden += 2 * prior * std::exp(-shows_m * shows_m / (2 * then_m2));
+    }
+  }
+  return known > 0 ? hidden * cells / known : HUGE_VAL;
 }
 
 bool IsSeen(const NarrowView& view, Cell cell) {

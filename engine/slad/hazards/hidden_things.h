@@ -46,6 +46,13 @@ inline constexpr double kThingsPer_m2 = 0.01;
 /// what n says. Rows are shared among OpenCV's threads; their number changes no bit.
 GridF HiddenThings(const NarrowView& view, double radius_m, double things_per_m2 = kThingsPer_m2);
 
+/// H of the disc around `centre` as bare ground would say it, were it seen along the same lines
+/// from `nearer` (above 0, at most 1) times as far. Of each cell stereo's noise, which is
+/// `variance_m2` there, goes down as nearer^2, its window as nearer; what the ground itself is rough
+/// by stays. Cells of which nothing is known hide as the others do; infinity when all are.
+double HiddenFromNearer(const NarrowView& view, const GridF& variance_m2, Cell centre,
+                        double radius_m, double nearer);
+
 /// Whether what shows in a cell rules such a thing out, fifty to one: ground that is seen.
 bool IsSeen(const NarrowView& view, Cell cell);
 

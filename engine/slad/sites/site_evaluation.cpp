@@ -190,6 +190,31 @@ bool FramesAgree(const SladSettings& settings, const SiteContext& context,
          site.frames_fused >= std::min(kFramesToConfirm, settings.fusion.frames_fused);
 }
 
+/// LandingSite::look_height_m, to a sixteenth of the vehicle's height above the site.
+double LookHeight(const ElevationMap& map, const SladSettings& settings, const SiteContext& context,
+                  const LandingSite& site) {
+  const double height_m = site.p_WS.z() - context.p_WB.z();
+  if (map.narrow.share.empty() || context.camera.width == 0 || site.confirmed || !(height_m > 0)) {
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+  const NarrowView view{map.narrow, map.geometry.cell_m, settings.limits.max_deviation_m};
+  const auto settles = [&](double nearer) {
+    return nearer * nearer * site.height_m.three_sigma < settings.limits.max_deviation_m &&
+           HiddenFromNearer(view, map.variance_m2, site.cell, site.clear_radius_m, nearer) <=
+               kMostHidden;
+  };
+  // From nearer never less is seen: half as many heights are left with each look.
+  constexpr int kHalvings = 4;
+  double settled = 0, step = 1;
+  for (int halving = 0; halving < kHalvings; ++halving) {
+    step /= 2;
+    settled += settles(settled + step) ? step : 0;
+  }
+  return settled * height_m < settings.fusion.commit_height_m || settles(1)
+             ? std::numeric_limits<double>::quiet_NaN()
+             : settled * height_m;
+}
+
 }  // namespace
 
 void TakeFigures(const HazardMaps& hazards, Cell cell, LandingSite& site) {
@@ -248,6 +273,7 @@ LandingSite EvaluateSite(const ElevationMap& map, const HazardMaps& hazards,
   site.confirmed = likely && site.height_m.three_sigma < settings.limits.max_deviation_m &&
                    FramesAgree(settings, context, site) && NothingHides(map, settings, site) &&
                    !(site.air_seen_m < kLeastAirSeen_m);
+  site.look_height_m = LookHeight(map, settings, context, site);
   site.distance_m = (context.p_WB - site.p_WS).head<2>().norm();
   const std::optional<Approach> flown = ApproachFlown(settings, context, site);
   site.corridor_clear = !flown || IsReachable(*flown, map, settings, context, site);

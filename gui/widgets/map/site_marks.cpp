@@ -69,7 +69,8 @@ void DrawLetterDisc(UiFrame& ui, ImVec2 c, std::string_view letter, const Letter
   const ImU32 ink = look.highlighted ? picture::kLetterDark : picture::kWhite;
   dl->AddCircleFilled(c, r, look.highlighted ? picture::kWhite : picture::kLetterDark);
   dl->AddCircle(c, r, ink, 0, s.Fine(1.5f));
-  DrawText(ui, look.radius < 10 ? s.caption : s.medium, ink, c.x, c.y, letter, Align::kCentre);
+  const bool small = look.radius < 10 || letter.size() > 1;  // "A2" in a disc made for one letter
+  DrawText(ui, small ? s.caption : s.medium, ink, c.x, c.y, letter, Align::kCentre);
   if (look.refused) {
     const float reach = r * 0.7f;
     dl->AddLine({c.x - reach, c.y + reach}, {c.x + reach, c.y - reach}, ink, s.Fine(2));

@@ -147,6 +147,10 @@ TEST(ApproveWords, AnApprovalLeadsToADescentUnlessSomethingSpeaksAgainstTheSite)
   shaken->selection.sites[0].called_unsafe_s = 28;
   snap.terrain.Edit().applied = shaken;
   EXPECT_EQ(ApprovalConsequence(snap, true), "A map called it unsafe 28 s ago.");
+  EXPECT_EQ(
+      ApprovalConsequence(snap, false),
+      "A map called it unsafe 28 s ago. Provisional: seen in 1 of the 3 frames that it takes.");
+  snap.flight.Edit().mission.armed->confirmed = true;
   EXPECT_EQ(ApprovalConsequence(snap, false).find("A map called it unsafe 28 s ago. 5.9 m"), 0u);
 }
 
