@@ -26,9 +26,10 @@ std::string SureFrom(const LandingSite& site, const std::string& limit) {
 }  // namespace
 
 SiteStanding StandingOf(const LandingSite& site, const SladSettings& settings) {
-  return site.confirmed                  ? SiteStanding::kConfirmed
-         : StandsInNoise(site, settings) ? SiteStanding::kToLookAt
-                                         : SiteStanding::kProvisional;
+  return site.confirmed ? SiteStanding::kConfirmed
+         : StandsInNoise(site, settings) || site.air_seen_m < kLeastAirSeen_m
+             ? SiteStanding::kToLookAt
+             : SiteStanding::kProvisional;
 }
 
 const char* StandingWord(SiteStanding standing) {
@@ -41,6 +42,14 @@ const char* StandingWord(SiteStanding standing) {
       return "Look first";
   }
   PALACE_CHECK(false);
+}
+
+std::string StandingWords(const LandingSite& site, const SladSettings& settings) {
+  const SiteStanding standing = StandingOf(site, settings);
+  const bool from_nearer = standing == SiteStanding::kToLookAt && StandsInNoise(site, settings) &&
+                           std::isfinite(site.look_height_m);
+  return from_nearer ? WithNumbers("Look from %.0f m", std::floor(site.look_height_m))
+                     : StandingWord(standing);
 }
 
 bool IsInView(const LandingSite& site) { return !(site.age_s > kOldGround_s); }
@@ -65,6 +74,10 @@ std::string WhyProvisional(const LandingSite& site, const SladSettings& settings
     return WithNumbers("height noise %.1f cm (3 sigma), ", 100 * site.height_m.three_sigma) +
            SureFrom(site, WithNumbers("below %.1f cm", 100 * settings.limits.max_deviation_m));
   }
+  if (site.air_seen_m < kLeastAirSeen_m) {
+    return WithNumbers("air over it seen up to %.1f m, sure from %.0f m",
+                       TenthsDown(site.air_seen_m), kLeastAirSeen_m);
+  }
   const std::string over = WithNumbers("over %.0f cm", 100 * settings.limits.max_deviation_m);
   if (site.hidden_things > kMostHidden) {
     // One line of the narrowest approve panel.
@@ -75,10 +88,6 @@ std::string WhyProvisional(const LandingSite& site, const SladSettings& settings
       !(site.safe_probability >= settings.limits.min_safe_probability)) {
     return WithNumbers("safe probability %.3f, sure from %.3f on", site.safe_probability,
                        settings.limits.min_safe_probability);
-  }
-  if (site.air_seen_m < kLeastAirSeen_m) {
-    return WithNumbers("air over it seen up to %.1f m, sure from %.0f m",
-                       TenthsDown(site.air_seen_m), kLeastAirSeen_m);
   }
   const int enough = std::min(kFramesToConfirm, settings.fusion.frames_fused);
   if (settings.mode == SladMode::kModern && site.frames_fused < enough && !site.pixel.hasNaN()) {

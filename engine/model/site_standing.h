@@ -35,17 +35,22 @@ inline constexpr double kLeastAirSeen_m = 5;
 enum class SiteStanding : std::uint8_t {
   kConfirmed,    ///< LandingSite::confirmed
   kProvisional,  ///< all but confirmed: it holds every limit that may be asked at its noise
-  /// 3 sigma of its heights reach the roughness limit: a thing as high as that would not stand out
-  /// of the noise. The place is offered to be looked at from nearer and no more is said of it.
+  /// 3 sigma of its heights reach the roughness limit, so that a thing as high as that would not
+  /// stand out of the noise, or less than kLeastAirSeen_m of the air over it was looked at: what
+  /// stands or hangs there is not known. The place is offered to be looked at first.
   kToLookAt,
 };
 SiteStanding StandingOf(const LandingSite& site, const SladSettings& settings);
 /// "Confirmed", "Provisional", "Look first".
 const char* StandingWord(SiteStanding standing);
 
-/// The first that holds: too much noise of height, too much that may hide, too little probability,
-/// too little of the air seen, too few frames, cells wider than a rock (landing_site.h, confirmed). Empty when the site is
-/// confirmed.
+/// "Look from 12 m" where noise is what speaks against a place and it is known from where it would
+/// not (LandingSite::look_height_m); else StandingWord.
+std::string StandingWords(const LandingSite& site, const SladSettings& settings);
+
+/// The first that holds: too much noise of height, too little of the air seen, too much that may
+/// hide, too little probability, too few frames, cells wider than a rock (landing_site.h,
+/// confirmed). Empty when the site is confirmed.
 std::string WhyProvisional(const LandingSite& site, const SladSettings& settings);
 
 }  // namespace palace

@@ -29,9 +29,15 @@ struct MapRowState {
 struct SiteListState {
   float scroll = 0;      ///< pixels
   std::string followed;  ///< row with the focus that the list has scrolled to
-  /// Ids in the order of the last frame, while the pointer is on the list: a place does not slip
-  /// away from under a press. Empty: as the engine ranks them.
-  std::vector<std::uint64_t> held_order;
+  /// A row of the last frame.
+  struct Held {
+    std::uint64_t id = 0;
+    std::string letter;
+  };
+  /// In their order, while the pointer is on the list: a place does not slip away from under a
+  /// press, and one that is gone leaves its room. Empty: as the engine ranks them.
+  std::vector<Held> held_order;
+  std::size_t pointed = 0;  ///< row under the pointer then
 };
 struct ApproveState {
   HoldState hold;

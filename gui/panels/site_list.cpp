@@ -13,41 +13,63 @@ namespace palace {
 
 namespace {
 
+struct Row {
+  std::uint64_t id = 0;
+  std::string letter;
+  const LandingSite* site = nullptr;  ///< null: no longer listed, its room is kept
+};
+
 /// What is listed: the sites, and before them the armed one where it is no longer among them: what
 /// is about to be approved is never out of sight.
 struct Rows {
-  std::vector<const LandingSite*> sites;
+  std::vector<Row> rows;
   std::optional<std::uint64_t> unlisted;  ///< the armed site, which the newest map does not offer
 };
 
 Rows RowsOf(const TerrainDecision* known, const MissionStatus& mission) {
-  Rows rows;
+  Rows listed;
   bool armed = false;
   if (known != nullptr) {
     for (const LandingSite& site : known->selection.sites) {
-      rows.sites.push_back(&site);
+      listed.rows.push_back({site.id, site.letter, &site});
       armed = armed || (mission.armed && mission.armed->id == site.id);
     }
   }
   if (mission.armed && !armed) {
-    rows.unlisted = mission.armed->id;
-    rows.sites.insert(rows.sites.begin(),
-                      mission.armed_now ? &*mission.armed_now : &*mission.armed);
+    const LandingSite& site = mission.armed_now ? *mission.armed_now : *mission.armed;
+    listed.unlisted = mission.armed->id;
+    listed.rows.insert(listed.rows.begin(), {site.id, site.letter, &site});
   }
-  return rows;
+  return listed;
 }
 
-/// Keeps the rows where they lay, but for an unlisted one; what is new comes after them. True where
-/// the engine's order is another.
-bool KeepOrder(const std::vector<std::uint64_t>& held, Rows& rows) {
-  const auto place = [&](const LandingSite* site) {
-    return site->id == rows.unlisted ? -1
-                                     : std::find(held.begin(), held.end(), site->id) - held.begin();
-  };
-  const std::vector<const LandingSite*> ranked = rows.sites;
-  std::stable_sort(rows.sites.begin(), rows.sites.end(),
-                   [&](const LandingSite* a, const LandingSite* b) { return place(a) < place(b); });
-  return rows.sites != ranked;
+/// Leaves the rows where they lay. What is new takes the room of what is gone, but for the row
+/// under the pointer, and comes last where there is none. True where the engine's list is another.
+bool KeepOrder(const std::vector<SiteListState::Held>& held, std::size_t pointed,
+               std::vector<Row>& rows) {
+  std::vector<Row> kept, fresh = rows;
+  for (const SiteListState::Held& before : held) {
+    const auto now = std::find_if(fresh.begin(), fresh.end(),
+                                  [&](const Row& row) { return row.id == before.id; });
+    kept.push_back(now != fresh.end() ? *now : Row{before.id, before.letter, nullptr});
+    if (now != fresh.end()) {
+      fresh.erase(now);
+    }
+  }
+  auto next = fresh.begin();
+  for (std::size_t i = 0; i < kept.size() && next != fresh.end(); ++i) {
+    if (kept[i].site == nullptr && i != pointed) {
+      kept[i] = *next++;
+    }
+  }
+  kept.insert(kept.end(), next, fresh.end());
+  while (!kept.empty() && kept.back().site == nullptr) {
+    kept.pop_back();  // nothing lies behind it
+  }
+  const bool is_other = !std::equal(kept.begin(), kept.end(), rows.begin(), rows.end(),
+                                    [](const Row& a, const Row& b) { return a.site == b.site; });
+  rows = std::move(kept);
+  return is_other;
 }
 
 SiteRowLook LookOf(const LandingSite& site, bool unlisted, const MissionStatus& mission) {
@@ -97,8 +119,8 @@ void DrawSiteListPanel(const EngineSnapshot& snap, const FlyLayout& layout, Site
   const TerrainDecision* known = SitesInForce(snap);
   const MissionStatus& mission = snap.flight->mission;
   Rows listed = RowsOf(known, mission);
-  const std::vector<const LandingSite*>& rows = listed.sites;
-  const bool order_held = KeepOrder(state.held_order, listed);
+  const bool order_held = KeepOrder(state.held_order, state.pointed, listed.rows);
+  const std::vector<Row>& rows = listed.rows;
   const std::size_t count = rows.size();
   const std::size_t found = known != nullptr ? known->selection.sites.size() : 0;
   const bool old = count > 0 && IsMapOld(snap, ui.silent_s);
@@ -129,12 +151,15 @@ void DrawSiteListPanel(const EngineSnapshot& snap, const FlyLayout& layout, Site
   const Interaction pointer = Interact(ui, "panel/Sites", list, kPassive);
   state.scroll -= pointer.wheel * row;
   if (pointer.hovered) {
-    for (const LandingSite* site : rows) {
-      state.held_order.push_back(site->id);
+    state.pointed =
+        static_cast<std::size_t>(std::max(0.0f, pointer.pointer.y - list.y + state.scroll) / row);
+    for (const Row& one : rows) {
+      state.held_order.push_back({one.id, one.letter});
     }
   }
   for (std::size_t i = 0; i < count && ui.focus.shown() != state.followed; ++i) {
-    if (ui.focus.Has(SiteItemName(rows[i]->letter))) {  // the keyboard's row comes into sight
+    if (rows[i].site != nullptr &&
+        ui.focus.Has(SiteItemName(rows[i].letter))) {  // the keyboard's row comes into sight
       const float top = row * static_cast<float>(i);
       state.scroll = std::clamp(state.scroll, top + row - list.h, top);
     }
@@ -155,8 +180,18 @@ void DrawSiteListPanel(const EngineSnapshot& snap, const FlyLayout& layout, Site
   const std::size_t last = std::min(count, first + static_cast<std::size_t>(layout.site_rows));
   std::uint64_t focused = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    const LandingSite& site = *rows[i];
-    if (i < first || i >= last) {
+    const bool in_sight = i >= first && i < last;
+    const Rect rect{list.x, list.y + row * (static_cast<float>(i) - static_cast<float>(first)),
+                    list.w, row};
+    if (rows[i].site == nullptr) {
+      if (in_sight) {
+        DrawText(ui, s.body, s.palette.text3, rect.x + s.Px(16), rect.centre().y,
+                 rows[i].letter + " is no longer listed");
+      }
+      continue;
+    }
+    const LandingSite& site = *rows[i].site;
+    if (!in_sight) {
       OfferHidden(ui, SiteItemName(site.letter));
       continue;
     }
@@ -164,7 +199,7 @@ void DrawSiteListPanel(const EngineSnapshot& snap, const FlyLayout& layout, Site
     look.narrow = layout.site_row_units < 60;
     look.old_map = old;
     look.standing = StandingOf(site, snap.session->settings.slad);
-    const Rect rect{list.x, list.y + row * static_cast<float>(i - first), list.w, row};
+    look.standing_words = StandingWords(site, snap.session->settings.slad);
     const SiteRowAnswer answer = DrawSiteRow(ui, rect, site, view, ui.textures.left_camera, look);
     focused = answer.focused ? site.id : focused;
     if (answer.clicked) {

@@ -70,9 +70,7 @@ SiteWord WordOf(const LandingSite& site, const SiteRowLook& look) {
   const Icon icon = look.standing == SiteStanding::kConfirmed     ? Icon::kNormal
                     : look.standing == SiteStanding::kProvisional ? Icon::kProvisional
                                                                   : Icon::kSearch;
-  return {icon, look.standing == SiteStanding::kToLookAt && std::isfinite(site.look_height_m)
-                    ? "Look from " + Fixed(std::floor(site.look_height_m), 0) + " m"
-                    : StandingWord(look.standing)};
+  return {icon, look.standing_words.empty() ? StandingWord(look.standing) : look.standing_words};
 }
 
 }  // namespace

@@ -14,6 +14,7 @@ struct SiteRowLook {
   bool enabled = true;   ///< a click arms
   bool refused = false;  ///< by the operator
   SiteStanding standing = SiteStanding::kProvisional;
+  std::string standing_words{};  ///< empty: StandingWord
   bool old_map = false;  ///< nothing may rest on its map any more: it is confirmed no longer
   /// Of a selected site that holds no longer, or not surely: the engine's word and why.
   std::string_view verdict{}, why{};

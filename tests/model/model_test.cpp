@@ -107,22 +107,29 @@ TEST(SiteStanding, AProvisionalSiteSaysWhy) {
   EXPECT_EQ(WhyProvisional(site, settings.slad), "0.15 rocks or holes may be hidden, sure to 0.01");
 }
 
-TEST(SiteStanding, APlaceInWhoseNoiseAThingCouldHideIsOnlyLookedAt) {
+TEST(SiteStanding, APlaceInWhoseNoiseOrAirAThingCouldHideIsOnlyLookedAt) {
   const SladSettings settings;  // roughness 10 cm
   const struct {
-    double three_sigma_m;
+    double three_sigma_m, air_seen_m;
     bool confirmed;
-    const char* word;
-  } table[] = {{0.03, true, "Confirmed"},
-               {0.03, false, "Provisional"},
-               {0.099, false, "Provisional"},
-               {0.10, false, "Look first"},
-               {NAN, false, "Look first"}};
+    const char *word, *words;
+  } table[] = {{0.03, 9, true, "Confirmed", "Confirmed"},
+               {0.03, 9, false, "Provisional", "Provisional"},
+               {0.03, NAN, false, "Provisional", "Provisional"},  // a survey
+               {0.03, 5, false, "Provisional", "Provisional"},
+               {0.03, 4.9, false, "Look first", "Look first"},  // nearer, less of it is seen
+               {0.03, 4.9, true, "Confirmed", "Confirmed"},     // by an earlier look
+               {0.099, 9, false, "Provisional", "Provisional"},
+               {0.10, 9, false, "Look first", "Look from 7 m"},
+               {NAN, 9, false, "Look first", "Look from 7 m"}};
   for (const auto& row : table) {
     LandingSite site;
     site.height_m.three_sigma = row.three_sigma_m;
     site.confirmed = row.confirmed;
+    site.air_seen_m = row.air_seen_m;
+    site.look_height_m = 7.9;
     EXPECT_STREQ(StandingWord(StandingOf(site, settings)), row.word) << row.three_sigma_m;
+    EXPECT_EQ(StandingWords(site, settings), row.words) << row.three_sigma_m;
   }
 }
 

@@ -42,23 +42,32 @@ TEST_F(SiteOrder, FollowsTheEngineWhereNobodyPoints) {
   EXPECT_GT(Top("site/A"), Top("site/B"));
 }
 
-TEST_F(SiteOrder, WhatIsNewComesLastAndWhatIsGoneLeaves) {
-  window.ui.MoveTo("site/B");
-  window.Run(0.1);
-  auto decision = std::make_shared<TerrainDecision>(*window.snap.terrain->applied);
-  auto& sites = decision->selection.sites;
-  LandingSite fresh = sites[0];
-  fresh.id = 77;
-  fresh.letter = "K";
-  sites.erase(sites.begin());
-  sites.insert(sites.begin(), fresh);
-  window.snap.terrain.Edit().applied = decision;
-  window.ui.Frame(window.draw);
-  window.ui.Frame(window.draw);
-  EXPECT_EQ(window.ui.items.Find("site/A"), nullptr);
-  EXPECT_LT(Top("site/B"), Top("site/C"));
-  const Item* row = window.ui.items.Find("site/K");
-  EXPECT_TRUE(row == nullptr || row->rect.y > Top("site/C")) << "scrolled out of sight, or last";
+TEST_F(SiteOrder, WhatIsGoneLeavesItsRoomAndWhatIsNewTakesItButUnderThePointer) {
+  for (const bool pointed : {true, false}) {
+    SCOPED_TRACE(pointed);
+    FlyWindow list(1920, 1080, fake::Snapshot(MissionState::kProposed));
+    const auto top = [&](const char* item) { return list.ui.items.Find(item)->rect.y; };
+    list.ui.MoveTo(pointed ? "site/A" : "site/B");
+    list.Run(0.1);
+    const float a = top("site/A"), b = top("site/B"), c = top("site/C");
+    auto decision = std::make_shared<TerrainDecision>(*list.snap.terrain->applied);
+    auto& sites = decision->selection.sites;
+    sites.front().id = 77;  // A is gone, K is new
+    sites.front().letter = "K";
+    list.snap.terrain.Edit().applied = decision;
+    list.ui.Frame(list.draw);
+    list.ui.Frame(list.draw);
+    EXPECT_EQ(list.ui.items.Find("site/A"), nullptr);
+    EXPECT_EQ(HasText(list.ui.items, "A is no longer listed"), pointed);
+    EXPECT_EQ(top("site/B"), b);
+    EXPECT_EQ(top("site/C"), c);
+    const Item* fresh = list.ui.items.Find("site/K");
+    EXPECT_TRUE(pointed ? fresh == nullptr || fresh->rect.y > c : fresh->rect.y == a);
+    list.ui.MoveTo(ImVec2(5, 5));
+    list.Run(0.1);
+    EXPECT_FALSE(HasText(list.ui.items, "no longer listed"));
+    EXPECT_EQ(top("site/K"), a) << "as the engine ranks them";
+  }
 }
 
 }  // namespace
