@@ -55,6 +55,7 @@ struct GroundOptions {
 
 /// Columns of one site, or of none.
 constexpr std::size_t kSiteColumns = 12 + std::size(kHiddenDensities);
+
 const char* KindOf(SiteStanding standing) {
   switch (standing) {
     case SiteStanding::kConfirmed:

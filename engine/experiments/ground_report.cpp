@@ -194,8 +194,7 @@ void AddOthers(const TrialTable& table, ExperimentReport& report) {
   report.page.Heading("Best place of each field, by whose rule")
       .Paragraph(
           "The best place of a field by each rule, on the same pictures and judged alike, over "
-          "this "
-          "vehicle's whole clear disc. thesis: the thesis's SLAD on the newest pair. raster, "
+          "this vehicle's whole clear disc. thesis: the thesis's SLAD on the newest pair. raster, "
           "auterion, alhat: on the fused map; px4: on the points of all frames. Rules are those of "
           "their authors, in our own words (landing_peers.h); the vehicles that they were made for "
           "are other ones.")

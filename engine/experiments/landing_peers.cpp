@@ -55,7 +55,7 @@ Refused Ask(const GridGeometry& g, Rule rule) {
 Place FarthestFrom(const Refused& refused, const GridGeometry& g, double least_m) {
   const GridF distance_m = SafeDistance(refused, g.cell_m);
   const auto best = std::max_element(distance_m.cells().begin(), distance_m.cells().end());
-  if (best == distance_m.cells().end() || !(static_cast<double>(*best) >= least_m)) {
+  if (best == distance_m.cells().end() || !(*best > 0 && static_cast<double>(*best) >= least_m)) {
     return std::nullopt;
   }
   const int at = static_cast<int>(best - distance_m.cells().begin());

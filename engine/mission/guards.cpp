@@ -49,7 +49,7 @@ std::string WhyNotPositioned(const GuardInputs& in, const Limit& limit) {
     return in.gps;
   }
   if (NothingArmed(in)) {
-    return words::kSelectFirst;
+    return in.laser.lies() ? words::LaserFault(in.laser) : words::kSelectFirst;
   }
   if (const std::string why = WhyNoHeight(in); !why.empty()) {
     return why;

@@ -9,6 +9,7 @@
 
 #include "engine/model/mission/map_age.h"
 #include "engine/model/mission/wave_off_offer.h"
+#include "engine/model/site_standing.h"
 
 namespace palace {
 
@@ -22,7 +23,7 @@ struct GuardLimits {
   static constexpr double laser_height_m = 15;  ///< lower, heights without a laser are not enough
   static constexpr double arm_to_approve_s = 0.5;
   static constexpr double lost_percent = 50;     ///< of the vehicle's messages (F21)
-  static constexpr double confirm_height_m = 6;  ///< a provisional site must be confirmed by here
+  static constexpr double confirm_height_m = kConfirmHeight_m;  ///< a provisional site must be confirmed by here
   static constexpr double look_height_m = 10;    ///< lower, the air over a site must have been seen
 };
 

@@ -54,9 +54,13 @@ std::string WhyNoApproval(const MissionMemory& m) {
   if (IsFlying(m.status.state)) {
     return words::kAlreadyApproved;
   }
+  if (m.status.state == MissionState::kArmed) {
+    const GuardResult* failed = FirstFailure(m.status.guards);
+    return failed != nullptr ? failed->reason : words::kSelectFirst;
+  }
   // What would stop it with a site, too, is worth more than that none is selected.
   for (const GuardResult& guard : m.status.guards) {
-    if (!guard.pass && guard.reason != words::kSelectFirst) {
+    if (!m.status.armed && !guard.pass && guard.reason != words::kSelectFirst) {
       return guard.reason;
     }
   }

@@ -75,9 +75,9 @@ struct LandingSite {
   /// How far up over nine tenths of the clear radius the cameras have looked, above the site: what
   /// hangs higher was not seen. NaN: nobody asked (a survey, thesis mode, a record).
   double air_seen_m = std::numeric_limits<double>::quiet_NaN();
-  /// Height above the site from which, along the same line of sight, its noise would be low enough
-  /// and hardly anything could hide: the look that settles a site that is not confirmed. NaN: none
-  /// is needed for that, none above the commit height would do, or nobody asked.
+  /// Height of the touchdown point above the site from which, along the same line of sight, its
+  /// noise would be low enough and hardly anything could hide, which is what speaks against it now.
+  /// NaN: it is not, no height above kConfirmHeight_m would do, or nobody asked.
   double look_height_m = std::numeric_limits<double>::quiet_NaN();
   double distance_m = 0;  ///< horizontal, from the vehicle at map_time
   /// Since a map called it, or the ground beside it, unsafe: for that it stands behind the others.

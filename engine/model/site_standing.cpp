@@ -15,12 +15,16 @@ bool StandsInNoise(const LandingSite& site, const SladSettings& settings) {
   return !(site.height_m.three_sigma < settings.limits.max_deviation_m);
 }
 
-/// "sure from 8 m above it", and where no look from nearer is known to settle it "sure below 10
-/// cm".
+/// A look from nearer shows no more of the air.
+bool HasLook(const LandingSite& site) {
+  return std::isfinite(site.look_height_m) && !(site.air_seen_m < kLeastAirSeen_m);
+}
+
+/// "sure from 8 m above it"; where no look from nearer is known to tell, "sure below 10 cm".
 std::string SureFrom(const LandingSite& site, const std::string& limit) {
-  return "sure " + (std::isnan(site.look_height_m)
-                        ? limit
-                        : WithNumbers("from %.0f m above it", std::floor(site.look_height_m)));
+  return "sure " + (HasLook(site)
+                        ? WithNumbers("from %.0f m above it", std::floor(site.look_height_m))
+                        : limit);
 }
 
 }  // namespace
@@ -46,8 +50,7 @@ const char* StandingWord(SiteStanding standing) {
 
 std::string StandingWords(const LandingSite& site, const SladSettings& settings) {
   const SiteStanding standing = StandingOf(site, settings);
-  const bool from_nearer = standing == SiteStanding::kToLookAt && StandsInNoise(site, settings) &&
-                           std::isfinite(site.look_height_m);
+  const bool from_nearer = standing == SiteStanding::kToLookAt && HasLook(site);
   return from_nearer ? WithNumbers("Look from %.0f m", std::floor(site.look_height_m))
                      : StandingWord(standing);
 }

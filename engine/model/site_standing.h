@@ -27,6 +27,9 @@ std::string ClearWords(const LandingSite& site);
 /// site, at most.
 inline constexpr double kMostHidden = 0.01;
 
+/// Above a site that is flown to or approved: from there on it must be confirmed.
+inline constexpr double kConfirmHeight_m = 6;
+
 /// Of the air over a site (LandingSite::air_seen_m), asked of a confirmed one, and of any that is
 /// approved from below GuardLimits::look_height_m: from there on the way down shows less than this
 /// over ground that nobody looked at from higher up. A wire or a branch hangs there unseen.

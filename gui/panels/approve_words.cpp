@@ -122,7 +122,7 @@ std::string ApprovalConsequence(const EngineSnapshot& snap, bool narrow) {
     doubt = StandingWord(StandingOf(*m.armed, snap.session->settings.slad)) + (": " + doubt) + ".";
   }
   if (!shaken.empty()) {
-    // Two lines: that a map called it unsafe goes before how far away it is.
+    // That a map called it unsafe goes before how far away it is: there is room for three lines.
     return narrow ? shaken + "." : shaken + ". " + (doubt.empty() ? text + "." : doubt);
   }
   if (!narrow && !doubt.empty()) {

@@ -34,10 +34,10 @@ struct SiteListState {
     std::uint64_t id = 0;
     std::string letter;
   };
-  /// In their order, while the pointer is on the list: a place does not slip away from under a
-  /// press, and one that is gone leaves its room. Empty: as the engine ranks them.
-  std::vector<Held> held_order;
-  std::size_t pointed = 0;  ///< row under the pointer then
+  /// As they were drawn last. While the pointer is on the list they stay: a place does not slip away
+  /// from under a press, and one that is gone leaves its room.
+  std::vector<Held> drawn;
+  bool order_held = false;  ///< they were not as the engine ranks them
 };
 struct ApproveState {
   HoldState hold;

@@ -54,9 +54,10 @@ std::string Record(const EngineSnapshot& snap) {
   const MissionStatus& m = snap.flight->mission;
   if (m.state == MissionState::kHold || m.state == MissionState::kAborting) {
     // What caused a hold may be over since; that it was told is so.
-    const std::string when = m.state == MissionState::kHold && snap.time >= m.since
-                                 ? "Held " + AgeText(SecondsBetween(m.since, snap.time)) + " ago: "
-                                 : "";
+    const bool is_hold = m.state == MissionState::kHold && snap.time >= m.since &&
+                         !FollowsRecord(snap.session->role);
+    const std::string when =
+        is_hold ? AgeText(SecondsBetween(m.since, snap.time)) + " ago: " : std::string();
     const std::string why =
         m.why.empty() ? std::string("The approval is over.") : when + m.why + ".";
     const bool lost = m.state == MissionState::kHold && !m.rechecks.empty() &&

@@ -63,9 +63,6 @@ bool KeepOrder(const std::vector<SiteListState::Held>& held, std::size_t pointed
     }
   }
   kept.insert(kept.end(), next, fresh.end());
-  while (!kept.empty() && kept.back().site == nullptr) {
-    kept.pop_back();  // nothing lies behind it
-  }
   const bool is_other = !std::equal(kept.begin(), kept.end(), rows.begin(), rows.end(),
                                     [](const Row& a, const Row& b) { return a.site == b.site; });
   rows = std::move(kept);
@@ -119,43 +116,51 @@ void DrawSiteListPanel(const EngineSnapshot& snap, const FlyLayout& layout, Site
   const TerrainDecision* known = SitesInForce(snap);
   const MissionStatus& mission = snap.flight->mission;
   Rows listed = RowsOf(known, mission);
-  const bool order_held = KeepOrder(state.held_order, state.pointed, listed.rows);
-  const std::vector<Row>& rows = listed.rows;
-  const std::size_t count = rows.size();
+  std::vector<Row>& rows = listed.rows;
+  const std::size_t live = rows.size();
   const std::size_t found = known != nullptr ? known->selection.sites.size() : 0;
-  const bool old = count > 0 && IsMapOld(snap, ui.silent_s);
+  const bool old = live > 0 && IsMapOld(snap, ui.silent_s);
   const auto shown_rows = static_cast<std::size_t>(layout.site_rows);
   const bool preview = snap.terrain->preview != nullptr;
   const std::string found_words =
       std::to_string(found) + " found" +
-      (count > shown_rows ? ", " + std::to_string(shown_rows) + " shown, wheel" : "");
+      (live > shown_rows ? ", " + std::to_string(shown_rows) + " shown, wheel" : "");
   const Rect content = DrawPanelFrame(
       ui, layout.sites, "Sites",
       {{old ? "Map " + AgeText(ShownMapAge(snap, ui.silent_s)) + " old" : "", 0, true, true},
        {preview ? "Applied, not the preview" : "", ui.style.palette.text1, true, false},
-       {order_held ? "Order held under the pointer" : "", ui.style.palette.text1, true, false},
+       {state.order_held ? "Order held under the pointer" : "", ui.style.palette.text1, true,
+        false},
        {found_words},
-       {count > 0 && !layout.narrow && !old && !preview ? "Tab for next" : ""}});
-  state.held_order.clear();
-  if (count == 0) {
+       {live > 0 && !layout.narrow && !old && !preview ? "Tab for next" : ""}});
+  const float row = s.Px(static_cast<float>(layout.site_row_units));
+  const Rect list{content.x, content.y + s.Px(layout.narrow ? 2 : 4), content.w,
+                  row * static_cast<float>(layout.site_rows)};
+  const Interaction pointer = Interact(ui, "panel/Sites", list, kPassive);
+  if (live == 0) {
     DrawEmpty(snap, content, ui);
     if (ui.highlighted_site != 0) {
       ui.intents.push_back(UiAction(HighlightSite{}));
     }
     return;
   }
-  const float row = s.Px(static_cast<float>(layout.site_row_units));
-  const Rect list{content.x, content.y + s.Px(layout.narrow ? 2 : 4), content.w,
-                  row * static_cast<float>(layout.site_rows)};
-  const float beyond = std::max(0.0f, row * static_cast<float>(count) - list.h);
-  const Interaction pointer = Interact(ui, "panel/Sites", list, kPassive);
-  state.scroll -= pointer.wheel * row;
-  if (pointer.hovered) {
-    state.pointed =
-        static_cast<std::size_t>(std::max(0.0f, pointer.pointer.y - list.y + state.scroll) / row);
-    for (const Row& one : rows) {
-      state.held_order.push_back({one.id, one.letter});
-    }
+  const auto scroll_to = [&](float to, std::size_t count) {
+    const float beyond = std::max(0.0f, row * static_cast<float>(count) - list.h);
+    state.scroll = std::clamp(std::round(to / row) * row, 0.0f, beyond);
+    return beyond;
+  };
+  if (!pointer.hovered) {
+    state.drawn.clear();
+  }
+  // The rows that are held are never fewer than were drawn, so that the scroll of the row under the
+  // pointer is known before.
+  scroll_to(state.scroll - pointer.wheel * row, std::max(live, state.drawn.size()));
+  const float pointed = std::max(0.0f, pointer.pointer.y - list.y + state.scroll) / row;
+  state.order_held = KeepOrder(state.drawn, static_cast<std::size_t>(pointed), rows);
+  const std::size_t count = rows.size();
+  state.drawn.clear();
+  for (const Row& one : rows) {
+    state.drawn.push_back({one.id, one.letter});
   }
   for (std::size_t i = 0; i < count && ui.focus.shown() != state.followed; ++i) {
     if (rows[i].site != nullptr &&
@@ -165,7 +170,7 @@ void DrawSiteListPanel(const EngineSnapshot& snap, const FlyLayout& layout, Site
     }
   }
   state.followed = ui.focus.shown();
-  state.scroll = std::clamp(std::round(state.scroll / row) * row, 0.0f, beyond);
+  const float beyond = scroll_to(state.scroll, count);
   const auto camera = LeftCamera(snap);
   std::optional<PictureView> view;
   if (camera) {

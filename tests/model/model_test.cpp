@@ -5,6 +5,7 @@
 
 #include "engine/core/random.h"
 #include "engine/core/units.h"
+#include "engine/model/cell_explanation.h"
 #include "engine/model/grid.h"
 #include "engine/model/settings/settings.h"
 #include "engine/model/site_standing.h"
@@ -130,6 +131,31 @@ TEST(SiteStanding, APlaceInWhoseNoiseOrAirAThingCouldHideIsOnlyLookedAt) {
     site.look_height_m = 7.9;
     EXPECT_STREQ(StandingWord(StandingOf(site, settings)), row.word) << row.three_sigma_m;
     EXPECT_EQ(StandingWords(site, settings), row.words) << row.three_sigma_m;
+  }
+}
+
+// Noise asks less of the gear, never less of what stands out of it.
+TEST(RequiredSafeProbability, FallsWithNoiseButNotWhereSomethingStandsOutOfIt) {
+  const struct {
+    double sigma_m, hidden, required;
+  } table[] = {{0, NAN, 0.9},
+               {0, 0.1, 0.9 * std::exp(-0.1)},
+               {0.03, 0, 0.64},
+               {0.03, 0.1, 0.64 * std::exp(-0.1)},
+               {0.03, 0.5, 0.64 * 0.8},  // the gear still tells something: 3 sigma are 9 cm
+               {0.034, 0.2, 0.5376 * std::exp(-0.2)},
+               {0.034, 0.3, 0.8},  // more than any place has that hides so much
+               {0.06, 0.2, 0},
+               {0.06, 0.3, 0.8},
+               {NAN, 0.3, 0.9 * 0.8}};
+  SladSettings settings;
+  for (const auto& row : table) {
+    SCOPED_TRACE(row.sigma_m);
+    EXPECT_NEAR(RequiredSafeProbability(settings, row.sigma_m, row.hidden), row.required, 1e-12);
+  }
+  settings.limits.min_safe_probability = 0;
+  for (const auto& row : table) {
+    EXPECT_EQ(RequiredSafeProbability(settings, row.sigma_m, row.hidden), 0) << "nothing is asked";
   }
 }
 

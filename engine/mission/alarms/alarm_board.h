@@ -23,7 +23,7 @@ struct AlarmCondition {
   bool present = false;
   std::string text;
   bool immediate = false;  ///< events need no persistence: the vehicle's refusal, a wave-off
-  double figure = NAN;     ///< that is held against the limit; NaN: there is none
+  double figure = NAN;     ///< held against the limit, or how bad it is; NaN: there is none
   bool less_is_worse = false;
   std::string figure_words{};  ///< with its unit
 };

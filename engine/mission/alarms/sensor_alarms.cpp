@@ -67,7 +67,11 @@ const AlarmRow kRows[] = {
     {.id = AlarmId::kGpsJump,
      .level = AlarmLevel::kCaution,
      .immediate = true,  // two fixes said so
-     .badness = [](const Facts& f) { return f.gps_agreement.off_m; },
+     // A drift is told without a figure; while either is over, small ones still come.
+     .badness =
+         [](const Facts& f) {
+           return f.gps_agreement.drifts ? GpsAgreement::kJump_m : f.gps_agreement.off_m;
+         },
      .present = [](const Facts& f, double) { return f.gps_agreement.off; },
      .text =
          [](const Facts& f, const std::string&) {

@@ -170,7 +170,7 @@ struct MissionStatus {
   bool MaySelect(std::uint64_t site_id) const { return may_select && TakesSelection(site_id); }
   std::vector<GuardResult> guards;  ///< for the armed site
   bool can_approve = false;
-  std::string cannot_approve_reason;  ///< first guard that fails
+  std::string cannot_approve_reason;  ///< first guard that fails, of any site where none is armed
   std::optional<Approval> approval;
   std::string approved_by;  ///< "the operator" or "a script"; empty where nobody tells
   enum class ApprovalPhase : std::uint8_t { kNone, kSent, kAccepted, kRefused };

@@ -116,7 +116,7 @@ GridF HiddenThings(const NarrowView& view, double radius_m, double things_per_m2
 }
 
 double HiddenFromNearer(const NarrowView& view, const GridF& variance_m2, Cell centre,
-                        double radius_m, double nearer) {
+                        double radius_m, double nearer, double enough) {
   constexpr double kOfBareGround = 1.5;  // of narrow relief, over the variance of its cell
   const double prior = kThingsPer_m2 / 2 * view.cell_m * view.cell_m;
   const double cell_m2 = view.cell_m * view.cell_m, thing_m2 = kThing_m * kThing_m;
@@ -124,7 +124,7 @@ double HiddenFromNearer(const NarrowView& view, const GridF& variance_m2, Cell c
   const int reach = static_cast<int>(radius_m / view.cell_m);
   double hidden = 0;
   int cells = 0, known = 0;
-  for (int dr = -reach; dr <= reach; ++dr) {
+  for (int dr = -reach; dr <= reach && hidden <= enough; ++dr) {
     for (int dc = -reach; dc <= reach; ++dc) {
       if ((dr * dr + dc * dc) * cell_m2 > radius_m * radius_m) {
         continue;

@@ -3,9 +3,9 @@
 // Stereo smears what is narrower than its window, so a thing over the limit may show a few
 // centimetres only, and noise may hide these. Of each cell the map says by how much it stands above
 // its surroundings (p), with which sigma (s), and which share of its height a thing 18 cm across
-// would show there. Such a thing of 1.2 times the limit shows r. Against bare ground things as large
-// and larger are more likely, by what shows, by L, smaller ones by l (each as the best of its kind;
-// a hole: -p for p):
+// would show there. Such a thing of 1.2 times the limit shows r. Against bare ground things as
+// large and larger are more likely, by what shows, by L, smaller ones by l (each as the best of its
+// kind; a hole: -p for p):
 //
 //   L = exp((2 r p - r^2) / (2 s^2)),  l = exp(max(0, p)^2 / (2 s^2))   where p < r
 //   L = exp(p^2 / (2 s^2)),            l = exp((2 r p - r^2) / (2 s^2)) beyond
@@ -23,6 +23,8 @@
 // n is one number for all ground (CALIBRATION.md): among drawn worlds neither the things that a map
 // shows elsewhere nor the ground searched for them told it better.
 #pragma once
+
+#include <cmath>
 
 #include "engine/model/elevation_map.h"
 #include "engine/model/grid.h"
@@ -47,11 +49,12 @@ inline constexpr double kThingsPer_m2 = 0.01;
 GridF HiddenThings(const NarrowView& view, double radius_m, double things_per_m2 = kThingsPer_m2);
 
 /// H of the disc around `centre` as bare ground would say it, were it seen along the same lines
-/// from `nearer` (above 0, at most 1) times as far. Of each cell stereo's noise, which is
-/// `variance_m2` there, goes down as nearer^2, its window as nearer; what the ground itself is rough
-/// by stays. Cells of which nothing is known hide as the others do; infinity when all are.
+/// from `nearer` (above 0, at most 1) times as far. Of each cell stereo's noise, up to 1.5 times
+/// its `variance_m2`, goes down as nearer^2, stereo's window as nearer; what the ground is rough by
+/// beyond that stays. Cells of which nothing is known hide as the others do; infinity when all are.
+/// Beyond `enough` nothing is counted any more.
 double HiddenFromNearer(const NarrowView& view, const GridF& variance_m2, Cell centre,
-                        double radius_m, double nearer);
+                        double radius_m, double nearer, double enough = HUGE_VAL);
 
 /// Whether what shows in a cell rules such a thing out, fifty to one: ground that is seen.
 bool IsSeen(const NarrowView& view, Cell cell);

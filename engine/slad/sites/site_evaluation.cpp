@@ -193,16 +193,21 @@ bool FramesAgree(const SladSettings& settings, const SiteContext& context,
 /// LandingSite::look_height_m, to a sixteenth of the vehicle's height above the site.
 double LookHeight(const ElevationMap& map, const SladSettings& settings, const SiteContext& context,
                   const LandingSite& site) {
+  const double none = std::numeric_limits<double>::quiet_NaN();
   const double height_m = site.p_WS.z() - context.p_WB.z();
-  if (map.narrow.share.empty() || context.camera.width == 0 || site.confirmed || !(height_m > 0)) {
-    return std::numeric_limits<double>::quiet_NaN();
+  if (map.narrow.share.empty() || context.camera.width == 0 || site.confirmed || !(height_m > 0) ||
+      map.geometry.cell_m > settings.lander.max_rock_size_m) {
+    return none;
   }
   const NarrowView view{map.narrow, map.geometry.cell_m, settings.limits.max_deviation_m};
   const auto settles = [&](double nearer) {
     return nearer * nearer * site.height_m.three_sigma < settings.limits.max_deviation_m &&
-           HiddenFromNearer(view, map.variance_m2, site.cell, site.clear_radius_m, nearer) <=
-               kMostHidden;
+           HiddenFromNearer(view, map.variance_m2, site.cell, site.clear_radius_m, nearer,
+                            kMostHidden) <= kMostHidden;
   };
+  if (settles(1)) {
+    return none;
+  }
   // From nearer never less is seen: half as many heights are left with each look.
   constexpr int kHalvings = 4;
   double settled = 0, step = 1;
@@ -210,9 +215,8 @@ double LookHeight(const ElevationMap& map, const SladSettings& settings, const S
     step /= 2;
     settled += settles(settled + step) ? step : 0;
   }
-  return settled * height_m < settings.fusion.commit_height_m || settles(1)
-             ? std::numeric_limits<double>::quiet_NaN()
-             : settled * height_m;
+  const double skids_m = settled * height_m - settings.lander.skid_centre_B().z();
+  return std::floor(skids_m) > kConfirmHeight_m ? skids_m : none;
 }
 
 }  // namespace

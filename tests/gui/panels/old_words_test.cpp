@@ -147,7 +147,7 @@ TEST(FlyFrame, AHoldTellsItsCauseAsPast) {
   snap.flight.Edit().mission.why = "Left camera 1.2 s old, limit 0.5 s";
   snap.flight.Edit().mission.since = AddSeconds(snap.time, -12);
   FlyWindow window(1920, 1080, snap);
-  EXPECT_TRUE(HasText(window.ui.items, "Held 12.0 s ago: Left camera 1.2 s old, limit 0.5 s."));
+  EXPECT_TRUE(HasText(window.ui.items, "12.0 s ago: Left camera 1.2 s old, limit 0.5 s."));
 }
 
 }  // namespace
