@@ -75,9 +75,6 @@ double RequiredSafeProbability(const SladSettings& settings, double sigma_m, dou
   const double noise = sigma_m / kProvisionalSigma_m;
   const double whole = settings.limits.min_safe_probability;
   const double nothing_hides = std::isnan(hidden_things) ? 1 : std::exp(-hidden_things);
-  if (3 * sigma_m >= settings.limits.max_deviation_m && nothing_hides < kOffered && whole > 0) {
-    return kOffered;
-  }
   // Below nothing, so that a limit of 0 stays one; unknown noise asks for the whole.
   return (noise >= 0 ? std::max(0.0, std::min(whole, 1 - noise * noise)) : whole) *
          std::max(nothing_hides, kOffered);

@@ -63,9 +63,7 @@ struct CellExplanation {
 /// touchdowns its chance of being unsafe grew with the square of sigma. A place may be a few times
 /// worse than that, and hide as much as ground of which nothing is known; what passes so is
 /// provisional until it has been seen. In metres, not in shares of a limit: a stricter limit must
-/// never ask for less. Where 3 sigma reach the roughness limit the gear tells nothing: more may hide
-/// there than where nothing stands out (exp(-hidden_things) below kOffered), and kOffered is asked,
-/// which such a place never reaches.
+/// never ask for less.
 double RequiredSafeProbability(const SladSettings& settings, double sigma_m, double hidden_things);
 /// Sigma at which any probability would do.
 inline constexpr double kProvisionalSigma_m = 0.05;
