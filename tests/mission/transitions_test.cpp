@@ -141,24 +141,6 @@ TEST(Mission, AnArmedSiteIsToldWithItsPresentVerdict) {
   EXPECT_TRUE(told);
 }
 
-TEST(Mission, ASelectedSiteThatBecomesConfirmedIsAnEvent) {
-  MissionRig rig;
-  rig.Site(101)->confirmed = false;
-  rig.Arm();
-  const auto told = [&] {
-    int count = 0;
-    for (const Event& event : rig.mission.events()) {
-      count += event.text.rfind("Site A confirmed, ", 0) == 0 ? 1 : 0;
-    }
-    return count;
-  };
-  rig.Run(1);
-  EXPECT_EQ(told(), 0);
-  rig.Site(101)->confirmed = true;
-  rig.Run(1);
-  EXPECT_EQ(told(), 1) << "once";
-}
-
 TEST(Mission, ArmWindowEndsAfterSixtySeconds) {
   MissionRig rig;
   rig.Arm();
