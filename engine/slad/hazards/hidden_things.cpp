@@ -46,7 +46,7 @@ bool IsBesideHazard(const NarrowView& view, Cell cell) {
   if (view.safe_distance_m == nullptr) {
     return false;
   }
-  const double smear_m = kThing_m * std::sqrt(kPeakOfThing / Figure(view.narrow.share, cell) - 1);
+  const double smear_m = std::sqrt(SmearedOfShare(Figure(view.narrow.share, cell)));
   const double ring_m = std::max(2 * view.cell_m, kRingWindows * smear_m);
   return Figure(*view.safe_distance_m, cell) < ring_m + view.cell_m;
 }
@@ -119,7 +119,7 @@ double HiddenFromNearer(const NarrowView& view, const GridF& variance_m2, Cell c
                         double radius_m, double nearer, double enough) {
   constexpr double kOfBareGround = 1.5;  // of narrow relief, over the variance of its cell
   const double prior = kThingsPer_m2 / 2 * view.cell_m * view.cell_m;
-  const double cell_m2 = view.cell_m * view.cell_m, thing_m2 = kThing_m * kThing_m;
+  const double cell_m2 = view.cell_m * view.cell_m;
   const double squared = nearer * nearer;
   const int reach = static_cast<int>(radius_m / view.cell_m);
   double hidden = 0;
@@ -139,9 +139,9 @@ double HiddenFromNearer(const NarrowView& view, const GridF& variance_m2, Cell c
       ++known;
       const double sigma_m2 = std::pow(Figure(view.narrow.sigma_m, cell), 2);
       const double noise_m2 = std::min(sigma_m2, kOfBareGround * Figure(variance_m2, cell));
-      const double smeared_m2 = thing_m2 * (kPeakOfThing / Figure(view.narrow.share, cell) - 1);
-      const double window_m2 = std::max(0.0, smeared_m2 - cell_m2);
-      const double share = kPeakOfThing / (1 + (squared * window_m2 + cell_m2) / thing_m2);
+      const double window_m2 =
+          std::max(0.0, SmearedOfShare(Figure(view.narrow.share, cell)) - cell_m2);
+      const double share = ShareOfSmeared(squared * window_m2 + cell_m2);
       const double then_m2 = sigma_m2 - noise_m2 + squared * squared * noise_m2;
       const double shows_m = kOverLimit * view.max_deviation_m * share;
       // q of a rock and of a hole, both far smaller than 1.

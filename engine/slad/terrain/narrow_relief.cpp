@@ -222,8 +222,7 @@ NarrowFigures FiguresOf(const ElevationMap& map, const MatchingWindow& window,
       sigma_m =
           std::max(std::sqrt(sigma_m * sigma_m + repeated), static_cast<float>(roughness.At(r, c)));
       const double spread_m2 = std::pow(window.Width_m(map, {r, c}), 2) + g.cell_m * g.cell_m;
-      figures.share.at(r, c) =
-          static_cast<float>(kPeakOfThing / (1 + spread_m2 / (kThing_m * kThing_m)));
+      figures.share.at(r, c) = static_cast<float>(ShareOfSmeared(spread_m2));
     }
   }
   return figures;

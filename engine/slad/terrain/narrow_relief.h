@@ -15,6 +15,13 @@ inline constexpr double kRingWindows = 1.25;   ///< nearer, the window smears a 
 /// Width of the thing that must not hide: half as wide again as it is high, at 1.2 times the default
 /// limit; and the share of its height that it shows unsmeared: it is no box.
 inline constexpr double kThing_m = 0.18, kPeakOfThing = 0.8;
+/// That share, smeared by w^2 + c^2 (below), and what smears it so.
+inline double ShareOfSmeared(double smeared_m2) {
+  return kPeakOfThing / (1 + smeared_m2 / (kThing_m * kThing_m));
+}
+inline double SmearedOfShare(double share) {
+  return kThing_m * kThing_m * (kPeakOfThing / share - 1);
+}
 
 /// A matching window w metres wide reads a thing s < w wide as lower, by about (s / w)^2, because
 /// it averages it with the ground around, and a hole as shallower. Cells that stand above a ring
