@@ -26,7 +26,7 @@ Eigen::Vector3d NearestOnSegment(const Eigen::Vector3d& a, const Eigen::Vector3d
 }  // namespace
 
 double DescentSpeeds::SinkRateAt(double skid_height_m) const {
-  const double to_go_m = std::max(skid_height_m - kSettleHeight_m, 0.0);
+  const double to_go_m = std::max(skid_height_m - slope_end_m, 0.0);
   const double braking_mps = std::max(kSlowestSink_mps, std::sqrt(2 * acceleration_mps2 * to_go_m));
   const double slow_to_go_m = std::max(skid_height_m - slow_height_m, 0.0);
   return std::min({sink_mps, braking_mps,
@@ -83,9 +83,11 @@ FlightPath PathOf(const ApproachPlan& plan, const Eigen::Vector3d& p_WS,
 }
 
 FlightPath PathOf(const Approval& approval, const PathVehicle& vehicle) {
-  return PathOf(
-      {approval.approach_heading_rad, approval.glide_slope_rad, approval.descent_rate_mps},
-      approval.p_WS, vehicle);
+  FlightPath path =
+      PathOf({approval.approach_heading_rad, approval.glide_slope_rad, approval.descent_rate_mps},
+             approval.p_WS, vehicle);
+  path.speeds.slope_end_m = std::max(path.speeds.slope_end_m, approval.stop_height_m);
+  return path;
 }
 
 double StraightHeading(const Eigen::Vector3d& p_W_skid, const Eigen::Vector3d& p_WS) {
@@ -139,7 +141,7 @@ void TimedDescent::Step(double dt_s) {
   const DescentSpeeds& speeds = path_.speeds;
   if (leg_ == PathLeg::kSlope) {
     Sink(speeds.SinkRateAt(skid_height_m_), dt_s);
-    if (skid_height_m_ <= kSettleHeight_m) {
+    if (skid_height_m_ <= kSettleHeight_m && !path_.IsLook()) {
       leg_ = PathLeg::kLevel;
       skid_height_m_ = kSettleHeight_m;
       level_.v_W = -sink_mps_ * path_.BodyPerMetre();
@@ -153,7 +155,7 @@ void TimedDescent::Step(double dt_s) {
       leg_ = PathLeg::kSink;
       sink_mps_ = 0;
     }
-  } else if (!touched()) {
+  } else if (!over()) {
     Sink(speeds.touch_mps, dt_s);
   }
 }
@@ -166,7 +168,7 @@ double TimeToTouchdown(const FlightPath& path, const Eigen::Vector3d& p_WB,
   }
   TimedDescent descent(path, p_WB, v_WB, flown);
   for (int step = 0; step * kStep_s < kLongest_s; ++step) {
-    if (descent.touched()) {
+    if (descent.over()) {
       return step * kStep_s;
     }
     descent.Step(kStep_s);
@@ -179,7 +181,7 @@ PathProgress ProgressOn(const FlightPath& path, const Eigen::Vector3d& p_WB,
   const PathPoint planned = path.Nearest(p_WB);
   PathProgress progress{planned.skid_height_m, (p_WB - planned.p_WB).norm(), {}};
   TimedDescent descent(path, p_WB, v_WB, flown);
-  for (int step = 0; step * kStep_s <= kAhead_s && !descent.touched(); ++step) {
+  for (int step = 0; step * kStep_s <= kAhead_s && !descent.over(); ++step) {
     if (step % kStepsShown == 0) {
       progress.ahead.push_back({step * kStep_s, descent.skid_height_m()});
     }

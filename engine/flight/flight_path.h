@@ -8,6 +8,7 @@
 //   level   from the slope's end at kSettleHeight_m to where the skids are above the site
 //   settle  hovers there until it is still enough
 //   sink    straight down until the skids touch
+//   A look ends on the slope, in a hover at its stop height.
 //
 // `skid height` is the height of the skid centre above the site, metres, up-positive.
 #pragma once
@@ -30,6 +31,7 @@ struct DescentSpeeds {
   double sink_mps = 1.0;       ///< down the slope, the vertical part: what an approval asks for
   double slow_sink_mps = 0.5;  ///< the same below slow_height_m of skid height
   double slow_height_m = 4.0;
+  double slope_end_m = kSettleHeight_m;  ///< skid height where the slope ends; a look hovers there
   double touch_mps = 0.35;  ///< straight down onto the site
   double acceleration_mps2 = 0.3;
   TravelLimits level{0.9, 0.5};
@@ -38,8 +40,8 @@ struct DescentSpeeds {
   double turn_rate_rad_s = Rad(15);
   double hand_over_s = 1.0;  ///< from there to the first metre down, likewise
 
-  /// Wanted vertical speed on the slope: braked before the slow part, and before the level leg so
-  /// that its end is no step for a height loop. Never below 0.1 m/s: the slope ends in finite time.
+  /// Wanted vertical speed on the slope: braked before the slow part, and before its end so that
+  /// this is no step for a height loop. Never below 0.1 m/s: the slope ends in finite time.
   double SinkRateAt(double skid_height_m) const;
 };
 
@@ -60,6 +62,8 @@ struct FlightPath {
   Eigen::Vector3d skid_centre_B = Eigen::Vector3d::Zero();  ///< the touchdown point
   DescentSpeeds speeds{};
 
+  /// It ends with a hover at the slope's end, not on the ground.
+  bool IsLook() const { return speeds.slope_end_m > kSettleHeight_m; }
   /// Body to world at the approach heading, level.
   Eigen::Matrix3d LevelRotation() const;
   /// Where B is on the slope when the skid centre is skid_height_m above the site.
@@ -111,7 +115,8 @@ class TimedDescent {
 
   void Step(double dt_s);
   double skid_height_m() const { return skid_height_m_; }
-  bool touched() const { return skid_height_m_ <= 0; }
+  /// On the ground, or of a look at the slope's end.
+  bool over() const { return skid_height_m_ <= (path_.IsLook() ? path_.speeds.slope_end_m : 0); }
 
  private:
   void StartLevel(const Eigen::Vector3d& from_W, const Eigen::Vector3d& v_WB);
@@ -125,7 +130,7 @@ class TimedDescent {
   double settled_s_ = 0;
 };
 
-/// Seconds from p_WB on the path to the touchdown; NaN where a number is not finite, or where the
+/// Seconds from p_WB on the path to the touchdown, or to a look's hover; NaN where a number is not finite, or where the
 /// way takes longer than an hour.
 double TimeToTouchdown(const FlightPath& path, const Eigen::Vector3d& p_WB,
                        const Eigen::Vector3d& v_WB, const std::optional<LegFlown>& flown = {});

@@ -53,6 +53,7 @@ constexpr const char* kActions[] = {"set_setting",
                                     "select",
                                     "disarm",
                                     "approve",
+                                    "look",
                                     "refuse",
                                     "hold",
                                     "wave_off",
@@ -183,6 +184,9 @@ class Exporter {
     } else if (const auto* approve = std::get_if<ApproveSite>(&command->action)) {
       site = std::to_string(approve->site_id);
       sequence = std::to_string(approve->snapshot_sequence);
+    } else if (const auto* look = std::get_if<LookAtSite>(&command->action)) {
+      site = std::to_string(look->site_id);
+      sequence = std::to_string(look->snapshot_sequence);
     } else if (const auto* refuse = std::get_if<RefuseSite>(&command->action)) {
       site = std::to_string(refuse->site_id);
     } else if (const auto* alarm = std::get_if<AcknowledgeAlarm>(&command->action)) {

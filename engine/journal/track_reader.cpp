@@ -67,6 +67,8 @@ void TrackReader::AddDecision(const WireMessage& message) {
     decision_ = {refuse->site_id, true};
   } else if (const auto* approve = std::get_if<ApproveSite>(&command->action)) {
     decision_ = {approve->site_id, false};
+  } else if (const auto* look = std::get_if<LookAtSite>(&command->action)) {
+    decision_ = {look->site_id, false};
   }
   const auto* select = std::get_if<SelectSite>(&command->action);
   if (select == nullptr) {

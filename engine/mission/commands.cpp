@@ -32,7 +32,7 @@ double TimeToBegin(const MissionMemory& m) {
   return std::min(m.facts.settings.mission.approval_expiry_s + way_s, kLongestExpiry_s);
 }
 
-Approval MakeApproval(MissionTurn& turn, Timestamp now) {
+Approval MakeApproval(MissionTurn& turn, double stop_height_m, Timestamp now) {
   MissionMemory& m = turn.memory;
   const LandingSite& site = *m.status.armed;
   PALACE_CHECK(m.status.approach.has_value());
@@ -51,6 +51,7 @@ Approval MakeApproval(MissionTurn& turn, Timestamp now) {
   a.glide_slope_rad = m.status.approach->glide_slope_rad;
   a.descent_rate_mps = m.status.approach->descent_rate_mps;
   a.clear_radius_m = site.clear_radius_m;
+  a.stop_height_m = stop_height_m;
   return a;
 }
 
@@ -74,6 +75,7 @@ struct Obeying {
   Status operator()(const SelectSite& action) const;
   Status operator()(const DisarmSite&) const;
   Status operator()(const ApproveSite& action) const;
+  Status operator()(const LookAtSite& action) const;
   Status operator()(const RefuseSite& action) const;
   Status operator()(const HoldHere&) const;
   Status operator()(const WaveOff&) const;
@@ -83,6 +85,9 @@ struct Obeying {
   Status operator()(const AskForCommand& action) const;
   Status operator()(const ReleaseCommand&) const;
   Status operator()(const CommandLost& action) const;
+  /// Why the armed site may not be flown to by what was on the screen then; empty when it may.
+  std::string WhyNotCommit(std::uint64_t site_id, std::uint64_t snapshot_sequence) const;
+  Status Commit(double stop_height_m) const;
   // Limits are kept elsewhere.
   Status operator()(const SetSetting&) const { return Ok(); }
   Status operator()(const ApplySettings&) const { return Ok(); }
@@ -177,25 +182,40 @@ Status Obeying::operator()(const RefuseSite& action) const {
   return Ok();
 }
 
-Status Obeying::operator()(const ApproveSite& action) const {
-  MissionMemory& m = turn.memory;
+std::string Obeying::WhyNotCommit(std::uint64_t site_id, std::uint64_t snapshot_sequence) const {
+  const MissionMemory& m = turn.memory;
   if (m.status.state != MissionState::kArmed) {
-    return Refuse(turn, now, "Approve",
-                  IsFlying(m.status.state) ? words::kAlreadyApproved : words::kSelectFirst);
+    return IsFlying(m.status.state) ? words::kAlreadyApproved : words::kSelectFirst;
   }
-  if (action.site_id != m.status.armed->id) {
-    return Refuse(turn, now, "Approve", words::NotTheArmedOne(m.status));
+  if (site_id != m.status.armed->id) {
+    return words::NotTheArmedOne(m.status);
   }
   const bool recorded = origin == CommandOrigin::kReplay;
   const auto guards = EvaluateGuards(GuardInputsAt(m, now));
   if (const GuardResult* failed = FirstFailure(guards, recorded)) {
-    return Refuse(turn, now, "Approve", failed->reason);
+    return failed->reason;
   }
-  if (!recorded && !WasOnScreen(m, action.snapshot_sequence, now)) {
-    return Refuse(turn, now, "Approve", words::kOtherPicture);
+  return recorded || WasOnScreen(m, snapshot_sequence, now) ? "" : words::kOtherPicture;
+}
+
+Status Obeying::operator()(const ApproveSite& action) const {
+  std::string why = WhyNotCommit(action.site_id, action.snapshot_sequence);
+  return why.empty() ? Commit(0) : Refuse(turn, now, "Approve", std::move(why));
+}
+
+Status Obeying::operator()(const LookAtSite& action) const {
+  std::string why = WhyNotCommit(action.site_id, action.snapshot_sequence);
+  if (why.empty() && !(turn.memory.status.armed->look_height_m > 0)) {
+    why = words::NothingToLookAt(turn.memory.status.armed->letter);
   }
+  return why.empty() ? Commit(turn.memory.status.armed->look_height_m)
+                     : Refuse(turn, now, "Look", std::move(why));
+}
+
+Status Obeying::Commit(double stop_height_m) const {
+  MissionMemory& m = turn.memory;
   std::erase(m.status.refused_sites, m.status.armed->id);  // approved on a second look
-  m.status.approval = MakeApproval(turn, now);
+  m.status.approval = MakeApproval(turn, stop_height_m, now);
   m.status.approval_phase = MissionStatus::ApprovalPhase::kSent;
   m.status.approval_answer.clear();
   m.vehicle_reason.clear();
@@ -203,7 +223,8 @@ Status Obeying::operator()(const ApproveSite& action) const {
   m.approved_at = now;
   AddEvent(turn, now, EventKind::kDecision, words::ApprovalGiven(m.status, m.approvals_given));
   const char* who = origin == CommandOrigin::kScript ? "a script" : "the operator";
-  m.status.approved_by = recorded ? "" : who;  // a record does not tell
+  // A record does not tell.
+  m.status.approved_by = origin == CommandOrigin::kReplay ? "" : who;
   Enter(turn, MissionState::kApproved, words::ApprovedBy(who), now);
   SendUntilAnswered(turn, *m.status.approval, now);
   return Ok();
@@ -298,6 +319,7 @@ struct ConcernsVehicle {
   bool operator()(const SelectSite&) const { return true; }
   bool operator()(const DisarmSite&) const { return true; }
   bool operator()(const ApproveSite&) const { return true; }
+  bool operator()(const LookAtSite&) const { return true; }
   bool operator()(const RefuseSite&) const { return true; }
   bool operator()(const HoldHere&) const { return true; }
   bool operator()(const WaveOff&) const { return true; }
@@ -320,7 +342,8 @@ std::string WhyNotAllowed(const MissionTurn& turn, const EngineCommand& command)
     return facts.why_no_vehicle;
   }
   const bool commits = std::holds_alternative<SelectSite>(command.action) ||
-                       std::holds_alternative<ApproveSite>(command.action);
+                       std::holds_alternative<ApproveSite>(command.action) ||
+                       std::holds_alternative<LookAtSite>(command.action);
   const bool decides = commits || std::holds_alternative<RefuseSite>(command.action);
   if (!recorded && decides && WhyViewOnly(facts) != nullptr) {
     return WhyViewOnly(facts);

@@ -17,6 +17,7 @@ namespace {
 constexpr double kHoldShown_s = 3;  // a person must be able to read why
 constexpr double kLandedHeight_m = 0.5;
 constexpr double kLandedSpeed_mps = 0.3;
+constexpr double kLookedWithin_m = 1.5;  // the reference is there, the vehicle nearly
 
 std::string WhyNoProposal(const MissionMemory& m, Timestamp now) {
   if (SecondsBetween(m.map_seen_at, now) > GuardLimits::map_s) {
@@ -192,11 +193,33 @@ bool LandedOrAborting(MissionTurn& turn, const MissionInputs& in) {
   return false;
 }
 
+/// The vehicle hovers where a look was to end.
+bool HasLooked(const MissionMemory& m) {
+  return m.status.approval && m.status.approval->IsLook() &&
+         m.watch.vehicle()->mode == VehicleMode::kHover &&
+         HeightAboveSite(m) <= m.status.approval->stop_height_m + kLookedWithin_m;
+}
+
+/// The approval is over as it should be, and what is seen from here is proposed anew.
+void EndLook(MissionTurn& turn, Timestamp now) {
+  MissionMemory& m = turn.memory;
+  std::string why = words::LookedAt(m.status.armed->letter, HeightAboveSite(m));
+  Kill(turn, why);
+  ForgetSite(m);
+  m.status.rechecks.clear();
+  m.winner = {};
+  Enter(turn, MissionState::kSearch, std::move(why), now);
+}
+
 void StepDescending(MissionTurn& turn, const MissionInputs& in) {
   MissionMemory& m = turn.memory;
   const Timestamp now = in.session.now;
   if (LandedOrAborting(turn, in) || m.watch.vehicle()->mode == VehicleMode::kLanded) {
     return;  // on the ground by its own word: the second sign is still missing
+  }
+  if (HasLooked(m)) {
+    EndLook(turn, now);
+    return;
   }
   const bool on_vision = in.navigation.navigation.OnVision();
   const double outage_s = SecondsBetween(m.vision_good_at, now);

@@ -188,6 +188,14 @@ std::string ConfirmHigher(const std::string& letter) {
 
 std::string LookFromAbove(const std::string& why) { return why + ": wave off to look from above"; }
 
+std::string NothingToLookAt(const std::string& letter) {
+  return "No height is known from which site " + letter + " would be sure";
+}
+
+std::string LookedAt(const std::string& letter, double height_m) {
+  return "Site " + letter + WithNumbers(" was looked at from %.1f m above it", height_m);
+}
+
 std::string ApproachBlocked(const std::string& letter) {
   return std::string("Approach to site ") + letter + " is blocked";
 }
@@ -201,8 +209,12 @@ std::string ApproachTurned(const std::optional<ApproachPlan>& plan) {
 }
 
 std::string ApprovalGiven(const MissionStatus& status, std::uint64_t counter) {
-  return "Approval " + std::to_string(counter) + " of " + SiteName(status) +
-         (status.approval->provisional ? ", provisional" : "") + " given";
+  return "Approval " + std::to_string(counter) + " of " +
+         (status.approval->IsLook()
+              ? "a look at " + SiteName(status) +
+                    WithNumbers(" from %.0f m above it", status.approval->stop_height_m)
+              : SiteName(status) + (status.approval->provisional ? ", provisional" : "")) +
+         " given";
 }
 
 std::string ApprovedBy(const char* who) {

@@ -31,6 +31,12 @@ struct ApproveSite {
   std::uint64_t site_id = 0;
   std::uint64_t snapshot_sequence = 0;
 };
+/// Sends the vehicle down the approach of the armed site to where its look height is
+/// (LandingSite::look_height_m), to hover there. Bound as an approval is, and as easily stopped.
+struct LookAtSite {
+  std::uint64_t site_id = 0;
+  std::uint64_t snapshot_sequence = 0;
+};
 struct RefuseSite {
   std::uint64_t site_id = 0;
 };
@@ -59,7 +65,7 @@ struct CommandLost {
 
 using CommandAction =
     std::variant<SetSetting, ApplySettings, DiscardSettings, SelectSite, DisarmSite, ApproveSite,
-                 RefuseSite, HoldHere, WaveOff, AcknowledgeAlarm, AcknowledgeWaveOff, AddBookmark,
+                 LookAtSite, RefuseSite, HoldHere, WaveOff, AcknowledgeAlarm, AcknowledgeWaveOff, AddBookmark,
                  AskForCommand, ReleaseCommand, CommandLost>;
 
 struct EngineCommand {

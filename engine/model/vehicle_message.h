@@ -36,7 +36,12 @@ struct Approval {
   double glide_slope_rad = 0;   ///< down from the horizon
   double descent_rate_mps = 0;  ///< down the glide slope, the vertical part
   double clear_radius_m = 0;
+  /// A look: the vehicle flies down the slope until its skids are so far above the site, hovers
+  /// there, and the approval is over. 0: it lands.
+  double stop_height_m = 0;
   Seal seal{};
+
+  bool IsLook() const { return stop_height_m != 0; }
 };
 
 enum class EstimateSource : std::uint8_t { kNone, kGps, kVision };

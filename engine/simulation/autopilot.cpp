@@ -270,7 +270,12 @@ void Autopilot::StepDescend(bool fresh) {
   const Vector3d v_W = -path_rate_mps_ * path_.BodyPerMetre();
   reference_.a_W = (v_W - reference_.v_W) / dt;
   reference_.v_W = v_W;
-  if (path_height_m_ <= kSettleHeight_m) {
+  if (path_height_m_ > path_.speeds.slope_end_m) {
+    return;
+  }
+  if (path_.IsLook()) {
+    EnterHover(VehicleMode::kHover);
+  } else {
     settle_time_s_ = settled_s_ = 0;
     mode_ = VehicleMode::kSettle;
   }
@@ -332,9 +337,9 @@ void Autopilot::ReturnToGps() {
   hold_p_W_ = StoppingPoint(reference_.p_W, reference_.v_W);
 }
 
-void Autopilot::EnterHold() {
+void Autopilot::EnterHover(VehicleMode mode) {
   ReturnToGps();
-  mode_ = VehicleMode::kHold;
+  mode_ = mode;
 }
 
 void Autopilot::EnterAbort(double target_down_m) {

@@ -5,7 +5,8 @@
 //           Leaves when within 0.5 m, 3 deg and 0.4 m/s AND healthy vision estimates for this
 //           approval arrive; too late for the expiry means kHold.
 //   kDescend, kSettle, kSink  fly on vision: down the slope, level until the skids are above the
-//           site, then straight down until they touch. Geometry and speeds: flight_path.h.
+//           site, then straight down until they touch. Geometry and speeds: flight_path.h. A look
+//           ends its approval in kHover, where the slope ends.
 //   kLanded stays. kHold hovers where it is on GPS. kAbort climbs at the climb rate of its limits,
 //   then kHover.
 //
@@ -77,7 +78,9 @@ class Autopilot {
   void StepAbort();
   void HandOverToVision();
   void ReturnToGps();
-  void EnterHold();
+  /// Ends the approval; hovers where it is.
+  void EnterHover(VehicleMode mode);
+  void EnterHold() { EnterHover(VehicleMode::kHold); }
   void EnterAbort(double target_down_m);
 
   AutopilotOptions options_;

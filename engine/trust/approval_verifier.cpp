@@ -20,7 +20,8 @@ std::string WhyNoNumber(const Approval& a) {
       {a.approach_heading_rad, "The approach heading is not a number"},
       {a.glide_slope_rad, "The glide slope is not a number"},
       {a.descent_rate_mps, "The descent rate is not a number"},
-      {a.clear_radius_m, "The clear radius is not a number"}};
+      {a.clear_radius_m, "The clear radius is not a number"},
+      {a.stop_height_m, "The height to stop at is not a number"}};
   for (const auto& [value, words] : values) {
     if (!std::isfinite(value)) {
       return words;
@@ -68,6 +69,17 @@ std::string WhyOutOfReach(const Approval& a, const VehicleSituation& vehicle) {
              : "";
 }
 
+/// `vehicle_m`: its height above the site.
+std::string WhyNoLook(const Approval& a, double vehicle_m) {
+  if (!a.IsLook()) {
+    return {};
+  }
+  if (a.stop_height_m < Limits::kLeastStop_m) {
+    return "The height to stop at is below 3 m";
+  }
+  return a.stop_height_m < vehicle_m ? "" : "The height to stop at is above the vehicle";
+}
+
 std::string WhyNotFlyable(const Approval& a) {
   if (std::abs(a.approach_heading_rad) > kTurn_rad) {
     return "The approach heading is more than one turn";
@@ -103,8 +115,9 @@ std::vector<std::uint8_t> FieldsOf(Approval approval) {
 }  // namespace
 
 std::string WhyNoSense(const Approval& a, const VehicleSituation& vehicle) {
-  for (const std::string& why : {WhyNoNumber(a), WhyUnbound(a), WhyNotInTime(a, vehicle.now),
-                                 WhyOutOfReach(a, vehicle), WhyNotFlyable(a)}) {
+  for (const std::string& why :
+       {WhyNoNumber(a), WhyUnbound(a), WhyNotInTime(a, vehicle.now), WhyOutOfReach(a, vehicle),
+        WhyNotFlyable(a), WhyNoLook(a, (a.p_WS - vehicle.p_WB).z())}) {
     if (!why.empty()) {
       return why;
     }

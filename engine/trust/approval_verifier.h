@@ -17,6 +17,7 @@
 //                        height below the vehicle, where that is known
 //   approach             heading within one turn, glide slope 0 to 90 degrees, rate up to 5 m/s
 //   clear radius         kLeastRadius_m to kMostRadius_m
+//   height to stop at    0, or from kLeastStop_m up to below the vehicle
 //   id, site and hashes  not 0
 #pragma once
 
@@ -36,6 +37,7 @@ struct ApprovalLimits {
   static constexpr double kDeepest_m = 100;
   static constexpr double kLeastRadius_m = 0.5;
   static constexpr double kMostRadius_m = 25;
+  static constexpr double kLeastStop_m = 3;
 };
 
 /// Where the vehicle is, by its own solution, when the approval arrives.

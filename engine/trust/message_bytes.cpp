@@ -62,6 +62,7 @@ std::vector<std::uint8_t> CommandBytes(std::int8_t kind, const Approval& a, cons
       .Real(a.glide_slope_rad)
       .Real(a.descent_rate_mps)
       .Real(a.clear_radius_m)
+      .Real(a.stop_height_m)
       .Text(reason)
       .Take();
 }

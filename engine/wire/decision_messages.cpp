@@ -37,6 +37,10 @@ struct ActionToWire {
     Site(site_decision_t::APPROVE, a.site_id);
     m.snapshot_sequence = WireId(a.snapshot_sequence);
   }
+  void operator()(const LookAtSite& a) const {
+    Site(site_decision_t::LOOK, a.site_id);
+    m.snapshot_sequence = WireId(a.snapshot_sequence);
+  }
   void operator()(const RefuseSite& a) const { Site(site_decision_t::REFUSE, a.site_id); }
   void operator()(const HoldHere&) const { m.kind = site_decision_t::HOLD; }
   void operator()(const WaveOff&) const { m.kind = site_decision_t::WAVE_OFF; }
@@ -82,6 +86,8 @@ Result<CommandAction> ActionFromWire(const site_decision_t& m) {
       return CommandAction(DisarmSite{});
     case site_decision_t::APPROVE:
       return CommandAction(ApproveSite{site, IdFromWire(m.snapshot_sequence)});
+    case site_decision_t::LOOK:
+      return CommandAction(LookAtSite{site, IdFromWire(m.snapshot_sequence)});
     case site_decision_t::REFUSE:
       return CommandAction(RefuseSite{site});
     case site_decision_t::HOLD:
@@ -102,7 +108,7 @@ Result<CommandAction> ActionFromWire(const site_decision_t& m) {
     case site_decision_t::COMMAND_LOST:
       return CommandAction(CommandLost{m.text});
     default:
-      return InvalidError("decision kind " + std::to_string(m.kind) + " is not one of 0..15");
+      return InvalidError("decision kind " + std::to_string(m.kind) + " is not one of 0..16");
   }
 }
 

@@ -26,6 +26,7 @@ command_t ApprovalToWire(const Approval& a) {
   m.glide_slope_rad = a.glide_slope_rad;
   m.descent_rate_mps = a.descent_rate_mps;
   m.clear_radius_m = a.clear_radius_m;
+  m.stop_height_m = a.stop_height_m;
   PackBytes(a.seal.mac, m.mac);
   return m;
 }
@@ -51,6 +52,7 @@ Result<VehicleMessage> ApprovalFromWire(const command_t& m) {
   a.glide_slope_rad = m.glide_slope_rad;
   a.descent_rate_mps = m.descent_rate_mps;
   a.clear_radius_m = m.clear_radius_m;
+  a.stop_height_m = m.stop_height_m;
   a.seal = SealFromWire(m);
   return VehicleMessage(std::move(a));
 }

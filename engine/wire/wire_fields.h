@@ -130,7 +130,7 @@ void VisitFields(Reader& read, command_t& m) {
   read(m.utime, m.kind, m.command_id, m.session_id, m.counter, m.site_id, m.map_hash,
        m.settings_hash, m.calibration_hash, m.vehicle_boot_id, m.approved_utime, m.expires_utime,
        m.provisional, m.site_pos, m.approach_heading_rad, m.glide_slope_rad, m.descent_rate_mps,
-       m.clear_radius_m, m.reason, m.mac);
+       m.clear_radius_m, m.stop_height_m, m.reason, m.mac);
 }
 template <typename Reader>
 void VisitFields(Reader& read, position_estimate_t& m) {

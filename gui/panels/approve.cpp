@@ -140,14 +140,35 @@ void DrawRefuseButton(const EngineSnapshot& snap, const Rect& rect, bool narrow,
   const std::string next = NextSiteLetter(snap);
   const std::string then = next.empty() ? next : "then site " + next;
   ButtonLook look;
-  look.font = narrow ? ui.style.medium : ui.style.section;
+  const bool low = rect.h < ui.style.Px(40);  // one line
+  look.font = low ? ui.style.body : narrow ? ui.style.medium : ui.style.section;
   look.flat = true;
   look.enabled = snap.flight->mission.armed.has_value() && snap.session->can_transmit &&
                  snap.flight->mission.state == MissionState::kArmed;
-  look.sub = then;
+  (low ? look.hint : look.sub) = then;
   look.reason = snap.session->can_transmit ? "Select a site first" : WhyNoLink(snap);
   if (DrawButton(ui, "refuse", rect, "Refuse", look)) {
     ui.intents.push_back(CommandAction(RefuseSite{snap.flight->mission.armed->id}));
+  }
+}
+
+/// Whether it is known from where the armed site would be sure, and it is offered to fly there.
+bool OffersLook(const MissionStatus& m) {
+  return m.state == MissionState::kArmed && m.armed && std::isfinite(m.armed->look_height_m);
+}
+
+/// One press: what it commits to is a hover. It asks for all that an approval asks for.
+void DrawLookButton(const EngineSnapshot& snap, const Rect& rect, bool narrow, UiFrame& ui) {
+  const MissionStatus& m = snap.flight->mission;
+  const std::string why_not = WhyNotApprove(snap, ui.silent_s);
+  ButtonLook look;
+  look.font = narrow ? ui.style.body : ui.style.medium;
+  look.flat = true;
+  look.enabled = m.can_approve && why_not.empty();
+  look.reason = why_not.empty() ? m.cannot_approve_reason : why_not;
+  look.hint = "Flies down the approach, hovers there and looks again; nothing is approved to land";
+  if (DrawButton(ui, "look", rect, "Look from " + Fixed(m.armed->look_height_m, 0) + " m", look)) {
+    ui.intents.push_back(CommandAction(LookAtSite{m.armed->id, snap.sequence}));
   }
 }
 
@@ -221,6 +242,10 @@ void DrawButtons(const EngineSnapshot& snap, const Rect& rect, bool narrow, Appr
   const Rect left{rect.x + s.Px(12), y, hold.x - gap - rect.x - s.Px(12), height};
   if (command) {
     DrawCommandButton(snap, left, state, ui);
+  } else if (OffersLook(snap.flight->mission)) {
+    const float half = std::floor((height - s.Px(6)) / 2);
+    DrawLookButton(snap, {left.x, left.y, left.w, half}, narrow, ui);
+    DrawRefuseButton(snap, {left.x, left.bottom() - half, left.w, half}, narrow, ui);
   } else {
     DrawRefuseButton(snap, left, narrow, ui);
   }

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "engine/model/site_standing.h"
 #include "gui/panels/approve_words.h"
@@ -38,15 +39,17 @@ std::string WaveOffHeadline(const WaveOffReport& report, double silent_s) {
 /// `heard_s`: since the vehicle was heard, whose deed a hold is.
 std::string Headline(const MissionStatus& m, double silent_s, double heard_s) {
   const std::string site = m.armed ? std::string("site ") + m.armed->letter : std::string("site");
+  const bool looks = m.approval && m.approval->IsLook();
   switch (m.state) {
     case MissionState::kApproved:
-      return "Approved: " + site + SideWords(m);
+      return (looks ? "Approved: look at " : "Approved: ") + site + SideWords(m);
     case MissionState::kHold:
       return Heard("Holding on the way to " + site, heard_s);
     case MissionState::kAborting:
       return WaveOffHeadline(m.wave_off, silent_s);
     default:
-      return "Landing on " + site;
+      return looks ? "Looking at " + site + " from " + Fixed(m.approval->stop_height_m, 0) + " m"
+                   : "Landing on " + site;
   }
 }
 
@@ -123,35 +126,45 @@ void DrawActions(const EngineSnapshot& snap, const Rect& button, UiFrame& ui) {
   }
 }
 
-/// Height flown, with ticks where the evidence is asked again.
+/// "12 m", or "0" on the ground.
+std::string HeightLabel(double height_m) { return height_m > 0 ? Fixed(height_m, 0) + " m" : "0"; }
+
+/// Height flown, with ticks where the evidence is asked again; of a look down to where it ends.
 void DrawLadder(const EngineSnapshot& snap, const Rect& bar, UiFrame& ui) {
   const Style& s = ui.style;
   const Palette& p = s.palette;
   const MissionStatus& m = snap.flight->mission;
+  const bool looks = m.approval && m.approval->IsLook();
+  const double end_m = looks ? m.approval->stop_height_m : 0;
   double top_m = std::isfinite(m.height_above_site_m) ? m.height_above_site_m : 0;
   for (const SiteRecheck& recheck : m.rechecks) {
     top_m = std::max(top_m, recheck.height_above_site_m);
   }
   FillRect(Canvas(), bar, p.hover, s.Fine(1));
-  if (!(top_m > 0)) {
+  if (!(top_m > end_m)) {
     return;
   }
   const auto at = [&](double height_m) {
-    return bar.x + bar.w * static_cast<float>(std::clamp(1 - height_m / top_m, 0.0, 1.0));
+    const double flown = (top_m - height_m) / (top_m - end_m);
+    return bar.x + bar.w * static_cast<float>(std::clamp(flown, 0.0, 1.0));
   };
   if (std::isfinite(m.height_above_site_m)) {
     FillRect(Canvas(), {bar.x, bar.y, at(m.height_above_site_m) - bar.x, bar.h}, p.bar, s.Fine(1));
   }
   float free_from = bar.x;
-  const float end = bar.right() - TextWidth(s.caption, "0") - s.Px(8);
-  for (const double height_m :
-       {top_m, m.confirm_height_m, snap.session->settings.slad.fusion.commit_height_m, 0.0}) {
+  const float end = bar.right() - TextWidth(s.caption, HeightLabel(end_m)) - s.Px(8);
+  const std::vector<double> ticks =
+      looks ? std::vector{top_m, end_m}
+            : std::vector{top_m, m.confirm_height_m,
+                          snap.session->settings.slad.fusion.commit_height_m, end_m};
+  for (const double height_m : ticks) {
     const float x = std::min(at(height_m), bar.right() - s.Px(2));
     FillRect(Canvas(), {x, bar.y - s.Px(4), s.Px(2), bar.h + s.Px(8)}, p.text1);
-    const std::string label = height_m > 0 ? Fixed(height_m, 0) + " m" : "0";
+    const std::string label = HeightLabel(height_m);
     const float width = TextWidth(s.caption, label);
-    const float from = height_m == 0 ? bar.right() - width : std::max(bar.x, x - width / 2);
-    const bool fits = height_m == 0 || (from >= free_from && from + width <= end);
+    const bool is_end = height_m == end_m;
+    const float from = is_end ? bar.right() - width : std::max(bar.x, x - width / 2);
+    const bool fits = is_end || (from >= free_from && from + width <= end);
     if (fits) {
       DrawText(ui, s.caption, p.text2, from, bar.bottom() + s.Px(14), label);
       free_from = from + width + s.Px(8);

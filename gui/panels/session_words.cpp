@@ -76,11 +76,13 @@ const char* ClockName(const EngineSnapshot& snap) {
   }
 }
 
-const char* LandingWord(MissionState state) {
-  return IsFlying(state)                  ? "Landing on"
-         : state == MissionState::kLanded ? "Landed on"
-         : state >= MissionState::kHold   ? "Was to land on"
-                                          : "Selected";
+const char* LandingWord(const MissionStatus& mission) {
+  const MissionState state = mission.state;
+  return mission.approval && mission.approval->IsLook() ? "Looking at"
+         : IsFlying(state)                              ? "Landing on"
+         : state == MissionState::kLanded               ? "Landed on"
+         : state >= MissionState::kHold                 ? "Was to land on"
+                                                        : "Selected";
 }
 
 }  // namespace palace

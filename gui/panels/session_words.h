@@ -22,6 +22,6 @@ bool IsPlaying(const EngineSnapshot& snap);
 const char* ClockName(const EngineSnapshot& snap);
 
 /// What the armed site is to the flight: "Selected", "Landing on", "Landed on", "Was to land on".
-const char* LandingWord(MissionState state);
+const char* LandingWord(const MissionStatus& mission);
 
 }  // namespace palace

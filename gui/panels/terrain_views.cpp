@@ -119,7 +119,7 @@ void DrawLeftPicture(UiFrame& ui, const Rect& area, const EngineSnapshot& snap,
       overlay.ghost_words = std::string(look.ghost_word) + " " + ghost->letter;
     }
     MarkLanding(snap, overlay);
-    overlay.landing_word = LandingWord(snap.flight->mission.state);
+    overlay.landing_word = LandingWord(snap.flight->mission);
     DrawSites(ui, view, overlay);
     if (overlay.selected) {
       DrawScaleBar(ui, image, view.PixelsPerMetre(overlay.selected->p_WS));

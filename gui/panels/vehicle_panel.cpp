@@ -12,6 +12,8 @@ namespace palace {
 
 namespace {
 
+bool IsLook(const MissionStatus& m) { return m.approval && m.approval->IsLook(); }
+
 const char* ModeWords(const EngineSnapshot& snap) {
   if (!snap.sensors->vehicle) {
     return "No status yet";
@@ -22,7 +24,9 @@ const char* ModeWords(const EngineSnapshot& snap) {
     case VehicleMode::kAlign:
       return "Aligning";
     case VehicleMode::kDescend:
-      return snap.sensors->vehicle->flies_on_vision ? "Landing on vision" : "Descending on GPS";
+      return !snap.sensors->vehicle->flies_on_vision ? "Descending on GPS"
+             : IsLook(snap.flight->mission)          ? "Descending on vision"
+                                                     : "Landing on vision";
     case VehicleMode::kSettle:
       return "Settling";
     case VehicleMode::kSink:

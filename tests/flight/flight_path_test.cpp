@@ -111,6 +111,30 @@ TEST(FlightPath, ASlowerDescentTakesLongerByItsSlope) {
   EXPECT_NEAR(time(slow) - time(fast), 20, 2);
 }
 
+// A look flies the same slope and ends on it: it is brought to rest there, not flown through.
+TEST(FlightPath, ALookEndsInAHoverOnTheSlope) {
+  Approval approval;
+  approval.p_WS = kPath.p_WS;
+  approval.approach_heading_rad = kPath.heading_rad;
+  approval.glide_slope_rad = kPath.slope_rad;
+  approval.descent_rate_mps = 1;
+  const PathVehicle vehicle{kPath.p_BC, kSkids, 3.8};
+  EXPECT_FALSE(PathOf(approval, vehicle).IsLook());
+  approval.stop_height_m = 9;
+  const FlightPath look = PathOf(approval, vehicle);
+  ASSERT_TRUE(look.IsLook());
+  EXPECT_TRUE(look.BodyAt(9).isApprox(kPath.BodyAt(9), 1e-9));
+  const Eigen::Vector3d still = Eigen::Vector3d::Zero();
+  const PathProgress progress = ProgressOn(look, look.BodyAt(20), still);
+  EXPECT_GE(progress.ahead.back().height_m, 9);
+  // 11 m at 1 m/s, to which it gathers speed and from which it brakes at 0.3 m/s2: 1.7 s each.
+  const double left_s = TimeToTouchdown(look, look.BodyAt(20), still);
+  EXPECT_NEAR(left_s, 11 + 1.7 + 1.7, 1.5);
+  EXPECT_LT(left_s + 9, TimeToTouchdown(kPath, kPath.BodyAt(20), still));
+  EXPECT_EQ(look.speeds.SinkRateAt(9), 0.1);
+  EXPECT_EQ(look.speeds.SinkRateAt(19), 1);
+}
+
 TEST(FlightPath, TimeIsUnknownWhereTheVehicleIs) {
   const Eigen::Vector3d nowhere = Eigen::Vector3d::Constant(NAN);
   EXPECT_TRUE(std::isnan(TimeToTouchdown(kPath, nowhere, Eigen::Vector3d::Zero())));

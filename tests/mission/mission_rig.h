@@ -23,6 +23,7 @@ struct SmallVehicle {
   std::uint64_t boot_id = 77;
   VehicleMode mode = VehicleMode::kHover;
   std::uint64_t approval_id = 0;
+  double stop_height_m = 0;  ///< of the approval that it flies
   double height_m = 20;
   double wind_mps = 0;
   double mode_for_s = 0;
@@ -43,6 +44,7 @@ struct SmallVehicle {
         why = WhyRefused(*approval, now);
         if (why.empty()) {
           approval_id = accepted_id = approval->id;
+          stop_height_m = approval->stop_height_m;
           Set(VehicleMode::kAlign);
         }
       }
@@ -71,7 +73,10 @@ struct SmallVehicle {
       Set(VehicleMode::kDescend);
     } else if (mode == VehicleMode::kDescend) {
       height_m -= 2 * dt_s;
-      if (height_m <= 2) {
+      if (stop_height_m > 0 && height_m <= stop_height_m) {
+        approval_id = 0;
+        Set(VehicleMode::kHover);
+      } else if (height_m <= 2) {
         Set(VehicleMode::kSink);
       }
     } else if (mode == VehicleMode::kSink) {

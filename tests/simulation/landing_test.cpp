@@ -240,6 +240,27 @@ TEST(Autopilot, ACopyOfTheApprovalUnderWayIsAnsweredAgain) {
   EXPECT_EQ(flight.last->status->mode, VehicleMode::kAlign);
 }
 
+TEST(Autopilot, ALookEndsInAHoverAboveTheSiteAndApprovesNothingMore) {
+  Flight flight(Options(14));
+  Approval approval = flight.MakeApproval({15.7, 0, 0});
+  approval.stop_height_m = 9;
+  flight.simulator.Send(approval);
+  flight.estimates_on = true;
+  ASSERT_TRUE(flight.StepUntil(VehicleMode::kDescend, 60));
+  ASSERT_TRUE(flight.StepUntil(VehicleMode::kHover, 60));
+  EXPECT_EQ(flight.last->status->approval_id, 0u);
+  EXPECT_FALSE(flight.last->status->flies_on_vision);
+  const auto skids_m = [&] {
+    const RigidTransform& X_WB = flight.last->truth.back().X_WB;
+    return -(X_WB * DefaultVehicle().lander.skid_centre_B()).z();
+  };
+  EXPECT_NEAR(skids_m(), 9, 0.6);
+  flight.StepSeconds(10);
+  EXPECT_NEAR(skids_m(), 9, 0.6);
+  EXPECT_EQ(flight.last->status->mode, VehicleMode::kHover);
+  EXPECT_LT(flight.last->truth.back().v_WB.norm(), 0.3);
+}
+
 struct RefusalCase {
   const char* name;
   void (*spoil)(Approval&, const FrameBundle&);

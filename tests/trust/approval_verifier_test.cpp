@@ -54,6 +54,8 @@ TEST(ApprovalVerifier, TakesWhatIsOfSenseAndNothingElse) {
       {"glide", [=](Approval& a) { a.glide_slope_rad = inf; }, "The glide slope is not a number"},
       {"rate", [=](Approval& a) { a.descent_rate_mps = nan; }, "The descent rate is not a number"},
       {"radius", [=](Approval& a) { a.clear_radius_m = nan; }, "The clear radius is not a number"},
+      {"stop", [=](Approval& a) { a.stop_height_m = nan; },
+       "The height to stop at is not a number"},
       {"99 m away",
        [](Approval& a) {
          a.p_WS = {99, 0, 0};
@@ -84,6 +86,13 @@ TEST(ApprovalVerifier, TakesWhatIsOfSenseAndNothingElse) {
        "The clear radius is outside 0.5 to 25 m"},
       {"wide", [](Approval& a) { a.clear_radius_m = 26; },
        "The clear radius is outside 0.5 to 25 m"},
+      {"a look", [](Approval& a) { a.stop_height_m = 12; }, ""},
+      {"a look from the ground", [](Approval& a) { a.stop_height_m = 2.9; },
+       "The height to stop at is below 3 m"},
+      {"a look from below", [](Approval& a) { a.stop_height_m = -12; },
+       "The height to stop at is below 3 m"},
+      {"a look from above", [](Approval& a) { a.stop_height_m = 40; },
+       "The height to stop at is above the vehicle"},
   };
   for (const Row& row : rows) {
     SCOPED_TRACE(row.name);

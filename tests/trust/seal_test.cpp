@@ -59,17 +59,26 @@ void ExpectEveryFieldSealed(const Message& good,
 
 TEST(Seal, CoversEveryFieldOfAnApproval) {
   using A = Approval;
-  ExpectEveryFieldSealed<A>(
-      GoodApproval(),
-      {[](A& a) { a.id ^= 1; }, [](A& a) { a.site_id ^= 1; }, [](A& a) { a.map_hash ^= 1; },
-       [](A& a) { a.settings_hash ^= 1; }, [](A& a) { a.calibration_hash ^= 1; },
-       [](A& a) { a.vehicle_boot_id ^= 1; }, [](A& a) { a.approved_at.us ^= 1; },
-       [](A& a) { a.expires_at.us ^= 1; }, [](A& a) { a.provisional = !a.provisional; },
-       [](A& a) { a.p_WS.x() += 1e-12; }, [](A& a) { a.p_WS.y() += 1e-12; },
-       [](A& a) { a.p_WS.z() += 1e-12; }, [](A& a) { a.approach_heading_rad += 1e-12; },
-       [](A& a) { a.glide_slope_rad += 1e-12; }, [](A& a) { a.descent_rate_mps += 1e-12; },
-       [](A& a) { a.clear_radius_m += 1e-12; }, [](A& a) { a.seal.sent_at.us ^= 1; },
-       [](A& a) { a.seal.session_id ^= 1; }, [](A& a) { ++a.seal.counter; }});
+  ExpectEveryFieldSealed<A>(GoodApproval(), {[](A& a) { a.id ^= 1; },
+                                             [](A& a) { a.site_id ^= 1; },
+                                             [](A& a) { a.map_hash ^= 1; },
+                                             [](A& a) { a.settings_hash ^= 1; },
+                                             [](A& a) { a.calibration_hash ^= 1; },
+                                             [](A& a) { a.vehicle_boot_id ^= 1; },
+                                             [](A& a) { a.approved_at.us ^= 1; },
+                                             [](A& a) { a.expires_at.us ^= 1; },
+                                             [](A& a) { a.provisional = !a.provisional; },
+                                             [](A& a) { a.p_WS.x() += 1e-12; },
+                                             [](A& a) { a.p_WS.y() += 1e-12; },
+                                             [](A& a) { a.p_WS.z() += 1e-12; },
+                                             [](A& a) { a.approach_heading_rad += 1e-12; },
+                                             [](A& a) { a.glide_slope_rad += 1e-12; },
+                                             [](A& a) { a.descent_rate_mps += 1e-12; },
+                                             [](A& a) { a.clear_radius_m += 1e-12; },
+                                             [](A& a) { a.stop_height_m += 1e-12; },
+                                             [](A& a) { a.seal.sent_at.us ^= 1; },
+                                             [](A& a) { a.seal.session_id ^= 1; },
+                                             [](A& a) { ++a.seal.counter; }});
 }
 
 TEST(Seal, CoversEveryFieldOfAHold) {

@@ -18,6 +18,7 @@ TEST(Command, EveryKindSurvives) {
                                               SelectSite{0xFEDCBA9876543210u},
                                               DisarmSite{},
                                               ApproveSite{5, ~0ull},
+                                              LookAtSite{7, 8},
                                               RefuseSite{6},
                                               HoldHere{},
                                               WaveOff{},
@@ -42,6 +43,9 @@ TEST(Command, EveryKindSurvives) {
   const auto back = DecodeCommand(EncodeCommand({CommandOrigin::kOperator, actions[5]}, {1}, {}));
   EXPECT_EQ(std::get<ApproveSite>(back->action).site_id, 5u);
   EXPECT_EQ(std::get<ApproveSite>(back->action).snapshot_sequence, ~0ull);
+  const auto look = DecodeCommand(EncodeCommand({CommandOrigin::kOperator, actions[6]}, {1}, {}));
+  EXPECT_EQ(std::get<LookAtSite>(look->action).site_id, 7u);
+  EXPECT_EQ(std::get<LookAtSite>(look->action).snapshot_sequence, 8u);
 }
 
 TEST(VehicleMessage, ApprovalSurvivesWithEveryBoundField) {
@@ -61,6 +65,7 @@ TEST(VehicleMessage, ApprovalSurvivesWithEveryBoundField) {
   a.glide_slope_rad = 0.75;
   a.descent_rate_mps = 0.6;
   a.clear_radius_m = 2.3;
+  a.stop_height_m = 12;
   a.seal = {random.NextBits(), 3, {99}, {1, 2, 3, 255}};
   const auto back = DecodeVehicleMessage(EncodeVehicleMessage(a, {9}, kChannels), kChannels);
   ASSERT_TRUE(back.ok());
@@ -70,6 +75,7 @@ TEST(VehicleMessage, ApprovalSurvivesWithEveryBoundField) {
   EXPECT_EQ(b.seal.counter, a.seal.counter);
   EXPECT_EQ(b.seal.sent_at, a.seal.sent_at);
   EXPECT_EQ(b.site_id, a.site_id);
+  EXPECT_EQ(b.stop_height_m, a.stop_height_m);
   EXPECT_EQ(b.map_hash, a.map_hash);
   EXPECT_EQ(b.settings_hash, a.settings_hash);
   EXPECT_EQ(b.calibration_hash, a.calibration_hash);

@@ -26,6 +26,7 @@ Approval RandomApproval(RandomStream& random) {
   a.provisional = random.Index(2) == 1;
   a.p_WS = RandomVector(random);
   a.clear_radius_m = random.Normal();
+  a.stop_height_m = random.Normal();
   return a;
 }
 

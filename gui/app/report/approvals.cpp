@@ -22,6 +22,7 @@ Rows Figures(const ApprovalRecord& record) {
                    WithNumbers(": %.2f m north, %.2f m east, %.2f m up", a.p_WS.x(), a.p_WS.y(),
                                -a.p_WS.z()) +
                    (a.provisional ? ", provisional" : ", confirmed")},
+      {"For", a.IsLook() ? WithNumbers("a look from %.0f m above it", a.stop_height_m) : "landing"},
       {"Radius to keep clear", WithNumbers("%.2f m", a.clear_radius_m)},
       {"Approach",
        WithNumbers("heading %.0f deg, slope %.0f deg, %.2f m/s down", Deg(a.approach_heading_rad),

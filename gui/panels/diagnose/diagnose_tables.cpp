@@ -158,7 +158,7 @@ void DrawSiteTable(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui) {
   const Palette& p = s.palette;
   const auto& armed_site = snap.flight->mission.armed;
   const std::string landing =
-      armed_site ? std::string(LandingWord(snap.flight->mission.state)) + " " + armed_site->letter
+      armed_site ? std::string(LandingWord(snap.flight->mission)) + " " + armed_site->letter
                  : std::string();
   const Rect content = DrawPanelFrame(
       ui, rect, "Sites of the newest map",

@@ -110,6 +110,27 @@ TEST(FlyApprove, NeverFiresWhenBlockedUnarmedPreviewingOrInReplay) {
   }
 }
 
+TEST(FlyApprove, OnePressLooksFromWhereTheSiteWouldBeSure) {
+  EngineSnapshot snap = fake::Snapshot(MissionState::kArmed);
+  EXPECT_EQ(FlyWindow(1920, 1080, snap).ui.items.Find("look"), nullptr);
+  snap.flight.Edit().mission.armed->look_height_m = 12.4;
+  for (const auto& [w, h] : {std::pair{1920, 1080}, {1280, 720}}) {
+    FlyWindow window(w, h, snap);
+    ASSERT_NE(window.ui.items.Find("look"), nullptr);
+    EXPECT_EQ(window.ui.items.Find("look")->text, "Look from 12 m");
+    window.ui.Click("look", window.draw);
+    EXPECT_EQ(window.ui.intents.size(), 1u);
+    EXPECT_EQ(window.ui.LastCommand<LookAtSite>().site_id, 1u);
+    EXPECT_EQ(window.ui.LastCommand<LookAtSite>().snapshot_sequence, window.snap.sequence);
+  }
+  snap.flight.Edit().mission.can_approve = false;
+  FlyWindow blocked(1920, 1080, snap);
+  blocked.ui.Click("look", blocked.draw);
+  EXPECT_EQ(blocked.ui.CountCommands<LookAtSite>(), 0);
+  FlyWindow searching(1920, 1080, fake::Snapshot(MissionState::kProposed));
+  EXPECT_EQ(searching.ui.items.Find("look"), nullptr);
+}
+
 TEST(FlyApprove, IsBlockedWhileTheScreenIsBehindTheEngine) {
   for (const double silent_s : {0.4, 0.6}) {
     FlyWindow window(1280, 720, fake::Snapshot(MissionState::kArmed));
