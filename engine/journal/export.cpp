@@ -187,6 +187,7 @@ class Exporter {
     } else if (const auto* look = std::get_if<LookAtSite>(&command->action)) {
       site = std::to_string(look->site_id);
       sequence = std::to_string(look->snapshot_sequence);
+      value = look->stop_height_m;
     } else if (const auto* refuse = std::get_if<RefuseSite>(&command->action)) {
       site = std::to_string(refuse->site_id);
     } else if (const auto* alarm = std::get_if<AcknowledgeAlarm>(&command->action)) {

@@ -33,7 +33,7 @@ class TrackReader {
   FlightRecord& record_;
   std::vector<LandingSite> newest_sites_;
   int armed_ = -1;
-  /// Given, and not answered yet: RefuseSite or ApproveSite.
+  /// Given, and not answered yet: RefuseSite, ApproveSite or LookAtSite.
   struct Answerable {
     std::uint64_t site_id = 0;
     bool refused = false;

@@ -81,7 +81,7 @@ void TakeApprovalAnswer(MissionTurn& turn, const CommandAck& ack, Timestamp now)
   m.status.approval_answer_s = SecondsBetween(m.approved_at, now);
   m.status.approval_answer = ack.reason;
   m.status.approval_phase = accepted ? Phase::kAccepted : Phase::kRefused;
-  const std::string site = words::SiteName(m.status);
+  const std::string site = words::Approved(m.status);
   AddEvent(
       turn, now, EventKind::kVehicle,
       accepted ? words::VehicleAccepted(site) : words::VehicleRefusedApproval(site, ack.reason));

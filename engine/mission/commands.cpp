@@ -10,6 +10,7 @@
 #include "engine/mission/wave_off.h"
 #include "engine/mission/wording.h"
 #include "engine/model/find_site.h"
+#include "engine/model/site_standing.h"
 
 namespace palace {
 namespace {
@@ -64,6 +65,15 @@ bool WasOnScreen(const MissionMemory& m, std::uint64_t sequence, Timestamp now) 
                         SecondsBetween(shown.time, now) <= kSnapshotOld_s);
   }
   return recent && sequence >= *m.armed.first_sequence;
+}
+
+/// Why the armed site is not looked at from there; empty when it is.
+std::string WhyNoLook(const MissionMemory& m, double stop_height_m) {
+  const LandingSite& site = *m.status.armed;
+  if (m.armed.confirmed || site.look_height_m != stop_height_m) {  // also where there is none
+    return words::NothingToLookAt(site.letter);
+  }
+  return HeightAboveSite(m) - stop_height_m >= kLeastWayToLook_m ? "" : words::kNearEnough;
 }
 
 /// One operator() a command.
@@ -204,18 +214,19 @@ Status Obeying::operator()(const ApproveSite& action) const {
 }
 
 Status Obeying::operator()(const LookAtSite& action) const {
+  const MissionMemory& m = turn.memory;
   std::string why = WhyNotCommit(action.site_id, action.snapshot_sequence);
-  if (why.empty() && !(turn.memory.status.armed->look_height_m > 0)) {
-    why = words::NothingToLookAt(turn.memory.status.armed->letter);
+  if (why.empty() && origin != CommandOrigin::kReplay) {
+    why = WhyNoLook(m, action.stop_height_m);
   }
-  return why.empty() ? Commit(turn.memory.status.armed->look_height_m)
-                     : Refuse(turn, now, "Look", std::move(why));
+  return why.empty() ? Commit(action.stop_height_m) : Refuse(turn, now, "Look", std::move(why));
 }
 
 Status Obeying::Commit(double stop_height_m) const {
   MissionMemory& m = turn.memory;
   std::erase(m.status.refused_sites, m.status.armed->id);  // approved on a second look
   m.status.approval = MakeApproval(turn, stop_height_m, now);
+  m.status.looks = stop_height_m > 0;
   m.status.approval_phase = MissionStatus::ApprovalPhase::kSent;
   m.status.approval_answer.clear();
   m.vehicle_reason.clear();

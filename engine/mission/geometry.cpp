@@ -69,7 +69,7 @@ double HeightAboveSite(const MissionMemory& m) {
 }
 
 bool IsCommitted(const MissionMemory& m) {
-  return HeightAboveSite(m) < m.facts.settings.slad.fusion.commit_height_m;
+  return !m.status.looks && HeightAboveSite(m) < m.facts.settings.slad.fusion.commit_height_m;
 }
 
 void PlanApproach(MissionMemory& m) {

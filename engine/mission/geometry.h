@@ -13,7 +13,8 @@ namespace palace {
 /// Metres above the armed site, up-positive; NaN when none is armed.
 double HeightAboveSite(const MissionMemory& memory);
 
-/// Below the commit height: the last verdict stands; pictures and maps may end here.
+/// Below the commit height: the last verdict stands; pictures and maps may end here. A look commits
+/// to nothing.
 bool IsCommitted(const MissionMemory& memory);
 
 /// Freezes the approach of the armed site, once, as soon as the vehicle's place is known.

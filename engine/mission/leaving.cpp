@@ -22,7 +22,8 @@ std::string WhatItDoes(const EngineSnapshot& snapshot, const VehicleStatus& vehi
            ". The approval is void then.";
   }
   if (state == MissionState::kApproved) {
-    return "A landing is approved. Without this station's estimates the vehicle does not descend: "
+    return std::string(snapshot.flight->mission.looks ? "A look" : "A landing") +
+           " is approved. Without this station's estimates the vehicle does not descend: "
            "it holds by itself, and the approval expires.";
   }
   return "The vehicle is in the air. It hovers where it is; nobody watches it.";

@@ -51,6 +51,14 @@ std::string WhyDrop(const MissionMemory& m, const MissionInputs& in) {
                      : why;
 }
 
+/// A look was approved, and the vehicle goes on below it.
+bool WentPastLook(const MissionMemory& m) {
+  const VehicleMode mode = m.watch.vehicle()->mode;
+  return m.status.looks && m.status.approval &&
+         (mode == VehicleMode::kSettle || mode == VehicleMode::kSink ||
+          HeightAboveSite(m) < m.status.approval->stop_height_m - kLookedWithin_m);
+}
+
 /// Why a descent may not go on; empty when it may.
 std::string WhyHold(const MissionMemory& m, const MissionInputs& in) {
   const Timestamp now = in.session.now;
@@ -63,6 +71,9 @@ std::string WhyHold(const MissionMemory& m, const MissionInputs& in) {
   }
   if (vehicle.mode == VehicleMode::kHover || !IsOwnApproval(m, vehicle.approval_id)) {
     return words::kLeftDescent;
+  }
+  if (WentPastLook(m)) {
+    return words::kWentPastLook;
   }
   if (IsCommitted(m)) {
     return words::Older("Vehicle status", m.watch.LinkAge(now), StaleLimits::link_s);
@@ -131,6 +142,26 @@ void StepArmed(MissionTurn& turn, const MissionInputs& in) {
   }
 }
 
+/// The vehicle, the same one, hovers where a look was to end, and says that it flies no approval.
+/// kLeastWayToLook_m lies between that and where the look began.
+bool HasLooked(const MissionMemory& m) {
+  const auto& vehicle = m.watch.vehicle();
+  return vehicle && m.status.looks && m.status.approval && vehicle->mode == VehicleMode::kHover &&
+         vehicle->approval_id == 0 && !m.watch.rebooted() && m.watch.boot_id() == m.armed.boot_id &&
+         std::abs(HeightAboveSite(m) - m.status.approval->stop_height_m) <= kLookedWithin_m;
+}
+
+/// The approval is over as it should be, and what is seen from here is proposed anew.
+void EndLook(MissionTurn& turn, Timestamp now) {
+  MissionMemory& m = turn.memory;
+  std::string why = words::LookedAt(m.status.armed->letter, HeightAboveSite(m));
+  Kill(turn, why);
+  ForgetSite(m);
+  m.status.rechecks.clear();
+  m.winner = {};
+  Enter(turn, MissionState::kSearch, std::move(why), now);
+}
+
 void StepApproved(MissionTurn& turn, const MissionInputs& in) {
   using Phase = MissionStatus::ApprovalPhase;
   MissionMemory& m = turn.memory;
@@ -143,6 +174,10 @@ void StepApproved(MissionTurn& turn, const MissionInputs& in) {
     m.status.approval_answer_s = SecondsBetween(m.approved_at, now);
     m.vision_allowed = true;
     m.repeating.reset();
+  }
+  if (HasLooked(m)) {  // no word of it came while it was on the way
+    EndLook(turn, now);
+    return;
   }
   std::string why = WhyDrop(m, in);
   if (!why.empty()) {
@@ -191,24 +226,6 @@ bool LandedOrAborting(MissionTurn& turn, const MissionInputs& in) {
     return true;
   }
   return false;
-}
-
-/// The vehicle hovers where a look was to end.
-bool HasLooked(const MissionMemory& m) {
-  return m.status.approval && m.status.approval->IsLook() &&
-         m.watch.vehicle()->mode == VehicleMode::kHover &&
-         HeightAboveSite(m) <= m.status.approval->stop_height_m + kLookedWithin_m;
-}
-
-/// The approval is over as it should be, and what is seen from here is proposed anew.
-void EndLook(MissionTurn& turn, Timestamp now) {
-  MissionMemory& m = turn.memory;
-  std::string why = words::LookedAt(m.status.armed->letter, HeightAboveSite(m));
-  Kill(turn, why);
-  ForgetSite(m);
-  m.status.rechecks.clear();
-  m.winner = {};
-  Enter(turn, MissionState::kSearch, std::move(why), now);
 }
 
 void StepDescending(MissionTurn& turn, const MissionInputs& in) {

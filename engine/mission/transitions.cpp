@@ -68,6 +68,7 @@ void ForgetSite(MissionMemory& m) {
   m.status.armed.reset();
   m.status.armed_limits.clear();
   m.status.approach.reset();
+  m.status.looks = false;
   m.status.arm_expires.reset();
   m.status.guards.clear();
   m.armed = {};
@@ -85,7 +86,7 @@ void Kill(MissionTurn& turn, std::string_view why) {
   }
   m.dead_approval_id = m.status.approval->id;
   AddEvent(turn, m.facts.now, EventKind::kDecision,
-           words::ApprovalEnded(words::SiteName(m.status), why));
+           words::ApprovalEnded(words::Approved(m.status), why));
   m.status.approval.reset();
   if (m.status.approval_phase != MissionStatus::ApprovalPhase::kRefused) {
     m.status.approval_phase = MissionStatus::ApprovalPhase::kNone;

@@ -49,7 +49,7 @@ std::string CannotSelectIn(MissionState state) {
 }
 
 std::string NotTheArmedOne(const MissionStatus& status) {
-  return "Selected is " + SiteName(status) + ", not the site to approve";
+  return "Selected is " + SiteName(status) + ", not the site that was asked for";
 }
 
 std::string Age(double age_s) {
@@ -117,6 +117,10 @@ std::string LaserFault(const LaserHealth& laser) {
       return {};
   }
   return {};
+}
+
+std::string Approved(const MissionStatus& status) {
+  return (status.looks ? "a look at " : "") + SiteName(status);
 }
 
 std::string SiteName(const MissionStatus& status) {
@@ -209,11 +213,10 @@ std::string ApproachTurned(const std::optional<ApproachPlan>& plan) {
 }
 
 std::string ApprovalGiven(const MissionStatus& status, std::uint64_t counter) {
-  return "Approval " + std::to_string(counter) + " of " +
-         (status.approval->IsLook()
-              ? "a look at " + SiteName(status) +
-                    WithNumbers(" from %.0f m above it", status.approval->stop_height_m)
-              : SiteName(status) + (status.approval->provisional ? ", provisional" : "")) +
+  return "Approval " + std::to_string(counter) + " of " + Approved(status) +
+         (status.looks ? WithNumbers(" from %.0f m above it", status.approval->stop_height_m)
+          : status.approval->provisional ? ", provisional"
+                                         : "") +
          " given";
 }
 

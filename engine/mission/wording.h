@@ -25,6 +25,7 @@ inline constexpr const char* kExpired = "Approval expired before the descent beg
 inline constexpr const char* kVehicleAborts = "Vehicle aborts by itself";
 inline constexpr const char* kVehicleHolds = "Vehicle holds by itself";
 inline constexpr const char* kLeftDescent = "Vehicle left the descent";
+inline constexpr const char* kWentPastLook = "Vehicle did not stop where the look was to end";
 inline constexpr const char* kFliesWithdrawn = "Vehicle flies a withdrawn approval";
 inline constexpr const char* kHeightUnknown = "Height above the site is unknown";
 inline constexpr const char* kReevaluated = "Vehicle hovers, sites re-evaluated";
@@ -50,6 +51,7 @@ inline constexpr const char* kNoneProposed = "No site is proposed";
 inline constexpr const char* kSelectFirst = "Select a site first";
 inline constexpr const char* kAlreadyApproved = "Already approved";
 inline constexpr const char* kApprovedHold = "Already approved, hold or wave off";
+inline constexpr const char* kNearEnough = "The vehicle is hardly higher than the look would be";
 inline constexpr const char* kOtherPicture =
     "The picture on the screen was not that of this selection";
 std::string Commands(const std::string& fingerprint);
@@ -88,6 +90,8 @@ std::string LaserFault(const LaserHealth& laser);
 
 /// "site A", or "the site" when none is armed.
 std::string SiteName(const MissionStatus& status);
+/// What an approval is of: the same, or "a look at site A".
+std::string Approved(const MissionStatus& status);
 std::string SiteSelected(const std::string& letter);
 /// "Selection of site A ended: arm window is over ..."
 std::string SelectionEnded(std::string_view site, std::string_view why);

@@ -31,11 +31,12 @@ struct ApproveSite {
   std::uint64_t site_id = 0;
   std::uint64_t snapshot_sequence = 0;
 };
-/// Sends the vehicle down the approach of the armed site to where its look height is
-/// (LandingSite::look_height_m), to hover there. Bound as an approval is, and as easily stopped.
+/// Sends the vehicle down the approach of the armed site to stop_height_m above it, the look height
+/// that was on the screen, to hover there. Bound as an approval is, and as easily stopped.
 struct LookAtSite {
   std::uint64_t site_id = 0;
   std::uint64_t snapshot_sequence = 0;
+  double stop_height_m = 0;
 };
 struct RefuseSite {
   std::uint64_t site_id = 0;
@@ -65,8 +66,8 @@ struct CommandLost {
 
 using CommandAction =
     std::variant<SetSetting, ApplySettings, DiscardSettings, SelectSite, DisarmSite, ApproveSite,
-                 LookAtSite, RefuseSite, HoldHere, WaveOff, AcknowledgeAlarm, AcknowledgeWaveOff, AddBookmark,
-                 AskForCommand, ReleaseCommand, CommandLost>;
+                 LookAtSite, RefuseSite, HoldHere, WaveOff, AcknowledgeAlarm, AcknowledgeWaveOff,
+                 AddBookmark, AskForCommand, ReleaseCommand, CommandLost>;
 
 struct EngineCommand {
   CommandOrigin origin = CommandOrigin::kOperator;

@@ -15,15 +15,10 @@ bool StandsInNoise(const LandingSite& site, const SladSettings& settings) {
   return !(site.height_m.three_sigma < settings.limits.max_deviation_m);
 }
 
-/// A look from nearer shows no more of the air.
-bool HasLook(const LandingSite& site) {
-  return std::isfinite(site.look_height_m) && !(site.air_seen_m < kLeastAirSeen_m);
-}
-
 /// "sure from 8 m above it"; where no look from nearer is known to tell, "sure below 10 cm".
 std::string SureFrom(const LandingSite& site, const std::string& limit) {
-  return "sure " + (HasLook(site)
-                        ? WithNumbers("from %.0f m above it", std::floor(site.look_height_m))
+  return "sure " + (std::isfinite(site.look_height_m)
+                        ? WithNumbers("from %.0f m above it", site.look_height_m)
                         : limit);
 }
 
@@ -50,9 +45,8 @@ const char* StandingWord(SiteStanding standing) {
 
 std::string StandingWords(const LandingSite& site, const SladSettings& settings) {
   const SiteStanding standing = StandingOf(site, settings);
-  const bool from_nearer = standing == SiteStanding::kToLookAt && HasLook(site);
-  return from_nearer ? WithNumbers("Look from %.0f m", std::floor(site.look_height_m))
-                     : StandingWord(standing);
+  const bool from_nearer = standing == SiteStanding::kToLookAt && std::isfinite(site.look_height_m);
+  return from_nearer ? WithNumbers("Look from %.0f m", site.look_height_m) : StandingWord(standing);
 }
 
 bool IsInView(const LandingSite& site) { return !(site.age_s > kOldGround_s); }
@@ -78,8 +72,8 @@ std::string WhyProvisional(const LandingSite& site, const SladSettings& settings
            SureFrom(site, WithNumbers("below %.1f cm", 100 * settings.limits.max_deviation_m));
   }
   if (site.air_seen_m < kLeastAirSeen_m) {
-    return WithNumbers("air over it seen up to %.1f m, min %.0f m",
-                       TenthsDown(site.air_seen_m), kLeastAirSeen_m);
+    return WithNumbers("air over it seen up to %.1f m, min %.0f m", TenthsDown(site.air_seen_m),
+                       kLeastAirSeen_m);
   }
   const std::string over = WithNumbers("over %.0f cm", 100 * settings.limits.max_deviation_m);
   if (site.hidden_things > kMostHidden) {

@@ -35,6 +35,9 @@ inline constexpr double kConfirmHeight_m = 6;
 /// over ground that nobody looked at from higher up. A wire or a branch hangs there unseen.
 inline constexpr double kLeastAirSeen_m = 5;
 
+/// A look goes down by as much at least: a hover nearer to it would be the same view.
+inline constexpr double kLeastWayToLook_m = 2;
+
 enum class SiteStanding : std::uint8_t {
   kConfirmed,    ///< LandingSite::confirmed
   kProvisional,  ///< all but confirmed: it holds every limit that may be asked at its noise

@@ -40,6 +40,7 @@ struct ActionToWire {
   void operator()(const LookAtSite& a) const {
     Site(site_decision_t::LOOK, a.site_id);
     m.snapshot_sequence = WireId(a.snapshot_sequence);
+    m.value = a.stop_height_m;
   }
   void operator()(const RefuseSite& a) const { Site(site_decision_t::REFUSE, a.site_id); }
   void operator()(const HoldHere&) const { m.kind = site_decision_t::HOLD; }
@@ -87,7 +88,7 @@ Result<CommandAction> ActionFromWire(const site_decision_t& m) {
     case site_decision_t::APPROVE:
       return CommandAction(ApproveSite{site, IdFromWire(m.snapshot_sequence)});
     case site_decision_t::LOOK:
-      return CommandAction(LookAtSite{site, IdFromWire(m.snapshot_sequence)});
+      return CommandAction(LookAtSite{site, IdFromWire(m.snapshot_sequence), m.value});
     case site_decision_t::REFUSE:
       return CommandAction(RefuseSite{site});
     case site_decision_t::HOLD:

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/model/mission/refused_lately.h"
 #include "gui/panels/approve_words.h"
 #include "gui/panels/fly_panels.h"
 #include "gui/panels/session_words.h"
@@ -55,10 +56,14 @@ void DrawChecks(const EngineSnapshot& snap, const Rect& rect, float y, bool narr
   }
   const std::string why_not = WhyNotApprove(snap, ui.silent_s);
   const bool pass = why_not.empty();
-  const std::string words = !pass ? why_not
-                            : ui.ui_time_s < state.hold_cut_told_until_s
-                                ? "Hold cut: " + state.hold_cut_by
-                                : "All " + std::to_string(m.guards.size()) + " checks pass";
+  const std::string no_look = snap.session->events
+                                  ? WhyRefusedLately(*snap.session->events, "Look", snap.time)
+                                  : std::string();
+  const std::string words =
+      !pass                                        ? why_not
+      : ui.ui_time_s < state.hold_cut_told_until_s ? "Hold cut: " + state.hold_cut_by
+      : !no_look.empty()                           ? "Not flown: " + no_look
+                         : "All " + std::to_string(m.guards.size()) + " checks pass";
   DrawIcon(Canvas(), pass ? Icon::kDone : Icon::kCaution, {rect.x + s.Px(18), y}, s.Px(12),
            pass ? p.text1 : p.caution);
   const float text_x = rect.x + s.Px(32);
@@ -140,12 +145,11 @@ void DrawRefuseButton(const EngineSnapshot& snap, const Rect& rect, bool narrow,
   const std::string next = NextSiteLetter(snap);
   const std::string then = next.empty() ? next : "then site " + next;
   ButtonLook look;
-  const bool low = rect.h < ui.style.Px(40);  // one line
-  look.font = low ? ui.style.body : narrow ? ui.style.medium : ui.style.section;
+  look.font = narrow ? ui.style.medium : ui.style.section;
   look.flat = true;
   look.enabled = snap.flight->mission.armed.has_value() && snap.session->can_transmit &&
                  snap.flight->mission.state == MissionState::kArmed;
-  (low ? look.hint : look.sub) = then;
+  look.sub = then;
   look.reason = snap.session->can_transmit ? "Select a site first" : WhyNoLink(snap);
   if (DrawButton(ui, "refuse", rect, "Refuse", look)) {
     ui.intents.push_back(CommandAction(RefuseSite{snap.flight->mission.armed->id}));
@@ -154,21 +158,29 @@ void DrawRefuseButton(const EngineSnapshot& snap, const Rect& rect, bool narrow,
 
 /// Whether it is known from where the armed site would be sure, and it is offered to fly there.
 bool OffersLook(const MissionStatus& m) {
-  return m.state == MissionState::kArmed && m.armed && std::isfinite(m.armed->look_height_m);
+  const bool sure = m.armed_now && m.armed_now->confirmed;
+  return m.state == MissionState::kArmed && m.armed && m.may_select && !sure &&
+         std::isfinite(m.armed->look_height_m);
 }
 
-/// One press: what it commits to is a hover. It asks for all that an approval asks for.
-void DrawLookButton(const EngineSnapshot& snap, const Rect& rect, bool narrow, UiFrame& ui) {
+/// One press: what it commits to is a hover. It asks for all that an approval asks for. In the
+/// panel's head, where no button that commits to more ever stands.
+void DrawLookButton(const EngineSnapshot& snap, const Rect& panel, UiFrame& ui) {
+  const Style& s = ui.style;
   const MissionStatus& m = snap.flight->mission;
   const std::string why_not = WhyNotApprove(snap, ui.silent_s);
+  const std::string words = "Look from " + Fixed(m.armed->look_height_m, 0) + " m";
+  const Rect rect{panel.x + s.Px(18) + TextWidth(s.medium, "Approve"), panel.y + s.Px(3),
+                  TextWidth(s.caption, words) + s.Px(20), s.Px(22)};
   ButtonLook look;
-  look.font = narrow ? ui.style.body : ui.style.medium;
+  look.font = s.caption;
   look.flat = true;
   look.enabled = m.can_approve && why_not.empty();
   look.reason = why_not.empty() ? m.cannot_approve_reason : why_not;
   look.hint = "Flies down the approach, hovers there and looks again; nothing is approved to land";
-  if (DrawButton(ui, "look", rect, "Look from " + Fixed(m.armed->look_height_m, 0) + " m", look)) {
-    ui.intents.push_back(CommandAction(LookAtSite{m.armed->id, snap.sequence}));
+  if (DrawButton(ui, "look", rect, words, look)) {
+    ui.intents.push_back(
+        CommandAction(LookAtSite{m.armed->id, snap.sequence, m.armed->look_height_m}));
   }
 }
 
@@ -242,10 +254,6 @@ void DrawButtons(const EngineSnapshot& snap, const Rect& rect, bool narrow, Appr
   const Rect left{rect.x + s.Px(12), y, hold.x - gap - rect.x - s.Px(12), height};
   if (command) {
     DrawCommandButton(snap, left, state, ui);
-  } else if (OffersLook(snap.flight->mission)) {
-    const float half = std::floor((height - s.Px(6)) / 2);
-    DrawLookButton(snap, {left.x, left.y, left.w, half}, narrow, ui);
-    DrawRefuseButton(snap, {left.x, left.bottom() - half, left.w, half}, narrow, ui);
   } else {
     DrawRefuseButton(snap, left, narrow, ui);
   }
@@ -273,6 +281,9 @@ void DrawApprovePanel(const EngineSnapshot& snap, const Rect& rect, bool narrow,
   const std::string fact = m.armed ? std::string("Site ") + m.armed->letter + " selected" : "";
   const bool armed = m.state == MissionState::kArmed && m.armed && m.may_select;
   DrawPanelFrame(ui, rect, "Approve", {{narrow || armed ? std::string() : fact}});
+  if (OffersLook(m)) {
+    DrawLookButton(snap, rect, ui);
+  }
   if (armed) {
     DrawDeselect(*m.armed, rect, ui);
   }

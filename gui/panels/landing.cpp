@@ -39,17 +39,17 @@ std::string WaveOffHeadline(const WaveOffReport& report, double silent_s) {
 /// `heard_s`: since the vehicle was heard, whose deed a hold is.
 std::string Headline(const MissionStatus& m, double silent_s, double heard_s) {
   const std::string site = m.armed ? std::string("site ") + m.armed->letter : std::string("site");
-  const bool looks = m.approval && m.approval->IsLook();
   switch (m.state) {
     case MissionState::kApproved:
-      return (looks ? "Approved: look at " : "Approved: ") + site + SideWords(m);
+      return (m.looks ? "Approved: look at " : "Approved: ") + site + SideWords(m);
     case MissionState::kHold:
       return Heard("Holding on the way to " + site, heard_s);
     case MissionState::kAborting:
       return WaveOffHeadline(m.wave_off, silent_s);
     default:
-      return looks ? "Looking at " + site + " from " + Fixed(m.approval->stop_height_m, 0) + " m"
-                   : "Landing on " + site;
+      return m.looks && m.approval
+                 ? "Looking at " + site + " from " + Fixed(m.approval->stop_height_m, 0) + " m"
+                 : "Landing on " + site;
   }
 }
 
@@ -179,7 +179,7 @@ void DrawLandingPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui)
   const Palette& p = s.palette;
   const MissionStatus& m = snap.flight->mission;
   const bool tall = rect.h >= s.Px(184);
-  DrawPanelFrame(ui, rect, "Landing");
+  DrawPanelFrame(ui, rect, m.looks ? "Look" : "Landing");
   const float x = rect.x + s.Px(12);
   const float width = rect.w - s.Px(24);
   const float head_y = rect.y + s.Px(tall ? 49 : 44);

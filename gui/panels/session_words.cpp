@@ -78,11 +78,10 @@ const char* ClockName(const EngineSnapshot& snap) {
 
 const char* LandingWord(const MissionStatus& mission) {
   const MissionState state = mission.state;
-  return mission.approval && mission.approval->IsLook() ? "Looking at"
-         : IsFlying(state)                              ? "Landing on"
-         : state == MissionState::kLanded               ? "Landed on"
-         : state >= MissionState::kHold                 ? "Was to land on"
-                                                        : "Selected";
+  return IsFlying(state)                  ? (mission.looks ? "Looking at" : "Landing on")
+         : state == MissionState::kLanded ? "Landed on"
+         : state >= MissionState::kHold   ? (mission.looks ? "Was to look at" : "Was to land on")
+                                          : "Selected";
 }
 
 }  // namespace palace

@@ -21,7 +21,8 @@ bool IsPlaying(const EngineSnapshot& snap);
 /// Whose time it is, "UTC": simulated time starts at an epoch of its own, and so do logs of it.
 const char* ClockName(const EngineSnapshot& snap);
 
-/// What the armed site is to the flight: "Selected", "Landing on", "Landed on", "Was to land on".
+/// What the armed site is to the flight: "Selected", "Landing on", "Looking at", "Landed on", "Was
+/// to land on", "Was to look at".
 const char* LandingWord(const MissionStatus& mission);
 
 }  // namespace palace

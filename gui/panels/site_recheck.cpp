@@ -79,11 +79,16 @@ float DrawLines(UiFrame& ui, const Rect& column, float y, const std::string& tex
 void DrawSchedule(const EngineSnapshot& snap, const Rect& column, float y, UiFrame& ui) {
   const Style& s = ui.style;
   const Palette& p = s.palette;
+  const MissionStatus& m = snap.flight->mission;
   FillRect(Canvas(), {column.x, y - s.Px(4), column.w, s.Px(1)}, p.line);
   DrawIcon(Canvas(), Icon::kStale, {column.x + s.Px(6), y + s.Px(14)}, s.Px(12), p.text2);
   DrawText(ui, s.body, p.text1, column.x + s.Px(20), y + s.Px(14), "Each new map");
   DrawText(ui, s.caption, p.text2, column.x + s.Px(20), y + s.Px(34),
-           "down to " + Fixed(snap.session->settings.slad.fusion.commit_height_m, 1) + " m");
+           "down to " +
+               Fixed(m.looks && m.approval ? m.approval->stop_height_m
+                                           : snap.session->settings.slad.fusion.commit_height_m,
+                     1) +
+               " m");
 }
 
 /// The site's own reason compares it with the best of its map, which nobody may have chosen.

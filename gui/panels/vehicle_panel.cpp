@@ -12,8 +12,6 @@ namespace palace {
 
 namespace {
 
-bool IsLook(const MissionStatus& m) { return m.approval && m.approval->IsLook(); }
-
 const char* ModeWords(const EngineSnapshot& snap) {
   if (!snap.sensors->vehicle) {
     return "No status yet";
@@ -25,7 +23,7 @@ const char* ModeWords(const EngineSnapshot& snap) {
       return "Aligning";
     case VehicleMode::kDescend:
       return !snap.sensors->vehicle->flies_on_vision ? "Descending on GPS"
-             : IsLook(snap.flight->mission)          ? "Descending on vision"
+             : snap.flight->mission.looks            ? "Descending on vision"
                                                      : "Landing on vision";
     case VehicleMode::kSettle:
       return "Settling";

@@ -38,7 +38,7 @@ TEST_F(JournalTest, EveryActionOfEveryOriginIsExportedByItsName) {
       {SelectSite{3}, "select"},
       {DisarmSite{}, "disarm"},
       {ApproveSite{3, 4}, "approve"},
-      {LookAtSite{3, 4}, "look"},
+      {LookAtSite{3, 4, 12}, "look"},
       {RefuseSite{3}, "refuse"},
       {HoldHere{}, "hold"},
       {WaveOff{}, "wave_off"},

@@ -13,7 +13,7 @@ struct LookRig : MissionRig {
     Site(101)->look_height_m = 12;
   }
   Status LookNow(CommandOrigin origin = CommandOrigin::kOperator) {
-    return Do(LookAtSite{101, sequence}, origin);
+    return Do(LookAtSite{101, sequence, 12}, origin);
   }
 };
 
@@ -62,8 +62,9 @@ TEST(Look, IsRefusedWhereAnApprovalIsAndWhereNoHeightIsKnown) {
   EXPECT_EQ(windy.SentCount<Approval>(), 0);
   LookRig other;
   other.Arm();
-  EXPECT_FALSE(other.Do(LookAtSite{102, other.sequence}).ok());
-  EXPECT_FALSE(other.Do(LookAtSite{101, other.sequence + 1000}).ok());  // never shown
+  EXPECT_FALSE(other.Do(LookAtSite{102, other.sequence, 12}).ok());
+  EXPECT_FALSE(other.Do(LookAtSite{101, other.sequence + 1000, 12}).ok());  // never shown
+  EXPECT_FALSE(other.Do(LookAtSite{101, other.sequence, 11}).ok());         // nor that height
   EXPECT_TRUE(other.LookNow().ok());
   EXPECT_FALSE(other.LookNow().ok());
 }
@@ -81,17 +82,90 @@ TEST(Look, IsHeldAndWavedOffLikeALanding) {
   }
 }
 
-// A vehicle that stops by itself on the way did not look.
-TEST(Look, AHoverTooHighIsAHold) {
+struct Hover {
+  const char* name;
+  double height_m;
+  void (*change)(MissionRig&);
+  MissionState becomes;
+};
+class LookHover : public testing::TestWithParam<Hover> {};
+
+// What hovers elsewhere, was restarted or still flies the approval did not look.
+TEST_P(LookHover, IsTheEndOfALookOnlyWhereItWasToEnd) {
   LookRig rig;
   rig.Arm();
   ASSERT_TRUE(rig.LookNow().ok());
   ASSERT_TRUE(rig.RunUntil(MissionState::kDescending));
-  ASSERT_GT(rig.vehicle.height_m, 14);
+  rig.vehicle.approval_id = 0;
+  rig.vehicle.height_m = GetParam().height_m;
+  rig.vehicle.Set(VehicleMode::kHover);
+  GetParam().change(rig);
+  rig.Step();
+  EXPECT_EQ(rig.state(), GetParam().becomes) << rig.mission.status().why;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    , LookHover,
+    testing::Values(Hover{"There", 12.9, [](MissionRig&) {}, MissionState::kSearch},
+                    Hover{"TooHigh", 14, [](MissionRig&) {}, MissionState::kHold},
+                    Hover{"TooLow", 10, [](MissionRig&) {}, MissionState::kHold},
+                    Hover{"Restarted", 12, [](MissionRig& r) { r.vehicle.boot_id = 78; },
+                          MissionState::kHold},
+                    Hover{"StillApproved", 12,
+                          [](MissionRig& r) { r.vehicle.approval_id = r.vehicle.accepted_id; },
+                          MissionState::kHold}),
+    [](const auto& row) { return row.param.name; });
+
+// A vehicle that does not know of looks goes on: it is stopped, however sure the site is by now.
+TEST(Look, AVehicleThatGoesOnIsHeld) {
+  LookRig rig;
+  rig.Arm();
+  ASSERT_TRUE(rig.LookNow().ok());
+  ASSERT_TRUE(rig.RunUntil(MissionState::kDescending));
+  rig.vehicle.stop_height_m = 0;
+  rig.Site(101)->confirmed = true;
+  ASSERT_TRUE(rig.RunUntil(MissionState::kHold, 20));
+  EXPECT_EQ(rig.mission.status().why, "Vehicle did not stop where the look was to end");
+  EXPECT_GT(rig.vehicle.height_m, 9.5);
+}
+
+// The status was silent all the way: what is heard next is the hover.
+TEST(Look, EndsAlsoWhereNothingWasHeardOfTheWay) {
+  LookRig rig;
+  rig.Arm();
+  ASSERT_TRUE(rig.LookNow().ok());
+  ASSERT_EQ(rig.state(), MissionState::kApproved);
+  rig.Step();
+  rig.vehicle.height_m = 12.3;
   rig.vehicle.approval_id = 0;
   rig.vehicle.Set(VehicleMode::kHover);
-  rig.Step();
-  EXPECT_EQ(rig.state(), MissionState::kHold);
+  rig.Run(0.3);
+  EXPECT_EQ(rig.state(), MissionState::kSearch) << rig.mission.status().why;
+}
+
+TEST(Look, IsNotOfferedWhereTheVehicleIsAsLowOrTheSiteIsSure) {
+  LookRig low;
+  low.vehicle.height_m = 13.9;
+  low.Arm();
+  EXPECT_FALSE(low.LookNow().ok());
+  LookRig sure;
+  sure.Arm();
+  sure.Site(101)->confirmed = true;
+  sure.Run(1);
+  EXPECT_FALSE(sure.LookNow().ok());
+}
+
+// The commit height is that of a landing: a look that ends below it is stopped like one above.
+TEST(Look, CommitsToNothingBelowTheCommitHeight) {
+  LookRig rig;
+  rig.settings.slad.fusion.commit_height_m = 18;
+  rig.Arm();
+  ASSERT_TRUE(rig.LookNow().ok());
+  ASSERT_TRUE(rig.RunUntil(MissionState::kDescending));
+  rig.Run(1.2);
+  ASSERT_LT(rig.vehicle.height_m, 18);
+  rig.site_slope_rad = Rad(30);
+  EXPECT_TRUE(rig.RunUntil(MissionState::kHold, 5)) << rig.mission.status().why;
 }
 
 TEST(Look, AScriptMayOnlyOnASimulatedVehicle) {

@@ -90,6 +90,11 @@ std::optional<Request> RandomRequest(const MissionRig& rig, RandomStream& random
     case 13:
     case 14:
       return Request{SelectSite{site}, origin};
+    case 19:
+    case 20:
+    case 21:
+    case 22:
+      return Request{LookAtSite{site, sequence, 9}, origin};
     default:
       return Request{
           ApproveSite{rig.mission.status().armed ? rig.mission.status().armed->id : site, sequence},
@@ -102,9 +107,13 @@ class RandomMission : public testing::TestWithParam<int> {};
 TEST_P(RandomMission, NeverBreaksAnInvariant) {
   RandomStream random(static_cast<std::uint64_t>(GetParam()), "mission");
   MissionRig rig;
+  for (const std::uint64_t id : {101, 102}) {
+    rig.Site(id)->confirmed = id == 102;
+    rig.Site(id)->look_height_m = id == 101 ? 9 : NAN;
+  }
   std::set<std::uint64_t> dead;  // approval ids that were killed
   std::uint64_t last_id = 0;
-  int approvals = 0, wave_offs = 0, holds = 0;
+  int approvals = 0, looked = 0, wave_offs = 0, holds = 0;
   for (int step = 0; step < 6000; ++step) {
     SCOPED_TRACE("seed " + std::to_string(GetParam()) + " step " + std::to_string(step));
     Disturb(rig, random);
@@ -140,8 +149,12 @@ TEST_P(RandomMission, NeverBreaksAnInvariant) {
           rig.vehicle.Take(message, rig.VehicleNow());
         }
         ++wave_offs;
-      } else if (std::holds_alternative<ApproveSite>(request->action) && answer.ok()) {
-        ++approvals;
+      } else if ((std::holds_alternative<ApproveSite>(request->action) ||
+                  std::holds_alternative<LookAtSite>(request->action)) &&
+                 answer.ok()) {
+        const bool looks = std::holds_alternative<LookAtSite>(request->action);
+        ++(looks ? looked : approvals);
+        ASSERT_EQ(after.approval->stop_height_m, looks ? 9 : 0);
         ASSERT_EQ(before.state, MissionState::kArmed);  // never without arming
         ASSERT_TRUE(before.can_approve);                // and only what the guards allowed (I3)
         ASSERT_TRUE(after.approval.has_value());
@@ -156,6 +169,7 @@ TEST_P(RandomMission, NeverBreaksAnInvariant) {
     const auto live_before = rig.mission.status().approval;
     rig.Step();
     const MissionStatus& status = rig.mission.status();
+    ASSERT_FALSE(status.looks && status.state == MissionState::kLanded);
     if (live_before && !(status.approval && status.approval->id == live_before->id)) {
       dead.insert(live_before->id);
     }

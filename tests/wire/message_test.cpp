@@ -18,7 +18,7 @@ TEST(Command, EveryKindSurvives) {
                                               SelectSite{0xFEDCBA9876543210u},
                                               DisarmSite{},
                                               ApproveSite{5, ~0ull},
-                                              LookAtSite{7, 8},
+                                              LookAtSite{7, 8, 12.5},
                                               RefuseSite{6},
                                               HoldHere{},
                                               WaveOff{},
@@ -46,6 +46,7 @@ TEST(Command, EveryKindSurvives) {
   const auto look = DecodeCommand(EncodeCommand({CommandOrigin::kOperator, actions[6]}, {1}, {}));
   EXPECT_EQ(std::get<LookAtSite>(look->action).site_id, 7u);
   EXPECT_EQ(std::get<LookAtSite>(look->action).snapshot_sequence, 8u);
+  EXPECT_EQ(std::get<LookAtSite>(look->action).stop_height_m, 12.5);
 }
 
 TEST(VehicleMessage, ApprovalSurvivesWithEveryBoundField) {

@@ -177,6 +177,7 @@ inline std::vector<WireMessage> OneOfEach(RandomStream& random) {
   Approval approval;
   approval.id = random.NextBits();
   approval.p_WS = RandomVector(random);
+  approval.stop_height_m = 12;
   approval.seal.mac.fill(0xA5);
   PositionEstimate estimate;
   estimate.time = bundle->time;
@@ -204,6 +205,8 @@ inline std::vector<WireMessage> OneOfEach(RandomStream& random) {
                                    bundle->time, channels));
   messages.push_back(EncodeCommand({CommandOrigin::kScript, SetSetting{"slad.max_slope_deg", 8}},
                                    bundle->time, channels));
+  messages.push_back(
+      EncodeCommand({CommandOrigin::kOperator, LookAtSite{3, 7, 12}}, bundle->time, channels));
   return messages;
 }
 

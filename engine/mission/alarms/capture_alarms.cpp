@@ -104,7 +104,7 @@ const AlarmRow kRows[] = {
      .text =
          [](const Facts& f, const std::string& limit) {
            return WithNumbers("GPS horizontal error %.1f m, limit ", f.gps_error_m) + limit +
-                  (f.on_vision ? ". Landing on vision, not GPS."
+                  (f.on_vision ? ". Vision steers, not GPS."
                                : ". Vision takes over for the descent.");
          }},
     {.id = AlarmId::kCameraFrozen,

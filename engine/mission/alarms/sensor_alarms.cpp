@@ -76,7 +76,7 @@ const AlarmRow kRows[] = {
      .text =
          [](const Facts& f, const std::string&) {
            return words::GpsOff(f.gps_agreement) + ". The position does not follow it." +
-                  (GoesOnVision(f) ? " Landing on vision goes on." : Blocks(f));
+                  (GoesOnVision(f) ? " Vision goes on steering." : Blocks(f));
          }},
     {.id = AlarmId::kGpsLost,
      .level = AlarmLevel::kCaution,
@@ -87,7 +87,7 @@ const AlarmRow kRows[] = {
      .text =
          [](const Facts& f, const std::string& limit) {
            return WithNumbers("No GPS for %.1f s, limit ", f.gps_age_s) + limit + "." +
-                  (GoesOnVision(f) ? " Landing on vision goes on."
+                  (GoesOnVision(f) ? " Vision goes on steering."
                                    : Blocks(f, " without a position"));
          }},
     {.id = AlarmId::kLaserLost,

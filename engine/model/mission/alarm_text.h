@@ -9,7 +9,7 @@
 namespace palace {
 
 /// What an alarm is about, without limit and advice: "GPS horizontal error 2.6 m" of "GPS
-/// horizontal error 2.6 m, limit 2.0 m. Landing on vision, not GPS."
+/// horizontal error 2.6 m, limit 2.0 m. Vision steers, not GPS."
 std::string AlarmSubject(const std::string& text);
 
 /// The first sentence: what was found, without what it blocks or asks for while it stands.

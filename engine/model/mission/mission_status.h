@@ -172,6 +172,7 @@ struct MissionStatus {
   bool can_approve = false;
   std::string cannot_approve_reason;  ///< first guard that fails, of any site where none is armed
   std::optional<Approval> approval;
+  bool looks = false;       ///< what was approved of the armed site is a look, also when it is over
   std::string approved_by;  ///< "the operator" or "a script"; empty where nobody tells
   enum class ApprovalPhase : std::uint8_t { kNone, kSent, kAccepted, kRefused };
   ApprovalPhase approval_phase = ApprovalPhase::kNone;
@@ -185,7 +186,7 @@ struct MissionStatus {
   int alarms_in_record = 0;        ///< that stood now in the recorded flight, judged again or not
   double height_above_site_m = 0;  ///< skid above the site; NaN when no site
   double distance_to_site_m = 0;   ///< horizontal; NaN when no site
-  double time_to_touchdown_s = 0;  ///< NaN when unknown
+  double time_to_touchdown_s = 0;  ///< of a look to its hover; NaN when unknown
   PathProgress path;
   std::vector<LimitRow> limits;   ///< of site, approach, descent and cameras, in force now
   double confirm_height_m = NAN;  ///< a provisional site must be confirmed by here

@@ -190,13 +190,14 @@ bool FramesAgree(const SladSettings& settings, const SiteContext& context,
          site.frames_fused >= std::min(kFramesToConfirm, settings.fusion.frames_fused);
 }
 
-/// LandingSite::look_height_m, to a sixteenth of the vehicle's height above the site.
+/// LandingSite::look_height_m, to a sixteenth of the vehicle's height above the site. A look from
+/// nearer shows no more of the air.
 double LookHeight(const ElevationMap& map, const SladSettings& settings, const SiteContext& context,
                   const LandingSite& site) {
   const double none = std::numeric_limits<double>::quiet_NaN();
   const double height_m = site.p_WS.z() - context.p_WB.z();
   if (map.narrow.share.empty() || context.camera.width == 0 || site.confirmed || !(height_m > 0) ||
-      map.geometry.cell_m > settings.lander.max_rock_size_m) {
+      site.air_seen_m < kLeastAirSeen_m || map.geometry.cell_m > settings.lander.max_rock_size_m) {
     return none;
   }
   const NarrowView view{map.narrow, map.geometry.cell_m, settings.limits.max_deviation_m};
@@ -215,8 +216,10 @@ double LookHeight(const ElevationMap& map, const SladSettings& settings, const S
     step /= 2;
     settled += settles(settled + step) ? step : 0;
   }
-  const double skids_m = settled * height_m - settings.lander.skid_centre_B().z();
-  return std::floor(skids_m) > kConfirmHeight_m ? skids_m : none;
+  const double skids_m = settings.lander.skid_centre_B().z();
+  const double look_m = std::floor(settled * height_m - skids_m);
+  return look_m > kConfirmHeight_m && look_m <= height_m - skids_m - kLeastWayToLook_m ? look_m
+                                                                                       : none;
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <tuple>
 #include <utility>
 
@@ -250,6 +251,9 @@ void SiteRegistry::Follow(const Map& now, const std::vector<Chosen>& chosen,
     site.p_WS.head<2>() = place.p_W;
     site.newest_confirms = site.confirmed;
     site.confirmed = place.confirmed.good();
+    if (site.confirmed) {
+      site.look_height_m = std::numeric_limits<double>::quiet_NaN();  // there is nothing to settle
+    }
     site.called_unsafe_s = ShakenFor(place, now.elevation.time);
     found.push_back({chosen[k].place, std::move(site)});
   }

@@ -113,7 +113,7 @@ TEST(FlyApprove, NeverFiresWhenBlockedUnarmedPreviewingOrInReplay) {
 TEST(FlyApprove, OnePressLooksFromWhereTheSiteWouldBeSure) {
   EngineSnapshot snap = fake::Snapshot(MissionState::kArmed);
   EXPECT_EQ(FlyWindow(1920, 1080, snap).ui.items.Find("look"), nullptr);
-  snap.flight.Edit().mission.armed->look_height_m = 12.4;
+  snap.flight.Edit().mission.armed->look_height_m = 12;
   for (const auto& [w, h] : {std::pair{1920, 1080}, {1280, 720}}) {
     FlyWindow window(w, h, snap);
     ASSERT_NE(window.ui.items.Find("look"), nullptr);
@@ -122,7 +122,17 @@ TEST(FlyApprove, OnePressLooksFromWhereTheSiteWouldBeSure) {
     EXPECT_EQ(window.ui.intents.size(), 1u);
     EXPECT_EQ(window.ui.LastCommand<LookAtSite>().site_id, 1u);
     EXPECT_EQ(window.ui.LastCommand<LookAtSite>().snapshot_sequence, window.snap.sequence);
+    EXPECT_EQ(window.ui.LastCommand<LookAtSite>().stop_height_m, 12);
+    const Rect& look = window.ui.items.Find("look")->rect;
+    for (const char* other : {"approve", "refuse", "deselect"}) {
+      const Rect& rect = window.ui.items.Find(other)->rect;
+      EXPECT_TRUE(look.bottom() < rect.y || look.right() + 8 < rect.x) << other << " at " << w;
+    }
   }
+  EngineSnapshot sure = snap;
+  sure.flight.Edit().mission.armed_now = sure.flight->mission.armed;
+  sure.flight.Edit().mission.armed_now->confirmed = true;
+  EXPECT_EQ(FlyWindow(1920, 1080, sure).ui.items.Find("look"), nullptr);
   snap.flight.Edit().mission.can_approve = false;
   FlyWindow blocked(1920, 1080, snap);
   blocked.ui.Click("look", blocked.draw);
