@@ -72,8 +72,9 @@ std::string WhyProvisional(const LandingSite& site, const SladSettings& settings
            SureFrom(site, WithNumbers("below %.1f cm", 100 * settings.limits.max_deviation_m));
   }
   if (site.air_seen_m < kLeastAirSeen_m) {
-    return WithNumbers("air over it seen up to %.1f m, min %.0f m", TenthsDown(site.air_seen_m),
-                       kLeastAirSeen_m);
+    return WithNumbers("air over it seen up to %.1f m, ", TenthsDown(site.air_seen_m)) +
+           (std::isfinite(site.look_height_m) ? SureFrom(site, {})
+                                              : WithNumbers("min %.0f m", kLeastAirSeen_m));
   }
   const std::string over = WithNumbers("over %.0f cm", 100 * settings.limits.max_deviation_m);
   if (site.hidden_things > kMostHidden) {

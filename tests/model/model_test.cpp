@@ -118,8 +118,8 @@ TEST(SiteStanding, APlaceInWhoseNoiseOrAirAThingCouldHideIsOnlyLookedAt) {
                {0.03, 9, false, "Provisional", "Provisional"},
                {0.03, NAN, false, "Provisional", "Provisional"},  // a survey
                {0.03, 5, false, "Provisional", "Provisional"},
-               {0.03, 4.9, false, "Look first", "Look first"},  // nearer, less of it is seen
-               {0.03, 4.9, true, "Confirmed", "Confirmed"},     // by an earlier look
+               {0.03, 4.9, false, "Look first", "Look from 7 m"},
+               {0.03, 4.9, true, "Confirmed", "Confirmed"},  // by an earlier look
                {0.099, 9, false, "Provisional", "Provisional"},
                {0.10, 9, false, "Look first", "Look from 7 m"},
                {NAN, 9, false, "Look first", "Look from 7 m"}};
@@ -128,7 +128,7 @@ TEST(SiteStanding, APlaceInWhoseNoiseOrAirAThingCouldHideIsOnlyLookedAt) {
     site.height_m.three_sigma = row.three_sigma_m;
     site.confirmed = row.confirmed;
     site.air_seen_m = row.air_seen_m;
-    site.look_height_m = row.air_seen_m < kLeastAirSeen_m ? NAN : 7;  // as SLAD gives it
+    site.look_height_m = 7;
     EXPECT_STREQ(StandingWord(StandingOf(site, settings)), row.word) << row.three_sigma_m;
     EXPECT_EQ(StandingWords(site, settings), row.words) << row.three_sigma_m;
   }

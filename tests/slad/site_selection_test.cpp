@@ -115,6 +115,33 @@ TEST(SiteSelection, ASiteIsConfirmedOnlyWhereNothingCanHide) {
   }
 }
 
+// From 13 m and 45 degrees down: with 60 degrees across the top of the picture looks 21.6 degrees
+// down, 6.9 m over the far rim of the site from where the slope begins; with 20 degrees, 1.3 m.
+TEST(SiteSelection, ALookIsNamedWhereItsWayShowsTheAirOrItWasSeen) {
+  const PinholeCamera wide = PinholeFromFov(640, 480, Rad(60));
+  const PinholeCamera narrow = PinholeFromFov(640, 480, Rad(20));
+  for (const auto& [camera, air_m, named] : {std::tuple{wide, 3.0F, true},
+                                             {wide, 9.0F, true},
+                                             {narrow, 3.0F, false},
+                                             {narrow, 9.0F, true}}) {
+    SiteContext context;
+    context.p_WB = {-13, 0, -13};
+    context.X_WC = {CameraRotationFromTilt(Rad(-45)), context.p_WB};
+    context.camera = camera;
+    ElevationMap map = MakeMap(101, 101, 0.15, Flat(), 0.02);
+    map.air_seen_to_m = GridF(101, 101, air_m);
+    map.narrow = {GridF(101, 101, 0.0F), GridF(101, 101, 0.02F), GridF(101, 101, 0.3F)};
+    const LandingSite site = Select(map, {}, context).sites.at(0);
+    EXPECT_FALSE(site.confirmed);
+    EXPECT_EQ(std::isfinite(site.look_height_m), named) << camera.fx_px << " px, " << air_m << " m";
+    if (named) {
+      EXPECT_GT(site.look_height_m, 6);
+      EXPECT_LE(site.look_height_m, 11);
+      EXPECT_EQ(site.look_height_m, std::floor(site.look_height_m));
+    }
+  }
+}
+
 TEST(SiteSelection, SeenGroundGoesBeforeWideAndBlindGround) {
   // The west is wide and blind; the east seen, with a box that leaves less room.
   ElevationMap map = MakeMap(101, 101, 0.15, WithBox(Flat(), 3.5, 3.5, 0.5, 0.6));

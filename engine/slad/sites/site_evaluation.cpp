@@ -190,14 +190,27 @@ bool FramesAgree(const SladSettings& settings, const SiteContext& context,
          site.frames_fused >= std::min(kFramesToConfirm, settings.fusion.frames_fused);
 }
 
-/// LandingSite::look_height_m, to a sixteenth of the vehicle's height above the site. A look from
-/// nearer shows no more of the air.
+/// How far up over the far rim of the site's clear radius the camera looks from where the glide
+/// slope to the site begins, at its height now and tilted as now: of a look it shows the most air.
+double AirSeenFromSlope(const SiteContext& context, const LandingSite& site) {
+  const PinholeCamera& camera = context.camera;
+  const Eigen::Vector3d top_W =
+      context.X_WC.R * Eigen::Vector3d(0, -camera.cy_px / camera.fy_px, 1);
+  const double height_m = site.p_WS.z() - context.X_WC.p.z();
+  const double far_m = SlopeLength(context, site) + site.clear_radius_m;
+  return height_m - far_m * std::max(0.0, top_W.z()) / top_W.head<2>().norm();
+}
+
+/// LandingSite::look_height_m, to a sixteenth of the vehicle's height above the site.
 double LookHeight(const ElevationMap& map, const SladSettings& settings, const SiteContext& context,
                   const LandingSite& site) {
   const double none = std::numeric_limits<double>::quiet_NaN();
   const double height_m = site.p_WS.z() - context.p_WB.z();
   if (map.narrow.share.empty() || context.camera.width == 0 || site.confirmed || !(height_m > 0) ||
-      site.air_seen_m < kLeastAirSeen_m || map.geometry.cell_m > settings.lander.max_rock_size_m) {
+      map.geometry.cell_m > settings.lander.max_rock_size_m) {
+    return none;
+  }
+  if (site.air_seen_m < kLeastAirSeen_m && !(AirSeenFromSlope(context, site) >= kLeastAirSeen_m)) {
     return none;
   }
   const NarrowView view{map.narrow, map.geometry.cell_m, settings.limits.max_deviation_m};
