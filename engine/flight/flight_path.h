@@ -130,8 +130,8 @@ class TimedDescent {
   double settled_s_ = 0;
 };
 
-/// Seconds from p_WB on the path to the touchdown, or to a look's hover; NaN where a number is not finite, or where the
-/// way takes longer than an hour.
+/// Seconds from p_WB on the path to the touchdown, or to a look's hover; NaN where a number is not
+/// finite, or where the way takes longer than an hour.
 double TimeToTouchdown(const FlightPath& path, const Eigen::Vector3d& p_WB,
                        const Eigen::Vector3d& v_WB, const std::optional<LegFlown>& flown = {});
 
