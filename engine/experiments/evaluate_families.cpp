@@ -21,7 +21,7 @@ constexpr double kGrace = 1.2;              // of the limits: see MissionOutcome
 constexpr double kUnapprovedLimit_s = 45;   // of hovering in one place
 constexpr double kStoppedLimit_s = 25;      // of a hold or a climb
 constexpr int kLooksAgain = 4;              // of the operator
-constexpr double kLimit_s = 300;            // time for them
+constexpr double kLimit_s = 420;            // time for them
 constexpr double kTruthBeyondDisc_m = 1.5;  // so that slopes and steps at its rim are known
 /// Where a hover over the origin with a tilted camera can see ground at all.
 constexpr TruthArea kInView{.north_min_m = 4, .north_max_m = 40, .cell_m = 0.1};
@@ -29,6 +29,7 @@ constexpr TruthArea kInView{.north_min_m = 4, .north_max_m = 40, .cell_m = 0.1};
 struct FamiliesOptions {
   FlightOptions mission;
   FamilyOptions worlds;
+  bool no_look = false;
 };
 
 TruthLimits LimitsOf(const Settings& settings) {
@@ -86,6 +87,10 @@ TrialRow RowOf(const std::string& family, const World& world, const FlownMission
           site ? VerdictName(*site, limits) : "none",
           CsvNumber(flown.touchdown ? flown.touchdown->hard() : NAN),
           CsvNumber(places.Count()),
+          CsvNumber(flown.summary.looks),
+          !flown.summary.site            ? "none"
+          : flown.summary.site_confirmed ? "confirmed"
+                                         : "provisional",
           flown.why.empty() ? "none" : CsvText(flown.why)};
 }
 
@@ -98,6 +103,7 @@ Result<std::vector<TrialRow>> RunTrial(const FamiliesOptions& options, std::uint
   flight->unapproved_limit_s = kUnapprovedLimit_s;
   flight->stopped_limit_s = kStoppedLimit_s;
   flight->looks_again = kLooksAgain;
+  flight->looks_closer = !options.no_look;
   flight->limit_s = kLimit_s;
   std::vector<TrialRow> rows;
   for (const std::string& family : options.worlds.Families()) {
@@ -125,6 +131,23 @@ std::string ShareText(int hits, int trials) {
   const Interval share = WilsonInterval(hits, trials);
   return WithNumbers("%.0f of %.0f", hits, trials) +
          WithNumbers(" (%.0f to %.0f %%)", 100 * share.low, 100 * share.high);
+}
+
+/// How many missions looked closer, and what was then known of the sites that they approved.
+std::string LooksLine(const TrialTable& table) {
+  const std::vector<double> looks = table.Numbers("looks");
+  const std::size_t approved_as = table.Index("approved_as");
+  int looked = 0, approved = 0, confirmed = 0;
+  for (std::size_t i = 0; i < table.rows.size(); ++i) {
+    if (looks[i] > 0) {
+      ++looked;
+      approved += table.rows[i][approved_as] != "none" ? 1 : 0;
+      confirmed += table.rows[i][approved_as] == "confirmed" ? 1 : 0;
+    }
+  }
+  return "Looked closer: " + ShareText(looked, static_cast<int>(table.rows.size())) +
+         WithNumbers(" missions; then approved to land in %.0f, confirmed in %.0f", approved,
+                     confirmed);
 }
 
 /// A row of the page: how the missions of one family, or all of them, ended.
@@ -165,6 +188,7 @@ ExperimentReport Report(const TrialTable& table) {
   const int on_hazard = CountOf(table, MissionOutcome::kLandedOnHazard);
   const TrialTable approved_over = table.Where("site_truth", "far_over");
   report.passed = on_hazard == 0;
+  report.lines.push_back(LooksLine(table));
   report.lines.push_back("Landed right, of all missions: " +
                          ShareText(CountOf(table, MissionOutcome::kLandedRight), trials));
   report.lines.push_back("On a hazard (over 1.2 times a limit), of all landings: " +
@@ -172,7 +196,7 @@ ExperimentReport Report(const TrialTable& table) {
   report.lines.push_back(
       "Approved a site with a touchdown over 1.2 times a limit within the navigation error: " +
       ShareText(static_cast<int>(approved_over.rows.size()), trials));
-  report.page.List({report.lines.end() - 3, report.lines.end()})
+  report.page.List({report.lines.end() - 4, report.lines.end()})
       .Paragraph(
           "Shares with 95 % intervals (Wilson). A landing is right when the ground under the "
           "vehicle at the true touchdown is within 1.2 times the limits of slope, deviation and "
@@ -187,8 +211,8 @@ ExperimentReport Report(const TrialTable& table) {
   }
   report.page.Heading("Missions")
       .Table({"Seed", "Family", "Outcome", "Flown, s", "Miss, m", "Slope, deg", "Deviation, m",
-              "Step, m", "Water", "Moving", "Touchdown", "Site", "Hard", "Safe places",
-              "Why not landed"},
+              "Step, m", "Water", "Moving", "Touchdown", "Site", "Hard", "Safe places", "Looks",
+              "Approved as", "Why not landed"},
              missions);
   return report;
 }
@@ -227,20 +251,23 @@ Experiment FamiliesExperiment(SceneCameraFactory camera) {
   experiment.name = "families";
   experiment.purpose = "Whole missions on every family of worlds, held against their truth";
   experiment.default_trials = 8;
-  experiment.columns = {
-      "family",      "outcome",     "duration_s",   "touchdown_miss_m", "slope_deg",  "deviation_m",
-      "step_m",      "water_share", "moving_share", "touchdown_truth",  "site_truth", "hard",
-      "safe_places", "why"};
+  experiment.columns = {"family",       "outcome",         "duration_s",  "touchdown_miss_m",
+                        "slope_deg",    "deviation_m",     "step_m",      "water_share",
+                        "moving_share", "touchdown_truth", "site_truth",  "hard",
+                        "safe_places",  "looks",           "approved_as", "why"};
   experiment.add_options = [options](CLI::App& verb) {
     options->worlds.Add(verb);
     options->mission.AddVehicle(verb);
     options->mission.AddWind(verb, 15);
     options->mission.AddSet(verb);
     options->mission.AddRecord(verb);
+    verb.add_flag("--no-closer-look", options->no_look,
+                  "Approve at once also where a closer look is offered");
   };
   experiment.setup = [options] {
     return options->worlds.Text() + ", vehicle " + options->mission.vehicle + ", " +
-           options->mission.WindText() + options->mission.SetText();
+           options->mission.WindText() + options->mission.SetText() +
+           (options->no_look ? ", no closer look" : "");
   };
   experiment.run = [options, camera = std::move(camera)](int, std::uint64_t seed) {
     return RunTrial(*options, seed, camera);

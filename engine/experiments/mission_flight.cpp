@@ -79,8 +79,8 @@ Result<FlownMission> FlyMission(const MissionFlight& flight, const SceneCameraFa
   parts.link = source;
   if (!flight.record_in.empty()) {
     Result<std::unique_ptr<FlightRecorder>> recorder = FlightRecorder::Open(
-        flight.record_in, std::filesystem::path(flight.scenario).stem().string() + "-" +
-                              std::to_string(flight.seed));
+        flight.record_in,
+        std::filesystem::path(flight.scenario).stem().string() + "-" + std::to_string(flight.seed));
     if (!recorder) {
       return recorder.error();
     }
@@ -88,7 +88,7 @@ Result<FlownMission> FlyMission(const MissionFlight& flight, const SceneCameraFa
   }
   Engine engine(std::move(parts), /*threaded=*/false);
   FlightSummarizer summarizer(std::move(session->scene));
-  ScriptedOperator pilot(flight.looks_again);
+  ScriptedOperator pilot(flight.looks_again, flight.looks_closer);
   Patience patience(flight);
   FlownMission flown;
   while (engine.Step()) {

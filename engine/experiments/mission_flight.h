@@ -29,6 +29,8 @@ struct MissionFlight {
   double stopped_limit_s = std::numeric_limits<double>::infinity();
   /// How often the operator waves off and looks again where a descent was stopped for good.
   int looks_again = 0;
+  /// Whether it flies down to look, where a look is offered, before it approves.
+  bool looks_closer = false;
   std::filesystem::path record_in{};  ///< its log: <record_in>/<scenario>-<seed>; empty: none
 };
 
@@ -39,8 +41,8 @@ struct FlownMission {
   std::string why{};
 };
 
-/// Errors: an unknown scenario is one of usage; those of a camera that cannot draw and of a log that
-/// cannot be written.
+/// Errors: an unknown scenario is one of usage; those of a camera that cannot draw and of a log
+/// that cannot be written.
 Result<FlownMission> FlyMission(const MissionFlight& flight, const SceneCameraFactory& camera);
 
 }  // namespace palace

@@ -54,6 +54,7 @@ constexpr const char* kActions[] = {"set_setting",
                                     "disarm",
                                     "approve",
                                     "look",
+                                    "turn_approach",
                                     "refuse",
                                     "hold",
                                     "wave_off",
@@ -188,6 +189,9 @@ class Exporter {
       site = std::to_string(look->site_id);
       sequence = std::to_string(look->snapshot_sequence);
       value = look->stop_height_m;
+    } else if (const auto* turn = std::get_if<TurnApproach>(&command->action)) {
+      site = std::to_string(turn->site_id);
+      value = turn->side;
     } else if (const auto* refuse = std::get_if<RefuseSite>(&command->action)) {
       site = std::to_string(refuse->site_id);
     } else if (const auto* alarm = std::get_if<AcknowledgeAlarm>(&command->action)) {

@@ -39,6 +39,7 @@ void RememberNavigation(MissionFacts& facts, const MissionInputs::Navigation& in
   facts.position_healthy = in.p_WB_estimate.allFinite() && in.skid_centre_W.allFinite() &&
                            filter.running && filter.estimate.healthy && !unknown;
   facts.tracker_locked = in.tracker.locked;
+  facts.why_not_locked = in.tracker.why_not_locked;
   facts.coherence = in.tracker.coherence;
 }
 

@@ -27,7 +27,7 @@ Status Refuse(MissionTurn& turn, Timestamp now, std::string_view what, std::stri
 /// How long the descent may take to begin. The way round of a turned approach is not the operator's
 /// delay.
 double TimeToBegin(const MissionMemory& m) {
-  const double way_s = m.status.approach->turned
+  const double way_s = m.status.approach->turned()
                            ? TimeToAlign(PathTo(m, *m.status.armed), m.facts.p_WB, m.facts.yaw_rad)
                            : 0;
   return std::min(m.facts.settings.mission.approval_expiry_s + way_s, kLongestExpiry_s);
@@ -86,6 +86,7 @@ struct Obeying {
   Status operator()(const DisarmSite&) const;
   Status operator()(const ApproveSite& action) const;
   Status operator()(const LookAtSite& action) const;
+  Status operator()(const TurnApproach& action) const;
   Status operator()(const RefuseSite& action) const;
   Status operator()(const HoldHere&) const;
   Status operator()(const WaveOff&) const;
@@ -222,11 +223,37 @@ Status Obeying::operator()(const LookAtSite& action) const {
   return why.empty() ? Commit(action.stop_height_m) : Refuse(turn, now, "Look", std::move(why));
 }
 
+Status Obeying::operator()(const TurnApproach& action) const {
+  MissionMemory& m = turn.memory;
+  if (m.status.state != MissionState::kArmed) {
+    return Refuse(turn, now, "Turn approach",
+                  IsFlying(m.status.state) ? words::kAlreadyApproved : words::kSelectFirst);
+  }
+  if (action.site_id != m.status.armed->id) {
+    return Refuse(turn, now, "Turn approach", words::NotTheArmedOne(m.status));
+  }
+  if (m.status.approach && m.status.approach->side == action.side) {
+    return Ok();  // set, not toggle
+  }
+  const std::vector<ApproachCourse> open = CoursesOpen(m);
+  const auto wanted = std::find_if(open.begin(), open.end(), [&](const ApproachCourse& course) {
+    return course.side == action.side;
+  });
+  if (wanted == open.end()) {
+    return Refuse(turn, now, "Turn approach", words::kSideNotClear);
+  }
+  TurnTo(m, *wanted);
+  // What is approved is the approach that was on the screen, for as long as evidence must be.
+  m.armed.first_sequence.reset();
+  AddEvent(turn, now, EventKind::kDecision, words::ApproachTurnedByHand(m.status));
+  return Ok();
+}
+
 Status Obeying::Commit(double stop_height_m) const {
   MissionMemory& m = turn.memory;
   std::erase(m.status.refused_sites, m.status.armed->id);  // approved on a second look
   m.status.approval = MakeApproval(turn, stop_height_m, now);
-  m.status.looks = stop_height_m > 0;
+  m.status.stop_height_m = stop_height_m;
   m.status.approval_phase = MissionStatus::ApprovalPhase::kSent;
   m.status.approval_answer.clear();
   m.vehicle_reason.clear();
@@ -331,6 +358,7 @@ struct ConcernsVehicle {
   bool operator()(const DisarmSite&) const { return true; }
   bool operator()(const ApproveSite&) const { return true; }
   bool operator()(const LookAtSite&) const { return true; }
+  bool operator()(const TurnApproach&) const { return true; }
   bool operator()(const RefuseSite&) const { return true; }
   bool operator()(const HoldHere&) const { return true; }
   bool operator()(const WaveOff&) const { return true; }
@@ -355,7 +383,8 @@ std::string WhyNotAllowed(const MissionTurn& turn, const EngineCommand& command)
   const bool commits = std::holds_alternative<SelectSite>(command.action) ||
                        std::holds_alternative<ApproveSite>(command.action) ||
                        std::holds_alternative<LookAtSite>(command.action);
-  const bool decides = commits || std::holds_alternative<RefuseSite>(command.action);
+  const bool decides = commits || std::holds_alternative<RefuseSite>(command.action) ||
+                       std::holds_alternative<TurnApproach>(command.action);
   if (!recorded && decides && WhyViewOnly(facts) != nullptr) {
     return WhyViewOnly(facts);
   }

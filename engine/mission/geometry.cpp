@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "engine/core/units.h"
-#include "engine/flight/approach_plan.h"
 #include "engine/model/find_site.h"
 
 namespace palace {
@@ -45,11 +44,22 @@ double TimeLeft(const MissionMemory& m, const FlightPath& path) {
   }
 }
 
+ApproachPlan PlanOn(const MissionMemory& m, const ApproachCourse& course) {
+  return {course.heading_rad, Rad(m.facts.settings.mission.glide_slope_deg),
+          m.facts.settings.mission.descent_rate_mps, course.side};
+}
+
 ApproachPlan PlanFor(const MissionMemory& m, const LandingSite& site) {
   const ApproachCourse course =
       ChooseCourse(site, StraightHeading(m.facts.skid_centre_W, site.p_WS));
-  return {course.heading_rad, Rad(m.facts.settings.mission.glide_slope_deg),
-          m.facts.settings.mission.descent_rate_mps, course.turned};
+  return PlanOn(m, course);
+}
+
+/// From now on the corridor is that of the plan; the maps to come judge it again.
+void TakePlan(MissionMemory& m, const ApproachPlan& plan) {
+  m.status.approach = plan;
+  m.status.armed->corridor_clear = m.armed.straight_clear || plan.turned();
+  m.status.armed_limits = SiteLimits(*m.status.armed, m.facts.site_limits);
 }
 
 /// Turning towards the start of the path is no deviation from it.
@@ -69,21 +79,35 @@ double HeightAboveSite(const MissionMemory& m) {
 }
 
 bool IsCommitted(const MissionMemory& m) {
-  return !m.status.looks && HeightAboveSite(m) < m.facts.settings.slad.fusion.commit_height_m;
+  return !m.status.IsLook() && HeightAboveSite(m) < m.facts.settings.slad.fusion.commit_height_m;
 }
 
 void PlanApproach(MissionMemory& m) {
   if (m.status.armed && !m.status.approach && m.facts.skid_centre_W.allFinite()) {
-    m.status.approach = PlanFor(m, *m.status.armed);
-    // From now on the corridor is that of the plan; the maps to come judge it again.
-    m.status.armed->corridor_clear |= m.status.approach->turned;
-    m.status.armed_limits = SiteLimits(*m.status.armed, m.facts.site_limits);
+    m.armed.straight_clear = m.status.armed->corridor_clear;
+    TakePlan(m, PlanFor(m, *m.status.armed));
   }
+}
+
+std::vector<ApproachCourse> CoursesOpen(const MissionMemory& m) {
+  if (m.status.state != MissionState::kArmed || !m.status.approach ||
+      !m.facts.skid_centre_W.allFinite()) {
+    return {};
+  }
+  const LandingSite& newest = m.status.armed_now ? *m.status.armed_now : *m.status.armed;
+  return ClearCourses(newest, StraightHeading(m.facts.skid_centre_W, m.status.armed->p_WS),
+                      m.armed.straight_clear);
+}
+
+void TurnTo(MissionMemory& m, const ApproachCourse& course) {
+  ApproachPlan plan = PlanOn(m, course);
+  plan.by_hand = true;
+  TakePlan(m, plan);
 }
 
 bool GoesRound(const MissionMemory& m) {
   if (m.status.state != MissionState::kApproved || !m.status.approach ||
-      !m.status.approach->turned) {
+      !m.status.approach->turned()) {
     return false;
   }
   const FlightPath path = PathTo(m, *m.status.armed);

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
+#include "engine/flight/approach_plan.h"
 #include "engine/flight/flight_path.h"
 #include "engine/mission/mission_inputs.h"
 #include "engine/mission/mission_memory.h"
@@ -19,6 +21,14 @@ bool IsCommitted(const MissionMemory& memory);
 
 /// Freezes the approach of the armed site, once, as soon as the vehicle's place is known.
 void PlanApproach(MissionMemory& memory);
+
+/// The courses that the armed site may be approached on by the newest map, clockwise by where they
+/// come from; the straight one where it was clear when the site was selected. Empty: none is armed,
+/// or its approach not planned yet.
+std::vector<ApproachCourse> CoursesOpen(const MissionMemory& memory);
+
+/// Plans the approach of the armed site on that course, by hand.
+void TurnTo(MissionMemory& memory, const ApproachCourse& course);
 
 /// The vehicle flies round to where a turned approach begins, away from the site or past it: until
 /// it is there and looks at the site nothing is tracked, and vision does not take over.

@@ -76,6 +76,7 @@ GuardInputs GuardInputsAt(const MissionMemory& m, Timestamp now) {
   in.laser = m.facts.navigation.laser;
   in.height_m = HeightAboveSite(m);
   in.tracker_locked = m.facts.tracker_locked;
+  in.why_not_locked = m.facts.why_not_locked;
   in.coherence = m.facts.coherence;
   in.min_coherence = m.facts.settings.tracking.min_coherence;
   in.clock_continuous = m.watch.clock_continuous();

@@ -55,7 +55,7 @@ std::string WhyNotPositioned(const GuardInputs& in, const Limit& limit) {
     return why;
   }
   if (!in.tracker_locked) {
-    return "Tracker not locked on the site";
+    return "Tracker not locked" + (in.why_not_locked.empty() ? "" : ": " + in.why_not_locked);
   }
   return in.coherence >= limit.value
              ? ""
@@ -84,13 +84,13 @@ std::string WhySiteLost(const GuardInputs& in, const Limit&) {
 }
 
 std::string WhyVehicleChanged(const GuardInputs& in, const Limit&) {
+  if (!in.clock_continuous) {
+    return "Vehicle clock stepped or is not yet known";
+  }
   if (NothingArmed(in)) {
     return words::kSelectFirst;
   }
-  if (!in.boot_unchanged) {
-    return "Vehicle restarted or is unknown";
-  }
-  return If(!in.clock_continuous, "Vehicle clock stepped or is not yet known");
+  return If(!in.boot_unchanged, "Vehicle restarted or is unknown");
 }
 
 std::string WhyNotCommanding(const GuardInputs& in, const Limit&) {

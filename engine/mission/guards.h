@@ -36,6 +36,7 @@ struct GuardInputs {
   LaserHealth laser{};
   double height_m = NAN;  ///< above the armed site
   bool tracker_locked = false;
+  std::string why_not_locked{};  ///< of the tracker
   double coherence = NAN;
   double min_coherence = NAN;
   double shown_for_s = NAN;  ///< evidence of the armed site on screen

@@ -22,7 +22,7 @@ std::string WhatItDoes(const EngineSnapshot& snapshot, const VehicleStatus& vehi
            ". The approval is void then.";
   }
   if (state == MissionState::kApproved) {
-    return std::string(snapshot.flight->mission.looks ? "A look" : "A landing") +
+    return std::string(snapshot.flight->mission.IsLook() ? "A look" : "A landing") +
            " is approved. Without this station's estimates the vehicle does not descend: "
            "it holds by itself, and the approval expires.";
   }

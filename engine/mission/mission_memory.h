@@ -56,6 +56,7 @@ struct MissionFacts {
   Eigen::Vector3d p_BC = Eigen::Vector3d::Zero();  ///< left focal point, of the newest rig
   bool position_healthy = false;
   bool tracker_locked = false;
+  std::string why_not_locked;  ///< of the tracker
   double coherence = NAN;
 };
 
@@ -66,6 +67,7 @@ struct ArmedFacts {
   std::optional<std::uint64_t> first_sequence;  ///< first snapshot that showed it armed
   Timestamp shown_since;
   bool confirmed = false;
+  bool straight_clear = false;  ///< its corridor from where the vehicle was
 };
 
 /// The best site's run of wins. Once it is long enough for a proposal it goes on whoever leads.

@@ -67,8 +67,16 @@ std::string WhyNoApproval(const MissionMemory& m) {
   return words::kSelectFirst;
 }
 
+void PublishSides(MissionMemory& m) {
+  m.status.approach_sides.clear();
+  for (const ApproachCourse& course : CoursesOpen(m)) {
+    m.status.approach_sides.push_back(course.side);
+  }
+}
+
 void PublishFigures(MissionMemory& m, Timestamp now) {
   PublishGeometry(m);
+  PublishSides(m);
   PublishLimits(m, now);
   m.status.wave_off = WaveOffNow(m, now);
   m.status.why_no_wave_off = WhyNoWaveOff(m, now);

@@ -54,9 +54,8 @@ std::string WhyDrop(const MissionMemory& m, const MissionInputs& in) {
 /// A look was approved, and the vehicle goes on below it.
 bool WentPastLook(const MissionMemory& m) {
   const VehicleMode mode = m.watch.vehicle()->mode;
-  return m.status.looks && m.status.approval &&
-         (mode == VehicleMode::kSettle || mode == VehicleMode::kSink ||
-          HeightAboveSite(m) < m.status.approval->stop_height_m - kLookedWithin_m);
+  return m.status.IsLook() && (mode == VehicleMode::kSettle || mode == VehicleMode::kSink ||
+                               HeightAboveSite(m) < m.status.stop_height_m - kLookedWithin_m);
 }
 
 /// Why a descent may not go on; empty when it may.
@@ -146,9 +145,10 @@ void StepArmed(MissionTurn& turn, const MissionInputs& in) {
 /// kLeastWayToLook_m lies between that and where the look began.
 bool HasLooked(const MissionMemory& m) {
   const auto& vehicle = m.watch.vehicle();
-  return vehicle && m.status.looks && m.status.approval && vehicle->mode == VehicleMode::kHover &&
-         vehicle->approval_id == 0 && !m.watch.rebooted() && m.watch.boot_id() == m.armed.boot_id &&
-         std::abs(HeightAboveSite(m) - m.status.approval->stop_height_m) <= kLookedWithin_m;
+  return vehicle && m.status.IsLook() && m.status.approval &&
+         vehicle->mode == VehicleMode::kHover && vehicle->approval_id == 0 && !m.watch.rebooted() &&
+         m.watch.boot_id() == m.armed.boot_id &&
+         std::abs(HeightAboveSite(m) - m.status.stop_height_m) <= kLookedWithin_m;
 }
 
 /// The approval is over as it should be, and what is seen from here is proposed anew.

@@ -68,7 +68,7 @@ void ForgetSite(MissionMemory& m) {
   m.status.armed.reset();
   m.status.armed_limits.clear();
   m.status.approach.reset();
-  m.status.looks = false;
+  m.status.stop_height_m = 0;
   m.status.arm_expires.reset();
   m.status.guards.clear();
   m.armed = {};

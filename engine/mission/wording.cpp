@@ -120,7 +120,7 @@ std::string LaserFault(const LaserHealth& laser) {
 }
 
 std::string Approved(const MissionStatus& status) {
-  return (status.looks ? "a look at " : "") + SiteName(status);
+  return (status.IsLook() ? "a look at " : "") + SiteName(status);
 }
 
 std::string SiteName(const MissionStatus& status) {
@@ -205,16 +205,23 @@ std::string ApproachBlocked(const std::string& letter) {
 }
 
 std::string ApproachTurned(const std::optional<ApproachPlan>& plan) {
-  if (!plan || !plan->turned) {
+  if (!plan || !plan->turned()) {
     return {};
   }
   return std::string(", approached from the ") +
          DirectionWord(plan->heading_rad + std::numbers::pi) + ": the straight way is blocked";
 }
 
+std::string ApproachTurnedByHand(const MissionStatus& status) {
+  const ApproachPlan& plan = *status.approach;
+  return "Approach of " + SiteName(status) +
+         " turned by hand: " + (plan.turned() ? "from the " : "straight, from the ") +
+         DirectionWord(plan.heading_rad + std::numbers::pi);
+}
+
 std::string ApprovalGiven(const MissionStatus& status, std::uint64_t counter) {
   return "Approval " + std::to_string(counter) + " of " + Approved(status) +
-         (status.looks ? WithNumbers(" from %.0f m above it", status.approval->stop_height_m)
+         (status.IsLook() ? WithNumbers(" from %.0f m above it", status.stop_height_m)
           : status.approval->provisional ? ", provisional"
                                          : "") +
          " given";

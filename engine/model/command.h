@@ -38,6 +38,11 @@ struct LookAtSite {
   std::uint64_t snapshot_sequence = 0;
   double stop_height_m = 0;
 };
+/// Plans the approach of the armed site anew: from a side on which the maps call it clear.
+struct TurnApproach {
+  std::uint64_t site_id = 0;
+  int side = 0;  ///< kStraightApproach or a sector (model/approach_side.h)
+};
 struct RefuseSite {
   std::uint64_t site_id = 0;
 };
@@ -66,8 +71,8 @@ struct CommandLost {
 
 using CommandAction =
     std::variant<SetSetting, ApplySettings, DiscardSettings, SelectSite, DisarmSite, ApproveSite,
-                 LookAtSite, RefuseSite, HoldHere, WaveOff, AcknowledgeAlarm, AcknowledgeWaveOff,
-                 AddBookmark, AskForCommand, ReleaseCommand, CommandLost>;
+                 LookAtSite, TurnApproach, RefuseSite, HoldHere, WaveOff, AcknowledgeAlarm,
+                 AcknowledgeWaveOff, AddBookmark, AskForCommand, ReleaseCommand, CommandLost>;
 
 struct EngineCommand {
   CommandOrigin origin = CommandOrigin::kOperator;

@@ -24,8 +24,9 @@ struct TrackedFeature {
 struct TrackerStatus {
   Timestamp time;
   bool locked = false;
-  std::string mode;      ///< "Plane" or "Template"
-  double coherence = 0;  ///< 0..1 against the anchor
+  std::string why_not_locked;  ///< with value and limit; empty while locked, and of no picture yet
+  std::string mode;            ///< "Plane" or "Template"
+  double coherence = 0;        ///< 0..1 against the anchor
   Eigen::Vector2d site_pixel =
       Eigen::Vector2d::Zero();  ///< where the site is now; may lie outside the picture
   bool site_in_picture = false;

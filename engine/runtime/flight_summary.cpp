@@ -31,11 +31,15 @@ void FlightSummarizer::Add(const EngineSnapshot& snapshot) {
   }
   newest_ = snapshot.time;
   summary_.duration_s = before_s_ + SecondsBetween(*start_, snapshot.time);
-  summary_.final_state = snapshot.flight->mission.state;
+  const MissionStatus& mission = snapshot.flight->mission;
+  summary_.final_state = mission.state;
   summary_.lander_radius_m = snapshot.session->settings.slad.lander.radius_m();
-  const bool flying = snapshot.flight->mission.state != MissionState::kLanded;
-  if (snapshot.flight->mission.approval && snapshot.flight->mission.armed) {
-    summary_.site = snapshot.flight->mission.armed;
+  const bool flying = mission.state != MissionState::kLanded;
+  summary_.looks += looking_ && mission.state == MissionState::kSearch ? 1 : 0;
+  looking_ = IsFlying(mission.state) && mission.IsLook();
+  if (mission.approval && mission.armed && !mission.IsLook()) {
+    summary_.site = mission.armed;
+    summary_.site_confirmed = !mission.approval->provisional;
     if (scene_) {
       const Eigen::Vector3d& p = summary_.site->p_WS;
       summary_.site_obstacle_distance_m = ObstacleDistance(*scene_, p.x(), p.y());
@@ -65,6 +69,9 @@ std::vector<std::string> SummaryLines(const FlightSummary& s) {
   std::vector<std::string> lines;
   lines.push_back(std::string("Final state: ") + MissionStateName(s.final_state));
   lines.push_back(WithNumbers("Flight time: %.1f s", s.duration_s));
+  if (s.looks > 0) {
+    lines.push_back(WithNumbers("Closer looks: %.0f", s.looks));
+  }
   if (s.site) {
     lines.push_back(std::string("Site ") + s.site->letter +
                     WithNumbers(": %.2f m north, %.2f m east, safe distance %.2f m",

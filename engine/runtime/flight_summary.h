@@ -21,7 +21,9 @@ struct SeriesStats {
 struct FlightSummary {
   MissionState final_state = MissionState::kNoLive;
   double duration_s = 0;
-  std::optional<LandingSite> site;         ///< the one approved
+  std::optional<LandingSite> site;         ///< the one approved to be landed on
+  bool site_confirmed = false;             ///< when it was approved
+  int looks = 0;                           ///< closer looks that ended in their hover
   SeriesStats estimate_error_m;            ///< |estimate - truth| of B while vision was in force
   SeriesStats gps_error_m;                 ///< the same of the GPS filter
   SeriesStats approach_error_m;            ///< |estimate - truth| over the whole flight
@@ -45,6 +47,7 @@ class FlightSummarizer {
   Timestamp newest_;
   double before_s_ = 0;  ///< by clocks before
   std::uint64_t last_sequence_ = 0;
+  bool looking_ = false;  ///< the vehicle was on its way to a look
 };
 
 /// Lines for people, each with its unit.

@@ -152,7 +152,8 @@ void Pipeline::Track(Pass& pass) {
   } else if (pass.pair.left) {
     const Timestamp exposure = pass.bundle->stereo->time;
     const RangeMap* range = pass.new_map ? snapshot.terrain->range.get() : nullptr;
-    if (tracked_site_ != armed->id) {
+    // Of ground that had too little to hold on to the next map may measure more.
+    if (tracked_site_ != armed->id || (range != nullptr && !tracker_.anchored())) {
       tracker_.Reset();
       tracker_.Lock(*pass.pair.left, rectifier_->camera(), snapshot.sensors->X_WC, range, *armed,
                     tracking, exposure);

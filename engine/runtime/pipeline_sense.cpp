@@ -18,7 +18,7 @@ std::string WhyNoMap(const MissionStatus& mission, double commit_height_m) {
   if (mission.state == MissionState::kLanded) {
     return "On the ground no map is made";
   }
-  const bool committed = mission.state == MissionState::kDescending && !mission.looks &&
+  const bool committed = mission.state == MissionState::kDescending && !mission.IsLook() &&
                          mission.height_above_site_m < commit_height_m;
   return committed
              ? WithNumbers("Below %.1f m no map is made, the last verdict stands", commit_height_m)

@@ -11,6 +11,7 @@ constexpr double kLooksFor_s = 2;
 constexpr double kBlockedFor_s = 10;  // then another site
 constexpr double kStoppedFor_s = 15;  // then a look from higher up
 constexpr double kLow_m = 10;         // above the site: there at once
+constexpr double kLookedFor_s = 30;   // the same where a look ended
 
 std::vector<EngineCommand> Command(CommandAction action) {
   return {{CommandOrigin::kScript, std::move(action)}};
@@ -47,12 +48,15 @@ std::vector<EngineCommand> ScriptedOperator::Insist(const EngineSnapshot& snapsh
   if (IsFlying(mission.state)) {
     flown_at_ = snapshot.time;
     flown_site_ = mission.armed ? mission.armed->id : 0;
+    flew_to_look_ = mission.IsLook();
     return {};
   }
   if (mission.state == MissionState::kLanded) {
     return {};
   }
-  if (flown_site_ != 0) {
+  const bool stopped =
+      mission.state == MissionState::kHold || mission.state == MissionState::kAborting;
+  if (flown_site_ != 0 && (stopped || !flew_to_look_)) {
     ++failures_[std::exchange(flown_site_, 0)];
   }
   if (mission.state == MissionState::kAborting) {
@@ -68,8 +72,10 @@ std::vector<EngineCommand> ScriptedOperator::Insist(const EngineSnapshot& snapsh
   const double stopped_s = flown_at_ ? SecondsBetween(*flown_at_, snapshot.time) : 0;
   // What hangs over the ground is not seen from below it.
   low_ = low_ || (mission.state == MissionState::kHold && mission.height_above_site_m < kLow_m);
-  if (stopped_s >= (low_ ? kLooksFor_s : kStoppedFor_s) && looks_again_ > 0 &&
-      mission.why_no_wave_off.empty()) {
+  const double patience_s = low_                        ? kLooksFor_s
+                            : flew_to_look_ && !stopped ? kLookedFor_s
+                                                        : kStoppedFor_s;
+  if (stopped_s >= patience_s && looks_again_ > 0 && mission.why_no_wave_off.empty()) {
     --looks_again_;
     flown_at_.reset();
     return Command(WaveOff{});
@@ -103,6 +109,11 @@ std::vector<EngineCommand> ScriptedOperator::Decide(const EngineSnapshot& snapsh
       }
       return {};
     case MissionState::kArmed:
+      if (mission.can_approve && mission.OffersLook() && looks_closer_ &&
+          looked_at_.insert(mission.armed->id).second) {
+        return Command(
+            LookAtSite{mission.armed->id, snapshot.sequence, mission.armed->look_height_m});
+      }
       if (mission.can_approve && mission.armed) {
         return Command(ApproveSite{mission.armed->id, snapshot.sequence});
       }

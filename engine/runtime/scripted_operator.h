@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <set>
 #include <vector>
 
 #include "engine/model/snapshot.h"
@@ -17,10 +18,13 @@ namespace palace {
 /// site, or nothing could be approved for a while, it waves off, and goes on from the hover. It
 /// then takes the best site in view that failed it least, deselects what stays blocked, and
 /// acknowledges warnings that are over.
+///
+/// One that looks closer flies down to look before it approves, once at each site, wherever a look
+/// is offered; where nothing could be approved after it, one that looks again does.
 class ScriptedOperator {
  public:
-  explicit ScriptedOperator(int looks_again = 0)
-      : looks_again_(looks_again), insists_(looks_again > 0) {}
+  explicit ScriptedOperator(int looks_again = 0, bool looks_closer = false)
+      : looks_again_(looks_again), insists_(looks_again > 0), looks_closer_(looks_closer) {}
 
   std::vector<EngineCommand> Decide(const EngineSnapshot& snapshot);
   /// Landed, and looked at it for a second.
@@ -32,10 +36,13 @@ class ScriptedOperator {
 
   int looks_again_;
   bool insists_;
+  bool looks_closer_;
+  std::set<std::uint64_t> looked_at_;
   std::optional<Timestamp> seen_since_;
   MissionState last_ = MissionState::kNoLive;
   std::optional<Timestamp> flown_at_;  ///< an approval stood last, since the last wave-off
   std::uint64_t flown_site_ = 0;       ///< the site of it, until it was counted
+  bool flew_to_look_ = false;          ///< and it was no landing
   bool low_ = false;                   ///< it was stopped near the ground, and has not climbed
   std::map<std::uint64_t, int> failures_;
   bool finished_ = false;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/core/text.h"
 #include "engine/tracking/camera_resection.h"
 #include "engine/tracking/coherence.h"
 #include "engine/tracking/feature_selection.h"
@@ -53,7 +54,11 @@ void PlaneTracker::Lock(const ImageU8& left, const PinholeCamera& camera,
   }
   correction_p_W_ = X_WK.p - X_WC.p;
   CutKeyframe(left, camera, X_WK, range, settings, {});
-  locked_ = landmarks_.size() >= static_cast<std::size_t>(kMinInliers);
+  locked_ = anchored();
+}
+
+bool PlaneTracker::anchored() const {
+  return landmarks_.size() >= static_cast<std::size_t>(kMinInliers);
 }
 
 void PlaneTracker::CutKeyframe(const ImageU8& left, const PinholeCamera& camera,
@@ -249,12 +254,26 @@ void PlaneTracker::NoteOutliers(const Attempt& attempt) {
   }
 }
 
+std::string PlaneTracker::WhyNotLocked(const Attempt& attempt) {
+  if (attempt.ok) {
+    return {};
+  }
+  const double found = attempt.inliers, visible = attempt.visible_count;
+  return found < kMinInliers ? WithNumbers("%.0f of %.0f features found again, min %.0f", found,
+                                           visible, kMinInliers)
+         : found < kMinInlierShare * visible
+             ? WithNumbers("%.0f of %.0f features agree, min %.0f %%", found, visible,
+                           100 * kMinInlierShare)
+             : WithNumbers("%.0f features fit no pose of the camera", found);
+}
+
 TrackerStatus PlaneTracker::Describe(const ImageU8& left, const PinholeCamera& camera,
                                      const Attempt& attempt, const TrackingSettings& settings,
                                      Timestamp time) const {
   TrackerStatus status;
   status.time = time;
   status.locked = attempt.ok;
+  status.why_not_locked = WhyNotLocked(attempt);
   status.mode = "Plane";
   status.keyframes = keyframes_;
   status.anchor_height_m = plane_.HeightOf(X_WK_.p);
@@ -286,9 +305,13 @@ TrackResult PlaneTracker::Track(const ImageU8& left, const PinholeCamera& camera
   TrackResult result;
   result.time = time;
   const bool other_size = left.width() != keyframe_.width() || left.height() != keyframe_.height();
-  if (other_size || landmarks_.size() < static_cast<std::size_t>(kMinInliers)) {
+  if (other_size || !anchored()) {
     locked_ = false;
     result.status.time = time;
+    result.status.why_not_locked =
+        other_size ? "the picture has another size than its anchor"
+                   : WithNumbers("ground around the site has %.0f features, min %.0f",
+                                 static_cast<double>(landmarks_.size()), kMinInliers);
     result.status.mode = "Plane";
     return result;
   }

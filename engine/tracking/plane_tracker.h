@@ -30,6 +30,7 @@ class PlaneTracker {
   /// Arguments as SiteTracker::Lock.
   void Lock(const ImageU8& left, const PinholeCamera& camera, const RigidTransform& X_WC,
             const RangeMap* range, const LandingSite& site, const TrackingSettings& settings);
+  bool anchored() const;
   bool locked() const { return locked_; }
   TrackResult Track(const ImageU8& left, const PinholeCamera& camera,
                     const RigidTransform& X_WC_predicted, const RangeMap* range,
@@ -70,6 +71,7 @@ class PlaneTracker {
   void NoteOutliers(const Attempt& attempt);
   double MeanDistance(const Eigen::Vector3d& p_WC) const;
   Eigen::Vector2d PatchCentre(const PinholeCamera& camera, const Attempt& attempt) const;
+  static std::string WhyNotLocked(const Attempt& attempt);
   TrackerStatus Describe(const ImageU8& left, const PinholeCamera& camera, const Attempt& attempt,
                          const TrackingSettings& settings, Timestamp time) const;
 

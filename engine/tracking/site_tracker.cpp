@@ -15,6 +15,10 @@ void SiteTracker::Reset() {
   template_.reset();
 }
 
+bool SiteTracker::anchored() const {
+  return (plane_ && plane_->anchored()) || (template_ && template_->anchored());
+}
+
 bool SiteTracker::locked() const {
   return (plane_ && plane_->locked()) || (template_ && template_->locked());
 }

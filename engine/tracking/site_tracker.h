@@ -45,7 +45,9 @@ class SiteTracker {
 
   /// Forgets the site; locked() is false afterwards.
   void Reset();
-  /// A site is anchored and the last picture still held it.
+  /// The ground around the site had enough to hold on to when Lock was called.
+  bool anchored() const;
+  /// It is anchored, and the last picture still held it.
   bool locked() const;
   /// Anchors on the ground around the site. X_WC: left camera at exposure on the estimate in force.
   /// range may be null; then the plane through the site with normal_W is used.

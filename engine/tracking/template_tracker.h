@@ -22,6 +22,7 @@ class TemplateTracker {
  public:
   void Lock(const ImageU8& left, const PinholeCamera& camera, const RigidTransform& X_WC,
             const LandingSite& site, const TrackingSettings& settings);
+  bool anchored() const { return template_.width() > 0; }
   bool locked() const { return locked_; }
   /// The result's landmarks are the site alone.
   TrackResult Track(const ImageU8& left, const PinholeCamera& camera,

@@ -1,5 +1,7 @@
 #include <type_traits>
 
+#include "engine/core/text.h"
+#include "engine/model/approach_side.h"
 #include "engine/wire/convert.h"
 #include "engine/wire/wire_fields.h"
 #include "engine/wire/wire_pack.h"
@@ -42,6 +44,10 @@ struct ActionToWire {
     m.snapshot_sequence = WireId(a.snapshot_sequence);
     m.value = a.stop_height_m;
   }
+  void operator()(const TurnApproach& a) const {
+    Site(site_decision_t::TURN_APPROACH, a.site_id);
+    m.value = a.side;
+  }
   void operator()(const RefuseSite& a) const { Site(site_decision_t::REFUSE, a.site_id); }
   void operator()(const HoldHere&) const { m.kind = site_decision_t::HOLD; }
   void operator()(const WaveOff&) const { m.kind = site_decision_t::WAVE_OFF; }
@@ -72,6 +78,15 @@ struct ActionToWire {
   }
 };
 
+Result<CommandAction> SideFromWire(double value, std::uint64_t site_id) {
+  for (int side = kStraightApproach; IsApproachSide(side); ++side) {
+    if (value == side) {
+      return CommandAction(TurnApproach{site_id, side});
+    }
+  }
+  return InvalidError(WithNumbers("side of an approach %g is not one of -1..7", value));
+}
+
 Result<CommandAction> ActionFromWire(const site_decision_t& m) {
   const std::uint64_t site = IdFromWire(m.site_id);
   switch (m.kind) {
@@ -89,6 +104,8 @@ Result<CommandAction> ActionFromWire(const site_decision_t& m) {
       return CommandAction(ApproveSite{site, IdFromWire(m.snapshot_sequence)});
     case site_decision_t::LOOK:
       return CommandAction(LookAtSite{site, IdFromWire(m.snapshot_sequence), m.value});
+    case site_decision_t::TURN_APPROACH:
+      return SideFromWire(m.value, site);
     case site_decision_t::REFUSE:
       return CommandAction(RefuseSite{site});
     case site_decision_t::HOLD:
@@ -109,7 +126,7 @@ Result<CommandAction> ActionFromWire(const site_decision_t& m) {
     case site_decision_t::COMMAND_LOST:
       return CommandAction(CommandLost{m.text});
     default:
-      return InvalidError("decision kind " + std::to_string(m.kind) + " is not one of 0..16");
+      return InvalidError("decision kind " + std::to_string(m.kind) + " is not one of 0..17");
   }
 }
 

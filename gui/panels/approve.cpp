@@ -1,6 +1,11 @@
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
 
+#include "engine/model/approach_side.h"
+#include "engine/model/cell_explanation.h"
 #include "engine/model/mission/refused_lately.h"
 #include "gui/panels/approve_words.h"
 #include "gui/panels/fly_panels.h"
@@ -156,16 +161,9 @@ void DrawRefuseButton(const EngineSnapshot& snap, const Rect& rect, bool narrow,
   }
 }
 
-/// Whether it is known from where the armed site would be sure, and it is offered to fly there.
-bool OffersLook(const MissionStatus& m) {
-  const bool sure = m.armed_now && m.armed_now->confirmed;
-  return m.state == MissionState::kArmed && m.armed && m.may_select && !sure &&
-         std::isfinite(m.armed->look_height_m);
-}
-
 /// One press: what it commits to is a hover. It asks for all that an approval asks for. In the
-/// panel's head, where no button that commits to more ever stands.
-void DrawLookButton(const EngineSnapshot& snap, const Rect& panel, UiFrame& ui) {
+/// panel's head, where no button that commits to more ever stands. Right end of what it draws.
+float DrawLookButton(const EngineSnapshot& snap, const Rect& panel, UiFrame& ui) {
   const Style& s = ui.style;
   const MissionStatus& m = snap.flight->mission;
   const std::string why_not = WhyNotApprove(snap, ui.silent_s);
@@ -182,12 +180,14 @@ void DrawLookButton(const EngineSnapshot& snap, const Rect& panel, UiFrame& ui) 
     ui.intents.push_back(
         CommandAction(LookAtSite{m.armed->id, snap.sequence, m.armed->look_height_m}));
   }
+  return rect.right();
 }
 
 /// Takes the selection back, in the panel's head: away from the buttons that commit.
-void DrawDeselect(const LandingSite& site, const Rect& panel, UiFrame& ui) {
+/// Left end of what it draws.
+float DrawDeselect(const LandingSite& site, const Rect& panel, bool narrow, UiFrame& ui) {
   const Style& s = ui.style;
-  const std::string words = "Deselect site " + std::string(site.letter);
+  const std::string words = (narrow ? "Deselect " : "Deselect site ") + site.letter;
   const float width = TextWidth(s.caption, words) + s.Px(20);
   ButtonLook look;
   look.flat = true;
@@ -196,6 +196,37 @@ void DrawDeselect(const LandingSite& site, const Rect& panel, UiFrame& ui) {
                  {panel.right() - s.Px(8) - width, panel.y + s.Px(3), width, s.Px(22)}, words,
                  look)) {
     ui.intents.push_back(CommandAction(DisarmSite{}));
+  }
+  return panel.right() - s.Px(8) - width;
+}
+
+/// "straight" or "from the north-east".
+std::string SideName(int side) {
+  return side == kStraightApproach
+             ? std::string("straight")
+             : std::string("from the ") + DirectionWord(HeadingFromSector(side) + std::numbers::pi);
+}
+
+/// One press: the next clear side, clockwise. Beside Deselect; the short word where the other is
+/// too long to stand between `from` and `to`.
+void DrawTurnButton(const MissionStatus& m, float from, float to, float y, UiFrame& ui) {
+  const Style& s = ui.style;
+  const std::vector<int>& sides = m.approach_sides;
+  const auto now = std::find(sides.begin(), sides.end(), m.approach->side);
+  const int next = now == sides.end() || now + 1 == sides.end() ? sides.front() : now[1];
+  const char* words = "Turn approach";
+  if (TextWidth(s.caption, words) + s.Px(36) > to - from) {
+    words = "Turn";
+  }
+  const float width = TextWidth(s.caption, words) + s.Px(20);
+  ButtonLook look;
+  look.flat = true;
+  look.font = s.caption;
+  const std::string hint =
+      "Now " + SideName(m.approach->side) + "; the next clear side clockwise: " + SideName(next);
+  look.hint = hint;
+  if (DrawButton(ui, "turn", {to - s.Px(8) - width, y, width, s.Px(22)}, words, look)) {
+    ui.intents.push_back(CommandAction(TurnApproach{m.armed->id, next}));
   }
 }
 
@@ -281,11 +312,15 @@ void DrawApprovePanel(const EngineSnapshot& snap, const Rect& rect, bool narrow,
   const std::string fact = m.armed ? std::string("Site ") + m.armed->letter + " selected" : "";
   const bool armed = m.state == MissionState::kArmed && m.armed && m.may_select;
   DrawPanelFrame(ui, rect, "Approve", {{narrow || armed ? std::string() : fact}});
-  if (OffersLook(m)) {
-    DrawLookButton(snap, rect, ui);
+  float head = rect.x + s.Px(12) + TextWidth(s.medium, "Approve");
+  if (m.may_select && m.OffersLook()) {
+    head = DrawLookButton(snap, rect, ui);
   }
   if (armed) {
-    DrawDeselect(*m.armed, rect, ui);
+    const float end = DrawDeselect(*m.armed, rect, narrow, ui);
+    if (m.approach && m.approach_sides.size() > 1) {
+      DrawTurnButton(m, head, end, rect.y + s.Px(3), ui);
+    }
   }
   const float x = rect.x + s.Px(12);
   const float width = rect.w - s.Px(24);

@@ -100,7 +100,7 @@ HoldButtonView ApproveButton(const EngineSnapshot& snap, const ApproveState& sta
 }
 
 std::string SideWords(const MissionStatus& m) {
-  return m.approach && m.approach->turned
+  return m.approach && m.approach->turned()
              ? std::string(", from the ") +
                    DirectionWord(m.approach->heading_rad + std::numbers::pi)
              : std::string();

@@ -41,15 +41,14 @@ std::string Headline(const MissionStatus& m, double silent_s, double heard_s) {
   const std::string site = m.armed ? std::string("site ") + m.armed->letter : std::string("site");
   switch (m.state) {
     case MissionState::kApproved:
-      return (m.looks ? "Approved: look at " : "Approved: ") + site + SideWords(m);
+      return (m.IsLook() ? "Approved: look at " : "Approved: ") + site + SideWords(m);
     case MissionState::kHold:
       return Heard("Holding on the way to " + site, heard_s);
     case MissionState::kAborting:
       return WaveOffHeadline(m.wave_off, silent_s);
     default:
-      return m.looks && m.approval
-                 ? "Looking at " + site + " from " + Fixed(m.approval->stop_height_m, 0) + " m"
-                 : "Landing on " + site;
+      return m.IsLook() ? "Looking at " + site + " from " + Fixed(m.stop_height_m, 0) + " m"
+                        : "Landing on " + site;
   }
 }
 
@@ -134,8 +133,7 @@ void DrawLadder(const EngineSnapshot& snap, const Rect& bar, UiFrame& ui) {
   const Style& s = ui.style;
   const Palette& p = s.palette;
   const MissionStatus& m = snap.flight->mission;
-  const bool looks = m.approval && m.approval->IsLook();
-  const double end_m = looks ? m.approval->stop_height_m : 0;
+  const double end_m = m.stop_height_m;
   double top_m = std::isfinite(m.height_above_site_m) ? m.height_above_site_m : 0;
   for (const SiteRecheck& recheck : m.rechecks) {
     top_m = std::max(top_m, recheck.height_above_site_m);
@@ -154,9 +152,9 @@ void DrawLadder(const EngineSnapshot& snap, const Rect& bar, UiFrame& ui) {
   float free_from = bar.x;
   const float end = bar.right() - TextWidth(s.caption, HeightLabel(end_m)) - s.Px(8);
   const std::vector<double> ticks =
-      looks ? std::vector{top_m, end_m}
-            : std::vector{top_m, m.confirm_height_m,
-                          snap.session->settings.slad.fusion.commit_height_m, end_m};
+      m.IsLook() ? std::vector{top_m, end_m}
+                 : std::vector{top_m, m.confirm_height_m,
+                               snap.session->settings.slad.fusion.commit_height_m, end_m};
   for (const double height_m : ticks) {
     const float x = std::min(at(height_m), bar.right() - s.Px(2));
     FillRect(Canvas(), {x, bar.y - s.Px(4), s.Px(2), bar.h + s.Px(8)}, p.text1);
@@ -179,7 +177,7 @@ void DrawLandingPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui)
   const Palette& p = s.palette;
   const MissionStatus& m = snap.flight->mission;
   const bool tall = rect.h >= s.Px(184);
-  DrawPanelFrame(ui, rect, m.looks ? "Look" : "Landing");
+  DrawPanelFrame(ui, rect, m.IsLook() ? "Look" : "Landing");
   const float x = rect.x + s.Px(12);
   const float width = rect.w - s.Px(24);
   const float head_y = rect.y + s.Px(tall ? 49 : 44);

@@ -78,9 +78,9 @@ const char* ClockName(const EngineSnapshot& snap) {
 
 const char* LandingWord(const MissionStatus& mission) {
   const MissionState state = mission.state;
-  return IsFlying(state)                  ? (mission.looks ? "Looking at" : "Landing on")
+  return IsFlying(state)                  ? (mission.IsLook() ? "Looking at" : "Landing on")
          : state == MissionState::kLanded ? "Landed on"
-         : state >= MissionState::kHold   ? (mission.looks ? "Was to look at" : "Was to land on")
+         : state >= MissionState::kHold   ? (mission.IsLook() ? "Was to look at" : "Was to land on")
                                           : "Selected";
 }
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/model/site_standing.h"
 #include "gui/panels/fly_panels.h"
 #include "gui/panels/map_views.h"
 #include "gui/widgets/icons.h"
@@ -83,12 +84,12 @@ void DrawSchedule(const EngineSnapshot& snap, const Rect& column, float y, UiFra
   FillRect(Canvas(), {column.x, y - s.Px(4), column.w, s.Px(1)}, p.line);
   DrawIcon(Canvas(), Icon::kStale, {column.x + s.Px(6), y + s.Px(14)}, s.Px(12), p.text2);
   DrawText(ui, s.body, p.text1, column.x + s.Px(20), y + s.Px(14), "Each new map");
-  DrawText(ui, s.caption, p.text2, column.x + s.Px(20), y + s.Px(34),
-           "down to " +
-               Fixed(m.looks && m.approval ? m.approval->stop_height_m
-                                           : snap.session->settings.slad.fusion.commit_height_m,
-                     1) +
-               " m");
+  DrawText(
+      ui, s.caption, p.text2, column.x + s.Px(20), y + s.Px(34),
+      "down to " +
+          Fixed(m.IsLook() ? m.stop_height_m : snap.session->settings.slad.fusion.commit_height_m,
+                1) +
+          " m");
 }
 
 /// The site's own reason compares it with the best of its map, which nobody may have chosen.
@@ -146,6 +147,13 @@ void DrawChecksColumn(const EngineSnapshot& snap, const Rect& column, bool narro
   }
 }
 
+/// A newer map may hold older ground: what has left the view is judged as it was seen last.
+std::string GroundAge(const MissionStatus& m) {
+  return m.armed_now && !IsInView(*m.armed_now)
+             ? ", ground seen " + Duration(m.armed_now->age_s) + " before"
+             : std::string();
+}
+
 }  // namespace
 
 void DrawSiteRecheckPanel(const EngineSnapshot& snap, const Rect& rect, bool narrow,
@@ -161,7 +169,7 @@ void DrawSiteRecheckPanel(const EngineSnapshot& snap, const Rect& rect, bool nar
                               ? Duration(SecondsBetween(m.rechecks.back().time, snap.time)) + " ago"
                           : told ? "not yet"
                                  : "not told after a jump";
-  const Rect content = DrawPanelFrame(ui, rect, title, {{age}});
+  const Rect content = DrawPanelFrame(ui, rect, title, {{age + GroundAge(m)}});
   const float side = std::min(s.Px(232), content.h - s.Px(52));
   const Rect square{content.x + s.Px(12), content.y + s.Px(4), side, side};
   MapView view = MakeMapView(MapKind::kSafeDistance, ShownMap(snap, ui.silent_s), ui.textures);

@@ -30,8 +30,12 @@ void DrawTrackerPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui)
     } else {
       UnknownFill(s, Canvas(), picture);
     }
-    DrawText(ui, s.caption, s.palette.text2, picture.x, picture.bottom() + s.Px(13), captions[i]);
+    if (tracker.why_not_locked.empty()) {
+      DrawText(ui, s.caption, s.palette.text2, picture.x, picture.bottom() + s.Px(13), captions[i]);
+    }
   }
+  DrawText(ui, s.caption, s.palette.text2, content.x + s.Px(12),
+           content.y + s.Px(4) + height + s.Px(13), tracker.why_not_locked);
 }
 
 }  // namespace palace

@@ -23,7 +23,7 @@ const char* ModeWords(const EngineSnapshot& snap) {
       return "Aligning";
     case VehicleMode::kDescend:
       return !snap.sensors->vehicle->flies_on_vision ? "Descending on GPS"
-             : snap.flight->mission.looks            ? "Descending on vision"
+             : snap.flight->mission.IsLook()         ? "Descending on vision"
                                                      : "Landing on vision";
     case VehicleMode::kSettle:
       return "Settling";

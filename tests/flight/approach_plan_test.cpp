@@ -42,7 +42,7 @@ TEST(ChooseCourse, StraightWhereClearElseTheLeastTurn) {
     const ApproachCourse course = ChooseCourse(site, Rad(row.straight_deg));
     EXPECT_NEAR(WrapAngle(course.heading_rad - Rad(row.heading_deg)), 0, 1e-9)
         << Deg(course.heading_rad);
-    EXPECT_EQ(course.turned, row.turned);
+    EXPECT_EQ(course.side != kStraightApproach, row.turned);
   }
 }
 
@@ -56,18 +56,43 @@ TEST(ChooseCourse, NoBlockedSectorIsEverFlown) {
     site.clear_approaches = static_cast<std::uint8_t>(random.Uniform(0, 256));
     const double straight_rad = random.Uniform(-3.14, 3.14);
     const ApproachCourse course = ChooseCourse(site, straight_rad);
-    ASSERT_EQ(course.turned, site.clear_approaches != 0) << "seed " << kSeed << ", " << trial;
-    if (!course.turned) {
+    ASSERT_EQ(course.side != kStraightApproach, site.clear_approaches != 0)
+        << "seed " << kSeed << ", " << trial;
+    if (course.side == kStraightApproach) {
       continue;
     }
     const double from = WrapAngle(course.heading_rad + Rad(180)) / Rad(45);
     const unsigned sector = static_cast<unsigned>(std::lround(from) + 8) % 8;
     ASSERT_NEAR(from, std::lround(from), 1e-9);
+    ASSERT_EQ(course.side, static_cast<int>(sector));
     ASSERT_NE(site.clear_approaches >> sector & 1U, 0u) << "seed " << kSeed << ", " << trial;
     if (std::popcount(site.clear_approaches) == 8) {
       ASSERT_LE(std::abs(WrapAngle(course.heading_rad - straight_rad)), Rad(22.5) + 1e-9);
     }
   }
+}
+
+TEST(ClearCourses, GoRoundClockwiseAndHoldWhatIsClear) {
+  LandingSite site;
+  site.clear_approaches = kN | kE | kSW;
+  const auto sides = [&](double straight_deg, bool straight_clear) {
+    std::vector<int> found;
+    for (const ApproachCourse& course : ClearCourses(site, Rad(straight_deg), straight_clear)) {
+      found.push_back(course.side);
+    }
+    return found;
+  };
+  constexpr int kStraight = kStraightApproach;
+  EXPECT_EQ(sides(31, false), (std::vector<int>{0, 2, 5}));
+  EXPECT_EQ(sides(31, true), (std::vector<int>{0, 2, kStraight})) << "from 211, the south-west's";
+  EXPECT_EQ(sides(22, true), (std::vector<int>{0, 2, kStraight, 5})) << "from 202, the south's";
+  EXPECT_EQ(sides(-60, true), (std::vector<int>{0, 2, kStraight, 5})) << "from 120";
+  EXPECT_EQ(sides(90, true), (std::vector<int>{0, 2, 5, kStraight})) << "from 270";
+  EXPECT_EQ(sides(180, true), (std::vector<int>{kStraight, 2, 5})) << "the north once";
+  EXPECT_EQ(sides(-180, true), (std::vector<int>{kStraight, 2, 5}));
+  site.clear_approaches = 0;
+  EXPECT_EQ(sides(10, true), std::vector<int>{kStraight});
+  EXPECT_TRUE(sides(10, false).empty());
 }
 
 }  // namespace

@@ -39,6 +39,7 @@ TEST_F(JournalTest, EveryActionOfEveryOriginIsExportedByItsName) {
       {DisarmSite{}, "disarm"},
       {ApproveSite{3, 4}, "approve"},
       {LookAtSite{3, 4, 12}, "look"},
+      {TurnApproach{3, 2}, "turn_approach"},
       {RefuseSite{3}, "refuse"},
       {HoldHere{}, "hold"},
       {WaveOff{}, "wave_off"},

@@ -85,7 +85,7 @@ TEST_F(TurnedApproach, IsPlannedShownAndSigned) {
   ASSERT_NO_FATAL_FAILURE(Arm());
   const MissionStatus& status = rig.mission.status();
   ASSERT_TRUE(status.approach.has_value());
-  EXPECT_TRUE(status.approach->turned);
+  EXPECT_TRUE(status.approach->turned());
   EXPECT_NEAR(std::abs(WrapAngle(status.approach->heading_rad - Rad(-90))), 0, 1e-9);
   EXPECT_EQ(FindLimit(status.armed_limits, LimitId::kApproach)->value, 0);
   bool told = false;

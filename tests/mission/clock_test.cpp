@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "engine/mission/alarms/alarms.h"
+#include "engine/mission/wording.h"
 #include "tests/mission/mission_rig.h"
 
 namespace palace {
@@ -91,6 +92,21 @@ TEST(Clock, NoApprovalUntilTheClockIsKnownAgain) {
   rig.arrival.clock->estimating = false;
   rig.Run(0.2);
   EXPECT_TRUE(rig.mission.status().can_approve) << rig.mission.status().cannot_approve_reason;
+}
+
+TEST(Clock, IsNamedBeforeASiteIsSelectedToo) {
+  MissionRig rig;
+  ASSERT_TRUE(rig.RunUntil(MissionState::kProposed));
+  EXPECT_EQ(rig.mission.status().cannot_approve_reason, words::kSelectFirst);
+  StepClock(rig, 5);
+  rig.Step();
+  ASSERT_TRUE(rig.Do(AcknowledgeAlarm{"clock"}).ok());
+  rig.Run(0.3);
+  EXPECT_EQ(rig.mission.status().cannot_approve_reason,
+            "Vehicle clock stepped or is not yet known");
+  rig.arrival.clock->estimating = false;
+  rig.Run(1);
+  EXPECT_EQ(rig.mission.status().cannot_approve_reason, words::kSelectFirst);
 }
 
 // A real restart takes the clock along: it is named all the same (found-by-attack, defect 15).

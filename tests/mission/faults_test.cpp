@@ -279,6 +279,16 @@ INSTANTIATE_TEST_SUITE_P(
         Block{"Unlabelled", GuardId::kSource, [](MissionRig& r) { r.simulated = false; }, 0.1}),
     [](const auto& row) { return row.param.name; });
 
+TEST(BlockedByTheTracker, SaysWhatTheTrackerMisses) {
+  MissionRig rig;
+  rig.Arm();
+  rig.tracker_locks = false;
+  rig.tracker.why_not_locked = "3 of 41 features found again, min 6";
+  rig.Run(0.1);
+  EXPECT_EQ(rig.mission.status().cannot_approve_reason,
+            "Tracker not locked: 3 of 41 features found again, min 6");
+}
+
 struct Sentence {
   const char* name;
   AlarmId id;

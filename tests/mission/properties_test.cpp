@@ -90,6 +90,9 @@ std::optional<Request> RandomRequest(const MissionRig& rig, RandomStream& random
     case 13:
     case 14:
       return Request{SelectSite{site}, origin};
+    case 23:
+    case 24:
+      return Request{TurnApproach{site, static_cast<int>(random.Index(10)) - 1}, origin};
     case 19:
     case 20:
     case 21:
@@ -162,14 +165,21 @@ TEST_P(RandomMission, NeverBreaksAnInvariant) {
         ASSERT_EQ(after.approval->settings_hash, rig.settings_hash);  // I1
         ASSERT_EQ(after.approval->vehicle_boot_id, rig.vehicle.boot_id);
         ASSERT_GT(after.approval->id, last_id);  // I9
-        ASSERT_EQ(after.approval->expires_at.us - after.approval->approved_at.us, 30'000'000);
+        const auto lasts_us = after.approval->expires_at.us - after.approval->approved_at.us;
+        if (before.approach->turned()) {  // and the way round
+          ASSERT_EQ(after.approval->approach_heading_rad, HeadingFromSector(before.approach->side));
+          ASSERT_GE(lasts_us, 30'000'000);
+          ASSERT_LE(lasts_us, 120'000'000);
+        } else {
+          ASSERT_EQ(lasts_us, 30'000'000);
+        }
         last_id = after.approval->id;
       }
     }
     const auto live_before = rig.mission.status().approval;
     rig.Step();
     const MissionStatus& status = rig.mission.status();
-    ASSERT_FALSE(status.looks && status.state == MissionState::kLanded);
+    ASSERT_FALSE(status.IsLook() && status.state == MissionState::kLanded);
     if (live_before && !(status.approval && status.approval->id == live_before->id)) {
       dead.insert(live_before->id);
     }

@@ -12,7 +12,7 @@ namespace {
 /// A station's screen, made by hand.
 class Desk {
  public:
-  explicit Desk(int looks_again) : pilot(looks_again) {
+  explicit Desk(int looks_again, bool looks_closer = false) : pilot(looks_again, looks_closer) {
     snapshot.flight.Edit().mission.height_above_site_m = 15;
     auto seen = std::make_shared<TerrainDecision>();
     for (const std::uint64_t id : {1, 2}) {
@@ -112,6 +112,42 @@ TEST(ScriptedOperator, StoppedNearTheGroundItWavesOffAtOnce) {
     }
   }
   EXPECT_EQ(tired.Watch<SelectSite>(MissionState::kProposed, 20), nullptr);
+}
+
+TEST(ScriptedOperator, LooksCloserOnceAtASiteWhereALookIsOffered) {
+  Desk plain(1), desk(1, /*looks_closer=*/true);
+  for (Desk* one : {&plain, &desk}) {
+    one->Arm(1);
+    one->snapshot.flight.Edit().mission.armed->look_height_m = 12;
+  }
+  EXPECT_EQ(plain.Watch<LookAtSite>(MissionState::kArmed, 5), nullptr);
+  const LookAtSite* look = desk.Watch<LookAtSite>(MissionState::kArmed, 5);
+  ASSERT_NE(look, nullptr);
+  EXPECT_EQ(look->site_id, 1u);
+  EXPECT_EQ(look->snapshot_sequence, desk.snapshot.sequence);
+  EXPECT_EQ(look->stop_height_m, 12);
+  desk.snapshot.flight.Edit().mission.stop_height_m = 12;
+  desk.See(MissionState::kDescending);
+  desk.snapshot.flight.Edit().mission.stop_height_m = 0;
+  const SelectSite* again = desk.Watch<SelectSite>(MissionState::kProposed, 5);
+  ASSERT_NE(again, nullptr);
+  EXPECT_EQ(again->site_id, 1u) << "a look that ended is no failure";
+  ASSERT_NE(desk.Watch<ApproveSite>(MissionState::kArmed, 5), nullptr) << "once was enough";
+}
+
+TEST(ScriptedOperator, WhereALookSettledNothingItWavesOffAndCountsIt) {
+  Desk desk(1, /*looks_closer=*/true);
+  desk.Arm(1);
+  desk.snapshot.flight.Edit().mission.stop_height_m = 12;
+  desk.See(MissionState::kDescending);
+  desk.snapshot.flight.Edit().mission.stop_height_m = 0;
+  EXPECT_EQ(desk.Watch<WaveOff>(MissionState::kSearch, 29), nullptr);
+  ASSERT_NE(desk.Watch<WaveOff>(MissionState::kSearch, 3), nullptr);
+  desk.snapshot.flight.Edit().mission.wave_off.over = true;
+  ASSERT_NE(desk.Watch<AcknowledgeWaveOff>(MissionState::kAborting, 1), nullptr);
+  const SelectSite* next = desk.Watch<SelectSite>(MissionState::kProposed, 5);
+  ASSERT_NE(next, nullptr);
+  EXPECT_EQ(next->site_id, 2u);
 }
 
 TEST(ScriptedOperator, AWarningThatIsOverIsAcknowledged) {

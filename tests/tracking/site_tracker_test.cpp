@@ -264,6 +264,7 @@ TEST(SiteTracker, APictureOfAnotherSizeIsALossNotACrash) {
       tracker.Track(world.Render(small, X_WC, 1), small, X_WC, nullptr, {}, {});
   EXPECT_FALSE(result.status.locked);
   EXPECT_TRUE(result.landmarks.empty());
+  EXPECT_EQ(result.status.why_not_locked, "the picture has another size than its anchor");
 }
 
 TEST(SiteTracker, SaysUnlockedBeforeLockAndAfterReset) {
@@ -272,8 +273,34 @@ TEST(SiteTracker, SaysUnlockedBeforeLockAndAfterReset) {
   EXPECT_FALSE(tracker.Track(picture, kCamera, {}, nullptr, {}, {}).status.locked);
   tracker.Lock(picture, kCamera, Descent{}.CameraAt(0), nullptr, SiteAtOrigin(), {}, {});
   EXPECT_FALSE(tracker.locked()) << "bare grey ground has nothing to hold on to";
+  EXPECT_FALSE(tracker.anchored());
+  EXPECT_EQ(
+      tracker.Track(picture, kCamera, Descent{}.CameraAt(0), nullptr, {}, {}).status.why_not_locked,
+      "ground around the site has 0 features, min 6");
   tracker.Reset();
   EXPECT_FALSE(tracker.locked());
+}
+
+TEST(SiteTracker, SaysWhatItLostAndNothingWhileItHolds) {
+  for (const TrackerMode mode : {TrackerMode::kPlane, TrackerMode::kTemplate}) {
+    GroundWorld world(14);
+    const RigidTransform X_WC = Descent{}.CameraAt(0);
+    TrackingSettings settings;
+    settings.mode = mode;
+    SiteTracker tracker;
+    tracker.Lock(world.Render(kCamera, X_WC, 1), kCamera, X_WC, nullptr, SiteAtOrigin(), settings,
+                 {});
+    ASSERT_TRUE(tracker.anchored());
+    const auto why = [&](const ImageU8& picture) {
+      return tracker.Track(picture, kCamera, X_WC, nullptr, settings, {}).status.why_not_locked;
+    };
+    EXPECT_EQ(why(world.Render(kCamera, X_WC, 1)), "");
+    const std::string black = why(ImageU8(kCamera.width, kCamera.height, 3));
+    const char* limit = mode == TrackerMode::kPlane ? " features found again, min 6" : ", min 0.";
+    EXPECT_NE(black.find(limit), std::string::npos) << black;
+    EXPECT_TRUE(tracker.anchored()) << "it looks for its ground on";
+    EXPECT_EQ(why(world.Render(kCamera, X_WC, 1)), "");
+  }
 }
 
 }  // namespace

@@ -19,6 +19,7 @@ TEST(Command, EveryKindSurvives) {
                                               DisarmSite{},
                                               ApproveSite{5, ~0ull},
                                               LookAtSite{7, 8, 12.5},
+                                              TurnApproach{9, kStraightApproach},
                                               RefuseSite{6},
                                               HoldHere{},
                                               WaveOff{},
@@ -47,6 +48,20 @@ TEST(Command, EveryKindSurvives) {
   EXPECT_EQ(std::get<LookAtSite>(look->action).site_id, 7u);
   EXPECT_EQ(std::get<LookAtSite>(look->action).snapshot_sequence, 8u);
   EXPECT_EQ(std::get<LookAtSite>(look->action).stop_height_m, 12.5);
+}
+
+TEST(Command, ASideOfAnApproachIsOneOfTheSectorsOrStraight) {
+  for (int side = -3; side <= 9; ++side) {
+    const auto back =
+        DecodeCommand(EncodeCommand({CommandOrigin::kOperator, TurnApproach{5, side}}, {1}, {}));
+    ASSERT_EQ(back.ok(), side >= -1 && side <= 7) << side;
+    if (back.ok()) {
+      EXPECT_EQ(std::get<TurnApproach>(back->action).site_id, 5u);
+      EXPECT_EQ(std::get<TurnApproach>(back->action).side, side);
+    } else {
+      EXPECT_NE(back.error().message.find("is not one of -1..7"), std::string::npos);
+    }
+  }
 }
 
 TEST(VehicleMessage, ApprovalSurvivesWithEveryBoundField) {

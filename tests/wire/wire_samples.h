@@ -207,6 +207,8 @@ inline std::vector<WireMessage> OneOfEach(RandomStream& random) {
                                    bundle->time, channels));
   messages.push_back(
       EncodeCommand({CommandOrigin::kOperator, LookAtSite{3, 7, 12}}, bundle->time, channels));
+  messages.push_back(
+      EncodeCommand({CommandOrigin::kOperator, TurnApproach{3, 5}}, bundle->time, channels));
   return messages;
 }
 

@@ -71,6 +71,11 @@ const LandingSite* MissionStatus::BestStanding(const std::vector<LandingSite>& s
   return best == sites.end() ? nullptr : &*best;
 }
 
+bool MissionStatus::OffersLook() const {
+  const bool sure = armed_now && armed_now->confirmed;
+  return state == MissionState::kArmed && armed && !sure && std::isfinite(armed->look_height_m);
+}
+
 bool MissionStatus::TakesSelection(std::uint64_t site_id) const {
   return IsNamedSite(site_id) &&
          (state == MissionState::kProposed || state == MissionState::kArmed ||

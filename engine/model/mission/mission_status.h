@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/core/time.h"
+#include "engine/model/approach_side.h"
 #include "engine/model/landing_site.h"
 #include "engine/model/mission/limit_row.h"
 #include "engine/model/mission/mission_ids.h"
@@ -115,7 +116,11 @@ struct ApproachPlan {
   double heading_rad = NAN;       ///< course over ground, from north over east
   double glide_slope_rad = NAN;   ///< down from the horizon
   double descent_rate_mps = NAN;  ///< down the slope, the vertical part
-  bool turned = false;  ///< round to another side, because the straight approach is blocked
+  int side = kStraightApproach;   ///< that it comes from (approach_side.h)
+  bool by_hand = false;           ///< as a person turned it, not as the station chose
+
+  /// Round to another side, not straight from where the vehicle is.
+  bool turned() const { return side != kStraightApproach; }
 };
 
 /// Where the vehicle is on the path that was approved; NaN and empty while it does not fly it.
@@ -153,8 +158,12 @@ struct MissionStatus {
   std::optional<LandingSite> armed_now;  ///< the same place on the newest map; empty off it
   SiteVerdict armed_verdict = SiteVerdict::kHolds;  ///< what the last maps together say of it
   std::string armed_why;                            ///< with value and limit; empty while it holds
-  /// Of the armed site: frozen with it, as soon as the vehicle's place is known.
+  /// Of the armed site: frozen with it, as soon as the vehicle's place is known, but for a person
+  /// who turns it.
   std::optional<ApproachPlan> approach;
+  /// ARMED: the sides that TurnApproach takes, clockwise by where they come from; the planned one
+  /// is among them.
+  std::vector<int> approach_sides;
   Timestamp armed_at;
   std::optional<Timestamp> arm_expires;
   /// Ids of places the operator refused: listed, but never proposed again while their letters live.
@@ -172,7 +181,12 @@ struct MissionStatus {
   bool can_approve = false;
   std::string cannot_approve_reason;  ///< first guard that fails, of any site where none is armed
   std::optional<Approval> approval;
-  bool looks = false;       ///< what was approved of the armed site is a look, also when it is over
+  /// What was approved of the armed site is a look that ends so high above it, also when it is
+  /// over; 0: a landing, or nothing was.
+  double stop_height_m = 0;
+  bool IsLook() const { return stop_height_m > 0; }
+  /// A look would settle what is not sure about the armed site, and it is known from where.
+  bool OffersLook() const;
   std::string approved_by;  ///< "the operator" or "a script"; empty where nobody tells
   enum class ApprovalPhase : std::uint8_t { kNone, kSent, kAccepted, kRefused };
   ApprovalPhase approval_phase = ApprovalPhase::kNone;

@@ -50,7 +50,7 @@ std::string AreaWords(double area_m2) {
 /// What the figures are of: the site that was selected or flown to, before that the best.
 const char* SubjectWord(const MissionStatus& m) {
   return !m.armed                                                ? "Best site"
-         : m.looks                                               ? "Site looked at"
+         : m.IsLook()                                            ? "Site looked at"
          : IsFlying(m.state) || m.state == MissionState::kLanded ? "Landing site"
                                                                  : "Selected site";
 }

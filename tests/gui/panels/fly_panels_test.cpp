@@ -141,6 +141,33 @@ TEST(FlyApprove, OnePressLooksFromWhereTheSiteWouldBeSure) {
   EXPECT_EQ(searching.ui.items.Find("look"), nullptr);
 }
 
+TEST(FlyApprove, OnePressTurnsTheApproachToTheNextClearSide) {
+  EngineSnapshot snap = fake::Snapshot(MissionState::kArmed);
+  MissionStatus& mission = snap.flight.Edit().mission;
+  mission.armed->look_height_m = 12;
+  mission.approach = ApproachPlan{};
+  mission.approach_sides = {kStraightApproach};
+  EXPECT_EQ(FlyWindow(1920, 1080, snap).ui.items.Find("turn"), nullptr) << "there is no other";
+  mission.approach_sides = {2, kStraightApproach, 5};
+  const struct {
+    int now, next;
+  } rows[] = {{2, kStraightApproach}, {kStraightApproach, 5}, {5, 2}, {7, 2}};
+  for (const auto& row : rows) {
+    mission.approach->side = row.now;
+    for (const auto& [w, h] : {std::pair{1920, 1080}, {1280, 720}}) {
+      FlyWindow window(w, h, snap);
+      ASSERT_NE(window.ui.items.Find("turn"), nullptr);
+      window.ui.Click("turn", window.draw);
+      EXPECT_EQ(window.ui.intents.size(), 1u);
+      EXPECT_EQ(window.ui.LastCommand<TurnApproach>().site_id, 1u);
+      EXPECT_EQ(window.ui.LastCommand<TurnApproach>().side, row.next) << "from " << row.now;
+      const Rect& turn = window.ui.items.Find("turn")->rect;
+      EXPECT_GT(turn.x, window.ui.items.Find("look")->rect.right()) << w;
+      EXPECT_LT(turn.right(), window.ui.items.Find("deselect")->rect.x) << w;
+    }
+  }
+}
+
 TEST(FlyApprove, IsBlockedWhileTheScreenIsBehindTheEngine) {
   for (const double silent_s : {0.4, 0.6}) {
     FlyWindow window(1280, 720, fake::Snapshot(MissionState::kArmed));
