@@ -146,8 +146,8 @@ std::string LooksLine(const TrialTable& table) {
     }
   }
   return "Looked closer: " + ShareText(looked, static_cast<int>(table.rows.size())) +
-         WithNumbers(" missions; then approved to land in %.0f, confirmed in %.0f", approved,
-                     confirmed);
+         WithNumbers(" missions; of these %.0f approved a site to land on, %.0f a confirmed one",
+                     approved, confirmed);
 }
 
 /// A row of the page: how the missions of one family, or all of them, ended.

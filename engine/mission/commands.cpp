@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "engine/core/check.h"
@@ -74,6 +75,23 @@ std::string WhyNoLook(const MissionMemory& m, double stop_height_m) {
     return words::NothingToLookAt(site.letter);
   }
   return HeightAboveSite(m) - stop_height_m >= kLeastWayToLook_m ? "" : words::kNearEnough;
+}
+
+const char* WhoAsks(CommandOrigin origin) {
+  return origin == CommandOrigin::kScript ? "a script" : "the operator";
+}
+
+/// The course from that side; empty where none is open. What is recorded was open then.
+std::optional<ApproachCourse> CourseFrom(const MissionMemory& m, int side, bool recorded) {
+  if (recorded && side != kStraightApproach && IsApproachSide(side)) {
+    return ApproachCourse{HeadingFromSector(side), side};
+  }
+  for (const ApproachCourse& course : CoursesOpen(m)) {
+    if (course.side == side) {
+      return course;
+    }
+  }
+  return std::nullopt;
 }
 
 /// One operator() a command.
@@ -235,17 +253,14 @@ Status Obeying::operator()(const TurnApproach& action) const {
   if (m.status.approach && m.status.approach->side == action.side) {
     return Ok();  // set, not toggle
   }
-  const std::vector<ApproachCourse> open = CoursesOpen(m);
-  const auto wanted = std::find_if(open.begin(), open.end(), [&](const ApproachCourse& course) {
-    return course.side == action.side;
-  });
-  if (wanted == open.end()) {
+  const auto wanted = CourseFrom(m, action.side, origin == CommandOrigin::kReplay);
+  if (!wanted) {
     return Refuse(turn, now, "Turn approach", words::kSideNotClear);
   }
   TurnTo(m, *wanted);
   // What is approved is the approach that was on the screen, for as long as evidence must be.
   m.armed.first_sequence.reset();
-  AddEvent(turn, now, EventKind::kDecision, words::ApproachTurnedByHand(m.status));
+  AddEvent(turn, now, EventKind::kDecision, words::ApproachTurnedBy(m.status, WhoAsks(origin)));
   return Ok();
 }
 
@@ -260,7 +275,7 @@ Status Obeying::Commit(double stop_height_m) const {
   m.status.arm_expires.reset();
   m.approved_at = now;
   AddEvent(turn, now, EventKind::kDecision, words::ApprovalGiven(m.status, m.approvals_given));
-  const char* who = origin == CommandOrigin::kScript ? "a script" : "the operator";
+  const char* who = WhoAsks(origin);
   // A record does not tell.
   m.status.approved_by = origin == CommandOrigin::kReplay ? "" : who;
   Enter(turn, MissionState::kApproved, words::ApprovedBy(who), now);
@@ -382,9 +397,9 @@ std::string WhyNotAllowed(const MissionTurn& turn, const EngineCommand& command)
   }
   const bool commits = std::holds_alternative<SelectSite>(command.action) ||
                        std::holds_alternative<ApproveSite>(command.action) ||
-                       std::holds_alternative<LookAtSite>(command.action);
-  const bool decides = commits || std::holds_alternative<RefuseSite>(command.action) ||
+                       std::holds_alternative<LookAtSite>(command.action) ||
                        std::holds_alternative<TurnApproach>(command.action);
+  const bool decides = commits || std::holds_alternative<RefuseSite>(command.action);
   if (!recorded && decides && WhyViewOnly(facts) != nullptr) {
     return WhyViewOnly(facts);
   }

@@ -71,6 +71,21 @@ bool FliesPath(const MissionMemory& m) {
           mode == VehicleMode::kSink);
 }
 
+/// What is to be flown from here.
+std::vector<Eigen::Vector3d> WayAhead(const MissionMemory& m, const FlightPath& path) {
+  const bool flies = m.status.state == MissionState::kArmed || IsFlying(m.status.state);
+  if (!flies || !m.status.approach || !m.facts.p_WB.allFinite()) {
+    return {};
+  }
+  const auto leg = LegOf(m);
+  const bool past_slope = FliesPath(m) && leg && leg->leg != PathLeg::kSlope;
+  if (past_slope) {
+    return {m.facts.p_WB, path.p_WS};
+  }
+  return {m.facts.p_WB, path.Start(m.facts.p_WB),
+          path.IsLook() ? path.BodyAt(path.speeds.slope_end_m) : path.p_WS};
+}
+
 }  // namespace
 
 double HeightAboveSite(const MissionMemory& m) {
@@ -85,6 +100,7 @@ bool IsCommitted(const MissionMemory& m) {
 void PlanApproach(MissionMemory& m) {
   if (m.status.armed && !m.status.approach && m.facts.skid_centre_W.allFinite()) {
     m.armed.straight_clear = m.status.armed->corridor_clear;
+    m.armed.course_judged = true;  // by the map that it was selected on
     TakePlan(m, PlanFor(m, *m.status.armed));
   }
 }
@@ -94,15 +110,15 @@ std::vector<ApproachCourse> CoursesOpen(const MissionMemory& m) {
       !m.facts.skid_centre_W.allFinite()) {
     return {};
   }
-  const LandingSite& newest = m.status.armed_now ? *m.status.armed_now : *m.status.armed;
+  const LandingSite& newest = m.newest ? *m.newest : *m.status.armed;
   return ClearCourses(newest, StraightHeading(m.facts.skid_centre_W, m.status.armed->p_WS),
                       m.armed.straight_clear);
 }
 
 void TurnTo(MissionMemory& m, const ApproachCourse& course) {
-  ApproachPlan plan = PlanOn(m, course);
-  plan.by_hand = true;
-  TakePlan(m, plan);
+  TakePlan(m, PlanOn(m, course));
+  m.armed.map_hash = m.facts.map_hash;
+  m.armed.course_judged = false;
 }
 
 bool GoesRound(const MissionMemory& m) {
@@ -136,6 +152,7 @@ void PublishGeometry(MissionMemory& m) {
   const Eigen::Vector3d& skid_W = m.facts.skid_centre_W;
   m.status.height_above_site_m = m.status.distance_to_site_m = m.status.time_to_touchdown_s = NAN;
   m.status.path = {};
+  m.status.way_W.clear();
   if (site == nullptr || !skid_W.allFinite()) {
     return;
   }
@@ -143,6 +160,7 @@ void PublishGeometry(MissionMemory& m) {
   m.status.distance_to_site_m = (site->p_WS - skid_W).head<2>().norm();
   const FlightPath path = PathTo(m, *site);
   m.status.time_to_touchdown_s = TimeLeft(m, path);
+  m.status.way_W = WayAhead(m, path);
   if (FliesPath(m) && m.facts.p_WB.allFinite() && m.facts.v_WB.allFinite()) {
     m.status.path = ProgressOn(path, m.facts.p_WB, m.facts.v_WB, LegOf(m));
   }

@@ -23,11 +23,11 @@ bool IsCommitted(const MissionMemory& memory);
 void PlanApproach(MissionMemory& memory);
 
 /// The courses that the armed site may be approached on by the newest map, clockwise by where they
-/// come from; the straight one where it was clear when the site was selected. Empty: none is armed,
-/// or its approach not planned yet.
+/// come from; the straight one where it was clear when it was judged last, from where the vehicle
+/// is now. Empty: none is armed, or its approach not planned yet.
 std::vector<ApproachCourse> CoursesOpen(const MissionMemory& memory);
 
-/// Plans the approach of the armed site on that course, by hand.
+/// Plans the approach of the armed site on that course, which the next map judges.
 void TurnTo(MissionMemory& memory, const ApproachCourse& course);
 
 /// The vehicle flies round to where a turned approach begins, away from the site or past it: until

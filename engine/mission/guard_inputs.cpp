@@ -45,9 +45,13 @@ void JudgeArmedSite(const MissionMemory& m, Timestamp now, GuardInputs& in) {
                                           LimitWords({GuardLimits::look_height_m, "m", 0}));
   }
   if (in.site_holds && !m.site.newest().approach_clear) {
-    // What is approved is the way that was planned when the site was armed.
+    // What is approved is the way that is planned.
     in.site_holds = false;
     in.site_reason = words::ApproachBlocked(in.site_letter);
+  }
+  if (in.site_holds && !armed.course_judged) {
+    in.site_holds = false;
+    in.site_reason = words::kCourseNotJudged;
   }
   if (in.site_holds && !armed.confirmed && !(HeightAboveSite(m) > GuardLimits::confirm_height_m)) {
     in.site_holds = false;

@@ -64,12 +64,13 @@ std::string WhyNotPositioned(const GuardInputs& in, const Limit& limit) {
 }
 
 std::string WhyNotShown(const GuardInputs& in, const Limit& limit) {
-  if (!std::isfinite(in.shown_for_s)) {
+  if (NothingArmed(in)) {
     return words::kSelectFirst;
   }
-  return in.shown_for_s >= limit.value
+  const double shown_s = std::isfinite(in.shown_for_s) ? in.shown_for_s : 0;
+  return shown_s >= limit.value
              ? ""
-             : WithNumbers("Evidence on screen for %.1f s, min ", TenthsDown(in.shown_for_s)) +
+             : WithNumbers("Evidence on screen for %.1f s, min ", TenthsDown(shown_s)) +
                    LimitWords(limit);
 }
 

@@ -67,7 +67,8 @@ struct ArmedFacts {
   std::optional<std::uint64_t> first_sequence;  ///< first snapshot that showed it armed
   Timestamp shown_since;
   bool confirmed = false;
-  bool straight_clear = false;  ///< its corridor from where the vehicle was
+  bool straight_clear = false;  ///< the straight corridor, when it was judged last
+  bool course_judged = false;   ///< the planned corridor was, by a map
 };
 
 /// The best site's run of wins. Once it is long enough for a proposal it goes on whoever leads.

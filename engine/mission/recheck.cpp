@@ -80,6 +80,11 @@ void FollowSite(MissionTurn& turn, const MissionInputs& in) {
       finding.reason == finding.old_ground) {
     finding = {Finding::kGood, "", finding.approach_clear, ""};  // it looks away on purpose
   }
+  if (in.terrain.rechecked && m.status.approach) {
+    m.armed.course_judged = true;
+    m.armed.straight_clear =
+        m.status.approach->turned() ? m.armed.straight_clear : finding.approach_clear;
+  }
   m.site.Add(std::move(finding), now);
   m.newest = in.terrain.rechecked;
   if (in.terrain.rechecked && in.terrain.rechecked->age_s >= 0) {

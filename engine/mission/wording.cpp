@@ -212,10 +212,10 @@ std::string ApproachTurned(const std::optional<ApproachPlan>& plan) {
          DirectionWord(plan->heading_rad + std::numbers::pi) + ": the straight way is blocked";
 }
 
-std::string ApproachTurnedByHand(const MissionStatus& status) {
+std::string ApproachTurnedBy(const MissionStatus& status, const char* who) {
   const ApproachPlan& plan = *status.approach;
-  return "Approach of " + SiteName(status) +
-         " turned by hand: " + (plan.turned() ? "from the " : "straight, from the ") +
+  return "Approach of " + SiteName(status) + " turned by " + who + ": " +
+         (plan.turned() ? "from the " : "straight, from the ") +
          DirectionWord(plan.heading_rad + std::numbers::pi);
 }
 

@@ -25,6 +25,7 @@ inline constexpr const char* kExpired = "Approval expired before the descent beg
 inline constexpr const char* kVehicleAborts = "Vehicle aborts by itself";
 inline constexpr const char* kVehicleHolds = "Vehicle holds by itself";
 inline constexpr const char* kLeftDescent = "Vehicle left the descent";
+inline constexpr const char* kCourseNotJudged = "No map has judged this approach yet";
 inline constexpr const char* kSideNotClear = "No clear approach is known from that side";
 inline constexpr const char* kWentPastLook = "Vehicle did not stop where the look was to end";
 inline constexpr const char* kFliesWithdrawn = "Vehicle flies a withdrawn approval";
@@ -121,8 +122,8 @@ std::string LookedAt(const std::string& letter, double height_m);
 std::string ApproachBlocked(const std::string& letter);
 /// After what is told of a selection; empty for a straight approach, or none yet.
 std::string ApproachTurned(const std::optional<ApproachPlan>& plan);
-/// "Approach of site B turned by hand: from the west".
-std::string ApproachTurnedByHand(const MissionStatus& status);
+/// "Approach of site B turned by the operator: from the west".
+std::string ApproachTurnedBy(const MissionStatus& status, const char* who);
 
 std::string ApprovalGiven(const MissionStatus& status, std::uint64_t counter);
 std::string ApprovedBy(const char* who);

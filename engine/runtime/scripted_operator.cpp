@@ -56,6 +56,7 @@ std::vector<EngineCommand> ScriptedOperator::Insist(const EngineSnapshot& snapsh
   }
   const bool stopped =
       mission.state == MissionState::kHold || mission.state == MissionState::kAborting;
+  flew_to_look_ = flew_to_look_ && !stopped;
   if (flown_site_ != 0 && (stopped || !flew_to_look_)) {
     ++failures_[std::exchange(flown_site_, 0)];
   }
@@ -72,9 +73,7 @@ std::vector<EngineCommand> ScriptedOperator::Insist(const EngineSnapshot& snapsh
   const double stopped_s = flown_at_ ? SecondsBetween(*flown_at_, snapshot.time) : 0;
   // What hangs over the ground is not seen from below it.
   low_ = low_ || (mission.state == MissionState::kHold && mission.height_above_site_m < kLow_m);
-  const double patience_s = low_                        ? kLooksFor_s
-                            : flew_to_look_ && !stopped ? kLookedFor_s
-                                                        : kStoppedFor_s;
+  const double patience_s = low_ ? kLooksFor_s : flew_to_look_ ? kLookedFor_s : kStoppedFor_s;
   if (stopped_s >= patience_s && looks_again_ > 0 && mission.why_no_wave_off.empty()) {
     --looks_again_;
     flown_at_.reset();

@@ -6,6 +6,7 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "engine/core/rounding.h"
 #include "engine/core/text.h"
 #include "engine/tracking/coherence.h"
 #include "engine/tracking/view_geometry.h"
@@ -95,8 +96,7 @@ TrackResult TemplateTracker::Track(const ImageU8& left, const PinholeCamera& cam
   result.status.mode = "Template";
   if (!locked_) {
     result.status.why_not_locked =
-        anchored() ? WithNumbers("the template was missed in more than %.0f pictures", kMaxMissed)
-                   : "the site is too near to the picture's rim for a template";
+        anchored() ? why_lost_ : "the site is too near to the picture's rim for a template";
     return result;
   }
   const Eigen::Vector2d predicted =
@@ -118,11 +118,14 @@ TrackResult TemplateTracker::Track(const ImageU8& left, const PinholeCamera& cam
   ImageU8 current = Cut(left, pixel_, side);
   const PatchComparison patches = ComparePatches(Resized(template_), Resized(current));
   result.status.locked = locked_ && good;
-  result.status.why_not_locked =
-      result.status.locked ? std::string()
-      : match.score < settings.min_coherence
-          ? WithNumbers("match %.2f, min %.2f", match.score, settings.min_coherence)
-          : "the site has left the picture";
+  if (!result.status.locked) {
+    why_lost_ = match.score < settings.min_coherence
+                    ? WithNumbers("match %.2f, min %.2f",
+                                  ShownBeyond(match.score, settings.min_coherence, 2),
+                                  settings.min_coherence)
+                    : "the site has left the picture";
+    result.status.why_not_locked = why_lost_;
+  }
   result.status.coherence = match.score;
   result.status.site_pixel = pixel_;
   result.status.site_in_picture = InPicture(camera, pixel_, 0);

@@ -7,6 +7,8 @@
 // parabola, and a template below min_coherence is not taken over.
 #pragma once
 
+#include <string>
+
 #include <Eigen/Dense>
 
 #include "engine/core/frames.h"
@@ -36,6 +38,7 @@ class TemplateTracker {
   Eigen::Vector2d predicted_pixel_ = Eigen::Vector2d::Zero();  ///< of the same frame
   double anchor_height_m_ = 0;
   int frames_missed_ = 0;
+  std::string why_lost_;  ///< of the last picture that it was not in
   bool locked_ = false;
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "gui/panels/fly_panels.h"
 #include "gui/render/map_scale.h"
@@ -57,7 +58,11 @@ View3dInput MakeView3dInput(const EngineSnapshot& snapshot, std::uint64_t highli
     input.site = View3dSite{shown->p_WS, shown->clear_radius_m};
     input.ground_height_m = HeightFromDown(shown->p_WS.z());
     input.site_commanded = IsCommanded(snapshot.flight->mission);
-    if (input.X_WB) {
+    const std::vector<Eigen::Vector3d>& way_W = snapshot.flight->mission.way_W;
+    if (!way_W.empty()) {
+      std::transform(way_W.begin(), way_W.end(), std::back_inserter(input.path),
+                     [](const Eigen::Vector3d& p_W) { return p_W.cast<float>(); });
+    } else if (input.X_WB && !snapshot.flight->mission.approach) {
       input.path = {input.X_WB->p.cast<float>(), shown->p_WS.cast<float>()};
     }
   }

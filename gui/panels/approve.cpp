@@ -64,10 +64,14 @@ void DrawChecks(const EngineSnapshot& snap, const Rect& rect, float y, bool narr
   const std::string no_look = snap.session->events
                                   ? WhyRefusedLately(*snap.session->events, "Look", snap.time)
                                   : std::string();
+  const std::string no_turn =
+      snap.session->events ? WhyRefusedLately(*snap.session->events, "Turn approach", snap.time)
+                           : std::string();
   const std::string words =
       !pass                                        ? why_not
       : ui.ui_time_s < state.hold_cut_told_until_s ? "Hold cut: " + state.hold_cut_by
       : !no_look.empty()                           ? "Not flown: " + no_look
+      : !no_turn.empty()                           ? "Not turned: " + no_turn
                          : "All " + std::to_string(m.guards.size()) + " checks pass";
   DrawIcon(Canvas(), pass ? Icon::kDone : Icon::kCaution, {rect.x + s.Px(18), y}, s.Px(12),
            pass ? p.text1 : p.caution);
@@ -222,8 +226,8 @@ void DrawTurnButton(const MissionStatus& m, float from, float to, float y, UiFra
   ButtonLook look;
   look.flat = true;
   look.font = s.caption;
-  const std::string hint =
-      "Now " + SideName(m.approach->side) + "; the next clear side clockwise: " + SideName(next);
+  const std::string hint = "Now " + SideName(m.approach->side) +
+                           "; clockwise the next on which nothing known stands: " + SideName(next);
   look.hint = hint;
   if (DrawButton(ui, "turn", {to - s.Px(8) - width, y, width, s.Px(22)}, words, look)) {
     ui.intents.push_back(CommandAction(TurnApproach{m.armed->id, next}));
@@ -318,7 +322,8 @@ void DrawApprovePanel(const EngineSnapshot& snap, const Rect& rect, bool narrow,
   }
   if (armed) {
     const float end = DrawDeselect(*m.armed, rect, narrow, ui);
-    if (m.approach && m.approach_sides.size() > 1) {
+    const auto other = [&](int side) { return side != m.approach->side; };
+    if (m.approach && std::any_of(m.approach_sides.begin(), m.approach_sides.end(), other)) {
       DrawTurnButton(m, head, end, rect.y + s.Px(3), ui);
     }
   }

@@ -108,9 +108,12 @@ std::string SideWords(const MissionStatus& m) {
 
 std::string ApprovalConsequence(const EngineSnapshot& snap, bool narrow) {
   const MissionStatus& m = snap.flight->mission;
-  std::string text =
-      Fixed(m.distance_to_site_m, 1) + " m away, " + Fixed(m.height_above_site_m, 1) + " m down";
-  text += SideWords(m);
+  const std::string side = SideWords(m);
+  std::string text = Fixed(m.distance_to_site_m, 1) + " m away";
+  if (!narrow || side.empty()) {  // one line has no room for all
+    text += ", " + Fixed(m.height_above_site_m, 1) + " m down";
+  }
+  text += side;
   if (std::isfinite(m.time_to_touchdown_s)) {
     text += (narrow ? ", touchdown in about " : ". Touchdown in about ") +
             Fixed(m.time_to_touchdown_s, 0) + " s";
@@ -123,7 +126,9 @@ std::string ApprovalConsequence(const EngineSnapshot& snap, bool narrow) {
   }
   if (!shaken.empty()) {
     // That a map called it unsafe goes before how far away it is: there is room for three lines.
-    return narrow ? shaken + "." : shaken + ". " + (doubt.empty() ? text + "." : doubt);
+    const std::string flown =
+        side.empty() ? shaken + "." : shaken + ". Flown" + side.substr(1) + ".";
+    return narrow ? flown : flown + " " + (doubt.empty() ? text + "." : doubt);
   }
   if (!narrow && !doubt.empty()) {
     return text + ". " + doubt;

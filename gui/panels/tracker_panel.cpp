@@ -1,4 +1,5 @@
 #include "gui/panels/fly_panels.h"
+#include "gui/widgets/draw.h"
 #include "gui/widgets/number_text.h"
 
 namespace palace {
@@ -35,7 +36,8 @@ void DrawTrackerPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui)
     }
   }
   DrawText(ui, s.caption, s.palette.text2, content.x + s.Px(12),
-           content.y + s.Px(4) + height + s.Px(13), tracker.why_not_locked);
+           content.y + s.Px(4) + height + s.Px(13),
+           FitWords(s.caption, tracker.why_not_locked, content.w - s.Px(24)));
 }
 
 }  // namespace palace

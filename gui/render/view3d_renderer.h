@@ -47,7 +47,7 @@ struct View3dInput {
   bool site_commanded = false;  ///< filled centre: commanded; hollow: proposed
   std::vector<View3dSite> other_sites;
   std::vector<Eigen::Vector3f> trail;  ///< flown, oldest first
-  std::vector<Eigen::Vector3f> path;   ///< planned, from the vehicle to the site
+  std::vector<Eigen::Vector3f> path;   ///< planned, from the vehicle to where it ends
   double ground_height_m = 0;          ///< used until a map is known
   double ui_scale = 1;                 ///< widths of lines and hatch
 };

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "engine/core/units.h"
+#include "engine/mission/geometry.h"
 #include "tests/mission/mission_rig.h"
 
 namespace palace {
@@ -31,7 +32,6 @@ TEST(TurnApproach, IsFlownAsItWasTurnedOnceItWasOnTheScreen) {
   const std::uint64_t before = rig.sequence;
   ASSERT_TRUE(rig.Turn(2).ok());
   EXPECT_EQ(rig.plan().side, 2);
-  EXPECT_TRUE(rig.plan().by_hand);
   EXPECT_NEAR(WrapAngle(rig.plan().heading_rad - Rad(-90)), 0, 1e-12) << "from the east";
   EXPECT_FALSE(rig.mission.status().can_approve);
   EXPECT_FALSE(rig.Do(ApproveSite{101, before}).ok()) << "the straight one was on the screen";
@@ -42,9 +42,34 @@ TEST(TurnApproach, IsFlownAsItWasTurnedOnceItWasOnTheScreen) {
   EXPECT_TRUE(rig.mission.status().approach_sides.empty());
   bool told = false;
   for (const Event& event : rig.mission.events()) {
-    told = told || event.text == "Approach of site A turned by hand: from the east";
+    told = told || event.text == "Approach of site A turned by the operator: from the east";
   }
   EXPECT_TRUE(told);
+}
+
+// Drawn as it is flown: to where the slope begins, on the side that was chosen, then down.
+TEST(TurnApproach, TheWayShownIsTheOneThatIsFlown) {
+  TurnRig rig;
+  EXPECT_TRUE(rig.mission.status().way_W.empty());
+  rig.Site(101)->confirmed = false;
+  rig.Site(101)->look_height_m = 12;
+  rig.Arm();
+  ASSERT_TRUE(rig.Turn(2).ok());
+  rig.Run(1.5);
+  const Eigen::Vector3d site(10, 2, 0);
+  const std::vector<Eigen::Vector3d> turned = rig.mission.status().way_W;
+  ASSERT_EQ(turned.size(), 3u);
+  EXPECT_LT((turned[0] - rig.p_WB()).norm(), 0.01);
+  EXPECT_NEAR(turned[1].z(), turned[0].z(), 1e-9) << "level";
+  EXPECT_GT(turned[1].y(), site.y() + 10) << "from the east";
+  EXPECT_NEAR(turned[1].x(), site.x(), 1e-9);
+  EXPECT_LT((turned[2] - site).norm(), 1e-9);
+  ASSERT_TRUE(rig.Do(LookAtSite{101, rig.sequence, 12}).ok());
+  rig.Step();
+  const std::vector<Eigen::Vector3d> look = rig.mission.status().way_W;
+  ASSERT_EQ(look.size(), 3u);
+  const FlightPath path = PathTo(rig.mission.memory(), *rig.mission.status().armed);
+  EXPECT_NEAR(path.SkidHeight(look[2]), 12, 1e-6) << "it ends in the hover";
 }
 
 TEST(TurnApproach, GoesBackToTheStraightOne) {
@@ -64,7 +89,6 @@ TEST(TurnApproach, TheStraightOneIsOfferedOnlyWhereItWasClear) {
   rig.Site(101)->corridor_clear = false;
   rig.Arm();
   EXPECT_EQ(rig.plan().side, 5) << "the lesser turn";
-  EXPECT_FALSE(rig.plan().by_hand);
   EXPECT_EQ(rig.mission.status().approach_sides, (std::vector<int>{2, 5}));
   EXPECT_FALSE(rig.Turn(kStraightApproach).ok());
   EXPECT_TRUE(rig.Turn(2).ok());
@@ -107,6 +131,57 @@ INSTANTIATE_TEST_SUITE_P(
                     Refused{"OtherSite", 102, 2, kOperator, true, "Selected is site A"},
                     Refused{"Unarmed", 101, 2, kOperator, false, "Select a site first"}),
     [](const auto& row) { return row.param.name; });
+
+// A map must have judged the course: evidence on the screen is no evidence of another way.
+TEST(TurnApproach, IsNotApprovedBeforeAMapHasJudgedIt) {
+  TurnRig rig;
+  rig.Arm();
+  rig.maps_up = false;
+  rig.Step();
+  ASSERT_TRUE(rig.Turn(2).ok());
+  rig.Run(1.5);
+  EXPECT_EQ(rig.mission.status().cannot_approve_reason, "No map has judged this approach yet");
+  EXPECT_FALSE(rig.ApproveNow().ok());
+  rig.maps_up = true;
+  rig.Run(0.3);
+  EXPECT_TRUE(rig.ApproveNow().ok()) << rig.mission.status().cannot_approve_reason;
+}
+
+// What the newest map calls blocked does not stand for the sector that it is in.
+TEST(TurnApproach, AStraightOneThatIsBlockedNowIsNotOffered) {
+  TurnRig rig;
+  rig.Site(101)->clear_approaches = 1U << 2 | 1U << 4;
+  rig.Arm();
+  EXPECT_EQ(rig.mission.status().approach_sides, (std::vector<int>{2, kStraightApproach}));
+  rig.Site(101)->corridor_clear = false;
+  rig.Run(0.3);
+  EXPECT_EQ(rig.mission.status().approach_sides, (std::vector<int>{2, 4}));
+}
+
+TEST(TurnApproach, AScriptMayOnlyOnASimulatedVehicle) {
+  TurnRig rig;
+  EXPECT_TRUE([&] {
+    rig.Arm();
+    return rig.Turn(2, CommandOrigin::kScript).ok();
+  }());
+  TurnRig live;
+  live.source = SourceKind::kLive;
+  live.simulated = false;
+  live.authority = Commanding();
+  live.Arm();
+  EXPECT_FALSE(live.Turn(2, CommandOrigin::kScript).ok());
+  EXPECT_TRUE(live.Turn(2).ok());
+}
+
+TEST(TurnApproach, BeforeItWasShownNothingElseIsSaidToBeMissing) {
+  TurnRig rig;
+  rig.Arm();
+  ASSERT_TRUE(rig.Turn(2).ok());
+  const GuardResult* shown = FindGuard(rig.mission.status().guards, GuardId::kShown);
+  ASSERT_NE(shown, nullptr);
+  EXPECT_FALSE(shown->pass);
+  EXPECT_EQ(shown->reason.rfind("Evidence on screen for 0.0 s", 0), 0u) << shown->reason;
+}
 
 // The newest map tells what is clear, not the one of the selection.
 TEST(TurnApproach, FollowsTheNewestMap) {

@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "engine/core/check.h"
+#include "engine/model/site_standing.h"
 
 namespace palace {
 namespace {
@@ -73,7 +74,8 @@ const LandingSite* MissionStatus::BestStanding(const std::vector<LandingSite>& s
 
 bool MissionStatus::OffersLook() const {
   const bool sure = armed_now && armed_now->confirmed;
-  return state == MissionState::kArmed && armed && !sure && std::isfinite(armed->look_height_m);
+  return state == MissionState::kArmed && armed && !sure &&
+         height_above_site_m - armed->look_height_m >= kLeastWayToLook_m;
 }
 
 bool MissionStatus::TakesSelection(std::uint64_t site_id) const {

@@ -117,7 +117,6 @@ struct ApproachPlan {
   double glide_slope_rad = NAN;   ///< down from the horizon
   double descent_rate_mps = NAN;  ///< down the slope, the vertical part
   int side = kStraightApproach;   ///< that it comes from (approach_side.h)
-  bool by_hand = false;           ///< as a person turned it, not as the station chose
 
   /// Round to another side, not straight from where the vehicle is.
   bool turned() const { return side != kStraightApproach; }
@@ -161,8 +160,8 @@ struct MissionStatus {
   /// Of the armed site: frozen with it, as soon as the vehicle's place is known, but for a person
   /// who turns it.
   std::optional<ApproachPlan> approach;
-  /// ARMED: the sides that TurnApproach takes, clockwise by where they come from; the planned one
-  /// is among them.
+  /// ARMED: the sides that TurnApproach takes, clockwise by where they come from. The planned one
+  /// is missing where it is not clear any more.
   std::vector<int> approach_sides;
   Timestamp armed_at;
   std::optional<Timestamp> arm_expires;
@@ -202,6 +201,9 @@ struct MissionStatus {
   double distance_to_site_m = 0;   ///< horizontal; NaN when no site
   double time_to_touchdown_s = 0;  ///< of a look to its hover; NaN when unknown
   PathProgress path;
+  /// Of the armed site, in W: B where it is, where the slope begins, and the site, or B where a
+  /// look ends. Empty before the approach is planned and where nothing is flown any more.
+  std::vector<Eigen::Vector3d> way_W;
   std::vector<LimitRow> limits;   ///< of site, approach, descent and cameras, in force now
   double confirm_height_m = NAN;  ///< a provisional site must be confirmed by here
   /// LANDED: miss of the skid centre to the site, by the estimate.

@@ -134,13 +134,13 @@ std::string ReasonOfBest(SiteRanking ranking, const SiteSelection& selection) {
 void GiveReasons(SiteRanking ranking, SiteSelection& selection) {
   for (std::size_t i = 0; i < selection.sites.size(); ++i) {
     LandingSite& site = selection.sites[i];
-    site.reason =
-        i == 0                      ? ReasonOfBest(ranking, selection)
-        : site.age_s > kOldGround_s ? Text("Ground last measured %.0f s ago%s", site.age_s, "")
-        : !site.corridor_clear      ? ApproachWords(site)
-        : std::isfinite(site.called_unsafe_s)
-            ? Text("Called unsafe by a map %.0f s ago, ranks behind%s", site.called_unsafe_s, "")
-            : ReasonBelow(ranking, selection, i);
+    site.reason = i == 0 ? ReasonOfBest(ranking, selection)
+                  : site.age_s > kOldGround_s
+                      ? Text("Ground last measured %.0f s ago%s", site.age_s, "")
+                  : !site.corridor_clear ? ApproachWords(site)
+                  : std::isfinite(site.called_unsafe_s)
+                      ? Text("Called unsafe %.0f s ago, ranks behind%s", site.called_unsafe_s, "")
+                      : ReasonBelow(ranking, selection, i);
   }
 }
 
