@@ -154,12 +154,13 @@ bool HasLooked(const MissionMemory& m) {
 /// The approval is over as it should be, and what is seen from here is proposed anew.
 void EndLook(MissionTurn& turn, Timestamp now) {
   MissionMemory& m = turn.memory;
-  std::string why = words::LookedAt(m.status.armed->letter, HeightAboveSite(m));
+  std::string why = words::LookedAt(m, HeightAboveSite(m));
   Kill(turn, why);
   ForgetSite(m);
   m.status.rechecks.clear();
   m.winner = {};
-  Enter(turn, MissionState::kSearch, std::move(why), now);
+  Enter(turn, MissionState::kSearch, why, now);
+  m.status.selection_ended = std::move(why) + ".";
 }
 
 void StepApproved(MissionTurn& turn, const MissionInputs& in) {

@@ -56,7 +56,10 @@ void Enter(MissionTurn& turn, MissionState state, std::string why, Timestamp now
   MissionMemory& m = turn.memory;
   AddEvent(turn, now, EventKind::kState, std::string(MissionStateName(state)) + ": " + why);
   m.status.state = state;
-  m.status.selection_ended.clear();
+  // While nothing else is selected it stays to be read.
+  if (state != MissionState::kSearch && state != MissionState::kProposed) {
+    m.status.selection_ended.clear();
+  }
   m.status.since = now;
   m.status.why = std::move(why);
   const bool keeps_vision =

@@ -196,8 +196,12 @@ std::string NothingToLookAt(const std::string& letter) {
   return "No height is known from which site " + letter + " would be sure";
 }
 
-std::string LookedAt(const std::string& letter, double height_m) {
-  return "Site " + letter + WithNumbers(" was looked at from %.1f m above it", height_m);
+std::string LookedAt(const MissionMemory& m, double height_m) {
+  const std::string found = m.armed.confirmed         ? "confirmed"
+                            : m.site.newest().holds() ? "not confirmed yet"
+                                                      : m.site.newest().reason;
+  return Site(m.status.armed->letter) +
+         WithNumbers(" was looked at from %.1f m above it: ", height_m) + found;
 }
 
 std::string ApproachBlocked(const std::string& letter) {

@@ -117,8 +117,8 @@ std::string ConfirmHigher(const std::string& letter);
 /// Why a site cannot be approved from so low, and what to do.
 std::string LookFromAbove(const std::string& why);
 std::string NothingToLookAt(const std::string& letter);
-/// "Site B was looked at from 12.1 m above it".
-std::string LookedAt(const std::string& letter, double height_m);
+/// "Site B was looked at from 12.1 m above it: confirmed", or what the newest map found.
+std::string LookedAt(const MissionMemory& memory, double height_m);
 std::string ApproachBlocked(const std::string& letter);
 /// After what is told of a selection; empty for a straight approach, or none yet.
 std::string ApproachTurned(const std::optional<ApproachPlan>& plan);

@@ -92,6 +92,14 @@ void FrameView3d(const View3dInput& input, OrbitCamera& camera) {
     ground.y() = (g.east_min_m + g.east_max_m()) / 2;
     radius_m = std::max(3.0, 0.5 * std::max(g.rows, g.cols) * g.cell_m);
   }
+  // Where a way round to another side comes down is to be seen as the ground is; where a straight
+  // one begins is near the vehicle.
+  if (input.path.size() > 2) {
+    const Eigen::Vector3d begins = input.path[1].cast<double>();
+    if ((begins - vehicle).norm() > radius_m) {
+      radius_m = std::max(radius_m, (begins - ground).head<2>().norm());
+    }
+  }
   camera.Frame(vehicle, ground, radius_m, EulerFromRotation(input.X_WB->R).yaw_rad);
 }
 

@@ -226,8 +226,8 @@ void DrawTurnButton(const MissionStatus& m, float from, float to, float y, UiFra
   ButtonLook look;
   look.flat = true;
   look.font = s.caption;
-  const std::string hint = "Now " + SideName(m.approach->side) +
-                           "; clockwise the next on which nothing known stands: " + SideName(next);
+  // Short: what it changes stands below it.
+  const std::string hint = "Now " + SideName(m.approach->side) + "; next " + SideName(next);
   look.hint = hint;
   if (DrawButton(ui, "turn", {to - s.Px(8) - width, y, width, s.Px(22)}, words, look)) {
     ui.intents.push_back(CommandAction(TurnApproach{m.armed->id, next}));

@@ -109,13 +109,16 @@ std::string SideWords(const MissionStatus& m) {
 std::string ApprovalConsequence(const EngineSnapshot& snap, bool narrow) {
   const MissionStatus& m = snap.flight->mission;
   const std::string side = SideWords(m);
+  const bool brief = narrow && !side.empty();  // one line has no room for all
   std::string text = Fixed(m.distance_to_site_m, 1) + " m away";
-  if (!narrow || side.empty()) {  // one line has no room for all
+  if (!brief) {
     text += ", " + Fixed(m.height_above_site_m, 1) + " m down";
   }
   text += side;
   if (std::isfinite(m.time_to_touchdown_s)) {
-    text += (narrow ? ", touchdown in about " : ". Touchdown in about ") +
+    text += (brief    ? ", down in "
+             : narrow ? ", touchdown in about "
+                      : ". Touchdown in about ") +
             Fixed(m.time_to_touchdown_s, 0) + " s";
   }
   const std::string shaken = WhyShaken(snap);

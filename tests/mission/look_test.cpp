@@ -31,6 +31,10 @@ TEST(Look, EndsInSearchWhereTheVehicleHovers) {
   EXPECT_NEAR(rig.vehicle.height_m, 12, 0.5);
   EXPECT_EQ(status.why.rfind("Site A was looked at from 1", 0), 0u) << status.why;
   EXPECT_FALSE(status.approval || status.armed);
+  EXPECT_NE(status.selection_ended.find(" m above it: not confirmed yet."), std::string::npos);
+  ASSERT_TRUE(rig.RunUntil(MissionState::kProposed));
+  EXPECT_EQ(status.selection_ended.rfind("Site A was looked at from 1", 0), 0u)
+      << "it stays to be read";
   EXPECT_EQ(rig.SentCount<HoldRequest>() + rig.SentCount<AbortRequest>(), 0);
   // What is seen from there is proposed, selected and approved like anything else.
   *rig.Site(101) = [&] {
