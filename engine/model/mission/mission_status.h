@@ -189,7 +189,8 @@ struct MissionStatus {
   std::string approved_by;  ///< "the operator" or "a script"; empty where nobody tells
   enum class ApprovalPhase : std::uint8_t { kNone, kSent, kAccepted, kRefused };
   ApprovalPhase approval_phase = ApprovalPhase::kNone;
-  /// SEARCH, PROPOSED: why the site selected last is not, was not reached, or what a look at it found.
+  /// SEARCH, PROPOSED: why the site selected last is not, or was not reached, or what a look at it
+  /// found.
   std::string selection_ended;
   WaveOffReport wave_off;
   std::string why_no_wave_off;   ///< "Vehicle on the ground"; empty: it is offered
