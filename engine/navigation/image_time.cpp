@@ -116,7 +116,8 @@ Eigen::Vector2d ImageTimeMonitor::TravelledAt(double time_s) const {
   return a.travelled_px + t * mid;
 }
 
-std::optional<ImageTimeMonitor::Fit> ImageTimeMonitor::FitAt(double shift_s) const {
+std::optional<ImageTimeMonitor::Fit> ImageTimeMonitor::FitAt(double shift_s,
+                                                             double beside_s) const {
   const double newest_s = SecondsBetween(rates_.front().time, rates_.back().time);
   std::vector<double> time_s;
   std::vector<Eigen::Vector2d> left_px;
@@ -124,7 +125,8 @@ std::optional<ImageTimeMonitor::Fit> ImageTimeMonitor::FitAt(double shift_s) con
     const MotionSample& motion = motions_[i];
     const double from_s = SecondsBetween(rates_.front().time, motion.from) + shift_s;
     const double to_s = SecondsBetween(rates_.front().time, motion.to) + shift_s;
-    if (from_s >= 0 && to_s <= newest_s) {
+    const double apart_s = beside_s - shift_s;
+    if (from_s + std::min(apart_s, 0.0) >= 0 && to_s + std::max(apart_s, 0.0) <= newest_s) {
       time_s.push_back(to_s);
       left_px.push_back(motion.shift_px - (TravelledAt(to_s) - TravelledAt(from_s)));
     }
@@ -160,7 +162,7 @@ double ImageTimeMonitor::DifferenceOf(double shift_a_s, double shift_b_s) const 
 std::optional<ImageTimeMonitor::Fit> ImageTimeMonitor::BestFit(double& shift_s) const {
   std::optional<Fit> best;
   const auto consider = [&](double candidate_s) {
-    const std::optional<Fit> fit = FitAt(candidate_s);
+    const std::optional<Fit> fit = FitAt(candidate_s, candidate_s);
     if (fit && (!best || fit->residual2_px2 < best->residual2_px2)) {
       best = fit;
       shift_s = candidate_s;
@@ -203,7 +205,7 @@ ImageTimeMonitor::Verdict ImageTimeMonitor::JudgeWindow(double window_s) {
   if (!(sigma_s <= kMostSigma_s) || best->residual2_px2 > kExplained * motion2_px2) {
     return {};
   }
-  const std::optional<Fit> none = FitAt(0);
+  const std::optional<Fit> none = FitAt(0, best_s);
   if (std::abs(best_s) > kLong_s && !(none && none->residual2_px2 > kBetterThanNone * noise2_px2)) {
     return {};
   }

@@ -78,7 +78,8 @@ class ImageTimeMonitor {
     double offset_s = std::numeric_limits<double>::quiet_NaN();
     double sigma_s = std::numeric_limits<double>::quiet_NaN();
   };
-  std::optional<Fit> FitAt(double shift_s) const;
+  /// Over the pictures that rates are known for at both; two fits are compared over the same ones.
+  std::optional<Fit> FitAt(double shift_s, double beside_s) const;
   std::optional<Fit> BestFit(double& shift_s) const;
   /// Mean square of what the two predictions differ by, lines removed.
   double DifferenceOf(double shift_a_s, double shift_b_s) const;
