@@ -8,6 +8,7 @@
 #include "engine/core/check.h"
 #include "engine/mission/geometry.h"
 #include "engine/mission/guards.h"
+#include "engine/mission/permission.h"
 #include "engine/mission/wave_off.h"
 #include "engine/mission/wording.h"
 #include "engine/model/find_site.h"
@@ -71,10 +72,13 @@ bool WasOnScreen(const MissionMemory& m, std::uint64_t sequence, Timestamp now) 
 /// Why the armed site is not looked at from there; empty when it is.
 std::string WhyNoLook(const MissionMemory& m, double stop_height_m) {
   const LandingSite& site = *m.status.armed;
-  if (m.armed.confirmed || site.look_height_m != stop_height_m) {  // also where there is none
+  if (site.look_height_m != stop_height_m) {  // also where there is none
     return words::NothingToLookAt(site.letter);
   }
-  return HeightAboveSite(m) - stop_height_m >= kLeastWayToLook_m ? "" : words::kNearEnough;
+  if (!(HeightAboveSite(m) - stop_height_m >= kLeastWayToLook_m)) {
+    return words::kNearEnough;
+  }
+  return m.status.OffersLook() ? "" : words::NothingToLookAt(site.letter);
 }
 
 const char* WhoAsks(CommandOrigin origin) {
@@ -364,56 +368,10 @@ Status Obeying::operator()(const CommandLost& action) const {
   return Ok();
 }
 
-struct ConcernsVehicle {
-  template <typename T>
-  bool operator()(const T&) const {
-    return false;
-  }
-  bool operator()(const SelectSite&) const { return true; }
-  bool operator()(const DisarmSite&) const { return true; }
-  bool operator()(const ApproveSite&) const { return true; }
-  bool operator()(const LookAtSite&) const { return true; }
-  bool operator()(const TurnApproach&) const { return true; }
-  bool operator()(const RefuseSite&) const { return true; }
-  bool operator()(const HoldHere&) const { return true; }
-  bool operator()(const WaveOff&) const { return true; }
-  bool operator()(const AcknowledgeWaveOff&) const { return true; }
-  bool operator()(const AskForCommand&) const { return true; }
-  bool operator()(const ReleaseCommand&) const { return true; }
-};
-
-/// Why this one may not ask for that; empty when it may.
-std::string WhyNotAllowed(const MissionTurn& turn, const EngineCommand& command) {
-  const MissionFacts& facts = turn.memory.facts;
-  const bool recorded = command.origin == CommandOrigin::kReplay;
-  if (recorded && !FollowsRecord(facts.role)) {
-    return words::kRecordedOnly;
-  }
-  if (!std::visit(ConcernsVehicle{}, command.action)) {
-    return {};
-  }
-  if (!recorded && !MaySend(facts.role)) {
-    return facts.why_no_vehicle;
-  }
-  const bool commits = std::holds_alternative<SelectSite>(command.action) ||
-                       std::holds_alternative<ApproveSite>(command.action) ||
-                       std::holds_alternative<LookAtSite>(command.action) ||
-                       std::holds_alternative<TurnApproach>(command.action);
-  const bool decides = commits || std::holds_alternative<RefuseSite>(command.action);
-  if (!recorded && decides && WhyViewOnly(facts) != nullptr) {
-    return WhyViewOnly(facts);
-  }
-  const bool script_may = turn.station.allow_script_approvals && facts.simulated_vehicle;
-  if (commits && command.origin == CommandOrigin::kScript && !script_may) {
-    return words::kNoScript;
-  }
-  return {};
-}
-
 }  // namespace
 
 Status Obey(MissionTurn& turn, const EngineCommand& command, Timestamp now) {
-  std::string why_not = WhyNotAllowed(turn, command);
+  std::string why_not = WhyNotAllowed(turn.station, turn.memory.facts, command);
   if (!why_not.empty()) {
     return Refuse(turn, now, "Command", std::move(why_not));
   }

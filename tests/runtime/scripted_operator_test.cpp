@@ -44,6 +44,15 @@ class Desk {
     }
     return nullptr;
   }
+  /// Which site it selects after its wave-off is over; 0: none.
+  std::uint64_t SelectedAfterWaveOff() {
+    snapshot.flight.Edit().mission.wave_off.over = true;
+    if (Watch<AcknowledgeWaveOff>(MissionState::kAborting, 1) == nullptr) {
+      return 0;
+    }
+    const SelectSite* next = Watch<SelectSite>(MissionState::kProposed, 5);
+    return next != nullptr ? next->site_id : 0;
+  }
   void Arm(std::uint64_t id) {
     LandingSite site;
     site.id = id;
@@ -73,11 +82,7 @@ TEST(ScriptedOperator, WavesOffWhereNothingCanBeApprovedAndGoesOnElsewhere) {
   EXPECT_EQ(desk.Watch<WaveOff>(MissionState::kHold, 14), nullptr);
   ASSERT_NE(desk.Watch<WaveOff>(MissionState::kHold, 3), nullptr);
   EXPECT_EQ(desk.Watch<AcknowledgeWaveOff>(MissionState::kAborting, 20), nullptr);
-  desk.snapshot.flight.Edit().mission.wave_off.over = true;
-  ASSERT_NE(desk.Watch<AcknowledgeWaveOff>(MissionState::kAborting, 1), nullptr);
-  const SelectSite* second = desk.Watch<SelectSite>(MissionState::kProposed, 5);
-  ASSERT_NE(second, nullptr);
-  EXPECT_EQ(second->site_id, 2u) << "the first failed it";
+  ASSERT_EQ(desk.SelectedAfterWaveOff(), 2u) << "the first failed it";
   desk.Arm(2);
   desk.See(MissionState::kDescending);
   EXPECT_EQ(desk.Watch<WaveOff>(MissionState::kHold, 60), nullptr) << "once was all";
@@ -143,11 +148,7 @@ TEST(ScriptedOperator, WhereALookSettledNothingItWavesOffAndCountsIt) {
   desk.snapshot.flight.Edit().mission.stop_height_m = 0;
   EXPECT_EQ(desk.Watch<WaveOff>(MissionState::kSearch, 29), nullptr);
   ASSERT_NE(desk.Watch<WaveOff>(MissionState::kSearch, 3), nullptr);
-  desk.snapshot.flight.Edit().mission.wave_off.over = true;
-  ASSERT_NE(desk.Watch<AcknowledgeWaveOff>(MissionState::kAborting, 1), nullptr);
-  const SelectSite* next = desk.Watch<SelectSite>(MissionState::kProposed, 5);
-  ASSERT_NE(next, nullptr);
-  EXPECT_EQ(next->site_id, 2u);
+  EXPECT_EQ(desk.SelectedAfterWaveOff(), 2u);
 }
 
 TEST(ScriptedOperator, AWarningThatIsOverIsAcknowledged) {

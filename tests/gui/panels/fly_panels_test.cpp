@@ -77,128 +77,6 @@ TEST(FlySites, WithEverySiteRefusedNoneIsRinged) {
   EXPECT_EQ(window.ui.items.Find("site/best"), nullptr);
 }
 
-TEST(FlyApprove, AFullHoldApprovesTheArmedSiteOnTheSnapshotSeen) {
-  FlyWindow window(1920, 1080, fake::Snapshot(MissionState::kArmed));
-  window.ui.MoveTo("approve");
-  window.Run(0.05);
-  window.ui.Button(true);
-  window.Run(0.9);
-  EXPECT_TRUE(window.ui.intents.empty());
-  window.Run(0.2);
-  window.ui.Button(false);
-  window.Run(0.2);
-  EXPECT_EQ(window.ui.intents.size(), 1u);
-  EXPECT_EQ(window.ui.LastCommand<ApproveSite>().site_id, 1u);
-  EXPECT_EQ(window.ui.LastCommand<ApproveSite>().snapshot_sequence, window.snap.sequence);
-}
-
-TEST(FlyApprove, NeverFiresWhenBlockedUnarmedPreviewingOrInReplay) {
-  EngineSnapshot blocked = fake::Snapshot(MissionState::kArmed);
-  blocked.flight.Edit().mission.can_approve = false;
-  blocked.flight.Edit().mission.cannot_approve_reason = "Left camera stale, 1.8 s";
-  EngineSnapshot preview = fake::Snapshot(MissionState::kArmed);
-  preview.terrain.Edit().preview = preview.terrain->applied;
-  for (const EngineSnapshot& snap : {blocked, preview, fake::Snapshot(MissionState::kProposed),
-                                     fake::Snapshot(MissionState::kArmed, SourceKind::kReplay)}) {
-    FlyWindow window(1920, 1080, snap);
-    window.ui.MoveTo("approve");
-    window.Run(0.05);
-    window.ui.Button(true);
-    window.Run(3);
-    EXPECT_EQ(window.ui.CountCommands<ApproveSite>(), 0) << window.ui.items.Find("approve")->text;
-    EXPECT_FALSE(window.ui.items.Find("approve")->enabled);
-  }
-}
-
-TEST(FlyApprove, OnePressLooksFromWhereTheSiteWouldBeSure) {
-  EngineSnapshot snap = fake::Snapshot(MissionState::kArmed);
-  EXPECT_EQ(FlyWindow(1920, 1080, snap).ui.items.Find("look"), nullptr);
-  snap.flight.Edit().mission.armed->look_height_m = 12;
-  for (const auto& [w, h] : {std::pair{1920, 1080}, {1280, 720}}) {
-    FlyWindow window(w, h, snap);
-    ASSERT_NE(window.ui.items.Find("look"), nullptr);
-    EXPECT_EQ(window.ui.items.Find("look")->text, "Look from 12 m");
-    window.ui.Click("look", window.draw);
-    EXPECT_EQ(window.ui.intents.size(), 1u);
-    EXPECT_EQ(window.ui.LastCommand<LookAtSite>().site_id, 1u);
-    EXPECT_EQ(window.ui.LastCommand<LookAtSite>().snapshot_sequence, window.snap.sequence);
-    EXPECT_EQ(window.ui.LastCommand<LookAtSite>().stop_height_m, 12);
-    const Rect& look = window.ui.items.Find("look")->rect;
-    for (const char* other : {"approve", "refuse", "deselect"}) {
-      const Rect& rect = window.ui.items.Find(other)->rect;
-      EXPECT_TRUE(look.bottom() < rect.y || look.right() + 8 < rect.x) << other << " at " << w;
-    }
-  }
-  EngineSnapshot sure = snap;
-  sure.flight.Edit().mission.armed_now = sure.flight->mission.armed;
-  sure.flight.Edit().mission.armed_now->confirmed = true;
-  EXPECT_EQ(FlyWindow(1920, 1080, sure).ui.items.Find("look"), nullptr);
-  snap.flight.Edit().mission.can_approve = false;
-  FlyWindow blocked(1920, 1080, snap);
-  blocked.ui.Click("look", blocked.draw);
-  EXPECT_EQ(blocked.ui.CountCommands<LookAtSite>(), 0);
-  FlyWindow searching(1920, 1080, fake::Snapshot(MissionState::kProposed));
-  EXPECT_EQ(searching.ui.items.Find("look"), nullptr);
-}
-
-TEST(FlyApprove, OnePressTurnsTheApproachToTheNextClearSide) {
-  EngineSnapshot snap = fake::Snapshot(MissionState::kArmed);
-  MissionStatus& mission = snap.flight.Edit().mission;
-  mission.armed->look_height_m = 12;
-  mission.approach = ApproachPlan{};
-  mission.approach_sides = {kStraightApproach};
-  EXPECT_EQ(FlyWindow(1920, 1080, snap).ui.items.Find("turn"), nullptr) << "there is no other";
-  mission.approach_sides = {2, kStraightApproach, 5};
-  const struct {
-    int now, next;
-  } rows[] = {{2, kStraightApproach}, {kStraightApproach, 5}, {5, 2}, {7, 2}};
-  for (const auto& row : rows) {
-    mission.approach->side = row.now;
-    for (const auto& [w, h] : {std::pair{1920, 1080}, {1280, 720}}) {
-      FlyWindow window(w, h, snap);
-      ASSERT_NE(window.ui.items.Find("turn"), nullptr);
-      window.ui.Click("turn", window.draw);
-      EXPECT_EQ(window.ui.intents.size(), 1u);
-      EXPECT_EQ(window.ui.LastCommand<TurnApproach>().site_id, 1u);
-      EXPECT_EQ(window.ui.LastCommand<TurnApproach>().side, row.next) << "from " << row.now;
-      const Rect& turn = window.ui.items.Find("turn")->rect;
-      EXPECT_GT(turn.x, window.ui.items.Find("look")->rect.right()) << w;
-      EXPECT_LT(turn.right(), window.ui.items.Find("deselect")->rect.x) << w;
-    }
-  }
-}
-
-TEST(FlyApprove, IsBlockedWhileTheScreenIsBehindTheEngine) {
-  for (const double silent_s : {0.4, 0.6}) {
-    FlyWindow window(1280, 720, fake::Snapshot(MissionState::kArmed));
-    window.silent_s = silent_s;
-    window.Run(0.05);
-    window.ui.MoveTo("approve");
-    window.ui.Button(true);
-    window.Run(1.3);
-    const bool behind = silent_s > 0.5;
-    EXPECT_EQ(window.ui.CountCommands<ApproveSite>(), behind ? 0 : 1) << silent_s;
-    EXPECT_EQ(HasText(window.ui.items, "Screen 0.6 s behind, limit 0.5 s"), behind)
-        << window.ui.items.Find("approve")->text;
-    EXPECT_EQ(HasText(window.ui.items, "checks pass"), !behind);
-  }
-}
-
-TEST(FlyApprove, AHoldThatTheScreenCutShortSaysSo) {
-  FlyWindow window(1280, 720, fake::Snapshot(MissionState::kArmed));
-  window.ui.MoveTo("approve");
-  window.ui.Button(true);
-  window.Run(0.5);
-  window.silent_s = 0.7;
-  window.Run(0.1);
-  window.silent_s = 0;
-  window.Run(1.5);  // still pressed
-  EXPECT_EQ(window.ui.CountCommands<ApproveSite>(), 0);
-  EXPECT_TRUE(HasText(window.ui.items, "Hold cut: Screen 0.7 s behind"));
-  window.Run(5);
-  EXPECT_FALSE(HasText(window.ui.items, "Hold cut"));
-}
-
 TEST(FlyFrame, WaveOffFiresOnPressAlsoUnderAPopupButNotInReplay) {
   FlyWindow live(1280, 720, fake::Snapshot(MissionState::kDescending));
   live.ui.popup = true;
@@ -257,13 +135,6 @@ TEST(FlyMaps, DraggingTheLimitTickSetsTheLimitOnceItIsAnswered) {
   window.ui.Click("tick_set", window.draw);
   EXPECT_EQ(window.ui.LastCommand<SetSetting>().name, "slad.max_slope_deg");
   EXPECT_NEAR(window.ui.LastCommand<SetSetting>().value, 8.0, 0.11);
-}
-
-TEST(FlyApprove, RefuseNamesTheNextSiteThatIsNotRefused) {
-  EngineSnapshot snap = fake::Snapshot(MissionState::kArmed);  // A is armed
-  snap.flight.Edit().mission.refused_sites = {2};
-  FlyWindow window(1920, 1080, snap);
-  EXPECT_TRUE(HasText(window.ui.items, "then site C"));
 }
 
 TEST(FlyMaps, ProbeFollowsThePointerAndAClickPinsItUntilTheNext) {
@@ -341,30 +212,6 @@ TEST(FlyLimits, AfterLandingAnUnlockedTrackerIsUnknownNotOverALimit) {
   EXPECT_NE(window.ui.items.Find("evidence/Coherence")->text.find("––"), std::string::npos);
   EXPECT_TRUE(HasText(window.ui.items, "On the ground"));
   EXPECT_FALSE(HasText(window.ui.items, "1 over a limit"));
-}
-
-TEST(FlyApprove, SaysWhereASiteIsApprovedThatAMapCalledItUnsafe) {
-  for (const int width : {1280, 1920}) {
-    SCOPED_TRACE(width);
-    EngineSnapshot snap = fake::Snapshot(MissionState::kArmed);  // A is armed
-    TerrainDecision map = *snap.terrain->applied;
-    ASSERT_EQ(map.selection.sites.front().id, snap.flight->mission.armed->id);
-    map.selection.sites.front().called_unsafe_s = 28;
-    snap.terrain.Edit().applied = std::make_shared<const TerrainDecision>(map);
-    FlyWindow window(width, width * 9 / 16, snap);
-    EXPECT_TRUE(HasText(window.ui.items, "A map called it unsafe 28 s ago"));
-  }
-}
-
-TEST(FlyApprove, TellsTheHeadingThatWillBeSigned) {
-  EngineSnapshot snap = fake::Snapshot(MissionState::kArmed);
-  snap.flight.Edit().mission.approach = ApproachPlan{Rad(-20), Rad(45), 0.8};
-  FlyWindow window(1920, 1080, snap);
-  std::string all;
-  for (const Item& item : window.ui.items.items()) {
-    all += item.text + " ";
-  }
-  EXPECT_NE(all.find("heading 340° at 0.8 m/s"), std::string::npos);
 }
 
 TEST(FlyPictures, ViewAndCameraLieWhereTheLayoutSays) {
