@@ -91,7 +91,7 @@ struct Field {
 std::vector<GridF> HiddenOn(const TerrainDecision& decision) {
   const ElevationMap& map = *decision.elevation;
   std::vector<GridF> hidden;
-  if (!map.narrow.share.empty()) {
+  if (!map.narrow.empty()) {
     const NarrowView view{map.narrow, map.geometry.cell_m, decision.settings.limits.max_deviation_m,
                           &decision.hazards->safe_distance_m};
     for (const double density : kHiddenDensities) {

@@ -26,12 +26,19 @@ enum TerrainFlag : std::uint8_t {
   kFlagElevated = 16,      ///< flat top raised above its surroundings: roof, table, vehicle
 };
 
-/// What a thing too narrow for stereo's window would have shown in each cell, against what shows.
-/// NaN where nothing can be said. hidden_things.h draws the conclusion.
+/// What the pictures show of narrow things, and what one would show, at places half a cell apart:
+/// place (i, j) lies in cell (i / 2, j / 2). NaN where nothing can be said. fine_relief.h measures
+/// them, hidden_things.h draws the conclusion.
 struct NarrowFigures {
-  GridF prominence_m;  ///< of the measured ground above the ring around it
-  GridF sigma_m;       ///< its noise: of the map, of stereo, or of bumps around
-  GridF share;         ///< of its height that a thing 18 cm across shows, smeared
+  static constexpr int kPerCell = 2;  ///< places along a cell
+
+  GridF prominence_m;  ///< of a square about the place above the ground around
+  GridF noise_m;       ///< its sigma by the pictures' noise
+  GridF sigma_m;       ///< its sigma, with bumps around
+  GridF share;         ///< of its height that a thing 18 cm across shows in the square
+  double ring_m = 0;   ///< how far the ground around reaches from the place
+
+  bool empty() const { return prominence_m.empty(); }
 };
 
 /// Heights are metres above the origin of W, up-positive. NaN where state is kUnknown.
@@ -54,8 +61,8 @@ struct ElevationMap {
   /// unknown, NaN where there is none. Empty: none. No part of height_m: nothing stands below a
   /// wire.
   GridF thin_top_m{};
-  /// How far up over the cell the cameras have looked, above the origin of W; NaN: never. Empty: not
-  /// asked (a survey, thesis mode).
+  /// How far up over the cell the cameras have looked, above the origin of W; NaN: never. Empty:
+  /// not asked (a survey, thesis mode).
   GridF air_seen_to_m{};
   NarrowFigures narrow{};  ///< empty: not asked (a survey, thesis mode)
   /// Of the newest pose the heights were taken from: the slope of everything is off by this much.

@@ -26,7 +26,8 @@ std::string SureFrom(const LandingSite& site, const std::string& limit) {
 
 SiteStanding StandingOf(const LandingSite& site, const SladSettings& settings) {
   return site.confirmed ? SiteStanding::kConfirmed
-         : StandsInNoise(site, settings) || site.air_seen_m < kLeastAirSeen_m
+         : StandsInNoise(site, settings) || site.air_seen_m < kLeastAirSeen_m ||
+                 site.hidden_things > kMostHiddenProvisional
              ? SiteStanding::kToLookAt
              : SiteStanding::kProvisional;
 }

@@ -26,6 +26,8 @@ std::string ClearWords(const LandingSite& site);
 /// Rocks and holes over the limit expected unseen (LandingSite::hidden_things) under a confirmed
 /// site, at most.
 inline constexpr double kMostHidden = 0.01;
+/// … and under a provisional one: where more may be hidden it is to be looked at first.
+inline constexpr double kMostHiddenProvisional = 0.1;
 
 /// Above a site that is flown to or approved: from there on it must be confirmed.
 inline constexpr double kConfirmHeight_m = 6;
@@ -41,9 +43,9 @@ inline constexpr double kLeastWayToLook_m = 2;
 enum class SiteStanding : std::uint8_t {
   kConfirmed,    ///< LandingSite::confirmed
   kProvisional,  ///< all but confirmed: it holds every limit that may be asked at its noise
-  /// 3 sigma of its heights reach the roughness limit, so that a thing as high as that would not
-  /// stand out of the noise, or less than kLeastAirSeen_m of the air over it was looked at: what
-  /// stands or hangs there is not known. The place is offered to be looked at first.
+  /// 3 sigma of its heights reach the roughness limit, more than kMostHiddenProvisional may be
+  /// hidden there, or less than kLeastAirSeen_m of the air over it was looked at: what stands or
+  /// hangs there is not known. The place is offered to be looked at first.
   kToLookAt,
 };
 SiteStanding StandingOf(const LandingSite& site, const SladSettings& settings);

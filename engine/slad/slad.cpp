@@ -30,7 +30,8 @@ void Slad::Add(const SladInput& input, const SladSettings& settings) {
   input_ = input;
   figures_.clear();
   const SladSettings fitted = view_cell_.Fit(*input.view.range, settings);
-  elevation_ = fusion_.Add(*input.view.range, fitted, kept_, input.view.left.get());
+  elevation_ =
+      fusion_.Add(*input.view.range, fitted, kept_, input.view.left.get(), input.view.right.get());
   if (settings.mode == SladMode::kModern && input.view.left && input.view.right) {
     FlagFromPictures();
   }

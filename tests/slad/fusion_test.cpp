@@ -252,37 +252,6 @@ TEST(TerrainFusion, APostNarrowerThanACellKeepsItsHeight) {
   EXPECT_LT(level.rms_m, 0.05);
 }
 
-// A cone near the ground: its foot is measured, its steep sides are refused. The last frame, which
-// moves the map, sees it whole; what the others were refused is remembered.
-TEST(TerrainFusion, AFootWhoseSidesWereRefusedStands) {
-  const auto foot = WithBox(Flat(), 0.05, 0.05, 0.3, 0.05);
-  SladSettings settings;
-  settings.grid.rows = settings.grid.cols = 40;
-  for (const bool refused : {false, true}) {
-    TerrainFusion fusion;
-    std::shared_ptr<const ElevationMap> map;
-    GridGeometry first;
-    for (int frame = 0; frame < 4; ++frame) {
-      const bool last = frame == 3;
-      const RigidTransform X_WC = CameraPose(6, Rad(90), last ? 0.6 : 0);
-      RangeMap range = SeeWorld(foot, X_WC, 0.004, std::uint64_t(frame) + 1, 1);
-      for (int y = 0; refused && !last && y < range.depth_m.height(); ++y) {
-        for (int x = 0; x < range.depth_m.width(); x += 2) {
-          float& depth_m = range.depth_m.at(x, y);
-          depth_m = depth_m < 5.975F ? std::nanf("") : depth_m;
-        }
-      }
-      map = fusion.Add(range, settings);
-      first = frame == 0 ? map->geometry : first;
-    }
-    EXPECT_NE(map->geometry.north_min_m, first.north_min_m);
-    const auto cell = map->geometry.CellFromPoint(0.05, 0.05);
-    ASSERT_TRUE(cell);
-    EXPECT_NEAR(double(map->height_m.at(*cell)), refused ? 0.2 : 0.05, 0.03);
-    EXPECT_NEAR(double(map->Measured().at(*cell)), 0.05, 0.03) << "what was measured is no guess";
-  }
-}
-
 // No evidence writes into the measured ground: it is the mean of what was seen, and never above the
 // top; where nothing stands the two are one.
 TEST(TerrainFusion, MeasuredGroundLiesUnderTheTopAndIsNotRaised) {

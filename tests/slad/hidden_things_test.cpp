@@ -14,15 +14,20 @@ namespace {
 
 using testing::Flat;
 using testing::MakeMap;
+using testing::ThatShow;
 
 constexpr double kLimit_m = 0.10, kRadius_m = 2.3;
 constexpr Cell kMiddle{20, 20};
 
-/// Every cell shows `shown_m` with that sigma, where a thing would show `share` of its height.
 ElevationMap MapThatShows(double shown_m, double sigma_m, double share) {
   ElevationMap map = MakeMap(41, 41, 0.15, Flat());
-  const auto layer = [](double value) { return GridF(41, 41, static_cast<float>(value)); };
-  map.narrow = {layer(shown_m), layer(sigma_m), layer(share)};
+  map.narrow = ThatShow(map.geometry, shown_m, sigma_m, share);
+  return map;
+}
+
+/// One place of the middle cell shows that much.
+ElevationMap Marked(ElevationMap map, double shown_m) {
+  map.narrow.prominence_m.at(2 * kMiddle.row, 2 * kMiddle.col + 1) = static_cast<float>(shown_m);
   return map;
 }
 
@@ -33,20 +38,36 @@ double Hidden(const ElevationMap& map, Cell cell = kMiddle, double radius_m = kR
 }
 
 TEST(HiddenThings, OneCellIsTheClosedForm) {
-  // A radius below a cell's side leaves the middle alone.
+  // A radius below a cell's side leaves the middle alone: four places.
   for (const double shown_m : {0.0, 0.01, -0.02, 0.03, 0.036, -0.05}) {
     const double sigma_m = 0.01, share = 0.3, r = 1.2 * kLimit_m * share;
-    const double prior = kThingsPer_m2 / 2 * 0.15 * 0.15;
+    const double prior = kThingsPer_m2 / 2 * 0.15 * 0.15 / 4;
     double expected = 0;
     for (const double p : {shown_m, -shown_m}) {
-      const double s2 = 2 * sigma_m * sigma_m;
-      const double limit = std::exp((2 * r * p - r * r) / s2);
-      const double best = p > 0 ? std::exp(p * p / s2) : 1;
-      const double larger = p < r ? limit : best, smaller = p < r ? best : limit;
-      expected += prior * larger / (1 + prior * (larger + smaller));
+      const auto ratio = [&](double size) {
+        return std::exp((2 * size * r * p - size * size * r * r) / (2 * sigma_m * sigma_m));
+      };
+      const double larger = 0.57 * ratio(1) + 0.29 * ratio(1.5) + 0.14 * ratio(2.5);
+      const double smaller = 0.57 * ratio(0.25) + 0.29 * ratio(0.5) + 0.14 * ratio(0.75);
+      expected += 4 * prior * larger / (1 + prior * (larger + smaller));
     }
     EXPECT_NEAR(Hidden(MapThatShows(shown_m, sigma_m, share), kMiddle, 0.1), expected,
                 1e-4 * expected);
+  }
+}
+
+TEST(HiddenThings, NoiseAloneHidesOnAverageWhatThePriorSays) {
+  // The mean of a likelihood ratio over bare ground is 1, however little or much a thing would
+  // show.
+  for (const double sigmas : {0.3, 1.0, 1.7}) {
+    const double share = 0.4, sigma_m = 1.2 * kLimit_m * share / sigmas;
+    ElevationMap map = MapThatShows(0, sigma_m, share);
+    RandomStream random(11, "noise");
+    for (float& shown_m : map.narrow.prominence_m.cells()) {
+      shown_m = static_cast<float>(sigma_m * random.Normal());
+    }
+    const double prior = kThingsPer_m2 * M_PI * kRadius_m * kRadius_m;
+    EXPECT_NEAR(Hidden(map), prior, 0.5 * prior) << sigmas;
   }
 }
 
@@ -67,21 +88,17 @@ TEST(HiddenThings, GrowsWithNoiseWithWhatShowsAndWithDistance) {
   EXPECT_GT(Hidden(MapThatShows(0.01, 0.008, 0.3)), base);
   EXPECT_DOUBLE_EQ(Hidden(MapThatShows(-0.01, 0.008, 0.3)), Hidden(MapThatShows(0.01, 0.008, 0.3)))
       << "a hole counts as a rock does";
-  ElevationMap one = MapThatShows(0, 0.003, 0.35);
-  one.narrow.prominence_m.at(kMiddle) = 0.035F;
-  EXPECT_GT(Hidden(one), kMostHidden) << "one cell is enough";
+  EXPECT_GT(Hidden(Marked(MapThatShows(0, 0.003, 0.35), 0.038)), kMostHidden)
+      << "one place is enough";
 }
 
 TEST(HiddenThings, ALowThingSeenWellIsALowThing) {
   // Half as high as the limit's, from near by: six sigmas above the ground, six below the limit.
   const double share = 0.6, r = 1.2 * kLimit_m * share;
-  ElevationMap map = MapThatShows(0, r / 12, share);
-  map.narrow.prominence_m.at(kMiddle) = static_cast<float>(r / 2);
-  EXPECT_LT(Hidden(map), 1e-3);
-  map.narrow.prominence_m.at(kMiddle) = static_cast<float>(r);
-  EXPECT_NEAR(Hidden(map), 0.5, 0.01);
-  map.narrow.prominence_m.at(kMiddle) = static_cast<float>(1.5 * r);
-  EXPECT_NEAR(Hidden(map), 1, 0.01);
+  const ElevationMap bare = MapThatShows(0, r / 12, share);
+  EXPECT_LT(Hidden(Marked(bare, r / 2)), 1e-3);
+  EXPECT_GT(Hidden(Marked(bare, r)), 0.5);
+  EXPECT_NEAR(Hidden(Marked(bare, 1.5 * r)), 1, 0.01);
 }
 
 TEST(HiddenThings, DiscsAreTheSumsOfTheirCells) {
@@ -120,9 +137,9 @@ TEST(HiddenThings, ArePartOfTheProbabilityOfASafeTouchdown) {
   EXPECT_NEAR(static_cast<double>(blind.safe_probability.at(kMiddle)), gear * std::exp(-hidden),
               1e-5);
   EXPECT_EQ(blind.ground.at(kMiddle), GroundClass::kLandable) << "offered, to be looked at";
-  ElevationMap marked = clear;
-  marked.narrow.prominence_m.at(kMiddle) = 0.042F;  // as a thing of the limit's size would show
-  EXPECT_NE(EvaluateHazards(marked, settings).ground.at(kMiddle), GroundClass::kLandable)
+  // As a thing of the limit's size would show.
+  EXPECT_NE(EvaluateHazards(Marked(clear, 0.042), settings).ground.at(kMiddle),
+            GroundClass::kLandable)
       << "not offered";
   EXPECT_TRUE(EvaluateHazards(MakeMap(41, 41, 0.15, Flat()), settings).hidden_things.empty())
       << "a survey";
@@ -136,46 +153,41 @@ TEST(HiddenThings, GroundIsSeenWhereAThingIsRuledOutFiftyToOne) {
     EXPECT_EQ(IsSeen(ViewOf(map), kMiddle), k > 2.8) << k;
   }
   const auto seen = [&](const ElevationMap& map) { return IsSeen(ViewOf(map), kMiddle); };
+  EXPECT_TRUE(seen(MapThatShows(0.4 * r, r / 4, share))) << "noise, or a thing half as high";
   EXPECT_FALSE(seen(MapThatShows(0.7 * r, r / 4, share)));
   EXPECT_FALSE(seen(MapThatShows(-0.7 * r, r / 4, share)));
+  EXPECT_FALSE(seen(Marked(MapThatShows(0, r / 4, share), 0.7 * r))) << "one place of four";
   EXPECT_FALSE(seen(MapThatShows(NAN, NAN, NAN)));
   EXPECT_LT(Hidden(MapThatShows(0, r / 2.85, share)), kMostHidden) << "then confirmed";
 }
 
-/// The share that a window of `window_m` leaves (narrow_relief.h), of a cell of 15 cm.
-double ShareOf(double window_m) {
-  return 0.8 / (1 + (window_m * window_m + 0.15 * 0.15) / (0.18 * 0.18));
-}
-
-TEST(HiddenThings, FromNearerAreThoseOfBareGroundWithLessNoiseAndANarrowerWindow) {
+TEST(HiddenThings, FromNearerAreThoseOfBareGroundWithLessNoise) {
   const auto from = [](const ElevationMap& map, double nearer) {
-    return HiddenFromNearer(ViewOf(map), map.variance_m2, kMiddle, kRadius_m, nearer);
+    return HiddenFromNearer(ViewOf(map), kMiddle, kRadius_m, nearer);
   };
-  const auto with_noise = [](double sigma_m, double share, double stereo_m) {
-    ElevationMap map = MapThatShows(0, sigma_m, share);
-    map.variance_m2 = GridF(41, 41, static_cast<float>(stereo_m * stereo_m));
-    return map;
-  };
-  const double sigma_m = 0.04;
+  const double sigma_m = 0.04, share = 0.4;
+  ElevationMap noise = MapThatShows(0, sigma_m, share), rough = noise;
+  rough.narrow.noise_m = GridF(82, 82, static_cast<float>(sigma_m / std::sqrt(2)));
   for (const double nearer : {1.0, 0.7, 0.5}) {
     SCOPED_TRACE(nearer);
+    // q of bare ground, both sides: a thing of the limit's size shows nothing of itself.
+    const auto of = [&](double then_m) {
+      const double r = 1.2 * kLimit_m * share;
+      const double places = M_PI * std::pow(kRadius_m / 0.15, 2) * 4;
+      return places * kThingsPer_m2 * 0.15 * 0.15 / 4 * std::exp(-r * r / (2 * then_m * then_m));
+    };
     const double then_m = nearer * nearer * sigma_m;
-    const double all = from(with_noise(sigma_m, ShareOf(0.3), sigma_m), nearer);
-    const double expected = Hidden(MapThatShows(0, then_m, ShareOf(nearer * 0.3)));
-    EXPECT_NEAR(all, expected, 2e-3 * expected);
+    EXPECT_NEAR(from(noise, nearer), of(then_m), 0.02 * of(then_m));
     // Half of its variance is the ground's own.
-    const double half_m = sigma_m / std::sqrt(2 * 1.5);
     const double rough_m = std::sqrt((sigma_m * sigma_m + then_m * then_m) / 2);
-    const double rough = Hidden(MapThatShows(0, rough_m, ShareOf(nearer * 0.3)));
-    EXPECT_NEAR(from(with_noise(sigma_m, ShareOf(0.3), half_m), nearer), rough, 4e-3 * rough);
+    EXPECT_NEAR(from(rough, nearer), of(rough_m), 0.02 * of(rough_m));
   }
   // What shows now says nothing of then; what is unknown is as the rest.
-  ElevationMap marked = with_noise(sigma_m, ShareOf(0.3), sigma_m);
-  const double bare = from(marked, 0.5);
-  marked.narrow.prominence_m.at(kMiddle) = 0.03F;
+  const double bare = from(noise, 0.5);
+  ElevationMap marked = Marked(noise, 0.03);
   EXPECT_DOUBLE_EQ(from(marked, 0.5), bare);
-  for (int row = 0; row < kMiddle.row; ++row) {
-    for (int col = 0; col < 41; ++col) {
+  for (int row = 0; row < 2 * kMiddle.row; ++row) {
+    for (int col = 0; col < 82; ++col) {
       marked.narrow.prominence_m.at(row, col) = std::nanf("");
     }
   }

@@ -33,8 +33,7 @@ TEST(RankReasons, AConfirmedSiteBelowAProvisionalOneSaysThatRoomRanks) {
 TEST(RankReasons, AWiderSiteBelowANarrowerOneSaysWhyItDoesNotPassIt) {
   const SiteSelection list = Reasoned({Of("A", 4.8), Of("B", 4.0), Of("C", 4.4), Of("D", 4.42)});
   EXPECT_EQ(list.sites[1].reason, "0.8 m less clear than the best");
-  EXPECT_EQ(list.sites[2].reason,
-            "0.4 m less clear than the best; wider than B (noise, or new)");
+  EXPECT_EQ(list.sites[2].reason, "0.4 m less clear than the best; wider than B (noise, or new)");
   EXPECT_EQ(list.sites[3].reason, "0.4 m less clear than the best");
 }
 

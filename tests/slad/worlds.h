@@ -62,6 +62,17 @@ inline ElevationMap MakeMap(int rows, int cols, double cell_m, const Height& hei
   return map;
 }
 
+/// Every place shows `shown_m` with that sigma, all of it noise, where a thing would show `share`
+/// of its height.
+inline NarrowFigures ThatShow(const GridGeometry& map, double shown_m, double sigma_m,
+                              double share = 0.3) {
+  const auto layer = [&](double value) {
+    return GridF(NarrowFigures::kPerCell * map.rows, NarrowFigures::kPerCell * map.cols,
+                 static_cast<float>(value));
+  };
+  return {layer(shown_m), layer(sigma_m), layer(sigma_m), layer(share), 0.675};
+}
+
 /// Left camera 640x480, 45 degrees, looking north and down by `tilt_down_rad` from `height_m`.
 inline PinholeCamera ThesisCamera() {
   const double f = 320 / std::tan(Rad(45) / 2);

@@ -332,7 +332,7 @@ HazardMaps JudgeTerrain(const GridGeometry& geometry, const TerrainFigures& figu
   hazards.safe_distance_m =
       SafeDistance(hazards.reasons, geometry.cell_m,
                    settings.mode == SladMode::kThesis ? DistanceTo::kCentre : DistanceTo::kSquare);
-  if (settings.mode == SladMode::kModern && !figures.narrow.share.empty()) {
+  if (settings.mode == SladMode::kModern && !figures.narrow.empty()) {
     CountWhatHides(figures.narrow, settings, hazards);
   }
   ClassifyCells(settings, hazards);

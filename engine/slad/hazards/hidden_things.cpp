@@ -1,66 +1,131 @@
 #include "engine/slad/hazards/hidden_things.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
 #include <opencv2/core.hpp>
-
-#include "engine/slad/terrain/narrow_relief.h"
 
 namespace palace {
 namespace {
 
 constexpr double kOverLimit = 1.2;    // of the limit: what counts as unsafe
 constexpr double kRuledOut = -3.912;  // the logarithm of one in fifty
-constexpr double kNothing = -25;      // logarithm below which a cell hides nothing
+constexpr double kNothing = -25;      // logarithm below which a place hides nothing
+constexpr double kPowers = 40;        // up to which powers keep their digits
+// Sizes of things over the limit and of those below it, as quarters of it, and their shares: each
+// half as many as the one before (power law of rocks).
+constexpr std::array kLarger = {4.0, 6.0, 10.0}, kSmaller = {1.0, 2.0, 3.0};
+constexpr std::array kShares = {0.57, 0.29, 0.14};
 
-double Figure(const GridF& layer, Cell cell) { return static_cast<double>(layer.at(cell)); }
+constexpr int kPerCell = NarrowFigures::kPerCell;
+constexpr int kPlaces = kPerCell * kPerCell;  // of a cell
+
+double Figure(const GridF& layer, Cell place) { return static_cast<double>(layer.at(place)); }
+
+/// Calls work(place) for the places of a cell.
+template <typename Work>
+void ForPlaces(Cell cell, Work work) {
+  for (int i = 0; i < kPerCell; ++i) {
+    for (int j = 0; j < kPerCell; ++j) {
+      work(Cell{kPerCell * cell.row + i, kPerCell * cell.col + j});
+    }
+  }
+}
 
 double LogRatio(double shown_m, double expected_m, double sigma_m) {
   return expected_m * (2 * shown_m - expected_m) / (2 * sigma_m * sigma_m);
 }
 
-/// q of things on one side, where `shown_m` counts towards it.
-double Hides(double prior, double shown_m, double expected_m, double sigma_m, bool beside_hazard) {
-  const double as_limit = LogRatio(shown_m, expected_m, sigma_m);
-  if (as_limit < kNothing) {
-    return 0;
+/// Mean likelihoods of things over the limit, of smaller ones and of bare ground, over a common
+/// one.
+struct Likelihoods {
+  double larger = 0, smaller = 0, bare = 0;
+};
+
+/// With a = r p / s^2 and b = r^2 / (2 s^2), of a thing k / 4 times the limit's: exp(k a / 4 - k^2
+/// b / 16) against bare ground. Where these are no large numbers two exponentials make them all:
+/// `e` = exp(a / 4) and `f` = exp(-b / 16).
+Likelihoods FromPowers(double e, double f) {
+  const double e2 = e * e, e4 = e2 * e2, f2 = f * f, f4 = f2 * f2, f8 = f4 * f4, f16 = f8 * f8,
+               f32 = f16 * f16;
+  const std::array larger = {e4 * f16, e4 * e2 * f32 * f4, e4 * e4 * e2 * f32 * f32 * f32 * f4};
+  const std::array smaller = {e * f, e2 * f4, e2 * e * f8 * f};
+  Likelihoods of{0, 0, 1};
+  for (std::size_t i = 0; i < kShares.size(); ++i) {
+    of.larger += kShares[i] * larger[i];
+    of.smaller += kShares[i] * smaller[i];
   }
-  // The best of the larger ones, and of the smaller ones, shows just what is there.
-  const double at_best = shown_m > 0 ? shown_m * shown_m / (2 * sigma_m * sigma_m) : 0;
-  const double larger = shown_m < expected_m ? as_limit : at_best;
-  const double smaller = shown_m < expected_m ? at_best : as_limit;
-  const double most = beside_hazard ? std::min(larger, 0.0) : larger;
-  return 1 / (1 + std::exp(-most) / prior + std::exp(smaller - larger));
+  return of;
 }
 
-/// What a thing would show in the cell.
-double Expected(const NarrowView& view, Cell cell) {
-  return kOverLimit * view.max_deviation_m * Figure(view.narrow.share, cell);
+/// The same whatever the numbers, over the largest of them.
+Likelihoods FromLogarithms(double a, double b) {
+  const auto log_of = [&](double quarters) {
+    return quarters * a / 4 - quarters * quarters * b / 16;
+  };
+  double most = 0;
+  for (std::size_t i = 0; i < kShares.size(); ++i) {
+    most = std::max({most, log_of(kLarger[i]), log_of(kSmaller[i])});
+  }
+  Likelihoods of{0, 0, std::exp(-most)};
+  for (std::size_t i = 0; i < kShares.size(); ++i) {
+    of.larger += kShares[i] * std::exp(log_of(kLarger[i]) - most);
+    of.smaller += kShares[i] * std::exp(log_of(kSmaller[i]) - most);
+  }
+  return of;
 }
 
-/// Whether the ring around the cell may touch a hazard: 1.25 times as wide as a thing is smeared, a
-/// cell for the hazard's own smear.
-bool IsBesideHazard(const NarrowView& view, Cell cell) {
-  if (view.safe_distance_m == nullptr) {
-    return false;
-  }
-  const double smear_m = std::sqrt(SmearedOfShare(Figure(view.narrow.share, cell)));
-  const double ring_m = std::max(2 * view.cell_m, kRingWindows * smear_m);
-  return Figure(*view.safe_distance_m, cell) < ring_m + view.cell_m;
+/// q of things on one side.
+double Hides(double prior, const Likelihoods& of, bool beside_hazard) {
+  const double larger = beside_hazard ? std::min(of.larger, of.bare) : of.larger;
+  return prior * larger / (of.bare + prior * (larger + of.smaller));
 }
 
 /// q of a rock and of a hole together.
-double HidesInCell(const NarrowView& view, Cell cell, double prior) {
-  const double shown_m = Figure(view.narrow.prominence_m, cell);
-  if (std::isnan(shown_m)) {
-    return 2 * prior;
+double HidesAt(double prior, double shown_m, double expected_m, double sigma_m,
+               bool beside_hazard) {
+  const double per_m2 = expected_m / (sigma_m * sigma_m);
+  const double a = std::abs(shown_m) * per_m2, b = expected_m * per_m2 / 2;
+  if (a - b < kNothing && std::abs(shown_m) < expected_m) {
+    return 0;
   }
-  const double sigma_m = Figure(view.narrow.sigma_m, cell), expected_m = Expected(view, cell);
+  if (a < kPowers && b < kPowers) {
+    const double e = std::exp(a / 4), f = std::exp(-b / 16);
+    return Hides(prior, FromPowers(e, f), beside_hazard) +
+           Hides(prior, FromPowers(1 / e, f), beside_hazard);
+  }
+  return Hides(prior, FromLogarithms(a, b), beside_hazard) +
+         Hides(prior, FromLogarithms(-a, b), beside_hazard);
+}
+
+/// What a thing would show at the place.
+double Expected(const NarrowView& view, Cell place) {
+  return kOverLimit * view.max_deviation_m * Figure(view.narrow.share, place);
+}
+
+/// Whether the ground around the cell's places may touch a hazard, a cell for its smear.
+bool IsBesideHazard(const NarrowView& view, Cell cell) {
+  return view.safe_distance_m != nullptr &&
+         Figure(*view.safe_distance_m, cell) < view.narrow.ring_m + view.cell_m;
+}
+
+/// Sum of q over the cell's places, of a rock and of a hole together; `prior` is the cell's.
+double HidesInCell(const NarrowView& view, Cell cell, double prior) {
   const bool beside = IsBesideHazard(view, cell);
-  return Hides(prior, shown_m, expected_m, sigma_m, beside) +
-         Hides(prior, -shown_m, expected_m, sigma_m, beside);
+  const double of_place = prior / kPlaces;
+  double hides = 0;
+  ForPlaces(cell, [&](Cell place) {
+    const double shown_m = Figure(view.narrow.prominence_m, place);
+    if (std::isnan(shown_m)) {
+      hides += 2 * of_place;
+      return;
+    }
+    const double sigma_m = Figure(view.narrow.sigma_m, place), expected_m = Expected(view, place);
+    hides += HidesAt(of_place, shown_m, expected_m, sigma_m, beside);
+  });
+  return hides;
 }
 
 /// Sums from a row's beginning, `reach` cells wider than it on both sides, where every cell hides
@@ -86,7 +151,7 @@ void ForRows(int rows, RowWork work) {
 }  // namespace
 
 GridF HiddenThings(const NarrowView& view, double radius_m, double things_per_m2) {
-  const int rows = view.narrow.share.rows(), cols = view.narrow.share.cols();
+  const int rows = view.narrow.share.rows() / kPerCell, cols = view.narrow.share.cols() / kPerCell;
   const double prior = things_per_m2 / 2 * view.cell_m * view.cell_m;
   const double radius = std::min(radius_m / view.cell_m, 1.0 * std::max(rows, cols));
   const int reach = static_cast<int>(radius);
@@ -115,46 +180,51 @@ GridF HiddenThings(const NarrowView& view, double radius_m, double things_per_m2
   return in_disc;
 }
 
-double HiddenFromNearer(const NarrowView& view, const GridF& variance_m2, Cell centre,
-                        double radius_m, double nearer, double enough) {
-  constexpr double kOfBareGround = 1.5;  // of narrow relief, over the variance of its cell
-  const double prior = kThingsPer_m2 / 2 * view.cell_m * view.cell_m;
-  const double cell_m2 = view.cell_m * view.cell_m;
+double HiddenFromNearer(const NarrowView& view, Cell centre, double radius_m, double nearer,
+                        double enough) {
+  const double prior = kThingsPer_m2 / 2 * view.cell_m * view.cell_m / kPlaces;
   const double squared = nearer * nearer;
+  const int rows = view.narrow.share.rows() / kPerCell, cols = view.narrow.share.cols() / kPerCell;
   const int reach = static_cast<int>(radius_m / view.cell_m);
   double hidden = 0;
-  int cells = 0, known = 0;
+  int places = 0, known = 0;
   for (int dr = -reach; dr <= reach && hidden <= enough; ++dr) {
     for (int dc = -reach; dc <= reach; ++dc) {
-      if ((dr * dr + dc * dc) * cell_m2 > radius_m * radius_m) {
+      if (std::hypot(dr, dc) * view.cell_m > radius_m) {
         continue;
       }
-      ++cells;
+      places += kPlaces;
       const Cell cell{centre.row + dr, centre.col + dc};
-      const bool inside = cell.row >= 0 && cell.col >= 0 && cell.row < view.narrow.share.rows() &&
-                          cell.col < view.narrow.share.cols();
-      if (!inside || std::isnan(view.narrow.prominence_m.at(cell))) {
+      if (cell.row < 0 || cell.col < 0 || cell.row >= rows || cell.col >= cols) {
         continue;
       }
-      ++known;
-      const double sigma_m2 = std::pow(Figure(view.narrow.sigma_m, cell), 2);
-      const double noise_m2 = std::min(sigma_m2, kOfBareGround * Figure(variance_m2, cell));
-      const double window_m2 =
-          std::max(0.0, SmearedOfShare(Figure(view.narrow.share, cell)) - cell_m2);
-      const double share = ShareOfSmeared(squared * window_m2 + cell_m2);
-      const double then_m2 = sigma_m2 - noise_m2 + squared * squared * noise_m2;
-      const double shows_m = kOverLimit * view.max_deviation_m * share;
-      // q of a rock and of a hole, both far smaller than 1.
-      hidden += 2 * prior * std::exp(-shows_m * shows_m / (2 * then_m2));
+      ForPlaces(cell, [&](Cell place) {
+        if (std::isnan(view.narrow.prominence_m.at(place))) {
+          return;
+        }
+        ++known;
+        const double noise_m2 = std::pow(Figure(view.narrow.noise_m, place), 2);
+        const double bumps_m2 = std::pow(Figure(view.narrow.sigma_m, place), 2) - noise_m2;
+        const double then_m2 = bumps_m2 + squared * squared * noise_m2;
+        const double shows_m = Expected(view, place);
+        // q of a rock and of a hole, both far smaller than 1.
+        hidden += 2 * prior * std::exp(-shows_m * shows_m / (2 * then_m2));
+      });
     }
   }
-  return known > 0 ? hidden * cells / known : HUGE_VAL;
+  return known > 0 ? hidden * places / known : HUGE_VAL;
 }
 
 bool IsSeen(const NarrowView& view, Cell cell) {
-  const double shown_m = std::abs(Figure(view.narrow.prominence_m, cell));
-  // False of NaN: nothing is known.
-  return LogRatio(shown_m, Expected(view, cell), Figure(view.narrow.sigma_m, cell)) <= kRuledOut;
+  bool seen = true;
+  ForPlaces(cell, [&](Cell place) {
+    const double sigma_m = Figure(view.narrow.sigma_m, place), expected_m = Expected(view, place);
+    const double shown_m = std::abs(Figure(view.narrow.prominence_m, place));
+    // False of NaN: nothing is known.
+    seen = seen && LogRatio(0, expected_m, sigma_m) <= kRuledOut &&
+           LogRatio(shown_m, expected_m, sigma_m) <= 0;
+  });
+  return seen;
 }
 
 }  // namespace palace

@@ -1,24 +1,27 @@
 // Hidden things: how many rocks or holes over the limit may lie unseen under a touchdown.
 //
-// Stereo smears what is narrower than its window, so a thing over the limit may show a few
-// centimetres only, and noise may hide these. Of each cell the map says by how much it stands above
-// its surroundings (p), with which sigma (s), and which share of its height a thing 18 cm across
-// would show there. Such a thing of 1.2 times the limit shows r. Against bare ground things as
-// large and larger are more likely, by what shows, by L, smaller ones by l (each as the best of its
-// kind; a hole: -p for p):
+// What the pictures show of a place may be a thing over the limit all the same: it is smeared, and
+// noise hides it. Of each place the map says by how much it stands above its surroundings (p), with
+// which sigma (s), and which share of its height a thing 18 cm across would show there
+// (narrow_things.h). One of 1.2 times the limit shows r, one of t times that t r, and against bare
+// ground it is
 //
-//   L = exp((2 r p - r^2) / (2 s^2)),  l = exp(max(0, p)^2 / (2 s^2))   where p < r
-//   L = exp(p^2 / (2 s^2)),            l = exp((2 r p - r^2) / (2 s^2)) beyond
+//   l(t) = exp((2 t r p - t^2 r^2) / (2 s^2))
 //
-// With n things a square metre over the limit, half of them holes, and no fewer smaller ones, a
-// cell of area A hides one with
+// times as likely (a hole: -p for p). Of things over the limit (t = 1, 1.5, 2.5), and of those
+// below it (t = 1/4, 1/2, 3/4), each size is half as frequent as the one before, as rocks lie; L
+// and l are their means. With n things a square metre over the limit, half of them holes, and no
+// fewer smaller ones, a place that stands for an area A hides one with
 //
 //   q = (n A / 2) L / (1 + (n A / 2) (L + l))
 //
+// Over bare ground the mean of L is 1, whatever the noise: ground that tells nothing hides n A, and
+// ground that tells much hides nearly nothing but where noise looks like a thing.
+//
 // Their sum H over the disc is the expected number, exp(-H) the chance that there is none. Ground
-// that is smooth, near and textured hides none (1e-10); ground too far away to tell hides n A; a
-// cell that stands out by half of r counts as much as one in which nothing could be seen, one that
-// stands out by r is half a thing, and a lower one seen well a low one. Monotone in what shows.
+// that is smooth, near and textured hides none (1e-10); a place that stands out by half of r counts
+// as much as one in which nothing could be seen, one that stands out by r is a thing, and a lower
+// one seen well a low one.
 //
 // n is one number for all ground (CALIBRATION.md): among drawn worlds neither the things that a map
 // shows elsewhere nor the ground searched for them told it better.
@@ -49,12 +52,11 @@ inline constexpr double kThingsPer_m2 = 0.01;
 GridF HiddenThings(const NarrowView& view, double radius_m, double things_per_m2 = kThingsPer_m2);
 
 /// H of the disc around `centre` as bare ground would say it, were it seen along the same lines
-/// from `nearer` (above 0, at most 1) times as far. Of each cell stereo's noise, up to 1.5 times
-/// its `variance_m2`, goes down as nearer^2, stereo's window as nearer; what the ground is rough by
-/// beyond that stays. Cells of which nothing is known hide as the others do; infinity when all are.
+/// from `nearer` (above 0, at most 1) times as far: of each place the noise goes down as nearer^2,
+/// bumps stay. Cells of which nothing is known hide as the others do; infinity when all are.
 /// Beyond `enough` nothing is counted any more.
-double HiddenFromNearer(const NarrowView& view, const GridF& variance_m2, Cell centre,
-                        double radius_m, double nearer, double enough = HUGE_VAL);
+double HiddenFromNearer(const NarrowView& view, Cell centre, double radius_m, double nearer,
+                        double enough = HUGE_VAL);
 
 /// Whether what shows in a cell rules such a thing out, fifty to one: ground that is seen.
 bool IsSeen(const NarrowView& view, Cell cell);

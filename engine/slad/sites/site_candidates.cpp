@@ -70,7 +70,7 @@ constexpr float kBlindRoom = 0.25F;
 
 /// Room by which places are ranked (site_candidates.h).
 GridF RoomSeen(const ElevationMap& map, const HazardMaps& hazards, const SladSettings& settings) {
-  if (map.narrow.share.empty() || settings.mode == SladMode::kThesis) {
+  if (map.narrow.empty() || settings.mode == SladMode::kThesis) {
     return hazards.safe_distance_m;
   }
   const NarrowView view{map.narrow, map.geometry.cell_m, settings.limits.max_deviation_m};

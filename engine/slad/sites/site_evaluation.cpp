@@ -206,7 +206,7 @@ double LookHeight(const ElevationMap& map, const SladSettings& settings, const S
                   const LandingSite& site) {
   const double none = std::numeric_limits<double>::quiet_NaN();
   const double height_m = site.p_WS.z() - context.p_WB.z();
-  if (map.narrow.share.empty() || context.camera.width == 0 || site.confirmed || !(height_m > 0) ||
+  if (map.narrow.empty() || context.camera.width == 0 || site.confirmed || !(height_m > 0) ||
       map.geometry.cell_m > settings.lander.max_rock_size_m) {
     return none;
   }
@@ -216,8 +216,8 @@ double LookHeight(const ElevationMap& map, const SladSettings& settings, const S
   const NarrowView view{map.narrow, map.geometry.cell_m, settings.limits.max_deviation_m};
   const auto settles = [&](double nearer) {
     return nearer * nearer * site.height_m.three_sigma < settings.limits.max_deviation_m &&
-           HiddenFromNearer(view, map.variance_m2, site.cell, site.clear_radius_m, nearer,
-                            kMostHidden) <= kMostHidden;
+           HiddenFromNearer(view, site.cell, site.clear_radius_m, nearer, kMostHidden) <=
+               kMostHidden;
   };
   if (settles(1)) {
     return none;

@@ -7,9 +7,10 @@
 #include "engine/core/hash.h"
 #include "engine/slad/terrain/air_seen.h"
 #include "engine/slad/terrain/elevation_map_builder.h"
+#include "engine/slad/terrain/fine_ground.h"
 #include "engine/slad/terrain/frame_registration.h"
 #include "engine/slad/terrain/hole_filling.h"
-#include "engine/slad/terrain/narrow_relief.h"
+#include "engine/slad/terrain/narrow_things.h"
 #include "engine/slad/terrain/terrain_points.h"
 
 namespace palace {
@@ -26,7 +27,6 @@ constexpr int kLongestMemory_frames = 50;
 constexpr double kRepeated_px = 0.012;
 /// What is left of a frame's place sideways, once its picture told the rest.
 constexpr double kRegistered_m = 0.015;
-constexpr double kNarrow_m = 0.08;  // the upper half of a small cone, a post
 /// The map follows the view once its centre is off by this share of its size.
 constexpr double kSlack = 0.08;
 
@@ -140,15 +140,15 @@ void TerrainFusion::Reset() {
   map_ = ElevationMap{};
   disagreement_ = {};
   spread_ = {};
-  pixels_ = {};
   sideways_.Reset();
+  fine_.Reset();
   frames_ = 0;
 }
 
 std::shared_ptr<const ElevationMap> TerrainFusion::Add(const RangeMap& range,
                                                        const SladSettings& settings,
                                                        const std::optional<Eigen::Vector2d>& around,
-                                                       const ImageU8* left) {
+                                                       const ImageU8* left, const ImageU8* right) {
   PALACE_CHECK(range.pose.has_value() && range.FocalTimesBaseline() > 0, range.baseline_m);
   if (!SameLayout(settings, layout_)) {
     Reset();
@@ -180,9 +180,11 @@ std::shared_ptr<const ElevationMap> TerrainFusion::Add(const RangeMap& range,
       RangeMap moved = range;
       moved.pose->X_WC.p.head<2>() += shift.by_m;
       moved.pose->sigmas.position_m = kRegistered_m;
-      FuseFrame(moved, PointsFromRange(moved), settings);
+      const PlaneCorrection off = FuseFrame(moved, PointsFromRange(moved), settings);
+      AddFine(moved, left, right, off);
     } else {
-      FuseFrame(range, points, settings);
+      const PlaneCorrection off = FuseFrame(range, points, settings);
+      AddFine(range, left, right, off);
     }
   }
   last_ranges_ = ranges;
@@ -192,22 +194,34 @@ std::shared_ptr<const ElevationMap> TerrainFusion::Add(const RangeMap& range,
   auto published = std::make_shared<ElevationMap>(map_);
   AddReliefBetweenFrames(spread_, *published);
   const GridF repeated_m2 = RepeatedVariance(range, *published);
-  published->narrow =
-      MeasureNarrowRelief(range.camera, range.pose->X_WC.p, kNarrow_m, repeated_m2, *published);
-  RaiseNarrowRelief(range.camera, range.pose->X_WC.p, kNarrow_m, pixels_, repeated_m2, *published);
+  // Without pictures nothing is known of narrow things: the figures are there, and say so.
+  const FineSums sums = fine_.Sums();
+  TakeFineGround(sums, *published);
+  TakeNarrowThings(sums, range.camera, range.pose->X_WC.p, repeated_m2, *published);
   AddVariance(repeated_m2, *published);
   FillHoles(*published, settings.grid.data_size_cells, settings.grid.border_size_cells);
   return published;
 }
 
-void TerrainFusion::FuseFrame(const RangeMap& range, const TerrainPoints& points,
-                              const SladSettings& settings) {
+void TerrainFusion::AddFine(const RangeMap& range, const ImageU8* left, const ImageU8* right,
+                            const PlaneCorrection& off) {
+  const auto fits = [&](const ImageU8* picture) {
+    return picture != nullptr && picture->width() == range.disparity_px.width() &&
+           picture->height() == range.disparity_px.height();
+  };
+  if (fits(left) && fits(right)) {
+    fine_.Add(range, *left, *right, off, kLongestMemory_frames);
+  }
+}
+
+PlaneCorrection TerrainFusion::FuseFrame(const RangeMap& range, const TerrainPoints& points,
+                                         const SladSettings& settings) {
   ElevationMap frame =
       AccumulateCells(points, map_.geometry, settings.mode, kCorrelatedPixels, range.time);
-  Register(frame);
+  const PlaneCorrection off = Register(frame);
   AddAirSeen(range.camera, range.pose->X_WC, frame, map_.air_seen_to_m);
   Fuse(frame, MisplacedVariance(*range.pose, frame), settings.fusion.frames_fused);
-  AddPixels(range, settings.fusion.frames_fused);
+  return off;
 }
 
 void TerrainFusion::MoveTo(const GridGeometry& geometry) {
@@ -223,7 +237,6 @@ void TerrainFusion::MoveTo(const GridGeometry& geometry) {
   moved.air_seen_to_m = GridF(rows, cols, kUnknownValue);
   Grid<std::int8_t> disagreement(rows, cols, 0);
   Grid<FrameSpread> spread(rows, cols);
-  Grid<PixelCount> pixels(rows, cols);
   if (frames_ > 0) {
     const GridGeometry& old = map_.geometry;
     const int row_shift =
@@ -245,34 +258,18 @@ void TerrainFusion::MoveTo(const GridGeometry& geometry) {
         moved.air_seen_to_m.at(r, c) = map_.air_seen_to_m.at(from);
         disagreement.at(r, c) = disagreement_.at(from);
         spread.at(r, c) = spread_.at(from);
-        pixels.at(r, c) = pixels_.at(from);
       }
     }
   }
   map_ = std::move(moved);
   disagreement_ = std::move(disagreement);
   spread_ = std::move(spread);
-  pixels_ = std::move(pixels);
+  fine_.MoveTo(geometry);
 }
 
-void TerrainFusion::AddPixels(const RangeMap& range, int frames_fused) {
-  Grid<PixelCount> seen(pixels_.rows(), pixels_.cols());
-  CountPixels(range, map_.geometry, seen);
-  const int memory = std::max(1, frames_fused);
-  const auto remember = static_cast<float>(frames_ < memory ? 1.0 : 1 - 1.0 / memory);
-  for (std::size_t i = 0; i < seen.cells().size(); ++i) {
-    const PixelCount& now = seen.cells()[i];
-    PixelCount& all = pixels_.cells()[i];
-    // What this frame does not see keeps its counts, as it keeps its height.
-    if (now.known + now.refused > 0) {
-      all = {remember * all.known + now.known, remember * all.refused + now.refused};
-    }
-  }
-}
-
-void TerrainFusion::Register(ElevationMap& frame) {
+PlaneCorrection TerrainFusion::Register(ElevationMap& frame) {
   if (frames_ == 0) {
-    return;
+    return {};
   }
   const PlaneCorrection correction = RegisterFrame(frame, map_);
   // The map moves a little towards each frame, so that its own tilt becomes the mean of theirs
@@ -280,6 +277,12 @@ void TerrainFusion::Register(ElevationMap& frame) {
   const double map_gain = 1.0 / (1 + std::min(frames_, kLongestMemory_frames));
   ApplyCorrection(correction, map_gain, map_);
   ApplyCorrection(correction, map_gain - 1, frame);
+  fine_.Raise(correction, map_gain);
+  PlaneCorrection taken = correction;
+  taken.offset_m *= 1 - map_gain;
+  taken.north_tilt *= 1 - map_gain;
+  taken.east_tilt *= 1 - map_gain;
+  return taken;
 }
 
 void TerrainFusion::Age(Timestamp now) {
@@ -334,6 +337,10 @@ void TerrainFusion::Fuse(const ElevationMap& frame, const GridF& misplaced_m2, i
       variance = static_cast<float>(noise);
       count = 1;
       state = CellState::kMeasured;
+      if (known) {
+        const auto cols = static_cast<std::size_t>(map_.geometry.cols);
+        fine_.Forget({static_cast<int>(i / cols), static_cast<int>(i % cols)});
+      }
       // Something new stands there. Where something is gone, what was seen of it fades slowly.
       if (known && off < 0) {
         spread.Add(off, noise, memory);

@@ -12,9 +12,8 @@
 //
 // Of a cell's points the mean is fused as the measured ground, and by the same weights the mean
 // with the relief inside the cell as its top. What frames disagree about by more than noise is
-// relief (frame_spread.h): it is added to the published top. So is what stands too narrow for
-// stereo's window, or so steep that stereo refuses its sides (narrow_relief.h). None of them
-// touches the measured ground.
+// relief (frame_spread.h): it is added to the published top. So is what the pictures show that is
+// too narrow for stereo's window (narrow_things.h). None of them touches the measured ground.
 //
 // A cell that disagrees by more than the gate, three sigmas of
 //
@@ -37,8 +36,8 @@
 #include "engine/model/elevation_map.h"
 #include "engine/model/range_map.h"
 #include "engine/model/settings/settings.h"
+#include "engine/slad/terrain/fine_relief.h"
 #include "engine/slad/terrain/frame_spread.h"
-#include "engine/slad/terrain/refused_pixels.h"
 #include "engine/slad/terrain/sideways_registration.h"
 #include "engine/slad/terrain/terrain_points.h"
 
@@ -51,25 +50,29 @@ class TerrainFusion {
   /// Fuses one range map, which has a pose and a baseline, and returns the new map. A change of
   /// mode, cell size, grid size or bounds starts afresh. `around`: a place (north, east) that the
   /// map keeps in its middle half wherever the view goes, so that its edge comes not near it.
-  /// `left`: the picture that belongs to it, null without one: then nothing tells what the pose
-  /// lays aside.
+  /// `left` and `right`: the pictures that belong to it, null without: then nothing tells what the
+  /// pose lays aside, and nothing finer than stereo's window is known.
   std::shared_ptr<const ElevationMap> Add(const RangeMap& range, const SladSettings& settings,
                                           const std::optional<Eigen::Vector2d>& around = {},
-                                          const ImageU8* left = nullptr);
+                                          const ImageU8* left = nullptr,
+                                          const ImageU8* right = nullptr);
 
  private:
   void MoveTo(const GridGeometry& geometry);
-  void Register(ElevationMap& frame);
-  void FuseFrame(const RangeMap& range, const TerrainPoints& points, const SladSettings& settings);
+  void AddFine(const RangeMap& range, const ImageU8* left, const ImageU8* right,
+               const PlaneCorrection& off);
+  /// What was taken from the frame's heights.
+  PlaneCorrection Register(ElevationMap& frame);
+  PlaneCorrection FuseFrame(const RangeMap& range, const TerrainPoints& points,
+                            const SladSettings& settings);
   void Age(Timestamp now);
-  void AddPixels(const RangeMap& range, int frames_fused);
   void Fuse(const ElevationMap& frame, const GridF& misplaced_m2, int frames_fused);
 
   ElevationMap map_;                ///< measured cells only; holes are filled in what Add returns
   Grid<std::int8_t> disagreement_;  ///< sign of the last frame that failed the gate, 0 none
   Grid<FrameSpread> spread_;
-  Grid<PixelCount> pixels_;
   SidewaysRegistration sideways_;
+  FineRelief fine_;
   SladSettings layout_;  ///< settings the grid was laid out with
   int frames_ = 0;
   std::uint64_t last_ranges_ = 0;  ///< sampled hash of the last range map and its pose

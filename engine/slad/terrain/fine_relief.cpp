@@ -1,0 +1,158 @@
+#include "engine/slad/terrain/fine_relief.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include <opencv2/core.hpp>
+
+#include "engine/core/check.h"
+#include "engine/core/frames.h"
+#include "engine/slad/terrain/laid_over.h"
+
+namespace palace {
+namespace {
+
+constexpr float kGradientNoise = 0.45F;  // of e's variance, in g^2
+constexpr int kSmallest_px = 64;
+constexpr int kStripes = 4;  // summed one after the other
+
+}  // namespace
+
+GridGeometry FineRelief::PlacesOf(const GridGeometry& map) {
+  constexpr int kPerCell = NarrowFigures::kPerCell;
+  return {map.rows * kPerCell, map.cols * kPerCell, map.cell_m / kPerCell, map.north_min_m,
+          map.east_min_m};
+}
+
+void FineRelief::MoveTo(const GridGeometry& map) {
+  const GridGeometry to = PlacesOf(map);
+  Grid<FineKnown> known(to.rows, to.cols);
+  if (frames_ > 0 && to.cell_m == places_.cell_m) {
+    const int down =
+        static_cast<int>(std::lround((places_.north_max_m() - to.north_max_m()) / to.cell_m));
+    const int right =
+        static_cast<int>(std::lround((to.east_min_m - places_.east_min_m) / to.cell_m));
+    for (int r = 0; r < to.rows; ++r) {
+      for (int c = 0; c < to.cols; ++c) {
+        const Cell from{r + down, c + right};
+        if (places_.Contains(from)) {
+          known.at(r, c) = known_.at(from);
+        }
+      }
+    }
+  }
+  known_ = std::move(known);
+  places_ = to;
+}
+
+void FineRelief::AddRows(const RangeMap& range, const ImageU8& left, const LaidOver& laid,
+                         const PlaneCorrection& off, int first, int end,
+                         Grid<FineKnown>& seen) const {
+  const RigidTransform& X_WC = range.pose->X_WC;
+  const PinholeCamera& camera = range.camera;
+  const auto focal_times_baseline = static_cast<float>(range.FocalTimesBaseline());
+  const int width = left.width();
+  const auto per_cell = static_cast<float>(1 / places_.cell_m);
+  // Of a point at depth z along the ray (n, e, d): row, column and height are a + z b.
+  const auto row_0 = static_cast<float>((places_.north_max_m() - X_WC.p.x()) / places_.cell_m);
+  const auto col_0 = static_cast<float>((X_WC.p.y() - places_.east_min_m) / places_.cell_m);
+  const auto height_0 = static_cast<float>(HeightFromDown(X_WC.p.z()) - reference_m_ -
+                                           off.At(X_WC.p.x(), X_WC.p.y()));
+  const auto north_tilt = static_cast<float>(off.north_tilt),
+             east_tilt = static_cast<float>(off.east_tilt);
+  const Eigen::Vector3f step_W = (X_WC.R.col(0) / camera.fx_px).cast<float>();
+  for (int y = first; y < end; ++y) {
+    const Eigen::Vector3f row_W = (X_WC.R * Eigen::Vector3d(-camera.cx_px / camera.fx_px,
+                                                            (y - camera.cy_px) / camera.fy_px, 1))
+                                      .cast<float>();
+    const std::uint8_t* grey = left.row(y);
+    const float *disparity = laid.disparity_px.row(y), *residual = laid.residual.row(y),
+                *known = laid.known.row(y);
+    const float* noise2 =
+        laid.noise2.row(std::min(y / LaidOver::kPatch_px, laid.noise2.height() - 1));
+    for (int x = 2; x < width - 2; ++x) {
+      if (known[x] == 0) {
+        continue;
+      }
+      const float d = disparity[x], depth_m = focal_times_baseline / d;
+      const auto u = static_cast<float>(x);
+      const float north = row_W.x() + u * step_W.x(), east = row_W.y() + u * step_W.y(),
+                  down = row_W.z() + u * step_W.z();
+      const float row = row_0 - depth_m * north * per_cell, col = col_0 + depth_m * east * per_cell;
+      if (!(down > 0 && row >= 0 && col >= 0 && row < static_cast<float>(places_.rows) &&
+            col < static_cast<float>(places_.cols))) {
+        continue;
+      }
+      const float height_m = height_0 - depth_m * (down + north_tilt * north + east_tilt * east);
+      const float per_pixel_m = down * depth_m / d;  // k
+      const float s2 = noise2[std::min(x / LaidOver::kPatch_px, laid.noise2.width() - 1)];
+      const float g =
+          static_cast<float>(grey[x - 2] - grey[x + 2] + 8 * (grey[x + 1] - grey[x - 1])) *
+          (1 / 12.0F);
+      const float weight = 1 / (per_pixel_m * per_pixel_m * s2);
+      const float net = (g * g - kGradientNoise * s2) * weight;
+      FineKnown& place = seen.at(static_cast<int>(row), static_cast<int>(col));
+      place.net += net;
+      place.gross += g * g * weight;
+      place.height += height_m * net - residual[x] * g * weight * per_pixel_m;
+    }
+  }
+}
+
+void FineRelief::Add(const RangeMap& range, const ImageU8& left, const ImageU8& right,
+                     const PlaneCorrection& off, int memory) {
+  PALACE_CHECK(range.pose.has_value());
+  if (left.width() < kSmallest_px || left.height() < kSmallest_px) {
+    return;
+  }
+  const LaidOver laid = LayOver(left, right, range.disparity_px);
+  if (frames_ == 0) {
+    // About the ground's, so that floats keep their digits.
+    reference_m_ = HeightFromDown(range.pose->X_WC.p.z());
+  }
+  std::vector<Grid<FineKnown>> stripes(kStripes, Grid<FineKnown>(places_.rows, places_.cols));
+  cv::parallel_for_(cv::Range(0, kStripes), [&](const cv::Range& some) {
+    for (int k = some.start; k < some.end; ++k) {
+      AddRows(range, left, laid, off, left.height() * k / kStripes,
+              left.height() * (k + 1) / kStripes, stripes[static_cast<std::size_t>(k)]);
+    }
+  });
+  const float remember = frames_ < memory ? 1.0F : 1.0F - 1.0F / static_cast<float>(memory);
+  for (std::size_t i = 0; i < known_.cells().size(); ++i) {
+    FineKnown now;
+    for (const Grid<FineKnown>& stripe : stripes) {
+      now.net += stripe.cells()[i].net;
+      now.gross += stripe.cells()[i].gross;
+      now.height += stripe.cells()[i].height;
+    }
+    // What this frame does not see stays as it is.
+    if (now.gross > 0) {
+      FineKnown& all = known_.cells()[i];
+      all = {remember * all.net + now.net, remember * all.gross + now.gross,
+             remember * all.height + now.height};
+    }
+  }
+  ++frames_;
+}
+
+void FineRelief::Forget(Cell cell) {
+  constexpr int kPerCell = NarrowFigures::kPerCell;
+  for (int i = 0; frames_ > 0 && i < kPerCell * kPerCell; ++i) {
+    known_.at(kPerCell * cell.row + i / kPerCell, kPerCell * cell.col + i % kPerCell) = {};
+  }
+}
+
+void FineRelief::Raise(const PlaneCorrection& correction, double gain) {
+  for (int r = 0; r < places_.rows; ++r) {
+    for (int c = 0; c < places_.cols; ++c) {
+      FineKnown& known = known_.at(r, c);
+      known.height += known.net * static_cast<float>(gain * correction.At(places_.NorthOfRow(r),
+                                                                          places_.EastOfCol(c)));
+    }
+  }
+}
+
+}  // namespace palace

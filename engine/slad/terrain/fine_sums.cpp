@@ -1,0 +1,81 @@
+#include "engine/slad/terrain/fine_sums.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace palace {
+
+FineSum& FineSum::operator+=(const FineSum& other) {
+  for (std::size_t k = 0; k < of.size(); ++k) {
+    of[k] += other.of[k];
+  }
+  return *this;
+}
+
+FineSum operator-(FineSum a, const FineSum& b) {
+  for (std::size_t k = 0; k < a.of.size(); ++k) {
+    a.of[k] -= b.of[k];
+  }
+  return a;
+}
+
+double FinePlane::Aside(double at_x, double at_y) const {
+  const double dx = at_x - x, dy = at_y - y;
+  return (yy * dx * dx - 2 * xy * dx * dy + xx * dy * dy) / (xx * yy - xy * xy);
+}
+
+FinePlane PlaneThrough(const FineSum& sum) {
+  FinePlane plane;
+  if (!sum.known()) {
+    return plane;
+  }
+  using S = FineSum;
+  const double a = sum.of[S::kA];
+  plane.x = sum.x();
+  plane.y = sum.y();
+  plane.height_m = sum.height_m();
+  plane.variance_m2 = sum.variance_m2();
+  plane.xx = sum.of[S::kAxx] / a - plane.x * plane.x;
+  plane.yy = sum.of[S::kAyy] / a - plane.y * plane.y;
+  plane.xy = sum.of[S::kAxy] / a - plane.x * plane.y;
+  const double xh = sum.of[S::kJx] / a - plane.x * plane.height_m,
+               yh = sum.of[S::kJy] / a - plane.y * plane.height_m;
+  const double determinant = plane.xx * plane.yy - plane.xy * plane.xy;
+  plane.told = plane.xx > 0 && determinant > 1;  // neither places of a line nor noise alone
+  if (plane.told) {
+    plane.per_x_m = (plane.yy * xh - plane.xy * yh) / determinant;
+    plane.per_y_m = (plane.xx * yh - plane.xy * xh) / determinant;
+  }
+  return plane;
+}
+
+FineSums::FineSums(const Grid<FineKnown>& known, const GridGeometry& places, double reference_m)
+    : places_(places), reference_m_(reference_m), corners_(places.rows + 1, places.cols + 1) {
+  for (int r = 0; r < places.rows; ++r) {
+    FineSum row;
+    for (int c = 0; c < places.cols; ++c) {
+      const auto a = static_cast<double>(known.at(r, c).net),
+                 j = static_cast<double>(known.at(r, c).height),
+                 g = static_cast<double>(known.at(r, c).gross);
+      const double x = c - places.cols / 2.0, y = r - places.rows / 2.0;
+      row += FineSum{{a, a * x, a * y, a * x * x, a * x * y, a * y * y, j, j * x, j * y, g}};
+      FineSum& corner = corners_.at(r + 1, c + 1);
+      corner = corners_.at(r, c + 1);
+      corner += row;
+    }
+  }
+}
+
+int FineSums::side() const {
+  return std::max(1, static_cast<int>(std::lround(kFineSquare_m / places_.cell_m)));
+}
+
+FineSum FineSums::Over(int row, int col, int side, int reach) const {
+  const int r0 = std::clamp(row - side / 2 - reach, 0, places_.rows),
+            r1 = std::clamp(row - side / 2 + side + reach, 0, places_.rows),
+            c0 = std::clamp(col - side / 2 - reach, 0, places_.cols),
+            c1 = std::clamp(col - side / 2 + side + reach, 0, places_.cols);
+  return (corners_.at(r1, c1) - corners_.at(r0, c1)) - (corners_.at(r1, c0) - corners_.at(r0, c0));
+}
+
+}  // namespace palace

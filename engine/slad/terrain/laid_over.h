@@ -1,0 +1,33 @@
+// The right picture laid over the left one by a smooth ground, and what is left between them.
+// Internal to the SLAD room.
+//
+//   e = L(x, y) - a R(x - d0, y) - b
+//
+// d0 is the ground's disparity without what is narrow: of each patch of 4 x 4 pixels the plane
+// through what stereo measured in the 28 x 28 pixels around, or its own mean where that lies half a
+// pixel off the plane, between patches bilinear. R between its pixels is a cubic B-spline. Gain a
+// and offset b give both pictures the same mean and contrast over the same windows, and the mean
+// square of e there is s^2: noise, and whatever d0 does not explain.
+//
+// Sources: Unser, Aldroubi & Eden 1993 (spline).
+#pragma once
+
+#include "engine/model/image.h"
+
+namespace palace {
+
+struct LaidOver {
+  static constexpr int kPatch_px = 4;
+
+  ImageF disparity_px;  ///< d0
+  ImageF residual;      ///< e, grey
+  ImageF noise2;        ///< s^2 of each patch, grey^2
+  ImageF known;         ///< 1 where all three are, else 0 (they are 0 then)
+};
+
+/// Pictures and disparities of one size, at least 64 pixels each way; NaN disparities are unknown.
+/// Nothing is known of windows of which stereo measured less than 15 %, and beyond the right
+/// picture. Rows are shared among OpenCV's threads; their number changes no bit.
+LaidOver LayOver(const ImageU8& left, const ImageU8& right, const ImageF& disparity_px);
+
+}  // namespace palace

@@ -1,0 +1,86 @@
+#include "engine/slad/terrain/laid_over.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "tests/slad/textured_pair.h"
+
+namespace palace {
+namespace {
+
+using testing::Flat;
+using testing::SeeTexture;
+using testing::TexturedPair;
+using testing::WavyTexture;
+
+const WavyTexture kTexture(30, 1);
+
+TEST(LaidOver, LevelGroundLeavesOnlyTheNoiseOfBothPictures) {
+  for (const double noise_grey : {0.0, 2.0, 4.0}) {
+    const TexturedPair pair = SeeTexture(Flat(), kTexture, 10, noise_grey, 7);
+    const LaidOver laid = LayOver(pair.left, pair.right, pair.range.disparity_px);
+    double sum2 = 0, sum = 0;
+    int known = 0;
+    for (std::size_t i = 0; i < laid.known.pixels().size(); ++i) {
+      known += laid.known.pixels()[i] > 0 ? 1 : 0;
+      sum += static_cast<double>(laid.residual.pixels()[i]);
+      sum2 += std::pow(static_cast<double>(laid.residual.pixels()[i]), 2);
+    }
+    // Rounding adds 1/12 a picture, and what the spline blurs; it passes half of the right's noise.
+    EXPECT_GT(known, 280 * 240);
+    EXPECT_NEAR(sum / known, 0, 0.05);
+    EXPECT_LT(std::sqrt(sum2 / known), std::sqrt(2 * noise_grey * noise_grey + 1));
+    EXPECT_GT(std::sqrt(sum2 / known), noise_grey);
+    EXPECT_NEAR(static_cast<double>(laid.noise2.at(50, 30)), sum2 / known,
+                0.3 * sum2 / known + 0.5);
+  }
+}
+
+TEST(LaidOver, GainAndOffsetBetweenThePicturesAreNoResidual) {
+  const TexturedPair pair = SeeTexture(Flat(), kTexture, 10, 1, 7, 0, 0.7, 25);
+  const LaidOver laid = LayOver(pair.left, pair.right, pair.range.disparity_px);
+  EXPECT_LT(laid.noise2.at(40, 30), 6)
+      << "the right picture's noise, 1.4 times as strong, and ours";
+}
+
+TEST(LaidOver, NothingIsKnownBeyondTheRightPictureNorWhereStereoKnewNothing) {
+  TexturedPair pair = SeeTexture(Flat(), kTexture, 10, 1, 7);
+  for (int y = 0; y < 240; ++y) {
+    for (int x = 200; x < 320; ++x) {
+      pair.range.disparity_px.at(x, y) = std::nanf("");
+    }
+  }
+  const LaidOver laid = LayOver(pair.left, pair.right, pair.range.disparity_px);
+  for (int y = 0; y < 240; y += 11) {
+    EXPECT_EQ(laid.known.at(20, y), 0) << "30 px of disparity";
+    EXPECT_EQ(laid.known.at(100, y), 1);
+    EXPECT_EQ(laid.known.at(260, y), 0);
+    EXPECT_EQ(laid.residual.at(260, y), 0);
+  }
+}
+
+TEST(LaidOver, TheGroundIsAPlaneThroughNoisyDisparitiesAndFollowsWhatIsFarOff) {
+  TexturedPair pair = SeeTexture(Flat(), kTexture, 10, 1, 7);
+  RandomStream random(3, "stereo");
+  for (float& d : pair.range.disparity_px.pixels()) {
+    d += static_cast<float>(0.2 * random.Normal());
+  }
+  for (int y = 100; y < 140; ++y) {
+    for (int x = 150; x < 190; ++x) {
+      pair.range.disparity_px.at(x, y) += 3;
+    }
+  }
+  const LaidOver laid = LayOver(pair.left, pair.right, pair.range.disparity_px);
+  double worst_px = 0;
+  for (int y = 20; y < 60; ++y) {
+    for (int x = 60; x < 300; ++x) {
+      worst_px = std::max(worst_px, std::abs(static_cast<double>(laid.disparity_px.at(x, y)) - 30));
+    }
+  }
+  EXPECT_LT(worst_px, 0.04) << "0.2 px over 784 pixels, at the window's rim twice as much";
+  EXPECT_NEAR(laid.disparity_px.at(170, 120), 33, 0.2);
+}
+
+}  // namespace
+}  // namespace palace

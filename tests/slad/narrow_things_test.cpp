@@ -1,0 +1,127 @@
+// What a map takes over of narrow things, from fields in closed form.
+#include "engine/slad/terrain/narrow_things.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "tests/slad/fine_field.h"
+#include "tests/slad/worlds.h"
+
+namespace palace {
+namespace {
+
+using testing::FineField;
+using testing::Flat;
+using testing::Height;
+using testing::MakeMap;
+using testing::Slope;
+using testing::ThesisCamera;
+using testing::WithBox;
+
+constexpr double kPlace_m = 0.01;
+const Eigen::Vector3d kAbove(0, 0, -10);
+
+ElevationMap Seen(const Height& ground, const Eigen::Vector3d& p_WC = kAbove,
+                  double place_m = kPlace_m, double repeated_m = 0) {
+  ElevationMap map = MakeMap(60, 60, 0.15, Flat(), 0.005);
+  map.measured_m = map.height_m;
+  TakeNarrowThings(FineField(map.geometry, ground, place_m), ThesisCamera(), p_WC,
+                   GridF(60, 60, static_cast<float>(repeated_m * repeated_m)), map);
+  return map;
+}
+
+/// Place whose square lies about the point, on the corner of two places.
+Cell PlaceAt(double north_m, double east_m) {
+  return {static_cast<int>(std::lround((4.5 - north_m) / 0.075)),
+          static_cast<int>(std::lround((east_m + 4.5) / 0.075))};
+}
+
+TEST(NarrowThings, OverBareGroundTheyAreNormalWithTheSigmaThatIsStated) {
+  for (const Height& ground : {Flat(), Slope(Rad(15), 2)}) {
+    const ElevationMap map = Seen(ground);
+    std::vector<double> sigmas;
+    for (std::size_t i = 0; i < map.narrow.prominence_m.cells().size(); ++i) {
+      const auto shown_m = static_cast<double>(map.narrow.prominence_m.cells()[i]);
+      if (!std::isnan(shown_m)) {
+        sigmas.push_back(std::abs(shown_m) / static_cast<double>(map.narrow.noise_m.cells()[i]));
+      }
+    }
+    ASSERT_GT(sigmas.size(), 12000u);
+    std::sort(sigmas.begin(), sigmas.end());
+    EXPECT_NEAR(sigmas[sigmas.size() / 2], 0.674, 0.04);
+    EXPECT_NEAR(sigmas[sigmas.size() * 99 / 100], 2.58, 0.15);
+    EXPECT_EQ(map.height_m.cells(), MakeMap(60, 60, 0.15, Flat(), 0.005).height_m.cells())
+        << "nothing is raised";
+  }
+}
+
+TEST(NarrowThings, AThingShowsItselfAgainstThePlaneAround) {
+  for (const double thing_m : {0.12, -0.12}) {
+    const ElevationMap map = Seen(WithBox(Slope(Rad(10), 1), 0, 0, 0.16, thing_m));
+    const Cell at = PlaceAt(0, 0);
+    EXPECT_NEAR(map.narrow.prominence_m.at(at), thing_m, 0.02);
+    EXPECT_NEAR(map.narrow.sigma_m.at(at), kPlace_m / 2, 0.3 * kPlace_m) << "four places";
+    EXPECT_EQ(map.narrow.ring_m, 4.5 * 0.15);
+  }
+}
+
+TEST(NarrowThings, TheShareIsThatOfAThing18CmAcross) {
+  const double gradient_m = 3 / ThesisCamera().fx_px * 10;
+  const double share = 0.8 / (1 + (gradient_m * gradient_m + 0.15 * 0.15) / (0.18 * 0.18));
+  EXPECT_NEAR(Seen(Flat()).narrow.share.at(PlaceAt(0, 0)), share, 1e-3);
+  EXPECT_LT(Seen(Flat(), {0, 0, -40}).narrow.share.at(PlaceAt(0, 0)), 0.8 * share);
+}
+
+TEST(NarrowThings, WhatStereoRepeatsAndBumpsAroundAreNoiseToo) {
+  const Cell at = PlaceAt(0, 0);
+  const ElevationMap repeated = Seen(Flat(), kAbove, kPlace_m, 0.03);
+  EXPECT_NEAR(repeated.narrow.sigma_m.at(at), std::hypot(kPlace_m / 2, 0.03), 0.003);
+  EXPECT_NEAR(repeated.narrow.noise_m.at(at), std::hypot(kPlace_m / 2, 0.03), 0.003);
+  RandomStream random(4, "bumps");
+  std::vector<double> bumps_m(61 * 61);
+  for (double& bump_m : bumps_m) {
+    bump_m = 0.03 * random.Normal();
+  }
+  const ElevationMap bumpy = Seen([&](double n, double e) {
+    return bumps_m[static_cast<std::size_t>((n + 4.5) / 0.15) * 61 +
+                   static_cast<std::size_t>((e + 4.5) / 0.15)];
+  });
+  EXPECT_GT(bumpy.narrow.sigma_m.at(at), 0.015);
+  EXPECT_LT(bumpy.narrow.noise_m.at(at), 0.01);
+}
+
+TEST(NarrowThings, RaiseTheTopNeverTheMeasuredGround) {
+  const ElevationMap rock = Seen(WithBox(Flat(), 0, 0, 0.16, 0.12));
+  const Cell at = *rock.geometry.CellFromPoint(0.01, 0.01);
+  EXPECT_GT(rock.height_m.at(at), 0.12);
+  EXPECT_LT(rock.height_m.at(at), 0.3);
+  const ElevationMap hole = Seen(WithBox(Flat(), 0, 0, 0.3, -0.12));
+  EXPECT_LT(hole.height_m.at(at), -0.11);
+  for (const ElevationMap* map : {&rock, &hole}) {
+    EXPECT_EQ(map->measured_m.cells(), MakeMap(60, 60, 0.15, Flat(), 0.005).height_m.cells());
+  }
+  const ElevationMap noise = Seen(WithBox(Flat(), 0, 0, 0.16, 0.12), kAbove, 0.2);
+  EXPECT_LT(noise.height_m.at(at), 0.05) << "not told from noise";
+}
+
+TEST(NarrowThings, SeenAslantTheGroundBeforeAThingRisesToItsRays) {
+  // From the south, 45 degrees: 0.2 m rise over 0.2 m of ground.
+  const ElevationMap map = Seen(WithBox(Flat(), 0.075, 0.075, 0.16, 0.12), {-10, 0.075, -10});
+  const auto top_m = [&](double north_m, double east_m) {
+    return static_cast<double>(map.height_m.at(*map.geometry.CellFromPoint(north_m, east_m)));
+  };
+  EXPECT_GT(top_m(-0.075, 0.075), 0.08);
+  EXPECT_LT(top_m(-0.675, 0.075), 0.03);
+  EXPECT_LT(top_m(0.375, 0.075), 0.03) << "behind it nothing rises";
+}
+
+TEST(NarrowThings, WhatStandsAMetreOffIsNotNarrow) {
+  const ElevationMap map = Seen(WithBox(Flat(), 0, 0, 0.16, 3));
+  EXPECT_TRUE(std::isnan(map.narrow.prominence_m.at(PlaceAt(0, 0))));
+}
+
+}  // namespace
+}  // namespace palace
