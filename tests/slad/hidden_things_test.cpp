@@ -101,6 +101,18 @@ TEST(HiddenThings, ALowThingSeenWellIsALowThing) {
   EXPECT_NEAR(Hidden(Marked(bare, 1.5 * r)), 1, 0.01);
 }
 
+TEST(HiddenThings, BesideAHazardWhatItsFootShowsIsNothing) {
+  // A thousand sigmas, and a hazard half a metre away.
+  ElevationMap map = MapThatShows(0.2, 0.0002, 0.4);
+  const GridF near_m(41, 41, 0.5F);
+  const NarrowView view{map.narrow, 0.15, kLimit_m, &near_m};
+  const GridF hides = HiddenThings(view, kRadius_m);
+  for (const float hidden : hides.cells()) {
+    ASSERT_GE(hidden, -1e-6) << "and a number";
+    ASSERT_LT(hidden, 0.2);
+  }
+}
+
 TEST(HiddenThings, DiscsAreTheSumsOfTheirCells) {
   // The fast sums along rows against the plain ones over every cell.
   ElevationMap map = MapThatShows(0, 0.01, 0.3);

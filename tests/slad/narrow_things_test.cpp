@@ -28,7 +28,8 @@ ElevationMap Seen(const Height& ground, const Eigen::Vector3d& p_WC = kAbove,
                   double place_m = kPlace_m, double repeated_m = 0) {
   ElevationMap map = MakeMap(60, 60, 0.15, Flat(), 0.005);
   map.measured_m = map.height_m;
-  TakeNarrowThings(FineField(map.geometry, ground, place_m), ThesisCamera(), p_WC,
+  const PinholeCamera camera = ThesisCamera();
+  TakeNarrowThings(FineField(map.geometry, ground, place_m), {camera, p_WC},
                    GridF(60, 60, static_cast<float>(repeated_m * repeated_m)), map);
   return map;
 }
@@ -53,8 +54,12 @@ TEST(NarrowThings, OverBareGroundTheyAreNormalWithTheSigmaThatIsStated) {
     std::sort(sigmas.begin(), sigmas.end());
     EXPECT_NEAR(sigmas[sigmas.size() / 2], 0.674, 0.04);
     EXPECT_NEAR(sigmas[sigmas.size() * 99 / 100], 2.58, 0.15);
-    EXPECT_EQ(map.height_m.cells(), MakeMap(60, 60, 0.15, Flat(), 0.005).height_m.cells())
-        << "nothing is raised";
+    const ElevationMap before = MakeMap(60, 60, 0.15, Flat(), 0.005);
+    int moved = 0;
+    for (std::size_t i = 0; i < before.height_m.cells().size(); ++i) {
+      moved += map.height_m.cells()[i] != before.height_m.cells()[i] ? 1 : 0;
+    }
+    EXPECT_LE(moved, 8) << "of 14,400 places one stands four sigmas off by chance";
   }
 }
 
@@ -78,8 +83,11 @@ TEST(NarrowThings, TheShareIsThatOfAThing18CmAcross) {
 TEST(NarrowThings, WhatStereoRepeatsAndBumpsAroundAreNoiseToo) {
   const Cell at = PlaceAt(0, 0);
   const ElevationMap repeated = Seen(Flat(), kAbove, kPlace_m, 0.03);
-  EXPECT_NEAR(repeated.narrow.sigma_m.at(at), std::hypot(kPlace_m / 2, 0.03), 0.003);
-  EXPECT_NEAR(repeated.narrow.noise_m.at(at), std::hypot(kPlace_m / 2, 0.03), 0.003);
+  // Of each pixel by itself 156 times the variance of stereo's window, over those of the square.
+  const double pixels = std::pow(0.15 * ThesisCamera().fx_px / 10, 2);
+  const double said_m = std::hypot(kPlace_m / 2, 0.03 * std::sqrt(1 + 156 / pixels));
+  EXPECT_NEAR(repeated.narrow.sigma_m.at(at), said_m, 0.001);
+  EXPECT_NEAR(repeated.narrow.noise_m.at(at), said_m, 0.001);
   RandomStream random(4, "bumps");
   std::vector<double> bumps_m(61 * 61);
   for (double& bump_m : bumps_m) {

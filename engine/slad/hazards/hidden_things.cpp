@@ -80,7 +80,8 @@ Likelihoods FromLogarithms(double a, double b) {
 /// q of things on one side.
 double Hides(double prior, const Likelihoods& of, bool beside_hazard) {
   const double larger = beside_hazard ? std::min(of.larger, of.bare) : of.larger;
-  return prior * larger / (of.bare + prior * (larger + of.smaller));
+  const double all = of.bare + prior * (larger + of.smaller);
+  return all > 0 ? prior * larger / all : 0;  // beside a hazard nothing else may be left
 }
 
 /// q of a rock and of a hole together.

@@ -14,6 +14,7 @@ namespace {
 
 constexpr std::array kSquares = {1, 2, 4};  // of the details, in squares
 constexpr int kPlaneSquares = 8;
+constexpr double kBump_sigmas = 3;  // up to there a detail is a bump of that ground
 constexpr double kDenied_m = 0.02;
 
 double Square(double a) { return a * a; }
@@ -25,7 +26,8 @@ struct Details {
 
 }  // namespace
 
-void TakeFineGround(const FineSums& sums, ElevationMap& map) {
+void TakeFineGround(const FineSums& sums, const Viewpoint& view, const GridF& repeated_m2,
+                    ElevationMap& map) {
   const GridGeometry& g = map.geometry;
   const GridGeometry& places = sums.places();
   constexpr int kPerCell = NarrowFigures::kPerCell;
@@ -48,6 +50,8 @@ void TakeFineGround(const FineSums& sums, ElevationMap& map) {
         plane_m.at(r, c) = static_cast<float>(plane.At(x, y) + sums.reference_m());
         plane_variance_m2.at(r, c) =
             static_cast<float>((1 + plane.Aside(x, y)) * plane.variance_m2);
+        const Eigen::Vector3d p_WQ(g.NorthOfRow(r), g.EastOfCol(c),
+                                   -static_cast<double>(plane_m.at(r, c)));
         double coarser_m = 0, coarser_m2 = 0;
         for (std::size_t k = kSquares.size(); k-- > 0;) {
           const FineSum own = sums.Over(row, col, kSquares[k] * side);
@@ -55,7 +59,9 @@ void TakeFineGround(const FineSums& sums, ElevationMap& map) {
             break;
           }
           const double off_m = own.height_m() - plane.At(own.x(), own.y());
-          const double noise_m2 = own.variance_m2();
+          const double noise_m2 =
+              own.variance_m2() + view.RepeatedVariance(p_WQ, kSquares[k] * side * places.cell_m,
+                                                        static_cast<double>(repeated_m2.at(r, c)));
           details[k].off_m.at(r, c) = static_cast<float>(off_m - coarser_m);
           // Squares are nested: what is new in the smaller one.
           details[k].sigma_m.at(r, c) =
@@ -86,8 +92,10 @@ void TakeFineGround(const FineSums& sums, ElevationMap& map) {
           continue;
         }
         const double noise_m2 = Square(static_cast<double>(details[k].sigma_m.at(r, c)));
-        const bool no_bump = std::abs(off_m) > kStandsOut_sigmas * std::sqrt(bumps_m2 + noise_m2);
-        const double weight = no_bump ? 1 : bumps_m2 / (bumps_m2 + noise_m2);
+        const double sigmas = std::abs(off_m) / std::sqrt(bumps_m2 + noise_m2);
+        const double no_bump =
+            std::clamp((sigmas - kBump_sigmas) / (kStandsOut_sigmas - kBump_sigmas), 0.0, 1.0);
+        const double weight = std::max(bumps_m2 / (bumps_m2 + noise_m2), no_bump);
         height_m += weight * off_m;
         variance_m2 += weight * noise_m2;
       }

@@ -196,8 +196,9 @@ std::shared_ptr<const ElevationMap> TerrainFusion::Add(const RangeMap& range,
   const GridF repeated_m2 = RepeatedVariance(range, *published);
   // Without pictures nothing is known of narrow things: the figures are there, and say so.
   const FineSums sums = fine_.Sums();
-  TakeFineGround(sums, *published);
-  TakeNarrowThings(sums, range.camera, range.pose->X_WC.p, repeated_m2, *published);
+  const Viewpoint view{range.camera, range.pose->X_WC.p};
+  TakeFineGround(sums, view, repeated_m2, *published);
+  TakeNarrowThings(sums, view, repeated_m2, *published);
   AddVariance(repeated_m2, *published);
   FillHoles(*published, settings.grid.data_size_cells, settings.grid.border_size_cells);
   return published;

@@ -18,9 +18,6 @@ constexpr int kPerCell = NarrowFigures::kPerCell;
 constexpr double kThing_m = 0.18, kPeakOfThing = 0.8;
 constexpr double kGradient_px = 3;  // width that a five-point derivative feels
 constexpr double kTallest_m = 1;
-/// Of one pixel by itself the error that stereo repeats has so many times the variance of its
-/// window's: 0.08 px against 0.012.
-constexpr double kRepeatedByPixel = 44;
 constexpr int kRingFrom = 1;  // of the frame around, in squares beyond the square
 /// Squares that are looked at, the narrowest last: times the side, and how far their frame reaches.
 struct Scale {
@@ -28,21 +25,29 @@ struct Scale {
 };
 constexpr Scale kScales[] = {{4, 2}, {2, 4}, {1, 4}};
 
+double Square(double a) { return a * a; }
+double At(const GridF& layer, int row, int col) { return static_cast<double>(layer.at(row, col)); }
+
 /// What places show; NaN where nothing can be said.
 struct Figures {
   GridF prominence_m;  ///< p
-  GridF sigma_m;       ///< sigma_p
+  GridF sigma_m;       ///< sigma_p, with what a hover repeats
   GridF level_m;       ///< of the plane
   int side = 1;        ///< of the square, places
 };
 
-Figures Measure(const FineSums& sums, int side, int ring_to) {
+/// Every so many places are looked at that squares overlap by half.
+int StrideOf(int side) { return std::max(1, side / 2); }
+
+Figures Measure(const FineSums& sums, const Viewpoint& view, const GridF& repeated_m2, int side,
+                int ring_to) {
   const GridGeometry& places = sums.places();
   const GridF unknown(places.rows, places.cols, kUnknownValue);
   Figures shown{unknown, unknown, unknown, side};
   cv::parallel_for_(cv::Range(0, places.rows), [&](const cv::Range& rows) {
-    for (int r = rows.start; r < rows.end; ++r) {
-      for (int c = 0; c < places.cols; ++c) {
+    const int stride = StrideOf(side);
+    for (int r = (rows.start + stride - 1) / stride * stride; r < rows.end; r += stride) {
+      for (int c = 0; c < places.cols; c += stride) {
         const FineSum own = sums.Over(r, c, side);
         if (!own.known()) {
           continue;
@@ -53,18 +58,19 @@ Figures Measure(const FineSums& sums, int side, int ring_to) {
         if (aside <= kMostAside) {
           const double level_m = around.At(own.x(), own.y());
           shown.prominence_m.at(r, c) = static_cast<float>(own.height_m() - level_m);
-          shown.sigma_m.at(r, c) =
-              static_cast<float>(std::sqrt(own.variance_m2() + (1 + aside) * around.variance_m2));
           shown.level_m.at(r, c) = static_cast<float>(level_m + sums.reference_m());
+          const Eigen::Vector3d p_WQ(places.NorthOfRow(r), places.EastOfCol(c),
+                                     -level_m - sums.reference_m());
+          shown.sigma_m.at(r, c) = static_cast<float>(
+              std::sqrt(own.variance_m2() + (1 + aside) * around.variance_m2 +
+                        view.RepeatedVariance(p_WQ, side * places.cell_m,
+                                              At(repeated_m2, r / kPerCell, c / kPerCell))));
         }
       }
     }
   });
   return shown;
 }
-
-double Square(double a) { return a * a; }
-double At(const GridF& layer, int row, int col) { return static_cast<double>(layer.at(row, col)); }
 
 /// Raises the ground between the cell and the camera to the rays that saw the cell, as far as they
 /// take to rise by `thing_m`; a cell that they end in, by its part of it.
@@ -127,47 +133,46 @@ void RaiseUnder(const Figures& fine, int row, int col, double times, double sigm
 
 }  // namespace
 
-void TakeNarrowThings(const FineSums& sums, const PinholeCamera& camera,
-                      const Eigen::Vector3d& p_WC, const GridF& repeated_m2, ElevationMap& map) {
+void TakeNarrowThings(const FineSums& sums, const Viewpoint& view, const GridF& repeated_m2,
+                      ElevationMap& map) {
   const GridGeometry& places = sums.places();
   const double square_m = sums.side() * places.cell_m;
   const GridF unknown(places.rows, places.cols, kUnknownValue);
   map.narrow = {unknown, unknown, unknown, unknown, 0};
   GridF top_m = map.height_m;
   for (const Scale& scale : kScales) {
-    const Figures figures = Measure(sums, scale.sides * sums.side(), scale.ring_to);
+    const Figures figures =
+        Measure(sums, view, repeated_m2, scale.sides * sums.side(), scale.ring_to);
     const GroundBumps bumps(figures.prominence_m, figures.sigma_m, places.cell_m, figures.side);
     const bool narrowest = scale.sides == 1;
     if (narrowest) {
       map.narrow.ring_m = (0.5 + scale.ring_to) * square_m;
     }
-    for (int r = 0; r < places.rows; ++r) {
-      for (int c = 0; c < places.cols; ++c) {
+    const int stride = StrideOf(figures.side);
+    for (int r = 0; r < places.rows; r += stride) {
+      for (int c = 0; c < places.cols; c += stride) {
         const double shown_m = At(figures.prominence_m, r, c);
         if (!(std::abs(shown_m) <= kTallest_m)) {
           continue;
         }
-        const Eigen::Vector3d ray_W =
-            Eigen::Vector3d(places.NorthOfRow(r), places.EastOfCol(c), -At(figures.level_m, r, c)) -
-            p_WC;
-        const double range_m = ray_W.norm(), px_m = range_m / camera.fx_px;
-        const double pixels =
-            Square(figures.side * places.cell_m / px_m) * std::abs(ray_W.z()) / range_m;
-        const double noise_m2 =
-            Square(At(figures.sigma_m, r, c)) +
-            At(repeated_m2, r / kPerCell, c / kPerCell) * (1 + kRepeatedByPixel / pixels);
-        const double sigma_m = std::sqrt(noise_m2 + Square(bumps.At(r, c)));
-        const double gradient_m = kGradient_px * px_m;
+        const double noise_m = At(figures.sigma_m, r, c);
+        const double sigma_m = std::hypot(noise_m, bumps.At(r, c));
+        const Eigen::Vector3d p_WQ(places.NorthOfRow(r), places.EastOfCol(c),
+                                   -At(figures.level_m, r, c));
+        const double gradient_m = kGradient_px * view.Pixel_m(p_WQ);
         const double smear = (Square(gradient_m) + Square(square_m)) / Square(kThing_m);
         if (narrowest) {
           map.narrow.prominence_m.at(r, c) = static_cast<float>(shown_m);
-          map.narrow.noise_m.at(r, c) = static_cast<float>(std::sqrt(noise_m2));
+          map.narrow.noise_m.at(r, c) = static_cast<float>(noise_m);
           map.narrow.sigma_m.at(r, c) = static_cast<float>(sigma_m);
           map.narrow.share.at(r, c) = static_cast<float>(kPeakOfThing / (1 + smear));
         }
         // What fills a wider square shows all of its height.
         const double times = std::max(1.0, (1 + smear) / scale.sides);
-        RaiseUnder(figures, r, c, times, sigma_m, p_WC, map, top_m);
+        // Noise of wide squares is small: what worst textures repeat there is no thing.
+        const double worst_m =
+            narrowest ? 0 : kWorstTexture * std::sqrt(At(repeated_m2, r / kPerCell, c / kPerCell));
+        RaiseUnder(figures, r, c, times, std::hypot(sigma_m, worst_m), view.p_WC, map, top_m);
       }
     }
   }

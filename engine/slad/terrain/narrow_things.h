@@ -4,7 +4,7 @@
 // A place's height is that of a square 0.15 m wide about it; it stands out by what it is off the
 // plane through the frame of places around, from one to four squares beyond the square:
 //
-//   p = h - plane,   sigma_p^2 = G / A^2 + (1 + q) G' / A'^2
+//   p = h - plane,   sigma_p^2 = G / A^2 + (1 + q) G' / A'^2 + repeated (repeated_error.h)
 //
 // G' and A' of the frame, q the squared distance between its middle and the square's in its own
 // spread: nothing is said where q exceeds 1, at the rim of what is seen. Over drawn bare ground
@@ -15,28 +15,25 @@
 //
 //   0.8 / (1 + (w^2 + b^2) / a^2)
 //
-// 0.8 for it is no box. Its noise is that of the pictures, of what a hover repeats in every one of
-// them (0.08 px of each pixel, over those of the square, beside stereo's), and of the bumps
+// 0.8 for it is no box. Its noise is that of the pictures and of the bumps
 // around: what places around stand off their rings by beyond their own noise (GroundBumps).
 // What stands over 1 m off is not narrow: the map has it.
 //
-// Where a place stands out by 4.5 of these sigmas, or a square twice or four times as wide does,
+// Where a place stands out by 4 of these sigmas, or a square twice or four times as wide does,
 // the top of the cells under its square is raised (lowered, for a hole) to what a thing would be
 // that shows as much. Seen aslant, a thing hides the ground behind it, and what of it is laid there
 // is read from there: the ground between the cell and the camera is raised to the rays that saw it,
 // until these have risen as high. The measured ground stays as it is.
 #pragma once
 
-#include <Eigen/Dense>
-
 #include "engine/model/elevation_map.h"
-#include "engine/model/rig.h"
 #include "engine/slad/terrain/fine_sums.h"
+#include "engine/slad/terrain/repeated_error.h"
 
 namespace palace {
 
 /// `repeated_m2`: variance by stereo's errors that no frames average away, the map's size.
-void TakeNarrowThings(const FineSums& sums, const PinholeCamera& camera,
-                      const Eigen::Vector3d& p_WC, const GridF& repeated_m2, ElevationMap& map);
+void TakeNarrowThings(const FineSums& sums, const Viewpoint& view, const GridF& repeated_m2,
+                      ElevationMap& map);
 
 }  // namespace palace
