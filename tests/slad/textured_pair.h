@@ -21,7 +21,7 @@ class WavyTexture {
  public:
   WavyTexture(double contrast_grey, std::uint64_t seed) {
     RandomStream random(seed, "texture");
-    constexpr int kWaves = 40;
+    constexpr int kWaves = 20;
     for (int i = 0; i < kWaves; ++i) {
       const double direction = random.Uniform(0, 2 * std::numbers::pi);
       const double per_m = 2 * std::numbers::pi / random.Uniform(0.06, 0.30);
@@ -70,7 +70,7 @@ inline TexturedPair SeeTexture(const Height& ground, const WavyTexture& texture,
             X_WC.R * Eigen::Vector3d((x - camera.cx_px) / camera.fx_px,
                                      (y - camera.cy_px) / camera.fy_px, 1);
         double n = 0, e = 0, depth_m = height_m;
-        for (int k = 0; k < 6; ++k) {  // relief is small: the fixed point of looking it up
+        for (int k = 0; k < 3; ++k) {  // relief is small: the fixed point of looking it up
           n = eye.x() + depth_m * ray_W.x();
           e = eye.y() + depth_m * ray_W.y();
           depth_m = height_m - ground(n, e);
