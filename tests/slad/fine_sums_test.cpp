@@ -79,6 +79,17 @@ TEST(FineSums, ALineOrNoiseAloneIsNoPlane) {
   EXPECT_FALSE(PlaneThrough(FineSums(noise, kPlaces, 0).Over(15, 20, 20)).told);
   EXPECT_FALSE(FineSums(noise, kPlaces, 0).Over(15, 20, 20).known());
   EXPECT_FALSE(PlaneThrough(FineSums({}, {}, 0).Over(0, 0, 4)).told);
+  // Beside ground known to a tenth of a millimetre, nothing: what is left is rounding.
+  Grid<FineKnown> beside(kPlaces.rows, kPlaces.cols);
+  for (int r = 0; r < kPlaces.rows; ++r) {
+    for (int c = 0; c < 20; ++c) {
+      beside.at(r, c) = {1.1e8F, 1.3e8F, 0.7e7F};
+    }
+  }
+  const FineSums sums(beside, kPlaces, 0);
+  for (int c = 24; c < 38; ++c) {
+    EXPECT_FALSE(sums.Over(15, c, 2).known()) << c;
+  }
 }
 
 }  // namespace

@@ -101,6 +101,13 @@ TEST(HiddenThings, ALowThingSeenWellIsALowThing) {
   EXPECT_NEAR(Hidden(Marked(bare, 1.5 * r)), 1, 0.01);
 }
 
+TEST(HiddenThings, AFigureThatIsNotWholeIsUnknownGround) {
+  const double unknown = Hidden(MapThatShows(NAN, NAN, NAN));
+  EXPECT_EQ(Hidden(MapThatShows(0, NAN, 0.3)), unknown);
+  EXPECT_EQ(Hidden(MapThatShows(0, 0, 0.3)), unknown);
+  EXPECT_EQ(Hidden(MapThatShows(0, 0.01, NAN)), unknown);
+}
+
 TEST(HiddenThings, BesideAHazardWhatItsFootShowsIsNothing) {
   // A thousand sigmas, and a hazard half a metre away.
   ElevationMap map = MapThatShows(0.2, 0.0002, 0.4);

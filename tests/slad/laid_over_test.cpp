@@ -82,5 +82,18 @@ TEST(LaidOver, TheGroundIsAPlaneThroughNoisyDisparitiesAndFollowsWhatIsFarOff) {
   EXPECT_NEAR(laid.disparity_px.at(170, 120), 33, 0.2);
 }
 
+TEST(LaidOver, PicturesWithoutContrastGiveNumbers) {
+  TexturedPair pair = SeeTexture(Flat(), kTexture, 10, 1, 7);
+  for (const int grey : {0, 255}) {
+    for (const bool both : {true, false}) {
+      const ImageU8 blank(320, 240, static_cast<std::uint8_t>(grey));
+      const LaidOver laid = LayOver(blank, both ? blank : pair.right, pair.range.disparity_px);
+      for (const float e : laid.residual.pixels()) {
+        ASSERT_TRUE(std::isfinite(e)) << grey;
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace palace

@@ -119,11 +119,11 @@ double HidesInCell(const NarrowView& view, Cell cell, double prior) {
   double hides = 0;
   ForPlaces(cell, [&](Cell place) {
     const double shown_m = Figure(view.narrow.prominence_m, place);
-    if (std::isnan(shown_m)) {
-      hides += 2 * of_place;
+    const double sigma_m = Figure(view.narrow.sigma_m, place), expected_m = Expected(view, place);
+    if (std::isnan(shown_m) || !(sigma_m > 0) || !(expected_m > 0)) {
+      hides += 2 * of_place;  // what cannot be said hides what unknown ground hides
       return;
     }
-    const double sigma_m = Figure(view.narrow.sigma_m, place), expected_m = Expected(view, place);
     hides += HidesAt(of_place, shown_m, expected_m, sigma_m, beside);
   });
   return hides;

@@ -29,7 +29,8 @@ struct FineSum {
   enum { kA, kAx, kAy, kAxx, kAxy, kAyy, kJ, kJx, kJy, kG, kCount };
   std::array<double, kCount> of{};
 
-  bool known() const { return of[kA] > 0; }
+  /// To a metre at least: what is left of sums over nothing is rounding.
+  bool known() const { return of[kA] > 1 && of[kG] > 0; }
   double height_m() const { return of[kJ] / of[kA]; }
   double variance_m2() const { return of[kG] / (of[kA] * of[kA]); }
   double x() const { return of[kAx] / of[kA]; }

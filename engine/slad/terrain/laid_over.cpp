@@ -257,7 +257,10 @@ Light LightBetween(const ImageU8& left, LaidOver& laid) {
       const double ll = sums[kLL].at(i, j) / n - l * l, rr = sums[kRR].at(i, j) / n - r * r;
       const double lr = sums[kLR].at(i, j) / n - l * r;
       // The ratio of contrasts: noise, which is in both, does not pull it to 0 as it pulls lr / rr.
-      const double gain = lr > 0 ? std::clamp(std::sqrt(ll / rr), 1 / kMostGain, kMostGain) : 1.0;
+      // A picture without contrast has none to compare.
+      const double gain = lr > 0 && ll > 0 && rr > 0
+                              ? std::clamp(std::sqrt(ll / rr), 1 / kMostGain, kMostGain)
+                              : 1.0;
       light.gain.at(i, j) = static_cast<float>(gain);
       light.offset.at(i, j) = static_cast<float>(l - gain * r);
       laid.noise2.at(i, j) =
