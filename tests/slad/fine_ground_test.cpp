@@ -19,20 +19,13 @@ using testing::Flat;
 using testing::Height;
 using testing::MakeMap;
 using testing::Slope;
-using testing::ThesisCamera;
 using testing::WithBox;
-
-/// From 10 m above the middle; a hover repeats nothing.
-void Ask(const FineSums& sums, ElevationMap& map) {
-  const PinholeCamera camera = ThesisCamera();
-  TakeFineGround(sums, {camera, {0, 0, -10}}, GridF(60, 60, 0.0F), map);
-}
 
 /// What stereo said, with that noise, after the pictures were asked.
 ElevationMap Asked(const Height& ground, double stereo_m, double place_m) {
   ElevationMap map = MakeMap(60, 60, 0.15, ground, stereo_m);
   map.measured_m = map.height_m;
-  Ask(FineField(map.geometry, ground, place_m, 2), map);
+  TakeFineGround(FineField(map.geometry, ground, place_m, 2), map);
   return map;
 }
 
@@ -120,13 +113,13 @@ TEST(FineGround, WhereStereoKnowsBetterOrThePicturesDenyItItsHeightStays) {
   const ElevationMap sure = MakeMap(60, 60, 0.15, Flat(), 0.002);
   ElevationMap map = sure;
   map.measured_m = map.height_m;
-  Ask(FineField(map.geometry, Flat(), 0.2), map);
+  TakeFineGround(FineField(map.geometry, Flat(), 0.2), map);
   EXPECT_EQ(map.measured_m.cells(), sure.height_m.cells());
   EXPECT_EQ(map.variance_m2.cells(), sure.variance_m2.cells());
   // A wall that no linear step from the ground reaches.
   map = MakeMap(60, 60, 0.15, WithBox(Flat(), 0, 0, 0.6, 1.5), 0.01);
   map.measured_m = map.height_m;
-  Ask(FineField(map.geometry, Flat(), 0.005), map);
+  TakeFineGround(FineField(map.geometry, Flat(), 0.005), map);
   EXPECT_NEAR(map.measured_m.at(30, 30), 1.5, 0.05);
   EXPECT_NEAR(map.measured_m.at(10, 10), 0, 0.005);
 }
@@ -137,7 +130,7 @@ TEST(FineGround, TheTopKeepsWhatItStandsAboveTheGroundAndUnknownStaysUnknown) {
   map.height_m.at(20, 20) += 0.3F;
   map.state.at(40, 40) = CellState::kUnknown;
   map.height_m.at(40, 40) = map.measured_m.at(40, 40) = kUnknownValue;
-  Ask(FineField(map.geometry, Flat(), 0.02), map);
+  TakeFineGround(FineField(map.geometry, Flat(), 0.02), map);
   EXPECT_NEAR(map.height_m.at(20, 20) - map.measured_m.at(20, 20), 0.3, 1e-5);
   EXPECT_TRUE(std::isnan(map.measured_m.at(40, 40)));
 }

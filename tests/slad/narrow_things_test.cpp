@@ -25,12 +25,11 @@ constexpr double kPlace_m = 0.01;
 const Eigen::Vector3d kAbove(0, 0, -10);
 
 ElevationMap Seen(const Height& ground, const Eigen::Vector3d& p_WC = kAbove,
-                  double place_m = kPlace_m, double repeated_m = 0) {
+                  double place_m = kPlace_m) {
   ElevationMap map = MakeMap(60, 60, 0.15, Flat(), 0.005);
   map.measured_m = map.height_m;
   const PinholeCamera camera = ThesisCamera();
-  TakeNarrowThings(FineField(map.geometry, ground, place_m), {camera, p_WC},
-                   GridF(60, 60, static_cast<float>(repeated_m * repeated_m)), map);
+  TakeNarrowThings(FineField(map.geometry, ground, place_m), {camera, p_WC}, map);
   return map;
 }
 
@@ -80,14 +79,8 @@ TEST(NarrowThings, TheShareIsThatOfAThing18CmAcross) {
   EXPECT_LT(Seen(Flat(), {0, 0, -40}).narrow.share.at(PlaceAt(0, 0)), 0.8 * share);
 }
 
-TEST(NarrowThings, WhatStereoRepeatsAndBumpsAroundAreNoiseToo) {
+TEST(NarrowThings, BumpsAroundAreNoiseToo) {
   const Cell at = PlaceAt(0, 0);
-  const ElevationMap repeated = Seen(Flat(), kAbove, kPlace_m, 0.03);
-  // Of each pixel by itself 156 times the variance of stereo's window, over those of the square.
-  const double pixels = std::pow(0.15 * ThesisCamera().fx_px / 10, 2);
-  const double said_m = std::hypot(kPlace_m / 2, 0.03 * std::sqrt(1 + 156 / pixels));
-  EXPECT_NEAR(repeated.narrow.sigma_m.at(at), said_m, 0.001);
-  EXPECT_NEAR(repeated.narrow.noise_m.at(at), said_m, 0.001);
   RandomStream random(4, "bumps");
   std::vector<double> bumps_m(61 * 61);
   for (double& bump_m : bumps_m) {

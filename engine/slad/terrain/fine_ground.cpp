@@ -26,8 +26,7 @@ struct Details {
 
 }  // namespace
 
-void TakeFineGround(const FineSums& sums, const Viewpoint& view, const GridF& repeated_m2,
-                    ElevationMap& map) {
+void TakeFineGround(const FineSums& sums, ElevationMap& map) {
   const GridGeometry& g = map.geometry;
   const GridGeometry& places = sums.places();
   constexpr int kPerCell = NarrowFigures::kPerCell;
@@ -50,8 +49,6 @@ void TakeFineGround(const FineSums& sums, const Viewpoint& view, const GridF& re
         plane_m.at(r, c) = static_cast<float>(plane.At(x, y) + sums.reference_m());
         plane_variance_m2.at(r, c) =
             static_cast<float>((1 + plane.Aside(x, y)) * plane.variance_m2);
-        const Eigen::Vector3d p_WQ(g.NorthOfRow(r), g.EastOfCol(c),
-                                   -static_cast<double>(plane_m.at(r, c)));
         double coarser_m = 0, coarser_m2 = 0;
         for (std::size_t k = kSquares.size(); k-- > 0;) {
           const FineSum own = sums.Over(row, col, kSquares[k] * side);
@@ -59,9 +56,7 @@ void TakeFineGround(const FineSums& sums, const Viewpoint& view, const GridF& re
             break;
           }
           const double off_m = own.height_m() - plane.At(own.x(), own.y());
-          const double noise_m2 =
-              own.variance_m2() + view.RepeatedVariance(p_WQ, kSquares[k] * side * places.cell_m,
-                                                        static_cast<double>(repeated_m2.at(r, c)));
+          const double noise_m2 = own.variance_m2();
           details[k].off_m.at(r, c) = static_cast<float>(off_m - coarser_m);
           // Squares are nested: what is new in the smaller one.
           details[k].sigma_m.at(r, c) =

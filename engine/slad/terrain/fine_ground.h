@@ -7,9 +7,9 @@
 //   h = plane + sum over m = 4, 2, 1 of w_m d_m,   d_m = e_m - e_2m,   e_m = h_m - plane, e_8 = 0
 //
 // h_m of a square of m (0.15 m times m) about the cell. Each detail has noise of variance
-// n_m = sigma_m^2 - sigma_2m^2, with what a hover repeats (repeated_error.h), and the ground around
-// has bumps of that size with variance b_m: what the details there spread by beyond their noise
-// (GroundBumps). Its posterior mean and variance, bumps and noise normal:
+// n_m = sigma_m^2 - sigma_2m^2, and the ground around has bumps of that size with variance b_m:
+// what the details there spread by beyond their noise (GroundBumps). Its posterior mean and
+// variance, bumps and noise normal:
 //
 //   w_m = b_m / (b_m + n_m),   sigma_h^2 = plane's + sum b_m n_m / (b_m + n_m)
 //
@@ -22,14 +22,12 @@
 
 #include "engine/model/elevation_map.h"
 #include "engine/slad/terrain/fine_sums.h"
-#include "engine/slad/terrain/repeated_error.h"
 
 namespace palace {
 
 /// Gives measured cells their posterior height and variance; the top keeps what it stands above the
 /// ground. Cells that stereo knows better, and those where the pictures deny what stereo measured
 /// (by 4 sigmas and 2 cm: edges, where a disparity is no plane), stay as they are.
-void TakeFineGround(const FineSums& sums, const Viewpoint& view, const GridF& repeated_m2,
-                    ElevationMap& map);
+void TakeFineGround(const FineSums& sums, ElevationMap& map);
 
 }  // namespace palace

@@ -15,9 +15,15 @@
 namespace palace {
 namespace {
 
-constexpr float kGradientNoise = 0.45F;  // of e's variance, in g^2
+constexpr float kGradientNoise = 0.30F;  // of e's variance, in g^2
 constexpr int kSmallest_px = 64;
-constexpr int kStripes = 4;  // summed one after the other
+constexpr int kOther_rows = 8;  // to the pixels whose gradients are asked beside
+constexpr int kStripes = 4;     // summed one after the other
+
+/// Grey a pixel, along the row.
+float Gradient(const float* grey) {
+  return (grey[-2] - grey[2] + 8 * (grey[1] - grey[-1])) * (1 / 12.0F);
+}
 
 }  // namespace
 
@@ -29,7 +35,7 @@ GridGeometry FineRelief::PlacesOf(const GridGeometry& map) {
 
 void FineRelief::MoveTo(const GridGeometry& map) {
   const GridGeometry to = PlacesOf(map);
-  Grid<FineKnown> known(to.rows, to.cols);
+  Grid<FinePlace> seen(to.rows, to.cols);
   if (frames_ > 0 && to.cell_m == places_.cell_m) {
     const int down =
         static_cast<int>(std::lround((places_.north_max_m() - to.north_max_m()) / to.cell_m));
@@ -39,18 +45,18 @@ void FineRelief::MoveTo(const GridGeometry& map) {
       for (int c = 0; c < to.cols; ++c) {
         const Cell from{r + down, c + right};
         if (places_.Contains(from)) {
-          known.at(r, c) = known_.at(from);
+          seen.at(r, c) = seen_.at(from);
         }
       }
     }
   }
-  known_ = std::move(known);
+  seen_ = std::move(seen);
   places_ = to;
 }
 
 void FineRelief::AddRows(const RangeMap& range, const ImageU8& left, const LaidOver& laid,
                          const PlaneCorrection& off, int first, int end,
-                         Grid<FineKnown>& seen) const {
+                         Grid<FinePlace>& seen) const {
   const RigidTransform& X_WC = range.pose->X_WC;
   const PinholeCamera& camera = range.camera;
   const auto focal_times_baseline = static_cast<float>(range.FocalTimesBaseline());
@@ -68,7 +74,9 @@ void FineRelief::AddRows(const RangeMap& range, const ImageU8& left, const LaidO
     const Eigen::Vector3f row_W = (X_WC.R * Eigen::Vector3d(-camera.cx_px / camera.fx_px,
                                                             (y - camera.cy_px) / camera.fy_px, 1))
                                       .cast<float>();
-    const std::uint8_t* grey = left.row(y);
+    const float *grey = laid.left.row(y),
+                *other = laid.left.row(y + kOther_rows < left.height() ? y + kOther_rows
+                                                                       : y - kOther_rows);
     const float *disparity = laid.disparity_px.row(y), *residual = laid.residual.row(y),
                 *known = laid.known.row(y);
     const float* noise2 =
@@ -89,15 +97,21 @@ void FineRelief::AddRows(const RangeMap& range, const ImageU8& left, const LaidO
       const float height_m = height_0 - depth_m * (down + north_tilt * north + east_tilt * east);
       const float per_pixel_m = down * depth_m / d;  // k
       const float s2 = noise2[std::min(x / LaidOver::kPatch_px, laid.noise2.width() - 1)];
-      const float g =
-          static_cast<float>(grey[x - 2] - grey[x + 2] + 8 * (grey[x + 1] - grey[x - 1])) *
-          (1 / 12.0F);
+      const float g = Gradient(grey + x), c = Gradient(other + x), e = residual[x];
       const float weight = 1 / (per_pixel_m * per_pixel_m * s2);
       const float net = (g * g - kGradientNoise * s2) * weight;
-      FineKnown& place = seen.at(static_cast<int>(row), static_cast<int>(col));
-      place.net += net;
-      place.gross += g * g * weight;
-      place.height += height_m * net - residual[x] * g * weight * per_pixel_m;
+      const float answer = -e * g * weight * per_pixel_m;
+      using P = FinePlace;
+      auto& of = seen.at(static_cast<int>(row), static_cast<int>(col)).of;
+      of[P::kNet] += net;
+      of[P::kGross] += g * g * weight;
+      of[P::kHeight] += height_m * net + answer;
+      of[P::kScatter] += answer * answer;
+      of[P::kFourth] += g * g * weight * (g * g * weight);
+      of[P::kOff] += answer;
+      of[P::kOtherGross] += c * c * weight;
+      of[P::kOther] -= e * c * weight * per_pixel_m;
+      of[P::kShared] += g * c * weight;
     }
   }
 }
@@ -113,7 +127,7 @@ void FineRelief::Add(const RangeMap& range, const ImageU8& left, const ImageU8& 
     // About the ground's, so that floats keep their digits.
     reference_m_ = HeightFromDown(range.pose->X_WC.p.z());
   }
-  std::vector<Grid<FineKnown>> stripes(kStripes, Grid<FineKnown>(places_.rows, places_.cols));
+  std::vector<Grid<FinePlace>> stripes(kStripes, Grid<FinePlace>(places_.rows, places_.cols));
   cv::parallel_for_(cv::Range(0, kStripes), [&](const cv::Range& some) {
     for (int k = some.start; k < some.end; ++k) {
       AddRows(range, left, laid, off, left.height() * k / kStripes,
@@ -121,18 +135,19 @@ void FineRelief::Add(const RangeMap& range, const ImageU8& left, const ImageU8& 
     }
   });
   const float remember = frames_ < memory ? 1.0F : 1.0F - 1.0F / static_cast<float>(memory);
-  for (std::size_t i = 0; i < known_.cells().size(); ++i) {
-    FineKnown now;
-    for (const Grid<FineKnown>& stripe : stripes) {
-      now.net += stripe.cells()[i].net;
-      now.gross += stripe.cells()[i].gross;
-      now.height += stripe.cells()[i].height;
+  for (std::size_t i = 0; i < seen_.cells().size(); ++i) {
+    FinePlace now;
+    for (const Grid<FinePlace>& stripe : stripes) {
+      for (std::size_t k = 0; k < now.of.size(); ++k) {
+        now.of[k] += stripe.cells()[i].of[k];
+      }
     }
     // What this frame does not see stays as it is.
-    if (now.gross > 0) {
-      FineKnown& all = known_.cells()[i];
-      all = {remember * all.net + now.net, remember * all.gross + now.gross,
-             remember * all.height + now.height};
+    if (now.of[FinePlace::kGross] > 0) {
+      auto& all = seen_.cells()[i].of;
+      for (std::size_t k = 0; k < all.size(); ++k) {
+        all[k] = remember * all[k] + now.of[k];
+      }
     }
   }
   ++frames_;
@@ -141,16 +156,17 @@ void FineRelief::Add(const RangeMap& range, const ImageU8& left, const ImageU8& 
 void FineRelief::Forget(Cell cell) {
   constexpr int kPerCell = NarrowFigures::kPerCell;
   for (int i = 0; frames_ > 0 && i < kPerCell * kPerCell; ++i) {
-    known_.at(kPerCell * cell.row + i / kPerCell, kPerCell * cell.col + i % kPerCell) = {};
+    seen_.at(kPerCell * cell.row + i / kPerCell, kPerCell * cell.col + i % kPerCell) = {};
   }
 }
 
 void FineRelief::Raise(const PlaneCorrection& correction, double gain) {
   for (int r = 0; r < places_.rows; ++r) {
     for (int c = 0; c < places_.cols; ++c) {
-      FineKnown& known = known_.at(r, c);
-      known.height += known.net * static_cast<float>(gain * correction.At(places_.NorthOfRow(r),
-                                                                          places_.EastOfCol(c)));
+      auto& of = seen_.at(r, c).of;
+      of[FinePlace::kHeight] +=
+          of[FinePlace::kNet] *
+          static_cast<float>(gain * correction.At(places_.NorthOfRow(r), places_.EastOfCol(c)));
     }
   }
 }

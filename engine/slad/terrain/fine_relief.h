@@ -6,17 +6,19 @@
 // Here the height of a place is one unknown, shared by all pixels of all frames that saw it
 // (least-squares matching in object space). About the smooth disparity d0 with which the right
 // picture is laid over the left one (laid_over.h), each pixel tells, g the horizontal gradient of
-// the left picture,
+// the left picture as it is smoothed there,
 //
 //   e = -g (d - d0) + noise of variance s^2
 //
 // and with h0 the height of its point at d0, k = dh/dd, over all pixels of a cell and all frames
 //
-//   A = sum (g^2 - 0.45 s^2) / (k s)^2,   J = sum (h0 (g^2 - 0.45 s^2) / k^2 - e g / k) / s^2
+//   A = sum (g^2 - 0.30 s^2) / (k s)^2,   J = sum (h0 (g^2 - 0.30 s^2) / k^2 - e g / k) / s^2
 //   h = J / A,   sigma^2 = G / A^2,       G = sum g^2 / (k s)^2
 //
-// 0.45 s^2 is what noise adds to g^2 (stereo/subpixel.h). A is what the pictures know of the height
-// (Fisher information, 1/m^2): where it is small a thing would not show, and that is known as well.
+// if noise is new in every frame; what frames repeat of it is measured, and G in what Sums() tells
+// has it (repeated_noise.h). 0.30 s^2 is what noise adds to g^2 (as in stereo/subpixel.h). A is
+// what the pictures know of the height (Fisher information, 1/m^2): where it is small a thing would
+// not show, and that is known as well.
 //
 // Frames: W, metres, heights up-positive. Deterministic: stripes of rows are summed in a fixed
 // order, whatever the threads.
@@ -32,6 +34,7 @@
 #include "engine/model/range_map.h"
 #include "engine/slad/terrain/fine_sums.h"
 #include "engine/slad/terrain/frame_registration.h"
+#include "engine/slad/terrain/repeated_noise.h"
 
 namespace palace {
 
@@ -53,17 +56,17 @@ class FineRelief {
   void Raise(const PlaneCorrection& correction, double gain);
 
   bool empty() const { return frames_ == 0; }
-  FineSums Sums() const { return {known_, places_, reference_m_}; }
+  FineSums Sums() const { return {WithRepeatedNoise(seen_), places_, reference_m_}; }
 
   /// The places of a map.
   static GridGeometry PlacesOf(const GridGeometry& map);
 
  private:
   void AddRows(const RangeMap& range, const ImageU8& left, const LaidOver& laid,
-               const PlaneCorrection& off, int first, int end, Grid<FineKnown>& seen) const;
+               const PlaneCorrection& off, int first, int end, Grid<FinePlace>& seen) const;
 
   GridGeometry places_;
-  Grid<FineKnown> known_;
+  Grid<FinePlace> seen_;
   double reference_m_ = 0;
   int frames_ = 0;
 };

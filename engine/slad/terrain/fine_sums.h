@@ -12,7 +12,7 @@ namespace palace {
 /// Side of the squares whose heights are asked: with what a gradient feels, as wide as a thing.
 inline constexpr double kFineSquare_m = 0.15;
 /// Beyond it a height is a thing's, not the noise of one square of a thousand.
-inline constexpr double kStandsOut_sigmas = 4;
+inline constexpr double kStandsOut_sigmas = 4.5;
 /// A plane is asked no farther from its middle, squared, in its own spread.
 inline constexpr double kMostAside = 1;
 
@@ -29,8 +29,9 @@ struct FineSum {
   enum { kA, kAx, kAy, kAxx, kAxy, kAyy, kJ, kJx, kJy, kG, kCount };
   std::array<double, kCount> of{};
 
-  /// To a metre at least: what is left of sums over nothing is rounding.
-  bool known() const { return of[kA] > 1 && of[kG] > 0; }
+  /// 1/m^2: to a metre at least. What is left of sums over nothing is rounding.
+  static constexpr double kLeastNet = 1;
+  bool known() const { return of[kA] > kLeastNet && of[kG] > 0; }
   double height_m() const { return of[kJ] / of[kA]; }
   double variance_m2() const { return of[kG] / (of[kA] * of[kA]); }
   double x() const { return of[kAx] / of[kA]; }

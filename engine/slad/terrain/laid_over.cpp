@@ -159,12 +159,21 @@ void BetweenPatches(const ImageF& patches, int y, std::vector<float>& of_patch, 
   }
 }
 
+/// A row without its finest detail: (1, 2, 1) / 4, the ends as they are.
+void Smooth(const std::uint8_t* grey, int width, float* out) {
+  out[0] = static_cast<float>(grey[0]);
+  for (int x = 1; x < width - 1; ++x) {
+    out[x] = static_cast<float>(grey[x - 1] + 2 * grey[x] + grey[x + 1]) / 4;
+  }
+  out[width - 1] = static_cast<float>(grey[width - 1]);
+}
+
 /// Coefficients of the cubic B-spline through a row, by its recursive filter.
-void FindSpline(const std::uint8_t* grey, int width, float* c) {
+void FindSpline(const float* grey, int width, float* c) {
   constexpr float kPole = -0.267949192F;  // sqrt(3) - 2
-  c[0] = static_cast<float>(grey[0]) / (1 - kPole);
+  c[0] = grey[0] / (1 - kPole);
   for (int x = 1; x < width; ++x) {
-    c[x] = static_cast<float>(grey[x]) + kPole * c[x - 1];
+    c[x] = grey[x] + kPole * c[x - 1];
   }
   c[width - 1] = kPole / (kPole * kPole - 1) * (c[width - 1] + kPole * c[width - 2]);
   for (int x = width - 2; x >= 0; --x) {
@@ -187,9 +196,11 @@ float SplineAt(const float* c, float x) {
 void LayRight(const ImageU8& right, const ImageF& ground, LaidOver& laid) {
   const int width = right.width();
   cv::parallel_for_(cv::Range(0, right.height()), [&](const cv::Range& rows) {
-    std::vector<float> spline(static_cast<std::size_t>(width)), of_patch(spline.size());
+    std::vector<float> spline(static_cast<std::size_t>(width)), of_patch(spline.size()),
+        smooth(spline.size());
     for (int y = rows.start; y < rows.end; ++y) {
-      FindSpline(right.row(y), width, spline.data());
+      Smooth(right.row(y), width, smooth.data());
+      FindSpline(smooth.data(), width, spline.data());
       float *d = laid.disparity_px.row(y), *out = laid.residual.row(y), *known = laid.known.row(y);
       BetweenPatches(ground, y, of_patch, d, width);
       for (int x = 0; x < width; ++x) {
@@ -211,7 +222,7 @@ struct Light {
 };
 
 /// And their noise2, 0 where nothing is known.
-Light LightBetween(const ImageU8& left, LaidOver& laid) {
+Light LightBetween(const ImageF& left, LaidOver& laid) {
   const int cols = laid.noise2.width(), rows = laid.noise2.height();
   enum Sum { kN, kL, kR, kLL, kLR, kRR, kSums };
   std::vector<Patches> sums(kSums, Patches(cols, rows));
@@ -223,10 +234,10 @@ Light LightBetween(const ImageU8& left, LaidOver& laid) {
         column.assign(width, 0.0F);
       }
       for (int y = kPatch * j; y < kPatch * (j + 1); ++y) {
-        const std::uint8_t* grey = left.row(y);
+        const float* grey = left.row(y);
         const float *r = laid.residual.row(y), *known = laid.known.row(y);
         for (std::size_t x = 0; x < width; ++x) {
-          const float l = static_cast<float>(grey[x]) * known[x];
+          const float l = grey[x] * known[x];
           of_column[kN][x] += known[x];
           of_column[kL][x] += l;
           of_column[kR][x] += r[x];
@@ -280,19 +291,24 @@ LaidOver LayOver(const ImageU8& left, const ImageU8& right, const ImageF& dispar
                    disparity_px.height() == height,
                width, height, right.width(), right.height(), disparity_px.width());
   LaidOver laid{ImageF(width, height), ImageF(width, height),
-                ImageF(width / kPatch, height / kPatch), ImageF(width, height)};
+                ImageF(width / kPatch, height / kPatch), ImageF(width, height),
+                ImageF(width, height)};
   LayRight(right, GroundDisparity(disparity_px), laid);
-  const Light light = LightBetween(left, laid);
+  cv::parallel_for_(cv::Range(0, height), [&](const cv::Range& rows) {
+    for (int y = rows.start; y < rows.end; ++y) {
+      Smooth(left.row(y), width, laid.left.row(y));
+    }
+  });
+  const Light light = LightBetween(laid.left, laid);
   cv::parallel_for_(cv::Range(0, height), [&](const cv::Range& rows) {
     for (int y = rows.start; y < rows.end; ++y) {
       const int j = std::min(y / kPatch, light.gain.height() - 1);
-      const std::uint8_t* grey = left.row(y);
+      const float* grey = laid.left.row(y);
       float *residual = laid.residual.row(y), *known = laid.known.row(y);
       for (int x = 0; x < width; ++x) {
         const int i = std::min(x / kPatch, light.gain.width() - 1);
         const bool told = known[x] > 0 && laid.noise2.at(i, j) > 0;
-        const float e =
-            static_cast<float>(grey[x]) - light.gain.at(i, j) * residual[x] - light.offset.at(i, j);
+        const float e = grey[x] - light.gain.at(i, j) * residual[x] - light.offset.at(i, j);
         residual[x] = told ? e : 0.0F;
         known[x] = told ? 1.0F : 0.0F;
       }

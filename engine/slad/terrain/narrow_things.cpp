@@ -31,7 +31,7 @@ double At(const GridF& layer, int row, int col) { return static_cast<double>(lay
 /// What places show; NaN where nothing can be said.
 struct Figures {
   GridF prominence_m;  ///< p
-  GridF sigma_m;       ///< sigma_p, with what a hover repeats
+  GridF sigma_m;       ///< sigma_p
   GridF level_m;       ///< of the plane
   int side = 1;        ///< of the square, places
 };
@@ -39,8 +39,7 @@ struct Figures {
 /// Every so many places are looked at that squares overlap by half.
 int StrideOf(int side) { return std::max(1, side / 2); }
 
-Figures Measure(const FineSums& sums, const Viewpoint& view, const GridF& repeated_m2, int side,
-                int ring_to) {
+Figures Measure(const FineSums& sums, int side, int ring_to) {
   const GridGeometry& places = sums.places();
   const GridF unknown(places.rows, places.cols, kUnknownValue);
   Figures shown{unknown, unknown, unknown, side};
@@ -59,12 +58,8 @@ Figures Measure(const FineSums& sums, const Viewpoint& view, const GridF& repeat
           const double level_m = around.At(own.x(), own.y());
           shown.prominence_m.at(r, c) = static_cast<float>(own.height_m() - level_m);
           shown.level_m.at(r, c) = static_cast<float>(level_m + sums.reference_m());
-          const Eigen::Vector3d p_WQ(places.NorthOfRow(r), places.EastOfCol(c),
-                                     -level_m - sums.reference_m());
-          shown.sigma_m.at(r, c) = static_cast<float>(
-              std::sqrt(own.variance_m2() + (1 + aside) * around.variance_m2 +
-                        view.RepeatedVariance(p_WQ, side * places.cell_m,
-                                              At(repeated_m2, r / kPerCell, c / kPerCell))));
+          shown.sigma_m.at(r, c) =
+              static_cast<float>(std::sqrt(own.variance_m2() + (1 + aside) * around.variance_m2));
         }
       }
     }
@@ -133,16 +128,14 @@ void RaiseUnder(const Figures& fine, int row, int col, double times, double sigm
 
 }  // namespace
 
-void TakeNarrowThings(const FineSums& sums, const Viewpoint& view, const GridF& repeated_m2,
-                      ElevationMap& map) {
+void TakeNarrowThings(const FineSums& sums, const Viewpoint& view, ElevationMap& map) {
   const GridGeometry& places = sums.places();
   const double square_m = sums.side() * places.cell_m;
   const GridF unknown(places.rows, places.cols, kUnknownValue);
   map.narrow = {unknown, unknown, unknown, unknown, 0};
   GridF top_m = map.height_m;
   for (const Scale& scale : kScales) {
-    const Figures figures =
-        Measure(sums, view, repeated_m2, scale.sides * sums.side(), scale.ring_to);
+    const Figures figures = Measure(sums, scale.sides * sums.side(), scale.ring_to);
     const GroundBumps bumps(figures.prominence_m, figures.sigma_m, places.cell_m, figures.side);
     const bool narrowest = scale.sides == 1;
     if (narrowest) {
@@ -169,10 +162,7 @@ void TakeNarrowThings(const FineSums& sums, const Viewpoint& view, const GridF& 
         }
         // What fills a wider square shows all of its height.
         const double times = std::max(1.0, (1 + smear) / scale.sides);
-        // Noise of wide squares is small: what worst textures repeat there is no thing.
-        const double worst_m =
-            narrowest ? 0 : kWorstTexture * std::sqrt(At(repeated_m2, r / kPerCell, c / kPerCell));
-        RaiseUnder(figures, r, c, times, std::hypot(sigma_m, worst_m), view.p_WC, map, top_m);
+        RaiseUnder(figures, r, c, times, sigma_m, view.p_WC, map, top_m);
       }
     }
   }

@@ -4,20 +4,19 @@
 // A place's height is that of a square 0.15 m wide about it; it stands out by what it is off the
 // plane through the frame of places around, from one to four squares beyond the square:
 //
-//   p = h - plane,   sigma_p^2 = G / A^2 + (1 + q) G' / A'^2 + repeated (repeated_error.h)
+//   p = h - plane,   sigma_p^2 = G / A^2 + (1 + q) G' / A'^2
 //
 // G' and A' of the frame, q the squared distance between its middle and the square's in its own
-// spread: nothing is said where q exceeds 1, at the rim of what is seen. Over drawn bare ground
-// p / sigma_p is normal: median of its size 0.60 to 0.63 (0.67), 99th percentile 2.3 to 2.4 (2.6).
+// spread: nothing is said where q exceeds 1, at the rim of what is seen.
 //
 // Of its height a thing a = 18 cm across shows, smeared by the square b that is looked at and by
 // the width w = 3 px range / f that a gradient feels, the share
 //
 //   0.8 / (1 + (w^2 + b^2) / a^2)
 //
-// 0.8 for it is no box. Its noise is that of the pictures and of the bumps
-// around: what places around stand off their rings by beyond their own noise (GroundBumps).
-// What stands over 1 m off is not narrow: the map has it.
+// 0.8 for it is no box. Its noise is that of the pictures and of the bumps around: what places
+// around stand off their rings by beyond their own noise (GroundBumps). What stands over 1 m off is
+// not narrow: the map has it.
 //
 // Where a place stands out by 4 of these sigmas, or a square twice or four times as wide does,
 // the top of the cells under its square is raised (lowered, for a hole) to what a thing would be
@@ -26,14 +25,23 @@
 // until these have risen as high. The measured ground stays as it is.
 #pragma once
 
+#include <Eigen/Dense>
+
 #include "engine/model/elevation_map.h"
+#include "engine/model/rig.h"
 #include "engine/slad/terrain/fine_sums.h"
-#include "engine/slad/terrain/repeated_error.h"
 
 namespace palace {
 
-/// `repeated_m2`: variance by stereo's errors that no frames average away, the map's size.
-void TakeNarrowThings(const FineSums& sums, const Viewpoint& view, const GridF& repeated_m2,
-                      ElevationMap& map);
+/// From where a map is seen.
+struct Viewpoint {
+  const PinholeCamera& camera;
+  Eigen::Vector3d p_WC;
+
+  /// Metres across that a pixel sees there.
+  double Pixel_m(const Eigen::Vector3d& p_WQ) const { return (p_WQ - p_WC).norm() / camera.fx_px; }
+};
+
+void TakeNarrowThings(const FineSums& sums, const Viewpoint& view, ElevationMap& map);
 
 }  // namespace palace
