@@ -1,6 +1,7 @@
 // Map grids. Rows run north to south, columns west to east: cell (0,0) is the north-west corner.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -76,5 +77,25 @@ class Grid {
 
 using GridF = Grid<float>;
 inline constexpr float kUnknownValue = std::numeric_limits<float>::quiet_NaN();
+
+/// A layer of `from` as it lies in `to`, `fill` where it does not reach. Both have the same cells,
+/// whole cells apart; of cells of another size nothing is kept, nor of an empty layer.
+template <typename T>
+Grid<T> MovedTo(const GridGeometry& to, const GridGeometry& from, const Grid<T>& layer,
+                T fill = T{}) {
+  Grid<T> moved(to.rows, to.cols, fill);
+  if (layer.empty() || from.cell_m != to.cell_m) {
+    return moved;
+  }
+  const int down =
+      static_cast<int>(std::lround((from.north_max_m() - to.north_max_m()) / to.cell_m));
+  const int right = static_cast<int>(std::lround((to.east_min_m - from.east_min_m) / to.cell_m));
+  for (int r = std::max(0, -down); r < std::min(to.rows, from.rows - down); ++r) {
+    for (int c = std::max(0, -right); c < std::min(to.cols, from.cols - right); ++c) {
+      moved.at(r, c) = layer.at(r + down, c + right);
+    }
+  }
+  return moved;
+}
 
 }  // namespace palace

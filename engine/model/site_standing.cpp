@@ -79,9 +79,12 @@ std::string WhyProvisional(const LandingSite& site, const SladSettings& settings
   }
   const std::string over = WithNumbers("over %.0f cm", 100 * settings.limits.max_deviation_m);
   if (site.hidden_things > kMostHidden) {
-    // One line of the narrowest approve panel.
-    return WithNumbers("%.2f rocks or holes may be hidden, ", site.hidden_things) +
-           SureFrom(site, WithNumbers("to %.2f", kMostHidden));
+    // One line of the narrowest approve panel; near the limit a third digit tells them apart.
+    const bool near_limit = site.hidden_things < 2 * kMostHidden;
+    return (near_limit ? WithNumbers("%.3f rocks or holes may be hidden, ",
+                                     ShownBeyond(site.hidden_things, kMostHidden, 3))
+                       : WithNumbers("%.2f rocks or holes may be hidden, ", site.hidden_things)) +
+           SureFrom(site, WithNumbers(near_limit ? "to %.3f" : "to %.2f", kMostHidden));
   }
   if (settings.mode == SladMode::kModern &&
       !(site.safe_probability >= settings.limits.min_safe_probability)) {

@@ -1,5 +1,7 @@
 // Grids, settings table and scene truth.
 #include <cmath>
+#include <cstddef>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -25,6 +27,29 @@ TEST(GridGeometry, RowZeroIsNorthAndCellsHoldTheirCentres) {
   EXPECT_FALSE(g.CellFromPoint(12.01, 20.2));
   EXPECT_FALSE(g.CellFromPoint(9.99, 20.2));
   EXPECT_FALSE(g.CellFromPoint(NAN, 20.2));
+}
+
+TEST(Grid, ALayerMovesWithItsMapAndKeepsWhatLiesInBoth) {
+  const GridGeometry from{4, 6, 0.5, 10, 20};
+  Grid<int> layer(4, 6);
+  for (int i = 0; i < 24; ++i) {
+    layer.cells()[static_cast<std::size_t>(i)] = i + 1;
+  }
+  for (const int north : {-5, -1, 0, 2}) {
+    for (const int east : {-7, -2, 0, 3}) {
+      const GridGeometry to{3, 7, 0.5, 10 + 0.5 * north, 20 + 0.5 * east};
+      const Grid<int> moved = MovedTo(to, from, layer, -1);
+      for (int r = 0; r < to.rows; ++r) {
+        for (int c = 0; c < to.cols; ++c) {
+          const auto was = from.CellFromPoint(to.NorthOfRow(r), to.EastOfCol(c));
+          EXPECT_EQ(moved.at(r, c), was ? layer.at(*was) : -1) << north << " " << east;
+        }
+      }
+    }
+  }
+  EXPECT_EQ(MovedTo({4, 6, 0.25, 10, 20}, from, layer, -1).cells(), std::vector<int>(24, -1))
+      << "cells of another size";
+  EXPECT_EQ(MovedTo(from, {}, Grid<int>(), -1).cells(), std::vector<int>(24, -1));
 }
 
 TEST(Settings, EveryRowIsConsistent) {
@@ -106,6 +131,9 @@ TEST(SiteStanding, AProvisionalSiteSaysWhy) {
             "0.15 rocks or holes may be hidden, sure from 8 m above it");
   site.look_height_m = std::nan("");
   EXPECT_EQ(WhyProvisional(site, settings.slad), "0.15 rocks or holes may be hidden, sure to 0.01");
+  site.hidden_things = 0.0103;
+  EXPECT_EQ(WhyProvisional(site, settings.slad),
+            "0.011 rocks or holes may be hidden, sure to 0.010");
 }
 
 TEST(SiteStanding, APlaceInWhoseNoiseOrAirAThingCouldHideIsOnlyLookedAt) {

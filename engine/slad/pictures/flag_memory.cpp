@@ -29,23 +29,8 @@ void FlagMemory::MoveTo(const GridGeometry& geometry) {
   if (geometry == geometry_) {
     return;
   }
-  Grid<CellTracks> moved(geometry.rows, geometry.cols);
-  if (geometry.cell_m == geometry_.cell_m) {
-    const int row_shift = static_cast<int>(
-        std::lround((geometry_.north_max_m() - geometry.north_max_m()) / geometry.cell_m));
-    const int col_shift = static_cast<int>(
-        std::lround((geometry.east_min_m - geometry_.east_min_m) / geometry.cell_m));
-    for (int r = 0; r < geometry.rows; ++r) {
-      for (int c = 0; c < geometry.cols; ++c) {
-        const Cell from{r + row_shift, c + col_shift};
-        if (geometry_.Contains(from)) {
-          moved.at(r, c) = tracks_.at(from);
-        }
-      }
-    }
-  }
+  tracks_ = MovedTo(geometry, geometry_, tracks_);
   geometry_ = geometry;
-  tracks_ = std::move(moved);
 }
 
 void FlagMemory::Add(const Grid<std::uint8_t>& seen, const Grid<std::uint8_t>& found,

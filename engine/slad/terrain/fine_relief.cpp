@@ -35,22 +35,7 @@ GridGeometry FineRelief::PlacesOf(const GridGeometry& map) {
 
 void FineRelief::MoveTo(const GridGeometry& map) {
   const GridGeometry to = PlacesOf(map);
-  Grid<FinePlace> seen(to.rows, to.cols);
-  if (frames_ > 0 && to.cell_m == places_.cell_m) {
-    const int down =
-        static_cast<int>(std::lround((places_.north_max_m() - to.north_max_m()) / to.cell_m));
-    const int right =
-        static_cast<int>(std::lround((to.east_min_m - places_.east_min_m) / to.cell_m));
-    for (int r = 0; r < to.rows; ++r) {
-      for (int c = 0; c < to.cols; ++c) {
-        const Cell from{r + down, c + right};
-        if (places_.Contains(from)) {
-          seen.at(r, c) = seen_.at(from);
-        }
-      }
-    }
-  }
-  seen_ = std::move(seen);
+  seen_ = MovedTo(to, places_, seen_);
   places_ = to;
 }
 

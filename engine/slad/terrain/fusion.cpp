@@ -216,45 +216,16 @@ PlaneCorrection TerrainFusion::FuseFrame(const RangeMap& range, const TerrainPoi
 }
 
 void TerrainFusion::MoveTo(const GridGeometry& geometry) {
-  const int rows = geometry.rows, cols = geometry.cols;
-  ElevationMap moved{map_.time,
-                     geometry,
-                     GridF(rows, cols, kUnknownValue),
-                     GridF(rows, cols, kUnknownValue),
-                     Grid<std::uint16_t>(rows, cols, 0),
-                     Grid<CellState>(rows, cols, CellState::kUnknown),
-                     GridF(rows, cols, kUnknownValue),
-                     GridF(rows, cols, kUnknownValue)};
-  moved.air_seen_to_m = GridF(rows, cols, kUnknownValue);
-  Grid<std::int8_t> disagreement(rows, cols, 0);
-  Grid<FrameSpread> spread(rows, cols);
-  if (frames_ > 0) {
-    const GridGeometry& old = map_.geometry;
-    const int row_shift =
-        static_cast<int>(std::lround((old.north_max_m() - geometry.north_max_m()) / old.cell_m));
-    const int col_shift =
-        static_cast<int>(std::lround((geometry.east_min_m - old.east_min_m) / old.cell_m));
-    for (int r = 0; r < rows; ++r) {
-      for (int c = 0; c < cols; ++c) {
-        const Cell from{r + row_shift, c + col_shift};
-        if (!old.Contains(from)) {
-          continue;
-        }
-        moved.height_m.at(r, c) = map_.height_m.at(from);
-        moved.measured_m.at(r, c) = map_.measured_m.at(from);
-        moved.variance_m2.at(r, c) = map_.variance_m2.at(from);
-        moved.frame_count.at(r, c) = map_.frame_count.at(from);
-        moved.state.at(r, c) = map_.state.at(from);
-        moved.age_s.at(r, c) = map_.age_s.at(from);
-        moved.air_seen_to_m.at(r, c) = map_.air_seen_to_m.at(from);
-        disagreement.at(r, c) = disagreement_.at(from);
-        spread.at(r, c) = spread_.at(from);
-      }
-    }
+  const GridGeometry old = map_.geometry;
+  map_.geometry = geometry;
+  for (GridF* layer :
+       {&map_.height_m, &map_.measured_m, &map_.variance_m2, &map_.age_s, &map_.air_seen_to_m}) {
+    *layer = MovedTo(geometry, old, *layer, kUnknownValue);
   }
-  map_ = std::move(moved);
-  disagreement_ = std::move(disagreement);
-  spread_ = std::move(spread);
+  map_.frame_count = MovedTo(geometry, old, map_.frame_count);
+  map_.state = MovedTo(geometry, old, map_.state, CellState::kUnknown);
+  disagreement_ = MovedTo(geometry, old, disagreement_);
+  spread_ = MovedTo(geometry, old, spread_);
   fine_.MoveTo(geometry);
 }
 

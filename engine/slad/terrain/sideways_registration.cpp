@@ -180,25 +180,8 @@ double Vertex(double before, double peak, double after) {
 }  // namespace
 
 void SidewaysRegistration::MoveTo(const GridGeometry& fine) {
-  GridF grey(fine.rows, fine.cols, kUnknownValue);
-  Grid<std::uint16_t> frames(fine.rows, fine.cols, 0);
-  if (fine.cell_m == geometry_.cell_m) {
-    const int down =
-        static_cast<int>(std::lround((geometry_.north_max_m() - fine.north_max_m()) / fine.cell_m));
-    const int right =
-        static_cast<int>(std::lround((fine.east_min_m - geometry_.east_min_m) / fine.cell_m));
-    for (int r = 0; r < fine.rows; ++r) {
-      for (int c = 0; c < fine.cols; ++c) {
-        const Cell from{r + down, c + right};
-        if (geometry_.Contains(from)) {
-          grey.at(r, c) = grey_.at(from);
-          frames.at(r, c) = frames_.at(from);
-        }
-      }
-    }
-  }
-  grey_ = std::move(grey);
-  frames_ = std::move(frames);
+  grey_ = MovedTo(fine, geometry_, grey_, kUnknownValue);
+  frames_ = MovedTo(fine, geometry_, frames_);
   geometry_ = fine;
 }
 
