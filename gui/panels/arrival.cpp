@@ -6,13 +6,28 @@
 
 namespace palace {
 
+namespace {
+
+/// What stereo found wrong with the pictures of a camera that arrive in time.
+std::string WrongWith(const EngineSnapshot& snap, ChannelId channel) {
+  const StereoQuality& quality = snap.terrain->stereo_quality;
+  const bool left = channel == ChannelId::kCameraLeft, right = channel == ChannelId::kCameraRight;
+  if ((left && quality.left_frozen) || (right && quality.right_frozen)) {
+    return "Repeats its picture";
+  }
+  return (left && quality.left_blank) || (right && quality.right_blank) ? "Shows nothing" : "";
+}
+
+}  // namespace
+
 Arrival ArrivalOf(const EngineSnapshot& snap, ChannelId channel, double silent_s) {
   const ChannelHealth* health = FindChannel(snap.sensors->channels, channel);
   if (health == nullptr || health->state == ChannelHealth::State::kNever) {
     return {};
   }
   const ChannelHealth now = After(*health, silent_s);
-  return {AgeText(now.age_s), Fixed(now.rate_hz, 1) + " Hz", now.age_s, now.state};
+  return {AgeText(now.age_s), Fixed(now.rate_hz, 1) + " Hz", now.age_s, now.state,
+          WrongWith(snap, channel)};
 }
 
 std::string Heard(const std::string& words, double age_s) {
@@ -23,6 +38,9 @@ void DrawStale(UiFrame& ui, const Rect& image, const Arrival& arrival) {
   if (arrival.state == ChannelHealth::State::kStale) {
     StaleVeil(ui.style, Canvas(), image);
     TextPlate(ui, image, Corner::kTopRight, Fixed(arrival.age_s, 1) + " s old");
+  } else if (!arrival.wrong.empty()) {
+    StaleVeil(ui.style, Canvas(), image);
+    TextPlate(ui, image, Corner::kTopRight, arrival.wrong);
   }
 }
 

@@ -13,6 +13,7 @@ struct Arrival {
   std::string age = "never", rate;
   double age_s = NAN;
   ChannelHealth::State state = ChannelHealth::State::kNever;
+  std::string wrong;  ///< of a camera: "Repeats its picture"; empty while none is known
   bool late() const {
     return state == ChannelHealth::State::kLate || state == ChannelHealth::State::kStale;
   }
@@ -21,7 +22,7 @@ Arrival ArrivalOf(const EngineSnapshot& snap, ChannelId channel, double silent_s
 
 /// "climbing"; "climbing, heard 2.5 s ago" of a vehicle whose word is older than the link may be.
 std::string Heard(const std::string& words, double age_s);
-/// Veils what is stale, "1.8 s old" at the top right.
+/// Veils what is stale, "1.8 s old" at the top right, and what a camera shows wrongly.
 void DrawStale(UiFrame& ui, const Rect& image, const Arrival& arrival);
 /// "Laser 21.2 m"; empty while no fresh range is known.
 std::string LaserPlate(const EngineSnapshot& snap, double silent_s);

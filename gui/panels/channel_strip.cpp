@@ -1,4 +1,5 @@
 #include "engine/model/channel_age.h"
+#include "gui/panels/arrival.h"
 #include "gui/panels/fly_panels.h"
 #include "gui/widgets/icons.h"
 #include "gui/widgets/number_text.h"
@@ -18,7 +19,8 @@ void DrawChannelStripPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame
   for (const ChannelHealth& published : snap.sensors->channels) {
     const ChannelHealth channel = After(published, ui.silent_s);
     using State = ChannelHealth::State;
-    const bool fine = channel.state == State::kFresh;
+    const std::string wrong = ArrivalOf(snap, channel.id, ui.silent_s).wrong;
+    const bool fine = channel.state == State::kFresh && wrong.empty();
     Icon icon = Icon::kNormal;
     ImU32 colour = p.text3;
     if (channel.state == State::kNever) {
@@ -40,7 +42,9 @@ void DrawChannelStripPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame
     DrawText(ui, name_font, ink, text_x, first,
              FitWords(name_font, ChannelName(channel.id), pitch - s.Px(26)));
     std::string facts = "never";
-    if (channel.state != State::kNever) {
+    if (channel.state == State::kFresh && !wrong.empty()) {
+      facts = wrong;
+    } else if (channel.state != State::kNever) {
       facts = AgeText(channel.age_s) + "   " +
               Fixed(channel.rate_hz, channel.rate_hz < 100 ? 1 : 0) + " Hz";
     }

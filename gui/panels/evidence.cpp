@@ -99,7 +99,7 @@ void DrawEvidencePanel(const EngineSnapshot& snap, const Rect& rect, bool folded
       area.y + EvidenceRowHeight(s, narrow) * static_cast<float>(rows.size() - beyond);
   if (rect.bottom() - foot > s.Px(28)) {
     DrawText(ui, s.caption, s.palette.text2, rect.x + s.Px(12), foot + s.Px(14),
-             "Share of limit used; whisker 3σ; white line: the limit; who acts.");
+             "Share used; whisker 3σ; line: the limit; at: worst heading; who acts.");
   }
   const std::string gear = GearWords(*site);
   if (rect.bottom() - foot > s.Px(46) && !gear.empty()) {

@@ -166,6 +166,25 @@ TEST(ChannelStrip, TheStateDecidesAndTheAgeIsAlwaysShown) {
             "100 ms   5.0 Hz   limit");
 }
 
+TEST(Pictures, ACameraThatRepeatsItsPictureIsNamedWhereItIsShown) {
+  EngineSnapshot snap = fake::Snapshot(MissionState::kProposed);
+  snap.terrain.Edit().stereo_quality.right_frozen = true;
+  FlyWindow window(1920, 1080, snap);
+  EXPECT_EQ(window.ui.items.Find("channel/Camera right")->text, "Repeats its picture");
+  EXPECT_NE(window.ui.items.Find("channel/Camera left")->text, "Repeats its picture");
+  const auto plates = [&] {
+    int count = 0;
+    for (const Item& item : window.ui.items.items()) {
+      count += item.name == "text" && item.text == "Repeats its picture" ? 1 : 0;
+    }
+    return count;
+  };
+  EXPECT_EQ(plates(), 2) << "on the tile and over the picture";
+  window.snap.terrain.Edit().stereo_quality.left_blank = true;
+  window.Run(0.1);
+  EXPECT_EQ(window.ui.items.Find("channel/Camera left")->text, "Shows nothing");
+}
+
 TEST(StatusBar, TellsWhatWasNeverHeardFromWhatIsStale) {
   EngineSnapshot snap = fake::Snapshot(MissionState::kArmed);
   auto& channels = snap.sensors.Edit().channels;
