@@ -10,6 +10,7 @@
 #include "engine/core/units.h"
 #include "engine/experiments/ground_field.h"
 #include "engine/experiments/thing_field.h"
+#include "engine/model/site_standing.h"
 #include "engine/report/statistics.h"
 #include "engine/runtime/settings_io.h"
 
@@ -41,9 +42,15 @@ struct ThingsOptions {
 /// What became of the things of one field, or of the footprints of bare ground.
 struct Tally {
   int asked = 0;
-  int found = 0;    ///< bare ground: refused
-  int unknown = 0;  ///< none of its cells is known: not seen
+  int found = 0;     ///< bare ground: refused
+  int not_seen = 0;  ///< of the others: no site there could be confirmed, for something may hide
 };
+
+/// Whether more may hide under a touchdown there than under a confirmed site.
+bool MayHide(const HazardMaps& hazards, Cell cell) {
+  return !hazards.hidden_things.empty() &&
+         !(static_cast<double>(hazards.hidden_things.at(cell)) <= kMostHidden);
+}
 
 /// Visits the cells whose square reaches into the disc.
 template <typename Visit>
@@ -63,8 +70,8 @@ void ForCellsNear(const GridGeometry& g, const Eigen::Vector2d& place_m, double 
 Tally TallyThings(const ThingField& field, const ViewPlan& plan, const HazardMaps& hazards) {
   Tally tally;
   for (const Eigen::Vector2d& place_m : field.places_m) {
-    if (!SeenWhole(field.world, plan, place_m, kWellInView_m) ||
-        !hazards.geometry.CellFromPoint(place_m.x(), place_m.y())) {
+    const auto at = hazards.geometry.CellFromPoint(place_m.x(), place_m.y());
+    if (!SeenWhole(field.world, plan, place_m, kWellInView_m) || !at) {
       continue;
     }
     bool hazard = false, known = false;
@@ -75,7 +82,7 @@ Tally TallyThings(const ThingField& field, const ViewPlan& plan, const HazardMap
     });
     ++tally.asked;
     tally.found += hazard ? 1 : 0;
-    tally.unknown += !hazard && !known ? 1 : 0;
+    tally.not_seen += !hazard && (!known || MayHide(hazards, *at)) ? 1 : 0;
   }
   return tally;
 }
@@ -91,8 +98,10 @@ Tally TallyFootprints(const HazardMaps& hazards, double clear_radius_m) {
       ForCellsNear(g, {g.NorthOfRow(row), g.EastOfCol(col)}, clear_radius_m, [&](Cell cell) {
         known = known && (hazards.reasons.at(cell) & kHazardUnknown) == 0;
       });
+      const bool landable = hazards.ground.at(row, col) == GroundClass::kLandable;
       tally.asked += known ? 1 : 0;
-      tally.found += known && hazards.ground.at(row, col) != GroundClass::kLandable ? 1 : 0;
+      tally.found += known && !landable ? 1 : 0;
+      tally.not_seen += known && landable && MayHide(hazards, {row, col}) ? 1 : 0;
     }
   }
   return tally;
@@ -126,8 +135,8 @@ Result<std::vector<TrialRow>> RunTrial(const ThingsOptions& options, std::uint64
               : TallyThings(field, plan, *decision->hazards);
       rows.push_back({NameOf(kind), CsvNumber(height_m), CsvNumber(Deg(plan.tilt_rad)),
                       CsvNumber(Deg(2 * std::atan(plan.camera.width / 2.0 / plan.camera.fx_px))),
-                      CsvNumber(tally.asked), CsvNumber(tally.found), CsvNumber(tally.unknown),
-                      CsvNumber(tally.asked - tally.found - tally.unknown)});
+                      CsvNumber(tally.asked), CsvNumber(tally.found), CsvNumber(tally.not_seen),
+                      CsvNumber(tally.asked - tally.found - tally.not_seen)});
     }
   }
   return rows;
@@ -161,19 +170,20 @@ ExperimentReport Report(const TrialTable& table) {
       const int asked = Sum(at, "asked");
       const bool bare = kind == NameOf(ThingKind::kNone);
       rows.push_back({bare ? "bare ground" : kind, height + " m", Share(Sum(at, "found"), asked),
-                      bare ? "-" : Share(Sum(at, "not_seen"), asked),
-                      bare ? "-" : Share(Sum(at, "missed"), asked)});
+                      Share(Sum(at, "not_seen"), asked), Share(Sum(at, "missed"), asked)});
       report.lines.push_back(rows.back()[0] + " at " + rows.back()[1] +
-                             (bare ? ": footprints refused " : ": found ") + rows.back()[2]);
+                             (bare ? ": footprints refused " : ": found ") + rows.back()[2] +
+                             (bare ? "; sure " : "; missed ") + rows.back()[4]);
     }
   }
   report.page
       .Paragraph(
           "Shares with 95 % intervals (Wilson). Found: a cell that the thing touches is a hazard. "
-          "Not seen: all its cells are unknown. Missed: taken for ground. Of bare ground: "
-          "footprints, known everywhere within the clear radius, that are refused. Footprints of "
-          "one field are related.")
-      .Table({"Thing", "Height", "Found (bare: refused)", "Not seen", "Missed"}, rows);
+          "Not seen: its cells are unknown, or more may hide about its middle than under a "
+          "confirmed site. Missed: neither, so that a site there may be confirmed. Of bare ground: "
+          "footprints, known everywhere within the clear radius, that are refused, under which too "
+          "much may hide, and the others: sure. Footprints of one field are related.")
+      .Table({"Thing", "Height", "Found (bare: refused)", "Not seen", "Missed (bare: sure)"}, rows);
   return report;
 }
 

@@ -13,7 +13,7 @@
 //
 //   w_m = b_m / (b_m + n_m),   sigma_h^2 = plane's + sum b_m n_m / (b_m + n_m)
 //
-// A detail beyond 4 sigmas of both is no bump of that ground: w_m is 1, and n_m its variance;
+// A detail beyond 4.5 sigmas of both is no bump of that ground: w_m is 1, and n_m its variance;
 // from 3 sigmas on w_m goes there. So level ground is not rough by noise, rough ground is known to
 // be rough where no single bump is told, and what stands out stays as high as it is.
 //
@@ -27,7 +27,7 @@ namespace palace {
 
 /// Gives measured cells their posterior height and variance; the top keeps what it stands above the
 /// ground. Cells that stereo knows better, and those where the pictures deny what stereo measured
-/// (by 4 sigmas and 2 cm: edges, where a disparity is no plane), stay as they are.
+/// (by 4.5 sigmas and 2 cm: edges, where a disparity is no plane), stay as they are.
 void TakeFineGround(const FineSums& sums, ElevationMap& map);
 
 }  // namespace palace

@@ -11,7 +11,7 @@ namespace palace {
 
 /// Side of the squares whose heights are asked: with what a gradient feels, as wide as a thing.
 inline constexpr double kFineSquare_m = 0.15;
-/// Beyond it a height is a thing's, not the noise of one square of a thousand.
+/// Beyond it a height is a thing's, not the noise of one square of a hundred thousand.
 inline constexpr double kStandsOut_sigmas = 4.5;
 /// A plane is asked no farther from its middle, squared, in its own spread.
 inline constexpr double kMostAside = 1;

@@ -18,7 +18,7 @@
 // around stand off their rings by beyond their own noise (GroundBumps). What stands over 1 m off is
 // not narrow: the map has it.
 //
-// Where a place stands out by 4 of these sigmas, or a square twice or four times as wide does,
+// Where a place stands out by 4.5 of these sigmas, or a square twice or four times as wide does,
 // the top of the cells under its square is raised (lowered, for a hole) to what a thing would be
 // that shows as much. Seen aslant, a thing hides the ground behind it, and what of it is laid there
 // is read from there: the ground between the cell and the camera is raised to the rays that saw it,
