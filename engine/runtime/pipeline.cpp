@@ -10,6 +10,17 @@
 #include "engine/slad/hazards/explanation.h"
 
 namespace palace {
+namespace {
+
+/// Why the left picture is none of now, by its last map; empty when nothing says so. A position
+/// taken from it would hold still while the vehicle moves.
+std::string WhyNotOfNow(const StereoQuality& quality) {
+  return quality.left_frozen  ? "the camera repeats its picture"
+         : quality.left_blank ? "the camera shows nothing"
+                              : "";
+}
+
+}  // namespace
 Pipeline::Pipeline(const Settings& settings, MissionOptions mission)
     : settings_(settings), mission_(std::move(mission)) {}
 
@@ -151,17 +162,22 @@ void Pipeline::Track(Pass& pass) {
     snapshot.flight.Edit().tracker = TrackerStatus{};
   } else if (pass.pair.left) {
     const Timestamp exposure = pass.bundle->stereo->time;
-    const RangeMap* range = pass.new_map ? snapshot.terrain->range.get() : nullptr;
-    // Of ground that had too little to hold on to the next map may measure more.
-    if (tracked_site_ != armed->id || (range != nullptr && !tracker_.anchored())) {
-      tracker_.Reset();
-      tracker_.Lock(*pass.pair.left, rectifier_->camera(), snapshot.sensors->X_WC, range, *armed,
-                    tracking, exposure);
-      navigator_.StartVision(*armed, exposure);
-      tracked_site_ = armed->id;
+    TrackResult result;
+    result.time = result.status.time = exposure;
+    result.status.why_not_locked = WhyNotOfNow(snapshot.terrain->stereo_quality);
+    if (result.status.why_not_locked.empty()) {
+      const RangeMap* range = pass.new_map ? snapshot.terrain->range.get() : nullptr;
+      // Of ground that had too little to hold on to the next map may measure more.
+      if (tracked_site_ != armed->id || (range != nullptr && !tracker_.anchored())) {
+        tracker_.Reset();
+        tracker_.Lock(*pass.pair.left, rectifier_->camera(), snapshot.sensors->X_WC, range, *armed,
+                      tracking, exposure);
+        navigator_.StartVision(*armed, exposure);
+        tracked_site_ = armed->id;
+      }
+      result = tracker_.Track(*pass.pair.left, rectifier_->camera(), snapshot.sensors->X_WC, range,
+                              tracking, exposure);
     }
-    const TrackResult result = tracker_.Track(*pass.pair.left, rectifier_->camera(),
-                                              snapshot.sensors->X_WC, range, tracking, exposure);
     snapshot.flight.Edit().tracker = result.status;
     navigator_.AddVision(result, rectifier_->camera(), *rig_, *pass.bundle, tracking);
     snapshot.sensors.Edit().X_WC = navigator_.PredictBodyPose(exposure) * rectifier_->X_BC(*rig_);

@@ -58,7 +58,7 @@ HoldButtonView ApproveButton(const EngineSnapshot& snap, const ApproveState& sta
   if (m.armed) {
     const SiteStanding standing = StandingOf(*m.armed, snap.session->settings.slad);
     view.label += standing == SiteStanding::kProvisional ? ", provisional"
-                  : standing == SiteStanding::kToLookAt  ? ", look first"
+                  : standing == SiteStanding::kToLookAt  ? ", not looked at"
                                                          : "";
   }
   using Phase = MissionStatus::ApprovalPhase;
@@ -122,19 +122,21 @@ std::string ApprovalConsequence(const EngineSnapshot& snap, bool narrow) {
             Fixed(m.time_to_touchdown_s, 0) + " s";
   }
   const std::string shaken = WhyShaken(snap);
-  std::string doubt =
+  const std::string why =
       m.armed ? WhyProvisional(*m.armed, snap.session->settings.slad) : std::string();
-  if (!doubt.empty()) {
-    doubt = StandingWord(StandingOf(*m.armed, snap.session->settings.slad)) + (": " + doubt) + ".";
-  }
+  const std::string doubt =
+      why.empty()
+          ? ""
+          : StandingWord(StandingOf(*m.armed, snap.session->settings.slad)) + (": " + why) + ".";
   if (!shaken.empty()) {
     // That a map called it unsafe goes before how far away it is: there is room for three lines.
     const std::string flown =
         side.empty() ? shaken + "." : shaken + ". Flown" + side.substr(1) + ".";
     return narrow ? flown : flown + " " + (doubt.empty() ? text + "." : doubt);
   }
-  if (!narrow && !doubt.empty()) {
-    return text + ". " + doubt;
+  if (!doubt.empty() && (!narrow || side.empty())) {
+    // Where there is room for one, the button names the standing and the list the way.
+    return narrow ? why + "." : text + ". " + doubt;
   }
   if (!narrow && m.approach) {
     double heading = Deg(m.approach->heading_rad);

@@ -1,5 +1,8 @@
 #include "gui/panels/arrival.h"
 
+#include <algorithm>
+#include <vector>
+
 #include "engine/model/channel_age.h"
 #include "engine/model/mission/wave_off_offer.h"
 #include "gui/widgets/number_text.h"
@@ -8,14 +11,22 @@ namespace palace {
 
 namespace {
 
-/// What stereo found wrong with the pictures of a camera that arrive in time.
+/// What is wrong with what arrives in time: a camera's pictures, a GPS that jumped.
 std::string WrongWith(const EngineSnapshot& snap, ChannelId channel) {
   const StereoQuality& quality = snap.terrain->stereo_quality;
   const bool left = channel == ChannelId::kCameraLeft, right = channel == ChannelId::kCameraRight;
-  if ((left && quality.left_frozen) || (right && quality.right_frozen)) {
-    return "Repeats its picture";
+  const std::vector<Alarm>& alarms = snap.flight->mission.alarms;
+  if (channel == ChannelId::kGps && std::any_of(alarms.begin(), alarms.end(), [](const Alarm& a) {
+        return a.kind == AlarmId::kGpsJump && a.active;
+      })) {
+    return "Off the prediction";
   }
-  return (left && quality.left_blank) || (right && quality.right_blank) ? "Shows nothing" : "";
+  // A black picture repeats itself as well.
+  if ((left && quality.left_blank) || (right && quality.right_blank)) {
+    return "Shows nothing";
+  }
+  return (left && quality.left_frozen) || (right && quality.right_frozen) ? "Repeats its picture"
+                                                                          : "";
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ struct Arrival {
   std::string age = "never", rate;
   double age_s = NAN;
   ChannelHealth::State state = ChannelHealth::State::kNever;
-  std::string wrong;  ///< of a camera: "Repeats its picture"; empty while none is known
+  std::string wrong;  ///< "Repeats its picture"; empty while nothing is known to be
   bool late() const {
     return state == ChannelHealth::State::kLate || state == ChannelHealth::State::kStale;
   }

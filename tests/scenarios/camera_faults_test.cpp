@@ -1,11 +1,18 @@
 // Cameras that fail in a descent: held or waved off in time, and never landed on ground that was
 // not measured since. Whole flights; `palacectl evaluate faults` flies every fault and more seeds.
 #include <algorithm>
+#include <cmath>
+#include <memory>
 #include <string>
+#include <utility>
 
 #include <gtest/gtest.h>
 
 #include "engine/experiments/fault_flight.h"
+#include "engine/faults/faulted_source.h"
+#include "engine/runtime/engine.h"
+#include "engine/runtime/scripted_operator.h"
+#include "engine/simulation/session.h"
 #include "gui/platform/offscreen_scene_camera.h"
 
 namespace palace {
@@ -41,6 +48,49 @@ TEST_P(CameraFaultInDescent, IsNamedAndStopsIt) {
                           [](const RaisedAlarm& alarm) { return alarm.id == GetParam().cause; }))
       << raised;
 }
+
+/// Largest distance of the estimate in force from the truth beyond its three sigmas, m, in a
+/// descent whose cameras freeze for 8 s from its third second on, to 10 s after.
+double EstimateBeyondItsSigmas_m() {
+  const SimulatedSession session =
+      OpenSimulatedSession({.seed = 3, .wind_mps = 3}, MakeOffscreenSceneCamera).value();
+  const auto source = std::make_shared<FaultedSource>(session.simulator, session.simulator, 3);
+  EngineParts parts;
+  parts.mission.session_id = session.id;
+  parts.source = source;
+  parts.link = source;
+  Engine engine(std::move(parts), /*threaded=*/false);
+  ScriptedOperator pilot;
+  double struck_s = NAN, worst_m = 0;
+  while (engine.Step() && !(source->now_s() > struck_s + 18) && source->now_s() < 120) {
+    const auto snapshot = engine.Latest();
+    const MissionStatus& mission = snapshot->flight->mission;
+    if (std::isnan(struck_s)) {
+      if (mission.state == MissionState::kDescending &&
+          SecondsBetween(mission.since, snapshot->time) > 3) {
+        struck_s = source->now_s();
+        Fault frozen{.kind = FaultKind::kCameraFrozen};
+        frozen.from_s = struck_s + 1e-3;
+        frozen.to_s = struck_s + 8;
+        EXPECT_TRUE(source->Add(frozen).ok());
+      }
+      for (const EngineCommand& command : pilot.Decide(*snapshot)) {
+        engine.Post(command);
+      }
+      continue;
+    }
+    const PositionEstimate& estimate = snapshot->flight->navigation.InForce().estimate;
+    const Eigen::Vector3d off_m = estimate.p_WB - snapshot->sensors->truth->X_WB.p;
+    for (int i = 0; i < 3; ++i) {
+      worst_m = std::max(worst_m, std::abs(off_m[i]) - 3 * estimate.sigma_p_m[i]);
+    }
+  }
+  EXPECT_FALSE(std::isnan(struck_s));
+  EXPECT_EQ(engine.error(), "");
+  return worst_m;
+}
+
+TEST(FrozenCameras, TakeTheEstimateNowhere) { EXPECT_LT(EstimateBeyondItsSigmas_m(), 0.25); }
 
 INSTANTIATE_TEST_SUITE_P(
     , CameraFaultInDescent,

@@ -29,7 +29,8 @@ ElevationMap Seen(const Height& ground, const Eigen::Vector3d& p_WC = kAbove,
   ElevationMap map = MakeMap(60, 60, 0.15, Flat(), 0.005);
   map.measured_m = map.height_m;
   const PinholeCamera camera = ThesisCamera();
-  TakeNarrowThings(FineField(map.geometry, ground, place_m), {camera, p_WC}, map);
+  TakeNarrowThings(FineField(map.geometry, ground, place_m), {camera, p_WC}, GridF(60, 60, 0.0F),
+                   map);
   return map;
 }
 

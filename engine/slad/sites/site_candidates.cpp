@@ -68,21 +68,48 @@ class OffCentre {
 /// Of a place whose surroundings are not seen, as a share of its safe distance.
 constexpr float kBlindRoom = 0.25F;
 
+constexpr int kAround_cells = 2;  // whose majority says whether a place is seen
+
+/// Where most cells around are not seen. Noise makes single ones so, other ones on every map: how
+/// much may hide there is asked apart, of all together.
+Grid<std::uint8_t> MostlyBlind(const Grid<std::uint8_t>& blind) {
+  Grid<std::uint8_t> mostly(blind.rows(), blind.cols());
+  for (int r = 0; r < blind.rows(); ++r) {
+    for (int c = 0; c < blind.cols(); ++c) {
+      int cells = 0, of_them = 0;
+      for (int y = std::max(0, r - kAround_cells);
+           y <= std::min(r + kAround_cells, blind.rows() - 1); ++y) {
+        for (int x = std::max(0, c - kAround_cells);
+             x <= std::min(c + kAround_cells, blind.cols() - 1); ++x) {
+          ++cells;
+          of_them += blind.at(y, x);
+        }
+      }
+      mostly.at(r, c) = 2 * of_them > cells ? 1 : 0;
+    }
+  }
+  return mostly;
+}
+
 /// Room by which places are ranked (site_candidates.h).
 GridF RoomSeen(const ElevationMap& map, const HazardMaps& hazards, const SladSettings& settings) {
   if (map.narrow.empty() || settings.mode == SladMode::kThesis) {
     return hazards.safe_distance_m;
   }
   const NarrowView view{map.narrow, map.geometry.cell_m, settings.limits.max_deviation_m};
-  Grid<std::uint8_t> blind = hazards.reasons;
+  Grid<std::uint8_t> blind(hazards.reasons.rows(), hazards.reasons.cols());
   cv::parallel_for_(cv::Range(0, blind.rows()), [&](const cv::Range& rows) {
     for (int r = rows.start; r < rows.end; ++r) {
       for (int c = 0; c < blind.cols(); ++c) {
-        const bool seen = IsSeen(view, {r, c});
-        blind.at(r, c) |= seen ? std::uint8_t{kHazardNone} : std::uint8_t{kHazardUnknown};
+        blind.at(r, c) = IsSeen(view, {r, c}) ? 0 : 1;
       }
     }
   });
+  blind = MostlyBlind(blind);
+  for (std::size_t i = 0; i < blind.cells().size(); ++i) {
+    blind.cells()[i] =
+        blind.cells()[i] != 0 ? std::uint8_t{kHazardUnknown} : hazards.reasons.cells()[i];
+  }
   GridF room_m = SafeDistance(blind, map.geometry.cell_m, DistanceTo::kSquare);
   const auto clear_m = static_cast<float>(settings.lander.clear_radius_m());
   for (std::size_t i = 0; i < room_m.cells().size(); ++i) {

@@ -2,9 +2,10 @@
 //
 // kFarthest scores metres: the room seen, and, within one cell's worth of it, the cost and the
 // nearness to the middle of the picture. Room is wide only over ground where a thing over the limit
-// would show (IsSeen, hidden_things.h): the distance to the nearest hazard or cell that is not
-// seen. Where that is little, a quarter of the safe distance, at most the clear radius: seen ground
-// goes before wide and blind ground. kCost scores the smoothed cost, less is better.
+// would show (IsSeen, hidden_things.h): the distance to the nearest hazard or cell about which
+// most are not seen. Where that is little, a quarter of the safe distance, at most the clear
+// radius: seen ground goes before wide and blind ground. kCost scores the smoothed cost, less is
+// better.
 #pragma once
 
 #include <optional>

@@ -108,11 +108,12 @@ std::uint64_t SampledHash(const RangeMap& range) {
   return hash.value();
 }
 
-/// Adds that of the error that stereo repeats in every frame.
-void AddRepeatedVariance(const RangeMap& range, ElevationMap& map) {
+/// Of the error that stereo repeats in every frame, per measured cell.
+GridF RepeatedVariance(const RangeMap& range, const ElevationMap& map) {
   const RigidTransform& X_WC = range.pose->X_WC;
   const double focal_times_baseline = range.FocalTimesBaseline();
   const GridGeometry& g = map.geometry;
+  GridF variance_m2(g.rows, g.cols, 0.0F);
   for (int r = 0; r < g.rows; ++r) {
     for (int c = 0; c < g.cols; ++c) {
       if (map.state.at(r, c) == CellState::kMeasured) {
@@ -120,9 +121,16 @@ void AddRepeatedVariance(const RangeMap& range, ElevationMap& map) {
                                    -static_cast<double>(map.height_m.at(r, c)));
         const double depth_m = X_WC.R.col(2).dot(p_WQ - X_WC.p);
         const double error_m = kRepeated_px * depth_m * depth_m / focal_times_baseline;
-        map.variance_m2.at(r, c) += static_cast<float>(error_m * error_m);
+        variance_m2.at(r, c) = static_cast<float>(error_m * error_m);
       }
     }
+  }
+  return variance_m2;
+}
+
+void AddVariance(const GridF& variance_m2, ElevationMap& map) {
+  for (std::size_t i = 0; i < variance_m2.cells().size(); ++i) {
+    map.variance_m2.cells()[i] += variance_m2.cells()[i];
   }
 }
 
@@ -188,8 +196,9 @@ std::shared_ptr<const ElevationMap> TerrainFusion::Add(const RangeMap& range,
   // Without pictures nothing is known of narrow things: the figures are there, and say so.
   const FineSums sums = fine_.Sums();
   TakeFineGround(sums, *published);
-  TakeNarrowThings(sums, {range.camera, range.pose->X_WC.p}, *published);
-  AddRepeatedVariance(range, *published);
+  const GridF repeated_m2 = RepeatedVariance(range, *published);
+  TakeNarrowThings(sums, {range.camera, range.pose->X_WC.p}, repeated_m2, *published);
+  AddVariance(repeated_m2, *published);
   FillHoles(*published, settings.grid.data_size_cells, settings.grid.border_size_cells);
   return published;
 }

@@ -16,7 +16,8 @@ constexpr int kPerCell = NarrowFigures::kPerCell;
 /// Width of the thing that must not hide: half as wide again as it is high, at 1.2 times the
 /// default limit; and the share of its height that it shows unsmeared.
 constexpr double kThing_m = 0.18, kPeakOfThing = 0.8;
-constexpr double kGradient_px = 3;  // width that a five-point derivative feels
+constexpr double kWorstTexture = 2.5;  // times the error that stereo's window usually repeats
+constexpr double kGradient_px = 3;     // width that a five-point derivative feels
 constexpr double kTallest_m = 1;
 constexpr int kRingFrom = 1;  // of the frame around, in squares beyond the square
 /// Squares that are looked at, the narrowest last: times the side, and how far their frame reaches.
@@ -128,7 +129,8 @@ void RaiseUnder(const Figures& fine, int row, int col, double times, double sigm
 
 }  // namespace
 
-void TakeNarrowThings(const FineSums& sums, const Viewpoint& view, ElevationMap& map) {
+void TakeNarrowThings(const FineSums& sums, const Viewpoint& view, const GridF& repeated_m2,
+                      ElevationMap& map) {
   const GridGeometry& places = sums.places();
   const double square_m = sums.side() * places.cell_m;
   const GridF unknown(places.rows, places.cols, kUnknownValue);
@@ -156,13 +158,17 @@ void TakeNarrowThings(const FineSums& sums, const Viewpoint& view, ElevationMap&
         const double smear = (Square(gradient_m) + Square(square_m)) / Square(kThing_m);
         if (narrowest) {
           map.narrow.prominence_m.at(r, c) = static_cast<float>(shown_m);
-          map.narrow.noise_m.at(r, c) = static_cast<float>(noise_m);
-          map.narrow.sigma_m.at(r, c) = static_cast<float>(sigma_m);
+          const double floor_m = std::sqrt(
+              view.RepeatedVariance(p_WQ, square_m, At(repeated_m2, r / kPerCell, c / kPerCell)));
+          map.narrow.noise_m.at(r, c) = static_cast<float>(std::hypot(noise_m, floor_m));
+          map.narrow.sigma_m.at(r, c) = static_cast<float>(std::hypot(sigma_m, floor_m));
           map.narrow.share.at(r, c) = static_cast<float>(kPeakOfThing / (1 + smear));
         }
         // What fills a wider square shows all of its height.
         const double times = std::max(1.0, (1 + smear) / scale.sides);
-        RaiseUnder(figures, r, c, times, sigma_m, view.p_WC, map, top_m);
+        const double worst_m =
+            narrowest ? 0 : kWorstTexture * std::sqrt(At(repeated_m2, r / kPerCell, c / kPerCell));
+        RaiseUnder(figures, r, c, times, std::hypot(sigma_m, worst_m), view.p_WC, map, top_m);
       }
     }
   }

@@ -18,12 +18,15 @@
 // around stand off their rings by beyond their own noise (GroundBumps). What stands over 1 m off is
 // not narrow: the map has it.
 //
-// Where a place stands out by 4.5 of these sigmas, or a square twice or four times as wide does,
-// the top of the cells under its square is raised (lowered, for a hole) to what a thing would be
-// that shows as much. Seen aslant, a thing hides the ground behind it, and what of it is laid there
-// is read from there: the ground between the cell and the camera is raised to the rays that saw it,
-// until these have risen as high. The measured ground stays as it is.
+// Where a place stands out by 4.5 of these sigmas, or a square twice or four times as wide does
+// (its noise is small: what the worst textures repeat over stereo's window is added to it), the top
+// of the cells under its square is raised (lowered, for a hole) to what a thing would be that shows
+// as much. Seen aslant, a thing hides the ground behind it, and what of it is laid there is read
+// from there: the ground between the cell and the camera is raised to the rays that saw it, until
+// these have risen as high. The measured ground stays as it is.
 #pragma once
+
+#include <cmath>
 
 #include <Eigen/Dense>
 
@@ -33,6 +36,10 @@
 
 namespace palace {
 
+/// Of what a thing would show no more is claimed, however many frames there are, than a pixel by
+/// itself that errs with so many times the variance of what stereo's window repeats: 0.15 px.
+inline constexpr double kRepeatedByPixel = 156;
+
 /// From where a map is seen.
 struct Viewpoint {
   const PinholeCamera& camera;
@@ -40,8 +47,17 @@ struct Viewpoint {
 
   /// Metres across that a pixel sees there.
   double Pixel_m(const Eigen::Vector3d& p_WQ) const { return (p_WQ - p_WC).norm() / camera.fx_px; }
+  /// Least variance of the height of a level square about the point, `stereo_m2` being that of
+  /// stereo's window: that of a pixel over the pixels of the square.
+  double RepeatedVariance(const Eigen::Vector3d& p_WQ, double square_m, double stereo_m2) const {
+    const double across_px = square_m / Pixel_m(p_WQ);
+    const double steepness = std::abs(p_WQ.z() - p_WC.z()) / (p_WQ - p_WC).norm();
+    return stereo_m2 * (1 + kRepeatedByPixel / (across_px * across_px * steepness));
+  }
 };
 
-void TakeNarrowThings(const FineSums& sums, const Viewpoint& view, ElevationMap& map);
+/// `repeated_m2`: variance by what stereo's window repeats in every frame, the map's size.
+void TakeNarrowThings(const FineSums& sums, const Viewpoint& view, const GridF& repeated_m2,
+                      ElevationMap& map);
 
 }  // namespace palace

@@ -14,7 +14,7 @@ constexpr int kBlock = 16;                // places along a side
 constexpr std::size_t kLeastPlaces = 64;  // of a block, or it says nothing
 constexpr double kMedianOfSquare = 0.4549364;
 constexpr double kMedianSigma = 2.33;  // of the median of squared normals, in it, of one
-constexpr double kByChance = 2;        // sigmas that the median may have come out too small
+constexpr double kByChance = 3;        // sigmas that the median may have come out too small
 /// Where the height itself answers to more of the other gradients, nothing is left to be asked.
 constexpr double kLeastOwn = 0.25;
 

@@ -15,7 +15,8 @@
 // is new, answer^2 / variance is 1 in the mean; so its mean over the places around is how many
 // times larger the variance of such sums really is. It is read from the median, 0.4549 for a
 // squared normal, for over things the residuals answer too: a height is no constant over a place.
-// To it comes what it may be too small by chance, two sigmas; less than 1 is taken as 1.
+// To it comes what it may be too small by chance, three sigmas; less than 1
+// is taken as 1.
 //
 // Where single edges err more than the texture around, G itself is too small. Then what the
 // residuals scatter by about the height that they tell stands for it (White 1980):
@@ -24,8 +25,8 @@
 //
 // Measured on level ground of six textures by two renderers, 10 to 50 frames, still and moving: the
 // true variance is 0.8 to 13 times the stated one, and the median says 1.0 to 16. In a recorded
-// hover p / sigma (narrow_things.h) is then normal: 0.66 in the middle of its size, 2.6 at one in a
-// hundred, 3.3 at one in a thousand, of 28,000 at most 4.3.
+// hover p / sigma (narrow_things.h, without its floor) was normal with two sigmas: 0.66 in the
+// middle of its size, 2.6 at one in a hundred, 3.3 at one in a thousand, of 28,000 at most 4.3.
 #pragma once
 
 #include <array>

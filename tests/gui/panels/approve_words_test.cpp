@@ -4,6 +4,7 @@
 
 #include <functional>
 
+#include "engine/model/site_standing.h"
 #include "tests/support/fake_snapshot.h"
 
 namespace palace {
@@ -33,7 +34,7 @@ TEST(ApproveWords, TheButtonTellsWhatAHoldDoesOrWhyItDoesNothing) {
          mission(s).armed->confirmed = false;
          mission(s).armed->height_m.three_sigma = 0.2;
        },
-       HoldPhase::kReady, "Hold to approve A, look first", ""},
+       HoldPhase::kReady, "Hold to approve A, not looked at", ""},
       {"sent",
        [&](EngineSnapshot& s) {
          mission(s).approval_phase = Phase::kSent;
@@ -139,6 +140,8 @@ TEST(ApproveWords, AnApprovalLeadsToADescentUnlessSomethingSpeaksAgainstTheSite)
   m.armed->confirmed = false;
   m.armed->frames_fused = 1;
   EXPECT_NE(ApprovalConsequence(snap, false).find("Provisional: "), std::string::npos);
+  EXPECT_EQ(ApprovalConsequence(snap, true),
+            WhyProvisional(*snap.flight->mission.armed, snap.session->settings.slad) + ".");
   m.armed->height_m.three_sigma = 0.2;
   EXPECT_NE(ApprovalConsequence(snap, false).find("Look first: height noise 20.0 cm"),
             std::string::npos);

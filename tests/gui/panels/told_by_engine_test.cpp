@@ -181,8 +181,21 @@ TEST(Pictures, ACameraThatRepeatsItsPictureIsNamedWhereItIsShown) {
   };
   EXPECT_EQ(plates(), 2) << "on the tile and over the picture";
   window.snap.terrain.Edit().stereo_quality.left_blank = true;
+  window.snap.terrain.Edit().stereo_quality.left_frozen = true;  // black twice
   window.Run(0.1);
   EXPECT_EQ(window.ui.items.Find("channel/Camera left")->text, "Shows nothing");
+}
+
+TEST(ChannelStrip, AGpsThatJumpedIsNoGoodOne) {
+  EngineSnapshot snap = fake::Snapshot(MissionState::kProposed);
+  snap.sensors.Edit().channels[4].state = ChannelHealth::State::kFresh;
+  FlyWindow window(1920, 1080, snap);
+  EXPECT_NE(window.ui.items.Find("channel/GPS")->text, "Off the prediction");
+  Alarm jump;
+  jump.kind = AlarmId::kGpsJump;
+  window.snap.flight.Edit().mission.alarms.push_back(jump);
+  window.Run(0.1);
+  EXPECT_EQ(window.ui.items.Find("channel/GPS")->text.rfind("Off the prediction", 0), 0u);
 }
 
 TEST(StatusBar, TellsWhatWasNeverHeardFromWhatIsStale) {
