@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/mission/watch/picture_watch.h"
 #include "engine/runtime/decision_hash.h"
 #include "engine/runtime/missing_inputs.h"
 #include "engine/runtime/pipeline_pass.h"
@@ -12,15 +13,21 @@
 namespace palace {
 namespace {
 
-/// Why the left picture is none of now, by its last map; empty when nothing says so. A position
-/// taken from it would hold still while the vehicle moves.
-std::string WhyNotOfNow(const StereoQuality& quality) {
-  return quality.left_frozen  ? "the camera repeats its picture"
-         : quality.left_blank ? "the camera shows nothing"
+/// Why the left picture is none of now, by its last map; empty when nothing says so, and where no
+/// map is made: nobody would take it back. A position taken from it would hold still while the
+/// vehicle moves.
+std::string WhyNotOfNow(const TerrainPart& terrain, SessionRole role) {
+  if (!terrain.why_no_map.empty()) {
+    return "";
+  }
+  const PictureFaults faults = JudgePictures(terrain.stereo_quality, role);
+  return faults.left_blank    ? "the camera shows nothing"
+         : faults.left_frozen ? "the camera repeats its picture"
                               : "";
 }
 
 }  // namespace
+
 Pipeline::Pipeline(const Settings& settings, MissionOptions mission)
     : settings_(settings), mission_(std::move(mission)) {}
 
@@ -164,7 +171,7 @@ void Pipeline::Track(Pass& pass) {
     const Timestamp exposure = pass.bundle->stereo->time;
     TrackResult result;
     result.time = result.status.time = exposure;
-    result.status.why_not_locked = WhyNotOfNow(snapshot.terrain->stereo_quality);
+    result.status.why_not_locked = WhyNotOfNow(*snapshot.terrain, role_);
     if (result.status.why_not_locked.empty()) {
       const RangeMap* range = pass.new_map ? snapshot.terrain->range.get() : nullptr;
       // Of ground that had too little to hold on to the next map may measure more.

@@ -21,12 +21,14 @@ std::string WrongWith(const EngineSnapshot& snap, ChannelId channel) {
       })) {
     return "Off the prediction";
   }
-  // A black picture repeats itself as well.
+  // A black picture repeats itself as well, and so may a folder or a film that stands.
   if ((left && quality.left_blank) || (right && quality.right_blank)) {
     return "Shows nothing";
   }
-  return (left && quality.left_frozen) || (right && quality.right_frozen) ? "Repeats its picture"
-                                                                          : "";
+  const bool live = !HasPicturesOnly(snap.session->role);
+  return live && ((left && quality.left_frozen) || (right && quality.right_frozen))
+             ? "Repeats its picture"
+             : "";
 }
 
 }  // namespace

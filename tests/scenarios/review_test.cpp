@@ -151,10 +151,11 @@ double SecondsTo(const FlightRecord& record, Condition condition) {
 
 // A whole landing; the first site is refused before, so that another is flown to.
 TEST_F(Review, OfALandingTellsBelowTheMapsAndOnTheGroundWhatTheRecordSays) {
-  Fly("wait state PROPOSED 60\nwait seconds 6\nclick site/best\nwait state ARMED 5\n"
-      "click refuse\nwait state PROPOSED 20\nwait seconds 1\nclick site/best\n"
-      "wait state ARMED 5\nwait item approve 20\nwait seconds 1.2\nhold approve 1.2\n"
-      "wait state LANDED 200\nwait seconds 2\n");
+  ASSERT_NO_FATAL_FAILURE(
+      Fly("wait state PROPOSED 60\nwait seconds 6\nclick site/best\nwait state ARMED 5\n"
+          "click refuse\nwait state PROPOSED 20\nwait seconds 1\nclick site/best\n"
+          "wait state ARMED 5\nwait item approve 20\nwait seconds 1.2\nhold approve 1.2\n"
+          "wait state LANDED 200\nwait seconds 2\n"));
   ASSERT_EQ(record_->touchdowns.size(), 1u);
   ASSERT_EQ(record_->armed_sites.size(), 2u);
   const LandingSite refused = record_->armed_sites[0], flown = record_->armed_sites[1];

@@ -25,12 +25,12 @@ constexpr double kPlace_m = 0.01;
 const Eigen::Vector3d kAbove(0, 0, -10);
 
 ElevationMap Seen(const Height& ground, const Eigen::Vector3d& p_WC = kAbove,
-                  double place_m = kPlace_m) {
+                  double place_m = kPlace_m, double repeated_m = 0) {
   ElevationMap map = MakeMap(60, 60, 0.15, Flat(), 0.005);
   map.measured_m = map.height_m;
   const PinholeCamera camera = ThesisCamera();
-  TakeNarrowThings(FineField(map.geometry, ground, place_m), {camera, p_WC}, GridF(60, 60, 0.0F),
-                   map);
+  TakeNarrowThings(FineField(map.geometry, ground, place_m), {camera, p_WC},
+                   GridF(60, 60, static_cast<float>(repeated_m * repeated_m)), map);
   return map;
 }
 
@@ -78,6 +78,21 @@ TEST(NarrowThings, TheShareIsThatOfAThing18CmAcross) {
   const double share = 0.8 / (1 + (gradient_m * gradient_m + 0.15 * 0.15) / (0.18 * 0.18));
   EXPECT_NEAR(Seen(Flat()).narrow.share.at(PlaceAt(0, 0)), share, 1e-3);
   EXPECT_LT(Seen(Flat(), {0, 0, -40}).narrow.share.at(PlaceAt(0, 0)), 0.8 * share);
+}
+
+TEST(NarrowThings, NoMoreIsClaimedThanWhatNoFramesAverageAway) {
+  const Cell at = PlaceAt(0, 0);
+  const ElevationMap map = Seen(Flat(), kAbove, kPlace_m, 0.03);
+  // Of each pixel by itself 156 times the variance of stereo's window, over those of the square.
+  const double pixels = std::pow(0.15 * ThesisCamera().fx_px / 10, 2);
+  const double said_m = std::hypot(kPlace_m / 2, 0.03 * std::sqrt(1 + 156 / pixels));
+  EXPECT_NEAR(map.narrow.sigma_m.at(at), said_m, 0.001);
+  EXPECT_NEAR(map.narrow.noise_m.at(at), said_m, 0.001);
+  // What stands out is told by the noise of the pictures alone.
+  const ElevationMap thing = Seen(WithBox(Flat(), 0, 0, 0.3, 0.12), kAbove, kPlace_m, 0.03);
+  const auto cell = thing.geometry.CellFromPoint(0, 0);
+  EXPECT_GT(thing.height_m.at(*cell), 0.1);
+  EXPECT_LT(0.12, 4.5 * said_m);
 }
 
 TEST(NarrowThings, BumpsAroundAreNoiseToo) {

@@ -39,6 +39,17 @@ float SquaredAnswer(const FinePlace& place) {
   return static_cast<float>(answer * answer / variance);
 }
 
+/// G, or what the residuals scatter by about the height that they tell, if more.
+double Noise(const FinePlace& place) {
+  using P = FinePlace;
+  const double gross = Of(place, P::kGross), net = Of(place, P::kNet);
+  if (!(net > FineSum::kLeastNet)) {
+    return gross;
+  }
+  const double off_m = Of(place, P::kOff) / net;
+  return std::max(gross, Of(place, P::kScatter) - off_m * off_m * Of(place, P::kFourth));
+}
+
 /// Of each block; NaN where it says nothing.
 GridF BlockTimes(const GridF& squared) {
   GridF times((squared.rows() + kBlock - 1) / kBlock, (squared.cols() + kBlock - 1) / kBlock,
@@ -108,21 +119,6 @@ GridF VarianceTimes(const Grid<FinePlace>& places) {
   }
   return times;
 }
-
-namespace {
-
-/// G, or what the residuals scatter by about the height that they tell, if more.
-double Noise(const FinePlace& place) {
-  using P = FinePlace;
-  const double gross = Of(place, P::kGross), net = Of(place, P::kNet);
-  if (!(net > FineSum::kLeastNet)) {
-    return gross;
-  }
-  const double off_m = Of(place, P::kOff) / net;
-  return std::max(gross, Of(place, P::kScatter) - off_m * off_m * Of(place, P::kFourth));
-}
-
-}  // namespace
 
 Grid<FineKnown> WithRepeatedNoise(const Grid<FinePlace>& places) {
   using P = FinePlace;

@@ -15,8 +15,7 @@
 // is new, answer^2 / variance is 1 in the mean; so its mean over the places around is how many
 // times larger the variance of such sums really is. It is read from the median, 0.4549 for a
 // squared normal, for over things the residuals answer too: a height is no constant over a place.
-// To it comes what it may be too small by chance, three sigmas; less than 1
-// is taken as 1.
+// To it comes what it may be too small by chance, three sigmas; less than 1 is taken as 1.
 //
 // Where single edges err more than the texture around, G itself is too small. Then what the
 // residuals scatter by about the height that they tell stands for it (White 1980):

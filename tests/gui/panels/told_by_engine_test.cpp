@@ -180,6 +180,10 @@ TEST(Pictures, ACameraThatRepeatsItsPictureIsNamedWhereItIsShown) {
     return count;
   };
   EXPECT_EQ(plates(), 2) << "on the tile and over the picture";
+  window.snap.session.Edit().role = SessionRole::kPictures;
+  window.Run(0.1);
+  EXPECT_EQ(plates(), 0) << "a folder repeats its last pair";
+  window.snap.session.Edit().role = snap.session->role;
   window.snap.terrain.Edit().stereo_quality.left_blank = true;
   window.snap.terrain.Edit().stereo_quality.left_frozen = true;  // black twice
   window.Run(0.1);
