@@ -48,9 +48,6 @@ struct LandingSite {
   Figure step_m;
   Figure height_m;             ///< height in W, up-positive; three_sigma is the height noise
   double safe_distance_m = 0;  ///< to the nearest hazard
-  /// Room over ground that is well seen, what sites are ranked by; NaN: by safe_distance_m (room is
-  /// seen everywhere, or nobody asked). Of one list; not recorded, the reason is.
-  double room_seen_m = std::numeric_limits<double>::quiet_NaN();
   double clear_radius_m = 0;  ///< required: lander radius + navigation error
   double clearance_m = 0;     ///< safe_distance - clear_radius
   double cost = 0;

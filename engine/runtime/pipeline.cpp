@@ -62,6 +62,9 @@ void Pipeline::StartAfterJump(Timestamp now) {
   if (const Settings* settings =
           FollowsRecord(role_) ? mission_of_record_.SettingsAt(now) : nullptr) {
     settings_.RestoreRecorded(*settings);
+    if (const RecordedProposal* proposal = mission_of_record_.ProposalAt(now)) {
+      slad_.GoOnWith(proposal->places, settings->slad);
+    }
   }
   std::vector<HistorySample> before = mission_of_record_.HistoryBefore(now);
   maps_to_rebuild_ =

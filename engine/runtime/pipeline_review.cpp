@@ -12,12 +12,13 @@ namespace palace {
 std::shared_ptr<const TerrainDecision> Pipeline::DecisionUnder(const Settings& settings,
                                                                Letters letters) {
   std::shared_ptr<const TerrainDecision> decision = slad_.Decide(settings, letters);
-  const FlightRecord* record = mission_of_record_.record();
-  if (SeenFromStart(role_) || record == nullptr) {
+  const RecordedProposal* proposal =
+      SeenFromStart(role_) ? nullptr : mission_of_record_.ProposalAt(decision->map_time);
+  if (proposal == nullptr) {
     return decision;
   }
   const Settings* of_flight = mission_of_record_.SettingsAt(decision->map_time);
-  return NamedByRecord(std::move(decision), *record,
+  return NamedByRecord(std::move(decision), *proposal,
                        of_flight != nullptr && settings.slad == of_flight->slad);
 }
 

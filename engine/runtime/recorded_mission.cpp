@@ -62,6 +62,17 @@ std::shared_ptr<const std::vector<Event>> RecordedMission::EventsUntil(Timestamp
   return events_;
 }
 
+const RecordedProposal* RecordedMission::ProposalAt(Timestamp time) const {
+  if (!record_) {
+    return nullptr;
+  }
+  const auto& all = record_->proposals;
+  const auto after = std::upper_bound(
+      all.begin(), all.end(), time,
+      [](Timestamp t, const RecordedProposal& proposal) { return t < proposal.map_time; });
+  return after == all.begin() ? nullptr : &*(after - 1);
+}
+
 std::vector<HistorySample> RecordedMission::HistoryBefore(Timestamp time) const {
   std::vector<HistorySample> history;
   if (!record_) {

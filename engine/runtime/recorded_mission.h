@@ -25,6 +25,8 @@ class RecordedMission {
   std::shared_ptr<const std::vector<Event>> EventsUntil(Timestamp time);
   /// Limits in force at `time`; null where the record tells none.
   const Settings* SettingsAt(Timestamp time) const;
+  /// What the newest map proposed that is not newer than `time`; null where the record tells none.
+  const RecordedProposal* ProposalAt(Timestamp time) const;
   /// Plots of the flight before `time`, as far as the record tells.
   std::vector<HistorySample> HistoryBefore(Timestamp time) const;
   /// When each channel was heard last before `time`; empty where the record does not tell, or it

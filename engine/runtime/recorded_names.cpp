@@ -13,14 +13,6 @@ namespace {
 constexpr double kSamePlace_m = 1.5;
 constexpr std::uint64_t kUnrecordedIds = 1'000'000'000;  // no flight names that many places
 
-const RecordedProposal* ProposalAt(const FlightRecord& record, Timestamp map_time) {
-  const auto& all = record.proposals;
-  const auto after = std::upper_bound(
-      all.begin(), all.end(), map_time,
-      [](Timestamp t, const RecordedProposal& proposal) { return t < proposal.map_time; });
-  return after == all.begin() ? nullptr : &*(after - 1);
-}
-
 /// New letters of old ones.
 using Renamed = std::map<std::string, std::string>;
 
@@ -69,12 +61,8 @@ std::vector<Pairing> PairingsOf(SiteSelection& selection, const RecordedProposal
 }  // namespace
 
 std::shared_ptr<const TerrainDecision> NamedByRecord(
-    std::shared_ptr<const TerrainDecision> decision, const FlightRecord& record,
+    std::shared_ptr<const TerrainDecision> decision, const RecordedProposal& proposal,
     bool limits_of_flight) {
-  const RecordedProposal* proposal = ProposalAt(record, decision->map_time);
-  if (proposal == nullptr) {
-    return decision;
-  }
   auto named = std::make_shared<TerrainDecision>(*decision);
   Renamed renamed;
   for (LandingSite& site : named->selection.sites) {
@@ -82,7 +70,7 @@ std::shared_ptr<const TerrainDecision> NamedByRecord(
     site.id += kUnrecordedIds;
   }
   std::vector<const RecordedPlace*> taken;
-  for (const Pairing& pairing : PairingsOf(named->selection, *proposal)) {
+  for (const Pairing& pairing : PairingsOf(named->selection, proposal)) {
     const bool free = std::find(taken.begin(), taken.end(), pairing.place) == taken.end();
     if (free && pairing.site->id >= kUnrecordedIds) {
       renamed[pairing.site->letter] = pairing.place->letter;
@@ -96,7 +84,7 @@ std::shared_ptr<const TerrainDecision> NamedByRecord(
   }
   if (limits_of_flight) {
     const auto rank = [&](const LandingSite& site) {
-      return std::find_if(proposal->places.begin(), proposal->places.end(),
+      return std::find_if(proposal.places.begin(), proposal.places.end(),
                           [&](const RecordedPlace& place) { return place.id == site.id; });
     };
     std::stable_sort(named->selection.sites.begin(), named->selection.sites.end(),

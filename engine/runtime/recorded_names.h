@@ -11,14 +11,14 @@
 
 namespace palace {
 
-/// `decision` under the names of the newest proposal that is not newer than its map, place by
+/// `decision` under the names of `proposal`, the newest that is not newer than its map, place by
 /// place, nearest first within 1.5 m. A site that the record does not know there has a small
-/// letter and an id of its own. `decision` itself where the record tells no proposal.
+/// letter and an id of its own.
 ///
 /// Which site leads depends on what led before (sites/site_registry.h), which nobody saw either:
 /// under the limits of the flight the sites stand in the record's order, unknown ones last.
 std::shared_ptr<const TerrainDecision> NamedByRecord(
-    std::shared_ptr<const TerrainDecision> decision, const FlightRecord& record,
+    std::shared_ptr<const TerrainDecision> decision, const RecordedProposal& proposal,
     bool limits_of_flight);
 
 }  // namespace palace

@@ -49,6 +49,10 @@ class Slad {
   void Forget(SiteNames names);
   /// So many places had names before this one began.
   void GoOnNaming(std::uint64_t named) { registry_.GoOnNaming(named); }
+  /// Those places were listed before (SiteRegistry::GoOnWith).
+  void GoOnWith(const std::vector<RecordedPlace>& places, const SladSettings& settings) {
+    registry_.GoOnWith(places, settings);
+  }
 
   /// Fuses a new range map and flags it from its pictures; Decide then judges the map. Thesis mode
   /// fuses nothing and flags nothing: its map is that of the newest frame.

@@ -187,7 +187,8 @@ void DrawRightCameraPanel(const EngineSnapshot& snap, const Rect& rect, const Ma
     const PictureView view{*camera, snap.sensors->X_WC, image};
     DrawScaleBar(ui, image, view.PixelsPerMetre(site->p_WS));
   }
-  if (std::isfinite(snap.terrain->stereo_quality.row_error_px)) {
+  // Of another picture it says nothing here; Diagnose tells it with its age.
+  if (RangesAreOfPicture(snap) && std::isfinite(snap.terrain->stereo_quality.row_error_px)) {
     TextPlate(ui, image, Corner::kBottomRight,
               "Row error " + Fixed(snap.terrain->stereo_quality.row_error_px, 2) + " px");
   }

@@ -48,6 +48,19 @@ TEST(RecordedMission, TellsTheEventsOfTheFlightUntilATimeWhicheverWayItIsReached
   }
 }
 
+TEST(RecordedMission, TellsWhatTheNewestMapProposedThatIsNotNewer) {
+  auto record = std::make_shared<FlightRecord>();
+  RecordedMission flight;
+  EXPECT_EQ(flight.ProposalAt({500}), nullptr);
+  record->proposals = {{{500}, {{7, "K", {0.2, 0}}}}, {{2000}, {{9, "Z", {0, 0}}}}};
+  flight.Follow(record);
+  EXPECT_EQ(flight.ProposalAt({499}), nullptr);
+  for (const std::int64_t us : {500, 1999, 2000, 9000}) {
+    ASSERT_NE(flight.ProposalAt({us}), nullptr);
+    EXPECT_EQ(flight.ProposalAt({us})->places[0].letter, us < 2000 ? "K" : "Z") << us;
+  }
+}
+
 FlightRecordSample At(std::int64_t us, MissionState state, int armed) {
   FlightRecordSample sample;
   sample.time = {us};

@@ -72,12 +72,10 @@ TEST(Redecisions, OneSampleATimeInOrderHoweverTheLogWasPlayed) {
 }
 
 TEST(RecordedNames, SitesHaveTheLettersOfTheFlight) {
-  FlightRecord record;
-  record.proposals = {{{500}, {{7, "K", {0.2, 0}}, {3, "B", {5, 5}}}},
-                      {{2000}, {{9, "Z", {0, 0}}}}};  // newer than the map
+  const RecordedProposal proposal{{500}, {{7, "K", {0.2, 0}}, {3, "B", {5, 5}}}};
   const auto map = std::make_shared<const TerrainDecision>(
       Map({SiteAt("A", 0, 0), SiteAt("B", 9, 9), SiteAt("C", 5.3, 5)}));
-  const auto named = NamedByRecord(map, record, /*limits_of_flight=*/false);
+  const auto named = NamedByRecord(map, proposal, /*limits_of_flight=*/false);
   const std::vector<LandingSite>& sites = named->selection.sites;
   EXPECT_EQ(sites[0].letter, "K");
   EXPECT_EQ(sites[0].id, 7u);
@@ -86,18 +84,16 @@ TEST(RecordedNames, SitesHaveTheLettersOfTheFlight) {
   EXPECT_EQ(sites[2].letter, "B");
   EXPECT_EQ(sites[2].id, 3u);
   EXPECT_EQ(sites[2].reason, "0.6 m less clear than K");
-  EXPECT_EQ(NamedByRecord(map, FlightRecord{}, false), map);
 }
 
 // B led when the map began to favour A, and goes on leading: a map built anew cannot know that.
 TEST(RecordedNames, UnderTheLimitsOfTheFlightTheSitesStandAsTheyStood) {
-  FlightRecord record;
-  record.proposals = {{{500}, {{3, "B", {5, 5}}, {7, "K", {0.2, 0}}}}};
+  const RecordedProposal proposal{{500}, {{3, "B", {5, 5}}, {7, "K", {0.2, 0}}}};
   const auto map = std::make_shared<const TerrainDecision>(
       Map({SiteAt("A", 0, 0), SiteAt("B", 9, 9), SiteAt("C", 5.3, 5)}));
   const auto letters = [&](bool limits_of_flight) {
     std::string all;
-    const auto named = NamedByRecord(map, record, limits_of_flight);
+    const auto named = NamedByRecord(map, proposal, limits_of_flight);
     for (const LandingSite& site : named->selection.sites) {
       all += site.letter;
     }

@@ -68,9 +68,10 @@ TEST_F(ReviewOfALog, InventsNothingBetweenJumps) {
   EXPECT_EQ(engine_->Latest()->session->recorded_settings.slad.limits.max_slope_deg, 9);
   EXPECT_EQ(engine_->Latest()->session->settings.slad.limits.max_slope_deg, 9);
 
-  // A limit no ground keeps: what is played under it has no site, and the rest stays empty.
+  // A limit no ground is known to keep: what is played under it has no site, and the rest stays
+  // empty.
   Seek(0);
-  engine_->Post({CommandOrigin::kOperator, SetSetting{"slad.max_slope_deg", 0.5}});
+  engine_->Post({CommandOrigin::kOperator, SetSetting{"slad.max_deviation_m", 0.005}});
   Play(25);
   ASSERT_NE(terrain().redecided, nullptr);
   const auto judged = terrain().redecided;

@@ -164,22 +164,6 @@ TEST(HiddenThings, ArePartOfTheProbabilityOfASafeTouchdown) {
       << "a survey";
 }
 
-TEST(HiddenThings, GroundIsSeenWhereAThingIsRuledOutFiftyToOne) {
-  // At r / sigma = k a cell that shows nothing has the ratio exp(-k^2 / 2): 1/50 at 2.797.
-  const double share = 0.3, r = 1.2 * kLimit_m * share;
-  for (const double k : {2.75, 2.85}) {
-    const ElevationMap map = MapThatShows(0, r / k, share);
-    EXPECT_EQ(IsSeen(ViewOf(map), kMiddle), k > 2.8) << k;
-  }
-  const auto seen = [&](const ElevationMap& map) { return IsSeen(ViewOf(map), kMiddle); };
-  EXPECT_TRUE(seen(MapThatShows(0.4 * r, r / 4, share))) << "noise, or a thing half as high";
-  EXPECT_FALSE(seen(MapThatShows(0.7 * r, r / 4, share)));
-  EXPECT_FALSE(seen(MapThatShows(-0.7 * r, r / 4, share)));
-  EXPECT_FALSE(seen(Marked(MapThatShows(0, r / 4, share), 0.7 * r))) << "one place of four";
-  EXPECT_FALSE(seen(MapThatShows(NAN, NAN, NAN)));
-  EXPECT_LT(Hidden(MapThatShows(0, r / 2.85, share)), kMostHidden) << "then confirmed";
-}
-
 TEST(HiddenThings, FromNearerAreThoseOfBareGroundWithLessNoise) {
   const auto from = [](const ElevationMap& map, double nearer) {
     return HiddenFromNearer(ViewOf(map), kMiddle, kRadius_m, nearer);

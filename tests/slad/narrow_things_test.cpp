@@ -83,9 +83,7 @@ TEST(NarrowThings, TheShareIsThatOfAThing18CmAcross) {
 TEST(NarrowThings, NoMoreIsClaimedThanWhatNoFramesAverageAway) {
   const Cell at = PlaceAt(0, 0);
   const ElevationMap map = Seen(Flat(), kAbove, kPlace_m, 0.03);
-  // Of each pixel by itself 156 times the variance of stereo's window, over those of the square.
-  const double pixels = std::pow(0.15 * ThesisCamera().fx_px / 10, 2);
-  const double said_m = std::hypot(kPlace_m / 2, 0.03 * std::sqrt(1 + 156 / pixels));
+  const double said_m = std::hypot(kPlace_m / 2, 0.03);
   EXPECT_NEAR(map.narrow.sigma_m.at(at), said_m, 0.001);
   EXPECT_NEAR(map.narrow.noise_m.at(at), said_m, 0.001);
   // What stands out is told by the noise of the pictures alone.

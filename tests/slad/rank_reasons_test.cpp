@@ -1,8 +1,12 @@
 // Order and reasons of a list agree: where the order is not what figures suggest, the reason says
 // it.
+#include <limits>
+
 #include <gtest/gtest.h>
 
+#include "engine/model/site_standing.h"
 #include "engine/slad/hazards/explanation.h"
+#include "engine/slad/sites/site_candidates.h"
 
 namespace palace {
 namespace {
@@ -33,7 +37,7 @@ TEST(RankReasons, AConfirmedSiteBelowAProvisionalOneSaysThatRoomRanks) {
 TEST(RankReasons, AWiderSiteBelowANarrowerOneSaysWhyItDoesNotPassIt) {
   const SiteSelection list = Reasoned({Of("A", 4.8), Of("B", 4.0), Of("C", 4.4), Of("D", 4.42)});
   EXPECT_EQ(list.sites[1].reason, "0.8 m less clear than the best");
-  EXPECT_EQ(list.sites[2].reason, "0.4 m less clear than the best; wider than B (noise, or new)");
+  EXPECT_EQ(list.sites[2].reason, "0.4 m less clear than the best; better than B (noise, or new)");
   EXPECT_EQ(list.sites[3].reason, "0.4 m less clear than the best");
 }
 
@@ -44,15 +48,28 @@ TEST(RankReasons, TheOnlyClearApproachIsTheOnlyOneOfTheList) {
             "The only straight approach that is clear");
 }
 
-TEST(RankReasons, WideGroundThatIsNotSeenGoesBelowAndSaysSo) {
-  std::vector<LandingSite> sites = {Of("A", 4.8), Of("B", 9.0, false), Of("C", 4.0)};
-  sites[0].room_seen_m = 4.1;
-  sites[1].room_seen_m = 2.2;
+TEST(RankReasons, WideGroundWhereThingsMayHideGoesBelowAndSaysSo) {
+  std::vector<LandingSite> sites = {Of("A", 4.8), Of("B", 6.0, false), Of("C", 4.0)};
+  sites[0].hidden_things = 0.004;
+  sites[1].hidden_things = 0.12;
+  sites[2].hidden_things = 0.01;
+  for (LandingSite& site : sites) {
+    site.clear_radius_m = 2.3;
+  }
   const SiteSelection list = Reasoned(sites);
-  EXPECT_EQ(list.sites[0].reason, "Leads: 1.9 m more seen than the next");
-  EXPECT_EQ(list.sites[1].reason, "1.9 m less seen than the best");
-  EXPECT_EQ(list.sites[2].reason.rfind("0.1 m less seen than the best", 0), 0U)
+  EXPECT_EQ(list.sites[0].reason, "Leads: under 0.01 rocks or holes may hide, at the next 0.12");
+  EXPECT_EQ(list.sites[1].reason, "0.12 rocks or holes may hide, at the best under 0.01");
+  EXPECT_EQ(list.sites[2].reason.rfind("0.8 m less clear than the best", 0), 0U)
       << list.sites[2].reason;
+}
+
+TEST(RankReasons, RoomCountsAboutAClearRadiusLessForEachTenfoldThatMayHide) {
+  const double unknown = std::numeric_limits<double>::quiet_NaN();
+  for (const double sure : {0.0, 1e-9, unknown}) {
+    EXPECT_NEAR(RankedRoom(3.0, sure, 2.3), 3.0, 1e-6) << sure;
+  }
+  EXPECT_NEAR(RankedRoom(3.0, 9 * kMostHidden, 2.3), 0.7, 1e-12);
+  EXPECT_NEAR(RankedRoom(3.0, 99 * kMostHidden, 2.3), -1.6, 1e-12);
 }
 
 }  // namespace

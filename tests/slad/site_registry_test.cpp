@@ -216,6 +216,32 @@ TEST(SiteRegistry, ABetterPointReplacesAPlaceUnlessItIsSelected) {
   }
 }
 
+TEST(SiteRegistry, APlaceThatTheNextMapBeatsWasAChanceOfTheFirst) {
+  Hover hover;
+  const Height walls = WithBox(WithBox(Flat(), 9.5, 0, 12, 1), -9.5, 0, 12, 1);
+  const Height one_wall = WithBox(Flat(), -9.5, 0, 12, 1);
+  ASSERT_EQ(hover.See(walls).sites.at(0).letter, "A");
+  EXPECT_EQ(Find(hover.See(one_wall), "A"), nullptr);
+}
+
+TEST(SiteRegistry, ARecordedFlightGoesOnWithItsPlaces) {
+  Hover hover;
+  // Where no fresh list would put them, in an order that it would not have.
+  const std::vector<RecordedPlace> places = {{9, "K", {-2.5, 3.1}}, {4, "D", {3.1, -2.5}}};
+  hover.registry_.GoOnWith(places, hover.settings);
+  const SiteSelection list = hover.See(Flat());
+  for (const RecordedPlace& place : places) {
+    const LandingSite* site = Find(list, place.letter);
+    ASSERT_NE(site, nullptr) << place.letter;
+    EXPECT_EQ(site->id, place.id);
+    EXPECT_EQ(site->p_WS.head<2>(), place.north_east_m);
+  }
+  // Ground that cannot bear the lander bears it under no name.
+  Hover blocked;
+  blocked.registry_.GoOnWith(places, blocked.settings);
+  EXPECT_EQ(Find(blocked.See(WithBox(Flat(), -2.5, 3.1, 0.6, 1)), "K"), nullptr);
+}
+
 TEST(SiteRegistry, TheSameMapAgainAndOtherLimitsOnACopyChangeNothing) {
   Hover hover;
   const SiteSelection before = hover.SeeOften(5, Flat());

@@ -15,7 +15,8 @@ inline constexpr double kLeastDisc_cells = 1.5;
 /// Fills the layers of modern mode.
 void MeasureModern(const ElevationMap& map, const Lander& lander, TerrainFigures& figures);
 
-/// The limits as the loops take them.
-ModernLimits LimitsOf(const SladSettings& settings);
+/// The limits as the loops take them. Relief finer than cells is no more presumed where it was
+/// measured: what that leaves open is counted (hidden_things.h).
+ModernLimits LimitsOf(const SladSettings& settings, bool finer_measured);
 
 }  // namespace palace

@@ -132,7 +132,7 @@ class Judge {
         up_W_{static_cast<float>(settings.lander.up_W().x()),
               static_cast<float>(settings.lander.up_W().y()),
               static_cast<float>(settings.lander.up_W().z())},
-        limits_(LimitsOf(settings)),
+        limits_(LimitsOf(settings, !figures.narrow.empty())),
         forbidden_flags_(ForbiddenFlags(settings.limits)) {}
 
   void Row(int r) const {
@@ -293,14 +293,15 @@ HazardMaps LayersFor(const GridGeometry& geometry, const TerrainFigures& figures
 
 }  // namespace
 
-ModernLimits LimitsOf(const SladSettings& settings) {
+ModernLimits LimitsOf(const SladSettings& settings, bool finer_measured) {
   return {static_cast<float>(Rad(settings.limits.max_slope_deg)),
           static_cast<float>(settings.limits.max_deviation_m),
           static_cast<float>(settings.limits.max_step_m),
           static_cast<float>(settings.limits.min_safe_probability),
           static_cast<float>(kProvisionalSigma_m),
           static_cast<float>(settings.lander.belly_clearance_m),
-          static_cast<float>(settings.lander.gear_width_m)};
+          static_cast<float>(settings.lander.gear_width_m),
+          finer_measured ? 0.0F : 1.0F};
 }
 
 unsigned ForbiddenFlags(const HazardLimits& limits) {

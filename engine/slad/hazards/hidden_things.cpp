@@ -10,10 +10,9 @@
 namespace palace {
 namespace {
 
-constexpr double kOverLimit = 1.2;    // of the limit: what counts as unsafe
-constexpr double kRuledOut = -3.912;  // the logarithm of one in fifty
-constexpr double kNothing = -25;      // logarithm below which a place hides nothing
-constexpr double kPowers = 40;        // up to which powers keep their digits
+constexpr double kOverLimit = 1.2;  // of the limit: what counts as unsafe
+constexpr double kNothing = -25;    // logarithm below which a place hides nothing
+constexpr double kPowers = 40;      // up to which powers keep their digits
 // Sizes of things over the limit and of those below it, as quarters of it, and their shares: each
 // half as many as the one before (power law of rocks).
 constexpr std::array kLarger = {4.0, 6.0, 10.0}, kSmaller = {1.0, 2.0, 3.0};
@@ -32,10 +31,6 @@ void ForPlaces(Cell cell, Work work) {
       work(Cell{kPerCell * cell.row + i, kPerCell * cell.col + j});
     }
   }
-}
-
-double LogRatio(double shown_m, double expected_m, double sigma_m) {
-  return expected_m * (2 * shown_m - expected_m) / (2 * sigma_m * sigma_m);
 }
 
 /// Mean likelihoods of things over the limit, of smaller ones and of bare ground, over a common
@@ -214,18 +209,6 @@ double HiddenFromNearer(const NarrowView& view, Cell centre, double radius_m, do
     }
   }
   return known > 0 ? hidden * places / known : HUGE_VAL;
-}
-
-bool IsSeen(const NarrowView& view, Cell cell) {
-  bool seen = true;
-  ForPlaces(cell, [&](Cell place) {
-    const double sigma_m = Figure(view.narrow.sigma_m, place), expected_m = Expected(view, place);
-    const double shown_m = std::abs(Figure(view.narrow.prominence_m, place));
-    // False of NaN: nothing is known.
-    seen = seen && LogRatio(0, expected_m, sigma_m) <= kRuledOut &&
-           LogRatio(shown_m, expected_m, sigma_m) <= 0;
-  });
-  return seen;
 }
 
 }  // namespace palace

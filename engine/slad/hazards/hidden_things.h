@@ -58,7 +58,4 @@ GridF HiddenThings(const NarrowView& view, double radius_m, double things_per_m2
 double HiddenFromNearer(const NarrowView& view, Cell centre, double radius_m, double nearer,
                         double enough = HUGE_VAL);
 
-/// Whether what shows in a cell rules such a thing out, fifty to one: ground that is seen.
-bool IsSeen(const NarrowView& view, Cell cell);
-
 }  // namespace palace

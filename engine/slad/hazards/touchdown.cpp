@@ -265,7 +265,7 @@ TouchdownOdds OddsOfTouchdown(const ElevationMap& map, const HazardMaps& hazards
   const GearOverMap gear(place.height_m, map.geometry.cell_m, settings.lander);
   const Cell middle{place.height_m.rows() / 2, place.height_m.cols() / 2};
   // All figures but the gear's are those of the worst heading too.
-  const ModernLimits limits = LimitsOf(settings);
+  const ModernLimits limits = LimitsOf(settings, !hazards.hidden_things.empty());
   const float slope = hazards.slope_rad.at(site.cell);
   const float slope_sigma = hazards.slope_sigma_rad.at(site.cell);
   const float deviation = hazards.roughness_m.at(site.cell), step = hazards.step_m.at(site.cell);

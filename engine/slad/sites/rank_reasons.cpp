@@ -1,12 +1,13 @@
 // Why each site has its rank, in words.
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 #include <string>
 
+#include "engine/core/text.h"
 #include "engine/model/site_standing.h"
 #include "engine/slad/hazards/explanation.h"
+#include "engine/slad/sites/site_candidates.h"
 
 namespace palace {
 namespace {
@@ -29,12 +30,6 @@ std::string ApproachWords(const LandingSite& site) {
          (count > 2 ? std::to_string(count) + " of 8 sides" : from);
 }
 
-std::string Text(const char* format, double value, const char* against = "") {
-  char text[96];
-  std::snprintf(text, sizeof text, format, value, against);
-  return text;
-}
-
 // Less than this is no difference that is told.
 constexpr double kWider_m = 0.05, kCheaper = 0.005;
 
@@ -43,32 +38,46 @@ constexpr const char* kNotYet = " (noise, or new)";
 
 /// What sites are ranked by where room ranks.
 double Room(const LandingSite& site) {
-  return std::isfinite(site.room_seen_m) ? site.room_seen_m : site.safe_distance_m;
+  return RankedRoom(site.safe_distance_m, site.hidden_things, site.clear_radius_m);
 }
 
-/// Whether it is by what is seen that one has more room, not by what is clear.
-bool BySeen(const LandingSite& a, const LandingSite& b) {
-  return std::isfinite(a.room_seen_m) || std::isfinite(b.room_seen_m);
+/// Whether it is more by what may hide than by what is clear that one has less room.
+bool ByHidden(const LandingSite& a, const LandingSite& b) {
+  const double by_clear_m = a.safe_distance_m - b.safe_distance_m;
+  const double by_hidden_m = Room(a) - Room(b) - by_clear_m;
+  return by_hidden_m * (by_hidden_m - by_clear_m) > 0;
+}
+
+/// "0.12", "under 0.01" of what hides no more than under a confirmed site.
+std::string HiddenWords(const LandingSite& site) {
+  return site.hidden_things > kMostHidden ? WithNumbers("%.2f", site.hidden_things)
+                                          : WithNumbers("under %.2f", kMostHidden);
 }
 
 /// What `better` has over `other` in the units of what decided; empty where nothing measurable.
 std::string Difference(SiteRanking ranking, const LandingSite& better, const LandingSite& other,
-                       bool of_better, const char* against) {
-  const double wider_m = Room(better) - Room(other);
-  const char* clear = BySeen(better, other) ? "seen" : "clear";
+                       bool of_better, const std::string& against) {
+  const double ahead_m = Room(better) - Room(other);
   const double cheaper = other.cost - better.cost;
-  if (ranking == SiteRanking::kFarthest && wider_m >= kWider_m) {
-    return Text(of_better ? "%.1f m more " : "%.1f m less ", wider_m) + clear + " than " + against;
-  }
-  if (ranking == SiteRanking::kFarthest && wider_m <= -kWider_m) {
-    return Text(of_better ? "stays first, %.1f m less " : "%.1f m more ", -wider_m) + clear +
-           " than " + against + kNotYet;
+  if (ranking == SiteRanking::kFarthest && std::abs(ahead_m) >= kWider_m) {
+    const bool noise = ahead_m < 0;
+    const std::string stays = of_better && noise ? "stays first, " : "";
+    if (ByHidden(better, other)) {
+      const LandingSite& site = of_better ? better : other;
+      return stays + HiddenWords(site) + " rocks or holes may hide, at " + against + " " +
+             HiddenWords(of_better ? other : better) + (noise ? kNotYet : "");
+    }
+    const double wider_m = better.safe_distance_m - other.safe_distance_m;
+    return stays + WithNumbers("%.1f m ", std::abs(wider_m)) +
+           ((wider_m > 0) == of_better ? "more" : "less") + " clear than " + against +
+           (noise ? kNotYet : "");
   }
   if (cheaper >= kCheaper) {
-    return Text(of_better ? "cost %.2f less than %s" : "cost %.2f more than %s", cheaper, against);
+    return WithNumbers(of_better ? "cost %.2f less than " : "cost %.2f more than ", cheaper) +
+           against;
   }
-  return of_better ? std::string("as good as ") + against + ", nearer to the middle"
-                   : std::string("as good as ") + against + ", farther from the middle";
+  return "as good as " + against +
+         (of_better ? ", nearer to the middle" : ", farther from the middle");
 }
 
 std::string Capital(std::string text) {
@@ -85,8 +94,7 @@ bool Beats(SiteRanking ranking, const LandingSite& a, const LandingSite& b) {
 }
 
 /// Of one that the best goes before. Where the order is not what figures and standing suggest, the
-/// reason says so: places are ranked by room or cost over many maps, not by how surely they are
-/// known.
+/// reason says so: places are ranked by room and what may hide, or by cost, over many maps.
 std::string ReasonBelow(SiteRanking ranking, const SiteSelection& selection, std::size_t i) {
   const LandingSite& best = selection.sites.front();
   const LandingSite& above = selection.sites[i - 1];
@@ -96,8 +104,7 @@ std::string ReasonBelow(SiteRanking ranking, const SiteSelection& selection, std
     reason += ", though confirmed";
   }
   if (i > 1 && above.corridor_clear && Beats(ranking, site, above)) {
-    reason += std::string("; ") + (ranking == SiteRanking::kFarthest ? "wider" : "cheaper") +
-              " than " + above.letter + " (noise, or new)";
+    reason += "; better than " + above.letter + kNotYet;
   }
   return reason;
 }
@@ -122,7 +129,7 @@ std::string ReasonOfBest(SiteRanking ranking, const SiteSelection& selection) {
         return ranking == SiteRanking::kFarthest ? Room(other) > Room(best) + kWider_m
                                                  : other.cost < best.cost - kCheaper;
       });
-  const char* criterion = outdone || BySeen(best, next)       ? "Leads: "
+  const char* criterion = outdone || ByHidden(best, next)     ? "Leads: "
                           : ranking == SiteRanking::kFarthest ? "Widest: "
                                                               : "Cheapest: ";
   const bool leads = by.rfind("as good", 0) != 0 && by.rfind("stays", 0) != 0;
@@ -136,10 +143,10 @@ void GiveReasons(SiteRanking ranking, SiteSelection& selection) {
     LandingSite& site = selection.sites[i];
     site.reason = i == 0 ? ReasonOfBest(ranking, selection)
                   : site.age_s > kOldGround_s
-                      ? Text("Ground last measured %.0f s ago%s", site.age_s, "")
+                      ? WithNumbers("Ground last measured %.0f s ago", site.age_s)
                   : !site.corridor_clear ? ApproachWords(site)
                   : std::isfinite(site.called_unsafe_s)
-                      ? Text("Called unsafe %.0f s ago, ranks behind%s", site.called_unsafe_s, "")
+                      ? WithNumbers("Called unsafe %.0f s ago, ranks behind", site.called_unsafe_s)
                       : ReasonBelow(ranking, selection, i);
   }
 }

@@ -7,7 +7,7 @@
 
 #include <opencv2/core.hpp>
 
-#include "engine/slad/hazards/hidden_things.h"
+#include "engine/model/site_standing.h"
 #include "engine/slad/hazards/safe_distance.h"
 
 namespace palace {
@@ -65,82 +65,38 @@ class OffCentre {
   const RigidTransform X_CW_;
 };
 
-/// Of a place whose surroundings are not seen, as a share of its safe distance.
-constexpr float kBlindRoom = 0.25F;
-
-constexpr int kAround_cells = 2;  // whose majority says whether a place is seen
-
-/// Where most cells around are not seen. Noise makes single ones so, other ones on every map: how
-/// much may hide there is asked apart, of all together.
-Grid<std::uint8_t> MostlyBlind(const Grid<std::uint8_t>& blind) {
-  Grid<std::uint8_t> mostly(blind.rows(), blind.cols());
-  for (int r = 0; r < blind.rows(); ++r) {
-    for (int c = 0; c < blind.cols(); ++c) {
-      int cells = 0, of_them = 0;
-      for (int y = std::max(0, r - kAround_cells);
-           y <= std::min(r + kAround_cells, blind.rows() - 1); ++y) {
-        for (int x = std::max(0, c - kAround_cells);
-             x <= std::min(c + kAround_cells, blind.cols() - 1); ++x) {
-          ++cells;
-          of_them += blind.at(y, x);
-        }
-      }
-      mostly.at(r, c) = 2 * of_them > cells ? 1 : 0;
-    }
-  }
-  return mostly;
-}
-
-/// Room by which places are ranked (site_candidates.h).
-GridF RoomSeen(const ElevationMap& map, const HazardMaps& hazards, const SladSettings& settings) {
-  if (map.narrow.empty() || settings.mode == SladMode::kThesis) {
-    return hazards.safe_distance_m;
-  }
-  const NarrowView view{map.narrow, map.geometry.cell_m, settings.limits.max_deviation_m};
-  Grid<std::uint8_t> blind(hazards.reasons.rows(), hazards.reasons.cols());
-  cv::parallel_for_(cv::Range(0, blind.rows()), [&](const cv::Range& rows) {
-    for (int r = rows.start; r < rows.end; ++r) {
-      for (int c = 0; c < blind.cols(); ++c) {
-        blind.at(r, c) = IsSeen(view, {r, c}) ? 0 : 1;
-      }
-    }
-  });
-  blind = MostlyBlind(blind);
-  for (std::size_t i = 0; i < blind.cells().size(); ++i) {
-    blind.cells()[i] =
-        blind.cells()[i] != 0 ? std::uint8_t{kHazardUnknown} : hazards.reasons.cells()[i];
-  }
-  GridF room_m = SafeDistance(blind, map.geometry.cell_m, DistanceTo::kSquare);
-  const auto clear_m = static_cast<float>(settings.lander.clear_radius_m());
-  for (std::size_t i = 0; i < room_m.cells().size(); ++i) {
-    const float blind_m = std::min(kBlindRoom * hazards.safe_distance_m.cells()[i], clear_m);
-    room_m.cells()[i] = std::max(room_m.cells()[i], blind_m);
-  }
-  return room_m;
+/// What may hide within the clear radius; 0 where nobody asked (thesis mode, surveys).
+double HiddenAt(const HazardMaps& hazards, Cell cell) {
+  return hazards.hidden_things.empty() ? 0.0 : static_cast<double>(hazards.hidden_things.at(cell));
 }
 
 }  // namespace
 
+double RankedRoom(double safe_distance_m, double hidden_things, double clear_radius_m) {
+  const double tenfolds = std::log10(1 + hidden_things / kMostHidden);
+  return std::isnan(tenfolds) ? safe_distance_m : safe_distance_m - clear_radius_m * tenfolds;
+}
+
 SiteCandidates::SiteCandidates(const ElevationMap& map, const HazardMaps& hazards,
                                const SladSettings& settings, const SiteContext& context)
     : rows_(static_cast<std::size_t>(map.geometry.rows)),
-      room_m_(RoomSeen(map, hazards, settings)),
       spacing_cells_(settings.choice.spacing_m / std::max(map.geometry.cell_m, 1e-9)) {
   const OffCentre off_centre(context);
-  const double cell_m = map.geometry.cell_m;
+  const double cell_m = map.geometry.cell_m, clear_m = settings.lander.clear_radius_m();
   const bool farthest = settings.choice.ranking == SiteRanking::kFarthest;
   as_good_ = settings.mode == SladMode::kModern && farthest ? kEqual_cells * cell_m : 0;
   noise_ = farthest ? kNoise_cells * cell_m : kNoiseOfCost;
   cv::parallel_for_(cv::Range(0, map.geometry.rows), [&](const cv::Range& rows) {
     for (int r = rows.start; r < rows.end; ++r) {
       Row& row = rows_[static_cast<std::size_t>(r)];
-      const float* distances_m = room_m_.row(r);
+      const float* distances_m = hazards.safe_distance_m.row(r);
       for (int c = 0; c < map.geometry.cols; ++c) {
         const Cell cell{r, c};
         if (!CanBearLander(hazards, cell)) {
           continue;
         }
-        const double distance_m = static_cast<double>(distances_m[c]);
+        const double distance_m =
+            RankedRoom(static_cast<double>(distances_m[c]), HiddenAt(hazards, cell), clear_m);
         const double cost = SmoothedCost(hazards.cost, cell);
         const double tie = -kMiddleWeight_cells * off_centre.At(map, cell);
         const double score = farthest ? distance_m + cell_m * (kCostWeight_cells * (1 - cost) + tie)

@@ -1,11 +1,10 @@
 // The cells of one map that could be a site, by score. Internal to the SLAD room.
 //
-// kFarthest scores metres: the room seen, and, within one cell's worth of it, the cost and the
-// nearness to the middle of the picture. Room is wide only over ground where a thing over the limit
-// would show (IsSeen, hidden_things.h): the distance to the nearest hazard or cell about which
-// most are not seen. Where that is little, a quarter of the safe distance, at most the clear
-// radius: seen ground goes before wide and blind ground. kCost scores the smoothed cost, less is
-// better.
+// kFarthest scores metres: the safe distance, less a clear radius for each tenfold by which more
+// may hide there than under a confirmed site (RankedRoom), and, within one cell's worth of it, the
+// cost and the nearness to the middle of the picture. So ground that is known goes before wide and
+// blind ground, and what is known well enough is ranked by its room. kCost scores the smoothed
+// cost, less is better.
 #pragma once
 
 #include <optional>
@@ -20,6 +19,11 @@ struct ScoredCell {
   double score = 0;
 };
 
+/// Room that a place is ranked by, metres: d - R log10(1 + H / kMostHidden) of its safe distance d,
+/// the clear radius R and what may hide within it, H (hidden_things.h). An H that is not known
+/// takes nothing away. Source: ours.
+double RankedRoom(double safe_distance_m, double hidden_things, double clear_radius_m);
+
 /// The best cell of each row is at hand: the best that is left is found without sorting, and taking
 /// one touches only the rows around it. Sites keep choice.spacing_m from each other.
 class SiteCandidates {
@@ -27,8 +31,6 @@ class SiteCandidates {
   SiteCandidates(const ElevationMap& map, const HazardMaps& hazards, const SladSettings& settings,
                  const SiteContext& context);
 
-  /// What a place is ranked by; its safe distance where all is seen.
-  double RoomAt(Cell cell) const { return static_cast<double>(room_m_.at(cell)); }
   /// Less than this between two scores of one place is noise of its own figure.
   double noise() const { return noise_; }
   /// Nothing where no lander can stand, and where a place that was taken is too near.
@@ -64,7 +66,6 @@ class SiteCandidates {
   static void FindBest(Row& row);
 
   std::vector<Row> rows_;
-  GridF room_m_;
   double spacing_cells_ = 0;
   double as_good_ = 0;  ///< scores that differ by less are equal; metres
   double noise_ = 0;

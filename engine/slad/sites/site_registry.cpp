@@ -75,6 +75,20 @@ void SiteRegistry::GoOnNaming(std::uint64_t named) {
   next_id_ = std::max(next_id_, named + 1);
 }
 
+void SiteRegistry::GoOnWith(const std::vector<RecordedPlace>& places,
+                            const SladSettings& settings) {
+  places_.clear();
+  for (const RecordedPlace& place : places) {
+    places_.push_back({.id = place.id,
+                       .letter = place.letter,
+                       .p_W = place.north_east_m,
+                       .rank = static_cast<int>(places_.size()),
+                       .run = kBetterAfter_maps});  // nobody says how long it has stood
+  }
+  time_ = Timestamp{};
+  settings_ = settings;
+}
+
 SiteSelection SiteRegistry::Select(const ElevationMap& map, const HazardMaps& hazards,
                                    const SladSettings& settings, const SiteContext& context) {
   PALACE_CHECK(map.geometry == hazards.geometry);
@@ -140,7 +154,8 @@ std::vector<SiteRegistry::Found> SiteRegistry::Revisit(const Map& now, SiteCandi
       continue;  // too near another: the spacing was changed
     }
     const bool beaten = candidates.BestNear(one.at.cell) > one.at.score + candidates.noise();
-    if (!now.again && place.beaten.Add(beaten, kBetterAfter_maps) && !IsKept(place)) {
+    if (!now.again && place.beaten.Add(beaten, std::min(kBetterAfter_maps, place.run)) &&
+        !IsKept(place)) {
       replaced_.push_back(place.p_W);
       place.beaten = {};
       place.rank = -1;
@@ -238,15 +253,12 @@ void SiteRegistry::Follow(const Map& now, const std::vector<Chosen>& chosen,
       continue;
     }
     Place& place = places_[chosen[k].place];
-    if (!now.again || place.run == 0) {
+    if (!now.again || place.score.empty()) {
       ++place.run;
       place.score.Add(chosen[k].at.score, candidates.noise());
       place.confirmed.Add(site.confirmed);
       place.straight_clear.Add(site.corridor_clear);
       place.some_clear.Add(site.clear_approaches != 0);
-    }
-    if (const double room_m = candidates.RoomAt(site.cell); room_m < site.safe_distance_m) {
-      site.room_seen_m = room_m;
     }
     site.p_WS.head<2>() = place.p_W;
     site.newest_confirms = site.confirmed;

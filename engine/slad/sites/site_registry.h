@@ -10,7 +10,7 @@
 //              within the spacing of it, stands behind the others for 30 s, each time longer by
 //              30 s
 //   replaced   when another point within the spacing is better by more than that on 24 maps in a
-//              row; never the place that is selected
+//              row, or on the first map after it was found; never the place that is selected
 //   confirmed  as the maps say, 3 of 5 against it, 5 in a row for it again
 //   approach   likewise: blocked ones come after clear ones
 //   old        ground last measured longer ago than an approval allows (2 s) comes after all that
@@ -26,6 +26,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/model/flight_record.h"
 #include "engine/slad/sites/site_candidates.h"
 #include "engine/slad/sites/site_selection.h"
 #include "engine/slad/sites/steadiness.h"
@@ -50,6 +51,8 @@ class SiteRegistry {
   void Reset(SiteNames names);
   /// A flight goes on in which so many places were named already.
   void GoOnNaming(std::uint64_t named);
+  /// A recorded flight goes on in which those places were listed, best first, under those limits.
+  void GoOnWith(const std::vector<RecordedPlace>& places, const SladSettings& settings);
   /// From here on no letter is given: a place that has none is "+1", "+2", ... of its one list (a
   /// preview, a re-decision). The flight would give the same letter to another place.
   void GiveNoLetters() { gives_letters_ = false; }

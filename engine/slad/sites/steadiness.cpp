@@ -1,6 +1,10 @@
 #include "engine/slad/sites/steadiness.h"
 
+#include <algorithm>
 #include <bit>
+#include <cmath>
+#include <cstddef>
+#include <vector>
 
 namespace palace {
 
@@ -18,15 +22,17 @@ void SteadyVerdict::Add(bool good) {
 }
 
 void SteadyFigure::Add(double figure, double noise) {
-  if (!value_) {
-    value_ = figure;
-    return;
+  constexpr std::size_t kRemembered = kWorseAfter_maps + kBetterAfter_maps - 1;
+  newest_.push_back(figure);
+  if (newest_.size() > kRemembered) {
+    newest_.pop_front();
   }
-  const bool worse = worse_.Add(figure < *value_ - noise, kWorseAfter_maps);
-  const bool better = better_.Add(figure > *value_ + noise, kBetterAfter_maps);
-  if (worse || better) {
-    value_ = figure;
-    worse_ = better_ = {};
+  std::vector<double> sorted(newest_.begin(), newest_.end());
+  const auto reached =
+      sorted.begin() + std::min<std::ptrdiff_t>(kWorseAfter_maps, std::ssize(sorted)) - 1;
+  std::nth_element(sorted.begin(), reached, sorted.end());
+  if (!value_ || std::abs(*reached - *value_) > noise) {
+    value_ = *reached;
   }
 }
 

@@ -2,6 +2,7 @@
 // sooner than better.
 #pragma once
 
+#include <deque>
 #include <optional>
 
 namespace palace {
@@ -39,16 +40,19 @@ class LastingClaim {
 inline constexpr int kWorseAfter_maps = 12;
 inline constexpr int kBetterAfter_maps = 24;
 
-/// A figure, more is better, that stays until the maps differ from it by more than the noise, all
-/// of them to the same side, kWorseAfter_maps or kBetterAfter_maps in a row.
+/// A figure, more is better: what all but 11 of the newest 35 maps reach, so that it falls after
+/// kWorseAfter_maps in a row and rises after kBetterAfter_maps; of fewer than 12 maps the best. It
+/// stays until that differs by more than the noise. Figures that grow side by side, as what is
+/// known of the ground does in a hover, do not pass each other.
 class SteadyFigure {
  public:
   void Add(double figure, double noise);
-  double value() const { return *value_; }
+  bool empty() const { return !value_; }
+  double value() const { return *value_; }  ///< not of an empty one
 
  private:
+  std::deque<double> newest_;
   std::optional<double> value_;
-  LastingClaim worse_, better_;
 };
 
 }  // namespace palace

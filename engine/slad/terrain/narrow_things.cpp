@@ -155,19 +155,17 @@ void TakeNarrowThings(const FineSums& sums, const Viewpoint& view, const GridF& 
         const Eigen::Vector3d p_WQ(places.NorthOfRow(r), places.EastOfCol(c),
                                    -At(figures.level_m, r, c));
         const double gradient_m = kGradient_px * view.Pixel_m(p_WQ);
+        const double repeated_m = std::sqrt(At(repeated_m2, r / kPerCell, c / kPerCell));
         const double smear = (Square(gradient_m) + Square(square_m)) / Square(kThing_m);
         if (narrowest) {
           map.narrow.prominence_m.at(r, c) = static_cast<float>(shown_m);
-          const double floor_m = std::sqrt(
-              view.RepeatedVariance(p_WQ, square_m, At(repeated_m2, r / kPerCell, c / kPerCell)));
-          map.narrow.noise_m.at(r, c) = static_cast<float>(std::hypot(noise_m, floor_m));
-          map.narrow.sigma_m.at(r, c) = static_cast<float>(std::hypot(sigma_m, floor_m));
+          map.narrow.noise_m.at(r, c) = static_cast<float>(std::hypot(noise_m, repeated_m));
+          map.narrow.sigma_m.at(r, c) = static_cast<float>(std::hypot(sigma_m, repeated_m));
           map.narrow.share.at(r, c) = static_cast<float>(kPeakOfThing / (1 + smear));
         }
         // What fills a wider square shows all of its height.
         const double times = std::max(1.0, (1 + smear) / scale.sides);
-        const double worst_m =
-            narrowest ? 0 : kWorstTexture * std::sqrt(At(repeated_m2, r / kPerCell, c / kPerCell));
+        const double worst_m = narrowest ? 0 : kWorstTexture * repeated_m;
         RaiseUnder(figures, r, c, times, std::hypot(sigma_m, worst_m), view.p_WC, map, top_m);
       }
     }

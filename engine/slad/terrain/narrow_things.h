@@ -36,10 +36,6 @@
 
 namespace palace {
 
-/// Of what a thing would show no more is claimed, however many frames there are, than a pixel by
-/// itself that errs with so many times the variance of what stereo's window repeats: 0.15 px.
-inline constexpr double kRepeatedByPixel = 156;
-
 /// From where a map is seen.
 struct Viewpoint {
   const PinholeCamera& camera;
@@ -47,16 +43,10 @@ struct Viewpoint {
 
   /// Metres across that a pixel sees there.
   double Pixel_m(const Eigen::Vector3d& p_WQ) const { return (p_WQ - p_WC).norm() / camera.fx_px; }
-  /// Least variance of the height of a level square about the point, `stereo_m2` being that of
-  /// stereo's window: that of a pixel over the pixels of the square.
-  double RepeatedVariance(const Eigen::Vector3d& p_WQ, double square_m, double stereo_m2) const {
-    const double across_px = square_m / Pixel_m(p_WQ);
-    const double steepness = std::abs(p_WQ.z() - p_WC.z()) / (p_WQ - p_WC).norm();
-    return stereo_m2 * (1 + kRepeatedByPixel / (across_px * across_px * steepness));
-  }
 };
 
-/// `repeated_m2`: variance by what stereo's window repeats in every frame, the map's size.
+/// `repeated_m2`: variance by what stereo's window repeats in every frame, the map's size; of what
+/// a thing would show no more is claimed than that leaves.
 void TakeNarrowThings(const FineSums& sums, const Viewpoint& view, const GridF& repeated_m2,
                       ElevationMap& map);
 

@@ -95,6 +95,7 @@ struct ModernLimits {
   float provisional_sigma_m;  ///< kProvisionalSigma_m
   float belly_clearance_m;
   float gear_width_m;
+  float finer_relief;  ///< 1; 0 where what is finer than cells was measured and counted (H)
 };
 struct ModernRow {
   const float* slope;  ///< NaN where there is no plane

@@ -81,7 +81,8 @@ void ThesisVerdictRow(const ThesisLimits& limits, const float* slope, const floa
 
 /// What the figures of a footprint do not show whatever the noise: ground finer than a cell.
 /// Heights as shares of their limits, so that a smaller lander on smaller rocks is judged alike.
-/// Chosen, like the score, for the sharpest verdicts on the ground of `evaluate probability`.
+/// Chosen, like the score, for the sharpest verdicts on the ground of `evaluate probability`, which
+/// has no pictures: where these measured what is finer, no height is presumed besides.
 constexpr float kFinerPlane_rad = 0.0031F, kFinerTilt_rad = 0.0052F;
 constexpr float kFinerDeviation = 0.4F, kFinerStep = 0.53F, kFinerBelly = 0.12F;
 /// Share of a cell's noise left in the difference of two supports.
@@ -92,14 +93,16 @@ inline float Hypotenuse(float a, float b) { return __builtin_sqrtf(a * a + b * b
 /// Product of the chances that each figure of the touchdown keeps its limit.
 inline float TouchdownScore(const ModernLimits& most, float slope, float slope_sigma,
                             float deviation, float step, float sigma, float tilt, float rise) {
+  const float finer = most.finer_relief;
   return NormalBelow((most.max_slope_rad - slope) / Hypotenuse(slope_sigma, kFinerPlane_rad)) *
          NormalBelow((most.max_deviation_m - deviation) /
-                     Hypotenuse(sigma, kFinerDeviation * most.max_deviation_m)) *
-         NormalBelow((most.max_step_m - step) / Hypotenuse(sigma, kFinerStep * most.max_step_m)) *
+                     Hypotenuse(sigma, finer * kFinerDeviation * most.max_deviation_m)) *
+         NormalBelow((most.max_step_m - step) /
+                     Hypotenuse(sigma, finer * kFinerStep * most.max_step_m)) *
          NormalBelow((most.max_slope_rad - tilt) /
                      Hypotenuse(kSupportNoise * sigma / most.gear_width_m, kFinerTilt_rad)) *
          NormalBelow((most.belly_clearance_m - rise) /
-                     Hypotenuse(sigma, kFinerBelly * most.belly_clearance_m));
+                     Hypotenuse(sigma, finer * kFinerBelly * most.belly_clearance_m));
 }
 
 /// Some columns of ModernVerdictRow: one loop for each width of number, or none is vectorised.
