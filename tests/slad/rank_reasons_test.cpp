@@ -57,8 +57,8 @@ TEST(RankReasons, WideGroundWhereThingsMayHideGoesBelowAndSaysSo) {
     site.clear_radius_m = 2.3;
   }
   const SiteSelection list = Reasoned(sites);
-  EXPECT_EQ(list.sites[0].reason, "Leads: under 0.01 rocks or holes may hide, at the next 0.12");
-  EXPECT_EQ(list.sites[1].reason, "0.12 rocks or holes may hide, at the best under 0.01");
+  EXPECT_EQ(list.sites[0].reason, "Leads: 0.004 rocks or holes may hide, at the next 0.12");
+  EXPECT_EQ(list.sites[1].reason, "0.12 rocks or holes may hide, at the best 0.004");
   EXPECT_EQ(list.sites[2].reason.rfind("0.8 m less clear than the best", 0), 0U)
       << list.sites[2].reason;
 }

@@ -269,6 +269,23 @@ TEST(SiteSelection, NoPlaceGivesTheSharesOfTheCauses) {
             "is 4.600 m");
 }
 
+TEST(SiteSelection, WhereLinesOfUnknownHeightForbidAPlaceAnotherHeadingIsNamed) {
+  for (const float top_m : {3.0F, HUGE_VALF}) {
+    ElevationMap map = MakeMap(60, 60, 0.15, Flat());
+    map.flags = Grid<std::uint8_t>(60, 60, 0);
+    map.thin_top_m = GridF(60, 60, kUnknownValue);
+    for (int c = 0; c < 60; ++c) {
+      map.flags.at(30, c) = kFlagThinStructure;
+      map.thin_top_m.at(30, c) = top_m;
+    }
+    const SiteSelection none = Select(map);
+    ASSERT_TRUE(none.sites.empty());
+    const std::string words = "another heading";
+    EXPECT_EQ(none.none_reason.find(words) != std::string::npos, std::isinf(top_m))
+        << none.none_reason;
+  }
+}
+
 TEST(SiteSelection, NoiseOverTheLimitLeavesTheSiteProvisional) {
   ElevationMap map = MakeMap(100, 100, 0.15, Flat(), 0.04, 2);
   const SiteSelection noisy = Select(map);

@@ -1,13 +1,15 @@
 #include "engine/slad/sites/none_reason.h"
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "engine/core/text.h"
 
 namespace palace {
 
-std::string NoneReason(const HazardMaps& hazards, const SladSettings& settings) {
+std::string NoneReason(const ElevationMap& map, const HazardMaps& hazards,
+                       const SladSettings& settings) {
   const RejectedCells& n = hazards.rejected;
   struct Part {
     int count;
@@ -40,6 +42,12 @@ std::string NoneReason(const HazardMaps& hazards, const SladSettings& settings) 
   if (n.footprint > 0 && across_m < 2 * settings.lander.clear_radius_m()) {
     text += WithNumbers("; the map holds a disc %.3f m across, the lander's clear one is %.3f m",
                         across_m, 2 * settings.lander.clear_radius_m());
+  }
+  const std::vector<float>& tops_m = map.thin_top_m.cells();
+  if (n.flagged > 0 &&
+      std::any_of(tops_m.begin(), tops_m.end(), [](float m) { return std::isinf(m); })) {
+    text +=
+        "; lines along the cameras' baseline may be wires or paint: from another heading it shows";
   }
   return text;
 }

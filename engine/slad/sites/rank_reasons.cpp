@@ -45,13 +45,15 @@ double Room(const LandingSite& site) {
 bool ByHidden(const LandingSite& a, const LandingSite& b) {
   const double by_clear_m = a.safe_distance_m - b.safe_distance_m;
   const double by_hidden_m = Room(a) - Room(b) - by_clear_m;
-  return by_hidden_m * (by_hidden_m - by_clear_m) > 0;
+  return std::abs(by_hidden_m) > std::abs(by_clear_m);
 }
 
-/// "0.12", "under 0.01" of what hides no more than under a confirmed site.
+/// "0.12"; "0.004" of what hides less than under a confirmed site; "under 0.001".
 std::string HiddenWords(const LandingSite& site) {
-  return site.hidden_things > kMostHidden ? WithNumbers("%.2f", site.hidden_things)
-                                          : WithNumbers("under %.2f", kMostHidden);
+  constexpr double kLeastTold = 0.001;
+  return site.hidden_things < kLeastTold
+             ? WithNumbers("under %.3f", kLeastTold)
+             : WithNumbers(site.hidden_things < kMostHidden ? "%.3f" : "%.2f", site.hidden_things);
 }
 
 /// What `better` has over `other` in the units of what decided; empty where nothing measurable.

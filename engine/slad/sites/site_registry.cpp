@@ -19,6 +19,7 @@ namespace {
 
 constexpr int kListedAfter_maps = 3;
 constexpr double kShaken_s = 30;
+constexpr double kSameLook_m = 1;         // heights of a look are told in whole metres
 constexpr std::size_t kTriesPerSite = 3;  // places looked at for each site kept
 constexpr std::size_t kLetters = 26;
 
@@ -85,7 +86,7 @@ void SiteRegistry::GoOnWith(const std::vector<RecordedPlace>& places,
                        .rank = static_cast<int>(places_.size()),
                        .run = kBetterAfter_maps});  // nobody says how long it has stood
   }
-  time_ = Timestamp{};
+  time_ = Timestamp{};  // older than any map: the next is not the same again
   settings_ = settings;
 }
 
@@ -115,7 +116,7 @@ SiteSelection SiteRegistry::Select(const ElevationMap& map, const HazardMaps& ha
   selection.named = named_;
   if (selection.sites.empty()) {
     selection.none_reason =
-        any ? "the places found are not on 3 maps in a row yet" : NoneReason(hazards, settings);
+        any ? "the places found are not on 3 maps in a row yet" : NoneReason(map, hazards, settings);
   }
   return selection;
 }
@@ -154,7 +155,7 @@ std::vector<SiteRegistry::Found> SiteRegistry::Revisit(const Map& now, SiteCandi
       continue;  // too near another: the spacing was changed
     }
     const bool beaten = candidates.BestNear(one.at.cell) > one.at.score + candidates.noise();
-    if (!now.again && place.beaten.Add(beaten, std::min(kBetterAfter_maps, place.run)) &&
+    if (!now.again && place.beaten.Add(beaten, std::clamp(place.run, 1, kBetterAfter_maps)) &&
         !IsKept(place)) {
       replaced_.push_back(place.p_W);
       place.beaten = {};
@@ -265,7 +266,10 @@ void SiteRegistry::Follow(const Map& now, const std::vector<Chosen>& chosen,
     site.confirmed = place.confirmed.good();
     if (site.confirmed) {
       site.look_height_m = std::numeric_limits<double>::quiet_NaN();  // there is nothing to settle
+    } else if (std::abs(site.look_height_m - place.look_height_m) <= kSameLook_m) {
+      site.look_height_m = place.look_height_m;
     }
+    place.look_height_m = site.look_height_m;
     site.called_unsafe_s = ShakenFor(place, now.elevation.time);
     found.push_back({chosen[k].place, std::move(site)});
   }

@@ -12,6 +12,7 @@
 //   replaced   when another point within the spacing is better by more than that on 24 maps in a
 //              row, or on the first map after it was found; never the place that is selected
 //   confirmed  as the maps say, 3 of 5 against it, 5 in a row for it again
+//   look       from where it would be settled, as it was told until maps differ by over a metre
 //   approach   likewise: blocked ones come after clear ones
 //   old        ground last measured longer ago than an approval allows (2 s) comes after all that
 //              is still in view
@@ -21,6 +22,7 @@
 // starts anew. Source: ours.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -67,6 +69,7 @@ class SiteRegistry {
     SteadyFigure score{};
     SteadyVerdict confirmed{}, straight_clear{}, some_clear{};
     LastingClaim beaten{};
+    double look_height_m = NAN;            ///< LandingSite::look_height_m, as it was told last
     int losses = 0;                        ///< maps that called it unsafe
     std::optional<Timestamp> shaken_at{};  ///< by the last of them
   };
