@@ -1,6 +1,8 @@
 #include "gui/widgets/map/camera_overlay.h"
 
 #include <algorithm>
+#include <optional>
+#include <span>
 
 #include "engine/model/ground_class.h"
 #include "gui/widgets/map/cell_hatch.h"
@@ -51,7 +53,8 @@ void DrawVerdict(UiFrame& ui, const Rect& image, std::shared_ptr<const ImageU8> 
 
 namespace {
 
-constexpr const char* kMark = "site_mark";  // item of a letter on a picture
+// Items on a picture: a letter, the ring of the best or selected site, of where it is to land.
+constexpr const char *kMark = "site_mark", *kRing = "ring", *kLandingRing = "landing_ring";
 
 /// A site that is not the selected one.
 void DrawOther(UiFrame& ui, const SiteOverlay& overlay, const LandingSite& site, ImVec2 at) {
@@ -92,7 +95,7 @@ void DrawLanding(UiFrame& ui, const PictureView& view, const SiteOverlay& overla
   const LandingSite& site = *overlay.landing;
   const RingKind kind = overlay.landing_commanded ? RingKind::kCommanded : RingKind::kProposed;
   const auto at = view.ScreenFromPoint(site.p_WS);
-  if (!DrawSiteRing(ui, view, site, kind, "landing_ring") || !view.rect.Contains(*at)) {
+  if (!DrawSiteRing(ui, view, site, kind, kLandingRing) || !view.rect.Contains(*at)) {
     return;
   }
   const Style& s = ui.style;
@@ -181,7 +184,7 @@ void DrawSites(UiFrame& ui, const PictureView& view, const SiteOverlay& overlay)
     const LandingSite& site = *overlay.selected;
     const RingKind kind = overlay.commanded ? RingKind::kCommanded : RingKind::kProposed;
     const auto at = view.ScreenFromPoint(site.p_WS);
-    if (DrawSiteRing(ui, view, site, kind, "ring") && view.rect.Contains(*at)) {
+    if (DrawSiteRing(ui, view, site, kind, kRing) && view.rect.Contains(*at)) {
       const float radius = static_cast<float>(site.clear_radius_m) * view.PixelsPerMetre(site.p_WS);
       DrawRingLetter(ui, view, overlay, *at, radius);
     }
@@ -214,21 +217,30 @@ void DrawTracker(UiFrame& ui, const PictureView& view, const TrackerStatus& trac
 
 namespace {
 
-/// The first corner in which the plate hides no letter of a site; above what stands in the lower
-/// ones. The top left where every corner does.
-Rect FreePlate(const UiFrame& ui, const Rect& image, float width, float height) {
+Rect TopLeft(const UiFrame& ui, const Rect& image, float width, float height) {
+  const float edge = ui.style.Px(8);
+  return {image.x + edge, image.y + edge, width, height};
+}
+
+enum class Hidden { kLetters, kLettersAndRings };
+
+/// The first corner in which the plate hides none of these; above what stands in the lower ones.
+std::optional<Rect> FreePlate(const UiFrame& ui, const Rect& image, float width, float height,
+                              Hidden none_of) {
   const Style& s = ui.style;
   const float edge = s.Px(8), foot = s.Px(42);
   const float right = image.right() - edge - width, low = image.bottom() - foot - height;
-  const Rect places[] = {{image.x + edge, image.y + edge, width, height},
+  const Rect places[] = {TopLeft(ui, image, width, height),
                          {image.x + edge, low, width, height},
                          {right, low, width, height},
                          {right, image.y + edge + s.Px(28), width, height}};
   const auto hides = [&](const Rect& place) {
     for (const Item& item : ui.items.items()) {
       const Rect& r = item.rect;
-      if (item.name == kMark && r.x < place.right() && place.x < r.right() &&
-          r.y < place.bottom() && place.y < r.bottom()) {
+      const bool ring = item.name == kRing || item.name == kLandingRing;
+      const bool of_site = item.name == kMark || (ring && none_of == Hidden::kLettersAndRings);
+      if (of_site && r.x < place.right() && place.x < r.right() && r.y < place.bottom() &&
+          place.y < r.bottom()) {
         return true;
       }
     }
@@ -239,7 +251,7 @@ Rect FreePlate(const UiFrame& ui, const Rect& image, float width, float height) 
       return place;
     }
   }
-  return places[0];
+  return std::nullopt;
 }
 
 constexpr float kSwatch = 14;
@@ -271,37 +283,69 @@ float EntryWidth(const Style& s, const LegendEntry& entry) {
 
 void DrawVerdictLegend(UiFrame& ui, const Rect& image, unsigned flags) {
   const Style& s = ui.style;
-  const LegendEntry entries[] = {{GroundClassWord(GroundClass::kLandable), SafeSwatch},
-                                 {"Over a limit or unknown", OverSwatch},
-                                 {GroundClassWord(GroundClass::kTooNear), TooNearSwatch}};
-  const float edge = s.Px(8), line_h = s.Px(20);
-  float in_a_row = edge, widest = 0;
-  for (const LegendEntry& entry : entries) {
-    in_a_row += EntryWidth(s, entry) + s.Px(14);
+  const float edge = s.Px(8);
+  const LegendEntry full[] = {{GroundClassWord(GroundClass::kLandable), SafeSwatch},
+                              {"Over a limit or unknown", OverSwatch},
+                              {GroundClassWord(GroundClass::kTooNear), TooNearSwatch}};
+  const LegendEntry brief[] = {{"Safe", SafeSwatch}, {"Over", OverSwatch}, {"Near", TooNearSwatch}};
+  const auto row_width = [&](std::span<const LegendEntry> entries) {
+    float width = edge;
+    for (const LegendEntry& entry : entries) {
+      width += EntryWidth(s, entry) + s.Px(14);
+    }
+    return width;
+  };
+  float widest = 0;
+  for (const LegendEntry& entry : full) {
     widest = std::max(widest, EntryWidth(s, entry));
   }
-  const bool row = in_a_row + 2 * edge <= image.w;
-  const float width = row ? in_a_row : widest + 2 * edge + s.Px(4);
-  if (width + 2 * edge > image.w) {
-    return;
+  const float flags_w = flags != 0 ? FlagLegendWidth(s, flags) + s.Px(12) : 0;
+  const bool row = row_width(full) + 2 * edge <= image.w;
+  const float column_h = s.Px(66);
+  struct Layout {
+    std::span<const LegendEntry> entries;
+    bool row;
+    float width, height;
+    bool flags;
+  };
+  const float full_w = row ? row_width(full) : widest + 2 * edge + s.Px(4);
+  const float full_h = row ? s.Px(26) : column_h;
+  const Layout layouts[] = {{full, row, full_w, full_h, true},
+                            {full, row, full_w, full_h, false},
+                            {brief, true, row_width(brief), s.Px(26), true},
+                            {brief, true, row_width(brief), s.Px(26), false}};
+  const Layout* chosen = nullptr;
+  Rect at_both{};
+  // What hides no site goes before what says more; near the ground a ring fills the picture.
+  for (const Hidden none_of : {Hidden::kLettersAndRings, Hidden::kLetters}) {
+    for (const Layout& layout : layouts) {
+      const float width = std::max(layout.width, layout.flags ? flags_w : 0);
+      const float height = layout.height + s.Px(layout.flags ? 30 : 0);
+      if (chosen != nullptr || width + 2 * edge > image.w || (layout.flags && flags == 0)) {
+        continue;
+      }
+      if (const auto free = FreePlate(ui, image, width, height, none_of)) {
+        chosen = &layout;
+        at_both = *free;
+      }
+    }
+  }
+  if (chosen == nullptr) {
+    return;  // every corner hides a letter, or nothing fits
   }
   ImDrawList* dl = Canvas();
-  const float height = s.Px(26) + (row ? 0 : 2 * line_h);
-  const float flags_w = FlagLegendWidth(s, flags) + s.Px(12);
-  const bool has_flags = flags != 0 && flags_w + 2 * edge <= image.w;
-  const Rect both = FreePlate(ui, image, has_flags ? std::max(width, flags_w) : width,
-                              height + s.Px(has_flags ? 30 : 0));
-  const Rect plate{both.x, both.y, width, height};
+  const Rect plate{at_both.x, at_both.y, chosen->width, chosen->height};
   FillRect(dl, plate, picture::kPlate, s.Fine(3));
-  ui.items.Add("legend", both, true, "");
+  ui.items.Add("legend", at_both, true, "");
   ImVec2 at{plate.x + edge, plate.y + s.Px(13)};
-  for (const LegendEntry& entry : entries) {
+  for (const LegendEntry& entry : chosen->entries) {
     const float side = s.Px(kSwatch);
     entry.draw(s, {at.x, at.y - side / 2, side, side});
     DrawText(ui, s.caption, picture::kPlateText, at.x + side + s.Px(6), at.y, entry.words);
-    at = row ? ImVec2{at.x + EntryWidth(s, entry) + s.Px(14), at.y} : ImVec2{at.x, at.y + line_h};
+    at = chosen->row ? ImVec2{at.x + EntryWidth(s, entry) + s.Px(14), at.y}
+                     : ImVec2{at.x, at.y + s.Px(20)};
   }
-  if (has_flags) {
+  if (chosen->flags) {
     const Rect below{plate.x, plate.bottom() + s.Px(4), flags_w, s.Px(26)};
     FillRect(dl, below, picture::kPlate, s.Fine(3));
     DrawFlagLegend(ui, below.x - s.Px(6), below.centre().y, flags);

@@ -40,8 +40,9 @@ void DrawSites(UiFrame& ui, const PictureView& view, const SiteOverlay& overlay)
 inline constexpr std::size_t kFeaturesDrawn = 24;
 void DrawTracker(UiFrame& ui, const PictureView& view, const TrackerStatus& tracker);
 /// Plate "Safe to land on | Over a limit or unknown | Too near a hazard" in a corner where it hides
-/// no letter of a site, the top left if it can; under it one of the flags that occur. Item
-/// "legend". Call after DrawSites.
+/// no letter and no ring of a site, the top left if it can; under it one of the flags that occur.
+/// In small pictures without the flags, or as "Safe | Over | Near", if only these hide none; where
+/// a ring fills the picture, over the ring. Item "legend". Call after DrawSites.
 void DrawVerdictLegend(UiFrame& ui, const Rect& image, unsigned flags = 0);
 
 }  // namespace palace

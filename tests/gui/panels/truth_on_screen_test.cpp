@@ -104,23 +104,41 @@ TEST(Letters, SelectNothingWhereNothingMayBeSelected) {
   EXPECT_EQ(window.ui.CountCommands<SelectSite>(), 0);
 }
 
+/// A site of the list moves to where a point of a window of that size shows it.
+void MoveSiteTo(ImVec2 point, ImVec2 size, std::size_t index, EngineSnapshot& snap) {
+  const FlyLayout layout =
+      ComputeFlyLayout(static_cast<double>(size.x), static_cast<double>(size.y), 1, false);
+  const UiHarness sizes(size.x, size.y);
+  const Rect image = LeftCameraImage(snap, layout.left_camera, sizes.style);
+  const PinholeCamera camera = fake::Camera();
+  const Eigen::Vector2d pixel((point.x - image.x) / image.w * camera.width,
+                              (point.y - image.y) / image.h * camera.height);
+  const Eigen::Vector3d ray_C((pixel.x() - camera.cx_px) / camera.fx_px,
+                              (pixel.y() - camera.cy_px) / camera.fy_px, 1);
+  auto decision = std::make_shared<TerrainDecision>(*snap.terrain->applied);
+  decision->selection.sites[index].p_WS = snap.sensors->X_WC * Eigen::Vector3d(ray_C * 38);
+  snap.terrain.Edit().applied = decision;
+}
+
+TEST(Legend, HidesNoRing) {
+  for (const ImVec2 size : {ImVec2(1920, 1080), ImVec2(1280, 720)}) {
+    EngineSnapshot snap = fake::Snapshot(MissionState::kProposed);
+    const Rect before = FlyWindow(size.x, size.y, snap).ui.items.Find("legend")->rect;
+    // The ring reaches below it, its letter stands beside it.
+    MoveSiteTo({before.right() - 4, before.bottom() + 8}, size, 0, snap);
+    FlyWindow window(size.x, size.y, snap);
+    const Item* ring = window.ui.items.Find("ring");
+    ASSERT_NE(ring, nullptr);
+    EXPECT_TRUE(Touch(ring->rect, before)) << size.x;
+    EXPECT_FALSE(Touch(ring->rect, window.ui.items.Find("legend")->rect)) << size.x;
+  }
+}
+
 TEST(Legend, HidesNoLetterOfASite) {
   for (const ImVec2 size : {ImVec2(1920, 1080), ImVec2(1280, 720)}) {
     EngineSnapshot snap = fake::Snapshot(MissionState::kProposed);
     const Rect before = FlyWindow(size.x, size.y, snap).ui.items.Find("legend")->rect;
-    // A site moves below the legend.
-    const FlyLayout layout =
-        ComputeFlyLayout(static_cast<double>(size.x), static_cast<double>(size.y), 1, false);
-    const UiHarness sizes(size.x, size.y);
-    const Rect image = LeftCameraImage(snap, layout.left_camera, sizes.style);
-    const PinholeCamera camera = fake::Camera();
-    const Eigen::Vector2d pixel((before.x + 12 - image.x) / image.w * camera.width,
-                                (before.y + 12 - image.y) / image.h * camera.height);
-    const Eigen::Vector3d ray_C((pixel.x() - camera.cx_px) / camera.fx_px,
-                                (pixel.y() - camera.cy_px) / camera.fy_px, 1);
-    auto decision = std::make_shared<TerrainDecision>(*snap.terrain->applied);
-    decision->selection.sites[1].p_WS = snap.sensors->X_WC * Eigen::Vector3d(ray_C * 38);
-    snap.terrain.Edit().applied = decision;
+    MoveSiteTo({before.x + 12, before.y + 12}, size, 1, snap);
     FlyWindow window(size.x, size.y, snap);
     const Rect after = window.ui.items.Find("legend")->rect;
     int letters = 0;
