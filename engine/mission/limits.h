@@ -8,6 +8,7 @@
 #include <string>
 
 #include "engine/model/mission/map_age.h"
+#include "engine/model/mission/picture_faults.h"
 #include "engine/model/mission/wave_off_offer.h"
 #include "engine/model/site_standing.h"
 
@@ -46,7 +47,7 @@ struct AlarmLimits {
   static constexpr double lost_percent = 10;  ///< F21
   static constexpr double told_s = 10;        ///< what is over at once is told for so long
   static constexpr double laser_mismatch_m = 1.0;
-  static constexpr double row_error_px = 0.5;  ///< a good calibration has 0.2
+  static constexpr double row_error_px = kMostRowError_px;
   static constexpr double exposure = 2;        ///< one picture twice as bright as the other
   static constexpr double scale_percent = 2;   ///< 0.3 m of height at 50 ft
   static constexpr double refused_hz = 1;      ///< datagrams: F25

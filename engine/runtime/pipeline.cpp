@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "engine/mission/watch/picture_watch.h"
+#include "engine/model/mission/picture_faults.h"
 #include "engine/runtime/decision_hash.h"
 #include "engine/runtime/missing_inputs.h"
 #include "engine/runtime/pipeline_pass.h"

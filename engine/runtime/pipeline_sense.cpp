@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "engine/core/text.h"
-#include "engine/mission/watch/picture_watch.h"
+#include "engine/model/mission/picture_faults.h"
 #include "engine/runtime/decision_hash.h"
 #include "engine/runtime/pipeline_pass.h"
 #include "engine/stereo/range_measurement.h"

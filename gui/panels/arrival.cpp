@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "engine/model/channel_age.h"
+#include "engine/model/mission/picture_faults.h"
 #include "engine/model/mission/wave_off_offer.h"
 #include "gui/widgets/number_text.h"
 
@@ -13,7 +14,7 @@ namespace {
 
 /// What is wrong with what arrives in time: a camera's pictures, a GPS that jumped.
 std::string WrongWith(const EngineSnapshot& snap, ChannelId channel) {
-  const StereoQuality& quality = snap.terrain->stereo_quality;
+  const PictureFaults pictures = JudgePictures(snap.terrain->stereo_quality, snap.session->role);
   const bool left = channel == ChannelId::kCameraLeft, right = channel == ChannelId::kCameraRight;
   const std::vector<Alarm>& alarms = snap.flight->mission.alarms;
   if (channel == ChannelId::kGps && std::any_of(alarms.begin(), alarms.end(), [](const Alarm& a) {
@@ -21,14 +22,9 @@ std::string WrongWith(const EngineSnapshot& snap, ChannelId channel) {
       })) {
     return "Off the prediction";
   }
-  // A black picture repeats itself as well, and so may a folder or a film that stands.
-  if ((left && quality.left_blank) || (right && quality.right_blank)) {
-    return "Shows nothing";
-  }
-  const bool live = !HasPicturesOnly(snap.session->role);
-  return live && ((left && quality.left_frozen) || (right && quality.right_frozen))
-             ? "Repeats its picture"
-             : "";
+  const bool frozen = (left && pictures.left_frozen) || (right && pictures.right_frozen);
+  const bool blank = (left && pictures.left_blank) || (right && pictures.right_blank);
+  return blank ? "Shows nothing" : frozen ? "Repeats its picture" : "";
 }
 
 }  // namespace

@@ -26,8 +26,6 @@
 // these have risen as high. The measured ground stays as it is.
 #pragma once
 
-#include <cmath>
-
 #include <Eigen/Dense>
 
 #include "engine/model/elevation_map.h"

@@ -24,7 +24,7 @@
 //
 // Measured on level ground of six textures by two renderers, 10 to 50 frames, still and moving: the
 // true variance is 0.8 to 13 times the stated one, and the median says 1.0 to 16. In a recorded
-// hover p / sigma (narrow_things.h, without its floor) was normal with two sigmas: 0.66 in the
+// hover p / sigma (narrow_things.h, of the pictures alone) was normal with two sigmas: 0.66 in the
 // middle of its size, 2.6 at one in a hundred, 3.3 at one in a thousand, of 28,000 at most 4.3.
 #pragma once
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "engine/model/ground_class.h"
 #include "gui/widgets/map/cell_hatch.h"
@@ -217,11 +218,6 @@ void DrawTracker(UiFrame& ui, const PictureView& view, const TrackerStatus& trac
 
 namespace {
 
-Rect TopLeft(const UiFrame& ui, const Rect& image, float width, float height) {
-  const float edge = ui.style.Px(8);
-  return {image.x + edge, image.y + edge, width, height};
-}
-
 enum class Hidden { kLetters, kLettersAndRings };
 
 /// The first corner in which the plate hides none of these; above what stands in the lower ones.
@@ -230,7 +226,7 @@ std::optional<Rect> FreePlate(const UiFrame& ui, const Rect& image, float width,
   const Style& s = ui.style;
   const float edge = s.Px(8), foot = s.Px(42);
   const float right = image.right() - edge - width, low = image.bottom() - foot - height;
-  const Rect places[] = {TopLeft(ui, image, width, height),
+  const Rect places[] = {{image.x + edge, image.y + edge, width, height},
                          {image.x + edge, low, width, height},
                          {right, low, width, height},
                          {right, image.y + edge + s.Px(28), width, height}};
@@ -279,73 +275,86 @@ float EntryWidth(const Style& s, const LegendEntry& entry) {
   return s.Px(kSwatch + 6) + TextWidth(s.caption, entry.words);
 }
 
+/// One way to say it: entries beside or below each other, with the flags that occur under them.
+struct LegendLayout {
+  std::span<const LegendEntry> entries;
+  bool in_row = true;
+  bool with_flags = false;
+};
+
+/// Of the plate of the entries alone.
+ImVec2 SizeOf(const Style& s, const LegendLayout& layout) {
+  float sum = s.Px(8), widest = 0;
+  for (const LegendEntry& entry : layout.entries) {
+    const float width = EntryWidth(s, entry);
+    sum += width + s.Px(14);
+    widest = std::max(widest, width);
+  }
+  return layout.in_row ? ImVec2(sum, s.Px(26)) : ImVec2(widest + s.Px(20), s.Px(66));
+}
+
+struct PlacedLegend {
+  LegendLayout layout;
+  Rect rect;  ///< flags and all
+};
+
+/// The first that fits and hides no letter and no ring; else, for near the ground a ring fills the
+/// picture, the first that hides no letter.
+std::optional<PlacedLegend> PlaceLegend(const UiFrame& ui, const Rect& image,
+                                        std::span<const LegendLayout> layouts, float flags_w) {
+  for (const Hidden none_of : {Hidden::kLettersAndRings, Hidden::kLetters}) {
+    for (const LegendLayout& layout : layouts) {
+      ImVec2 size = SizeOf(ui.style, layout);
+      if (layout.with_flags) {
+        size = {std::max(size.x, flags_w), size.y + ui.style.Px(30)};
+      }
+      const auto free = size.x + ui.style.Px(16) <= image.w
+                            ? FreePlate(ui, image, size.x, size.y, none_of)
+                            : std::nullopt;
+      if (free) {
+        return PlacedLegend{layout, *free};
+      }
+    }
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 void DrawVerdictLegend(UiFrame& ui, const Rect& image, unsigned flags) {
   const Style& s = ui.style;
-  const float edge = s.Px(8);
   const LegendEntry full[] = {{GroundClassWord(GroundClass::kLandable), SafeSwatch},
                               {"Over a limit or unknown", OverSwatch},
                               {GroundClassWord(GroundClass::kTooNear), TooNearSwatch}};
   const LegendEntry brief[] = {{"Safe", SafeSwatch}, {"Over", OverSwatch}, {"Near", TooNearSwatch}};
-  const auto row_width = [&](std::span<const LegendEntry> entries) {
-    float width = edge;
-    for (const LegendEntry& entry : entries) {
-      width += EntryWidth(s, entry) + s.Px(14);
+  const bool in_row = SizeOf(s, {full}).x + s.Px(16) <= image.w;
+  std::vector<LegendLayout> layouts;
+  for (const LegendLayout& layout : {LegendLayout{full, in_row}, LegendLayout{brief}}) {
+    if (flags != 0) {
+      layouts.push_back({layout.entries, layout.in_row, true});
     }
-    return width;
-  };
-  float widest = 0;
-  for (const LegendEntry& entry : full) {
-    widest = std::max(widest, EntryWidth(s, entry));
+    layouts.push_back(layout);
   }
-  const float flags_w = flags != 0 ? FlagLegendWidth(s, flags) + s.Px(12) : 0;
-  const bool row = row_width(full) + 2 * edge <= image.w;
-  const float column_h = s.Px(66);
-  struct Layout {
-    std::span<const LegendEntry> entries;
-    bool row;
-    float width, height;
-    bool flags;
-  };
-  const float full_w = row ? row_width(full) : widest + 2 * edge + s.Px(4);
-  const float full_h = row ? s.Px(26) : column_h;
-  const Layout layouts[] = {{full, row, full_w, full_h, true},
-                            {full, row, full_w, full_h, false},
-                            {brief, true, row_width(brief), s.Px(26), true},
-                            {brief, true, row_width(brief), s.Px(26), false}};
-  const Layout* chosen = nullptr;
-  Rect at_both{};
-  // What hides no site goes before what says more; near the ground a ring fills the picture.
-  for (const Hidden none_of : {Hidden::kLettersAndRings, Hidden::kLetters}) {
-    for (const Layout& layout : layouts) {
-      const float width = std::max(layout.width, layout.flags ? flags_w : 0);
-      const float height = layout.height + s.Px(layout.flags ? 30 : 0);
-      if (chosen != nullptr || width + 2 * edge > image.w || (layout.flags && flags == 0)) {
-        continue;
-      }
-      if (const auto free = FreePlate(ui, image, width, height, none_of)) {
-        chosen = &layout;
-        at_both = *free;
-      }
-    }
+  const float flags_w = FlagLegendWidth(s, flags) + s.Px(12);
+  const auto placed = PlaceLegend(ui, image, layouts, flags_w);
+  if (!placed) {
+    return;
   }
-  if (chosen == nullptr) {
-    return;  // every corner hides a letter, or nothing fits
-  }
+  const auto& [layout, rect] = *placed;
   ImDrawList* dl = Canvas();
-  const Rect plate{at_both.x, at_both.y, chosen->width, chosen->height};
+  const ImVec2 size = SizeOf(s, layout);
+  const Rect plate{rect.x, rect.y, size.x, size.y};
   FillRect(dl, plate, picture::kPlate, s.Fine(3));
-  ui.items.Add("legend", at_both, true, "");
-  ImVec2 at{plate.x + edge, plate.y + s.Px(13)};
-  for (const LegendEntry& entry : chosen->entries) {
+  ui.items.Add("legend", rect, true, "");
+  ImVec2 at{plate.x + s.Px(8), plate.y + s.Px(13)};
+  for (const LegendEntry& entry : layout.entries) {
     const float side = s.Px(kSwatch);
     entry.draw(s, {at.x, at.y - side / 2, side, side});
     DrawText(ui, s.caption, picture::kPlateText, at.x + side + s.Px(6), at.y, entry.words);
-    at = chosen->row ? ImVec2{at.x + EntryWidth(s, entry) + s.Px(14), at.y}
-                     : ImVec2{at.x, at.y + s.Px(20)};
+    at = layout.in_row ? ImVec2{at.x + EntryWidth(s, entry) + s.Px(14), at.y}
+                       : ImVec2{at.x, at.y + s.Px(20)};
   }
-  if (chosen->flags) {
+  if (layout.with_flags) {
     const Rect below{plate.x, plate.bottom() + s.Px(4), flags_w, s.Px(26)};
     FillRect(dl, below, picture::kPlate, s.Fine(3));
     DrawFlagLegend(ui, below.x - s.Px(6), below.centre().y, flags);
