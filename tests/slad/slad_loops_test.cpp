@@ -42,7 +42,7 @@ Floats Results(const SladLoops& loops, std::uint64_t seed) {
   keep(slope);
   std::vector<unsigned char> reasons(size), measured(size, 1);
   loops.modern_verdict(
-      {0.3F, 0.1F, 0.15F, 0.99F, 0.05F, 0.35F, 0.9F},
+      {0.3F, 0.1F, 0.15F, 0.99F, 0.05F, 0.35F, 0.9F, seed % 2 == 0 ? 1.0F : 0.0F},
       {slope.data(), d.data(), c.data(), c.data(), d.data(), c.data() + 3, slope.data() + 1,
        b.data(), c.data() + 1, c.data() + 2, d.data(), measured.data()},
       count, {probability.data(), cost.data(), reasons.data()});
@@ -174,7 +174,7 @@ TEST(SladLoops, StepsAreTheLargestBetweenNeighbours) {
     noise2[r] = Random(random, kWide, 0, 0.01);
     plane[r] = Random(random, kWide, -0.05, 0.05);
     for (float& value : noise2[r]) {
-      value = random.Uniform() < 0.2 ? kNever : value;
+      value = random.Uniform() < 0.2 ? kBeyondHeights : value;
     }
   }
   const Floats east = Random(random, kWide, -0.1, 0.1), south = Random(random, kWide, -0.1, 0.1);
@@ -187,11 +187,12 @@ TEST(SladLoops, StepsAreTheLargestBetweenNeighbours) {
                            kCount, most.data(), at_cell.data());
   for (int c = 0; c < kCount; ++c) {
     const std::size_t i = std::size_t(c) + 1;
-    float want = -kNever, want_at_cell = -kNever;
+    float want = -kBeyondHeights, want_at_cell = -kBeyondHeights;
     for (int dr = -1; dr <= 1; ++dr) {
       for (int dc = -1; dc <= 1; ++dc) {
         const std::size_t j = i + std::size_t(dc), r = std::size_t(1 + dr);
-        if ((dr == 0 && dc == 0) || noise2[1][i] >= kNever || noise2[r][j] >= kNever) {
+        if ((dr == 0 && dc == 0) || noise2[1][i] >= kBeyondHeights ||
+            noise2[r][j] >= kBeyondHeights) {
           continue;
         }
         const float rise = height[r][j] - height[1][i] - east[i] * float(dc) - south[i] * float(dr);
@@ -233,7 +234,7 @@ double SafeProbability(const Figures& f) {
   float probability = 0, cost = 0;
   unsigned char reasons = 0;
   FastestSladLoops().modern_verdict(
-      {0.2F, 0.1F, 0.15F, 0.99F, 0.05F, 0.35F, 0.9F},
+      {0.2F, 0.1F, 0.15F, 0.99F, 0.05F, 0.35F, 0.9F, 1.0F},
       {&f.slope, &f.slope_sigma, &f.deviation, &f.step, &f.sigma, &f.denoised, &f.tilt, &f.rise,
        &none, &none, &small, &measured},
       1, {&probability, &cost, &reasons});

@@ -48,16 +48,16 @@ class RimmedLayer {
 struct Layers {
   Layers(int rows, int cols, int rim)
       : height(rows, cols, rim, 0.0F),
-        noise2(rows, cols, rim, kNever),
-        step2(rows, cols, rim, -kNever),
+        noise2(rows, cols, rim, kBeyondHeights),
+        step2(rows, cols, rim, -kBeyondHeights),
         plane(rows, cols, 1, 0.0F),
         east(rows, cols, 0, 0.0F),
         south(rows, cols, 0, 0.0F) {}
 
-  RimmedLayer height;       ///< 0 where not measured
-  RimmedLayer noise2;       ///< 16 sigma^2, kNever where not measured
-  RimmedLayer step2;        ///< largest squared step to a neighbour beyond noise, -kNever none
-  RimmedLayer plane;        ///< 0 where no plane
+  RimmedLayer height;  ///< 0 where not measured
+  RimmedLayer noise2;  ///< 16 sigma^2, kBeyondHeights where not measured
+  RimmedLayer step2;   ///< largest squared step to a neighbour beyond noise, -kBeyondHeights none
+  RimmedLayer plane;   ///< 0 where no plane
   RimmedLayer east, south;  ///< gradient per cell
 };
 
@@ -181,7 +181,7 @@ void FindFootprintMaxima(const GridGeometry& geometry, const Disc& disc, const L
   const int cols = geometry.cols;
   ForRows(geometry.rows, [&](int r) {
     const std::size_t padded = static_cast<std::size_t>(cols + kLaneSlack);
-    std::vector<float> deviation2(padded, -kNever), step2(padded, -kNever);
+    std::vector<float> deviation2(padded, -kBeyondHeights), step2(padded, -kBeyondHeights);
     std::vector<float> denoised_off(padded, 0.0F);
     std::vector<float> work(padded + 2 * static_cast<std::size_t>(disc.reach));
     std::vector<int> row_offset, half;

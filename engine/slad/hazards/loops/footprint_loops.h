@@ -39,7 +39,7 @@ void DiscDeviationRow(const DiscRows& disc, const float* plane, const float* eas
 constexpr float kMakesStep = 0.9F;
 
 void StepRow(const StepRows& rows, int count, float* most2, float* at_cell2) {
-  const FloatLanes none = Fill(-kNever), never = Fill(kNever);
+  const FloatLanes none = Fill(-kBeyondHeights), never = Fill(kBeyondHeights);
   for (int c = 0; c < count; c += FloatLanes::kCount) {
     const FloatLanes height = Load(rows.height[1] + c), noise2 = Load(rows.noise2[1] + c);
     const FloatLanes east = Load(rows.east + c), south = Load(rows.south + c);

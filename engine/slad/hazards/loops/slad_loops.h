@@ -33,13 +33,13 @@ struct DiscRows {
 };
 
 /// Noise that makes the squared deviation of an unknown cell negative whatever its height.
-inline constexpr float kNever = 1e20F;
+inline constexpr float kBeyondHeights = 1e20F;
 
 /// The cells around those of one row, at column 0; readable one further to the left, 1 + kLaneSlack
 /// to the right.
 struct StepRows {
   const float* height[3];  ///< of the row to the north, the row itself and that to the south
-  const float* noise2[3];  ///< taken from squared steps; kNever where not measured
+  const float* noise2[3];  ///< taken from squared steps; kBeyondHeights where not measured
   const float* plane[3];
   const float* east;  ///< gradients a cell
   const float* south;
@@ -165,7 +165,7 @@ struct SladLoops {
                          const float* south, int count, float* square, float* denoised_off);
   /// Largest squared step to one of the eight neighbours beyond what the plane rises and both
   /// noises, and the same for the cell that stands farther off its plane and so makes the step;
-  /// -kNever where there is none. Writable kLaneSlack beyond count.
+  /// -kBeyondHeights where there is none. Writable kLaneSlack beyond count.
   void (*steps)(const StepRows& rows, int count, float* most2, float* at_cell2);
   /// Heights less their noise, by hyperbolic shrinkage: off its plane a cell keeps sqrt(off^2 - 9
   /// sigma^2), the mean of the cells around it and the rest apart. 0 where not known.
