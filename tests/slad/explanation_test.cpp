@@ -299,7 +299,7 @@ TEST(RankReasons, SayWhatDecidedAndByHowMuch) {
        {"Straight approach blocked; clear from 3 of 8 sides"}}};
   for (const Case& c : cases) {
     SiteSelection selection{c.sites, ""};
-    GiveReasons(c.choice, selection);
+    GiveReasons(c.choice, 0, selection);
     for (std::size_t i = 0; i < c.reasons.size(); ++i) {
       EXPECT_EQ(selection.sites[i].reason, c.reasons[i]);
     }

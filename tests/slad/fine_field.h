@@ -7,9 +7,10 @@
 
 namespace palace::testing {
 
-/// Of each place of the map its height off `ground` by noise of `sigma_m`, known that well.
+/// Of each place of the map its height off `ground` by noise of `sigma_m`, known that well, from
+/// pixels that were laid on `laid`.
 inline FineSums FineField(const GridGeometry& map, const Height& ground, double sigma_m,
-                          std::uint64_t seed = 1) {
+                          std::uint64_t seed = 1, const Height& laid = Flat()) {
   const GridGeometry places = FineRelief::PlacesOf(map);
   Grid<FineKnown> known(places.rows, places.cols);
   RandomStream random(seed, "pictures");
@@ -20,6 +21,8 @@ inline FineSums FineField(const GridGeometry& map, const Height& ground, double 
           ground(places.NorthOfRow(r), places.EastOfCol(c)) + sigma_m * random.Normal();
       place.net = place.gross = static_cast<float>(1 / (sigma_m * sigma_m));
       place.height = place.net * static_cast<float>(height_m);
+      place.off = place.net *
+                  static_cast<float>(height_m - laid(places.NorthOfRow(r), places.EastOfCol(c)));
     }
   }
   return {known, places, 0};

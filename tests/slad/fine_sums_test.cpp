@@ -19,6 +19,7 @@ Grid<FineKnown> Drawn(std::uint64_t seed) {
     k.net = static_cast<float>(random.Uniform(-10, 100));
     k.gross = k.net + 20;
     k.height = k.net * static_cast<float>(random.Normal());
+    k.off = k.net * static_cast<float>(random.Normal());
   }
   return known;
 }
@@ -36,9 +37,11 @@ TEST(FineSums, EverySquareIsThePlainSumOfItsPlaces) {
            c < std::min(kPlaces.cols, col - side / 2 + side + reach); ++c) {
         const auto a = static_cast<double>(known.at(r, c).net),
                    j = static_cast<double>(known.at(r, c).height),
-                   g = static_cast<double>(known.at(r, c).gross);
+                   g = static_cast<double>(known.at(r, c).gross),
+                   off = static_cast<double>(known.at(r, c).off);
         const double x = c - kPlaces.cols / 2.0, y = r - kPlaces.rows / 2.0;
-        plain += FineSum{{a, a * x, a * y, a * x * x, a * x * y, a * y * y, j, j * x, j * y, g}};
+        plain +=
+            FineSum{{a, a * x, a * y, a * x * x, a * x * y, a * y * y, j, j * x, j * y, g, off}};
       }
     }
     const FineSum fast = sums.Over(row, col, side, reach);

@@ -24,7 +24,7 @@ LandingSite Of(const char* letter, double safe_distance_m, bool confirmed = true
 SiteSelection Reasoned(std::vector<LandingSite> sites) {
   SiteSelection selection;
   selection.sites = std::move(sites);
-  GiveReasons(SiteRanking::kFarthest, selection);
+  GiveReasons(SiteRanking::kFarthest, 0.15, selection);
   return selection;
 }
 
@@ -61,6 +61,17 @@ TEST(RankReasons, WideGroundWhereThingsMayHideGoesBelowAndSaysSo) {
   EXPECT_EQ(list.sites[1].reason, "0.12 rocks or holes may hide, at the best 0.004");
   EXPECT_EQ(list.sites[2].reason.rfind("0.8 m less clear than the best", 0), 0U)
       << list.sites[2].reason;
+}
+
+TEST(RankReasons, ATightSiteBelowARoomyOneSaysByHowMuchItIsTight) {
+  std::vector<LandingSite> sites = {Of("A", 3.2), Of("B", 2.34), Of("C", 2.6)};
+  for (LandingSite& site : sites) {
+    site.clear_radius_m = 2.3;
+    site.clearance_m = site.safe_distance_m - site.clear_radius_m;
+  }
+  const SiteSelection list = Reasoned(sites);
+  EXPECT_EQ(list.sites[1].reason, "0.04 m beyond the clear radius, at the best 0.90 m");
+  EXPECT_EQ(list.sites[2].reason, "0.6 m less clear than the best; better than B (noise, or new)");
 }
 
 TEST(RankReasons, RoomCountsAboutAClearRadiusLessForEachTenfoldThatMayHide) {

@@ -1,6 +1,7 @@
 // Sites over the maps of a flight: letters, places and ranks that stand, and what ends them.
 #include "engine/slad/sites/site_registry.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
@@ -201,7 +202,7 @@ TEST(SiteRegistry, ABetterPointReplacesAPlaceUnlessItIsSelected) {
     // Between two walls the middle is best; then one of them turns out to be none.
     const Height walls = WithBox(WithBox(Flat(), 9.5, 0, 12, 1), -9.5, 0, 12, 1);
     const Height one_wall = WithBox(Flat(), -9.5, 0, 12, 1);
-    const LandingSite a = hover.SeeOften(5, walls).sites[0];
+    const LandingSite a = hover.SeeOften(kBetterAfter_maps, walls).sites[0];
     ASSERT_EQ(a.letter, "A");
     hover.registry_.Keep(selected ? a.id : 0);
     EXPECT_NE(Find(hover.SeeOften(kBetterAfter_maps - 1, one_wall), "A"), nullptr);
@@ -216,12 +217,52 @@ TEST(SiteRegistry, ABetterPointReplacesAPlaceUnlessItIsSelected) {
   }
 }
 
-TEST(SiteRegistry, APlaceThatTheNextMapBeatsWasAChanceOfTheFirst) {
-  Hover hover;
+TEST(SiteRegistry, APlaceThatStoodShortFallsSoon) {
   const Height walls = WithBox(WithBox(Flat(), 9.5, 0, 12, 1), -9.5, 0, 12, 1);
   const Height one_wall = WithBox(Flat(), -9.5, 0, 12, 1);
-  ASSERT_EQ(hover.See(walls).sites.at(0).letter, "A");
-  EXPECT_EQ(Find(hover.See(one_wall), "A"), nullptr);
+  for (const int stood : {1, 2, 3}) {
+    Hover hover;
+    ASSERT_EQ(hover.SeeOften(stood, walls).sites.at(0).letter, "A");
+    EXPECT_NE(Find(hover.SeeOften(std::max(2, stood) - 1, one_wall), "A"), nullptr) << stood;
+    EXPECT_EQ(Find(hover.See(one_wall), "A"), nullptr) << stood;
+  }
+}
+
+TEST(LastingClaim, HoldsAfterAsManyMapsAsStoodAgainstIt) {
+  struct Row {
+    int stood, holds_after;
+  };
+  for (const Row row : {Row{1, 2}, {2, 2}, {3, 3}, {10, 10}, {24, 24}, {90, 24}}) {
+    LastingClaim claim;
+    for (int map = 2; map <= row.stood; ++map) {
+      EXPECT_FALSE(claim.Add(false, 24)) << row.stood;
+    }
+    for (int map = 1; map < row.holds_after; ++map) {
+      EXPECT_FALSE(claim.Add(true, 24)) << row.stood << ' ' << map;
+    }
+    EXPECT_TRUE(claim.Add(true, 24)) << row.stood;
+  }
+  LastingClaim recorded(24);
+  EXPECT_FALSE(recorded.Add(true, 24)) << "nobody says how long it has stood";
+}
+
+TEST(SiteRegistry, APlaceThatACellLessOfRoomWouldEndStandsBehindRoomyOnes) {
+  // A lane of 4.8 m, level, opens to one of 5.8 m that climbs.
+  const Height lane =
+      WithBox(WithBox(WithBox(Flat(), -8.4, -1, 12, 1), 8.4, -7, 12, 1), 9.4, 7, 12, 1);
+  const Height ground = [&](double north_m, double east_m) {
+    return lane(north_m, east_m) + 0.03 * std::max(0.0, east_m);
+  };
+  Hover hover;
+  hover.settings.choice.ranking = SiteRanking::kCost;
+  const SiteSelection list = hover.SeeOften(5, ground);
+  ASSERT_GE(list.sites.size(), 2U);
+  const LandingSite& best = list.sites[0];
+  EXPECT_GE(best.clearance_m, 0.15);
+  const auto tight = std::find_if(list.sites.begin(), list.sites.end(),
+                                  [](const LandingSite& s) { return s.clearance_m < 0.15; });
+  ASSERT_NE(tight, list.sites.end());
+  EXPECT_LT(tight->cost, best.cost) << "though it is the cheaper one";
 }
 
 TEST(SiteRegistry, ARecordedFlightGoesOnWithItsPlaces) {

@@ -22,7 +22,8 @@ CellExplanation ExplainCell(const ElevationMap& map, const HazardMaps& hazards,
 
 /// Fills `reason` of every site, in the units of what decided: metres of clear radius, cost, or the
 /// corridor. The first says what it has over the next, the others what they lack against the best.
-/// "the best" and "the next" become letters in SiteRegistry::Select.
-void GiveReasons(SiteRanking ranking, SiteSelection& selection);
+/// "the best" and "the next" become letters in SiteRegistry::Select. With less than `tight_m`
+/// beyond its clear radius a site ranks behind those that have more.
+void GiveReasons(SiteRanking ranking, double tight_m, SiteSelection& selection);
 
 }  // namespace palace

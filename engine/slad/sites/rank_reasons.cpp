@@ -97,11 +97,15 @@ bool Beats(SiteRanking ranking, const LandingSite& a, const LandingSite& b) {
 
 /// Of one that the best goes before. Where the order is not what figures and standing suggest, the
 /// reason says so: places are ranked by room and what may hide, or by cost, over many maps.
-std::string ReasonBelow(SiteRanking ranking, const SiteSelection& selection, std::size_t i) {
+std::string ReasonBelow(SiteRanking ranking, double tight_m, const SiteSelection& selection,
+                        std::size_t i) {
   const LandingSite& best = selection.sites.front();
   const LandingSite& above = selection.sites[i - 1];
   const LandingSite& site = selection.sites[i];
-  std::string reason = Capital(Difference(ranking, best, site, false, "the best"));
+  const bool tight = site.clearance_m < tight_m && best.clearance_m >= tight_m;
+  std::string reason = tight ? WithNumbers("%.2f m beyond the clear radius, at the best %.2f m",
+                                           site.clearance_m, best.clearance_m)
+                             : Capital(Difference(ranking, best, site, false, "the best"));
   if (site.confirmed && !best.confirmed) {
     reason += ", though confirmed";
   }
@@ -140,7 +144,7 @@ std::string ReasonOfBest(SiteRanking ranking, const SiteSelection& selection) {
 
 }  // namespace
 
-void GiveReasons(SiteRanking ranking, SiteSelection& selection) {
+void GiveReasons(SiteRanking ranking, double tight_m, SiteSelection& selection) {
   for (std::size_t i = 0; i < selection.sites.size(); ++i) {
     LandingSite& site = selection.sites[i];
     site.reason = i == 0 ? ReasonOfBest(ranking, selection)
@@ -149,7 +153,7 @@ void GiveReasons(SiteRanking ranking, SiteSelection& selection) {
                   : !site.corridor_clear ? ApproachWords(site)
                   : std::isfinite(site.called_unsafe_s)
                       ? WithNumbers("Called unsafe %.0f s ago, ranks behind", site.called_unsafe_s)
-                      : ReasonBelow(ranking, selection, i);
+                      : ReasonBelow(ranking, tight_m, selection, i);
   }
 }
 

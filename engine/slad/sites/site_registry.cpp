@@ -57,6 +57,10 @@ struct SiteRegistry::Map {
     return elevation.geometry.CellFromPoint(p_W.x(), p_W.y());
   }
   std::size_t most_sites() const { return static_cast<std::size_t>(settings.choice.sites_kept); }
+  /// Room beyond the clear radius that a map may be wrong by.
+  double tight_m() const {
+    return settings.mode == SladMode::kModern ? elevation.geometry.cell_m : 0;
+  }
 };
 
 std::string SiteLetter(std::size_t n) {
@@ -84,7 +88,8 @@ void SiteRegistry::GoOnWith(const std::vector<RecordedPlace>& places,
                        .letter = place.letter,
                        .p_W = place.north_east_m,
                        .rank = static_cast<int>(places_.size()),
-                       .run = kBetterAfter_maps});  // nobody says how long it has stood
+                       .run = kBetterAfter_maps,  // nobody says how long it has stood
+                       .beaten = LastingClaim(kBetterAfter_maps)});
   }
   time_ = Timestamp{};  // older than any map: the next is not the same again
   settings_ = settings;
@@ -111,12 +116,12 @@ SiteSelection SiteRegistry::Select(const ElevationMap& map, const HazardMaps& ha
     selection.sites.push_back(std::move(one.site));
   }
   std::erase_if(places_, [](const Place& place) { return place.id == 0 && place.run == 0; });
-  GiveReasons(settings.choice.ranking, selection);
+  GiveReasons(settings.choice.ranking, now.tight_m(), selection);
   NameInReasons(selection);
   selection.named = named_;
   if (selection.sites.empty()) {
-    selection.none_reason =
-        any ? "the places found are not on 3 maps in a row yet" : NoneReason(map, hazards, settings);
+    selection.none_reason = any ? "the places found are not on 3 maps in a row yet"
+                                : NoneReason(map, hazards, settings);
   }
   return selection;
 }
@@ -155,10 +160,9 @@ std::vector<SiteRegistry::Found> SiteRegistry::Revisit(const Map& now, SiteCandi
       continue;  // too near another: the spacing was changed
     }
     const bool beaten = candidates.BestNear(one.at.cell) > one.at.score + candidates.noise();
-    if (!now.again && place.beaten.Add(beaten, std::clamp(place.run, 1, kBetterAfter_maps)) &&
-        !IsKept(place)) {
+    if (!now.again && place.beaten.Add(beaten, kBetterAfter_maps) && !IsKept(place)) {
       replaced_.push_back(place.p_W);
-      place.beaten = {};
+      place.beaten = LastingClaim();
       place.rank = -1;
       continue;
     }
@@ -260,6 +264,7 @@ void SiteRegistry::Follow(const Map& now, const std::vector<Chosen>& chosen,
       place.confirmed.Add(site.confirmed);
       place.straight_clear.Add(site.corridor_clear);
       place.some_clear.Add(site.clear_approaches != 0);
+      place.roomy.Add(site.clearance_m >= now.tight_m());
     }
     site.p_WS.head<2>() = place.p_W;
     site.newest_confirms = site.confirmed;
@@ -306,7 +311,7 @@ std::vector<SiteRegistry::Found> SiteRegistry::Ranked(const Map& now, std::vecto
     const auto order = [&](const Found& one) {
       const Place& place = place_of(one);
       return std::tuple(one.site.age_s > kOldGround_s, approach(place),
-                        std::isfinite(ShakenFor(place, now.elevation.time)));
+                        std::isfinite(ShakenFor(place, now.elevation.time)), !place.roomy.good());
     };
     const double ahead = place_of(a).score.value() - place_of(b).score.value();
     return order(a) != order(b) ? order(a) < order(b) : ahead > noise;

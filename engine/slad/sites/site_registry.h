@@ -9,11 +9,13 @@
 //              more than the noise of a score. A place that a map called unsafe, and a new one
 //              within the spacing of it, stands behind the others for 30 s, each time longer by
 //              30 s
-//   replaced   when another point within the spacing is better by more than that on 24 maps in a
-//              row, or on the first map after it was found; never the place that is selected
+//   replaced   when another point within the spacing is better by more than that on as many maps in
+//              a row as it stood before, from 2 to 24; never the place that is selected
 //   confirmed  as the maps say, 3 of 5 against it, 5 in a row for it again
 //   look       from where it would be settled, as it was told until maps differ by over a metre
 //   approach   likewise: blocked ones come after clear ones
+//   tight      with less than a cell beyond its clear radius it comes after those that have more:
+//              a map that sees the nearest hazard a cell nearer makes it no site
 //   old        ground last measured longer ago than an approval allows (2 s) comes after all that
 //              is still in view
 //
@@ -67,7 +69,7 @@ class SiteRegistry {
     int rank = -1;                                  ///< in the list; -1: not listed
     int run = 0;                                    ///< maps in a row that it could bear the lander
     SteadyFigure score{};
-    SteadyVerdict confirmed{}, straight_clear{}, some_clear{};
+    SteadyVerdict confirmed{}, straight_clear{}, some_clear{}, roomy{};
     LastingClaim beaten{};
     double look_height_m = NAN;            ///< LandingSite::look_height_m, as it was told last
     int losses = 0;                        ///< maps that called it unsafe

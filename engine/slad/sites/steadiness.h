@@ -2,6 +2,7 @@
 // sooner than better.
 #pragma once
 
+#include <algorithm>
 #include <deque>
 #include <optional>
 
@@ -23,15 +24,22 @@ class SteadyVerdict {
   bool good_ = false;
 };
 
-/// A claim of each map: it holds once so many maps in a row have made it.
+/// A claim of each map against what stands. It holds once as many maps in a row have made it as
+/// stood without it before, two at least and `most` at most: one map alone ends nothing, and what
+/// stood long falls slowly.
 class LastingClaim {
  public:
-  bool Add(bool claim, int maps) {
+  /// `stood`: so many maps already.
+  LastingClaim() = default;
+  explicit LastingClaim(int stood) : stood_(stood) {}
+  bool Add(bool claim, int most) {
+    stood_ += claim ? 0 : run_ + 1;
     run_ = claim ? run_ + 1 : 0;
-    return run_ >= maps;
+    return run_ >= std::clamp(stood_, 2, most);
   }
 
  private:
+  int stood_ = 1;
   int run_ = 0;
 };
 

@@ -56,9 +56,10 @@ FineSums::FineSums(const Grid<FineKnown>& known, const GridGeometry& places, dou
     for (int c = 0; c < places.cols; ++c) {
       const auto a = static_cast<double>(known.at(r, c).net),
                  j = static_cast<double>(known.at(r, c).height),
-                 g = static_cast<double>(known.at(r, c).gross);
+                 g = static_cast<double>(known.at(r, c).gross),
+                 off = static_cast<double>(known.at(r, c).off);
       const double x = c - places.cols / 2.0, y = r - places.rows / 2.0;
-      row += FineSum{{a, a * x, a * y, a * x * x, a * x * y, a * y * y, j, j * x, j * y, g}};
+      row += FineSum{{a, a * x, a * y, a * x * x, a * x * y, a * y * y, j, j * x, j * y, g, off}};
       FineSum& corner = corners_.at(r + 1, c + 1);
       corner = corners_.at(r, c + 1);
       corner += row;

@@ -21,18 +21,20 @@ struct FineKnown {
   float net = 0;     ///< A, 1/m^2
   float gross = 0;   ///< G, 1/m^2
   float height = 0;  ///< J, 1/m
+  float off = 0;     ///< R, 1/m: of J, what its pixels tell off the ground they were laid on
 };
 
 /// Sums over places: of A, with columns x and rows y off the grid's middle and their products; of J
-/// with places; of G.
+/// with places; of G; of R.
 struct FineSum {
-  enum { kA, kAx, kAy, kAxx, kAxy, kAyy, kJ, kJx, kJy, kG, kCount };
+  enum { kA, kAx, kAy, kAxx, kAxy, kAyy, kJ, kJx, kJy, kG, kR, kCount };
   std::array<double, kCount> of{};
 
   /// 1/m^2: to a metre at least. What is left of sums over nothing is rounding.
   static constexpr double kLeastNet = 1;
   bool known() const { return of[kA] > kLeastNet && of[kG] > 0; }
   double height_m() const { return of[kJ] / of[kA]; }
+  double off_laid_m() const { return of[kR] / of[kA]; }
   double variance_m2() const { return of[kG] / (of[kA] * of[kA]); }
   double x() const { return of[kAx] / of[kA]; }
   double y() const { return of[kAy] / of[kA]; }

@@ -34,6 +34,7 @@ struct Figures {
   GridF prominence_m;  ///< p
   GridF sigma_m;       ///< sigma_p
   GridF level_m;       ///< of the plane
+  GridF off_laid_m;    ///< of the height, off the ground that the square's pixels were laid on
   int side = 1;        ///< of the square, places
 };
 
@@ -43,7 +44,7 @@ int StrideOf(int side) { return std::max(1, side / 2); }
 Figures Measure(const FineSums& sums, int side, int ring_to) {
   const GridGeometry& places = sums.places();
   const GridF unknown(places.rows, places.cols, kUnknownValue);
-  Figures shown{unknown, unknown, unknown, side};
+  Figures shown{unknown, unknown, unknown, unknown, side};
   cv::parallel_for_(cv::Range(0, places.rows), [&](const cv::Range& rows) {
     const int stride = StrideOf(side);
     for (int r = (rows.start + stride - 1) / stride * stride; r < rows.end; r += stride) {
@@ -59,6 +60,7 @@ Figures Measure(const FineSums& sums, int side, int ring_to) {
           const double level_m = around.At(own.x(), own.y());
           shown.prominence_m.at(r, c) = static_cast<float>(own.height_m() - level_m);
           shown.level_m.at(r, c) = static_cast<float>(level_m + sums.reference_m());
+          shown.off_laid_m.at(r, c) = static_cast<float>(own.off_laid_m());
           shown.sigma_m.at(r, c) =
               static_cast<float>(std::sqrt(own.variance_m2() + (1 + aside) * around.variance_m2));
         }
@@ -68,18 +70,18 @@ Figures Measure(const FineSums& sums, int side, int ring_to) {
   return shown;
 }
 
-/// Raises the ground between the cell and the camera to the rays that saw the cell, as far as they
-/// take to rise by `thing_m`; a cell that they end in, by its part of it.
+/// Raises the ground between the cell and the camera to the rays that saw the cell at `laid_m`, as
+/// far as they take to rise by `off_m`; a cell that they end in, by its part of it.
 void RaiseTowardsCamera(const ElevationMap& map, Cell cell, const Eigen::Vector3d& p_WC,
-                        double level_m, double thing_m, GridF& top_m) {
+                        double laid_m, double off_m, GridF& top_m) {
   const GridGeometry& g = map.geometry;
   const Eigen::Vector2d place(g.NorthOfRow(cell.row), g.EastOfCol(cell.col));
   const Eigen::Vector2d way = p_WC.head<2>() - place;
-  const double distance_m = way.norm(), above_m = HeightFromDown(p_WC.z()) - level_m;
+  const double distance_m = way.norm(), above_m = HeightFromDown(p_WC.z()) - laid_m;
   if (!(distance_m > g.cell_m && above_m > 0)) {
     return;  // seen from above
   }
-  const double rise = above_m / distance_m, length_m = thing_m / rise;
+  const double rise = above_m / distance_m, length_m = off_m / rise;
   for (double along_m = g.cell_m; along_m < length_m + g.cell_m / 2; along_m += g.cell_m) {
     const Eigen::Vector2d at = place + along_m / distance_m * way;
     const auto to = g.CellFromPoint(at.x(), at.y());
@@ -88,25 +90,32 @@ void RaiseTowardsCamera(const ElevationMap& map, Cell cell, const Eigen::Vector3
     }
     const double part = std::min(1.0, (length_m - along_m) / g.cell_m + 0.5);
     const auto ground_m = static_cast<double>(map.height_m.at(*to));
-    const double ray_m = level_m + std::min(along_m, length_m) * rise;
+    const double ray_m = laid_m + std::min(along_m, length_m) * rise;
     top_m.at(*to) =
         std::max(top_m.at(*to), static_cast<float>(ground_m + part * (ray_m - ground_m)));
   }
 }
 
-/// `thing_m` above the level of its surroundings, below it where negative.
-void RaiseTop(const ElevationMap& map, Cell cell, const Eigen::Vector3d& p_WC, double level_m,
-              double thing_m, GridF& top_m) {
+/// What stands in a cell, or is missing there.
+struct NarrowThing {
+  double top_m = 0;     ///< of a hole its bottom
+  double height_m = 0;  ///< off its surroundings
+  double off_m = 0;     ///< off the ground that its pixels were laid on
+};
+
+void RaiseTop(const ElevationMap& map, Cell cell, const Eigen::Vector3d& p_WC,
+              const NarrowThing& thing, GridF& top_m) {
   if (!map.geometry.Contains(cell) || map.state.at(cell) != CellState::kMeasured) {
     return;
   }
-  const auto to_m = static_cast<float>(level_m + thing_m);
+  const auto to_m = static_cast<float>(thing.top_m);
   float& top = top_m.at(cell);
-  if (thing_m < 0) {
-    top = std::min(top, to_m);
+  if (thing.height_m < 0) {
+    const float ground_m = map.height_m.at(cell);
+    top = ground_m - to_m > top - ground_m ? std::min(top, to_m) : top;  // else a ray rises higher
   } else {
     top = std::max(top, to_m);
-    RaiseTowardsCamera(map, cell, p_WC, level_m, thing_m, top_m);
+    RaiseTowardsCamera(map, cell, p_WC, thing.top_m - thing.off_m, thing.off_m, top_m);
   }
 }
 
@@ -118,11 +127,14 @@ void RaiseUnder(const Figures& fine, int row, int col, double times, double sigm
   if (!(std::abs(shown_m) <= kTallest_m && std::abs(shown_m) > kStandsOut_sigmas * sigma_m)) {
     return;
   }
-  const double thing_m = std::clamp(times * shown_m, -kTallest_m, kTallest_m);
+  NarrowThing thing;
+  thing.height_m = std::clamp(times * shown_m, -kTallest_m, kTallest_m);
+  thing.top_m = At(fine.level_m, row, col) + thing.height_m;
+  thing.off_m = std::clamp(times * At(fine.off_laid_m, row, col), 0.0, std::abs(thing.height_m));
   const int first_row = row - fine.side / 2, first_col = col - fine.side / 2;
   for (int r = first_row / kPerCell; r <= (first_row + fine.side - 1) / kPerCell; ++r) {
     for (int c = first_col / kPerCell; c <= (first_col + fine.side - 1) / kPerCell; ++c) {
-      RaiseTop(map, {r, c}, p_WC, At(fine.level_m, row, col), thing_m, top_m);
+      RaiseTop(map, {r, c}, p_WC, thing, top_m);
     }
   }
 }

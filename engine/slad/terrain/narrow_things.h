@@ -23,7 +23,9 @@
 // of the cells under its square is raised (lowered, for a hole) to what a thing would be that shows
 // as much. Seen aslant, a thing hides the ground behind it, and what of it is laid there is read
 // from there: the ground between the cell and the camera is raised to the rays that saw it, until
-// these have risen as high. The measured ground stays as it is.
+// these have risen by what the thing stands off the ground that it was laid on (R / A of
+// fine_relief.h: all of its height where stereo missed it, nothing where stereo measured it). The
+// measured ground stays as it is.
 #pragma once
 
 #include <Eigen/Dense>

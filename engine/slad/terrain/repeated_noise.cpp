@@ -128,7 +128,7 @@ Grid<FineKnown> WithRepeatedNoise(const Grid<FinePlace>& places) {
     const auto& of = places.cells()[i].of;
     known.cells()[i] = {of[P::kNet],
                         times.cells()[i] * static_cast<float>(Noise(places.cells()[i])),
-                        of[P::kHeight]};
+                        of[P::kHeight], of[P::kOff]};
   }
   return known;
 }
