@@ -29,8 +29,8 @@ class SteadyVerdict {
 /// stood long falls slowly.
 class LastingClaim {
  public:
-  /// `stood`: so many maps already.
   LastingClaim() = default;
+  /// What stands stood for so many maps already.
   explicit LastingClaim(int stood) : stood_(stood) {}
   bool Add(bool claim, int most) {
     stood_ += claim ? 0 : run_ + 1;

@@ -103,6 +103,7 @@ struct NarrowThing {
   double off_m = 0;     ///< off the ground that its pixels were laid on
 };
 
+/// Of a rock and of a hole in one cell, what stands farther off the ground counts.
 void RaiseTop(const ElevationMap& map, Cell cell, const Eigen::Vector3d& p_WC,
               const NarrowThing& thing, GridF& top_m) {
   if (!map.geometry.Contains(cell) || map.state.at(cell) != CellState::kMeasured) {
