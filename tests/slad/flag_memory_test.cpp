@@ -131,6 +131,50 @@ TEST(FlagMemory, AWireOfUnknownHeightFadesAlongTheBaselineToo) {
   EXPECT_TRUE(memory.ThinTops().empty());
 }
 
+/// One letter a map: ? a line of unknown height, 3 a wire 3 m up, g a line told to lie on the
+/// ground, . nothing. Returns what was in force after each map: ?, 3 or a dot.
+std::string LinesInForce(const std::string& maps) {
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  FlagMemory memory;
+  memory.MoveTo(kGeometry);
+  std::string answer;
+  for (const char map : maps) {
+    const Grid<std::uint8_t> seen(4, 4, std::uint8_t{kFlagThinStructure});
+    const Grid<std::uint8_t> found(
+        4, 4, map == '?' || map == '3' ? std::uint8_t{kFlagThinStructure} : std::uint8_t{0});
+    ThinSights thin{Grid<ThinSight>(4, 4), M_PI / 2};
+    if (map != '.') {
+      thin.cells = Grid<ThinSight>(4, 4,
+                                   ThinSight{map == '3'   ? 3
+                                             : map == '?' ? kInfinity
+                                                          : -kInfinity,
+                                             M_PI / 2});
+    }
+    memory.Add(seen, found, thin);
+    const bool in_force = (memory.Flags().at(1, 2) & kFlagThinStructure) != 0;
+    answer += !in_force ? '.' : std::isinf(memory.ThinTops().at(1, 2)) ? '?' : '3';
+  }
+  return answer;
+}
+
+TEST(FlagMemory, ALineThatMotionTellsToLieOnTheGroundIsNoWireForTwentyMaps) {
+  EXPECT_EQ(LinesInForce("???g"), "???.");
+  EXPECT_EQ(LinesInForce("???g????"), "???.....");
+  EXPECT_EQ(LinesInForce("g" + std::string(19, '?')), std::string(20, '.'));
+  EXPECT_EQ(LinesInForce("g" + std::string(19, '.') + "??"), std::string(20, '.') + ".?");
+}
+
+TEST(FlagMemory, AHeightThatMotionTellsStandsForOneUnknownBeforeOrAfter) {
+  EXPECT_EQ(LinesInForce("??3?"), "??33");
+}
+
+TEST(FlagMemory, AWireWhoseHeightIsKnownStaysTwentyMapsWhereALineLies) {
+  EXPECT_EQ(LinesInForce("33g"), "333");
+  EXPECT_EQ(LinesInForce("33" + std::string(30, '.')), std::string(32, '3'));
+  EXPECT_EQ(LinesInForce("33" + std::string(20, 'g')), std::string(21, '3') + ".");
+  EXPECT_EQ(LinesInForce("g33"), "..3");
+}
+
 TEST(FlagMemory, TheHighestTopCountsWhileItIsInForce) {
   FlagMemory memory;
   memory.MoveTo(kGeometry);

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "engine/slad/pictures/line_marks.h"
+#include "engine/slad/pictures/line_parallax.h"
 #include "engine/slad/pictures/line_pieces.h"
 
 namespace palace {
@@ -29,6 +30,7 @@ constexpr double kNotAtGround = 0.8;         // of its contrast where it is foun
 constexpr int kLeastClearSum = 185;
 constexpr double kMostLevel_px = 2;  // over a strip
 constexpr double kLeastShare = 0.6;  // of the picture's width
+constexpr double kSure_sigmas = 3;   // … of the height that motion tells
 
 /// Mean grey across a chain, row by row from kReach above the line to kReach below it.
 struct Profile {
@@ -134,10 +136,29 @@ bool IsClearAndLevel(const LinePiece& piece) {
   return piece.sum >= kLeastClearSum && std::abs(piece.to - piece.from) <= kMostLevel_px;
 }
 
+/// What the vehicle's own motion tells of a line that runs too nearly along the baseline.
+ThinHeight HeightByMotion(const LineParallax& parallax, const MarkStrips& strips, Chain& chain) {
+  const auto above = parallax.Above(strips, chain);
+  if (!above) {
+    return ThinHeight::kUnknown;
+  }
+  const double reach_px = kSure_sigmas * above->sigma_px;
+  if (above->px <= reach_px) {
+    return above->px + reach_px < kLeastAbove_px ? ThinHeight::kOnGround : ThinHeight::kUnknown;
+  }
+  if (above->px < 2 * reach_px) {
+    return ThinHeight::kUnknown;  // that it stands is sure, how high is not
+  }
+  for (LinePiece& piece : chain) {
+    piece.above_px = above->px;
+  }
+  return ThinHeight::kKnown;
+}
+
 }  // namespace
 
 std::vector<ThinPiece> FindAlongBaseline(const SceneView& view, const SceneGround& ground,
-                                         LineSums& lines) {
+                                         const OlderViews& older, LineSums& lines) {
   const MarkStrips strips{Transposed(MarkRidges(*view.left)), true};
   Chain all;
   for (int strip = 0; strip < strips.count(); ++strip) {
@@ -158,11 +179,17 @@ std::vector<ThinPiece> FindAlongBaseline(const SceneView& view, const SceneGroun
     for (LinePiece& piece : chain) {
       piece.above_px = *above_px;
     }
-    AddPieces(view, ground, strips, chain, true, found);
+    AddPieces(view, ground, strips, chain, ThinHeight::kKnown, found);
   }
   const auto least = static_cast<std::size_t>(std::ceil(kLeastShare * strips.count()));
-  for (const Chain& chain : Chains(clear, std::max(least, kLeastPieces))) {
-    AddPieces(view, ground, strips, chain, false, found);
+  std::vector<Chain> heightless = Chains(clear, std::max(least, kLeastPieces));
+  if (heightless.empty()) {
+    return found;
+  }
+  const LineParallax parallax(view, ground, older);
+  for (Chain& chain : heightless) {
+    const ThinHeight height = HeightByMotion(parallax, strips, chain);
+    AddPieces(view, ground, strips, chain, height, found);
   }
   return found;
 }

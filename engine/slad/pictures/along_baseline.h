@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "engine/slad/pictures/line_sums.h"
+#include "engine/slad/pictures/older_views.h"
 #include "engine/slad/pictures/scene_ground.h"
 #include "engine/slad/pictures/thin_piece.h"
 
@@ -25,6 +26,6 @@ namespace palace {
 
 /// Lines within 30 degrees of the baseline, in a fixed order. `ground` must not be empty.
 std::vector<ThinPiece> FindAlongBaseline(const SceneView& view, const SceneGround& ground,
-                                         LineSums& lines);
+                                         const OlderViews& older, LineSums& lines);
 
 }  // namespace palace

@@ -18,6 +18,9 @@ bool RunAlike(double a_rad, double b_rad) {
   return std::abs(std::sin(a_rad - b_rad)) < std::sin(kHardlySeen_rad);
 }
 
+/// Whether a line there was told to lie on the ground.
+bool IsToldToLie(const ThinSight& sight) { return std::isinf(sight.top_m) && sight.top_m < 0; }
+
 }  // namespace
 
 void FlagMemory::Reset() {
@@ -43,10 +46,12 @@ void FlagMemory::Add(const Grid<std::uint8_t>& seen, const Grid<std::uint8_t>& f
                thin.cells.rows(), geometry_.rows);
   for (std::size_t cell = 0; cell < tracks_.cells().size(); ++cell) {
     ThinSight& known = tracks_.cells()[cell].thin;
+    const ThinSight now = thin.cells.empty() ? ThinSight{} : thin.cells.cells()[cell];
+    const bool lies = Lies(tracks_.cells()[cell], now, (seen.cells()[cell] & kKinds[kThin]) != 0);
     for (std::size_t k = 0; k < kKinds.size(); ++k) {
       Track& track = tracks_.cells()[cell].kinds[k];
-      const bool is_found = (found.cells()[cell] & kKinds[k]) != 0;
-      const bool is_blind = k == kThin && !is_found && track.maps_left > 0 &&
+      const bool is_found = (found.cells()[cell] & kKinds[k]) != 0 && !(k == kThin && lies);
+      const bool is_blind = k == kThin && !is_found && !IsToldToLie(now) && track.maps_left > 0 &&
                             std::isfinite(known.top_m) &&
                             RunAlike(double{known.bearing_rad}, thin.baseline_bearing_rad);
       if ((seen.cells()[cell] & kKinds[k]) == 0 || is_blind) {
@@ -68,14 +73,29 @@ void FlagMemory::Add(const Grid<std::uint8_t>& seen, const Grid<std::uint8_t>& f
     if (thin.cells.empty()) {
       continue;
     }
-    const ThinSight& now = thin.cells.cells()[cell];
-    const bool is_kept = InForce(tracks_.cells()[cell], kThin) && known.top_m >= now.top_m;
+    // A height that was told stands for one unknown, before or after.
+    const bool is_told = std::isinf(known.top_m) && std::isfinite(now.top_m);
+    const bool was_told = std::isfinite(known.top_m) && std::isinf(now.top_m);
+    const bool is_kept = InForce(tracks_.cells()[cell], kThin) &&
+                         (was_told || (known.top_m >= now.top_m && !is_told));
     if (!std::isnan(now.top_m)) {
       known = is_kept ? known : now;
     } else if (!InForce(tracks_.cells()[cell], kThin)) {
       known = {};
     }
   }
+}
+
+bool FlagMemory::Lies(CellTracks& cell, const ThinSight& now, bool is_seen) {
+  if (IsToldToLie(now)) {
+    cell.lies_left = kStays[kThin];
+    if (std::isinf(cell.thin.top_m)) {
+      cell.kinds[kThin] = {};
+    }
+    return true;
+  }
+  cell.lies_left -= is_seen && cell.lies_left > 0 ? 1 : 0;
+  return std::isinf(now.top_m) && cell.lies_left > 0;
 }
 
 bool FlagMemory::InForce(const CellTracks& cell, std::size_t kind) {

@@ -5,7 +5,10 @@
 // number of maps that see the cell without it: thin structures and motion 20, no texture 5, shadow
 // 3. Cells out of view keep their flags, but motion there fades at the same rate. A thin structure
 // of known height that runs within 15 degrees of the baseline is hardly seen: once it is raised,
-// not to find it is no look at the cell. While it is in force its highest top counts.
+// not to find it is no look at the cell. While it is in force its highest top counts, but a height
+// that a map tells stands for one unknown, before or after. A line that a map tells to lie on the
+// ground ends the flag of one of unknown height, and none is raised there for 20 maps that see the
+// cell.
 #pragma once
 
 #include <array>
@@ -18,8 +21,10 @@ namespace palace {
 
 /// A thin structure above a cell.
 struct ThinSight {
-  float top_m = std::numeric_limits<float>::quiet_NaN();  ///< up-positive in W; infinite: unknown
-  float bearing_rad = 0;                                  ///< it runs to, clockwise from north
+  /// Up-positive in W; infinite: unknown; minus infinity: a line that was told to lie on the
+  /// ground.
+  float top_m = std::numeric_limits<float>::quiet_NaN();
+  float bearing_rad = 0;  ///< it runs to, clockwise from north
 };
 
 /// What one map tells of them.
@@ -55,8 +60,11 @@ class FlagMemory {
   struct CellTracks {
     std::array<Track, kKinds.size()> kinds;
     ThinSight thin;
+    std::uint8_t lies_left = 0;  ///< maps a line of unknown height there counts as lying
   };
   static bool InForce(const CellTracks& cell, std::size_t kind);
+  /// Whether what this map sees of a line there lies on the ground.
+  static bool Lies(CellTracks& cell, const ThinSight& now, bool is_seen);
 
   GridGeometry geometry_;
   Grid<CellTracks> tracks_;

@@ -43,7 +43,8 @@ Grid<CellCount> CountBlocks(const SceneView& view, const SceneGround& ground, co
   return counts;
 }
 
-/// The cells below a piece, and their neighbours; the highest piece over a cell counts.
+/// The cells below a piece, and their neighbours; the highest piece over a cell counts. One that
+/// lies on the ground is told as a top of minus infinity.
 void FlagBelow(const ThinPiece& piece, const GridGeometry& geometry, Grid<std::uint8_t>& found,
                Grid<ThinSight>& thin) {
   const Eigen::Vector2d from = piece.from_W.head<2>(), to = piece.to_W.head<2>();
@@ -51,9 +52,11 @@ void FlagBelow(const ThinPiece& piece, const GridGeometry& geometry, Grid<std::u
   if (!(length_m < 1e4)) {
     return;
   }
-  const double top_m = piece.height_known ? std::max(HeightFromDown(piece.from_W.z()),
-                                                     HeightFromDown(piece.to_W.z()))
-                                          : std::numeric_limits<double>::infinity();
+  const bool lies = piece.height == ThinHeight::kOnGround;
+  const double top_m =
+      piece.height == ThinHeight::kKnown
+          ? std::max(HeightFromDown(piece.from_W.z()), HeightFromDown(piece.to_W.z()))
+          : (lies ? -1 : 1) * std::numeric_limits<double>::infinity();
   const ThinSight sight{static_cast<float>(top_m),
                         static_cast<float>(std::atan2(to.y() - from.y(), to.x() - from.x()))};
   const int steps = 1 + static_cast<int>(2 * length_m / geometry.cell_m);
@@ -66,7 +69,7 @@ void FlagBelow(const ThinPiece& piece, const GridGeometry& geometry, Grid<std::u
     for (int r = cell->row - 1; r <= cell->row + 1; ++r) {
       for (int c = cell->col - 1; c <= cell->col + 1; ++c) {
         if (geometry.Contains({r, c})) {
-          found.at(r, c) |= kFlagThinStructure;
+          found.at(r, c) |= lies ? kFlagNone : kFlagThinStructure;
           ThinSight& above = thin.at(r, c);
           above = above.top_m >= sight.top_m ? above : sight;
         }
@@ -79,6 +82,7 @@ void FlagBelow(const ThinPiece& piece, const GridGeometry& geometry, Grid<std::u
 
 void SceneFlags::Reset() {
   motion_.Reset();
+  older_.Reset();
   memory_.Reset();
 }
 
@@ -110,12 +114,13 @@ Grid<std::uint8_t> SceneFlags::Add(const SceneView& view, const GridGeometry& ge
   const Eigen::Vector3d baseline_W = view.range->pose->X_WC.R.col(0);
   ThinSights thin{Grid<ThinSight>(geometry.rows, geometry.cols),
                   std::atan2(baseline_W.y(), baseline_W.x())};
-  for (const ThinPiece& piece : FindThinStructures(view, ground)) {
+  for (const ThinPiece& piece : FindThinStructures(view, ground, older_)) {
     FlagBelow(piece, geometry, found, thin.cells);
   }
   for (std::size_t cell = 0; cell < seen.cells().size(); ++cell) {
     seen.cells()[cell] |= found.cells()[cell] & kFlagThinStructure;  // the wire may be outside
   }
+  older_.Remember(view);
   memory_.Add(seen, found, thin);
   return memory_.Flags();
 }

@@ -3,6 +3,7 @@
 //
 //   FindSceneGround        range map, pictures -> the ground behind thin things, right over left
 //   FindThinStructures     their difference    -> wires, ropes, masts
+//   LineParallax           older views         -> heights of those along the baseline
 //   FlagTextureAndShadow   both pictures       -> no texture, deep shadow
 //   SceneMotion            an older view       -> what moved
 //   FlagMemory             per cell, map by map
@@ -12,6 +13,7 @@
 
 #include "engine/model/elevation_map.h"
 #include "engine/slad/pictures/flag_memory.h"
+#include "engine/slad/pictures/older_views.h"
 #include "engine/slad/pictures/scene_ground.h"
 #include "engine/slad/pictures/scene_motion.h"
 
@@ -30,6 +32,7 @@ class SceneFlags {
 
  private:
   SceneMotion motion_;
+  OlderViews older_;
   FlagMemory memory_;
 };
 

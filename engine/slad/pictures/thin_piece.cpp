@@ -5,7 +5,7 @@
 namespace palace {
 
 void AddPieces(const SceneView& view, const SceneGround& ground, const MarkStrips& strips,
-               const std::vector<LinePiece>& pieces, bool height_known,
+               const std::vector<LinePiece>& pieces, ThinHeight height,
                std::vector<ThinPiece>& found) {
   for (const LinePiece& piece : pieces) {
     const auto end = [&](double share) {
@@ -15,7 +15,7 @@ void AddPieces(const SceneView& view, const SceneGround& ground, const MarkStrip
       return PointAt(view, p.x(), p.y(),
                      static_cast<double>(ground.disparity_px.at(i, j)) + piece.above_px);
     };
-    found.push_back({end(0), end(1), height_known});
+    found.push_back({end(0), end(1), height});
   }
 }
 

@@ -12,8 +12,7 @@
 namespace palace {
 namespace {
 
-constexpr int kLeastSum = 130;          // of 224
-constexpr double kLeastAbove_px = 1.5;  // disparity beyond the ground's
+constexpr int kLeastSum = 130;  // of 224
 constexpr double kStep_px = 0.5;
 constexpr double kAside_px = 4;
 constexpr float kMostDifference_grey = 40;
@@ -109,7 +108,8 @@ bool CanTellThinStructures(const SceneView& view, const SceneGround& ground) {
          kNearestThin_m * static_cast<double>(UpperMedian(known));
 }
 
-std::vector<ThinPiece> FindThinStructures(const SceneView& view, const SceneGround& ground) {
+std::vector<ThinPiece> FindThinStructures(const SceneView& view, const SceneGround& ground,
+                                          const OlderViews& older) {
   std::vector<ThinPiece> found;
   if (!CanTellThinStructures(view, ground)) {
     return found;
@@ -128,10 +128,10 @@ std::vector<ThinPiece> FindThinStructures(const SceneView& view, const SceneGrou
       }
     }
     for (const auto& chain : Chains(matched, kLeastPieces)) {
-      AddPieces(view, ground, *strips, chain, true, found);
+      AddPieces(view, ground, *strips, chain, ThinHeight::kKnown, found);
     }
   }
-  const std::vector<ThinPiece> along = FindAlongBaseline(view, ground, lines);
+  const std::vector<ThinPiece> along = FindAlongBaseline(view, ground, older, lines);
   found.insert(found.end(), along.begin(), along.end());
   return found;
 }

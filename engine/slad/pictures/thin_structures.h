@@ -12,6 +12,7 @@
 
 #include <vector>
 
+#include "engine/slad/pictures/older_views.h"
 #include "engine/slad/pictures/scene_ground.h"
 #include "engine/slad/pictures/thin_piece.h"
 
@@ -25,6 +26,7 @@ inline constexpr double kNearestThin_m = 7;
 bool CanTellThinStructures(const SceneView& view, const SceneGround& ground);
 
 /// Nothing without a ground or where they cannot be told. Pieces in a fixed order.
-std::vector<ThinPiece> FindThinStructures(const SceneView& view, const SceneGround& ground);
+std::vector<ThinPiece> FindThinStructures(const SceneView& view, const SceneGround& ground,
+                                          const OlderViews& older);
 
 }  // namespace palace

@@ -47,7 +47,8 @@ std::string NoneReason(const ElevationMap& map, const HazardMaps& hazards,
   if (n.flagged > 0 &&
       std::any_of(tops_m.begin(), tops_m.end(), [](float m) { return std::isinf(m); })) {
     text +=
-        "; lines along the cameras' baseline may be wires or paint: from another heading it shows";
+        "; lines along the cameras' baseline may be wires or paint: from a little aside or from "
+        "another heading it shows";
   }
   return text;
 }
