@@ -108,6 +108,9 @@ Column UnderOtherLimits(const EngineSnapshot& snap, std::string& reason) {
   const auto& review = snap.terrain->site_review;
   if (review) {
     column.decision = (review->kept ? "Keeps " : "Refuses ") + review->letter;
+    if (!armed && review->kept && best != nullptr && LetterOf(best) != review->letter) {
+      column.decision += ", " + LetterOf(best) + " first";
+    }
     reason = review->reason;
   } else {
     column.decision = best != nullptr ? "Proposes " + LetterOf(best) : "No site";

@@ -53,6 +53,24 @@ TEST(ReviewWorkspace, TheRecordedSiteIsTheOneFlownTo) {
   EXPECT_EQ(ui.items.Find("decision/recorded")->text, "H, Landed H");
 }
 
+/// Under the limits tried A still holds, but B ranks before it: both are said.
+TEST(ReviewWorkspace, APlaceThatIsKeptAndNoLongerFirstIsSaidSo) {
+  const FlightRecord record = fake::Record();
+  EngineSnapshot snap = fake::Replay(true);
+  snap.flight.Edit().mission.armed.reset();
+  snap.flight.Edit().mission.state = MissionState::kSearch;
+  const auto decision = [&](const char* letter, bool kept) {
+    snap.terrain.Edit().site_review = SiteReview{letter, kept, ""};
+    UiHarness ui(1920, 1080);
+    ReviewState state;
+    ui.Frame([&](UiFrame& f) { DrawReviewWorkspace(snap, &record, BodyOf(1920, 1080), state, f); });
+    return ui.items.Find("decision/now")->text;
+  };
+  EXPECT_EQ(decision("A", true), "B, Keeps A, B first");
+  EXPECT_EQ(decision("B", true), "B, Keeps B");
+  EXPECT_EQ(decision("A", false), "B, Refuses A");
+}
+
 TEST(ReviewWorkspace, TheRecordIsReadOncePerSnapshot) {
   FlightRecord record = fake::Record();
   EngineSnapshot snap = fake::Replay(true);
