@@ -57,6 +57,11 @@ struct SiteRegistry::Map {
     return elevation.geometry.CellFromPoint(p_W.x(), p_W.y());
   }
   std::size_t most_sites() const { return static_cast<std::size_t>(settings.choice.sites_kept); }
+  /// Score of a place that a map called unsafe: as if ten times as much might hide there, or all of
+  /// its cost.
+  double shaken_costs() const {
+    return settings.choice.ranking == SiteRanking::kFarthest ? settings.lander.clear_radius_m() : 1;
+  }
   /// Room beyond the clear radius that a map may be wrong by.
   double tight_m() const {
     return settings.mode == SladMode::kModern ? elevation.geometry.cell_m : 0;
@@ -310,10 +315,13 @@ std::vector<SiteRegistry::Found> SiteRegistry::Ranked(const Map& now, std::vecto
     };
     const auto order = [&](const Found& one) {
       const Place& place = place_of(one);
-      return std::tuple(one.site.age_s > kOldGround_s, approach(place),
-                        std::isfinite(ShakenFor(place, now.elevation.time)), !place.roomy.good());
+      return std::tuple(one.site.age_s > kOldGround_s, approach(place), !place.roomy.good());
     };
-    const double ahead = place_of(a).score.value() - place_of(b).score.value();
+    const auto worth = [&](const Found& one) {
+      const bool shaken = std::isfinite(ShakenFor(place_of(one), now.elevation.time));
+      return place_of(one).score.value() - (shaken ? now.shaken_costs() : 0);
+    };
+    const double ahead = worth(a) - worth(b);
     return order(a) != order(b) ? order(a) < order(b) : ahead > noise;
   };
   for (bool moved = true; moved;) {

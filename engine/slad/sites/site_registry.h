@@ -7,8 +7,8 @@
 //              once); ends with the first map on which it cannot
 //   rank       by the steady score (steadiness.h); one passes another only when it is better by
 //              more than the noise of a score. A place that a map called unsafe, and a new one
-//              within the spacing of it, stands behind the others for 30 s, each time longer by
-//              30 s
+//              within the spacing of it, counts for 30 s, each time longer by 30 s, as one where
+//              ten times as much may hide: a clear radius less of room
 //   replaced   when another point within the spacing is better by more than that on as many maps in
 //              a row as it stood before, from 2 to 24; never the place that is selected
 //   confirmed  as the maps say, 3 of 5 against it, 5 in a row for it again
