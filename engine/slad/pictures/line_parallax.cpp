@@ -255,7 +255,8 @@ std::optional<LineParallax::Pair::Registered> LineParallax::Pair::Register(
       if (!(common > kLeastCorrelation * std::sqrt(spread * old_spread))) {
         return std::nullopt;
       }
-      const double left_over = (spread + old_spread - 2 * common) / n;
+      // Of pictures that are alike to the bit rounding leaves less than nothing.
+      const double left_over = std::max(0.0, spread + old_spread - 2 * common) / n;
       found.sigma_px = std::sqrt(left_over * solver.solve(Eigen::Vector4d::Unit(1)).eval()(1));
       return found;
     }
