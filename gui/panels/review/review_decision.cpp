@@ -108,10 +108,8 @@ Column UnderOtherLimits(const EngineSnapshot& snap, std::string& reason) {
   const auto& review = snap.terrain->site_review;
   if (review) {
     column.decision = (review->kept ? "Keeps " : "Refuses ") + review->letter;
-    if (!armed && review->kept && best != nullptr && LetterOf(best) != review->letter) {
-      column.decision += ", " + LetterOf(best) + " first";
-    }
-    reason = review->reason;
+    const bool first = armed || best == nullptr || LetterOf(best) == review->letter;
+    reason = (review->kept && !first ? LetterOf(best) + " ranks first. " : "") + review->reason;
   } else {
     column.decision = best != nullptr ? "Proposes " + LetterOf(best) : "No site";
   }

@@ -60,15 +60,15 @@ TEST(ReviewWorkspace, APlaceThatIsKeptAndNoLongerFirstIsSaidSo) {
   snap.flight.Edit().mission.armed.reset();
   snap.flight.Edit().mission.state = MissionState::kSearch;
   const auto decision = [&](const char* letter, bool kept) {
-    snap.terrain.Edit().site_review = SiteReview{letter, kept, ""};
+    snap.terrain.Edit().site_review = SiteReview{letter, kept, "Slope 3.0°."};
     UiHarness ui(1920, 1080);
     ReviewState state;
     ui.Frame([&](UiFrame& f) { DrawReviewWorkspace(snap, &record, BodyOf(1920, 1080), state, f); });
-    return ui.items.Find("decision/now")->text;
+    return ui.items.Find("decision/now")->text + ": " + ui.items.Find("decision/reason")->text;
   };
-  EXPECT_EQ(decision("A", true), "B, Keeps A, B first");
-  EXPECT_EQ(decision("B", true), "B, Keeps B");
-  EXPECT_EQ(decision("A", false), "B, Refuses A");
+  EXPECT_EQ(decision("A", true), "B, Keeps A: B ranks first. Slope 3.0°.");
+  EXPECT_EQ(decision("B", true), "B, Keeps B: Slope 3.0°.");
+  EXPECT_EQ(decision("A", false), "B, Refuses A: Slope 3.0°.");
 }
 
 TEST(ReviewWorkspace, TheRecordIsReadOncePerSnapshot) {
