@@ -260,6 +260,7 @@ LandingSite SiteOf(double safe_distance_m, double cost, bool straight = true,
 
 LandingSite CalledUnsafe(double since_s, LandingSite site) {
   site.called_unsafe_s = since_s;
+  site.clear_radius_m = 2.3;
   return site;
 }
 
@@ -293,6 +294,10 @@ TEST(RankReasons, SayWhatDecidedAndByHowMuch) {
       {kFarthest,
        {SiteOf(4.0, 0.2), SiteOf(3.8, 0.2), CalledUnsafe(12.4, SiteOf(4.8, 0.2))},
        {"Leads: 0.2 m more clear than the next", "0.2 m less clear than the best",
+        "Called unsafe 12 s ago, ranks as 2.3 m narrower"}},
+      {kCost,
+       {SiteOf(3.0, 0.20), CalledUnsafe(12.4, SiteOf(4.8, 0.1))},
+       {"Stays first, cost 0.10 more than the next (called unsafe)",
         "Called unsafe 12 s ago, ranks behind"}},
       {kFarthest,
        {SiteOf(4.0, 0.2, false, 0b10000011)},

@@ -1,7 +1,9 @@
 #include "engine/slad/pictures/older_views.h"
 
-#include <algorithm>
-#include <vector>
+#include <array>
+#include <cstdint>
+
+#include <opencv2/imgproc.hpp>
 
 namespace palace {
 namespace {
@@ -11,26 +13,14 @@ constexpr double kApart_m = 0.1;
 
 }  // namespace
 
+// Sums of sixteenths of grey: exact in any order, so the same bits everywhere.
 ImageF SmoothedPicture(const ImageU8& picture) {
-  const int w = picture.width(), h = picture.height();
-  ImageF smooth(w, h);
-  std::vector<int> column(static_cast<std::size_t>(w + 4));
-  for (int y = 0; y < h; ++y) {
-    const auto row = [&](int k) { return picture.row(std::clamp(y + k, 0, h - 1)); };
-    const std::uint8_t *a = row(-2), *b = row(-1), *c = row(0), *d = row(1), *e = row(2);
-    for (int x = 0; x < w; ++x) {
-      column[static_cast<std::size_t>(x + 2)] = a[x] + e[x] + 4 * (b[x] + d[x]) + 6 * c[x];
-    }
-    column[0] = column[1] = column[2];
-    column[static_cast<std::size_t>(w + 2)] = column[static_cast<std::size_t>(w + 3)] =
-        column[static_cast<std::size_t>(w + 1)];
-    const int* p = column.data();
-    float* out = smooth.row(y);
-    for (int x = 0; x < w; ++x) {
-      out[x] =
-          static_cast<float>(p[x] + p[x + 4] + 4 * (p[x + 1] + p[x + 3]) + 6 * p[x + 2]) / 256.0F;
-    }
-  }
+  const std::array<float, 5> binomial = {1 / 16.0F, 4 / 16.0F, 6 / 16.0F, 4 / 16.0F, 1 / 16.0F};
+  ImageF smooth(picture.width(), picture.height());
+  const cv::Mat from(picture.height(), picture.width(), CV_8U,
+                     const_cast<std::uint8_t*>(picture.row(0)));
+  cv::Mat to(smooth.height(), smooth.width(), CV_32F, smooth.row(0));
+  cv::sepFilter2D(from, to, CV_32F, binomial, binomial, {-1, -1}, 0, cv::BORDER_REPLICATE);
   return smooth;
 }
 

@@ -30,11 +30,21 @@ std::string ApproachWords(const LandingSite& site) {
          (count > 2 ? std::to_string(count) + " of 8 sides" : from);
 }
 
+/// What it counts less for, as SiteRegistry ranks it.
+std::string UnsafeWords(SiteRanking ranking, const LandingSite& site) {
+  return WithNumbers("Called unsafe %.0f s ago, ", site.called_unsafe_s) +
+         (ranking == SiteRanking::kFarthest
+              ? WithNumbers("ranks as %.1f m narrower", site.clear_radius_m)
+              : "ranks behind");
+}
+
 // Less than this is no difference that is told.
 constexpr double kWider_m = 0.05, kCheaper = 0.005;
 
-/// Of a site that is better on this map than those before it.
-constexpr const char* kNotYet = " (noise, or new)";
+/// Why a site that is better on this map than those before it ranks behind.
+const char* WhyNotYet(const LandingSite& site) {
+  return std::isfinite(site.called_unsafe_s) ? " (called unsafe)" : " (noise, or new)";
+}
 
 /// What sites are ranked by where room ranks.
 double Room(const LandingSite& site) {
@@ -67,16 +77,20 @@ std::string Difference(SiteRanking ranking, const LandingSite& better, const Lan
     if (ByHidden(better, other)) {
       const LandingSite& site = of_better ? better : other;
       return stays + HiddenWords(site) + " rocks or holes may hide, at " + against + " " +
-             HiddenWords(of_better ? other : better) + (noise ? kNotYet : "");
+             HiddenWords(of_better ? other : better) + (noise ? WhyNotYet(other) : "");
     }
     const double wider_m = better.safe_distance_m - other.safe_distance_m;
     return stays + WithNumbers("%.1f m ", std::abs(wider_m)) +
            ((wider_m > 0) == of_better ? "more" : "less") + " clear than " + against +
-           (noise ? kNotYet : "");
+           (noise ? WhyNotYet(other) : "");
   }
   if (cheaper >= kCheaper) {
     return WithNumbers(of_better ? "cost %.2f less than " : "cost %.2f more than ", cheaper) +
            against;
+  }
+  if (ranking == SiteRanking::kCost && cheaper <= -kCheaper) {
+    return (of_better ? "stays first, cost " : "cost ") + WithNumbers("%.2f ", -cheaper) +
+           (of_better ? "more" : "less") + " than " + against + WhyNotYet(other);
   }
   return "as good as " + against +
          (of_better ? ", nearer to the middle" : ", farther from the middle");
@@ -110,7 +124,7 @@ std::string ReasonBelow(SiteRanking ranking, double tight_m, const SiteSelection
     reason += ", though confirmed";
   }
   if (i > 1 && above.corridor_clear && Beats(ranking, site, above)) {
-    reason += "; better than " + above.letter + kNotYet;
+    reason += "; better than " + above.letter + WhyNotYet(site);
   }
   return reason;
 }
@@ -129,7 +143,7 @@ std::string ReasonOfBest(SiteRanking ranking, const SiteSelection& selection) {
     return "The only straight approach that is clear";
   }
   const std::string by = Difference(ranking, best, next, true, "the next");
-  // One that a map called unsafe a moment ago may be wider, and does not lead.
+  // One that a map called unsafe a moment ago may be wider, and not lead.
   const bool outdone =
       std::any_of(selection.sites.begin(), selection.sites.end(), [&](const LandingSite& other) {
         return ranking == SiteRanking::kFarthest ? Room(other) > Room(best) + kWider_m
@@ -147,13 +161,12 @@ std::string ReasonOfBest(SiteRanking ranking, const SiteSelection& selection) {
 void GiveReasons(SiteRanking ranking, double tight_m, SiteSelection& selection) {
   for (std::size_t i = 0; i < selection.sites.size(); ++i) {
     LandingSite& site = selection.sites[i];
-    site.reason = i == 0 ? ReasonOfBest(ranking, selection)
-                  : site.age_s > kOldGround_s
-                      ? WithNumbers("Ground last measured %.0f s ago", site.age_s)
-                  : !site.corridor_clear ? ApproachWords(site)
-                  : std::isfinite(site.called_unsafe_s)
-                      ? WithNumbers("Called unsafe %.0f s ago, ranks behind", site.called_unsafe_s)
-                      : ReasonBelow(ranking, tight_m, selection, i);
+    site.reason =
+        i == 0                      ? ReasonOfBest(ranking, selection)
+        : site.age_s > kOldGround_s ? WithNumbers("Ground last measured %.0f s ago", site.age_s)
+        : !site.corridor_clear      ? ApproachWords(site)
+        : std::isfinite(site.called_unsafe_s) ? UnsafeWords(ranking, site)
+                                              : ReasonBelow(ranking, tight_m, selection, i);
   }
 }
 
