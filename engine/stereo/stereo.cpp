@@ -8,6 +8,7 @@
 #include <opencv2/core.hpp>
 
 #include "engine/stereo/disparity.h"
+#include "engine/stereo/faint_ground.h"
 #include "engine/stereo/hidden.h"
 #include "engine/stereo/prefilter.h"
 #include "engine/stereo/stereo_quality.h"
@@ -98,6 +99,32 @@ ImageF FindWholePixels(const ImageU8& left, const ImageU8& right, const Rectifie
                           window, settings);
 }
 
+SubpixelDisparity MeasurePixels(const ImageU8& left, const ImageU8& right, const ImageF& whole,
+                                const StereoSettings& settings) {
+  SubpixelOptions options;
+  options.window_px = settings.refine_window_px | 1;
+  options.max_sigma_px = settings.max_sigma_px;
+  SubpixelDisparity refined = RefineDisparity(left, right, whole, options);
+  RefuseHidden(settings.max_refined_left_right_px, refined.disparity_px, refined.sigma_px);
+  return refined;
+}
+
+void MeasureFaintGround(const ImageU8& left, const ImageU8& right, const DisparityWindow& window,
+                        const StereoSettings& settings, SubpixelDisparity& refined) {
+  if (left.width() / 2 - window.min_px / 2 < kLeastOverlap_px) {
+    return;
+  }
+  const ImageU8 faint = FindFaintGround(left, right, refined.disparity_px);
+  if (faint.empty()) {
+    return;
+  }
+  const ImageU8 half_left = HalfSize(left), half_right = HalfSize(right);
+  const DisparityWindow half{window.min_px / 2, (window.count / 2 + 16) / 16 * 16};
+  const ImageF whole = FindWholePixels(half_left, half_right, nullptr, half, settings);
+  FillFaintGround(faint, MeasurePixels(half_left, half_right, whole, settings),
+                  settings.max_sigma_px, refined);
+}
+
 }  // namespace
 
 Result<StereoResult> StereoMatcher::Match(const ImageU8& left, const ImageU8& right,
@@ -116,12 +143,11 @@ Result<StereoResult> StereoMatcher::Match(const ImageU8& left, const ImageU8& ri
                           SizeText(left.width(), left.height()) + " px");
     }
   }
-  SubpixelOptions options;
-  options.window_px = settings.refine_window_px | 1;
-  options.max_sigma_px = settings.max_sigma_px;
-  SubpixelDisparity refined = RefineDisparity(
-      left, right, FindWholePixels(left, right, filtered, window, settings), options);
-  RefuseHidden(settings.max_refined_left_right_px, refined.disparity_px, refined.sigma_px);
+  SubpixelDisparity refined = MeasurePixels(
+      left, right, FindWholePixels(left, right, filtered, window, settings), settings);
+  if (settings.method == StereoMethod::kCensus) {
+    MeasureFaintGround(left, right, window, settings, refined);
+  }
   StereoResult result;
   result.range = RangeMapFromDisparity(std::move(refined), camera, baseline_m, time);
   StereoQuality& quality = result.quality;

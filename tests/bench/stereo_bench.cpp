@@ -12,11 +12,14 @@
 #include <utility>
 #include <vector>
 
+#include "engine/camera/pinhole.h"
+#include "engine/core/units.h"
 #include "engine/stereo/disparity.h"
 #include "engine/stereo/opencv_matchers.h"
 #include "engine/stereo/semi_global.h"
 #include "engine/stereo/stereo.h"
 #include "engine/stereo/subpixel.h"
+#include "engine/world/ray_pictures.h"
 #include "tests/support/synthetic_stereo.h"
 
 namespace palace {
@@ -61,6 +64,25 @@ void RangeMapWithSigmas(benchmark::State& state) {
   }
 }
 BENCHMARK(RangeMapWithSigmas)->Apply(Loads);
+
+/// Snow under noise: nearly all of it is measured at half the size as well (faint_ground.h).
+void RangeMapOfFaintGround(benchmark::State& state) {
+  World world;
+  world.ground.texture = GroundTexture::kSnow;
+  const StereoView view = ViewFrom(world, PinholeFromFov(640, 480, Rad(45)), 15.24, Rad(-45), 3);
+  const ImageU8 left = Expose(view.left_grey, {2.5}, 1), right = Expose(view.right_grey, {2.5}, 2);
+  StereoMatcher matcher;
+  for (auto _ : state) {
+    auto result = matcher.Match(left, right, view.camera, view.baseline_m, WindowOf(state),
+                                StereoSettings{}, Timestamp{});
+    benchmark::DoNotOptimize(result);
+  }
+}
+BENCHMARK(RangeMapOfFaintGround)
+    ->ArgNames({"w", "h", "d"})
+    ->Args({640, 480, 96})
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
 
 void RangeMapHalfSizeSearch(benchmark::State& state) {
   const Pair& pair = PairOf(state);

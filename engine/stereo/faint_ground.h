@@ -1,0 +1,41 @@
+// Ground whose texture is too faint for the full picture, measured in the picture at half the size.
+//
+// A pixel of the half picture is the mean of four: white noise has half its deviation there, and a
+// window of as many pixels sees four times the ground. Snow, roofs, dry sand and mud, whose fine
+// texture drowns in the noise, show a coarser one. Most pixels that the full picture refuses are of
+// another kind, though: hidden from one camera, beside an edge, of a pattern that repeats. There
+// the half picture would be as wrong, so only what was refused for faintness is filled:
+//
+//   var L <= 4 n^2   over 9x9 pixels,   n: noise of one picture, standard deviation, grey levels
+//   n = 1.4826 / 2 median |e(x) - e(x+1)|,   e(x) = L(x) - R(x - d)
+//
+// with e taken where the measured d is within 0.1 px of a whole number, so that nothing is
+// interpolated; the difference of neighbours takes out what the two cameras see unequally bright.
+// Of what the half picture then measures only that counts which agrees to a sigma with the mean of
+// its own window: a chance match does not, nor does a pixel to whose window an edge has come near.
+// What is filled follows the ground over windows twice as wide: its sigma says how well the mean of
+// such a window is known, not what is smaller than it.
+//
+// Chosen on drawn pairs of twelve kinds of ground (2026-11-26): below 4 n^2 fewer than 1 % of the
+// filled pixels are wrong by more than 2 px and errors are 1.1 to 1.5 sigma; above it, where it is
+// occlusion that is refused, 10 to 30 %.
+#pragma once
+
+#include "engine/model/image.h"
+#include "engine/stereo/subpixel.h"
+
+namespace palace {
+
+/// 1 at pixels of the left picture that are unknown and faint, else 0. Empty where too few are for
+/// a second pass to be worth its time (1 in 50), or too few known ones to tell the noise (200).
+ImageU8 FindFaintGround(const ImageU8& left, const ImageU8& right, const ImageF& disparity_px);
+
+/// Fills pixels of `faint` from what was measured in the pictures at half the size (HalfSize):
+/// disparity and sigma doubled, between the middles of its pixels by bilinear weights over those
+/// that are known and within 1 px of the nearest. Nothing is filled where that one is unknown or
+/// more than its sigma off the mean of its window, nor where the doubled sigma exceeds
+/// `max_sigma_px`.
+void FillFaintGround(const ImageU8& faint, const SubpixelDisparity& half, double max_sigma_px,
+                     SubpixelDisparity& filled);
+
+}  // namespace palace
