@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include <opencv2/core.hpp>
@@ -19,6 +20,7 @@ constexpr int kWindow_px = 9;
 constexpr int kOneIn = 50;  // fewer faint pixels are not worth a second pass
 constexpr int kLeastSamples = 200;
 constexpr float kNearWhole_px = 0.1F;
+constexpr float kMostOff_sigmas = 1.5F;    // off the mean of its window
 constexpr float kSameSurface_px = 1;       // between pixels of the half picture
 constexpr double kLeastNoise_grey = 0.29;  // of rounding to whole levels alone
 
@@ -57,21 +59,28 @@ std::optional<double> NoiseOf(const ImageU8& left, const ImageU8& right,
   return std::max(kLeastNoise_grey, median * kSigmaPerMad / 2);
 }
 
-/// 1 where the disparity is unknown, but for columns that show what lies beyond the right picture:
-/// those left of the row's first disparity, or of one above where the row has none.
-ImageU8 UnknownInBoth(const ImageF& disparity_px) {
-  ImageU8 unknown(disparity_px.width(), disparity_px.height(), 0);
+/// 1 but in columns that show what lies beyond the right picture: those left of the row's first
+/// disparity, or of one above where the row has none.
+ImageU8 SeenByBoth(const ImageF& disparity_px) {
+  ImageU8 seen(disparity_px.width(), disparity_px.height(), 0);
   int beyond = 0;
-  for (int y = 0; y < unknown.height(); ++y) {
+  for (int y = 0; y < seen.height(); ++y) {
     const float* d = disparity_px.row(y);
-    const float* end = d + unknown.width();
+    const float* end = d + seen.width();
     const float* known = std::find_if(d, end, [](float value) { return !std::isnan(value); });
     beyond = known < end ? static_cast<int>(*known) : beyond;
-    for (int x = beyond; x < unknown.width(); ++x) {
-      unknown.at(x, y) = std::isnan(d[x]) ? 1 : 0;
-    }
+    std::fill(seen.row(y) + beyond, seen.row(y) + seen.width(), std::uint8_t{1});
   }
-  return unknown;
+  return seen;
+}
+
+/// Of too few unknown pixels in the mask nothing is worth a second pass.
+bool HasFewUnknown(const ImageU8& mask, const ImageF& disparity_px) {
+  std::size_t unknown = 0;
+  for (std::size_t k = 0; k < mask.pixels().size(); ++k) {
+    unknown += mask.pixels()[k] != 0 && std::isnan(disparity_px.pixels()[k]) ? 1 : 0;
+  }
+  return unknown * kOneIn < mask.pixels().size();
 }
 
 /// The pixel of the half picture that holds this one, and the one beside it on the other side.
@@ -101,15 +110,27 @@ cv::Mat MeanAround(const ImageF& values) {
   return value / known;
 }
 
+/// Makes unknown what strays from the mean of its window by more than its sigma allows, where
+/// `where` is 1 or everywhere.
+void DropChanceMatches(const ImageU8* where, SubpixelDisparity& found) {
+  constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+  const cv::Mat mean = MeanAround(found.disparity_px);
+  for (int y = 0; y < found.disparity_px.height(); ++y) {
+    const float* m = mean.ptr<float>(y);
+    float *d = found.disparity_px.row(y), *sigma = found.sigma_px.row(y);
+    for (int x = 0; x < found.disparity_px.width(); ++x) {
+      if ((!where || where->at(x, y) != 0) && std::abs(d[x] - m[x]) > kMostOff_sigmas * sigma[x]) {
+        d[x] = sigma[x] = kNaN;
+      }
+    }
+  }
+}
+
 }  // namespace
 
 ImageU8 FindFaintGround(const ImageU8& left, const ImageU8& right, const ImageF& disparity_px) {
-  ImageU8 faint = UnknownInBoth(disparity_px);
-  const auto too_few = [](const ImageU8& mask) {
-    const auto count = std::count(mask.pixels().begin(), mask.pixels().end(), 1);
-    return count * kOneIn < static_cast<std::ptrdiff_t>(mask.pixels().size());
-  };
-  if (too_few(faint)) {
+  ImageU8 faint = SeenByBoth(disparity_px);
+  if (HasFewUnknown(faint, disparity_px)) {
     return {};
   }
   const std::optional<double> noise = NoiseOf(left, right, disparity_px);
@@ -131,27 +152,25 @@ ImageU8 FindFaintGround(const ImageU8& left, const ImageU8& right, const ImageF&
       out[x] = out[x] != 0 && s[x] - m[x] * m[x] <= most ? 1 : 0;
     }
   }
-  return too_few(faint) ? ImageU8{} : faint;
+  return HasFewUnknown(faint, disparity_px) ? ImageU8{} : faint;
 }
 
-void FillFaintGround(const ImageU8& faint, const SubpixelDisparity& half, double max_sigma_px,
+void FillFaintGround(const ImageU8& faint, SubpixelDisparity half, double max_sigma_px,
                      SubpixelDisparity& filled) {
   const ImageF &d = half.disparity_px, &sigma = half.sigma_px;
   PALACE_CHECK(faint.width() == filled.disparity_px.width() && d.width() == faint.width() / 2 &&
                    d.height() == faint.height() / 2,
                faint.width(), d.width());
-  const cv::Mat mean = MeanAround(d);
+  DropChanceMatches(nullptr, half);
   for (int y = 0; y < faint.height(); ++y) {
     const Neighbours row = AlongAxis(y, d.height());
     for (int x = 0; x < faint.width(); ++x) {
-      if (faint.at(x, y) == 0) {
+      if (faint.at(x, y) == 0 || !std::isnan(filled.disparity_px.at(x, y))) {
         continue;
       }
       const Neighbours col = AlongAxis(x, d.width());
       const float nearest = d.at(col.near, row.near), known_to = sigma.at(col.near, row.near);
-      // NaN fails both.
-      if (!(2 * known_to <= static_cast<float>(max_sigma_px)) ||
-          !(std::abs(nearest - mean.at<float>(row.near, col.near)) <= known_to)) {
+      if (!(2 * known_to <= static_cast<float>(max_sigma_px))) {  // NaN too
         continue;
       }
       float sum = 0, weights = 0;
@@ -170,6 +189,7 @@ void FillFaintGround(const ImageU8& faint, const SubpixelDisparity& half, double
       filled.sigma_px.at(x, y) = 2 * known_to;
     }
   }
+  DropChanceMatches(&faint, filled);
 }
 
 }  // namespace palace

@@ -11,10 +11,11 @@
 //
 // with e taken where the measured d is within 0.1 px of a whole number, so that nothing is
 // interpolated; the difference of neighbours takes out what the two cameras see unequally bright.
-// Of what the half picture then measures only that counts which agrees to a sigma with the mean of
-// its own window: a chance match does not, nor does a pixel to whose window an edge has come near.
-// What is filled follows the ground over windows twice as wide: its sigma says how well the mean of
-// such a window is known, not what is smaller than it.
+// Where so little is seen, noise alone matches now and then. What strays from the mean of its
+// window by more than 1.5 sigma is such a chance match, or an edge has come near its window: it is
+// unknown, in the half picture, and in the full one at pixels as faint. What is filled follows the
+// ground over windows twice as wide: its sigma says how well the mean of such a window is known,
+// not what is smaller than it.
 //
 // Chosen on drawn pairs of twelve kinds of ground (2026-11-26): below 4 n^2 fewer than 1 % of the
 // filled pixels are wrong by more than 2 px and errors are 1.1 to 1.5 sigma; above it, where it is
@@ -26,16 +27,16 @@
 
 namespace palace {
 
-/// 1 at pixels of the left picture that are unknown and faint, else 0. Empty where too few are for
-/// a second pass to be worth its time (1 in 50), or too few known ones to tell the noise (200).
+/// 1 at pixels of the left picture that both cameras see and whose texture is faint, else 0. Empty
+/// where too few of them are unknown for a second pass to be worth its time (1 in 50), or too few
+/// are known to tell the noise (200).
 ImageU8 FindFaintGround(const ImageU8& left, const ImageU8& right, const ImageF& disparity_px);
 
-/// Fills pixels of `faint` from what was measured in the pictures at half the size (HalfSize):
-/// disparity and sigma doubled, between the middles of its pixels by bilinear weights over those
-/// that are known and within 1 px of the nearest. Nothing is filled where that one is unknown or
-/// more than its sigma off the mean of its window, nor where the doubled sigma exceeds
-/// `max_sigma_px`.
-void FillFaintGround(const ImageU8& faint, const SubpixelDisparity& half, double max_sigma_px,
+/// Fills unknown pixels of `faint` from what was measured in the pictures at half the size
+/// (HalfSize): disparity and sigma doubled, between the middles of its pixels by bilinear weights
+/// over those that are known and within 1 px of the nearest. Nothing is filled where that one is
+/// unknown or the doubled sigma exceeds `max_sigma_px`. Then drops chance matches.
+void FillFaintGround(const ImageU8& faint, SubpixelDisparity half, double max_sigma_px,
                      SubpixelDisparity& filled);
 
 }  // namespace palace

