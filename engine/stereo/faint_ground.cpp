@@ -24,6 +24,16 @@ constexpr float kMostOff_sigmas = 1.5F;    // off the mean of its window
 constexpr float kSameSurface_px = 1;       // between pixels of the half picture
 constexpr double kLeastNoise_grey = 0.29;  // of rounding to whole levels alone
 
+/// Calls work(y) for every row, on OpenCV's threads.
+template <typename Work>
+void ForRows(int rows, const Work& work) {
+  cv::parallel_for_(cv::Range(0, rows), [&](const cv::Range& range) {
+    for (int y = range.start; y < range.end; ++y) {
+      work(y);
+    }
+  });
+}
+
 /// Standard deviation of one picture's noise, grey levels; nothing where too little is known.
 std::optional<double> NoiseOf(const ImageU8& left, const ImageU8& right,
                               const ImageF& disparity_px) {
@@ -97,13 +107,14 @@ Neighbours AlongAxis(int place, int half_size) {
 /// Mean of what is known in the window around each pixel; 0 / 0 where nothing is.
 cv::Mat MeanAround(const ImageF& values) {
   cv::Mat known(values.height(), values.width(), CV_32F), value = known.clone();
-  for (int y = 0; y < values.height(); ++y) {
+  ForRows(values.height(), [&](int y) {
+    const float* v = values.row(y);
+    float *k = known.ptr<float>(y), *z = value.ptr<float>(y);
     for (int x = 0; x < values.width(); ++x) {
-      const bool is_known = std::isfinite(values.at(x, y));
-      known.at<float>(y, x) = is_known ? 1.0F : 0.0F;
-      value.at<float>(y, x) = is_known ? values.at(x, y) : 0.0F;
+      k[x] = std::isnan(v[x]) ? 0.0F : 1.0F;
+      z[x] = std::isnan(v[x]) ? 0.0F : v[x];
     }
-  }
+  });
   const cv::Size window{kWindow_px, kWindow_px};
   cv::boxFilter(known, known, CV_32F, window, {-1, -1}, false, cv::BORDER_CONSTANT);
   cv::boxFilter(value, value, CV_32F, window, {-1, -1}, false, cv::BORDER_CONSTANT);
@@ -115,7 +126,7 @@ cv::Mat MeanAround(const ImageF& values) {
 void DropChanceMatches(const ImageU8* where, SubpixelDisparity& found) {
   constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
   const cv::Mat mean = MeanAround(found.disparity_px);
-  for (int y = 0; y < found.disparity_px.height(); ++y) {
+  ForRows(found.disparity_px.height(), [&](int y) {
     const float* m = mean.ptr<float>(y);
     float *d = found.disparity_px.row(y), *sigma = found.sigma_px.row(y);
     for (int x = 0; x < found.disparity_px.width(); ++x) {
@@ -123,7 +134,7 @@ void DropChanceMatches(const ImageU8* where, SubpixelDisparity& found) {
         d[x] = sigma[x] = kNaN;
       }
     }
-  }
+  });
 }
 
 }  // namespace
@@ -144,14 +155,14 @@ ImageU8 FindFaintGround(const ImageU8& left, const ImageU8& right, const ImageF&
   cv::boxFilter(picture, mean, CV_32F, {kWindow_px, kWindow_px});
   cv::sqrBoxFilter(picture, square, CV_32F, {kWindow_px, kWindow_px});
   const auto most = static_cast<float>(kFaintVariance * *noise * *noise);
-  for (int y = 0; y < left.height(); ++y) {
+  ForRows(left.height(), [&](int y) {
     const float* m = mean.ptr<float>(y);
     const float* s = square.ptr<float>(y);
     std::uint8_t* out = faint.row(y);
     for (int x = 0; x < left.width(); ++x) {
       out[x] = out[x] != 0 && s[x] - m[x] * m[x] <= most ? 1 : 0;
     }
-  }
+  });
   return HasFewUnknown(faint, disparity_px) ? ImageU8{} : faint;
 }
 
@@ -162,7 +173,7 @@ void FillFaintGround(const ImageU8& faint, SubpixelDisparity half, double max_si
                    d.height() == faint.height() / 2,
                faint.width(), d.width());
   DropChanceMatches(nullptr, half);
-  for (int y = 0; y < faint.height(); ++y) {
+  ForRows(faint.height(), [&](int y) {
     const Neighbours row = AlongAxis(y, d.height());
     for (int x = 0; x < faint.width(); ++x) {
       if (faint.at(x, y) == 0 || !std::isnan(filled.disparity_px.at(x, y))) {
@@ -188,7 +199,7 @@ void FillFaintGround(const ImageU8& faint, SubpixelDisparity half, double max_si
       filled.disparity_px.at(x, y) = 2 * sum / weights;
       filled.sigma_px.at(x, y) = 2 * known_to;
     }
-  }
+  });
   DropChanceMatches(&faint, filled);
 }
 

@@ -1,11 +1,15 @@
 // What the half-size picture may fill: ground that is too faint for the full one, and nothing else.
 #include "engine/stereo/faint_ground.h"
 
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <limits>
+#include <vector>
 
 #include <gtest/gtest.h>
+#include <opencv2/core.hpp>
 
 #include "engine/camera/pinhole.h"
 #include "engine/core/units.h"
@@ -164,6 +168,25 @@ TEST(FaintGround, NothingIsAskedOfAPictureThatIsKnownOrOfOneThatTellsNoNoise) {
   const ImageF nothing(640, 480, kUnknown);
   EXPECT_TRUE(FindFaintGround(snow.left, snow.right, nothing).empty());
   EXPECT_FALSE(FindFaintGround(snow.left, snow.right, FullSizeOnly(snow).disparity_px).empty());
+}
+
+TEST(FaintGround, SameBitsForAnyNumberOfThreads) {
+  const FaintPair pair = Draw(GroundTexture::kSnow, Rad(-50), true);
+  const int threads = cv::getNumThreads();
+  cv::setNumThreads(1);
+  const RangeMap one = Filled(pair);
+  cv::setNumThreads(3);
+  const RangeMap three = Filled(pair);
+  cv::setNumThreads(threads);
+  const auto bits = [](const ImageF& image) {
+    std::vector<std::uint32_t> values;
+    for (const float v : image.pixels()) {
+      values.push_back(std::bit_cast<std::uint32_t>(v));
+    }
+    return values;
+  };
+  EXPECT_EQ(bits(one.disparity_px), bits(three.disparity_px));
+  EXPECT_EQ(bits(one.disparity_sigma_px), bits(three.disparity_sigma_px));
 }
 
 /// A ramp of disparities comes back as it was, between the middles of the half picture's pixels
