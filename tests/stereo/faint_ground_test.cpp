@@ -175,8 +175,8 @@ TEST(FaintGround, SameBitsForAnyNumberOfThreads) {
   const int threads = cv::getNumThreads();
   cv::setNumThreads(1);
   const RangeMap one = Filled(pair);
-  cv::setNumThreads(3);
-  const RangeMap three = Filled(pair);
+  cv::setNumThreads(2);
+  const RangeMap two = Filled(pair);
   cv::setNumThreads(threads);
   const auto bits = [](const ImageF& image) {
     std::vector<std::uint32_t> values;
@@ -185,8 +185,8 @@ TEST(FaintGround, SameBitsForAnyNumberOfThreads) {
     }
     return values;
   };
-  EXPECT_EQ(bits(one.disparity_px), bits(three.disparity_px));
-  EXPECT_EQ(bits(one.disparity_sigma_px), bits(three.disparity_sigma_px));
+  EXPECT_EQ(bits(one.disparity_px), bits(two.disparity_px));
+  EXPECT_EQ(bits(one.disparity_sigma_px), bits(two.disparity_sigma_px));
 }
 
 /// A ramp of disparities comes back as it was, between the middles of the half picture's pixels
