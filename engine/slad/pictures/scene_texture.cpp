@@ -11,8 +11,10 @@ namespace palace {
 namespace {
 
 constexpr int kReach_blocks = kRim_blocks;  // of the window
+constexpr int kReachOfHalved_blocks = 1;    // … of pictures at half the size
+// From the middle of the wider window to its rim.
+constexpr int kGrow_blocks = 2 * kReachOfHalved_blocks + 1;
 constexpr float kLeastCorrelation = 0.25F;  // chance alone: 0.05
-constexpr float kMostKnown = 0.35F;         // share of the window stereo measured
 constexpr float kMostNoise_grey = 5;        // contrast that may be noise
 constexpr float kLeastUsable = 8;           // blocks of the window
 constexpr float kShadow = 0.5F;             // of the median brightness
@@ -23,22 +25,22 @@ struct BlockSums {
   ImageF left;    ///< of squares
   ImageF right;   ///< of squares
   ImageF both;    ///< of products
-  ImageF known;   ///< share stereo measured
   ImageF usable;  ///< 1 or 0
   ImageF bright;  ///< mean of the left picture; not smeared
 };
 
-BlockSums SumBlocks(const ImageU8& left, const SceneGround& ground) {
+/// `usable`: a value a block.
+BlockSums SumBlocks(const ImageU8& left, const ImageU8& right, const ImageU8& usable) {
   constexpr float kCount = kBlock_px * kBlock_px;
-  const int cols = ground.cols(), rows = ground.rows();
+  const int cols = usable.width(), rows = usable.height();
   const ImageF none(cols, rows, 0.0F);
-  BlockSums sums{none, none, none, ground.known_share, none, none};
+  BlockSums sums{none, none, none, none, none};
   for (int j = 0; j < rows; ++j) {
     for (int i = 0; i < cols; ++i) {
       int l = 0, r = 0, ll = 0, rr = 0, lr = 0;
       for (int y = kBlock_px * j; y < kBlock_px * (j + 1); ++y) {
         const std::uint8_t* a = left.row(y) + kBlock_px * i;
-        const std::uint8_t* b = ground.right.row(y) + kBlock_px * i;
+        const std::uint8_t* b = right.row(y) + kBlock_px * i;
         for (int x = 0; x < kBlock_px; ++x) {
           l += a[x];
           r += b[x];
@@ -48,24 +50,23 @@ BlockSums SumBlocks(const ImageU8& left, const SceneGround& ground) {
         }
       }
       const float fl = static_cast<float>(l), fr = static_cast<float>(r);
-      const float use = ground.usable.at(i, j) != 0 ? 1.0F : 0.0F;
+      const float use = usable.at(i, j) != 0 ? 1.0F : 0.0F;
       sums.bright.at(i, j) = fl / kCount;
       sums.left.at(i, j) = use * (static_cast<float>(ll) - fl * fl / kCount);
       sums.right.at(i, j) = use * (static_cast<float>(rr) - fr * fr / kCount);
       sums.both.at(i, j) = use * (static_cast<float>(lr) - fl * fr / kCount);
       sums.usable.at(i, j) = use;
-      sums.known.at(i, j) *= use;
     }
   }
   return sums;
 }
 
 /// Replaces each value by the sum over its window; beyond the border nothing is added.
-void BoxSum(ImageF& values) {
+void BoxSum(int reach, ImageF& values) {
   const int cols = values.width(), rows = values.height();
   ImageF along(cols, rows, 0.0F);
   for (int j = 0; j < rows; ++j) {
-    for (int d = -kReach_blocks; d <= kReach_blocks; ++d) {
+    for (int d = -reach; d <= reach; ++d) {
       const float* in = values.row(j);
       float* out = along.row(j);
       for (int i = std::max(0, -d); i < std::min(cols, cols - d); ++i) {
@@ -76,13 +77,53 @@ void BoxSum(ImageF& values) {
   for (int j = 0; j < rows; ++j) {
     float* out = values.row(j);
     std::fill_n(out, cols, 0.0F);
-    for (int k = std::max(0, j - kReach_blocks); k <= std::min(rows - 1, j + kReach_blocks); ++k) {
+    for (int k = std::max(0, j - reach); k <= std::min(rows - 1, j + reach); ++k) {
       const float* in = along.row(k);
       for (int i = 0; i < cols; ++i) {
         out[i] += in[i];
       }
     }
   }
+}
+
+void SumOverWindows(int reach, BlockSums& sums) {
+  for (ImageF* layer : {&sums.left, &sums.right, &sums.both, &sums.usable}) {
+    BoxSum(reach, *layer);
+  }
+}
+
+/// Whether the cameras see no more alike in the window than chance gives.
+bool SharesNothing(const BlockSums& sums, int i, int j) {
+  return sums.both.at(i, j) <=
+         kLeastCorrelation * std::sqrt(sums.left.at(i, j) * sums.right.at(i, j));
+}
+
+/// The picture at half the size.
+ImageU8 Halved(const ImageU8& picture) {
+  ImageU8 half(picture.width() / 2, picture.height() / 2);
+  for (int y = 0; y < half.height(); ++y) {
+    const std::uint8_t *above = picture.row(2 * y), *below = picture.row(2 * y + 1);
+    for (int x = 0; x < half.width(); ++x) {
+      half.at(x, y) = static_cast<std::uint8_t>(
+          (above[2 * x] + above[2 * x + 1] + below[2 * x] + below[2 * x + 1] + 2) / 4);
+    }
+  }
+  return half;
+}
+
+/// The same over pictures at half the size, in blocks that cover four each.
+BlockSums SumHalvedBlocks(const ImageU8& left, const SceneGround& ground) {
+  ImageU8 usable(ground.cols() / 2, ground.rows() / 2, 0);
+  for (int j = 0; j < usable.height(); ++j) {
+    for (int i = 0; i < usable.width(); ++i) {
+      usable.at(i, j) =
+          std::max({ground.usable.at(2 * i, 2 * j), ground.usable.at(2 * i + 1, 2 * j),
+                    ground.usable.at(2 * i, 2 * j + 1), ground.usable.at(2 * i + 1, 2 * j + 1)});
+    }
+  }
+  BlockSums sums = SumBlocks(Halved(left), Halved(ground.right), usable);
+  SumOverWindows(kReachOfHalved_blocks, sums);
+  return sums;
 }
 
 float MedianOf(std::vector<float> values) { return values.empty() ? 0.0F : UpperMedian(values); }
@@ -144,10 +185,9 @@ void SetFlag(const ImageU8& mask, TerrainFlag flag, ImageU8& flags) {
 }  // namespace
 
 void FlagTextureAndShadow(const SceneView& view, const SceneGround& ground, ImageU8& flags) {
-  BlockSums sums = SumBlocks(*view.left, ground);
-  for (ImageF* layer : {&sums.left, &sums.right, &sums.both, &sums.known, &sums.usable}) {
-    BoxSum(*layer);
-  }
+  BlockSums sums = SumBlocks(*view.left, ground.right, ground.usable);
+  SumOverWindows(kReach_blocks, sums);
+  const BlockSums halved = SumHalvedBlocks(*view.left, ground);
   constexpr float kFree = kBlock_px * kBlock_px - 1;  // of a block's pixels, its mean known
   const float usual_bright = MedianOf(sums.bright.pixels());
   const float usual_contrast = MedianOf(sums.left.pixels());
@@ -164,18 +204,19 @@ void FlagTextureAndShadow(const SceneView& view, const SceneGround& ground, Imag
       if (usable < kLeastUsable) {
         continue;
       }
-      const float left = sums.left.at(i, j), right = sums.right.at(i, j);
-      bare.at(i, j) = sums.both.at(i, j) <= kLeastCorrelation * std::sqrt(left * right) &&
-                      left < kMostNoise_grey * kMostNoise_grey * kFree * usable &&
-                      sums.known.at(i, j) < kMostKnown * usable;
+      const float left = sums.left.at(i, j);
+      const int i2 = std::min(i / 2, halved.left.width() - 1);
+      const int j2 = std::min(j / 2, halved.left.height() - 1);
+      bare.at(i, j) = SharesNothing(sums, i, j) && SharesNothing(halved, i2, j2) &&
+                      left < kMostNoise_grey * kMostNoise_grey * kFree * usable;
       dark.at(i, j) = sums.bright.at(i, j) < kShadow * usual_bright && left <= usual_contrast;
     }
   }
   if (HasAny(bare)) {
     // A window is bare only when the area around is: small areas are gone already, and the rim of
     // large ones is.
-    OpenMask(bare, std::max(0, steps - kReach_blocks));
-    for (int k = 0; k < kReach_blocks; ++k) {
+    OpenMask(bare, std::max(0, steps - kGrow_blocks));
+    for (int k = 0; k < kGrow_blocks; ++k) {
       DilateOrErode(bare, true);
     }
     SetFlag(bare, kFlagNoTexture, flags);

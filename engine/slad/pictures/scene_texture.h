@@ -1,12 +1,12 @@
 // Where a picture shows no texture, and where deep shadow lies.
 //
 // Texture is what both cameras see alike: over a window of 5 blocks the left picture and the right
-// one laid over it are correlated after each block's mean is taken out. Sensor noise is independent
-// in the two, so faint texture counts while noise does not, and no noise figure is needed. Without
-// texture: the correlation does not stand out of chance, the contrast is no more than noise can be,
-// stereo has next to nothing though it has something on both sides of the row, and all this over
-// some 0.3 m. Water, glass, snow, burnt-out ground. Not at the rim of the picture, where stereo
-// measures little whatever is there.
+// one laid over it are correlated after each block's mean is taken out, and once more at half the
+// size, over windows of 24 px. Sensor noise is independent in the two, so faint texture counts
+// while noise does not, and no noise figure is needed. Without texture: neither correlation stands
+// out of chance, the contrast is no more than noise can be, and all this over some 0.3 m. Water,
+// glass, burnt-out ground; snow and roofs only as far as stereo, which measures at both sizes, has
+// nothing to go by. Not at the rim of the picture, where stereo measures little whatever is there.
 //
 // Deep shadow: less than half as bright as the picture's median, with no more than usual contrast.
 #pragma once
