@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -16,7 +17,8 @@ constexpr double kLeastAge_s = 0.3;  // nothing that matters moves its own width
 constexpr double kMostAge_s = 5;
 constexpr double kBetweenViews_s = 0.5;
 constexpr double kLeastDepthChange_m = 0.3;
-constexpr double kDisparityNoise_px = 0.6;  // four sigmas of a block's mean
+constexpr double kDisparityNoise_px = 0.6;  // four sigmas of a block's mean, at least
+constexpr double kNoise_sigmas = 4;         // of the difference of two faint blocks
 constexpr float kLeastChange_grey = 12;
 constexpr int kShift_blocks = 2;  // what the pose may leave over
 constexpr int kShiftStride_blocks = 4;
@@ -139,6 +141,20 @@ Neighbourhood Around(const ImageF& grey, const ImageF& depth_m, int i, int j) {
   return near;
 }
 
+/// Mean sigma of the block's disparities, 0 where none is known.
+double SigmaOfBlock(const RangeMap& range, int i, int j) {
+  double sum = 0;
+  int known = 0;
+  for (int y = kBlock_px * j; y < kBlock_px * (j + 1); ++y) {
+    const float* sigma = range.disparity_sigma_px.row(y) + kBlock_px * i;
+    for (int x = 0; x < kBlock_px; ++x) {
+      sum += std::isfinite(sigma[x]) ? static_cast<double>(sigma[x]) : 0.0;
+      known += std::isfinite(sigma[x]) ? 1 : 0;
+    }
+  }
+  return known > 0 ? sum / known : 0.0;
+}
+
 /// Clusters with a block around them: what moves has more to it than its changed rim.
 void FlagClusters(const ImageU8& moved, ImageU8& flags) {
   for (int j = 1; j + 1 < moved.height(); ++j) {
@@ -202,8 +218,11 @@ bool SceneMotion::Flag(const SceneView& view, const SceneGround& ground, ImageU8
         const int a = place.i + fit.di, b = place.j + fit.dj;
         const Neighbourhood then = Around(old.grey, old.depth_m, a, b);
         const double z = static_cast<double>(place.depth_m);
+        // Pixels of a block share their window, so the mean of faint ones is no better than they.
+        const double noise_px = std::max(kDisparityNoise_px, kNoise_sigmas * std::numbers::sqrt2 *
+                                                                 SigmaOfBlock(*view.range, i, j));
         const float change_m =
-            static_cast<float>(std::max(kLeastDepthChange_m, z * z * kDisparityNoise_px / focal_m));
+            static_cast<float>(std::max(kLeastDepthChange_m, z * z * noise_px / focal_m));
         const bool measured = std::isfinite(ground.measured_px.at(i, j));
         const bool seen_through =
             measured && then.all_known && then.nearest_m > place.depth_m + change_m;
