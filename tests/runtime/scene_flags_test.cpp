@@ -183,6 +183,46 @@ INSTANTIATE_TEST_SUITE_P(All, SceneFlagsOn,
                                          GroundTexture::kGrass, GroundTexture::kAsphalt),
                          [](const auto& texture) { return NameOf(texture.param); });
 
+/// Faint: stereo measures it at half the size, and texture is asked there too.
+TEST(SceneFlags, SnowIsNotTakenForWater) {
+  const World world = FieldWithObstacles(GroundTexture::kSnow);
+  const Seen bare = Look(4, [&](int) { return world; });
+  EXPECT_EQ(bare.Count(kFlagThinStructure | kFlagNoTexture | kFlagMotion), 0);
+  const Seen seen = Look(
+      2, [&](int) { return world; },
+      [&](const PinholeCamera& camera, const RigidTransform& X_WC, ImageF& picture) {
+        PaintPool({0.3, -0.2, 0.8, 90}, camera, X_WC, picture);
+      });
+  EXPECT_TRUE(seen.At(0.3, -0.2, kFlagNoTexture));
+  EXPECT_FALSE(seen.At(0.3, -1.9, kFlagNoTexture));
+}
+
+/// Over faint ground the wire is the strongest texture: stereo measures it, windows wide, as a
+/// thing that stands there, and where it does not the line is flagged.
+TEST(SceneFlags, AWireOverSnowStandsInTheHeightsOrIsFlagged) {
+  const World world = FieldWithObstacles(GroundTexture::kSnow);
+  const Seen seen = Look(
+      4, [&](int) { return world; },
+      [&](const PinholeCamera& camera, const RigidTransform& X_WC, ImageF& picture) {
+        PaintWire({{-9, -2, -3}, {9, 1, -3}, 0.02, 40}, camera, X_WC, picture);
+      });
+  int under = 0, told = 0, gap = 0, widest = 0;
+  for (double north_m = -3; north_m <= 3; north_m += 0.3) {
+    ++under;
+    bool found = false;
+    for (const double aside_m : {-0.15, 0.0, 0.15}) {
+      const auto cell = seen.map->geometry.CellFromPoint(north_m, -2 + (north_m + 9) / 6 + aside_m);
+      found |= cell && (seen.map->height_m.at(*cell) > 2 ||
+                        (seen.map->flags.at(*cell) & kFlagThinStructure) != 0);
+    }
+    told += found ? 1 : 0;
+    gap = found ? 0 : gap + 1;
+    widest = std::max(widest, gap);
+  }
+  EXPECT_GE(told, 0.75 * under) << told << " of " << under;
+  EXPECT_LE(widest, 2) << "places 0.3 m apart: a clear radius bridges them";
+}
+
 /// Along the baseline a wire shows no disparity: it is flagged on the ground behind it.
 TEST(SceneFlags, AWireAlongTheBaselineIsFlaggedWithoutItsHeight) {
   const World world = FieldWithObstacles(GroundTexture::kAsphalt);
