@@ -15,7 +15,8 @@
 namespace palace {
 namespace {
 
-constexpr double kFaintVariance = 4;  // of the noise's; see the header
+// Of the noise's variance; see the header.
+constexpr double kLeastVariance = 1.25, kMostVariance = 4;
 constexpr int kWindow_px = 9;
 constexpr int kOneIn = 50;  // fewer faint pixels are not worth a second pass
 constexpr int kLeastSamples = 200;
@@ -69,26 +70,27 @@ std::optional<double> NoiseOf(const ImageU8& left, const ImageU8& right,
   return std::max(kLeastNoise_grey, median * kSigmaPerMad / 2);
 }
 
-/// 1 but in columns that show what lies beyond the right picture: those left of the row's first
-/// disparity, or of one above where the row has none.
+/// kFaint but in columns that show what lies beyond the right picture: those left of the row's
+/// first disparity, or of one above where the row has none.
 ImageU8 SeenByBoth(const ImageF& disparity_px) {
-  ImageU8 seen(disparity_px.width(), disparity_px.height(), 0);
+  ImageU8 seen(disparity_px.width(), disparity_px.height(), kClear);
   int beyond = 0;
   for (int y = 0; y < seen.height(); ++y) {
     const float* d = disparity_px.row(y);
     const float* end = d + seen.width();
     const float* known = std::find_if(d, end, [](float value) { return !std::isnan(value); });
-    beyond = known < end ? static_cast<int>(*known) : beyond;
-    std::fill(seen.row(y) + beyond, seen.row(y) + seen.width(), std::uint8_t{1});
+    // Near infinity a disparity may be a hair below 0.
+    beyond = known < end ? std::max(0, static_cast<int>(*known)) : beyond;
+    std::fill(seen.row(y) + beyond, seen.row(y) + seen.width(), std::uint8_t{kFaint});
   }
   return seen;
 }
 
-/// Of too few unknown pixels in the mask nothing is worth a second pass.
+/// Too few unknown faint pixels are not worth a second pass.
 bool HasFewUnknown(const ImageU8& mask, const ImageF& disparity_px) {
   std::size_t unknown = 0;
   for (std::size_t k = 0; k < mask.pixels().size(); ++k) {
-    unknown += mask.pixels()[k] != 0 && std::isnan(disparity_px.pixels()[k]) ? 1 : 0;
+    unknown += mask.pixels()[k] == kFaint && std::isnan(disparity_px.pixels()[k]) ? 1 : 0;
   }
   return unknown * kOneIn < mask.pixels().size();
 }
@@ -122,7 +124,7 @@ cv::Mat MeanAround(const ImageF& values) {
 }
 
 /// Makes unknown what strays from the mean of its window by more than its sigma allows, where
-/// `where` is 1 or everywhere.
+/// `where` is faint or everywhere.
 void DropChanceMatches(const ImageU8* where, SubpixelDisparity& found) {
   constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
   const cv::Mat mean = MeanAround(found.disparity_px);
@@ -130,7 +132,8 @@ void DropChanceMatches(const ImageU8* where, SubpixelDisparity& found) {
     const float* m = mean.ptr<float>(y);
     float *d = found.disparity_px.row(y), *sigma = found.sigma_px.row(y);
     for (int x = 0; x < found.disparity_px.width(); ++x) {
-      if ((!where || where->at(x, y) != 0) && std::abs(d[x] - m[x]) > kMostOff_sigmas * sigma[x]) {
+      if ((!where || where->at(x, y) != kClear) &&
+          std::abs(d[x] - m[x]) > kMostOff_sigmas * sigma[x]) {
         d[x] = sigma[x] = kNaN;
       }
     }
@@ -154,13 +157,16 @@ ImageU8 FindFaintGround(const ImageU8& left, const ImageU8& right, const ImageF&
   cv::Mat mean, square;
   cv::boxFilter(picture, mean, CV_32F, {kWindow_px, kWindow_px});
   cv::sqrBoxFilter(picture, square, CV_32F, {kWindow_px, kWindow_px});
-  const auto most = static_cast<float>(kFaintVariance * *noise * *noise);
+  const auto least = static_cast<float>(kLeastVariance * *noise * *noise);
+  const auto most = static_cast<float>(kMostVariance * *noise * *noise);
   ForRows(left.height(), [&](int y) {
     const float* m = mean.ptr<float>(y);
     const float* s = square.ptr<float>(y);
     std::uint8_t* out = faint.row(y);
     for (int x = 0; x < left.width(); ++x) {
-      out[x] = out[x] != 0 && s[x] - m[x] * m[x] <= most ? 1 : 0;
+      const float variance = s[x] - m[x] * m[x];
+      const FaintPixel shows = variance < least ? kNoiseAlone : kFaint;
+      out[x] = out[x] != kClear && variance <= most ? shows : kClear;
     }
   });
   return HasFewUnknown(faint, disparity_px) ? ImageU8{} : faint;
@@ -176,7 +182,7 @@ void FillFaintGround(const ImageU8& faint, SubpixelDisparity half, double max_si
   ForRows(faint.height(), [&](int y) {
     const Neighbours row = AlongAxis(y, d.height());
     for (int x = 0; x < faint.width(); ++x) {
-      if (faint.at(x, y) == 0 || !std::isnan(filled.disparity_px.at(x, y))) {
+      if (faint.at(x, y) != kFaint || !std::isnan(filled.disparity_px.at(x, y))) {
         continue;
       }
       const Neighbours col = AlongAxis(x, d.width());

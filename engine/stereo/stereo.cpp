@@ -111,7 +111,7 @@ SubpixelDisparity MeasurePixels(const ImageU8& left, const ImageU8& right, const
 
 void MeasureFaintGround(const ImageU8& left, const ImageU8& right, const DisparityWindow& window,
                         const StereoSettings& settings, SubpixelDisparity& refined) {
-  if (left.width() / 2 - window.min_px / 2 < kLeastOverlap_px) {
+  if (left.width() / 2 - window.min_px / 2 < kLeastOverlap_px || left.height() < 2) {
     return;
   }
   const ImageU8 faint = FindFaintGround(left, right, refined.disparity_px);

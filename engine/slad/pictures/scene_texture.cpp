@@ -15,6 +15,7 @@ constexpr int kReachOfHalved_blocks = 1;    // … of pictures at half the size
 // From the middle of the wider window to its rim.
 constexpr int kGrow_blocks = 2 * kReachOfHalved_blocks + 1;
 constexpr float kLeastCorrelation = 0.25F;  // chance alone: 0.05
+constexpr float kMostKnown = 0.35F;         // share of the window stereo measured
 constexpr float kMostNoise_grey = 5;        // contrast that may be noise
 constexpr float kLeastUsable = 8;           // blocks of the window
 constexpr float kShadow = 0.5F;             // of the median brightness
@@ -188,6 +189,11 @@ void FlagTextureAndShadow(const SceneView& view, const SceneGround& ground, Imag
   BlockSums sums = SumBlocks(*view.left, ground.right, ground.usable);
   SumOverWindows(kReach_blocks, sums);
   const BlockSums halved = SumHalvedBlocks(*view.left, ground);
+  ImageF known = ground.known_share;
+  for (std::size_t k = 0; k < known.pixels().size(); ++k) {
+    known.pixels()[k] *= ground.usable.pixels()[k] != 0 ? 1.0F : 0.0F;
+  }
+  BoxSum(kReach_blocks, known);
   constexpr float kFree = kBlock_px * kBlock_px - 1;  // of a block's pixels, its mean known
   const float usual_bright = MedianOf(sums.bright.pixels());
   const float usual_contrast = MedianOf(sums.left.pixels());
@@ -207,8 +213,9 @@ void FlagTextureAndShadow(const SceneView& view, const SceneGround& ground, Imag
       const float left = sums.left.at(i, j);
       const int i2 = std::min(i / 2, halved.left.width() - 1);
       const int j2 = std::min(j / 2, halved.left.height() - 1);
-      bare.at(i, j) = SharesNothing(sums, i, j) && SharesNothing(halved, i2, j2) &&
-                      left < kMostNoise_grey * kMostNoise_grey * kFree * usable;
+      bare.at(i, j) = SharesNothing(sums, i, j) &&
+                      left < kMostNoise_grey * kMostNoise_grey * kFree * usable &&
+                      (SharesNothing(halved, i2, j2) || known.at(i, j) < kMostKnown * usable);
       dark.at(i, j) = sums.bright.at(i, j) < kShadow * usual_bright && left <= usual_contrast;
     }
   }

@@ -3,10 +3,12 @@
 // Texture is what both cameras see alike: over a window of 5 blocks the left picture and the right
 // one laid over it are correlated after each block's mean is taken out, and once more at half the
 // size, over windows of 24 px. Sensor noise is independent in the two, so faint texture counts
-// while noise does not, and no noise figure is needed. Without texture: neither correlation stands
-// out of chance, the contrast is no more than noise can be, and all this over some 0.3 m. Water,
-// glass, burnt-out ground; snow and roofs only as far as stereo, which measures at both sizes, has
-// nothing to go by. Not at the rim of the picture, where stereo measures little whatever is there.
+// while noise does not, and no noise figure is needed. Without texture: the correlation does not
+// stand out of chance; at half the size it does not either, or stereo, which measures at both, has
+// next to nothing (beside the rim of a pool the wider window sees the rim); the contrast is no more
+// than noise can be, and all this over some 0.3 m. Water, glass, burnt-out ground, and snow or roofs
+// as far as stereo has nothing to go by. Not at the rim of the picture, where stereo measures little
+// whatever is there.
 //
 // Deep shadow: less than half as bright as the picture's median, with no more than usual contrast.
 #pragma once
