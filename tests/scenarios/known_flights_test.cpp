@@ -37,7 +37,7 @@ void PrintTo(const KnownFlight& flight, std::ostream* out) {
 }
 
 constexpr KnownFlight kKnownFlights[] = {
-    {"runway", 101, 0, MissionState::kLanded, 0xc5e657d62674a4de},
+    {"runway", 101, 0, MissionState::kLanded, 0xd9860808c2fcbd3b},
     {"slope", 7, 3, MissionState::kDescending, 0x28a4b0c4d7cd0852},
 };
 constexpr double kLimit_s = 120;
