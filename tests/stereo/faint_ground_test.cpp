@@ -170,6 +170,19 @@ TEST(FaintGround, NothingIsAskedOfAPictureThatIsKnownOrOfOneThatTellsNoNoise) {
   EXPECT_FALSE(FindFaintGround(snow.left, snow.right, FullSizeOnly(snow).disparity_px).empty());
 }
 
+/// A refined disparity of something far away may lie a pixel below 0: no column is left of the
+/// picture for it.
+TEST(FaintGround, DisparitiesBelowZeroAreNoColumn) {
+  const FaintPair snow = Draw(GroundTexture::kSnow, Rad(-90), false);
+  ImageF disparity = FullSizeOnly(snow).disparity_px;
+  for (int y = 0; y < disparity.height(); ++y) {
+    disparity.at(0, y) = -1;
+  }
+  const ImageU8 faint = FindFaintGround(snow.left, snow.right, disparity);
+  ASSERT_FALSE(faint.empty());
+  EXPECT_EQ(faint.width(), 640);
+}
+
 TEST(FaintGround, SameBitsForAnyNumberOfThreads) {
   const FaintPair pair = Draw(GroundTexture::kSnow, Rad(-50), true);
   const int threads = cv::getNumThreads();
