@@ -10,8 +10,11 @@ namespace {
 /// keyboard armed it, else at the next Tab.
 void FollowArming(const EngineSnapshot& snap, ApproveState& state, UiFrame& ui) {
   const std::uint64_t armed = snap.flight->mission.armed ? snap.flight->mission.armed->id : 0;
+  if (armed != state.armed) {
+    // The list covers the evidence, which has to be seen, and comes not back after a flight.
+    state.show_guards = false;
+  }
   if (armed != 0 && armed != state.armed) {
-    state.show_guards = false;  // the list covers the evidence, which has to be seen
     if (ui.focus.shown().substr(0, 5) == "site/") {
       ui.focus.Show("approve");
     } else {

@@ -25,6 +25,20 @@ TEST(FlyApprove, AFullHoldApprovesTheArmedSiteOnTheSnapshotSeen) {
   EXPECT_EQ(window.ui.LastCommand<ApproveSite>().snapshot_sequence, window.snap.sequence);
 }
 
+/// It covers sites and evidence: it is not there again when the selection it was opened for has
+/// ended, nor after a flight on which nobody saw it.
+TEST(FlyApprove, TheListOfChecksEndsWithItsSelection) {
+  FlyWindow window(1920, 1080, fake::Snapshot(MissionState::kArmed));
+  window.ui.Click("show_checks", window.draw);
+  window.Run(0.1);
+  ASSERT_TRUE(window.fly.approve.show_guards);
+  window.snap = fake::Snapshot(MissionState::kDescending);
+  window.Run(0.1);
+  window.snap = fake::Snapshot(MissionState::kProposed);
+  window.Run(0.1);
+  EXPECT_FALSE(window.fly.approve.show_guards);
+}
+
 TEST(FlyApprove, NeverFiresWhenBlockedUnarmedPreviewingOrInReplay) {
   EngineSnapshot blocked = fake::Snapshot(MissionState::kArmed);
   blocked.flight.Edit().mission.can_approve = false;
