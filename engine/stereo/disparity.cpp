@@ -7,9 +7,10 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "engine/model/half_size.h"
 #include "engine/stereo/depth_edges.h"
+#include "engine/stereo/grey_view.h"
 #include "engine/stereo/opencv_matchers.h"
-#include "engine/stereo/prefilter.h"
 #include "engine/stereo/semi_global.h"
 #include "engine/stereo/speckles.h"
 #include "engine/stereo/subpixel.h"
@@ -24,9 +25,7 @@ constexpr int kLeastWidth_px = 64;     // below it a smaller picture has nothing
 
 /// 255 where the 3x3 neighbourhood is all black or all white.
 cv::Mat UniformMask(const ImageU8& picture) {
-  // OpenCV has no read-only view; nothing here writes through it.
-  const cv::Mat image(picture.height(), picture.width(), CV_8UC1,
-                      const_cast<std::uint8_t*>(picture.pixels().data()));
+  const cv::Mat image = GreyView(picture);
   const cv::Mat element = cv::getStructuringElement(cv::MORPH_RECT, {3, 3});
   cv::Mat low;
   cv::Mat high;
@@ -70,9 +69,8 @@ ImageF MatchAtHalfSize(const ImageU8& left, const ImageU8& right, const Disparit
                        const StereoSettings& settings) {
   StereoSettings smaller = settings;
   smaller.pyramid_levels = std::max(0, settings.pyramid_levels - 1);
-  const DisparityWindow half_window{window.min_px / 2, (window.count / 2 + 16) / 16 * 16};
   const ImageU8 half_left = HalfSize(left), half_right = HalfSize(right);
-  const ImageF coarse = MatchWholePixels(half_left, half_right, half_window, smaller);
+  const ImageF coarse = MatchWholePixels(half_left, half_right, HalfWindow(window), smaller);
   SubpixelOptions options;
   options.window_px = settings.refine_window_px | 1;
   const ImageF half = RefineDisparity(half_left, half_right, coarse, options).disparity_px;
@@ -86,6 +84,10 @@ ImageF MatchAtHalfSize(const ImageU8& left, const ImageU8& right, const Disparit
 }
 
 }  // namespace
+
+DisparityWindow HalfWindow(const DisparityWindow& window) {
+  return {window.min_px / 2, (window.count / 2 + 16) / 16 * 16};
+}
 
 ImageF MatchWholePixels(const ImageU8& left, const ImageU8& right, const DisparityWindow& window,
                         const StereoSettings& settings) {

@@ -18,4 +18,7 @@ namespace palace {
 ImageF MatchWholePixels(const ImageU8& left, const ImageU8& right, const DisparityWindow& window,
                         const StereoSettings& settings);
 
+/// The window that holds the same surfaces in pictures at half the size.
+DisparityWindow HalfWindow(const DisparityWindow& window);
+
 }  // namespace palace

@@ -11,6 +11,7 @@
 
 #include "engine/core/check.h"
 #include "engine/core/median.h"
+#include "engine/stereo/grey_view.h"
 
 namespace palace {
 namespace {
@@ -151,9 +152,7 @@ ImageU8 FindFaintGround(const ImageU8& left, const ImageU8& right, const ImageF&
   if (!noise) {
     return {};
   }
-  // OpenCV has no read-only view; nothing here writes through it.
-  const cv::Mat picture(left.height(), left.width(), CV_8UC1,
-                        const_cast<std::uint8_t*>(left.pixels().data()));
+  const cv::Mat picture = GreyView(left);
   cv::Mat mean, square;
   cv::boxFilter(picture, mean, CV_32F, {kWindow_px, kWindow_px});
   cv::sqrBoxFilter(picture, square, CV_32F, {kWindow_px, kWindow_px});

@@ -43,11 +43,11 @@ enum FaintPixel : std::uint8_t {
 /// its time (1 in 50), or too few are known to tell the noise (200).
 ImageU8 FindFaintGround(const ImageU8& left, const ImageU8& right, const ImageF& disparity_px);
 
-/// Fills unknown kFaint pixels from what was measured in the pictures at half the size (HalfSize):
-/// disparity and sigma doubled, between the middles of its pixels by bilinear weights over those
-/// that are known and within 1 px of the nearest. Nothing is filled where that one is unknown or
-/// the doubled sigma exceeds `max_sigma_px`. Then drops chance matches among all that are not
-/// clear.
+/// Fills unknown kFaint pixels from what was measured in the pictures at half the size
+/// (half_size.h): disparity and sigma doubled, between the middles of its pixels by bilinear
+/// weights over those that are known and within 1 px of the nearest. Nothing is filled where that
+/// one is unknown or the doubled sigma exceeds `max_sigma_px`. Then drops chance matches among all
+/// that are not clear.
 void FillFaintGround(const ImageU8& faint, SubpixelDisparity half, double max_sigma_px,
                      SubpixelDisparity& filled);
 

@@ -6,6 +6,8 @@
 #include <opencv2/calib3d.hpp>
 #include <opencv2/core.hpp>
 
+#include "engine/stereo/grey_view.h"
+
 namespace palace {
 namespace {
 
@@ -14,12 +16,6 @@ constexpr int kBmWindow_px = 15;
 constexpr int kSpeckleArea_px = 100;
 constexpr int kSpeckleRange_px = 2;
 constexpr float kFixedPoint = 16.0F;  // OpenCV's disparities are sixteenths of a pixel
-
-cv::Mat View(const ImageU8& image) {
-  // OpenCV has no read-only view; nothing here writes through it.
-  return cv::Mat(image.height(), image.width(), CV_8UC1,
-                 const_cast<std::uint8_t*>(image.pixels().data()));
-}
 
 int Mode(OpenCvMatcher matcher) {
   switch (matcher) {
@@ -77,9 +73,9 @@ ImageF MatchWithOpenCv(OpenCvMatcher matcher, const ImageU8& left, const ImageU8
   const int overlap = width - window.min_px;  // columns both pictures share at the least disparity
   cv::Mat left_padded;
   cv::Mat right_padded;
-  cv::copyMakeBorder(View(left).colRange(window.min_px, width), left_padded, 0, 0, window.count, 0,
-                     cv::BORDER_REPLICATE);
-  cv::copyMakeBorder(View(right).colRange(0, overlap), right_padded, 0, 0, window.count, 0,
+  cv::copyMakeBorder(GreyView(left).colRange(window.min_px, width), left_padded, 0, 0, window.count,
+                     0, cv::BORDER_REPLICATE);
+  cv::copyMakeBorder(GreyView(right).colRange(0, overlap), right_padded, 0, 0, window.count, 0,
                      cv::BORDER_REPLICATE);
   cv::Mat sixteenths;
   Make(matcher, window.count, settings)->compute(left_padded, right_padded, sixteenths);

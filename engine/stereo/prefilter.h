@@ -27,8 +27,4 @@ std::optional<RectifiedPair> FilterThenRectify(const StereoFrame& raw,
                                                const StereoRectifier& rectifier,
                                                const StereoSettings& settings);
 
-/// The picture at half the size, each pixel the mean of four; a last odd row or column is dropped.
-/// At least 2 x 2. Pixel (x, y) of the result has its centre at (2 x + 0.5, 2 y + 0.5).
-ImageU8 HalfSize(const ImageU8& picture);
-
 }  // namespace palace

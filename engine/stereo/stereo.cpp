@@ -7,6 +7,7 @@
 
 #include <opencv2/core.hpp>
 
+#include "engine/model/half_size.h"
 #include "engine/stereo/disparity.h"
 #include "engine/stereo/faint_ground.h"
 #include "engine/stereo/hidden.h"
@@ -119,8 +120,8 @@ void MeasureFaintGround(const ImageU8& left, const ImageU8& right, const Dispari
     return;
   }
   const ImageU8 half_left = HalfSize(left), half_right = HalfSize(right);
-  const DisparityWindow half{window.min_px / 2, (window.count / 2 + 16) / 16 * 16};
-  const ImageF whole = FindWholePixels(half_left, half_right, nullptr, half, settings);
+  const ImageF whole =
+      FindWholePixels(half_left, half_right, nullptr, HalfWindow(window), settings);
   FillFaintGround(faint, MeasurePixels(half_left, half_right, whole, settings),
                   settings.max_sigma_px, refined);
 }

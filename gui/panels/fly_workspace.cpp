@@ -10,18 +10,20 @@ namespace {
 /// keyboard armed it, else at the next Tab.
 void FollowArming(const EngineSnapshot& snap, ApproveState& state, UiFrame& ui) {
   const std::uint64_t armed = snap.flight->mission.armed ? snap.flight->mission.armed->id : 0;
-  if (armed != state.armed) {
-    // The list covers the evidence, which has to be seen, and comes not back after a flight.
-    state.show_guards = false;
-  }
-  if (armed != 0 && armed != state.armed) {
-    if (ui.focus.shown().substr(0, 5) == "site/") {
-      ui.focus.Show("approve");
-    } else {
-      ui.focus.TabLandsOn("approve");
-    }
+  if (armed == state.armed) {
+    return;
   }
   state.armed = armed;
+  // The list covers the evidence, which has to be seen, and comes not back after a flight.
+  state.show_guards = false;
+  if (armed == 0) {
+    return;
+  }
+  if (ui.focus.shown().substr(0, 5) == "site/") {
+    ui.focus.Show("approve");
+  } else {
+    ui.focus.TabLandsOn("approve");
+  }
 }
 
 void DrawLowerLeft(const EngineSnapshot& snap, const FlyLayout& layout, FlyState& state,

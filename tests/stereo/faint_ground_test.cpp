@@ -16,7 +16,6 @@
 #include "engine/stereo/accuracy.h"
 #include "engine/stereo/disparity.h"
 #include "engine/stereo/hidden.h"
-#include "engine/stereo/prefilter.h"
 #include "engine/stereo/stereo.h"
 #include "engine/world/painted_things.h"
 #include "engine/world/ray_pictures.h"

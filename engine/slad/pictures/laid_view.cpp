@@ -62,6 +62,7 @@ Eigen::Vector2d LaidView::InOld(double x, double y, double disparity_px) const {
   }
   return {camera.fx_px * p.x() / p.z() + camera.cx_px, camera.fy_px * p.y() / p.z() + camera.cy_px};
 }
+
 void LaidView::FindShift() {
   std::vector<Laid> samples;
   for (int y = kSearchStride_px / 2; y < now_->height(); y += kSearchStride_px) {

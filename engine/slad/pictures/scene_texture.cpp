@@ -6,6 +6,7 @@
 
 #include "engine/core/median.h"
 #include "engine/model/elevation_map.h"
+#include "engine/model/half_size.h"
 
 namespace palace {
 namespace {
@@ -99,19 +100,6 @@ bool SharesNothing(const BlockSums& sums, int i, int j) {
          kLeastCorrelation * std::sqrt(sums.left.at(i, j) * sums.right.at(i, j));
 }
 
-/// The picture at half the size.
-ImageU8 Halved(const ImageU8& picture) {
-  ImageU8 half(picture.width() / 2, picture.height() / 2);
-  for (int y = 0; y < half.height(); ++y) {
-    const std::uint8_t *above = picture.row(2 * y), *below = picture.row(2 * y + 1);
-    for (int x = 0; x < half.width(); ++x) {
-      half.at(x, y) = static_cast<std::uint8_t>(
-          (above[2 * x] + above[2 * x + 1] + below[2 * x] + below[2 * x + 1] + 2) / 4);
-    }
-  }
-  return half;
-}
-
 /// The same over pictures at half the size, in blocks that cover four each.
 BlockSums SumHalvedBlocks(const ImageU8& left, const SceneGround& ground) {
   ImageU8 usable(ground.cols() / 2, ground.rows() / 2, 0);
@@ -122,7 +110,7 @@ BlockSums SumHalvedBlocks(const ImageU8& left, const SceneGround& ground) {
                     ground.usable.at(2 * i, 2 * j + 1), ground.usable.at(2 * i + 1, 2 * j + 1)});
     }
   }
-  BlockSums sums = SumBlocks(Halved(left), Halved(ground.right), usable);
+  BlockSums sums = SumBlocks(HalfSize(left), HalfSize(ground.right), usable);
   SumOverWindows(kReachOfHalved_blocks, sums);
   return sums;
 }
