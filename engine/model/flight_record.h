@@ -40,16 +40,22 @@ struct SettingsInForce {
   Settings settings;
 };
 
-/// A place that a map proposed.
+/// A place that a map proposed, with the figures that were on the screen then.
 struct RecordedPlace {
   std::uint64_t id = 0;
   std::string letter;
   Eigen::Vector2d north_east_m{NAN, NAN};
+  double safe_distance_m = NAN;
+  double slope_rad = NAN;
+  double roughness_m = NAN;
 };
 /// One SITE_PROPOSAL: the places of one map, best first.
 struct RecordedProposal {
   Timestamp map_time;
   std::vector<RecordedPlace> places;
+
+  /// Null where it does not list that place.
+  const RecordedPlace* Place(const std::string& letter) const;
 };
 
 /// Ids of the places that stood refused from a time on.
@@ -89,6 +95,9 @@ struct FlightRecord {
   double duration_s = 0;
   std::vector<RecordGap> gaps;  ///< longer than a second, in order of time
 
+  /// The newest that is not newer than `time`; null before the first.
+  const FlightRecordSample* SampleAt(Timestamp time) const;
+  const RecordedProposal* ProposalAt(Timestamp time) const;
   /// The site that was selected or flown to then; null without one.
   const LandingSite* ArmedAt(const FlightRecordSample& sample) const {
     const bool known =

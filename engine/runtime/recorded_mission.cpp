@@ -28,7 +28,7 @@ const FlightRecordSample* RecordedMission::At(Timestamp time) const {
   if (!record_ || record_->samples.empty()) {
     return nullptr;
   }
-  const FlightRecordSample* newest = NewestAt(record_->samples, &FlightRecordSample::time, time);
+  const FlightRecordSample* newest = record_->SampleAt(time);
   return newest != nullptr ? newest : &record_->samples.front();
 }
 
@@ -63,14 +63,7 @@ std::shared_ptr<const std::vector<Event>> RecordedMission::EventsUntil(Timestamp
 }
 
 const RecordedProposal* RecordedMission::ProposalAt(Timestamp time) const {
-  if (!record_) {
-    return nullptr;
-  }
-  const auto& all = record_->proposals;
-  const auto after = std::upper_bound(
-      all.begin(), all.end(), time,
-      [](Timestamp t, const RecordedProposal& proposal) { return t < proposal.map_time; });
-  return after == all.begin() ? nullptr : &*(after - 1);
+  return record_ ? record_->ProposalAt(time) : nullptr;
 }
 
 std::vector<HistorySample> RecordedMission::HistoryBefore(Timestamp time) const {

@@ -32,6 +32,9 @@ TEST_F(ReplayTest, TellsGapsAndWhatEachMapProposed) {
     EXPECT_EQ(record->proposals[0].places[i].letter, sites[i].letter);
     EXPECT_EQ(record->proposals[0].places[i].id, sites[i].id);
     EXPECT_EQ(record->proposals[0].places[i].north_east_m, sites[i].p_WS.head<2>());
+    EXPECT_EQ(record->proposals[0].places[i].safe_distance_m, sites[i].safe_distance_m);
+    EXPECT_EQ(record->proposals[0].places[i].slope_rad, sites[i].slope_rad.value);
+    EXPECT_EQ(record->proposals[0].places[i].roughness_m, sites[i].roughness_m.value);
   }
 }
 

@@ -71,6 +71,9 @@ double FlightSeconds(const EngineSnapshot& snap, const FlightRecord* record, Tim
 int LimitsMoved(const EngineSnapshot& snap);
 /// "Recorded", or "As opened" for a log that tells no limits.
 const char* FlightWord(const FlightRecord* record);
+/// After a jump the flight's figures are those that its record tells: the maps here are rebuilt, of
+/// fewer frames than it remembered, and differ from those it had.
+bool IsOfRecordAlone(const EngineSnapshot& snap, const FlightRecord* record);
 /// Where limits moved by the reviewer chose another best site, of what was judged under them.
 std::vector<ReviewDifference> FindDifferences(const EngineSnapshot& snap,
                                               const FlightRecord* record);

@@ -22,17 +22,6 @@ struct Column {
                     area = kUnknown, decision = kUnknown;
 };
 
-/// The record's own sample at that time; null where it tells none.
-const FlightRecordSample* SampleAt(const FlightRecord* record, Timestamp time) {
-  if (record == nullptr || record->samples.empty()) {
-    return nullptr;
-  }
-  const auto after = std::upper_bound(
-      record->samples.begin(), record->samples.end(), time,
-      [](Timestamp t, const FlightRecordSample& sample) { return t < sample.time; });
-  return after == record->samples.begin() ? nullptr : &*(after - 1);
-}
-
 void FillFigures(const LandingSite* site, Column& column) {
   if (site != nullptr) {
     column.best = site->letter;
@@ -40,6 +29,13 @@ void FillFigures(const LandingSite* site, Column& column) {
     column.slope = SizeWords(site->slope_rad, kDegPerRad, "°", 1);
     column.rough = SizeWords(site->roughness_m, 100, " cm", 1);
   }
+}
+
+/// What the record lists: a map that was rebuilt after a jump is not the one that was flown on.
+void FillFigures(const RecordedPlace& place, Column& column) {
+  column.clear = Fixed(place.safe_distance_m, 1) + " m";
+  column.slope = Fixed(Deg(place.slope_rad), 1) + "°";
+  column.rough = Fixed(place.roughness_m * 100, 1) + " cm";
 }
 
 /// "68 m²"; unknown stands without its unit.
@@ -70,18 +66,33 @@ const LandingSite* ArmedOnMap(const EngineSnapshot& snap, const LandingSite& arm
   return now ? &*now : FindSite(snap.terrain->OfRecord().get(), armed.id);
 }
 
+/// After a jump: nothing of the map that was rebuilt since, and what no message tells is unknown.
+void FillFromRecord(const MissionStatus& m, const FlightRecord& record, Timestamp time,
+                    Column& column) {
+  const FlightRecordSample* sample = record.SampleAt(time);
+  const std::string letter = m.armed             ? m.armed->letter
+                             : sample != nullptr ? sample->best_site
+                                                 : std::string();
+  const RecordedProposal* proposal = record.ProposalAt(time);
+  if (const RecordedPlace* place = proposal != nullptr ? proposal->Place(letter) : nullptr) {
+    FillFigures(*place, column);
+  }
+}
+
 Column InTheFlight(const EngineSnapshot& snap, const FlightRecord* record, bool rebuilding) {
   const MissionStatus& m = snap.flight->mission;
   const TerrainDecision* map = snap.terrain->OfRecord().get();
   Column column;
   column.head = FollowsRecord(snap.session->role) ? FlightWord(record) : "Now";
   column.decision = StateOf(m);
-  if (!rebuilding) {
+  if (IsOfRecordAlone(snap, record)) {
+    FillFromRecord(m, *record, snap.time, column);
+  } else if (!rebuilding) {
     column.area = AreaWords(SafeArea(map));
     column.best = LetterOf(BestSite(snap, map));
     FillFigures(m.armed ? ArmedOnMap(snap, *m.armed) : BestSite(snap, map), column);
   }
-  const FlightRecordSample* sample = SampleAt(record, snap.time);
+  const FlightRecordSample* sample = record != nullptr ? record->SampleAt(snap.time) : nullptr;
   if (m.armed) {
     column.best = m.armed->letter;
   } else if (sample != nullptr) {
@@ -90,6 +101,20 @@ Column InTheFlight(const EngineSnapshot& snap, const FlightRecord* record, bool 
                                               : std::string(kUnknown);
   }
   return column;
+}
+
+/// What the flight's own limits make of the rebuilt map, where the flight's map said otherwise: so
+/// much of the difference is none of the limits'. Empty where they agree as shown.
+std::string RebuiltWords(const EngineSnapshot& snap, const Column& flown) {
+  const auto& armed = snap.flight->mission.armed;
+  const TerrainDecision* map = snap.terrain->OfRecord().get();
+  Column rebuilt;
+  FillFigures(armed ? FindSite(map, armed->id) : BestSite(snap, map), rebuilt);
+  if (flown.clear == kUnknown || rebuilt.clear == flown.clear) {
+    return {};
+  }
+  return "On this map, rebuilt after a jump, the flight's limits " +
+         (rebuilt.clear == kUnknown ? "do not list it. " : "give " + rebuilt.clear + " clear. ");
 }
 
 Column UnderOtherLimits(const EngineSnapshot& snap, std::string& reason) {
@@ -161,6 +186,10 @@ void DrawReason(UiFrame& ui, const std::string& reason, const Rect& area) {
 
 }  // namespace
 
+bool IsOfRecordAlone(const EngineSnapshot& snap, const FlightRecord* record) {
+  return !SeenFromStart(snap.session->role) && record != nullptr && !record->samples.empty();
+}
+
 void DrawDecisionPanel(const EngineSnapshot& snap, const FlightRecord* record, const Rect& rect,
                        UiFrame& ui) {
   const Style& s = ui.style;
@@ -174,6 +203,7 @@ void DrawDecisionPanel(const EngineSnapshot& snap, const FlightRecord* record, c
   Column is;
   if (redecided && !rebuilding) {
     is = UnderOtherLimits(snap, reason);
+    reason = (IsOfRecordAlone(snap, record) ? RebuiltWords(snap, was) : std::string()) + reason;
   }
   const struct {
     const char* name;
@@ -202,6 +232,8 @@ void DrawDecisionPanel(const EngineSnapshot& snap, const FlightRecord* record, c
     y += pitch;
   }
   ui.items.Add("decision/recorded", rect, true, was.best + ", " + was.decision);
+  ui.items.Add("decision/figures", rect, true,
+               was.clear + ", " + was.slope + ", " + was.rough + ", " + was.area);
   ui.items.Add("decision/now", rect, redecided, is.best + ", " + is.decision);
   DrawReason(ui, reason, {content.x + pad, y, content.w - 2 * pad, rect.bottom() - y});
 }

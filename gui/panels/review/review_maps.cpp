@@ -37,15 +37,16 @@ MapMarks MarksAt(const EngineSnapshot& snap, const TerrainDecision* decision,
   return marks;
 }
 
-void DrawReviewMap(UiFrame& ui, const EngineSnapshot& snap, const Rect& rect, const char* title,
-                   const std::string& fact, const TerrainDecision* decision,
+/// `key`: its name among the items, whatever its title says.
+void DrawReviewMap(UiFrame& ui, const EngineSnapshot& snap, const Rect& rect, const char* key,
+                   const char* title, const std::string& fact, const TerrainDecision* decision,
                    const LandingSite* best, ImTextureID texture, MapProbe& probe) {
   const MapMarks marks = MarksAt(snap, decision, best, probe);
   MapView view =
       MakeMapView(MapKind::kSafeDistance,
                   {.decision = decision, .cursor = marks.probe, .site = best}, ui.textures);
   view.texture = texture;
-  view.key = title;
+  view.key = key;
   // While probing, the value under the cross-hair stands in place of the limits.
   const Rect content =
       DrawPanelFrame(ui, rect, title, {{marks.probe ? view.value : fact, 0, false, false}});
@@ -128,9 +129,12 @@ void DrawReviewMaps(const EngineSnapshot& snap, const ReviewDigest& digest, cons
   const bool log = FollowsRecord(snap.session->role);
   DrawReviewMap(
       ui, snap, {row.x, row.y, w, row.h}, log ? "Recorded" : "As decided",
+      !log                                ? "As decided"
+      : SeenFromStart(snap.session->role) ? "Recorded"
+                                          : "Rebuilt",  // after a jump it is not the flight's own
       recorded != nullptr ? LimitWords(recorded->settings) : "", recorded, BestSite(snap, recorded),
       snap.terrain->recorded ? ui.textures.recorded_safe_distance : ui.textures.maps[4], probe);
-  DrawReviewMap(ui, snap, {row.x + step, row.y, w, row.h}, "Re-decided",
+  DrawReviewMap(ui, snap, {row.x + step, row.y, w, row.h}, "Re-decided", "Re-decided",
                 now != nullptr ? LimitWords(now->settings) : "", now, BestSite(snap, now),
                 ui.textures.maps[4], probe);
   DrawDifference(snap, digest.changed_cells, {row.x + 2 * step, row.y, w, row.h}, recorded, probe,

@@ -105,10 +105,30 @@ PlotTrace ClearRadiusFlown(const EngineSnapshot& snap, const FlightRecord* recor
 }
 
 /// ", 12 s old": no map was made since.
-std::string AgeWords(const EngineSnapshot& snap) {
+std::string AgeWords(const EngineSnapshot& snap, const FlightRecord* record) {
+  const RecordedProposal* proposal =
+      IsOfRecordAlone(snap, record) ? record->ProposalAt(snap.time) : nullptr;
   const auto& map = snap.terrain->applied;
-  const double age_s = map ? SecondsBetween(map->map_time, snap.time) : NAN;
+  const double age_s = proposal != nullptr ? SecondsBetween(proposal->map_time, snap.time)
+                       : map               ? SecondsBetween(map->map_time, snap.time)
+                                           : NAN;
   return age_s > kMapGap_s ? ", " + Duration(age_s) + " old" : std::string();
+}
+
+/// What stands above the plot of the clear radius is what it shows at this time: of the flight the
+/// record's own figure, where there is one.
+double ClearRadiusInFlight(const EngineSnapshot& snap, const FlightRecord* record) {
+  if (IsRecorded(record)) {
+    const FlightRecordSample* sample = record->SampleAt(snap.time);
+    return sample != nullptr ? sample->best_safe_distance_m : NAN;
+  }
+  const LandingSite* best = BestSite(snap, snap.terrain->OfRecord().get());
+  return best != nullptr ? best->safe_distance_m : NAN;
+}
+
+/// "4.4 m"; unknown stands without its unit.
+std::string Metres(double value_m) {
+  return Fixed(value_m, 1) + (std::isfinite(value_m) ? " m" : "");
 }
 
 }  // namespace
@@ -141,15 +161,15 @@ ReviewPlots MakeReviewPlots(const EngineSnapshot& snap, const FlightRecord* reco
     clear.series[0].stroke = PlotTrace::Stroke::kDashed;
   }
   clear.y_max = TopOf(clear, 4);
-  const LandingSite* best = BestSite(snap, snap.terrain->applied.get());
-  const LandingSite* was = BestSite(snap, snap.terrain->recorded.get());
-  clear.current = best != nullptr ? Fixed(best->safe_distance_m, 1) + " m" : "––";
-  if (was != nullptr) {
-    clear.current = Fixed(was->safe_distance_m, 1) + " / " + clear.current;
+  const double flown_m = ClearRadiusInFlight(snap, record);
+  clear.current = Metres(flown_m);
+  if (snap.terrain->recorded) {
+    const LandingSite* now = BestSite(snap, snap.terrain->applied.get());
+    clear.current = Fixed(flown_m, 1) + " / " + Metres(now != nullptr ? now->safe_distance_m : NAN);
     clear.unit = "m, recorded / re-decided";
   }
-  if (best != nullptr) {
-    clear.current += AgeWords(snap);
+  if (std::isfinite(flown_m)) {
+    clear.current += AgeWords(snap, record);
   }
   const double least_m = snap.session->settings.slad.lander.clear_radius_m();
   clear.limits = {

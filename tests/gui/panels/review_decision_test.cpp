@@ -27,6 +27,31 @@ TEST(ReviewWorkspace, TheDecisionIsTheRecordsOwnAndSaysTheStateAsTheChain) {
   EXPECT_EQ(read("decision/now"), "––, ––");
 }
 
+/// The map that was built anew after the jump says 4.8 m of A, the flight's said 4.4 m.
+TEST(ReviewWorkspace, AfterAJumpTheRecordedFiguresAreThoseOfTheRecord) {
+  FlightRecord record = fake::Record();
+  record.proposals = {
+      {AddSeconds({fake::kNow_us}, -0.1), {{1, "A", {3, 5.1}, 4.4, Rad(1.7), 0.031}}}};
+  EngineSnapshot snap = fake::Replay(true);
+  snap.session.Edit().role = SessionRole::kReplayedAfterJump;
+  const auto read = [&](const char* item) {
+    UiHarness ui(1920, 1080);
+    ReviewState state;
+    ui.Frame([&](UiFrame& f) { DrawReviewWorkspace(snap, &record, BodyOf(1920, 1080), state, f); });
+    ExpectTextsInPanels(ui.items);
+    return ui.items.Find(item)->text;
+  };
+  EXPECT_EQ(read("decision/figures"), "4.4 m, 1.7°, 3.1 cm, ––");
+  const std::string rebuilt = "On this map, rebuilt after a jump, the flight's limits give 4.8 m";
+  EXPECT_EQ(read("decision/reason").rfind(rebuilt, 0), 0U) << read("decision/reason");
+  record.proposals[0].places[0].safe_distance_m = 4.8;
+  EXPECT_EQ(read("decision/reason").find("rebuilt"), std::string::npos);
+  record.proposals.clear();  // what no message tells is unknown
+  EXPECT_EQ(read("decision/figures"), "––, ––, ––, ––");
+  snap.session.Edit().role = SessionRole::kReplayed;  // seen from its start: the same maps
+  EXPECT_EQ(read("decision/figures").rfind("4.8 m, ", 0), 0U);
+}
+
 TEST(ReviewWorkspace, TheRecordedSiteIsTheOneFlownTo) {
   FlightRecord record = fake::Record();
   LandingSite flown;

@@ -201,6 +201,24 @@ std::vector<float> BreaksOf(const PlotTrace& trace) {
   return at;
 }
 
+// The map here says 4.8 m.
+TEST(ReviewWorkspace, TheFigureAboveThePlotIsTheOneInIt) {
+  FlightRecord record = fake::Record();
+  for (FlightRecordSample& sample : record.samples) {
+    sample.best_safe_distance_m = sample.time <= Timestamp{fake::kNow_us} ? 4.4 : 2;
+  }
+  EngineSnapshot snap = fake::Replay(false);
+  EXPECT_EQ(MakeReviewPlots(snap, &record, MakeDarkPalette()).clear_radius.current, "4.4 m");
+  EXPECT_EQ(MakeReviewPlots(snap, nullptr, MakeDarkPalette()).clear_radius.current, "4.8 m");
+  snap = fake::Replay(true);  // under other limits B is the best
+  EXPECT_EQ(MakeReviewPlots(snap, &record, MakeDarkPalette()).clear_radius.current, "4.4 / 4.2 m");
+  // How old it is says the record, too: the map that was rebuilt may be of another time.
+  snap.session.Edit().role = SessionRole::kReplayedAfterJump;
+  record.proposals = {{AddSeconds(snap.time, -12), {}}};
+  EXPECT_EQ(MakeReviewPlots(snap, &record, MakeDarkPalette()).clear_radius.current,
+            "4.4 / 4.2 m, 12 s old");
+}
+
 TEST(ReviewWorkspace, LinesBreakWhereNothingWasMeasured) {
   FlightRecord record = fake::Record();
   for (FlightRecordSample& sample : record.samples) {
