@@ -315,6 +315,7 @@ SourceStatus ReplaySource::Status() const {
   status.position_s = last_time_ ? SecondsBetween(status.start, *last_time_) : 0;
   status.duration_s = recorded_->duration_s;
   status.can_seek = true;
+  status.jumps = generation_;
   status.frame_index = next_bundle_;
   status.frame_count = bundles_.size();
   status.part = part_;

@@ -42,7 +42,8 @@ struct SourceStatus {
   std::vector<CameraCounters> cameras{};         ///< of kCameras and kVideo
   int part = 1, parts = 1;                       ///< of a log: the one that is played, of how many
   std::optional<SimulationStatus> simulation{};  ///< of the built-in one
-  std::string damage{};  ///< of a log: what could not be read, for people; empty when whole
+  std::string damage{};     ///< of a log: what could not be read, for people; empty when whole
+  std::uint64_t jumps = 0;  ///< of a log: times it was told to go on elsewhere
 };
 
 }  // namespace palace

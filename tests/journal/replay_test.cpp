@@ -34,9 +34,11 @@ TEST_F(ReplayTest, SeeksAndMarksTheJump) {
     double seek_s;
     std::size_t bundle;
   };
+  std::uint64_t jumps = 0;
   for (const Case& c : {Case{0.5, 5}, Case{0.0, 0}, Case{0.95, 10}, Case{99, 11}, Case{-3, 0}}) {
     SCOPED_TRACE(c.seek_s);
     source->Control({PlaybackControl::Kind::kSeek, c.seek_s});
+    EXPECT_EQ(source->Status().jumps, ++jumps);
     const auto got = source->Next({});
     ASSERT_TRUE(got.ok());
     EXPECT_TRUE((*got)->discontinuity);

@@ -13,6 +13,7 @@ constexpr double kLeastShare = 0.02;  // before that the pace says nothing
 Intents RedecideRun::Begin(const SourceStatus& source, double ui_time_s) {
   running_ = true;
   under_way_ = false;
+  jumps_ = source.jumps;
   began_s_ = ui_time_s;
   elapsed_s_ = share_ = 0;
   speed_before_ = source.speed > 0 ? source.speed : 1;
@@ -32,18 +33,22 @@ Intents RedecideRun::Follow(const SourceStatus& source, double ui_time_s) {
   }
   elapsed_s_ = ui_time_s - began_s_;
   const bool playing = !source.paused && !source.ended && source.speed == 0;
-  under_way_ = under_way_ || playing;
   if (!under_way_) {
-    return {};  // what was asked for is not on the screen yet
+    if (!playing || source.jumps == jumps_) {
+      return {};  // what was asked for is not on the screen yet
+    }
+    under_way_ = true;
+    jumps_ = source.jumps;
   }
+  const bool jumped = source.jumps != jumps_;
   share_ = source.duration_s && *source.duration_s > 0
                ? std::clamp(source.position_s / *source.duration_s, 0.0, 1.0)
                : 0;
-  if (playing) {
+  if (playing && !jumped) {
     return {};
   }
   running_ = false;
-  if (source.ended) {
+  if (source.ended && !jumped) {
     took_s_ = elapsed_s_;
   }
   return {PlaybackControl{Kind::kSpeed, speed_before_}};

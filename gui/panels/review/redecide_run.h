@@ -1,9 +1,10 @@
 // RedecideRun: deciding a whole recorded flight again, from the start at full speed.
 //
-// Begins, is stopped by the reviewer, or ends with the log; the speed from before is then set
-// again.
+// Begins, is stopped by the reviewer, or ends with the log or with a jump to elsewhere, after which
+// it would skip a part; the speed from before is then set again.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 
 #include "engine/model/source_status.h"
@@ -16,7 +17,7 @@ class RedecideRun {
   Intents Begin(const SourceStatus& source, double ui_time_s);
   /// Pauses where it is.
   Intents Stop();
-  /// Once a frame. What is asked for when the log has ended, or somebody paused it.
+  /// Once a frame. What is asked for when the log has ended, or somebody paused it or jumped in it.
   Intents Follow(const SourceStatus& source, double ui_time_s);
 
   bool running() const { return running_; }
@@ -29,7 +30,8 @@ class RedecideRun {
 
  private:
   bool running_ = false;
-  bool under_way_ = false;  // seen playing at full speed
+  bool under_way_ = false;   // seen playing at full speed, from the start
+  std::uint64_t jumps_ = 0;  // SourceStatus::jumps: before it, and once it is under way
   double began_s_ = 0;
   double elapsed_s_ = 0;
   double share_ = 0;

@@ -35,6 +35,12 @@ struct ReviewPlots {
   PlotView height, clear_radius;
 };
 
+/// Maps of the recorded flight, and how many of them were judged again under the reviewer's limits.
+struct RedecidedShare {
+  std::size_t judged = 0;
+  std::size_t maps = 0;  ///< 0: the record tells of none
+};
+
 /// What is read out of the whole record and the whole replay so far, once a snapshot.
 struct ReviewDigest {
   struct Key {
@@ -47,6 +53,7 @@ struct ReviewDigest {
   };
   std::optional<Key> key;  ///< what it was read out of
   std::vector<ReviewDifference> differences;
+  RedecidedShare redecided;
   TimelineView timeline;
   ReviewPlots plots;
   /// Cells of the re-decided map that bear the lander in one of the two maps only; empty without
@@ -77,6 +84,7 @@ bool IsOfRecordAlone(const EngineSnapshot& snap, const FlightRecord* record);
 /// Where limits moved by the reviewer chose another best site, of what was judged under them.
 std::vector<ReviewDifference> FindDifferences(const EngineSnapshot& snap,
                                               const FlightRecord* record);
+RedecidedShare ShareRedecided(const EngineSnapshot& snap, const FlightRecord* record);
 /// Lanes, silhouette and differences of the timeline. `all`: six lanes, else State and Differs.
 TimelineView MakeTimeline(const EngineSnapshot& snap, const FlightRecord* record,
                           const std::vector<ReviewDifference>& differences, const Palette& palette,
@@ -104,9 +112,8 @@ void DrawRedecidePanel(const EngineSnapshot& snap, const FlightRecord* record, c
 void DrawDecisionPanel(const EngineSnapshot& snap, const FlightRecord* record, const Rect& rect,
                        UiFrame& ui);
 /// Why the list of differences is empty, and what to do.
-std::string WhyNoDifference(const EngineSnapshot& snap, const FlightRecord* record);
-void DrawDifferencesPanel(const EngineSnapshot& snap, const FlightRecord* record,
-                          const std::vector<ReviewDifference>& found, const Rect& rect,
+std::string WhyNoDifference(const EngineSnapshot& snap, const RedecidedShare& redecided);
+void DrawDifferencesPanel(const EngineSnapshot& snap, const ReviewDigest& digest, const Rect& rect,
                           UiFrame& ui);
 
 }  // namespace palace

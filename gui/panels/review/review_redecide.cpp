@@ -24,8 +24,21 @@ void Ask(UiFrame& ui, const Intents& intents) {
   ui.intents.insert(ui.intents.end(), intents.begin(), intents.end());
 }
 
+/// What pressing begins, and what was done of it: only what was judged under these very limits
+/// counts, however it came to be played.
+std::string BeginWords(const RedecideRun& run, const RedecidedShare& share) {
+  if (share.judged < share.maps && share.judged > 0) {
+    return "Re-decide all; " + std::to_string(share.judged) + " of " + std::to_string(share.maps) +
+           " maps done";
+  }
+  return run.took_s() && share.judged > 0
+             ? "Decided again in " + Fixed(*run.took_s(), 0) + " s; once more"
+             : "Re-decide whole flight";
+}
+
 /// "Stop at 41 %, 12 s left" while it runs, else the button that begins it.
-void DrawRun(const EngineSnapshot& snap, const Rect& button, RedecideRun& run, UiFrame& ui) {
+void DrawRun(const EngineSnapshot& snap, const Rect& button, const RedecidedShare& share,
+             RedecideRun& run, UiFrame& ui) {
   const Style& s = ui.style;
   Ask(ui, run.Follow(snap.session->source, ui.ui_time_s));
   ButtonLook look;
@@ -44,10 +57,7 @@ void DrawRun(const EngineSnapshot& snap, const Rect& button, RedecideRun& run, U
   }
   look.enabled = FollowsRecord(snap.session->role) && LimitsMoved(snap) > 0;
   look.reason = FollowsRecord(snap.session->role) ? "Change a limit first" : "Only of a log";
-  const std::string words = run.took_s()
-                                ? "Decided again in " + Fixed(*run.took_s(), 0) + " s; once more"
-                                : std::string("Re-decide whole flight");
-  if (DrawButton(ui, "redecide", button, words, look)) {
+  if (DrawButton(ui, "redecide", button, BeginWords(run, share), look)) {
     Ask(ui, run.Begin(snap.session->source, ui.ui_time_s));
   }
 }
@@ -116,7 +126,7 @@ void DrawRedecidePanel(const EngineSnapshot& snap, const FlightRecord* record, c
     y += pitch;
   }
   DrawRun(snap, {rect.x + pad, rect.bottom() - s.Px(8) - button_h, rect.w - 2 * pad, button_h},
-          state.redecide, ui);
+          state.digest.redecided, state.redecide, ui);
 }
 
 }  // namespace palace

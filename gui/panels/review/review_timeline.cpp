@@ -223,6 +223,27 @@ std::vector<ReviewDifference> FindDifferences(const EngineSnapshot& snap,
   return found;
 }
 
+RedecidedShare ShareRedecided(const EngineSnapshot& snap, const FlightRecord* record) {
+  const std::vector<RedecidedSample>& redecided = RedecidedOf(snap);
+  if (record == nullptr || record->proposals.empty()) {
+    return {redecided.size(), 0};
+  }
+  RedecidedShare share;
+  Timestamp last{-1};
+  for (const RecordedProposal& proposal : record->proposals) {
+    if (proposal.map_time == last) {
+      continue;  // a limit that moved in the flight judged the same map again
+    }
+    last = proposal.map_time;
+    ++share.maps;
+    const auto at =
+        std::lower_bound(redecided.begin(), redecided.end(), last,
+                         [](const RedecidedSample& s, Timestamp time) { return s.time < time; });
+    share.judged += at != redecided.end() && at->time == last ? 1U : 0U;
+  }
+  return share;
+}
+
 const ReviewDigest& DigestOf(const EngineSnapshot& snap, const FlightRecord* record,
                              const Palette& palette, bool all, ReviewDigest& kept) {
   const ReviewDigest::Key key{snap.sequence, snap.flight->history, snap.terrain->redecided, record,
@@ -230,6 +251,7 @@ const ReviewDigest& DigestOf(const EngineSnapshot& snap, const FlightRecord* rec
   if (kept.key != key) {
     kept.key = key;
     kept.differences = FindDifferences(snap, record);
+    kept.redecided = ShareRedecided(snap, record);
     kept.timeline = MakeTimeline(snap, record, kept.differences, palette, all);
     kept.plots = MakeReviewPlots(snap, record, palette);
     kept.changed_cells = ChangedCells(snap);

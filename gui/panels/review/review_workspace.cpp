@@ -68,36 +68,40 @@ void DrawPictures(const EngineSnapshot& snap, const ReviewLayout& layout, Review
   }
 }
 
+/// "210 of 352 maps"; "210 maps" where nobody knows how many there are.
+std::string MapsWords(const RedecidedShare& share) {
+  return std::to_string(share.judged) +
+         (share.maps > 0 ? " of " + std::to_string(share.maps) : std::string()) + " maps";
+}
+
 }  // namespace
 
-std::string WhyNoDifference(const EngineSnapshot& snap, const FlightRecord* record) {
+std::string WhyNoDifference(const EngineSnapshot& snap, const RedecidedShare& redecided) {
   if (!FollowsRecord(snap.session->role)) {
     return "Only a recorded flight can be decided again: palace --replay LOG.";
   }
   if (LimitsMoved(snap) == 0) {
     return "No limit differs from those of the flight, so nothing differs. Move one, above.";
   }
-  const std::size_t judged = snap.terrain->redecided ? snap.terrain->redecided->size() : 0;
-  if (judged == 0) {
+  if (redecided.judged == 0) {
     return "No map was judged under these limits yet. Play, or re-decide the whole flight.";
   }
-  const std::size_t maps = record != nullptr ? record->proposals.size() : 0;
-  return "None in the " + std::to_string(judged) +
-         (maps > 0 ? " of " + std::to_string(maps) : std::string()) +
-         " maps judged under these limits so far.";
+  return "None in the " + MapsWords(redecided) + " judged under these limits so far.";
 }
 
-void DrawDifferencesPanel(const EngineSnapshot& snap, const FlightRecord* record,
-                          const std::vector<ReviewDifference>& found, const Rect& rect,
+void DrawDifferencesPanel(const EngineSnapshot& snap, const ReviewDigest& digest, const Rect& rect,
                           UiFrame& ui) {
   const Style& s = ui.style;
   const Palette& p = s.palette;
-  const Rect content =
-      DrawPanelFrame(ui, rect, "Differences", {{std::to_string(found.size()), 0, false, false}});
+  const std::vector<ReviewDifference>& found = digest.differences;
+  const std::string among =
+      digest.redecided.judged > 0 ? " in " + MapsWords(digest.redecided) : std::string();
+  const Rect content = DrawPanelFrame(ui, rect, "Differences",
+                                      {{std::to_string(found.size()) + among, 0, false, false}});
   float y = content.y;
   if (found.empty()) {
     for (const std::string& line :
-         WrapText(s.body, WhyNoDifference(snap, record), content.w - s.Px(24))) {
+         WrapText(s.body, WhyNoDifference(snap, digest.redecided), content.w - s.Px(24))) {
       DrawText(ui, s.body, p.text2, content.x + s.Px(12), y + s.Px(14), line);
       y += s.Px(20);
     }
@@ -153,7 +157,7 @@ void DrawReviewWorkspace(const EngineSnapshot& snap, const FlightRecord* record,
   DrawRedecidePanel(snap, record, layout.redecide, state, ui);
   DrawDecisionPanel(snap, record, layout.decision, ui);
   if (layout.differences.h > 0) {
-    DrawDifferencesPanel(snap, record, digest.differences, layout.differences, ui);
+    DrawDifferencesPanel(snap, digest, layout.differences, ui);
   }
   ui.tab.group = kViewTabs;
   DrawPictures(snap, layout, state, ui);

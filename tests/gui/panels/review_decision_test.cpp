@@ -137,7 +137,7 @@ TEST(ReviewWorkspace, NothingDiffersWhereNoLimitWasMoved) {
   ASSERT_EQ(view.lanes.size(), 6U);
   EXPECT_EQ(view.lanes[2].name, "Re-decided site");
   EXPECT_TRUE(view.lanes[2].segments.empty());
-  EXPECT_NE(WhyNoDifference(snap, &record).find("No limit differs"), std::string::npos);
+  EXPECT_NE(WhyNoDifference(snap, {}).find("No limit differs"), std::string::npos);
 }
 
 TEST(ReviewWorkspace, WhatWasNotJudgedAgainStaysEmpty) {
@@ -200,6 +200,31 @@ TEST(ReviewWorkspace, AfterAJumpItPromisesOnlyMapsThatCome) {
       "After the jump the map lacks 4 frames, and none follows in this log. Go back and play.");
 }
 
+/// However the log was played: done is what was judged under these limits.
+TEST(ReviewWorkspace, WhichPartWasDecidedAgainIsWhatWasJudged) {
+  FlightRecord record = fake::Record();
+  const EngineSnapshot snap = fake::Replay(true);
+  const auto redecided = *snap.terrain->redecided;
+  const auto words = [&] {
+    UiHarness ui(1920, 1080);
+    ReviewState state;
+    ui.Frame([&](UiFrame& f) { DrawReviewWorkspace(snap, &record, BodyOf(1920, 1080), state, f); });
+    ExpectTextsInPanels(ui.items);
+    return ui.items.Find("redecide")->text;
+  };
+  for (const RedecidedSample& sample : redecided) {
+    record.proposals.push_back({sample.time, {}});
+    record.proposals.push_back({sample.time, {}});  // a limit moved in the flight: the same map
+  }
+  EXPECT_EQ(words(), "Re-decide whole flight");
+  record.proposals.push_back({AddSeconds(redecided.back().time, 0.1), {}});
+  const std::string judged = std::to_string(redecided.size());
+  EXPECT_EQ(words(), "Re-decide all; " + judged + " of " + std::to_string(redecided.size() + 1) +
+                         " maps done");
+  EXPECT_EQ(WhyNoDifference(snap, {210, 352}),
+            "None in the 210 of 352 maps judged under these limits so far.");
+}
+
 TEST(RedecideRun, TellsItsProgressAndSetsTheSpeedBack) {
   using Kind = PlaybackControl::Kind;
   const auto kinds = [](const Intents& intents) {
@@ -223,6 +248,8 @@ TEST(RedecideRun, TellsItsProgressAndSetsTheSpeedBack) {
   EXPECT_TRUE(run.running());
   source.paused = false;
   source.speed = 0;
+  EXPECT_EQ(kinds(run.Follow(source, 10.2)), "") << "nor is a status from before the jump";
+  source.jumps = 1;
   source.position_s = 25;
   EXPECT_EQ(kinds(run.Follow(source, 15)), "");
   EXPECT_DOUBLE_EQ(run.share(), 0.25);
@@ -231,6 +258,13 @@ TEST(RedecideRun, TellsItsProgressAndSetsTheSpeedBack) {
   EXPECT_EQ(kinds(stopped.Stop()), "pause speed 2 ");
   EXPECT_FALSE(stopped.running());
   EXPECT_FALSE(stopped.took_s());
+  RedecideRun dragged = run;
+  SourceStatus elsewhere = source;
+  elsewhere.jumps = 2;
+  elsewhere.position_s = 90;
+  EXPECT_EQ(kinds(dragged.Follow(elsewhere, 16)), "speed 2 ") << "it would skip what lies between";
+  EXPECT_FALSE(dragged.running());
+  EXPECT_FALSE(dragged.took_s());
   source.position_s = 100;
   source.ended = true;
   EXPECT_EQ(kinds(run.Follow(source, 30)), "speed 2 ");
