@@ -35,8 +35,6 @@ void AddSiteFigures(HistorySample& sample, const EngineSnapshot& snapshot,
                     const Eigen::Matrix3d& R_WB) {
   const MissionStatus& mission = snapshot.flight->mission;
   const LandingSite& site = *mission.armed;
-  sample.height_above_site_m = mission.height_above_site_m;
-  sample.from_site_m = mission.distance_to_site_m;
   const Eigen::Vector3d by_gps = SkidOf(snapshot, sample.gps_p_WB, R_WB);
   sample.gps_height_m = site.p_WS.z() - by_gps.z();
   sample.from_site_gps_m = Horizontal(by_gps, site.p_WS);
@@ -115,6 +113,8 @@ HistorySample SampleOf(const EngineSnapshot& snapshot, const FrameBundle& bundle
     sample.best_site = best->letter;
     sample.best_safe_distance_m = best->safe_distance_m;
   }
+  sample.height_above_site_m = snapshot.flight->mission.height_above_site_m;
+  sample.from_site_m = snapshot.flight->mission.distance_to_site_m;
   if (snapshot.flight->mission.armed) {
     AddSiteFigures(sample, snapshot, R_WB);
   }

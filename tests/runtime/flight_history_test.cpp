@@ -127,5 +127,14 @@ TEST(FlightHistoryPath, TheLaserReadsAsHeightOfTheSkids) {
   EXPECT_NEAR(SampleOf(snap, bundle).laser_m, 10, 1e-9);
 }
 
+TEST(FlightHistory, TheHeightIsThatAboveTheSiteInQuestionBeforeOneIsSelected) {
+  EngineSnapshot snap = FlyingAt(kPath.BodyAt(10), VehicleMode::kHover);
+  snap.flight.Edit().mission.armed.reset();
+  snap.flight.Edit().mission.height_above_site_m = 19.5;
+  snap.flight.Edit().mission.distance_to_site_m = 7;
+  EXPECT_EQ(SampleOf(snap, FrameBundle{}).height_above_site_m, 19.5);
+  EXPECT_EQ(SampleOf(snap, FrameBundle{}).from_site_m, 7);
+}
+
 }  // namespace
 }  // namespace palace

@@ -138,7 +138,7 @@ ReviewPlots MakeReviewPlots(const EngineSnapshot& snap, const FlightRecord* reco
   ReviewPlots plots;
   PlotView& height = plots.height;
   height.name = "height";
-  height.title = "Height";
+  height.title = "Height above site";
   height.unit = "m";
   height.current = Fixed(snap.flight->mission.height_above_site_m, 1) + " m";
   FillFlight(snap, record, HeightFlown(snap, record), p, height);

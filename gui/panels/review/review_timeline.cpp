@@ -3,6 +3,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "engine/core/frames.h"
 #include "gui/panels/alarm_look.h"
 #include "gui/panels/review/review.h"
 
@@ -93,16 +94,16 @@ Lane FlightLane(const EngineSnapshot& snap, const FlightRecord* record) {
 }
 
 /// Broken where nothing was sampled.
-template <typename Sample>
+template <typename Sample, typename Height>
 std::vector<ImVec2> SilhouetteOf(const EngineSnapshot& snap, const FlightRecord* record,
-                                 const std::vector<Sample>& samples, double Sample::*height) {
+                                 const std::vector<Sample>& samples, Height height) {
   std::vector<ImVec2> points;
   for (const Sample& sample : samples) {
     const auto t = static_cast<float>(FlightSeconds(snap, record, sample.time));
     if (!points.empty() && static_cast<double>(t - points.back().x) > kGap_s) {
       points.push_back({t, NAN});
     }
-    points.push_back({t, static_cast<float>(sample.*height)});
+    points.push_back({t, static_cast<float>(height(sample))});
   }
   return points;
 }
@@ -296,10 +297,13 @@ TimelineView MakeTimeline(const EngineSnapshot& snap, const FlightRecord* record
     alarms.marks.insert(alarms.marks.end(), marks.marks.begin(), marks.marks.end());
     view.lanes.push_back(std::move(alarms));
   }
-  view.height =
-      record != nullptr && !record->samples.empty()
-          ? SilhouetteOf(snap, record, record->samples, &FlightRecordSample::height_m)
-          : SilhouetteOf(snap, record, HistoryOf(snap), &HistorySample::height_above_site_m);
+  // Above the origin, for it is known with a site and without.
+  view.height = record != nullptr && !record->samples.empty()
+                    ? SilhouetteOf(snap, record, record->samples,
+                                   [](const FlightRecordSample& sample) { return sample.height_m; })
+                    : SilhouetteOf(snap, record, HistoryOf(snap), [](const HistorySample& sample) {
+                        return HeightFromDown(sample.estimate_p_WB.z());
+                      });
   return view;
 }
 
