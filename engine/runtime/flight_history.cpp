@@ -31,6 +31,15 @@ bool IsVehicleSilent(const std::vector<ChannelHealth>& channels) {
   return newest_s > kLinkSilent_s;
 }
 
+/// The beam runs along the optical axis of the left camera. By attitude and rig alone: it goes on
+/// where no picture comes and no position is known.
+double SkidsOverSpot(const EngineSnapshot& snapshot, const Eigen::Matrix3d& R_WB,
+                     const LaserRange& laser) {
+  const RigidTransform X_BC = snapshot.sensors->rig->X_BC();
+  const Eigen::Vector3d spot_B = X_BC * Eigen::Vector3d(0, 0, laser.range_m);
+  return (R_WB * (spot_B - snapshot.session->settings.slad.lander.skid_centre_B())).z();
+}
+
 void AddSiteFigures(HistorySample& sample, const EngineSnapshot& snapshot,
                     const Eigen::Matrix3d& R_WB) {
   const MissionStatus& mission = snapshot.flight->mission;
@@ -96,11 +105,8 @@ HistorySample SampleOf(const EngineSnapshot& snapshot, const FrameBundle& bundle
     sample.truth_p_WB = snapshot.sensors->truth->X_WB.p;
   }
   sample.descent_rate_mps = sample.estimate_v_WB.z();
-  if (!bundle.laser.empty()) {
-    // The beam runs along the optical axis: the height of the skids above its spot.
-    const double skid_below_m =
-        SkidOf(snapshot, sample.estimate_p_WB, R_WB).z() - snapshot.sensors->X_WC.p.z();
-    sample.laser_m = bundle.laser.back().range_m * snapshot.sensors->X_WC.R(2, 2) - skid_below_m;
+  if (!bundle.laser.empty() && snapshot.sensors->rig && snapshot.sensors->pose) {
+    sample.laser_m = SkidsOverSpot(snapshot, R_WB, bundle.laser.back());
   }
   if (snapshot.flight->tracker.locked) {
     sample.coherence = snapshot.flight->tracker.coherence;

@@ -91,13 +91,26 @@ std::vector<Readout> Readouts(const EngineSnapshot& snap, bool narrow, double si
     const bool climbs = rate_mps < -0.02;  // not by the noise of a hover
     const double down = climbs ? -rate_mps : rate_mps;
     const double from_m = m.distance_to_site_m;
+    const Readout height = [&] {
+      // Where the estimate in force is unknown (vision, and no pictures) others still tell it.
+      const auto& history = snap.flight->history;
+      const HistorySample now = history && !history->empty() ? history->back() : HistorySample{};
+      const std::string over_site = narrow ? "Height" : "Height above site";
+      if (!std::isfinite(m.height_above_site_m) && std::isfinite(now.gps_height_m)) {
+        return estimated(over_site, now.gps_height_m, 1, "m, GPS");
+      }
+      if (!std::isfinite(m.height_above_site_m) && std::isfinite(now.laser_m)) {
+        return by(ChannelId::kLaserRange)(narrow ? "Height" : "Height above ground", now.laser_m, 1,
+                                          "m, laser");
+      }
+      return estimated(over_site, m.height_above_site_m, 1, "m");
+    }();
     if (narrow) {
-      return {estimated("Height", m.height_above_site_m, 1, "m"),
-              estimated("To go", m.time_to_touchdown_s, 0, "s"),
+      return {height, estimated("To go", m.time_to_touchdown_s, 0, "s"),
               estimated(climbs ? "Climb" : "Descent", down, 2, "m/s"),
               estimated("From centre", from_m, 2, "m")};
     }
-    return {estimated("Height above site", m.height_above_site_m, 1, "m"),
+    return {height,
             estimated("Time to go", m.time_to_touchdown_s, 0, "s"),
             estimated(climbs ? "Climb rate" : "Descent rate", down, 2, "m/s"),
             estimated("From site centre", from_m, 2, "m"),

@@ -125,6 +125,12 @@ TEST(FlightHistoryPath, TheLaserReadsAsHeightOfTheSkids) {
       (kPath.p_WS.z() - snap.sensors->X_WC.p.z()) / beam.z();  // level ground at the site
   bundle.laser.push_back(laser);
   EXPECT_NEAR(SampleOf(snap, bundle).laser_m, 10, 1e-9);
+  // Without pictures, and with a position that nobody knows any more.
+  snap.sensors.Edit().X_WC = {};
+  snap.flight.Edit().navigation.gps.running = true;
+  snap.flight.Edit().navigation.gps.coasting_s = 60;
+  EXPECT_TRUE(std::isnan(SampleOf(snap, bundle).estimate_p_WB.z()));
+  EXPECT_NEAR(SampleOf(snap, bundle).laser_m, 10, 1e-9);
 }
 
 TEST(FlightHistory, TheHeightIsThatAboveTheSiteInQuestionBeforeOneIsSelected) {

@@ -284,6 +284,29 @@ TEST(VehiclePanel, TellsAClimbAsAClimbAndATouchdownAsItWasMeasured) {
   ExpectTextsInPanels(window.ui.items);
 }
 
+/// Vision is in force and no picture comes: GPS and the laser go on telling the height.
+TEST(VehiclePanel, AHeightThatOthersKnowIsShownWithItsSource) {
+  EngineSnapshot snap = fake::Snapshot(MissionState::kHold);
+  snap.flight.Edit().mission.height_above_site_m = NAN;
+  auto history = *snap.flight->history;
+  history.back().gps_height_m = 21.9;
+  history.back().laser_m = 21.2;
+  const auto height = [&](const char* item, float width, float high) {
+    snap.flight.Edit().history = std::make_shared<const std::vector<HistorySample>>(history);
+    FlyWindow window(width, high, snap);
+    ExpectTextsInPanels(window.ui.items);
+    const Item* found = window.ui.items.Find(std::string("readout/") + item);
+    return found != nullptr ? found->text : std::string("none");
+  };
+  EXPECT_EQ(height("Height above site", 1920, 1080), "21.9 m, GPS");
+  EXPECT_EQ(height("Height", 1280, 720), "21.9 m, GPS");
+  history.back().gps_height_m = NAN;
+  EXPECT_EQ(height("Height above ground", 1920, 1080), "21.2 m, laser");
+  EXPECT_EQ(height("Height", 1280, 720), "21.2 m, laser");
+  history.back().laser_m = NAN;
+  EXPECT_EQ(height("Height above site", 1920, 1080), "–– m");
+}
+
 TEST(Plots, UncertaintyThatIsNotKnownFillsThePlotAndAnEndIsHatched) {
   EngineSnapshot snap = fake::Snapshot(MissionState::kDescending);
   auto history = *snap.flight->history;
