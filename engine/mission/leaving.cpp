@@ -13,7 +13,9 @@ bool IsOurs(const AuthorityStatus& authority) {
 std::string WhatItDoes(const EngineSnapshot& snapshot, const VehicleStatus& vehicle) {
   const MissionState state = snapshot.flight->mission.state;
   if (state == MissionState::kAborting || vehicle.mode == VehicleMode::kAbort) {
-    return "The vehicle is climbing away. It goes on by itself and then hovers; nobody watches it.";
+    const bool climbs = snapshot.flight->mission.wave_off.phase == WaveOffReport::Phase::kClimbs;
+    return std::string("The vehicle is ") + (climbs ? "climbing away" : "waving off") +
+           ". It goes on by itself and then hovers; nobody watches it.";
   }
   if (vehicle.flies_on_vision || state == MissionState::kDescending) {
     return "The vehicle descends on this station's estimates. Without them it stops where it is, "

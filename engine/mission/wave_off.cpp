@@ -8,6 +8,8 @@ namespace {
 
 constexpr double kAbortSettles_s = 2;  // a hover reported sooner may be the one before the abort
 
+constexpr double kClimbs_mps = 0.25;  // a hover drifts by less, in gusts too
+
 bool IsStill(VehicleMode mode) {
   return mode == VehicleMode::kHover || mode == VehicleMode::kLanded;
 }
@@ -49,7 +51,7 @@ WaveOffReport WaveOffNow(const MissionMemory& m, Timestamp now) {
     return {Phase::kDone, heard_s, over};
   }
   if (HeardSinceWaveOff(m, now) && m.watch.vehicle()->mode == VehicleMode::kAbort) {
-    return {Phase::kClimbs, heard_s};
+    return {m.watch.climb_mps() > kClimbs_mps ? Phase::kClimbs : Phase::kFlies, heard_s};
   }
   if (m.abort_answered_at > m.wave_off_at) {
     return {Phase::kAccepted, SecondsBetween(m.abort_answered_at, now)};

@@ -272,6 +272,9 @@ std::string WaveOffTold(const WaveOffReport& report) {
       return WithNumbers(". No answer from the vehicle for %.1f s.", report.age_s);
     case Phase::kAccepted:
       return ". The vehicle accepted it" + (old ? ago + " Its state does not show it." : ".");
+    case Phase::kFlies:
+      return old ? ". The vehicle was waving off when it was heard last" + ago
+                 : ". Vehicle waves off. Acknowledge when it hovers.";
     case Phase::kClimbs:
       return old ? ". The vehicle climbed when it was heard last" + ago
                  : ". Vehicle climbs. Acknowledge when it hovers.";

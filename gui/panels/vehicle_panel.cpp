@@ -34,7 +34,8 @@ const char* ModeWords(const EngineSnapshot& snap) {
     case VehicleMode::kHold:
       return "Holding";
     case VehicleMode::kAbort:
-      return "Climbing away";
+      return snap.flight->mission.wave_off.phase == WaveOffReport::Phase::kClimbs ? "Climbing away"
+                                                                                  : "Waving off";
     case VehicleMode::kUnknown:
       break;
   }

@@ -36,6 +36,8 @@ std::string SecondLine(const EngineSnapshot& snap, const FrameState& state, cons
       return "No answer, " + AgeText(age_s);
     case Phase::kAccepted:
       return "Accepted " + AgeText(age_s) + " ago";
+    case Phase::kFlies:
+      return Heard("Under way", age_s);
     case Phase::kClimbs:
       return Heard("Climbing", age_s);
     case Phase::kDone:

@@ -26,6 +26,7 @@ struct SmallVehicle {
   double stop_height_m = 0;  ///< of the approval that it flies
   double height_m = 20;
   double wind_mps = 0;
+  double climb_mps = 2;  ///< of a wave-off
   double mode_for_s = 0;
   bool answers = true;
   bool refuses = false;
@@ -85,7 +86,7 @@ struct SmallVehicle {
         Set(VehicleMode::kLanded);
       }
     } else if (mode == VehicleMode::kAbort) {
-      height_m += 2 * dt_s;
+      height_m += climb_mps * dt_s;
       if (mode_for_s > 3) {
         Set(VehicleMode::kHover);
       }
@@ -260,6 +261,7 @@ struct MissionRig {
       VehiclePose pose;
       pose.time = now;
       pose.X_WB.R = RotationFromEuler({0, 0, yaw_rad});
+      pose.v_WB.z() = vehicle.mode == VehicleMode::kAbort ? -vehicle.climb_mps : 0;
       bundle.poses.push_back(pose);
     }
     if (link_up) {

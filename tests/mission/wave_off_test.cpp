@@ -1,4 +1,5 @@
 // What the station says of a wave-off is what the vehicle said after it, never what it said before.
+#include "engine/mission/wording.h"
 #include "tests/mission/mission_rig.h"
 
 namespace palace {
@@ -38,6 +39,23 @@ TEST(WaveOffTold, GoesFromSentOverClimbingToHovering) {
   EXPECT_EQ(rig.report().phase, Phase::kDone);
   EXPECT_TRUE(rig.report().over);
   EXPECT_NE(rig.AlarmText().find("Vehicle hovers."), std::string::npos) << rig.AlarmText();
+}
+
+// It is as high as it goes: what it flies is no climb.
+TEST(WaveOffTold, OfAVehicleThatDoesNotRiseNoClimbIsTold) {
+  MissionRig hovering;
+  hovering.vehicle.climb_mps = 0.1;
+  hovering.Arm();
+  ASSERT_TRUE(hovering.Do(WaveOff{}).ok());
+  hovering.Run(0.5);
+  const WaveOffReport& report = hovering.mission.status().wave_off;
+  EXPECT_EQ(report.phase, Phase::kFlies);
+  EXPECT_EQ(words::WaveOffTold(report), ". Vehicle waves off. Acknowledge when it hovers.");
+  hovering.vehicle.climb_mps = 0.4;
+  hovering.Run(0.5);
+  EXPECT_EQ(report.phase, Phase::kClimbs);
+  hovering.Run(4);
+  EXPECT_EQ(report.phase, Phase::kDone);
 }
 
 TEST(WaveOffTold, AVehicleThatIsNotHeardConfirmsNothingWhateverItSaidBefore) {

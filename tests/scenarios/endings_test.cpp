@@ -86,7 +86,7 @@ TEST_F(Endings, CtrlQInTheAirAsksAndTheWaveOffWorksMeanwhile) {
             "key Shift+Escape\n"
             "wait state ABORTING 5\n"
             "expect item leave/stay\n"
-            "expect text leave climbing away\n"
+            "expect text leave goes on by itself and then hovers\n"
             "click leave/leave\n"
             "wait seconds 60\n");
   const ProcessResult flown =

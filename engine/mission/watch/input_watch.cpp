@@ -92,17 +92,24 @@ void InputWatch::SeeCameras(const FrameBundle& bundle, Timestamp now) {
   }
 }
 
+void InputWatch::SeePose(const VehiclePose& pose, Timestamp now) {
+  if (!pose_.stamp || pose.time > *pose_.stamp) {
+    pose_climb_mps_ = -pose.v_WB.z();
+  }
+  pose_.See(pose.time, now);
+}
+
 void InputWatch::SeePoses(const FrameBundle& bundle, Timestamp now) {
   bool invalid = bundle.arrival.poses_invalid > 0;
   for (const VehiclePose& pose : bundle.poses) {
     if (IsFinite(pose)) {
-      pose_.See(pose.time, now);
+      SeePose(pose, now);
     } else {
       invalid = true;
     }
   }
   if (bundle.pose_at_exposure && IsFinite(*bundle.pose_at_exposure)) {
-    pose_.See(bundle.pose_at_exposure->time, now);
+    SeePose(*bundle.pose_at_exposure, now);
   }
   if (invalid) {
     if (std::isnan(PosesInvalidFor(now))) {
@@ -156,6 +163,7 @@ void InputWatch::WatchVehicle(const VehicleStatus& status, Timestamp now) {
   if (!is_new) {
     return;  // A duplicate changes nothing (I8).
   }
+  climb_mps_ = pose_climb_mps_;
   rebooted_ = (vehicle_ && vehicle_->boot_id != status.boot_id) ||
               (boot_before_jump_ && *boot_before_jump_ != status.boot_id);
   boot_before_jump_.reset();

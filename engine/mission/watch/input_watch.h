@@ -46,6 +46,8 @@ class InputWatch {
   double stalled_s() const { return stalled_s_; }  ///< length of the last stall
   bool rebooted() const { return rebooted_; }      ///< in the last Update
   const std::optional<VehicleStatus>& vehicle() const { return vehicle_; }
+  /// By the vehicle's own pose, as it was when its status was heard last; NaN before one.
+  double climb_mps() const { return climb_mps_; }
   std::uint64_t boot_id() const { return vehicle_ ? vehicle_->boot_id : 0; }
   /// The vehicle's clock: of a live source `now` itself, else extrapolated from the last status.
   Timestamp VehicleTime(Timestamp now) const {
@@ -79,6 +81,7 @@ class InputWatch {
   }
   void SeeCameras(const FrameBundle& bundle, Timestamp now);
   void SeePoses(const FrameBundle& bundle, Timestamp now);
+  void SeePose(const VehiclePose& pose, Timestamp now);
   void SeeClock(const std::optional<ClockReading>& clock, Timestamp now);
   void WatchVehicle(const VehicleStatus& status, Timestamp now);
 
@@ -89,7 +92,7 @@ class InputWatch {
   std::optional<GpsFix> gps_;
   std::optional<ClockReading> clock_;
   std::optional<Timestamp> stepped_at_, stalled_at_, pose_invalid_at_, poses_invalid_from_;
-  double clock_step_s_ = NAN, stalled_s_ = NAN;
+  double clock_step_s_ = NAN, stalled_s_ = NAN, pose_climb_mps_ = NAN, climb_mps_ = NAN;
   std::int64_t offset_us_ = 0;
   int consistent_samples_ = 0;
   bool clock_stepped_ = false;

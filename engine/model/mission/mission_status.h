@@ -140,7 +140,8 @@ struct WaveOffReport {
     kSent,        ///< the vehicle was not heard since
     kUnanswered,  ///< the same, for longer than an answer takes
     kAccepted,    ///< it answered
-    kClimbs,      ///< it says that it flies it
+    kFlies,       ///< it says that it flies it; from its hover there may be nothing to climb
+    kClimbs,      ///< and that it rises
     kDone,        ///< it says that it hovers or stands again
   };
   Phase phase = Phase::kNone;

@@ -28,12 +28,15 @@ TEST(Leaving, TheWordsFollowWhatTheVehicleWillDo) {
                         Case{MissionState::kArmed, "hovers where it is"},
                         Case{MissionState::kApproved, "holds by itself"},
                         Case{MissionState::kDescending, "climbs away by itself after 2.0 s"},
-                        Case{MissionState::kAborting, "climbing away"}}) {
+                        Case{MissionState::kAborting, "is waving off"}}) {
     SCOPED_TRACE(MissionStateName(c.state));
     const std::string words = WhatTheVehicleDoesAlone(Flying(c.state));
     EXPECT_NE(words.find(c.says), std::string::npos) << words;
     EXPECT_EQ(WhatTheVehicleDoesAlone(Flying(c.state, /*on_ground=*/true)), "");
   }
+  EngineSnapshot climbing = Flying(MissionState::kAborting);
+  climbing.flight.Edit().mission.wave_off.phase = WaveOffReport::Phase::kClimbs;
+  EXPECT_NE(WhatTheVehicleDoesAlone(climbing).find("is climbing away"), std::string::npos);
   EXPECT_EQ(WhatTheVehicleDoesAlone(fake::Snapshot(MissionState::kDescending, SourceKind::kReplay)),
             "");
 }

@@ -21,6 +21,7 @@ TEST(WaveOffPanel, TellsWhatTheVehicleSaidAfterThePressAndItsAge) {
       {{Phase::kSent, 0.4}, "Sent", false},
       {{Phase::kUnanswered, 37}, "No answer, 37.0 s", false},
       {{Phase::kAccepted, 0.2}, "Accepted 200 ms ago", false},
+      {{Phase::kFlies, 0.3}, "Under way", false},
       {{Phase::kClimbs, 0.3}, "Climbing", false},
       {{Phase::kDone, 0.3, true}, "Hovering", true},
   };

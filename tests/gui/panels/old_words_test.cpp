@@ -88,6 +88,7 @@ TEST(Landing, AWaveOffIsToldWithTheAgeOfTheVehiclesWord) {
     const char* headline;
   } table[] = {
       {{WaveOffReport::Phase::kDone, 37, false}, "Waved off, hovering, heard 37.0 s ago"},
+      {{WaveOffReport::Phase::kFlies, 2.5, false}, "Wave-off under way, heard 2.5 s ago"},
       {{WaveOffReport::Phase::kClimbs, 2.5, false}, "Waved off, climbing, heard 2.5 s ago"}};
   for (const auto& row : table) {
     for (const ImVec2 size : {ImVec2(1920, 1080), ImVec2(1280, 720)}) {
