@@ -278,7 +278,8 @@ Status Obeying::Commit(double stop_height_m) const {
   m.vehicle_reason.clear();
   m.status.arm_expires.reset();
   m.approved_at = now;
-  AddEvent(turn, now, EventKind::kDecision, words::ApprovalGiven(m.status, m.approvals_given));
+  AddEvent(turn, now, EventKind::kDecision,
+           words::ApprovalGiven(m.status, m.facts.site_limits, m.approvals_given));
   const char* who = WhoAsks(origin);
   // A record does not tell.
   m.status.approved_by = origin == CommandOrigin::kReplay ? "" : who;

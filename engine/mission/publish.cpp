@@ -83,6 +83,7 @@ void PublishFigures(MissionMemory& m, Timestamp now) {
   m.status.armed_now = m.newest;
   m.status.armed_verdict = m.site.VerdictAt(now);
   m.status.armed_why = m.site.reason();
+  m.status.armed_confirmed = m.status.armed && m.armed.confirmed;
   if (m.status.approval_phase == MissionStatus::ApprovalPhase::kSent) {
     m.status.approval_answer_s = SecondsBetween(m.approved_at, now);
   }

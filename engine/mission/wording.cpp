@@ -7,6 +7,7 @@
 #include "engine/mission/limits.h"
 #include "engine/model/cell_explanation.h"
 #include "engine/model/mission/alarm_text.h"
+#include "engine/model/mission/approve_offer.h"
 #include "engine/model/site_standing.h"
 
 namespace palace::words {
@@ -223,11 +224,11 @@ std::string ApproachTurnedBy(const MissionStatus& status, const char* who) {
          DirectionWord(plan.heading_rad + std::numbers::pi);
 }
 
-std::string ApprovalGiven(const MissionStatus& status, std::uint64_t counter) {
+std::string ApprovalGiven(const MissionStatus& status, const SladSettings& limits,
+                          std::uint64_t counter) {
   return "Approval " + std::to_string(counter) + " of " + Approved(status) +
          (status.IsLook() ? WithNumbers(" from %.0f m above it", status.stop_height_m)
-          : status.approval->provisional ? ", provisional"
-                                         : "") +
+                          : StandingMark(status, limits)) +
          " given";
 }
 

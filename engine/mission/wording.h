@@ -125,7 +125,8 @@ std::string ApproachTurned(const std::optional<ApproachPlan>& plan);
 /// "Approach of site B turned by the operator: from the west".
 std::string ApproachTurnedBy(const MissionStatus& status, const char* who);
 
-std::string ApprovalGiven(const MissionStatus& status, std::uint64_t counter);
+std::string ApprovalGiven(const MissionStatus& status, const SladSettings& limits,
+                          std::uint64_t counter);
 std::string ApprovedBy(const char* who);
 std::string ApprovalEnded(std::string_view site, std::string_view why);
 std::string Withdrawn(std::string_view why);

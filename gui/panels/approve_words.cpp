@@ -56,10 +56,7 @@ HoldButtonView ApproveButton(const EngineSnapshot& snap, const ApproveState& sta
   const std::string letter = m.armed ? m.armed->letter : std::string();
   view.label = "Hold to approve " + letter;
   if (m.armed) {
-    const SiteStanding standing = StandingOf(*m.armed, snap.session->settings.slad);
-    view.label += standing == SiteStanding::kProvisional ? ", provisional"
-                  : standing == SiteStanding::kToLookAt  ? ", not looked at"
-                                                         : "";
+    view.label += StandingMark(m, snap.session->settings.slad);
   }
   using Phase = MissionStatus::ApprovalPhase;
   if (FollowsRecord(snap.session->role) || HasPicturesOnly(snap.session->role)) {
@@ -122,12 +119,10 @@ std::string ApprovalConsequence(const EngineSnapshot& snap, bool narrow) {
             Fixed(m.time_to_touchdown_s, 0) + " s";
   }
   const std::string shaken = WhyShaken(snap);
-  const std::string why =
-      m.armed ? WhyProvisional(*m.armed, snap.session->settings.slad) : std::string();
+  const SladSettings& limits = snap.session->settings.slad;
+  const std::string why = m.armed && !m.armed_confirmed ? WhyProvisional(*m.armed, limits) : "";
   const std::string doubt =
-      why.empty()
-          ? ""
-          : StandingWord(StandingOf(*m.armed, snap.session->settings.slad)) + (": " + why) + ".";
+      why.empty() ? "" : StandingWord(ArmedStanding(m, limits)) + (": " + why) + ".";
   if (!shaken.empty()) {
     // That a map called it unsafe goes before how far away it is: there is room for three lines.
     const std::string flown =

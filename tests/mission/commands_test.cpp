@@ -1,6 +1,7 @@
 // Commands and the words in which they are told.
 #include <gtest/gtest.h>
 
+#include "engine/model/mission/approve_offer.h"
 #include "tests/mission/mission_rig.h"
 
 namespace palace {
@@ -35,6 +36,37 @@ TEST(Acknowledging, IsToldInTheWordsOfTheAlarm) {
             "No such alarm stands");
   for (const Event& event : rig.mission.events()) {
     EXPECT_EQ(event.text.find(AlarmName(AlarmId::kRecorder) + std::string("'")), std::string::npos);
+  }
+}
+
+// One word for one thing: the button says the same.
+TEST(Approving, TheEventNamesTheStandingOfTheSite) {
+  const struct {
+    bool confirmed;
+    double noise_m;
+    bool confirmed_since;
+    const char* mark;
+  } table[] = {{true, 0.01, false, ""},
+               {false, 0.01, false, ", provisional"},
+               {false, 0.2, false, ", look first"},
+               {false, 0.2, true, ""}};
+  for (const auto& row : table) {
+    SCOPED_TRACE(row.mark);
+    MissionRig rig;
+    rig.Site(101)->confirmed = row.confirmed;
+    rig.Site(101)->height_m.three_sigma = row.noise_m;
+    rig.Arm();
+    if (row.confirmed_since) {
+      rig.Site(101)->confirmed = true;
+      rig.Run(0.5);
+    }
+    EXPECT_EQ(StandingMark(rig.mission.status(), rig.settings.slad), row.mark);
+    ASSERT_TRUE(rig.ApproveNow().ok());
+    int told = 0;
+    for (const Event& event : rig.mission.events()) {
+      told += event.text.ends_with("A" + std::string(row.mark) + " given") ? 1 : 0;
+    }
+    EXPECT_EQ(told, 1);
   }
 }
 

@@ -1,5 +1,6 @@
 #include "engine/model/mission/approve_offer.h"
 
+#include <cctype>
 #include <cstdio>
 
 #include "engine/core/rounding.h"
@@ -14,6 +15,20 @@ std::string WhyScreenOld(double silent_s) {
   std::snprintf(text, sizeof text, "Screen %.1f s behind, limit %.1f s", -TenthsDown(-silent_s),
                 kScreenOld_s);
   return text;
+}
+
+SiteStanding ArmedStanding(const MissionStatus& mission, const SladSettings& settings) {
+  return mission.armed_confirmed ? SiteStanding::kConfirmed : StandingOf(*mission.armed, settings);
+}
+
+std::string StandingMark(const MissionStatus& mission, const SladSettings& settings) {
+  const SiteStanding standing = ArmedStanding(mission, settings);
+  if (standing == SiteStanding::kConfirmed) {
+    return {};
+  }
+  std::string word = StandingWord(standing);
+  word.front() = static_cast<char>(std::tolower(static_cast<unsigned char>(word.front())));
+  return ", " + word;
 }
 
 }  // namespace palace

@@ -1,7 +1,11 @@
-// Whether approve is offered on a screen: what is approved must be what is seen.
+// Whether approve is offered on a screen, and of what: what is approved must be what is seen.
 #pragma once
 
 #include <string>
+
+#include "engine/model/mission/mission_status.h"
+#include "engine/model/settings/settings.h"
+#include "engine/model/site_standing.h"
 
 namespace palace {
 
@@ -11,5 +15,11 @@ inline constexpr double kScreenOld_s = 0.5;
 /// Why nothing may be approved on a screen that shows a snapshot `silent_s` after it was published:
 /// guards pass on newer figures than a person sees. Empty: it may.
 std::string WhyScreenOld(double silent_s);
+
+/// What is known of the armed site, as it is approved: its evidence, or what a map confirmed since.
+SiteStanding ArmedStanding(const MissionStatus& mission, const SladSettings& settings);
+/// The same as it stands behind the site's name on the button and in the record: empty,
+/// ", provisional", ", look first".
+std::string StandingMark(const MissionStatus& mission, const SladSettings& settings);
 
 }  // namespace palace

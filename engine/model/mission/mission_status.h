@@ -158,6 +158,7 @@ struct MissionStatus {
   std::optional<LandingSite> armed_now;  ///< the same place on the newest map; empty off it
   SiteVerdict armed_verdict = SiteVerdict::kHolds;  ///< what the last maps together say of it
   std::string armed_why;                            ///< with value and limit; empty while it holds
+  bool armed_confirmed = false;                     ///< when it was selected, or by a map since
   /// Of the armed site: frozen with it, as soon as the vehicle's place is known, but for a person
   /// who turns it.
   std::optional<ApproachPlan> approach;

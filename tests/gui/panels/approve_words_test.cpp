@@ -34,7 +34,13 @@ TEST(ApproveWords, TheButtonTellsWhatAHoldDoesOrWhyItDoesNothing) {
          mission(s).armed->confirmed = false;
          mission(s).armed->height_m.three_sigma = 0.2;
        },
-       HoldPhase::kReady, "Hold to approve A, not looked at", ""},
+       HoldPhase::kReady, "Hold to approve A, look first", ""},
+      {"confirmed by a map since",
+       [&](EngineSnapshot& s) {
+         mission(s).armed->confirmed = false;
+         mission(s).armed_confirmed = true;
+       },
+       HoldPhase::kReady, "Hold to approve A", ""},
       {"sent",
        [&](EngineSnapshot& s) {
          mission(s).approval_phase = Phase::kSent;
