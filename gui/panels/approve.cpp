@@ -93,8 +93,8 @@ void DrawChecks(const EngineSnapshot& snap, const Rect& rect, float y, bool narr
   if (in.clicked) {
     state.show_guards = !state.show_guards;
   }
-  if (in.hovered && shown.size() < words.size() && !state.show_guards) {
-    DrawTooltip(ui, words);
+  if (in.hovered && shown != words && !state.show_guards) {
+    DrawTooltip(ui, words, &line);
   }
 }
 

@@ -42,12 +42,12 @@ bool DrawButton(UiFrame& ui, std::string_view name, const Rect& rect, std::strin
   }
   const std::string_view told = look.enabled ? look.hint : look.reason;
   if (in.hovered && !told.empty()) {
-    DrawTooltip(ui, told);
+    DrawTooltip(ui, told, &rect);
   }
   return in.clicked;
 }
 
-void DrawTooltip(UiFrame& ui, std::string_view text) {
+void DrawTooltip(UiFrame& ui, std::string_view text, const Rect* of) {
   const Style& s = ui.style;
   std::vector<std::string> lines;
   for (std::size_t from = 0; from <= text.size();) {
@@ -63,11 +63,13 @@ void DrawTooltip(UiFrame& ui, std::string_view text) {
   }
   const ImVec2 mouse = ImGui::GetIO().MousePos;
   const ImVec2 screen = ImGui::GetIO().DisplaySize;
-  Rect r{mouse.x + s.Px(12), mouse.y + s.Px(16), width + s.Px(24),
+  const float below = of != nullptr ? of->bottom() + s.Px(6) : mouse.y + s.Px(16);
+  const float above = of != nullptr ? of->y - s.Px(6) : mouse.y - s.Px(8);
+  Rect r{mouse.x + s.Px(12), below, width + s.Px(24),
          s.Px(20) * static_cast<float>(lines.size()) + s.Px(16)};
   r.x = std::min(r.x, screen.x - r.w - s.Px(4));
   if (r.bottom() > screen.y - s.Px(4)) {
-    r.y = mouse.y - r.h - s.Px(8);
+    r.y = above - r.h;
   }
   const Rect& keep = ui.wave_off_rect;
   if (r.x < keep.right() && r.right() > keep.x && r.y < keep.bottom() && r.bottom() > keep.y) {

@@ -23,7 +23,8 @@ struct ButtonLook {
 /// goes down on it.
 bool DrawButton(UiFrame& ui, std::string_view name, const Rect& rect, std::string_view label,
                 const ButtonLook& look = {});
-/// Small box with one line beside the pointer; keeps out of the WAVE OFF rectangle.
-void DrawTooltip(UiFrame& ui, std::string_view text);
+/// Small box beside the pointer; keeps out of the WAVE OFF rectangle, and off the control that it
+/// speaks of, where one is given: below it, or above.
+void DrawTooltip(UiFrame& ui, std::string_view text, const Rect* of = nullptr);
 
 }  // namespace palace

@@ -162,8 +162,8 @@ bool DrawHoldButton(UiFrame& ui, std::string_view name, const Rect& rect,
            Align::kCentre);
   const std::string_view shown = FitClauses(s.caption, words.second, rect.w - s.Px(12));
   DrawText(ui, s.caption, second, x, y + s.Px(12), shown, Align::kCentre);
-  if (in.hovered && shown.size() < words.second.size()) {
-    DrawTooltip(ui, words.second);
+  if (in.hovered && shown != words.second) {
+    DrawTooltip(ui, words.second, &rect);
   }
   if (view.phase == HoldPhase::kAccepted || view.phase == HoldPhase::kRefused) {
     DrawIcon(Canvas(), view.phase == HoldPhase::kAccepted ? Icon::kDone : Icon::kCaution,

@@ -177,5 +177,25 @@ TEST(FlyApprove, TellsTheHeadingThatWillBeSigned) {
   EXPECT_NE(all.find("heading 340° at 0.8 m/s"), std::string::npos);
 }
 
+TEST(Approve, WhatIsSaidOfTheButtonDoesNotCoverIt) {
+  for (const ImVec2 size : {ImVec2(1920, 1080), ImVec2(1280, 720)}) {
+    EngineSnapshot snap = fake::Snapshot(MissionState::kArmed);
+    snap.flight.Edit().mission.can_approve = false;
+    snap.flight.Edit().mission.cannot_approve_reason =
+        "Attitude is 3.0° off gravity, limit 1.5° (or the accelerometer errs): wait until it is "
+        "known again";
+    FlyWindow window(size.x, size.y, snap);
+    const Rect button = window.ui.items.Find("approve")->rect;
+    window.ui.MoveTo("approve");
+    window.ui.Frame(window.draw);
+    window.ui.Frame(window.draw);
+    const Item* told = window.ui.items.Find("tooltip");
+    ASSERT_NE(told, nullptr);
+    EXPECT_EQ(told->text, snap.flight->mission.cannot_approve_reason);
+    EXPECT_FALSE(Touch(told->rect, button)) << size.x;
+    EXPECT_TRUE(Inside(told->rect, {0, 0, size.x, size.y})) << size.x;
+  }
+}
+
 }  // namespace
 }  // namespace palace
