@@ -273,10 +273,9 @@ void View::DrawComplaint(const FrameLayout& layout, const std::string& complaint
   ImDrawList* dl = Canvas();
   FillRect(dl, strip, s.palette.warning_fill);
   StrokeRect(dl, strip, s.palette.warning, 2);
-  const std::string_view shown = FitClauses(s.medium, complaint, strip.w - s.Px(24));
+  const std::string shown = FitClauses(s.medium, complaint, strip.w - s.Px(24));
   DrawText(ui, s.medium, s.palette.text1, strip.x + s.Px(12), strip.centre().y, shown);
-  if (shown.size() < complaint.size() &&
-      Interact(ui, "engine_complaint", strip, kPassive).hovered) {
+  if (shown != complaint && Interact(ui, "engine_complaint", strip, kPassive).hovered) {
     DrawTooltip(ui, complaint);
   }
   ui.items.Add("engine_complaint", strip, true, complaint);

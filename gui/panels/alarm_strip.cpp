@@ -122,7 +122,7 @@ float DrawAnswers(const std::vector<const Alarm*>& alarms, FrameState& state, fl
   constexpr float kMostNamed = 300;
   std::string words = "Acknowledge";
   if (&asked != &first) {
-    words += ": " + std::string(FitWords(s.body, AlarmSubject(asked.text), s.Px(kMostNamed)));
+    words += ": " + FitWords(s.body, AlarmSubject(asked.text), s.Px(kMostNamed));
   }
   const float width = std::max(s.Px(112), TextWidth(s.body, words) + s.Px(24));
   const Rect acknowledge{right - s.Px(8) - width, y - s.Px(12), width, s.Px(24)};
@@ -155,9 +155,9 @@ bool DrawFirst(const Alarm& alarm, bool of_record, const Rect& rect, float text_
   float x = rect.x + s.Px(40);
   x += DrawText(ui, s.medium, p.text1, x, y, look.word) + s.Px(10);
   const std::string text = AlarmWords(alarm, of_record);
-  const std::string_view shown = FitClauses(s.body, text, text_right - x - s.Px(16));
+  const std::string shown = FitClauses(s.body, text, text_right - x - s.Px(16));
   DrawText(ui, s.body, p.text1, x, y, shown);
-  return shown.size() < text.size();
+  return shown != text;
 }
 
 }  // namespace

@@ -77,7 +77,7 @@ void DrawChecks(const EngineSnapshot& snap, const Rect& rect, float y, bool narr
            pass ? p.text1 : p.caution);
   const float text_x = rect.x + s.Px(32);
   const float room = rect.w - s.Px(110);
-  const std::string_view shown = FitClauses(s.body, words, room);
+  const std::string shown = FitClauses(s.body, words, room);
   DrawText(ui, s.body, p.text1, text_x, y, shown);
   const Rect line{rect.x + s.Px(8), y - s.Px(10), rect.w - s.Px(16), s.Px(20)};
   const float right = rect.right() - s.Px(12);

@@ -52,9 +52,9 @@ void DrawChannelStripPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame
     const bool noted = channel.state != State::kNever && !channel.note.empty();
     const std::string noted_facts = noted ? facts + "   " + channel.note : facts;
     const float room = pitch - s.Px(26);
-    const bool fits = FitWords(fact_font, noted_facts, room) == noted_facts;
+    const bool fits = TextWidth(fact_font, noted_facts) <= room;
     DrawText(ui, fact_font, ink, text_x, second,
-             fits ? noted_facts : FitWords(fact_font, facts, room));
+             fits ? noted_facts : WholeWords(fact_font, facts, room));
     ui.items.Add(std::string("channel/") + ChannelName(channel.id), {x, rect.y, pitch, rect.h},
                  true, noted_facts);
     x += pitch;

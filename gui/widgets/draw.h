@@ -31,9 +31,12 @@ float DrawValueUnit(UiFrame& ui, ImFont* value_font, float x, float centre_y,
 /// Lines no wider than `width`, broken at spaces.
 std::vector<std::string> WrapText(const ImFont* font, std::string_view text, float width);
 /// The longest start of `text` made of whole words that fits; the text is never cut inside a word.
-std::string_view FitWords(const ImFont* font, std::string_view text, float width);
+/// Of lists, whose start is whole without the rest.
+std::string_view WholeWords(const ImFont* font, std::string_view text, float width);
+/// The same with "…" after what was cut.
+std::string FitWords(const ImFont* font, std::string_view text, float width);
 /// The same, cut after a whole clause where one fits: half a sentence misleads.
-std::string_view FitClauses(const ImFont* font, std::string_view text, float width);
+std::string FitClauses(const ImFont* font, std::string_view text, float width);
 
 // ---- shapes -----------------------------------------------------------------------------------
 void FillRect(ImDrawList* dl, const Rect& rect, ImU32 colour, float rounding = 0);

@@ -4,6 +4,11 @@
 #include "gui/widgets/draw.h"
 
 namespace palace {
+namespace {
+
+constexpr const char* kEllipsis = "…";
+
+}  // namespace
 
 float TextWidth(const ImFont* font, std::string_view text) {
   return std::ceil(
@@ -48,7 +53,7 @@ float DrawValueUnit(UiFrame& ui, ImFont* value_font, float x, float centre_y,
   return width;
 }
 
-std::string_view FitWords(const ImFont* font, std::string_view text, float width) {
+std::string_view WholeWords(const ImFont* font, std::string_view text, float width) {
   while (!text.empty() && TextWidth(font, text) > width) {
     const std::size_t space = text.rfind(' ');
     if (space == std::string_view::npos) {
@@ -62,19 +67,28 @@ std::string_view FitWords(const ImFont* font, std::string_view text, float width
   return text;
 }
 
-std::string_view FitClauses(const ImFont* font, std::string_view text, float width) {
+std::string FitWords(const ImFont* font, std::string_view text, float width) {
   if (TextWidth(font, text) <= width) {
-    return text;
+    return std::string(text);
   }
+  const std::string_view start = WholeWords(font, text, width - TextWidth(font, kEllipsis));
+  return start.empty() ? std::string() : std::string(start) + kEllipsis;
+}
+
+std::string FitClauses(const ImFont* font, std::string_view text, float width) {
+  if (TextWidth(font, text) <= width) {
+    return std::string(text);
+  }
+  const float room = width - TextWidth(font, kEllipsis);
   std::size_t best = 0;
   for (std::size_t at = 0; at + 1 < text.size(); ++at) {
     const bool ends =
         text[at + 1] == ' ' && std::string_view(".,:;").find(text[at]) != std::string_view::npos;
-    if (ends && TextWidth(font, text.substr(0, at)) <= width) {
+    if (ends && TextWidth(font, text.substr(0, at)) <= room) {
       best = at;
     }
   }
-  return best > 0 ? text.substr(0, best) : FitWords(font, text, width);
+  return best > 0 ? std::string(text.substr(0, best)) + kEllipsis : FitWords(font, text, width);
 }
 
 std::vector<std::string> WrapText(const ImFont* font, std::string_view text, float width) {

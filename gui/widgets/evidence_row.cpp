@@ -138,10 +138,10 @@ void DrawRows(UiFrame& ui, const Rect& rect, std::span<const EvidenceRow> rows, 
                         narrow ? Short(WithUnit(row)) : WithUnit(row), Align::kRight);
     }
     const float name_x = rect.x + s.Px(12);
-    const std::string_view name = FitWords(s.body, row.name, right - s.Px(6) - name_x);
+    const std::string name = FitWords(s.body, row.name, right - s.Px(6) - name_x);
     DrawText(ui, s.body, p.text2, name_x, middle, name);
     ui.items.Add("evidence/" + row.name, area, true, FullName(row));
-    if ((name.size() < row.name.size() || !row.lasts.empty()) &&
+    if ((name != row.name || !row.lasts.empty()) &&
         Interact(ui, "evidence/" + row.name, area, kPassive).hovered) {
       DrawTooltip(ui, FullName(row));
     }

@@ -160,7 +160,7 @@ bool DrawHoldButton(UiFrame& ui, std::string_view name, const Rect& rect,
                                                                          : s.medium;
   DrawText(ui, font, title, x, has_second ? y - s.Px(rect.h > s.Px(60) ? 10 : 9) : y, words.title,
            Align::kCentre);
-  const std::string_view shown = FitClauses(s.caption, words.second, rect.w - s.Px(12));
+  const std::string shown = FitClauses(s.caption, words.second, rect.w - s.Px(12));
   DrawText(ui, s.caption, second, x, y + s.Px(12), shown, Align::kCentre);
   if (in.hovered && shown != words.second) {
     DrawTooltip(ui, words.second, &rect);

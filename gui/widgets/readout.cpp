@@ -39,7 +39,7 @@ void DrawReadout(UiFrame& ui, const Rect& cell, const Readout& r) {
   const float value_y = cell.y + s.Px(tight ? 21 : 31);
   std::string_view unit = r.unit;
   if (TextWidth(s.readout, value) + TextWidth(s.caption, unit) + s.Px(10) > cell.w) {
-    unit = FitWords(s.caption, unit, cell.w - TextWidth(s.readout, value) - s.Px(10));
+    unit = WholeWords(s.caption, unit, cell.w - TextWidth(s.readout, value) - s.Px(10));
   }
   if (unit == "°") {  // stands directly after its digit
     DrawText(ui, s.readout, p.text1, cell.x, value_y, never ? value : value + "°");

@@ -7,6 +7,7 @@
 #include "gui/widgets/number_text.h"
 #include "gui/widgets/plot.h"
 #include "gui/widgets/style.h"
+#include "tests/support/ui_harness.h"
 
 namespace palace {
 namespace {
@@ -71,6 +72,23 @@ TEST(NumberText, ALimitHasTheDecimalsThatItTakes) {
   EXPECT_EQ(DecimalsOf(2.34, 1), 2);
   EXPECT_EQ(DecimalsOf(1.0 / 3, 0), 3);
   EXPECT_EQ(DecimalsOf(NAN, 1), 1);
+}
+
+TEST(DrawText, WhatIsCutSaysSo) {
+  UiHarness ui(800, 600);
+  const ImFont* font = ui.style.body;
+  const std::string text = "GPS error 2.6 m, limit 2.0 m. Landing on vision, not GPS.";
+  EXPECT_EQ(FitWords(font, text, 1000), text);
+  EXPECT_EQ(FitClauses(font, text, 1000), text);
+  const float width = TextWidth(font, "GPS error 2.6 m, limit 2.0 m. Landing on");
+  EXPECT_EQ(FitClauses(font, text, width), "GPS error 2.6 m, limit 2.0 m…");
+  for (float room = 10; room < width; room += 10) {
+    for (const std::string& cut : {FitWords(font, text, room), FitClauses(font, text, room)}) {
+      EXPECT_LE(TextWidth(font, cut), room);
+      EXPECT_TRUE(cut.empty() || cut.ends_with("…")) << cut;
+    }
+  }
+  EXPECT_EQ(WholeWords(font, "24 ms   10 Hz", TextWidth(font, "24 ms   10")), "24 ms   10");
 }
 
 TEST(Contour, ADiscOfHazardGivesOneClosedLineAtItsRim) {
