@@ -67,7 +67,8 @@ void DrawOther(UiFrame& ui, const SiteOverlay& overlay, const LandingSite& site,
   }
   DrawLetterDisc(ui, at, site.letter, look);
   const float r = ui.style.Px(look.radius);
-  ui.items.Add(kMark, {at.x - r, at.y - r, 2 * r, 2 * r}, true, site.letter);
+  const float half = LetterHalfWidth(ui.style, site.letter, look.radius);
+  ui.items.Add(kMark, {at.x - half, at.y - r, 2 * half, 2 * r}, true, site.letter);
 }
 
 /// The ring of a site, recorded under a name. False when it cannot be projected.

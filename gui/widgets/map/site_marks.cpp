@@ -62,14 +62,26 @@ void DrawRing(const Style& s, ImDrawList* dl, ImVec2 centre, float radius, RingK
   DrawRing(s, dl, ring, centre, kind);
 }
 
+float LetterHalfWidth(const Style& s, std::string_view letter, float radius) {
+  return letter.size() > 1 ? std::max(s.Fine(radius), TextWidth(s.caption, letter) / 2 + s.Fine(5))
+                           : s.Fine(radius);
+}
+
 void DrawLetterDisc(UiFrame& ui, ImVec2 c, std::string_view letter, const LetterLook& look) {
   const Style& s = ui.style;
-  const float r = s.Fine(look.radius);
+  const float r = s.Fine(look.radius), half = LetterHalfWidth(s, letter, look.radius);
   ImDrawList* dl = Canvas();
+  const ImU32 fill = look.highlighted ? picture::kWhite : picture::kLetterDark;
   const ImU32 ink = look.highlighted ? picture::kLetterDark : picture::kWhite;
-  dl->AddCircleFilled(c, r, look.highlighted ? picture::kWhite : picture::kLetterDark);
-  dl->AddCircle(c, r, ink, 0, s.Fine(1.5f));
-  const bool small = look.radius < 10 || letter.size() > 1;  // "A2" in a disc made for one letter
+  if (half > r) {
+    const Rect pill{c.x - half, c.y - r, 2 * half, 2 * r};
+    FillRect(dl, pill, fill, r);
+    StrokeRect(dl, pill, ink, s.Fine(1.5f), r);
+  } else {
+    dl->AddCircleFilled(c, r, fill);
+    dl->AddCircle(c, r, ink, 0, s.Fine(1.5f));
+  }
+  const bool small = look.radius < 10 || letter.size() > 1;
   DrawText(ui, small ? s.caption : s.medium, ink, c.x, c.y, letter, Align::kCentre);
   if (look.refused) {
     const float reach = r * 0.7f;
@@ -79,9 +91,10 @@ void DrawLetterDisc(UiFrame& ui, ImVec2 c, std::string_view letter, const Letter
 
 LetterAnswer OfferLetter(UiFrame& ui, std::string_view where, ImVec2 centre,
                          const LandingSite& site, const MissionStatus& mission) {
-  const float half = ui.style.Px(11);
-  const Rect area{centre.x - half, centre.y - half, 2 * half, 2 * half};
   const std::string& letter = site.letter;
+  const float high = ui.style.Px(11);
+  const float half = std::max(high, LetterHalfWidth(ui.style, letter, 11));
+  const Rect area{centre.x - half, centre.y - high, 2 * half, 2 * high};
   const bool may = mission.MaySelect(site.id);
   const Interaction in = Interact(ui, "letter/" + std::string(where) + "/" + letter, area,
                                   kNoTab | (may ? 0U : unsigned{kDisabled}), letter);

@@ -24,6 +24,8 @@ void DrawRing(const Style& style, ImDrawList* dl, const std::vector<ImVec2>& rin
               RingKind kind);
 /// The same for a map seen from above.
 void DrawRing(const Style& style, ImDrawList* dl, ImVec2 centre, float radius, RingKind kind);
+/// Half the width of the mark of `letter`, px: of a disc, or of the wider one that "A2" needs.
+float LetterHalfWidth(const Style& style, std::string_view letter, float radius);
 /// Black disc with white rim and letter: a site that is not the selected one.
 void DrawLetterDisc(UiFrame& ui, ImVec2 centre, std::string_view letter, const LetterLook& look);
 /// The letter of a site as a control, before what lies below it: true when it is clicked. Hovered

@@ -152,6 +152,30 @@ TEST(Legend, HidesNoLetterOfASite) {
   }
 }
 
+TEST(Maps, ALetterOfTwoCharactersStaysInItsMark) {
+  EngineSnapshot snap = fake::Snapshot(MissionState::kProposed);
+  auto decision = std::make_shared<TerrainDecision>(*snap.terrain->applied);
+  decision->selection.sites[1].letter = "W5";  // the widest
+  snap.terrain.Edit().applied = decision;
+  FlyWindow window(1920, 1080, snap);
+  const float half = LetterHalfWidth(window.ui.style, "W5", 9);
+  int marks = 0;
+  for (const Item& item : window.ui.items.items()) {
+    const bool mark = item.name == "site_mark" || item.name.rfind("letter/map/", 0) == 0;
+    if (!mark || item.text != "W5") {
+      continue;
+    }
+    ++marks;
+    const float x = item.rect.centre().x, y = item.rect.centre().y;
+    for (const Item& text : window.ui.items.items()) {
+      if (text.name == "text" && text.text == "W5" && item.rect.Contains(text.rect.centre())) {
+        EXPECT_TRUE(Inside(text.rect, {x - half, y - 9, 2 * half, 18}, 0)) << item.name;
+      }
+    }
+  }
+  EXPECT_GE(marks, 2);
+}
+
 TEST(Maps, NameTheSiteThatTheEvidenceNames) {
   FlyWindow window(1920, 1080, fake::Snapshot(MissionState::kProposed));
   window.ui.highlighted_site = 3;
