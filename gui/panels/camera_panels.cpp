@@ -144,7 +144,7 @@ void DrawLeftCameraPanel(const EngineSnapshot& snap, const Rect& rect, CameraSta
   if (!snap.session->missing_inputs.empty()) {
     TextPlate(ui, image, Corner::kTopLeft, "For maps is missing: " + snap.session->missing_inputs);
   }
-  DrawVerdictPlate(ui, image, snap, shown);
+  DrawVerdictPlate(ui, image, snap, shown, state.overlay.legend);
   DrawDepthChip(snap, ui, image, state);
   if (snap.terrain->preview) {
     PreviewChip(ui, {image.right() - s.Px(92), image.y + s.Px(8)});

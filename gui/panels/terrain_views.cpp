@@ -67,14 +67,15 @@ void DrawCurrentVerdict(UiFrame& ui, const Rect& image, const EngineSnapshot& sn
 }
 
 void DrawVerdictPlate(UiFrame& ui, const Rect& image, const EngineSnapshot& snap,
-                      const TerrainDecision* decision) {
+                      const TerrainDecision* decision, LegendPlace& legend) {
   const double age_s = MapAge(snap, decision);
   if (decision == nullptr) {
     TextPlate(ui, image, Corner::kTopLeft, NoMapWords(snap));
   } else if (age_s > kOldMap_s) {
     TextPlate(ui, image, Corner::kTopLeft, "Last map " + Duration(age_s) + " old");
   } else {
-    DrawVerdictLegend(ui, image, decision->hazards ? FlagsPresent(decision->hazards->flags) : 0U);
+    DrawVerdictLegend(ui, image, decision->hazards ? FlagsPresent(decision->hazards->flags) : 0U,
+                      legend);
   }
 }
 
@@ -130,7 +131,7 @@ void DrawLeftPicture(UiFrame& ui, const Rect& area, const EngineSnapshot& snap,
   }
   DrawStale(ui, image, ArrivalOf(snap, ChannelId::kCameraLeft, ui.silent_s));
   dl->PopClipRect();
-  DrawVerdictPlate(ui, image, snap, look.decision);
+  DrawVerdictPlate(ui, image, snap, look.decision, cache.legend);
   if (look.preview) {
     PreviewChip(ui, {image.right() - s.Px(92), image.y + s.Px(8)});
   }

@@ -21,7 +21,7 @@ void DrawCurrentVerdict(UiFrame& ui, const Rect& image, const EngineSnapshot& sn
                         const TerrainDecision* decision, OverlayCache& cache);
 /// What the overlay means; "Last map 4.2 s old" when it is not drawn.
 void DrawVerdictPlate(UiFrame& ui, const Rect& image, const EngineSnapshot& snap,
-                      const TerrainDecision* decision);
+                      const TerrainDecision* decision, LegendPlace& legend);
 
 /// What is drawn over a left picture.
 struct LeftPicture {

@@ -221,34 +221,29 @@ namespace {
 
 enum class Hidden { kLetters, kLettersAndRings };
 
-/// The first corner in which the plate hides none of these; above what stands in the lower ones.
-std::optional<Rect> FreePlate(const UiFrame& ui, const Rect& image, float width, float height,
-                              Hidden none_of) {
-  const Style& s = ui.style;
-  const float edge = s.Px(8), foot = s.Px(42);
-  const float right = image.right() - edge - width, low = image.bottom() - foot - height;
-  const Rect places[] = {{image.x + edge, image.y + edge, width, height},
-                         {image.x + edge, low, width, height},
-                         {right, low, width, height},
-                         {right, image.y + edge + s.Px(28), width, height}};
-  const auto hides = [&](const Rect& place) {
-    for (const Item& item : ui.items.items()) {
-      const Rect& r = item.rect;
-      const bool ring = item.name == kRing || item.name == kLandingRing;
-      const bool of_site = item.name == kMark || (ring && none_of == Hidden::kLettersAndRings);
-      if (of_site && r.x < place.right() && place.x < r.right() && r.y < place.bottom() &&
-          place.y < r.bottom()) {
-        return true;
-      }
-    }
-    return false;
-  };
-  for (const Rect& place : places) {
-    if (!hides(place)) {
-      return place;
-    }
-  }
-  return std::nullopt;
+constexpr std::size_t kCorners = 4;
+
+/// A plate in that corner; above what stands in the lower ones: scale bar and "Depth" at the left,
+/// a fact at the right.
+Rect PlateIn(const Style& s, const Rect& image, std::size_t corner, ImVec2 size) {
+  const float edge = s.Px(8);
+  const float right = image.right() - edge - size.x;
+  const Rect places[kCorners] = {
+      {image.x + edge, image.y + edge, size.x, size.y},
+      {image.x + edge, image.bottom() - s.Px(84) - size.y, size.x, size.y},
+      {right, image.bottom() - s.Px(42) - size.y, size.x, size.y},
+      {right, image.y + edge + s.Px(28), size.x, size.y}};
+  return places[corner];
+}
+
+bool Hides(const UiFrame& ui, const Rect& plate, Hidden none_of) {
+  return std::any_of(ui.items.items().begin(), ui.items.items().end(), [&](const Item& item) {
+    const Rect& r = item.rect;
+    const bool ring = item.name == kRing || item.name == kLandingRing;
+    const bool of_site = item.name == kMark || (ring && none_of == Hidden::kLettersAndRings);
+    return of_site && r.x < plate.right() && plate.x < r.right() && r.y < plate.bottom() &&
+           plate.y < r.bottom();
+  });
 }
 
 constexpr float kSwatch = 14;
@@ -294,26 +289,32 @@ ImVec2 SizeOf(const Style& s, const LegendLayout& layout) {
   return layout.in_row ? ImVec2(sum, s.Px(26)) : ImVec2(widest + s.Px(20), s.Px(66));
 }
 
-struct PlacedLegend {
-  LegendLayout layout;
-  Rect rect;  ///< flags and all
-};
+/// With its flags.
+ImVec2 WholeSize(const Style& s, const LegendLayout& layout, float flags_w) {
+  const ImVec2 size = SizeOf(s, layout);
+  return layout.with_flags ? ImVec2(std::max(size.x, flags_w), size.y + s.Px(30)) : size;
+}
 
-/// The first that fits and hides no letter and no ring; else, for near the ground a ring fills the
-/// picture, the first that hides no letter.
-std::optional<PlacedLegend> PlaceLegend(const UiFrame& ui, const Rect& image,
-                                        std::span<const LegendLayout> layouts, float flags_w) {
+/// Where it stood last, else the first that fits, and hides no letter and no ring; else, for near
+/// the ground a ring fills the picture, the same that hides no letter. A legend that moved with
+/// every letter that passes could not be read.
+std::optional<LegendPlace> PlaceLegend(const UiFrame& ui, const Rect& image,
+                                       std::span<const LegendLayout> layouts, float flags_w,
+                                       const LegendPlace& last) {
+  const Style& s = ui.style;
   for (const Hidden none_of : {Hidden::kLettersAndRings, Hidden::kLetters}) {
-    for (const LegendLayout& layout : layouts) {
-      ImVec2 size = SizeOf(ui.style, layout);
-      if (layout.with_flags) {
-        size = {std::max(size.x, flags_w), size.y + ui.style.Px(30)};
-      }
-      const auto free = size.x + ui.style.Px(16) <= image.w
-                            ? FreePlate(ui, image, size.x, size.y, none_of)
-                            : std::nullopt;
-      if (free) {
-        return PlacedLegend{layout, *free};
+    const auto free = [&](std::size_t way, std::size_t corner) {
+      const ImVec2 size = WholeSize(s, layouts[way], flags_w);
+      return size.x + s.Px(16) <= image.w && !Hides(ui, PlateIn(s, image, corner, size), none_of);
+    };
+    if (last.ways == layouts.size() && free(last.way, last.corner)) {
+      return last;
+    }
+    for (std::size_t way = 0; way < layouts.size(); ++way) {
+      for (std::size_t corner = 0; corner < kCorners; ++corner) {
+        if (free(way, corner)) {
+          return LegendPlace{layouts.size(), way, corner};
+        }
       }
     }
   }
@@ -322,7 +323,7 @@ std::optional<PlacedLegend> PlaceLegend(const UiFrame& ui, const Rect& image,
 
 }  // namespace
 
-void DrawVerdictLegend(UiFrame& ui, const Rect& image, unsigned flags) {
+void DrawVerdictLegend(UiFrame& ui, const Rect& image, unsigned flags, LegendPlace& place) {
   const Style& s = ui.style;
   const LegendEntry full[] = {{GroundClassWord(GroundClass::kLandable), SafeSwatch},
                               {"Over a limit or unknown", OverSwatch},
@@ -337,11 +338,13 @@ void DrawVerdictLegend(UiFrame& ui, const Rect& image, unsigned flags) {
     layouts.push_back(layout);
   }
   const float flags_w = FlagLegendWidth(s, flags) + s.Px(12);
-  const auto placed = PlaceLegend(ui, image, layouts, flags_w);
+  const auto placed = PlaceLegend(ui, image, layouts, flags_w, place);
+  place = placed.value_or(LegendPlace{});
   if (!placed) {
     return;
   }
-  const auto& [layout, rect] = *placed;
+  const LegendLayout& layout = layouts[placed->way];
+  const Rect rect = PlateIn(s, image, placed->corner, WholeSize(s, layout, flags_w));
   ImDrawList* dl = Canvas();
   const ImVec2 size = SizeOf(s, layout);
   const Rect plate{rect.x, rect.y, size.x, size.y};

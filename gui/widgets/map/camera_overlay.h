@@ -10,10 +10,17 @@
 
 namespace palace {
 
+/// Where the legend stood last, among the ways and corners it may stand in.
+struct LegendPlace {
+  std::size_t ways = 0;  ///< that there were; 0: nowhere yet
+  std::size_t way = 0, corner = 0;
+};
+
 /// Contours of the verdict last drawn; kept so that they are traced once per map, not per frame.
 struct OverlayCache {
   std::shared_ptr<const ImageU8> verdict;
   std::vector<std::vector<ImVec2>> contours;
+  LegendPlace legend;
 };
 
 /// Orange tint and hatch over a limit and where nothing is known, a sparse hatch where only a
@@ -42,7 +49,8 @@ void DrawTracker(UiFrame& ui, const PictureView& view, const TrackerStatus& trac
 /// Plate "Safe to land on | Over a limit or unknown | Too near a hazard" in a corner where it hides
 /// no letter and no ring of a site, the top left if it can; under it one of the flags that occur.
 /// In small pictures without the flags, or as "Safe | Over | Near", if only these hide none; where
-/// a ring fills the picture, over the ring. Item "legend". Call after DrawSites.
-void DrawVerdictLegend(UiFrame& ui, const Rect& image, unsigned flags = 0);
+/// a ring fills the picture, over the ring. It stays where it stood last while that is as good as
+/// any other place: `place`. Item "legend". Call after DrawSites.
+void DrawVerdictLegend(UiFrame& ui, const Rect& image, unsigned flags, LegendPlace& place);
 
 }  // namespace palace

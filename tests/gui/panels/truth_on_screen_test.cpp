@@ -152,6 +152,28 @@ TEST(Legend, HidesNoLetterOfASite) {
   }
 }
 
+// A legend that moves whenever a letter has passed cannot be read.
+TEST(Legend, StaysWhereItIsWhileItHidesNothingAndCoversNoButton) {
+  for (const ImVec2 size : {ImVec2(1920, 1080), ImVec2(1280, 720)}) {
+    const EngineSnapshot as_it_was = fake::Snapshot(MissionState::kProposed);
+    FlyWindow window(size.x, size.y, as_it_was);
+    const Rect before = window.ui.items.Find("legend")->rect;
+    MoveSiteTo({before.x + 12, before.y + 12}, size, 1, window.snap);
+    window.ui.Frame(window.draw);
+    const Rect after = window.ui.items.Find("legend")->rect;
+    EXPECT_FALSE(Touch(before, after)) << size.x;
+    EXPECT_FALSE(Touch(after, window.ui.items.Find("depth")->rect)) << size.x;
+    if (size.x < 1920) {
+      continue;  // a ring fills so small a picture: where none hides it a legend goes
+    }
+    window.snap = as_it_was;
+    window.ui.Frame(window.draw);
+    const Rect later = window.ui.items.Find("legend")->rect;
+    EXPECT_EQ(later.x, after.x);
+    EXPECT_EQ(later.y, after.y);
+  }
+}
+
 TEST(Maps, ALetterOfTwoCharactersStaysInItsMark) {
   EngineSnapshot snap = fake::Snapshot(MissionState::kProposed);
   auto decision = std::make_shared<TerrainDecision>(*snap.terrain->applied);
