@@ -175,7 +175,8 @@ std::string FaultWords(const Fault& fault) {
   const FaultKindRow& row = RowOf(fault.kind);
   std::string words = FaultKindWords(fault.kind);
   if (!std::isnan(row.default_value)) {
-    words += " " + NumberText(fault.ValueOrDefault()) + " " + row.unit;
+    const bool degrees = std::string_view(row.unit).starts_with("°");  // the sign follows its digit
+    words += " " + NumberText(fault.ValueOrDefault()) + (degrees ? "" : " ") + row.unit;
   }
   if (fault.channel) {
     std::string channel = ChannelName(*fault.channel);

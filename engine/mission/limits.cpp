@@ -1,6 +1,7 @@
 #include "engine/mission/limits.h"
 
 #include <cstdio>
+#include <string_view>
 
 namespace palace {
 
@@ -9,8 +10,10 @@ std::string LimitWords(const Limit& limit) {
     return {};
   }
   char text[64];
-  std::snprintf(text, sizeof text, "%.*f%s%s", limit.decimals, limit.value,
-                *limit.unit == '\0' ? "" : " ", limit.unit);
+  // The degree sign follows its digit.
+  const bool apart = *limit.unit != '\0' && std::string_view(limit.unit) != "°";
+  std::snprintf(text, sizeof text, "%.*f%s%s", limit.decimals, limit.value, apart ? " " : "",
+                limit.unit);
   return text;
 }
 

@@ -84,9 +84,9 @@ std::string GravityOff(const GravityAgreement& gravity) {
     return {};
   }
   const std::string by =
-      std::isfinite(gravity.tilt_deg) ? WithNumbers("%.1f deg ", gravity.tilt_deg) : "";
+      std::isfinite(gravity.tilt_deg) ? WithNumbers("%.1f° ", gravity.tilt_deg) : "";
   return "Attitude is " + by + "off gravity, limit " +
-         LimitWords({GravityAgreement::kLimit_deg, "deg"}) + " (or the accelerometer errs)";
+         LimitWords({GravityAgreement::kLimit_deg, "°"}) + " (or the accelerometer errs)";
 }
 
 std::string GpsOff(const GpsAgreement& gps) {

@@ -83,7 +83,7 @@ std::string Older(const char* what, double age_s, double limit_s);
 /// "Image time off by 100 ms against attitude: pictures of both cameras are late"; empty while no
 /// camera's is known to be off.
 std::string ImageTimeOff(const NavigationStatus& navigation);
-/// "Attitude is 3.0 deg off gravity, limit 1.5 deg (or the accelerometer errs)"; empty while not.
+/// "Attitude is 3.0° off gravity, limit 1.5° (or the accelerometer errs)"; empty while not.
 std::string GravityOff(const GravityAgreement& gravity);
 /// "GPS is 8.0 m off the inertial prediction, limit 1.0 m"; empty while it is not.
 std::string GpsOff(const GpsAgreement& gps);

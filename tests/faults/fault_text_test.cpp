@@ -44,7 +44,7 @@ INSTANTIATE_TEST_SUITE_P(
         Form{"laser_spikes=-1e-05", {K::kLaserSpikes, {}, -1e-5}, "laser spikes -1e-05 m"},
         Form{"imu_gyro_bias=1.5:0.1-0.30000000000000004",
              {K::kImuGyroBias, {}, 1.5, 0.1, 0.1 + 0.2},
-             "IMU gyro bias 1.5 deg/s"},
+             "IMU gyro bias 1.5°/s"},
         Form{"lost=30@VEHICLE_POSE:1e-05-",
              {K::kLost, C::kVehiclePose, 30, 1e-5},
              "lost 30 % on vehicle pose"}),

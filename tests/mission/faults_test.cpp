@@ -322,7 +322,7 @@ INSTANTIATE_TEST_SUITE_P(
                  [](MissionRig& r) {
                    r.navigation.gravity = {true, 3.04};
                  },
-                 "Attitude is 3.0 deg off gravity, limit 1.5 deg (or the accelerometer errs). "
+                 "Attitude is 3.0° off gravity, limit 1.5° (or the accelerometer errs). "
                  "Approve is blocked."},
         Sentence{"GpsJump", AlarmId::kGpsJump,
                  [](MissionRig& r) {

@@ -93,9 +93,9 @@ TEST_F(FaultPlanFlights, AreOneFlightToTheBitAndReplayWithoutThePlan) {
     }
   }
   EXPECT_THAT(
-      told, ElementsAre("Fault injected: GPS canyon 2 m", "Fault injected: IMU gyro bias 1 deg/s",
+      told, ElementsAre("Fault injected: GPS canyon 2 m", "Fault injected: IMU gyro bias 1°/s",
                         "Fault injected: camera dirt 8 % on camera left",
-                        "Fault injected: laser spikes 20 m", "Fault ended: IMU gyro bias 1 deg/s",
+                        "Fault injected: laser spikes 20 m", "Fault ended: IMU gyro bias 1°/s",
                         "Fault injected: camera repeated 20 % on camera right",
                         "Fault ended: GPS canyon 2 m", "Fault injected: lost 10 % on every channel",
                         "Fault ended: camera repeated 20 % on camera right",
