@@ -215,6 +215,7 @@ void Pipeline::MeasureRange(Pass& pass) {
   }
   const PictureFaults faults = JudgePictures(pass.snapshot->terrain->stereo_quality, role_);
   if (faults.frozen() || faults.blank() || faults.swapped) {
+    slad_.DoubtViews();
     return;  // what it shows is no ground of now
   }
   WatchLaserSpot(*range);
