@@ -176,6 +176,7 @@ void RememberFacts(MissionMemory& m, const MissionInputs& in) {
     m.vision_good_at = in.session.now;
   }
   m.lost_share = LostShare(in.vehicle.channels);
+  m.loss = LossWords(in.vehicle.channels);
   RememberShown(m, in.session);
 }
 

@@ -71,6 +71,7 @@ GuardInputs GuardInputsAt(const MissionMemory& m, Timestamp now) {
   in.camera_problem = m.pictures.standing().words();
   in.attitude_invalid = std::isfinite(m.watch.PosesInvalidFor(now));
   in.lost_share = m.lost_share;
+  in.loss = m.loss;
   in.map_age_s =
       m.facts.map_hash != 0 && now >= m.map_seen_at ? SecondsBetween(m.map_seen_at, now) : NAN;
   in.position_healthy = m.facts.position_healthy;

@@ -131,8 +131,7 @@ const std::array<GuardRow, kGuardCount> kGuards = {{
          [](const GuardInputs& in, const Limit& limit) {
            std::string why = words::Older("Vehicle status", in.link_age_s, limit.value);
            return why.empty() && 100 * in.lost_share > GuardLimits::lost_percent
-                      ? WithNumbers("%.0f %% of the vehicle's messages are lost, max %.0f %%",
-                                    100 * in.lost_share, GuardLimits::lost_percent)
+                      ? in.loss + WithNumbers(", max %.0f %%", GuardLimits::lost_percent)
                       : why;
          }},
     {.id = GuardId::kAttitude,

@@ -27,7 +27,8 @@ struct GuardInputs {
   double pair_age_s = NAN;       ///< since both pictures belonged together
   std::string camera_problem{};  ///< PictureFaults::words
   bool attitude_invalid = false;
-  double lost_share = NAN;  ///< of the vehicle's messages; NaN blocks nothing
+  double lost_share = NAN;  ///< of the vehicle's samples; NaN blocks nothing
+  std::string loss{};       ///< words for it: LossWords
   double map_age_s = NAN;
   bool position_healthy = false;
   std::string image_time{};  ///< words::ImageTimeOff

@@ -128,7 +128,8 @@ struct MissionMemory {
   Timestamp map_seen_at;
   /// The ground of the armed site was measured last; at the earliest when the descent began.
   Timestamp ground_seen_at;
-  double lost_share = NAN;  ///< of the vehicle's messages, lately
+  double lost_share = NAN;  ///< of the vehicle's samples, lately: LostShare
+  std::string loss;         ///< words for it: LossWords
 };
 
 /// Requests (hold, abort) have this bit of their number set, approvals do not.

@@ -4,6 +4,7 @@
 
 #include "engine/core/rounding.h"
 #include "engine/core/text.h"
+#include "engine/mission/wording.h"
 #include "engine/model/site_standing.h"
 
 namespace palace {
@@ -49,7 +50,7 @@ SiteFinding JudgeRecheck(const std::optional<LandingSite>& now,
   }
   if (!now->corridor_clear) {
     worse(approved.flown_to ? Finding::kOver : Finding::kDoubtful,
-          "Something stands in the approach");
+          words::InApproach(now->in_approach));
   }
   if (nearest && nearest->IsSeen() && now->clearance_m < kLeastRoomShare * approved.clearance_m &&
       now->clearance_m < approved.clearance_m - kNoticedRoom_m) {

@@ -209,6 +209,29 @@ std::string ApproachBlocked(const std::string& letter) {
   return std::string("Approach to site ") + letter + " is blocked";
 }
 
+std::string InApproach(const std::optional<ApproachObstacle>& obstacle) {
+  using Kind = ApproachObstacle::Kind;
+  if (!obstacle) {
+    return "Something stands in the approach";
+  }
+  const double top_m = obstacle->top_m;
+  std::string what;
+  switch (obstacle->kind) {
+    case Kind::kOnLevelWay:
+      return "Something on the level way to the approach is as high as the vehicle";
+    case Kind::kThin:
+      what = "A thin structure " +
+             (std::isfinite(top_m) ? WithNumbers("%.1f m up", top_m) : "of unknown height") +
+             " hangs";
+      break;
+    case Kind::kStands:
+      what = WithNumbers("Something %.1f m high stands", top_m);
+      break;
+  }
+  return what + " in the approach, " + WithNumbers("%.1f m ", obstacle->distance_m) +
+         DirectionWord(obstacle->bearing_rad) + " of the site";
+}
+
 std::string ApproachTurned(const std::optional<ApproachPlan>& plan) {
   if (!plan || !plan->turned()) {
     return {};

@@ -120,6 +120,8 @@ std::string NothingToLookAt(const std::string& letter);
 /// "Site B was looked at from 12.1 m above it: confirmed", or what the newest map found.
 std::string LookedAt(const MissionMemory& memory, double height_m);
 std::string ApproachBlocked(const std::string& letter);
+/// "Something 3.2 m high stands in the approach, 4.5 m south of the site". Null: not known what.
+std::string InApproach(const std::optional<ApproachObstacle>& obstacle);
 /// After what is told of a selection; empty for a straight approach, or none yet.
 std::string ApproachTurned(const std::optional<ApproachPlan>& plan);
 /// "Approach of site B turned by the operator: from the west".

@@ -3,12 +3,14 @@
 
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <Eigen/Dense>
 
 #include "engine/core/time.h"
+#include "engine/model/approach_obstacle.h"
 #include "engine/model/grid.h"
 
 namespace palace {
@@ -48,8 +50,8 @@ struct LandingSite {
   Figure step_m;
   Figure height_m;             ///< height in W, up-positive; three_sigma is the height noise
   double safe_distance_m = 0;  ///< to the nearest hazard
-  double clear_radius_m = 0;  ///< required: lander radius + navigation error
-  double clearance_m = 0;     ///< safe_distance - clear_radius
+  double clear_radius_m = 0;   ///< required: lander radius + navigation error
+  double clearance_m = 0;      ///< safe_distance - clear_radius
   double cost = 0;
   double safe_probability = 1;
   TouchdownOdds touchdown;
@@ -65,6 +67,8 @@ struct LandingSite {
   bool newest_confirms = false;  ///< so says the newest map; `confirmed` is steady over maps
   /// The corridor, rotor-wide, and the level way to where it begins: straight, or as it is planned.
   bool corridor_clear = true;
+  /// What stands there, of a site that was re-checked (Slad::Recheck) and is not clear.
+  std::optional<ApproachObstacle> in_approach;
   /// Bit k: such a corridor is clear from sector k of eight, from north clockwise, and so is the
   /// level way from the vehicle to where it begins.
   std::uint8_t clear_approaches = 0xFF;

@@ -52,6 +52,7 @@ void Pipeline::StartAfterJump(Timestamp now) {
   frame_moves_ = 0;
   laser_watch_.Reset();
   image_time_.Reset();
+  rate_attitude_.Reset();
   beam_ground_m_ = NAN;
   channels_.Reset();
   if (FollowsRecord(role_)) {

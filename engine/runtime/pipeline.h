@@ -17,6 +17,7 @@
 #include "engine/navigation/image_time_watch.h"
 #include "engine/navigation/laser_watch.h"
 #include "engine/navigation/navigator.h"
+#include "engine/navigation/rate_attitude.h"
 #include "engine/runtime/channel_monitor.h"
 #include "engine/runtime/flight_history.h"
 #include "engine/runtime/recorded_mission.h"
@@ -96,6 +97,8 @@ class Pipeline {
   Eigen::Vector3d BeamDirection() const;
   double SigmaOfPosition() const;
   std::optional<ViewPose> PoseOfPair(const Pass& pass) const;
+  /// Which camera repeats its picture, by the newest pair; `posed`: a pose belongs to it.
+  FrozenCameras WhichFrozen(const Pass& pass, bool posed);
   void MeasureRange(Pass& pass);
   void Judge(Pass& pass);
   void Track(Pass& pass);
@@ -146,6 +149,7 @@ class Pipeline {
   int frame_moves_ = 0;  ///< as the newest map knows
   LaserWatch laser_watch_;
   ImageTimeWatch image_time_;
+  RateAttitude rate_attitude_;
   ChannelMonitor channels_;
   FlightHistory history_;
   std::vector<std::string> injected_faults_;  ///< of the newest bundle

@@ -79,6 +79,9 @@ void Pipeline::See(Pass& pass) {
   }
   channels_.Add(bundle, !HasPicturesOnly(role_));
   navigator_.AddSensors(bundle);
+  for (const VehiclePose& pose : bundle.poses) {
+    rate_attitude_.Add(pose);
+  }
   if (bundle.pose_at_exposure) {
     sensors.pose = bundle.pose_at_exposure;
   } else if (!bundle.poses.empty()) {
@@ -146,6 +149,22 @@ std::optional<ViewPose> Pipeline::PoseOfPair(const Pass& pass) const {
   return ViewPose{pass.snapshot->sensors->X_WC, pose->sigmas};
 }
 
+FrozenCameras Pipeline::WhichFrozen(const Pass& pass, bool posed) {
+  const Timestamp exposure = pass.bundle->stereo->time;
+  // An attitude that is off has not turned the camera: a picture that stays need be no repeat.
+  const auto R_WB = rate_attitude_.At(exposure, FrozenCheck::kOldest_s);
+  RigidTransform X_WC = pass.snapshot->sensors->X_WC;
+  const double depth_m = posed && R_WB ? DepthOfGround(X_WC) : NAN;
+  X_WC.R = R_WB ? *R_WB * rectifier_->X_BC(*rig_).R : X_WC.R;
+  return frozen_check_.Add({.time = exposure,
+                            .left = pass.pair.left,
+                            .right = pass.pair.right,
+                            .X_WC = X_WC,
+                            .camera = rectifier_->camera(),
+                            .depth_m = depth_m,
+                            .sigma_p_m = SigmaOfPosition()});
+}
+
 void Pipeline::MeasureRange(Pass& pass) {
   if (!pass.pair.left || !pass.pair.right) {
     return;
@@ -172,14 +191,7 @@ void Pipeline::MeasureRange(Pass& pass) {
     pass.Note(DiagnosticLevel::kError, "stereo", result.error().message);
     return;
   }
-  const FrozenCameras frozen =
-      frozen_check_.Add({.time = pass.bundle->stereo->time,
-                         .left = pass.pair.left,
-                         .right = pass.pair.right,
-                         .X_WC = pass.snapshot->sensors->X_WC,
-                         .camera = rectifier_->camera(),
-                         .depth_m = pose ? DepthOfGround(pass.snapshot->sensors->X_WC) : NAN,
-                         .sigma_p_m = SigmaOfPosition()});
+  const FrozenCameras frozen = WhichFrozen(pass, pose.has_value());
   result->quality.left_frozen = frozen.left;
   result->quality.right_frozen = frozen.right;
   pass.snapshot->terrain.Edit().stereo_quality = result->quality;
@@ -203,6 +215,7 @@ void Pipeline::MeasureRange(Pass& pass) {
   }
   const PictureFaults faults = JudgePictures(pass.snapshot->terrain->stereo_quality, role_);
   if (faults.frozen() || faults.blank() || faults.swapped) {
+    slad_.DoubtViews();
     return;  // what it shows is no ground of now
   }
   WatchLaserSpot(*range);

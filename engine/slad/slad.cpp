@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "engine/core/units.h"
+#include "engine/slad/approach_obstacle.h"
 #include "engine/slad/map_hash.h"
 #include "engine/slad/sites/verdict_image.h"
 
@@ -101,7 +102,12 @@ std::optional<LandingSite> Slad::Recheck(const TerrainDecision& decision, const 
                                          const Settings& settings, double heading_rad) const {
   SiteContext context = Context(settings);
   context.approach_heading_rad = heading_rad;
-  return RecheckSite(*decision.elevation, *decision.hazards, decision.settings, site, context);
+  std::optional<LandingSite> now =
+      RecheckSite(*decision.elevation, *decision.hazards, decision.settings, site, context);
+  if (now) {
+    now->in_approach = FindApproachObstacle(*decision.elevation, decision.settings, context, *now);
+  }
+  return now;
 }
 
 }  // namespace palace

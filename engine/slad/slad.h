@@ -57,6 +57,9 @@ class Slad {
   /// Fuses a new range map and flags it from its pictures; Decide then judges the map. Thesis mode
   /// fuses nothing and flags nothing: its map is that of the newest frame.
   void Add(const SladInput& input, const SladSettings& settings);
+  /// The pictures of now are none, and those shortly before may have been none: what is seen next
+  /// is not compared with them (SceneFlags::DoubtViews).
+  void DoubtViews() { scene_flags_.DoubtViews(); }
   /// Takes a finished elevation map (a survey) in place of what was fused. Sites then have no
   /// vehicle, no picture and no straight approach.
   void Take(ElevationMap map);

@@ -189,6 +189,28 @@ TEST(JudgeRecheck, BandsOfAProvisionalSiteAreNoDoubt) {
   EXPECT_EQ(JudgeRecheck(std::nullopt, {}, {true, 2.0}, SladSettings{}).finding, Finding::kOver);
 }
 
+TEST(JudgeRecheck, WhatStandsInTheApproachIsNamedWithItsPlace) {
+  using Kind = ApproachObstacle::Kind;
+  struct Row {
+    ApproachObstacle obstacle;
+    const char* reason;
+  };
+  for (const Row& row :
+       {Row{{Kind::kStands, 3.24, 4.46, Rad(180)},
+            "Something 3.2 m high stands in the approach, 4.5 m south of the site"},
+        Row{{Kind::kThin, 7, 7.1, Rad(-45)},
+            "A thin structure 7.0 m up hangs in the approach, 7.1 m north-west of the site"},
+        Row{{Kind::kThin, HUGE_VAL, 12, Rad(90)},
+            "A thin structure of unknown height hangs in the approach, 12.0 m east of the site"},
+        Row{{Kind::kOnLevelWay},
+            "Something on the level way to the approach is as high as the vehicle"}}) {
+    LandingSite site = GoodSite();
+    site.corridor_clear = false;
+    site.in_approach = row.obstacle;
+    EXPECT_EQ(JudgeRecheck(site, {}, {true, 2.0}, SladSettings{}).reason, row.reason);
+  }
+}
+
 TEST(JudgeRecheck, WhatStandsInTheApproachOfAVehicleOnItsWayEndsTheApproval) {
   LandingSite site = GoodSite();
   site.corridor_clear = false;

@@ -39,6 +39,7 @@ TEST_P(Faults, AreNamedAndRecordedAndStopWhatTheyMust) {
 INSTANTIATE_TEST_SUITE_P(
     , Faults,
     testing::Values(Row{"laser stuck"}, Row{"GPS jumps by 8 m"}, Row{"attitude shifted by 0.3 s"},
+                    Row{"attitude rolled by 3 deg"},
                     // Down to the ground, where stereo gives no depth any more.
                     Row{"clock gains 1 %", FaultPhase::kDescent, {.wind_mps = 3, .seed = 1}}),
     [](const auto& row) {

@@ -12,8 +12,8 @@ namespace {
 
 const GridGeometry kGeometry{4, 4, 0.5, 0, 0};
 
-/// One letter a map: x found, . looked at without, - not looked at. Returns what was in force after
-/// each map: x or a dot.
+/// One letter a map: x found, . looked at without, - not looked at; F: motion is forgotten. Returns
+/// what was in force after each: x or a dot.
 std::string InForce(TerrainFlag flag, const std::string& maps) {
   FlagMemory memory;
   memory.MoveTo(kGeometry);
@@ -21,7 +21,7 @@ std::string InForce(TerrainFlag flag, const std::string& maps) {
   for (const char map : maps) {
     Grid<std::uint8_t> seen(4, 4, map == '-' ? std::uint8_t{0} : std::uint8_t{flag});
     Grid<std::uint8_t> found(4, 4, map == 'x' ? std::uint8_t{flag} : std::uint8_t{0});
-    memory.Add(seen, found);
+    map == 'F' ? memory.ForgetMotion() : memory.Add(seen, found);
     answer += (memory.Flags().at(1, 2) & flag) != 0 ? 'x' : '.';
   }
   return answer;
@@ -53,6 +53,9 @@ INSTANTIATE_TEST_SUITE_P(
                     Row{"MotionNeedsTwo", kFlagMotion, "x.xx", "..xx"},
                     Row{"MotionFadesOutOfViewToo", kFlagMotion, "xx----------------------",
                         ".xxxxxxxxxxxxxxxxxxxx..."},
+                    Row{"MotionSeenInDoubtfulViewsIsForgotten", kFlagMotion, "xxF.x.xxx",
+                        ".x....xxx"},
+                    Row{"NothingElseIs", kFlagThinStructure, "xxF.", "xxxx"},
                     Row{"WiresStayTwenty", kFlagThinStructure, "xx......................",
                         "xxxxxxxxxxxxxxxxxxxxx..."}),
     [](const auto& row) { return row.param.name; });

@@ -40,8 +40,8 @@ struct AlarmFacts {
   double attitude_invalid_s = NAN;  ///< vehicle poses are refused for their numbers, for so long
   double invalid_for_s = NAN;       ///< the same; 0 while they are used
   double silence_s = NAN;           ///< since anything came from the vehicle
-  double lost_percent = NAN;        ///< of the vehicle's messages of the last 5 s
-  std::string lost_channels{};      ///< "Vehicle pose 31 %, IMU 29 %"
+  double lost_percent = NAN;        ///< of the samples of the last 5 s: LostShare
+  std::string loss{};               ///< words for it: LossWords
   double ground_age_s = NAN;        ///< of the site's, in a descent above the commit height
   double gps_error_m = NAN;         ///< 3 sigma, horizontal
   double gps_age_s = NAN;

@@ -83,9 +83,7 @@ const AlarmRow kRows[] = {
                    double limit) { return f.has_vehicle && f.lost_percent > limit; },
      .text =
          [](const Facts& f, const std::string& limit) {
-           return WithNumbers("%.0f %% of the vehicle's messages are lost, limit ",
-                              f.lost_percent) +
-                  limit + " (" + f.lost_channels + "). Check the link; beyond " +
+           return f.loss + ", limit " + limit + ". Check the link; beyond " +
                   LimitWords({GuardLimits::lost_percent, "%", 0}) + " approve is blocked.";
          }},
     {.id = AlarmId::kCameraBlank,

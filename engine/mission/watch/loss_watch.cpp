@@ -8,9 +8,10 @@
 namespace palace {
 namespace {
 
-constexpr double kLeastWindow_s = 2;   ///< no rate is told from less
-constexpr double kLeastShare = 0.01;   ///< of messages that came, to tell a rate from
-constexpr double kLeastMessages = 50;  ///< no share either
+constexpr double kLeastWindow_s = 2;       ///< no rate is told from less
+constexpr double kLeastShare = 0.01;       ///< of messages that came, to tell a rate from
+constexpr double kLeastMessages = 50;      ///< no share either
+constexpr double kLeastToldShare = 0.005;  ///< of a channel; less is told as 0 %
 
 using Counts = std::map<std::string, std::uint64_t>;
 
@@ -75,14 +76,30 @@ double LostShare(const std::vector<ChannelHealth>& channels) {
   return sent > 0 ? lost / sent : NAN;
 }
 
-std::string LostChannels(const std::vector<ChannelHealth>& channels) {
-  std::vector<std::string> words;
+std::string LossWords(const std::vector<ChannelHealth>& channels) {
+  std::vector<std::string> counted;
+  std::vector<const ChannelHealth*> losing;
   for (const ChannelHealth& channel : channels) {
-    if (IsCounted(channel) && channel.lost_share > 0) {
-      words.push_back(ChannelName(channel.id) + WithNumbers(" %.0f %%", 100 * channel.lost_share));
+    if (IsCounted(channel)) {
+      counted.emplace_back(ChannelName(channel.id));
+      if (channel.lost_share >= kLeastToldShare) {
+        losing.push_back(&channel);
+      }
     }
   }
-  return Joined(words);
+  std::stable_sort(
+      losing.begin(), losing.end(),
+      [](const ChannelHealth* a, const ChannelHealth* b) { return a->lost_share > b->lost_share; });
+  std::string words;
+  for (const ChannelHealth* channel : losing) {
+    words += (words.empty() ? "" : ", ") + std::string(ChannelName(channel->id)) +
+             (words.empty() ? " loses" : "") + WithNumbers(" %.0f %%", 100 * channel->lost_share) +
+             (words.empty() ? " of its messages" : "");
+  }
+  return words.empty() || counted.size() < 2
+             ? words
+             : words + "; of " + Joined(counted) +
+                   WithNumbers(" together %.0f %%", 100 * LostShare(channels));
 }
 
 LossWatch::Sample LossWatch::SampleOf(const Losses& losses, Timestamp now) {

@@ -36,6 +36,12 @@ void FlagMemory::MoveTo(const GridGeometry& geometry) {
   geometry_ = geometry;
 }
 
+void FlagMemory::ForgetMotion() {
+  for (CellTracks& cell : tracks_.cells()) {
+    cell.kinds[kMotion] = {};
+  }
+}
+
 void FlagMemory::Add(const Grid<std::uint8_t>& seen, const Grid<std::uint8_t>& found,
                      const ThinSights& thin) {
   PALACE_CHECK(seen.rows() == geometry_.rows && found.rows() == geometry_.rows &&

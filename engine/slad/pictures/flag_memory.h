@@ -39,6 +39,8 @@ class FlagMemory {
   /// The grid moves by whole cells; cells that leave it are forgotten. Another cell size starts
   /// afresh.
   void MoveTo(const GridGeometry& geometry);
+  /// Nothing was ever in motion: the views that said so are doubted.
+  void ForgetMotion();
   /// One map's findings: bits of `seen` say which flags were looked for in the cell, bits of
   /// `found` which were there. Both have the geometry's size.
   void Add(const Grid<std::uint8_t>& seen, const Grid<std::uint8_t>& found,
@@ -56,7 +58,7 @@ class FlagMemory {
   };
   static constexpr std::array<TerrainFlag, 4> kKinds = {kFlagThinStructure, kFlagNoTexture,
                                                         kFlagShadow, kFlagMotion};
-  static constexpr std::size_t kThin = 0;  ///< of kKinds
+  static constexpr std::size_t kThin = 0, kMotion = 3;  ///< of kKinds
   struct CellTracks {
     std::array<Track, kKinds.size()> kinds;
     ThinSight thin;

@@ -86,6 +86,12 @@ void SceneFlags::Reset() {
   memory_.Reset();
 }
 
+void SceneFlags::DoubtViews() {
+  motion_.Reset();
+  older_.Reset();
+  memory_.ForgetMotion();
+}
+
 Grid<std::uint8_t> SceneFlags::Add(const SceneView& view, const GridGeometry& geometry) {
   memory_.MoveTo(geometry);
   const SceneGround ground = FindSceneGround(view);

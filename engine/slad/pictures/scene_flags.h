@@ -22,6 +22,10 @@ namespace palace {
 class SceneFlags {
  public:
   void Reset();
+  /// What was seen before need not have been where it was said to be: no later view is compared
+  /// with it, and nothing that was found by comparing stands. What moves is told again after half a
+  /// second.
+  void DoubtViews();
   /// TerrainFlag bits for the cells of the map that the view's range map was just fused into. A
   /// cell has no texture, shadow or motion when at least half of the blocks seen in it have. A thin
   /// structure flags the cells straight below it and their neighbours; one of unknown height those
