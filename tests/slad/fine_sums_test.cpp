@@ -72,6 +72,22 @@ TEST(FineSums, APlaneIsFoundWhereverItIsKnownBetterOrWorse) {
   EXPECT_DOUBLE_EQ(plane.variance_m2, 1 / sum.of[FineSum::kA]) << "net is gross";
 }
 
+TEST(FineSums, WhatIsKnownToAMillimetreCountsAsKnownToACentimetre) {
+  Grid<FineKnown> known(kPlaces.rows, kPlaces.cols);
+  for (FineKnown& place : known.cells()) {
+    place = {100, 100, 20, 10};  // 0.2 m high, to 10 cm
+  }
+  known.at(10, 12) = {1e6F, 1e6F, 5e5F, 2e5F};
+  const FineSums sums(known, kPlaces, 0);
+  const FineSum line = sums.Over(10, 12, 1);
+  EXPECT_NEAR(line.height_m(), 0.5, 1e-6);
+  EXPECT_NEAR(line.off_laid_m(), 0.2, 1e-6);
+  EXPECT_NEAR(line.variance_m2(), 1e-4, 1e-9);
+  // Of a window of 19 x 19 places it is a hundred, not ten thousand.
+  EXPECT_NEAR(sums.Over(10, 12, 1, 9).of[FineSum::kA], 1e4 + 360 * 100, 1);
+  EXPECT_NEAR(sums.Over(10, 30, 1).variance_m2(), 0.01, 1e-9);
+}
+
 TEST(FineSums, ALineOrNoiseAloneIsNoPlane) {
   Grid<FineKnown> line(kPlaces.rows, kPlaces.cols);
   for (int c = 0; c < kPlaces.cols; ++c) {

@@ -109,6 +109,24 @@ TEST(LaidOver, TheGroundIsAPlaneThroughNoisyDisparitiesAndFollowsWhatIsFarOff) {
   EXPECT_NEAR(laid.disparity_px.at(170, 120), 33, 0.2);
 }
 
+TEST(LaidOver, NothingIsLaidAcrossADepthEdge) {
+  const TexturedPair pair = SeeTexture(Flat(), kTexture, 10, 0, 7);
+  for (const float step_px : {0.5F, 3.0F}) {
+    ImageF disparity_px = pair.range.disparity_px;
+    for (int y = 0; y < disparity_px.height(); ++y) {
+      for (int x = 160; x < disparity_px.width(); ++x) {
+        disparity_px.row(y)[x] += step_px;
+      }
+    }
+    const LaidOver laid = LayOver(pair.left, pair.right, disparity_px);
+    const bool is_edge = step_px > 1;
+    EXPECT_EQ(laid.known.at(159, 120) > 0, !is_edge) << step_px;
+    EXPECT_EQ(laid.known.at(160, 120) > 0, !is_edge) << step_px;
+    EXPECT_GT(laid.known.at(150, 120), 0) << step_px;
+    EXPECT_GT(laid.known.at(170, 120), 0) << step_px;
+  }
+}
+
 TEST(LaidOver, PicturesWithoutContrastGiveNumbers) {
   TexturedPair pair = SeeTexture(Flat(), kTexture, 10, 1, 7);
   for (const int grey : {0, 255}) {

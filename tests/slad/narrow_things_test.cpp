@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -24,14 +25,24 @@ using testing::WithBox;
 constexpr double kPlace_m = 0.01;
 const Eigen::Vector3d kAbove(0, 0, -10);
 
-ElevationMap Seen(const Height& ground, const Eigen::Vector3d& p_WC = kAbove,
-                  double place_m = kPlace_m, double repeated_m = 0, const Height& laid = Flat()) {
+/// The map of such ground, of which it is remembered what `stood` out.
+ElevationMap SeenAgain(const Height& ground, Grid<std::uint8_t>& stood,
+                       const Eigen::Vector3d& p_WC = kAbove, double place_m = kPlace_m,
+                       double repeated_m = 0, const Height& laid = Flat()) {
   ElevationMap map = MakeMap(60, 60, 0.15, Flat(), 0.005);
   map.measured_m = map.height_m;
   const PinholeCamera camera = ThesisCamera();
   TakeNarrowThings(FineField(map.geometry, ground, place_m, 1, laid), {camera, p_WC},
-                   GridF(60, 60, static_cast<float>(repeated_m * repeated_m)), map);
+                   GridF(60, 60, static_cast<float>(repeated_m * repeated_m)), stood, map);
   return map;
+}
+
+Grid<std::uint8_t> NothingStood() { return Grid<std::uint8_t>(120, 120, 0); }
+
+ElevationMap Seen(const Height& ground, const Eigen::Vector3d& p_WC = kAbove,
+                  double place_m = kPlace_m, double repeated_m = 0, const Height& laid = Flat()) {
+  Grid<std::uint8_t> stood = NothingStood();
+  return SeenAgain(ground, stood, p_WC, place_m, repeated_m, laid);
 }
 
 /// Place whose square lies about the point, on the corner of two places.
@@ -142,6 +153,59 @@ TEST(NarrowThings, WhatWasLaidWhereItStandsRaisesNothingBeforeIt) {
   };
   EXPECT_GT(top_m(Flat()), 0.3) << "laid behind it";
   EXPECT_LT(top_m(box), 0.03) << "laid on it";
+}
+
+/// North of 1 m a roof of that height.
+Height BesideARoof(const Height& ground, double roof_m) {
+  return [=](double n, double e) { return n > 1 ? roof_m : ground(n, e); };
+}
+
+TEST(NarrowThings, LevelGroundBesideARoofAWallOrARockIsNoHole) {
+  for (const double roof_m : {0.4, 1.0, 3.0}) {
+    const ElevationMap map = Seen(BesideARoof(Flat(), roof_m));
+    // Nearer, the widest squares reach over its edge.
+    for (double north_m = 0.525; north_m > -0.8; north_m -= 0.15) {
+      const Cell cell = *map.geometry.CellFromPoint(north_m, 0);
+      EXPECT_NEAR(map.height_m.at(cell), map.measured_m.at(cell), 0.02)
+          << "roof " << roof_m << " m, ground " << 1 - north_m << " m before it";
+    }
+  }
+  const ElevationMap rock = Seen(WithBox(Flat(), 0, 0, 0.45, 0.6));
+  for (const double east_m : {0.6, 0.75}) {
+    const Cell cell = *rock.geometry.CellFromPoint(0, east_m);
+    EXPECT_NEAR(rock.height_m.at(cell), rock.measured_m.at(cell), 0.02) << east_m;
+  }
+}
+
+TEST(NarrowThings, AThingBesideARoofStandsOutAllTheSame) {
+  for (const double thing_m : {0.15, -0.15}) {
+    const ElevationMap map = Seen(BesideARoof(WithBox(Flat(), 0.375, 0, 0.16, thing_m), 3));
+    const Cell cell = *map.geometry.CellFromPoint(0.375, 0);
+    EXPECT_GT(std::copysign(1, thing_m) * (map.height_m.at(cell) - map.measured_m.at(cell)), 0.12)
+        << thing_m;
+  }
+}
+
+TEST(NarrowThings, WhatStoodOutStaysUntilItFallsClearlyBelow) {
+  // A square of four places is known to 1.5 cm: some 4 sigmas, then 3.
+  for (const double thing_m : {0.04, 0.024}) {
+    const Height ground = WithBox(Flat(), 0, 0, 0.16, thing_m);
+    const Cell cell = *Seen(Flat()).geometry.CellFromPoint(0.01, 0.01), place = PlaceAt(0, 0);
+    const ElevationMap first = Seen(ground, kAbove, 0.03);
+    const double sigmas = static_cast<double>(first.narrow.prominence_m.at(place)) /
+                          static_cast<double>(first.narrow.sigma_m.at(place));
+    const bool stays = sigmas > 3.5;
+    ASSERT_LT(sigmas, 4.5);
+    ASSERT_EQ(stays, thing_m > 0.03) << sigmas;
+    EXPECT_NEAR(first.height_m.at(cell), first.measured_m.at(cell), 1e-6) << sigmas;
+    Grid<std::uint8_t> stood = NothingStood();
+    for (std::uint8_t& bits : stood.cells()) {
+      bits = 4;  // of the narrowest squares
+    }
+    const ElevationMap again = SeenAgain(ground, stood, kAbove, 0.03);
+    EXPECT_EQ(again.height_m.at(cell) > again.measured_m.at(cell) + 0.04F, stays) << sigmas;
+    EXPECT_EQ(stood.at(place) != 0, stays) << sigmas;
+  }
 }
 
 TEST(NarrowThings, WhatStandsAMetreOffIsNotNarrow) {

@@ -71,16 +71,6 @@ float ReferenceOf(const FootprintPlanes& planes) {
   return 0;
 }
 
-/// Where frames disagree a cell's variance is large because something stands or moves there: noise
-/// is at most this many times the variance of the ground around.
-constexpr float kMostVariance = 4;
-
-float NoiseVariance(const ElevationMap& map, const FootprintPlanes& planes, int r, int c) {
-  const float around = kMostVariance * planes.cell_variance_m2.at(r, c);
-  const float own = map.variance_m2.at(r, c);
-  return around < own ? around : own;  // where nothing is known around, the cell's own
-}
-
 void FillLayers(const ElevationMap& map, const FootprintPlanes& planes, float reference,
                 Layers& layers) {
   const float cell = static_cast<float>(map.geometry.cell_m);
@@ -88,7 +78,7 @@ void FillLayers(const ElevationMap& map, const FootprintPlanes& planes, float re
     for (int c = 0; c < map.geometry.cols; ++c) {
       if (map.state.at(r, c) == CellState::kMeasured) {
         layers.height.row(r)[c] = map.height_m.at(r, c) - reference;
-        layers.noise2.row(r)[c] = kNoise2 * NoiseVariance(map, planes, r, c);
+        layers.noise2.row(r)[c] = kNoise2 * map.variance_m2.at(r, c);
       }
       if (!std::isnan(planes.plane.height_m.at(r, c))) {
         layers.plane.row(r)[c] = planes.plane.height_m.at(r, c) - reference;
@@ -253,8 +243,7 @@ void FindCellFigures(const ElevationMap& map, const Lander& lander, const Footpr
       figures.east_gradient.at(r, c) = east;
       figures.slope_sigma_rad.at(r, c) = std::sqrt(gradient_sigma * gradient_sigma + attitude2);
       // A filled cell is judged by its filled height, so that it reads like its neighbours.
-      figures.deviation_m.at(r, c) =
-          BeyondNoise(off * off - kNoise2 * NoiseVariance(map, planes, r, c));
+      figures.deviation_m.at(r, c) = BeyondNoise(off * off - kNoise2 * map.variance_m2.at(r, c));
       figures.sigma_m.at(r, c) = averaging * std::sqrt(variance);
       figures.footprint_sigma_m.at(r, c) = averaging * std::sqrt(planes.cell_variance_m2.at(r, c));
     }

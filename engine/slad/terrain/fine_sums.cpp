@@ -4,6 +4,11 @@
 #include <cmath>
 
 namespace palace {
+namespace {
+
+constexpr float kMostNet = 1e4F;  // 1/m^2: to a centimetre, as ground of that size is rough
+
+}  // namespace
 
 FineSum& FineSum::operator+=(const FineSum& other) {
   for (std::size_t k = 0; k < of.size(); ++k) {
@@ -54,10 +59,12 @@ FineSums::FineSums(const Grid<FineKnown>& known, const GridGeometry& places, dou
   for (int r = 0; r < places.rows; ++r) {
     FineSum row;
     for (int c = 0; c < places.cols; ++c) {
-      const auto a = static_cast<double>(known.at(r, c).net),
-                 j = static_cast<double>(known.at(r, c).height),
-                 g = static_cast<double>(known.at(r, c).gross),
-                 off = static_cast<double>(known.at(r, c).off);
+      const FineKnown& place = known.at(r, c);
+      const double part = place.net > kMostNet ? static_cast<double>(kMostNet / place.net) : 1;
+      const double a = part * static_cast<double>(place.net),
+                   j = part * static_cast<double>(place.height),
+                   g = part * static_cast<double>(place.gross),
+                   off = part * static_cast<double>(place.off);
       const double x = c - places.cols / 2.0, y = r - places.rows / 2.0;
       row += FineSum{{a, a * x, a * y, a * x * x, a * x * y, a * y * y, j, j * x, j * y, g, off}};
       FineSum& corner = corners_.at(r + 1, c + 1);
@@ -72,10 +79,13 @@ int FineSums::side() const {
 }
 
 FineSum FineSums::Over(int row, int col, int side, int reach) const {
-  const int r0 = std::clamp(row - side / 2 - reach, 0, places_.rows),
-            r1 = std::clamp(row - side / 2 + side + reach, 0, places_.rows),
-            c0 = std::clamp(col - side / 2 - reach, 0, places_.cols),
-            c1 = std::clamp(col - side / 2 + side + reach, 0, places_.cols);
+  const int top = row - side / 2, left = col - side / 2;
+  return Within(top - reach, top + side + reach, left - reach, left + side + reach);
+}
+
+FineSum FineSums::Within(int row, int row_end, int col, int col_end) const {
+  const int r0 = std::clamp(row, 0, places_.rows), r1 = std::clamp(row_end, 0, places_.rows),
+            c0 = std::clamp(col, 0, places_.cols), c1 = std::clamp(col_end, 0, places_.cols);
   return (corners_.at(r1, c1) - corners_.at(r0, c1)) - (corners_.at(r1, c0) - corners_.at(r0, c0));
 }
 

@@ -62,7 +62,9 @@ FinePlane PlaneThrough(const FineSum& sum);
 
 class FineSums {
  public:
-  /// Heights of `known` are relative to `reference_m`.
+  /// Heights of `known` are relative to `reference_m`. A place counts as one known to a centimetre
+  /// at most: ground is rough, and a painted line, known to a millimetre, would be all of the plane
+  /// through its surroundings.
   FineSums(const Grid<FineKnown>& known, const GridGeometry& places, double reference_m);
 
   const GridGeometry& places() const { return places_; }
@@ -73,6 +75,8 @@ class FineSums {
   /// and (row, col), or the place itself where the side is odd; `reach` places wider on all sides.
   /// Cut at the grid.
   FineSum Over(int row, int col, int side, int reach = 0) const;
+  /// Over rows from `row` to before `row_end`, and columns likewise. Cut at the grid.
+  FineSum Within(int row, int row_end, int col, int col_end) const;
 
  private:
   GridGeometry places_;

@@ -17,6 +17,7 @@ constexpr int kPatch = LaidOver::kPatch_px;
 constexpr int kReach_patches = 3;     // half width of the windows: 28 px
 constexpr double kLeastKnown = 0.15;  // of a window's pixels
 constexpr float kOffPlane_px = 0.5F;  // what stereo measured counts beyond
+constexpr float kEdge_px = 1;         // between patches: a linear step reaches no farther
 constexpr double kLeastNoise2 = 0.5;  // grey^2: rounding of both pictures
 constexpr double kMostGain = 2;
 constexpr double kWindow_px2 =
@@ -137,7 +138,10 @@ ImageF GroundDisparity(const ImageF& disparity_px) {
   return ground;
 }
 
-/// A row of pixels between the middles of patches; NaN beside unknown ones.
+/// Whether a surface goes on from one patch to the other.
+bool GoesOn(float from_px, float to_px) { return std::abs(to_px - from_px) <= kEdge_px; }
+
+/// A row of pixels between the middles of patches; NaN beside unknown ones and at depth edges.
 void BetweenPatches(const ImageF& patches, int y, std::vector<float>& of_patch, float* out,
                     int width) {
   const int cols = patches.width(), rows = patches.height();
@@ -148,14 +152,16 @@ void BetweenPatches(const ImageF& patches, int y, std::vector<float>& of_patch, 
   const float t = v - static_cast<float>(j);
   const float *above = patches.row(j), *below = patches.row(j + 1);
   for (int i = 0; i < cols; ++i) {
-    of_patch[static_cast<std::size_t>(i)] = above[i] + t * (below[i] - above[i]);
+    of_patch[static_cast<std::size_t>(i)] =
+        GoesOn(above[i], below[i]) ? above[i] + t * (below[i] - above[i]) : kUnknownValue;
   }
   for (int x = 0; x < width; ++x) {
     const float u =
         std::clamp((static_cast<float>(x) - kMiddle) / kPatch, 0.0F, static_cast<float>(cols - 1));
     const int i = std::min(static_cast<int>(u), cols - 2);
     const float* p = of_patch.data() + i;
-    out[x] = p[0] + (u - static_cast<float>(i)) * (p[1] - p[0]);
+    out[x] =
+        GoesOn(p[0], p[1]) ? p[0] + (u - static_cast<float>(i)) * (p[1] - p[0]) : kUnknownValue;
   }
 }
 

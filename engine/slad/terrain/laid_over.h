@@ -33,8 +33,9 @@ struct LaidOver {
 };
 
 /// Pictures and disparities of one size, at least 64 pixels each way; NaN disparities are unknown.
-/// Nothing is known of windows of which stereo measured less than 15 %, and beyond the right
-/// picture. Rows are shared among OpenCV's threads; their number changes no bit.
+/// Nothing is known of windows of which stereo measured less than 15 %, beyond the right picture,
+/// and between patches whose disparities differ by more than a pixel: a depth edge. Rows are shared
+/// among OpenCV's threads; their number changes no bit.
 LaidOver LayOver(const ImageU8& left, const ImageU8& right, const ImageF& disparity_px);
 
 }  // namespace palace

@@ -2,12 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <iterator>
 #include <utility>
 
 #include <opencv2/core.hpp>
 
+#include "engine/core/check.h"
 #include "engine/core/frames.h"
 #include "engine/slad/terrain/ground_bumps.h"
+#include "engine/slad/terrain/square_and_frame.h"
 
 namespace palace {
 namespace {
@@ -19,7 +24,9 @@ constexpr double kThing_m = 0.18, kPeakOfThing = 0.8;
 constexpr double kWorstTexture = 2.5;  // times the error that stereo's window usually repeats
 constexpr double kGradient_px = 3;     // width that a five-point derivative feels
 constexpr double kTallest_m = 1;
-constexpr int kRingFrom = 1;  // of the frame around, in squares beyond the square
+/// What stands out does so until it falls below: of the fifty frames that a map remembers one is
+/// new, and a bump on the threshold would come and go.
+constexpr double kStillStandsOut_sigmas = 3.5;
 /// Squares that are looked at, the narrowest last: times the side, and how far their frame reaches.
 struct Scale {
   int sides, ring_to;
@@ -29,45 +36,33 @@ constexpr Scale kScales[] = {{4, 2}, {2, 4}, {1, 4}};
 double Square(double a) { return a * a; }
 double At(const GridF& layer, int row, int col) { return static_cast<double>(layer.at(row, col)); }
 
-/// What places show; NaN where nothing can be said.
+/// What squares of one size show.
 struct Figures {
-  GridF prominence_m;  ///< p
-  GridF sigma_m;       ///< sigma_p
-  GridF level_m;       ///< of the plane
-  GridF off_laid_m;    ///< of the height, off the ground that the square's pixels were laid on
-  int side = 1;        ///< of the square, places
+  Grid<ShownBySquare> shown;
+  GridF off_m, sigma_m;  ///< the same; NaN where nothing is told
 };
 
 /// Every so many places are looked at that squares overlap by half.
 int StrideOf(int side) { return std::max(1, side / 2); }
 
 Figures Measure(const FineSums& sums, int side, int ring_to) {
-  const GridGeometry& places = sums.places();
-  const GridF unknown(places.rows, places.cols, kUnknownValue);
-  Figures shown{unknown, unknown, unknown, unknown, side};
-  cv::parallel_for_(cv::Range(0, places.rows), [&](const cv::Range& rows) {
+  const int rows = sums.places().rows, cols = sums.places().cols;
+  const GridF unknown(rows, cols, kUnknownValue);
+  Figures figures{Grid<ShownBySquare>(rows, cols), unknown, unknown};
+  cv::parallel_for_(cv::Range(0, rows), [&](const cv::Range& range) {
     const int stride = StrideOf(side);
-    for (int r = (rows.start + stride - 1) / stride * stride; r < rows.end; r += stride) {
-      for (int c = 0; c < places.cols; c += stride) {
-        const FineSum own = sums.Over(r, c, side);
-        if (!own.known()) {
-          continue;
-        }
-        const FinePlane around = PlaneThrough(sums.Over(r, c, side, ring_to * side) -
-                                              sums.Over(r, c, side, kRingFrom * side));
-        const double aside = around.told ? around.Aside(own.x(), own.y()) : HUGE_VAL;
-        if (aside <= kMostAside) {
-          const double level_m = around.At(own.x(), own.y());
-          shown.prominence_m.at(r, c) = static_cast<float>(own.height_m() - level_m);
-          shown.level_m.at(r, c) = static_cast<float>(level_m + sums.reference_m());
-          shown.off_laid_m.at(r, c) = static_cast<float>(own.off_laid_m());
-          shown.sigma_m.at(r, c) =
-              static_cast<float>(std::sqrt(own.variance_m2() + (1 + aside) * around.variance_m2));
+    for (int r = (range.start + stride - 1) / stride * stride; r < range.end; r += stride) {
+      for (int c = 0; c < cols; c += stride) {
+        const ShownBySquare shown = OffFrame(sums, {r, c, side, ring_to});
+        if (shown.told) {
+          figures.shown.at(r, c) = shown;
+          figures.off_m.at(r, c) = static_cast<float>(shown.off_m);
+          figures.sigma_m.at(r, c) = static_cast<float>(shown.sigma_m);
         }
       }
     }
   });
-  return shown;
+  return figures;
 }
 
 /// Raises the ground between the cell and the camera to the rays that saw the cell at `laid_m`, as
@@ -120,21 +115,16 @@ void RaiseTop(const ElevationMap& map, Cell cell, const Eigen::Vector3d& p_WC,
   }
 }
 
-/// Raises the top of the cells under the square about a place that stands out by kStandsOut_sigmas,
-/// to `times` as much as it shows.
-void RaiseUnder(const Figures& fine, int row, int col, double times, double sigma_m,
+/// Raises the top of the cells under a square that stands out, to `times` as much as it shows.
+void RaiseUnder(const SquareAndFrame& at, const ShownBySquare& shown, double level_m, double times,
                 const Eigen::Vector3d& p_WC, const ElevationMap& map, GridF& top_m) {
-  const double shown_m = At(fine.prominence_m, row, col);
-  if (!(std::abs(shown_m) <= kTallest_m && std::abs(shown_m) > kStandsOut_sigmas * sigma_m)) {
-    return;
-  }
   NarrowThing thing;
-  thing.height_m = std::clamp(times * shown_m, -kTallest_m, kTallest_m);
-  thing.top_m = At(fine.level_m, row, col) + thing.height_m;
-  thing.off_m = std::clamp(times * At(fine.off_laid_m, row, col), 0.0, std::abs(thing.height_m));
-  const int first_row = row - fine.side / 2, first_col = col - fine.side / 2;
-  for (int r = first_row / kPerCell; r <= (first_row + fine.side - 1) / kPerCell; ++r) {
-    for (int c = first_col / kPerCell; c <= (first_col + fine.side - 1) / kPerCell; ++c) {
+  thing.height_m = std::clamp(times * shown.off_m, -kTallest_m, kTallest_m);
+  thing.top_m = level_m + thing.height_m;
+  thing.off_m = std::clamp(times * shown.off_laid_m, 0.0, std::abs(thing.height_m));
+  const int first_row = at.row - at.side / 2, first_col = at.col - at.side / 2;
+  for (int r = first_row / kPerCell; r <= (first_row + at.side - 1) / kPerCell; ++r) {
+    for (int c = first_col / kPerCell; c <= (first_col + at.side - 1) / kPerCell; ++c) {
       RaiseTop(map, {r, c}, p_WC, thing, top_m);
     }
   }
@@ -143,43 +133,61 @@ void RaiseUnder(const Figures& fine, int row, int col, double times, double sigm
 }  // namespace
 
 void TakeNarrowThings(const FineSums& sums, const Viewpoint& view, const GridF& repeated_m2,
-                      ElevationMap& map) {
+                      Grid<std::uint8_t>& standing, ElevationMap& map) {
   const GridGeometry& places = sums.places();
+  PALACE_CHECK(standing.rows() == places.rows && standing.cols() == places.cols, standing.rows(),
+               places.rows);
   const double square_m = sums.side() * places.cell_m;
   const GridF unknown(places.rows, places.cols, kUnknownValue);
   map.narrow = {unknown, unknown, unknown, unknown, 0};
   GridF top_m = map.height_m;
-  for (const Scale& scale : kScales) {
-    const Figures figures = Measure(sums, scale.sides * sums.side(), scale.ring_to);
-    const GroundBumps bumps(figures.prominence_m, figures.sigma_m, places.cell_m, figures.side);
+  for (std::size_t k = 0; k < std::size(kScales); ++k) {
+    const Scale& scale = kScales[k];
+    const int side = scale.sides * sums.side();
+    const Figures figures = Measure(sums, side, scale.ring_to);
+    const GroundBumps bumps(figures.off_m, figures.sigma_m, places.cell_m, side);
     const bool narrowest = scale.sides == 1;
     if (narrowest) {
       map.narrow.ring_m = (0.5 + scale.ring_to) * square_m;
     }
-    const int stride = StrideOf(figures.side);
+    const int stride = StrideOf(side);
     for (int r = 0; r < places.rows; r += stride) {
       for (int c = 0; c < places.cols; c += stride) {
-        const double shown_m = At(figures.prominence_m, r, c);
-        if (!(std::abs(shown_m) <= kTallest_m)) {
+        const SquareAndFrame at{r, c, side, scale.ring_to};
+        ShownBySquare shown = figures.shown.at(r, c);
+        const double bumps_m = bumps.At(r, c);
+        const double repeated_m = std::sqrt(At(repeated_m2, r / kPerCell, c / kPerCell));
+        const double worst_m = narrowest ? 0 : kWorstTexture * repeated_m;
+        std::uint8_t& stood = standing.at(r, c);
+        const double beyond = (stood >> k & 1U) != 0 ? kStillStandsOut_sigmas : kStandsOut_sigmas;
+        const auto stands_out = [&] {
+          return shown.told && std::abs(shown.off_m) >
+                                   beyond * std::hypot(std::hypot(shown.sigma_m, bumps_m), worst_m);
+        };
+        if (stands_out()) {
+          shown = OffGroundAround(sums, at, bumps_m);
+        }
+        const bool stands = stands_out() && std::abs(shown.off_m) <= kTallest_m;
+        stood = static_cast<std::uint8_t>((stood & ~(1U << k)) | (stands ? 1U << k : 0U));
+        if (!(shown.told && std::abs(shown.off_m) <= kTallest_m)) {
           continue;
         }
-        const double noise_m = At(figures.sigma_m, r, c);
-        const double sigma_m = std::hypot(noise_m, bumps.At(r, c));
-        const Eigen::Vector3d p_WQ(places.NorthOfRow(r), places.EastOfCol(c),
-                                   -At(figures.level_m, r, c));
+        const double level_m = shown.level_m + sums.reference_m();
+        const Eigen::Vector3d p_WQ(places.NorthOfRow(r), places.EastOfCol(c), -level_m);
         const double gradient_m = kGradient_px * view.Pixel_m(p_WQ);
-        const double repeated_m = std::sqrt(At(repeated_m2, r / kPerCell, c / kPerCell));
         const double smear = (Square(gradient_m) + Square(square_m)) / Square(kThing_m);
         if (narrowest) {
-          map.narrow.prominence_m.at(r, c) = static_cast<float>(shown_m);
-          map.narrow.noise_m.at(r, c) = static_cast<float>(std::hypot(noise_m, repeated_m));
-          map.narrow.sigma_m.at(r, c) = static_cast<float>(std::hypot(sigma_m, repeated_m));
+          const double noise_m = std::hypot(shown.sigma_m, repeated_m);
+          map.narrow.prominence_m.at(r, c) = static_cast<float>(shown.off_m);
+          map.narrow.noise_m.at(r, c) = static_cast<float>(noise_m);
+          map.narrow.sigma_m.at(r, c) = static_cast<float>(std::hypot(noise_m, bumps_m));
           map.narrow.share.at(r, c) = static_cast<float>(kPeakOfThing / (1 + smear));
         }
-        // What fills a wider square shows all of its height.
-        const double times = std::max(1.0, (1 + smear) / scale.sides);
-        const double worst_m = narrowest ? 0 : kWorstTexture * repeated_m;
-        RaiseUnder(figures, r, c, times, std::hypot(sigma_m, worst_m), view.p_WC, map, top_m);
+        if (stands) {
+          // What fills a wider square shows all of its height.
+          const double times = std::max(1.0, (1 + smear) / scale.sides);
+          RaiseUnder(at, shown, level_m, times, view.p_WC, map, top_m);
+        }
       }
     }
   }

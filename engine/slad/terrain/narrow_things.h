@@ -1,13 +1,9 @@
 // Narrow things: what a map takes over from the fine relief of its pictures. Internal to the SLAD
 // room.
 //
-// A place's height is that of a square 0.15 m wide about it; it stands out by what it is off the
-// plane through the frame of places around, from one to four squares beyond the square:
-//
-//   p = h - plane,   sigma_p^2 = G / A^2 + (1 + q) G' / A'^2
-//
-// G' and A' of the frame, q the squared distance between its middle and the square's in its own
-// spread: nothing is said where q exceeds 1, at the rim of what is seen.
+// A place's height is that of a square 0.15 m wide about it; it stands out by p off the ground
+// around it, with sigma_p (square_and_frame.h), whose frame reaches from one to four squares beyond
+// the square. Nothing is said at the rim of what is seen, nor at depth edges (laid_over.h).
 //
 // Of its height a thing a = 18 cm across shows, smeared by the square b that is looked at and by
 // the width w = 3 px range / f that a gradient feels, the share
@@ -21,12 +17,14 @@
 // Where a place stands out by 4.5 of these sigmas, or a square twice or four times as wide does
 // (its noise is small: what the worst textures repeat over stereo's window is added to it), the top
 // of the cells under its square is raised (lowered, for a hole) to what a thing would be that shows
-// as much. Seen aslant, a thing hides the ground behind it, and what of it is laid there is read
-// from there: the ground between the cell and the camera is raised to the rays that saw it, until
-// these have risen by what the thing stands off the ground that it was laid on (R / A of
-// fine_relief.h: all of its height where stereo missed it, nothing where stereo measured it). The
-// measured ground stays as it is.
+// as much; from map to map it stays so until it falls below 3.5 sigmas. Seen aslant, a thing hides
+// the ground behind it, and what of it is laid there is read from there: the ground between the
+// cell and the camera is raised to the rays that saw it, until these have risen by what the thing
+// stands off the ground that it was laid on (R / A of fine_relief.h: all of its height where stereo
+// missed it, nothing where stereo measured it). The measured ground stays as it is.
 #pragma once
+
+#include <cstdint>
 
 #include <Eigen/Dense>
 
@@ -47,7 +45,8 @@ struct Viewpoint {
 
 /// `repeated_m2`: variance by what stereo's window repeats in every frame, the map's size; of what
 /// a thing would show no more is claimed than that leaves.
+/// `standing`: of each place which squares about it stood out, a bit each; kept from map to map.
 void TakeNarrowThings(const FineSums& sums, const Viewpoint& view, const GridF& repeated_m2,
-                      ElevationMap& map);
+                      Grid<std::uint8_t>& standing, ElevationMap& map);
 
 }  // namespace palace
