@@ -37,8 +37,8 @@ void PrintTo(const KnownFlight& flight, std::ostream* out) {
 }
 
 constexpr KnownFlight kKnownFlights[] = {
-    {"runway", 101, 0, MissionState::kLanded, 0xd9860808c2fcbd3b},
-    {"slope", 7, 3, MissionState::kDescending, 0x28a4b0c4d7cd0852},
+    {"runway", 101, 0, MissionState::kLanded, 0xbd9722de4ae58d5a},
+    {"slope", 7, 3, MissionState::kDescending, 0xf7471c480fdb3b12},
 };
 constexpr double kLimit_s = 120;
 
