@@ -1,6 +1,7 @@
 // FlightRecord: what a recorded flight decided at the time, for the Review timeline.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -39,6 +40,15 @@ struct SettingsInForce {
   Timestamp from;
   Settings settings;
 };
+
+/// The last of `all`, in order of `time_of`, that is not after `time`; null without one.
+template <typename T>
+const T* NewestAt(const std::vector<T>& all, Timestamp T::*time_of, Timestamp time) {
+  const auto after =
+      std::upper_bound(all.begin(), all.end(), time,
+                       [&](Timestamp t, const T& entry) { return t < entry.*time_of; });
+  return after == all.begin() ? nullptr : &*(after - 1);
+}
 
 /// A place that a map proposed, with the figures that were on the screen then.
 struct RecordedPlace {

@@ -13,15 +13,6 @@ std::optional<double> Known(double value) {
   return std::isnan(value) ? std::nullopt : std::optional(value);
 }
 
-/// The last of `all`, in order of `time_of`, that is not after `time`; null without one.
-template <typename T>
-const T* NewestAt(const std::vector<T>& all, Timestamp T::*time_of, Timestamp time) {
-  const auto after =
-      std::upper_bound(all.begin(), all.end(), time,
-                       [&](Timestamp t, const T& entry) { return t < entry.*time_of; });
-  return after == all.begin() ? nullptr : &*(after - 1);
-}
-
 }  // namespace
 
 const FlightRecordSample* RecordedMission::At(Timestamp time) const {

@@ -153,31 +153,25 @@ TEST(Site, AnArmedSiteThatDegradesIsAnAlarm) {
   EXPECT_NE(Find(rig, AlarmId::kSiteDegraded)->text.find("before you approve"), std::string::npos);
 }
 
+ChannelHealth Channel(ChannelId id, double rate_hz, double lost_share) {
+  ChannelHealth health;
+  health.id = id;
+  health.rate_hz = rate_hz;
+  health.lost_share = lost_share;
+  return health;
+}
+
 // A channel that loses most of its messages weighs by what was sent on it, not by what came.
 TEST(Loss, WeighsByWhatWasSent) {
-  const auto channel = [](ChannelId id, double rate_hz, double lost_share) {
-    ChannelHealth health;
-    health.id = id;
-    health.rate_hz = rate_hz;
-    health.lost_share = lost_share;
-    return health;
-  };
   EXPECT_NEAR(
-      LostShare({channel(ChannelId::kVehiclePose, 20, 0.6), channel(ChannelId::kImu, 100, 0),
-                 channel(ChannelId::kGps, 5, 0), channel(ChannelId::kLaserRange, 20, 0)}),
+      LostShare({Channel(ChannelId::kVehiclePose, 20, 0.6), Channel(ChannelId::kImu, 100, 0),
+                 Channel(ChannelId::kGps, 5, 0), Channel(ChannelId::kLaserRange, 20, 0)}),
       30.0 / 175, 1e-9);
-  EXPECT_NEAR(LostShare({channel(ChannelId::kVehiclePose, 35, 0.3)}), 0.3, 1e-9);
+  EXPECT_NEAR(LostShare({Channel(ChannelId::kVehiclePose, 35, 0.3)}), 0.3, 1e-9);
 }
 
 // Of the channel that loses them, not of "the vehicle's messages": one of several may do so alone.
 TEST(Loss, IsToldOfTheChannelsThatLose) {
-  const auto channel = [](ChannelId id, double rate_hz, double lost_share) {
-    ChannelHealth health;
-    health.id = id;
-    health.rate_hz = rate_hz;
-    health.lost_share = lost_share;
-    return health;
-  };
   using C = ChannelId;
   struct Row {
     std::vector<ChannelHealth> channels;
@@ -185,14 +179,14 @@ TEST(Loss, IsToldOfTheChannelsThatLose) {
   };
   for (
       const Row& row :
-      {Row{{channel(C::kVehiclePose, 50, 0), channel(C::kImu, 20, 0.8), channel(C::kGps, 5, 0.002)},
+      {Row{{Channel(C::kVehiclePose, 50, 0), Channel(C::kImu, 20, 0.8), Channel(C::kGps, 5, 0.002)},
            "IMU loses 80 % of its messages; of Vehicle pose, IMU, GPS together 52 %"},
-       Row{{channel(C::kVehiclePose, 70, 0.3), channel(C::kImu, 60, 0.4)},
+       Row{{Channel(C::kVehiclePose, 70, 0.3), Channel(C::kImu, 60, 0.4)},
            "IMU loses 40 % of its messages, Vehicle pose 30 %; of Vehicle pose, IMU together 35 %"},
-       Row{{channel(C::kVehiclePose, 35, 0.3), channel(C::kImu, 100, NAN),
-            channel(C::kCameraLeft, 5, 0.5)},
+       Row{{Channel(C::kVehiclePose, 35, 0.3), Channel(C::kImu, 100, NAN),
+            Channel(C::kCameraLeft, 5, 0.5)},
            "Vehicle pose loses 30 % of its messages"},
-       Row{{channel(C::kVehiclePose, 50, 0.001), channel(C::kImu, 100, 0)}, ""}}) {
+       Row{{Channel(C::kVehiclePose, 50, 0.001), Channel(C::kImu, 100, 0)}, ""}}) {
     EXPECT_EQ(LossWords(row.channels), row.words);
   }
 }

@@ -139,6 +139,7 @@ void AddVariance(const GridF& variance_m2, ElevationMap& map) {
 void TerrainFusion::Reset() {
   map_ = ElevationMap{};
   disagreement_ = {};
+  spread_ = {};
   sideways_.Reset();
   fine_.Reset();
   standing_ = {};
@@ -192,6 +193,7 @@ std::shared_ptr<const ElevationMap> TerrainFusion::Add(const RangeMap& range,
   frames_ += points.empty() ? 0 : 1;
   map_.attitude_sigma_rad = range.pose->sigmas.attitude_rad;
   auto published = std::make_shared<ElevationMap>(map_);
+  AddReliefBetweenFrames(spread_, *published);
   // Without pictures nothing is known of narrow things: the figures are there, and say so.
   const FineSums sums = fine_.Sums();
   TakeFineGround(sums, *published);
@@ -233,6 +235,7 @@ void TerrainFusion::MoveTo(const GridGeometry& geometry) {
   map_.frame_count = MovedTo(geometry, old, map_.frame_count);
   map_.state = MovedTo(geometry, old, map_.state, CellState::kUnknown);
   disagreement_ = MovedTo(geometry, old, disagreement_);
+  spread_ = MovedTo(geometry, old, spread_);
   const GridGeometry places = FineRelief::PlacesOf(geometry);
   standing_ = MovedTo(places, FineRelief::PlacesOf(old), standing_);
   fine_.MoveTo(geometry);
@@ -273,6 +276,7 @@ void TerrainFusion::Fuse(const ElevationMap& frame, const GridF& misplaced_m2, i
     std::uint16_t& count = map_.frame_count.cells()[i];
     CellState& state = map_.state.cells()[i];
     std::int8_t& disagreement = disagreement_.cells()[i];
+    FrameSpread& spread = spread_.cells()[i];
     float& age_s = map_.age_s.cells()[i];
     const double p = static_cast<double>(variance);
     if (frame.state.cells()[i] != CellState::kMeasured) {
@@ -296,6 +300,7 @@ void TerrainFusion::Fuse(const ElevationMap& frame, const GridF& misplaced_m2, i
     const bool agrees = known && off * off <= kGate2 * expected + kGateFloor_m2;
     const std::int8_t side = off > 0 ? 1 : -1;
     if (known && !agrees && disagreement != side) {
+      spread.Add(off, noise, memory);
       disagreement = side;
       continue;
     }
@@ -310,6 +315,14 @@ void TerrainFusion::Fuse(const ElevationMap& frame, const GridF& misplaced_m2, i
         const auto cols = static_cast<std::size_t>(map_.geometry.cols);
         fine_.Forget({static_cast<int>(i / cols), static_cast<int>(i % cols)});
       }
+      // Something new stands there. Where something is gone, what was seen of it fades slowly.
+      if (known && off < 0) {
+        spread.Add(off, noise, memory);
+        spread.Follow(off);
+      } else {
+        spread = FrameSpread{};
+        spread.Add(0, noise, memory);
+      }
       continue;
     }
     const double remember = count < memory ? 1 : 1 - 1.0 / memory;
@@ -317,6 +330,8 @@ void TerrainFusion::Fuse(const ElevationMap& frame, const GridF& misplaced_m2, i
     mean = static_cast<float>(fused * (remember * m / p + z / noise));
     measured = static_cast<float>(
         fused * (remember * static_cast<double>(measured) / p + measured_z / noise));
+    spread.Add(off, noise, memory);
+    spread.Follow(static_cast<double>(mean) - m);
     variance = static_cast<float>(std::max(fused, kVarianceFloor_m2));
     count = static_cast<std::uint16_t>(std::min<int>(count + 1, memory));
   }

@@ -11,19 +11,20 @@
 // 1 - 1/frames_fused from then on: the weight of frames_fused frames is kept.
 //
 // Of a cell's points the mean is fused as the measured ground, and by the same weights the mean
-// with the relief inside the cell as its top. What the pictures show that is too narrow for
-// stereo's window (narrow_things.h) is added to the published top. Neither touches the measured
-// ground.
+// with the relief inside the cell as its top. What frames disagree about by more than noise is
+// relief (frame_spread.h): it is added to the published top. So is what the pictures show that is
+// too narrow for stereo's window (narrow_things.h). None of them touches the measured ground.
 //
 // A cell that disagrees by more than the gate, three sigmas of
 //
 //   P + R + g^2 s^2,   s^2 = position sigma^2 + (attitude sigma * range)^2, of the frame's pose,
 //
-// is not averaged: the second disagreement in a row on the same side replaces the cell. A pose laid
-// sideways by s misplaces ground of gradient g (the frame's own, over two cells): an edge that
-// wanders is no contradiction. It stays out of R, because it says where an edge is, not whether.
-// Unseen cells keep their height while their variance and age grow; age is the data time since a
-// frame last held the cell, agreeing or not. Thesis mode fuses nothing: Add is ElevationFromRange.
+// is not averaged: it counts in the spread only, and the second disagreement in a row on the same
+// side replaces the cell. A pose laid sideways by s misplaces ground of
+// gradient g (the frame's own, over two cells): an edge that wanders is no contradiction. It stays
+// out of R, because it says where an edge is, not whether. Unseen cells keep their height while
+// their variance and age grow; age is the data time since a frame last held the cell, agreeing or
+// not. Thesis mode fuses nothing: Add is ElevationFromRange.
 #pragma once
 
 #include <cstdint>
@@ -36,6 +37,7 @@
 #include "engine/model/range_map.h"
 #include "engine/model/settings/settings.h"
 #include "engine/slad/terrain/fine_relief.h"
+#include "engine/slad/terrain/frame_spread.h"
 #include "engine/slad/terrain/sideways_registration.h"
 #include "engine/slad/terrain/terrain_points.h"
 
@@ -68,6 +70,7 @@ class TerrainFusion {
 
   ElevationMap map_;                ///< measured cells only; holes are filled in what Add returns
   Grid<std::int8_t> disagreement_;  ///< sign of the last frame that failed the gate, 0 none
+  Grid<FrameSpread> spread_;
   SidewaysRegistration sideways_;
   FineRelief fine_;
   Grid<std::uint8_t> standing_;  ///< of its places, see TakeNarrowThings

@@ -65,6 +65,28 @@ Figures Measure(const FineSums& sums, int side, int ring_to) {
   return figures;
 }
 
+/// What a square shows in the end.
+struct Asked {
+  ShownBySquare shown;
+  bool stands_out = false;
+};
+
+/// `stood`: it stood out on the last map; `noise_m`: besides that of what it shows.
+Asked Ask(const FineSums& sums, const SquareAndFrame& at, const ShownBySquare& off_frame,
+          double bumps_m, double noise_m, bool stood) {
+  const double beyond = stood ? kStillStandsOut_sigmas : kStandsOut_sigmas;
+  const auto stands_out = [&](const ShownBySquare& shown) {
+    const double sigma_m = std::hypot(std::hypot(shown.sigma_m, bumps_m), noise_m);
+    return shown.told && std::abs(shown.off_m) > beyond * sigma_m;
+  };
+  Asked asked{off_frame};
+  if (stands_out(off_frame)) {
+    asked.shown = OffGroundAround(sums, at, bumps_m);
+    asked.stands_out = stands_out(asked.shown) && std::abs(asked.shown.off_m) <= kTallest_m;
+  }
+  return asked;
+}
+
 /// Raises the ground between the cell and the camera to the rays that saw the cell at `laid_m`, as
 /// far as they take to rise by `off_m`; a cell that they end in, by its part of it.
 void RaiseTowardsCamera(const ElevationMap& map, Cell cell, const Eigen::Vector3d& p_WC,
@@ -154,21 +176,13 @@ void TakeNarrowThings(const FineSums& sums, const Viewpoint& view, const GridF& 
     for (int r = 0; r < places.rows; r += stride) {
       for (int c = 0; c < places.cols; c += stride) {
         const SquareAndFrame at{r, c, side, scale.ring_to};
-        ShownBySquare shown = figures.shown.at(r, c);
         const double bumps_m = bumps.At(r, c);
         const double repeated_m = std::sqrt(At(repeated_m2, r / kPerCell, c / kPerCell));
         const double worst_m = narrowest ? 0 : kWorstTexture * repeated_m;
         std::uint8_t& stood = standing.at(r, c);
-        const double beyond = (stood >> k & 1U) != 0 ? kStillStandsOut_sigmas : kStandsOut_sigmas;
-        const auto stands_out = [&] {
-          return shown.told && std::abs(shown.off_m) >
-                                   beyond * std::hypot(std::hypot(shown.sigma_m, bumps_m), worst_m);
-        };
-        if (stands_out()) {
-          shown = OffGroundAround(sums, at, bumps_m);
-        }
-        const bool stands = stands_out() && std::abs(shown.off_m) <= kTallest_m;
-        stood = static_cast<std::uint8_t>((stood & ~(1U << k)) | (stands ? 1U << k : 0U));
+        const auto [shown, stands_out] =
+            Ask(sums, at, figures.shown.at(r, c), bumps_m, worst_m, (stood >> k & 1U) != 0);
+        stood = static_cast<std::uint8_t>((stood & ~(1U << k)) | (stands_out ? 1U << k : 0U));
         if (!(shown.told && std::abs(shown.off_m) <= kTallest_m)) {
           continue;
         }
@@ -183,7 +197,7 @@ void TakeNarrowThings(const FineSums& sums, const Viewpoint& view, const GridF& 
           map.narrow.sigma_m.at(r, c) = static_cast<float>(std::hypot(noise_m, bumps_m));
           map.narrow.share.at(r, c) = static_cast<float>(kPeakOfThing / (1 + smear));
         }
-        if (stands) {
+        if (stands_out) {
           // What fills a wider square shows all of its height.
           const double times = std::max(1.0, (1 + smear) / scale.sides);
           RaiseUnder(at, shown, level_m, times, view.p_WC, map, top_m);
