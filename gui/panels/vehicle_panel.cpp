@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "engine/core/units.h"
+#include "engine/model/told_height.h"
 #include "engine/model/wind.h"
 #include "gui/panels/arrival.h"
 #include "gui/panels/fly_panels.h"
@@ -93,18 +94,13 @@ std::vector<Readout> Readouts(const EngineSnapshot& snap, bool narrow, double si
     const double down = climbs ? -rate_mps : rate_mps;
     const double from_m = m.distance_to_site_m;
     const Readout height = [&] {
-      // Where the estimate in force is unknown (vision, and no pictures) others still tell it.
-      const auto& history = snap.flight->history;
-      const HistorySample now = history && !history->empty() ? history->back() : HistorySample{};
-      const std::string over_site = narrow ? "Height" : "Height above site";
-      if (!std::isfinite(m.height_above_site_m) && std::isfinite(now.gps_height_m)) {
-        return estimated(over_site, now.gps_height_m, 1, "m, GPS");
+      const ToldHeight told = HeightTold(snap);
+      if (told.by == ToldHeight::By::kLaser) {
+        return by(ChannelId::kLaserRange)(narrow ? "Height" : "Height above ground", told.height_m,
+                                          1, "m, laser");
       }
-      if (!std::isfinite(m.height_above_site_m) && std::isfinite(now.laser_m)) {
-        return by(ChannelId::kLaserRange)(narrow ? "Height" : "Height above ground", now.laser_m, 1,
-                                          "m, laser");
-      }
-      return estimated(over_site, m.height_above_site_m, 1, "m");
+      return estimated(narrow ? "Height" : "Height above site", told.height_m, 1,
+                       told.by == ToldHeight::By::kGps ? "m, GPS" : "m");
     }();
     if (narrow) {
       return {height, estimated("To go", m.time_to_touchdown_s, 0, "s"),
