@@ -203,7 +203,8 @@ bool IsTop(const PlacedShape& shape) {
   return shape.name == "table" || shape.name == "roof" || shape.name == "platform";
 }
 
-/// Slope of the least-squares plane through the cells well inside a ramp, radians.
+/// Slope of the least-squares plane through the ground as measured well inside a ramp, radians: not
+/// through its top, which has what may stand there.
 double MeasuredRampSlope(const Judged& judged, const PlacedShape& ramp) {
   Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
   Eigen::Vector3d right = Eigen::Vector3d::Zero();
@@ -213,7 +214,7 @@ double MeasuredRampSlope(const Judged& judged, const PlacedShape& ramp) {
         DepthInShape(judged.field, ramp, n, e) >= judged.map.geometry.cell_m) {
       const Eigen::Vector3d basis(1, n, e);
       normal += basis * basis.transpose();
-      right += static_cast<double>(judged.map.height_m.at(cell)) * basis;
+      right += static_cast<double>(judged.map.Measured().at(cell)) * basis;
     }
   });
   const Eigen::Vector3d plane = normal.ldlt().solve(right);
