@@ -71,14 +71,17 @@ bool WasOnScreen(const MissionMemory& m, std::uint64_t sequence, Timestamp now) 
 
 /// Why the armed site is not looked at from there; empty when it is.
 std::string WhyNoLook(const MissionMemory& m, double stop_height_m) {
-  const LandingSite& site = *m.status.armed;
-  if (site.look_height_m != stop_height_m) {  // also where there is none
-    return words::NothingToLookAt(site.letter);
+  const std::string& letter = m.status.armed->letter;
+  if (std::isnan(m.status.look_from_m)) {
+    return words::NothingToLookAt(letter);
+  }
+  if (m.status.look_from_m != stop_height_m) {
+    return words::kOtherPicture;
   }
   if (!(HeightAboveSite(m) - stop_height_m >= kLeastWayToLook_m)) {
     return words::kNearEnough;
   }
-  return m.status.OffersLook() ? "" : words::NothingToLookAt(site.letter);
+  return m.status.OffersLook() ? "" : words::NothingToLookAt(letter);
 }
 
 const char* WhoAsks(CommandOrigin origin) {
@@ -152,6 +155,7 @@ Status Obeying::operator()(const SelectSite& action) const {
   m.refusal.clear();
   m.status.armed = *site;
   m.status.armed_limits = SiteLimits(*site, m.facts.site_limits);
+  m.status.look_from_m = site->look_height_m;
   m.status.armed_at = now;
   m.status.arm_expires = AddSeconds(now, m.facts.settings.mission.arm_window_s);
   m.status.approval_phase = MissionStatus::ApprovalPhase::kNone;

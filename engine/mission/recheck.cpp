@@ -6,6 +6,7 @@
 
 #include "engine/mission/geometry.h"
 #include "engine/mission/wording.h"
+#include "engine/model/site_standing.h"
 
 namespace palace {
 namespace {
@@ -87,6 +88,9 @@ void FollowSite(MissionTurn& turn, const MissionInputs& in) {
   }
   m.site.Add(std::move(finding), now);
   m.newest = in.terrain.rechecked;
+  if (m.newest && std::isfinite(m.newest->look_height_m)) {
+    m.status.look_from_m = LookToldAgain(m.status.look_from_m, m.newest->look_height_m);
+  }
   if (in.terrain.rechecked && in.terrain.rechecked->age_s >= 0) {
     m.ground_seen_at = std::max(m.ground_seen_at, AddSeconds(now, -in.terrain.rechecked->age_s));
   }

@@ -72,6 +72,7 @@ void ForgetSite(MissionMemory& m) {
   m.status.armed_limits.clear();
   m.status.approach.reset();
   m.status.stop_height_m = 0;
+  m.status.look_from_m = NAN;
   m.status.arm_expires.reset();
   m.status.guards.clear();
   m.armed = {};

@@ -50,6 +50,10 @@ std::string StandingWords(const LandingSite& site, const SladSettings& settings)
   return from_nearer ? WithNumbers("Look from %.0f m", site.look_height_m) : StandingWord(standing);
 }
 
+double LookToldAgain(double told_m, double now_m) {
+  return std::abs(now_m - told_m) <= kSameLook_m ? told_m : now_m;
+}
+
 bool IsInView(const LandingSite& site) { return !(site.age_s > kOldGround_s); }
 
 bool IsAnyInView(const std::vector<LandingSite>& sites) {

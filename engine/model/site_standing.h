@@ -40,6 +40,10 @@ inline constexpr double kLeastAirSeen_m = 5;
 /// A look goes down by as much at least: a hover nearer to it would be the same view.
 inline constexpr double kLeastWayToLook_m = 2;
 
+/// Heights of a look are told in whole metres: one that differs by no more stays as it was `told`.
+inline constexpr double kSameLook_m = 1;
+double LookToldAgain(double told_m, double now_m);
+
 enum class SiteStanding : std::uint8_t {
   kConfirmed,    ///< LandingSite::confirmed
   kProvisional,  ///< all but confirmed: it holds every limit that may be asked at its noise

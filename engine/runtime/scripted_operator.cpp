@@ -110,8 +110,7 @@ std::vector<EngineCommand> ScriptedOperator::Decide(const EngineSnapshot& snapsh
     case MissionState::kArmed:
       if (mission.can_approve && mission.OffersLook() && looks_closer_ &&
           looked_at_.insert(mission.armed->id).second) {
-        return Command(
-            LookAtSite{mission.armed->id, snapshot.sequence, mission.armed->look_height_m});
+        return Command(LookAtSite{mission.armed->id, snapshot.sequence, mission.look_from_m});
       }
       if (mission.can_approve && mission.armed) {
         return Command(ApproveSite{mission.armed->id, snapshot.sequence});

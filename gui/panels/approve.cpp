@@ -171,7 +171,7 @@ float DrawLookButton(const EngineSnapshot& snap, const Rect& panel, UiFrame& ui)
   const Style& s = ui.style;
   const MissionStatus& m = snap.flight->mission;
   const std::string why_not = WhyNotApprove(snap, ui.silent_s);
-  const std::string words = "Look from " + Fixed(m.armed->look_height_m, 0) + " m";
+  const std::string words = "Look from " + Fixed(m.look_from_m, 0) + " m";
   const Rect rect{panel.x + s.Px(18) + TextWidth(s.medium, "Approve"), panel.y + s.Px(3),
                   TextWidth(s.caption, words) + s.Px(20), s.Px(22)};
   ButtonLook look;
@@ -181,8 +181,7 @@ float DrawLookButton(const EngineSnapshot& snap, const Rect& panel, UiFrame& ui)
   look.reason = why_not.empty() ? m.cannot_approve_reason : why_not;
   look.hint = "Flies down the approach, hovers there and looks again; nothing is approved to land";
   if (DrawButton(ui, "look", rect, words, look)) {
-    ui.intents.push_back(
-        CommandAction(LookAtSite{m.armed->id, snap.sequence, m.armed->look_height_m}));
+    ui.intents.push_back(CommandAction(LookAtSite{m.armed->id, snap.sequence, m.look_from_m}));
   }
   return rect.right();
 }

@@ -49,6 +49,32 @@ TEST(Look, EndsInSearchWhereTheVehicleHovers) {
   EXPECT_TRUE(rig.RunUntil(MissionState::kLanded, 60));
 }
 
+// One map in a few tells no height: a bump stands out, or the air there was not seen.
+TEST(Look, IsOfferedFromWhereTheLastMapSaidThatSaidOne) {
+  LookRig rig;
+  rig.Site(101)->look_height_m = NAN;
+  rig.Arm();
+  const MissionStatus& status = rig.mission.status();
+  EXPECT_FALSE(status.OffersLook());
+  const struct {
+    double map_says_m, offered_m;
+  } rows[] = {{12, 12}, {12.8, 12}, {NAN, 12}, {9, 9}, {NAN, 9}, {12, 12}};
+  for (const auto& row : rows) {
+    rig.Site(101)->look_height_m = row.map_says_m;
+    rig.Run(0.3);
+    EXPECT_TRUE(status.OffersLook());
+    EXPECT_EQ(status.look_from_m, row.offered_m);
+    EXPECT_TRUE(std::isnan(status.armed->look_height_m)) << "evidence stays as it was selected";
+  }
+  EXPECT_FALSE(rig.Do(LookAtSite{101, rig.sequence, 9}).ok()) << "it says 12 m now";
+  ASSERT_TRUE(rig.LookNow().ok());
+  EXPECT_EQ(status.approval->stop_height_m, 12);
+  LookRig other;
+  other.Arm();
+  ASSERT_TRUE(other.Do(DisarmSite{}).ok());
+  EXPECT_TRUE(std::isnan(other.mission.status().look_from_m)) << "of no other site";
+}
+
 TEST(Look, IsRefusedWhereAnApprovalIsAndWhereNoHeightIsKnown) {
   LookRig sure;
   sure.Site(101)->look_height_m = NAN;

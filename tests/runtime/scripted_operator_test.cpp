@@ -123,7 +123,7 @@ TEST(ScriptedOperator, LooksCloserOnceAtASiteWhereALookIsOffered) {
   Desk plain(1), desk(1, /*looks_closer=*/true);
   for (Desk* one : {&plain, &desk}) {
     one->Arm(1);
-    one->snapshot.flight.Edit().mission.armed->look_height_m = 12;
+    one->snapshot.flight.Edit().mission.look_from_m = 12;
   }
   EXPECT_EQ(plain.Watch<LookAtSite>(MissionState::kArmed, 5), nullptr);
   const LookAtSite* look = desk.Watch<LookAtSite>(MissionState::kArmed, 5);

@@ -75,7 +75,7 @@ const LandingSite* MissionStatus::BestStanding(const std::vector<LandingSite>& s
 bool MissionStatus::OffersLook() const {
   const bool sure = armed_now && armed_now->confirmed;
   return state == MissionState::kArmed && armed && !sure &&
-         height_above_site_m - armed->look_height_m >= kLeastWayToLook_m;
+         height_above_site_m - look_from_m >= kLeastWayToLook_m;
 }
 
 bool MissionStatus::TakesSelection(std::uint64_t site_id) const {

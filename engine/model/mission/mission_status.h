@@ -186,6 +186,9 @@ struct MissionStatus {
   /// over; 0: a landing, or nothing was.
   double stop_height_m = 0;
   bool IsLook() const { return stop_height_m > 0; }
+  /// LandingSite::look_height_m of the armed site as the last map told it that told one: when it
+  /// was selected or since. NaN: none did.
+  double look_from_m = NAN;
   /// A look would settle what is not sure about the armed site, and it is known from where.
   bool OffersLook() const;
   std::string approved_by;  ///< "the operator" or "a script"; empty where nobody tells

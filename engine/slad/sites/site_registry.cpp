@@ -19,7 +19,6 @@ namespace {
 
 constexpr int kListedAfter_maps = 3;
 constexpr double kShaken_s = 30;
-constexpr double kSameLook_m = 1;         // heights of a look are told in whole metres
 constexpr std::size_t kTriesPerSite = 3;  // places looked at for each site kept
 constexpr std::size_t kLetters = 26;
 
@@ -276,9 +275,8 @@ void SiteRegistry::Follow(const Map& now, const std::vector<Chosen>& chosen,
     site.confirmed = place.confirmed.good();
     if (site.confirmed) {
       site.look_height_m = std::numeric_limits<double>::quiet_NaN();  // there is nothing to settle
-    } else if (std::abs(site.look_height_m - place.look_height_m) <= kSameLook_m) {
-      site.look_height_m = place.look_height_m;
     }
+    site.look_height_m = LookToldAgain(place.look_height_m, site.look_height_m);
     place.look_height_m = site.look_height_m;
     site.called_unsafe_s = ShakenFor(place, now.elevation.time);
     found.push_back({chosen[k].place, std::move(site)});

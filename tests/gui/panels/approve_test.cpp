@@ -60,7 +60,7 @@ TEST(FlyApprove, NeverFiresWhenBlockedUnarmedPreviewingOrInReplay) {
 TEST(FlyApprove, OnePressLooksFromWhereTheSiteWouldBeSure) {
   EngineSnapshot snap = fake::Snapshot(MissionState::kArmed);
   EXPECT_EQ(FlyWindow(1920, 1080, snap).ui.items.Find("look"), nullptr);
-  snap.flight.Edit().mission.armed->look_height_m = 12;
+  snap.flight.Edit().mission.look_from_m = 12;
   for (const auto& [w, h] : {std::pair{1920, 1080}, {1280, 720}}) {
     FlyWindow window(w, h, snap);
     ASSERT_NE(window.ui.items.Find("look"), nullptr);
@@ -91,7 +91,7 @@ TEST(FlyApprove, OnePressLooksFromWhereTheSiteWouldBeSure) {
 TEST(FlyApprove, OnePressTurnsTheApproachToTheNextClearSide) {
   EngineSnapshot snap = fake::Snapshot(MissionState::kArmed);
   MissionStatus& mission = snap.flight.Edit().mission;
-  mission.armed->look_height_m = 12;
+  mission.look_from_m = 12;
   mission.approach = ApproachPlan{};
   mission.approach_sides = {kStraightApproach};
   EXPECT_EQ(FlyWindow(1920, 1080, snap).ui.items.Find("turn"), nullptr) << "there is no other";
