@@ -1,6 +1,7 @@
 // How far up over the ground the cameras have looked: closed form, slow reference, what is kept.
 #include "engine/slad/terrain/air_seen.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -24,8 +25,9 @@ GridF AirOver(const ElevationMap& map, const RigidTransform& X_WC) {
   return air;
 }
 
-// The upper edge of the picture is half the field of view above the axis.
-TEST(AirSeen, OnTheMiddleLineItIsWhatTheUpperEdgeLeaves) {
+// The upper edge of the picture is half the field of view above the axis; up the line over where
+// the axis meets the ground the depth falls by the sine of the tilt a metre.
+TEST(AirSeen, OnTheMiddleLineItIsWhatTheUpperEdgeOrTheNearestDepthLeaves) {
   const PinholeCamera camera = ThesisCamera();
   const double half_rad = std::atan((camera.cy_px + 0.5) / camera.fy_px);
   const ElevationMap map = MakeMap(201, 201, 0.15, Flat());
@@ -35,9 +37,10 @@ TEST(AirSeen, OnTheMiddleLineItIsWhatTheUpperEdgeLeaves) {
       const RigidTransform X_WC = CameraPose(height_m, Rad(tilt_deg), back_m);
       // The axis meets the ground in the middle of the map.
       const GridF air = AirOver(map, X_WC);
-      const double edge_rad = Rad(tilt_deg) - half_rad;
-      EXPECT_NEAR(static_cast<double>(air.at(100, 100)), height_m + back_m * std::tan(edge_rad),
-                  1e-3)
+      const double edge_rad = Rad(tilt_deg) - half_rad, sine = std::sin(Rad(tilt_deg));
+      const double in_view_m = height_m + back_m * std::tan(edge_rad);
+      const double not_near_m = (height_m / sine - kNearestThin_m) / sine;
+      EXPECT_NEAR(static_cast<double>(air.at(100, 100)), std::min(in_view_m, not_near_m), 1e-3)
           << height_m << " m, " << tilt_deg << " deg";
     }
   }
@@ -60,7 +63,7 @@ TEST(AirSeen, IsWhereTheLineOverACellLeavesThePicture) {
       const Eigen::Vector3d p_C = X_WC.Inverse() * p_W;
       const double x = camera.fx_px * p_C.x() / p_C.z() + camera.cx_px;
       const double y = camera.fy_px * p_C.y() / p_C.z() + camera.cy_px;
-      return p_C.z() > 0 && x >= -0.5 && x <= camera.width - 0.5 && y >= -0.5 &&
+      return p_C.z() >= kNearestThin_m && x >= -0.5 && x <= camera.width - 0.5 && y >= -0.5 &&
              y <= camera.height - 0.5;
     };
     for (int r = 0; r < 41; ++r) {
@@ -80,6 +83,15 @@ TEST(AirSeen, IsWhereTheLineOverACellLeavesThePicture) {
     }
   }
   EXPECT_GT(compared, 1000) << "of 12 views of 1681 cells";
+}
+
+// Straight down the whole picture may be too near for a wire.
+TEST(AirSeen, WhatComesNearerThanThinThingsAreLookedForWasNotSeen) {
+  const ElevationMap map = MakeMap(21, 21, 0.15, Flat());
+  for (const double height_m : {5.0, 8.0, 11.0, 15.0}) {
+    const GridF air = AirOver(map, CameraPose(height_m, Rad(90), 0));
+    EXPECT_NEAR(static_cast<double>(air.at(10, 10)), height_m - kNearestThin_m, 1e-3) << height_m;
+  }
 }
 
 TEST(AirSeen, TheHighestLookIsKept) {
@@ -112,7 +124,8 @@ TEST(AirSeen, AMapRemembersTheLookFromAbove) {
                                   testing::Context());
     return site ? site->air_seen_m : NAN;
   };
-  EXPECT_NEAR(air_of_site({6}), 2.5, 1.0);
+  // Nine tenths of the disc lie 4.2 m ahead or farther: 7 m deep 0.3 m over the ground there.
+  EXPECT_NEAR(air_of_site({6}), 0.3, 0.2);
   EXPECT_GT(air_of_site({15, 6}), 6);
 }
 

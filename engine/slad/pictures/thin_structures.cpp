@@ -8,6 +8,7 @@
 #include "engine/slad/pictures/along_baseline.h"
 #include "engine/slad/pictures/line_marks.h"
 #include "engine/slad/pictures/line_pieces.h"
+#include "engine/slad/terrain/air_seen.h"
 
 namespace palace {
 namespace {

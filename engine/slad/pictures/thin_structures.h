@@ -18,11 +18,8 @@
 
 namespace palace {
 
-/// Nearer than this the ground's disparity changes too much within a block for paint to cancel, and
-/// lines above it leave the right picture: what was found from farther away stands (flag_memory.h).
-inline constexpr double kNearestThin_m = 7;
-
-/// Whether thin structures can be told at the range most of the ground is at.
+/// Whether most of the ground is no nearer than kNearestThin_m: else what was found from farther
+/// away stands (flag_memory.h).
 bool CanTellThinStructures(const SceneView& view, const SceneGround& ground);
 
 /// Nothing without a ground or where they cannot be told. Pieces in a fixed order.

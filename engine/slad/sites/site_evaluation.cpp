@@ -10,6 +10,7 @@
 #include "engine/slad/hazards/hazard_layers.h"
 #include "engine/slad/hazards/hidden_things.h"
 #include "engine/slad/hazards/touchdown.h"
+#include "engine/slad/terrain/air_seen.h"
 
 namespace palace {
 namespace {
@@ -198,7 +199,12 @@ double AirSeenFromSlope(const SiteContext& context, const LandingSite& site) {
       context.X_WC.R * Eigen::Vector3d(0, -camera.cy_px / camera.fy_px, 1);
   const double height_m = site.p_WS.z() - context.X_WC.p.z();
   const double far_m = SlopeLength(context, site) + site.clear_radius_m;
-  return height_m - far_m * std::max(0.0, top_W.z()) / top_W.head<2>().norm();
+  const double in_view_m =
+      height_m - far_m * std::max(0.0, top_W.z()) / top_W.head<2>().norm();
+  const Eigen::Vector3d axis_W = context.X_WC.R.col(2);
+  const double ahead_m = far_m * axis_W.head<2>().norm();
+  const double not_near_m = height_m - (kNearestThin_m - ahead_m) / axis_W.z();
+  return axis_W.z() > 0 ? std::min(in_view_m, not_near_m) : in_view_m;
 }
 
 /// LandingSite::look_height_m, to a sixteenth of the vehicle's height above the site.

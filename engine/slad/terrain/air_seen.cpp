@@ -13,13 +13,16 @@ void AddAirSeen(const PinholeCamera& camera, const RigidTransform& X_WC, const E
   PALACE_CHECK(seen_up_to_m.rows() == frame.geometry.rows &&
                seen_up_to_m.cols() == frame.geometry.cols);
   const GridGeometry& g = frame.geometry;
-  // Inward normals of the four sides of the view, in C; a point is in view where all are >= 0.
-  const std::array<Eigen::Vector3d, 4> sides_C = {
+  // Inward normals, in C, of the four sides of the view and of the nearest depth; a point was looked
+  // at where all products are at least `from`.
+  const std::array<Eigen::Vector3d, 5> sides_C = {
       Eigen::Vector3d(camera.fx_px, 0, camera.cx_px + 0.5),
       Eigen::Vector3d(-camera.fx_px, 0, camera.width - 0.5 - camera.cx_px),
       Eigen::Vector3d(0, camera.fy_px, camera.cy_px + 0.5),
-      Eigen::Vector3d(0, -camera.fy_px, camera.height - 0.5 - camera.cy_px)};
-  std::array<Eigen::Vector3d, 4> sides_W;
+      Eigen::Vector3d(0, -camera.fy_px, camera.height - 0.5 - camera.cy_px),
+      Eigen::Vector3d(0, 0, 1)};
+  const std::array<double, 5> from = {0, 0, 0, 0, kNearestThin_m};
+  std::array<Eigen::Vector3d, 5> sides_W;
   for (std::size_t i = 0; i < sides_W.size(); ++i) {
     sides_W[i] = X_WC.R * sides_C[i];
   }
@@ -31,8 +34,8 @@ void AddAirSeen(const PinholeCamera& camera, const RigidTransform& X_WC, const E
       }
       const Eigen::Vector3d level = Eigen::Vector3d(g.NorthOfRow(r), g.EastOfCol(c), 0) - X_WC.p;
       double top_m = camera_m;
-      for (const Eigen::Vector3d& side : sides_W) {
-        const double a = side.dot(level), b = -side.z();
+      for (std::size_t i = 0; i < sides_W.size(); ++i) {
+        const double a = sides_W[i].dot(level) - from[i], b = -sides_W[i].z();
         top_m = b < 0 ? std::min(top_m, -a / b) : top_m;
       }
       float& seen_m = seen_up_to_m.at(r, c);
