@@ -132,6 +132,24 @@ TEST(RaisedSurface, FlagsTheTopToItsEdgeAndNoGround) {
   }
 }
 
+// What stands out is raised to the rays before it, on the top layer only: no ramp up to the roof.
+TEST(RaisedSurface, AFootRaisedToItsRaysHidesNoDrop) {
+  const Height roof = WithRectangle(Flat(), 6, 5, 3);
+  ElevationMap map = MakeMap(100, 100, 0.15, roof, 0.03);
+  map.measured_m = map.height_m;
+  map.height_m = MakeMap(100, 100, 0.15, [&](double n, double e) {
+                   const double before_m = std::max(std::abs(n) - 3, std::abs(e) - 2.5);
+                   return std::max(roof(n, e), 3 - std::max(0.0, before_m));
+                 }).height_m;
+  const Grid<std::uint8_t> flags = FindRaisedSurfaces(map);
+  for (int r = 0; r < 100; ++r) {
+    for (int c = 0; c < 100; ++c) {
+      const bool on = roof(map.geometry.NorthOfRow(r), map.geometry.EastOfCol(c)) > 0;
+      EXPECT_EQ(flags.at(r, c), on ? kFlagElevated : kFlagNone) << r << " " << c;
+    }
+  }
+}
+
 TEST(RaisedSurface, NoiseAloneRaisesNothing) {
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     const double sigma_m = 0.02 * static_cast<double>(seed % 10 + 1);

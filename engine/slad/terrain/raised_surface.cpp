@@ -89,12 +89,12 @@ CoarseMap Coarsened(const ElevationMap& map) {
   coarse.noise_m = GridF(coarse_rows, coarse_cols, 0);
   for (int r = 0; r < rows; ++r) {
     for (int c = 0; c < cols; ++c) {
-      if (map.state.at(r, c) == CellState::kMeasured && std::isfinite(map.height_m.at(r, c))) {
+      if (map.state.at(r, c) == CellState::kMeasured && std::isfinite(map.Measured().at(r, c))) {
         // The highest, so that a surface that ends inside a coarse cell loses its whole height in
         // one opening.
         float& highest = coarse.surface.at(r / coarse.block, c / coarse.block);
-        if (map.height_m.at(r, c) > highest) {
-          highest = map.height_m.at(r, c);
+        if (map.Measured().at(r, c) > highest) {
+          highest = map.Measured().at(r, c);
           coarse.noise_m.at(r / coarse.block, c / coarse.block) =
               kSigmas * std::sqrt(map.variance_m2.at(r, c));
         }
@@ -153,7 +153,7 @@ Grid<std::uint8_t> Candidates(const ElevationMap& map, const CoarseMap& coarse,
     for (int c = 0; c < candidates.cols(); ++c) {
       const float low = ground.at(r / coarse.block, c / coarse.block);
       const bool above =
-          map.state.at(r, c) == CellState::kMeasured && map.height_m.at(r, c) - low > kLeastRise_m;
+          map.state.at(r, c) == CellState::kMeasured && map.Measured().at(r, c) - low > kLeastRise_m;
       candidates.at(r, c) = above ? 1 : 0;
     }
   }
@@ -236,7 +236,7 @@ class RimWalk {
           continue;
         }
         const float distance_m = cell_m * std::sqrt(static_cast<float>(dr * dr + dc * dc));
-        const float rise_m = map_.height_m.at(cell) - map_.height_m.at(near) -
+        const float rise_m = map_.Measured().at(cell) - map_.Measured().at(near) -
                              std::max(kLeastRise_m, kWalkableSlope * distance_m);
         rim.drops += rise_m > 0 ? 1 : 0;
         rim.walkable += rise_m <= 0 ? 1 : 0;

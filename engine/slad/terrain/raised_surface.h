@@ -13,7 +13,9 @@
 //    edge counts as unseen, and at least 40 % of the rim must be seen: a roof in the corner is
 //    raised, the upper half of the map is not.
 //
-// The openings run on the highest of blocks of cells, up to 0.3 m wide. Cost is linear in cells.
+// All of it is asked of the ground as measured: the top is raised before a roof to the rays that saw
+// it, which would lead up to it. The openings run on the highest of blocks of cells, up to 0.3 m
+// wide. Cost is linear in cells.
 // Sources: progressive opening: Zhang et al. 2003, Pingel, Clarke and McBride 2013 (linear
 // threshold, one parameter). We differ in geometric widths, in the noise term, and in the rim,
 // which they do not ask.
