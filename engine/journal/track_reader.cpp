@@ -50,7 +50,7 @@ void TrackReader::AddProposal(const WireMessage& message) {
   RecordedProposal recorded{proposal->map_time, {}};
   for (const LandingSite& site : proposal->selection.sites) {
     recorded.places.push_back({site.id, site.letter, site.p_WS.head<2>(), site.safe_distance_m,
-                               site.slope_rad.value, site.roughness_m.value});
+                               site.slope_rad, site.roughness_m});
   }
   // A limit that moved judges the same map again.
   const bool first = record_.proposals.empty();

@@ -56,8 +56,8 @@ struct RecordedPlace {
   std::string letter;
   Eigen::Vector2d north_east_m{NAN, NAN};
   double safe_distance_m = NAN;
-  double slope_rad = NAN;
-  double roughness_m = NAN;
+  Figure slope_rad{NAN, NAN};
+  Figure roughness_m{NAN, NAN};
 };
 /// One SITE_PROPOSAL: the places of one map, best first.
 struct RecordedProposal {

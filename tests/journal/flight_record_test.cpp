@@ -33,8 +33,11 @@ TEST_F(ReplayTest, TellsGapsAndWhatEachMapProposed) {
     EXPECT_EQ(record->proposals[0].places[i].id, sites[i].id);
     EXPECT_EQ(record->proposals[0].places[i].north_east_m, sites[i].p_WS.head<2>());
     EXPECT_EQ(record->proposals[0].places[i].safe_distance_m, sites[i].safe_distance_m);
-    EXPECT_EQ(record->proposals[0].places[i].slope_rad, sites[i].slope_rad.value);
-    EXPECT_EQ(record->proposals[0].places[i].roughness_m, sites[i].roughness_m.value);
+    EXPECT_EQ(record->proposals[0].places[i].slope_rad.value, sites[i].slope_rad.value);
+    EXPECT_EQ(record->proposals[0].places[i].slope_rad.three_sigma, sites[i].slope_rad.three_sigma);
+    EXPECT_EQ(record->proposals[0].places[i].roughness_m.value, sites[i].roughness_m.value);
+    EXPECT_EQ(record->proposals[0].places[i].roughness_m.three_sigma,
+              sites[i].roughness_m.three_sigma);
   }
 }
 

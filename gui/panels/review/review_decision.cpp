@@ -34,8 +34,8 @@ void FillFigures(const LandingSite* site, Column& column) {
 /// What the record lists: a map that was rebuilt after a jump is not the one that was flown on.
 void FillFigures(const RecordedPlace& place, Column& column) {
   column.clear = Fixed(place.safe_distance_m, 1) + " m";
-  column.slope = Fixed(Deg(place.slope_rad), 1) + "°";
-  column.rough = Fixed(place.roughness_m * 100, 1) + " cm";
+  column.slope = SizeWords(place.slope_rad, kDegPerRad, "°", 1);
+  column.rough = SizeWords(place.roughness_m, 100, " cm", 1);
 }
 
 /// "68 m²"; unknown stands without its unit.

@@ -31,7 +31,7 @@ TEST(ReviewWorkspace, TheDecisionIsTheRecordsOwnAndSaysTheStateAsTheChain) {
 TEST(ReviewWorkspace, AfterAJumpTheRecordedFiguresAreThoseOfTheRecord) {
   FlightRecord record = fake::Record();
   record.proposals = {
-      {AddSeconds({fake::kNow_us}, -0.1), {{1, "A", {3, 5.1}, 4.4, Rad(1.7), 0.031}}}};
+      {AddSeconds({fake::kNow_us}, -0.1), {{1, "A", {3, 5.1}, 4.4, {Rad(1.7), 0}, {0, 0.016}}}}};
   EngineSnapshot snap = fake::Replay(true);
   snap.session.Edit().role = SessionRole::kReplayedAfterJump;
   const auto read = [&](const char* item) {
@@ -41,7 +41,7 @@ TEST(ReviewWorkspace, AfterAJumpTheRecordedFiguresAreThoseOfTheRecord) {
     ExpectTextsInPanels(ui.items);
     return ui.items.Find(item)->text;
   };
-  EXPECT_EQ(read("decision/figures"), "4.4 m, 1.7°, 3.1 cm, ––");
+  EXPECT_EQ(read("decision/figures"), "4.4 m, 1.7°, under 1.6 cm, ––");
   const std::string rebuilt = "On this map, rebuilt after a jump, the flight's limits give 4.8 m";
   EXPECT_EQ(read("decision/reason").rfind(rebuilt, 0), 0U) << read("decision/reason");
   record.proposals[0].places[0].safe_distance_m = 4.8;
