@@ -140,6 +140,23 @@ TEST(SiteSelection, ALookIsNamedWhereItsWayShowsTheAirOrItWasSeen) {
   }
 }
 
+// Straight down, 90 degrees across: in view is more than 5 m of the air from either height; 7 m off
+// and farther, from 11 m only 4 m of it.
+TEST(SiteSelection, ALookStraightDownIsNamedWhereTheAirIsFarEnoughOff) {
+  for (const auto& [height_m, named] : {std::pair{11.0, false}, std::pair{13.0, true}}) {
+    SiteContext context;
+    context.p_WB = {-2, 0, -height_m};
+    context.X_WC = {CameraRotationFromTilt(Rad(-90)), context.p_WB};
+    context.camera = PinholeFromFov(640, 480, Rad(90));
+    context.glide_slope_rad = Rad(80);
+    ElevationMap map = MakeMap(101, 101, 0.15, Flat(), 0.02);
+    map.air_seen_to_m = GridF(101, 101, 3.0F);
+    map.narrow = ThatShow(map.geometry, 0, 0.02);
+    const LandingSite site = Select(map, {}, context).sites.at(0);
+    EXPECT_EQ(std::isfinite(site.look_height_m), named) << height_m;
+  }
+}
+
 TEST(SiteSelection, SeenGroundGoesBeforeWideAndBlindGround) {
   // The west is wide and blind; the east seen, with a box that leaves less room.
   ElevationMap map = MakeMap(101, 101, 0.15, WithBox(Flat(), 3.5, 3.5, 0.5, 0.6));

@@ -191,19 +191,21 @@ bool FramesAgree(const SladSettings& settings, const SiteContext& context,
          site.frames_fused >= std::min(kFramesToConfirm, settings.fusion.frames_fused);
 }
 
-/// How far up over the far rim of the site's clear radius the camera looks from where the glide
-/// slope to the site begins, at its height now and tilted as now: of a look it shows the most air.
+/// How far up over the site's clear radius the camera looks from where the glide slope to the site
+/// begins, at its height now and tilted as now: of a look it shows the most air. Over the far rim
+/// the view ends first, over the near one what is far enough off to be looked at.
 double AirSeenFromSlope(const SiteContext& context, const LandingSite& site) {
   const PinholeCamera& camera = context.camera;
   const Eigen::Vector3d top_W =
       context.X_WC.R * Eigen::Vector3d(0, -camera.cy_px / camera.fy_px, 1);
   const double height_m = site.p_WS.z() - context.X_WC.p.z();
-  const double far_m = SlopeLength(context, site) + site.clear_radius_m;
-  const double in_view_m =
-      height_m - far_m * std::max(0.0, top_W.z()) / top_W.head<2>().norm();
+  const double slope_m = SlopeLength(context, site);
+  const double far_m = slope_m + site.clear_radius_m;
+  const double near_m = slope_m - site.clear_radius_m;
+  const double in_view_m = height_m - far_m * std::max(0.0, top_W.z()) / top_W.head<2>().norm();
   const Eigen::Vector3d axis_W = context.X_WC.R.col(2);
-  const double ahead_m = far_m * axis_W.head<2>().norm();
-  const double not_near_m = height_m - (kNearestThin_m - ahead_m) / axis_W.z();
+  const double not_near_m =
+      height_m - (kNearestThin_m - near_m * axis_W.head<2>().norm()) / axis_W.z();
   return axis_W.z() > 0 ? std::min(in_view_m, not_near_m) : in_view_m;
 }
 

@@ -22,20 +22,20 @@ struct Column {
                     area = kUnknown, decision = kUnknown;
 };
 
-void FillFigures(const LandingSite* site, Column& column) {
-  if (site != nullptr) {
-    column.best = site->letter;
-    column.clear = Fixed(site->safe_distance_m, 1) + " m";
-    column.slope = SizeWords(site->slope_rad, kDegPerRad, "°", 1);
-    column.rough = SizeWords(site->roughness_m, 100, " cm", 1);
-  }
-}
-
-/// What the record lists: a map that was rebuilt after a jump is not the one that was flown on.
-void FillFigures(const RecordedPlace& place, Column& column) {
+/// Of a LandingSite, or of the RecordedPlace that the record lists: a map that was rebuilt after a
+/// jump is not the one that was flown on.
+template <typename Place>
+void FillFigures(const Place& place, Column& column) {
   column.clear = Fixed(place.safe_distance_m, 1) + " m";
   column.slope = SizeWords(place.slope_rad, kDegPerRad, "°", 1);
   column.rough = SizeWords(place.roughness_m, 100, " cm", 1);
+}
+
+void FillFromSite(const LandingSite* site, Column& column) {
+  if (site != nullptr) {
+    column.best = site->letter;
+    FillFigures(*site, column);
+  }
 }
 
 /// "68 m²"; unknown stands without its unit.
@@ -90,7 +90,7 @@ Column InTheFlight(const EngineSnapshot& snap, const FlightRecord* record, bool 
   } else if (!rebuilding) {
     column.area = AreaWords(SafeArea(map));
     column.best = LetterOf(BestSite(snap, map));
-    FillFigures(m.armed ? ArmedOnMap(snap, *m.armed) : BestSite(snap, map), column);
+    FillFromSite(m.armed ? ArmedOnMap(snap, *m.armed) : BestSite(snap, map), column);
   }
   const FlightRecordSample* sample = record != nullptr ? record->SampleAt(snap.time) : nullptr;
   if (m.armed) {
@@ -109,7 +109,7 @@ std::string RebuiltWords(const EngineSnapshot& snap, const Column& flown) {
   const auto& armed = snap.flight->mission.armed;
   const TerrainDecision* map = snap.terrain->OfRecord().get();
   Column rebuilt;
-  FillFigures(armed ? FindSite(map, armed->id) : BestSite(snap, map), rebuilt);
+  FillFromSite(armed ? FindSite(map, armed->id) : BestSite(snap, map), rebuilt);
   if (flown.clear == kUnknown || rebuilt.clear == flown.clear) {
     return {};
   }
@@ -126,7 +126,7 @@ Column UnderOtherLimits(const EngineSnapshot& snap, std::string& reason) {
   column.area = AreaWords(SafeArea(map));
   column.best = LetterOf(best);
   // Decisions under other limits have the ids of the record.
-  FillFigures(armed ? FindSite(map, armed->id) : best, column);
+  FillFromSite(armed ? FindSite(map, armed->id) : best, column);
   if (armed) {
     column.best = armed->letter;
   }
