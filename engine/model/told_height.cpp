@@ -2,19 +2,39 @@
 
 #include <cmath>
 
+#include "engine/core/frames.h"
+
 namespace palace {
+namespace {
+
+using By = ToldHeight::By;
+
+HistorySample Newest(const EngineSnapshot& snapshot) {
+  const auto& history = snapshot.flight->history;
+  return history && !history->empty() ? history->back() : HistorySample{};
+}
+
+}  // namespace
 
 ToldHeight HeightTold(const EngineSnapshot& snapshot) {
-  using By = ToldHeight::By;
   const ToldHeight estimate{By::kEstimate, snapshot.flight->mission.height_above_site_m};
-  const auto& history = snapshot.flight->history;
-  if (std::isfinite(estimate.height_m) || !history || history->empty()) {
-    return estimate;
+  const HistorySample now = Newest(snapshot);
+  for (const ToldHeight& told : {estimate, {By::kGps, now.gps_height_m}, {By::kLaser, now.laser_m}}) {
+    if (std::isfinite(told.height_m)) {
+      return told;
+    }
   }
-  const HistorySample& now = history->back();
-  return std::isfinite(now.gps_height_m) ? ToldHeight{By::kGps, now.gps_height_m}
-         : std::isfinite(now.laser_m)    ? ToldHeight{By::kLaser, now.laser_m}
-                                         : estimate;
+  return estimate;
+}
+
+ToldHeight HoverHeightTold(const EngineSnapshot& snapshot) {
+  const double laser_m = Newest(snapshot).laser_m;
+  const auto& pose = snapshot.sensors->pose;
+  if (std::isfinite(laser_m) || !pose) {
+    return {By::kLaser, laser_m};
+  }
+  const Lander& lander = snapshot.session->settings.slad.lander;
+  return {By::kPose, HeightFromDown((pose->X_WB * lander.skid_centre_B()).z())};
 }
 
 }  // namespace palace

@@ -1,4 +1,5 @@
-// The height that a screen tells of a descent, and by whom.
+// The height that a screen tells, and by whom. One point of the vehicle: a source that changes moves
+// it by what the sources differ, and by nothing else.
 #pragma once
 
 #include <cstdint>
@@ -14,13 +15,16 @@ struct ToldHeight {
     kEstimate,  ///< in force: what limits and guards ask; above the site
     kGps,       ///< above the site
     kLaser,     ///< above the ground under the beam
+    kPose,      ///< above the origin of W
   };
   By by = By::kEstimate;
   double height_m = std::numeric_limits<double>::quiet_NaN();
 };
 
-/// By the estimate in force; where it is unknown (vision, and no pictures) by the newest GPS, then
+/// Of a descent. By the estimate in force; where it is unknown (vision, and no pictures) by the newest GPS, then
 /// by the laser: others still tell it.
 ToldHeight HeightTold(const EngineSnapshot& snapshot);
+/// Before one. By the laser, as in the plots; where it has no return by the vehicle's pose.
+ToldHeight HoverHeightTold(const EngineSnapshot& snapshot);
 
 }  // namespace palace

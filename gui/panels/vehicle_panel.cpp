@@ -115,15 +115,11 @@ std::vector<Readout> Readouts(const EngineSnapshot& snap, bool narrow, double si
             status("Energy", energy, 0, "%")};
   }
   const Readout height = [&] {
-    // Of the skids above the laser's spot, as in the plots.
-    const auto& history = snap.flight->history;
-    const double laser_m = history && !history->empty() ? history->back().laser_m : NAN;
-    if (std::isfinite(laser_m)) {
-      return by(ChannelId::kLaserRange)(narrow ? "Height" : "Height above ground", laser_m, 1, "m");
-    }
-    const double height_m =
-        snap.sensors->pose ? HeightFromDown(snap.sensors->pose->X_WB.p.z()) : NAN;
-    return pose(narrow ? "Above origin" : "Height above origin", height_m, 1, "m");
+    const ToldHeight told = HoverHeightTold(snap);
+    return told.by == ToldHeight::By::kLaser
+               ? by(ChannelId::kLaserRange)(narrow ? "Above ground" : "Height above ground",
+                                            told.height_m, 1, "m, laser")
+               : pose(narrow ? "Above origin" : "Height above origin", told.height_m, 1, "m, pose");
   }();
   if (narrow) {
     return {height, pose("Speed", speed, 1, "m/s"), status("Wind", wind, 1, "m/s"),

@@ -353,6 +353,26 @@ TEST(VehiclePanel, AHeightThatOthersKnowIsShownWithItsSource) {
   EXPECT_EQ(height("Height above site", 1920, 1080), "–– m");
 }
 
+// The laser measures over the ground, the pose over the origin: here the ground is at the origin.
+TEST(VehiclePanel, AHoversHeightIsThatOfTheSkidsWhoeverTellsIt) {
+  EngineSnapshot snap = fake::Snapshot(MissionState::kProposed);
+  snap.session.Edit().settings.slad.lander.gear_below_m = 0.9;  // the pose is 38.5 m up
+  auto history = *snap.flight->history;
+  for (const bool laser : {true, false}) {
+    history.back().laser_m = laser ? 37.6 : NAN;
+    snap.flight.Edit().history = std::make_shared<const std::vector<HistorySample>>(history);
+    for (const ImVec2 size : {ImVec2(1920, 1080), ImVec2(1280, 720)}) {
+      FlyWindow window(size.x, size.y, snap);
+      ExpectTextsInPanels(window.ui.items);
+      const std::string label = laser ? "bove ground" : "bove origin";
+      const Item* height = window.ui.items.Find(
+          "readout/" + (size.x > 1500 ? "Height a" + label : "A" + label));
+      ASSERT_NE(height, nullptr) << label << " at " << size.x;
+      EXPECT_EQ(height->text, laser ? "37.6 m, laser" : "37.6 m, pose");
+    }
+  }
+}
+
 TEST(Plots, UncertaintyThatIsNotKnownFillsThePlotAndAnEndIsHatched) {
   EngineSnapshot snap = fake::Snapshot(MissionState::kDescending);
   auto history = *snap.flight->history;
