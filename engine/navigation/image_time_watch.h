@@ -1,4 +1,7 @@
 // ImageTimeWatch: both cameras' picture motion against the vehicle's turning (image_time.h).
+//
+// Pictures are compared after the turn that the attitude tells is taken out of all but their middle:
+// in yaw, what lies above the middle of a camera that looks down moves by up to a third more.
 #pragma once
 
 #include <optional>
@@ -7,6 +10,7 @@
 #include "engine/core/frames.h"
 #include "engine/model/frame_bundle.h"
 #include "engine/model/rig.h"
+#include "engine/navigation/attitude_history.h"
 #include "engine/navigation/image_time.h"
 #include "engine/tracking/picture_shift.h"
 
@@ -29,8 +33,14 @@ class ImageTimeWatch {
     ImageTimeMonitor monitor;
     std::optional<PicturePyramid> before;
     Timestamp before_at;
-    void Add(const ImageU8* picture, Timestamp exposure);
   };
+  void Add(const ImageU8* picture, Timestamp exposure, Camera& camera) const;
+  /// Of the cameras between two times; none where no attitude is known.
+  Eigen::Matrix3d Turn(Timestamp from, Timestamp to) const;
+
+  AttitudeHistory attitude_;
+  PinholeCamera camera_;
+  Eigen::Matrix3d R_BC_ = Eigen::Matrix3d::Identity();
   Camera left_, right_;
 };
 

@@ -1,6 +1,11 @@
 #include "engine/tracking/picture_shift.h"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include <opencv2/core/eigen.hpp>
+#include <opencv2/imgproc.hpp>
 
 namespace palace {
 namespace {
@@ -107,11 +112,9 @@ double Correlation(const Sums& sums) {
   return a > 0 && b > 0 ? (sums.both - sums.before * sums.after / n) / std::sqrt(a * b) : 0;
 }
 
-}  // namespace
-
-PicturePyramid MakePyramid(const ImageU8& picture) {
+/// The levels below the finest, as far as it is large enough.
+PicturePyramid WithLevels(ImageF level) {
   PicturePyramid pyramid;
-  ImageF level = BlockMeans(picture, PicturePyramid::kFinest);
   for (ImageF& kept : pyramid.levels) {
     if (std::min(level.width(), level.height()) < kLeastSide_px) {
       break;
@@ -120,6 +123,36 @@ PicturePyramid MakePyramid(const ImageU8& picture) {
     level = Halved(level);
   }
   return pyramid;
+}
+
+}  // namespace
+
+PicturePyramid MakePyramid(const ImageU8& picture) {
+  return WithLevels(BlockMeans(picture, PicturePyramid::kFinest));
+}
+
+PicturePyramid TurnedAroundMiddle(const PicturePyramid& before, const PinholeCamera& camera,
+                                  const Eigen::Matrix3d& R_now_before) {
+  const ImageF& finest = before.levels[0];
+  if (finest.empty()) {
+    return before;
+  }
+  // A block's middle is half a block from its first pixel, less half a pixel.
+  constexpr double kSide = PicturePyramid::kFinest, kMiddle = (kSide - 1) / 2;
+  Eigen::Matrix3d K = Eigen::Matrix3d::Identity();
+  K.diagonal() << camera.fx_px / kSide, camera.fy_px / kSide, 1;
+  K.col(2) << (camera.cx_px - kMiddle) / kSide, (camera.cy_px - kMiddle) / kSide, 1;
+  const Eigen::Vector3d axis = R_now_before.col(2) / R_now_before(2, 2);
+  Eigen::Matrix3d back = Eigen::Matrix3d::Identity();
+  back.topRightCorner<2, 1>() = (K.col(2) - K * axis).head<2>();
+  cv::Mat H;
+  cv::eigen2cv(Eigen::Matrix3d(back * K * R_now_before * K.inverse()), H);
+  ImageF turned(finest.width(), finest.height());
+  // OpenCV reads through a pointer that is not const.
+  const cv::Mat from(finest.height(), finest.width(), CV_32F, const_cast<float*>(finest.row(0)));
+  cv::Mat to(turned.height(), turned.width(), CV_32F, turned.row(0));
+  cv::warpPerspective(from, to, H, to.size(), cv::INTER_LINEAR, cv::BORDER_REPLICATE);
+  return WithLevels(std::move(turned));
 }
 
 std::optional<Eigen::Vector2d> ShiftBetween(const PicturePyramid& before,

@@ -5,9 +5,10 @@
 //   sum over the picture of (I_after(x + d) - I_before(x) - c)^2
 //
 // by Gauss-Newton on a pyramid of block means, a quarter of the picture's size and two halvings of
-// that. It is the motion of the middle: what a turn about the optical axis and nearer ground at the
-// lower edge add is of opposite sign, or slow. Positive to the right and down, pixels of the whole
-// picture.
+// that. It is the motion of the middle where the texture lies on all sides of it: what a turn about
+// the optical axis and nearer ground at the lower edge add is then of opposite sign, or slow. Where
+// the turn is known it need not (TurnedAroundMiddle). Positive to the right and down, pixels of the
+// whole picture.
 // Source: B. Lucas, T. Kanade, "An iterative image registration technique", 1981.
 #pragma once
 
@@ -17,6 +18,7 @@
 #include <Eigen/Dense>
 
 #include "engine/model/image.h"
+#include "engine/model/rig.h"
 
 namespace palace {
 
@@ -27,6 +29,12 @@ struct PicturePyramid {
   std::array<ImageF, kLevels> levels{};
 };
 PicturePyramid MakePyramid(const ImageU8& picture);
+
+/// The picture after the camera turned by R_now_before, moved so that its middle is where it was:
+/// with it the shift to the next picture has only the turn of the middle left in it, wherever the
+/// texture lies. What comes into view repeats the edge. Empty levels stay so.
+PicturePyramid TurnedAroundMiddle(const PicturePyramid& before, const PinholeCamera& camera,
+                                  const Eigen::Matrix3d& R_now_before);
 
 /// Nothing for pictures without texture in both directions, of different sizes, or that are not of
 /// one scene: moved on, they correlate by less than 0.8.
