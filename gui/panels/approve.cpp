@@ -333,13 +333,12 @@ void DrawApprovePanel(const EngineSnapshot& snap, const Rect& rect, bool narrow,
              std::string("Commits the vehicle to land on site ") + m.armed->letter + ".");
     float y = rect.y + s.Px(narrow ? 64 : 73);
     const std::string words = ApprovalConsequence(snap, narrow);
-    std::vector<std::string> lines = WrapText(s.body, words, width);
+    std::vector<std::string> lines = WrapText(s.body, words, width, 3);
     ImFont* font = s.body;
     if (narrow) {
       font = TextWidth(s.body, words) <= width + s.Px(4) ? s.body : s.caption;
       lines = {words};
     }
-    lines.resize(std::min<std::size_t>(lines.size(), 3));
     for (const std::string& line : lines) {
       DrawText(ui, font, p.text2, x, y, line);
       y += s.Px(19);

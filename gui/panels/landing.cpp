@@ -198,16 +198,18 @@ void DrawLandingPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui)
   const Rect button{x, rect.bottom() - s.Px(52), width, s.Px(40)};
   float y = rect.y + s.Px(tall ? 119 : 102);
   const std::string record = Record(snap);
-  for (const std::string& line : WrapText(s.body, record, width)) {
-    if (y + s.Px(10) > button.y) {
-      const Rect told{x, rect.y, width, button.y - rect.y};
-      if (Interact(ui, "landing_record", told, kPassive).hovered) {
-        DrawTooltip(ui, record);
-      }
-      break;
-    }
+  const float pitch = s.Px(19);
+  const auto room_lines = static_cast<std::size_t>(
+      std::max(1.0F, std::floor((button.y - s.Px(10) - y) / pitch) + 1));
+  const std::vector<std::string> lines = WrapText(s.body, record, width, room_lines);
+  for (const std::string& line : lines) {
     DrawText(ui, s.body, p.text2, x, y, line);
-    y += s.Px(19);
+    y += pitch;
+  }
+  const Rect told{x, rect.y, width, button.y - rect.y};
+  if (lines.size() < WrapText(s.body, record, width).size() &&
+      Interact(ui, "landing_record", told, kPassive).hovered) {
+    DrawTooltip(ui, record);
   }
   DrawActions(snap, button, ui);
 }

@@ -30,6 +30,9 @@ float DrawValueUnit(UiFrame& ui, ImFont* value_font, float x, float centre_y,
                     std::string_view value, std::string_view unit, Align align = Align::kLeft);
 /// Lines no wider than `width`, broken at spaces.
 std::vector<std::string> WrapText(const ImFont* font, std::string_view text, float width);
+/// The same in `most` lines, at least one: where that is less than all, the last ends with "…".
+std::vector<std::string> WrapText(const ImFont* font, std::string_view text, float width,
+                                  std::size_t most);
 /// The longest start of `text` made of whole words that fits; the text is never cut inside a word.
 /// Of lists, whose start is whole without the rest.
 std::string_view WholeWords(const ImFont* font, std::string_view text, float width);

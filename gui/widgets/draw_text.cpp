@@ -112,4 +112,14 @@ std::vector<std::string> WrapText(const ImFont* font, std::string_view text, flo
   return lines;
 }
 
+std::vector<std::string> WrapText(const ImFont* font, std::string_view text, float width,
+                                  std::size_t most) {
+  std::vector<std::string> lines = WrapText(font, text, width);
+  if (lines.size() > most) {
+    lines[most - 1] = FitWords(font, lines[most - 1] + " " + lines[most], width);
+    lines.resize(most);
+  }
+  return lines;
+}
+
 }  // namespace palace

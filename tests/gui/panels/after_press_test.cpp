@@ -1,4 +1,6 @@
 // What stands on the screen after a press: what was really sent, heard and refused.
+#include <algorithm>
+
 #include "tests/gui/panels/fly_window.h"
 #include "tests/gui/panels/panel_checks.h"
 
@@ -89,6 +91,25 @@ TEST(Landed, InAReviewItOffersTheWayBackToFlying) {
   ASSERT_EQ(window.ui.intents.size(), 1U);
   EXPECT_EQ(std::get<NextFlight>(std::get<UiAction>(window.ui.intents[0])).kind,
             NextFlight::Kind::kFlyAgain);
+}
+
+// Of a reason that is longer than its panel a person sees that it goes on.
+TEST(Landing, AReasonThatDoesNotFitEndsWithAnEllipsis) {
+  EngineSnapshot snap = fake::Snapshot(MissionState::kHold);
+  snap.flight.Edit().mission.why =
+      "Image time off by 50 ms against attitude: pictures of the left camera are early, limit 35 "
+      "ms, seen in three pictures in a row, and so are those of the right camera, by the same "
+      "time, while the vehicle turned to the heading of its approach and then set off";
+  for (const ImVec2 size : {ImVec2(1920, 1080), ImVec2(1280, 720)}) {
+    FlyWindow window(size.x, size.y, snap);
+    ExpectTextsInPanels(window.ui.items);
+    const auto& items = window.ui.items.items();
+    const bool cut = std::any_of(items.begin(), items.end(), [](const Item& item) {
+      return item.text.find(" ago: Image time off by 50 ms") != std::string::npos &&
+             item.text.ends_with("…");
+    });
+    EXPECT_TRUE(cut) << size.x;
+  }
 }
 
 TEST(Landing, ASecondPressWhereApproveWasDoesNotStopTheDescent) {

@@ -88,6 +88,15 @@ TEST(DrawText, WhatIsCutSaysSo) {
       EXPECT_TRUE(cut.empty() || cut.ends_with("…")) << cut;
     }
   }
+  for (const float room : {90.0F, 160.0F, 300.0F}) {
+    const std::vector<std::string> all = WrapText(font, text, room);
+    for (std::size_t most = 1; most <= all.size(); ++most) {
+      const std::vector<std::string> lines = WrapText(font, text, room, most);
+      ASSERT_EQ(lines.size(), most);
+      EXPECT_EQ(lines.back().ends_with("…"), most < all.size()) << room << " px, " << most;
+      EXPECT_LE(TextWidth(font, lines.back()), room);
+    }
+  }
   EXPECT_EQ(WholeWords(font, "24 ms   10 Hz", TextWidth(font, "24 ms   10")), "24 ms   10");
 }
 
