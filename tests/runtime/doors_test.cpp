@@ -5,6 +5,7 @@
 #include <functional>
 #include <latch>
 #include <mutex>
+#include <optional>
 #include <thread>
 #include <utility>
 
@@ -255,22 +256,23 @@ TEST(Doors, AWaveOffIsNotKeptBackByAnOldWordOfTheGround) {
         done.wait();
       }
     });
-    Engine engine(std::move(parts), /*threaded=*/true);
-    engine.Start();
-    while (!engine.Latest()) {
+    std::optional<Engine> engine(std::in_place, std::move(parts), /*threaded=*/true);
+    engine->Start();
+    while (!engine->Latest()) {
       std::this_thread::yield();
     }
-    ASSERT_EQ(engine.Latest()->flight->mission.why_no_wave_off, "Vehicle on the ground");
-    engine.Post({CommandOrigin::kOperator, WaveOff{}});
+    ASSERT_EQ(engine->Latest()->flight->mission.why_no_wave_off, "Vehicle on the ground");
+    engine->Post({CommandOrigin::kOperator, WaveOff{}});
     const auto refused = [&] {
-      const auto& events = engine.Latest()->session->events;
+      const auto& events = engine->Latest()->session->events;
       return events && std::any_of(events->begin(), events->end(), IsRefusal);
     };
     while (!refused()) {  // by the mission itself, whose time stands still
       std::this_thread::yield();
     }
     done.count_down();
-    ASSERT_TRUE(engine.Stop());
+    ASSERT_TRUE(engine->Stop());
+    engine.reset();  // the thread of the short path has sent what it was told by now
     const auto sent = link->sent();
     EXPECT_EQ(std::count_if(sent.begin(), sent.end(),
                             [](const VehicleMessage& message) {
