@@ -7,6 +7,9 @@
 namespace palace {
 namespace {
 
+/// Above the site. Lower, ground that has left the view comes back from above only.
+constexpr double kGroundLeavesView_m = 10;
+
 /// Why this source can never be approved on; empty when it can.
 std::string WhyNotThisSource(const MissionFacts& facts) {
   if (!MaySelect(facts.role)) {
@@ -34,15 +37,13 @@ void JudgeArmedSite(const MissionMemory& m, Timestamp now, GuardInputs& in) {
   if (in.site_holds && !m.site.newest().old_ground.empty()) {
     in.site_holds = false;
     in.site_reason = m.site.newest().old_ground;
-    if (HeightAboveSite(m) < GuardLimits::look_height_m) {
-      in.site_reason = words::LookFromAbove(in.site_reason);  // it has left the view for good
+    if (HeightAboveSite(m) < kGroundLeavesView_m) {
+      in.site_reason = words::LookFromAbove(in.site_reason);
     }
   }
-  if (in.site_holds && !m.site.newest().low_air.empty() &&
-      HeightAboveSite(m) < GuardLimits::look_height_m) {
+  if (in.site_holds && !m.site.newest().low_air.empty()) {
     in.site_holds = false;
-    in.site_reason = words::LookFromAbove(m.site.newest().low_air + " from below " +
-                                          LimitWords({GuardLimits::look_height_m, "m", 0}));
+    in.site_reason = words::LookFromAbove(m.site.newest().low_air);
   }
   if (in.site_holds && !m.site.newest().approach_clear) {
     // What is approved is the way that is planned.

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <string>
 
+#include "engine/model/channel.h"
 #include "engine/model/mission/map_age.h"
 #include "engine/model/mission/picture_faults.h"
 #include "engine/model/mission/wave_off_offer.h"
@@ -25,7 +26,6 @@ struct GuardLimits {
   static constexpr double arm_to_approve_s = 0.5;
   static constexpr double lost_percent = 50;     ///< of the vehicle's messages (F21)
   static constexpr double confirm_height_m = kConfirmHeight_m;  ///< a provisional site must be confirmed by here
-  static constexpr double look_height_m = 10;    ///< lower, the air over a site must have been seen
 };
 
 /// An age beyond which a selection, an approval or a descent ends.
@@ -44,7 +44,7 @@ struct AlarmLimits {
   static constexpr double gps_silence_s = 2.0;
   static constexpr double vision_late_s = 0.3;
   static constexpr double answer_s = 2.0;
-  static constexpr double lost_percent = 10;  ///< F21
+  static constexpr double lost_percent = 100 * kMostLostShare;  ///< F21
   static constexpr double told_s = 10;        ///< what is over at once is told for so long
   static constexpr double laser_mismatch_m = 1.0;
   static constexpr double row_error_px = kMostRowError_px;

@@ -1,5 +1,6 @@
 #include "engine/mission/site_finding.h"
 
+#include <cmath>
 #include <vector>
 
 #include "engine/core/rounding.h"
@@ -64,9 +65,11 @@ SiteFinding JudgeRecheck(const std::optional<LandingSite>& now,
         WithNumbers("Ground last measured %.1f s ago, limit %.1f s", now->age_s, kOldGround_s);
     worse(Finding::kDoubtful, found.old_ground);
   }
-  if (now->air_seen_m < kLeastAirSeen_m) {
-    found.low_air = WithNumbers("Air over the site seen up to %.1f m, min %.1f m",
-                                TenthsDown(now->air_seen_m), kLeastAirSeen_m);
+  if (!IsAirShown(*now)) {
+    const double way_m = std::fmax(0, now->air_on_way_m);  // NaN: nothing of it is known
+    found.low_air =
+        WithNumbers("Air over the site seen up to %.1f m, on the way down up to %.1f m, min %.1f m",
+                    TenthsDown(now->air_seen_m), TenthsDown(way_m), kLeastAirSeen_m);
   }
   return found;
 }

@@ -32,8 +32,8 @@ struct SiteFinding {
   /// "Ground last measured 16.3 s ago, limit 2.0 s"; empty while it is new enough. In the descent
   /// it is a doubt; before it, no approval is given on it (G8).
   std::string old_ground{};
-  /// "Air over the site seen up to 3.9 m, min 5.0 m"; empty where enough was. Near the ground no
-  /// approval is given on it: what hangs higher (a wire, a branch) no picture could have shown.
+  /// "Air over the site seen up to 3.9 m, on the way down up to 4.2 m, min 5.0 m"; empty where one
+  /// is enough. No approval is given on it: what hangs higher (a wire, a branch) no picture shows.
   std::string low_air{};
   bool holds() const { return finding < Finding::kOver; }
 };

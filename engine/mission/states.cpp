@@ -279,7 +279,7 @@ void StepHold(MissionTurn& turn, const MissionInputs& in) {
   }
   if (stopped && held_s >= kHoldShown_s && WinnerStands(m, now) &&
       WhyStopped(AlarmFactsAt(m, in)).empty()) {
-    std::string ended = words::DescentStopped(words::SiteName(m.status), m.status.why);
+    std::string ended = words::DescentStopped(m.status, m.status.why);
     ForgetSite(m);
     Enter(turn, MissionState::kProposed, words::kReevaluated, now);
     m.status.selection_ended = std::move(ended);

@@ -134,8 +134,9 @@ std::string SelectionEnded(std::string_view site, std::string_view why) {
   return "Selection of " + std::string(site) + " ended: " + std::string(why) + ".";
 }
 
-std::string DescentStopped(std::string_view site, std::string_view why) {
-  return "Descent to " + std::string(site) + " stopped: " + std::string(why) + ".";
+std::string DescentStopped(const MissionStatus& status, std::string_view why) {
+  return (status.IsLook() ? "Look at " : "Descent to ") + SiteName(status) +
+         " stopped: " + std::string(why) + ".";
 }
 
 std::string SiteWon(const std::string& letter, int maps) {

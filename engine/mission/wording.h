@@ -97,7 +97,7 @@ std::string Approved(const MissionStatus& status);
 std::string SiteSelected(const std::string& letter);
 /// "Selection of site A ended: arm window is over ..."
 std::string SelectionEnded(std::string_view site, std::string_view why);
-std::string DescentStopped(std::string_view site, std::string_view why);
+std::string DescentStopped(const MissionStatus& status, std::string_view why);
 std::string SiteWon(const std::string& letter, int maps);
 std::string SiteLeads(const std::string& letter);
 /// "Site A refused".

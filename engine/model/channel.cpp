@@ -16,6 +16,8 @@ const char* ChannelName(ChannelId id) {
   return names[index];
 }
 
+bool LosesMuch(const ChannelHealth& channel) { return channel.lost_share > kMostLostShare; }
+
 const ChannelHealth* FindChannel(const std::vector<ChannelHealth>& channels, ChannelId id) {
   const auto found = std::find_if(channels.begin(), channels.end(),
                                   [&](const ChannelHealth& channel) { return channel.id == id; });

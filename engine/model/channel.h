@@ -40,6 +40,10 @@ struct ChannelHealth {
   double lost_share = NAN;
 };
 
+/// Of lost_share. More is no channel that works: it is told, and alarmed.
+inline constexpr double kMostLostShare = 0.1;
+bool LosesMuch(const ChannelHealth& channel);
+
 /// Null when that channel is not listed; then nothing of it is fresh.
 const ChannelHealth* FindChannel(const std::vector<ChannelHealth>& channels, ChannelId id);
 

@@ -76,9 +76,14 @@ struct LandingSite {
   /// How far up over nine tenths of the clear radius the cameras have looked, above the site: what
   /// hangs higher was not seen. NaN: nobody asked (a survey, thesis mode, a record).
   double air_seen_m = std::numeric_limits<double>::quiet_NaN();
+  /// How far up the camera looks over all of the clear radius from where the glide slope to the
+  /// site begins, at its height and tilt of map_time: no later part of the way down shows more. NaN
+  /// as air_seen_m.
+  double air_on_way_m = std::numeric_limits<double>::quiet_NaN();
   /// Height of the touchdown point above the site from which, along the same line of sight, its
-  /// noise would be low enough and hardly anything could hide, which is what speaks against it now.
-  /// NaN: it is not, no height above kConfirmHeight_m would do, or nobody asked.
+  /// noise would be low enough and hardly anything could hide, which is what speaks against it now;
+  /// where only the air speaks against it, the highest that is a way to go. NaN: neither does, no
+  /// height above kConfirmHeight_m would do, air_on_way_m is too little, or nobody asked.
   double look_height_m = std::numeric_limits<double>::quiet_NaN();
   double distance_m = 0;  ///< horizontal, from the vehicle at map_time
   /// Since a map called it, or the ground beside it, unsafe: for that it stands behind the others.

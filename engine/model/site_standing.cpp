@@ -50,6 +50,10 @@ std::string StandingWords(const LandingSite& site, const SladSettings& settings)
   return from_nearer ? WithNumbers("Look from %.0f m", site.look_height_m) : StandingWord(standing);
 }
 
+bool IsAirShown(const LandingSite& site) {
+  return !(site.air_seen_m < kLeastAirSeen_m) || site.air_on_way_m >= kLeastAirSeen_m;
+}
+
 double LookToldAgain(double told_m, double now_m) {
   return std::abs(now_m - told_m) <= kSameLook_m ? told_m : now_m;
 }
@@ -77,9 +81,11 @@ std::string WhyProvisional(const LandingSite& site, const SladSettings& settings
            SureFrom(site, WithNumbers("below %.1f cm", 100 * settings.limits.max_deviation_m));
   }
   if (site.air_seen_m < kLeastAirSeen_m) {
+    const std::string least = WithNumbers("%.0f m", kLeastAirSeen_m);
     return WithNumbers("air over it seen up to %.1f m, ", TenthsDown(site.air_seen_m)) +
            (std::isfinite(site.look_height_m) ? SureFrom(site, {})
-                                              : WithNumbers("min %.0f m", kLeastAirSeen_m));
+            : IsAirShown(site)                ? least + " is seen on the way down"
+                                              : least + " takes a look from higher up");
   }
   const std::string over = WithNumbers("over %.0f cm", 100 * settings.limits.max_deviation_m);
   if (site.hidden_things > kMostHidden) {

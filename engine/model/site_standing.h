@@ -24,18 +24,20 @@ bool IsAnyInView(const std::vector<LandingSite>& sites);
 std::string ClearWords(const LandingSite& site);
 
 /// Rocks and holes over the limit expected unseen (LandingSite::hidden_things) under a confirmed
-/// site, at most.
+/// site, at most: so few of a hundred may be unsafe.
 inline constexpr double kMostHidden = 0.01;
-/// … and under a provisional one: where more may be hidden it is to be looked at first.
-inline constexpr double kMostHiddenProvisional = 0.1;
+/// … and under a provisional one, of which one in twenty may: where more may be hidden the site is
+/// to be looked at first.
+inline constexpr double kMostHiddenProvisional = 0.05;
 
 /// Above a site that is flown to or approved: from there on it must be confirmed.
 inline constexpr double kConfirmHeight_m = 6;
 
-/// Of the air over a site (LandingSite::air_seen_m), asked of a confirmed one, and of any that is
-/// approved from below GuardLimits::look_height_m: from there on the way down shows less than this
-/// over ground that nobody looked at from higher up. A wire or a branch hangs there unseen.
+/// Of the air over a site (LandingSite::air_seen_m), asked of a confirmed one. None is approved
+/// whose way down shows no more either: a wire or a branch hangs there unseen.
 inline constexpr double kLeastAirSeen_m = 5;
+/// It was seen, or the way down shows it, or nobody asked.
+bool IsAirShown(const LandingSite& site);
 
 /// A look goes down by as much at least: a hover nearer to it would be the same view.
 inline constexpr double kLeastWayToLook_m = 2;

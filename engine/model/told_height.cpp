@@ -9,6 +9,8 @@ namespace {
 
 using By = ToldHeight::By;
 
+constexpr double kMoreThanAHover_mps = 0.3;
+
 HistorySample Newest(const EngineSnapshot& snapshot) {
   const auto& history = snapshot.flight->history;
   return history && !history->empty() ? history->back() : HistorySample{};
@@ -35,6 +37,11 @@ ToldHeight HoverHeightTold(const EngineSnapshot& snapshot) {
   }
   const Lander& lander = snapshot.session->settings.slad.lander;
   return {By::kPose, HeightFromDown((pose->X_WB * lander.skid_centre_B()).z())};
+}
+
+double VerticalSpeedTold(const EngineSnapshot& snapshot) {
+  const double down_mps = snapshot.sensors->pose ? snapshot.sensors->pose->v_WB.z() : NAN;
+  return std::abs(down_mps) >= kMoreThanAHover_mps ? down_mps : NAN;
 }
 
 }  // namespace palace

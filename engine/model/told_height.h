@@ -1,4 +1,4 @@
-// The height that a screen tells, and by whom. One point of the vehicle: a source that changes moves
+// The height that a screen tells, and by whom, and whether it changes. One point of the vehicle: a source that changes moves
 // it by what the sources differ, and by nothing else.
 #pragma once
 
@@ -26,5 +26,8 @@ struct ToldHeight {
 ToldHeight HeightTold(const EngineSnapshot& snapshot);
 /// Before one. By the laser, as in the plots; where it has no return by the vehicle's pose.
 ToldHeight HoverHeightTold(const EngineSnapshot& snapshot);
+/// Of the vehicle's pose, m/s, down; NaN while it does no more than a hover in gusts does, or
+/// nobody tells it.
+double VerticalSpeedTold(const EngineSnapshot& snapshot);
 
 }  // namespace palace

@@ -28,6 +28,17 @@ std::vector<AlarmRow> RowsOf(const EngineSnapshot& snap, float width, const Styl
   return rows;
 }
 
+/// Ids of those among the first `shown`, in full to be read, that are over and wait for an answer.
+std::vector<std::string> OverAndWaiting(const std::vector<AlarmRow>& rows, std::size_t shown) {
+  std::vector<std::string> ids;
+  for (std::size_t i = 0; i < shown; ++i) {
+    if (!rows[i].alarm->active && WaitsForAnswer(*rows[i].alarm)) {
+      ids.push_back(rows[i].alarm->id);
+    }
+  }
+  return ids;
+}
+
 void DrawRow(const AlarmRow& row, bool of_record, const FrameState& state, const Rect& rect,
              UiFrame& ui) {
   const Style& s = ui.style;
@@ -70,7 +81,9 @@ void DrawAlarmList(const EngineSnapshot& snap, const FrameLayout& layout, FrameS
     height += rows[shown].height;
   }
   const bool more = shown < rows.size();
-  const Rect list{strip.x, strip.bottom(), strip.w, height + (more ? s.Px(kRow) : 0)};
+  const std::vector<std::string> over = OverAndWaiting(rows, shown);
+  const bool together = over.size() > 1 && !FollowsRecord(snap.session->role);
+  const Rect list{strip.x, strip.bottom(), strip.w, height + (more || together ? s.Px(kRow) : 0)};
   BeginOverlay("##alarm_history", list);
   ui.items.Add("panel/Alarm list", list, true, "");
   FillRect(Canvas(), list, s.palette.control);
@@ -84,6 +97,16 @@ void DrawAlarmList(const EngineSnapshot& snap, const FrameLayout& layout, FrameS
   if (more) {
     DrawText(ui, s.body, s.palette.text2, list.x + s.Px(40), y + s.Px(kRow / 2),
              "And " + std::to_string(rows.size() - shown) + " more alarms, on Diagnose");
+  }
+  if (together) {
+    const std::string words = "Acknowledge the " + std::to_string(over.size()) + " that are over";
+    const float width = TextWidth(s.body, words) + s.Px(24);
+    const Rect button{list.right() - s.Px(27) - width, y + s.Px(2), width, s.Px(24)};
+    if (DrawButton(ui, "acknowledge_over", button, words)) {
+      for (const std::string& id : over) {
+        ui.intents.push_back(CommandAction(AcknowledgeAlarm{id}));
+      }
+    }
   }
   const bool on_list = Interact(ui, "alarm_history", list, kPassive).hovered;
   Interact(ui, "alarm_history", list, kNoTab);  // nothing below it is clicked

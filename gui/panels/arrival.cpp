@@ -35,8 +35,12 @@ Arrival ArrivalOf(const EngineSnapshot& snap, ChannelId channel, double silent_s
     return {};
   }
   const ChannelHealth now = After(*health, silent_s);
-  return {AgeText(now.age_s), Fixed(now.rate_hz, 1) + " Hz", now.age_s, now.state,
-          WrongWith(snap, channel)};
+  return {AgeText(now.age_s),
+          Fixed(now.rate_hz, 1) + " Hz",
+          now.age_s,
+          now.state,
+          WrongWith(snap, channel),
+          LosesMuch(now) ? Fixed(100 * now.lost_share, 0) + " % lost" : ""};
 }
 
 std::string Heard(const std::string& words, double age_s) {

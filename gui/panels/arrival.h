@@ -14,6 +14,10 @@ struct Arrival {
   double age_s = NAN;
   ChannelHealth::State state = ChannelHealth::State::kNever;
   std::string wrong;  ///< "Repeats its picture"; empty while nothing is known to be
+  std::string lost;   ///< "60 % lost"; empty up to kMostLostShare
+  bool fine() const {
+    return state == ChannelHealth::State::kFresh && wrong.empty() && lost.empty();
+  }
   bool late() const {
     return state == ChannelHealth::State::kLate || state == ChannelHealth::State::kStale;
   }

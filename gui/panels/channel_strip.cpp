@@ -19,8 +19,9 @@ void DrawChannelStripPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame
   for (const ChannelHealth& published : snap.sensors->channels) {
     const ChannelHealth channel = After(published, ui.silent_s);
     using State = ChannelHealth::State;
-    const std::string wrong = ArrivalOf(snap, channel.id, ui.silent_s).wrong;
-    const bool fine = channel.state == State::kFresh && wrong.empty();
+    const Arrival arrival = ArrivalOf(snap, channel.id, ui.silent_s);
+    const std::string& wrong = arrival.wrong.empty() ? arrival.lost : arrival.wrong;
+    const bool fine = arrival.fine();
     Icon icon = Icon::kNormal;
     ImU32 colour = p.text3;
     if (channel.state == State::kNever) {

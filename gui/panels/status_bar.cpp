@@ -3,9 +3,9 @@
 
 #include "engine/core/hash.h"
 #include "engine/core/text.h"
-#include "engine/model/channel_age.h"
 #include "engine/model/mission/alarm_text.h"
 #include "engine/model/mission/approve_offer.h"
+#include "gui/panels/arrival.h"
 #include "gui/panels/frame_bar.h"
 #include "gui/panels/session_words.h"
 #include "gui/widgets/number_text.h"
@@ -79,14 +79,21 @@ std::string RecordingText(const EngineSnapshot& snap, bool narrow) {
 
 std::string ChannelsText(const EngineSnapshot& snap, double silent_s) {
   using State = ChannelHealth::State;
-  const auto count = [&](State state) {
-    return std::count_if(snap.sensors->channels.begin(), snap.sensors->channels.end(),
-                         [&](const ChannelHealth& c) { return After(c, silent_s).state == state; });
+  int fine = 0, faulty = 0, late = 0, never = 0;
+  for (const ChannelHealth& channel : snap.sensors->channels) {
+    const Arrival arrival = ArrivalOf(snap, channel.id, silent_s);
+    const bool fresh = arrival.state == State::kFresh;
+    ++(arrival.fine()                   ? fine
+       : fresh                          ? faulty
+       : arrival.state == State::kNever ? never
+                                        : late);
+  }
+  const auto some = [](int count, const char* what) {
+    return count > 0 ? ", " + std::to_string(count) + what : std::string();
   };
-  std::string text = "Channels: " + std::to_string(count(State::kFresh)) + " fresh";
-  const auto late = count(State::kLate) + count(State::kStale), never = count(State::kNever);
-  text += late > 0 ? ", " + std::to_string(late) + " late or stale" : "";
-  return text + (never > 0 ? ", " + std::to_string(never) + " never heard" : "");
+  // Diagnose names each: what repeats its picture comes in time, and shows nothing new.
+  return "Channels: " + std::to_string(fine) + " fresh" + some(faulty, " wrong or lossy") +
+         some(late, " late or stale") + some(never, " never heard");
 }
 
 /// "2 faults injected: GPS jump 3 m, laser stuck"; empty while none acts.

@@ -121,14 +121,20 @@ std::vector<Readout> Readouts(const EngineSnapshot& snap, bool narrow, double si
                                             told.height_m, 1, "m, laser")
                : pose(narrow ? "Above origin" : "Height above origin", told.height_m, 1, "m, pose");
   }();
+  // While it climbs or sinks that goes before the wind.
+  const double down_mps = VerticalSpeedTold(snap);
+  const Readout third =
+      std::isnan(down_mps) ? status("Wind", wind, 1, wind_unit)
+      : down_mps < 0       ? pose(narrow ? "Climb" : "Climb rate", -down_mps, 1, "m/s")
+                           : pose(narrow ? "Descent" : "Descent rate", down_mps, 1, "m/s");
   if (narrow) {
-    return {height, pose("Speed", speed, 1, "m/s"), status("Wind", wind, 1, "m/s"),
+    return {height, pose("Speed", speed, 1, "m/s"), third,
             estimated("Error, 3σ", PositionError3s(snap), 2, "m")};
   }
   return {height,
           pose("Ground speed", speed, 1, "m/s"),
           pose("Heading", snap.sensors->pose ? HeadingDeg(*snap.sensors->pose) : NAN, 0, "°"),
-          status("Wind", wind, 1, wind_unit),
+          third,
           estimated("Position error", PositionError3s(snap), 2, "m, 3σ"),
           status("Energy", energy, 0, "%")};
 }

@@ -26,11 +26,10 @@ Metrics MetricsOf(const Style& s, bool narrow, bool lasting) {
                    : Metrics{s.Px(60), s.Px(50), s.Px(212), s.Px(128), s.Px(56)};
 }
 
-/// "hold 0.4 s" of "hold" and "0.4 s, or 3 of 5 maps".
-std::string ActorWords(const EvidenceRow& row, bool narrow) {
-  return narrow || row.lasts.empty()
-             ? row.enforcer
-             : row.enforcer + " " + row.lasts.substr(0, row.lasts.find(','));
+/// "hold 0.4 s" of "hold" and "0.4 s, or 3 of 5 maps"; "hold" where there is no room for more.
+std::string ActorWords(const Style& s, const EvidenceRow& row, bool narrow, float room) {
+  const std::string words = row.enforcer + " " + row.lasts.substr(0, row.lasts.find(','));
+  return narrow || row.lasts.empty() || TextWidth(s.caption, words) > room ? row.enforcer : words;
 }
 
 void DrawBar(UiFrame& ui, const Rect& track, float wall, const EvidenceRow& row) {
@@ -155,8 +154,9 @@ void DrawRows(UiFrame& ui, const Rect& rect, std::span<const EvidenceRow> rows, 
     DrawBar(ui, {bar_x, std::round(middle - s.Px(8) / 2), m.bar, s.Px(8)}, m.wall, row);
     FillRect(Canvas(), {bar_x + m.wall - s.Px(1), y + s.Px(2), s.Px(2), height - s.Px(4)},
              p.white_mark);
-    DrawText(ui, s.caption, p.text3, rect.right() - s.Px(12), middle, ActorWords(row, narrow),
-             Align::kRight);
+    const float end = rect.right() - s.Px(12);
+    DrawText(ui, s.caption, p.text3, end, middle,
+             ActorWords(s, row, narrow, end - s.Px(6) - bar_x - m.bar), Align::kRight);
   }
 }
 

@@ -64,6 +64,9 @@ SiteWord WordOf(const LandingSite& site, const SiteRowLook& look) {
   if (look.old_map) {
     return {Icon::kStale, "Old map"};
   }
+  if (!IsInView(site)) {
+    return {Icon::kStale, "Not in view"};  // whatever it was: nothing is approved on such ground
+  }
   if (!site.corridor_clear && site.clear_approaches == 0) {
     return {Icon::kWarning, "Rejected"};
   }

@@ -1,4 +1,4 @@
-// Near the ground no approval is given over air that no picture has shown.
+// No approval is given over air that no picture has shown, where the way down shows it neither.
 #include <cmath>
 
 #include "tests/mission/mission_rig.h"
@@ -9,7 +9,7 @@ namespace {
 struct Row {
   const char* name;
   double height_m;
-  double air_seen_m;
+  double air_seen_m, air_on_way_m;
   bool may_approve;
 };
 
@@ -19,6 +19,7 @@ TEST_P(LookFromAbove, IsAskedBeforeAnApproval) {
   MissionRig rig;
   rig.vehicle.height_m = GetParam().height_m;
   rig.Site(101)->air_seen_m = GetParam().air_seen_m;
+  rig.Site(101)->air_on_way_m = GetParam().air_on_way_m;
   rig.Arm();
   const MissionStatus& status = rig.mission.status();
   EXPECT_EQ(status.can_approve, GetParam().may_approve) << status.cannot_approve_reason;
@@ -26,28 +27,34 @@ TEST_P(LookFromAbove, IsAskedBeforeAnApproval) {
 }
 
 INSTANTIATE_TEST_SUITE_P(, LookFromAbove,
-                         testing::Values(Row{"NearAndHardlySeen", 7, 3.9, false},
-                                         Row{"NearAndJustNotSeen", 9.9, 4.96, false},
-                                         Row{"NearAndSeenFromHigherUp", 7, 5.0, true},
-                                         Row{"HighEnoughToLookOnTheWay", 10.5, 3.9, true},
-                                         Row{"NearAndNobodyAsked", 7, NAN, true}),
+                         testing::Values(Row{"HardlySeen", 7, 3.9, 1.2, false},
+                                         Row{"JustNotSeen", 9.9, 4.96, 4.96, false},
+                                         Row{"SeenFromHigherUp", 7, 5.0, 1.2, true},
+                                         Row{"SeenOnTheWay", 10.5, 3.9, 5.0, true},
+                                         // A camera straight down, from 11.5 m.
+                                         Row{"HighAndNotSeenOnTheWay", 11.5, 4.4, 4.5, false},
+                                         Row{"NothingKnownOfTheWay", 15, 3.9, NAN, false},
+                                         Row{"NobodyAsked", 7, NAN, NAN, true}),
                          [](const auto& row) { return row.param.name; });
 
 TEST(LookFromAboveWords, SayWhatWasSeenWhatIsAskedAndWhatToDo) {
   MissionRig rig;
   rig.vehicle.height_m = 7;
   rig.Site(101)->air_seen_m = 4.96;
+  rig.Site(101)->air_on_way_m = 1.28;
   rig.Arm();
   EXPECT_EQ(rig.mission.status().cannot_approve_reason,
-            "Air over the site seen up to 4.9 m, min 5.0 m from below 10 m: wave off to look from "
-            "above");
+            "Air over the site seen up to 4.9 m, on the way down up to 1.2 m, min 5.0 m: wave off "
+            "to look from above");
 }
 
 TEST(LookFromAboveWords, WhatWasApprovedFromAboveIsFlownThrough) {
   MissionRig rig;
   rig.Site(101)->air_seen_m = 4;
+  rig.Site(101)->air_on_way_m = 8;
   rig.Arm();
   ASSERT_TRUE(rig.ApproveNow().ok());
+  rig.Site(101)->air_on_way_m = 0;
   EXPECT_TRUE(rig.RunUntil(MissionState::kLanded, 60));
 }
 

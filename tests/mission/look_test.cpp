@@ -112,6 +112,18 @@ TEST(Look, IsHeldAndWavedOffLikeALanding) {
   }
 }
 
+TEST(Look, ThatIsStoppedWasNoDescentToTheSite) {
+  LookRig rig;
+  rig.Arm();
+  ASSERT_TRUE(rig.LookNow().ok());
+  ASSERT_TRUE(rig.RunUntil(MissionState::kDescending));
+  rig.Site(101)->corridor_clear = false;
+  ASSERT_TRUE(rig.RunUntil(MissionState::kHold, 2));
+  ASSERT_TRUE(rig.RunUntil(MissionState::kProposed, 10));
+  EXPECT_EQ(rig.mission.status().selection_ended,
+            "Look at site A stopped: Something stands in the approach.");
+}
+
 struct Hover {
   const char* name;
   double height_m;

@@ -136,6 +136,32 @@ TEST(SiteStanding, AProvisionalSiteSaysWhy) {
             "0.011 rocks or holes may be hidden, sure to 0.010");
 }
 
+// Why no look is offered, too: from lower even less of the air would be in view.
+TEST(SiteStanding, WhereTheAirWasNotSeenItSaysWhatShowsIt) {
+  const SladSettings settings;
+  const struct {
+    double way_m, look_m;
+    const char* words;
+    bool shown;
+  } table[] = {{6, 8, "air over it seen up to 4.6 m, sure from 8 m above it", true},
+               {5, NAN, "air over it seen up to 4.6 m, 5 m is seen on the way down", true},
+               {4.9, NAN, "air over it seen up to 4.6 m, 5 m takes a look from higher up", false},
+               {NAN, NAN, "air over it seen up to 4.6 m, 5 m takes a look from higher up", false}};
+  for (const auto& row : table) {
+    LandingSite site;
+    site.height_m.three_sigma = 0.03;
+    site.air_seen_m = 4.66;
+    site.air_on_way_m = row.way_m;
+    site.look_height_m = row.look_m;
+    EXPECT_EQ(WhyProvisional(site, settings), row.words);
+    EXPECT_EQ(IsAirShown(site), row.shown) << row.way_m;
+    site.air_seen_m = 5;
+    EXPECT_TRUE(IsAirShown(site));
+    site.air_seen_m = NAN;  // nobody asked
+    EXPECT_TRUE(IsAirShown(site));
+  }
+}
+
 TEST(SiteStanding, APlaceInWhoseNoiseOrAirAThingCouldHideIsOnlyLookedAt) {
   const SladSettings settings;  // roughness 10 cm
   const struct {

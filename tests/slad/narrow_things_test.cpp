@@ -177,6 +177,21 @@ TEST(NarrowThings, LevelGroundBesideARoofAWallOrARockIsNoHole) {
   }
 }
 
+// Seen from hardly higher than the roof that it stands on, whose rays rise by its height over 2.4 m.
+TEST(NarrowThings, AThingOnARoofRaisesNotTheStreetBeforeIt) {
+  const Height roof = BesideARoof(Flat(), 3);
+  const ElevationMap map =
+      Seen(WithBox(roof, 1.575, 0.075, 0.16, 0.12), {-8.4, 0.075, -3.5}, kPlace_m, 0, roof);
+  const auto top_m = [&](double north_m) {
+    return static_cast<double>(map.height_m.at(*map.geometry.CellFromPoint(north_m, 0.075)));
+  };
+  EXPECT_GT(top_m(1.575), 3.1);
+  // Nearer, the widest squares reach over its edge.
+  for (double north_m = 0.525; north_m > -1.5; north_m -= 0.15) {
+    EXPECT_LT(top_m(north_m), 0.03) << north_m;
+  }
+}
+
 TEST(NarrowThings, AThingBesideARoofStandsOutAllTheSame) {
   for (const double thing_m : {0.15, -0.15}) {
     const ElevationMap map = Seen(BesideARoof(WithBox(Flat(), 0.375, 0, 0.16, thing_m), 3));

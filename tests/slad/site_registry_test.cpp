@@ -72,8 +72,8 @@ const LandingSite* Find(const SiteSelection& selection, const std::string& lette
 }
 
 TEST(SiteLetters, GoOnAfterTheAlphabet) {
-  const std::map<std::size_t, std::string> letters = {{0, "A"},   {25, "Z"},  {26, "A2"},
-                                                      {51, "Z2"}, {52, "A3"}, {26 * 9, "A10"}};
+  const std::map<std::size_t, std::string> letters = {{0, "A"},   {8, "J"},   {13, "P"},     {23, "Z"},
+                                                      {24, "A2"}, {47, "Z2"}, {48, "A3"}, {24 * 9, "A10"}};
   for (const auto& [n, letter] : letters) {
     EXPECT_EQ(SiteLetter(n), letter);
   }

@@ -157,6 +157,29 @@ TEST(SiteSelection, ALookStraightDownIsNamedWhereTheAirIsFarEnoughOff) {
   }
 }
 
+// Of ground that hides nothing: the highest hover that is a way to go, for the slope shows the air.
+TEST(SiteSelection, WhereOnlyTheAirIsMissingALookIsNamedFromAsHighAsIsWorthIt) {
+  SladSettings settings;
+  SiteContext context;
+  context.p_WB = {-13, 0, -13};
+  context.X_WC = {CameraRotationFromTilt(Rad(-45)), context.p_WB};
+  context.camera = PinholeFromFov(640, 480, Rad(60));
+  for (const auto& [air_m, named] : {std::pair{3.0F, true}, std::pair{9.0F, false}}) {
+    ElevationMap map = MakeMap(101, 101, 0.15, Flat());
+    map.air_seen_to_m = GridF(101, 101, air_m);
+    map.narrow = ThatShow(map.geometry, 0, 0.003);
+    const LandingSite site = Select(map, settings, context).sites.at(0);
+    EXPECT_EQ(site.confirmed, !named);
+    EXPECT_GE(site.air_on_way_m, kLeastAirSeen_m);
+    ASSERT_EQ(std::isfinite(site.look_height_m), named) << air_m;
+    if (named) {
+      const double highest_m = 13 - settings.lander.skid_centre_B().z() - kLeastWayToLook_m;
+      EXPECT_NEAR(site.look_height_m, highest_m, 1);
+      EXPECT_LE(site.look_height_m, highest_m);
+    }
+  }
+}
+
 TEST(SiteSelection, SeenGroundGoesBeforeWideAndBlindGround) {
   // The west is wide and blind; the east seen, with a box that leaves less room.
   ElevationMap map = MakeMap(101, 101, 0.15, WithBox(Flat(), 3.5, 3.5, 0.5, 0.6));

@@ -218,7 +218,8 @@ double LookHeight(const ElevationMap& map, const SladSettings& settings, const S
       map.geometry.cell_m > settings.lander.max_rock_size_m) {
     return none;
   }
-  if (site.air_seen_m < kLeastAirSeen_m && !(AirSeenFromSlope(context, site) >= kLeastAirSeen_m)) {
+  const bool air_missing = site.air_seen_m < kLeastAirSeen_m;
+  if (air_missing && !(site.air_on_way_m >= kLeastAirSeen_m)) {
     return none;
   }
   const NarrowView view{map.narrow, map.geometry.cell_m, settings.limits.max_deviation_m};
@@ -227,8 +228,12 @@ double LookHeight(const ElevationMap& map, const SladSettings& settings, const S
            HiddenFromNearer(view, site.cell, site.clear_radius_m, nearer, kMostHidden) <=
                kMostHidden;
   };
+  const double skids_m = settings.lander.skid_centre_B().z();
+  const double highest_m = height_m - skids_m - kLeastWayToLook_m;
   if (settles(1)) {
-    return none;
+    // Only the air was not looked at, and where the slope begins it is.
+    const double look_m = std::floor(highest_m);
+    return air_missing && look_m > kConfirmHeight_m ? look_m : none;
   }
   // From nearer never less is seen: half as many heights are left with each look.
   constexpr int kHalvings = 4;
@@ -237,10 +242,8 @@ double LookHeight(const ElevationMap& map, const SladSettings& settings, const S
     step /= 2;
     settled += settles(settled + step) ? step : 0;
   }
-  const double skids_m = settings.lander.skid_centre_B().z();
   const double look_m = std::floor(settled * height_m - skids_m);
-  return look_m > kConfirmHeight_m && look_m <= height_m - skids_m - kLeastWayToLook_m ? look_m
-                                                                                       : none;
+  return look_m > kConfirmHeight_m && look_m <= highest_m ? look_m : none;
 }
 
 }  // namespace
@@ -296,6 +299,9 @@ LandingSite EvaluateSite(const ElevationMap& map, const HazardMaps& hazards,
   site.frames_fused = OfMost<std::uint16_t>(frames, 0);
   const double air_seen_m = Known(OfMost(air_m, kUnknownValue)) - plane.height_m;
   site.air_seen_m = air_seen_m < 0 ? 0 : air_seen_m;  // NaN stays NaN
+  if (!air_m.empty()) {
+    site.air_on_way_m = AirSeenFromSlope(context, site);
+  }
   const bool likely = settings.mode == SladMode::kThesis ||
                       site.safe_probability >= settings.limits.min_safe_probability;
   site.confirmed = likely && site.height_m.three_sigma < settings.limits.max_deviation_m &&

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string_view>
 #include <tuple>
 #include <utility>
 
@@ -20,7 +21,7 @@ namespace {
 constexpr int kListedAfter_maps = 3;
 constexpr double kShaken_s = 30;
 constexpr std::size_t kTriesPerSite = 3;  // places looked at for each site kept
-constexpr std::size_t kLetters = 26;
+constexpr std::string_view kLetters = "ABCDEFGHJKLMNPQRSTUVWXYZ";  // I and O read as 1 and 0
 
 void Replace(std::string& text, const std::string& words, const std::string& with) {
   if (const auto at = text.rfind(words); at != std::string::npos) {
@@ -68,8 +69,8 @@ struct SiteRegistry::Map {
 };
 
 std::string SiteLetter(std::size_t n) {
-  const std::size_t round = n / kLetters + 1;
-  return static_cast<char>('A' + n % kLetters) + (round > 1 ? std::to_string(round) : "");
+  const std::size_t round = n / kLetters.size() + 1;
+  return kLetters[n % kLetters.size()] + (round > 1 ? std::to_string(round) : "");
 }
 
 void SiteRegistry::Reset(SiteNames names) {

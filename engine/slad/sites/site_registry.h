@@ -37,7 +37,7 @@
 
 namespace palace {
 
-/// "A" to "Z", then "A2" to "Z2", "A3", ...: of the nth place, from 0.
+/// "A" to "Z" without I and O, then "A2" to "Z2", "A3", ...: of the nth place, from 0.
 std::string SiteLetter(std::size_t n);
 
 /// Letters after a Reset: within a flight none is given twice; another flight begins at A. Ids are

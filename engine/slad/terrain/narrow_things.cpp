@@ -108,6 +108,9 @@ void RaiseTowardsCamera(const ElevationMap& map, Cell cell, const Eigen::Vector3
     const double part = std::min(1.0, (length_m - along_m) / g.cell_m + 0.5);
     const auto ground_m = static_cast<double>(map.height_m.at(*to));
     const double ray_m = laid_m + std::min(along_m, length_m) * rise;
+    if (ray_m - ground_m > kTallest_m) {
+      return;  // the ground falls away: what stands on a wall does not stand before it
+    }
     top_m.at(*to) =
         std::max(top_m.at(*to), static_cast<float>(ground_m + part * (ray_m - ground_m)));
   }

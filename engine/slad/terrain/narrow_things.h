@@ -21,7 +21,8 @@
 // the ground behind it, and what of it is laid there is read from there: the ground between the
 // cell and the camera is raised to the rays that saw it, until these have risen by what the thing
 // stands off the ground that it was laid on (R / A of fine_relief.h: all of its height where stereo
-// missed it, nothing where stereo measured it). The measured ground stays as it is.
+// missed it, nothing where stereo measured it), and no farther than to where the ground lies 1 m
+// below them: before a wall they pass over the street. The measured ground stays as it is.
 #pragma once
 
 #include <cstdint>

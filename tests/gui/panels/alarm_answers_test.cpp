@@ -66,6 +66,31 @@ TEST(AlarmList, KeepsTheWorstOfWhatIsOver) {
   EXPECT_TRUE(HasText(window.ui.items, "GPS horizontal error 2.1 m, limit 2.0 m. At worst 2.6 m."));
 }
 
+// One press for all that ended and is listed in full; what stands is answered by itself.
+TEST(AlarmList, WhatIsOverIsAnsweredTogether) {
+  for (const int over : {1, 3}) {
+    EngineSnapshot snap = WarningBehindAnAdvisory();
+    auto& alarms = snap.flight.Edit().mission.alarms;
+    alarms = {{AlarmId::kWind, AlarmLevel::kCaution, "Wind 9.0 m/s."}};
+    for (const AlarmId id : {AlarmId::kImageTime, AlarmId::kGpsError, AlarmId::kGpsJump}) {
+      alarms.push_back({id, AlarmLevel::kWarning, "Over."});
+      alarms.back().active = false;
+      alarms.back().acknowledged = static_cast<int>(alarms.size()) > over + 1;
+    }
+    for (const ImVec2 size : {ImVec2(1920, 1080), ImVec2(1280, 720)}) {
+      FlyWindow window(size.x, size.y, snap);
+      window.ui.Click("alarm", window.draw);
+      window.ui.Frame(window.draw);
+      ASSERT_EQ(window.ui.items.Find("acknowledge_over") != nullptr, over > 1);
+      if (over > 1) {
+        EXPECT_TRUE(HasText(window.ui.items, "Acknowledge the 3 that are over"));
+        window.ui.Click("acknowledge_over", window.draw);
+        EXPECT_EQ(window.ui.CountCommands<AcknowledgeAlarm>(), over);
+      }
+    }
+  }
+}
+
 // Where the words have no room whole clauses stand, and the pointer tells the rest.
 TEST(AlarmStrip, CutsNoClauseInTwo) {
   EngineSnapshot snap = WarningBehindAnAdvisory();

@@ -42,6 +42,30 @@ TEST(VehiclePanel, AWindTooWeakToComeFromAnywhereHasNoDirection) {
   }
 }
 
+TEST(VehiclePanel, AHoverThatClimbsOrSinksTellsHowFast) {
+  const struct {
+    double down_mps;
+    const char *wide, *narrow, *words;
+  } table[] = {{-1.24, "Climb rate", "Climb", "1.2 m/s"},
+               {0.8, "Descent rate", "Descent", "0.8 m/s"},
+               {-0.1, "Wind", "Wind", nullptr},
+               {NAN, "Wind", "Wind", nullptr}};
+  for (const auto& row : table) {
+    EngineSnapshot snap = fake::Snapshot(MissionState::kProposed);
+    snap.sensors.Edit().pose->v_WB.z() = row.down_mps;
+    for (const auto& [size, label] : {std::pair{ImVec2(1920, 1080), row.wide},
+                                      std::pair{ImVec2(1280, 720), row.narrow}}) {
+      FlyWindow window(size.x, size.y, snap);
+      const Item* item = window.ui.items.Find(std::string("readout/") + label);
+      ASSERT_NE(item, nullptr) << label;
+      if (row.words != nullptr) {
+        EXPECT_EQ(item->text, row.words);
+      }
+      ExpectTextsInPanels(window.ui.items);
+    }
+  }
+}
+
 TEST(TuneCells, AreTheClassesOfTheGround) {
   EngineSnapshot snap = fake::Snapshot(MissionState::kProposed);
   auto decision = std::make_shared<TerrainDecision>(*snap.terrain->applied);

@@ -211,6 +211,24 @@ TEST(StatusBar, TellsWhatWasNeverHeardFromWhatIsStale) {
   EXPECT_TRUE(HasText(window.ui.items, "6 fresh, 1 late or stale, 1 never heard"));
 }
 
+// What comes in time and shows nothing new, or half of the time, is not well.
+TEST(StatusBar, CountsNoChannelAsFreshThatRepeatsOrLoses) {
+  EngineSnapshot snap = fake::Snapshot(MissionState::kArmed);
+  auto& channels = snap.sensors.Edit().channels;
+  for (ChannelHealth& channel : channels) {
+    channel.state = ChannelHealth::State::kFresh;
+    channel.lost_share = 0.1;  // the limit itself
+  }
+  EXPECT_TRUE(HasText(FlyWindow(1280, 720, snap).ui.items, "Channels: 8 fresh"));
+  channels[2].lost_share = 0.6;
+  snap.terrain.Edit().stereo_quality.left_frozen = true;
+  snap.terrain.Edit().stereo_quality.right_frozen = true;
+  FlyWindow window(1280, 720, snap);
+  EXPECT_TRUE(HasText(window.ui.items, "Channels: 5 fresh, 3 wrong or lossy"));
+  FlyWindow wide(1920, 1080, snap);
+  EXPECT_EQ(wide.ui.items.Find("channel/Vehicle pose")->text.rfind("60 % lost", 0), 0u);
+}
+
 TEST(SiteList, OffersNothingWhereTheSessionMayNotSelect) {
   FlyWindow window(1920, 1080, fake::Snapshot(MissionState::kProposed, SourceKind::kReplay));
   EXPECT_FALSE(window.ui.items.Find("site/A")->enabled);

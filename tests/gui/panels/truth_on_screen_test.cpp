@@ -281,6 +281,25 @@ TEST(OldMap, IsVeiledAndConfirmsNothing) {
   }
 }
 
+// Nothing is approved on ground last measured so long ago, whatever it was called then.
+TEST(SiteRow, OfGroundThatLeftTheViewIsNotCalledConfirmed) {
+  for (const auto& [age_s, word] : {std::pair{1.9, "Confirmed"}, std::pair{2.1, "Not in view"}}) {
+    EngineSnapshot snap = fake::Snapshot(MissionState::kProposed);
+    auto decision = std::make_shared<TerrainDecision>(*snap.terrain->applied);
+    for (LandingSite& site : decision->selection.sites) {
+      site.confirmed = true;
+      site.age_s = age_s;
+    }
+    snap.terrain.Edit().applied = decision;
+    for (const ImVec2 size : {ImVec2(1920, 1080), ImVec2(1280, 720)}) {
+      FlyWindow window(size.x, size.y, snap);
+      EXPECT_EQ(HasText(window.ui.items, "Confirmed"), word == std::string("Confirmed"));
+      EXPECT_TRUE(HasText(window.ui.items, word));
+      ExpectTextsInPanels(window.ui.items);
+    }
+  }
+}
+
 TEST(WaveOffPanel, SaysThatTheVehicleIsSilentAndStaysOffered) {
   EngineSnapshot snap = fake::Snapshot(MissionState::kDescending);
   ChannelHealth& status = snap.sensors.Edit().channels[6];
