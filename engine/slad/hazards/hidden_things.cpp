@@ -40,14 +40,14 @@ struct Likelihoods {
 };
 
 /// With a = r p / s^2 and b = r^2 / (2 s^2), of a thing k / 4 times the limit's: exp(k a / 4 - k^2
-/// b / 16) against nothing seen with s. Where these are no large numbers two exponentials make them
-/// all: `e` = exp(a / 4) and `f` = exp(-b / 16).
-Likelihoods FromPowers(double e, double f, double bare) {
+/// b / 16) against bare ground. Where these are no large numbers two exponentials make them all:
+/// `e` = exp(a / 4) and `f` = exp(-b / 16).
+Likelihoods FromPowers(double e, double f) {
   const double e2 = e * e, e4 = e2 * e2, f2 = f * f, f4 = f2 * f2, f8 = f4 * f4, f16 = f8 * f8,
                f32 = f16 * f16;
   const std::array larger = {e4 * f16, e4 * e2 * f32 * f4, e4 * e4 * e2 * f32 * f32 * f32 * f4};
   const std::array smaller = {e * f, e2 * f4, e2 * e * f8 * f};
-  Likelihoods of{0, 0, bare};
+  Likelihoods of{0, 0, 1};
   for (std::size_t i = 0; i < kShares.size(); ++i) {
     of.larger += kShares[i] * larger[i];
     of.smaller += kShares[i] * smaller[i];
@@ -56,15 +56,15 @@ Likelihoods FromPowers(double e, double f, double bare) {
 }
 
 /// The same whatever the numbers, over the largest of them.
-Likelihoods FromLogarithms(double a, double b, double log_bare) {
+Likelihoods FromLogarithms(double a, double b) {
   const auto log_of = [&](double quarters) {
     return quarters * a / 4 - quarters * quarters * b / 16;
   };
-  double most = log_bare;
+  double most = 0;
   for (std::size_t i = 0; i < kShares.size(); ++i) {
     most = std::max({most, log_of(kLarger[i]), log_of(kSmaller[i])});
   }
-  Likelihoods of{0, 0, std::exp(log_bare - most)};
+  Likelihoods of{0, 0, std::exp(-most)};
   for (std::size_t i = 0; i < kShares.size(); ++i) {
     of.larger += kShares[i] * std::exp(log_of(kLarger[i]) - most);
     of.smaller += kShares[i] * std::exp(log_of(kSmaller[i]) - most);
@@ -79,47 +79,26 @@ double Hides(double prior, const Likelihoods& of, bool beside_hazard) {
   return all > 0 ? prior * larger / all : 0;  // beside a hazard nothing else may be left
 }
 
-/// What is known at a place.
-struct AtPlace {
-  double shown_m;     ///< p
-  double expected_m;  ///< r
-  double share;
-  double noise_m2, bumps_m2;  ///< squared sigmas of p
-  /// s^2: of what a thing shows of whose height the bump under it is part.
-  double ThingVariance() const { return noise_m2 + (1 - share) * (1 - share) * bumps_m2; }
-  double BareVariance() const { return noise_m2 + bumps_m2; }
-};
-
-AtPlace Look(const NarrowView& view, Cell place) {
-  const double noise_m = Figure(view.narrow.noise_m, place);
-  const double sigma_m = Figure(view.narrow.sigma_m, place);
-  const double share = Figure(view.narrow.share, place);
-  const double bumps_m2 = sigma_m * sigma_m - noise_m * noise_m;
-  return {Figure(view.narrow.prominence_m, place), kOverLimit * view.max_deviation_m * share, share,
-          noise_m * noise_m, bumps_m2 < 0 ? 0 : bumps_m2};  // NaN stays
-}
-
 /// q of a rock and of a hole together.
-double HidesAt(double prior, const AtPlace& at, bool beside_hazard) {
-  const double variance_m2 = at.ThingVariance();
-  const double per_m2 = at.expected_m / variance_m2;
-  const double a = std::abs(at.shown_m) * per_m2, b = at.expected_m * per_m2 / 2;
-  // Of bare ground, against nothing seen with s.
-  const double wider = at.bumps_m2 > 0 ? variance_m2 / at.BareVariance() : 1;
-  const double log_bare =
-      wider < 1 ? std::log(wider) / 2 + at.shown_m * at.shown_m * (1 - wider) / (2 * variance_m2)
-                : 0;
-  if (a - b - log_bare < kNothing && std::abs(at.shown_m) < at.expected_m) {
+double HidesAt(double prior, double shown_m, double expected_m, double sigma_m,
+               bool beside_hazard) {
+  const double per_m2 = expected_m / (sigma_m * sigma_m);
+  const double a = std::abs(shown_m) * per_m2, b = expected_m * per_m2 / 2;
+  if (a - b < kNothing && std::abs(shown_m) < expected_m) {
     return 0;
   }
-  if (a < kPowers && b < kPowers && log_bare < kPowers) {
+  if (a < kPowers && b < kPowers) {
     const double e = std::exp(a / 4), f = std::exp(-b / 16);
-    const double bare = wider < 1 ? std::exp(log_bare) : 1;
-    return Hides(prior, FromPowers(e, f, bare), beside_hazard) +
-           Hides(prior, FromPowers(1 / e, f, bare), beside_hazard);
+    return Hides(prior, FromPowers(e, f), beside_hazard) +
+           Hides(prior, FromPowers(1 / e, f), beside_hazard);
   }
-  return Hides(prior, FromLogarithms(a, b, log_bare), beside_hazard) +
-         Hides(prior, FromLogarithms(-a, b, log_bare), beside_hazard);
+  return Hides(prior, FromLogarithms(a, b), beside_hazard) +
+         Hides(prior, FromLogarithms(-a, b), beside_hazard);
+}
+
+/// What a thing would show at the place.
+double Expected(const NarrowView& view, Cell place) {
+  return kOverLimit * view.max_deviation_m * Figure(view.narrow.share, place);
 }
 
 /// Whether the ground around the cell's places may touch a hazard, a cell for its smear.
@@ -134,12 +113,13 @@ double HidesInCell(const NarrowView& view, Cell cell, double prior) {
   const double of_place = prior / kPlaces;
   double hides = 0;
   ForPlaces(cell, [&](Cell place) {
-    const AtPlace at = Look(view, place);
-    if (std::isnan(at.shown_m) || !(at.ThingVariance() > 0) || !(at.expected_m > 0)) {
+    const double shown_m = Figure(view.narrow.prominence_m, place);
+    const double sigma_m = Figure(view.narrow.sigma_m, place), expected_m = Expected(view, place);
+    if (std::isnan(shown_m) || !(sigma_m > 0) || !(expected_m > 0)) {
       hides += 2 * of_place;  // what cannot be said hides what unknown ground hides
       return;
     }
-    hides += HidesAt(of_place, at, beside);
+    hides += HidesAt(of_place, shown_m, expected_m, sigma_m, beside);
   });
   return hides;
 }
@@ -219,12 +199,12 @@ double HiddenFromNearer(const NarrowView& view, Cell centre, double radius_m, do
           return;
         }
         ++known;
-        AtPlace then = Look(view, place);
-        then.noise_m2 *= squared * squared;
-        const double thing_m2 = then.ThingVariance();
+        const double noise_m2 = std::pow(Figure(view.narrow.noise_m, place), 2);
+        const double bumps_m2 = std::pow(Figure(view.narrow.sigma_m, place), 2) - noise_m2;
+        const double then_m2 = bumps_m2 + squared * squared * noise_m2;
+        const double shows_m = Expected(view, place);
         // q of a rock and of a hole, both far smaller than 1.
-        hidden += 2 * prior * std::sqrt(then.BareVariance() / thing_m2) *
-                  std::exp(-then.expected_m * then.expected_m / (2 * thing_m2));
+        hidden += 2 * prior * std::exp(-shows_m * shows_m / (2 * then_m2));
       });
     }
   }

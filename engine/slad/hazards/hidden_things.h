@@ -2,15 +2,13 @@
 //
 // What the pictures show of a place may be a thing over the limit all the same: it is smeared, and
 // noise hides it. Of each place the map says by how much it stands above its surroundings (p), with
-// which sigmas by noise (n) and by the bumps around (b), and which share c of its height a thing
-// 18 cm across would show there (narrow_things.h). One of 1.2 times the limit shows r, one of t
-// times that t r. A thing stands on the bumps, and it is its top over the ground around that must
-// not be missed: of a bump at least the share c that the thing shows too is part of that height, and
-// errs by (1 - c) b at most. So with s^2 = n^2 + (1 - c)^2 b^2 such a top is, against bare ground,
+// which sigma (s), and which share of its height a thing 18 cm across would show there
+// (narrow_things.h). One of 1.2 times the limit shows r, one of t times that t r, and against bare
+// ground it is
 //
-//   l(t) = N(p; t r, s^2) / N(p; 0, n^2 + b^2)
+//   l(t) = exp((2 t r p - t^2 r^2) / (2 s^2))
 //
-// times as likely (a hole: -p for p; without bumps exp((2 t r p - t^2 r^2) / (2 s^2))). Of things over the limit (t = 1, 1.5, 2.5), and of those
+// times as likely (a hole: -p for p). Of things over the limit (t = 1, 1.5, 2.5), and of those
 // below it (t = 1/4, 1/2, 3/4), each size is half as frequent as the one before, as rocks lie; L
 // and l are their means. With n things a square metre over the limit, half of them holes, and no
 // fewer smaller ones, a place that stands for an area A hides one with
@@ -55,7 +53,7 @@ GridF HiddenThings(const NarrowView& view, double radius_m, double things_per_m2
 
 /// H of the disc around `centre` as bare ground would say it, were it seen along the same lines
 /// from `nearer` (above 0, at most 1) times as far: of each place the noise goes down as nearer^2,
-/// bumps and the share stay. Cells of which nothing is known hide as the others do; infinity when all are.
+/// bumps stay. Cells of which nothing is known hide as the others do; infinity when all are.
 /// Beyond `enough` nothing is counted any more.
 double HiddenFromNearer(const NarrowView& view, Cell centre, double radius_m, double nearer,
                         double enough = HUGE_VAL);
