@@ -167,6 +167,7 @@ Status Obeying::operator()(const SelectSite& action) const {
   m.armed.calibration_hash = m.facts.calibration_hash;
   m.armed.boot_id = m.watch.boot_id();
   m.armed.confirmed = site->confirmed;
+  m.armed.air_shown = IsAirShown(*site);
   PlanApproach(m);
   Enter(turn, MissionState::kArmed,
         words::SiteSelected(site->letter) + words::ApproachTurned(m.status.approach), now);

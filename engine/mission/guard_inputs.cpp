@@ -41,9 +41,9 @@ void JudgeArmedSite(const MissionMemory& m, Timestamp now, GuardInputs& in) {
       in.site_reason = words::LookFromAbove(in.site_reason);
     }
   }
-  if (in.site_holds && !m.site.newest().low_air.empty()) {
+  if (in.site_holds && !armed.air_shown && !m.site.newest().low_air.empty()) {
     in.site_holds = false;
-    in.site_reason = words::LookFromAbove(m.site.newest().low_air);
+    in.site_reason = m.site.newest().low_air + ": look from higher up";
   }
   if (in.site_holds && !m.site.newest().approach_clear) {
     // What is approved is the way that is planned.

@@ -69,6 +69,8 @@ struct ArmedFacts {
   bool confirmed = false;
   bool straight_clear = false;  ///< the straight corridor, when it was judged last
   bool course_judged = false;   ///< the planned corridor was, by a map
+  /// IsAirShown of a map since: the vehicle's lean decides near the limit, and comes and goes.
+  bool air_shown = false;
 };
 
 /// The best site's run of wins. Once it is long enough for a proposal it goes on whoever leads.

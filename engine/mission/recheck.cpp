@@ -6,6 +6,7 @@
 
 #include "engine/mission/geometry.h"
 #include "engine/mission/wording.h"
+#include "engine/model/find_site.h"
 #include "engine/model/site_standing.h"
 
 namespace palace {
@@ -63,6 +64,17 @@ void RecordRecheck(MissionMemory& m, const MissionInputs& in, SiteVerdict verdic
   }
 }
 
+/// Before an approval as the list says of the site, which is steady over maps: what is approved as
+/// confirmed is so now. After it one map is enough, and none takes it back.
+bool IsConfirmed(const MissionMemory& m, const MissionInputs& in) {
+  if (m.status.state == MissionState::kArmed) {
+    if (const LandingSite* listed = FindSite(m.facts.sites, m.status.armed->id)) {
+      return listed->confirmed;
+    }
+  }
+  return m.armed.confirmed || (m.site.newest().holds() && in.terrain.rechecked->confirmed);
+}
+
 }  // namespace
 
 void FollowSite(MissionTurn& turn, const MissionInputs& in) {
@@ -86,6 +98,7 @@ void FollowSite(MissionTurn& turn, const MissionInputs& in) {
     m.armed.straight_clear =
         m.status.approach->turned() ? m.armed.straight_clear : finding.approach_clear;
   }
+  m.armed.air_shown = m.armed.air_shown || (in.terrain.rechecked && finding.low_air.empty());
   m.site.Add(std::move(finding), now);
   m.newest = in.terrain.rechecked;
   if (m.newest && std::isfinite(m.newest->look_height_m)) {
@@ -94,11 +107,12 @@ void FollowSite(MissionTurn& turn, const MissionInputs& in) {
   if (in.terrain.rechecked && in.terrain.rechecked->age_s >= 0) {
     m.ground_seen_at = std::max(m.ground_seen_at, AddSeconds(now, -in.terrain.rechecked->age_s));
   }
-  if (!m.armed.confirmed && m.site.newest().holds() && in.terrain.rechecked->confirmed) {
-    m.armed.confirmed = true;
+  const bool confirmed = IsConfirmed(m, in);
+  if (confirmed && !m.armed.confirmed) {
     AddEvent(turn, now, EventKind::kSite,
              words::SiteConfirmed(m.status.armed->letter, HeightAboveSite(m)));
   }
+  m.armed.confirmed = confirmed;
   FollowAlternative(m, in);
   const SiteVerdict verdict = m.site.VerdictAt(now);
   if (verdict != m.told) {

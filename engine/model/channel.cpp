@@ -16,7 +16,10 @@ const char* ChannelName(ChannelId id) {
   return names[index];
 }
 
-bool LosesMuch(const ChannelHealth& channel) { return channel.lost_share > kMostLostShare; }
+bool LosesMuch(const ChannelHealth& channel) {
+  // The station's own estimate comes as often as it is made, and not over any link.
+  return channel.id != ChannelId::kPositionEstimate && channel.lost_share > kMostLostShare;
+}
 
 const ChannelHealth* FindChannel(const std::vector<ChannelHealth>& channels, ChannelId id) {
   const auto found = std::find_if(channels.begin(), channels.end(),

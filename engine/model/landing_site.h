@@ -76,7 +76,7 @@ struct LandingSite {
   /// How far up over nine tenths of the clear radius the cameras have looked, above the site: what
   /// hangs higher was not seen. NaN: nobody asked (a survey, thesis mode, a record).
   double air_seen_m = std::numeric_limits<double>::quiet_NaN();
-  /// How far up the camera looks over all of the clear radius from where the glide slope to the
+  /// How far up the camera looks over as much of the clear radius from where the glide slope to the
   /// site begins, at its height and tilt of map_time: no later part of the way down shows more. NaN
   /// as air_seen_m.
   double air_on_way_m = std::numeric_limits<double>::quiet_NaN();

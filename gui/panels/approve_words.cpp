@@ -120,7 +120,7 @@ std::string ApprovalConsequence(const EngineSnapshot& snap, bool narrow) {
   }
   const std::string shaken = WhyShaken(snap);
   const SladSettings& limits = snap.session->settings.slad;
-  const std::string why = m.armed && !m.armed_confirmed ? WhyProvisional(*m.armed, limits) : "";
+  const std::string why = m.armed ? WhyProvisional(ArmedAsKnown(m), limits) : "";
   const std::string doubt =
       why.empty() ? "" : StandingWord(ArmedStanding(m, limits)) + (": " + why) + ".";
   if (!shaken.empty()) {

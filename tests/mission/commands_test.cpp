@@ -48,7 +48,7 @@ TEST(Approving, TheEventNamesTheStandingOfTheSite) {
     const char* mark;
   } table[] = {{true, 0.01, false, ""},
                {false, 0.01, false, ", provisional"},
-               {false, 0.2, false, ", look first"},
+               {false, 0.2, false, ", not looked at"},
                {false, 0.2, true, ""}};
   for (const auto& row : table) {
     SCOPED_TRACE(row.mark);
@@ -68,6 +68,26 @@ TEST(Approving, TheEventNamesTheStandingOfTheSite) {
     }
     EXPECT_EQ(told, 1);
   }
+}
+
+// What later maps do not confirm any more is not approved as confirmed.
+TEST(Approving, WhatTheListCallsConfirmedNoLongerIsProvisional) {
+  MissionRig rig;
+  rig.Site(101)->confirmed = true;
+  rig.Arm();
+  EXPECT_TRUE(rig.mission.status().armed_confirmed);
+  rig.Site(101)->confirmed = false;
+  rig.Run(0.3);
+  EXPECT_FALSE(rig.mission.status().armed_confirmed);
+  EXPECT_EQ(StandingMark(rig.mission.status(), rig.settings.slad), ", provisional");
+  ASSERT_TRUE(rig.ApproveNow().ok());
+  EXPECT_TRUE(rig.mission.status().approval->provisional);
+  // In flight one map that confirms it is enough, and stays so.
+  rig.Site(101)->confirmed = true;
+  rig.Run(0.3);
+  rig.Site(101)->confirmed = false;
+  rig.Run(0.3);
+  EXPECT_TRUE(rig.mission.status().armed_confirmed);
 }
 
 }  // namespace

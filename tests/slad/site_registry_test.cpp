@@ -79,6 +79,30 @@ TEST(SiteLetters, GoOnAfterTheAlphabet) {
   }
 }
 
+// The wide north is seen with little of its air, and from here no way down shows more.
+TEST(SiteRegistry, WhatCannotBeApprovedForItsAirComesAfterWhatCan) {
+  Hover hover;
+  SiteSelection list;
+  for (std::uint64_t i = 1; i <= 6; ++i) {
+    ElevationMap map = MakeMap(100, 100, 0.15, WithBox(Flat(), -3, 0, 0.5, 0.6), 0, i);
+    map.time = {static_cast<std::int64_t>(i * 100'000)};
+    map.air_seen_to_m = GridF(100, 100, 3.0F);
+    for (int r = 50; r < 100; ++r) {
+      std::fill_n(map.air_seen_to_m.row(r), 100, 9.0F);
+    }
+    list = hover.Judge(map, hover.registry_);
+  }
+  ASSERT_GE(list.sites.size(), 2u);
+  EXPECT_GE(list.sites.front().air_seen_m, kLeastAirSeen_m);
+  const auto low = std::find_if(list.sites.begin(), list.sites.end(),
+                                [](const LandingSite& site) { return !IsAirShown(site); });
+  ASSERT_NE(low, list.sites.end());
+  EXPECT_GT(low->safe_distance_m, list.sites.front().safe_distance_m);
+  EXPECT_EQ(low->reason, "Too little of the air over it is seen from here");
+  EXPECT_TRUE(std::all_of(low, list.sites.end(),
+                          [](const LandingSite& site) { return !IsAirShown(site); }));
+}
+
 TEST(SiteRegistry, ALetterStaysWithItsPlaceAndIsNeverGivenTwice) {
   Hover hover;
   std::map<std::string, Eigen::Vector2d> places;

@@ -17,14 +17,24 @@ std::string WhyScreenOld(double silent_s) {
   return text;
 }
 
+LandingSite ArmedAsKnown(const MissionStatus& mission) {
+  const bool lost = mission.armed->confirmed && !mission.armed_confirmed && mission.armed_now;
+  LandingSite site = lost ? *mission.armed_now : *mission.armed;
+  site.confirmed = !lost && (site.confirmed || mission.armed_confirmed);
+  return site;
+}
+
 SiteStanding ArmedStanding(const MissionStatus& mission, const SladSettings& settings) {
-  return mission.armed_confirmed ? SiteStanding::kConfirmed : StandingOf(*mission.armed, settings);
+  return StandingOf(ArmedAsKnown(mission), settings);
 }
 
 std::string StandingMark(const MissionStatus& mission, const SladSettings& settings) {
   const SiteStanding standing = ArmedStanding(mission, settings);
   if (standing == SiteStanding::kConfirmed) {
     return {};
+  }
+  if (standing == SiteStanding::kToLookAt) {
+    return ", not looked at";
   }
   std::string word = StandingWord(standing);
   word.front() = static_cast<char>(std::tolower(static_cast<unsigned char>(word.front())));

@@ -16,10 +16,12 @@ inline constexpr double kScreenOld_s = 0.5;
 /// guards pass on newer figures than a person sees. Empty: it may.
 std::string WhyScreenOld(double silent_s);
 
-/// What is known of the armed site, as it is approved: its evidence, or what a map confirmed since.
+/// The armed site as it is approved: its frozen evidence, confirmed as it is now; where it was
+/// confirmed and is so no longer, the newest map's.
+LandingSite ArmedAsKnown(const MissionStatus& mission);
 SiteStanding ArmedStanding(const MissionStatus& mission, const SladSettings& settings);
 /// The same as it stands behind the site's name on the button and in the record: empty,
-/// ", provisional", ", look first".
+/// ", provisional", ", not looked at" (what is approved is a landing all the same).
 std::string StandingMark(const MissionStatus& mission, const SladSettings& settings);
 
 }  // namespace palace

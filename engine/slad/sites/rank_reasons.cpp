@@ -164,6 +164,7 @@ void GiveReasons(SiteRanking ranking, double tight_m, SiteSelection& selection) 
     site.reason =
         i == 0                      ? ReasonOfBest(ranking, selection)
         : site.age_s > kOldGround_s ? WithNumbers("Ground last measured %.0f s ago", site.age_s)
+        : !IsAirShown(site)         ? "Too little of the air over it is seen from here"
         : !site.corridor_clear      ? ApproachWords(site)
         : std::isfinite(site.called_unsafe_s) ? UnsafeWords(ranking, site)
                                               : ReasonBelow(ranking, tight_m, selection, i);

@@ -19,6 +19,7 @@ namespace {
 constexpr double kSigmas = 3;
 constexpr double kThinMargin_m = 1;         // a wire's height is told to some 0.6 m
 constexpr std::size_t kNewCellsOneIn = 10;  // of the clear radius: new ground at the rim
+constexpr double kTenthCutOff = 0.687;      // of a disc's radius: a chord there cuts a tenth off
 
 /// Visits the cells of the map whose centre lies within `radius_m` of the cell's.
 template <typename Visit>
@@ -191,17 +192,17 @@ bool FramesAgree(const SladSettings& settings, const SiteContext& context,
          site.frames_fused >= std::min(kFramesToConfirm, settings.fusion.frames_fused);
 }
 
-/// How far up over the site's clear radius the camera looks from where the glide slope to the site
-/// begins, at its height now and tilted as now: of a look it shows the most air. Over the far rim
-/// the view ends first, over the near one what is far enough off to be looked at.
+/// How far up over most of the site's clear radius the camera looks from where the glide slope to
+/// the site begins, at its height now and tilted as now: of a look it shows the most air. Over the
+/// far rim the view ends first, over the near one what is far enough off to be looked at.
 double AirSeenFromSlope(const SiteContext& context, const LandingSite& site) {
   const PinholeCamera& camera = context.camera;
   const Eigen::Vector3d top_W =
       context.X_WC.R * Eigen::Vector3d(0, -camera.cy_px / camera.fy_px, 1);
   const double height_m = site.p_WS.z() - context.X_WC.p.z();
   const double slope_m = SlopeLength(context, site);
-  const double far_m = slope_m + site.clear_radius_m;
-  const double near_m = slope_m - site.clear_radius_m;
+  const double far_m = slope_m + kTenthCutOff * site.clear_radius_m;
+  const double near_m = slope_m - kTenthCutOff * site.clear_radius_m;
   const double in_view_m = height_m - far_m * std::max(0.0, top_W.z()) / top_W.head<2>().norm();
   const Eigen::Vector3d axis_W = context.X_WC.R.col(2);
   const double not_near_m =

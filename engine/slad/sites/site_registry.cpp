@@ -267,6 +267,7 @@ void SiteRegistry::Follow(const Map& now, const std::vector<Chosen>& chosen,
       ++place.run;
       place.score.Add(chosen[k].at.score, candidates.noise());
       place.confirmed.Add(site.confirmed);
+      place.air_shown.Add(IsAirShown(site));
       place.straight_clear.Add(site.corridor_clear);
       place.some_clear.Add(site.clear_approaches != 0);
       place.roomy.Add(site.clearance_m >= now.tight_m());
@@ -314,7 +315,8 @@ std::vector<SiteRegistry::Found> SiteRegistry::Ranked(const Map& now, std::vecto
     };
     const auto order = [&](const Found& one) {
       const Place& place = place_of(one);
-      return std::tuple(one.site.age_s > kOldGround_s, approach(place), !place.roomy.good());
+      return std::tuple(one.site.age_s > kOldGround_s, !place.air_shown.good(), approach(place),
+                        !place.roomy.good());
     };
     const auto worth = [&](const Found& one) {
       const bool shaken = std::isfinite(ShakenFor(place_of(one), now.elevation.time));

@@ -13,6 +13,7 @@
 //              a row as it stood before, from 2 to 24; never the place that is selected
 //   confirmed  as the maps say, 3 of 5 against it, 5 in a row for it again
 //   look       from where it would be settled, as it was told until maps differ by over a metre
+//   air        likewise: what cannot be approved from here, for its air, comes after what can
 //   approach   likewise: blocked ones come after clear ones
 //   tight      with less than a cell beyond its clear radius it comes after those that have more:
 //              a map that sees the nearest hazard a cell nearer makes it no site
@@ -69,7 +70,7 @@ class SiteRegistry {
     int rank = -1;                                  ///< in the list; -1: not listed
     int run = 0;                                    ///< maps in a row that it could bear the lander
     SteadyFigure score{};
-    SteadyVerdict confirmed{}, straight_clear{}, some_clear{}, roomy{};
+    SteadyVerdict confirmed{}, air_shown{}, straight_clear{}, some_clear{}, roomy{};
     LastingClaim beaten{};
     double look_height_m = NAN;            ///< LandingSite::look_height_m, as it was told last
     int losses = 0;                        ///< maps that called it unsafe

@@ -34,7 +34,7 @@ TEST(ApproveWords, TheButtonTellsWhatAHoldDoesOrWhyItDoesNothing) {
          mission(s).armed->confirmed = false;
          mission(s).armed->height_m.three_sigma = 0.2;
        },
-       HoldPhase::kReady, "Hold to approve A, look first", ""},
+       HoldPhase::kReady, "Hold to approve A, not looked at", ""},
       {"confirmed by a map since",
        [&](EngineSnapshot& s) {
          mission(s).armed->confirmed = false;

@@ -221,6 +221,7 @@ TEST(StatusBar, CountsNoChannelAsFreshThatRepeatsOrLoses) {
   }
   EXPECT_TRUE(HasText(FlyWindow(1280, 720, snap).ui.items, "Channels: 8 fresh"));
   channels[2].lost_share = 0.6;
+  channels[7].lost_share = 0.6;  // the station's own estimate: it is made, not sent
   snap.terrain.Edit().stereo_quality.left_frozen = true;
   snap.terrain.Edit().stereo_quality.right_frozen = true;
   FlyWindow window(1280, 720, snap);
