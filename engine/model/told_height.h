@@ -1,5 +1,5 @@
-// The height that a screen tells, and by whom, and whether it changes. One point of the vehicle: a source that changes moves
-// it by what the sources differ, and by nothing else.
+// The height that a screen tells, and by whom, and whether it changes. One point of the vehicle: a
+// source that changes moves it by what the sources differ, and by nothing else.
 #pragma once
 
 #include <cstdint>
@@ -21,8 +21,8 @@ struct ToldHeight {
   double height_m = std::numeric_limits<double>::quiet_NaN();
 };
 
-/// Of a descent. By the estimate in force; where it is unknown (vision, and no pictures) by the newest GPS, then
-/// by the laser: others still tell it.
+/// Of a descent. By the estimate in force; where it is unknown (vision, and no pictures) by the
+/// newest GPS, then by the laser: others still tell it.
 ToldHeight HeightTold(const EngineSnapshot& snapshot);
 /// Before one. By the laser, as in the plots; where it has no return by the vehicle's pose.
 ToldHeight HoverHeightTold(const EngineSnapshot& snapshot);
