@@ -29,43 +29,6 @@ TEST(Maps, ASizeLostInItsNoiseIsToldByWhatItIsBelow) {
   }
 }
 
-TEST(VehiclePanel, AWindTooWeakToComeFromAnywhereHasNoDirection) {
-  const struct {
-    double wind_mps, from_rad;
-    const char* words;
-  } table[] = {{2.1, Rad(240), "2.1 m/s, 240°"}, {0.3, Rad(240), "0.3 m/s"}, {2.1, NAN, "2.1 m/s"}};
-  for (const auto& row : table) {
-    EngineSnapshot snap = fake::Snapshot(MissionState::kProposed);
-    snap.sensors.Edit().vehicle->wind_speed_mps = row.wind_mps;
-    snap.sensors.Edit().vehicle->wind_from_rad = row.from_rad;
-    EXPECT_EQ(FlyWindow(1920, 1080, snap).ui.items.Find("readout/Wind")->text, row.words);
-  }
-}
-
-TEST(VehiclePanel, AHoverThatClimbsOrSinksTellsHowFast) {
-  const struct {
-    double down_mps;
-    const char *wide, *narrow, *words;
-  } table[] = {{-1.24, "Climb rate", "Climb", "1.2 m/s"},
-               {0.8, "Descent rate", "Descent", "0.8 m/s"},
-               {-0.1, "Wind", "Wind", nullptr},
-               {NAN, "Wind", "Wind", nullptr}};
-  for (const auto& row : table) {
-    EngineSnapshot snap = fake::Snapshot(MissionState::kProposed);
-    snap.sensors.Edit().pose->v_WB.z() = row.down_mps;
-    for (const auto& [size, label] : {std::pair{ImVec2(1920, 1080), row.wide},
-                                      std::pair{ImVec2(1280, 720), row.narrow}}) {
-      FlyWindow window(size.x, size.y, snap);
-      const Item* item = window.ui.items.Find(std::string("readout/") + label);
-      ASSERT_NE(item, nullptr) << label;
-      if (row.words != nullptr) {
-        EXPECT_EQ(item->text, row.words);
-      }
-      ExpectTextsInPanels(window.ui.items);
-    }
-  }
-}
-
 TEST(TuneCells, AreTheClassesOfTheGround) {
   EngineSnapshot snap = fake::Snapshot(MissionState::kProposed);
   auto decision = std::make_shared<TerrainDecision>(*snap.terrain->applied);

@@ -332,66 +332,6 @@ TEST(Ages, GrowWhileNothingIsPublished) {
   EXPECT_TRUE(HasText(ui.items, "Link 7.0 s"));
 }
 
-TEST(VehiclePanel, TellsAClimbAsAClimbAndATouchdownAsItWasMeasured) {
-  EngineSnapshot snap = fake::Snapshot(MissionState::kDescending);
-  for (LimitRow& row : snap.flight.Edit().mission.limits) {
-    row.value = row.id == LimitId::kDescentRate ? -1.42 : row.value;
-  }
-  EXPECT_EQ(FlyWindow(1920, 1080, snap).ui.items.Find("readout/Climb rate")->text, "1.42 m/s");
-  EngineSnapshot landed = fake::Snapshot(MissionState::kLanded);
-  landed.flight.Edit().mission.touchdown_miss_m = 0.46;
-  landed.flight.Edit().mission.touchdown_miss_true_m = 0.55;
-  landed.flight.Edit().mission.distance_to_site_m = 1.0;  // the estimate drifts on
-  FlyWindow window(1920, 1080, landed);
-  EXPECT_EQ(window.ui.items.Find("readout/Off centre, estimate")->text, "0.46 m");
-  EXPECT_EQ(window.ui.items.Find("readout/Off centre, in truth")->text, "0.55 m");
-  EXPECT_EQ(window.ui.items.Find("readout/From site centre"), nullptr);
-  ExpectTextsInPanels(window.ui.items);
-}
-
-/// Vision is in force and no picture comes: GPS and the laser go on telling the height.
-TEST(VehiclePanel, AHeightThatOthersKnowIsShownWithItsSource) {
-  EngineSnapshot snap = fake::Snapshot(MissionState::kHold);
-  snap.flight.Edit().mission.height_above_site_m = NAN;
-  auto history = *snap.flight->history;
-  history.back().gps_height_m = 21.9;
-  history.back().laser_m = 21.2;
-  const auto height = [&](const char* item, float width, float high) {
-    snap.flight.Edit().history = std::make_shared<const std::vector<HistorySample>>(history);
-    FlyWindow window(width, high, snap);
-    ExpectTextsInPanels(window.ui.items);
-    const Item* found = window.ui.items.Find(std::string("readout/") + item);
-    return found != nullptr ? found->text : std::string("none");
-  };
-  EXPECT_EQ(height("Height above site", 1920, 1080), "21.9 m, GPS");
-  EXPECT_EQ(height("Height", 1280, 720), "21.9 m, GPS");
-  history.back().gps_height_m = NAN;
-  EXPECT_EQ(height("Height above ground", 1920, 1080), "21.2 m, laser");
-  EXPECT_EQ(height("Height", 1280, 720), "21.2 m, laser");
-  history.back().laser_m = NAN;
-  EXPECT_EQ(height("Height above site", 1920, 1080), "–– m");
-}
-
-// The laser measures over the ground, the pose over the origin: here the ground is at the origin.
-TEST(VehiclePanel, AHoversHeightIsThatOfTheSkidsWhoeverTellsIt) {
-  EngineSnapshot snap = fake::Snapshot(MissionState::kProposed);
-  snap.session.Edit().settings.slad.lander.gear_below_m = 0.9;  // the pose is 38.5 m up
-  auto history = *snap.flight->history;
-  for (const bool laser : {true, false}) {
-    history.back().laser_m = laser ? 37.6 : NAN;
-    snap.flight.Edit().history = std::make_shared<const std::vector<HistorySample>>(history);
-    for (const ImVec2 size : {ImVec2(1920, 1080), ImVec2(1280, 720)}) {
-      FlyWindow window(size.x, size.y, snap);
-      ExpectTextsInPanels(window.ui.items);
-      const std::string label = laser ? "bove ground" : "bove origin";
-      const Item* height = window.ui.items.Find(
-          "readout/" + (size.x > 1500 ? "Height a" + label : "A" + label));
-      ASSERT_NE(height, nullptr) << label << " at " << size.x;
-      EXPECT_EQ(height->text, laser ? "37.6 m, laser" : "37.6 m, pose");
-    }
-  }
-}
-
 TEST(Plots, UncertaintyThatIsNotKnownFillsThePlotAndAnEndIsHatched) {
   EngineSnapshot snap = fake::Snapshot(MissionState::kDescending);
   auto history = *snap.flight->history;
