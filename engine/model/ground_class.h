@@ -13,7 +13,7 @@ enum class GroundClass : std::uint8_t {
   kLandable,   ///< a lander may be sent here: nothing within its clear radius, every limit kept
   kHazard,     ///< breaks a limit itself, or is flagged
   kTooNear,    ///< no hazard itself, but one (or unknown ground) lies within the clear radius
-  kFootprint,  ///< has that room, but a lander on it breaks a limit, mostly the safe probability
+  kFootprint,  ///< has that room, but a touchdown within nav_error_m breaks a limit under the lander
 };
 inline constexpr std::size_t kGroundClasses = 5;
 

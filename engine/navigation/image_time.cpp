@@ -22,29 +22,48 @@ constexpr double kMostSigma_s = 0.012;
 constexpr double kSigmas = 4;
 constexpr double kExplained = 0.25;  // of the motion's mean square may be left over
 constexpr double kLeastNoise2_px2 = 0.04;
+constexpr double kDepthShare = 0.3;  // by which the depth of all may differ from the middle's
 constexpr int kOffRun = 3, kAgreesRun = 5;
 
-/// Samples of both axes less a straight line each; their mean square, with the line's freedom.
-double SquareWithoutLine(const std::vector<double>& time_s,
-                         const std::vector<Eigen::Vector2d>& values) {
-  const double n = static_cast<double>(values.size());
-  double mean_t = 0;
-  Eigen::Vector2d mean = Eigen::Vector2d::Zero();
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    mean_t += time_s[i] / n;
-    mean += values[i] / n;
+/// Motion over one window, a pair of pictures each.
+struct Samples {
+  std::vector<double> time_s;
+  std::vector<Eigen::Vector2d> px;         ///< what is to be explained
+  std::vector<Eigen::Vector2d> travel_px;  ///< what travelling is predicted to do
+
+  void Add(double at_s, const Eigen::Vector2d& value, const Eigen::Vector2d& travel) {
+    time_s.push_back(at_s);
+    px.push_back(value);
+    travel_px.push_back(travel);
   }
-  double tt = 0;
-  Eigen::Vector2d tv = Eigen::Vector2d::Zero(), vv = Eigen::Vector2d::Zero();
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    const double t = time_s[i] - mean_t;
-    const Eigen::Vector2d v = values[i] - mean;
-    tt += t * t;
-    tv += t * v;
-    vv += v.cwiseAbs2();
+  int size() const { return static_cast<int>(px.size()); }
+};
+
+/// Mean square that is left of the samples less a straight line for each axis and (a + b t') times
+/// the travel for both together, with their freedom.
+double Unexplained(const Samples& samples) {
+  using Vector6 = Eigen::Matrix<double, 6, 1>;
+  const double middle_s = 0.5 * (samples.time_s.front() + samples.time_s.back());
+  const double half_s = std::max(0.5 * (samples.time_s.back() - samples.time_s.front()), 1e-9);
+  Eigen::Matrix<double, 6, 6> normal = Eigen::Matrix<double, 6, 6>::Zero();
+  // An axis without motion, or travel that is a line itself, must not make it singular.
+  normal.diagonal() << 1e-9, 1e-9, 1e-9, 1e-9, kLeastNoise2_px2 / (kDepthShare * kDepthShare),
+      kLeastNoise2_px2 / (kDepthShare * kDepthShare);
+  Vector6 right = Vector6::Zero();
+  double square = 0;
+  for (std::size_t i = 0; i < samples.px.size(); ++i) {
+    const double t = (samples.time_s[i] - middle_s) / half_s;
+    for (int axis = 0; axis < 2; ++axis) {
+      Vector6 basis = Vector6::Zero();
+      basis.segment<2>(2 * axis) << 1, t;
+      basis.tail<2>() << samples.travel_px[i][axis], t * samples.travel_px[i][axis];
+      normal += basis * basis.transpose();
+      right += basis * samples.px[i][axis];
+      square += samples.px[i][axis] * samples.px[i][axis];
+    }
   }
-  const Eigen::Vector2d left = tt > 0 ? Eigen::Vector2d(vv - tv.cwiseAbs2() / tt) : vv;
-  return left.cwiseMax(0).sum() / (2 * (n - 2));
+  const double left = square - right.dot(normal.ldlt().solve(right));
+  return std::max(0.0, left) / (2 * (samples.size() - 3));
 }
 
 }  // namespace
@@ -55,16 +74,18 @@ MotionRate PredictMotion(const VehiclePose& pose, const RigidTransform& X_BC, do
   MotionRate rate{pose.time, focal_px * Eigen::Vector2d(-w_C.y(), w_C.x())};
   if (depth_m > 0 && std::isfinite(depth_m)) {
     const Eigen::Vector3d v_C = X_BC.R.transpose() * (pose.X_WB.R.transpose() * pose.v_WB);
-    rate.px_per_s -= focal_px / depth_m * v_C.head<2>();
+    rate.travel_px_per_s = -focal_px / depth_m * v_C.head<2>();
   }
   return rate;
 }
 
 void ImageTimeMonitor::AddRate(const MotionRate& rate) {
-  if (!rate.px_per_s.allFinite() || (!rates_.empty() && rate.time <= rates_.back().time)) {
+  Motion px_per_s;
+  px_per_s << rate.turn_px_per_s, rate.travel_px_per_s;
+  if (!px_per_s.allFinite() || (!rates_.empty() && rate.time <= rates_.back().time)) {
     return;
   }
-  RatePoint point{rate.time, rate.px_per_s, Eigen::Vector2d::Zero()};
+  RatePoint point{rate.time, px_per_s, Motion::Zero()};
   if (!rates_.empty()) {
     const RatePoint& last = rates_.back();
     const double dt = SecondsBetween(last.time, rate.time);
@@ -72,7 +93,7 @@ void ImageTimeMonitor::AddRate(const MotionRate& rate) {
       rates_.clear();
       motions_.clear();
     } else {
-      point.travelled_px = last.travelled_px + 0.5 * dt * (last.px_per_s + rate.px_per_s);
+      point.moved_px = last.moved_px + 0.5 * dt * (last.px_per_s + px_per_s);
     }
   }
   rates_.push_back(point);
@@ -99,64 +120,62 @@ void ImageTimeMonitor::AddMotion(const MotionSample& motion) {
   Tell(verdict);
 }
 
-Eigen::Vector2d ImageTimeMonitor::TravelledAt(double time_s) const {
+ImageTimeMonitor::Motion ImageTimeMonitor::MovedAt(double time_s) const {
   // Seconds from the oldest rate; the caller stays inside.
   const auto after =
       std::upper_bound(rates_.begin(), rates_.end(), time_s, [&](double t, const RatePoint& point) {
         return t < SecondsBetween(rates_.front().time, point.time);
       });
   if (after == rates_.end()) {
-    return rates_.back().travelled_px;
+    return rates_.back().moved_px;
   }
   const RatePoint& b = *after;
   const RatePoint& a = *std::prev(after);
   const double t = time_s - SecondsBetween(rates_.front().time, a.time);
   const double share = t / SecondsBetween(a.time, b.time);
-  const Eigen::Vector2d mid = a.px_per_s + 0.5 * share * (b.px_per_s - a.px_per_s);
-  return a.travelled_px + t * mid;
+  const Motion mid = a.px_per_s + 0.5 * share * (b.px_per_s - a.px_per_s);
+  return a.moved_px + t * mid;
+}
+
+ImageTimeMonitor::Motion ImageTimeMonitor::MovedBetween(double from_s, double to_s) const {
+  return MovedAt(to_s) - MovedAt(from_s);
 }
 
 std::optional<ImageTimeMonitor::Fit> ImageTimeMonitor::FitAt(double shift_s,
                                                              double beside_s) const {
   const double newest_s = SecondsBetween(rates_.front().time, rates_.back().time);
-  std::vector<double> time_s;
-  std::vector<Eigen::Vector2d> left_px;
+  Samples left;
   for (std::size_t i = first_; i < motions_.size(); ++i) {
     const MotionSample& motion = motions_[i];
     const double from_s = SecondsBetween(rates_.front().time, motion.from) + shift_s;
     const double to_s = SecondsBetween(rates_.front().time, motion.to) + shift_s;
     const double apart_s = beside_s - shift_s;
     if (from_s + std::min(apart_s, 0.0) >= 0 && to_s + std::max(apart_s, 0.0) <= newest_s) {
-      time_s.push_back(to_s);
-      left_px.push_back(motion.shift_px - (TravelledAt(to_s) - TravelledAt(from_s)));
+      const Motion moved = MovedBetween(from_s, to_s);
+      left.Add(to_s, motion.shift_px - moved.rowwise().sum(), moved.col(1));
     }
   }
-  if (static_cast<int>(time_s.size()) < kLeastPairs ||
-      time_s.back() - time_s.front() < kLeastSpan_s) {
+  if (left.size() < kLeastPairs || left.time_s.back() - left.time_s.front() < kLeastSpan_s) {
     return std::nullopt;
   }
-  return Fit{SquareWithoutLine(time_s, left_px), static_cast<int>(time_s.size())};
+  return Fit{Unexplained(left), left.size()};
 }
 
 double ImageTimeMonitor::DifferenceOf(double shift_a_s, double shift_b_s) const {
   const double newest_s = SecondsBetween(rates_.front().time, rates_.back().time);
-  std::vector<double> time_s;
-  std::vector<Eigen::Vector2d> px;
-  const auto motion_of = [&](double from_s, double to_s) -> Eigen::Vector2d {
-    return TravelledAt(to_s) - TravelledAt(from_s);
-  };
   const double least = std::min(shift_a_s, shift_b_s), most = std::max(shift_a_s, shift_b_s);
+  Samples apart;
   for (std::size_t i = first_; i < motions_.size(); ++i) {
     const MotionSample& motion = motions_[i];
     const double from_s = SecondsBetween(rates_.front().time, motion.from);
     const double to_s = SecondsBetween(rates_.front().time, motion.to);
     if (from_s + least >= 0 && to_s + most <= newest_s) {
-      time_s.push_back(to_s);
-      px.push_back(motion_of(from_s + shift_a_s, to_s + shift_a_s) -
-                   motion_of(from_s + shift_b_s, to_s + shift_b_s));
+      const Motion a = MovedBetween(from_s + shift_a_s, to_s + shift_a_s);
+      const Motion b = MovedBetween(from_s + shift_b_s, to_s + shift_b_s);
+      apart.Add(to_s, (a - b).rowwise().sum(), a.col(1));
     }
   }
-  return static_cast<int>(px.size()) < kLeastPairs ? 0 : SquareWithoutLine(time_s, px);
+  return apart.size() < kLeastPairs ? 0 : Unexplained(apart);
 }
 
 std::optional<ImageTimeMonitor::Fit> ImageTimeMonitor::BestFit(double& shift_s) const {
@@ -189,13 +208,13 @@ ImageTimeMonitor::Verdict ImageTimeMonitor::JudgeWindow(double window_s) {
   if (!best) {
     return {};
   }
-  std::vector<double> time_s;
-  std::vector<Eigen::Vector2d> seen_px;
+  Samples seen;
   for (std::size_t i = first_; i < motions_.size(); ++i) {
-    time_s.push_back(SecondsBetween(motions_.front().to, motions_[i].to));
-    seen_px.push_back(motions_[i].shift_px);
+    const MotionSample& motion = motions_[i];
+    seen.Add(SecondsBetween(motions_.front().to, motion.to), motion.shift_px,
+             Eigen::Vector2d::Zero());
   }
-  const double motion2_px2 = SquareWithoutLine(time_s, seen_px);
+  const double motion2_px2 = Unexplained(seen);
   const double noise2_px2 = std::max(best->residual2_px2, kLeastNoise2_px2);
   // What an offset of 50 ms more would leave; the offset's sigma follows from the slope.
   const double sharp2_px2 =

@@ -40,6 +40,8 @@ struct Run {
   double noise_px = 0.2;
   bool frozen = false;
   double drift_px_s = 20;  ///< travel that nobody knows
+  double travel_px_s = 0;  ///< most of what is flown, back and forth in 8 s
+  double depth_share = 0;  ///< by which the depth in the middle comes and goes over 5 s
 };
 
 /// When it was found, and what was told at the end.
@@ -54,16 +56,23 @@ Found Fly(const Run& run, std::uint64_t seed, double seconds = 8) {
   RandomStream random(seed, "noise");
   ImageTimeMonitor monitor;
   Found found;
+  const Eigen::Vector2d kAlong(0.8, 0.6);
+  constexpr double kSway = 2 * M_PI / 8;
+  const auto speed_px_s = [&](double t) { return run.travel_px_s * std::sin(kSway * t); };
+  const auto way_px = [&](double t) { return -run.travel_px_s / kSway * std::cos(kSway * t); };
   const auto travelled = [&](double t) {
     return Eigen::Vector2d(gusts.Sum(std::min(t, run.calm_s), true) +
-                           Eigen::Vector2d(run.drift_px_s * t, 0.3 * run.drift_px_s * t));
+                           Eigen::Vector2d(run.drift_px_s * t, 0.3 * run.drift_px_s * t) +
+                           kAlong * way_px(t));
   };
   double before = NAN;
   for (int n = 1; n <= static_cast<int>(50 * seconds); ++n) {
     const double t = 0.02 * n;
     const Eigen::Vector2d rate =
         t < run.calm_s ? gusts.Sum(t, false) : Eigen::Vector2d(Eigen::Vector2d::Zero());
-    monitor.AddRate({AddSeconds({}, t), rate});
+    const double phase = 1.3 * t + static_cast<double>(seed);
+    monitor.AddRate({AddSeconds({}, t), rate,
+                     (1 + run.depth_share * std::sin(phase)) * kAlong * speed_px_s(t)});
     if (n % 5 != 0) {
       continue;
     }
@@ -169,6 +178,29 @@ TEST(ImageTimeMonitor, WhatIsNewInThePictureIsNoOffset) {
   EXPECT_EQ(rate, std::size(kRates_px_s));
 }
 
+// The depth in the middle of the picture is not that of all it shows: between a street and a front
+// it comes and goes. With one depth for all, 19 of these 90 flights at 2 m/s and 13 m told offsets.
+TEST(ImageTimeMonitor, AWrongDepthIsNoOffset) {
+  int told = 0;
+  for (std::uint64_t seed = 1; seed <= 30; ++seed) {
+    for (const double strength : {0.1, 0.5, 2.0}) {
+      const struct Run run { .strength_deg_s = strength, .travel_px_s = 120, .depth_share = 0.25 };
+      told += std::isnan(Fly(run, seed, 15).at_s) ? 0 : 1;
+    }
+  }
+  EXPECT_LE(told, 1);
+}
+
+TEST(ImageTimeMonitor, FindsOffsetsWhileItTravels) {
+  int found = 0;
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    const Found late =
+        Fly({.late_s = 0.1, .from_s = 4, .travel_px_s = 120, .depth_share = 0.25}, seed);
+    found += late.at_s <= 2.0 ? 1 : 0;
+  }
+  EXPECT_GE(found, 38);
+}
+
 TEST(ImageTimeMonitor, SaysNothingInCalmAir) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     const Found found = Fly({.strength_deg_s = 0.02, .late_s = 0.3}, seed);
@@ -205,11 +237,11 @@ TEST(PredictMotion, ANosePitchedUpMovesThePictureDown) {
   pose.angular_rate_B = {0, 0.1, 0};
   const RigidTransform X_BC{CameraRotationFromTilt(Rad(-45)), Eigen::Vector3d::Zero()};
   const MotionRate turn = PredictMotion(pose, X_BC, kFocal_px, NAN);
-  EXPECT_NEAR(turn.px_per_s.x(), 0, 1e-9);
-  EXPECT_NEAR(turn.px_per_s.y(), 0.1 * kFocal_px, 1e-9);
+  EXPECT_NEAR(turn.turn_px_per_s.x(), 0, 1e-9);
+  EXPECT_NEAR(turn.turn_px_per_s.y(), 0.1 * kFocal_px, 1e-9);
   pose.angular_rate_B.setZero();
   pose.v_WB = {0, 2, 0};  // to the right: the ground goes left
-  EXPECT_NEAR(PredictMotion(pose, X_BC, kFocal_px, 20).px_per_s.x(), -0.1 * kFocal_px, 1e-9);
+  EXPECT_NEAR(PredictMotion(pose, X_BC, kFocal_px, 20).travel_px_per_s.x(), -0.1 * kFocal_px, 1e-9);
 }
 
 }  // namespace

@@ -5,7 +5,9 @@
 #include <limits>
 #include <numbers>
 
+#include "engine/core/text.h"
 #include "engine/core/units.h"
+#include "engine/slad/hazards/ground_classes.h"
 #include "engine/slad/hazards/hazard_layers.h"
 #include "engine/slad/sites/site_evaluation.h"
 
@@ -59,7 +61,7 @@ std::string WhyUnknown(CellState state) {
   return "Too little known around it";
 }
 
-std::string Sentence(const ExplainedTerm& term, const char* where) {
+std::string Sentence(const ExplainedTerm& term, const std::string& where) {
   const TermWords words = WordsOf(term);
   return words.name + where + " " + words.value + ", " + words.limit;
 }
@@ -78,7 +80,7 @@ ExplainedTerm* Worse(ExplainedTerm* a, ExplainedTerm* b) {
   return share(b) > share(a) ? b : a;
 }
 
-void Decide(CellExplanation& e, ExplainedTerm* term, const char* where) {
+void Decide(CellExplanation& e, ExplainedTerm* term, const std::string& where) {
   if (term != nullptr) {
     term->decided = true;
     e.verdict = Sentence(*term, where);
@@ -104,8 +106,19 @@ void DecideHazard(CellExplanation& e) {
   }
 }
 
-/// A cell that is none: is there room for the lander?
-void DecideRoom(const HazardMaps& hazards, CellExplanation& e) {
+/// " under the lander", " under a lander 0.3 m north" where a touchdown beside the cell breaks it.
+std::string WhoBreaks(const HazardMaps& hazards, const SladSettings& settings, Cell cell) {
+  const Cell worst = WorstTouchdown(hazards, settings, cell);
+  if (worst == cell) {
+    return " under the lander";
+  }
+  const double north = cell.row - worst.row, east = worst.col - cell.col;
+  return WithNumbers(" under a lander %.1f m ", hazards.geometry.cell_m * std::hypot(north, east)) +
+         DirectionWord(std::atan2(east, north));
+}
+
+/// A cell that is none: is there room for the lander, and does every touchdown keep the limits?
+void DecideRoom(const HazardMaps& hazards, const SladSettings& settings, CellExplanation& e) {
   e.nearest = FindNearestHazard(hazards, e.cell);
   ExplainedTerm* room = Find(e, CellTerm::kHazardDistance);
   if (room->over) {
@@ -114,12 +127,12 @@ void DecideRoom(const HazardMaps& hazards, CellExplanation& e) {
     return;
   }
   if (!CanBearLander(hazards, e.cell)) {
-    for (ExplainedTerm& term : e.terms) {
-      if (term.over) {
-        Decide(e, &term, " under the lander");
-        return;
-      }
-    }
+    const auto over = std::find_if(e.terms.begin(), e.terms.end(),
+                                   [](const ExplainedTerm& term) { return term.over; });
+    // On its limit to the last bit a term may read as inside.
+    Decide(e, over != e.terms.end() ? &*over : Find(e, CellTerm::kProbability),
+           WhoBreaks(hazards, settings, e.cell));
+    return;
   }
   e.can_bear = true;
   e.verdict = "Safe; nearest hazard: " + WhereWords(*e.nearest);
@@ -155,12 +168,12 @@ CellExplanation ExplainCell(const ElevationMap& map, const HazardMaps& hazards,
   e.flags = hazards.flags.empty() ? std::uint8_t{0} : hazards.flags.at(cell);
   e.reasons = hazards.reasons.at(cell);
   LandingSite site;
-  TakeFigures(hazards, cell, site);
+  TakeFigures(hazards, settings, cell, site);
   e.terms = TermsOf(site, settings);
   if (e.reasons != kHazardNone) {
     DecideHazard(e);
   } else {
-    DecideRoom(hazards, e);
+    DecideRoom(hazards, settings, e);
   }
   return e;
 }

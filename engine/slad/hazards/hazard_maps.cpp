@@ -12,6 +12,7 @@
 
 #include "engine/core/units.h"
 #include "engine/model/cell_explanation.h"
+#include "engine/slad/hazards/ground_classes.h"
 #include "engine/slad/hazards/hazard_layers.h"
 #include "engine/slad/hazards/hidden_things.h"
 #include "engine/slad/hazards/loops/slad_loops.h"
@@ -22,107 +23,6 @@ namespace {
 
 static_assert(kSteep == kHazardSlope && kRough == kHazardRoughness && kStepped == kHazardStep &&
               kNotKnown == kHazardUnknown && kUnlikely == kHazardProbability);
-
-/// How a cell with these reasons is counted.
-enum CountedAs {
-  kAsSlope,
-  kAsRoughness,
-  kAsUnknown,
-  kAsFlagged,
-  kAsFootprint,
-  kAsSafe,
-  kCountings
-};
-constexpr CountedAs CountingOf(unsigned reasons) {
-  return (reasons & kHazardSlope) != 0                       ? kAsSlope
-         : (reasons & (kHazardRoughness | kHazardStep)) != 0 ? kAsRoughness
-         : (reasons & kHazardUnknown) != 0                   ? kAsUnknown
-         : (reasons & kHazardFlagged) != 0                   ? kAsFlagged
-         : (reasons & kHazardProbability) != 0               ? kAsRoughness
-                                                             : kAsSafe;
-}
-
-/// The class of a cell that is counted so, but for kAsSafe: there the room decides.
-constexpr GroundClass ClassOf(CountedAs counted) {
-  return counted == kAsUnknown ? GroundClass::kUnknown : GroundClass::kHazard;
-}
-
-/// Whether the lander's footprint centred on the cell keeps every limit of its mode.
-bool FootprintHolds(const HazardMaps& hazards, const SladSettings& settings, Cell cell) {
-  if (hazards.reasons.at(cell) != kHazardNone) {
-    return false;
-  }
-  if (settings.mode == SladMode::kThesis) {
-    return true;
-  }
-  return hazards.slope_rad.at(cell) <= static_cast<float>(Rad(settings.limits.max_slope_deg)) &&
-         hazards.roughness_m.at(cell) <= static_cast<float>(settings.limits.max_deviation_m) &&
-         hazards.step_m.at(cell) <= static_cast<float>(settings.limits.max_step_m) &&
-         static_cast<double>(hazards.safe_probability.at(cell)) >=
-             RequiredSafeProbability(settings,
-                                     static_cast<double>(hazards.roughness_sigma_m.at(cell)),
-                                     hazards.hidden_things.empty()
-                                         ? 0
-                                         : static_cast<double>(hazards.hidden_things.at(cell)));
-}
-
-constexpr unsigned kAllReasons = 63;
-/// By reasons.
-constexpr std::array<GroundClass, kAllReasons + 1> kClassOf = [] {
-  std::array<GroundClass, kAllReasons + 1> classes{};
-  for (unsigned reasons = 0; reasons <= kAllReasons; ++reasons) {
-    classes[reasons] = ClassOf(CountingOf(reasons));
-  }
-  return classes;
-}();
-
-/// Gives every cell its class, and counts.
-void ClassifyCells(const SladSettings& settings, HazardMaps& hazards) {
-  const float clear_m = static_cast<float>(settings.lander.clear_radius_m());
-  struct Counts {
-    std::array<int, kAllReasons + 1> with{};  ///< these very reasons
-    int too_near = 0, footprint = 0;          ///< no hazards, but no place for the lander
-  };
-  hazards.ground = Grid<GroundClass>(hazards.geometry.rows, hazards.geometry.cols);
-  std::vector<Counts> of_row(static_cast<std::size_t>(hazards.geometry.rows));
-  cv::parallel_for_(cv::Range(0, hazards.geometry.rows), [&](const cv::Range& rows) {
-    for (int r = rows.start; r < rows.end; ++r) {
-      Counts& count = of_row[static_cast<std::size_t>(r)];
-      const std::uint8_t* reasons = hazards.reasons.row(r);
-      const float* distance_m = hazards.safe_distance_m.row(r);
-      GroundClass* ground = hazards.ground.row(r);
-      for (int c = 0; c < hazards.geometry.cols; ++c) {
-        ++count.with[reasons[c] & kAllReasons];
-        if (reasons[c] != kHazardNone) {
-          ground[c] = kClassOf[reasons[c] & kAllReasons];
-        } else if (!(distance_m[c] >= clear_m)) {
-          ground[c] = GroundClass::kTooNear;
-          ++count.too_near;
-        } else if (!FootprintHolds(hazards, settings, {r, c})) {
-          ground[c] = GroundClass::kFootprint;
-          ++count.footprint;
-        } else {
-          ground[c] = GroundClass::kLandable;
-        }
-      }
-    }
-  });
-  std::array<int, kCountings> count{};
-  for (const Counts& row : of_row) {
-    for (unsigned reasons = 0; reasons <= kAllReasons; ++reasons) {
-      count[CountingOf(reasons)] += row.with[reasons];
-    }
-    count[kAsSafe] -= row.too_near + row.footprint;
-    count[kAsFootprint] += row.too_near + row.footprint;
-    hazards.counts[GroundClass::kTooNear] += row.too_near;
-    hazards.counts[GroundClass::kFootprint] += row.footprint;
-  }
-  hazards.rejected = {count[kAsSlope], count[kAsRoughness], count[kAsUnknown], count[kAsFlagged],
-                      count[kAsFootprint]};
-  hazards.counts[GroundClass::kUnknown] = count[kAsUnknown];
-  hazards.counts[GroundClass::kHazard] = count[kAsSlope] + count[kAsRoughness] + count[kAsFlagged];
-  hazards.counts[GroundClass::kLandable] = hazards.safe_cells = count[kAsSafe];
-}
 
 class Judge {
  public:

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/model/site_standing.h"
+#include "engine/slad/hazards/ground_classes.h"
 #include "engine/slad/hazards/hazard_layers.h"
 #include "engine/slad/hazards/hidden_things.h"
 #include "engine/slad/hazards/touchdown.h"
@@ -249,18 +250,23 @@ double LookHeight(const ElevationMap& map, const SladSettings& settings, const S
 
 }  // namespace
 
-void TakeFigures(const HazardMaps& hazards, Cell cell, LandingSite& site) {
-  site.slope_rad = {Known(hazards.slope_rad.at(cell)), 3 * Known(hazards.slope_sigma_rad.at(cell))};
-  site.roughness_m = {Known(hazards.roughness_m.at(cell)),
-                      3 * Known(hazards.roughness_sigma_m.at(cell))};
+void TakeFigures(const HazardMaps& hazards, const SladSettings& settings, Cell cell,
+                 LandingSite& site) {
+  const Cell worst = WorstTouchdown(hazards, settings, cell);
+  site.slope_rad = {Known(hazards.slope_rad.at(worst)),
+                    3 * Known(hazards.slope_sigma_rad.at(worst))};
+  site.roughness_m = {Known(hazards.roughness_m.at(worst)),
+                      3 * Known(hazards.roughness_sigma_m.at(worst))};
   // A step is a difference of two cells.
-  site.step_m = {Known(hazards.step_m.at(cell)),
-                 3 * std::sqrt(2.0) * Known(hazards.roughness_sigma_m.at(cell))};
+  site.step_m = {Known(hazards.step_m.at(worst)),
+                 3 * std::sqrt(2.0) * Known(hazards.roughness_sigma_m.at(worst))};
   site.safe_distance_m = Known(hazards.safe_distance_m.at(cell));
   site.cost = Known(hazards.cost.at(cell));
-  site.safe_probability = Known(hazards.safe_probability.at(cell));
+  site.safe_probability = Known(hazards.safe_probability.at(worst));
   if (!hazards.hidden_things.empty()) {
+    // What hides is counted around the place, not around a touchdown beside it.
     site.hidden_things = Known(hazards.hidden_things.at(cell));
+    site.safe_probability *= std::exp(Known(hazards.hidden_things.at(worst)) - site.hidden_things);
   }
 }
 
@@ -275,7 +281,7 @@ LandingSite EvaluateSite(const ElevationMap& map, const HazardMaps& hazards,
   site.normal_W = Eigen::Vector3d(-plane.north_gradient, -plane.east_gradient, -1).normalized();
   site.pixel = PixelFromPoint(context, site.p_WS);
   site.height_m = {plane.height_m, 3 * std::sqrt(plane.cell_variance_m2)};
-  TakeFigures(hazards, cell, site);
+  TakeFigures(hazards, settings, cell, site);
   site.touchdown = OddsOfTouchdown(map, hazards, settings, site);
   site.clear_radius_m = settings.lander.clear_radius_m();
   site.clearance_m = site.safe_distance_m - site.clear_radius_m;
