@@ -113,6 +113,7 @@ void StepSearching(MissionTurn& turn, const MissionInputs& in) {
   if (!stopped.empty()) {
     m.winner = {};  // a proposal is won while nothing stops
   }
+  m.status.search_stopped = stopped;
   if (state == MissionState::kNoLive) {
     Enter(turn, MissionState::kSearch, words::kCamerasLive, now);
   } else if (state == MissionState::kSearch && stopped.empty() && WinnerStands(m, now)) {
@@ -305,6 +306,7 @@ void StepAborting(MissionTurn& turn, Timestamp now) {
 }  // namespace
 
 void StepState(MissionTurn& turn, const MissionInputs& in) {
+  turn.memory.status.search_stopped.clear();
   switch (turn.memory.status.state) {
     case MissionState::kNoLive:
     case MissionState::kSearch:

@@ -158,6 +158,9 @@ std::string WhatToDoUnarmed(const EngineSnapshot& snap) {
     case MissionState::kProposed:
       return "Click a site, or press Tab and Enter, to select it.";
     case MissionState::kSearch:
+      if (!m.search_stopped.empty()) {
+        return m.search_stopped + ": no site is proposed.";
+      }
       return "Selectable once one site has led for " +
              Duration(snap.session->settings.mission.propose_after_s) + ".";
     default:

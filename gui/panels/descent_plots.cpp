@@ -31,9 +31,20 @@ PlotTrace SeriesOf(const EngineSnapshot& snap, Member member, ImU32 colour, floa
   return series;
 }
 
-/// The estimate in force: thick.
+/// Samples of the flight; on the ground the estimate goes on drifting and means nothing more.
+std::size_t SamplesFlown(const std::vector<HistorySample>& history) {
+  std::size_t flown = history.size();
+  while (flown > 0 && history[flown - 1].state == MissionState::kLanded) {
+    --flown;
+  }
+  return flown;
+}
+
+/// The estimate in force, up to touchdown: thick.
 PlotTrace Estimate(const EngineSnapshot& snap, Member member, const Palette& p) {
   PlotTrace series = SeriesOf(snap, member, p.safe, 2.2f);
+  const std::size_t landed = snap.flight->history->size() - SamplesFlown(*snap.flight->history);
+  series.points.resize(series.points.size() - std::min(landed, series.points.size()));
   series.dot_at_end = true;
   return series;
 }
@@ -46,8 +57,8 @@ template <typename Sigma>
 PlotTrace Estimate(const EngineSnapshot& snap, Member member, const Palette& p, Sigma sigma) {
   PlotTrace series = Estimate(snap, member, p);
   const std::vector<HistorySample>& history = *snap.flight->history;
-  const std::size_t first = history.size() - series.points.size();
-  for (std::size_t i = first; i < history.size(); ++i) {
+  const std::size_t end = SamplesFlown(history);
+  for (std::size_t i = end - std::min(end, series.points.size()); i < end; ++i) {
     const double half = 3 * sigma(history[i]);
     series.band.push_back(std::isfinite(half) ? static_cast<float>(half) : kAnywhere);
   }

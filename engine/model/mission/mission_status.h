@@ -197,6 +197,7 @@ struct MissionStatus {
   /// SEARCH, PROPOSED: why the site selected last is not, or was not reached, or what a look at it
   /// found.
   std::string selection_ended;
+  std::string search_stopped;  ///< SEARCH: what keeps every site from a proposal; empty: nothing
   WaveOffReport wave_off;
   std::string why_no_wave_off;   ///< "Vehicle on the ground"; empty: it is offered
   std::string approval_answer;   ///< the vehicle's reason when refused

@@ -168,6 +168,8 @@ TEST(ApproveWords, WithoutASelectionItSaysWhatToDo) {
             "Click a site, or press Tab and Enter, to select it.");
   EngineSnapshot snap = fake::Snapshot(MissionState::kSearch);
   EXPECT_EQ(WhatToDoUnarmed(snap).rfind("Selectable once one site has led for ", 0), 0u);
+  snap.flight.Edit().mission.search_stopped = "Left camera repeats its picture";
+  EXPECT_EQ(WhatToDoUnarmed(snap), "Left camera repeats its picture: no site is proposed.");
   snap.terrain.Edit().applied = nullptr;
   EXPECT_EQ(WhatToDoUnarmed(snap), "Waiting for a site inside all limits.");
   EXPECT_EQ(NextSiteLetter(snap), "");

@@ -69,6 +69,21 @@ TEST(Plots, AfterTheLandingNoFigureDriftsOn) {
   }
 }
 
+TEST(Plots, TheEstimateEndsAtTouchdownTheTruthGoesOn) {
+  EngineSnapshot landed = fake::Snapshot(MissionState::kLanded);
+  auto history = *landed.flight->history;
+  ASSERT_GT(history.size(), 20u);
+  for (std::size_t i = 0; i < history.size(); ++i) {
+    history[i].state = i + 12 < history.size() ? MissionState::kDescending : MissionState::kLanded;
+  }
+  landed.flight.Edit().history = std::make_shared<const std::vector<HistorySample>>(history);
+  const PlotView distance = DescentPlots(landed, Palette{})[1];
+  const PlotTrace &estimate = distance.series[0], &truth = distance.series[1];
+  EXPECT_EQ(estimate.points.size() + 12, truth.points.size());
+  EXPECT_EQ(estimate.band.size(), estimate.points.size());
+  EXPECT_LT(estimate.points.back().x, truth.points.back().x);
+}
+
 TEST(Evidence, ASizeLostInItsNoiseIsToldByWhatItIsBelow) {
   EngineSnapshot snap = fake::Snapshot(MissionState::kArmed);
   MissionStatus& m = snap.flight.Edit().mission;
