@@ -244,6 +244,15 @@ TEST(SiteSelection, NoPlaceGivesTheSharesOfTheCauses) {
             "is 4.600 m");
 }
 
+TEST(SiteSelection, NoPlaceNamesTheFlagThatMostCellsHave) {
+  ElevationMap map = MakeMap(60, 60, 0.15, Flat());
+  map.flags = Grid<std::uint8_t>(60, 60, kFlagNoTexture);
+  for (int c = 0; c < 60; ++c) {
+    map.flags.at(0, c) = kFlagMotion | kFlagShadow;  // shadow forbids nothing
+  }
+  EXPECT_EQ(Select(map).none_reason, "100 % flagged (no texture)");
+}
+
 TEST(SiteSelection, WhereLinesOfUnknownHeightForbidAPlaceAnotherHeadingIsNamed) {
   for (const float top_m : {3.0F, HUGE_VALF}) {
     ElevationMap map = MakeMap(60, 60, 0.15, Flat());

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "engine/slad/pictures/scene_texture.h"
@@ -20,27 +21,39 @@ struct CellCount {
   std::array<int, kBlockKinds.size()> flagged{};
 };
 
-Grid<CellCount> CountBlocks(const SceneView& view, const SceneGround& ground, const ImageU8& flags,
+Grid<CellCount> CountBlocks(const std::vector<int>& cell_of_block, const ImageU8& flags,
                             const GridGeometry& geometry) {
-  constexpr double kMiddle_px = (kBlock_px - 1) / 2.0;
   Grid<CellCount> counts(geometry.rows, geometry.cols);
+  for (std::size_t block = 0; block < cell_of_block.size(); ++block) {
+    if (cell_of_block[block] < 0) {
+      continue;
+    }
+    CellCount& count = counts.cells()[static_cast<std::size_t>(cell_of_block[block])];
+    ++count.blocks;
+    for (std::size_t k = 0; k < kBlockKinds.size(); ++k) {
+      count.flagged[k] += (flags.pixels()[block] & kBlockKinds[k]) != 0 ? 1 : 0;
+    }
+  }
+  return counts;
+}
+
+/// Index of the cell that each block's middle lies on; -1 off the map and at the picture's rim.
+std::vector<int> CellsOfBlocks(const SceneView& view, const SceneGround& ground,
+                               const GridGeometry& geometry) {
+  constexpr double kMiddle_px = (kBlock_px - 1) / 2.0;
+  std::vector<int> cells(ground.disparity_px.pixels().size(), -1);
   for (int j = kRim_blocks; j < ground.rows() - kRim_blocks; ++j) {
     for (int i = kRim_blocks; i < ground.cols() - kRim_blocks; ++i) {
       const Eigen::Vector3d p_W =
           PointAt(view, kBlock_px * i + kMiddle_px, kBlock_px * j + kMiddle_px,
                   static_cast<double>(ground.disparity_px.at(i, j)));
-      const auto cell = geometry.CellFromPoint(p_W.x(), p_W.y());
-      if (!cell) {
-        continue;
-      }
-      CellCount& count = counts.at(*cell);
-      ++count.blocks;
-      for (std::size_t k = 0; k < kBlockKinds.size(); ++k) {
-        count.flagged[k] += (flags.at(i, j) & kBlockKinds[k]) != 0 ? 1 : 0;
+      if (const auto cell = geometry.CellFromPoint(p_W.x(), p_W.y())) {
+        cells[static_cast<std::size_t>(j * ground.cols() + i)] =
+            cell->row * geometry.cols + cell->col;
       }
     }
   }
-  return counts;
+  return cells;
 }
 
 /// The cells below a piece, and their neighbours; the highest piece over a cell counts. One that
@@ -84,6 +97,7 @@ void SceneFlags::Reset() {
   motion_.Reset();
   older_.Reset();
   memory_.Reset();
+  texture_.Reset();
 }
 
 void SceneFlags::DoubtViews() {
@@ -94,12 +108,16 @@ void SceneFlags::DoubtViews() {
 
 Grid<std::uint8_t> SceneFlags::Add(const SceneView& view, const GridGeometry& geometry) {
   memory_.MoveTo(geometry);
+  texture_.MoveTo(geometry);
   const SceneGround ground = FindSceneGround(view);
   if (ground.empty()) {
     return memory_.Flags();
   }
   ImageU8 blocks(ground.cols(), ground.rows(), kFlagNone);
-  FlagTextureAndShadow(view, ground, blocks);
+  const std::vector<int> cell_of_block = CellsOfBlocks(view, ground, geometry);
+  BlockTexture texture = MeasureTexture(view, ground);
+  texture_.Add(cell_of_block, texture);
+  FlagTextureAndShadow(view, ground, std::move(texture), blocks);
   const bool compared = motion_.Flag(view, ground, blocks);
 
   const unsigned looked_for =
@@ -107,7 +125,7 @@ Grid<std::uint8_t> SceneFlags::Add(const SceneView& view, const GridGeometry& ge
       (CanTellThinStructures(view, ground) ? kFlagThinStructure : kFlagNone) |
       (compared ? kFlagMotion : kFlagNone);
   Grid<std::uint8_t> seen(geometry.rows, geometry.cols, kFlagNone), found = seen;
-  const Grid<CellCount> counts = CountBlocks(view, ground, blocks, geometry);
+  const Grid<CellCount> counts = CountBlocks(cell_of_block, blocks, geometry);
   for (std::size_t cell = 0; cell < seen.cells().size(); ++cell) {
     const CellCount& count = counts.cells()[cell];
     seen.cells()[cell] = static_cast<std::uint8_t>(count.blocks > 0 ? looked_for : 0U);

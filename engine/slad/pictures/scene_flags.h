@@ -5,6 +5,7 @@
 //   FindThinStructures     their difference    -> wires, ropes, masts
 //   LineParallax           older views         -> heights of those along the baseline
 //   FlagTextureAndShadow   both pictures       -> no texture, deep shadow
+//   CellTexture          per cell            -> what ten maps show of texture together
 //   SceneMotion            an older view       -> what moved
 //   FlagMemory             per cell, map by map
 #pragma once
@@ -12,6 +13,7 @@
 #include <cstdint>
 
 #include "engine/model/elevation_map.h"
+#include "engine/slad/pictures/cell_texture.h"
 #include "engine/slad/pictures/flag_memory.h"
 #include "engine/slad/pictures/older_views.h"
 #include "engine/slad/pictures/scene_ground.h"
@@ -38,6 +40,7 @@ class SceneFlags {
   SceneMotion motion_;
   OlderViews older_;
   FlagMemory memory_;
+  CellTexture texture_;
 };
 
 }  // namespace palace

@@ -94,10 +94,16 @@ void SumOverWindows(int reach, BlockSums& sums) {
   }
 }
 
-/// Whether the cameras see no more alike in the window than chance gives.
-bool SharesNothing(const BlockSums& sums, int i, int j) {
-  return sums.both.at(i, j) <=
-         kLeastCorrelation * std::sqrt(sums.left.at(i, j) * sums.right.at(i, j));
+/// How much alike the cameras see the window; nothing is alike where one sees nothing.
+float Alike(const BlockSums& sums, int i, int j) {
+  const float square = sums.left.at(i, j) * sums.right.at(i, j);
+  return square > 0 ? sums.both.at(i, j) / std::sqrt(square) : 0.0F;
+}
+
+/// No more alike than chance gives, no more contrast than noise, over the whole window.
+bool IsBare(const TextureSeen& seen) {
+  return seen.alike <= kLeastCorrelation && seen.contrast < 1 &&
+         (seen.alike_halved <= kLeastCorrelation || seen.known_share < kMostKnown);
 }
 
 /// The same over pictures at half the size, in blocks that cover four each.
@@ -173,7 +179,7 @@ void SetFlag(const ImageU8& mask, TerrainFlag flag, ImageU8& flags) {
 
 }  // namespace
 
-void FlagTextureAndShadow(const SceneView& view, const SceneGround& ground, ImageU8& flags) {
+BlockTexture MeasureTexture(const SceneView& view, const SceneGround& ground) {
   BlockSums sums = SumBlocks(*view.left, ground.right, ground.usable);
   SumOverWindows(kReach_blocks, sums);
   const BlockSums halved = SumHalvedBlocks(*view.left, ground);
@@ -185,12 +191,9 @@ void FlagTextureAndShadow(const SceneView& view, const SceneGround& ground, Imag
   constexpr float kFree = kBlock_px * kBlock_px - 1;  // of a block's pixels, its mean known
   const float usual_bright = MedianOf(sums.bright.pixels());
   const float usual_contrast = MedianOf(sums.left.pixels());
-  const double depth_m = view.range->FocalTimesBaseline() /
-                         static_cast<double>(MedianOf(ground.disparity_px.pixels()));
-  const double block_m = kBlock_px * depth_m / view.range->camera.fx_px;
-  const int steps = std::clamp(static_cast<int>(std::lround(kLeastSize_m / 2 / block_m)), 1, 8);
-
-  ImageU8 bare(ground.cols(), ground.rows(), 0), dark = bare;
+  BlockTexture texture{{ground.cols(), ground.rows()},
+                       ImageU8(ground.cols(), ground.rows(), 0),
+                       ImageU8(ground.cols(), ground.rows(), 0)};
   for (int j = kRim_blocks; j < ground.rows() - kRim_blocks; ++j) {
     const Enclosed row = MeasuredOnBothSides(ground, j);
     for (int i = row.first; i < row.end; ++i) {
@@ -201,11 +204,25 @@ void FlagTextureAndShadow(const SceneView& view, const SceneGround& ground, Imag
       const float left = sums.left.at(i, j);
       const int i2 = std::min(i / 2, halved.left.width() - 1);
       const int j2 = std::min(j / 2, halved.left.height() - 1);
-      bare.at(i, j) = SharesNothing(sums, i, j) &&
-                      left < kMostNoise_grey * kMostNoise_grey * kFree * usable &&
-                      (SharesNothing(halved, i2, j2) || known.at(i, j) < kMostKnown * usable);
-      dark.at(i, j) = sums.bright.at(i, j) < kShadow * usual_bright && left <= usual_contrast;
+      texture.judged.at(i, j) = 1;
+      texture.seen.at(i, j) = {Alike(sums, i, j), Alike(halved, i2, j2), known.at(i, j) / usable,
+                               left / (kMostNoise_grey * kMostNoise_grey * kFree * usable)};
+      texture.dark.at(i, j) =
+          sums.bright.at(i, j) < kShadow * usual_bright && left <= usual_contrast;
     }
+  }
+  return texture;
+}
+
+void FlagTextureAndShadow(const SceneView& view, const SceneGround& ground, BlockTexture texture,
+                          ImageU8& flags) {
+  const double depth_m = view.range->FocalTimesBaseline() /
+                         static_cast<double>(MedianOf(ground.disparity_px.pixels()));
+  const double block_m = kBlock_px * depth_m / view.range->camera.fx_px;
+  const int steps = std::clamp(static_cast<int>(std::lround(kLeastSize_m / 2 / block_m)), 1, 8);
+  ImageU8 bare(ground.cols(), ground.rows(), 0);
+  for (std::size_t k = 0; k < bare.pixels().size(); ++k) {
+    bare.pixels()[k] = texture.judged.pixels()[k] != 0 && IsBare(texture.seen.pixels()[k]);
   }
   if (HasAny(bare)) {
     // A window is bare only when the area around is: small areas are gone already, and the rim of
@@ -216,9 +233,9 @@ void FlagTextureAndShadow(const SceneView& view, const SceneGround& ground, Imag
     }
     SetFlag(bare, kFlagNoTexture, flags);
   }
-  if (HasAny(dark)) {
-    OpenMask(dark, steps);
-    SetFlag(dark, kFlagShadow, flags);
+  if (HasAny(texture.dark)) {
+    OpenMask(texture.dark, steps);
+    SetFlag(texture.dark, kFlagShadow, flags);
   }
 }
 

@@ -2,24 +2,47 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <vector>
 
 #include "engine/core/text.h"
+#include "engine/model/cell_explanation.h"
+#include "engine/slad/hazards/hazard_maps.h"
 
 namespace palace {
+namespace {
+
+/// "flagged" and what for, as most of those cells are: "flagged (no texture)".
+std::string FlaggedWords(const HazardMaps& hazards, const HazardLimits& limits) {
+  const unsigned forbidden = ForbiddenFlags(limits);
+  unsigned most = kFlagNone;
+  int cells = 0;
+  for (unsigned flag = 1; flag <= forbidden; flag <<= 1U) {
+    const auto has = [&](std::uint8_t flags) { return (flags & flag & forbidden) != 0; };
+    const auto count = static_cast<int>(
+        std::count_if(hazards.flags.cells().begin(), hazards.flags.cells().end(), has));
+    if (count > cells) {
+      cells = count;
+      most = flag;
+    }
+  }
+  return cells > 0 ? "flagged (" + FlagWords(most) + ")" : "flagged";
+}
+
+}  // namespace
 
 std::string NoneReason(const ElevationMap& map, const HazardMaps& hazards,
                        const SladSettings& settings) {
   const RejectedCells& n = hazards.rejected;
   struct Part {
     int count;
-    const char* name;
+    std::string name;
   };
   std::vector<Part> parts{
       {n.slope, "slope"},
       {n.roughness, "roughness"},
       {n.unknown, "unknown"},
-      {n.flagged, "flagged"},
+      {n.flagged, FlaggedWords(hazards, settings.limits)},
       {hazards.counts[GroundClass::kTooNear], "too near a hazard"},
       {hazards.counts[GroundClass::kFootprint], "over a limit under the lander"}};
   const int total =
