@@ -12,6 +12,7 @@
 
 #include "engine/core/units.h"
 #include "engine/model/cell_explanation.h"
+#include "engine/slad/hazards/safe_distance.h"
 
 namespace palace {
 namespace {
@@ -75,26 +76,38 @@ bool Breaks(const HazardMaps& hazards, const SladSettings& settings, Cell cell) 
          !KeepsLimits(hazards, settings, cell, 0);
 }
 
-/// The touchdowns of a lander sent to a cell: offsets in cells.
+/// The touchdowns of a lander sent to a cell.
 class Touchdowns {
  public:
-  Touchdowns(const SladSettings& settings, const GridGeometry& geometry) {
-    // No farther than the map is wide: beyond it nothing is known.
-    const double radius_cells = std::min(settings.lander.nav_error_m / geometry.cell_m,
-                                         std::max(geometry.rows, geometry.cols) + 1.0);
-    reach_ = static_cast<int>(radius_cells + 1e-9);
-    for (int dr = -reach_; dr <= reach_; ++dr) {
-      half_.push_back(static_cast<int>(std::sqrt(radius_cells * radius_cells - dr * dr + 1e-9)));
-    }
+  Touchdowns(const SladSettings& settings, const GridGeometry& geometry)
+      : radius2_cells_(std::pow(settings.lander.nav_error_m / geometry.cell_m, 2)) {}
+  /// Of two cells whose middles lie that far apart, squared.
+  bool Reach(double square_cells) const { return square_cells <= radius2_cells_ * (1 + 1e-9); }
+  /// Rows and columns beyond which no touchdown of the map lies.
+  int reach(const GridGeometry& geometry) const {
+    return static_cast<int>(
+        std::min(std::sqrt(radius2_cells_) + 1, std::max(geometry.rows, geometry.cols) + 1.0));
   }
-  int reach() const { return reach_; }
-  /// Columns on either side that a touchdown so many rows off may reach.
-  int HalfWidth(int rows_off) const { return half_[static_cast<std::size_t>(rows_off + reach_)]; }
 
  private:
-  int reach_ = 0;
-  std::vector<int> half_;
+  double radius2_cells_;
 };
+
+/// Where only a touchdown beside the cell breaks a limit. `breaking`: 1 where one does; the ring
+/// around the map, which counts too, is farther from every place with room.
+void ClassifyBeside(const SladSettings& settings, const Grid<std::uint8_t>& breaking,
+                    HazardMaps& hazards) {
+  const double cell_m = hazards.geometry.cell_m;
+  const Touchdowns touchdowns(settings, hazards.geometry);
+  const GridF away_m = SafeDistance(breaking, cell_m);
+  for (std::size_t k = 0; k < hazards.ground.cells().size(); ++k) {
+    GroundClass& ground = hazards.ground.cells()[k];
+    const double away_cells = static_cast<double>(away_m.cells()[k]) / cell_m;
+    if (ground == GroundClass::kLandable && touchdowns.Reach(std::round(away_cells * away_cells))) {
+      ground = GroundClass::kFootprint;
+    }
+  }
+}
 
 }  // namespace
 
@@ -104,23 +117,18 @@ void ClassifyCells(const SladSettings& settings, HazardMaps& hazards) {
   // Nothing with a reason lies within the navigation error of a place with room.
   const float touched_m =
       clear_m - static_cast<float>(settings.lander.nav_error_m + hazards.geometry.cell_m);
-  const Touchdowns touchdowns(settings, hazards.geometry);
-  struct RowOf {
-    std::array<int, kAllReasons + 1> with{};  ///< cells with these very reasons
-    std::vector<int> breaking;                ///< columns where a touchdown breaks a limit
-    int too_near = 0, footprint = 0;          ///< no hazards, but no place for the lander
-  };
   hazards.ground = Grid<GroundClass>(rows, cols);
-  std::vector<RowOf> of_row(static_cast<std::size_t>(rows));
+  Grid<std::uint8_t> breaking(rows, cols, 0);
+  std::vector<std::uint8_t> any_breaking(static_cast<std::size_t>(rows), 0);
+  std::vector<std::array<int, kAllReasons + 1>> with(static_cast<std::size_t>(rows));
   cv::parallel_for_(cv::Range(0, rows), [&](const cv::Range& range) {
     for (int r = range.start; r < range.end; ++r) {
-      RowOf& row = of_row[static_cast<std::size_t>(r)];
       const std::uint8_t* reasons = hazards.reasons.row(r);
       const float* distance_m = hazards.safe_distance_m.row(r);
       GroundClass* ground = hazards.ground.row(r);
       for (int c = 0; c < cols; ++c) {
         const Cell cell{r, c};
-        ++row.with[reasons[c] & kAllReasons];
+        ++with[static_cast<std::size_t>(r)][reasons[c] & kAllReasons];
         if (reasons[c] != kHazardNone) {
           ground[c] = kClassOf[reasons[c] & kAllReasons];
           continue;
@@ -130,38 +138,26 @@ void ClassifyCells(const SladSettings& settings, HazardMaps& hazards) {
                         ? GroundClass::kLandable
                         : GroundClass::kFootprint;
         if (distance_m[c] >= touched_m && Breaks(hazards, settings, cell)) {
-          row.breaking.push_back(c);
+          breaking.at(cell) = any_breaking[static_cast<std::size_t>(r)] = 1;
         }
       }
     }
   });
-  cv::parallel_for_(cv::Range(0, rows), [&](const cv::Range& range) {
-    for (int r = range.start; r < range.end; ++r) {
-      RowOf& row = of_row[static_cast<std::size_t>(r)];
-      GroundClass* ground = hazards.ground.row(r);
-      for (int near = std::max(0, r - touchdowns.reach());
-           near <= std::min(rows - 1, r + touchdowns.reach()); ++near) {
-        const int half = touchdowns.HalfWidth(near - r);
-        for (const int breaking : of_row[static_cast<std::size_t>(near)].breaking) {
-          const int last = std::min(cols - 1, breaking + half);
-          for (int c = std::max(0, breaking - half); c <= last; ++c) {
-            ground[c] = ground[c] == GroundClass::kLandable ? GroundClass::kFootprint : ground[c];
-          }
-        }
-      }
-      row.too_near = static_cast<int>(std::count(ground, ground + cols, GroundClass::kTooNear));
-      row.footprint = static_cast<int>(std::count(ground, ground + cols, GroundClass::kFootprint));
-    }
-  });
+  if (std::count(any_breaking.begin(), any_breaking.end(), 1) > 0) {
+    ClassifyBeside(settings, breaking, hazards);
+  }
   std::array<int, kCountings> count{};
-  for (const RowOf& row : of_row) {
+  for (const auto& row : with) {
     for (unsigned reasons = 0; reasons <= kAllReasons; ++reasons) {
-      count[CountingOf(reasons)] += row.with[reasons];
+      count[CountingOf(reasons)] += row[reasons];
     }
-    count[kAsSafe] -= row.too_near + row.footprint;
-    count[kAsFootprint] += row.too_near + row.footprint;
-    hazards.counts[GroundClass::kTooNear] += row.too_near;
-    hazards.counts[GroundClass::kFootprint] += row.footprint;
+  }
+  for (const GroundClass ground : {GroundClass::kTooNear, GroundClass::kFootprint}) {
+    const std::vector<GroundClass>& cells = hazards.ground.cells();
+    const int n = static_cast<int>(std::count(cells.begin(), cells.end(), ground));
+    hazards.counts[ground] = n;
+    count[kAsSafe] -= n;
+    count[kAsFootprint] += n;
   }
   hazards.rejected = {count[kAsSlope], count[kAsRoughness], count[kAsUnknown], count[kAsFlagged],
                       count[kAsFootprint]};
@@ -176,15 +172,16 @@ Cell WorstTouchdown(const HazardMaps& hazards, const SladSettings& settings, Cel
     return cell;
   }
   const Touchdowns touchdowns(settings, hazards.geometry);
+  const int reach = touchdowns.reach(hazards.geometry);
   Cell worst = cell;
   int nearest = std::numeric_limits<int>::max();
-  for (int dr = -touchdowns.reach(); dr <= touchdowns.reach(); ++dr) {
-    const int half = touchdowns.HalfWidth(dr);
-    for (int dc = -half; dc <= half; ++dc) {
+  for (int dr = -reach; dr <= reach; ++dr) {
+    for (int dc = -reach; dc <= reach; ++dc) {
       const Cell near{cell.row + dr, cell.col + dc};
-      if (dr * dr + dc * dc < nearest && hazards.geometry.Contains(near) &&
+      const int square = dr * dr + dc * dc;
+      if (square < nearest && touchdowns.Reach(square) && hazards.geometry.Contains(near) &&
           hazards.reasons.at(near) == kHazardNone && Breaks(hazards, settings, near)) {
-        nearest = dr * dr + dc * dc;
+        nearest = square;
         worst = near;
       }
     }
