@@ -10,6 +10,7 @@
 #include "engine/mission/wave_off.h"
 #include "engine/mission/wording.h"
 #include "engine/model/find_site.h"
+#include "engine/model/mission/landed_place.h"
 
 namespace palace {
 namespace {
@@ -212,7 +213,12 @@ void Land(MissionTurn& turn, const MissionInputs& in) {
   m.status.touchdown_miss_m = TouchdownMiss(m);
   m.status.touchdown_miss_true_m = TrueTouchdownMiss(m, in);
   m.repeating.reset();
-  Enter(turn, MissionState::kLanded, words::OnTheGround(words::SiteName(m.status)), in.session.now);
+  const std::string site = words::SiteName(m.status);
+  Enter(turn, MissionState::kLanded,
+        MissedSite(m.status)
+            ? words::NotAtSite(site, *m.status.touchdown_miss_m, HeightAboveSite(m))
+            : words::OnTheGround(site),
+        in.session.now);
 }
 
 /// True when the vehicle has landed, or aborts: the state was left.

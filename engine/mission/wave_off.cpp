@@ -1,12 +1,16 @@
 #include "engine/mission/wave_off.h"
 
 #include "engine/core/text.h"
+#include "engine/mission/geometry.h"
 #include "engine/mission/limits.h"
+#include "engine/model/mission/landed_place.h"
 
 namespace palace {
 namespace {
 
 constexpr double kAbortSettles_s = 2;  // a hover reported sooner may be the one before the abort
+
+constexpr double kHangs_m = 1;  // above the site: no ground that was approved
 
 constexpr double kClimbs_mps = 0.25;  // a hover drifts by less, in gusts too
 
@@ -27,7 +31,10 @@ bool SaidThatItIsDone(const MissionMemory& m, Timestamp now) {
 std::string WhyNoWaveOff(const MissionMemory& m, Timestamp now) {
   const auto& vehicle = m.watch.vehicle();
   const double heard_s = m.watch.LinkAge(now);
-  const bool stands = vehicle && vehicle->on_ground && vehicle->mode == VehicleMode::kLanded;
+  // What was caught in a wire says that it stands, too.
+  const bool hangs = MissedSite(m.status) && HeightAboveSite(m) > kHangs_m;
+  const bool stands =
+      vehicle && vehicle->on_ground && vehicle->mode == VehicleMode::kLanded && !hangs;
   return stands && heard_s <= GuardLimits::link_s ? "Vehicle on the ground" : std::string();
 }
 

@@ -284,6 +284,14 @@ std::string OnTheGround(std::string_view site) {
   return "Vehicle is on the ground at " + std::string(site);
 }
 
+std::string NotAtSite(std::string_view site, double miss_m, double height_m) {
+  const std::string above = std::isnan(height_m) ? std::string()
+                            : height_m < 0       ? WithNumbers(" and %.1f m below it", -height_m)
+                                                 : WithNumbers(" and %.1f m above it", height_m);
+  return WithNumbers("Vehicle says it is on the ground, %.1f m from the centre of ", miss_m) +
+         std::string(site) + above;
+}
+
 std::string WaveOffTold(const WaveOffReport& report) {
   using Phase = WaveOffReport::Phase;
   const bool old = report.age_s > GuardLimits::link_s;

@@ -137,6 +137,8 @@ std::string VehicleRefusedApproval(std::string_view site, std::string_view why);
 std::string VehicleRefused(std::string_view site, std::string_view why);
 std::string Descends(std::string_view site);
 std::string OnTheGround(std::string_view site);
+/// "Vehicle says it is on the ground, 7.7 m from the centre of site A and 6.1 m above it".
+std::string NotAtSite(std::string_view site, double miss_m, double height_m);
 /// What became of a wave-off: ". Vehicle climbs. Acknowledge when it hovers."
 std::string WaveOffTold(const WaveOffReport& report);
 /// "Ground of site A not measured for 2.1 s".

@@ -83,8 +83,11 @@ HoldButtonView ApproveButton(const EngineSnapshot& snap, const ApproveState& sta
     view.reason = "Maps are a preview";
   } else if (!m.can_approve) {
     view.phase = HoldPhase::kBlocked;
-    view.reason = m.cannot_approve_reason.empty()
-                      ? (m.armed ? std::string("A check fails") : "Select a site first")
+    const bool searches = m.state == MissionState::kSearch && !m.armed;
+    view.reason = searches && !m.search_stopped.empty() ? m.search_stopped
+                  : searches                            ? "No site is proposed yet"
+                  : m.cannot_approve_reason.empty()
+                      ? (m.armed ? "A check fails" : "Select a site first")
                       : m.cannot_approve_reason;
   } else if (const std::string why = WhyScreenOld(silent_s); !why.empty()) {
     view.phase = HoldPhase::kBlocked;
@@ -173,8 +176,9 @@ std::string NextSiteLetter(const EngineSnapshot& snap) {
     return {};
   }
   for (const LandingSite& site : snap.terrain->applied->selection.sites) {
-    if (site.id != snap.flight->mission.armed->id && IsNamedSite(site.id) &&
-        !snap.flight->mission.IsRefused(site.id)) {
+    const bool reached = site.corridor_clear || site.clear_approaches != 0;
+    if (site.id != snap.flight->mission.armed->id && IsNamedSite(site.id) && reached &&
+        IsInView(site) && !snap.flight->mission.IsRefused(site.id)) {
       return site.letter;
     }
   }

@@ -1,6 +1,7 @@
 // After touchdown: where it landed, where the record is, and what can be done next.
 #include <filesystem>
 
+#include "engine/model/mission/landed_place.h"
 #include "gui/panels/fly_panels.h"
 #include "gui/widgets/button.h"
 #include "gui/widgets/number_text.h"
@@ -78,11 +79,14 @@ void DrawLandedPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui) 
   const float x = rect.x + s.Px(12);
   const float width = rect.w - s.Px(24);
   const std::string site = m.armed ? m.armed->letter : std::string();
-  DrawText(ui, s.readout, p.text1, x, rect.y + s.Px(44),
-           site.empty() ? "Landed" : "Landed on site " + site);
+  const bool missed = MissedSite(m);
+  DrawText(ui, s.readout, missed ? p.caution : p.text1, x, rect.y + s.Px(44),
+           site.empty() ? "Landed" : (missed ? "Not on site " : "Landed on site ") + site);
   const Rect row{x, rect.bottom() - s.Px(52), width, s.Px(40)};
   float y = rect.y + s.Px(72);
-  for (const std::string& words : {Touchdown(m), LogWords(*snap.session)}) {
+  // What the vehicle says, where and how high above the site.
+  const std::string where = missed ? m.why + "." : Touchdown(m);
+  for (const std::string& words : {where, LogWords(*snap.session)}) {
     for (const std::string& line : WrapText(s.body, words, width)) {
       if (y + s.Px(10) > row.y) {
         break;

@@ -35,6 +35,30 @@ TEST(Mission, WholeFlight) {
   EXPECT_TRUE(rig.mission.status().alarms.empty());
 }
 
+// A wire 6 m up that stops a vehicle is no ground: it says that it stands, and hangs.
+TEST(Mission, AVehicleThatHangsInAWireIsNotOnItsSiteAndMayBeWavedOff) {
+  for (const bool hangs : {false, true}) {
+    MissionRig rig;
+    rig.Arm();
+    ASSERT_TRUE(rig.ApproveNow().ok());
+    ASSERT_TRUE(rig.RunUntil(MissionState::kDescending, 5));
+    rig.vehicle.height_m = hangs ? 6 : 0;
+    rig.north_m += hangs ? 7 : 0;
+    rig.vehicle.Set(VehicleMode::kLanded);
+    rig.Step();
+    ASSERT_EQ(rig.state(), MissionState::kLanded);
+    const MissionStatus& status = rig.mission.status();
+    EXPECT_EQ(status.why, hangs ? "Vehicle says it is on the ground, 6.5 m from the centre of site "
+                                  "A and 6.0 m above it"
+                                : "Vehicle is on the ground at site A");
+    rig.Step();
+    EXPECT_EQ(status.why_no_wave_off, hangs ? "" : "Vehicle on the ground");
+    EXPECT_EQ(rig.Do(WaveOff{}).ok(), hangs);
+    rig.Step();
+    EXPECT_EQ(rig.SentCount<AbortRequest>(), hangs ? 1 : 0);
+  }
+}
+
 TEST(Mission, SaysWhoMaySelectWhichSite) {
   MissionRig rig;
   ASSERT_TRUE(rig.RunUntil(MissionState::kProposed));

@@ -256,6 +256,29 @@ TEST(SceneFlags, AWireOverSnowStandsInTheHeightsOrIsFlagged) {
   EXPECT_LE(widest, 2) << "places 0.3 m apart: a clear radius bridges them";
 }
 
+/// A wire found from above is not forgotten when the camera sinks to where it is too near to be
+/// found, over ground that is in view; one that would still show there, and does not, is.
+TEST(SceneFlags, AWireThatIsTooNearToBeFoundStands) {
+  const World world = FieldWithObstacles(GroundTexture::kAsphalt);
+  constexpr double kLow_m = 10;  // the ground is far enough, what is 4 m up is not
+  const Poses sinking = [](int frame) {
+    RigidTransform X_WC = PoseOf(frame);
+    X_WC.p.z() += frame < 3 ? 0 : kHeight_m - kLow_m;
+    return X_WC;
+  };
+  for (const double up_m : {4.0, 1.5}) {
+    const Seen seen = Look(
+        3 + 23, [&](int) { return world; },
+        [&](const PinholeCamera& camera, const RigidTransform& X_WC, ImageF& picture) {
+          if (-X_WC.p.z() > kLow_m + 1) {
+            PaintWire({{-12, 0, -up_m}, {12, 0, -up_m}, 0.02, 30}, camera, X_WC, picture);
+          }
+        },
+        sinking);
+    EXPECT_EQ(seen.At(0.4, 0, kFlagThinStructure), up_m > 3) << up_m << " m up";
+  }
+}
+
 /// Along the baseline a wire shows no disparity: it is flagged on the ground behind it.
 TEST(SceneFlags, AWireAlongTheBaselineIsFlaggedWithoutItsHeight) {
   const World world = FieldWithObstacles(GroundTexture::kAsphalt);

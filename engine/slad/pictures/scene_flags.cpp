@@ -8,6 +8,7 @@
 
 #include "engine/slad/pictures/scene_texture.h"
 #include "engine/slad/pictures/thin_structures.h"
+#include "engine/slad/terrain/air_seen.h"
 
 namespace palace {
 namespace {
@@ -91,6 +92,30 @@ void FlagBelow(const ThinPiece& piece, const GridGeometry& geometry, Grid<std::u
   }
 }
 
+/// Whether a thin thing at that place would be found: it is in the picture, and not too near.
+bool WouldShow(const SceneView& view, const Eigen::Vector3d& p_W) {
+  const PinholeCamera& camera = view.range->camera;
+  const Eigen::Vector3d p_C = view.range->pose->X_WC.Inverse() * p_W;
+  const double x = camera.fx_px * p_C.x() / p_C.z() + camera.cx_px;
+  const double y = camera.fy_px * p_C.y() / p_C.z() + camera.cy_px;
+  return p_C.z() >= kNearestThin_m && x >= 0 && x < camera.width && y >= 0 && y < camera.height;
+}
+
+/// What was found from farther away stands while it is too near, or out of the picture, over ground
+/// that is in view: not to find it then is no look at it.
+void LeaveWhatWouldNotShow(const SceneView& view, const GridF& tops_m, const GridGeometry& geometry,
+                           Grid<std::uint8_t>& seen) {
+  for (int r = 0; r < tops_m.rows(); ++r) {
+    for (int c = 0; c < tops_m.cols(); ++c) {
+      const double top_m = static_cast<double>(tops_m.at(r, c));
+      if (std::isfinite(top_m) &&
+          !WouldShow(view, {geometry.NorthOfRow(r), geometry.EastOfCol(c), -top_m})) {
+        seen.at(r, c) &= static_cast<std::uint8_t>(~unsigned{kFlagThinStructure});
+      }
+    }
+  }
+}
+
 }  // namespace
 
 void SceneFlags::Reset() {
@@ -135,6 +160,7 @@ Grid<std::uint8_t> SceneFlags::Add(const SceneView& view, const GridGeometry& ge
       }
     }
   }
+  LeaveWhatWouldNotShow(view, memory_.ThinTops(), geometry, seen);
   const Eigen::Vector3d baseline_W = view.range->pose->X_WC.R.col(0);
   ThinSights thin{Grid<ThinSight>(geometry.rows, geometry.cols),
                   std::atan2(baseline_W.y(), baseline_W.x())};

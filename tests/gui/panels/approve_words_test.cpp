@@ -97,6 +97,10 @@ TEST(ApproveWords, TheButtonTellsWhatAHoldDoesOrWhyItDoesNothing) {
   const HoldButtonView none = Button(fake::Snapshot(MissionState::kProposed));
   EXPECT_EQ(none.reason, "Select a site first");
   EXPECT_EQ(none.subject, 0u);
+  EngineSnapshot searching = fake::Snapshot(MissionState::kSearch);
+  EXPECT_EQ(Button(searching).reason, "No site is proposed yet");
+  searching.flight.Edit().mission.search_stopped = "Left camera repeats its picture";
+  EXPECT_EQ(Button(searching).reason, "Left camera repeats its picture");
   const HoldButtonView replay = Button(fake::Snapshot(MissionState::kArmed, SourceKind::kReplay));
   EXPECT_EQ(replay.phase, HoldPhase::kNoVehicle);
   EXPECT_EQ(replay.reason, "No link in replay");
@@ -178,6 +182,12 @@ TEST(ApproveWords, WithoutASelectionItSaysWhatToDo) {
 TEST(ApproveWords, ARefusalLeadsToTheNextSiteThatWasNotRefused) {
   EngineSnapshot snap = fake::Snapshot(MissionState::kArmed);
   EXPECT_EQ(NextSiteLetter(snap), "B");
+  auto unreached = std::make_shared<TerrainDecision>(*snap.terrain->applied);
+  unreached->selection.sites[1].corridor_clear = false;
+  unreached->selection.sites[1].clear_approaches = 0;
+  EngineSnapshot other = snap;
+  other.terrain.Edit().applied = unreached;
+  EXPECT_EQ(NextSiteLetter(other), "C");  // nobody is sent to one that cannot be used
   snap.flight.Edit().mission.refused_sites = {2};
   EXPECT_EQ(NextSiteLetter(snap), "C");
   EXPECT_EQ(NextSiteLetter(fake::Snapshot(MissionState::kProposed)), "");

@@ -69,6 +69,23 @@ TEST(Plots, AfterTheLandingNoFigureDriftsOn) {
   }
 }
 
+TEST(Landed, ElsewhereThanOnTheSiteIsNotOnTheSite) {
+  EngineSnapshot snap = fake::Snapshot(MissionState::kLanded);
+  MissionStatus& m = snap.flight.Edit().mission;
+  m.armed->clear_radius_m = 2.3;
+  m.touchdown_miss_m = 2.2;
+  EXPECT_TRUE(HasText(FlyWindow(1920, 1080, snap).ui.items, "Landed on site A"));
+  m.touchdown_miss_m = 7.68;
+  m.why = "Vehicle says it is on the ground, 7.7 m from the centre of site A and 6.1 m above it";
+  for (const ImVec2 size : {ImVec2(1920, 1080), ImVec2(1280, 720)}) {
+    FlyWindow window(size.x, size.y, snap);
+    EXPECT_TRUE(HasText(window.ui.items, "Not on site A"));
+    EXPECT_TRUE(HasText(window.ui.items, "Vehicle says it is on the ground"));
+    EXPECT_FALSE(HasText(window.ui.items, "Landed on site"));
+    ExpectTextsInPanels(window.ui.items);
+  }
+}
+
 TEST(Plots, TheEstimateEndsAtTouchdownTheTruthGoesOn) {
   EngineSnapshot landed = fake::Snapshot(MissionState::kLanded);
   auto history = *landed.flight->history;
