@@ -24,13 +24,12 @@ std::string WhyNotSelectable(const EngineSnapshot& snap) {
   return view_only ? authority.why_not + "." : "Sites cannot be selected here.";
 }
 
-/// What the list says of the armed site is said where it is approved, too.
-std::string WhyShaken(const EngineSnapshot& snap) {
+/// What the list says of the armed site is said where it is approved, too: how long ago a map
+/// called it unsafe; NaN: none did.
+double ShakenFor_s(const EngineSnapshot& snap) {
   const auto& armed = snap.flight->mission.armed;
   const LandingSite* now = armed ? FindSite(snap.terrain->applied.get(), armed->id) : nullptr;
-  return now != nullptr && std::isfinite(now->called_unsafe_s)
-             ? "A map called it unsafe " + Fixed(now->called_unsafe_s, 0) + " s ago"
-             : std::string();
+  return now != nullptr && std::isfinite(now->called_unsafe_s) ? now->called_unsafe_s : NAN;
 }
 
 }  // namespace
@@ -121,13 +120,18 @@ std::string ApprovalConsequence(const EngineSnapshot& snap, bool narrow) {
                       : ". Touchdown in about ") +
             Fixed(m.time_to_touchdown_s, 0) + " s";
   }
-  const std::string shaken = WhyShaken(snap);
+  const double shaken_s = ShakenFor_s(snap);
   const SladSettings& limits = snap.session->settings.slad;
   const std::string why = m.armed ? WhyProvisional(ArmedAsKnown(m), limits) : "";
   const std::string doubt =
       why.empty() ? "" : StandingWord(ArmedStanding(m, limits)) + (": " + why) + ".";
-  if (!shaken.empty()) {
-    // That a map called it unsafe goes before how far away it is: there is room for three lines.
+  if (!std::isnan(shaken_s)) {
+    // That a map called it unsafe goes before how far away it is: there is room for three lines, or
+    // for a short one.
+    const std::string shaken = "A map called it unsafe " + Fixed(shaken_s, 0) + " s ago";
+    if (narrow && !side.empty()) {
+      return "Called unsafe " + Fixed(shaken_s, 0) + " s ago" + side + ".";
+    }
     const std::string flown =
         side.empty() ? shaken + "." : shaken + ". Flown" + side.substr(1) + ".";
     return narrow ? flown : flown + " " + (doubt.empty() ? text + "." : doubt);

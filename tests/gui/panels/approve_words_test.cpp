@@ -165,6 +165,10 @@ TEST(ApproveWords, AnApprovalLeadsToADescentUnlessSomethingSpeaksAgainstTheSite)
       "A map called it unsafe 28 s ago. Provisional: seen in 1 of the 3 frames that it takes.");
   snap.flight.Edit().mission.armed->confirmed = true;
   EXPECT_EQ(ApprovalConsequence(snap, false).find("A map called it unsafe 28 s ago. 5.9 m"), 0u);
+  snap.flight.Edit().mission.approach = ApproachPlan{};
+  snap.flight.Edit().mission.approach->side = 3;
+  const std::string line = ApprovalConsequence(snap, true);  // one line at 1280 x 720
+  EXPECT_EQ(line.find("Called unsafe 28 s ago, from the "), 0u) << line;
 }
 
 TEST(ApproveWords, WithoutASelectionItSaysWhatToDo) {
