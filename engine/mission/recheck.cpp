@@ -6,6 +6,7 @@
 
 #include "engine/mission/geometry.h"
 #include "engine/mission/wording.h"
+#include "engine/model/approach_side.h"
 #include "engine/model/find_site.h"
 #include "engine/model/site_standing.h"
 
@@ -20,9 +21,8 @@ bool SharesGround(const LandingSite& a, const LandingSite& b) {
 
 bool IsUsableBeside(const MissionMemory& m, const std::optional<LandingSite>& site,
                     const SladSettings& settings) {
-  const bool reached = site && (site->corridor_clear || site->clear_approaches != 0);
-  return reached && !m.status.IsRefused(site->id) && !SharesGround(*site, *m.status.armed) &&
-         JudgeRecheck(site, {}, {}, settings).holds();
+  return site && IsReached(*site) && !m.status.IsRefused(site->id) &&
+         !SharesGround(*site, *m.status.armed) && JudgeRecheck(site, {}, {}, settings).holds();
 }
 
 /// The best other site there is now. The list is steady (slad/sites/site_registry.h); one that

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "engine/core/frames.h"
+#include "engine/model/landing_site.h"
 
 namespace palace {
 
@@ -22,6 +23,11 @@ inline double HeadingFromSector(int sector) {
 /// Whether it names a side at all.
 constexpr bool IsApproachSide(int side) {
   return side >= kStraightApproach && side < kApproachSectors;
+}
+
+/// Some way to it is clear: straight, or round to a side.
+inline bool IsReached(const LandingSite& site) {
+  return site.corridor_clear || site.clear_approaches != 0;
 }
 
 }  // namespace palace

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "engine/core/units.h"
+#include "engine/model/approach_side.h"
 #include "engine/model/cell_explanation.h"
 #include "engine/model/find_site.h"
 #include "engine/model/mission/approve_offer.h"
@@ -180,8 +181,7 @@ std::string NextSiteLetter(const EngineSnapshot& snap) {
     return {};
   }
   for (const LandingSite& site : snap.terrain->applied->selection.sites) {
-    const bool reached = site.corridor_clear || site.clear_approaches != 0;
-    if (site.id != snap.flight->mission.armed->id && IsNamedSite(site.id) && reached &&
+    if (site.id != snap.flight->mission.armed->id && IsNamedSite(site.id) && IsReached(site) &&
         IsInView(site) && !snap.flight->mission.IsRefused(site.id)) {
       return site.letter;
     }

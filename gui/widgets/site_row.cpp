@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/core/units.h"
+#include "engine/model/approach_side.h"
 #include "engine/model/cell_explanation.h"
 #include "engine/model/size_words.h"
 #include "gui/widgets/draw.h"
@@ -67,7 +68,7 @@ SiteWord WordOf(const LandingSite& site, const SiteRowLook& look) {
   if (!IsInView(site)) {
     return {Icon::kStale, "Not in view"};  // whatever it was: nothing is approved on such ground
   }
-  if (!site.corridor_clear && site.clear_approaches == 0) {
+  if (!IsReached(site)) {
     return {Icon::kWarning, "Rejected"};
   }
   const Icon icon = look.standing == SiteStanding::kConfirmed     ? Icon::kNormal

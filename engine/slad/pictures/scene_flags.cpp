@@ -128,6 +128,7 @@ void SceneFlags::Reset() {
 void SceneFlags::DoubtViews() {
   motion_.Reset();
   older_.Reset();
+  texture_.Reset();
   memory_.ForgetMotion();
 }
 

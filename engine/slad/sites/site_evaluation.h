@@ -5,11 +5,6 @@
 
 namespace palace {
 
-/// The figures of a lander sent to the cell: of its WorstTouchdown slope, roughness, step and safe
-/// probability, of the cell itself distance, cost and what hides.
-void TakeFigures(const HazardMaps& hazards, const SladSettings& settings, Cell cell,
-                 LandingSite& site);
-
 /// All fields of a site centred on the cell but id, letter and reason. The plane of the site is the
 /// weighted least-squares plane of the known cells within the lander's radius, those more than
 /// three sigmas and the roughness limit off it left out.
