@@ -151,11 +151,13 @@ void PublishGeometry(MissionMemory& m) {
   const LandingSite* site = SiteInQuestion(m);
   const Eigen::Vector3d& skid_W = m.facts.skid_centre_W;
   m.status.height_above_site_m = m.status.distance_to_site_m = m.status.time_to_touchdown_s = NAN;
+  m.status.site_p_WS = Eigen::Vector3d::Constant(NAN);
   m.status.path = {};
   m.status.way_W.clear();
   if (site == nullptr || !skid_W.allFinite()) {
     return;
   }
+  m.status.site_p_WS = site->p_WS;
   m.status.height_above_site_m = site->p_WS.z() - skid_W.z();
   m.status.distance_to_site_m = (site->p_WS - skid_W).head<2>().norm();
   const FlightPath path = PathTo(m, *site);

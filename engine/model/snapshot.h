@@ -61,7 +61,8 @@ struct HistorySample {
   Eigen::Vector3d gps_p_WB{NAN, NAN, NAN};
   Eigen::Vector3d truth_p_WB{NAN, NAN, NAN};
   // Heights of the skid centre above the site: the armed one, before that the one proposed.
-  double height_above_site_m = NAN;  ///< by the estimate in force; NaN without a site
+  Eigen::Vector3d p_WS{NAN, NAN, NAN};  ///< that site, NED; NaN without one
+  double height_above_site_m = NAN;     ///< by the estimate in force; NaN without a site
   double gps_height_m = NAN;
   double truth_height_m = NAN;
   double from_site_m = NAN;  ///< horizontal distance of skid centre to site, estimate

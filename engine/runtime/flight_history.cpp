@@ -119,6 +119,7 @@ HistorySample SampleOf(const EngineSnapshot& snapshot, const FrameBundle& bundle
     sample.best_site = best->letter;
     sample.best_safe_distance_m = best->safe_distance_m;
   }
+  sample.p_WS = snapshot.flight->mission.site_p_WS;
   sample.height_above_site_m = snapshot.flight->mission.height_above_site_m;
   sample.from_site_m = snapshot.flight->mission.distance_to_site_m;
   if (snapshot.flight->mission.armed) {

@@ -25,16 +25,13 @@ std::vector<Corner> FindCorners(const ImageU8& picture, const FeatureSelectionOp
   cv::pyrDown(full, half);
   cv::cornerMinEigenVal(half, strength, 5, 3);
   cv::dilate(strength, dilated, cv::Mat());
-  double strongest = 0;
-  cv::minMaxLoc(strength, nullptr, &strongest);
-  const float limit = std::max(static_cast<float>(strongest * options.min_quality), kMinEigenvalue);
   const int border = static_cast<int>(std::ceil(options.border_px / 2));
   std::vector<Corner> corners;
   for (int y = border; y < half.rows - border; ++y) {
     const float* row = strength.ptr<float>(y);
     const float* peak = dilated.ptr<float>(y);
     for (int x = border; x < half.cols - border; ++x) {
-      if (row[x] >= limit && row[x] >= peak[x]) {
+      if (row[x] >= kMinEigenvalue && row[x] >= peak[x]) {
         // pyrDown keeps even pixels: pixel (x, y) of the half picture is (2x, 2y) of the full one.
         corners.push_back({row[x], Eigen::Vector2d(2.0 * x, 2.0 * y)});
       }

@@ -2,7 +2,9 @@
 //
 // Shi & Tomasi 1994: both eigenvalues of the gradient matrix large. The smaller eigenvalue is
 // computed at half resolution (the exact pixel of a feature does not matter, its texture does),
-// then the best point of each neighbourhood is kept, strongest first.
+// then the best point of each neighbourhood is kept, strongest first. What can be followed is set
+// by the sensor's noise, not by the strongest point of the picture: beside one tree all of a field
+// of snow is faint.
 #pragma once
 
 #include <vector>
@@ -15,9 +17,8 @@ namespace palace {
 
 struct FeatureSelectionOptions {
   int max_count = 120;
-  double spacing_px = 16;     ///< between any two, the given ones included
-  double border_px = 14;      ///< no feature nearer to the edge
-  double min_quality = 0.01;  ///< of the strongest eigenvalue in the picture
+  double spacing_px = 16;  ///< between any two, the given ones included
+  double border_px = 14;   ///< no feature nearer to the edge
 };
 
 /// Pixels of the features, strongest first. `taken` are pixels to keep clear of.

@@ -44,7 +44,7 @@ void PlaneTracker::Lock(const ImageU8& left, const PinholeCamera& camera,
   *this = PlaneTracker();
   plane_ = {site.p_WS, site.normal_W.normalized()};
   RigidTransform X_WK = X_WC;
-  const std::vector<Eigen::Vector2d> candidates = SelectFeatures(left, {}, {400, 16, 14, 0.01});
+  const std::vector<Eigen::Vector2d> candidates = SelectFeatures(left, {}, {400, 16, 14});
   const auto above_m = MedianHeightAbovePlane(camera, X_WC, plane_, range, candidates,
                                               LandmarkRadius(plane_, X_WC.p));
   if (above_m && std::abs(*above_m) <= kMaxHeightCorrection_m) {
@@ -310,7 +310,7 @@ TrackResult PlaneTracker::Track(const ImageU8& left, const PinholeCamera& camera
     result.status.time = time;
     result.status.why_not_locked =
         other_size ? "the picture has another size than its anchor"
-                   : WithNumbers("ground around the site has %.0f features, min %.0f",
+                   : WithNumbers("%.0f features on the ground, min %.0f",
                                  static_cast<double>(landmarks_.size()), kMinInliers);
     result.status.mode = "Plane";
     return result;

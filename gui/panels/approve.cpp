@@ -330,7 +330,8 @@ void DrawApprovePanel(const EngineSnapshot& snap, const Rect& rect, bool narrow,
   const float width = rect.w - s.Px(24);
   if (m.armed) {
     DrawText(ui, narrow ? s.medium : s.section, p.text1, x, rect.y + s.Px(narrow ? 42 : 46),
-             std::string("Commits the vehicle to land on site ") + m.armed->letter + ".");
+             std::string(m.can_approve ? "Commits" : "Would commit") +
+                 " the vehicle to land on site " + m.armed->letter + ".");
     float y = rect.y + s.Px(narrow ? 64 : 73);
     const std::string words = ApprovalConsequence(snap, narrow);
     std::vector<std::string> lines = WrapText(s.body, words, width, 3);

@@ -14,17 +14,20 @@ constexpr float kFuture_s = 24;
 
 using Member = double HistorySample::*;
 
+std::vector<HistorySample>::const_iterator FirstShown(const EngineSnapshot& snap) {
+  const std::vector<HistorySample>& history = *snap.flight->history;
+  return std::lower_bound(history.begin(), history.end(),
+                          AddSeconds(snap.time, static_cast<double>(-kPast_s)),
+                          [](const HistorySample& sample, Timestamp t) { return sample.time < t; });
+}
+
 PlotTrace SeriesOf(const EngineSnapshot& snap, Member member, ImU32 colour, float width,
                    PlotTrace::Stroke stroke = PlotTrace::Stroke::kSolid) {
   PlotTrace series;
   series.colour = colour;
   series.width = width;
   series.stroke = stroke;
-  const auto& history = *snap.flight->history;
-  const auto first = std::lower_bound(
-      history.begin(), history.end(), AddSeconds(snap.time, static_cast<double>(-kPast_s)),
-      [](const HistorySample& sample, Timestamp t) { return sample.time < t; });
-  for (auto it = first; it != history.end(); ++it) {
+  for (auto it = FirstShown(snap); it != snap.flight->history->end(); ++it) {
     series.points.push_back({static_cast<float>(SecondsBetween(snap.time, it->time)),
                              static_cast<float>((*it).*member)});
   }
@@ -63,6 +66,24 @@ PlotTrace Estimate(const EngineSnapshot& snap, Member member, const Palette& p, 
     series.band.push_back(std::isfinite(half) ? static_cast<float>(half) : kAnywhere);
   }
   return series;
+}
+
+/// Figures of one site do not run on into those of another: the lines break where it changes.
+void BreakWhereTheSiteChanges(const EngineSnapshot& snap, PlotView& view) {
+  const auto first = FirstShown(snap);
+  const auto shown = static_cast<std::size_t>(snap.flight->history->end() - first);
+  for (std::size_t i = 1; i < shown; ++i) {
+    const auto sample = first + static_cast<std::ptrdiff_t>(i);
+    const Eigen::Vector3d& now = sample->p_WS;
+    if (!now.allFinite() || now.head<2>() == (sample - 1)->p_WS.head<2>()) {
+      continue;
+    }
+    for (PlotTrace& series : view.series) {
+      if (i < series.points.size()) {
+        series.points[i].y = NAN;
+      }
+    }
+  }
 }
 
 PlotView Base(const char* name, const char* title, const char* unit) {
@@ -209,6 +230,7 @@ PlotView DistancePlot(const EngineSnapshot& snap, const Palette& p, const Histor
   for (PlotLimit& limit : view.limits) {
     limit.from_x = CentreLimitedSince(snap);
   }
+  BreakWhereTheSiteChanges(snap, view);
   const float top = Largest(view.series, view.limits.empty() ? 1 : 2 * view.limits.front().value);
   view.y_max = RoundUp(top * 1.05f, top > 8 ? 5 : (top > 3 ? 1 : 0.5f));
   // A band below what is shown is none that anybody knows.

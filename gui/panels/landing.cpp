@@ -64,8 +64,13 @@ std::string Record(const EngineSnapshot& snap) {
         is_hold ? AgeText(SecondsBetween(m.since, snap.time)) + " ago: " : std::string();
     const std::string why =
         m.why.empty() ? std::string("The approval is over.") : when + m.why + ".";
-    const bool lost = m.state == MissionState::kHold && !m.rechecks.empty() &&
-                      m.rechecks.back().verdict == SiteVerdict::kLost;
+    const auto is_lost = [](const SiteRecheck& c) { return c.verdict == SiteVerdict::kLost; };
+    const bool was_lost = m.state == MissionState::kHold &&
+                          std::any_of(m.rechecks.begin(), m.rechecks.end(), is_lost);
+    const bool lost = was_lost && is_lost(m.rechecks.back());
+    if (was_lost && m.rechecks.back().verdict == SiteVerdict::kHolds) {
+      return why + " No newer map shows it.";
+    }
     const LandingSite* other =
         lost && m.rechecks.back().alternative ? &*m.rechecks.back().alternative : nullptr;
     return other == nullptr ? why
@@ -199,8 +204,8 @@ void DrawLandingPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui)
   float y = rect.y + s.Px(tall ? 119 : 102);
   const std::string record = Record(snap);
   const float pitch = s.Px(19);
-  const auto room_lines = static_cast<std::size_t>(
-      std::max(1.0F, std::floor((button.y - s.Px(10) - y) / pitch) + 1));
+  const auto room_lines =
+      static_cast<std::size_t>(std::max(1.0F, std::floor((button.y - s.Px(10) - y) / pitch) + 1));
   const std::vector<std::string> lines = WrapText(s.body, record, width, room_lines);
   for (const std::string& line : lines) {
     DrawText(ui, s.body, p.text2, x, y, line);

@@ -113,7 +113,8 @@ TEST(SiteRegistry, ALetterStaysWithItsPlaceAndIsNeverGivenTwice) {
     for (int map = 0; map < 4; ++map) {
       for (const LandingSite& site : hover.See(Flat(), north_m).sites) {
         const auto [known, is_new] = places.try_emplace(site.letter, site.p_WS.head<2>());
-        ASSERT_LT((known->second - site.p_WS.head<2>()).norm(), 1e-6) << site.letter;
+        ASSERT_LT((known->second - site.p_WS.head<2>()).norm(), hover.settings.choice.spacing_m / 2)
+            << site.letter;
         ids.insert(site.id);
       }
     }
@@ -237,6 +238,30 @@ TEST(SiteRegistry, ABetterPointReplacesAPlaceUnlessItIsSelected) {
     } else {
       EXPECT_NE(after.sites[0].letter, "A") << "the better point is listed at once";
       EXPECT_GT(after.sites[0].safe_distance_m, a.safe_distance_m + 1);
+    }
+  }
+}
+
+// Half a metre beside where it was, it is the same place to everybody who looks.
+TEST(SiteRegistry, APlaceWhoseBestPointMovesALittleKeepsItsLetterUnlessItIsSelected) {
+  for (const bool selected : {false, true}) {
+    Hover hover;
+    const Height before = WithBox(WithBox(Flat(), 9.5, 0, 12, 1), -9.5, 0, 12, 1);
+    const Height after = WithBox(WithBox(Flat(), 10.7, 0, 12, 1), -9.5, 0, 12, 1);
+    const LandingSite a = hover.SeeOften(kBetterAfter_maps, before).sites[0];
+    ASSERT_EQ(a.letter, "A");
+    hover.registry_.Keep(selected ? a.id : 0);
+    const SiteSelection list = hover.SeeOften(2 * kBetterAfter_maps, after);
+    const LandingSite* now = Find(list, "A");
+    ASSERT_NE(now, nullptr);
+    EXPECT_EQ(now->id, a.id);
+    const double moved_m = (now->p_WS - a.p_WS).head<2>().norm();
+    if (selected) {
+      EXPECT_EQ(moved_m, 0) << "what was selected stays where it is";
+    } else {
+      EXPECT_GT(moved_m, 0.3);
+      EXPECT_LT(moved_m, hover.settings.choice.spacing_m / 2);
+      EXPECT_GT(now->safe_distance_m, a.safe_distance_m + 0.3);
     }
   }
 }

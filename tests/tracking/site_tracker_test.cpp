@@ -137,6 +137,30 @@ void PaintDisc(ImageU8& picture, double cx, double cy, double radius) {
   }
 }
 
+// Snow: texture of a few grey levels, and a skid in the corner whose edge is a hundred times as
+// strong.
+TEST(PlaneTracker, FollowsFaintGroundBesideAStrongEdge) {
+  RandomStream noise(7, "snow");
+  const Paint snow = [&](ImageU8& picture, int) {
+    for (int y = 0; y < picture.height(); ++y) {
+      for (int x = 0; x < picture.width(); ++x) {
+        const double grey = 200 + 0.12 * (picture.at(x, y) - 120) + 1.5 * noise.Normal();
+        const bool skid = x > 600 && y > 440;
+        picture.at(x, y) = static_cast<std::uint8_t>(skid ? 20 : std::lround(grey));
+      }
+    }
+  };
+  Descent descent;
+  descent.end_height_m = 6;
+  const auto errors = Fly(descent, {}, 6, snow);
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    ASSERT_TRUE(errors[i].locked) << i;
+    EXPECT_LT(errors[i].pixel_px, 5) << i;
+  }
+  EXPECT_GT(errors.front().landmarks, 40U);
+  EXPECT_LT(errors.back().position_m, 0.2);
+}
+
 TEST(PlaneTracker, AnOccluderDoesNotCaptureTheTrack) {
   Descent descent;
   descent.end_height_m = 8;
@@ -276,7 +300,7 @@ TEST(SiteTracker, SaysUnlockedBeforeLockAndAfterReset) {
   EXPECT_FALSE(tracker.anchored());
   EXPECT_EQ(
       tracker.Track(picture, kCamera, Descent{}.CameraAt(0), nullptr, {}, {}).status.why_not_locked,
-      "ground around the site has 0 features, min 6");
+      "0 features on the ground, min 6");
   tracker.Reset();
   EXPECT_FALSE(tracker.locked());
 }

@@ -203,11 +203,12 @@ struct MissionStatus {
   std::string approval_answer;   ///< the vehicle's reason when refused
   double approval_answer_s = 0;  ///< time the vehicle took to answer; while SENT, waits so far
   std::vector<SiteRecheck> rechecks;
-  std::vector<Alarm> alarms;       ///< those that stand first; among them, worst first
-  int alarms_in_record = 0;        ///< that stood now in the recorded flight, judged again or not
-  double height_above_site_m = 0;  ///< skid above the site; NaN when no site
-  double distance_to_site_m = 0;   ///< horizontal; NaN when no site
-  double time_to_touchdown_s = 0;  ///< of a look to its hover; NaN when unknown
+  std::vector<Alarm> alarms;  ///< those that stand first; among them, worst first
+  int alarms_in_record = 0;   ///< that stood now in the recorded flight, judged again or not
+  Eigen::Vector3d site_p_WS{NAN, NAN, NAN};  ///< the next two are of: armed, before that proposed
+  double height_above_site_m = 0;            ///< skid above the site; NaN when no site
+  double distance_to_site_m = 0;             ///< horizontal; NaN when no site
+  double time_to_touchdown_s = 0;            ///< of a look to its hover; NaN when unknown
   PathProgress path;
   /// Of the armed site, in W: B where it is, where the slope begins, and the site, or B where a
   /// look ends. Empty before the approach is planned and where nothing is flown any more.

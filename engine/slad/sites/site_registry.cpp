@@ -117,7 +117,7 @@ SiteSelection SiteRegistry::Select(const ElevationMap& map, const HazardMaps& ha
   Explore(now, candidates, found);
   Lose(now, found);
   const bool any = !found.empty();
-  for (Found& one : List(Ranked(now, std::move(found), candidates.noise()))) {
+  for (Found& one : List(now, Ranked(now, std::move(found), candidates.noise()))) {
     selection.sites.push_back(std::move(one.site));
   }
   std::erase_if(places_, [](const Place& place) { return place.id == 0 && place.run == 0; });
@@ -134,7 +134,8 @@ SiteSelection SiteRegistry::Select(const ElevationMap& map, const HazardMaps& ha
 void SiteRegistry::StartMap(const Map& now) {
   if (now.first) {
     for (Place& place : places_) {
-      place = {.id = place.id, .letter = place.letter, .p_W = place.p_W};
+      place = {
+          .id = place.id, .letter = place.letter, .p_W = place.p_W, .named_at = place.named_at};
     }
   }
   if (!now.again) {
@@ -358,30 +359,54 @@ void SiteRegistry::Lose(const Map& now, const std::vector<Found>& found) {
       place = {.id = place.id,
                .letter = place.letter,
                .p_W = place.p_W,
+               .named_at = place.named_at,
                .losses = place.losses + (unsafe ? 1 : 0),
                .shaken_at = unsafe ? now.elevation.time : place.shaken_at};
     }
   }
 }
 
+/// Id and letter of the place that moved here, or new ones.
+void SiteRegistry::Name(const Map& now, Place& fresh) {
+  Place* moved = nullptr;
+  double least_m = now.settings.choice.spacing_m / 2;
+  for (Place& place : places_) {
+    const double away_m = (place.named_at - fresh.p_W).norm();
+    if (place.id != 0 && place.rank < 0 && !IsKept(place) && away_m < least_m) {
+      moved = &place;
+      least_m = away_m;
+    }
+  }
+  if (moved != nullptr) {
+    fresh.id = moved->id;
+    fresh.letter = moved->letter;
+    fresh.named_at = moved->named_at;
+    *moved = {};
+  } else {
+    fresh.id = next_id_++;
+    fresh.letter = SiteLetter(static_cast<std::size_t>(named_++));
+  }
+}
+
 /// In that order, each with id and letter.
-std::vector<SiteRegistry::Found> SiteRegistry::List(std::vector<Found> ranked) {
+std::vector<SiteRegistry::Found> SiteRegistry::List(const Map& now, std::vector<Found> ranked) {
   for (Place& place : places_) {
     place.rank = -1;
   }
   int rank = 0;
+  for (const Found& one : ranked) {
+    places_[one.place].rank = rank++;
+  }
   std::uint64_t unnamed = 0;
   for (Found& one : ranked) {
     Place& place = places_[one.place];
-    place.rank = rank++;
     if (place.id == 0 && !gives_letters_) {
       one.site.id = kFirstUnnamedSite + ++unnamed;
       one.site.letter = "+" + std::to_string(unnamed);
       continue;
     }
     if (place.id == 0) {
-      place.id = next_id_++;
-      place.letter = SiteLetter(static_cast<std::size_t>(named_++));
+      Name(now, place);
     }
     one.site.id = place.id;
     one.site.letter = place.letter;

@@ -1,7 +1,9 @@
 // SiteRegistry: what the maps of a flight together say of the places to land at.
 //
-// One model. A PLACE is a point of the ground. It gets its letter when it is first listed, keeps it
-// for the flight, and never moves; a letter is never given to another place.
+// One model. A PLACE is a point of the ground. It gets its letter when it is first listed and keeps
+// it for the flight; a letter is never given to another place. Two points are one place when the
+// newer lies within half the spacing of where the letter was given: a place that is not listed any
+// more, and is not selected, moves to such a point when that is listed. Listed places never move.
 //
 //   listed     after it could bear the lander on 3 maps in a row (a flight's first map lists at
 //              once); ends with the first map on which it cannot
@@ -67,6 +69,7 @@ class SiteRegistry {
     std::uint64_t id = 0;  ///< 0: never listed yet
     std::string letter{};
     Eigen::Vector2d p_W = Eigen::Vector2d::Zero();  ///< north, east
+    Eigen::Vector2d named_at = p_W;                 ///< where the letter was given
     int rank = -1;                                  ///< in the list; -1: not listed
     int run = 0;                                    ///< maps in a row that it could bear the lander
     SteadyFigure score{};
@@ -96,7 +99,8 @@ class SiteRegistry {
   void Follow(const Map& now, const std::vector<Chosen>& chosen, const SiteCandidates& candidates,
               std::vector<Found>& found);
   std::vector<Found> Ranked(const Map& now, std::vector<Found> found, double noise) const;
-  std::vector<Found> List(std::vector<Found> ranked);
+  std::vector<Found> List(const Map& now, std::vector<Found> ranked);
+  void Name(const Map& now, Place& fresh);
   void StartMap(const Map& now);
   void Lose(const Map& now, const std::vector<Found>& found);
   bool IsRipe(const Map& now, const Place& place) const;

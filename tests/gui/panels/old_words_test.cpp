@@ -151,5 +151,21 @@ TEST(FlyFrame, AHoldTellsItsCauseAsPast) {
   EXPECT_TRUE(HasText(window.ui.items, "12.0 s ago: Left camera 1.2 s old, limit 0.5 s."));
 }
 
+TEST(FlyFrame, AHoldForWhatNoMapShowsAnyMoreSaysSo) {
+  for (const SiteVerdict now : {SiteVerdict::kHolds, SiteVerdict::kDegraded}) {
+    EngineSnapshot snap = fake::Snapshot(MissionState::kHold);
+    MissionStatus& mission = snap.flight.Edit().mission;
+    mission.why = "Slope 14.0°, limit 10.0°";
+    mission.since = AddSeconds(snap.time, -12);
+    mission.rechecks.resize(2);
+    mission.rechecks[0].verdict = SiteVerdict::kLost;
+    mission.rechecks[1].verdict = now;
+    FlyWindow window(1920, 1080, snap);
+    EXPECT_TRUE(HasText(window.ui.items, "12.0 s ago: Slope 14.0°, limit 10.0°."));
+    EXPECT_EQ(HasText(window.ui.items, "limit 10.0°. No newer map shows it."),
+              now == SiteVerdict::kHolds);
+  }
+}
+
 }  // namespace
 }  // namespace palace
