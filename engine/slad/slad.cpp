@@ -47,7 +47,9 @@ void Slad::Take(ElevationMap map) {
 
 void Slad::FlagFromPictures() {
   auto flagged = std::make_shared<ElevationMap>(*elevation_);
-  flagged->flags = scene_flags_.Add(input_.view, flagged->geometry);
+  SceneView view = input_.view;
+  view.registered = fusion_.registered();
+  flagged->flags = scene_flags_.Add(view, flagged->geometry);
   flagged->thin_top_m = scene_flags_.ThinTops();
   elevation_ = std::move(flagged);
 }

@@ -181,6 +181,36 @@ TEST_P(SceneFlagsOn, SomebodyWalkingIsFlaggedAndSomebodyStandingIsNot) {
   }
 }
 
+/// Navigation errs by decimetres and tenths of a degree from frame to frame: the ground stays where
+/// it is, and who walks over it is still told from it.
+TEST(SceneFlags, PosesThatErrSetNoGroundInMotion) {
+  constexpr int kTruth = 100;
+  const auto pose_of = [](int frame) {
+    RigidTransform X_WC = PoseOf(frame % kTruth);
+    if (frame < kTruth) {
+      const double side = frame % 2 == 0 ? 1 : -1;
+      X_WC.R = RotationFromEuler({Rad(0.15) * side, -Rad(0.1) * (frame % 3), 0}) * X_WC.R;
+      X_WC.p += Eigen::Vector3d(0.1 * side, 0.05 * (frame % 3), 0.15 * side);
+    }
+    return X_WC;
+  };
+  const auto shown = [](int frame, Slad&, const ElevationMap*) { return kTruth + frame; };
+  for (const double speed_mps : {0.0, 0.5}) {
+    const auto world = [&](int frame) {
+      World now = FieldWithObstacles(GroundTexture::kGravel);
+      now.solids.push_back(MakeBox(0, -0.8 + speed_mps * kInterval_s * frame, 0.5, 0.5, 1.6));
+      return now;
+    };
+    const Seen seen = Look(8, world, {}, pose_of, shown);
+    if (speed_mps > 0) {
+      EXPECT_GT(seen.Count(kFlagMotion), 0);
+      EXPECT_LE(seen.Count(kFlagMotion), 80);
+    } else {
+      EXPECT_EQ(seen.Count(kFlagMotion), 0);
+    }
+  }
+}
+
 /// The cameras repeat a picture through noise while the vehicle drifts 0.2 m a frame; then they are
 /// said to, and it flies on. Cells in motion afterwards, the most of any map.
 int InMotionAfterRepeats(bool doubted) {

@@ -102,6 +102,27 @@ TEST(TerrainFusion, FrameTiltsAreRegistered) {
   EXPECT_NEAR(double(map->height_m.at(*table) - map->height_m.at(*beside)), 0.75, 0.08);
 }
 
+// What is taken from a frame's heights is told as a motion of its camera.
+TEST(TerrainFusion, TheRegisteredPoseIsThatOfTheFramesBefore) {
+  TerrainFusion fusion;
+  const auto world = WithBox(Flat(), 15, 1, 1.0, 0.75);
+  const RigidTransform truth = CameraPose(15.24, Rad(45));
+  for (std::uint64_t frame = 1; frame <= 10; ++frame) {
+    fusion.Add(SeeWorld(world, truth, 0.02, frame), SladSettings{});
+  }
+  RangeMap range = SeeWorld(world, truth, 0.02, 11);
+  RigidTransform& believed = range.pose->X_WC;
+  believed = CameraPose(15.24, Rad(45), 0, {Rad(0.4), -Rad(0.3), 0});
+  believed.p.z() += 0.2;
+  fusion.Add(range, SladSettings{});
+  const RigidTransform laid = fusion.registered() * believed;
+  // Points of the ground lie where the frames before laid them: heights are told, nothing sideways.
+  for (const Eigen::Vector3d& p_C : {Eigen::Vector3d(0, 0, 21), {3, 2, 18}, {-4, -3, 26}}) {
+    const double before_m = std::abs((believed * p_C - truth * p_C).z());
+    EXPECT_LT(std::abs((laid * p_C - truth * p_C).z()), 0.1 * before_m + 0.01) << p_C.transpose();
+  }
+}
+
 TEST(TerrainFusion, MapFollowsTheViewByWholeCells) {
   TerrainFusion fusion;
   const SladSettings settings;

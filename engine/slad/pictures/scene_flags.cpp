@@ -95,7 +95,7 @@ void FlagBelow(const ThinPiece& piece, const GridGeometry& geometry, Grid<std::u
 /// Whether a thin thing at that place would be found: it is in the picture, and not too near.
 bool WouldShow(const SceneView& view, const Eigen::Vector3d& p_W) {
   const PinholeCamera& camera = view.range->camera;
-  const Eigen::Vector3d p_C = view.range->pose->X_WC.Inverse() * p_W;
+  const Eigen::Vector3d p_C = view.X_WC().Inverse() * p_W;
   const double x = camera.fx_px * p_C.x() / p_C.z() + camera.cx_px;
   const double y = camera.fy_px * p_C.y() / p_C.z() + camera.cy_px;
   return p_C.z() >= kNearestThin_m && x >= 0 && x < camera.width && y >= 0 && y < camera.height;
@@ -162,7 +162,7 @@ Grid<std::uint8_t> SceneFlags::Add(const SceneView& view, const GridGeometry& ge
     }
   }
   LeaveWhatWouldNotShow(view, memory_.ThinTops(), geometry, seen);
-  const Eigen::Vector3d baseline_W = view.range->pose->X_WC.R.col(0);
+  const Eigen::Vector3d baseline_W = view.X_WC().R.col(0);
   ThinSights thin{Grid<ThinSight>(geometry.rows, geometry.cols),
                   std::atan2(baseline_W.y(), baseline_W.x())};
   for (const ThinPiece& piece : FindThinStructures(view, ground, older_)) {

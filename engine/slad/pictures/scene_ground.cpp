@@ -247,7 +247,7 @@ SceneGround FindSceneGround(const SceneView& view) {
 Eigen::Vector3d PointAt(const SceneView& view, double x_px, double y_px, double disparity_px) {
   const PinholeCamera& camera = view.range->camera;
   const double depth_m = view.range->FocalTimesBaseline() / disparity_px;
-  return view.range->pose->X_WC * Eigen::Vector3d(depth_m * (x_px - camera.cx_px) / camera.fx_px,
+  return view.X_WC() * Eigen::Vector3d(depth_m * (x_px - camera.cx_px) / camera.fx_px,
                                                   depth_m * (y_px - camera.cy_px) / camera.fy_px,
                                                   depth_m);
 }

@@ -20,6 +20,11 @@ struct SceneView {
   std::shared_ptr<const ImageU8> left;
   std::shared_ptr<const ImageU8> right;
   std::shared_ptr<const RangeMap> range;
+  /// From where navigation says the camera was to where the map's registration laid it, in W:
+  /// views are compared with each other, and what their poses err by is told from what moved.
+  RigidTransform registered{};
+
+  RigidTransform X_WC() const { return registered * range->pose->X_WC; }
 };
 
 inline constexpr int kBlock_px = 4;

@@ -195,7 +195,7 @@ void SceneMotion::Remember(OldView view) {
 bool SceneMotion::Flag(const SceneView& view, const SceneGround& ground, ImageU8& flags) {
   const int cols = ground.cols(), rows = ground.rows();
   const double focal_m = view.range->FocalTimesBaseline();
-  OldView now{view.range->time, view.range->pose->X_WC, BlockMeans(*view.left, cols, rows),
+  OldView now{view.range->time, view.X_WC(), BlockMeans(*view.left, cols, rows),
               ImageF(cols, rows)};
   for (std::size_t k = 0; k < now.depth_m.pixels().size(); ++k) {
     now.depth_m.pixels()[k] = static_cast<float>(focal_m) / ground.measured_px.pixels()[k];

@@ -22,6 +22,7 @@ struct Pair {
   Eigen::Vector3d basis;  ///< 1, n - n0, e - e0
   double difference_m;
   double weight;
+  double height_m;  ///< of the map
 };
 
 double MedianAbsolute(const std::vector<Pair>& pairs, const Eigen::Vector3d& x) {
@@ -48,7 +49,8 @@ std::vector<Pair> CommonCells(const ElevationMap& frame, const ElevationMap& map
           {{1, map.geometry.NorthOfRow(r) - north_m, map.geometry.EastOfCol(c) - east_m},
            static_cast<double>(frame.height_m.at(r, c)) -
                static_cast<double>(map.height_m.at(r, c)),
-           1 / (variance + kScaleFloor_m * kScaleFloor_m)});
+           1 / (variance + kScaleFloor_m * kScaleFloor_m),
+           static_cast<double>(map.height_m.at(r, c))});
     }
   }
   return pairs;
@@ -69,6 +71,7 @@ PlaneCorrection RegisterFrame(const ElevationMap& frame, const ElevationMap& map
   std::vector<double> differences;
   differences.reserve(pairs.size());
   for (const Pair& p : pairs) {
+    correction.height_m += p.height_m / static_cast<double>(pairs.size());
     differences.push_back(p.difference_m);
   }
   Eigen::Vector3d x(UpperMedian(differences), 0, 0);

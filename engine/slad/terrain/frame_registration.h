@@ -10,8 +10,9 @@ struct PlaneCorrection {
   double offset_m = 0;
   double north_tilt = 0;
   double east_tilt = 0;
-  double north_m = 0;  ///< n0
-  double east_m = 0;   ///< e0
+  double north_m = 0;   ///< n0
+  double east_m = 0;    ///< e0
+  double height_m = 0;  ///< of the map, mean over what both measured
 
   double At(double n_m, double e_m) const {
     return offset_m + north_tilt * (n_m - north_m) + east_tilt * (e_m - east_m);

@@ -128,6 +128,19 @@ GridF RepeatedVariance(const RangeMap& range, const ElevationMap& map) {
   return variance_m2;
 }
 
+/// Lowers heights by the correction: up and down, and by a turn about the middle of the ground that
+/// was compared; then sideways.
+RigidTransform MotionOf(const PlaneCorrection& off, const Eigen::Vector2d& by_m) {
+  const Eigen::Vector3d turn(off.east_tilt, -off.north_tilt, 0);
+  const Eigen::Vector3d about(off.north_m, off.east_m, -off.height_m);
+  RigidTransform motion;
+  if (turn.norm() > 0) {
+    motion.R = Eigen::AngleAxisd(turn.norm(), turn.normalized()).toRotationMatrix();
+  }
+  motion.p = about - motion.R * about + Eigen::Vector3d(by_m.x(), by_m.y(), off.offset_m);
+  return motion;
+}
+
 void AddVariance(const GridF& variance_m2, ElevationMap& map) {
   for (std::size_t i = 0; i < variance_m2.cells().size(); ++i) {
     map.variance_m2.cells()[i] += variance_m2.cells()[i];
@@ -144,6 +157,7 @@ void TerrainFusion::Reset() {
   fine_.Reset();
   standing_ = {};
   frames_ = 0;
+  registered_ = {};
 }
 
 std::shared_ptr<const ElevationMap> TerrainFusion::Add(const RangeMap& range,
@@ -183,9 +197,11 @@ std::shared_ptr<const ElevationMap> TerrainFusion::Add(const RangeMap& range,
       moved.pose->sigmas.position_m = kRegistered_m;
       const PlaneCorrection off = FuseFrame(moved, PointsFromRange(moved), settings);
       AddFine(moved, left, right, off);
+      registered_ = MotionOf(off, shift.by_m);
     } else {
       const PlaneCorrection off = FuseFrame(range, points, settings);
       AddFine(range, left, right, off);
+      registered_ = MotionOf(off, shift.by_m);
     }
   }
   last_ranges_ = ranges;

@@ -57,6 +57,9 @@ class TerrainFusion {
                                           const ImageU8* left = nullptr,
                                           const ImageU8* right = nullptr);
 
+  /// From where navigation says the camera of the newest frame was to where it was laid, in W.
+  const RigidTransform& registered() const { return registered_; }
+
  private:
   void MoveTo(const GridGeometry& geometry);
   void AddFine(const RangeMap& range, const ImageU8* left, const ImageU8* right,
@@ -75,6 +78,7 @@ class TerrainFusion {
   FineRelief fine_;
   Grid<std::uint8_t> standing_;  ///< of its places, see TakeNarrowThings
   SladSettings layout_;          ///< settings the grid was laid out with
+  RigidTransform registered_;
   int frames_ = 0;
   std::uint64_t last_ranges_ = 0;  ///< sampled hash of the last range map and its pose
 };
