@@ -35,7 +35,7 @@ Look LookOf(CellTerm term) {
     case CellTerm::kStep:
       return {"Step", 100, " cm", 1};
     case CellTerm::kProbability:
-      return {"Safe probability", 1, "", 3};
+      return {"Safe as seen", 1, "", 3};
     case CellTerm::kHazardDistance:
       return {"Clear radius", 1, " m", 1};
   }
@@ -74,10 +74,13 @@ std::string WordsOfBits(const Bit (&bits)[N], unsigned set) {
 double RequiredSafeProbability(const SladSettings& settings, double sigma_m, double hidden_things) {
   const double noise = sigma_m / kProvisionalSigma_m;
   const double whole = settings.limits.min_safe_probability;
-  const double nothing_hides = std::isnan(hidden_things) ? 1 : std::exp(-hidden_things);
   // Below nothing, so that a limit of 0 stays one; unknown noise asks for the whole.
   return (noise >= 0 ? std::max(0.0, std::min(whole, 1 - noise * noise)) : whole) *
-         std::max(nothing_hides, kOffered);
+         ForgivenHidden(hidden_things);
+}
+
+double ForgivenHidden(double hidden_things) {
+  return std::isnan(hidden_things) ? 1 : std::max(std::exp(-hidden_things), kOffered);
 }
 
 std::vector<ExplainedTerm> TermsOf(const LandingSite& site, const SladSettings& settings) {
@@ -93,8 +96,8 @@ std::vector<ExplainedTerm> TermsOf(const LandingSite& site, const SladSettings& 
   add(CellTerm::kRoughness, site.roughness_m, settings.limits.max_deviation_m);
   if (modern) {
     add(CellTerm::kStep, site.step_m, settings.limits.max_step_m);
-    add(CellTerm::kProbability, {site.safe_probability, 0},
-        RequiredSafeProbability(settings, site.roughness_m.three_sigma / 3, site.hidden_things));
+    add(CellTerm::kProbability, {site.safe_probability / ForgivenHidden(site.hidden_things), 0},
+        RequiredSafeProbability(settings, site.roughness_m.three_sigma / 3, 0));
   }
   add(CellTerm::kHazardDistance, {site.safe_distance_m, 0}, settings.lander.clear_radius_m());
   return terms;

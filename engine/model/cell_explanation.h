@@ -17,7 +17,7 @@ enum class CellTerm : std::uint8_t {
   kSlope,           ///< rad
   kRoughness,       ///< m
   kStep,            ///< m
-  kProbability,     ///< 0..1
+  kProbability,     ///< 0..1, of what is seen
   kHazardDistance,  ///< m, against the clear radius
 };
 
@@ -65,6 +65,10 @@ struct CellExplanation {
 /// provisional until it has been seen. In metres, not in shares of a limit: a stricter limit must
 /// never ask for less.
 double RequiredSafeProbability(const SladSettings& settings, double sigma_m, double hidden_things);
+/// The share that what may hide takes from the probability and from what is asked of it alike,
+/// max(exp(-hidden_things), kOffered). So a person is shown both without it: the probability as
+/// far as the ground is seen, against a limit that does not move with what hides.
+double ForgivenHidden(double hidden_things);
 /// Sigma at which any probability would do.
 inline constexpr double kProvisionalSigma_m = 0.05;
 /// Ground of which nothing is known hides a rock or hole with 0.15 (hidden_things.h). Where

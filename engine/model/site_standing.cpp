@@ -66,7 +66,7 @@ bool IsAnyInView(const std::vector<LandingSite>& sites) {
 
 std::string ClearWords(const LandingSite& site) {
   return WithNumbers("%.1f m clear", site.safe_distance_m) +
-         (IsInView(site) ? "" : ", not in view");
+         (IsInView(site) ? "" : ", not all in view");
 }
 
 std::string WhyProvisional(const LandingSite& site, const SladSettings& settings) {

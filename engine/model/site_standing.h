@@ -20,7 +20,7 @@ inline constexpr double kOldGround_s = 2;
 bool IsInView(const LandingSite& site);
 bool IsAnyInView(const std::vector<LandingSite>& sites);
 
-/// "3.1 m clear", with ", not in view" where the ground is older than that.
+/// "3.1 m clear", with ", not all in view" where the ground is older than that.
 std::string ClearWords(const LandingSite& site);
 
 /// Rocks and holes over the limit expected unseen (LandingSite::hidden_things) under a confirmed

@@ -13,9 +13,9 @@
 
 #include <toml++/toml.h>
 
-#include "engine/core/toml_text.h"
 #include "engine/core/files.h"
 #include "engine/core/text.h"
+#include "engine/core/toml_text.h"
 #include "engine/core/units.h"
 
 namespace palace {
@@ -42,7 +42,7 @@ std::string KnownSettings(const std::string& name) {
     if (!group.empty() && of == group) {
       names.push_back(info.name);
     }
-    if (groups.empty() || groups.back() != of) {
+    if (std::find(groups.begin(), groups.end(), of) == groups.end()) {
       groups.push_back(of);
     }
   }

@@ -68,20 +68,22 @@ PlotTrace Estimate(const EngineSnapshot& snap, Member member, const Palette& p, 
   return series;
 }
 
-/// Figures of one site do not run on into those of another: the lines break where it changes.
-void BreakWhereTheSiteChanges(const EngineSnapshot& snap, PlotView& view) {
-  const auto first = FirstShown(snap);
-  const auto shown = static_cast<std::size_t>(snap.flight->history->end() - first);
-  for (std::size_t i = 1; i < shown; ++i) {
-    const auto sample = first + static_cast<std::ptrdiff_t>(i);
-    const Eigen::Vector3d& now = sample->p_WS;
-    if (!now.allFinite() || now.head<2>() == (sample - 1)->p_WS.head<2>()) {
-      continue;
-    }
-    for (PlotTrace& series : view.series) {
-      if (i < series.points.size()) {
-        series.points[i].y = NAN;
-      }
+/// Distances from one site say nothing of another: the lines begin where the one in question became
+/// so.
+void DropOtherSites(const EngineSnapshot& snap, PlotView& view) {
+  const auto first = FirstShown(snap), end = snap.flight->history->end();
+  if (first == end) {
+    return;
+  }
+  const Eigen::Vector2d site = (end - 1)->p_WS.head<2>();
+  auto from = end;
+  while (from != first && (from - 1)->p_WS.head<2>() == site) {
+    --from;
+  }
+  const auto others = static_cast<std::size_t>(from - first);
+  for (PlotTrace& series : view.series) {
+    for (std::size_t i = 0; i < std::min(others, series.points.size()); ++i) {
+      series.points[i].y = NAN;
     }
   }
 }
@@ -230,7 +232,7 @@ PlotView DistancePlot(const EngineSnapshot& snap, const Palette& p, const Histor
   for (PlotLimit& limit : view.limits) {
     limit.from_x = CentreLimitedSince(snap);
   }
-  BreakWhereTheSiteChanges(snap, view);
+  DropOtherSites(snap, view);
   const float top = Largest(view.series, view.limits.empty() ? 1 : 2 * view.limits.front().value);
   view.y_max = RoundUp(top * 1.05f, top > 8 ? 5 : (top > 3 ? 1 : 0.5f));
   // A band below what is shown is none that anybody knows.

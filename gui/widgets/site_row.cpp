@@ -66,7 +66,8 @@ SiteWord WordOf(const LandingSite& site, const SiteRowLook& look) {
     return {Icon::kStale, "Old map"};
   }
   if (!IsInView(site)) {
-    return {Icon::kStale, "Not in view"};  // whatever it was: nothing is approved on such ground
+    return {Icon::kStale,
+            "Not all in view"};  // whatever it was: nothing is approved on such ground
   }
   if (!IsReached(site)) {
     return {Icon::kWarning, "Rejected"};

@@ -241,7 +241,7 @@ TEST(DescentLimits, TheFigureThatHeldTheDescentHasItsRow) {
   }
   rig.Site(101)->safe_probability = 0.308;
   ASSERT_TRUE(rig.RunUntil(MissionState::kHold, 1));
-  EXPECT_NE(rig.mission.status().why.find("Safe probability 0.308"), std::string::npos)
+  EXPECT_NE(rig.mission.status().why.find("Safe as seen 0.308"), std::string::npos)
       << rig.mission.status().why;
   EXPECT_EQ(Row(rig, LimitId::kProbability).value, 0.308);
   EXPECT_TRUE(Row(rig, LimitId::kProbability).over);

@@ -316,8 +316,8 @@ TEST(Recheck, AnAlternativeThatHasLeftTheViewIsSaidToHave) {
   ASSERT_EQ(rig.state(), MissionState::kHold);
   bool said = false;
   for (const Alarm& alarm : rig.mission.status().alarms) {
-    said = said ||
-           alarm.text.find("Alternative: site B, 4.0 m clear, not in view.") != std::string::npos;
+    said = said || alarm.text.find("Alternative: site B, 4.0 m clear, not all in view.") !=
+                       std::string::npos;
   }
   EXPECT_TRUE(said);
 }

@@ -139,7 +139,8 @@ TEST(FlightHistory, TheHeightIsThatAboveTheSiteInQuestionBeforeOneIsSelected) {
   snap.flight.Edit().mission.height_above_site_m = 19.5;
   snap.flight.Edit().mission.distance_to_site_m = 7;
   snap.flight.Edit().mission.site_p_WS = {1, 2, 3};
-  EXPECT_EQ(SampleOf(snap, FrameBundle{}).p_WS, Eigen::Vector3d(1, 2, 3)) << "where lines break";
+  EXPECT_EQ(SampleOf(snap, FrameBundle{}).p_WS, Eigen::Vector3d(1, 2, 3))
+      << "whose lines are drawn";
   EXPECT_EQ(SampleOf(snap, FrameBundle{}).height_above_site_m, 19.5);
   EXPECT_EQ(SampleOf(snap, FrameBundle{}).from_site_m, 7);
 }

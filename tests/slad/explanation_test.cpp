@@ -235,7 +235,7 @@ TEST(TermWords, EveryNumberHasItsUnit) {
   EXPECT_EQ(words(CellTerm::kRoughness, 0.055, 0.018, 0.125),
             "Roughness|5.5 cm|± 1.8 cm|max 12.5 cm");
   EXPECT_EQ(words(CellTerm::kStep, std::nan(""), 0.1, 0.15), "Step|––||max 15 cm");
-  EXPECT_EQ(words(CellTerm::kProbability, 0.9984, 0, 0.99), "Safe probability|0.998||min 0.990");
+  EXPECT_EQ(words(CellTerm::kProbability, 0.9984, 0, 0.99), "Safe as seen|0.998||min 0.990");
   EXPECT_EQ(words(CellTerm::kHazardDistance, 4.8, 0, 2.3), "Clear radius|4.8 m||min 2.3 m");
 }
 

@@ -72,8 +72,9 @@ const LandingSite* Find(const SiteSelection& selection, const std::string& lette
 }
 
 TEST(SiteLetters, GoOnAfterTheAlphabet) {
-  const std::map<std::size_t, std::string> letters = {{0, "A"},   {8, "J"},   {13, "P"},     {23, "Z"},
-                                                      {24, "A2"}, {47, "Z2"}, {48, "A3"}, {24 * 9, "A10"}};
+  const std::map<std::size_t, std::string> letters = {{0, "A"},   {8, "J"},       {13, "P"},
+                                                      {23, "Z"},  {24, "A2"},     {47, "Z2"},
+                                                      {48, "A3"}, {24 * 9, "A10"}};
   for (const auto& [n, letter] : letters) {
     EXPECT_EQ(SiteLetter(n), letter);
   }
@@ -113,7 +114,7 @@ TEST(SiteRegistry, ALetterStaysWithItsPlaceAndIsNeverGivenTwice) {
     for (int map = 0; map < 4; ++map) {
       for (const LandingSite& site : hover.See(Flat(), north_m).sites) {
         const auto [known, is_new] = places.try_emplace(site.letter, site.p_WS.head<2>());
-        ASSERT_LT((known->second - site.p_WS.head<2>()).norm(), hover.settings.choice.spacing_m / 2)
+        ASSERT_LT((known->second - site.p_WS.head<2>()).norm(), hover.settings.choice.spacing_m / 4)
             << site.letter;
         ids.insert(site.id);
       }
@@ -260,7 +261,7 @@ TEST(SiteRegistry, APlaceWhoseBestPointMovesALittleKeepsItsLetterUnlessItIsSelec
       EXPECT_EQ(moved_m, 0) << "what was selected stays where it is";
     } else {
       EXPECT_GT(moved_m, 0.3);
-      EXPECT_LT(moved_m, hover.settings.choice.spacing_m / 2);
+      EXPECT_LT(moved_m, hover.settings.choice.spacing_m / 4);
       EXPECT_GT(now->safe_distance_m, a.safe_distance_m + 0.3);
     }
   }

@@ -116,10 +116,12 @@ std::vector<Alarm> AlarmBoard::Shown() const {
     }
   }
   std::stable_sort(shown.begin(), shown.end(), [](const Alarm& a, const Alarm& b) {
-    // What stands comes before what is over and only waits for its acknowledgement.
+    // What stands comes before what is over and only waits for its acknowledgement; of that the
+    // newest says what the flight comes from.
     return a.active != b.active ? a.active
            : a.level != b.level ? a.level > b.level
-                                : a.since < b.since;
+           : a.active           ? a.since < b.since
+                                : b.since < a.since;
   });
   return shown;
 }

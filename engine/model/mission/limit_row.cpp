@@ -24,10 +24,8 @@ LimitRow RowFor(CellTerm term) {
     case CellTerm::kStep:
       return {.id = LimitId::kStep, .label = "Largest step", .unit = "cm", .shown_per_unit = 100};
     case CellTerm::kProbability:
-      return {.id = LimitId::kProbability,
-              .label = "Safe probability",
-              .is_least = true,
-              .decimals = 3};
+      return {
+          .id = LimitId::kProbability, .label = "Safe as seen", .is_least = true, .decimals = 3};
     case CellTerm::kHazardDistance:
       return {.id = LimitId::kClearRadius, .label = "Clear radius", .is_least = true, .unit = "m"};
   }

@@ -369,7 +369,7 @@ void SiteRegistry::Lose(const Map& now, const std::vector<Found>& found) {
 /// Id and letter of the place that moved here, or new ones.
 void SiteRegistry::Name(const Map& now, Place& fresh) {
   Place* moved = nullptr;
-  double least_m = now.settings.choice.spacing_m / 2;
+  double least_m = now.settings.choice.spacing_m / 4;
   for (Place& place : places_) {
     const double away_m = (place.named_at - fresh.p_W).norm();
     if (place.id != 0 && place.rank < 0 && !IsKept(place) && away_m < least_m) {

@@ -191,18 +191,18 @@ std::shared_ptr<const ElevationMap> TerrainFusion::Add(const RangeMap& range,
     if (left != nullptr) {
       shift = sideways_.Add(range, *left, map_.geometry, settings.fusion.frames_fused);
     }
+    PlaneCorrection off;
     if (shift.told) {
       RangeMap moved = range;
       moved.pose->X_WC.p.head<2>() += shift.by_m;
       moved.pose->sigmas.position_m = kRegistered_m;
-      const PlaneCorrection off = FuseFrame(moved, PointsFromRange(moved), settings);
+      off = FuseFrame(moved, PointsFromRange(moved), settings);
       AddFine(moved, left, right, off);
-      registered_ = MotionOf(off, shift.by_m);
     } else {
-      const PlaneCorrection off = FuseFrame(range, points, settings);
+      off = FuseFrame(range, points, settings);
       AddFine(range, left, right, off);
-      registered_ = MotionOf(off, shift.by_m);
     }
+    registered_ = MotionOf(off, shift.by_m);
   }
   last_ranges_ = ranges;
   // Frames without a point do not count: the first real one lays out the grid.

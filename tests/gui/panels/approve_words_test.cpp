@@ -63,10 +63,10 @@ TEST(ApproveWords, TheButtonTellsWhatAHoldDoesOrWhyItDoesNothing) {
        [](EngineSnapshot& s) {
          s.session.Edit().events = std::make_shared<const std::vector<Event>>(
              std::vector<Event>{{AddSeconds(s.time, -2), EventKind::kDecision,
-                                 "Approve refused: Safe probability 0.657, min 0.720"},
+                                 "Approve refused: Safe as seen 0.657, min 0.720"},
                                 {AddSeconds(s.time, -1), EventKind::kAlarm, "Something else"}});
        },
-       HoldPhase::kReady, "Hold to approve A", "Not approved: Safe probability 0.657, min 0.720"},
+       HoldPhase::kReady, "Hold to approve A", "Not approved: Safe as seen 0.657, min 0.720"},
       {"refused long ago",
        [](EngineSnapshot& s) {
          s.session.Edit().events = std::make_shared<const std::vector<Event>>(std::vector<Event>{

@@ -146,8 +146,8 @@ TEST(FlyDescent, TheRecheckedMapAnswersToo) {
 
 TEST(FlyEvidence, SafeProbabilityNamesTheWorstHeading) {
   FlyWindow window(1920, 1080, fake::Snapshot(MissionState::kArmed));
-  EXPECT_EQ(window.ui.items.Find("evidence/Safe probability")->text,
-            "Safe probability 0.998 at 040° min 0.900, guard");
+  EXPECT_EQ(window.ui.items.Find("evidence/Safe as seen")->text,
+            "Safe as seen 0.998 at 040° min 0.900, guard");
 }
 
 }  // namespace

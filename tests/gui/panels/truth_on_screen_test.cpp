@@ -283,7 +283,8 @@ TEST(OldMap, IsVeiledAndConfirmsNothing) {
 
 // Nothing is approved on ground last measured so long ago, whatever it was called then.
 TEST(SiteRow, OfGroundThatLeftTheViewIsNotCalledConfirmed) {
-  for (const auto& [age_s, word] : {std::pair{1.9, "Confirmed"}, std::pair{2.1, "Not in view"}}) {
+  for (const auto& [age_s, word] :
+       {std::pair{1.9, "Confirmed"}, std::pair{2.1, "Not all in view"}}) {
     EngineSnapshot snap = fake::Snapshot(MissionState::kProposed);
     auto decision = std::make_shared<TerrainDecision>(*snap.terrain->applied);
     for (LandingSite& site : decision->selection.sites) {
