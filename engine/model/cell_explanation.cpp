@@ -158,7 +158,7 @@ std::string ReasonWords(unsigned reasons) {
                       {kHazardStep, "step"},
                       {kHazardUnknown, "unknown"},
                       {kHazardFlagged, "flagged"},
-                      {kHazardProbability, "safe probability"}},
+                      {kHazardProbability, "low safe probability"}},
                      reasons);
 }
 

@@ -102,6 +102,8 @@ const char* WhatToDoOnHold(const EngineSnapshot& snap) {
              : "No site in view: wave off to look from above.";
 }
 
+float HoldWordsAt(const Rect& button, const Style& s) { return button.bottom() - s.Px(8); }
+
 /// What stops or ends it, below. The stop stands where Refuse stood: a second press where approve
 /// was does nothing.
 void DrawActions(const EngineSnapshot& snap, const Rect& button, UiFrame& ui) {
@@ -120,7 +122,7 @@ void DrawActions(const EngineSnapshot& snap, const Rect& button, UiFrame& ui) {
     return;
   }
   if (m.state == MissionState::kHold) {
-    DrawText(ui, s.body, s.palette.text1, button.x, button.centre().y,
+    DrawText(ui, s.body, s.palette.text1, button.x, HoldWordsAt(button, s),
              FitWords(s.body, WhatToDoOnHold(snap), button.w));
     return;
   }
@@ -204,8 +206,11 @@ void DrawLandingPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui)
   float y = rect.y + s.Px(tall ? 119 : 102);
   const std::string record = Record(snap);
   const float pitch = s.Px(19);
+  // A hold has one line of words where else buttons stand.
+  const float last_y =
+      m.state == MissionState::kHold ? HoldWordsAt(button, s) - pitch : button.y - s.Px(10);
   const auto room_lines =
-      static_cast<std::size_t>(std::max(1.0F, std::floor((button.y - s.Px(10) - y) / pitch) + 1));
+      static_cast<std::size_t>(std::max(1.0F, std::floor((last_y - y) / pitch) + 1));
   const std::vector<std::string> lines = WrapText(s.body, record, width, room_lines);
   for (const std::string& line : lines) {
     DrawText(ui, s.body, p.text2, x, y, line);

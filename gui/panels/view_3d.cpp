@@ -53,8 +53,9 @@ void DrawView3dPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui) 
                            : snap.terrain->applied            ? "Safe distance over picture"
                            : snap.terrain->why_no_map.empty() ? "No map yet"
                                                               : "No map";
+  const bool late = old && snap.flight->mission.state != MissionState::kLanded;
   const Rect scene =
-      DrawPanelFrame(ui, rect, "3-D view", {{fact, 0, old || snap.terrain->preview, old}});
+      DrawPanelFrame(ui, rect, "3-D view", {{fact, 0, late || snap.terrain->preview, late}});
   ImDrawList* dl = Canvas();
   if (ui.textures.scene_3d != nullptr) {
     dl->AddImageRounded(ui.textures.scene_3d, scene.min(), scene.max(), {0, 0}, {1, 1},

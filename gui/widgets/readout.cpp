@@ -50,7 +50,9 @@ void DrawReadout(UiFrame& ui, const Rect& cell, const Readout& r) {
     return;
   }
   if (stale) {
-    const Rect veil{cell.x, cell.y, cell.w - s.Px(4), s.Px(44)};
+    // Over the value alone: what it is a value of stays readable.
+    const float half = s.Px(tight ? 11 : 13);
+    const Rect veil{cell.x, value_y - half, cell.w - s.Px(4), 2 * half};
     FillRect(Canvas(), veil, WithAlpha(p.panel, 0.22f));
     Hatch(Canvas(), veil, WithAlpha(p.text3, 0.5f), s.Fine(1), s.Px(10));
   }

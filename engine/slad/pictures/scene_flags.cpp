@@ -165,13 +165,17 @@ Grid<std::uint8_t> SceneFlags::Add(const SceneView& view, const GridGeometry& ge
   const Eigen::Vector3d baseline_W = view.X_WC().R.col(0);
   ThinSights thin{Grid<ThinSight>(geometry.rows, geometry.cols),
                   std::atan2(baseline_W.y(), baseline_W.x())};
-  for (const ThinPiece& piece : FindThinStructures(view, ground, older_)) {
+  // How high a line hangs follows from the way between views: over a second navigation knows it to
+  // millimetres, the ground's registration to centimetres.
+  SceneView by_navigation = view;
+  by_navigation.registered = {};
+  for (const ThinPiece& piece : FindThinStructures(by_navigation, ground, older_)) {
     FlagBelow(piece, geometry, found, thin.cells);
   }
   for (std::size_t cell = 0; cell < seen.cells().size(); ++cell) {
     seen.cells()[cell] |= found.cells()[cell] & kFlagThinStructure;  // the wire may be outside
   }
-  older_.Remember(view);
+  older_.Remember(by_navigation);
   memory_.Add(seen, found, thin);
   return memory_.Flags();
 }

@@ -2,9 +2,8 @@
 //
 // One model. A PLACE is a point of the ground. It gets its letter when it is first listed and keeps
 // it for the flight; a letter is never given to another place. Two points are one place when the
-// newer lies within a quarter of the spacing of where the letter was given: a place that is not
-// listed any more, and is not selected, moves to such a point when that is listed. Listed places
-// never move.
+// newer lies within a quarter of the spacing of where the letter was given: a place that left the
+// list, or is replaced, moves to such a point when that is listed. What is selected never moves.
 //
 //   listed     after it could bear the lander on 3 maps in a row (a flight's first map lists at
 //              once); ends with the first map on which it cannot
