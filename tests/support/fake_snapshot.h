@@ -99,6 +99,7 @@ inline std::vector<HistorySample> History(bool descending) {
     h.state = descending ? MissionState::kDescending : MissionState::kArmed;
     const double fall = descending ? std::max(0.0, t + 28) * 0.6 : 0.0;
     const double wave = SmoothNoise(i * 0.2, 3);
+    h.p_WS = Eigen::Vector3d::Zero();
     h.height_above_site_m = 38.2 - fall + 0.05 * wave;
     h.gps_height_m = h.height_above_site_m + 0.6;
     h.truth_height_m = h.height_above_site_m;
