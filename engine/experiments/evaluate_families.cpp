@@ -66,7 +66,8 @@ TrialRow RowOf(const std::string& family, const World& world, const FlownMission
                    SecondsBetween(Simulator::kEpoch, flown.touchdown->time));
   }
   if (flown.summary.site) {
-    site = DiscAt(world, flown.summary.site->p_WS.head<2>(), lander.clear_radius_m(), 0);
+    site = DiscAt(world, flown.summary.site->p_WS.head<2>(), lander.clear_radius_m(),
+                  SecondsBetween(Simulator::kEpoch, flown.summary.approved_at));
   }
   const SafePlaces places =
       FindSafePlaces(TruthOf(world, kInView), lander.clear_radius_m(), limits, 0.5);

@@ -40,6 +40,7 @@ void FlightSummarizer::Add(const EngineSnapshot& snapshot) {
   if (mission.approval && mission.armed && !mission.IsLook()) {
     summary_.site = mission.armed;
     summary_.site_confirmed = !mission.approval->provisional;
+    summary_.approved_at = mission.approval->approved_at;
     if (scene_) {
       const Eigen::Vector3d& p = summary_.site->p_WS;
       summary_.site_obstacle_distance_m = ObstacleDistance(*scene_, p.x(), p.y());

@@ -23,6 +23,7 @@ struct FlightSummary {
   double duration_s = 0;
   std::optional<LandingSite> site;         ///< the one approved to be landed on
   bool site_confirmed = false;             ///< when it was approved
+  Timestamp approved_at;                   ///< vehicle time
   int looks = 0;                           ///< closer looks that ended in their hover
   SeriesStats estimate_error_m;            ///< |estimate - truth| of B while vision was in force
   SeriesStats gps_error_m;                 ///< the same of the GPS filter
