@@ -22,7 +22,7 @@ const char* FileName(CellTerm term) {
     case CellTerm::kStep:
       return "step_m";
     case CellTerm::kProbability:
-      return "safe_probability";
+      return "safe_as_seen";
     case CellTerm::kHazardDistance:
       break;
   }

@@ -338,7 +338,7 @@ void DrawApprovePanel(const EngineSnapshot& snap, const Rect& rect, bool narrow,
     ImFont* font = s.body;
     if (narrow) {
       font = TextWidth(s.body, words) <= width + s.Px(4) ? s.body : s.caption;
-      lines = {words};
+      lines = {FitClauses(font, words, width + s.Px(4))};
     }
     for (const std::string& line : lines) {
       DrawText(ui, font, p.text2, x, y, line);

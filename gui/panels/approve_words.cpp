@@ -139,7 +139,7 @@ std::string ApprovalConsequence(const EngineSnapshot& snap, bool narrow) {
   }
   if (!doubt.empty() && (!narrow || side.empty())) {
     // Where there is room for one, the button names the standing and the list the way.
-    return narrow ? why.substr(0, why.rfind(" above it")) + "." : text + ". " + doubt;
+    return narrow ? why + "." : text + ". " + doubt;
   }
   if (!narrow && m.approach) {
     double heading = Deg(m.approach->heading_rad);

@@ -65,10 +65,14 @@ std::string Record(const EngineSnapshot& snap) {
     const std::string why =
         m.why.empty() ? std::string("The approval is over.") : when + m.why + ".";
     const auto is_lost = [](const SiteRecheck& c) { return c.verdict == SiteVerdict::kLost; };
-    const bool was_lost = m.state == MissionState::kHold &&
-                          std::any_of(m.rechecks.begin(), m.rechecks.end(), is_lost);
-    const bool lost = was_lost && is_lost(m.rechecks.back());
-    if (was_lost && m.rechecks.back().verdict == SiteVerdict::kHolds) {
+    const bool checked = m.state == MissionState::kHold && !m.rechecks.empty();
+    const bool lost = checked && is_lost(m.rechecks.back());
+    // Maps say nothing of a hold for something else, though the site may have come and gone since.
+    const bool of_site =
+        checked && std::any_of(m.rechecks.begin(), m.rechecks.end(), [&](const SiteRecheck& c) {
+          return is_lost(c) && c.reason == m.why;
+        });
+    if (of_site && m.rechecks.back().verdict == SiteVerdict::kHolds) {
       return why + " No newer map shows it.";
     }
     const LandingSite* other =

@@ -53,6 +53,28 @@ TEST(Alarms, ClearedButNotAcknowledgedStays) {
   EXPECT_TRUE(board.Shown().empty());
 }
 
+TEST(Alarms, OfWhatIsOverTheNewestStandsFirstAndBehindWhatStands) {
+  AlarmBoard board;
+  Timestamp now{0};
+  const auto feed = [&](AlarmId id, bool present) {
+    for (int sample = 0; sample < 4; ++sample) {
+      now = AddSeconds(now, 0.1);
+      board.Update({{id, AlarmLevel::kCaution, present, "Over."}}, now);
+    }
+  };
+  for (const AlarmId id : {AlarmId::kLink, AlarmId::kOffPath, AlarmId::kHold}) {
+    feed(id, true);
+    feed(id, false);
+  }
+  feed(AlarmId::kCameraLeft, true);
+  std::vector<AlarmId> order;
+  for (const Alarm& alarm : board.Shown()) {
+    order.push_back(alarm.kind);
+  }
+  EXPECT_EQ(order, (std::vector<AlarmId>{AlarmId::kCameraLeft, AlarmId::kHold, AlarmId::kOffPath,
+                                         AlarmId::kLink}));
+}
+
 /// Off the path by so much; NaN: not beyond the limit.
 void FeedFigures(AlarmBoard& board, std::initializer_list<double> figures, bool less = false) {
   for (const double figure : figures) {

@@ -25,7 +25,7 @@ ImageF SmoothedPicture(const ImageU8& picture) {
 }
 
 void OlderViews::Remember(const SceneView& view) {
-  const ViewPose pose{view.X_WC(), view.range->pose->sigmas};
+  const ViewPose& pose = *view.range->pose;
   if (!views_.empty() && views_.back().camera != view.range->camera) {
     views_.clear();
   }

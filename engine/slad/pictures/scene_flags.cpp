@@ -165,8 +165,8 @@ Grid<std::uint8_t> SceneFlags::Add(const SceneView& view, const GridGeometry& ge
   const Eigen::Vector3d baseline_W = view.X_WC().R.col(0);
   ThinSights thin{Grid<ThinSight>(geometry.rows, geometry.cols),
                   std::atan2(baseline_W.y(), baseline_W.x())};
-  // How high a line hangs follows from the way between views: over a second navigation knows it to
-  // millimetres, the ground's registration to centimetres.
+  // How high a line hangs follows from the way between views, to which the registration of each
+  // would add its centimetres: older views stand where navigation says, and so does this one.
   SceneView by_navigation = view;
   by_navigation.registered = {};
   for (const ThinPiece& piece : FindThinStructures(by_navigation, ground, older_)) {
@@ -175,7 +175,7 @@ Grid<std::uint8_t> SceneFlags::Add(const SceneView& view, const GridGeometry& ge
   for (std::size_t cell = 0; cell < seen.cells().size(); ++cell) {
     seen.cells()[cell] |= found.cells()[cell] & kFlagThinStructure;  // the wire may be outside
   }
-  older_.Remember(by_navigation);
+  older_.Remember(view);
   memory_.Add(seen, found, thin);
   return memory_.Flags();
 }

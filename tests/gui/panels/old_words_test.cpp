@@ -152,18 +152,25 @@ TEST(FlyFrame, AHoldTellsItsCauseAsPast) {
 }
 
 TEST(FlyFrame, AHoldForWhatNoMapShowsAnyMoreSaysSo) {
-  for (const SiteVerdict now : {SiteVerdict::kHolds, SiteVerdict::kDegraded}) {
+  const struct {
+    SiteVerdict now;
+    const char* lost_for;
+    bool over;
+  } rows[] = {{SiteVerdict::kHolds, "Slope 14.0°, limit 10.0°", true},
+              {SiteVerdict::kDegraded, "Slope 14.0°, limit 10.0°", false},
+              {SiteVerdict::kHolds, "Roughness 12 cm, max 10 cm", false}};  // not what it held for
+  for (const auto& row : rows) {
     EngineSnapshot snap = fake::Snapshot(MissionState::kHold);
     MissionStatus& mission = snap.flight.Edit().mission;
     mission.why = "Slope 14.0°, limit 10.0°";
     mission.since = AddSeconds(snap.time, -12);
     mission.rechecks.resize(2);
     mission.rechecks[0].verdict = SiteVerdict::kLost;
-    mission.rechecks[1].verdict = now;
+    mission.rechecks[0].reason = row.lost_for;
+    mission.rechecks[1].verdict = row.now;
     FlyWindow window(1920, 1080, snap);
     EXPECT_TRUE(HasText(window.ui.items, "12.0 s ago: Slope 14.0°, limit 10.0°."));
-    EXPECT_EQ(HasText(window.ui.items, "limit 10.0°. No newer map shows it."),
-              now == SiteVerdict::kHolds);
+    EXPECT_EQ(HasText(window.ui.items, "limit 10.0°. No newer map shows it."), row.over);
   }
 }
 
