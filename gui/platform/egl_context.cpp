@@ -1,5 +1,10 @@
 #include "gui/platform/egl_context.h"
 
+#include <array>
+#include <cstdlib>
+#include <string_view>
+#include <vector>
+
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
 
@@ -11,11 +16,43 @@ Error NoOpenGl(const char* what) {
                           "; install libegl1 and libgl1-mesa-dri (software rendering)");
 }
 
-}  // namespace
+/// Mesa's own switch, honoured for every driver: pictures that are compared with recorded ones are
+/// drawn in software.
+bool SoftwareIsWanted() {
+  const char* wish = std::getenv("LIBGL_ALWAYS_SOFTWARE");
+  const std::string_view value = wish != nullptr ? wish : "";
+  return value == "1" || value == "true";
+}
 
-Result<std::unique_ptr<EglContext>> EglContext::Open() {
-  EGLDisplay display =
-      eglGetPlatformDisplay(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
+/// The graphics cards that EGL lists, then no device at all: the surfaceless platform, where Mesa
+/// takes the card it drives, or draws in software. A card that Mesa does not drive is reached as a
+/// device alone (EGL_EXT_platform_device).
+std::vector<EGLDisplay> DisplaysToTry() {
+  std::vector<EGLDisplay> displays;
+  const auto query_devices =
+      reinterpret_cast<PFNEGLQUERYDEVICESEXTPROC>(eglGetProcAddress("eglQueryDevicesEXT"));
+  const auto query_string = reinterpret_cast<PFNEGLQUERYDEVICESTRINGEXTPROC>(
+      eglGetProcAddress("eglQueryDeviceStringEXT"));
+  if (query_devices != nullptr && query_string != nullptr && !SoftwareIsWanted()) {
+    std::array<EGLDeviceEXT, 16> devices{};
+    EGLint count = 0;
+    if (query_devices(static_cast<EGLint>(devices.size()), devices.data(), &count) == EGL_FALSE) {
+      count = 0;
+    }
+    for (EGLint i = 0; i < count; ++i) {
+      const char* known = query_string(devices[i], EGL_EXTENSIONS);
+      const std::string_view extensions = known != nullptr ? known : "";
+      if (extensions.find("EGL_MESA_device_software") == extensions.npos) {
+        displays.push_back(eglGetPlatformDisplay(EGL_PLATFORM_DEVICE_EXT, devices[i], nullptr));
+      }
+    }
+  }
+  displays.push_back(
+      eglGetPlatformDisplay(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr));
+  return displays;
+}
+
+Result<EGLContext> CreateContext(EGLDisplay display) {
   if (display == EGL_NO_DISPLAY) {
     return NoOpenGl("EGL has no surfaceless platform");
   }
@@ -45,7 +82,20 @@ Result<std::unique_ptr<EglContext>> EglContext::Open() {
   if (context == EGL_NO_CONTEXT) {
     return NoOpenGl("OpenGL 3.3 core is not available");
   }
-  return std::unique_ptr<EglContext>(new EglContext(display, context));
+  return context;
+}
+
+}  // namespace
+
+Result<std::unique_ptr<EglContext>> EglContext::Open() {
+  Result<EGLContext> context = NoOpenGl("EGL has no display");
+  for (EGLDisplay display : DisplaysToTry()) {
+    context = CreateContext(display);
+    if (context) {
+      return std::unique_ptr<EglContext>(new EglContext(display, context.value()));
+    }
+  }
+  return context.error();
 }
 
 EglContext::~EglContext() {

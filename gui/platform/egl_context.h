@@ -1,4 +1,5 @@
-// EglContext: an OpenGL 3.3 core context without any window or display (EGL surfaceless).
+// EglContext: an OpenGL 3.3 core context without any window or display: on a graphics card where
+// EGL lists one, else surfaceless, in software at worst.
 #pragma once
 
 #include <memory>
@@ -7,7 +8,8 @@
 
 namespace palace {
 
-/// Software rendering when there is no GPU. Not current on any thread after Open.
+/// A card first; LIBGL_ALWAYS_SOFTWARE=1 draws in software where a card is there too. Not current
+/// on any thread after Open.
 class EglContext {
  public:
   /// kUnavailable, with the packages to install, when the machine has no EGL or no OpenGL driver.
