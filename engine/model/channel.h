@@ -36,9 +36,11 @@ struct ChannelHealth {
   std::uint64_t count = 0;  ///< that came, overtaken ones too
   std::uint64_t lost = 0;   ///< missing between those that came
   std::string note;         ///< e.g. "± 2.6 m"
-  /// Share of the last 5 s that is missing, by the channel's own beat; NaN: not known.
+  /// Share of the last kLossWindow_s that is missing, by the channel's own beat; NaN: not known.
   double lost_share = NAN;
 };
+
+inline constexpr double kLossWindow_s = 5;
 
 /// Of lost_share. More is no channel that works: it is told, and alarmed.
 inline constexpr double kMostLostShare = 0.1;

@@ -14,7 +14,6 @@ constexpr double kLostAfterPeriods = 1.5;
 constexpr std::size_t kPeriodsKept = 256;
 constexpr std::size_t kLeastPeriods = 20;  ///< no beat is told from fewer
 constexpr double kBeatQuantile = 0.4;
-constexpr double kLossWindow_s = 5;
 
 }  // namespace
 

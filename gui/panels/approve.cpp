@@ -6,6 +6,7 @@
 
 #include "engine/model/approach_side.h"
 #include "engine/model/cell_explanation.h"
+#include "engine/model/mission/approve_offer.h"
 #include "engine/model/mission/refused_lately.h"
 #include "gui/panels/approve_words.h"
 #include "gui/panels/fly_panels.h"
@@ -67,14 +68,20 @@ void DrawChecks(const EngineSnapshot& snap, const Rect& rect, float y, bool narr
   const std::string no_turn =
       snap.session->events ? WhyRefusedLately(*snap.session->events, "Turn approach", snap.time)
                            : std::string();
-  const std::string words =
-      !pass                                        ? why_not
-      : ui.ui_time_s < state.hold_cut_told_until_s ? "Hold cut: " + state.hold_cut_by
-      : !no_look.empty()                           ? "Not flown: " + no_look
-      : !no_turn.empty()                           ? "Not turned: " + no_turn
-                         : "All " + std::to_string(m.guards.size()) + " checks pass";
-  DrawIcon(Canvas(), pass ? Icon::kDone : Icon::kCaution, {rect.x + s.Px(18), y}, s.Px(12),
-           pass ? p.text1 : p.caution);
+  const SiteStanding standing = ArmedStanding(m, snap.session->settings.slad);
+  // Passed checks do not make a confirmed site.
+  const bool confirmed = standing == SiteStanding::kConfirmed;
+  const std::string all = std::to_string(m.guards.size()) + " checks pass";
+  const std::string words = !pass ? why_not
+                            : ui.ui_time_s < state.hold_cut_told_until_s
+                                ? "Hold cut: " + state.hold_cut_by
+                            : !no_look.empty() ? "Not flown: " + no_look
+                            : !no_turn.empty() ? "Not turned: " + no_turn
+                            : confirmed        ? "All " + all
+                                        : std::string(StandingWord(standing)) + "; all " + all;
+  const bool done = pass && confirmed;
+  DrawIcon(Canvas(), done ? Icon::kDone : Icon::kCaution, {rect.x + s.Px(18), y}, s.Px(12),
+           done ? p.text1 : p.caution);
   const float text_x = rect.x + s.Px(32);
   const float room = rect.w - s.Px(110);
   const std::string shown = FitClauses(s.body, words, room);

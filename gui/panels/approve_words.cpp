@@ -26,11 +26,13 @@ std::string WhyNotSelectable(const EngineSnapshot& snap) {
 }
 
 /// What the list says of the armed site is said where it is approved, too: how long ago a map
-/// called it unsafe; NaN: none did.
+/// called it unsafe, also while no newer map comes; NaN: none did.
 double ShakenFor_s(const EngineSnapshot& snap) {
   const auto& armed = snap.flight->mission.armed;
   const LandingSite* now = armed ? FindSite(snap.terrain->applied.get(), armed->id) : nullptr;
-  return now != nullptr && std::isfinite(now->called_unsafe_s) ? now->called_unsafe_s : NAN;
+  return now != nullptr && std::isfinite(now->called_unsafe_s)
+             ? now->called_unsafe_s + SecondsBetween(now->map_time, snap.time)
+             : NAN;
 }
 
 }  // namespace

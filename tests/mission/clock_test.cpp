@@ -177,16 +177,18 @@ TEST(Loss, IsToldOfTheChannelsThatLose) {
     std::vector<ChannelHealth> channels;
     const char* words;
   };
-  for (
-      const Row& row :
-      {Row{{Channel(C::kVehiclePose, 50, 0), Channel(C::kImu, 20, 0.8), Channel(C::kGps, 5, 0.002)},
-           "IMU loses 80 % of its messages; of Vehicle pose, IMU, GPS together 52 %"},
-       Row{{Channel(C::kVehiclePose, 70, 0.3), Channel(C::kImu, 60, 0.4)},
-           "IMU loses 40 % of its messages, Vehicle pose 30 %; of Vehicle pose, IMU together 35 %"},
-       Row{{Channel(C::kVehiclePose, 35, 0.3), Channel(C::kImu, 100, NAN),
-            Channel(C::kCameraLeft, 5, 0.5)},
-           "Vehicle pose loses 30 % of its messages"},
-       Row{{Channel(C::kVehiclePose, 50, 0.001), Channel(C::kImu, 100, 0)}, ""}}) {
+  for (const Row& row :
+       {Row{{Channel(C::kVehiclePose, 50, 0), Channel(C::kImu, 20, 0.8),
+             Channel(C::kGps, 5, 0.002)},
+            "In the last 5 s IMU lost 80 % of its messages; of Vehicle pose, IMU, GPS together 52 "
+            "%"},
+        Row{{Channel(C::kVehiclePose, 70, 0.3), Channel(C::kImu, 60, 0.4)},
+            "In the last 5 s IMU lost 40 % of its messages, Vehicle pose 30 %; of Vehicle pose, "
+            "IMU together 35 %"},
+        Row{{Channel(C::kVehiclePose, 35, 0.3), Channel(C::kImu, 100, NAN),
+             Channel(C::kCameraLeft, 5, 0.5)},
+            "In the last 5 s Vehicle pose lost 30 % of its messages"},
+        Row{{Channel(C::kVehiclePose, 50, 0.001), Channel(C::kImu, 100, 0)}, ""}}) {
     EXPECT_EQ(LossWords(row.channels), row.words);
   }
 }
@@ -199,10 +201,10 @@ TEST(Loss, IsSaidInPercentByChannel) {
   const Alarm* alarm = Find(rig, AlarmId::kMessageLoss);
   ASSERT_NE(alarm, nullptr);
   EXPECT_EQ(alarm->level, AlarmLevel::kCaution);
-  EXPECT_EQ(
-      alarm->text,
-      "Vehicle pose loses 31 % of its messages, limit 10 %. Check the link; beyond 50 % approve "
-      "is blocked.");
+  EXPECT_EQ(alarm->text,
+            "In the last 5 s Vehicle pose lost 31 % of its messages, limit 10 %. Check the link; "
+            "beyond 50 % approve "
+            "is blocked.");
   EXPECT_TRUE(rig.mission.status().can_approve) << "below the limit of the guard";
 }
 

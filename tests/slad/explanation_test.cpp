@@ -294,11 +294,11 @@ TEST(RankReasons, SayWhatDecidedAndByHowMuch) {
       {kFarthest,
        {SiteOf(4.0, 0.2), SiteOf(3.8, 0.2), CalledUnsafe(12.4, SiteOf(4.8, 0.2))},
        {"Leads: 0.2 m more clear than the next", "0.2 m less clear than the best",
-        "Called unsafe 12 s ago, ranks as 2.3 m narrower"}},
+        "Called unsafe 12 s before, ranks as 2.3 m narrower"}},
       {kCost,
        {SiteOf(3.0, 0.20), CalledUnsafe(12.4, SiteOf(4.8, 0.1))},
        {"Stays first, cost 0.10 more than the next (called unsafe)",
-        "Called unsafe 12 s ago, ranks behind"}},
+        "Called unsafe 12 s before, ranks behind"}},
       {kFarthest,
        {SiteOf(4.0, 0.2, false, 0b10000011)},
        {"Straight approach blocked; clear from 3 of 8 sides"}}};

@@ -171,7 +171,7 @@ TEST(SiteRegistry, WhatOneMapCallsUnsafeLeavesWithItAndStandsBehindTheOthersForA
   ASSERT_NE(Find(after, "A"), nullptr) << "after 3 maps";
   EXPECT_EQ(Find(after, "A")->id, before.sites[0].id);
   EXPECT_NE(after.sites[0].letter, "A") << "though it is the widest again";
-  EXPECT_EQ(Find(after, "A")->reason, "Called unsafe 0 s ago, ranks as 2.3 m narrower");
+  EXPECT_EQ(Find(after, "A")->reason, "Called unsafe 0 s before, ranks as 2.3 m narrower");
   EXPECT_EQ(after.sites[0].reason.find("Widest"), std::string::npos) << after.sites[0].reason;
   EXPECT_NE(hover.SeeOften(290, Flat()).sites[0].letter, "A");
   EXPECT_EQ(hover.SeeOften(10, Flat()).sites[0].letter, "A") << "30 s later";

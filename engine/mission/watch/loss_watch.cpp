@@ -92,9 +92,10 @@ std::string LossWords(const std::vector<ChannelHealth>& channels) {
       [](const ChannelHealth* a, const ChannelHealth* b) { return a->lost_share > b->lost_share; });
   std::string words;
   for (const ChannelHealth* channel : losing) {
-    words += (words.empty() ? "" : ", ") + std::string(ChannelName(channel->id)) +
-             (words.empty() ? " loses" : "") + WithNumbers(" %.0f %%", 100 * channel->lost_share) +
-             (words.empty() ? " of its messages" : "");
+    const bool first = words.empty();
+    words += (first ? WithNumbers("In the last %.0f s ", kLossWindow_s) : ", ") +
+             ChannelName(channel->id) + (first ? " lost" : "") +
+             WithNumbers(" %.0f %%", 100 * channel->lost_share) + (first ? " of its messages" : "");
   }
   return words.empty() || counted.size() < 2
              ? words

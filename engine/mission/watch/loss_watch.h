@@ -43,8 +43,9 @@ struct RecentLosses {
 /// Share of the messages of pose, IMU, GPS and laser that is missing lately, of all together; NaN
 /// where none of them is known. Pictures have counts of their own: newer ones replace them.
 double LostShare(const std::vector<ChannelHealth>& channels);
-/// Which channels lose how much of their own, the worst first, and what share of all that is: "IMU
-/// loses 85 % of its messages, GPS 8 %; of Vehicle pose, IMU, GPS together 51 %". Empty: none does.
+/// Which channels lost how much of their own, the worst first, and what share of all that is: "In
+/// the last 5 s IMU lost 85 % of its messages, GPS 8 %; of Vehicle pose, IMU, GPS together 51 %".
+/// Empty: none did.
 std::string LossWords(const std::vector<ChannelHealth>& channels);
 
 class LossWatch {

@@ -32,7 +32,8 @@ std::string ApproachWords(const LandingSite& site) {
 
 /// What it counts less for, as SiteRegistry ranks it.
 std::string UnsafeWords(SiteRanking ranking, const LandingSite& site) {
-  return WithNumbers("Called unsafe %.0f s ago, ", site.called_unsafe_s) +
+  // Of a map that stands still, too: how long before it.
+  return WithNumbers("Called unsafe %.0f s before, ", site.called_unsafe_s) +
          (ranking == SiteRanking::kFarthest
               ? WithNumbers("ranks as %.1f m narrower", site.clear_radius_m)
               : "ranks behind");

@@ -131,6 +131,22 @@ TEST(FlyApprove, IsBlockedWhileTheScreenIsBehindTheEngine) {
   }
 }
 
+TEST(FlyApprove, ChecksThatPassMakeNoConfirmedSite) {
+  EngineSnapshot snap = fake::Snapshot(MissionState::kArmed);
+  const auto says = [&](const char* words) {
+    FlyWindow window(1280, 720, snap);
+    window.Run(0.05);
+    return HasText(window.ui.items, words);
+  };
+  EXPECT_TRUE(says("All 11 checks pass"));
+  LandingSite& armed = *snap.flight.Edit().mission.armed;
+  armed.confirmed = false;
+  armed.frames_fused = 1;
+  EXPECT_TRUE(says("Provisional; all 11 checks pass"));
+  armed.height_m.three_sigma = 0.2;
+  EXPECT_TRUE(says("Look first; all 11 checks pass"));
+}
+
 TEST(FlyApprove, AHoldThatTheScreenCutShortSaysSo) {
   FlyWindow window(1280, 720, fake::Snapshot(MissionState::kArmed));
   window.ui.MoveTo("approve");

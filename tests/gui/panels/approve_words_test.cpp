@@ -157,7 +157,9 @@ TEST(ApproveWords, AnApprovalLeadsToADescentUnlessSomethingSpeaksAgainstTheSite)
             std::string::npos);
   m.armed->height_m.three_sigma = 0.03;
   auto shaken = std::make_shared<TerrainDecision>(*snap.terrain->applied);
-  shaken->selection.sites[0].called_unsafe_s = 28;
+  // 24 s before a map that is 4 s old.
+  shaken->selection.sites[0].called_unsafe_s = 24;
+  shaken->selection.sites[0].map_time = AddSeconds(snap.time, -4);
   snap.terrain.Edit().applied = shaken;
   EXPECT_EQ(ApprovalConsequence(snap, true), "A map called it unsafe 28 s ago.");
   EXPECT_EQ(
