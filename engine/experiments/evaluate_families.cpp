@@ -19,6 +19,7 @@ namespace {
 
 constexpr double kGrace = 1.2;              // of the limits: see MissionOutcome
 constexpr double kUnapprovedLimit_s = 45;   // of hovering in one place
+constexpr double kSearchLimit_s = 240;      // of a search from place to place
 constexpr double kStoppedLimit_s = 25;      // of a hold or a climb
 constexpr int kLooksAgain = 4;              // of the operator
 constexpr double kLimit_s = 420;            // time for them
@@ -30,6 +31,7 @@ struct FamiliesOptions {
   FlightOptions mission;
   FamilyOptions worlds;
   bool no_look = false;
+  bool no_search = false;
 };
 
 TruthLimits LimitsOf(const Settings& settings) {
@@ -101,7 +103,8 @@ Result<std::vector<TrialRow>> RunTrial(const FamiliesOptions& options, std::uint
   if (!flight) {
     return flight.error();
   }
-  flight->unapproved_limit_s = kUnapprovedLimit_s;
+  flight->unapproved_limit_s = options.no_search ? kUnapprovedLimit_s : kSearchLimit_s;
+  flight->searches = !options.no_search;
   flight->stopped_limit_s = kStoppedLimit_s;
   flight->looks_again = kLooksAgain;
   flight->looks_closer = !options.no_look;
@@ -264,11 +267,13 @@ Experiment FamiliesExperiment(SceneCameraFactory camera) {
     options->mission.AddRecord(verb);
     verb.add_flag("--no-closer-look", options->no_look,
                   "Approve at once also where a closer look is offered");
+    verb.add_flag("--no-search", options->no_search,
+                  "Wait in one place where nothing can be approved, 45 s");
   };
   experiment.setup = [options] {
     return options->worlds.Text() + ", vehicle " + options->mission.vehicle + ", " +
            options->mission.WindText() + options->mission.SetText() +
-           (options->no_look ? ", no closer look" : "");
+           (options->no_look ? ", no closer look" : "") + (options->no_search ? ", no search" : "");
   };
   experiment.run = [options, camera = std::move(camera)](int, std::uint64_t seed) {
     return RunTrial(*options, seed, camera);

@@ -88,7 +88,7 @@ Result<FlownMission> FlyMission(const MissionFlight& flight, const SceneCameraFa
   }
   Engine engine(std::move(parts), /*threaded=*/false);
   FlightSummarizer summarizer(std::move(session->scene));
-  ScriptedOperator pilot(flight.looks_again, flight.looks_closer);
+  ScriptedOperator pilot(flight.looks_again, flight.looks_closer, flight.searches);
   Patience patience(flight);
   FlownMission flown;
   while (engine.Step()) {

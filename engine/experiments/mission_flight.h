@@ -31,6 +31,7 @@ struct MissionFlight {
   int looks_again = 0;
   /// Whether it flies down to look, where a look is offered, before it approves.
   bool looks_closer = false;
+  bool searches = false;
   std::filesystem::path record_in{};  ///< its log: <record_in>/<scenario>-<seed>; empty: none
 };
 

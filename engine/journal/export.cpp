@@ -9,6 +9,7 @@
 
 #include "engine/core/csv_row.h"
 #include "engine/core/files.h"
+#include "engine/core/text.h"
 #include "engine/journal/log_index.h"
 #include "engine/model/site_columns.h"
 #include "engine/wire/convert.h"
@@ -63,7 +64,8 @@ constexpr const char* kActions[] = {"set_setting",
                                     "bookmark",
                                     "ask_for_command",
                                     "release_command",
-                                    "command_lost"};
+                                    "command_lost",
+                                    "fly_to"};
 static_assert(std::size(kActions) == std::variant_size_v<CommandAction>);
 
 const char* NameOf(const CommandAction& action) {
@@ -200,6 +202,10 @@ class Exporter {
       text = bookmark->note;
     } else if (const auto* lost = std::get_if<CommandLost>(&command->action)) {
       text = lost->why;
+    } else if (const auto* to = std::get_if<FlyTo>(&command->action)) {
+      value = to->heading_rad;
+      text = WithNumbers("%.3f north, %.3f east,", to->p_WB.x(), to->p_WB.y()) +
+             WithNumbers(" %.3f down, m", to->p_WB.z());
     }
     Add("decisions.csv", Row(m.time) << kOrigins[static_cast<int>(command->origin)]
                                      << NameOf(command->action) << name << value << site << sequence

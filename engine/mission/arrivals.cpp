@@ -1,5 +1,6 @@
 #include "engine/mission/arrivals.h"
 
+#include "engine/mission/going.h"
 #include "engine/mission/wording.h"
 
 namespace palace {
@@ -15,7 +16,9 @@ void StartAnew(MissionTurn& turn, Timestamp now) {
   m.refusal.clear();
   m.alarms = {};
   m.pictures = {};
-  m.approvals_given = m.requests_made = m.dead_approval_id = m.hold_id = m.abort_id = 0;
+  m.approvals_given = m.requests_made = m.dead_approval_id = 0;
+  m.hold_id = m.abort_id = m.go_id = 0;
+  m.status.going.reset();
   m.status.refused_sites.clear();  // letters start anew
   m.status.approval.reset();
   m.status.approval_phase = MissionStatus::ApprovalPhase::kNone;
@@ -58,10 +61,12 @@ void RememberVehicle(MissionFacts& facts, const MissionInputs::Vehicle& in) {
 void RememberTerrain(MissionFacts& facts, const TerrainDecision* decision) {
   if (decision == nullptr) {
     facts.sites.clear();
+    facts.elevation.reset();
     facts.map_hash = 0;
     return;
   }
   facts.sites = decision->selection.sites;
+  facts.elevation = decision->elevation;
   facts.site_limits = decision->settings;
   facts.map_hash = decision->map_hash;
   facts.terrain_settings_hash = decision->settings_hash;
@@ -230,6 +235,10 @@ void FollowAnswers(MissionTurn& turn, const MissionInputs& in) {
                IsSameMessage(m, ack.command_id, m.hold_id) &&
                std::holds_alternative<HoldRequest>(*m.repeating)) {
       m.repeating.reset();
+    } else if (m.status.going && !m.status.going->accepted && m.repeating &&
+               IsSameMessage(m, ack.command_id, m.go_id) &&
+               std::holds_alternative<GoRequest>(*m.repeating)) {
+      TakeGoAnswer(turn, ack, in.session.now);
     } else if (IsSameMessage(m, ack.command_id, m.abort_id)) {
       // Told, no more: the repeats end by what the vehicle's status shows.
       const bool accepted = ack.result == AckResult::kAccepted;

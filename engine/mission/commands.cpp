@@ -7,6 +7,7 @@
 
 #include "engine/core/check.h"
 #include "engine/mission/geometry.h"
+#include "engine/mission/going.h"
 #include "engine/mission/guards.h"
 #include "engine/mission/permission.h"
 #include "engine/mission/wave_off.h"
@@ -121,6 +122,7 @@ struct Obeying {
   Status operator()(const AskForCommand& action) const;
   Status operator()(const ReleaseCommand&) const;
   Status operator()(const CommandLost& action) const;
+  Status operator()(const FlyTo& there) const;
   /// Why the armed site may not be flown to by what was on the screen then; empty when it may.
   std::string WhyNotCommit(std::uint64_t site_id, std::uint64_t snapshot_sequence) const;
   Status Commit(double stop_height_m) const;
@@ -293,7 +295,19 @@ Status Obeying::Commit(double stop_height_m) const {
   return Ok();
 }
 
+Status Obeying::operator()(const FlyTo& there) const {
+  if (std::string why = WhyNotThere(turn.memory, there, now); !why.empty()) {
+    return Refuse(turn, now, "Fly there", std::move(why));
+  }
+  StartGoing(turn, there, WhoAsks(origin), now);
+  return Ok();
+}
+
 Status Obeying::operator()(const HoldHere&) const {
+  if (turn.memory.status.going) {
+    StopGoing(turn, words::kHeldByOperator, now);
+    return Ok();
+  }
   if (!IsFlying(turn.memory.status.state)) {
     return Refuse(turn, now, "Hold", words::kNoDescent);
   }
@@ -371,6 +385,7 @@ Status Obeying::operator()(const CommandLost& action) const {
   } else if (state == MissionState::kArmed || state == MissionState::kApproved) {
     Drop(turn, words::CommandLostTo(action.why), now);
   }
+  turn.memory.status.going.reset();  // it is another's now
   return Ok();
 }
 

@@ -28,6 +28,9 @@ std::string WhatItDoes(const EngineSnapshot& snapshot, const VehicleStatus& vehi
            " is approved. Without this station's estimates the vehicle does not descend: "
            "it holds by itself, and the approval expires.";
   }
+  if (vehicle.mode == VehicleMode::kGo) {
+    return "The vehicle flies to another hover. It stays there; nobody watches it.";
+  }
   return "The vehicle is in the air. It hovers where it is; nobody watches it.";
 }
 

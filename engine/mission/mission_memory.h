@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdint>
 #include <deque>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,6 +20,7 @@
 #include "engine/mission/watch/loss_watch.h"
 #include "engine/mission/watch/picture_watch.h"
 #include "engine/mission/watch/site_watch.h"
+#include "engine/model/elevation_map.h"
 #include "engine/model/mission/authority_status.h"
 #include "engine/model/mission/mission_status.h"
 #include "engine/model/mission/session_role.h"
@@ -39,7 +41,8 @@ struct MissionFacts {
   AuthorityStatus authority;
   bool recorder_ok = false;
   std::vector<LandingSite> sites;
-  SladSettings site_limits;  ///< under which they were chosen
+  std::shared_ptr<const ElevationMap> elevation;  ///< that they were found on
+  SladSettings site_limits;                       ///< under which they were chosen
   std::uint64_t map_hash = 0;
   std::uint64_t settings_hash = 0;
   std::uint64_t terrain_settings_hash = 0;
@@ -105,9 +108,9 @@ struct MissionMemory {
   std::deque<ShownSnapshot> shown;  ///< recent ones
 
   std::uint64_t approvals_given = 0;   ///< the counter that approvals carry (I9)
-  std::uint64_t requests_made = 0;     ///< holds and aborts
+  std::uint64_t requests_made = 0;     ///< holds, aborts and ways to another hover
   std::uint64_t dead_approval_id = 0;  ///< last approval that may never resume (I14)
-  std::uint64_t hold_id = 0, abort_id = 0;
+  std::uint64_t hold_id = 0, abort_id = 0, go_id = 0;
   std::optional<VehicleMessage> repeating;  ///< until the vehicle answers
   Timestamp sent_at;                        ///< of the message being repeated
   Timestamp approved_at;                    ///< station time of the approval
@@ -134,7 +137,7 @@ struct MissionMemory {
   std::string loss;         ///< words for it: LossWords
 };
 
-/// Requests (hold, abort) have this bit of their number set, approvals do not.
+/// Requests (hold, abort, go) have this bit of their number set, approvals do not.
 inline constexpr std::uint64_t kRequestBit = 0x80000000U;
 
 /// A site has won enough maps for long enough, and the maps are new.

@@ -18,6 +18,7 @@ struct ConcernsVehicle {
   bool operator()(const LookAtSite&) const { return true; }
   bool operator()(const TurnApproach&) const { return true; }
   bool operator()(const RefuseSite&) const { return true; }
+  bool operator()(const FlyTo&) const { return true; }
   bool operator()(const HoldHere&) const { return true; }
   bool operator()(const WaveOff&) const { return true; }
   bool operator()(const AcknowledgeWaveOff&) const { return true; }
@@ -42,7 +43,8 @@ std::string WhyNotAllowed(const MissionOptions& station, const MissionFacts& fac
   const bool commits = std::holds_alternative<SelectSite>(command.action) ||
                        std::holds_alternative<ApproveSite>(command.action) ||
                        std::holds_alternative<LookAtSite>(command.action) ||
-                       std::holds_alternative<TurnApproach>(command.action);
+                       std::holds_alternative<TurnApproach>(command.action) ||
+                       std::holds_alternative<FlyTo>(command.action);
   const bool decides = commits || std::holds_alternative<RefuseSite>(command.action);
   if (!recorded && decides && WhyViewOnly(facts) != nullptr) {
     return WhyViewOnly(facts);

@@ -6,6 +6,7 @@
 #include "engine/mission/alarms/alarms.h"
 #include "engine/mission/descent_limits.h"
 #include "engine/mission/geometry.h"
+#include "engine/mission/going.h"
 #include "engine/mission/guards.h"
 #include "engine/mission/wave_off.h"
 #include "engine/mission/wording.h"
@@ -74,8 +75,17 @@ void PublishSides(MissionMemory& m) {
   }
 }
 
+/// Drawn where the way to a site is.
+void PublishWayElsewhere(MissionMemory& m) {
+  if (m.status.going && m.facts.p_WB.allFinite()) {
+    const Eigen::Vector3d &from_W = m.facts.p_WB, &to_W = m.status.going->p_WB;
+    m.status.way_W = {from_W, {from_W.x(), from_W.y(), to_W.z()}, to_W};
+  }
+}
+
 void PublishFigures(MissionMemory& m, Timestamp now) {
   PublishGeometry(m);
+  PublishWayElsewhere(m);
   PublishSides(m);
   PublishLimits(m, now);
   m.status.wave_off = WaveOffNow(m, now);
@@ -91,6 +101,7 @@ void PublishFigures(MissionMemory& m, Timestamp now) {
 
 void PublishGuards(MissionMemory& m, Timestamp now) {
   m.status.may_select = MaySelect(m.facts.role) && WhyViewOnly(m.facts) == nullptr;
+  m.status.why_not_go = m.status.may_select ? WhyNowhere(m, now) : "No vehicle is commanded here";
   m.status.guards = EvaluateGuards(GuardInputsAt(m, now));
   m.status.can_approve =
       m.status.state == MissionState::kArmed && FirstFailure(m.status.guards) == nullptr;

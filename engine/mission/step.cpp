@@ -5,6 +5,7 @@
 #include "engine/mission/arrivals.h"
 #include "engine/mission/commands.h"
 #include "engine/mission/geometry.h"
+#include "engine/mission/going.h"
 #include "engine/mission/publish.h"
 #include "engine/mission/recheck.h"
 #include "engine/mission/states.h"
@@ -23,6 +24,7 @@ MissionStep Step(const MissionOptions& station, MissionMemory memory, const Miss
   FollowSite(turn, in);
   FollowAuthority(turn, in);
   FollowAnswers(turn, in);
+  FollowGoing(turn, in.session.now);
   StopDeadApproval(turn, in);
   StepState(turn, in);
   Repeat(turn, in.session.now);

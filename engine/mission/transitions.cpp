@@ -9,11 +9,6 @@ namespace {
 
 constexpr double kRepeat_s = 0.5;
 
-void AskToHold(MissionTurn& turn, std::string why, Timestamp now) {
-  turn.memory.hold_id = RequestNumber(turn.station.session_id, ++turn.memory.requests_made);
-  SendUntilAnswered(turn, HoldRequest{turn.memory.hold_id, std::move(why)}, now);
-}
-
 }  // namespace
 
 std::uint64_t ApprovalNumber(std::uint64_t session_id, std::uint64_t counter) {
@@ -60,6 +55,11 @@ void Enter(MissionTurn& turn, MissionState state, std::string why, Timestamp now
   if (state != MissionState::kSearch && state != MissionState::kProposed) {
     m.status.selection_ended.clear();
   }
+  // What is flown or waved off now is not on its way to a hover any more.
+  if (IsFlying(state) || state == MissionState::kHold || state == MissionState::kAborting ||
+      state == MissionState::kLanded) {
+    m.status.going.reset();
+  }
   m.status.since = now;
   m.status.why = std::move(why);
   const bool keeps_vision =
@@ -95,6 +95,11 @@ void Kill(MissionTurn& turn, std::string_view why) {
   if (m.status.approval_phase != MissionStatus::ApprovalPhase::kRefused) {
     m.status.approval_phase = MissionStatus::ApprovalPhase::kNone;
   }
+}
+
+void AskToHold(MissionTurn& turn, std::string why, Timestamp now) {
+  turn.memory.hold_id = RequestNumber(turn.station.session_id, ++turn.memory.requests_made);
+  SendUntilAnswered(turn, HoldRequest{turn.memory.hold_id, std::move(why)}, now);
 }
 
 void Drop(MissionTurn& turn, std::string why, Timestamp now) {

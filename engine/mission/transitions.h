@@ -33,6 +33,8 @@ void Kill(MissionTurn& turn, std::string_view why);
 /// Back to PROPOSED. An approval on its way is withdrawn at the vehicle too.
 void Drop(MissionTurn& turn, std::string why, Timestamp now);
 void Hold(MissionTurn& turn, std::string why, Timestamp now);
+/// Sends a hold, until the vehicle answers it.
+void AskToHold(MissionTurn& turn, std::string why, Timestamp now);
 void Abort(MissionTurn& turn, std::string why, Timestamp now);
 
 /// Session and number in one: unique among all approvals, or among all requests, of a session.

@@ -49,6 +49,25 @@ std::string CannotSelectIn(MissionState state) {
   return std::string("No site can be selected in state ") + MissionStateWord(state);
 }
 
+std::string CannotGoIn(MissionState state) {
+  return std::string("Nowhere is flown to in state ") + MissionStateWord(state);
+}
+
+std::string SentTo(const Eigen::Vector3d& way_W, double heading_rad, const char* who) {
+  constexpr double kTold_m = 0.5;
+  const double far_m = way_W.head<2>().norm(), up_m = -way_W.z();
+  std::vector<std::string> parts;
+  if (far_m >= kTold_m) {
+    parts.push_back(WithNumbers("%.1f m ", far_m) +
+                    DirectionWord(std::atan2(way_W.y(), way_W.x())));
+  }
+  if (up_m >= kTold_m) {
+    parts.push_back(WithNumbers("%.1f m up", up_m));
+  }
+  parts.push_back(std::string("to look ") + DirectionWord(heading_rad));
+  return "Sent " + Joined(parts) + ", by " + who;
+}
+
 std::string NotTheArmedOne(const MissionStatus& status) {
   return "Selected is " + SiteName(status) + ", not the site that was asked for";
 }

@@ -5,6 +5,8 @@
 #include <string>
 #include <variant>
 
+#include <Eigen/Dense>
+
 namespace palace {
 
 /// Who asks; kStation is the program itself. Scripts may select and approve only on a simulated
@@ -46,6 +48,11 @@ struct TurnApproach {
 struct RefuseSite {
   std::uint64_t site_id = 0;
 };
+/// Sends the hovering vehicle to another hover, to look from there (mission/going.h).
+struct FlyTo {
+  Eigen::Vector3d p_WB = Eigen::Vector3d::Zero();  ///< NED metres
+  double heading_rad = 0;                          ///< from north over east
+};
 /// Stops a descent where it is. The approval is dead afterwards.
 struct HoldHere {};
 /// Aborts from any state: climb away.
@@ -69,10 +76,10 @@ struct CommandLost {
   std::string why;
 };
 
-using CommandAction =
-    std::variant<SetSetting, ApplySettings, DiscardSettings, SelectSite, DisarmSite, ApproveSite,
-                 LookAtSite, TurnApproach, RefuseSite, HoldHere, WaveOff, AcknowledgeAlarm,
-                 AcknowledgeWaveOff, AddBookmark, AskForCommand, ReleaseCommand, CommandLost>;
+using CommandAction = std::variant<SetSetting, ApplySettings, DiscardSettings, SelectSite,
+                                   DisarmSite, ApproveSite, LookAtSite, TurnApproach, RefuseSite,
+                                   HoldHere, WaveOff, AcknowledgeAlarm, AcknowledgeWaveOff,
+                                   AddBookmark, AskForCommand, ReleaseCommand, CommandLost, FlyTo>;
 
 struct EngineCommand {
   CommandOrigin origin = CommandOrigin::kOperator;

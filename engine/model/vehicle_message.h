@@ -64,6 +64,16 @@ struct HoldRequest {
   std::string reason;
   Seal seal{};
 };
+/// To a hover elsewhere, on GPS: up and round where it is, then level and straight. Nothing is
+/// approved to land.
+struct GoRequest {
+  std::uint64_t command_id = 0;
+  std::uint64_t vehicle_boot_id = 0;
+  Timestamp expires_at;                            ///< vehicle time; refused afterwards
+  Eigen::Vector3d p_WB = Eigen::Vector3d::Zero();  ///< NED metres
+  double heading_rad = 0;                          ///< from north over east
+  Seal seal{};
+};
 /// Never sealed: an unwanted climb is the safe side.
 struct AbortRequest {
   std::uint64_t command_id = 0;
@@ -90,6 +100,6 @@ struct SessionRequest {
 };
 
 using VehicleMessage =
-    std::variant<Approval, PositionEstimate, HoldRequest, AbortRequest, SessionRequest>;
+    std::variant<Approval, PositionEstimate, HoldRequest, AbortRequest, SessionRequest, GoRequest>;
 
 }  // namespace palace

@@ -54,6 +54,7 @@ enum class VehicleMode : std::uint8_t {
   kLanded,
   kHold,
   kAbort,
+  kGo,  ///< to another hover
 };
 
 struct VehicleStatus {

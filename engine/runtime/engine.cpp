@@ -17,6 +17,7 @@ Event NotSent(const VehicleMessage& message, Timestamp time) {
   const char* what = std::holds_alternative<AbortRequest>(message)  ? "A wave-off"
                      : std::holds_alternative<HoldRequest>(message) ? "A hold"
                      : std::holds_alternative<Approval>(message)    ? "An approval"
+                     : std::holds_alternative<GoRequest>(message)   ? "A way to another hover"
                                                                     : "A message to the vehicle";
   return {.time = time,
           .kind = EventKind::kAlarm,

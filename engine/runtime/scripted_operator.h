@@ -8,6 +8,7 @@
 #include <set>
 #include <vector>
 
+#include "engine/core/frames.h"
 #include "engine/model/snapshot.h"
 
 namespace palace {
@@ -19,12 +20,19 @@ namespace palace {
 /// then takes the best site in view that failed it least, deselects what stays blocked, and
 /// acknowledges warnings that are over.
 ///
+/// One that searches, where nothing could be approved for a while, deselects what stays blocked
+/// and looks elsewhere: at a place that was proposed and did not last, from higher up where the air
+/// over a site was not seen, else round the hover and farther on.
+///
 /// One that looks closer flies down to look before it approves, once at each site, wherever a look
 /// is offered; where nothing could be approved after it, one that looks again does.
 class ScriptedOperator {
  public:
-  explicit ScriptedOperator(int looks_again = 0, bool looks_closer = false)
-      : looks_again_(looks_again), insists_(looks_again > 0), looks_closer_(looks_closer) {}
+  explicit ScriptedOperator(int looks_again = 0, bool looks_closer = false, bool searches = false)
+      : looks_again_(looks_again),
+        insists_(looks_again > 0),
+        looks_closer_(looks_closer),
+        searches_(searches) {}
 
   std::vector<EngineCommand> Decide(const EngineSnapshot& snapshot);
   /// Landed, and looked at it for a second.
@@ -32,11 +40,20 @@ class ScriptedOperator {
 
  private:
   std::vector<EngineCommand> Insist(const EngineSnapshot& snapshot, double in_state_s);
+  std::vector<EngineCommand> Search(const EngineSnapshot& snapshot);
   const LandingSite* Choice(const EngineSnapshot& snapshot) const;
 
   int looks_again_;
   bool insists_;
   bool looks_closer_;
+  bool searches_;
+  std::optional<RigidTransform> searched_from_;  ///< X_WB of the hover that the ways count from
+  std::size_t ways_flown_ = 0;
+  std::optional<LandingSite> promising_;   ///< was proposed last, and not flown to yet
+  std::set<std::uint64_t> looked_before_;  ///< that were
+  bool air_missing_ = false;               ///< over a site that was selected
+  int climbs_ = 0;
+  std::optional<Timestamp> nothing_since_;  ///< could be approved
   std::set<std::uint64_t> looked_at_;
   std::optional<Timestamp> seen_since_;
   MissionState last_ = MissionState::kNoLive;

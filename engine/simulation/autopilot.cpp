@@ -21,9 +21,13 @@ constexpr double kLeverAverage_s = 2.0;
 constexpr double kPathLag_m = 1.0;
 constexpr double kSettleError_m = 0.15;
 constexpr double kSettleSpeed_mps = 0.15;
-// Long enough for the station to see the mode, also when there is nothing left to climb.
+// Long enough for the station to see the mode, also when there is nothing left to climb, or to fly.
 constexpr double kShortestAbort_s = 1.0;
+constexpr double kShortestGo_s = 1.5;
+constexpr TravelLimits kGoSpeeds{2.0, 0.4};
+constexpr double kThere_m = 0.5, kThere_mps = 0.4, kThere_rad = Rad(3);
 constexpr double kBraking_mps2 = 0.8;
+constexpr const char* kNotInHover = "the vehicle is not in hover";
 
 }  // namespace
 
@@ -33,6 +37,7 @@ Autopilot::Autopilot(const AutopilotOptions& options)
       gate_(options.trust, options.limits),
       controller_(options.gains),
       hold_p_W_(options.hover_p_WB),
+      hover_down_m_(options.hover_p_WB.z()),
       skid_lever_W_(options.vehicle.skid_centre_B) {
   reference_.p_W = options.hover_p_WB;
   yaw_reference_rad_ = options.hover_yaw_rad;
@@ -63,6 +68,8 @@ void Autopilot::Receive(const VehicleMessage& message, const VehicleSituation& v
     ReceiveHold(*hold, now);
   } else if (const auto* abort = std::get_if<AbortRequest>(&message)) {
     ReceiveAbort(*abort, now);
+  } else if (const auto* go = std::get_if<GoRequest>(&message)) {
+    ReceiveGo(*go, vehicle);
   } else if (const auto* request = std::get_if<SessionRequest>(&message)) {
     ReceiveRequest(*request, now);
   }
@@ -80,7 +87,28 @@ void Autopilot::GiveUp(const std::string& why, Timestamp now) {
   if (approval_ && mode_ != VehicleMode::kLanded) {
     Acknowledge(approval_->id, why, now);
     EnterHold();
+  } else if (mode_ == VehicleMode::kGo) {
+    EnterHold();
   }
+}
+
+bool Autopilot::IsFree() const {
+  return mode_ == VehicleMode::kHover || mode_ == VehicleMode::kHold || mode_ == VehicleMode::kGo;
+}
+
+void Autopilot::ReceiveGo(const GoRequest& go, const VehicleSituation& vehicle) {
+  const std::string refusal = gate_.Admit(go, vehicle, IsFree() ? "" : kNotInHover);
+  Acknowledge(go.command_id, refusal, vehicle.now);
+  if (!refusal.empty()) {
+    return;
+  }
+  go_from_W_ = StoppingPoint(reference_.p_W, reference_.v_W);
+  hold_p_W_ = go.p_WB;
+  hover_down_m_ = std::min(hover_down_m_, go.p_WB.z());
+  go_heading_rad_ = go.heading_rad;
+  go_time_s_ = 0;
+  go_leaves_ = false;
+  mode_ = VehicleMode::kGo;
 }
 
 void Autopilot::ReceiveApproval(const Approval& approval, const VehicleSituation& vehicle) {
@@ -89,9 +117,7 @@ void Autopilot::ReceiveApproval(const Approval& approval, const VehicleSituation
     Acknowledge(approval.id, {}, now);
     return;
   }
-  const bool hovers = mode_ == VehicleMode::kHover || mode_ == VehicleMode::kHold;
-  const std::string refusal =
-      gate_.Admit(approval, vehicle, hovers ? "" : "the vehicle is not in hover");
+  const std::string refusal = gate_.Admit(approval, vehicle, IsFree() ? "" : kNotInHover);
   Acknowledge(approval.id, refusal, now);
   if (!refusal.empty()) {
     return;
@@ -146,7 +172,7 @@ void Autopilot::ReceiveAbort(const AbortRequest& request, Timestamp now) {
     Acknowledge(request.command_id, "on the ground, rotor thrust is off", now);
     return;
   }
-  EnterAbort(options_.hover_p_WB.z());
+  EnterAbort(hover_down_m_);
   Acknowledge(request.command_id, {}, now);
 }
 
@@ -193,7 +219,7 @@ void Autopilot::StepMode(Timestamp now) {
     }
     // Never above the hover height the flight came from, never downwards.
     const double down = gps_.p_WB.z();
-    EnterAbort(std::min(down, std::max(down - kOutageClimb_m, options_.hover_p_WB.z())));
+    EnterAbort(std::min(down, std::max(down - kOutageClimb_m, hover_down_m_)));
   }
   switch (mode_) {
     case VehicleMode::kAlign:
@@ -210,6 +236,9 @@ void Autopilot::StepMode(Timestamp now) {
       break;
     case VehicleMode::kAbort:
       StepAbort();
+      break;
+    case VehicleMode::kGo:
+      StepGo();
       break;
     default:
       reference_.MoveTowards(hold_p_W_, stop_, options_.control_period_s);
@@ -321,6 +350,24 @@ void Autopilot::StepAbort() {
   if (abort_time_s_ >= kShortestAbort_s && (gps_.p_WB - target).norm() < 0.5 &&
       gps_.v_WB.norm() < 0.5) {
     hold_p_W_ = target;
+    mode_ = VehicleMode::kHover;
+  }
+}
+
+void Autopilot::StepGo() {
+  const double dt = options_.control_period_s;
+  go_time_s_ += dt;
+  yaw_reference_rad_ =
+      SlewAngle(yaw_reference_rad_, go_heading_rad_, path_.speeds.turn_rate_rad_s * dt);
+  // Up and round first: the cameras then see the ground that it flies over.
+  const Vector3d above(go_from_W_.x(), go_from_W_.y(), hold_p_W_.z());
+  const bool turned = std::abs(WrapAngle(yaw_reference_rad_ - go_heading_rad_)) < kThere_rad;
+  const bool ready = turned && std::abs(reference_.p_W.z() - above.z()) < kThere_m;
+  go_leaves_ = go_leaves_ || ready;
+  reference_.MoveTowards(go_leaves_ ? hold_p_W_ : above, kGoSpeeds, dt);
+  const double yaw = EulerFromRotation(gps_.R_WB).yaw_rad;
+  if (go_leaves_ && go_time_s_ >= kShortestGo_s && (gps_.p_WB - hold_p_W_).norm() < kThere_m &&
+      gps_.v_WB.norm() < kThere_mps && std::abs(WrapAngle(yaw - go_heading_rad_)) < kThere_rad) {
     mode_ = VehicleMode::kHover;
   }
 }

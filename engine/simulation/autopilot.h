@@ -1,6 +1,7 @@
 // Autopilot: the modes of the simulated vehicle, from hover to touchdown.
 //
-//   kHover  holds a point on GPS. An admitted approval starts kAlign.
+//   kHover  holds a point on GPS. An admitted approval starts kAlign, a way elsewhere kGo.
+//   kGo     up and round where it is, then straight to another hover on GPS, and kHover there.
 //   kAlign  at the present height to the start of the glide slope, turning to the approach heading.
 //           Leaves when within 0.5 m, 3 deg and 0.4 m/s AND healthy vision estimates for this
 //           approval arrive; too late for the expiry means kHold.
@@ -58,6 +59,9 @@ class Autopilot {
 
  private:
   void ReceiveApproval(const Approval& approval, const VehicleSituation& vehicle);
+  /// Hovers, or is on its way to another hover: it takes an approval.
+  bool IsFree() const;
+  void ReceiveGo(const GoRequest& go, const VehicleSituation& vehicle);
   void ReceiveRequest(const SessionRequest& request, Timestamp now);
   /// Holds, and answers the approval that it flew with the reason.
   void GiveUp(const std::string& why, Timestamp now);
@@ -76,6 +80,7 @@ class Autopilot {
   void StepSettle(Timestamp now, bool fresh);
   void StepSink(bool fresh);
   void StepAbort();
+  void StepGo();
   void HandOverToVision();
   void ReturnToGps();
   /// Ends the approval; hovers where it is.
@@ -103,12 +108,17 @@ class Autopilot {
   MovingReference reference_;
   double yaw_reference_rad_ = 0;
   Eigen::Vector3d hold_p_W_;
+  double hover_down_m_ = 0;  ///< of the highest hover that it was sent to: wave-offs climb there
   double path_height_m_ = 0;  ///< skid height of the reference
   double path_rate_mps_ = 0;
   Eigen::Vector3d path_offset_W_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d skid_lever_W_;  ///< R_WB p_B,skid, averaged: the mean tilt in wind
   double settle_time_s_ = 0;
   double settled_s_ = 0;
+  Eigen::Vector3d go_from_W_ = Eigen::Vector3d::Zero();  ///< where a way elsewhere begins
+  double go_heading_rad_ = 0;
+  double go_time_s_ = 0;
+  bool go_leaves_ = false;  ///< up and round is done
   double climb_to_down_m_ = 0;
   double abort_time_s_ = 0;
   std::vector<CommandAck> acks_;

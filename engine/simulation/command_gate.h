@@ -20,6 +20,9 @@ class CommandGate {
   std::string Admit(const Approval& approval, const VehicleSituation& vehicle,
                     const std::string& busy = {});
   std::string Admit(const HoldRequest& hold, Timestamp now);
+  /// To a hover in reach: within 100 m, no more than 50 m up and hardly lower than now.
+  std::string Admit(const GoRequest& go, const VehicleSituation& vehicle,
+                    const std::string& busy = {});
   std::string Admit(const PositionEstimate& estimate, Timestamp now);
   /// The answer to the approval admitted last was lost: to be answered as accepted, no more.
   bool IsRepeat(const Approval& approval) const { return verifier_.IsRepeat(approval); }

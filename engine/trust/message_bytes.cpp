@@ -8,6 +8,7 @@ namespace {
 
 constexpr std::int8_t kApprove = 0;
 constexpr std::int8_t kHold = 1;
+constexpr std::int8_t kGo = 3;
 
 /// Fields as LCM sends them.
 class Fields {
@@ -77,6 +78,16 @@ std::vector<std::uint8_t> SealedBytes(const HoldRequest& hold) {
   Approval blank;
   blank.id = hold.command_id;
   return CommandBytes(kHold, blank, hold.seal, hold.reason);
+}
+
+std::vector<std::uint8_t> SealedBytes(const GoRequest& go) {
+  Approval blank;
+  blank.id = go.command_id;
+  blank.vehicle_boot_id = go.vehicle_boot_id;
+  blank.expires_at = go.expires_at;
+  blank.p_WS = go.p_WB;
+  blank.approach_heading_rad = go.heading_rad;
+  return CommandBytes(kGo, blank, go.seal, "");
 }
 
 std::vector<std::uint8_t> SealedBytes(const PositionEstimate& e) {

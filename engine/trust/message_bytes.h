@@ -26,6 +26,7 @@ namespace palace {
 
 std::vector<std::uint8_t> SealedBytes(const Approval& approval);
 std::vector<std::uint8_t> SealedBytes(const HoldRequest& hold);
+std::vector<std::uint8_t> SealedBytes(const GoRequest& go);
 std::vector<std::uint8_t> SealedBytes(const PositionEstimate& estimate);
 std::vector<std::uint8_t> SealedBytes(const SessionRequest& request);
 std::vector<std::uint8_t> SealedBytes(const AuthorityReport& report);

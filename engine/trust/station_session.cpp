@@ -158,6 +158,8 @@ void StationSession::Seal(VehicleMessage& message, Timestamp vehicle_now, double
     SealOne(SealedChannel::kCommand, *approval, vehicle_now);
   } else if (auto* hold = std::get_if<HoldRequest>(&message)) {
     SealOne(SealedChannel::kCommand, *hold, vehicle_now);
+  } else if (auto* go = std::get_if<GoRequest>(&message)) {
+    SealOne(SealedChannel::kCommand, *go, vehicle_now);
   } else if (auto* estimate = std::get_if<PositionEstimate>(&message)) {
     SealOne(SealedChannel::kEstimate, *estimate, vehicle_now);
   } else if (auto* request = std::get_if<SessionRequest>(&message)) {
@@ -206,6 +208,9 @@ bool StationSession::IsOwn(const VehicleMessage& message, double now_s) {
   }
   if (const auto* hold = std::get_if<HoldRequest>(&message)) {
     return IsOwnSealed(SealedChannel::kCommand, *hold, now_s);
+  }
+  if (const auto* go = std::get_if<GoRequest>(&message)) {
+    return IsOwnSealed(SealedChannel::kCommand, *go, now_s);
   }
   if (const auto* estimate = std::get_if<PositionEstimate>(&message)) {
     return IsOwnSealed(SealedChannel::kEstimate, *estimate, now_s);

@@ -70,6 +70,11 @@ struct ActionToWire {
     m.kind = site_decision_t::COMMAND_LOST;
     m.text = a.why;
   }
+  void operator()(const FlyTo& a) const {
+    m.kind = site_decision_t::FLY_TO;
+    m.value = a.heading_rad;
+    Pack(a.p_WB, m.pos);
+  }
 
  private:
   void Site(std::int8_t kind, std::uint64_t id) const {
@@ -125,8 +130,10 @@ Result<CommandAction> ActionFromWire(const site_decision_t& m) {
       return CommandAction(ReleaseCommand{});
     case site_decision_t::COMMAND_LOST:
       return CommandAction(CommandLost{m.text});
+    case site_decision_t::FLY_TO:
+      return CommandAction(FlyTo{Unpack(m.pos), m.value});
     default:
-      return InvalidError("decision kind " + std::to_string(m.kind) + " is not one of 0..17");
+      return InvalidError("decision kind " + std::to_string(m.kind) + " is not one of 0..18");
   }
 }
 

@@ -19,6 +19,7 @@ constexpr int kMostAtOnce = 1000;  ///< a flood must not keep Poll from returnin
 std::string WordsOf(const VehicleMessage& message, const std::string& channel) {
   const char* what = std::holds_alternative<Approval>(message)           ? "APPROVE"
                      : std::holds_alternative<HoldRequest>(message)      ? "HOLD"
+                     : std::holds_alternative<GoRequest>(message)        ? "GO"
                      : std::holds_alternative<PositionEstimate>(message) ? "an estimate"
                                                                          : "ABORT (open by design)";
   return what + (" on " + channel);

@@ -111,8 +111,8 @@ Result<LaserRange> LaserFromWire(const WireMessage& message) {
 Result<VehicleStatus> StatusFromWire(const WireMessage& message) {
   return DecodeAnd<vehicle_status_t>(
       message, [](const vehicle_status_t& m) -> Result<VehicleStatus> {
-        if (m.mode < vehicle_status_t::UNKNOWN || m.mode > vehicle_status_t::ABORT) {
-          return InvalidError("vehicle mode " + std::to_string(m.mode) + " is not one of 0..8");
+        if (m.mode < vehicle_status_t::UNKNOWN || m.mode > vehicle_status_t::GO) {
+          return InvalidError("vehicle mode " + std::to_string(m.mode) + " is not one of 0..9");
         }
         // NaN: the vehicle measures no wind, or does not know its fuel.
         if (std::isinf(m.wind_speed_mps) || std::isinf(m.wind_from_rad) ||

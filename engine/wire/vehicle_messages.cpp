@@ -69,6 +69,27 @@ command_t HoldToWire(const HoldRequest& hold) {
   return m;
 }
 
+command_t GoToWire(const GoRequest& go) {
+  command_t m{};
+  m.utime = go.seal.sent_at.us;
+  m.kind = command_t::GO;
+  m.command_id = WireId(go.command_id);
+  m.session_id = WireId(go.seal.session_id);
+  m.counter = WireId(go.seal.counter);
+  m.vehicle_boot_id = WireId(go.vehicle_boot_id);
+  m.expires_utime = go.expires_at.us;
+  Pack(go.p_WB, m.site_pos);
+  m.approach_heading_rad = go.heading_rad;
+  PackBytes(go.seal.mac, m.mac);
+  return m;
+}
+
+/// Numbers that are not finite pass: the vehicle refuses them with the reason.
+GoRequest GoFromWire(const command_t& m) {
+  return {IdFromWire(m.command_id), IdFromWire(m.vehicle_boot_id), {m.expires_utime},
+          Unpack(m.site_pos),       m.approach_heading_rad,        SealFromWire(m)};
+}
+
 Result<VehicleMessage> CommandFromWire(const command_t& m) {
   switch (m.kind) {
     case command_t::APPROVE:
@@ -77,8 +98,10 @@ Result<VehicleMessage> CommandFromWire(const command_t& m) {
       return VehicleMessage(HoldRequest{IdFromWire(m.command_id), m.reason, SealFromWire(m)});
     case command_t::ABORT:
       return VehicleMessage(AbortRequest{IdFromWire(m.command_id), m.reason});
+    case command_t::GO:
+      return VehicleMessage(GoFromWire(m));
     default:
-      return InvalidError("command kind " + std::to_string(m.kind) + " is not one of 0..2");
+      return InvalidError("command kind " + std::to_string(m.kind) + " is not one of 0..3");
   }
 }
 
@@ -132,6 +155,9 @@ WireMessage EncodeVehicleMessage(const VehicleMessage& message, Timestamp now,
   }
   if (const auto* hold = std::get_if<HoldRequest>(&message)) {
     return MakeMessage(channels.command, now, HoldToWire(*hold));
+  }
+  if (const auto* go = std::get_if<GoRequest>(&message)) {
+    return MakeMessage(channels.command, now, GoToWire(*go));
   }
   if (const auto* wish = std::get_if<SessionRequest>(&message)) {
     return MakeMessage(channels.session_request, now, SessionRequestToWire(*wish));

@@ -123,7 +123,7 @@ void VisitFields(Reader& read, site_proposal_t& m) {
 }
 template <typename Reader>
 void VisitFields(Reader& read, site_decision_t& m) {
-  read(m.utime, m.kind, m.origin, m.name, m.value, m.site_id, m.snapshot_sequence, m.text);
+  read(m.utime, m.kind, m.origin, m.name, m.value, m.site_id, m.snapshot_sequence, m.text, m.pos);
 }
 template <typename Reader>
 void VisitFields(Reader& read, command_t& m) {

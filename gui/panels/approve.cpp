@@ -315,7 +315,7 @@ void DrawButtons(const EngineSnapshot& snap, const Rect& rect, bool narrow, Appr
 }  // namespace
 
 void DrawApprovePanel(const EngineSnapshot& snap, const Rect& rect, bool narrow,
-                      ApproveState& state, UiFrame& ui) {
+                      const std::optional<Eigen::Vector2d>& pin, ApproveState& state, UiFrame& ui) {
   const Style& s = ui.style;
   const Palette& p = s.palette;
   const MissionStatus& m = snap.flight->mission;
@@ -332,6 +332,9 @@ void DrawApprovePanel(const EngineSnapshot& snap, const Rect& rect, bool narrow,
     if (m.approach && std::any_of(m.approach_sides.begin(), m.approach_sides.end(), other)) {
       DrawTurnButton(m, head, end, rect.y + s.Px(3), ui);
     }
+  }
+  if (!m.armed && m.may_select) {
+    DrawWaysElsewhere(snap, rect, head + s.Px(10), pin, ui);
   }
   const float x = rect.x + s.Px(12);
   const float width = rect.w - s.Px(24);

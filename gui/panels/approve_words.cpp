@@ -35,6 +35,23 @@ double ShakenFor_s(const EngineSnapshot& snap) {
              : NAN;
 }
 
+/// "Flies to another hover: 12.3 m and 40° to go, over 6 m of ground that no map showed."
+std::string WayWords(const EngineSnapshot& snap) {
+  constexpr double kTold_m = 0.5, kTold_deg = 1;
+  const Going& going = *snap.flight->mission.going;
+  const std::optional<VehiclePose>& pose = snap.sensors->pose;
+  const double turn_deg =
+      pose ? std::abs(Deg(WrapAngle(going.heading_rad - EulerFromRotation(pose->X_WB.R).yaw_rad)))
+           : 0;
+  const std::string way = going.to_go_m >= kTold_m ? Fixed(going.to_go_m, 1) + " m" : "";
+  const std::string turn = turn_deg >= kTold_deg ? Fixed(turn_deg, 0) + "°" : "";
+  const std::string left = way + (way.empty() || turn.empty() ? "" : " and ") + turn;
+  return std::string("Flies to another hover") + (left.empty() ? "" : ": " + left + " to go") +
+         (going.unseen_m >= kTold_m
+              ? ", over " + Fixed(going.unseen_m, 0) + " m of ground that no map showed."
+              : ".");
+}
+
 }  // namespace
 
 std::string WhyNotApprove(const EngineSnapshot& snap, double silent_s) {
@@ -157,6 +174,9 @@ std::string WhatToDoUnarmed(const EngineSnapshot& snap) {
   const bool sites = snap.terrain->applied && !snap.terrain->applied->selection.sites.empty();
   if (!m.may_select && sites) {
     return WhyNotSelectable(snap);
+  }
+  if (m.going) {
+    return WayWords(snap) + " Hold here stops it.";
   }
   if (m.state == MissionState::kNoLive && !m.why.empty()) {
     return m.why + ".";

@@ -49,9 +49,14 @@ void DrawSiteListPanel(const EngineSnapshot& snap, const FlyLayout& layout, Site
 /// Rows that have no room are counted in its head; item "evidence_rows" brings them into sight.
 void DrawEvidencePanel(const EngineSnapshot& snap, const Rect& rect, bool folded, bool narrow,
                        std::uint64_t highlighted, RowScroll& scroll, UiFrame& ui);
-/// Hold button "approve", button "refuse", list of guards behind "show_checks".
+/// Hold button "approve", button "refuse", list of guards behind "show_checks". `pin`: a place that
+/// was pinned on a map.
 void DrawApprovePanel(const EngineSnapshot& snap, const Rect& rect, bool narrow,
-                      ApproveState& state, UiFrame& ui);
+                      const std::optional<Eigen::Vector2d>& pin, ApproveState& state, UiFrame& ui);
+/// In a panel's head, from `left` on: "turn_left", "turn_right", "climb", "look_at_pin" (FlyTo);
+/// while such a way is flown "hold_here" alone.
+void DrawWaysElsewhere(const EngineSnapshot& snap, const Rect& panel, float left,
+                       const std::optional<Eigen::Vector2d>& pin, UiFrame& ui);
 /// From APPROVED on: "hold_here", after a wave-off "acknowledge_wave_off".
 void DrawLandingPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui);
 /// From LANDED on: "new_flight" (of a record: the way out of the review), "review_flight",

@@ -57,7 +57,8 @@ void DrawDecisionColumn(const EngineSnapshot& snap, const FlyLayout& layout, Fly
       mission == MissionState::kHold) {
     DrawLandingPanel(snap, layout.approve, ui);
   } else {
-    DrawApprovePanel(snap, layout.approve, layout.narrow, state.approve, ui);
+    DrawApprovePanel(snap, layout.approve, layout.narrow, state.maps.probe.pinned, state.approve,
+                     ui);
   }
 }
 

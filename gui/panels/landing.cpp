@@ -190,7 +190,12 @@ void DrawLandingPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui)
   const Palette& p = s.palette;
   const MissionStatus& m = snap.flight->mission;
   const bool tall = rect.h >= s.Px(184);
-  DrawPanelFrame(ui, rect, m.IsLook() ? "Look" : "Landing");
+  const char* title = m.IsLook() ? "Look" : "Landing";
+  DrawPanelFrame(ui, rect, title);
+  if (m.state == MissionState::kHold && m.may_select) {
+    // Where no site stands any more there is nothing else to go on with.
+    DrawWaysElsewhere(snap, rect, rect.x + s.Px(22) + TextWidth(s.medium, title), std::nullopt, ui);
+  }
   const float x = rect.x + s.Px(12);
   const float width = rect.w - s.Px(24);
   const float head_y = rect.y + s.Px(tall ? 49 : 44);

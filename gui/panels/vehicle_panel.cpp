@@ -37,6 +37,8 @@ const char* ModeWords(const EngineSnapshot& snap) {
     case VehicleMode::kAbort:
       return snap.flight->mission.wave_off.phase == WaveOffReport::Phase::kClimbs ? "Climbing away"
                                                                                   : "Waving off";
+    case VehicleMode::kGo:
+      return "To another hover";
     case VehicleMode::kUnknown:
       break;
   }
@@ -123,10 +125,10 @@ std::vector<Readout> Readouts(const EngineSnapshot& snap, bool narrow, double si
   }();
   // While it climbs or sinks that goes before the wind.
   const double down_mps = VerticalSpeedTold(snap);
-  const Readout third =
-      std::isnan(down_mps) ? status("Wind", wind, 1, wind_unit)
-      : down_mps < 0       ? pose(narrow ? "Climb" : "Climb rate", -down_mps, 1, "m/s")
-                           : pose(narrow ? "Descent" : "Descent rate", down_mps, 1, "m/s");
+  const Readout third = std::isnan(down_mps) ? status("Wind", wind, 1, wind_unit)
+                        : down_mps < 0
+                            ? pose(narrow ? "Climb" : "Climb rate", -down_mps, 1, "m/s")
+                            : pose(narrow ? "Descent" : "Descent rate", down_mps, 1, "m/s");
   if (narrow) {
     return {height, pose("Speed", speed, 1, "m/s"), third,
             estimated("Error, 3σ", PositionError3s(snap), 2, "m")};

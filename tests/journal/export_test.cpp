@@ -49,6 +49,7 @@ TEST_F(JournalTest, EveryActionOfEveryOriginIsExportedByItsName) {
       {AskForCommand{false}, "ask_for_command"},
       {AskForCommand{true}, "take_over"},
       {ReleaseCommand{}, "release_command"},
+      {FlyTo{{1, 2, -15}, 0.5}, "fly_to"},
       {CommandLost{"to the other station"}, "command_lost"}};
   const std::pair<CommandOrigin, const char*> origins[] = {{CommandOrigin::kOperator, "operator"},
                                                            {CommandOrigin::kScript, "script"},

@@ -17,7 +17,7 @@
 namespace palace {
 
 /// Obeys as DESIGN.md 7 asks of a vehicle: each approval once and in time, answers, aligns,
-/// descends, sinks. Seals are the link's business (tests/trust).
+/// descends, sinks. To another hover it takes 2 s, however far it is. Seals are the link's business (tests/trust).
 struct SmallVehicle {
   std::uint64_t accepted_id = 0;  ///< newest approval taken; ids rise
   std::uint64_t boot_id = 77;
@@ -33,6 +33,7 @@ struct SmallVehicle {
   bool refuses_holds = false;
   bool hears_aborts = true;  ///< false: it flies on, and somebody answers in its place
   std::vector<CommandAck> acks;
+  std::optional<GoRequest> goes_to, arrived;
 
   void Set(VehicleMode next) {
     mode = next;
@@ -60,6 +61,12 @@ struct SmallVehicle {
       }
       approval_id = 0;
       Answer(hold->command_id, "", now);
+    } else if (const auto* go = std::get_if<GoRequest>(&message)) {
+      if (!refuses) {
+        goes_to = *go;
+        Set(VehicleMode::kGo);
+      }
+      Answer(go->command_id, refuses ? "Fuel low" : "", now);
     } else if (const auto* abort = std::get_if<AbortRequest>(&message)) {
       if (hears_aborts && mode != VehicleMode::kAbort) {
         Set(VehicleMode::kAbort);
@@ -85,6 +92,9 @@ struct SmallVehicle {
       if (height_m == 0) {
         Set(VehicleMode::kLanded);
       }
+    } else if (mode == VehicleMode::kGo && mode_for_s > 2) {
+      arrived = goes_to;
+      Set(VehicleMode::kHover);
     } else if (mode == VehicleMode::kAbort) {
       height_m += climb_mps * dt_s;
       if (mode_for_s > 3) {
@@ -161,6 +171,12 @@ struct MissionRig {
       }
     }
     vehicle.Fly(0.1);
+    if (const auto arrived = std::exchange(vehicle.arrived, std::nullopt)) {
+      north_m = arrived->p_WB.x();
+      east_m = arrived->p_WB.y();
+      vehicle.height_m = -arrived->p_WB.z();
+      yaw_rad = arrived->heading_rad;
+    }
     Sense();
     decision.selection.sites = sites;
     decision.map_hash = 1000 + (maps_up ? sequence : 0);

@@ -56,6 +56,9 @@ const std::set<std::pair<std::string, std::string>> kAllowed = {
     // How long the window waits, or says something.
     {"gui/panels/wave_off.cpp", "kAnswerTime_s"},
     {"gui/panels/approve_words.cpp", "kAnswered_s"},
+    // What of a way to another hover is left to be told.
+    {"gui/panels/approve_words.cpp", "kTold_m"},
+    {"gui/panels/approve_words.cpp", "kTold_deg"},
     {"gui/panels/tune/setting_history.cpp", "kGesture_s"},
     {"gui/widgets/hold_button.cpp", "kReleaseMessage_s"},
     // How a scene is drawn.

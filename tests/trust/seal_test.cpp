@@ -89,6 +89,17 @@ TEST(Seal, CoversEveryFieldOfAHold) {
                              [](H& h) { h.seal.session_id ^= 1; }, [](H& h) { ++h.seal.counter; }});
 }
 
+TEST(Seal, CoversEveryFieldOfAWayToAnotherHover) {
+  using G = GoRequest;
+  ExpectEveryFieldSealed<G>(
+      {500, 7, {9}, {1, 2, -15}, 0.5, {}},
+      {[](G& g) { g.command_id ^= 1; }, [](G& g) { g.vehicle_boot_id ^= 1; },
+       [](G& g) { g.expires_at.us ^= 1; }, [](G& g) { g.p_WB.x() += 1e-12; },
+       [](G& g) { g.p_WB.y() += 1e-12; }, [](G& g) { g.p_WB.z() += 1e-12; },
+       [](G& g) { g.heading_rad += 1e-12; }, [](G& g) { g.seal.sent_at.us ^= 1; },
+       [](G& g) { g.seal.session_id ^= 1; }, [](G& g) { ++g.seal.counter; }});
+}
+
 TEST(Seal, CoversEveryFieldOfAnEstimate) {
   using E = PositionEstimate;
   std::vector<std::function<void(E&)>> changes = {

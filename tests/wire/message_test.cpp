@@ -28,7 +28,8 @@ TEST(Command, EveryKindSurvives) {
                                               AddBookmark{"Böe"},
                                               AskForCommand{true},
                                               ReleaseCommand{},
-                                              CommandLost{"bravo commands"}};
+                                              CommandLost{"bravo commands"},
+                                              FlyTo{{1, -2, -15.25}, 0.5}};
   ASSERT_EQ(actions.size(), std::variant_size_v<CommandAction>);
   for (std::size_t i = 0; i < actions.size(); ++i) {
     for (const auto origin : {CommandOrigin::kOperator, CommandOrigin::kScript,
@@ -44,6 +45,9 @@ TEST(Command, EveryKindSurvives) {
   const auto back = DecodeCommand(EncodeCommand({CommandOrigin::kOperator, actions[5]}, {1}, {}));
   EXPECT_EQ(std::get<ApproveSite>(back->action).site_id, 5u);
   EXPECT_EQ(std::get<ApproveSite>(back->action).snapshot_sequence, ~0ull);
+  const auto to = DecodeCommand(EncodeCommand({CommandOrigin::kOperator, actions.back()}, {1}, {}));
+  EXPECT_EQ(std::get<FlyTo>(to->action).p_WB, Eigen::Vector3d(1, -2, -15.25));
+  EXPECT_EQ(std::get<FlyTo>(to->action).heading_rad, 0.5);
   const auto look = DecodeCommand(EncodeCommand({CommandOrigin::kOperator, actions[6]}, {1}, {}));
   EXPECT_EQ(std::get<LookAtSite>(look->action).site_id, 7u);
   EXPECT_EQ(std::get<LookAtSite>(look->action).snapshot_sequence, 8u);

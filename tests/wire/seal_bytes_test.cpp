@@ -42,6 +42,13 @@ TEST(SealedBytes, AreThePayloadWithoutTypeHashAndMac) {
         Sealed(pair.station, HoldRequest{random.NextBits(), std::string(i, 'x'), {}});
     EXPECT_EQ(WithRole("COMMAND", EncodeVehicleMessage(hold, {1}, kNames).payload),
               SealedBytes(hold));
+    const GoRequest go = Sealed(pair.station, GoRequest{random.NextBits(),
+                                                        random.NextBits(),
+                                                        {random.Index(1000)},
+                                                        RandomVector(random),
+                                                        random.Normal(),
+                                                        {}});
+    EXPECT_EQ(WithRole("COMMAND", EncodeVehicleMessage(go, {1}, kNames).payload), SealedBytes(go));
     PositionEstimate estimate;
     estimate.time = {random.Index(1000)};
     estimate.healthy = true;
@@ -65,7 +72,8 @@ TEST(SealedBytes, EveryBitOfACommandOnTheWireCounts) {
   Pair pair;
   for (const VehicleMessage& message :
        {VehicleMessage(Sealed(pair.station, GoodApproval())),
-        VehicleMessage(Sealed(pair.station, HoldRequest{500, "operator", {}}))}) {
+        VehicleMessage(Sealed(pair.station, HoldRequest{500, "operator", {}})),
+        VehicleMessage(Sealed(pair.station, GoRequest{501, 7, {9}, {1, 2, -15}, 0.5, {}}))}) {
     WireMessage wire = EncodeVehicleMessage(message, {1}, kNames);
     for (std::size_t bit = 0; bit < 8 * wire.payload.size(); ++bit) {
       wire.payload[bit / 8] ^= static_cast<std::uint8_t>(1 << bit % 8);
@@ -76,6 +84,8 @@ TEST(SealedBytes, EveryBitOfACommandOnTheWireCounts) {
                                         approval->seal);
         } else if (const auto* hold = std::get_if<HoldRequest>(&*read)) {
           why = pair.vehicle.WhyRefused(SealedChannel::kCommand, SealedBytes(*hold), hold->seal);
+        } else if (const auto* go = std::get_if<GoRequest>(&*read)) {
+          why = pair.vehicle.WhyRefused(SealedChannel::kCommand, SealedBytes(*go), go->seal);
         }
         EXPECT_NE(why, "") << "bit " << bit;
       }

@@ -187,6 +187,7 @@ inline std::vector<WireMessage> OneOfEach(RandomStream& random) {
   for (const VehicleMessage& message :
        {VehicleMessage(approval), VehicleMessage(estimate),
         VehicleMessage(HoldRequest{random.NextBits(), "hold it"}), VehicleMessage(SessionRequest{}),
+        VehicleMessage(GoRequest{random.NextBits(), 7, bundle->time, RandomVector(random), 1, {}}),
         VehicleMessage(AbortRequest{random.NextBits(), "away"})}) {
     messages.push_back(EncodeVehicleMessage(message, bundle->time, channels));
   }

@@ -133,6 +133,17 @@ struct PathProgress {
   std::vector<Height> ahead;  ///< planned, from now on, until the touchdown or for a minute
 };
 
+/// The way to another hover that the vehicle was sent on (mission/going.h).
+struct Going {
+  Eigen::Vector3d p_WB = Eigen::Vector3d::Zero();  ///< where it ends
+  double heading_rad = 0;                          ///< and what it looks at from there
+  Timestamp since;
+  double to_go_m = 0;
+  double unseen_m = 0;    ///< of the way at its start, over ground that no map showed
+  bool accepted = false;  ///< by the vehicle's word or deed
+  bool flown = false;     ///< it says so
+};
+
 /// What became of the newest wave-off, by what the vehicle said after it.
 struct WaveOffReport {
   enum class Phase : std::uint8_t {
@@ -194,8 +205,10 @@ struct MissionStatus {
   std::string approved_by;  ///< "the operator" or "a script"; empty where nobody tells
   enum class ApprovalPhase : std::uint8_t { kNone, kSent, kAccepted, kRefused };
   ApprovalPhase approval_phase = ApprovalPhase::kNone;
-  /// SEARCH, PROPOSED: why the site selected last is not, or was not reached, or what a look at it
-  /// found.
+  std::optional<Going> going;  ///< the vehicle was sent to another hover, and is not there yet
+  std::string why_not_go;      ///< why it is not sent anywhere now; empty: it may be
+  /// SEARCH, PROPOSED: why the site selected last is not, or was not reached, what a look at it
+  /// found, or how a way to another hover ended.
   std::string selection_ended;
   std::string search_stopped;  ///< SEARCH: what keeps every site from a proposal; empty: nothing
   WaveOffReport wave_off;

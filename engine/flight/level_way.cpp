@@ -1,0 +1,48 @@
+#include "engine/flight/level_way.h"
+
+#include <algorithm>
+
+namespace palace {
+namespace {
+
+constexpr double kSigmas = 3;
+
+double TopOf(const ElevationMap& map, Cell cell) {
+  const double height_m = static_cast<double>(map.height_m.at(cell)) +
+                          kSigmas * std::sqrt(static_cast<double>(map.variance_m2.at(cell)));
+  const double thin_m = map.thin_top_m.empty() ? NAN : static_cast<double>(map.thin_top_m.at(cell));
+  return std::fmax(height_m, thin_m);
+}
+
+}  // namespace
+
+WayBelow LookBelow(const ElevationMap& map, const Eigen::Vector2d& from_W,
+                   const Eigen::Vector2d& to_W, double half_width_m) {
+  const GridGeometry& g = map.geometry;
+  const Eigen::Vector2d way = to_W - from_W;
+  const double length_m = way.norm();
+  const Eigen::Vector2d along = length_m > 0 ? Eigen::Vector2d(way / length_m) : way;
+  WayBelow below;
+  for (int row = 0; row < g.rows; ++row) {
+    for (int col = 0; col < g.cols; ++col) {
+      const Eigen::Vector2d from_start =
+          Eigen::Vector2d(g.NorthOfRow(row), g.EastOfCol(col)) - from_W;
+      const double s = std::clamp(from_start.dot(along), 0.0, length_m);
+      if ((from_start - s * along).norm() > half_width_m ||
+          map.state.at(row, col) == CellState::kUnknown) {
+        continue;
+      }
+      below.highest_m = std::fmax(below.highest_m, TopOf(map, {row, col}));
+    }
+  }
+  const double step_m = g.cell_m > 0 ? g.cell_m : length_m;
+  for (double s = 0; s < length_m; s += step_m) {
+    const Eigen::Vector2d at = from_W + s * along;
+    const auto cell = g.rows > 0 ? g.CellFromPoint(at.x(), at.y()) : std::optional<Cell>();
+    below.unseen_m += !cell || map.state.at(*cell) != CellState::kMeasured ? step_m : 0;
+  }
+  below.unseen_m = std::min(below.unseen_m, length_m);
+  return below;
+}
+
+}  // namespace palace

@@ -1,0 +1,164 @@
+#include "engine/mission/going.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/core/text.h"
+#include "engine/core/units.h"
+#include "engine/mission/limits.h"
+#include "engine/mission/wording.h"
+
+namespace palace {
+namespace {
+
+constexpr double kAnswer_s = 5;    // the vehicle refuses it afterwards
+constexpr double kLower_m = 0.5;   // of a level way: what a hover strays
+constexpr double kNoWay_m = 0.05;  // nor a turn
+constexpr double kNoTurn_rad = Rad(0.5);
+
+bool Hovers(VehicleMode mode) {
+  return mode == VehicleMode::kHover || mode == VehicleMode::kHold || mode == VehicleMode::kGo;
+}
+
+/// The level part of the way, over what the newest map knows.
+WayBelow LookBelow(const MissionMemory& m, const Eigen::Vector3d& there_W) {
+  const MissionFacts& facts = m.facts;
+  return facts.elevation
+             ? palace::LookBelow(*facts.elevation, facts.p_WB.head<2>(), there_W.head<2>(),
+                                 facts.settings.slad.lander.rotor_diameter_m / 2)
+             : WayBelow{NAN, (there_W - facts.p_WB).head<2>().norm()};
+}
+
+void End(MissionTurn& turn, EventKind kind, std::string why, Timestamp now) {
+  MissionStatus& status = turn.memory.status;
+  AddEvent(turn, now, kind, why);
+  status.going.reset();
+  status.selection_ended = std::move(why) + ".";
+}
+
+}  // namespace
+
+std::string WhyNowhere(const MissionMemory& m, Timestamp now) {
+  const MissionState state = m.status.state;
+  if (state == MissionState::kArmed) {
+    return "Deselect the site first";
+  }
+  if (IsFlying(state) || state == MissionState::kAborting) {
+    return IsFlying(state) ? words::kApprovedHold : words::CannotGoIn(state);
+  }
+  const auto& vehicle = m.watch.vehicle();
+  if (!vehicle || vehicle->on_ground || !Hovers(vehicle->mode)) {
+    return "The vehicle does not hover";
+  }
+  if (std::string old = words::Older("Vehicle status", m.watch.LinkAge(now), GuardLimits::link_s);
+      m.watch.LinkAge(now) > GuardLimits::link_s) {
+    return old;
+  }
+  if (!m.facts.p_WB.allFinite() || !std::isfinite(m.facts.yaw_rad)) {
+    return "Where the vehicle is, is not known";
+  }
+  return m.status.search_stopped;
+}
+
+std::string WhyNotThere(const MissionMemory& m, const FlyTo& there, Timestamp now) {
+  if (std::string why = WhyNowhere(m, now); !why.empty()) {
+    return why;
+  }
+  if (!there.p_WB.allFinite() || !std::isfinite(there.heading_rad)) {
+    return "The place is not a number";
+  }
+  const Eigen::Vector3d way = there.p_WB - m.facts.p_WB;
+  const double far_m = way.head<2>().norm(), up_m = -way.z();
+  if (far_m > kFarthestGo_m) {
+    return WithNumbers("%.0f m away, limit %.0f m", far_m, kFarthestGo_m);
+  }
+  if (up_m > kMostClimb_m) {
+    return WithNumbers("%.0f m up, limit %.0f m", up_m, kMostClimb_m);
+  }
+  if (up_m < -kLower_m) {
+    return WithNumbers("%.1f m lower: a way down is flown to a site", -up_m);
+  }
+  const double skids_m =
+      HeightFromDown(there.p_WB.z() + m.facts.settings.slad.lander.skid_centre_B().z());
+  const double highest_m = LookBelow(m, there.p_WB).highest_m;
+  if (highest_m > skids_m - kLeastBelowSkids_m) {
+    return std::isfinite(highest_m)
+               ? WithNumbers("Something stands up to %.1f m below the skids on the way, min %.1f m",
+                             skids_m - highest_m, kLeastBelowSkids_m)
+               : std::string("A wire of unknown height hangs over the way");
+  }
+  const double turn_rad = WrapAngle(there.heading_rad - m.facts.yaw_rad);
+  return way.norm() < kNoWay_m && std::abs(turn_rad) < kNoTurn_rad ? "It hovers there already" : "";
+}
+
+void StartGoing(MissionTurn& turn, const FlyTo& there, const char* who, Timestamp now) {
+  MissionMemory& m = turn.memory;
+  if (m.status.state == MissionState::kHold) {
+    ForgetSite(m);
+  }
+  m.go_id = RequestNumber(turn.station.session_id, ++m.requests_made);
+  const Eigen::Vector3d way = there.p_WB - m.facts.p_WB;
+  m.status.going =
+      Going{there.p_WB, there.heading_rad, now, way.norm(), LookBelow(m, there.p_WB).unseen_m};
+  m.status.selection_ended.clear();
+  AddEvent(turn, now, EventKind::kDecision, words::SentTo(way, there.heading_rad, who));
+  m.winner = {};  // of what is seen from there
+  if (m.status.state != MissionState::kSearch && m.status.state != MissionState::kNoLive) {
+    Enter(turn, MissionState::kSearch, "Flies to another hover", now);
+  }
+  SendUntilAnswered(turn,
+                    GoRequest{m.go_id,
+                              m.watch.boot_id(),
+                              AddSeconds(m.watch.VehicleTime(now), kAnswer_s),
+                              there.p_WB,
+                              there.heading_rad,
+                              {}},
+                    now);
+}
+
+void StopGoing(MissionTurn& turn, const std::string& why, Timestamp now) {
+  End(turn, EventKind::kDecision, why + " on the way to another hover", now);
+  AskToHold(turn, why, now);
+}
+
+void TakeGoAnswer(MissionTurn& turn, const CommandAck& ack, Timestamp now) {
+  MissionMemory& m = turn.memory;
+  m.repeating.reset();
+  if (ack.result == AckResult::kAccepted) {
+    m.status.going->accepted = true;
+  } else {
+    End(turn, EventKind::kVehicle, "Vehicle does not fly there: " + ack.reason, now);
+  }
+}
+
+void FollowGoing(MissionTurn& turn, Timestamp now) {
+  MissionMemory& m = turn.memory;
+  if (!m.status.going) {
+    return;
+  }
+  Going& going = *m.status.going;
+  const auto& vehicle = m.watch.vehicle();
+  const VehicleMode mode = vehicle ? vehicle->mode : VehicleMode::kUnknown;
+  going.to_go_m = (going.p_WB - m.facts.p_WB).norm();
+  if (mode == VehicleMode::kGo) {
+    going.accepted = going.flown = true;
+    const bool ours = m.repeating && std::holds_alternative<GoRequest>(*m.repeating);
+    if (ours) {
+      m.repeating.reset();  // its answer was lost, its deed says the same
+    }
+  }
+  if (m.watch.rebooted()) {
+    m.repeating.reset();
+    End(turn, EventKind::kVehicle, words::kRestarted, now);
+  } else if (going.flown && mode == VehicleMode::kHover) {
+    End(turn, EventKind::kVehicle, "Vehicle hovers where it was sent", now);
+  } else if (going.flown && mode != VehicleMode::kGo) {
+    End(turn, EventKind::kVehicle, "Vehicle stopped on the way to another hover", now);
+  } else if (!going.accepted && SecondsBetween(going.since, now) >= kAnswer_s) {
+    m.repeating.reset();
+    End(turn, EventKind::kVehicle,
+        WithNumbers("Vehicle did not answer within %.0f s: it was not sent", kAnswer_s), now);
+  }
+}
+
+}  // namespace palace

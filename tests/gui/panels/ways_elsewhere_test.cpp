@@ -1,0 +1,103 @@
+// Ways to look at other ground, by pointer: in the head of Approve while nothing is selected.
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "engine/core/units.h"
+#include "tests/gui/panels/fly_window.h"
+#include "tests/gui/panels/panel_checks.h"
+#include "tests/support/fake_snapshot.h"
+
+namespace palace {
+namespace {
+
+TEST(WaysElsewhere, ATurnAndAClimbStartWhereTheVehicleIs) {
+  for (const float width : {1280.0F, 1920.0F}) {
+    struct Row {
+      const char* button;
+      double up_m, turn_deg;
+    };
+    for (const Row& row :
+         {Row{"turn_left", 0, -45}, Row{"turn_right", 0, 45}, Row{"climb", 5, 0}}) {
+      FlyWindow window(width, width * 9 / 16, fake::Snapshot(MissionState::kSearch));
+      window.ui.Click(row.button, window.draw);
+      ASSERT_EQ(window.ui.CountCommands<FlyTo>(), 1) << row.button << " at " << width;
+      const FlyTo there = window.ui.LastCommand<FlyTo>();
+      const RigidTransform& X_WB = window.snap.sensors->pose->X_WB;
+      EXPECT_NEAR((there.p_WB - X_WB.p + row.up_m * Eigen::Vector3d::UnitZ()).norm(), 0, 1e-9);
+      const double turn_rad = there.heading_rad - EulerFromRotation(X_WB.R).yaw_rad;
+      EXPECT_NEAR(WrapAngle(turn_rad - Rad(row.turn_deg)), 0, 1e-9) << row.button;
+    }
+  }
+}
+
+TEST(WaysElsewhere, APinIsLookedAtFromWhereTheCamerasSeeIt) {
+  FlyWindow window(1280, 720, fake::Snapshot(MissionState::kSearch));
+  window.Run(0.05);
+  window.ui.Click("look_at_pin", window.draw);
+  EXPECT_EQ(window.ui.CountCommands<FlyTo>(), 0) << "nothing is pinned";
+  const Eigen::Vector3d p_WB = window.snap.sensors->pose->X_WB.p;
+  const ElevationMap& map = *window.snap.terrain->applied->elevation;
+  const GridGeometry& g = map.geometry;
+  const Cell cell = window.snap.terrain->applied->selection.sites.back().cell;
+  const Eigen::Vector2d pin(g.NorthOfRow(cell.row), g.EastOfCol(cell.col));
+  window.fly.maps.probe.pinned = pin;
+  window.Run(0.05);
+  ASSERT_NE(window.ui.items.Find("look_at_pin"), nullptr);
+  window.ui.Click("look_at_pin", window.draw);
+  ASSERT_EQ(window.ui.CountCommands<FlyTo>(), 1);
+  const FlyTo there = window.ui.LastCommand<FlyTo>();
+  const Eigen::Vector2d way = pin - p_WB.head<2>();
+  EXPECT_NEAR(WrapAngle(there.heading_rad - std::atan2(way.y(), way.x())), 0, 1e-9);
+  EXPECT_EQ(there.p_WB.z(), p_WB.z()) << "level";
+  const double height_m = -p_WB.z() - static_cast<double>(map.Measured().at(cell));
+  const double before_m =
+      height_m / std::tan(Rad(window.snap.session->settings.mission.glide_slope_deg));
+  EXPECT_NEAR((pin - there.p_WB.head<2>()).norm(), std::min(way.norm(), before_m), 1e-6);
+}
+
+TEST(WaysElsewhere, HaveRoomInTheHead) {
+  for (const MissionState state : {MissionState::kSearch, MissionState::kHold}) {
+    for (const float width : {1280.0F, 1920.0F}) {
+      FlyWindow window(width, width * 9 / 16, fake::Snapshot(state));
+      window.Run(0.05);
+      ASSERT_NE(window.ui.items.Find("look_at_pin"), nullptr);
+      const float end = window.ui.items.Find("look_at_pin")->rect.right();
+      EXPECT_LT(end, width - 8) << "at " << width << ", " << MissionStateName(state);
+    }
+  }
+}
+
+TEST(WaysElsewhere, SayWhyNotAndAreGoneWhereASiteIsSelected) {
+  EngineSnapshot snap = fake::Snapshot(MissionState::kSearch);
+  snap.flight.Edit().mission.why_not_go = "The vehicle does not hover";
+  FlyWindow refused(1280, 720, snap);
+  refused.ui.Click("climb", refused.draw);
+  EXPECT_EQ(refused.ui.CountCommands<FlyTo>(), 0);
+  FlyWindow armed(1280, 720, fake::Snapshot(MissionState::kArmed));
+  armed.Run(0.05);
+  EXPECT_EQ(armed.ui.items.Find("climb"), nullptr);
+}
+
+TEST(WaysElsewhere, OnTheWayThereIsOneButtonThatStopsIt) {
+  EngineSnapshot snap = fake::Snapshot(MissionState::kSearch);
+  Going going;
+  going.to_go_m = 12.34;
+  going.unseen_m = 6;
+  snap.flight.Edit().mission.going = going;
+  FlyWindow window(1280, 720, snap);
+  window.Run(0.05);
+  EXPECT_EQ(window.ui.items.Find("climb"), nullptr);
+  EXPECT_TRUE(HasText(window.ui.items, "12.3 m to go"));
+  window.ui.Click("hold_here", window.draw);
+  EXPECT_EQ(window.ui.CountCommands<HoldHere>(), 1);
+}
+
+TEST(WaysElsewhere, AHoldThatNothingFollowsOffersThem) {
+  FlyWindow window(1280, 720, fake::Snapshot(MissionState::kHold));
+  window.ui.Click("turn_left", window.draw);
+  EXPECT_EQ(window.ui.CountCommands<FlyTo>(), 1);
+}
+
+}  // namespace
+}  // namespace palace
