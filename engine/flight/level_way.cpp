@@ -16,33 +16,42 @@ double TopOf(const ElevationMap& map, Cell cell) {
 
 }  // namespace
 
-WayBelow LookBelow(const ElevationMap& map, const Eigen::Vector2d& from_W,
-                   const Eigen::Vector2d& to_W, double half_width_m) {
+double HighestBelow(const ElevationMap& map, const Eigen::Vector2d& from_W,
+                    const Eigen::Vector2d& to_W, double half_width_m) {
   const GridGeometry& g = map.geometry;
   const Eigen::Vector2d way = to_W - from_W;
   const double length_m = way.norm();
   const Eigen::Vector2d along = length_m > 0 ? Eigen::Vector2d(way / length_m) : way;
-  WayBelow below;
+  double highest_m = NAN;
   for (int row = 0; row < g.rows; ++row) {
     for (int col = 0; col < g.cols; ++col) {
       const Eigen::Vector2d from_start =
           Eigen::Vector2d(g.NorthOfRow(row), g.EastOfCol(col)) - from_W;
       const double s = std::clamp(from_start.dot(along), 0.0, length_m);
-      if ((from_start - s * along).norm() > half_width_m ||
-          map.state.at(row, col) == CellState::kUnknown) {
-        continue;
+      if ((from_start - s * along).norm() <= half_width_m &&
+          map.state.at(row, col) != CellState::kUnknown) {
+        highest_m = std::fmax(highest_m, TopOf(map, {row, col}));
       }
-      below.highest_m = std::fmax(below.highest_m, TopOf(map, {row, col}));
     }
   }
-  const double step_m = g.cell_m > 0 ? g.cell_m : length_m;
-  for (double s = 0; s < length_m; s += step_m) {
-    const Eigen::Vector2d at = from_W + s * along;
-    const auto cell = g.rows > 0 ? g.CellFromPoint(at.x(), at.y()) : std::optional<Cell>();
-    below.unseen_m += !cell || map.state.at(*cell) != CellState::kMeasured ? step_m : 0;
+  return highest_m;
+}
+
+double UnseenBelow(const ElevationMap& map, const Eigen::Vector2d& from_W,
+                   const Eigen::Vector2d& to_W) {
+  const GridGeometry& g = map.geometry;
+  const double length_m = (to_W - from_W).norm();
+  if (g.rows <= 0 || !(g.cell_m > 0)) {
+    return length_m;
   }
-  below.unseen_m = std::min(below.unseen_m, length_m);
-  return below;
+  const int steps = std::max(1, static_cast<int>(std::ceil(length_m / g.cell_m)));
+  int unseen = 0;
+  for (int k = 0; k < steps; ++k) {
+    const Eigen::Vector2d at = from_W + (k + 0.5) / steps * (to_W - from_W);
+    const auto cell = g.CellFromPoint(at.x(), at.y());
+    unseen += !cell || map.state.at(*cell) != CellState::kMeasured ? 1 : 0;
+  }
+  return length_m * unseen / steps;
 }
 
 }  // namespace palace

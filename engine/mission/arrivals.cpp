@@ -126,6 +126,7 @@ void FollowJump(MissionTurn& turn, const MissionInputs& in) {
             : StartsAnewAfterJump(in.session.role) ? InputWatch()
                                                    : m.watch.AfterJump();
   m.shown.clear();
+  m.went_at.reset();
   m.winner = {};
   m.facts.now = m.sent_at = m.status.since = m.vision_good_at = m.ground_seen_at = now;
   m.wave_off_at = m.abort_answered_at = m.foreign_told_at = m.told_foreign_at = now;

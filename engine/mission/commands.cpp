@@ -153,6 +153,9 @@ Status Obeying::operator()(const SelectSite& action) const {
   if (state == MissionState::kArmed && m.status.armed->id == action.site_id) {
     return Ok();  // set, not toggle: a second copy changes nothing (I8)
   }
+  if (m.status.going) {  // it stays where it sees the site
+    StopGoing(turn, words::SiteSelected(site->letter), now);
+  }
   ForgetSite(m);
   m.refusal.clear();
   m.status.armed = *site;

@@ -14,19 +14,30 @@ namespace {
 constexpr double kAnswer_s = 5;    // the vehicle refuses it afterwards
 constexpr double kLower_m = 0.5;   // of a level way: what a hover strays
 constexpr double kNoWay_m = 0.05;  // nor a turn
+constexpr double kOnTheSpot_m = 0.5;
+constexpr double kPause_s = 1;
+constexpr const char* kNoPlace = "Where the vehicle is, is not known";
 constexpr double kNoTurn_rad = Rad(0.5);
 
 bool Hovers(VehicleMode mode) {
   return mode == VehicleMode::kHover || mode == VehicleMode::kHold || mode == VehicleMode::kGo;
 }
 
-/// The level part of the way, over what the newest map knows.
-WayBelow LookBelow(const MissionMemory& m, const Eigen::Vector3d& there_W) {
+bool IsPlaceKnown(const MissionMemory& m) {
+  return m.facts.position_healthy && m.facts.p_WB.allFinite() && std::isfinite(m.facts.yaw_rad);
+}
+
+/// Of the level part of the way, by the newest map.
+double Unseen(const MissionMemory& m, const Eigen::Vector3d& there_W) {
   const MissionFacts& facts = m.facts;
-  return facts.elevation
-             ? palace::LookBelow(*facts.elevation, facts.p_WB.head<2>(), there_W.head<2>(),
-                                 facts.settings.slad.lander.rotor_diameter_m / 2)
-             : WayBelow{NAN, (there_W - facts.p_WB).head<2>().norm()};
+  return facts.elevation ? UnseenBelow(*facts.elevation, facts.p_WB.head<2>(), there_W.head<2>())
+                         : (there_W - facts.p_WB).head<2>().norm();
+}
+double Highest(const MissionMemory& m, const Eigen::Vector3d& there_W) {
+  const MissionFacts& facts = m.facts;
+  return facts.elevation ? HighestBelow(*facts.elevation, facts.p_WB.head<2>(), there_W.head<2>(),
+                                        facts.settings.slad.lander.rotor_diameter_m / 2)
+                         : NAN;
 }
 
 void End(MissionTurn& turn, EventKind kind, std::string why, Timestamp now) {
@@ -34,6 +45,7 @@ void End(MissionTurn& turn, EventKind kind, std::string why, Timestamp now) {
   AddEvent(turn, now, kind, why);
   status.going.reset();
   status.selection_ended = std::move(why) + ".";
+  turn.memory.went_at = now;
 }
 
 }  // namespace
@@ -54,8 +66,11 @@ std::string WhyNowhere(const MissionMemory& m, Timestamp now) {
       m.watch.LinkAge(now) > GuardLimits::link_s) {
     return old;
   }
-  if (!m.facts.p_WB.allFinite() || !std::isfinite(m.facts.yaw_rad)) {
-    return "Where the vehicle is, is not known";
+  if (!IsPlaceKnown(m)) {
+    return kNoPlace;
+  }
+  if (m.went_at && SecondsBetween(*m.went_at, now) < kPause_s) {
+    return "The way before ended just now";  // a second press meant that one
   }
   return m.status.search_stopped;
 }
@@ -80,10 +95,11 @@ std::string WhyNotThere(const MissionMemory& m, const FlyTo& there, Timestamp no
   }
   const double skids_m =
       HeightFromDown(there.p_WB.z() + m.facts.settings.slad.lander.skid_centre_B().z());
-  const double highest_m = LookBelow(m, there.p_WB).highest_m;
+  // Where it hovers it may turn and climb, whatever stands below it.
+  const double highest_m = far_m > kOnTheSpot_m ? Highest(m, there.p_WB) : NAN;
   if (highest_m > skids_m - kLeastBelowSkids_m) {
     return std::isfinite(highest_m)
-               ? WithNumbers("Something stands up to %.1f m below the skids on the way, min %.1f m",
+               ? WithNumbers("What stands on the way leaves %.1f m below the skids, min %.1f m",
                              skids_m - highest_m, kLeastBelowSkids_m)
                : std::string("A wire of unknown height hangs over the way");
   }
@@ -98,10 +114,10 @@ void StartGoing(MissionTurn& turn, const FlyTo& there, const char* who, Timestam
   }
   m.go_id = RequestNumber(turn.station.session_id, ++m.requests_made);
   const Eigen::Vector3d way = there.p_WB - m.facts.p_WB;
-  m.status.going =
-      Going{there.p_WB, there.heading_rad, now, way.norm(), LookBelow(m, there.p_WB).unseen_m};
+  m.status.going = Going{there.p_WB, there.heading_rad, now, way.norm(), Unseen(m, there.p_WB)};
   m.status.selection_ended.clear();
-  AddEvent(turn, now, EventKind::kDecision, words::SentTo(way, there.heading_rad, who));
+  AddEvent(turn, now, EventKind::kDecision,
+           words::SentTo(way, there.heading_rad, m.status.going->unseen_m, who));
   m.winner = {};  // of what is seen from there
   if (m.status.state != MissionState::kSearch && m.status.state != MissionState::kNoLive) {
     Enter(turn, MissionState::kSearch, "Flies to another hover", now);
@@ -140,6 +156,7 @@ void FollowGoing(MissionTurn& turn, Timestamp now) {
   const auto& vehicle = m.watch.vehicle();
   const VehicleMode mode = vehicle ? vehicle->mode : VehicleMode::kUnknown;
   going.to_go_m = (going.p_WB - m.facts.p_WB).norm();
+  going.unseen_m = Unseen(m, going.p_WB);
   if (mode == VehicleMode::kGo) {
     going.accepted = going.flown = true;
     const bool ours = m.repeating && std::holds_alternative<GoRequest>(*m.repeating);
@@ -154,6 +171,8 @@ void FollowGoing(MissionTurn& turn, Timestamp now) {
     End(turn, EventKind::kVehicle, "Vehicle hovers where it was sent", now);
   } else if (going.flown && mode != VehicleMode::kGo) {
     End(turn, EventKind::kVehicle, "Vehicle stopped on the way to another hover", now);
+  } else if (!IsPlaceKnown(m)) {
+    StopGoing(turn, kNoPlace, now);
   } else if (!going.accepted && SecondsBetween(going.since, now) >= kAnswer_s) {
     m.repeating.reset();
     End(turn, EventKind::kVehicle,

@@ -114,6 +114,7 @@ struct MissionMemory {
   std::optional<VehicleMessage> repeating;  ///< until the vehicle answers
   Timestamp sent_at;                        ///< of the message being repeated
   Timestamp approved_at;                    ///< station time of the approval
+  std::optional<Timestamp> went_at;         ///< the newest way to another hover ended
   std::string refusal;         ///< the vehicle's refusal of the last approval, empty when none
   std::string vehicle_reason;  ///< why it gave up the approval that it flew, by its own word
   Timestamp foreign_told_at;   ///< newest event about commands of others that it refused

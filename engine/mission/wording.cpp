@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "engine/core/text.h"
+#include "engine/core/units.h"
 #include "engine/mission/limits.h"
 #include "engine/model/cell_explanation.h"
 #include "engine/model/mission/alarm_text.h"
@@ -53,7 +54,8 @@ std::string CannotGoIn(MissionState state) {
   return std::string("Nowhere is flown to in state ") + MissionStateWord(state);
 }
 
-std::string SentTo(const Eigen::Vector3d& way_W, double heading_rad, const char* who) {
+std::string SentTo(const Eigen::Vector3d& way_W, double heading_rad, double unseen_m,
+                   const char* who) {
   constexpr double kTold_m = 0.5;
   const double far_m = way_W.head<2>().norm(), up_m = -way_W.z();
   std::vector<std::string> parts;
@@ -64,7 +66,11 @@ std::string SentTo(const Eigen::Vector3d& way_W, double heading_rad, const char*
   if (up_m >= kTold_m) {
     parts.push_back(WithNumbers("%.1f m up", up_m));
   }
-  parts.push_back(std::string("to look ") + DirectionWord(heading_rad));
+  const double degrees = std::round(Deg(WrapAngle(heading_rad)));
+  parts.push_back(WithNumbers("to look along %03.0f°", degrees < 0 ? degrees + 360 : degrees));
+  if (unseen_m >= kTold_m) {
+    parts.push_back(WithNumbers("over %.1f m of ground that no map showed", unseen_m));
+  }
   return "Sent " + Joined(parts) + ", by " + who;
 }
 

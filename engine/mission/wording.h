@@ -72,8 +72,10 @@ std::string Acknowledged(const std::string& text);
 std::string NotStanding(const std::string& text);
 std::string CannotSelectIn(MissionState state);
 std::string CannotGoIn(MissionState state);
-/// "Sent 12.0 m north, 3.0 m up, to look north-east, by the operator".
-std::string SentTo(const Eigen::Vector3d& way_W, double heading_rad, const char* who);
+/// "Sent 12.0 m north, 3.0 m up, to look along 045°, over 5.2 m of ground that no map showed, by
+/// the operator".
+std::string SentTo(const Eigen::Vector3d& way_W, double heading_rad, double unseen_m,
+                   const char* who);
 std::string NotTheArmedOne(const MissionStatus& status);
 
 /// "stale, 1.8 s" or "never received".

@@ -37,7 +37,7 @@ double ShakenFor_s(const EngineSnapshot& snap) {
 
 /// "Flies to another hover: 12.3 m and 40° to go, over 6 m of ground that no map showed."
 std::string WayWords(const EngineSnapshot& snap) {
-  constexpr double kTold_m = 0.5, kTold_deg = 1;
+  constexpr double kTold_m = 0.1, kTold_deg = 1;
   const Going& going = *snap.flight->mission.going;
   const std::optional<VehiclePose>& pose = snap.sensors->pose;
   const double turn_deg =
@@ -48,7 +48,7 @@ std::string WayWords(const EngineSnapshot& snap) {
   const std::string left = way + (way.empty() || turn.empty() ? "" : " and ") + turn;
   return std::string("Flies to another hover") + (left.empty() ? "" : ": " + left + " to go") +
          (going.unseen_m >= kTold_m
-              ? ", over " + Fixed(going.unseen_m, 0) + " m of ground that no map showed."
+              ? ", over " + Fixed(going.unseen_m, 1) + " m of ground that no map showed."
               : ".");
 }
 
@@ -177,6 +177,9 @@ std::string WhatToDoUnarmed(const EngineSnapshot& snap) {
   }
   if (m.going) {
     return WayWords(snap) + " Hold here stops it.";
+  }
+  if (snap.sensors->vehicle && snap.sensors->vehicle->mode == VehicleMode::kGo) {
+    return "The vehicle flies to another hover.";  // another's order, or a record after a jump
   }
   if (m.state == MissionState::kNoLive && !m.why.empty()) {
     return m.why + ".";

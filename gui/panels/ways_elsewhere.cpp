@@ -54,13 +54,14 @@ struct Row {
     const Style& s = ui.style;
     next.w = TextWidth(s.caption, words) + s.Px(12);
     const std::string& why_not = snap.flight->mission.why_not_go;
+    const std::string reason = !snap.session->can_transmit ? WhyNoLink(snap)
+                               : !why_not.empty()          ? why_not
+                                                           : why_none;
     ButtonLook look;
     look.font = s.caption;
     look.flat = true;
     look.enabled = there && why_not.empty() && snap.session->can_transmit;
-    look.reason = !snap.session->can_transmit ? WhyNoLink(snap)
-                  : !why_not.empty()          ? why_not
-                                              : why_none;
+    look.reason = reason;
     look.hint = hint;
     if (DrawButton(ui, name, next, words, look)) {
       ui.intents.push_back(CommandAction(*there));
@@ -78,12 +79,15 @@ void DrawWaysElsewhere(const EngineSnapshot& snap, const Rect& panel, float left
   Row row{snap, ui, {left, panel.y + s.Px(3), 0, s.Px(22)}};
   if (m.going) {
     const std::string words = "Hold here";
-    row.next.w = TextWidth(s.caption, words) + s.Px(20);
+    const std::string reason = WhyNoLink(snap);
+    const float width = TextWidth(s.caption, words) + s.Px(20);
     ButtonLook look;
     look.font = s.caption;
     look.enabled = snap.session->can_transmit;
-    look.reason = WhyNoLink(snap);
-    if (DrawButton(ui, "hold_here", row.next, words, look)) {
+    look.reason = reason;
+    // At the other end of the head: a press too many on a way is no hold, nor the reverse a way.
+    const Rect at{panel.right() - s.Px(8) - width, row.next.y, width, row.next.h};
+    if (DrawButton(ui, "hold_here", at, words, look)) {
       ui.intents.push_back(CommandAction(HoldHere{}));
     }
     return;
@@ -108,7 +112,8 @@ void DrawWaysElsewhere(const EngineSnapshot& snap, const Rect& panel, float left
             "Turns to the place that is pinned on a map, flies level until the cameras look at it, "
             "and hovers there",
             pin ? HoverBefore(snap, *pin) : std::nullopt,
-            pin ? "The height of the place is not known" : "Click a place on a map first");
+            pin ? "The map does not know the height of the pinned place now"
+                : "Click a place on a map first");
 }
 
 }  // namespace palace

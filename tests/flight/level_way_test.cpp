@@ -46,7 +46,7 @@ TEST(LevelWay, TheHighestTopInTheCorridorIsTold) {
         Row{"passes 1 m beside it", {0, 2}, {19, 2}, 3.03},
         Row{"passes 2 m beside it", {0, 3.5}, {19, 3.5}, 0.03},
         Row{"goes nowhere, beside it", {10, 2}, {10, 2}, 3.03}}) {
-    EXPECT_NEAR(LookBelow(map, row.from, row.to, 1.5).highest_m, row.highest_m, 1e-6) << row.name;
+    EXPECT_NEAR(HighestBelow(map, row.from, row.to, 1.5), row.highest_m, 1e-6) << row.name;
   }
 }
 
@@ -55,19 +55,18 @@ TEST(LevelWay, AWireCountsAsHighAsItHangs) {
   map.thin_top_m = GridF(80, 80, kUnknownValue);
   const auto cell = map.geometry.CellFromPoint(4, 0);
   map.thin_top_m.at(*cell) = 7;
-  EXPECT_NEAR(LookBelow(map, {0, 0}, {8, 0}, 1.5).highest_m, 7, 1e-6);
+  EXPECT_NEAR(HighestBelow(map, {0, 0}, {8, 0}, 1.5), 7, 1e-6);
   map.thin_top_m.at(*cell) = std::numeric_limits<float>::infinity();  // at a height nobody knows
-  EXPECT_TRUE(std::isinf(LookBelow(map, {0, 0}, {8, 0}, 1.5).highest_m));
+  EXPECT_TRUE(std::isinf(HighestBelow(map, {0, 0}, {8, 0}, 1.5)));
 }
 
 TEST(LevelWay, WhatWasNotSeenIsMeasuredAlongTheWay) {
   const ElevationMap map = Field();
-  EXPECT_NEAR(LookBelow(map, {0, 0}, {10, 5}, 1.5).unseen_m, 0, 1e-9);
-  EXPECT_NEAR(LookBelow(map, {-10, 0}, {-19, 0}, 1.5).unseen_m, 4, 0.5);
-  EXPECT_NEAR(LookBelow(map, {-10, 0}, {-30, 0}, 1.5).unseen_m, 15, 0.5) << "off the map, too";
-  const WayBelow nothing = LookBelow({}, {0, 0}, {10, 0}, 1.5);
-  EXPECT_TRUE(std::isnan(nothing.highest_m));
-  EXPECT_NEAR(nothing.unseen_m, 10, 1e-9);
+  EXPECT_NEAR(UnseenBelow(map, {0, 0}, {10, 5}), 0, 1e-9);
+  EXPECT_NEAR(UnseenBelow(map, {-10, 0}, {-19, 0}), 4, 0.5);
+  EXPECT_NEAR(UnseenBelow(map, {-10, 0}, {-30, 0}), 15, 0.5) << "off the map, too";
+  EXPECT_TRUE(std::isnan(HighestBelow({}, {0, 0}, {10, 0}, 1.5)));
+  EXPECT_NEAR(UnseenBelow({}, {0, 0}, {10, 0}), 10, 1e-9);
 }
 
 }  // namespace

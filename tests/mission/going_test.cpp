@@ -40,7 +40,7 @@ TEST(Going, IsSentFollowedAndOver) {
   GoingRig rig;
   ASSERT_EQ(rig.status().why_not_go, "");
   ASSERT_TRUE(rig.Fly({12, 0, -3}, Rad(90)).ok());
-  EXPECT_EQ(rig.LastDecision(), "Sent 12.0 m north, 3.0 m up, to look east, by the operator");
+  EXPECT_EQ(rig.LastDecision(), "Sent 12.0 m north, 3.0 m up, to look along 090°, by the operator");
   EXPECT_EQ(rig.state(), MissionState::kSearch) << "what was proposed was seen from elsewhere";
   ASSERT_TRUE(rig.status().going.has_value());
   rig.Run(0.5);
@@ -83,13 +83,17 @@ TEST(Going, NothingKnownMayReachTheSkidsOnTheWay) {
   rig.Run(0.2);
   const Status answer = rig.Fly({15, 0, 0}, 0);
   ASSERT_FALSE(answer.ok());
-  EXPECT_EQ(answer.error().message.rfind("Something stands up to ", 0), 0u)
+  EXPECT_EQ(answer.error().message.rfind("What stands on the way leaves 1.6 m below", 0), 0u)
       << answer.error().message;
   EXPECT_TRUE(rig.Fly({15, 0, -3}, 0).ok()) << "higher over it";
   GoingRig other;
   other.elevation->height_m.at(*cell) = 17.5F;
   other.Run(0.2);
   EXPECT_TRUE(other.Fly({0, 15, 0}, 0).ok()) << "another way";
+  GoingRig below;
+  below.elevation->height_m.at(*below.elevation->geometry.CellFromPoint(9.5, 2)) = 18;
+  below.Run(0.2);
+  EXPECT_TRUE(below.Fly({0, 0, 0}, Rad(45)).ok()) << "where it hovers it may turn";
 }
 
 TEST(Going, WhatIsSelectedOrFlownComesFirst) {
@@ -124,7 +128,7 @@ TEST(Going, IsHeldByOnePress) {
   rig.Run(0.5);
   ASSERT_TRUE(rig.Do(HoldHere{}).ok());
   EXPECT_FALSE(rig.status().going.has_value());
-  rig.Run(0.5);
+  rig.Run(1.2);
   EXPECT_EQ(rig.vehicle.mode, VehicleMode::kHold);
   EXPECT_EQ(rig.SentCount<HoldRequest>(), 1);
   EXPECT_EQ(rig.status().why_not_go, "") << "and may be sent on from there";
@@ -171,16 +175,39 @@ TEST(Going, ALostAnswerIsSeenByTheDeed) {
   EXPECT_FALSE(rig.status().going.has_value());
 }
 
-TEST(Going, AnApprovalOnTheWayEndsIt) {
+TEST(Going, ASelectionStopsItWhereTheSiteIsSeen) {
   GoingRig rig;
   ASSERT_TRUE(rig.Fly({10, 0, 0}, 0).ok());
   rig.vehicle.mode_for_s = -100;  // it takes long
   ASSERT_TRUE(rig.RunUntil(MissionState::kProposed));
   ASSERT_TRUE(rig.status().going.has_value());
   ASSERT_TRUE(rig.Do(SelectSite{101}).ok());
-  rig.Run(1.5);
-  ASSERT_TRUE(rig.ApproveNow().ok()) << rig.status().cannot_approve_reason;
   EXPECT_FALSE(rig.status().going.has_value());
+  rig.Run(1.5);
+  EXPECT_EQ(rig.vehicle.mode, VehicleMode::kHold);
+  EXPECT_TRUE(rig.ApproveNow().ok()) << rig.status().cannot_approve_reason;
+}
+
+TEST(Going, StopsWhereThePositionIsLost) {
+  GoingRig rig;
+  ASSERT_TRUE(rig.Fly({10, 0, 0}, 0).ok());
+  rig.vehicle.mode_for_s = -100;
+  rig.Run(0.5);
+  rig.navigation.gps.estimate.healthy = false;
+  rig.Run(0.5);
+  EXPECT_FALSE(rig.status().going.has_value());
+  EXPECT_EQ(rig.vehicle.mode, VehicleMode::kHold);
+  EXPECT_EQ(rig.status().why_not_go, "Where the vehicle is, is not known");
+}
+
+TEST(Going, ASecondPressWithinAMomentIsNoNewWay) {
+  GoingRig rig;
+  ASSERT_TRUE(rig.Fly({40, 0, 0}, 0).ok());
+  rig.Run(0.5);
+  ASSERT_TRUE(rig.Do(HoldHere{}).ok());
+  EXPECT_FALSE(rig.Fly({0, 0, 0}, Rad(-45)).ok());
+  rig.Run(1.2);
+  EXPECT_TRUE(rig.Fly({0, 0, 0}, Rad(-45)).ok());
 }
 
 TEST(Going, OfAScriptOnlyWhereScriptsMayAndNeverWithoutCommand) {

@@ -74,6 +74,10 @@ TEST(WaysElsewhere, SayWhyNotAndAreGoneWhereASiteIsSelected) {
   FlyWindow refused(1280, 720, snap);
   refused.ui.Click("climb", refused.draw);
   EXPECT_EQ(refused.ui.CountCommands<FlyTo>(), 0);
+  refused.ui.MoveTo("climb");
+  refused.Run(0.1);
+  ASSERT_NE(refused.ui.items.Find("tooltip"), nullptr);
+  EXPECT_EQ(refused.ui.items.Find("tooltip")->text, "The vehicle does not hover");
   FlyWindow armed(1280, 720, fake::Snapshot(MissionState::kArmed));
   armed.Run(0.05);
   EXPECT_EQ(armed.ui.items.Find("climb"), nullptr);
