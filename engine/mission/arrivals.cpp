@@ -103,6 +103,10 @@ void TakeApprovalAnswer(MissionTurn& turn, const CommandAck& ack, Timestamp now)
 void TellRefusal(MissionTurn& turn, const CommandAck& ack, Timestamp now) {
   MissionMemory& m = turn.memory;
   const bool hold = IsSameMessage(m, ack.command_id, m.hold_id);
+  // The window sends a hold at once, the mission one with its step: one of the two comes too late.
+  if (hold && m.watch.vehicle() && m.watch.vehicle()->mode == VehicleMode::kHold) {
+    return;
+  }
   if (IsOwnApproval(m, ack.command_id)) {
     m.vehicle_reason = ack.reason;
     AddEvent(turn, now, EventKind::kVehicle, "Vehicle gives up the approval: " + ack.reason);

@@ -178,6 +178,21 @@ TEST(Faults, ARefusedHoldGoesOnAndSaysWhy) {
   EXPECT_EQ(rig.vehicle.mode, VehicleMode::kHold);
 }
 
+// The window's own hold came first: the mission's copy is refused as an old one.
+TEST(Faults, ACopyOfAHoldThatIsObeyedIsNoRefusal) {
+  MissionRig rig;
+  rig.Arm();
+  ASSERT_TRUE(rig.ApproveNow().ok());
+  ASSERT_TRUE(rig.RunUntil(MissionState::kDescending, 5));
+  ASSERT_TRUE(rig.Do(HoldHere{}).ok());
+  rig.vehicle.Set(VehicleMode::kHold);
+  rig.vehicle.refuses_holds = true;
+  rig.Run(1);
+  for (const Event& event : rig.mission.events()) {
+    EXPECT_EQ(event.text.find("Vehicle refused the hold"), std::string::npos) << event.text;
+  }
+}
+
 class Guards : public testing::TestWithParam<Block> {};
 
 TEST_P(Guards, BlockApprovalAndNameTheReason) {
