@@ -66,8 +66,8 @@ std::string SentTo(const Eigen::Vector3d& way_W, double heading_rad, double unse
   if (up_m >= kTold_m) {
     parts.push_back(WithNumbers("%.1f m up", up_m));
   }
-  const double degrees = std::round(Deg(WrapAngle(heading_rad)));
-  parts.push_back(WithNumbers("to look along %03.0f°", degrees < 0 ? degrees + 360 : degrees));
+  const long degrees = (std::lround(Deg(WrapAngle(heading_rad))) + 360) % 360;
+  parts.push_back(WithNumbers("to look along %03.0f°", static_cast<double>(degrees)));
   if (unseen_m >= kTold_m) {
     parts.push_back(WithNumbers("over %.1f m of ground that no map showed", unseen_m));
   }

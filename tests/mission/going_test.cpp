@@ -57,6 +57,19 @@ TEST(Going, IsSentFollowedAndOver) {
   EXPECT_TRUE(rig.RunUntil(MissionState::kProposed)) << "by maps from there";
 }
 
+TEST(Going, BearingsAreToldFrom000To359) {
+  for (const auto& [heading_deg, told] : {std::pair{-0.3, "000°"},
+                                          {359.7, "000°"},
+                                          {45.2, "045°"},
+                                          {-90.0, "270°"},
+                                          {180.0, "180°"}}) {
+    GoingRig rig;
+    ASSERT_TRUE(rig.Fly({5, 0, 0}, Rad(heading_deg)).ok());
+    EXPECT_NE(rig.LastDecision().find(std::string("along ") + told), std::string::npos)
+        << rig.LastDecision();
+  }
+}
+
 TEST(Going, IsRefusedWithTheReason) {
   struct Row {
     const char* why;
