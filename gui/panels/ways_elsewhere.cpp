@@ -5,7 +5,6 @@
 #include <string>
 
 #include "engine/core/units.h"
-#include "engine/model/cell_explanation.h"
 #include "gui/panels/fly_panels.h"
 #include "gui/panels/session_words.h"
 #include "gui/widgets/button.h"
