@@ -111,8 +111,9 @@ void DrawWaysElsewhere(const EngineSnapshot& snap, const Rect& panel, float left
             "Turns to the place that is pinned on a map, flies level until the cameras look at it, "
             "and hovers there",
             pin ? HoverBefore(snap, *pin) : std::nullopt,
-            pin ? "The map does not know the height of the pinned place now"
-                : "Click a place on a map first");
+            m.state == MissionState::kHold ? "Not from a hold: turn or climb first"
+            : pin ? "The map does not know the height of the pinned place now"
+                  : "Click a place on a map first");
 }
 
 }  // namespace palace
