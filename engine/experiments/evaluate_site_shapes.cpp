@@ -109,7 +109,7 @@ bool IsDetected(const Judged& judged, const PlacedShape& shape) {
 }
 
 bool IsSeen(const Judged& judged, Cell cell, double margin_m) {
-  const SeenGround seen = GroundSeenBy(judged.view);
+  const GroundInView seen = GroundSeenBy(judged.view);
   const double n = judged.north(cell.row), e = judged.east(cell.col);
   return n - margin_m >= seen.north_min_m && n + margin_m <= seen.north_max_m &&
          e - margin_m >= seen.east_min_m && e + margin_m <= seen.east_max_m;

@@ -55,7 +55,7 @@ class Builder {
 
 void PlaceObjects(const HoverView& view, int number, RandomStream& random, Builder& builder) {
   constexpr double kPitch_m = 1.8;
-  const SeenGround seen = GroundSeenBy(view);
+  const GroundInView seen = GroundSeenBy(view);
   const double tall_m = seen.north_max_m - seen.north_min_m - 0.8;
   const double wide_m = seen.east_max_m - seen.east_min_m - 0.8;
   const int rows = std::clamp(static_cast<int>(tall_m / kPitch_m), 1, 3);
@@ -185,7 +185,7 @@ double DepthInShape(const ShapeField& field, const PlacedShape& shape, double no
   return std::max(0.0, depth_m);
 }
 
-SeenGround GroundSeenBy(const HoverView& view) {
+GroundInView GroundSeenBy(const HoverView& view) {
   // Two standard deviations of drift and of the swing of attitude.
   const double swing_m = 2 * std::hypot(view.drift_m, view.attitude_motion_rad * view.height_m);
   const double half_east_m = view.height_m * std::tan(view.field_of_view_rad / 2);

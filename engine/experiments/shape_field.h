@@ -50,9 +50,9 @@ double DepthInShape(const ShapeField& field, const PlacedShape& shape, double no
 
 /// Level ground that both cameras see in every frame of a nadir hover heading north, but for rare
 /// excursions: the picture's footprint less drift and attitude motion.
-struct SeenGround {
+struct GroundInView {
   double north_min_m = 0, north_max_m = 0, east_min_m = 0, east_max_m = 0;
 };
-SeenGround GroundSeenBy(const HoverView& view);
+GroundInView GroundSeenBy(const HoverView& view);
 
 }  // namespace palace

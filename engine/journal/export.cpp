@@ -65,7 +65,9 @@ constexpr const char* kActions[] = {"set_setting",
                                     "ask_for_command",
                                     "release_command",
                                     "command_lost",
-                                    "fly_to"};
+                                    "fly_to",
+                                    "set_area",
+                                    "clear_area"};
 static_assert(std::size(kActions) == std::variant_size_v<CommandAction>);
 
 const char* NameOf(const CommandAction& action) {
@@ -206,6 +208,13 @@ class Exporter {
       value = to->heading_rad;
       text = WithNumbers("%.3f north, %.3f east,", to->p_WB.x(), to->p_WB.y()) +
              WithNumbers(" %.3f down, m", to->p_WB.z());
+    } else if (const auto* area = std::get_if<SetFlyArea>(&command->action)) {
+      value = area->area.ceiling_m;
+      for (const Eigen::Vector2d& corner : area->area.corners_W) {
+        text += (text.empty() ? "" : "; ") +
+                WithNumbers("%.3f north, %.3f east", corner.x(), corner.y());
+      }
+      text += ", m";
     }
     Add("decisions.csv", Row(m.time) << kOrigins[static_cast<int>(command->origin)]
                                      << NameOf(command->action) << name << value << site << sequence

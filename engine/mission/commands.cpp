@@ -123,6 +123,8 @@ struct Obeying {
   Status operator()(const ReleaseCommand&) const;
   Status operator()(const CommandLost& action) const;
   Status operator()(const FlyTo& there) const;
+  Status operator()(const SetFlyArea& action) const;
+  Status operator()(const ClearFlyArea&) const;
   /// Why the armed site may not be flown to by what was on the screen then; empty when it may.
   std::string WhyNotCommit(std::uint64_t site_id, std::uint64_t snapshot_sequence) const;
   Status Commit(double stop_height_m) const;
@@ -303,6 +305,35 @@ Status Obeying::operator()(const FlyTo& there) const {
     return Refuse(turn, now, "Fly there", std::move(why));
   }
   StartGoing(turn, there, WhoAsks(origin), now);
+  return Ok();
+}
+
+Status Obeying::operator()(const SetFlyArea& action) const {
+  MissionMemory& m = turn.memory;
+  std::string why = IsFlying(m.status.state) ? words::kApprovedHold : WhyNoArea(action.area);
+  if (why.empty() && m.status.going) {
+    why = words::kOnAWay;
+  }
+  if (!why.empty()) {
+    return Refuse(turn, now, "Area", std::move(why));
+  }
+  m.status.area = action.area;
+  m.search.planned_at = {};
+  AddEvent(turn, now, EventKind::kDecision, words::AreaSet(action.area, WhoAsks(origin)));
+  return Ok();
+}
+
+Status Obeying::operator()(const ClearFlyArea&) const {
+  MissionMemory& m = turn.memory;
+  if (!m.status.area) {
+    return Refuse(turn, now, "Area", "None was drawn");
+  }
+  if (IsFlying(m.status.state)) {
+    return Refuse(turn, now, "Area", words::kApprovedHold);
+  }
+  m.status.area.reset();
+  m.search.planned_at = {};
+  AddEvent(turn, now, EventKind::kDecision, std::string("Area cleared, by ") + WhoAsks(origin));
   return Ok();
 }
 

@@ -6,6 +6,7 @@
 #include "engine/core/text.h"
 #include "engine/core/units.h"
 #include "engine/mission/limits.h"
+#include "engine/mission/searching.h"
 #include "engine/mission/wording.h"
 
 namespace palace {
@@ -52,9 +53,6 @@ void End(MissionTurn& turn, EventKind kind, std::string why, Timestamp now) {
 
 std::string WhyNowhere(const MissionMemory& m, Timestamp now) {
   const MissionState state = m.status.state;
-  if (state == MissionState::kArmed) {
-    return "Deselect the site first";
-  }
   if (IsFlying(state) || state == MissionState::kAborting) {
     return IsFlying(state) ? words::kApprovedHold : words::CannotGoIn(state);
   }
@@ -93,6 +91,16 @@ std::string WhyNotThere(const MissionMemory& m, const FlyTo& there, Timestamp no
   if (up_m < -kLower_m) {
     return WithNumbers("%.1f m lower: a way down is flown to a site", -up_m);
   }
+  if (const auto& area = m.status.area) {
+    const double height_m = HeightFromDown(there.p_WB.z());
+    if (height_m > area->ceiling_m) {
+      return WithNumbers("%.0f m high, ceiling %.0f m", height_m, area->ceiling_m);
+    }
+    const double out_m = LeavesBy_m(*area, m.facts.p_WB.head<2>(), there.p_WB.head<2>());
+    if (out_m > 0) {
+      return words::LeavesArea(out_m);
+    }
+  }
   const double skids_m =
       HeightFromDown(there.p_WB.z() + m.facts.settings.slad.lander.skid_centre_B().z());
   // Where it hovers it may turn and climb, whatever stands below it.
@@ -109,13 +117,15 @@ std::string WhyNotThere(const MissionMemory& m, const FlyTo& there, Timestamp no
 
 void StartGoing(MissionTurn& turn, const FlyTo& there, const char* who, Timestamp now) {
   MissionMemory& m = turn.memory;
-  if (m.status.state == MissionState::kHold) {
+  if (m.status.state == MissionState::kHold || m.status.state == MissionState::kArmed) {
     ForgetSite(m);
   }
+  RememberLook(m, there);
   m.go_id = RequestNumber(turn.station.session_id, ++m.requests_made);
   const Eigen::Vector3d way = there.p_WB - m.facts.p_WB;
   m.status.going = Going{there.p_WB, there.heading_rad, now, way.norm(), Unseen(m, there.p_WB)};
   m.status.selection_ended.clear();
+  m.status.next_look.reset();
   AddEvent(turn, now, EventKind::kDecision,
            words::SentTo(way, there.heading_rad, m.status.going->unseen_m, who));
   m.winner = {};  // of what is seen from there

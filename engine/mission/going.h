@@ -3,7 +3,8 @@
 //
 //   sent -> accepted -> flown -> over         ends where it hovers there, or by what stops it
 //
-// Asked of every way: nothing is selected or flown, the vehicle hovers and was heard, it goes no
+// What was selected is not any more. Asked of every way: nothing is flown, the vehicle hovers and
+// was heard, it stays in the area that was drawn, it goes no
 // lower (a way down is flown to a site), no farther than kFarthestGo_m and no higher than
 // kMostClimb_m at once, and the newest map knows nothing that reaches within kLeastBelowSkids_m of
 // its skids on the level part. Ground that was not seen refuses nothing: it is told.

@@ -1,4 +1,7 @@
 // What the guards look at, out of the mission's memory.
+#include <algorithm>
+#include <cstddef>
+
 #include "engine/mission/descent_limits.h"
 #include "engine/mission/geometry.h"
 #include "engine/mission/guards.h"
@@ -18,6 +21,16 @@ std::string WhyNotThisSource(const MissionFacts& facts) {
   return MustBeLabelled(facts.role) && !facts.simulated_vehicle
              ? "This simulation is not labelled so"
              : "";
+}
+
+/// How far the way to the armed site leaves the area that was drawn.
+double WayLeavesArea_m(const MissionStatus& status) {
+  double out_m = 0;
+  for (std::size_t k = 1; status.area && k < status.way_W.size(); ++k) {
+    out_m = std::max(
+        out_m, LeavesBy_m(*status.area, status.way_W[k - 1].head<2>(), status.way_W[k].head<2>()));
+  }
+  return out_m;
 }
 
 /// Fills what speaks of the armed site.
@@ -49,6 +62,10 @@ void JudgeArmedSite(const MissionMemory& m, Timestamp now, GuardInputs& in) {
     // What is approved is the way that is planned.
     in.site_holds = false;
     in.site_reason = words::ApproachBlocked(in.site_letter);
+  }
+  if (const double out_m = WayLeavesArea_m(m.status); in.site_holds && out_m > 0) {
+    in.site_holds = false;
+    in.site_reason = words::WayLeavesArea(in.site_letter, out_m);
   }
   if (in.site_holds && !armed.course_judged) {
     in.site_holds = false;

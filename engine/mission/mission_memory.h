@@ -27,6 +27,7 @@
 #include "engine/model/navigation_status.h"
 #include "engine/model/range_map.h"
 #include "engine/model/settings/settings.h"
+#include "engine/search/ground_view.h"
 
 namespace palace {
 
@@ -76,6 +77,14 @@ struct ArmedFacts {
   bool air_shown = false;
 };
 
+/// What was looked at, and what is worth another look. Kept while the vehicle does not restart.
+struct SearchMemory {
+  std::optional<GroundView> view;  ///< of the newest rig
+  std::optional<LandingSite> promising;  ///< was proposed last
+  std::vector<std::uint64_t> looked_at;  ///< promising ones that were flown to, by id
+  Timestamp planned_at;
+};
+
 /// The best site's run of wins. Once it is long enough for a proposal it goes on whoever leads.
 struct WinningRun {
   std::uint64_t site_id = 0;
@@ -101,6 +110,7 @@ struct MissionMemory {
   /// The best other site now that shares no ground with the armed one.
   std::optional<LandingSite> alternative;
   WinningRun winner;
+  SearchMemory search;
   InputWatch watch;
   PictureWatch pictures;
   LossWatch losses;

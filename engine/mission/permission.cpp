@@ -19,6 +19,8 @@ struct ConcernsVehicle {
   bool operator()(const TurnApproach&) const { return true; }
   bool operator()(const RefuseSite&) const { return true; }
   bool operator()(const FlyTo&) const { return true; }
+  bool operator()(const SetFlyArea&) const { return true; }
+  bool operator()(const ClearFlyArea&) const { return true; }
   bool operator()(const HoldHere&) const { return true; }
   bool operator()(const WaveOff&) const { return true; }
   bool operator()(const AcknowledgeWaveOff&) const { return true; }
@@ -45,7 +47,9 @@ std::string WhyNotAllowed(const MissionOptions& station, const MissionFacts& fac
                        std::holds_alternative<LookAtSite>(command.action) ||
                        std::holds_alternative<TurnApproach>(command.action) ||
                        std::holds_alternative<FlyTo>(command.action);
-  const bool decides = commits || std::holds_alternative<RefuseSite>(command.action);
+  const bool decides = commits || std::holds_alternative<RefuseSite>(command.action) ||
+                       std::holds_alternative<SetFlyArea>(command.action) ||
+                       std::holds_alternative<ClearFlyArea>(command.action);
   if (!recorded && decides && WhyViewOnly(facts) != nullptr) {
     return WhyViewOnly(facts);
   }

@@ -8,6 +8,7 @@
 #include "engine/mission/going.h"
 #include "engine/mission/publish.h"
 #include "engine/mission/recheck.h"
+#include "engine/mission/searching.h"
 #include "engine/mission/states.h"
 #include "engine/mission/transitions.h"
 
@@ -21,6 +22,7 @@ MissionStep Step(const MissionOptions& station, MissionMemory memory, const Miss
   RememberFacts(turn.memory, in);
   PlanApproach(turn.memory);
   FollowWinner(turn.memory, in);
+  RememberGround(turn.memory, in);
   FollowSite(turn, in);
   FollowAuthority(turn, in);
   FollowAnswers(turn, in);
@@ -29,6 +31,7 @@ MissionStep Step(const MissionOptions& station, MissionMemory memory, const Miss
   StepState(turn, in);
   Repeat(turn, in.session.now);
   Publish(turn, in);
+  PlanSearch(turn.memory, in.session.now);
   return {std::move(turn.memory), std::move(turn.effects)};
 }
 

@@ -74,6 +74,47 @@ std::string SentTo(const Eigen::Vector3d& way_W, double heading_rad, double unse
   return "Sent " + Joined(parts) + ", by " + who;
 }
 
+std::string AreaSet(const FlyArea& area, const char* who) {
+  return WithNumbers("Vehicle kept to an area of %.0f m² up to %.0f m, by ", AreaOf_m2(area),
+                     area.ceiling_m) +
+         who;
+}
+
+std::string LeavesArea(double out_m) {
+  return out_m < 0.1 ? "It leaves the area" : WithNumbers("It leaves the area by %.1f m", out_m);
+}
+
+std::string WayLeavesArea(const std::string& letter, double out_m) {
+  return "The way to site " + letter + WithNumbers(" leaves the area by %.1f m", out_m);
+}
+
+namespace {
+
+/// "NW".
+const char* CompassPoint(double bearing_rad) {
+  constexpr const char* kPoints[] = {"N", "NE", "E", "SE", "S", "SW", "W", "NW"};
+  const long eighth = std::lround(WrapAngle(bearing_rad) / Rad(45));
+  return kPoints[(eighth + 8) % 8];
+}
+
+}  // namespace
+
+std::string WayInShort(const Eigen::Vector3d& way_W, double turn_rad) {
+  constexpr double kTold_m = 0.5;
+  const double far_m = way_W.head<2>().norm(), up_m = -way_W.z();
+  if (far_m >= kTold_m) {
+    return WithNumbers("%.0f m ", far_m) + CompassPoint(std::atan2(way_W.y(), way_W.x()));
+  }
+  if (up_m >= kTold_m) {
+    return WithNumbers("up %.0f m", up_m);
+  }
+  const double degrees = std::round(std::abs(Deg(turn_rad)));
+  return (degrees >= 180 ? "round "
+          : turn_rad < 0 ? "left "
+                         : "right ") +
+         WithNumbers("%.0f°", degrees);
+}
+
 std::string NotTheArmedOne(const MissionStatus& status) {
   return "Selected is " + SiteName(status) + ", not the site that was asked for";
 }

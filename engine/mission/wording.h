@@ -54,6 +54,7 @@ inline constexpr const char* kSelectFirst = "Select a site first";
 inline constexpr const char* kAlreadyApproved = "Already approved";
 inline constexpr const char* kApprovedHold = "Already approved, hold or wave off";
 inline constexpr const char* kNearEnough = "The vehicle is hardly higher than the look would be";
+inline constexpr const char* kOnAWay = "The vehicle flies to another hover";
 inline constexpr const char* kOtherPicture =
     "The picture on the screen was not that of this selection";
 std::string Commands(const std::string& fingerprint);
@@ -76,6 +77,14 @@ std::string CannotGoIn(MissionState state);
 /// the operator".
 std::string SentTo(const Eigen::Vector3d& way_W, double heading_rad, double unseen_m,
                    const char* who);
+/// "Vehicle kept to an area of 1,250 m² up to 30 m, by the operator".
+std::string AreaSet(const FlyArea& area, const char* who);
+/// "It leaves the area by 3.2 m".
+std::string LeavesArea(double out_m);
+/// "The way to site B leaves the area by 3.2 m".
+std::string WayLeavesArea(const std::string& letter, double out_m);
+/// "right 45°", "up 3 m", "12 m NE": the way in words short enough for a button.
+std::string WayInShort(const Eigen::Vector3d& way_W, double turn_rad);
 std::string NotTheArmedOne(const MissionStatus& status);
 
 /// "stale, 1.8 s" or "never received".

@@ -7,6 +7,8 @@
 
 #include <Eigen/Dense>
 
+#include "engine/model/mission/fly_area.h"
+
 namespace palace {
 
 /// Who asks; kStation is the program itself. Scripts may select and approve only on a simulated
@@ -53,6 +55,11 @@ struct FlyTo {
   Eigen::Vector3d p_WB = Eigen::Vector3d::Zero();  ///< NED metres
   double heading_rad = 0;                          ///< from north over east
 };
+/// Keeps the vehicle to an area from now on, in place of the one before.
+struct SetFlyArea {
+  FlyArea area;
+};
+struct ClearFlyArea {};
 /// Stops a descent where it is. The approval is dead afterwards.
 struct HoldHere {};
 /// Aborts from any state: climb away.
@@ -76,10 +83,11 @@ struct CommandLost {
   std::string why;
 };
 
-using CommandAction = std::variant<SetSetting, ApplySettings, DiscardSettings, SelectSite,
-                                   DisarmSite, ApproveSite, LookAtSite, TurnApproach, RefuseSite,
-                                   HoldHere, WaveOff, AcknowledgeAlarm, AcknowledgeWaveOff,
-                                   AddBookmark, AskForCommand, ReleaseCommand, CommandLost, FlyTo>;
+using CommandAction =
+    std::variant<SetSetting, ApplySettings, DiscardSettings, SelectSite, DisarmSite, ApproveSite,
+                 LookAtSite, TurnApproach, RefuseSite, HoldHere, WaveOff, AcknowledgeAlarm,
+                 AcknowledgeWaveOff, AddBookmark, AskForCommand, ReleaseCommand, CommandLost, FlyTo,
+                 SetFlyArea, ClearFlyArea>;
 
 struct EngineCommand {
   CommandOrigin origin = CommandOrigin::kOperator;

@@ -1,11 +1,8 @@
 #include "engine/runtime/scripted_operator.h"
 
 #include <algorithm>
-#include <cmath>
-#include <iterator>
 #include <utility>
 
-#include "engine/core/units.h"
 #include "engine/model/site_standing.h"
 
 namespace palace {
@@ -18,25 +15,6 @@ constexpr double kLow_m = 10;         // above the site: there at once
 constexpr double kLookedFor_s = 30;   // the same where a look ended
 
 constexpr double kNothingFor_s = 14;  // then other ground
-
-/// From the hover that the search began in: forward and to the right.
-struct Way {
-  double forward_m, turn_rad;
-};
-/// Round it first, for that flies over nothing; then farther on, over what was seen.
-constexpr Way kWays[] = {{0, Rad(50)},   {0, Rad(-50)}, {12, 0},       {12, Rad(60)},
-                         {12, Rad(-60)}, {24, 0},       {24, Rad(70)}, {24, Rad(-70)}};
-constexpr double kClimb_m = 5;
-constexpr int kClimbs = 3;
-
-/// The hover from which cameras that look down by 45 degrees look at the place, no farther back
-/// than now.
-FlyTo HoverBefore(const Eigen::Vector3d& p_WB, const Eigen::Vector3d& p_WS) {
-  const Eigen::Vector2d way = (p_WS - p_WB).head<2>();
-  const double go_m = std::max(0.0, way.norm() - (p_WS.z() - p_WB.z()));
-  const Eigen::Vector2d at = p_WB.head<2>() + go_m * way.normalized();
-  return {{at.x(), at.y(), p_WB.z()}, std::atan2(way.y(), way.x())};
-}
 
 std::vector<EngineCommand> Command(CommandAction action) {
   return {{CommandOrigin::kScript, std::move(action)}};
@@ -113,12 +91,6 @@ std::vector<EngineCommand> ScriptedOperator::Insist(const EngineSnapshot& snapsh
 
 std::vector<EngineCommand> ScriptedOperator::Search(const EngineSnapshot& snapshot) {
   const MissionStatus& mission = snapshot.flight->mission;
-  if (mission.state == MissionState::kProposed && snapshot.terrain->applied) {
-    const LandingSite* best = mission.BestStanding(snapshot.terrain->applied->selection.sites);
-    if (best != nullptr && !looked_before_.contains(best->id)) {
-      promising_ = *best;
-    }
-  }
   const bool searches = mission.state == MissionState::kSearch ||
                         mission.state == MissionState::kProposed ||
                         (mission.state == MissionState::kArmed && !mission.can_approve);
@@ -126,42 +98,16 @@ std::vector<EngineCommand> ScriptedOperator::Search(const EngineSnapshot& snapsh
     nothing_since_ = snapshot.time;
     return {};
   }
-  const std::optional<VehiclePose>& pose = snapshot.sensors->pose;
-  air_missing_ =
-      air_missing_ || (mission.state == MissionState::kArmed && !IsAirShown(*mission.armed));
-  if (SecondsBetween(*nothing_since_, snapshot.time) < kNothingFor_s || !pose) {
+  if (SecondsBetween(*nothing_since_, snapshot.time) < kNothingFor_s) {
     return {};
+  }
+  if (mission.next_look && mission.why_not_go.empty()) {
+    return Command(FlyTo{mission.next_look->p_WB, mission.next_look->heading_rad});
   }
   if (mission.state == MissionState::kArmed) {
     return Command(DisarmSite{});
   }
-  if (!mission.why_not_go.empty()) {
-    return {};
-  }
-  const Eigen::Vector3d& p_WB = pose->X_WB.p;
-  // What was proposed and did not last is looked at from where it is seen best.
-  if (promising_) {
-    const LandingSite site = *std::exchange(promising_, std::nullopt);
-    looked_before_.insert(site.id);
-    return Command(HoverBefore(p_WB, site.p_WS));
-  }
-  if (air_missing_ && climbs_ < kClimbs) {
-    ++climbs_;
-    air_missing_ = false;
-    return Command(
-        FlyTo{p_WB - kClimb_m * Eigen::Vector3d::UnitZ(), EulerFromRotation(pose->X_WB.R).yaw_rad});
-  }
-  if (ways_flown_ >= std::size(kWays)) {
-    return {};
-  }
-  if (!searched_from_) {
-    searched_from_ = pose->X_WB;
-  }
-  const Way& way = kWays[ways_flown_++];
-  const double yaw_rad = EulerFromRotation(searched_from_->R).yaw_rad;
-  const Eigen::Vector2d along(std::cos(yaw_rad), std::sin(yaw_rad));
-  const Eigen::Vector2d at = searched_from_->p.head<2>() + way.forward_m * along;
-  return Command(FlyTo{{at.x(), at.y(), p_WB.z()}, WrapAngle(yaw_rad + way.turn_rad)});
+  return {};
 }
 
 std::vector<EngineCommand> ScriptedOperator::Decide(const EngineSnapshot& snapshot) {

@@ -20,9 +20,8 @@ namespace palace {
 /// then takes the best site in view that failed it least, deselects what stays blocked, and
 /// acknowledges warnings that are over.
 ///
-/// One that searches, where nothing could be approved for a while, deselects what stays blocked
-/// and looks elsewhere: at a place that was proposed and did not last, from higher up where the air
-/// over a site was not seen, else round the hover and farther on.
+/// One that searches, where nothing could be approved for a while, flies the look that the mission
+/// proposes, else deselects what stays blocked.
 ///
 /// One that looks closer flies down to look before it approves, once at each site, wherever a look
 /// is offered; where nothing could be approved after it, one that looks again does.
@@ -47,12 +46,6 @@ class ScriptedOperator {
   bool insists_;
   bool looks_closer_;
   bool searches_;
-  std::optional<RigidTransform> searched_from_;  ///< X_WB of the hover that the ways count from
-  std::size_t ways_flown_ = 0;
-  std::optional<LandingSite> promising_;   ///< was proposed last, and not flown to yet
-  std::set<std::uint64_t> looked_before_;  ///< that were
-  bool air_missing_ = false;               ///< over a site that was selected
-  int climbs_ = 0;
   std::optional<Timestamp> nothing_since_;  ///< could be approved
   std::set<std::uint64_t> looked_at_;
   std::optional<Timestamp> seen_since_;

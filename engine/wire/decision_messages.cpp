@@ -1,4 +1,7 @@
+#include <cstddef>
+#include <string>
 #include <type_traits>
+#include <utility>
 
 #include "engine/core/text.h"
 #include "engine/model/approach_side.h"
@@ -75,6 +78,16 @@ struct ActionToWire {
     m.value = a.heading_rad;
     Pack(a.p_WB, m.pos);
   }
+  void operator()(const SetFlyArea& a) const {
+    m.kind = site_decision_t::SET_AREA;
+    m.value = a.area.ceiling_m;
+    for (const Eigen::Vector2d& corner : a.area.corners_W) {
+      m.corner_north.push_back(corner.x());
+      m.corner_east.push_back(corner.y());
+    }
+    m.corner_count = static_cast<std::int32_t>(a.area.corners_W.size());
+  }
+  void operator()(const ClearFlyArea&) const { m.kind = site_decision_t::CLEAR_AREA; }
 
  private:
   void Site(std::int8_t kind, std::uint64_t id) const {
@@ -90,6 +103,18 @@ Result<CommandAction> SideFromWire(double value, std::uint64_t site_id) {
     }
   }
   return InvalidError(WithNumbers("side of an approach %g is not one of -1..7", value));
+}
+
+Result<CommandAction> AreaFromWire(const site_decision_t& m) {
+  FlyArea area;
+  for (std::size_t k = 0; k < m.corner_north.size(); ++k) {
+    area.corners_W.emplace_back(m.corner_north[k], m.corner_east[k]);
+  }
+  area.ceiling_m = m.value;
+  if (std::string why = WhyNoArea(area); !why.empty()) {
+    return InvalidError("area: " + why);
+  }
+  return CommandAction(SetFlyArea{std::move(area)});
 }
 
 Result<CommandAction> ActionFromWire(const site_decision_t& m) {
@@ -132,8 +157,12 @@ Result<CommandAction> ActionFromWire(const site_decision_t& m) {
       return CommandAction(CommandLost{m.text});
     case site_decision_t::FLY_TO:
       return CommandAction(FlyTo{Unpack(m.pos), m.value});
+    case site_decision_t::SET_AREA:
+      return AreaFromWire(m);
+    case site_decision_t::CLEAR_AREA:
+      return CommandAction(ClearFlyArea{});
     default:
-      return InvalidError("decision kind " + std::to_string(m.kind) + " is not one of 0..18");
+      return InvalidError("decision kind " + std::to_string(m.kind) + " is not one of 0..20");
   }
 }
 

@@ -123,7 +123,10 @@ void VisitFields(Reader& read, site_proposal_t& m) {
 }
 template <typename Reader>
 void VisitFields(Reader& read, site_decision_t& m) {
-  read(m.utime, m.kind, m.origin, m.name, m.value, m.site_id, m.snapshot_sequence, m.text, m.pos);
+  read(m.utime, m.kind, m.origin, m.name, m.value, m.site_id, m.snapshot_sequence, m.text, m.pos,
+       m.corner_count);
+  read.List(m.corner_count, m.corner_north);
+  read.List(m.corner_count, m.corner_east);
 }
 template <typename Reader>
 void VisitFields(Reader& read, command_t& m) {

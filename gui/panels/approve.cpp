@@ -326,6 +326,9 @@ void DrawApprovePanel(const EngineSnapshot& snap, const Rect& rect, bool narrow,
   if (m.may_select && m.OffersLook()) {
     head = DrawLookButton(snap, rect, ui);
   }
+  if (armed && m.next_look) {  // without it the site cannot be approved
+    head = DrawProposedLook(snap, head + s.Px(10), rect.y + s.Px(3), false, ui);
+  }
   if (armed) {
     const float end = DrawDeselect(*m.armed, rect, narrow, ui);
     const auto other = [&](int side) { return side != m.approach->side; };
@@ -361,6 +364,9 @@ void DrawApprovePanel(const EngineSnapshot& snap, const Rect& rect, bool narrow,
   } else {
     DrawText(ui, narrow ? s.medium : s.section, p.text1, x, rect.y + s.Px(narrow ? 42 : 46),
              "Nothing is committed yet.");
+    if (m.may_select && !m.going) {
+      DrawProposedLook(snap, x + width, rect.y + s.Px(narrow ? 31 : 35), true, ui);
+    }
     DrawWhatNow(snap, {x, rect.y + s.Px(narrow ? 54 : 63), width, 0}, ButtonsTop(rect, narrow, s),
                 ui);
   }

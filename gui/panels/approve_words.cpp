@@ -52,7 +52,17 @@ std::string WayWords(const EngineSnapshot& snap) {
               : ".");
 }
 
+/// " Look right 45°: shows 240 m² that were not looked at yet."
+std::string LookWords(const MissionStatus& m) {
+  if (!m.next_look) {
+    return m.why_no_look.empty() || !m.why_not_go.empty() ? "" : " " + m.why_no_look + ".";
+  }
+  return " " + LookLabel(*m.next_look) + ": " + m.next_look->why + ".";
+}
+
 }  // namespace
+
+std::string LookLabel(const ProposedLook& look) { return "Look " + look.words; }
 
 std::string WhyNotApprove(const EngineSnapshot& snap, double silent_s) {
   const MissionStatus& m = snap.flight->mission;
@@ -185,7 +195,7 @@ std::string WhatToDoUnarmed(const EngineSnapshot& snap) {
     return m.why + ".";
   }
   if (!sites) {
-    return "Waiting for a site inside all limits.";
+    return "Waiting for a site inside all limits." + LookWords(m);
   }
   switch (m.state) {
     case MissionState::kProposed:
@@ -195,7 +205,7 @@ std::string WhatToDoUnarmed(const EngineSnapshot& snap) {
         return m.search_stopped + ": no site is proposed.";
       }
       return "Selectable once one site has led for " +
-             Duration(snap.session->settings.mission.propose_after_s) + ".";
+             Duration(snap.session->settings.mission.propose_after_s) + "." + LookWords(m);
     default:
       return "No site can be selected now.";
   }

@@ -14,14 +14,15 @@ std::string WhyNotApprove(const EngineSnapshot& snap, double silent_s);
 /// Label, phase and reason of the hold button; `ui_time_s` on the clock of ApproveState.
 HoldButtonView ApproveButton(const EngineSnapshot& snap, const ApproveState& state,
                              double ui_time_s, double silent_s);
-/// What an approval leads to, in sentences: distance and height, time, heading; before that what
-/// speaks against the armed site. `narrow`: half of it.
 /// ", from the north-east" where the approach goes round to there; empty where it is straight.
 std::string SideWords(const MissionStatus& mission);
-
+/// What an approval leads to, in sentences: distance and height, time, heading; before that what
+/// speaks against the armed site. `narrow`: half of it.
 std::string ApprovalConsequence(const EngineSnapshot& snap, bool narrow);
 /// What a person may do, and why not: while nothing is armed.
 std::string WhatToDoUnarmed(const EngineSnapshot& snap);
+/// "Look right 45°".
+std::string LookLabel(const ProposedLook& look);
 /// Letter of the site that follows when the armed one is refused; empty when none does.
 std::string NextSiteLetter(const EngineSnapshot& snap);
 

@@ -53,7 +53,11 @@ void DrawEvidencePanel(const EngineSnapshot& snap, const Rect& rect, bool folded
 /// was pinned on a map.
 void DrawApprovePanel(const EngineSnapshot& snap, const Rect& rect, bool narrow,
                       const std::optional<Eigen::Vector2d>& pin, ApproveState& state, UiFrame& ui);
-/// In a panel's head, from `left` on: "turn_left", "turn_right", "climb", "look_at_pin" (FlyTo);
+/// "next_look": the look that the station proposes (FlyTo), from x on or up to there. Right end of
+/// what it draws.
+float DrawProposedLook(const EngineSnapshot& snap, float x, float y, bool ends_at_x, UiFrame& ui);
+/// In a panel's head, from `left` on: "turn_left", "turn_right", "climb", with a pin "look_at_pin"
+/// (FlyTo);
 /// while such a way is flown "hold_here" alone.
 void DrawWaysElsewhere(const EngineSnapshot& snap, const Rect& panel, float left,
                        const std::optional<Eigen::Vector2d>& pin, UiFrame& ui);

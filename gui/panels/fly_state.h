@@ -8,6 +8,7 @@
 
 #include "engine/model/mission/mission_status.h"
 #include "gui/panels/map_probe.h"
+#include "gui/panels/search_map.h"
 #include "gui/widgets/evidence_row.h"
 #include "gui/widgets/hold_button.h"
 #include "gui/widgets/map/camera_overlay.h"
@@ -34,8 +35,8 @@ struct SiteListState {
     std::uint64_t id = 0;
     std::string letter;
   };
-  /// As they were drawn last. While the pointer is on the list they stay: a place does not slip away
-  /// from under a press, and one that is gone leaves its room.
+  /// As they were drawn last. While the pointer is on the list they stay: a place does not slip
+  /// away from under a press, and one that is gone leaves its room.
   std::vector<Held> drawn;
   bool order_held = false;  ///< they were not as the engine ranks them
 };
@@ -59,6 +60,7 @@ struct FlyState {
   ApproveState approve;
   CameraState camera;
   MapRowState maps;
+  SearchMapState search_map;
   RowScroll evidence, limits;
   std::optional<MissionState> shown_state;  ///< of the last frame
   PlotTab tab = PlotTab::kDescent;

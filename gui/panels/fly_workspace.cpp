@@ -1,6 +1,7 @@
 #include "gui/panels/fly_workspace.h"
 
 #include "gui/panels/fly_panels.h"
+#include "gui/widgets/button.h"
 
 namespace palace {
 
@@ -80,6 +81,32 @@ void DrawDescentColumn(const EngineSnapshot& snap, const FlyLayout& layout, FlyS
 
 namespace {
 
+/// The 3-D view or, before a descent, the search map where it was asked for: "show_search_map" and
+/// "show_3d_view" in the panel's head change them.
+void DrawGroundAround(const EngineSnapshot& snap, const FlyLayout& layout, SearchMapState& state,
+                      UiFrame& ui) {
+  const Style& s = ui.style;
+  const Rect& panel = layout.view_3d;
+  const bool map = state.shown && !layout.descent;
+  if (map) {
+    DrawSearchMapPanel(snap, panel, state, ui);
+  } else {
+    DrawView3dPanel(snap, panel, ui);
+  }
+  if (layout.descent) {
+    return;
+  }
+  const char* other = map ? "3-D view" : "Search map";
+  const float x = panel.x + s.Px(18) + TextWidth(s.medium, map ? "Search map" : "3-D view");
+  ButtonLook look;
+  look.font = s.caption;
+  look.flat = true;
+  const Rect rect{x, panel.y + s.Px(3), TextWidth(s.caption, other) + s.Px(12), s.Px(22)};
+  if (DrawButton(ui, map ? "show_3d_view" : "show_search_map", rect, other, look)) {
+    state.shown = !map;
+  }
+}
+
 /// A pin lies where other panels come up with the next state.
 void ForgetPin(const EngineSnapshot& snap, FlyState& state) {
   const MissionState now = snap.flight->mission.state;
@@ -103,7 +130,7 @@ void DrawFlyWorkspace(const EngineSnapshot& snap, const FlyLayout& layout, FlySt
   DrawLeftCameraPanel(snap, layout.left_camera, state.camera, state.maps.probe, ui);
   DrawRightCameraPanel(snap, layout.right_camera, state.maps.probe, ui);
   DrawVehiclePanel(snap, layout.vehicle, layout.narrow, ui);
-  DrawView3dPanel(snap, layout.view_3d, ui);
+  DrawGroundAround(snap, layout, state.search_map, ui);
   DrawLowerLeft(snap, layout, state, ui);
   ui.tab.group = kDecisionTabs;
   if (layout.descent) {

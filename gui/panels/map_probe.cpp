@@ -93,8 +93,9 @@ void DrawProbeWhy(UiFrame& ui, const Rect& body, const TerrainDecision* decision
                       square->rect.y + down * (static_cast<float>(cell->row) + 0.5F)};
   const Rect anchor{middle.x - side_x / 2, middle.y - side_y / 2, side_x, side_y};
   std::vector<Rect> avoid = {ui.wave_off_rect};
-  for (const char* name : {"ring", "approve", "refuse", "hold_here", "acknowledge_wave_off",
-                           "apply", "discard", "turn_left", "turn_right", "climb", "look_at_pin"}) {
+  for (const char* name :
+       {"ring", "approve", "refuse", "hold_here", "acknowledge_wave_off", "apply", "discard",
+        "next_look", "turn_left", "turn_right", "climb", "look_at_pin"}) {
     if (const Item* item = ui.items.Find(name)) {
       avoid.push_back(item->rect);
     }

@@ -83,10 +83,7 @@ std::string ChannelsText(const EngineSnapshot& snap, double silent_s) {
   for (const ChannelHealth& channel : snap.sensors->channels) {
     const Arrival arrival = ArrivalOf(snap, channel.id, silent_s);
     const bool fresh = arrival.state == State::kFresh;
-    ++(arrival.fine()                   ? fine
-       : fresh                          ? faulty
-       : arrival.state == State::kNever ? never
-                                        : late);
+    ++(arrival.fine() ? fine : fresh ? faulty : arrival.state == State::kNever ? never : late);
   }
   const auto some = [](int count, const char* what) {
     return count > 0 ? ", " + std::to_string(count) + what : std::string();

@@ -50,6 +50,8 @@ TEST_F(JournalTest, EveryActionOfEveryOriginIsExportedByItsName) {
       {AskForCommand{true}, "take_over"},
       {ReleaseCommand{}, "release_command"},
       {FlyTo{{1, 2, -15}, 0.5}, "fly_to"},
+      {SetFlyArea{{{{0, 0}, {20, 0}, {20, 30}}, 25}}, "set_area"},
+      {ClearFlyArea{}, "clear_area"},
       {CommandLost{"to the other station"}, "command_lost"}};
   const std::pair<CommandOrigin, const char*> origins[] = {{CommandOrigin::kOperator, "operator"},
                                                            {CommandOrigin::kScript, "script"},

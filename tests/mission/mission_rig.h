@@ -17,7 +17,8 @@
 namespace palace {
 
 /// Obeys as DESIGN.md 7 asks of a vehicle: each approval once and in time, answers, aligns,
-/// descends, sinks. To another hover it takes 2 s, however far it is. Seals are the link's business (tests/trust).
+/// descends, sinks. To another hover it takes 2 s, however far it is. Seals are the link's business
+/// (tests/trust).
 struct SmallVehicle {
   std::uint64_t accepted_id = 0;  ///< newest approval taken; ids rise
   std::uint64_t boot_id = 77;
@@ -266,6 +267,7 @@ struct MissionRig {
     bundle.time = now;
     bundle.discontinuity = std::exchange(jumped, false);
     bundle.arrival = arrival;
+    bundle.rig = camera_rig;
     if (arrival.clock) {
       arrival.clock->stepped_s = arrival.clock->stalled_s = 0;  // told once
     }
@@ -303,8 +305,9 @@ struct MissionRig {
   double east_m = 2;  ///< where the vehicle is
   double north_m = 9.5;
   double yaw_rad = 0;
-  bool forgotten = false;  ///< the maps before the next bundle are void
-  bool jumped = false;     ///< the next bundle follows a jump in time
+  bool forgotten = false;               ///< the maps before the next bundle are void
+  bool jumped = false;                  ///< the next bundle follows a jump in time
+  std::shared_ptr<const StereoRig> camera_rig;  ///< told with every bundle
   SourceKind source = SourceKind::kSimulation;
   AuthorityStatus authority = Commanding();
   bool can_transmit = true, recorder_ok = true, simulated = true;

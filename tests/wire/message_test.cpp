@@ -29,7 +29,9 @@ TEST(Command, EveryKindSurvives) {
                                               AskForCommand{true},
                                               ReleaseCommand{},
                                               CommandLost{"bravo commands"},
-                                              FlyTo{{1, -2, -15.25}, 0.5}};
+                                              FlyTo{{1, -2, -15.25}, 0.5},
+                                              SetFlyArea{{{{0, 0}, {20, 0}, {20, 30.5}}, 25}},
+                                              ClearFlyArea{}};
   ASSERT_EQ(actions.size(), std::variant_size_v<CommandAction>);
   for (std::size_t i = 0; i < actions.size(); ++i) {
     for (const auto origin : {CommandOrigin::kOperator, CommandOrigin::kScript,
@@ -45,13 +47,26 @@ TEST(Command, EveryKindSurvives) {
   const auto back = DecodeCommand(EncodeCommand({CommandOrigin::kOperator, actions[5]}, {1}, {}));
   EXPECT_EQ(std::get<ApproveSite>(back->action).site_id, 5u);
   EXPECT_EQ(std::get<ApproveSite>(back->action).snapshot_sequence, ~0ull);
-  const auto to = DecodeCommand(EncodeCommand({CommandOrigin::kOperator, actions.back()}, {1}, {}));
+  const auto to = DecodeCommand(EncodeCommand({CommandOrigin::kOperator, actions[17]}, {1}, {}));
   EXPECT_EQ(std::get<FlyTo>(to->action).p_WB, Eigen::Vector3d(1, -2, -15.25));
   EXPECT_EQ(std::get<FlyTo>(to->action).heading_rad, 0.5);
+  const auto area =
+      DecodeCommand(EncodeCommand({CommandOrigin::kOperator, actions[18]}, {1}, {}));
+  EXPECT_EQ(std::get<SetFlyArea>(area->action).area.corners_W.at(2), Eigen::Vector2d(20, 30.5));
+  EXPECT_EQ(std::get<SetFlyArea>(area->action).area.ceiling_m, 25);
   const auto look = DecodeCommand(EncodeCommand({CommandOrigin::kOperator, actions[6]}, {1}, {}));
   EXPECT_EQ(std::get<LookAtSite>(look->action).site_id, 7u);
   EXPECT_EQ(std::get<LookAtSite>(look->action).snapshot_sequence, 8u);
   EXPECT_EQ(std::get<LookAtSite>(look->action).stop_height_m, 12.5);
+}
+
+TEST(Command, AnAreaThatIsNoneIsRefusedWithTheReason) {
+  const FlyArea crossed{{{0, 0}, {20, 20}, {20, 0}, {0, 20}}, 25};
+  const auto back = DecodeCommand(EncodeCommand({CommandOrigin::kOperator, SetFlyArea{crossed}},
+                                                {1}, {}));
+  ASSERT_FALSE(back.ok());
+  EXPECT_NE(back.error().message.find("area: Its edges cross"), std::string::npos)
+      << back.error().message;
 }
 
 TEST(Command, ASideOfAnApproachIsOneOfTheSectorsOrStraight) {

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,8 +11,10 @@
 #include "engine/core/time.h"
 #include "engine/model/approach_side.h"
 #include "engine/model/landing_site.h"
+#include "engine/model/mission/fly_area.h"
 #include "engine/model/mission/limit_row.h"
 #include "engine/model/mission/mission_ids.h"
+#include "engine/model/mission/seen_ground.h"
 #include "engine/model/vehicle_message.h"
 
 namespace palace {
@@ -144,6 +147,15 @@ struct Going {
   bool flown = false;     ///< it says so
 };
 
+/// Where the station would have the vehicle look next (mission/searching.h). Nothing is sent before
+/// the operator says so.
+struct ProposedLook {
+  Eigen::Vector3d p_WB = Eigen::Vector3d::Zero();
+  double heading_rad = 0;
+  std::string words;  ///< after "Look": "right 45°", "up 3 m", "12 m N"
+  std::string why;    ///< as a clause: "shows 240 m² that were not looked at yet"
+};
+
 /// What became of the newest wave-off, by what the vehicle said after it.
 struct WaveOffReport {
   enum class Phase : std::uint8_t {
@@ -207,6 +219,12 @@ struct MissionStatus {
   ApprovalPhase approval_phase = ApprovalPhase::kNone;
   std::optional<Going> going;  ///< the vehicle was sent to another hover, and is not there yet
   std::string why_not_go;      ///< why it is not sent anywhere now; empty: it may be
+  /// Nothing is selected: the look that promises most. ARMED: the one without which the site cannot
+  /// be approved. Empty: there is none.
+  std::optional<ProposedLook> next_look;
+  std::string why_no_look;  ///< "All ground within 60 m was looked at"; empty with one
+  std::shared_ptr<const SeenGround> seen;  ///< what was looked at; null: nothing yet
+  std::optional<FlyArea> area;             ///< that the operator drew; empty: none
   /// SEARCH, PROPOSED: why the site selected last is not, or was not reached, what a look at it
   /// found, or how a way to another hover ended.
   std::string selection_ended;

@@ -58,8 +58,8 @@ TEST(VehiclePanel, AHoversHeightIsThatOfTheSkidsWhoeverTellsIt) {
       FlyWindow window(size.x, size.y, snap);
       ExpectTextsInPanels(window.ui.items);
       const std::string label = laser ? "bove ground" : "bove origin";
-      const Item* height = window.ui.items.Find(
-          "readout/" + (size.x > 1500 ? "Height a" + label : "A" + label));
+      const Item* height =
+          window.ui.items.Find("readout/" + (size.x > 1500 ? "Height a" + label : "A" + label));
       ASSERT_NE(height, nullptr) << label << " at " << size.x;
       EXPECT_EQ(height->text, laser ? "37.6 m, laser" : "37.6 m, pose");
     }
@@ -90,8 +90,8 @@ TEST(VehiclePanel, AHoverThatClimbsOrSinksTellsHowFast) {
   for (const auto& row : table) {
     EngineSnapshot snap = fake::Snapshot(MissionState::kProposed);
     snap.sensors.Edit().pose->v_WB.z() = row.down_mps;
-    for (const auto& [size, label] : {std::pair{ImVec2(1920, 1080), row.wide},
-                                      std::pair{ImVec2(1280, 720), row.narrow}}) {
+    for (const auto& [size, label] :
+         {std::pair{ImVec2(1920, 1080), row.wide}, std::pair{ImVec2(1280, 720), row.narrow}}) {
       FlyWindow window(size.x, size.y, snap);
       const Item* item = window.ui.items.Find(std::string("readout/") + label);
       ASSERT_NE(item, nullptr) << label;

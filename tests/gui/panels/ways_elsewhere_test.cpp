@@ -34,8 +34,7 @@ TEST(WaysElsewhere, ATurnAndAClimbStartWhereTheVehicleIs) {
 TEST(WaysElsewhere, APinIsLookedAtFromWhereTheCamerasSeeIt) {
   FlyWindow window(1280, 720, fake::Snapshot(MissionState::kSearch));
   window.Run(0.05);
-  window.ui.Click("look_at_pin", window.draw);
-  EXPECT_EQ(window.ui.CountCommands<FlyTo>(), 0) << "nothing is pinned";
+  EXPECT_EQ(window.ui.items.Find("look_at_pin"), nullptr) << "nothing is pinned";
   const Eigen::Vector3d p_WB = window.snap.sensors->pose->X_WB.p;
   const ElevationMap& map = *window.snap.terrain->applied->elevation;
   const GridGeometry& g = map.geometry;
@@ -59,12 +58,50 @@ TEST(WaysElsewhere, APinIsLookedAtFromWhereTheCamerasSeeIt) {
 TEST(WaysElsewhere, HaveRoomInTheHead) {
   for (const MissionState state : {MissionState::kSearch, MissionState::kHold}) {
     for (const float width : {1280.0F, 1920.0F}) {
-      FlyWindow window(width, width * 9 / 16, fake::Snapshot(state));
+      EngineSnapshot snap = fake::Snapshot(state);
+      snap.flight.Edit().mission.next_look =
+          ProposedLook{{30, 0, -20}, 0, "30 m NW", "shows 240 m² that were not looked at yet"};
+      FlyWindow window(width, width * 9 / 16, snap);
+      window.fly.maps.probe.pinned = Eigen::Vector2d(0, 0);
       window.Run(0.05);
-      ASSERT_NE(window.ui.items.Find("look_at_pin"), nullptr);
-      const float end = window.ui.items.Find("look_at_pin")->rect.right();
-      EXPECT_LT(end, width - 8) << "at " << width << ", " << MissionStateName(state);
+      for (const char* last : {"next_look", "look_at_pin"}) {
+        const Item* item = window.ui.items.Find(last);
+        if (item != nullptr) {
+          EXPECT_LT(item->rect.right(), width - 8) << last << " at " << width;
+        }
+      }
+      EXPECT_EQ(window.ui.items.Find("next_look") != nullptr, state == MissionState::kSearch);
+      ASSERT_NE(window.ui.items.Find("climb"), nullptr);
     }
+  }
+}
+
+TEST(WaysElsewhere, TheProposedLookIsFlownByOnePressAndToldWithItsReason) {
+  EngineSnapshot snap = fake::Snapshot(MissionState::kSearch);
+  const ProposedLook look{
+      {3, 4, -21}, 0.5, "right 45°", "shows 240 m² that were not looked at yet"};
+  snap.flight.Edit().mission.next_look = look;
+  FlyWindow window(1920, 1080, snap);
+  window.Run(0.05);
+  EXPECT_TRUE(HasText(window.ui.items, "Look right 45°"));
+  EXPECT_TRUE(HasText(window.ui.items, "shows 240 m²"));
+  window.ui.Click("next_look", window.draw);
+  ASSERT_EQ(window.ui.CountCommands<FlyTo>(), 1);
+  EXPECT_EQ(window.ui.LastCommand<FlyTo>().p_WB, look.p_WB);
+  EXPECT_EQ(window.ui.LastCommand<FlyTo>().heading_rad, look.heading_rad);
+}
+
+TEST(WaysElsewhere, ASelectedSiteThatLacksTheSightOfItsAirOffersTheClimb) {
+  for (const float width : {1280.0F, 1920.0F}) {
+    EngineSnapshot snap = fake::Snapshot(MissionState::kArmed);
+    snap.flight.Edit().mission.next_look = ProposedLook{
+        {3, 4, -21}, 0.5, "up 3 m", "the air over site A is seen up to 3.2 m, min 5.0 m"};
+    FlyWindow window(width, width * 9 / 16, snap);
+    window.ui.Click("next_look", window.draw);
+    ASSERT_EQ(window.ui.CountCommands<FlyTo>(), 1) << width;
+    const Item* deselect = window.ui.items.Find("deselect");
+    ASSERT_NE(deselect, nullptr);
+    EXPECT_LT(window.ui.items.Find("next_look")->rect.right(), deselect->rect.x);
   }
 }
 

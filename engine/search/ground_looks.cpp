@@ -1,0 +1,58 @@
+#include "engine/search/ground_looks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "engine/core/frames.h"
+
+namespace palace {
+
+SeenGround NothingSeen(const Eigen::Vector2d& middle_W) {
+  const int side = static_cast<int>(2 * SeenGround::kHalfSide_m / SeenGround::kSquare_m);
+  // On whole squares of W, so that the ground is cut the same wherever the hover begins.
+  const auto least = [](double at) {
+    return std::floor(at / SeenGround::kSquare_m) * SeenGround::kSquare_m - SeenGround::kHalfSide_m;
+  };
+  return {middle_W,
+          {side, side, SeenGround::kSquare_m, least(middle_W.x()), least(middle_W.y())},
+          Grid<std::uint8_t>(side, side, 0)};
+}
+
+void AddLook(SeenGround& seen, const GroundView& view, const FlyTo& from) {
+  const auto here = seen.squares.CellFromPoint(from.p_WB.x(), from.p_WB.y());
+  if (!here) {
+    return;
+  }
+  const double below_m = HeightFromDown(from.p_WB.z()) - seen.ground_m;
+  for (const Cell& step : SquaresInView(view, from.heading_rad, below_m)) {
+    const Cell square{here->row + step.row, here->col + step.col};
+    if (seen.squares.Contains(square)) {
+      std::uint8_t& maps = seen.maps.at(square);
+      maps = static_cast<std::uint8_t>(std::min<int>(maps + 1, SeenGround::kMapsOfALook));
+    }
+  }
+}
+
+std::vector<Cell> SquaresInView(const GroundView& view, double heading_rad, double below_m) {
+  std::vector<Cell> squares;
+  const double camera_below_m = below_m - view.p_BC().z();
+  if (!(camera_below_m > 0)) {
+    return squares;
+  }
+  const double far_m = view.Reach_m(camera_below_m) + view.p_BC().head<2>().norm();
+  const int reach =
+      static_cast<int>(std::min(std::ceil(far_m / SeenGround::kSquare_m), SeenGround::kHalfSide_m));
+  const double c = std::cos(heading_rad), s = std::sin(heading_rad);
+  for (int row = -reach; row <= reach; ++row) {
+    for (int col = -reach; col <= reach; ++col) {
+      const double north_m = -row * SeenGround::kSquare_m, east_m = col * SeenGround::kSquare_m;
+      if (view.Shows({north_m * c + east_m * s, east_m * c - north_m * s, below_m})) {
+        squares.push_back({row, col});
+      }
+    }
+  }
+  return squares;
+}
+
+}  // namespace palace

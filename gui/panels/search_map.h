@@ -1,0 +1,36 @@
+// Search map: the ground around from above, north up. What was looked at, where the vehicle is and
+// what it sees, where it would look next, and the area that it is kept to.
+//
+// A click picks a place to fly to ("fly_there") or to look at ("look_there"). "draw_area" begins an
+// area: every click is a corner, "area_undo" takes the last one back, "area_close" or a click on
+// the first corner sends it, "area_cancel" forgets it. "area_clear" takes a drawn area away. With
+// the focus on the map, arrows move a cross, Enter is a click there, Backspace takes back.
+#pragma once
+
+#include <cmath>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Dense>
+
+#include "engine/model/snapshot.h"
+#include "gui/widgets/ui_frame.h"
+
+namespace palace {
+
+struct SearchMapState {
+  bool shown = false;                     ///< in place of the 3-D view
+  double half_m = 70;                     ///< from the middle to the nearer edge
+  std::optional<Eigen::Vector2d> picked;  ///< north, east
+  bool draws = false;                     ///< an area
+  std::vector<Eigen::Vector2d> corners;   ///< of it, so far
+  double ceiling_m = NAN;                 ///< of it, above the origin of W
+  std::string why_not;                    ///< it could not be closed
+  Eigen::Vector2d cross{NAN, NAN};        ///< of the keyboard
+};
+
+void DrawSearchMapPanel(const EngineSnapshot& snap, const Rect& rect, SearchMapState& state,
+                        UiFrame& ui);
+
+}  // namespace palace

@@ -1,0 +1,52 @@
+#include "gui/panels/way_button.h"
+
+#include <cmath>
+
+#include "engine/core/units.h"
+#include "engine/model/mission/hover_before.h"
+#include "gui/panels/session_words.h"
+#include "gui/widgets/button.h"
+
+namespace palace {
+
+float WayButtonWidth(std::string_view words, const Style& style) {
+  return TextWidth(style.caption, words) + style.Px(12);
+}
+
+float DrawWayButton(const EngineSnapshot& snap, const WayButton& button, float x, float y,
+                    UiFrame& ui) {
+  const Style& s = ui.style;
+  const Rect rect{x, y, WayButtonWidth(button.words, s), s.Px(22)};
+  const std::string& why_not = snap.flight->mission.why_not_go;
+  const std::string reason = !snap.session->can_transmit ? WhyNoLink(snap)
+                             : !why_not.empty()          ? why_not
+                                                         : button.why_none;
+  ButtonLook look;
+  look.font = s.caption;
+  look.flat = true;
+  look.enabled = button.there && why_not.empty() && snap.session->can_transmit;
+  look.reason = reason;
+  look.hint = button.hint;
+  if (DrawButton(ui, button.name, rect, button.words, look)) {
+    ui.intents.push_back(CommandAction(*button.there));
+  }
+  return rect.right();
+}
+
+std::optional<FlyTo> HoverToSee(const EngineSnapshot& snap, const Eigen::Vector2d& place) {
+  const auto& decision = snap.terrain->applied;
+  if (!decision || !decision->elevation || !snap.sensors->pose) {
+    return std::nullopt;
+  }
+  const GridGeometry& g = decision->elevation->geometry;
+  const auto cell = g.rows > 0 ? g.CellFromPoint(place.x(), place.y()) : std::optional<Cell>();
+  const double ground_m =
+      cell ? static_cast<double>(decision->elevation->Measured().at(*cell)) : NAN;
+  if (!std::isfinite(ground_m)) {
+    return std::nullopt;
+  }
+  return HoverBefore(snap.sensors->pose->X_WB.p, {place.x(), place.y(), -ground_m},
+                     Rad(snap.session->settings.mission.glide_slope_deg));
+}
+
+}  // namespace palace

@@ -1,0 +1,151 @@
+// The search map, by pointer and by keys: places to fly to, the area that the vehicle is kept to.
+#include "gui/panels/search_map.h"
+
+#include <gtest/gtest.h>
+
+#include "engine/core/units.h"
+#include "tests/gui/panels/fly_window.h"
+#include "tests/gui/panels/panel_checks.h"
+#include "tests/support/fake_snapshot.h"
+
+namespace palace {
+namespace {
+
+/// Looked at is the square of 20 m around where the search began, which is where the vehicle is.
+EngineSnapshot Searching() {
+  EngineSnapshot snap = fake::Snapshot(MissionState::kSearch);
+  auto seen = std::make_shared<SeenGround>();
+  seen->middle_W = snap.sensors->pose->X_WB.p.head<2>();
+  seen->squares = {64, 64, SeenGround::kSquare_m, seen->middle_W.x() - 64, seen->middle_W.y() - 64};
+  seen->maps = Grid<std::uint8_t>(64, 64, 0);
+  for (int row = 27; row < 37; ++row) {
+    for (int col = 27; col < 37; ++col) {
+      seen->maps.at(row, col) = SeenGround::kMapsOfALook;
+    }
+  }
+  snap.flight.Edit().mission.seen = seen;
+  snap.flight.Edit().mission.may_select = true;
+  return snap;
+}
+
+struct SearchWindow : FlyWindow {
+  explicit SearchWindow(float width = 1920) : FlyWindow(width, width * 9 / 16, Searching()) {
+    ui.Click("show_search_map", draw);
+    Run(0.05);
+  }
+  /// A click so many metres from where the search began.
+  void ClickAt(double north_m, double east_m) {
+    const Rect& map = ui.items.Find("search_map")->rect;
+    const double px_per_m =
+        static_cast<double>(std::min(map.w, map.h)) / (2 * fly.search_map.half_m);
+    ui.MoveTo(ImVec2{map.x + map.w / 2 + static_cast<float>(east_m * px_per_m),
+                     map.y + map.h / 2 - static_cast<float>(north_m * px_per_m)});
+    Run(0.02);
+    ui.Button(true);
+    Run(0.04);
+    ui.Button(false);
+    Run(0.04);
+  }
+  Eigen::Vector2d middle() const { return snap.flight->mission.seen->middle_W; }
+};
+
+TEST(SearchMap, TellsHowMuchWasLookedAtAndGoesBackToThe3dView) {
+  SearchWindow window;
+  EXPECT_TRUE(HasText(window.ui.items, "Looked at 400 m²"));
+  window.ui.Click("show_3d_view", window.draw);
+  window.Run(0.05);
+  EXPECT_EQ(window.ui.items.Find("search_map"), nullptr);
+  EXPECT_NE(window.ui.items.Find("view_3d"), nullptr);
+}
+
+TEST(SearchMap, APlaceIsFlownToAtTheHeightOfNow) {
+  for (const float width : {1280.0F, 1920.0F}) {
+    SearchWindow window(width);
+    window.ClickAt(20, -15);
+    ASSERT_TRUE(window.fly.search_map.picked.has_value());
+    const Eigen::Vector2d picked = *window.fly.search_map.picked;
+    EXPECT_NEAR((picked - window.middle() - Eigen::Vector2d(20, -15)).norm(), 0, 0.7) << width;
+    window.ui.Click("fly_there", window.draw);
+    ASSERT_EQ(window.ui.CountCommands<FlyTo>(), 1);
+    const FlyTo there = window.ui.LastCommand<FlyTo>();
+    EXPECT_EQ(there.p_WB.head<2>(), picked);
+    EXPECT_EQ(there.p_WB.z(), window.snap.sensors->pose->X_WB.p.z());
+    window.ClickAt(20, -15);
+    EXPECT_FALSE(window.fly.search_map.picked.has_value()) << "a second click takes it away";
+  }
+}
+
+TEST(SearchMap, AnAreaIsDrawnCornerByCornerAndSent) {
+  SearchWindow window;
+  window.ui.Click("draw_area", window.draw);
+  window.ClickAt(-20, -20);
+  window.ClickAt(-20, 20);
+  window.ClickAt(30, 30);  // one too many
+  window.ui.Click("area_undo", window.draw);
+  window.ClickAt(20, 20);
+  window.ClickAt(20, -20);
+  window.ui.Click("area_higher", window.draw);
+  const double ceiling_m = window.fly.search_map.ceiling_m;
+  EXPECT_GT(ceiling_m, -window.snap.sensors->pose->X_WB.p.z());
+  window.ClickAt(-20, -20);  // the first corner closes it
+  ASSERT_EQ(window.ui.CountCommands<SetFlyArea>(), 1);
+  const FlyArea area = window.ui.LastCommand<SetFlyArea>().area;
+  ASSERT_EQ(area.corners_W.size(), 4u);
+  EXPECT_NEAR(AreaOf_m2(area), 1600, 80);
+  EXPECT_EQ(area.ceiling_m, ceiling_m);
+  EXPECT_FALSE(window.fly.search_map.draws);
+}
+
+TEST(SearchMap, AnAreaThatIsNoneIsNotSentAndSaysWhy) {
+  SearchWindow window;
+  window.ui.Click("draw_area", window.draw);
+  for (const auto& [north, east] :
+       {std::pair{-20.0, -20.0}, {20.0, 20.0}, {20.0, -20.0}, {-20.0, 20.0}}) {
+    window.ClickAt(north, east);
+  }
+  window.ui.Click("area_close", window.draw);
+  window.Run(0.05);
+  EXPECT_EQ(window.ui.CountCommands<SetFlyArea>(), 0);
+  EXPECT_TRUE(HasText(window.ui.items, "Its edges cross"));
+  window.ui.Click("area_cancel", window.draw);
+  EXPECT_FALSE(window.fly.search_map.draws);
+}
+
+TEST(SearchMap, ADrawnAreaIsToldAndCleared) {
+  SearchWindow window;
+  const Eigen::Vector2d m = window.middle();
+  window.snap.flight.Edit().mission.area =
+      FlyArea{{m, m + Eigen::Vector2d(30, 0), m + Eigen::Vector2d(0, 30)}, 45};
+  window.Run(0.05);
+  EXPECT_TRUE(HasText(window.ui.items, "Ceiling 45 m"));
+  window.ui.Click("area_clear", window.draw);
+  EXPECT_EQ(window.ui.CountCommands<ClearFlyArea>(), 1);
+}
+
+TEST(SearchMap, IsWorkedByKeysAlone) {
+  SearchWindow window;
+  window.Run(0.05);
+  for (int press = 0; press < 200 && window.ui.focus.shown() != "search_map"; ++press) {
+    window.ui.Tap(ImGuiKey_Tab, window.draw);
+  }
+  ASSERT_EQ(window.ui.focus.shown(), "search_map");
+  for (int press = 0; press < 5; ++press) {
+    window.ui.Tap(ImGuiKey_UpArrow, window.draw);
+  }
+  window.ui.Tap(ImGuiKey_RightArrow, window.draw);
+  window.ui.Tap(ImGuiKey_Enter, window.draw);
+  ASSERT_TRUE(window.fly.search_map.picked.has_value());
+  EXPECT_NEAR((*window.fly.search_map.picked - window.middle() - Eigen::Vector2d(10, 2)).norm(), 0,
+              1e-9);
+}
+
+TEST(SearchMap, IsGoneWhileItDescends) {
+  SearchWindow window;
+  window.snap = fake::Snapshot(MissionState::kDescending);
+  window.Run(0.05);
+  EXPECT_EQ(window.ui.items.Find("search_map"), nullptr);
+  EXPECT_EQ(window.ui.items.Find("show_search_map"), nullptr);
+}
+
+}  // namespace
+}  // namespace palace
