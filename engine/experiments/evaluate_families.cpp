@@ -10,6 +10,7 @@
 #include "engine/core/text.h"
 #include "engine/experiments/family_options.h"
 #include "engine/experiments/flight_options.h"
+#include "engine/experiments/landing_truth.h"
 #include "engine/report/statistics.h"
 #include "engine/world/families/families.h"
 #include "engine/world/ground_truth.h"
@@ -17,13 +18,11 @@
 namespace palace {
 namespace {
 
-constexpr double kGrace = 1.2;              // of the limits: see MissionOutcome
-constexpr double kUnapprovedLimit_s = 45;   // of hovering in one place
-constexpr double kSearchLimit_s = 240;      // of a search from place to place
-constexpr double kStoppedLimit_s = 25;      // of a hold or a climb
-constexpr int kLooksAgain = 4;              // of the operator
-constexpr double kLimit_s = 420;            // time for them
-constexpr double kTruthBeyondDisc_m = 1.5;  // so that slopes and steps at its rim are known
+constexpr double kUnapprovedLimit_s = 45;  // of hovering in one place
+constexpr double kSearchLimit_s = 240;     // of a search from place to place
+constexpr double kStoppedLimit_s = 25;     // of a hold or a climb
+constexpr int kLooksAgain = 4;             // of the operator
+constexpr double kLimit_s = 420;           // time for them
 /// Where a hover over the origin with a tilted camera can see ground at all.
 constexpr TruthArea kInView{.north_min_m = 4, .north_max_m = 40, .cell_m = 0.1};
 
@@ -34,34 +33,16 @@ struct FamiliesOptions {
   bool no_search = false;
 };
 
-TruthLimits LimitsOf(const Settings& settings) {
-  const HazardLimits& limits = settings.slad.limits;
-  return {limits.max_slope_deg, limits.max_deviation_m, limits.max_step_m};
-}
-
-/// Of the ground about one place at one moment.
-DiscTruth DiscAt(const World& world, const Eigen::Vector2d& place_m, double radius_m,
-                 double time_s) {
-  const double reach = radius_m + kTruthBeyondDisc_m;
-  const GroundTruth truth = TruthOf(world,
-                                    {.north_min_m = place_m.x() - reach,
-                                     .north_max_m = place_m.x() + reach,
-                                     .east_min_m = place_m.y() - reach,
-                                     .east_max_m = place_m.y() + reach},
-                                    time_s);
-  return TruthOfDisc(truth, place_m, radius_m);
-}
-
 const char* VerdictName(const DiscTruth& disc, const TruthLimits& limits) {
-  return WithinLimits(disc, limits)                  ? "within"
-         : WithinLimits(disc, limits.Scaled(kGrace)) ? "over"
-                                                     : "far_over";
+  return WithinLimits(disc, limits)                       ? "within"
+         : WithinLimits(disc, limits.Scaled(kTruthGrace)) ? "over"
+                                                          : "far_over";
 }
 
 TrialRow RowOf(const std::string& family, const World& world, const FlownMission& flown,
                const Settings& settings) {
   const Lander& lander = settings.slad.lander;
-  const TruthLimits limits = LimitsOf(settings);
+  const TruthLimits limits = TruthLimitsOf(settings);
   std::optional<DiscTruth> under, site;
   if (flown.touchdown) {
     under = DiscAt(world, flown.touchdown->p_W_skid.head<2>(), lander.radius_m(),
@@ -222,32 +203,6 @@ ExperimentReport Report(const TrialTable& table) {
 }
 
 }  // namespace
-
-const char* MissionOutcomeName(MissionOutcome outcome) {
-  static constexpr const char* kNames[kMissionOutcomeCount] = {
-      "landed_right", "landed_on_hazard", "held", "aborted", "refused", "unfinished"};
-  return kNames[static_cast<int>(outcome)];
-}
-
-MissionOutcome OutcomeOf(MissionState last, bool approved, const std::optional<DiscTruth>& under,
-                         const TruthLimits& limits) {
-  if (under && !WithinLimits(*under, limits.Scaled(kGrace))) {
-    return MissionOutcome::kLandedOnHazard;
-  }
-  switch (last) {
-    case MissionState::kHold:
-      return MissionOutcome::kHeld;
-    case MissionState::kAborting:
-      return MissionOutcome::kAborted;
-    case MissionState::kLanded:
-      return under ? MissionOutcome::kLandedRight : MissionOutcome::kLandedOnHazard;
-    case MissionState::kApproved:
-    case MissionState::kDescending:
-      return MissionOutcome::kUnfinished;
-    default:
-      return approved ? MissionOutcome::kHeld : MissionOutcome::kRefused;
-  }
-}
 
 Experiment FamiliesExperiment(SceneCameraFactory camera) {
   auto options = std::make_shared<FamiliesOptions>();

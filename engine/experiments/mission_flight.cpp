@@ -1,5 +1,6 @@
 #include "engine/experiments/mission_flight.h"
 
+#include <algorithm>
 #include <memory>
 #include <utility>
 
@@ -37,6 +38,30 @@ class Patience {
   MissionState state_ = MissionState::kNoLive;
   double since_s_ = 0;
   double approved_s_ = 0;  ///< an approval stood last, or it climbed away
+};
+
+/// Draws the area once, and follows what the vehicle makes of it and of the search.
+class AreaAndWays {
+ public:
+  explicit AreaAndWays(const std::optional<FlyArea>& area) : area_(area) {}
+
+  void Follow(Engine& engine, const EngineSnapshot& snapshot, FlownMission& flown) {
+    const MissionStatus& mission = snapshot.flight->mission;
+    if (area_ && mission.may_select && !drawn_) {
+      engine.Post({CommandOrigin::kScript, SetFlyArea{*area_}});
+      drawn_ = true;
+    }
+    flown.ways += mission.going && !goes_ ? 1 : 0;
+    goes_ = mission.going.has_value();
+    const auto& truth = snapshot.sensors->truth;
+    if (area_ && truth && !IsInside(*area_, truth->X_WB.p.head<2>())) {
+      flown.outside_m = std::max(flown.outside_m, ToEdge_m(*area_, truth->X_WB.p.head<2>()));
+    }
+  }
+
+ private:
+  const std::optional<FlyArea>& area_;
+  bool drawn_ = false, goes_ = false;
 };
 
 std::string WhyNotLanded(const EngineSnapshot& snapshot) {
@@ -91,9 +116,11 @@ Result<FlownMission> FlyMission(const MissionFlight& flight, const SceneCameraFa
   ScriptedOperator pilot(flight.looks_again, flight.looks_closer, flight.searches);
   Patience patience(flight);
   FlownMission flown;
+  AreaAndWays area(flight.area);
   while (engine.Step()) {
     const auto snapshot = engine.Latest();
     summarizer.Add(*snapshot);
+    area.Follow(engine, *snapshot, flown);
     for (const EngineCommand& command : pilot.Decide(*snapshot)) {
       engine.Post(command);
     }

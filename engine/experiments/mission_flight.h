@@ -9,6 +9,7 @@
 
 #include "engine/core/result.h"
 #include "engine/faults/fault_plan.h"
+#include "engine/model/mission/fly_area.h"
 #include "engine/model/settings/settings.h"
 #include "engine/runtime/flight_summary.h"
 #include "engine/simulation/simulator.h"
@@ -32,6 +33,7 @@ struct MissionFlight {
   /// Whether it flies down to look, where a look is offered, before it approves.
   bool looks_closer = false;
   bool searches = false;
+  std::optional<FlyArea> area{};      ///< that the operator draws as soon as somebody commands
   std::filesystem::path record_in{};  ///< its log: <record_in>/<scenario>-<seed>; empty: none
 };
 
@@ -40,6 +42,8 @@ struct FlownMission {
   std::optional<Touchdown> touchdown{};
   /// Of a mission that did not land: what the station says of its last state.
   std::string why{};
+  int ways = 0;          ///< to another hover, that were begun
+  double outside_m = 0;  ///< of that area, by the truth of B, at most
 };
 
 /// Errors: an unknown scenario is one of usage; those of a camera that cannot draw and of a log

@@ -14,7 +14,9 @@ constexpr double kStoppedFor_s = 15;  // then a look from higher up
 constexpr double kLow_m = 10;         // above the site: there at once
 constexpr double kLookedFor_s = 30;   // the same where a look ended
 
-constexpr double kNothingFor_s = 14;  // then other ground
+constexpr double kNothingFor_s =
+    14;  // that could be approved, of what is listed: then other ground
+constexpr double kNothingListed_s = 5;  // the same where nothing is
 
 std::vector<EngineCommand> Command(CommandAction action) {
   return {{CommandOrigin::kScript, std::move(action)}};
@@ -98,7 +100,10 @@ std::vector<EngineCommand> ScriptedOperator::Search(const EngineSnapshot& snapsh
     nothing_since_ = snapshot.time;
     return {};
   }
-  if (SecondsBetween(*nothing_since_, snapshot.time) < kNothingFor_s) {
+  const bool listed =
+      snapshot.terrain->applied && !snapshot.terrain->applied->selection.sites.empty();
+  if (SecondsBetween(*nothing_since_, snapshot.time) <
+      (listed ? kNothingFor_s : kNothingListed_s)) {
     return {};
   }
   if (mission.next_look && mission.why_not_go.empty()) {

@@ -1,5 +1,7 @@
 #include "engine/tools/evaluate_command.h"
 
+#include <vector>
+
 #include <CLI/CLI.hpp>
 
 #include "engine/experiments/evaluate_calibration.h"
@@ -9,6 +11,7 @@
 #include "engine/experiments/evaluate_image_time.h"
 #include "engine/experiments/evaluate_landing.h"
 #include "engine/experiments/evaluate_probability.h"
+#include "engine/experiments/evaluate_search.h"
 #include "engine/experiments/evaluate_site_flags.h"
 #include "engine/experiments/evaluate_site_lidar.h"
 #include "engine/experiments/evaluate_site_range.h"
@@ -17,6 +20,7 @@
 #include "engine/experiments/evaluate_stereo.h"
 #include "engine/experiments/evaluate_things.h"
 #include "engine/experiments/experiment.h"
+#include "engine/tools/evaluate_plan.h"
 
 namespace palace {
 
@@ -28,14 +32,24 @@ void AddEvaluateCommand(CLI::App& app, int& exit_code, SceneCameraFactory camera
       "written; those of a shard are not, only whole ones can be merged. Exit "
       "128 + signal");
   evaluate->require_subcommand(1);
-  AddExperiments(
-      *evaluate,
-      {LandingExperiment(camera), FamiliesExperiment(camera), FaultsExperiment(camera),
-       ImageTimeExperiment(std::move(camera)), StereoAccuracyExperiment(), StereoCostExperiment(),
-       CalibrationExperiment(), GroundExperiment(), ProbabilityExperiment(), ThingsExperiment(),
-       SiteFlagsExperiment(), SiteLidarExperiment(), SiteRangeExperiment(), SiteShapesExperiment(),
-       SiteViewsExperiment()},
-      exit_code);
+  const std::vector<Experiment> experiments = {LandingExperiment(camera),
+                                               FamiliesExperiment(camera),
+                                               SearchExperiment(camera),
+                                               FaultsExperiment(camera),
+                                               ImageTimeExperiment(std::move(camera)),
+                                               StereoAccuracyExperiment(),
+                                               StereoCostExperiment(),
+                                               CalibrationExperiment(),
+                                               GroundExperiment(),
+                                               ProbabilityExperiment(),
+                                               ThingsExperiment(),
+                                               SiteFlagsExperiment(),
+                                               SiteLidarExperiment(),
+                                               SiteRangeExperiment(),
+                                               SiteShapesExperiment(),
+                                               SiteViewsExperiment()};
+  AddExperiments(*evaluate, experiments, exit_code);
+  AddEvaluatePlan(*evaluate, experiments, exit_code);
 }
 
 }  // namespace palace

@@ -38,6 +38,8 @@ void List() {
     std::printf("  %-12s %s\n", std::string(name).c_str(),
                 std::string(FamilySummary(name)).c_str());
   }
+  std::printf("To be searched:\n  %-12s %s\n", "search",
+              "80 by 80 m of hazards with one safe place, mostly out of sight");
 }
 
 int Worlds(const WorldsOptions& options) {

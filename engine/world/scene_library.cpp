@@ -6,6 +6,7 @@
 
 #include "engine/core/random.h"
 #include "engine/core/units.h"
+#include "engine/world/families/clearing.h"
 #include "engine/world/families/families.h"
 
 namespace palace {
@@ -93,6 +94,7 @@ std::vector<std::string_view> SceneNames() {
   std::vector<std::string_view> names = PlainSceneNames();
   const std::vector<std::string_view> families = FamilyNames();
   names.insert(names.end(), families.begin(), families.end());
+  names.push_back("search");
   return names;
 }
 
@@ -123,6 +125,9 @@ StereoRig DefaultRig() {
 Result<World> MakeScene(std::string_view name, std::uint64_t seed) {
   if (IsFamily(name)) {
     return MakeFamily(name, seed);
+  }
+  if (name == "search") {
+    return MakeSearchedGround(seed);
   }
   RandomStream random(seed, name);
   World scene;

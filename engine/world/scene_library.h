@@ -15,7 +15,8 @@ namespace palace {
 /// "runway" (tables and cones), "cones", "slope" (5 degrees, rising north), "empty": on flat ground
 /// of one texture, with a clear disc for certain.
 std::vector<std::string_view> PlainSceneNames();
-/// These, and the families of families/families.h.
+/// These, the families of families/families.h, and "search": 80 by 80 m with one safe place, mostly
+/// out of sight (families/clearing.h).
 std::vector<std::string_view> SceneNames();
 /// All that may be named, for a help text: "runway, cones, ... or a world file (*.toml)".
 std::string SceneList();

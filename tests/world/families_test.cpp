@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/world/families/clearing.h"
 #include "engine/world/families/view_plan.h"
 #include "engine/world/ground_truth.h"
 #include "engine/world/world_mesh.h"
@@ -134,6 +135,33 @@ TEST(Families, OneHasOneSafePlaceAndRoomInIt) {
     EXPECT_GE(places.Count(), 10) << "seed " << seed;
     EXPECT_LE(places.Count(), 200) << "seed " << seed << ", 12 square metres";
   }
+}
+
+TEST(Families, TheSearchedGroundHasOneSafePlaceSomewhereInIt) {
+  constexpr double kRim_m = kClearRadius_m;
+  double nearest_m = 100, farthest_m = 0;
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    const World world = MakeSearchedGround(seed);
+    const GroundTruth truth = TruthOf(world, {.north_min_m = -kSearchedHalf_m - kRim_m,
+                                              .north_max_m = kSearchedHalf_m + kRim_m,
+                                              .east_min_m = -kSearchedHalf_m - kRim_m,
+                                              .east_max_m = kSearchedHalf_m + kRim_m,
+                                              .cell_m = 0.1});
+    const SafePlaces places = FindSafePlaces(truth, kRim_m, {}, 0.25);
+    EXPECT_EQ(places.Regions(), 1) << "seed " << seed;
+    const GridGeometry& g = places.geometry;
+    for (int row = 0; row < g.rows; ++row) {
+      for (int col = 0; col < g.cols; ++col) {
+        if (places.safe.at(row, col) != 0) {
+          const double away_m = std::hypot(g.NorthOfRow(row), g.EastOfCol(col));
+          nearest_m = std::min(nearest_m, away_m);
+          farthest_m = std::max(farthest_m, away_m);
+        }
+      }
+    }
+  }
+  EXPECT_GT(farthest_m, 25);
+  EXPECT_LT(nearest_m, 25);
 }
 
 TEST(Families, NoTwoLookAlike) {

@@ -24,17 +24,18 @@ int SquareOf(double at_m) {
 
 }  // namespace
 
-std::vector<Vector2d> HazardLattice(RandomStream& random) {
+std::vector<Vector2d> HazardLattice(RandomStream& random, const Vector2d& middle, double half_m) {
   const double turn = DrawAngle(random);
   const Vector2d along(std::cos(turn), std::sin(turn)), across(-along.y(), along.x());
-  const Vector2d middle(16, 0);
+  // Turned, it must reach the corners.
+  const int reach = static_cast<int>(std::ceil(half_m * 1.4143 / kApart_m));
   std::vector<Vector2d> places;
-  for (int i = -30; i <= 30; ++i) {
-    for (int j = -30; j <= 30; ++j) {
+  for (int i = -reach; i <= reach; ++i) {
+    for (int j = -reach; j <= reach; ++j) {
       const double u = i * kApart_m + random.Uniform(-kJitter_m, kJitter_m);
       const double v = j * kApart_m + random.Uniform(-kJitter_m, kJitter_m);
       const Vector2d place = middle + u * along + v * across;
-      if ((place - middle).cwiseAbs().maxCoeff() < 33) {
+      if ((place - middle).cwiseAbs().maxCoeff() < half_m) {
         places.push_back(place);
       }
     }

@@ -6,9 +6,12 @@
 
 namespace palace {
 
-/// Places on a turned, jittered square lattice over the whole relief: from any place the nearest is
-/// at most kLatticeGap_m away, so that every disc of that radius holds one.
-std::vector<Eigen::Vector2d> HazardLattice(RandomStream& random);
+/// Places on a turned, jittered square lattice, `half_m` to every side of its middle: from any
+/// place there the nearest is at most kLatticeGap_m away, so that every disc of that radius holds
+/// one. What is left out is the relief of the families.
+std::vector<Eigen::Vector2d> HazardLattice(RandomStream& random,
+                                           const Eigen::Vector2d& middle_m = {16, 0},
+                                           double half_m = 33);
 inline constexpr double kLatticeGap_m = 1.45;
 
 /// Mounds and holes of the relief, each too high or too deep for a step.
