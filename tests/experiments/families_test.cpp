@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/experiments/evaluate_families.h"
+#include "engine/experiments/landing_truth.h"
 #include "engine/report/trial_table.h"
 
 namespace palace {
