@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
 
 #include "engine/core/frames.h"
@@ -12,6 +13,13 @@ namespace {
 
 /// The straight course stands for the sector that it is in.
 constexpr double kHalfSector_rad = std::numbers::pi / kApproachSectors;
+constexpr double kEqualScore = 1e-9;
+
+int NearestOf72(double heading_rad) {
+  const double step_rad = 2 * std::numbers::pi / kApproachHeadings;
+  const long nearest = std::lround(WrapAngle(heading_rad) / step_rad);
+  return static_cast<int>((nearest + kApproachHeadings) % kApproachHeadings);
+}
 
 /// Where one who flies that course comes from: [0, 2 pi) from north over east.
 double Bearing(double heading_rad) {
@@ -42,19 +50,51 @@ std::vector<ApproachCourse> ClearCourses(const LandingSite& site, double straigh
   return clear;
 }
 
-ApproachCourse ChooseCourse(const LandingSite& site, double straight_rad) {
-  const ApproachCourse straight{straight_rad, kStraightApproach};
-  if (site.corridor_clear) {
-    return straight;
+std::bitset<kApproachHeadings> BlockedHeadings(const LandingSite& site, double straight_rad) {
+  std::bitset<kApproachHeadings> blocked;
+  blocked.set();
+  for (int k = 0; k < kApproachHeadings; ++k) {
+    const double heading_rad = ApproachHeading(k);
+    for (int sector = 0; sector < kApproachSectors; ++sector) {
+      const double off_rad = std::abs(WrapAngle(HeadingFromSector(sector) - heading_rad));
+      if ((site.clear_approaches >> sector & 1U) != 0 && off_rad <= kHalfSector_rad + 1e-9) {
+        blocked.reset(static_cast<std::size_t>(k));
+      }
+    }
   }
+  if (site.corridor_clear) {
+    blocked.reset(static_cast<std::size_t>(NearestOf72(straight_rad)));
+  }
+  return blocked;
+}
+
+const HeadingScore& ScoreOf(const HeadingCurve& curve, double heading_rad) {
+  return curve.headings[static_cast<std::size_t>(NearestOf72(heading_rad))];
+}
+
+ApproachCourse ChooseCourse(const LandingSite& site, double straight_rad,
+                            const HeadingCurve& curve) {
+  const ApproachCourse straight{straight_rad, kStraightApproach};
+  // Of two that have too much tailwind the better one is flown: a limit for information.
+  const auto worth = [&](const ApproachCourse& course) {
+    const HeadingScore& score = ScoreOf(curve, course.heading_rad);
+    return score.combined - (score.is_downwind ? 1 : 0);
+  };
   const auto turn_rad = [&](const ApproachCourse& course) {
     return std::abs(WrapAngle(course.heading_rad - straight_rad));
   };
+  const ApproachCourse* best = nullptr;
   const std::vector<ApproachCourse> clear = ClearCourses(site, straight_rad, false);
-  const auto least = std::min_element(
-      clear.begin(), clear.end(),
-      [&](const ApproachCourse& a, const ApproachCourse& b) { return turn_rad(a) < turn_rad(b); });
-  return least == clear.end() ? straight : *least;
+  for (const ApproachCourse& course : clear) {
+    const double gain = best != nullptr ? worth(course) - worth(*best) : 1;
+    if (gain > kEqualScore || (gain > -kEqualScore && turn_rad(course) < turn_rad(*best))) {
+      best = &course;
+    }
+  }
+  if (best == nullptr) {
+    return straight;
+  }
+  return site.corridor_clear && worth(*best) <= worth(straight) + kWorthTurning ? straight : *best;
 }
 
 }  // namespace palace

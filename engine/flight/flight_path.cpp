@@ -83,9 +83,11 @@ FlightPath PathOf(const ApproachPlan& plan, const Eigen::Vector3d& p_WS,
 }
 
 FlightPath PathOf(const Approval& approval, const PathVehicle& vehicle) {
-  FlightPath path =
-      PathOf({approval.approach_heading_rad, approval.glide_slope_rad, approval.descent_rate_mps},
-             approval.p_WS, vehicle);
+  FlightPath path = PathOf({.heading_rad = approval.approach_heading_rad,
+                            .glide_slope_rad = approval.glide_slope_rad,
+                            .descent_rate_mps = approval.descent_rate_mps,
+                            .why = {}},
+                           approval.p_WS, vehicle);
   path.speeds.slope_end_m = std::max(path.speeds.slope_end_m, approval.stop_height_m);
   return path;
 }

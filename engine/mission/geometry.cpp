@@ -2,8 +2,12 @@
 
 #include <cmath>
 
+#include "engine/core/sun_position.h"
 #include "engine/core/units.h"
+#include "engine/flight/approach_heading.h"
+#include "engine/mission/descent_limits.h"
 #include "engine/model/find_site.h"
+#include "engine/model/wind.h"
 
 namespace palace {
 namespace {
@@ -45,14 +49,48 @@ double TimeLeft(const MissionMemory& m, const FlightPath& path) {
 }
 
 ApproachPlan PlanOn(const MissionMemory& m, const ApproachCourse& course) {
-  return {course.heading_rad, Rad(m.facts.settings.mission.glide_slope_deg),
-          m.facts.settings.mission.descent_rate_mps, course.side};
+  return {course.heading_rad,
+          Rad(m.facts.settings.mission.glide_slope_deg),
+          m.facts.settings.mission.descent_rate_mps,
+          course.side,
+          {}};
+}
+
+/// Of the courses to that site, by wind, sun and what is clear.
+HeadingCurve CurveFor(const MissionMemory& m, const LandingSite& site) {
+  const MissionSettings& settings = m.facts.settings.mission;
+  HeadingConditions conditions;
+  const double straight_rad = StraightHeading(m.facts.skid_centre_W, site.p_WS);
+  conditions.wanted_rad = straight_rad;
+  conditions.depression_rad = Rad(settings.glide_slope_deg);
+  conditions.max_tailwind_mps = settings.max_tailwind_mps;
+  conditions.blocked = BlockedHeadings(site, straight_rad);
+  const double wind_mps = KnownWind(m, m.facts.now);
+  if (WindHasDirection(wind_mps)) {
+    conditions.wind_mps = wind_mps;
+    conditions.wind_from_rad = m.watch.vehicle()->wind_from_rad;
+  }
+  if (settings.sun == SunSource::kByPlace) {
+    const SunDirection sun =
+        SunAt(m.facts.now, Rad(settings.latitude_deg), Rad(settings.longitude_deg));
+    conditions.sun_azimuth_rad = sun.azimuth_rad;
+    conditions.sun_elevation_rad = sun.elevation_rad;
+  }
+  return ScoreHeadings(conditions);
 }
 
 ApproachPlan PlanFor(const MissionMemory& m, const LandingSite& site) {
-  const ApproachCourse course =
-      ChooseCourse(site, StraightHeading(m.facts.skid_centre_W, site.p_WS));
-  return PlanOn(m, course);
+  const double straight_rad = StraightHeading(m.facts.skid_centre_W, site.p_WS);
+  const HeadingCurve curve = CurveFor(m, site);
+  const ApproachCourse course = ChooseCourse(site, straight_rad, curve);
+  ApproachPlan plan = PlanOn(m, course);
+  if (plan.turned() && site.corridor_clear) {
+    const HeadingScore& straight = ScoreOf(curve, straight_rad);
+    const HeadingScore& chosen = ScoreOf(curve, course.heading_rad);
+    plan.why = chosen.wind - straight.wind >= chosen.sun - straight.sun ? "into the wind"
+                                                                        : "out of the sun";
+  }
+  return plan;
 }
 
 /// From now on the corridor is that of the plan; the maps to come judge it again.
@@ -113,6 +151,13 @@ std::vector<ApproachCourse> CoursesOpen(const MissionMemory& m) {
   const LandingSite& newest = m.newest ? *m.newest : *m.status.armed;
   return ClearCourses(newest, StraightHeading(m.facts.skid_centre_W, m.status.armed->p_WS),
                       m.armed.straight_clear);
+}
+
+void PublishHeadings(MissionMemory& m) {
+  m.status.headings.reset();
+  if (m.status.state == MissionState::kArmed && m.facts.skid_centre_W.allFinite()) {
+    m.status.headings = CurveFor(m, m.newest ? *m.newest : *m.status.armed);
+  }
 }
 
 void TurnTo(MissionMemory& m, const ApproachCourse& course) {

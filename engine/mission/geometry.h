@@ -27,6 +27,9 @@ void PlanApproach(MissionMemory& memory);
 /// is now. Empty: none is armed, or its approach not planned yet.
 std::vector<ApproachCourse> CoursesOpen(const MissionMemory& memory);
 
+/// Fills headings of the status, for the armed site on the newest map.
+void PublishHeadings(MissionMemory& memory);
+
 /// Plans the approach of the armed site on that course, which the next map judges.
 void TurnTo(MissionMemory& memory, const ApproachCourse& course);
 

@@ -87,6 +87,7 @@ void PublishFigures(MissionMemory& m, Timestamp now) {
   PublishGeometry(m);
   PublishWayElsewhere(m);
   PublishSides(m);
+  PublishHeadings(m);
   PublishLimits(m, now);
   m.status.wave_off = WaveOffNow(m, now);
   m.status.why_no_wave_off = WhyNoWaveOff(m, now);

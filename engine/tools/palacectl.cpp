@@ -19,6 +19,7 @@
 #include "engine/tools/faults_command.h"
 #include "engine/tools/log_command.h"
 #include "engine/tools/simulate_command.h"
+#include "engine/tools/track_command.h"
 #include "engine/tools/trust_command.h"
 #include "engine/tools/vehicle_command.h"
 #include "engine/tools/worlds_command.h"
@@ -93,7 +94,7 @@ int main(int argc, char** argv) {
   palace::InitLogging(false);
   CLI::App app(
       "PALACE without a window: simulate, analyze, capture, calibrate, camera, evaluate, "
-      "faults, log, trust, vehicle, worlds",
+      "faults, log, track, trust, vehicle, worlds",
       "palacectl");
   app.set_version_flag("--version", std::string("palacectl ") + palace::kProgramVersion);
   app.require_subcommand(1);
@@ -105,6 +106,7 @@ int main(int argc, char** argv) {
   palace::AddCameraCommand(app, exit_code);
   palace::AddEvaluateCommand(app, exit_code, palace::MakeOffscreenSceneCamera);
   palace::AddLogCommand(app, exit_code);
+  palace::AddTrackCommand(app, exit_code);
   palace::AddTrustCommand(app, exit_code);
   palace::AddVehicleCommand(app, exit_code);
   palace::AddFaultsCommand(app, exit_code);

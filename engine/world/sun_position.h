@@ -1,15 +1,10 @@
-// Where the sun stands, by date, time (UTC) and place.
-//
-// NOAA's long form (Meeus, Astronomical Algorithms, low precision): geometric mean longitude and
-// anomaly, equation of the centre, apparent longitude, obliquity and the equation of time, in
-// Julian centuries of UTC. Within 0.003 degrees in azimuth and, without refraction, in elevation
-// of NREL's SPA in its published case (2003-10-17 19:30:30 UTC, 39.7425 N 105.1786 W); refraction
-// is left out: it lifts the sun by 0.02 degrees at 40 and by half a degree at the horizon.
-// Source: NOAA Global Monitoring Laboratory, Solar Calculation Details (spreadsheet).
+// Date, time (UTC) and place as world files write them; the sun there is that of core/sun_position.
 #pragma once
 
 #include <optional>
 #include <string>
+
+#include "engine/core/sun_position.h"
 
 namespace palace {
 
@@ -27,12 +22,7 @@ struct UtcMoment {
 /// years outside 1901 .. 2099.
 std::optional<UtcMoment> ParseUtc(const std::string& text);
 
-struct SunPosition {
-  double azimuth_rad = 0;    ///< from north over east, 0 .. 2 pi
-  double elevation_rad = 0;  ///< of its middle above the horizon, without refraction
-};
-
 /// North and east positive.
-SunPosition SunPositionAt(const UtcMoment& utc, double latitude_rad, double longitude_rad);
+SunDirection SunAt(const UtcMoment& utc, double latitude_rad, double longitude_rad);
 
 }  // namespace palace

@@ -89,7 +89,7 @@ void ReadSunByDate(TomlTable& table, World& world) {
   }
   const double latitude_rad = Rad(table.Number("latitude_deg", kLatitude));
   const double longitude_rad = Rad(table.Number("longitude_deg", kLongitude));
-  const SunPosition sun = SunPositionAt(*utc, latitude_rad, longitude_rad);
+  const SunDirection sun = SunAt(*utc, latitude_rad, longitude_rad);
   if (const double down_deg = -Deg(sun.elevation_rad); down_deg > -kElevation.least) {
     table.FailKey("utc", " = \"" + text + "\": the sun stands " + WithNumbers("%.1f", down_deg) +
                              " degrees below the horizon there, the limit is " +

@@ -131,7 +131,8 @@ HoldButtonView ApproveButton(const EngineSnapshot& snap, const ApproveState& sta
 std::string SideWords(const MissionStatus& m) {
   return m.approach && m.approach->turned()
              ? std::string(", from the ") +
-                   DirectionWord(m.approach->heading_rad + std::numbers::pi)
+                   DirectionWord(m.approach->heading_rad + std::numbers::pi) +
+                   (m.approach->why.empty() ? "" : ", " + m.approach->why)
              : std::string();
 }
 

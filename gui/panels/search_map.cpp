@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdio>
 #include <numbers>
 
 #include "engine/core/units.h"
@@ -186,10 +187,61 @@ void DrawSites(const EngineSnapshot& snap, const Ground& ground, UiFrame& ui) {
   const auto& armed = snap.flight->mission.armed;
   for (const LandingSite& site : snap.terrain->applied->selection.sites) {
     const ImVec2 at = ground.At(site.p_WS.head<2>());
-    if (ground.rect.Contains(at)) {
+    const bool is_asked = !armed || armed->id == site.id;  // the others would cover its courses
+    if (is_asked && ground.rect.Contains(at)) {
       LetterPlate(ui, at, site.letter, armed && armed->id == site.id);
     }
   }
+}
+
+/// Of the armed site: each course as a ray on the side that it comes from, as long as it suits;
+/// hatched where something stands there or the wind comes too much from behind. White: the plan.
+void DrawHeadings(const MissionStatus& m, const Ground& ground, UiFrame& ui) {
+  if (!m.armed || !m.headings) {
+    return;
+  }
+  const Style& s = ui.style;
+  const ImVec2 c = ground.At(m.armed->p_WS.head<2>());
+  const float from_px = s.Px(14), full_px = s.Px(56);
+  const auto end = [&](double heading_rad, float radius) {
+    const auto north = static_cast<float>(-std::cos(heading_rad));  // it comes from behind
+    const auto east = static_cast<float>(-std::sin(heading_rad));
+    return ImVec2{c.x + east * radius, c.y - north * radius};
+  };
+  for (const HeadingScore& score : m.headings->headings) {
+    const float radius =
+        from_px + (full_px - from_px) * static_cast<float>(std::clamp(score.combined, 0.0, 1.0));
+    const ImVec2 a = end(score.heading_rad, from_px), b = end(score.heading_rad, radius);
+    if (score.IsVetoed()) {
+      DashedLine(Canvas(), a, b, picture::kUnsafeLine, s.Fine(1.5F), s.Px(2), s.Px(3));
+    } else {
+      Canvas()->AddLine(a, b, picture::kSafe, s.Fine(1.5F));
+    }
+  }
+  if (m.approach && std::isfinite(m.approach->heading_rad)) {
+    Canvas()->AddLine(end(m.approach->heading_rad, from_px),
+                      end(m.approach->heading_rad, full_px + s.Px(10)), picture::kWhite, s.Fine(3));
+  }
+}
+
+/// "Approach 045°: wind 0.92, sun not known, turn 0.60".
+std::string HeadingWords(const EngineSnapshot& snap) {
+  const MissionStatus& m = snap.flight->mission;
+  if (!m.headings || !m.approach || !std::isfinite(m.approach->heading_rad)) {
+    return {};
+  }
+  const double step = 2 * std::numbers::pi / kApproachHeadings;
+  const long nearest = std::lround(WrapAngle(m.approach->heading_rad) / step);
+  const HeadingScore& score =
+      m.headings
+          ->headings[static_cast<std::size_t>((nearest + kApproachHeadings) % kApproachHeadings)];
+  const long degrees = (std::lround(Deg(m.approach->heading_rad)) + 360) % 360;
+  char heading[16];
+  std::snprintf(heading, sizeof heading, "%03ld°", degrees);
+  const bool sun = snap.session->settings.mission.sun == SunSource::kByPlace;
+  return std::string("Approach ") + heading + ": wind " +
+         (std::isfinite(score.tailwind_mps) ? Fixed(score.wind, 2) : "not known") + ", sun " +
+         (sun ? Fixed(score.sun, 2) : "not known") + ", turn " + Fixed(score.orientation, 2);
 }
 
 void DrawDrawnArea(const SearchMapState& state, const Ground& ground, ImVec2 pointer, bool hovered,
@@ -410,6 +462,7 @@ void DrawSearchMapPanel(const EngineSnapshot& snap, const Rect& rect, SearchMapS
     DrawSeen(*m.seen, ground, Mix(picture::kUnknown, picture::kUnknownLine, 0.9F));
   }
   DrawLimit(m, ground, ui);
+  DrawHeadings(m, ground, ui);
   DrawSites(snap, ground, ui);
   DrawVehicle(snap, ground, ui);
   const float x = scene.x + s.Px(8), top = scene.y + s.Px(8);
@@ -432,6 +485,10 @@ void DrawSearchMapPanel(const EngineSnapshot& snap, const Rect& rect, SearchMapS
     const float room = scene.w - s.Px(16);
     TextPlate(ui, {scene.x, scene.y, scene.w, scene.h - s.Px(32)}, Corner::kBottomLeft,
               FitWords(s.caption, trouble, room));
+  }
+  if (const std::string words = HeadingWords(snap); !words.empty() && trouble.empty()) {
+    TextPlate(ui, {scene.x, scene.y, scene.w, scene.h - s.Px(32)}, Corner::kBottomLeft,
+              FitClauses(s.caption, words, scene.w - s.Px(16)));
   }
   DrawNorth(scene, ui);
   DrawScaleBar(ui, scene, static_cast<float>(1 / ground.per_px));

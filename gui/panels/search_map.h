@@ -1,5 +1,6 @@
 // Search map: the ground around from above, north up. What was looked at, where the vehicle is and
-// what it sees, where it would look next, and the area that it is kept to.
+// what it sees, where it would look next, and the area that it is kept to; of a selected site how
+// well each course to it suits wind, sun and what stands in the way.
 //
 // A click picks a place to fly to ("fly_there") or to look at ("look_there"). "draw_area" begins an
 // area: every click is a corner, "area_undo" takes the last one back, "area_close" or a click on

@@ -9,11 +9,20 @@
 #include "engine/core/frames.h"
 #include "engine/core/random.h"
 #include "engine/core/units.h"
+#include "engine/flight/approach_heading.h"
 
 namespace palace {
 namespace {
 
 enum Sector : unsigned { kN = 1, kNE = 2, kE = 4, kSE = 8, kS = 16, kSW = 32, kW = 64, kNW = 128 };
+
+/// Without wind and sun.
+ApproachCourse Choose(const LandingSite& site, double straight_rad,
+                      HeadingConditions conditions = {}) {
+  conditions.wanted_rad = straight_rad;
+  conditions.blocked = BlockedHeadings(site, straight_rad);
+  return ChooseCourse(site, straight_rad, ScoreHeadings(conditions));
+}
 
 struct Row {
   const char* name;
@@ -39,7 +48,7 @@ TEST(ChooseCourse, StraightWhereClearElseTheLeastTurn) {
     LandingSite site;
     site.corridor_clear = row.straight_clear;
     site.clear_approaches = static_cast<std::uint8_t>(row.clear);
-    const ApproachCourse course = ChooseCourse(site, Rad(row.straight_deg));
+    const ApproachCourse course = Choose(site, Rad(row.straight_deg));
     EXPECT_NEAR(WrapAngle(course.heading_rad - Rad(row.heading_deg)), 0, 1e-9)
         << Deg(course.heading_rad);
     EXPECT_EQ(course.side != kStraightApproach, row.turned);
@@ -55,7 +64,7 @@ TEST(ChooseCourse, NoBlockedSectorIsEverFlown) {
     site.corridor_clear = false;
     site.clear_approaches = static_cast<std::uint8_t>(random.Uniform(0, 256));
     const double straight_rad = random.Uniform(-3.14, 3.14);
-    const ApproachCourse course = ChooseCourse(site, straight_rad);
+    const ApproachCourse course = Choose(site, straight_rad);
     ASSERT_EQ(course.side != kStraightApproach, site.clear_approaches != 0)
         << "seed " << kSeed << ", " << trial;
     if (course.side == kStraightApproach) {
@@ -68,6 +77,60 @@ TEST(ChooseCourse, NoBlockedSectorIsEverFlown) {
     ASSERT_NE(site.clear_approaches >> sector & 1U, 0u) << "seed " << kSeed << ", " << trial;
     if (std::popcount(site.clear_approaches) == 8) {
       ASSERT_LE(std::abs(WrapAngle(course.heading_rad - straight_rad)), Rad(22.5) + 1e-9);
+    }
+  }
+}
+
+TEST(ChooseCourse, TurnsIntoTheWindWhereItIsWorthIt) {
+  struct Windy {
+    const char* name;
+    double wind_mps, from_deg, heading_deg;
+    bool turned;
+  };
+  LandingSite open;
+  open.corridor_clear = true;
+  open.clear_approaches = 0xFF;
+  for (const Windy& row : {Windy{"calm", 0.5, 180, 0, false}, Windy{"from ahead", 8, 0, 0, false},
+                           Windy{"a light breeze from the side", 2, 90, 0, false},
+                           Windy{"strong from behind", 9, 180, 180, true},
+                           Windy{"strong from the right", 9, 90, 90, true}}) {
+    SCOPED_TRACE(row.name);
+    HeadingConditions wind;
+    wind.wind_mps = row.wind_mps;
+    wind.wind_from_rad = Rad(row.from_deg);
+    const ApproachCourse course = Choose(open, 0, wind);
+    EXPECT_EQ(course.side != kStraightApproach, row.turned) << Deg(course.heading_rad);
+    // The same score holds some 20 degrees to either side of the wind's eye.
+    EXPECT_LE(std::abs(Deg(WrapAngle(course.heading_rad - Rad(row.heading_deg)))), 45 + 1e-6);
+  }
+}
+
+// In 500 drawn cases of wind and obstacles: never a blocked side, and never more tailwind than the
+// limit where a clear side keeps it.
+TEST(ChooseCourse, KeepsTheTailwindLimitWhereAClearSideDoes) {
+  constexpr std::uint64_t kSeed = 500;
+  RandomStream random(kSeed);
+  for (int trial = 0; trial < 500; ++trial) {
+    LandingSite site;
+    site.corridor_clear = random.Uniform(0, 1) < 0.5;
+    site.clear_approaches = static_cast<std::uint8_t>(random.Uniform(0, 256));
+    HeadingConditions wind;
+    wind.wind_mps = random.Uniform(0, 12);
+    wind.wind_from_rad = random.Uniform(-3.14, 3.14);
+    const double straight_rad = random.Uniform(-3.14, 3.14);
+    const ApproachCourse course = Choose(site, straight_rad, wind);
+    const auto tail = [&](double heading_rad) {
+      return -wind.wind_mps * std::cos(heading_rad - wind.wind_from_rad);
+    };
+    if (course.side != kStraightApproach) {
+      ASSERT_NE(site.clear_approaches >> course.side & 1U, 0u) << "seed " << kSeed << ", " << trial;
+    }
+    constexpr double kRounded_mps = 0.55;  // courses are scored by the nearest 5 degrees
+    if (tail(course.heading_rad) > wind.max_tailwind_mps + kRounded_mps) {
+      for (const ApproachCourse& other : ClearCourses(site, straight_rad, site.corridor_clear)) {
+        ASSERT_GT(tail(other.heading_rad), wind.max_tailwind_mps - kRounded_mps)
+            << "seed " << kSeed << ", " << trial;
+      }
     }
   }
 }

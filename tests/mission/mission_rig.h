@@ -27,6 +27,7 @@ struct SmallVehicle {
   double stop_height_m = 0;  ///< of the approval that it flies
   double height_m = 20;
   double wind_mps = 0;
+  double wind_from_rad = 0;
   double climb_mps = 2;  ///< of a wave-off
   double mode_for_s = 0;
   bool answers = true;
@@ -290,6 +291,7 @@ struct MissionRig {
       status.on_ground = vehicle.mode == VehicleMode::kLanded;
       status.approval_id = vehicle.approval_id;
       status.wind_speed_mps = vehicle.wind_mps;
+      status.wind_from_rad = vehicle.wind_from_rad;
       bundle.status = status;
       bundle.acks = std::exchange(vehicle.acks, {});
     }

@@ -47,6 +47,25 @@ TEST(TurnApproach, IsFlownAsItWasTurnedOnceItWasOnTheScreen) {
   EXPECT_TRUE(told);
 }
 
+TEST(TurnApproach, TheStationTurnsItIntoTheWindWhereThatIsClearAndSaysSo) {
+  TurnRig rig;
+  rig.vehicle.wind_mps = 7;
+  rig.vehicle.wind_from_rad = Rad(-90);  // the way from the east goes west, into it
+  rig.Arm();
+  ASSERT_TRUE(rig.plan().turned());
+  EXPECT_EQ(rig.plan().side, 2);
+  EXPECT_EQ(rig.plan().why, "into the wind");
+  ASSERT_TRUE(rig.mission.status().headings.has_value());
+  const auto& headings = rig.mission.status().headings->headings;
+  EXPECT_FALSE(headings[54].IsVetoed()) << "270 degrees, from the east";
+  EXPECT_TRUE(headings[36].is_blocked) << "180 degrees, from the north";
+  EXPECT_GT(headings[54].wind, headings[0].wind);
+  TurnRig calm;
+  calm.Arm();
+  EXPECT_FALSE(calm.plan().turned());
+  EXPECT_EQ(calm.plan().why, "");
+}
+
 // Drawn as it is flown: to where the slope begins, on the side that was chosen, then down.
 TEST(TurnApproach, TheWayShownIsTheOneThatIsFlown) {
   TurnRig rig;

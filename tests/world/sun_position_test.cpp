@@ -22,8 +22,8 @@ TEST(SunPosition, IsWithinTwoHundredthsOfADegreeOfTheListedCases) {
                                Listed{"2004-06-21 19:09:00", 37.415, -122.048, 132.54, 70.85},
                                Listed{"2004-12-21 23:30:00", 37.415, -122.048, 226.79, 12.63}}) {
     SCOPED_TRACE(listed.utc);
-    const SunPosition sun = SunPositionAt(ParseUtc(listed.utc).value(), Rad(listed.latitude_deg),
-                                          Rad(listed.longitude_deg));
+    const SunDirection sun =
+        SunAt(ParseUtc(listed.utc).value(), Rad(listed.latitude_deg), Rad(listed.longitude_deg));
     EXPECT_NEAR(Deg(sun.azimuth_rad), listed.azimuth_deg, 0.02);
     EXPECT_NEAR(Deg(sun.elevation_rad), listed.elevation_deg, 0.02);
   }
@@ -32,9 +32,9 @@ TEST(SunPosition, IsWithinTwoHundredthsOfADegreeOfTheListedCases) {
 // The equinox of March 2000 was on the 20th, 07:35 UTC: declination 0, so that at the equator the
 // sun is overhead at local solar noon and rises in the east.
 TEST(SunPosition, EquinoxAtTheEquator) {
-  const SunPosition noon = SunPositionAt({2000, 3, 20, 12, 7, 26}, 0, 0);
+  const SunDirection noon = SunAt({2000, 3, 20, 12, 7, 26}, 0, 0);
   EXPECT_GT(Deg(noon.elevation_rad), 89.8);
-  const SunPosition rise = SunPositionAt({2000, 3, 20, 6, 7, 30}, 0, 0);
+  const SunDirection rise = SunAt({2000, 3, 20, 6, 7, 30}, 0, 0);
   EXPECT_NEAR(Deg(rise.elevation_rad), 0, 0.1);
   EXPECT_NEAR(Deg(rise.azimuth_rad), 90, 0.1);
 }

@@ -12,6 +12,7 @@
 #include "engine/model/approach_side.h"
 #include "engine/model/landing_site.h"
 #include "engine/model/mission/fly_area.h"
+#include "engine/model/mission/heading_curve.h"
 #include "engine/model/mission/limit_row.h"
 #include "engine/model/mission/mission_ids.h"
 #include "engine/model/mission/seen_ground.h"
@@ -120,6 +121,7 @@ struct ApproachPlan {
   double glide_slope_rad = NAN;   ///< down from the horizon
   double descent_rate_mps = NAN;  ///< down the slope, the vertical part
   int side = kStraightApproach;   ///< that it comes from (approach_side.h)
+  std::string why{};                ///< of a side that the station chose: "into the wind"
 
   /// Round to another side, not straight from where the vehicle is.
   bool turned() const { return side != kStraightApproach; }
@@ -188,6 +190,8 @@ struct MissionStatus {
   /// ARMED: the sides that TurnApproach takes, clockwise by where they come from. The planned one
   /// is missing where it is not clear any more.
   std::vector<int> approach_sides;
+  /// ARMED: what speaks for each course to the site now; empty in other states.
+  std::optional<HeadingCurve> headings;
   Timestamp armed_at;
   std::optional<Timestamp> arm_expires;
   /// Ids of places the operator refused: listed, but never proposed again while their letters live.

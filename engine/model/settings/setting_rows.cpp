@@ -357,6 +357,30 @@ std::vector<Row> VehicleRows() {
           .Within(1, 30)
           .Usually(4, 15)
           .HashedWhenChanged(),
+      Row("mission.max_tailwind_mps", "Max tailwind", kMission, &MissionSettings::max_tailwind_mps)
+          .Says("An approach with more of the wind from behind is planned only where no other is "
+                "clear.")
+          .Shown("m/s", 1)
+          .Within(0.5, 10)
+          .Usually(1, 5)
+          .HashedWhenChanged(),
+      Row("mission.sun", "Sun", kMission, &MissionSettings::sun)
+          .Says("By place: where the sun stands, by UTC and the place below, counts in the choice "
+                "of the approach.")
+          .Choice({"unknown", "by_place"})
+          .HashedWhenChanged(),
+      Row("mission.latitude_deg", "Latitude", kMission, &MissionSettings::latitude_deg)
+          .Says("Of the place, north positive; for the sun only.")
+          .Shown("°", 2)
+          .Within(-90, 90)
+          .Usually(-60, 70)
+          .HashedWhenChanged(),
+      Row("mission.longitude_deg", "Longitude", kMission, &MissionSettings::longitude_deg)
+          .Says("Of the place, east positive; for the sun only.")
+          .Shown("°", 2)
+          .Within(-180, 180)
+          .Usually(-180, 180)
+          .HashedWhenChanged(),
       Row("mission.settle_s", "Settling", kMission, &MissionSettings::settle_s)
           .Says("How long the vehicle takes in calm air to be still above the site: part of the "
                 "time to touchdown.")

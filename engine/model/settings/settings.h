@@ -128,6 +128,7 @@ struct TrackingSettings {
   friend bool operator==(const TrackingSettings&, const TrackingSettings&) = default;
 };
 
+enum class SunSource : int { kUnknown = 0, kByPlace = 1 };
 struct MissionSettings {
   double glide_slope_deg = 45;
   double descent_rate_mps = 1.0;
@@ -136,8 +137,11 @@ struct MissionSettings {
   double propose_after_s = 1;
   int propose_after_maps = 3;
   double max_vision_outage_s = 2;
-  double max_wind_mps = 8;  ///< in which the vehicle's controllers hold a hover
-  double settle_s = 3.8;    ///< until the vehicle is still above the site, by landings in calm air
+  double max_wind_mps = 8;                     ///< in which the vehicle's controllers hold a hover
+  double max_tailwind_mps = 2.5;               ///< of an approach; a judgement, 5 knots
+  SunSource sun = SunSource::kUnknown;         ///< kByPlace: by UTC and the two below
+  double latitude_deg = 0, longitude_deg = 0;  ///< north and east positive
+  double settle_s = 3.8;  ///< until the vehicle is still above the site, by landings in calm air
   friend bool operator==(const MissionSettings&, const MissionSettings&) = default;
 };
 

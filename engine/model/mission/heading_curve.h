@@ -1,0 +1,38 @@
+// How well each of 72 courses suits an approach (flight/approach_heading.h makes it).
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "engine/core/units.h"
+
+namespace palace {
+
+inline constexpr int kApproachHeadings = 72;  ///< every 5 degrees from north, clockwise
+
+/// Heading k of the list, in [0, 2 pi).
+constexpr double ApproachHeading(int k) { return Rad(360.0 / kApproachHeadings * k); }
+
+struct HeadingScore {
+  double heading_rad = 0;
+  double wind = 1;
+  double sun = 1;
+  double orientation = 1;
+  double combined = 1;
+  double tailwind_mps = NAN;  ///< a headwind is negative; NaN: not known
+  bool is_blocked = false;
+  bool is_downwind = false;  ///< more tailwind than the limit
+
+  bool IsVetoed() const { return is_blocked || is_downwind; }
+};
+
+struct HeadingCurve {
+  std::array<HeadingScore, kApproachHeadings> headings;
+  /// The one without veto of the greatest combined (1 - kTurnPenalty turn / pi), `turn` from the
+  /// present heading. Of equals the one that turns least from the wanted heading; of those, and
+  /// where none is wanted, the first from north. Nothing: all are vetoed.
+  std::optional<int> best;
+};
+
+}  // namespace palace

@@ -1,0 +1,128 @@
+#include "engine/tracking/template_selection.h"
+
+#include <algorithm>
+
+#include <opencv2/imgproc.hpp>
+
+#include "engine/tracking/template_match.h"
+
+namespace palace {
+namespace {
+
+/// Sensor noise of two grey levels gives 0.2 at most: fainter places are followed by chance.
+constexpr float kMinEigenvalue = 0.5F;
+/// Self-similarity costs up to half a millisecond a place.
+constexpr int kMaxTried = 1000;
+
+cv::Mat View(const ImageU8& picture) {
+  return {picture.height(), picture.width(), CV_8U,
+          const_cast<std::uint8_t*>(picture.pixels().data())};
+}
+
+cv::Mat SmallerEigenvalue(const ImageU8& picture, int template_px) {
+  cv::Mat smooth, gx, gy;
+  cv::GaussianBlur(View(picture), smooth, {}, 1.0);
+  constexpr double kPerPixel = 1.0 / 8;  // Sobel's weights
+  cv::Sobel(smooth, gx, CV_32F, 1, 0, 3, kPerPixel);
+  cv::Sobel(smooth, gy, CV_32F, 0, 1, 3, kPerPixel);
+  cv::Mat xx = gx.mul(gx), xy = gx.mul(gy), yy = gy.mul(gy);
+  for (cv::Mat* m : {&xx, &xy, &yy}) {
+    cv::GaussianBlur(*m, *m, cv::Size(template_px, template_px), template_px / 4.0);
+  }
+  cv::Mat difference = xx - yy, root;
+  cv::sqrt(difference.mul(difference) + 4 * xy.mul(xy), root);
+  return 0.5 * (xx + yy - root);
+}
+
+struct Candidate {
+  float strength = 0;
+  Eigen::Vector2i pixel = Eigen::Vector2i::Zero();
+};
+
+/// Local maxima at which the whole template lies in the picture, strongest first.
+std::vector<Candidate> Candidates(const ImageU8& picture, int template_px, const ImageU8& mask) {
+  const cv::Mat strength = SmallerEigenvalue(picture, template_px);
+  cv::Mat peak;
+  const int reach = template_px / 4 * 2 + 1;
+  cv::dilate(strength, peak, cv::Mat::ones(reach, reach, CV_8U));
+  const int half = template_px / 2;
+  std::vector<Candidate> found;
+  for (int y = half; y < picture.height() - half; ++y) {
+    const float* row = strength.ptr<float>(y);
+    const float* top = peak.ptr<float>(y);
+    for (int x = half; x < picture.width() - half; ++x) {
+      if (row[x] >= kMinEigenvalue && row[x] >= top[x] && (mask.empty() || mask.at(x, y) != 0)) {
+        found.push_back({row[x], {x, y}});
+      }
+    }
+  }
+  std::stable_sort(found.begin(), found.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.strength > b.strength; });
+  return found;
+}
+
+ImageU8 Part(const ImageU8& picture, int left, int top, int right, int bottom) {
+  ImageU8 part(right - left, bottom - top);
+  for (int y = top; y < bottom; ++y) {
+    std::copy(picture.row(y) + left, picture.row(y) + right, part.row(y - top));
+  }
+  return part;
+}
+
+}  // namespace
+
+double SelfSimilarity(const ImageU8& picture, const Eigen::Vector2i& pixel, int template_px,
+                      int search_px) {
+  const int half = template_px / 2;
+  const int x = pixel.x(), y = pixel.y();
+  PALACE_CHECK(x >= half && y >= half && x + half < picture.width() && y + half < picture.height(),
+               x, y, template_px);
+  const int reach = half + search_px;
+  return MatchTemplate(Part(picture, std::max(x - reach, 0), std::max(y - reach, 0),
+                            std::min(x + reach + 1, picture.width()),
+                            std::min(y + reach + 1, picture.height())),
+                       Part(picture, x - half, y - half, x + half + 1, y + half + 1))
+      .second_score;
+}
+
+std::vector<TemplateFeature> SelectTemplates(const ImageU8& picture,
+                                             const TemplateSelectionOptions& options,
+                                             const ImageU8& mask) {
+  PALACE_CHECK(options.template_px > 0 && options.template_px % 2 == 1, options.template_px);
+  PALACE_CHECK(options.search_px > 0, options.search_px);
+  PALACE_CHECK(mask.empty() ||
+               (mask.width() == picture.width() && mask.height() == picture.height()));
+  std::vector<TemplateFeature> features;
+  if (std::min(picture.width(), picture.height()) < options.template_px) {
+    return features;
+  }
+  const auto is_near = [](const std::vector<Eigen::Vector2d>& places, const Eigen::Vector2d& pixel,
+                          double distance_px) {
+    return std::any_of(places.begin(), places.end(), [&](const Eigen::Vector2d& place) {
+      return (place - pixel).norm() < distance_px;
+    });
+  };
+  std::vector<Eigen::Vector2d> taken, refused;
+  for (const Candidate& candidate : Candidates(picture, options.template_px, mask)) {
+    if (static_cast<int>(taken.size()) >= options.max_count ||
+        static_cast<int>(taken.size() + refused.size()) >= kMaxTried) {
+      break;
+    }
+    const Eigen::Vector2d pixel = candidate.pixel.cast<double>();
+    // A pattern goes on beside where it was found to repeat.
+    if (is_near(taken, pixel, options.spacing_px) ||
+        is_near(refused, pixel, options.template_px / 4.0)) {
+      continue;
+    }
+    const double similarity =
+        SelfSimilarity(picture, candidate.pixel, options.template_px, options.search_px);
+    const bool alone = similarity <= options.max_self_similarity;
+    (alone ? taken : refused).push_back(pixel);
+    if (alone) {
+      features.push_back({pixel, candidate.strength, similarity});
+    }
+  }
+  return features;
+}
+
+}  // namespace palace
