@@ -21,6 +21,7 @@ constexpr double kReplan_s = 1;
 constexpr double kSpareAir_m = 1;  // more than is asked for, so that the next map shows it too
 constexpr double kLeastClimb_m = 2, kLongestClimb_m = 10;
 constexpr double kSamePlace_m = 0.5;
+constexpr double kSameHeading_rad = Rad(3);
 constexpr int kSampled = 4;  // every so many rows and columns
 
 double MeanGround(const ElevationMap& map) {
@@ -184,7 +185,8 @@ void PlanSearch(MissionMemory& m, Timestamp now) {
 
 void RememberLook(MissionMemory& m, const FlyTo& there) {
   const std::optional<FlyTo> again = WayToPromising(m);
-  if (again && (again->p_WB - there.p_WB).norm() < kSamePlace_m) {
+  if (again && (again->p_WB - there.p_WB).norm() < kSamePlace_m &&
+      std::abs(WrapAngle(again->heading_rad - there.heading_rad)) < kSameHeading_rad) {
     m.search.looked_at.push_back(m.search.promising->id);
   }
 }

@@ -61,7 +61,7 @@ const std::set<std::pair<std::string, std::string>> kAllowed = {
     {"gui/panels/approve_words.cpp", "kTold_deg"},
     // Which corner a click means; what is drawn as a turn, and no way.
     {"gui/panels/search_map.cpp", "kSnap_px"},
-    {"gui/panels/search_map.cpp", "kOnTheSpot_m"},
+    {"gui/panels/search_map_marks.cpp", "kOnTheSpot_m"},
     {"gui/panels/tune/setting_history.cpp", "kGesture_s"},
     {"gui/widgets/hold_button.cpp", "kReleaseMessage_s"},
     // How a scene is drawn.
