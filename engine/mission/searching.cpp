@@ -77,8 +77,8 @@ bool HoldsId(const std::vector<std::uint64_t>& ids, std::uint64_t id) {
 std::optional<FlyTo> WayToPromising(const MissionMemory& m) {
   const std::optional<LandingSite>& site = m.search.promising;
   if (!site || m.status.state != MissionState::kSearch || m.status.IsRefused(site->id) ||
-      HoldsId(m.search.looked_at, site->id)) {
-    return std::nullopt;
+      HoldsId(m.search.looked_at, site->id) || FindSite(m.facts.sites, site->id) != nullptr) {
+    return std::nullopt;  // what is listed still stands, and is seen from here
   }
   return HoverBefore(m.facts.p_WB, site->p_WS, Rad(m.facts.settings.mission.glide_slope_deg));
 }

@@ -188,16 +188,19 @@ void DrawPlaceButtons(const EngineSnapshot& snap, float x, float y, const Search
     return;
   }
   std::optional<FlyTo> there;
-  if (pose) {
+  const std::optional<FlyArea>& area = snap.flight->mission.area;
+  const bool leaves = pose && area && LeavesBy_m(*area, pose->X_WB.p.head<2>(), *state.picked) > 0;
+  if (pose && !leaves) {
     const Eigen::Vector3d& p_WB = pose->X_WB.p;
     const Eigen::Vector2d way = *state.picked - p_WB.head<2>();
     there = FlyTo{{state.picked->x(), state.picked->y(), p_WB.z()}, std::atan2(way.y(), way.x())};
   }
   const float gap = ui.style.Px(3);
-  x = DrawWayButton(snap,
-                    {"fly_there", "Fly there", "Flies level to over the cross and hovers there",
-                     there, "Where the vehicle is, is not known"},
-                    x, y, ui) +
+  x = DrawWayButton(
+          snap,
+          {"fly_there", "Fly there", "Flies level to over the cross and hovers there", there,
+           leaves ? "The way leaves the area" : "Where the vehicle is, is not known"},
+          x, y, ui) +
       gap;
   DrawWayButton(snap,
                 {"look_there", "Look there",
@@ -208,7 +211,8 @@ void DrawPlaceButtons(const EngineSnapshot& snap, float x, float y, const Search
 
 /// Why the area, or a way, was not taken.
 std::string Trouble(const EngineSnapshot& snap, const SearchMapState& state) {
-  if (!state.why_not.empty() || !snap.session->events) {
+  // What was refused before a way that is flown is no trouble any more.
+  if (!state.why_not.empty() || !snap.session->events || snap.flight->mission.going) {
     return state.why_not;
   }
   for (const char* what : {"Area", "Fly there"}) {

@@ -127,7 +127,10 @@ void DrawSites(const EngineSnapshot& snap, const MapGround& ground, UiFrame& ui)
     return;
   }
   const auto& armed = snap.flight->mission.armed;
-  for (const LandingSite& site : snap.terrain->applied->selection.sites) {
+  // The best last: it lies on top.
+  const std::vector<LandingSite>& sites = snap.terrain->applied->selection.sites;
+  for (auto it = sites.rbegin(); it != sites.rend(); ++it) {
+    const LandingSite& site = *it;
     const ImVec2 at = ground.At(site.p_WS.head<2>());
     const bool is_asked = !armed || armed->id == site.id;  // the others would cover its courses
     if (is_asked && ground.rect.Contains(at)) {
@@ -215,10 +218,14 @@ std::string HeadingWords(const EngineSnapshot& snap) {
   const long degrees = (std::lround(Deg(m.approach->heading_rad)) + 360) % 360;
   char heading[16];
   std::snprintf(heading, sizeof heading, "%03ld°", degrees);
+  const bool calm = snap.sensors->vehicle && std::isfinite(snap.sensors->vehicle->wind_speed_mps);
   const bool sun = snap.session->settings.mission.sun == SunSource::kByPlace;
   return std::string("Approach ") + heading + ": wind " +
-         (std::isfinite(score.tailwind_mps) ? Fixed(score.wind, 2) : "not known") + ", sun " +
-         (sun ? Fixed(score.sun, 2) : "not known") + ", turn " + Fixed(score.orientation, 2);
+         (std::isfinite(score.tailwind_mps) ? Fixed(score.wind, 2)
+          : calm                            ? "calm"
+                                            : "not known") +
+         ", sun " + (sun ? Fixed(score.sun, 2) : "not known") + ", turn " +
+         Fixed(score.orientation, 2);
 }
 
 }  // namespace palace

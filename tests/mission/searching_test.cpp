@@ -47,6 +47,17 @@ TEST(Searching, WhatDidNotLastIsLookedAtOnceThenOtherGround) {
   EXPECT_EQ(rig.Look()->why.rfind("shows ", 0), 0u) << rig.Look()->why;
 }
 
+TEST(Searching, WhatIsStillListedIsNotLookedAtAgain) {
+  SearchingRig rig;
+  rig.settings.mission.glide_slope_deg = 45;
+  rig.Site(101)->p_WS = {42.2, 2, 0};
+  rig.Run(1);
+  rig.maps_up = false;  // the pictures are lost, and nothing is proposed on an old map
+  ASSERT_TRUE(rig.RunUntil(MissionState::kSearch));
+  rig.Run(2);
+  EXPECT_TRUE(rig.Look() == nullptr || rig.Look()->why.rfind("site A", 0) != 0) << rig.Look()->why;
+}
+
 TEST(Searching, ALookAtOtherGroundIsFlownAndComesToAnEnd) {
   SearchingRig rig;
   ASSERT_TRUE(rig.Do(SetFlyArea{Around(9.5, 2, 25)}).ok());

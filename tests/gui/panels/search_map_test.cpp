@@ -122,6 +122,21 @@ TEST(SearchMap, ADrawnAreaIsToldAndCleared) {
   EXPECT_EQ(window.ui.CountCommands<ClearFlyArea>(), 1);
 }
 
+TEST(SearchMap, APlaceOutsideTheAreaIsNotOffered) {
+  SearchWindow window;
+  const Eigen::Vector2d m = window.middle();
+  window.snap.flight.Edit().mission.area =
+      FlyArea{{m + Eigen::Vector2d(-10, -10), m + Eigen::Vector2d(10, -10),
+               m + Eigen::Vector2d(10, 10), m + Eigen::Vector2d(-10, 10)},
+              60};
+  window.ClickAt(5, 5);
+  window.ui.Click("fly_there", window.draw);
+  EXPECT_EQ(window.ui.CountCommands<FlyTo>(), 1);
+  window.ClickAt(40, 0);
+  window.ui.Click("fly_there", window.draw);
+  EXPECT_EQ(window.ui.CountCommands<FlyTo>(), 1) << "the way leaves it";
+}
+
 TEST(SearchMap, IsWorkedByKeysAlone) {
   SearchWindow window;
   window.Run(0.05);
