@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "engine/core/units.h"
+#include "engine/model/wind.h"
 #include "gui/widgets/draw.h"
 #include "gui/widgets/map/projection.h"
 #include "gui/widgets/number_text.h"
@@ -218,7 +219,9 @@ std::string HeadingWords(const EngineSnapshot& snap) {
   const long degrees = (std::lround(Deg(m.approach->heading_rad)) + 360) % 360;
   char heading[16];
   std::snprintf(heading, sizeof heading, "%03ld°", degrees);
-  const bool calm = snap.sensors->vehicle && std::isfinite(snap.sensors->vehicle->wind_speed_mps);
+  const auto& vehicle = snap.sensors->vehicle;
+  const bool calm =
+      vehicle && vehicle->wind_speed_mps >= 0 && !WindHasDirection(vehicle->wind_speed_mps);
   const bool sun = snap.session->settings.mission.sun == SunSource::kByPlace;
   return std::string("Approach ") + heading + ": wind " +
          (std::isfinite(score.tailwind_mps) ? Fixed(score.wind, 2)
