@@ -220,8 +220,8 @@ std::string HeadingWords(const EngineSnapshot& snap) {
   char heading[16];
   std::snprintf(heading, sizeof heading, "%03ld°", degrees);
   const auto& vehicle = snap.sensors->vehicle;
-  const bool calm =
-      vehicle && vehicle->wind_speed_mps >= 0 && !WindHasDirection(vehicle->wind_speed_mps);
+  const bool calm = vehicle && std::isfinite(vehicle->wind_speed_mps) &&
+                    !WindHasDirection(vehicle->wind_speed_mps);
   const bool sun = snap.session->settings.mission.sun == SunSource::kByPlace;
   return std::string("Approach ") + heading + ": wind " +
          (std::isfinite(score.tailwind_mps) ? Fixed(score.wind, 2)
