@@ -27,6 +27,20 @@ std::string WrongWith(const EngineSnapshot& snap, ChannelId channel) {
   return blank ? "Shows nothing" : frozen ? "Repeats its picture" : "";
 }
 
+/// The engine's reason, where nothing is wrong with a camera, which is told over its own picture.
+std::string WhyPairOld(const EngineSnapshot& snap) {
+  if (!WrongWith(snap, ChannelId::kCameraLeft).empty() ||
+      !WrongWith(snap, ChannelId::kCameraRight).empty()) {
+    return {};
+  }
+  for (const GuardResult& guard : snap.flight->mission.guards) {
+    if (guard.id == GuardId::kCameras && !guard.pass) {
+      return guard.reason;
+    }
+  }
+  return {};
+}
+
 }  // namespace
 
 Arrival ArrivalOf(const EngineSnapshot& snap, ChannelId channel, double silent_s) {
@@ -47,13 +61,14 @@ std::string Heard(const std::string& words, double age_s) {
   return IsWordOld(age_s) ? words + ", heard " + AgeText(age_s) + " ago" : words;
 }
 
-void DrawStale(UiFrame& ui, const Rect& image, const Arrival& arrival) {
-  if (arrival.state == ChannelHealth::State::kStale) {
+void DrawStale(UiFrame& ui, const Rect& image, const EngineSnapshot& snap, const Arrival& arrival) {
+  const std::string words = arrival.state == ChannelHealth::State::kStale
+                                ? Fixed(arrival.age_s, 1) + " s old"
+                            : !arrival.wrong.empty() ? arrival.wrong
+                                                     : WhyPairOld(snap);
+  if (!words.empty()) {
     StaleVeil(ui.style, Canvas(), image);
-    TextPlate(ui, image, Corner::kTopRight, Fixed(arrival.age_s, 1) + " s old");
-  } else if (!arrival.wrong.empty()) {
-    StaleVeil(ui.style, Canvas(), image);
-    TextPlate(ui, image, Corner::kTopRight, arrival.wrong);
+    TextPlate(ui, image, Corner::kTopRight, words);
   }
 }
 

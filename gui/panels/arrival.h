@@ -26,8 +26,10 @@ Arrival ArrivalOf(const EngineSnapshot& snap, ChannelId channel, double silent_s
 
 /// "climbing"; "climbing, heard 2.5 s ago" of a vehicle whose word is older than the link may be.
 std::string Heard(const std::string& words, double age_s);
-/// Veils what is stale, "1.8 s old" at the top right, and what a camera shows wrongly.
-void DrawStale(UiFrame& ui, const Rect& image, const Arrival& arrival);
+/// Veils a picture that is stale, "1.8 s old" at the top right, and what a camera shows wrongly.
+/// Shown are the pictures of the newest pair: where each camera's own still arrive and the engine
+/// calls the pair too old to approve on, its reason is there, "Stereo pair stale, 5.2 s".
+void DrawStale(UiFrame& ui, const Rect& image, const EngineSnapshot& snap, const Arrival& arrival);
 /// "Laser 21.2 m"; empty while no fresh range is known.
 std::string LaserPlate(const EngineSnapshot& snap, double silent_s);
 

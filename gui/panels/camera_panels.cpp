@@ -140,7 +140,7 @@ void DrawLeftCameraPanel(const EngineSnapshot& snap, const Rect& rect, CameraSta
   }
   DrawSites(ui, view, OverlayOf(snap, ui.highlighted_site));
   DrawProbeOnPicture(ui, view, shown, probe);
-  DrawStale(ui, image, arrival);
+  DrawStale(ui, image, snap, arrival);
   if (!snap.session->missing_inputs.empty()) {
     TextPlate(ui, image, Corner::kTopLeft, "For maps is missing: " + snap.session->missing_inputs);
   }
@@ -178,7 +178,7 @@ void DrawRightCameraPanel(const EngineSnapshot& snap, const Rect& rect, const Ma
       DrawProbeOnPicture(ui, *view, snap.terrain->Shown(), probe);
     }
   }
-  DrawStale(ui, image, arrival);
+  DrawStale(ui, image, snap, arrival);
   const LandingSite* site = SiteInView(snap, 0);
   if (image.w < ui.style.Px(300)) {
     return;  // plates would hide a small picture

@@ -129,7 +129,7 @@ void DrawLeftPicture(UiFrame& ui, const Rect& area, const EngineSnapshot& snap,
   if (look.probe != nullptr) {
     DrawProbeOnPicture(ui, view, look.decision, *look.probe);
   }
-  DrawStale(ui, image, ArrivalOf(snap, ChannelId::kCameraLeft, ui.silent_s));
+  DrawStale(ui, image, snap, ArrivalOf(snap, ChannelId::kCameraLeft, ui.silent_s));
   dl->PopClipRect();
   DrawVerdictPlate(ui, image, snap, look.decision, cache.legend);
   if (look.preview) {
@@ -156,7 +156,7 @@ void DrawPlainPicture(UiFrame& ui, const Rect& area, const EngineSnapshot& snap,
       DrawProbeOnPicture(ui, *view, snap.terrain->Shown(), *probe);
     }
   }
-  DrawStale(ui, image, ArrivalOf(snap, ChannelId::kCameraRight, ui.silent_s));
+  DrawStale(ui, image, snap, ArrivalOf(snap, ChannelId::kCameraRight, ui.silent_s));
   if (!plate.empty()) {
     TextPlate(ui, image, Corner::kBottomRight, plate);
   }

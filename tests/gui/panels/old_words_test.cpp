@@ -103,6 +103,25 @@ TEST(Landing, AWaveOffIsToldWithTheAgeOfTheVehiclesWord) {
   }
 }
 
+// Left and right pictures arrive, but none of one moment: what is shown is the last pair.
+TEST(StalePicture, AnOldPairIsToldThoughEachCameraIsFresh) {
+  for (const bool old : {false, true}) {
+    EngineSnapshot snap = fake::Snapshot(MissionState::kProposed);
+    for (GuardResult& guard : snap.flight.Edit().mission.guards) {
+      if (old && guard.id == GuardId::kCameras) {
+        guard.pass = false;
+        guard.reason = "Stereo pair stale, 5.2 s";
+      }
+    }
+    const FlyWindow window(1920, 1080, snap);
+    int plates = 0;
+    for (const Item& item : window.ui.items.items()) {
+      plates += item.text == "Stereo pair stale, 5.2 s" ? 1 : 0;
+    }
+    EXPECT_EQ(plates >= 2, old) << plates << ", over both pictures";
+  }
+}
+
 TEST(StalePicture, IsVeiledOnTuneTooAndNoOldRangeIsTold) {
   EngineSnapshot snap = fake::Snapshot(MissionState::kProposed);
   const auto tune = [&](double silent_s) {
