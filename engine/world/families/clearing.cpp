@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <utility>
 
 #include "engine/world/families/family.h"
 #include "engine/world/families/hazard_lattice.h"
@@ -33,19 +34,13 @@ void DrawClearing(World& world, RandomStream& random, const ClearingPlan& plan) 
     const double away_m = clear_m + 0.5 + random.Uniform(-0.08, 0.08);
     places.push_back(middle + away_m * Eigen::Vector2d(std::cos(angle), std::sin(angle)));
   }
-  std::vector<Mound> mounds;
-  std::vector<Eigen::Vector2d> stones_at;
   const double share = random.Uniform(plan.stones.low, plan.stones.high);
-  for (const Eigen::Vector2d& place : places) {
-    const bool seen = place.x() > plan.stones_low_m.x() && place.x() < plan.stones_high_m.x() &&
-                      place.y() > plan.stones_low_m.y() && place.y() < plan.stones_high_m.y();
-    if (seen && Chance(random, share)) {
-      stones_at.push_back(place);
-    } else {
-      mounds.push_back(DrawMound(random, place));
-    }
-  }
-  const MoundField field(std::move(mounds));
+  const auto may_be_stone = [&](const Eigen::Vector2d& place) {
+    return place.x() > plan.stones_low_m.x() && place.x() < plan.stones_high_m.x() &&
+           place.y() > plan.stones_low_m.y() && place.y() < plan.stones_high_m.y();
+  };
+  MoundsAndStones drawn = DrawHazards(random, places, share, may_be_stone);
+  const MoundField field(std::move(drawn.mounds));
   const std::uint64_t seed = random.NextBits();
   world.ground.relief = ReliefOf(
       [&](double n, double e) {
@@ -53,7 +48,7 @@ void DrawClearing(World& world, RandomStream& random, const ClearingPlan& plan) 
       },
       plan.relief_levels, plan.relief_m, plan.relief_north_m);
   const StoneMaker stones;
-  for (const Eigen::Vector2d& place : stones_at) {
+  for (const Eigen::Vector2d& place : drawn.stones_at) {
     const double longest_m = random.Uniform(0.45, 0.75), turn = DrawAngle(random);
     const Solid stone = stones.Make(random, longest_m,
                                     {.flatness = {0.65, 0.95}, .facets = 24, .sunk = {0.1, 0.2}});

@@ -49,6 +49,19 @@ Mound DrawMound(RandomStream& random, const Vector2d& place_m) {
   return {Blob(random, place_m, radius_m, 0.12), hole ? -up_m : up_m, hole ? 0.07 : 0.12};
 }
 
+MoundsAndStones DrawHazards(RandomStream& random, const std::vector<Vector2d>& places, double share,
+                            const std::function<bool(const Vector2d&)>& may_be_stone) {
+  MoundsAndStones drawn;
+  for (const Vector2d& place : places) {
+    if (may_be_stone(place) && Chance(random, share)) {
+      drawn.stones_at.push_back(place);
+    } else {
+      drawn.mounds.push_back(DrawMound(random, place));
+    }
+  }
+  return drawn;
+}
+
 MoundField::MoundField(std::vector<Mound> mounds) : mounds_(std::move(mounds)) {
   near_.resize(static_cast<std::size_t>(kSquares * kSquares));
   for (std::uint32_t i = 0; i < mounds_.size(); ++i) {

@@ -1,6 +1,10 @@
 // Hazards so close to each other that no disc fits between them: the ground of `nowhere` and `one`.
 #pragma once
 
+#include <cstdint>
+#include <functional>
+#include <vector>
+
 #include "engine/core/random.h"
 #include "engine/world/families/drawing.h"
 
@@ -21,6 +25,16 @@ struct Mound {
   double bank_m;  ///< width of its side
 };
 Mound DrawMound(RandomStream& random, const Eigen::Vector2d& place_m);
+
+/// What stands at those places: a share of those where it may be are stones, for the family to
+/// make.
+struct MoundsAndStones {
+  std::vector<Mound> mounds;
+  std::vector<Eigen::Vector2d> stones_at;
+};
+MoundsAndStones DrawHazards(RandomStream& random, const std::vector<Eigen::Vector2d>& places,
+                            double share,
+                            const std::function<bool(const Eigen::Vector2d&)>& may_be_stone);
 
 /// Height of all mounds at a place, found quickly among many.
 class MoundField {

@@ -13,24 +13,17 @@ namespace palace {
 namespace {
 
 void DrawScree(World& world, RandomStream& random) {
-  std::vector<Mound> mounds;
-  std::vector<Eigen::Vector2d> stones_at;
   const double share = random.Uniform(0, 0.45);
-  for (const Eigen::Vector2d& place : HazardLattice(random)) {
-    const bool seen = place.x() > 1 && std::abs(place.y()) < 22;
-    if (seen && Chance(random, share)) {
-      stones_at.push_back(place);
-    } else {
-      mounds.push_back(DrawMound(random, place));
-    }
-  }
-  const MoundField field(std::move(mounds));
+  MoundsAndStones drawn = DrawHazards(
+      random, HazardLattice(random), share,
+      [](const Eigen::Vector2d& place) { return place.x() > 1 && std::abs(place.y()) < 22; });
+  const MoundField field(std::move(drawn.mounds));
   const std::uint64_t seed = random.NextBits();
   world.ground.relief = ReliefOf([&](double n, double e) {
     return field.Height(n, e) + 0.015 * FractalNoise(n, e, seed, 4, 0.3, 0.8);
   });
   const StoneMaker stones;
-  for (const Eigen::Vector2d& place : stones_at) {
+  for (const Eigen::Vector2d& place : drawn.stones_at) {
     const double longest_m = random.Uniform(0.45, 0.8), turn = DrawAngle(random);
     const Solid stone =
         stones.Make(random, longest_m, {.flatness = {0.65, 0.9}, .facets = 9, .sunk = {0.1, 0.2}});
