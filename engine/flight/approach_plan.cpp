@@ -6,20 +6,13 @@
 #include <numbers>
 
 #include "engine/core/frames.h"
-#include "engine/core/units.h"
+#include "engine/flight/approach_heading.h"
 
 namespace palace {
 namespace {
 
 /// The straight course stands for the sector that it is in.
 constexpr double kHalfSector_rad = std::numbers::pi / kApproachSectors;
-constexpr double kEqualScore = 1e-9;
-
-int NearestOf72(double heading_rad) {
-  const double step_rad = 2 * std::numbers::pi / kApproachHeadings;
-  const long nearest = std::lround(WrapAngle(heading_rad) / step_rad);
-  return static_cast<int>((nearest + kApproachHeadings) % kApproachHeadings);
-}
 
 /// Where one who flies that course comes from: [0, 2 pi) from north over east.
 double Bearing(double heading_rad) {
@@ -63,13 +56,9 @@ std::bitset<kApproachHeadings> BlockedHeadings(const LandingSite& site, double s
     }
   }
   if (site.corridor_clear) {
-    blocked.reset(static_cast<std::size_t>(NearestOf72(straight_rad)));
+    blocked.reset(NearestHeading(straight_rad));
   }
   return blocked;
-}
-
-const HeadingScore& ScoreOf(const HeadingCurve& curve, double heading_rad) {
-  return curve.headings[static_cast<std::size_t>(NearestOf72(heading_rad))];
 }
 
 ApproachCourse ChooseCourse(const LandingSite& site, double straight_rad,
@@ -77,7 +66,7 @@ ApproachCourse ChooseCourse(const LandingSite& site, double straight_rad,
   const ApproachCourse straight{straight_rad, kStraightApproach};
   // Of two that have too much tailwind the better one is flown: a limit for information.
   const auto worth = [&](const ApproachCourse& course) {
-    const HeadingScore& score = ScoreOf(curve, course.heading_rad);
+    const HeadingScore& score = curve.At(course.heading_rad);
     return score.combined - (score.is_downwind ? 1 : 0);
   };
   const auto turn_rad = [&](const ApproachCourse& course) {
@@ -87,7 +76,7 @@ ApproachCourse ChooseCourse(const LandingSite& site, double straight_rad,
   const std::vector<ApproachCourse> clear = ClearCourses(site, straight_rad, false);
   for (const ApproachCourse& course : clear) {
     const double gain = best != nullptr ? worth(course) - worth(*best) : 1;
-    if (gain > kEqualScore || (gain > -kEqualScore && turn_rad(course) < turn_rad(*best))) {
+    if (gain > kEqualScores || (gain > -kEqualScores && turn_rad(course) < turn_rad(*best))) {
       best = &course;
     }
   }

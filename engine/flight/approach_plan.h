@@ -27,8 +27,6 @@ inline constexpr double kWorthTurning = 0.15;
 /// The 72 courses of which the maps call the corridor clear, as conditions for ScoreHeadings: those
 /// of a clear sector, and the nearest to the straight one where that is clear.
 std::bitset<kApproachHeadings> BlockedHeadings(const LandingSite& site, double straight_rad);
-/// The score of the nearest course.
-const HeadingScore& ScoreOf(const HeadingCurve& curve, double heading_rad);
 
 /// `straight_rad`: the course from the vehicle to the site, which `curve` takes for the wanted one.
 /// Where no corridor is clear it stays the straight one, which is refused for what stands in it.

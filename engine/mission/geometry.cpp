@@ -85,8 +85,8 @@ ApproachPlan PlanFor(const MissionMemory& m, const LandingSite& site) {
   const ApproachCourse course = ChooseCourse(site, straight_rad, curve);
   ApproachPlan plan = PlanOn(m, course);
   if (plan.turned() && site.corridor_clear) {
-    const HeadingScore& straight = ScoreOf(curve, straight_rad);
-    const HeadingScore& chosen = ScoreOf(curve, course.heading_rad);
+    const HeadingScore& straight = curve.At(straight_rad);
+    const HeadingScore& chosen = curve.At(course.heading_rad);
     plan.why = chosen.wind - straight.wind >= chosen.sun - straight.sun ? "into the wind"
                                                                         : "out of the sun";
   }

@@ -211,11 +211,7 @@ std::string HeadingWords(const EngineSnapshot& snap) {
   if (!m.headings || !m.approach || !std::isfinite(m.approach->heading_rad)) {
     return {};
   }
-  const double step = 2 * std::numbers::pi / kApproachHeadings;
-  const long nearest = std::lround(WrapAngle(m.approach->heading_rad) / step);
-  const HeadingScore& score =
-      m.headings
-          ->headings[static_cast<std::size_t>((nearest + kApproachHeadings) % kApproachHeadings)];
+  const HeadingScore& score = m.headings->At(m.approach->heading_rad);
   const long degrees = (std::lround(Deg(m.approach->heading_rad)) + 360) % 360;
   char heading[16];
   std::snprintf(heading, sizeof heading, "%03ld°", degrees);

@@ -3,8 +3,10 @@
 
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <optional>
 
+#include "engine/core/frames.h"
 #include "engine/core/units.h"
 
 namespace palace {
@@ -27,12 +29,22 @@ struct HeadingScore {
   bool IsVetoed() const { return is_blocked || is_downwind; }
 };
 
+/// Index of the heading nearest to that one, which may be any finite angle.
+inline std::size_t NearestHeading(double heading_rad) {
+  const double step_rad = Rad(360.0 / kApproachHeadings);
+  const long nearest = std::lround(WrapAngle(heading_rad) / step_rad);
+  return static_cast<std::size_t>((nearest + kApproachHeadings) % kApproachHeadings);
+}
+
 struct HeadingCurve {
   std::array<HeadingScore, kApproachHeadings> headings;
   /// The one without veto of the greatest combined (1 - kTurnPenalty turn / pi), `turn` from the
   /// present heading. Of equals the one that turns least from the wanted heading; of those, and
   /// where none is wanted, the first from north. Nothing: all are vetoed.
   std::optional<int> best;
+
+  /// Of the nearest heading.
+  const HeadingScore& At(double heading_rad) const { return headings[NearestHeading(heading_rad)]; }
 };
 
 }  // namespace palace
