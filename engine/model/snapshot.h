@@ -31,6 +31,7 @@
 #include "engine/model/settings/settings.h"
 #include "engine/model/source_status.h"
 #include "engine/model/terrain_decision.h"
+#include "engine/model/tracker_set_status.h"
 
 namespace palace {
 
@@ -167,7 +168,8 @@ struct TerrainPart {
 /// Where the mission stands and where the vehicle is.
 struct FlightPart {
   MissionStatus mission;
-  TrackerStatus tracker;
+  TrackerStatus tracker;      ///< in force
+  TrackerSetStatus trackers;  ///< all of them, side by side
   NavigationStatus navigation;
   std::shared_ptr<const std::vector<HistorySample>> history;
 };

@@ -127,18 +127,6 @@ Status CheckFollowerOptions(const FollowerOptions& options) {
   return Ok();
 }
 
-const char* FollowWord(FollowState state) {
-  switch (state) {
-    case FollowState::kFollowed:
-      return "followed";
-    case FollowState::kLost:
-      return "LOST";
-    case FollowState::kReacquired:
-      return "re-acquired";
-  }
-  PALACE_CHECK(false);
-}
-
 bool FeatureFollower::MakeAnchor(const ImageU8& picture, const Placement& at, int side,
                                  Anchor& anchor) {
   const SmoothPart smooth(picture, at.place, side);

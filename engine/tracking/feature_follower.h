@@ -28,21 +28,17 @@
 // thread.
 #pragma once
 
-#include <cstdint>
 #include <deque>
 #include <string>
 
 #include <Eigen/Dense>
 
 #include "engine/core/result.h"
+#include "engine/model/follow_state.h"
 #include "engine/model/image.h"
 #include "engine/tracking/template_match.h"
 
 namespace palace {
-
-enum class FollowState : std::uint8_t { kFollowed, kLost, kReacquired };
-/// "followed", "LOST", "re-acquired".
-const char* FollowWord(FollowState state);
 
 struct FollowerOptions {
   int template_px = 41;        ///< side, odd, 11 to 101

@@ -22,6 +22,7 @@
 #include "engine/model/range_map.h"
 #include "engine/model/rig.h"
 #include "engine/model/settings/settings.h"
+#include "engine/model/tracker_set_status.h"
 #include "engine/tracking/landmark.h"
 
 namespace palace {
@@ -34,6 +35,7 @@ struct TrackResult {
   Timestamp time;
   TrackerStatus status;
   std::vector<GroundLandmark> landmarks;
+  TrackerSetStatus set;
 };
 
 class SiteTracker {
