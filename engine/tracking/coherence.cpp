@@ -6,7 +6,7 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "engine/tracking/view_geometry.h"
+#include "engine/tracking/picture_part.h"
 
 namespace palace {
 namespace {
@@ -16,25 +16,6 @@ constexpr double kMinVariance = 1.0;  // grey levels squared; flatter patches sa
 cv::Mat View(const ImageU8& picture) {
   return {picture.height(), picture.width(), CV_8U,
           const_cast<std::uint8_t*>(picture.pixels().data())};
-}
-
-/// Square patch whose pixel (i, j) is the source's value at from_patch * (centre + offset).
-ImageU8 SamplePatch(const ImageU8& source, const Eigen::Matrix3d& source_from_current,
-                    const Eigen::Vector2d& centre, int side) {
-  cv::Mat map_x(side, side, CV_32F);
-  cv::Mat map_y(side, side, CV_32F);
-  for (int y = 0; y < side; ++y) {
-    for (int x = 0; x < side; ++x) {
-      const Eigen::Vector2d offset(x - 0.5 * (side - 1), y - 0.5 * (side - 1));
-      const Eigen::Vector2d at = MapPixel(source_from_current, centre + offset);
-      map_x.at<float>(y, x) = static_cast<float>(at.x());
-      map_y.at<float>(y, x) = static_cast<float>(at.y());
-    }
-  }
-  ImageU8 patch(side, side);
-  cv::Mat out = View(patch);
-  cv::remap(View(source), out, map_x, map_y, cv::INTER_LINEAR, cv::BORDER_REPLICATE);
-  return patch;
 }
 
 struct Correlation {
@@ -100,17 +81,17 @@ PatchComparison ComparePatches(ImageU8 anchor_patch, ImageU8 current_patch) {
 PatchComparison ComparePatches(const ImageU8& anchor, const ImageU8& current,
                                const Eigen::Matrix3d& anchor_from_current,
                                const Eigen::Vector2d& centre) {
-  return ComparePatches(SamplePatch(anchor, anchor_from_current, centre, kPatchSide_px),
-                        SamplePatch(current, Eigen::Matrix3d::Identity(), centre, kPatchSide_px));
+  return ComparePatches(WarpedSquare(anchor, anchor_from_current, centre, kPatchSide_px),
+                        WarpedSquare(current, Eigen::Matrix3d::Identity(), centre, kPatchSide_px));
 }
 
 PatchSearch SearchPatch(const ImageU8& anchor, const ImageU8& current,
                         const Eigen::Matrix3d& anchor_from_current, const Eigen::Vector2d& centre,
                         int radius_px) {
   // At half resolution: a quarter of the places and of the pixels; flow refines the answer.
-  const ImageU8 wanted = SamplePatch(anchor, anchor_from_current, centre, kPatchSide_px);
+  const ImageU8 wanted = WarpedSquare(anchor, anchor_from_current, centre, kPatchSide_px);
   const ImageU8 window =
-      SamplePatch(current, Eigen::Matrix3d::Identity(), centre, kPatchSide_px + 2 * radius_px);
+      WarpedSquare(current, Eigen::Matrix3d::Identity(), centre, kPatchSide_px + 2 * radius_px);
   cv::Mat small_wanted;
   cv::Mat small_window;
   cv::pyrDown(View(wanted), small_wanted);

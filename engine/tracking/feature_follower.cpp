@@ -2,20 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <utility>
-
-#include <opencv2/imgproc.hpp>
 
 #include "engine/core/rounding.h"
 #include "engine/core/text.h"
 #include "engine/tracking/coherence.h"
+#include "engine/tracking/picture_part.h"
 
 namespace palace {
 namespace {
 
-constexpr float kMinVariance = 1.0F;     // grey levels squared, as in coherence.cpp
-constexpr float kMinEigenvalue = 0.02F;  // (grey levels per px) squared: below it, only noise
 constexpr double kNewAnchorScale = 1.4;
 // The view changes over seconds, a hand comes in within a few pictures.
 constexpr std::size_t kSlowPictures = 10;
@@ -25,83 +21,19 @@ constexpr std::size_t kVelocityPictures = 5;
 constexpr double kRival = 0.9;         // of the best score; beyond it two places are alike
 constexpr double kSurroundings = 0.8;  // of the least coherence, in a square of twice the side
 constexpr double kSuddenFall = 0.15;   // of coherence, from one picture to the next
-constexpr int kIterations = 12;
-constexpr double kConverged_px = 0.005;
-constexpr double kDamping = 1e-3;     // an edge alone leaves one direction open
-constexpr double kLargestStep = 1.3;  // of scale, from one picture to the next
+// What covers a part agrees best with the template where it draws the whole along.
+constexpr double kCoveredFall = 0.1;
+// From two fifths on what covers decides where the template lies.
+constexpr double kSeen = 0.7;
+// Taken up again as well as it was seen before; in a second or two the view may have changed.
+constexpr double kForgottenAPicture = 0.01;
 
-cv::Mat View(const ImageU8& picture) {
-  return {picture.height(), picture.width(), CV_8U,
-          const_cast<std::uint8_t*>(picture.pixels().data())};
-}
-
-Eigen::Matrix2d Turn(double angle_rad) { return Eigen::Rotation2Dd(angle_rad).toRotationMatrix(); }
-
-/// Square of `side` whose offset d from the middle shows centre + scale R(angle) d; beyond the
-/// picture the edge is repeated.
-ImageU8 Sampled(const ImageU8& picture, const Eigen::Vector2d& centre, double scale,
-                double angle_rad, int side) {
-  const Eigen::Matrix2d A = scale * Turn(angle_rad);
-  const Eigen::Vector2d t = centre - A * Eigen::Vector2d::Constant(0.5 * (side - 1));
-  const cv::Matx23d source(A(0, 0), A(0, 1), t.x(), A(1, 0), A(1, 1), t.y());
-  ImageU8 square(side, side);
-  cv::Mat out = View(square);
-  cv::warpAffine(View(picture), out, source, out.size(), cv::INTER_LINEAR | cv::WARP_INVERSE_MAP,
-                 cv::BORDER_REPLICATE);
-  return square;
-}
-
-/// A smoothed part of a picture, sampled between pixels; beyond it the edge is repeated. Bilinear
-/// weights of unsmoothed pixels pull towards whole and half places.
-class SmoothPart {
- public:
-  SmoothPart(const ImageU8& picture, const Eigen::Vector2d& centre, double reach_px) {
-    const cv::Rect whole(0, 0, picture.width(), picture.height());
-    const int reach = static_cast<int>(std::ceil(reach_px)) + 2;
-    cv::Rect part(static_cast<int>(std::lround(centre.x())) - reach,
-                  static_cast<int>(std::lround(centre.y())) - reach, 2 * reach + 1, 2 * reach + 1);
-    part &= whole;
-    if (part.empty()) {
-      part = whole;
-    }
-    origin_ = Eigen::Vector2d(part.x, part.y);
-    cv::Mat grey;
-    View(picture)(part).convertTo(grey, CV_32F);
-    cv::GaussianBlur(grey, smooth_, cv::Size(5, 5), 1.1);
-  }
-
-  float At(const Eigen::Vector2d& pixel) const {
-    const double x = std::clamp(pixel.x() - origin_.x(), 0.0, smooth_.cols - 1.0);
-    const double y = std::clamp(pixel.y() - origin_.y(), 0.0, smooth_.rows - 1.0);
-    const int x0 = std::min(static_cast<int>(x), std::max(smooth_.cols - 2, 0));
-    const int y0 = std::min(static_cast<int>(y), std::max(smooth_.rows - 2, 0));
-    const float a = static_cast<float>(x - x0), b = static_cast<float>(y - y0);
-    const float* row = smooth_.ptr<float>(y0) + x0;
-    const float* next = smooth_.ptr<float>(std::min(y0 + 1, smooth_.rows - 1)) + x0;
-    const int right = x0 + 1 < smooth_.cols ? 1 : 0;
-    const float top = row[0] + a * (row[right] - row[0]);
-    const float bottom = next[0] + a * (next[right] - next[0]);
-    return top + b * (bottom - top);
-  }
-
- private:
-  Eigen::Vector2d origin_ = Eigen::Vector2d::Zero();
-  cv::Mat smooth_;
-};
-
-Eigen::Vector2d Offset(int i, int side) {
-  return {i % side - 0.5 * (side - 1), i / side - 0.5 * (side - 1)};
-}
-
-/// To mean 0 and length 1; the length that it had, or nothing where the ground is even.
-std::optional<float> Normalise(Eigen::VectorXf& values) {
-  values.array() -= values.mean();
-  const float length = values.norm();
-  if (length * length <= kMinVariance * static_cast<float>(values.size())) {
-    return std::nullopt;
-  }
-  values /= length;
-  return length;
+/// Square of `side` whose offset d from the middle shows at.place + scale R(angle) d.
+ImageU8 Sampled(const ImageU8& picture, const TemplatePlacement& at, int side) {
+  Eigen::Matrix3d source = Eigen::Matrix3d::Identity();
+  source.topLeftCorner<2, 2>() = at.Linear();
+  source.topRightCorner<2, 1>() = at.place;
+  return WarpedSquare(picture, source, Eigen::Vector2d::Zero(), side);
 }
 
 bool TemplateFits(const ImageU8& picture, const Eigen::Vector2d& place, int side) {
@@ -127,45 +59,18 @@ Status CheckFollowerOptions(const FollowerOptions& options) {
   return Ok();
 }
 
-bool FeatureFollower::MakeAnchor(const ImageU8& picture, const Placement& at, int side,
+bool FeatureFollower::MakeAnchor(const ImageU8& picture, const TemplatePlacement& at, int side,
                                  Anchor& anchor) {
-  const SmoothPart smooth(picture, at.place, side);
-  const int count = side * side;
-  Eigen::VectorXf values(count);
-  Eigen::Matrix<float, 4, Eigen::Dynamic> lean(4, count);
-  Eigen::Matrix2f gradients = Eigen::Matrix2f::Zero();
-  for (int i = 0; i < count; ++i) {
-    const Eigen::Vector2d d = Offset(i, side), pixel = at.place + d;
-    values(i) = smooth.At(pixel);
-    const Eigen::Vector2f g(0.5F * (smooth.At(pixel + Eigen::Vector2d::UnitX()) -
-                                    smooth.At(pixel - Eigen::Vector2d::UnitX())),
-                            0.5F * (smooth.At(pixel + Eigen::Vector2d::UnitY()) -
-                                    smooth.At(pixel - Eigen::Vector2d::UnitY())));
-    const Eigen::Vector2f o = d.cast<float>();
-    lean.col(i) << g.x(), g.y(), g.dot(o), g.y() * o.x() - g.x() * o.y();
-    gradients += g * g.transpose();
-  }
-  const auto length = Normalise(values);
-  const float weakest =
-      Eigen::SelfAdjointEigenSolver<Eigen::Matrix2f>(gradients / static_cast<float>(count))
-          .eigenvalues()(0);
-  if (!length || weakest < kMinEigenvalue) {
+  auto values = TemplateAnchor::Make(picture, at.place, side);
+  if (!values) {
     return false;
   }
-  // What gain and offset of the exposure can explain is no sign of motion.
-  lean /= *length;
-  lean.colwise() -= lean.rowwise().mean().eval();
-  lean -= (lean * values) * values.transpose();
-  Eigen::Matrix4d hessian = (lean * lean.transpose()).cast<double>();
-  hessian.diagonal() *= 1 + kDamping;
+  anchor.values = std::move(*values);
   anchor.picture = picture;
   anchor.centre = at.place;
   anchor.scale *= at.scale;
   anchor.angle_rad += at.angle_rad;
-  anchor.values = std::move(values);
-  anchor.inverse = hessian.inverse();
-  anchor.lean = std::move(lean);
-  return anchor.inverse.allFinite();
+  return true;
 }
 
 Result<FeatureFollower> FeatureFollower::Start(const ImageU8& picture, const Eigen::Vector2d& pixel,
@@ -210,44 +115,15 @@ FollowedFeature FeatureFollower::first() const {
   return told;
 }
 
-double FeatureFollower::Coherence(const ImageU8& picture, const Placement& at, int side) const {
-  return ComparePatches(Sampled(anchor_.picture, anchor_.centre, 1, 0, side),
-                        Sampled(picture, at.place, at.scale, at.angle_rad, side))
+double FeatureFollower::Coherence(const ImageU8& picture, const TemplatePlacement& at,
+                                  int side) const {
+  return ComparePatches(Sampled(anchor_.picture, {anchor_.centre}, side),
+                        Sampled(picture, at, side))
       .coherence;
 }
 
-FeatureFollower::Placement FeatureFollower::Refined(const ImageU8& picture,
-                                                    const Placement& start) const {
-  const int side = options_.template_px;
-  const SmoothPart smooth(picture, start.place, start.scale * side);
-  Placement at = start;
-  Eigen::VectorXf now(side * side);
-  for (int iteration = 0; iteration < kIterations; ++iteration) {
-    const Eigen::Matrix2d A = at.scale * Turn(at.angle_rad);
-    for (int i = 0; i < side * side; ++i) {
-      now(i) = smooth.At(at.place + A * Offset(i, side));
-    }
-    if (!Normalise(now)) {
-      return start;
-    }
-    const Eigen::Vector4d step =
-        anchor_.inverse * (anchor_.lean * (now - anchor_.values)).cast<double>();
-    at.place -= A * step.head<2>();
-    at.scale *= std::exp(-step(2));
-    at.angle_rad -= step(3);
-    if ((at.place - start.place).norm() > side / 4.0 ||
-        std::abs(std::log(at.scale / start.scale)) > std::log(kLargestStep)) {
-      return start;
-    }
-    if (step.head<2>().norm() + side / 2.0 * step.tail<2>().norm() < kConverged_px) {
-      break;
-    }
-  }
-  return at;
-}
-
 std::string FeatureFollower::WhyNotTheSame(const ImageU8& picture, const TemplateMatch& match,
-                                           const Placement& at) const {
+                                           const TemplatePlacement& at) const {
   if (match.second_score > kRival * match.score) {
     return WithNumbers("two places are alike, correlation %.2f and %.2f", match.score,
                        match.second_score);
@@ -268,39 +144,47 @@ FeatureFollower::Sighting FeatureFollower::Look(const ImageU8& picture,
                                                 const Eigen::Vector2d& expected,
                                                 int radius_px) const {
   const int side = options_.template_px;
-  const int reach = radius_px + side / 2;
-  cv::Rect part(static_cast<int>(std::lround(expected.x())) - reach,
-                static_cast<int>(std::lround(expected.y())) - reach, 2 * reach + 1, 2 * reach + 1);
-  part &= cv::Rect(0, 0, picture.width(), picture.height());
+  const PictureWindow window = CutWindow(picture, expected, radius_px + side / 2);
   Sighting sighting;
   sighting.at = at_;
-  if (part.width < side || part.height < side) {
+  if (window.picture.width() < side || window.picture.height() < side) {
     sighting.why_not = "the window lies outside the picture";
     return sighting;
   }
-  ImageU8 window(part.width, part.height);
-  View(picture)(part).copyTo(View(window));
   const ImageU8 wanted =
-      Sampled(anchor_.picture, anchor_.centre, 1 / at_.scale, -at_.angle_rad, side);
-  const TemplateMatch match = MatchTemplate(window, wanted);
-  sighting.at.place = Eigen::Vector2d(part.x, part.y) + match.corner.cast<double>() +
-                      Eigen::Vector2d::Constant(side / 2);
+      Sampled(anchor_.picture, {anchor_.centre, 1 / at_.scale, -at_.angle_rad}, side);
+  const TemplateMatch match = MatchTemplate(window.picture, wanted);
+  sighting.at.place =
+      (window.corner + match.corner).cast<double>() + Eigen::Vector2d::Constant(side / 2);
   sighting.coherence = Coherence(picture, sighting.at, side);
-  const Placement refined = Refined(picture, sighting.at);
-  const double better = Coherence(picture, refined, side);
-  if (better >= sighting.coherence) {
-    sighting.at = refined;
-    sighting.coherence = better;
+  double seen = 0;
+  if (const auto fit = anchor_.values.Refined(picture, sighting.at)) {
+    seen = fit->seen;
+    const double refined = Coherence(picture, fit->at, side);
+    if (refined >= sighting.coherence - kCoveredFall) {
+      sighting.at = fit->at;
+      sighting.coherence = refined;
+    }
   }
-  if (sighting.coherence < options_.min_coherence) {
-    sighting.why_not = WithNumbers("coherence %.2f, limit %.2f",
-                                   ShownBeyond(sighting.coherence, options_.min_coherence, 2),
-                                   options_.min_coherence);
+  const double least =
+      sighting.coherence < options_.min_coherence ? options_.min_coherence : LeastCoherence();
+  if (sighting.coherence < least) {
+    sighting.why_not =
+        WithNumbers("coherence %.2f, limit %.2f", ShownBeyond(sighting.coherence, least, 2), least);
+  } else if (seen < kSeen) {
+    sighting.why_not = WithNumbers("%.0f %% of the template is seen, limit %.0f %%",
+                                   ShownBeyond(100 * seen, 100 * kSeen, 0), 100 * kSeen);
   } else if (lost_ > 0 ||
              (!coherences_.empty() && coherences_.back() - sighting.coherence > kSuddenFall)) {
     sighting.why_not = WhyNotTheSame(picture, match, sighting.at);
   }
   return sighting;
+}
+
+double FeatureFollower::LeastCoherence() const {
+  return lost_ == 0 ? options_.min_coherence
+                    : std::max(options_.min_coherence,
+                               fresh_coherence_ - kSuddenFall - kForgottenAPicture * lost_);
 }
 
 bool FeatureFollower::NeedsAnchor(const Sighting& sighting) const {

@@ -3,22 +3,20 @@
 // What is followed is an anchor: the template as it was cut from one picture. Each picture is
 // searched for it in a window around where the feature is expected (place and velocity, pixels and
 // pixels per picture) by normalised cross-correlation, with the anchor turned and scaled as it was
-// seen last. From there Gauss-Newton finds
+// seen last. From there its place, scale and angle are found to a fraction of a pixel, held by what
+// is seen of it where something covers a part (template_anchor.h). Coherence is the correlation
+// there, 0 to 1 (coherence.h): against the anchor, never against the picture before, which a slow
+// drift and a bird that flies through the picture would both please (erratum E26; Matthews,
+// Ishikawa & Baker 2004, the template update problem).
 //
-//   pixel = place + scale R(angle) offset
-//
-// the four numbers under which picture and anchor agree best, whatever gain and offset the exposure
-// gave (Baker & Matthews 2004, the inverse compositional form; as ECC, Evangelidis & Psarakis
-// 2008). Coherence is their correlation there, 0 to 1 (coherence.h): against the anchor, never
-// against the picture before, which a slow drift and a bird that flies through the picture would
-// both please (erratum E26; Matthews, Ishikawa & Baker 2004, the template update problem).
-//
-//   kFollowed --coherence < limit--> kLost --coherence >= limit, no rival--> kReacquired, kFollowed
+//   kFollowed --coherence < limit, or a third covered--> kLost
+//   kLost --coherence >= limit, no rival--> kReacquired, kFollowed
 //
 // While it is lost nothing is learned. The place runs on with the last velocity for half a second
 // of 30 Hz and then stands; the window grows with every picture, to the whole picture. A place is
 // taken for the feature again where the anchor has no second place nearly as good and what lies
-// around both agrees too.
+// around both agrees too; in the first pictures only at nearly the coherence of before, for half a
+// template agrees with what covers the rest by chance.
 //
 // Where we deviate from the thesis: it refreshes the template every picture. Here a new anchor is
 // cut only at a good coherence, when the scale has changed by 1.4 or when the coherence sinks
@@ -36,6 +34,7 @@
 #include "engine/core/result.h"
 #include "engine/model/follow_state.h"
 #include "engine/model/image.h"
+#include "engine/tracking/template_anchor.h"
 #include "engine/tracking/template_match.h"
 
 namespace palace {
@@ -76,42 +75,34 @@ class FeatureFollower {
   FollowedFeature Follow(const ImageU8& picture);
 
  private:
-  /// Where offsets of the anchor lie in a picture.
-  struct Placement {
-    Eigen::Vector2d place = Eigen::Vector2d::Zero();
-    double scale = 1;
-    double angle_rad = 0;
-  };
   struct Anchor {
     ImageU8 picture;  ///< the whole: what lies around decides whether it is seen again
     Eigen::Vector2d centre = Eigen::Vector2d::Zero();
     double scale = 1;  ///< of the anchor since the first picture
     double angle_rad = 0;
-    Eigen::VectorXf values;  ///< of the template, mean 0, length 1
-    Eigen::Matrix<float, 4, Eigen::Dynamic>
-        lean;  ///< of the values, by place x, y, log scale, angle
-    Eigen::Matrix4d inverse = Eigen::Matrix4d::Zero();
+    TemplateAnchor values;
   };
   struct Sighting {
-    Placement at;
+    TemplatePlacement at;
     double coherence = 0;
     std::string why_not;  ///< empty: it is the feature
   };
 
   FeatureFollower() = default;
-  static bool MakeAnchor(const ImageU8& picture, const Placement& at, int template_px,
+  static bool MakeAnchor(const ImageU8& picture, const TemplatePlacement& at, int template_px,
                          Anchor& anchor);
   Sighting Look(const ImageU8& picture, const Eigen::Vector2d& expected, int radius_px) const;
-  Placement Refined(const ImageU8& picture, const Placement& start) const;
-  double Coherence(const ImageU8& picture, const Placement& at, int side) const;
+  double Coherence(const ImageU8& picture, const TemplatePlacement& at, int side) const;
   std::string WhyNotTheSame(const ImageU8& picture, const TemplateMatch& match,
-                            const Placement& at) const;
+                            const TemplatePlacement& at) const;
+  /// Of what is followed now; of what is taken up again more, at first.
+  double LeastCoherence() const;
   bool NeedsAnchor(const Sighting& sighting) const;
   void Keep(const ImageU8& picture, const Sighting& sighting);
 
   FollowerOptions options_;
   Anchor anchor_;
-  Placement at_;  ///< relative to the anchor; of the last sighting
+  TemplatePlacement at_;  ///< relative to the anchor; of the last sighting
   Eigen::Vector2d coasted_ = Eigen::Vector2d::Zero();
   Eigen::Vector2d velocity_px_ = Eigen::Vector2d::Zero();  ///< per picture
   std::deque<Eigen::Vector2d> places_;                     ///< of the last pictures in a row

@@ -34,6 +34,24 @@ void ForgetFlatPlaces(const cv::Mat& window, int side, cv::Mat& score) {
   }
 }
 
+double Parabola(double before, double at, double after) {
+  const double bend = before - 2 * at + after;
+  return bend < -1e-12 ? std::clamp(0.5 * (before - after) / bend, -0.5, 0.5) : 0.0;
+}
+
+Eigen::Vector2d TopNear(const cv::Mat& score, const cv::Point& at) {
+  Eigen::Vector2d top(at.x, at.y);
+  if (at.x > 0 && at.x + 1 < score.cols) {
+    top.x() += Parabola(score.at<float>(at.y, at.x - 1), score.at<float>(at.y, at.x),
+                        score.at<float>(at.y, at.x + 1));
+  }
+  if (at.y > 0 && at.y + 1 < score.rows) {
+    top.y() += Parabola(score.at<float>(at.y - 1, at.x), score.at<float>(at.y, at.x),
+                        score.at<float>(at.y + 1, at.x));
+  }
+  return top;
+}
+
 }  // namespace
 
 TemplateMatch MatchTemplate(const ImageU8& window, const ImageU8& wanted) {
@@ -48,6 +66,7 @@ TemplateMatch MatchTemplate(const ImageU8& window, const ImageU8& wanted) {
   cv::minMaxLoc(score, nullptr, &best, nullptr, &at);
   TemplateMatch match;
   match.corner = {at.x, at.y};
+  match.between = TopNear(score, at);
   match.score = std::clamp(best, 0.0, 1.0);
   cv::Mat peak;
   cv::dilate(score, peak, cv::Mat::ones(5, 5, CV_8U));

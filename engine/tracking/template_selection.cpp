@@ -4,6 +4,7 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "engine/tracking/picture_part.h"
 #include "engine/tracking/template_match.h"
 
 namespace palace {
@@ -61,14 +62,6 @@ std::vector<Candidate> Candidates(const ImageU8& picture, int template_px, const
   return found;
 }
 
-ImageU8 Part(const ImageU8& picture, int left, int top, int right, int bottom) {
-  ImageU8 part(right - left, bottom - top);
-  for (int y = top; y < bottom; ++y) {
-    std::copy(picture.row(y) + left, picture.row(y) + right, part.row(y - top));
-  }
-  return part;
-}
-
 }  // namespace
 
 double SelfSimilarity(const ImageU8& picture, const Eigen::Vector2i& pixel, int template_px,
@@ -77,11 +70,9 @@ double SelfSimilarity(const ImageU8& picture, const Eigen::Vector2i& pixel, int 
   const int x = pixel.x(), y = pixel.y();
   PALACE_CHECK(x >= half && y >= half && x + half < picture.width() && y + half < picture.height(),
                x, y, template_px);
-  const int reach = half + search_px;
-  return MatchTemplate(Part(picture, std::max(x - reach, 0), std::max(y - reach, 0),
-                            std::min(x + reach + 1, picture.width()),
-                            std::min(y + reach + 1, picture.height())),
-                       Part(picture, x - half, y - half, x + half + 1, y + half + 1))
+  const Eigen::Vector2d middle = pixel.cast<double>();
+  return MatchTemplate(CutWindow(picture, middle, half + search_px).picture,
+                       CutWindow(picture, middle, half).picture)
       .second_score;
 }
 

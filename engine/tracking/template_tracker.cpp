@@ -1,7 +1,5 @@
 #include "engine/tracking/template_tracker.h"
 
-#include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include <opencv2/imgproc.hpp>
@@ -9,6 +7,8 @@
 #include "engine/core/rounding.h"
 #include "engine/core/text.h"
 #include "engine/tracking/coherence.h"
+#include "engine/tracking/picture_part.h"
+#include "engine/tracking/template_match.h"
 #include "engine/tracking/view_geometry.h"
 
 namespace palace {
@@ -22,51 +22,11 @@ cv::Mat View(const ImageU8& picture) {
           const_cast<std::uint8_t*>(picture.pixels().data())};
 }
 
-/// Square cut around a sub-pixel centre; beyond the picture the edge is repeated.
-ImageU8 Cut(const ImageU8& picture, const Eigen::Vector2d& centre, int side) {
-  ImageU8 cut(side, side);
-  cv::Mat out = View(cut);
-  cv::getRectSubPix(View(picture), cv::Size(side, side),
-                    cv::Point2f(static_cast<float>(centre.x()), static_cast<float>(centre.y())),
-                    out);
-  return cut;
-}
-
 ImageU8 Resized(const ImageU8& picture) {
   ImageU8 patch(kPatchSide_px, kPatchSide_px);
   cv::Mat out = View(patch);
   cv::resize(View(picture), out, out.size(), 0, 0, cv::INTER_LINEAR);
   return patch;
-}
-
-struct Match {
-  Eigen::Vector2d offset = Eigen::Vector2d::Zero();  ///< of the template in the window, sub-pixel
-  double score = 0;
-};
-
-double Parabola(double before, double at, double after) {
-  const double bend = before - 2 * at + after;
-  return bend < -1e-12 ? std::clamp(0.5 * (before - after) / bend, -0.5, 0.5) : 0.0;
-}
-
-Match FindTemplate(const ImageU8& window, const ImageU8& wanted) {
-  cv::Mat score;
-  cv::matchTemplate(View(window), View(wanted), score, cv::TM_CCOEFF_NORMED);
-  double best = 0;
-  cv::Point at;
-  cv::minMaxLoc(score, nullptr, &best, nullptr, &at);
-  Match match;
-  match.score = std::isfinite(best) ? std::clamp(best, 0.0, 1.0) : 0.0;
-  match.offset = Eigen::Vector2d(at.x, at.y);
-  if (at.x > 0 && at.x + 1 < score.cols) {
-    match.offset.x() += Parabola(score.at<float>(at.y, at.x - 1), score.at<float>(at.y, at.x),
-                                 score.at<float>(at.y, at.x + 1));
-  }
-  if (at.y > 0 && at.y + 1 < score.rows) {
-    match.offset.y() += Parabola(score.at<float>(at.y - 1, at.x), score.at<float>(at.y, at.x),
-                                 score.at<float>(at.y + 1, at.x));
-  }
-  return match;
 }
 
 }  // namespace
@@ -82,7 +42,7 @@ void TemplateTracker::Lock(const ImageU8& left, const PinholeCamera& camera,
   }
   pixel_ = *pixel;
   predicted_pixel_ = *pixel;
-  template_ = Cut(left, pixel_, settings.template_size_px);
+  template_ = CutSquare(left, pixel_, settings.template_size_px);
   anchor_height_m_ = HeightFromDown(X_WC.p.z() - p_WS_.z());
   locked_ = true;
 }
@@ -104,10 +64,10 @@ TrackResult TemplateTracker::Track(const ImageU8& left, const PinholeCamera& cam
   const Eigen::Vector2d centre = pixel_ + predicted - predicted_pixel_;
   const int side = template_.width();
   const int window_side = side + 2 * settings.search_radius_px;
-  const ImageU8 window = Cut(left, centre, window_side);
-  const Match match = FindTemplate(window, template_);
+  const ImageU8 window = CutSquare(left, centre, window_side);
+  const TemplateMatch match = MatchTemplate(window, template_);
   const Eigen::Vector2d found =
-      centre + match.offset - Eigen::Vector2d::Constant(settings.search_radius_px);
+      centre + match.between - Eigen::Vector2d::Constant(settings.search_radius_px);
   const bool good = match.score >= settings.min_coherence && InPicture(camera, found, 1);
   // Not seen: coast on the predicted motion.
   pixel_ = good ? found : centre;
@@ -115,7 +75,7 @@ TrackResult TemplateTracker::Track(const ImageU8& left, const PinholeCamera& cam
   frames_missed_ = good ? 0 : frames_missed_ + 1;
   locked_ = frames_missed_ <= kMaxMissed && InPicture(camera, pixel_, 0);
 
-  ImageU8 current = Cut(left, pixel_, side);
+  ImageU8 current = CutSquare(left, pixel_, side);
   const PatchComparison patches = ComparePatches(Resized(template_), Resized(current));
   result.status.locked = locked_ && good;
   if (!result.status.locked) {

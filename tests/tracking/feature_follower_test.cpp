@@ -199,6 +199,27 @@ TEST_F(FeatureFollowerTest, AHandOverTheLensIsToldAndTheFeatureTakenUpAgain) {
   }
 }
 
+// An edge that comes slowly covers a part of the template in many pictures: what is still seen of
+// it holds the place, until too little agrees.
+TEST_F(FeatureFollowerTest, WhatCoversAPartDrawsNothingAlong) {
+  for (const double speed_px : {1.0, 2.0, 5.0, -2.0}) {
+    for (const std::uint64_t seed : {1, 2, 3, 4}) {
+      const auto truth_x = [](int i) {
+        return PixelFromWorldPoint(kCamera, Drift(i), Eigen::Vector3d::Zero())->x();
+      };
+      const auto edge = [&](ImageU8& picture, int i) {
+        if (i > 0) {
+          CoverTo(picture, truth_x(i) - 30 + std::abs(speed_px) * (speed_px > 0 ? i : 60 - i));
+        }
+      };
+      const Followed followed = Follow(60, Drift, edge, {}, seed);
+      followed.Print("covered slowly");
+      EXPECT_GT(followed.Count(FollowState::kLost), 0) << speed_px << ", " << seed;
+      EXPECT_LT(followed.WorstError(), 1) << speed_px << ", " << seed;
+    }
+  }
+}
+
 TEST_F(FeatureFollowerTest, HalfASecondOfBlackIsLostAtOnceAndCoastedThrough) {
   const int from = kSecond, to = kSecond + kSecond / 2;
   const auto black = [&](ImageU8& picture, int i) {

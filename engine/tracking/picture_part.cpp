@@ -1,0 +1,66 @@
+#include "engine/tracking/picture_part.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <opencv2/imgproc.hpp>
+
+#include "engine/tracking/view_geometry.h"
+
+namespace palace {
+namespace {
+
+cv::Mat View(const ImageU8& picture) {
+  return {picture.height(), picture.width(), CV_8U,
+          const_cast<std::uint8_t*>(picture.pixels().data())};
+}
+
+}  // namespace
+
+PictureWindow CutWindow(const ImageU8& picture, const Eigen::Vector2d& middle, int reach) {
+  const int x = static_cast<int>(std::lround(middle.x()));
+  const int y = static_cast<int>(std::lround(middle.y()));
+  const int left = std::max(x - reach, 0), right = std::min(x + reach + 1, picture.width());
+  const int top = std::max(y - reach, 0), bottom = std::min(y + reach + 1, picture.height());
+  PictureWindow window;
+  if (left >= right || top >= bottom) {
+    return window;
+  }
+  window.corner = {left, top};
+  window.picture = ImageU8(right - left, bottom - top);
+  for (int row = top; row < bottom; ++row) {
+    std::copy(picture.row(row) + left, picture.row(row) + right, window.picture.row(row - top));
+  }
+  return window;
+}
+
+ImageU8 CutSquare(const ImageU8& picture, const Eigen::Vector2d& centre, int side) {
+  ImageU8 square(side, side);
+  cv::Mat out = View(square);
+  cv::getRectSubPix(View(picture), cv::Size(side, side),
+                    cv::Point2f(static_cast<float>(centre.x()), static_cast<float>(centre.y())),
+                    out);
+  return square;
+}
+
+ImageU8 WarpedSquare(const ImageU8& source, const Eigen::Matrix3d& source_from_view,
+                     const Eigen::Vector2d& centre, int side) {
+  cv::Mat map_x(side, side, CV_32F);
+  cv::Mat map_y(side, side, CV_32F);
+  for (int y = 0; y < side; ++y) {
+    float* mx = map_x.ptr<float>(y);
+    float* my = map_y.ptr<float>(y);
+    for (int x = 0; x < side; ++x) {
+      const Eigen::Vector2d offset(x - 0.5 * (side - 1), y - 0.5 * (side - 1));
+      const Eigen::Vector2d at = MapPixel(source_from_view, centre + offset);
+      mx[x] = static_cast<float>(at.x());
+      my[x] = static_cast<float>(at.y());
+    }
+  }
+  ImageU8 square(side, side);
+  cv::Mat out = View(square);
+  cv::remap(View(source), out, map_x, map_y, cv::INTER_LINEAR, cv::BORDER_REPLICATE);
+  return square;
+}
+
+}  // namespace palace
