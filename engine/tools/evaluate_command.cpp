@@ -8,6 +8,7 @@
 #include "engine/experiments/evaluate_families.h"
 #include "engine/experiments/evaluate_faults.h"
 #include "engine/experiments/evaluate_ground.h"
+#include "engine/experiments/evaluate_heading.h"
 #include "engine/experiments/evaluate_image_time.h"
 #include "engine/experiments/evaluate_landing.h"
 #include "engine/experiments/evaluate_probability.h"
@@ -47,7 +48,8 @@ void AddEvaluateCommand(CLI::App& app, int& exit_code, SceneCameraFactory camera
                                                SiteLidarExperiment(),
                                                SiteRangeExperiment(),
                                                SiteShapesExperiment(),
-                                               SiteViewsExperiment()};
+                                               SiteViewsExperiment(),
+                                               HeadingExperiment()};
   AddExperiments(*evaluate, experiments, exit_code);
   AddEvaluatePlan(*evaluate, experiments, exit_code);
 }
