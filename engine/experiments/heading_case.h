@@ -12,13 +12,13 @@
 
 namespace palace {
 
-/// Why a course was chosen.
+/// Why a course was chosen. Downwind: more tailwind than the limit.
 inline constexpr const char* kCourseStraight = "straight";
-inline constexpr const char* kCourseRound = "round: straight is blocked";
-inline constexpr const char* kCourseOutOfWind = "round: straight has too much tailwind";
-inline constexpr const char* kCourseBetter = "round: suits wind and sun better";
-inline constexpr const char* kCourseOverAnyway = "all clear courses have too much tailwind";
-inline constexpr const char* kCourseRefused = "nothing is clear: refused";
+inline constexpr const char* kCourseRound = "straight is blocked";
+inline constexpr const char* kCourseOutOfWind = "straight is downwind";
+inline constexpr const char* kCourseBetter = "a side suits better";
+inline constexpr const char* kCourseOverAnyway = "all clear are downwind";
+inline constexpr const char* kCourseRefused = "nothing clear: refused";
 inline constexpr std::array kCourseReasons = {kCourseStraight, kCourseRound,      kCourseOutOfWind,
                                               kCourseBetter,   kCourseOverAnyway, kCourseRefused};
 
