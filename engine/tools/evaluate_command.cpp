@@ -1,5 +1,3 @@
-#include "engine/tools/evaluate_command.h"
-
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -20,7 +18,9 @@
 #include "engine/experiments/evaluate_site_views.h"
 #include "engine/experiments/evaluate_stereo.h"
 #include "engine/experiments/evaluate_things.h"
+#include "engine/experiments/evaluate_trackers.h"
 #include "engine/experiments/experiment.h"
+#include "engine/tools/evaluate_command.h"
 #include "engine/tools/evaluate_plan.h"
 
 namespace palace {
@@ -49,7 +49,9 @@ void AddEvaluateCommand(CLI::App& app, int& exit_code, SceneCameraFactory camera
                                                SiteRangeExperiment(),
                                                SiteShapesExperiment(),
                                                SiteViewsExperiment(),
-                                               HeadingExperiment()};
+                                               HeadingExperiment(),
+                                               TrackersExperiment(),
+                                               TrackerCostExperiment()};
   AddExperiments(*evaluate, experiments, exit_code);
   AddEvaluatePlan(*evaluate, experiments, exit_code);
 }

@@ -3,6 +3,11 @@
 palace_room(survey engine/survey palace_slad palace_geodata)
 palace_room(experiments engine/experiments palace_capture palace_report palace_calibration palace_runtime palace_simulation palace_faults palace_journal palace_survey)
 target_include_directories(palace_experiments SYSTEM PRIVATE ${CLI11_INCLUDE_DIR})
+# OpenCV's contrib trackers are peers there; that library alone, not what its target would bring along.
+if(NOT TARGET opencv_tracking)
+  message(FATAL_ERROR "OpenCV lacks its contrib module \"tracking\" (Debian: libopencv-contrib-dev, which libopencv-dev brings)")
+endif()
+target_link_libraries(palace_experiments PRIVATE $<TARGET_FILE:opencv_tracking>)
 palace_precompile(survey experiments)
 if(NOT PALACE_ENGINE_ONLY)
   file(GLOB PALACE_TOOLS CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/engine/tools/*.cpp)
