@@ -9,6 +9,7 @@
 #include "engine/experiments/evaluate_heading.h"
 #include "engine/experiments/evaluate_image_time.h"
 #include "engine/experiments/evaluate_landing.h"
+#include "engine/experiments/evaluate_occlusion.h"
 #include "engine/experiments/evaluate_probability.h"
 #include "engine/experiments/evaluate_search.h"
 #include "engine/experiments/evaluate_site_flags.h"
@@ -51,7 +52,8 @@ void AddEvaluateCommand(CLI::App& app, int& exit_code, SceneCameraFactory camera
                                                SiteViewsExperiment(),
                                                HeadingExperiment(),
                                                TrackersExperiment(),
-                                               TrackerCostExperiment()};
+                                               TrackerCostExperiment(),
+                                               OcclusionExperiment()};
   AddExperiments(*evaluate, experiments, exit_code);
   AddEvaluatePlan(*evaluate, experiments, exit_code);
 }

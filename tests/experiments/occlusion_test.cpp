@@ -1,0 +1,98 @@
+// What comes between camera and point, what is said of a track that it struck, and that shards
+// join.
+#include <cmath>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "engine/experiments/evaluate_occlusion.h"
+#include "engine/experiments/occluder.h"
+#include "tests/experiments/film_experiments.h"
+
+namespace palace {
+namespace {
+
+/// 100 pictures, right and told as good; struck from 20 to 29.
+FollowedFilm Struck() { return {std::vector<double>(100, 1), std::vector<bool>(100, true)}; }
+constexpr int kFirst = 20, kClear = 30;
+
+TEST(Occlusion, OfATrackThatSawItAndFoundThePointAgain) {
+  FollowedFilm film = Struck();
+  for (std::size_t i = 22; i < 35; ++i) {
+    film.error_px[i] = 80;
+    film.followed[i] = false;
+  }
+  const Occlusion told = JudgeOcclusion(film, kFirst, kClear);
+  EXPECT_TRUE(told.right_before);
+  EXPECT_EQ(told.told_after, 2);
+  EXPECT_EQ(told.wrong_as_good, 0);
+  EXPECT_EQ(told.worst_as_good_px, 1);
+  EXPECT_EQ(told.found_after, 5);
+  EXPECT_EQ(told.error_after_px, 1);
+  EXPECT_TRUE(told.good_after);
+  EXPECT_EQ(told.longest_told_lost, 13);
+}
+
+TEST(Occlusion, OfATrackThatWentAwayWithTheBird) {
+  FollowedFilm film = Struck();
+  for (std::size_t i = 22; i < 100; ++i) {
+    film.error_px[i] = 40;
+  }
+  const Occlusion told = JudgeOcclusion(film, kFirst, kClear);
+  EXPECT_EQ(told.told_after, -1);
+  EXPECT_EQ(told.wrong_as_good, 78);
+  EXPECT_EQ(told.worst_as_good_px, 40);
+  EXPECT_EQ(told.found_after, -1);
+  EXPECT_EQ(told.longest_told_lost, 0);
+}
+
+TEST(Occlusion, WhatWasWrongBeforeIsSaidToBe) {
+  FollowedFilm film = Struck();
+  film.error_px[19] = 6;
+  EXPECT_FALSE(JudgeOcclusion(film, kFirst, kClear).right_before);
+  film.error_px[19] = 4;
+  film.followed[19] = false;
+  EXPECT_FALSE(JudgeOcclusion(film, kFirst, kClear).right_before);
+}
+
+TEST(Occluder, CoversThePointHalfWay) {
+  const Eigen::Vector2d pixel(300, 220);
+  const struct {
+    OccluderKind kind;
+    double low, high;  ///< grey at the point, of 200
+  } table[] = {{OccluderKind::kNone, 200, 200},
+               {OccluderKind::kBird, 15, 45},
+               {OccluderKind::kHand, 110, 185},
+               {OccluderKind::kShadow, 99, 101},
+               {OccluderKind::kBlack, 0, 20}};
+  for (const auto& row : table) {
+    for (const std::uint64_t seed : {1U, 2U, 3U, 4U}) {
+      ImageF grey(640, 480, 200);
+      const Occluder occluder(row.kind, seed);
+      occluder.Paint(occluder.pictures() / 2, pixel, grey);
+      EXPECT_GE(grey.at(300, 220), row.low) << NameOf(row.kind);
+      EXPECT_LE(grey.at(300, 220), row.high) << NameOf(row.kind);
+    }
+  }
+}
+
+TEST(Occluder, ABirdAndAShadowComeFromBesideThePoint) {
+  const Eigen::Vector2d pixel(300, 220);
+  for (const OccluderKind kind : {OccluderKind::kBird, OccluderKind::kShadow}) {
+    for (const std::uint64_t seed : {1U, 2U, 3U, 4U}) {
+      const Occluder occluder(kind, seed);
+      for (const int picture : {0, occluder.pictures() - 1}) {
+        ImageF grey(640, 480, 200);
+        occluder.Paint(picture, pixel, grey);
+        EXPECT_EQ(grey.at(300, 220), 200) << NameOf(kind);
+      }
+    }
+  }
+}
+
+TEST(OcclusionExperiment, ShardsJoinToTheByte) {
+  ExpectThatShardsJoin(OcclusionExperiment(ShortAndSmall(78)));
+}
+
+}  // namespace
+}  // namespace palace
