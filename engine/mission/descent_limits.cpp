@@ -36,11 +36,11 @@ LimitRow PlaceRow(const DescentFigures& f, EnforcedBy alarm_in_descent) {
           .enforced_by = alarm_in_descent};
 }
 
-DescentFigures FiguresOf(const MissionMemory& m, Timestamp now) {
+DescentFigures FiguresOf(const MissionMemory& m, const std::optional<FlightPath>& path,
+                         Timestamp now) {
   const NavigationStatus& navigation = m.facts.navigation;
   const PositionEstimate& estimate = navigation.InForce().estimate;
   const auto& vehicle = m.watch.vehicle();
-  const LandingSite* site = SiteInQuestion(m);
   DescentFigures f;
   f.state = m.status.state;
   f.mode = vehicle ? vehicle->mode : VehicleMode::kUnknown;
@@ -61,8 +61,8 @@ DescentFigures FiguresOf(const MissionMemory& m, Timestamp now) {
   f.max_residual_sigma = navigation.vision.max_residual_sigma;
   f.wind_mps = KnownWind(m, now);
   f.max_wind_mps = m.facts.settings.mission.max_wind_mps;
-  if (site != nullptr && WindHasDirection(f.wind_mps)) {
-    f.off_wind_rad = std::abs(WrapAngle(PathTo(m, *site).heading_rad - vehicle->wind_from_rad));
+  if (path && WindHasDirection(f.wind_mps)) {
+    f.off_wind_rad = std::abs(WrapAngle(path->heading_rad - vehicle->wind_from_rad));
   }
   return f;
 }
@@ -174,8 +174,8 @@ double KnownWind(const MissionMemory& m, Timestamp now) {
   return fresh && m.watch.vehicle() ? m.watch.vehicle()->wind_speed_mps : NAN;
 }
 
-void PublishLimits(MissionMemory& m, Timestamp now) {
-  m.status.limits = LimitsOfDescent(FiguresOf(m, now));
+void PublishLimits(MissionMemory& m, const std::optional<FlightPath>& path, Timestamp now) {
+  m.status.limits = LimitsOfDescent(FiguresOf(m, path, now));
   const auto add = [&](const std::vector<LimitRow>& rows) {
     m.status.limits.insert(m.status.limits.end(), rows.begin(), rows.end());
   };

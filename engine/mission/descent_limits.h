@@ -15,9 +15,11 @@
 #pragma once
 
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include "engine/core/units.h"
+#include "engine/flight/flight_path.h"
 #include "engine/mission/mission_inputs.h"
 #include "engine/mission/mission_memory.h"
 #include "engine/model/mission/limit_row.h"
@@ -60,7 +62,7 @@ std::vector<LimitRow> LimitsOfCameras(const StereoQuality& stereo, const RangeAg
 
 /// The wind that the vehicle told last; NaN when it told none, or when that is stale.
 double KnownWind(const MissionMemory& memory, Timestamp now);
-/// Fills the limits of the status. After PublishGeometry.
-void PublishLimits(MissionMemory& memory, Timestamp now);
+/// Fills the limits of the status. After PublishGeometry, which returned `path`.
+void PublishLimits(MissionMemory& memory, const std::optional<FlightPath>& path, Timestamp now);
 
 }  // namespace palace

@@ -192,25 +192,30 @@ const LandingSite* SiteInQuestion(const MissionMemory& m) {
   return site != nullptr ? site : m.status.BestStanding(m.facts.sites);
 }
 
-void PublishGeometry(MissionMemory& m) {
+std::optional<FlightPath> PublishGeometry(MissionMemory& m) {
   const LandingSite* site = SiteInQuestion(m);
   const Eigen::Vector3d& skid_W = m.facts.skid_centre_W;
   m.status.height_above_site_m = m.status.distance_to_site_m = m.status.time_to_touchdown_s = NAN;
   m.status.site_p_WS = Eigen::Vector3d::Constant(NAN);
   m.status.path = {};
   m.status.way_W.clear();
-  if (site == nullptr || !skid_W.allFinite()) {
-    return;
+  const bool planned = m.status.approach || m.status.approval;
+  if (site == nullptr || (!planned && !skid_W.allFinite())) {
+    return std::nullopt;
+  }
+  const FlightPath path = PathTo(m, *site);
+  if (!skid_W.allFinite()) {
+    return path;
   }
   m.status.site_p_WS = site->p_WS;
   m.status.height_above_site_m = site->p_WS.z() - skid_W.z();
   m.status.distance_to_site_m = (site->p_WS - skid_W).head<2>().norm();
-  const FlightPath path = PathTo(m, *site);
   m.status.time_to_touchdown_s = TimeLeft(m, path);
   m.status.way_W = WayAhead(m, path);
   if (FliesPath(m) && m.facts.p_WB.allFinite() && m.facts.v_WB.allFinite()) {
     m.status.path = ProgressOn(path, m.facts.p_WB, m.facts.v_WB, LegOf(m));
   }
+  return path;
 }
 
 double LaserMismatch(const MissionInputs& in) {

@@ -37,14 +37,16 @@ void TurnTo(MissionMemory& memory, const ApproachCourse& course);
 /// it is there and looks at the site nothing is tracked, and vision does not take over.
 bool GoesRound(const MissionMemory& memory);
 
-/// The way to the site: the approved one, else the one that would be approved.
+/// The way to the site: the approved one, else the one that would be approved, which is planned
+/// anew here where none is armed: that needs the vehicle's place.
 FlightPath PathTo(const MissionMemory& memory, const LandingSite& site);
 
 /// The armed site, else the one that leads; null when there is none.
 const LandingSite* SiteInQuestion(const MissionMemory& memory);
 
-/// Fills height, distance, time left and the place on the path of the status, to that site.
-void PublishGeometry(MissionMemory& memory);
+/// Fills height, distance, time left and the place on the path of the status, to that site. Returns
+/// the way to it, so that it is planned once a step; empty where none is known.
+std::optional<FlightPath> PublishGeometry(MissionMemory& memory);
 
 /// How far the laser's spot lies from the map's height there, in metres.
 double LaserMismatch(const MissionInputs& inputs);

@@ -1,5 +1,6 @@
 #include "engine/mission/publish.h"
 
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -84,11 +85,11 @@ void PublishWayElsewhere(MissionMemory& m) {
 }
 
 void PublishFigures(MissionMemory& m, Timestamp now) {
-  PublishGeometry(m);
+  const std::optional<FlightPath> path = PublishGeometry(m);
   PublishWayElsewhere(m);
   PublishSides(m);
   PublishHeadings(m);
-  PublishLimits(m, now);
+  PublishLimits(m, path, now);
   m.status.wave_off = WaveOffNow(m, now);
   m.status.why_no_wave_off = WhyNoWaveOff(m, now);
   m.status.armed_now = m.newest;

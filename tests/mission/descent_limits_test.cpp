@@ -64,6 +64,20 @@ TEST(WindGuard, NoWindComesFromNowhere) {
   }
 }
 
+TEST(OffWind, IsOfTheWayThatTheFiguresAreOf) {
+  MissionRig rig;
+  rig.vehicle.wind_mps = 5;
+  rig.Site(101)->corridor_clear = true;
+  ASSERT_TRUE(rig.RunUntil(MissionState::kProposed));
+  ASSERT_FALSE(rig.mission.status().armed.has_value());
+  EXPECT_TRUE(std::isfinite(Row(rig, LimitId::kOffWind).value));
+  EXPECT_TRUE(std::isfinite(rig.mission.status().time_to_touchdown_s));
+  rig.north_m = NAN;  // nobody tells where the vehicle is: no way to a site is known
+  rig.Run(0.3);
+  EXPECT_TRUE(std::isnan(Row(rig, LimitId::kOffWind).value));
+  EXPECT_TRUE(std::isnan(rig.mission.status().time_to_touchdown_s));
+}
+
 TEST(WindGuard, AWindThatIsNotKnownIsForInformation) {
   MissionRig unknown;
   unknown.vehicle.wind_mps = NAN;
