@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include <CLI/CLI.hpp>
@@ -13,6 +14,7 @@
 #include "engine/core/command_line.h"
 #include "engine/core/files.h"
 #include "engine/core/termination.h"
+#include "engine/experiments/trial_record.h"
 
 namespace palace {
 namespace {
@@ -25,6 +27,7 @@ struct RunOptions {
   std::uint64_t seed = 1;
   std::string shard = "1/1";
   fs::path out;
+  bool resume = false;
 };
 
 int Fail(const Error& error) {
@@ -32,15 +35,50 @@ int Fail(const Error& error) {
   return error.code == ErrorCode::kUsage ? 2 : 1;
 }
 
-/// CSV, and for a whole run the report. Returns the exit code.
-int WriteResults(const Experiment& experiment, const TrialFile& file, const fs::path& out) {
-  if (!out.empty()) {
-    const fs::path csv = out / (experiment.name + ".csv");
-    if (const Status written = WriteTextFile(csv, TrialFileText(file)); !written) {
-      return Fail(written.error());
+/// The CSV that a path means: the file itself, or the only experiment's CSV of the folder.
+Result<fs::path> CsvOf(const fs::path& path, const std::vector<Experiment>& experiments) {
+  std::error_code error;
+  if (!fs::is_directory(path, error)) {
+    return path;
+  }
+  for (const Experiment& experiment : experiments) {
+    const fs::path csv = path / (experiment.name + ".csv");
+    if (fs::exists(csv, error)) {
+      return csv;
     }
+  }
+  return UnavailableError(path.string() + " holds no table of an experiment");
+}
+
+Status CheckColumns(const std::vector<Experiment>& experiments, const TrialFile& file,
+                    const std::string& name) {
+  for (const Experiment& experiment : experiments) {
+    if (experiment.name == file.header.experiment) {
+      std::vector<std::string> columns = {"trial", "seed"};
+      columns.insert(columns.end(), experiment.columns.begin(), experiment.columns.end());
+      return columns == file.table.columns
+                 ? Ok()
+                 : InvalidError(name + ": the columns are not those of this version's " +
+                                experiment.name + "; run the shards again");
+    }
+  }
+  return InvalidError(name + ": there is no experiment '" + file.header.experiment + "'");
+}
+
+Status WriteCsv(const TrialFile& file, const fs::path& out) {
+  if (out.empty()) {
+    return Ok();
+  }
+  const fs::path csv = out / (file.header.experiment + ".csv");
+  const Status written = WriteTextFile(csv, TrialFileText(file));
+  if (written) {
     std::cout << "wrote " << csv.string() << "\n";
   }
+  return written;
+}
+
+/// For a whole run. Returns the exit code.
+int WriteReport(const Experiment& experiment, const TrialFile& file, const fs::path& out) {
   if (!file.header.shard.whole()) {
     std::cout << "shard " << file.header.shard.index << " of " << file.header.shard.count
               << "; join the shards with: palacectl evaluate merge --out DIR SHARD_DIR...\n";
@@ -65,12 +103,19 @@ int WriteResults(const Experiment& experiment, const TrialFile& file, const fs::
   return report.passed ? 0 : 1;
 }
 
+int WriteResults(const Experiment& experiment, const TrialFile& file, const fs::path& out) {
+  const Status written = WriteCsv(file, out);
+  return written ? WriteReport(experiment, file, out) : Fail(written.error());
+}
+
 /// Of a run that was asked to end, what is done is a whole run of fewer trials: trial i is the same
 /// in both. A shard of it would be one of nothing.
 int WriteEnded(const Experiment& experiment, TrialFile file, int done, const fs::path& out) {
+  if (!out.empty()) {
+    std::cerr << "palacectl: the same command with --resume goes on from here\n";
+  }
   if (!file.header.shard.whole()) {
-    std::cerr << "palacectl: ended before its last trial; a part of a shard cannot be merged, "
-                 "nothing was written\n";
+    std::cerr << "palacectl: ended before its last trial; a part of a shard cannot be merged\n";
     return 0;
   }
   if (done == 0) {
@@ -82,6 +127,21 @@ int WriteEnded(const Experiment& experiment, TrialFile file, int done, const fs:
   return WriteResults(experiment, file, out);
 }
 
+/// The rows of a trial: as the record has them, or run now and kept there.
+Result<std::vector<TrialRow>> RunTrial(const Experiment& experiment, int trial, std::uint64_t seed,
+                                       std::optional<TrialRecord>& record) {
+  if (record && record->Done(trial) != nullptr) {
+    return *record->Done(trial);
+  }
+  Result<std::vector<TrialRow>> rows = experiment.run(trial, seed);
+  if (rows && record) {
+    if (const Status kept = record->Add(trial, *rows); !kept) {
+      return kept.error();
+    }
+  }
+  return rows;
+}
+
 int RunExperiment(const Experiment& experiment, const RunOptions& options) {
   const Termination termination;
   const Result<Shard> shard = ParseShard(options.shard);
@@ -90,6 +150,9 @@ int RunExperiment(const Experiment& experiment, const RunOptions& options) {
   }
   if (!shard->whole() && options.out.empty()) {
     return Fail(UsageError("--shard needs --out, a folder of its own for each shard"));
+  }
+  if (options.resume && options.out.empty()) {
+    return Fail(UsageError("--resume needs --out, the folder of the run that ended early"));
   }
   if (!options.out.empty()) {
     if (const Status made = MakeFolder(options.out); !made) {
@@ -102,6 +165,18 @@ int RunExperiment(const Experiment& experiment, const RunOptions& options) {
   file.table.columns = {"trial", "seed"};
   file.table.columns.insert(file.table.columns.end(), experiment.columns.begin(),
                             experiment.columns.end());
+  std::optional<TrialRecord> record;
+  if (!options.out.empty()) {
+    Result<TrialRecord> opened = TrialRecord::Open(options.out / (experiment.name + ".trials"),
+                                                   file.header, experiment.columns, options.resume);
+    if (!opened) {
+      return Fail(opened.error());
+    }
+    record = std::move(*opened);
+    if (record->done_count() > 0) {
+      std::cerr << "palacectl: " << record->done_count() << " trials were done before\n";
+    }
+  }
   for (int trial = 0; trial < options.trials; ++trial) {
     if (!shard->Holds(trial)) {
       continue;
@@ -112,7 +187,7 @@ int RunExperiment(const Experiment& experiment, const RunOptions& options) {
       return termination.exit_code();
     }
     const std::uint64_t seed = TrialSeed(options.seed, trial);
-    const Result<std::vector<TrialRow>> rows = experiment.run(trial, seed);
+    const Result<std::vector<TrialRow>> rows = RunTrial(experiment, trial, seed, record);
     if (!rows) {
       return Fail(rows.error());
     }
@@ -126,22 +201,13 @@ int RunExperiment(const Experiment& experiment, const RunOptions& options) {
                  options.trials);
   }
   std::fputc('\n', stderr);
-  return WriteResults(experiment, file, options.out);
-}
-
-/// The CSV a shard's path means: the file itself, or the only experiment's CSV of the folder.
-Result<fs::path> CsvOf(const fs::path& path, const std::vector<Experiment>& experiments) {
-  std::error_code error;
-  if (!fs::is_directory(path, error)) {
-    return path;
+  if (const Status written = WriteCsv(file, options.out); !written) {
+    return Fail(written.error());
   }
-  for (const Experiment& experiment : experiments) {
-    const fs::path csv = path / (experiment.name + ".csv");
-    if (fs::exists(csv, error)) {
-      return csv;
-    }
+  if (record) {
+    record->Remove();
   }
-  return UnavailableError(path.string() + " holds no table of an experiment");
+  return WriteReport(experiment, file, options.out);
 }
 
 int Merge(const std::vector<Experiment>& experiments, const std::vector<std::string>& paths,
@@ -153,11 +219,7 @@ int Merge(const std::vector<Experiment>& experiments, const std::vector<std::str
     if (!csv) {
       return Fail(csv.error());
     }
-    const Result<std::string> text = ReadTextFile(*csv, kLargestTable);
-    if (!text) {
-      return Fail(text.error());
-    }
-    Result<TrialFile> shard = ParseTrialFile(*text, csv->string());
+    Result<TrialFile> shard = ReadTrials(experiments, *csv);
     if (!shard) {
       return Fail(shard.error());
     }
@@ -172,12 +234,6 @@ int Merge(const std::vector<Experiment>& experiments, const std::vector<std::str
     if (experiment.name != merged->header.experiment) {
       continue;
     }
-    std::vector<std::string> columns = {"trial", "seed"};
-    columns.insert(columns.end(), experiment.columns.begin(), experiment.columns.end());
-    if (columns != merged->table.columns) {
-      return Fail(InvalidError("merge: the columns are not those of this version's " +
-                               experiment.name + "; run the shards again"));
-    }
     if (const Status made = MakeFolder(out); !made) {
       return Fail(made.error());
     }
@@ -190,10 +246,30 @@ int Merge(const std::vector<Experiment>& experiments, const std::vector<std::str
     }
     return WriteResults(experiment, *merged, out);
   }
-  return Fail(InvalidError("merge: there is no experiment '" + merged->header.experiment + "'"));
+  PALACE_CHECK(false, merged->header.experiment);
+  return 1;
 }
 
 }  // namespace
+
+Result<TrialFile> ReadTrials(const std::vector<Experiment>& experiments,
+                             const std::filesystem::path& path) {
+  const Result<fs::path> csv = CsvOf(path, experiments);
+  if (!csv) {
+    return csv.error();
+  }
+  const Result<std::string> text = ReadTextFile(*csv, kLargestTable);
+  if (!text) {
+    return text.error();
+  }
+  Result<TrialFile> file = ParseTrialFile(*text, csv->string());
+  if (file) {
+    if (const Status good = CheckColumns(experiments, *file, csv->string()); !good) {
+      return good.error();
+    }
+  }
+  return file;
+}
 
 std::uint64_t TrialSeed(std::uint64_t seed, int trial) {
   return seed + static_cast<std::uint64_t>(trial);
@@ -217,6 +293,8 @@ void AddExperiments(CLI::App& evaluate, const std::vector<Experiment>& experimen
                      "i/n: only every n-th trial; `evaluate merge` joins the shards");
     verb->add_option("--out", options->out,
                      "Folder for " + experiment.name + ".csv and report.html");
+    verb->add_flag("--resume", options->resume,
+                   "Go on where a run into the same --out ended before its last trial");
     if (experiment.add_options) {
       experiment.add_options(*verb);
     }

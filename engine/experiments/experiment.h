@@ -2,10 +2,12 @@
 // CSV of the trials, and a report that is made from the CSV alone.
 //
 // Trial i of an experiment always has the same seed and gives the same rows, whoever runs it, so
-// shards run anywhere merge to the very file an unsharded run writes.
+// shards run anywhere merge to the very file an unsharded run writes, and a run that was killed
+// goes on to that file too (trial_record.h).
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <string>
 #include <string_view>
@@ -45,9 +47,14 @@ struct Experiment {
 };
 
 /// Adds `evaluate NAME` for each experiment, and `evaluate merge --out DIR SHARD...`.
-/// Options: --trials --seed --shard i/n --out. Writes NAME.csv and, unless it is a shard,
+/// Options: --trials --seed --shard i/n --out --resume. Writes NAME.csv and, unless it is a shard,
 /// report.html.
 void AddExperiments(CLI::App& evaluate, const std::vector<Experiment>& experiments, int& exit_code);
+
+/// The trials that one of the experiments wrote: a CSV, or the folder that holds one. Errors name
+/// the file, the line, and what another version or another experiment wrote.
+Result<TrialFile> ReadTrials(const std::vector<Experiment>& experiments,
+                             const std::filesystem::path& path);
 
 /// Seed of one trial, --seed + trial: `--seed 17 --trials 1` repeats trial 16 of `--seed 1`.
 std::uint64_t TrialSeed(std::uint64_t seed, int trial);

@@ -120,7 +120,7 @@ Status CheckShardFolder(const std::string& out) {
 std::string ParallelLines(const ShardedRun& run, const ShardSizes& sizes) {
   const std::string n = Count(sizes.shards);
   const std::string command =
-      Command(run) + " --shard {}/" + n + " --out " + ShardFolder(run, "{}", sizes.shards);
+      Command(run) + " --resume --shard {}/" + n + " --out " + ShardFolder(run, "{}", sizes.shards);
   return "for i in $(seq " + n + "); do\n  " + IsDone(run, sizes.shards) +
          " || echo \"$i\"\ndone | parallel --sshloginfile " + ShellWord(run.machines) +
          " --workdir . \\\n  --return " + ShardFolder(run, "{}", sizes.shards) + "/" +
@@ -140,8 +140,8 @@ std::string SlurmScript(const ShardedRun& run, const ShardSizes& sizes) {
   }
   return text + "i=${SLURM_ARRAY_TASK_ID:?give this script to sbatch}\nif " +
          IsDone(run, sizes.shards) + "; then\n  echo \"shard $i of " + n +
-         " is done\"\n  exit 0\nfi\nexec " + Command(run) + " --shard \"$i\"/" + n + " --out " +
-         ShardFolder(run, "\"$i\"", sizes.shards) + "\n";
+         " is done\"\n  exit 0\nfi\nexec " + Command(run) + " --resume --shard \"$i\"/" + n +
+         " --out " + ShardFolder(run, "\"$i\"", sizes.shards) + "\n";
 }
 
 std::string MergeLine(const ShardedRun& run, const ShardSizes& sizes) {

@@ -3,7 +3,8 @@
 //
 // What is done is told by the CSVs alone: one that begins with the header of this very run is a
 // whole shard, for it is renamed into its place when it is written. So the same text may be run
-// again after a kill and does what is missing.
+// again after a kill and does what is missing; of a shard that was killed the trials done are kept
+// where it ran (trial_record.h).
 #pragma once
 
 #include <cstdint>

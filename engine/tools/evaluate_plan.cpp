@@ -113,7 +113,7 @@ void PrintHeading(const PlanOptions& options, const ShardSizes& sizes, double tr
     std::cout << "# One trial takes longer than --per-job " << options.per_job
               << ": each is a shard of its own.\n";
   }
-  std::cout << "# The same lines again do what is missing; a shard that was killed begins anew.\n";
+  std::cout << "# The same lines again do what is missing; a shard that was killed goes on.\n";
 }
 
 void PrintTexts(const PlanTexts& texts) {

@@ -209,10 +209,11 @@ TEST_F(PrintedLines, OptionsComeBackAsTheyWereGiven) {
                                         "2", "--family", "rocks", "--no-search", "--wind=4",
                                         "--set", "slad.max_slope_deg=8", "--program", "palacectl"});
   ASSERT_EQ(plan.exit_code, 0) << plan.err;
-  EXPECT_NE(plan.out.find("'palacectl evaluate families --family rocks --wind 4 --set "
-                          "slad.max_slope_deg=8 --no-search --trials 2 --seed 1 --shard {}/1 "
-                          "--out evaluate-families/shard-{}-of-1'"),
-            std::string::npos)
+  EXPECT_NE(
+      plan.out.find("'palacectl evaluate families --family rocks --wind 4 --set "
+                    "slad.max_slope_deg=8 --no-search --trials 2 --seed 1 --resume --shard {}/1 "
+                    "--out evaluate-families/shard-{}-of-1'"),
+      std::string::npos)
       << plan.out;
   const ProcessResult list = Palacectl({"plan", "ground", "--seconds-per-trial", "50", "--heights",
                                         "8,15", "--pictures", "my pictures"});

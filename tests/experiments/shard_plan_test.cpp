@@ -107,7 +107,7 @@ TEST(ShardPlan, LinesForGnuParallel) {
   grep -qsxF '# palace evaluate landing; seed 7; trials 100; shard '"$i"'/7; runway, calm, fault lost=20' landings/shard-"$i"-of-7/landing.csv || echo "$i"
 done | parallel --sshloginfile machines.txt --workdir . \
   --return landings/shard-{}-of-7/landing.csv \
-  'palacectl evaluate landing --fault lost=20 --trials 100 --seed 7 --shard {}/7 --out landings/shard-{}-of-7'
+  'palacectl evaluate landing --fault lost=20 --trials 100 --seed 7 --resume --shard {}/7 --out landings/shard-{}-of-7'
 )");
 }
 
@@ -125,7 +125,7 @@ if grep -qsxF '# palace evaluate landing; seed 7; trials 100; shard '"$i"'/7; ru
   echo "shard $i of 7 is done"
   exit 0
 fi
-exec palacectl evaluate landing --fault lost=20 --trials 100 --seed 7 --shard "$i"/7 --out landings/shard-"$i"-of-7
+exec palacectl evaluate landing --fault lost=20 --trials 100 --seed 7 --resume --shard "$i"/7 --out landings/shard-"$i"-of-7
 )");
   const std::string large = SlurmScript(LandingRun(), {1001, 1, 1});
   EXPECT_NE(large.find("#SBATCH --time=10\n"), std::string::npos) << large;
@@ -168,10 +168,12 @@ TEST(ShardPlan, NamesWithSpacesAreQuotedTwiceWhereTwoShellsReadThem) {
                        "  --return 'my landings/shard-'{}-of-2/landing.csv \\\n"),
             std::string::npos)
       << lines;
-  EXPECT_NE(lines.find(R"(''\''/opt/my palace/palacectl'\'' evaluate landing --set )"
-                       R"('\''it'\''\'\'''\''s {'\'''\''}'\'' --trials 100 --seed 7 --shard {}/2 )"
-                       R"(--out '\''my landings/shard-'\''{}-of-2')"),
-            std::string::npos)
+  EXPECT_NE(
+      lines.find(
+          R"(''\''/opt/my palace/palacectl'\'' evaluate landing --set )"
+          R"('\''it'\''\'\'''\''s {'\'''\''}'\'' --trials 100 --seed 7 --resume --shard {}/2 )"
+          R"(--out '\''my landings/shard-'\''{}-of-2')"),
+      std::string::npos)
       << lines;
   EXPECT_EQ(MergeLine(run, {2, 50, 2050}),
             "'/opt/my palace/palacectl' evaluate merge --out 'my landings' "

@@ -148,6 +148,38 @@ TEST_F(Endings, TheVehicleAndExperimentsEndInOrderToo) {
   EXPECT_FALSE(std::filesystem::exists(folder_ / "shard" / "probability.csv"));
 }
 
+/// Killed without a word, gone on with, and to the byte what one run writes.
+TEST_F(Endings, AKilledExperimentGoesOnWhereItEnded) {
+  std::vector<std::string> words = {"evaluate", "probability", "--trials", "6", "--out", "killed"};
+  {
+    std::vector<std::string> endless = words;
+    endless[3] = "100000";
+    Process experiment(Palacectl(endless));
+    ASSERT_TRUE(Until(60, [&] { return experiment.Err().find("trial 3 ") != std::string::npos; }));
+    experiment.Signal(SIGKILL);
+    (void)experiment.Wait(60);
+  }
+  const std::filesystem::path record = folder_ / "killed" / "probability.trials";
+  ASSERT_TRUE(std::filesystem::exists(record));
+  std::ofstream(record, std::ios::app) << "a row that was cut o";
+  words.emplace_back("--resume");
+  const ProcessResult resumed = RunProcess(Palacectl(words), 120);
+  EXPECT_NE(resumed.err.find("trials were done before"), std::string::npos) << resumed.err;
+  EXPECT_FALSE(std::filesystem::exists(record));
+  words[5] = "whole";
+  words.pop_back();
+  const ProcessResult whole = RunProcess(Palacectl(words), 120);
+  EXPECT_EQ(resumed.exit_code, whole.exit_code) << resumed.err << whole.err;
+  for (const char* name : {"probability.csv", "report.html"}) {
+    const auto text = [&](const char* run) {
+      std::ifstream file(folder_ / run / name, std::ios::binary);
+      return std::string{std::istreambuf_iterator<char>(file), {}};
+    };
+    EXPECT_GT(text("whole").size(), 100u) << name;
+    EXPECT_TRUE(text("killed") == text("whole")) << name;
+  }
+}
+
 /// One byte of the last message differs; the sidecar fits, so nothing else tells.
 TEST_F(Endings, WhatIsMadeOfADamagedLogExitsWithThree) {
   const std::filesystem::path log = folder_ / "vehicle.lcm";

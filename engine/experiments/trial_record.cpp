@@ -1,0 +1,175 @@
+#include "engine/experiments/trial_record.h"
+
+#include <unistd.h>
+
+#include <charconv>
+#include <fstream>
+#include <iterator>
+#include <string_view>
+#include <utility>
+
+#include "engine/core/check.h"
+#include "engine/core/hash.h"
+
+namespace palace {
+namespace {
+
+constexpr std::string_view kDone = "# trial ";
+constexpr std::string_view kDoneEnd = " done";
+
+/// Of the program that runs: another build may count otherwise.
+std::string ProgramHash() {
+  std::ifstream program("/proc/self/exe", std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(program), {}};
+  ContentHash hash;
+  hash.Add(bytes);
+  return ShortHash(hash.value());
+}
+
+std::string HeadOf(const TrialHeader& header, const std::vector<std::string>& columns) {
+  std::string head = "# palace trials of " + header.experiment + "; seed " +
+                     std::to_string(header.seed) + "; shard " + std::to_string(header.shard.index) +
+                     "/" + std::to_string(header.shard.count) + "; program " + ProgramHash() +
+                     "; " + header.setup + ";";
+  for (const std::string& column : columns) {
+    head += " " + column;
+  }
+  return head;
+}
+
+std::string RowText(const std::vector<std::string>& row) {
+  std::string text;
+  for (std::size_t i = 0; i < row.size(); ++i) {
+    text += (i == 0 ? "" : ",") + row[i];
+  }
+  return text + "\n";
+}
+
+std::vector<std::string> RowFrom(std::string_view line) {
+  std::vector<std::string> row;
+  for (auto comma = line.find(','); comma != std::string_view::npos; comma = line.find(',')) {
+    row.emplace_back(line.substr(0, comma));
+    line.remove_prefix(comma + 1);
+  }
+  row.emplace_back(line);
+  return row;
+}
+
+/// The trial of a line that ends one; -1 of any other.
+int TrialDone(std::string_view line) {
+  if (!line.starts_with(kDone) || !line.ends_with(kDoneEnd)) {
+    return -1;
+  }
+  line.remove_prefix(kDone.size());
+  line.remove_suffix(kDoneEnd.size());
+  int trial = -1;
+  const auto [end, error] = std::from_chars(line.data(), line.data() + line.size(), trial);
+  return error == std::errc() && end == line.data() + line.size() ? trial : -1;
+}
+
+std::string TrialText(int trial, const TrialRecord::Rows& rows) {
+  std::string text;
+  for (const auto& row : rows) {
+    text += RowText(row);
+  }
+  return text + std::string(kDone) + std::to_string(trial) + std::string(kDoneEnd) + "\n";
+}
+
+Error CannotWrite(const std::filesystem::path& path) {
+  return UnavailableError("cannot write " + path.string() +
+                          "; choose a folder you may write to, with free space");
+}
+
+}  // namespace
+
+Result<TrialRecord> TrialRecord::Open(const std::filesystem::path& path, const TrialHeader& header,
+                                      const std::vector<std::string>& columns, bool resume) {
+  TrialRecord record;
+  record.path_ = path;
+  const std::string head = HeadOf(header, columns);
+  if (resume) {
+    if (const Status read = record.Read(head, columns.size()); !read) {
+      return read.error();
+    }
+  }
+  std::string text = head + "\n";
+  for (const auto& [trial, rows] : record.done_) {
+    text += TrialText(trial, rows);
+  }
+  std::filesystem::path whole = path;
+  whole += ".new";
+  record.file_.reset(std::fopen(whole.c_str(), "wb"));
+  std::error_code error;
+  const bool written =
+      record.file_ != nullptr &&
+      std::fwrite(text.data(), 1, text.size(), record.file_.get()) == text.size() &&
+      std::fflush(record.file_.get()) == 0;
+  if (written) {
+    std::filesystem::rename(whole, path, error);
+  }
+  if (!written || error) {
+    std::filesystem::remove(whole, error);
+    return CannotWrite(path);
+  }
+  return record;
+}
+
+Status TrialRecord::Read(const std::string& head, std::size_t columns) {
+  std::ifstream in(path_, std::ios::binary);
+  if (!in) {
+    return Ok();
+  }
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  std::string_view rest = text;
+  Rows rows;
+  for (int number = 1; !rest.empty(); ++number) {
+    const auto end = rest.find('\n');
+    if (end == std::string_view::npos) {
+      break;
+    }
+    const std::string_view line = rest.substr(0, end);
+    rest.remove_prefix(end + 1);
+    if (number == 1) {
+      if (line != head) {
+        return UsageError("--resume: " + path_.string() +
+                          " is of another run or another build:\n  " + std::string(line) +
+                          "\nthis one is\n  " + head +
+                          "\nchoose another --out, or leave --resume out to begin anew");
+      }
+    } else if (const int trial = TrialDone(line); trial >= 0) {
+      done_[trial] = std::exchange(rows, {});
+    } else {
+      rows.push_back(RowFrom(line));
+      if (rows.back().size() != columns) {
+        return InvalidError(path_.string() + ":" + std::to_string(number) + ": " +
+                            std::to_string(rows.back().size()) + " values, there are " +
+                            std::to_string(columns) + " columns; leave --resume out to begin anew");
+      }
+    }
+  }
+  return Ok();
+}
+
+const TrialRecord::Rows* TrialRecord::Done(int trial) const {
+  const auto found = done_.find(trial);
+  return found == done_.end() ? nullptr : &found->second;
+}
+
+Status TrialRecord::Add(int trial, Rows rows) {
+  PALACE_CHECK(file_ != nullptr && !done_.contains(trial), trial);
+  const std::string text = TrialText(trial, rows);
+  done_[trial] = std::move(rows);
+  if (std::fwrite(text.data(), 1, text.size(), file_.get()) != text.size() ||
+      std::fflush(file_.get()) != 0 || fdatasync(fileno(file_.get())) != 0) {
+    return CannotWrite(path_);
+  }
+  return Ok();
+}
+
+void TrialRecord::Remove() {
+  file_.reset();
+  std::error_code ignored;
+  std::filesystem::remove(path_, ignored);
+}
+
+}  // namespace palace

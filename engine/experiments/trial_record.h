@@ -1,0 +1,55 @@
+// The trials of a run, kept as each is done, so that a run that was killed goes on where it ended.
+//
+// A text file beside the CSV: a line that tells the run, then of each trial its rows and the line
+// "# trial N done". What stands after the last such line was cut off and is not taken. The run is
+// told with experiment, seed, shard and setup, and with a hash of the program: the trials of
+// another build are never mixed in. The number of trials is not told, so a run may also be taken
+// further: trial i is the same in both.
+//
+// One thread.
+#pragma once
+
+#include <cstdio>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "engine/core/result.h"
+#include "engine/report/trial_table.h"
+
+namespace palace {
+
+class TrialRecord {
+ public:
+  using Rows = std::vector<std::vector<std::string>>;  ///< without trial and seed
+
+  /// Begins the record of a run at `path` anew; with `resume` what a run of the same kind left
+  /// there is taken first. Errors: the file cannot be written, it is of another run (kUsage, both
+  /// told), a line of it is none of a record (file and line).
+  static Result<TrialRecord> Open(const std::filesystem::path& path, const TrialHeader& header,
+                                  const std::vector<std::string>& columns, bool resume);
+
+  /// The rows of a trial that is done; null when it is not.
+  const Rows* Done(int trial) const;
+  int done_count() const { return static_cast<int>(done_.size()); }
+  /// Keeps a trial; on disk as far as the system goes when it returns.
+  Status Add(int trial, Rows rows);
+  /// The results are written: the record is of no more use.
+  void Remove();
+
+ private:
+  struct Closer {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+  };
+
+  TrialRecord() = default;
+  Status Read(const std::string& head, std::size_t columns);
+
+  std::filesystem::path path_;
+  std::map<int, Rows> done_;
+  std::unique_ptr<std::FILE, Closer> file_;
+};
+
+}  // namespace palace
