@@ -16,6 +16,7 @@ th{color:var(--dim);font-weight:500}td.n{text-align:right;font-variant-numeric:t
 img{width:100%;border:1px solid var(--rule);border-radius:4px;margin:6px 0 2px}
 figcaption{color:var(--dim);font-size:13px}figure{margin:12px 0 24px}
 svg{background:var(--plot);width:100%;height:auto;max-width:960px;border-radius:4px}
+details{border-left:2px solid var(--rule);padding-left:16px;margin:12px 0}summary{color:#5cb2ff;cursor:pointer}details h2{font-size:15px;margin-top:16px}
 .pass:before{content:"\2713\00a0";color:#4fd18b}.fail:before{content:"\2717\00a0";color:#ff6b5e}
 p.pass,p.fail{margin:4px 0}
 @media print{:root{--page:#fff;--plot:#fff;--text:#111;--dim:#444;--rule:#bbb}}
@@ -106,6 +107,12 @@ HtmlPage& HtmlPage::Picture(const std::string& file, const std::string& caption)
   const std::string name = EscapeHtml(file);
   body_ += "<figure><img src=\"" + name + "\" alt=\"" + EscapeHtml(caption) + "\"><figcaption>" +
            EscapeHtml(caption) + "</figcaption></figure>\n";
+  return *this;
+}
+
+HtmlPage& HtmlPage::Fold(const std::string& summary, const HtmlPage& part) {
+  body_ +=
+      "<details><summary>" + EscapeHtml(summary) + "</summary>\n" + part.body_ + "</details>\n";
   return *this;
 }
 

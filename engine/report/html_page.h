@@ -25,6 +25,8 @@ class HtmlPage {
   HtmlPage& Figure(const std::string& svg, const std::string& caption);
   /// A picture file beside the page.
   HtmlPage& Picture(const std::string& file, const std::string& caption);
+  /// Another page's blocks, closed until the reader opens them.
+  HtmlPage& Fold(const std::string& summary, const HtmlPage& part);
   HtmlPage& Link(const std::string& before, const std::string& file);
 
   std::string Text() const;

@@ -11,6 +11,7 @@
 
 #include "engine/model/grid.h"
 #include "engine/model/terrain_decision.h"
+#include "engine/survey/map_pictures.h"
 
 namespace palace {
 
@@ -20,5 +21,8 @@ struct DecidedLayer {
 };
 
 std::vector<DecidedLayer> LayersOf(const TerrainDecision& decision);
+
+/// How a layer is shown to people; its bar ends at twice the limit where there is one.
+MapPicture PictureOfLayer(const std::string& layer, const TerrainDecision& decision);
 
 }  // namespace palace

@@ -1,11 +1,9 @@
 #include "engine/tools/analyze_files.h"
 
-#include <algorithm>
 #include <string>
 #include <system_error>
 
 #include "engine/core/files.h"
-#include "engine/core/units.h"
 #include "engine/geodata/geo_tiff.h"
 #include "engine/survey/map_layers.h"
 #include "engine/survey/map_pictures.h"
@@ -19,40 +17,14 @@ namespace fs = std::filesystem;
 
 constexpr const char* kOverlay = "overlay.png";
 
-/// How a layer is shown; its bar ends at twice the limit where there is one.
-MapPicture PictureOf(const std::string& layer, const AnalyzeOutcome& o) {
-  const SladSettings& slad = o.settings.slad;
-  if (layer == "elevation_sigma") {
-    return {"elevation, one sigma, m", ColourTable::kInferno, 1, 0.0, {}};
-  }
-  if (layer == "slope") {
-    return {"slope, deg", ColourTable::kMagma, kDegPerRad, 0.0, 2 * slad.limits.max_slope_deg};
-  }
-  if (layer == "roughness") {
-    return {"roughness, m", ColourTable::kInferno, 1, 0.0, 2 * slad.limits.max_deviation_m};
-  }
-  if (layer == "cost") {
-    return {"cost", ColourTable::kCividis, 1, 0.0, 1.0};
-  }
-  if (layer == "safe_distance") {
-    const double most_m = o.selection().sites.empty() ? slad.lander.clear_radius_m()
-                                                      : o.selection().sites.front().safe_distance_m;
-    return {"safe distance, m", ColourTable::kBlues, 1, 0.0, std::max(most_m, 0.1)};
-  }
-  if (layer == "hazard") {
-    return {"hazard: 0 safe, 1 over a limit", ColourTable::kInferno, 1, 0.0, 1.3};
-  }
-  return {layer + ", m", ColourTable::kViridis, 1, {}, {}};
-}
-
 Status WriteLayers(const AnalyzeOutcome& o, const fs::path& folder) {
   for (const DecidedLayer& layer : LayersOf(*o.decision)) {
     const MapLayer file{o.map().geometry, layer.cells, o.input.epsg};
     if (const Status done = WriteGeoTiff(folder / (layer.name + ".tif"), file); !done) {
       return done;
     }
-    const Status drawn =
-        WriteMapPicture(folder / (layer.name + ".png"), layer.cells, PictureOf(layer.name, o));
+    const Status drawn = WriteMapPicture(folder / (layer.name + ".png"), layer.cells,
+                                         PictureOfLayer(layer.name, *o.decision));
     if (!drawn) {
       return drawn;
     }
