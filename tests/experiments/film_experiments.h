@@ -23,11 +23,11 @@ inline FilmGroundOptions Short(int pictures) {
   return options;
 }
 
-/// Pictures of a quarter of the size.
+/// Small pictures, too.
 inline FilmGroundOptions ShortAndSmall(int pictures) {
   FilmGroundOptions options = Short(pictures);
-  options.film.width_px = 320;
-  options.film.height_px = 240;
+  options.film.width_px = 192;
+  options.film.height_px = 144;
   return options;
 }
 
