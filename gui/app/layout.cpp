@@ -150,8 +150,11 @@ void PlaceDecision(const FlyUnits& u, const Grid2& grid, FlyLayout& fly) {
 void PlaceDescentColumn(const FlyUnits& u, const Grid2& grid, FlyLayout& fly) {
   const double bottom = u.body_y + u.body_h;
   const bool has_tracker = u.body_h >= 900;
-  const double recheck = u.narrow ? 196 : (has_tracker ? 316 : 268);
   const double limits = u.narrow ? 196 : 268;
+  // In a narrow window the last panel stands where Approve does: its buttons stay where they are.
+  const double landing_y = static_cast<double>(fly.approve.y) / grid.scale;
+  const double recheck =
+      u.narrow ? landing_y - u.body_y - limits - 2 * kGap : (has_tracker ? 316 : 268);
   const double tracker = has_tracker ? 160 : 0;
   double y = u.body_y;
   fly.recheck = grid.Of(u.right_x, y, u.right_w, recheck);

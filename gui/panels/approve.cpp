@@ -337,7 +337,7 @@ void DrawApprovePanel(const EngineSnapshot& snap, const Rect& rect, bool narrow,
     }
   }
   if (!m.armed && m.may_select) {
-    DrawWaysElsewhere(snap, rect, head + s.Px(10), pin, ui);
+    DrawWaysElsewhere(snap, rect, pin, ui);
   }
   const float x = rect.x + s.Px(12);
   const float width = rect.w - s.Px(24);

@@ -56,10 +56,10 @@ void DrawApprovePanel(const EngineSnapshot& snap, const Rect& rect, bool narrow,
 /// "next_look": the look that the station proposes (FlyTo), from x on or up to there. Right end of
 /// what it draws.
 float DrawProposedLook(const EngineSnapshot& snap, float x, float y, bool ends_at_x, UiFrame& ui);
-/// In a panel's head, from `left` on: "turn_left", "turn_right", "climb", with a pin "look_at_pin"
-/// (FlyTo);
-/// while such a way is flown "hold_here" alone.
-void DrawWaysElsewhere(const EngineSnapshot& snap, const Rect& panel, float left,
+/// In a panel's head: "turn_left", "turn_right", "climb", with a pin "look_at_pin" (FlyTo); while
+/// such a way is flown "hold_here" alone. At one place whatever the panel's title, which changes
+/// with the state (Landing, Look, Approve).
+void DrawWaysElsewhere(const EngineSnapshot& snap, const Rect& panel,
                        const std::optional<Eigen::Vector2d>& pin, UiFrame& ui);
 /// From APPROVED on: "hold_here", after a wave-off "acknowledge_wave_off".
 void DrawLandingPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui);

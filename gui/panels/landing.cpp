@@ -190,11 +190,10 @@ void DrawLandingPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui)
   const Palette& p = s.palette;
   const MissionStatus& m = snap.flight->mission;
   const bool tall = rect.h >= s.Px(184);
-  const char* title = m.IsLook() ? "Look" : "Landing";
-  DrawPanelFrame(ui, rect, title);
+  DrawPanelFrame(ui, rect, m.IsLook() ? "Look" : "Landing");
   if (m.state == MissionState::kHold && m.may_select) {
     // Where no site stands any more there is nothing else to go on with.
-    DrawWaysElsewhere(snap, rect, rect.x + s.Px(22) + TextWidth(s.medium, title), std::nullopt, ui);
+    DrawWaysElsewhere(snap, rect, std::nullopt, ui);
   }
   const float x = rect.x + s.Px(12);
   const float width = rect.w - s.Px(24);

@@ -1,5 +1,6 @@
 // Ways to look at other ground while nothing is selected: the look that the station proposes, a
 // turn, a climb, or a look at the pin.
+#include <algorithm>
 #include <optional>
 #include <string>
 
@@ -34,6 +35,15 @@ void DrawHoldHere(const EngineSnapshot& snap, const Rect& panel, UiFrame& ui) {
   }
 }
 
+/// Of the panels in whose head the ways stand.
+float WidestTitle(const Style& s) {
+  float widest = 0;
+  for (const char* title : {"Approve", "Landing", "Look"}) {
+    widest = std::max(widest, TextWidth(s.medium, title));
+  }
+  return widest;
+}
+
 }  // namespace
 
 float DrawProposedLook(const EngineSnapshot& snap, float x, float y, bool ends_at_x, UiFrame& ui) {
@@ -47,7 +57,7 @@ float DrawProposedLook(const EngineSnapshot& snap, float x, float y, bool ends_a
                        ends_at_x ? x - WayButtonWidth(words, ui.style) : x, y, ui);
 }
 
-void DrawWaysElsewhere(const EngineSnapshot& snap, const Rect& panel, float left,
+void DrawWaysElsewhere(const EngineSnapshot& snap, const Rect& panel,
                        const std::optional<Eigen::Vector2d>& pin, UiFrame& ui) {
   if (snap.flight->mission.going) {
     DrawHoldHere(snap, panel, ui);
@@ -65,7 +75,7 @@ void DrawWaysElsewhere(const EngineSnapshot& snap, const Rect& panel, float left
   const std::string turn = Fixed(Deg(kTurn_rad), 0) + "°";
   const std::string turns = "Turns where it hovers, to look at other ground";
   const float gap = ui.style.Px(3), y = panel.y + gap;
-  float x = left;
+  float x = panel.x + ui.style.Px(22) + WidestTitle(ui.style);
   for (const WayButton& button :
        {WayButton{"turn_left", "Left " + turn, turns, at(0, -kTurn_rad), no_pose},
         WayButton{"turn_right", "Right " + turn, turns, at(0, kTurn_rad), no_pose},

@@ -119,6 +119,18 @@ TEST(FlyLayout, PanelsStayInTheBodyAndNeverOverlapAtAnySizeAndScale) {
   }
 }
 
+TEST(FlyLayout, OfANarrowWindowTheLastPanelStandsWhereApproveDoes) {
+  for (const double scale : {1.0, 1.25, 2.0}) {
+    for (const double height : {720.0, 768.0, 800.0, 880.0}) {
+      const FlyLayout fly = ComputeFlyLayout(1280 * scale, height * scale, scale, true);
+      ASSERT_TRUE(fly.narrow);
+      EXPECT_NEAR(fly.landing.y, fly.approve.y, 1) << height << " at " << scale;
+      EXPECT_NEAR(fly.landing.bottom(), fly.approve.bottom(), 1) << height << " at " << scale;
+      EXPECT_GE(fly.recheck.h, 196 * scale - 1) << height << " at " << scale;
+    }
+  }
+}
+
 TEST(FlyLayout, ScaleDropsByStepsUntilTheSmallestWindowFits) {
   EXPECT_EQ(FittingScale(1920, 1080, 1.0), 1.0);
   EXPECT_EQ(FittingScale(1920, 1080, 2.0), 1.5);

@@ -76,6 +76,27 @@ TEST(WaysElsewhere, HaveRoomInTheHead) {
   }
 }
 
+TEST(WaysElsewhere, StandWhereTheyStoodWhateverThePanelIsCalled) {
+  for (const float width : {1280.0F, 1920.0F}) {
+    std::vector<float> left;
+    for (const auto& [state, stop_height_m] : {std::pair{MissionState::kHold, 0.0},
+                                               {MissionState::kHold, 12.0},
+                                               {MissionState::kSearch, 0.0},
+                                               {MissionState::kProposed, 0.0}}) {
+      EngineSnapshot snap = fake::Snapshot(state);
+      snap.flight.Edit().mission.may_select = true;
+      snap.flight.Edit().mission.stop_height_m = stop_height_m;
+      FlyWindow window(width, width * 9 / 16, snap);
+      window.Run(0.05);
+      ASSERT_NE(window.ui.items.Find("turn_left"), nullptr) << MissionStateName(state);
+      left.push_back(window.ui.items.Find("turn_left")->rect.x);
+    }
+    for (const float x : left) {
+      EXPECT_EQ(x, left.front()) << "at " << width;
+    }
+  }
+}
+
 TEST(WaysElsewhere, TheProposedLookIsFlownByOnePressAndToldWithItsReason) {
   EngineSnapshot snap = fake::Snapshot(MissionState::kSearch);
   const ProposedLook look{
