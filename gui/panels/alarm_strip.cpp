@@ -135,6 +135,18 @@ float DrawAnswers(const std::vector<const Alarm*>& alarms, FrameState& state, fl
   return acknowledge.x;
 }
 
+/// Where the sentence of an alarm begins, from the strip's left edge.
+float SentenceAt(const Style& s, const AlarmLook& look) {
+  return s.Px(50) + TextWidth(s.medium, look.word);
+}
+
+/// Whole clauses, but where these would leave most of the room empty: then as many words as fit.
+std::string FitSentence(const ImFont* font, const std::string& text, float room) {
+  constexpr float kLeastFilled = 0.6F;
+  const std::string clauses = FitClauses(font, text, room);
+  return TextWidth(font, clauses) >= kLeastFilled * room ? clauses : FitWords(font, text, room);
+}
+
 /// True when the words had no room: what to do stands last in them.
 bool DrawFirst(const Alarm& alarm, bool of_record, const Rect& rect, float text_right,
                UiFrame& ui) {
@@ -152,10 +164,10 @@ bool DrawFirst(const Alarm& alarm, bool of_record, const Rect& rect, float text_
   if (!blink) {
     DrawIcon(Canvas(), look.icon, {rect.x + s.Px(25), y}, s.Px(14), look.colour);
   }
-  float x = rect.x + s.Px(40);
-  x += DrawText(ui, s.medium, p.text1, x, y, look.word) + s.Px(10);
+  DrawText(ui, s.medium, p.text1, rect.x + s.Px(40), y, look.word);
+  const float x = rect.x + SentenceAt(s, look);
   const std::string text = AlarmWords(alarm, of_record);
-  const std::string shown = FitClauses(s.body, text, text_right - x - s.Px(16));
+  const std::string shown = FitSentence(s.body, text, text_right - x - s.Px(16));
   DrawText(ui, s.body, p.text1, x, y, shown);
   return shown != text;
 }
@@ -194,9 +206,17 @@ void DrawAlarmStripPanel(const EngineSnapshot& snap, const Rect& rect, FrameStat
     return;
   }
   const std::vector<Alarm>& all = snap.flight->mission.alarms;
-  const char* none =
-      alarms.front()->level == AlarmLevel::kAdvisory && state.shelved.empty() ? "No cautions" : "";
+  const bool of_record = FollowsRecord(snap.session->role);
+  const Alarm& first = *alarms.front();
   float right = DrawShelf(state, rect.right(), y, ui);
+  // That there is nothing worse is worth less than what there is.
+  const char* none = "No cautions";
+  const float wanted = SentenceAt(s, LookOf(p, first.level)) +
+                       TextWidth(s.body, AlarmWords(first, of_record)) + s.Px(16);
+  const bool fits = wanted + s.Px(27) + TextWidth(s.body, none) <= right - rect.x;
+  if (first.level != AlarmLevel::kAdvisory || !state.shelved.empty() || !fits) {
+    none = "";
+  }
   const float count_right = right;
   right = DrawCount(all, none, right, y, ui);
   if (all.size() > 1 && Interact(ui, "alarm_count", {right, rect.y, count_right - right, rect.h},
@@ -204,7 +224,6 @@ void DrawAlarmStripPanel(const EngineSnapshot& snap, const Rect& rect, FrameStat
                             .clicked) {
     state.history_open = !state.history_open;
   }
-  const bool of_record = FollowsRecord(snap.session->role);
   right = of_record ? right : DrawAnswers(alarms, state, right, y, ui);
   const bool cut = DrawFirst(*alarms.front(), of_record, rect, right, ui);
   const Rect words{rect.x, rect.y, right - rect.x, rect.h};

@@ -28,6 +28,37 @@ TEST(AlarmStrip, TheWarningThatBlocksApproveCanBeAnsweredWhereverItStands) {
   }
 }
 
+TEST(AlarmStrip, ASentenceIsNotCutWhileThereIsRoomBesideIt) {
+  const struct {
+    const char* text;
+    bool whole;
+  } table[] = {
+      {"Laser silent 2.0 s. The height above ground is that of the map, and the descent is checked "
+       "against it.",
+       true},
+      {"GPS lost. The vehicle goes on by what vision tells of the ground below it for as long as "
+       "the pictures are sharp, the tracker holds, and the map below it is not older than what the "
+       "descent allows, and it holds where one of these ends",
+       false}};
+  for (const auto& row : table) {
+    SCOPED_TRACE(row.text);
+    EngineSnapshot snap = fake::Snapshot(MissionState::kProposed);
+    snap.flight.Edit().mission.alarms = {{AlarmId::kLaserLost, AlarmLevel::kAdvisory, row.text}};
+    FlyWindow window(1280, 720, snap);
+    const Rect& strip = window.ui.items.Find("panel/Alarm strip")->rect;
+    const Item* sentence = nullptr;
+    for (const Item& item : window.ui.items.items()) {
+      const bool starts = item.name == "text" && item.text.size() > 4 &&
+                          std::string(row.text).rfind(item.text.substr(0, 5), 0) == 0;
+      sentence = starts && strip.Contains(item.rect.centre()) ? &item : sentence;
+    }
+    ASSERT_NE(sentence, nullptr);
+    EXPECT_EQ(sentence->text == row.text, row.whole) << sentence->text;
+    EXPECT_GT(sentence->rect.right(), strip.x + (row.whole ? 0.3F : 0.7F) * strip.w);
+    ExpectTextsInPanels(window.ui.items);
+  }
+}
+
 TEST(AlarmStrip, TheCountOfTheOthersOpensTheListToo) {
   FlyWindow window(1280, 720, WarningBehindAnAdvisory());
   EXPECT_FALSE(window.bar.history_open);
