@@ -1,6 +1,7 @@
 #include "engine/world/box_tree.h"
 
 #include <algorithm>
+#include <array>
 #include <numeric>
 #include <utility>
 
@@ -44,6 +45,37 @@ BoxTree::BoxTree(const std::vector<Eigen::AlignedBox3d>& boxes) {
     }
     nodes_[range.node] = node;
   }
+}
+
+BoxTree::Branches BoxTree::Within(const Beam& beam) const {
+  constexpr std::size_t kMost = 24;
+  const std::span<const std::uint32_t> whole = Whole();
+  Branches branches(whole.begin(), whole.end()), finer;
+  // Rays that go both ways along an axis meet children in both orders.
+  const std::array<int, 3> sign = {beam.Sign(0), beam.Sign(1), beam.Sign(2)};
+  for (bool split = true; split;) {
+    split = false;
+    finer.clear();
+    for (const std::uint32_t branch : branches) {
+      const Node& node = nodes_[branch];
+      if (!beam.MayEnter(node.box)) {
+        continue;
+      }
+      const int way = sign[static_cast<std::size_t>(node.axis)];
+      if (node.count > 0 || way == 0) {
+        finer.push_back(branch);
+        continue;
+      }
+      split = true;
+      finer.push_back(way > 0 ? node.first : node.first + 1);
+      finer.push_back(way > 0 ? node.first + 1 : node.first);
+    }
+    if (finer.size() > kMost) {
+      break;
+    }
+    branches.swap(finer);
+  }
+  return branches;
 }
 
 }  // namespace palace

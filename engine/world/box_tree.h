@@ -1,15 +1,20 @@
 // BoxTree: finds what a ray may meet among many things, by a binary tree of their boxes.
 //
 // Built by halving at the median of the longest side (Kay and Kajiya 1986); walked nearest first,
-// past what lies behind the nearest meeting so far.
+// past what lies behind the nearest meeting so far. Rays of one beam may begin where the whole beam
+// enters: what no ray of it can meet is left out once for all of them.
 #pragma once
 
 #include <array>
 #include <cstdint>
+#include <limits>
+#include <span>
 #include <vector>
 
 #include <Eigen/Dense>
 #include <Eigen/Geometry>
+
+#include "engine/world/beam.h"
 
 namespace palace {
 
@@ -20,15 +25,55 @@ class BoxTree {
 
   bool empty() const { return nodes_.empty(); }
   const Eigen::AlignedBox3d& box() const { return nodes_.front().box; }
+  /// The things, those close together side by side; walks name a thing by its place in here.
+  const std::vector<std::uint32_t>& items() const { return items_; }
 
-  /// Calls meet(item) for every item whose box the ray p + s r enters before `nearest`; meet
+  /// Branches of the tree, in the order in which rays meet them.
+  using Branches = std::vector<std::uint32_t>;
+  std::span<const std::uint32_t> Whole() const {
+    static constexpr std::uint32_t kRoot = 0;
+    return {&kRoot, empty() ? 0U : 1U};
+  }
+  /// Those that hold all that rays of the beam meet; few.
+  Branches Within(const Beam& beam) const;
+
+  /// Calls meet(place) for every item whose box the ray p + s r enters before `nearest`; meet
   /// returns where the item itself is met, infinity where it is not. Returns the least, or
-  /// `nearest`.
+  /// `nearest`. What lies on other branches is not asked.
   template <typename Meet>
-  double Walk(const Eigen::Vector3d& p, const Eigen::Vector3d& r, double nearest,
-              Meet&& meet) const {
+  double Walk(std::span<const std::uint32_t> branches, const Eigen::Vector3d& p,
+              const Eigen::Vector3d& r, double nearest, Meet&& meet) const {
+    const Eigen::Vector3d per = r.cwiseInverse();
+    std::array<std::uint32_t, 64> stack;
+    for (const std::uint32_t branch : branches) {
+      std::size_t depth = 0;
+      stack[depth++] = branch;
+      while (depth > 0) {
+        const Node& node = nodes_[stack[--depth]];
+        if (!Enters(node.box, p, per, nearest)) {
+          continue;
+        }
+        if (node.count > 0) {
+          for (std::uint32_t i = 0; i < node.count; ++i) {
+            const double s = meet(node.first + i);
+            nearest = s < nearest ? s : nearest;
+          }
+          continue;
+        }
+        // The child on the ray's side of the cut first.
+        const std::uint32_t second = r[node.axis] > 0 ? 1 : 0;
+        stack[depth++] = node.first + second;
+        stack[depth++] = node.first + 1 - second;
+      }
+    }
+    return nearest;
+  }
+
+  /// Whether meets(place) is true of any item whose box the ray enters.
+  template <typename Meets>
+  bool Any(const Eigen::Vector3d& p, const Eigen::Vector3d& r, Meets&& meets) const {
     if (nodes_.empty()) {
-      return nearest;
+      return false;
     }
     const Eigen::Vector3d per = r.cwiseInverse();
     std::array<std::uint32_t, 64> stack;
@@ -36,28 +81,27 @@ class BoxTree {
     stack[depth++] = 0;
     while (depth > 0) {
       const Node& node = nodes_[stack[--depth]];
-      if (!Enters(node.box, p, per, nearest)) {
+      if (!Enters(node.box, p, per, std::numeric_limits<double>::infinity())) {
         continue;
       }
-      if (node.count > 0) {
-        for (std::uint32_t i = 0; i < node.count; ++i) {
-          const double s = meet(items_[node.first + i]);
-          nearest = s < nearest ? s : nearest;
+      if (node.count == 0) {
+        stack[depth++] = node.first;
+        stack[depth++] = node.first + 1;
+        continue;
+      }
+      for (std::uint32_t i = 0; i < node.count; ++i) {
+        if (meets(node.first + i)) {
+          return true;
         }
-        continue;
       }
-      // The child on the ray's side of the cut first.
-      const bool forward = r[node.axis] > 0;
-      stack[depth++] = forward ? node.first + 1 : node.first;
-      stack[depth++] = forward ? node.first : node.first + 1;
     }
-    return nearest;
+    return false;
   }
 
  private:
-  struct Node {
+  struct alignas(64) Node {
     Eigen::AlignedBox3d box;
-    std::uint32_t first = 0;  ///< item, or the first of two children
+    std::uint32_t first = 0;  ///< place of an item, or the first of two children
     std::uint32_t count = 0;  ///< of items; 0: an inner node
     int axis = 0;
   };

@@ -6,7 +6,7 @@
 // ground has no end and no step.
 //
 // Rays are followed through a pyramid of the highest corner of each block (maximum mipmaps, Tevs,
-// Ihrke and Seidel 2008): exact, some twenty steps a ray.
+// Ihrke and Seidel 2008): exact, some ten steps a ray, three where a beam was followed before.
 #pragma once
 
 #include <cstdint>
@@ -14,6 +14,8 @@
 #include <vector>
 
 #include <Eigen/Dense>
+
+#include "engine/world/beam.h"
 
 namespace palace {
 
@@ -31,11 +33,26 @@ class HeightField {
               const std::function<double(double north_m, double east_m)>& height);
 
   double Height(double north_m, double east_m) const;
+  /// One of the triangles; `north_half` of the cell is that towards its north-west corner.
+  struct Triangle {
+    std::int64_t i = 0, j = 0;
+    bool north_half = false;
+    bool operator==(const Triangle&) const = default;
+  };
+  Triangle TriangleAt(double north_m, double east_m) const;
   /// Unit normal in W, pointing up, of the triangle at that place.
   Eigen::Vector3d Normal(double north_m, double east_m) const;
   /// Least s >= 0 where the ray p + s r of W, which starts above, meets the surface; infinity where
   /// it does not, and for a ray that starts below.
-  double Cast(const Eigen::Vector3d& p_W, const Eigen::Vector3d& r_W) const;
+  double Cast(const Eigen::Vector3d& p_W, const Eigen::Vector3d& r_W) const {
+    return Cast(p_W, r_W, 0);
+  }
+  /// The same of a ray that is known to be over the surface up to s = `clear`: ClearUpTo a beam it
+  /// is of.
+  double Cast(const Eigen::Vector3d& p_W, const Eigen::Vector3d& r_W, double clear) const;
+  /// A number s >= 0 up to which all rays p + s r with r a mean of the beam's edges are over the
+  /// surface: close to where they meet it. 0 for a beam of which some rays go up.
+  double ClearUpTo(const Beam& beam_W) const;
 
   const Place& place() const { return place_; }
   int cells() const { return cells_; }  ///< a side
@@ -50,13 +67,14 @@ class HeightField {
     return static_cast<std::size_t>(i) * static_cast<std::size_t>(cells_ + 1) +
            static_cast<std::size_t>(j);
   }
-  int Mirrored(std::int64_t index) const;
-  /// Highest corner of the block of 2^level cells.
-  float Highest(int level, std::int64_t i, std::int64_t j) const;
   struct Corners {
     double sw, nw, se, ne;
   };
   Corners CornersOf(std::int64_t i, std::int64_t j) const;
+  /// Highest corner of the block of 2^level cells a side.
+  float Highest(int level, std::int64_t i, std::int64_t j) const;
+  /// Not lower than the surface anywhere in a rectangle of cells' coordinates.
+  double HighestIn(const Eigen::AlignedBox2d& cells) const;
 
   Place place_;
   int cells_;

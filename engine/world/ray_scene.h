@@ -23,8 +23,8 @@ namespace palace {
 
 class RayScene {
  public:
-  /// Works out the ground's light at texels of that size: about the finest ground sample distance
-  /// of the pictures to come. The world's ground has a material.
+  /// The ground's light has texels of that size: about the finest ground sample distance of the
+  /// pictures to come. The world's ground has a material.
   RayScene(const World& world, double texel_m);
   RayScene(const RayScene&) = delete;
   RayScene& operator=(const RayScene&) = delete;
@@ -56,6 +56,26 @@ class RayScene {
     Eigen::Vector3d v_W = Eigen::Vector3d::Zero();
   };
   static Surfaces SurfacesOf(const World& world);
+  const Surfaces& SurfacesOf(int mover) const {
+    return mover < 0 ? still_ : movers_[static_cast<std::size_t>(mover)];
+  }
+  /// What rays of a few neighbouring pixels may meet.
+  struct Bundle {
+    double clear_of_ground = 0;               ///< s up to which all are over the ground
+    std::vector<BoxTree::Branches> solids{};  ///< of what stands still, then of each mover
+  };
+  Bundle BundleOf(const Beam& beam_W, double time_s) const;
+  /// Calls visit(x, y, bundle) for every pixel, on several threads.
+  template <typename Visit>
+  void OverPixels(const PinholeCamera& camera, const RigidTransform& X_WC, double time_s,
+                  Visit&& visit) const;
+  /// `clear_of_ground` as in Bundle; `branches_of(mover)`: where to look for what the ray meets of
+  /// it, -1: of what stands still.
+  template <typename BranchesOf>
+  Meeting CastAmong(const Eigen::Vector3d& p_W, const Eigen::Vector3d& r_W, double time_s,
+                    double clear_of_ground, BranchesOf&& branches_of) const;
+  Meeting Cast(const Bundle& bundle, const Eigen::Vector3d& p_W, const Eigen::Vector3d& r_W,
+               double time_s) const;
   /// Whether the sun reaches a place just above a surface; past what stands still, past all.
   bool StillSees(const Eigen::Vector3d& p_W) const;
   bool Sees(const Eigen::Vector3d& p_W, double time_s, bool movers_only) const;

@@ -1,6 +1,7 @@
 #include "engine/world/world.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -50,18 +51,34 @@ Solid StandingOn(const Ground& ground, Shape shape, double north_m, double east_
   return {std::move(shape), Upright({north_m, east_m, -ground.Height(north_m, east_m)}, yaw_rad)};
 }
 
-Hit CastGround(const Ground& ground, const Vector3d& p_W, const Vector3d& r_W) {
+namespace {
+
+/// Heights above the plane instead of the origin: a shear, in which rays stay straight.
+Vector3d AbovePlane(const Ground& ground, const Vector3d& v) {
+  return {v.x(), v.y(), v.z() + ground.rise_north * v.x() + ground.rise_east * v.y()};
+}
+
+}  // namespace
+
+Hit CastGround(const Ground& ground, const Vector3d& p_W, const Vector3d& r_W, double clear) {
+  const Vector3d p = AbovePlane(ground, p_W), r = AbovePlane(ground, r_W);
   if (ground.relief) {
-    // Heights above the plane: a shear, in which the ray stays straight.
-    const auto above = [&](const Vector3d& v) {
-      return Vector3d(v.x(), v.y(), v.z() + ground.rise_north * v.x() + ground.rise_east * v.y());
-    };
-    return {ground.relief->Cast(above(p_W), above(r_W))};
+    return {ground.relief->Cast(p, r, clear)};
   }
   // Height above the plane falls from `above` by `fall` a unit of s.
-  const double fall = r_W.z() + ground.rise_north * r_W.x() + ground.rise_east * r_W.y();
-  const double above = -(p_W.z() + ground.rise_north * p_W.x() + ground.rise_east * p_W.y());
+  const double fall = r.z(), above = -p.z();
   return fall > 1e-9 && above >= 0 ? Hit{above / fall} : Hit{};
+}
+
+double ClearOfGround(const Ground& ground, const Beam& beam_W) {
+  if (!ground.relief) {
+    return 0;
+  }
+  std::array<Vector3d, 4> edges = beam_W.edges();
+  for (Vector3d& edge : edges) {
+    edge = AbovePlane(ground, edge);
+  }
+  return ground.relief->ClearUpTo(Beam(AbovePlane(ground, beam_W.p()), edges));
 }
 
 Hit CastRay(const World& world, const Vector3d& p_W, const Vector3d& r_W) {

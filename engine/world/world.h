@@ -79,8 +79,11 @@ struct Hit {
 /// What the ray p + s r meets first, s >= 0: with a unit direction s is the range, with unit depth
 /// along a camera's axis the depth. From below the ground it meets solids only.
 Hit CastRay(const World& world, const Eigen::Vector3d& p_W, const Eigen::Vector3d& r_W);
-/// The same for the ground alone.
-Hit CastGround(const Ground& ground, const Eigen::Vector3d& p_W, const Eigen::Vector3d& r_W);
+/// The same for the ground alone. `clear`: the ray is known to be over it up to there.
+Hit CastGround(const Ground& ground, const Eigen::Vector3d& p_W, const Eigen::Vector3d& r_W,
+               double clear = 0);
+/// A number s >= 0 up to which all rays p + s r with r a mean of the beam's edges are over ground.
+double ClearOfGround(const Ground& ground, const Beam& beam_W);
 
 /// Height of whatever is on top at that place.
 double SurfaceHeight(const World& world, double north_m, double east_m);

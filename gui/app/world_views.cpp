@@ -96,8 +96,11 @@ bool WorldViews::Prepare(bool wait) {
   std::unique_ptr<RayScene> light;
   if (world_.ground.material) {
     if (!light_.valid()) {
-      light_ = std::async(std::launch::async,
-                          [world = world_] { return std::make_unique<RayScene>(world, kTexel_m); });
+      light_ = std::async(std::launch::async, [world = world_] {
+        auto scene = std::make_unique<RayScene>(world, kTexel_m);
+        scene->ground().Texels();  // works them out here and not where the window is drawn
+        return scene;
+      });
       waits_for_ = "Working out the light of this world";
     }
     if (!wait && light_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) {

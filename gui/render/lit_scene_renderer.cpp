@@ -131,7 +131,7 @@ Status LitSceneRenderer::Parts::BuildShaders() {
 }
 
 Status LitSceneRenderer::Parts::Build(const RayScene& scene) {
-  const ImageU8& light = scene.ground().texels();
+  const ImageU8 light = scene.ground().Texels();
   lit = GreyTexture(light.width(), light.height(), light.pixels().data(), GL_MIRRORED_REPEAT);
   grain = GreyTexture(SurfaceGrain::kTexels, SurfaceGrain::kTexels, scene.grain().texels().data(),
                       GL_REPEAT);

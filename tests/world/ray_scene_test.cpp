@@ -96,6 +96,28 @@ TEST(RayScene, WhatMovesThrowsItsShadowWhereItIs) {
   EXPECT_GT(grey(6, 0), 100);
 }
 
+TEST(RayScene, PicturesMeetWhatTheirRaysMeetAlone) {
+  World world = Yard();
+  world.solids.push_back(StandingOn(world.ground, Box{0.5, 0.5, 1.5}, 9, 1));
+  world.solids.back().v_WO = {0.5, -1, 0};
+  const RayScene scene(world, 0.1);
+  PinholeCamera camera;
+  camera.width = 93, camera.height = 61;  // the last bundles of pixels are narrower
+  camera.fx_px = camera.fy_px = 70;
+  camera.cx_px = 46, camera.cy_px = 30;
+  for (const double tilt_deg : {-90.0, -45.0, -20.0}) {
+    const RigidTransform X_WC{CameraRotationFromTilt(Rad(tilt_deg)), {8, 0, -7}};
+    const ImageF depth_m = scene.Depth(camera, X_WC, 0.7);
+    for (int y = 0; y < camera.height; ++y) {
+      for (int x = 0; x < camera.width; ++x) {
+        const Vector3d ray((x - camera.cx_px) / camera.fx_px, (y - camera.cy_px) / camera.fy_px, 1);
+        const double alone = scene.Cast(X_WC.p, X_WC.R * ray, 0.7).s;
+        ASSERT_EQ(depth_m.at(x, y), static_cast<float>(alone)) << tilt_deg << " " << x << " " << y;
+      }
+    }
+  }
+}
+
 TEST(RayScene, PicturesAreTheSameOnOneThreadAndOnTwo) {
   const int before = cv::getNumThreads();
   const World world = Yard();
