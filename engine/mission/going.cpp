@@ -12,13 +12,9 @@
 namespace palace {
 namespace {
 
-constexpr double kAnswer_s = 5;    // the vehicle refuses it afterwards
-constexpr double kLower_m = 0.5;   // of a level way: what a hover strays
-constexpr double kNoWay_m = 0.05;  // nor a turn
-constexpr double kOnTheSpot_m = 0.5;
+constexpr double kAnswer_s = 5;  // the vehicle refuses it afterwards
 constexpr double kPause_s = 1;
 constexpr const char* kNoPlace = "Where the vehicle is, is not known";
-constexpr double kNoTurn_rad = Rad(0.5);
 
 bool Hovers(VehicleMode mode) {
   return mode == VehicleMode::kHover || mode == VehicleMode::kHold || mode == VehicleMode::kGo;
@@ -33,12 +29,6 @@ double Unseen(const MissionMemory& m, const Eigen::Vector3d& there_W) {
   const MissionFacts& facts = m.facts;
   return facts.elevation ? UnseenBelow(*facts.elevation, facts.p_WB.head<2>(), there_W.head<2>())
                          : (there_W - facts.p_WB).head<2>().norm();
-}
-double Highest(const MissionMemory& m, const Eigen::Vector3d& there_W) {
-  const MissionFacts& facts = m.facts;
-  return facts.elevation ? HighestBelow(*facts.elevation, facts.p_WB.head<2>(), there_W.head<2>(),
-                                        facts.settings.slad.lander.rotor_diameter_m / 2)
-                         : NAN;
 }
 
 void End(MissionTurn& turn, EventKind kind, std::string why, Timestamp now) {
@@ -77,42 +67,10 @@ std::string WhyNotThere(const MissionMemory& m, const FlyTo& there, Timestamp no
   if (std::string why = WhyNowhere(m, now); !why.empty()) {
     return why;
   }
-  if (!there.p_WB.allFinite() || !std::isfinite(there.heading_rad)) {
-    return "The place is not a number";
-  }
-  const Eigen::Vector3d way = there.p_WB - m.facts.p_WB;
-  const double far_m = way.head<2>().norm(), up_m = -way.z();
-  if (far_m > kFarthestGo_m) {
-    return WithNumbers("%.0f m away, limit %.0f m", far_m, kFarthestGo_m);
-  }
-  if (up_m > kMostClimb_m) {
-    return WithNumbers("%.0f m up, limit %.0f m", up_m, kMostClimb_m);
-  }
-  if (up_m < -kLower_m) {
-    return WithNumbers("%.1f m lower: a way down is flown to a site", -up_m);
-  }
-  if (const auto& area = m.status.area) {
-    const double height_m = HeightFromDown(there.p_WB.z());
-    if (height_m > area->ceiling_m) {
-      return WithNumbers("%.0f m high, ceiling %.0f m", height_m, area->ceiling_m);
-    }
-    const double out_m = LeavesBy_m(*area, m.facts.p_WB.head<2>(), there.p_WB.head<2>());
-    if (out_m > 0) {
-      return words::LeavesArea(out_m);
-    }
-  }
-  const double skids_m =
-      HeightFromDown(there.p_WB.z() + m.facts.settings.slad.lander.skid_centre_B().z());
-  // Where it hovers it may turn and climb, whatever stands below it.
-  const double highest_m = far_m > kOnTheSpot_m ? Highest(m, there.p_WB) : NAN;
-  if (highest_m > skids_m - kLeastBelowSkids_m) {
-    return std::isfinite(highest_m)
-               ? WithNumbers("What stands on the way leaves %.1f m below the skids, min %.1f m",
-                             skids_m - highest_m, kLeastBelowSkids_m)
-               : std::string("A wire of unknown height hangs over the way");
-  }
-  const double turn_rad = WrapAngle(there.heading_rad - m.facts.yaw_rad);
-  return way.norm() < kNoWay_m && std::abs(turn_rad) < kNoTurn_rad ? "It hovers there already" : "";
+  const MissionFacts& facts = m.facts;
+  return WhyNotThatWay({facts.p_WB, facts.yaw_rad, facts.elevation.get(),
+                        m.status.area ? &*m.status.area : nullptr, facts.settings.slad.lander},
+                       there);
 }
 
 void StartGoing(MissionTurn& turn, const FlyTo& there, const char* who, Timestamp now) {

@@ -5,6 +5,7 @@
 
 #include "engine/core/time.h"
 #include "engine/mission/leaving.h"
+#include "engine/mission/way_rules.h"
 #include "engine/slad/hazards/explanation.h"
 #include "gui/app/key_help.h"
 #include "gui/app/layout.h"
@@ -190,6 +191,7 @@ Intents View::Draw(const EngineSnapshot* snapshot, const FlightRecord* record, U
   ui.highlighted_site = state.highlighted_site;
   ui.window_focused = frame.window_focused;
   ui.after_review = state.after_review;
+  ui.why_not_flown = WhyNotFlown;
   if (snapshot != nullptr) {
     ui.silent_s = AgeNow(*snapshot, snapshot->time, MonotonicSeconds());
     state.frame.preset_name = LimitsName(state.tune, snapshot->session->settings);

@@ -188,9 +188,7 @@ void DrawPlaceButtons(const EngineSnapshot& snap, float x, float y, const Search
     return;
   }
   std::optional<FlyTo> there;
-  const std::optional<FlyArea>& area = snap.flight->mission.area;
-  const bool leaves = pose && area && LeavesBy_m(*area, pose->X_WB.p.head<2>(), *state.picked) > 0;
-  if (pose && !leaves) {
+  if (pose) {
     const Eigen::Vector3d& p_WB = pose->X_WB.p;
     const Eigen::Vector2d way = *state.picked - p_WB.head<2>();
     there = FlyTo{{state.picked->x(), state.picked->y(), p_WB.z()}, std::atan2(way.y(), way.x())};
@@ -199,7 +197,7 @@ void DrawPlaceButtons(const EngineSnapshot& snap, float x, float y, const Search
   x = DrawWayButton(
           snap,
           {"fly_there", "Fly there", "Flies level to over the cross and hovers there", there,
-           leaves ? "The way leaves the area" : "Where the vehicle is, is not known"},
+           "Where the vehicle is, is not known"},
           x, y, ui) +
       gap;
   DrawWayButton(snap,

@@ -9,6 +9,22 @@
 
 namespace palace {
 
+namespace {
+
+/// By the engine's words; empty: it is taken.
+std::string WhyNoWay(const EngineSnapshot& snap, const WayButton& button, const UiFrame& ui) {
+  const std::string& now = snap.flight->mission.why_not_go;
+  if (!snap.session->can_transmit || !now.empty()) {
+    return snap.session->can_transmit ? now : WhyNoLink(snap);
+  }
+  if (!button.there) {
+    return button.why_none;
+  }
+  return ui.why_not_flown != nullptr ? ui.why_not_flown(snap, *button.there) : std::string();
+}
+
+}  // namespace
+
 float WayButtonWidth(std::string_view words, const Style& style) {
   return TextWidth(style.caption, words) + style.Px(12);
 }
@@ -17,14 +33,11 @@ float DrawWayButton(const EngineSnapshot& snap, const WayButton& button, float x
                     UiFrame& ui) {
   const Style& s = ui.style;
   const Rect rect{x, y, WayButtonWidth(button.words, s), s.Px(22)};
-  const std::string& why_not = snap.flight->mission.why_not_go;
-  const std::string reason = !snap.session->can_transmit ? WhyNoLink(snap)
-                             : !why_not.empty()          ? why_not
-                                                         : button.why_none;
+  const std::string reason = WhyNoWay(snap, button, ui);
   ButtonLook look;
   look.font = s.caption;
   look.flat = true;
-  look.enabled = button.there && why_not.empty() && snap.session->can_transmit;
+  look.enabled = reason.empty();
   look.reason = reason;
   look.hint = button.hint;
   if (DrawButton(ui, button.name, rect, button.words, look)) {

@@ -22,7 +22,8 @@ struct WayButton {
 };
 
 float WayButtonWidth(std::string_view words, const Style& style);
-/// As wide as its words, from x on; right end of it.
+/// As wide as its words, from x on; right end of it. Where the engine would refuse the way it is
+/// greyed, and its tooltip is what the engine would answer.
 float DrawWayButton(const EngineSnapshot& snap, const WayButton& button, float x, float y,
                     UiFrame& ui);
 

@@ -47,6 +47,7 @@ class UiHarness {
     items.Clear();
     UiFrame ui{style, textures, items, intents, focus, time_s, popup, wave_off_rect, explain};
     ui.highlighted_site = highlighted_site;
+    ui.why_not_flown = why_not_flown;
     ImGui::NewFrame();
     BeginCanvas(ui);
     draw(ui);
@@ -113,6 +114,7 @@ class UiHarness {
   bool popup = false;
   Rect wave_off_rect;
   CellExplainer explain = nullptr;
+  WayJudge why_not_flown = nullptr;
 
  private:
   /// The one intent that comes back to the panels without the engine.

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/core/units.h"
+#include "engine/mission/way_rules.h"
 #include "tests/gui/panels/fly_window.h"
 #include "tests/gui/panels/panel_checks.h"
 #include "tests/support/fake_snapshot.h"
@@ -122,19 +123,32 @@ TEST(SearchMap, ADrawnAreaIsToldAndCleared) {
   EXPECT_EQ(window.ui.CountCommands<ClearFlyArea>(), 1);
 }
 
-TEST(SearchMap, APlaceOutsideTheAreaIsNotOffered) {
+TEST(SearchMap, APlaceThatTheEngineWouldRefuseIsNotOfferedAndSaysItsWords) {
   SearchWindow window;
+  window.ui.why_not_flown = WhyNotFlown;
   const Eigen::Vector2d m = window.middle();
-  window.snap.flight.Edit().mission.area =
-      FlyArea{{m + Eigen::Vector2d(-10, -10), m + Eigen::Vector2d(10, -10),
-               m + Eigen::Vector2d(10, 10), m + Eigen::Vector2d(-10, 10)},
-              60};
-  window.ClickAt(5, 5);
+  const auto area = [&](double ceiling_m) {
+    return FlyArea{{m + Eigen::Vector2d(-10, -10), m + Eigen::Vector2d(10, -10),
+                    m + Eigen::Vector2d(10, 10), m + Eigen::Vector2d(-10, 10)},
+                   ceiling_m};
+  };
+  window.snap.flight.Edit().mission.area = area(60);
+  window.ClickAt(-6, -6);
   window.ui.Click("fly_there", window.draw);
   EXPECT_EQ(window.ui.CountCommands<FlyTo>(), 1);
   window.ClickAt(40, 0);
   window.ui.Click("fly_there", window.draw);
-  EXPECT_EQ(window.ui.CountCommands<FlyTo>(), 1) << "the way leaves it";
+  EXPECT_EQ(window.ui.CountCommands<FlyTo>(), 1);
+  const auto told = [&] {
+    const Item* tooltip = window.ui.items.Find("tooltip");
+    return tooltip != nullptr ? tooltip->text : std::string("nothing");
+  };
+  EXPECT_EQ(told().rfind("It leaves the area by", 0), 0U) << told();
+  window.snap.flight.Edit().mission.area = area(20);
+  window.ClickAt(-6, -6);
+  window.ui.Click("fly_there", window.draw);
+  EXPECT_EQ(window.ui.CountCommands<FlyTo>(), 1);
+  EXPECT_NE(told().find("m high, ceiling 20 m"), std::string::npos) << told();
 }
 
 TEST(SearchMap, IsWorkedByKeysAlone) {
