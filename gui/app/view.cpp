@@ -11,6 +11,7 @@
 #include "gui/app/layout.h"
 #include "gui/app/leave_dialog.h"
 #include "gui/app/take_fonts.h"
+#include "gui/app/toast.h"
 #include "gui/app/view3d_input.h"
 #include "gui/panels/fly_panels.h"
 #include "gui/panels/fly_workspace.h"
@@ -211,7 +212,7 @@ Intents View::Draw(const EngineSnapshot* snapshot, const FlightRecord* record, U
     DrawFrameOverlay(*snapshot, layout, state.frame, ui);
   }
   DrawComplaint(layout, frame.complaint, ui);
-  DrawMessage(layout, state, ui);
+  DrawMessage(snapshot, layout, frame, state, ui);
   if (state.key_help) {
     DrawKeyHelp(layout.body, ui);
   }
@@ -283,23 +284,17 @@ void View::DrawComplaint(const FrameLayout& layout, const std::string& complaint
   ui.items.Add("engine_complaint", strip, true, complaint);
 }
 
-void View::DrawMessage(const FrameLayout& layout, const UiState& state, UiFrame& ui) {
+void View::DrawMessage(const EngineSnapshot* snapshot, const FrameLayout& layout,
+                       const ViewFrame& frame, const UiState& state, UiFrame& ui) {
   if (state.message.empty() || ui.ui_time_s > state.message_until_s) {
     return;
   }
-  const Style& s = style_;
-  const float width =
-      std::min(TextWidth(s.body, state.message) + s.Px(32), layout.body.w - s.Px(32));
-  // Beside the right column, where approve and apply are.
-  const float right = layout.body.right() - s.Px(layout.narrow ? 360 : 432);
-  const Rect toast{std::max(layout.body.x, right - width - s.Px(16)),
-                   layout.body.bottom() - s.Px(60), width, s.Px(44)};
-  ImDrawList* dl = Canvas();
-  FillRect(dl, toast, s.palette.control, s.Fine(4));
-  StrokeRect(dl, toast, s.palette.line, 1, s.Fine(4));
-  DrawText(ui, s.body, s.palette.text1, toast.x + s.Px(16), toast.centre().y,
-           FitWords(s.body, state.message, toast.w - s.Px(32)));
-  ui.items.Add("toast", toast, true, state.message);
+  const bool fly = snapshot != nullptr && state.frame.workspace == Workspace::kFly;
+  const Rect room = fly ? ToastRoom(ComputeFlyLayout(frame.width_px, frame.height_px, style_.scale,
+                                                     ShowsDescent(*snapshot)),
+                                    style_)
+                        : ToastRoom(layout, style_);
+  DrawToast(room, state.message, ui);
 }
 
 }  // namespace palace

@@ -59,7 +59,8 @@ class View {
   void DrawLeaveQuestion(const EngineSnapshot* snapshot, const FrameLayout& layout, UiState& state,
                          UiFrame& ui);
   void DrawComplaint(const FrameLayout& layout, const std::string& complaint, UiFrame& ui);
-  void DrawMessage(const FrameLayout& layout, const UiState& state, UiFrame& ui);
+  void DrawMessage(const EngineSnapshot* snapshot, const FrameLayout& layout,
+                   const ViewFrame& frame, const UiState& state, UiFrame& ui);
 
   /// What the 3-D view was drawn for; drawn again only when it changes or the camera moves.
   struct View3dKey {
