@@ -10,10 +10,28 @@ namespace {
 using By = ToldHeight::By;
 
 constexpr double kMoreThanAHover_mps = 0.3;
+constexpr double kLaserKept_s = 3;  // a turn leans the beam beyond its range for a second or two
 
 HistorySample Newest(const EngineSnapshot& snapshot) {
   const auto& history = snapshot.flight->history;
   return history && !history->empty() ? history->back() : HistorySample{};
+}
+
+/// The newest return of the last seconds; NaN: there was none.
+double LaserLately(const EngineSnapshot& snapshot) {
+  const auto& history = snapshot.flight->history;
+  if (!history) {
+    return NAN;
+  }
+  for (auto sample = history->rbegin(); sample != history->rend(); ++sample) {
+    if (SecondsBetween(sample->time, snapshot.time) > kLaserKept_s) {
+      break;
+    }
+    if (std::isfinite(sample->laser_m)) {
+      return sample->laser_m;
+    }
+  }
+  return NAN;
 }
 
 }  // namespace
@@ -21,7 +39,8 @@ HistorySample Newest(const EngineSnapshot& snapshot) {
 ToldHeight HeightTold(const EngineSnapshot& snapshot) {
   const ToldHeight estimate{By::kEstimate, snapshot.flight->mission.height_above_site_m};
   const HistorySample now = Newest(snapshot);
-  for (const ToldHeight& told : {estimate, {By::kGps, now.gps_height_m}, {By::kLaser, now.laser_m}}) {
+  for (const ToldHeight& told :
+       {estimate, {By::kGps, now.gps_height_m}, {By::kLaser, now.laser_m}}) {
     if (std::isfinite(told.height_m)) {
       return told;
     }
@@ -30,7 +49,7 @@ ToldHeight HeightTold(const EngineSnapshot& snapshot) {
 }
 
 ToldHeight HoverHeightTold(const EngineSnapshot& snapshot) {
-  const double laser_m = Newest(snapshot).laser_m;
+  const double laser_m = LaserLately(snapshot);
   const auto& pose = snapshot.sensors->pose;
   if (std::isfinite(laser_m) || !pose) {
     return {By::kLaser, laser_m};

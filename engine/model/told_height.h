@@ -24,7 +24,8 @@ struct ToldHeight {
 /// Of a descent. By the estimate in force; where it is unknown (vision, and no pictures) by the
 /// newest GPS, then by the laser: others still tell it.
 ToldHeight HeightTold(const EngineSnapshot& snapshot);
-/// Before one. By the laser, as in the plots; where it has no return by the vehicle's pose.
+/// Before one. By the laser, as in the plots, also for three seconds after its last return, whose
+/// age is the channel's; then by the vehicle's pose.
 ToldHeight HoverHeightTold(const EngineSnapshot& snapshot);
 /// Of the vehicle's pose, m/s, down; NaN while it does no more than a hover in gusts does, or
 /// nobody tells it.

@@ -118,10 +118,19 @@ std::vector<Readout> Readouts(const EngineSnapshot& snap, bool narrow, double si
   }
   const Readout height = [&] {
     const ToldHeight told = HoverHeightTold(snap);
-    return told.by == ToldHeight::By::kLaser
-               ? by(ChannelId::kLaserRange)(narrow ? "Above ground" : "Height above ground",
-                                            told.height_m, 1, "m, laser")
-               : pose(narrow ? "Above origin" : "Height above origin", told.height_m, 1, "m, pose");
+    if (told.by == ToldHeight::By::kLaser) {
+      return by(ChannelId::kLaserRange)(narrow ? "Above ground" : "Height above ground",
+                                        told.height_m, 1, "m, laser");
+    }
+    // A laser that was heard before has no return now: that is why the height is another.
+    const bool had_laser =
+        ArrivalOf(snap, ChannelId::kLaserRange, silent_s).state != ChannelHealth::State::kNever;
+    Readout by_pose = pose(narrow ? "Above origin" : "Height above origin", told.height_m, 1,
+                           had_laser ? "m, no laser" : "m, pose");
+    by_pose.why = had_laser ? "The laser has no return: by the vehicle's pose, above where the "
+                              "mission's frame begins"
+                            : "";
+    return by_pose;
   }();
   // While it climbs or sinks that goes before the wind.
   const double down_mps = VerticalSpeedTold(snap);

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gui/widgets/button.h"
 #include "gui/widgets/icons.h"
+#include "gui/widgets/interact.h"
 #include "gui/widgets/number_text.h"
 
 namespace palace {
@@ -29,6 +31,9 @@ std::string NoteOf(const Readout& r) {
 void DrawReadout(UiFrame& ui, const Rect& cell, const Readout& r) {
   const Style& s = ui.style;
   const Palette& p = s.palette;
+  if (!r.why.empty() && Interact(ui, "readout_why", cell, kPassive).hovered) {
+    DrawTooltip(ui, r.why, &cell);
+  }
   const bool never = r.state == Readout::State::kNever;
   const bool stale = r.state == Readout::State::kStale;
   const bool fresh = r.state == Readout::State::kFresh;

@@ -16,6 +16,7 @@ struct Readout {
   using State = ChannelHealth::State;
   State state = State::kFresh;  ///< of the channel it came by, as the engine says
   double age_s = 0;
+  std::string why{};  ///< a tooltip: why it is this figure and no other
 };
 
 /// Draws into a cell whose top left corner is the label's.

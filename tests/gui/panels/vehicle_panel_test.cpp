@@ -52,7 +52,9 @@ TEST(VehiclePanel, AHoversHeightIsThatOfTheSkidsWhoeverTellsIt) {
   snap.session.Edit().settings.slad.lander.gear_below_m = 0.9;  // the pose is 38.5 m up
   auto history = *snap.flight->history;
   for (const bool laser : {true, false}) {
-    history.back().laser_m = laser ? 37.6 : NAN;
+    for (HistorySample& sample : history) {
+      sample.laser_m = laser ? 37.6 : NAN;
+    }
     snap.flight.Edit().history = std::make_shared<const std::vector<HistorySample>>(history);
     for (const ImVec2 size : {ImVec2(1920, 1080), ImVec2(1280, 720)}) {
       FlyWindow window(size.x, size.y, snap);
@@ -61,9 +63,67 @@ TEST(VehiclePanel, AHoversHeightIsThatOfTheSkidsWhoeverTellsIt) {
       const Item* height =
           window.ui.items.Find("readout/" + (size.x > 1500 ? "Height a" + label : "A" + label));
       ASSERT_NE(height, nullptr) << label << " at " << size.x;
-      EXPECT_EQ(height->text, laser ? "37.6 m, laser" : "37.6 m, pose");
+      EXPECT_EQ(height->text, laser ? "37.6 m, laser" : "37.6 m, no laser");
     }
   }
+}
+
+// A turn leans the beam away from the ground in reach: the last height stays, with its age.
+TEST(VehiclePanel, ALaserThatHasNoReturnForAMomentKeepsItsHeight) {
+  const struct {
+    double silent_s;
+    bool laser;
+    ChannelHealth::State state;
+  } table[] = {{0.0, true, ChannelHealth::State::kFresh},
+               {0.4, true, ChannelHealth::State::kLate},
+               {2.5, true, ChannelHealth::State::kStale},
+               {3.5, false, ChannelHealth::State::kStale}};
+  for (const auto& row : table) {
+    SCOPED_TRACE(row.silent_s);
+    EngineSnapshot snap = fake::Snapshot(MissionState::kProposed);
+    auto history = *snap.flight->history;
+    for (HistorySample& sample : history) {
+      const bool before = SecondsBetween(sample.time, snap.time) >= row.silent_s;
+      sample.laser_m = before ? 21.5 : NAN;
+    }
+    snap.flight.Edit().history = std::make_shared<const std::vector<HistorySample>>(history);
+    for (ChannelHealth& channel : snap.sensors.Edit().channels) {
+      if (channel.id == ChannelId::kLaserRange) {
+        channel.age_s = row.silent_s;
+        channel.state = row.state;
+      }
+    }
+    FlyWindow window(1920, 1080, snap);
+    ExpectTextsInPanels(window.ui.items);
+    const Item* height = window.ui.items.Find(row.laser ? "readout/Height above ground"
+                                                        : "readout/Height above origin");
+    ASSERT_NE(height, nullptr);
+    EXPECT_NE(height->text.find(row.laser ? "21.5 m, laser" : "m, no laser"), std::string::npos)
+        << height->text;
+    const bool aged = row.laser && row.silent_s > 1;
+    EXPECT_EQ(HasText(window.ui.items, "2.5 s old"), aged);
+    window.ui.MoveTo(height->rect.centre());
+    window.Run(0.05);
+    EXPECT_EQ(window.ui.items.Find("tooltip") != nullptr, !row.laser);
+  }
+}
+
+TEST(VehiclePanel, AHeightByThePoseOfAVehicleWithoutLaserSaysSo) {
+  EngineSnapshot snap = fake::Snapshot(MissionState::kProposed);
+  auto history = *snap.flight->history;
+  for (HistorySample& sample : history) {
+    sample.laser_m = NAN;
+  }
+  snap.flight.Edit().history = std::make_shared<const std::vector<HistorySample>>(history);
+  for (ChannelHealth& channel : snap.sensors.Edit().channels) {
+    if (channel.id == ChannelId::kLaserRange) {
+      channel.state = ChannelHealth::State::kNever;
+    }
+  }
+  FlyWindow window(1920, 1080, snap);
+  const Item* height = window.ui.items.Find("readout/Height above origin");
+  ASSERT_NE(height, nullptr);
+  EXPECT_NE(height->text.find("m, pose"), std::string::npos) << height->text;
 }
 
 TEST(VehiclePanel, AWindTooWeakToComeFromAnywhereHasNoDirection) {
