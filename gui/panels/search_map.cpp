@@ -6,7 +6,8 @@
 
 #include "engine/core/units.h"
 #include "engine/model/mission/refused_lately.h"
-#include "gui/panels/map_views.h"
+#include "gui/panels/course_rose.h"
+#include "gui/panels/search_map_legend.h"
 #include "gui/panels/search_map_marks.h"
 #include "gui/panels/way_button.h"
 #include "gui/widgets/button.h"
@@ -21,6 +22,8 @@ constexpr double kNearest_m = 15, kFarthest_m = 250;  // half sides
 constexpr double kArrow_m = 2;
 constexpr double kCeilingStep_m = 5, kCeilingAbove_m = 20;
 constexpr float kSnap_px = 10;  // to the first corner
+constexpr double kZoomStep = 0.9;
+constexpr float kRoomForLegend = 360;  // units of the design grid
 
 MapGround GroundOf(const EngineSnapshot& snap, const Rect& scene, const SearchMapState& state) {
   const auto& seen = snap.flight->mission.seen;
@@ -125,6 +128,7 @@ struct Row {
     const Rect plate = Next(TextWidth(s.caption, words) + s.Px(12));
     FillRect(Canvas(), plate, picture::kPlate, s.Fine(3));
     DrawText(ui, s.caption, picture::kPlateText, plate.x + s.Px(6), plate.y + plate.h / 2, words);
+    Interact(ui, "search_says", plate, kNoTab, words);  // a click on it picks no place
   }
 };
 
@@ -168,16 +172,33 @@ void DrawAreaButtons(const EngineSnapshot& snap, Row& row, SearchMapState& state
   ButtonLook look;
   look.enabled = m.may_select && snap.session->can_transmit;
   look.reason = "No vehicle is commanded here";
-  look.hint = "Keeps the vehicle to it: ways, looks and approaches that leave it are refused";
-  if (row.Offer("draw_area", m.area ? "Draw another area" : "Draw area", look)) {
+  look.hint =
+      "Keeps the vehicle to it, in place of any drawn before: ways, looks and approaches "
+      "that leave it are refused";
+  if (row.Offer("draw_area", "Draw area", look)) {
     BeginArea(snap, state);
   }
+  look.hint = {};
   if (m.area) {
-    look.hint = {};
     if (row.Offer("area_clear", "Clear area", look)) {
       ui.intents.push_back(CommandAction(ClearFlyArea{}));
     }
     row.Say("Ceiling " + Fixed(m.area->ceiling_m, 0) + " m above the start");
+  } else if (state.last_area) {
+    // Not where "Clear area" was: a double click on that does not undo it.
+    row.Say("Area cleared");
+    if (row.Offer("area_restore", "Undo", look)) {
+      ui.intents.push_back(CommandAction(SetFlyArea{*state.last_area}));
+    }
+  }
+}
+
+/// The area that was cleared can be brought back for as long as its mission goes on.
+void RememberArea(const MissionStatus& m, SearchMapState& state) {
+  if (m.state == MissionState::kNoLive || m.state == MissionState::kLanded) {
+    state.last_area.reset();
+  } else if (m.area) {
+    state.last_area = m.area;
   }
 }
 
@@ -194,11 +215,10 @@ void DrawPlaceButtons(const EngineSnapshot& snap, float x, float y, const Search
     there = FlyTo{{state.picked->x(), state.picked->y(), p_WB.z()}, std::atan2(way.y(), way.x())};
   }
   const float gap = ui.style.Px(3);
-  x = DrawWayButton(
-          snap,
-          {"fly_there", "Fly there", "Flies level to over the cross and hovers there", there,
-           "Where the vehicle is, is not known"},
-          x, y, ui) +
+  x = DrawWayButton(snap,
+                    {"fly_there", "Fly there", "Flies level to over the cross and hovers there",
+                     there, "Where the vehicle is, is not known"},
+                    x, y, ui) +
       gap;
   DrawWayButton(snap,
                 {"look_there", "Look there",
@@ -221,13 +241,79 @@ std::string Trouble(const EngineSnapshot& snap, const SearchMapState& state) {
   return {};
 }
 
+void Zoom(SearchMapState& state, double steps) {
+  state.half_m = std::clamp(state.half_m * std::pow(kZoomStep, steps), kNearest_m, kFarthest_m);
+}
+
+/// At the upper right: it is said nowhere else that the wheel zooms.
+void DrawZoomButtons(const Rect& scene, SearchMapState& state, UiFrame& ui) {
+  constexpr double kStepsAPress = 3;
+  const Style& s = ui.style;
+  Rect rect{scene.right() - s.Px(30), scene.y + s.Px(8), s.Px(22), s.Px(22)};
+  ButtonLook look;
+  look.font = s.medium;
+  look.hint = "Closer; so does the wheel";
+  if (DrawButton(ui, "map_closer", rect, "+", look)) {
+    Zoom(state, kStepsAPress);
+  }
+  rect.y += s.Px(25);
+  look.hint = "Wider; so does the wheel";
+  if (DrawButton(ui, "map_wider", rect, "−", look)) {
+    Zoom(state, -kStepsAPress);
+  }
+}
+
+/// Words at the lower left, in as many lines as they need; a click there picks no place. Returns
+/// the upper edge.
+float DrawWords(const Rect& scene, float bottom, const std::string& words, UiFrame& ui) {
+  if (words.empty()) {
+    return bottom;
+  }
+  constexpr std::size_t kMostLines = 4;
+  const Style& s = ui.style;
+  const float room = scene.w - s.Px(16) - s.Px(18);
+  const std::vector<std::string> lines = WrapText(s.caption, words, room, kMostLines);
+  float width = 0;
+  for (const std::string& line : lines) {
+    width = std::max(width, TextWidth(s.caption, line));
+  }
+  const float height = s.Px(17) * static_cast<float>(lines.size()) + s.Px(9);
+  const Rect plate{scene.x + s.Px(8), bottom - height, width + s.Px(18), height};
+  FillRect(Canvas(), plate, picture::kPlate, s.Fine(3));
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    const float y = plate.y + s.Px(13) + s.Px(17) * static_cast<float>(i);
+    DrawText(ui, s.caption, picture::kPlateText, plate.x + s.Px(9), y, lines[i]);
+  }
+  Interact(ui, "search_words", plate, kNoTab, words);
+  return plate.y;
+}
+
+/// Scale, north, legend and words. Returns their upper edge.
+float DrawFoot(const EngineSnapshot& snap, const Rect& scene, SearchMapState& state, UiFrame& ui) {
+  const Style& s = ui.style;
+  const bool shown = state.legend.value_or(scene.w >= s.Px(kRoomForLegend));
+  const std::string words = shown ? "Hide legend" : "Legend";
+  const float width = TextWidth(s.caption, words) + s.Px(12);
+  ButtonLook look;
+  look.font = s.caption;
+  const Rect rect{scene.right() - s.Px(36) - width, scene.bottom() - s.Px(32), width, s.Px(22)};
+  if (DrawButton(ui, "search_legend_on", rect, words, look)) {
+    state.legend = !shown;
+  }
+  float bottom = scene.bottom() - s.Px(40);
+  if (shown) {
+    bottom = DrawSearchLegend(snap, scene, bottom, ui) - s.Px(4);
+  }
+  const std::string trouble = Trouble(snap, state);
+  return DrawWords(scene, bottom, trouble.empty() ? HeadingWords(snap) : trouble, ui);
+}
+
 void WorkMap(const MapGround& ground, const Interaction& in, SearchMapState& state, UiFrame& ui) {
   if (!state.cross.allFinite() || !in.focused) {
     state.cross = ground.middle;
   }
   state.cross += kArrow_m * Eigen::Vector2d(in.step_up, in.step_right);
-  state.half_m = std::clamp(state.half_m * std::pow(0.9, static_cast<double>(in.wheel)), kNearest_m,
-                            kFarthest_m);
+  Zoom(state, static_cast<double>(in.wheel));
   if (in.cleared) {
     TakeBack(state);
   }
@@ -242,6 +328,7 @@ void DrawSearchMapPanel(const EngineSnapshot& snap, const Rect& rect, SearchMapS
                         UiFrame& ui) {
   const Style& s = ui.style;
   const MissionStatus& m = snap.flight->mission;
+  RememberArea(m, state);
   const std::string fact =
       m.seen ? "Looked at " + Fixed(SeenArea_m2(*m.seen), 0) + " m²" : "Nothing looked at yet";
   const Rect scene = DrawPanelFrame(ui, rect, "Search map", {{rect.w < s.Px(300) ? "" : fact}});
@@ -249,10 +336,14 @@ void DrawSearchMapPanel(const EngineSnapshot& snap, const Rect& rect, SearchMapS
   FillRect(Canvas(), scene, picture::kUnknown);
   Canvas()->PushClipRect(scene.min(), scene.max(), true);
   DrawSearchGround(snap, ground, ui);
-  const float x = scene.x + s.Px(8), top = scene.y + s.Px(8);
-  Row row{ui, x, scene.right() - s.Px(8), top};
+  const float x = scene.x + s.Px(8);
+  Row row{ui, x, scene.right() - s.Px(36), scene.y + s.Px(8)};
   DrawAreaButtons(snap, row, state, ui);
   DrawPlaceButtons(snap, x, row.y + s.Px(25), state, ui);
+  DrawZoomButtons(scene, state, ui);
+  const float top = row.y + s.Px(50), bottom = DrawFoot(snap, scene, state, ui);
+  DrawSearchSites(snap, ground, {x, top, scene.w - s.Px(16), bottom - top}, !state.draws,
+                  state.letters, ui);
   const Interaction in = Interact(ui, "search_map", scene, kAllSteps | kClears);
   WorkMap(ground, in, state, ui);
   if (state.draws) {
@@ -264,16 +355,6 @@ void DrawSearchMapPanel(const EngineSnapshot& snap, const Rect& rect, SearchMapS
     DrawCross(state.cross, ground, ui);
   }
   Canvas()->PopClipRect();
-  const std::string trouble = Trouble(snap, state);
-  if (!trouble.empty()) {
-    const float room = scene.w - s.Px(16);
-    TextPlate(ui, {scene.x, scene.y, scene.w, scene.h - s.Px(32)}, Corner::kBottomLeft,
-              FitWords(s.caption, trouble, room));
-  }
-  if (const std::string words = HeadingWords(snap); !words.empty() && trouble.empty()) {
-    TextPlate(ui, {scene.x, scene.y, scene.w, scene.h - s.Px(32)}, Corner::kBottomLeft,
-              FitClauses(s.caption, words, scene.w - s.Px(16)));
-  }
   DrawNorth(scene, ui);
   DrawScaleBar(ui, scene, static_cast<float>(1 / ground.per_px));
 }

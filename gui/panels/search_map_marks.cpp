@@ -3,19 +3,19 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdio>
 #include <numbers>
+#include <utility>
 
-#include "engine/core/units.h"
-#include "engine/model/wind.h"
+#include "gui/panels/course_rose.h"
 #include "gui/widgets/draw.h"
 #include "gui/widgets/map/projection.h"
-#include "gui/widgets/number_text.h"
+#include "gui/widgets/map/site_marks.h"
 
 namespace palace {
 namespace {
 
 constexpr int kCirclePoints = 72;
+constexpr float kLetter = 9, kTouch = 11;  // half of a letter's disc, and of where it takes clicks
 
 /// Runs of squares that were looked at, row by row.
 void DrawSeen(const SeenGround& seen, const MapGround& ground, ImU32 colour) {
@@ -123,50 +123,25 @@ void DrawVehicle(const EngineSnapshot& snap, const MapGround& ground, UiFrame& u
   DrawDart(ground, X_WB.p.head<2>(), EulerFromRotation(X_WB.R).yaw_rad, true, ui);
 }
 
-void DrawSites(const EngineSnapshot& snap, const MapGround& ground, UiFrame& ui) {
-  if (!snap.terrain->applied) {
-    return;
-  }
-  const auto& armed = snap.flight->mission.armed;
-  // The best last: it lies on top.
-  const std::vector<LandingSite>& sites = snap.terrain->applied->selection.sites;
-  for (auto it = sites.rbegin(); it != sites.rend(); ++it) {
-    const LandingSite& site = *it;
-    const ImVec2 at = ground.At(site.p_WS.head<2>());
-    const bool is_asked = !armed || armed->id == site.id;  // the others would cover its courses
-    if (is_asked && ground.rect.Contains(at)) {
-      LetterPlate(ui, at, site.letter, armed && armed->id == site.id);
-    }
-  }
+/// From the letter to the place that it stands for.
+void DrawLeader(const Style& s, const LetterPlace& place) {
+  ImDrawList* dl = Canvas();
+  dl->AddLine(place.anchor, place.centre(), WithAlpha(picture::kBlack, 0.7F), s.Fine(3));
+  dl->AddLine(place.anchor, place.centre(), picture::kWhite, s.Fine(1));
+  dl->AddCircleFilled(place.anchor, s.Fine(3), picture::kWhite);
+  dl->AddCircle(place.anchor, s.Fine(3), picture::kBlack, 0, s.Fine(1));
 }
 
-/// Of the armed site: each course as a ray on the side that it comes from, as long as it suits;
-/// hatched where something stands there or the wind comes too much from behind. White: the plan.
-void DrawHeadings(const MissionStatus& m, const MapGround& ground, UiFrame& ui) {
-  if (!m.armed || !m.headings) {
-    return;
+void DrawSiteLetter(const MissionStatus& m, const LandingSite& site, ImVec2 at, bool offers,
+                    UiFrame& ui) {
+  LetterLook look{ui.highlighted_site == site.id, m.IsRefused(site.id), kLetter};
+  if (offers) {
+    look.highlighted |= OfferLetter(ui, "search_map", at, site, m).hovered;
   }
-  const Style& s = ui.style;
-  const ImVec2 c = ground.At(m.armed->p_WS.head<2>());
-  const float from_px = s.Px(14), full_px = s.Px(56);
-  const auto end = [&](double heading_rad, float radius) {
-    const auto north = static_cast<float>(-std::cos(heading_rad));  // it comes from behind
-    const auto east = static_cast<float>(-std::sin(heading_rad));
-    return ImVec2{c.x + east * radius, c.y - north * radius};
-  };
-  for (const HeadingScore& score : m.headings->headings) {
-    const float radius =
-        from_px + (full_px - from_px) * static_cast<float>(std::clamp(score.combined, 0.0, 1.0));
-    const ImVec2 a = end(score.heading_rad, from_px), b = end(score.heading_rad, radius);
-    if (score.IsVetoed()) {
-      DashedLine(Canvas(), a, b, picture::kUnsafeLine, s.Fine(1.5F), s.Px(2), s.Px(3));
-    } else {
-      Canvas()->AddLine(a, b, picture::kSafe, s.Fine(1.5F));
-    }
-  }
-  if (m.approach && std::isfinite(m.approach->heading_rad)) {
-    Canvas()->AddLine(end(m.approach->heading_rad, from_px),
-                      end(m.approach->heading_rad, full_px + s.Px(10)), picture::kWhite, s.Fine(3));
+  if (m.armed && m.armed->id == site.id) {
+    LetterPlate(ui, at, site.letter, true, 2 * kLetter);
+  } else {
+    DrawLetterDisc(ui, at, site.letter, look);
   }
 }
 
@@ -183,12 +158,43 @@ std::vector<ImVec2> MapGround::At(const std::vector<Eigen::Vector2d>& places) co
 void DrawSearchGround(const EngineSnapshot& snap, const MapGround& ground, UiFrame& ui) {
   const MissionStatus& m = snap.flight->mission;
   if (m.seen) {
-    DrawSeen(*m.seen, ground, Mix(picture::kUnknown, picture::kUnknownLine, 0.9F));
+    DrawSeen(*m.seen, ground, kLookedAt);
   }
   DrawLimit(m, ground, ui);
-  DrawHeadings(m, ground, ui);
-  DrawSites(snap, ground, ui);
+  DrawCourses(m, ground, ui);
   DrawVehicle(snap, ground, ui);
+}
+
+void DrawSearchSites(const EngineSnapshot& snap, const MapGround& ground, const Rect& within,
+                     bool offers, std::vector<LetterPlace>& places, UiFrame& ui) {
+  const std::vector<LetterPlace> last = std::exchange(places, {});
+  const Style& s = ui.style;
+  const MissionStatus& m = snap.flight->mission;
+  std::vector<const LandingSite*> shown;
+  const auto show = [&](const LandingSite& site) {
+    const ImVec2 at = ground.At(site.p_WS.head<2>());
+    if (ground.rect.Contains(at)) {
+      const float half = std::max(s.Px(kTouch), LetterHalfWidth(s, site.letter, kLetter));
+      shown.push_back(&site);
+      places.push_back({site.id, at, {half, s.Px(kTouch)}});
+    }
+  };
+  if (HasCourses(m)) {
+    show(*m.armed);  // the others would cover its courses
+  } else if (snap.terrain->applied) {
+    for (const LandingSite& site : snap.terrain->applied->selection.sites) {
+      show(site);
+    }
+  }
+  SpreadLetters(places, last, within);
+  for (const LetterPlace& place : places) {
+    if (place.moved) {
+      DrawLeader(s, place);
+    }
+  }
+  for (std::size_t i = places.size(); i-- > 0;) {  // the best last: it lies on top
+    DrawSiteLetter(m, *shown[i], places[i].centre(), offers, ui);
+  }
 }
 
 void DrawNorth(const Rect& scene, UiFrame& ui) {
@@ -204,27 +210,6 @@ double SeenArea_m2(const SeenGround& seen) {
   const auto looked_at = std::count_if(
       maps.begin(), maps.end(), [](std::uint8_t made) { return made >= SeenGround::kMapsOfALook; });
   return static_cast<double>(looked_at) * SeenGround::kSquare_m * SeenGround::kSquare_m;
-}
-
-std::string HeadingWords(const EngineSnapshot& snap) {
-  const MissionStatus& m = snap.flight->mission;
-  if (!m.headings || !m.approach || !std::isfinite(m.approach->heading_rad)) {
-    return {};
-  }
-  const HeadingScore& score = m.headings->At(m.approach->heading_rad);
-  const long degrees = (std::lround(Deg(m.approach->heading_rad)) + 360) % 360;
-  char heading[16];
-  std::snprintf(heading, sizeof heading, "%03ld°", degrees);
-  const auto& vehicle = snap.sensors->vehicle;
-  const bool calm = vehicle && std::isfinite(vehicle->wind_speed_mps) &&
-                    !WindHasDirection(vehicle->wind_speed_mps);
-  const bool sun = snap.session->settings.mission.sun == SunSource::kByPlace;
-  return std::string("Approach ") + heading + ": wind " +
-         (std::isfinite(score.tailwind_mps) ? Fixed(score.wind, 2)
-          : calm                            ? "calm"
-                                            : "not known") +
-         ", sun " + (sun ? Fixed(score.sun, 2) : "not known") + ", turn " +
-         Fixed(score.orientation, 2);
 }
 
 }  // namespace palace

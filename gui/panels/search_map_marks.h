@@ -2,15 +2,18 @@
 // search_map.h.
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include <Eigen/Dense>
 
 #include "engine/model/snapshot.h"
+#include "gui/widgets/map/letter_places.h"
+#include "gui/widgets/style.h"
 #include "gui/widgets/ui_frame.h"
 
 namespace palace {
+
+inline constexpr ImU32 kLookedAt = Rgb(0x374250);  ///< on picture::kUnknown
 
 /// Where places lie on the screen: north up.
 struct MapGround {
@@ -29,13 +32,16 @@ struct MapGround {
   std::vector<ImVec2> At(const std::vector<Eigen::Vector2d>& places) const;
 };
 
-/// Squares that were looked at, the limit of the search, the courses to a selected site, sites, the
+/// Squares that were looked at, the limit of the search, the courses to a selected site, the
 /// vehicle with what it sees, and where it goes or would look.
 void DrawSearchGround(const EngineSnapshot& snap, const MapGround& ground, UiFrame& ui);
+/// The letters of the sites, none over another and each in `within`; while one is selected that one
+/// alone. `offers`: a click on a letter selects its site ("letter/search_map/B"). `places`: where
+/// they stand, from frame to frame.
+void DrawSearchSites(const EngineSnapshot& snap, const MapGround& ground, const Rect& within,
+                     bool offers, std::vector<LetterPlace>& places, UiFrame& ui);
 /// "N" and an arrow at the bottom right.
 void DrawNorth(const Rect& scene, UiFrame& ui);
 double SeenArea_m2(const SeenGround& seen);
-/// "Approach 045°: wind 0.92, sun not known, turn 0.60"; empty without a selected site.
-std::string HeadingWords(const EngineSnapshot& snap);
 
 }  // namespace palace

@@ -119,8 +119,36 @@ TEST(SearchMap, ADrawnAreaIsToldAndCleared) {
       FlyArea{{m, m + Eigen::Vector2d(30, 0), m + Eigen::Vector2d(0, 30)}, 45};
   window.Run(0.05);
   EXPECT_TRUE(HasText(window.ui.items, "Ceiling 45 m"));
+  EXPECT_EQ(window.ui.items.Find("area_restore"), nullptr);
   window.ui.Click("area_clear", window.draw);
   EXPECT_EQ(window.ui.CountCommands<ClearFlyArea>(), 1);
+}
+
+TEST(SearchMap, AClearedAreaIsBroughtBackByOnePressAndNotByADoubleClick) {
+  SearchWindow window;
+  const Eigen::Vector2d m = window.middle();
+  const FlyArea area{{m, m + Eigen::Vector2d(30, 0), m + Eigen::Vector2d(0, 30)}, 45};
+  window.snap.flight.Edit().mission.area = area;
+  window.Run(0.05);
+  const ImVec2 where = window.ui.items.Find("area_clear")->rect.centre();
+  window.ui.Click("area_clear", window.draw);
+  window.snap.flight.Edit().mission.area.reset();  // as the engine answers
+  window.Run(0.05);
+  EXPECT_TRUE(HasText(window.ui.items, "Area cleared"));
+  window.ui.MoveTo(where);
+  for (const bool down : {true, false}) {
+    window.ui.Button(down);
+    window.Run(0.04);
+  }
+  EXPECT_EQ(window.ui.CountCommands<SetFlyArea>(), 0);
+  EXPECT_FALSE(window.fly.search_map.picked.has_value()) << "nor picks it a place";
+  window.ui.Click("area_restore", window.draw);
+  ASSERT_EQ(window.ui.CountCommands<SetFlyArea>(), 1);
+  EXPECT_EQ(window.ui.LastCommand<SetFlyArea>().area.corners_W, area.corners_W);
+  EXPECT_EQ(window.ui.LastCommand<SetFlyArea>().area.ceiling_m, area.ceiling_m);
+  window.snap.flight.Edit().mission.state = MissionState::kNoLive;  // another flight
+  window.Run(0.05);
+  EXPECT_EQ(window.ui.items.Find("area_restore"), nullptr);
 }
 
 TEST(SearchMap, APlaceThatTheEngineWouldRefuseIsNotOfferedAndSaysItsWords) {
@@ -149,6 +177,115 @@ TEST(SearchMap, APlaceThatTheEngineWouldRefuseIsNotOfferedAndSaysItsWords) {
   window.ui.Click("fly_there", window.draw);
   EXPECT_EQ(window.ui.CountCommands<FlyTo>(), 1);
   EXPECT_NE(told().find("m high, ceiling 20 m"), std::string::npos) << told();
+}
+
+/// Four sites within a metre, so that their letters would cover each other.
+EngineSnapshot Crowded() {
+  EngineSnapshot snap = Searching();
+  snap.flight.Edit().mission.state = MissionState::kProposed;
+  auto decision = std::make_shared<TerrainDecision>(*snap.terrain->applied);
+  std::vector<LandingSite>& sites = decision->selection.sites;
+  for (std::size_t k = 0; k < sites.size(); ++k) {
+    sites[k].p_WS.head<2>() =
+        snap.flight->mission.seen->middle_W + Eigen::Vector2d(10 + 0.2 * static_cast<double>(k), 5);
+  }
+  snap.terrain.Edit().applied = decision;
+  return snap;
+}
+
+TEST(SearchMap, LettersCoverNoOther) {
+  for (const float width : {1920.0F, 1366.0F, 1280.0F}) {
+    SCOPED_TRACE(width);
+    SearchWindow window(width);
+    window.snap = Crowded();
+    window.Run(0.05);
+    std::vector<const Item*> letters;
+    for (const Item& item : window.ui.items.items()) {
+      if (item.name.rfind("letter/search_map/", 0) == 0) {
+        letters.push_back(&item);
+      }
+    }
+    ASSERT_EQ(letters.size(), window.snap.terrain->applied->selection.sites.size());
+    ASSERT_GE(letters.size(), 4U);
+    for (std::size_t i = 0; i < letters.size(); ++i) {
+      for (std::size_t j = i + 1; j < letters.size(); ++j) {
+        EXPECT_FALSE(Touch(letters[i]->rect, letters[j]->rect))
+            << letters[i]->name << " and " << letters[j]->name;
+      }
+    }
+  }
+}
+
+TEST(SearchMap, AClickOnALetterSelectsItsSiteAndPicksNoPlace) {
+  SearchWindow window;
+  window.snap = Crowded();
+  window.Run(0.05);
+  for (const LandingSite& site : window.snap.terrain->applied->selection.sites) {
+    SCOPED_TRACE(site.letter);
+    const int before = window.ui.CountCommands<SelectSite>();
+    window.ui.Click("letter/search_map/" + site.letter, window.draw);
+    EXPECT_EQ(window.ui.CountCommands<SelectSite>(), before + 1);
+    EXPECT_EQ(window.ui.LastCommand<SelectSite>().site_id, site.id);
+    EXPECT_FALSE(window.fly.search_map.picked.has_value());
+  }
+}
+
+TEST(SearchMap, WhileAnAreaIsDrawnAClickOnALetterIsACorner) {
+  SearchWindow window;
+  window.snap = Crowded();
+  window.ui.Click("draw_area", window.draw);
+  window.ClickAt(10, 5);
+  EXPECT_EQ(window.ui.CountCommands<SelectSite>(), 0);
+  EXPECT_EQ(window.fly.search_map.corners.size(), 1U);
+}
+
+TEST(SearchMap, TheLegendTellsOnlyWhatIsDrawn) {
+  SearchWindow window;
+  EXPECT_TRUE(HasText(window.ui.items, "Next looks keep to 60 m"));
+  EXPECT_FALSE(HasText(window.ui.items, "Course suits"));
+  const Eigen::Vector2d m = window.middle();
+  window.snap.flight.Edit().mission.area =
+      FlyArea{{m, m + Eigen::Vector2d(30, 0), m + Eigen::Vector2d(0, 30)}, 45};
+  window.Run(0.05);
+  EXPECT_FALSE(HasText(window.ui.items, "Next looks keep to 60 m"));
+  EXPECT_TRUE(HasText(window.ui.items, "Area"));
+  window.ui.Click("search_legend", window.draw);
+  EXPECT_FALSE(window.fly.search_map.picked.has_value()) << "a click on it picks no place";
+  window.ui.Click("search_legend_on", window.draw);
+  window.Run(0.05);
+  EXPECT_EQ(window.ui.items.Find("search_legend"), nullptr);
+}
+
+TEST(SearchMap, TheCoursesToASelectedSiteAreLargeAndTold) {
+  for (const float width : {1920.0F, 1280.0F}) {
+    SCOPED_TRACE(width);
+    SearchWindow window(width);
+    EngineSnapshot snap = Crowded();
+    MissionStatus& m = snap.flight.Edit().mission;
+    m.state = MissionState::kArmed;
+    m.armed = snap.terrain->applied->selection.sites[0];
+    m.headings.emplace();
+    window.snap = snap;
+    window.fly.search_map.legend = true;
+    window.Run(0.05);
+    const Item* courses = window.ui.items.Find("courses");
+    ASSERT_NE(courses, nullptr);
+    const Rect& map = window.ui.items.Find("search_map")->rect;
+    EXPECT_GE(courses->rect.w, 0.4F * std::min(map.w, map.h));
+    const Item* legend = window.ui.items.Find("search_legend");
+    ASSERT_NE(legend, nullptr);
+    EXPECT_TRUE(Inside(legend->rect, map)) << "all its words are on the map";
+    EXPECT_TRUE(HasText(window.ui.items, "Course suits"));
+  }
+}
+
+TEST(SearchMap, ButtonsAndWheelZoomAlike) {
+  SearchWindow window;
+  const double before = window.fly.search_map.half_m;
+  window.ui.Click("map_closer", window.draw);
+  EXPECT_LT(window.fly.search_map.half_m, before);
+  window.ui.Click("map_wider", window.draw);
+  EXPECT_NEAR(window.fly.search_map.half_m, before, 1e-9);
 }
 
 TEST(SearchMap, IsWorkedByKeysAlone) {
