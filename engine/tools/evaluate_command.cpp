@@ -20,6 +20,7 @@
 #include "engine/experiments/evaluate_stereo.h"
 #include "engine/experiments/evaluate_things.h"
 #include "engine/experiments/evaluate_trackers.h"
+#include "engine/experiments/evaluate_velocity_estimate.h"
 #include "engine/experiments/experiment.h"
 #include "engine/tools/evaluate_command.h"
 #include "engine/tools/evaluate_plan.h"
@@ -38,7 +39,8 @@ void AddEvaluateCommand(CLI::App& app, int& exit_code, SceneCameraFactory camera
                                                FamiliesExperiment(camera),
                                                SearchExperiment(camera),
                                                FaultsExperiment(camera),
-                                               ImageTimeExperiment(std::move(camera)),
+                                               ImageTimeExperiment(camera),
+                                               VelocityEstimateExperiment(std::move(camera)),
                                                StereoAccuracyExperiment(),
                                                StereoCostExperiment(),
                                                CalibrationExperiment(),
