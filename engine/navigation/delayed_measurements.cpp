@@ -98,6 +98,15 @@ std::optional<Innovation> DelayedMeasurements::Insert(const PositionMeasurement&
   return innovation;
 }
 
+void DelayedMeasurements::Shift(const Eigen::Vector3d& by_W) {
+  for (Entry& entry : entries_) {
+    entry.after.x.head<3>() += by_W;
+    if (entry.fix) {
+      entry.fix->p_WB += by_W;
+    }
+  }
+}
+
 InertialState DelayedMeasurements::StateAt(Timestamp time) const {
   PALACE_CHECK(!entries_.empty());
   if (time <= entries_.front().after.time) {

@@ -23,6 +23,8 @@ class DelayedMeasurements {
   void AddInput(Timestamp time, const InertialInput& input);
   /// Nothing when the fix is older than the window or the start.
   std::optional<Innovation> Insert(const PositionMeasurement& fix);
+  /// Moves all positions, of states and of fixes.
+  void Shift(const Eigen::Vector3d& by_W);
   /// State at any time of the window or after it.
   InertialState StateAt(Timestamp time) const;
   Timestamp newest() const { return entries_.back().after.time; }

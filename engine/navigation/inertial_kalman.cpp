@@ -14,7 +14,7 @@ using Eigen::Vector3d;
 constexpr double kCoastingNoise = 1.0;      // m/s^2/sqrt(Hz)
 constexpr double kGate3 = 13.93;            // 0.997 quantile of chi-square, 3 dof
 constexpr double kGate6 = 19.80;            // 6 dof
-constexpr double kFloorPosition_m = 0.005;  // P never claims more than this
+constexpr double kFloorPosition_m = 0.001;  // P never claims more than this
 constexpr double kFloorVelocity_mps = 0.005;
 constexpr double kFloorBias_mps2 = 0.002;
 

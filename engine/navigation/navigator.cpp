@@ -52,10 +52,9 @@ PositionMeasurement VelocityOnly(PositionMeasurement measurement, const FilterEs
   return measurement;
 }
 
-PositionEstimate FromFilter(const PositionFilter& filter, Timestamp now) {
-  const FilterEstimate state = filter.EstimateAt(now);
+PositionEstimate Told(const FilterEstimate& state) {
   PositionEstimate estimate;
-  estimate.time = now;
+  estimate.time = state.time;
   estimate.p_WB = state.p_WB;
   estimate.v_WB = state.v_WB;
   estimate.sigma_p_m = state.sigma_p_m;
@@ -199,6 +198,8 @@ void Navigator::StopVision() {
   handover_.Stop();
   vision_.Reset();
   site_.reset();
+  vision_fix_.reset();
+  landmark_frame_ = {};
   attitude_correction_W_.setZero();
   if (was_in_force) {
     fade_.reset();
@@ -214,7 +215,7 @@ bool Navigator::AttitudeKnown(Timestamp time) const {
 }
 
 Result<VisionFix> Navigator::MakeFix(const TrackResult& track, const PinholeCamera& camera,
-                                     const StereoRig& rig, const FrameBundle& bundle) const {
+                                     const StereoRig& rig, const FrameBundle& bundle) {
   std::optional<VehiclePose> pose = bundle.pose_at_exposure;
   if (!pose && AttitudeKnown(track.time)) {
     pose = poses_.At(track.time);
@@ -223,12 +224,14 @@ Result<VisionFix> Navigator::MakeFix(const TrackResult& track, const PinholeCame
     return UnavailableError("no attitude for the picture");
   }
   if (track.landmarks.size() > 1) {
-    return FixFromLandmarks(track, camera, rig, pose->X_WB.R);
+    return FixFromLandmarks(track, camera, rig, pose->X_WB.R, *site_, attitude_errors_,
+                            landmark_frame_);
   }
   if (!laser_ || std::abs(SecondsBetween(laser_->time, track.time)) > kLaserAge_s) {
     return UnavailableError("no laser range with the picture");
   }
-  return FixFromSitePixel(track, camera, rig, pose->X_WB.R, laser_->range_m, *site_);
+  return FixFromSitePixel(track, camera, rig, pose->X_WB.R, laser_->range_m, *site_,
+                          attitude_errors_);
 }
 
 void Navigator::AddVision(const TrackResult& track, const PinholeCamera& camera,
@@ -239,6 +242,10 @@ void Navigator::AddVision(const TrackResult& track, const PinholeCamera& camera,
     if (const Result<VisionFix> fix = MakeFix(track, camera, rig, bundle)) {
       status_.vision_measured = true;
       status_.vision_p_WB = fix->measurement.p_WB;
+      vision_fix_ = *fix;
+      if (vision_.running()) {
+        vision_.Shift(fix->frame_shift_W);
+      }
       AddVisionFix(fix->measurement, settings.accel_noise_mps2);
       attitude_correction_W_ +=
           kCorrectionGain * (fix->attitude_correction_W - attitude_correction_W_);
@@ -250,6 +257,25 @@ void Navigator::AddVision(const TrackResult& track, const PinholeCamera& camera,
   }
   UpdateHandover(now_);
   UpdateStatus();
+}
+
+std::optional<PositionMeasurement> Navigator::VisionPosition() const {
+  if (!vision_fix_) {
+    return std::nullopt;
+  }
+  PositionMeasurement position = vision_fix_->measurement;
+  position.p_covariance_m2 += vision_fix_->shared.CovarianceAt(position.p_WB);
+  return position;
+}
+
+std::optional<FilterEstimate> Navigator::VisionFilterAt(Timestamp time) const {
+  if (!vision_.running()) {
+    return std::nullopt;
+  }
+  FilterEstimate estimate = vision_.EstimateAt(time);
+  estimate.p_covariance_m2 += vision_fix_->shared.CovarianceAt(estimate.p_WB);
+  estimate.sigma_p_m = estimate.p_covariance_m2.diagonal().cwiseSqrt();
+  return estimate;
 }
 
 FilterSeed Navigator::VisionSeed(const PositionMeasurement& fix) const {
@@ -348,14 +374,14 @@ PositionEstimate Navigator::GpsEstimate(Timestamp now) const {
   if (!gps_.running()) {
     return PoseEstimate(now);
   }
-  PositionEstimate estimate = FromFilter(gps_, now);
+  PositionEstimate estimate = Told(gps_.EstimateAt(now));
   estimate.source = EstimateSource::kGps;
   estimate.healthy = SecondsBetween(gps_.last_accepted(), now) <= kGpsSilence_s;
   return estimate;
 }
 
 PositionEstimate Navigator::VisionEstimate(Timestamp now) const {
-  PositionEstimate estimate = FromFilter(vision_, now);
+  PositionEstimate estimate = Told(*VisionFilterAt(now));
   estimate.source = EstimateSource::kVision;
   estimate.healthy = handover_.Healthy(now);
   return estimate;

@@ -57,6 +57,13 @@ class Navigator {
   int frame_moves() const { return frame_moves_; }
   /// As of the last AddSensors or AddVision.
   const NavigationStatus& status() const { return status_; }
+  /// How well attitudes are known, from now on.
+  void SetAttitudeErrors(const AttitudeErrors& errors) { attitude_errors_ = errors; }
+  /// The newest raw position that vision gave, with its whole covariance; nothing before the first.
+  std::optional<PositionMeasurement> VisionPosition() const;
+  /// What the vision filter says, with the errors that all fixes share; nothing while it does not
+  /// run.
+  std::optional<FilterEstimate> VisionFilterAt(Timestamp time) const;
   /// Vision after the hand-over, GPS before, propagated to `now`. kNone: only a pose, or nothing.
   PositionEstimate EstimateInForce(Timestamp now) const;
 
@@ -80,7 +87,7 @@ class Navigator {
   void StartFilter(PositionFilter& filter, const FilterSeed& seed, const ProcessNoise& noise) const;
   bool AttitudeKnown(Timestamp time) const;
   Result<VisionFix> MakeFix(const TrackResult& track, const PinholeCamera& camera,
-                            const StereoRig& rig, const FrameBundle& bundle) const;
+                            const StereoRig& rig, const FrameBundle& bundle);
   void AddVisionFix(const PositionMeasurement& fix, double accel_noise_mps2);
   FilterSeed VisionSeed(const PositionMeasurement& fix) const;
   double VelocityGap(Timestamp time) const;
@@ -96,9 +103,12 @@ class Navigator {
   GpsWatch gps_watch_;
   GravityWatch gravity_watch_;
   int frame_moves_ = 0;
-  PositionFilter vision_;
+  PositionFilter vision_{/*measures_scatter=*/true};
   Handover handover_;
   std::optional<LandingSite> site_;
+  AttitudeErrors attitude_errors_;
+  LandmarkFrame landmark_frame_;
+  std::optional<VisionFix> vision_fix_;
   bool have_pose_stream_ = false;
   std::optional<LaserRange> laser_;  ///< newest with a return
   std::optional<Fade> fade_;

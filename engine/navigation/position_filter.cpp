@@ -1,12 +1,20 @@
 #include "engine/navigation/position_filter.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "engine/core/check.h"
 
 namespace palace {
+namespace {
 
-void PositionFilter::Reset() { *this = PositionFilter(); }
+constexpr double kScatterGain = 0.05;
+constexpr double kMostOfOne = 25;
+constexpr double kMostFactor = 100;
+
+}  // namespace
+
+void PositionFilter::Reset() { *this = PositionFilter(measures_scatter_); }
 
 void PositionFilter::Start(const FilterSeed& seed, const ProcessNoise& noise) {
   Reset();
@@ -33,14 +41,27 @@ void PositionFilter::AddImu(Timestamp time, const Eigen::Vector3d& specific_forc
   }
 }
 
-FixOutcome PositionFilter::AddFix(const PositionMeasurement& fix) {
+void PositionFilter::CountScatter(const Innovation& innovation) {
+  if (measures_scatter_) {
+    const double square = std::min(innovation.squared / innovation.dof, kMostOfOne);
+    scatter_ += kScatterGain * (square * variance_factor() - scatter_);
+    scatter_ = std::min(scatter_, kMostFactor);
+  }
+}
+
+FixOutcome PositionFilter::AddFix(const PositionMeasurement& told) {
   PALACE_CHECK(running_);
+  PositionMeasurement fix = told;
+  fix.p_covariance_m2 *= variance_factor();
   const bool finite = fix.p_WB.allFinite() && fix.p_covariance_m2.allFinite() &&
                       (!fix.v_WB || fix.v_WB->allFinite());
   const std::optional<Innovation> innovation =
       finite ? history_.Insert(fix) : std::optional<Innovation>(Innovation{});
   if (!innovation) {
     return FixOutcome::kTooOld;
+  }
+  if (finite) {
+    CountScatter(*innovation);
   }
   residual_sigma_ = std::sqrt(innovation->squared / innovation->dof);
   max_residual_sigma_ = std::sqrt(innovation->gate / innovation->dof);
@@ -63,6 +84,7 @@ FilterEstimate PositionFilter::EstimateAt(Timestamp time) const {
   estimate.bias_B = state.x.tail<3>();
   estimate.sigma_p_m = state.P.diagonal().head<3>().cwiseSqrt();
   estimate.sigma_v_mps = state.P.diagonal().segment<3>(3).cwiseSqrt();
+  estimate.p_covariance_m2 = state.P.topLeftCorner<3, 3>();
   return estimate;
 }
 

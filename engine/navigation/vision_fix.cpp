@@ -2,23 +2,68 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <vector>
 
-#include "engine/core/units.h"
 #include "engine/navigation/monocular_position.h"
 #include "engine/tracking/camera_resection.h"
 
 namespace palace {
 namespace {
 
-constexpr double kCommonSigma_m = 0.01;       // shared by all landmarks, at any distance
-constexpr double kCommonPerDistance = 0.002;  // shared, as a share of the distance
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+constexpr double kLandmarkScatter_px = 0.08;
+constexpr double kLeastScatter_m = 0.001;
+// Of the landmarks beside the site: GPS and stereo of one picture against those of a map.
+constexpr double kPlaceSigma_m = 0.015, kPlaceHeightSigma_m = 0.005;
 constexpr double kLaserSigma_m = 0.03;
-constexpr double kGroundSigma_m = 0.10;  // site against laser spot, assumption 1 of the thesis
-constexpr double kAttitudeSigma_rad = Rad(0.3);
-constexpr double kTemplateSigma_px = 1.0;
+constexpr double kLaserPerMetre = 0.001;
+constexpr double kGroundSigma_m = 0.02;  // level ground, site against laser spot
 constexpr int kManyLandmarks = 12;
+constexpr int kMeanOver = 100;  // pictures: beyond it the attitude's bias may have wandered
+
+Matrix3d Turn(const Vector3d& rotation) {
+  const double angle = rotation.norm();
+  return angle < 1e-12 ? Matrix3d::Identity()
+                       : Eigen::AngleAxisd(angle, rotation / angle).toRotationMatrix();
+}
+
+Vector3d RotationVector(const Matrix3d& R) {
+  const Eigen::AngleAxisd turn(R);
+  return turn.angle() * turn.axis();
+}
+
+Result<MonocularPosition> SevenSteps(const MonocularInput& input, const Matrix3d& R_WB,
+                                     const Vector3d& lever_B, Vector3d& p_WB) {
+  MonocularInput turned = input;
+  turned.attitude = EulerFromRotation(R_WB);
+  Result<MonocularPosition> position = PositionFromPixel(turned);
+  if (position) {
+    p_WB = BodyFromCamera(position->p_WC, turned.attitude, lever_B);
+  }
+  return position;
+}
 
 }  // namespace
+
+void LandmarkFrame::Add(const RigidTransform& X_WC_resected, const Matrix3d& R_WC_told) {
+  if (pictures_ == 0) {
+    placed_from_W_ = X_WC_resected.p;
+  }
+  pictures_ = std::min(pictures_ + 1, kMeanOver);
+  const Vector3d turn_W = RotationVector(R_WC_told * X_WC_resected.R.transpose());
+  turn_W_ += (turn_W - turn_W_) / pictures_;
+}
+
+RigidTransform LandmarkFrame::Levelled(const RigidTransform& X_W, const Vector3d& p_WS) const {
+  const Matrix3d R = Turn(turn_W_);
+  const Vector3d& centre_W = placed_from_W_;
+  RigidTransform levelled{R * X_W.R, centre_W + R * (X_W.p - centre_W)};
+  levelled.p.z() += p_WS.z() - (centre_W + R * (p_WS - centre_W)).z();
+  return levelled;
+}
 
 bool TrackIsTrusted(const TrackResult& track, const TrackingSettings& settings) {
   if (!track.status.locked || track.landmarks.empty()) {
@@ -32,58 +77,86 @@ bool TrackIsTrusted(const TrackResult& track, const TrackingSettings& settings) 
 }
 
 Result<VisionFix> FixFromLandmarks(const TrackResult& track, const PinholeCamera& camera,
-                                   const StereoRig& rig, const Eigen::Matrix3d& R_WB) {
+                                   const StereoRig& rig, const Matrix3d& R_WB,
+                                   const LandingSite& site, const AttitudeErrors& attitude,
+                                   LandmarkFrame& frame) {
+  // Their places are the same in every picture: they are no scatter.
+  std::vector<GroundLandmark> landmarks = track.landmarks;
+  for (GroundLandmark& landmark : landmarks) {
+    landmark.sigma_px = kLandmarkScatter_px;
+    landmark.sigma_w_m = 0;
+  }
   const RigidTransform X_BC = rig.X_BC();
-  const Result<Resection> resection = ResectCamera(track.landmarks, camera, R_WB * X_BC.R);
+  ResectionOptions options;
+  options.attitude_sigma_rad = std::max(std::numbers::sqrt2 * attitude.noise_rad, Rad(0.02));
+  const Result<Resection> resection = ResectCamera(landmarks, camera, R_WB * X_BC.R, options);
   if (!resection) {
     return resection.error();
   }
-  const RigidTransform X_WB = resection->X_WC * X_BC.Inverse();
-  double distance_m = 0;
-  for (const GroundLandmark& landmark : track.landmarks) {
-    distance_m +=
-        (landmark.p_WF - resection->X_WC.p).norm() / static_cast<double>(track.landmarks.size());
-  }
-  const double common_m = kCommonSigma_m + kCommonPerDistance * distance_m;
+  const RigidTransform X_WB_resected = resection->X_WC * X_BC.Inverse();
+  const Vector3d p_WB_before = frame.Levelled(X_WB_resected, site.p_WS).p;
+  frame.Add(resection->X_WC, R_WB * X_BC.R);
+  const RigidTransform X_WB = frame.Levelled(X_WB_resected, site.p_WS);
   VisionFix fix;
   fix.measurement.time = track.time;
   fix.measurement.p_WB = X_WB.p;
   fix.measurement.p_covariance_m2 =
-      resection->covariance_m2 + common_m * common_m * Eigen::Matrix3d::Identity();
-  const Eigen::AngleAxisd turn(Eigen::Matrix3d(X_WB.R * R_WB.transpose()));
-  fix.attitude_correction_W = turn.angle() * turn.axis();
+      resection->covariance_m2 + kLeastScatter_m * kLeastScatter_m * Matrix3d::Identity();
+  fix.shared = {.p_WS = site.p_WS,
+                .placed_from_W = frame.placed_from_W(),
+                .bias_rad = attitude.bias_rad,
+                .placed_rad = attitude.noise_rad / std::sqrt(frame.pictures()),
+                .place_m = Vector3d(kPlaceSigma_m, kPlaceSigma_m, kPlaceHeightSigma_m)};
+  fix.frame_shift_W = X_WB.p - p_WB_before;
+  fix.attitude_correction_W = RotationVector(X_WB.R * R_WB.transpose());
   return fix;
 }
 
 Result<VisionFix> FixFromSitePixel(const TrackResult& track, const PinholeCamera& camera,
-                                   const StereoRig& rig, const Eigen::Matrix3d& R_WB,
-                                   double laser_m, const LandingSite& site) {
+                                   const StereoRig& rig, const Matrix3d& R_WB, double laser_m,
+                                   const LandingSite& site, const AttitudeErrors& attitude) {
+  const GroundLandmark& mark = track.landmarks.front();
   MonocularInput input;
-  input.attitude = EulerFromRotation(R_WB);
   input.tilt_rad = rig.tilt_rad;
   input.focal_x_px = camera.fx_px;
   input.focal_y_px = camera.fy_px;
-  input.pixel = track.landmarks.front().pixel - Eigen::Vector2d(camera.cx_px, camera.cy_px);
+  input.pixel = mark.pixel - Eigen::Vector2d(camera.cx_px, camera.cy_px);
   input.laser_m = laser_m;
   input.p_WS = site.p_WS;
-  const Result<MonocularPosition> position = PositionFromPixel(input);
+  const Vector3d& lever_B = rig.position_body_m;
+  Vector3d p_WB;
+  const Result<MonocularPosition> position = SevenSteps(input, R_WB, lever_B, p_WB);
   if (!position) {
     return position.error();
   }
-  // Along the ray: laser, and the ground's unevenness seen along the ray. Across: pixel, attitude.
-  const double range_m = position->P_IF.norm();
-  const Eigen::Vector3d along = position->P_IF / range_m;
-  const double sigma_along_m = std::hypot(
-      kLaserSigma_m, kGroundSigma_m * range_m / position->Z_IC_m, kAttitudeSigma_rad * range_m);
-  const double sigma_across_m =
-      range_m * std::hypot(kTemplateSigma_px / camera.fx_px, kAttitudeSigma_rad);
-  const Eigen::Matrix3d along2 = along * along.transpose();
+  // First order: each input is moved by its own standard deviation.
+  Matrix3d scatter_m2 = Matrix3d::Zero();
+  const auto add = [&](const MonocularInput& moved, const Matrix3d& R_WB_moved) {
+    Vector3d p_WB_moved;
+    if (SevenSteps(moved, R_WB_moved, lever_B, p_WB_moved)) {
+      scatter_m2 += (p_WB_moved - p_WB) * (p_WB_moved - p_WB).transpose();
+    }
+  };
+  for (int i = 0; i < 3; ++i) {
+    add(input, Turn(attitude.noise_rad * Vector3d::Unit(i)) * R_WB);
+  }
+  for (int i = 0; i < 2; ++i) {
+    MonocularInput moved = input;
+    moved.pixel[i] += mark.sigma_px;
+    add(moved, R_WB);
+  }
+  MonocularInput moved = input;
+  moved.laser_m += kLaserSigma_m + kLaserPerMetre * laser_m;
+  add(moved, R_WB);
   VisionFix fix;
   fix.measurement.time = track.time;
-  fix.measurement.p_WB = BodyFromCamera(position->p_WC, input.attitude, rig.position_body_m);
+  fix.measurement.p_WB = p_WB;
   fix.measurement.p_covariance_m2 =
-      sigma_along_m * sigma_along_m * along2 +
-      sigma_across_m * sigma_across_m * (Eigen::Matrix3d::Identity() - along2);
+      scatter_m2 + kLeastScatter_m * kLeastScatter_m * Matrix3d::Identity();
+  fix.shared = {.p_WS = site.p_WS,
+                .bias_rad = attitude.bias_rad,
+                .place_m = Vector3d::Constant(mark.sigma_w_m),
+                .height_m = kGroundSigma_m};
   return fix;
 }
 

@@ -1,3 +1,5 @@
+#include "engine/tools/evaluate_command.h"
+
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -10,6 +12,7 @@
 #include "engine/experiments/evaluate_image_time.h"
 #include "engine/experiments/evaluate_landing.h"
 #include "engine/experiments/evaluate_occlusion.h"
+#include "engine/experiments/evaluate_position_estimate.h"
 #include "engine/experiments/evaluate_probability.h"
 #include "engine/experiments/evaluate_search.h"
 #include "engine/experiments/evaluate_site_flags.h"
@@ -22,8 +25,8 @@
 #include "engine/experiments/evaluate_trackers.h"
 #include "engine/experiments/evaluate_velocity_estimate.h"
 #include "engine/experiments/experiment.h"
-#include "engine/tools/evaluate_command.h"
 #include "engine/tools/evaluate_plan.h"
+#include "engine/tools/evaluate_thesis.h"
 
 namespace palace {
 
@@ -32,15 +35,16 @@ void AddEvaluateCommand(CLI::App& app, int& exit_code, SceneCameraFactory camera
       "evaluate",
       "Experiments with seeds and intervals. Ctrl-C, SIGTERM and SIGHUP end "
       "one after the trial in hand: the trials done are reported and, with --out, "
-      "written; those of a shard are not, only whole ones can be merged. Exit "
-      "128 + signal");
+      "written; those of a shard are not, only whole ones can be merged. --resume "
+      "goes on. Exit 128 + signal");
   evaluate->require_subcommand(1);
   const std::vector<Experiment> experiments = {LandingExperiment(camera),
                                                FamiliesExperiment(camera),
                                                SearchExperiment(camera),
                                                FaultsExperiment(camera),
                                                ImageTimeExperiment(camera),
-                                               VelocityEstimateExperiment(std::move(camera)),
+                                               VelocityEstimateExperiment(camera),
+                                               PositionEstimateExperiment(std::move(camera)),
                                                StereoAccuracyExperiment(),
                                                StereoCostExperiment(),
                                                CalibrationExperiment(),
@@ -58,6 +62,7 @@ void AddEvaluateCommand(CLI::App& app, int& exit_code, SceneCameraFactory camera
                                                OcclusionExperiment()};
   AddExperiments(*evaluate, experiments, exit_code);
   AddEvaluatePlan(*evaluate, experiments, exit_code);
+  AddEvaluateThesis(*evaluate, experiments, exit_code);
 }
 
 }  // namespace palace
