@@ -25,7 +25,7 @@ constexpr int kToldWithin = kSecond / 2;
 constexpr int kCurveStep = 4;  // pictures between two points of the plotted curve
 constexpr std::size_t kCurvePoints = kFilmPictures / kCurveStep;
 constexpr std::array kMethods = {PointMethod::kPlane, PointMethod::kTemplate,
-                                 PointMethod::kFollower};
+                                 PointMethod::kFollower, PointMethod::kSet};
 
 std::string CurveColumn(std::size_t k) {
   return "error_at_" + std::to_string(k * kCurveStep) + "_px";

@@ -28,8 +28,8 @@ int UnseenLosses(const FollowedFilm& film);
 /// Trial i: one film; rows: one a method. Only ours is judged: never lost, at most 5 px at the end.
 Experiment TrackersExperiment(const FilmGroundOptions& defaults = {});
 
-/// `evaluate tracker-cost`: milliseconds a picture of each, on one thread and on all. They depend
-/// on the machine and on what else it does, so they are no part of the table above.
+/// `evaluate tracker-cost`: milliseconds of the processor a picture of each, on one thread. They
+/// depend on the machine, so they are no part of the table above.
 Experiment TrackerCostExperiment(const FilmGroundOptions& defaults = {});
 
 }  // namespace palace

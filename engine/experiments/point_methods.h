@@ -3,6 +3,9 @@
 //   plane      SiteTracker, TrackerMode::kPlane: knows the believed poses
 //   template   SiteTracker, TrackerMode::kTemplate, the thesis's refreshed template: likewise
 //   follower   FeatureFollower: pictures alone, as all that follow
+//   set        the consensus of TrackerSet (SiteTracker tells it beside the plane): followed where
+//   it is
+//              trusted
 //   KLT        calcOpticalFlowPyrLK from picture to picture, window 21, four levels (Bouguet 2000)
 //   KCF, CSRT  OpenCV's trackers of a box of 41 px, as they come (Henriques et al. 2015; Lukezic et
 //              al. 2017)
@@ -25,7 +28,8 @@
 
 namespace palace {
 
-enum class PointMethod { kPlane, kTemplate, kFollower, kKlt, kKcf, kCsrt, kEcc };
+enum class PointMethod { kPlane, kTemplate, kFollower, kSet, kKlt, kKcf, kCsrt, kEcc };
+/// Each alone; the set is of these.
 inline constexpr std::array kAllPointMethods = {
     PointMethod::kPlane, PointMethod::kTemplate, PointMethod::kFollower, PointMethod::kKlt,
     PointMethod::kKcf,   PointMethod::kCsrt,     PointMethod::kEcc};

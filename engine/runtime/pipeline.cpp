@@ -171,6 +171,7 @@ void Pipeline::Track(Pass& pass) {
       tracked_site_ = 0;
     }
     snapshot.flight.Edit().tracker = TrackerStatus{};
+    snapshot.flight.Edit().trackers = TrackerSetStatus{};
   } else if (pass.pair.left) {
     const Timestamp exposure = pass.bundle->stereo->time;
     TrackResult result;
@@ -188,8 +189,12 @@ void Pipeline::Track(Pass& pass) {
       }
       result = tracker_.Track(*pass.pair.left, rectifier_->camera(), snapshot.sensors->X_WC, range,
                               tracking, exposure);
+    } else {
+      result.set = tracker_.Coast(rectifier_->camera(), snapshot.sensors->X_WC, tracking,
+                                  result.status.why_not_locked, exposure);
     }
     snapshot.flight.Edit().tracker = result.status;
+    snapshot.flight.Edit().trackers = result.set;
     navigator_.AddVision(result, rectifier_->camera(), *rig_, *pass.bundle, tracking);
     snapshot.sensors.Edit().X_WC = navigator_.PredictBodyPose(exposure) * rectifier_->X_BC(*rig_);
   }

@@ -162,8 +162,7 @@ void PlaneTracker::Resect(const PinholeCamera& camera, const Eigen::Matrix3d& R_
 PlaneTracker::Attempt PlaneTracker::BestAttempt(const ImageU8& left, const PinholeCamera& camera,
                                                 const RigidTransform& X_WC_predicted,
                                                 const TrackingSettings& settings) const {
-  const RigidTransform corrected{X_WC_predicted.R * correction_R_,
-                                 X_WC_predicted.p + correction_p_W_};
+  const RigidTransform corrected = Corrected(X_WC_predicted);
   Attempt attempt = Try(left, camera, corrected, X_WC_predicted.R, Eigen::Vector2d::Zero());
   if (attempt.ok) {
     return attempt;

@@ -32,6 +32,10 @@ class PlaneTracker {
             const RangeMap* range, const LandingSite& site, const TrackingSettings& settings);
   bool anchored() const;
   bool locked() const { return locked_; }
+  /// A predicted pose, made better by what the last good picture corrected of its own.
+  RigidTransform Corrected(const RigidTransform& X_WC_predicted) const {
+    return {X_WC_predicted.R * correction_R_, X_WC_predicted.p + correction_p_W_};
+  }
   TrackResult Track(const ImageU8& left, const PinholeCamera& camera,
                     const RigidTransform& X_WC_predicted, const RangeMap* range,
                     const TrackingSettings& settings, Timestamp time);

@@ -1,7 +1,7 @@
 #include "engine/tracking/site_tracker.h"
 
-#include "engine/tracking/plane_tracker.h"
-#include "engine/tracking/template_tracker.h"
+#include "engine/tracking/site_view.h"
+#include "engine/tracking/tracker_set.h"
 
 namespace palace {
 
@@ -10,32 +10,18 @@ SiteTracker::~SiteTracker() = default;
 SiteTracker::SiteTracker(SiteTracker&&) noexcept = default;
 SiteTracker& SiteTracker::operator=(SiteTracker&&) noexcept = default;
 
-void SiteTracker::Reset() {
-  plane_.reset();
-  template_.reset();
-}
+void SiteTracker::Reset() { set_.reset(); }
 
-bool SiteTracker::anchored() const {
-  return (plane_ && plane_->anchored()) || (template_ && template_->anchored());
-}
+bool SiteTracker::anchored() const { return set_ && set_->anchored(); }
 
-bool SiteTracker::locked() const {
-  return (plane_ && plane_->locked()) || (template_ && template_->locked());
-}
+bool SiteTracker::locked() const { return set_ && set_->locked(); }
 
 void SiteTracker::Lock(const ImageU8& left, const PinholeCamera& camera, const RigidTransform& X_WC,
                        const RangeMap* range, const LandingSite& site,
-                       const TrackingSettings& settings, Timestamp) {
-  Reset();
+                       const TrackingSettings& settings, Timestamp time) {
   PALACE_CHECK(left.width() == camera.width && left.height() == camera.height, left.width(),
                left.height(), camera.width, camera.height);
-  if (settings.mode == TrackerMode::kTemplate) {
-    template_ = std::make_unique<TemplateTracker>();
-    template_->Lock(left, camera, X_WC, site, settings);
-  } else {
-    plane_ = std::make_unique<PlaneTracker>();
-    plane_->Lock(left, camera, X_WC, range, site, settings);
-  }
+  set_ = std::make_unique<TrackerSet>(SiteView{left, camera, X_WC, range, settings, time}, site);
 }
 
 TrackResult SiteTracker::Track(const ImageU8& left, const PinholeCamera& camera,
@@ -43,17 +29,21 @@ TrackResult SiteTracker::Track(const ImageU8& left, const PinholeCamera& camera,
                                const TrackingSettings& settings, Timestamp time) {
   PALACE_CHECK(left.width() == camera.width && left.height() == camera.height, left.width(),
                left.height(), camera.width, camera.height);
-  if (plane_) {
-    return plane_->Track(left, camera, X_WC_predicted, range, settings, time);
-  }
-  if (template_) {
-    return template_->Track(left, camera, X_WC_predicted, settings, time);
+  if (set_) {
+    return set_->Track({left, camera, X_WC_predicted, range, settings, time});
   }
   TrackResult result;
   result.time = time;
   result.status.time = time;
   result.status.mode = settings.mode == TrackerMode::kPlane ? "Plane" : "Template";
   return result;
+}
+
+TrackerSetStatus SiteTracker::Coast(const PinholeCamera& camera,
+                                    const RigidTransform& X_WC_predicted,
+                                    const TrackingSettings& settings, const std::string& why,
+                                    Timestamp time) {
+  return set_ ? set_->Coast(camera, X_WC_predicted, settings, why, time) : TrackerSetStatus{};
 }
 
 }  // namespace palace

@@ -3,13 +3,15 @@
 // TrackerMode::kPlane (modern, plane_tracker.h): many features on the ground around the site, each
 // anchored in a keyframe and carrying a world position. TrackerMode::kTemplate (thesis 3.1,
 // template_tracker.h): one template, refreshed every frame. The mode is read at Lock and stays
-// until the next Lock.
+// until the next Lock. Both run on every picture, with some features beside them, each alone
+// (tracker_set.h): what they say is told in TrackResult::set, and changes nothing else.
 //
 // Pictures are rectified left pictures of the given pinhole camera; all poses are of the left
 // camera in W. Any one thread. The same calls give the same bits.
 #pragma once
 
 #include <memory>
+#include <string>
 #include <vector>
 
 #include <Eigen/Dense>
@@ -27,15 +29,14 @@
 
 namespace palace {
 
-class PlaneTracker;
-class TemplateTracker;
+class TrackerSet;
 
 /// What one picture said. `landmarks` are the trusted ones only; empty when the frame is no good.
 struct TrackResult {
   Timestamp time;
   TrackerStatus status;
   std::vector<GroundLandmark> landmarks;
-  TrackerSetStatus set;
+  TrackerSetStatus set;  ///< all trackers side by side; empty before Lock
 };
 
 class SiteTracker {
@@ -61,10 +62,13 @@ class SiteTracker {
   TrackResult Track(const ImageU8& left, const PinholeCamera& camera,
                     const RigidTransform& X_WC_predicted, const RangeMap* range,
                     const TrackingSettings& settings, Timestamp time);
+  /// For a time without a picture of now: where the trackers would see the site, all LOST for the
+  /// reason `why`. Empty before Lock.
+  TrackerSetStatus Coast(const PinholeCamera& camera, const RigidTransform& X_WC_predicted,
+                         const TrackingSettings& settings, const std::string& why, Timestamp time);
 
  private:
-  std::unique_ptr<PlaneTracker> plane_;
-  std::unique_ptr<TemplateTracker> template_;
+  std::unique_ptr<TrackerSet> set_;
 };
 
 }  // namespace palace

@@ -12,8 +12,6 @@ namespace {
 
 /// Sensor noise of two grey levels gives 0.2 at most: fainter places are followed by chance.
 constexpr float kMinEigenvalue = 0.5F;
-/// Self-similarity costs up to half a millisecond a place.
-constexpr int kMaxTried = 1000;
 
 cv::Mat View(const ImageU8& picture) {
   return {picture.height(), picture.width(), CV_8U,
@@ -96,7 +94,7 @@ std::vector<TemplateFeature> SelectTemplates(const ImageU8& picture,
   std::vector<Eigen::Vector2d> taken, refused;
   for (const Candidate& candidate : Candidates(picture, options.template_px, mask)) {
     if (static_cast<int>(taken.size()) >= options.max_count ||
-        static_cast<int>(taken.size() + refused.size()) >= kMaxTried) {
+        static_cast<int>(taken.size() + refused.size()) >= options.max_tried) {
       break;
     }
     const Eigen::Vector2d pixel = candidate.pixel.cast<double>();

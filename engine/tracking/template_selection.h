@@ -26,6 +26,7 @@ struct TemplateSelectionOptions {
   int max_count = 10;
   double spacing_px = 41;            ///< between any two
   double max_self_similarity = 0.8;  ///< of the second best place in the window
+  int max_tried = 1000;              ///< places asked whether they repeat: 0.2 to 0.5 ms each
 };
 
 struct TemplateFeature {

@@ -34,14 +34,24 @@ ImageU8 Resized(const ImageU8& picture) {
 void TemplateTracker::Lock(const ImageU8& left, const PinholeCamera& camera,
                            const RigidTransform& X_WC, const LandingSite& site,
                            const TrackingSettings& settings) {
+  const auto pixel = PixelFromWorldPoint(camera, X_WC, site.p_WS);
+  if (pixel) {
+    LockAt(*pixel, left, camera, X_WC, site, settings);
+  } else {
+    *this = TemplateTracker();
+  }
+}
+
+void TemplateTracker::LockAt(const Eigen::Vector2d& pixel, const ImageU8& left,
+                             const PinholeCamera& camera, const RigidTransform& X_WC,
+                             const LandingSite& site, const TrackingSettings& settings) {
   *this = TemplateTracker();
   p_WS_ = site.p_WS;
-  const auto pixel = PixelFromWorldPoint(camera, X_WC, p_WS_);
-  if (!pixel || !InPicture(camera, *pixel, settings.template_size_px / 2.0)) {
+  if (!InPicture(camera, pixel, settings.template_size_px / 2.0)) {
     return;
   }
-  pixel_ = *pixel;
-  predicted_pixel_ = *pixel;
+  pixel_ = pixel;
+  predicted_pixel_ = PixelFromWorldPoint(camera, X_WC, p_WS_).value_or(pixel);
   template_ = CutSquare(left, pixel_, settings.template_size_px);
   anchor_height_m_ = HeightFromDown(X_WC.p.z() - p_WS_.z());
   locked_ = true;

@@ -24,6 +24,10 @@ class TemplateTracker {
  public:
   void Lock(const ImageU8& left, const PinholeCamera& camera, const RigidTransform& X_WC,
             const LandingSite& site, const TrackingSettings& settings);
+  /// Where the site is known to lie in this picture, whatever is predicted.
+  void LockAt(const Eigen::Vector2d& pixel, const ImageU8& left, const PinholeCamera& camera,
+              const RigidTransform& X_WC, const LandingSite& site,
+              const TrackingSettings& settings);
   bool anchored() const { return template_.width() > 0; }
   bool locked() const { return locked_; }
   /// The result's landmarks are the site alone.
