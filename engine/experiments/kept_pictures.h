@@ -1,4 +1,4 @@
-// Pictures of drawn fields kept on disk: drawing them is nine tenths of an experiment on ground,
+// Pictures of drawn fields kept on disk: drawing them is most of an experiment on ground,
 // and a changed SLAD sees the same ones.
 //
 //   DIR/FAMILY-SEED-HEIGHTm/NN.png    NN counts a field's pictures, left before right
