@@ -224,13 +224,16 @@ LinePlot CurvePlot(const TrialTable& one, const std::string& occluder) {
 
 ExperimentReport Report(const TrialTable& table) {
   ExperimentReport report{HtmlPage("PALACE: something comes between camera and point")};
-  report.page.Paragraph(WithNumbers(
-      "Descents from 45.7 m to 4 m and hovers at 15.24 m. Of the tracks that were right "
-      "(within %.0f px) and told as good in the picture before. Told: LOST while it "
-      "lasted or within 0.5 s after. Wrong as good: pictures since then beyond %.0f px "
-      "that were told as good. Found again: 1 s after it, told as good and right. Held: "
-      "told as lost for more than the %.0f s after which a mission holds.",
-      kFinalTrack_px, kFinalTrack_px, MissionSettings{}.max_vision_outage_s));
+  const std::string right = NumberText(kFinalTrack_px) + " px";
+  report.page.Paragraph(
+      "Descents from 45.7 m to 4 m and hovers at 15.24 m. Of the tracks that were right (within " +
+      right +
+      ") and told as good in the picture before. Told: LOST while it lasted or within 0.5 s after. "
+      "Wrong as good: pictures since then beyond " +
+      right +
+      " that were told as good. Found again: 1 s after it, told as good and right. Held: told as "
+      "lost for more than the " +
+      NumberText(MissionSettings{}.max_vision_outage_s) + " s after which a mission holds.");
   const std::vector<std::string> header = {"Occluder",
                                            "Method",
                                            "Right before",

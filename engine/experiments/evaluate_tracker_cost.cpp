@@ -77,12 +77,11 @@ ExperimentReport ReportCost(const TrialTable& table) {
                            cells.back()[2] + "), 95 % " + cells.back()[3] + " ms");
   }
   report.page
-      .Paragraph(WithNumbers(
-          "Time of the processor a picture of 640 x 480, on one thread: what "
-          "else the machine does hardly counts. SiteTracker runs its whole set on every picture: "
-          "plane and template take the time of all. Wanted of the plane tracker: at "
-          "most %.0f ms.",
-          kBudget_ms))
+      .Paragraph(
+          "Time of the processor a picture of 640 x 480, on one thread: what else the machine does "
+          "hardly counts. SiteTracker runs its whole set on every picture: plane and template take "
+          "the time of all. Wanted of the plane tracker: at most " +
+          NumberText(kBudget_ms) + " ms.")
       .Table({"Method", "Median of all films' medians, ms", "Worst film's median, ms",
               "Median of 95 %, ms", "Worst picture, ms"},
              cells);
