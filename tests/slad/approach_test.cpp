@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/slad/sites/site_evaluation.h"
 #include "engine/slad/sites/site_selection.h"
 #include "tests/slad/seen_from_the_south.h"
 #include "tests/slad/worlds.h"
@@ -195,6 +196,69 @@ TEST(Approach, ABlockedStraightApproachNamesAnother) {
     }
   }
   EXPECT_TRUE(found);
+}
+
+/// By the rule of IsClear, asked of every cell of the map.
+bool NothingStandsIn(const Approach& approach, const ElevationMap& map,
+                     const SladSettings& settings, const LandingSite& site) {
+  const Lander& lander = settings.lander;
+  for (int r = 0; r < map.geometry.rows; ++r) {
+    for (int c = 0; c < map.geometry.cols; ++c) {
+      const double north_m = map.geometry.NorthOfRow(r) - site.p_WS.x();
+      const double east_m = map.geometry.EastOfCol(c) - site.p_WS.y();
+      const double s = north_m * approach.from.x() + east_m * approach.from.y();
+      const double aside = std::abs(north_m * approach.from.y() - east_m * approach.from.x());
+      if (s <= site.clear_radius_m || s > approach.length_m ||
+          aside > lander.rotor_diameter_m / 2) {
+        continue;
+      }
+      const double free_m = (s - lander.radius_m()) * std::tan(approach.glide_slope_rad) +
+                            settings.limits.max_deviation_m;
+      const double top_m = double(map.height_m.at(r, c)) - site.height_m.value -
+                           3 * std::sqrt(double(map.variance_m2.at(r, c)));
+      if ((map.state.at(r, c) != CellState::kUnknown && top_m > free_m) ||
+          double(map.thin_top_m.at(r, c)) + 1 - site.height_m.value > free_m) {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
+TEST(Approach, ACorridorIsClearWhereNoCellStandsInIt) {
+  int clear = 0;
+  constexpr int kCorridors = 3000;
+  for (std::uint64_t seed = 1; seed <= kCorridors; ++seed) {
+    RandomStream random(seed, "corridor");
+    const int rows = 1 + random.Index(60), cols = 1 + random.Index(60);
+    ElevationMap map = MakeMap(rows, cols, 0.15, Flat(), 0.01, seed);
+    map.thin_top_m = GridF(rows, cols, kUnknownValue);
+    for (int things = random.Index(4); things >= 0; --things) {
+      const Cell cell{random.Index(rows), random.Index(cols)};
+      if (random.Uniform() < 0.3) {
+        map.thin_top_m.at(cell) = random.Uniform() < 0.5 ? HUGE_VALF : 3.0F;
+      } else {
+        map.height_m.at(cell) = float(random.Uniform(0, 9));
+      }
+    }
+    SladSettings settings;
+    settings.lander.rotor_diameter_m = random.Uniform(0.1, 4);
+    LandingSite site;
+    // Also beside the map.
+    site.p_WS = {random.Uniform(-6, 6), random.Uniform(-6, 6), 0};
+    site.height_m = {0, 0.03};
+    site.clear_radius_m = random.Uniform(0, 1);
+    const double bearing_rad =
+        random.Uniform() < 0.5 ? random.Index(8) * Rad(45) : random.Uniform(0, 6.28);
+    const Approach approach{{std::cos(bearing_rad), std::sin(bearing_rad)},
+                            random.Uniform(0, 12),
+                            random.Uniform(0.1, 1.5)};
+    const bool is_clear = IsClear(approach, map, settings, site);
+    ASSERT_EQ(is_clear, NothingStandsIn(approach, map, settings, site)) << seed;
+    clear += is_clear ? 1 : 0;
+  }
+  EXPECT_GT(clear, kCorridors / 10);
+  EXPECT_LT(clear, kCorridors * 9 / 10);
 }
 
 }  // namespace

@@ -133,11 +133,17 @@ void ClassifyCells(const SladSettings& settings, HazardMaps& hazards) {
           ground[c] = kClassOf[reasons[c] & kAllReasons];
           continue;
         }
-        ground[c] = !(distance_m[c] >= clear_m) ? GroundClass::kTooNear
-                    : KeepsLimits(hazards, settings, cell, HiddenAt(hazards, cell))
-                        ? GroundClass::kLandable
-                        : GroundClass::kFootprint;
-        if (distance_m[c] >= touched_m && Breaks(hazards, settings, cell)) {
+        ground[c] = GroundClass::kTooNear;
+        if (!(distance_m[c] >= touched_m) && !(distance_m[c] >= clear_m)) {
+          continue;
+        }
+        const double hidden = HiddenAt(hazards, cell);
+        const bool keeps = KeepsLimits(hazards, settings, cell, hidden);
+        if (distance_m[c] >= clear_m) {
+          ground[c] = keeps ? GroundClass::kLandable : GroundClass::kFootprint;
+        }
+        if (distance_m[c] >= touched_m && !keeps &&
+            (hidden == 0 || !KeepsLimits(hazards, settings, cell, 0))) {
           breaking.at(cell) = any_breaking[static_cast<std::size_t>(r)] = 1;
         }
       }

@@ -344,7 +344,14 @@ bool IsClear(const Approach& approach, const ElevationMap& map, const SladSettin
   const GridGeometry& g = map.geometry;
   const double half_width_m = settings.lander.rotor_diameter_m / 2;
   const double lander_radius_m = settings.lander.radius_m();
-  for (int r = 0; r < g.rows; ++r) {
+  // Rows that the corridor reaches, one too many on each side.
+  const double end_m = length_m * along.x(), aside_m = half_width_m * std::abs(along.y());
+  const double row_of_site = (g.NorthOfRow(0) - site.p_WS.x()) / g.cell_m;
+  const double first_row = row_of_site - (std::max(0.0, end_m) + aside_m) / g.cell_m;
+  const double last_row = row_of_site - (std::min(0.0, end_m) - aside_m) / g.cell_m;
+  const int first = static_cast<int>(std::clamp(std::floor(first_row) - 1, 0.0, g.rows - 1.0));
+  const int last = static_cast<int>(std::clamp(std::ceil(last_row) + 1, 0.0, g.rows - 1.0));
+  for (int r = first; r <= last; ++r) {
     const double north_m = g.NorthOfRow(r) - site.p_WS.x();
     const ColumnRange columns =
         CorridorInRow(g, site.p_WS.y(), along, north_m, length_m, half_width_m);
