@@ -2,6 +2,7 @@
 #include "engine/slad/terrain/raised_surface.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -9,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/slad/slad.h"
+#include "tests/slad/raised_reference.h"
 #include "tests/slad/worlds.h"
 
 namespace palace {
@@ -222,6 +224,32 @@ TEST(RaisedSurface, LeavesTheGroundBesideItAlone) {
       EXPECT_TRUE(roof || std::abs(hazards.slope_rad.at(r, c) - Rad(3)) < 1e-3) << r << ", " << c;
     }
   }
+}
+
+TEST(RaisedSurface, AreThePlainOnes) {
+  int raised = 0;
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    RandomStream random(seed, "raised ground");
+    const int rows = 1 + random.Index(70), cols = 1 + random.Index(90);
+    const double cell_m = std::array{0.07, 0.1, 0.15, 0.4}[std::size_t(seed % 4)];
+    ElevationMap map = testing::RandomGround(rows, cols, cell_m, seed);
+    for (int boxes = random.Index(8); boxes > 0; --boxes) {
+      const Cell corner{random.Index(rows), random.Index(cols)};
+      const int wide = 1 + random.Index(12);
+      const float height_m = float(random.Uniform(0.2, 3));
+      for (int k = 0; k < wide * wide; ++k) {
+        const Cell cell{corner.row + k / wide, corner.col + k % wide};
+        if (map.geometry.Contains(cell)) {
+          map.height_m.at(cell) += height_m;
+        }
+      }
+    }
+    const Grid<std::uint8_t> fast = FindRaisedSurfaces(map),
+                             plain = testing::PlainRaised(map).Run();
+    ASSERT_EQ(fast.cells(), plain.cells()) << seed;
+    raised += int(std::count(fast.cells().begin(), fast.cells().end(), kFlagElevated));
+  }
+  EXPECT_GT(raised, 1000);
 }
 
 }  // namespace

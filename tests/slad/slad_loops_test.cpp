@@ -1,5 +1,6 @@
 #include "engine/slad/hazards/loops/slad_loops.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -89,13 +90,18 @@ Floats Results(const SladLoops& loops, std::uint64_t seed) {
                  d.data() + kMargin},
                 count, most.data());
   keep(most);
-  const int reach = 4, pitch = count + 2 * reach;
+  const int reach = 1 + random.Index(20);
+  const int pitch = (count + kSolveRun) / kSolveRun * kSolveRun + 2 * reach + kLaneSlack;
   std::vector<double> columns(std::size_t(kMoments * pitch)),
-      work(std::size_t(kMoments + 1) * std::size_t(pitch));
-  for (int row = 0; row < 3; ++row) {
-    loops.add_moments(d.data() + row, a.data() + row, c.data() + row, -count / 2, row, 1, count,
-                      pitch, columns.data() + reach);
+      work(std::size_t(kSolveRun + 2 * reach));
+  Floats weight = Random(random, size, 0, 1);
+  std::fill(weight.begin() + count, weight.end(), 0.0F);
+  std::vector<MomentRow> rows;
+  for (int row = 0; row < 4; ++row) {
+    rows.push_back(
+        {weight.data() + row, a.data() + row, c.data() + row, double(row), row == 3 ? -1.0 : 1.0});
   }
+  loops.add_moments(rows.data(), 4, -count / 2, count, pitch, columns.data() + reach);
   Floats fit[6];
   for (Floats& layer : fit) {
     layer.assign(size, 0);
@@ -106,6 +112,12 @@ Floats Results(const SladLoops& loops, std::uint64_t seed) {
   for (const Floats& layer : fit) {
     keep(layer);
   }
+  Floats next = weight;
+  next[2] = NAN;
+  const bool changed = loops.reject_outliers(
+      {weight.data(), a.data(), c.data(), b.data(), d.data()}, count, next.data());
+  keep(next);
+  keep(Floats(size, changed ? 1.0F : 0.0F));
   return all;
 }
 

@@ -40,6 +40,15 @@ inline FloatLanes operator+(FloatLanes a, FloatLanes b) { return {a.v + b.v}; }
 inline FloatLanes operator-(FloatLanes a, FloatLanes b) { return {a.v - b.v}; }
 inline FloatLanes operator*(FloatLanes a, FloatLanes b) { return {a.v * b.v}; }
 inline FloatLanes operator/(FloatLanes a, FloatLanes b) { return {a.v / b.v}; }
+/// a + b to the same bits, by the multiplier where it adds too: Min, Max and + share one pair of
+/// units on AMD Zen (measured: 1 a cycle together, 2 with multiplications between).
+inline FloatLanes AddFused(FloatLanes a, FloatLanes b) {
+#if defined(__AVX512F__)
+  return {_mm512_fmadd_ps(a.v, _mm512_set1_ps(1), b.v)};
+#else
+  return a + b;
+#endif
+}
 /// The second where either is NaN: a < b ? a : b, which compilers do not always take for one
 /// instruction.
 inline FloatLanes Min(FloatLanes a, FloatLanes b) {
@@ -68,7 +77,22 @@ inline FloatLanes Abs(FloatLanes a) {
   const LaneMask::Vector no_sign = LaneMask::Vector{} + 0x7FFFFFFF;
   return {reinterpret_cast<FloatLanes::Vector>(reinterpret_cast<LaneMask::Vector>(a.v) & no_sign)};
 }
+inline FloatLanes SquareRoot(FloatLanes a) {
+#if defined(__AVX512F__)
+  return {_mm512_sqrt_ps(a.v)};
+#elif defined(__AVX2__)
+  return {_mm256_sqrt_ps(a.v)};
+#elif defined(__SSE2__)
+  return {_mm_sqrt_ps(a.v)};
+#else
+  for (int k = 0; k < FloatLanes::kCount; ++k) {
+    a.v[k] = __builtin_sqrtf(a.v[k]);
+  }
+  return a;
+#endif
+}
 inline LaneMask Less(FloatLanes a, FloatLanes b) { return {a.v < b.v}; }
+inline LaneMask Differ(FloatLanes a, FloatLanes b) { return {a.v != b.v}; }  // also of NaN
 inline LaneMask IsNan(FloatLanes a) { return {a.v != a.v}; }
 inline FloatLanes Select(LaneMask mask, FloatLanes yes, FloatLanes no) {
   return {mask.v ? yes.v : no.v};

@@ -1,28 +1,31 @@
 // Robust weighted least-squares planes over the footprint around every cell, by moving sums.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <vector>
-
-#include <opencv2/core.hpp>
 
 #include "engine/slad/hazards/loops/slad_loops.h"
 #include "engine/slad/hazards/plane_fit.h"
+#include "engine/slad/side_by_side.h"
 
 namespace palace {
 namespace {
 
-/// Cells this far off their plane are kept whatever their noise; those farther off by so many
-/// sigmas and shares of the plane's scatter, above it and below it, are not.
-constexpr float kKeep_m = 0.02F;
-constexpr float kKeepSigmas = 3;
-constexpr float kKeepAbove = 0.5F, kKeepBelow = 1.5F;
 constexpr double kLeastHalf_cells = 2;  // of the window: of nine cells no fit is robust
 constexpr int kPasses = 3;
 /// Stereo's windows share their error over about this length: farther cells err by themselves.
 constexpr double kCorrelationLength_m = 0.6;
 /// Sums slide down stripes of so many rows, however many threads share them.
 constexpr int kStripeRows = 32;
+/// Columns whose sums are kept at hand while they slide down.
+constexpr int kTileColumns = 128;
+
+/// A stripe's columns first .. end - 1.
+struct Tile {
+  int first_row, end_row, first, end;
+};
 
 class FootprintFit {
  public:
@@ -33,11 +36,14 @@ class FootprintFit {
         leave_out_(leave_out),
         rows_(map.geometry.rows),
         cols_(map.geometry.cols),
+        tiles_across_((cols_ + kTileColumns - 1) / kTileColumns),
         out_(out),
-        weight_(rows_, cols_, 0.0F),
-        height_m_(rows_, cols_, 0.0F),
-        variance_m2_(rows_, cols_, 0.0F),
-        scatter_m_(rows_, cols_, 0.0F) {
+        full_weight_(rows_, cols_ + kLaneSlack, 0.0F),
+        height_m_(rows_, cols_ + kLaneSlack, 0.0F),
+        variance_m2_(rows_, cols_ + kLaneSlack, 0.0F),
+        plane_m_(rows_, cols_ + kLaneSlack, kUnknownValue),
+        scatter_m_(rows_, cols_ + kLaneSlack, 0.0F),
+        changed_(rows_, tiles_across_, 1) {
     // Half side of the square with the circle's area, in whole cells; wider than the map is the
     // whole map.
     const double side = diameter_m * std::sqrt(M_PI) / 2 / map.geometry.cell_m;
@@ -60,114 +66,141 @@ class FootprintFit {
         if (Counts(r, c)) {
           height_m_.at(r, c) = map.height_m.at(r, c) - reference_m_;
           variance_m2_.at(r, c) = map.variance_m2.at(r, c);
-          weight_.at(r, c) = FullWeight(r, c);
+          full_weight_.at(r, c) = FullWeight(variance_m2_.at(r, c));
         }
       }
     }
+    weight_ = full_weight_;
   }
 
-  int stripes() const { return (rows_ + kStripeRows - 1) / kStripeRows; }
+  int tiles() const { return tiles_across_ * ((rows_ + kStripeRows - 1) / kStripeRows); }
 
-  /// One pass over a stripe; leaves heights above the reference and gradients per cell. Sums of
-  /// columns slide down the stripe; along each row the window adds those sums up.
-  void Solve(int stripe) {
-    const int first = FirstRow(stripe);
-    const int pitch = cols_ + 2 * half_;
-    const auto moments = [&](int count) { return static_cast<std::size_t>(count * pitch); };
-    std::vector<double> columns(moments(kMoments), 0.0), work(moments(kMoments + 1));
+  /// One pass over a tile; leaves heights above the reference and gradients per cell. Sums of
+  /// columns slide down the stripe; along each row the window adds those sums up. Where no weight
+  /// has changed since the pass before, sums and planes are the same: they stay.
+  void Solve(int index) {
+    const Tile tile = At(index);
+    const int first_new = FirstChanged(tile) - half_;
+    if (first_new >= tile.end_row) {
+      return;
+    }
+    const int west = std::max(0, tile.first - half_), east = std::min(cols_, tile.end + half_);
+    const int width = tile.end - tile.first;
+    const int pitch = (width + kSolveRun - 1) / kSolveRun * kSolveRun + 2 * half_ + kLaneSlack;
+    std::vector<double> columns(static_cast<std::size_t>(kMoments * pitch), 0.0);
+    std::vector<double> work(static_cast<std::size_t>(kSolveRun + 2 * half_));
     double* middle = columns.data() + half_;
-    const auto add = [&](int r, double sign) {
+    std::vector<MomentRow> rows;
+    const auto take = [&](int r, double sign) {
       if (r >= 0 && r < rows_) {
-        loops_.add_moments(weight_.row(r), height_m_.row(r), variance_m2_.row(r), -cols_ / 2,
-                           r - rows_ / 2, sign, cols_, pitch, middle);
+        rows.push_back({weight_.row(r) + west, height_m_.row(r) + west, variance_m2_.row(r) + west,
+                        static_cast<double>(r - rows_ / 2), sign});
       }
     };
-    for (int r = first - half_; r < first + half_; ++r) {
-      add(r, 1);
+    for (int r = tile.first_row - half_; r < tile.first_row + half_; ++r) {
+      take(r, 1);
     }
-    for (int r = first; r < EndRow(stripe); ++r) {
-      add(r + half_, 1);
-      if (r > first) {
-        add(r - half_ - 1, -1);
+    for (int r = tile.first_row; r < tile.end_row; ++r) {
+      take(r + half_, 1);
+      if (r > tile.first_row) {
+        take(r - half_ - 1, -1);
       }
-      loops_.solve_moments(middle, pitch, half_, -cols_ / 2, r - rows_ / 2, cols_, work.data(),
-                           {out_.plane.height_m.row(r), out_.plane.east_gradient.row(r),
-                            out_.plane.north_gradient.row(r), scatter_m_.row(r),
-                            out_.gradient_sigma.row(r), out_.cell_variance_m2.row(r)});
+      loops_.add_moments(rows.data(), static_cast<int>(rows.size()), west - cols_ / 2, east - west,
+                         pitch, middle + west - tile.first);
+      rows.clear();
+      if (r >= first_new) {
+        const auto at = [&](GridF& layer) { return layer.row(r) + tile.first; };
+        loops_.solve_moments(
+            middle, pitch, half_, tile.first - cols_ / 2, r - rows_ / 2, width, work.data(),
+            {at(plane_m_), at(out_.plane.east_gradient), at(out_.plane.north_gradient),
+             at(scatter_m_), at(out_.gradient_sigma), at(out_.cell_variance_m2)});
+      }
     }
   }
   /// Between two passes.
-  void RejectOutliers(int stripe) {
-    for (int r = FirstRow(stripe); r < EndRow(stripe); ++r) {
-      for (int c = 0; c < cols_; ++c) {
-        const float plane_m = out_.plane.height_m.at(r, c), scatter_m = scatter_m_.at(r, c);
-        if (!Counts(r, c) || std::isnan(plane_m)) {
-          continue;
-        }
-        const float off_m = height_m_.at(r, c) - plane_m;
-        const float keep_m = kKeepSigmas * std::sqrt(variance_m2_.at(r, c)) + kKeep_m;
-        // An obstacle lifts the plane of the ground beside it: ground then lies far below its own
-        // plane and must stay, the obstacle stands above it and must go.
-        const bool outlier =
-            off_m > keep_m + kKeepAbove * scatter_m || off_m < -keep_m - kKeepBelow * scatter_m;
-        weight_.at(r, c) = outlier ? 0.0F : FullWeight(r, c);
-      }
+  void RejectOutliers(int index) {
+    const Tile tile = At(index);
+    for (int r = tile.first_row; r < tile.end_row; ++r) {
+      const auto at = [&](const GridF& layer) { return layer.row(r) + tile.first; };
+      changed_.at(r, tile.first / kTileColumns) = loops_.reject_outliers(
+          {at(full_weight_), at(height_m_), at(variance_m2_), at(plane_m_), at(scatter_m_)},
+          tile.end - tile.first, weight_.row(r) + tile.first);
     }
   }
   /// After the last pass: heights and gradients in metres.
-  void Finish(int stripe) {
+  void Finish(int index) {
+    const Tile tile = At(index);
     const double cell = map_.geometry.cell_m;
     const float cell_m = static_cast<float>(cell);
     // The loops take kCorrelatedCells for granted.
     const double correlated =
         std::clamp(std::pow(kCorrelationLength_m / cell, 2), 1.0, kCorrelatedCells);
     const float sigma_scale = static_cast<float>(std::sqrt(correlated / kCorrelatedCells)) / cell_m;
-    for (int r = FirstRow(stripe); r < EndRow(stripe); ++r) {
-      for (int c = 0; c < cols_; ++c) {
-        float& height_m = out_.plane.height_m.at(r, c);
-        float& south_then_north = out_.plane.north_gradient.at(r, c);
-        out_.plane.residual_m.at(r, c) = (map_.height_m.at(r, c) - reference_m_) - height_m;
-        height_m += reference_m_;
-        out_.plane.east_gradient.at(r, c) /= cell_m;
-        south_then_north /= -cell_m;
-        out_.gradient_sigma.at(r, c) *= sigma_scale;
+    for (int r = tile.first_row; r < tile.end_row; ++r) {
+      const float* measured_m = map_.height_m.row(r);
+      const float* plane_m = plane_m_.row(r);
+      float* height_m = out_.plane.height_m.row(r);
+      float* residual_m = out_.plane.residual_m.row(r);
+      float* east = out_.plane.east_gradient.row(r);
+      float* south_then_north = out_.plane.north_gradient.row(r);
+      float* sigma = out_.gradient_sigma.row(r);
+      for (int c = tile.first; c < tile.end; ++c) {
+        residual_m[c] = (measured_m[c] - reference_m_) - plane_m[c];
+        height_m[c] = plane_m[c] + reference_m_;
+        east[c] /= cell_m;
+        south_then_north[c] /= -cell_m;
+        sigma[c] *= sigma_scale;
       }
     }
   }
 
  private:
-  static int FirstRow(int stripe) { return stripe * kStripeRows; }
-  int EndRow(int stripe) const { return std::min(rows_, FirstRow(stripe + 1)); }
+  Tile At(int index) const {
+    const int row = index / tiles_across_ * kStripeRows, col = index % tiles_across_ * kTileColumns;
+    return {row, std::min(rows_, row + kStripeRows), col, std::min(cols_, col + kTileColumns)};
+  }
   bool Counts(int r, int c) const {
     return map_.state.at(r, c) == CellState::kMeasured &&
            (leave_out_ == nullptr || (leave_out_->at(r, c) & kFlagElevated) == 0);
   }
-  float FullWeight(int r, int c) const {
+  static float FullWeight(float variance_m2) {
     constexpr float kFloor = static_cast<float>(kVarianceFloor_m2);
-    return kFloor / (variance_m2_.at(r, c) + kFloor);
+    return kFloor / (variance_m2 + kFloor);
+  }
+  /// The first row that the tile's sums reach, from its first stripe on, where a weight has
+  /// changed; far below the map when none has.
+  int FirstChanged(const Tile& tile) const {
+    const int west = std::max(0, tile.first - half_) / kTileColumns;
+    const int east = (std::min(cols_, tile.end + half_) - 1) / kTileColumns;
+    const int end = std::min(rows_, tile.end_row + half_);
+    for (int r = std::max(0, tile.first_row - half_); r < end; ++r) {
+      const std::uint8_t* changed = changed_.row(r);
+      if (std::any_of(changed + west, changed + east + 1, [](std::uint8_t c) { return c != 0; })) {
+        return r;
+      }
+    }
+    return end + half_;
   }
 
   const ElevationMap& map_;
   const Grid<std::uint8_t>* leave_out_;
-  int rows_, cols_;
+  int rows_, cols_, tiles_across_;
   FootprintPlanes& out_;
   int half_ = 1;
   float reference_m_ = 0;
-  GridF weight_, height_m_, variance_m2_, scatter_m_;
+  GridF full_weight_, weight_, height_m_, variance_m2_;  ///< kLaneSlack wider; 0: no ground
+  GridF plane_m_, scatter_m_;
+  Grid<std::uint8_t> changed_;  ///< a weight of a row of a tile, since the pass before
   const SladLoops& loops_ = FastestSladLoops();
 };
 
-/// Passes of several fits over one map, their stripes side by side: a map of few stripes keeps all
-/// threads busy that way.
-void Run(std::vector<FootprintFit>& fits) {
-  const int stripes = fits.front().stripes();
+/// Passes of the fits over one map, their tiles side by side: a map of few tiles keeps all threads
+/// busy that way. The second is there where something is raised.
+void Run(FootprintFit& first, FootprintFit* second) {
+  const int tiles = first.tiles();
   const auto in_all = [&](void (FootprintFit::*step)(int)) {
-    const int jobs = stripes * static_cast<int>(fits.size());
-    cv::parallel_for_(cv::Range(0, jobs), [&](const cv::Range& range) {
-      for (int job = range.start; job < range.end; ++job) {
-        (fits[static_cast<std::size_t>(job / stripes)].*step)(job % stripes);
-      }
-    });
+    ForEach(second != nullptr ? 2 * tiles : tiles,
+            [&](int job) { ((job < tiles ? first : *second).*step)(job % tiles); });
   };
   in_all(&FootprintFit::Solve);
   for (int pass = 1; pass < kPasses; ++pass) {
@@ -178,24 +211,32 @@ void Run(std::vector<FootprintFit>& fits) {
 }
 
 FootprintPlanes UnknownPlanes(const GridGeometry& geometry) {
-  const GridF unknown(geometry.rows, geometry.cols, kUnknownValue);
-  return {{unknown, unknown, unknown, unknown}, unknown, unknown};
+  const auto unknown = [&] { return GridF(geometry.rows, geometry.cols, kUnknownValue); };
+  return {{unknown(), unknown(), unknown(), unknown()}, unknown(), unknown()};
 }
 
 /// Beside a raised surface the ground keeps its own plane, wherever it spans one.
 void PreferGroundPlanes(const FootprintPlanes& ground, const Grid<std::uint8_t>& flags,
                         FootprintPlanes& planes) {
-  for (std::size_t i = 0; i < flags.cells().size(); ++i) {
-    if ((flags.cells()[i] & kFlagElevated) != 0 || std::isnan(ground.plane.height_m.cells()[i])) {
-      continue;
-    }
-    planes.plane.height_m.cells()[i] = ground.plane.height_m.cells()[i];
-    planes.plane.residual_m.cells()[i] = ground.plane.residual_m.cells()[i];
-    planes.plane.north_gradient.cells()[i] = ground.plane.north_gradient.cells()[i];
-    planes.plane.east_gradient.cells()[i] = ground.plane.east_gradient.cells()[i];
-    planes.gradient_sigma.cells()[i] = ground.gradient_sigma.cells()[i];
-    planes.cell_variance_m2.cells()[i] = ground.cell_variance_m2.cells()[i];
-  }
+  const PlaneMaps& from = ground.plane;
+  PlaneMaps& to = planes.plane;
+  ForEach(flags.rows(), [&](int r) {
+    const std::uint8_t* flag = flags.row(r);
+    const float* known_m = from.height_m.row(r);
+    const auto prefer = [&](const GridF& of_ground, GridF& layer) {
+      for (int c = 0; c < flags.cols(); ++c) {
+        if ((flag[c] & kFlagElevated) == 0 && !std::isnan(known_m[c])) {
+          layer.at(r, c) = of_ground.at(r, c);
+        }
+      }
+    };
+    prefer(from.height_m, to.height_m);
+    prefer(from.residual_m, to.residual_m);
+    prefer(from.north_gradient, to.north_gradient);
+    prefer(from.east_gradient, to.east_gradient);
+    prefer(ground.gradient_sigma, planes.gradient_sigma);
+    prefer(ground.cell_variance_m2, planes.cell_variance_m2);
+  });
 }
 
 }  // namespace
@@ -207,15 +248,19 @@ FootprintPlanes FitFootprintPlanes(const ElevationMap& map, double footprint_dia
   }
   const bool any_raised = std::any_of(flags.cells().begin(), flags.cells().end(),
                                       [](std::uint8_t f) { return (f & kFlagElevated) != 0; });
-  FootprintPlanes planes = UnknownPlanes(map.geometry), ground;
-  std::vector<FootprintFit> fits;
-  fits.reserve(2);
-  fits.emplace_back(map, footprint_diameter_m, nullptr, planes);
-  if (any_raised) {
-    ground = UnknownPlanes(map.geometry);
-    fits.emplace_back(map, footprint_diameter_m, &flags, ground);
-  }
-  Run(fits);
+  FootprintPlanes planes, ground;
+  std::optional<FootprintFit> fit, fit_of_ground;
+  SideBySide({[&] {
+                planes = UnknownPlanes(map.geometry);
+                fit.emplace(map, footprint_diameter_m, nullptr, planes);
+              },
+              [&] {
+                if (any_raised) {
+                  ground = UnknownPlanes(map.geometry);
+                  fit_of_ground.emplace(map, footprint_diameter_m, &flags, ground);
+                }
+              }});
+  Run(*fit, any_raised ? &*fit_of_ground : nullptr);
   if (any_raised) {
     PreferGroundPlanes(ground, flags, planes);
   }

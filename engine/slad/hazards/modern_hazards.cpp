@@ -1,15 +1,15 @@
 // Modern mode: footprint plane, deviations and steps beyond their noise.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <vector>
-
-#include <opencv2/core.hpp>
 
 #include "engine/slad/hazards/hazard_layers.h"
 #include "engine/slad/hazards/loops/slad_loops.h"
 #include "engine/slad/hazards/plane_fit.h"
 #include "engine/slad/hazards/touchdown.h"
+#include "engine/slad/side_by_side.h"
 
 namespace palace {
 namespace {
@@ -21,38 +21,30 @@ constexpr int kMostOffsets = 24;
 
 float BeyondNoise(float square) { return square > 0 ? std::sqrt(square) : 0.0F; }
 
-/// Rows of a stage shared among OpenCV's threads, each row computed the same whoever does it.
-template <typename RowWork>
-void ForRows(int rows, RowWork work) {
-  cv::parallel_for_(cv::Range(0, rows), [&](const cv::Range& range) {
-    for (int r = range.start; r < range.end; ++r) {
-      work(r);
-    }
-  });
-}
-
 /// A layer with a rim, readable `rim` cells beyond the map on every side.
 class RimmedLayer {
  public:
+  RimmedLayer() = default;
   RimmedLayer(int rows, int cols, int rim, float fill)
       : rim_(rim), grid_(rows + 2 * rim, cols + 2 * rim + kLaneSlack, fill) {}
   float* row(int r) { return grid_.row(r + rim_) + rim_; }
   const float* row(int r) const { return grid_.row(r + rim_) + rim_; }
 
  private:
-  int rim_;
+  int rim_ = 0;
   GridF grid_;
 };
 
 /// Working layers, heights relative to a reference so that floats keep their digits.
 struct Layers {
-  Layers(int rows, int cols, int rim)
-      : height(rows, cols, rim, 0.0F),
-        noise2(rows, cols, rim, kBeyondHeights),
-        step2(rows, cols, rim, -kBeyondHeights),
-        plane(rows, cols, 1, 0.0F),
-        east(rows, cols, 0, 0.0F),
-        south(rows, cols, 0, 0.0F) {}
+  Layers(int rows, int cols, int rim) {
+    SideBySide({[&] { height = RimmedLayer(rows, cols, rim, 0.0F); },
+                [&] { noise2 = RimmedLayer(rows, cols, rim, kBeyondHeights); },
+                [&] { step2 = RimmedLayer(rows, cols, rim, -kBeyondHeights); },
+                [&] { plane = RimmedLayer(rows, cols, 1, 0.0F); },
+                [&] { east = RimmedLayer(rows, cols, 0, 0.0F); },
+                [&] { south = RimmedLayer(rows, cols, 0, 0.0F); }});
+  }
 
   RimmedLayer height;  ///< 0 where not measured
   RimmedLayer noise2;  ///< 16 sigma^2, kBeyondHeights where not measured
@@ -74,17 +66,25 @@ float ReferenceOf(const FootprintPlanes& planes) {
 void FillLayers(const ElevationMap& map, const FootprintPlanes& planes, float reference,
                 Layers& layers) {
   const float cell = static_cast<float>(map.geometry.cell_m);
-  ForRows(map.geometry.rows, [&](int r) {
-    for (int c = 0; c < map.geometry.cols; ++c) {
-      if (map.state.at(r, c) == CellState::kMeasured) {
-        layers.height.row(r)[c] = map.height_m.at(r, c) - reference;
-        layers.noise2.row(r)[c] = kNoise2 * map.variance_m2.at(r, c);
-      }
-      if (!std::isnan(planes.plane.height_m.at(r, c))) {
-        layers.plane.row(r)[c] = planes.plane.height_m.at(r, c) - reference;
-        layers.east.row(r)[c] = planes.plane.east_gradient.at(r, c) * cell;
-        layers.south.row(r)[c] = -planes.plane.north_gradient.at(r, c) * cell;
-      }
+  const int cols = map.geometry.cols;
+  ForEach(map.geometry.rows, [&](int r) {
+    const CellState* state = map.state.row(r);
+    const float *height_m = map.height_m.row(r), *variance_m2 = map.variance_m2.row(r);
+    float *height = layers.height.row(r), *noise2 = layers.noise2.row(r);
+    for (int c = 0; c < cols; ++c) {
+      const bool measured = state[c] == CellState::kMeasured;
+      height[c] = measured ? height_m[c] - reference : 0.0F;
+      noise2[c] = measured ? kNoise2 * variance_m2[c] : kBeyondHeights;
+    }
+    const float* plane_m = planes.plane.height_m.row(r);
+    const float* east_gradient = planes.plane.east_gradient.row(r);
+    const float* north_gradient = planes.plane.north_gradient.row(r);
+    float *plane = layers.plane.row(r), *east = layers.east.row(r), *south = layers.south.row(r);
+    for (int c = 0; c < cols; ++c) {
+      const bool spanned = !std::isnan(plane_m[c]);
+      plane[c] = spanned ? plane_m[c] - reference : 0.0F;
+      east[c] = spanned ? east_gradient[c] * cell : 0.0F;
+      south[c] = spanned ? -north_gradient[c] * cell : 0.0F;
     }
   });
 }
@@ -93,7 +93,7 @@ void FillLayers(const ElevationMap& map, const FootprintPlanes& planes, float re
 void FindSteps(const GridGeometry& geometry, Layers& layers, GridF& step_at_cell_m) {
   const SladLoops& loops = FastestSladLoops();
   const int cols = geometry.cols;
-  ForRows(geometry.rows, [&](int r) {
+  ForEach(geometry.rows, [&](int r) {
     std::vector<float> at_cell2(static_cast<std::size_t>(cols + kLaneSlack));
     loops.steps({{layers.height.row(r - 1), layers.height.row(r), layers.height.row(r + 1)},
                  {layers.noise2.row(r - 1), layers.noise2.row(r), layers.noise2.row(r + 1)},
@@ -125,10 +125,11 @@ struct Disc {
 
 /// Heights of all cells that have one, less their noise: what the gear is put down on.
 struct Denoised {
-  Denoised(int rows, int cols, int rim)
-      : height(rows, cols, 0, 0.0F),
-        measured(rows, cols, rim, kUnknownValue),
-        known(rows, cols, 0.0F) {}
+  Denoised(int rows, int cols, int rim) {
+    SideBySide({[&] { height = RimmedLayer(rows, cols, 0, 0.0F); },
+                [&] { measured = RimmedLayer(rows, cols, rim, kUnknownValue); },
+                [&] { known = GridF(rows, cols, 0.0F); }});
+  }
   RimmedLayer height;    ///< 0 where not known
   RimmedLayer measured;  ///< the same where measured, NaN elsewhere
   GridF known;           ///< 1 or 0
@@ -139,7 +140,7 @@ void DenoiseHeights(const ElevationMap& map, const FootprintPlanes& planes, floa
   const SladLoops& loops = FastestSladLoops();
   const int rows = map.geometry.rows, cols = map.geometry.cols;
   RimmedLayer height(rows, cols, 1, 0.0F), known(rows, cols, 1, 0.0F);
-  ForRows(rows, [&](int r) {
+  ForEach(rows, [&](int r) {
     for (int c = 0; c < cols; ++c) {
       const float z = map.height_m.at(r, c);
       if (!std::isnan(z) && !std::isnan(planes.plane.height_m.at(r, c))) {
@@ -148,7 +149,7 @@ void DenoiseHeights(const ElevationMap& map, const FootprintPlanes& planes, floa
       }
     }
   });
-  ForRows(rows, [&](int r) {
+  ForEach(rows, [&](int r) {
     loops.denoise({{height.row(r - 1), height.row(r), height.row(r + 1)},
                    {known.row(r - 1), known.row(r), known.row(r + 1)},
                    layers.plane.row(r),
@@ -169,7 +170,7 @@ void FindFootprintMaxima(const GridGeometry& geometry, const Disc& disc, const L
                          const Denoised& denoised, TerrainFigures& figures) {
   const SladLoops& loops = FastestSladLoops();
   const int cols = geometry.cols;
-  ForRows(geometry.rows, [&](int r) {
+  ForEach(geometry.rows, [&](int r) {
     const std::size_t padded = static_cast<std::size_t>(cols + kLaneSlack);
     std::vector<float> deviation2(padded, -kBeyondHeights), step2(padded, -kBeyondHeights);
     std::vector<float> denoised_off(padded, 0.0F);
@@ -203,7 +204,7 @@ void FindFootprintMaxima(const GridGeometry& geometry, const Disc& disc, const L
 void MeasureGearTilt(const GridGeometry& geometry, const Denoised& denoised, const Lander& lander,
                      TerrainFigures& figures) {
   GridF height_m(geometry.rows, geometry.cols, kUnknownValue);
-  ForRows(geometry.rows, [&](int r) {
+  ForEach(geometry.rows, [&](int r) {
     for (int c = 0; c < geometry.cols; ++c) {
       if (denoised.known.at(r, c) > 0) {
         height_m.at(r, c) = denoised.height.row(r)[c];
@@ -211,7 +212,7 @@ void MeasureGearTilt(const GridGeometry& geometry, const Denoised& denoised, con
     }
   });
   const GearOverMap gear(height_m, geometry.cell_m, lander);
-  ForRows(geometry.rows, [&](int r) {
+  ForEach(geometry.rows, [&](int r) {
     gear.WorstOfRow(r, figures.gear_tilt_rad.row(r), figures.belly_rise_m.row(r));
   });
 }
@@ -224,7 +225,7 @@ void FindCellFigures(const ElevationMap& map, const Lander& lander, const Footpr
   const float averaging =
       static_cast<float>(1 / std::sqrt(std::max(1.0, rock_cells / kCorrelatedCells)));
   const float attitude2 = static_cast<float>(map.attitude_sigma_rad * map.attitude_sigma_rad);
-  ForRows(map.geometry.rows, [&](int r) {
+  ForEach(map.geometry.rows, [&](int r) {
     for (int c = 0; c < map.geometry.cols; ++c) {
       const CellState state = map.state.at(r, c);
       figures.measured.at(r, c) = state == CellState::kMeasured ? 1 : 0;
@@ -254,11 +255,14 @@ void FindCellFigures(const ElevationMap& map, const Lander& lander, const Footpr
 
 void MeasureModern(const ElevationMap& map, const Lander& lander, TerrainFigures& figures) {
   const int rows = map.geometry.rows, cols = map.geometry.cols;
-  const GridF unknown(rows, cols, kUnknownValue);
-  figures.north_gradient = figures.east_gradient = figures.slope_sigma_rad = unknown;
-  figures.deviation_m = figures.sigma_m = figures.step_m = unknown;
-  figures.footprint_deviation_m = figures.footprint_step_m = figures.footprint_sigma_m = unknown;
-  figures.denoised_deviation_m = figures.gear_tilt_rad = figures.belly_rise_m = unknown;
+  const std::array layers_of_figures = {
+      &figures.north_gradient,        &figures.east_gradient,    &figures.slope_sigma_rad,
+      &figures.deviation_m,           &figures.sigma_m,          &figures.step_m,
+      &figures.footprint_deviation_m, &figures.footprint_step_m, &figures.footprint_sigma_m,
+      &figures.denoised_deviation_m,  &figures.gear_tilt_rad,    &figures.belly_rise_m};
+  ForEach(static_cast<int>(layers_of_figures.size()), [&](int i) {
+    *layers_of_figures[static_cast<std::size_t>(i)] = GridF(rows, cols, kUnknownValue);
+  });
   figures.measured = Grid<std::uint8_t>(rows, cols, 0);
   const FootprintPlanes planes = FitFootprintPlanes(map, lander.base_size_m, figures.flags);
   const Disc disc(std::max(kLeastDisc_cells, lander.radius_m() / map.geometry.cell_m));

@@ -143,21 +143,18 @@ void GearOverMap::LayOut(const Lander& lander, double cell_m) {
         if (std::abs(n * north + e * east) <= length_m / 2 &&
             std::abs(e * north - n * east) <= width_m / 2) {
           if (row.cells == 0) {
-            row = {r * pitch + c,
-                   0,
-                   stride_,
-                   static_cast<float>(n),
-                   static_cast<float>(e),
-                   static_cast<float>(stride_ * cell_m)};
+            row = {r * pitch + c, 0, stride_, static_cast<float>(n), static_cast<float>(e)};
           }
           ++row.cells;
         }
       }
       if (row.cells > 0) {
+        heading.most_belly_cells = std::max(heading.most_belly_cells, row.cells);
         belly.push_back(row);
       }
     }
     heading.belly_rows = static_cast<int>(belly.size());
+    heading.belly_step_m = static_cast<float>(stride_ * cell_m);
     heading.belly = belly.data();
   }
   const Eigen::Vector3d up_W = lander.up_W();

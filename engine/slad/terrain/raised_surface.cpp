@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "engine/slad/hazards/loops/slad_loops.h"
+#include "engine/slad/side_by_side.h"
 
 namespace palace {
 namespace {
@@ -23,6 +24,7 @@ constexpr double kRimReach_m = 0.3;
 constexpr double kLeastDropShare = 0.6;
 constexpr double kLeastSeenShare = 0.4;
 
+constexpr int kColumnsTogether = 64;
 constexpr float kHigh = std::numeric_limits<float>::infinity();
 
 /// Largest over the square of half width `half`; negative infinities do not count. Along the rows,
@@ -30,26 +32,31 @@ constexpr float kHigh = std::numeric_limits<float>::infinity();
 void SquareMaximum(int half, GridF& cells) {
   const SladLoops& loops = FastestSladLoops();
   const int rows = cells.rows(), cols = cells.cols(), width = 2 * half + 1;
-  std::vector<float> line(static_cast<std::size_t>(cols + 2 * half), -kHigh);
-  std::vector<float> work(line.size());
   GridF tall(rows + 2 * half, cols, -kHigh);
-  for (int r = 0; r < rows; ++r) {
+  ForEach(rows, [&](int r) {
+    std::vector<float> line(static_cast<std::size_t>(cols + 2 * half), -kHigh);
+    std::vector<float> work(line.size());
     std::copy_n(cells.row(r), cols, line.data() + half);
     loops.window_maximum(line.data() + half, half, cols, work.data(), tall.row(r + half));
-  }
-  const auto merge = [&](const float* from, float* into) {
-    loops.window_maximum(from, 0, cols, work.data(), into);
-  };
-  int run = 1;
-  for (; 2 * run <= width; run *= 2) {
-    for (int k = 0; k < rows + 2 * half - 2 * run + 1; ++k) {
-      merge(tall.row(k + run), tall.row(k));
+  });
+  ForEach((cols + kColumnsTogether - 1) / kColumnsTogether, [&](int stripe) {
+    const int first = stripe * kColumnsTogether, count = std::min(kColumnsTogether, cols - first);
+    const auto merge = [&](const float* from, float* into) {
+      for (int c = first; c < first + count; ++c) {
+        into[c] = into[c] > from[c] ? into[c] : from[c];
+      }
+    };
+    int run = 1;
+    for (; 2 * run <= width; run *= 2) {
+      for (int k = 0; k < rows + 2 * half - 2 * run + 1; ++k) {
+        merge(tall.row(k + run), tall.row(k));
+      }
     }
-  }
-  for (int r = 0; r < rows; ++r) {
-    std::copy_n(tall.row(r), cols, cells.row(r));
-    merge(tall.row(r + width - run), cells.row(r));
-  }
+    for (int r = 0; r < rows; ++r) {
+      std::copy_n(tall.row(r) + first, count, cells.row(r) + first);
+      merge(tall.row(r + width - run), cells.row(r));
+    }
+  });
 }
 
 /// Opening: least, then largest of the least. Infinite heights are unknown and stay so.
@@ -87,23 +94,32 @@ CoarseMap Coarsened(const ElevationMap& map) {
   const int coarse_cols = (cols + coarse.block - 1) / coarse.block;
   coarse.surface = GridF(coarse_rows, coarse_cols, -kHigh);
   coarse.noise_m = GridF(coarse_rows, coarse_cols, 0);
-  for (int r = 0; r < rows; ++r) {
-    for (int c = 0; c < cols; ++c) {
-      if (map.state.at(r, c) == CellState::kMeasured && std::isfinite(map.Measured().at(r, c))) {
-        // The highest, so that a surface that ends inside a coarse cell loses its whole height in
-        // one opening.
-        float& highest = coarse.surface.at(r / coarse.block, c / coarse.block);
-        if (map.Measured().at(r, c) > highest) {
-          highest = map.Measured().at(r, c);
-          coarse.noise_m.at(r / coarse.block, c / coarse.block) =
-              kSigmas * std::sqrt(map.variance_m2.at(r, c));
+  ForEach(coarse_rows, [&](int coarse_row) {
+    float* highest_m = coarse.surface.row(coarse_row);
+    float* noise_m = coarse.noise_m.row(coarse_row);  // the variance first
+    const int end = std::min(rows, (coarse_row + 1) * coarse.block);
+    for (int r = coarse_row * coarse.block; r < end; ++r) {
+      const float* height_m = map.Measured().row(r);
+      const float* variance_m2 = map.variance_m2.row(r);
+      const CellState* state = map.state.row(r);
+      for (int at = 0, c = 0; at < coarse_cols; ++at) {
+        const int last = std::min(cols, c + coarse.block);
+        for (; c < last; ++c) {
+          // The highest, so that a surface that ends inside a coarse cell loses its whole height in
+          // one opening. Infinite heights are not known.
+          const bool higher = state[c] == CellState::kMeasured && height_m[c] > highest_m[at] &&
+                              height_m[c] < kHigh;
+          highest_m[at] = higher ? height_m[c] : highest_m[at];
+          noise_m[at] = higher ? variance_m2[c] : noise_m[at];
         }
       }
     }
-  }
-  for (float& height : coarse.surface.cells()) {
-    height = height == -kHigh ? kHigh : height;
-  }
+    for (int at = 0; at < coarse_cols; ++at) {
+      const bool known = highest_m[at] > -kHigh;
+      noise_m[at] = known ? kSigmas * std::sqrt(noise_m[at]) : 0;
+      highest_m[at] = known ? highest_m[at] : kHigh;
+    }
+  });
   return coarse;
 }
 
@@ -149,14 +165,19 @@ GridF GroundUnderCandidates(CoarseMap& coarse) {
 Grid<std::uint8_t> Candidates(const ElevationMap& map, const CoarseMap& coarse,
                               const GridF& ground) {
   Grid<std::uint8_t> candidates(map.geometry.rows, map.geometry.cols, 0);
-  for (int r = 0; r < candidates.rows(); ++r) {
-    for (int c = 0; c < candidates.cols(); ++c) {
-      const float low = ground.at(r / coarse.block, c / coarse.block);
-      const bool above =
-          map.state.at(r, c) == CellState::kMeasured && map.Measured().at(r, c) - low > kLeastRise_m;
-      candidates.at(r, c) = above ? 1 : 0;
+  ForEach(candidates.rows(), [&](int r) {
+    const float* low_m = ground.row(r / coarse.block);
+    const float* height_m = map.Measured().row(r);
+    const CellState* state = map.state.row(r);
+    std::uint8_t* candidate = candidates.row(r);
+    for (int at = 0, c = 0; at < ground.cols(); ++at) {
+      const int last = std::min(candidates.cols(), c + coarse.block);
+      for (; c < last; ++c) {
+        const bool above = height_m[c] - low_m[at] > kLeastRise_m;
+        candidate[c] = above && state[c] == CellState::kMeasured ? 1 : 0;
+      }
     }
-  }
+  });
   return candidates;
 }
 

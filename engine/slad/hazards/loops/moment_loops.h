@@ -1,81 +1,76 @@
 // Weighted least-squares planes over a square window around each cell of a row, by moving sums.
 // Included by slad_loops_table.h only. Plain loops for the compiler to
-// vectorise: one moment after another, columns side by side.
+// vectorise, columns side by side.
 #pragma once
 
+#include "engine/core/lanes/double_lanes.h"
+#include "engine/core/lanes/float_lanes.h"
 #include "engine/slad/hazards/loops/slad_loops.h"
+#include "engine/slad/hazards/loops/window_sum_loops.h"
 
 namespace palace {
 namespace {
 
-void AddMomentsRow(const float* weight, const float* height, const float* variance, int x0,
-                   double y, double sign, int count, int pitch, double* columns) {
-  double* __restrict__ m[kMoments];
-  for (int k = 0; k < kMoments; ++k) {
-    m[k] = columns + k * pitch;
-  }
-  double* __restrict__ m0 = m[0];
-  double* __restrict__ mx = m[1];
-  double* __restrict__ my = m[2];
-  double* __restrict__ mxx = m[3];
-  double* __restrict__ mxy = m[4];
-  double* __restrict__ myy = m[5];
-  double* __restrict__ mz = m[6];
-  double* __restrict__ mxz = m[7];
-  double* __restrict__ myz = m[8];
-  double* __restrict__ mzz = m[9];
-  double* __restrict__ mn = m[10];
-  double* __restrict__ mv = m[11];
-  for (int c = 0; c < count; ++c) {
-    const double x = c + x0;
-    const double one = weight[c] > 0 ? sign : 0;
-    const double w = sign * static_cast<double>(weight[c]);
-    const double z = static_cast<double>(height[c]);
-    const double wx = w * x, wy = w * y, wz = w * z;
-    m0[c] += w;
-    mx[c] += wx;
-    my[c] += wy;
-    mxx[c] += wx * x;
-    mxy[c] += wx * y;
-    myy[c] += wy * y;
-    mz[c] += wz;
-    mxz[c] += wz * x;
-    myz[c] += wz * y;
-    mzz[c] += wz * z;
-    mn[c] += one;
-    mv[c] += one * static_cast<double>(variance[c]);
-  }
-}
+/// Cells this far off their plane are kept whatever their noise; those farther off by so many
+/// sigmas and shares of the plane's scatter, above it and below it, are not.
+constexpr float kKeep_m = 0.02F;
+constexpr float kKeepSigmas = 3;
+constexpr float kKeepAbove = 0.5F, kKeepBelow = 1.5F;
 
-/// sums[c] = columns[c - half] + .. + columns[c + half], from runs of 1, 2, 4 .. columns.
-inline void WindowSums(const double* columns, int half, int count, double* __restrict__ work,
-                       double* __restrict__ sums) {
-  const int length = count + 2 * half, width = 2 * half + 1;
-  const double* single = columns - half;
-  // The width is odd.
-  for (int c = 0; c < count; ++c) {
-    sums[c] = single[c];
+/// Each column's sums stay in registers while its rows are added, one after the other.
+void AddMomentRows(const MomentRow* rows, int row_count, int x0, int count, int pitch,
+                   double* columns) {
+  DoubleLanes lanes_from_0{};
+  for (int k = 0; k < DoubleLanes::kCount; ++k) {
+    lanes_from_0.v[k] = k;
   }
-  for (int k = 0; k + 2 <= length; ++k) {
-    work[k] = single[k] + single[k + 1];
-  }
-  int offset = 1;
-  for (int run = 2; run <= width; run *= 2) {
-    if ((width & run) != 0) {
-      for (int c = 0; c < count; ++c) {
-        sums[c] += work[c + offset];
-      }
-      offset += run;
+  for (int c = 0; c < count; c += DoubleLanes::kCount) {
+    const DoubleLanes x = FillDoubles(c + x0) + lanes_from_0;
+    DoubleLanes sum[kMoments];
+    for (int k = 0; k < kMoments; ++k) {
+      sum[k] = Load(columns + k * pitch + c);
     }
-    if (2 * run <= width) {
-      for (int k = 0; k + 2 * run <= length; ++k) {
-        work[k] += work[k + run];
+    for (int r = 0; r < row_count; ++r) {
+      const MomentRow& row = rows[r];
+      const DoubleLanes weight = Widened(row.weight + c), z = Widened(row.height_m + c);
+      const DoubleLanes sign = FillDoubles(row.sign), y = FillDoubles(row.y);
+      const DoubleLanes one = WherePositive(weight, sign), w = sign * weight;
+      const DoubleLanes wx = w * x, wy = w * y, wz = w * z;
+      const DoubleLanes moment[kMoments] = {
+          w,  wx,     wy,     wx * x, wx * y, wy * y,
+          wz, wz * x, wz * y, wz * z, one,    one * Widened(row.variance_m2 + c)};
+      for (int k = 0; k < kMoments; ++k) {
+        sum[k] = sum[k] + moment[k];
       }
+    }
+    for (int k = 0; k < kMoments; ++k) {
+      Store(columns + k * pitch + c, sum[k]);
     }
   }
 }
 
-constexpr int kSolveRun = 64;  // columns
+/// Weights of the next pass: 0 where a cell stands off its plane. Whether any of them is new.
+bool RejectOutliersRow(const CheckedRow& row, int count, float* weight) {
+  const FloatLanes sigmas = Fill(kKeepSigmas), least = Fill(kKeep_m), none = Fill(0.0F);
+  bool changed = false;
+  for (int c = 0; c < count; c += FloatLanes::kCount) {
+    const FloatLanes plane = Load(row.plane_m + c), scatter = Load(row.scatter_m + c);
+    const FloatLanes off = Load(row.height_m + c) - plane;
+    const FloatLanes keep = sigmas * SquareRoot(Load(row.variance_m2 + c)) + least;
+    // An obstacle lifts the plane of the ground beside it: ground then lies far below its own
+    // plane and must stay, the obstacle stands above it and must go.
+    const FloatLanes high = keep + Fill(kKeepAbove) * scatter;
+    const FloatLanes low = none - keep - Fill(kKeepBelow) * scatter;
+    const FloatLanes before = Load(weight + c);
+    const FloatLanes judged =
+        Select(Less(high, off), none, Select(Less(off, low), none, Load(row.full_weight + c)));
+    const FloatLanes after = Select(IsNan(plane), before, judged);
+    changed = Any(Differ(after, before)) || changed;
+    Store(weight + c, after);
+  }
+  return changed;
+}
+
 /// Determinant of the window's second moments, per squared weight, from which it spans a plane.
 constexpr double kLeastSpan = 1e-3;
 
@@ -83,7 +78,7 @@ constexpr double kLeastSpan = 1e-3;
 /// arrays of their own first, floats after: else none of it is vectorised.
 inline void SolveRun(const double* sums, int pitch, double first_x, double y, int first, int count,
                      const FittedRow& out) {
-  const auto sum = [&](int k) { return sums + k * pitch + first; };
+  const auto sum = [&](int k) { return sums + k * pitch; };
   const double *m0 = sum(0), *m1 = sum(1), *m2 = sum(2), *m3 = sum(3), *m4 = sum(4), *m5 = sum(5),
                *m6 = sum(6), *m7 = sum(7), *m8 = sum(8), *m9 = sum(9), *mn = sum(10), *mv = sum(11);
   double x[kSolveRun], height[kSolveRun], easts[kSolveRun], souths[kSolveRun], scatter2[kSolveRun],
@@ -142,12 +137,13 @@ inline void SolveRun(const double* sums, int pitch, double first_x, double y, in
 
 void SolveMomentsRow(const double* columns, int pitch, int half, int x0, double y, int count,
                      double* work, const FittedRow& out) {
-  double* sums = work + pitch;
-  for (int k = 0; k < kMoments; ++k) {
-    WindowSums(columns + k * pitch, half, count, work, sums + k * pitch);
-  }
+  double sums[kMoments * kSolveRun];
   for (int c = 0; c < count; c += kSolveRun) {
-    SolveRun(sums, pitch, c + x0, y, c, count - c < kSolveRun ? count - c : kSolveRun, out);
+    const int run = count - c < kSolveRun ? count - c : kSolveRun;
+    for (int k = 0; k < kMoments; ++k) {
+      WindowSums(columns + k * pitch + c, half, work, sums + k * kSolveRun);
+    }
+    SolveRun(sums, kSolveRun, c + x0, y, c, run, out);
   }
 }
 

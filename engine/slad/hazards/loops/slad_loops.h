@@ -66,6 +66,17 @@ inline constexpr double kVarianceFloor_m2 = 1e-4;
 /// Stereo noise is shared by this many neighbouring cells.
 inline constexpr double kCorrelatedCells = 4;
 
+/// A row of cells whose moments are added (sign 1) or taken away (-1).
+struct MomentRow {
+  const float* weight;
+  const float* height_m;
+  const float* variance_m2;
+  double y, sign;
+};
+
+/// Columns that solve_moments takes at a time.
+inline constexpr int kSolveRun = 64;
+
 /// Planes of one row over their windows, NaN where none was spanned; heights above the reference,
 /// gradients per cell.
 struct FittedRow {
@@ -75,6 +86,15 @@ struct FittedRow {
   float* scatter_m;  ///< rms weighted residual
   float* gradient_sigma;
   float* cell_variance_m2;
+};
+
+/// The cells of one row and their planes.
+struct CheckedRow {
+  const float* full_weight;
+  const float* height_m;
+  const float* variance_m2;
+  const float* plane_m;  ///< NaN where there is none
+  const float* scatter_m;
 };
 
 /// Farthest hazard that nearest_in_row looks for, cells.
@@ -132,12 +152,13 @@ struct GearPoint {
 struct BellyRow {
   int offset, cells, stride;
   float north_m, east_m;
-  float step_m;  ///< to the east from cell to cell
 };
 struct GearHeading {
   float north, east;                    ///< unit vector forward
   GearPoint point[2][kMostGearPoints];  ///< left and right, aft to fore; pads: aft, fore
   int belly_rows;
+  int most_belly_cells;  ///< of one row
+  float belly_step_m;    ///< to the east from cell to cell
   const BellyRow* belly;
 };
 /// The gear over a layer of heights whose rows are `pitch` floats apart.
@@ -172,15 +193,20 @@ struct SladLoops {
   void (*denoise)(const DenoiseRows& rows, int count, float* denoised_m);
   /// most = the largest of itself and values[c - half .. c + half]. work: count + 2 half floats.
   void (*window_maximum)(const float* values, int half, int count, float* work, float* most);
-  /// columns[k pitch + c] += sign times moment k of the cells of a row; those of weight 0 are left
-  /// out. x = c + x0.
-  void (*add_moments)(const float* weight, const float* height_m, const float* variance_m2, int x0,
-                      double y, double sign, int count, int pitch, double* columns);
-  /// Planes over the windows c - half .. c + half of the columns' sums, which are readable half
-  /// further on both sides. work: (kMoments + 1) pitch doubles, pitch >= count + 2 half. A window
-  /// that spans no plane leaves the row as it is.
+  /// columns[k pitch + c] += moment k of each of the rows' cells, times the row's sign and in that
+  /// order; cells of weight 0 are left out. x = c + x0. Rows and columns are readable, columns
+  /// writable too, kLaneSlack beyond count.
+  void (*add_moments)(const MomentRow* rows, int row_count, int x0, int count, int pitch,
+                      double* columns);
+  /// Planes over the windows c - half .. c + half of the columns' sums, which are readable half to
+  /// the left, half + kLaneSlack beyond the next multiple of kSolveRun to the right. work:
+  /// kSolveRun
+  /// + 2 half doubles. A window that spans no plane leaves the row as it is.
   void (*solve_moments)(const double* columns, int pitch, int half, int x0, double y, int count,
                         double* work, const FittedRow& out);
+  /// weight = 0 where a cell stands off its plane, its full weight elsewhere; as it was where there
+  /// is no plane. Whether any changed. Readable, and weight writable, kLaneSlack beyond count.
+  bool (*reject_outliers)(const CheckedRow& row, int count, float* weight);
   /// gap = 0 on a hazard, else the least of itself and one more than that of the row beside it.
   void (*column_gaps)(const unsigned char* hazard, const float* near, int count, float* gap);
   /// Squares of the gaps less the inset.

@@ -16,9 +16,9 @@ namespace {
 static_assert(FloatLanes::kCount <= kLaneSlack, "loops read and write whole lanes");
 
 constexpr SladLoops kLoops{FitPlaneRow,      DiscDeviationRow, StepRow,         DenoiseRow,
-                           WindowMaximumRow, AddMomentsRow,    SolveMomentsRow, ColumnGapsRow,
-                           SquareGapsRow,    NearestInRow,     PutGearDownRow,  SlopeRow,
-                           ThesisVerdictRow, ModernVerdictRow};
+                           WindowMaximumRow, AddMomentRows,    SolveMomentsRow, RejectOutliersRow,
+                           ColumnGapsRow,    SquareGapsRow,    NearestInRow,    PutGearDownRow,
+                           SlopeRow,         ThesisVerdictRow, ModernVerdictRow};
 
 }  // namespace
 }  // namespace palace

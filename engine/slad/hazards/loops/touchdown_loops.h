@@ -8,6 +8,8 @@
 namespace palace {
 namespace {
 
+constexpr int kBellyRun = 10;  // columns
+
 /// How the gear rests: gradients forward and to the right, and the height of its middle.
 struct Resting {
   FloatLanes pitch, roll, middle_m;
@@ -53,10 +55,10 @@ Resting RestOfSkids(const GearShape& gear, const GearHeading& heading, const flo
 #pragma GCC unroll 32
   for (int s = 0; s <= 2 * kMost; ++s) {
     const int first = s > kMost ? s - kMost : 0, last = s < kMost ? s : kMost;
-    FloatLanes best = skid[0][first] + skid[1][s - first];
+    FloatLanes best = AddFused(skid[0][first], skid[1][s - first]);
 #pragma GCC unroll 16
     for (int k = first + 1; k <= last; ++k) {
-      best = Max(skid[0][k] + skid[1][s - k], best);
+      best = Max(AddFused(skid[0][k], skid[1][s - k]), best);
     }
     sum[s] = best;
   }
@@ -93,19 +95,26 @@ inline void Compare(const GearShape& gear, const GearHeading& heading, const flo
   const FloatLanes dot = Fill(0.0F) - (north * a + east * b + d);
   const FloatLanes tan2 = (x * x + y * y + z * z) / (dot * dot);
   worst.tan2 = Max(Select(Less(Fill(1e-3F), dot), tan2, Fill(1e6F)), worst.tan2);
-  for (int k = 0; k < heading.belly_rows; ++k) {
-    const BellyRow& row = heading.belly[k];
-    const FloatLanes base = rest.middle_m + north * Fill(row.north_m) + east * Fill(row.east_m);
-    const FloatLanes step = east * Fill(row.step_m);
-    const float* ground = height + row.offset;
-    FloatLanes cells = Fill(0.0F);
-    for (int c = 0; c < row.cells; ++c) {
-      const FloatLanes plane = base + step * cells;
-      worst.rise_m = Max(Load(ground) - plane, worst.rise_m);
-      cells = cells + Fill(1.0F);
-      ground += row.stride;
+  const FloatLanes step = east * Fill(heading.belly_step_m);
+  FloatLanes most = worst.rise_m;
+  for (int first = 0; first < heading.most_belly_cells; first += kBellyRun) {
+    // How far the plane rises from the first cell of a row, in all rows the same.
+    FloatLanes rise[kBellyRun];
+    for (int c = 0; c < kBellyRun; ++c) {
+      rise[c] = step * Fill(static_cast<float>(first + c));
+    }
+    for (int k = 0; k < heading.belly_rows; ++k) {
+      const BellyRow& row = heading.belly[k];
+      const FloatLanes base = rest.middle_m + north * Fill(row.north_m) + east * Fill(row.east_m);
+      const int count = row.cells - first < kBellyRun ? row.cells - first : kBellyRun;
+      const float* ground = height + row.offset + first * row.stride;
+      for (int c = 0; c < count; ++c) {
+        most = Max(Load(ground) - AddFused(base, rise[c]), most);
+        ground += row.stride;
+      }
     }
   }
+  worst.rise_m = most;
 }
 
 /// The higher diagonal carries; the gear leans on either pad of the other one.
