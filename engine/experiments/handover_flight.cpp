@@ -12,7 +12,7 @@
 namespace palace {
 namespace {
 
-constexpr double kFade_s = 1, kAfter_s = 10;
+constexpr double kAfter_s = 10;
 constexpr double kSameMoment_s = 0.011;  // half a step of control, in which the truth is told
 
 /// The simulator's link, overheard.
@@ -62,8 +62,11 @@ class Onlooker {
     const NavigationStatus& navigation = snapshot.flight->navigation;
     const Eigen::Vector3d error = sent.v_WB - truth->v_WB;
     if (sent.source == EstimateSource::kGps) {
+      if (on_gps_) {
+        usual_.Add(error - *on_gps_);
+      }
       on_gps_ = error;
-      if (navigation.handover == NavigationStatus::Handover::kReady) {
+      if (navigation.vision.running) {
         hover_.Add(navigation.vision.estimate.v_WB - truth->v_WB);
       }
       return;
@@ -73,10 +76,10 @@ class Onlooker {
     }
     if (!switched_) {
       switched_ = sent.time;
-      seen_.step_mps = (error - *on_gps_).norm();
-    }
-    if (SecondsBetween(*switched_, sent.time) <= kFade_s) {
-      seen_.faded_mps = std::fmax(seen_.faded_mps, (error - *on_gps_).norm());
+      const Eigen::Vector3d on_gps_now = navigation.gps.estimate.v_WB;
+      seen_.step_mps = (sent.v_WB - on_gps_now).norm();
+      seen_.gap_mps = (navigation.vision.estimate.v_WB - on_gps_now).norm();
+      seen_.message_mps = (error - *on_gps_).norm();
     }
     descent_.Add(error);
   }
@@ -85,6 +88,7 @@ class Onlooker {
   }
   HandoverFlight Seen() const {
     HandoverFlight seen = seen_;
+    seen.usual_mps = usual_.Rms().norm();
     seen.hover_rms_mps = hover_.Rms();
     seen.descent_rms_mps = descent_.Rms();
     return seen;
@@ -93,7 +97,7 @@ class Onlooker {
  private:
   std::optional<Eigen::Vector3d> on_gps_;  ///< error of the newest velocity sent
   std::optional<Timestamp> switched_;
-  Errors hover_, descent_;
+  Errors usual_, hover_, descent_;
   HandoverFlight seen_;
 };
 

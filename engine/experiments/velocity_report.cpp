@@ -172,17 +172,25 @@ void AddVerdicts(const TrialTable& table, ExperimentReport& report) {
     report.lines.push_back("no whole mission was flown: nothing is said of the hand-over's step");
     return;
   }
-  const std::vector<double> step = missions.Numbers("step_mps"),
-                            faded = missions.Numbers("faded_mps");
+  const std::vector<double> step = missions.Numbers("step_mps"), gap = missions.Numbers("gap_mps"),
+                            message = missions.Numbers("message_mps"),
+                            usual = missions.Numbers("usual_mps");
   const int handed_over = SpreadOf(step).count;
   const std::string flights =
       WithNumbers("%.0f of %.0f", handed_over, static_cast<double>(missions.rows.size()));
   judge(handed_over > 0 && Percentile(step, 1) <= kMostStep_mps,
-        "Step of the velocity at the hand-over, in " + flights + " missions: " +
+        "Step of the velocity in force at the hand-over, in " + flights + " missions: " +
             WithNumbers("median %.3f, most %.3f m/s, limit %.2f m/s", Percentile(step, 0.5),
-                        Percentile(step, 1), kMostStep_mps) +
-            WithNumbers("; within the second of the cross-fade median %.3f, most %.3f m/s",
-                        Percentile(faded, 0.5), Percentile(faded, 1)));
+                        Percentile(step, 1), kMostStep_mps));
+  report.lines.push_back(
+      WithNumbers("What the cross-fade spreads over a second there, vision less GPS: median %.3f, "
+                  "most %.3f m/s",
+                  Percentile(gap, 0.5), Percentile(gap, 1)) +
+      WithNumbers(
+          "; from the last message on GPS to the first on vision median %.3f, most %.3f m/s",
+          Percentile(message, 0.5), Percentile(message, 1)) +
+      WithNumbers(", between two on GPS %.3f m/s rms", SpreadOf(usual).mean));
+  report.page.Paragraph(report.lines.back());
   const double beside_mps = MostOf(missions, AxisColumns("hover"));
   judge(beside_mps <= kMostHover_mps,
         WithNumbers("The vision filter on pictures, beside GPS in the hover: worst axis %.3f m/s "
@@ -232,9 +240,10 @@ class RowWriter {
 std::span<const LoopIntegral> LoopIntegrals() { return kIntegrals; }
 
 std::vector<std::string> VelocityColumns() {
-  std::vector<std::string> columns = {"case",           "method",   "integral",      "crash",
-                                      "crash_s",        "step_mps", "faded_mps",     "hover_off_m",
-                                      "approach_off_m", "time_s",   "estimated_mps", "true_mps"};
+  std::vector<std::string> columns = {
+      "case",           "method",  "integral",      "crash",     "crash_s",
+      "step_mps",       "gap_mps", "message_mps",   "usual_mps", "hover_off_m",
+      "approach_off_m", "time_s",  "estimated_mps", "true_mps"};
   for (const char* axis : kAxes) {
     for (const char* part : {"hover_", "approach_"}) {
       columns.push_back(std::string(part) + axis + "_mps");
@@ -271,7 +280,9 @@ TrialRow RowOf(const HandoverFlight& flight) {
   row.Set("integral", NameOf(kOfFile));
   row.Set("crash", "none");
   row.Set("step_mps", flight.step_mps);
-  row.Set("faded_mps", flight.faded_mps);
+  row.Set("gap_mps", flight.gap_mps);
+  row.Set("message_mps", flight.message_mps);
+  row.Set("usual_mps", flight.usual_mps);
   row.Set("hover", "_mps", flight.hover_rms_mps);
   row.Set("approach", "_mps", flight.descent_rms_mps);
   return row.row();

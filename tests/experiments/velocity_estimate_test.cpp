@@ -167,7 +167,7 @@ TEST(EvaluateVelocityEstimate, TheReportFailsForWhatIsBeyondItsLimits) {
   hover.hover_rms_mps = Vector3d::Constant(0.02);
   HandoverFlight mission;
   mission.hover_rms_mps = mission.descent_rms_mps = Vector3d::Constant(0.02);
-  mission.step_mps = mission.faded_mps = 0.01;
+  mission.step_mps = 0.01;
   const auto passes = [&](const VelocityFlight& flight, const HandoverFlight& flown) {
     TrialTable table;
     table.columns = {"trial", "seed"};
