@@ -24,6 +24,7 @@ constexpr int kMaxOutlierFrames = 5;
 constexpr double kMaxHeightCorrection_m = 2.0;
 constexpr double kSearchCoherence = 0.6;
 constexpr int kMaxSearchRadius_px = 128;
+constexpr std::size_t kEarlierKeyframes = 4;
 
 /// Ground that counts as around the site: what the picture shows of it, from far and from near.
 double LandmarkRadius(const GroundPlane& plane, const Eigen::Vector3d& p_WC) {
@@ -58,44 +59,48 @@ void PlaneTracker::Lock(const ImageU8& left, const PinholeCamera& camera,
 }
 
 bool PlaneTracker::anchored() const {
-  return landmarks_.size() >= static_cast<std::size_t>(kMinInliers);
+  return key_.landmarks.size() >= static_cast<std::size_t>(kMinInliers);
 }
 
 void PlaneTracker::CutKeyframe(const ImageU8& left, const PinholeCamera& camera,
                                const RigidTransform& X_WC, const RangeMap* range,
                                const TrackingSettings& settings, std::vector<Landmark> kept) {
-  keyframe_ = left;
-  X_WK_ = X_WC;
-  landmarks_ = std::move(kept);
+  if (keyframes_ > 0) {
+    earlier_.push_back(std::move(key_));
+  }
+  if (earlier_.size() > kEarlierKeyframes) {
+    earlier_.pop_front();
+  }
+  key_ = {left, X_WC, std::move(kept)};
   AddLandmarks(camera, range, settings);
-  landmarks_at_key_ = landmarks_.size();
+  key_.landmarks_when_cut = key_.landmarks.size();
   ++keyframes_;
 }
 
 void PlaneTracker::AddLandmarks(const PinholeCamera& camera, const RangeMap* range,
                                 const TrackingSettings& settings) {
-  const int wanted = settings.max_features - static_cast<int>(landmarks_.size());
+  const int wanted = settings.max_features - static_cast<int>(key_.landmarks.size());
   if (wanted <= 0) {
     return;
   }
   std::vector<Eigen::Vector2d> taken;
-  for (const Landmark& landmark : landmarks_) {
+  for (const Landmark& landmark : key_.landmarks) {
     taken.push_back(landmark.key_pixel);
   }
   FeatureSelectionOptions options;
   options.max_count = 3 * wanted;  // many lie off the plane or away from the site
   options.spacing_px = Spacing(camera, settings.max_features);
-  const double radius_m = LandmarkRadius(plane_, X_WK_.p);
-  const std::vector<Eigen::Vector2d> pixels = SelectFeatures(keyframe_, taken, options);
+  const double radius_m = LandmarkRadius(plane_, key_.X_WC.p);
+  const std::vector<Eigen::Vector2d> pixels = SelectFeatures(key_.picture, taken, options);
   const double common_m =
-      MedianHeightAbovePlane(camera, X_WK_, plane_, range, pixels, radius_m).value_or(0.0);
+      MedianHeightAbovePlane(camera, key_.X_WC, plane_, range, pixels, radius_m).value_or(0.0);
   for (const Eigen::Vector2d& pixel : pixels) {
-    if (static_cast<int>(landmarks_.size()) >= settings.max_features) {
+    if (static_cast<int>(key_.landmarks.size()) >= settings.max_features) {
       break;
     }
     if (const auto placed =
-            PlaceLandmark(camera, X_WK_, plane_, range, pixel, radius_m, common_m)) {
-      landmarks_.push_back({placed->p_WF, placed->pixel, placed->sigma_w_m, 0});
+            PlaceLandmark(camera, key_.X_WC, plane_, range, pixel, radius_m, common_m)) {
+      key_.landmarks.push_back({placed->p_WF, placed->pixel, placed->sigma_w_m, 0});
     }
   }
 }
@@ -105,21 +110,21 @@ PlaneTracker::Attempt PlaneTracker::Try(const ImageU8& left, const PinholeCamera
                                         const Eigen::Vector2d& shift_px) const {
   Attempt attempt;
   attempt.X_WC = X_WC;
-  attempt.visible.assign(landmarks_.size(), false);
-  attempt.inlier.assign(landmarks_.size(), false);
-  attempt.pixels.assign(landmarks_.size(), Eigen::Vector2d::Zero());
-  const auto current_from_key = PlaneHomography(camera, X_WK_, X_WC, plane_);
+  attempt.visible.assign(key_.landmarks.size(), false);
+  attempt.inlier.assign(key_.landmarks.size(), false);
+  attempt.pixels.assign(key_.landmarks.size(), Eigen::Vector2d::Zero());
+  const auto current_from_key = PlaneHomography(camera, key_.X_WC, X_WC, plane_);
   if (!current_from_key || plane_.HeightOf(X_WC.p) <= 0.1) {
     return attempt;
   }
   std::vector<Eigen::Vector2d> key_pixels;
-  for (const Landmark& landmark : landmarks_) {
+  for (const Landmark& landmark : key_.landmarks) {
     key_pixels.push_back(landmark.key_pixel);
   }
   KeyframeFlowOptions options;
   options.shift_px = shift_px;
   const std::vector<FlowPoint> points =
-      FollowFromKeyframe(keyframe_, left, *current_from_key, key_pixels, options);
+      FollowFromKeyframe(key_.picture, left, *current_from_key, key_pixels, options);
   for (std::size_t i = 0; i < points.size(); ++i) {
     attempt.pixels[i] = points[i].pixel;
     attempt.visible[i] = points[i].visible;
@@ -137,9 +142,10 @@ void PlaneTracker::Resect(const PinholeCamera& camera, const Eigen::Matrix3d& R_
                           Attempt& attempt) const {
   std::vector<GroundLandmark> seen;
   std::vector<std::size_t> index;
-  for (std::size_t i = 0; i < landmarks_.size(); ++i) {
+  for (std::size_t i = 0; i < key_.landmarks.size(); ++i) {
     if (attempt.inlier[i]) {
-      seen.push_back({landmarks_[i].p_WF, attempt.pixels[i], kSigma_px, landmarks_[i].sigma_w_m});
+      seen.push_back(
+          {key_.landmarks[i].p_WF, attempt.pixels[i], kSigma_px, key_.landmarks[i].sigma_w_m});
       index.push_back(i);
     }
   }
@@ -176,7 +182,7 @@ PlaneTracker::Attempt PlaneTracker::BestAttempt(const ImageU8& left, const Pinho
     }
   }
   for (const RigidTransform& X_WC : {corrected, X_WC_predicted}) {
-    const auto key_from_current = PlaneHomography(camera, X_WC, X_WK_, plane_);
+    const auto key_from_current = PlaneHomography(camera, X_WC, key_.X_WC, plane_);
     if (!key_from_current) {
       continue;
     }
@@ -185,7 +191,7 @@ PlaneTracker::Attempt PlaneTracker::BestAttempt(const ImageU8& left, const Pinho
     Attempt where;
     where.X_WC = X_WC;
     const PatchSearch search =
-        SearchPatch(keyframe_, left, *key_from_current, PatchCentre(camera, where), radius_px);
+        SearchPatch(key_.picture, left, *key_from_current, PatchCentre(camera, where), radius_px);
     if (search.coherence >= kSearchCoherence) {
       Attempt found = Try(left, camera, X_WC, X_WC_predicted.R, search.shift_px);
       if (found.ok) {
@@ -195,6 +201,24 @@ PlaneTracker::Attempt PlaneTracker::BestAttempt(const ImageU8& left, const Pinho
     if (!differs) {
       break;
     }
+  }
+  return attempt;
+}
+
+PlaneTracker::Attempt PlaneTracker::TryEarlier(const ImageU8& left, const PinholeCamera& camera,
+                                               const RigidTransform& X_WC_predicted) {
+  Attempt attempt;
+  if (earlier_.empty()) {
+    return attempt;
+  }
+  const auto turn = static_cast<std::size_t>(frames_lost_) % earlier_.size();
+  const auto earlier = earlier_.end() - 1 - static_cast<std::ptrdiff_t>(turn);
+  std::swap(key_, *earlier);
+  attempt = Try(left, camera, Corrected(X_WC_predicted), X_WC_predicted.R, Eigen::Vector2d::Zero());
+  if (attempt.ok) {
+    earlier_.erase(earlier, earlier_.end());
+  } else {
+    std::swap(key_, *earlier);
   }
   return attempt;
 }
@@ -216,8 +240,8 @@ Eigen::Vector2d PlaneTracker::PatchCentre(const PinholeCamera& camera,
     centre = sum / attempt.inliers;
   } else {
     Eigen::Vector3d mean_W = Eigen::Vector3d::Zero();
-    for (const Landmark& landmark : landmarks_) {
-      mean_W += landmark.p_WF / static_cast<double>(landmarks_.size());
+    for (const Landmark& landmark : key_.landmarks) {
+      mean_W += landmark.p_WF / static_cast<double>(key_.landmarks.size());
     }
     centre = PixelFromWorldPoint(camera, attempt.X_WC, mean_W).value_or(middle);
   }
@@ -227,15 +251,15 @@ Eigen::Vector2d PlaneTracker::PatchCentre(const PinholeCamera& camera,
 
 double PlaneTracker::MeanDistance(const Eigen::Vector3d& p_WC) const {
   double sum_m = 0;
-  for (const Landmark& landmark : landmarks_) {
+  for (const Landmark& landmark : key_.landmarks) {
     sum_m += (landmark.p_WF - p_WC).norm();
   }
-  return sum_m / static_cast<double>(std::max<std::size_t>(landmarks_.size(), 1));
+  return sum_m / static_cast<double>(std::max<std::size_t>(key_.landmarks.size(), 1));
 }
 
 bool PlaneTracker::NeedsKeyframe(const Attempt& attempt, double coherence,
                                  const TrackingSettings& settings) const {
-  const double scale = MeanDistance(X_WK_.p) / std::max(MeanDistance(attempt.X_WC.p), 1e-3);
+  const double scale = MeanDistance(key_.X_WC.p) / std::max(MeanDistance(attempt.X_WC.p), 1e-3);
   const double zoom = std::max(scale, 1 / scale);
   const bool few = attempt.inliers < kFewInliers;
   if (coherence < settings.min_coherence) {
@@ -243,12 +267,12 @@ bool PlaneTracker::NeedsKeyframe(const Attempt& attempt, double coherence,
     return (zoom > kForcedRekeyScale || few) && attempt.inliers >= 0.6 * attempt.visible_count;
   }
   return zoom > kRekeyScale || few ||
-         2 * static_cast<std::size_t>(attempt.inliers) < landmarks_at_key_;
+         2 * static_cast<std::size_t>(attempt.inliers) < key_.landmarks_when_cut;
 }
 
 void PlaneTracker::NoteOutliers(const Attempt& attempt) {
-  for (std::size_t i = 0; i < landmarks_.size(); ++i) {
-    int& frames = landmarks_[i].outlier_frames;
+  for (std::size_t i = 0; i < key_.landmarks.size(); ++i) {
+    int& frames = key_.landmarks[i].outlier_frames;
     frames = attempt.visible[i] && !attempt.inlier[i] ? frames + 1 : 0;
   }
 }
@@ -275,7 +299,7 @@ TrackerStatus PlaneTracker::Describe(const ImageU8& left, const PinholeCamera& c
   status.why_not_locked = WhyNotLocked(attempt);
   status.mode = "Plane";
   status.keyframes = keyframes_;
-  status.anchor_height_m = plane_.HeightOf(X_WK_.p);
+  status.anchor_height_m = plane_.HeightOf(key_.X_WC.p);
   status.inliers = attempt.ok ? attempt.inliers : 0;
   const auto site = PixelFromWorldPoint(camera, attempt.X_WC, plane_.p_WS);
   status.site_pixel = site.value_or(Eigen::Vector2d(-1e4, -1e4));
@@ -288,8 +312,8 @@ TrackerStatus PlaneTracker::Describe(const ImageU8& left, const PinholeCamera& c
   const Eigen::Vector2d centre = PatchCentre(camera, attempt);
   status.window_centre = centre;
   status.window_side_px = kPatchSide_px + 2.0 * settings.search_radius_px;
-  if (const auto key_from_current = PlaneHomography(camera, attempt.X_WC, X_WK_, plane_)) {
-    const PatchComparison patches = ComparePatches(keyframe_, left, *key_from_current, centre);
+  if (const auto key_from_current = PlaneHomography(camera, attempt.X_WC, key_.X_WC, plane_)) {
+    const PatchComparison patches = ComparePatches(key_.picture, left, *key_from_current, centre);
     status.coherence = patches.coherence;
     status.anchor_patch = patches.anchor;
     status.current_patch = patches.current;
@@ -303,18 +327,24 @@ TrackResult PlaneTracker::Track(const ImageU8& left, const PinholeCamera& camera
                                 const TrackingSettings& settings, Timestamp time) {
   TrackResult result;
   result.time = time;
-  const bool other_size = left.width() != keyframe_.width() || left.height() != keyframe_.height();
+  const bool other_size =
+      left.width() != key_.picture.width() || left.height() != key_.picture.height();
   if (other_size || !anchored()) {
     locked_ = false;
     result.status.time = time;
     result.status.why_not_locked =
         other_size ? "the picture has another size than its anchor"
                    : WithNumbers("%.0f features on the ground, min %.0f",
-                                 static_cast<double>(landmarks_.size()), kMinInliers);
+                                 static_cast<double>(key_.landmarks.size()), kMinInliers);
     result.status.mode = "Plane";
     return result;
   }
-  const Attempt attempt = BestAttempt(left, camera, X_WC_predicted, settings);
+  Attempt attempt = BestAttempt(left, camera, X_WC_predicted, settings);
+  if (!attempt.ok) {
+    if (Attempt earlier = TryEarlier(left, camera, X_WC_predicted); earlier.ok) {
+      attempt = std::move(earlier);
+    }
+  }
   result.status = Describe(left, camera, attempt, settings, time);
   locked_ = attempt.ok;
   if (!attempt.ok) {
@@ -326,9 +356,9 @@ TrackResult PlaneTracker::Track(const ImageU8& left, const PinholeCamera& camera
   correction_R_ = X_WC_predicted.R.transpose() * attempt.X_WC.R;
   NoteOutliers(attempt);
   std::vector<Landmark> inliers;
-  for (std::size_t i = 0; i < landmarks_.size(); ++i) {
+  for (std::size_t i = 0; i < key_.landmarks.size(); ++i) {
     if (attempt.inlier[i]) {
-      const Landmark& mark = landmarks_[i];
+      const Landmark& mark = key_.landmarks[i];
       result.landmarks.push_back({mark.p_WF, attempt.pixels[i], kSigma_px, mark.sigma_w_m});
       inliers.push_back({mark.p_WF, attempt.pixels[i], mark.sigma_w_m, 0});
     }
@@ -336,7 +366,7 @@ TrackResult PlaneTracker::Track(const ImageU8& left, const PinholeCamera& camera
   if (NeedsKeyframe(attempt, result.status.coherence, settings)) {
     CutKeyframe(left, camera, attempt.X_WC, range, settings, std::move(inliers));
   } else if (result.status.coherence >= settings.min_coherence) {
-    std::erase_if(landmarks_,
+    std::erase_if(key_.landmarks,
                   [](const Landmark& mark) { return mark.outlier_frames > kMaxOutlierFrames; });
   }
   return result;

@@ -6,9 +6,11 @@
 // resected from the landmarks. A new keyframe is cut when the scale has changed by 1.4 or half of
 // the landmarks are gone: those still seen keep their place in W and get a new pixel, new ones get
 // theirs from the refined pose, the plane of the site and the range map. No keyframe is cut while
-// the coherence is low: an occluder must not become the anchor.
+// the coherence is low: an occluder must not become the anchor. One may all the same, a shadow's
+// edge that passes, so earlier keyframes are kept and tried again while the newest is lost.
 #pragma once
 
+#include <deque>
 #include <optional>
 #include <vector>
 
@@ -47,6 +49,12 @@ class PlaneTracker {
     double sigma_w_m = 0;
     int outlier_frames = 0;  ///< seen, but moving on its own
   };
+  struct Keyframe {
+    ImageU8 picture{};
+    RigidTransform X_WC{};  ///< camera when it was cut
+    std::vector<Landmark> landmarks{};
+    std::size_t landmarks_when_cut = 0;
+  };
   /// One attempt at a picture.
   struct Attempt {
     RigidTransform X_WC;  ///< refined when ok, else as predicted
@@ -64,6 +72,10 @@ class PlaneTracker {
               const Eigen::Matrix3d& R_prior, const Eigen::Vector2d& shift_px) const;
   Attempt BestAttempt(const ImageU8& left, const PinholeCamera& camera,
                       const RigidTransform& X_WC_predicted, const TrackingSettings& settings) const;
+  /// From one of the earlier keyframes, another with each picture that is lost. The one that sees
+  /// the ground again is the keyframe from then on, and those cut after it are forgotten.
+  Attempt TryEarlier(const ImageU8& left, const PinholeCamera& camera,
+                     const RigidTransform& X_WC_predicted);
   void Resect(const PinholeCamera& camera, const Eigen::Matrix3d& R_prior, Attempt& attempt) const;
   bool NeedsKeyframe(const Attempt& attempt, double coherence,
                      const TrackingSettings& settings) const;
@@ -80,10 +92,8 @@ class PlaneTracker {
                          const TrackingSettings& settings, Timestamp time) const;
 
   GroundPlane plane_;
-  ImageU8 keyframe_;
-  RigidTransform X_WK_;  ///< camera when the keyframe was cut
-  std::vector<Landmark> landmarks_;
-  std::size_t landmarks_at_key_ = 0;
+  Keyframe key_;
+  std::deque<Keyframe> earlier_;  ///< the newest last
   /// Refined minus predicted pose of the last good picture: the next prediction starts there.
   Eigen::Vector3d correction_p_W_ = Eigen::Vector3d::Zero();
   Eigen::Matrix3d correction_R_ = Eigen::Matrix3d::Identity();
