@@ -2,7 +2,9 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
 #include <iostream>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -13,7 +15,9 @@
 #include "engine/core/check.h"
 #include "engine/core/command_line.h"
 #include "engine/core/files.h"
+#include "engine/core/hash.h"
 #include "engine/core/termination.h"
+#include "engine/core/text.h"
 #include "engine/experiments/trial_record.h"
 
 namespace palace {
@@ -28,6 +32,7 @@ struct RunOptions {
   std::string shard = "1/1";
   fs::path out;
   bool resume = false;
+  const CLI::App* verb = nullptr;
 };
 
 int Fail(const Error& error) {
@@ -41,13 +46,39 @@ Result<fs::path> CsvOf(const fs::path& path, const std::vector<Experiment>& expe
   if (!fs::is_directory(path, error)) {
     return path;
   }
+  std::vector<std::string> found;
   for (const Experiment& experiment : experiments) {
-    const fs::path csv = path / (experiment.name + ".csv");
-    if (fs::exists(csv, error)) {
-      return csv;
+    if (fs::exists(path / (experiment.name + ".csv"), error)) {
+      found.push_back(experiment.name + ".csv");
     }
   }
-  return UnavailableError(path.string() + " holds no table of an experiment");
+  if (found.size() > 1) {
+    return UsageError(path.string() + " holds the tables of several experiments, " + Joined(found) +
+                      ": name one of these files");
+  }
+  if (found.empty()) {
+    return UnavailableError(path.string() + " holds no table of an experiment");
+  }
+  return path / found.front();
+}
+
+/// " files 3f2a9c", of the names and bytes of all files that the options of a run name, so that a
+/// run does not go on with an edited one; empty where they name none.
+std::string InputsOf(const CLI::App& verb) {
+  ContentHash hash;
+  bool any = false;
+  for (const CLI::Option* option : verb.get_options()) {
+    for (const std::string& value : option->results()) {
+      std::error_code error;
+      if (fs::is_regular_file(value, error)) {
+        std::ifstream file(value, std::ios::binary);
+        hash.Add(value);
+        hash.Add(std::string{std::istreambuf_iterator<char>(file), {}});
+        any = true;
+      }
+    }
+  }
+  return any ? " files " + ShortHash(hash.value()) : "";
 }
 
 Status CheckColumns(const std::vector<Experiment>& experiments, const TrialFile& file,
@@ -167,8 +198,9 @@ int RunExperiment(const Experiment& experiment, const RunOptions& options) {
                             experiment.columns.end());
   std::optional<TrialRecord> record;
   if (!options.out.empty()) {
-    Result<TrialRecord> opened = TrialRecord::Open(options.out / (experiment.name + ".trials"),
-                                                   file.header, experiment.columns, options.resume);
+    Result<TrialRecord> opened = TrialRecord::Open(
+        options.out / (experiment.name + ".trials"),
+        {file.header, experiment.columns, InputsOf(*options.verb)}, options.resume);
     if (!opened) {
       return Fail(opened.error());
     }
@@ -205,7 +237,7 @@ int RunExperiment(const Experiment& experiment, const RunOptions& options) {
     return Fail(written.error());
   }
   if (record) {
-    record->Remove();
+    record->Finish(options.trials);
   }
   return WriteReport(experiment, file, options.out);
 }
@@ -283,6 +315,7 @@ void AddExperiments(CLI::App& evaluate, const std::vector<Experiment>& experimen
     CLI::App* verb = evaluate.add_subcommand(experiment.name, experiment.purpose);
     auto options = std::make_shared<RunOptions>();
     options->trials = experiment.default_trials;
+    options->verb = verb;
     verb->add_option("--trials", options->trials, "Trials, over all shards")
         ->check(CLI::Range(1, 1'000'000))
         ->capture_default_str();

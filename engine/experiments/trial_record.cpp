@@ -26,12 +26,13 @@ std::string ProgramHash() {
   return ShortHash(hash.value());
 }
 
-std::string HeadOf(const TrialHeader& header, const std::vector<std::string>& columns) {
+std::string HeadOf(const TrialRecord::Run& run) {
+  const TrialHeader& header = run.header;
   std::string head = "# palace trials of " + header.experiment + "; seed " +
                      std::to_string(header.seed) + "; shard " + std::to_string(header.shard.index) +
                      "/" + std::to_string(header.shard.count) + "; program " + ProgramHash() +
-                     "; " + header.setup + ";";
-  for (const std::string& column : columns) {
+                     "; " + header.setup + run.inputs + ";";
+  for (const std::string& column : run.columns) {
     head += " " + column;
   }
   return head;
@@ -82,15 +83,13 @@ Error CannotWrite(const std::filesystem::path& path) {
 
 }  // namespace
 
-Result<TrialRecord> TrialRecord::Open(const std::filesystem::path& path, const TrialHeader& header,
-                                      const std::vector<std::string>& columns, bool resume) {
+Result<TrialRecord> TrialRecord::Open(const std::filesystem::path& path, const Run& run,
+                                      bool resume) {
   TrialRecord record;
   record.path_ = path;
-  const std::string head = HeadOf(header, columns);
-  if (resume) {
-    if (const Status read = record.Read(head, columns.size()); !read) {
-      return read.error();
-    }
+  const std::string head = HeadOf(run);
+  if (const Status read = record.Read(head, run.columns.size(), resume); !read) {
+    return read.error();
   }
   std::string text = head + "\n";
   for (const auto& [trial, rows] : record.done_) {
@@ -114,12 +113,19 @@ Result<TrialRecord> TrialRecord::Open(const std::filesystem::path& path, const T
   return record;
 }
 
-Status TrialRecord::Read(const std::string& head, std::size_t columns) {
+Status TrialRecord::Read(const std::string& head, std::size_t columns, bool resume) {
   std::ifstream in(path_, std::ios::binary);
   if (!in) {
     return Ok();
   }
   const std::string text{std::istreambuf_iterator<char>(in), {}};
+  if (!resume) {
+    return text.find(kDoneEnd) == std::string::npos
+               ? Ok()
+               : UsageError(path_.string() +
+                            " keeps trials of a run that was ended: --resume goes on with them; "
+                            "remove it, or choose another --out, to begin anew");
+  }
   std::string_view rest = text;
   Rows rows;
   for (int number = 1; !rest.empty(); ++number) {
@@ -134,7 +140,7 @@ Status TrialRecord::Read(const std::string& head, std::size_t columns) {
         return UsageError("--resume: " + path_.string() +
                           " is of another run or another build:\n  " + std::string(line) +
                           "\nthis one is\n  " + head +
-                          "\nchoose another --out, or leave --resume out to begin anew");
+                          "\nchoose another --out, or remove it to begin anew");
       }
     } else if (const int trial = TrialDone(line); trial >= 0) {
       done_[trial] = std::exchange(rows, {});
@@ -143,7 +149,7 @@ Status TrialRecord::Read(const std::string& head, std::size_t columns) {
       if (rows.back().size() != columns) {
         return InvalidError(path_.string() + ":" + std::to_string(number) + ": " +
                             std::to_string(rows.back().size()) + " values, there are " +
-                            std::to_string(columns) + " columns; leave --resume out to begin anew");
+                            std::to_string(columns) + " columns; remove it to begin anew");
       }
     }
   }
@@ -166,10 +172,12 @@ Status TrialRecord::Add(int trial, Rows rows) {
   return Ok();
 }
 
-void TrialRecord::Remove() {
+void TrialRecord::Finish(int trials) {
   file_.reset();
-  std::error_code ignored;
-  std::filesystem::remove(path_, ignored);
+  if (done_.empty() || done_.rbegin()->first < trials) {
+    std::error_code ignored;
+    std::filesystem::remove(path_, ignored);
+  }
 }
 
 }  // namespace palace

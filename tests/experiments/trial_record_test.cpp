@@ -23,7 +23,7 @@ class Trials : public testing::Test {
     fs::remove_all(folder_, ignored);
   }
   Result<TrialRecord> Open(bool resume) const {
-    return TrialRecord::Open(path_, header_, {"height, m", "verdict"}, resume);
+    return TrialRecord::Open(path_, {header_, {"height, m", "verdict"}, inputs_}, resume);
   }
   void Keep(TrialRecord& record, int trial, TrialRecord::Rows rows) const {
     EXPECT_TRUE(record.Add(trial, std::move(rows)));
@@ -36,6 +36,7 @@ class Trials : public testing::Test {
   const fs::path folder_ = OwnPath("");
   const fs::path path_ = folder_ / "ground.trials";
   TrialHeader header_ = {"ground", "heights 8,15", 7, 40, {1, 1}};
+  std::string inputs_ = " files 3f2a9c";
 };
 
 TEST_F(Trials, AreTakenUpAgainWithAllTheirRowsAndNoneThatWasCutOff) {
@@ -63,16 +64,31 @@ TEST_F(Trials, AreTakenUpAgainWithAllTheirRowsAndNoneThatWasCutOff) {
   EXPECT_EQ(*third->Done(3), (TrialRecord::Rows{{"8", "look"}}));
 }
 
-TEST_F(Trials, BeginAnewWithoutBeingAskedToGoOn) {
+TEST_F(Trials, AreNotThrownAwayBecauseTheFlagWasForgotten) {
   {
     Result<TrialRecord> record = Open(false);
     ASSERT_TRUE(record);
     Keep(*record, 0, {{"8", "safe"}});
   }
+  const std::string before = Text();
   const Result<TrialRecord> anew = Open(false);
-  ASSERT_TRUE(anew);
-  EXPECT_EQ(anew->done_count(), 0);
-  EXPECT_EQ(Text().find("done"), std::string::npos);
+  ASSERT_FALSE(anew);
+  EXPECT_EQ(anew.error().code, ErrorCode::kUsage);
+  EXPECT_NE(anew.error().message.find("--resume goes on"), std::string::npos);
+  EXPECT_EQ(Text(), before);
+}
+
+TEST_F(Trials, GoWhenAllOfThemAreWrittenAndStayWhenMoreAreKept) {
+  Result<TrialRecord> record = Open(false);
+  ASSERT_TRUE(record);
+  Keep(*record, 0, {{"8", "safe"}});
+  Keep(*record, 3, {{"8", "look"}});
+  record->Finish(3);
+  EXPECT_TRUE(fs::exists(path_));
+  record = Open(true);
+  ASSERT_TRUE(record);
+  record->Finish(4);
+  EXPECT_FALSE(fs::exists(path_));
 }
 
 TEST_F(Trials, OfAnotherRunAreRefusedAndLeftAsTheyAre) {
@@ -95,8 +111,11 @@ TEST_F(Trials, OfAnotherRunAreRefusedAndLeftAsTheyAre) {
     EXPECT_EQ(refused.error().code, ErrorCode::kUsage);
     EXPECT_NE(refused.error().message.find("another run"), std::string::npos);
   }
-  EXPECT_EQ(Text(), before);
   header_ = own;
+  inputs_ = " files 000000";  // a file was edited
+  EXPECT_FALSE(Open(true));
+  EXPECT_EQ(Text(), before);
+  inputs_ = " files 3f2a9c";
   header_.trials = 400;  // a longer run of the same trials
   EXPECT_TRUE(Open(true));
 }
@@ -113,7 +132,7 @@ TEST_F(Trials, WithALineOfAnotherWidthNameFileLineAndWidth) {
 
 TEST_F(Trials, SayWhereTheyCannotBeKept) {
   const Result<TrialRecord> refused =
-      TrialRecord::Open(folder_ / "none" / "ground.trials", header_, {}, false);
+      TrialRecord::Open(folder_ / "none" / "ground.trials", {header_}, false);
   ASSERT_FALSE(refused);
   EXPECT_NE(refused.error().message.find("cannot write"), std::string::npos);
 }
