@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <vector>
 
@@ -17,6 +18,22 @@ std::vector<double> FiniteOf(std::span<const double> values) {
   std::copy_if(values.begin(), values.end(), std::back_inserter(finite),
                [](double v) { return std::isfinite(v); });
   return finite;
+}
+
+/// The 0.975 quantile of Student's t: of few degrees of freedom from the table, beyond them by the
+/// expansion about the normal quantile, there right to 3e-4.
+/// Source: Abramowitz & Stegun 1964, 26.7.5 and table 26.10.
+double StudentT95(int degrees) {
+  constexpr double kTable[] = {12.706205, 4.302653, 3.182446, 2.776445};
+  if (degrees <= static_cast<int>(std::size(kTable))) {
+    return kTable[degrees - 1];
+  }
+  const double z = kZ95, z2 = z * z, n = degrees;
+  const double g1 = z * (z2 + 1) / 4;
+  const double g2 = z * ((5 * z2 + 16) * z2 + 3) / 96;
+  const double g3 = z * (((3 * z2 + 19) * z2 + 17) * z2 - 15) / 384;
+  const double g4 = z * ((((79 * z2 + 776) * z2 + 1482) * z2 - 1920) * z2 - 945) / 92160;
+  return z + (g1 + (g2 + (g3 + g4 / n) / n) / n) / n;
 }
 
 }  // namespace
@@ -77,7 +94,8 @@ Interval MeanInterval(std::span<const double> values) {
   if (spread.count < 2) {
     return {kNone, kNone};
   }
-  const double half = kZ95 * spread.sd / std::sqrt(static_cast<double>(spread.count));
+  const double half =
+      StudentT95(spread.count - 1) * spread.sd / std::sqrt(static_cast<double>(spread.count));
   return {spread.mean - half, spread.mean + half};
 }
 

@@ -30,7 +30,9 @@ Spread SpreadOf(std::span<const double> values);
 /// The value below which the share p (0..1) lies, by linear interpolation between order statistics.
 double Percentile(std::span<const double> values, double p);
 
-/// 95 % interval of the mean, mean +- 1.96 sd / sqrt(n): for many trials; NaN below two.
+/// 95 % interval of the mean, mean +- t sd / sqrt(n), t of Student with n - 1 degrees of freedom:
+/// for values of about one normal distribution; NaN below two.
+/// Source: Student 1908.
 Interval MeanInterval(std::span<const double> values);
 
 }  // namespace palace

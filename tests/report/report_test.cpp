@@ -64,6 +64,26 @@ TEST(Statistics, MeanIntervalHoldsTheTruthNineteenTimesInTwenty) {
   EXPECT_LT(inside, 975) << "seed 7";
 }
 
+TEST(Statistics, MeanIntervalOfFewIsWideByStudent) {
+  // Tables of t: 12.706, 4.3027, 2.5706, 2.2622, 2.0930 for 1, 2, 5, 9, 19 degrees of freedom.
+  const struct {
+    int count;
+    double t;
+  } table[] = {{2, 12.7062}, {3, 4.3027}, {6, 2.5706}, {10, 2.2622}, {20, 2.0930}};
+  for (const auto& row : table) {
+    std::vector<double> values;
+    for (int i = 0; i < row.count; ++i) {
+      values.push_back(i * i);
+    }
+    const Spread spread = SpreadOf(values);
+    const Interval interval = MeanInterval(values);
+    const double error = spread.sd / std::sqrt(row.count);
+    EXPECT_NEAR((interval.high - spread.mean) / error, row.t, 5e-4) << row.count;
+    EXPECT_NEAR((spread.mean - interval.low) / error, row.t, 5e-4) << row.count;
+  }
+  EXPECT_TRUE(std::isnan(MeanInterval(std::vector<double>{1}).low));
+}
+
 TEST(Axes, TicksAreRoundAndInside) {
   EXPECT_EQ(RoundTicks(0, 1, false, 5), (std::vector<double>{0, 0.2, 0.4, 0.2 * 3, 0.8, 1}));
   EXPECT_EQ(RoundTicks(-7, 13, false, 4).front(), -5);
