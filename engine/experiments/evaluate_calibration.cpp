@@ -145,9 +145,7 @@ void AddMeasure(const TrialTable& table, const Measure& measure, ExperimentRepor
                            OrDash("%.4f", Percentile(values, 0.5)) + " " + measure.unit +
                            ", worst " + OrDash("%.4f", spread.max) + " " + measure.unit +
                            " (limit " + OrDash("%.2f", measure.limit) + " " + measure.unit + ")";
-  report.page.Verdict(passed, text);
-  report.lines.push_back((passed ? "passed: " : "FAILED: ") + text);
-  report.passed = report.passed && passed;
+  report.Judge(passed, text);
 }
 
 void AddCoverage(const std::vector<double>& all, ExperimentReport& report) {
@@ -159,9 +157,7 @@ void AddCoverage(const std::vector<double>& all, ExperimentReport& report) {
                            std::to_string(count) + " parameters (95 % interval " +
                            OrDash("%.1f", 100 * interval.low) + " to " +
                            OrDash("%.1f", 100 * interval.high) + " %, wanted 95 %)";
-  report.page.Verdict(passed, text);
-  report.lines.push_back((passed ? "passed: " : "FAILED: ") + text);
-  report.passed = report.passed && passed;
+  report.Judge(passed, text);
 }
 
 std::string MeasurePlot(const TrialTable& table, const Measure& measure) {
@@ -231,9 +227,7 @@ ExperimentReport Report(const TrialTable& table) {
   }
   AddCoverage(all, report);
   if (refused > 0) {
-    report.passed = false;
-    report.page.Verdict(false, std::to_string(refused) + " trials were refused");
-    report.lines.push_back("FAILED: " + std::to_string(refused) + " trials were refused");
+    report.Judge(false, std::to_string(refused) + " trials were refused");
   }
   const double rms = SpreadOf(all).rms;
   const std::string honesty =

@@ -11,7 +11,7 @@
 #include "engine/experiments/family_options.h"
 #include "engine/experiments/flight_options.h"
 #include "engine/experiments/landing_truth.h"
-#include "engine/report/statistics.h"
+#include "engine/report/figure_text.h"
 #include "engine/world/families/families.h"
 #include "engine/world/ground_truth.h"
 
@@ -110,12 +110,6 @@ Result<std::vector<TrialRow>> RunTrial(const FamiliesOptions& options, std::uint
 
 int CountOf(const TrialTable& table, MissionOutcome outcome) {
   return static_cast<int>(table.Where("outcome", MissionOutcomeName(outcome)).rows.size());
-}
-
-std::string ShareText(int hits, int trials) {
-  const Interval share = WilsonInterval(hits, trials);
-  return WithNumbers("%.0f of %.0f", hits, trials) +
-         WithNumbers(" (%.0f to %.0f %%)", 100 * share.low, 100 * share.high);
 }
 
 /// How many missions looked closer, and what was then known of the sites that they approved.

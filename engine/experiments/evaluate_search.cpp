@@ -10,6 +10,7 @@
 #include "engine/core/text.h"
 #include "engine/experiments/flight_options.h"
 #include "engine/experiments/landing_truth.h"
+#include "engine/report/figure_text.h"
 #include "engine/report/statistics.h"
 #include "engine/world/families/clearing.h"
 
@@ -71,11 +72,7 @@ ExperimentReport Report(const TrialTable& table) {
   const auto count = [&](MissionOutcome outcome) {
     return static_cast<int>(table.Where("outcome", MissionOutcomeName(outcome)).rows.size());
   };
-  const auto share = [&](int hits) {
-    const Interval interval = WilsonInterval(hits, trials);
-    return WithNumbers("%.0f of %.0f", hits, trials) +
-           WithNumbers(" (%.0f to %.0f %%)", 100 * interval.low, 100 * interval.high);
-  };
+  const auto share = [trials](int hits) { return ShareText(hits, trials); };
   double outside_m = 0;
   int left = 0;
   for (const double by_m : table.Numbers("outside_m")) {

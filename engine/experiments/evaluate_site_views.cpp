@@ -186,13 +186,11 @@ ExperimentReport Report(const TrialTable& table) {
                            " m");
   }
   const Interval interval = WilsonInterval(same, viewpoints);
-  report.passed = viewpoints > 0 && same == viewpoints;
   const std::string text =
       std::to_string(same) + " of " + std::to_string(viewpoints) +
       " viewpoints chose the same site within 0.5 m (" + OrDash("%.1f", 100 * interval.low) + "-" +
       OrDash("%.1f %%", 100 * interval.high) + "), the farthest " + OrDash("%.2f m", most_m);
-  report.page.Verdict(report.passed, text);
-  report.lines.push_back((report.passed ? "met: " : "NOT MET: ") + text);
+  report.Judge(viewpoints > 0 && same == viewpoints, text);
   report.page.Figure(LinePlotSvg(plot), "One colour a field.")
       .Table({"seed", "texture", "viewpoints", "site found", "within 0.5 m", "rms, m", "most, m",
               "least true distance to a cone, m"},

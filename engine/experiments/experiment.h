@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "engine/core/result.h"
-#include "engine/report/html_page.h"
+#include "engine/report/experiment_report.h"
 #include "engine/report/trial_table.h"
 
 namespace CLI {
@@ -25,12 +25,6 @@ namespace palace {
 
 /// One row a trial reports, without trial and seed; as many texts as the experiment has columns.
 using TrialRow = std::vector<std::string>;
-
-struct ExperimentReport {
-  HtmlPage page;
-  std::vector<std::string> lines{};  ///< for the terminal
-  bool passed = true;                ///< false: exit code 1
-};
 
 /// An experiment is data: what a trial does, and how the table of all trials is read.
 struct Experiment {

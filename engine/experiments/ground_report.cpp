@@ -9,7 +9,7 @@
 #include "engine/core/text.h"
 #include "engine/experiments/ground_field.h"
 #include "engine/experiments/hidden_fit.h"
-#include "engine/report/statistics.h"
+#include "engine/report/figure_text.h"
 #include "engine/slad/hazards/hidden_things.h"
 
 namespace palace {
@@ -29,14 +29,7 @@ int AtLeast(const TrialTable& table, SiteTruth::Verdict verdict) {
   return count;
 }
 
-std::string Share(int hits, int trials) {
-  if (trials == 0) {
-    return "-";
-  }
-  const Interval share = WilsonInterval(hits, trials);
-  return WithNumbers("%.0f of %.0f", hits, trials) +
-         WithNumbers(" (%.1f to %.1f %%)", 100 * share.low, 100 * share.high);
-}
+std::string Share(int hits, int trials) { return ShareText(hits, trials, 1); }
 
 /// Fields, by their first row, of which `column` reads 1, and those of them with a site.
 std::array<int, 2> Offered(const TrialTable& table, const char* column) {

@@ -151,9 +151,7 @@ void AddTargets(const TrialTable& tall, ExperimentReport& report) {
     const bool passed = cell.right >= target->least * cell.trials;
     const std::string text = altitude + " ft: right sites " + ShareText(cell.right, cell.trials) +
                              ", wanted " + OrDash("%.0f %%", 100 * target->least);
-    report.page.Verdict(passed, text);
-    report.lines.push_back((passed ? "met: " : "NOT MET: ") + text);
-    report.passed = report.passed && passed;
+    report.Judge(passed, text);
   }
 }
 
@@ -168,10 +166,8 @@ void AddFalseSafe(const TrialTable& fused, ExperimentReport& report) {
                              ShareText(wrong, count);
     if (standing == std::string(kConfirmed)) {
       const bool passed = count > 0 && wrong <= kFalseSafeLimit * count;
-      report.page.Verdict(passed, text + ", limit 0.1 % over at least " +
-                                      std::to_string(kPooledSites) + " chosen sites");
-      report.lines.push_back((passed ? "met: " : "NOT MET: ") + text);
-      report.passed = report.passed && passed;
+      report.Judge(passed, text + ", limit 0.1 % over at least " + std::to_string(kPooledSites) +
+                               " chosen sites");
     } else {
       report.page.Paragraph(text);
       report.lines.push_back(text);

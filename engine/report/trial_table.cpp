@@ -125,6 +125,13 @@ TrialTable TrialTable::Where(std::string_view column, std::string_view text) con
   return part;
 }
 
+TrialTable TrialTable::WhereNot(std::string_view column, std::string_view text) const {
+  const std::size_t index = Index(column);
+  TrialTable part = *this;
+  std::erase_if(part.rows, [&](const auto& row) { return row[index] == text; });
+  return part;
+}
+
 std::vector<std::string> TrialTable::Values(std::string_view column) const {
   const std::size_t index = Index(column);
   std::vector<std::string> values;

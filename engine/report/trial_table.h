@@ -23,6 +23,8 @@ struct TrialTable {
   double Sum(std::string_view column) const;
   /// The rows whose `column` reads `text`.
   TrialTable Where(std::string_view column, std::string_view text) const;
+  /// The other rows.
+  TrialTable WhereNot(std::string_view column, std::string_view text) const;
   /// The different texts of a column, in the order of first appearance.
   std::vector<std::string> Values(std::string_view column) const;
 };

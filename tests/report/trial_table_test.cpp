@@ -127,6 +127,7 @@ TEST(TrialTable, ColumnsAreReadByName) {
   const TrialTable table = RunShard(4, {1, 1}).table;
   EXPECT_EQ(table.Values("altitude_ft"), (std::vector<std::string>{"30", "70"}));
   EXPECT_EQ(table.Where("altitude_ft", "70").rows.size(), 4u);
+  EXPECT_EQ(table.WhereNot("altitude_ft", "70").rows, table.Where("altitude_ft", "30").rows);
   EXPECT_EQ(table.Numbers("trial"), (std::vector<double>{0, 0, 1, 1, 2, 2, 3, 3}));
   EXPECT_EQ(table.Sum("trial"), 12);
   TrialTable odd{{"trial", "v"}, {{"0", "nan"}, {"1", "word"}, {"2", "1e3"}}};
