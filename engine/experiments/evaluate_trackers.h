@@ -29,8 +29,8 @@ int UnseenLosses(const FollowedFilm& film);
 Experiment TrackersExperiment(const FilmGroundOptions& defaults = {});
 
 /// `evaluate tracker-cost`: milliseconds of the processor a picture of each, on one thread. They
-/// depend on the machine, so they are no part of the table above. SiteTracker runs
-/// all members of its set on every picture: plane and template take the time of all.
+/// depend on the machine, so they are no part of the table above. Judged are the plane tracker
+/// alone and the set of all that a SiteTracker runs on every picture, each against its budget.
 Experiment TrackerCostExperiment(const FilmGroundOptions& defaults = {});
 
 }  // namespace palace

@@ -16,8 +16,6 @@
 namespace palace {
 namespace {
 
-constexpr double kPhotographEnd_m = 11;
-
 std::optional<GroundTexture> TextureOf(const std::string& name) {
   for (int i = 0; i < kGroundTextures; ++i) {
     if (name == NameOf(static_cast<GroundTexture>(i))) {
@@ -59,7 +57,13 @@ const T& RoundAndRound(const std::vector<T>& values, int trial) {
 
 }  // namespace
 
-void AddFilmGroundOptions(CLI::App& app, FilmGroundOptions& options) {
+std::string DescentText() {
+  const FilmOptions film;
+  return WithNumbers("from %.1f m to %.0f m (over photographs to %.0f m)", film.start_m, film.end_m,
+                     kPhotographEnd_m);
+}
+
+void AddFilmGroundOptions(CLI::App& app, FilmGroundOptions& options, int fewest_pictures) {
   app.add_option("--materials", options.materials,
                  "Ground of trial 0, 1, ..., round and round: " + AllTextures())
       ->delimiter(',')
@@ -72,7 +76,7 @@ void AddFilmGroundOptions(CLI::App& app, FilmGroundOptions& options) {
       ->check(FiniteRange(0.1, 20.0))
       ->capture_default_str();
   app.add_option("--pictures", options.film.pictures, "Pictures of a film, 30 a second")
-      ->check(CLI::Range(2, 10'000))
+      ->check(CLI::Range(fewest_pictures, 10'000))
       ->capture_default_str();
 }
 

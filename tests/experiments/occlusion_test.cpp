@@ -1,8 +1,12 @@
 // What comes between camera and point, what is said of a track that it struck, and that shards
 // join.
+#include <gmock/gmock.h>
+
 #include <cmath>
+#include <string>
 #include <vector>
 
+#include <CLI/CLI.hpp>
 #include <gtest/gtest.h>
 
 #include "engine/experiments/evaluate_occlusion.h"
@@ -10,15 +14,20 @@
 #include "engine/experiments/occluder.h"
 #include "engine/experiments/point_film.h"
 #include "engine/experiments/point_methods.h"
-#include "tests/experiments/film_experiments.h"
+#include "tests/experiments/short_films.h"
+#include "tests/support/experiment_run.h"
 
 namespace palace {
 namespace {
+
+using ::testing::Contains;
+using ::testing::HasSubstr;
 
 /// 100 pictures, right and told as good; struck from 20 to 29.
 FollowedFilm Struck() { return {std::vector<double>(100, 1), std::vector<bool>(100, true)}; }
 constexpr int kFirst = 20, kClear = 30;
 constexpr int kShadowFrom = 78;
+constexpr int kFewestPictures = 77;  // one before, 1.5 s of shadow, one clear and a second after it
 
 TEST(Occlusion, OfATrackThatSawItAndFoundThePointAgain) {
   FollowedFilm film = Struck();
@@ -128,7 +137,101 @@ TEST(PlaneTracker, FindsTheGroundAgainByAnEarlierKeyframeWhenAShadowHasPassed) {
 }
 
 TEST(OcclusionExperiment, ShardsJoinToTheByte) {
-  ExpectThatShardsJoin(OcclusionExperiment(ShortAndSmall(78)));
+  ExpectShardsMerge(OcclusionExperiment(ShortAndSmall(kFewestPictures)), 7, 2, 2);
+}
+
+TEST(OcclusionExperiment, FilmsTooShortForTheLongestAreRefusedAtOnce) {
+  const Experiment experiment = OcclusionExperiment();
+  for (const int pictures : {kFewestPictures, kFewestPictures - 1}) {
+    CLI::App verb;
+    experiment.add_options(verb);
+    const std::string line = "--pictures " + std::to_string(pictures);
+    if (pictures == kFewestPictures) {
+      EXPECT_NO_THROW(verb.parse(line));
+    } else {
+      EXPECT_THROW(verb.parse(line), CLI::ValidationError);
+    }
+  }
+}
+
+/// Films of one flight, each with every occluder, all followed as is asked.
+TrialTable GoodFilms(const Experiment& experiment, int films) {
+  TrialTable table = EmptyTable(experiment);
+  for (int trial = 0; trial < films; ++trial) {
+    for (const OccluderKind kind : kAllOccluders) {
+      std::vector<std::string>& row = table.rows.emplace_back(table.columns.size(), "0");
+      const auto set = [&](const char* column, const std::string& text) {
+        row[table.Index(column)] = text;
+      };
+      set("trial", std::to_string(trial));
+      set("ground", "grass");
+      set("flight", "hover");
+      set("occluder", NameOf(kind));
+      set("method", "plane");
+      set("right_before", "1");
+      set("good_after", "1");
+      set("error_after_px", "5");
+    }
+  }
+  return table;
+}
+
+TEST(OcclusionReport, EveryPromiseCanBeBrokenByOneTrack) {
+  const Experiment experiment = OcclusionExperiment();
+  const TrialTable good = GoodFilms(experiment, 3);
+  EXPECT_TRUE(experiment.report(good).passed);
+  const struct {
+    const char *occluder, *column, *text, *told;
+  } table[] = {
+      {"shadow", "good_after", "0",
+       "FAILED: plane: found again within 1 s and 5 px after all of "
+       "them in 2 of 3"},
+      {"hand", "error_after_px", "5.1", "after all of them in 2 of 3"},
+      {"bird", "wrong_as_good", "1",
+       "FAILED: plane: a wrong place told as good after any of them "
+       "in 1 of 3"},
+      {"black", "right_before", "0",
+       "FAILED: plane: told as good and right when it began, for all "
+       "of bird, hand, shadow, black, in 2 of 3"},
+      {"none", "right_before", "0",
+       "FAILED: plane, where nothing came: right and told as good in "
+       "2 of 3"},
+      {"none", "wrong_as_good", "1", "FAILED: plane, where nothing came"},
+  };
+  for (const auto& broken : table) {
+    TrialTable changed = good;
+    for (auto& row : changed.rows) {
+      if (row[changed.Index("trial")] == "1" && row[changed.Index("occluder")] == broken.occluder) {
+        row[changed.Index(broken.column)] = broken.text;
+      }
+    }
+    const ExperimentReport report = experiment.report(changed);
+    EXPECT_FALSE(report.passed) << broken.column;
+    EXPECT_THAT(report.lines, Contains(HasSubstr(broken.told)));
+  }
+}
+
+/// A film that nothing struck says nothing of what strikes.
+TEST(OcclusionReport, TheVerdictStandsWithoutFilmsThatNothingStruck) {
+  const Experiment experiment = OcclusionExperiment();
+  TrialTable table = GoodFilms(experiment, 5);
+  const char* found =
+      "passed: plane: found again within 1 s and 5 px after all of them in 5 of 5 (";
+  EXPECT_THAT(experiment.report(table).lines, Contains(HasSubstr(found)));
+  const ExperimentReport struck = experiment.report(table.WhereNot("occluder", "none"));
+  EXPECT_TRUE(struck.passed);
+  EXPECT_THAT(struck.lines, Contains(HasSubstr(found)));
+  EXPECT_FALSE(experiment.report(table.Where("occluder", "none")).passed);
+}
+
+TEST(OcclusionReport, ADescentAndAHoverAreTwoFilms) {
+  const Experiment experiment = OcclusionExperiment();
+  TrialTable table = GoodFilms(experiment, 2);
+  for (std::vector<std::string> row : GoodFilms(experiment, 2).rows) {
+    row[table.Index("flight")] = "descent";
+    table.rows.push_back(row);
+  }
+  EXPECT_THAT(experiment.report(table).lines, Contains(HasSubstr("after all of them in 4 of 4 (")));
 }
 
 }  // namespace

@@ -2,16 +2,20 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <filesystem>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <opencv2/imgcodecs.hpp>
 
 #include "engine/experiments/evaluate_trackers.h"
 #include "engine/experiments/film_ground.h"
 #include "engine/experiments/point_film.h"
 #include "engine/experiments/point_methods.h"
-#include "tests/experiments/film_experiments.h"
+#include "tests/experiments/short_films.h"
+#include "tests/support/experiment_run.h"
+#include "tests/support/own_path.h"
 
 namespace palace {
 namespace {
@@ -97,6 +101,19 @@ TEST(FilmGround, NamesTheMaterialsThatThereAre) {
   EXPECT_THAT(ground.error().message, HasSubstr("gravel"));
 }
 
+/// Nearer than that its pixels show, and the reports say so.
+TEST(FilmGround, ADescentOverAPhotographEndsHigher) {
+  const std::filesystem::path file = OwnPath(".png");
+  ASSERT_TRUE(cv::imwrite(file.string(), cv::Mat(40, 60, CV_8UC1, cv::Scalar(90))));
+  FilmGroundOptions options = Short(2);
+  EXPECT_EQ(GroundOfTrial(options, 0, 1)->film.end_m, 4);
+  options.photographs = {file.string()};
+  const Result<FilmGround> ground = GroundOfTrial(options, 0, 1);
+  ASSERT_TRUE(ground) << ground.error().message;
+  EXPECT_EQ(ground->film.end_m, 11);
+  EXPECT_EQ(DescentText(), "from 45.7 m to 4 m (over photographs to 11 m)");
+}
+
 TEST(FollowedFilm, IsLostBeyond15PixelsAndUnseenWhereToldAsGood) {
   const struct {
     std::vector<double> error_px;
@@ -116,7 +133,7 @@ TEST(FollowedFilm, IsLostBeyond15PixelsAndUnseenWhereToldAsGood) {
 }
 
 TEST(TrackersExperiment, ShardsJoinToTheByte) {
-  ExpectThatShardsJoin(TrackersExperiment(ShortAndSmall(4)));
+  ExpectShardsMerge(TrackersExperiment(ShortAndSmall(4)), 7, 2, 2);
 }
 
 /// A row of `trackers` that says only what is judged.
@@ -132,8 +149,7 @@ void AddTrack(TrialTable& table, const char* method, const char* end_px, const c
 
 TEST(TrackersReport, OnlyOursIsJudged) {
   const Experiment experiment = TrackersExperiment();
-  TrialTable table{.columns = {"trial", "seed"}, .rows = {}};
-  table.columns.insert(table.columns.end(), experiment.columns.begin(), experiment.columns.end());
+  TrialTable table = EmptyTable(experiment);
   for (int i = 0; i < 8; ++i) {
     AddTrack(table, "plane", "4.9", "nan");
     AddTrack(table, "CSRT", "80", "200");
@@ -147,6 +163,46 @@ TEST(TrackersReport, OnlyOursIsJudged) {
   report = experiment.report(table);
   EXPECT_FALSE(report.passed);
   EXPECT_THAT(report.lines.back(), HasSubstr("FAILED"));
+}
+
+TEST(TrackerCostExperiment, TimesThePlaneAloneAndTheSet) {
+  const Experiment experiment = TrackerCostExperiment(ShortAndSmall(3));
+  const TrialTable table = RunExperimentTrials(experiment, 7, 1).table;
+  for (const char* method : {"plane alone", "set"}) {
+    const TrialTable rows = table.Where("method", method);
+    ASSERT_EQ(rows.rows.size(), 1u) << method;
+    EXPECT_GE(rows.Numbers("median_ms").front(), 0) << method;
+  }
+}
+
+/// Milliseconds of one film each; the other methods cost what they cost.
+TrialTable CostTable(const Experiment& experiment, double plane_ms, double set_ms) {
+  TrialTable table = EmptyTable(experiment);
+  const auto add = [&table](const char* method, double median_ms) {
+    table.rows.push_back({"0", "7", "grass", method, CsvNumber(median_ms), "9", "99"});
+  };
+  add("plane alone", 1);
+  add("plane alone", plane_ms);
+  add("set", set_ms);
+  add("CSRT", 50);
+  return table;
+}
+
+TEST(TrackerCostReport, PlaneAndSetAreJudgedByTheirBudgets) {
+  const Experiment experiment = TrackerCostExperiment();
+  const struct {
+    double plane_ms, set_ms;
+    bool plane, set;
+  } table[] = {{2, 4, true, true}, {2.01, 4, false, true}, {2, 4.01, true, false}};
+  for (const auto& row : table) {
+    const ExperimentReport report =
+        experiment.report(CostTable(experiment, row.plane_ms, row.set_ms));
+    EXPECT_EQ(report.passed, row.plane && row.set);
+    const auto told = [](bool met) { return std::string(met ? "passed: " : "FAILED: "); };
+    EXPECT_THAT(report.lines, Contains(HasSubstr(told(row.plane) + "plane alone: ")));
+    EXPECT_THAT(report.lines, Contains(HasSubstr(told(row.set) + "set: ")));
+  }
+  EXPECT_FALSE(experiment.report(EmptyTable(experiment)).passed) << "nothing was timed";
 }
 
 }  // namespace

@@ -10,13 +10,18 @@
 
 namespace palace {
 
+/// Without rows: to be filled by a test.
+inline TrialTable EmptyTable(const Experiment& experiment) {
+  TrialTable table{.columns = {"trial", "seed"}, .rows = {}};
+  table.columns.insert(table.columns.end(), experiment.columns.begin(), experiment.columns.end());
+  return table;
+}
+
 inline TrialFile RunExperimentTrials(const Experiment& experiment, std::uint64_t seed, int trials,
                                      const Shard& shard = {}) {
   TrialFile file;
   file.header = {experiment.name, experiment.setup ? experiment.setup() : "", seed, trials, shard};
-  file.table.columns = {"trial", "seed"};
-  file.table.columns.insert(file.table.columns.end(), experiment.columns.begin(),
-                            experiment.columns.end());
+  file.table = EmptyTable(experiment);
   for (int trial = 0; trial < trials; ++trial) {
     if (!shard.Holds(trial)) {
       continue;
@@ -33,7 +38,8 @@ inline TrialFile RunExperimentTrials(const Experiment& experiment, std::uint64_t
   return file;
 }
 
-/// The same trials whole, and in shards that are written, read and merged: to the byte.
+/// The same trials whole, and in shards that are written, read and merged: to the byte. A report
+/// can be made of them.
 inline void ExpectShardsMerge(const Experiment& experiment, std::uint64_t seed, int trials,
                               int count) {
   std::vector<TrialFile> shards;
@@ -46,6 +52,7 @@ inline void ExpectShardsMerge(const Experiment& experiment, std::uint64_t seed, 
   const Result<TrialFile> merged = MergeTrialFiles(shards);
   ASSERT_TRUE(merged) << merged.error().message;
   EXPECT_EQ(TrialFileText(*merged), TrialFileText(RunExperimentTrials(experiment, seed, trials)));
+  EXPECT_FALSE(experiment.report(merged->table).lines.empty());
 }
 
 }  // namespace palace
