@@ -1,4 +1,10 @@
 // The experiment on approach headings: what it judges, that it can fail, and that shards merge.
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
 #include <gtest/gtest.h>
 
 #include "engine/experiments/evaluate_heading.h"
@@ -9,19 +15,9 @@
 namespace palace {
 namespace {
 
-TEST(EvaluateHeading, TheReferenceInClosedForm) {
-  constexpr double kWorst = 0.25 / 3, kBest = 1 - 0.25 / 3;
-  HeadingConditions now;
-  now.wind_from_rad = 0;
-  const struct {
-    double wind_mps, heading_deg, wind;
-  } table[] = {{1, 180, kBest}, {5, 90, 0.5}, {5, 180, 0.25}, {12, 0, kBest}, {12, 180, kWorst}};
-  for (const auto& row : table) {
-    now.wind_mps = row.wind_mps;
-    EXPECT_NEAR(ScoreByReference(now, Rad(row.heading_deg)).wind, row.wind, kReferenceTolerance);
-  }
-  EXPECT_EQ(ScoreByReference({}, 1).combined, 1) << "nothing is known";
-}
+using ::testing::AllOf;
+using ::testing::Contains;
+using ::testing::HasSubstr;
 
 TEST(EvaluateHeading, DrawnCasesKeepWhatIsPromised) {
   int flown = 0;
@@ -39,14 +35,6 @@ TEST(EvaluateHeading, DrawnCasesKeepWhatIsPromised) {
   EXPECT_GT(flown, 30);
 }
 
-TEST(EvaluateHeading, TheSevenListedCasesComeOut) {
-  const std::vector<HeadingCase> listed = ListedHeadingCases();
-  ASSERT_EQ(listed.size(), 7u);
-  for (const HeadingCase& one : listed) {
-    EXPECT_TRUE(one.agrees) << one.name << ", " << Deg(one.heading_rad);
-  }
-}
-
 TEST(EvaluateHeading, TheReportFailsForEachPromiseThatIsBroken) {
   const Experiment experiment = HeadingExperiment();
   const TrialFile file = RunExperimentTrials(experiment, 1, 8);
@@ -60,6 +48,28 @@ TEST(EvaluateHeading, TheReportFailsForEachPromiseThatIsBroken) {
     changed.rows[0][changed.Index(broken.column)] = broken.text;
     EXPECT_FALSE(experiment.report(changed).passed) << broken.column;
   }
+}
+
+// A share is of the cases in which what is promised can be broken.
+TEST(EvaluateHeading, SharesCountWhatCouldHaveGoneWrong) {
+  const Experiment experiment = HeadingExperiment();
+  TrialTable table = RunExperimentTrials(experiment, 1, 40).table;
+  const TrialTable drawn = table.Where("case", kDrawnCase);
+  const std::vector<double> over = drawn.Numbers("over_limit_mps");
+  const auto keepable = std::count_if(over.begin(), over.end(), [](double v) { return v == v; });
+  const auto flown = drawn.WhereNot("reason", kCourseRefused).rows.size();
+  ASSERT_LT(keepable, 40);
+  ASSERT_LT(flown, 40u) << "no seed was refused";
+  const auto of = [](auto count) { return "0 of " + std::to_string(count) + " ("; };
+  ExperimentReport report = experiment.report(table);
+  EXPECT_THAT(report.lines, Contains(AllOf(HasSubstr("blocked side"), HasSubstr(of(flown)))));
+  EXPECT_THAT(report.lines,
+              Contains(AllOf(HasSubstr("the reference leads to"), HasSubstr(of(flown)))));
+  EXPECT_THAT(report.lines,
+              Contains(AllOf(HasSubstr("Never more tailwind"), HasSubstr(of(keepable)))));
+  EXPECT_THAT(report.lines, Contains(HasSubstr("others: 0 of 7")));
+  table = table.Where("case", kDrawnCase);
+  EXPECT_THAT(experiment.report(table).lines, Contains(HasSubstr("others: 0 of 0")));
 }
 
 TEST(EvaluateHeading, ShardsMergeToTheByte) { ExpectShardsMerge(HeadingExperiment(), 7, 5, 3); }
