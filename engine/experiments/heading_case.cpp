@@ -58,7 +58,7 @@ bool BestIsVetoed(const HeadingConditions& now, const HeadingCurve& curve) {
 bool ReferenceAgrees(const HeadingConditions& now, const LandingSite& site,
                      const ApproachCourse& chosen) {
   const auto worth = [&](double heading_rad) {
-    const double nearest_rad = ApproachHeading(static_cast<int>(NearestHeading(heading_rad)));
+    const double nearest_rad = ApproachHeading(static_cast<int>(NearestHeading(heading_rad).value()));
     const bool over = Tailwind_mps(now, nearest_rad) > now.max_tailwind_mps;
     return ScoreByReference(now, nearest_rad).combined - (over ? 1 : 0);
   };

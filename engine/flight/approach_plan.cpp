@@ -55,8 +55,8 @@ std::bitset<kApproachHeadings> BlockedHeadings(const LandingSite& site, double s
       }
     }
   }
-  if (site.corridor_clear) {
-    blocked.reset(NearestHeading(straight_rad));
+  if (const auto nearest = NearestHeading(straight_rad); site.corridor_clear && nearest) {
+    blocked.reset(*nearest);
   }
   return blocked;
 }
@@ -83,7 +83,8 @@ ApproachCourse ChooseCourse(const LandingSite& site, double straight_rad,
   if (best == nullptr) {
     return straight;
   }
-  return site.corridor_clear && worth(*best) <= worth(straight) + kWorthTurning ? straight : *best;
+  const bool may_stay = site.corridor_clear && std::isfinite(straight_rad);
+  return may_stay && worth(*best) <= worth(straight) + kWorthTurning ? straight : *best;
 }
 
 }  // namespace palace

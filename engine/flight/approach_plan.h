@@ -30,6 +30,7 @@ std::bitset<kApproachHeadings> BlockedHeadings(const LandingSite& site, double s
 
 /// `straight_rad`: the course from the vehicle to the site, which `curve` takes for the wanted one.
 /// Where no corridor is clear it stays the straight one, which is refused for what stands in it.
+/// Where that one is not known (NaN), any clear sector is preferred to it.
 ApproachCourse ChooseCourse(const LandingSite& site, double straight_rad,
                             const HeadingCurve& curve);
 

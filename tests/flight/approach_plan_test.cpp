@@ -55,6 +55,29 @@ TEST(ChooseCourse, StraightWhereClearElseTheLeastTurn) {
   }
 }
 
+// A vehicle that does not know where it is has no straight course.
+TEST(ChooseCourse, OfAnUnknownStraightCourseAClearSectorIsTaken) {
+  for (const double unknown_rad : {double{NAN}, double{INFINITY}, -double{INFINITY}}) {
+    EXPECT_FALSE(NearestHeading(unknown_rad));
+    EXPECT_TRUE(ScoreHeadings({}).At(unknown_rad).IsVetoed());
+    LandingSite site;
+    site.corridor_clear = true;
+    site.clear_approaches = kE;
+    EXPECT_EQ(BlockedHeadings(site, unknown_rad), BlockedHeadings(site, Rad(-90)));
+    HeadingConditions from_behind;
+    from_behind.wind_mps = 12;
+    from_behind.wind_from_rad = Rad(90);
+    for (const HeadingConditions& conditions : {HeadingConditions(), from_behind}) {
+      EXPECT_NEAR(Choose(site, unknown_rad, conditions).heading_rad, Rad(-90), 1e-9);
+    }
+    site.clear_approaches = 0;
+    EXPECT_TRUE(BlockedHeadings(site, unknown_rad).all());
+  }
+  EXPECT_EQ(NearestHeading(Rad(-2.4)), 0u);
+  EXPECT_EQ(NearestHeading(Rad(-2.6)), 71u);
+  EXPECT_EQ(NearestHeading(Rad(725.1)), 1u);
+}
+
 // Never from a blocked sector, never farther round than another that is clear.
 TEST(ChooseCourse, NoBlockedSectorIsEverFlown) {
   constexpr std::uint64_t kSeed = 41;

@@ -29,8 +29,12 @@ struct HeadingScore {
   bool IsVetoed() const { return is_blocked || is_downwind; }
 };
 
-/// Index of the heading nearest to that one, which may be any finite angle.
-inline std::size_t NearestHeading(double heading_rad) {
+/// Index of the heading nearest to that angle, whatever its turns; nothing for one that is not
+/// known (NaN or infinite).
+inline std::optional<std::size_t> NearestHeading(double heading_rad) {
+  if (!std::isfinite(heading_rad)) {
+    return std::nullopt;
+  }
   const double step_rad = Rad(360.0 / kApproachHeadings);
   const long nearest = std::lround(WrapAngle(heading_rad) / step_rad);
   return static_cast<std::size_t>((nearest + kApproachHeadings) % kApproachHeadings);
@@ -43,8 +47,12 @@ struct HeadingCurve {
   /// where none is wanted, the first from north. Nothing: all are vetoed.
   std::optional<int> best;
 
-  /// Of the nearest heading.
-  const HeadingScore& At(double heading_rad) const { return headings[NearestHeading(heading_rad)]; }
+  /// Of the nearest heading. One that is not known is vetoed.
+  const HeadingScore& At(double heading_rad) const {
+    static const HeadingScore unknown{.heading_rad = NAN, .combined = 0, .is_blocked = true};
+    const std::optional<std::size_t> nearest = NearestHeading(heading_rad);
+    return nearest ? headings[*nearest] : unknown;
+  }
 };
 
 }  // namespace palace
