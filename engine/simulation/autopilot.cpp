@@ -16,7 +16,6 @@ constexpr double kAbortAfter_s = 2.0;
 constexpr double kOutageClimb_m = 10.0;
 constexpr int kEstimatesBeforeUse = 5;
 constexpr double kHandOverSpeed_mps = 0.5;
-constexpr double kOffsetFade_s = 3.0;
 constexpr double kLeverAverage_s = 2.0;
 constexpr double kPathLag_m = 1.0;
 constexpr double kSettleError_m = 0.15;
@@ -124,7 +123,7 @@ void Autopilot::ReceiveApproval(const Approval& approval, const VehicleSituation
   }
   approval_ = approval;
   path_ = PathOf(approval, options_.vehicle);
-  path_height_m_ = std::max(path_.SkidHeight(reference_.p_W), kSettleHeight_m);
+  slope_.height_m = std::max(path_.SkidHeight(reference_.p_W), kSettleHeight_m);
   last_estimate_.reset();
   last_arrival_.reset();
   estimates_seen_ = 0;
@@ -252,7 +251,7 @@ void Autopilot::StepAlign(Timestamp now) {
     GiveUp("the approval expired before the descent began", now);
     return;
   }
-  const Vector3d start = path_.BodyAt(path_height_m_);
+  const Vector3d start = path_.BodyAt(slope_.height_m);
   reference_.MoveTowards(start, path_.speeds.align, dt);
   yaw_reference_rad_ =
       SlewAngle(yaw_reference_rad_, path_.heading_rad, path_.speeds.turn_rate_rad_s * dt);
@@ -279,27 +278,15 @@ void Autopilot::HandOverToVision() {
   flown_.v_WB = vision_->now().v_WB;
   flies_on_vision_ = true;
   reference_.p_W += shift;
-  path_height_m_ = path_.SkidHeight(reference_.p_W);
-  path_offset_W_ = reference_.p_W - path_.BodyAt(path_height_m_);
-  path_rate_mps_ = 0;
+  slope_ = SlopeReference::From(path_, reference_.p_W);
   reference_.v_W.setZero();
   mode_ = VehicleMode::kDescend;
 }
 
 void Autopilot::StepDescend(bool fresh) {
-  const double dt = options_.control_period_s;
-  const double wanted = path_.speeds.SinkRateAt(path_height_m_);
   const bool keeps_up = (reference_.p_W - flown_.p_WB).norm() < kPathLag_m;
-  const bool moving = fresh && keeps_up;
-  path_rate_mps_ = Slew(path_rate_mps_, moving ? wanted : 0,
-                        (moving ? 1 : 4) * path_.speeds.acceleration_mps2 * dt);
-  path_height_m_ -= path_rate_mps_ * dt;
-  path_offset_W_ *= std::exp(-dt / kOffsetFade_s);
-  reference_.p_W = path_.BodyAt(path_height_m_) + path_offset_W_;
-  const Vector3d v_W = -path_rate_mps_ * path_.BodyPerMetre();
-  reference_.a_W = (v_W - reference_.v_W) / dt;
-  reference_.v_W = v_W;
-  if (path_height_m_ > path_.speeds.slope_end_m) {
+  slope_.Step(path_, fresh && keeps_up, options_.control_period_s, reference_);
+  if (slope_.height_m > path_.speeds.slope_end_m) {
     return;
   }
   if (path_.IsLook()) {
@@ -325,19 +312,19 @@ void Autopilot::StepSettle(Timestamp, bool fresh) {
                        flown_.v_WB.norm() < kSettleSpeed_mps + 0.3 * patience;
   settled_s_ = settled ? settled_s_ + dt : 0;
   if (settled_s_ >= 1.0) {
-    path_height_m_ = kSettleHeight_m;
-    path_rate_mps_ = 0;
+    slope_.height_m = kSettleHeight_m;
+    slope_.rate_mps = 0;
     mode_ = VehicleMode::kSink;
   }
 }
 
 void Autopilot::StepSink(bool fresh) {
   const double dt = options_.control_period_s;
-  path_rate_mps_ = Slew(path_rate_mps_, fresh ? path_.speeds.touch_mps : 0,
-                        (fresh ? 1 : 4) * path_.speeds.acceleration_mps2 * dt);
-  path_height_m_ -= path_rate_mps_ * dt;
-  reference_.p_W = path_.p_WS - path_height_m_ * Vector3d::UnitZ() - skid_lever_W_;
-  reference_.v_W = {0, 0, path_rate_mps_};
+  slope_.rate_mps = Slew(slope_.rate_mps, fresh ? path_.speeds.touch_mps : 0,
+                         (fresh ? 1 : 4) * path_.speeds.acceleration_mps2 * dt);
+  slope_.height_m -= slope_.rate_mps * dt;
+  reference_.p_W = path_.p_WS - slope_.height_m * Vector3d::UnitZ() - skid_lever_W_;
+  reference_.v_W = {0, 0, slope_.rate_mps};
   reference_.a_W.setZero();
 }
 

@@ -16,7 +16,7 @@
 // Estimates that move away from the vehicle's own solution (estimate_watch.h), and another station
 // taking command, end it with a hold; the reason goes out as a refusal of the approval.
 // At the hand-over the reference is shifted by vision minus GPS, so the control error is unchanged;
-// the shift then fades with a time constant of 3 s.
+// the shift then fades (slope_reference.h).
 #pragma once
 
 #include <optional>
@@ -24,7 +24,7 @@
 
 #include "engine/flight/controllers.h"
 #include "engine/flight/estimate_watch.h"
-#include "engine/flight/flight_path.h"
+#include "engine/flight/slope_reference.h"
 #include "engine/flight/waypoints.h"
 #include "engine/simulation/command_gate.h"
 #include "engine/simulation/vehicle_navigator.h"
@@ -109,9 +109,7 @@ class Autopilot {
   double yaw_reference_rad_ = 0;
   Eigen::Vector3d hold_p_W_;
   double hover_down_m_ = 0;  ///< of the highest hover that it was sent to: wave-offs climb there
-  double path_height_m_ = 0;  ///< skid height of the reference
-  double path_rate_mps_ = 0;
-  Eigen::Vector3d path_offset_W_ = Eigen::Vector3d::Zero();
+  SlopeReference slope_;     ///< its height and rate are also those of the sink
   Eigen::Vector3d skid_lever_W_;  ///< R_WB p_B,skid, averaged: the mean tilt in wind
   double settle_time_s_ = 0;
   double settled_s_ = 0;

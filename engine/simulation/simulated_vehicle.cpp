@@ -9,9 +9,6 @@ using Eigen::Vector3d;
 
 constexpr double kAuthorityPeriod_s = 1;
 
-/// Steps of physics between two samples of a rate that divides them (vehicle_file.h).
-std::int64_t StepsOf(double rate_hz) { return std::llround(1 / (Aircraft::kStep_s * rate_hz)); }
-
 Vector3d StartPosition(const SimulatorOptions& options) {
   const double ground = options.scene.ground.Height(options.start_north_m, options.start_east_m);
   return {options.start_north_m, options.start_east_m, -(ground + options.hover_height_m)};
@@ -59,23 +56,16 @@ SimulatedVehicle::SimulatedVehicle(const SimulatorOptions& options)
       true_now_(LeadInStart()),
       now_(Reading(true_now_, vehicle_.clock_drift)),
       boot_id_(BootId(options)),
-      aircraft_(vehicle_, StartPosition(options), options.heading_rad),
-      actuators_(vehicle_.actuators, Aircraft::kStep_s),
-      wind_(options.wind, options.seed),
-      imu_(vehicle_.sensors.imu, vehicle_.sensors.imu_rate_hz, options.seed),
-      ahrs_(vehicle_.sensors.attitude, vehicle_.sensors.imu_rate_hz, options.seed),
-      gps_(vehicle_.sensors.gps, options.seed),
+      aircraft_(vehicle_, options.wind, options.seed,
+                {now_, StartPosition(options), options.heading_rad}),
       laser_(vehicle_.sensors.laser, options.seed),
-      navigator_({now_, StartPosition(options), Vector3d::Zero()},
-                 vehicle_.sensors.gps.velocity_mps),
-      autopilot_(MakeAutopilotOptions(options, boot_id_)),
-      attitude_(aircraft_.body().R_WB) {
+      autopilot_(MakeAutopilotOptions(options, boot_id_)) {
   FrameBundle discarded;
   AdvanceTo(Simulator::kEpoch, discarded);
 }
 
 void SimulatedVehicle::Receive(const VehicleMessage& message) {
-  autopilot_.Receive(message, {now_, navigator_.now().p_WB, ground_down_m_});
+  autopilot_.Receive(message, {now_, aircraft_.navigator().now().p_WB, ground_down_m_});
 }
 
 void SimulatedVehicle::SetRig(const StereoRig& rig) {
@@ -98,60 +88,36 @@ void SimulatedVehicle::AdvanceTo(Timestamp until, FrameBundle& bundle) {
 }
 
 void SimulatedVehicle::Step(FrameBundle& bundle) {
-  if (step_ % StepsOf(vehicle_.actuators.control_rate_hz) == 0) {
-    StepControl();
+  if (aircraft_.IsDue(vehicle_.actuators.control_rate_hz)) {
+    aircraft_.Command(autopilot_.Control(now_, aircraft_.Believed(), aircraft_.frozen()));
   }
-  const double height_m = HeightAboveGround();
-  wind_W_ = wind_.Advance(Aircraft::kStep_s, height_m, (aircraft_.body().v_WB() - wind_W_).norm());
-  aircraft_.Step(actuators_.Act(), wind_W_, height_m);
-  ++step_;
+  aircraft_.StepPhysics(HeightAboveGround());
   true_now_.us += kStep_us;
   now_ = Reading(true_now_, vehicle_.clock_drift);
   CheckGround();
-  if (step_ % StepsOf(vehicle_.sensors.imu_rate_hz) == 0) {
-    StepInertial(bundle);
+  if (const auto inertial = aircraft_.StepInertial(now_)) {
+    autopilot_.Propagate(now_, inertial->a_W - aircraft_.navigator().bias_W());
+    bundle.imu.push_back(inertial->sample);
   }
   StepSlowSensors(bundle);
   history_.Add(X_WB(), Pose());
 }
 
-void SimulatedVehicle::StepControl() {
-  const InertialTrack::Point& nav = navigator_.now();
-  actuators_.Command(autopilot_.Control(now_, {nav.p_WB, nav.v_WB, attitude_, angular_rate_B_},
-                                        aircraft_.frozen()));
-}
-
-void SimulatedVehicle::StepInertial(FrameBundle& bundle) {
-  const BodyState body = aircraft_.body();
-  const ImuSample sample = imu_.Measure(now_, aircraft_.SpecificForce(), body.angular_rate_B);
-  attitude_ = ahrs_.Measure(body.R_WB);
-  angular_rate_B_ = sample.angular_rate_B;
-  const Vector3d a_W = AccelerationInWorld(sample, attitude_);
-  navigator_.Propagate(now_, a_W);
-  autopilot_.Propagate(now_, a_W - navigator_.bias_W());
-  bundle.imu.push_back(sample);
-}
-
 void SimulatedVehicle::StepSlowSensors(FrameBundle& bundle) {
-  const BodyState body = aircraft_.body();
-  if (step_ % StepsOf(vehicle_.sensors.gps_rate_hz) == 0) {
-    gps_.Measure(now_, body.p_WB, body.v_WB());
-  }
-  if (const std::optional<GpsFix> fix = gps_.Deliver(now_)) {
-    navigator_.Update(*fix);
+  if (const std::optional<GpsFix> fix = aircraft_.StepGps(now_)) {
     bundle.gps.push_back(*fix);
   }
-  if (step_ % StepsOf(vehicle_.sensors.laser_rate_hz) == 0) {
+  if (aircraft_.IsDue(vehicle_.sensors.laser_rate_hz)) {
     bundle.laser.push_back(laser_.Measure(now_, world_, X_WB() * X_BC_));
     const Vector3d p_C(0, 0, bundle.laser.back().range_m);
     ground_down_m_ = (Pose().X_WB * X_BC_ * p_C).z();
   }
-  if (step_ % StepsOf(vehicle_.actuators.control_rate_hz) == 0) {
+  if (aircraft_.IsDue(vehicle_.actuators.control_rate_hz)) {
     untold_.push_back(Pose());
     Truth truth;
     truth.time = now_;
     truth.X_WB = X_WB();
-    truth.v_WB = body.v_WB();
+    truth.v_WB = aircraft_.body().v_WB();
     bundle.truth.push_back(truth);
   }
   TellPoses(bundle);
@@ -213,9 +179,10 @@ double SimulatedVehicle::HeightAboveGround() const {
 VehiclePose SimulatedVehicle::Pose() const {
   VehiclePose pose;
   pose.time = now_;
-  pose.X_WB = {attitude_, navigator_.now().p_WB};
-  pose.v_WB = navigator_.now().v_WB;
-  pose.angular_rate_B = angular_rate_B_;
+  const FlightState believed = aircraft_.Believed();
+  pose.X_WB = {believed.R_WB, believed.p_WB};
+  pose.v_WB = believed.v_WB;
+  pose.angular_rate_B = believed.angular_rate_B;
   return pose;
 }
 
@@ -227,7 +194,7 @@ VehicleStatus SimulatedVehicle::Status() const {
   status.on_ground = aircraft_.frozen();
   status.flies_on_vision = autopilot_.flies_on_vision();
   status.approval_id = autopilot_.approval_id();
-  const Vector3d mean = wind_.Mean(HeightAboveGround());
+  const Vector3d mean = aircraft_.wind().Mean(HeightAboveGround());
   status.wind_speed_mps = mean.norm();
   status.wind_from_rad = mean.norm() > 0 ? std::atan2(-mean.y(), -mean.x()) : 0;
   status.battery_or_fuel =

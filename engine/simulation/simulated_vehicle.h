@@ -10,8 +10,8 @@
 #include <optional>
 #include <vector>
 
-#include "engine/simulation/aircraft.h"
 #include "engine/simulation/autopilot.h"
+#include "engine/simulation/instrumented_aircraft.h"
 #include "engine/simulation/pose_history.h"
 #include "engine/simulation/simulator.h"
 
@@ -28,7 +28,7 @@ class SimulatedVehicle {
 
   void Receive(const VehicleMessage& message);
   /// From now on: another wind; cameras, and the laser beside them, looking another way.
-  void SetWind(const WindOptions& wind) { wind_.Set(wind); }
+  void SetWind(const WindOptions& wind) { aircraft_.wind().Set(wind); }
   void SetRig(const StereoRig& rig);
   /// Advances to the first grid point at or after `until`, a true time; appends every sample to the
   /// bundle.
@@ -40,7 +40,7 @@ class SimulatedVehicle {
   VehicleAuthority& authority() { return autopilot_.authority(); }
   RigidTransform X_WB() const { return {aircraft_.body().R_WB, aircraft_.body().p_WB}; }
   const std::optional<Touchdown>& touchdown() const { return touchdown_; }
-  const ImuSensor& imu() const { return imu_; }
+  const ImuSensor& imu() const { return aircraft_.imu(); }
   /// Up to now.
   const PoseHistory& history() const { return history_; }
   /// The navigation solution now.
@@ -49,8 +49,6 @@ class SimulatedVehicle {
 
  private:
   void Step(FrameBundle& bundle);
-  void StepControl();
-  void StepInertial(FrameBundle& bundle);
   void StepSlowSensors(FrameBundle& bundle);
   void TellPoses(FrameBundle& bundle);
   void CheckGround();
@@ -63,22 +61,12 @@ class SimulatedVehicle {
   RigidTransform X_BC_;
   Timestamp true_now_;
   Timestamp now_;
-  std::int64_t step_ = 0;
   std::uint64_t boot_id_;
-  Aircraft aircraft_;
-  Actuators actuators_;
-  WindModel wind_;
-  Eigen::Vector3d wind_W_ = Eigen::Vector3d::Zero();
-  ImuSensor imu_;
-  AhrsSensor ahrs_;
-  GpsSensor gps_;
+  InstrumentedAircraft aircraft_;
   LaserSensor laser_;
-  GpsNavigator navigator_;
   Autopilot autopilot_;
   double ground_down_m_ = NAN;  ///< of the laser's newest spot
   Timestamp authority_told_;
-  Eigen::Matrix3d attitude_;
-  Eigen::Vector3d angular_rate_B_ = Eigen::Vector3d::Zero();
   std::optional<Touchdown> touchdown_;
   PoseHistory history_;
   std::deque<VehiclePose> untold_;  ///< poses that the station is still to hear
