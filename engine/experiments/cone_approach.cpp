@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "engine/core/random.h"
-#include "engine/core/units.h"
+#include "engine/experiments/slope_foot.h"
 #include "engine/world/solids.h"
 
 namespace palace {
@@ -15,9 +15,8 @@ constexpr double kLimit_s = 90;
 
 }  // namespace
 
-ConeApproach::ConeApproach(const ConeApproachPlan& plan, SceneCameraFactory camera) : plan_(plan) {
+Result<ConeApproach> ConeApproach::Make(const ConeApproachPlan& plan, SceneCameraFactory camera) {
   RandomStream random(plan.seed, "cone approach");
-  const StereoRig& rig = plan.vehicle.rig;
   SimulatorOptions options;
   options.vehicle = plan.vehicle;
   options.seed = plan.seed;
@@ -27,16 +26,16 @@ ConeApproach::ConeApproach(const ConeApproachPlan& plan, SceneCameraFactory came
   options.wind = GustyWind(plan.wind_mps, 0);
   options.duration_limit_s = kLimit_s;
   options.render = plan.render;
-  const RigidTransform X_WC =
-      RigidTransform{Eigen::Matrix3d::Identity(),
-                     {options.start_north_m, options.start_east_m, -kHover_m}} *
-      rig.X_BC();
-  const Eigen::Vector3d axis_W = X_WC.R.col(2);
-  p_W_cone_ = X_WC.p - X_WC.p.z() / axis_W.z() * axis_W;
+  const Result<Eigen::Vector3d> p_W_cone =
+      SlopeFoot(plan.vehicle, {options.start_north_m, options.start_east_m, -kHover_m});
+  if (!p_W_cone) {
+    return p_W_cone.error();
+  }
   options.scene.name = "road cone";
   options.scene.ground.texture_seed = plan.seed;
-  options.scene.solids = MakeTrafficCone(p_W_cone_.x(), p_W_cone_.y(), plan.cone_height_m);
-  simulator_ = std::make_shared<Simulator>(std::move(options), std::move(camera));
+  options.scene.solids = MakeTrafficCone(p_W_cone->x(), p_W_cone->y(), plan.cone_height_m);
+  return ConeApproach(plan, *p_W_cone,
+                      std::make_shared<Simulator>(std::move(options), std::move(camera)));
 }
 
 void ConeApproach::Approve(const FrameBundle& bundle) {

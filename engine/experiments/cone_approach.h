@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "engine/core/result.h"
 #include "engine/model/frame_bundle.h"
@@ -33,7 +34,8 @@ struct ApproachPicture {
 
 class ConeApproach {
  public:
-  ConeApproach(const ConeApproachPlan& plan, SceneCameraFactory camera);
+  /// Error: cameras that look too flat (slope_foot.h).
+  static Result<ConeApproach> Make(const ConeApproachPlan& plan, SceneCameraFactory camera);
 
   /// The next picture; nothing when the slope has ended. Errors: a camera that cannot draw, and a
   /// vehicle that does not fly the approach.
@@ -44,11 +46,14 @@ class ConeApproach {
   const Eigen::Vector3d& p_W_cone() const { return p_W_cone_; }
 
  private:
+  ConeApproach(const ConeApproachPlan& plan, const Eigen::Vector3d& p_W_cone,
+               std::shared_ptr<Simulator> simulator)
+      : plan_(plan), p_W_cone_(p_W_cone), simulator_(std::move(simulator)) {}
   void Approve(const FrameBundle& bundle);
   void GuideByTruth(const FrameBundle& bundle);
 
   ConeApproachPlan plan_;
-  Eigen::Vector3d p_W_cone_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d p_W_cone_;
   std::shared_ptr<Simulator> simulator_;
   std::optional<Approval> approval_;
   bool descends_ = false;

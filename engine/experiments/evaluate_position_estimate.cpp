@@ -1,7 +1,5 @@
 #include "engine/experiments/evaluate_position_estimate.h"
 
-#include <algorithm>
-#include <array>
 #include <memory>
 #include <utility>
 
@@ -17,40 +15,10 @@
 namespace palace {
 namespace {
 
-constexpr std::array kPictureRows = {480, 240};  // the rig's, and those of the thesis
-
 struct PositionOptions {
   FlightOptions flight;
   double cone_height_m = 0.5;
 };
-
-template <typename T>
-Image<T> MiddleRows(const Image<T>& image, int rows) {
-  const int first = (image.height() - rows) / 2;
-  Image<T> middle(image.width(), rows);
-  for (int y = 0; y < rows; ++y) {
-    std::copy_n(image.row(first + y), image.width(), middle.row(y));
-  }
-  return middle;
-}
-
-PinholeCamera MiddleRows(const PinholeCamera& camera, int rows) {
-  PinholeCamera middle = camera;
-  middle.cy_px -= (camera.height - rows) / 2;
-  middle.height = rows;
-  return middle;
-}
-
-MeasuredPicture MiddleRows(const MeasuredPicture& picture, int rows) {
-  MeasuredPicture middle;
-  middle.left = MiddleRows(picture.left, rows);
-  middle.camera = middle.range.camera = MiddleRows(picture.camera, rows);
-  middle.range.time = picture.range.time;
-  middle.range.baseline_m = picture.range.baseline_m;
-  middle.range.depth_m = MiddleRows(picture.range.depth_m, rows);
-  middle.range.depth_sigma_m = MiddleRows(picture.range.depth_sigma_m, rows);
-  return middle;
-}
 
 /// Everything that looks at pictures of one size.
 struct Onlookers {
@@ -83,10 +51,11 @@ Result<std::optional<FollowedFeature>> Follow(Onlookers& onlookers, const Measur
   return std::optional(onlookers.follower->first());
 }
 
-std::vector<Onlookers> MakeOnlookers(const TrackingSettings& tracking, const AhrsNoise& vehicle,
+std::vector<Onlookers> MakeOnlookers(const std::vector<int>& heights,
+                                     const TrackingSettings& tracking, const AhrsNoise& vehicle,
                                      const Eigen::Vector3d& p_W_feature) {
   std::vector<Onlookers> all;
-  for (const int rows : kPictureRows) {
+  for (const int rows : heights) {
     Onlookers& each = all.emplace_back();
     each.rows = rows;
     for (const AttitudeQuality attitude : kAttitudeQualities) {
@@ -101,6 +70,92 @@ std::vector<Onlookers> MakeOnlookers(const TrackingSettings& tracking, const Ahr
   return all;
 }
 
+/// `told`: the bundle by the quality of its attitudes.
+void AddSensors(const std::vector<std::shared_ptr<const FrameBundle>>& told,
+                const std::vector<Onlookers>& onlookers) {
+  for (const Onlookers& each : onlookers) {
+    for (const Onlookers::Run& run : each.runs) {
+      run.run->AddSensors(*told[static_cast<std::size_t>(run.attitude)]);
+    }
+  }
+}
+
+/// The left picture of a bundle with its ranges, as the station measures them.
+class PictureMeasurer {
+ public:
+  PictureMeasurer(const StereoRig& rig, const StereoRectifier& rectifier,
+                  const StereoSettings& settings)
+      : rig_(rig), rectifier_(rectifier), settings_(settings) {}
+
+  RigidTransform X_WC(const RigidTransform& X_WB) const { return X_WB * rectifier_.X_BC(rig_); }
+  Result<MeasuredPicture> Measure(const StereoFrame& raw, const RigidTransform& X_WB) {
+    const Result<RectifiedPair> pair = rectifier_.Rectify(raw);
+    if (!pair) {
+      return pair.error();
+    }
+    Result<StereoResult> ranges = MeasureRanges({.raw = raw,
+                                                 .pair = *pair,
+                                                 .rig = rig_,
+                                                 .rectifier = rectifier_,
+                                                 .pose = ViewPose{X_WC(X_WB)}},
+                                                settings_, matcher_);
+    if (!ranges) {
+      return ranges.error();
+    }
+    return MeasuredPicture{*pair->left, rectifier_.camera(), std::move(ranges->range)};
+  }
+
+ private:
+  const StereoRig& rig_;
+  const StereoRectifier& rectifier_;
+  const StereoSettings& settings_;
+  StereoMatcher matcher_;
+};
+
+/// All estimators over one approach, until its slope ends.
+Status Watch(ConeApproach& approach, std::uint64_t seed, const StereoRig& rig,
+             PictureMeasurer& measurer, std::vector<Onlookers>& onlookers) {
+  std::vector<AttitudeOf> attitudes;
+  for (const AttitudeQuality quality : kAttitudeQualities) {
+    attitudes.emplace_back(quality, seed);
+  }
+  while (true) {
+    const Result<std::optional<ApproachPicture>> next = approach.Next();
+    if (!next || !*next) {
+      return next ? Ok() : Status(next.error());
+    }
+    const ApproachPicture& seen = **next;
+    std::vector<std::shared_ptr<const FrameBundle>> told;
+    for (AttitudeOf& attitude : attitudes) {
+      told.push_back(attitude.Told(seen.bundle, approach));
+    }
+    AddSensors(told, onlookers);
+    if (!seen.bundle->stereo) {
+      continue;
+    }
+    const Result<MeasuredPicture> whole = measurer.Measure(*seen.bundle->stereo, seen.X_WB);
+    if (!whole) {
+      return whole.error();
+    }
+    for (Onlookers& each : onlookers) {
+      const MeasuredPicture picture = MiddleRows(*whole, each.rows);
+      std::optional<FollowedFeature> followed;
+      if (seen.approved) {
+        Result<std::optional<FollowedFeature>> found =
+            Follow(each, picture, measurer.X_WC(seen.X_WB), approach.p_W_cone());
+        if (!found) {
+          return found.error();
+        }
+        followed = std::move(found).value();
+      }
+      for (const Onlookers::Run& run : each.runs) {
+        run.run->AddPicture(*told[static_cast<std::size_t>(run.attitude)], rig, picture, seen.X_WB,
+                            followed ? &*followed : nullptr, seen.approved);
+      }
+    }
+  }
+}
+
 Result<std::vector<TrialRow>> RunTrial(const PositionOptions& options, int trial,
                                        std::uint64_t seed, const SceneCameraFactory& camera) {
   const Result<MissionFlight> flight = options.flight.Flight(seed);
@@ -112,70 +167,30 @@ Result<std::vector<TrialRow>> RunTrial(const PositionOptions& options, int trial
   if (!rectifier) {
     return rectifier.error();
   }
-  ConeApproach approach({.vehicle = flight->vehicle,
-                         .seed = seed,
-                         .wind_mps = flight->wind_mps,
-                         .cone_height_m = options.cone_height_m},
-                        camera);
-  std::vector<AttitudeOf> attitudes;
-  for (const AttitudeQuality quality : kAttitudeQualities) {
-    attitudes.emplace_back(quality, seed);
+  const PinholeCamera& whole = rectifier->camera();
+  const Result<std::vector<int>> heights = PictureHeights(whole);
+  if (!heights) {
+    return heights.error();
+  }
+  Result<ConeApproach> approach = ConeApproach::Make({.vehicle = flight->vehicle,
+                                                      .seed = seed,
+                                                      .wind_mps = flight->wind_mps,
+                                                      .cone_height_m = options.cone_height_m},
+                                                     camera);
+  if (!approach) {
+    return approach.error();
   }
   std::vector<Onlookers> onlookers = MakeOnlookers(
-      flight->settings.tracking, flight->vehicle.sensors.attitude, approach.p_W_cone());
-  StereoMatcher matcher;
-  while (true) {
-    const Result<std::optional<ApproachPicture>> next = approach.Next();
-    if (!next) {
-      return next.error();
-    }
-    if (!*next) {
-      break;
-    }
-    const ApproachPicture& seen = **next;
-    if (!seen.bundle->stereo) {
-      continue;
-    }
-    const RigidTransform X_WC = seen.X_WB * rectifier->X_BC(rig);
-    const Result<RectifiedPair> pair = rectifier->Rectify(*seen.bundle->stereo);
-    if (!pair) {
-      return pair.error();
-    }
-    Result<StereoResult> ranges = MeasureRanges({.raw = *seen.bundle->stereo,
-                                                 .pair = *pair,
-                                                 .rig = rig,
-                                                 .rectifier = *rectifier,
-                                                 .pose = ViewPose{X_WC}},
-                                                flight->settings.stereo, matcher);
-    if (!ranges) {
-      return ranges.error();
-    }
-    const MeasuredPicture whole{*pair->left, rectifier->camera(), std::move(ranges->range)};
-    std::vector<std::shared_ptr<const FrameBundle>> told;
-    for (AttitudeOf& attitude : attitudes) {
-      told.push_back(attitude.Told(seen.bundle, approach));
-    }
-    for (Onlookers& each : onlookers) {
-      const MeasuredPicture picture = MiddleRows(whole, each.rows);
-      std::optional<FollowedFeature> followed;
-      if (seen.approved) {
-        Result<std::optional<FollowedFeature>> found =
-            Follow(each, picture, X_WC, approach.p_W_cone());
-        if (!found) {
-          return found.error();
-        }
-        followed = std::move(found).value();
-      }
-      for (const Onlookers::Run& run : each.runs) {
-        run.run->Add(*told[static_cast<std::size_t>(run.attitude)], rig, picture, seen.X_WB,
-                     followed ? &*followed : nullptr, seen.approved);
-      }
-    }
+      *heights, flight->settings.tracking, flight->vehicle.sensors.attitude, approach->p_W_cone());
+  PictureMeasurer measurer(rig, *rectifier, flight->settings.stereo);
+  if (const Status watched = Watch(*approach, seed, rig, measurer, onlookers); !watched) {
+    return watched.error();
   }
   std::vector<TrialRow> rows;
   for (const Onlookers& each : onlookers) {
     for (const Onlookers::Run& run : each.runs) {
-      const PositionCase of{each.rows, NameOf(run.attitude), NameOf(run.estimator)};
+      const PositionCase of{PictureSizeText(whole.width, each.rows), each.rows == whole.height,
+                            NameOf(run.attitude), NameOf(run.estimator)};
       AddPositionRows(of, run.run->samples(), /*with_track=*/trial == 0, rows);
     }
   }

@@ -138,10 +138,9 @@ PositionError EstimatorRun::ErrorOf(const Eigen::Vector3d& p_WB,
   return {(p_WB - site_->p_WS) - (p_WB_true - p_W_feature_), covariance_m2};
 }
 
-void EstimatorRun::Add(const FrameBundle& bundle, const StereoRig& rig,
-                       const MeasuredPicture& picture, const RigidTransform& X_WB_true,
-                       const FollowedFeature* followed, bool tell) {
-  navigator_.AddSensors(bundle);
+void EstimatorRun::AddPicture(const FrameBundle& bundle, const StereoRig& rig,
+                              const MeasuredPicture& picture, const RigidTransform& X_WB_true,
+                              const FollowedFeature* followed, bool tell) {
   const Timestamp time = bundle.stereo->time;
   const RigidTransform X_WC = navigator_.PredictBodyPose(time) * rig.X_BC();
   if (!site_) {

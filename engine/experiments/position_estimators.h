@@ -20,7 +20,7 @@
 #include <vector>
 
 #include "engine/experiments/cone_approach.h"
-#include "engine/model/range_map.h"
+#include "engine/experiments/position_pictures.h"
 #include "engine/navigation/navigator.h"
 #include "engine/simulation/attitude_sensor.h"
 #include "engine/tracking/feature_follower.h"
@@ -69,13 +69,6 @@ struct PositionSample {
   bool refused = false;
 };
 
-/// One camera's picture with its ranges, of the full height or of the middle rows.
-struct MeasuredPicture {
-  ImageU8 left;
-  PinholeCamera camera;
-  RangeMap range;
-};
-
 /// Attitudes of one quality, for all estimators alike: the bundle with its poses replaced.
 class AttitudeOf {
  public:
@@ -93,11 +86,16 @@ class EstimatorRun {
   EstimatorRun(PositionEstimator estimator, const TrackingSettings& settings,
                const AttitudeErrors& attitude, const Eigen::Vector3d& p_W_feature);
 
-  /// One picture, in order. `followed`: what the follower says of the feature; only of kSevenSteps
-  /// and after the site was told. `tell`: from this picture on the site is told and tracked.
-  void Add(const FrameBundle& bundle, const StereoRig& rig, const MeasuredPicture& picture,
-           const RigidTransform& X_WB_true, const FollowedFeature* followed, bool tell);
+  /// What the vehicle told with a picture, or without one where a pair never came; every bundle, in
+  /// order, before its picture.
+  void AddSensors(const FrameBundle& bundle) { navigator_.AddSensors(bundle); }
+  /// The picture of that bundle. `followed`: what the follower says of the feature; only of
+  /// kSevenSteps and after the site was told. `tell`: from this picture on the site is told and
+  /// tracked.
+  void AddPicture(const FrameBundle& bundle, const StereoRig& rig, const MeasuredPicture& picture,
+                  const RigidTransform& X_WB_true, const FollowedFeature* followed, bool tell);
   const std::vector<PositionSample>& samples() const { return samples_; }
+  const NavigationStatus& navigation() const { return navigator_.status(); }
 
  private:
   void MapSite(const MeasuredPicture& picture, const RigidTransform& X_WC,
