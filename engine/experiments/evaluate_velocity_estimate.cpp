@@ -27,13 +27,16 @@ Result<std::vector<TrialRow>> RunTrial(const VelocityOptions& options, int trial
   std::vector<TrialRow> rows, tracks;
   for (const LoopIntegral& integral : LoopIntegrals()) {
     for (const VelocityMethod& method : VelocityMethods()) {
-      const VelocityFlight flown = FlyOn(method, integral,
-                                         {.vehicle = flight->vehicle,
-                                          .seed = seed,
-                                          .wind_mps = flight->wind_mps,
-                                          .hover_s = options.hover_s});
-      rows.push_back(RowOf(method, integral, flown));
-      for (const VelocityFlight::Sample& sample : flown.track) {
+      const Result<VelocityFlight> flown = FlyOn(method, integral,
+                                                 {.vehicle = flight->vehicle,
+                                                  .seed = seed,
+                                                  .wind_mps = flight->wind_mps,
+                                                  .hover_s = options.hover_s});
+      if (!flown) {
+        return flown.error();
+      }
+      rows.push_back(RowOf(method, integral, *flown));
+      for (const VelocityFlight::Sample& sample : flown->track) {
         if (trial == 0 && IsTracked(integral)) {
           tracks.push_back(TrackRowOf(method, integral, sample));
         }

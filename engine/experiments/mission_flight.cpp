@@ -4,6 +4,7 @@
 #include <memory>
 #include <utility>
 
+#include "engine/experiments/overheard_link.h"
 #include "engine/faults/faulted_source.h"
 #include "engine/journal/flight_recorder.h"
 #include "engine/runtime/engine.h"
@@ -83,7 +84,8 @@ std::string WhyNotLanded(const EngineSnapshot& snapshot) {
 
 }  // namespace
 
-Result<FlownMission> FlyMission(const MissionFlight& flight, const SceneCameraFactory& camera) {
+Result<FlownMission> FlyMission(const MissionFlight& flight, const SceneCameraFactory& camera,
+                                const MissionWatcher& watcher) {
   Result<SimulatedSession> session = OpenSimulatedSession({.scenario = flight.scenario,
                                                            .seed = flight.seed,
                                                            .vehicle = flight.vehicle,
@@ -101,7 +103,8 @@ Result<FlownMission> FlyMission(const MissionFlight& flight, const SceneCameraFa
   parts.settings = flight.settings;
   parts.mission.session_id = session->id;
   parts.source = source;
-  parts.link = source;
+  const auto link = std::make_shared<OverheardLink>(source);
+  parts.link = link;
   if (!flight.record_in.empty()) {
     Result<std::unique_ptr<FlightRecorder>> recorder = FlightRecorder::Open(
         flight.record_in,
@@ -125,6 +128,9 @@ Result<FlownMission> FlyMission(const MissionFlight& flight, const SceneCameraFa
       engine.Post(command);
     }
     flown.why = WhyNotLanded(*snapshot);
+    if (watcher && !watcher(*snapshot, link->newest() ? &*link->newest() : nullptr)) {
+      break;
+    }
     if (pilot.finished() || patience.IsOver(*snapshot, summarizer.summary())) {
       break;
     }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <string>
@@ -46,8 +47,14 @@ struct FlownMission {
   double outside_m = 0;  ///< of that area, by the truth of B, at most
 };
 
+/// Looks on after every pass: what the station shows, and the newest position that it sent, null
+/// before the first. False: enough was seen, the flight ends.
+using MissionWatcher =
+    std::function<bool(const EngineSnapshot& snapshot, const PositionEstimate* sent)>;
+
 /// Errors: an unknown scenario is one of usage; those of a camera that cannot draw and of a log
 /// that cannot be written.
-Result<FlownMission> FlyMission(const MissionFlight& flight, const SceneCameraFactory& camera);
+Result<FlownMission> FlyMission(const MissionFlight& flight, const SceneCameraFactory& camera,
+                                const MissionWatcher& watcher = {});
 
 }  // namespace palace

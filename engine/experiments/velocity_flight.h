@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/core/result.h"
 #include "engine/experiments/fixed_gain_filter.h"
 #include "engine/experiments/vision_fixes.h"
 #include "engine/simulation/vehicle_description.h"
@@ -60,9 +61,9 @@ struct VelocityFlight {
   /// Root mean square of estimated less true velocity, per axis of W, from 2 s after the switch.
   Eigen::Vector3d hover_rms_mps = Eigen::Vector3d::Constant(NAN);
   Eigen::Vector3d approach_rms_mps = Eigen::Vector3d::Constant(NAN);
-  double hover_off_m = 0;  ///< largest distance from the set-point, by the truth
+  /// Largest distance from the set-point, by the truth, what the switch moved it by not counted.
+  double hover_off_m = 0;
   double approach_off_m = NAN;
-  double step_mps = 0;  ///< of the velocity flown on, at the switch
   std::string crash = "none";
   double crash_s = NAN;                                          ///< after the switch
   Eigen::Vector3d fix_bias_m = Eigen::Vector3d::Constant(NAN);   ///< mean error of the fixes
@@ -74,7 +75,8 @@ struct VelocityFlight {
   std::vector<Sample> track{};  ///< five a second
 };
 
-VelocityFlight FlyOn(const VelocityMethod& method, const LoopIntegral& integral,
-                     const VelocityFlightPlan& plan);
+/// Error: cameras that look too flat for a slope (slope_foot.h).
+Result<VelocityFlight> FlyOn(const VelocityMethod& method, const LoopIntegral& integral,
+                             const VelocityFlightPlan& plan);
 
 }  // namespace palace

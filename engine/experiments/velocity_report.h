@@ -29,7 +29,9 @@ inline constexpr double kMostStep_mps = 0.05;
 bool IsTracked(const LoopIntegral& integral);
 
 /// Passed when our velocity in the hover is never off by more than kMostHover_mps rms on an axis,
-/// at the vehicle's own gain, and no hand-over of a mission steps by more than kMostStep_mps.
+/// at the vehicle's own gain, nor that of the vision filter of a mission, and when at no hand-over
+/// of a mission the error of the velocity that is sent changes by more than kMostStep_mps from one
+/// message to the next. A flight or mission without such a figure does not pass.
 ExperimentReport VelocityReport(const TrialTable& table);
 
 }  // namespace palace
