@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/core/median.h"
+#include "engine/core/rotation_vector.h"
 #include "engine/tracking/view_geometry.h"
 
 namespace palace {
@@ -27,17 +28,6 @@ Matrix3d Skew(const Vector3d& v) {
   Matrix3d S;
   S << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
   return S;
-}
-
-Matrix3d Exp(const Vector3d& theta) {
-  const double angle = theta.norm();
-  return angle < 1e-15 ? Matrix3d::Identity()
-                       : Eigen::AngleAxisd(angle, theta / angle).toRotationMatrix();
-}
-
-Vector3d Log(const Matrix3d& R) {
-  const Eigen::AngleAxisd turn(R);
-  return turn.angle() * turn.axis();
 }
 
 /// One landmark under the present pose: residual and derivative, in sigmas.
@@ -216,21 +206,21 @@ Result<Resection> ResectCamera(const std::vector<GroundLandmark>& landmarks,
     const std::vector<Term> terms = EvaluateAll(landmarks, camera, X_WC);
     scale = Scale(terms);
     const bool settled = i >= kHuberIterations;
-    normal = BuildNormal(terms, scale, settled, Log(R_WC_prior.transpose() * X_WC.R),
+    normal = BuildNormal(terms, scale, settled, VectorFromRotation(R_WC_prior.transpose() * X_WC.R),
                          options.attitude_sigma_rad);
     const Vector6d step = normal.H.ldlt().solve(normal.g);
     if (!step.allFinite()) {
       return InvalidError("the landmarks do not fix the camera's position");
     }
     X_WC.p += step.head<3>();
-    X_WC.R = X_WC.R * Exp(step.tail<3>());
+    X_WC.R = X_WC.R * RotationFromVector(step.tail<3>());
     if (settled && step.head<3>().norm() < 1e-10 && step.tail<3>().norm() < 1e-12) {
       break;
     }
   }
   const std::vector<Term> terms = EvaluateAll(landmarks, camera, X_WC);
   scale = Scale(terms);
-  normal = BuildNormal(terms, scale, true, Log(R_WC_prior.transpose() * X_WC.R),
+  normal = BuildNormal(terms, scale, true, VectorFromRotation(R_WC_prior.transpose() * X_WC.R),
                        options.attitude_sigma_rad);
   return Summarise(terms, X_WC, normal, scale, options.attitude_sigma_rad);
 }

@@ -7,6 +7,7 @@
 #include "engine/calibration/bundle/bundle_equations.h"
 #include "engine/core/check.h"
 #include "engine/core/median.h"
+#include "engine/core/rotation_vector.h"
 
 namespace palace {
 namespace {
@@ -24,12 +25,6 @@ Eigen::Matrix3d Cross(const Eigen::Vector3d& v) {
   Eigen::Matrix3d m;
   m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
   return m;
-}
-
-Eigen::Matrix3d RotationFromVector(const Eigen::Vector3d& v) {
-  const double angle = v.norm();
-  return angle < 1e-15 ? Eigen::Matrix3d(Eigen::Matrix3d::Identity() + Cross(v))
-                       : Eigen::AngleAxisd(angle, v / angle).toRotationMatrix();
 }
 
 RigidTransform CameraFromTarget(const RigEstimate& estimate, int side, std::size_t view) {

@@ -31,8 +31,6 @@ Result<PictureSize> ReadSides(const KeyedText& text, const std::string& key);
 /// Makes of the numbers of `key`, which may hold few digits, the rotation they stand for. Refuses
 /// what is none.
 Status TakeRotation(const KeyedText& text, const std::string& key, Eigen::Matrix3d& R);
-/// The rotation about the axis `turn` by its length (Rodrigues).
-Eigen::Matrix3d RotationFromVector(const Eigen::Vector3d& turn);
 /// A number with 17 digits, which reads back to the same bits.
 std::string Exact(double value);
 /// Such numbers with `separator` between them.

@@ -283,11 +283,6 @@ Result<PictureSize> ReadSides(const KeyedText& text, const std::string& key) {
   return PictureSize{static_cast<int>((*sides)[0]), static_cast<int>((*sides)[1])};
 }
 
-Eigen::Matrix3d RotationFromVector(const Eigen::Vector3d& turn) {
-  return turn.norm() > 0 ? Eigen::AngleAxisd(turn.norm(), turn.normalized()).toRotationMatrix()
-                         : Eigen::Matrix3d(Eigen::Matrix3d::Identity());
-}
-
 std::string Exact(double value) {
   std::array<char, 40> text{};
   std::snprintf(text.data(), text.size(), "%.17g", value);

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "engine/camera/files/camera_file_formats.h"
+#include "engine/core/rotation_vector.h"
 
 namespace palace {
 namespace {
