@@ -6,6 +6,7 @@
 
 #include "engine/core/rounding.h"
 #include "engine/core/text.h"
+#include "engine/tracking/anchor_zoom.h"
 #include "engine/tracking/landing_features.h"
 #include "engine/tracking/picture_part.h"
 #include "engine/tracking/template_anchor.h"
@@ -22,8 +23,6 @@ constexpr int kStride = 2;  // of smoothed pixels every other says what all do
 constexpr double kSeen = 0.7;
 constexpr double kRival = 0.9;
 constexpr double kSuddenFall = 0.15;
-constexpr double kNewAnchorZoom = 1.4;
-constexpr double kForcedAnchorZoom = 1.9;
 constexpr double kSigma_px = 0.3;
 constexpr double kSigmaOfDistance = 0.003;  // what a pose errs by between feature and site
 
@@ -74,15 +73,24 @@ AnchoredFeature::Sighting AnchoredFeature::Look(const SiteView& view, const Patc
   const ImageU8 anchor =
       WarpedSquare(*patch_.keyframe, KeyFromNow(patch, A_, expected), expected, side + 2 * border);
   const Eigen::Vector2d middle = Eigen::Vector2d::Constant(half + border);
-  const PictureWindow window = CutWindow(view.left, expected, half + reach_px);
   const auto values = TemplateAnchor::Make(anchor, middle, side, kStride);
-  if (window.picture.width() < side || window.picture.height() < side || !values) {
-    sighting.why_not = values ? "it is out of the picture" : "its anchor is too even";
+  if (!values) {
+    sighting.why_not = "its anchor is too even";
     return sighting;
   }
-  const TemplateMatch match =
-      MatchTemplate(window.picture, CutWindow(anchor, middle, half).picture);
-  sighting.place = (window.corner + match.corner).cast<double>() + Eigen::Vector2d::Constant(half);
+  bool alone = true;
+  if (reach_px > 0) {
+    const PictureWindow window = CutWindow(view.left, expected, half + reach_px);
+    if (window.picture.width() < side || window.picture.height() < side) {
+      sighting.why_not = "it is out of the picture";
+      return sighting;
+    }
+    const TemplateMatch match =
+        MatchTemplate(window.picture, CutWindow(anchor, middle, half).picture);
+    sighting.place =
+        (window.corner + match.corner).cast<double>() + Eigen::Vector2d::Constant(half);
+    alone = match.second_score <= kRival * match.score;
+  }
   double seen = 0;
   if (const auto fit = values->Refined(view.left, {sighting.place})) {
     sighting.place = fit->at.place;
@@ -91,7 +99,6 @@ AnchoredFeature::Sighting AnchoredFeature::Look(const SiteView& view, const Patc
   }
   sighting.patches = ComparePatches(*patch_.keyframe, view.left,
                                     KeyFromNow(patch, sighting.A, sighting.place), sighting.place);
-  const bool alone = match.second_score <= kRival * match.score;
   sighting.why_not = WhyNot(sighting.patches.coherence, seen, alone, least);
   return sighting;
 }
@@ -111,7 +118,14 @@ AnchoredFeature::Sighting AnchoredFeature::Find(const SiteView& view, const Patc
   }
   member_.window_centre = expected;
   member_.window_side_px = FeatureSide(view.settings) + 2 * kNear_px;
-  Sighting sighting = Look(view, patch, expected, kNear_px, lost ? as_before : min);
+  Sighting sighting;
+  sighting.why_not = "it was LOST";
+  if (!lost) {
+    sighting = Look(view, patch, expected, 0, as_before);
+  }
+  if (!sighting.why_not.empty()) {
+    sighting = Look(view, patch, expected, kNear_px, lost ? as_before : min);
+  }
   if (sighting.why_not.empty() || !hint.may_look_wide) {
     return sighting;
   }
@@ -121,6 +135,11 @@ AnchoredFeature::Sighting AnchoredFeature::Find(const SiteView& view, const Patc
   const PatchSearch search = SearchPatch(*patch_.keyframe, view.left,
                                          KeyFromNow(patch, A_, expected), expected, radius_px);
   if (search.coherence < kWideCoherence) {
+    return sighting;
+  }
+  // The closer look asks no farther than itself.
+  if (search.second_coherence > kRival * search.coherence) {
+    sighting.why_not = "two places are alike";
     return sighting;
   }
   Sighting far = Look(view, patch, expected + search.shift_px, kAfterWide_px, as_before);

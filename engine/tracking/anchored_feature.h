@@ -3,8 +3,9 @@
 //
 // Its anchor is a place in a keyframe, warped into the present view by the homography of the site's
 // plane under the predicted motion (key_patch.h). What the prediction lacks is sought near where
-// the feature was seen last, moved on as predicted, by normalised cross-correlation, and found to a
-// fraction of a pixel with a small scale and turn (template_anchor.h). The site's pixel is carried
+// the feature was seen last, moved on as predicted, and found to a fraction of a pixel with a small
+// scale and turn (template_anchor.h); where that does not find it as it was, by normalised
+// cross-correlation first. The site's pixel is carried
 // along in the keyframe,
 //
 //   site now = place + H(site in the keyframe) - H(feature in the keyframe)
@@ -65,6 +66,7 @@ class AnchoredFeature {
     PatchComparison patches;
     std::string why_not;  ///< empty: it is the feature
   };
+  /// Within `reach_px` of where it is expected; by 0 as far as Gauss-Newton goes.
   Sighting Look(const SiteView& view, const PatchView& patch, const Eigen::Vector2d& expected,
                 int reach_px, double least) const;
   Sighting Find(const SiteView& view, const PatchView& patch, const FeatureHint& hint);

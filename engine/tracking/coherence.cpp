@@ -1,12 +1,14 @@
 #include "engine/tracking/coherence.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
 #include <opencv2/imgproc.hpp>
 
 #include "engine/tracking/picture_part.h"
+#include "engine/tracking/template_match.h"
 
 namespace palace {
 namespace {
@@ -16,6 +18,13 @@ constexpr double kMinVariance = 1.0;  // grey levels squared; flatter patches sa
 cv::Mat View(const ImageU8& picture) {
   return {picture.height(), picture.width(), CV_8U,
           const_cast<std::uint8_t*>(picture.pixels().data())};
+}
+
+ImageU8 Halved(const ImageU8& picture) {
+  ImageU8 small((picture.width() + 1) / 2, (picture.height() + 1) / 2);
+  cv::Mat out = View(small);
+  cv::pyrDown(View(picture), out);
+  return small;
 }
 
 struct Correlation {
@@ -30,14 +39,20 @@ Correlation Correlate(const cv::Mat& anchor, const cv::Mat& current) {
   for (int y = 0; y < anchor.rows; ++y) {
     const unsigned char* a = anchor.ptr(y);
     const unsigned char* c = current.ptr(y);
+    int row_a = 0, row_c = 0, row_aa = 0, row_cc = 0, row_ac = 0;  // of at most 2^15 pixels: exact
     for (int x = 0; x < anchor.cols; ++x) {
-      const double av = a[x], cv = c[x];
-      sum_a += av;
-      sum_c += cv;
-      sum_aa += av * av;
-      sum_cc += cv * cv;
-      sum_ac += av * cv;
+      const int av = a[x], cv = c[x];
+      row_a += av;
+      row_c += cv;
+      row_aa += av * av;
+      row_cc += cv * cv;
+      row_ac += av * cv;
     }
+    sum_a += row_a;
+    sum_c += row_c;
+    sum_aa += row_aa;
+    sum_cc += row_cc;
+    sum_ac += row_ac;
   }
   const double n = static_cast<double>(anchor.total());
   const double var_a = sum_aa / n - sum_a * sum_a / (n * n);
@@ -64,11 +79,15 @@ PatchComparison ComparePatches(ImageU8 anchor_patch, ImageU8 current_patch) {
   cv::GaussianBlur(View(current_patch), smooth_current, cv::Size(5, 5), 1.1);
   const Correlation match = Correlate(smooth_anchor, smooth_current);
   ImageU8 difference(anchor_patch.width(), anchor_patch.height());
+  std::array<double, 256> expected{};
+  for (int grey = 0; grey < 256; ++grey) {
+    expected[static_cast<std::size_t>(grey)] =
+        match.gain * (grey - match.mean_anchor) + match.mean_current;
+  }
   for (std::size_t i = 0; i < difference.pixels().size(); ++i) {
-    const double expected =
-        match.gain * (anchor_patch.pixels()[i] - match.mean_anchor) + match.mean_current;
-    const double value = 128 + (current_patch.pixels()[i] - expected) / 2;
-    difference.pixels()[i] = static_cast<std::uint8_t>(std::clamp(std::lround(value), 0L, 255L));
+    const double value =
+        128.5 + (current_patch.pixels()[i] - expected[anchor_patch.pixels()[i]]) / 2;
+    difference.pixels()[i] = static_cast<std::uint8_t>(std::clamp(value, 0.0, 255.0));
   }
   PatchComparison comparison;
   comparison.coherence = std::clamp(match.rho, 0.0, 1.0);
@@ -92,19 +111,9 @@ PatchSearch SearchPatch(const ImageU8& anchor, const ImageU8& current,
   const ImageU8 wanted = WarpedSquare(anchor, anchor_from_current, centre, kPatchSide_px);
   const ImageU8 window =
       WarpedSquare(current, Eigen::Matrix3d::Identity(), centre, kPatchSide_px + 2 * radius_px);
-  cv::Mat small_wanted;
-  cv::Mat small_window;
-  cv::pyrDown(View(wanted), small_wanted);
-  cv::pyrDown(View(window), small_window);
-  cv::Mat score;
-  cv::matchTemplate(small_window, small_wanted, score, cv::TM_CCOEFF_NORMED);
-  double best = 0;
-  cv::Point at;
-  cv::minMaxLoc(score, nullptr, &best, nullptr, &at);
-  PatchSearch search;
-  search.shift_px = Eigen::Vector2d(2.0 * at.x - radius_px, 2.0 * at.y - radius_px);
-  search.coherence = std::isfinite(best) ? std::clamp(best, 0.0, 1.0) : 0.0;
-  return search;
+  const TemplateMatch match = MatchTemplate(Halved(window), Halved(wanted));
+  return {2.0 * match.corner.cast<double>() - Eigen::Vector2d::Constant(radius_px), match.score,
+          match.second_score};
 }
 
 }  // namespace palace

@@ -38,6 +38,7 @@ PatchComparison ComparePatches(ImageU8 anchor_patch, ImageU8 current_patch);
 struct PatchSearch {
   Eigen::Vector2d shift_px = Eigen::Vector2d::Zero();  ///< from the prediction
   double coherence = 0;
+  double second_coherence = 0;  ///< of the best other place; 0 where there is none
 };
 PatchSearch SearchPatch(const ImageU8& anchor, const ImageU8& current,
                         const Eigen::Matrix3d& anchor_from_current, const Eigen::Vector2d& centre,

@@ -6,13 +6,13 @@
 
 #include "engine/core/rounding.h"
 #include "engine/core/text.h"
+#include "engine/tracking/anchor_zoom.h"
 #include "engine/tracking/coherence.h"
 #include "engine/tracking/picture_part.h"
 
 namespace palace {
 namespace {
 
-constexpr double kNewAnchorScale = 1.4;
 // The view changes over seconds, a hand comes in within a few pictures.
 constexpr std::size_t kSlowPictures = 10;
 constexpr double kSlowFall = 0.05;
@@ -192,7 +192,7 @@ bool FeatureFollower::NeedsAnchor(const Sighting& sighting) const {
   if (!options_.update || sighting.coherence < good) {
     return false;
   }
-  if (std::abs(std::log(sighting.at.scale)) >= std::log(kNewAnchorScale)) {
+  if (std::abs(std::log(sighting.at.scale)) >= std::log(kNewAnchorZoom)) {
     return true;
   }
   const bool sunk = fresh_coherence_ - sighting.coherence > kSlowFall;

@@ -9,9 +9,8 @@ namespace palace {
 namespace {
 
 constexpr int kMinRanges = 10;
-constexpr double kPlaneSigma_m = 0.10;    // real ground about its fitted plane
-constexpr double kMaxOffPlane_m = 0.30;   // a rock is no landmark of the plane
-constexpr double kSigmaPerDepth = 0.002;  // of a landmark's place, as seen from nearby views
+constexpr double kPlaneSigma_m = 0.10;   // real ground about its fitted plane
+constexpr double kMaxOffPlane_m = 0.30;  // a rock is no landmark of the plane
 
 struct Measured {
   double depth_m = 0;
@@ -89,7 +88,7 @@ std::optional<PlacedLandmark> PlaceLandmark(const PinholeCamera& camera, const R
   PlacedLandmark placed;
   placed.pixel = pixel;
   placed.p_WF = X_WC * (depth_m * ray_C);
-  placed.sigma_w_m = kSigmaPerDepth * depth_m;
+  placed.sigma_w_m = kPlaceSigmaPerDepth * depth_m;
   if (!NearSite(plane, placed.p_WF, radius_m)) {
     return std::nullopt;
   }

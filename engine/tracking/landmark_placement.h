@@ -18,6 +18,10 @@
 
 namespace palace {
 
+/// What a place on the ground errs by that a pixel and a pose gave, as a share of its distance: an
+/// attitude of 0.1 degree.
+inline constexpr double kPlaceSigmaPerDepth = 0.002;
+
 struct PlacedLandmark {
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
   Eigen::Vector3d p_WF = Eigen::Vector3d::Zero();

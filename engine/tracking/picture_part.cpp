@@ -5,8 +5,6 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "engine/tracking/view_geometry.h"
-
 namespace palace {
 namespace {
 
@@ -47,14 +45,18 @@ ImageU8 WarpedSquare(const ImageU8& source, const Eigen::Matrix3d& source_from_v
                      const Eigen::Vector2d& centre, int side) {
   cv::Mat map_x(side, side, CV_32F);
   cv::Mat map_y(side, side, CV_32F);
-  for (int y = 0; y < side; ++y) {
-    float* mx = map_x.ptr<float>(y);
-    float* my = map_y.ptr<float>(y);
-    for (int x = 0; x < side; ++x) {
-      const Eigen::Vector2d offset(x - 0.5 * (side - 1), y - 0.5 * (side - 1));
-      const Eigen::Vector2d at = MapPixel(source_from_view, centre + offset);
-      mx[x] = static_cast<float>(at.x());
-      my[x] = static_cast<float>(at.y());
+  // MapPixel, written out: a picture asks for some sixteen squares.
+  const Eigen::Matrix3d& H = source_from_view;
+  for (int row = 0; row < side; ++row) {
+    float* mx = map_x.ptr<float>(row);
+    float* my = map_y.ptr<float>(row);
+    const double y = centre.y() + (row - 0.5 * (side - 1));
+    const double by_y[3] = {H(0, 1) * y, H(1, 1) * y, H(2, 1) * y};
+    for (int col = 0; col < side; ++col) {
+      const double x = centre.x() + (col - 0.5 * (side - 1));
+      const double w = (H(2, 0) * x + by_y[2]) + H(2, 2);
+      mx[col] = static_cast<float>(((H(0, 0) * x + by_y[0]) + H(0, 2)) / w);
+      my[col] = static_cast<float>(((H(1, 0) * x + by_y[1]) + H(1, 2)) / w);
     }
   }
   ImageU8 square(side, side);

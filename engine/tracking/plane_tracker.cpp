@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "engine/core/text.h"
+#include "engine/tracking/anchor_zoom.h"
 #include "engine/tracking/camera_resection.h"
 #include "engine/tracking/coherence.h"
 #include "engine/tracking/feature_selection.h"
@@ -14,8 +15,6 @@
 namespace palace {
 namespace {
 
-constexpr double kRekeyScale = 1.4;
-constexpr double kForcedRekeyScale = 1.9;  // beyond it the keyframe's texture is no longer there
 constexpr int kMinInliers = 6;
 constexpr int kFewInliers = 12;
 constexpr double kMinInlierShare = 0.35;  // of the landmarks that should be visible
@@ -264,9 +263,9 @@ bool PlaneTracker::NeedsKeyframe(const Attempt& attempt, double coherence,
   const bool few = attempt.inliers < kFewInliers;
   if (coherence < settings.min_coherence) {
     // Only when waiting would lose the ground altogether, and most of what is visible agrees.
-    return (zoom > kForcedRekeyScale || few) && attempt.inliers >= 0.6 * attempt.visible_count;
+    return (zoom > kForcedAnchorZoom || few) && attempt.inliers >= 0.6 * attempt.visible_count;
   }
-  return zoom > kRekeyScale || few ||
+  return zoom > kNewAnchorZoom || few ||
          2 * static_cast<std::size_t>(attempt.inliers) < key_.landmarks_when_cut;
 }
 

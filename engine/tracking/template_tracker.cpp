@@ -7,6 +7,7 @@
 #include "engine/core/rounding.h"
 #include "engine/core/text.h"
 #include "engine/tracking/coherence.h"
+#include "engine/tracking/landmark_placement.h"
 #include "engine/tracking/picture_part.h"
 #include "engine/tracking/template_match.h"
 #include "engine/tracking/view_geometry.h"
@@ -54,6 +55,7 @@ void TemplateTracker::LockAt(const Eigen::Vector2d& pixel, const ImageU8& left,
   predicted_pixel_ = PixelFromWorldPoint(camera, X_WC, p_WS_).value_or(pixel);
   template_ = CutSquare(left, pixel_, settings.template_size_px);
   anchor_height_m_ = HeightFromDown(X_WC.p.z() - p_WS_.z());
+  place_sigma_m_ = kPlaceSigmaPerDepth * (X_WC.p - p_WS_).norm();
   locked_ = true;
 }
 
@@ -109,7 +111,7 @@ TrackResult TemplateTracker::Track(const ImageU8& left, const PinholeCamera& cam
   result.status.difference_patch = patches.difference;
   result.status.anchor_height_m = anchor_height_m_;
   if (good) {
-    result.landmarks.push_back({p_WS_, pixel_, kSigma_px, 0});
+    result.landmarks.push_back({p_WS_, pixel_, kSigma_px, place_sigma_m_});
     template_ = std::move(current);
     anchor_height_m_ = HeightFromDown(X_WC_predicted.p.z() - p_WS_.z());
   }

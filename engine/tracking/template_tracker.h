@@ -41,6 +41,7 @@ class TemplateTracker {
   Eigen::Vector2d pixel_ = Eigen::Vector2d::Zero();            ///< last match
   Eigen::Vector2d predicted_pixel_ = Eigen::Vector2d::Zero();  ///< of the same frame
   double anchor_height_m_ = 0;
+  double place_sigma_m_ = 0;  ///< of the ground in its middle, beside the site
   int frames_missed_ = 0;
   std::string why_lost_;  ///< of the last picture that it was not in
   bool locked_ = false;

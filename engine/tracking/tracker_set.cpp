@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/tracking/anchor_zoom.h"
 #include "engine/tracking/coherence.h"
 #include "engine/tracking/landing_features.h"
 #include "engine/tracking/tracker_consensus.h"
@@ -17,7 +18,6 @@ constexpr int kReplaceAfterDrift = 10;  // pictures
 constexpr double kReplaceAfterLost_s = 3;
 constexpr int kChooseEvery = 5;  // pictures: choosing costs as much as following
 constexpr double kPlaneSigma_px = 0.3, kTemplateSigma_px = 0.5;
-constexpr double kNewAnchorZoom = 1.4;
 constexpr double kMargin_px = kPatchSide_px / 2;
 
 TrackerMember Named(TrackerMember::Kind kind, const char* name, bool in_force) {
@@ -38,20 +38,27 @@ bool IsWhole(const PinholeCamera& camera, const Eigen::Vector2d& pixel) {
 TrackerSet::TrackerSet(const SiteView& view, const LandingSite& site)
     : mode_(view.settings.mode), site_(site), plane_{site.p_WS, site.normal_W.normalized()} {
   plane_tracker_.Lock(view.left, view.camera, view.X_WC_predicted, view.range, site, view.settings);
-  template_tracker_.Lock(view.left, view.camera, view.X_WC_predicted, site, view.settings);
+  // What the ranges said of the height holds for all but a template in force: navigation goes by
+  // its word alone.
+  const RigidTransform X_WC = plane_tracker_.Corrected(view.X_WC_predicted);
+  const SiteView corrected{view.left, view.camera, X_WC, view.range, view.settings, view.time};
+  const PredictedPixel predicted = Predicted(view.camera, X_WC, view.settings, view.time);
+  predicted_ = predicted.pixel;
+  if (mode_ == TrackerMode::kTemplate) {
+    template_tracker_.Lock(view.left, view.camera, view.X_WC_predicted, site, view.settings);
+  } else {
+    template_tracker_.LockAt(predicted.pixel, view.left, view.camera, view.X_WC_predicted, site,
+                             view.settings);
+  }
   plane_told_.member = Named(TrackerMember::Kind::kPlane, "Plane", mode_ == TrackerMode::kPlane);
   template_told_.member =
       Named(TrackerMember::Kind::kTemplate, "Template", mode_ == TrackerMode::kTemplate);
   template_told_.member.anchors = 1;
-  const PredictedPixel predicted =
-      Predicted(view.camera, view.X_WC_predicted, view.settings, view.time);
-  predicted_ = predicted.pixel;
   for (CoastedPixel* pixel : {&plane_told_.site, &template_told_.site, &consensus_}) {
     pixel->Start(predicted);
   }
-  copy_.reset();
-  ReplaceFeatures(view, predicted, predicted.pixel, kFeatures);
-  CutSiteAnchor(view, predicted.pixel);
+  ReplaceFeatures(corrected, predicted, predicted.pixel, kFeatures);
+  CutSiteAnchor(corrected, predicted.pixel);
   copy_.reset();
 }
 
@@ -126,19 +133,21 @@ TrackerSetStatus TrackerSet::Agree(const PredictedPixel& site) {
   TrackerSetStatus status;
   status.time = site.time;
   status.members = {plane_told_.member, template_told_.member};
-  std::vector<int*> beyond = {&plane_beyond_, &template_beyond_};
-  for (Feature& feature : features_) {
+  for (const Feature& feature : features_) {
     status.members.push_back(feature.tracker.member());
-    beyond.push_back(&feature.beyond);
   }
-  for (std::size_t i = 0; i < status.members.size(); ++i) {
+  const std::vector<TrackerMember> members = status.members;  // who drifts still has its say
+  const auto judge = [&](std::size_t i, int& beyond) {
     TrackerMember& member = status.members[i];
-    member.disagreement_px = DisagreementOf(status.members, i);
+    member.disagreement_px = DisagreementOf(members, i);
     const bool is_beyond = member.disagreement_px > TrackerSetStatus::kDrift_px;
-    *beyond[i] = is_beyond && OthersAgree(status.members, i) ? *beyond[i] + 1 : 0;
-  }
-  for (std::size_t i = 0; i < status.members.size(); ++i) {
-    status.members[i].drifts = *beyond[i] >= kDriftPictures;
+    beyond = is_beyond && OthersAgree(members, i) ? beyond + 1 : 0;
+    member.drifts = beyond >= kDriftPictures;
+  };
+  judge(0, plane_told_.beyond);
+  judge(1, template_told_.beyond);
+  for (std::size_t i = 0; i < features_.size(); ++i) {
+    judge(i + 2, features_[i].beyond);
   }
   status.consensus = ConsensusOf(status.members);
   ShareWeights(status.consensus, status.members);

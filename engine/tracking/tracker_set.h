@@ -58,10 +58,11 @@ class TrackerSet {
   struct Told {
     TrackerMember member{};
     CoastedPixel site{};
+    int beyond = 0;  ///< pictures in a row beyond the limit from the others
   };
   struct Feature {
     AnchoredFeature tracker;
-    int beyond = 0;  ///< pictures in a row beyond the limit from the others
+    int beyond = 0;  ///< likewise
   };
 
   PredictedPixel Predicted(const PinholeCamera& camera, const RigidTransform& X_WC,
@@ -89,7 +90,6 @@ class TrackerSet {
   Told plane_told_, template_told_;
   std::vector<Feature> features_;
   int features_made_ = 0;
-  int plane_beyond_ = 0, template_beyond_ = 0;
   KeyPatch site_anchor_;  ///< no keyframe: none was cut
   CoastedPixel consensus_;
   Eigen::Vector2d predicted_ = Eigen::Vector2d::Zero();  ///< of the site, where it could be

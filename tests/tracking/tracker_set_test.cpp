@@ -293,21 +293,58 @@ TEST_F(TrackerSetTest, WithoutAPictureAllAreLostForThatReason) {
   EXPECT_LT((told.consensus.site_pixel - *truth).norm(), 2);
 }
 
+/// The ranges that a camera has of the level ground.
+RangeMap RangesOfGround(const RigidTransform& X_WC) {
+  RangeMap range;
+  range.camera = kCamera;
+  range.depth_m = ImageF(kCamera.width, kCamera.height);
+  range.depth_sigma_m = ImageF(kCamera.width, kCamera.height, 0.05F);
+  for (int y = 0; y < kCamera.height; ++y) {
+    for (int x = 0; x < kCamera.width; ++x) {
+      range.depth_m.at(x, y) =
+          static_cast<float>(PlaneDepth(kCamera, X_WC, {}, Eigen::Vector2d(x, y)).value_or(NAN));
+    }
+  }
+  return range;
+}
+
+// The site's place is of a map that was made before the height drifted by 0.3 m; the ranges of now
+// tell. Six pixels at 21 m: whoever had begun without them would be told to drift for good.
+TEST_F(TrackerSetTest, AllBeginWhereTheRangesSayThatTheSiteIs) {
+  for (const double drift_m : {0.3, -0.3, 1.0}) {
+    GroundWorld world(7);
+    SiteTracker tracker;
+    for (int i = 0; i < 8; ++i) {
+      const RigidTransform X_WC = CameraAt(i);
+      RigidTransform drifted = X_WC;
+      drifted.p.z() += drift_m;
+      const ImageU8 picture = world.Render(kCamera, X_WC, 2);
+      const RangeMap range = RangesOfGround(X_WC);
+      if (i == 0) {
+        tracker.Lock(picture, kCamera, drifted, &range, LandingSite{}, {}, At(i));
+      }
+      const TrackerSetStatus told = tracker.Track(picture, kCamera, drifted, &range, {}, At(i)).set;
+      const auto truth = PixelFromWorldPoint(kCamera, X_WC, Eigen::Vector3d::Zero());
+      ASSERT_GE(told.members.size(), 5U);
+      for (const TrackerMember& member : told.members) {
+        EXPECT_LT((member.site_pixel - *truth).norm(), 1.5) << i << " " << member.name;
+        EXPECT_FALSE(member.drifts) << i << " " << member.name;
+      }
+      EXPECT_LT((told.consensus.site_pixel - *truth).norm(), 1) << i;
+    }
+  }
+}
+
 // A vehicle beside the site has the strongest corners, but stands off the plane.
 TEST_F(TrackerSetTest, NoFeatureIsChosenOffTheLandingPlane) {
   GroundWorld world(6);
   const RigidTransform X_WC = CameraAt(0);
   const ImageU8 picture = world.Render(kCamera, X_WC, 2);
-  RangeMap range;
-  range.camera = kCamera;
-  range.depth_m = ImageF(640, 480);
-  range.depth_sigma_m = ImageF(640, 480, 0.05F);
+  RangeMap range = RangesOfGround(X_WC);
   const auto stands = [](const Eigen::Vector2d& pixel) { return pixel.x() > 310; };
-  for (int y = 0; y < 480; ++y) {
-    for (int x = 0; x < 640; ++x) {
-      const double depth_m = PlaneDepth(kCamera, X_WC, {}, Eigen::Vector2d(x, y)).value_or(NAN);
-      range.depth_m.at(x, y) =
-          static_cast<float>(depth_m - (stands(Eigen::Vector2d(x, y)) && y > 240 ? 2 : 0));
+  for (int y = 241; y < 480; ++y) {
+    for (int x = 311; x < 640; ++x) {
+      range.depth_m.at(x, y) -= 2;
     }
   }
   LandingSite site;
