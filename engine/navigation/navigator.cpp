@@ -86,6 +86,7 @@ void Navigator::AddSensors(const FrameBundle& bundle) {
   for (const ImuSample& sample : bundle.imu) {
     AddImu(sample);
   }
+  carried_v_WB_ = EstimateInForce(now_).v_WB;
   for (const GpsFix& fix : bundle.gps) {
     AddGps(fix);
   }
@@ -330,7 +331,9 @@ void Navigator::UpdateHandover(Timestamp time) {
   }
   fade_.reset();
   const PositionEstimate after = EstimateInForce(time);
-  fade_ = Fade{time, before.v_WB - after.v_WB};
+  // From what was sent last: a GPS fix that comes with the hand-over would step the velocity as it
+  // leaves.
+  fade_ = Fade{time, carried_v_WB_ - after.v_WB};
   status_.offset_m = (after.p_WB - before.p_WB).norm();
 }
 

@@ -112,6 +112,8 @@ class Navigator {
   bool have_pose_stream_ = false;
   std::optional<LaserRange> laser_;  ///< newest with a return
   std::optional<Fade> fade_;
+  /// In force at `now_` before the newest bundle's GPS: what was sent last, carried on by inertia.
+  Eigen::Vector3d carried_v_WB_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d attitude_correction_W_ = Eigen::Vector3d::Zero();  ///< rotation vector
   Timestamp now_;
   NavigationStatus status_;

@@ -172,6 +172,38 @@ TEST(Navigator, HandsOverWithoutAVelocityJumpAndHoldsThePosition) {
   EXPECT_LT(worst_jump, 0.06);
 }
 
+// The fix that comes with the hand-over is as far off as GPS velocities are now and then.
+TEST(Navigator, HandsOverWithoutTheStepOfAGpsFixThatComesWithIt) {
+  World world(3);
+  Navigator navigator;
+  constexpr int kSwitch = 82;  // even: with a fix
+  Eigen::Vector3d before_v_WB = Eigen::Vector3d::Zero();
+  for (int n = 1; n <= kSwitch; ++n) {
+    FrameBundle bundle = world.Bundle(n);
+    if (n == kSwitch) {
+      before_v_WB = navigator.EstimateInForce(At(0.1 * (n - 1))).v_WB;
+      ASSERT_EQ(bundle.gps.size(), 1);
+      bundle.gps.front().v_WB += Eigen::Vector3d(0.3, -0.2, 0);
+      navigator.AllowVision(true);
+    }
+    navigator.AddSensors(bundle);
+    if (n == 40) {
+      navigator.StartVision({}, bundle.time);
+    }
+    if (n >= 40) {
+      navigator.AddVision(world.Track(n), kCamera, world.rig(), bundle, {});
+    }
+  }
+  ASSERT_EQ(navigator.status().handover, State::kVision) << navigator.status().handover_reason;
+  const double t = 0.1 * kSwitch;
+  const Eigen::Vector3d moved_mps = world.flight.Velocity(t) - world.flight.Velocity(t - 0.1);
+  const auto step_mps = [&](const Eigen::Vector3d& v_WB) {
+    return (v_WB - before_v_WB - moved_mps).norm();
+  };
+  EXPECT_GT(step_mps(navigator.status().gps.estimate.v_WB), 0.05) << "the fix moves GPS";
+  EXPECT_LT(step_mps(navigator.EstimateInForce(At(t)).v_WB), 0.02);
+}
+
 TEST(Navigator, GpsFilterNeverSeesVision) {
   World with(2), without(2);
   Navigator a, b;
