@@ -74,6 +74,7 @@ struct HistorySample {
   double descent_rate_mps = NAN;
   double descent_rate_sigma_mps = NAN;
   double laser_m = NAN;  ///< height of the skids above the laser's spot
+  Timestamp laser_time;  ///< of that return
   double coherence = NAN;
   double residual_sigma = NAN;
   double glide_deviation_m = NAN;

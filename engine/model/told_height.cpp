@@ -17,21 +17,35 @@ HistorySample Newest(const EngineSnapshot& snapshot) {
   return history && !history->empty() ? history->back() : HistorySample{};
 }
 
-/// The newest return of the last seconds; NaN: there was none.
-double LaserLately(const EngineSnapshot& snapshot) {
+ToldHeight ByLaser(const HistorySample& sample, Timestamp now) {
+  return {By::kLaser, sample.laser_m, SecondsBetween(sample.laser_time, now)};
+}
+
+/// By the newest return of the last seconds; unknown: there was none.
+ToldHeight ByLaserLately(const EngineSnapshot& snapshot) {
   const auto& history = snapshot.flight->history;
   if (!history) {
-    return NAN;
+    return {By::kLaser};
   }
   for (auto sample = history->rbegin(); sample != history->rend(); ++sample) {
     if (SecondsBetween(sample->time, snapshot.time) > kLaserKept_s) {
       break;
     }
     if (std::isfinite(sample->laser_m)) {
-      return sample->laser_m;
+      return ByLaser(*sample, snapshot.time);
     }
   }
-  return NAN;
+  return {By::kLaser};
+}
+
+/// Of a laser without a height.
+ToldHeight::NoLaser WhyNoLaser(const EngineSnapshot& snapshot) {
+  using NoLaser = ToldHeight::NoLaser;
+  const ChannelHealth* laser = FindChannel(snapshot.sensors->channels, ChannelId::kLaserRange);
+  if (laser == nullptr || laser->state == ChannelHealth::State::kNever) {
+    return NoLaser::kNever;
+  }
+  return laser->state == ChannelHealth::State::kStale ? NoLaser::kSilent : NoLaser::kNoReturn;
 }
 
 }  // namespace
@@ -40,7 +54,7 @@ ToldHeight HeightTold(const EngineSnapshot& snapshot) {
   const ToldHeight estimate{By::kEstimate, snapshot.flight->mission.height_above_site_m};
   const HistorySample now = Newest(snapshot);
   for (const ToldHeight& told :
-       {estimate, {By::kGps, now.gps_height_m}, {By::kLaser, now.laser_m}}) {
+       {estimate, ToldHeight{By::kGps, now.gps_height_m}, ByLaser(now, snapshot.time)}) {
     if (std::isfinite(told.height_m)) {
       return told;
     }
@@ -49,13 +63,14 @@ ToldHeight HeightTold(const EngineSnapshot& snapshot) {
 }
 
 ToldHeight HoverHeightTold(const EngineSnapshot& snapshot) {
-  const double laser_m = LaserLately(snapshot);
+  const ToldHeight by_laser = ByLaserLately(snapshot);
   const auto& pose = snapshot.sensors->pose;
-  if (std::isfinite(laser_m) || !pose) {
-    return {By::kLaser, laser_m};
+  if (std::isfinite(by_laser.height_m) || !pose) {
+    return by_laser;
   }
   const Lander& lander = snapshot.session->settings.slad.lander;
-  return {By::kPose, HeightFromDown((pose->X_WB * lander.skid_centre_B()).z())};
+  return {By::kPose, HeightFromDown((pose->X_WB * lander.skid_centre_B()).z()), NAN,
+          WhyNoLaser(snapshot)};
 }
 
 double VerticalSpeedTold(const EngineSnapshot& snapshot) {

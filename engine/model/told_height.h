@@ -17,15 +17,26 @@ struct ToldHeight {
     kLaser,     ///< above the ground under the beam
     kPose,      ///< above the origin of W
   };
+  /// Why it is not by the laser, of a height that is asked of it first.
+  enum class NoLaser : std::uint8_t {
+    kNone,      ///< it is by the laser, or the laser is not asked first
+    kNever,     ///< no laser was ever heard
+    kNoReturn,  ///< its messages come, and say that nothing came back
+    kSilent,    ///< its messages do not come
+  };
   By by = By::kEstimate;
   double height_m = std::numeric_limits<double>::quiet_NaN();
+  /// By the laser: since the return that it rests on. Messages that came later had none. By others
+  /// NaN: their channels tell it.
+  double age_s = std::numeric_limits<double>::quiet_NaN();
+  NoLaser no_laser = NoLaser::kNone;
 };
 
 /// Of a descent. By the estimate in force; where it is unknown (vision, and no pictures) by the
 /// newest GPS, then by the laser: others still tell it.
 ToldHeight HeightTold(const EngineSnapshot& snapshot);
-/// Before one. By the laser, as in the plots, also for three seconds after its last return, whose
-/// age is the channel's; then by the vehicle's pose.
+/// Before one. By the laser, as in the plots, also for three seconds after its last return; then by
+/// the vehicle's pose.
 ToldHeight HoverHeightTold(const EngineSnapshot& snapshot);
 /// Of the vehicle's pose, m/s, down; NaN while it does no more than a hover in gusts does, or
 /// nobody tells it.

@@ -107,6 +107,7 @@ HistorySample SampleOf(const EngineSnapshot& snapshot, const FrameBundle& bundle
   sample.descent_rate_mps = sample.estimate_v_WB.z();
   if (!bundle.laser.empty() && snapshot.sensors->rig && snapshot.sensors->pose) {
     sample.laser_m = SkidsOverSpot(snapshot, R_WB, bundle.laser.back());
+    sample.laser_time = bundle.laser.back().time;
   }
   if (snapshot.flight->tracker.locked) {
     sample.coherence = snapshot.flight->tracker.coherence;

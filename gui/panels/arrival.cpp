@@ -41,20 +41,37 @@ std::string WhyPairOld(const EngineSnapshot& snap) {
   return {};
 }
 
-}  // namespace
-
-Arrival ArrivalOf(const EngineSnapshot& snap, ChannelId channel, double silent_s) {
-  const ChannelHealth* health = FindChannel(snap.sensors->channels, channel);
-  if (health == nullptr || health->state == ChannelHealth::State::kNever) {
-    return {};
-  }
-  const ChannelHealth now = After(*health, silent_s);
+Arrival ReadAt(const EngineSnapshot& snap, const ChannelHealth& now) {
   return {AgeText(now.age_s),
           Fixed(now.rate_hz, 1) + " Hz",
           now.age_s,
           now.state,
-          WrongWith(snap, channel),
+          WrongWith(snap, now.id),
           LosesMuch(now) ? Fixed(100 * now.lost_share, 0) + " % lost" : ""};
+}
+
+/// Null while nothing was ever heard of it.
+const ChannelHealth* HeardOf(const EngineSnapshot& snap, ChannelId channel) {
+  const ChannelHealth* health = FindChannel(snap.sensors->channels, channel);
+  return health != nullptr && health->state != ChannelHealth::State::kNever ? health : nullptr;
+}
+
+}  // namespace
+
+Arrival ArrivalOf(const EngineSnapshot& snap, ChannelId channel, double silent_s) {
+  const ChannelHealth* health = HeardOf(snap, channel);
+  return health != nullptr ? ReadAt(snap, After(*health, silent_s)) : Arrival{};
+}
+
+Arrival ArrivalOf(const EngineSnapshot& snap, ChannelId channel, double silent_s, double age_s) {
+  const ChannelHealth* health = HeardOf(snap, channel);
+  if (health == nullptr) {
+    return {};
+  }
+  ChannelHealth then = *health;
+  then.age_s = age_s;
+  then.state = StateAt(age_s, then.expected_hz);
+  return ReadAt(snap, After(then, silent_s));
 }
 
 std::string Heard(const std::string& words, double age_s) {

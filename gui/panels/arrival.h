@@ -23,6 +23,8 @@ struct Arrival {
   }
 };
 Arrival ArrivalOf(const EngineSnapshot& snap, ChannelId channel, double silent_s);
+/// The same of something that came by the channel `age_s` before the snapshot, whatever came since.
+Arrival ArrivalOf(const EngineSnapshot& snap, ChannelId channel, double silent_s, double age_s);
 
 /// "climbing"; "climbing, heard 2.5 s ago" of a vehicle whose word is older than the link may be.
 std::string Heard(const std::string& words, double age_s);

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "engine/core/units.h"
 #include "engine/model/told_height.h"
@@ -55,6 +56,32 @@ double PositionError3s(const EngineSnapshot& snap) {
   return filter.running ? 3 * filter.estimate.sigma_p_m.norm() : NAN;
 }
 
+/// With the age of the return that it rests on: messages that came since had none. The label of a
+/// narrow panel has the room that the unit lacks.
+Readout ByLaser(const EngineSnapshot& snap, const ToldHeight& told, std::string label, bool narrow,
+                double silent_s) {
+  Readout readout{std::move(label), Fixed(told.height_m, 1), narrow ? "m" : "m, laser",
+                  Readout::State::kNever};
+  if (std::isfinite(told.height_m)) {
+    const Arrival of_return = ArrivalOf(snap, ChannelId::kLaserRange, silent_s, told.age_s);
+    readout.state = of_return.state;
+    readout.age_s = of_return.age_s;
+  }
+  return readout;
+}
+
+/// A laser that was heard before tells no height now: that is why it is another one.
+void SayWhyNoLaser(ToldHeight::NoLaser why, Readout& by_pose) {
+  const std::string instead = ": by the vehicle's pose, above where the mission's frame begins";
+  if (why == ToldHeight::NoLaser::kNoReturn) {
+    by_pose.note = "no return";
+    by_pose.why = "The laser has no return" + instead;
+  } else if (why == ToldHeight::NoLaser::kSilent) {
+    by_pose.note = "laser silent";
+    by_pose.why = "No message of the laser comes" + instead;
+  }
+}
+
 std::vector<Readout> Readouts(const EngineSnapshot& snap, bool narrow, double silent_s) {
   const auto by = [&](ChannelId channel) {
     const Arrival fresh = ArrivalOf(snap, channel, silent_s);
@@ -73,6 +100,9 @@ std::vector<Readout> Readouts(const EngineSnapshot& snap, bool narrow, double si
                                     : "m/s";
   // Fuel or a battery: the vehicle does not say which.
   const double energy = snap.sensors->vehicle ? snap.sensors->vehicle->battery_or_fuel * 100 : NAN;
+  const double lasts_s = snap.flight->mission.energy.lasts_s;
+  const std::string energy_unit =
+      std::isfinite(lasts_s) && !narrow ? "%, " + Fixed(lasts_s / 60, 0) + " min" : "%";
   const double speed = snap.sensors->pose ? snap.sensors->pose->v_WB.head<2>().norm() : NAN;
   if (m.state == MissionState::kLanded) {
     // What was measured at touchdown; the estimate goes on drifting and means nothing more.
@@ -80,7 +110,7 @@ std::vector<Readout> Readouts(const EngineSnapshot& snap, bool narrow, double si
     const double true_m = m.touchdown_miss_true_m.value_or(NAN);
     return {status(narrow ? "Off centre" : "Off centre, estimate", miss_m, 2, "m"),
             status(narrow ? "In truth" : "Off centre, in truth", true_m, 2, "m"),
-            status("Wind", wind, 1, wind_unit), status("Energy", energy, 0, "%")};
+            status("Wind", wind, 1, wind_unit), status("Energy", energy, 0, energy_unit)};
   }
   // Without the vehicle's word the estimate coasts: no figure of any time.
   const bool coasts =
@@ -97,12 +127,15 @@ std::vector<Readout> Readouts(const EngineSnapshot& snap, bool narrow, double si
     const double from_m = m.distance_to_site_m;
     const Readout height = [&] {
       const ToldHeight told = HeightTold(snap);
+      const bool by_gps = told.by == ToldHeight::By::kGps;
       if (told.by == ToldHeight::By::kLaser) {
-        return by(ChannelId::kLaserRange)(narrow ? "Height" : "Height above ground", told.height_m,
-                                          1, "m, laser");
+        return ByLaser(snap, told, narrow ? "Height, laser" : "Height above ground", narrow,
+                       silent_s);
       }
-      return estimated(narrow ? "Height" : "Height above site", told.height_m, 1,
-                       told.by == ToldHeight::By::kGps ? "m, GPS" : "m");
+      return estimated(!narrow  ? "Height above site"
+                       : by_gps ? "Height, GPS"
+                                : "Height",
+                       told.height_m, 1, by_gps && !narrow ? "m, GPS" : "m");
     }();
     if (narrow) {
       return {height, estimated("To go", m.time_to_touchdown_s, 0, "s"),
@@ -114,22 +147,16 @@ std::vector<Readout> Readouts(const EngineSnapshot& snap, bool narrow, double si
             estimated(climbs ? "Climb rate" : "Descent rate", down, 2, "m/s"),
             estimated("From site centre", from_m, 2, "m"),
             status("Wind", wind, 1, wind_unit),
-            status("Energy", energy, 0, "%")};
+            status("Energy", energy, 0, energy_unit)};
   }
   const Readout height = [&] {
     const ToldHeight told = HoverHeightTold(snap);
     if (told.by == ToldHeight::By::kLaser) {
-      return by(ChannelId::kLaserRange)(narrow ? "Above ground" : "Height above ground",
-                                        told.height_m, 1, "m, laser");
+      return ByLaser(snap, told, narrow ? "Above ground" : "Height above ground", narrow, silent_s);
     }
-    // A laser that was heard before has no return now: that is why the height is another.
-    const bool had_laser =
-        ArrivalOf(snap, ChannelId::kLaserRange, silent_s).state != ChannelHealth::State::kNever;
     Readout by_pose = pose(narrow ? "Above origin" : "Height above origin", told.height_m, 1,
-                           had_laser ? "m, no laser" : "m, pose");
-    by_pose.why = had_laser ? "The laser has no return: by the vehicle's pose, above where the "
-                              "mission's frame begins"
-                            : "";
+                           narrow ? "m" : "m, pose");
+    SayWhyNoLaser(told.no_laser, by_pose);
     return by_pose;
   }();
   // While it climbs or sinks that goes before the wind.
@@ -147,7 +174,7 @@ std::vector<Readout> Readouts(const EngineSnapshot& snap, bool narrow, double si
           pose("Heading", snap.sensors->pose ? HeadingDeg(*snap.sensors->pose) : NAN, 0, "°"),
           third,
           estimated("Position error", PositionError3s(snap), 2, "m, 3σ"),
-          status("Energy", energy, 0, "%")};
+          status("Energy", energy, 0, energy_unit)};
 }
 
 }  // namespace

@@ -12,11 +12,11 @@ namespace palace {
 
 namespace {
 
-/// Its age where that matters; empty of what is fresh.
+/// Its age where that matters; of what is fresh the note that it has.
 std::string NoteOf(const Readout& r) {
   switch (r.state) {
     case Readout::State::kFresh:
-      return {};
+      return r.note;
     case Readout::State::kNever:
       return "never";
     case Readout::State::kStale:
@@ -24,6 +24,14 @@ std::string NoteOf(const Readout& r) {
     default:
       return Fixed(r.age_s, r.age_s < 1 ? 2 : 1) + " s";
   }
+}
+
+/// What fits of "m/s, 240°", whole clauses of it: half of one misleads. The unit itself stays.
+std::string_view WholeClauses(const ImFont* font, std::string_view unit, float width) {
+  while (TextWidth(font, unit) > width && unit.rfind(',') != std::string_view::npos) {
+    unit = unit.substr(0, unit.rfind(','));
+  }
+  return unit;
 }
 
 }  // namespace
@@ -37,21 +45,20 @@ void DrawReadout(UiFrame& ui, const Rect& cell, const Readout& r) {
   const bool never = r.state == Readout::State::kNever;
   const bool stale = r.state == Readout::State::kStale;
   const bool fresh = r.state == Readout::State::kFresh;
-  const bool tight = cell.h < s.Px(60) && !fresh;  // the note takes a line of its own
+  const std::string note = NoteOf(r);
+  const bool tight = cell.h < s.Px(60) && !note.empty();  // the note takes a line of its own
   DrawText(ui, s.caption, p.text2, cell.x, cell.y + s.Px(tight ? 4 : 8),
            FitWords(s.caption, r.label, cell.w));
   const std::string value = never ? "––" : r.value;
   const float value_y = cell.y + s.Px(tight ? 21 : 31);
-  std::string_view unit = r.unit;
-  if (TextWidth(s.readout, value) + TextWidth(s.caption, unit) + s.Px(10) > cell.w) {
-    unit = WholeWords(s.caption, unit, cell.w - TextWidth(s.readout, value) - s.Px(10));
-  }
+  const std::string_view unit =
+      WholeClauses(s.caption, r.unit, cell.w - TextWidth(s.readout, value) - s.Px(10));
   if (unit == "°") {  // stands directly after its digit
     DrawText(ui, s.readout, p.text1, cell.x, value_y, never ? value : value + "°");
   } else {
     DrawValueUnit(ui, s.readout, cell.x, value_y, value, unit);
   }
-  if (fresh) {
+  if (note.empty()) {
     return;
   }
   if (stale) {
@@ -62,9 +69,10 @@ void DrawReadout(UiFrame& ui, const Rect& cell, const Readout& r) {
     Hatch(Canvas(), veil, WithAlpha(p.text3, 0.5f), s.Fine(1), s.Px(10));
   }
   const float note_y = cell.y + s.Px(tight ? 40 : 52);
-  DrawIcon(Canvas(), never ? Icon::kOff : Icon::kStale, {cell.x + s.Px(6), note_y}, s.Px(12),
-           never ? p.text2 : p.caution);
-  DrawText(ui, s.caption, p.text1, cell.x + s.Px(18), note_y, NoteOf(r));
+  const bool aged = !never && !fresh;
+  DrawIcon(Canvas(), aged ? Icon::kStale : Icon::kOff, {cell.x + s.Px(6), note_y}, s.Px(12),
+           aged ? p.caution : p.text2);
+  DrawText(ui, s.caption, p.text1, cell.x + s.Px(18), note_y, note);
 }
 
 }  // namespace palace

@@ -16,7 +16,8 @@ struct Readout {
   using State = ChannelHealth::State;
   State state = State::kFresh;  ///< of the channel it came by, as the engine says
   double age_s = 0;
-  std::string why{};  ///< a tooltip: why it is this figure and no other
+  std::string why{};   ///< a tooltip: why it is this figure and no other
+  std::string note{};  ///< below it, in a word, while it is fresh
 };
 
 /// Draws into a cell whose top left corner is the label's.

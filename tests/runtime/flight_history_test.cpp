@@ -123,8 +123,10 @@ TEST(FlightHistoryPath, TheLaserReadsAsHeightOfTheSkids) {
   const Eigen::Vector3d beam = snap.sensors->X_WC.R.col(2);
   laser.range_m =
       (kPath.p_WS.z() - snap.sensors->X_WC.p.z()) / beam.z();  // level ground at the site
+  laser.time = AddSeconds(snap.time, -0.04);
   bundle.laser.push_back(laser);
   EXPECT_NEAR(SampleOf(snap, bundle).laser_m, 10, 1e-9);
+  EXPECT_EQ(SampleOf(snap, bundle).laser_time, laser.time);
   // Without pictures, and with a position that nobody knows any more.
   snap.sensors.Edit().X_WC = {};
   snap.flight.Edit().navigation.gps.running = true;

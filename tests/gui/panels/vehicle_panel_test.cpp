@@ -1,4 +1,5 @@
 // The vehicle panel: each figure by whom it is known, and none that nobody tells.
+#include "engine/model/channel_age.h"
 #include "gui/panels/fly_panels.h"
 #include "tests/gui/panels/fly_window.h"
 #include "tests/gui/panels/panel_checks.h"
@@ -38,10 +39,10 @@ TEST(VehiclePanel, AHeightThatOthersKnowIsShownWithItsSource) {
     return found != nullptr ? found->text : std::string("none");
   };
   EXPECT_EQ(height("Height above site", 1920, 1080), "21.9 m, GPS");
-  EXPECT_EQ(height("Height", 1280, 720), "21.9 m, GPS");
+  EXPECT_EQ(height("Height, GPS", 1280, 720), "21.9 m");
   history.back().gps_height_m = NAN;
   EXPECT_EQ(height("Height above ground", 1920, 1080), "21.2 m, laser");
-  EXPECT_EQ(height("Height", 1280, 720), "21.2 m, laser");
+  EXPECT_EQ(height("Height, laser", 1280, 720), "21.2 m");
   history.back().laser_m = NAN;
   EXPECT_EQ(height("Height above site", 1920, 1080), "–– m");
 }
@@ -63,48 +64,76 @@ TEST(VehiclePanel, AHoversHeightIsThatOfTheSkidsWhoeverTellsIt) {
       const Item* height =
           window.ui.items.Find("readout/" + (size.x > 1500 ? "Height a" + label : "A" + label));
       ASSERT_NE(height, nullptr) << label << " at " << size.x;
-      EXPECT_EQ(height->text, laser ? "37.6 m, laser" : "37.6 m, no laser");
+      EXPECT_EQ(height->text, size.x < 1500 ? "37.6 m" : laser ? "37.6 m, laser" : "37.6 m, pose");
+      EXPECT_EQ(HasText(window.ui.items, "no return"), !laser) << "at " << size.x;
     }
   }
 }
 
-// A turn leans the beam away from the ground in reach: the last height stays, with its age.
-TEST(VehiclePanel, ALaserThatHasNoReturnForAMomentKeepsItsHeight) {
-  const struct {
-    double silent_s;
-    bool laser;
-    ChannelHealth::State state;
-  } table[] = {{0.0, true, ChannelHealth::State::kFresh},
-               {0.4, true, ChannelHealth::State::kLate},
-               {2.5, true, ChannelHealth::State::kStale},
-               {3.5, false, ChannelHealth::State::kStale}};
-  for (const auto& row : table) {
-    SCOPED_TRACE(row.silent_s);
-    EngineSnapshot snap = fake::Snapshot(MissionState::kProposed);
-    auto history = *snap.flight->history;
-    for (HistorySample& sample : history) {
-      const bool before = SecondsBetween(sample.time, snap.time) >= row.silent_s;
-      sample.laser_m = before ? 21.5 : NAN;
+/// Its last return came so long ago; its messages come on, or came no more either.
+EngineSnapshot LaserWithout(double return_s, bool messages) {
+  EngineSnapshot snap = fake::Snapshot(MissionState::kProposed);
+  auto history = *snap.flight->history;
+  for (HistorySample& sample : history) {
+    const bool before = SecondsBetween(sample.time, snap.time) >= return_s - 1e-6;
+    sample.laser_m = before ? 21.5 : NAN;
+  }
+  snap.flight.Edit().history = std::make_shared<const std::vector<HistorySample>>(history);
+  for (ChannelHealth& channel : snap.sensors.Edit().channels) {
+    if (channel.id == ChannelId::kLaserRange && !messages) {
+      channel.age_s = return_s;
+      channel.state = StateAt(return_s, channel.expected_hz);
     }
-    snap.flight.Edit().history = std::make_shared<const std::vector<HistorySample>>(history);
-    for (ChannelHealth& channel : snap.sensors.Edit().channels) {
-      if (channel.id == ChannelId::kLaserRange) {
-        channel.age_s = row.silent_s;
-        channel.state = row.state;
+  }
+  return snap;
+}
+
+// A turn leans the beam away from the ground in reach: the last height stays, with the age of its
+// own return, whatever came since, and for three seconds.
+TEST(VehiclePanel, ALaserThatHasNoReturnForAMomentKeepsItsHeightWithItsAge) {
+  const struct {
+    double return_s;
+    bool laser;
+    const char* age;
+  } table[] = {
+      {0.0, true, nullptr}, {0.4, true, "0.40 s"}, {2.5, true, "2.5 s old"}, {3.5, false, nullptr}};
+  for (const auto& row : table) {
+    for (const bool messages : {true, false}) {
+      for (const ImVec2 size : {ImVec2(1920, 1080), ImVec2(1280, 720)}) {
+        SCOPED_TRACE(testing::Message()
+                     << row.return_s << " s, messages " << messages << ", " << size.x);
+        FlyWindow window(size.x, size.y, LaserWithout(row.return_s, messages));
+        ExpectTextsInPanels(window.ui.items);
+        const std::string label = row.laser ? "bove ground" : "bove origin";
+        const Item* height =
+            window.ui.items.Find("readout/" + (size.x > 1500 ? "Height a" + label : "A" + label));
+        ASSERT_NE(height, nullptr);
+        EXPECT_EQ(height->text.rfind(row.laser ? "21.5 m" : "37.6 m", 0), 0U) << height->text;
+        if (row.age != nullptr) {
+          EXPECT_TRUE(HasText(window.ui.items, row.age));
+        }
       }
     }
-    FlyWindow window(1920, 1080, snap);
-    ExpectTextsInPanels(window.ui.items);
-    const Item* height = window.ui.items.Find(row.laser ? "readout/Height above ground"
-                                                        : "readout/Height above origin");
-    ASSERT_NE(height, nullptr);
-    EXPECT_NE(height->text.find(row.laser ? "21.5 m, laser" : "m, no laser"), std::string::npos)
-        << height->text;
-    const bool aged = row.laser && row.silent_s > 1;
-    EXPECT_EQ(HasText(window.ui.items, "2.5 s old"), aged);
-    window.ui.MoveTo(height->rect.centre());
-    window.Run(0.05);
-    EXPECT_EQ(window.ui.items.Find("tooltip") != nullptr, !row.laser);
+  }
+}
+
+// What is broken is told: the beam that meets nothing, or the laser that says nothing.
+TEST(VehiclePanel, ALaserWithoutAReturnAndOneThatIsSilentAreToldApart) {
+  for (const bool messages : {true, false}) {
+    for (const ImVec2 size : {ImVec2(1920, 1080), ImVec2(1280, 720)}) {
+      SCOPED_TRACE(testing::Message() << "messages " << messages << ", " << size.x);
+      FlyWindow window(size.x, size.y, LaserWithout(3.5, messages));
+      EXPECT_EQ(HasText(window.ui.items, "no return"), messages);
+      EXPECT_EQ(HasText(window.ui.items, "laser silent"), !messages);
+      window.ui.MoveTo(size.x > 1500 ? "readout/Height above origin" : "readout/Above origin");
+      window.Run(0.05);
+      const Item* tooltip = window.ui.items.Find("tooltip");
+      ASSERT_NE(tooltip, nullptr);
+      EXPECT_EQ(tooltip->text.rfind(
+                    messages ? "The laser has no return" : "No message of the laser comes", 0),
+                0U)
+          << tooltip->text;
+    }
   }
 }
 
