@@ -82,7 +82,14 @@ double ChannelMonitor::Watch::LostShare() const {
                                           kBeatQuantile * static_cast<double>(sorted.size()));
   std::nth_element(sorted.begin(), place, sorted.end());
   double span_s = 0, got = 0;
+  bool was_silent = false;
   for (auto p = periods_s.rbegin(); p != periods_s.rend() && span_s < kLossWindow_s; ++p) {
+    // One silence is an outage, told while it lasted: what comes since loses nothing. More are
+    // loss.
+    if (!was_silent && StateAt(*p, expected_hz) == ChannelHealth::State::kStale) {
+      was_silent = true;
+      continue;
+    }
     span_s += *p;
     ++got;
   }

@@ -2,6 +2,10 @@
 // too slow to look at is not laid to the vehicle.
 #include "engine/runtime/channel_monitor.h"
 
+#include <algorithm>
+#include <initializer_list>
+#include <utility>
+
 #include <gtest/gtest.h>
 
 #include "engine/model/channel_age.h"
@@ -122,6 +126,25 @@ TEST(ChannelMonitor, WhatWasLostOnTheWayIsLostBesideWhatWasOvertaken) {
   EXPECT_EQ(left.lost, 19u * 2);
   EXPECT_NEAR(left.rate_hz, 6, 0.2);
   EXPECT_EQ(Of(monitor, ChannelId::kImu, 10.0).lost, 0u);
+}
+
+// A link that was lost once for seconds, and one that goes on and off: the first is whole again.
+TEST(ChannelMonitor, AnOutageThatIsOverIsNoLossAndOneThatComesBackIs) {
+  const auto share = [](std::initializer_list<std::pair<int, int>> silences) {
+    ChannelMonitor monitor;
+    for (int number = 0; number < 160; ++number) {
+      const bool silent = std::any_of(silences.begin(), silences.end(), [&](const auto& silence) {
+        return number >= silence.first && number < silence.second;
+      });
+      if (!silent) {
+        monitor.Add(Tenth(number), true);
+      }
+    }
+    return Of(monitor, ChannelId::kVehicleStatus, 16.0).lost_share;
+  };
+  EXPECT_LT(share({}), 0.01);
+  EXPECT_LT(share({{120, 150}}), 0.01);
+  EXPECT_GT(share({{120, 132}, {140, 152}}), kMostLostShare);
 }
 
 TEST(ChannelMonitor, AnEstimateIsAsOldAsWhatItTookInLast) {
