@@ -76,15 +76,13 @@ std::string WhyNotFlown(const EngineSnapshot& snapshot, const FlyTo& there) {
   if (!mission.why_not_go.empty()) {
     return mission.why_not_go;
   }
-  const FilterStatus& filter = snapshot.flight->navigation.InForce();
+  // A mission that gives no reason of its own has a filter that runs: its estimate is the place.
+  const Eigen::Vector3d& p_WB = snapshot.flight->navigation.InForce().estimate.p_WB;
   const auto& pose = snapshot.sensors->pose;
-  const auto& decision = snapshot.terrain->applied;
-  const Eigen::Vector3d nowhere = Eigen::Vector3d::Constant(NAN);
-  const Eigen::Vector3d vehicle_W = pose ? pose->X_WB.p : nowhere;
-  const Eigen::Vector3d p_WB = filter.running ? filter.estimate.p_WB : vehicle_W;
   if (!pose || !p_WB.allFinite()) {
     return "Where the vehicle is, is not known";
   }
+  const auto& decision = snapshot.terrain->applied;
   return WhyNotThatWay(
       {p_WB, EulerFromRotation(pose->X_WB.R).yaw_rad,
        decision ? decision->elevation.get() : nullptr, mission.area ? &*mission.area : nullptr,

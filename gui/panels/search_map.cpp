@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <numbers>
+#include <utility>
 
 #include "engine/core/units.h"
 #include "engine/model/mission/refused_lately.h"
@@ -21,7 +22,8 @@ namespace {
 constexpr double kNearest_m = 15, kFarthest_m = 250;  // half sides
 constexpr double kArrow_m = 2;
 constexpr double kCeilingStep_m = 5, kCeilingAbove_m = 20;
-constexpr float kSnap_px = 10;  // to the first corner
+constexpr float kSnap_px = 10;          // to the first corner
+constexpr double kDoubleClick_s = 0.5;  // the second press of one meant the button that is gone
 constexpr double kZoomStep = 0.9;
 constexpr float kRoomForLegend = 360;  // units of the design grid
 
@@ -71,7 +73,15 @@ void CloseArea(SearchMapState& state, UiFrame& ui) {
     ui.intents.push_back(CommandAction(SetFlyArea{area}));
     state.draws = false;
     state.corners.clear();
+    state.put_aside.clear();
   }
+}
+
+void PutAside(SearchMapState& state, const UiFrame& ui) {
+  state.draws = false;
+  state.put_aside = std::exchange(state.corners, {});
+  state.why_not.clear();
+  state.settled_s = ui.ui_time_s + kDoubleClick_s;
 }
 
 void TakeBack(SearchMapState& state) {
@@ -135,6 +145,7 @@ struct Row {
 void BeginArea(const EngineSnapshot& snap, SearchMapState& state) {
   state.draws = true;
   state.corners.clear();
+  state.put_aside.clear();
   state.picked.reset();
   state.why_not.clear();
   const auto& pose = snap.sensors->pose;
@@ -157,8 +168,7 @@ void DrawAreaButtons(const EngineSnapshot& snap, Row& row, SearchMapState& state
       TakeBack(state);
     }
     if (row.Offer("area_cancel", "Cancel")) {
-      state.draws = false;
-      state.corners.clear();
+      PutAside(state, ui);
     }
     row.Say("Ceiling " + Fixed(state.ceiling_m, 0) + " m");
     if (row.Offer("area_lower", "−")) {
@@ -184,21 +194,20 @@ void DrawAreaButtons(const EngineSnapshot& snap, Row& row, SearchMapState& state
       ui.intents.push_back(CommandAction(ClearFlyArea{}));
     }
     row.Say("Ceiling " + Fixed(m.area->ceiling_m, 0) + " m above the start");
-  } else if (state.last_area) {
+  }
+  if (!state.put_aside.empty()) {
+    row.Say("Drawing cancelled");
+    if (row.Offer("area_resume", "Undo", look) && ui.ui_time_s >= state.settled_s) {
+      state.draws = true;
+      state.corners = std::exchange(state.put_aside, {});
+      state.picked.reset();
+    }
+  } else if (!m.area && state.last_area) {
     // Not where "Clear area" was: a double click on that does not undo it.
     row.Say("Area cleared");
     if (row.Offer("area_restore", "Undo", look)) {
       ui.intents.push_back(CommandAction(SetFlyArea{*state.last_area}));
     }
-  }
-}
-
-/// The area that was cleared can be brought back for as long as its mission goes on.
-void RememberArea(const MissionStatus& m, SearchMapState& state) {
-  if (m.state == MissionState::kNoLive || m.state == MissionState::kLanded) {
-    state.last_area.reset();
-  } else if (m.area) {
-    state.last_area = m.area;
   }
 }
 
@@ -317,18 +326,26 @@ void WorkMap(const MapGround& ground, const Interaction& in, SearchMapState& sta
   if (in.cleared) {
     TakeBack(state);
   }
-  if (in.clicked) {
+  if (in.clicked && ui.ui_time_s >= state.settled_s) {
     TakePlace(in.key_pressed ? state.cross : ground.Place(in.pointer), ground, state, ui);
   }
 }
 
 }  // namespace
 
+void FollowArea(const MissionStatus& mission, SearchMapState& state) {
+  if (mission.state == MissionState::kNoLive || mission.state == MissionState::kLanded) {
+    state.last_area.reset();
+    state.put_aside.clear();
+  } else if (mission.area) {
+    state.last_area = mission.area;
+  }
+}
+
 void DrawSearchMapPanel(const EngineSnapshot& snap, const Rect& rect, SearchMapState& state,
                         UiFrame& ui) {
   const Style& s = ui.style;
   const MissionStatus& m = snap.flight->mission;
-  RememberArea(m, state);
   const std::string fact =
       m.seen ? "Looked at " + Fixed(SeenArea_m2(*m.seen), 0) + " m²" : "Nothing looked at yet";
   const Rect scene = DrawPanelFrame(ui, rect, "Search map", {{rect.w < s.Px(300) ? "" : fact}});

@@ -179,7 +179,7 @@ void DrawSearchSites(const EngineSnapshot& snap, const MapGround& ground, const 
       places.push_back({site.id, at, {half, s.Px(kTouch)}});
     }
   };
-  if (HasCourses(m)) {
+  if (m.armed && HasCourses(m)) {
     show(*m.armed);  // the others would cover its courses
   } else if (snap.terrain->applied) {
     for (const LandingSite& site : snap.terrain->applied->selection.sites) {

@@ -151,6 +151,66 @@ TEST(SearchMap, AClearedAreaIsBroughtBackByOnePressAndNotByADoubleClick) {
   EXPECT_EQ(window.ui.items.Find("area_restore"), nullptr);
 }
 
+// What was drawn is not lost by one press, nor brought back by the second one of a double click.
+TEST(SearchMap, AnAreaWhoseDrawingWasCancelledGoesOnWhereItWas) {
+  for (const float width : {1280.0F, 1920.0F}) {
+    SCOPED_TRACE(width);
+    SearchWindow window(width);
+    window.ui.Click("draw_area", window.draw);
+    for (const auto& [north, east] :
+         {std::pair{-20.0, -20.0}, {-20.0, 20.0}, {20.0, 20.0}, {20.0, -20.0}}) {
+      window.ClickAt(north, east);
+    }
+    window.ui.Click("area_higher", window.draw);
+    const std::vector<Eigen::Vector2d> corners = window.fly.search_map.corners;
+    const double ceiling_m = window.fly.search_map.ceiling_m;
+    ASSERT_EQ(corners.size(), 4U);
+    window.ui.Click("area_cancel", window.draw);
+    for (const bool down : {true, false}) {  // once more at the same place
+      window.ui.Button(down);
+      window.Run(0.04);
+    }
+    EXPECT_FALSE(window.fly.search_map.draws);
+    EXPECT_FALSE(window.fly.search_map.picked.has_value());
+    EXPECT_TRUE(HasText(window.ui.items, "Drawing cancelled"));
+    window.Run(0.6);
+    window.ui.Click("area_resume", window.draw);
+    EXPECT_TRUE(window.fly.search_map.draws);
+    EXPECT_EQ(window.fly.search_map.corners, corners);
+    window.Run(0.05);
+    window.ui.Click("area_close", window.draw);
+    ASSERT_EQ(window.ui.CountCommands<SetFlyArea>(), 1);
+    EXPECT_EQ(window.ui.LastCommand<SetFlyArea>().area.corners_W, corners);
+    EXPECT_EQ(window.ui.LastCommand<SetFlyArea>().area.ceiling_m, ceiling_m);
+    window.Run(0.05);
+    EXPECT_EQ(window.ui.items.Find("area_resume"), nullptr) << "it is drawn";
+  }
+}
+
+// A mission ends behind the panels of the descent, and the next one has another origin.
+TEST(SearchMap, AnAreaOfAMissionThatIsOverIsNotBroughtBack) {
+  for (const MissionState end : {MissionState::kLanded, MissionState::kNoLive}) {
+    SCOPED_TRACE(MissionStateName(end));
+    SearchWindow window;
+    const Eigen::Vector2d m = window.middle();
+    window.snap.flight.Edit().mission.area =
+        FlyArea{{m, m + Eigen::Vector2d(30, 0), m + Eigen::Vector2d(0, 30)}, 45};
+    window.Run(0.05);
+    window.snap.flight.Edit().mission.area.reset();
+    window.fly.search_map.put_aside = {m};
+    window.Run(0.05);
+    EXPECT_NE(window.ui.items.Find("area_resume"), nullptr);
+    window.snap = fake::Snapshot(MissionState::kDescending);
+    window.Run(0.05);
+    window.snap = fake::Snapshot(end);
+    window.Run(0.05);
+    window.snap = Searching();
+    window.Run(0.05);
+    EXPECT_EQ(window.ui.items.Find("area_resume"), nullptr);
+    EXPECT_EQ(window.ui.items.Find("area_restore"), nullptr);
+  }
+}
+
 TEST(SearchMap, APlaceThatTheEngineWouldRefuseIsNotOfferedAndSaysItsWords) {
   SearchWindow window;
   window.ui.why_not_flown = WhyNotFlown;
