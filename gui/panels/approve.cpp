@@ -246,34 +246,57 @@ void DrawWhatNow(const EngineSnapshot& snap, const Rect& from, float bottom, UiF
   const Style& s = ui.style;
   const std::string& ended = snap.flight->mission.selection_ended;
   const std::string now = WhatToDoUnarmed(snap);
-  const auto lines_of = [&](const ImFont* font) {
-    std::vector<std::pair<std::string, bool>> lines;
-    for (const std::string& line : WrapText(font, ended, from.w)) {
-      lines.emplace_back(line, true);
-    }
-    for (const std::string& line : WrapText(font, now, from.w)) {
-      lines.emplace_back(line, false);
-    }
-    return lines;
-  };
   ImFont* font = s.body;
   float pitch = s.Px(20);
-  auto lines = lines_of(font);
-  if (from.y + pitch * static_cast<float>(lines.size()) > bottom) {
+  const auto all_lines = [&] {
+    return WrapText(font, ended, from.w).size() + WrapText(font, now, from.w).size();
+  };
+  const auto room = [&] {
+    return static_cast<std::size_t>(std::max(1.0F, std::floor((bottom - from.y) / pitch)));
+  };
+  if (all_lines() > room()) {
     font = s.caption;
     pitch = s.Px(17);
-    lines = lines_of(font);
+  }
+  if (all_lines() > room() &&
+      Interact(ui, "what_now", {from.x, from.y, from.w, bottom - from.y}, kPassive).hovered) {
+    DrawTooltip(ui, ended + (ended.empty() ? "" : " ") + now);
   }
   float y = from.y;
-  for (const auto& [line, strong] : lines) {
-    if (y + pitch > bottom) {
-      if (Interact(ui, "what_now", {from.x, from.y, from.w, bottom - from.y}, kPassive).hovered) {
-        DrawTooltip(ui, ended + (ended.empty() ? "" : " ") + now);
-      }
-      break;
+  const auto draw = [&](const std::vector<std::string>& lines, ImU32 ink) {
+    for (const std::string& line : lines) {
+      DrawText(ui, font, ink, from.x, y + pitch / 2, line);
+      y += pitch;
     }
-    DrawText(ui, font, strong ? s.palette.text1 : s.palette.text2, from.x, y + pitch / 2, line);
-    y += pitch;
+    return lines.size();
+  };
+  // What to do now keeps a line.
+  const std::size_t first =
+      ended.empty() ? 0
+                    : draw(WrapText(font, ended, from.w, std::max<std::size_t>(1, room() - 1)),
+                           s.palette.text1);
+  if (first < room()) {
+    draw(WrapText(font, now, from.w, room() - first), s.palette.text2);
+  }
+}
+
+/// Narrow: a line, or two of small letters.
+void DrawConsequence(const std::string& words, const Rect& rect, bool narrow, UiFrame& ui) {
+  const Style& s = ui.style;
+  const float width = rect.w - s.Px(24);
+  const bool small = narrow && TextWidth(s.body, words) > width;
+  ImFont* font = small ? s.caption : s.body;
+  float y = rect.y + s.Px(!narrow ? 73 : small ? 58 : 64);
+  const std::vector<std::string> lines = WrapText(font, words, width, small ? 2 : 3);
+  for (const std::string& line : lines) {
+    DrawText(ui, font, s.palette.text2, rect.x + s.Px(12), y, line);
+    y += s.Px(small ? 15 : 19);
+  }
+  if (lines.size() < WrapText(font, words, width).size() &&
+      Interact(ui, "consequence", {rect.x, rect.y + s.Px(48), rect.w, s.Px(small ? 32 : 60)},
+               kPassive)
+          .hovered) {
+    DrawTooltip(ui, words);
   }
 }
 
@@ -345,18 +368,7 @@ void DrawApprovePanel(const EngineSnapshot& snap, const Rect& rect, bool narrow,
     DrawText(ui, narrow ? s.medium : s.section, p.text1, x, rect.y + s.Px(narrow ? 42 : 46),
              std::string(m.can_approve ? "Commits" : "Would commit") +
                  " the vehicle to land on site " + m.armed->letter + ".");
-    float y = rect.y + s.Px(narrow ? 64 : 73);
-    const std::string words = ApprovalConsequence(snap, narrow);
-    std::vector<std::string> lines = WrapText(s.body, words, width, 3);
-    ImFont* font = s.body;
-    if (narrow) {
-      font = TextWidth(s.body, words) <= width + s.Px(4) ? s.body : s.caption;
-      lines = {FitClauses(font, words, width + s.Px(4))};
-    }
-    for (const std::string& line : lines) {
-      DrawText(ui, font, p.text2, x, y, line);
-      y += s.Px(19);
-    }
+    DrawConsequence(ApprovalConsequence(snap, narrow), rect, narrow, ui);
     DrawChecks(snap, rect, rect.y + s.Px(narrow ? 88 : 132), narrow, state, ui);
     if (!narrow) {
       DrawExpiry(snap, rect, rect.y + s.Px(166), ui);

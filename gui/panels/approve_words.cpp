@@ -1,5 +1,6 @@
 #include "gui/panels/approve_words.h"
 
+#include <cctype>
 #include <cmath>
 #include <numbers>
 
@@ -58,6 +59,12 @@ std::string LookWords(const MissionStatus& m) {
     return m.why_no_look.empty() || !m.why_not_go.empty() ? "" : " " + m.why_no_look + ".";
   }
   return " " + LookLabel(*m.next_look) + ": " + m.next_look->why + ".";
+}
+
+/// "Seen in 1 of the 3 frames that it takes." of what stands after a colon elsewhere.
+std::string AsSentence(std::string words) {
+  words[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(words[0])));
+  return words + ".";
 }
 
 }  // namespace
@@ -169,7 +176,7 @@ std::string ApprovalConsequence(const EngineSnapshot& snap, bool narrow) {
   }
   if (!doubt.empty() && (!narrow || side.empty())) {
     // Where there is room for one, the button names the standing and the list the way.
-    return narrow ? why + "." : text + ". " + doubt;
+    return narrow ? AsSentence(why) : text + ". " + doubt;
   }
   if (!narrow && m.approach) {
     double heading = Deg(m.approach->heading_rad);

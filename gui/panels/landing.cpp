@@ -127,7 +127,7 @@ void DrawActions(const EngineSnapshot& snap, const Rect& button, UiFrame& ui) {
   }
   if (m.state == MissionState::kHold) {
     DrawText(ui, s.body, s.palette.text1, button.x, HoldWordsAt(button, s),
-             FitWords(s.body, WhatToDoOnHold(snap), button.w));
+             FitClauses(s.body, WhatToDoOnHold(snap), button.w));
     return;
   }
   look.enabled = IsFlying(m.state) && snap.session->can_transmit;
@@ -183,6 +183,40 @@ void DrawLadder(const EngineSnapshot& snap, const Rect& bar, UiFrame& ui) {
   }
 }
 
+/// Between ladder and buttons; in small letters where one size up has no room.
+void DrawRecord(const EngineSnapshot& snap, const Rect& rect, bool tall, const Rect& button,
+                UiFrame& ui) {
+  const Style& s = ui.style;
+  const std::string record = Record(snap);
+  // A hold has one line of words where else buttons stand.
+  const bool held = snap.flight->mission.state == MissionState::kHold;
+  const float bottom = held ? HoldWordsAt(button, s) - s.Px(9) : button.y;
+  const float top = rect.y + s.Px(tall ? 106 : 92);
+  const auto lines_of = [&](const ImFont* font, float from, float pitch) {
+    const float most = std::max(1.0F, std::floor((bottom - from) / pitch));
+    return WrapText(font, record, button.w, static_cast<std::size_t>(most));
+  };
+  ImFont* font = s.body;
+  float pitch = s.Px(19), y = top + s.Px(tall ? 4 : 1);
+  std::vector<std::string> lines = lines_of(font, y, pitch);
+  const bool is_cut = lines.size() < WrapText(font, record, button.w).size();
+  if (is_cut || (lines.size() > 1 && TextWidth(s.caption, record) <= button.w)) {
+    font = s.caption;
+    pitch = s.Px(15);
+    lines = lines_of(font, top, pitch);
+    y = top + (lines.size() > 1 ? 0 : s.Px(4));
+  }
+  for (const std::string& line : lines) {
+    DrawText(ui, font, s.palette.text2, button.x, y + pitch / 2, line);
+    y += pitch;
+  }
+  const Rect told{button.x, rect.y, button.w, button.y - rect.y};
+  if (lines.size() < WrapText(font, record, button.w).size() &&
+      Interact(ui, "landing_record", told, kPassive).hovered) {
+    DrawTooltip(ui, record);
+  }
+}
+
 }  // namespace
 
 void DrawLandingPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui) {
@@ -207,28 +241,13 @@ void DrawLandingPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui)
   }
   const std::string headline =
       Headline(m, ui.silent_s, ArrivalOf(snap, ChannelId::kVehiclePose, ui.silent_s).age_s);
-  ImFont* font = TextWidth(s.readout, headline) <= room ? s.readout : s.section;
-  DrawText(ui, font, p.text1, x, head_y, headline);
+  ImFont* font = TextWidth(s.readout, headline) <= room   ? s.readout
+                 : TextWidth(s.section, headline) <= room ? s.section
+                                                          : s.medium;
+  DrawText(ui, font, p.text1, x, head_y, FitClauses(font, headline, room));
   DrawLadder(snap, {x, rect.y + s.Px(tall ? 75 : 62), width, s.Px(8)}, ui);
   const Rect button{x, rect.bottom() - s.Px(52), width, s.Px(40)};
-  float y = rect.y + s.Px(tall ? 119 : 102);
-  const std::string record = Record(snap);
-  const float pitch = s.Px(19);
-  // A hold has one line of words where else buttons stand.
-  const float last_y =
-      m.state == MissionState::kHold ? HoldWordsAt(button, s) - pitch : button.y - s.Px(10);
-  const auto room_lines =
-      static_cast<std::size_t>(std::max(1.0F, std::floor((last_y - y) / pitch) + 1));
-  const std::vector<std::string> lines = WrapText(s.body, record, width, room_lines);
-  for (const std::string& line : lines) {
-    DrawText(ui, s.body, p.text2, x, y, line);
-    y += pitch;
-  }
-  const Rect told{x, rect.y, width, button.y - rect.y};
-  if (lines.size() < WrapText(s.body, record, width).size() &&
-      Interact(ui, "landing_record", told, kPassive).hovered) {
-    DrawTooltip(ui, record);
-  }
+  DrawRecord(snap, rect, tall, button, ui);
   DrawActions(snap, button, ui);
 }
 

@@ -30,7 +30,8 @@ float DrawValueUnit(UiFrame& ui, ImFont* value_font, float x, float centre_y,
                     std::string_view value, std::string_view unit, Align align = Align::kLeft);
 /// Lines no wider than `width`, broken at spaces.
 std::vector<std::string> WrapText(const ImFont* font, std::string_view text, float width);
-/// The same in `most` lines, at least one: where that is less than all, the last ends with "…".
+/// The same in `most` lines, at least one: where that is less than all, the last ends with "…", after
+/// a whole clause where one fits.
 std::vector<std::string> WrapText(const ImFont* font, std::string_view text, float width,
                                   std::size_t most);
 /// The longest start of `text` made of whole words that fits; the text is never cut inside a word.

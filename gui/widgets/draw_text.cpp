@@ -8,6 +8,12 @@ namespace {
 
 constexpr const char* kEllipsis = "…";
 
+/// A mark of punctuation there ends a clause: no decimal point.
+bool EndsClause(std::string_view text, std::size_t at) {
+  return at + 1 < text.size() && text[at + 1] == ' ' &&
+         std::string_view(".,:;").find(text[at]) != std::string_view::npos;
+}
+
 }  // namespace
 
 float TextWidth(const ImFont* font, std::string_view text) {
@@ -82,9 +88,7 @@ std::string FitClauses(const ImFont* font, std::string_view text, float width) {
   const float room = width - TextWidth(font, kEllipsis);
   std::size_t best = 0;
   for (std::size_t at = 0; at + 1 < text.size(); ++at) {
-    const bool ends =
-        text[at + 1] == ' ' && std::string_view(".,:;").find(text[at]) != std::string_view::npos;
-    if (ends && TextWidth(font, text.substr(0, at)) <= room) {
+    if (EndsClause(text, at) && TextWidth(font, text.substr(0, at)) <= room) {
       best = at;
     }
   }
@@ -115,10 +119,20 @@ std::vector<std::string> WrapText(const ImFont* font, std::string_view text, flo
 std::vector<std::string> WrapText(const ImFont* font, std::string_view text, float width,
                                   std::size_t most) {
   std::vector<std::string> lines = WrapText(font, text, width);
-  if (lines.size() > most) {
-    lines[most - 1] = FitWords(font, lines[most - 1] + " " + lines[most], width);
-    lines.resize(most);
+  if (lines.size() <= most) {
+    return lines;
   }
+  for (std::size_t at = text.size(); at-- > 1;) {
+    if (EndsClause(text, at)) {
+      std::vector<std::string> clauses =
+          WrapText(font, std::string(text.substr(0, at)) + kEllipsis, width);
+      if (clauses.size() <= most) {
+        return clauses;
+      }
+    }
+  }
+  lines[most - 1] = FitWords(font, lines[most - 1] + " " + lines[most], width);
+  lines.resize(most);
   return lines;
 }
 

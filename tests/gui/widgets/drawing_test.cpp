@@ -92,11 +92,15 @@ TEST(DrawText, WhatIsCutSaysSo) {
     const std::vector<std::string> all = WrapText(font, text, room);
     for (std::size_t most = 1; most <= all.size(); ++most) {
       const std::vector<std::string> lines = WrapText(font, text, room, most);
-      ASSERT_EQ(lines.size(), most);
+      ASSERT_FALSE(lines.empty());
+      ASSERT_LE(lines.size(), most);
       EXPECT_EQ(lines.back().ends_with("…"), most < all.size()) << room << " px, " << most;
       EXPECT_LE(TextWidth(font, lines.back()), room);
     }
   }
+  // After a whole clause, where a word more had room.
+  EXPECT_EQ(WrapText(font, text, width, 1),
+            std::vector<std::string>{"GPS error 2.6 m, limit 2.0 m…"});
   EXPECT_EQ(WholeWords(font, "24 ms   10 Hz", TextWidth(font, "24 ms   10")), "24 ms   10");
 }
 
