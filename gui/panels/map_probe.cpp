@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "gui/widgets/interact.h"
+#include "gui/widgets/number_text.h"
 #include "gui/widgets/why_box.h"
 
 namespace palace {
@@ -72,9 +73,29 @@ void OfferProbe(const MapView& view, const MapAnswer& answer, MapProbe& probe) {
   }
 }
 
+namespace {
+
+/// A pin that the map does not reach any more is told on the map that it was set on; it comes back
+/// with its ground.
+void TellPinBeyond(UiFrame& ui, const Rect& square, const GridGeometry& g, const MapProbe& probe) {
+  if (probe.hovered || !probe.pinned || g.rows <= 0 || ProbeCell(probe, g)) {
+    return;
+  }
+  const Eigen::Vector2d& pin = *probe.pinned;
+  const double north_m = std::max({0.0, pin.x() - g.north_max_m(), g.north_min_m - pin.x()});
+  const double east_m = std::max({0.0, pin.y() - g.east_max_m(), g.east_min_m - pin.y()});
+  TextPlate(ui, square, Corner::kTopLeft,
+            "Pin " + Fixed(std::hypot(north_m, east_m), 0) + " m off the map");
+}
+
+}  // namespace
+
 void DrawProbeWhy(UiFrame& ui, const Rect& body, const TerrainDecision* decision,
                   const MapProbe& probe, Timestamp now) {
   const Item* square = probe.Shown() ? ui.items.Find(probe.ShownMap()) : nullptr;
+  if (square != nullptr && decision != nullptr && decision->hazards) {
+    TellPinBeyond(ui, square->rect, decision->hazards->geometry, probe);
+  }
   if (ui.explain_cell == nullptr || square == nullptr || ui.blocked_by_popup ||
       decision == nullptr || !decision->elevation || !decision->hazards) {
     return;

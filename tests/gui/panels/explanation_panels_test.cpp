@@ -32,6 +32,23 @@ bool Overlap(const Rect& a, const Rect& b) {
   return a.x < b.right() && b.x < a.right() && a.y < b.bottom() && b.y < a.bottom();
 }
 
+// The grid under a flying camera moves on: what was pinned there is not silently gone.
+TEST(FlyMaps, APinThatTheMapLeftBehindIsTold) {
+  for (const WindowSize& size : kWindowSizes) {
+    SCOPED_TRACE(size.name);
+    FlyWindow window(size.width, size.height, fake::Snapshot(MissionState::kProposed));
+    window.ui.explain = RoughCell;
+    const GridGeometry& g = window.snap.terrain->applied->hazards->geometry;
+    window.fly.maps.probe.pinned = {g.north_max_m() + 12, g.east_min_m + 3};
+    window.fly.maps.probe.pinned_map = "map/slope";
+    window.Run(0.05);
+    EXPECT_TRUE(HasText(window.ui.items, "Pin 12 m off the map"));
+    window.fly.maps.probe.pinned = {g.north_max_m() - 3, g.east_min_m + 3};
+    window.Run(0.05);
+    EXPECT_FALSE(HasText(window.ui.items, "off the map"));
+  }
+}
+
 // Every map, nine places each, three sizes, three states: the box is there, explains the cell, and
 // lies over nothing it must not.
 TEST(FlyMaps, TheWhyBoxExplainsTheCellAndKeepsOffWhatMatters) {
