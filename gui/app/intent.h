@@ -40,6 +40,8 @@ inline constexpr std::size_t kWorldEyes = 6;
 struct ShowWorldView {
   WorldEye eye = WorldEye::kBirdsEye;
 };
+/// Shows the trackers on the left picture of the workspace shown, or hides them.
+struct ToggleTrackView {};
 struct SetUiScale {
   double scale = 1;
 };
@@ -94,10 +96,11 @@ struct NextFlight {
 };
 
 /// What changes the window only; reduced into UiState.
-using UiAction = std::variant<ShowWorkspace, HighlightSite, ShowView3dPreset, ShowWorldView,
-                              MoveView3d, SetUiScale, TakeScreenshot, UndoSetting, RedoSetting,
-                              ChoosePreset, LookAtPreset, LoadPreset, SavePreset, ShowKeyHelp,
-                              CloseTop, QuitProgram, NextFlight, InjectFault, EndFault>;
+using UiAction =
+    std::variant<ShowWorkspace, HighlightSite, ShowView3dPreset, ShowWorldView, MoveView3d,
+                 SetUiScale, TakeScreenshot, UndoSetting, RedoSetting, ChoosePreset, LookAtPreset,
+                 LoadPreset, SavePreset, ShowKeyHelp, CloseTop, QuitProgram, NextFlight,
+                 InjectFault, EndFault, ToggleTrackView>;
 
 /// Everything a panel can ask for.
 using Intent = std::variant<CommandAction, PlaybackControl, SimulationChange, UiAction>;

@@ -128,6 +128,7 @@ std::vector<Row> MakeRows() {
          const bool record = c.snapshot && FollowsRecord(c.snapshot->session->role);
          return record ? Ui(NextFlight{NextFlight::Kind::kFlyAgain}) : Intents{};
        }},
+      {{"T", "Show or hide the track view"}, always(Ui(ToggleTrackView{}))},
       {{"B", "Bookmark now"}, always({CommandAction(AddBookmark{})})},
       {{"Ctrl+Z", "Undo the last limit change", true}, always(Ui(UndoSetting{}))},
       {{"Ctrl+Shift+Z", "Redo it", true}, always(Ui(RedoSetting{}))},

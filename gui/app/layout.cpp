@@ -147,25 +147,46 @@ void PlaceDecision(const FlyUnits& u, const Grid2& grid, FlyLayout& fly) {
   fly.approve = grid.Of(u.right_x, y, u.right_w, u.body_y + u.body_h - y);
 }
 
+constexpr double kRecheck = 316, kRecheckLow = 268, kRecheckLeast = 196;
+constexpr double kLimits = 268, kLimitsFolded = 196;
+constexpr double kTracker = 160, kTrackerMost = 360;  // rows of the trackers; with their pictures
+constexpr double kTrackerFolded = 300;
+constexpr double kLanding = 188, kLandingFolded = 174;
+
+/// Of the tracker: what is wanted, as long as what is left of the column leaves Landing its height.
+double TrackerHeight(double left, double wanted, double landing) {
+  const double most = left - kGap - landing;
+  return most < kTracker - 0.5 ? 0 : std::min({std::max(wanted, kTracker), kTrackerMost, most});
+}
+
 void PlaceDescentColumn(const FlyUnits& u, const Grid2& grid, FlyLayout& fly) {
   const double bottom = u.body_y + u.body_h;
-  const bool has_tracker = u.body_h >= 900;
-  const double limits = u.narrow ? 196 : 268;
+  const double approve_y = static_cast<double>(fly.approve.y) / grid.scale;
+  const double above = approve_y - u.body_y - 2 * kGap;  // of re-check and limits, held
+  const double limits = u.narrow ? kLimitsFolded : kLimits;
   // In a narrow window the last panel stands where Approve does: its buttons stay where they are.
-  const double landing_y = static_cast<double>(fly.approve.y) / grid.scale;
-  const double recheck =
-      u.narrow ? landing_y - u.body_y - limits - 2 * kGap : (has_tracker ? 316 : 268);
-  const double tracker = has_tracker ? 160 : 0;
+  const double recheck = u.narrow ? above - limits
+                                  : std::clamp(u.body_h - limits - kTracker - kLanding - 3 * kGap,
+                                               kRecheckLow, kRecheck);
   double y = u.body_y;
   fly.recheck = grid.Of(u.right_x, y, u.right_w, recheck);
   y += recheck + kGap;
   fly.limits = grid.Of(u.right_x, y, u.right_w, limits);
   y += limits + kGap;
+  // Down to Approve's place, if that is not too much: Landing then stands there.
+  const double tracker = TrackerHeight(bottom - y, u.narrow ? kTrackerFolded : approve_y - kGap - y,
+                                       u.narrow ? kLandingFolded : kLanding);
   if (tracker > 0) {
     fly.tracker = grid.Of(u.right_x, y, u.right_w, tracker);
     y += tracker + kGap;
   }
   fly.landing = grid.Of(u.right_x, y, u.right_w, bottom - y);
+  // A vehicle that holds is sent elsewhere by buttons in the last panel's head, and then stopped by
+  // one there: it stands where Approve comes up.
+  const double held_recheck = std::clamp(above - limits, kRecheckLeast, recheck);
+  fly.held_recheck = grid.Of(u.right_x, u.body_y, u.right_w, held_recheck);
+  fly.held_limits =
+      grid.Of(u.right_x, u.body_y + held_recheck + kGap, u.right_w, above - held_recheck);
 }
 
 }  // namespace

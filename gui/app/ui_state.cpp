@@ -54,11 +54,29 @@ void CloseTopmost(UiState& state) {
   }
 }
 
+/// Of the workspace shown; null where there is none.
+bool* TrackViewOf(UiState& state) {
+  switch (state.frame.workspace) {
+    case Workspace::kFly:
+      return &state.fly.camera.track_view;
+    case Workspace::kReview:
+      return &state.review.track_view;
+    case Workspace::kTune:
+    case Workspace::kDiagnose:
+    case Workspace::kSimulate:
+      break;
+  }
+  return nullptr;
+}
+
 void Show(UiState& state, Workspace workspace) {
   if (workspace != state.frame.workspace) {
     state.fly.maps.probe.pinned.reset();  // what was looked at there
     state.tune.probe.pinned.reset();
     state.review.probe.pinned.reset();
+    // Behind another workspace a mission may end, and the next one have another origin.
+    state.fly.search_map.last_area.reset();
+    state.fly.search_map.put_aside.clear();
   }
   state.frame.workspace = workspace;
   state.highlighted_site = 0;
@@ -124,6 +142,11 @@ struct Reducer {
   void operator()(const LookAtPreset& look) { request.look_at_preset = look.path; }
   void operator()(const LoadPreset& load) { request.load_preset = load.path; }
   void operator()(const SavePreset& save) { request.save_preset = save; }
+  void operator()(const ToggleTrackView&) {
+    if (bool* shown = TrackViewOf(state)) {
+      *shown = !*shown;
+    }
+  }
   void operator()(const ShowKeyHelp& help) { state.key_help = help.shown; }
   void operator()(const CloseTop&) { CloseTopmost(state); }
   void operator()(const QuitProgram&) { state.quit = true; }

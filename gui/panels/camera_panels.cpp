@@ -4,6 +4,7 @@
 #include "gui/panels/arrival.h"
 #include "gui/panels/fly_panels.h"
 #include "gui/panels/terrain_views.h"
+#include "gui/panels/track_view.h"
 #include "gui/widgets/button.h"
 #include "gui/widgets/icons.h"
 #include "gui/widgets/number_text.h"
@@ -117,6 +118,7 @@ void DrawLeftCameraPanel(const EngineSnapshot& snap, const Rect& rect, CameraSta
   const Arrival arrival = ArrivalOf(snap, ChannelId::kCameraLeft, ui.silent_s);
   DrawPanelFrame(ui, rect, "Left camera",
                  {{arrival.age, 0, true, arrival.late()}, {arrival.rate, 0, true, false}});
+  OfferTrackView("Left camera", rect, state.track_view, ui);
   const auto camera = LeftCamera(snap);
   const Rect image = LeftCameraImage(snap, rect, s);
   ui.items.Add("left_camera", image, true, "");
@@ -134,15 +136,20 @@ void DrawLeftCameraPanel(const EngineSnapshot& snap, const Rect& rect, CameraSta
   const TerrainDecision* shown = snap.terrain->Shown();
   DrawCurrentVerdict(ui, image, snap, shown, state.overlay);
   const PictureView view{*camera, snap.sensors->X_WC, image};
-  const bool tracking = TrackerShown(snap);
-  if (tracking) {
+  if (!state.track_view && TrackerShown(snap)) {
     DrawTracker(ui, view, snap.flight->tracker);
   }
   DrawSites(ui, view, OverlayOf(snap, ui.highlighted_site));
+  if (state.track_view) {
+    DrawTrackMarks(snap, view, ui);  // over the ring's own middle
+  }
   DrawProbeOnPicture(ui, view, shown, probe);
   DrawStale(ui, image, snap, arrival);
   if (!snap.session->missing_inputs.empty()) {
     TextPlate(ui, image, Corner::kTopLeft, "For maps is missing: " + snap.session->missing_inputs);
+  }
+  if (state.track_view) {
+    DrawTrackLegend(snap, image, ui);
   }
   DrawVerdictPlate(ui, image, snap, shown, state.overlay.legend);
   DrawDepthChip(snap, ui, image, state);
@@ -153,7 +160,12 @@ void DrawLeftCameraPanel(const EngineSnapshot& snap, const Rect& rect, CameraSta
   if (site != nullptr) {
     DrawScaleBar(ui, image, view.PixelsPerMetre(site->p_WS));
   }
-  TextPlate(ui, image, Corner::kBottomRight, LeftFact(snap, ui.silent_s));
+  TextPlate(
+      ui, image, Corner::kBottomRight,
+      state.track_view ? TrackFact(snap, RoomForTrackFact(image), s) : LeftFact(snap, ui.silent_s));
+  if (state.track_view) {
+    DrawCoherences(snap, view, ui);
+  }
   dl->PopClipRect();
 }
 

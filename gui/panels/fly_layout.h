@@ -51,7 +51,9 @@ struct FlyLayout {
   std::array<Rect, 6> plots;
   std::array<Rect, 5> tabbed_maps;  ///< the maps below the tabs
   float tabbed_map_side = 0;
-  Rect recheck, limits, tracker, landing;  ///< tracker is empty when narrow
+  Rect recheck, limits, tracker, landing;  ///< tracker is empty where there is no room for it
+  /// On hold: without the tracker, and Landing where Approve is.
+  Rect held_recheck, held_limits;
 };
 
 }  // namespace palace

@@ -71,7 +71,10 @@ void DrawSiteRecheckPanel(const EngineSnapshot& snap, const Rect& rect, bool nar
 /// Every limit that acts now; what is over stands first. "limit_rows" as "evidence_rows".
 void DrawLimitsInForcePanel(const EngineSnapshot& snap, const Rect& rect, bool narrow,
                             RowScroll& scroll, UiFrame& ui);
-void DrawTrackerPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui);
+/// Every tracker of the site in a row ("tracker/Plane"), the consensus below them. With the pictures
+/// of the one in force, or, where there is no room, in their place: "tracker_pictures".
+void DrawTrackerPanel(const EngineSnapshot& snap, const Rect& rect, TrackerPanelState& state,
+                      UiFrame& ui);
 void DrawChannelStripPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui);
 /// Tabs "tab/Descent" and "tab/Maps", and six plots.
 void DrawPlotTabs(const EngineSnapshot& snap, const Rect& rect, PlotTab& tab, UiFrame& ui);

@@ -20,6 +20,10 @@ namespace palace {
 struct CameraState {
   OverlayCache overlay;
   bool show_depth = false;  ///< the app then uploads the tint
+  bool track_view = false;  ///< every tracker on the picture, in place of the one in force
+};
+struct TrackerPanelState {
+  bool pictures = false;  ///< in place of the rows, where there is no room for both
 };
 struct MapRowState {
   LimitDrag drag;
@@ -62,6 +66,7 @@ struct FlyState {
   MapRowState maps;
   SearchMapState search_map;
   RowScroll evidence, limits;
+  TrackerPanelState tracker;
   std::optional<MissionState> shown_state;  ///< of the last frame
   PlotTab tab = PlotTab::kDescent;
   PlotHover plots;

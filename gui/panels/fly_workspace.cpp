@@ -65,10 +65,17 @@ void DrawDecisionColumn(const EngineSnapshot& snap, const FlyLayout& layout, Fly
 
 void DrawDescentColumn(const EngineSnapshot& snap, const FlyLayout& layout, FlyState& state,
                        UiFrame& ui) {
-  DrawSiteRecheckPanel(snap, layout.recheck, layout.narrow, state.maps.probe, ui);
-  DrawLimitsInForcePanel(snap, layout.limits, layout.narrow, state.limits, ui);
+  const bool held = snap.flight->mission.state == MissionState::kHold;
+  DrawSiteRecheckPanel(snap, held ? layout.held_recheck : layout.recheck, layout.narrow,
+                       state.maps.probe, ui);
+  DrawLimitsInForcePanel(snap, held ? layout.held_limits : layout.limits, layout.narrow,
+                         state.limits, ui);
+  if (held) {
+    DrawLandingPanel(snap, layout.approve, ui);
+    return;
+  }
   if (layout.tracker.h > 0) {
-    DrawTrackerPanel(snap, layout.tracker, ui);
+    DrawTrackerPanel(snap, layout.tracker, state.tracker, ui);
   }
   if (snap.flight->mission.state == MissionState::kLanded) {
     DrawLandedPanel(snap, layout.landing, ui);
@@ -125,6 +132,7 @@ void DrawFlyWorkspace(const EngineSnapshot& snap, const FlyLayout& layout, FlySt
                       UiFrame& ui) {
   FollowArming(snap, state.approve, ui);
   ForgetPin(snap, state);
+  FollowArea(snap.flight->mission, state.search_map);
   BeginProbe(state.maps.probe);
   ui.tab.group = kViewTabs;
   DrawLeftCameraPanel(snap, layout.left_camera, state.camera, state.maps.probe, ui);

@@ -171,7 +171,8 @@ void DrawSiteRecheckPanel(const EngineSnapshot& snap, const Rect& rect, bool nar
                           : told ? "not yet"
                                  : "not told after a jump";
   const Rect content = DrawPanelFrame(ui, rect, title, {{age + GroundAge(m)}});
-  const float side = std::min(s.Px(232), content.h - s.Px(52));
+  // As large as the panel is high, beside a column of figures.
+  const float side = std::min({s.Px(232), content.h - s.Px(52), content.w - s.Px(40 + 118)});
   const Rect square{content.x + s.Px(12), content.y + s.Px(4), side, side};
   MapView view = MakeMapView(MapKind::kSafeDistance, ShownMap(snap, ui.silent_s), ui.textures);
   view.key = "recheck";

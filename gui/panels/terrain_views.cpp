@@ -5,6 +5,7 @@
 
 #include "gui/panels/arrival.h"
 #include "gui/panels/session_words.h"
+#include "gui/panels/track_view.h"
 #include "gui/widgets/map/flag_marks.h"
 #include "gui/widgets/number_text.h"
 
@@ -126,17 +127,28 @@ void DrawLeftPicture(UiFrame& ui, const Rect& area, const EngineSnapshot& snap,
       DrawScaleBar(ui, image, view.PixelsPerMetre(overlay.selected->p_WS));
     }
   }
+  if (look.track_view) {
+    DrawTrackMarks(snap, view, ui);
+  }
   if (look.probe != nullptr) {
     DrawProbeOnPicture(ui, view, look.decision, *look.probe);
   }
   DrawStale(ui, image, snap, ArrivalOf(snap, ChannelId::kCameraLeft, ui.silent_s));
   dl->PopClipRect();
+  if (look.track_view) {
+    DrawTrackLegend(snap, image, ui);
+  }
   DrawVerdictPlate(ui, image, snap, look.decision, cache.legend);
   if (look.preview) {
     PreviewChip(ui, {image.right() - s.Px(92), image.y + s.Px(8)});
   }
-  if (!look.plate.empty()) {
-    TextPlate(ui, image, Corner::kBottomRight, look.plate);
+  const std::string plate =
+      look.track_view ? TrackFact(snap, RoomForTrackFact(image), s) : look.plate;
+  if (!plate.empty()) {
+    TextPlate(ui, image, Corner::kBottomRight, plate);
+  }
+  if (look.track_view) {
+    DrawCoherences(snap, view, ui);
   }
   ui.items.Add("picture/left", image, true, "Left camera");
 }

@@ -31,6 +31,7 @@ struct LeftPicture {
   bool preview = false;
   std::string plate;  ///< fact at the bottom right
   const MapProbe* probe = nullptr;
+  bool track_view = false;  ///< then the fact at the bottom right is the trackers'
 };
 
 /// The left picture at its own aspect inside `area`, with verdict, rings, legend and scale bar.

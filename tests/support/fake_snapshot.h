@@ -105,6 +105,7 @@ inline std::vector<HistorySample> History(bool descending) {
     h.truth_height_m = h.height_above_site_m;
     h.plan_height_m = 38.2 - fall;
     h.laser_m = h.height_above_site_m + 0.04 * wave;
+    h.laser_time = h.time;
     h.from_site_m = 0.08 + 0.1 * wave;
     h.from_site_gps_m = 1.3 + SmoothNoise(i * 0.1, 9);
     h.from_site_truth_m = 0.1;
@@ -294,6 +295,48 @@ inline void FillTracker(TrackerStatus& t) {
   t.difference_patch = patch(128);
 }
 
+/// The plane in force, a template that a shadow took, four features of which one drifts.
+inline TrackerSetStatus Trackers(const Eigen::Vector2d& site) {
+  using Kind = TrackerMember::Kind;
+  TrackerSetStatus set;
+  set.time = {kNow_us - 24'000};
+  const auto add = [&](Kind kind, const char* name, Eigen::Vector2d pixel, double coherence,
+                       double off_px, double weight) {
+    TrackerMember member;
+    member.kind = kind;
+    member.name = name;
+    member.state = FollowState::kFollowed;
+    member.pixel = pixel;
+    member.site_pixel = site + Eigen::Vector2d(0.8 * off_px, 0.6 * off_px);
+    member.coherence = member.own_score = coherence;
+    member.disagreement_px = off_px;
+    member.weight = weight;
+    member.sigma_px = 0.4;
+    member.anchors = 1;
+    set.members.push_back(member);
+  };
+  add(Kind::kPlane, "Plane", site, 0.94, 0.3, 0.28);
+  add(Kind::kTemplate, "Template", site, 0, NAN, 0);
+  add(Kind::kFeature, "Feature 1", {158, 160}, 0.91, 0.6, 0.26);
+  add(Kind::kFeature, "Feature 2", {128, 320}, 0.88, 0.4, 0.24);
+  add(Kind::kFeature, "Feature 4", {266, 340}, 0.83, 0.9, 0.22);
+  add(Kind::kFeature, "Feature 12", {565, 260}, 0.79, 12.4, 0);
+  set.members[0].in_force = true;
+  TrackerMember& lost = set.members[1];
+  lost.state = FollowState::kLost;
+  lost.why_lost = "coherence 0.42, limit 0.70";
+  lost.lost_s = 1.2;
+  lost.pictures_lost = 12;
+  lost.sigma_px = 6.5;
+  lost.site_pixel = site + Eigen::Vector2d(3, -2);
+  lost.window_centre = lost.site_pixel;
+  lost.window_side_px = 140;
+  set.members[5].drifts = true;
+  set.consensus = {true, "", site + Eigen::Vector2d(0.2, 0.1), 0.22, 4, 0.7};
+  set.disagreement = "Feature 12 12 px off the others, limit 5 px";
+  return set;
+}
+
 inline EngineSnapshot Snapshot(MissionState state = MissionState::kArmed,
                                SourceKind kind = SourceKind::kLive) {
   const bool descending = state >= MissionState::kDescending;
@@ -353,6 +396,7 @@ inline EngineSnapshot Snapshot(MissionState state = MissionState::kArmed,
       Decision(snap.sensors->X_WC, snap.session->settings.slad, snap.session->settings_hash);
   FillMission(snap, state);
   FillTracker(snap.flight.Edit().tracker);
+  snap.flight.Edit().trackers = Trackers(snap.flight->tracker.site_pixel);
   snap.flight.Edit().navigation.gps.running = snap.flight.Edit().navigation.vision.running = true;
   PositionEstimate& estimate = snap.flight.Edit().navigation.vision.estimate;
   estimate = {{kNow_us - 26'000}, EstimateSource::kVision, true, 7, pose.X_WB.p, pose.v_WB,

@@ -70,6 +70,7 @@ struct ReviewState {
   RedecideRun redecide;
   ReviewDigest digest;
   ReviewPicture picture = ReviewPicture::kView3d;  ///< narrow windows
+  bool track_view = false;                         ///< every tracker on the left picture
 };
 
 /// Seconds since the start of the flight.

@@ -3,6 +3,7 @@
 
 #include "gui/panels/fly_panels.h"
 #include "gui/panels/review/review.h"
+#include "gui/panels/track_view.h"
 #include "gui/widgets/button.h"
 #include "gui/widgets/interact.h"
 #include "gui/widgets/number_text.h"
@@ -14,6 +15,7 @@ void DrawLeft(const EngineSnapshot& snap, const Rect& rect, ReviewState& state, 
   const std::string frame =
       "Frame " + Fixed(static_cast<double>(snap.session->source.frame_index), 0);
   const Rect content = DrawPanelFrame(ui, rect, "Left camera", {{frame, 0, false, false}});
+  OfferTrackView("Left camera", rect, state.track_view, ui);
   LeftPicture look;
   look.decision = snap.terrain->applied.get();
   look.ghost = snap.terrain->recorded.get();
@@ -22,6 +24,7 @@ void DrawLeft(const EngineSnapshot& snap, const Rect& rect, ReviewState& state, 
                    ? "Re-decided overlay"
                    : "";
   look.probe = &state.probe;
+  look.track_view = state.track_view;
   DrawLeftPicture(ui, content, snap, look, state.overlay);
 }
 

@@ -240,8 +240,9 @@ bool Hides(const UiFrame& ui, const Rect& plate, Hidden none_of) {
   return std::any_of(ui.items.items().begin(), ui.items.items().end(), [&](const Item& item) {
     const Rect& r = item.rect;
     const bool ring = item.name == kRing || item.name == kLandingRing;
-    const bool of_site = item.name == kMark || (ring && none_of == Hidden::kLettersAndRings);
-    return of_site && r.x < plate.right() && plate.x < r.right() && r.y < plate.bottom() &&
+    const bool stays = item.name == kMark || item.name == kTrackLegend ||
+                       (ring && none_of == Hidden::kLettersAndRings);
+    return stays && r.x < plate.right() && plate.x < r.right() && r.y < plate.bottom() &&
            plate.y < r.bottom();
   });
 }

@@ -46,6 +46,8 @@ void DrawSites(UiFrame& ui, const PictureView& view, const SiteOverlay& overlay)
 /// Brackets, search window. Of many features only the first: more would hide the picture.
 inline constexpr std::size_t kFeaturesDrawn = 24;
 void DrawTracker(UiFrame& ui, const PictureView& view, const TrackerStatus& tracker);
+/// An item of this name keeps its place: the plate below stands elsewhere.
+inline constexpr const char* kTrackLegend = "track_legend";
 /// Plate "Safe to land on | Over a limit or unknown | Too near a hazard" in a corner where it hides
 /// no letter and no ring of a site, the top left if it can; under it one of the flags that occur.
 /// In small pictures without the flags, or as "Safe | Over | Near", if only these hide none; where

@@ -131,6 +131,38 @@ TEST(FlyLayout, OfANarrowWindowTheLastPanelStandsWhereApproveDoes) {
   }
 }
 
+// A window that is narrow and high: what is left beside the tracker is Landing's, and enough.
+TEST(FlyLayout, WhatTheTrackerTakesOfATallNarrowWindowItShows) {
+  for (const double scale : {1.0, 2.0}) {
+    for (double height = 720; height <= 2400; height += 40) {
+      SCOPED_TRACE(testing::Message() << height << " at " << scale);
+      const FlyLayout fly = ComputeFlyLayout(1280 * scale, height * scale, scale, true);
+      const double gap = 8 * scale;
+      const bool shown = fly.tracker.h > 0;
+      EXPECT_NEAR(fly.landing.y, (shown ? fly.tracker : fly.limits).bottom() + gap, 1);
+      EXPECT_NEAR(fly.landing.bottom(), fly.frame.body.bottom(), 1);
+      EXPECT_GE(fly.landing.h, 174 * scale - 1);
+      EXPECT_EQ(shown, fly.approve.h >= (174 + 8 + 160) * scale - 1);
+      EXPECT_TRUE(!shown || fly.tracker.h >= 160 * scale - 1);
+    }
+  }
+}
+
+// After a hold the ways elsewhere stand in the head of Landing, and then of Approve.
+TEST(FlyLayout, OnHoldTheLastPanelHasApprovesPlaceAtEverySize) {
+  for (double width = 1280; width <= 3840; width += 320) {
+    for (double height = 720; height <= 2160; height += 60) {
+      SCOPED_TRACE(testing::Message() << width << " x " << height);
+      const FlyLayout fly = ComputeFlyLayout(width, height, 1, true);
+      EXPECT_EQ(fly.held_recheck.y, fly.frame.body.y);
+      EXPECT_GE(fly.held_recheck.h, 195);
+      EXPECT_NEAR(fly.held_limits.y, fly.held_recheck.bottom() + 8, 1);
+      EXPECT_GE(fly.held_limits.h, 160);
+      EXPECT_NEAR(fly.held_limits.bottom() + 8, fly.approve.y, 1);
+    }
+  }
+}
+
 TEST(FlyLayout, ScaleDropsByStepsUntilTheSmallestWindowFits) {
   EXPECT_EQ(FittingScale(1920, 1080, 1.0), 1.0);
   EXPECT_EQ(FittingScale(1920, 1080, 2.0), 1.5);

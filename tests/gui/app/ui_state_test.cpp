@@ -127,6 +127,34 @@ TEST(UiState, ALogOpensWhereItIsLookedAt) {
   }
 }
 
+TEST(UiStateReduce, TheTrackViewIsThatOfTheWorkspaceShown) {
+  UiState state;
+  Reduce(state, ToggleTrackView{});
+  EXPECT_TRUE(state.fly.camera.track_view);
+  Reduce(state, ShowWorkspace{Workspace::kTune});
+  Reduce(state, ToggleTrackView{});
+  EXPECT_TRUE(state.fly.camera.track_view) << "Tune has none";
+  Reduce(state, ShowWorkspace{Workspace::kReview});
+  Reduce(state, ToggleTrackView{});
+  EXPECT_TRUE(state.review.track_view);
+  Reduce(state, ShowWorkspace{Workspace::kFly});
+  Reduce(state, ToggleTrackView{});
+  EXPECT_FALSE(state.fly.camera.track_view);
+  EXPECT_TRUE(state.review.track_view);
+}
+
+// Behind another workspace a mission may end, and the next one begin at another place.
+TEST(UiState, AnAreaIsNotBroughtBackFromBehindAnotherWorkspace) {
+  UiState state;
+  state.fly.search_map.last_area.emplace();
+  state.fly.search_map.put_aside = {{1, 2}};
+  Reduce(state, ShowWorkspace{Workspace::kFly});  // no change
+  EXPECT_TRUE(state.fly.search_map.last_area.has_value());
+  Reduce(state, ShowWorkspace{Workspace::kTune});
+  EXPECT_FALSE(state.fly.search_map.last_area.has_value());
+  EXPECT_TRUE(state.fly.search_map.put_aside.empty());
+}
+
 TEST(UiState, APinStaysInNoWorkspaceThatWasLeft) {
   UiState state;
   state.fly.maps.probe.pinned = Eigen::Vector2d(1, 2);

@@ -38,6 +38,7 @@ struct Shot {
   MissionState state;
   SourceKind kind;
   Workspace workspace = Workspace::kFly;
+  bool track_view = false;
 };
 
 /// Other limits than the flight's: a preview while armed, a re-decision in replay.
@@ -153,6 +154,7 @@ inline ImageRgba Draw(const Shot& shot, std::string& why) {
   Intents intents;
   Focus focus;
   FlyState fly;
+  fly.camera.track_view = shot.track_view;
   TuneState tune;
   EngineSnapshot before = snap;
   before.session.Edit().preview_settings = {};
@@ -208,6 +210,7 @@ inline std::vector<Shot> Shots() {
     MissionState state;
     SourceKind kind;
     Workspace workspace;
+    bool track_view = false;
   };
   const State states[] = {
       {"fly-search", MissionState::kSearch, SourceKind::kSimulation, Workspace::kFly},
@@ -215,6 +218,7 @@ inline std::vector<Shot> Shots() {
       {"fly-armed", MissionState::kArmed, SourceKind::kLive, Workspace::kFly},
       {"fly-approved", MissionState::kApproved, SourceKind::kLive, Workspace::kFly},
       {"fly-descending", MissionState::kDescending, SourceKind::kSimulation, Workspace::kFly},
+      {"fly-track-view", MissionState::kDescending, SourceKind::kSimulation, Workspace::kFly, true},
       {"fly-hold", MissionState::kHold, SourceKind::kLive, Workspace::kFly},
       {"fly-aborting", MissionState::kAborting, SourceKind::kLive, Workspace::kFly},
       {"fly-landed", MissionState::kLanded, SourceKind::kSimulation, Workspace::kFly},
@@ -227,8 +231,8 @@ inline std::vector<Shot> Shots() {
        Workspace::kSimulate}};
   std::vector<Shot> shots;
   for (const State& s : states) {
-    shots.push_back({s.name, 1280, 720, 1, s.state, s.kind, s.workspace});
-    shots.push_back({s.name, 1920, 1080, 1, s.state, s.kind, s.workspace});
+    shots.push_back({s.name, 1280, 720, 1, s.state, s.kind, s.workspace, s.track_view});
+    shots.push_back({s.name, 1920, 1080, 1, s.state, s.kind, s.workspace, s.track_view});
   }
   return shots;
 }
