@@ -129,6 +129,7 @@ void FollowJump(MissionTurn& turn, const MissionInputs& in) {
                 ? InputWatch::AsHeard(in.vehicle.channels, in.vehicle.bundle, now)
             : StartsAnewAfterJump(in.session.role) ? InputWatch()
                                                    : m.watch.AfterJump();
+  m.energy.Forget();
   m.shown.clear();
   m.went_at.reset();
   m.winner = {};
@@ -152,6 +153,16 @@ void HearSession(MissionFacts& facts, const MissionInputs::Session& in) {
   facts.can_transmit = facts.can_transmit && in.can_transmit;
   facts.authority = in.authority;
   facts.recorder_ok = facts.recorder_ok && in.recorder_ok;
+}
+
+void RememberEnergy(MissionMemory& m, const MissionInputs& in) {
+  if (m.watch.rebooted()) {
+    m.energy.Forget();
+  }
+  if (in.vehicle.bundle.status) {
+    m.energy.Update(in.vehicle.bundle.status->battery_or_fuel, in.session.now);
+  }
+  m.status.energy = m.energy.Left();
 }
 
 void RememberFacts(MissionMemory& m, const MissionInputs& in) {

@@ -12,6 +12,8 @@ void FollowJump(MissionTurn& turn, const MissionInputs& inputs);
 /// Before a command: what the session is to the mission, before the first step too. What was lost
 /// since the last step forbids at once; what came back allows only when a step has shown it (I3).
 void HearSession(MissionFacts& facts, const MissionInputs::Session& session);
+/// After the watch of the inputs.
+void RememberEnergy(MissionMemory& memory, const MissionInputs& inputs);
 void RememberFacts(MissionMemory& memory, const MissionInputs& inputs);
 void FollowWinner(MissionMemory& memory, const MissionInputs& inputs);
 /// Events of who commands, and of messages to the vehicle that others sent.

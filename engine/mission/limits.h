@@ -53,6 +53,7 @@ struct AlarmLimits {
   static constexpr double refused_hz = 1;      ///< datagrams: F25
   static constexpr double bus_load = 10;       ///< times what a channel needs: F31
   static constexpr double foreign_s = 10;      ///< a foreign command is told for this long
+  static constexpr double energy_percent = 10;  ///< where no rate is known
   static constexpr double least_pairs_hz = 5;  ///< half of what maps and tracking are made for
 };
 

@@ -16,6 +16,7 @@
 #include <Eigen/Dense>
 
 #include "engine/mission/alarms/alarm_board.h"
+#include "engine/mission/watch/energy_watch.h"
 #include "engine/mission/watch/input_watch.h"
 #include "engine/mission/watch/loss_watch.h"
 #include "engine/mission/watch/picture_watch.h"
@@ -112,6 +113,7 @@ struct MissionMemory {
   WinningRun winner;
   SearchMemory search;
   InputWatch watch;
+  EnergyWatch energy;
   PictureWatch pictures;
   LossWatch losses;
   AlarmBoard alarms;

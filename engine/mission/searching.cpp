@@ -70,6 +70,16 @@ std::optional<ProposedLook> LookForAir(const MissionMemory& m, Timestamp now) {
                       WithNumbers(" is seen up to %.1f m, min %.1f m", seen_m, kLeastAirSeen_m));
 }
 
+/// Empty: it has it, or for how long it lasts is not known.
+std::string WhyNoEnergy(const MissionMemory& m, double takes_s) {
+  const double lasts_s = m.status.energy.lasts_s;
+  const double reserve_s = m.facts.settings.mission.energy_reserve_s;
+  return lasts_s - takes_s < reserve_s
+             ? WithNumbers("Energy for %.1f min and %.1f min for the look, reserve %.1f min",
+                           lasts_s / 60, takes_s / 60, reserve_s / 60)
+             : std::string();
+}
+
 bool HoldsId(const std::vector<std::uint64_t>& ids, std::uint64_t id) {
   return std::find(ids.begin(), ids.end(), id) != ids.end();
 }
@@ -104,11 +114,15 @@ std::optional<ProposedLook> LookElsewhere(const MissionMemory& m, Timestamp now,
   const FlyTo here{m.facts.p_WB, m.facts.yaw_rad};
   const auto may_fly = [&](const FlyTo& to) { return WhyNotThere(m, to, now).empty(); };
   const std::optional<SearchLook> look = NextLook(ground, here, may_fly);
-  if (look) {
-    return Proposed(m, look->to,
-                    WithNumbers("shows %.0f m² that were not looked at yet", look->new_m2));
-  }
   const double left_m2 = LeftToSee_m2(ground);
+  if (look) {
+    why_none = WhyNoEnergy(m, look->takes_s);
+    return why_none.empty()
+               ? std::optional(Proposed(m, look->to,
+                                        WithNumbers("shows %.0f of %.0f m² left to see, in %.0f s",
+                                                    look->new_m2, left_m2, look->takes_s)))
+               : std::nullopt;
+  }
   const std::string where =
       area != nullptr ? "in the area"
                       : WithNumbers("within %.0f m of where it began", SeenGround::kSearched_m);
@@ -173,6 +187,10 @@ void PlanSearch(MissionMemory& m, Timestamp now) {
   status.why_no_look.clear();
   status.next_look = LookForAir(m, now);
   if (armed) {
+    return;
+  }
+  status.why_no_look = WhyNoEnergy(m, 0);
+  if (!status.why_no_look.empty()) {
     return;
   }
   if (!status.next_look) {

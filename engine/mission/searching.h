@@ -1,6 +1,7 @@
 // Searching: what was looked at is remembered, and the look that promises most is proposed.
 //
-// In this order, as far as it may be flown (WhyNotThere):
+// In this order, as far as it may be flown (WhyNotThere), the last two while fuel or battery last
+// longer than the reserve (MissionSettings::energy_reserve_s):
 //  1. what a site lacks that cannot be approved without it: air that was seen over it, from higher
 //     up (of the armed site; else of the one that leads);
 //  2. a place that was proposed and did not last, from where the cameras look at its middle;

@@ -18,6 +18,7 @@ MissionStep Step(const MissionOptions& station, MissionMemory memory, const Miss
   MissionTurn turn{station, std::move(memory), {}};
   FollowJump(turn, in);
   turn.memory.watch.Update(in.vehicle.bundle, in.vehicle.channels, in.session.now);
+  RememberEnergy(turn.memory, in);
   turn.memory.losses.Update(in.session.losses, in.vehicle.bundle.stereo != nullptr, in.session.now);
   RememberFacts(turn.memory, in);
   PlanApproach(turn.memory);

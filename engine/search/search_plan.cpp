@@ -107,7 +107,8 @@ std::optional<SearchLook> NextLook(const SearchGround& g, const FlyTo& now,
       }
       if (new_m2 >= kLeastNew_m2) {
         const FlyTo to{p_WB, heading_rad[k]};
-        looks.push_back({{to, new_m2}, new_m2 / Seconds(g, now, to)});
+        const double takes_s = Seconds(g, now, to);
+        looks.push_back({{to, new_m2, takes_s}, new_m2 / takes_s});
       }
     }
   }

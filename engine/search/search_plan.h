@@ -23,7 +23,8 @@ namespace palace {
 
 struct SearchLook {
   FlyTo to;
-  double new_m2 = 0;  ///< ground of the area that it shows first
+  double new_m2 = 0;   ///< ground of the area that it shows first
+  double takes_s = 0;  ///< the time that it was weighed by
 };
 
 struct SearchGround {

@@ -27,6 +27,7 @@ struct SmallVehicle {
   double stop_height_m = 0;  ///< of the approval that it flies
   double height_m = 20;
   double wind_mps = 0;
+  double energy = 1, energy_per_s = 0;  ///< share left, and how fast it falls
   double wind_from_rad = 0;
   double climb_mps = 2;  ///< of a wave-off
   double mode_for_s = 0;
@@ -172,6 +173,7 @@ struct MissionRig {
         vehicle.Take(message, VehicleNow());
       }
     }
+    vehicle.energy -= 0.1 * vehicle.energy_per_s;
     vehicle.Fly(0.1);
     if (const auto arrived = std::exchange(vehicle.arrived, std::nullopt)) {
       north_m = arrived->p_WB.x();
@@ -290,6 +292,7 @@ struct MissionRig {
       status.mode = vehicle.mode;
       status.on_ground = vehicle.mode == VehicleMode::kLanded;
       status.approval_id = vehicle.approval_id;
+      status.battery_or_fuel = vehicle.energy;
       status.wind_speed_mps = vehicle.wind_mps;
       status.wind_from_rad = vehicle.wind_from_rad;
       bundle.status = status;

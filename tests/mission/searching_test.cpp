@@ -2,6 +2,9 @@
 // not looked at; and the area that it keeps to.
 #include "engine/mission/searching.h"
 
+#include <gmock/gmock.h>
+
+#include <algorithm>
 #include <cmath>
 
 #include "tests/mission/hover_rig.h"
@@ -18,6 +21,13 @@ struct SearchingRig : HoverRig {
   }
   const ProposedLook* Look() const { return status().next_look ? &*status().next_look : nullptr; }
   Status FlyLook() { return Do(FlyTo{Look()->p_WB, Look()->heading_rad}); }
+  /// That stands; null: it does not.
+  const Alarm* Standing(AlarmId id) const {
+    const auto& alarms = status().alarms;
+    const auto at = std::find_if(alarms.begin(), alarms.end(),
+                                 [&](const Alarm& a) { return a.kind == id && a.active; });
+    return at == alarms.end() ? nullptr : &*at;
+  }
   std::vector<LandingSite> sites_before;
 };
 
@@ -116,6 +126,52 @@ TEST(Searching, WithoutCamerasThatAreKnownNothingIsProposed) {
   rig.Run(3);
   EXPECT_EQ(rig.mission.status().seen, nullptr);
   EXPECT_EQ(rig.mission.status().why_no_look, "The height of the ground is not known");
+}
+
+// 0.4 % a second: full it flies for 250 s, and the reserve is five minutes.
+TEST(Searching, OnTheReserveNoLookIsProposedAndAnAlarmSaysSo) {
+  SearchingRig rig;
+  rig.sites.clear();
+  rig.Run(3);
+  ASSERT_NE(rig.Look(), nullptr);
+  rig.vehicle.energy_per_s = 0.004;
+  rig.Run(15);
+  ASSERT_LT(rig.status().energy.lasts_s, 300);
+  EXPECT_EQ(rig.Look(), nullptr);
+  EXPECT_THAT(rig.status().why_no_look,
+              testing::MatchesRegex("Energy for 4\\.. min and 0.0 min for the look, "
+                                    "reserve 5.0 min"));
+  const Alarm* alarm = rig.Standing(AlarmId::kEnergyLow);
+  ASSERT_NE(alarm, nullptr);
+  EXPECT_EQ(alarm->level, AlarmLevel::kCaution);
+  EXPECT_THAT(alarm->text, testing::MatchesRegex("Energy for 4\\.. min at this rate, limit "
+                                                 "5.0 min. Land, or fly home."));
+  EXPECT_TRUE(rig.status().why_not_go.empty()) << "a person may";
+  rig.settings.mission.energy_reserve_s = 0;
+  rig.Run(3);
+  EXPECT_NE(rig.Look(), nullptr) << rig.status().why_no_look;
+  EXPECT_EQ(rig.Standing(AlarmId::kEnergyLow), nullptr);
+}
+
+TEST(Searching, WithoutARateTheGaugeAloneRaisesTheAlarmAndALookIsProposed) {
+  SearchingRig rig;
+  rig.sites.clear();
+  rig.vehicle.energy = 0.09;
+  rig.Run(3);
+  const Alarm* alarm = rig.Standing(AlarmId::kEnergyLow);
+  ASSERT_NE(alarm, nullptr);
+  EXPECT_EQ(alarm->text, "Energy 9 %, limit 10 %. Land, or fly home.");
+  EXPECT_NE(rig.Look(), nullptr);
+}
+
+TEST(Searching, OnTheReserveASiteIsStillApproved) {
+  SearchingRig rig;
+  rig.vehicle.energy = 0.3;
+  rig.vehicle.energy_per_s = 0.002;
+  rig.Run(15);
+  ASSERT_NE(rig.Standing(AlarmId::kEnergyLow), nullptr);
+  rig.Arm();
+  EXPECT_TRUE(rig.ApproveNow().ok()) << rig.status().cannot_approve_reason;
 }
 
 TEST(Area, WaysThatLeaveItAreRefused) {

@@ -39,6 +39,12 @@ void FillSensors(const MissionMemory& m, const MissionInputs& in, AlarmFacts& f)
   f.gps_age_s = gps != nullptr ? gps->age_s : NAN;
   f.gps_agreement = in.navigation.navigation.gps_agreement;
   f.laser = in.navigation.navigation.laser;
+  const auto& vehicle = m.watch.vehicle();
+  if (vehicle && !vehicle->on_ground) {
+    f.energy_min = m.status.energy.lasts_s / 60;
+    f.energy_percent = 100 * m.status.energy.share;
+  }
+  f.energy_reserve_min = m.facts.settings.mission.energy_reserve_s / 60;
   const ImageTime* wrong_time = in.navigation.navigation.WrongImageTime();
   f.image_time_ms = wrong_time != nullptr ? 1000 * std::abs(wrong_time->offset_s) : NAN;
   f.image_time = words::ImageTimeOff(in.navigation.navigation);

@@ -49,9 +49,13 @@ struct AlarmFacts {
   GravityAgreement gravity{};
   double tilt_deg = NAN;  ///< as measured
   LaserHealth laser{};
-  double image_time_ms = NAN;    ///< off by so much; NaN while it is not
-  double image_offset_ms = NAN;  ///< as measured, of the camera that is off by more
-  std::string image_time{};      ///< words for it
+  double energy_min =
+      NAN;  ///< that fuel or battery last; NaN: not known, or it stands on the ground
+  double energy_reserve_min = NAN;  ///< setting
+  double energy_percent = NAN;      ///< likewise
+  double image_time_ms = NAN;       ///< off by so much; NaN while it is not
+  double image_offset_ms = NAN;     ///< as measured, of the camera that is off by more
+  std::string image_time{};         ///< words for it
   bool on_vision = false;
   PictureFaults pictures{};
   double row_error_px = NAN;

@@ -1,4 +1,5 @@
-// Alarms about sensors that the vehicle's own motion contradicts: image time, attitude, GPS, laser.
+// Alarms about sensors that the vehicle's own motion contradicts: image time, attitude, GPS, laser;
+// and about what it still has to fly with.
 #include <cmath>
 
 #include "engine/core/text.h"
@@ -24,6 +25,10 @@ std::string Blocks(const Facts& f, const std::string& when = "") {
 
 std::string LaserLies(const Facts& f) {
   return words::LaserFault(f.laser) + ". " + kHeightsElsewhere + Blocks(f);
+}
+
+bool IsLowWithoutRate(const Facts& f) {
+  return std::isnan(f.energy_min) && f.energy_percent < AlarmLimits::energy_percent;
 }
 
 bool GoesOnVision(const Facts& f) { return f.on_vision && f.state != MissionState::kHold; }
@@ -111,6 +116,23 @@ const AlarmRow kRows[] = {
      .badness = [](const Facts& f) { return std::abs(f.laser.ratio - 1); },
      .present = [](const Facts& f, double) { return f.laser.state == LaserHealth::State::kWrong; },
      .text = [](const Facts& f, const std::string&) { return LaserLies(f); }},
+    {.id = AlarmId::kEnergyLow,
+     .level = AlarmLevel::kCaution,  // no warning: that would keep it from landing
+     .limit = {NAN, "min", 1},
+     .limit_from = &Facts::energy_reserve_min,
+     .value = &Facts::energy_min,
+     .less_is_worse = true,
+     .present = [](const Facts& f,
+                   double limit) { return f.energy_min < limit || IsLowWithoutRate(f); },
+     .text =
+         [](const Facts& f, const std::string& limit) {
+           return (IsLowWithoutRate(f)
+                       ? WithNumbers("Energy %.0f %%, limit %.0f %%. ", f.energy_percent,
+                                     AlarmLimits::energy_percent)
+                       : WithNumbers("Energy for %.1f min at this rate, limit ", f.energy_min) +
+                             limit + ". ") +
+                  "Land, or fly home.";
+         }},
 };
 
 }  // namespace

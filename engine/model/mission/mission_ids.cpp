@@ -69,6 +69,7 @@ constexpr std::array<const char*, kAlarmCount> kAlarmNames = {
     "laser_lost",
     "laser_stuck",
     "laser_wrong",
+    "energy_low",
 };
 
 }  // namespace

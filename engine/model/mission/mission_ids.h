@@ -90,8 +90,9 @@ enum class AlarmId : std::uint8_t {
   kLaserLost,
   kLaserStuck,
   kLaserWrong,
+  kEnergyLow,
 };
-inline constexpr std::size_t kAlarmCount = 58;
+inline constexpr std::size_t kAlarmCount = 59;
 /// "gps_error".
 const char* AlarmName(AlarmId id);
 /// Empty for a name that no alarm has.

@@ -11,6 +11,7 @@
 #include "engine/core/time.h"
 #include "engine/model/approach_side.h"
 #include "engine/model/landing_site.h"
+#include "engine/model/mission/energy_left.h"
 #include "engine/model/mission/fly_area.h"
 #include "engine/model/mission/heading_curve.h"
 #include "engine/model/mission/limit_row.h"
@@ -155,7 +156,7 @@ struct ProposedLook {
   Eigen::Vector3d p_WB = Eigen::Vector3d::Zero();
   double heading_rad = 0;
   std::string words;  ///< after "Look": "right 45°", "up 3 m", "12 m N"
-  std::string why;    ///< as a clause: "shows 240 m² that were not looked at yet"
+  std::string why;    ///< as a clause: "shows 240 of 2400 m² left to see, in 14 s"
 };
 
 /// What became of the newest wave-off, by what the vehicle said after it.
@@ -229,6 +230,7 @@ struct MissionStatus {
   std::string why_no_look;  ///< "All ground within 60 m was looked at"; empty with one
   std::shared_ptr<const SeenGround> seen;  ///< what was looked at; null: nothing yet
   std::optional<FlyArea> area;             ///< that the operator drew; empty: none
+  EnergyLeft energy;
   /// SEARCH, PROPOSED: why the site selected last is not, or was not reached, what a look at it
   /// found, or how a way to another hover ended.
   std::string selection_ended;

@@ -381,6 +381,14 @@ std::vector<Row> VehicleRows() {
           .Within(-180, 180)
           .Usually(-180, 180)
           .HashedWhenChanged(),
+      Row("mission.energy_reserve_s", "Energy reserve", kMission,
+          &MissionSettings::energy_reserve_s)
+          .Says("Where less flying time is left, at the rate at which fuel or battery fall, an "
+                "alarm says so and no look is proposed.")
+          .Shown("min", 1, 1 / 60.0)
+          .Within(0, 7200)
+          .Usually(60, 1200)
+          .HashedWhenChanged(),
       Row("mission.settle_s", "Settling", kMission, &MissionSettings::settle_s)
           .Says("How long the vehicle takes in calm air to be still above the site: part of the "
                 "time to touchdown.")

@@ -141,6 +141,7 @@ struct MissionSettings {
   double max_tailwind_mps = 2.5;               ///< of an approach; a judgement, 5 knots
   SunSource sun = SunSource::kUnknown;         ///< kByPlace: by UTC and the two below
   double latitude_deg = 0, longitude_deg = 0;  ///< north and east positive
+  double energy_reserve_s = 300;  ///< of flying time that no search uses up; 0: it may use all
   double settle_s = 3.8;  ///< until the vehicle is still above the site, by landings in calm air
   friend bool operator==(const MissionSettings&, const MissionSettings&) = default;
 };
