@@ -134,6 +134,14 @@ std::string NeesText(const TrialTable& table, const std::string& kind) {
   return WithNumbers("%.2f (%.2f to %.2f)", SpreadOf(nees).mean, interval.low, interval.high);
 }
 
+/// Whether the verdict on the mean could be another with other flights of the same kind.
+std::string DoubtText(const TrialTable& table, const std::string& kind) {
+  const Interval interval = MeanInterval(table.Numbers(kind + "_nees"));
+  const bool honest = interval.low >= kHonestLow && interval.high <= kHonestHigh;
+  const bool not_honest = interval.high < kHonestLow || interval.low > kHonestHigh;
+  return honest || not_honest ? "" : "; too few flights to be sure";
+}
+
 std::string AxesText(const TrialTable& table, const std::string& kind) {
   return WithNumbers("%.2f, %.2f, %.2f", MeanOf(table, kind + "_nees_north"),
                      MeanOf(table, kind + "_nees_east"), MeanOf(table, kind + "_nees_down"));
@@ -273,7 +281,8 @@ void AddVerdicts(const TrialTable& flights, ExperimentReport& report) {
                    std::string("Normalised error squared of the resection, ") + name +
                        ", with attitude " + NameOf(attitude) + ": " + NeesText(of, kind) + " in " +
                        KnownText(of) +
-                       WithNumbers(" flights, %.1f to %.1f is honest", kHonestLow, kHonestHigh));
+                       WithNumbers(" flights, %.1f to %.1f is honest", kHonestLow, kHonestHigh) +
+                       DoubtText(of, kind));
     }
   }
 }

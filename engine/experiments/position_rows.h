@@ -23,8 +23,9 @@ void AddPositionRows(const PositionCase& of, const std::vector<PositionSample>& 
 
 /// Passed when the resection on whole pictures, filtered, is never more than 0.10 m off with a
 /// perfect attitude and 0.25 m with 0.3 deg, and, for each quality of attitude, the mean normalised
-/// error squared of its raw and of its filtered positions lies within 0.8 and 1.2. A flight of
-/// which such a figure is unknown, as where the site was never told, does not pass.
+/// error squared of its raw and of its filtered positions lies within 0.8 and 1.2; that its interval
+/// reaches beyond on either side is said. A flight of which such a figure is unknown, as where the
+/// site was never told, does not pass.
 ExperimentReport PositionReport(const TrialTable& table);
 
 }  // namespace palace

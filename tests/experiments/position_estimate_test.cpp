@@ -241,6 +241,20 @@ TEST(PositionReport, HonestyIsAskedOfEveryAttitude) {
   EXPECT_THAT(report.lines, testing::Contains(testing::HasSubstr("0.60 (0.60 to 0.60) in 2 of 2")));
 }
 
+TEST(PositionReport, TellsWhereTheFlightsAreTooFewForItsVerdict) {
+  const auto told = [](double first, double second) {
+    const ExperimentReport report = PositionReport(TableOf([&](int flight, AttitudeQuality) {
+      return SamplesOf(0.01, std::sqrt(flight == 0 ? first : second));
+    }));
+    return std::count_if(report.lines.begin(), report.lines.end(), [](const std::string& line) {
+      return line.find("too few flights") != std::string::npos;
+    });
+  };
+  EXPECT_EQ(told(1, 1), 0);
+  EXPECT_EQ(told(3, 3), 0) << "surely not honest";
+  EXPECT_EQ(told(0.7, 1.3), 6) << "raw and filtered of three attitudes";
+}
+
 TEST(PositionReport, AFlightWithoutFiguresDoesNotPass) {
   const ExperimentReport never = PositionReport(TableOf([](int flight, AttitudeQuality) {
     return flight == 0 ? SamplesOf(0.03, 1) : std::vector<PositionSample>();
