@@ -1,6 +1,7 @@
 #include "engine/tracking/feature_follower.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -18,6 +19,8 @@ constexpr std::size_t kSlowPictures = 10;
 constexpr double kSlowFall = 0.05;
 constexpr int kCoastPictures = 15;
 constexpr std::size_t kVelocityPictures = 5;
+constexpr std::size_t kScalePictures = 15;
+constexpr double kScaleStep = 0.1;     // of its logarithm, within what a fit reaches
 constexpr double kRival = 0.9;         // of the best score; beyond it two places are alike
 constexpr double kSurroundings = 0.8;  // of the least coherence, in a square of twice the side
 constexpr double kSuddenFall = 0.15;   // of coherence, from one picture to the next
@@ -97,6 +100,7 @@ Result<FeatureFollower> FeatureFollower::Start(const ImageU8& picture, const Eig
   follower.at_.place = pixel;
   follower.coasted_ = pixel;
   follower.places_ = {pixel};
+  follower.log_scales_ = {0};
   follower.coherences_ = {1};
   if (!MakeAnchor(picture, follower.at_, side, follower.anchor_)) {
     return UsageError(where +
@@ -141,18 +145,18 @@ std::string FeatureFollower::WhyNotTheSame(const ImageU8& picture, const Templat
 }
 
 FeatureFollower::Sighting FeatureFollower::Look(const ImageU8& picture,
-                                                const Eigen::Vector2d& expected,
+                                                const TemplatePlacement& expected,
                                                 int radius_px) const {
   const int side = options_.template_px;
-  const PictureWindow window = CutWindow(picture, expected, radius_px + side / 2);
+  const PictureWindow window = CutWindow(picture, expected.place, radius_px + side / 2);
   Sighting sighting;
-  sighting.at = at_;
+  sighting.at = expected;
   if (window.picture.width() < side || window.picture.height() < side) {
     sighting.why_not = "the window lies outside the picture";
     return sighting;
   }
   const ImageU8 wanted =
-      Sampled(anchor_.picture, {anchor_.centre, 1 / at_.scale, -at_.angle_rad}, side);
+      Sampled(anchor_.picture, {anchor_.centre, 1 / expected.scale, -expected.angle_rad}, side);
   const TemplateMatch match = MatchTemplate(window.picture, wanted);
   sighting.at.place =
       (window.corner + match.corner).cast<double>() + Eigen::Vector2d::Constant(side / 2);
@@ -181,6 +185,18 @@ FeatureFollower::Sighting FeatureFollower::Look(const ImageU8& picture,
   return sighting;
 }
 
+double FeatureFollower::SoughtScale() const {
+  if (lost_ == 0 || log_scales_.size() < 2) {
+    return at_.scale;
+  }
+  const double a_picture =
+      (log_scales_.back() - log_scales_.front()) / static_cast<double>(log_scales_.size() - 1);
+  const double most = std::log(kForcedAnchorZoom);
+  const double grown = std::clamp(a_picture * (lost_ + 1), -most, most);
+  const std::array offsets = {grown, grown + kScaleStep, grown - kScaleStep, 0.0};
+  return at_.scale * std::exp(offsets[static_cast<std::size_t>(lost_) % offsets.size()]);
+}
+
 double FeatureFollower::LeastCoherence() const {
   return lost_ == 0 ? options_.min_coherence
                     : std::max(options_.min_coherence,
@@ -204,6 +220,7 @@ bool FeatureFollower::NeedsAnchor(const Sighting& sighting) const {
 void FeatureFollower::Keep(const ImageU8& picture, const Sighting& sighting) {
   if (lost_ > 0) {
     places_.clear();
+    log_scales_.clear();
     coherences_.clear();
   }
   lost_ = 0;
@@ -212,6 +229,10 @@ void FeatureFollower::Keep(const ImageU8& picture, const Sighting& sighting) {
   places_.push_back(at_.place);
   if (places_.size() > kVelocityPictures) {
     places_.pop_front();
+  }
+  log_scales_.push_back(std::log(anchor_.scale * at_.scale));
+  if (log_scales_.size() > kScalePictures) {
+    log_scales_.pop_front();
   }
   velocity_px_ = places_.size() < 2 ? Eigen::Vector2d::Zero().eval()
                                     : Eigen::Vector2d((places_.back() - places_.front()) /
@@ -240,7 +261,7 @@ FollowedFeature FeatureFollower::Follow(const ImageU8& picture) {
   }
   const int radius = std::min(options_.search_px + lost_ * std::max(options_.search_px / 4, 1),
                               std::max(picture.width(), picture.height()));
-  const Sighting sighting = Look(picture, coasted_, radius);
+  const Sighting sighting = Look(picture, {coasted_, SoughtScale(), at_.angle_rad}, radius);
   FollowedFeature told;
   told.window_centre = coasted_;
   told.window_side_px = options_.template_px + 2 * radius;

@@ -13,10 +13,12 @@
 //   kLost --coherence >= limit, no rival--> kReacquired, kFollowed
 //
 // While it is lost nothing is learned. The place runs on with the last velocity for half a second
-// of 30 Hz and then stands; the window grows with every picture, to the whole picture. A place is
-// taken for the feature again where the anchor has no second place nearly as good and what lies
-// around both agrees too; in the first pictures only at nearly the coherence of before, for half a
-// template agrees with what covers the rest by chance.
+// of 30 Hz and then stands; the window grows with every picture, to the whole picture. One that
+// descends while nothing is seen goes on to descend: from picture to picture in turn the anchor is
+// sought at the scale that has run on at its last rate, at a tenth more and less, and at that of
+// the last sighting. A place is taken for the feature again where the anchor has no second place
+// nearly as good and what lies around both agrees too; in the first pictures only at nearly the
+// coherence of before, for half a template agrees with what covers the rest by chance.
 //
 // Where we deviate from the thesis: it refreshes the template every picture. Here a new anchor is
 // cut only at a good coherence, when the scale has changed by 1.4 or when the coherence sinks
@@ -91,7 +93,10 @@ class FeatureFollower {
   FeatureFollower() = default;
   static bool MakeAnchor(const ImageU8& picture, const TemplatePlacement& at, int template_px,
                          Anchor& anchor);
-  Sighting Look(const ImageU8& picture, const Eigen::Vector2d& expected, int radius_px) const;
+  /// `expected`: place, scale and angle to be sought.
+  Sighting Look(const ImageU8& picture, const TemplatePlacement& expected, int radius_px) const;
+  /// Of the anchor, in this picture; while it is lost another in each.
+  double SoughtScale() const;
   double Coherence(const ImageU8& picture, const TemplatePlacement& at, int side) const;
   std::string WhyNotTheSame(const ImageU8& picture, const TemplateMatch& match,
                             const TemplatePlacement& at) const;
@@ -106,6 +111,7 @@ class FeatureFollower {
   Eigen::Vector2d coasted_ = Eigen::Vector2d::Zero();
   Eigen::Vector2d velocity_px_ = Eigen::Vector2d::Zero();  ///< per picture
   std::deque<Eigen::Vector2d> places_;                     ///< of the last pictures in a row
+  std::deque<double> log_scales_;                          ///< likewise, since the first picture
   std::deque<double> coherences_;                          ///< likewise, with this anchor
   double fresh_coherence_ = 0;  ///< of the first picture with this anchor
   int lost_ = 0;

@@ -242,6 +242,31 @@ TEST_F(FeatureFollowerTest, HalfASecondOfBlackIsLostAtOnceAndCoastedThrough) {
   }
 }
 
+// Behind a hand the ground becomes larger or smaller by a fifth: sought as it was seen last it was
+// not found again.
+TEST_F(FeatureFollowerTest, WhatComesNearerOrGoesAwayMeanwhileIsTakenUpAgain) {
+  const struct { double from_m, a_picture_m; } table[] = {{20, -0.1}, {14, 0.1}};
+  const int from = kSecond, to = 2 * kSecond;
+  const auto covered = [&](ImageU8& picture, int i) {
+    if (i >= from && i < to) {
+      CoverTo(picture, picture.width());
+    }
+  };
+  for (const auto& row : table) {
+    for (const std::uint64_t seed : {1, 2, 3}) {
+      const Followed followed = Follow(
+          to + 10, [&](int i) { return Above(row.from_m + row.a_picture_m * i, 0.3, 0.2); },
+          covered, {}, seed);
+      followed.Print("nearer or farther behind a hand");
+      EXPECT_EQ(followed.Count(FollowState::kReacquired), 1) << row.from_m << ", " << seed;
+      EXPECT_LE(followed.Count(FollowState::kLost), to - from + 3) << row.from_m << ", " << seed;
+      EXPECT_LT(followed.WorstError(), 1) << row.from_m << ", " << seed;
+      EXPECT_NEAR(followed.told.back().scale,
+                  row.from_m / (row.from_m + row.a_picture_m * (to + 9)), 0.02);
+    }
+  }
+}
+
 TEST_F(FeatureFollowerTest, AfterALongLossItIsSoughtInTheWholePicture) {
   const auto motion = [](int i) {
     return i < 10 ? Above(10, -2.5, -1.5) : Above(10, 2.5, 1.5);  // 450 px away
