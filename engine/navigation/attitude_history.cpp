@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <iterator>
 
+#include "engine/core/rotation_vector.h"
+
 namespace palace {
 namespace {
 
@@ -12,11 +14,7 @@ constexpr double kMaxAhead_s = 0.5;
 VehiclePose TurnedOn(const VehiclePose& pose, double seconds) {
   VehiclePose ahead = pose;
   ahead.time = AddSeconds(pose.time, seconds);
-  const Eigen::Vector3d turn = pose.angular_rate_B * seconds;
-  if (turn.norm() > 1e-12) {
-    ahead.X_WB.R =
-        pose.X_WB.R * Eigen::AngleAxisd(turn.norm(), turn.normalized()).toRotationMatrix();
-  }
+  ahead.X_WB.R = pose.X_WB.R * RotationFromVector(pose.angular_rate_B * seconds);
   ahead.X_WB.p += pose.v_WB * seconds;
   return ahead;
 }
@@ -31,6 +29,8 @@ VehiclePose Between(const VehiclePose& a, const VehiclePose& b, Timestamp time) 
   pose.X_WB.p = a.X_WB.p + share * (b.X_WB.p - a.X_WB.p);
   pose.v_WB = a.v_WB + share * (b.v_WB - a.v_WB);
   pose.angular_rate_B = a.angular_rate_B + share * (b.angular_rate_B - a.angular_rate_B);
+  pose.sigmas = {std::max(a.sigmas.position_m, b.sigmas.position_m),
+                 std::max(a.sigmas.attitude_rad, b.sigmas.attitude_rad)};
   return pose;
 }
 

@@ -13,6 +13,8 @@ constexpr double kMaxVelocityGap_mps = 0.3;
 constexpr double kMaxSilence_s = 0.5;
 constexpr int kMaxRejected = 5;
 constexpr double kStampSlack_s = 1e-3;
+// Residuals by a filter that widens what fixes state are always as large as they should be.
+constexpr double kRoughest = 5;
 
 }  // namespace
 
@@ -79,6 +81,10 @@ std::string Handover::WaitingFor(Timestamp now) const {
   const double bound = 3 + 3 * std::sqrt(6 / count);
   if (sum / count > bound) {
     return WithNumbers("vision residuals too large, %.1f over %.1f", sum / count, bound);
+  }
+  const double rough = std::sqrt(samples_.back().variance_factor);
+  if (rough > kRoughest) {
+    return WithNumbers("vision scatters %.1f times as stated, limit %.1f", rough, kRoughest);
   }
   const double gap_mps = samples_.back().velocity_gap_mps;
   if (!(gap_mps < kMaxVelocityGap_mps)) {

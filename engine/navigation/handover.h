@@ -3,7 +3,8 @@
 //
 //   kGps -> kSettling  vision started
 //   kSettling -> kReady  2 s of accepted fixes without a gap over 0.5 s, mean normalised innovation
-//                        squared <= 3 + 3 sqrt(6/N), |v_vision - v_gps| < 0.3 m/s
+//                        squared <= 3 + 3 sqrt(6/N), fixes at most 5 times as rough as they
+//                        state, |v_vision - v_gps| < 0.3 m/s
 //   kReady -> kVision  allowed (the vehicle accepted the approval)
 //   kReady -> kSettling  a condition no longer holds
 // kVision ends only by Stop. Lost: no accepted fix for 0.5 s, or 5 rejections in a row.
@@ -24,6 +25,7 @@ struct HandoverSample {
   bool accepted = false;
   double nis = 0;               ///< scaled to three degrees of freedom
   double velocity_gap_mps = 0;  ///< |v_vision - v_gps|; 0 when there is no GPS
+  double variance_factor = 1;   ///< that the filter widens fixes by (position_filter.h)
 };
 
 class Handover {

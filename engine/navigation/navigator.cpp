@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/core/rotation_vector.h"
 #include "engine/core/units.h"
 
 namespace palace {
@@ -60,12 +61,6 @@ PositionEstimate Told(const FilterEstimate& state) {
   estimate.sigma_p_m = state.sigma_p_m;
   estimate.sigma_v_mps = state.sigma_v_mps;
   return estimate;
-}
-
-Eigen::Matrix3d Turn(const Eigen::Vector3d& rotation) {
-  const double angle = rotation.norm();
-  return angle < 1e-12 ? Eigen::Matrix3d::Identity()
-                       : Eigen::AngleAxisd(angle, rotation / angle).toRotationMatrix();
 }
 
 }  // namespace
@@ -224,15 +219,25 @@ Result<VisionFix> Navigator::MakeFix(const TrackResult& track, const PinholeCame
   if (!pose) {
     return UnavailableError("no attitude for the picture");
   }
+  const AttitudeErrors errors =
+      attitude_errors_.value_or(AttitudeErrors{.noise_rad = pose->sigmas.attitude_rad});
   if (track.landmarks.size() > 1) {
-    return FixFromLandmarks(track, camera, rig, pose->X_WB.R, *site_, attitude_errors_,
-                            landmark_frame_);
+    return FixFromLandmarks(track, camera, rig, pose->X_WB.R, *site_, errors,
+                            Felt(track.time, pose->X_WB.R), landmark_frame_);
   }
   if (!laser_ || std::abs(SecondsBetween(laser_->time, track.time)) > kLaserAge_s) {
     return UnavailableError("no laser range with the picture");
   }
-  return FixFromSitePixel(track, camera, rig, pose->X_WB.R, laser_->range_m, *site_,
-                          attitude_errors_);
+  return FixFromSitePixel(track, camera, rig, pose->X_WB.R, laser_->range_m, *site_, errors);
+}
+
+std::optional<FeltBias> Navigator::Felt(Timestamp time, const Eigen::Matrix3d& R_WB) const {
+  const PositionFilter& filter = vision_.running() ? vision_ : gps_;
+  if (!filter.running() || imu_.empty() || SecondsBetween(imu_.back().time, time) > kImuGap_s) {
+    return std::nullopt;
+  }
+  const FilterEstimate estimate = filter.EstimateAt(time);
+  return FeltBias{R_WB * estimate.bias_B, estimate.sigma_bias_mps2.maxCoeff()};
 }
 
 void Navigator::AddVision(const TrackResult& track, const PinholeCamera& camera,
@@ -241,23 +246,29 @@ void Navigator::AddVision(const TrackResult& track, const PinholeCamera& camera,
   status_.vision_measured = false;
   if (site_ && TrackIsTrusted(track, settings)) {
     if (const Result<VisionFix> fix = MakeFix(track, camera, rig, bundle)) {
-      status_.vision_measured = true;
-      status_.vision_p_WB = fix->measurement.p_WB;
-      vision_fix_ = *fix;
-      if (vision_.running()) {
+      // Who is not believed where the vehicle is, is not believed how the ground is turned.
+      if (AddVisionFix(fix->AsBefore(), settings.accel_noise_mps2)) {
         vision_.Shift(fix->frame_shift_W);
+        vision_fix_ = *fix;
+        landmark_frame_ = fix->frame;
+        Correct(fix->attitude_correction_W);
+      } else {
+        vision_fix_->measurement = fix->AsBefore();
       }
-      AddVisionFix(fix->measurement, settings.accel_noise_mps2);
-      attitude_correction_W_ +=
-          kCorrectionGain * (fix->attitude_correction_W - attitude_correction_W_);
-      const double size = attitude_correction_W_.norm();
-      if (size > kMaxCorrection_rad) {
-        attitude_correction_W_ *= kMaxCorrection_rad / size;
-      }
+      status_.vision_measured = true;
+      status_.vision_p_WB = vision_fix_->measurement.p_WB;
     }
   }
   UpdateHandover(now_);
   UpdateStatus();
+}
+
+void Navigator::Correct(const Eigen::Vector3d& attitude_W) {
+  attitude_correction_W_ += kCorrectionGain * (attitude_W - attitude_correction_W_);
+  const double size = attitude_correction_W_.norm();
+  if (size > kMaxCorrection_rad) {
+    attitude_correction_W_ *= kMaxCorrection_rad / size;
+  }
 }
 
 std::optional<PositionMeasurement> Navigator::VisionPosition() const {
@@ -283,36 +294,39 @@ FilterSeed Navigator::VisionSeed(const PositionMeasurement& fix) const {
   FilterSeed seed;
   seed.time = fix.time;
   seed.p_WB = fix.p_WB;
-  seed.p_covariance_m2 = fix.p_covariance_m2;
+  seed.p_covariance_m2 = vision_.variance_factor() * fix.p_covariance_m2;
   if (gps_.running()) {
     const FilterEstimate gps = gps_.EstimateAt(fix.time);
     seed.v_WB = gps.v_WB;
     seed.bias_B = gps.bias_B;
+    seed.sigma_bias_mps2 = gps.sigma_bias_mps2.maxCoeff();
   } else if (const std::optional<VehiclePose> pose = poses_.At(fix.time)) {
     seed.v_WB = pose->v_WB;
   }
   return seed;
 }
 
-void Navigator::AddVisionFix(const PositionMeasurement& fix, double accel_noise_mps2) {
+bool Navigator::AddVisionFix(const PositionMeasurement& fix, double accel_noise_mps2) {
   if (!vision_.running()) {
     StartFilter(vision_, VisionSeed(fix), Noise(accel_noise_mps2));
     handover_.AddFix({fix.time, true, 0, VelocityGap(fix.time)});
-    return;
+    return true;
   }
   vision_.SetProcessNoise(Noise(accel_noise_mps2));
   const FixOutcome outcome = vision_.AddFix(fix);
   if (outcome == FixOutcome::kTooOld) {
-    return;
+    return false;
   }
+  const bool accepted = outcome == FixOutcome::kAccepted;
   handover_.AddFix(
-      {fix.time, outcome == FixOutcome::kAccepted, vision_.nis(), VelocityGap(fix.time)});
+      {fix.time, accepted, vision_.nis(), VelocityGap(fix.time), vision_.variance_factor()});
   // Nobody flies on it yet: better a fresh start than a filter that is lost.
   if (handover_.state() != Handover::State::kVision &&
       vision_.rejected_in_row() >= kVisionRestartAfter) {
-    vision_.Reset();
+    vision_.Stop();
     handover_.Start(fix.time);
   }
+  return accepted;
 }
 
 double Navigator::VelocityGap(Timestamp time) const {
@@ -405,7 +419,7 @@ RigidTransform Navigator::PredictBodyPose(Timestamp exposure) const {
   if (const std::optional<VehiclePose> pose = poses_.At(exposure)) {
     X_WB = pose->X_WB;
     if (handover_.state() == Handover::State::kVision) {
-      X_WB.R = Turn(attitude_correction_W_) * X_WB.R;
+      X_WB.R = RotationFromVector(attitude_correction_W_) * X_WB.R;
     }
   }
   if (gps_.running() || handover_.state() == Handover::State::kVision) {

@@ -57,7 +57,7 @@ class Navigator {
   int frame_moves() const { return frame_moves_; }
   /// As of the last AddSensors or AddVision.
   const NavigationStatus& status() const { return status_; }
-  /// How well attitudes are known, from now on.
+  /// How well attitudes are known from now on, in place of what poses tell of their noise.
   void SetAttitudeErrors(const AttitudeErrors& errors) { attitude_errors_ = errors; }
   /// The newest raw position that vision gave, with its whole covariance; nothing before the first.
   std::optional<PositionMeasurement> VisionPosition() const;
@@ -88,7 +88,12 @@ class Navigator {
   bool AttitudeKnown(Timestamp time) const;
   Result<VisionFix> MakeFix(const TrackResult& track, const PinholeCamera& camera,
                             const StereoRig& rig, const FrameBundle& bundle);
-  void AddVisionFix(const PositionMeasurement& fix, double accel_noise_mps2);
+  /// By vision's filter once it runs, by that of GPS before.
+  std::optional<FeltBias> Felt(Timestamp time, const Eigen::Matrix3d& R_WB) const;
+  /// False: it was refused, or came too late.
+  bool AddVisionFix(const PositionMeasurement& fix, double accel_noise_mps2);
+  /// Moves the correction of predicted attitudes towards what a fix says.
+  void Correct(const Eigen::Vector3d& attitude_W);
   FilterSeed VisionSeed(const PositionMeasurement& fix) const;
   double VelocityGap(Timestamp time) const;
   void UpdateHandover(Timestamp time);
@@ -106,15 +111,16 @@ class Navigator {
   PositionFilter vision_{/*measures_scatter=*/true};
   Handover handover_;
   std::optional<LandingSite> site_;
-  AttitudeErrors attitude_errors_;
-  LandmarkFrame landmark_frame_;
-  std::optional<VisionFix> vision_fix_;
+  std::optional<AttitudeErrors> attitude_errors_;
+  LandmarkFrame landmark_frame_;         ///< by the fixes that were taken
+  std::optional<VisionFix> vision_fix_;  ///< the newest; of one that was refused, its position
   bool have_pose_stream_ = false;
   std::optional<LaserRange> laser_;  ///< newest with a return
   std::optional<Fade> fade_;
   /// In force at `now_` before the newest bundle's GPS: what was sent last, carried on by inertia.
   Eigen::Vector3d carried_v_WB_ = Eigen::Vector3d::Zero();
-  Eigen::Vector3d attitude_correction_W_ = Eigen::Vector3d::Zero();  ///< rotation vector
+  /// As in VisionFix, smoothed.
+  Eigen::Vector3d attitude_correction_W_ = Eigen::Vector3d::Zero();
   Timestamp now_;
   NavigationStatus status_;
 };

@@ -16,8 +16,14 @@ constexpr double kMostFactor = 100;
 
 void PositionFilter::Reset() { *this = PositionFilter(measures_scatter_); }
 
-void PositionFilter::Start(const FilterSeed& seed, const ProcessNoise& noise) {
+void PositionFilter::Stop() {
+  const double scatter = scatter_;
   Reset();
+  scatter_ = scatter;
+}
+
+void PositionFilter::Start(const FilterSeed& seed, const ProcessNoise& noise) {
+  Stop();
   InertialState state;
   state.time = seed.time;
   state.x << seed.p_WB, seed.v_WB, seed.bias_B;
@@ -43,7 +49,9 @@ void PositionFilter::AddImu(Timestamp time, const Eigen::Vector3d& specific_forc
 
 void PositionFilter::CountScatter(const Innovation& innovation) {
   if (measures_scatter_) {
-    const double square = std::min(innovation.squared / innovation.dof, kMostOfOne);
+    const double counted =
+        innovation.within_gate ? innovation.squared : (rejected_in_row_ + 1) * innovation.gate;
+    const double square = std::min(counted / innovation.dof, kMostOfOne);
     scatter_ += kScatterGain * (square * variance_factor() - scatter_);
     scatter_ = std::min(scatter_, kMostFactor);
   }
@@ -84,6 +92,7 @@ FilterEstimate PositionFilter::EstimateAt(Timestamp time) const {
   estimate.bias_B = state.x.tail<3>();
   estimate.sigma_p_m = state.P.diagonal().head<3>().cwiseSqrt();
   estimate.sigma_v_mps = state.P.diagonal().segment<3>(3).cwiseSqrt();
+  estimate.sigma_bias_mps2 = state.P.diagonal().tail<3>().cwiseSqrt();
   estimate.p_covariance_m2 = state.P.topLeftCorner<3, 3>();
   return estimate;
 }

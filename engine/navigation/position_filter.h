@@ -11,7 +11,10 @@
 //   f = max(1, mean of innovation' S^-1 innovation / dof over some 20 fixes), 100 at most,
 // which least squares calls the a posteriori variance of unit weight (Mikhail 1976). So the gate is
 // as narrow as fixes are good, and pictures that are worse than stated are believed less instead of
-// refused one after the other. One fix counts 25 at most, used or refused.
+// refused one after the other. A fix that is refused counts as much as the gate lets through, for
+// one may be anywhere and says nothing of the others; the n-th in a row counts n times that, 25 at
+// most, for then it is the gate that is too narrow. What was measured stays when a filter begins
+// anew: it is of the fixes.
 // After reference simulation.md 4.1; Bar-Shalom, Li & Kirubarajan 2001, 5.4 (consistency).
 #pragma once
 
@@ -44,6 +47,7 @@ struct FilterEstimate {
   Eigen::Vector3d bias_B = Eigen::Vector3d::Zero();
   Eigen::Vector3d sigma_p_m = Eigen::Vector3d::Zero();
   Eigen::Vector3d sigma_v_mps = Eigen::Vector3d::Zero();
+  Eigen::Vector3d sigma_bias_mps2 = Eigen::Vector3d::Zero();
   Eigen::Matrix3d p_covariance_m2 = Eigen::Matrix3d::Zero();
 };
 
@@ -53,6 +57,8 @@ class PositionFilter {
  public:
   explicit PositionFilter(bool measures_scatter = false) : measures_scatter_(measures_scatter) {}
   void Reset();
+  /// Does not run until the next Start; of the fixes it keeps their scatter.
+  void Stop();
   void Start(const FilterSeed& seed, const ProcessNoise& noise);
   bool running() const { return running_; }
   /// Samples in order of time; one at or before the newest known is ignored.

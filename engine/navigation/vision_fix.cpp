@@ -5,8 +5,10 @@
 #include <numbers>
 #include <vector>
 
+#include "engine/core/rotation_vector.h"
 #include "engine/navigation/monocular_position.h"
 #include "engine/tracking/camera_resection.h"
+#include "engine/tracking/landmark_placement.h"
 
 namespace palace {
 namespace {
@@ -22,18 +24,6 @@ constexpr double kLaserSigma_m = 0.03;
 constexpr double kLaserPerMetre = 0.001;
 constexpr double kGroundSigma_m = 0.02;  // level ground, site against laser spot
 constexpr int kManyLandmarks = 12;
-constexpr int kMeanOver = 100;  // pictures: beyond it the attitude's bias may have wandered
-
-Matrix3d Turn(const Vector3d& rotation) {
-  const double angle = rotation.norm();
-  return angle < 1e-12 ? Matrix3d::Identity()
-                       : Eigen::AngleAxisd(angle, rotation / angle).toRotationMatrix();
-}
-
-Vector3d RotationVector(const Matrix3d& R) {
-  const Eigen::AngleAxisd turn(R);
-  return turn.angle() * turn.axis();
-}
 
 Result<MonocularPosition> SevenSteps(const MonocularInput& input, const Matrix3d& R_WB,
                                      const Vector3d& lever_B, Vector3d& p_WB) {
@@ -47,23 +37,6 @@ Result<MonocularPosition> SevenSteps(const MonocularInput& input, const Matrix3d
 }
 
 }  // namespace
-
-void LandmarkFrame::Add(const RigidTransform& X_WC_resected, const Matrix3d& R_WC_told) {
-  if (pictures_ == 0) {
-    placed_from_W_ = X_WC_resected.p;
-  }
-  pictures_ = std::min(pictures_ + 1, kMeanOver);
-  const Vector3d turn_W = RotationVector(R_WC_told * X_WC_resected.R.transpose());
-  turn_W_ += (turn_W - turn_W_) / pictures_;
-}
-
-RigidTransform LandmarkFrame::Levelled(const RigidTransform& X_W, const Vector3d& p_WS) const {
-  const Matrix3d R = Turn(turn_W_);
-  const Vector3d& centre_W = placed_from_W_;
-  RigidTransform levelled{R * X_W.R, centre_W + R * (X_W.p - centre_W)};
-  levelled.p.z() += p_WS.z() - (centre_W + R * (p_WS - centre_W)).z();
-  return levelled;
-}
 
 bool TrackIsTrusted(const TrackResult& track, const TrackingSettings& settings) {
   if (!track.status.locked || track.landmarks.empty()) {
@@ -79,7 +52,8 @@ bool TrackIsTrusted(const TrackResult& track, const TrackingSettings& settings) 
 Result<VisionFix> FixFromLandmarks(const TrackResult& track, const PinholeCamera& camera,
                                    const StereoRig& rig, const Matrix3d& R_WB,
                                    const LandingSite& site, const AttitudeErrors& attitude,
-                                   LandmarkFrame& frame) {
+                                   const std::optional<FeltBias>& felt,
+                                   const LandmarkFrame& frame) {
   // Their places are the same in every picture: they are no scatter.
   std::vector<GroundLandmark> landmarks = track.landmarks;
   for (GroundLandmark& landmark : landmarks) {
@@ -94,21 +68,20 @@ Result<VisionFix> FixFromLandmarks(const TrackResult& track, const PinholeCamera
     return resection.error();
   }
   const RigidTransform X_WB_resected = resection->X_WC * X_BC.Inverse();
-  const Vector3d p_WB_before = frame.Levelled(X_WB_resected, site.p_WS).p;
-  frame.Add(resection->X_WC, R_WB * X_BC.R);
-  const RigidTransform X_WB = frame.Levelled(X_WB_resected, site.p_WS);
   VisionFix fix;
+  fix.frame = frame;
+  fix.frame.Add({track.time, resection->X_WC, R_WB * X_BC.R, R_WB, felt}, attitude);
+  const RigidTransform X_WB = fix.frame.Levelled(X_WB_resected, site.p_WS);
   fix.measurement.time = track.time;
   fix.measurement.p_WB = X_WB.p;
   fix.measurement.p_covariance_m2 =
       resection->covariance_m2 + kLeastScatter_m * kLeastScatter_m * Matrix3d::Identity();
   fix.shared = {.p_WS = site.p_WS,
-                .placed_from_W = frame.placed_from_W(),
-                .bias_rad = attitude.bias_rad,
-                .placed_rad = attitude.noise_rad / std::sqrt(frame.pictures()),
+                .placed_from_W = fix.frame.placed_from_W(),
+                .turns_rad2 = fix.frame.left_rad2(),
                 .place_m = Vector3d(kPlaceSigma_m, kPlaceSigma_m, kPlaceHeightSigma_m)};
-  fix.frame_shift_W = X_WB.p - p_WB_before;
-  fix.attitude_correction_W = RotationVector(X_WB.R * R_WB.transpose());
+  fix.frame_shift_W = X_WB.p - frame.Levelled(X_WB_resected, site.p_WS).p;
+  fix.attitude_correction_W = VectorFromRotation(X_WB.R * R_WB.transpose());
   return fix;
 }
 
@@ -138,7 +111,7 @@ Result<VisionFix> FixFromSitePixel(const TrackResult& track, const PinholeCamera
     }
   };
   for (int i = 0; i < 3; ++i) {
-    add(input, Turn(attitude.noise_rad * Vector3d::Unit(i)) * R_WB);
+    add(input, RotationFromVector(attitude.noise_rad * Vector3d::Unit(i)) * R_WB);
   }
   for (int i = 0; i < 2; ++i) {
     MonocularInput moved = input;
@@ -153,10 +126,12 @@ Result<VisionFix> FixFromSitePixel(const TrackResult& track, const PinholeCamera
   fix.measurement.p_WB = p_WB;
   fix.measurement.p_covariance_m2 =
       scatter_m2 + kLeastScatter_m * kLeastScatter_m * Matrix3d::Identity();
-  fix.shared = {.p_WS = site.p_WS,
-                .bias_rad = attitude.bias_rad,
-                .place_m = Vector3d::Constant(mark.sigma_w_m),
-                .height_m = kGroundSigma_m};
+  // The pose that laid the mark on the ground erred like any other.
+  const double laid_m = mark.sigma_w_m * std::max(1.0, attitude.noise_rad / kPlaceSigmaPerDepth);
+  fix.shared = {
+      .p_WS = site.p_WS, .place_m = Vector3d(laid_m, laid_m, 0), .height_m = kGroundSigma_m};
+  fix.shared.turns_rad2.bottomRightCorner<3, 3>() =
+      attitude.bias_rad * attitude.bias_rad * Matrix3d::Identity();
   return fix;
 }
 

@@ -5,12 +5,8 @@
 //
 // Two kinds of error are told apart, after reference simulation.md 4.1. `measurement` carries what
 // differs from picture to picture: pixels, laser, noise of the attitude. A filter averages it, and
-// innovations are gated by it. What all pictures share is SharedErrors, and is stated on top.
-//
-// Where the landmarks lie was worked out with one attitude. Resection shows every attitude since
-// then against it, so the mean of the differences is that one attitude's own noise: LandmarkFrame
-// turns the fixes back by it. What remains is noise / sqrt(pictures). The attitude's bias is in all
-// of them and shows in none.
+// innovations are gated by it. What all pictures share is SharedErrors, and is stated on top; what
+// can be learned of it is turned back (landmark_frame.h).
 #pragma once
 
 #include <optional>
@@ -18,60 +14,45 @@
 #include <Eigen/Dense>
 
 #include "engine/core/result.h"
-#include "engine/core/units.h"
 #include "engine/model/landing_site.h"
 #include "engine/model/rig.h"
 #include "engine/model/settings/settings.h"
 #include "engine/navigation/inertial_kalman.h"
+#include "engine/navigation/landmark_frame.h"
 #include "engine/navigation/shared_errors.h"
 #include "engine/tracking/site_tracker.h"
 
 namespace palace {
 
-/// Of the attitude that the vehicle tells, one standard deviation of each axis. No message tells
-/// them; the default: the attitude reference of the R-50's file.
-struct AttitudeErrors {
-  double noise_rad = Rad(0.1);  ///< from one pose to the next
-  double bias_rad = Rad(0.15);  ///< what all poses of an approach share
-};
-
+/// What one picture says. All of it holds in `frame`, which has learned from the picture, and is
+/// that of the fixes from then on if the filter takes this one.
 struct VisionFix {
   PositionMeasurement measurement;
   SharedErrors shared;
-  /// By how much this picture moved all positions before it: what is known of LandmarkFrame grew.
+  LandmarkFrame frame;
+  /// By how much the picture moves all positions before it, for `frame` knows more than they did.
   Eigen::Vector3d frame_shift_W = Eigen::Vector3d::Zero();
-  /// Rotation vector in W that takes the AHRS attitude to the one the landmarks show; zero in
-  /// template mode.
+  /// c of R = exp([c]x) R_WB, axes of W: from the attitude as told to that by the landmarks, which
+  /// are turned back as in `frame`. Zero in template mode.
   Eigen::Vector3d attitude_correction_W = Eigen::Vector3d::Zero();
-};
 
-/// How the landmarks of one site are turned against the mean attitude since they were placed.
-class LandmarkFrame {
- public:
-  /// What the landmarks say of one picture, beside the attitude told of it.
-  void Add(const RigidTransform& X_WC_resected, const Eigen::Matrix3d& R_WC_told);
-  /// A pose by the landmarks, in W as the mean attitude has it: turned about where they were placed
-  /// from, the site kept at its height, for there the tracker laid the ground. As given before the
-  /// first Add.
-  RigidTransform Levelled(const RigidTransform& X_W, const Eigen::Vector3d& p_WS) const;
-  const Eigen::Vector3d& placed_from_W() const { return placed_from_W_; }
-  int pictures() const { return pictures_; }
-
- private:
-  int pictures_ = 0;
-  Eigen::Vector3d placed_from_W_ = Eigen::Vector3d::Zero();
-  Eigen::Vector3d turn_W_ = Eigen::Vector3d::Zero();  ///< rotation vector, mean
+  /// In the frame of the fixes before it.
+  PositionMeasurement AsBefore() const {
+    PositionMeasurement before = measurement;
+    before.p_WB -= frame_shift_W;
+    return before;
+  }
 };
 
 /// Enough of the picture may be trusted: the anchor coheres, or, where only the site's own patch is
 /// hidden (a bird, a shadow), at least 12 landmarks and most of those visible agree.
 bool TrackIsTrusted(const TrackResult& track, const TrackingSettings& settings);
 
-/// `frame` learns of the picture.
+/// `frame`: of the fixes that were taken before. `felt`: at the time of the picture.
 Result<VisionFix> FixFromLandmarks(const TrackResult& track, const PinholeCamera& camera,
                                    const StereoRig& rig, const Eigen::Matrix3d& R_WB,
                                    const LandingSite& site, const AttitudeErrors& attitude,
-                                   LandmarkFrame& frame);
+                                   const std::optional<FeltBias>& felt, const LandmarkFrame& frame);
 /// `laser_m` along the optical axis, taken with the picture.
 Result<VisionFix> FixFromSitePixel(const TrackResult& track, const PinholeCamera& camera,
                                    const StereoRig& rig, const Eigen::Matrix3d& R_WB,

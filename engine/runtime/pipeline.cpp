@@ -189,7 +189,7 @@ void Pipeline::Track(Pass& pass) {
       }
       result = tracker_.Track(*pass.pair.left, rectifier_->camera(), snapshot.sensors->X_WC, range,
                               tracking, exposure);
-    } else {
+    } else if (tracked_site_ == armed->id) {
       result.set = tracker_.Coast(rectifier_->camera(), snapshot.sensors->X_WC, tracking,
                                   result.status.why_not_locked, exposure);
     }

@@ -9,9 +9,10 @@ using State = Handover::State;
 Timestamp At(double t) { return AddSeconds({}, t); }
 
 /// Good fixes at 10 Hz over [from, to].
-void Settle(Handover& handover, double from, double to, double nis = 2.5, double gap_mps = 0.05) {
+void Settle(Handover& handover, double from, double to, double nis = 2.5, double gap_mps = 0.05,
+            double factor = 1) {
   for (int i = 0; from + 0.1 * i <= to + 1e-9; ++i) {
-    handover.AddFix({At(from + 0.1 * i), true, nis, gap_mps});
+    handover.AddFix({At(from + 0.1 * i), true, nis, gap_mps, factor});
     handover.Advance(At(from + 0.1 * i));
   }
 }
@@ -39,6 +40,7 @@ struct Obstacle {
   const char* name;
   double nis;
   double gap_mps;
+  double factor;
   const char* reason;
 };
 class Blocks : public testing::TestWithParam<Obstacle> {};
@@ -46,14 +48,16 @@ TEST_P(Blocks, TheSwitch) {
   Handover handover;
   handover.Allow(true);
   handover.Start(At(0));
-  Settle(handover, 0.1, 4, GetParam().nis, GetParam().gap_mps);
+  Settle(handover, 0.1, 4, GetParam().nis, GetParam().gap_mps, GetParam().factor);
   EXPECT_EQ(handover.state(), State::kSettling);
   EXPECT_NE(handover.reason().find(GetParam().reason), std::string::npos) << handover.reason();
 }
-INSTANTIATE_TEST_SUITE_P(Obstacles, Blocks,
-                         testing::Values(Obstacle{"Residuals", 9, 0, "residuals too large"},
-                                         Obstacle{"Velocity", 3, 0.4, "velocity differ by 0.40"}),
-                         [](const auto& row) { return row.param.name; });
+INSTANTIATE_TEST_SUITE_P(
+    Obstacles, Blocks,
+    testing::Values(Obstacle{"Residuals", 9, 0, 1, "residuals too large"},
+                    Obstacle{"Scatter", 3, 0, 36, "scatters 6.0 times as stated, limit 5.0"},
+                    Obstacle{"Velocity", 3, 0.4, 1, "velocity differ by 0.40"}),
+    [](const auto& row) { return row.param.name; });
 
 TEST(Handover, AGapStartsTheSettlingAnew) {
   Handover handover;

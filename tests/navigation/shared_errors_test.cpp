@@ -1,4 +1,4 @@
-// What vision positions share, what is turned back, and what a filter makes of rough fixes.
+// What vision positions share, and what a filter makes of rough fixes.
 #include "engine/navigation/shared_errors.h"
 
 #include <cmath>
@@ -18,15 +18,17 @@ using Eigen::Vector3d;
 
 Timestamp At(double t) { return AddSeconds({}, t); }
 
-Matrix3d Turn(const Vector3d& v) {
-  return Eigen::AngleAxisd(v.norm(), v.normalized()).toRotationMatrix();
+TurnCovariance Turns(const Vector3d& placed_rad, const Vector3d& bias_rad) {
+  Eigen::Matrix<double, 6, 1> sigma_rad;
+  sigma_rad << placed_rad, bias_rad;
+  return TurnCovariance(sigma_rad.cwiseAbs2().asDiagonal());
 }
 
 TEST(SharedErrors, CovarianceIsThatOfDrawnErrors) {
+  const Vector3d bias_rad(Rad(0.3), Rad(0.2), Rad(0.4)), placed_rad(Rad(0.1), Rad(0.15), Rad(0.2));
   const SharedErrors shared{.p_WS = {3, -2, 1},
                             .placed_from_W = {-13, -2, -14},
-                            .bias_rad = Rad(0.3),
-                            .placed_rad = Rad(0.1),
+                            .turns_rad2 = Turns(placed_rad, bias_rad),
                             .place_m = Vector3d(0.02, 0.03, 0.01),
                             .height_m = 0.05};
   const Vector3d p_WB(-10, 1, -9);
@@ -35,9 +37,11 @@ TEST(SharedErrors, CovarianceIsThatOfDrawnErrors) {
   Matrix3d drawn = Matrix3d::Zero();
   constexpr int kCount = 20000;
   for (int i = 0; i < kCount; ++i) {
-    const Vector3d e = NormalVector(random, shared.bias_rad).cross(p_WB - shared.p_WS) +
-                       NormalVector(random, shared.placed_rad).cross(p_WB - shared.placed_from_W) +
-                       NormalVector(random, 1).cwiseProduct(shared.place_m) +
+    const Vector3d w = NormalVector(random, 1).cwiseProduct(placed_rad);
+    Vector3d placed = w.cross(p_WB - shared.placed_from_W);
+    placed.z() -= w.cross(shared.p_WS - shared.placed_from_W).z();
+    const Vector3d e = NormalVector(random, 1).cwiseProduct(bias_rad).cross(p_WB - shared.p_WS) +
+                       placed + NormalVector(random, 1).cwiseProduct(shared.place_m) +
                        shared.height_m * random.Normal() / u.z() * u;
     drawn += e * e.transpose() / kCount;
   }
@@ -46,34 +50,18 @@ TEST(SharedErrors, CovarianceIsThatOfDrawnErrors) {
 }
 
 TEST(SharedErrors, AttitudeCostsNothingAtTheSite) {
-  const SharedErrors shared{.p_WS = {3, -2, 1}, .bias_rad = Rad(1)};
+  const SharedErrors shared{.p_WS = {3, -2, 1},
+                            .turns_rad2 = Turns({0, 0, 0}, Vector3d::Constant(Rad(1)))};
   EXPECT_LT(shared.CovarianceAt(shared.p_WS).norm(), 1e-12);
   EXPECT_EQ(SharedErrors{}.CovarianceAt({5, 5, -5}), Matrix3d(Matrix3d::Zero()));
 }
 
-// The ground was laid with an attitude that was off by w: every position by it is turned about
-// where it was laid from, and its ground stands at the site's height all the same.
-TEST(LandmarkFrame, TurnsBackTheAttitudeThatPlacedTheLandmarks) {
-  const Vector3d p_WS(0, 0, 0), w(Rad(0.2), Rad(-0.3), Rad(0.1));
-  const Matrix3d R_true = RotationFromEuler({0.02, -0.03, 0.4});
-  const Vector3d from_W(-15, 1, -15);
-  const Matrix3d wrong = Turn(w);
-  LandmarkFrame frame;
-  const RigidTransform untouched{R_true, from_W};
-  EXPECT_EQ(frame.Levelled(untouched, p_WS).p, from_W);
-  RandomStream random(2);
-  double error_m = 0;
-  for (int i = 0; i < 100; ++i) {
-    const Vector3d p_true = from_W + Vector3d(0.1, 0, 0.1) * i;
-    const RigidTransform resected{wrong * R_true, from_W + wrong * (p_true - from_W)};
-    frame.Add(resected, Turn(i == 0 ? w : NormalVector(random, Rad(0.2))) * R_true);
-    const RigidTransform levelled = frame.Levelled(resected, p_WS);
-    // The tracker lays the ground at the site's height: the camera stands that much off.
-    const double lift_m = (from_W + wrong.transpose() * (p_WS - from_W)).z();
-    error_m = (levelled.p - p_true + Vector3d(0, 0, lift_m)).norm();
-  }
-  EXPECT_LT(error_m, 0.03);
-  EXPECT_GT((wrong * Vector3d(9.9, 0, 9.9) - Vector3d(9.9, 0, 9.9)).norm(), 0.06);
+// Near the ground heights are known by the ground itself, however it was turned.
+TEST(SharedErrors, TurnedGroundIsAtTheSitesHeight) {
+  const SharedErrors shared{.placed_from_W = {-15, 0, -15},
+                            .turns_rad2 = Turns(Vector3d::Constant(Rad(0.3)), {0, 0, 0})};
+  EXPECT_LT(shared.CovarianceAt({0, 0, -1})(2, 2), 1e-4 * 1e-4);
+  EXPECT_GT(std::sqrt(shared.CovarianceAt({0, 0, -1})(0, 0)), Rad(0.3) * 13);
 }
 
 struct Rough {
@@ -121,6 +109,65 @@ TEST(PositionFilter, MeasuredScatterMakesRoughFixesHonest) {
   EXPECT_NEAR(rough.nis_per_dof, 1, 0.4);
   EXPECT_LT(rough.refused, 12);
   EXPECT_GT(believed.nis_per_dof, 3) << "what it was without";
+}
+
+// One fix that is refused may be anywhere: it says nothing of the others.
+TEST(PositionFilter, OneWrongFixOpensTheGateALittleAndARowOfThemOpensIt) {
+  PositionFilter filter(/*measures_scatter=*/true);
+  FilterSeed seed;
+  seed.p_covariance_m2 = 1e-4 * Matrix3d::Identity();
+  filter.Start(seed, {});
+  PositionMeasurement fix;
+  fix.p_covariance_m2 = 1e-4 * Matrix3d::Identity();
+  fix.p_WB = {40, 0, 0};
+  double factor = 1;
+  for (int i = 1; i <= 30; ++i) {
+    fix.time = At(0.1 * i);
+    ASSERT_EQ(filter.AddFix(fix), FixOutcome::kRejected) << i;
+    EXPECT_GT(filter.variance_factor(), std::min(1.15 * factor, 99.0)) << i;
+    EXPECT_LT(filter.variance_factor(), (1 + 0.24 * i) * factor) << i;
+    EXPECT_LE(filter.variance_factor(), 100) << i;
+    factor = filter.variance_factor();
+  }
+  filter.Stop();
+  EXPECT_FALSE(filter.running());
+  filter.Start(seed, {});
+  EXPECT_EQ(filter.variance_factor(), factor) << "scatter is of the fixes, not of the state";
+  filter.Reset();
+  EXPECT_EQ(filter.variance_factor(), 1);
+}
+
+// A filter that begins by believing one rough fix runs off with its velocity. Begun anew it knows
+// how rough they are.
+TEST(PositionFilter, FixesFarRougherThanStatedDoNotLockItOut) {
+  PositionFilter filter(/*measures_scatter=*/true);
+  RandomStream random(3);
+  int restarts = -1, refused_late = 0;
+  for (int i = 1; i <= 120; ++i) {
+    PositionMeasurement fix;
+    fix.time = At(0.1 * i);
+    fix.p_WB = NormalVector(random, 0.04);
+    fix.p_covariance_m2 = 2.5e-5 * Matrix3d::Identity();
+    if (filter.running() && filter.rejected_in_row() >= 5) {
+      filter.Stop();
+    }
+    if (!filter.running()) {
+      FilterSeed seed;
+      seed.time = fix.time;
+      seed.p_WB = fix.p_WB;
+      seed.p_covariance_m2 = filter.variance_factor() * fix.p_covariance_m2;
+      filter.Start(seed, {});
+      ++restarts;
+      continue;
+    }
+    for (int k = 9; k >= 0; --k) {
+      filter.AddImu(At(0.1 * i - 0.01 * k), {0, 0, -kStandardGravity_mps2}, Matrix3d::Identity());
+    }
+    const bool refused = filter.AddFix(fix) == FixOutcome::kRejected;
+    refused_late += refused && i > 60 ? 1 : 0;
+  }
+  EXPECT_LE(restarts, 2);
+  EXPECT_LE(refused_late, 3);
 }
 
 TEST(PositionFilter, ASmallStepIsTakenAndAWrongPlaceIsRefused) {
