@@ -25,7 +25,7 @@ std::string ConsensusWords(const TrackerSetStatus& trackers) {
     return "Not trusted: " + consensus.why_not_trusted + ", " + sigma;
   }
   return std::to_string(consensus.agreeing) + " of " + std::to_string(trackers.members.size()) +
-         " agree within " + Fixed(consensus.spread_px, 1) + " px, " + sigma;
+         " agree, within " + Fixed(consensus.spread_px, 1) + " px, " + sigma;
 }
 
 std::string WhyNoTrackers(const EngineSnapshot& snap) {

@@ -27,7 +27,7 @@ TEST(TrackerPanel, TellsOfEveryTrackerHowItAgreesAndWhatItDoes) {
     EXPECT_EQ(TextOf(items, "tracker/Template"), "LOST 1.2 s: coherence 0.42, limit 0.70");
     EXPECT_EQ(TextOf(items, "tracker/Feature 1"), "follows");
     EXPECT_EQ(TextOf(items, "tracker/Feature 12"), "drifts, limit 5 px");
-    EXPECT_EQ(TextOf(items, "tracker/consensus"), "4 of 6 agree within 0.7 px, ± 0.7 px");
+    EXPECT_EQ(TextOf(items, "tracker/consensus"), "4 of 6 agree, within 0.7 px, ± 0.7 px");
     for (const char* words : {"0.94", "12.4 px", "LOST 1.2 s", "4 of 6 agree"}) {
       EXPECT_TRUE(HasText(items, words)) << words;
     }
