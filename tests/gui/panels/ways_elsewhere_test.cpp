@@ -60,7 +60,7 @@ TEST(WaysElsewhere, HaveRoomInTheHead) {
     for (const float width : {1280.0F, 1920.0F}) {
       EngineSnapshot snap = fake::Snapshot(state);
       snap.flight.Edit().mission.next_look =
-          ProposedLook{{30, 0, -20}, 0, "30 m NW", "shows 240 m² that were not looked at yet"};
+          ProposedLook{{30, 0, -20}, 0, "30 m NW", "shows 240 of 2400 m² left to see, in 14 s"};
       FlyWindow window(width, width * 9 / 16, snap);
       window.fly.maps.probe.pinned = Eigen::Vector2d(0, 0);
       window.Run(0.05);
@@ -104,7 +104,7 @@ TEST(WaysElsewhere, StandWhereTheyStoodWhateverThePanelIsCalled) {
 TEST(WaysElsewhere, TheProposedLookIsFlownByOnePressAndToldWithItsReason) {
   EngineSnapshot snap = fake::Snapshot(MissionState::kSearch);
   const ProposedLook look{
-      {3, 4, -21}, 0.5, "right 45°", "shows 240 m² that were not looked at yet"};
+      {3, 4, -21}, 0.5, "right 45°", "shows 240 of 2400 m² left to see, in 14 s"};
   snap.flight.Edit().mission.next_look = look;
   FlyWindow window(1920, 1080, snap);
   window.Run(0.05);
