@@ -75,7 +75,7 @@ std::string WhyNoEnergy(const MissionMemory& m, double takes_s) {
   const double lasts_s = m.status.energy.lasts_s;
   const double reserve_s = m.facts.settings.mission.energy_reserve_s;
   return lasts_s - takes_s < reserve_s
-             ? WithNumbers("Energy for %.1f min and %.1f min for the look, reserve %.1f min",
+             ? WithNumbers("No look: energy lasts %.1f min, it takes %.1f min, reserve %.1f min",
                            lasts_s / 60, takes_s / 60, reserve_s / 60)
              : std::string();
 }
