@@ -70,14 +70,17 @@ std::optional<ProposedLook> LookForAir(const MissionMemory& m, Timestamp now) {
                       WithNumbers(" is seen up to %.1f m, min %.1f m", seen_m, kLeastAirSeen_m));
 }
 
-/// Empty: it has it, or for how long it lasts is not known.
+/// For a look that takes so long; 0: for any. Empty: it has it, or for how long it lasts is not
+/// known.
 std::string WhyNoEnergy(const MissionMemory& m, double takes_s) {
   const double lasts_s = m.status.energy.lasts_s;
   const double reserve_s = m.facts.settings.mission.energy_reserve_s;
-  return lasts_s - takes_s < reserve_s
-             ? WithNumbers("No look: energy lasts %.1f min, it takes %.1f min, reserve %.1f min",
-                           lasts_s / 60, takes_s / 60, reserve_s / 60)
-             : std::string();
+  if (!(lasts_s - takes_s < reserve_s)) {
+    return {};
+  }
+  const std::string takes = takes_s > 0 ? WithNumbers(", it takes %.0f s", takes_s) : "";
+  return WithNumbers("No look: energy lasts %.1f min", lasts_s / 60) + takes +
+         WithNumbers(", reserve %.1f min", reserve_s / 60);
 }
 
 bool HoldsId(const std::vector<std::uint64_t>& ids, std::uint64_t id) {
