@@ -20,6 +20,8 @@ inline AlarmFacts AllMeasured() {
   f.min_coherence = Settings{}.tracking.min_coherence;
   f.off_path_m = f.off_centre_m = f.descent_rate_mps = f.residual_sigma = f.wind_mps = 0;
   f.max_wind_mps = Settings{}.mission.max_wind_mps;
+  f.tailwind_mps = 0;
+  f.max_tailwind_mps = Settings{}.mission.max_tailwind_mps;
   f.energy_min = 20;
   f.energy_reserve_min = Settings{}.mission.energy_reserve_s / 60;
   f.energy_percent = 70;

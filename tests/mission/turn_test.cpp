@@ -2,6 +2,7 @@
 // approved.
 #include <cmath>
 
+#include "engine/core/text.h"
 #include "engine/core/units.h"
 #include "engine/mission/geometry.h"
 #include "tests/mission/mission_rig.h"
@@ -64,6 +65,56 @@ TEST(TurnApproach, TheStationTurnsItIntoTheWindWhereThatIsClearAndSaysSo) {
   calm.Arm();
   EXPECT_FALSE(calm.plan().turned());
   EXPECT_EQ(calm.plan().why, "");
+}
+
+/// The words of the caution that stands about the tailwind; empty: none does.
+std::string TailwindTold(const MissionRig& rig) {
+  for (const Alarm& alarm : rig.mission.status().alarms) {
+    if (alarm.kind == AlarmId::kTailwind && alarm.active) {
+      return alarm.text;
+    }
+  }
+  return {};
+}
+
+// An approach stays as it was armed. The straight one goes to the north here.
+TEST(TurnApproach, AWindThatTurnsIsToldWhileTheApproachIsAheadOrFlown) {
+  TurnRig rig;
+  rig.vehicle.wind_mps = 4;
+  rig.vehicle.wind_from_rad = 0;
+  rig.Arm();
+  ASSERT_FALSE(rig.plan().turned());
+  rig.Run(1.5);
+  EXPECT_EQ(TailwindTold(rig), "");
+  rig.vehicle.wind_from_rad = Rad(180);
+  rig.Run(1.5);
+  const double off_rad = rig.plan().heading_rad - rig.vehicle.wind_from_rad;
+  const std::string told =
+      WithNumbers("Tailwind %.1f m/s on the approach, limit 2.5 m/s. ", -4 * std::cos(off_rad));
+  EXPECT_EQ(TailwindTold(rig), told + "Take another side or site, or wait.");
+  ASSERT_TRUE(rig.ApproveNow().ok()) << "a caution: " << rig.mission.status().cannot_approve_reason;
+  ASSERT_TRUE(rig.RunUntil(MissionState::kDescending));
+  EXPECT_EQ(TailwindTold(rig), told + "Watch the descent, hold or wave off.");
+  ASSERT_TRUE(rig.Do(HoldHere{}).ok());
+  rig.Run(1.5);
+  EXPECT_EQ(TailwindTold(rig), "") << "nothing is flown with it any more";
+}
+
+// Neither of a light air, whose direction is noise, nor of a limit that keeps it.
+TEST(TurnApproach, NoTailwindIsToldOfALightAirOrWithinTheLimit) {
+  TurnRig rig;
+  rig.vehicle.wind_from_rad = Rad(180);
+  rig.settings.mission.max_tailwind_mps = 0.2;
+  rig.vehicle.wind_mps = 0.4;
+  rig.Arm();
+  rig.Run(1.5);
+  EXPECT_EQ(TailwindTold(rig), "");
+  rig.vehicle.wind_mps = 0.6;
+  rig.Run(1.5);
+  EXPECT_NE(TailwindTold(rig), "");
+  rig.settings.mission.max_tailwind_mps = 3;
+  rig.Run(1.5);
+  EXPECT_EQ(TailwindTold(rig), "");
 }
 
 // Drawn as it is flown: to where the slope begins, on the side that was chosen, then down.

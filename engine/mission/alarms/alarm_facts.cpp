@@ -2,9 +2,11 @@
 #include <cmath>
 
 #include "engine/mission/alarms/alarms.h"
+#include "engine/mission/descent_limits.h"
 #include "engine/mission/geometry.h"
 #include "engine/mission/wave_off.h"
 #include "engine/mission/wording.h"
+#include "engine/model/wind.h"
 
 namespace palace {
 namespace {
@@ -53,6 +55,19 @@ void FillSensors(const MissionMemory& m, const MissionInputs& in, AlarmFacts& f)
   f.laser_mismatch_m = ComparesRanges(f) ? LaserMismatch(in) : NAN;
 }
 
+/// Of the approach as it was armed: the wind may have turned since. NaN where none is to be flown
+/// any more, and while the wind is unknown or comes from nowhere.
+double Tailwind(const MissionMemory& m, Timestamp now) {
+  const MissionState state = m.status.state;
+  const bool ahead = state == MissionState::kArmed || state == MissionState::kApproved ||
+                     (state == MissionState::kDescending && !IsCommitted(m));
+  const double wind_mps = KnownWind(m, now);
+  if (!ahead || !m.status.approach || !WindHasDirection(wind_mps)) {
+    return NAN;
+  }
+  return -wind_mps * std::cos(m.status.approach->heading_rad - m.watch.vehicle()->wind_from_rad);
+}
+
 void FillMission(const MissionMemory& m, const MissionInputs& in, AlarmFacts& f) {
   const Timestamp now = in.session.now;
   const MissionState state = m.status.state;
@@ -74,6 +89,8 @@ void FillMission(const MissionMemory& m, const MissionInputs& in, AlarmFacts& f)
   f.min_coherence = m.facts.settings.tracking.min_coherence;
   const bool waiting = state == MissionState::kApproved &&
                        m.status.approval_phase == MissionStatus::ApprovalPhase::kSent;
+  f.tailwind_mps = Tailwind(m, now);
+  f.max_tailwind_mps = m.facts.settings.mission.max_tailwind_mps;
   f.waiting_s = waiting ? SecondsBetween(m.approved_at, now) : NAN;
   f.refusal = m.refusal;
   f.foreign = in.session.authority.foreign;

@@ -97,6 +97,9 @@ struct AlarmFacts {
   double max_residual_sigma = NAN;  ///< of the position filter
   double wind_mps = NAN;
   double max_wind_mps = NAN;  ///< setting
+  double tailwind_mps =
+      NAN;  ///< of the approach that is selected or flown, above the commit height
+  double max_tailwind_mps = NAN;  ///< setting
   RecentLosses losses{};
   double refused_hz = NAN;    ///< datagrams
   double bus_load = NAN;      ///< of the busiest channel, in times of what it needs

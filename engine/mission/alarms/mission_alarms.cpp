@@ -170,6 +170,19 @@ const AlarmRow kRows[] = {
            return WithNumbers("Wind %.1f m/s, limit ", f.wind_mps) + limit +
                   ". Watch the descent, hold or wave off.";
          }},
+    {.id = AlarmId::kTailwind,
+     .level = AlarmLevel::kCaution,
+     .of_mission = true,
+     .limit = {NAN, "m/s"},
+     .limit_from = &Facts::max_tailwind_mps,
+     .value = &Facts::tailwind_mps,
+     .present = [](const Facts& f, double limit) { return f.tailwind_mps > limit; },
+     .text =
+         [](const Facts& f, const std::string& limit) {
+           return WithNumbers("Tailwind %.1f m/s on the approach, limit ", f.tailwind_mps) + limit +
+                  (f.approve_ahead ? ". Take another side or site, or wait."
+                                   : ". Watch the descent, hold or wave off.");
+         }},
     {.id = AlarmId::kForeignCommand,
      .level = AlarmLevel::kWarning,
      .immediate = true,

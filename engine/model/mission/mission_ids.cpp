@@ -70,6 +70,7 @@ constexpr std::array<const char*, kAlarmCount> kAlarmNames = {
     "laser_stuck",
     "laser_wrong",
     "energy_low",
+    "tailwind",
 };
 
 }  // namespace

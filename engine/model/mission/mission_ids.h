@@ -91,8 +91,9 @@ enum class AlarmId : std::uint8_t {
   kLaserStuck,
   kLaserWrong,
   kEnergyLow,
+  kTailwind,
 };
-inline constexpr std::size_t kAlarmCount = 59;
+inline constexpr std::size_t kAlarmCount = 60;
 /// "gps_error".
 const char* AlarmName(AlarmId id);
 /// Empty for a name that no alarm has.
