@@ -18,6 +18,7 @@
 #include "engine/core/hash.h"
 #include "engine/core/termination.h"
 #include "engine/core/text.h"
+#include "engine/experiments/finished_results.h"
 #include "engine/experiments/trial_record.h"
 
 namespace palace {
@@ -32,6 +33,7 @@ struct RunOptions {
   std::string shard = "1/1";
   fs::path out;
   bool resume = false;
+  bool overwrite = false;
   const CLI::App* verb = nullptr;
 };
 
@@ -173,6 +175,25 @@ Result<std::vector<TrialRow>> RunTrial(const Experiment& experiment, int trial, 
   return rows;
 }
 
+/// Nothing is run or written; the results are told as when they were made, with that exit code.
+int TellDone(const Experiment& experiment, const TrialFile& held, const fs::path& out) {
+  std::cerr << "palacectl: " << (out / (experiment.name + ".csv")).string() << " holds all "
+            << WhatIsHeld(held.header)
+            << ", of whichever program and input files; --overwrite runs them again\n";
+  return WriteReport(experiment, held, {});
+}
+
+Result<TrialRecord> OpenRecord(const Experiment& experiment, const TrialHeader& header,
+                               const RunOptions& options) {
+  const fs::path path = options.out / (experiment.name + ".trials");
+  if (options.overwrite && !options.resume) {
+    std::error_code ignored;
+    fs::remove(path, ignored);
+  }
+  return TrialRecord::Open(path, {header, experiment.columns, InputsOf(*options.verb)},
+                           options.resume);
+}
+
 int RunExperiment(const Experiment& experiment, const RunOptions& options) {
   const Termination termination;
   const Result<Shard> shard = ParseShard(options.shard);
@@ -198,13 +219,27 @@ int RunExperiment(const Experiment& experiment, const RunOptions& options) {
                             experiment.columns.end());
   std::optional<TrialRecord> record;
   if (!options.out.empty()) {
-    Result<TrialRecord> opened = TrialRecord::Open(
-        options.out / (experiment.name + ".trials"),
-        {file.header, experiment.columns, InputsOf(*options.verb)}, options.resume);
+    std::optional<TrialFile> held;
+    if (!options.overwrite) {
+      Result<std::optional<TrialFile>> found =
+          FinishedResults(options.out / (experiment.name + ".csv"), file.table.columns);
+      if (!found) {
+        return Fail(found.error());
+      }
+      held = *std::move(found);
+    }
+    if (held && options.resume && IsSameRun(held->header, file.header)) {
+      return TellDone(experiment, *held, options.out);
+    }
+    Result<TrialRecord> opened = OpenRecord(experiment, file.header, options);
     if (!opened) {
       return Fail(opened.error());
     }
     record = std::move(*opened);
+    if (held && !IsKept(held->header, file.header, *record)) {
+      record->Finish(0);
+      return Fail(WouldReplace(options.out / (experiment.name + ".csv"), held->header));
+    }
     if (record->done_count() > 0) {
       std::cerr << "palacectl: " << record->done_count() << " trials were done before\n";
     }
@@ -243,7 +278,7 @@ int RunExperiment(const Experiment& experiment, const RunOptions& options) {
 }
 
 int Merge(const std::vector<Experiment>& experiments, const std::vector<std::string>& paths,
-          const fs::path& out) {
+          const fs::path& out, bool overwrite) {
   std::vector<TrialFile> shards;
   std::vector<fs::path> inputs;
   for (const std::string& path : paths) {
@@ -274,6 +309,16 @@ int Merge(const std::vector<Experiment>& experiments, const std::vector<std::str
       if (fs::equivalent(csv, out / (experiment.name + ".csv"), error)) {
         return Fail(UsageError("merge: --out " + out.string() + " would overwrite the shard " +
                                csv.string() + "; choose another folder"));
+      }
+    }
+    if (!overwrite) {
+      const fs::path csv = out / (experiment.name + ".csv");
+      const Result<std::optional<TrialFile>> held = FinishedResults(csv, merged->table.columns);
+      if (!held) {
+        return Fail(held.error());
+      }
+      if (*held && !IsSameRun((*held)->header, merged->header)) {
+        return Fail(WouldReplace(csv, (*held)->header));
       }
     }
     return WriteResults(experiment, *merged, out);
@@ -327,7 +372,9 @@ void AddExperiments(CLI::App& evaluate, const std::vector<Experiment>& experimen
     verb->add_option("--out", options->out,
                      "Folder for " + experiment.name + ".csv and report.html");
     verb->add_flag("--resume", options->resume,
-                   "Go on where a run into the same --out ended before its last trial");
+                   "Go on where a run into the same --out ended before its last trial; of one that "
+                   "is done its results are told again");
+    verb->add_flag("--overwrite", options->overwrite, "Replace what an earlier run wrote to --out");
     if (experiment.add_options) {
       experiment.add_options(*verb);
     }
@@ -339,7 +386,11 @@ void AddExperiments(CLI::App& evaluate, const std::vector<Experiment>& experimen
   auto paths = std::make_shared<std::vector<std::string>>();
   merge->add_option("--out", *out, "Folder for the joined CSV and report.html")->required();
   merge->add_option("shards", *paths, "Folders or CSV files of all shards")->required();
-  merge->callback([all, out, paths, &exit_code] { exit_code = Merge(*all, *paths, *out); });
+  auto overwrite = std::make_shared<bool>(false);
+  merge->add_flag("--overwrite", *overwrite, "Replace another run's results in --out");
+  merge->callback([all, out, paths, overwrite, &exit_code] {
+    exit_code = Merge(*all, *paths, *out, *overwrite);
+  });
 }
 
 }  // namespace palace

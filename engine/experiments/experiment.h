@@ -41,8 +41,8 @@ struct Experiment {
 };
 
 /// Adds `evaluate NAME` for each experiment, and `evaluate merge --out DIR SHARD...`.
-/// Options: --trials --seed --shard i/n --out --resume. Writes NAME.csv and, unless it is a shard,
-/// report.html.
+/// Options: --trials --seed --shard i/n --out --resume --overwrite. Writes NAME.csv and, unless it
+/// is a shard, report.html; over results of another run only when asked (finished_results.h).
 void AddExperiments(CLI::App& evaluate, const std::vector<Experiment>& experiments, int& exit_code);
 
 /// The trials that one of the experiments wrote: a CSV, or the folder that holds one. Errors name

@@ -124,7 +124,7 @@ Status TrialRecord::Read(const std::string& head, std::size_t columns, bool resu
                ? Ok()
                : UsageError(path_.string() +
                             " keeps trials of a run that was ended: --resume goes on with them; "
-                            "remove it, or choose another --out, to begin anew");
+                            "add --overwrite, or choose another --out, to begin anew");
   }
   std::string_view rest = text;
   Rows rows;
@@ -137,10 +137,10 @@ Status TrialRecord::Read(const std::string& head, std::size_t columns, bool resu
     rest.remove_prefix(end + 1);
     if (number == 1) {
       if (line != head) {
-        return UsageError("--resume: " + path_.string() +
-                          " is of another run or another build:\n  " + std::string(line) +
-                          "\nthis one is\n  " + head +
-                          "\nchoose another --out, or remove it to begin anew");
+        return UsageError(
+            "--resume: " + path_.string() + " is of another run or another build:\n  " +
+            std::string(line) + "\nthis one is\n  " + head +
+            "\nchoose another --out, or give --overwrite in place of --resume to begin anew");
       }
     } else if (const int trial = TrialDone(line); trial >= 0) {
       done_[trial] = std::exchange(rows, {});

@@ -155,12 +155,16 @@ TEST_F(PrintedLines, OfGnuParallelMakeTheFilesOfOneRunAndGoOnAfterAKill) {
   fs::remove(folder_ / "the shards/report.html");
   ExpectJoinedLikeWhole();
 
-  // A shard of other options under the same name is none of this run.
+  // A shard of other options under the same name is none of this run, and not lost to it.
   std::string other = TextOf(Csv(1));
   other.replace(other.find("max_slope_deg=8"), 15, "max_slope_deg=7");
   std::ofstream(Csv(1), std::ios::binary) << other;
+  const ProcessResult refused = Run({"/bin/sh", "plan/parallel.sh"});
+  EXPECT_NE(refused.exit_code, 0);
+  EXPECT_NE(refused.err.find("already; choose another --out"), std::string::npos) << refused.err;
+  EXPECT_EQ(TextOf(Csv(1)), other);
+  fs::remove(Csv(1));
   ASSERT_EQ(Run({"/bin/sh", "plan/parallel.sh"}).exit_code, 0);
-  EXPECT_NE(TextOf(Csv(1)), other);
   ExpectJoinedLikeWhole();
 }
 
