@@ -49,6 +49,14 @@ inline FloatLanes AddFused(FloatLanes a, FloatLanes b) {
   return a + b;
 #endif
 }
+/// a - b likewise.
+inline FloatLanes SubtractFused(FloatLanes a, FloatLanes b) {
+#if defined(__AVX512F__)
+  return {_mm512_fmsub_ps(a.v, _mm512_set1_ps(1), b.v)};
+#else
+  return a - b;
+#endif
+}
 /// The second where either is NaN: a < b ? a : b, which compilers do not always take for one
 /// instruction.
 inline FloatLanes Min(FloatLanes a, FloatLanes b) {

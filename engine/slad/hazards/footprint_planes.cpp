@@ -215,27 +215,23 @@ FootprintPlanes UnknownPlanes(const GridGeometry& geometry) {
   return {{unknown(), unknown(), unknown(), unknown()}, unknown(), unknown()};
 }
 
-/// Beside a raised surface the ground keeps its own plane, wherever it spans one.
-void PreferGroundPlanes(const FootprintPlanes& ground, const Grid<std::uint8_t>& flags,
-                        FootprintPlanes& planes) {
-  const PlaneMaps& from = ground.plane;
-  PlaneMaps& to = planes.plane;
+/// Beside a raised surface the ground keeps its own plane, wherever it spans one. What is raised,
+/// and where it spans none, is taken over from the planes through all cells.
+void TakeWhereNoGround(const FootprintPlanes& all, const Grid<std::uint8_t>& flags,
+                       FootprintPlanes& ground) {
   ForEach(flags.rows(), [&](int r) {
     const std::uint8_t* flag = flags.row(r);
-    const float* known_m = from.height_m.row(r);
-    const auto prefer = [&](const GridF& of_ground, GridF& layer) {
-      for (int c = 0; c < flags.cols(); ++c) {
-        if ((flag[c] & kFlagElevated) == 0 && !std::isnan(known_m[c])) {
-          layer.at(r, c) = of_ground.at(r, c);
-        }
+    for (int c = 0; c < flags.cols(); ++c) {
+      if ((flag[c] & kFlagElevated) == 0 && !std::isnan(ground.plane.height_m.at(r, c))) {
+        continue;
       }
-    };
-    prefer(from.height_m, to.height_m);
-    prefer(from.residual_m, to.residual_m);
-    prefer(from.north_gradient, to.north_gradient);
-    prefer(from.east_gradient, to.east_gradient);
-    prefer(ground.gradient_sigma, planes.gradient_sigma);
-    prefer(ground.cell_variance_m2, planes.cell_variance_m2);
+      ground.plane.height_m.at(r, c) = all.plane.height_m.at(r, c);
+      ground.plane.residual_m.at(r, c) = all.plane.residual_m.at(r, c);
+      ground.plane.north_gradient.at(r, c) = all.plane.north_gradient.at(r, c);
+      ground.plane.east_gradient.at(r, c) = all.plane.east_gradient.at(r, c);
+      ground.gradient_sigma.at(r, c) = all.gradient_sigma.at(r, c);
+      ground.cell_variance_m2.at(r, c) = all.cell_variance_m2.at(r, c);
+    }
   });
 }
 
@@ -261,10 +257,11 @@ FootprintPlanes FitFootprintPlanes(const ElevationMap& map, double footprint_dia
                 }
               }});
   Run(*fit, any_raised ? &*fit_of_ground : nullptr);
-  if (any_raised) {
-    PreferGroundPlanes(ground, flags, planes);
+  if (!any_raised) {
+    return planes;
   }
-  return planes;
+  TakeWhereNoGround(planes, flags, ground);
+  return ground;
 }
 
 }  // namespace palace

@@ -20,6 +20,11 @@ constexpr float kNoise2 = 16;
 constexpr int kMostOffsets = 24;
 
 float BeyondNoise(float square) { return square > 0 ? std::sqrt(square) : 0.0F; }
+void BeyondNoiseOf(const float* square, int count, float* __restrict__ beyond) {
+  for (int c = 0; c < count; ++c) {
+    beyond[c] = BeyondNoise(square[c]);
+  }
+}
 
 /// A layer with a rim, readable `rim` cells beyond the map on every side.
 class RimmedLayer {
@@ -101,9 +106,7 @@ void FindSteps(const GridGeometry& geometry, Layers& layers, GridF& step_at_cell
                  layers.east.row(r),
                  layers.south.row(r)},
                 cols, layers.step2.row(r), at_cell2.data());
-    for (int c = 0; c < cols; ++c) {
-      step_at_cell_m.at(r, c) = BeyondNoise(at_cell2[static_cast<std::size_t>(c)]);
-    }
+    BeyondNoiseOf(at_cell2.data(), cols, step_at_cell_m.row(r));
   });
 }
 
@@ -141,13 +144,15 @@ void DenoiseHeights(const ElevationMap& map, const FootprintPlanes& planes, floa
   const int rows = map.geometry.rows, cols = map.geometry.cols;
   RimmedLayer height(rows, cols, 1, 0.0F), known(rows, cols, 1, 0.0F);
   ForEach(rows, [&](int r) {
+    const float *z = map.height_m.row(r), *plane_m = planes.plane.height_m.row(r);
+    float* __restrict__ above = height.row(r);
+    float* __restrict__ is_known = known.row(r);
     for (int c = 0; c < cols; ++c) {
-      const float z = map.height_m.at(r, c);
-      if (!std::isnan(z) && !std::isnan(planes.plane.height_m.at(r, c))) {
-        height.row(r)[c] = z - reference;
-        known.row(r)[c] = out.known.at(r, c) = 1;
-      }
+      const bool both = !std::isnan(z[c]) && !std::isnan(plane_m[c]);
+      above[c] = both ? z[c] - reference : 0.0F;
+      is_known[c] = both ? 1.0F : 0.0F;
     }
+    std::copy_n(is_known, cols, out.known.row(r));
   });
   ForEach(rows, [&](int r) {
     loops.denoise({{height.row(r - 1), height.row(r), height.row(r + 1)},
@@ -157,10 +162,11 @@ void DenoiseHeights(const ElevationMap& map, const FootprintPlanes& planes, floa
                    layers.south.row(r),
                    map.variance_m2.row(r)},
                   cols, out.height.row(r));
+    const CellState* state = map.state.row(r);
+    const float* from = out.height.row(r);
+    float* __restrict__ measured = out.measured.row(r);
     for (int c = 0; c < cols; ++c) {
-      if (map.state.at(r, c) == CellState::kMeasured) {
-        out.measured.row(r)[c] = out.height.row(r)[c];
-      }
+      measured[c] = state[c] == CellState::kMeasured ? from[c] : kUnknownValue;
     }
   });
 }
@@ -192,12 +198,12 @@ void FindFootprintMaxima(const GridGeometry& geometry, const Disc& disc, const L
                           half.data(), height.data(), noise2.data(), denoised_height.data()},
                          layers.plane.row(r), layers.east.row(r), layers.south.row(r), cols,
                          deviation2.data(), denoised_off.data());
-    for (int c = 0; c < cols; ++c) {
-      figures.footprint_deviation_m.at(r, c) = BeyondNoise(deviation2[static_cast<std::size_t>(c)]);
-      figures.footprint_step_m.at(r, c) = BeyondNoise(step2[static_cast<std::size_t>(c)]);
-      const float off = denoised_off[static_cast<std::size_t>(c)];
-      figures.denoised_deviation_m.at(r, c) = BeyondNoise(off * off);
+    BeyondNoiseOf(deviation2.data(), cols, figures.footprint_deviation_m.row(r));
+    BeyondNoiseOf(step2.data(), cols, figures.footprint_step_m.row(r));
+    for (float& off : denoised_off) {
+      off *= off;
     }
+    BeyondNoiseOf(denoised_off.data(), cols, figures.denoised_deviation_m.row(r));
   });
 }
 
@@ -205,10 +211,10 @@ void MeasureGearTilt(const GridGeometry& geometry, const Denoised& denoised, con
                      TerrainFigures& figures) {
   GridF height_m(geometry.rows, geometry.cols, kUnknownValue);
   ForEach(geometry.rows, [&](int r) {
+    const float *known = denoised.known.row(r), *from = denoised.height.row(r);
+    float* __restrict__ height = height_m.row(r);
     for (int c = 0; c < geometry.cols; ++c) {
-      if (denoised.known.at(r, c) > 0) {
-        height_m.at(r, c) = denoised.height.row(r)[c];
-      }
+      height[c] = known[c] > 0 ? from[c] : kUnknownValue;
     }
   });
   const GearOverMap gear(height_m, geometry.cell_m, lander);
@@ -225,28 +231,48 @@ void FindCellFigures(const ElevationMap& map, const Lander& lander, const Footpr
   const float averaging =
       static_cast<float>(1 / std::sqrt(std::max(1.0, rock_cells / kCorrelatedCells)));
   const float attitude2 = static_cast<float>(map.attitude_sigma_rad * map.attitude_sigma_rad);
+  const int cols = map.geometry.cols;
   ForEach(map.geometry.rows, [&](int r) {
-    for (int c = 0; c < map.geometry.cols; ++c) {
-      const CellState state = map.state.at(r, c);
-      figures.measured.at(r, c) = state == CellState::kMeasured ? 1 : 0;
-      const float off = planes.plane.residual_m.at(r, c);
-      if (state == CellState::kUnknown || std::isnan(off)) {
-        figures.north_gradient.at(r, c) = kUnknownValue;
-        figures.footprint_deviation_m.at(r, c) = figures.footprint_step_m.at(r, c) = kUnknownValue;
-        continue;
+    const CellState* state = map.state.row(r);
+    const float* off = planes.plane.residual_m.row(r);
+    std::uint8_t* __restrict__ measured = figures.measured.row(r);
+    std::vector<float> known(static_cast<std::size_t>(cols));  // 1 where there are figures, or 0
+    float* __restrict__ has = known.data();
+    for (int c = 0; c < cols; ++c) {
+      measured[c] = state[c] == CellState::kMeasured ? 1 : 0;
+      has[c] = state[c] != CellState::kUnknown && !std::isnan(off[c]) ? 1.0F : 0.0F;
+    }
+    const auto known_only = [&](const float* from, float* to) {
+      for (int c = 0; c < cols; ++c) {
+        to[c] = has[c] > 0 ? from[c] : kUnknownValue;
       }
-      const float north = planes.plane.north_gradient.at(r, c);
-      const float east = planes.plane.east_gradient.at(r, c);
-      const float gradient_sigma =
-          planes.gradient_sigma.at(r, c) / (1 + north * north + east * east);
-      const float variance = map.variance_m2.at(r, c);
-      figures.north_gradient.at(r, c) = north;
-      figures.east_gradient.at(r, c) = east;
-      figures.slope_sigma_rad.at(r, c) = std::sqrt(gradient_sigma * gradient_sigma + attitude2);
+    };
+    const float *north = planes.plane.north_gradient.row(r),
+                *east = planes.plane.east_gradient.row(r);
+    known_only(north, figures.north_gradient.row(r));
+    known_only(east, figures.east_gradient.row(r));
+    known_only(figures.footprint_deviation_m.row(r), figures.footprint_deviation_m.row(r));
+    known_only(figures.footprint_step_m.row(r), figures.footprint_step_m.row(r));
+    const float *sigma = planes.gradient_sigma.row(r), *variance_m2 = map.variance_m2.row(r),
+                *cell_variance_m2 = planes.cell_variance_m2.row(r);
+    float *__restrict__ slope_sigma_rad = figures.slope_sigma_rad.row(r),
+                        *__restrict__ deviation_m = figures.deviation_m.row(r),
+                        *__restrict__ sigma_m = figures.sigma_m.row(r),
+                        *__restrict__ footprint_sigma_m = figures.footprint_sigma_m.row(r);
+    for (int c = 0; c < cols; ++c) {
+      const float gradient_sigma = sigma[c] / (1 + north[c] * north[c] + east[c] * east[c]);
+      const float slope_sigma = std::sqrt(gradient_sigma * gradient_sigma + attitude2);
+      slope_sigma_rad[c] = has[c] > 0 ? slope_sigma : kUnknownValue;
+    }
+    for (int c = 0; c < cols; ++c) {
       // A filled cell is judged by its filled height, so that it reads like its neighbours.
-      figures.deviation_m.at(r, c) = BeyondNoise(off * off - kNoise2 * map.variance_m2.at(r, c));
-      figures.sigma_m.at(r, c) = averaging * std::sqrt(variance);
-      figures.footprint_sigma_m.at(r, c) = averaging * std::sqrt(planes.cell_variance_m2.at(r, c));
+      const float deviation = BeyondNoise(off[c] * off[c] - kNoise2 * variance_m2[c]);
+      deviation_m[c] = has[c] > 0 ? deviation : kUnknownValue;
+    }
+    for (int c = 0; c < cols; ++c) {
+      sigma_m[c] = has[c] > 0 ? averaging * std::sqrt(variance_m2[c]) : kUnknownValue;
+      footprint_sigma_m[c] =
+          has[c] > 0 ? averaging * std::sqrt(cell_variance_m2[c]) : kUnknownValue;
     }
   });
 }

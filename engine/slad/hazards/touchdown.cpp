@@ -149,7 +149,6 @@ void GearOverMap::LayOut(const Lander& lander, double cell_m) {
         }
       }
       if (row.cells > 0) {
-        heading.most_belly_cells = std::max(heading.most_belly_cells, row.cells);
         belly.push_back(row);
       }
     }
@@ -173,15 +172,15 @@ void GearOverMap::CopyHeights(const GridF& height_m) {
   const int rows = rows_ + 2 * reach_, cols = cols_ + 2 * reach_ + kLaneSlack;
   height_ = GridF(rows, cols, 0.0F);
   GridF unknown(rows, cols, 1.0F);
-  float reference = kUnknownValue;
+  const auto is_known = [](float z) { return !std::isnan(z); };
+  const auto first = std::find_if(height_m.cells().begin(), height_m.cells().end(), is_known);
+  const float reference = first != height_m.cells().end() ? *first : 0.0F;
   for (int r = 0; r < rows_; ++r) {
+    const float* from = height_m.row(r);
+    float *height = height_.row(r + reach_) + reach_, *none = unknown.row(r + reach_) + reach_;
     for (int c = 0; c < cols_; ++c) {
-      const float z = height_m.at(r, c);
-      if (!std::isnan(z)) {
-        reference = std::isnan(reference) ? z : reference;
-        height_.at(r + reach_, c + reach_) = z - reference;
-        unknown.at(r + reach_, c + reach_) = 0;
-      }
+      height[c] = is_known(from[c]) ? from[c] - reference : 0.0F;
+      none[c] = is_known(from[c]) ? 0.0F : 1.0F;
     }
   }
   FindUnknown(unknown);

@@ -23,10 +23,10 @@ void DiscDeviationRow(const DiscRows& disc, const float* plane, const float* eas
       FloatLanes aside = Fill(static_cast<float>(-disc.half[i]));
       for (int dc = -disc.half[i]; dc <= disc.half[i]; dc += disc.stride) {
         const FloatLanes rise = slope * aside;
-        const FloatLanes off = Load(height + dc) - base - rise;
+        const FloatLanes off = SubtractFused(Load(height + dc), base) - rise;
         most = Max(off * off - Load(noise2 + dc), most);
-        denoised_most = Max(Abs(Load(denoised + dc) - base - rise), denoised_most);
-        aside = aside + stride;
+        denoised_most = Max(Abs(SubtractFused(Load(denoised + dc), base) - rise), denoised_most);
+        aside = AddFused(aside, stride);
       }
     }
     Store(square + c, most);

@@ -157,8 +157,7 @@ struct GearHeading {
   float north, east;                    ///< unit vector forward
   GearPoint point[2][kMostGearPoints];  ///< left and right, aft to fore; pads: aft, fore
   int belly_rows;
-  int most_belly_cells;  ///< of one row
-  float belly_step_m;    ///< to the east from cell to cell
+  float belly_step_m;  ///< to the east from cell to cell
   const BellyRow* belly;
 };
 /// The gear over a layer of heights whose rows are `pitch` floats apart.

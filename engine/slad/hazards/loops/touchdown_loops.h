@@ -8,7 +8,9 @@
 namespace palace {
 namespace {
 
-constexpr int kBellyRun = 10;  // columns
+/// Groups of columns that stand on the ground together: the rows of cells under a belly are loops
+/// too short for one.
+constexpr int kGroups = 4;
 
 /// How the gear rests: gradients forward and to the right, and the height of its middle.
 struct Resting {
@@ -17,7 +19,7 @@ struct Resting {
 
 /// What the headings tried so far have come to.
 struct WorstRest {
-  FloatLanes tan2, rise_m;
+  FloatLanes tan2 = Fill(0.0F), rise_m = Fill(-1e30F);
 };
 
 inline FloatLanes HeightAt(const float* height, int pitch, const GearPoint& point) {
@@ -41,9 +43,10 @@ FloatLanes Support(const FloatLanes* skid, FloatLanes step) {
 /// The two skids' supports add up to max over s of G(s) - pitch x(s), where G(s) is the highest sum
 /// of one point of each that lie together at x(s): their least is the height at 0 of the concave
 /// hull of G, and its pitch is the hull's there. N points a skid, unrolled: it is nearly all the
-/// time.
+/// time. On its own it has the registers for itself.
 template <int N>
-Resting RestOfSkids(const GearShape& gear, const GearHeading& heading, const float* height) {
+__attribute__((noinline)) Resting RestOfSkids(const GearShape& gear, const GearHeading& heading,
+                                              const float* height) {
   constexpr int kMost = N - 1;  // sums run from -kMost to kMost, in spacings
   FloatLanes skid[2][N];
   FloatLanes sum[2 * N - 1];
@@ -65,11 +68,13 @@ Resting RestOfSkids(const GearShape& gear, const GearHeading& heading, const flo
   FloatLanes least = sum[kMost];
 #pragma GCC unroll 16
   for (int a = 1; a <= kMost; ++a) {
+    FloatLanes of_a = sum[kMost];  // on its own: one chain of maxima would wait for itself
 #pragma GCC unroll 16
     for (int b = 1; b <= kMost; ++b) {
       const float share = static_cast<float>(b) / static_cast<float>(a + b);
-      least = Max(sum[kMost - a] * Fill(share) + sum[kMost + b] * Fill(1 - share), least);
+      of_a = Max(sum[kMost - a] * Fill(share) + sum[kMost + b] * Fill(1 - share), of_a);
     }
+    least = Max(of_a, least);
   }
   // Balanced on its middle the gear may fall either way: the steeper one counts.
   FloatLanes low = sum[kMost + 1] - least, high = least - sum[kMost - 1];
@@ -84,42 +89,53 @@ Resting RestOfSkids(const GearShape& gear, const GearHeading& heading, const flo
   return {step * Fill(1 / gear.spacing_m), roll * Fill(1 / gear.width_m), least * Fill(0.5F)};
 }
 
-/// Measures one way to rest against the worst so far.
-inline void Compare(const GearShape& gear, const GearHeading& heading, const float* height,
-                    const Resting& rest, WorstRest& worst) {
+/// Measures one way to rest of each group, `column[g]` floats from the first, against the worst so
+/// far.
+inline void CompareRests(const GearShape& gear, const GearHeading& heading, const float* height,
+                         const int* column, const Resting* rest, WorstRest* worst) {
   const FloatLanes n = Fill(heading.north), e = Fill(heading.east);
-  const FloatLanes north = rest.pitch * n - rest.roll * e, east = rest.pitch * e + rest.roll * n;
   const FloatLanes a = Fill(gear.up_W[0]), b = Fill(gear.up_W[1]), d = Fill(gear.up_W[2]);
-  // |normal x up|^2 over (normal . up)^2 with the normal (-north, -east, -1).
-  const FloatLanes x = b - east * d, y = north * d - a, z = east * a - north * b;
-  const FloatLanes dot = Fill(0.0F) - (north * a + east * b + d);
-  const FloatLanes tan2 = (x * x + y * y + z * z) / (dot * dot);
-  worst.tan2 = Max(Select(Less(Fill(1e-3F), dot), tan2, Fill(1e6F)), worst.tan2);
-  const FloatLanes step = east * Fill(heading.belly_step_m);
-  FloatLanes most = worst.rise_m;
-  for (int first = 0; first < heading.most_belly_cells; first += kBellyRun) {
-    // How far the plane rises from the first cell of a row, in all rows the same.
-    FloatLanes rise[kBellyRun];
-    for (int c = 0; c < kBellyRun; ++c) {
-      rise[c] = step * Fill(static_cast<float>(first + c));
+  FloatLanes north[kGroups], east[kGroups], step[kGroups], most[kGroups];
+  for (int g = 0; g < kGroups; ++g) {
+    north[g] = rest[g].pitch * n - rest[g].roll * e;
+    east[g] = rest[g].pitch * e + rest[g].roll * n;
+    // |normal x up|^2 over (normal . up)^2 with the normal (-north, -east, -1).
+    const FloatLanes x = b - east[g] * d, y = north[g] * d - a, z = east[g] * a - north[g] * b;
+    const FloatLanes dot = Fill(0.0F) - (north[g] * a + east[g] * b + d);
+    const FloatLanes tan2 = (x * x + y * y + z * z) / (dot * dot);
+    worst[g].tan2 = Max(Select(Less(Fill(1e-3F), dot), tan2, Fill(1e6F)), worst[g].tan2);
+    step[g] = east[g] * Fill(heading.belly_step_m);
+    most[g] = worst[g].rise_m;
+  }
+  for (int k = 0; k < heading.belly_rows; ++k) {
+    const BellyRow& row = heading.belly[k];
+    FloatLanes base[kGroups];
+    for (int g = 0; g < kGroups; ++g) {
+      base[g] = rest[g].middle_m + north[g] * Fill(row.north_m) + east[g] * Fill(row.east_m);
     }
-    for (int k = 0; k < heading.belly_rows; ++k) {
-      const BellyRow& row = heading.belly[k];
-      const FloatLanes base = rest.middle_m + north * Fill(row.north_m) + east * Fill(row.east_m);
-      const int count = row.cells - first < kBellyRun ? row.cells - first : kBellyRun;
-      const float* ground = height + row.offset + first * row.stride;
-      for (int c = 0; c < count; ++c) {
-        most = Max(Load(ground) - AddFused(base, rise[c]), most);
-        ground += row.stride;
+    const float* ground = height + row.offset;
+    float steps = 0;
+    for (int c = 0; c < row.cells; ++c) {
+#pragma GCC unroll 4
+      for (int g = 0; g < kGroups; ++g) {
+        const FloatLanes plane_m = AddFused(base[g], step[g] * Fill(steps));
+        most[g] = Max(Load(ground + column[g]) - plane_m, most[g]);
       }
+      ground += row.stride;
+      steps += 1;
     }
   }
-  worst.rise_m = most;
+  for (int g = 0; g < kGroups; ++g) {
+    worst[g].rise_m = most[g];
+  }
 }
 
 /// The higher diagonal carries; the gear leans on either pad of the other one.
-inline void CompareRestsOfPads(const GearShape& gear, const GearHeading& heading,
-                               const float* height, WorstRest& worst) {
+struct RestsOfPads {
+  Resting left, right;
+};
+inline RestsOfPads RestOfPads(const GearShape& gear, const GearHeading& heading,
+                              const float* height) {
   const FloatLanes left_aft = HeightAt(height, gear.pitch, heading.point[0][0]);
   const FloatLanes left_fore = HeightAt(height, gear.pitch, heading.point[0][1]);
   const FloatLanes right_aft = HeightAt(height, gear.pitch, heading.point[1][0]);
@@ -133,21 +149,54 @@ inline void CompareRestsOfPads(const GearShape& gear, const GearHeading& heading
                    aft = (right_aft - left_aft) * per_width;
   const LaneMask carried_by_other = Less(one, other);
   // Three pads share one fore-aft side and one cross side; the missing pad is at their far corner.
-  Compare(gear, heading, height, {left, Select(carried_by_other, aft, fore), middle}, worst);
-  Compare(gear, heading, height, {right, Select(carried_by_other, fore, aft), middle}, worst);
+  return {{left, Select(carried_by_other, aft, fore), middle},
+          {right, Select(carried_by_other, fore, aft), middle}};
 }
 
-template <int N>
-void PutSkidsDownRow(const GearShape& gear, const float* height, int count, float* tan2,
-                     float* rise_m) {
-  for (int c = 0; c < count; c += FloatLanes::kCount) {
-    WorstRest worst{Fill(0.0F), Fill(-1e30F)};
-    for (int h = 0; h < gear.headings; ++h) {
-      const GearHeading& heading = gear.heading[h];
-      Compare(gear, heading, height + c, RestOfSkids<N>(gear, heading, height + c), worst);
+struct Pads {
+  static void Compare(const GearShape& gear, const GearHeading& heading, const float* height,
+                      const int* column, WorstRest* worst) {
+    Resting left[kGroups], right[kGroups];
+    for (int g = 0; g < kGroups; ++g) {
+      const RestsOfPads rests = RestOfPads(gear, heading, height + column[g]);
+      left[g] = rests.left;
+      right[g] = rests.right;
     }
-    Store(tan2 + c, worst.tan2);
-    Store(rise_m + c, worst.rise_m);
+    CompareRests(gear, heading, height, column, left, worst);
+    CompareRests(gear, heading, height, column, right, worst);
+  }
+};
+
+template <int N>
+struct Skids {
+  static void Compare(const GearShape& gear, const GearHeading& heading, const float* height,
+                      const int* column, WorstRest* worst) {
+    Resting rest[kGroups];
+    for (int g = 0; g < kGroups; ++g) {
+      const bool again = g > 0 && column[g] == 0;
+      rest[g] = again ? rest[0] : RestOfSkids<N>(gear, heading, height + column[g]);
+    }
+    CompareRests(gear, heading, height, column, rest, worst);
+  }
+};
+
+template <typename Gear>
+void PutDownRow(const GearShape& gear, const float* height, int count, float* tan2, float* rise_m) {
+  constexpr int kCount = FloatLanes::kCount;
+  for (int c = 0; c < count; c += kGroups * kCount) {
+    // A group beyond the row's end is the first once more.
+    int column[kGroups];
+    for (int g = 0; g < kGroups; ++g) {
+      column[g] = c + g * kCount < count ? g * kCount : 0;
+    }
+    WorstRest worst[kGroups];
+    for (int h = 0; h < gear.headings; ++h) {
+      Gear::Compare(gear, gear.heading[h], height + c, column, worst);
+    }
+    for (int g = 0; g < kGroups; ++g) {
+      Store(tan2 + c + column[g], worst[g].tan2);
+      Store(rise_m + c + column[g], worst[g].rise_m);
+    }
   }
 }
 
@@ -155,20 +204,11 @@ void PutGearDownRow(const GearShape& gear, const float* height, int count, float
                     float* rise_m) {
   static_assert(kMostGearPoints == 13);
   using Row = void (*)(const GearShape&, const float*, int, float*, float*);
-  static constexpr Row rows[] = {PutSkidsDownRow<3>, PutSkidsDownRow<5>,  PutSkidsDownRow<7>,
-                                 PutSkidsDownRow<9>, PutSkidsDownRow<11>, PutSkidsDownRow<13>};
-  if (gear.skids) {
-    rows[(gear.points - 3) / 2](gear, height, count, tan2, rise_m);
-    return;
-  }
-  for (int c = 0; c < count; c += FloatLanes::kCount) {
-    WorstRest worst{Fill(0.0F), Fill(-1e30F)};
-    for (int h = 0; h < gear.headings; ++h) {
-      CompareRestsOfPads(gear, gear.heading[h], height + c, worst);
-    }
-    Store(tan2 + c, worst.tan2);
-    Store(rise_m + c, worst.rise_m);
-  }
+  static constexpr Row rows[] = {PutDownRow<Skids<3>>,  PutDownRow<Skids<5>>,
+                                 PutDownRow<Skids<7>>,  PutDownRow<Skids<9>>,
+                                 PutDownRow<Skids<11>>, PutDownRow<Skids<13>>};
+  const Row row = gear.skids ? rows[(gear.points - 3) / 2] : PutDownRow<Pads>;
+  row(gear, height, count, tan2, rise_m);
 }
 
 }  // namespace
