@@ -35,6 +35,24 @@ const Settings& SettingsAt(const FlightRecord& record, Timestamp time) {
   return *newest;
 }
 
+/// Leaves one of each event that is written twice in a row; how many had to go. A log numbers what
+/// it heard: what was sent twice has two numbers, and both stay.
+std::uint64_t LeaveOneOfEach(const LogFile& file, LogIndex& index) {
+  const auto same = [&](const LogEntry& a, const LogEntry& b) {
+    if (a.number != b.number || a.time != b.time || a.channel != b.channel ||
+        a.length != b.length) {
+      return false;
+    }
+    const Result<WireMessage> first = ReadEvent(file, a, index.channels);
+    const Result<WireMessage> second = ReadEvent(file, b, index.channels);
+    return first && second && first->payload == second->payload;
+  };
+  const auto all = index.entries.size();
+  index.entries.erase(std::unique(index.entries.begin(), index.entries.end(), same),
+                      index.entries.end());
+  return all - index.entries.size();
+}
+
 SteadyClock::time_point TimePoint(double monotonic_s) {
   const double wait_s = monotonic_s - MonotonicSeconds();
   return SteadyClock::now() +
@@ -76,6 +94,7 @@ Result<std::unique_ptr<ReplaySource>> ReplaySource::Open(const std::filesystem::
 }
 
 ::palace::Status ReplaySource::Prepare(const std::filesystem::path& path) {
+  written_twice_ = LeaveOneOfEach(file_, index_);
   bundles_ = FindBundles(file_, index_, options_.channels);
   if (bundles_.empty()) {
     return InvalidError(path.string() + ": holds " + std::to_string(index_.entries.size()) +
@@ -326,6 +345,10 @@ SourceStatus ReplaySource::Status() const {
                                  static_cast<double>(report.skipped_bytes),
                                  static_cast<double>(report.suspect + report.checksum_errors),
                                  static_cast<double>(report.missing_events)));
+  }
+  if (written_twice_ > 0) {
+    damage.push_back(
+        WithNumbers("%.0f events written twice, taken once", static_cast<double>(written_twice_)));
   }
   if (const std::uint64_t refused = events_refused_; refused > 0) {
     damage.push_back(WithNumbers("%.0f not decoded so far", static_cast<double>(refused)));

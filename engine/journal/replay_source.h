@@ -34,8 +34,9 @@ struct ReplayOptions {
 /// posted before it in recorded_commands. After a jump (seek, step back) reading simply goes on
 /// from there and the first bundle carries `discontinuity`. A seek while paused delivers one
 /// bundle, so that the screen follows. Play at the end plays from the start again. Damaged
-/// stretches are skipped and counted. Of a log in which the vehicle's clock began anew one part is
-/// played: seconds of two clocks have no common timeline.
+/// stretches are skipped and counted; an event that the file holds twice in a row, its number
+/// included, is taken once and counted. Of a log in which the vehicle's clock began anew one part
+/// is played: seconds of two clocks have no common timeline.
 class ReplaySource final : public Source {
  public:
   /// Errors name the path and the remedy: missing, a folder, empty, not a log, no bundle, not
@@ -91,6 +92,8 @@ class ReplaySource final : public Source {
   double speed_reached_ = 1;
   std::optional<double> last_delivery_s_;  ///< monotonic
   std::optional<Timestamp> last_time_;
+
+  std::uint64_t written_twice_ = 0;  ///< events, of which one was taken
 };
 
 }  // namespace palace

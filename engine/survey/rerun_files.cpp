@@ -9,8 +9,9 @@
 
 #include "engine/core/csv_row.h"
 #include "engine/core/files.h"
-#include "engine/model/site_columns.h"
 #include "engine/geodata/geo_tiff.h"
+#include "engine/model/mission/picture_faults.h"
+#include "engine/model/site_columns.h"
 #include "engine/survey/map_layers.h"
 
 namespace palace {
@@ -23,6 +24,27 @@ constexpr std::array kTables = {"sites.csv", "decisions.csv", "maps.csv"};
 
 fs::path PartialName(const fs::path& folder, std::string_view table) {
   return folder / (std::string(table) + ".partial");
+}
+
+/// What the pipeline says of a pass that made no map; empty: it was not asked for one.
+std::string WhyNoMap(const EngineSnapshot& snapshot, bool new_pair) {
+  const SessionPart& session = *snapshot.session;
+  const TerrainPart& terrain = *snapshot.terrain;
+  if (!session.missing_inputs.empty()) {
+    return "missing for maps: " + session.missing_inputs;
+  }
+  if (!new_pair) {
+    return "no pair of pictures came with it";
+  }
+  if (!terrain.why_no_map.empty()) {
+    return terrain.why_no_map;
+  }
+  for (const Diagnostic& told : session.diagnostics) {
+    if (told.level != DiagnosticLevel::kInfo) {
+      return told.message;
+    }
+  }
+  return JudgePictures(terrain.stereo_quality, session.role).words();
 }
 
 }  // namespace
@@ -140,7 +162,12 @@ Status RerunFiles::Add(const EngineSnapshot& snapshot, const FlightRecordSample*
   start_ = start_.value_or(snapshot.time);
   ++counts_.frames;
   AddDecision(snapshot, recorded);
+  const bool new_pair = snapshot.sensors->frame && snapshot.sensors->frame != frame_;
+  frame_ = snapshot.sensors->frame;
   if (!snapshot.terrain->applied || snapshot.terrain->applied == newest_) {
+    if (const std::string why = WhyNoMap(snapshot, new_pair); !why.empty()) {
+      ++counts_.why_no_map[why];
+    }
     return Ok();
   }
   const bool again = newest_ && newest_->elevation == snapshot.terrain->applied->elevation;

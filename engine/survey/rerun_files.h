@@ -52,6 +52,8 @@ class RerunFiles {
     std::uint64_t judged_again = 0;  ///< maps under other settings
     std::uint64_t without_site = 0;  ///< of both
     std::uint64_t written = 0;       ///< of both
+    /// Of the frames without a new map, how many say what: "Left and right camera look exchanged".
+    std::map<std::string, std::uint64_t> why_no_map{};
   };
   const Counts& counts() const { return counts_; }
 
@@ -68,6 +70,7 @@ class RerunFiles {
   std::ofstream sites_, decisions_, maps_;
   std::shared_ptr<const TerrainDecision> newest_;
   std::shared_ptr<const TerrainDecision> written_;
+  std::shared_ptr<const StereoFrame> frame_;  ///< the newest pair
   std::optional<Timestamp> start_;
   std::optional<Timestamp> last_map_;  ///< time of the last map written by every_s
   std::map<std::string, int> stems_;   ///< times each was asked for

@@ -1,5 +1,6 @@
 #include "engine/tools/log_rerun.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <iostream>
 #include <memory>
@@ -15,6 +16,8 @@
 
 namespace palace {
 namespace {
+
+constexpr std::size_t kReasonsTold = 4;
 
 struct RerunOptions {
   std::string log, out, maps, channels_file;
@@ -47,6 +50,22 @@ void Print(const RerunOptions& options, const RerunFiles::Counts& counts, bool m
   } else {
     std::printf("the log holds no decisions to compare with\n");
   }
+}
+
+/// Of a log from which no map came; the most frequent reason first.
+void PrintWhyNothing(const RerunFiles::Counts& counts) {
+  std::vector<std::pair<std::uint64_t, std::string>> reasons;
+  for (const auto& [why, frames] : counts.why_no_map) {
+    reasons.emplace_back(frames, why);
+  }
+  std::stable_sort(reasons.begin(), reasons.end(),
+                   [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::cerr << "palacectl log rerun: no frame gave a map, so nothing was decided";
+  for (std::size_t i = 0; i < std::min(reasons.size(), kReasonsTold); ++i) {
+    std::cerr << (i == 0 ? ": " : "; ") << reasons[i].first << " of " << counts.frames
+              << " frames: " << reasons[i].second;
+  }
+  std::cerr << '\n';
 }
 
 Result<int> Rerun(const RerunOptions& options) {
@@ -101,7 +120,15 @@ Result<int> Rerun(const RerunOptions& options) {
     return done.error();
   }
   Print(options, files->counts(), settings->redecide_with.has_value());
-  return source->Status().damage.empty() ? 0 : 3;
+  const std::string damage = source->Status().damage;
+  if (!damage.empty()) {
+    std::cerr << "palacectl log rerun: " << options.log << ": " << damage << '\n';
+  }
+  if (files->counts().maps == 0) {
+    PrintWhyNothing(files->counts());
+    return 1;
+  }
+  return damage.empty() ? 0 : 3;
 }
 
 }  // namespace

@@ -150,6 +150,42 @@ TEST_F(ReplayTest, SkipsADamagedPictureAndGoesOn) {
   EXPECT_EQ(source->Status().damage, "1 not decoded so far");
 }
 
+/// The log with each event written once more, right after itself.
+std::vector<std::uint8_t> Doubled(const std::filesystem::path& log, bool numbered_anew) {
+  const auto bytes = ReadBytes(log);
+  const auto index = BuildIndex(*LogFile::Open(log));
+  std::vector<std::uint8_t> doubled;
+  for (const LogEntry& entry : index->entries) {
+    const auto first = bytes.begin() + static_cast<std::ptrdiff_t>(entry.offset);
+    doubled.insert(doubled.end(), first, first + entry.length);
+    doubled.insert(doubled.end(), first, first + entry.length);
+    if (numbered_anew) {
+      doubled[doubled.size() - entry.length + 4] ^= 1;  // of its number, after the sync word
+    }
+  }
+  return doubled;
+}
+
+TEST_F(ReplayTest, TakesAnEventOnceThatIsWrittenTwice) {
+  const auto events = BuildIndex(*LogFile::Open(flight_.log))->entries.size();
+  const auto twice = Doubled(flight_.log, false);
+  const auto anew = Doubled(flight_.log, true);
+  flight_.log = folder_ / "twice.lcm";
+  WriteBytes(flight_.log, twice);
+  const auto source = Open(Fast());
+  for (const RecordItem& item : flight_.items) {
+    const auto got = source->Next({});
+    ASSERT_TRUE(got.ok()) << got.error().message;
+    EXPECT_EQ(Payloads(**got), Payloads(*item.bundle));
+    EXPECT_EQ((*got)->recorded_commands.size(), item.commands.size());
+  }
+  EXPECT_EQ(source->Next({}).error().code, ErrorCode::kEnd);
+  EXPECT_EQ(source->Status().damage, std::to_string(events) + " events written twice, taken once");
+  // What has a number of its own was heard twice.
+  WriteBytes(flight_.log, anew);
+  EXPECT_EQ(Open(Fast())->Status().damage.find("written twice"), std::string::npos);
+}
+
 // Seconds of two clocks have no common timeline.
 TEST_F(JournalTest, OfALogInWhichTheVehicleRestartedEachPartIsPlayedByItself) {
   const RecordedFlight flight = RecordFlight(folder_, 30, 65, /*restart=*/18);

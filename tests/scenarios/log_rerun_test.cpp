@@ -43,6 +43,21 @@ TEST_F(LogRerun, AnExportOfALogWithoutDecisionsSaysSoAndHowToDecide) {
   EXPECT_NE(exported.out.find("palacectl log rerun vehicle.lcm"), std::string::npos);
 }
 
+TEST_F(LogRerun, ALogThatGivesNoMapSaysWhyAndIsNoSuccess) {
+  ASSERT_EQ(
+      RunProcess(Palacectl({"simulate", "--log", "vehicle.lcm", "--fast", "--duration-s", "1"}),
+                 kLimit_s)
+          .exit_code,
+      0);
+  WriteFile("exchanged.toml",
+            "[channels]\ncamera_left = \"CAMERA_RIGHT\"\ncamera_right = \"CAMERA_LEFT\"\n");
+  const ProcessResult blind = Rerun("vehicle.lcm", {"--out", "no", "--channels", "exchanged.toml"});
+  EXPECT_EQ(blind.exit_code, 1) << blind.out;
+  EXPECT_NE(blind.err.find("no frame gave a map, so nothing was decided: "), std::string::npos);
+  EXPECT_NE(blind.err.find(" frames: Left and right camera look exchanged"), std::string::npos)
+      << blind.err;
+}
+
 TEST_F(LogRerun, DecidesAsInFlightAndWritesEverySiteAndMap) {
   const std::filesystem::path log = Fly();
   const ProcessResult same = Rerun(log, {"--out", "same", "--maps", "every 0.5 s"});

@@ -122,6 +122,38 @@ TEST_F(Rerun, MapsWithoutASiteSayWhy) {
   EXPECT_NE(lines[1].find(decision_->selection.none_reason), std::string::npos) << lines[1];
 }
 
+TEST_F(Rerun, FramesWithoutAMapSayWhy) {
+  RerunFiles files = Open("last");
+  EngineSnapshot none;
+  const auto add = [&](int pair) {
+    if (pair > 0) {
+      none.sensors.Edit().frame = std::make_shared<const StereoFrame>();
+    }
+    EXPECT_TRUE(files.Add(none, nullptr).ok());
+  };
+  none.session.Edit().missing_inputs = "VEHICLE_POSE";
+  add(1);
+  none.session.Edit().missing_inputs = "";
+  add(0);
+  none.terrain.Edit().stereo_quality.suspect_swapped = true;
+  add(1);
+  add(1);
+  none.session.Edit().diagnostics = {{DiagnosticLevel::kInfo, "stereo", "fine"},
+                                     {DiagnosticLevel::kError, "stereo", "cannot match"}};
+  add(1);
+  none.terrain.Edit().why_no_map = "On the ground no map is made";
+  add(1);
+  MapAt(0);
+  EXPECT_TRUE(files.Add(Seen(0), nullptr).ok());
+  EXPECT_EQ(files.counts().why_no_map,
+            (std::map<std::string, std::uint64_t>{{"missing for maps: VEHICLE_POSE", 1},
+                                                  {"no pair of pictures came with it", 1},
+                                                  {"Left and right camera look exchanged", 2},
+                                                  {"cannot match", 1},
+                                                  {"On the ground no map is made", 1}}));
+  EXPECT_EQ(files.counts().maps, 1u);
+}
+
 TEST_F(Rerun, ABrokenRunLeavesNoTableThatLooksWhole) {
   {
     RerunFiles files = Open("last");
