@@ -96,7 +96,9 @@ std::vector<ExplainedTerm> TermsOf(const LandingSite& site, const SladSettings& 
   add(CellTerm::kRoughness, site.roughness_m, settings.limits.max_deviation_m);
   if (modern) {
     add(CellTerm::kStep, site.step_m, settings.limits.max_step_m);
-    add(CellTerm::kProbability, {site.safe_probability / ForgivenHidden(site.hidden_things), 0},
+    // The product was rounded to a map's precision: its quotient may be over 1 by that.
+    const double as_seen = site.safe_probability / ForgivenHidden(site.hidden_things);
+    add(CellTerm::kProbability, {std::min(as_seen, 1.0), 0},
         RequiredSafeProbability(settings, site.roughness_m.three_sigma / 3, 0));
   }
   add(CellTerm::kHazardDistance, {site.safe_distance_m, 0}, settings.lander.clear_radius_m());
