@@ -11,6 +11,8 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 
+#include "engine/core/files.h"
+
 namespace palace {
 namespace {
 
@@ -69,8 +71,11 @@ Result<ImageU8> ReadGreyPicture(const std::filesystem::path& path) {
 Status WriteGreyPicture(const std::filesystem::path& path, const ImageU8& image) {
   const cv::Mat view(image.height(), image.width(), CV_8UC1,
                      const_cast<std::uint8_t*>(image.pixels().data()));
+  // OpenCV's own writer leaves what fits on a full disk, under the name of a whole picture.
+  std::vector<std::uint8_t> bytes;
   try {
-    if (cv::imwrite(path.string(), view)) {
+    if (cv::imencode(path.extension().string(), view, bytes) &&
+        WriteTextFile(path, std::string(bytes.begin(), bytes.end()))) {
       return Ok();
     }
   } catch (const cv::Exception&) {  // said below

@@ -31,6 +31,7 @@ namespace fs = std::filesystem;
 
 constexpr int kMostUndecodable = 100;  // in a row
 constexpr int kMostChanges = 40;       // whose pictures are written without --pictures
+constexpr double kWholeShare = 0.98;   // of the pictures announced; less was cut short
 
 struct TrackOptions {
   std::string source;
@@ -132,6 +133,7 @@ class Tracking {
          ++frame) {
       Result<CameraPicture> picture = pictures_.device.read();
       if (!picture && picture.error().code == ErrorCode::kEnd) {
+        TellIfCutShort(frame);
         return frame > 0 ? Ok() : InvalidError(pictures_.name + ": holds no pictures");
       }
       if (!picture && picture.error().code == ErrorCode::kInvalid) {
@@ -152,6 +154,20 @@ class Tracking {
       }
     }
     return Ok();
+  }
+
+  /// A film that ends early looks like a short one. Containers count by their length in seconds and
+  /// may be some pictures off.
+  void TellIfCutShort(int frames) {
+    const double announced = static_cast<double>(pictures_.device.frame_count);
+    if (frames == 0 || frames >= kWholeShare * announced - 1) {
+      return;
+    }
+    track_.ended = pictures_.name + WithNumbers(
+                                        " ends after %.0f of the %.0f pictures that it "
+                                        "announces; it may be cut short",
+                                        frames, announced);
+    std::fprintf(stderr, "palacectl track: warning: %s\n", track_.ended.c_str());
   }
 
   Status Take(int frame, CameraPicture picture) {

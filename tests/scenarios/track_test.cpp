@@ -174,5 +174,21 @@ TEST_F(Track, MistakesAreNamedWithTheRemedy) {
   }
 }
 
+/// Whole, then with the last part of its bytes gone: as when a card was pulled.
+TEST_F(Track, AFilmThatEndsBeforeItsCountSaysSo) {
+  WriteFilm("film.avi");
+  const ProcessResult whole = Run({"film.avi", "--out", "whole"});
+  ASSERT_EQ(whole.exit_code, 0) << whole.err;
+  EXPECT_EQ(whole.err.find("cut short"), std::string::npos) << whole.err;
+  const std::string bytes = Read("film.avi");
+  WriteFile("cut.avi", bytes.substr(0, bytes.size() / 2));
+  const ProcessResult cut = Run({"cut.avi", "--out", "cut"});
+  EXPECT_EQ(cut.exit_code, 0) << cut.err;
+  EXPECT_THAT(cut.err, HasSubstr("of the 30 pictures that it announces; it may be cut short"));
+  EXPECT_THAT(Read("cut/report.html"), HasSubstr("of the 30 pictures that it announces"));
+  const ProcessResult asked = Run({"cut.avi", "--frames", "5", "--out", "five"});
+  EXPECT_EQ(asked.err.find("cut short"), std::string::npos) << asked.err;
+}
+
 }  // namespace
 }  // namespace palace
