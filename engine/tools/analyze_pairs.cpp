@@ -12,6 +12,7 @@
 #include "engine/slad/terrain/terrain_points.h"
 #include "engine/stereo/range_measurement.h"
 #include "engine/tools/analyze_inputs.h"
+#include "engine/tools/rig_doubts.h"
 
 namespace palace {
 namespace {
@@ -75,7 +76,8 @@ struct Work {
   const RigFile& rig;
   const StereoRectifier& rectifier;
   const Settings& settings;
-  bool several = false;  ///< pairs, so that warnings name theirs
+  bool several = false;         ///< pairs, so that warnings name theirs
+  bool ground_at_zero = false;  ///< the poses say how high above the ground
   StereoMatcher matcher{};
   GroundBounds seen{HUGE_VAL, -HUGE_VAL, HUGE_VAL, -HUGE_VAL};  ///< by all pairs
 };
@@ -132,7 +134,13 @@ Status AddPair(const ImagePair& pair, Work& work, AnalyzeInput& input) {
   }
   input.watch.Lap("stereo");
   input.stereo = match->quality;
-  WarnOfStereo(match->quality, work.several ? name + ": " : "", input.warnings);
+  const std::string of_pair = work.several ? name + ": " : "";
+  WarnOfStereo(match->quality, of_pair, input.warnings);
+  if (work.ground_at_zero) {
+    if (const std::string doubt = DoubtOfHeight(match->range); !doubt.empty()) {
+      input.warnings.push_back(of_pair + doubt);
+    }
+  }
   Widen(match->range, work.seen);
   input.left = rectified->left;
   input.range = std::make_shared<const RangeMap>(std::move(match->range));
@@ -196,7 +204,14 @@ Result<AnalyzeInput> ElevationOfPairs(const PairFiles& files, const Settings& se
     input.warnings.push_back(name +
                              " has no [pose]: attitude taken as level, heights from the camera");
   }
-  Work work{rig, *rectifier, settings, sequence.pairs.size() > 1};
+  if (const std::string doubt = DoubtOfFocalLength(rig.rig); !doubt.empty()) {
+    input.warnings.push_back(name + ": " + doubt);
+  }
+  // [pose] says so; poses of others do where nothing else says how far away the ground is.
+  const bool own_pose = files.poses.empty() && rig.poses_csv.empty();
+  const bool ground_at_zero =
+      posed && files.euroc.empty() && (own_pose || rig.rig.num_disparities == 0);
+  Work work{rig, *rectifier, settings, sequence.pairs.size() > 1, ground_at_zero};
   for (const ImagePair& pair : sequence.pairs) {
     if (const Status done = AddPair(pair, work, input); !done) {
       return done.error();
