@@ -21,9 +21,10 @@ namespace palace {
 
 /// Points of a survey, X east, Y north, Z up, metres; points that are not finite or not on Earth
 /// are left out, with a warning. The map covers all others: cells of cell_m where given, else of
-/// the settings' size, enlarged with a warning until the map fits and most cells hold a point.
-/// Thesis mode, and bounds that are given, keep the thesis's grid and plain means. No more than
-/// 4096 cells a side.
+/// the settings' size, enlarged with a warning until the map fits, most cells hold a point, and
+/// those that chance left empty leave room for a lander. Degrees, points far from all others and
+/// such gaps are told in warnings. Thesis mode, and bounds that are given, keep the thesis's grid
+/// and plain means. No more than 4096 cells a side.
 Result<ElevationMap> MapOfCloud(const std::vector<Eigen::Vector3d>& survey,
                                 std::optional<double> cell_m, SladSettings slad,
                                 std::vector<std::string>& warnings);
