@@ -28,7 +28,7 @@ double Apart_s(std::int64_t a_us, std::int64_t b_us) {
 void VehicleClock::Begin(std::int64_t offset_us, double arrival_s) {
   known_ = true;
   offset_us_ = offset_us;
-  began_s_ = fitted_s_ = arrival_s;
+  began_s_ = fitted_s_ = followed_s_ = arrival_s;
   fitted_ = 1;
   suspect_.reset();
   windows_.clear();
@@ -129,11 +129,14 @@ VehicleClock::Heard VehicleClock::Step(std::int64_t offset_us, double arrival_s)
 }
 
 void VehicleClock::Follow(std::int64_t offset_us, double arrival_s) {
-  const double passed_s = arrival_s < queue_until_s_ ? 0 : std::max(0.0, arrival_s - fitted_s_);
-  fitted_s_ = arrival_s;
+  const double passed_s = std::max(0.0, arrival_s - followed_s_);
+  fitted_s_ = followed_s_ = arrival_s;
   ++fitted_;
   const double pace = simulated_ ? 1 - kSlowestPace : kDriftLimit;
-  offset_us_ = std::max(offset_us, SaturatedDifference(offset_us_, Microseconds(pace * passed_s)));
+  const std::int64_t fallen_us = SaturatedDifference(offset_us_, Microseconds(pace * passed_s));
+  const double queued_s = arrival_s < queue_until_s_ ? stalled_s_ : 0;
+  const std::int64_t excused_us = SaturatedSum(offset_us, Microseconds(queued_s));
+  offset_us_ = std::max({offset_us, fallen_us, std::min(offset_us_, excused_us)});
   const double delay_s = Seconds(SaturatedDifference(offset_us_, offset_us));
   jitter_s_ = std::isnan(jitter_s_) ? delay_s : jitter_s_ + kJitterShare * (delay_s - jitter_s_);
   if (arrival_s - window_.start_s < kWindow_s) {

@@ -20,7 +20,9 @@
 //
 // The drift comes from the envelope over the last minute. The clock of a simulation keeps the pace
 // of its processor: it may fall behind by almost any rate, and is followed. While this machine
-// stood still nothing was heard, and the envelope does not fall: what queued is late by our fault.
+// stood still nothing was heard: what queued is late by our fault, by as long as it stood at most,
+// and the envelope falls only for what is later than that. (Where it never fell after a stall, a
+// slow simulation on a machine that stalls again and again lagged until it was taken for a step.)
 //
 // No clocks, no threads: every time is passed in. Source: Moon, Skelly and Towsley 1999 (envelope
 // of one-way delays); limits ours.
@@ -74,6 +76,7 @@ class VehicleClock {
   /// nothing of how late the vehicle's clock is.
   void Stalled(double seconds, double now_s) {
     fitted_s_ += seconds;
+    stalled_s_ = now_s < queue_until_s_ ? std::fmax(stalled_s_, seconds) : seconds;
     queue_until_s_ = now_s + kQueue_s;
   }
   /// Whether a stamp can be, nothing else: nothing is learned from it. Before the clock is known
@@ -112,6 +115,8 @@ class VehicleClock {
   std::int64_t StandingDelay_us(const Window& done);
 
   double queue_until_s_ = -std::numeric_limits<double>::infinity();
+  double stalled_s_ = 0;   ///< the longest stall of what may still queue
+  double followed_s_ = 0;  ///< arrival of the vote that was followed last
   bool known_ = false;
   bool voted_ = false;
   bool simulated_ = false;

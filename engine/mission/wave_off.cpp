@@ -57,7 +57,8 @@ WaveOffReport WaveOffNow(const MissionMemory& m, Timestamp now) {
   if (SaidThatItIsDone(m, now)) {
     return {Phase::kDone, heard_s, over};
   }
-  if (HeardSinceWaveOff(m, now) && m.watch.vehicle()->mode == VehicleMode::kAbort) {
+  // A hover that was reported since is believed a little later: until then it is under way.
+  if (HeardSinceWaveOff(m, now) && m.abort_seen) {
     return {m.watch.climb_mps() > kClimbs_mps ? Phase::kClimbs : Phase::kFlies, heard_s};
   }
   if (m.abort_answered_at > m.wave_off_at) {

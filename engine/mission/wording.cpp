@@ -128,7 +128,9 @@ std::string Older(const char* what, double age_s, double limit_s) {
 }
 
 std::string ClockStepped(double step_s) {
-  return WithNumbers("Vehicle clock stepped by %+.1f s", step_s);
+  return WithNumbers(
+      step_s < 0 ? "Vehicle clock stepped back %.1f s" : "Vehicle clock stepped ahead %.1f s",
+      std::abs(step_s));
 }
 
 std::string ImageTimeOff(const NavigationStatus& navigation) {
@@ -373,10 +375,10 @@ std::string WaveOffTold(const WaveOffReport& report) {
       return ". The vehicle accepted it" + (old ? ago + " Its state does not show it." : ".");
     case Phase::kFlies:
       return old ? ". The vehicle was waving off when it was heard last" + ago
-                 : ". Vehicle waves off. Acknowledge when it hovers.";
+                 : ". Vehicle waves off. When it hovers, confirm \"Wave-off complete\".";
     case Phase::kClimbs:
       return old ? ". The vehicle climbed when it was heard last" + ago
-                 : ". Vehicle climbs. Acknowledge when it hovers.";
+                 : ". Vehicle climbs. When it hovers, confirm \"Wave-off complete\".";
     case Phase::kDone:
       break;
   }

@@ -89,7 +89,7 @@ std::string NotTheArmedOne(const MissionStatus& status);
 
 /// "stale, 1.8 s" or "never received".
 std::string Age(double age_s);
-/// "Vehicle clock stepped by +5.0 s".
+/// "Vehicle clock stepped ahead 5.0 s".
 std::string ClockStepped(double step_s);
 /// "Left camera stale, 1.8 s"; empty when the age is known and within the limit.
 std::string Older(const char* what, double age_s, double limit_s);
@@ -153,7 +153,7 @@ std::string Descends(std::string_view site);
 std::string OnTheGround(std::string_view site);
 /// "Vehicle says it is on the ground, 7.7 m from the centre of site A and 6.1 m above it".
 std::string NotAtSite(std::string_view site, double miss_m, double height_m);
-/// What became of a wave-off: ". Vehicle climbs. Acknowledge when it hovers."
+/// What became of a wave-off: ". Vehicle climbs. When it hovers, confirm ..."
 std::string WaveOffTold(const WaveOffReport& report);
 /// "Ground of site A not measured for 2.1 s".
 std::string GroundNotMeasured(const std::string& letter, double age_s);

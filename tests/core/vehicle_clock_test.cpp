@@ -296,6 +296,26 @@ TEST(VehicleClock, TheClockOfASimulationKeepsThePaceOfItsComputer) {
   }
 }
 
+// A busy computer runs the simulation slow and this station in bursts: both at once are no step.
+TEST(VehicleClock, ASlowSimulationIsFollowedThroughStallsAgainAndAgain) {
+  for (const double pace : {0.3, 0.5}) {
+    SCOPED_TRACE(pace);
+    VehicleClock clock;
+    clock.FollowSimulation(true);
+    StallWatch watch;
+    double sent = 0;
+    for (double turn_s = 50; turn_s < 150; turn_s += 0.5) {  // each of them is a stall
+      if (const double stall_s = watch.Turn(turn_s); stall_s > 0) {
+        clock.Stalled(stall_s, turn_s);
+      }
+      for (; 50 + sent / pace <= turn_s; sent += 0.02) {
+        ASSERT_EQ(clock.Hear(AddSeconds({}, 1000 + sent), turn_s, true), Heard::kFits) << turn_s;
+      }
+      EXPECT_LT(SecondsBetween(AddSeconds({}, 1000 + sent), clock.At(turn_s)), 1) << turn_s;
+    }
+  }
+}
+
 TEST(StallWatch, TellsGapsOfTheLoopThatIsNeverLong) {
   StallWatch watch;
   EXPECT_EQ(watch.Turn(100), 0);

@@ -325,7 +325,7 @@ TEST(AlarmTable, AStepOfTheClockIsNotTheForgersAndTellsItsSize) {
   facts.clock_stepped = true;
   facts.clock_step_s = -5;
   EXPECT_THAT(TextOf(AlarmTable()[static_cast<std::size_t>(AlarmId::kClock)], facts),
-              testing::StartsWith("Vehicle clock stepped by -5.0 s."));
+              testing::StartsWith("Vehicle clock stepped back 5.0 s."));
 }
 
 }  // namespace

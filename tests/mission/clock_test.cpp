@@ -1,5 +1,6 @@
 // Clocks in the mission: steps, stalls, restarts, and figures that nobody measured for long.
 #include <algorithm>
+#include <cmath>
 
 #include "engine/mission/alarms/alarms.h"
 #include "engine/mission/wording.h"
@@ -40,7 +41,8 @@ TEST(Clock, AStepIsNamedWithItsSizeAndDropsWhatWasSelected) {
       const Alarm* alarm = Find(rig, AlarmId::kClock);
       ASSERT_NE(alarm, nullptr);
       char size[32];
-      std::snprintf(size, sizeof size, "by %+.1f s", step_s);
+      std::snprintf(size, sizeof size, step_s < 0 ? "back %.1f s" : "ahead %.1f s",
+                    std::abs(step_s));
       EXPECT_NE(alarm->text.find(size), std::string::npos) << alarm->text;
       EXPECT_TRUE(std::any_of(
           rig.mission.events().begin(), rig.mission.events().end(),

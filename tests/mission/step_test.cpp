@@ -83,7 +83,7 @@ INSTANTIATE_TEST_SUITE_P(
         Row{"ArmedOnReboot", S::kArmed, [](MissionRig& r) { ++r.vehicle.boot_id; }, S::kProposed,
             "Vehicle restarted", kNothing},
         Row{"ArmedOnClock", S::kArmed, [](MissionRig& r) { r.clock_offset_us += 3'000'000; },
-            S::kProposed, "Vehicle clock stepped by +3.0 s", kNothing},
+            S::kProposed, "Vehicle clock stepped ahead 3.0 s", kNothing},
         Row{"ArmedStays", S::kArmed, [](MissionRig&) {}, S::kArmed, "Site A selected", kNothing},
         Row{"ApprovedOnLimits", S::kApproved, [](MissionRig& r) { r.settings_hash ^= 1; }, S::kHold,
             "Limits changed", kHold},

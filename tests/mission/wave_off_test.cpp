@@ -41,6 +41,24 @@ TEST(WaveOffTold, GoesFromSentOverClimbingToHovering) {
   EXPECT_NE(rig.AlarmText().find("Vehicle hovers."), std::string::npos) << rig.AlarmText();
 }
 
+// One that need not climb hovers again sooner than its hover is believed: nothing goes back.
+TEST(WaveOffTold, NeverGoesBackToAcceptedOnceItIsUnderWay) {
+  MissionRig hovering;
+  hovering.vehicle.climb_mps = 0;
+  hovering.Arm();
+  ASSERT_TRUE(hovering.Do(WaveOff{}).ok());
+  hovering.Run(0.5);
+  const WaveOffReport& report = hovering.mission.status().wave_off;
+  ASSERT_EQ(report.phase, Phase::kFlies);
+  hovering.vehicle.Set(VehicleMode::kHover);
+  for (int step = 0; step < 10; ++step) {
+    hovering.Step();
+    EXPECT_EQ(report.phase, Phase::kFlies) << step;
+  }
+  hovering.Run(2);
+  EXPECT_EQ(report.phase, Phase::kDone);
+}
+
 // It is as high as it goes: what it flies is no climb.
 TEST(WaveOffTold, OfAVehicleThatDoesNotRiseNoClimbIsTold) {
   MissionRig hovering;
@@ -50,7 +68,8 @@ TEST(WaveOffTold, OfAVehicleThatDoesNotRiseNoClimbIsTold) {
   hovering.Run(0.5);
   const WaveOffReport& report = hovering.mission.status().wave_off;
   EXPECT_EQ(report.phase, Phase::kFlies);
-  EXPECT_EQ(words::WaveOffTold(report), ". Vehicle waves off. Acknowledge when it hovers.");
+  EXPECT_EQ(words::WaveOffTold(report),
+            ". Vehicle waves off. When it hovers, confirm \"Wave-off complete\".");
   hovering.vehicle.climb_mps = 0.4;
   hovering.Run(0.5);
   EXPECT_EQ(report.phase, Phase::kClimbs);

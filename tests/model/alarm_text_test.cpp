@@ -16,8 +16,8 @@ Alarm Of(AlarmLevel level, bool active = true, bool acknowledged = false) {
 TEST(AlarmSubject, IsWhatStandsBeforeLimitAndAdvice) {
   const std::pair<const char*, const char*> rows[] = {
       {"GPS horizontal error 2.6 m, limit 2.0 m. Landing on vision.", "GPS horizontal error 2.6 m"},
-      {"Vehicle clock stepped by +2.0 s. What was selected is dropped.",
-       "Vehicle clock stepped by +2.0 s"},
+      {"Vehicle clock stepped ahead 2.0 s. What was selected is dropped.",
+       "Vehicle clock stepped ahead 2.0 s"},
       {"A second sender is refused: udpm 3.", "A second sender is refused"},
       {"Attitude invalid.", "Attitude invalid"},
       {"", ""}};
