@@ -106,7 +106,7 @@ std::optional<ProposedLook> LookAgain(const MissionMemory& m, Timestamp now) {
 
 /// `why_none`: said where there is none.
 std::optional<ProposedLook> LookElsewhere(const MissionMemory& m, Timestamp now,
-                                          std::string& why_none) {
+                                          const FlyTo* before, std::string& why_none) {
   const SearchMemory& search = m.search;
   if (!search.view || !m.status.seen) {
     why_none = "The height of the ground is not known";
@@ -116,7 +116,7 @@ std::optional<ProposedLook> LookElsewhere(const MissionMemory& m, Timestamp now,
   const SearchGround ground{*m.status.seen, *search.view, area};
   const FlyTo here{m.facts.p_WB, m.facts.yaw_rad};
   const auto may_fly = [&](const FlyTo& to) { return WhyNotThere(m, to, now).empty(); };
-  const std::optional<SearchLook> look = NextLook(ground, here, may_fly);
+  const std::optional<SearchLook> look = NextLook(ground, here, may_fly, before);
   const double left_m2 = LeftToSee_m2(ground);
   if (look) {
     why_none = WhyNoEnergy(m, look->takes_s);
@@ -188,6 +188,9 @@ void PlanSearch(MissionMemory& m, Timestamp now) {
   }
   m.search.planned_at = now;
   status.why_no_look.clear();
+  const std::optional<FlyTo> before =
+      status.next_look ? std::optional(FlyTo{status.next_look->p_WB, status.next_look->heading_rad})
+                       : std::nullopt;
   status.next_look = LookForAir(m, now);
   if (armed) {
     return;
@@ -200,7 +203,7 @@ void PlanSearch(MissionMemory& m, Timestamp now) {
     status.next_look = LookAgain(m, now);
   }
   if (!status.next_look) {
-    status.next_look = LookElsewhere(m, now, status.why_no_look);
+    status.next_look = LookElsewhere(m, now, before ? &*before : nullptr, status.why_no_look);
   }
 }
 

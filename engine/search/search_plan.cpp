@@ -66,6 +66,13 @@ struct Weighed {
   double worth = 0;
 };
 
+/// As near to each other as two of one hover's looks are not.
+bool IsSameLook(const FlyTo& a, const FlyTo& b) {
+  constexpr double kNear_m = 2;
+  return (a.p_WB - b.p_WB).norm() < kNear_m &&
+         std::abs(WrapAngle(a.heading_rad - b.heading_rad)) < kEighth_rad / 2;
+}
+
 }  // namespace
 
 double LeftToSee_m2(const SearchGround& ground) {
@@ -78,7 +85,8 @@ double LeftToSee_m2(const SearchGround& ground) {
 }
 
 std::optional<SearchLook> NextLook(const SearchGround& g, const FlyTo& now,
-                                   const std::function<bool(const FlyTo&)>& may_fly) {
+                                   const std::function<bool(const FlyTo&)>& may_fly,
+                                   const FlyTo* before) {
   const Grid<std::uint8_t> left = SquaresLeft(g);
   const GridGeometry& squares = g.seen.squares;
   const double below_m = HeightFromDown(now.p_WB.z()) - g.seen.ground_m;
@@ -108,7 +116,8 @@ std::optional<SearchLook> NextLook(const SearchGround& g, const FlyTo& now,
       if (new_m2 >= kLeastNew_m2) {
         const FlyTo to{p_WB, heading_rad[k]};
         const double takes_s = Seconds(g, now, to);
-        looks.push_back({{to, new_m2, takes_s}, new_m2 / takes_s});
+        const double stays = before != nullptr && IsSameLook(to, *before) ? kBetter : 1;
+        looks.push_back({{to, new_m2, takes_s}, stays * new_m2 / takes_s});
       }
     }
   }

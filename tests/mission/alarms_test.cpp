@@ -75,6 +75,35 @@ TEST(Alarms, OfWhatIsOverTheNewestStandsFirstAndBehindWhatStands) {
                                          AlarmId::kLink}));
 }
 
+TEST(Alarms, OfWhatStandsTheNewestThatNobodyAnsweredStandsFirst) {
+  AlarmBoard board;
+  Timestamp now{0};
+  std::vector<AlarmCondition> standing;
+  const auto add = [&](AlarmId id, AlarmLevel level) {
+    standing.push_back({id, level, true, "Stands."});
+    for (int sample = 0; sample < 4; ++sample) {
+      now = AddSeconds(now, 0.1);
+      board.Update(standing, now);
+    }
+  };
+  const auto order = [&] {
+    std::vector<AlarmId> ids;
+    for (const Alarm& alarm : board.Shown()) {
+      ids.push_back(alarm.kind);
+    }
+    return ids;
+  };
+  add(AlarmId::kEnergyLow, AlarmLevel::kCaution);
+  add(AlarmId::kImageTime, AlarmLevel::kWarning);
+  add(AlarmId::kHold, AlarmLevel::kCaution);
+  add(AlarmId::kCameraBlank, AlarmLevel::kCaution);
+  EXPECT_EQ(order(), (std::vector<AlarmId>{AlarmId::kImageTime, AlarmId::kCameraBlank,
+                                           AlarmId::kHold, AlarmId::kEnergyLow}));
+  EXPECT_TRUE(board.Acknowledge(AlarmId::kCameraBlank));
+  EXPECT_EQ(order(), (std::vector<AlarmId>{AlarmId::kImageTime, AlarmId::kHold, AlarmId::kEnergyLow,
+                                           AlarmId::kCameraBlank}));
+}
+
 /// Off the path by so much; NaN: not beyond the limit.
 void FeedFigures(AlarmBoard& board, std::initializer_list<double> figures, bool less = false) {
   for (const double figure : figures) {

@@ -82,6 +82,36 @@ TEST(SearchPlan, ATurnComesBeforeAWayAndALookIsNotProposedTwice) {
   EXPECT_FALSE(next->to.p_WB == look->to.p_WB && next->to.heading_rad == look->to.heading_rad);
 }
 
+// A hover's heading wavers, and with it which of two equal turns shows a little more.
+TEST(SearchPlan, WhatWasProposedStaysUntilAnotherIsClearlyBetter) {
+  Search search({{0, 0, -15}, 0});
+  search.Look();
+  const auto first = search.Next();
+  ASSERT_TRUE(first.has_value());
+  int left = 0, right = 0, changed = 0;
+  FlyTo before = first->to;
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> waver(-Rad(4), Rad(4));
+  for (int plan = 0; plan < 40; ++plan) {
+    search.here.heading_rad = waver(random);
+    const auto fresh = search.Next();
+    const auto kept = NextLook(search.Ground(), search.here, Always, &before);
+    ASSERT_TRUE(fresh && kept);
+    (WrapAngle(fresh->to.heading_rad - search.here.heading_rad) > 0 ? right : left) += 1;
+    changed += std::abs(WrapAngle(kept->to.heading_rad - before.heading_rad)) > Rad(20);
+    before = kept->to;
+  }
+  EXPECT_GT(left, 0) << "without it the proposal flips";
+  EXPECT_GT(right, 0);
+  EXPECT_EQ(changed, 0);
+  // Once that ground was looked at, it is not kept.
+  search.here.heading_rad = before.heading_rad;
+  search.Look();
+  const auto next = NextLook(search.Ground(), search.here, Always, &before);
+  ASSERT_TRUE(next.has_value());
+  EXPECT_GT(std::abs(WrapAngle(next->to.heading_rad - before.heading_rad)), Rad(20));
+}
+
 TEST(SearchPlan, EndsOnlyWhenTheAreaWasLookedAt) {
   std::mt19937_64 random(20261128);
   std::cout << "seed 20261128\n";

@@ -116,12 +116,10 @@ std::vector<Alarm> AlarmBoard::Shown() const {
     }
   }
   std::stable_sort(shown.begin(), shown.end(), [](const Alarm& a, const Alarm& b) {
-    // What stands comes before what is over and only waits for its acknowledgement; of that the
-    // newest says what the flight comes from.
-    return a.active != b.active ? a.active
-           : a.level != b.level ? a.level > b.level
-           : a.active           ? a.since < b.since
-                                : b.since < a.since;
+    return a.active != b.active               ? a.active
+           : a.level != b.level               ? a.level > b.level
+           : a.acknowledged != b.acknowledged ? b.acknowledged
+                                              : b.since < a.since;
   });
   return shown;
 }

@@ -39,7 +39,8 @@ class AlarmBoard {
   std::string LastText(AlarmId id) const;
   /// Text of the worst warning nobody acknowledged, empty when there is none.
   std::string UnacknowledgedWarning() const;
-  /// What stands before what is over, then worst first, then oldest first.
+  /// What stands before what is over, then worst first; of that what nobody acknowledged, then the
+  /// newest: one sentence has room in the strip, and an old caution must not hide a new one.
   std::vector<Alarm> Shown() const;
   /// Alarms that came on in the last Update.
   const std::vector<Alarm>& raised() const { return raised_; }
