@@ -9,6 +9,7 @@
 
 #include "engine/camera/files/poses_file.h"
 #include "engine/capture/picture_file.h"
+#include "engine/capture/picture_order.h"
 #include "engine/capture/picture_size.h"
 #include "engine/capture/playback_turns.h"
 
@@ -106,7 +107,7 @@ std::vector<fs::path> ExpandPattern(const fs::path& folder, const std::string& p
       files.push_back(entry->path());
     }
   }
-  std::sort(files.begin(), files.end());
+  std::sort(files.begin(), files.end(), IsEarlierName);
   return files;
 }
 

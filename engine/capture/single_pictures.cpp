@@ -11,6 +11,7 @@
 
 #include "engine/capture/camera_address.h"
 #include "engine/capture/picture_file.h"
+#include "engine/capture/picture_order.h"
 
 namespace palace {
 namespace {
@@ -43,7 +44,7 @@ Result<SinglePictures> OpenFolder(const fs::path& folder) {
     return InvalidError(folder.string() +
                         ": holds no pictures; give a folder of PNG, JPEG, TIFF or PGM files");
   }
-  std::sort(files.begin(), files.end());
+  std::sort(files.begin(), files.end(), IsEarlierName);
   SinglePictures pictures;
   pictures.name = folder.string();
   pictures.device.frame_count = files.size();

@@ -40,6 +40,19 @@ TEST_F(SinglePicturesTest, AFolderGivesItsPicturesInOrderOfName) {
   EXPECT_EQ(pictures->device.read().error().code, ErrorCode::kEnd);
 }
 
+TEST_F(SinglePicturesTest, NumbersInNamesCountAsNumbers) {
+  std::filesystem::create_directories(folder_ / "in");
+  for (const int number : {1, 2, 9, 10, 11, 100}) {
+    ASSERT_TRUE(WriteGreyPicture(folder_ / "in" / ("f" + std::to_string(number) + ".png"),
+                                 ImageU8(8, 8, static_cast<std::uint8_t>(number))));
+  }
+  auto pictures = Open("in");
+  ASSERT_TRUE(pictures.ok()) << pictures.error().message;
+  for (const int number : {1, 2, 9, 10, 11, 100}) {
+    EXPECT_EQ(pictures->device.read()->grey.at(4, 4), number);
+  }
+}
+
 TEST_F(SinglePicturesTest, AFilmGivesItsPicturesWithTheirTimes) {
   film::Write(folder_ / "film.avi", {.pictures = 3, .rate_hz = 25});
   auto pictures = Open("film.avi");
