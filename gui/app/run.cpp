@@ -256,7 +256,7 @@ class StationRun {
       }
     });
     Intents intents = view_->Draw(snapshot, session_.record.get(), state_, backend.fonts(), frame);
-    backend.EndFrame(pixels);
+    backend.EndFrame(view_->background(), pixels);
     return intents;
   }
 

@@ -38,6 +38,8 @@ class View {
   /// Draws into the current ImGui frame. `snapshot` null: nothing has arrived yet.
   Intents Draw(const EngineSnapshot* snapshot, const FlightRecord* record, UiState& state,
                const Fonts& fonts, const ViewFrame& frame);
+  /// The colour behind all panels, which the window is cleared with.
+  ImU32 background() const { return style_.palette.window; }
   /// What the last frame drew, by name.
   const ItemRecord& items() const { return items_; }
   /// The scale that fits a window of this size, at most the wanted one.

@@ -167,7 +167,6 @@ void DrawStatusBarPanel(const EngineSnapshot& snap, const FrameLayout& layout,
 
 void DrawFrameBar(const EngineSnapshot& snap, const FrameLayout& layout, FrameState& state,
                   UiFrame& ui) {
-  FillRect(Canvas(), layout.window, ui.style.palette.window);
   ui.tab.group = kFrameTabs;
   DrawTopBarPanel(snap, layout, state, ui);
   DrawAlarmStripPanel(snap, layout.alarm_strip, state, ui);

@@ -91,7 +91,7 @@ void ImGuiBackend::BeginFrame(double delta_s, const std::function<void()>& feed)
   ImGui::NewFrame();
 }
 
-void ImGuiBackend::EndFrame(bool draw) {
+void ImGuiBackend::EndFrame(std::uint32_t background, bool draw) {
   ImGui::Render();
   if (!draw) {
     return;
@@ -102,7 +102,8 @@ void ImGuiBackend::EndFrame(bool draw) {
     offscreen_->BeginFrame();
   }
   glDisable(GL_SCISSOR_TEST);
-  glClearColor(0x09 / 255.0F, 0x0C / 255.0F, 0x10 / 255.0F, 1);
+  const ImVec4 clear = ImGui::ColorConvertU32ToFloat4(background);
+  glClearColor(clear.x, clear.y, clear.z, 1);
   glClear(GL_COLOR_BUFFER_BIT);
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
 }

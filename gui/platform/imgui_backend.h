@@ -1,6 +1,7 @@
 // ImGuiBackend: the ImGui context and its drawing, over a window or offscreen.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 
@@ -16,6 +17,7 @@ class Offscreen;
 /// file stay off.
 class ImGuiBackend {
  public:
+  static constexpr std::uint32_t kDarkWindow = 0xFF100C09;
   /// Input, clipboard, cursor and display size come from GLFW.
   static Result<std::unique_ptr<ImGuiBackend>> ForWindow(Window& window, double ui_scale);
   /// The caller feeds ImGui::GetIO() (mouse, keys, DeltaTime) before BeginFrame.
@@ -28,8 +30,9 @@ class ImGuiBackend {
   /// `feed` may replace the backend's input before ImGui reads it (scripts).
   void BeginFrame(double delta_s = 0, const std::function<void()>& feed = {});
   /// Ends the frame and draws it into the window or the offscreen framebuffer, after clearing it
-  /// with the window colour #090C10. `draw` false ends it without making pixels.
-  void EndFrame(bool draw = true);
+  /// with `background` (0xAABBGGRR): a fill as large as the window would cost as much as a third of
+  /// all pixels where they are drawn in software. `draw` false ends it without making pixels.
+  void EndFrame(std::uint32_t background = kDarkWindow, bool draw = true);
   /// Rebuilds the font atlas at another scale; between frames only. The fonts move: take them anew.
   void SetUiScale(double ui_scale);
   double ui_scale() const { return ui_scale_; }

@@ -40,7 +40,7 @@ void DrawWindow(benchmark::State& state, MissionState mission, int width_px, int
     (*view)->Upload(snapshot, frame, ui, kFrame_s);
     (*backend)->BeginFrame(kFrame_s);
     (*view)->Draw(&snapshot, nullptr, ui, (*backend)->fonts(), frame);
-    (*backend)->EndFrame();
+    (*backend)->EndFrame((*view)->background());
     glFinish();
   };
   for (int i = 0; i < 60; ++i) {  // until the 3-D view stands still

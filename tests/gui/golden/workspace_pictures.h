@@ -198,7 +198,7 @@ inline ImageRgba Draw(const Shot& shot, std::string& why) {
     }
     DrawFrameOverlay(snap, layout.frame, frame, ui);
     EndCanvas(ui);
-    backend.value()->EndFrame();
+    backend.value()->EndFrame(style.palette.window);
   }
   return offscreen.value()->ReadPixels();
 }

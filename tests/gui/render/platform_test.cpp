@@ -1,5 +1,6 @@
 // The offscreen screen: ImGui without any window, fonts, screenshots.
 #include <filesystem>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <imgui.h>
@@ -37,6 +38,33 @@ TEST(OffscreenTest, ImGuiDrawsWithoutAWindowAndFollowsASize) {
   picture = draw();
   EXPECT_EQ(picture.width(), 400);
   EXPECT_EQ(picture.at(30, 30), (Rgba8{255, 0, 0, 255}));
+}
+
+/// The background is cleared, not drawn: the same pixels as a fill over the whole window.
+TEST(OffscreenTest, ABackgroundIsWhatAFillOfItWouldBe) {
+  Result<std::unique_ptr<Offscreen>> opened = Offscreen::Open(64, 48);
+  PALACE_REQUIRE_GL(opened);
+  const std::unique_ptr<Offscreen> screen = std::move(opened).value();
+  auto backend = ImGuiBackend::ForOffscreen(*screen, 1);
+  ASSERT_TRUE(backend.ok()) << backend.error().message;
+  const auto draw = [&](ImU32 background, ImU32 fill) {
+    (*backend)->BeginFrame(1 / 60.0);
+    if (fill != 0) {
+      ImGui::GetBackgroundDrawList()->AddRectFilled({0, 0}, {64, 48}, fill);
+    }
+    (*backend)->EndFrame(background);
+    return screen->ReadPixels();
+  };
+  // The windows of the three palettes, and every step that eight bits can round.
+  std::vector<ImU32> colours = {IM_COL32(0x09, 0x0C, 0x10, 255), IM_COL32(0xE3, 0xE7, 0xEC, 255),
+                                IM_COL32(0, 0, 0, 255)};
+  for (int level = 0; level < 256; ++level) {
+    colours.push_back(IM_COL32(level, 255 - level, level / 2, 255));
+  }
+  for (const ImU32 colour : colours) {
+    EXPECT_EQ(draw(colour, 0).pixels(), draw(IM_COL32(255, 0, 255, 255), colour).pixels())
+        << std::hex << colour;
+  }
 }
 
 TEST(OffscreenTest, FontsScaleAndHoldTheirGlyphs) {
