@@ -48,14 +48,14 @@ void RunForwardsAndBackwards(const cv::Mat& warped, const cv::Mat& current,
   cv::buildOpticalFlowPyramid(current, current_pyramid, window, options.pyramid_levels, false);
   std::vector<unsigned char> forwards;
   std::vector<unsigned char> backwards;
-  std::vector<float> error;
+  // Errors are not asked for: they would be measured over every window once more.
   cv::calcOpticalFlowPyrLK(warped_pyramid, current_pyramid, batch.predicted, batch.seen, forwards,
-                           error, window, options.pyramid_levels, stop,
+                           cv::noArray(), window, options.pyramid_levels, stop,
                            cv::OPTFLOW_USE_INITIAL_FLOW, 1e-4);
   std::vector<cv::Point2f> returned = batch.predicted;
   // The way back starts at the answer, so the full picture suffices to expose a false match.
-  cv::calcOpticalFlowPyrLK(current_pyramid, warped_pyramid, batch.seen, returned, backwards, error,
-                           window, 0, stop, cv::OPTFLOW_USE_INITIAL_FLOW, 1e-4);
+  cv::calcOpticalFlowPyrLK(current_pyramid, warped_pyramid, batch.seen, returned, backwards,
+                           cv::noArray(), window, 0, stop, cv::OPTFLOW_USE_INITIAL_FLOW, 1e-4);
   batch.found.resize(batch.seen.size());
   for (std::size_t i = 0; i < batch.seen.size(); ++i) {
     const cv::Point2f gap = returned[i] - batch.predicted[i];
