@@ -70,15 +70,16 @@ float ReferenceOf(const FootprintPlanes& planes) {
 
 void FillLayers(const ElevationMap& map, const FootprintPlanes& planes, float reference,
                 Layers& layers) {
-  const float cell = static_cast<float>(map.geometry.cell_m);
   const int cols = map.geometry.cols;
   ForEach(map.geometry.rows, [&](int r) {
+    // Values of the row's own: one that is captured might be what a row of floats writes.
+    const float cell = static_cast<float>(map.geometry.cell_m), base = reference;
     const CellState* state = map.state.row(r);
     const float *height_m = map.height_m.row(r), *variance_m2 = map.variance_m2.row(r);
     float *height = layers.height.row(r), *noise2 = layers.noise2.row(r);
     for (int c = 0; c < cols; ++c) {
       const bool measured = state[c] == CellState::kMeasured;
-      height[c] = measured ? height_m[c] - reference : 0.0F;
+      height[c] = measured ? height_m[c] - base : 0.0F;
       noise2[c] = measured ? kNoise2 * variance_m2[c] : kBeyondHeights;
     }
     const float* plane_m = planes.plane.height_m.row(r);
@@ -87,7 +88,7 @@ void FillLayers(const ElevationMap& map, const FootprintPlanes& planes, float re
     float *plane = layers.plane.row(r), *east = layers.east.row(r), *south = layers.south.row(r);
     for (int c = 0; c < cols; ++c) {
       const bool spanned = !std::isnan(plane_m[c]);
-      plane[c] = spanned ? plane_m[c] - reference : 0.0F;
+      plane[c] = spanned ? plane_m[c] - base : 0.0F;
       east[c] = spanned ? east_gradient[c] * cell : 0.0F;
       south[c] = spanned ? -north_gradient[c] * cell : 0.0F;
     }
@@ -145,11 +146,12 @@ void DenoiseHeights(const ElevationMap& map, const FootprintPlanes& planes, floa
   RimmedLayer height(rows, cols, 1, 0.0F), known(rows, cols, 1, 0.0F);
   ForEach(rows, [&](int r) {
     const float *z = map.height_m.row(r), *plane_m = planes.plane.height_m.row(r);
+    const float base = reference;
     float* __restrict__ above = height.row(r);
     float* __restrict__ is_known = known.row(r);
     for (int c = 0; c < cols; ++c) {
       const bool both = !std::isnan(z[c]) && !std::isnan(plane_m[c]);
-      above[c] = both ? z[c] - reference : 0.0F;
+      above[c] = both ? z[c] - base : 0.0F;
       is_known[c] = both ? 1.0F : 0.0F;
     }
     std::copy_n(is_known, cols, out.known.row(r));
@@ -228,12 +230,12 @@ void FindCellFigures(const ElevationMap& map, const Lander& lander, const Footpr
                      TerrainFigures& figures) {
   // A rock covers several cells, whose noise averages as far as it is independent.
   const double rock_cells = std::pow(lander.max_rock_size_m / map.geometry.cell_m, 2);
-  const float averaging =
-      static_cast<float>(1 / std::sqrt(std::max(1.0, rock_cells / kCorrelatedCells)));
-  const float attitude2 = static_cast<float>(map.attitude_sigma_rad * map.attitude_sigma_rad);
+  const double averaging_of_rock = 1 / std::sqrt(std::max(1.0, rock_cells / kCorrelatedCells));
   const int cols = map.geometry.cols;
   ForEach(map.geometry.rows, [&](int r) {
     const CellState* state = map.state.row(r);
+    const float averaging = static_cast<float>(averaging_of_rock);
+    const float attitude2 = static_cast<float>(map.attitude_sigma_rad * map.attitude_sigma_rad);
     const float* off = planes.plane.residual_m.row(r);
     std::uint8_t* __restrict__ measured = figures.measured.row(r);
     std::vector<float> known(static_cast<std::size_t>(cols));  // 1 where there are figures, or 0
