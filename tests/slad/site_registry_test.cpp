@@ -333,6 +333,20 @@ TEST(SiteRegistry, ARecordedFlightGoesOnWithItsPlaces) {
   EXPECT_EQ(Find(blocked.See(WithBox(Flat(), -2.5, 3.1, 0.6, 1)), "K"), nullptr);
 }
 
+TEST(SiteRegistry, WhatARecordDoesNotListGetsLettersAndIdsThatItDoesNotUse) {
+  Hover hover;
+  hover.registry_.GoOnWith({{2, "A", {-4, 3}}}, hover.settings);
+  std::set<std::string> letters;
+  std::set<std::uint64_t> ids;
+  const SiteSelection list = hover.See(Flat());
+  for (const LandingSite& site : list.sites) {
+    EXPECT_TRUE(letters.insert(site.letter).second) << site.letter;
+    EXPECT_TRUE(ids.insert(site.id).second) << site.id;
+  }
+  EXPECT_EQ(letters.count("A"), 1U);
+  EXPECT_GE(letters.size(), 2U);
+}
+
 TEST(SiteRegistry, TheSameMapAgainAndOtherLimitsOnACopyChangeNothing) {
   Hover hover;
   const SiteSelection before = hover.SeeOften(5, Flat());

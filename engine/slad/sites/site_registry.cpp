@@ -95,6 +95,7 @@ void SiteRegistry::GoOnWith(const std::vector<RecordedPlace>& places,
                        .rank = static_cast<int>(places_.size()),
                        .run = kBetterAfter_maps,  // nobody says how long it has stood
                        .beaten = LastingClaim(kBetterAfter_maps)});
+    next_id_ = std::max(next_id_, place.id + 1);
   }
   time_ = Timestamp{};  // older than any map: the next is not the same again
   settings_ = settings;
@@ -366,6 +367,11 @@ void SiteRegistry::Lose(const Map& now, const std::vector<Found>& found) {
   }
 }
 
+bool SiteRegistry::HasLetter(const std::string& letter) const {
+  return std::any_of(places_.begin(), places_.end(),
+                     [&](const Place& place) { return place.letter == letter; });
+}
+
 /// Id and letter of the place that moved here, or new ones.
 void SiteRegistry::Name(const Map& now, Place& fresh) {
   Place* moved = nullptr;
@@ -384,7 +390,11 @@ void SiteRegistry::Name(const Map& now, Place& fresh) {
     *moved = {};
   } else {
     fresh.id = next_id_++;
-    fresh.letter = SiteLetter(static_cast<std::size_t>(named_++));
+    std::string letter;
+    do {
+      letter = SiteLetter(static_cast<std::size_t>(named_++));
+    } while (HasLetter(letter));  // of a recorded flight nobody counted those before
+    fresh.letter = letter;
   }
 }
 

@@ -101,6 +101,7 @@ class SiteRegistry {
   std::vector<Found> Ranked(const Map& now, std::vector<Found> found, double noise) const;
   std::vector<Found> List(const Map& now, std::vector<Found> ranked);
   void Name(const Map& now, Place& fresh);
+  bool HasLetter(const std::string& letter) const;
   void StartMap(const Map& now);
   void Lose(const Map& now, const std::vector<Found>& found);
   bool IsRipe(const Map& now, const Place& place) const;
