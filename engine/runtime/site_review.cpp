@@ -20,8 +20,9 @@ SiteReview ReviewSite(const LandingSite& site, const std::optional<LandingSite>&
   const SiteFinding found = JudgeRecheck(now, {}, {site.confirmed, site.clearance_m}, settings);
   review.kept = found.holds();
   if (found.finding == Finding::kGood) {
-    review.reason += WithNumbers(" has %.1f m to the nearest hazard, min %.1f m.",
-                                 now->safe_distance_m, now->clear_radius_m);
+    review.reason +=
+        WithNumbers(", where the flight had it, has %.1f m to the nearest hazard, min %.1f m.",
+                    now->safe_distance_m, now->clear_radius_m);
   } else {
     review.reason += ": " + found.reason + ".";
   }

@@ -94,8 +94,9 @@ TrackerConsensus ConsensusOf(const std::vector<TrackerMember>& members) {
   }
   const int kinds = Kinds(members, consensus.site_pixel);
   if (consensus.agreeing < kMinAgreeing) {
-    consensus.why_not_trusted =
-        WithNumbers("%.0f trackers agree, min %.0f", consensus.agreeing, kMinAgreeing);
+    consensus.why_not_trusted = WithNumbers(
+        consensus.agreeing == 1 ? "%.0f tracker agrees, min %.0f" : "%.0f trackers agree, min %.0f",
+        consensus.agreeing, kMinAgreeing);
   } else if (kinds < 2) {
     consensus.why_not_trusted = "trackers of one kind agree, min 2 kinds";
   } else if (agreeing_weight < 0.5 * total) {

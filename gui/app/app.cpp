@@ -128,6 +128,8 @@ int RunApp(const AppOptions& options) {
       return end.exit_code;
     }
     now = OptionsOfNext(options, *end.next);
+    now.width_px = end.width_px;
+    now.height_px = end.height_px;
   }
 }
 

@@ -30,9 +30,9 @@ LeaveAnswer DrawLeaveDialog(const Rect& body, const std::string& what_the_vehicl
     return Rect{x + static_cast<float>(place) * (each + gap), box.bottom() - s.Px(48), each,
                 s.Px(32)};
   };
-  ButtonLook first;
-  first.active = true;
-  const bool waves_off = DrawButton(ui, "leave/wave_off", button(0), "Wave off, then stay", first);
+  // None looks like the one that Enter presses: nothing is pressed by a key that was meant for the
+  // flight.
+  const bool waves_off = DrawButton(ui, "leave/wave_off", button(0), "Wave off, then stay");
   if (waves_off) {
     ui.intents.push_back(CommandAction(WaveOff{}));
   }

@@ -388,7 +388,8 @@ StationEnd RunStation(const AppOptions& options, const Termination& termination,
     std::fflush(nullptr);
     std::_Exit(code);  // its thread still works on what it has
   }
-  return {code != 0 ? code : termination.exit_code(), run.next(), run.script_left()};
+  return {code != 0 ? code : termination.exit_code(), run.next(), run.script_left(),
+          (*surface)->width_px(), (*surface)->height_px()};
 }
 
 }  // namespace palace

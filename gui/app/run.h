@@ -19,6 +19,7 @@ struct StationEnd {
   int exit_code = 0;
   std::optional<NextFlight> next{};       ///< what the operator asked for after it
   std::vector<ScriptLine> script_left{};  ///< lines that are for what comes next
+  int width_px = 0, height_px = 0;        ///< of the window as it was; 0: it never opened
 };
 
 /// Input, engine, user interface, commands, frame after frame, until somebody quits or the script

@@ -77,8 +77,9 @@ float DrawShelf(FrameState& state, float right, float y, UiFrame& ui) {
   return button.x + s.Px(12);
 }
 
-/// How many alarms there are, with the shape of the worst that stands; where the sentence beside it
-/// is the only one, `alone` in its place. Drawn right-aligned. Returns the left edge.
+/// How many alarms there are, with the shape of the worst that stands or waits for an answer; where
+/// the sentence beside it is the only one, `alone` in its place. Drawn right-aligned. Returns the
+/// left edge.
 float DrawCount(const std::vector<Alarm>& all, const char* alone, float right, float y,
                 UiFrame& ui) {
   const Style& s = ui.style;
@@ -87,7 +88,12 @@ float DrawCount(const std::vector<Alarm>& all, const char* alone, float right, f
   x -= DrawText(ui, s.body, s.palette.text2, x, y, counts ? AlarmCountWords(all) : alone,
                 Align::kRight);
   if (counts) {
-    const AlarmLook look = LookOf(s.palette, all.front().level);  // what stands, worst, is first
+    // What is over and waits for an answer counts too: it may still block an approval.
+    AlarmLevel worst = all.front().level;
+    for (const Alarm& alarm : all) {
+      worst = WaitsForAnswer(alarm) ? std::max(worst, alarm.level) : worst;
+    }
+    const AlarmLook look = LookOf(s.palette, worst);
     x -= s.Px(16);
     DrawIcon(Canvas(), look.icon, {x, y}, s.Px(14), look.colour);
     x -= s.Px(6);

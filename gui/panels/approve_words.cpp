@@ -207,7 +207,7 @@ std::string WhatToDoUnarmed(const EngineSnapshot& snap) {
   }
   switch (m.state) {
     case MissionState::kProposed:
-      return "Click a site, or press Tab and Enter, to select it.";
+      return "Click a letter or a row, or press Tab and Enter, to select.";
     case MissionState::kSearch:
       if (!m.search_stopped.empty()) {
         return m.search_stopped + ": no site is proposed.";

@@ -41,10 +41,11 @@ struct NextStep {
   NextFlight::Kind kind;
   bool needs_log;
 };
+/// What ends nothing stands where Hold here stood: a press may come late.
 constexpr NextStep kSteps[] = {
-    {"new_flight", "New flight", NextFlight::Kind::kFlyAgain, false},
-    {"review_flight", "Review flight", NextFlight::Kind::kReview, true},
     {"open_report", "Open report", NextFlight::Kind::kOpenReport, true},
+    {"review_flight", "Review flight", NextFlight::Kind::kReview, true},
+    {"new_flight", "New flight", NextFlight::Kind::kFlyAgain, false},
 };
 
 void DrawSteps(const EngineSnapshot& snap, const Rect& row, UiFrame& ui) {

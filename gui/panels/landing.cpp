@@ -40,7 +40,7 @@ std::string WaveOffHeadline(const WaveOffReport& report, double silent_s) {
 
 /// `heard_s`: since the vehicle was heard, whose deed a hold is.
 std::string Headline(const MissionStatus& m, double silent_s, double heard_s) {
-  const std::string site = m.armed ? std::string("site ") + m.armed->letter : std::string("site");
+  const std::string site = m.armed ? std::string("site ") + m.armed->letter : std::string("a site");
   switch (m.state) {
     case MissionState::kApproved:
       return (m.IsLook() ? "Approved: look at " : "Approved: ") + site + SideWords(m);

@@ -28,6 +28,9 @@ void DrawMapRowPanel(const EngineSnapshot& snap, const std::array<Rect, 5>& rect
     const MapAnswer answer = DrawMapPanel(ui, rects[i], side, view, marks, state.drag);
     state.asked = answer.tick ? answer.tick : state.asked;
     OfferProbe(view, answer, state.probe);
+    if (answer.discards) {
+      ui.intents.push_back(CommandAction(DiscardSettings{}));
+    }
   }
 }
 

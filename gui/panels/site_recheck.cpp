@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/core/shown_difference.h"
 #include "engine/model/site_standing.h"
 #include "gui/panels/fly_panels.h"
 #include "gui/panels/map_views.h"
@@ -96,7 +97,7 @@ void DrawSchedule(const EngineSnapshot& snap, const Rect& column, float y, UiFra
 /// The site's own reason compares it with the best of its map, which nobody may have chosen.
 std::string BesideFlown(const LandingSite& kept, const SiteRecheck& newest,
                         const MissionStatus& mission) {
-  const double wider_m = kept.safe_distance_m - newest.safe_distance_m;
+  const double wider_m = DifferenceAsShown(kept.safe_distance_m, newest.safe_distance_m);
   const std::string flown = mission.armed ? mission.armed->letter : "the site";
   if (std::isnan(wider_m)) {
     return flown + " is off the map";
@@ -181,7 +182,11 @@ void DrawSiteRecheckPanel(const EngineSnapshot& snap, const Rect& rect, bool nar
   marks.letters = false;
   marks.footprint.clear();
   marks.probe = ProbeCell(probe, view.geometry);
-  OfferProbe(view, DrawMapPicture(ui, square, view, marks), probe);
+  const MapAnswer answer = DrawMapPicture(ui, square, view, marks);
+  OfferProbe(view, answer, probe);
+  if (answer.discards) {
+    ui.intents.push_back(CommandAction(DiscardSettings{}));
+  }
   DrawColourBar(ui, {square.x, square.bottom() + s.Px(10), side, s.Px(8)}, view, nullptr);
   const float column_x = square.right() + s.Px(16);
   DrawChecksColumn(snap, {column_x, content.y, rect.right() - s.Px(12) - column_x, content.h},

@@ -82,6 +82,13 @@ void SayWhyNoLaser(ToldHeight::NoLaser why, Readout& by_pose) {
   }
 }
 
+bool IsLowOnEnergy(const MissionStatus& m) {
+  return std::any_of(m.alarms.begin(), m.alarms.end(), [](const Alarm& alarm) {
+    return alarm.kind == AlarmId::kEnergyLow && alarm.active;
+  });
+}
+
+/// The most important first: a narrow panel shows as many as have room.
 std::vector<Readout> Readouts(const EngineSnapshot& snap, bool narrow, double silent_s) {
   const auto by = [&](ChannelId channel) {
     const Arrival fresh = ArrivalOf(snap, channel, silent_s);
@@ -140,7 +147,9 @@ std::vector<Readout> Readouts(const EngineSnapshot& snap, bool narrow, double si
     if (narrow) {
       return {height, estimated("To go", m.time_to_touchdown_s, 0, "s"),
               estimated(climbs ? "Climb" : "Descent", down, 2, "m/s"),
-              estimated("From centre", from_m, 2, "m")};
+              estimated("From centre", from_m, 2, "m"),
+              status("Wind", wind, 1, wind_unit),
+              status("Energy", energy, 0, energy_unit)};
     }
     return {height,
             estimated("Time to go", m.time_to_touchdown_s, 0, "s"),
@@ -165,13 +174,23 @@ std::vector<Readout> Readouts(const EngineSnapshot& snap, bool narrow, double si
                         : down_mps < 0
                             ? pose(narrow ? "Climb" : "Climb rate", -down_mps, 1, "m/s")
                             : pose(narrow ? "Descent" : "Descent rate", down_mps, 1, "m/s");
+  const Readout heading =
+      pose("Heading", snap.sensors->pose ? HeadingDeg(*snap.sensors->pose) : NAN, 0, "°");
   if (narrow) {
-    return {height, pose("Speed", speed, 1, "m/s"), third,
-            estimated("Error, 3σ", PositionError3s(snap), 2, "m")};
+    std::vector<Readout> some = {height,
+                                 pose("Speed", speed, 1, "m/s"),
+                                 third,
+                                 estimated("Error, 3σ", PositionError3s(snap), 2, "m"),
+                                 heading,
+                                 status("Energy", energy, 0, energy_unit)};
+    if (IsLowOnEnergy(m)) {
+      std::swap(some[1], some[5]);  // of a hover the speed is worth less
+    }
+    return some;
   }
   return {height,
           pose("Ground speed", speed, 1, "m/s"),
-          pose("Heading", snap.sensors->pose ? HeadingDeg(*snap.sensors->pose) : NAN, 0, "°"),
+          heading,
           third,
           estimated("Position error", PositionError3s(snap), 2, "m, 3σ"),
           status("Energy", energy, 0, energy_unit)};
@@ -196,6 +215,9 @@ void DrawVehiclePanel(const EngineSnapshot& snap, const Rect& rect, bool narrow,
     const float shift = folded || column < 1.5f ? column * width : 0.617f * rect.w;
     const Rect cell{rect.x + s.Px(folded ? 12 : 16) + shift, rect.y + s.Px(33) + row * pitch,
                     std::min(width, rect.w - shift - s.Px(16)) - s.Px(8), pitch};
+    if (folded && cell.bottom() > rect.bottom()) {
+      break;
+    }
     DrawReadout(ui, cell, readouts[i]);
     ui.items.Add("readout/" + readouts[i].label, cell, true,
                  readouts[i].value + " " + readouts[i].unit);

@@ -140,12 +140,12 @@ void LetterPlate(UiFrame& ui, ImVec2 c, std::string_view letter, bool selected, 
            r.centre().y, letter, Align::kCentre);
 }
 
-void PreviewChip(UiFrame& ui, ImVec2 pos) {
+Rect PreviewChip(UiFrame& ui, ImVec2 pos, const char* words) {
   const Style& s = ui.style;
-  const Rect r{pos.x, pos.y, s.Px(84), s.Px(24)};
+  const Rect r{pos.x, pos.y, std::max(s.Px(84), TextWidth(s.medium, words) + s.Px(16)), s.Px(24)};
   FillRect(Canvas(), r, picture::kWhite, s.Fine(3));
-  DrawText(ui, s.medium, picture::kLetterDark, r.centre().x, r.centre().y, "PREVIEW",
-           Align::kCentre);
+  DrawText(ui, s.medium, picture::kLetterDark, r.centre().x, r.centre().y, words, Align::kCentre);
+  return r;
 }
 
 void FocusRing(const Style& s, ImDrawList* dl, const Rect& rect) {

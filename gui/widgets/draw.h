@@ -70,7 +70,8 @@ Rect TextPlate(UiFrame& ui, const Rect& within, Corner corner, std::string_view 
 void LetterPlate(UiFrame& ui, ImVec2 centre, std::string_view letter, bool selected,
                  float side = 20);
 /// The white PREVIEW chip, 84 x 24, its top left corner at `pos`.
-void PreviewChip(UiFrame& ui, ImVec2 pos);
+/// Returns where it stands.
+Rect PreviewChip(UiFrame& ui, ImVec2 pos, const char* words = "PREVIEW");
 /// White focus ring, 2 px, 2 px outside.
 void FocusRing(const Style& style, ImDrawList* dl, const Rect& rect);
 

@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/core/shown_difference.h"
+
 namespace palace {
 namespace {
 
@@ -19,6 +21,14 @@ TEST(Text, NumbersReadAsTheyAreMeant) {
   EXPECT_EQ(NumberText(NAN), "nan");
   EXPECT_EQ(Joined({"a", "b", "c"}), "a, b, c");
   EXPECT_EQ(Joined({}), "");
+}
+
+TEST(Text, ADifferenceIsThatOfTheNumbersThatAreShown) {
+  EXPECT_EQ(WithNumbers("%.1f", DifferenceAsShown(3.66, 2.64)), "1.1") << "3.7 and 2.6 are read";
+  EXPECT_EQ(WithNumbers("%.1f", DifferenceAsShown(2.64, 3.66)), "-1.1");
+  EXPECT_EQ(WithNumbers("%.1f", DifferenceAsShown(2.64, 2.56)), "0.1") << "both read 2.6";
+  EXPECT_TRUE(std::isnan(DifferenceAsShown(NAN, 1)));
+  EXPECT_TRUE(std::isinf(DifferenceAsShown(INFINITY, 1)));
 }
 
 }  // namespace

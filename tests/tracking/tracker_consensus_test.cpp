@@ -53,7 +53,7 @@ TEST(TrackerConsensus, OfTwoThatDifferNeitherIsNamed) {
                                               Member(Kind::kTemplate, "Template", 140, 50, 1)};
   EXPECT_FALSE(OthersAgree(members, 0));
   EXPECT_FALSE(OthersAgree(members, 1));
-  EXPECT_EQ(ConsensusOf(members).why_not_trusted, "1 trackers agree, min 3");
+  EXPECT_EQ(ConsensusOf(members).why_not_trusted, "1 tracker agrees, min 3");
 }
 
 TEST(TrackerConsensus, LostOnesAndThoseThatDriftDoNotCount) {

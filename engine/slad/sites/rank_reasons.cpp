@@ -4,6 +4,7 @@
 #include <numbers>
 #include <string>
 
+#include "engine/core/shown_difference.h"
 #include "engine/core/text.h"
 #include "engine/model/site_standing.h"
 #include "engine/slad/hazards/explanation.h"
@@ -80,7 +81,7 @@ std::string Difference(SiteRanking ranking, const LandingSite& better, const Lan
       return stays + HiddenWords(site) + " rocks or holes may hide, at " + against + " " +
              HiddenWords(of_better ? other : better) + (noise ? WhyNotYet(other) : "");
     }
-    const double wider_m = better.safe_distance_m - other.safe_distance_m;
+    const double wider_m = DifferenceAsShown(better.safe_distance_m, other.safe_distance_m);
     return stays + WithNumbers("%.1f m ", std::abs(wider_m)) +
            ((wider_m > 0) == of_better ? "more" : "less") + " clear than " + against +
            (noise ? WhyNotYet(other) : "");

@@ -169,16 +169,16 @@ std::string WhyRebuilding(const EngineSnapshot& snap, const FlightRecord* record
 /// Whole lines, as many as fit; the pointer reads the rest.
 void DrawReason(UiFrame& ui, const std::string& reason, const Rect& area) {
   const Style& s = ui.style;
+  const float pitch = s.Px(20);
+  const float most = std::max(1.0F, std::floor((area.h - s.Px(8)) / pitch) + 1);
+  const auto lines = WrapText(s.body, reason, area.w, static_cast<std::size_t>(most));
   float y = area.y;
-  bool cut = false;
-  for (const std::string& line : WrapText(s.body, reason, area.w)) {
-    cut = cut || y + s.Px(8) > area.bottom();
-    if (!cut) {
-      DrawText(ui, s.body, s.palette.text2, area.x, y, line);
-      y += s.Px(20);
-    }
+  for (const std::string& line : lines) {
+    DrawText(ui, s.body, s.palette.text2, area.x, y, line);
+    y += pitch;
   }
   ui.items.Add("decision/reason", area, true, reason);
+  const bool cut = lines != WrapText(s.body, reason, area.w);
   if (cut && Interact(ui, "decision/reason", area, kPassive).hovered) {
     DrawTooltip(ui, reason);
   }

@@ -41,6 +41,9 @@ void DrawRun(const EngineSnapshot& snap, const Rect& button, const RedecidedShar
              RedecideRun& run, UiFrame& ui) {
   const Style& s = ui.style;
   Ask(ui, run.Follow(snap.session->source, ui.ui_time_s));
+  if (run.running() && LimitsMoved(snap) == 0) {
+    Ask(ui, run.Stop());  // the limits were put back: there is nothing to decide again
+  }
   ButtonLook look;
   look.font = s.medium;
   if (run.running()) {

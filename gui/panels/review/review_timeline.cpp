@@ -284,7 +284,8 @@ TimelineView MakeTimeline(const EngineSnapshot& snap, const FlightRecord* record
     view.lanes.push_back(
         SiteLane("Re-decided site", snap, record, RedecidedOf(snap), &RedecidedSample::best_site));
   }
-  if (log) {
+  // Where two lanes have room, what happened has the second while nothing can differ.
+  if (log && (all || LimitsMoved(snap) > 0)) {
     view.lanes.push_back(std::move(differs));
   }
   Lane alarms = AlarmLane(snap, record, palette), marks = MarkLane(snap, record, palette);

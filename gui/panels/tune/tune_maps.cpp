@@ -142,6 +142,9 @@ void DrawTuneMap(const EngineSnapshot& snap, const Rect& rect, MapKind kind, boo
     ui.intents.push_back(CommandAction(SetSetting{answer.tick->setting, answer.tick->value}));
   }
   OfferProbe(view, answer, state.probe);
+  if (answer.discards) {
+    ui.intents.push_back(CommandAction(DiscardSettings{}));
+  }
 }
 
 void DrawCompareStrip(const EngineSnapshot& snap, const Rect& rect, TuneState& state, UiFrame& ui) {

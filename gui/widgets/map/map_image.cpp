@@ -4,6 +4,7 @@
 
 #include "engine/model/hazard_maps.h"
 #include "engine/model/settings/settings.h"
+#include "gui/widgets/button.h"
 #include "gui/widgets/interact.h"
 #include "gui/widgets/map/cell_hatch.h"
 #include "gui/widgets/map/flag_marks.h"
@@ -166,13 +167,19 @@ MapAnswer DrawMapPicture(UiFrame& ui, const Rect& square, const MapView& view,
     ui.items.Add("old/" + view.key, square, true, view.old);
   }
   dl->PopClipRect();
+  MapAnswer answer;
   if (view.preview) {
-    PreviewChip(ui, {square.x + s.Px(8), square.y + s.Px(8)});
+    const Rect chip = PreviewChip(ui, {square.x + s.Px(8), square.y + s.Px(8)}, "PREVIEW ×");
+    const Interaction on =
+        Interact(ui, "discard_preview/" + view.key, chip, kNoTab, "Discard the preview");
+    answer.discards = on.clicked;
+    if (on.hovered) {
+      DrawTooltip(ui, "Discard the preview: the maps show the limits in force again");
+    }
   }
   const Interaction in = Interact(ui, "map/" + view.key, square,
                                   kAllSteps | kKeepsStop | (known ? 0U : unsigned{kDisabled}),
                                   view.title + " " + view.value);
-  MapAnswer answer;
   answer.square = square;
   answer.clicked = in.clicked && !in.key_pressed;
   answer.key_pressed = in.key_pressed;

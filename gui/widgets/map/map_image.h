@@ -79,6 +79,7 @@ struct MapAnswer {
   std::optional<TickMove> tick;  ///< of DrawMapPanel: the tick was dragged or stepped
   std::optional<Cell> under_pointer;
   bool clicked = false;
+  bool discards = false;            ///< the chip of the preview was pressed
   bool key_pressed = false;         ///< Enter or Space with the focus
   int rows_up = 0, cols_right = 0;  ///< arrow keys, in cells
 };

@@ -175,7 +175,7 @@ TEST(ApproveWords, AnApprovalLeadsToADescentUnlessSomethingSpeaksAgainstTheSite)
 
 TEST(ApproveWords, WithoutASelectionItSaysWhatToDo) {
   EXPECT_EQ(WhatToDoUnarmed(fake::Snapshot(MissionState::kProposed)),
-            "Click a site, or press Tab and Enter, to select it.");
+            "Click a letter or a row, or press Tab and Enter, to select.");
   EngineSnapshot snap = fake::Snapshot(MissionState::kSearch);
   EXPECT_EQ(WhatToDoUnarmed(snap).rfind("Selectable once one site has led for ", 0), 0u);
   snap.flight.Edit().mission.search_stopped = "Left camera repeats its picture";

@@ -134,7 +134,7 @@ TEST(Approve, AsksForAClickOnlyWhereAClickSelects) {
     MissionState state;
     const char* why;
     const char* words;
-  } table[] = {{MissionState::kProposed, "", "Click a site"},
+  } table[] = {{MissionState::kProposed, "", "Click a letter"},
                {MissionState::kSearch, "", "Selectable once one site has led"},
                {MissionState::kNoLive, "Cameras stale for 5.2 s", "Cameras stale for 5.2 s."}};
   for (const auto& row : table) {
@@ -144,7 +144,7 @@ TEST(Approve, AsksForAClickOnlyWhereAClickSelects) {
     bool told = false, asked = false;
     for (const Item& item : window.ui.items.items()) {
       told = told || (item.name == "text" && item.text.rfind(row.words, 0) == 0);
-      asked = asked || (item.name == "text" && item.text.rfind("Click a site", 0) == 0);
+      asked = asked || (item.name == "text" && item.text.rfind("Click a letter", 0) == 0);
     }
     EXPECT_TRUE(told) << row.words;
     EXPECT_EQ(asked, row.state == MissionState::kProposed);

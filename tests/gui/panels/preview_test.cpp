@@ -51,6 +51,21 @@ TEST(Preview, ACommandOnFlyNamesASiteOfTheMission) {
   EXPECT_EQ(window.ui.LastCommand<SelectSite>().site_id, 2u);
 }
 
+TEST(Preview, IsDiscardedWhereItIsShown) {
+  for (const MissionState state : {MissionState::kProposed, MissionState::kDescending}) {
+    FlyWindow window(1920, 1080, WithPreview(state));
+    const auto chip =
+        std::find_if(window.ui.items.items().begin(), window.ui.items.items().end(),
+                     [](const Item& item) { return item.name.rfind("discard_preview/", 0) == 0; });
+    ASSERT_NE(chip, window.ui.items.items().end());
+    window.ui.Click(std::string(chip->name), window.draw);
+    ASSERT_EQ(window.ui.intents.size(), 1u);
+    const auto* command = std::get_if<CommandAction>(&window.ui.intents.front());
+    ASSERT_NE(command, nullptr);
+    EXPECT_TRUE(std::holds_alternative<DiscardSettings>(*command));
+  }
+}
+
 // Nothing was approved, or what was is forgotten: no site is the one that is landed on, and while
 // the vehicle climbs away none is proposed.
 TEST(WaveOffWithoutASite, DrawsNone) {

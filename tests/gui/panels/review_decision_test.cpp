@@ -225,6 +225,25 @@ TEST(ReviewWorkspace, WhichPartWasDecidedAgainIsWhatWasJudged) {
             "None in the 210 of 352 maps judged under these limits so far.");
 }
 
+// Undone while it runs: there is nothing left to decide again.
+TEST(RedecideRun, EndsWhenTheLimitsAreThoseOfTheFlightAgain) {
+  const FlightRecord record = fake::Record();
+  ReviewState state;
+  state.redecide.Begin(SourceStatus{}, 0);
+  const auto draw = [&](bool moved) {
+    const EngineSnapshot snap = fake::Replay(moved);
+    UiHarness ui(1920, 1080);
+    ui.Frame([&](UiFrame& f) { DrawReviewWorkspace(snap, &record, BodyOf(1920, 1080), state, f); });
+    return Playbacks(ui.intents);
+  };
+  draw(true);
+  EXPECT_TRUE(state.redecide.running());
+  const std::vector<PlaybackControl> asked = draw(false);
+  EXPECT_FALSE(state.redecide.running());
+  ASSERT_FALSE(asked.empty());
+  EXPECT_EQ(asked.front().kind, PlaybackControl::Kind::kPause);
+}
+
 TEST(RedecideRun, TellsItsProgressAndSetsTheSpeedBack) {
   using Kind = PlaybackControl::Kind;
   const auto kinds = [](const Intents& intents) {

@@ -192,5 +192,25 @@ TEST(VehiclePanel, AHoverThatClimbsOrSinksTellsHowFast) {
   }
 }
 
+// In the least window four figures have room; a higher one has them all, however narrow.
+TEST(VehiclePanel, ANarrowPanelShowsTheEnergyOnceItIsLow) {
+  EngineSnapshot snap = fake::Snapshot(MissionState::kProposed);
+  EXPECT_EQ(FlyWindow(1280, 720, snap).ui.items.Find("readout/Energy"), nullptr);
+  snap.flight.Edit().mission.alarms.push_back(
+      {.kind = AlarmId::kEnergyLow, .level = AlarmLevel::kCaution, .text = "Low.", .active = true});
+  FlyWindow low(1280, 720, snap);
+  const Item* energy = low.ui.items.Find("readout/Energy");
+  ASSERT_NE(energy, nullptr);
+  EXPECT_EQ(energy->text.find("%"), energy->text.size() - 1) << energy->text;
+  EXPECT_NE(low.ui.items.Find("readout/Above ground"), nullptr);
+  ExpectTextsInPanels(low.ui.items);
+  for (const MissionState state : {MissionState::kProposed, MissionState::kDescending}) {
+    FlyWindow high(1280, 1100, fake::Snapshot(state));
+    EXPECT_NE(high.ui.items.Find("readout/Energy"), nullptr);
+    EXPECT_NE(high.ui.items.Find("readout/Wind"), nullptr);
+    ExpectTextsInPanels(high.ui.items);
+  }
+}
+
 }  // namespace
 }  // namespace palace
