@@ -30,8 +30,8 @@ class ImGuiBackend {
   /// `feed` may replace the backend's input before ImGui reads it (scripts).
   void BeginFrame(double delta_s = 0, const std::function<void()>& feed = {});
   /// Ends the frame and draws it into the window or the offscreen framebuffer, after clearing it
-  /// with `background` (0xAABBGGRR): a fill as large as the window would cost as much as a third of
-  /// all pixels where they are drawn in software. `draw` false ends it without making pixels.
+  /// with `background` (0xAABBGGRR): a fill as large as the window took a fifth of a frame where
+  /// pixels are drawn in software. `draw` false ends it without making pixels.
   void EndFrame(std::uint32_t background = kDarkWindow, bool draw = true);
   /// Rebuilds the font atlas at another scale; between frames only. The fonts move: take them anew.
   void SetUiScale(double ui_scale);
