@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/core/rotation_vector.h"
 #include "engine/core/units.h"
 
 namespace palace {
@@ -15,13 +14,10 @@ constexpr double kGpsNoise_mps2 = 0.1;
 constexpr double kBiasWalk_mps3 = 0.005;  // AHRS attitude errors wander through gravity like a bias
 constexpr double kGpsVelocitySigma_mps = 0.1;
 constexpr double kGpsDefaultSigma_m = 2.5;
-constexpr double kGpsSilence_s = 1.5;
-constexpr double kPoseSilence_s = 0.5;
 constexpr double kPoseOfFix_s = 0.2;  // no position is made with an attitude older than this
 constexpr int kGpsRestartAfter = 15;
 constexpr int kVisionRestartAfter = 5;
 constexpr double kLaserAge_s = 0.3;
-constexpr double kFade_s = 1.0;
 constexpr double kCorrectionGain = 0.1;
 constexpr double kMaxCorrection_rad = Rad(0.5);
 
@@ -51,16 +47,6 @@ PositionMeasurement VelocityOnly(PositionMeasurement measurement, const FilterEs
   measurement.p_WB = predicted.p_WB;
   measurement.p_covariance_m2 = kNothingKnown_m2 * Eigen::Matrix3d::Identity();
   return measurement;
-}
-
-PositionEstimate Told(const FilterEstimate& state) {
-  PositionEstimate estimate;
-  estimate.time = state.time;
-  estimate.p_WB = state.p_WB;
-  estimate.v_WB = state.v_WB;
-  estimate.sigma_p_m = state.sigma_p_m;
-  estimate.sigma_v_mps = state.sigma_v_mps;
-  return estimate;
 }
 
 }  // namespace
@@ -198,8 +184,8 @@ void Navigator::StopVision() {
   landmark_frame_ = {};
   attitude_correction_W_.setZero();
   if (was_in_force) {
-    fade_.reset();
-    fade_ = Fade{now_, old_v_WB - EstimateInForce(now_).v_WB};
+    fade_.Stop();
+    fade_.Start(now_, old_v_WB, EstimateInForce(now_).v_WB);
   }
   UpdateStatus();
 }
@@ -343,89 +329,12 @@ void Navigator::UpdateHandover(Timestamp time) {
   if (!handover_.Advance(time)) {
     return;
   }
-  fade_.reset();
+  fade_.Stop();
   const PositionEstimate after = EstimateInForce(time);
   // From what was sent last: a GPS fix that comes with the hand-over would step the velocity as it
   // leaves.
-  fade_ = Fade{time, carried_v_WB_ - after.v_WB};
+  fade_.Start(time, carried_v_WB_, after.v_WB);
   status_.offset_m = (after.p_WB - before.p_WB).norm();
-}
-
-void Navigator::UpdateStatus() {
-  status_.gravity = gravity_watch_.status();
-  status_.gps.running = gps_.running();
-  status_.gps.estimate = GpsEstimate(now_);
-  status_.gps.residual_sigma = gps_.residual_sigma();
-  status_.gps.max_residual_sigma = gps_.max_residual_sigma();
-  status_.gps.rejected_in_row = gps_.rejected_in_row();
-  const auto coasting_s = [&](const PositionFilter& filter) {
-    return filter.running() ? SecondsBetween(filter.last_accepted(), now_) : NAN;
-  };
-  status_.gps.coasting_s = coasting_s(gps_);
-  status_.vision.coasting_s = coasting_s(vision_);
-  status_.vision.running = vision_.running();
-  status_.vision.estimate = vision_.running() ? VisionEstimate(now_) : PositionEstimate{};
-  status_.vision.residual_sigma = vision_.residual_sigma();
-  status_.vision.max_residual_sigma = vision_.max_residual_sigma();
-  status_.vision.rejected_in_row = vision_.rejected_in_row();
-  status_.handover = handover_.state();
-  status_.handover_reason = handover_.reason();
-}
-
-PositionEstimate Navigator::PoseEstimate(Timestamp now) const {
-  PositionEstimate estimate;
-  estimate.time = now;
-  const std::optional<VehiclePose> pose = poses_.At(now);
-  if (!pose) {
-    return estimate;
-  }
-  estimate.p_WB = pose->X_WB.p;
-  estimate.v_WB = pose->v_WB;
-  estimate.source = have_pose_stream_ ? EstimateSource::kGps : EstimateSource::kNone;
-  estimate.healthy =
-      have_pose_stream_ && SecondsBetween(poses_.newest().time, now) <= kPoseSilence_s;
-  return estimate;
-}
-
-PositionEstimate Navigator::GpsEstimate(Timestamp now) const {
-  if (!gps_.running()) {
-    return PoseEstimate(now);
-  }
-  PositionEstimate estimate = Told(gps_.EstimateAt(now));
-  estimate.source = EstimateSource::kGps;
-  estimate.healthy = SecondsBetween(gps_.last_accepted(), now) <= kGpsSilence_s;
-  return estimate;
-}
-
-PositionEstimate Navigator::VisionEstimate(Timestamp now) const {
-  PositionEstimate estimate = Told(*VisionFilterAt(now));
-  estimate.source = EstimateSource::kVision;
-  estimate.healthy = handover_.Healthy(now);
-  return estimate;
-}
-
-PositionEstimate Navigator::EstimateInForce(Timestamp now) const {
-  PositionEstimate estimate =
-      handover_.state() == Handover::State::kVision ? VisionEstimate(now) : GpsEstimate(now);
-  if (fade_) {
-    const double share = std::clamp(SecondsBetween(fade_->start, now) / kFade_s, 0.0, 1.0);
-    estimate.v_WB += (1 - share) * fade_->dv_WB;
-  }
-  return estimate;
-}
-
-RigidTransform Navigator::PredictBodyPose(Timestamp exposure) const {
-  RigidTransform X_WB;
-  if (const std::optional<VehiclePose> pose = poses_.At(exposure)) {
-    X_WB = pose->X_WB;
-    if (handover_.state() == Handover::State::kVision) {
-      X_WB.R = RotationFromVector(attitude_correction_W_) * X_WB.R;
-    }
-  }
-  if (gps_.running() || handover_.state() == Handover::State::kVision) {
-    X_WB.p = EstimateInForce(exposure).p_WB;
-  }
-  return X_WB;
 }
 
 }  // namespace palace

@@ -27,6 +27,7 @@
 #include "engine/navigation/gravity_watch.h"
 #include "engine/navigation/handover.h"
 #include "engine/navigation/position_filter.h"
+#include "engine/navigation/velocity_fade.h"
 #include "engine/navigation/vision_fix.h"
 #include "engine/tracking/site_tracker.h"
 
@@ -74,11 +75,6 @@ class Navigator {
     Eigen::Vector3d mean_force_B = Eigen::Vector3d::Zero();  ///< over the step to this sample
     Eigen::Matrix3d R_WB = Eigen::Matrix3d::Identity();      ///< half-way through it
   };
-  /// A velocity cross-fade from what was in force before.
-  struct Fade {
-    Timestamp start;
-    Eigen::Vector3d dv_WB = Eigen::Vector3d::Zero();  ///< old minus new at the switch
-  };
 
   void AddImu(const ImuSample& sample);
   void AddGps(const GpsFix& fix);
@@ -116,7 +112,7 @@ class Navigator {
   std::optional<VisionFix> vision_fix_;  ///< the newest; of one that was refused, its position
   bool have_pose_stream_ = false;
   std::optional<LaserRange> laser_;  ///< newest with a return
-  std::optional<Fade> fade_;
+  VelocityFade fade_;                ///< from what was in force before
   /// In force at `now_` before the newest bundle's GPS: what was sent last, carried on by inertia.
   Eigen::Vector3d carried_v_WB_ = Eigen::Vector3d::Zero();
   /// As in VisionFix, smoothed.
