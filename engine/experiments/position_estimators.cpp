@@ -154,6 +154,7 @@ void EstimatorRun::AddPicture(const FrameBundle& bundle, const StereoRig& rig,
     site_.emplace();
     site_->id = 1;
     site_->p_WS = site_sum_ / site_count_;
+    site_->frames_fused = site_count_;
     if (estimator_ != PositionEstimator::kSevenSteps) {
       tracker_.Lock(picture.left, picture.camera, X_WC, &picture.range, *site_, settings_, time);
     }

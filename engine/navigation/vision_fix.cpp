@@ -18,12 +18,26 @@ using Eigen::Vector3d;
 
 constexpr double kLandmarkScatter_px = 0.08;
 constexpr double kLeastScatter_m = 0.001;
-// Of the landmarks beside the site: GPS and stereo of one picture against those of a map.
-constexpr double kPlaceSigma_m = 0.015, kPlaceHeightSigma_m = 0.005;
+// The position of the one picture that placed the landmarks, less that of the map's: 15.1 mm rms
+// over 60 axes of simulated hovers, under GPS of 2 cm at 5 Hz.
+constexpr double kPlaceSigma_m = 0.015;
+// Of the height above the site that placed the landmarks, by the median of hundreds of ranges: with
+// all else 1 mm rms in six approaches. What the map says of the site's own height is added.
+constexpr double kPlaceHeightSigma_m = 0.001;
 constexpr double kLaserSigma_m = 0.03;
 constexpr double kLaserPerMetre = 0.001;
 constexpr double kGroundSigma_m = 0.02;  // level ground, site against laser spot
 constexpr int kManyLandmarks = 12;
+
+/// Of the landmarks beside the place that the site is told at. The mean noise of a map's attitudes
+/// placed the site, too; heights are those of ranges, however they are turned.
+Vector3d PlaceSigma(const LandingSite& site, const Vector3d& placed_from_W, double noise_rad) {
+  const Vector3d from_m = placed_from_W - site.p_WS;
+  const double turn_rad = site.frames_fused > 0 ? noise_rad / std::sqrt(site.frames_fused) : 0;
+  return {std::hypot(kPlaceSigma_m, turn_rad * std::hypot(from_m.y(), from_m.z())),
+          std::hypot(kPlaceSigma_m, turn_rad * std::hypot(from_m.x(), from_m.z())),
+          std::hypot(site.height_m.three_sigma / 3, kPlaceHeightSigma_m)};
+}
 
 Result<MonocularPosition> SevenSteps(const MonocularInput& input, const Matrix3d& R_WB,
                                      const Vector3d& lever_B, Vector3d& p_WB) {
@@ -79,7 +93,7 @@ Result<VisionFix> FixFromLandmarks(const TrackResult& track, const PinholeCamera
   fix.shared = {.p_WS = site.p_WS,
                 .placed_from_W = fix.frame.placed_from_W(),
                 .turns_rad2 = fix.frame.left_rad2(),
-                .place_m = Vector3d(kPlaceSigma_m, kPlaceSigma_m, kPlaceHeightSigma_m)};
+                .place_m = PlaceSigma(site, fix.frame.placed_from_W(), attitude.noise_rad)};
   fix.frame_shift_W = X_WB.p - frame.Levelled(X_WB_resected, site.p_WS).p;
   fix.attitude_correction_W = VectorFromRotation(X_WB.R * R_WB.transpose());
   return fix;

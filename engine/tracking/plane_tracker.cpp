@@ -143,8 +143,9 @@ void PlaneTracker::Resect(const PinholeCamera& camera, const Eigen::Matrix3d& R_
   std::vector<std::size_t> index;
   for (std::size_t i = 0; i < key_.landmarks.size(); ++i) {
     if (attempt.inlier[i]) {
-      seen.push_back(
-          {key_.landmarks[i].p_WF, attempt.pixels[i], kSigma_px, key_.landmarks[i].sigma_w_m});
+      // What their places err by is common to them, no scatter: as such it would leave the attitude
+      // to the told one, the more the nearer, and its noise would turn each new keyframe's ground.
+      seen.push_back({key_.landmarks[i].p_WF, attempt.pixels[i], kSigma_px, 0});
       index.push_back(i);
     }
   }
