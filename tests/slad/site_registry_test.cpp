@@ -338,7 +338,7 @@ TEST(SiteRegistry, WhatARecordDoesNotListGetsLettersAndIdsThatItDoesNotUse) {
   hover.registry_.GoOnWith({{2, "A", {-4, 3}}}, hover.settings);
   std::set<std::string> letters;
   std::set<std::uint64_t> ids;
-  const SiteSelection list = hover.See(Flat());
+  const SiteSelection list = hover.SeeOften(5, Flat());
   for (const LandingSite& site : list.sites) {
     EXPECT_TRUE(letters.insert(site.letter).second) << site.letter;
     EXPECT_TRUE(ids.insert(site.id).second) << site.id;

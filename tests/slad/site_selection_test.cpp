@@ -39,7 +39,7 @@ TEST(SiteSelection, FlatFieldIsWonByItsMiddle) {
     EXPECT_NEAR(site.clearance_m, rim_m - 2.3, 1e-5);
     EXPECT_NEAR((site.p_WS - Eigen::Vector3d(0, 0, -2)).norm(), 0, 1e-5);
     EXPECT_NEAR((site.normal_W + Eigen::Vector3d::UnitZ()).norm(), 0, 1e-6);
-    EXPECT_EQ(site.reason, "Widest: 2.2 m more clear than B");
+    EXPECT_EQ(site.reason, "Widest: 2.3 m more clear than B");
     EXPECT_EQ(site.unknown_cells, 0);
     EXPECT_TRUE(site.confirmed);
     EXPECT_TRUE(site.corridor_clear);
