@@ -37,8 +37,8 @@ void PrintTo(const KnownFlight& flight, std::ostream* out) {
 }
 
 constexpr KnownFlight kKnownFlights[] = {
-    {"runway", 101, 0, MissionState::kLanded, 0xf18fe7a3d2b1e7fe},
-    {"slope", 7, 3, MissionState::kDescending, 0x658d4803329e0149},
+    {"runway", 101, 0, MissionState::kLanded, 0x9a4a3748152f6836},
+    {"slope", 7, 3, MissionState::kDescending, 0x98583003fad73ddd},
 };
 constexpr double kLimit_s = 120;
 
