@@ -4,6 +4,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <csignal>
 #include <latch>
 #include <thread>
 
@@ -31,6 +32,7 @@ TEST(Termination, EachSignalAsksAndNothingDies) {
   for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
     SCOPED_TRACE(number);
     EXPECT_EQ(InChild([&] {
+                std::signal(number, SIG_DFL);  // nohup has SIGHUP ignored
                 std::latch asked(1);
                 const Termination termination([&] { asked.count_down(); });
                 kill(getpid(), number);
