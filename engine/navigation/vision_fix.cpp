@@ -34,9 +34,11 @@ constexpr int kManyLandmarks = 12;
 Vector3d PlaceSigma(const LandingSite& site, const Vector3d& placed_from_W, double noise_rad) {
   const Vector3d from_m = placed_from_W - site.p_WS;
   const double turn_rad = site.frames_fused > 0 ? noise_rad / std::sqrt(site.frames_fused) : 0;
+  const double told_m = site.height_m.three_sigma / 3;
+  const double height_m = std::isfinite(told_m) ? told_m : kGroundSigma_m;  // records may not say
   return {std::hypot(kPlaceSigma_m, turn_rad * std::hypot(from_m.y(), from_m.z())),
           std::hypot(kPlaceSigma_m, turn_rad * std::hypot(from_m.x(), from_m.z())),
-          std::hypot(site.height_m.three_sigma / 3, kPlaceHeightSigma_m)};
+          std::hypot(height_m, kPlaceHeightSigma_m)};
 }
 
 Result<MonocularPosition> SevenSteps(const MonocularInput& input, const Matrix3d& R_WB,

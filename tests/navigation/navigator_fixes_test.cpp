@@ -1,4 +1,6 @@
 // Which fixes of vision the navigator takes, and what it believes of their errors.
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "engine/navigation/navigator.h"
@@ -24,6 +26,29 @@ TEST(Navigator, RejectedFixesAreUnhealthy) {
   EXPECT_EQ(navigator.status().vision.rejected_in_row, 5);
   EXPECT_FALSE(navigator.EstimateInForce(At(6.5)).healthy);
   EXPECT_LT((navigator.EstimateInForce(At(6.5)).p_WB - world.flight.Position(6.5)).norm(), 0.3);
+}
+
+// A record may list a place without saying how well its height is known.
+TEST(Navigator, ASiteWhoseHeightErrorNobodyTellsIsFlownToWithAStatedError) {
+  NavigatorWorld world(4);
+  LandingSite site;
+  site.height_m.three_sigma = NAN;
+  Navigator navigator;
+  navigator.AllowVision(true);
+  for (int n = 1; n <= 60; ++n) {
+    const FrameBundle bundle = world.Bundle(n);
+    navigator.AddSensors(bundle);
+    if (n == 10) {
+      navigator.StartVision(site, bundle.time);
+    }
+    if (n >= 10) {
+      navigator.AddVision(world.Track(n), kCamera, world.rig(), bundle, {});
+    }
+  }
+  const auto estimate = navigator.EstimateInForce(At(6));
+  EXPECT_EQ(navigator.status().handover, State::kVision);
+  EXPECT_TRUE(estimate.sigma_p_m.allFinite()) << estimate.sigma_p_m.transpose();
+  EXPECT_LT((estimate.p_WB - world.flight.Position(6)).norm(), 0.3);
 }
 
 // What is refused says nothing of how the ground lies, either.
