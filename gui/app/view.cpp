@@ -247,7 +247,6 @@ void View::DrawWorkspace(const EngineSnapshot& snapshot, const FlightRecord* rec
 }
 
 void View::DrawWaiting(const FrameLayout& layout, UiFrame& ui) {
-  ImDrawList* dl = Canvas();
   DrawText(ui, style_.section, style_.palette.text1, layout.window.centre().x,
            layout.window.centre().y, "Waiting for the first pictures", Align::kCentre);
 }
