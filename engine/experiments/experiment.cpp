@@ -195,7 +195,9 @@ Result<TrialRecord> OpenRecord(const Experiment& experiment, const TrialHeader& 
 }
 
 int RunExperiment(const Experiment& experiment, const RunOptions& options) {
-  const Termination termination;
+  const Termination termination([] {  // a trial may take minutes
+    std::cerr << "\npalacectl: ends after the trial in hand; a second signal ends it at once\n";
+  });
   const Result<Shard> shard = ParseShard(options.shard);
   if (!shard) {
     return Fail(shard.error());

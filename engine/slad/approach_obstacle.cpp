@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/slad/sites/site_evaluation.h"
+#include "engine/slad/sites/approach_corridors.h"
 
 namespace palace {
 namespace {
@@ -11,24 +11,24 @@ namespace {
 using Kind = ApproachObstacle::Kind;
 
 /// As long as it is clear, to half a cell; it is not along all its length.
-double ClearLength(Approach approach, const ElevationMap& map, const SladSettings& settings,
+double ClearLength(Approach approach, const ApproachCorridors& corridors, double cell_m,
                    const LandingSite& site) {
   double clear_m = 0, blocked_m = approach.length_m;
-  while (blocked_m - clear_m > map.geometry.cell_m / 2) {
+  while (blocked_m - clear_m > cell_m / 2) {
     approach.length_m = (clear_m + blocked_m) / 2;
-    (IsClear(approach, map, settings, site) ? clear_m : blocked_m) = approach.length_m;
+    (corridors.IsClear(approach, site) ? clear_m : blocked_m) = approach.length_m;
   }
   return clear_m;
 }
 
-/// What IsClear looks at, without what hangs.
-ElevationMap WithoutThin(const ElevationMap& map) {
+bool IsClearWithoutThin(const Approach& approach, const ElevationMap& map,
+                        const SladSettings& settings, const LandingSite& site) {
   ElevationMap ground;
   ground.geometry = map.geometry;
   ground.height_m = map.height_m;
   ground.variance_m2 = map.variance_m2;
   ground.state = map.state;
-  return ground;
+  return ApproachCorridors(ground, settings).IsClear(approach, site);
 }
 
 }  // namespace
@@ -41,13 +41,14 @@ std::optional<ApproachObstacle> FindApproachObstacle(const ElevationMap& map,
   if (site.corridor_clear || !approach) {
     return std::nullopt;
   }
-  if (IsClear(*approach, map, settings, site)) {
+  const ApproachCorridors corridors(map, settings);
+  if (corridors.IsClear(*approach, site)) {
     return ApproachObstacle{Kind::kOnLevelWay};
   }
   const GridGeometry& g = map.geometry;
-  const double clear_m = ClearLength(*approach, map, settings, site);
+  const double clear_m = ClearLength(*approach, corridors, g.cell_m, site);
   approach->length_m = clear_m + g.cell_m / 2;
-  const bool thin = !map.thin_top_m.empty() && IsClear(*approach, WithoutThin(map), settings, site);
+  const bool thin = !map.thin_top_m.empty() && IsClearWithoutThin(*approach, map, settings, site);
   const GridF& top_m = thin ? map.thin_top_m : map.height_m;
   ApproachObstacle found{thin ? Kind::kThin : Kind::kStands};
   for (int r = 0; r < g.rows; ++r) {

@@ -1,5 +1,5 @@
 // What stands in an approach that is not clear, found by asking the rule that says so (IsClear,
-// slad/sites/site_evaluation.h) of shorter and shorter approaches: the name is of what decided.
+// slad/sites/approach_corridors.h) of shorter and shorter approaches: the name is of what decided.
 #pragma once
 
 #include <optional>

@@ -126,12 +126,15 @@ Rect TextPlate(UiFrame& ui, const Rect& within, Corner corner, std::string_view 
   return r;
 }
 
+ImVec2 LetterPlateHalf(const Style& s, std::string_view letter, float side) {
+  const float height = s.Px(side);
+  return {std::max(height, TextWidth(s.medium, letter) + s.Px(6)) / 2, height / 2};
+}
+
 void LetterPlate(UiFrame& ui, ImVec2 c, std::string_view letter, bool selected, float side) {
   const Style& s = ui.style;
-  const float height = s.Px(side);
-  // "A2" is wider than its square.
-  const float width = std::max(height, TextWidth(s.medium, letter) + s.Px(6));
-  const Rect r{std::round(c.x - width / 2), std::round(c.y - height / 2), width, height};
+  const ImVec2 half = LetterPlateHalf(s, letter, side);
+  const Rect r{std::round(c.x - half.x), std::round(c.y - half.y), 2 * half.x, 2 * half.y};
   ImDrawList* dl = Canvas();
   FillRect(dl, r, selected ? picture::kWhite : picture::kLetterDark, s.Fine(2));
   // A rim against whatever lies behind: pictures are dark or light, and so are panels.

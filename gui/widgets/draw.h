@@ -66,6 +66,8 @@ Rect PlateAt(const Style& style, ImDrawList* dl, const Rect& within, Corner corn
              float height);
 /// One line of text on a plate in a corner of a picture, 8 units from its edges.
 Rect TextPlate(UiFrame& ui, const Rect& within, Corner corner, std::string_view text);
+/// Half the size of the plate below, px: of a square, or wider where "A2" needs it.
+ImVec2 LetterPlateHalf(const Style& style, std::string_view letter, float side = 20);
 /// Letter of a site on its 20-unit square plate; selected: white with a dark letter.
 void LetterPlate(UiFrame& ui, ImVec2 centre, std::string_view letter, bool selected,
                  float side = 20);

@@ -135,6 +135,7 @@ TEST_F(Endings, TheVehicleAndExperimentsEndInOrderToo) {
   experiment.Signal(SIGTERM);
   const ProcessResult ended = experiment.Wait(60);
   EXPECT_EQ(ended.exit_code, 128 + SIGTERM) << ended.err;
+  EXPECT_NE(ended.err.find("ends after the trial in hand"), std::string::npos) << ended.err;
   EXPECT_NE(ended.err.find("ended after trial"), std::string::npos) << ended.err;
   EXPECT_TRUE(std::filesystem::exists(folder_ / "out" / "probability.csv"));
 

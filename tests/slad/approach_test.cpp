@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "engine/slad/sites/site_evaluation.h"
+#include "engine/slad/sites/approach_corridors.h"
 #include "engine/slad/sites/site_selection.h"
 #include "tests/slad/seen_from_the_south.h"
 #include "tests/slad/worlds.h"
@@ -253,12 +253,80 @@ TEST(Approach, ACorridorIsClearWhereNoCellStandsInIt) {
     const Approach approach{{std::cos(bearing_rad), std::sin(bearing_rad)},
                             random.Uniform(0, 12),
                             random.Uniform(0.1, 1.5)};
-    const bool is_clear = IsClear(approach, map, settings, site);
+    const bool is_clear = ApproachCorridors(map, settings).IsClear(approach, site);
     ASSERT_EQ(is_clear, NothingStandsIn(approach, map, settings, site)) << seed;
     clear += is_clear ? 1 : 0;
   }
   EXPECT_GT(clear, kCorridors / 10);
   EXPECT_LT(clear, kCorridors * 9 / 10);
+}
+
+/// Whether a cell that reaches the skids lies on a level way, so much wider and longer on all
+/// sides.
+bool SomethingStandsOnWay(const ElevationMap& map, const Eigen::Vector2d& from_W,
+                          const Eigen::Vector2d& to_W, double half_width_m, double skids_m,
+                          double wider_m) {
+  const double length_m = (to_W - from_W).norm();
+  const Eigen::Vector2d along = (to_W - from_W) / length_m;
+  for (int r = 0; r < map.geometry.rows; ++r) {
+    for (int c = 0; c < map.geometry.cols; ++c) {
+      const Eigen::Vector2d at =
+          Eigen::Vector2d(map.geometry.NorthOfRow(r), map.geometry.EastOfCol(c)) - from_W;
+      const double s = at.dot(along), aside = std::abs(at.x() * along.y() - at.y() * along.x());
+      if (double(map.height_m.at(r, c)) > skids_m && s >= -wider_m && s <= length_m + wider_m &&
+          aside <= half_width_m + wider_m) {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+// Columns are counted a cell or two too many; what stands beside the way, at the map's edge also
+// where the way passes beside the map, does not block it.
+TEST(Approach, ALevelWayIsClearWhereNothingTallStandsOnIt) {
+  int clear = 0, blocked = 0, beside_map = 0;
+  constexpr int kWays = 3000;
+  for (std::uint64_t seed = 1; seed <= kWays; ++seed) {
+    RandomStream random(seed, "level way");
+    const int rows = 1 + random.Index(60), cols = 1 + random.Index(60);
+    ElevationMap map = MakeMap(rows, cols, 0.15, Flat(), 0.01, seed);
+    for (int things = random.Index(4); things >= 0; --things) {
+      const int row = random.Index(rows);
+      const int col = random.Uniform() < 0.5 ? random.Index(cols) : random.Index(2) * (cols - 1);
+      map.height_m.at(row, col) = float(random.Uniform(0, 12));
+    }
+    SladSettings settings;
+    settings.lander.rotor_diameter_m = random.Uniform(0.1, 4);
+    LandingSite site;
+    site.p_WS = {random.Uniform(-9, 9), random.Uniform(-9, 9), 0};
+    site.clear_radius_m = 0;
+    site.height_m = {NAN, NAN};  // its corridor is clear: the level way alone is asked
+    SiteContext context;
+    context.p_WB = {random.Uniform(-9, 9), random.Uniform(-9, 9), -6};
+    const double bearing_rad = random.Uniform(0, 6.28);
+    const Approach approach{
+        {std::cos(bearing_rad), std::sin(bearing_rad)}, random.Uniform(0, 6), Rad(45)};
+    const Eigen::Vector2d to_W = site.p_WS.head<2>() + approach.length_m * approach.from;
+    const double skids_m = HeightFromDown(-6 + settings.lander.skid_centre_B().z());
+    const auto stands = [&](double wider_m) {
+      return SomethingStandsOnWay(map, context.p_WB.head<2>(), to_W,
+                                  settings.lander.rotor_diameter_m / 2, skids_m, wider_m);
+    };
+    const bool is_clear = ApproachCorridors(map, settings).IsReachable(approach, context, site);
+    if (stands(0)) {
+      ASSERT_FALSE(is_clear) << seed;
+      ++blocked;
+    } else if (!stands(6 * map.geometry.cell_m)) {
+      ASSERT_TRUE(is_clear) << seed;
+      ++clear;
+      beside_map += std::max(context.p_WB.y(), to_W.y()) < map.geometry.EastOfCol(0) - 3 ||
+                    std::min(context.p_WB.y(), to_W.y()) > map.geometry.EastOfCol(cols - 1) + 3;
+    }
+  }
+  EXPECT_GT(clear, kWays / 10);
+  EXPECT_GT(blocked, kWays / 20);
+  EXPECT_GT(beside_map, 50);
 }
 
 }  // namespace

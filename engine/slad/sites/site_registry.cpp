@@ -52,6 +52,7 @@ struct SiteRegistry::Map {
   const SiteContext& context;
   bool first = false;  ///< of a flight, or under other limits: nothing is steady yet
   bool again = false;  ///< the same map: counts no second time
+  ApproachCorridors corridors{elevation, settings};
 
   std::optional<Cell> CellOf(const Eigen::Vector2d& p_W) const {
     return elevation.geometry.CellFromPoint(p_W.x(), p_W.y());
@@ -255,8 +256,8 @@ void SiteRegistry::Follow(const Map& now, const std::vector<Chosen>& chosen,
   cv::parallel_for_(cv::Range(0, static_cast<int>(chosen.size())), [&](const cv::Range& range) {
     for (int i = range.start; i < range.end; ++i) {
       const auto k = static_cast<std::size_t>(i);
-      sites[k] =
-          EvaluateSite(now.elevation, now.hazards, now.settings, now.context, chosen[k].at.cell);
+      sites[k] = EvaluateSite(now.elevation, now.hazards, now.settings, now.context, now.corridors,
+                              chosen[k].at.cell);
     }
   });
   for (std::size_t k = 0; k < chosen.size(); ++k) {

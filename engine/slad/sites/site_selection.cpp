@@ -20,7 +20,8 @@ std::optional<LandingSite> RecheckSite(const ElevationMap& map, const HazardMaps
   if (map.height_m.empty() || !cell) {
     return std::nullopt;
   }
-  LandingSite now = EvaluateSite(map, hazards, settings, context, *cell);
+  LandingSite now =
+      EvaluateSite(map, hazards, settings, context, ApproachCorridors(map, settings), *cell);
   now.id = site.id;
   now.letter = site.letter;
   now.reason = site.reason;

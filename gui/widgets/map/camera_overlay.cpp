@@ -9,6 +9,7 @@
 #include "gui/widgets/map/cell_hatch.h"
 #include "gui/widgets/map/contour.h"
 #include "gui/widgets/map/flag_marks.h"
+#include "gui/widgets/map/letter_places.h"
 
 namespace palace {
 namespace {
@@ -57,8 +58,8 @@ namespace {
 // Items on a picture: a letter, the ring of the best or selected site, of where it is to land.
 constexpr const char *kMark = "site_mark", *kRing = "ring", *kLandingRing = "landing_ring";
 
-/// A site that is not the selected one.
-void DrawOther(UiFrame& ui, const SiteOverlay& overlay, const LandingSite& site, ImVec2 at) {
+/// A site that is not the selected one. Returns where its letter stands.
+LetterPlace DrawOther(UiFrame& ui, const SiteOverlay& overlay, const LandingSite& site, ImVec2 at) {
   LetterLook look;
   look.highlighted = site.id == overlay.highlighted;
   if (overlay.mission != nullptr) {
@@ -69,6 +70,7 @@ void DrawOther(UiFrame& ui, const SiteOverlay& overlay, const LandingSite& site,
   const float r = ui.style.Px(look.radius);
   const float half = LetterHalfWidth(ui.style, site.letter, look.radius);
   ui.items.Add(kMark, {at.x - half, at.y - r, 2 * half, 2 * r}, true, site.letter);
+  return {site.id, at, {half, r}};
 }
 
 /// The ring of a site, recorded under a name. False when it cannot be projected.
@@ -112,21 +114,23 @@ void DrawLanding(UiFrame& ui, const PictureView& view, const SiteOverlay& overla
            Align::kCentre);
 }
 
-/// The letter at the upper right of its ring, kept inside the picture.
+/// The letter at a corner of its ring, kept inside the picture.
 void DrawRingLetter(UiFrame& ui, const PictureView& view, const SiteOverlay& overlay, ImVec2 at,
-                    float radius) {
-  const float edge = ui.style.Px(14);
+                    float radius, const std::vector<LetterPlace>& others) {
+  const Style& s = ui.style;
+  const LandingSite& site = *overlay.selected;
+  const ImVec2 half = LetterPlateHalf(s, site.letter);
   const Rect& r = view.rect;
-  const float x = at.x + radius * 0.72f + ui.style.Px(10);
-  const float y = at.y - radius * 0.72f - ui.style.Px(10);
-  const ImVec2 plate{std::clamp(x, r.x + edge, std::max(r.x + edge, r.right() - edge)),
-                     std::clamp(y, r.y + edge, std::max(r.y + edge, r.bottom() - edge))};
+  const float gap = s.Px(4), beside = radius * 0.72f + s.Px(10);
+  const ImVec2 plate =
+      CornerOfRing({site.id, at, half}, {beside, beside}, others,
+                   {r.x + gap, r.y + gap, r.w - 2 * gap, r.h - 2 * gap});
   if (overlay.mission != nullptr) {
-    OfferLetter(ui, "picture", plate, *overlay.selected, *overlay.mission);
+    OfferLetter(ui, "picture", plate, site, *overlay.mission);
   }
-  LetterPlate(ui, plate, overlay.selected->letter, true);
-  ui.items.Add(kMark, {plate.x - edge, plate.y - edge, 2 * edge, 2 * edge}, true,
-               overlay.selected->letter);
+  LetterPlate(ui, plate, site.letter, true);
+  ui.items.Add(kMark, {plate.x - half.x, plate.y - half.y, 2 * half.x, 2 * half.y}, true,
+               site.letter);
 }
 
 }  // namespace
@@ -136,11 +140,12 @@ void DrawSites(UiFrame& ui, const PictureView& view, const SiteOverlay& overlay)
   ImDrawList* dl = Canvas();
   dl->PushClipRect(view.rect.min(), view.rect.max(), true);
   const std::uint64_t selected = overlay.selected ? overlay.selected->id : 0;
+  std::vector<LetterPlace> letters;
   if (overlay.sites != nullptr) {
     for (const LandingSite& site : *overlay.sites) {
       const auto at = view.ScreenFromPoint(site.p_WS);
       if (site.id != selected && at && view.rect.Contains(*at)) {
-        DrawOther(ui, overlay, site, *at);
+        letters.push_back(DrawOther(ui, overlay, site, *at));
       }
     }
   }
@@ -188,7 +193,7 @@ void DrawSites(UiFrame& ui, const PictureView& view, const SiteOverlay& overlay)
     const auto at = view.ScreenFromPoint(site.p_WS);
     if (DrawSiteRing(ui, view, site, kind, kRing) && view.rect.Contains(*at)) {
       const float radius = static_cast<float>(site.clear_radius_m) * view.PixelsPerMetre(site.p_WS);
-      DrawRingLetter(ui, view, overlay, *at, radius);
+      DrawRingLetter(ui, view, overlay, *at, radius, letters);
     }
   }
   DrawLanding(ui, view, overlay);

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
-#include <span>
+#include <optional>
 
 namespace palace {
 namespace {
@@ -90,6 +90,25 @@ void SpreadLetters(std::vector<LetterPlace>& letters, const std::vector<LetterPl
     }
     letter.moved = letter.shift.x != 0 || letter.shift.y != 0;
   }
+}
+
+ImVec2 CornerOfRing(const LetterPlace& letter, ImVec2 beside, std::span<const LetterPlace> others,
+                    const Rect& within) {
+  const auto kept = [](float at, float low, float high) {
+    return std::clamp(at, low, std::max(low, high));
+  };
+  std::optional<ImVec2> first;
+  for (const ImVec2 side : {ImVec2{1, -1}, ImVec2{-1, -1}, ImVec2{1, 1}, ImVec2{-1, 1}}) {
+    const ImVec2 at{kept(letter.anchor.x + side.x * beside.x, within.x + letter.half.x,
+                         within.right() - letter.half.x),
+                    kept(letter.anchor.y + side.y * beside.y, within.y + letter.half.y,
+                         within.bottom() - letter.half.y)};
+    if (IsFree(letter, {at.x - letter.anchor.x, at.y - letter.anchor.y}, others, 0)) {
+      return at;
+    }
+    first = first.value_or(at);
+  }
+  return *first;
 }
 
 }  // namespace palace

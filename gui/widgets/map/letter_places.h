@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "gui/widgets/ui_frame.h"
@@ -27,5 +28,11 @@ struct LetterPlace {
 /// `within`; where no step is free they stay at their places.
 void SpreadLetters(std::vector<LetterPlace>& letters, const std::vector<LetterPlace>& last,
                    const Rect& within);
+
+/// Where a letter stands that belongs to a ring: beside its cross, `beside` away to a side and up or
+/// down, on the first of its four corners, upper right first, where it covers none of `others`;
+/// upper right where each does. `letter` has its anchor in the cross. Kept in `within`.
+ImVec2 CornerOfRing(const LetterPlace& letter, ImVec2 beside, std::span<const LetterPlace> others,
+                    const Rect& within);
 
 }  // namespace palace

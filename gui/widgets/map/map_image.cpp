@@ -8,6 +8,7 @@
 #include "gui/widgets/interact.h"
 #include "gui/widgets/map/cell_hatch.h"
 #include "gui/widgets/map/flag_marks.h"
+#include "gui/widgets/map/letter_places.h"
 #include "gui/widgets/map/site_marks.h"
 
 namespace palace {
@@ -38,44 +39,59 @@ void DrawFootprint(const Style& s, const Rect& square, const MapView& view,
   DashedPolyline(dl, outline, picture::kWhite, s.Fine(1.2f), s.Fine(5), s.Fine(4));
 }
 
+constexpr float kLetterRadius = 9, kPlateSide = 16;  // of a letter's disc; of the selected one's
+
 void DrawMapSites(UiFrame& ui, const Rect& square, const MapView& view, const MapMarks& marks) {
   const Style& s = ui.style;
   const float px_per_m = square.w / static_cast<float>(view.geometry.cols * view.geometry.cell_m);
   const std::uint64_t selected = marks.selected ? marks.selected->id : 0;
+  std::vector<LetterPlace> letters;
+  const auto place = [&](const LandingSite& site) {
+    return ScreenFromGround(square, view.geometry, site.p_WS.x(), site.p_WS.y());
+  };
   if (marks.sites != nullptr && marks.letters) {
     for (const LandingSite& site : *marks.sites) {
-      const ImVec2 at = ScreenFromGround(square, view.geometry, site.p_WS.x(), site.p_WS.y());
+      const ImVec2 at = place(site);
       if (site.id != selected && square.Contains(at)) {
-        LetterLook look{site.id == marks.highlighted, false, 9};
+        LetterLook look{site.id == marks.highlighted, false, kLetterRadius};
         if (marks.mission != nullptr) {
           look.refused = marks.mission->IsRefused(site.id);
           look.highlighted |= OfferLetter(ui, "map/" + view.key, at, site, *marks.mission).hovered;
         }
         DrawLetterDisc(ui, at, site.letter, look);
+        const float half = LetterHalfWidth(s, site.letter, kLetterRadius);
+        letters.push_back({site.id, at, {half, s.Fine(kLetterRadius)}});
       }
     }
   }
   const auto ring = [&](const LandingSite& site, bool commanded) {
-    const ImVec2 at = ScreenFromGround(square, view.geometry, site.p_WS.x(), site.p_WS.y());
-    DrawRing(s, Canvas(), at, static_cast<float>(site.clear_radius_m) * px_per_m,
+    DrawRing(s, Canvas(), place(site), static_cast<float>(site.clear_radius_m) * px_per_m,
              commanded ? RingKind::kCommanded : RingKind::kProposed);
+  };
+  const auto plate = [&](const LandingSite& site) {
+    const ImVec2 half = LetterPlateHalf(s, site.letter, kPlateSide);
+    const ImVec2 at =
+        CornerOfRing({site.id, place(site), half}, {s.Px(16), s.Px(14)}, letters, square);
+    letters.push_back({site.id, at, half});
     return at;
   };
   if (marks.selected) {
-    const ImVec2 at = ring(*marks.selected, marks.commanded);
-    if (marks.letters && square.Contains(at)) {  // beside the ring's cross, clear of it
-      const ImVec2 plate{at.x + s.Px(16), at.y - s.Px(14)};
+    const LandingSite& site = *marks.selected;
+    ring(site, marks.commanded);
+    if (marks.letters && square.Contains(place(site))) {
+      const ImVec2 at = plate(site);
       if (marks.mission != nullptr) {
-        OfferLetter(ui, "map/" + view.key, plate, *marks.selected, *marks.mission);
+        OfferLetter(ui, "map/" + view.key, at, site, *marks.mission);
       }
-      LetterPlate(ui, plate, marks.selected->letter, true, 16);
+      LetterPlate(ui, at, site.letter, true, kPlateSide);
     }
   }
   if (marks.landing && marks.landing->id != selected) {
-    const ImVec2 at = ring(*marks.landing, marks.landing_commanded);
-    if (square.Contains(at)) {
-      LetterPlate(ui, {at.x + s.Px(16), at.y - s.Px(14)}, marks.landing->letter, true, 16);
-      ui.items.Add("landing_on_map/" + view.key, {at.x, at.y, 1, 1}, true, marks.landing->letter);
+    const LandingSite& site = *marks.landing;
+    ring(site, marks.landing_commanded);
+    if (const ImVec2 at = place(site); square.Contains(at)) {
+      LetterPlate(ui, plate(site), site.letter, true, kPlateSide);
+      ui.items.Add("landing_on_map/" + view.key, {at.x, at.y, 1, 1}, true, site.letter);
     }
   }
 }

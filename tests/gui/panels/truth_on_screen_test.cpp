@@ -174,6 +174,27 @@ TEST(Legend, StaysWhereItIsWhileItHidesNothingAndCoversNoButton) {
   }
 }
 
+// The letter of the leading site stands beside its ring's cross, where a neighbour's may be.
+TEST(Letters, OfTheLeadingSiteCoversNoNeighbour) {
+  for (const ImVec2 size : {ImVec2(1920, 1080), ImVec2(1280, 720)}) {
+    EngineSnapshot snap = fake::Snapshot(MissionState::kProposed);
+    FlyWindow before(size.x, size.y, snap);
+    const Rect leader = before.ui.items.Find("letter/picture/A")->rect;
+    MoveSiteTo(leader.centre(), size, 1, snap);
+    FlyWindow window(size.x, size.y, snap);
+    int neighbours = 0;
+    for (const Item& item : window.ui.items.items()) {
+      if (item.name == "site_mark" && item.text != "A") {
+        neighbours += Touch(item.rect, leader);
+        EXPECT_FALSE(Touch(item.rect, window.ui.items.Find("letter/picture/A")->rect)) << size.x;
+      }
+    }
+    EXPECT_EQ(neighbours, 1) << size.x;
+    window.ui.Click("letter/picture/B", window.draw);
+    EXPECT_EQ(window.ui.CountCommands<SelectSite>(), 1) << size.x;
+  }
+}
+
 TEST(Maps, ALetterOfTwoCharactersStaysInItsMark) {
   EngineSnapshot snap = fake::Snapshot(MissionState::kProposed);
   auto decision = std::make_shared<TerrainDecision>(*snap.terrain->applied);
