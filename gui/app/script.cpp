@@ -11,6 +11,7 @@ namespace palace {
 namespace {
 
 constexpr double kDefaultWait_s = 60;
+constexpr double kDrawn_s = 0.5;  // until what a click opens is on the screen
 constexpr int kDragFrames = 8;
 constexpr int kMostTaps = 200;
 
@@ -204,7 +205,7 @@ void ScriptRunner::Expect(const ScriptLine& line, const ItemRecord& items,
   if (what == "item" || what == "text") {
     const Item* item = items.Find(line.words[1]);
     if (item == nullptr) {
-      return Fail(line, "nothing of that name is on the screen");
+      return FailAbsent(line);
     }
     if (what == "item" && !item->enabled) {
       return Fail(line, "it is disabled: " + item->text);
@@ -220,10 +221,16 @@ void ScriptRunner::Expect(const ScriptLine& line, const ItemRecord& items,
   Next();
 }
 
+void ScriptRunner::FailAbsent(const ScriptLine& line) {
+  if (now_s_ - start_s_ > kDrawn_s) {
+    Fail(line, "nothing of that name is on the screen");
+  }
+}
+
 void ScriptRunner::Point(const ScriptLine& line, const ItemRecord& items) {
   const Item* item = items.Find(line.words[0]);
   if (item == nullptr) {
-    return Fail(line, "nothing of that name is on the screen");
+    return FailAbsent(line);
   }
   if (!item->enabled && line.verb != "hover") {
     return Fail(line, "it is disabled: " + item->text);

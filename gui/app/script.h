@@ -70,6 +70,8 @@ class ScriptRunner {
   void MoveFocus(const ScriptLine& line, const ItemRecord& items);
   void Press(ImVec2 from, ImVec2 to, double seconds);
   void Fail(const ScriptLine& line, const std::string& found);
+  /// Once it is not there for longer than the screen may take to draw it.
+  void FailAbsent(const ScriptLine& line);
   void Next() {
     ++next_;
     started_ = false;

@@ -136,6 +136,21 @@ TEST(Script, DisabledAndMissingItemsFail) {
   EXPECT_NE(missing.script_.error().find("nothing of that name"), std::string::npos);
 }
 
+TEST(Script, WhatAClickOpensMayBeDrawnAFrameLater) {
+  Runner run("click go\nclick late\nexpect item later\nquit\n");
+  for (int frame = 0; frame < 40 && !run.script_.done(); ++frame) {
+    run.Tick();
+    if (frame == 4) {  // a frame after the press of the first is over
+      run.items_.Add("late", {100, 140, 40, 20}, true, "Late");
+    }
+    if (frame == 9) {
+      run.items_.Add("later", {100, 180, 40, 20}, true, "Later");
+    }
+  }
+  EXPECT_TRUE(run.script_.done());
+  EXPECT_EQ(run.script_.error(), "");
+}
+
 TEST(Script, EveryKeyOfTheTableMayBePressed) {
   for (const char* keys : {"Tab", "Shift+Tab", "F12", "Ctrl+Z", "Ctrl+Shift+Z", "Ctrl++", "[", "B",
                            "Shift+Escape", "Space"}) {
