@@ -37,21 +37,23 @@ ColumnRange CorridorInRow(const GridGeometry& g, double origin_east_m, const Eig
           last < 0 ? -1 : static_cast<int>(std::min(last, g.cols - 1.0))};
 }
 
-/// Unknown cells count too: they may have a height. -infinity where no cell has one.
+/// The highest that is no NaN; -infinity where there is none.
+double Highest(const GridF& height_m, int row) {
+  float highest_m = -HUGE_VALF;
+  for (int c = 0; c < height_m.cols(); ++c) {
+    const float at_m = height_m.at(row, c);
+    highest_m = at_m > highest_m ? at_m : highest_m;
+  }
+  return static_cast<double>(highest_m);
+}
+
+/// Unknown cells count too: they may have a height.
 std::vector<double> HighestOfRows(const ElevationMap& map) {
-  std::vector<double> top_m;
-  for (int r = 0; r < map.geometry.rows; ++r) {
-    float highest_m = -HUGE_VALF, thin_m = -HUGE_VALF;
-    for (int c = 0; c < map.geometry.cols; ++c) {
-      const float height_m = map.height_m.at(r, c);
-      highest_m = height_m > highest_m ? height_m : highest_m;
-    }
-    for (int c = 0; c < map.geometry.cols && !map.thin_top_m.empty(); ++c) {
-      const float height_m = map.thin_top_m.at(r, c);
-      thin_m = height_m > thin_m ? height_m : thin_m;
-    }
-    top_m.push_back(std::max(static_cast<double>(highest_m),  //
-                             static_cast<double>(thin_m) + kThinMargin_m));
+  std::vector<double> top_m(static_cast<std::size_t>(map.height_m.rows()));
+  for (int r = 0; r < map.height_m.rows(); ++r) {
+    const double thin_m =
+        map.thin_top_m.empty() ? -HUGE_VAL : Highest(map.thin_top_m, r) + kThinMargin_m;
+    top_m[static_cast<std::size_t>(r)] = std::max(Highest(map.height_m, r), thin_m);
   }
   return top_m;
 }
