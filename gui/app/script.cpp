@@ -222,7 +222,7 @@ void ScriptRunner::Expect(const ScriptLine& line, const ItemRecord& items,
 }
 
 void ScriptRunner::FailAbsent(const ScriptLine& line) {
-  if (now_s_ - start_s_ > kDrawn_s) {
+  if (now_s_ > start_s_ + kDrawn_s) {
     Fail(line, "nothing of that name is on the screen");
   }
 }

@@ -346,10 +346,11 @@ void DrawApprovePanel(const EngineSnapshot& snap, const Rect& rect, bool narrow,
   const bool armed = m.state == MissionState::kArmed && m.armed && m.may_select;
   DrawPanelFrame(ui, rect, "Approve", {{narrow || armed ? std::string() : fact}});
   float head = rect.x + s.Px(12) + TextWidth(s.medium, "Approve");
-  if (m.may_select && m.OffersLook()) {
+  const bool lacks_look = armed && m.next_look;  // without it the site cannot be approved
+  if (m.may_select && m.OffersLook() && !lacks_look) {
     head = DrawLookButton(snap, rect, ui);
   }
-  if (armed && m.next_look) {  // without it the site cannot be approved
+  if (lacks_look) {
     head = DrawProposedLook(snap, head + s.Px(10), rect.y + s.Px(3), false, ui);
   }
   if (armed) {

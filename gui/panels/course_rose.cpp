@@ -81,9 +81,7 @@ std::string HeadingWords(const EngineSnapshot& snap) {
     return {};
   }
   const HeadingScore& score = m.headings->At(m.approach->heading_rad);
-  const long degrees = (std::lround(Deg(m.approach->heading_rad)) + 360) % 360;
-  char heading[16];
-  std::snprintf(heading, sizeof heading, "%03ld°", degrees);
+  const std::string heading = HeadingText(m.approach->heading_rad);
   const auto& vehicle = snap.sensors->vehicle;
   const bool calm = vehicle && std::isfinite(vehicle->wind_speed_mps) &&
                     !WindHasDirection(vehicle->wind_speed_mps);

@@ -12,13 +12,6 @@ namespace palace {
 
 namespace {
 
-/// "040°", as headings are read.
-std::string HeadingText(double heading_rad) {
-  const int degrees = static_cast<int>(std::lround(Deg(heading_rad)));
-  const std::string digits = std::to_string(((degrees % 360) + 360) % 360);
-  return std::string(3 - digits.size(), '0') + digits + "°";
-}
-
 /// "Gear: worst heading 040°, best 130° with 1.000."; empty when not known.
 std::string GearWords(const LandingSite& site) {
   const TouchdownOdds& odds = site.touchdown;

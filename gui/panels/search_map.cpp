@@ -74,6 +74,7 @@ void CloseArea(SearchMapState& state, UiFrame& ui) {
     state.draws = false;
     state.corners.clear();
     state.put_aside.clear();
+    state.settled_s = ui.ui_time_s + kDoubleClick_s;
   }
 }
 
@@ -104,6 +105,8 @@ void TakePlace(const Eigen::Vector2d& place, const MapGround& ground, SearchMapS
     state.picked = again ? std::nullopt : std::optional(place);
   } else if (state.corners.size() >= FlyArea::kFewestCorners && near(state.corners.front())) {
     CloseArea(state, ui);
+  } else if (!state.corners.empty() && near(state.corners.back())) {
+    // A double click's second: two corners in one place would be edges that cross.
   } else if (state.corners.size() < FlyArea::kMostCorners) {
     state.corners.push_back(place);
   }
@@ -148,9 +151,12 @@ void BeginArea(const EngineSnapshot& snap, SearchMapState& state) {
   state.put_aside.clear();
   state.picked.reset();
   state.why_not.clear();
+  const std::optional<FlyArea>& before = snap.flight->mission.area;
   const auto& pose = snap.sensors->pose;
   const double height_m = pose ? HeightFromDown(pose->X_WB.p.z()) : 0;
-  state.ceiling_m = std::ceil((height_m + kCeilingAbove_m) / kCeilingStep_m) * kCeilingStep_m;
+  state.ceiling_m = before
+                        ? before->ceiling_m
+                        : std::ceil((height_m + kCeilingAbove_m) / kCeilingStep_m) * kCeilingStep_m;
 }
 
 void DrawAreaButtons(const EngineSnapshot& snap, Row& row, SearchMapState& state, UiFrame& ui) {
@@ -185,7 +191,7 @@ void DrawAreaButtons(const EngineSnapshot& snap, Row& row, SearchMapState& state
   look.hint =
       "Keeps the vehicle to it, in place of any drawn before: ways, looks and approaches "
       "that leave it are refused";
-  if (row.Offer("draw_area", "Draw area", look)) {
+  if (row.Offer("draw_area", "Draw area", look) && ui.ui_time_s >= state.settled_s) {
     BeginArea(snap, state);
   }
   look.hint = {};

@@ -145,7 +145,8 @@ std::vector<Readout> Readouts(const EngineSnapshot& snap, bool narrow, double si
                        told.height_m, 1, by_gps && !narrow ? "m, GPS" : "m");
     }();
     if (narrow) {
-      return {height, estimated("To go", m.time_to_touchdown_s, 0, "s"),
+      return {height,
+              estimated("To go", m.time_to_touchdown_s, 0, "s"),
               estimated(climbs ? "Climb" : "Descent", down, 2, "m/s"),
               estimated("From centre", from_m, 2, "m"),
               status("Wind", wind, 1, wind_unit),
@@ -168,30 +169,30 @@ std::vector<Readout> Readouts(const EngineSnapshot& snap, bool narrow, double si
     SayWhyNoLaser(told.no_laser, by_pose);
     return by_pose;
   }();
-  // While it climbs or sinks that goes before the wind.
-  const double down_mps = VerticalSpeedTold(snap);
-  const Readout third = std::isnan(down_mps) ? status("Wind", wind, 1, wind_unit)
-                        : down_mps < 0
-                            ? pose(narrow ? "Climb" : "Climb rate", -down_mps, 1, "m/s")
-                            : pose(narrow ? "Descent" : "Descent rate", down_mps, 1, "m/s");
+  const Readout blows = status("Wind", wind, 1, wind_unit);
+  const Readout over_ground = pose(narrow ? "Speed" : "Ground speed", speed, 1, "m/s");
   const Readout heading =
       pose("Heading", snap.sensors->pose ? HeadingDeg(*snap.sensors->pose) : NAN, 0, "°");
+  // How fast it climbs or sinks goes before the heading, in a narrow panel before the speed, never
+  // before the wind: gusts bob a hover, and then the wind is asked for.
+  const double down_mps = VerticalSpeedTold(snap);
+  const bool level = std::isnan(down_mps);
+  const Readout upwards = down_mps < 0
+                              ? pose(narrow ? "Climb" : "Climb rate", -down_mps, 1, "m/s")
+                              : pose(narrow ? "Descent" : "Descent rate", down_mps, 1, "m/s");
   if (narrow) {
-    std::vector<Readout> some = {height,
-                                 pose("Speed", speed, 1, "m/s"),
-                                 third,
-                                 estimated("Error, 3σ", PositionError3s(snap), 2, "m"),
-                                 heading,
-                                 status("Energy", energy, 0, energy_unit)};
+    std::vector<Readout> some = {height,  level ? over_ground : upwards,
+                                 blows,   estimated("Error, 3σ", PositionError3s(snap), 2, "m"),
+                                 heading, status("Energy", energy, 0, energy_unit)};
     if (IsLowOnEnergy(m)) {
       std::swap(some[1], some[5]);  // of a hover the speed is worth less
     }
     return some;
   }
   return {height,
-          pose("Ground speed", speed, 1, "m/s"),
-          heading,
-          third,
+          over_ground,
+          level ? heading : upwards,
+          blows,
           estimated("Position error", PositionError3s(snap), 2, "m, 3σ"),
           status("Energy", energy, 0, energy_unit)};
 }

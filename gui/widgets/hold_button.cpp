@@ -18,7 +18,8 @@ struct Words {
   std::string second;
 };
 
-Words WordsOf(const HoldButtonView& view, const HoldState& state, double now_s) {
+/// `down`: a press that lasts from before it could begin a hold, or after it ended one.
+Words WordsOf(const HoldButtonView& view, const HoldState& state, bool down, double now_s) {
   switch (view.phase) {
     case HoldPhase::kBlocked:
     case HoldPhase::kNoVehicle:
@@ -36,6 +37,9 @@ Words WordsOf(const HoldButtonView& view, const HoldState& state, double now_s) 
   if (state.holding) {
     const double left = std::max(0.0, view.duration_s - HeldSeconds(state, now_s));
     return {"Keep holding", Fixed(left, 1) + " s left"};
+  }
+  if (down) {
+    return {view.label, "Release first, then hold"};
   }
   if (now_s - state.released_at_s < kReleaseMessage_s) {
     return {view.label,
@@ -147,7 +151,9 @@ bool DrawHoldButton(UiFrame& ui, std::string_view name, const Rect& rect,
 
   const double held = HeldSeconds(state, ui.ui_time_s);
   DrawBody(ui, rect, view, static_cast<float>(std::min(1.0, held / view.duration_s)));
-  const Words words = WordsOf(view, state, ui.ui_time_s);
+  const bool down = ready && !state.holding && !fired &&
+                    ((in.hovered && ImGui::IsMouseDown(ImGuiMouseButton_Left)) || in.key_held);
+  const Words words = WordsOf(view, state, down, ui.ui_time_s);
   ui.items.Last(name).text = words.title + " | " + words.second;
   const bool quiet = view.phase == HoldPhase::kBlocked || view.phase == HoldPhase::kNoVehicle;
   const ImU32 title = ready ? p.on_go : (quiet ? p.text2 : p.text1);

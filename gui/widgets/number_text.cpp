@@ -3,6 +3,9 @@
 #include <cmath>
 #include <cstdio>
 
+#include "engine/core/text.h"
+#include "engine/core/units.h"
+
 namespace palace {
 
 std::string Fixed(double value, int decimals) {
@@ -65,6 +68,14 @@ std::string AgeText(double age_s) {
     return "never";
   }
   return age_s < 0.25 ? Fixed(age_s * 1000, 0) + " ms" : Fixed(age_s, 1) + " s";
+}
+
+std::string HeadingText(double heading_rad) {
+  if (!std::isfinite(heading_rad)) {
+    return Fixed(heading_rad, 0) + "°";
+  }
+  const long degrees = std::lround(Deg(heading_rad)) % 360;
+  return WithNumbers("%03.0f°", static_cast<double>(degrees < 0 ? degrees + 360 : degrees));
 }
 
 }  // namespace palace

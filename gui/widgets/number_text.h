@@ -23,4 +23,7 @@ std::string LengthText(double seconds);
 /// Ages under a second as "24 ms", above as "1.8 s"; not finite: "never".
 std::string AgeText(double age_s);
 
+/// A heading as headings are read, 000 to 359: "040°"; not finite: "––°".
+std::string HeadingText(double heading_rad);
+
 }  // namespace palace

@@ -25,8 +25,8 @@ Rows Figures(const ApprovalRecord& record) {
       {"For", a.IsLook() ? WithNumbers("a look from %.0f m above it", a.stop_height_m) : "landing"},
       {"Radius to keep clear", WithNumbers("%.2f m", a.clear_radius_m)},
       {"Approach",
-       WithNumbers("heading %.0f deg, slope %.0f deg, %.2f m/s down", Deg(a.approach_heading_rad),
-                   Deg(a.glide_slope_rad), a.descent_rate_mps)},
+       "heading " + HeadingText(a.approach_heading_rad) +
+           WithNumbers(", slope %.0f°, %.2f m/s down", Deg(a.glide_slope_rad), a.descent_rate_mps)},
       {"Valid", WithNumbers("%.0f s, unless the descent began",
                             SecondsBetween(a.approved_at, a.expires_at))},
       {"Bound to", "map " + ShortHash(a.map_hash) + ", limits " + ShortHash(a.settings_hash) +

@@ -97,6 +97,36 @@ TEST(SearchMap, AnAreaIsDrawnCornerByCornerAndSent) {
   EXPECT_FALSE(window.fly.search_map.draws);
 }
 
+// Drawn anew it is as high as the one in force, whatever the vehicle's height.
+TEST(SearchMap, AnAreaDrawnAnewKeepsItsCeiling) {
+  SearchWindow window;
+  const Eigen::Vector2d m = window.middle();
+  window.snap.flight.Edit().mission.area =
+      FlyArea{{m, m + Eigen::Vector2d(30, 0), m + Eigen::Vector2d(0, 30)}, 21};
+  window.Run(0.05);
+  window.ui.Click("draw_area", window.draw);
+  EXPECT_EQ(window.fly.search_map.ceiling_m, 21);
+}
+
+// A double click's second press means the corner, or the button, of the first.
+TEST(SearchMap, ADoubleClickIsOneCornerAndClosesOnce) {
+  SearchWindow window;
+  window.ui.Click("draw_area", window.draw);
+  for (const auto& [north, east] : {std::pair{-20.0, -20.0}, {-20.0, 20.0}, {20.0, 20.0}}) {
+    window.ClickAt(north, east);
+    window.ClickAt(north, east);
+  }
+  // The first corner's second click closes nothing: there are two corners more to come.
+  EXPECT_EQ(window.fly.search_map.corners.size(), 3U);
+  window.ui.Click("area_close", window.draw);
+  EXPECT_EQ(window.ui.CountCommands<SetFlyArea>(), 1);
+  for (const bool down : {true, false}) {  // once more at the same place
+    window.ui.Button(down);
+    window.Run(0.04);
+  }
+  EXPECT_FALSE(window.fly.search_map.draws);
+}
+
 TEST(SearchMap, AnAreaThatIsNoneIsNotSentAndSaysWhy) {
   SearchWindow window;
   window.ui.Click("draw_area", window.draw);

@@ -174,8 +174,8 @@ TEST(VehiclePanel, AHoverThatClimbsOrSinksTellsHowFast) {
     const char *wide, *narrow, *words;
   } table[] = {{-1.24, "Climb rate", "Climb", "1.2 m/s"},
                {0.8, "Descent rate", "Descent", "0.8 m/s"},
-               {-0.1, "Wind", "Wind", nullptr},
-               {NAN, "Wind", "Wind", nullptr}};
+               {-0.1, "Heading", "Speed", nullptr},
+               {NAN, "Heading", "Speed", nullptr}};
   for (const auto& row : table) {
     EngineSnapshot snap = fake::Snapshot(MissionState::kProposed);
     snap.sensors.Edit().pose->v_WB.z() = row.down_mps;
@@ -187,6 +187,7 @@ TEST(VehiclePanel, AHoverThatClimbsOrSinksTellsHowFast) {
       if (row.words != nullptr) {
         EXPECT_EQ(item->text, row.words);
       }
+      EXPECT_NE(window.ui.items.Find("readout/Wind"), nullptr) << label;
       ExpectTextsInPanels(window.ui.items);
     }
   }

@@ -89,6 +89,32 @@ TEST_F(HoldButton, BecomingBlockedCancelsAndBlockedNeverFires) {
   EXPECT_EQ(fired, 0);
 }
 
+TEST_F(HoldButton, PressedBeforeItIsReadySaysThatItHasToBeReleased) {
+  for (const bool by_key : {false, true}) {
+    view.phase = HoldPhase::kBlocked;
+    view.reason = "Evidence on screen for 0.6 s, min 1.0 s";
+    Run(0.05);
+    if (by_key) {
+      ui.MoveTo(ImVec2{500, 400});
+      ui.focus.Show("approve");
+      Run(0.05);
+      ui.Key(ImGuiKey_Enter, true);
+    } else {
+      PressInside();
+    }
+    Run(0.5);
+    EXPECT_EQ(ui.items.Find("approve")->text, "Cannot approve | " + view.reason);
+    view.phase = HoldPhase::kReady;
+    view.reason.clear();
+    Run(2);
+    EXPECT_EQ(fired, 0);
+    EXPECT_EQ(ui.items.Find("approve")->text, "Hold to approve A | Release first, then hold");
+    by_key ? ui.Key(ImGuiKey_Enter, false) : ui.Button(false);
+    Run(0.05);
+    EXPECT_EQ(ui.items.Find("approve")->text, "Hold to approve A | 1.0 s · mouse or Enter");
+  }
+}
+
 TEST_F(HoldButton, EnterHeldWithFocusFiresAndWithoutFocusDoesNot) {
   Run(0.05);
   ui.Key(ImGuiKey_Enter, true);
