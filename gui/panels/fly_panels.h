@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <string>
 
 #include "gui/panels/fly_layout.h"
 #include "gui/panels/fly_state.h"
@@ -16,6 +17,9 @@ const TerrainDecision* SitesInForce(const EngineSnapshot& snap);
 const LandingSite* SiteInView(const EngineSnapshot& snap, std::uint64_t highlighted);
 /// The mission is past APPROVED: the descent panels are shown.
 bool IsDescentView(const EngineSnapshot& snap);
+/// Seconds to the touchdown: "22"; "over 7" while the vehicle waits above the site until it is
+/// still, which in gusts takes longer than by the clock.
+std::string TimeToGo(const EngineSnapshot& snap);
 /// The armed site was approved: the vehicle lands on it, or turned away from it.
 bool IsCommanded(const MissionStatus& mission);
 /// Marks that all maps share.
@@ -71,8 +75,8 @@ void DrawSiteRecheckPanel(const EngineSnapshot& snap, const Rect& rect, bool nar
 /// Every limit that acts now; what is over stands first. "limit_rows" as "evidence_rows".
 void DrawLimitsInForcePanel(const EngineSnapshot& snap, const Rect& rect, bool narrow,
                             RowScroll& scroll, UiFrame& ui);
-/// Every tracker of the site in a row ("tracker/Plane"), the consensus below them. With the pictures
-/// of the one in force, or, where there is no room, in their place: "tracker_pictures".
+/// Every tracker of the site in a row ("tracker/Plane"), the consensus below them. With the
+/// pictures of the one in force, or, where there is no room, in their place: "tracker_pictures".
 void DrawTrackerPanel(const EngineSnapshot& snap, const Rect& rect, TrackerPanelState& state,
                       UiFrame& ui);
 void DrawChannelStripPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui);

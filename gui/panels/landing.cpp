@@ -219,6 +219,12 @@ void DrawRecord(const EngineSnapshot& snap, const Rect& rect, bool tall, const R
 
 }  // namespace
 
+std::string TimeToGo(const EngineSnapshot& snap) {
+  const auto& vehicle = snap.sensors->vehicle;
+  const std::string seconds = Fixed(snap.flight->mission.time_to_touchdown_s, 0);
+  return (vehicle && vehicle->mode == VehicleMode::kSettle ? "over " : "") + seconds;
+}
+
 void DrawLandingPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui) {
   const Style& s = ui.style;
   const Palette& p = s.palette;
@@ -235,8 +241,8 @@ void DrawLandingPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui)
   const bool counting = std::isfinite(m.time_to_touchdown_s) && IsFlying(m.state);
   float room = width;
   if (counting) {
-    room -= DrawText(ui, s.readout, p.text1, rect.right() - s.Px(12), head_y,
-                     Fixed(m.time_to_touchdown_s, 0) + " s", Align::kRight) +
+    room -= DrawText(ui, s.readout, p.text1, rect.right() - s.Px(12), head_y, TimeToGo(snap) + " s",
+                     Align::kRight) +
             s.Px(12);
   }
   const std::string headline =

@@ -126,6 +126,8 @@ std::vector<Readout> Readouts(const EngineSnapshot& snap, bool narrow, double si
     return pose(std::move(label), coasts ? NAN : value, decimals, std::move(unit));
   };
   if (IsDescentView(snap)) {
+    Readout to_go = estimated(narrow ? "To go" : "Time to go", m.time_to_touchdown_s, 0, "s");
+    to_go.value = coasts ? to_go.value : TimeToGo(snap);
     // The same figures, by the estimate in force, as the limits and the plots below.
     const LimitRow* rate = FindLimit(m.limits, LimitId::kDescentRate);
     const double rate_mps = rate != nullptr ? rate->value : NAN;
@@ -146,14 +148,14 @@ std::vector<Readout> Readouts(const EngineSnapshot& snap, bool narrow, double si
     }();
     if (narrow) {
       return {height,
-              estimated("To go", m.time_to_touchdown_s, 0, "s"),
+              to_go,
               estimated(climbs ? "Climb" : "Descent", down, 2, "m/s"),
               estimated("From centre", from_m, 2, "m"),
               status("Wind", wind, 1, wind_unit),
               status("Energy", energy, 0, energy_unit)};
     }
     return {height,
-            estimated("Time to go", m.time_to_touchdown_s, 0, "s"),
+            to_go,
             estimated(climbs ? "Climb rate" : "Descent rate", down, 2, "m/s"),
             estimated("From site centre", from_m, 2, "m"),
             status("Wind", wind, 1, wind_unit),

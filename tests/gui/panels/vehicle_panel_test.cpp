@@ -193,6 +193,23 @@ TEST(VehiclePanel, AHoverThatClimbsOrSinksTellsHowFast) {
   }
 }
 
+// In gusts it waits above the site for longer than by the clock: no figure stands still
+// unexplained.
+TEST(VehiclePanel, WhileItSettlesTheTimeToGoIsAtLeast) {
+  for (const ImVec2 size : {ImVec2(1920, 1080), ImVec2(1280, 720)}) {
+    EngineSnapshot snap = fake::Snapshot(MissionState::kDescending);
+    snap.flight.Edit().mission.time_to_touchdown_s = 7.2;
+    const char* item = size.x > 1300 ? "readout/Time to go" : "readout/To go";
+    snap.sensors.Edit().vehicle->mode = VehicleMode::kDescend;
+    EXPECT_EQ(FlyWindow(size.x, size.y, snap).ui.items.Find(item)->text, "7 s");
+    snap.sensors.Edit().vehicle->mode = VehicleMode::kSettle;
+    FlyWindow window(size.x, size.y, snap);
+    EXPECT_EQ(window.ui.items.Find(item)->text, "over 7 s");
+    EXPECT_TRUE(HasText(window.ui.items, "over 7 s"));  // of the landing
+    ExpectTextsInPanels(window.ui.items);
+  }
+}
+
 // In the least window four figures have room; a higher one has them all, however narrow.
 TEST(VehiclePanel, ANarrowPanelShowsTheEnergyOnceItIsLow) {
   EngineSnapshot snap = fake::Snapshot(MissionState::kProposed);
