@@ -73,7 +73,13 @@ void DrawVerdictPlate(UiFrame& ui, const Rect& image, const EngineSnapshot& snap
   if (decision == nullptr) {
     TextPlate(ui, image, Corner::kTopLeft, NoMapWords(snap));
   } else if (age_s > kOldMap_s) {
-    TextPlate(ui, image, Corner::kTopLeft, "Last map " + Duration(age_s) + " old");
+    const std::string& why = snap.terrain->why_no_map;
+    const std::string last = "Last map " + Duration(age_s) + " old";
+    const bool told =
+        !why.empty() && (TextPlate(ui, image, Corner::kTopLeft, last + ". " + why).w > 0);
+    if (!told) {
+      TextPlate(ui, image, Corner::kTopLeft, last);
+    }
   } else {
     DrawVerdictLegend(ui, image, decision->hazards ? FlagsPresent(decision->hazards->flags) : 0U,
                       legend);

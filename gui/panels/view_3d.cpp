@@ -53,7 +53,9 @@ void DrawView3dPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui) 
                            : snap.terrain->applied            ? "Safe distance over picture"
                            : snap.terrain->why_no_map.empty() ? "No map yet"
                                                               : "No map";
-  const bool late = old && snap.flight->mission.state != MissionState::kLanded;
+  // Near the ground none is made: an old one is no fault then.
+  const bool late = old && snap.terrain->why_no_map.empty() &&
+                    snap.flight->mission.state != MissionState::kLanded;
   const Rect scene =
       DrawPanelFrame(ui, rect, "3-D view", {{fact, 0, late || snap.terrain->preview, late}});
   ImDrawList* dl = Canvas();

@@ -162,6 +162,23 @@ TEST(Pins, GoWithTheStateInWhichTheyWereSet) {
   EXPECT_FALSE(window.fly.maps.probe.pinned.has_value());
 }
 
+// Below the height to commit at no map is made: that its last one is old is no caution.
+TEST(StaleMap, NearTheGroundItIsToldWhyNoneIsMade) {
+  for (const bool near : {false, true}) {
+    EngineSnapshot snap = fake::Snapshot(MissionState::kDescending);
+    const std::string why = "Below 3.0 m no map is made, the last verdict stands";
+    snap.terrain.Edit().why_no_map = near ? why : "";
+    auto decision = std::make_shared<TerrainDecision>(*snap.terrain->applied);
+    decision->map_time = AddSeconds(snap.time, -30);
+    snap.terrain.Edit().applied = decision;
+    FlyWindow window(1920, 1080, snap);
+    EXPECT_EQ(HasText(window.ui.items, ". Below 3.0 m no map is made, the last verdict stands"),
+              near);
+    EXPECT_TRUE(HasText(window.ui.items, "Last map 30 s old"));
+    ExpectTextsInPanels(window.ui.items);
+  }
+}
+
 TEST(FlyFrame, AHoldTellsItsCauseAsPast) {
   EngineSnapshot snap = fake::Snapshot(MissionState::kHold);
   snap.flight.Edit().mission.why = "Left camera 1.2 s old, limit 0.5 s";
