@@ -45,7 +45,9 @@ class PrintedLines : public testing::Test {
  protected:
   void SetUp() override {
     if (!fs::exists(program_)) {
-      GTEST_SKIP() << program_ << " is not there: builds of the engine alone have no palacectl";
+      GTEST_SKIP()
+          << program_
+          << " is not there: runs in builds that hold palacectl, not in those of the engine alone";
     }
     folder_ = OwnPath(" it's");
     fs::create_directories(folder_ / "bin");
@@ -186,11 +188,11 @@ TEST_F(PrintedLines, OfSlurmMakeTheFilesOfOneRunAndGoOnAfterAKill) {
 
 TEST_F(PrintedLines, OfSlurmAreTakenByAOneNodeCluster) {
   if (FindProgram("sbatch").empty()) {
-    GTEST_SKIP() << "sbatch is not installed: no Slurm to give the script to";
+    GTEST_SKIP() << "runs with Slurm (sbatch) installed";
   }
   const ProcessResult nodes = Run({"sinfo", "--noheader", "--format=%D %t"});
   if (nodes.exit_code != 0 || nodes.out != "1 idle\n") {
-    GTEST_SKIP() << "wants a Slurm of one idle node, this one has: " << nodes.out << nodes.err;
+    GTEST_SKIP() << "runs where Slurm has one idle node; this one has: " << nodes.out << nodes.err;
   }
   ASSERT_EQ(Plan().exit_code, 0);
   RunWhole();

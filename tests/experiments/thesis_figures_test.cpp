@@ -20,7 +20,9 @@ class ThesisPage : public testing::Test {
  protected:
   void SetUp() override {
     if (!fs::exists(program_)) {
-      GTEST_SKIP() << program_ << " is not there: builds of the engine alone have no palacectl";
+      GTEST_SKIP()
+          << program_
+          << " is not there: runs in builds that hold palacectl, not in those of the engine alone";
     }
     fs::create_directories(folder_);
   }
@@ -43,7 +45,9 @@ class ThesisPage : public testing::Test {
 TEST(ThesisFigures, AreAnsweredByExperimentsThatAreThere) {
   const fs::path program = fs::path(PALACE_BINARY_DIR) / "palacectl";
   if (!fs::exists(program)) {
-    GTEST_SKIP() << program << " is not there: builds of the engine alone have no palacectl";
+    GTEST_SKIP()
+        << program
+        << " is not there: runs in builds that hold palacectl, not in those of the engine alone";
   }
   for (const ThesisFigure& figure : ThesisFigures()) {
     SCOPED_TRACE(figure.figure);
@@ -58,7 +62,10 @@ TEST(ThesisFigures, AreAnsweredByExperimentsThatAreThere) {
 
 TEST_F(ThesisPage, LaysResultsBesideWhatTheThesisFoundAndTellsWhatWasNotRun) {
   // Exit code 1: few trials keep no criterion.
-  ASSERT_LE(Evaluate({"site-range", "--trials", "1", "--altitudes-ft", "50", "--cones-in", "28", "--frames", "2", "--out", "range"}).exit_code, 1);
+  ASSERT_LE(Evaluate({"site-range", "--trials", "1", "--altitudes-ft", "50", "--cones-in", "28",
+                      "--frames", "2", "--out", "range"})
+                .exit_code,
+            1);
   const ProcessResult made = Evaluate({"thesis", "range", "--out", "page"});
   ASSERT_EQ(made.exit_code, 0) << made.err;
   const Result<std::string> text = ReadTextFile(folder_ / "page" / "thesis.html", 10'000'000);

@@ -33,18 +33,7 @@ TEST(Navigator, ASiteWhoseHeightErrorNobodyTellsIsFlownToWithAStatedError) {
   NavigatorWorld world(4);
   LandingSite site;
   site.height_m.three_sigma = NAN;
-  Navigator navigator;
-  navigator.AllowVision(true);
-  for (int n = 1; n <= 60; ++n) {
-    const FrameBundle bundle = world.Bundle(n);
-    navigator.AddSensors(bundle);
-    if (n == 10) {
-      navigator.StartVision(site, bundle.time);
-    }
-    if (n >= 10) {
-      navigator.AddVision(world.Track(n), kCamera, world.rig(), bundle, {});
-    }
-  }
+  const Navigator navigator = OnVision(world, site);
   const auto estimate = navigator.EstimateInForce(At(6));
   EXPECT_EQ(navigator.status().handover, State::kVision);
   EXPECT_TRUE(estimate.sigma_p_m.allFinite()) << estimate.sigma_p_m.transpose();

@@ -116,14 +116,14 @@ class NavigatorWorld {
   std::vector<Eigen::Vector3d> ground_;
 };
 /// Flies on vision from the start; returns the navigator after bundle 60.
-inline Navigator OnVision(NavigatorWorld& world) {
+inline Navigator OnVision(NavigatorWorld& world, const LandingSite& site = {}) {
   Navigator navigator;
   navigator.AllowVision(true);
   for (int n = 1; n <= 60; ++n) {
     const FrameBundle bundle = world.Bundle(n);
     navigator.AddSensors(bundle);
     if (n == 10) {
-      navigator.StartVision({}, bundle.time);
+      navigator.StartVision(site, bundle.time);
     }
     if (n >= 10) {
       navigator.AddVision(world.Track(n), kCamera, world.rig(), bundle, {});
