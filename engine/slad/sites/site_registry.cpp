@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <string_view>
-#include <tuple>
 #include <utility>
 
 #include <opencv2/core.hpp>
@@ -13,15 +11,14 @@
 #include "engine/slad/hazards/explanation.h"
 #include "engine/slad/sites/none_reason.h"
 #include "engine/slad/sites/site_evaluation.h"
+#include "engine/slad/sites/site_ranking.h"
 #include "engine/slad/terrain/sense_check.h"
 
 namespace palace {
 namespace {
 
 constexpr int kListedAfter_maps = 3;
-constexpr double kShaken_s = 30;
 constexpr std::size_t kTriesPerSite = 3;  // places looked at for each site kept
-constexpr std::string_view kLetters = "ABCDEFGHJKLMNPQRSTUVWXYZ";  // I and O read as 1 and 0
 
 void Replace(std::string& text, const std::string& words, const std::string& with) {
   if (const auto at = text.rfind(words); at != std::string::npos) {
@@ -69,21 +66,11 @@ struct SiteRegistry::Map {
   }
 };
 
-std::string SiteLetter(std::size_t n) {
-  const std::size_t round = n / kLetters.size() + 1;
-  return kLetters[n % kLetters.size()] + (round > 1 ? std::to_string(round) : "");
-}
-
 void SiteRegistry::Reset(SiteNames names) {
   SiteRegistry anew;
-  anew.next_id_ = next_id_;
-  anew.named_ = names == SiteNames::kGoOn ? named_ : 0;
+  anew.naming_ = naming_;
+  anew.naming_.Reset(names);
   *this = std::move(anew);
-}
-
-void SiteRegistry::GoOnNaming(std::uint64_t named) {
-  named_ = std::max(named_, named);
-  next_id_ = std::max(next_id_, named + 1);
 }
 
 void SiteRegistry::GoOnWith(const std::vector<RecordedPlace>& places,
@@ -96,7 +83,7 @@ void SiteRegistry::GoOnWith(const std::vector<RecordedPlace>& places,
                        .rank = static_cast<int>(places_.size()),
                        .run = kBetterAfter_maps,  // nobody says how long it has stood
                        .beaten = LastingClaim(kBetterAfter_maps)});
-    next_id_ = std::max(next_id_, place.id + 1);
+    naming_.Use(place.id);
   }
   time_ = Timestamp{};  // older than any map: the next is not the same again
   settings_ = settings;
@@ -115,17 +102,20 @@ SiteSelection SiteRegistry::Select(const ElevationMap& map, const HazardMaps& ha
   const Map now{map, hazards, settings, context, first, !first && *time_ == map.time};
   StartMap(now);
   SiteCandidates candidates(map, hazards, settings, context);
-  std::vector<Found> found = Revisit(now, candidates);
+  std::vector<FoundSite> found = Revisit(now, candidates);
   Explore(now, candidates, found);
   Lose(now, found);
   const bool any = !found.empty();
-  for (Found& one : List(now, Ranked(now, std::move(found), candidates.noise()))) {
+  std::erase_if(found, [&](const FoundSite& one) { return !IsRipe(now, places_[one.place]); });
+  const RankRules rules{now.elevation.time, candidates.noise(), now.shaken_costs(),
+                        now.most_sites(), kept_};
+  for (FoundSite& one : List(now, Ranked(places_, std::move(found), rules))) {
     selection.sites.push_back(std::move(one.site));
   }
-  std::erase_if(places_, [](const Place& place) { return place.id == 0 && place.run == 0; });
+  std::erase_if(places_, [](const SitePlace& place) { return place.id == 0 && place.run == 0; });
   GiveReasons(settings.choice.ranking, now.tight_m(), selection);
   NameInReasons(selection);
-  selection.named = named_;
+  selection.named = naming_.named();
   if (selection.sites.empty()) {
     selection.none_reason = any ? "the places found are not on 3 maps in a row yet"
                                 : NoneReason(map, hazards, settings);
@@ -135,7 +125,7 @@ SiteSelection SiteRegistry::Select(const ElevationMap& map, const HazardMaps& ha
 
 void SiteRegistry::StartMap(const Map& now) {
   if (now.first) {
-    for (Place& place : places_) {
+    for (SitePlace& place : places_) {
       place = {
           .id = place.id, .letter = place.letter, .p_W = place.p_W, .named_at = place.named_at};
     }
@@ -147,7 +137,7 @@ void SiteRegistry::StartMap(const Map& now) {
   settings_ = now.settings;
 }
 
-std::vector<SiteRegistry::Found> SiteRegistry::Revisit(const Map& now, SiteCandidates& candidates) {
+std::vector<FoundSite> SiteRegistry::Revisit(const Map& now, SiteCandidates& candidates) {
   std::vector<Chosen> listed;
   for (std::size_t i = 0; i < places_.size(); ++i) {
     const auto cell = now.CellOf(places_[i].p_W);
@@ -163,7 +153,7 @@ std::vector<SiteRegistry::Found> SiteRegistry::Revisit(const Map& now, SiteCandi
   });
   std::vector<Chosen> chosen;
   for (const Chosen& one : listed) {
-    Place& place = places_[one.place];
+    SitePlace& place = places_[one.place];
     if (!candidates.ScoreAt(one.at.cell)) {
       continue;  // too near another: the spacing was changed
     }
@@ -177,13 +167,14 @@ std::vector<SiteRegistry::Found> SiteRegistry::Revisit(const Map& now, SiteCandi
     candidates.Take(one.at.cell);
     chosen.push_back(one);
   }
-  std::vector<Found> found;
+  std::vector<FoundSite> found;
   Follow(now, chosen, candidates, found);
   return found;
 }
 
-void SiteRegistry::Explore(const Map& now, SiteCandidates& candidates, std::vector<Found>& found) {
-  for (const Place& place : places_) {
+void SiteRegistry::Explore(const Map& now, SiteCandidates& candidates,
+                           std::vector<FoundSite>& found) {
+  for (const SitePlace& place : places_) {
     if (const auto cell = now.CellOf(place.p_W)) {
       candidates.Favour(*cell);
     }
@@ -212,12 +203,12 @@ void SiteRegistry::Explore(const Map& now, SiteCandidates& candidates, std::vect
 
 /// As many as are missing whose straight approach is clear; beyond that one that is better than the
 /// worst of them.
-std::size_t SiteRegistry::Wanted(const Map& now, const std::vector<Found>& found,
+std::size_t SiteRegistry::Wanted(const Map& now, const std::vector<FoundSite>& found,
                                  const SiteCandidates& candidates) const {
   std::size_t clear = 0;
   double worst = HUGE_VAL;
-  for (const Found& one : found) {
-    const Place& place = places_[one.place];
+  for (const FoundSite& one : found) {
+    const SitePlace& place = places_[one.place];
     if (place.straight_clear.good()) {
       ++clear;
       worst = std::min(worst, place.score.value());
@@ -231,13 +222,13 @@ std::size_t SiteRegistry::Wanted(const Map& now, const std::vector<Found>& found
 }
 
 std::size_t SiteRegistry::PlaceAt(const Map& now, Cell cell) {
-  const auto known = std::find_if(places_.begin(), places_.end(), [&](const Place& place) {
+  const auto known = std::find_if(places_.begin(), places_.end(), [&](const SitePlace& place) {
     return place.rank < 0 && now.CellOf(place.p_W) == cell;
   });
   if (known == places_.end()) {
     const GridGeometry& g = now.elevation.geometry;
-    Place fresh{.p_W = {g.NorthOfRow(cell.row), g.EastOfCol(cell.col)}};
-    for (const Place& place : places_) {
+    SitePlace fresh{.p_W = {g.NorthOfRow(cell.row), g.EastOfCol(cell.col)}};
+    for (const SitePlace& place : places_) {
       const bool near = (place.p_W - fresh.p_W).norm() < now.settings.choice.spacing_m;
       if (near && place.shaken_at > fresh.shaken_at) {
         fresh.shaken_at = place.shaken_at;
@@ -251,7 +242,7 @@ std::size_t SiteRegistry::PlaceAt(const Map& now, Cell cell) {
 }
 
 void SiteRegistry::Follow(const Map& now, const std::vector<Chosen>& chosen,
-                          const SiteCandidates& candidates, std::vector<Found>& found) {
+                          const SiteCandidates& candidates, std::vector<FoundSite>& found) {
   std::vector<LandingSite> sites(chosen.size());
   cv::parallel_for_(cv::Range(0, static_cast<int>(chosen.size())), [&](const cv::Range& range) {
     for (int i = range.start; i < range.end; ++i) {
@@ -265,7 +256,7 @@ void SiteRegistry::Follow(const Map& now, const std::vector<Chosen>& chosen,
     if (!IsSound(site)) {
       continue;
     }
-    Place& place = places_[chosen[k].place];
+    SitePlace& place = places_[chosen[k].place];
     if (!now.again || place.score.empty()) {
       ++place.run;
       place.score.Add(chosen[k].at.score, candidates.noise());
@@ -283,12 +274,12 @@ void SiteRegistry::Follow(const Map& now, const std::vector<Chosen>& chosen,
     }
     site.look_height_m = LookToldAgain(place.look_height_m, site.look_height_m);
     place.look_height_m = site.look_height_m;
-    site.called_unsafe_s = ShakenFor(place, now.elevation.time);
+    site.called_unsafe_s = place.ShakenFor(now.elevation.time);
     found.push_back({chosen[k].place, std::move(site)});
   }
 }
 
-bool SiteRegistry::IsRipe(const Map& now, const Place& place) const {
+bool SiteRegistry::IsRipe(const Map& now, const SitePlace& place) const {
   const double spacing_m = now.settings.choice.spacing_m;
   return now.first || place.rank >= 0 || place.run >= kListedAfter_maps ||
          std::any_of(replaced_.begin(), replaced_.end(), [&](const Eigen::Vector2d& p_W) {
@@ -296,67 +287,13 @@ bool SiteRegistry::IsRipe(const Map& now, const Place& place) const {
          });
 }
 
-double SiteRegistry::ShakenFor(const Place& place, Timestamp now) {
-  const double since_s = place.shaken_at ? SecondsBetween(*place.shaken_at, now) : NAN;
-  return since_s < kShaken_s * place.losses ? since_s : NAN;
-}
-
-std::vector<SiteRegistry::Found> SiteRegistry::Ranked(const Map& now, std::vector<Found> found,
-                                                      double noise) const {
-  const auto place_of = [&](const Found& one) -> const Place& { return places_[one.place]; };
-  std::erase_if(found, [&](const Found& one) { return !IsRipe(now, place_of(one)); });
-  std::stable_sort(found.begin(), found.end(), [&](const Found& a, const Found& b) {
-    const Place &p = place_of(a), &q = place_of(b);
-    if (p.rank < 0 && q.rank < 0) {
-      return p.score.value() > q.score.value();
-    }
-    return p.rank >= 0 && (q.rank < 0 || p.rank < q.rank);
-  });
-  const auto passes = [&](const Found& a, const Found& b) {
-    const auto approach = [](const Place& place) {
-      return place.straight_clear.good() ? 0 : place.some_clear.good() ? 1 : 2;
-    };
-    const auto order = [&](const Found& one) {
-      const Place& place = place_of(one);
-      return std::tuple(one.site.age_s > kOldGround_s, !place.air_shown.good(), approach(place),
-                        !place.roomy.good());
-    };
-    const auto worth = [&](const Found& one) {
-      const bool shaken = std::isfinite(ShakenFor(place_of(one), now.elevation.time));
-      return place_of(one).score.value() - (shaken ? now.shaken_costs() : 0);
-    };
-    const double ahead = worth(a) - worth(b);
-    return order(a) != order(b) ? order(a) < order(b) : ahead > noise;
-  };
-  for (bool moved = true; moved;) {
-    moved = false;
-    for (std::size_t i = 1; i < found.size(); ++i) {
-      if (passes(found[i], found[i - 1])) {
-        std::swap(found[i - 1], found[i]);
-        moved = true;
-      }
-    }
-  }
-  if (found.size() > now.most_sites()) {
-    // What is selected is always listed.
-    const auto last = found.begin() + static_cast<std::ptrdiff_t>(now.most_sites()) - 1;
-    const auto kept = std::find_if(last + 1, found.end(),
-                                   [&](const Found& one) { return IsKept(place_of(one)); });
-    if (kept != found.end()) {
-      std::swap(*last, *kept);
-    }
-    found.erase(last + 1, found.end());
-  }
-  return found;
-}
-
 /// Places that the map does not show as sites have to begin anew.
-void SiteRegistry::Lose(const Map& now, const std::vector<Found>& found) {
+void SiteRegistry::Lose(const Map& now, const std::vector<FoundSite>& found) {
   for (std::size_t i = 0; i < places_.size(); ++i) {
-    const bool is_found =
-        std::any_of(found.begin(), found.end(), [&](const Found& one) { return one.place == i; });
+    const bool is_found = std::any_of(found.begin(), found.end(),
+                                      [&](const FoundSite& one) { return one.place == i; });
     if (!is_found) {
-      Place& place = places_[i];
+      SitePlace& place = places_[i];
       const bool unsafe = place.rank >= 0 && now.CellOf(place.p_W);
       place = {.id = place.id,
                .letter = place.letter,
@@ -368,56 +305,25 @@ void SiteRegistry::Lose(const Map& now, const std::vector<Found>& found) {
   }
 }
 
-bool SiteRegistry::HasLetter(const std::string& letter) const {
-  return std::any_of(places_.begin(), places_.end(),
-                     [&](const Place& place) { return place.letter == letter; });
-}
-
-/// Id and letter of the place that moved here, or new ones.
-void SiteRegistry::Name(const Map& now, Place& fresh) {
-  Place* moved = nullptr;
-  double least_m = now.settings.choice.spacing_m / 4;
-  for (Place& place : places_) {
-    const double away_m = (place.named_at - fresh.p_W).norm();
-    if (place.id != 0 && place.rank < 0 && !IsKept(place) && away_m < least_m) {
-      moved = &place;
-      least_m = away_m;
-    }
-  }
-  if (moved != nullptr) {
-    fresh.id = moved->id;
-    fresh.letter = moved->letter;
-    fresh.named_at = moved->named_at;
-    *moved = {};
-  } else {
-    fresh.id = next_id_++;
-    std::string letter;
-    do {
-      letter = SiteLetter(static_cast<std::size_t>(named_++));
-    } while (HasLetter(letter));  // of a recorded flight nobody counted those before
-    fresh.letter = letter;
-  }
-}
-
 /// In that order, each with id and letter.
-std::vector<SiteRegistry::Found> SiteRegistry::List(const Map& now, std::vector<Found> ranked) {
-  for (Place& place : places_) {
+std::vector<FoundSite> SiteRegistry::List(const Map& now, std::vector<FoundSite> ranked) {
+  for (SitePlace& place : places_) {
     place.rank = -1;
   }
   int rank = 0;
-  for (const Found& one : ranked) {
+  for (const FoundSite& one : ranked) {
     places_[one.place].rank = rank++;
   }
   std::uint64_t unnamed = 0;
-  for (Found& one : ranked) {
-    Place& place = places_[one.place];
+  for (FoundSite& one : ranked) {
+    SitePlace& place = places_[one.place];
     if (place.id == 0 && !gives_letters_) {
       one.site.id = kFirstUnnamedSite + ++unnamed;
       one.site.letter = "+" + std::to_string(unnamed);
       continue;
     }
     if (place.id == 0) {
-      Name(now, place);
+      naming_.Name(places_, place, now.settings.choice.spacing_m / 4, kept_);
     }
     one.site.id = place.id;
     one.site.letter = place.letter;

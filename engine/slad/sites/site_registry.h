@@ -35,17 +35,11 @@
 
 #include "engine/model/flight_record.h"
 #include "engine/slad/sites/site_candidates.h"
+#include "engine/slad/sites/site_naming.h"
+#include "engine/slad/sites/site_place.h"
 #include "engine/slad/sites/site_selection.h"
-#include "engine/slad/sites/steadiness.h"
 
 namespace palace {
-
-/// "A" to "Z" without I and O, then "A2" to "Z2", "A3", ...: of the nth place, from 0.
-std::string SiteLetter(std::size_t n);
-
-/// Letters after a Reset: within a flight none is given twice; another flight begins at A. Ids are
-/// never used again.
-enum class SiteNames { kGoOn, kAnew };
 
 class SiteRegistry {
  public:
@@ -57,7 +51,7 @@ class SiteRegistry {
   /// Nothing of the ground holds any more: another frame, another clock, another flight.
   void Reset(SiteNames names);
   /// A flight goes on in which so many places were named already.
-  void GoOnNaming(std::uint64_t named);
+  void GoOnNaming(std::uint64_t named) { naming_.GoOnNaming(named); }
   /// A recorded flight goes on in which those places were listed, best first, under those limits.
   void GoOnWith(const std::vector<RecordedPlace>& places, const SladSettings& settings);
   /// From here on no letter is given: a place that has none is "+1", "+2", ... of its one list (a
@@ -65,55 +59,29 @@ class SiteRegistry {
   void GiveNoLetters() { gives_letters_ = false; }
 
  private:
-  struct Place {
-    std::uint64_t id = 0;  ///< 0: never listed yet
-    std::string letter{};
-    Eigen::Vector2d p_W = Eigen::Vector2d::Zero();  ///< north, east
-    Eigen::Vector2d named_at = p_W;                 ///< where the letter was given
-    int rank = -1;                                  ///< in the list; -1: not listed
-    int run = 0;                                    ///< maps in a row that it could bear the lander
-    SteadyFigure score{};
-    SteadyVerdict confirmed{}, air_shown{}, straight_clear{}, some_clear{}, roomy{};
-    LastingClaim beaten{};
-    double look_height_m = NAN;            ///< LandingSite::look_height_m, as it was told last
-    int losses = 0;                        ///< maps that called it unsafe
-    std::optional<Timestamp> shaken_at{};  ///< by the last of them
-  };
   /// Where a place is looked at on one map.
   struct Chosen {
     std::size_t place = 0;
     ScoredCell at;
   };
-  /// What was found there.
-  struct Found {
-    std::size_t place = 0;
-    LandingSite site;
-  };
   struct Map;
 
-  std::vector<Found> Revisit(const Map& now, SiteCandidates& candidates);
-  void Explore(const Map& now, SiteCandidates& candidates, std::vector<Found>& found);
-  std::size_t Wanted(const Map& now, const std::vector<Found>& found,
+  std::vector<FoundSite> Revisit(const Map& now, SiteCandidates& candidates);
+  void Explore(const Map& now, SiteCandidates& candidates, std::vector<FoundSite>& found);
+  std::size_t Wanted(const Map& now, const std::vector<FoundSite>& found,
                      const SiteCandidates& candidates) const;
   std::size_t PlaceAt(const Map& now, Cell cell);
   void Follow(const Map& now, const std::vector<Chosen>& chosen, const SiteCandidates& candidates,
-              std::vector<Found>& found);
-  std::vector<Found> Ranked(const Map& now, std::vector<Found> found, double noise) const;
-  std::vector<Found> List(const Map& now, std::vector<Found> ranked);
-  void Name(const Map& now, Place& fresh);
-  bool HasLetter(const std::string& letter) const;
+              std::vector<FoundSite>& found);
+  std::vector<FoundSite> List(const Map& now, std::vector<FoundSite> ranked);
   void StartMap(const Map& now);
-  void Lose(const Map& now, const std::vector<Found>& found);
-  bool IsRipe(const Map& now, const Place& place) const;
-  /// Seconds since a map called the place unsafe, while it stands behind the others for it; else
-  /// NaN.
-  static double ShakenFor(const Place& place, Timestamp now);
-  bool IsKept(const Place& place) const { return place.id != 0 && place.id == kept_; }
+  void Lose(const Map& now, const std::vector<FoundSite>& found);
+  bool IsRipe(const Map& now, const SitePlace& place) const;
+  bool IsKept(const SitePlace& place) const { return place.id != 0 && place.id == kept_; }
 
-  std::vector<Place> places_;
+  std::vector<SitePlace> places_;
   std::vector<Eigen::Vector2d> replaced_;  ///< on this map
-  std::uint64_t next_id_ = 1;
-  std::uint64_t named_ = 0;
+  SiteNaming naming_;
   bool gives_letters_ = true;
   std::uint64_t kept_ = 0;
   std::optional<Timestamp> time_;  ///< of the newest map
