@@ -40,7 +40,8 @@ Status Obeying::operator()(const SetFlyArea& action) const {
   }
   m.status.area = action.area;
   m.search.planned_at = {};
-  AddEvent(turn, now, EventKind::kDecision, words::AreaSet(action.area, WhoAsks(origin)));
+  AddEvent(turn, now, EventKind::kDecision,
+           words::AreaSet(action.area, WhoAsks(origin), m.facts.p_WB));
   return Ok();
 }
 

@@ -26,9 +26,7 @@ bool IsPlaceKnown(const MissionMemory& m) {
 
 /// Of the level part of the way, by the newest map.
 double Unseen(const MissionMemory& m, const Eigen::Vector3d& there_W) {
-  const MissionFacts& facts = m.facts;
-  return facts.elevation ? UnseenBelow(*facts.elevation, facts.p_WB.head<2>(), there_W.head<2>())
-                         : (there_W - facts.p_WB).head<2>().norm();
+  return UnseenOfWay(m.facts.elevation.get(), m.facts.p_WB, there_W);
 }
 
 void End(MissionTurn& turn, EventKind kind, std::string why, Timestamp now) {

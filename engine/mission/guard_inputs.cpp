@@ -23,16 +23,6 @@ std::string WhyNotThisSource(const MissionFacts& facts) {
              : "";
 }
 
-/// How far the way to the armed site leaves the area that was drawn.
-double WayLeavesArea_m(const MissionStatus& status) {
-  double out_m = 0;
-  for (std::size_t k = 1; status.area && k < status.way_W.size(); ++k) {
-    out_m = std::max(
-        out_m, LeavesBy_m(*status.area, status.way_W[k - 1].head<2>(), status.way_W[k].head<2>()));
-  }
-  return out_m;
-}
-
 /// Fills what speaks of the armed site.
 void JudgeArmedSite(const MissionMemory& m, Timestamp now, GuardInputs& in) {
   const ArmedFacts& armed = m.armed;
@@ -63,9 +53,11 @@ void JudgeArmedSite(const MissionMemory& m, Timestamp now, GuardInputs& in) {
     in.site_holds = false;
     in.site_reason = words::ApproachBlocked(in.site_letter);
   }
-  if (const double out_m = WayLeavesArea_m(m.status); in.site_holds && out_m > 0) {
-    in.site_holds = false;
-    in.site_reason = words::WayLeavesArea(in.site_letter, out_m);
+  if (in.site_holds && m.status.area) {
+    const std::string why =
+        words::WayToSiteLeavesArea(*m.status.area, m.status.way_W, in.site_letter);
+    in.site_holds = why.empty();
+    in.site_reason = why.empty() ? in.site_reason : why;
   }
   if (in.site_holds && !armed.course_judged) {
     in.site_holds = false;

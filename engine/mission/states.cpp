@@ -6,6 +6,7 @@
 
 #include "engine/mission/alarms/alarms.h"
 #include "engine/mission/geometry.h"
+#include "engine/mission/guards.h"
 #include "engine/mission/limits.h"
 #include "engine/mission/wave_off.h"
 #include "engine/mission/wording.h"
@@ -93,6 +94,14 @@ std::string WhyHold(const MissionMemory& m, const MissionInputs& in) {
     return words::NotConfirmed(m.status.armed->letter);
   }
   return WhyStopped(AlarmFactsAt(m, in));
+}
+
+/// What ended the flight on vision, with what the station holds against the cameras: a vehicle
+/// knows that it has no position, not why.
+std::string WithCameras(std::string why, const MissionMemory& m, Timestamp now) {
+  const auto guards = EvaluateGuards(GuardInputsAt(m, now));
+  const GuardResult* cameras = FindGuard(guards, GuardId::kCameras);
+  return cameras->pass ? why : words::Because(why, cameras->reason);
 }
 
 void StepSearching(MissionTurn& turn, const MissionInputs& in) {
@@ -230,7 +239,8 @@ bool LandedOrAborting(MissionTurn& turn, const MissionInputs& in) {
   }
   const auto& vehicle = m.watch.vehicle();
   if (vehicle && vehicle->mode == VehicleMode::kAbort) {
-    Abort(turn, words::VehicleAborts(m.vehicle_reason), in.session.now);
+    Abort(turn, WithCameras(words::VehicleAborts(m.vehicle_reason), m, in.session.now),
+          in.session.now);
     return true;
   }
   return false;
@@ -250,7 +260,7 @@ void StepDescending(MissionTurn& turn, const MissionInputs& in) {
   const double outage_s = SecondsBetween(m.vision_good_at, now);
   const double limit_s = m.facts.settings.mission.max_vision_outage_s;
   if (on_vision && outage_s > limit_s) {
-    const std::string why = words::VisionLost(outage_s, limit_s);
+    const std::string why = WithCameras(words::VisionLost(outage_s, limit_s), m, now);
     // Without vision the last metres are not a place to hover.
     IsCommitted(m) ? Abort(turn, why, now) : Hold(turn, why, now);
     return;

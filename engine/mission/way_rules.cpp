@@ -22,8 +22,7 @@ std::string WhyLeavesArea(const WayFacts& from, const Eigen::Vector3d& to_W) {
   if (height_m > from.area->ceiling_m) {
     return WithNumbers("%.0f m high, ceiling %.0f m", height_m, from.area->ceiling_m);
   }
-  const double out_m = LeavesBy_m(*from.area, from.p_WB.head<2>(), to_W.head<2>());
-  return out_m > 0 ? words::LeavesArea(out_m) : std::string();
+  return words::WayLeavesArea(*from.area, from.p_WB.head<2>(), to_W.head<2>());
 }
 
 /// Where it hovers it may turn and climb, whatever stands below it.
@@ -69,6 +68,21 @@ std::string WhyNotThatWay(const WayFacts& from, const FlyTo& there) {
   }
   const double turn_rad = WrapAngle(there.heading_rad - from.yaw_rad);
   return way.norm() < kNoWay_m && std::abs(turn_rad) < kNoTurn_rad ? "It hovers there already" : "";
+}
+
+double UnseenOfWay(const ElevationMap* map, const Eigen::Vector3d& from_W,
+                   const Eigen::Vector3d& to_W) {
+  return map != nullptr ? UnseenBelow(*map, from_W.head<2>(), to_W.head<2>())
+                        : (to_W - from_W).head<2>().norm();
+}
+
+double UnseenOnWay(const EngineSnapshot& snapshot, const FlyTo& there) {
+  const Eigen::Vector3d& p_WB = snapshot.flight->navigation.InForce().estimate.p_WB;
+  const auto& decision = snapshot.terrain->applied;
+  if (!p_WB.allFinite()) {
+    return 0;
+  }
+  return UnseenOfWay(decision ? decision->elevation.get() : nullptr, p_WB, there.p_WB);
 }
 
 std::string WhyNotFlown(const EngineSnapshot& snapshot, const FlyTo& there) {

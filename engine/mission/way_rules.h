@@ -34,5 +34,11 @@ std::string WhyNotThatWay(const WayFacts& from, const FlyTo& there);
 /// The same by what a snapshot tells, the mission's own reason first (MissionStatus::why_not_go).
 /// What the engine answers to the command is this, of the newest map by then.
 std::string WhyNotFlown(const EngineSnapshot& snapshot, const FlyTo& there);
+/// Metres of a way over ground that no map showed (flight/level_way.h); all of it without a map.
+double UnseenOfWay(const ElevationMap* map, const Eigen::Vector3d& from_W,
+                   const Eigen::Vector3d& to_W);
+/// The same by what a snapshot tells, as the event of the way will tell it; 0 where the vehicle's
+/// place is not known.
+double UnseenOnWay(const EngineSnapshot& snapshot, const FlyTo& there);
 
 }  // namespace palace

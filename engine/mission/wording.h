@@ -66,6 +66,8 @@ std::string AskedForCommand(const AskForCommand& action, const std::string& hold
 std::string CommandLostTo(const std::string& why);
 /// "Vehicle aborts by itself: no position estimate for 2.0 s, limit 2.0 s", or without a reason.
 std::string VehicleAborts(const std::string& reason);
+/// "Vision lost for 2.1 s, limit 2.0 s (left camera shows nothing)"; `why` is not empty.
+std::string Because(const std::string& what, std::string why);
 /// "Vehicle holds by itself: estimate and GPS part", or without a reason.
 std::string VehicleHolds(const std::string& reason);
 /// `text`: of the alarm, in whose words the event names it; empty: it was never told.
@@ -77,12 +79,18 @@ std::string CannotGoIn(MissionState state);
 /// the operator".
 std::string SentTo(const Eigen::Vector3d& way_W, double heading_rad, double unseen_m,
                    const char* who);
-/// "Vehicle kept to an area of 1,250 m² up to 30 m, by the operator".
-std::string AreaSet(const FlyArea& area, const char* who);
-/// "It leaves the area by 3.2 m".
-std::string LeavesArea(double out_m);
-/// "The way to site B leaves the area by 3.2 m".
-std::string WayLeavesArea(const std::string& letter, double out_m);
+/// "Vehicle kept to an area of 1250 m² up to 30 m, by the operator", and how far outside it hovers,
+/// if it does; `p_WB`: NaN where that is not known.
+std::string AreaSet(const FlyArea& area, const char* who, const Eigen::Vector3d& p_WB);
+/// Why a way leaves the area: "It leaves the area by 3.2 m", of one that comes from outside "It
+/// ends 3.2 m outside the area" or "It leaves the area again by 3.2 m". Empty: it stays in, or goes
+/// in.
+std::string WayLeavesArea(const FlyArea& area, const Eigen::Vector2d& from_W,
+                          const Eigen::Vector2d& to_W);
+/// The same of the legs of a way to a site: "The way to site B leaves the area by 3.2 m", "Site B
+/// lies 3.2 m outside the area".
+std::string WayToSiteLeavesArea(const FlyArea& area, const std::vector<Eigen::Vector3d>& way_W,
+                                const std::string& letter);
 /// "right 45°", "up 3 m", "12 m NE": the way in words short enough for a button.
 std::string WayInShort(const Eigen::Vector3d& way_W, double turn_rad);
 std::string NotTheArmedOne(const MissionStatus& status);

@@ -193,6 +193,7 @@ Intents View::Draw(const EngineSnapshot* snapshot, const FlightRecord* record, U
   ui.window_focused = frame.window_focused;
   ui.after_review = state.after_review;
   ui.why_not_flown = WhyNotFlown;
+  ui.unseen_on_way = UnseenOnWay;
   if (snapshot != nullptr) {
     ui.silent_s = AgeNow(*snapshot, snapshot->time, MonotonicSeconds());
     state.frame.preset_name = LimitsName(state.tune, snapshot->session->settings);

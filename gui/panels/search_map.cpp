@@ -177,10 +177,15 @@ void DrawAreaButtons(const EngineSnapshot& snap, Row& row, SearchMapState& state
       PutAside(state, ui);
     }
     row.Say("Ceiling " + Fixed(state.ceiling_m, 0) + " m");
-    if (row.Offer("area_lower", "−")) {
+    const std::string by = " the ceiling by " + Fixed(kCeilingStep_m, 0) + " m";
+    const std::string lowers = "Lowers" + by, raises = "Raises" + by;
+    ButtonLook lower, higher;
+    lower.hint = lowers;
+    higher.hint = raises;
+    if (row.Offer("area_lower", "−", lower)) {
       state.ceiling_m -= kCeilingStep_m;
     }
-    if (row.Offer("area_higher", "+")) {
+    if (row.Offer("area_higher", "+", higher)) {
       state.ceiling_m += kCeilingStep_m;
     }
     return;
@@ -242,7 +247,7 @@ void DrawPlaceButtons(const EngineSnapshot& snap, float x, float y, const Search
                 x, y, ui);
 }
 
-/// Why the area, or a way, was not taken.
+/// Why the area, or a way, was not taken; else that the vehicle is not in the area that stands.
 std::string Trouble(const EngineSnapshot& snap, const SearchMapState& state) {
   // What was refused before a way that is flown is no trouble any more.
   if (!state.why_not.empty() || !snap.session->events || snap.flight->mission.going) {
@@ -253,7 +258,10 @@ std::string Trouble(const EngineSnapshot& snap, const SearchMapState& state) {
       return std::string(what) + " refused: " + why;
     }
   }
-  return {};
+  const MissionStatus& m = snap.flight->mission;
+  const std::string outside =
+      m.area && snap.sensors->pose ? OutsideWords(*m.area, snap.sensors->pose->X_WB.p) : "";
+  return outside.empty() ? "" : "The vehicle is " + outside + ".";
 }
 
 void Zoom(SearchMapState& state, double steps) {

@@ -6,6 +6,7 @@
 #include "engine/model/mission/hover_before.h"
 #include "gui/panels/session_words.h"
 #include "gui/widgets/button.h"
+#include "gui/widgets/number_text.h"
 
 namespace palace {
 
@@ -21,6 +22,13 @@ std::string WhyNoWay(const EngineSnapshot& snap, const WayButton& button, const 
     return button.why_none;
   }
   return ui.why_not_flown != nullptr ? ui.why_not_flown(snap, *button.there) : std::string();
+}
+
+/// What the way would be flown over without having been seen, before it is pressed.
+std::string UnseenWords(const EngineSnapshot& snap, const WayButton& button, const UiFrame& ui) {
+  const double unseen_m = ui.unseen_on_way != nullptr ? ui.unseen_on_way(snap, *button.there) : 0;
+  const std::string shown = Fixed(unseen_m, 1);
+  return shown == "0.0" ? "" : ". Flies over " + shown + " m of ground that no map showed";
 }
 
 }  // namespace
@@ -39,7 +47,9 @@ float DrawWayButton(const EngineSnapshot& snap, const WayButton& button, float x
   look.flat = true;
   look.enabled = reason.empty();
   look.reason = reason;
-  look.hint = button.hint;
+  const std::string hint =
+      button.hint + (reason.empty() ? UnseenWords(snap, button, ui) : std::string());
+  look.hint = hint;
   if (DrawButton(ui, button.name, rect, button.words, look)) {
     ui.intents.push_back(CommandAction(*button.there));
   }

@@ -99,6 +99,7 @@ using CellExplainer = CellExplanation (*)(const TerrainDecision& decision, Cell 
 struct EngineSnapshot;
 /// Why a way to another hover is not flown; empty when it is. Lent in the same way.
 using WayJudge = std::string (*)(const EngineSnapshot& snapshot, const FlyTo& there);
+using WayLength = double (*)(const EngineSnapshot& snapshot, const FlyTo& there);
 
 /// The way out of a review, back to what the station was started with; without a label there is
 /// none.
@@ -130,9 +131,10 @@ struct UiFrame {
   /// when nothing more is published. 0 where the session's clock is the data's own.
   double silent_s = 0;
   WayOut after_review{};
-  WayJudge why_not_flown = nullptr;  ///< null: only what the snapshot itself says
-  TabPlace tab{};                    ///< of the controls drawn now; panels set it
-  std::optional<FocusMark> ring{};   ///< set by Interact, drawn by EndCanvas
+  WayJudge why_not_flown = nullptr;   ///< null: only what the snapshot itself says
+  WayLength unseen_on_way = nullptr;  ///< metres over ground that no map showed; null: not told
+  TabPlace tab{};                     ///< of the controls drawn now; panels set it
+  std::optional<FocusMark> ring{};    ///< set by Interact, drawn by EndCanvas
 };
 
 }  // namespace palace

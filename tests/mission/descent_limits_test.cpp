@@ -93,6 +93,23 @@ TEST(WindGuard, AWindThatIsNotKnownIsForInformation) {
   EXPECT_FALSE(stale.mission.status().can_approve);  // by G1: the link is stale
 }
 
+// What a guard refuses by is known before the hold is pressed.
+TEST(WindGuard, BeyondItsLimitAHoverSaysSo) {
+  MissionRig rig;
+  ASSERT_TRUE(rig.RunUntil(MissionState::kProposed));
+  rig.Run(0.6);
+  EXPECT_EQ(FindAlarm(rig, "wind"), nullptr);
+  rig.vehicle.wind_mps = 8.04;
+  rig.Run(0.6);
+  const Alarm* alarm = FindAlarm(rig, "wind");
+  ASSERT_NE(alarm, nullptr);
+  EXPECT_EQ(alarm->text, "Wind 8.1 m/s, limit 8.0 m/s. No site is approved in it: wait for less.");
+  rig.vehicle.wind_mps = 7;
+  rig.Run(0.6);
+  alarm = FindAlarm(rig, "wind");
+  EXPECT_TRUE(alarm == nullptr || !alarm->active);
+}
+
 TEST(WindGuard, ARecordedApprovalMetItsOwnWind) {
   MissionRig rig;
   rig.source = SourceKind::kReplay;

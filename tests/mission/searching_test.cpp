@@ -138,9 +138,8 @@ TEST(Searching, OnTheReserveNoLookIsProposedAndAnAlarmSaysSo) {
   rig.Run(15);
   ASSERT_LT(rig.status().energy.lasts_s, 300);
   EXPECT_EQ(rig.Look(), nullptr);
-  EXPECT_THAT(rig.status().why_no_look,
-              testing::MatchesRegex("No look: energy lasts 4\\.. min, "
-                                    "reserve 5.0 min"));
+  EXPECT_THAT(rig.status().why_no_look, testing::MatchesRegex("No look: energy lasts 4\\.. min, "
+                                                              "reserve 5.0 min"));
   const Alarm* alarm = rig.Standing(AlarmId::kEnergyLow);
   ASSERT_NE(alarm, nullptr);
   EXPECT_EQ(alarm->level, AlarmLevel::kCaution);
@@ -201,12 +200,30 @@ TEST(Area, ASiteOutsideItIsNotApproved) {
   ASSERT_TRUE(rig.Do(SetFlyArea{Around(-10, 2, 15)}).ok());
   rig.Run(0.2);
   EXPECT_FALSE(rig.status().can_approve);
-  EXPECT_EQ(rig.status().cannot_approve_reason.rfind("The way to site A leaves the area by", 0), 0u)
-      << rig.status().cannot_approve_reason;
+  EXPECT_EQ(rig.status().cannot_approve_reason, "Site A lies 5.0 m outside the area");
   EXPECT_FALSE(rig.ApproveNow().ok());
   ASSERT_TRUE(rig.Do(SetFlyArea{Around(9.5, 2, 15)}).ok());
   rig.Run(0.2);
   EXPECT_TRUE(rig.status().can_approve) << rig.status().cannot_approve_reason;
+}
+
+// It may be sent in; that it hovers outside is told with the area, and no reason speaks of leaving.
+TEST(Area, ThatDoesNotHoldTheVehicleSaysSo) {
+  SearchingRig rig;
+  ASSERT_TRUE(rig.Do(SetFlyArea{Around(40, 2, 20, 15)}).ok());
+  const std::string began = "Vehicle kept to an area of 1600 m² up to 15 m, by the operator; it ";
+  EXPECT_EQ(rig.LastDecision(),
+            began + "hovers 10.5 m outside the area and 5.0 m above its ceiling");
+  struct Row {
+    Eigen::Vector3d way;
+    const char* why;
+  };
+  for (const Row& row : {Row{{20, 0, 0}, ""}, Row{{-6, 0, 0}, "It ends 16.5 m outside the area"}}) {
+    SearchingRig fresh;
+    ASSERT_TRUE(fresh.Do(SetFlyArea{Around(40, 2, 20, 30)}).ok());
+    const Status answer = fresh.Fly(row.way, 0.3);
+    EXPECT_EQ(answer.ok() ? "" : answer.error().message, row.why) << row.way.transpose();
+  }
 }
 
 TEST(Area, IsRefusedWithTheReasonAndNotChangedUnderAnApproval) {

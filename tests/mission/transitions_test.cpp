@@ -286,6 +286,28 @@ TEST(Mission, VisionOutageHoldsHighAndClimbsLow) {
   }
 }
 
+// The vehicle knows that it has no position, the station that the cameras are black.
+TEST(Mission, AnAbortNamesWhatTheCamerasHaveAgainstIt) {
+  for (const bool black : {false, true}) {
+    MissionRig rig;
+    rig.Arm();
+    ASSERT_TRUE(rig.ApproveNow().ok());
+    ASSERT_TRUE(rig.RunUntil(MissionState::kDescending, 5));
+    rig.navigation.handover = NavigationStatus::Handover::kVision;
+    rig.navigation.vision.running = rig.navigation.vision.estimate.healthy = true;
+    while (rig.vehicle.height_m > 2.5) {
+      rig.Step();
+    }
+    rig.navigation.vision.estimate.healthy = false;
+    rig.stereo.left_blank = rig.stereo.right_blank = black;
+    rig.vehicle.Set(VehicleMode::kSettle);
+    rig.Run(2.2);
+    ASSERT_EQ(rig.state(), MissionState::kAborting);
+    EXPECT_EQ(rig.mission.status().why, std::string("Vision lost for 2.1 s, limit 2.0 s") +
+                                            (black ? " (both cameras show nothing)" : ""));
+  }
+}
+
 TEST(Mission, HoldLeadsToANewProposalNeverToTheOldApproval) {
   MissionRig rig;
   rig.Arm();

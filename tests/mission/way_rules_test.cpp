@@ -27,6 +27,7 @@ EngineSnapshot Published(const HoverRig& rig) {
 
 TEST(WayRules, AScreenSaysWhatTheEngineAnswers) {
   RandomStream random(11, "ways");
+  int flown_unseen = 0;
   std::set<std::string> kinds;  // first words of the refusals
   for (int trial = 0; trial < 120; ++trial) {
     SCOPED_TRACE(trial);
@@ -47,11 +48,17 @@ TEST(WayRules, AScreenSaysWhatTheEngineAnswers) {
                                                    random.Uniform(-40, 2)),
                       random.Uniform(-3, 3)};
     const std::string said = WhyNotFlown(Published(rig), there);
+    const double unseen_m = UnseenOnWay(Published(rig), there);
     const Status answer = rig.Do(there);
     EXPECT_EQ(said, answer.ok() ? std::string() : answer.error().message);
+    if (answer.ok()) {
+      EXPECT_EQ(unseen_m, rig.mission.status().going->unseen_m);
+      flown_unseen += unseen_m > 0 ? 1 : 0;
+    }
     kinds.insert(said.empty() ? said : said.substr(said.find_first_not_of("0123456789. m")));
   }
   EXPECT_GE(kinds.size(), 5U) << "the ways are of every kind";
+  EXPECT_GT(flown_unseen, 0) << "and some go over ground that no map showed";
 }
 
 TEST(WayRules, TheMissionsOwnReasonComesFirst) {

@@ -48,6 +48,7 @@ class UiHarness {
     UiFrame ui{style, textures, items, intents, focus, time_s, popup, wave_off_rect, explain};
     ui.highlighted_site = highlighted_site;
     ui.why_not_flown = why_not_flown;
+    ui.unseen_on_way = unseen_on_way;
     ImGui::NewFrame();
     BeginCanvas(ui);
     draw(ui);
@@ -115,6 +116,7 @@ class UiHarness {
   Rect wave_off_rect;
   CellExplainer explain = nullptr;
   WayJudge why_not_flown = nullptr;
+  WayLength unseen_on_way = nullptr;
 
  private:
   /// The one intent that comes back to the panels without the engine.

@@ -101,7 +101,7 @@ void FillMission(const MissionMemory& m, const MissionInputs& in, AlarmFacts& f)
 }
 
 /// The rows that people see are the ones that raise the alarms.
-void FillFromLimits(const MissionMemory& m, AlarmFacts& f) {
+void FillFromLimits(const MissionMemory& m, Timestamp now, AlarmFacts& f) {
   const auto take = [&](LimitId id, double& value, double* limit = nullptr) {
     const LimitRow* row = FindLimit(m.status.limits, id);
     if (row != nullptr && row->enforced_by == EnforcedBy::kAlarm) {
@@ -116,6 +116,12 @@ void FillFromLimits(const MissionMemory& m, AlarmFacts& f) {
   take(LimitId::kDescentRate, f.descent_rate_mps, &f.max_descent_rate_mps);
   take(LimitId::kResidual, f.residual_sigma, &f.max_residual_sigma);
   take(LimitId::kWind, f.wind_mps, &f.max_wind_mps);
+  // In a hover a guard refuses by it: a person is to know before the hold is pressed.
+  const auto& vehicle = m.watch.vehicle();
+  if (f.approve_ahead && vehicle && !vehicle->on_ground) {
+    f.wind_mps = KnownWind(m, now);
+    f.max_wind_mps = m.facts.settings.mission.max_wind_mps;
+  }
   take(LimitId::kExposure, f.exposure_factor);
   // These two are over only when it is not by chance.
   const LimitRow* scale = FindLimit(m.status.limits, LimitId::kRangeScale);
@@ -168,7 +174,7 @@ AlarmFacts AlarmFactsAt(const MissionMemory& m, const MissionInputs& in) {
   f.looked_at_hz = f.losses.replaced_hz > 0 ? f.losses.pairs_hz : NAN;
   FillSensors(m, in, f);
   FillMission(m, in, f);
-  FillFromLimits(m, f);
+  FillFromLimits(m, in.session.now, f);
   return f;
 }
 

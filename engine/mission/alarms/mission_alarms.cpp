@@ -1,4 +1,5 @@
 // Alarms about the mission: sites, approvals, the descent, who commands.
+#include "engine/core/rounding.h"
 #include "engine/core/text.h"
 #include "engine/mission/alarms/alarm_words.h"
 #include "engine/mission/descent_limits.h"
@@ -167,8 +168,10 @@ const AlarmRow kRows[] = {
      .present = [](const Facts& f, double limit) { return f.wind_mps > limit; },
      .text =
          [](const Facts& f, const std::string& limit) {
-           return WithNumbers("Wind %.1f m/s, limit ", f.wind_mps) + limit +
-                  ". Watch the descent, hold or wave off.";
+           return WithNumbers("Wind %.1f m/s, limit ", ShownBeyond(f.wind_mps, f.max_wind_mps, 1)) +
+                  limit +
+                  (f.approve_ahead ? ". No site is approved in it: wait for less."
+                                   : ". Watch the descent, hold or wave off.");
          }},
     {.id = AlarmId::kTailwind,
      .level = AlarmLevel::kCaution,

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/core/frames.h"
 #include "engine/core/text.h"
 
 namespace palace {
@@ -118,6 +119,18 @@ double LeavesBy_m(const FlyArea& area, const Eigen::Vector2d& from, const Eigen:
     }
   }
   return most;
+}
+
+std::string OutsideWords(const FlyArea& area, const Eigen::Vector3d& p_WB) {
+  std::string out, over;
+  if (!IsInside(area, p_WB.head<2>())) {
+    out = WithNumbers("%.1f m outside the area", ToEdge_m(area, p_WB.head<2>()));
+  }
+  const double height_m = HeightFromDown(p_WB.z());
+  if (height_m > area.ceiling_m) {
+    over = WithNumbers("%.1f m above its ceiling", height_m - area.ceiling_m);
+  }
+  return out + (out.empty() || over.empty() ? "" : " and ") + over;
 }
 
 }  // namespace palace

@@ -35,4 +35,7 @@ double ToEdge_m(const FlyArea& area, const Eigen::Vector2d& p_W);
 /// outside leaves it by its end. 0: it stays in.
 double LeavesBy_m(const FlyArea& area, const Eigen::Vector2d& from_W, const Eigen::Vector2d& to_W);
 
+/// "12.3 m outside the area", "4.0 m above its ceiling", or both; empty: there it is kept to it.
+std::string OutsideWords(const FlyArea& area, const Eigen::Vector3d& p_WB);
+
 }  // namespace palace

@@ -250,17 +250,24 @@ TEST(SearchMap, APlaceThatTheEngineWouldRefuseIsNotOfferedAndSaysItsWords) {
                     m + Eigen::Vector2d(10, 10), m + Eigen::Vector2d(-10, 10)},
                    ceiling_m};
   };
-  window.snap.flight.Edit().mission.area = area(60);
-  window.ClickAt(-6, -6);
-  window.ui.Click("fly_there", window.draw);
-  EXPECT_EQ(window.ui.CountCommands<FlyTo>(), 1);
-  window.ClickAt(40, 0);
-  window.ui.Click("fly_there", window.draw);
-  EXPECT_EQ(window.ui.CountCommands<FlyTo>(), 1);
   const auto told = [&] {
     const Item* tooltip = window.ui.items.Find("tooltip");
     return tooltip != nullptr ? tooltip->text : std::string("nothing");
   };
+  window.snap.flight.Edit().mission.area = area(60);
+  window.ClickAt(-6, -6);
+  window.ui.Click("fly_there", window.draw);
+  EXPECT_EQ(window.ui.CountCommands<FlyTo>(), 1);
+  window.ui.unseen_on_way = [](const EngineSnapshot&, const FlyTo&) { return 6.3; };
+  window.ui.MoveTo("fly_there");
+  window.Run(1);
+  EXPECT_EQ(told(),
+            "Flies level to over the cross and hovers there. Flies over 6.3 m of ground that no "
+            "map showed");
+  window.ui.unseen_on_way = nullptr;
+  window.ClickAt(40, 0);
+  window.ui.Click("fly_there", window.draw);
+  EXPECT_EQ(window.ui.CountCommands<FlyTo>(), 1);
   EXPECT_EQ(told().rfind("It leaves the area by", 0), 0U) << told();
   window.snap.flight.Edit().mission.area = area(20);
   window.ClickAt(-6, -6);
