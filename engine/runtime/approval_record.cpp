@@ -14,6 +14,11 @@ ApprovalRecord Begin(const EngineSnapshot& snapshot) {
   record.approval = *mission.approval;
   record.site = *mission.armed;
   record.limits = mission.armed_limits;
+  for (const LimitId id : {LimitId::kWind, LimitId::kOffWind}) {
+    if (const LimitRow* row = FindLimit(mission.limits, id)) {
+      record.limits.push_back(*row);
+    }
+  }
   record.by = mission.approved_by;
   record.left = snapshot.sensors->left_rectified;
   record.range = snapshot.terrain->range;

@@ -14,10 +14,11 @@ namespace palace {
 struct ApprovalRecord {
   Timestamp given;  ///< vehicle time
   Approval approval;
-  LandingSite site;              ///< frozen when it was armed
-  std::vector<LimitRow> limits;  ///< of the site, under the limits it was armed under
-  std::string by;                ///< "the operator" or "a script"
-  std::string answer = "none";   ///< of the vehicle, with the seconds it took
+  LandingSite site;  ///< frozen when it was armed
+  /// Of the site, under the limits it was armed under, and the wind when it was approved.
+  std::vector<LimitRow> limits;
+  std::string by;                                     ///< "the operator" or "a script"
+  std::string answer = "none";                        ///< of the vehicle, with the seconds it took
   MissionState last_state = MissionState::kApproved;  ///< reached under it
   std::string why;                                    ///< that state was entered
   // What was seen at that moment; null where there was none.

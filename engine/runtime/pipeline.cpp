@@ -41,6 +41,9 @@ void Pipeline::GoOnAfter(std::uint64_t sequence, const EngineSnapshot* last) {
   }
   if (last != nullptr) {
     injected_faults_ = last->session->injected_faults;
+    if (last->session->source.simulation) {
+      setup_changes_.GoOnAfter(last->session->source.simulation->in_force);
+    }
   }
 }
 
@@ -94,7 +97,7 @@ PipelineOutput Pipeline::Process(std::shared_ptr<const FrameBundle> bundle,
   pass.snapshot->station_s = bundle->arrival.clock && session.source.kind == SourceKind::kLive
                                  ? bundle->arrival.clock->station_s
                                  : NAN;
-  NoteFaults(pass);
+  NoteSimulation(pass);
   ApplyCommands(pass);
   PrepareRig(pass);
   See(pass);

@@ -23,6 +23,7 @@
 #include "engine/runtime/recorded_mission.h"
 #include "engine/runtime/redecisions.h"
 #include "engine/runtime/settings_state.h"
+#include "engine/runtime/setup_changes.h"
 #include "engine/slad/slad.h"
 #include "engine/stereo/frozen_check.h"
 #include "engine/stereo/range_check.h"
@@ -108,7 +109,7 @@ class Pipeline {
   std::shared_ptr<const TerrainDecision> DecisionUnder(const Settings& settings, Letters letters);
   std::shared_ptr<const std::vector<Event>> EventsAt(Timestamp time);
   /// Of a simulated flight: what begins and ends to act becomes an event.
-  void NoteFaults(const Pass& pass);
+  void NoteSimulation(const Pass& pass);
   /// What the limits in force say of the site that the flight chose.
   void Review(Pass& pass);
   /// Notes what other limits than the flight's make of the newest map.
@@ -153,7 +154,8 @@ class Pipeline {
   ChannelMonitor channels_;
   FlightHistory history_;
   std::vector<std::string> injected_faults_;  ///< of the newest bundle
-  std::optional<double> laser_height_m_;      // of the laser's spot in W
+  SetupChanges setup_changes_;
+  std::optional<double> laser_height_m_;  // of the laser's spot in W
   double beam_ground_m_ = NAN;  // height where the laser's beam meets what stereo saw last
   std::uint64_t stereo_frames_ = 0;
   std::uint64_t sequence_ = 0;

@@ -27,12 +27,17 @@ std::shared_ptr<const std::vector<Event>> Pipeline::EventsAt(Timestamp time) {
   return recorded ? recorded : mission_.SharedEvents();
 }
 
-void Pipeline::NoteFaults(const Pass& pass) {
+void Pipeline::NoteSimulation(const Pass& pass) {
   const FrameBundle& bundle = *pass.bundle;
   for (const Event& event : FaultEvents(injected_faults_, bundle.injected_faults, bundle.time)) {
     mission_.AddEvent(event.time, event.kind, event.text);
   }
   injected_faults_ = bundle.injected_faults;
+  if (const auto& simulation = pass.session.source.simulation) {
+    for (const std::string& change : setup_changes_.Note(simulation->in_force, bundle.time)) {
+      mission_.AddEvent(bundle.time, EventKind::kSetting, "Simulation: " + change);
+    }
+  }
 }
 
 void Pipeline::Redecide(Pass& pass) {

@@ -1,5 +1,6 @@
 #include "gui/app/report/approvals.h"
 
+#include <cmath>
 #include <string>
 
 #include "engine/core/hash.h"
@@ -14,9 +15,20 @@ namespace {
 
 using Rows = std::vector<std::vector<std::string>>;
 
+/// "up to 5.2 m, and 3.0 m from where the way down begins"; empty: nobody asked.
+std::string AirWords(const LandingSite& site) {
+  if (std::isnan(site.air_seen_m)) {
+    return {};
+  }
+  return WithNumbers("up to %.1f m", site.air_seen_m) +
+         (std::isnan(site.air_on_way_m)
+              ? ""
+              : WithNumbers(", %.1f m where the way down begins", site.air_on_way_m));
+}
+
 Rows Figures(const ApprovalRecord& record) {
   const Approval& a = record.approval;
-  return {
+  Rows rows = {
       {"Given", ClockText(record.given) + " by " + (record.by.empty() ? "the record" : record.by)},
       {"Site", record.site.letter +
                    WithNumbers(": %.2f m north, %.2f m east, %.2f m up", a.p_WS.x(), a.p_WS.y(),
@@ -33,6 +45,10 @@ Rows Figures(const ApprovalRecord& record) {
                        ", calibration " + ShortHash(a.calibration_hash)},
       {"Vehicle's answer", record.answer},
       {"Came to", std::string(MissionStateName(record.last_state)) + ": " + record.why}};
+  if (const std::string air = AirWords(record.site); !air.empty()) {
+    rows.insert(rows.begin() + 2, {"Air over it seen", air});
+  }
+  return rows;
 }
 
 Rows Evidence(const ApprovalRecord& record) {

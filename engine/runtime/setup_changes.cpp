@@ -1,0 +1,36 @@
+#include "engine/runtime/setup_changes.h"
+
+namespace palace {
+namespace {
+
+std::vector<std::string> Between(const SimulationSetup& was, const SimulationSetup& is) {
+  std::vector<std::string> changes;
+  for (const SimulationRow& row : SimulationTable()) {
+    const std::string before = FormatSetting(row.info, was.*row.field);
+    const std::string now = FormatSetting(row.info, is.*row.field);
+    if (before != now) {
+      changes.push_back(row.info.label + ": " + before + " to " + now);
+    }
+  }
+  return changes;
+}
+
+}  // namespace
+
+std::vector<std::string> SetupChanges::Note(const SimulationSetup& in_force, Timestamp now) {
+  if (!told_) {
+    told_ = in_force;
+  }
+  if (!Between(seen_, in_force).empty()) {
+    seen_ = in_force;
+    since_ = now;
+  }
+  if (SecondsBetween(since_, now) < kStands_s) {
+    return {};
+  }
+  std::vector<std::string> changes = Between(*told_, seen_);
+  told_ = seen_;
+  return changes;
+}
+
+}  // namespace palace
