@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <functional>
 
+#include "gui/panels/alarm_look.h"
 #include "gui/panels/session_words.h"
 
 namespace palace {
@@ -59,6 +60,28 @@ Intents PlayOrPause(const Context& c) {
                                                       : PlaybackControl::Kind::kPlay);
 }
 
+/// As the button of that name, where it stands.
+Intents HoldThere(const Context& c) {
+  if (!c.snapshot || !c.snapshot->session->can_transmit) {
+    return {};
+  }
+  const MissionStatus& m = c.snapshot->flight->mission;
+  return IsFlying(m.state) || m.going ? Intents{CommandAction(HoldHere{})} : Intents{};
+}
+
+/// As the button of the alarm strip.
+Intents AcknowledgeFirst(const Context& c) {
+  if (!c.snapshot || FollowsRecord(c.snapshot->session->role)) {
+    return {};
+  }
+  for (const Alarm& alarm : c.snapshot->flight->mission.alarms) {
+    if (WaitsForAnswer(alarm) && !IsShelved(c.state.frame, alarm)) {
+      return {CommandAction(AcknowledgeAlarm{alarm.id})};
+    }
+  }
+  return {};
+}
+
 /// Keys of the views of Simulate; elsewhere they do nothing.
 std::vector<Row> WorldViewRows() {
   std::vector<Row> rows;
@@ -82,6 +105,8 @@ std::vector<Row> MakeRows() {
   };
   return {
       {{"Shift+Escape", "Wave off", false, true, true}, always({CommandAction(WaveOff{})})},
+      {{"Shift+H", "Hold here: end the descent or the way"}, HoldThere},
+      {{"A", "Acknowledge the first alarm that waits for it"}, AcknowledgeFirst},
       {{"F2", "Show Fly", false, false, true}, always(Ui(ShowWorkspace{Workspace::kFly}))},
       {{"F3", "Show Tune", false, false, true}, always(Ui(ShowWorkspace{Workspace::kTune}))},
       {{"F4", "Show Review", false, false, true}, always(Ui(ShowWorkspace{Workspace::kReview}))},

@@ -179,9 +179,8 @@ std::string ApprovalConsequence(const EngineSnapshot& snap, bool narrow) {
     return narrow ? AsSentence(why) : text + ". " + doubt;
   }
   if (!narrow && m.approach) {
-    double heading = Deg(m.approach->heading_rad);
-    heading += heading < -0.5 ? 360 : 0;
-    text += ", heading " + Fixed(heading, 0) + "° at " + Fixed(m.approach->descent_rate_mps, 1) +
+    text += ", heading " + HeadingText(m.approach->heading_rad) + " at " +
+            Fixed(m.approach->descent_rate_mps, 1) +
             " m/s. Vision steers; wave-off stays available";
   }
   return text + ".";

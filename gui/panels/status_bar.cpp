@@ -52,6 +52,14 @@ std::string LinkText(const EngineSnapshot& snap, bool narrow, double silent_s) {
   return text;
 }
 
+/// After a jump into a record what is seen is worked out again from there; the flight itself knew
+/// more. Empty while it was seen from its start.
+std::string BegunAnewText(const EngineSnapshot& snap, bool narrow) {
+  return SeenFromStart(snap.session->role) ? ""
+         : narrow                          ? "Begun anew at the jump"
+                                           : "Map, trackers and filters begun anew at the jump";
+}
+
 /// Pictures that came and were not looked at, because newer ones had come; empty while there are
 /// none.
 std::string ReplacedText(const EngineSnapshot& snap) {
@@ -148,9 +156,13 @@ void DrawStatusBarPanel(const EngineSnapshot& snap, const FrameLayout& layout,
     }
   }
   const std::string limits = state.preset_name + " · " + ShortHash(snap.session->settings_hash);
-  std::vector<std::string> left = {
-      WhyScreenOld(ui.silent_s),   LinkText(snap, narrow, ui.silent_s),  ReplacedText(snap),
-      RecordingText(snap, narrow), narrow ? limits : "Limits " + limits, state.text_note};
+  std::vector<std::string> left = {WhyScreenOld(ui.silent_s),
+                                   LinkText(snap, narrow, ui.silent_s),
+                                   BegunAnewText(snap, narrow),
+                                   ReplacedText(snap),
+                                   RecordingText(snap, narrow),
+                                   narrow ? limits : "Limits " + limits,
+                                   state.text_note};
   if (!narrow) {
     left.push_back(state.frame_ms > 0 ? "Frame " + Fixed(state.frame_ms, 0) + " ms" : "");
   }

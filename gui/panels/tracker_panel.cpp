@@ -150,6 +150,9 @@ PanelFact HeadFact(const EngineSnapshot& snap, double silent_s) {
     }
   }
   std::string fact = tracker.locked ? tracker.mode : "Not locked";
+  if (!SeenFromStart(snap.session->role)) {
+    return {fact + ", begun anew at the jump"};
+  }
   if (tracker.locked && tracker.anchor_patch) {
     fact += ", " + std::to_string(tracker.anchor_patch->width()) + " px";
   }

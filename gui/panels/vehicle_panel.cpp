@@ -46,11 +46,6 @@ const char* ModeWords(const EngineSnapshot& snap) {
   return "Mode unknown";
 }
 
-double HeadingDeg(const VehiclePose& pose) {
-  const double deg = Deg(EulerFromRotation(pose.X_WB.R).yaw_rad);
-  return deg < -0.5 ? deg + 360 : deg;
-}
-
 double PositionError3s(const EngineSnapshot& snap) {
   const FilterStatus& filter = snap.flight->navigation.InForce();
   return filter.running ? 3 * filter.estimate.sigma_p_m.norm() : NAN;
@@ -103,7 +98,7 @@ std::vector<Readout> Readouts(const EngineSnapshot& snap, bool narrow, double si
   const double wind = snap.sensors->vehicle ? snap.sensors->vehicle->wind_speed_mps : NAN;
   const double wind_from = snap.sensors->vehicle ? snap.sensors->vehicle->wind_from_rad : NAN;
   const std::string wind_unit = WindHasDirection(wind) && std::isfinite(wind_from) && !narrow
-                                    ? "m/s, " + Fixed(Deg(wind_from), 0) + "°"
+                                    ? "m/s, " + HeadingText(wind_from)
                                     : "m/s";
   // Fuel or a battery: the vehicle does not say which.
   const double energy = snap.sensors->vehicle ? snap.sensors->vehicle->battery_or_fuel * 100 : NAN;
@@ -173,8 +168,10 @@ std::vector<Readout> Readouts(const EngineSnapshot& snap, bool narrow, double si
   }();
   const Readout blows = status("Wind", wind, 1, wind_unit);
   const Readout over_ground = pose(narrow ? "Speed" : "Ground speed", speed, 1, "m/s");
-  const Readout heading =
-      pose("Heading", snap.sensors->pose ? HeadingDeg(*snap.sensors->pose) : NAN, 0, "°");
+  Readout heading = pose("Heading", NAN, 0, "");
+  if (snap.sensors->pose) {
+    heading.value = HeadingText(EulerFromRotation(snap.sensors->pose->X_WB.R).yaw_rad);
+  }
   // How fast it climbs or sinks goes before the heading, in a narrow panel before the speed, never
   // before the wind: gusts bob a hover, and then the wind is asked for.
   const double down_mps = VerticalSpeedTold(snap);

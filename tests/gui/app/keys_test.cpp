@@ -117,6 +117,46 @@ TEST(Keys, WhatIsAliveIsNotAskedToWait) {
   }
 }
 
+TEST(Keys, HoldHereIsSentWhereItsButtonStandsAlone) {
+  for (const MissionState state :
+       {MissionState::kSearch, MissionState::kArmed, MissionState::kApproved,
+        MissionState::kDescending, MissionState::kAborting, MissionState::kLanded}) {
+    EngineSnapshot snapshot = fake::Snapshot(state, SourceKind::kSimulation);
+    snapshot.session.Edit().can_transmit = true;
+    const Intents hold = IntentsOfKey("Shift+H", &snapshot, UiState{}, false);
+    EXPECT_EQ(!hold.empty(), IsFlying(state)) << MissionStateName(state);
+    if (!hold.empty()) {
+      EXPECT_TRUE(std::holds_alternative<HoldHere>(std::get<CommandAction>(hold[0])));
+    }
+    snapshot.session.Edit().can_transmit = false;
+    EXPECT_TRUE(IntentsOfKey("Shift+H", &snapshot, UiState{}, false).empty());
+  }
+  EngineSnapshot elsewhere = fake::Snapshot(MissionState::kSearch, SourceKind::kSimulation);
+  elsewhere.session.Edit().can_transmit = true;
+  elsewhere.flight.Edit().mission.going = Going{};
+  EXPECT_FALSE(IntentsOfKey("Shift+H", &elsewhere, UiState{}, false).empty());
+}
+
+TEST(Keys, AcknowledgesTheFirstAlarmThatWaitsAndIsNotShelved) {
+  EngineSnapshot snapshot = fake::Snapshot(MissionState::kSearch, SourceKind::kSimulation);
+  auto& alarms = snapshot.flight.Edit().mission.alarms;
+  Alarm done{.kind = AlarmId::kPose, .level = AlarmLevel::kCaution};
+  done.id = "pose";
+  done.acknowledged = true;
+  Alarm shelved{.kind = AlarmId::kWind, .level = AlarmLevel::kCaution};
+  shelved.id = "wind";
+  Alarm waits{.kind = AlarmId::kCameraBlank, .level = AlarmLevel::kWarning};
+  waits.id = "camera_blank";
+  alarms = {done, shelved, waits};
+  UiState state;
+  state.frame.shelved.push_back({shelved.kind, shelved.level, shelved.since});
+  const Intents answer = IntentsOfKey("A", &snapshot, state, false);
+  ASSERT_EQ(answer.size(), 1U);
+  EXPECT_EQ(std::get<AcknowledgeAlarm>(std::get<CommandAction>(answer[0])).alarm, "camera_blank");
+  snapshot.session.Edit().role = SessionRole::kReplayed;
+  EXPECT_TRUE(IntentsOfKey("A", &snapshot, state, false).empty()) << "past answering";
+}
+
 TEST(Keys, CtrlNEndsAReviewAndNothingElse) {
   EngineSnapshot snapshot;
   snapshot.session.Edit().role = SessionRole::kReplayedAfterJump;

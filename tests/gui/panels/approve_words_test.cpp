@@ -144,7 +144,7 @@ TEST(ApproveWords, AnApprovalLeadsToADescentUnlessSomethingSpeaksAgainstTheSite)
   MissionStatus& m = snap.flight.Edit().mission;
   m.armed->confirmed = true;
   EXPECT_EQ(ApprovalConsequence(snap, false),
-            "5.9 m away, 38.2 m down. Touchdown in about 72 s, heading 40° at 1.0 m/s. Vision "
+            "5.9 m away, 38.2 m down. Touchdown in about 72 s, heading 040° at 1.0 m/s. Vision "
             "steers; wave-off stays available.");
   EXPECT_EQ(ApprovalConsequence(snap, true), "5.9 m away, 38.2 m down, touchdown in about 72 s.");
   m.armed->confirmed = false;
