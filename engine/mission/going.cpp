@@ -66,9 +66,10 @@ std::string WhyNotThere(const MissionMemory& m, const FlyTo& there, Timestamp no
     return why;
   }
   const MissionFacts& facts = m.facts;
-  return WhyNotThatWay({facts.p_WB, facts.yaw_rad, facts.elevation.get(),
-                        m.status.area ? &*m.status.area : nullptr, facts.settings.slad.lander},
-                       there);
+  return WhyNotThatWay(
+      {facts.p_WB, facts.yaw_rad, facts.elevation.get(), m.status.area ? &*m.status.area : nullptr,
+       facts.settings.slad.lander, PlaceDoubt(facts.navigation)},
+      there);
 }
 
 void StartGoing(MissionTurn& turn, const FlyTo& there, const char* who, Timestamp now) {

@@ -22,7 +22,10 @@ std::string WhyLeavesArea(const WayFacts& from, const Eigen::Vector3d& to_W) {
   if (height_m > from.area->ceiling_m) {
     return WithNumbers("%.0f m high, ceiling %.0f m", height_m, from.area->ceiling_m);
   }
-  return words::WayLeavesArea(*from.area, from.p_WB.head<2>(), to_W.head<2>());
+  const Eigen::Vector2d begin = from.p_WB.head<2>(), end = to_W.head<2>();
+  // Outside it may turn and climb where it hovers, to see the way in.
+  const bool stays = (end - begin).norm() <= kOnTheSpot_m && !IsInside(*from.area, begin);
+  return stays ? std::string() : words::WayLeavesArea(*from.area, begin, end);
 }
 
 /// Where it hovers it may turn and climb, whatever stands below it.
@@ -45,6 +48,10 @@ std::string WhatStandsThere(const WayFacts& from, const Eigen::Vector3d& to_W) {
 
 }  // namespace
 
+std::string PlaceDoubt(const NavigationStatus& navigation) {
+  return navigation.gps_agreement.off ? words::GpsOff(navigation.gps_agreement) : std::string();
+}
+
 std::string WhyNotThatWay(const WayFacts& from, const FlyTo& there) {
   if (!there.p_WB.allFinite() || !std::isfinite(there.heading_rad)) {
     return "The place is not a number";
@@ -59,6 +66,9 @@ std::string WhyNotThatWay(const WayFacts& from, const FlyTo& there) {
   }
   if (up_m < -kLower_m) {
     return WithNumbers("%.1f m lower: a way down is flown to a site", -up_m);
+  }
+  if (far_m > kOnTheSpot_m && !from.place_doubt.empty()) {
+    return from.place_doubt;
   }
   if (std::string why = WhyLeavesArea(from, there.p_WB); !why.empty()) {
     return why;
@@ -100,7 +110,7 @@ std::string WhyNotFlown(const EngineSnapshot& snapshot, const FlyTo& there) {
   return WhyNotThatWay(
       {p_WB, EulerFromRotation(pose->X_WB.R).yaw_rad,
        decision ? decision->elevation.get() : nullptr, mission.area ? &*mission.area : nullptr,
-       snapshot.session->settings.slad.lander},
+       snapshot.session->settings.slad.lander, PlaceDoubt(snapshot.flight->navigation)},
       there);
 }
 

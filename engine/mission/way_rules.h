@@ -3,7 +3,8 @@
 //
 // It stays in the area that was drawn and below its ceiling, goes no lower (a way down is flown to
 // a site), no farther than kFarthestGo_m and no higher than kMostClimb_m at once, and the newest
-// map knows nothing that reaches within kLeastBelowSkids_m of its skids on the level part.
+// map knows nothing that reaches within kLeastBelowSkids_m of its skids on the level part. While
+// GPS disagrees with the estimate it may turn and climb on the spot alone.
 #pragma once
 
 #include <cmath>
@@ -27,8 +28,11 @@ struct WayFacts {
   const ElevationMap* elevation = nullptr;  ///< the newest; null: nothing is known to stand there
   const FlyArea* area = nullptr;            ///< null: none was drawn
   const Lander& lander;
+  std::string place_doubt{};  ///< why the vehicle is not sure to be at p_WB; empty: it is
 };
 
+/// The vehicle flies by another place than the station measures from; empty: none knows of that.
+std::string PlaceDoubt(const NavigationStatus& navigation);
 /// Why it is not flown, with value and limit; empty when it is.
 std::string WhyNotThatWay(const WayFacts& from, const FlyTo& there);
 /// The same by what a snapshot tells, the mission's own reason first (MissionStatus::why_not_go).

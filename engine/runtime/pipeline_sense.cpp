@@ -8,6 +8,7 @@
 #include "engine/runtime/decision_hash.h"
 #include "engine/runtime/pipeline_pass.h"
 #include "engine/stereo/range_measurement.h"
+#include "engine/stereo/stereo_quality.h"
 
 namespace palace {
 namespace {
@@ -177,6 +178,12 @@ void Pipeline::MeasureRange(Pass& pass) {
   const bool due =
       stereo_frames_++ % static_cast<std::uint64_t>(settings.stereo.map_every_frames) == 0;
   if (!why_not.empty() || !due) {
+    if (due && MissionInForce().state == MissionState::kDescending) {
+      // No map is made near the ground, but what steers there are these pictures.
+      SuspectPictures(*pass.pair.left, *pass.pair.right,
+                      pass.snapshot->terrain.Edit().stereo_quality);
+      pass.new_stereo = true;
+    }
     return;
   }
   const std::optional<ViewPose> pose = PoseOfPair(pass);

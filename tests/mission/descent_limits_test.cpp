@@ -157,9 +157,9 @@ INSTANTIATE_TEST_SUITE_P(
         LimitCase{"off_centre", LimitId::kFromCentre,
                   [](MissionRig& r) {
                     r.vehicle.Set(VehicleMode::kSink);
-                    r.east_m += 0.6;
+                    r.east_m += 0.5;
                   },
-                  "Sinks 0.78 m off the site's centre, limit 0.50 m. Wave off unless the ground "
+                  "Sinks 0.71 m off the site's centre, limit 0.50 m. Wave off unless the ground "
                   "around is "
                   "clear."},
         LimitCase{"descent_rate", LimitId::kDescentRate,
@@ -173,6 +173,25 @@ INSTANTIATE_TEST_SUITE_P(
                   "Vision is 2.60 σ off the estimate, limit 2.15 σ: measurement refused. Watch the "
                   "estimate."}),
     [](const auto& row) { return row.param.alarm; });
+
+// What is half as much again over its limit is no caution any more.
+TEST(DescentWarnings, BeginAtHalfAsMuchAgain) {
+  for (const auto& [wind_mps, level] :
+       {std::pair(11.9, AlarmLevel::kCaution), std::pair(12.1, AlarmLevel::kWarning)}) {
+    MissionRig rig;
+    Descend(rig);
+    rig.vehicle.wind_mps = wind_mps;
+    rig.Run(0.6);
+    ASSERT_NE(FindAlarm(rig, "wind"), nullptr);
+    EXPECT_EQ(FindAlarm(rig, "wind")->level, level) << wind_mps;
+  }
+  MissionRig hover;
+  ASSERT_TRUE(hover.RunUntil(MissionState::kProposed));
+  hover.vehicle.wind_mps = 14;
+  hover.Run(0.6);
+  ASSERT_NE(FindAlarm(hover, "wind"), nullptr);
+  EXPECT_EQ(FindAlarm(hover, "wind")->level, AlarmLevel::kCaution) << "nothing is flown in it yet";
+}
 
 TEST(DescentLimits, NothingIsOverOutsideOfItsTime) {
   DescentFigures f;

@@ -218,7 +218,8 @@ TEST(Area, ThatDoesNotHoldTheVehicleSaysSo) {
     Eigen::Vector3d way;
     const char* why;
   };
-  for (const Row& row : {Row{{20, 0, 0}, ""}, Row{{-6, 0, 0}, "It ends 16.5 m outside the area"}}) {
+  for (const Row& row : {Row{{20, 0, 0}, ""}, Row{{0, 0, -5}, ""},
+                         Row{{-6, 0, 0}, "It ends 16.5 m outside the area"}}) {
     SearchingRig fresh;
     ASSERT_TRUE(fresh.Do(SetFlyArea{Around(40, 2, 20, 30)}).ok());
     const Status answer = fresh.Fly(row.way, 0.3);

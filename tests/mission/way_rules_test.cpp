@@ -73,5 +73,19 @@ TEST(WayRules, TheMissionsOwnReasonComesFirst) {
   EXPECT_EQ(WhyNotFlown(snapshot, there), "Where the vehicle is, is not known");
 }
 
+// The vehicle measures the way from another place than the station.
+TEST(WayRules, WhileGpsDisagreesItTurnsAndClimbsOnTheSpotAlone) {
+  HoverRig rig;
+  rig.navigation.gps_agreement.off = true;
+  rig.navigation.gps_agreement.off_m = 8;
+  rig.Run(0.2);
+  const FlyTo level{rig.p_WB() + Eigen::Vector3d(5, 0, 0), 0};
+  const Status refused = rig.Do(level);
+  ASSERT_FALSE(refused.ok());
+  EXPECT_EQ(refused.error().message.rfind("GPS is 8.0 m off", 0), 0u) << refused.error().message;
+  EXPECT_EQ(WhyNotFlown(Published(rig), level), refused.error().message);
+  EXPECT_TRUE(rig.Do(FlyTo{rig.p_WB() - Eigen::Vector3d(0, 0, 5), 0}).ok());
+}
+
 }  // namespace
 }  // namespace palace

@@ -39,7 +39,9 @@ void FillSensors(const MissionMemory& m, const MissionInputs& in, AlarmFacts& f)
   f.pictures = m.pictures.standing();
   const ChannelHealth* gps = FindChannel(in.vehicle.channels, ChannelId::kGps);
   f.gps_age_s = gps != nullptr ? gps->age_s : NAN;
-  f.gps_agreement = in.navigation.navigation.gps_agreement;
+  if (m.status.state != MissionState::kLanded) {  // it stands: the prediction means nothing more
+    f.gps_agreement = in.navigation.navigation.gps_agreement;
+  }
   f.laser = in.navigation.navigation.laser;
   const auto& vehicle = m.watch.vehicle();
   if (vehicle && !vehicle->on_ground) {

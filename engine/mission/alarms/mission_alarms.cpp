@@ -10,6 +10,9 @@ namespace {
 
 using Facts = AlarmFacts;
 
+/// Of its limit: from there on a caution of the flight is a warning.
+constexpr double kGraveShare = 1.5;
+
 const AlarmRow kRows[] = {
     {.id = AlarmId::kNoSite,
      .level = AlarmLevel::kAdvisory,
@@ -122,7 +125,9 @@ const AlarmRow kRows[] = {
          [](const Facts& f, const std::string& limit) {
            return WithNumbers("Off the path by %.1f m, limit ", f.off_path_m) + limit +
                   ". Hold or wave off.";
-         }},
+         },
+     .grave =
+         [](const Facts& f) { return f.off_path_m > kGraveShare * DescentLimits::off_path_m; }},
     {.id = AlarmId::kOffCentre,
      .level = AlarmLevel::kCaution,
      .of_mission = true,
@@ -134,7 +139,8 @@ const AlarmRow kRows[] = {
          [](const Facts& f, const std::string& limit) {
            return WithNumbers("Sinks %.2f m off the site's centre, limit ", f.off_centre_m) +
                   limit + ". Wave off unless the ground around is clear.";
-         }},
+         },
+     .grave = [](const Facts& f) { return f.off_centre_m > kGraveShare * f.nav_error_m; }},
     {.id = AlarmId::kDescentRate,
      .level = AlarmLevel::kCaution,
      .of_mission = true,
@@ -172,6 +178,10 @@ const AlarmRow kRows[] = {
                   limit +
                   (f.approve_ahead ? ". No site is approved in it: wait for less."
                                    : ". Watch the descent, hold or wave off.");
+         },
+     .grave =
+         [](const Facts& f) {
+           return !f.approve_ahead && f.wind_mps > kGraveShare * f.max_wind_mps;
          }},
     {.id = AlarmId::kTailwind,
      .level = AlarmLevel::kCaution,
