@@ -1,6 +1,7 @@
 #include "engine/faults/fault_injector.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "engine/faults/fault_text.h"
@@ -39,8 +40,10 @@ Status FaultInjector::Add(const FaultPlan& plan) {
 
 Result<int> FaultInjector::AddFromNow(Fault fault) {
   const std::lock_guard lock(mutex_);
-  fault.from_s += now_s_;
-  fault.to_s += now_s_;
+  // People read them: whole milliseconds.
+  const auto from_now = [&](double s) { return std::round(1000 * (now_s_ + s)) / 1000; };
+  fault.from_s = from_now(fault.from_s);
+  fault.to_s = from_now(fault.to_s);
   return AddLocked(fault);
 }
 

@@ -1,6 +1,7 @@
 #include "engine/runtime/approval_record.h"
 
 #include "engine/core/text.h"
+#include "engine/model/find_site.h"
 
 namespace palace {
 namespace {
@@ -17,7 +18,13 @@ ApprovalRecord Begin(const EngineSnapshot& snapshot) {
   for (const LimitId id : {LimitId::kWind, LimitId::kOffWind}) {
     if (const LimitRow* row = FindLimit(mission.limits, id)) {
       record.limits.push_back(*row);
+      if (row->enforced_by == EnforcedBy::kAlarm) {
+        record.limits.back().enforced_by = EnforcedBy::kGuard;  // of the approval; now it flies
+      }
     }
+  }
+  if (const LandingSite* now = FindSite(snapshot.terrain->OfRecord().get(), record.site.id)) {
+    record.site.called_unsafe_s = now->called_unsafe_s;
   }
   record.by = mission.approved_by;
   record.left = snapshot.sensors->left_rectified;

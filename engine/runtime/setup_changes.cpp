@@ -21,15 +21,15 @@ std::vector<std::string> SetupChanges::Note(const SimulationSetup& in_force, Tim
   if (!told_) {
     told_ = in_force;
   }
-  if (!Between(seen_, in_force).empty()) {
-    seen_ = in_force;
-    since_ = now;
-  }
-  if (SecondsBetween(since_, now) < kStands_s) {
+  const double since_s = told_at_ ? SecondsBetween(*told_at_, now) : kEvery_s;
+  if (since_s >= 0 && since_s < kEvery_s) {
     return {};
   }
-  std::vector<std::string> changes = Between(*told_, seen_);
-  told_ = seen_;
+  std::vector<std::string> changes = Between(*told_, in_force);
+  if (!changes.empty()) {
+    told_ = in_force;
+    told_at_ = now;
+  }
   return changes;
 }
 

@@ -1,7 +1,7 @@
 // SetupChanges: what a person changed of a simulation while it flew, as events of the flight.
 //
-// A slider that is dragged passes through many values: a change is told once it has stood for
-// kStands_s, from what was told last to what stands. A flight begins with its setup untold.
+// A slider that is dragged passes through many values: a change is told at once, and then once in
+// kEvery_s while it goes on. A flight begins with its setup untold.
 #pragma once
 
 #include <optional>
@@ -15,17 +15,17 @@ namespace palace {
 
 class SetupChanges {
  public:
-  static constexpr double kStands_s = 1;
+  static constexpr double kEvery_s = 1;
 
-  /// Once a bundle. "Wind, mean: 0.0 m/s to 6.0 m/s": one for each value that reads otherwise.
+  /// Once a bundle. "Wind, mean: 0.0 m/s to 6.0 m/s": one for each value that reads otherwise than
+  /// when it was told last.
   std::vector<std::string> Note(const SimulationSetup& in_force, Timestamp now);
   /// Of a flight that goes on: that was in force.
   void GoOnAfter(const SimulationSetup& told) { told_ = told; }
 
  private:
   std::optional<SimulationSetup> told_;
-  SimulationSetup seen_;
-  Timestamp since_;  ///< `seen_` stands
+  std::optional<Timestamp> told_at_;
 };
 
 }  // namespace palace

@@ -20,6 +20,7 @@ EngineSnapshot Approved(std::uint64_t id, double wind_mps) {
   mission.armed_limits = {{.id = LimitId::kSlope, .label = "Slope", .value = 3, .limit = 10}};
   mission.limits = {{.id = LimitId::kOffPath, .label = "Off the path", .value = 0.1, .limit = 1.2},
                     {.id = LimitId::kWind, .label = "Wind", .value = wind_mps, .limit = 8}};
+  mission.limits[1].enforced_by = EnforcedBy::kAlarm;
   return snap;
 }
 
@@ -33,6 +34,7 @@ TEST(ApprovalRecords, KeepTheWindThatItWasApprovedIn) {
   EXPECT_EQ(record.limits[0].id, LimitId::kSlope);
   EXPECT_EQ(record.limits[1].id, LimitId::kWind);
   EXPECT_EQ(record.limits[1].value, 3);
+  EXPECT_EQ(record.limits[1].enforced_by, EnforcedBy::kGuard) << "as it was asked";
 }
 
 TEST(ApprovalRecords, EndWithTheStateThatEndedThem) {

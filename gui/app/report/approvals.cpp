@@ -7,6 +7,7 @@
 #include "engine/core/log.h"
 #include "engine/core/text.h"
 #include "engine/core/units.h"
+#include "engine/model/site_standing.h"
 #include "engine/survey/map_pictures.h"
 #include "gui/widgets/number_text.h"
 
@@ -15,7 +16,7 @@ namespace {
 
 using Rows = std::vector<std::vector<std::string>>;
 
-/// "up to 5.2 m, and 3.0 m from where the way down begins"; empty: nobody asked.
+/// "up to 6.3 m, 4.7 m where the way down begins; one of them at least 5 m"; empty: nobody asked.
 std::string AirWords(const LandingSite& site) {
   if (std::isnan(site.air_seen_m)) {
     return {};
@@ -23,7 +24,8 @@ std::string AirWords(const LandingSite& site) {
   return WithNumbers("up to %.1f m", site.air_seen_m) +
          (std::isnan(site.air_on_way_m)
               ? ""
-              : WithNumbers(", %.1f m where the way down begins", site.air_on_way_m));
+              : WithNumbers(", %.1f m where the way down begins; one of them at least %.0f m",
+                            site.air_on_way_m, kLeastAirSeen_m));
 }
 
 Rows Figures(const ApprovalRecord& record) {
@@ -47,6 +49,10 @@ Rows Figures(const ApprovalRecord& record) {
       {"Came to", std::string(MissionStateName(record.last_state)) + ": " + record.why}};
   if (const std::string air = AirWords(record.site); !air.empty()) {
     rows.insert(rows.begin() + 2, {"Air over it seen", air});
+  }
+  if (std::isfinite(record.site.called_unsafe_s)) {
+    rows.push_back({"Doubt", WithNumbers("a map called it unsafe %.0f s before",
+                                         record.site.called_unsafe_s)});
   }
   return rows;
 }
