@@ -10,8 +10,8 @@ namespace palace {
 
 namespace {
 
-/// "Touched down 0.46 m off centre by estimate, 0.55 m in truth."
-std::string Touchdown(const MissionStatus& m) {
+/// "Touched down 0.46 m off centre by estimate, 0.55 m in truth; 0.50 m was allowed for."
+std::string Touchdown(const MissionStatus& m, double nav_error_m) {
   std::string text;
   const auto add = [&](const std::optional<double>& miss_m, const char* by) {
     if (miss_m) {
@@ -20,7 +20,8 @@ std::string Touchdown(const MissionStatus& m) {
   };
   add(m.touchdown_miss_m, "off centre by estimate");
   add(m.touchdown_miss_true_m, m.touchdown_miss_m ? "in truth" : "off centre in truth");
-  return text.empty() ? "Where it touched down is not known." : text + ".";
+  return text.empty() ? "Where it touched down is not known."
+                      : text + "; " + Fixed(nav_error_m, 2) + " m was allowed for.";
 }
 
 /// The log's folder and file; the folder above them is the one that was asked for.
@@ -86,7 +87,8 @@ void DrawLandedPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui) 
   const Rect row{x, rect.bottom() - s.Px(52), width, s.Px(40)};
   float y = rect.y + s.Px(72);
   // What the vehicle says, where and how high above the site.
-  const std::string where = missed ? m.why + "." : Touchdown(m);
+  const std::string where =
+      missed ? m.why + "." : Touchdown(m, snap.session->settings.slad.lander.nav_error_m);
   for (const std::string& words : {where, LogWords(*snap.session)}) {
     for (const std::string& line : WrapText(s.body, words, width)) {
       if (y + s.Px(10) > row.y) {

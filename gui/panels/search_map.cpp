@@ -261,7 +261,7 @@ std::string Trouble(const EngineSnapshot& snap, const SearchMapState& state) {
   const MissionStatus& m = snap.flight->mission;
   const std::string outside =
       m.area && snap.sensors->pose ? OutsideWords(*m.area, snap.sensors->pose->X_WB.p) : "";
-  return outside.empty() ? "" : "The vehicle is " + outside + ".";
+  return outside.empty() ? "" : "The vehicle is " + outside + ". It may be sent in.";
 }
 
 void Zoom(SearchMapState& state, double steps) {

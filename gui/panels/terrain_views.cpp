@@ -75,8 +75,11 @@ void DrawVerdictPlate(UiFrame& ui, const Rect& image, const EngineSnapshot& snap
   } else if (age_s > kOldMap_s) {
     const std::string& why = snap.terrain->why_no_map;
     const std::string last = "Last map " + Duration(age_s) + " old";
+    // The reason without what follows from it, where there is no room for both.
+    const std::string brief = last + ". " + why.substr(0, why.find(','));
     const bool told =
-        !why.empty() && (TextPlate(ui, image, Corner::kTopLeft, last + ". " + why).w > 0);
+        !why.empty() && (TextPlate(ui, image, Corner::kTopLeft, last + ". " + why).w > 0 ||
+                         TextPlate(ui, image, Corner::kTopLeft, brief).w > 0);
     if (!told) {
       TextPlate(ui, image, Corner::kTopLeft, last);
     }
