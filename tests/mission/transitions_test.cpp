@@ -266,18 +266,23 @@ TEST(Mission, BelowCommitHeightTheLastVerdictStands) {
   EXPECT_TRUE(rig.RunUntil(MissionState::kLanded, 10)) << rig.mission.status().why;
 }
 
+/// Descends on vision to that height, where vision ends.
+void LoseVisionAt(double height_m, MissionRig& rig) {
+  rig.Arm();
+  ASSERT_TRUE(rig.ApproveNow().ok());
+  ASSERT_TRUE(rig.RunUntil(MissionState::kDescending, 5));
+  rig.navigation.handover = NavigationStatus::Handover::kVision;
+  rig.navigation.vision.running = rig.navigation.vision.estimate.healthy = true;
+  while (rig.vehicle.height_m > height_m) {
+    rig.Step();
+  }
+  rig.navigation.vision.estimate.healthy = false;
+}
+
 TEST(Mission, VisionOutageHoldsHighAndClimbsLow) {
   for (const double height_m : {8.0, 2.5}) {
     MissionRig rig;
-    rig.Arm();
-    ASSERT_TRUE(rig.ApproveNow().ok());
-    ASSERT_TRUE(rig.RunUntil(MissionState::kDescending, 5));
-    rig.navigation.handover = NavigationStatus::Handover::kVision;
-    rig.navigation.vision.running = rig.navigation.vision.estimate.healthy = true;
-    while (rig.vehicle.height_m > height_m) {
-      rig.Step();
-    }
-    rig.navigation.vision.estimate.healthy = false;
+    ASSERT_NO_FATAL_FAILURE(LoseVisionAt(height_m, rig));
     rig.vehicle.Set(VehicleMode::kSettle);
     rig.Run(1.9);
     EXPECT_EQ(rig.state(), MissionState::kDescending);
@@ -290,15 +295,7 @@ TEST(Mission, VisionOutageHoldsHighAndClimbsLow) {
 TEST(Mission, AnAbortNamesWhatTheCamerasHaveAgainstIt) {
   for (const bool black : {false, true}) {
     MissionRig rig;
-    rig.Arm();
-    ASSERT_TRUE(rig.ApproveNow().ok());
-    ASSERT_TRUE(rig.RunUntil(MissionState::kDescending, 5));
-    rig.navigation.handover = NavigationStatus::Handover::kVision;
-    rig.navigation.vision.running = rig.navigation.vision.estimate.healthy = true;
-    while (rig.vehicle.height_m > 2.5) {
-      rig.Step();
-    }
-    rig.navigation.vision.estimate.healthy = false;
+    ASSERT_NO_FATAL_FAILURE(LoseVisionAt(2.5, rig));
     rig.stereo.left_blank = rig.stereo.right_blank = black;
     rig.vehicle.Set(VehicleMode::kSettle);
     rig.Run(2.2);
