@@ -22,7 +22,7 @@ struct Pipeline::Pass {
   RectifiedPair pair{};
   std::shared_ptr<const TerrainDecision> decision_of_record{};
   bool new_map = false;
-  bool new_stereo = false;  // a range map was measured; without a pose it makes no map
+  bool new_stereo = false;  // the pair was judged; near the ground without ranges or a map
   bool forgotten = false;   // another frame of the position, or another rig: maps began anew
   bool settings_moved = false;
 

@@ -177,8 +177,11 @@ void Pipeline::MeasureRange(Pass& pass) {
   }
   const bool due =
       stereo_frames_++ % static_cast<std::uint64_t>(settings.stereo.map_every_frames) == 0;
-  if (!why_not.empty() || !due) {
-    if (due && MissionInForce().state == MissionState::kDescending) {
+  if (!due) {
+    return;
+  }
+  if (!why_not.empty()) {
+    if (MissionInForce().state == MissionState::kDescending) {
       // No map is made near the ground, but what steers there are these pictures.
       SuspectPictures(*pass.pair.left, *pass.pair.right,
                       pass.snapshot->terrain.Edit().stereo_quality);
