@@ -2,6 +2,7 @@
 // not measured since. Whole flights; `palacectl evaluate faults` flies every fault and more seeds.
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <memory>
 #include <string>
 #include <utility>
@@ -49,9 +50,11 @@ TEST_P(CameraFaultInDescent, IsNamedAndStopsIt) {
       << raised;
 }
 
-/// Largest distance of the estimate in force from the truth beyond its three sigmas, m, in a
-/// descent whose cameras freeze for 8 s from its third second on, to 10 s after.
-double EstimateBeyondItsSigmas_m() {
+using Sees = std::function<bool(const EngineSnapshot&)>;
+
+/// A descent in 3 m/s of wind that the fault strikes for 8 s from when `strikes` says so; `sees` is
+/// asked of what follows, to 18 s after, until it says that it has seen enough.
+void FlyAndStrike(FaultKind kind, const Sees& strikes, const Sees& sees) {
   const SimulatedSession session =
       OpenSimulatedSession({.seed = 3, .wind_mps = 3}, MakeOffscreenSceneCamera).value();
   const auto source = std::make_shared<FaultedSource>(session.simulator, session.simulator, 3);
@@ -61,36 +64,66 @@ double EstimateBeyondItsSigmas_m() {
   parts.link = source;
   Engine engine(std::move(parts), /*threaded=*/false);
   ScriptedOperator pilot;
-  double struck_s = NAN, worst_m = 0;
+  double struck_s = NAN;
   while (engine.Step() && !(source->now_s() > struck_s + 18) && source->now_s() < 120) {
     const auto snapshot = engine.Latest();
-    const MissionStatus& mission = snapshot->flight->mission;
-    if (std::isnan(struck_s)) {
-      if (mission.state == MissionState::kDescending &&
-          SecondsBetween(mission.since, snapshot->time) > 3) {
-        struck_s = source->now_s();
-        Fault frozen{.kind = FaultKind::kCameraFrozen};
-        frozen.from_s = struck_s + 1e-3;
-        frozen.to_s = struck_s + 8;
-        EXPECT_TRUE(source->Add(frozen).ok());
-      }
-      for (const EngineCommand& command : pilot.Decide(*snapshot)) {
-        engine.Post(command);
+    if (!std::isnan(struck_s)) {
+      if (sees(*snapshot)) {
+        break;
       }
       continue;
     }
-    const PositionEstimate& estimate = snapshot->flight->navigation.InForce().estimate;
-    const Eigen::Vector3d off_m = estimate.p_WB - snapshot->sensors->truth->X_WB.p;
-    for (int i = 0; i < 3; ++i) {
-      worst_m = std::max(worst_m, std::abs(off_m[i]) - 3 * estimate.sigma_p_m[i]);
+    if (snapshot->flight->mission.state == MissionState::kDescending && strikes(*snapshot)) {
+      struck_s = source->now_s();
+      Fault fault{.kind = kind};
+      fault.from_s = struck_s + 1e-3;
+      fault.to_s = struck_s + 8;
+      EXPECT_TRUE(source->Add(fault).ok());
+    }
+    for (const EngineCommand& command : pilot.Decide(*snapshot)) {
+      engine.Post(command);
     }
   }
   EXPECT_FALSE(std::isnan(struck_s));
   EXPECT_EQ(engine.error(), "");
+}
+
+/// Largest distance of the estimate in force from the truth beyond its three sigmas, m, in a
+/// descent whose cameras freeze from its third second on.
+double EstimateBeyondItsSigmas_m() {
+  double worst_m = 0;
+  FlyAndStrike(
+      FaultKind::kCameraFrozen,
+      [](const EngineSnapshot& snapshot) {
+        return SecondsBetween(snapshot.flight->mission.since, snapshot.time) > 3;
+      },
+      [&](const EngineSnapshot& snapshot) {
+        const PositionEstimate& estimate = snapshot.flight->navigation.InForce().estimate;
+        const Eigen::Vector3d off_m = estimate.p_WB - snapshot.sensors->truth->X_WB.p;
+        for (int i = 0; i < 3; ++i) {
+          worst_m = std::max(worst_m, std::abs(off_m[i]) - 3 * estimate.sigma_p_m[i]);
+        }
+        return false;
+      });
   return worst_m;
 }
 
 TEST(FrozenCameras, TakeTheEstimateNowhere) { EXPECT_LT(EstimateBeyondItsSigmas_m(), 0.25); }
+
+// No map is made there, and with the maps the judging of pictures once ended.
+TEST(BlackCameras, AreNamedNearTheGroundToo) {
+  std::string why;
+  FlyAndStrike(
+      FaultKind::kCameraBlack,
+      [](const EngineSnapshot& snapshot) {
+        return snapshot.flight->mission.height_above_site_m < 2.2;
+      },
+      [&](const EngineSnapshot& snapshot) {
+        why = snapshot.flight->mission.why;
+        return snapshot.flight->mission.state == MissionState::kAborting;
+      });
+  EXPECT_NE(why.find("(both cameras show nothing)"), std::string::npos) << why;
+}
 
 INSTANTIATE_TEST_SUITE_P(
     , CameraFaultInDescent,
