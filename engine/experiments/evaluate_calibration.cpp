@@ -12,6 +12,7 @@
 #include "engine/calibration/calibration_quality.h"
 #include "engine/calibration/rig_difference.h"
 #include "engine/calibration/target_detection.h"
+#include "engine/core/command_line.h"
 #include "engine/core/text.h"
 #include "engine/report/statistics.h"
 #include "engine/report/svg_plot.h"
@@ -281,7 +282,7 @@ Experiment CalibrationExperiment() {
   }
   experiment.add_options = [options](CLI::App& app) {
     app.add_option("--views", options->views, "Views a calibration")
-        ->check(CLI::Range(4, 100))
+        ->check(FiniteRange(4, 100))
         ->capture_default_str();
   };
   experiment.setup = [options] { return "views " + std::to_string(options->views); };

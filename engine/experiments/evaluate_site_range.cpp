@@ -184,7 +184,7 @@ Experiment SiteRangeExperiment() {
         ->delimiter(',')
         ->capture_default_str();
     app.add_option("--frames", options->frames, "Frames fused")
-        ->check(CLI::Range(1, 100))
+        ->check(FiniteRange(1, 100))
         ->capture_default_str();
     AddFieldOptions(app, options->field);
   };

@@ -11,6 +11,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "engine/core/command_line.h"
 #include "engine/core/random.h"
 #include "engine/core/text.h"
 #include "engine/core/units.h"
@@ -211,10 +212,10 @@ Experiment SiteViewsExperiment() {
                         "site_north_m", "site_east_m", "true_distance_m", "safe_distance_m"};
   experiment.add_options = [options](CLI::App& app) {
     app.add_option("--viewpoints", options->viewpoints, "Viewpoints of each field")
-        ->check(CLI::Range(2, 200))
+        ->check(FiniteRange(2, 200))
         ->capture_default_str();
     app.add_option("--frames", options->frames, "Frames fused at each")
-        ->check(CLI::Range(1, 100))
+        ->check(FiniteRange(1, 100))
         ->capture_default_str();
   };
   experiment.setup = [options] {

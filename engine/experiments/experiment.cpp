@@ -364,7 +364,7 @@ void AddExperiments(CLI::App& evaluate, const std::vector<Experiment>& experimen
     options->trials = experiment.default_trials;
     options->verb = verb;
     verb->add_option("--trials", options->trials, "Trials, over all shards")
-        ->check(CLI::Range(1, 1'000'000))
+        ->check(FiniteRange(1, 1e6))
         ->capture_default_str();
     verb->add_option("--seed", options->seed, "Seed of the first trial; the others count on")
         ->check(Seed())

@@ -243,6 +243,7 @@ bool IsConsequence(AlarmId id) {
                                        A::kOldGround,
                                        A::kOffCentre,
                                        A::kCoherenceLow,
+                                       A::kTrackersApart,
                                        A::kVisionResidual,
                                        A::kDescentRate,
                                        A::kApprovalUnanswered,

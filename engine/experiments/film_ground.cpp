@@ -76,7 +76,7 @@ void AddFilmGroundOptions(CLI::App& app, FilmGroundOptions& options, int fewest_
       ->check(FiniteRange(0.1, 20.0))
       ->capture_default_str();
   app.add_option("--pictures", options.film.pictures, "Pictures of a film, 30 a second")
-      ->check(CLI::Range(fewest_pictures, 10'000))
+      ->check(FiniteRange(fewest_pictures, 10'000))
       ->capture_default_str();
 }
 

@@ -43,6 +43,7 @@ void RememberNavigation(MissionFacts& facts, const MissionInputs::Navigation& in
                            filter.running && filter.estimate.healthy && !unknown;
   facts.tracker_locked = in.tracker.locked;
   facts.why_not_locked = in.tracker.why_not_locked;
+  facts.trackers_apart = in.why_not_trusted;
   facts.coherence = in.tracker.coherence;
 }
 

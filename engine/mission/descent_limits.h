@@ -5,6 +5,8 @@
 //                  stale, is for information: many vehicles measure none
 //   off the path   alarm while the vehicle flies the slope and the level leg
 //   from centre    alarm while it sinks onto the site
+//   beside         lower than 1 m and farther than 1.5 of nav_error_m off for 0.3 s: nobody judged
+//                  that ground, and the descent aborts
 //   descent rate   alarm beyond 1.5 of the approved one
 //   coherence      blocks approve (G5); in the descent an alarm, and the tracker re-anchors
 //   residual       alarm; the position filter refuses such a measurement
@@ -30,6 +32,9 @@ struct DescentLimits {
   static constexpr double off_path_m = 1.2;  ///< of B from the path
   static constexpr double rate_share = 1.5;  ///< of the approved descent rate
   static constexpr double off_wind_rad = Rad(60);
+  static constexpr double grave_share = 1.5;  ///< of a limit: a caution is a warning from there on
+  static constexpr double last_height_m = 1;  ///< lower, a vehicle beside its site goes around ...
+  static constexpr double beside_s = 0.3;     ///< ... once it was so for so long
 };
 
 /// What the rows are made of; NaN where unknown.

@@ -70,7 +70,7 @@ std::string WhyNotShown(const GuardInputs& in, const Limit& limit) {
   const double shown_s = std::isfinite(in.shown_for_s) ? in.shown_for_s : 0;
   return shown_s >= limit.value
              ? ""
-             : WithNumbers("Evidence on screen for %.1f s, min ", TenthsDown(shown_s)) +
+             : WithNumbers("Site on screen for %.1f s, min ", TenthsDown(shown_s)) +
                    LimitWords(limit);
 }
 
@@ -160,7 +160,7 @@ const std::array<GuardRow, kGuardCount> kGuards = {{
      .limit_from = &GuardInputs::min_coherence,
      .why = WhyNotPositioned},
     {.id = GuardId::kShown,
-     .words = "Evidence was on screen",
+     .words = "Site was on screen",
      .limit = {GuardLimits::shown_s, "s"},
      .why = WhyNotShown},
     {.id = GuardId::kUnchanged,

@@ -21,11 +21,11 @@ struct GuardLimits {
   static constexpr double pose_s = 0.2;
   static constexpr double camera_s = 0.5;
   static constexpr double map_s = kMapOld_s;
-  static constexpr double shown_s = 1.0;        ///< evidence on screen
+  static constexpr double shown_s = 1.0;        ///< the selected site, on screen
   static constexpr double laser_height_m = 15;  ///< lower, heights without a laser are not enough
   static constexpr double arm_to_approve_s = 0.5;
-  static constexpr double lost_percent = 50;     ///< of the vehicle's messages (F21)
-  static constexpr double confirm_height_m = kConfirmHeight_m;  ///< a provisional site must be confirmed by here
+  static constexpr double lost_percent = 50;                    ///< of the vehicle's messages (F21)
+  static constexpr double confirm_height_m = kConfirmHeight_m;  ///< of a provisional site
 };
 
 /// An age beyond which a selection, an approval or a descent ends.
@@ -45,16 +45,16 @@ struct AlarmLimits {
   static constexpr double vision_late_s = 0.3;
   static constexpr double answer_s = 2.0;
   static constexpr double lost_percent = 100 * kMostLostShare;  ///< F21
-  static constexpr double told_s = 10;        ///< what is over at once is told for so long
+  static constexpr double told_s = 10;  ///< what is over at once is told for so long
   static constexpr double laser_mismatch_m = 1.0;
   static constexpr double row_error_px = kMostRowError_px;
-  static constexpr double exposure = 2;        ///< one picture twice as bright as the other
-  static constexpr double scale_percent = 2;   ///< 0.3 m of height at 50 ft
-  static constexpr double refused_hz = 1;      ///< datagrams: F25
-  static constexpr double bus_load = 10;       ///< times what a channel needs: F31
-  static constexpr double foreign_s = 10;      ///< a foreign command is told for this long
+  static constexpr double exposure = 2;         ///< one picture twice as bright as the other
+  static constexpr double scale_percent = 2;    ///< 0.3 m of height at 50 ft
+  static constexpr double refused_hz = 1;       ///< datagrams: F25
+  static constexpr double bus_load = 10;        ///< times what a channel needs: F31
+  static constexpr double foreign_s = 10;       ///< a foreign command is told for this long
   static constexpr double energy_percent = 10;  ///< where no rate is known
-  static constexpr double least_pairs_hz = 5;  ///< half of what maps and tracking are made for
+  static constexpr double least_pairs_hz = 5;   ///< half of what maps and tracking are made for
 };
 
 /// A number with its unit, as a sentence names it.

@@ -63,9 +63,10 @@ struct MissionInputs {
   struct Navigation {
     const NavigationStatus& navigation;
     const TrackerStatus& tracker;
-    StereoQuality stereo{};            ///< of the newest range map
-    bool new_stereo = false;           ///< which was made from this bundle
-    RangeAgreement range_agreement{};  ///< stereo against laser
+    std::string_view why_not_trusted{};  ///< TrackerConsensus; empty with no trackers
+    StereoQuality stereo{};              ///< of the newest range map
+    bool new_stereo = false;             ///< which was made from this bundle
+    RangeAgreement range_agreement{};    ///< stereo against laser
     Eigen::Vector3d p_WB_estimate = Eigen::Vector3d::Constant(NAN);
     Eigen::Vector3d skid_centre_W = Eigen::Vector3d::Constant(NAN);  ///< by the estimate in force
   };

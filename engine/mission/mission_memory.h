@@ -62,6 +62,7 @@ struct MissionFacts {
   bool position_healthy = false;
   bool tracker_locked = false;
   std::string why_not_locked;  ///< of the tracker
+  std::string trackers_apart;  ///< why all trackers together are not trusted; empty: they are
   double coherence = NAN;
 };
 
@@ -80,7 +81,7 @@ struct ArmedFacts {
 
 /// What was looked at, and what is worth another look. Kept while the vehicle does not restart.
 struct SearchMemory {
-  std::optional<GroundView> view;  ///< of the newest rig
+  std::optional<GroundView> view;        ///< of the newest rig
   std::optional<LandingSite> promising;  ///< was proposed last
   std::vector<std::uint64_t> looked_at;  ///< promising ones that were flown to, by id
   Timestamp planned_at;
@@ -143,6 +144,7 @@ struct MissionMemory {
   bool wave_off_acknowledged = false;
   bool vision_allowed = false;
   Timestamp vision_good_at;
+  std::optional<Timestamp> beside_since;  ///< too far off the site, lower than 1 m
   Timestamp map_seen_at;
   /// The ground of the armed site was measured last; at the earliest when the descent began.
   Timestamp ground_seen_at;

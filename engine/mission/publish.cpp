@@ -21,6 +21,9 @@ void PublishAlarms(MissionTurn& turn, const MissionInputs& in) {
   for (const Alarm& alarm : m.alarms.raised()) {
     AddEvent(turn, in.session.now, alarm);
   }
+  for (const Alarm& alarm : m.alarms.ended()) {
+    AddEvent(turn, in.session.now, EventKind::kAlarm, words::AlarmOver(alarm, in.session.now));
+  }
   m.status.alarms = m.alarms.Shown();
 }
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "engine/mission/alarms/alarms.h"
+#include "engine/mission/descent_limits.h"
 #include "engine/mission/geometry.h"
 #include "engine/mission/guards.h"
 #include "engine/mission/limits.h"
@@ -246,6 +247,20 @@ bool LandedOrAborting(MissionTurn& turn, const MissionInputs& in) {
   return false;
 }
 
+/// Why a vehicle that is nearly down goes around; empty when it does not. A gust may carry it off
+/// for a moment.
+std::string WhyGoAround(MissionMemory& m, Timestamp now) {
+  const AlarmFacts facts = HoldFactsAt(m, now);
+  if (!(facts.beside_m > facts.most_beside_m)) {
+    m.beside_since.reset();
+    return {};
+  }
+  m.beside_since = m.beside_since.value_or(now);
+  return SecondsBetween(*m.beside_since, now) >= DescentLimits::beside_s
+             ? words::Beside(words::SiteName(m.status), facts.beside_m, facts.most_beside_m)
+             : "";
+}
+
 void StepDescending(MissionTurn& turn, const MissionInputs& in) {
   MissionMemory& m = turn.memory;
   const Timestamp now = in.session.now;
@@ -263,6 +278,10 @@ void StepDescending(MissionTurn& turn, const MissionInputs& in) {
     const std::string why = WithCameras(words::VisionLost(outage_s, limit_s), m, now);
     // Without vision the last metres are not a place to hover.
     IsCommitted(m) ? Abort(turn, why, now) : Hold(turn, why, now);
+    return;
+  }
+  if (std::string why = WhyGoAround(turn.memory, now); !why.empty()) {
+    Abort(turn, std::move(why), now);
     return;
   }
   std::string why = WhyHold(m, in);

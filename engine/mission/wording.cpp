@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "engine/core/rounding.h"
 #include "engine/core/text.h"
 #include "engine/core/units.h"
 #include "engine/mission/limits.h"
@@ -50,6 +51,10 @@ std::string Acknowledged(const std::string& text) { return "Acknowledged: " + Al
 std::string NotStanding(const std::string& text) {
   return text.empty() ? "No such alarm stands"
                       : "\"" + AlarmSubject(text) + "\" does not stand any more";
+}
+std::string AlarmOver(const Alarm& alarm, Timestamp now) {
+  return WithNumbers("Over after %.1f s: ", SecondsBetween(alarm.since, now)) +
+         AlarmSubject(alarm.text);
 }
 
 std::string CannotSelectIn(MissionState state) {
@@ -117,67 +122,6 @@ std::string Age(double age_s) {
 
 std::string Older(const char* what, double age_s, double limit_s) {
   return age_s <= limit_s ? std::string() : std::string(what) + " " + Age(age_s);
-}
-
-std::string ClockStepped(double step_s) {
-  return WithNumbers(
-      step_s < 0 ? "Vehicle clock stepped back %.1f s" : "Vehicle clock stepped ahead %.1f s",
-      std::abs(step_s));
-}
-
-std::string ImageTimeOff(const NavigationStatus& navigation) {
-  const ImageTime* wrong = navigation.WrongImageTime();
-  if (wrong == nullptr) {
-    return {};
-  }
-  const bool both = navigation.image_time_left.off() && navigation.image_time_right.off();
-  const char* camera = both                                   ? "both cameras"
-                       : wrong == &navigation.image_time_left ? "the left camera"
-                                                              : "the right camera";
-  return WithNumbers("Image time off by %.0f ms against attitude: pictures of ",
-                     1000 * std::abs(wrong->offset_s)) +
-         camera + (wrong->offset_s > 0 ? " are late" : " are early");
-}
-
-std::string GravityOff(const GravityAgreement& gravity) {
-  if (!gravity.off) {
-    return {};
-  }
-  const std::string by =
-      std::isfinite(gravity.tilt_deg) ? WithNumbers("%.1f° ", gravity.tilt_deg) : "";
-  return "Attitude is " + by + "off gravity, limit " +
-         LimitWords({GravityAgreement::kLimit_deg, "°"}) + " (or the accelerometer errs)";
-}
-
-std::string GpsOff(const GpsAgreement& gps) {
-  if (!gps.off) {
-    return {};
-  }
-  return gps.drifts ? "GPS drifts against its own velocity by more than " +
-                          LimitWords({GpsAgreement::kDrift_m, "m in 5 s"})
-                    : WithNumbers("GPS is %.1f m off the inertial prediction, limit ", gps.off_m) +
-                          LimitWords({GpsAgreement::kJump_m, "m"});
-}
-
-std::string LaserFault(const LaserHealth& laser) {
-  using State = LaserHealth::State;
-  switch (laser.state) {
-    case State::kLost:
-      return WithNumbers("Laser lost for %.1f s, limit ", laser.since_s) +
-             LimitWords({LaserHealth::kLost_s, "s"});
-    case State::kStuck:
-      return WithNumbers("Laser repeats its range for %.1f s, limit ", laser.since_s) +
-             LimitWords({LaserHealth::kStuck_s, "s"});
-    case State::kWrong:
-      return WithNumbers("Laser reads %.2f of the height that stereo and motion show, limit ",
-                         laser.ratio) +
-             WithNumbers("%.2f to %.2f", 1 - LaserHealth::kWrong, 1 + LaserHealth::kWrong);
-    case State::kNever:
-      return "Laser not heard";
-    case State::kFine:
-      return {};
-  }
-  return {};
 }
 
 std::string Approved(const MissionStatus& status) {
@@ -384,6 +328,11 @@ std::string GroundNotMeasured(const std::string& letter, double age_s) {
 
 std::string VisionLost(double outage_s, double limit_s) {
   return WithNumbers("Vision lost for %.1f s, limit %.1f s", outage_s, limit_s);
+}
+
+std::string Beside(std::string_view site, double miss_m, double limit_m) {
+  return WithNumbers("%.2f m beside ", ShownBeyond(miss_m, limit_m, 2)) + std::string(site) +
+         WithNumbers(", limit %.2f m: nobody judged the ground there", limit_m);
 }
 
 }  // namespace palace::words

@@ -73,6 +73,8 @@ std::string VehicleHolds(const std::string& reason);
 /// `text`: of the alarm, in whose words the event names it; empty: it was never told.
 std::string Acknowledged(const std::string& text);
 std::string NotStanding(const std::string& text);
+/// "Over after 3.4 s: GPS horizontal error 2.6 m"; of one that has a figure, its worst.
+std::string AlarmOver(const Alarm& alarm, Timestamp now);
 std::string CannotSelectIn(MissionState state);
 std::string CannotGoIn(MissionState state);
 /// "Sent 12.0 m north, 3.0 m up, to look along 045°, over 5.2 m of ground that no map showed, by
@@ -166,5 +168,7 @@ std::string WaveOffTold(const WaveOffReport& report);
 /// "Ground of site A not measured for 2.1 s".
 std::string GroundNotMeasured(const std::string& letter, double age_s);
 std::string VisionLost(double outage_s, double limit_s);
+/// "0.92 m beside site A, limit 0.75 m: nobody judged the ground there".
+std::string Beside(std::string_view site, double miss_m, double limit_m);
 
 }  // namespace palace::words

@@ -22,6 +22,16 @@ std::string SureFrom(const LandingSite& site, const std::string& limit) {
                         : limit);
 }
 
+/// "0.12 rocks or holes may be hidden, sure from 8 m above it": one line of the narrowest approve
+/// panel; near the limit a third digit tells them apart.
+std::string MayHide(const LandingSite& site) {
+  const bool near_limit = site.hidden_things < 2 * kMostHidden;
+  return (near_limit ? WithNumbers("%.3f rocks or holes may be hidden, ",
+                                   ShownBeyond(site.hidden_things, kMostHidden, 3))
+                     : WithNumbers("%.2f rocks or holes may be hidden, ", site.hidden_things)) +
+         SureFrom(site, WithNumbers(near_limit ? "to %.3f" : "to %.2f", kMostHidden));
+}
+
 }  // namespace
 
 SiteStanding StandingOf(const LandingSite& site, const SladSettings& settings) {
@@ -80,6 +90,10 @@ std::string WhyProvisional(const LandingSite& site, const SladSettings& settings
     return WithNumbers("height noise %.1f cm (3 sigma), ", 100 * site.height_m.three_sigma) +
            SureFrom(site, WithNumbers("below %.1f cm", 100 * settings.limits.max_deviation_m));
   }
+  // Air that the way down shows speaks less against it than what may stand there.
+  if (site.hidden_things > kMostHiddenProvisional && IsAirShown(site)) {
+    return MayHide(site);
+  }
   if (site.air_seen_m < kLeastAirSeen_m) {
     const std::string least = WithNumbers("%.0f m", kLeastAirSeen_m);
     return WithNumbers("air over it seen up to %.1f m, ", TenthsDown(site.air_seen_m)) +
@@ -89,12 +103,7 @@ std::string WhyProvisional(const LandingSite& site, const SladSettings& settings
   }
   const std::string over = WithNumbers("over %.0f cm", 100 * settings.limits.max_deviation_m);
   if (site.hidden_things > kMostHidden) {
-    // One line of the narrowest approve panel; near the limit a third digit tells them apart.
-    const bool near_limit = site.hidden_things < 2 * kMostHidden;
-    return (near_limit ? WithNumbers("%.3f rocks or holes may be hidden, ",
-                                     ShownBeyond(site.hidden_things, kMostHidden, 3))
-                       : WithNumbers("%.2f rocks or holes may be hidden, ", site.hidden_things)) +
-           SureFrom(site, WithNumbers(near_limit ? "to %.3f" : "to %.2f", kMostHidden));
+    return MayHide(site);
   }
   if (settings.mode == SladMode::kModern &&
       !(site.safe_probability >= settings.limits.min_safe_probability)) {

@@ -62,9 +62,9 @@ const char* StandingWord(SiteStanding standing);
 /// not (LandingSite::look_height_m); else StandingWord.
 std::string StandingWords(const LandingSite& site, const SladSettings& settings);
 
-/// The first that holds: too much noise of height, too little of the air seen, too much that may
-/// hide, too little probability, too few frames, cells wider than a rock (landing_site.h,
-/// confirmed). Empty when the site is confirmed.
+/// The first that holds: noise of height, what may hide (over kMostHiddenProvisional, and air is
+/// shown), air not seen, what may hide, probability, frames, cells wider than a rock
+/// (landing_site.h, confirmed). Empty when the site is confirmed.
 std::string WhyProvisional(const LandingSite& site, const SladSettings& settings);
 
 }  // namespace palace

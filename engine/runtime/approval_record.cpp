@@ -23,6 +23,10 @@ ApprovalRecord Begin(const EngineSnapshot& snapshot) {
       }
     }
   }
+  if (const auto& vehicle = snapshot.sensors->vehicle) {
+    record.wind_mps = vehicle->wind_speed_mps;
+    record.wind_from_rad = vehicle->wind_from_rad;
+  }
   if (const LandingSite* now = FindSite(snapshot.terrain->OfRecord().get(), record.site.id)) {
     record.site.called_unsafe_s = now->called_unsafe_s;
   }

@@ -17,8 +17,9 @@ struct ApprovalRecord {
   LandingSite site;  ///< frozen when it was armed
   /// Of the site, under the limits it was armed under, and the wind when it was approved.
   std::vector<LimitRow> limits;
-  std::string by;                                     ///< "the operator" or "a script"
-  std::string answer = "none";                        ///< of the vehicle, with the seconds it took
+  double wind_mps = NAN, wind_from_rad = NAN;  ///< when it was approved; NaN: the vehicle told none
+  std::string by;                              ///< "the operator" or "a script"
+  std::string answer = "none";                 ///< of the vehicle, with the seconds it took
   MissionState last_state = MissionState::kApproved;  ///< reached under it
   std::string why;                                    ///< that state was entered
   // What was seen at that moment; null where there was none.

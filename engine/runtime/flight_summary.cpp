@@ -59,6 +59,10 @@ void FlightSummarizer::Add(const EngineSnapshot& snapshot) {
       summary_.approach_error_m.Add((nav.InForce().estimate.p_WB - truth).norm());
     }
   }
+  if (!flying && summary_.site && !summary_.estimated_miss_m) {
+    summary_.estimated_miss_m = mission.touchdown_miss_m;
+    summary_.nav_error_m = snapshot.session->settings.slad.lander.nav_error_m;
+  }
   if (!flying && snapshot.sensors->truth && summary_.site && !summary_.touchdown_miss_m) {
     const Eigen::Vector3d skid =
         snapshot.sensors->truth->X_WB * snapshot.session->settings.slad.lander.skid_centre_B();
@@ -87,6 +91,11 @@ std::vector<std::string> SummaryLines(const FlightSummary& s) {
   if (s.touchdown_miss_m) {
     lines.push_back(
         WithNumbers("Touchdown: %.3f m from the approved site (true)", *s.touchdown_miss_m));
+  }
+  if (s.estimated_miss_m) {
+    lines.push_back(WithNumbers(
+        "Touchdown by the estimate: %.2f m from the approved site; %.2f m was allowed for",
+        *s.estimated_miss_m, s.nav_error_m));
   }
   if (s.estimate_error_m.count > 0) {
     lines.push_back(

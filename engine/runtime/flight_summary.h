@@ -29,6 +29,8 @@ struct FlightSummary {
   SeriesStats gps_error_m;                 ///< the same of the GPS filter
   SeriesStats approach_error_m;            ///< |estimate - truth| over the whole flight
   std::optional<double> touchdown_miss_m;  ///< skid centre to site, true, horizontal
+  std::optional<double> estimated_miss_m;  ///< the same by the estimate in force
+  double nav_error_m = NAN;                ///< that was allowed for
   std::optional<double> site_obstacle_distance_m;  ///< nearest true obstacle to the site
   double lander_radius_m = 0;
 };

@@ -255,6 +255,7 @@ void Pipeline::Decide(Pass& pass) {
                   .alternative = alternative},
       .navigation = {.navigation = snapshot.flight->navigation,
                      .tracker = snapshot.flight->tracker,
+                     .why_not_trusted = snapshot.flight->trackers.consensus.why_not_trusted,
                      .stereo = snapshot.terrain->stereo_quality,
                      .new_stereo = pass.new_stereo,
                      .range_agreement = snapshot.terrain->range_agreement,

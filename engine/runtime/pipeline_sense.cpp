@@ -26,6 +26,11 @@ std::string WhyNoMap(const MissionStatus& mission, double commit_height_m) {
              : std::string();
 }
 
+void TakeFrozen(const FrozenCameras& frozen, StereoQuality& quality) {
+  quality.left_frozen = frozen.left;
+  quality.right_frozen = frozen.right;
+}
+
 }  // namespace
 
 void Pipeline::PrepareRig(Pass& pass) {
@@ -183,8 +188,9 @@ void Pipeline::MeasureRange(Pass& pass) {
   if (!why_not.empty()) {
     if (MissionInForce().state == MissionState::kDescending) {
       // No map is made near the ground, but what steers there are these pictures.
-      SuspectPictures(*pass.pair.left, *pass.pair.right,
-                      pass.snapshot->terrain.Edit().stereo_quality);
+      StereoQuality& quality = pass.snapshot->terrain.Edit().stereo_quality;
+      SuspectPictures(*pass.pair.left, *pass.pair.right, quality);
+      TakeFrozen(WhichFrozen(pass, PoseOfPair(pass).has_value()), quality);
       pass.new_stereo = true;
     }
     return;
@@ -201,9 +207,7 @@ void Pipeline::MeasureRange(Pass& pass) {
     pass.Note(DiagnosticLevel::kError, "stereo", result.error().message);
     return;
   }
-  const FrozenCameras frozen = WhichFrozen(pass, pose.has_value());
-  result->quality.left_frozen = frozen.left;
-  result->quality.right_frozen = frozen.right;
+  TakeFrozen(WhichFrozen(pass, pose.has_value()), result->quality);
   pass.snapshot->terrain.Edit().stereo_quality = result->quality;
   pass.new_stereo = true;
   if (result->quality.suspect_covered) {

@@ -225,10 +225,13 @@ Status WriteMapPicture(const std::filesystem::path& path, const GridF& cells,
   low = picture.low.value_or(low * picture.shown_per_unit);
   high = std::max(picture.high.value_or(high * picture.shown_per_unit), low + 1e-9);
   cv::Mat colours(cells.rows(), cells.cols(), CV_8UC3, kUnknownInk);
+  bool lower = false, higher = false;  // than the bar: told at its ends
   for (int r = 0; r < cells.rows(); ++r) {
     for (int c = 0; c < cells.cols(); ++c) {
       const double value = static_cast<double>(cells.at(r, c)) * picture.shown_per_unit;
       if (std::isfinite(value)) {
+        lower = lower || value < low;
+        higher = higher || value > high;
         colours.at<cv::Vec3b>(r, c) = ColourOf(picture.table, (value - low) / (high - low));
       }
     }
@@ -245,8 +248,9 @@ Status WriteMapPicture(const std::filesystem::path& path, const GridF& cells,
     cv::line(sheet, {left, y}, {left + 22, y}, cv::Scalar(colour[0], colour[1], colour[2]));
   }
   for (int tick = 0; tick <= 4; ++tick) {
+    const char* beyond = tick == 0 && lower ? "<= " : tick == 4 && higher ? ">= " : "";
     char text[32];
-    std::snprintf(text, sizeof text, "%.3g", low + (high - low) * tick / 4);
+    std::snprintf(text, sizeof text, "%s%.3g", beyond, low + (high - low) * tick / 4);
     Write(sheet, text, {left + 30, bottom - (bottom - top) * tick / 4 + 5});
   }
   return Save(path, sheet);

@@ -23,7 +23,8 @@ struct MapPicture {
   std::optional<double> high;
 };
 
-/// Unknown cells are grey. The bar at the right runs from low to high.
+/// Unknown cells are grey. The bar at the right runs from low to high; an end beyond
+/// which cells lie says so ("<= -0.5", ">= 1.5").
 Status WriteMapPicture(const std::filesystem::path& path, const GridF& cells,
                        const MapPicture& picture);
 

@@ -46,6 +46,8 @@ Json SiteJson(const LandingSite& site, const SladSettings& slad) {
           {"standing", StandingWord(StandingOf(site, slad))},
           {"provisional_because", WhyProvisional(site, slad)},
           {"look_height_m", Number(site.look_height_m)},
+          {"hidden_things", Number(site.hidden_things)},
+          {"air_seen_m", Number(site.air_seen_m)},
           {"letter", site.letter},
           {"step_m", Number(site.step_m.value)},
           {"safe_distance_m", site.safe_distance_m},

@@ -24,6 +24,7 @@
 #include "engine/camera/files/camera_files.h"
 #include "engine/capture/image_folder_source.h"
 #include "engine/capture/picture_file.h"
+#include "engine/core/command_line.h"
 #include "engine/core/files.h"
 
 namespace palace {
@@ -258,7 +259,7 @@ void AddCalibrateCommand(CLI::App& app, int& exit_code) {
   verb->add_option(
           "--hold-out-every", options->hold_out_every,
           "every n-th of 8 and more views is kept out of a second fit; 0: none, 1 is refused")
-      ->check(CLI::Range(0, 1000))
+      ->check(FiniteRange(0, 1000))
       ->capture_default_str();
   verb->callback([options, &exit_code] {
     const Result<bool> accepted = Run(*options);

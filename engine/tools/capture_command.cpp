@@ -94,7 +94,7 @@ void AddCaptureCommand(CLI::App& app, int& exit_code) {
   verb->add_option("--rig", options->rig, "RIG.toml with a [capture] table")->required();
   verb->add_option("--out", options->out, "folder for left_000.png, right_000.png ...")->required();
   verb->add_option("--count", options->count, "pairs to take")
-      ->check(CLI::Range(1, 1000))
+      ->check(FiniteRange(1, 1000))
       ->capture_default_str();
   verb->add_option("--every-s", options->every_s, "seconds between two pairs: move the board")
       ->check(FiniteRange(0.0, 3600.0))

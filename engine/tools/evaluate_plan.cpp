@@ -177,7 +177,7 @@ void AddEvaluatePlan(CLI::App& evaluate, const std::vector<Experiment>& experime
     run.trials = experiment.default_trials;
     run.out = "evaluate-" + experiment.name;
     verb->add_option("--trials", run.trials, "Trials, over all shards")
-        ->check(CLI::Range(1, 1'000'000))
+        ->check(FiniteRange(1, 1e6))
         ->capture_default_str();
     verb->add_option("--seed", run.seed, "Seed of the first trial; the others count on")
         ->check(Seed())

@@ -330,24 +330,24 @@ void AddTrackCommand(CLI::App& app, int& exit_code) {
   verb->add_option("--feature", options->feature,
                    "X,Y in pixels of the first picture; else the best one is selected");
   verb->add_option("--template", options->follower.template_px, "Side of the template, px, odd")
-      ->check(CLI::Range(11, 101))
+      ->check(FiniteRange(11, 101))
       ->capture_default_str();
   verb->add_option("--search", options->follower.search_px,
                    "How far around the template is searched, px; more while it is lost")
-      ->check(CLI::Range(4, 128))
+      ->check(FiniteRange(4, 128))
       ->capture_default_str();
   verb->add_option("--min-coherence", options->follower.min_coherence,
                    "Below it the feature is LOST")
       ->check(FiniteRange(0.1, 0.99))
       ->capture_default_str();
   verb->add_option("--frames", options->frames, "Pictures to take; else all, or until Ctrl+C")
-      ->check(CLI::Range(1, 1'000'000'000));
+      ->check(FiniteRange(1, 1e9));
   verb->add_flag("--no-update", options->keep_template,
                  "Keep the first template; else a new one is cut as scale or view change");
   verb->add_option("--pictures", options->pictures,
                    "Write every n-th picture annotated, 1 each; else the first, the last and "
                    "changes of state")
-      ->check(CLI::Range(1, 1'000'000));
+      ->check(FiniteRange(1, 1e6));
   verb->add_option("--size", options->size, "Asked of a device, px")->capture_default_str();
   verb->callback([options, &exit_code] {
     if (const Status done = Tracking(*options).Run(); !done) {

@@ -74,10 +74,10 @@ void Declare(CLI::App& app, AppOptions& options, SourceArguments& sources, bool&
   app.add_option("--record", options.record_dir, "Folder for flight logs")->capture_default_str();
   app.add_flag("--no-record", no_record, "Do not record the flight, leave no report");
   app.add_option("--width", options.width_px, "Window width, pixels")
-      ->check(CLI::Range(640, 7680))
+      ->check(FiniteRange(640, 7680))
       ->capture_default_str();
   app.add_option("--height", options.height_px, "Window height, pixels")
-      ->check(CLI::Range(480, 4320))
+      ->check(FiniteRange(480, 4320))
       ->capture_default_str();
   app.add_option("--ui-scale", options.ui_scale,
                  "Size of text and controls, 0.75 to 2.5; 0: from the monitor")

@@ -11,6 +11,7 @@
 #include "engine/model/mission/approve_offer.h"
 #include "engine/model/mission/refused_lately.h"
 #include "engine/model/site_standing.h"
+#include "engine/model/thinnest_seen.h"
 #include "gui/panels/session_words.h"
 #include "gui/widgets/number_text.h"
 
@@ -143,6 +144,16 @@ std::string SideWords(const MissionStatus& m) {
              : std::string();
 }
 
+namespace {
+
+/// By the newest pictures that ranges were made of; NaN where there are none.
+double ThinnestSeenAt(const EngineSnapshot& snap, const Eigen::Vector3d& p_W) {
+  const auto& range = snap.terrain->range;
+  return range ? ThinnestSeen_m(range->camera, snap.sensors->X_WC, p_W) : NAN;
+}
+
+}  // namespace
+
 std::string ApprovalConsequence(const EngineSnapshot& snap, bool narrow) {
   const MissionStatus& m = snap.flight->mission;
   const std::string side = SideWords(m);
@@ -180,8 +191,11 @@ std::string ApprovalConsequence(const EngineSnapshot& snap, bool narrow) {
   }
   if (!narrow && m.approach) {
     text += ", heading " + HeadingText(m.approach->heading_rad) + " at " +
-            Fixed(m.approach->descent_rate_mps, 1) +
-            " m/s. Vision steers; wave-off stays available";
+            Fixed(m.approach->descent_rate_mps, 1) + " m/s";
+  }
+  if (const double thin_m = narrow || !m.armed ? NAN : ThinnestSeenAt(snap, m.armed->p_WS);
+      !std::isnan(thin_m)) {
+    text += ". From here nothing thinner than " + Fixed(100 * thin_m, 0) + " cm is sure to be seen";
   }
   return text + ".";
 }

@@ -8,6 +8,8 @@
 #include "gui/panels/arrival.h"
 #include "gui/panels/frame_bar.h"
 #include "gui/panels/session_words.h"
+#include "gui/widgets/button.h"
+#include "gui/widgets/interact.h"
 #include "gui/widgets/number_text.h"
 
 namespace palace {
@@ -59,6 +61,10 @@ std::string BegunAnewText(const EngineSnapshot& snap, bool narrow) {
          : narrow                          ? "Begun anew at the jump"
                                            : "Map, trackers and filters begun anew at the jump";
 }
+
+constexpr const char* kWhyBegunAnew =
+    "From the place jumped to, map, trackers and filters are worked out again from the recorded "
+    "pictures: what the flight itself knew by then, of ground seen before, is not in them.";
 
 /// Pictures that came and were not looked at, because newer ones had come; empty while there are
 /// none.
@@ -170,10 +176,16 @@ void DrawStatusBarPanel(const EngineSnapshot& snap, const FrameLayout& layout,
   if (const std::string faults = FaultsText(snap.session->injected_faults); !faults.empty()) {
     x += DrawFaultChip(ui, faults, x, y, (right - gap - x) / 2) + gap;
   }
+  const std::string begun = BegunAnewText(snap, narrow);
   for (const std::string& item : left) {
-    if (!item.empty() && x + TextWidth(s.caption, item) < right - gap) {
-      x += DrawText(ui, s.caption, p.text2, x, y, item) + gap;
+    if (item.empty() || x + TextWidth(s.caption, item) >= right - gap) {
+      continue;
     }
+    const Rect told{x, bar.y, DrawText(ui, s.caption, p.text2, x, y, item), bar.h};
+    if (item == begun && Interact(ui, "begun_anew", told, kPassive).hovered) {
+      DrawTooltip(ui, kWhyBegunAnew);
+    }
+    x += told.w + gap;
   }
 }
 

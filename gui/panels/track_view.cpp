@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -200,6 +201,23 @@ std::optional<Rect> FreeCorner(const Rect& image, ImVec2 size, const UiFrame& ui
   return std::nullopt;
 }
 
+/// The first of the places in the picture that keeps off all words, or, where it is crowded, hides
+/// none.
+std::optional<Rect> FreePlate(const Rect& image, std::span<const ImVec2> places, ImVec2 size,
+                              const UiFrame& ui) {
+  for (const float around : {ui.style.Px(6), 0.0f}) {
+    for (const ImVec2& place : places) {
+      const Rect plate{std::round(place.x), std::round(place.y), size.x, size.y};
+      const bool inside = plate.x >= image.x && plate.y >= image.y &&
+                          plate.right() <= image.right() && plate.bottom() <= image.bottom();
+      if (inside && !HidesWords(ui.items, plate, around)) {
+        return plate;
+      }
+    }
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 void OfferTrackView(std::string_view title, const Rect& panel, bool& shown, UiFrame& ui) {
@@ -295,16 +313,10 @@ void DrawCoherences(const EngineSnapshot& snap, const PictureView& view, UiFrame
                              {at.x - off - width, at.y - height / 2},
                              {at.x - width / 2, at.y + off},
                              {at.x - width / 2, at.y - off - height}};
-    for (const ImVec2& place : places) {
-      const Rect plate{std::round(place.x), std::round(place.y), width, height};
-      const bool inside = plate.x >= image.x && plate.y >= image.y &&
-                          plate.right() <= image.right() && plate.bottom() <= image.bottom();
-      if (inside && !HidesWords(ui.items, plate, s.Px(6))) {
-        FillRect(Canvas(), plate, picture::kPlate, s.Fine(3));
-        DrawText(ui, s.caption, picture::kPlateText, plate.centre().x, plate.centre().y, words,
-                 Align::kCentre);
-        break;
-      }
+    if (const auto plate = FreePlate(image, places, {width, height}, ui)) {
+      FillRect(Canvas(), *plate, picture::kPlate, s.Fine(3));
+      DrawText(ui, s.caption, picture::kPlateText, plate->centre().x, plate->centre().y, words,
+               Align::kCentre);
     }
   }
 }

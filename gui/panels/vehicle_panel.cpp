@@ -121,7 +121,10 @@ std::vector<Readout> Readouts(const EngineSnapshot& snap, bool narrow, double si
     return pose(std::move(label), coasts ? NAN : value, decimals, std::move(unit));
   };
   if (IsDescentView(snap)) {
-    Readout to_go = estimated(narrow ? "To go" : "Time to go", m.time_to_touchdown_s, 0, "s");
+    const bool settles =
+        snap.sensors->vehicle && snap.sensors->vehicle->mode == VehicleMode::kSettle;
+    Readout to_go = estimated(narrow ? "To go" : "Time to go", m.time_to_touchdown_s, 0,
+                              settles && !narrow ? "s, settling" : "s");
     to_go.value = coasts ? to_go.value : TimeToGo(snap);
     // The same figures, by the estimate in force, as the limits and the plots below.
     const LimitRow* rate = FindLimit(m.limits, LimitId::kDescentRate);

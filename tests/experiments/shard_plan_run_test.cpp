@@ -237,7 +237,7 @@ TEST_F(PrintedLines, BadValuesAreNamedWithTheirLimits) {
   const Row rows[] = {
       {{"--per-job", "10"}, "--per-job 10: give a number with its unit"},
       {{"--seconds-per-trial", "0"}, "--seconds-per-trial: 0 is not within 0.001 to 2592000"},
-      {{"--trials", "0"}, "--trials: Value 0 not in range 1 to 1000000"},
+      {{"--trials", "0"}, "--trials: 0 is not within 1 to 1000000"},
       {{"--out", "a{}"}, "--out 'a{}': give a folder"},
       {{"--fault", "x"}, "palacectl evaluate plan probability has no option --fault"},
       {{"--shard", "1/2"}, "palacectl evaluate plan probability has no option --shard"},

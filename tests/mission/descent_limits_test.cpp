@@ -159,9 +159,8 @@ INSTANTIATE_TEST_SUITE_P(
                     r.vehicle.Set(VehicleMode::kSink);
                     r.east_m += 0.5;
                   },
-                  "Sinks 0.71 m off the site's centre, limit 0.50 m. Wave off unless the ground "
-                  "around is "
-                  "clear."},
+                  "Sinks 0.71 m off the site's centre, limit 0.50 m. Watch it: beyond 0.75 m and "
+                  "lower than 1 m it is waved off."},
         LimitCase{"descent_rate", LimitId::kDescentRate,
                   [](MissionRig& r) { r.navigation.gps.estimate.v_WB.z() = 1.6; },
                   "Sinks at 1.60 m/s, limit 1.50 m/s. Hold or wave off."},
@@ -191,6 +190,68 @@ TEST(DescentWarnings, BeginAtHalfAsMuchAgain) {
   hover.Run(0.6);
   ASSERT_NE(FindAlarm(hover, "wind"), nullptr);
   EXPECT_EQ(FindAlarm(hover, "wind")->level, AlarmLevel::kCaution) << "nothing is flown in it yet";
+}
+
+// What steers may follow something that moves: a person is told, while there is ground enough in
+// the pictures for more to agree.
+TEST(TrackersApart, AreToldBeforeAndInADescentUntilTheCommitHeight) {
+  MissionRig rig;
+  rig.Arm();
+  rig.why_not_trusted = "2 trackers agree, min 3";
+  rig.Run(0.6);
+  ASSERT_NE(FindAlarm(rig, "trackers_apart"), nullptr);
+  EXPECT_EQ(
+      FindAlarm(rig, "trackers_apart")->text,
+      "Trackers are not trusted: 2 trackers agree, min 3. What holds the site may drift: watch "
+      "it before you approve.");
+  ASSERT_TRUE(rig.ApproveNow().ok()) << "a caution blocks nothing";
+  ASSERT_TRUE(rig.RunUntil(MissionState::kDescending, 5));
+  rig.Step();
+  EXPECT_TRUE(FindAlarm(rig, "trackers_apart")->text.ends_with("watch it, hold or wave off."));
+  while (rig.vehicle.height_m > 2.2) {
+    rig.Run(0.1);
+  }
+  EXPECT_FALSE(FindAlarm(rig, "trackers_apart")->active);
+}
+
+/// In a descent, with the skids so high above the site.
+void SinkTo(MissionRig& rig, double height_m) {
+  Descend(rig);
+  while (rig.vehicle.height_m > height_m) {
+    rig.Run(0.1);
+  }
+  ASSERT_EQ(rig.state(), MissionState::kDescending) << rig.mission.status().why;
+}
+
+// Nobody judged the ground there: no vehicle is put down on it. A gust is no such place.
+TEST(BesideTheSite, AVehicleThatIsNearlyDownGoesAround) {
+  MissionRig rig;
+  SinkTo(rig, 0.9);
+  EXPECT_EQ(Row(rig, LimitId::kBeside).enforced_by, EnforcedBy::kHold);
+  rig.east_m += 0.7;  // 0.86 m off
+  rig.Run(0.2);
+  ASSERT_EQ(rig.state(), MissionState::kDescending) << "for a moment only";
+  EXPECT_TRUE(Row(rig, LimitId::kBeside).over);
+  rig.Run(0.4);
+  EXPECT_EQ(rig.state(), MissionState::kAborting);
+  EXPECT_EQ(rig.mission.status().why,
+            "0.86 m beside site A, limit 0.75 m: nobody judged the ground there");
+  EXPECT_GE(rig.SentCount<AbortRequest>(), 1);
+}
+
+TEST(BesideTheSite, AGustEndsNothingNorDoesAnythingHigherUp) {
+  MissionRig gust;
+  SinkTo(gust, 0.9);
+  gust.east_m += 0.7;
+  gust.Run(0.2);
+  gust.east_m -= 0.7;
+  EXPECT_TRUE(gust.RunUntil(MissionState::kLanded)) << gust.mission.status().why;
+  MissionRig higher;
+  SinkTo(higher, 1.7);
+  higher.east_m += 0.7;
+  higher.Run(0.4);
+  EXPECT_EQ(higher.state(), MissionState::kDescending) << higher.mission.status().why;
+  EXPECT_TRUE(std::isnan(Row(higher, LimitId::kBeside).value));
 }
 
 TEST(DescentLimits, NothingIsOverOutsideOfItsTime) {

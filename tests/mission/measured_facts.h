@@ -26,6 +26,8 @@ inline AlarmFacts AllMeasured() {
   f.energy_reserve_min = Settings{}.mission.energy_reserve_s / 60;
   f.energy_percent = 70;
   f.nav_error_m = 0.5;
+  f.beside_m = 0;
+  f.most_beside_m = 0.75;
   f.max_descent_rate_mps = 1.5;
   f.max_residual_sigma = 2;
   f.state = MissionState::kDescending;

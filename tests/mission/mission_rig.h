@@ -205,6 +205,7 @@ struct MissionRig {
                                  .forgotten = std::exchange(forgotten, false)},
                      .navigation = {.navigation = navigation,
                                     .tracker = tracker,
+                                    .why_not_trusted = why_not_trusted,
                                     .stereo = stereo,
                                     .new_stereo = cameras_up,
                                     .p_WB_estimate = p_WB(),
@@ -310,8 +311,8 @@ struct MissionRig {
   double east_m = 2;  ///< where the vehicle is
   double north_m = 9.5;
   double yaw_rad = 0;
-  bool forgotten = false;               ///< the maps before the next bundle are void
-  bool jumped = false;                  ///< the next bundle follows a jump in time
+  bool forgotten = false;                       ///< the maps before the next bundle are void
+  bool jumped = false;                          ///< the next bundle follows a jump in time
   std::shared_ptr<const StereoRig> camera_rig;  ///< told with every bundle
   SourceKind source = SourceKind::kSimulation;
   AuthorityStatus authority = Commanding();
@@ -324,6 +325,7 @@ struct MissionRig {
   TerrainDecision decision;
   NavigationStatus navigation;
   TrackerStatus tracker;
+  std::string why_not_trusted;  ///< of all trackers together
   StereoQuality stereo;
   ArrivalNotes arrival;     ///< of the next bundles
   bool stereo_up = true;    ///< pictures come in pairs

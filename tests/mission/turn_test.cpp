@@ -250,7 +250,7 @@ TEST(TurnApproach, BeforeItWasShownNothingElseIsSaidToBeMissing) {
   const GuardResult* shown = FindGuard(rig.mission.status().guards, GuardId::kShown);
   ASSERT_NE(shown, nullptr);
   EXPECT_FALSE(shown->pass);
-  EXPECT_EQ(shown->reason.rfind("Evidence on screen for 0.0 s", 0), 0u) << shown->reason;
+  EXPECT_EQ(shown->reason.rfind("Site on screen for 0.0 s", 0), 0u) << shown->reason;
 }
 
 // The newest map tells what is clear, not the one of the selection.

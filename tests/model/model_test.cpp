@@ -11,6 +11,7 @@
 #include "engine/model/grid.h"
 #include "engine/model/settings/settings.h"
 #include "engine/model/site_standing.h"
+#include "engine/model/thinnest_seen.h"
 
 namespace palace {
 namespace {
@@ -155,6 +156,11 @@ TEST(SiteStanding, WhereTheAirWasNotSeenItSaysWhatShowsIt) {
     site.look_height_m = row.look_m;
     EXPECT_EQ(WhyProvisional(site, settings), row.words);
     EXPECT_EQ(IsAirShown(site), row.shown) << row.way_m;
+    // What may stand there speaks louder than air that the way down shows.
+    LandingSite blind = site;
+    blind.hidden_things = 0.14;
+    const std::string why = WhyProvisional(blind, settings);
+    EXPECT_EQ(why.rfind("0.14 rocks or holes may be hidden", 0) == 0, row.shown) << why;
     site.air_seen_m = 5;
     EXPECT_TRUE(IsAirShown(site));
     site.air_seen_m = NAN;  // nobody asked
@@ -204,6 +210,15 @@ TEST(RequiredSafeProbability, FallsWithNoiseAndWithWhatHidesAsFarAsGroundThatIsB
   for (const auto& row : table) {
     EXPECT_EQ(RequiredSafeProbability(settings, row.sigma_m, row.hidden), 0) << "nothing is asked";
   }
+}
+
+// 12 m below a camera that looks straight down, two pixels of 600 px focal length.
+TEST(ThinnestSeen, IsTwoPixelsAtThatDepth) {
+  const PinholeCamera camera{640, 480, 600, 600, 319.5, 239.5};
+  const RigidTransform X_WC{Eigen::Matrix3d::Identity(), {5, -3, -12}};
+  EXPECT_NEAR(ThinnestSeen_m(camera, X_WC, {7, 1, 0}), 0.04, 1e-12);
+  EXPECT_TRUE(std::isnan(ThinnestSeen_m(camera, X_WC, {7, 1, -13}))) << "behind it";
+  EXPECT_TRUE(std::isnan(ThinnestSeen_m({}, X_WC, {7, 1, 0}))) << "no camera";
 }
 
 }  // namespace

@@ -111,10 +111,13 @@ double EstimateBeyondItsSigmas_m() {
 TEST(FrozenCameras, TakeTheEstimateNowhere) { EXPECT_LT(EstimateBeyondItsSigmas_m(), 0.25); }
 
 // No map is made there, and with the maps the judging of pictures once ended.
-TEST(BlackCameras, AreNamedNearTheGroundToo) {
+class CameraFaultNearTheGround : public testing::TestWithParam<std::pair<FaultKind, const char*>> {
+};
+
+TEST_P(CameraFaultNearTheGround, EndsTheDescentByItsName) {
   std::string why;
   FlyAndStrike(
-      FaultKind::kCameraBlack,
+      GetParam().first,
       [](const EngineSnapshot& snapshot) {
         return snapshot.flight->mission.height_above_site_m < 2.2;
       },
@@ -122,8 +125,16 @@ TEST(BlackCameras, AreNamedNearTheGroundToo) {
         why = snapshot.flight->mission.why;
         return snapshot.flight->mission.state == MissionState::kAborting;
       });
-  EXPECT_NE(why.find("(both cameras show nothing)"), std::string::npos) << why;
+  EXPECT_NE(why.find(GetParam().second), std::string::npos) << why;
 }
+
+INSTANTIATE_TEST_SUITE_P(
+    , CameraFaultNearTheGround,
+    testing::Values(std::pair(FaultKind::kCameraBlack, "(both cameras show nothing)"),
+                    std::pair(FaultKind::kCameraFrozen, "(both cameras repeat their pictures)")),
+    [](const auto& row) {
+      return row.param.first == FaultKind::kCameraBlack ? "Black" : "Frozen";
+    });
 
 INSTANTIATE_TEST_SUITE_P(
     , CameraFaultInDescent,

@@ -88,7 +88,7 @@ TEST_F(LogRerun, DecidesAsInFlightAndWritesEverySiteAndMap) {
   const CsvTable maps = ReadTable(folder_ / "same/maps.csv");
   ASSERT_GT(maps.size(), 2u);
   for (const auto& row : maps) {
-    EXPECT_EQ(row.at("rows"), "100");
+    EXPECT_GE(std::stoi(row.at("rows")), 100);  // as many as the view needs
     EXPECT_TRUE(std::filesystem::exists(folder_ / "same" / (row.at("stem") + "_elevation.tif")));
   }
   const ProcessResult read =

@@ -29,6 +29,7 @@ void AlarmBoard::Entry::TakeWorst(const AlarmCondition& condition) {
 
 void AlarmBoard::Update(const std::vector<AlarmCondition>& conditions, Timestamp now) {
   raised_.clear();
+  ended_.clear();
   for (const AlarmCondition& condition : conditions) {
     Entry& entry = Find(condition);
     Alarm& alarm = entry.alarm;
@@ -52,6 +53,9 @@ void AlarmBoard::Update(const std::vector<AlarmCondition>& conditions, Timestamp
     alarm.active = condition.present;
     if (!alarm.active && std::isfinite(entry.worst)) {
       alarm.text = entry.worst_text;
+    }
+    if (!alarm.active && alarm.level != AlarmLevel::kAdvisory) {
+      ended_.push_back(alarm);
     }
     if (alarm.active) {
       if (!entry.shown) {  // else it comes again while it still waits: the worst of them all stays

@@ -44,6 +44,8 @@ class AlarmBoard {
   std::vector<Alarm> Shown() const;
   /// Alarms that came on in the last Update.
   const std::vector<Alarm>& raised() const { return raised_; }
+  /// Warnings and cautions whose cause went away in the last Update, acknowledged or not.
+  const std::vector<Alarm>& ended() const { return ended_; }
 
  private:
   struct Entry {
@@ -57,7 +59,7 @@ class AlarmBoard {
   };
   Entry& Find(const AlarmCondition& condition);
   std::vector<Entry> entries_;
-  std::vector<Alarm> raised_;
+  std::vector<Alarm> raised_, ended_;
 };
 
 }  // namespace palace

@@ -87,6 +87,8 @@ void FillMission(const MissionMemory& m, const MissionInputs& in, AlarmFacts& f)
       decision != nullptr && decision->selection.sites.empty() && state <= MissionState::kProposed;
   f.no_site_reason = decision != nullptr ? decision->selection.none_reason : "";
   f.tracked = WatchesSite(m) && m.facts.tracker_locked;
+  // Near the ground features leave the picture one after the other: fewer are left to agree.
+  f.trackers_apart = f.tracked && !f.committed ? m.facts.trackers_apart : "";
   f.coherence = m.facts.coherence;
   f.min_coherence = m.facts.settings.tracking.min_coherence;
   const bool waiting = state == MissionState::kApproved &&
@@ -157,6 +159,9 @@ AlarmFacts HoldFactsAt(const MissionMemory& m, Timestamp now) {
   const bool unconfirmed =
       m.status.approval && m.status.approval->provisional && !m.armed.confirmed;
   f.unconfirmed_height_m = descends && unconfirmed ? HeightAboveSite(m) : NAN;
+  const bool nearly_down = f.committed && HeightAboveSite(m) < DescentLimits::last_height_m;
+  f.beside_m = nearly_down ? TouchdownMiss(m).value_or(NAN) : NAN;
+  f.most_beside_m = DescentLimits::grave_share * m.facts.settings.slad.lander.nav_error_m;
   return f;
 }
 

@@ -81,8 +81,9 @@ struct AlarmFacts {
   double unconfirmed_height_m = NAN;  ///< above a site that is approved and not confirmed yet
   bool tracked = false;
   double coherence = NAN;
-  double min_coherence = NAN;  ///< setting
-  double waiting_s = NAN;      ///< for the answer to an approval
+  double min_coherence = NAN;    ///< setting
+  std::string trackers_apart{};  ///< why those of the site are not trusted; empty: they are
+  double waiting_s = NAN;        ///< for the answer to an approval
   std::string refusal{};
   bool foreign_descent = false;
   ForeignTraffic foreign{};  ///< commands on the bus that this station did not send
@@ -91,6 +92,8 @@ struct AlarmFacts {
   double off_path_m = NAN;
   double off_centre_m = NAN;
   double nav_error_m = NAN;  ///< setting
+  double beside_m = NAN;  ///< off the site's centre, once lower than DescentLimits::last_height_m
+  double most_beside_m = NAN;
   double descent_rate_mps = NAN;
   double max_descent_rate_mps = NAN;
   double residual_sigma = NAN;

@@ -10,9 +10,6 @@ namespace {
 
 using Facts = AlarmFacts;
 
-/// Of its limit: from there on a caution of the flight is a warning.
-constexpr double kGraveShare = 1.5;
-
 const AlarmRow kRows[] = {
     {.id = AlarmId::kNoSite,
      .level = AlarmLevel::kAdvisory,
@@ -127,7 +124,9 @@ const AlarmRow kRows[] = {
                   ". Hold or wave off.";
          },
      .grave =
-         [](const Facts& f) { return f.off_path_m > kGraveShare * DescentLimits::off_path_m; }},
+         [](const Facts& f) {
+           return f.off_path_m > DescentLimits::grave_share * DescentLimits::off_path_m;
+         }},
     {.id = AlarmId::kOffCentre,
      .level = AlarmLevel::kCaution,
      .of_mission = true,
@@ -138,9 +137,19 @@ const AlarmRow kRows[] = {
      .text =
          [](const Facts& f, const std::string& limit) {
            return WithNumbers("Sinks %.2f m off the site's centre, limit ", f.off_centre_m) +
-                  limit + ". Wave off unless the ground around is clear.";
+                  limit +
+                  WithNumbers(". Watch it: beyond %.2f m and lower than %.0f m it is waved off.",
+                              f.most_beside_m, DescentLimits::last_height_m);
          },
-     .grave = [](const Facts& f) { return f.off_centre_m > kGraveShare * f.nav_error_m; }},
+     .grave = [](const Facts& f) { return f.off_centre_m > f.most_beside_m; },
+     .hold = {.id = LimitId::kBeside,
+              .label = "Beside the site below 1 m",
+              .value = &Facts::beside_m,
+              .limit_from = &Facts::most_beside_m,
+              .unit = "m",
+              .decimals = 2,
+              .lasts = "0.3 s",
+              .committed = true}},
     {.id = AlarmId::kDescentRate,
      .level = AlarmLevel::kCaution,
      .of_mission = true,
@@ -181,7 +190,7 @@ const AlarmRow kRows[] = {
          },
      .grave =
          [](const Facts& f) {
-           return !f.approve_ahead && f.wind_mps > kGraveShare * f.max_wind_mps;
+           return !f.approve_ahead && f.wind_mps > DescentLimits::grave_share * f.max_wind_mps;
          }},
     {.id = AlarmId::kTailwind,
      .level = AlarmLevel::kCaution,
@@ -195,6 +204,16 @@ const AlarmRow kRows[] = {
            return WithNumbers("Tailwind %.1f m/s on the approach, limit ", f.tailwind_mps) + limit +
                   (f.approve_ahead ? ". Take another side or site, or wait."
                                    : ". Watch the descent, hold or wave off.");
+         }},
+    {.id = AlarmId::kTrackersApart,
+     .level = AlarmLevel::kCaution,
+     .of_mission = true,
+     .present = [](const Facts& f, double) { return !f.trackers_apart.empty(); },
+     .text =
+         [](const Facts& f, const std::string&) {
+           return "Trackers are not trusted: " + f.trackers_apart +
+                  ". What holds the site may drift: watch it" +
+                  (f.approve_ahead ? " before you approve." : ", hold or wave off.");
          }},
     {.id = AlarmId::kForeignCommand,
      .level = AlarmLevel::kWarning,

@@ -33,9 +33,6 @@ std::string StandingMark(const MissionStatus& mission, const SladSettings& setti
   if (standing == SiteStanding::kConfirmed) {
     return {};
   }
-  if (standing == SiteStanding::kToLookAt) {
-    return ", not looked at";
-  }
   std::string word = StandingWord(standing);
   word.front() = static_cast<char>(std::tolower(static_cast<unsigned char>(word.front())));
   return ", " + word;

@@ -21,7 +21,7 @@ std::string WhyScreenOld(double silent_s);
 LandingSite ArmedAsKnown(const MissionStatus& mission);
 SiteStanding ArmedStanding(const MissionStatus& mission, const SladSettings& settings);
 /// The same as it stands behind the site's name on the button and in the record: empty,
-/// ", provisional", ", not looked at" (what is approved is a landing all the same).
+/// ", provisional", ", look first" (what is approved is a landing all the same).
 std::string StandingMark(const MissionStatus& mission, const SladSettings& settings);
 
 }  // namespace palace

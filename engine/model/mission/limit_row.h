@@ -48,6 +48,7 @@ enum class LimitId : std::uint8_t {
   kTilt,
   kVisionOutage,
   kConfirmHeight,
+  kBeside,
 };
 
 enum class EnforcedBy : std::uint8_t {

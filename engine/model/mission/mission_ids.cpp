@@ -71,6 +71,7 @@ constexpr std::array<const char*, kAlarmCount> kAlarmNames = {
     "laser_wrong",
     "energy_low",
     "tailwind",
+    "trackers_apart",
 };
 
 }  // namespace

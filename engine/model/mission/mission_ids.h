@@ -92,8 +92,9 @@ enum class AlarmId : std::uint8_t {
   kLaserWrong,
   kEnergyLow,
   kTailwind,
+  kTrackersApart,
 };
-inline constexpr std::size_t kAlarmCount = 60;
+inline constexpr std::size_t kAlarmCount = 61;
 /// "gps_error".
 const char* AlarmName(AlarmId id);
 /// Empty for a name that no alarm has.

@@ -8,6 +8,7 @@
 #include "engine/core/text.h"
 #include "engine/core/units.h"
 #include "engine/model/site_standing.h"
+#include "engine/model/wind.h"
 #include "engine/survey/map_pictures.h"
 #include "gui/widgets/number_text.h"
 
@@ -28,6 +29,15 @@ std::string AirWords(const LandingSite& site) {
                             site.air_on_way_m, kLeastAirSeen_m));
 }
 
+/// "5.2 m/s from 240°"; of next to none the direction means nothing.
+std::string WindWords(const ApprovalRecord& record) {
+  return std::isnan(record.wind_mps)
+             ? "not told by the vehicle"
+             : WithNumbers("%.1f m/s", record.wind_mps) +
+                   (WindHasDirection(record.wind_mps) ? " from " + HeadingText(record.wind_from_rad)
+                                                      : "");
+}
+
 Rows Figures(const ApprovalRecord& record) {
   const Approval& a = record.approval;
   Rows rows = {
@@ -41,6 +51,7 @@ Rows Figures(const ApprovalRecord& record) {
       {"Approach",
        "heading " + HeadingText(a.approach_heading_rad) +
            WithNumbers(", slope %.0f°, %.2f m/s down", Deg(a.glide_slope_rad), a.descent_rate_mps)},
+      {"Wind", WindWords(record)},
       {"Valid", WithNumbers("%.0f s, unless the descent began",
                             SecondsBetween(a.approved_at, a.expires_at))},
       {"Bound to", "map " + ShortHash(a.map_hash) + ", limits " + ShortHash(a.settings_hash) +

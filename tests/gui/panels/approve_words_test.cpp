@@ -34,7 +34,7 @@ TEST(ApproveWords, TheButtonTellsWhatAHoldDoesOrWhyItDoesNothing) {
          mission(s).armed->confirmed = false;
          mission(s).armed->height_m.three_sigma = 0.2;
        },
-       HoldPhase::kReady, "Hold to approve A, not looked at", ""},
+       HoldPhase::kReady, "Hold to approve A, look first", ""},
       {"confirmed by a map since",
        [&](EngineSnapshot& s) {
          mission(s).armed->confirmed = false;
@@ -144,8 +144,8 @@ TEST(ApproveWords, AnApprovalLeadsToADescentUnlessSomethingSpeaksAgainstTheSite)
   MissionStatus& m = snap.flight.Edit().mission;
   m.armed->confirmed = true;
   EXPECT_EQ(ApprovalConsequence(snap, false),
-            "5.9 m away, 38.2 m down. Touchdown in about 72 s, heading 040° at 1.0 m/s. Vision "
-            "steers; wave-off stays available.");
+            "5.9 m away, 38.2 m down. Touchdown in about 72 s, heading 040° at 1.0 m/s. From here "
+            "nothing thinner than 6 cm is sure to be seen.");
   EXPECT_EQ(ApprovalConsequence(snap, true), "5.9 m away, 38.2 m down, touchdown in about 72 s.");
   m.armed->confirmed = false;
   m.armed->frames_fused = 1;

@@ -92,7 +92,7 @@ TEST_F(HoldButton, BecomingBlockedCancelsAndBlockedNeverFires) {
 TEST_F(HoldButton, PressedBeforeItIsReadySaysThatItHasToBeReleased) {
   for (const bool by_key : {false, true}) {
     view.phase = HoldPhase::kBlocked;
-    view.reason = "Evidence on screen for 0.6 s, min 1.0 s";
+    view.reason = "Site on screen for 0.6 s, min 1.0 s";
     Run(0.05);
     if (by_key) {
       ui.MoveTo(ImVec2{500, 400});
