@@ -87,6 +87,7 @@ PipelineOutput Pipeline::Process(std::shared_ptr<const FrameBundle> bundle,
                                  std::vector<EngineCommand> commands,
                                  const SessionStatus& session) {
   role_ = RoleOf(session.source.kind, !SeenFromStart(role_));
+  slad_.WaitForMemory(!HasPicturesOnly(role_));
   const bool cut = FollowsRecord(role_) && !last_bundle_ && mission_of_record_.BeginsMidFlight();
   if (bundle->discontinuity || cut) {
     StartAfterJump(bundle->time);

@@ -54,6 +54,10 @@ class Slad {
     registry_.GoOnWith(places, settings);
   }
 
+  /// Whether the first list waits for the memory of the maps (SiteRegistry::WaitForMemory): in a
+  /// flight, not for the pictures of a folder, which may be few.
+  void WaitForMemory(bool waits) { registry_.WaitForMemory(waits); }
+
   /// Fuses a new range map and flags it from its pictures; Decide then judges the map. Thesis mode
   /// fuses nothing and flags nothing: its map is that of the newest frame.
   void Add(const SladInput& input, const SladSettings& settings);

@@ -152,6 +152,8 @@ Status AddPair(const ImagePair& pair, Work& work, AnalyzeInput& input) {
   return Ok();
 }
 
+constexpr double kHardlyMore_m = 1;  // beyond the map: what a hover drifts
+
 /// What is seen beyond the map is not judged; what is judged in larger cells is judged coarser.
 void WarnOfMap(const GroundBounds& seen, const SladSettings& slad, AnalyzeInput& input) {
   const GridGeometry& g = input.slad.elevation()->geometry;
@@ -160,17 +162,17 @@ void WarnOfMap(const GroundBounds& seen, const SladSettings& slad, AnalyzeInput&
   }
   if (g.cell_m > slad.grid.cell_m) {
     input.warnings.push_back(
-        WithNumbers("cell enlarged from %.3g m to %.3g m so that the map holds the view; set "
-                    "slad.grid_rows and slad.grid_cols, or the bounds, for finer cells",
+        WithNumbers("cell enlarged from %.3g m to %.3g m so that the map holds the view",
                     slad.grid.cell_m, g.cell_m));
   }
   const double north_m = seen.north_max_m - seen.north_min_m;
   const double east_m = seen.east_max_m - seen.east_min_m;
-  if (north_m > g.rows * g.cell_m + g.cell_m || east_m > g.cols * g.cell_m + g.cell_m) {
+  if (north_m > g.rows * g.cell_m + kHardlyMore_m || east_m > g.cols * g.cell_m + kHardlyMore_m) {
     input.warnings.push_back(
-        WithNumbers("the map holds %.1f x %.1f m ", g.rows * g.cell_m, g.cols * g.cell_m) +
-        WithNumbers("of the %.1f x %.1f m that were seen; raise slad.grid_rows and slad.grid_cols "
-                    "to judge the rest",
+        WithNumbers("the map holds %.1f x %.1f m, what the last pair saw and ground around it, ",
+                    g.rows * g.cell_m, g.cols * g.cell_m) +
+        WithNumbers("of the %.1f x %.1f m that all pairs saw; raise slad.grid_rows and "
+                    "slad.grid_cols to keep more",
                     north_m, east_m));
   }
 }

@@ -41,7 +41,7 @@ TEST_F(Look, OnePressHoversNearerAndProposesAnew) {
             "wait state PROPOSED 20\n"
             "quit\n");
   const ProcessResult result =
-      RunProcess(Palace({"--headless", "--scenario", "kerbs", "--seed", "1", "--record", "logs",
+      RunProcess(Palace({"--headless", "--scenario", "shadows", "--seed", "1", "--record", "logs",
                          "--script", "look.script"}),
                  300);
   ASSERT_EQ(result.exit_code, 0) << result.out << result.err;

@@ -80,6 +80,27 @@ TEST(SiteLetters, GoOnAfterTheAlphabet) {
   }
 }
 
+// What each of the first frames adds moves places about: none of them is named before all that will
+// be remembered is. A folder's one picture is listed at once.
+TEST(SiteRegistry, AFlightListsOnceItsMapsRememberAllTheyWill) {
+  Hover hover;
+  hover.settings.fusion.frames_fused = 6;
+  hover.registry_.WaitForMemory(true);
+  SiteSelection list = hover.SeeOften(5, WithBox(Flat(), 0, 0, 0.5, 0.6));
+  EXPECT_TRUE(list.sites.empty());
+  EXPECT_EQ(list.none_reason, "places are listed once 6 pictures are fused, now 5");
+  list = hover.See(WithBox(Flat(), 0, 0, 0.5, 0.6));
+  ASSERT_FALSE(list.sites.empty());
+  EXPECT_EQ(list.sites.front().letter, "A");
+  hover.settings.fusion.frames_fused = 50;  // what was listed stays
+  EXPECT_FALSE(hover.See(WithBox(Flat(), 0, 0, 0.5, 0.6)).sites.empty());
+  hover.registry_.Reset(SiteNames::kGoOn);
+  EXPECT_TRUE(hover.See(WithBox(Flat(), 0, 0, 0.5, 0.6)).sites.empty());
+
+  Hover folder;
+  EXPECT_FALSE(folder.See(WithBox(Flat(), 0, 0, 0.5, 0.6)).sites.empty());
+}
+
 // The wide north is seen with little of its air, and from here no way down shows more.
 TEST(SiteRegistry, WhatCannotBeApprovedForItsAirComesAfterWhatCan) {
   Hover hover;

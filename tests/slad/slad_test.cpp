@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/slad/terrain/terrain_points.h"
 #include "tests/slad/worlds.h"
 
 namespace palace {
@@ -128,6 +129,53 @@ TEST(ViewCell, DoublesWhileTheViewIsTwiceTheMapAndComesBackWellInside) {
   }
   settings.grid.bounds = BoundsMode::kGiven;
   EXPECT_EQ(cell.Fit(range, settings), settings);
+}
+
+// Straight down the view is 0.83 of the height wide and 0.62 high; rows run north, the picture's
+// way up, in steps of 20 cells of 0.15 m.
+TEST(ViewCell, HasTheRowsAndColumnsThatTheViewNeeds) {
+  struct Row {
+    double height_m;
+    int rows, cols;
+  };
+  const Row rows[] = {{10, 100, 100}, {20, 100, 120}, {30, 140, 180},
+                      {28, 140, 180}, {26, 120, 160}, {10, 100, 100}};
+  ViewCell cell;
+  const SladSettings settings;
+  for (const Row& row : rows) {
+    const RangeMap range = SeeWorld(Flat(), CameraPose(row.height_m, Rad(90)), 0, 1, 2);
+    const GridSettings grid = cell.Fit(range, settings).grid;
+    EXPECT_EQ(grid.rows, row.rows) << row.height_m;
+    EXPECT_EQ(grid.cols, row.cols) << row.height_m;
+    EXPECT_EQ(grid.cell_m, settings.grid.cell_m);
+  }
+  RangeMap nothing = SeeWorld(Flat(), CameraPose(30, Rad(90)), 0, 1, 2);
+  nothing.depth_m = ImageF(nothing.depth_m.width(), nothing.depth_m.height(), NAN);
+  EXPECT_EQ(cell.Fit(nothing, settings), settings);
+}
+
+// From 15 m at 45 degrees the ground in view is some 22 m long: what is near was left out by a map
+// of 15 m about the middle.
+TEST(Slad, TheMapHoldsTheGroundInViewNearAndFar) {
+  Slad slad;
+  const RangeMap range = SeeWorld(Flat(), CameraPose(15, Rad(45)), 0.01, 1);
+  slad.Add({.view = {nullptr, nullptr, std::make_shared<const RangeMap>(range)}}, SladSettings{});
+  const GroundBounds seen = BoundsOfData(PointsFromRange(range));
+  const GridGeometry& g = slad.elevation()->geometry;
+  EXPECT_GT(seen.north_max_m - seen.north_min_m, 16);
+  EXPECT_TRUE(g.CellFromPoint(seen.north_min_m, (seen.east_min_m + seen.east_max_m) / 2));
+  EXPECT_TRUE(g.CellFromPoint(seen.north_max_m, (seen.east_min_m + seen.east_max_m) / 2));
+}
+
+// A view that grows takes nothing of what the map knows.
+TEST(TerrainFusion, RemembersItsGroundWhereTheMapGrows) {
+  TerrainFusion fusion;
+  SladSettings settings;
+  fusion.Add(SeeWorld(Flat(), CameraPose(15.24, Rad(60)), 0.01, 1), settings);
+  settings.grid.rows = settings.grid.cols = 160;
+  const auto map = fusion.Add(SeeWorld(Flat(), CameraPose(15.24, Rad(60)), 0.01, 2), settings);
+  EXPECT_EQ(map->geometry.rows, 160);
+  EXPECT_EQ(int(map->frame_count.at(*map->geometry.CellFromPoint(8.8, 0))), 2);
 }
 
 }  // namespace

@@ -70,6 +70,7 @@ void SiteRegistry::Reset(SiteNames names) {
   SiteRegistry anew;
   anew.naming_ = naming_;
   anew.naming_.Reset(names);
+  anew.waits_ = waits_;
   *this = std::move(anew);
 }
 
@@ -87,6 +88,7 @@ void SiteRegistry::GoOnWith(const std::vector<RecordedPlace>& places,
   }
   time_ = Timestamp{};  // older than any map: the next is not the same again
   settings_ = settings;
+  lists_ = true;
 }
 
 SiteSelection SiteRegistry::Select(const ElevationMap& map, const HazardMaps& hazards,
@@ -99,7 +101,11 @@ SiteSelection SiteRegistry::Select(const ElevationMap& map, const HazardMaps& ha
     return selection;
   }
   const bool first = !time_ || settings != settings_;
-  const Map now{map, hazards, settings, context, first, !first && *time_ == map.time};
+  const bool again = time_ == map.time;
+  maps_ += again ? 0 : 1;
+  lists_ = lists_ || !waits_ || settings.mode == SladMode::kThesis ||
+           maps_ >= settings.fusion.frames_fused;
+  const Map now{map, hazards, settings, context, first, !first && again};
   StartMap(now);
   SiteCandidates candidates(map, hazards, settings, context);
   std::vector<FoundSite> found = Revisit(now, candidates);
@@ -117,8 +123,11 @@ SiteSelection SiteRegistry::Select(const ElevationMap& map, const HazardMaps& ha
   NameInReasons(selection);
   selection.named = naming_.named();
   if (selection.sites.empty()) {
-    selection.none_reason = any ? "the places found are not on 3 maps in a row yet"
-                                : NoneReason(map, hazards, settings);
+    selection.none_reason = !any      ? NoneReason(map, hazards, settings)
+                            : !lists_ ? "places are listed once " +
+                                            std::to_string(settings.fusion.frames_fused) +
+                                            " pictures are fused, now " + std::to_string(maps_)
+                                      : "the places found are not on 3 maps in a row yet";
   }
   return selection;
 }
@@ -280,6 +289,9 @@ void SiteRegistry::Follow(const Map& now, const std::vector<Chosen>& chosen,
 }
 
 bool SiteRegistry::IsRipe(const Map& now, const SitePlace& place) const {
+  if (!lists_) {
+    return false;
+  }
   const double spacing_m = now.settings.choice.spacing_m;
   return now.first || place.rank >= 0 || place.run >= kListedAfter_maps ||
          std::any_of(replaced_.begin(), replaced_.end(), [&](const Eigen::Vector2d& p_W) {

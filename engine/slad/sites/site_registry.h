@@ -5,8 +5,10 @@
 // newer lies within a quarter of the spacing of where the letter was given: a place that left the
 // list, or is replaced, moves to such a point when that is listed. What is selected never moves.
 //
-//   listed     after it could bear the lander on 3 maps in a row (a flight's first map lists at
-//              once); ends with the first map on which it cannot
+//   listed     after it could bear the lander on 3 maps in a row; ends with the first map on which
+//              it cannot. What begins lists at once, or, where it waits for the memory of its maps
+//              (WaitForMemory), with the map that remembers frames_fused frames: what each of the
+//              first frames adds moves places about
 //   rank       by the steady score (steadiness.h); one passes another only when it is better by
 //              more than the noise of a score. A place that a map called unsafe, and a new one
 //              within the spacing of it, counts for 30 s, each time longer by 30 s, as one where
@@ -54,6 +56,8 @@ class SiteRegistry {
   void GoOnNaming(std::uint64_t named) { naming_.GoOnNaming(named); }
   /// A recorded flight goes on in which those places were listed, best first, under those limits.
   void GoOnWith(const std::vector<RecordedPlace>& places, const SladSettings& settings);
+  /// More maps follow: the first list waits until they remember all that they will.
+  void WaitForMemory(bool waits) { waits_ = waits; }
   /// From here on no letter is given: a place that has none is "+1", "+2", ... of its one list (a
   /// preview, a re-decision). The flight would give the same letter to another place.
   void GiveNoLetters() { gives_letters_ = false; }
@@ -83,6 +87,9 @@ class SiteRegistry {
   std::vector<Eigen::Vector2d> replaced_;  ///< on this map
   SiteNaming naming_;
   bool gives_letters_ = true;
+  bool waits_ = false;  ///< for the memory of the maps
+  bool lists_ = false;  ///< it has waited long enough, or need not
+  int maps_ = 0;        ///< since it began
   std::uint64_t kept_ = 0;
   std::optional<Timestamp> time_;  ///< of the newest map
   SladSettings settings_;          ///< under which it was judged

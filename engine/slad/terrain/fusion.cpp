@@ -30,16 +30,23 @@ constexpr double kRegistered_m = 0.015;
 /// The map follows the view once its centre is off by this share of its size.
 constexpr double kSlack = 0.08;
 
-/// The holes that are filled and the rim are no part of the layout.
+/// The holes that are filled and the rim are no part of the layout, nor is how far a map of that
+/// cell reaches.
 bool SameLayout(const SladSettings& a, const SladSettings& b) {
   GridSettings grid = a.grid;
   grid.data_size_cells = b.grid.data_size_cells;
   grid.border_size_cells = b.grid.border_size_cells;
+  if (grid.bounds == BoundsMode::kData) {
+    grid.rows = b.grid.rows;
+    grid.cols = b.grid.cols;
+  }
   return a.mode == b.mode && grid == b.grid;
 }
 
-bool CentreWithinSlack(const GridGeometry& a, const GridGeometry& b) {
-  return std::abs(a.north_min_m - b.north_min_m) <= kSlack * a.rows * a.cell_m &&
+/// Of one size, and the centres near each other.
+bool IsHeldBy(const GridGeometry& a, const GridGeometry& b) {
+  return a.rows == b.rows && a.cols == b.cols &&
+         std::abs(a.north_min_m - b.north_min_m) <= kSlack * a.rows * a.cell_m &&
          std::abs(a.east_min_m - b.east_min_m) <= kSlack * a.cols * a.cell_m;
 }
 
@@ -179,7 +186,7 @@ std::shared_ptr<const ElevationMap> TerrainFusion::Add(const RangeMap& range,
     // A picture without a point says nothing about where to look: the map stays.
     const bool strayed =
         frames_ > 0 && around && KeptAround(map_.geometry, *around) != map_.geometry;
-    if (frames_ == 0 || strayed || !CentreWithinSlack(wanted, map_.geometry)) {
+    if (frames_ == 0 || strayed || !IsHeldBy(wanted, map_.geometry)) {
       MoveTo(wanted);
     }
   }

@@ -86,6 +86,22 @@ TEST(TrackerPanel, WhatIsOfAnOldPictureSaysSo) {
   EXPECT_TRUE(HasText(FlyWindow(1920, 1080, snap).ui.items, "Of a picture 0.8 s old"));
 }
 
+/// In a small picture a legend of many lines may lie over a feature, whose tag then has no place.
+bool LegendHides(const FlyWindow& window, const std::string& tracker) {
+  const ItemRecord& items = window.ui.items;
+  const Rect picture = items.Find("left_camera")->rect;
+  const Item* legend = items.Find("legend");
+  for (const TrackerMember& member : window.snap.flight->trackers.members) {
+    if (member.name == tracker) {
+      const float scale = picture.w / 640;
+      const ImVec2 at(picture.x + scale * static_cast<float>(member.pixel.x()),
+                      picture.y + scale * static_cast<float>(member.pixel.y()));
+      return legend != nullptr && legend->rect.Contains(at);
+    }
+  }
+  return false;
+}
+
 TEST(TrackView, ShowsEachTrackerWithItsCoherenceAndALegendOfWhatIsDrawn) {
   for (const WindowSize& size : kWindowSizes) {
     SCOPED_TRACE(size.name);
@@ -94,10 +110,12 @@ TEST(TrackView, ShowsEachTrackerWithItsCoherenceAndALegendOfWhatIsDrawn) {
     window.ui.Click("track_view", window.draw);
     const ItemRecord& items = window.ui.items;
     ASSERT_NE(items.Find("track_legend"), nullptr);
-    for (const char* words : {"1 0.91", "2 0.88", "12 0.79", "Plane 0.94 in force", "Consensus",
+    for (const char* words : {"1 0.91", "12 0.79", "Plane 0.94 in force", "Consensus",
                               "LOST, coasted", "Drifts", "Search window"}) {
       EXPECT_TRUE(HasText(items, words)) << words;
     }
+    EXPECT_TRUE(HasText(items, "2 0.88") || LegendHides(window, "Feature 2"));
+    EXPECT_TRUE(HasText(items, "2 0.88") || size.width < 1600);
     ExpectTextsInPanels(items);
     TrackerSetStatus& set = window.snap.flight.Edit().trackers;
     for (TrackerMember& member : set.members) {
