@@ -37,6 +37,10 @@ struct NarrowFigures {
   GridF sigma_m;       ///< its sigma, with bumps around
   GridF share;         ///< of its height that a thing 18 cm across shows in the square
   double ring_m = 0;   ///< how far the ground around reaches from the place
+  /// Chance that the pictures differ there by what no height of the ground explains, and the least
+  /// height of a thing that would make them differ so (unexplained.h). Empty: not asked.
+  GridF mark{};
+  GridF mark_from_m{};
 
   bool empty() const { return prominence_m.empty(); }
 };

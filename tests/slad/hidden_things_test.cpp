@@ -101,6 +101,37 @@ TEST(HiddenThings, ALowThingSeenWellIsALowThing) {
   EXPECT_NEAR(Hidden(Marked(bare, 1.5 * r)), 1, 0.01);
 }
 
+// A post's top lies over several places of the cell: it is one thing all the same.
+TEST(MarkedThings, AreThingsAsOftenAsOneSoHighReachesTheLimit) {
+  ElevationMap map = MapThatShows(0, 0.003, 0.35);
+  map.narrow.mark = map.narrow.mark_from_m = GridF(82, 82, 0.0F);
+  const auto marked = [&](double chance, double from_m, const GridF* safe_distance_m = nullptr) {
+    for (const int aside : {0, 1}) {
+      map.narrow.mark.at(2 * kMiddle.row, 2 * kMiddle.col + aside) = static_cast<float>(chance);
+      map.narrow.mark_from_m.at(2 * kMiddle.row, 2 * kMiddle.col + aside) =
+          static_cast<float>(from_m);
+    }
+    const NarrowView view{map.narrow, 0.15, kLimit_m, safe_distance_m};
+    return static_cast<double>(MarkedThings(view, kRadius_m).at(kMiddle));
+  };
+  EXPECT_NEAR(marked(0.9, 0.4), 0.9, 1e-6);
+  EXPECT_NEAR(marked(0.9, 1.2 * kLimit_m / 2), 0.9 / 4, 1e-6) << "seen from near";
+  EXPECT_NEAR(marked(0, 0.4), 0, 1e-6);
+  const GridF near_m(41, 41, 0.5F);
+  EXPECT_NEAR(marked(1, 0.4, &near_m), 0, 1e-6) << "the hazard's own";
+}
+
+TEST(MarkedThings, TakeANearerLookAndNoGroundAway) {
+  ElevationMap map = MapThatShows(0, 0.003, 0.35);
+  map.narrow.mark = map.narrow.mark_from_m = GridF(82, 82, 0.0F);
+  const HazardMaps bare = EvaluateHazards(map, SladSettings{});
+  map.narrow.mark.at(2 * kMiddle.row, 2 * kMiddle.col) = 0.7F;
+  map.narrow.mark_from_m.at(2 * kMiddle.row, 2 * kMiddle.col) = 1;
+  const HazardMaps marked = EvaluateHazards(map, SladSettings{});
+  EXPECT_EQ(marked.safe_probability.at(kMiddle), bare.safe_probability.at(kMiddle));
+  EXPECT_NEAR(marked.hidden_things.at(kMiddle) - bare.hidden_things.at(kMiddle), 0.7, 1e-6);
+}
+
 TEST(HiddenThings, AFigureThatIsNotWholeIsUnknownGround) {
   const double unknown = Hidden(MapThatShows(NAN, NAN, NAN));
   EXPECT_EQ(Hidden(MapThatShows(0, NAN, 0.3)), unknown);

@@ -147,16 +147,22 @@ void GrowByHysteresis(const TerrainFigures& figures, const SladSettings& setting
   GrowFrom(std::move(stepped), kHazardStep, reach, least_m, figures, hazards);
 }
 
-/// A touchdown is safe when the gear finds what was measured safe and nothing hides.
+/// A touchdown is safe when the gear finds what was measured safe and nothing hides. What a mark
+/// stands for nobody knows: it takes a nearer look, and no ground away.
 void CountWhatHides(const NarrowFigures& narrow, const SladSettings& settings,
                     HazardMaps& hazards) {
   const NarrowView view{narrow, hazards.geometry.cell_m, settings.limits.max_deviation_m,
                         &hazards.safe_distance_m};
-  hazards.hidden_things = HiddenThings(view, settings.lander.clear_radius_m());
+  const double radius_m = settings.lander.clear_radius_m();
+  hazards.hidden_things = HiddenThings(view, radius_m);
+  const GridF marked = narrow.mark.empty()
+                           ? GridF(hazards.geometry.rows, hazards.geometry.cols, 0.0F)
+                           : MarkedThings(view, radius_m);
   cv::parallel_for_(cv::Range(0, hazards.geometry.rows), [&](const cv::Range& rows) {
     for (int r = rows.start; r < rows.end; ++r) {
       for (int c = 0; c < hazards.geometry.cols; ++c) {
         hazards.safe_probability.at(r, c) *= std::exp(-hazards.hidden_things.at(r, c));
+        hazards.hidden_things.at(r, c) += marked.at(r, c);
       }
     }
   });

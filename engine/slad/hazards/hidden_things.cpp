@@ -107,6 +107,21 @@ bool IsBesideHazard(const NarrowView& view, Cell cell) {
          Figure(*view.safe_distance_m, cell) < view.narrow.ring_m + view.cell_m;
 }
 
+/// The chance that a mark at the place is of a thing over the limit.
+double MarkHides(const NarrowView& view, Cell place) {
+  const double share = Figure(view.narrow.mark_from_m, place) / (kOverLimit * view.max_deviation_m);
+  return Figure(view.narrow.mark, place) * std::min(1.0, share * share);
+}
+
+/// The most of the cell's places, for a thing covers several.
+double MarkHidesInCell(const NarrowView& view, Cell cell) {
+  double most = 0;
+  if (!IsBesideHazard(view, cell)) {
+    ForPlaces(cell, [&](Cell place) { most = std::max(most, MarkHides(view, place)); });
+  }
+  return most;
+}
+
 /// Sum of q over the cell's places, of a rock and of a hole together; `prior` is the cell's.
 double HidesInCell(const NarrowView& view, Cell cell, double prior) {
   const bool beside = IsBesideHazard(view, cell);
@@ -144,19 +159,16 @@ void ForRows(int rows, RowWork work) {
   });
 }
 
-}  // namespace
-
-GridF HiddenThings(const NarrowView& view, double radius_m, double things_per_m2) {
+/// Sums of the cells' figures over the disc around each cell; a cell beyond the map has `outside`.
+GridF OverDiscs(const NarrowView& view, double radius_m, float outside, const auto& of_cell) {
   const int rows = view.narrow.share.rows() / kPerCell, cols = view.narrow.share.cols() / kPerCell;
-  const double prior = things_per_m2 / 2 * view.cell_m * view.cell_m;
   const double radius = std::min(radius_m / view.cell_m, 1.0 * std::max(rows, cols));
   const int reach = static_cast<int>(radius);
-  const float outside = static_cast<float>(2 * prior);
   std::vector<std::vector<float>> sums(static_cast<std::size_t>(rows));
   ForRows(rows, [&](int r) {
     std::vector<float> in_cell(static_cast<std::size_t>(cols));
     for (int c = 0; c < cols; ++c) {
-      in_cell[static_cast<std::size_t>(c)] = static_cast<float>(HidesInCell(view, {r, c}, prior));
+      in_cell[static_cast<std::size_t>(c)] = static_cast<float>(of_cell(Cell{r, c}));
     }
     SumAlong(in_cell.data(), cols, reach, outside, sums[static_cast<std::size_t>(r)]);
   });
@@ -174,6 +186,18 @@ GridF HiddenThings(const NarrowView& view, double radius_m, double things_per_m2
     }
   });
   return in_disc;
+}
+
+}  // namespace
+
+GridF HiddenThings(const NarrowView& view, double radius_m, double things_per_m2) {
+  const double prior = things_per_m2 / 2 * view.cell_m * view.cell_m;
+  return OverDiscs(view, radius_m, static_cast<float>(2 * prior),
+                   [&](Cell cell) { return HidesInCell(view, cell, prior); });
+}
+
+GridF MarkedThings(const NarrowView& view, double radius_m) {
+  return OverDiscs(view, radius_m, 0, [&](Cell cell) { return MarkHidesInCell(view, cell); });
 }
 
 double HiddenFromNearer(const NarrowView& view, Cell centre, double radius_m, double nearer,

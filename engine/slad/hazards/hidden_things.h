@@ -23,6 +23,13 @@
 // as much as one in which nothing could be seen, one that stands out by r is a thing, and a lower
 // one seen well a low one.
 //
+// Where the pictures differ by what no height explains (terrain/unexplained.h) a thing may stand of
+// which no height is told, with chance m, h2 high at least. Of things that high the share
+// (h2 / 1.2 limits)^2 reaches over the limit, all where h2 does: rocks of a size are as many as its
+// square is small. A cell hides by the most of its places' m times that, once: a thing covers
+// several, in both pictures. Beside a hazard it is the hazard's own. Their sum over the disc is
+// asked for a nearer look, not for the chance that the ground is safe: nobody knows what it is.
+//
 // n is one number for all ground (CALIBRATION.md): among drawn worlds neither the things that a map
 // shows elsewhere nor the ground searched for them told it better.
 #pragma once
@@ -50,6 +57,10 @@ inline constexpr double kThingsPer_m2 = 0.01;
 /// H of the disc around each cell. Cells of which nothing is known, and those outside the map, hide
 /// what n says. Rows are shared among OpenCV's threads; their number changes no bit.
 GridF HiddenThings(const NarrowView& view, double radius_m, double things_per_m2 = kThingsPer_m2);
+
+/// Of the disc around each cell: things that marks stand for. The view's narrow figures must have
+/// them.
+GridF MarkedThings(const NarrowView& view, double radius_m);
 
 /// H of the disc around `centre` as bare ground would say it, were it seen along the same lines
 /// from `nearer` (above 0, at most 1) times as far: of each place the noise goes down as nearer^2,

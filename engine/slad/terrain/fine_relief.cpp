@@ -16,6 +16,7 @@ namespace palace {
 namespace {
 
 constexpr float kGradientNoise = 0.30F;  // of e's variance, in g^2
+constexpr float kAstray2 = 0.04F;        // px^2: a place's pixels scatter so about its one height
 constexpr int kSmallest_px = 64;
 constexpr int kOther_rows = 8;  // to the pixels whose gradients are asked beside
 constexpr int kStripes = 4;     // summed one after the other
@@ -97,6 +98,8 @@ void FineRelief::AddRows(const RangeMap& range, const ImageU8& left, const LaidO
       of[P::kOtherGross] += c * c * weight;
       of[P::kOther] -= e * c * weight * per_pixel_m;
       of[P::kShared] += g * c * weight;
+      of[P::kEnergy] += e * e / (s2 + kAstray2 * g * g);
+      of[P::kPixels] += 1;
     }
   }
 }

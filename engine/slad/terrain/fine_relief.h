@@ -57,6 +57,8 @@ class FineRelief {
 
   bool empty() const { return frames_ == 0; }
   FineSums Sums() const { return {WithRepeatedNoise(seen_), places_, reference_m_}; }
+  /// What pixels tell of each place, over the frames remembered.
+  const Grid<FinePlace>& seen() const { return seen_; }
 
   /// The places of a map.
   static GridGeometry PlacesOf(const GridGeometry& map);

@@ -12,6 +12,7 @@
 #include "engine/slad/terrain/hole_filling.h"
 #include "engine/slad/terrain/narrow_things.h"
 #include "engine/slad/terrain/terrain_points.h"
+#include "engine/slad/terrain/unexplained.h"
 
 namespace palace {
 namespace {
@@ -221,7 +222,9 @@ std::shared_ptr<const ElevationMap> TerrainFusion::Add(const RangeMap& range,
   const FineSums sums = fine_.Sums();
   TakeFineGround(sums, *published);
   const GridF repeated_m2 = RepeatedVariance(range, *published);
-  TakeNarrowThings(sums, {range.camera, range.pose->X_WC.p}, repeated_m2, standing_, *published);
+  const Viewpoint view{range.camera, range.pose->X_WC.p};
+  TakeNarrowThings(sums, view, repeated_m2, standing_, *published);
+  TakeMarks(Unexplained(fine_.seen()), view, range.FocalTimesBaseline(), *published);
   AddVariance(repeated_m2, *published);
   FillHoles(*published, settings.grid.data_size_cells, settings.grid.border_size_cells);
   return published;

@@ -47,6 +47,8 @@ struct FinePlace {
     kOtherGross,  ///< sum c^2 w, 1/m^2
     kOther,       ///< -sum e c k w, 1/m
     kShared,      ///< C, 1/m^2
+    kEnergy,      ///< sum e^2 / (s^2 + 0.2^2 g^2)
+    kPixels,
     kCount
   };
   std::array<float, kCount> of{};
