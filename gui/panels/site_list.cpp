@@ -95,10 +95,10 @@ void DrawEmpty(const EngineSnapshot& snap, const Rect& content, UiFrame& ui) {
            (HasPicturesOnly(snap.session->role) ? "Add [pose] to RIG.toml."
                                                 : "No vehicle pose came yet.");
   } else if (known != nullptr && HasPicturesOnly(snap.session->role)) {
-    text = "No site inside the limits: " + known->selection.none_reason +
+    text = "No site listed: " + known->selection.none_reason +
            ". Look at the maps to see which limit decides.";
   } else if (known != nullptr) {
-    text = "No site inside the limits: " + known->selection.none_reason +
+    text = "No site listed: " + known->selection.none_reason +
            ". Fly on, or look at the maps to see which limit decides.";
   }
   float y = content.y + s.Px(20);

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/model/cell_explanation.h"
 #include "engine/model/site_standing.h"
 #include "engine/slad/hazards/hazard_maps.h"
 #include "tests/slad/worlds.h"
@@ -128,8 +129,18 @@ TEST(MarkedThings, TakeANearerLookAndNoGroundAway) {
   map.narrow.mark.at(2 * kMiddle.row, 2 * kMiddle.col) = 0.7F;
   map.narrow.mark_from_m.at(2 * kMiddle.row, 2 * kMiddle.col) = 1;
   const HazardMaps marked = EvaluateHazards(map, SladSettings{});
-  EXPECT_EQ(marked.safe_probability.at(kMiddle), bare.safe_probability.at(kMiddle));
-  EXPECT_NEAR(marked.hidden_things.at(kMiddle) - bare.hidden_things.at(kMiddle), 0.7, 1e-6);
+  const auto hidden = [](const HazardMaps& maps) {
+    return static_cast<double>(maps.hidden_things.at(kMiddle));
+  };
+  // As far as the ground is seen it is as safe as before.
+  const auto as_seen = [&](const HazardMaps& maps) {
+    return static_cast<double>(maps.safe_probability.at(kMiddle)) / ForgivenHidden(hidden(maps));
+  };
+  EXPECT_NEAR(hidden(marked), -std::log(kOffered), 1e-6);
+  EXPECT_GT(hidden(marked), kMostHiddenProvisional) << "one to look at first";
+  EXPECT_NEAR(as_seen(marked), as_seen(bare), 1e-6);
+  map.narrow.mark.at(2 * kMiddle.row, 2 * kMiddle.col) = 0.1F;
+  EXPECT_NEAR(hidden(EvaluateHazards(map, SladSettings{})) - hidden(bare), 0.1, 1e-6);
 }
 
 TEST(HiddenThings, AFigureThatIsNotWholeIsUnknownGround) {

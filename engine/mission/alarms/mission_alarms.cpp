@@ -17,7 +17,7 @@ const AlarmRow kRows[] = {
      .present = [](const Facts& f, double) { return f.no_site; },
      .text =
          [](const Facts& f, const std::string&) {
-           return "No safe site: " + f.no_site_reason +
+           return "No site listed: " + f.no_site_reason +
                   (f.pictures_only
                        ? ". The maps show which limit decides."
                        : ". Fly on, or look again from another height or heading; the maps show "

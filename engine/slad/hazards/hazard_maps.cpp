@@ -148,21 +148,26 @@ void GrowByHysteresis(const TerrainFigures& figures, const SladSettings& setting
 }
 
 /// A touchdown is safe when the gear finds what was measured safe and nothing hides. What a mark
-/// stands for nobody knows: it takes a nearer look, and no ground away.
+/// stands for nobody knows: marks count up to what may hide in a place that is offered, so that
+/// they ask for a nearer look and take no ground away.
 void CountWhatHides(const NarrowFigures& narrow, const SladSettings& settings,
                     HazardMaps& hazards) {
   const NarrowView view{narrow, hazards.geometry.cell_m, settings.limits.max_deviation_m,
                         &hazards.safe_distance_m};
   const double radius_m = settings.lander.clear_radius_m();
   hazards.hidden_things = HiddenThings(view, radius_m);
-  const GridF marked = narrow.mark.empty()
-                           ? GridF(hazards.geometry.rows, hazards.geometry.cols, 0.0F)
-                           : MarkedThings(view, radius_m);
+  if (!narrow.mark.empty()) {
+    const GridF marked = MarkedThings(view, radius_m);
+    const auto most = static_cast<float>(-std::log(kOffered));
+    for (std::size_t i = 0; i < marked.cells().size(); ++i) {
+      float& hidden = hazards.hidden_things.cells()[i];
+      hidden = std::max(hidden, std::min(hidden + marked.cells()[i], most));
+    }
+  }
   cv::parallel_for_(cv::Range(0, hazards.geometry.rows), [&](const cv::Range& rows) {
     for (int r = rows.start; r < rows.end; ++r) {
       for (int c = 0; c < hazards.geometry.cols; ++c) {
         hazards.safe_probability.at(r, c) *= std::exp(-hazards.hidden_things.at(r, c));
-        hazards.hidden_things.at(r, c) += marked.at(r, c);
       }
     }
   });

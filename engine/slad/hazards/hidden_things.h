@@ -27,8 +27,8 @@
 // which no height is told, with chance m, h2 high at least. Of things that high the share
 // (h2 / 1.2 limits)^2 reaches over the limit, all where h2 does: rocks of a size are as many as its
 // square is small. A cell hides by the most of its places' m times that, once: a thing covers
-// several, in both pictures. Beside a hazard it is the hazard's own. Their sum over the disc is
-// asked for a nearer look, not for the chance that the ground is safe: nobody knows what it is.
+// several, in both pictures. Beside a hazard it is the hazard's own. Nobody knows what it is: their
+// sum over the disc counts up to what may hide in a place that is offered (kOffered).
 //
 // n is one number for all ground (CALIBRATION.md): among drawn worlds neither the things that a map
 // shows elsewhere nor the ground searched for them told it better.

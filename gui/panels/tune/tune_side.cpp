@@ -219,7 +219,7 @@ void DrawChosenPanel(const EngineSnapshot& snap, const Rect& rect, UiFrame& ui) 
   const float x = content.x + s.Px(12);
   if (best == nullptr) {
     const std::string why = facts.shown != nullptr && !facts.shown->selection.none_reason.empty()
-                                ? "No safe site: " + facts.shown->selection.none_reason + "."
+                                ? "No site listed: " + facts.shown->selection.none_reason + "."
                                 : "No site yet.";
     float y = content.y + s.Px(14);
     for (const std::string& line : WrapText(s.body, why, content.w - s.Px(24))) {
