@@ -111,13 +111,13 @@ std::vector<Row> GridRows() {
       Row("slad.mode", "Mode", kSlad, &SladSettings::mode)
           .Says("thesis: Table 4.4 exactly, errata corrected. modern: fused, probabilistic.")
           .Choice({"thesis", "modern"}),
-      Row("slad.grid_rows", "Rows", kGrid, &GridSettings::rows)
+      Row("slad.grid_rows", "Least rows", kGrid, &GridSettings::rows)
           .Says("Rows of the maps, north to south. Where more is in view modern maps have up to "
                 "twice as many.")
           .Shown("", 0)
           .Within(1, 4096)
           .Usually(20, 400),
-      Row("slad.grid_cols", "Columns", kGrid, &GridSettings::cols)
+      Row("slad.grid_cols", "Least columns", kGrid, &GridSettings::cols)
           .Says("Columns of the maps, west to east. Where more is in view modern maps have up to "
                 "twice as many.")
           .Shown("", 0)

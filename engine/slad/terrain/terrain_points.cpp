@@ -53,19 +53,19 @@ struct CellSums {
 
 }  // namespace
 
-TerrainPoints PointsFromRange(const RangeMap& range) {
+TerrainPoints PointsFromRange(const RangeMap& range, int stride_px) {
   PALACE_CHECK(range.pose.has_value());
   const RigidTransform& X_WC = range.pose->X_WC;
   TerrainPoints points;
   const PinholeCamera& camera = range.camera;
-  points.reserve(range.depth_m.pixels().size());
-  for (int y = 0; y < range.depth_m.height(); ++y) {
+  points.reserve(range.depth_m.pixels().size() / static_cast<std::size_t>(stride_px * stride_px));
+  for (int y = 0; y < range.depth_m.height(); y += stride_px) {
     const float* depth = range.depth_m.row(y);
     const float* sigma = range.depth_sigma_m.empty() ? nullptr : range.depth_sigma_m.row(y);
     const Eigen::Vector3d row_W = X_WC.R * Eigen::Vector3d(-camera.cx_px / camera.fx_px,
                                                            (y - camera.cy_px) / camera.fy_px, 1);
     const Eigen::Vector3d step_W = X_WC.R.col(0) / camera.fx_px;
-    for (int x = 0; x < range.depth_m.width(); ++x) {
+    for (int x = 0; x < range.depth_m.width(); x += stride_px) {
       const double z = static_cast<double>(depth[x]);
       if (!(z > 0) || !std::isfinite(z)) {
         continue;

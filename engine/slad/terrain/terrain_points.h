@@ -27,8 +27,8 @@ struct GroundBounds {
   double east_max_m = 0;
 };
 
-/// In W; the range map has a pose.
-TerrainPoints PointsFromRange(const RangeMap& range);
+/// In W, of every `stride_px`-th pixel each way; the range map has a pose.
+TerrainPoints PointsFromRange(const RangeMap& range, int stride_px = 1);
 
 /// 1st to 99th percentile of the points. Zeros when there are none.
 GroundBounds BoundsOfData(const TerrainPoints& points);

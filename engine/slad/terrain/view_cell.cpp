@@ -18,32 +18,13 @@ constexpr double kWellInside = 0.8;
 constexpr int kStep_cells = 20;
 constexpr int kMostCells = 4096;  // along a side, as in the settings
 
-/// Some points of the view, and the median of their depths.
-struct Sample {
-  TerrainPoints points{};
-  double depth_m = 0;
-};
-
-Sample SampleOf(const RangeMap& range) {
-  Sample sample;
-  std::vector<float> depths;
-  const PinholeCamera& camera = range.camera;
-  for (int y = 0; y < range.depth_m.height(); y += kStride_px) {
-    for (int x = 0; x < range.depth_m.width(); x += kStride_px) {
-      const float depth_m = range.depth_m.at(x, y);
-      if (!std::isfinite(depth_m)) {
-        continue;
-      }
-      depths.push_back(depth_m);
-      const Eigen::Vector3d p_W =
-          range.pose->X_WC *
-          (static_cast<double>(depth_m) * Eigen::Vector3d((x - camera.cx_px) / camera.fx_px,
-                                                          (y - camera.cy_px) / camera.fy_px, 1));
-      sample.points.push_back({p_W.x(), p_W.y(), HeightFromDown(p_W.z()), 0});
-    }
+double MedianDepth(const TerrainPoints& points, const RigidTransform& X_WC) {
+  std::vector<double> depths;
+  for (const TerrainPoint& p : points) {
+    const Eigen::Vector3d p_W(p.north_m, p.east_m, -p.height_m);
+    depths.push_back(X_WC.R.col(2).dot(p_W - X_WC.p));
   }
-  sample.depth_m = depths.empty() ? 0 : static_cast<double>(UpperMedian(depths));
-  return sample;
+  return UpperMedian(depths);
 }
 
 /// Cells along one side, as it had `now`; 0: it had none yet.
@@ -60,14 +41,14 @@ int CellsAlong(double extent_m, double cell_m, int least, int now) {
 SladSettings ViewCell::Fit(const RangeMap& range, const SladSettings& settings) {
   const bool follows =
       settings.mode == SladMode::kModern && settings.grid.bounds == BoundsMode::kData;
-  const Sample sample = follows ? SampleOf(range) : Sample{};
-  if (sample.points.empty()) {
+  const TerrainPoints points = follows ? PointsFromRange(range, kStride_px) : TerrainPoints{};
+  if (points.empty()) {
     *this = {};
     return settings;
   }
   const PinholeCamera& camera = range.camera;
-  const double view_m =
-      sample.depth_m * std::max(camera.width / camera.fx_px, camera.height / camera.fy_px);
+  const double view_m = MedianDepth(points, range.pose->X_WC) *
+                        std::max(camera.width / camera.fx_px, camera.height / camera.fy_px);
   const double map_m = std::min(settings.grid.rows, settings.grid.cols) * settings.grid.cell_m;
   while (factor_ < kMostFactor && view_m > kWidestView * map_m * factor_) {
     factor_ *= 2;
@@ -77,7 +58,7 @@ SladSettings ViewCell::Fit(const RangeMap& range, const SladSettings& settings) 
   }
   SladSettings fitted = settings;
   fitted.grid.cell_m *= factor_;
-  const GroundBounds seen = BoundsOfData(sample.points);
+  const GroundBounds seen = BoundsOfData(points);
   rows_ = CellsAlong(seen.north_max_m - seen.north_min_m, fitted.grid.cell_m, settings.grid.rows,
                      rows_);
   cols_ =
