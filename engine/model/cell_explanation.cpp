@@ -150,7 +150,8 @@ std::string FlagWords(unsigned flags) {
                       {kFlagNoTexture, "no texture"},
                       {kFlagShadow, "deep shadow"},
                       {kFlagMotion, "motion"},
-                      {kFlagElevated, "elevated surface"}},
+                      {kFlagElevated, "elevated surface"},
+                      {kFlagUnexplained, "unexplained mark"}},
                      flags);
 }
 

@@ -24,6 +24,8 @@ enum TerrainFlag : std::uint8_t {
   kFlagShadow = 4,         ///< deep shadow: little is seen there
   kFlagMotion = 8,         ///< moved between frames
   kFlagElevated = 16,      ///< flat top raised above its surroundings: roof, table, vehicle
+  /// The two pictures differ there by what no height of the ground explains: a thing may stand.
+  kFlagUnexplained = 32,
 };
 
 /// What the pictures show of narrow things, and what one would show, at places half a cell apart:

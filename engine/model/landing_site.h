@@ -83,7 +83,8 @@ struct LandingSite {
   /// Height of the touchdown point above the site from which, along the same line of sight, its
   /// noise would be low enough and hardly anything could hide, which is what speaks against it now;
   /// where only the air speaks against it, the highest that is a way to go. NaN: neither does, no
-  /// height above kConfirmHeight_m would do, air_on_way_m is too little, or nobody asked.
+  /// height above kConfirmHeight_m would do, air_on_way_m is too little, a mark lies there that no
+  /// height explains, or nobody asked.
   double look_height_m = std::numeric_limits<double>::quiet_NaN();
   double distance_m = 0;  ///< horizontal, from the vehicle at map_time
   /// Since a map called it, or the ground beside it, unsafe: for that it stands behind the others.
@@ -96,6 +97,7 @@ struct LandingSite {
 struct SiteSelection {
   std::vector<LandingSite> sites;  ///< best first
   std::string none_reason;         ///< set when empty: "71 % slope, 22 % unknown, 7 % footprint"
+  bool waits = false;              ///< too early to list any: none_reason says how far it is
   std::uint64_t named = 0;         ///< places that had a letter by then, listed now or not
 };
 

@@ -6,6 +6,7 @@
 #include "engine/core/check.h"
 #include "engine/core/rounding.h"
 #include "engine/core/text.h"
+#include "engine/model/elevation_map.h"
 
 namespace palace {
 namespace {
@@ -26,9 +27,10 @@ std::string SureFrom(const LandingSite& site, const std::string& limit) {
 /// panel; near the limit a third digit tells them apart.
 std::string MayHide(const LandingSite& site) {
   const bool near_limit = site.hidden_things < 2 * kMostHidden;
-  return (near_limit ? WithNumbers("%.3f rocks or holes may be hidden, ",
-                                   ShownBeyond(site.hidden_things, kMostHidden, 3))
-                     : WithNumbers("%.2f rocks or holes may be hidden, ", site.hidden_things)) +
+  return (near_limit ? WithNumbers("%.3f ", ShownBeyond(site.hidden_things, kMostHidden, 3))
+                     : WithNumbers("%.2f ", site.hidden_things)) +
+         (IsMarked(site) ? "things may stand on unexplained marks, "
+                         : "rocks or holes may be hidden, ") +
          SureFrom(site, WithNumbers(near_limit ? "to %.3f" : "to %.2f", kMostHidden));
 }
 
@@ -63,6 +65,8 @@ std::string StandingWords(const LandingSite& site, const SladSettings& settings)
 bool IsAirShown(const LandingSite& site) {
   return !(site.air_seen_m < kLeastAirSeen_m) || site.air_on_way_m >= kLeastAirSeen_m;
 }
+
+bool IsMarked(const LandingSite& site) { return (site.flags & kFlagUnexplained) != 0; }
 
 double LookToldAgain(double told_m, double now_m) {
   return std::abs(now_m - told_m) <= kSameLook_m ? told_m : now_m;

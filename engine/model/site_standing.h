@@ -39,6 +39,10 @@ inline constexpr double kLeastAirSeen_m = 5;
 /// It was seen, or the way down shows it, or nobody asked.
 bool IsAirShown(const LandingSite& site);
 
+/// A mark that no height explains (kFlagUnexplained) lies within its clear radius: no look is known
+/// from which nothing could hide.
+bool IsMarked(const LandingSite& site);
+
 /// A look goes down by as much at least: a hover nearer to it would be the same view.
 inline constexpr double kLeastWayToLook_m = 2;
 

@@ -94,6 +94,8 @@ void DrawEmpty(const EngineSnapshot& snap, const Rect& content, UiFrame& ui) {
     text = std::string("Attitude and height are unknown: ranges make no map. ") +
            (HasPicturesOnly(snap.session->role) ? "Add [pose] to RIG.toml."
                                                 : "No vehicle pose came yet.");
+  } else if (known != nullptr && known->selection.waits) {
+    text = "No site listed yet: " + known->selection.none_reason + ".";
   } else if (known != nullptr && HasPicturesOnly(snap.session->role)) {
     text = "No site listed: " + known->selection.none_reason +
            ". Look at the maps to see which limit decides.";

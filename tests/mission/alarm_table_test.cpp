@@ -201,6 +201,18 @@ bool Stands(const MissionRig& rig, AlarmId id) {
                      [&](const Alarm& alarm) { return alarm.kind == id && alarm.active; });
 }
 
+// A list that waits for its maps is no ground without a site.
+TEST(AlarmTable, ThereIsNoSiteOnlyOnceAListIsDue) {
+  MissionRig rig;
+  rig.sites.clear();
+  rig.decision.selection.waits = true;
+  rig.Run(2);
+  EXPECT_FALSE(Stands(rig, AlarmId::kNoSite));
+  rig.decision.selection.waits = false;
+  rig.Run(2);
+  EXPECT_TRUE(Stands(rig, AlarmId::kNoSite));
+}
+
 // What blocks approval is told: the pose at the 0.2 s of G2, not only at 0.5 s.
 TEST(AlarmTable, AStalePoseIsToldAtTheLimitThatBlocks) {
   MissionRig rig;

@@ -8,6 +8,7 @@
 #include "engine/core/random.h"
 #include "engine/core/units.h"
 #include "engine/model/cell_explanation.h"
+#include "engine/model/elevation_map.h"
 #include "engine/model/grid.h"
 #include "engine/model/settings/settings.h"
 #include "engine/model/site_standing.h"
@@ -132,6 +133,10 @@ TEST(SiteStanding, AProvisionalSiteSaysWhy) {
             "0.15 rocks or holes may be hidden, sure from 8 m above it");
   site.look_height_m = std::nan("");
   EXPECT_EQ(WhyProvisional(site, settings.slad), "0.15 rocks or holes may be hidden, sure to 0.01");
+  site.flags = kFlagUnexplained;
+  EXPECT_EQ(WhyProvisional(site, settings.slad),
+            "0.15 things may stand on unexplained marks, sure to 0.01");
+  site.flags = kFlagNone;
   site.hidden_things = 0.0103;
   EXPECT_EQ(WhyProvisional(site, settings.slad),
             "0.011 rocks or holes may be hidden, sure to 0.010");

@@ -1,6 +1,7 @@
 // How many things may hide under a touchdown, against the closed form of one cell.
 #include "engine/slad/hazards/hidden_things.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -137,6 +138,10 @@ TEST(MarkedThings, TakeANearerLookAndNoGroundAway) {
     return static_cast<double>(maps.safe_probability.at(kMiddle)) / ForgivenHidden(hidden(maps));
   };
   EXPECT_NEAR(hidden(marked), -std::log(kOffered), 1e-6);
+  EXPECT_EQ(marked.flags.at(kMiddle), kFlagUnexplained);
+  EXPECT_EQ(std::count(marked.flags.cells().begin(), marked.flags.cells().end(), kFlagNone),
+            41 * 41 - 1);
+  EXPECT_EQ(bare.flags.at(kMiddle), kFlagNone);
   EXPECT_GT(hidden(marked), kMostHiddenProvisional) << "one to look at first";
   EXPECT_NEAR(as_seen(marked), as_seen(bare), 1e-6);
   map.narrow.mark.at(2 * kMiddle.row, 2 * kMiddle.col) = 0.1F;

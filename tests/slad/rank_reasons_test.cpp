@@ -61,6 +61,8 @@ TEST(RankReasons, WideGroundWhereThingsMayHideGoesBelowAndSaysSo) {
   EXPECT_EQ(list.sites[1].reason, "0.12 rocks or holes may hide, at the best 0.004");
   EXPECT_EQ(list.sites[2].reason.rfind("0.8 m less clear than the best", 0), 0U)
       << list.sites[2].reason;
+  sites[1].flags = kFlagUnexplained;
+  EXPECT_EQ(Reasoned(sites).sites[1].reason, "0.12 things may hide, at the best 0.004");
 }
 
 TEST(RankReasons, ATightSiteBelowARoomyOneSaysByHowMuchItIsTight) {

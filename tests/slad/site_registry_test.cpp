@@ -88,9 +88,11 @@ TEST(SiteRegistry, AFlightListsOnceItsMapsRememberAllTheyWill) {
   hover.registry_.WaitForMemory(true);
   SiteSelection list = hover.SeeOften(5, WithBox(Flat(), 0, 0, 0.5, 0.6));
   EXPECT_TRUE(list.sites.empty());
+  EXPECT_TRUE(list.waits);
   EXPECT_EQ(list.none_reason, "places are listed once 6 pictures are fused, now 5");
   list = hover.See(WithBox(Flat(), 0, 0, 0.5, 0.6));
   ASSERT_FALSE(list.sites.empty());
+  EXPECT_FALSE(list.waits);
   EXPECT_EQ(list.sites.front().letter, "A");
   hover.settings.fusion.frames_fused = 50;  // what was listed stays
   EXPECT_FALSE(hover.See(WithBox(Flat(), 0, 0, 0.5, 0.6)).sites.empty());

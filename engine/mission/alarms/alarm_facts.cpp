@@ -83,8 +83,8 @@ void FillMission(const MissionMemory& m, const MissionInputs& in, AlarmFacts& f)
                     m.site.VerdictAt(now) == SiteVerdict::kDegraded &&
                     !(state == MissionState::kDescending && IsCommitted(m));
   f.site_reason = m.site.reason();
-  f.no_site =
-      decision != nullptr && decision->selection.sites.empty() && state <= MissionState::kProposed;
+  f.no_site = decision != nullptr && decision->selection.sites.empty() &&
+              !decision->selection.waits && state <= MissionState::kProposed;
   f.no_site_reason = decision != nullptr ? decision->selection.none_reason : "";
   f.tracked = WatchesSite(m) && m.facts.tracker_locked;
   // Near the ground features leave the picture one after the other: fewer are left to agree.

@@ -157,6 +157,7 @@ void CountWhatHides(const NarrowFigures& narrow, const SladSettings& settings,
   const double radius_m = settings.lander.clear_radius_m();
   hazards.hidden_things = HiddenThings(view, radius_m);
   if (!narrow.mark.empty()) {
+    FlagMarks(view, hazards.flags);
     const GridF marked = MarkedThings(view, radius_m);
     const auto most = static_cast<float>(-std::log(kOffered));
     for (std::size_t i = 0; i < marked.cells().size(); ++i) {

@@ -7,6 +7,8 @@
 
 #include <opencv2/core.hpp>
 
+#include "engine/model/site_standing.h"
+
 namespace palace {
 namespace {
 
@@ -21,7 +23,7 @@ constexpr std::array kShares = {0.57, 0.29, 0.14};
 constexpr int kPerCell = NarrowFigures::kPerCell;
 constexpr int kPlaces = kPerCell * kPerCell;  // of a cell
 
-double Figure(const GridF& layer, Cell place) { return static_cast<double>(layer.at(place)); }
+double ValueAt(const GridF& layer, Cell place) { return static_cast<double>(layer.at(place)); }
 
 /// Calls work(place) for the places of a cell.
 template <typename Work>
@@ -98,19 +100,20 @@ double HidesAt(double prior, double shown_m, double expected_m, double sigma_m,
 
 /// What a thing would show at the place.
 double Expected(const NarrowView& view, Cell place) {
-  return kOverLimit * view.max_deviation_m * Figure(view.narrow.share, place);
+  return kOverLimit * view.max_deviation_m * ValueAt(view.narrow.share, place);
 }
 
 /// Whether the ground around the cell's places may touch a hazard, a cell for its smear.
 bool IsBesideHazard(const NarrowView& view, Cell cell) {
   return view.safe_distance_m != nullptr &&
-         Figure(*view.safe_distance_m, cell) < view.narrow.ring_m + view.cell_m;
+         ValueAt(*view.safe_distance_m, cell) < view.narrow.ring_m + view.cell_m;
 }
 
 /// The chance that a mark at the place is of a thing over the limit.
 double MarkHides(const NarrowView& view, Cell place) {
-  const double share = Figure(view.narrow.mark_from_m, place) / (kOverLimit * view.max_deviation_m);
-  return Figure(view.narrow.mark, place) * std::min(1.0, share * share);
+  const double share =
+      ValueAt(view.narrow.mark_from_m, place) / (kOverLimit * view.max_deviation_m);
+  return ValueAt(view.narrow.mark, place) * std::min(1.0, share * share);
 }
 
 /// The most of the cell's places, for a thing covers several.
@@ -128,8 +131,8 @@ double HidesInCell(const NarrowView& view, Cell cell, double prior) {
   const double of_place = prior / kPlaces;
   double hides = 0;
   ForPlaces(cell, [&](Cell place) {
-    const double shown_m = Figure(view.narrow.prominence_m, place);
-    const double sigma_m = Figure(view.narrow.sigma_m, place), expected_m = Expected(view, place);
+    const double shown_m = ValueAt(view.narrow.prominence_m, place);
+    const double sigma_m = ValueAt(view.narrow.sigma_m, place), expected_m = Expected(view, place);
     if (std::isnan(shown_m) || !(sigma_m > 0) || !(expected_m > 0)) {
       hides += 2 * of_place;  // what cannot be said hides what unknown ground hides
       return;
@@ -200,6 +203,21 @@ GridF MarkedThings(const NarrowView& view, double radius_m) {
   return OverDiscs(view, radius_m, 0, [&](Cell cell) { return MarkHidesInCell(view, cell); });
 }
 
+void FlagMarks(const NarrowView& view, Grid<std::uint8_t>& flags) {
+  const int rows = view.narrow.share.rows() / kPerCell, cols = view.narrow.share.cols() / kPerCell;
+  for (int r = 0; r < rows; ++r) {
+    for (int c = 0; c < cols; ++c) {
+      if (!(MarkHidesInCell(view, {r, c}) > kMostHiddenProvisional)) {
+        continue;
+      }
+      if (flags.empty()) {
+        flags = Grid<std::uint8_t>(rows, cols, kFlagNone);
+      }
+      flags.at(r, c) |= kFlagUnexplained;
+    }
+  }
+}
+
 double HiddenFromNearer(const NarrowView& view, Cell centre, double radius_m, double nearer,
                         double enough) {
   const double prior = kThingsPer_m2 / 2 * view.cell_m * view.cell_m / kPlaces;
@@ -223,8 +241,8 @@ double HiddenFromNearer(const NarrowView& view, Cell centre, double radius_m, do
           return;
         }
         ++known;
-        const double noise_m2 = std::pow(Figure(view.narrow.noise_m, place), 2);
-        const double bumps_m2 = std::pow(Figure(view.narrow.sigma_m, place), 2) - noise_m2;
+        const double noise_m2 = std::pow(ValueAt(view.narrow.noise_m, place), 2);
+        const double bumps_m2 = std::pow(ValueAt(view.narrow.sigma_m, place), 2) - noise_m2;
         const double then_m2 = bumps_m2 + squared * squared * noise_m2;
         const double shows_m = Expected(view, place);
         // q of a rock and of a hole, both far smaller than 1.

@@ -62,6 +62,10 @@ GridF HiddenThings(const NarrowView& view, double radius_m, double things_per_m2
 /// them.
 GridF MarkedThings(const NarrowView& view, double radius_m);
 
+/// Adds kFlagUnexplained to the flags of cells whose marks alone keep a site from being provisional
+/// (kMostHiddenProvisional). Flags that are empty become the map's if there is such a cell.
+void FlagMarks(const NarrowView& view, Grid<std::uint8_t>& flags);
+
 /// H of the disc around `centre` as bare ground would say it, were it seen along the same lines
 /// from `nearer` (above 0, at most 1) times as far: of each place the noise goes down as nearer^2,
 /// bumps stay. Cells of which nothing is known hide as the others do; infinity when all are.

@@ -68,6 +68,11 @@ std::string HiddenWords(const LandingSite& site) {
              : WithNumbers(site.hidden_things < kMostHidden ? "%.3f" : "%.2f", site.hidden_things);
 }
 
+/// Of two of which one is marked what hides is compared, whatever it is.
+const char* HidingWords(const LandingSite& a, const LandingSite& b) {
+  return IsMarked(a) || IsMarked(b) ? " things may hide, at " : " rocks or holes may hide, at ";
+}
+
 /// What `better` has over `other` in the units of what decided; empty where nothing measurable.
 std::string Difference(SiteRanking ranking, const LandingSite& better, const LandingSite& other,
                        bool of_better, const std::string& against) {
@@ -78,7 +83,7 @@ std::string Difference(SiteRanking ranking, const LandingSite& better, const Lan
     const std::string stays = of_better && noise ? "stays first, " : "";
     if (ByHidden(better, other)) {
       const LandingSite& site = of_better ? better : other;
-      return stays + HiddenWords(site) + " rocks or holes may hide, at " + against + " " +
+      return stays + HiddenWords(site) + HidingWords(better, other) + against + " " +
              HiddenWords(of_better ? other : better) + (noise ? WhyNotYet(other) : "");
     }
     const double wider_m = DifferenceAsShown(better.safe_distance_m, other.safe_distance_m);

@@ -138,7 +138,7 @@ double LookHeight(const ElevationMap& map, const SladSettings& settings, const S
   const double none = std::numeric_limits<double>::quiet_NaN();
   const double height_m = site.p_WS.z() - context.p_WB.z();
   if (map.narrow.empty() || context.camera.width == 0 || site.confirmed || !(height_m > 0) ||
-      map.geometry.cell_m > settings.lander.max_rock_size_m) {
+      map.geometry.cell_m > settings.lander.max_rock_size_m || IsMarked(site)) {
     return none;
   }
   const bool air_missing = site.air_seen_m < kLeastAirSeen_m;

@@ -123,11 +123,12 @@ SiteSelection SiteRegistry::Select(const ElevationMap& map, const HazardMaps& ha
   NameInReasons(selection);
   selection.named = naming_.named();
   if (selection.sites.empty()) {
-    selection.none_reason = !any      ? NoneReason(map, hazards, settings)
-                            : !lists_ ? "places are listed once " +
-                                            std::to_string(settings.fusion.frames_fused) +
-                                            " pictures are fused, now " + std::to_string(maps_)
-                                      : "the places found are not on 3 maps in a row yet";
+    selection.waits = !lists_;
+    selection.none_reason = !lists_ ? "places are listed once " +
+                                          std::to_string(settings.fusion.frames_fused) +
+                                          " pictures are fused, now " + std::to_string(maps_)
+                            : !any ? NoneReason(map, hazards, settings)
+                                   : "the places found are not on 3 maps in a row yet";
   }
   return selection;
 }

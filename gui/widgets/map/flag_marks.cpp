@@ -19,10 +19,11 @@ struct FlagLook {
   const char* word;
 };
 /// In the order they are drawn when a cell has several: the first wins.
-constexpr std::array<FlagLook, 5> kLooks = {{{kFlagThinStructure, "Thin structure"},
+constexpr std::array<FlagLook, 6> kLooks = {{{kFlagThinStructure, "Thin structure"},
                                              {kFlagMotion, "Motion"},
                                              {kFlagNoTexture, "No texture"},
                                              {kFlagElevated, "Elevated"},
+                                             {kFlagUnexplained, "Unexplained"},
                                              {kFlagShadow, "Shadow"}}};
 
 /// Strokes of one mark, once wide and dark, once narrow and white.
@@ -49,6 +50,11 @@ void Mark(ImDrawList* dl, const Style& s, ImVec2 at, TerrainFlag flag) {
         break;
       case kFlagElevated:
         dl->AddRect({at.x - h, at.y - h}, {at.x + h, at.y + h}, colour, 0, 0, width);
+        break;
+      case kFlagUnexplained:
+        line(-1, 0.8f, 0, -1);
+        line(0, -1, 1, 0.8f);
+        line(1, 0.8f, -1, 0.8f);
         break;
       default:
         dl->AddCircleFilled(at, rim ? h * 0.75f : h * 0.4f, colour, 8);

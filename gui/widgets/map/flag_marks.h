@@ -3,7 +3,7 @@
 // flags are told apart from both and from each other by shape.
 //
 //   cross      thin structure        two dashes  no texture      chevron  motion
-//   square     elevated surface      dot         deep shadow
+//   square     elevated surface      dot         deep shadow     triangle unexplained mark
 #pragma once
 
 #include "engine/model/elevation_map.h"

@@ -28,8 +28,8 @@ TEST(FlagMarks, EveryKindIsMarkedOnItsCellsOnly) {
   for (const float scale : {1.0f, 1.5f}) {
     UiHarness ui(400, 400, scale);
     const Rect square{10, 20, kSide, kSide};
-    for (const unsigned flag :
-         {kFlagThinStructure, kFlagNoTexture, kFlagShadow, kFlagMotion, kFlagElevated}) {
+    for (const unsigned flag : {kFlagThinStructure, kFlagNoTexture, kFlagShadow, kFlagMotion,
+                                kFlagElevated, kFlagUnexplained}) {
       Grid<std::uint8_t> flags(kCells, kCells, kFlagNone);
       for (int r = 30; r < 40; ++r) {
         for (int c = 60; c < 75; ++c) {
